@@ -1,0 +1,153 @@
+# Kiri. GNU make.
+#
+#   make run      builds the library, cuts a bunny out of a hanging cloth, writes pictures to build/pictures
+#   make box2d    cuts a strip that lies on bodies of Box2D
+#   make test     builds and runs all tests
+#   make lib      build/<config>/libkiri.a and libkiri.so
+#   make bench    runs the benchmarks
+#   make gallery  renders the pictures of the README
+#   make deps     installs what is missing (Debian and its relatives)
+#   make format   clang-format over all sources
+#   make clean    removes build/
+#
+#   config=release|debug|sanitize   default release
+#   SCENE=name ARGS='--size 1280x960'   for run; ARGS=--help lists them
+
+config ?= release
+SCENE ?= bunny
+ARGS ?=
+
+DEBIAN_PACKAGES := gcc g++ make libeigen3-dev libosmesa6-dev libpng-dev libcmocka-dev libbox2d-dev
+
+BUILD := build/$(config)
+EIGEN ?= $(or $(patsubst -I%,%,$(shell pkg-config --cflags-only-I eigen3 2>/dev/null)),/usr/include/eigen3)
+
+# Contraction to fused multiply-add would give other bits on other machines.
+FLAGS := -Wall -Wextra -Wpedantic -Wshadow -Werror -ffp-contract=off -fno-math-errno -fPIC -MMD -MP
+FLAGS_release := -O2 -DNDEBUG
+FLAGS_debug := -O0 -g
+FLAGS_sanitize := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all
+ifeq ($(FLAGS_$(config)),)
+$(error config is release, debug or sanitize, not '$(config)')
+endif
+FLAGS += $(FLAGS_$(config))
+
+COMPILE_C = $(CC) -std=c99 $(FLAGS) $(CFLAGS)
+COMPILE_CXX = $(CXX) -std=c++14 $(FLAGS) $(CXXFLAGS)
+LINK = $(CXX) $(FLAGS_$(config)) $(LDFLAGS)
+
+LIBRARY_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard src/*.c src/*.cpp))
+SAMPLE_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard samples/*.c samples/*.cpp))
+# What tests and benchmarks take from the samples: the scenes.
+SCENE_OBJECTS := $(filter %/scene.c.o %/outline.c.o,$(SAMPLE_OBJECTS))
+TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
+BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench*.c))
+RUN := $(BUILD)/samples/kiri-run
+BOX2D := $(BUILD)/samples/kiri-box2d
+# The Python binding is tested where Python has cffi; a sanitized library cannot be loaded by a plain Python.
+PYTHON ?= python3
+PYTHON_CHECK := $(if $(filter sanitize,$(config)),,python)
+
+.PHONY: all run box2d python test check lib bench gallery deps format clean header exports
+.DEFAULT_GOAL := all
+.SECONDARY:
+
+all: lib
+
+# Submakes, so that nothing is compiled before the packages are there.
+run: deps
+	@$(MAKE) --no-print-directory $(RUN)
+	$(RUN) --scene $(SCENE) $(ARGS)
+
+box2d: deps
+	@$(MAKE) --no-print-directory $(BOX2D)
+	$(BOX2D) $(ARGS)
+
+test: deps
+	@$(MAKE) --no-print-directory check
+
+bench: deps
+	@$(MAKE) --no-print-directory $(BENCHES)
+	@set -e; for bench in $(BENCHES); do $$bench; done
+
+gallery: deps
+	@$(MAKE) --no-print-directory $(RUN)
+	@mkdir -p samples/pictures
+	$(RUN) --scene bunny --size 800x600 --output build/gallery
+	cp build/gallery/contact_sheet.png samples/pictures/bunny.png
+
+check: $(TESTS) $(RUN) $(BOX2D) header exports $(PYTHON_CHECK)
+	@failed=; for test in $(TESTS); do echo "== $$test"; $$test || failed="$$failed $$test"; done; \
+	if [ -n "$$failed" ]; then echo "FAILED:$$failed"; exit 1; fi; echo "all tests passed ($(config))"
+
+python: $(BUILD)/libkiri.so
+	@if ! $(PYTHON) -c 'import cffi' 2>/dev/null; then echo "python: no cffi, binding not tested"; exit 0; fi; \
+	echo "== tests/test_python.py"; KIRI_LIBRARY=$(abspath $<) $(PYTHON) tests/test_python.py
+
+# The public header stands alone, in strict C99 and C++11.
+header:
+	$(CC) -x c -std=c99 -Wall -Wextra -pedantic-errors -Werror -fsyntax-only include/kiri/kiri.h
+	$(CXX) -x c++ -std=c++11 -Wall -Wextra -pedantic-errors -Werror -fsyntax-only include/kiri/kiri.h
+
+exports: $(BUILD)/libkiri.so
+	@others=$$(nm -D --defined-only $< | awk '$$NF !~ /^kiri/ { print $$NF }'); \
+	if [ -n "$$others" ]; then echo "$< exports more than kiri*:"; echo "$$others"; exit 1; fi; \
+	echo "$< exports nothing but kiri*: $$(nm -D --defined-only $< | wc -l) functions"
+
+lib: $(BUILD)/libkiri.a $(BUILD)/libkiri.so
+
+$(BUILD)/libkiri.a: $(LIBRARY_OBJECTS)
+	@rm -f $@
+	$(AR) rcs $@ $^
+
+# The script hides the C++ templates too, which -fvisibility=hidden alone does not.
+$(BUILD)/libkiri.so: $(LIBRARY_OBJECTS)
+	@echo '{ global: kiri*; local: *; };' > $(BUILD)/kiri.map
+	$(LINK) -shared -Wl,--version-script=$(BUILD)/kiri.map -o $@ $^ -lm
+
+$(BUILD)/src/%.c.o: src/%.c
+	@mkdir -p $(@D)
+	$(COMPILE_C) -fvisibility=hidden -Iinclude -Isrc -c $< -o $@
+
+$(BUILD)/src/%.cpp.o: src/%.cpp
+	@mkdir -p $(@D)
+	$(COMPILE_CXX) -fvisibility=hidden -fvisibility-inlines-hidden -Iinclude -Isrc -isystem $(EIGEN) -c $< -o $@
+
+$(BUILD)/samples/%.c.o: samples/%.c
+	@mkdir -p $(@D)
+	$(COMPILE_C) -Iinclude -c $< -o $@
+
+$(BUILD)/samples/%.cpp.o: samples/%.cpp
+	@mkdir -p $(@D)
+	$(COMPILE_CXX) -Iinclude -c $< -o $@
+
+$(BUILD)/tests/%.c.o: tests/%.c
+	@mkdir -p $(@D)
+	$(COMPILE_C) -Iinclude -Isrc -Isamples -Itests -c $< -o $@
+
+$(RUN): $(filter %.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
+	$(LINK) -o $@ $^ -lOSMesa -lpng -lm
+
+$(BOX2D): $(filter %/box2d.cpp.o %/draw.c.o %/image.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
+	$(LINK) -o $@ $^ -lbox2d -lOSMesa -lpng -lm
+
+$(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(SCENE_OBJECTS) $(BUILD)/libkiri.a
+	$(LINK) -o $@ $^ -lcmocka -lm
+
+deps:
+	@if ! command -v apt-get >/dev/null; then echo "needed, as Debian names it: $(DEBIAN_PACKAGES)"; exit 0; fi; \
+	missing=; for package in $(DEBIAN_PACKAGES); do \
+	    dpkg-query -W -f '$${db:Status-Status}\n' $$package 2>/dev/null | grep -qx installed || missing="$$missing $$package"; \
+	done; \
+	if [ -z "$$missing" ]; then exit 0; fi; echo "installing$$missing"; \
+	sudo=; if [ "$$(id -u)" != 0 ] && command -v sudo >/dev/null; then sudo=sudo; fi; \
+	$$sudo apt-get update && \
+	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get -y --no-install-recommends install $$missing
+
+format:
+	clang-format -i $(wildcard include/kiri/*.h src/*.h src/*.c src/*.cpp samples/*.h samples/*.c samples/*.cpp tests/*.h tests/*.c)
+
+clean:
+	rm -rf build
+
+-include $(wildcard $(BUILD)/*/*.d)

@@ -1,0 +1,331 @@
+/* Kiri: cuts thin sheets while they move, inside a game's fixed tick.
+
+   The method is that of "Interactive Detailed Cutting of Thin Sheets" (Manteaux, Sun, Faure, Cani, O'Brien, Motion in
+   Games 2015): a fine mesh follows every cut, a few control frames carry it, and shape functions of the geodesic
+   distance inside the cut sheet tie the two together.
+
+   Conventions, everywhere in this header:
+   - SI units: metres, kilograms, seconds, newtons, pascals, radians.
+   - The rest plane holds the flat, undeformed sheet. A rest position is (u, v) in metres.
+   - A function that can fail returns a kiriResult: negative is failure, and then the world is as before the call.
+     kiriWorld_GetLastError says in one line what went wrong.
+   - Sheets, cuts, frames and pins are 32-bit ids; 0 is no id. An id of another kind, or of something that is gone,
+     gives KIRI_ERROR_ID.
+   - A world is not for two threads at once; two worlds share nothing. */
+
+#ifndef KIRI_H
+#define KIRI_H
+
+#include <stdint.h>
+
+#if defined(KIRI_SHARED) && defined(_WIN32)
+#ifdef KIRI_BUILD
+#define KIRI_API __declspec(dllexport)
+#else
+#define KIRI_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define KIRI_API __attribute__((visibility("default")))
+#else
+#define KIRI_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct kiriWorld kiriWorld;
+typedef uint32_t kiriSheet;
+typedef uint32_t kiriCut;
+typedef uint32_t kiriFrame;
+typedef uint32_t kiriPin;
+
+typedef int32_t kiriResult;
+enum {
+    KIRI_OK = 0,
+    KIRI_PENDING = 1,         /* done, and work is left for later ticks */
+    KIRI_ERROR_ARGUMENT = -1, /* null pointer, NaN, infinite, or outside the documented range */
+    KIRI_ERROR_DEF = -2,      /* the def was not filled by its kiriDefault function */
+    KIRI_ERROR_ID = -3,       /* unknown or stale id, or the id of another kind */
+    KIRI_ERROR_MESH = -4,     /* the triangles do not form a sheet: degenerate, inverted, duplicate, overlapping */
+    KIRI_ERROR_STATE = -5,    /* the call comes in the wrong order */
+    KIRI_ERROR_MEMORY = -6,   /* the allocator returned null */
+    KIRI_DIVERGED = -7        /* the motion of a sheet could not be continued; it was put to rest where it was */
+};
+
+/* The library's version: major * 10000 + minor * 100 + patch. */
+KIRI_API int32_t kiriGetVersion(void);
+
+/* The name of a result, "KIRI_OK" and so on; "unknown" for another number. */
+KIRI_API const char* kiriGetResultName(kiriResult result);
+
+/* ---- World ------------------------------------------------------------------------------------------------------ */
+
+typedef void* kiriAllocFn(void* user, int64_t bytes); /* at least 16-byte aligned, or null */
+typedef void kiriFreeFn(void* user, void* pointer);
+typedef void kiriLogFn(void* user, const char* line);
+typedef double kiriClockFn(void* user); /* seconds; read for the profile only, never by the simulation */
+
+typedef struct kiriWorldDef {
+    uint32_t cookie;
+    float gravity[3];   /* m/s^2; default (0, 0, -9.81) */
+    kiriAllocFn* alloc; /* null: malloc and free. Both or none. */
+    kiriFreeFn* free;
+    kiriLogFn* log; /* one line for each error; null: silent */
+    kiriClockFn* clock; /* null: the profile counts, and shows no times */
+    void* user;         /* handed to the four functions above */
+} kiriWorldDef;
+
+KIRI_API void kiriDefaultWorldDef(kiriWorldDef* def);
+
+/* Makes an empty world. On failure *world is null. */
+KIRI_API kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
+
+/* Frees the world and all that is in it. Null is allowed. */
+KIRI_API void kiriDestroyWorld(kiriWorld* world);
+
+/* One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut points,
+   then moves every sheet. KIRI_ERROR_MEMORY: nothing moved and the cut points still wait, call again.
+   KIRI_DIVERGED: the sheets named by the events were put to rest, the others moved. */
+KIRI_API kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
+
+/* What went wrong last, in one line; "" when nothing did. Valid until the next call. */
+KIRI_API const char* kiriWorld_GetLastError(const kiriWorld* world);
+
+KIRI_API kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
+
+/* A hash of everything that the coming ticks depend on: two worlds that got the same calls have the same hash. */
+KIRI_API kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash);
+
+/* What happened since the start of the last tick. */
+enum {
+    KIRI_EVENT_CUT_FINISHED = 1, /* cut: all of it is in the mesh; the id is stale from now on */
+    KIRI_EVENT_PIECE_OFF = 2,    /* piece, area: a connected part came off the sheet */
+    KIRI_EVENT_FRAME_ADDED = 3,  /* frame */
+    KIRI_EVENT_DIVERGED = 4      /* the sheet was put to rest */
+};
+
+typedef struct kiriEvent {
+    int32_t type; /* KIRI_EVENT_... */
+    kiriSheet sheet;
+    kiriCut cut;     /* or 0 */
+    kiriFrame frame; /* or 0 */
+    int32_t piece;   /* index of the piece, or -1 */
+    float area;      /* m^2 of the piece, or 0 */
+} kiriEvent;
+
+/* *events points to *count events, valid until the next tick. */
+KIRI_API kiriResult kiriWorld_GetEvents(const kiriWorld* world, const kiriEvent** events, int32_t* count);
+
+/* The stages of a tick in their order. */
+enum {
+    KIRI_STAGE_CUT,      /* split the mesh along the blade */
+    KIRI_STAGE_GRID,     /* cells and what links them */
+    KIRI_STAGE_REGIONS,  /* geodesic distances, regions, links; placing of frames */
+    KIRI_STAGE_SHAPE,    /* shape functions */
+    KIRI_STAGE_SAMPLES,  /* weights of vertices and collision points */
+    KIRI_STAGE_CONSTANTS, /* mass, and the pattern of the solver's matrix */
+    KIRI_STAGE_SOLVE,    /* the motion of the frames */
+    KIRI_STAGE_SKIN,     /* positions and normals of the mesh */
+    KIRI_STAGE_COUNT
+};
+
+typedef struct kiriProfile {
+    double seconds[KIRI_STAGE_COUNT]; /* of the last tick; zero without a clock */
+    int32_t cutSegments;              /* blade segments taken */
+    int32_t trianglesSplit;           /* triangles changed or made by them */
+    int32_t cellsSettled;             /* cells rebuilt */
+    int32_t samplesRefreshed;         /* vertices and collision points with new weights */
+    int32_t solverIterations;         /* linear systems solved */
+} kiriProfile;
+
+KIRI_API kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile);
+
+/* The name of a stage, for tables; "" for a number that is none. */
+KIRI_API const char* kiriGetStageName(int32_t stage);
+
+/* ---- Sheet ------------------------------------------------------------------------------------------------------ */
+
+typedef struct kiriMaterial {
+    float youngsModulus; /* Pa, above 0 */
+    float poissonsRatio; /* 0 to below 0.5 */
+    float thickness;     /* m, above 0 */
+    float density;       /* kg/m^3, above 0 */
+    float airDamping;    /* 1/s, 0 or more: velocities fade as exp(-airDamping t) */
+    float flexDamping;   /* s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
+} kiriMaterial;
+
+typedef struct kiriSheetDef {
+    uint32_t cookie;
+
+    /* The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge. Holes and several parts
+       are fine. Copied by kiriCreateSheet. Edges whose ends lie at the same places, but are different vertices, are
+       the lips of a cut that is there already. */
+    const float* restPositions; /* 2 floats (u, v) a vertex */
+    int32_t vertexCount;
+    const int32_t* indices; /* 3 a triangle */
+    int32_t triangleCount;
+
+    /* Where it starts: x = position + u axisU + v axisV. The axes are orthonormal. */
+    float position[3];
+    float axisU[3];
+    float axisV[3];
+    float velocity[3]; /* m/s */
+
+    kiriMaterial material;
+
+    int32_t gridResolution; /* grid squares along the longer side, 1 to 4096; default 32 */
+    float snapDistance;     /* m: a blade this near to a vertex or an edge takes it; 0: 1e-4 of the longer side */
+
+    /* Control frames. framePoints: 2 floats a frame, in the material; null: frameCount frames are spread evenly. */
+    int32_t frameCount; /* 1 or more; default 5 */
+    const float* framePoints;
+    int32_t maxFrames; /* re-sampling stops here; default 256 */
+
+    /* Where the weight of one frame exceeds rigidWeight over an area larger than rigidArea (m^2), frames are added
+       (section 5 of the paper), also at once: a sheet that is to stay rigid on one frame sets maxFrames to 1. rigidArea 0: a quarter of the area that a frame has at the start. */
+    float rigidWeight; /* default 0.95 */
+
+    float rigidArea;
+
+    int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
+    int32_t iterations;      /* Newton steps a substep, 1 to 64; default 2 */
+} kiriSheetDef;
+
+KIRI_API void kiriDefaultSheetDef(kiriSheetDef* def);
+
+KIRI_API kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet);
+KIRI_API kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
+
+/* A rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1) floats and
+   6 * columns * rows indices. columns and rows are 1 to 4096. */
+KIRI_API kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions,
+                                      int32_t* indices);
+
+/* The triangles that are seen, as after the last tick. The arrays belong to the library and stay as they are until the
+   next tick or until the sheet is destroyed. revision grows whenever indices or vertices are added or changed. */
+typedef struct kiriMesh {
+    const float* positions;         /* 3 a vertex, m, world */
+    const float* normals;           /* 3 a vertex, unit */
+    const float* restPositions;     /* 2 a vertex, m */
+    const int32_t* indices;         /* 3 a triangle */
+    const int32_t* sourceTriangles; /* 1 a vertex: the triangle of the def that it lies in, */
+    const float* sourceWeights;     /* 3 a vertex: and its barycentric coordinates there */
+    int32_t vertexCount;
+    int32_t triangleCount;
+    uint32_t revision;
+} kiriMesh;
+
+KIRI_API kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* mesh);
+
+/* Collision points: 3 floats of position (m, world) a point, valid until the next tick. */
+KIRI_API kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet, const float** positions,
+                                                 int32_t* count);
+
+typedef struct kiriCounts {
+    int32_t vertices, triangles, cells, frames, links, pieces, collisionPoints;
+} kiriCounts;
+
+KIRI_API kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCounts* counts);
+
+/* Area (m^2), mass (kg), kinetic energy and elastic energy (J), linear and angular momentum about the world's origin
+   (kg m/s, kg m^2/s), centre of mass (m). */
+typedef struct kiriTotals {
+    double area, mass, kineticEnergy, elasticEnergy;
+    double center[3], momentum[3], angularMomentum[3];
+} kiriTotals;
+
+KIRI_API kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet, kiriTotals* totals);
+
+/* Where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: nowhere. */
+typedef struct kiriHit {
+    float restPoint[2]; /* where to cut */
+    float position[3];
+    float normal[3];
+    float distance; /* m along the direction, which need not be a unit vector */
+    int32_t triangle;
+} kiriHit;
+
+KIRI_API kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, const float origin[3],
+                                      const float direction[3], float maxDistance, kiriHit* hit);
+
+/* The shape functions at a rest point: up to `capacity` frames with their weights (sum 1) and, unless null, gradients
+   (2 floats a frame, 1/m). *count is how many there are, however many fit. Outside the sheet: KIRI_ERROR_ARGUMENT. */
+KIRI_API kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const float restPoint[2],
+                                         kiriFrame* frames, float* weights, float* gradients, int32_t capacity,
+                                         int32_t* count);
+
+/* ---- Cut -------------------------------------------------------------------------------------------------------- */
+
+/* A cut is a polyline in the rest plane. Points may lie anywhere: what is outside the sheet cuts nothing. Points wait
+   until the next tick. The end of a cut that lies inside the sheet stays closed until the blade moves on. */
+KIRI_API kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriCut* cut);
+
+/* restPoints: 2 floats a point, count is 1 or more. */
+KIRI_API kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints, int32_t count);
+
+/* No more points come. After the tick that takes the last of them the id is stale and KIRI_EVENT_CUT_FINISHED tells. */
+KIRI_API kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
+
+/* A blade (a straight edge) that moves in world space from blade[0]-blade[1] to blade[3]-blade[2] cuts where the swept
+   quadrilateral meets the sheet as it is now. The cut is ended already. */
+KIRI_API kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[12], kiriCut* cut);
+
+/* ---- Frame ------------------------------------------------------------------------------------------------------ */
+
+typedef struct kiriFrameState {
+    float restPoint[2];
+    float position[3];        /* of the rest point */
+    float rotation[9];        /* columns: direction of u, direction of v, normal */
+    float velocity[3];        /* m/s */
+    float angularVelocity[3]; /* rad/s */
+    float area;               /* m^2 of its region */
+    float mass;               /* kg */
+    int32_t held;             /* 1: moved by the host, see kiriFrame_Hold */
+} kiriFrameState;
+
+/* Writes up to `capacity` ids of the sheet's frames; *count is how many there are. */
+KIRI_API kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFrame* frames, int32_t capacity,
+                                        int32_t* count);
+
+KIRI_API kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state);
+
+/* The host moves the frame: its rest point goes to `position` with `rotation` (a rotation matrix, columns as above) in
+   the next tick, and stays there until the next call. Null, null: it is free again. */
+KIRI_API kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9]);
+
+/* A force (N, world) on the frame's centre of mass and a torque (N m), for the next tick only. */
+KIRI_API kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3], const float torque[3]);
+
+/* ---- Pin and contact -------------------------------------------------------------------------------------------- */
+
+typedef struct kiriPinDef {
+    uint32_t cookie;
+    float restPoint[2]; /* in the material */
+    float target[3];    /* m, world: where it is held */
+    float stiffness;    /* N/m; 0: ten times Young's modulus times thickness */
+} kiriPinDef;
+
+KIRI_API void kiriDefaultPinDef(kiriPinDef* def);
+KIRI_API kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* def, kiriPin* pin);
+KIRI_API kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3]);
+KIRI_API kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
+
+/* A collision point that touches something: it is pushed out of the half space below the plane dot(normal, x) = offset
+   with `stiffness` N/m, and its sliding is braked with at most `friction` times the push. */
+typedef struct kiriContact {
+    int32_t point;   /* index of the collision point */
+    float normal[3]; /* unit, out of the obstacle */
+    float offset;    /* m */
+    float friction;  /* 0 or more */
+    float stiffness; /* N/m, above 0 */
+} kiriContact;
+
+/* The contacts of the next tick; they replace those of an earlier call, and are gone after the tick. */
+KIRI_API kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriContact* contacts, int32_t count);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

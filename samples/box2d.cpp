@@ -1,0 +1,530 @@
+/* A strip of felt falls on a crate that Box2D moves, is cut in two where it lies, and its halves slide off.
+
+   Shows how a sheet touches the bodies of another engine, here a flat one: its x and y are our x and z. Each tick, a
+   plane for every collision point that is near a fixture goes to the sheet, and what the plane pushed goes back to the
+   body as a force. Writes pictures; reads no clock. */
+
+#include <box2d/box2d.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <sys/stat.h>
+
+extern "C" {
+#include "draw.h"
+#include "image.h"
+}
+
+namespace
+{
+
+const float UNITS = 10.0f; /* of Box2D, a metre: its slop of 0.005 units is to be half a millimetre */
+const float DT = 1.0f / 60.0f;
+const int SUBSTEPS = 2;
+
+const float LENGTH = 1.0f, WIDTH = 0.3f; /* m, of the strip */
+const int FRAMES = 22;
+const int CUT_START = 110, CUT_TICKS = 24;
+
+const float REACH = 0.06f;      /* m: farther than a point moves in a tick */
+const float CLEARANCE = 0.008f; /* m between the strip and what it lies on, for the mesh bends between points */
+const float STIFFNESS = 100.0f; /* N/m a point */
+const float FRICTION = 0.15f;   /* of the strip; mixed with that of the fixture, as Box2D does */
+
+const float DEPTH = 0.36f; /* m: how deep the flat bodies are drawn */
+
+struct Options {
+    std::string output = "build/pictures/box2d";
+    int ticks = 240, every = 20, width = 640, height = 480;
+};
+
+struct Color {
+    float red, green, blue;
+};
+
+const Color CARDBOARD = { 0.72f, 0.56f, 0.38f }, GREEN = { 0.45f, 0.62f, 0.42f };
+const Color BLUE = { 0.30f, 0.55f, 0.80f }, LIGHT_BLUE = { 0.42f, 0.66f, 0.88f };
+
+/* A contact, and who feels it. */
+struct Touch {
+    kiriContact contact;
+    b2Body* body;
+};
+
+struct Simulation {
+    b2World bodies{ b2Vec2(0.0f, -9.81f * UNITS) };
+    kiriWorld* world = nullptr;
+    kiriSheet sheet = 0;
+    kiriCut cut = 0;
+    float cutAt = 0.0f; /* u of the cut */
+    std::array<float, 3> blade{};
+    bool cutting = false;
+    std::vector<Touch> touches;
+};
+
+/* ---- What there is ----------------------------------------------------------------------------------------------- */
+
+void AddBody(Simulation& simulation, const b2Shape& shape, float x, float z, float kilograms, float friction)
+{
+    b2BodyDef def;
+    def.type = kilograms > 0.0f ? b2_dynamicBody : b2_staticBody;
+    def.position.Set(x * UNITS, z * UNITS);
+    def.angularDamping = 0.5f;
+    b2MassData unit;
+    shape.ComputeMass(&unit, 1.0f);
+    b2FixtureDef fixture;
+    fixture.shape = &shape;
+    fixture.density = kilograms / unit.mass;
+    fixture.friction = friction;
+    simulation.bodies.CreateBody(&def)->CreateFixture(&fixture);
+}
+
+void AddBox(Simulation& simulation, float x, float z, float width, float height, float kilograms, float friction)
+{
+    b2PolygonShape box;
+    box.SetAsBox(0.5f * width * UNITS, 0.5f * height * UNITS);
+    AddBody(simulation, box, x, z, kilograms, friction);
+}
+
+void AddBodies(Simulation& simulation)
+{
+    AddBox(simulation, 0.0f, -1.0f, 20.0f, 2.0f, 0.0f, 0.9f);
+    AddBox(simulation, 0.0f, 0.18f, 0.36f, 0.36f, 1.5f, 0.1f);
+    AddBox(simulation, -0.28f, 0.09f, 0.18f, 0.18f, 0.3f, 0.1f);
+    b2CircleShape roller;
+    roller.m_radius = 0.09f * UNITS;
+    AddBody(simulation, roller, 0.36f, 0.09f, 0.08f, 0.4f);
+}
+
+kiriResult AddStrip(Simulation& simulation)
+{
+    const int columns = 80, rows = 24;
+    std::vector<float> positions(2 * (columns + 1) * (rows + 1));
+    std::vector<int32_t> indices(6 * columns * rows);
+    kiriFillRectangle(LENGTH, WIDTH, columns, rows, positions.data(), indices.data());
+    /* One row of frames: the strip only bends along its length here. */
+    std::vector<float> frames;
+    for (int i = 0; i < FRAMES; ++i) {
+        frames.push_back((static_cast<float>(i) + 0.5f) * LENGTH / FRAMES);
+        frames.push_back(0.5f * WIDTH);
+    }
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.restPositions = positions.data();
+    def.vertexCount = (columns + 1) * (rows + 1);
+    def.indices = indices.data();
+    def.triangleCount = 2 * columns * rows;
+    def.position[0] = -0.5f * LENGTH;
+    def.position[1] = -0.5f * WIDTH;
+    def.position[2] = 0.62f;
+    def.material.youngsModulus = 2e7f;
+    def.material.thickness = 0.001f;
+    def.material.density = 300.0f;
+    def.material.airDamping = 1.0f;
+    def.material.flexDamping = 0.01f;
+    def.gridResolution = 80;
+    def.frameCount = FRAMES;
+    def.framePoints = frames.data();
+    def.collisionPoints = 600;
+    return kiriCreateSheet(simulation.world, &def, &simulation.sheet);
+}
+
+/* ---- Contact ----------------------------------------------------------------------------------------------------- */
+
+class Near : public b2QueryCallback
+{
+  public:
+    bool ReportFixture(b2Fixture* fixture) override
+    {
+        fixtures.push_back(fixture);
+        return true;
+    }
+    std::vector<b2Fixture*> fixtures;
+};
+
+/* The plane that keeps the point out of the fixture; false when it is out of reach. A manifold rather than a distance,
+   for it also knows the way out from inside. */
+bool FindPlane(const b2Fixture* fixture, const b2Vec2& point, kiriContact* contact)
+{
+    b2CircleShape probe;
+    probe.m_radius = REACH * UNITS;
+    b2Transform place;
+    place.Set(point, 0.0f);
+    const b2Transform& at = fixture->GetBody()->GetTransform();
+    const b2Shape* shape = fixture->GetShape();
+    b2Manifold manifold;
+    manifold.pointCount = 0;
+    float radius = 0.0f;
+    if (shape->GetType() == b2Shape::e_polygon) {
+        b2CollidePolygonAndCircle(&manifold, static_cast<const b2PolygonShape*>(shape), at, &probe, place);
+    } else if (shape->GetType() == b2Shape::e_circle) {
+        radius = shape->m_radius;
+        b2CollideCircles(&manifold, static_cast<const b2CircleShape*>(shape), at, &probe, place);
+    }
+    if (manifold.pointCount == 0) {
+        return false;
+    }
+    b2WorldManifold found;
+    found.Initialize(&manifold, at, radius, place, 0.0f);
+    contact->normal[0] = found.normal.x;
+    contact->normal[1] = 0.0f;
+    contact->normal[2] = found.normal.y;
+    contact->offset = (b2Dot(found.normal, point) - found.separations[0]) / UNITS + CLEARANCE;
+    return true;
+}
+
+void FindTouches(Simulation& simulation)
+{
+    const float* points = nullptr;
+    int32_t count = 0;
+    kiriSheet_GetCollisionPoints(simulation.world, simulation.sheet, &points, &count);
+    simulation.touches.clear();
+    const b2Vec2 reach(REACH * UNITS, REACH * UNITS);
+    for (int32_t i = 0; i < count; ++i) {
+        b2Vec2 point(points[3 * i] * UNITS, points[3 * i + 2] * UNITS);
+        b2AABB around;
+        around.lowerBound = point - reach;
+        around.upperBound = point + reach;
+        Near near;
+        simulation.bodies.QueryAABB(&near, around);
+        for (b2Fixture* fixture : near.fixtures) {
+            Touch touch = { kiriContact(), fixture->GetBody() };
+            touch.contact.point = i;
+            touch.contact.friction = b2MixFriction(FRICTION, fixture->GetFriction());
+            touch.contact.stiffness = STIFFNESS;
+            if (FindPlane(fixture, point, &touch.contact)) {
+                simulation.touches.push_back(touch);
+            }
+        }
+    }
+}
+
+kiriResult SetContacts(Simulation& simulation)
+{
+    std::vector<kiriContact> contacts;
+    for (const Touch& touch : simulation.touches) {
+        contacts.push_back(touch.contact);
+    }
+    return kiriSheet_SetContacts(simulation.world, simulation.sheet, contacts.data(),
+                                 static_cast<int32_t>(contacts.size()));
+}
+
+/* The push of each contact as it is after the tick, turned round. */
+void React(Simulation& simulation)
+{
+    const float* points = nullptr;
+    int32_t count = 0;
+    kiriSheet_GetCollisionPoints(simulation.world, simulation.sheet, &points, &count);
+    for (const Touch& touch : simulation.touches) {
+        const kiriContact& contact = touch.contact;
+        const float* p = points + 3 * contact.point;
+        float depth = contact.offset - contact.normal[0] * p[0] - contact.normal[2] * p[2];
+        if (depth > 0.0f) {
+            float push = -contact.stiffness * depth * UNITS;
+            touch.body->ApplyForce(b2Vec2(push * contact.normal[0], push * contact.normal[2]),
+                                   b2Vec2(p[0] * UNITS, p[2] * UNITS), false);
+        }
+    }
+}
+
+/* ---- The tick ---------------------------------------------------------------------------------------------------- */
+
+/* Across the strip, above the middle of the crate: the ray finds where that is on the strip. */
+kiriResult BeginCut(Simulation& simulation)
+{
+    const float above[3] = { 0.0f, 0.0f, 2.0f }, down[3] = { 0.0f, 0.0f, -1.0f };
+    kiriHit hit;
+    kiriResult result = kiriSheet_Raycast(simulation.world, simulation.sheet, above, down, 4.0f, &hit);
+    if (result != KIRI_OK || hit.triangle < 0) {
+        return result != KIRI_OK ? result : KIRI_ERROR_STATE;
+    }
+    simulation.cutAt = hit.restPoint[0];
+    simulation.blade = { { hit.position[0], 0.0f, hit.position[2] } };
+    simulation.cutting = true;
+    const float start[2] = { hit.restPoint[0], -0.02f };
+    return kiriBeginCut(simulation.world, simulation.sheet, start, &simulation.cut);
+}
+
+kiriResult MoveBlade(Simulation& simulation, int tick)
+{
+    if (tick < CUT_START || tick > CUT_START + CUT_TICKS) {
+        return KIRI_OK;
+    }
+    if (tick == CUT_START) {
+        return BeginCut(simulation);
+    }
+    float way = static_cast<float>(tick - CUT_START) / CUT_TICKS;
+    const float point[2] = { simulation.cutAt, -0.02f + way * (WIDTH + 0.04f) };
+    simulation.blade[1] = point[1] - 0.5f * WIDTH;
+    kiriResult result = kiriCut_Extend(simulation.world, simulation.cut, point, 1);
+    if (result == KIRI_OK && tick == CUT_START + CUT_TICKS) {
+        simulation.cutting = false;
+        result = kiriCut_End(simulation.world, simulation.cut);
+    }
+    return result;
+}
+
+kiriResult Tick(Simulation& simulation, int tick)
+{
+    kiriResult result = MoveBlade(simulation, tick);
+    FindTouches(simulation);
+    if (result == KIRI_OK) {
+        result = SetContacts(simulation);
+    }
+    if (result == KIRI_OK) {
+        result = kiriWorld_Tick(simulation.world, DT, SUBSTEPS);
+    }
+    React(simulation);
+    simulation.bodies.Step(DT, 8, 3);
+    return result;
+}
+
+/* ---- Pictures ---------------------------------------------------------------------------------------------------- */
+
+/* The strip and the bodies as one mesh for the painter. */
+struct Soup {
+    std::vector<float> positions, normals, restPositions, colors;
+    std::vector<int32_t> indices;
+};
+
+void AddTriangle(Soup& soup, int32_t a, int32_t b, int32_t c, const Color& color)
+{
+    for (int32_t corner : { a, b, c }) {
+        soup.indices.push_back(corner);
+        soup.colors.insert(soup.colors.end(), { color.red, color.green, color.blue });
+    }
+}
+
+int32_t AddVertex(Soup& soup, const b2Vec2& place, float y, const b2Vec2& normal, float normalY)
+{
+    int32_t index = static_cast<int32_t>(soup.positions.size() / 3);
+    soup.positions.insert(soup.positions.end(), { place.x / UNITS, y, place.y / UNITS });
+    soup.normals.insert(soup.normals.end(), { normal.x, normalY, normal.y });
+    /* A place of its own outside the strip, so that it shares no cut edge. */
+    soup.restPositions.insert(soup.restPositions.end(), { 10.0f + 0.01f * static_cast<float>(index), 10.0f });
+    return index;
+}
+
+/* Round bodies share the vertices of their sides, for the painter draws edges that no two triangles share. */
+void AddRoundSides(Soup& soup, const std::vector<b2Vec2>& corners, const b2Vec2& center, const Color& color)
+{
+    int32_t first = 0, count = static_cast<int32_t>(corners.size());
+    for (int32_t i = 0; i < count; ++i) {
+        b2Vec2 out = corners[i] - center;
+        out.Normalize();
+        int32_t vertex = AddVertex(soup, corners[i], -0.5f * DEPTH, out, 0.0f);
+        AddVertex(soup, corners[i], 0.5f * DEPTH, out, 0.0f);
+        first = i == 0 ? vertex : first;
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t from = first + 2 * i, to = first + 2 * ((i + 1) % count);
+        AddTriangle(soup, from, from + 1, to + 1, color);
+        AddTriangle(soup, from, to + 1, to, color);
+    }
+}
+
+void AddFlatSides(Soup& soup, const std::vector<b2Vec2>& corners, const Color& color)
+{
+    for (size_t i = 0; i < corners.size(); ++i) {
+        b2Vec2 from = corners[i], to = corners[(i + 1) % corners.size()], out(to.y - from.y, from.x - to.x);
+        out.Normalize();
+        int32_t vertex = AddVertex(soup, from, -0.5f * DEPTH, out, 0.0f);
+        AddVertex(soup, from, 0.5f * DEPTH, out, 0.0f);
+        AddVertex(soup, to, 0.5f * DEPTH, out, 0.0f);
+        AddVertex(soup, to, -0.5f * DEPTH, out, 0.0f);
+        AddTriangle(soup, vertex, vertex + 1, vertex + 2, color);
+        AddTriangle(soup, vertex, vertex + 2, vertex + 3, color);
+    }
+}
+
+void AddFront(Soup& soup, const std::vector<b2Vec2>& corners, const Color& color)
+{
+    int32_t first = 0;
+    for (size_t i = 0; i < corners.size(); ++i) {
+        int32_t vertex = AddVertex(soup, corners[i], -0.5f * DEPTH, b2Vec2_zero, -1.0f);
+        first = i == 0 ? vertex : first;
+        if (i >= 2) {
+            AddTriangle(soup, first, vertex - 1, vertex, color);
+        }
+    }
+}
+
+void AddBodyShape(Soup& soup, const b2Body& body)
+{
+    const b2Shape* shape = body.GetFixtureList()->GetShape();
+    std::vector<b2Vec2> corners;
+    if (shape->GetType() == b2Shape::e_polygon) {
+        const b2PolygonShape* polygon = static_cast<const b2PolygonShape*>(shape);
+        for (int32 i = 0; i < polygon->m_count; ++i) {
+            corners.push_back(body.GetWorldPoint(polygon->m_vertices[i]));
+        }
+        AddFront(soup, corners, CARDBOARD);
+        AddFlatSides(soup, corners, CARDBOARD);
+        return;
+    }
+    const int sides = 48;
+    for (int i = 0; i < sides; ++i) {
+        b2Rot turn(2.0f * b2_pi * static_cast<float>(i) / sides);
+        corners.push_back(body.GetWorldPoint(b2Vec2(shape->m_radius * turn.c, shape->m_radius * turn.s)));
+    }
+    AddFront(soup, corners, GREEN);
+    AddRoundSides(soup, corners, body.GetPosition(), GREEN);
+}
+
+void AddSheet(Soup& soup, const kiriMesh& mesh)
+{
+    soup.positions.assign(mesh.positions, mesh.positions + 3 * mesh.vertexCount);
+    soup.normals.assign(mesh.normals, mesh.normals + 3 * mesh.vertexCount);
+    soup.restPositions.assign(mesh.restPositions, mesh.restPositions + 2 * mesh.vertexCount);
+    for (int32_t i = 0; i < mesh.triangleCount; ++i) {
+        const int32_t* corner = mesh.indices + 3 * i;
+        float u = 0.0f;
+        for (int k = 0; k < 3; ++k) {
+            u += mesh.restPositions[2 * corner[k]] / 3.0f;
+        }
+        bool odd = static_cast<int>(u * 20.0f) % 2 != 0;
+        AddTriangle(soup, corner[0], corner[1], corner[2], odd ? BLUE : LIGHT_BLUE);
+    }
+}
+
+bool Paint(Simulation& simulation, Painter* painter, Image* image)
+{
+    kiriMesh mesh;
+    if (kiriSheet_GetMesh(simulation.world, simulation.sheet, &mesh) != KIRI_OK) {
+        return false;
+    }
+    Soup soup;
+    AddSheet(soup, mesh);
+    for (b2Body* body = simulation.bodies.GetBodyList(); body != nullptr; body = body->GetNext()) {
+        if (body->GetType() == b2_dynamicBody) {
+            AddBodyShape(soup, *body);
+        }
+    }
+    View view = View();
+    view.camera = { { 0.7f, -2.4f, 1.0f }, { 0.0f, 0.0f, 0.24f }, 25.0f };
+    view.mesh.positions = soup.positions.data();
+    view.mesh.normals = soup.normals.data();
+    view.mesh.restPositions = soup.restPositions.data();
+    view.mesh.indices = soup.indices.data();
+    view.mesh.vertexCount = static_cast<int32_t>(soup.positions.size() / 3);
+    view.mesh.triangleCount = static_cast<int32_t>(soup.indices.size() / 3);
+    view.colors = soup.colors.data();
+    view.blade = simulation.cutting ? simulation.blade.data() : nullptr;
+    return Painter_Paint(painter, &view, image);
+}
+
+/* Pictures one after the other in rows of four, at half their size. */
+bool WriteContactSheet(const std::vector<Image>& pictures, const Options& options)
+{
+    const int columns = 4, count = static_cast<int>(pictures.size()), rows = (count + columns - 1) / columns;
+    const int width = options.width / 2, height = options.height / 2;
+    Image sheet, small;
+    bool good = Image_Create(&sheet, columns * width, rows * height) && Image_Create(&small, width, height);
+    for (int i = 0; good && i < count; ++i) {
+        Image_Shrink(&small, pictures[i].rgb, options.width, 3, 2);
+        Image_Paste(&sheet, &small, i % columns * width, i / columns * height);
+    }
+    good = good && Image_WritePng(&sheet, (options.output + "/contact_sheet.png").c_str());
+    Image_Free(&sheet);
+    Image_Free(&small);
+    return good;
+}
+
+/* ---- Main -------------------------------------------------------------------------------------------------------- */
+
+bool MakeFolders(const std::string& path)
+{
+    for (size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+        mkdir(path.substr(0, end).c_str(), 0777);
+        if (end == std::string::npos) {
+            break;
+        }
+    }
+    struct stat found;
+    return stat(path.c_str(), &found) == 0 && S_ISDIR(found.st_mode);
+}
+
+bool ReadOptions(int count, char** words, Options* options)
+{
+    for (int i = 1; i + 1 < count; i += 2) {
+        const std::string name = words[i];
+        if (name == "--output") {
+            options->output = words[i + 1];
+        } else if (name == "--ticks") {
+            options->ticks = std::atoi(words[i + 1]);
+        } else if (name == "--every") {
+            options->every = std::atoi(words[i + 1]);
+        } else if (name != "--size" || std::sscanf(words[i + 1], "%dx%d", &options->width, &options->height) != 2) {
+            return false;
+        }
+    }
+    return count % 2 == 1 && options->ticks > 0 && options->every > 0 && options->width > 0 && options->height > 0;
+}
+
+bool Run(Simulation& simulation, const Options& options, Painter* painter, std::vector<Image>* pictures)
+{
+    for (int tick = 0; tick < options.ticks; ++tick) {
+        kiriResult result = Tick(simulation, tick);
+        if (result < 0) {
+            std::fprintf(stderr, "tick %d: %s\n", tick, kiriWorld_GetLastError(simulation.world));
+            return false;
+        }
+        if ((tick + 1) % options.every == 0) {
+            char name[32];
+            std::snprintf(name, sizeof name, "/%04d.png", tick + 1);
+            pictures->push_back(Image());
+            Image* picture = &pictures->back();
+            if (!Image_Create(picture, options.width, options.height) || !Paint(simulation, painter, picture) ||
+                !Image_WritePng(picture, (options.output + name).c_str())) {
+                std::fprintf(stderr, "cannot write %s%s\n", options.output.c_str(), name);
+                return false;
+            }
+        }
+    }
+    return pictures->empty() || WriteContactSheet(*pictures, options);
+}
+
+} // namespace
+
+int main(int count, char** words)
+{
+    Options options;
+    if (!ReadOptions(count, words, &options)) {
+        std::fprintf(stderr, "usage: %s [--output folder] [--ticks n] [--every n] [--size 640x480]\n", words[0]);
+        return 2;
+    }
+    Simulation simulation;
+    kiriWorldDef def;
+    kiriDefaultWorldDef(&def);
+    Painter* painter = Painter_Create(options.width, options.height);
+    std::vector<Image> pictures;
+    bool good = painter != nullptr && MakeFolders(options.output);
+    if (!good) {
+        std::fprintf(stderr, "no pictures of this size, or no folder %s\n", options.output.c_str());
+    } else if (kiriCreateWorld(&def, &simulation.world) != KIRI_OK || AddStrip(simulation) != KIRI_OK) {
+        std::fprintf(stderr, "no strip: %s\n", kiriWorld_GetLastError(simulation.world));
+        good = false;
+    } else {
+        AddBodies(simulation);
+        good = Run(simulation, options, painter, &pictures);
+    }
+    uint64_t hash = 0;
+    if (good && kiriWorld_GetStateHash(simulation.world, &hash) == KIRI_OK) {
+        std::printf("%d ticks, state hash %016llx, pictures in %s\n", options.ticks,
+                    static_cast<unsigned long long>(hash), options.output.c_str());
+    }
+    for (Image& picture : pictures) {
+        Image_Free(&picture);
+    }
+    if (painter != nullptr) {
+        Painter_Destroy(painter);
+    }
+    kiriDestroyWorld(simulation.world);
+    return good ? 0 : 1;
+}

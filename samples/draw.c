@@ -1,0 +1,454 @@
+#include "draw.h"
+
+#include <GL/osmesa.h>
+#include <GL/glext.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { OVERSAMPLING = 3, SHADOW_SIZE = 256, CLOTH_SIZE = 64 };
+
+static const float shadowReach = 1.6f; /* m: half the side of the square of floor that the shadow texture covers */
+static const float toLight[3] = { -0.35f, -0.45f, 1.0f };
+static const float edgeColor[3] = { 0.13f, 0.16f, 0.24f };
+static const float cutColor[3] = { 0.93f, 0.30f, 0.12f };
+
+typedef struct Edge {
+    int32_t a, b;
+    const float* low; /* rest positions of its ends, in lexicographic order */
+    const float* high;
+} Edge;
+
+struct Painter {
+    OSMesaContext context;
+    int32_t width, height; /* of the picture; the buffer is OVERSAMPLING times as large */
+    uint8_t* buffer;
+    GLuint clothTexture, shadowTexture;
+    Edge* edges;
+    int32_t edgeCapacity;
+};
+
+/* ---- Camera ----------------------------------------------------------------------------------------------------- */
+
+static void Normalize(float v[3])
+{
+    float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (int i = 0; i < 3; i++) {
+        v[i] /= length;
+    }
+}
+
+static void Cross(const float a[3], const float b[3], float result[3])
+{
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        result[i] = a[j] * b[k] - a[k] * b[j];
+    }
+}
+
+static void SetCamera(const Camera* camera, float aspect)
+{
+    const float nearest = 0.05f;
+    float height = nearest * tanf(camera->fieldOfView * 0.5f * 3.14159265f / 180.0f);
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity();
+    glFrustum(-height * aspect, height * aspect, -height, height, nearest, 20.0);
+
+    float back[3], right[3], up[3] = { 0.0f, 0.0f, 1.0f };
+    for (int i = 0; i < 3; i++) {
+        back[i] = camera->eye[i] - camera->target[i];
+    }
+    Normalize(back);
+    Cross(up, back, right);
+    Normalize(right);
+    Cross(back, right, up);
+    float matrix[16] = { 0.0f };
+    for (int i = 0; i < 3; i++) {
+        matrix[4 * i] = right[i];
+        matrix[4 * i + 1] = up[i];
+        matrix[4 * i + 2] = back[i];
+    }
+    matrix[15] = 1.0f;
+    glMatrixMode(GL_MODELVIEW);
+    glLoadMatrixf(matrix);
+    glTranslatef(-camera->eye[0], -camera->eye[1], -camera->eye[2]);
+}
+
+/* ---- Background and shadow -------------------------------------------------------------------------------------- */
+
+static void DrawBackground(void)
+{
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity();
+    glMatrixMode(GL_MODELVIEW);
+    glLoadIdentity();
+    glDisable(GL_DEPTH_TEST);
+    glBegin(GL_QUAD_STRIP);
+    glColor3f(0.80f, 0.81f, 0.83f);
+    glVertex2f(-1.0f, -1.0f);
+    glVertex2f(1.0f, -1.0f);
+    glColor3f(0.93f, 0.935f, 0.94f);
+    glVertex2f(-1.0f, -0.2f);
+    glVertex2f(1.0f, -0.2f);
+    glColor3f(0.985f, 0.985f, 0.98f);
+    glVertex2f(-1.0f, 1.0f);
+    glVertex2f(1.0f, 1.0f);
+    glEnd();
+    glEnable(GL_DEPTH_TEST);
+}
+
+/* One pass of a box filter over rows; `step` from pixel to pixel, `stride` from row to row. */
+static void BlurRows(uint8_t* pixels, int32_t step, int32_t stride, int32_t radius)
+{
+    uint8_t line[SHADOW_SIZE];
+    for (int32_t y = 0; y < SHADOW_SIZE; y++) {
+        uint8_t* row = pixels + y * stride;
+        int32_t sum = 0;
+        for (int32_t x = 0; x < SHADOW_SIZE + radius; x++) {
+            sum += x < SHADOW_SIZE ? row[x * step] : 0;
+            sum -= x > 2 * radius ? line[x - 2 * radius - 1] : 0;
+            if (x < SHADOW_SIZE) {
+                line[x] = row[x * step];
+            }
+            if (x >= radius) {
+                row[(x - radius) * step] = (uint8_t)(sum / (2 * radius + 1));
+            }
+        }
+    }
+}
+
+/* The sheet as the light sees it on the floor, blurred, as a texture. Uses a corner of the picture, so it comes first. */
+static void MakeShadow(Painter* painter, const kiriMesh* mesh)
+{
+    glViewport(0, 0, SHADOW_SIZE, SHADOW_SIZE);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity();
+    glOrtho(-shadowReach, shadowReach, -shadowReach, shadowReach, -1.0, 1.0);
+    const float along[16] = { 1.0f, 0.0f, 0.0f, 0.0f,
+                              0.0f, 1.0f, 0.0f, 0.0f,
+                              -toLight[0] / toLight[2], -toLight[1] / toLight[2], 0.0f, 0.0f,
+                              0.0f, 0.0f, 0.0f, 1.0f };
+    glMatrixMode(GL_MODELVIEW);
+    glLoadMatrixf(along);
+    glDisable(GL_DEPTH_TEST);
+    glColor3f(1.0f, 1.0f, 1.0f);
+    glDrawElements(GL_TRIANGLES, 3 * mesh->triangleCount, GL_UNSIGNED_INT, mesh->indices);
+
+    uint8_t mask[SHADOW_SIZE * SHADOW_SIZE];
+    glReadPixels(0, 0, SHADOW_SIZE, SHADOW_SIZE, GL_RED, GL_UNSIGNED_BYTE, mask);
+    for (int pass = 0; pass < 3; pass++) {
+        BlurRows(mask, 1, SHADOW_SIZE, 4);
+        BlurRows(mask, SHADOW_SIZE, 1, 4);
+    }
+    glBindTexture(GL_TEXTURE_2D, painter->shadowTexture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_ALPHA, SHADOW_SIZE, SHADOW_SIZE, 0, GL_ALPHA, GL_UNSIGNED_BYTE, mask);
+}
+
+static void DrawShadow(const Painter* painter)
+{
+    glBindTexture(GL_TEXTURE_2D, painter->shadowTexture);
+    glEnable(GL_TEXTURE_2D);
+    glEnable(GL_BLEND);
+    glDepthMask(GL_FALSE);
+    glColor4f(0.12f, 0.13f, 0.20f, 0.34f);
+    glBegin(GL_QUADS);
+    for (int i = 0; i < 4; i++) {
+        float x = i == 1 || i == 2 ? 1.0f : 0.0f, y = i >= 2 ? 1.0f : 0.0f;
+        glTexCoord2f(x, y);
+        glVertex3f(shadowReach * (2.0f * x - 1.0f), shadowReach * (2.0f * y - 1.0f), -0.002f);
+    }
+    glEnd();
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    glDisable(GL_TEXTURE_2D);
+}
+
+/* ---- Sheet ------------------------------------------------------------------------------------------------------ */
+
+/* Checks of two stripes, and a fine weave, so that stretch and slope are seen. */
+static void MakeClothTexture(const Painter* painter)
+{
+    uint8_t pixels[CLOTH_SIZE * CLOTH_SIZE];
+    for (int i = 0; i < CLOTH_SIZE * CLOTH_SIZE; i++) {
+        int x = i % CLOTH_SIZE, y = i / CLOTH_SIZE;
+        int stripes = (x < CLOTH_SIZE / 2) + (y < CLOTH_SIZE / 2);
+        pixels[i] = (uint8_t)(255 - 34 * stripes - (((x ^ y) & 2) != 0 ? 8 : 0));
+    }
+    glBindTexture(GL_TEXTURE_2D, painter->clothTexture);
+    glTexParameteri(GL_TEXTURE_2D, GL_GENERATE_MIPMAP, GL_TRUE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_LUMINANCE, CLOTH_SIZE, CLOTH_SIZE, 0, GL_LUMINANCE, GL_UNSIGNED_BYTE, pixels);
+}
+
+static void SetMaterial(GLenum face, float red, float green, float blue)
+{
+    glMaterialfv(face, GL_AMBIENT_AND_DIFFUSE, (float[]){ red, green, blue, 1.0f });
+}
+
+static void SetLights(void)
+{
+    glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, GL_TRUE);
+    glLightModelfv(GL_LIGHT_MODEL_AMBIENT, (float[]){ 0.40f, 0.41f, 0.44f, 1.0f });
+    glLightfv(GL_LIGHT0, GL_POSITION, (float[]){ toLight[0], toLight[1], toLight[2], 0.0f });
+    glLightfv(GL_LIGHT0, GL_DIFFUSE, (float[]){ 0.74f, 0.72f, 0.68f, 1.0f });
+    glLightfv(GL_LIGHT1, GL_POSITION, (float[]){ 0.6f, -0.7f, -0.5f, 0.0f });
+    glLightfv(GL_LIGHT1, GL_DIFFUSE, (float[]){ 0.26f, 0.28f, 0.32f, 1.0f });
+    glLightfv(GL_LIGHT2, GL_POSITION, (float[]){ -0.3f, 1.0f, 0.4f, 0.0f });
+    glLightfv(GL_LIGHT2, GL_DIFFUSE, (float[]){ 0.40f, 0.40f, 0.40f, 1.0f });
+    glEnable(GL_LIGHT0);
+    glEnable(GL_LIGHT1);
+    glEnable(GL_LIGHT2);
+    glEnable(GL_NORMALIZE);
+}
+
+static void DrawCloth(const Painter* painter, const kiriMesh* mesh)
+{
+    SetMaterial(GL_FRONT, 0.38f, 0.64f, 0.90f);
+    SetMaterial(GL_BACK, 0.96f, 0.80f, 0.55f);
+    glBindTexture(GL_TEXTURE_2D, painter->clothTexture);
+    glMatrixMode(GL_TEXTURE);
+    glLoadIdentity();
+    glScalef(10.0f, 10.0f, 1.0f);
+    glMatrixMode(GL_MODELVIEW);
+    glEnable(GL_TEXTURE_2D);
+    glEnableClientState(GL_NORMAL_ARRAY);
+    glEnableClientState(GL_TEXTURE_COORD_ARRAY);
+    glNormalPointer(GL_FLOAT, 0, mesh->normals);
+    glTexCoordPointer(2, GL_FLOAT, 0, mesh->restPositions);
+    glDrawElements(GL_TRIANGLES, 3 * mesh->triangleCount, GL_UNSIGNED_INT, mesh->indices);
+    glDisableClientState(GL_TEXTURE_COORD_ARRAY);
+    glDisableClientState(GL_NORMAL_ARRAY);
+    glDisable(GL_TEXTURE_2D);
+    glMatrixMode(GL_TEXTURE);
+    glLoadIdentity();
+    glMatrixMode(GL_MODELVIEW);
+}
+
+static void DrawColored(const kiriMesh* mesh, const float* colors)
+{
+    glColorMaterial(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE);
+    glEnable(GL_COLOR_MATERIAL);
+    glBegin(GL_TRIANGLES);
+    for (int32_t i = 0; i < 3 * mesh->triangleCount; i++) {
+        glColor3fv(colors + 3 * i);
+        glNormal3fv(mesh->normals + 3 * mesh->indices[i]);
+        glVertex3fv(mesh->positions + 3 * mesh->indices[i]);
+    }
+    glEnd();
+    glDisable(GL_COLOR_MATERIAL);
+}
+
+static void DrawSheet(const Painter* painter, const View* view)
+{
+    glEnable(GL_LIGHTING);
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(1.0f, 4.0f);
+    if (view->colors != NULL) {
+        DrawColored(&view->mesh, view->colors);
+    } else {
+        DrawCloth(painter, &view->mesh);
+    }
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glDisable(GL_LIGHTING);
+}
+
+/* ---- Open edges ------------------------------------------------------------------------------------------------- */
+
+static int CompareEnds(const void* left, const void* right)
+{
+    const Edge* l = left;
+    const Edge* r = right;
+    return l->a != r->a ? (l->a > r->a) - (l->a < r->a) : (l->b > r->b) - (l->b < r->b);
+}
+
+static int CompareRestPoints(const float* l, const float* r)
+{
+    return l[0] != r[0] ? (l[0] > r[0]) - (l[0] < r[0]) : (l[1] > r[1]) - (l[1] < r[1]);
+}
+
+static int ComparePlaces(const void* left, const void* right)
+{
+    const Edge* l = left;
+    const Edge* r = right;
+    int low = CompareRestPoints(l->low, r->low);
+    return low != 0 ? low : CompareRestPoints(l->high, r->high);
+}
+
+/* All edges, those of two triangles twice. */
+static int32_t ListEdges(Edge* edges, const kiriMesh* mesh)
+{
+    for (int32_t i = 0; i < 3 * mesh->triangleCount; i++) {
+        int32_t p = mesh->indices[i], q = mesh->indices[i % 3 == 2 ? i - 2 : i + 1];
+        Edge edge = { p < q ? p : q, p < q ? q : p, mesh->restPositions + 2 * p, mesh->restPositions + 2 * q };
+        if (CompareRestPoints(edge.low, edge.high) > 0) {
+            const float* low = edge.high;
+            edge.high = edge.low;
+            edge.low = low;
+        }
+        edges[i] = edge;
+    }
+    return 3 * mesh->triangleCount;
+}
+
+/* Keeps the edges of one triangle only. */
+static int32_t KeepOpenEdges(Edge* edges, int32_t count)
+{
+    qsort(edges, (size_t)count, sizeof(Edge), CompareEnds);
+    int32_t kept = 0;
+    for (int32_t i = 0; i < count; i++) {
+        if (i + 1 < count && CompareEnds(&edges[i], &edges[i + 1]) == 0) {
+            i++;
+        } else {
+            edges[kept++] = edges[i];
+        }
+    }
+    return kept;
+}
+
+/* A lip of a cut has its twin at the same place of the rest plane; an edge of the outline has none. */
+static void DrawOpenEdges(Painter* painter, const kiriMesh* mesh)
+{
+    Edge* edges = painter->edges;
+    int32_t count = KeepOpenEdges(edges, ListEdges(edges, mesh));
+    qsort(edges, (size_t)count, sizeof(Edge), ComparePlaces);
+    glLineWidth(1.3f * OVERSAMPLING);
+    glBegin(GL_LINES);
+    for (int32_t i = 0; i < count; i++) {
+        bool cut = (i > 0 && ComparePlaces(&edges[i - 1], &edges[i]) == 0) ||
+                   (i + 1 < count && ComparePlaces(&edges[i], &edges[i + 1]) == 0);
+        glColor3fv(cut ? cutColor : edgeColor);
+        glVertex3fv(mesh->positions + 3 * edges[i].a);
+        glVertex3fv(mesh->positions + 3 * edges[i].b);
+    }
+    glEnd();
+}
+
+static bool ReserveEdges(Painter* painter, int32_t count)
+{
+    if (painter->edgeCapacity < count) {
+        free(painter->edges);
+        painter->edges = malloc(2 * sizeof(Edge) * (size_t)count);
+        painter->edgeCapacity = painter->edges != NULL ? 2 * count : 0;
+    }
+    return painter->edgeCapacity >= count;
+}
+
+/* ---- Axes and blade --------------------------------------------------------------------------------------------- */
+
+static void DrawAxes(const kiriFrameState* frames, int32_t count)
+{
+    glDisable(GL_DEPTH_TEST);
+    glLineWidth(2.0f * OVERSAMPLING);
+    glBegin(GL_LINES);
+    for (int32_t i = 0; i < 3 * count; i++) {
+        const kiriFrameState* frame = &frames[i / 3];
+        const float* axis = frame->rotation + 3 * (i % 3);
+        float color[3] = { 0.15f, 0.15f, 0.15f };
+        color[i % 3] = 0.9f;
+        glColor3fv(color);
+        glVertex3fv(frame->position);
+        glVertex3f(frame->position[0] + 0.05f * axis[0], frame->position[1] + 0.05f * axis[1],
+                   frame->position[2] + 0.05f * axis[2]);
+    }
+    glEnd();
+    glEnable(GL_DEPTH_TEST);
+}
+
+/* A round bar along the z axis. */
+static void DrawBar(float bottom, float top, float bottomRadius, float topRadius)
+{
+    enum { SIDES = 24 };
+    float slope = (bottomRadius - topRadius) / (top - bottom);
+    glBegin(GL_QUAD_STRIP);
+    for (int i = 0; i <= SIDES; i++) {
+        float angle = (float)i * 6.2831853f / SIDES, x = cosf(angle), y = sinf(angle);
+        glNormal3f(x, y, slope);
+        glVertex3f(topRadius * x, topRadius * y, top);
+        glVertex3f(bottomRadius * x, bottomRadius * y, bottom);
+    }
+    glEnd();
+}
+
+static void DrawBlade(const float tip[3])
+{
+    glPushMatrix();
+    glTranslatef(tip[0], tip[1], tip[2]);
+    glRotatef(62.0f, 1.0f, 0.0f, 0.0f);
+    glRotatef(38.0f, 0.0f, 1.0f, 0.0f);
+    glEnable(GL_LIGHTING);
+    SetMaterial(GL_FRONT_AND_BACK, 0.78f, 0.80f, 0.83f);
+    DrawBar(0.0f, 0.07f, 0.0003f, 0.0075f);
+    SetMaterial(GL_FRONT_AND_BACK, 0.22f, 0.23f, 0.27f);
+    DrawBar(0.07f, 0.22f, 0.0095f, 0.012f);
+    DrawBar(0.22f, 0.2201f, 0.012f, 0.0f);
+    glDisable(GL_LIGHTING);
+    glPopMatrix();
+}
+
+/* ---- Painter ---------------------------------------------------------------------------------------------------- */
+
+Painter* Painter_Create(int32_t width, int32_t height)
+{
+    Painter* painter = calloc(1, sizeof(Painter));
+    if (painter == NULL) {
+        return NULL;
+    }
+    int32_t columns = OVERSAMPLING * width, rows = OVERSAMPLING * height;
+    painter->width = width;
+    painter->height = height;
+    painter->context = OSMesaCreateContextExt(OSMESA_RGBA, 24, 0, 0, NULL);
+    painter->buffer = malloc(4 * (size_t)columns * (size_t)rows);
+    if (painter->context == NULL || painter->buffer == NULL || columns < SHADOW_SIZE || rows < SHADOW_SIZE ||
+        !OSMesaMakeCurrent(painter->context, painter->buffer, GL_UNSIGNED_BYTE, columns, rows)) {
+        Painter_Destroy(painter);
+        return NULL;
+    }
+    OSMesaPixelStore(OSMESA_Y_UP, 0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glGenTextures(1, &painter->clothTexture);
+    glGenTextures(1, &painter->shadowTexture);
+    glBindTexture(GL_TEXTURE_2D, painter->shadowTexture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    MakeClothTexture(painter);
+    return painter;
+}
+
+void Painter_Destroy(Painter* painter)
+{
+    if (painter->context != NULL) {
+        OSMesaDestroyContext(painter->context);
+    }
+    free(painter->buffer);
+    free(painter->edges);
+    free(painter);
+}
+
+bool Painter_Paint(Painter* painter, const View* view, Image* image)
+{
+    if (!ReserveEdges(painter, 3 * view->mesh.triangleCount)) {
+        return false;
+    }
+    int32_t columns = OVERSAMPLING * painter->width, rows = OVERSAMPLING * painter->height;
+    glEnableClientState(GL_VERTEX_ARRAY);
+    glVertexPointer(3, GL_FLOAT, 0, view->mesh.positions);
+    MakeShadow(painter, &view->mesh);
+    glViewport(0, 0, columns, rows);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    DrawBackground();
+    SetCamera(&view->camera, (float)columns / (float)rows);
+    SetLights();
+    DrawShadow(painter);
+    DrawSheet(painter, view);
+    DrawOpenEdges(painter, &view->mesh);
+    DrawAxes(view->axes, view->axesCount);
+    if (view->blade != NULL) {
+        DrawBlade(view->blade);
+    }
+    glDisableClientState(GL_VERTEX_ARRAY);
+    glFinish();
+    Image_Shrink(image, painter->buffer, columns, 4, OVERSAMPLING);
+    return true;
+}

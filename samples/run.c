@@ -1,0 +1,469 @@
+/* Runs a scene, writes its pictures, and prints what the library did and how long it took. */
+#define _POSIX_C_SOURCE 199309L
+
+#include "draw.h"
+#include "image.h"
+#include "scene.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+enum { SHEET_COLUMNS = 4, SHEET_ROWS = 2, SHEET_GAP = 4, MAX_FRAMES = 1024 };
+
+/* ---- Options ---------------------------------------------------------------------------------------------------- */
+
+typedef struct Options {
+    const char* scene;
+    const char* output;
+    const char* data;
+    const char* weights; /* null, "all", or the number of a frame */
+    int32_t ticks, every, width, height, grid, controlFrames;
+    bool axes, quiet, help;
+} Options;
+
+static void PrintHelp(void)
+{
+    printf("kiri-run: runs a scene and writes its pictures\n\n"
+           "  --scene NAME          which scene\n"
+           "  --output FOLDER       where the pictures go (build/pictures)\n"
+           "  --data FOLDER         where the outlines are (samples/data)\n"
+           "  --ticks N             sixtieths of a second to run (the scene's own)\n"
+           "  --size WxH            of a picture, in pixels (640x480)\n"
+           "  --every N             ticks from picture to picture (2); 0: no pictures\n"
+           "  --grid N              grid squares along the sheet (the scene's own)\n"
+           "  --control-frames N    control frames at the start (the scene's own)\n"
+           "  --frames-axes         show the control frames\n"
+           "  --weights all|N       colour the sheet by the shape functions of all frames, or of frame N\n"
+           "  --quiet               no progress line\n"
+           "  --help\n\nScenes:\n");
+    for (int32_t i = 0; Scene_GetType(i) != NULL; i++) {
+        printf("  %-10s %s\n", Scene_GetType(i)->name, Scene_GetType(i)->about);
+    }
+}
+
+static bool ReadNumber(const char* text, int32_t low, int32_t high, int32_t* number)
+{
+    char* end;
+    long value = strtol(text, &end, 10);
+    *number = (int32_t)value;
+    return end != text && *end == 0 && value >= low && value <= high;
+}
+
+static bool ReadSize(const char* text, Options* options)
+{
+    char rest;
+    return sscanf(text, "%d x %d%c", &options->width, &options->height, &rest) == 2 && options->width >= 100 &&
+           options->height >= 100 && options->width <= 4096 && options->height <= 4096;
+}
+
+static bool ReadValue(const char* name, const char* value, Options* options)
+{
+    int32_t frame;
+    if (strcmp(name, "--scene") == 0) {
+        options->scene = value;
+        return Scene_FindType(value) != NULL;
+    } else if (strcmp(name, "--output") == 0) {
+        options->output = value;
+        return true;
+    } else if (strcmp(name, "--data") == 0) {
+        options->data = value;
+        return true;
+    } else if (strcmp(name, "--weights") == 0) {
+        options->weights = value;
+        return strcmp(value, "all") == 0 || ReadNumber(value, 0, MAX_FRAMES - 1, &frame);
+    } else if (strcmp(name, "--size") == 0) {
+        return ReadSize(value, options);
+    } else if (strcmp(name, "--ticks") == 0) {
+        return ReadNumber(value, 1, 100000, &options->ticks);
+    } else if (strcmp(name, "--every") == 0) {
+        return ReadNumber(value, 0, 100000, &options->every);
+    } else if (strcmp(name, "--grid") == 0) {
+        return ReadNumber(value, 1, 4096, &options->grid);
+    } else if (strcmp(name, "--control-frames") == 0) {
+        return ReadNumber(value, 1, MAX_FRAMES, &options->controlFrames);
+    }
+    return false;
+}
+
+static bool ReadOptions(int count, char** words, Options* options)
+{
+    for (int i = 1; i < count; i++) {
+        if (strcmp(words[i], "--help") == 0) {
+            options->help = true;
+        } else if (strcmp(words[i], "--quiet") == 0) {
+            options->quiet = true;
+        } else if (strcmp(words[i], "--frames-axes") == 0) {
+            options->axes = true;
+        } else if (i + 1 < count && ReadValue(words[i], words[i + 1], options)) {
+            i++;
+        } else {
+            fprintf(stderr, "kiri-run: not understood: %s %s\n", words[i], i + 1 < count ? words[i + 1] : "");
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool MakeFolders(const char* path)
+{
+    char part[1024];
+    for (size_t i = 0; i < sizeof part; i++) {
+        part[i] = path[i];
+        if (i > 0 && (path[i] == '/' || path[i] == 0)) {
+            part[i] = 0;
+            if (mkdir(part, 0777) != 0 && errno != EEXIST) {
+                break;
+            }
+            part[i] = path[i];
+        }
+        if (path[i] == 0) {
+            return true;
+        }
+    }
+    fprintf(stderr, "cannot make the folder %s\n", path);
+    return false;
+}
+
+/* ---- Pictures --------------------------------------------------------------------------------------------------- */
+
+typedef struct Film {
+    Painter* painter;
+    Image picture, tile, contactSheet;
+    float* colors; /* for --weights: 9 a triangle */
+    int32_t pictures, moments;
+} Film;
+
+static void Film_Destroy(Film* film)
+{
+    if (film->painter != NULL) {
+        Painter_Destroy(film->painter);
+    }
+    Image_Free(&film->picture);
+    Image_Free(&film->tile);
+    Image_Free(&film->contactSheet);
+    free(film->colors);
+}
+
+static bool Film_Create(Film* film, const Options* options)
+{
+    *film = (Film){ .painter = Painter_Create(options->width, options->height) };
+    int32_t width = options->width / 2, height = options->height / 2;
+    bool fine = film->painter != NULL && Image_Create(&film->picture, options->width, options->height) &&
+                Image_Create(&film->tile, width, height) &&
+                Image_Create(&film->contactSheet, SHEET_COLUMNS * width + (SHEET_COLUMNS - 1) * SHEET_GAP,
+                             SHEET_ROWS * height + (SHEET_ROWS - 1) * SHEET_GAP);
+    if (!fine) {
+        fprintf(stderr, "no memory for pictures\n");
+        Film_Destroy(film);
+    }
+    return fine;
+}
+
+/* A colour of its own for every frame: hues by the golden ratio. */
+static void ColorOfFrame(int32_t frame, float color[3])
+{
+    float hue = fmodf(0.58f + 0.61803399f * (float)frame, 1.0f) * 6.0f;
+    for (int i = 0; i < 3; i++) {
+        float distance = fabsf(fmodf(hue + 6.0f - 2.0f * (float)i, 6.0f) - 3.0f);
+        color[i] = 0.30f + 0.65f * fminf(fmaxf(distance - 1.0f, 0.0f), 1.0f);
+    }
+}
+
+static void ColorAt(const Scene* scene, const Options* options, const kiriFrame* all, int32_t allCount,
+                    const float restPoint[2], float color[3])
+{
+    kiriFrame frames[64];
+    float weights[64];
+    int32_t count = 0, shown = -1;
+    ReadNumber(options->weights, 0, MAX_FRAMES - 1, &shown);
+    shown = strcmp(options->weights, "all") == 0 ? -1 : shown;
+    kiriSheet_GetWeights(scene->world, scene->sheet, restPoint, frames, weights, NULL, 64, &count);
+    memset(color, 0, 3 * sizeof(float));
+    for (int32_t i = 0; i < count && i < 64; i++) {
+        int32_t frame = 0;
+        while (frame < allCount && all[frame] != frames[i]) {
+            frame++;
+        }
+        float own[3] = { 0.95f, 0.45f, 0.10f };
+        if (shown < 0) {
+            ColorOfFrame(frame, own);
+        } else if (frame != shown) {
+            memcpy(own, (float[]){ 0.90f, 0.91f, 0.93f }, sizeof own);
+        }
+        for (int c = 0; c < 3; c++) {
+            color[c] += weights[i] * own[c];
+        }
+    }
+}
+
+/* Weights jump at a cut, so each corner of a triangle is asked for a little inside of it. */
+static bool ColorByWeights(Film* film, const Scene* scene, const Options* options, const kiriMesh* mesh)
+{
+    kiriFrame all[MAX_FRAMES];
+    int32_t count = 0;
+    free(film->colors);
+    film->colors = malloc(9 * sizeof(float) * (size_t)mesh->triangleCount);
+    if (film->colors == NULL) {
+        return false;
+    }
+    kiriSheet_GetFrames(scene->world, scene->sheet, all, MAX_FRAMES, &count);
+    for (int32_t i = 0; i < 3 * mesh->triangleCount; i++) {
+        float point[2];
+        for (int c = 0; c < 2; c++) {
+            float sum = 0.0f;
+            for (int k = 0; k < 3; k++) {
+                sum += mesh->restPositions[2 * mesh->indices[i / 3 * 3 + k] + c];
+            }
+            point[c] = 0.9f * mesh->restPositions[2 * mesh->indices[i] + c] + 0.1f * sum / 3.0f;
+        }
+        ColorAt(scene, options, all, count < MAX_FRAMES ? count : MAX_FRAMES, point, film->colors + 3 * i);
+    }
+    return true;
+}
+
+static int32_t GetAxes(const Scene* scene, kiriFrameState* states)
+{
+    kiriFrame frames[MAX_FRAMES];
+    int32_t count = 0, known = 0;
+    kiriSheet_GetFrames(scene->world, scene->sheet, frames, MAX_FRAMES, &count);
+    for (int32_t i = 0; i < count && i < MAX_FRAMES; i++) {
+        known += kiriFrame_GetState(scene->world, frames[i], &states[known]) == KIRI_OK;
+    }
+    return known;
+}
+
+/* Where the vertex is that lies nearest to a rest point. */
+static const float* FindVertex(const kiriMesh* mesh, const float restPoint[2])
+{
+    int32_t best = 0;
+    float bestDistance = INFINITY;
+    for (int32_t i = 0; i < mesh->vertexCount; i++) {
+        float u = mesh->restPositions[2 * i] - restPoint[0], v = mesh->restPositions[2 * i + 1] - restPoint[1];
+        if (u * u + v * v < bestDistance) {
+            bestDistance = u * u + v * v;
+            best = i;
+        }
+    }
+    return mesh->positions + 3 * best;
+}
+
+static bool Film_Shoot(Film* film, const Scene* scene, const Options* options)
+{
+    static kiriFrameState axes[MAX_FRAMES];
+    View view = { .camera = scene->type->camera };
+    float restPoint[2];
+    kiriSheet_GetMesh(scene->world, scene->sheet, &view.mesh);
+    if (options->weights != NULL) {
+        if (!ColorByWeights(film, scene, options, &view.mesh)) {
+            return false;
+        }
+        view.colors = film->colors;
+    }
+    if (options->axes) {
+        view.axes = axes;
+        view.axesCount = GetAxes(scene, axes);
+    }
+    if (Scene_GetBlade(scene, restPoint)) {
+        view.blade = FindVertex(&view.mesh, restPoint);
+    }
+    return Painter_Paint(film->painter, &view, &film->picture);
+}
+
+static bool WritePicture(Film* film, const Options* options)
+{
+    char path[1100];
+    snprintf(path, sizeof path, "%s/frame_%04d.png", options->output, film->pictures++);
+    return Image_WritePng(&film->picture, path);
+}
+
+static void AddMoment(Film* film)
+{
+    int32_t column = film->moments % SHEET_COLUMNS, row = film->moments / SHEET_COLUMNS;
+    Image_Shrink(&film->tile, film->picture.rgb, film->picture.width, 3, 2);
+    Image_Paste(&film->contactSheet, &film->tile, column * (film->tile.width + SHEET_GAP),
+                row * (film->tile.height + SHEET_GAP));
+    film->moments++;
+}
+
+/* A shorter or longer run has its moments sooner or later. */
+static bool IsMoment(const Film* film, const Scene* scene, int32_t ticks)
+{
+    const SceneType* type = scene->type;
+    return film->moments < SHEET_COLUMNS * SHEET_ROWS &&
+           (int64_t)scene->tick * type->ticks >= (int64_t)type->moments[film->moments] * ticks;
+}
+
+static bool Film_Tick(Film* film, const Scene* scene, const Options* options, int32_t ticks)
+{
+    bool picture = (scene->tick - 1) % options->every == 0, moment = IsMoment(film, scene, ticks);
+    if (!picture && !moment) {
+        return true;
+    }
+    bool fine = Film_Shoot(film, scene, options) && (!picture || WritePicture(film, options));
+    if (!fine) {
+        fprintf(stderr, "cannot write a picture to %s\n", options->output);
+        return false;
+    }
+    while (IsMoment(film, scene, ticks)) {
+        AddMoment(film);
+    }
+    return true;
+}
+
+/* ---- Measuring -------------------------------------------------------------------------------------------------- */
+
+static double ReadClock(void* user)
+{
+    (void)user;
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+typedef struct Record {
+    double* seconds[KIRI_STAGE_COUNT + 1]; /* one a tick; the last row: whole ticks */
+    int32_t ticks;
+    int64_t cutSegments, trianglesSplit, cellsSettled, solverIterations;
+    kiriCounts before, after;
+} Record;
+
+static bool Record_Create(Record* record, int32_t ticks)
+{
+    *record = (Record){ .ticks = 0 };
+    double* block = malloc(sizeof(double) * (KIRI_STAGE_COUNT + 1) * (size_t)ticks);
+    for (int32_t i = 0; i <= KIRI_STAGE_COUNT; i++) {
+        record->seconds[i] = block != NULL ? block + i * ticks : NULL;
+    }
+    return block != NULL;
+}
+
+static void Record_Tick(Record* record, const Scene* scene, double seconds)
+{
+    kiriProfile profile;
+    kiriWorld_GetProfile(scene->world, &profile);
+    for (int32_t i = 0; i < KIRI_STAGE_COUNT; i++) {
+        record->seconds[i][record->ticks] = profile.seconds[i];
+    }
+    record->seconds[KIRI_STAGE_COUNT][record->ticks++] = seconds;
+    record->cutSegments += profile.cutSegments;
+    record->trianglesSplit += profile.trianglesSplit;
+    record->cellsSettled += profile.cellsSettled;
+    record->solverIterations += profile.solverIterations;
+}
+
+static int CompareNumbers(const void* left, const void* right)
+{
+    double l = *(const double*)left, r = *(const double*)right;
+    return (l > r) - (l < r);
+}
+
+static void PrintStage(const char* name, double* seconds, int32_t count)
+{
+    qsort(seconds, (size_t)count, sizeof(double), CompareNumbers);
+    printf("  %-12s %10.3f %10.3f\n", name, 1e3 * seconds[count / 2], 1e3 * seconds[count - 1]);
+}
+
+static void Record_Print(Record* record, const Scene* scene)
+{
+    const kiriCounts* a = &record->before;
+    const kiriCounts* b = &record->after;
+    double total = 0.0;
+    for (int32_t i = 0; i < record->ticks; i++) {
+        total += record->seconds[KIRI_STAGE_COUNT][i];
+    }
+    printf("%s: %d ticks of 1/60 s, %d substeps each\n\n", scene->type->name, record->ticks, scene->type->substeps);
+    printf("  %-12s %10s %10s\n", "", "before", "after");
+    printf("  %-12s %10d %10d\n", "vertices", a->vertices, b->vertices);
+    printf("  %-12s %10d %10d\n", "triangles", a->triangles, b->triangles);
+    printf("  %-12s %10d %10d\n", "cells", a->cells, b->cells);
+    printf("  %-12s %10d %10d\n", "frames", a->frames, b->frames);
+    printf("  %-12s %10d %10d\n", "links", a->links, b->links);
+    printf("  %-12s %10d %10d\n\n", "pieces", a->pieces, b->pieces);
+    printf("  %-12s %10s %10s\n", "ms a tick", "median", "worst");
+    for (int32_t i = 0; i < KIRI_STAGE_COUNT; i++) {
+        PrintStage(kiriGetStageName(i), record->seconds[i], record->ticks);
+    }
+    PrintStage("all", record->seconds[KIRI_STAGE_COUNT], record->ticks);
+    printf("\n  %.0f ticks a second\n", record->ticks / total);
+    printf("  %lld cut segments, %lld triangles split, %lld cells settled, %lld linear systems\n",
+           (long long)record->cutSegments, (long long)record->trianglesSplit, (long long)record->cellsSettled,
+           (long long)record->solverIterations);
+}
+
+/* ---- Running ---------------------------------------------------------------------------------------------------- */
+
+static bool RunTicks(Scene* scene, Film* film, Record* record, const Options* options, int32_t ticks)
+{
+    for (int32_t i = 0; i < ticks; i++) {
+        double start = ReadClock(NULL);
+        kiriResult result = Scene_Tick(scene);
+        Record_Tick(record, scene, ReadClock(NULL) - start);
+        if (result < 0) {
+            fprintf(stderr, "\ntick %d: %s: %s\n", i, kiriGetResultName(result), kiriWorld_GetLastError(scene->world));
+            return false;
+        }
+        if (options->every > 0 && !Film_Tick(film, scene, options, ticks)) {
+            return false;
+        }
+        if (!options->quiet) {
+            fprintf(stderr, "\r%3d %%  tick %d of %d ", 100 * (i + 1) / ticks, i + 1, ticks);
+        }
+    }
+    if (!options->quiet) {
+        fprintf(stderr, "\n");
+    }
+    return true;
+}
+
+static bool RunScene(Scene* scene, const Options* options)
+{
+    Film film;
+    Record record;
+    int32_t ticks = options->ticks > 0 ? options->ticks : scene->type->ticks;
+    if (!MakeFolders(options->output) || !Film_Create(&film, options)) {
+        return false;
+    }
+    bool fine = Record_Create(&record, ticks);
+    if (fine) {
+        kiriSheet_GetCounts(scene->world, scene->sheet, &record.before);
+        fine = RunTicks(scene, &film, &record, options, ticks);
+        kiriSheet_GetCounts(scene->world, scene->sheet, &record.after);
+        Record_Print(&record, scene);
+    }
+    if (fine && options->every > 0) {
+        char path[1100];
+        snprintf(path, sizeof path, "%s/contact_sheet.png", options->output);
+        fine = Image_WritePng(&film.contactSheet, path);
+        printf("  %d pictures and contact_sheet.png in %s\n", film.pictures, options->output);
+    }
+    free(record.seconds[0]);
+    Film_Destroy(&film);
+    return fine;
+}
+
+int main(int count, char** words)
+{
+    Options options = { .scene = "bunny", .output = "build/pictures", .every = 2, .width = 640, .height = 480 };
+    if (!ReadOptions(count, words, &options) || options.help) {
+        PrintHelp();
+        return options.help ? 0 : 2;
+    }
+    kiriWorldDef def;
+    kiriDefaultWorldDef(&def);
+    def.clock = ReadClock;
+    SceneOptions sceneOptions = {
+        .dataFolder = options.data, .gridResolution = options.grid, .frameCount = options.controlFrames
+    };
+    Scene scene;
+    if (!Scene_Start(&scene, Scene_FindType(options.scene), &def, &sceneOptions)) {
+        return 1;
+    }
+    bool fine = RunScene(&scene, &options);
+    Scene_Stop(&scene);
+    return fine ? 0 : 1;
+}

@@ -1,0 +1,47 @@
+/* Control frames: their state, and where they are placed (section 5 of the paper). */
+#ifndef KIRI_FRAME_H
+#define KIRI_FRAME_H
+
+#include "shape.h"
+
+/* A frame carries the rest point p to x + A (p - center). The center is the centroid of its region, so x is its
+   centre of mass. */
+typedef struct kiriFrameData {
+    kiriFrame id;
+    kiriSite site;
+    kiriPoint anchor;       /* a point of the material in the site's cell: finds the cell again after a cut */
+    kiriVec2 center;        /* local m */
+    double area;            /* m^2 */
+    double mass;            /* kg */
+    double inertia[3];      /* integrals of density uu, uv, vv about the center, kg m^2 */
+    kiriVec3 x;             /* m */
+    kiriMat3 A;             /* rotation */
+    kiriVec3 velocity;      /* of x */
+    kiriVec3 spin;          /* angular velocity, world */
+    kiriVec3 force, torque; /* from the host, for one tick */
+    int32_t held;           /* the host moves it: */
+    kiriVec3 heldPosition;  /* of the site, */
+    kiriMat3 heldRotation;
+} kiriFrameData;
+
+static inline kiriVec3 kiriFrame_Carry(const kiriFrameData* frame, kiriVec2 p)
+{
+    return kiriVec3_AddScaled(kiriVec3_AddScaled(frame->x, p.x - frame->center.x, frame->A.u), p.y - frame->center.y,
+                              frame->A.v);
+}
+
+typedef KIRI_ARRAY(kiriSite) kiriSites;
+
+/* Adds `count` sites to those there are, in the cells of one piece: farthest-point sampling, then Lloyd relaxation
+   of the new ones only. Sampling takes only cells that `allowed` marks (one byte a cell; null: all). Fewer when there
+   are fewer free cells. False for memory. */
+bool kiriFrames_Place(kiriSites* sites, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                      kiriField* field, int32_t piece, const uint8_t* allowed, int32_t count);
+
+/* The site that a frame takes in a cell. */
+kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
+
+/* Gives the frame the mass and centre of its region; the motion of the material does not change. */
+void kiriFrame_Recenter(kiriFrameData* frame, const kiriMoments* material, double densityPerArea);
+
+#endif

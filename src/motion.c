@@ -1,0 +1,133 @@
+#include "motion.h"
+
+#include <string.h>
+
+static void WritePinRows(kiriSheetData* sheet)
+{
+    sheet->pinRows.count = sheet->pins.count;
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        const kiriPinData* pin = &sheet->pins.data[i];
+        kiriPinRow row = { sheet->model.pinFrame.data[i], kiriMesh_Local(&sheet->mesh, pin->at), pin->target,
+                           pin->stiffness };
+        sheet->pinRows.data[i] = row;
+    }
+}
+
+/* A contact acts on the frame whose region holds the point. The host has measured where the point is seen, between frames;
+   the plane moves by as much as the frame's own point is off. */
+static void WriteContactRows(kiriSheetData* sheet)
+{
+    sheet->contactRows.count = sheet->contacts.count;
+    for (int32_t i = 0; i < sheet->contacts.count; ++i) {
+        const kiriContact* contact = &sheet->contacts.data[i];
+        const kiriSample* point = &sheet->model.points.data[contact->point];
+        int32_t frame = sheet->model.regions.owner.data[point->cell];
+        kiriVec2 at = kiriMesh_Local(&sheet->mesh, point->at);
+        kiriVec3 normal = kiriVec3_Load(contact->normal);
+        kiriVec3 seen = kiriSkin_Position(&sheet->model.pointSkin, contact->point, sheet->frames.data, at);
+        kiriVec3 off = kiriVec3_Sub(kiriFrame_Carry(&sheet->frames.data[frame], at), seen);
+        kiriContactRow row = { frame, at, normal, contact->offset + kiriVec3_Dot(normal, off), contact->friction,
+                               contact->stiffness };
+        sheet->contactRows.data[i] = row;
+    }
+}
+
+static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
+{
+    kiriSystem system;
+    system.frames = sheet->frames.data;
+    system.frameCount = sheet->frames.count;
+    system.links = sheet->model.regions.links.data;
+    system.linkCount = sheet->model.regions.links.count;
+    system.pins = sheet->pinRows.data;
+    system.pinCount = sheet->pinRows.count;
+    system.contacts = sheet->contactRows.data;
+    system.contactCount = sheet->contactRows.count;
+    system.material = sheet->material;
+    system.gravity = gravity;
+    return system;
+}
+
+static void PutToRest(kiriSheetData* sheet)
+{
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        memset(&sheet->frames.data[i].velocity, 0, sizeof(kiriVec3));
+        memset(&sheet->frames.data[i].spin, 0, sizeof(kiriVec3));
+    }
+}
+
+static void ClearForces(kiriSheetData* sheet)
+{
+    sheet->contacts.count = 0;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        memset(&sheet->frames.data[i].force, 0, sizeof(kiriVec3));
+        memset(&sheet->frames.data[i].torque, 0, sizeof(kiriVec3));
+    }
+}
+
+int32_t kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps)
+{
+    WritePinRows(sheet);
+    WriteContactRows(sheet);
+    kiriSystem system = MakeSystem(sheet, gravity);
+    int32_t total = 0;
+    for (int32_t i = 0; i < substeps; ++i) {
+        int32_t solved = kiriSolver_Step(sheet->model.solver, &system, dt / substeps, sheet->iterations);
+        if (solved < 0) {
+            PutToRest(sheet);
+            total = -1;
+            break;
+        }
+        total += solved;
+    }
+    ClearForces(sheet);
+    return total;
+}
+
+double kiriMotion_KineticEnergy(const kiriFrameData* frame)
+{
+    kiriVec3 u = kiriVec3_Cross(frame->spin, frame->A.u), v = kiriVec3_Cross(frame->spin, frame->A.v);
+    return 0.5 * frame->mass * kiriVec3_Dot(frame->velocity, frame->velocity) +
+           0.5 * frame->inertia[0] * kiriVec3_Dot(u, u) + frame->inertia[1] * kiriVec3_Dot(u, v) +
+           0.5 * frame->inertia[2] * kiriVec3_Dot(v, v);
+}
+
+kiriVec3 kiriMotion_AngularMomentum(const kiriFrameData* frame)
+{
+    /* The integral of density r x (spin x r) with r = u A_u + v A_v. */
+    kiriVec3 u = kiriVec3_Cross(frame->spin, frame->A.u), v = kiriVec3_Cross(frame->spin, frame->A.v);
+    kiriVec3 momentum = kiriVec3_Scale(frame->inertia[0], kiriVec3_Cross(frame->A.u, u));
+    momentum = kiriVec3_AddScaled(momentum, frame->inertia[1], kiriVec3_Cross(frame->A.u, v));
+    momentum = kiriVec3_AddScaled(momentum, frame->inertia[1], kiriVec3_Cross(frame->A.v, u));
+    return kiriVec3_AddScaled(momentum, frame->inertia[2], kiriVec3_Cross(frame->A.v, v));
+}
+
+static void StoreDoubles(double* to, kiriVec3 a)
+{
+    to[0] = a.x;
+    to[1] = a.y;
+    to[2] = a.z;
+}
+
+kiriTotals kiriMotion_Totals(const kiriSheetData* sheet)
+{
+    kiriTotals totals;
+    memset(&totals, 0, sizeof(totals));
+    kiriVec3 center = { 0.0, 0.0, 0.0 }, momentum = center, angular = center;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        const kiriFrameData* frame = &sheet->frames.data[i];
+        kiriVec3 p = kiriVec3_Scale(frame->mass, frame->velocity);
+        totals.area += frame->area;
+        totals.mass += frame->mass;
+        totals.kineticEnergy += kiriMotion_KineticEnergy(frame);
+        center = kiriVec3_AddScaled(center, frame->mass, frame->x);
+        momentum = kiriVec3_Add(momentum, p);
+        angular = kiriVec3_Add(angular, kiriVec3_Add(kiriMotion_AngularMomentum(frame), kiriVec3_Cross(frame->x, p)));
+    }
+    kiriSystem system = MakeSystem((kiriSheetData*)sheet, kiriVec3_Make(0.0, 0.0, 0.0));
+    totals.elasticEnergy = kiriSolver_ElasticEnergy(&system);
+    StoreDoubles(totals.center, kiriVec3_Scale(1.0 / totals.mass, center));
+    StoreDoubles(totals.momentum, momentum);
+    StoreDoubles(totals.angularMomentum, angular);
+    return totals;
+}

@@ -1,0 +1,17 @@
+/* The motion of a sheet: its frames, moved by the solver under gravity, pins, contacts and forces. */
+#ifndef KIRI_MOTION_H
+#define KIRI_MOTION_H
+
+#include "sheet.h"
+
+/* Moves the frames by dt in equal substeps. Returns the linear systems solved, or -1 when the motion could not be continued:
+   the frames then rest where they were. Forces and contacts are used up. */
+int32_t kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps);
+
+kiriTotals kiriMotion_Totals(const kiriSheetData* sheet);
+
+/* The kinetic energy of a frame, J, and its angular momentum about its centre of mass. */
+double kiriMotion_KineticEnergy(const kiriFrameData* frame);
+kiriVec3 kiriMotion_AngularMomentum(const kiriFrameData* frame);
+
+#endif

@@ -1,0 +1,342 @@
+#include "shape.h"
+
+/* ---- Weights of the cells (algorithm 2) ------------------------------------------------------------------------- */
+
+typedef struct Entry {
+    int32_t cell;
+    kiriWeight weight;
+} Entry;
+
+typedef struct Builder {
+    const kiriMemory* memory;
+    const kiriGrid* grid;
+    const kiriMeshData* mesh;
+    const kiriRegions* regions;
+    kiriField* field;
+    int32_t frame;                /* the frame at hand, and for it: */
+    KIRI_ARRAY(int32_t) fromSite; /* distance of each cell to its site; KIRI_FAR where its weight is zero anyway */
+    KIRI_ARRAY(int32_t) near;     /* the cells that are not FAR */
+    kiriSeeds seeds;
+    KIRI_ARRAY(Entry) entries; /* by frame */
+} Builder;
+
+static bool Inside(const Builder* b, int32_t cell)
+{
+    return b->regions->owner.data[cell] == b->frame;
+}
+
+/* The border lies up to one step beyond the reach. At twice that distance it is no nearer than half the way to the
+   site, so the weight is zero from there on. */
+static bool MeasureFromSite(Builder* b, const kiriSite* site)
+{
+    int64_t twice = 2 * ((int64_t)b->regions->regions.data[b->frame].reach + KIRI_UNIT_KNIGHT);
+    int32_t limit = twice < KIRI_FAR ? (int32_t)twice : KIRI_FAR - 1;
+    b->seeds.count = 0;
+    bool ok = kiriSite_Seed(site, b->frame, b->memory, b->grid, b->mesh, &b->seeds) &&
+              kiriField_Flood(b->field, b->memory, b->grid, b->seeds.data, b->seeds.count, limit, NULL, NULL) &&
+              kiriArray_Resize(b->memory, &b->near, b->field->settled.count);
+    for (int32_t k = 0; ok && k < b->near.count; ++k) {
+        int32_t cell = b->field->settled.data[k];
+        b->near.data[k] = cell;
+        b->fromSite.data[cell] = b->field->distance.data[cell];
+    }
+    kiriField_Reset(b->field);
+    return ok;
+}
+
+/* The border lies on the way between x and y where the distances to their sites are equal. A half is rounded up. */
+static bool SeedAt(Builder* b, int32_t x, int32_t y, int32_t length)
+{
+    const int32_t* distance = b->regions->distance.data;
+    kiriSeed seed = { x, (distance[y] + length - distance[x] + 1) / 2, b->frame };
+    return kiriArray_Push(b->memory, &b->seeds, seed);
+}
+
+static bool SeedBorder(Builder* b)
+{
+    const kiriGrid* grid = b->grid;
+    b->seeds.count = 0;
+    for (int32_t k = 0; k < b->near.count; ++k) {
+        int32_t x = b->near.data[k];
+        int32_t end = Inside(b, x) ? grid->stepStart.data[x + 1] : 0;
+        for (int32_t s = grid->stepStart.data[x]; s < end; ++s) {
+            kiriStep step = grid->steps.data[s];
+            if (!Inside(b, step.cell) &&
+                !(SeedAt(b, x, step.cell, step.length) && SeedAt(b, step.cell, x, step.length))) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Algorithm 2, with d the distance to the site and e the distance to the border of its region: linear along a
+   straight way from site to site.
+
+   At a site c in the middle of its square its own weight is exactly 1 (d = 0), and any other frame's exactly 0:
+   let the nearest way from c to the border of that frame's region cross it from y to x, with D the distances to
+   the nearest site. Then e >= (D(x) + |xy| - D(y)) / 2 + |yc|, and D(y) <= |yc|, so 2 e >= D(x) + |xy| + |yc| >=
+   d. */
+static double Weigh(bool inside, int32_t d, int32_t e)
+{
+    if (inside) {
+        /* Never 0 / 0: d is 0 only in the middle of the site's own cell, and the border does not pass there. In a piece
+           with one frame e is KIRI_FAR, which makes the weight 1 once it is normalised. */
+        return 0.5 * (1.0 + e / ((double)d + e));
+    }
+    return (double)d > 2.0 * e ? 0.5 * (1.0 - e / ((double)d - e)) : 0.0;
+}
+
+/* Distances to the border are measured outside only as far as the weight is above zero: e grows along a way at least
+   as fast as d. To keep the flood on its side of the border is needless: no step over it is shorter than the seed
+   beyond. */
+static bool HasWeight(const void* context, int32_t from, int32_t to)
+{
+    const Builder* b = context;
+    return b->fromSite.data[to] != KIRI_FAR &&
+           (Inside(b, from) || Weigh(false, b->fromSite.data[from], b->field->distance.data[from]) > 0.0);
+}
+
+static bool AddFrame(Builder* b, const kiriSite* site)
+{
+    bool ok = MeasureFromSite(b, site) && SeedBorder(b) &&
+              kiriField_Flood(b->field, b->memory, b->grid, b->seeds.data, b->seeds.count, KIRI_FAR - 1, HasWeight, b);
+    for (int32_t k = 0; ok && k < b->near.count; ++k) {
+        int32_t cell = b->near.data[k];
+        double value = Weigh(Inside(b, cell), b->fromSite.data[cell], b->field->distance.data[cell]);
+        Entry entry = { cell, { b->frame, value } };
+        ok = !(value > 0.0) || kiriArray_Push(b->memory, &b->entries, entry);
+        b->fromSite.data[cell] = KIRI_FAR;
+    }
+    kiriField_Reset(b->field);
+    return ok;
+}
+
+/* Sorts the entries by cell; they come by frame and stay so within a cell. */
+static bool Gather(kiriShape* shape, const Builder* b)
+{
+    int32_t cellCount = b->grid->cells.count;
+    if (!kiriArray_Resize(b->memory, &shape->start, (int64_t)cellCount + 1) ||
+        !kiriArray_Resize(b->memory, &shape->weights, b->entries.count)) {
+        return false;
+    }
+    int32_t* start = shape->start.data;
+    for (int32_t c = 0; c <= cellCount; ++c) {
+        start[c] = 0;
+    }
+    for (int32_t k = 0; k < b->entries.count; ++k) {
+        ++start[b->entries.data[k].cell];
+    }
+    for (int32_t c = 0; c < cellCount; ++c) {
+        start[c + 1] += start[c];
+    }
+    for (int32_t k = b->entries.count - 1; k >= 0; --k) {
+        shape->weights.data[--start[b->entries.data[k].cell]] = b->entries.data[k].weight;
+    }
+    return true;
+}
+
+static void Normalize(kiriShape* shape)
+{
+    for (int32_t c = 0; c + 1 < shape->start.count; ++c) {
+        double sum = 0.0;
+        for (int32_t k = shape->start.data[c]; k < shape->start.data[c + 1]; ++k) {
+            sum += shape->weights.data[k].value;
+        }
+        for (int32_t k = shape->start.data[c]; k < shape->start.data[c + 1]; ++k) {
+            shape->weights.data[k].value /= sum;
+        }
+    }
+}
+
+bool kiriShape_Build(kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                     const kiriRegions* regions, kiriField* field, const kiriSite* sites, int32_t siteCount)
+{
+    Builder b = { memory, grid, mesh, regions, field, 0, { 0 }, { 0 }, { 0 }, { 0 } };
+    bool ok = kiriArray_Resize(memory, &b.fromSite, grid->cells.count);
+    for (int32_t c = 0; ok && c < grid->cells.count; ++c) {
+        b.fromSite.data[c] = KIRI_FAR;
+    }
+    for (b.frame = 0; ok && b.frame < siteCount; ++b.frame) {
+        ok = AddFrame(&b, &sites[b.frame]);
+    }
+    ok = ok && Gather(shape, &b);
+    if (ok) {
+        Normalize(shape);
+    }
+    kiriArray_Release(memory, &b.fromSite);
+    kiriArray_Release(memory, &b.near);
+    kiriArray_Release(memory, &b.seeds);
+    kiriArray_Release(memory, &b.entries);
+    return ok;
+}
+
+void kiriShape_Release(kiriShape* shape, const kiriMemory* memory)
+{
+    kiriArray_Release(memory, &shape->start);
+    kiriArray_Release(memory, &shape->weights);
+}
+
+/* ---- Weights of a point: moving least squares (section 4.2) ------------------------------------------------------ */
+
+/* Quadratic B-spline, zero from 1.5 on. */
+static double Spline(double t)
+{
+    double a = fabs(t);
+    return a < 0.5 ? 0.75 - a * a : a < 1.5 ? 0.5 * (1.5 - a) * (1.5 - a) : 0.0;
+}
+
+/* A first-order fit around a point, in units of squares from the middle of its cell. Offsets of neighbours are whole
+   numbers, so that cells in one line are seen as such. */
+typedef struct Fit {
+    kiriVec2 at;
+    double sum;        /* of the kernel; and with it the offsets' */
+    kiriVec2 mean;     /* mean */
+    double xx, xy, yy; /* and (pseudo-)inverse of the second moments about the mean */
+} Fit;
+
+static double Kernel(const Fit* fit, kiriVec2 offset)
+{
+    return Spline(offset.x - fit->at.x) * Spline(offset.y - fit->at.y);
+}
+
+static kiriVec2 Offset(const kiriGrid* grid, const kiriMeshData* mesh, int32_t from, int32_t to)
+{
+    int32_t columns = mesh->squares.columns;
+    int32_t a = grid->cells.data[from].square, b = grid->cells.data[to].square;
+    return kiriVec2_Make(b % columns - a % columns, b / columns - a / columns);
+}
+
+/* The cells of a fit: k = 0 is the cell itself, then those a straight or diagonal step away. KIRI_NONE for other
+   steps. */
+static int32_t Neighbor(const kiriGrid* grid, int32_t cell, int32_t k)
+{
+    if (k == 0) {
+        return cell;
+    }
+    kiriStep step = grid->steps.data[grid->stepStart.data[cell] + k - 1];
+    return step.length <= KIRI_UNIT_DIAGONAL ? step.cell : KIRI_NONE;
+}
+
+static int32_t NeighborCount(const kiriGrid* grid, int32_t cell)
+{
+    return 1 + grid->stepStart.data[cell + 1] - grid->stepStart.data[cell];
+}
+
+/* Inverts the second moments; a direction that the neighbours do not span is dropped (no slope along it). */
+static void Invert(Fit* fit)
+{
+    double xx = fit->xx, xy = fit->xy, yy = fit->yy, trace = xx + yy, determinant = xx * yy - xy * xy;
+    double scale = trace > 0.0 ? 1.0 / (trace * trace) : 0.0;
+    if (determinant > 1e-12 * trace * trace) {
+        scale = 1.0 / determinant;
+        fit->xx = yy;
+        fit->xy = -xy;
+        fit->yy = xx;
+    }
+    fit->xx *= scale;
+    fit->xy *= scale;
+    fit->yy *= scale;
+}
+
+static Fit FitAround(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriVec2 at)
+{
+    kiriVec2 off = kiriVec2_Sub(at, kiriGrid_Middle(grid, mesh, cell));
+    Fit fit = { kiriVec2_Scale(1.0 / grid->side, off), 0.0, { 0.0, 0.0 }, 0.0, 0.0, 0.0 };
+    for (int32_t k = 0; k < NeighborCount(grid, cell); ++k) {
+        int32_t neighbor = Neighbor(grid, cell, k);
+        if (neighbor != KIRI_NONE) {
+            kiriVec2 p = Offset(grid, mesh, cell, neighbor);
+            double kernel = Kernel(&fit, p);
+            fit.sum += kernel;
+            fit.mean = kiriVec2_Add(fit.mean, kiriVec2_Scale(kernel, p));
+            fit.xx += kernel * p.x * p.x;
+            fit.xy += kernel * p.x * p.y;
+            fit.yy += kernel * p.y * p.y;
+        }
+    }
+    fit.mean = kiriVec2_Scale(1.0 / fit.sum, fit.mean);
+    fit.xx -= fit.sum * fit.mean.x * fit.mean.x;
+    fit.xy -= fit.sum * fit.mean.x * fit.mean.y;
+    fit.yy -= fit.sum * fit.mean.y * fit.mean.y;
+    Invert(&fit);
+    return fit;
+}
+
+/* The weight of this frame in `out`, which is sorted by frame; a new one is zero. Null for memory. */
+static kiriPointWeight* Find(kiriPointWeights* out, const kiriMemory* memory, int32_t frame)
+{
+    int32_t k = out->count;
+    while (k > 0 && out->data[k - 1].frame > frame) {
+        --k;
+    }
+    if (k > 0 && out->data[k - 1].frame == frame) {
+        return &out->data[k - 1];
+    }
+    kiriPointWeight fresh = { frame, 0.0, { 0.0, 0.0 } };
+    if (!kiriArray_Push(memory, out, fresh)) {
+        return NULL;
+    }
+    for (int32_t m = out->count - 1; m > k; --m) {
+        out->data[m] = out->data[m - 1];
+    }
+    out->data[k] = fresh;
+    return &out->data[k];
+}
+
+/* What one cell at an offset brings to value and gradient of the fit. */
+static bool AddCell(const kiriShape* shape, const kiriMemory* memory, const Fit* fit, int32_t cell, kiriVec2 offset,
+                    double side, kiriPointWeights* out)
+{
+    double kernel = Kernel(fit, offset);
+    kiriVec2 p = kiriVec2_Sub(offset, fit->mean);
+    kiriVec2 slope = kiriVec2_Make(kernel * (fit->xx * p.x + fit->xy * p.y), kernel * (fit->xy * p.x + fit->yy * p.y));
+    double share = kernel / fit->sum + kiriVec2_Dot(slope, kiriVec2_Sub(fit->at, fit->mean));
+    for (int32_t k = shape->start.data[cell]; k < shape->start.data[cell + 1]; ++k) {
+        kiriWeight weight = shape->weights.data[k];
+        kiriPointWeight* sum = Find(out, memory, weight.frame);
+        if (sum == NULL) {
+            return false;
+        }
+        sum->value += weight.value * share;
+        sum->gradient = kiriVec2_Add(sum->gradient, kiriVec2_Scale(weight.value / side, slope));
+    }
+    return true;
+}
+
+/* The fit may undershoot: no value below zero, sum 1; what rounding leaves of the gradients goes to the largest. */
+static void Complete(kiriPointWeights* out)
+{
+    double sum = 0.0;
+    kiriVec2 rest = { 0.0, 0.0 };
+    int32_t largest = 0;
+    for (int32_t k = 0; k < out->count; ++k) {
+        kiriPointWeight* w = &out->data[k];
+        w->value = w->value > 0.0 ? w->value : 0.0;
+        sum += w->value;
+        rest = kiriVec2_Add(rest, w->gradient);
+        largest = w->value > out->data[largest].value ? k : largest;
+    }
+    for (int32_t k = 0; k < out->count; ++k) {
+        out->data[k].value /= sum;
+    }
+    if (out->count > 0) {
+        out->data[largest].gradient = kiriVec2_Sub(out->data[largest].gradient, rest);
+    }
+}
+
+bool kiriShape_At(const kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                  int32_t cell, kiriVec2 at, kiriPointWeights* out)
+{
+    Fit fit = FitAround(grid, mesh, cell, at);
+    out->count = 0;
+    for (int32_t k = 0; k < NeighborCount(grid, cell); ++k) {
+        int32_t neighbor = Neighbor(grid, cell, k);
+        if (neighbor != KIRI_NONE &&
+            !AddCell(shape, memory, &fit, neighbor, Offset(grid, mesh, cell, neighbor), grid->side, out)) {
+            return false;
+        }
+    }
+    Complete(out);
+    return true;
+}

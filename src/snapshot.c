@@ -1,0 +1,181 @@
+#include "snapshot.h"
+
+static void Bytes(uint64_t* hash, const void* data, size_t bytes)
+{
+    const unsigned char* byte = data;
+    for (size_t i = 0; i < bytes; ++i) {
+        *hash = (*hash ^ byte[i]) * 1099511628211u;
+    }
+}
+
+static void Int(uint64_t* hash, int32_t value) { Bytes(hash, &value, sizeof(value)); }
+static void Real(uint64_t* hash, double value) { Bytes(hash, &value, sizeof(value)); }
+
+static void Vec2(uint64_t* hash, kiriVec2 a)
+{
+    Real(hash, a.x);
+    Real(hash, a.y);
+}
+
+static void Vec3(uint64_t* hash, kiriVec3 a)
+{
+    Real(hash, a.x);
+    Real(hash, a.y);
+    Real(hash, a.z);
+}
+
+static void Point(uint64_t* hash, kiriPoint p)
+{
+    Int(hash, p.x);
+    Int(hash, p.y);
+}
+
+static void Mesh(uint64_t* hash, const kiriMeshData* mesh)
+{
+    Vec2(hash, mesh->origin);
+    Real(hash, mesh->step);
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        const kiriTriangle* triangle = &mesh->triangles.data[t];
+        Bytes(hash, triangle->vertex, sizeof(triangle->vertex));
+        Bytes(hash, triangle->twin, sizeof(triangle->twin));
+        Int(hash, triangle->open);
+    }
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        Point(hash, mesh->vertices.data[v].at);
+    }
+}
+
+static void Moments(uint64_t* hash, const kiriMoments* m)
+{
+    Real(hash, m->area);
+    Vec2(hash, kiriVec2_Make(m->u, m->v));
+    Vec3(hash, kiriVec3_Make(m->uu, m->uv, m->vv));
+}
+
+static void Weights(uint64_t* hash, const int32_t* start, int32_t startCount, const kiriWeight* weights)
+{
+    for (int32_t i = 0; i + 1 < startCount; ++i) {
+        Int(hash, start[i + 1] - start[i]);
+        for (int32_t k = start[i]; k < start[i + 1]; ++k) {
+            Int(hash, weights[k].frame);
+            Real(hash, weights[k].value);
+        }
+    }
+}
+
+static void Link(uint64_t* hash, const kiriLink* link)
+{
+    Int(hash, link->i);
+    Int(hash, link->j);
+    Vec3(hash, kiriVec3_Make(link->width, link->length, link->moment));
+    Vec2(hash, link->normal);
+    Vec2(hash, link->tangent);
+    Vec2(hash, link->centroid);
+    Vec2(hash, link->crossing);
+}
+
+static void Model(uint64_t* hash, const kiriModel* model)
+{
+    for (int32_t c = 0; c < model->grid.cells.count; ++c) {
+        Int(hash, model->grid.cells.data[c].square);
+        Moments(hash, &model->grid.cells.data[c].material);
+        Int(hash, model->regions.owner.data[c]);
+        Int(hash, model->regions.distance.data[c]);
+    }
+    for (int32_t i = 0; i < model->regions.links.count; ++i) {
+        Link(hash, &model->regions.links.data[i]);
+    }
+    for (int32_t i = 0; i < model->points.count; ++i) {
+        Point(hash, model->points.data[i].at);
+    }
+    Weights(hash, model->shape.start.data, model->shape.start.count, model->shape.weights.data);
+    Weights(hash, model->vertexSkin.start.data, model->vertexSkin.start.count, model->vertexSkin.weights.data);
+    Weights(hash, model->pointSkin.start.data, model->pointSkin.start.count, model->pointSkin.weights.data);
+}
+
+static void Frame(uint64_t* hash, const kiriFrameData* frame)
+{
+    Vec2(hash, frame->site.at);
+    Vec2(hash, frame->center);
+    Real(hash, frame->mass);
+    Vec3(hash, kiriVec3_Make(frame->inertia[0], frame->inertia[1], frame->inertia[2]));
+    Vec3(hash, frame->x);
+    Vec3(hash, frame->A.u);
+    Vec3(hash, frame->A.v);
+    Vec3(hash, frame->A.d);
+    Vec3(hash, frame->velocity);
+    Vec3(hash, frame->spin);
+    Vec3(hash, frame->force);
+    Vec3(hash, frame->torque);
+    Point(hash, frame->anchor);
+    Int(hash, frame->held);
+    if (frame->held) {
+        Vec3(hash, frame->heldPosition);
+        Vec3(hash, frame->heldRotation.u);
+        Vec3(hash, frame->heldRotation.v);
+        Vec3(hash, frame->heldRotation.d);
+    }
+}
+
+static void Parameters(uint64_t* hash, const kiriSheetData* sheet)
+{
+    const kiriMaterial* m = &sheet->material;
+    Vec3(hash, kiriVec3_Make(m->youngsModulus, m->poissonsRatio, m->thickness));
+    Vec3(hash, kiriVec3_Make(m->density, m->airDamping, m->flexDamping));
+    Vec3(hash, kiriVec3_Make(sheet->snap, sheet->rigidWeight, sheet->rigidArea));
+    Int(hash, sheet->maxFrames);
+    Int(hash, sheet->iterations);
+    Int(hash, sheet->pointCount);
+}
+
+static int32_t IndexOf(const kiriSheetData* sheet, const kiriCutData* cut)
+{
+    int32_t index = 0;
+    while (sheet->cuts.data[index] != cut) {
+        ++index;
+    }
+    return index;
+}
+
+static void Waiting(uint64_t* hash, const kiriSheetData* sheet)
+{
+    for (int32_t i = 0; i < sheet->queue.count; ++i) {
+        Vec2(hash, sheet->queue.data[i].to);
+        Int(hash, sheet->queue.data[i].jump);
+        Int(hash, IndexOf(sheet, sheet->queue.data[i].cut));
+    }
+    for (int32_t i = 0; i < sheet->cuts.count; ++i) {
+        Vec2(hash, sheet->cuts.data[i]->tip.last);
+        Point(hash, sheet->cuts.data[i]->tip.blade.at);
+        Int(hash, sheet->cuts.data[i]->tip.blade.vertex);
+        Int(hash, sheet->cuts.data[i]->ended);
+    }
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        Point(hash, sheet->pins.data[i].at);
+        Vec3(hash, sheet->pins.data[i].target);
+        Real(hash, sheet->pins.data[i].stiffness);
+    }
+    for (int32_t i = 0; i < sheet->contacts.count; ++i) {
+        const kiriContact* contact = &sheet->contacts.data[i];
+        Int(hash, contact->point);
+        Vec3(hash, kiriVec3_Load(contact->normal));
+        Vec3(hash, kiriVec3_Make(contact->offset, contact->friction, contact->stiffness));
+    }
+}
+
+uint64_t kiriSnapshot_Hash(const kiriWorld* world)
+{
+    uint64_t hash = 14695981039346656037u;
+    Vec3(&hash, world->gravity);
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        const kiriSheetData* sheet = world->sheets.data[i];
+        Parameters(&hash, sheet);
+        Mesh(&hash, &sheet->mesh);
+        Model(&hash, &sheet->model);
+        Waiting(&hash, sheet);
+        for (int32_t f = 0; f < sheet->frames.count; ++f) {
+            Frame(&hash, &sheet->frames.data[f]);
+        }
+    }
+    return hash;
+}

@@ -1,0 +1,162 @@
+#include "square.h"
+
+typedef struct Range {
+    int32_t firstColumn, lastColumn, firstRow, lastRow;
+} Range;
+
+static int64_t CeilDivide(int64_t a, int64_t b)
+{
+    return (a + b - 1) / b;
+}
+
+static int32_t Min3(int32_t a, int32_t b, int32_t c)
+{
+    int32_t ab = a < b ? a : b;
+    return ab < c ? ab : c;
+}
+
+static int32_t Max3(int32_t a, int32_t b, int32_t c)
+{
+    int32_t ab = a > b ? a : b;
+    return ab > c ? ab : c;
+}
+
+bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriPoint extent, int32_t resolution)
+{
+    int64_t longer = extent.x > extent.y ? extent.x : extent.y;
+    squares->side = (int32_t)(2 * CeilDivide(longer + 2, 2 * (int64_t)resolution));
+    squares->columns = (int32_t)CeilDivide((int64_t)extent.x + 2, squares->side);
+    squares->rows = (int32_t)CeilDivide((int64_t)extent.y + 2, squares->side);
+    squares->nodes.data = NULL;
+    squares->nodes.count = squares->nodes.capacity = 0;
+    squares->freeNode = KIRI_NONE;
+    int64_t count = (int64_t)squares->columns * squares->rows;
+    squares->head = kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t));
+    if (squares->head == NULL) {
+        return false;
+    }
+    for (int64_t i = 0; i < count; ++i) {
+        squares->head[i] = KIRI_NONE;
+    }
+    return true;
+}
+
+void kiriSquares_Release(kiriSquares* squares, const kiriMemory* memory)
+{
+    kiriMemory_Free(memory, squares->head);
+    squares->head = NULL;
+    kiriArray_Release(memory, &squares->nodes);
+}
+
+/* The squares that the box of the corners overlaps. Corners are even and grid lines odd, so no corner is on a line. */
+static Range BoxOf(const kiriSquares* squares, const kiriPoint c[3])
+{
+    Range range;
+    range.firstColumn = (Min3(c[0].x, c[1].x, c[2].x) + 1) / squares->side;
+    range.lastColumn = (Max3(c[0].x, c[1].x, c[2].x) + 1) / squares->side;
+    range.firstRow = (Min3(c[0].y, c[1].y, c[2].y) + 1) / squares->side;
+    range.lastRow = (Max3(c[0].y, c[1].y, c[2].y) + 1) / squares->side;
+    return range;
+}
+
+/* Separating axes: those of the square are its lines against the triangle's box, those of the triangle are its edges
+   against the corner of the square that is farthest to their left. The caller has done the former. */
+static bool EdgesOverlap(const kiriSquares* squares, int32_t square, const kiriPoint c[3])
+{
+    kiriPoint low = kiriSquares_Corner(squares, square);
+    for (int i = 0; i < 3; ++i) {
+        kiriPoint a = c[i], b = c[(i + 1) % 3], far;
+        far.x = b.y > a.y ? low.x : low.x + squares->side;
+        far.y = b.x > a.x ? low.y + squares->side : low.y;
+        if (kiriOrient(a, b, far) <= 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriPoint corners[3])
+{
+    Range r = BoxOf(squares, corners);
+    int32_t column = square % squares->columns, row = square / squares->columns;
+    return column >= r.firstColumn && column <= r.lastColumn && row >= r.firstRow && row <= r.lastRow &&
+           EdgesOverlap(squares, square, corners);
+}
+
+static bool AddNode(kiriSquares* squares, const kiriMemory* memory, int32_t square, int32_t triangle)
+{
+    kiriSquareNode node = { triangle, squares->head[square] };
+    int32_t slot = squares->freeNode;
+    if (slot != KIRI_NONE) {
+        squares->freeNode = squares->nodes.data[slot].next;
+        squares->nodes.data[slot] = node;
+    } else {
+        slot = squares->nodes.count;
+        if (!kiriArray_Push(memory, &squares->nodes, node)) {
+            return false;
+        }
+    }
+    squares->head[square] = slot;
+    return true;
+}
+
+/* A triangle that is not there is fine: taking back half an insertion meets that. */
+static void RemoveNode(kiriSquares* squares, int32_t square, int32_t triangle)
+{
+    kiriSquareNode* nodes = squares->nodes.data;
+    for (int32_t* link = &squares->head[square]; *link != KIRI_NONE; link = &nodes[*link].next) {
+        int32_t slot = *link;
+        if (nodes[slot].triangle == triangle) {
+            *link = nodes[slot].next;
+            nodes[slot].triangle = KIRI_NONE;
+            nodes[slot].next = squares->freeNode;
+            squares->freeNode = slot;
+            return;
+        }
+    }
+}
+
+bool kiriSquares_Insert(kiriSquares* squares, const kiriMemory* memory, int32_t triangle, const kiriPoint corners[3])
+{
+    Range r = BoxOf(squares, corners);
+    for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
+        for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
+            int32_t square = row * squares->columns + column;
+            if (EdgesOverlap(squares, square, corners) && !AddNode(squares, memory, square, triangle)) {
+                kiriSquares_Remove(squares, triangle, corners);
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+void kiriSquares_Remove(kiriSquares* squares, int32_t triangle, const kiriPoint corners[3])
+{
+    Range r = BoxOf(squares, corners);
+    for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
+        for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
+            int32_t square = row * squares->columns + column;
+            if (EdgesOverlap(squares, square, corners)) {
+                RemoveNode(squares, square, triangle);
+            }
+        }
+    }
+}
+
+int32_t kiriSquares_At(const kiriSquares* squares, kiriPoint p)
+{
+    int32_t column = (p.x + 1) / squares->side, row = (p.y + 1) / squares->side;
+    if (p.x < 0 || p.y < 0 || column >= squares->columns || row >= squares->rows) {
+        return KIRI_NONE;
+    }
+    return row * squares->columns + column;
+}
+
+kiriPoint kiriSquares_Corner(const kiriSquares* squares, int32_t square)
+{
+    kiriPoint corner;
+    corner.x = square % squares->columns * squares->side - 1;
+    corner.y = square / squares->columns * squares->side - 1;
+    return corner;
+}

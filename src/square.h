@@ -1,0 +1,41 @@
+/* The squares of the regular grid, and for each the triangles whose interior overlaps its interior (exactly). It finds
+   the triangle under a point, the edges near a blade, and the material of the cells. */
+#ifndef KIRI_SQUARE_H
+#define KIRI_SQUARE_H
+
+#include "array.h"
+#include "vec.h"
+
+/* One triangle in one square. */
+typedef struct kiriSquareNode {
+    int32_t triangle;
+    int32_t next; /* in the same square, or KIRI_NONE */
+} kiriSquareNode;
+
+typedef struct kiriSquares {
+    int32_t columns, rows;
+    int32_t side; /* lattice steps, even; grid line k lies at k * side - 1 */
+    int32_t* head; /* a square's first node, or KIRI_NONE; columns * rows, row by row */
+    KIRI_ARRAY(kiriSquareNode) nodes;
+    int32_t freeNode;
+} kiriSquares;
+
+/* `resolution` squares along the longer of the two extents (lattice steps, from 0). */
+bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriPoint extent, int32_t resolution);
+void kiriSquares_Release(kiriSquares* squares, const kiriMemory* memory);
+
+/* The triangle's corners are counter-clockwise. Insert fails only for memory, and then changes nothing. After a Remove,
+   inserting as many nodes as it took never fails. */
+bool kiriSquares_Insert(kiriSquares* squares, const kiriMemory* memory, int32_t triangle, const kiriPoint corners[3]);
+void kiriSquares_Remove(kiriSquares* squares, int32_t triangle, const kiriPoint corners[3]);
+
+/* The square around a vertex position, or KIRI_NONE outside the grid. */
+int32_t kiriSquares_At(const kiriSquares* squares, kiriPoint p);
+
+/* The lower corner of a square (odd coordinates). */
+kiriPoint kiriSquares_Corner(const kiriSquares* squares, int32_t square);
+
+/* Do the interiors overlap? Exact. */
+bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriPoint corners[3]);
+
+#endif

@@ -1,0 +1,175 @@
+#include "strain.h"
+
+/* Clamped at both ends, a strip of length l resists an offset of its ends with 12 D W / l^3. */
+#define NORMAL_GAP_BETA 12.0
+/* and the offset g makes it longer by 3/5 g^2 / l, where a straight line has 1/2. */
+#define ARC 1.2
+#define NORMAL_STOP_SHARE 0.5
+
+/* The mean axes of two frames. When the frames turn by w_0 and w_1, the axes turn by the sum over k of
+   n (nBy[k] . w_k) + tau (tauBy[k] . w_k) + d (dBy[k] . w_k). */
+typedef struct Axes {
+    kiriVec3 n, tau, d;
+    kiriVec3 nBy[2], tauBy[2], dBy[2];
+} Axes;
+
+/* Where the sheet is folded flat on itself there is no mean: the first frame's axes serve. */
+static Axes FirstAxes(const kiriLink* link, const kiriPose* first)
+{
+    kiriVec3 zero = { 0.0, 0.0, 0.0 };
+    Axes axes = { kiriPose_Along(first, link->normal),
+                  kiriPose_Along(first, link->tangent),
+                  first->A.d,
+                  { zero, zero },
+                  { zero, zero },
+                  { zero, zero } };
+    axes.nBy[0] = axes.n;
+    axes.tauBy[0] = axes.tau;
+    axes.dBy[0] = axes.d;
+    return axes;
+}
+
+static Axes MeanAxes(const kiriLink* link, const kiriPose* const poses[2])
+{
+    kiriVec3 normals[2] = { kiriPose_Along(poses[0], link->normal), kiriPose_Along(poses[1], link->normal) };
+    kiriVec3 d = kiriVec3_Add(poses[0]->A.d, poses[1]->A.d);
+    double lengthD = kiriVec3_Length(d);
+    d = kiriVec3_Normalize(d);
+    kiriVec3 n = kiriVec3_Add(normals[0], normals[1]);
+    double lean = kiriVec3_Dot(n, d);
+    n = kiriVec3_AddScaled(n, -lean, d);
+    double lengthN = kiriVec3_Length(n);
+    if (!(lengthD > 1e-6 && lengthN > 1e-6)) {
+        return FirstAxes(link, poses[0]);
+    }
+    Axes axes;
+    axes.d = d;
+    axes.n = kiriVec3_Scale(1.0 / lengthN, n);
+    axes.tau = kiriVec3_Cross(d, axes.n);
+    for (int k = 0; k < 2; ++k) {
+        axes.nBy[k] = kiriVec3_Scale(1.0 / lengthD, kiriVec3_Cross(axes.tau, poses[k]->A.d));
+        axes.tauBy[k] = kiriVec3_Scale(1.0 / lengthD, kiriVec3_Cross(poses[k]->A.d, axes.n));
+        kiriVec3 about = kiriVec3_AddScaled(kiriVec3_Cross(normals[k], axes.tau), lean, axes.nBy[k]);
+        axes.dBy[k] = kiriVec3_Scale(1.0 / lengthN, about);
+    }
+    return axes;
+}
+
+/* A vector of each frame, and their difference, as a link sees them; for a point the arms from the frames' x, and the
+   gap. */
+typedef struct Pair {
+    kiriVec3 ends[2], gap;
+} Pair;
+
+static Pair Directions(kiriVec3 first, kiriVec3 second)
+{
+    Pair pair = { { first, second }, kiriVec3_Sub(second, first) };
+    return pair;
+}
+
+static Pair Points(const kiriFrameData* const frames[2], const kiriPose* const poses[2], kiriVec2 at)
+{
+    Pair pair = Directions(kiriPose_Along(poses[0], kiriVec2_Sub(at, frames[0]->center)),
+                           kiriPose_Along(poses[1], kiriVec2_Sub(at, frames[1]->center)));
+    pair.gap = kiriVec3_Add(pair.gap, kiriVec3_Sub(poses[1]->x, poses[0]->x));
+    return pair;
+}
+
+/* The derivative of gap . axis: the ends turn with their frames, and the axis with both. */
+static kiriStrainRow TurnRow(const Axes* axes, kiriVec3 axis, const Pair* pair)
+{
+    kiriVec3 g = kiriVec3_Cross(axis, pair->gap), zero = { 0.0, 0.0, 0.0 };
+    double gn = kiriVec3_Dot(g, axes->n), gtau = kiriVec3_Dot(g, axes->tau), gd = kiriVec3_Dot(g, axes->d);
+    kiriStrainRow row = { { zero, zero },
+                          { kiriVec3_Cross(axis, pair->ends[0]), kiriVec3_Cross(pair->ends[1], axis) } };
+    for (int k = 0; k < 2; ++k) {
+        row.turn[k] = kiriVec3_AddScaled(row.turn[k], gn, axes->nBy[k]);
+        row.turn[k] = kiriVec3_AddScaled(row.turn[k], gtau, axes->tauBy[k]);
+        row.turn[k] = kiriVec3_AddScaled(row.turn[k], gd, axes->dBy[k]);
+    }
+    return row;
+}
+
+static kiriStrainRow GapRow(const Axes* axes, kiriVec3 axis, const Pair* points)
+{
+    kiriStrainRow row = TurnRow(axes, axis, points);
+    row.move[0] = kiriVec3_Scale(-1.0, axis);
+    row.move[1] = axis;
+    return row;
+}
+
+static kiriStrainRow Combined(double a, const kiriStrainRow* first, double b, const kiriStrainRow* second)
+{
+    kiriStrainRow row;
+    for (int k = 0; k < 2; ++k) {
+        row.move[k] = kiriVec3_AddScaled(kiriVec3_Scale(a, first->move[k]), b, second->move[k]);
+        row.turn[k] = kiriVec3_AddScaled(kiriVec3_Scale(a, first->turn[k]), b, second->turn[k]);
+    }
+    return row;
+}
+
+/* The length of the line that carries tension: between the centres of mass, so that tension has no lever to turn a
+   frame with. Never much shorter than the way through the link, which may lead around a slit. */
+static double LeverOf(const kiriLink* link, const kiriFrameData* const frames[2])
+{
+    double apart = kiriVec2_Dot(kiriVec2_Sub(frames[1]->center, frames[0]->center), link->normal), l = link->length;
+    return apart < 0.5 * l ? 0.5 * l : apart < l ? apart : l;
+}
+
+static void MeasureStretch(double lever, const Axes* axes, const Pair* b, double* strain, kiriStrainRow* row)
+{
+    double ahead = lever + kiriVec3_Dot(b->gap, axes->n), aside = kiriVec3_Dot(b->gap, axes->d);
+    double line = sqrt(ahead * ahead + ARC * aside * aside);
+    *strain = line - lever;
+    if (row != NULL) {
+        kiriStrainRow n = GapRow(axes, axes->n, b), d = GapRow(axes, axes->d, b);
+        double scale = line > 0.0 ? 1.0 / line : 0.0;
+        *row = Combined(scale * ahead, &n, scale * ARC * aside, &d);
+    }
+}
+
+static void MeasureNormal(const kiriLink* link, const Axes* axes, const Pair* m, double* strain, kiriStrainRow* rows)
+{
+    double gap = kiriVec3_Dot(m->gap, axes->d), over = fabs(gap) - NORMAL_STOP_SHARE * link->length;
+    strain[KIRI_NORMAL_GAP] = gap;
+    strain[KIRI_NORMAL_STOP] = over <= 0.0 ? 0.0 : gap > 0.0 ? over : -over;
+    if (rows != NULL) {
+        kiriStrainRow row = GapRow(axes, axes->d, m);
+        rows[KIRI_NORMAL_GAP] = row;
+        rows[KIRI_NORMAL_STOP] = Combined(over > 0.0 ? 1.0 : 0.0, &row, 0.0, &row);
+    }
+}
+
+void kiriStrain_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
+                        double strain[KIRI_STRAINS], kiriStrainRow* rows)
+{
+    Axes axes = MeanAxes(link, poses);
+    Pair b = Points(frames, poses, link->centroid), m = Points(frames, poses, link->crossing);
+    Pair directors = Directions(poses[0]->A.d, poses[1]->A.d);
+    Pair tangents = Directions(kiriPose_Along(poses[0], link->tangent), kiriPose_Along(poses[1], link->tangent));
+    MeasureStretch(LeverOf(link, frames), &axes, &b, &strain[KIRI_STRETCH], rows != NULL ? &rows[KIRI_STRETCH] : NULL);
+    MeasureNormal(link, &axes, &m, strain, rows);
+    strain[KIRI_SHEAR] = kiriVec3_Dot(b.gap, axes.tau);
+    strain[KIRI_PLANE_BENDING] = kiriVec3_Dot(tangents.gap, axes.n);
+    strain[KIRI_BENDING] = kiriVec3_Dot(directors.gap, axes.n);
+    strain[KIRI_TWIST] = kiriVec3_Dot(directors.gap, axes.tau);
+    if (rows != NULL) {
+        rows[KIRI_SHEAR] = GapRow(&axes, axes.tau, &b);
+        rows[KIRI_PLANE_BENDING] = TurnRow(&axes, axes.n, &tangents);
+        rows[KIRI_BENDING] = TurnRow(&axes, axes.n, &directors);
+        rows[KIRI_TWIST] = TurnRow(&axes, axes.tau, &directors);
+    }
+}
+
+void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS])
+{
+    double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = link->length;
+    double membrane = (double)material->youngsModulus * h / l, bending = membrane * h * h / (12.0 * (1.0 - nu * nu));
+    stiffness[KIRI_STRETCH] = membrane * link->width;
+    stiffness[KIRI_SHEAR] = membrane * link->width;
+    stiffness[KIRI_PLANE_BENDING] = membrane * link->moment;
+    stiffness[KIRI_BENDING] = bending * link->width;
+    stiffness[KIRI_TWIST] = bending * link->width;
+    stiffness[KIRI_NORMAL_GAP] = NORMAL_GAP_BETA * bending * link->width / (l * l);
+    stiffness[KIRI_NORMAL_STOP] = membrane * link->width;
+}

@@ -1,0 +1,57 @@
+/* The strains of a link: how two rigid frames stand to each other where their regions meet (README, "Mechanics"). */
+#ifndef KIRI_STRAIN_H
+#define KIRI_STRAIN_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#include "flight.h"
+
+/* With gap(p) = x_j(p) - x_i(p); n, tau, d the mean axes of the two frames, orthonormal; D = E h^3 / (12 (1 - nu^2)).
+   Every energy is 1/2 stiffness strain^2.
+
+   strain         what                                                stiffness
+   stretch        |(c + gap(b) . n, sqrt(6/5) gap(b) . d)| - c        E h W / l
+   shear          gap(b) . tau                                        E h W / l
+   plane bending  ((A_j - A_i) tau) . n                               E h I / l
+   bending        (d_j - d_i) . n                                     D W / l
+   twist          (d_j - d_i) . tau                                   D W / l
+   normal gap     gap(m) . d                                          beta D W / l^3, beta = 12
+   normal stop    what |gap(m) . d| has above l / 2                   E h W / l
+
+   Bending and twist together are the Laplacian of the director, for d_j - d_i has no part along the mean d.
+
+   Stretch is that of the line between the centres of mass, c apart: an offset along the normal makes it longer. With
+   gap(b) . n alone, tension would turn the frames away from that line and, above 12 D / l^2 newtons a metre of width,
+   lay the sheet in steps, as tension buckles a column that is soft in shear; cloth would fall apart.
+
+   The stop catches sheets that bend within less than l, whose normal gap nothing would bound. */
+enum {
+    KIRI_STRETCH,
+    KIRI_SHEAR,
+    KIRI_PLANE_BENDING,
+    KIRI_BENDING,
+    KIRI_TWIST,
+    KIRI_NORMAL_GAP,
+    KIRI_NORMAL_STOP,
+    KIRI_STRAINS
+};
+
+/* The derivative of a strain by the moves and the turns of frames i and j. */
+typedef struct kiriStrainRow {
+    kiriVec3 move[2], turn[2];
+} kiriStrainRow;
+
+/* The strains and, unless `rows` is null, their derivatives, which are exact: so the inner forces and their moments sum
+   to zero. Strains do not change when both frames move rigidly. frames and poses are those of i and j. */
+void kiriStrain_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
+                        double strain[KIRI_STRAINS], kiriStrainRow* rows);
+
+void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,24 @@
+/* What the host sees of a sheet: the skinned mesh, and rays and blades that meet it in world space. */
+#ifndef KIRI_VIEW_H
+#define KIRI_VIEW_H
+
+#include "sheet.h"
+
+/* Room for the mesh as it is and for so many collision points; after it the others never allocate. */
+bool kiriView_Resize(kiriSheetData* sheet, int32_t pointCount);
+void kiriView_Release(kiriSheetData* sheet);
+
+/* Indices, rest positions and provenance, when the mesh has changed. */
+void kiriView_WriteTopology(kiriSheetData* sheet);
+
+/* Positions and normals from the frames (linear-blend skinning, equation 1 of the paper). */
+void kiriView_WritePositions(kiriSheetData* sheet);
+
+/* The first triangle that the ray meets, up to maxDistance (m) along its direction, a unit vector. hit->triangle is -1 when there is none. */
+void kiriView_Raycast(const kiriSheetData* sheet, kiriVec3 origin, kiriVec3 direction, double maxDistance, kiriHit* hit);
+
+/* The rest segments in which the quadrilateral meets the mesh: pairs of local points. False for memory. */
+typedef KIRI_ARRAY(kiriVec2) kiriRestPoints;
+bool kiriView_Slice(const kiriSheetData* sheet, const kiriVec3 quad[4], kiriRestPoints* segments);
+
+#endif

@@ -1,0 +1,39 @@
+/* The world: sheets, ids, events, and the tick. */
+#ifndef KIRI_WORLD_H
+#define KIRI_WORLD_H
+
+#include "motion.h"
+#include "pool.h"
+#include "sheet.h"
+#include "view.h"
+
+typedef struct kiriError {
+    char line[256];
+} kiriError;
+
+struct kiriWorld {
+    kiriMemory memory;
+    kiriLogFn* log;
+    kiriClockFn* clock;
+    void* user;
+    kiriVec3 gravity;
+    kiriPool sheetIds, cutIds, frameIds, pinIds;
+    KIRI_ARRAY(kiriSheetData*) sheets; /* in the order of their making */
+    KIRI_ARRAY(kiriEvent) events;
+    kiriProfile profile;
+    int32_t stage; /* running now, or KIRI_NONE */
+    double stageStart;
+    kiriError* error; /* apart, so that functions which only read can report too */
+};
+
+/* One tick: KIRI_OK, KIRI_ERROR_MEMORY (nothing moved), or KIRI_DIVERGED. */
+kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps);
+
+/* Makes a sheet of the def, which has been checked, and gives it and its frames their ids. */
+kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, const char** why);
+void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet);
+
+/* A cut with no points yet; null for memory. */
+kiriCutData* kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet);
+
+#endif

@@ -1,0 +1,196 @@
+/* A host of the library for the tests that use the public header alone: an allocator that counts, poisons and refuses, a
+   log, and rectangles. */
+#ifndef KIRI_TEST_HOST_H
+#define KIRI_TEST_HOST_H
+
+#include "kiri/kiri.h"
+#include "support.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct Host {
+    kiriWorld* world;
+    int64_t live;   /* blocks that are out */
+    int64_t calls;  /* of the allocator */
+    int64_t failAt; /* the call that gets null; negative: none */
+    bool failOnce;  /* or all calls from there on */
+    int32_t lines;  /* logged */
+    char line[512]; /* the last of them */
+} Host;
+
+/* Poisoned, so that whoever reads what was not written gets nonsense. */
+static inline void* Host_Alloc(void* user, int64_t bytes)
+{
+    Host* host = user;
+    int64_t call = host->calls++;
+    if (host->failAt >= 0 && (host->failOnce ? call == host->failAt : call >= host->failAt)) {
+        return NULL;
+    }
+    void* block = malloc((size_t)bytes);
+    assert_non_null(block);
+    ++host->live;
+    return memset(block, 0xcd, (size_t)bytes);
+}
+
+static inline void Host_Free(void* user, void* pointer)
+{
+    --((Host*)user)->live;
+    free(pointer);
+}
+
+static inline void Host_Log(void* user, const char* line)
+{
+    Host* host = user;
+    ++host->lines;
+    assert_true(strlen(line) < sizeof(host->line));
+    strcpy(host->line, line);
+}
+
+static inline kiriWorldDef Host_Def(Host* host)
+{
+    kiriWorldDef def;
+    kiriDefaultWorldDef(&def);
+    def.alloc = Host_Alloc;
+    def.free = Host_Free;
+    def.log = Host_Log;
+    def.user = host;
+    return def;
+}
+
+static inline void Host_Start(Host* host)
+{
+    memset(host, 0, sizeof(*host));
+    host->failAt = -1;
+    kiriWorldDef def = Host_Def(host);
+    assert_int_equal(kiriCreateWorld(&def, &host->world), KIRI_OK);
+}
+
+static inline void Host_Stop(Host* host)
+{
+    kiriDestroyWorld(host->world);
+    assert_int_equal(host->live, 0);
+}
+
+static inline uint64_t Host_Hash(const Host* host)
+{
+    uint64_t hash = 0;
+    assert_int_equal(kiriWorld_GetStateHash(host->world, &hash), KIRI_OK);
+    return hash;
+}
+
+#define OK(call) assert_int_equal(call, KIRI_OK)
+
+/* The mesh of a def. */
+typedef struct Rectangle {
+    float* positions;
+    int32_t* indices;
+} Rectangle;
+
+static inline Rectangle Rectangle_Make(kiriSheetDef* def, float width, float height, int32_t columns, int32_t rows)
+{
+    Rectangle r;
+    r.positions = malloc(2 * sizeof(float) * (size_t)((columns + 1) * (rows + 1)));
+    r.indices = malloc(6 * sizeof(int32_t) * (size_t)(columns * rows));
+    OK(kiriFillRectangle(width, height, columns, rows, r.positions, r.indices));
+    def->restPositions = r.positions;
+    def->indices = r.indices;
+    def->vertexCount = (columns + 1) * (rows + 1);
+    def->triangleCount = 2 * columns * rows;
+    return r;
+}
+
+static inline void Rectangle_Free(Rectangle* r)
+{
+    free(r->positions);
+    free(r->indices);
+}
+
+static inline kiriResult Host_TryRectangle(Host* host, kiriSheetDef* def, float width, float height, int32_t columns,
+                                           int32_t rows, kiriSheet* sheet)
+{
+    Rectangle r = Rectangle_Make(def, width, height, columns, rows);
+    kiriResult result = kiriCreateSheet(host->world, def, sheet);
+    Rectangle_Free(&r);
+    return result;
+}
+
+static inline kiriSheet Host_AddRectangle(Host* host, kiriSheetDef* def, float width, float height, int32_t columns,
+                                          int32_t rows)
+{
+    kiriSheet sheet = 0;
+    OK(Host_TryRectangle(host, def, width, height, columns, rows, &sheet));
+    return sheet;
+}
+
+/* A grid of 8, four frames at the middles of cells: small and quick. */
+static inline kiriSheetDef Host_SmallDef(void)
+{
+    static const float points[8] = { 0.1875f, 0.1875f, 0.8125f, 0.1875f, 0.1875f, 0.8125f, 0.8125f, 0.8125f };
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = 8;
+    def.frameCount = 4;
+    def.framePoints = points;
+    def.collisionPoints = 6;
+    return def;
+}
+
+/* A whole cut, waiting for the next tick. */
+static inline kiriCut Host_Cut(Host* host, kiriSheet sheet, const float* points, int32_t count)
+{
+    kiriCut cut = 0;
+    OK(kiriBeginCut(host->world, sheet, points, &cut));
+    OK(kiriCut_Extend(host->world, cut, points + 2, count - 1));
+    OK(kiriCut_End(host->world, cut));
+    return cut;
+}
+
+static inline kiriCounts Host_Counts(const Host* host, kiriSheet sheet)
+{
+    kiriCounts counts;
+    OK(kiriSheet_GetCounts(host->world, sheet, &counts));
+    return counts;
+}
+
+static inline kiriTotals Host_Totals(const Host* host, kiriSheet sheet)
+{
+    kiriTotals totals;
+    OK(kiriSheet_GetTotals(host->world, sheet, &totals));
+    return totals;
+}
+
+static inline kiriMesh Host_Mesh(const Host* host, kiriSheet sheet)
+{
+    kiriMesh mesh;
+    OK(kiriSheet_GetMesh(host->world, sheet, &mesh));
+    return mesh;
+}
+
+/* How many events of this type the last tick had; *first is one of them. */
+static inline int32_t Host_Events(const Host* host, int32_t type, kiriEvent* first)
+{
+    const kiriEvent* events;
+    int32_t count, found = 0;
+    OK(kiriWorld_GetEvents(host->world, &events, &count));
+    for (int32_t i = 0; i < count; ++i) {
+        if (events[i].type == type && found++ == 0 && first != NULL) {
+            *first = events[i];
+        }
+    }
+    return found;
+}
+
+static inline bool AllFinite(const float* values, int64_t count)
+{
+    for (int64_t i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+#endif

@@ -1,0 +1,209 @@
+/* A sheet for the tests of the upper floors: a rectangle with slits along its mesh lines, its grid, and a field. */
+#ifndef KIRI_TEST_SCENE_H
+#define KIRI_TEST_SCENE_H
+
+#include "frame.h"
+#include "support.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* u before v: the order of arguments is the compiler's to choose. */
+static inline kiriVec2 RandomVec2(uint32_t* seed, double low, double high)
+{
+    kiriVec2 p;
+    p.x = RandomBetween(seed, low, high);
+    p.y = RandomBetween(seed, low, high);
+    return p;
+}
+
+/* An allocator that counts what is out, and refuses when its budget is spent (negative: never). */
+typedef struct Purse {
+    int64_t budget;
+    int64_t out;
+} Purse;
+
+static inline void* PurseAlloc(void* user, int64_t bytes)
+{
+    Purse* purse = user;
+    if (purse->budget == 0) {
+        return NULL;
+    }
+    --purse->budget;
+    ++purse->out;
+    return malloc((size_t)bytes);
+}
+
+static inline void PurseFree(void* user, void* pointer)
+{
+    --((Purse*)user)->out;
+    free(pointer);
+}
+
+typedef struct Scene {
+    Purse purse;
+    kiriMemory memory;
+    kiriMeshData mesh;
+    kiriGrid grid;
+    kiriField field;
+    double width, height;
+} Scene;
+
+/* columns x rows squares of two triangles. Inner vertices move by up to `jitter` of a square. */
+static inline void Scene_InitMesh(Scene* scene, double width, double height, int32_t columns, int32_t rows,
+                                  int32_t resolution, double jitter, uint32_t seed)
+{
+    float* positions = malloc(2 * sizeof(float) * (size_t)((columns + 1) * (rows + 1)));
+    int32_t* indices = malloc(6 * sizeof(int32_t) * (size_t)(columns * rows));
+    int32_t count = 0;
+    for (int32_t j = 0; j <= rows; ++j) {
+        for (int32_t i = 0; i <= columns; ++i) {
+            bool inner = i > 0 && j > 0 && i < columns && j < rows;
+            double a = inner ? jitter * RandomBetween(&seed, -1.0, 1.0) : 0.0;
+            double b = inner ? jitter * RandomBetween(&seed, -1.0, 1.0) : 0.0;
+            positions[2 * (j * (columns + 1) + i)] = (float)(width * (i + a) / columns);
+            positions[2 * (j * (columns + 1) + i) + 1] = (float)(height * (j + b) / rows);
+        }
+    }
+    for (int32_t j = 0; j < rows; ++j) {
+        for (int32_t i = 0; i < columns; ++i) {
+            int32_t a = j * (columns + 1) + i, b = a + columns + 1;
+            int32_t corners[6] = { a, a + 1, b + 1, a, b + 1, b };
+            memcpy(indices + count, corners, sizeof(corners));
+            count += 6;
+        }
+    }
+    memset(scene, 0, sizeof(*scene));
+    scene->purse.budget = -1;
+    scene->memory = kiriMemory_Make(PurseAlloc, PurseFree, &scene->purse);
+    scene->width = width;
+    scene->height = height;
+    const char* why = "";
+    if (kiriMesh_Init(&scene->mesh, &scene->memory, positions, (columns + 1) * (rows + 1), indices, count / 3,
+                      resolution, &why) != KIRI_OK) {
+        fail_msg("%s", why);
+    }
+    kiriMesh_Begin(&scene->mesh);
+    free(positions);
+    free(indices);
+}
+
+/* Opens the mesh edges that lie on the segment, but for the sheet's outline. */
+static inline void Scene_Slit(Scene* scene, double u0, double v0, double u1, double v1)
+{
+    kiriVec2 from = { u0, v0 }, way = { u1 - u0, v1 - v0 };
+    double length = kiriVec2_Length(way), near = 1e-5;
+    for (int32_t h = 0; h < 3 * scene->mesh.triangles.count; ++h) {
+        kiriPoint ends[2];
+        bool on = kiriMesh_Twin(&scene->mesh, h) != KIRI_NONE && !kiriMesh_IsOpen(&scene->mesh, h);
+        ends[0] = scene->mesh.vertices.data[kiriMesh_Tail(&scene->mesh, h)].at;
+        ends[1] = scene->mesh.vertices.data[kiriMesh_Tail(&scene->mesh, kiriEdge_Next(h))].at;
+        for (int k = 0; k < 2; ++k) {
+            kiriVec2 p = kiriVec2_Sub(kiriMesh_Local(&scene->mesh, ends[k]), from);
+            double along = kiriVec2_Dot(p, way) / length, across = (p.x * way.y - p.y * way.x) / length;
+            on = on && along > -near && along < length + near && fabs(across) < near;
+        }
+        if (on) {
+            assert_true(kiriMesh_Open(&scene->mesh, h));
+        }
+    }
+}
+
+/* Opens `count` walks of up to `steps` edges from random places: slits, bays, loose pieces. */
+static inline void Scene_CutAtRandom(Scene* scene, int32_t count, int32_t steps, uint32_t* seed)
+{
+    for (int32_t k = 0; k < count; ++k) {
+        int32_t h = (int32_t)(Random(seed) % (uint32_t)(3 * scene->mesh.triangles.count));
+        for (int32_t s = 0; s < steps && kiriMesh_Twin(&scene->mesh, h) != KIRI_NONE; ++s) {
+            assert_true(kiriMesh_Open(&scene->mesh, h));
+            h = kiriEdge_Next(h);
+            for (uint32_t turn = Random(seed) % 3; turn > 0 && kiriMesh_Twin(&scene->mesh, h) != KIRI_NONE; --turn) {
+                h = kiriEdge_Next(kiriMesh_Twin(&scene->mesh, h));
+            }
+        }
+    }
+}
+
+static inline void Scene_BuildGrid(Scene* scene)
+{
+    kiriMesh_Commit(&scene->mesh);
+    assert_true(kiriGrid_Build(&scene->grid, &scene->mesh));
+    assert_true(kiriField_Init(&scene->field, &scene->memory, scene->grid.cells.count));
+}
+
+static inline void Scene_Init(Scene* scene, double width, double height, int32_t columns, int32_t rows,
+                              int32_t resolution)
+{
+    Scene_InitMesh(scene, width, height, columns, rows, resolution, 0.0, 1);
+}
+
+/* Whatever is out after this has leaked. */
+static inline void Scene_Release(Scene* scene)
+{
+    kiriField_Release(&scene->field, &scene->memory);
+    kiriGrid_Release(&scene->grid, &scene->memory);
+    kiriMesh_Release(&scene->mesh);
+    assert_int_equal(scene->purse.out, 0);
+}
+
+static inline double Scene_Area(const Scene* scene)
+{
+    return 0.5 * (double)kiriMesh_DoubledArea(&scene->mesh) * scene->mesh.step * scene->mesh.step;
+}
+
+static inline int32_t Scene_Cell(const Scene* scene, double u, double v)
+{
+    kiriPoint p = kiriMesh_Snap(&scene->mesh, kiriVec2_Make(u, v));
+    int32_t triangle = kiriMesh_Locate(&scene->mesh, p);
+    assert_int_not_equal(triangle, KIRI_NONE);
+    return kiriGrid_CellOf(&scene->grid, &scene->mesh, triangle, p);
+}
+
+static inline kiriSite Scene_MiddleOf(const Scene* scene, int32_t cell)
+{
+    kiriSite site = { kiriGrid_Middle(&scene->grid, &scene->mesh, cell), cell };
+    return site;
+}
+
+/* A site in the middle of the square at a place. */
+static inline kiriSite Scene_Site(const Scene* scene, double u, double v)
+{
+    return Scene_MiddleOf(scene, Scene_Cell(scene, u, v));
+}
+
+/* A random sheet with random cuts, and `count` sites at the middles of random cells, after one for every piece. */
+static inline void Scene_InitRandom(Scene* scene, kiriSites* sites, int32_t count, uint32_t* seed)
+{
+    int32_t resolution = 4 + (int32_t)(Random(seed) % 20);
+    double height = RandomBetween(seed, 0.3, 1.0);
+    Scene_InitMesh(scene, 1.0, height, 13, 11, resolution, 0.2, *seed);
+    Scene_CutAtRandom(scene, 12, 14, seed);
+    Scene_BuildGrid(scene);
+    memset(sites, 0, sizeof(*sites));
+    int32_t piece = 0;
+    bool* taken = calloc((size_t)scene->grid.cells.count, sizeof(bool));
+    for (int32_t c = 0; c < scene->grid.cells.count; ++c) {
+        if (scene->grid.cells.data[c].piece == piece) {
+            ++piece;
+            taken[c] = true;
+            assert_true(kiriArray_Push(&scene->memory, sites, Scene_MiddleOf(scene, c)));
+        }
+    }
+    for (int32_t k = 0; k < count; ++k) {
+        int32_t c = (int32_t)(Random(seed) % (uint32_t)scene->grid.cells.count);
+        if (!taken[c]) {
+            taken[c] = true;
+            assert_true(kiriArray_Push(&scene->memory, sites, Scene_MiddleOf(scene, c)));
+        }
+    }
+    free(taken);
+}
+
+static inline void AssertNear(double a, double b, double tolerance)
+{
+    if (!(fabs(a - b) <= tolerance)) {
+        fail_msg("%.17g is not %.17g within %g", a, b, tolerance);
+    }
+}
+
+#endif

@@ -1,0 +1,793 @@
+/* Bad input: every function refuses it with the right code and one line, and the world stays as it was. */
+#include "host.h"
+
+static const float badFloats[3] = { NAN, INFINITY, -INFINITY };
+
+typedef struct Before {
+    uint64_t hash;
+    int32_t lines;
+    int64_t live;
+} Before;
+
+static Before Look(const Host* host)
+{
+    Before before = { Host_Hash(host), host->lines, host->live };
+    return before;
+}
+
+/* `call` is the source text: its function must be named by the line. */
+static void CheckRefused(Host* host, Before before, kiriResult result, kiriResult expected, const char* call, int line)
+{
+    const char* error = kiriWorld_GetLastError(host->world);
+    size_t name = strcspn(call, "(");
+    if (result != expected || strncmp(error, call, name) != 0 || error[name] != ':' || strchr(error, '\n') != NULL) {
+        fail_msg("line %d: %s gave %d, not %d, and says '%s'", line, call, (int)result, (int)expected, error);
+    }
+    if (host->lines != before.lines + 1 || strcmp(host->line, error) != 0) {
+        fail_msg("line %d: %s logged %d lines, the last '%s'", line, call, (int)(host->lines - before.lines), host->line);
+    }
+    if (Host_Hash(host) != before.hash || host->live != before.live) {
+        fail_msg("line %d: %s left a trace", line, call);
+    }
+    assert_string_equal(kiriWorld_GetLastError(host->world), "");
+}
+
+#define REFUSED(expected, call)                                                                                        \
+    do {                                                                                                               \
+        Before before = Look(host);                                                                                    \
+        kiriResult result = call;                                                                                      \
+        CheckRefused(host, before, result, expected, #call, __LINE__);                                                 \
+    } while (0)
+
+/* With every entry of `values` once NaN, once infinite, once minus infinite. */
+#define REFUSED_FLOATS(values, count, call)                                                                            \
+    do {                                                                                                               \
+        for (int entry = 0; entry < 3 * (count); ++entry) {                                                            \
+            float kept = (values)[entry / 3];                                                                          \
+            (values)[entry / 3] = badFloats[entry % 3];                                                                \
+            REFUSED(KIRI_ERROR_ARGUMENT, call);                                                                        \
+            (values)[entry / 3] = kept;                                                                                \
+        }                                                                                                              \
+    } while (0)
+
+/* A world with something of everything in it. */
+typedef struct Fixture {
+    Host host;
+    kiriSheet sheet;
+    kiriCut cut;
+    kiriFrame frame;
+    kiriPin pin;
+} Fixture;
+
+static void Setup(Fixture* f)
+{
+    Host* host = &f->host;
+    kiriSheetDef def = Host_SmallDef();
+    kiriPinDef pinDef;
+    float start[2] = { -1.0f, 0.5f };
+    int32_t frames;
+    Host_Start(host);
+    f->sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
+    kiriDefaultPinDef(&pinDef);
+    pinDef.restPoint[0] = 0.3f;
+    pinDef.restPoint[1] = 0.9f;
+    OK(kiriCreatePin(host->world, f->sheet, &pinDef, &f->pin));
+    OK(kiriBeginCut(host->world, f->sheet, start, &f->cut));
+    OK(kiriSheet_GetFrames(host->world, f->sheet, &f->frame, 1, &frames));
+    OK(kiriWorld_Tick(host->world, 0.01f, 1));
+}
+
+static void NullWorld(void** state)
+{
+    (void)state;
+    float v[12] = { 0.0f };
+    kiriSheetDef sheetDef = Host_SmallDef();
+    kiriPinDef pinDef;
+    kiriWorldDef worldDef;
+    kiriWorld* world;
+    uint64_t hash;
+    const kiriEvent* events;
+    const float* positions;
+    int32_t count;
+    uint32_t id;
+    kiriProfile profile;
+    kiriMesh mesh;
+    kiriCounts counts;
+    kiriTotals totals;
+    kiriHit hit;
+    kiriFrameState frame;
+    kiriContact contact = { 0, { 0.0f, 0.0f, 1.0f }, 0.0f, 0.0f, 1.0f };
+    kiriDefaultPinDef(&pinDef);
+    kiriDefaultWorldDef(&worldDef);
+    kiriDefaultWorldDef(NULL);
+    kiriDefaultSheetDef(NULL);
+    kiriDefaultPinDef(NULL);
+    kiriDestroyWorld(NULL);
+    const kiriResult results[] = {
+        kiriCreateWorld(NULL, &world),
+        kiriCreateWorld(&worldDef, NULL),
+        kiriWorld_Tick(NULL, 0.01f, 1),
+        kiriWorld_SetGravity(NULL, v),
+        kiriWorld_GetStateHash(NULL, &hash),
+        kiriWorld_GetEvents(NULL, &events, &count),
+        kiriWorld_GetProfile(NULL, &profile),
+        kiriCreateSheet(NULL, &sheetDef, &id),
+        kiriDestroySheet(NULL, 1),
+        kiriSheet_GetMesh(NULL, 1, &mesh),
+        kiriSheet_GetCollisionPoints(NULL, 1, &positions, &count),
+        kiriSheet_GetCounts(NULL, 1, &counts),
+        kiriSheet_GetTotals(NULL, 1, &totals),
+        kiriSheet_Raycast(NULL, 1, v, v, 1.0f, &hit),
+        kiriSheet_GetWeights(NULL, 1, v, &id, v, NULL, 1, &count),
+        kiriBeginCut(NULL, 1, v, &id),
+        kiriCut_Extend(NULL, 1, v, 1),
+        kiriCut_End(NULL, 1),
+        kiriSheet_Slice(NULL, 1, v, &id),
+        kiriSheet_GetFrames(NULL, 1, &id, 1, &count),
+        kiriFrame_GetState(NULL, 1, &frame),
+        kiriFrame_Hold(NULL, 1, NULL, NULL),
+        kiriFrame_ApplyForce(NULL, 1, v, v),
+        kiriCreatePin(NULL, 1, &pinDef, &id),
+        kiriPin_SetTarget(NULL, 1, v),
+        kiriDestroyPin(NULL, 1),
+        kiriSheet_SetContacts(NULL, 1, &contact, 1),
+    };
+    for (size_t i = 0; i < sizeof(results) / sizeof(results[0]); ++i) {
+        assert_int_equal(results[i], KIRI_ERROR_ARGUMENT);
+    }
+    assert_string_equal(kiriWorld_GetLastError(NULL), "");
+}
+
+static void Names(void** state)
+{
+    (void)state;
+    static const char* const results[] = { "KIRI_DIVERGED",       "KIRI_ERROR_MEMORY", "KIRI_ERROR_STATE",
+                                           "KIRI_ERROR_MESH",     "KIRI_ERROR_ID",     "KIRI_ERROR_DEF",
+                                           "KIRI_ERROR_ARGUMENT", "KIRI_OK",           "KIRI_PENDING" };
+    for (int32_t r = KIRI_DIVERGED; r <= KIRI_PENDING; ++r) {
+        assert_string_equal(kiriGetResultName(r), results[r - KIRI_DIVERGED]);
+    }
+    assert_string_equal(kiriGetResultName(2), "unknown");
+    assert_string_equal(kiriGetResultName(-8), "unknown");
+    for (int32_t s = 0; s < KIRI_STAGE_COUNT; ++s) {
+        assert_true(kiriGetStageName(s)[0] != '\0');
+        for (int32_t other = 0; other < s; ++other) {
+            assert_string_not_equal(kiriGetStageName(s), kiriGetStageName(other));
+        }
+    }
+    assert_string_equal(kiriGetStageName(-1), "");
+    assert_string_equal(kiriGetStageName(KIRI_STAGE_COUNT), "");
+    assert_true(kiriGetVersion() >= 0);
+}
+
+static void WorldDefs(void** state)
+{
+    (void)state;
+    Host plain;
+    memset(&plain, 0, sizeof(plain));
+    plain.failAt = -1;
+    kiriWorld* const mark = (kiriWorld*)&plain;
+    for (int bad = 0; bad < 13; ++bad) {
+        kiriWorldDef def = Host_Def(&plain);
+        kiriWorld* world = mark;
+        if (bad < 9) {
+            def.gravity[bad / 3] = badFloats[bad % 3];
+        } else if (bad == 9) {
+            def.alloc = NULL;
+        } else if (bad == 10) {
+            def.free = NULL;
+        } else if (bad == 11) {
+            def.cookie ^= 1;
+        } else {
+            memset(&def, 0, sizeof(def));
+        }
+        assert_int_equal(kiriCreateWorld(&def, &world), bad < 11 ? KIRI_ERROR_ARGUMENT : KIRI_ERROR_DEF);
+        assert_null(world);
+        assert_int_equal(plain.live, 0);
+    }
+}
+
+static void WorldArguments(void** state)
+{
+    (void)state;
+    Fixture f;
+    Setup(&f);
+    Host* host = &f.host;
+    kiriWorld* w = host->world;
+    static const float badSteps[] = { NAN, INFINITY, -INFINITY, 0.0f, -0.01f, 0.9e-6f, 10.001f, 1e30f };
+    static const int32_t badSubsteps[] = { 0, -1, 65, INT32_MAX, INT32_MIN };
+    float v[3] = { 1.0f, 2.0f, 3.0f };
+    const kiriEvent* events;
+    int32_t count;
+    for (size_t i = 0; i < sizeof(badSteps) / sizeof(float); ++i) {
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_Tick(w, badSteps[i], 1));
+    }
+    for (size_t i = 0; i < sizeof(badSubsteps) / sizeof(int32_t); ++i) {
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_Tick(w, 0.01f, badSubsteps[i]));
+    }
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_SetGravity(w, NULL));
+    REFUSED_FLOATS(v, 3, kiriWorld_SetGravity(w, v));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_GetStateHash(w, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_GetEvents(w, NULL, &count));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_GetEvents(w, &events, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_GetProfile(w, NULL));
+    Host_Stop(host);
+}
+
+/* A def is refused, *sheet is 0, and nothing is left behind. */
+#define REFUSED_DEF(expected)                                                                                          \
+    do {                                                                                                               \
+        kiriSheet made = 77;                                                                                           \
+        REFUSED(expected, kiriCreateSheet(host->world, &def, &made));                                                  \
+        assert_int_equal(made, 0);                                                                                     \
+    } while (0)
+
+static void SheetDefFloats(void** state)
+{
+    (void)state;
+    Fixture f;
+    Setup(&f);
+    Host* host = &f.host;
+    kiriSheetDef def = Host_SmallDef();
+    float points[8];
+    memcpy(points, def.framePoints, sizeof(points));
+    def.framePoints = points;
+    Rectangle r = Rectangle_Make(&def, 1.0f, 1.0f, 2, 2);
+    kiriMaterial* m = &def.material;
+    const struct {
+        float* first;
+        int count;
+    } fields[] = { { def.position, 3 },          { def.axisU, 3 },          { def.axisV, 3 },     { def.velocity, 3 },
+                   { &m->youngsModulus, 1 },     { &m->poissonsRatio, 1 },  { &m->thickness, 1 }, { &m->density, 1 },
+                   { &m->airDamping, 1 },        { &m->flexDamping, 1 },    { points, 8 },        { &def.snapDistance, 1 },
+                   { &def.rigidWeight, 1 },      { &def.rigidArea, 1 },     { r.positions, 18 } };
+    for (size_t i = 0; i < sizeof(fields) / sizeof(fields[0]); ++i) {
+        kiriSheet made = 0;
+        REFUSED_FLOATS(fields[i].first, fields[i].count, kiriCreateSheet(host->world, &def, &made));
+    }
+    const struct {
+        float* field;
+        float value;
+    } ranges[] = { { &m->youngsModulus, 0.0f },  { &m->youngsModulus, -1.0f }, { &m->poissonsRatio, -0.1f },
+                   { &m->poissonsRatio, 0.5f },  { &m->thickness, 0.0f },      { &m->thickness, -1.0f },
+                   { &m->density, 0.0f },        { &m->density, -1.0f },       { &m->airDamping, -0.1f },
+                   { &m->flexDamping, -0.1f },   { &def.snapDistance, -0.1f }, { &def.rigidWeight, 0.0f },
+                   { &def.rigidArea, -1.0f },    { &def.axisU[0], 0.0f },      { &def.axisU[0], 1.1f },
+                   { &def.axisU[1], 0.1f },      { &def.axisV[1], -2.0f },     { &def.axisV[0], 1e30f },
+                   { &points[0], -0.1f },        { &points[1], 1.1f },         { &points[2], 1e30f },
+                   { &points[3], -1e30f },       { &points[4], 16.1875f },     { &points[5], -7.1875f } };
+    for (size_t i = 0; i < sizeof(ranges) / sizeof(ranges[0]); ++i) {
+        float kept = *ranges[i].field;
+        *ranges[i].field = ranges[i].value;
+        REFUSED_DEF(KIRI_ERROR_ARGUMENT);
+        *ranges[i].field = kept;
+    }
+    points[0] = points[2] + 0.01f; /* two frames in one cell */
+    points[1] = points[3];
+    REFUSED_DEF(KIRI_ERROR_ARGUMENT);
+    Rectangle_Free(&r);
+    Host_Stop(host);
+}
+
+static void SheetDefInts(void** state)
+{
+    (void)state;
+    Fixture f;
+    Setup(&f);
+    Host* host = &f.host;
+    kiriSheetDef def = Host_SmallDef();
+    Rectangle r = Rectangle_Make(&def, 1.0f, 1.0f, 2, 2);
+    const struct {
+        int32_t* field;
+        int32_t values[4];
+    } ints[] = { { &def.vertexCount, { 0, -1, INT32_MIN, 2 } },
+                 { &def.triangleCount, { 0, -1, INT32_MIN, INT32_MAX } },
+                 { &def.gridResolution, { 0, -1, 4097, INT32_MAX } },
+                 { &def.frameCount, { 0, -1, INT32_MIN, INT32_MAX } },
+                 { &def.maxFrames, { 0, -1, INT32_MIN, -7 } },
+                 { &def.collisionPoints, { -1, INT32_MIN, INT32_MAX, (1 << 20) + 1 } },
+                 { &def.iterations, { 0, -1, 65, INT32_MAX } },
+                 { &r.indices[4], { -1, INT32_MIN, 9, INT32_MAX } } };
+    for (size_t i = 0; i < sizeof(ints) / sizeof(ints[0]); ++i) {
+        int32_t kept = *ints[i].field;
+        for (int k = 0; k < 4; ++k) {
+            *ints[i].field = ints[i].values[k];
+            REFUSED_DEF(KIRI_ERROR_ARGUMENT);
+        }
+        *ints[i].field = kept;
+    }
+    kiriSheet none;
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriCreateSheet(host->world, NULL, &none));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriCreateSheet(host->world, &def, NULL));
+    def.restPositions = NULL;
+    REFUSED_DEF(KIRI_ERROR_ARGUMENT);
+    def.restPositions = r.positions;
+    def.indices = NULL;
+    REFUSED_DEF(KIRI_ERROR_ARGUMENT);
+    def.indices = r.indices;
+    def.cookie += 1;
+    REFUSED_DEF(KIRI_ERROR_DEF);
+    memset(&def, 0, sizeof(def));
+    REFUSED_DEF(KIRI_ERROR_DEF);
+    Rectangle_Free(&r);
+    Host_Stop(host);
+}
+
+static void Meshes(void** state)
+{
+    (void)state;
+    Fixture f;
+    Setup(&f);
+    Host* host = &f.host;
+    static const float square[14] = { 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, 1.0f, 0.0f, 1.0f, 0.5f, 0.5f, 0.25f, 0.25f, 0.75f, 0.6f };
+    static const struct {
+        int32_t vertices, triangles;
+        int32_t indices[9];
+    } meshes[] = {
+        { 3, 1, { 0, 2, 1 } },                   /* clockwise */
+        { 4, 2, { 0, 1, 2, 0, 3, 2 } },          /* the second is */
+        { 3, 1, { 0, 1, 1 } },                   /* a vertex twice */
+        { 3, 1, { 2, 2, 2 } },                   /* three times */
+        { 4, 2, { 0, 1, 2, 0, 1, 2 } },          /* twice the same */
+        { 4, 2, { 0, 1, 2, 1, 2, 0 } },          /* and turned */
+        { 4, 2, { 0, 1, 2, 0, 1, 3 } },          /* overlap, sharing an edge in the same direction */
+        { 4, 2, { 0, 1, 3, 1, 2, 0 } },          /* overlap, crossing diagonals */
+        { 7, 3, { 0, 1, 2, 0, 2, 3, 5, 6, 4 } }, /* one inside another */
+        { 4, 1, { 0, 1, 2 } },                   /* a vertex in no triangle */
+    };
+    for (size_t i = 0; i < sizeof(meshes) / sizeof(meshes[0]); ++i) {
+        kiriSheetDef def;
+        kiriDefaultSheetDef(&def);
+        def.restPositions = square;
+        def.vertexCount = meshes[i].vertices;
+        def.indices = meshes[i].indices;
+        def.triangleCount = meshes[i].triangles;
+        def.gridResolution = 8;
+        REFUSED_DEF(KIRI_ERROR_MESH);
+    }
+    static const float flat[] = { 0.0f, 0.0f, 0.5f, 0.5f, 1.0f, 1.0f }, point[6] = { 2.0f, 2.0f, 2.0f, 2.0f, 2.0f, 2.0f };
+    static const float* const degenerate[] = { flat, point };
+    for (int i = 0; i < 2; ++i) {
+        kiriSheetDef def;
+        kiriDefaultSheetDef(&def);
+        static const int32_t indices[3] = { 0, 1, 2 };
+        def.restPositions = degenerate[i];
+        def.vertexCount = 3;
+        def.indices = indices;
+        def.triangleCount = 1;
+        REFUSED_DEF(KIRI_ERROR_MESH);
+    }
+    Host_Stop(host);
+}
+
+static void FillRectangle(void** state)
+{
+    (void)state;
+    float positions[18];
+    int32_t indices[24];
+    static const float badSizes[] = { NAN, INFINITY, -INFINITY, 0.0f, -1.0f };
+    static const int32_t badCounts[] = { 0, -1, 4097, INT32_MIN, INT32_MAX };
+    for (int i = 0; i < 5; ++i) {
+        assert_int_equal(kiriFillRectangle(badSizes[i], 1.0f, 2, 2, positions, indices), KIRI_ERROR_ARGUMENT);
+        assert_int_equal(kiriFillRectangle(1.0f, badSizes[i], 2, 2, positions, indices), KIRI_ERROR_ARGUMENT);
+        assert_int_equal(kiriFillRectangle(1.0f, 1.0f, badCounts[i], 2, positions, indices), KIRI_ERROR_ARGUMENT);
+        assert_int_equal(kiriFillRectangle(1.0f, 1.0f, 2, badCounts[i], positions, indices), KIRI_ERROR_ARGUMENT);
+    }
+    assert_int_equal(kiriFillRectangle(1.0f, 1.0f, 2, 2, NULL, indices), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriFillRectangle(1.0f, 1.0f, 2, 2, positions, NULL), KIRI_ERROR_ARGUMENT);
+    OK(kiriFillRectangle(3e38f, 3e38f, 2, 2, positions, indices));
+    assert_true(AllFinite(positions, 18));
+}
+
+/* What names nothing of a kind: nothing, garbage, neighbours of a living id, ids of other kinds, and the dead. */
+static int32_t WrongIds(const Fixture* f, uint32_t living, uint32_t dead, uint32_t* ids)
+{
+    const uint32_t all[] = { 0,          dead,      0x12345678u,          0xffffffffu,    living + 1,
+                             living ^ (1u << 18), living | 0xffffu, living ^ 0x80000000u, f->sheet, f->cut,
+                             f->frame,   f->pin };
+    int32_t count = 0;
+    for (size_t i = 0; i < sizeof(all) / sizeof(all[0]); ++i) {
+        if (all[i] != living) {
+            ids[count++] = all[i];
+        }
+    }
+    return count;
+}
+
+typedef struct Dead {
+    uint32_t sheet, cut, frame, pin;
+} Dead;
+
+/* A second sheet with a frame and a cut of its own, destroyed; and a cut that is finished, and a pin destroyed. */
+static Dead MakeDead(Fixture* f)
+{
+    Host* host = &f->host;
+    Dead dead;
+    kiriSheetDef def = Host_SmallDef();
+    kiriPinDef pinDef;
+    int32_t frames;
+    static const float line[4] = { 0.2f, -0.1f, 0.2f, 1.1f };
+    dead.sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 2, 2);
+    OK(kiriSheet_GetFrames(host->world, dead.sheet, &dead.frame, 1, &frames));
+    OK(kiriDestroySheet(host->world, dead.sheet));
+    dead.cut = Host_Cut(host, f->sheet, line, 2);
+    OK(kiriWorld_Tick(host->world, 0.01f, 1));
+    kiriDefaultPinDef(&pinDef);
+    pinDef.restPoint[0] = 0.5f;
+    OK(kiriCreatePin(host->world, f->sheet, &pinDef, &dead.pin));
+    OK(kiriDestroyPin(host->world, dead.pin));
+    return dead;
+}
+
+static void Ids(void** state)
+{
+    (void)state;
+    Fixture f;
+    Setup(&f);
+    Host* host = &f.host;
+    kiriWorld* w = host->world;
+    Dead dead = MakeDead(&f);
+    uint32_t ids[16], made;
+    int32_t count;
+    float v[12] = { 0.5f, 0.5f, 0.5f };
+    const float* positions;
+    kiriMesh mesh;
+    kiriCounts counts;
+    kiriTotals totals;
+    kiriHit hit;
+    kiriFrameState frame;
+    kiriPinDef pinDef;
+    static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+    kiriContact contact = { 0, { 0.0f, 0.0f, 1.0f }, 0.0f, 0.0f, 1.0f };
+    kiriDefaultPinDef(&pinDef);
+    for (int32_t i = WrongIds(&f, f.sheet, dead.sheet, ids); i-- > 0;) {
+        REFUSED(KIRI_ERROR_ID, kiriDestroySheet(w, ids[i]));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_GetMesh(w, ids[i], &mesh));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_GetCollisionPoints(w, ids[i], &positions, &count));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_GetCounts(w, ids[i], &counts));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_GetTotals(w, ids[i], &totals));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_Raycast(w, ids[i], v, v, 1.0f, &hit));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_GetWeights(w, ids[i], v, &made, v, NULL, 1, &count));
+        REFUSED(KIRI_ERROR_ID, kiriBeginCut(w, ids[i], v, &made));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_Slice(w, ids[i], v, &made));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_GetFrames(w, ids[i], &made, 1, &count));
+        REFUSED(KIRI_ERROR_ID, kiriCreatePin(w, ids[i], &pinDef, &made));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_SetContacts(w, ids[i], &contact, 1));
+    }
+    for (int32_t i = WrongIds(&f, f.cut, dead.cut, ids); i-- > 0;) {
+        REFUSED(KIRI_ERROR_ID, kiriCut_Extend(w, ids[i], v, 1));
+        REFUSED(KIRI_ERROR_ID, kiriCut_End(w, ids[i]));
+    }
+    for (int32_t i = WrongIds(&f, f.pin, dead.pin, ids); i-- > 0;) {
+        REFUSED(KIRI_ERROR_ID, kiriPin_SetTarget(w, ids[i], v));
+        REFUSED(KIRI_ERROR_ID, kiriDestroyPin(w, ids[i]));
+    }
+    /* The sheet's other frames are right. */
+    for (int32_t i = WrongIds(&f, f.frame, dead.frame, ids); i-- > 0;) {
+        if (ids[i] != f.frame + 1) {
+            REFUSED(KIRI_ERROR_ID, kiriFrame_GetState(w, ids[i], &frame));
+            REFUSED(KIRI_ERROR_ID, kiriFrame_Hold(w, ids[i], v, eye));
+            REFUSED(KIRI_ERROR_ID, kiriFrame_Hold(w, ids[i], NULL, NULL));
+            REFUSED(KIRI_ERROR_ID, kiriFrame_ApplyForce(w, ids[i], v, v));
+        }
+    }
+    OK(kiriDestroySheet(w, f.sheet)); /* takes what is on it along */
+    f.sheet = 0;
+    REFUSED(KIRI_ERROR_ID, kiriCut_End(w, f.cut));
+    REFUSED(KIRI_ERROR_ID, kiriDestroyPin(w, f.pin));
+    REFUSED(KIRI_ERROR_ID, kiriFrame_GetState(w, f.frame, &frame));
+    Host_Stop(host);
+}
+
+static void SheetArguments(void** state)
+{
+    (void)state;
+    Fixture f;
+    Setup(&f);
+    Host* host = &f.host;
+    kiriWorld* w = host->world;
+    kiriSheet s = f.sheet;
+    float a[3] = { 0.5f, 0.5f, 1.0f }, b[3] = { 0.0f, 0.0f, -1.0f }, far = 1.0f;
+    float out[8][2] = { { -0.01f, 0.5f },  { 1.01f, 0.5f },   { 0.5f, -0.01f }, { 0.5f, 1.01f },
+                        { 1e30f, 0.5f },   { 0.5f, -1e30f },  { 16.5f, 0.5f },  { 3.4e38f, 3.4e38f } };
+    const float* positions;
+    int32_t count;
+    kiriFrame frame;
+    kiriHit hit;
+    float weight;
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetMesh(w, s, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetCollisionPoints(w, s, NULL, &count));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetCollisionPoints(w, s, &positions, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetCounts(w, s, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetTotals(w, s, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetFrames(w, s, &frame, 1, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetFrames(w, s, NULL, 1, &count));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetFrames(w, s, &frame, -1, &count));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s, NULL, b, 1.0f, &hit));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s, a, NULL, 1.0f, &hit));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s, a, b, 1.0f, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s, a, b, -0.1f, &hit));
+    REFUSED_FLOATS(a, 3, kiriSheet_Raycast(w, s, a, b, 1.0f, &hit));
+    REFUSED_FLOATS(b, 3, kiriSheet_Raycast(w, s, a, b, 1.0f, &hit));
+    REFUSED_FLOATS(&far, 1, kiriSheet_Raycast(w, s, a, b, far, &hit));
+    b[2] = 0.0f;
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s, a, b, 1.0f, &hit));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetWeights(w, s, NULL, &frame, &weight, NULL, 1, &count));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetWeights(w, s, a, NULL, &weight, NULL, 1, &count));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetWeights(w, s, a, &frame, NULL, NULL, 1, &count));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetWeights(w, s, a, &frame, &weight, NULL, 1, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetWeights(w, s, a, &frame, &weight, NULL, -1, &count));
+    REFUSED_FLOATS(a, 2, kiriSheet_GetWeights(w, s, a, &frame, &weight, NULL, 1, &count));
+    for (int i = 0; i < 8; ++i) {
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetWeights(w, s, out[i], &frame, &weight, NULL, 1, &count));
+    }
+    Host_Stop(host);
+}
+
+static void CutArguments(void** state)
+{
+    (void)state;
+    Fixture f;
+    Setup(&f);
+    Host* host = &f.host;
+    kiriWorld* w = host->world;
+    float v[12] = { 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1.0f, 1.1f, 1.2f };
+    kiriCut cut;
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriBeginCut(w, f.sheet, NULL, &cut));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriBeginCut(w, f.sheet, v, NULL));
+    REFUSED_FLOATS(v, 2, kiriBeginCut(w, f.sheet, v, &cut));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriCut_Extend(w, f.cut, NULL, 1));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriCut_Extend(w, f.cut, v, 0));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriCut_Extend(w, f.cut, v, -1));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriCut_Extend(w, f.cut, v, INT32_MAX));
+    REFUSED_FLOATS(v, 12, kiriCut_Extend(w, f.cut, v, 6));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Slice(w, f.sheet, NULL, &cut));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Slice(w, f.sheet, v, NULL));
+    REFUSED_FLOATS(v, 12, kiriSheet_Slice(w, f.sheet, v, &cut));
+    OK(kiriCut_Extend(w, f.cut, v, 6));
+    OK(kiriCut_End(w, f.cut));
+    REFUSED(KIRI_ERROR_STATE, kiriCut_End(w, f.cut));
+    REFUSED(KIRI_ERROR_STATE, kiriCut_Extend(w, f.cut, v, 1));
+    OK(kiriSheet_Slice(w, f.sheet, v, &cut));
+    REFUSED(KIRI_ERROR_STATE, kiriCut_End(w, cut)); /* a slice is ended already */
+    REFUSED(KIRI_ERROR_STATE, kiriCut_Extend(w, cut, v, 1));
+    Host_Stop(host);
+}
+
+static void FrameArguments(void** state)
+{
+    (void)state;
+    Fixture f;
+    Setup(&f);
+    Host* host = &f.host;
+    kiriWorld* w = host->world;
+    float v[3] = { 1.0f, 2.0f, 3.0f }, r[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_GetState(w, f.frame, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_Hold(w, f.frame, NULL, r));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_Hold(w, f.frame, v, NULL));
+    REFUSED_FLOATS(v, 3, kiriFrame_Hold(w, f.frame, v, r));
+    REFUSED_FLOATS(r, 9, kiriFrame_Hold(w, f.frame, v, r));
+    for (int i = 0; i < 9; ++i) {
+        static const float wrong[3] = { 0.7f, -0.7f, 1e30f };
+        for (int k = 0; k < 3; ++k) {
+            float kept = r[i];
+            r[i] = wrong[k];
+            REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_Hold(w, f.frame, v, r));
+            r[i] = kept;
+        }
+    }
+    r[8] = -1.0f; /* a mirror */
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_Hold(w, f.frame, v, r));
+    memset(r, 0, sizeof(r));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_Hold(w, f.frame, v, r));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_ApplyForce(w, f.frame, NULL, v));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_ApplyForce(w, f.frame, v, NULL));
+    float u[3] = { 0.0f, 0.0f, 0.0f };
+    REFUSED_FLOATS(u, 3, kiriFrame_ApplyForce(w, f.frame, u, v));
+    REFUSED_FLOATS(v, 3, kiriFrame_ApplyForce(w, f.frame, u, v));
+    Host_Stop(host);
+}
+
+static void PinArguments(void** state)
+{
+    (void)state;
+    Fixture f;
+    Setup(&f);
+    Host* host = &f.host;
+    kiriWorld* w = host->world;
+    kiriPinDef def;
+    kiriPin pin;
+    float target[3] = { 1.0f, 2.0f, 3.0f };
+    kiriDefaultPinDef(&def);
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriCreatePin(w, f.sheet, NULL, &pin));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriCreatePin(w, f.sheet, &def, NULL));
+    REFUSED_FLOATS(def.restPoint, 2, kiriCreatePin(w, f.sheet, &def, &pin));
+    REFUSED_FLOATS(def.target, 3, kiriCreatePin(w, f.sheet, &def, &pin));
+    REFUSED_FLOATS(&def.stiffness, 1, kiriCreatePin(w, f.sheet, &def, &pin));
+    def.stiffness = -1.0f;
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriCreatePin(w, f.sheet, &def, &pin));
+    def.stiffness = 0.0f;
+    static const float out[] = { -0.01f, 1.01f, 1e30f, -1e30f, 16.5f };
+    for (int i = 0; i < 10; ++i) {
+        def.restPoint[i % 2] = out[i / 2];
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriCreatePin(w, f.sheet, &def, &pin));
+        def.restPoint[i % 2] = 0.5f;
+    }
+    def.cookie = 0;
+    REFUSED(KIRI_ERROR_DEF, kiriCreatePin(w, f.sheet, &def, &pin));
+    memset(&def, 0, sizeof(def));
+    REFUSED(KIRI_ERROR_DEF, kiriCreatePin(w, f.sheet, &def, &pin));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetTarget(w, f.pin, NULL));
+    REFUSED_FLOATS(target, 3, kiriPin_SetTarget(w, f.pin, target));
+    Host_Stop(host);
+}
+
+static void ContactArguments(void** state)
+{
+    (void)state;
+    Fixture f;
+    Setup(&f);
+    Host* host = &f.host;
+    kiriWorld* w = host->world;
+    int32_t points = Host_Counts(host, f.sheet).collisionPoints;
+    kiriContact c[2] = { { 0, { 0.0f, 0.6f, 0.8f }, 0.0f, 0.5f, 100.0f }, { 1, { 1.0f, 0.0f, 0.0f }, 0.0f, 0.5f, 100.0f } };
+    const struct {
+        float* field;
+        int count;
+    } floats[] = { { c[1].normal, 3 }, { &c[1].offset, 1 }, { &c[1].friction, 1 }, { &c[1].stiffness, 1 } };
+    for (int i = 0; i < 4; ++i) {
+        REFUSED_FLOATS(floats[i].field, floats[i].count, kiriSheet_SetContacts(w, f.sheet, c, 2));
+    }
+    const int32_t wrongPoints[] = { -1, points, INT32_MIN, INT32_MAX };
+    for (int i = 0; i < 4; ++i) {
+        c[1].point = wrongPoints[i];
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, f.sheet, c, 2));
+        c[1].point = 1;
+    }
+    const struct {
+        float* field;
+        float value;
+    } ranges[] = { { &c[1].normal[0], 0.0f }, { &c[1].normal[0], 1.1f },  { &c[1].normal[1], 0.5f }, { &c[1].normal[2], 1e30f },
+                   { &c[1].friction, -0.1f }, { &c[1].stiffness, 0.0f },  { &c[1].stiffness, -1.0f } };
+    for (int i = 0; i < 7; ++i) {
+        float kept = *ranges[i].field;
+        *ranges[i].field = ranges[i].value;
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, f.sheet, c, 2));
+        *ranges[i].field = kept;
+    }
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, f.sheet, NULL, 1));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, f.sheet, c, -1));
+    OK(kiriSheet_SetContacts(w, f.sheet, c, 2));
+    OK(kiriSheet_SetContacts(w, f.sheet, NULL, 0));
+    Host_Stop(host);
+}
+
+/* Legal, and cuts nothing: no length, or outside all the way, or along the outline. */
+static void HarmlessCuts(void** state)
+{
+    (void)state;
+    static const struct {
+        int32_t count;
+        float points[8];
+    } cuts[] = {
+        { 1, { 0.3f, 0.3f } },
+        { 2, { 0.3f, 0.3f, 0.3f, 0.3f } },
+        { 4, { 0.31f, 0.33f, 0.31f, 0.33f, 0.31f, 0.33f, 0.31f, 0.33f } },
+        { 2, { -1.0f, -1.0f, 2.0f, -1.0f } },
+        { 4, { -1.0f, -1.0f, 2.0f, -1.0f, 2.0f, 2.0f, -1.0f, 2.0f } },
+        { 3, { 1e30f, 1e30f, 3.4e38f, 1e30f, -3.4e38f, 3.4e38f } },
+        { 2, { 0.0f, 0.0f, 1.0f, 0.0f } },
+        { 2, { 1.0f, 0.0f, 2.0f, 0.5f } },
+        { 2, { 1.5f, 0.5f, 0.5f, 1.5f } }, /* touches the corner */
+    };
+    for (size_t i = 0; i < sizeof(cuts) / sizeof(cuts[0]); ++i) {
+        Fixture f;
+        Setup(&f);
+        Host* host = &f.host;
+        kiriEvent event = { 0 };
+        kiriCounts before = Host_Counts(host, f.sheet);
+        kiriTotals totals = Host_Totals(host, f.sheet);
+        kiriCut cut = 0;
+        OK(kiriBeginCut(host->world, f.sheet, cuts[i].points, &cut));
+        if (cuts[i].count > 1) {
+            OK(kiriCut_Extend(host->world, cut, cuts[i].points + 2, cuts[i].count - 1));
+        }
+        OK(kiriCut_End(host->world, cut));
+        OK(kiriWorld_Tick(host->world, 0.01f, 1));
+        assert_int_equal(Host_Events(host, KIRI_EVENT_CUT_FINISHED, &event), 1);
+        assert_true(event.cut == cut && event.sheet == f.sheet && event.piece == -1 && event.frame == 0);
+        assert_int_equal(Host_Events(host, KIRI_EVENT_PIECE_OFF, NULL) + Host_Events(host, KIRI_EVENT_FRAME_ADDED, NULL), 0);
+        kiriCounts after = Host_Counts(host, f.sheet);
+        if (memcmp(&before, &after, sizeof(before)) != 0) {
+            fail_msg("cut %d made %d vertices of %d", (int)i, (int)after.vertices, (int)before.vertices);
+        }
+        assert_true(totals.area == Host_Totals(host, f.sheet).area);
+        Host_Stop(host);
+    }
+}
+
+/* Finite is finite: nothing crashes, and what comes out is finite, or the sheet is said to have diverged. */
+static void HugeValues(void** state)
+{
+    (void)state;
+    for (int what = 0; what < 8; ++what) {
+        Fixture f;
+        Setup(&f);
+        Host* host = &f.host;
+        kiriWorld* w = host->world;
+        static const float huge[3] = { 1e30f, -1e30f, 1e30f };
+        static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+        static const float blade[12] = { -1e30f, -1e30f, 0.0f, 1e30f,  -1e30f, 0.0f,
+                                         1e30f,  1e30f,  0.0f, -1e30f, 1e30f,  1e30f };
+        float inside[2] = { 0.5f, 0.5f };
+        kiriContact contact = { 0, { 0.0f, 0.0f, 1.0f }, 1e30f, 1e30f, 1e30f };
+        kiriPinDef pin;
+        kiriPin made;
+        kiriCut cut;
+        kiriHit hit;
+        kiriDefaultPinDef(&pin);
+        memcpy(pin.target, huge, sizeof(huge));
+        pin.stiffness = 1e30f;
+        switch (what) {
+        case 0: OK(kiriWorld_SetGravity(w, huge)); break;
+        case 1: OK(kiriPin_SetTarget(w, f.pin, huge)); break;
+        case 2: OK(kiriCreatePin(w, f.sheet, &pin, &made)); break;
+        case 3: OK(kiriFrame_ApplyForce(w, f.frame, huge, huge)); break;
+        case 4: OK(kiriFrame_Hold(w, f.frame, huge, eye)); break;
+        case 5: OK(kiriSheet_SetContacts(w, f.sheet, &contact, 1)); break;
+        case 6: OK(kiriSheet_Slice(w, f.sheet, blade, &cut)); break;
+        default:
+            OK(kiriCut_Extend(w, f.cut, huge, 1));
+            OK(kiriCut_Extend(w, f.cut, inside, 1));
+            OK(kiriSheet_Raycast(w, f.sheet, huge, huge, 1e30f, &hit));
+            assert_int_equal(hit.triangle, -1);
+        }
+        for (int tick = 0; tick < 3; ++tick) {
+            kiriResult result = kiriWorld_Tick(w, 0.01f, 2);
+            assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
+            kiriMesh mesh = Host_Mesh(host, f.sheet);
+            if (!AllFinite(mesh.positions, 3 * mesh.vertexCount) || !AllFinite(mesh.normals, 3 * mesh.vertexCount)) {
+                fail_msg("huge value %d, tick %d: not finite", what, tick);
+            }
+        }
+        Host_Stop(host);
+    }
+}
+
+static void HugeSheets(void** state)
+{
+    (void)state;
+    static const float sizes[] = { 1e30f, 1e-30f, 1e6f, 1e-6f };
+    for (int i = 0; i < 4; ++i) {
+        Host h, *host = &h;
+        Host_Start(host);
+        kiriSheetDef def;
+        kiriDefaultSheetDef(&def);
+        def.gridResolution = 8;
+        def.collisionPoints = 3;
+        float line[4] = { 0.5f * sizes[i], -sizes[i], 0.5f * sizes[i], 2.0f * sizes[i] };
+        kiriSheet sheet = Host_AddRectangle(host, &def, sizes[i], 0.5f * sizes[i], 4, 2);
+        Host_Cut(host, sheet, line, 2);
+        kiriResult result = kiriWorld_Tick(host->world, 0.01f, 1);
+        assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
+        assert_int_equal(Host_Counts(host, sheet).pieces, 2);
+        double area = 0.5 * (double)sizes[i] * sizes[i];
+        assert_true(fabs(Host_Totals(host, sheet).area - area) < 1e-6 * area);
+        kiriMesh mesh = Host_Mesh(host, sheet);
+        assert_true(AllFinite(mesh.positions, 3 * mesh.vertexCount));
+        Host_Stop(host);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(NullWorld),      cmocka_unit_test(Names),          cmocka_unit_test(WorldDefs),
+        cmocka_unit_test(WorldArguments), cmocka_unit_test(SheetDefFloats), cmocka_unit_test(SheetDefInts),
+        cmocka_unit_test(Meshes),         cmocka_unit_test(FillRectangle),  cmocka_unit_test(Ids),
+        cmocka_unit_test(SheetArguments), cmocka_unit_test(CutArguments),   cmocka_unit_test(FrameArguments),
+        cmocka_unit_test(PinArguments),   cmocka_unit_test(ContactArguments), cmocka_unit_test(HarmlessCuts),
+        cmocka_unit_test(HugeValues),     cmocka_unit_test(HugeSheets),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

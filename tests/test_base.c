@@ -1,0 +1,367 @@
+/* Arrays, ids, rotations, moments: the ground floor, against independent computations. */
+#include "pool.h"
+#include "scene.h"
+#include "vec.h"
+
+/* ---- Arrays ---- */
+
+static void ArraysGrow(void** state)
+{
+    (void)state;
+    Purse purse = { -1, 0 };
+    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
+    KIRI_ARRAY(int64_t) array = { 0 };
+    for (int64_t i = 0; i < 1000; ++i) {
+        assert_true(kiriArray_Push(&memory, &array, 3 * i));
+        assert_true(array.count == i + 1 && array.capacity >= array.count);
+    }
+    assert_true(kiriArray_Resize(&memory, &array, 2000) && array.count == 2000);
+    for (int64_t i = 0; i < 1000; ++i) {
+        assert_int_equal(array.data[i], 3 * i);
+    }
+    int64_t* data = array.data;
+    assert_true(kiriArray_Resize(&memory, &array, 5) && kiriArray_Reserve(&memory, &array, 2000));
+    assert_true(array.data == data && array.count == 5);
+    assert_int_equal(purse.out, 1);
+    kiriArray_Release(&memory, &array);
+    assert_true(array.data == NULL && array.count == 0 && array.capacity == 0 && purse.out == 0);
+    kiriArray_Release(&memory, &array);
+}
+
+static void ArraysFail(void** state)
+{
+    (void)state;
+    Purse purse = { 1, 0 };
+    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
+    KIRI_ARRAY(int32_t) array = { 0 };
+    int32_t pushed = 0;
+    while (kiriArray_Push(&memory, &array, pushed)) {
+        ++pushed;
+    }
+    assert_true(pushed > 0 && array.count == pushed && array.capacity == pushed);
+    assert_false(kiriArray_Resize(&memory, &array, pushed + 1));
+    assert_false(kiriArray_Reserve(&memory, &array, (int64_t)INT32_MAX + 1));
+    purse.budget = -1;
+    assert_false(kiriArray_Reserve(&memory, &array, (int64_t)INT32_MAX + 1)); /* counts are 32 bits */
+    assert_int_equal(array.count, pushed);
+    for (int32_t i = 0; i < pushed; ++i) {
+        assert_int_equal(array.data[i], i);
+    }
+    kiriArray_Release(&memory, &array);
+    assert_int_equal(purse.out, 0);
+}
+
+static void MemoryByDefault(void** state)
+{
+    (void)state;
+    kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
+    void* block = kiriMemory_Alloc(&memory, 0);
+    assert_true(block != NULL && (uintptr_t)block % 16 == 0);
+    kiriMemory_Free(&memory, block);
+    kiriMemory_Free(&memory, NULL);
+}
+
+/* ---- Ids ---- */
+
+static void PoolsFindWhatIsThere(void** state)
+{
+    (void)state;
+    Purse purse = { -1, 0 };
+    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
+    kiriPool pools[2];
+    int owners[100];
+    uint32_t ids[100];
+    kiriPool_Init(&pools[0], KIRI_KIND_CUT);
+    kiriPool_Init(&pools[1], KIRI_KIND_PIN);
+    assert_null(kiriPool_Find(&pools[0], 0));
+    for (int i = 0; i < 100; ++i) {
+        ids[i] = kiriPool_Add(&pools[0], &memory, &owners[i], i);
+        assert_true(ids[i] != 0 && kiriPool_Add(&pools[1], &memory, &owners[i], i) != ids[i]);
+    }
+    for (int i = 0; i < 100; i += 3) {
+        kiriPool_Remove(&pools[0], ids[i]);
+        kiriPool_Remove(&pools[0], ids[i]); /* stale: does nothing */
+    }
+    for (int i = 0; i < 100; ++i) {
+        kiriSlot* slot = kiriPool_Find(&pools[0], ids[i]);
+        assert_true(i % 3 == 0 ? slot == NULL : slot->owner == &owners[i] && slot->index == i);
+        assert_null(kiriPool_Find(&pools[1], ids[i]));
+    }
+    kiriPool_Release(&pools[0], &memory);
+    kiriPool_Release(&pools[1], &memory);
+    assert_int_equal(purse.out, 0);
+}
+
+static int CompareIds(const void* a, const void* b)
+{
+    uint32_t x = *(const uint32_t*)a, y = *(const uint32_t*)b;
+    return x < y ? -1 : x > y;
+}
+
+/* One at a time, more often than a slot has generations: slots retire, and no id ever comes twice. */
+static void PoolsNeverRepeat(void** state)
+{
+    (void)state;
+    enum { COUNT = 5000 };
+    static uint32_t ids[COUNT];
+    kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
+    kiriPool pool;
+    int owner = 0;
+    kiriPool_Init(&pool, KIRI_KIND_SHEET);
+    for (int i = 0; i < COUNT; ++i) {
+        ids[i] = kiriPool_Add(&pool, &memory, &owner, 0);
+        for (int j = i > 0 ? i - 1 : 0; j >= 0 && j < i; j -= 97) {
+            assert_null(kiriPool_Find(&pool, ids[j]));
+        }
+        assert_non_null(kiriPool_Find(&pool, ids[i]));
+        kiriPool_Remove(&pool, ids[i]);
+    }
+    assert_int_equal(pool.slots.count, 3); /* 2047 generations each: generation 0 is never given */
+    qsort(ids, COUNT, sizeof(ids[0]), CompareIds);
+    for (int i = 1; i < COUNT; ++i) {
+        assert_true(ids[i] != ids[i - 1] && ids[i] != 0);
+    }
+    kiriPool_Release(&pool, &memory);
+}
+
+/* All slots given: no more, until one comes back. */
+static void PoolsFillUp(void** state)
+{
+    (void)state;
+    enum { MOST = 1 << 18 };
+    kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
+    kiriPool pool;
+    int owner = 0;
+    uint32_t id = 0;
+    kiriPool_Init(&pool, KIRI_KIND_FRAME);
+    assert_false(kiriPool_Reserve(&pool, &memory, MOST + 1));
+    assert_true(kiriPool_Reserve(&pool, &memory, MOST));
+    for (int32_t i = 0; i < MOST; ++i) {
+        id = kiriPool_Add(&pool, &memory, &owner, i);
+    }
+    assert_int_equal(kiriPool_Find(&pool, id)->index, MOST - 1);
+    assert_int_equal(kiriPool_Add(&pool, &memory, &owner, 0), 0);
+    assert_false(kiriPool_Reserve(&pool, &memory, 1));
+    kiriPool_Remove(&pool, id);
+    assert_true(kiriPool_Reserve(&pool, &memory, 1));
+    assert_int_not_equal(kiriPool_Add(&pool, &memory, &owner, 0), 0);
+    kiriPool_Release(&pool, &memory);
+}
+
+static void PoolsFail(void** state)
+{
+    (void)state;
+    Purse purse = { 0, 0 };
+    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
+    kiriPool pool;
+    int owner = 0;
+    kiriPool_Init(&pool, KIRI_KIND_PIN);
+    assert_int_equal(kiriPool_Add(&pool, &memory, &owner, 0), 0);
+    purse.budget = 1;
+    assert_true(kiriPool_Reserve(&pool, &memory, 50));
+    for (int i = 0; i < 50; ++i) {
+        assert_int_not_equal(kiriPool_Add(&pool, &memory, &owner, i), 0); /* cannot fail after Reserve */
+    }
+    kiriPool_Release(&pool, &memory);
+    assert_int_equal(purse.out, 0);
+}
+
+/* ---- Rotations ---- */
+
+static kiriVec3 RandomVec3(uint32_t* seed, double size)
+{
+    double x = RandomBetween(seed, -size, size), y = RandomBetween(seed, -size, size);
+    return kiriVec3_Make(x, y, RandomBetween(seed, -size, size));
+}
+
+static double Entry(kiriMat3 m, int row, int column)
+{
+    kiriVec3 c = column == 0 ? m.u : column == 1 ? m.v : m.d;
+    return row == 0 ? c.x : row == 1 ? c.y : c.z;
+}
+
+static double Determinant(kiriMat3 m)
+{
+    return kiriVec3_Dot(m.u, kiriVec3_Cross(m.v, m.d));
+}
+
+static void CheckRotation(kiriMat3 r, double tolerance)
+{
+    const kiriVec3 columns[3] = { r.u, r.v, r.d };
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            assert_true(fabs(kiriVec3_Dot(columns[i], columns[j]) - (i == j)) < tolerance);
+        }
+    }
+    assert_true(fabs(Determinant(r) - 1.0) < tolerance);
+}
+
+static void CayleyRotates(void** state)
+{
+    (void)state;
+    uint32_t seed = 12345;
+    for (int i = 0; i < 1000; ++i) {
+        kiriVec3 w = RandomVec3(&seed, i % 3 == 0 ? 1e-6 : i % 3 == 1 ? 1.0 : 100.0), x = RandomVec3(&seed, 1.0);
+        kiriMat3 r = kiriMat3_Cayley(w);
+        CheckRotation(r, 1e-13);
+        /* Rodrigues' formula, about w by 2 atan(|w| / 2). */
+        double angle = 2.0 * atan(0.5 * kiriVec3_Length(w)), c = cos(angle), s = sin(angle);
+        kiriVec3 k = kiriVec3_Normalize(w);
+        kiriVec3 turned = kiriVec3_AddScaled(kiriVec3_Scale(c, x), s, kiriVec3_Cross(k, x));
+        turned = kiriVec3_AddScaled(turned, (1.0 - c) * kiriVec3_Dot(k, x), k);
+        assert_true(kiriVec3_Length(kiriVec3_Sub(turned, kiriMat3_Mul(r, x))) < 1e-13);
+    }
+}
+
+/* R is the nearest rotation to m exactly when R^T m is symmetric with the sum of any two eigenvalues not negative: then
+   no small turn makes trace(R^T m) larger. */
+static void CheckPolar(kiriMat3 m, double tolerance)
+{
+    kiriMat3 r = kiriMat3_Rotation(m);
+    const kiriVec3 rc[3] = { r.u, r.v, r.d }, mc[3] = { m.u, m.v, m.d };
+    double s[3][3], size = 0.0;
+    CheckRotation(r, 1e-12);
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            s[i][j] = kiriVec3_Dot(rc[i], mc[j]);
+            size = fmax(size, fabs(Entry(m, i, j)));
+        }
+    }
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < i; ++j) {
+            if (!(fabs(s[i][j] - s[j][i]) <= tolerance * size)) {
+                fail_msg("not symmetric by %g of %g", fabs(s[i][j] - s[j][i]), size);
+            }
+        }
+    }
+    /* Turns trace(R^T m) as a quadratic form: trace(s) I - s must have no negative value. Sampled over directions. */
+    uint32_t seed = 99;
+    double trace = s[0][0] + s[1][1] + s[2][2];
+    for (int k = 0; k < 200; ++k) {
+        kiriVec3 d = kiriVec3_Normalize(RandomVec3(&seed, 1.0));
+        const double v[3] = { d.x, d.y, d.z };
+        double form = trace;
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) {
+                form -= v[i] * s[i][j] * v[j];
+            }
+        }
+        if (!(form >= -1e-9 * size)) {
+            fail_msg("not the nearest: %g of %g", form, size);
+        }
+    }
+}
+
+static kiriMat3 RandomRotation(uint32_t* seed)
+{
+    return kiriMat3_Cayley(RandomVec3(seed, 10.0));
+}
+
+static kiriMat3 Stretched(uint32_t* seed, double a, double b, double c)
+{
+    kiriMat3 q = RandomRotation(seed), p = RandomRotation(seed);
+    kiriMat3 d = { { a, 0.0, 0.0 }, { 0.0, b, 0.0 }, { 0.0, 0.0, c } };
+    return kiriMat3_MulMat(q, kiriMat3_MulMat(d, p));
+}
+
+static void RotationIsPolarFactor(void** state)
+{
+    (void)state;
+    uint32_t seed = 777;
+    for (int i = 0; i < 200; ++i) {
+        double a = RandomBetween(&seed, 0.3, 3.0), b = RandomBetween(&seed, 0.3, 3.0), c = RandomBetween(&seed, 0.3, 3.0);
+        kiriMat3 q = RandomRotation(&seed), r = kiriMat3_Rotation(q);
+        for (int k = 0; k < 9; ++k) {
+            assert_true(fabs(Entry(q, k / 3, k % 3) - Entry(r, k / 3, k % 3)) < 1e-12); /* a rotation is its own */
+        }
+        CheckPolar(Stretched(&seed, a, b, c), 1e-9);
+        CheckPolar(Stretched(&seed, 1e6 * a, 1e6 * b, 1e6 * c), 1e-9);
+        CheckPolar(Stretched(&seed, a, b, 1e-3), 1e-6);
+    }
+}
+
+static void RotationOfSingular(void** state)
+{
+    (void)state;
+    uint32_t seed = 4242;
+    const kiriVec3 zero = { 0.0, 0.0, 0.0 }, x = { 1.0, 0.0, 0.0 }, z = { 0.0, 0.0, 1.0 };
+    const kiriMat3 special[] = { { zero, zero, zero }, { x, x, x },      { x, zero, zero }, { zero, x, zero },
+                                 { zero, zero, x },    { x, zero, z },   { zero, x, z },    { x, z, zero },
+                                 { { 1e-200, 0.0, 0.0 }, { 0.0, 1e-200, 0.0 }, { 0.0, 0.0, 1e-200 } } };
+    for (size_t i = 0; i < sizeof(special) / sizeof(special[0]); ++i) {
+        CheckRotation(kiriMat3_Rotation(special[i]), 1e-12);
+    }
+    for (int i = 0; i < 200; ++i) {
+        double a = RandomBetween(&seed, 0.5, 2.0), b = RandomBetween(&seed, 0.5, 2.0);
+        CheckPolar(Stretched(&seed, a, b, 0.0), 1e-6);       /* flat */
+        CheckPolar(Stretched(&seed, a, b, -0.1 * a), 1e-6);  /* mirrored: the nearest that does not mirror */
+        CheckRotation(kiriMat3_Rotation(Stretched(&seed, a, 0.0, 0.0)), 1e-12);
+        CheckRotation(kiriMat3_Rotation(Stretched(&seed, -a, -a, -a)), 1e-12);
+    }
+}
+
+/* ---- Moments ---- */
+
+/* By many small triangles, each taken at its middle. */
+static kiriMoments BruteMoments(kiriVec2 a, kiriVec2 b, kiriVec2 c, int n)
+{
+    kiriMoments m = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+    kiriVec2 ab = kiriVec2_Sub(b, a), ac = kiriVec2_Sub(c, a);
+    double area = 0.5 * (ab.x * ac.y - ab.y * ac.x) / ((double)n * n);
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; i + j < n; ++j) {
+            for (int up = 0; up < (i + j + 1 < n ? 2 : 1); ++up) {
+                double s = (i + (1.0 + up) / 3.0) / n, t = (j + (1.0 + up) / 3.0) / n;
+                double u = a.x + s * ab.x + t * ac.x, v = a.y + s * ab.y + t * ac.y;
+                kiriMoments part = { area, area * u, area * v, area * u * u, area * u * v, area * v * v };
+                kiriMoments_Add(&m, &part);
+            }
+        }
+    }
+    return m;
+}
+
+static void CheckMoments(kiriMoments a, kiriMoments b, double tolerance)
+{
+    assert_true(fabs(a.area - b.area) < tolerance && fabs(a.u - b.u) < tolerance && fabs(a.v - b.v) < tolerance);
+    assert_true(fabs(a.uu - b.uu) < tolerance && fabs(a.uv - b.uv) < tolerance && fabs(a.vv - b.vv) < tolerance);
+}
+
+static kiriVec2 RandomPlace(uint32_t* seed)
+{
+    double x = RandomBetween(seed, -1.0, 2.0);
+    return kiriVec2_Make(x, RandomBetween(seed, -1.0, 2.0));
+}
+
+static void MomentsOfTriangles(void** state)
+{
+    (void)state;
+    uint32_t seed = 31;
+    for (int i = 0; i < 50; ++i) {
+        kiriVec2 a = RandomPlace(&seed), b = RandomPlace(&seed), c = RandomPlace(&seed), o = RandomPlace(&seed);
+        kiriMoments m = kiriMoments_Triangle(a, b, c);
+        CheckMoments(m, BruteMoments(a, b, c, 100), 1e-3);
+        /* Exact for the triangle's parts, whatever the parts. */
+        kiriVec2 p = kiriVec2_Scale(1.0 / 3.0, kiriVec2_Add(kiriVec2_Add(a, b), c));
+        kiriMoments sum = kiriMoments_Triangle(a, b, p), second = kiriMoments_Triangle(b, c, p),
+                    third = kiriMoments_Triangle(c, a, p);
+        kiriMoments_Add(&sum, &second);
+        kiriMoments_Add(&sum, &third);
+        CheckMoments(m, sum, 1e-13);
+        kiriVec2 center = kiriMoments_Center(&m);
+        assert_true(kiriVec2_Length(kiriVec2_Sub(center, p)) < 1e-12);
+        CheckMoments(kiriMoments_About(&m, o),
+                     kiriMoments_Triangle(kiriVec2_Sub(a, o), kiriVec2_Sub(b, o), kiriVec2_Sub(c, o)), 1e-12);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ArraysGrow),       cmocka_unit_test(ArraysFail),       cmocka_unit_test(MemoryByDefault),
+        cmocka_unit_test(PoolsFindWhatIsThere), cmocka_unit_test(PoolsNeverRepeat), cmocka_unit_test(PoolsFillUp),
+        cmocka_unit_test(PoolsFail),        cmocka_unit_test(CayleyRotates),    cmocka_unit_test(RotationIsPolarFactor),
+        cmocka_unit_test(RotationOfSingular), cmocka_unit_test(MomentsOfTriangles),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

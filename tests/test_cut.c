@@ -1,0 +1,796 @@
+/* Cutting: hand-made cases with their counts, and random cuts after which everything must still hold. */
+#include "check_mesh.h"
+#include "cut.h"
+
+static const double LatticeSize = 536870912.0;
+
+/* 4 x 4 squares of 1 m, diagonals in turn: from lower left to upper right where column + row is even. */
+static void InitSheet(kiriMeshData* mesh)
+{
+    InitRectangle(mesh, 4, 4, 4.0f, 4.0f, 8);
+    kiriMesh_Begin(mesh);
+}
+
+static kiriBlade Cut(kiriMeshData* mesh, const double* xy, int count, double snap)
+{
+    kiriBlade blade = kiriCut_Place(mesh, kiriVec2_Make(xy[0], xy[1]));
+    for (int i = 1; i < count; ++i) {
+        assert_true(kiriCut_Move(mesh, &blade, kiriMesh_Snap(mesh, kiriVec2_Make(xy[2 * i], xy[2 * i + 1])), snap));
+    }
+    return blade;
+}
+
+static void CutLine(kiriMeshData* mesh, double ax, double ay, double bx, double by)
+{
+    const double xy[] = { ax, ay, bx, by };
+    Cut(mesh, xy, 2, 1e-4 * LatticeSize);
+}
+
+static int32_t VerticesAt(const kiriMeshData* mesh, double x, double y)
+{
+    kiriPoint p = kiriMesh_Snap(mesh, kiriVec2_Make(x, y));
+    int32_t count = 0;
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        count += mesh->vertices.data[v].at.x == p.x && mesh->vertices.data[v].at.y == p.y ? 1 : 0;
+    }
+    return count;
+}
+
+static int32_t OpenEdges(const kiriMeshData* mesh)
+{
+    int32_t count = 0;
+    for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
+        count += kiriMesh_IsOpen(mesh, h) ? 1 : 0;
+    }
+    return count / 2;
+}
+
+/* Area of the piece at a place, m^2. */
+static double AreaAt(const kiriMeshData* mesh, double x, double y)
+{
+    int32_t* piece = malloc((size_t)mesh->triangles.count * sizeof(int32_t));
+    int32_t count = 0, here = kiriMesh_Locate(mesh, kiriMesh_Snap(mesh, kiriVec2_Make(x, y)));
+    int64_t area = 0;
+    kiriMesh_Pieces(mesh, piece, &count);
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        kiriPoint c[3];
+        kiriMesh_Corners(mesh, t, c);
+        area += piece[t] == piece[here] ? kiriOrient(c[0], c[1], c[2]) : 0;
+    }
+    free(piece);
+    return 0.5 * (double)area * mesh->step * mesh->step;
+}
+
+#define ASSERT_NEAR(a, b, tolerance) assert_true(fabs((a) - (b)) <= (tolerance))
+
+/* Checks everything, counts, and releases. */
+static void Expect(kiriMeshData* mesh, int32_t pieces, int32_t vertices, int32_t triangles, int32_t openEdges)
+{
+    assert_int_equal(CheckMesh(mesh), pieces);
+    assert_int_equal(mesh->vertices.count, vertices);
+    assert_int_equal(mesh->triangles.count, triangles);
+    assert_int_equal(OpenEdges(mesh), openEdges);
+    assert_int_equal(kiriMesh_DoubledArea(mesh), (int64_t)1 << 59);
+    kiriMesh_Release(mesh);
+}
+
+/* ---- Hand-made cases on the 4 x 4 sheet: 25 vertices, 32 triangles ----------------------------------------------- */
+
+static void CutsThrough(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitSheet(&mesh);
+    CutLine(&mesh, 1.3, -1.0, 1.3, 5.0);
+    ASSERT_NEAR(AreaAt(&mesh, 0.5, 0.5), 5.2, 1e-7);
+    ASSERT_NEAR(AreaAt(&mesh, 2.5, 0.5), 10.8, 1e-7);
+    /* 5 lines and 4 diagonals are crossed: 9 places, two vertices each; 7 edges inside, 2 on the outline */
+    Expect(&mesh, 2, 25 + 18, 32 + 14 + 2, 8);
+}
+
+static void EndsStayClosed(void** state)
+{
+    (void)state;
+    const double xy[] = { 1.25, 1.125, 1.75, 1.125, 1.75, 1.25 };
+    kiriMeshData mesh;
+    InitSheet(&mesh);
+    /* both ends in one triangle */
+    Cut(&mesh, xy, 2, 1000.0);
+    assert_int_equal(VerticesAt(&mesh, 1.25, 1.125), 1);
+    assert_int_equal(VerticesAt(&mesh, 1.75, 1.125), 1);
+    Expect(&mesh, 1, 27, 36, 1);
+    InitSheet(&mesh);
+    Cut(&mesh, xy, 3, 1000.0);
+    assert_int_equal(VerticesAt(&mesh, 1.75, 1.125), 2);
+    assert_int_equal(VerticesAt(&mesh, 1.75, 1.25), 1);
+    Expect(&mesh, 1, 29, 38, 2);
+}
+
+/* The blade goes on where it was, as over several ticks. */
+static void BladeGoesOn(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitSheet(&mesh);
+    kiriBlade blade = kiriCut_Place(&mesh, kiriVec2_Make(1.3, -1.0));
+    assert_int_equal(blade.vertex, KIRI_NONE);
+    for (int i = 0; i <= 12; ++i) {
+        kiriPoint to = kiriMesh_Snap(&mesh, kiriVec2_Make(1.3, -0.75 + 0.5 * i));
+        assert_true(kiriCut_Move(&mesh, &blade, to, 1e-4 * LatticeSize));
+        assert_int_equal(blade.vertex == KIRI_NONE, i < 2 || i > 9);
+        assert_int_equal(CheckMesh(&mesh), i > 9 ? 2 : 1);
+        kiriMesh_Commit(&mesh);
+        kiriMesh_Begin(&mesh);
+    }
+    ASSERT_NEAR(AreaAt(&mesh, 0.5, 0.5), 5.2, 1e-7);
+    /* standing still does nothing, wherever */
+    int32_t triangles = mesh.triangles.count;
+    blade = kiriCut_Place(&mesh, kiriVec2_Make(2.6, 2.7));
+    assert_true(kiriCut_Move(&mesh, &blade, blade.at, 1e-4 * LatticeSize));
+    assert_int_equal(mesh.triangles.count, triangles);
+    kiriMesh_Release(&mesh);
+}
+
+static void FollowsEdges(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitSheet(&mesh);
+    CutLine(&mesh, 1.0, -1.0, 1.0, 5.0);
+    Expect(&mesh, 2, 30, 32, 4);
+    InitSheet(&mesh);
+    CutLine(&mesh, 4.0, 4.0, 0.0, 0.0);
+    Expect(&mesh, 2, 30, 32, 4);
+    /* starts and ends between vertices of the line */
+    InitSheet(&mesh);
+    CutLine(&mesh, 1.0, 0.5, 1.0, 2.75);
+    Expect(&mesh, 1, 25 + 2 + 2, 32 + 4, 3);
+}
+
+static void GoesThroughVertices(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitSheet(&mesh);
+    CutLine(&mesh, 0.0, -1.0, 3.0, 5.0);
+    assert_int_equal(VerticesAt(&mesh, 1.0, 1.0), 2);
+    assert_int_equal(VerticesAt(&mesh, 2.0, 3.0), 2);
+    /* new places: 2 on the outline, 3 inside */
+    Expect(&mesh, 2, 25 + 10 + 2, 32 + 2 + 6, 6);
+}
+
+static void SnapsToVerticesAndEdges(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitSheet(&mesh);
+    CutLine(&mesh, 1.0002, -1.0, 0.9997, 5.0);
+    Expect(&mesh, 2, 30, 32, 4);
+    /* a start and an end beside an edge */
+    const double xy[] = { 1.0002, 0.5, 1.0002, 1.5 };
+    InitSheet(&mesh);
+    kiriBlade blade = Cut(&mesh, xy, 2, 1e-4 * LatticeSize);
+    assert_int_equal(blade.at.x, 1 << 27);
+    Expect(&mesh, 1, 27 + 1, 36, 2);
+    /* too far for a smaller snap */
+    InitSheet(&mesh);
+    Cut(&mesh, xy, 2, 1e-6 * LatticeSize);
+    assert_int_equal(VerticesAt(&mesh, 1.0002, 1.0), 2);
+    kiriMesh_Release(&mesh);
+}
+
+/* A row of vertices at a small angle must not lead the blade away. */
+static void DoesNotDrift(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 256, 2, 256.0f, 2.0f, 64);
+    kiriMesh_Begin(&mesh);
+    double snap = 0.01 / mesh.step;
+    const double xy[] = { 0.0, 1.0, 256.0, 1.6 };
+    Cut(&mesh, xy, 2, snap);
+    CheckMesh(&mesh);
+    for (int32_t h = 0; h < 3 * mesh.triangles.count; ++h) {
+        if (kiriMesh_IsOpen(&mesh, h)) {
+            kiriVec2 p = kiriMesh_Local(&mesh, TailAt(&mesh, h));
+            ASSERT_NEAR(p.y, 1.0 + p.x * (0.6 / 256.0), 0.02001);
+        }
+    }
+    kiriMesh_Release(&mesh);
+}
+
+static void CrossesCuts(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitSheet(&mesh);
+    CutLine(&mesh, 1.25, -1.0, 1.25, 5.0);
+    CutLine(&mesh, -1.0, 2.125, 5.0, 2.125);
+    assert_int_equal(VerticesAt(&mesh, 1.25, 2.125), 4);
+    ASSERT_NEAR(AreaAt(&mesh, 0.1, 0.1), 1.25 * 2.125, 1e-7);
+    ASSERT_NEAR(AreaAt(&mesh, 3.9, 3.9), 2.75 * 1.875, 1e-7);
+    assert_int_equal(CheckMesh(&mesh), 4);
+    /* a third through their crossing, from one tip inside to another */
+    CutLine(&mesh, 1.25 - 0.5, 2.125 - 0.75, 1.25 + 0.5, 2.125 + 0.75);
+    assert_int_equal(VerticesAt(&mesh, 1.25, 2.125), 6);
+    assert_int_equal(CheckMesh(&mesh), 4);
+    kiriMesh_Release(&mesh);
+}
+
+static void FollowsOlderCuts(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitSheet(&mesh);
+    CutLine(&mesh, 0.3, -1.0, 2.9, 5.0);
+    int32_t vertices = mesh.vertices.count, triangles = mesh.triangles.count;
+    CutLine(&mesh, 0.3, -1.0, 2.9, 5.0);
+    CutLine(&mesh, 2.9, 5.0, 0.3, -1.0);
+    assert_int_equal(mesh.vertices.count, vertices);
+    Expect(&mesh, 2, vertices, triangles, triangles / 2 - 16);
+}
+
+static void CrossesItself(void** state)
+{
+    (void)state;
+    const double xy[] = { 0.5, 0.5, 3.5, 0.625, 2.0, 3.0, 1.75, -1.0 };
+    kiriMeshData mesh;
+    InitSheet(&mesh);
+    Cut(&mesh, xy, 4, 1e-4 * LatticeSize);
+    assert_int_equal(CheckMesh(&mesh), 2);
+    /* the triangle between the crossing, (3.5, 0.625) and (2, 3) */
+    double t = (2.0 - 1.75) / 4.0, slope = 0.125 / 3.0;
+    double y = (0.5 + slope * (1.75 - t - 0.5)) / (1.0 - slope * t), x = 1.75 + t * (y + 1.0);
+    y = 0.5 + slope * (x - 0.5);
+    for (int i = 0; i < 50; ++i) {
+        x = 1.75 + t * (y + 1.0);
+        y = 0.5 + slope * (x - 0.5);
+    }
+    double area = 0.5 * ((3.5 - x) * (3.0 - y) - (0.625 - y) * (2.0 - x));
+    ASSERT_NEAR(AreaAt(&mesh, 2.2, 1.0), area, 4e-3);
+    kiriMesh_Release(&mesh);
+}
+
+static void ClosesLoops(void** state)
+{
+    (void)state;
+    const double xy[] = { 1.2, 1.2, 2.8, 1.2, 2.8, 2.8, 1.2, 2.8, 1.2, 1.2 };
+    kiriMeshData mesh;
+    InitSheet(&mesh);
+    Cut(&mesh, xy, 4, 1e-4 * LatticeSize);
+    assert_int_equal(CheckMesh(&mesh), 1);
+    kiriMesh_Rollback(&mesh);
+    Cut(&mesh, xy, 5, 1e-4 * LatticeSize);
+    ASSERT_NEAR(AreaAt(&mesh, 2.0, 2.0), 2.56, 1e-6);
+    assert_int_equal(VerticesAt(&mesh, 1.2, 1.2), 2);
+    assert_int_equal(CheckMesh(&mesh), 2);
+    kiriMesh_Release(&mesh);
+}
+
+static void LeavesAndComesBack(void** state)
+{
+    (void)state;
+    const double corner[] = { 0.5, -0.5, 0.5, 0.5, -0.5, 0.5 };
+    const double twice[] = { 0.5, -0.5, 0.5, 0.75, -0.5, 0.75, -0.5, 3.3, 1.5, 3.3, 1.5, 5.0 };
+    kiriMeshData mesh;
+    InitSheet(&mesh);
+    kiriBlade blade = Cut(&mesh, corner, 3, 1e-4 * LatticeSize);
+    assert_int_equal(blade.vertex, KIRI_NONE);
+    ASSERT_NEAR(AreaAt(&mesh, 0.1, 0.1), 0.25, 1e-7);
+    assert_int_equal(CheckMesh(&mesh), 2);
+    kiriMesh_Rollback(&mesh);
+    Cut(&mesh, twice, 6, 1e-4 * LatticeSize);
+    ASSERT_NEAR(AreaAt(&mesh, 0.1, 0.1), 0.375, 1e-7);
+    ASSERT_NEAR(AreaAt(&mesh, 0.1, 3.9), 1.05, 1e-7);
+    assert_int_equal(CheckMesh(&mesh), 3);
+    kiriMesh_Release(&mesh);
+}
+
+static void LeavesTheOutlineAlone(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitSheet(&mesh);
+    CutLine(&mesh, -1.0, 0.0, 5.0, 0.0);
+    CutLine(&mesh, 4.0, 4.0, 4.0, 1.0);
+    CutLine(&mesh, -1.0, 1.0, 1.0, -1.0); /* touches a corner */
+    CutLine(&mesh, -1.0, 3.0, -0.5, 9.0); /* is outside */
+    CutLine(&mesh, -1.0, 9.0, 5.0, 9.0);
+    Expect(&mesh, 1, 25, 32, 0);
+}
+
+/* Starts and ends on the outline. */
+static void StartsOnTheOutline(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitSheet(&mesh);
+    CutLine(&mesh, 0.0, 1.5, 1.5, 0.0);
+    ASSERT_NEAR(AreaAt(&mesh, 0.1, 0.1), 1.125, 1e-7);
+    assert_int_equal(CheckMesh(&mesh), 2);
+    kiriMesh_Rollback(&mesh);
+    /* out of a vertex of the outline, and into another */
+    CutLine(&mesh, 0.0, 3.0, 3.0, 4.0);
+    ASSERT_NEAR(AreaAt(&mesh, 0.1, 3.9), 1.5, 1e-7);
+    assert_int_equal(CheckMesh(&mesh), 2);
+    kiriMesh_Release(&mesh);
+}
+
+/* ---- Other outlines ---------------------------------------------------------------------------------------------- */
+
+/* Squares of a grid of 1 m, but for those marked '.', from the top row down. */
+static void InitShape(kiriMeshData* mesh, int32_t columns, int32_t rows, const char* shape)
+{
+    Rectangle r = Rectangle_Make(columns, rows, (float)columns, (float)rows);
+    int32_t* number = malloc((size_t)r.vertexCount * sizeof(int32_t));
+    int32_t vertexCount = 0, kept = 0;
+    memset(number, 0xff, (size_t)r.vertexCount * sizeof(int32_t));
+    for (int32_t t = 0; t < r.triangleCount; ++t) {
+        int32_t square = t / 2, row = square / columns;
+        for (int i = 0; i < 3 && shape[(rows - 1 - row) * columns + square % columns] != '.'; ++i) {
+            r.indices[kept++] = r.indices[3 * t + i];
+        }
+    }
+    for (int32_t i = 0; i < kept; ++i) {
+        number[r.indices[i]] = 0;
+    }
+    for (int32_t v = 0; v < r.vertexCount; ++v) {
+        if (number[v] == 0) {
+            memcpy(&r.positions[2 * vertexCount], &r.positions[2 * v], 2 * sizeof(float));
+            number[v] = vertexCount++;
+        }
+    }
+    for (int32_t i = 0; i < kept; ++i) {
+        r.indices[i] = number[r.indices[i]];
+    }
+    const char* why = NULL;
+    assert_int_equal(kiriMesh_Init(mesh, Heap(), r.positions, vertexCount, r.indices, kept / 3, 8, &why), KIRI_OK);
+    kiriMesh_Begin(mesh);
+    free(number);
+    Rectangle_Free(&r);
+}
+
+static void CutsOverGaps(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitShape(&mesh, 3, 2,
+              "#.#"
+              "###");
+    CutLine(&mesh, -1.0, 1.4, 4.0, 1.4);
+    ASSERT_NEAR(AreaAt(&mesh, 0.5, 1.9), 0.6, 1e-7);
+    ASSERT_NEAR(AreaAt(&mesh, 2.5, 1.9), 0.6, 1e-7);
+    assert_int_equal(CheckMesh(&mesh), 3);
+    kiriMesh_Rollback(&mesh);
+    /* over the gap from one tip inside to another */
+    CutLine(&mesh, 0.5, 1.4, 2.5, 1.4);
+    assert_int_equal(CheckMesh(&mesh), 1);
+    kiriMesh_Rollback(&mesh);
+    /* along the bottom of the gap: two slits */
+    CutLine(&mesh, 0.0, 1.0, 3.0, 1.0);
+    assert_int_equal(CheckMesh(&mesh), 3);
+    assert_int_equal(OpenEdges(&mesh), 2);
+    kiriMesh_Rollback(&mesh);
+    CutLine(&mesh, 3.0, 1.0, 0.0, 1.0);
+    assert_int_equal(CheckMesh(&mesh), 3);
+    assert_int_equal(OpenEdges(&mesh), 2);
+    kiriMesh_Release(&mesh);
+}
+
+static void CutsToHoles(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitShape(&mesh, 3, 3,
+              "###"
+              "#.#"
+              "###");
+    CutLine(&mesh, -1.0, 1.5, 1.5, 1.5);
+    assert_int_equal(CheckMesh(&mesh), 1);
+    CutLine(&mesh, 1.5, 1.4, 4.0, 1.25);
+    assert_int_equal(CheckMesh(&mesh), 2);
+    kiriMesh_Rollback(&mesh);
+    CutLine(&mesh, -1.0, -1.0, 4.0, 4.0);
+    assert_int_equal(CheckMesh(&mesh), 2);
+    ASSERT_NEAR(AreaAt(&mesh, 2.0, 0.5), 4.0, 1e-7);
+    kiriMesh_Release(&mesh);
+}
+
+/* Squares that touch at corners only: twins do not lead over them. */
+static void CutsThroughPinches(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitShape(&mesh, 2, 2,
+              ".#"
+              "#.");
+    assert_int_equal(CheckMesh(&mesh), 2);
+    CutLine(&mesh, -1.0, -1.0, 3.0, 3.0);
+    assert_int_equal(CheckMesh(&mesh), 4);
+    assert_int_equal(VerticesAt(&mesh, 1.0, 1.0), 4);
+    kiriMesh_Rollback(&mesh);
+    CutLine(&mesh, 0.0, -1.0, 2.0, 3.0);
+    ASSERT_NEAR(AreaAt(&mesh, 0.1, 0.5), 0.75, 1e-7);
+    ASSERT_NEAR(AreaAt(&mesh, 1.9, 1.5), 0.75, 1e-7);
+    assert_int_equal(CheckMesh(&mesh), 4);
+    kiriMesh_Rollback(&mesh);
+    /* from the pinch, which the blade holds by one vertex, into either square */
+    for (int side = 0; side < 2; ++side) {
+        const double xy[] = { 1.0, 1.0, side == 0 ? 0.4 : 1.6, side == 0 ? -1.0 : 3.0 };
+        Cut(&mesh, xy, 2, 1e-4 * LatticeSize);
+        assert_int_equal(CheckMesh(&mesh), 3 + side);
+    }
+    kiriMesh_Release(&mesh);
+}
+
+/* The blade only touches the sharp corner; it must not be led along a side. */
+static void TouchesSharpCorners(void** state)
+{
+    (void)state;
+    const float left[] = { 0, 0, 4, 0, 4, 1 }, right[] = { 0, 0, 4, -1, 4, 0 };
+    const int32_t indices[] = { 0, 1, 2 };
+    const char* why = NULL;
+    for (int side = -1; side <= 1; side += 2) {
+        kiriMeshData mesh;
+        assert_int_equal(kiriMesh_Init(&mesh, Heap(), side > 0 ? left : right, 3, indices, 1, 8, &why), KIRI_OK);
+        kiriMesh_Begin(&mesh);
+        double base = side > 0 ? 0.0 : 1.0; /* local coordinates start at the box's corner */
+        CutLine(&mesh, -1.5, base - side, 3.0, base + 2.0 * side);
+        assert_int_equal(mesh.triangles.count, 1);
+        kiriMesh_Release(&mesh);
+    }
+}
+
+/* A corner in the middle of another part's side: the blade goes on from part to part. */
+static void CutsThroughSplitSides(void** state)
+{
+    (void)state;
+    const float positions[] = { 0, 0, 1, 0, 1, 2, 0, 2, 1, 0, 2, 0, 2, 1, 1, 1, 2, 2, 1, 2 };
+    const int32_t indices[] = { 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 7, 6, 8, 7, 8, 9 };
+    const char* why = NULL;
+    for (int way = 0; way < 2; ++way) {
+        kiriMeshData mesh;
+        assert_int_equal(kiriMesh_Init(&mesh, Heap(), positions, 10, indices, 6, 8, &why), KIRI_OK);
+        kiriMesh_Begin(&mesh);
+        assert_int_equal(CheckPieces(&mesh), 2);
+        CutLine(&mesh, way == 0 ? -1.0 : 3.0, 1.0, way == 0 ? 3.0 : -1.0, 1.0);
+        /* the parts stay apart: what is an edge on both sides now has no twins */
+        assert_int_equal(VerticesAt(&mesh, 1.0, 1.0), 4);
+        CheckFans(&mesh);
+        CheckSquares(&mesh);
+        assert_int_equal(CheckPieces(&mesh), 4);
+        kiriMesh_Release(&mesh);
+    }
+}
+
+/* ---- Range ------------------------------------------------------------------------------------------------------- */
+
+static void Clips(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 2, 2, 1.0f, 1.0f, 4);
+    kiriVec2 from = { 0.25, 0.5 }, to = { 0.75, 1.25 };
+    assert_true(kiriCut_Clip(&mesh, &from, &to));
+    assert_true(from.x == 0.25 && from.y == 0.5 && to.x == 0.75 && to.y == 1.25);
+    from = kiriVec2_Make(-2.0, 0.0);
+    to = kiriVec2_Make(2.0, 1.0);
+    assert_true(kiriCut_Clip(&mesh, &from, &to));
+    ASSERT_NEAR(from.x, -0.5, 0.0);
+    ASSERT_NEAR(from.y, 0.375, 1e-15);
+    ASSERT_NEAR(to.x, 1.5, 0.0);
+    ASSERT_NEAR(to.y, 0.875, 1e-15);
+    from = kiriVec2_Make(-2.0, 0.0);
+    to = kiriVec2_Make(0.0, 3.0);
+    assert_false(kiriCut_Clip(&mesh, &from, &to));
+    from = kiriVec2_Make(-2.0, 1.0);
+    to = kiriVec2_Make(-2.0, 0.0);
+    assert_false(kiriCut_Clip(&mesh, &from, &to));
+    from = kiriVec2_Make(-1.7e308, 0.5);
+    to = kiriVec2_Make(1.7e308, 0.5);
+    assert_true(kiriCut_Clip(&mesh, &from, &to));
+    assert_true(from.x == -0.5 && to.x == 1.5 && fabs(from.y - 0.5) < 1e-15 && fabs(to.y - 0.5) < 1e-15);
+    kiriMesh_Release(&mesh);
+}
+
+static void PlacesWithinRange(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 2, 2, 1.0f, 1.0f, 4);
+    kiriBlade blade = kiriCut_Place(&mesh, kiriVec2_Make(-1e300, 1e300));
+    assert_int_equal(blade.at.x, -(1 << 28));
+    assert_int_equal(blade.at.y, 3 << 28);
+    blade = kiriCut_Place(&mesh, kiriVec2_Make(0.25, 0.5));
+    assert_int_equal(blade.at.x, 1 << 27);
+    assert_int_equal(blade.at.y, 1 << 28);
+    assert_int_equal(blade.vertex, KIRI_NONE);
+    /* from corner to corner of the range: the largest products there are */
+    kiriMesh_Begin(&mesh);
+    const double xy[] = { -9.0, -9.0, 9.0, 9.0 };
+    blade = kiriCut_Place(&mesh, kiriVec2_Make(xy[0], xy[1]));
+    kiriBlade end = kiriCut_Place(&mesh, kiriVec2_Make(xy[2], xy[3]));
+    assert_true(kiriCut_Move(&mesh, &blade, end.at, 1.0));
+    assert_int_equal(CheckMesh(&mesh), 2);
+    kiriMesh_Release(&mesh);
+}
+
+/* ---- Random cuts ------------------------------------------------------------------------------------------------- */
+
+enum { MOST_POINTS = 12 };
+
+typedef struct Polyline {
+    kiriPoint points[MOST_POINTS];
+    int count;
+} Polyline;
+
+/* What the generator draws on: earlier points are used again, in this and in later cuts. */
+typedef struct Pool {
+    kiriPoint points[64];
+    uint32_t used;
+} Pool;
+
+static kiriPoint RandomPoint(uint32_t* seed, const Pool* pool, kiriPoint last, double reach)
+{
+    uint32_t choice = Random(seed) % 16;
+    if (choice == 0 && pool->used > 0) {
+        return pool->points[Random(seed) % (pool->used < 64 ? pool->used : 64)];
+    }
+    double x = last.x + LatticeSize * RandomBetween(seed, -reach, reach);
+    double y = last.y + LatticeSize * RandomBetween(seed, -reach, reach);
+    double cell = LatticeSize / 16.0;
+    if (choice == 1 || choice == 2) { /* along a grid line, or to a vertex */
+        x = cell * (int32_t)(x / cell + 0.5);
+    }
+    if (choice == 2 || choice == 3) {
+        y = cell * (int32_t)(y / cell + 0.5);
+    }
+    double low = -0.2 * LatticeSize, high = 1.2 * LatticeSize;
+    x = x < low ? low : x > high ? high : x;
+    y = y < low ? low : y > high ? high : y;
+    return kiriMesh_Round(kiriVec2_Make(x, y));
+}
+
+static Polyline RandomPolyline(uint32_t* seed, Pool* pool, double reach)
+{
+    Polyline line;
+    kiriPoint middle = { 1 << 28, 1 << 28 };
+    line.count = 2 + (int)(Random(seed) % (MOST_POINTS - 1));
+    line.points[0] = RandomPoint(seed, pool, middle, 0.7);
+    for (int i = 1; i < line.count; ++i) {
+        line.points[i] = RandomPoint(seed, pool, line.points[i - 1], reach);
+        pool->points[pool->used++ % 64] = line.points[i];
+    }
+    if (line.count > 2 && Random(seed) % 4 == 0) {
+        line.points[line.count - 1] = line.points[0];
+    }
+    return line;
+}
+
+static bool CutPolyline(kiriMeshData* mesh, const Polyline* line, double snap)
+{
+    kiriBlade blade = { line->points[0], KIRI_NONE };
+    for (int i = 1; i < line->count; ++i) {
+        if (!kiriCut_Move(mesh, &blade, line->points[i], snap)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static double DistanceToEdge(kiriPoint p, kiriPoint a, kiriPoint b)
+{
+    kiriVec2 ab = kiriVec2_Make((double)b.x - a.x, (double)b.y - a.y),
+             ap = kiriVec2_Make((double)p.x - a.x, (double)p.y - a.y);
+    double s = kiriVec2_Dot(ab, ap) / kiriVec2_Dot(ab, ab);
+    s = s < 0.0 ? 0.0 : s > 1.0 ? 1.0 : s;
+    return kiriVec2_Length(kiriVec2_Sub(ap, kiriVec2_Scale(s, ab)));
+}
+
+/* Distance from a place to the nearest open edge or outline in the squares around it. */
+static double DistanceToCut(const kiriMeshData* mesh, kiriPoint p)
+{
+    const kiriSquares* squares = &mesh->squares;
+    double least = 1e30;
+    for (int32_t k = 0; k < 9; ++k) {
+        kiriPoint q = { p.x + (k % 3 - 1) * squares->side, p.y + (k / 3 - 1) * squares->side };
+        int32_t square = kiriSquares_At(squares, q), i = square == KIRI_NONE ? KIRI_NONE : squares->head[square];
+        for (; i != KIRI_NONE; i = squares->nodes.data[i].next) {
+            int32_t h = 3 * squares->nodes.data[i].triangle;
+            for (int32_t end = h + 3; h < end; ++h) {
+                if (kiriMesh_IsOpen(mesh, h) || kiriMesh_Twin(mesh, h) == KIRI_NONE) {
+                    double distance = DistanceToEdge(p, TailAt(mesh, h), TailAt(mesh, kiriEdge_Next(h)));
+                    least = distance < least ? distance : least;
+                }
+            }
+        }
+    }
+    return least;
+}
+
+/* Every place of the polyline inside the sheet is open. A move keeps within two snaps of its line, and the line starts
+   within one of the point where the last move was to end. */
+static void CheckFollowed(const kiriMeshData* mesh, const Polyline* line, double snap)
+{
+    for (int i = 1; i < line->count; ++i) {
+        kiriPoint a = line->points[i - 1], b = line->points[i];
+        for (int k = 0; k <= 16; ++k) {
+            double s = k / 16.0;
+            kiriPoint p = kiriMesh_Round(kiriVec2_Make(a.x + s * ((double)b.x - a.x), a.y + s * ((double)b.y - a.y)));
+            if (kiriMesh_Locate(mesh, p) != KIRI_NONE) {
+                assert_true(DistanceToCut(mesh, p) <= 3.0 * snap + 64.0);
+            }
+        }
+    }
+}
+
+static void CutAtRandom(kiriMeshData* mesh, uint32_t seed, int count, double reach, double snap, int checkEvery)
+{
+    Pool pool = { { { 0, 0 } }, 0 };
+    for (int i = 1; i <= count; ++i) {
+        Polyline line = RandomPolyline(&seed, &pool, reach);
+        int64_t area = kiriMesh_DoubledArea(mesh);
+        kiriMesh_Begin(mesh);
+        assert_true(CutPolyline(mesh, &line, snap));
+        CheckFollowed(mesh, &line, snap);
+        if (i % checkEvery == 0) {
+            CheckMesh(mesh);
+        }
+        double change = (double)(kiriMesh_DoubledArea(mesh) - area);
+        assert_true(change == 0.0 || fabs(change) <= 1e-9 * (double)area);
+        kiriMesh_Commit(mesh);
+    }
+    CheckMesh(mesh);
+}
+
+static void CutsAtRandomOnOneSheet(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 16, 16, 1.0f, 1.0f, 32);
+    CutAtRandom(&mesh, 2015, 1000, 0.06, 1e-3 * LatticeSize, 40);
+    assert_int_equal(kiriMesh_DoubledArea(&mesh), (int64_t)1 << 59);
+    kiriMesh_Release(&mesh);
+}
+
+static void CutsAtRandomFarAndWide(void** state)
+{
+    (void)state;
+    const double snaps[] = { 0.0, 2.0, 1e-6, 1e-4, 1e-2 };
+    for (uint32_t round = 0; round < 25; ++round) {
+        kiriMeshData mesh;
+        double snap = snaps[round % 5] < 1.0 ? snaps[round % 5] * LatticeSize : snaps[round % 5];
+        InitRectangle(&mesh, 16, 16, 1.0f, 1.0f, 1 + (int32_t)round);
+        CutAtRandom(&mesh, 100 + round, 8, 0.6, snap, 1);
+        assert_int_equal(kiriMesh_DoubledArea(&mesh), (int64_t)1 << 59);
+        kiriMesh_Release(&mesh);
+    }
+}
+
+/* A ring of 12 x 48 squares that is almost a disc, with slanted outlines. */
+static void InitRing(kiriMeshData* mesh)
+{
+    enum { RINGS = 12, SPOKES = 48 };
+    static float positions[2 * (RINGS + 1) * SPOKES];
+    static int32_t indices[6 * RINGS * SPOKES];
+    for (int i = 0; i < (RINGS + 1) * SPOKES; ++i) {
+        double angle = 6.283185307179586 * (i % SPOKES) / SPOKES, radius = 0.12 + 0.38 * (i / SPOKES) / RINGS;
+        positions[2 * i] = (float)(0.5 + radius * cos(angle));
+        positions[2 * i + 1] = (float)(0.5 + radius * sin(angle));
+    }
+    for (int i = 0; i < RINGS * SPOKES; ++i) {
+        int a = i, b = i - i % SPOKES + (i + 1) % SPOKES;
+        const int32_t corners[6] = { a, b + SPOKES, b, a, a + SPOKES, b + SPOKES };
+        memcpy(&indices[6 * i], corners, sizeof(corners));
+    }
+    const char* why = NULL;
+    assert_int_equal(
+        kiriMesh_Init(mesh, Heap(), positions, (RINGS + 1) * SPOKES, indices, 2 * RINGS * SPOKES, 24, &why), KIRI_OK);
+}
+
+/* Points on a slanted outline are rounded to the lattice, which moves the outline by a step: 2^-29 of the size. */
+static void CutsAtRandomOnARing(void** state)
+{
+    (void)state;
+    for (uint32_t round = 0; round < 6; ++round) {
+        kiriMeshData mesh;
+        InitRing(&mesh);
+        int64_t area = kiriMesh_DoubledArea(&mesh);
+        CutAtRandom(&mesh, 500 + round, 30, round % 2 == 0 ? 0.5 : 0.1, 1e-4 * LatticeSize, 5);
+        assert_true(fabs((double)(kiriMesh_DoubledArea(&mesh) - area)) <= 1e-8 * (double)area);
+        kiriMesh_Release(&mesh);
+    }
+}
+
+static void RollsBackWithoutMemory(void** state)
+{
+    (void)state;
+    Rectangle r = Rectangle_Make(8, 8, 1.0f, 1.0f);
+    bool done = false;
+    for (int32_t n = 0; !done; ++n) {
+        Meter meter = { -1, 0 };
+        kiriMemory memory = kiriMemory_Make(MeterAlloc, MeterFree, &meter);
+        kiriMeshData mesh;
+        const char* why = NULL;
+        uint32_t seed = 4;
+        Pool pool = { { { 0, 0 } }, 0 };
+        assert_int_equal(kiriMesh_Init(&mesh, &memory, r.positions, r.vertexCount, r.indices, r.triangleCount, 8, &why),
+                         0);
+        kiriMesh_Begin(&mesh);
+        Copy copy = Copy_Make(&mesh);
+        meter.untilFailure = n;
+        done = true;
+        for (int i = 0; i < 6 && done; ++i) {
+            Polyline line = RandomPolyline(&seed, &pool, 0.4);
+            done = CutPolyline(&mesh, &line, 1e-4 * LatticeSize);
+        }
+        assert_true(done || meter.untilFailure == 0);
+        meter.untilFailure = 0;
+        kiriMesh_Rollback(&mesh);
+        assert_true(Copy_Equals(&copy, &mesh));
+        CheckMesh(&mesh);
+        Copy_Free(&copy);
+        kiriMesh_Release(&mesh);
+        assert_int_equal(meter.live, 0);
+        assert_true(!done || n > 8);
+    }
+    Rectangle_Free(&r);
+}
+
+/* A cut after a rollback gives the same mesh as without it. */
+static void RepeatsAfterRollback(void** state)
+{
+    (void)state;
+    kiriMeshData once, twice;
+    Pool pool = { { { 0, 0 } }, 0 };
+    uint32_t seed = 31;
+    InitRectangle(&once, 16, 16, 1.0f, 1.0f, 32);
+    InitRectangle(&twice, 16, 16, 1.0f, 1.0f, 32);
+    for (int i = 0; i < 30; ++i) {
+        Polyline other = RandomPolyline(&seed, &pool, 0.3), line = RandomPolyline(&seed, &pool, 0.3);
+        kiriMesh_Begin(&once);
+        assert_true(CutPolyline(&once, &line, 1e-4 * LatticeSize));
+        kiriMesh_Begin(&twice);
+        assert_true(CutPolyline(&twice, &other, 1e-4 * LatticeSize));
+        kiriMesh_Rollback(&twice);
+        assert_true(CutPolyline(&twice, &line, 1e-4 * LatticeSize));
+    }
+    Copy copy = Copy_Make(&once);
+    assert_true(Copy_Equals(&copy, &twice));
+    Copy_Free(&copy);
+    kiriMesh_Release(&once);
+    kiriMesh_Release(&twice);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(CutsThrough),
+        cmocka_unit_test(EndsStayClosed),
+        cmocka_unit_test(BladeGoesOn),
+        cmocka_unit_test(FollowsEdges),
+        cmocka_unit_test(GoesThroughVertices),
+        cmocka_unit_test(SnapsToVerticesAndEdges),
+        cmocka_unit_test(DoesNotDrift),
+        cmocka_unit_test(CrossesCuts),
+        cmocka_unit_test(FollowsOlderCuts),
+        cmocka_unit_test(CrossesItself),
+        cmocka_unit_test(ClosesLoops),
+        cmocka_unit_test(LeavesAndComesBack),
+        cmocka_unit_test(LeavesTheOutlineAlone),
+        cmocka_unit_test(StartsOnTheOutline),
+        cmocka_unit_test(CutsOverGaps),
+        cmocka_unit_test(CutsToHoles),
+        cmocka_unit_test(CutsThroughPinches),
+        cmocka_unit_test(TouchesSharpCorners),
+        cmocka_unit_test(CutsThroughSplitSides),
+        cmocka_unit_test(Clips),
+        cmocka_unit_test(PlacesWithinRange),
+        cmocka_unit_test(CutsAtRandomOnOneSheet),
+        cmocka_unit_test(CutsAtRandomFarAndWide),
+        cmocka_unit_test(CutsAtRandomOnARing),
+        cmocka_unit_test(RollsBackWithoutMemory),
+        cmocka_unit_test(RepeatsAfterRollback),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,442 @@
+/* Distances inside the cut sheet: against the closed formula where there are no cuts, and against Bellman and Ford where
+   there are. */
+#include "geodesic.h"
+#include "cut.h"
+#include "support.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Sheets ------------------------------------------------------------------------------------------------------ */
+
+/* Counts live blocks, and returns null at the allocation numbered failAt. */
+typedef struct Blocks {
+    int32_t live, calls, failAt;
+} Blocks;
+
+static void* CountedAlloc(void* user, int64_t bytes)
+{
+    Blocks* blocks = user;
+    if (++blocks->calls == blocks->failAt) {
+        return NULL;
+    }
+    ++blocks->live;
+    return malloc((size_t)bytes);
+}
+
+static void CountedFree(void* user, void* pointer)
+{
+    --((Blocks*)user)->live;
+    free(pointer);
+}
+
+typedef struct Sheet {
+    Blocks blocks;
+    kiriMemory memory;
+    kiriMeshData mesh;
+    kiriGrid grid;
+    kiriField field;
+} Sheet;
+
+/* The unit square, of two triangles. */
+static void OpenSquare(Sheet* sheet, int32_t resolution)
+{
+    const float positions[8] = { 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, 1.0f, 0.0f, 1.0f };
+    const int32_t indices[6] = { 0, 1, 2, 0, 2, 3 };
+    const char* why = "";
+    memset(sheet, 0, sizeof(*sheet));
+    sheet->memory = kiriMemory_Make(CountedAlloc, CountedFree, &sheet->blocks);
+    assert_int_equal(kiriMesh_Init(&sheet->mesh, &sheet->memory, positions, 4, indices, 2, resolution, &why), KIRI_OK);
+}
+
+static void CloseSheet(Sheet* sheet)
+{
+    kiriField_Release(&sheet->field, &sheet->memory);
+    kiriGrid_Release(&sheet->grid, &sheet->memory);
+    kiriMesh_Release(&sheet->mesh);
+    assert_int_equal(sheet->blocks.live, 0);
+}
+
+static void CutLine(Sheet* sheet, double x0, double y0, double x1, double y1)
+{
+    kiriMesh_Begin(&sheet->mesh);
+    kiriBlade blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(x0, y0));
+    assert_true(kiriCut_Move(&sheet->mesh, &blade, kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x1, y1)), 16.0));
+    kiriMesh_Commit(&sheet->mesh);
+}
+
+static void CutRandomly(Sheet* sheet, uint32_t* seed, int32_t cuts)
+{
+    while (cuts-- > 0) {
+        double x = RandomBetween(seed, -0.1, 1.1), y = RandomBetween(seed, -0.1, 1.1);
+        CutLine(sheet, x, y, x + RandomBetween(seed, -0.7, 0.7), y + RandomBetween(seed, -0.7, 0.7));
+    }
+}
+
+static void Build(Sheet* sheet)
+{
+    assert_true(kiriGrid_Build(&sheet->grid, &sheet->mesh));
+    assert_true(kiriField_Init(&sheet->field, &sheet->memory, sheet->grid.cells.count));
+}
+
+static void Flood(Sheet* sheet, const kiriSeed* seeds, int32_t count, int32_t limit)
+{
+    assert_true(kiriField_Flood(&sheet->field, &sheet->memory, &sheet->grid, seeds, count, limit, NULL, NULL));
+}
+
+static void FloodFrom(Sheet* sheet, int32_t cell)
+{
+    kiriSeed seed = { cell, 0, 7 };
+    kiriField_Reset(&sheet->field);
+    Flood(sheet, &seed, 1, KIRI_FAR);
+}
+
+static int32_t CellAt(const Sheet* sheet, double x, double y)
+{
+    kiriPoint at = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x, y));
+    int32_t triangle = kiriMesh_Locate(&sheet->mesh, at);
+    assert_int_not_equal(triangle, KIRI_NONE);
+    return kiriGrid_CellOf(&sheet->grid, &sheet->mesh, triangle, at);
+}
+
+/* ---- Independent answers ------------------------------------------------------------------------------------------- */
+
+/* The shortest way in an open plane: knight moves while they are nearest to the direction, the rest straight or diagonal. */
+static int32_t OpenDistance(int32_t dx, int32_t dy)
+{
+    int32_t a = abs(dx) > abs(dy) ? abs(dx) : abs(dy), b = abs(dx) > abs(dy) ? abs(dy) : abs(dx);
+    return 2 * b <= a ? 572 * b + 256 * (a - 2 * b) : 572 * (a - b) + 362 * (2 * b - a);
+}
+
+/* The least (distance, owner) by relaxing all steps until nothing changes (Bellman and Ford). */
+static void Relax(const kiriGrid* grid, const kiriSeed* seeds, int32_t count, int32_t limit, kiriStepFn* allow,
+                  const void* context, int32_t* distance, int32_t* owner)
+{
+    for (int32_t c = 0; c < grid->cells.count; ++c) {
+        distance[c] = KIRI_FAR;
+        owner[c] = KIRI_NONE;
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t c = seeds[i].cell, d = seeds[i].distance;
+        if (d <= limit && (d < distance[c] || (d == distance[c] && seeds[i].owner < owner[c]))) {
+            distance[c] = d;
+            owner[c] = seeds[i].owner;
+        }
+    }
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (int32_t c = 0; c < grid->cells.count; ++c) {
+            for (int32_t s = grid->stepStart.data[c]; s < grid->stepStart.data[c + 1] && distance[c] < KIRI_FAR; ++s) {
+                int32_t to = grid->steps.data[s].cell, d = distance[c] + grid->steps.data[s].length;
+                if (d <= limit && (d < distance[to] || (d == distance[to] && owner[c] < owner[to])) &&
+                    (allow == NULL || allow(context, c, to))) {
+                    distance[to] = d;
+                    owner[to] = owner[c];
+                    changed = true;
+                }
+            }
+        }
+    }
+}
+
+static void CheckAgainstRelaxing(Sheet* sheet, const kiriSeed* seeds, int32_t count, int32_t limit, kiriStepFn* allow,
+                                 const void* context)
+{
+    int32_t n = sheet->grid.cells.count, reached = 0;
+    int32_t *distance = malloc(sizeof(int32_t) * (size_t)n), *owner = malloc(sizeof(int32_t) * (size_t)n);
+    Relax(&sheet->grid, seeds, count, limit, allow, context, distance, owner);
+    assert_true(kiriField_Flood(&sheet->field, &sheet->memory, &sheet->grid, seeds, count, limit, allow, context));
+    assert_memory_equal(distance, sheet->field.distance.data, sizeof(int32_t) * (size_t)n);
+    assert_memory_equal(owner, sheet->field.owner.data, sizeof(int32_t) * (size_t)n);
+    for (int32_t c = 0; c < n; ++c) {
+        reached += distance[c] != KIRI_FAR;
+    }
+    assert_int_equal(sheet->field.settled.count, reached);
+    for (int32_t i = 0; i < reached; ++i) {
+        int32_t c = sheet->field.settled.data[i];
+        assert_true(distance[c] >= 0 && distance[c] != KIRI_FAR);
+        assert_true(i == 0 || distance[c] >= distance[sheet->field.settled.data[i - 1]]);
+    }
+    free(distance);
+    free(owner);
+}
+
+/* ---- The open sheet ------------------------------------------------------------------------------------------------ */
+
+static void TestOpenSheet(void** state)
+{
+    (void)state;
+    enum { N = 24 };
+    Sheet sheet;
+    OpenSquare(&sheet, N);
+    Build(&sheet);
+    const int32_t from[][2] = { { 0, 0 }, { 11, 11 }, { 0, 9 }, { 23, 1 }, { 5, 18 } };
+    for (size_t i = 0; i < sizeof(from) / sizeof(from[0]); ++i) {
+        FloodFrom(&sheet, sheet.grid.squareCell.data[from[i][1] * N + from[i][0]]);
+        for (int32_t s = 0; s < N * N; ++s) {
+            int32_t dx = s % N - from[i][0], dy = s / N - from[i][1];
+            int32_t distance = sheet.field.distance.data[sheet.grid.squareCell.data[s]];
+            double straight = 256.0 * sqrt((double)(dx * dx + dy * dy));
+            assert_int_equal(distance, OpenDistance(dx, dy));
+            assert_true(distance >= 0.999 * straight && distance <= 1.03 * straight);
+            assert_int_equal(sheet.field.owner.data[sheet.grid.squareCell.data[s]], 7);
+        }
+        assert_int_equal(sheet.field.settled.count, N * N);
+    }
+    CloseSheet(&sheet);
+}
+
+static void TestSymmetric(void** state)
+{
+    (void)state;
+    uint32_t seed = 99;
+    Sheet sheet;
+    OpenSquare(&sheet, 12);
+    CutRandomly(&sheet, &seed, 9);
+    Build(&sheet);
+    int32_t n = sheet.grid.cells.count;
+    int32_t* all = malloc(sizeof(int32_t) * (size_t)n * (size_t)n);
+    for (int32_t c = 0; c < n; ++c) {
+        FloodFrom(&sheet, c);
+        memcpy(all + c * n, sheet.field.distance.data, sizeof(int32_t) * (size_t)n);
+    }
+    for (int32_t a = 0; a < n; ++a) {
+        for (int32_t b = 0; b < n; ++b) {
+            assert_int_equal(all[a * n + b], all[b * n + a]);
+            assert_int_equal(all[a * n + b] == KIRI_FAR,
+                             sheet.grid.cells.data[a].piece != sheet.grid.cells.data[b].piece);
+        }
+    }
+    free(all);
+    CloseSheet(&sheet);
+}
+
+/* ---- Cuts ---------------------------------------------------------------------------------------------------------- */
+
+/* A slit from the left as far as into column 12, inside row 10: the way from above to below leads through its tip. */
+static void TestDetourAroundSlit(void** state)
+{
+    (void)state;
+    enum { N = 20, TIP = 12, ROW = 10 };
+    Sheet sheet;
+    OpenSquare(&sheet, N);
+    CutLine(&sheet, -0.1, (ROW + 0.45) / N, (TIP + 0.6) / N, (ROW + 0.45) / N);
+    Build(&sheet);
+    for (int32_t column = 0; column < N; ++column) {
+        for (int32_t up = 1; up < 8; ++up) {
+            int32_t from = sheet.grid.squareCell.data[(ROW + up) * N + column];
+            int32_t to = sheet.grid.squareCell.data[(ROW - up) * N + column];
+            FloodFrom(&sheet, from);
+            int32_t detour = column < TIP ? 2 * OpenDistance(TIP - column, up) : 2 * up * 256;
+            assert_int_equal(sheet.field.distance.data[to], detour);
+        }
+    }
+    /* From lip to lip, a thousandth of a square apart. */
+    int32_t above = CellAt(&sheet, 2.5 / N, (ROW + 0.451) / N), below = CellAt(&sheet, 2.5 / N, (ROW + 0.449) / N);
+    FloodFrom(&sheet, above);
+    assert_int_equal(sheet.field.distance.data[below], 2 * 256 * (TIP - 2));
+    CloseSheet(&sheet);
+}
+
+static void TestOtherPieceIsFar(void** state)
+{
+    (void)state;
+    Sheet sheet;
+    OpenSquare(&sheet, 10);
+    CutLine(&sheet, -0.1, 0.33, 1.1, 0.57);
+    Build(&sheet);
+    FloodFrom(&sheet, CellAt(&sheet, 0.5, 0.1));
+    int32_t piece = sheet.grid.cells.data[CellAt(&sheet, 0.5, 0.1)].piece, far = 0;
+    assert_int_equal(sheet.grid.pieces, 2);
+    for (int32_t c = 0; c < sheet.grid.cells.count; ++c) {
+        bool isFar = sheet.field.distance.data[c] == KIRI_FAR;
+        assert_int_equal(isFar, sheet.grid.cells.data[c].piece != piece);
+        assert_int_equal(isFar, sheet.field.owner.data[c] == KIRI_NONE);
+        far += isFar;
+    }
+    assert_int_equal(sheet.field.settled.count, sheet.grid.cells.count - far);
+    CloseSheet(&sheet);
+}
+
+/* ---- Seeds --------------------------------------------------------------------------------------------------------- */
+
+static void TestTiesGoToTheLowerOwner(void** state)
+{
+    (void)state;
+    enum { N = 9 };
+    Sheet sheet;
+    OpenSquare(&sheet, N);
+    Build(&sheet);
+    for (int order = 0; order < 2; ++order) {
+        kiriSeed low = { sheet.grid.squareCell.data[4 * N], 0, 3 },
+                 high = { sheet.grid.squareCell.data[4 * N + 8], 0, 5 };
+        kiriSeed seeds[2] = { order == 0 ? low : high, order == 0 ? high : low };
+        kiriField_Reset(&sheet.field);
+        Flood(&sheet, seeds, 2, KIRI_FAR);
+        for (int32_t s = 0; s < N * N; ++s) {
+            assert_int_equal(sheet.field.owner.data[sheet.grid.squareCell.data[s]], s % N <= 4 ? 3 : 5);
+        }
+    }
+    kiriSeed same[3] = { { 4, 10, 8 }, { 4, 10, 2 }, { 4, 11, 1 } };
+    kiriField_Reset(&sheet.field);
+    Flood(&sheet, same, 3, KIRI_FAR);
+    assert_int_equal(sheet.field.owner.data[4], 2);
+    assert_int_equal(sheet.field.owner.data[80], 2);
+    assert_int_equal(sheet.field.settled.count, N * N);
+    CloseSheet(&sheet);
+}
+
+static void TestLimitAndReset(void** state)
+{
+    (void)state;
+    enum { N = 15 };
+    Sheet sheet;
+    OpenSquare(&sheet, N);
+    Build(&sheet);
+    kiriSeed seed = { sheet.grid.squareCell.data[7 * N + 7], 0, 0 };
+    const int32_t limits[] = { 0, 255, 256, 361, 362, 572, 1000, 1280, -1 };
+    for (size_t i = 0; i < sizeof(limits) / sizeof(limits[0]); ++i) {
+        Flood(&sheet, &seed, 1, limits[i]);
+        for (int32_t s = 0; s < N * N; ++s) {
+            int32_t open = OpenDistance(s % N - 7, s / N - 7);
+            assert_int_equal(sheet.field.distance.data[sheet.grid.squareCell.data[s]],
+                             open <= limits[i] ? open : KIRI_FAR);
+        }
+        kiriField_Reset(&sheet.field);
+        assert_int_equal(sheet.field.settled.count, 0);
+        for (int32_t c = 0; c < N * N; ++c) {
+            assert_int_equal(sheet.field.distance.data[c], KIRI_FAR);
+            assert_int_equal(sheet.field.owner.data[c], KIRI_NONE);
+        }
+    }
+    CloseSheet(&sheet);
+}
+
+/* Seeds that start late, even after the rest of the sweep has ended, and near the largest number there is. */
+static void TestLateSeeds(void** state)
+{
+    (void)state;
+    Sheet sheet;
+    OpenSquare(&sheet, 10);
+    CutLine(&sheet, -0.1, 0.45, 1.1, 0.45);
+    Build(&sheet);
+    int32_t above = CellAt(&sheet, 0.55, 0.95), below = CellAt(&sheet, 0.55, 0.05);
+    kiriSeed seeds[3] = { { above, KIRI_FAR - 300, 1 }, { below, 0, 2 }, { below, 1, 0 } };
+    Flood(&sheet, seeds, 3, KIRI_FAR);
+    assert_int_equal(sheet.field.distance.data[CellAt(&sheet, 0.65, 0.95)], KIRI_FAR - 300 + 256);
+    assert_int_equal(sheet.field.distance.data[CellAt(&sheet, 0.65, 0.85)], KIRI_FAR);
+    assert_int_equal(sheet.field.owner.data[CellAt(&sheet, 0.05, 0.4)], 2);
+    kiriField_Reset(&sheet.field);
+    seeds[0].distance = 100000;
+    CheckAgainstRelaxing(&sheet, seeds, 3, KIRI_FAR, NULL, NULL);
+    CloseSheet(&sheet);
+}
+
+/* ---- Properties ---------------------------------------------------------------------------------------------------- */
+
+/* Forbids some steps one way only: whatever the caller's rule, it is followed. */
+static bool AllowSome(const void* context, int32_t from, int32_t to)
+{
+    return ((from + 2 * to) % *(const int32_t*)context) != 0;
+}
+
+static void TestRandomSheets(void** state)
+{
+    (void)state;
+    uint32_t seed = 4242;
+    for (int round = 0; round < 40; ++round) {
+        Sheet sheet;
+        OpenSquare(&sheet, 3 + (int32_t)(Random(&seed) % 18));
+        CutRandomly(&sheet, &seed, (int32_t)(Random(&seed) % 25));
+        Build(&sheet);
+        for (int flood = 0; flood < 12; ++flood) {
+            kiriSeed seeds[40];
+            int32_t count = 1 + (int32_t)(Random(&seed) % 40), spread = flood % 3 == 0   ? 1
+                                                                        : flood % 3 == 1 ? 700
+                                                                                         : 5000;
+            for (int32_t i = 0; i < count; ++i) {
+                seeds[i].cell = (int32_t)(Random(&seed) % (uint32_t)sheet.grid.cells.count);
+                seeds[i].distance = (int32_t)(Random(&seed) % (uint32_t)spread);
+                seeds[i].owner = (int32_t)(Random(&seed) % 6);
+            }
+            int32_t limit = flood % 4 == 3 ? (int32_t)(Random(&seed) % 3000) : KIRI_FAR;
+            int32_t rule = 2 + (int32_t)(Random(&seed) % 4);
+            CheckAgainstRelaxing(&sheet, seeds, count, limit, flood % 2 == 1 ? AllowSome : NULL, &rule);
+            kiriField_Reset(&sheet.field);
+        }
+        CloseSheet(&sheet);
+    }
+}
+
+/* A cut divides cells and takes steps away, so from the copies of one square to those of another the way only grows. The
+   field of the old grid serves the new one. */
+static void TestCutsOnlyMakeWaysLonger(void** state)
+{
+    (void)state;
+    enum { N = 14 };
+    uint32_t seed = 31;
+    Sheet sheet;
+    OpenSquare(&sheet, N);
+    int32_t last[N * N] = { 0 }, grown = 0;
+    for (int cut = 0; cut < 15; ++cut) {
+        Build(&sheet);
+        kiriSeed seeds[64];
+        int32_t count = 0;
+        for (int32_t c = sheet.grid.squareCell.data[100]; c != KIRI_NONE; c = sheet.grid.cells.data[c].next) {
+            kiriSeed start = { c, 0, 0 };
+            seeds[count++] = start;
+        }
+        Flood(&sheet, seeds, count, KIRI_FAR);
+        for (int32_t s = 0; s < N * N; ++s) {
+            int32_t least = KIRI_FAR;
+            for (int32_t c = sheet.grid.squareCell.data[s]; c != KIRI_NONE; c = sheet.grid.cells.data[c].next) {
+                least = sheet.field.distance.data[c] < least ? sheet.field.distance.data[c] : least;
+            }
+            assert_true(least >= last[s]);
+            grown += cut > 0 && least > last[s];
+            last[s] = least;
+        }
+        CutRandomly(&sheet, &seed, 1);
+    }
+    assert_true(grown > 100);
+    CloseSheet(&sheet);
+}
+
+static void TestFailingMemory(void** state)
+{
+    (void)state;
+    Sheet sheet;
+    OpenSquare(&sheet, 6);
+    Build(&sheet);
+    kiriSeed seeds[2] = { { 0, 0, 0 }, { 30, 0, 1 } };
+    int32_t live = sheet.blocks.live, failures = 0;
+    for (bool done = false; !done; ++failures) {
+        kiriField field = { 0 };
+        sheet.blocks.calls = 0;
+        sheet.blocks.failAt = failures + 1;
+        done = kiriField_Init(&field, &sheet.memory, sheet.grid.cells.count) &&
+               kiriField_Flood(&field, &sheet.memory, &sheet.grid, seeds, 2, KIRI_FAR, NULL, NULL);
+        assert_int_equal(done, sheet.blocks.calls < sheet.blocks.failAt);
+        kiriField_Release(&field, &sheet.memory);
+        assert_int_equal(sheet.blocks.live, live);
+    }
+    assert_int_equal(failures, 5); /* four arrays */
+    CloseSheet(&sheet);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestOpenSheet),
+        cmocka_unit_test(TestSymmetric),
+        cmocka_unit_test(TestDetourAroundSlit),
+        cmocka_unit_test(TestOtherPieceIsFar),
+        cmocka_unit_test(TestTiesGoToTheLowerOwner),
+        cmocka_unit_test(TestLimitAndReset),
+        cmocka_unit_test(TestLateSeeds),
+        cmocka_unit_test(TestRandomSheets),
+        cmocka_unit_test(TestCutsOnlyMakeWaysLonger),
+        cmocka_unit_test(TestFailingMemory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

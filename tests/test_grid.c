@@ -1,0 +1,892 @@
+/* The non-manifold grid: against shapes whose cells are known, and against slow independent ways to find them. */
+#include "grid.h"
+#include "cut.h"
+#include "support.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Sheets ------------------------------------------------------------------------------------------------------ */
+
+/* Counts live blocks, and returns null at the allocation numbered failAt. */
+typedef struct Blocks {
+    int32_t live, calls, failAt;
+} Blocks;
+
+static void* CountedAlloc(void* user, int64_t bytes)
+{
+    Blocks* blocks = user;
+    if (++blocks->calls == blocks->failAt) {
+        return NULL;
+    }
+    ++blocks->live;
+    return malloc((size_t)bytes);
+}
+
+static void CountedFree(void* user, void* pointer)
+{
+    --((Blocks*)user)->live;
+    free(pointer);
+}
+
+typedef struct Sheet {
+    Blocks blocks;
+    kiriMemory memory;
+    kiriMeshData mesh;
+    kiriGrid grid;
+} Sheet;
+
+static void OpenSheet(Sheet* sheet, const float* positions, int32_t vertexCount, const int32_t* indices,
+                      int32_t triangleCount, int32_t resolution)
+{
+    const char* why = "";
+    memset(sheet, 0, sizeof(*sheet));
+    sheet->memory = kiriMemory_Make(CountedAlloc, CountedFree, &sheet->blocks);
+    assert_int_equal(
+        kiriMesh_Init(&sheet->mesh, &sheet->memory, positions, vertexCount, indices, triangleCount, resolution, &why),
+        KIRI_OK);
+}
+
+static void CloseSheet(Sheet* sheet)
+{
+    kiriGrid_Release(&sheet->grid, &sheet->memory);
+    kiriMesh_Release(&sheet->mesh);
+    assert_int_equal(sheet->blocks.live, 0);
+}
+
+static void OpenRectangle(Sheet* sheet, float width, float height, int32_t columns, int32_t rows, int32_t resolution)
+{
+    float* positions = malloc(sizeof(float) * 2 * (size_t)((columns + 1) * (rows + 1)));
+    int32_t* indices = malloc(sizeof(int32_t) * 6 * (size_t)(columns * rows));
+    int32_t n = 0;
+    for (int32_t k = 0; k < (columns + 1) * (rows + 1); ++k) {
+        positions[2 * k] = width * (float)(k % (columns + 1)) / (float)columns;
+        positions[2 * k + 1] = height * (float)(k / (columns + 1)) / (float)rows;
+    }
+    for (int32_t k = 0; k < columns * rows; ++k) {
+        int32_t a = k / columns * (columns + 1) + k % columns, b = a + 1, c = a + columns + 1, d = c + 1;
+        int32_t quad[6] = { a, b, d, a, d, c };
+        memcpy(indices + n, quad, sizeof(quad));
+        n += 6;
+    }
+    OpenSheet(sheet, positions, (columns + 1) * (rows + 1), indices, 2 * columns * rows, resolution);
+    free(positions);
+    free(indices);
+}
+
+/* A ring: radii 0.5 and 0.2 about (0.5, 0.5). */
+static void OpenRing(Sheet* sheet, int32_t resolution)
+{
+    enum { SPOKES = 48, RINGS = 6 };
+    float positions[2 * SPOKES * (RINGS + 1)];
+    int32_t indices[6 * SPOKES * RINGS], n = 0;
+    double c = 1.0, s = 0.0;
+    const double turnC = 0.99144486137381038, turnS = 0.13052619222005157; /* 360 / 48 degrees */
+    for (int32_t k = 0; k < SPOKES; ++k) {
+        for (int32_t r = 0; r <= RINGS; ++r) {
+            double radius = 0.2 + 0.3 * r / RINGS;
+            positions[2 * (k * (RINGS + 1) + r)] = (float)(0.5 + radius * c);
+            positions[2 * (k * (RINGS + 1) + r) + 1] = (float)(0.5 + radius * s);
+        }
+        double next = c * turnC - s * turnS;
+        s = c * turnS + s * turnC;
+        c = next;
+    }
+    for (int32_t k = 0; k < SPOKES; ++k) {
+        for (int32_t r = 0; r < RINGS; ++r) {
+            int32_t a = k * (RINGS + 1) + r, b = (k + 1) % SPOKES * (RINGS + 1) + r;
+            int32_t quad[6] = { a, a + 1, b + 1, a, b + 1, b };
+            memcpy(indices + n, quad, sizeof(quad));
+            n += 6;
+        }
+    }
+    OpenSheet(sheet, positions, SPOKES * (RINGS + 1), indices, 2 * SPOKES * RINGS, resolution);
+}
+
+/* Cuts along a polyline given as pairs of local coordinates. */
+static void CutAlong(Sheet* sheet, const double* points, int32_t count)
+{
+    kiriMesh_Begin(&sheet->mesh);
+    kiriBlade blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(points[0], points[1]));
+    for (int32_t i = 1; i < count; ++i) {
+        kiriPoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(points[2 * i], points[2 * i + 1]));
+        assert_true(kiriCut_Move(&sheet->mesh, &blade, to, 16.0));
+    }
+    kiriMesh_Commit(&sheet->mesh);
+}
+
+static void CutLine(Sheet* sheet, double x0, double y0, double x1, double y1)
+{
+    double points[4] = { x0, y0, x1, y1 };
+    CutAlong(sheet, points, 2);
+}
+
+static void CutRandomly(Sheet* sheet, uint32_t* seed, int32_t cuts)
+{
+    while (cuts-- > 0) {
+        double points[10], x = RandomBetween(seed, 0.0, 1.0), y = RandomBetween(seed, 0.0, 1.0);
+        for (int i = 0; i < 5; ++i) {
+            points[2 * i] = x;
+            points[2 * i + 1] = y;
+            x += RandomBetween(seed, -0.4, 0.4);
+            y += RandomBetween(seed, -0.4, 0.4);
+        }
+        CutAlong(sheet, points, 2 + (int32_t)(Random(seed) % 4));
+    }
+}
+
+static void Build(Sheet* sheet)
+{
+    assert_true(kiriGrid_Build(&sheet->grid, &sheet->mesh));
+}
+
+/* ---- What must hold for every grid -------------------------------------------------------------------------------- */
+
+static void assert_near(double a, double b, double tolerance)
+{
+    if (!(fabs(a - b) <= tolerance)) {
+        fail_msg("%.17g is not %.17g within %g", a, b, tolerance);
+    }
+}
+
+static int32_t CellsIn(const Sheet* sheet, int32_t column, int32_t row)
+{
+    int32_t n = 0;
+    for (int32_t c = sheet->grid.squareCell.data[row * sheet->mesh.squares.columns + column]; c != KIRI_NONE;
+         c = sheet->grid.cells.data[c].next) {
+        ++n;
+    }
+    return n;
+}
+
+/* The cell that holds a local point. */
+static int32_t CellAt(const Sheet* sheet, double x, double y)
+{
+    kiriPoint at = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x, y));
+    int32_t triangle = kiriMesh_Locate(&sheet->mesh, at);
+    assert_int_not_equal(triangle, KIRI_NONE);
+    return kiriGrid_CellOf(&sheet->grid, &sheet->mesh, triangle, at);
+}
+
+static const kiriFace* FindFace(const kiriGrid* grid, int32_t a, int32_t b)
+{
+    for (int32_t f = 0; f < grid->faces.count; ++f) {
+        const int32_t* cell = grid->faces.data[f].cell;
+        if ((cell[0] == a && cell[1] == b) || (cell[0] == b && cell[1] == a)) {
+            return &grid->faces.data[f];
+        }
+    }
+    return NULL;
+}
+
+static int32_t StepLength(const kiriGrid* grid, int32_t a, int32_t b)
+{
+    for (int32_t s = grid->stepStart.data[a]; s < grid->stepStart.data[a + 1]; ++s) {
+        if (grid->steps.data[s].cell == b) {
+            return grid->steps.data[s].length;
+        }
+    }
+    return 0;
+}
+
+/* Every triangle's moments against every cell's. */
+static void CheckMaterial(const Sheet* sheet)
+{
+    kiriMoments cells = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 }, triangles = cells;
+    for (int32_t c = 0; c < sheet->grid.cells.count; ++c) {
+        const kiriMoments* m = &sheet->grid.cells.data[c].material;
+        assert_true(m->area > 0.0);
+        kiriVec2 apart = kiriVec2_Sub(kiriMoments_Center(m), kiriGrid_Middle(&sheet->grid, &sheet->mesh, c));
+        assert_true(fabs(apart.x) <= 0.5001 * sheet->grid.side && fabs(apart.y) <= 0.5001 * sheet->grid.side);
+        kiriMoments_Add(&cells, m);
+    }
+    for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
+        kiriPoint p[3];
+        kiriMesh_Corners(&sheet->mesh, t, p);
+        kiriMoments m = kiriMoments_Triangle(kiriMesh_Local(&sheet->mesh, p[0]), kiriMesh_Local(&sheet->mesh, p[1]),
+                                             kiriMesh_Local(&sheet->mesh, p[2]));
+        kiriMoments_Add(&triangles, &m);
+    }
+    double exact = 0.5 * (double)kiriMesh_DoubledArea(&sheet->mesh) * sheet->mesh.step * sheet->mesh.step;
+    assert_near(cells.area, exact, 1e-12 * exact);
+    assert_near(cells.u, triangles.u, 1e-12 * triangles.u);
+    assert_near(cells.v, triangles.v, 1e-12 * triangles.v);
+    assert_near(cells.uu, triangles.uu, 1e-12 * triangles.uu);
+    assert_near(cells.uv, triangles.uv, 1e-12 * triangles.uv);
+    assert_near(cells.vv, triangles.vv, 1e-12 * triangles.vv);
+}
+
+/* A piece of the mesh is a piece of the grid, and the other way round. */
+static void CheckPieces(const Sheet* sheet)
+{
+    int32_t triangles = sheet->mesh.triangles.count, count;
+    int32_t* piece = malloc(sizeof(int32_t) * (size_t)triangles);
+    int32_t* match = malloc(sizeof(int32_t) * (size_t)triangles);
+    kiriMesh_Pieces(&sheet->mesh, piece, &count);
+    assert_int_equal(count, sheet->grid.pieces);
+    for (int32_t i = 0; i < count; ++i) {
+        match[i] = KIRI_NONE;
+    }
+    for (int32_t s = 0; s < sheet->mesh.squares.columns * sheet->mesh.squares.rows; ++s) {
+        for (int32_t n = sheet->mesh.squares.head[s]; n != KIRI_NONE; n = sheet->mesh.squares.nodes.data[n].next) {
+            int32_t ofMesh = piece[sheet->mesh.squares.nodes.data[n].triangle];
+            int32_t ofGrid = sheet->grid.cells.data[sheet->grid.nodeCell.data[n]].piece;
+            assert_true(match[ofMesh] == KIRI_NONE || match[ofMesh] == ofGrid);
+            match[ofMesh] = ofGrid;
+        }
+    }
+    int32_t seen = 0;
+    for (int32_t c = 0; c < sheet->grid.cells.count; ++c) {
+        assert_true(sheet->grid.cells.data[c].piece <= seen);
+        seen += sheet->grid.cells.data[c].piece == seen;
+    }
+    assert_int_equal(seen, count);
+    free(piece);
+    free(match);
+}
+
+/* Where a side is covered from end to end, its faces together are the whole side: width, middle and moment. */
+static void CheckSide(const Sheet* sheet, int32_t before, int32_t square, int axis)
+{
+    double width = 0.0, first = 0.0, second = 0.0, side = sheet->grid.side;
+    kiriVec2 corner = kiriMesh_Local(&sheet->mesh, kiriSquares_Corner(&sheet->mesh.squares, square));
+    for (int32_t c = sheet->grid.squareCell.data[square]; c != KIRI_NONE; c = sheet->grid.cells.data[c].next) {
+        for (int32_t f = sheet->grid.faceHead.data[c]; f != KIRI_NONE;) {
+            const kiriFace* face = &sheet->grid.faces.data[f];
+            if (face->cell[1] == c && sheet->grid.cells.data[face->cell[0]].square == before) {
+                double along = axis == 0 ? face->middle.y - corner.y : face->middle.x - corner.x;
+                assert_int_equal(face->axis, axis);
+                assert_near(axis == 0 ? face->middle.x : face->middle.y, axis == 0 ? corner.x : corner.y, 0.0);
+                assert_true(face->width > 0.0 && face->moment > 0.0);
+                assert_true(face->moment <= face->width * side * side);
+                width += face->width;
+                first += face->width * along;
+                second += face->moment + face->width * along * along;
+            }
+            f = face->next[face->cell[1] == c];
+        }
+    }
+    assert_near(width, side, 1e-11 * side);
+    assert_near(first, 0.5 * side * side, 1e-11 * side * side);
+    assert_near(second, side * side * side / 3.0, 1e-11 * side * side * side);
+}
+
+/* For a rectangle, whose squares but the outermost are covered. */
+static void CheckInnerSides(const Sheet* sheet)
+{
+    int32_t columns = sheet->mesh.squares.columns, rows = sheet->mesh.squares.rows;
+    for (int32_t row = 1; row + 1 < rows; ++row) {
+        for (int32_t column = 1; column + 1 < columns; ++column) {
+            int32_t s = row * columns + column;
+            CheckSide(sheet, s - 1, s, 0);
+            CheckSide(sheet, s - columns, s, 1);
+        }
+    }
+}
+
+/* Liang and Barsky with fractions: the part from t0 to t1 of the segment that is inside is longer than nothing. */
+static bool SegmentInside(kiriPoint a, kiriPoint b, kiriPoint low, int32_t side)
+{
+    int64_t d[2] = { (int64_t)b.x - a.x, (int64_t)b.y - a.y };
+    int64_t from[2] = { (int64_t)low.x - a.x, (int64_t)low.y - a.y };
+    int64_t n0 = 0, d0 = 1, n1 = 1, d1 = 1;
+    for (int i = 0; i < 2; ++i) {
+        int64_t step = d[i] < 0 ? -d[i] : d[i];
+        int64_t enter = d[i] < 0 ? -(from[i] + side) : from[i], leave = enter + side;
+        if (d[i] == 0) {
+            if (from[i] >= 0 || from[i] + side <= 0) {
+                return false;
+            }
+            continue;
+        }
+        if (enter * d0 > n0 * step) {
+            n0 = enter;
+            d0 = step;
+        }
+        if (leave * d1 < n1 * step) {
+            n1 = leave;
+            d1 = step;
+        }
+    }
+    return n0 * d1 < n1 * d0;
+}
+
+/* The cells of a square, found by spreading the lowest triangle over closed edges until nothing changes. */
+static void CheckCellsOfSquare(const Sheet* sheet, int32_t square)
+{
+    int32_t node[4096], lowest[4096], count = 0;
+    const kiriMeshData* mesh = &sheet->mesh;
+    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
+        assert_true(count < 4096);
+        node[count] = n;
+        lowest[count++] = mesh->squares.nodes.data[n].triangle;
+    }
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (int32_t i = 0; i < count; ++i) {
+            for (int32_t h = 3 * mesh->squares.nodes.data[node[i]].triangle, k = h + 3; h < k; ++h) {
+                kiriPoint a = mesh->vertices.data[kiriMesh_Tail(mesh, h)].at;
+                kiriPoint b = mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at;
+                for (int32_t j = 0; j < count && !kiriMesh_IsOpen(mesh, h); ++j) {
+                    if (kiriMesh_Twin(mesh, h) / 3 == mesh->squares.nodes.data[node[j]].triangle &&
+                        kiriMesh_Twin(mesh, h) != KIRI_NONE && lowest[i] < lowest[j] &&
+                        SegmentInside(a, b, kiriSquares_Corner(&mesh->squares, square), mesh->squares.side)) {
+                        lowest[j] = lowest[i];
+                        changed = true;
+                    }
+                }
+            }
+        }
+    }
+    int32_t distinct = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        const kiriCell* cell = &sheet->grid.cells.data[sheet->grid.nodeCell.data[node[i]]];
+        assert_int_equal(cell->square, square);
+        assert_int_equal(cell->triangle, lowest[i]);
+        distinct += lowest[i] == mesh->squares.nodes.data[node[i]].triangle;
+    }
+    assert_int_equal(distinct, CellsIn(sheet, square % mesh->squares.columns, square / mesh->squares.columns));
+}
+
+static void CheckCells(const Sheet* sheet)
+{
+    for (int32_t s = 0; s < sheet->mesh.squares.columns * sheet->mesh.squares.rows; ++s) {
+        CheckCellsOfSquare(sheet, s);
+    }
+    for (int32_t c = 1; c < sheet->grid.cells.count; ++c) {
+        const kiriCell* cell = &sheet->grid.cells.data[c];
+        assert_true(cell[-1].square < cell->square ||
+                    (cell[-1].square == cell->square && cell[-1].triangle < cell->triangle && cell[-1].next == c));
+    }
+}
+
+/* The steps by their definition, over all pairs of cells. */
+static void CheckSteps(const Sheet* sheet)
+{
+    const kiriGrid* grid = &sheet->grid;
+    int32_t n = grid->cells.count, columns = sheet->mesh.squares.columns;
+    size_t bytes = (size_t)n * (size_t)n;
+    char *straight = calloc(bytes, 1), *diagonal = calloc(bytes, 1), *knight = calloc(bytes, 1);
+    for (int32_t f = 0; f < grid->faces.count; ++f) {
+        const int32_t* cell = grid->faces.data[f].cell;
+        assert_int_equal(straight[cell[0] * n + cell[1]], 0); /* one face a pair */
+        straight[cell[0] * n + cell[1]] = straight[cell[1] * n + cell[0]] = 1;
+    }
+    for (int32_t a = 0; a < n; ++a) {
+        int32_t ax = grid->cells.data[a].square % columns, ay = grid->cells.data[a].square / columns;
+        for (int32_t b = 0; b < n; ++b) {
+            int32_t bx = grid->cells.data[b].square % columns, by = grid->cells.data[b].square / columns, ways = 0;
+            for (int32_t m = 0; m < n && abs(ax - bx) == 1 && abs(ay - by) == 1; ++m) {
+                if (straight[a * n + m] && straight[m * n + b]) {
+                    ways |= grid->cells.data[m].square / columns == ay ? 1 : 2;
+                }
+            }
+            diagonal[a * n + b] = ways == 3;
+        }
+    }
+    for (int32_t a = 0; a < n; ++a) {
+        int32_t ax = grid->cells.data[a].square % columns, ay = grid->cells.data[a].square / columns;
+        for (int32_t b = 0; b < n; ++b) {
+            int32_t bx = grid->cells.data[b].square % columns, by = grid->cells.data[b].square / columns, ways = 0;
+            for (int32_t m = 0; m < n && abs(ax - bx) + abs(ay - by) == 3 && ax != bx && ay != by; ++m) {
+                ways |= straight[a * n + m] && diagonal[m * n + b] ? 1 : 0;
+                ways |= diagonal[a * n + m] && straight[m * n + b] ? 2 : 0;
+            }
+            knight[a * n + b] = ways == 3;
+        }
+    }
+    for (int32_t a = 0; a < n; ++a) {
+        int32_t s = grid->stepStart.data[a];
+        for (int kind = 0; kind < 3; ++kind) {
+            const char* is = kind == 0 ? straight : kind == 1 ? diagonal : knight;
+            for (int32_t b = 0; b < n; ++b) {
+                if (is[a * n + b]) {
+                    assert_true(s < grid->stepStart.data[a + 1]);
+                    assert_int_equal(grid->steps.data[s].cell, b);
+                    assert_int_equal(grid->steps.data[s].length, kind == 0 ? 256 : kind == 1 ? 362 : 572);
+                    assert_int_equal(StepLength(grid, b, a), grid->steps.data[s].length);
+                    ++s;
+                }
+            }
+        }
+        assert_int_equal(s, grid->stepStart.data[a + 1]);
+    }
+    free(straight);
+    free(diagonal);
+    free(knight);
+}
+
+static void CheckAll(const Sheet* sheet)
+{
+    CheckMaterial(sheet);
+    CheckPieces(sheet);
+    CheckCells(sheet);
+    if (sheet->grid.cells.count < 1200) {
+        CheckSteps(sheet);
+    }
+}
+
+/* ---- Shapes whose cells are known (figure 4 of the paper) ----------------------------------------------------------- */
+
+static void TestDividedInTwo(void** state)
+{
+    (void)state;
+    Sheet sheet;
+    OpenRectangle(&sheet, 1.0f, 1.0f, 7, 7, 4);
+    CutLine(&sheet, 0.4, -0.1, 0.4, 1.1);
+    Build(&sheet);
+    CheckAll(&sheet);
+    assert_int_equal(sheet.grid.pieces, 2);
+    for (int32_t row = 0; row < 4; ++row) {
+        for (int32_t column = 0; column < 4; ++column) {
+            assert_int_equal(CellsIn(&sheet, column, row), column == 1 ? 2 : 1);
+        }
+    }
+    int32_t left = CellAt(&sheet, 0.38, 0.37), right = CellAt(&sheet, 0.42, 0.37);
+    assert_int_equal(sheet.grid.cells.data[left].square, sheet.grid.cells.data[right].square);
+    assert_near(sheet.grid.cells.data[left].material.area, 0.15 * 0.25, 1e-7);
+    assert_near(sheet.grid.cells.data[right].material.area, 0.10 * 0.25, 1e-7);
+    assert_near(kiriMoments_Center(&sheet.grid.cells.data[left].material).x, 0.325, 1e-7);
+    assert_null(FindFace(&sheet.grid, left, right));
+    assert_near(FindFace(&sheet.grid, left, CellAt(&sheet, 0.1, 0.37))->width, 0.25, 1e-7);
+    assert_null(FindFace(&sheet.grid, left, CellAt(&sheet, 0.6, 0.37)));
+    const kiriFace* up = FindFace(&sheet.grid, left, CellAt(&sheet, 0.38, 0.6));
+    assert_near(up->width, 0.15, 1e-7);
+    assert_near(up->middle.x, 0.325, 1e-7);
+    assert_near(up->middle.y, 0.5, 1e-7);
+    assert_near(up->moment, 0.15 * 0.15 * 0.15 / 12.0, 1e-9);
+    CloseSheet(&sheet);
+}
+
+static void TestConfettiInOneSquare(void** state)
+{
+    (void)state;
+    Sheet sheet;
+    OpenRectangle(&sheet, 1.0f, 1.0f, 5, 5, 4);
+    const double at[3][2] = { { 0.30, 0.30 }, { 0.42, 0.33 }, { 0.34, 0.43 } };
+    for (int i = 0; i < 3; ++i) {
+        double x = at[i][0], y = at[i][1];
+        double loop[10] = { x, y, x + 0.05, y, x + 0.05, y + 0.04, x, y + 0.04, x, y };
+        CutAlong(&sheet, loop, 5);
+    }
+    Build(&sheet);
+    CheckAll(&sheet);
+    assert_int_equal(sheet.grid.pieces, 4);
+    assert_int_equal(CellsIn(&sheet, 1, 1), 4);
+    assert_int_equal(sheet.grid.cells.count, 16 + 3);
+    int32_t around = CellAt(&sheet, 0.27, 0.4);
+    assert_near(sheet.grid.cells.data[around].material.area, 0.0625 - 3.0 * 0.002, 1e-7);
+    for (int i = 0; i < 3; ++i) {
+        int32_t c = CellAt(&sheet, at[i][0] + 0.02, at[i][1] + 0.02);
+        assert_near(sheet.grid.cells.data[c].material.area, 0.002, 1e-8);
+        assert_int_equal(sheet.grid.faceHead.data[c], KIRI_NONE);
+        assert_int_equal(sheet.grid.stepStart.data[c], sheet.grid.stepStart.data[c + 1]);
+        assert_int_equal(sheet.grid.cells.data[c].square, sheet.grid.cells.data[around].square);
+    }
+    CloseSheet(&sheet);
+}
+
+static void TestThinStrip(void** state)
+{
+    (void)state;
+    Sheet sheet;
+    OpenRectangle(&sheet, 1.0f, 1.0f, 6, 6, 8);
+    CutLine(&sheet, 0.41, -0.1, 0.41, 1.1);
+    CutLine(&sheet, 0.42, -0.1, 0.42, 1.1);
+    Build(&sheet);
+    CheckAll(&sheet);
+    CheckInnerSides(&sheet);
+    assert_int_equal(sheet.grid.pieces, 3);
+    for (int32_t row = 0; row < 8; ++row) {
+        assert_int_equal(CellsIn(&sheet, 3, row), 3);
+        int32_t c = CellAt(&sheet, 0.415, (row + 0.5) / 8.0);
+        int32_t neighbours = row == 0 || row == 7 ? 1 : 2;
+        assert_int_equal(sheet.grid.stepStart.data[c + 1] - sheet.grid.stepStart.data[c], neighbours);
+        if (row > 0) {
+            const kiriFace* face = FindFace(&sheet.grid, c, CellAt(&sheet, 0.415, (row - 0.5) / 8.0));
+            assert_near(face->width, 0.01, 1e-7);
+        }
+        assert_int_equal(
+            StepLength(&sheet.grid, CellAt(&sheet, 0.405, (row + 0.5) / 8.0), CellAt(&sheet, 0.425, (row + 0.5) / 8.0)),
+            0);
+    }
+    CloseSheet(&sheet);
+}
+
+/* Two plates with a gap of 0.01 between them: nothing is there, not even a strip. */
+static void TestGapNarrowerThanACell(void** state)
+{
+    (void)state;
+    const float positions[16] = { 0.0f, 0.0f, 0.41f, 0.0f, 0.42f, 0.0f, 1.0f, 0.0f,
+                                  0.0f, 1.0f, 0.41f, 1.0f, 0.42f, 1.0f, 1.0f, 1.0f };
+    const int32_t indices[12] = { 0, 1, 5, 0, 5, 4, 2, 3, 7, 2, 7, 6 };
+    Sheet sheet;
+    OpenSheet(&sheet, positions, 8, indices, 4, 8);
+    Build(&sheet);
+    CheckAll(&sheet);
+    assert_int_equal(sheet.grid.pieces, 2);
+    assert_int_equal(sheet.grid.cells.count, 64 + 8);
+    int32_t left = CellAt(&sheet, 0.405, 0.55), right = CellAt(&sheet, 0.425, 0.55);
+    assert_int_equal(sheet.grid.cells.data[left].square, sheet.grid.cells.data[right].square);
+    assert_int_equal(StepLength(&sheet.grid, left, right), 0);
+    assert_near(sheet.grid.cells.data[left].material.area, 0.035 * 0.125, 1e-7);
+    assert_near(sheet.grid.cells.data[right].material.area, 0.08 * 0.125, 1e-7);
+    CloseSheet(&sheet);
+}
+
+static void TestTipOfSlit(void** state)
+{
+    (void)state;
+    Sheet sheet;
+    OpenRectangle(&sheet, 1.0f, 1.0f, 9, 9, 10);
+    CutLine(&sheet, -0.1, 0.44, 0.57, 0.44);
+    Build(&sheet);
+    CheckAll(&sheet);
+    CheckInnerSides(&sheet);
+    assert_int_equal(sheet.grid.pieces, 1);
+    for (int32_t column = 0; column < 10; ++column) {
+        assert_int_equal(CellsIn(&sheet, column, 4), column < 5 ? 2 : 1);
+    }
+    for (int32_t column = 0; column < 5; ++column) { /* no step from one lip to the other */
+        for (int32_t k = column - 2; k <= column + 2; ++k) {
+            for (int32_t row = 2; row <= 4 && k >= 0 && k < 5; ++row) {
+                int32_t above = CellAt(&sheet, (column + 0.5) / 10.0, 0.47);
+                int32_t below = CellAt(&sheet, (k + 0.5) / 10.0, (row + 0.2) / 10.0);
+                assert_int_equal(StepLength(&sheet.grid, above, below), 0);
+            }
+        }
+    }
+    int32_t tip = CellAt(&sheet, 0.55, 0.42);
+    assert_int_equal(tip, CellAt(&sheet, 0.55, 0.46));
+    assert_near(FindFace(&sheet.grid, tip, CellAt(&sheet, 0.47, 0.42))->width, 0.04, 1e-7);
+    assert_near(FindFace(&sheet.grid, tip, CellAt(&sheet, 0.47, 0.46))->width, 0.06, 1e-7);
+    CloseSheet(&sheet);
+}
+
+/* Vertices on the two lips are in cells of their own; each is in the square around it. */
+static void TestCellsOfVertices(void** state)
+{
+    (void)state;
+    Sheet sheet;
+    OpenRectangle(&sheet, 1.0f, 1.0f, 9, 9, 10);
+    CutLine(&sheet, -0.1, 0.44, 0.57, 0.44);
+    Build(&sheet);
+    int32_t pairs = 0;
+    for (int32_t v = 0; v < sheet.mesh.vertices.count; ++v) {
+        kiriPoint at = sheet.mesh.vertices.data[v].at;
+        int32_t cell = kiriGrid_CellOfVertex(&sheet.grid, &sheet.mesh, v);
+        assert_int_equal(sheet.grid.cells.data[cell].square, kiriSquares_At(&sheet.mesh.squares, at));
+        for (int32_t w = 0; w < v; ++w) {
+            if (kiriDistanceSquared(at, sheet.mesh.vertices.data[w].at) == 0) {
+                bool split = CellsIn(&sheet, sheet.grid.cells.data[cell].square % 10, 4) == 2;
+                assert_int_equal(split, cell != kiriGrid_CellOfVertex(&sheet.grid, &sheet.mesh, w));
+                ++pairs;
+            }
+        }
+    }
+    assert_true(pairs > 8);
+    CloseSheet(&sheet);
+}
+
+static void TestMeshFinerCoarserAligned(void** state)
+{
+    (void)state;
+    const int32_t cases[][3] = { { 40, 40, 5 }, { 1, 1, 16 }, { 8, 8, 8 }, { 16, 16, 8 },
+                                 { 4, 4, 8 },   { 3, 50, 1 }, { 13, 2, 9 } };
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); ++i) {
+        Sheet sheet;
+        OpenRectangle(&sheet, 1.0f, 1.0f, cases[i][0], cases[i][1], cases[i][2]);
+        Build(&sheet);
+        CheckAll(&sheet);
+        CheckInnerSides(&sheet);
+        int32_t n = cases[i][2];
+        assert_int_equal(sheet.grid.cells.count, n * n);
+        assert_int_equal(sheet.grid.faces.count, 2 * n * (n - 1));
+        assert_int_equal(sheet.grid.pieces, 1);
+        for (int32_t f = 0; f < sheet.grid.faces.count; ++f) {
+            assert_near(sheet.grid.faces.data[f].width, 1.0 / n, 1e-7); /* squares are a few steps larger */
+        }
+        CloseSheet(&sheet);
+    }
+}
+
+/* Every triangle of an aligned mesh torn off: corners reach over grid lines by one step of the lattice, and cells there
+   are too small for their area to be anything but rounding. They still have some, and no mass is lost. */
+static void TestEveryTriangleAPiece(void** state)
+{
+    (void)state;
+    Sheet sheet;
+    OpenRectangle(&sheet, 1.0f, 1.0f, 8, 8, 8);
+    kiriMesh_Begin(&sheet.mesh);
+    for (int32_t h = 0; h < 3 * sheet.mesh.triangles.count; ++h) {
+        assert_true(kiriMesh_Open(&sheet.mesh, h));
+    }
+    kiriMesh_Commit(&sheet.mesh);
+    Build(&sheet);
+    CheckAll(&sheet);
+    assert_int_equal(sheet.grid.pieces, 128);
+    double area[128] = { 0.0 };
+    for (int32_t c = 0; c < sheet.grid.cells.count; ++c) {
+        area[sheet.grid.cells.data[c].piece] += sheet.grid.cells.data[c].material.area;
+    }
+    for (int i = 0; i < 128; ++i) {
+        assert_near(area[i], 1.0 / 128.0, 1e-12);
+    }
+    CloseSheet(&sheet);
+}
+
+/* A point p of the lattice, with the edge from (0, 0) to p passing the corner at the least distance there is, on its left
+   or right: orient(0, p, corner) = 2 or -2. By Euclid's algorithm; false where the corner's coordinates have a common
+   divisor. */
+static bool GrazingPoint(kiriPoint corner, bool left, kiriPoint* p)
+{
+    int64_t a = left ? corner.y : corner.x, b = left ? corner.x : corner.y;
+    int64_t r0 = a, r1 = b, s0 = 1, s1 = 0, t0 = 0, t1 = 1; /* r = s a + t b */
+    while (r1 != 0) {
+        int64_t n = r0 / r1, r = r0 - n * r1, s = s0 - n * s1, t = t0 - n * t1;
+        r0 = r1, r1 = r, s0 = s1, s1 = s, t0 = t1, t1 = t;
+    }
+    if (t0 >= 0) {
+        s0 += b;
+        t0 -= a;
+    }
+    p->x = (int32_t)(left ? 2 * s0 : -2 * t0);
+    p->y = (int32_t)(left ? -2 * t0 : 2 * s0);
+    return r0 == 1;
+}
+
+/* Tears off all triangles around p. */
+static void TearAround(Sheet* sheet, kiriPoint p)
+{
+    int32_t triangle = kiriMesh_Locate(&sheet->mesh, p);
+    if (triangle != KIRI_NONE && kiriMesh_CanSplitTriangle(&sheet->mesh, triangle, p)) {
+        kiriMesh_Begin(&sheet->mesh);
+        assert_int_not_equal(kiriMesh_SplitTriangle(&sheet->mesh, triangle, p), KIRI_NONE);
+        for (int32_t h = 0; h < 3 * sheet->mesh.triangles.count; ++h) {
+            assert_true(kiriMesh_Open(&sheet->mesh, h));
+        }
+        kiriMesh_Commit(&sheet->mesh);
+    }
+}
+
+/* An edge that misses a corner of the grid by 2^-28 of a lattice step leaves some 10^-32 of the square in it. That is a
+   cell all the same, with an area, and with faces that have a width. */
+static void TestGrazedCorner(void** state)
+{
+    (void)state;
+    int32_t specks = 0, hairs = 0;
+    for (int32_t i = 0; i < 2 * 7 * 7; ++i) {
+        Sheet sheet;
+        OpenRectangle(&sheet, 1.0f, 1.0f, 1, 1, 8);
+        kiriPoint corner = kiriSquares_Corner(&sheet.mesh.squares, 8 * (1 + i / 2 / 7) + 1 + i / 2 % 7), p;
+        if (corner.x != corner.y && GrazingPoint(corner, i % 2 == 0, &p)) {
+            kiriPoint start = { 0, 0 };
+            assert_int_equal(kiriOrient(start, p, corner), i % 2 == 0 ? 2 : -2);
+            TearAround(&sheet, p);
+        }
+        Build(&sheet);
+        CheckAll(&sheet);
+        CheckInnerSides(&sheet);
+        for (int32_t c = 0; c < sheet.grid.cells.count; ++c) {
+            specks += sheet.grid.cells.data[c].material.area < 1e-13 * sheet.grid.side * sheet.grid.side;
+        }
+        for (int32_t f = 0; f < sheet.grid.faces.count; ++f) {
+            hairs += sheet.grid.faces.data[f].width < 1e-13 * sheet.grid.side;
+        }
+        CloseSheet(&sheet);
+    }
+    assert_true(specks > 10 && hairs > 20);
+}
+
+/* Faces around a closed curve add up to nothing as vectors, and to its length along each axis. */
+static void TestClosedCurveAroundHole(void** state)
+{
+    (void)state;
+    Sheet sheet;
+    OpenRing(&sheet, 20);
+    Build(&sheet);
+    CheckAll(&sheet);
+    assert_int_equal(sheet.grid.pieces, 1);
+    assert_near(0.5 * (double)kiriMesh_DoubledArea(&sheet.mesh) * sheet.mesh.step * sheet.mesh.step,
+                0.5 * 48.0 * 0.13052619222005157 * (0.25 - 0.04), 1e-6);
+    double sum[2] = { 0.0, 0.0 }, length = 0.0;
+    for (int32_t f = 0; f < sheet.grid.faces.count; ++f) {
+        const kiriFace* face = &sheet.grid.faces.data[f];
+        bool in[2];
+        for (int k = 0; k < 2; ++k) {
+            kiriVec2 at =
+                kiriVec2_Sub(kiriGrid_Middle(&sheet.grid, &sheet.mesh, face->cell[k]), kiriVec2_Make(0.5, 0.5));
+            in[k] = kiriVec2_Length(at) < 0.34;
+        }
+        if (in[0] != in[1]) {
+            assert_near(face->width, sheet.grid.side, 1e-12 * sheet.grid.side);
+            sum[face->axis] += in[0] ? face->width : -face->width;
+            length += face->width;
+        }
+    }
+    assert_near(sum[0], 0.0, 1e-13);
+    assert_near(sum[1], 0.0, 1e-13);
+    assert_near(length, 8.0 * 7 * sheet.grid.side, 1e-12); /* of a stair around a disc, as of the box around it */
+    CloseSheet(&sheet);
+}
+
+/* ---- Properties ---------------------------------------------------------------------------------------------------- */
+
+static void TestRandomCuts(void** state)
+{
+    (void)state;
+    uint32_t seed = 2015;
+    int32_t pieces = 0, copies = 0;
+    for (int round = 0; round < 60; ++round) {
+        Sheet sheet;
+        int32_t resolution = 2 + (int32_t)(Random(&seed) % 22);
+        bool ring = round % 5 == 4;
+        if (ring) {
+            OpenRing(&sheet, resolution);
+        } else {
+            OpenRectangle(&sheet, 1.0f, 1.0f, 1 + (int32_t)(Random(&seed) % 12), 1 + (int32_t)(Random(&seed) % 12),
+                          resolution);
+        }
+        int64_t area = kiriMesh_DoubledArea(&sheet.mesh);
+        for (int again = 0; again < 2; ++again) { /* the second build uses the first one's memory */
+            CutRandomly(&sheet, &seed, 1 + (int32_t)(Random(&seed) % 6));
+            Build(&sheet);
+            CheckAll(&sheet);
+            if (!ring) {
+                CheckInnerSides(&sheet);
+                assert_true(kiriMesh_DoubledArea(&sheet.mesh) == area);
+            }
+        }
+        pieces += sheet.grid.pieces;
+        for (int32_t c = 0; c < sheet.grid.cells.count; ++c) {
+            copies += sheet.grid.cells.data[c].next != KIRI_NONE;
+        }
+        CloseSheet(&sheet);
+    }
+    assert_true(pieces > 200 && copies > 2000); /* the cuts were worth testing */
+}
+
+static void assert_same_bytes(const void* a, const void* b, int32_t countA, int32_t countB, size_t itemBytes)
+{
+    assert_int_equal(countA, countB);
+    assert_memory_equal(a, b, (size_t)countA * itemBytes);
+}
+
+#define assert_same_array(a, b) assert_same_bytes((a).data, (b).data, (a).count, (b).count, sizeof(*(a).data))
+
+static void assert_same_grid(const kiriGrid* a, const kiriGrid* b)
+{
+    assert_int_equal(a->pieces, b->pieces);
+    assert_same_array(a->cells, b->cells);
+    assert_same_array(a->faceHead, b->faceHead);
+    assert_same_array(a->stepStart, b->stepStart);
+    assert_same_array(a->steps, b->steps);
+    assert_same_array(a->squareCell, b->squareCell);
+    assert_same_array(a->nodeCell, b->nodeCell);
+    assert_int_equal(a->faces.count, b->faces.count);
+    for (int32_t f = 0; f < a->faces.count; ++f) { /* one by one: the struct may hold padding */
+        const kiriFace *p = &a->faces.data[f], *q = &b->faces.data[f];
+        assert_memory_equal(p->cell, q->cell, sizeof(p->cell));
+        assert_memory_equal(p->next, q->next, sizeof(p->next));
+        assert_int_equal(p->axis, q->axis);
+        assert_true(p->width == q->width && p->moment == q->moment);
+        assert_true(p->middle.x == q->middle.x && p->middle.y == q->middle.y);
+    }
+}
+
+static void ReverseLists(kiriSquares* squares)
+{
+    for (int32_t s = 0; s < squares->columns * squares->rows; ++s) {
+        int32_t reversed = KIRI_NONE;
+        for (int32_t n = squares->head[s]; n != KIRI_NONE;) {
+            int32_t next = squares->nodes.data[n].next;
+            squares->nodes.data[n].next = reversed;
+            reversed = n;
+            n = next;
+        }
+        squares->head[s] = reversed;
+    }
+}
+
+static void TestSameBitsWhateverTheLists(void** state)
+{
+    (void)state;
+    uint32_t seed = 77;
+    Sheet sheet;
+    OpenRectangle(&sheet, 1.0f, 0.7f, 11, 9, 13);
+    CutRandomly(&sheet, &seed, 12);
+    Build(&sheet);
+    kiriGrid second = { 0 };
+    ReverseLists(&sheet.mesh.squares);
+    assert_true(kiriGrid_Build(&second, &sheet.mesh));
+    assert_same_grid(&sheet.grid, &second);
+    kiriGrid_Release(&second, &sheet.memory);
+    CloseSheet(&sheet);
+}
+
+static void TestRebuildUsesItsMemoryAgain(void** state)
+{
+    (void)state;
+    uint32_t seed = 5;
+    Sheet sheet;
+    OpenRectangle(&sheet, 1.0f, 1.0f, 11, 9, 13);
+    CutRandomly(&sheet, &seed, 8);
+    Build(&sheet);
+    void* before[] = { sheet.grid.cells.data,     sheet.grid.faces.data, sheet.grid.faceHead.data,
+                       sheet.grid.stepStart.data, sheet.grid.steps.data, sheet.grid.squareCell.data,
+                       sheet.grid.nodeCell.data };
+    int32_t live = sheet.blocks.live;
+    Build(&sheet);
+    void* after[] = { sheet.grid.cells.data,     sheet.grid.faces.data, sheet.grid.faceHead.data,
+                      sheet.grid.stepStart.data, sheet.grid.steps.data, sheet.grid.squareCell.data,
+                      sheet.grid.nodeCell.data };
+    assert_memory_equal(before, after, sizeof(before));
+    assert_int_equal(sheet.blocks.live, live);
+    kiriGrid fresh = { 0 };
+    assert_true(kiriGrid_Build(&fresh, &sheet.mesh));
+    assert_same_grid(&sheet.grid, &fresh);
+    kiriGrid_Release(&fresh, &sheet.memory);
+    CloseSheet(&sheet);
+}
+
+static void TestFailingMemory(void** state)
+{
+    (void)state;
+    uint32_t seed = 3;
+    Sheet sheet;
+    OpenRectangle(&sheet, 1.0f, 1.0f, 8, 8, 6);
+    CutRandomly(&sheet, &seed, 5);
+    int32_t live = sheet.blocks.live, failures = 0;
+    for (bool built = false; !built; ++failures) {
+        kiriGrid grid = { 0 };
+        sheet.blocks.calls = 0;
+        sheet.blocks.failAt = failures + 1;
+        built = kiriGrid_Build(&grid, &sheet.mesh);
+        assert_int_equal(built, sheet.blocks.calls < sheet.blocks.failAt);
+        kiriGrid_Release(&grid, &sheet.memory);
+        assert_int_equal(sheet.blocks.live, live);
+    }
+    assert_true(failures > 17);
+    CloseSheet(&sheet);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestDividedInTwo),
+        cmocka_unit_test(TestConfettiInOneSquare),
+        cmocka_unit_test(TestThinStrip),
+        cmocka_unit_test(TestGapNarrowerThanACell),
+        cmocka_unit_test(TestTipOfSlit),
+        cmocka_unit_test(TestCellsOfVertices),
+        cmocka_unit_test(TestMeshFinerCoarserAligned),
+        cmocka_unit_test(TestEveryTriangleAPiece),
+        cmocka_unit_test(TestGrazedCorner),
+        cmocka_unit_test(TestClosedCurveAroundHole),
+        cmocka_unit_test(TestRandomCuts),
+        cmocka_unit_test(TestSameBitsWhateverTheLists),
+        cmocka_unit_test(TestRebuildUsesItsMemoryAgain),
+        cmocka_unit_test(TestFailingMemory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

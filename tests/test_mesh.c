@@ -1,0 +1,561 @@
+/* The mesh: what it refuses, and that splitting, opening and taking back keep it whole. */
+#include "check_mesh.h"
+
+static const double Size = 536870912.0;
+
+static kiriResult Init(kiriMeshData* mesh, const float* positions, int32_t vertexCount, const int32_t* indices,
+                       int32_t triangleCount)
+{
+    const char* why = NULL;
+    kiriResult result = kiriMesh_Init(mesh, Heap(), positions, vertexCount, indices, triangleCount, 4, &why);
+    assert_non_null(why);
+    assert_int_equal(strlen(why) == 0, result == KIRI_OK);
+    return result;
+}
+
+/* Refused, or taken and released. */
+static kiriResult Try(const float* positions, int32_t vertexCount, const int32_t* indices, int32_t triangleCount)
+{
+    kiriMeshData mesh;
+    kiriResult result = Init(&mesh, positions, vertexCount, indices, triangleCount);
+    if (result == KIRI_OK) {
+        CheckMesh(&mesh);
+        kiriMesh_Release(&mesh);
+    }
+    return result;
+}
+
+/* A half-edge from one place to another, or KIRI_NONE. */
+static int32_t Find(const kiriMeshData* mesh, double ax, double ay, double bx, double by)
+{
+    kiriPoint a = kiriMesh_Snap(mesh, kiriVec2_Make(ax, ay)), b = kiriMesh_Snap(mesh, kiriVec2_Make(bx, by));
+    for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
+        kiriPoint p = TailAt(mesh, h), q = TailAt(mesh, kiriEdge_Next(h));
+        if (p.x == a.x && p.y == a.y && q.x == b.x && q.y == b.y) {
+            return h;
+        }
+    }
+    return KIRI_NONE;
+}
+
+static int32_t VerticesAt(const kiriMeshData* mesh, double x, double y)
+{
+    kiriPoint p = kiriMesh_Snap(mesh, kiriVec2_Make(x, y));
+    int32_t count = 0;
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        count += mesh->vertices.data[v].at.x == p.x && mesh->vertices.data[v].at.y == p.y ? 1 : 0;
+    }
+    return count;
+}
+
+/* ---- Squares ----------------------------------------------------------------------------------------------------- */
+
+/* Area of a polygon left of the line n . p >= c, in place. */
+static int ClipHalfPlane(kiriVec2* polygon, int count, kiriVec2 n, double c)
+{
+    kiriVec2 out[16];
+    int size = 0;
+    for (int i = 0; i < count; ++i) {
+        kiriVec2 p = polygon[i], q = polygon[(i + 1) % count];
+        double dp = kiriVec2_Dot(n, p) - c, dq = kiriVec2_Dot(n, q) - c;
+        if (dp >= 0.0) {
+            out[size++] = p;
+        }
+        if ((dp < 0.0) != (dq < 0.0) && dp != 0.0 && dq != 0.0) {
+            out[size++] = kiriVec2_Add(p, kiriVec2_Scale(dp / (dp - dq), kiriVec2_Sub(q, p)));
+        }
+    }
+    memcpy(polygon, out, (size_t)size * sizeof(kiriVec2));
+    return size;
+}
+
+static double ClippedArea(const kiriPoint c[3], kiriPoint low, double side)
+{
+    kiriVec2 polygon[16];
+    for (int i = 0; i < 3; ++i) {
+        polygon[i] = kiriVec2_Make(c[i].x, c[i].y);
+    }
+    int count = ClipHalfPlane(polygon, 3, kiriVec2_Make(1.0, 0.0), low.x);
+    count = ClipHalfPlane(polygon, count, kiriVec2_Make(-1.0, 0.0), -(low.x + side));
+    count = ClipHalfPlane(polygon, count, kiriVec2_Make(0.0, 1.0), low.y);
+    count = ClipHalfPlane(polygon, count, kiriVec2_Make(0.0, -1.0), -(low.y + side));
+    double area = 0.0;
+    for (int i = 1; i + 1 < count; ++i) {
+        kiriVec2 p = kiriVec2_Sub(polygon[i], polygon[0]), q = kiriVec2_Sub(polygon[i + 1], polygon[0]);
+        area += 0.5 * (p.x * q.y - p.y * q.x);
+    }
+    return area;
+}
+
+static void SquaresListWhatTheyOverlap(void** state)
+{
+    (void)state;
+    uint32_t seed = 7;
+    kiriPoint extent = { 60, 34 };
+    kiriSquares squares;
+    assert_true(kiriSquares_Init(&squares, Heap(), extent, 7));
+    /* 60 + 2 over 7 squares of an even side */
+    assert_int_equal(squares.side, 10);
+    assert_int_equal(squares.columns, 7);
+    assert_int_equal(squares.rows, 4);
+    for (int round = 0; round < 3000; ++round) {
+        kiriPoint c[3];
+        for (int i = 0; i < 3; ++i) {
+            c[i].x = (int32_t)(2 * (Random(&seed) % 31));
+            c[i].y = (int32_t)(2 * (Random(&seed) % 18));
+        }
+        if (kiriOrient(c[0], c[1], c[2]) <= 0) {
+            continue;
+        }
+        assert_true(kiriSquares_Insert(&squares, Heap(), round, c));
+        for (int32_t s = 0; s < 28; ++s) {
+            /* Small numbers: an overlap has at least the area of a triangle between lines through their points. */
+            bool overlaps = ClippedArea(c, kiriSquares_Corner(&squares, s), 10.0) > 1e-9;
+            assert_int_equal(kiriSquares_Overlap(&squares, s, c), overlaps);
+            assert_int_equal(squares.head[s] != KIRI_NONE, overlaps);
+        }
+        kiriSquares_Remove(&squares, round, c);
+    }
+    assert_true(squares.nodes.count <= 28);
+    kiriSquares_Release(&squares, Heap());
+}
+
+static void SquaresAroundPoints(void** state)
+{
+    (void)state;
+    kiriPoint extent = { 60, 34 }, inside = { 10, 8 }, last = { 60, 34 }, left = { -2, 4 }, above = { 4, 40 };
+    kiriSquares squares;
+    assert_true(kiriSquares_Init(&squares, Heap(), extent, 7));
+    assert_int_equal(kiriSquares_At(&squares, inside), 1);
+    assert_int_equal(kiriSquares_At(&squares, last), 27);
+    assert_int_equal(kiriSquares_At(&squares, left), KIRI_NONE);
+    assert_int_equal(kiriSquares_At(&squares, above), KIRI_NONE);
+    kiriPoint corner = kiriSquares_Corner(&squares, 8);
+    assert_int_equal(corner.x, 9);
+    assert_int_equal(corner.y, 9);
+    kiriSquares_Release(&squares, Heap());
+}
+
+/* An insertion that runs out of memory leaves nothing behind, and after a removal there is room without memory. */
+static void SquaresWithoutMemory(void** state)
+{
+    (void)state;
+    kiriPoint extent = { 60, 34 }, big[3] = { { 0, 0 }, { 60, 0 }, { 0, 34 } },
+              small[3] = { { 0, 0 }, { 4, 0 }, { 0, 4 } };
+    Meter meter = { -1, 0 };
+    kiriMemory memory = kiriMemory_Make(MeterAlloc, MeterFree, &meter);
+    kiriSquares squares;
+    assert_true(kiriSquares_Init(&squares, &memory, extent, 7));
+    assert_true(kiriSquares_Insert(&squares, &memory, 0, small));
+    meter.untilFailure = 0;
+    assert_false(kiriSquares_Insert(&squares, &memory, 1, big));
+    for (int32_t s = 0; s < 28; ++s) {
+        assert_int_equal(squares.head[s] != KIRI_NONE, s == 0);
+    }
+    meter.untilFailure = -1;
+    assert_true(kiriSquares_Insert(&squares, &memory, 1, big));
+    kiriSquares_Remove(&squares, 1, big);
+    meter.untilFailure = 0;
+    assert_true(kiriSquares_Insert(&squares, &memory, 1, big));
+    kiriSquares_Release(&squares, &memory);
+    assert_int_equal(meter.live, 0);
+}
+
+/* ---- Taking triangles over --------------------------------------------------------------------------------------- */
+
+static const float Unit[] = { 0, 0, 1, 0, 1, 1, 0, 1 };
+static const int32_t UnitIndices[] = { 0, 1, 2, 0, 2, 3 };
+
+static void RefusesArguments(void** state)
+{
+    (void)state;
+    const int32_t outside[] = { 0, 1, 4 }, negative[] = { 0, -1, 2 };
+    float nan[] = { 0, 0, 1, 0, 1, 1, 0, 1 }, infinite[] = { 0, 0, 1, 0, 1, 1, 0, 1 };
+    nan[5] = (float)(0.0 * (double)INFINITY);
+    infinite[6] = -INFINITY;
+    assert_int_equal(Try(Unit, 4, UnitIndices, 2), KIRI_OK);
+    assert_int_equal(Try(NULL, 4, UnitIndices, 2), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(Try(Unit, 4, NULL, 2), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(Try(Unit, 2, UnitIndices, 2), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(Try(Unit, -4, UnitIndices, 2), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(Try(Unit, 4, UnitIndices, 0), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(Try(Unit, 4, UnitIndices, INT32_MAX), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(Try(Unit, 4, outside, 1), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(Try(Unit, 4, negative, 1), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(Try(nan, 4, UnitIndices, 2), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(Try(infinite, 4, UnitIndices, 2), KIRI_ERROR_ARGUMENT);
+    kiriMeshData mesh;
+    const char* why = NULL;
+    assert_int_equal(kiriMesh_Init(&mesh, Heap(), Unit, 4, UnitIndices, 2, 0, &why), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriMesh_Init(&mesh, Heap(), Unit, 4, UnitIndices, 2, 4097, &why), KIRI_ERROR_ARGUMENT);
+}
+
+static void RefusesWhatIsNoSheet(void** state)
+{
+    (void)state;
+    const int32_t repeated[] = { 0, 1, 1, 0, 2, 3 }, clockwise[] = { 0, 2, 1, 0, 2, 3 }, twice[] = { 0, 1, 2, 0, 1, 2 };
+    const int32_t same[] = { 0, 1, 2, 0, 2, 3, 1, 2, 3 }, one[] = { 0, 1, 2 };
+    const float point[] = { 3, 3, 3, 3, 3, 3 }, line[] = { 0, 0, 1, 1, 2, 2 };
+    /* too thin for the lattice */
+    const float thin[] = { 0, 0, 1, 0, 1, 1e-12f };
+    assert_int_equal(Try(Unit, 4, repeated, 2), KIRI_ERROR_MESH);
+    assert_int_equal(Try(Unit, 4, clockwise, 2), KIRI_ERROR_MESH);
+    assert_int_equal(Try(Unit, 3, twice, 2), KIRI_ERROR_MESH);
+    assert_int_equal(Try(Unit, 4, same, 3), KIRI_ERROR_MESH);
+    assert_int_equal(Try(Unit, 4, one, 1), KIRI_ERROR_MESH);
+    assert_int_equal(Try(point, 3, one, 1), KIRI_ERROR_MESH);
+    assert_int_equal(Try(line, 3, one, 1), KIRI_ERROR_MESH);
+    assert_int_equal(Try(thin, 3, one, 1), KIRI_ERROR_MESH);
+}
+
+static void RefusesOverlap(void** state)
+{
+    (void)state;
+    const int32_t two[] = { 0, 1, 2, 3, 4, 5 };
+    const float crossing[] = { 0, 0, 4, 0, 2, 3, 0, 2, 2, -1, 4, 2 }, inside[] = { 0, 0, 9, 0, 0, 9, 1, 1, 2, 1, 1, 2 };
+    const float apart[] = { 0, 0, 4, 0, 2, 3, 9, 0, 12, 0, 9, 3 };
+    /* the corner of one in the middle of the other's side */
+    const float touching[] = { 0, 0, 3, 0, 0, 3, 1.5f, 1.5f, 3, 1.5f, 3, 3 };
+    assert_int_equal(Try(crossing, 6, two, 2), KIRI_ERROR_MESH);
+    assert_int_equal(Try(inside, 6, two, 2), KIRI_ERROR_MESH);
+    assert_int_equal(Try(apart, 6, two, 2), KIRI_OK);
+    assert_int_equal(Try(touching, 6, two, 2), KIRI_OK);
+}
+
+/* Nine triangles wound twice around a vertex: no edge is used twice, but they lie on each other. */
+static void RefusesWindingTwice(void** state)
+{
+    (void)state;
+    const float ring[] = { 0, 0, 4, 0, 3, 3, 0, 4, -3, 3, -4, 0, -3, -3, 0, -4, 3, -3 };
+    int32_t indices[24];
+    for (int32_t i = 0; i < 8; ++i) {
+        indices[3 * i] = 0;
+        indices[3 * i + 1] = 1 + 3 * i % 8;
+        indices[3 * i + 2] = 1 + 3 * (i + 1) % 8;
+    }
+    assert_int_equal(Try(ring, 9, indices, 8), KIRI_ERROR_MESH);
+    for (int32_t i = 0; i < 8; ++i) {
+        indices[3 * i + 1] = 1 + i;
+        indices[3 * i + 2] = 1 + (i + 1) % 8;
+    }
+    assert_int_equal(Try(ring, 9, indices, 8), KIRI_OK);
+}
+
+static void TakesRectangles(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 4, 2, 2.0f, 1.0f, 8);
+    assert_int_equal(mesh.vertices.count, 15);
+    assert_int_equal(mesh.triangles.count, 16);
+    assert_int_equal(kiriMesh_DoubledArea(&mesh), (int64_t)1 << 58);
+    assert_true(fabs(mesh.step - 2.0 / Size) == 0.0);
+    assert_int_equal(CheckMesh(&mesh), 1);
+    assert_int_equal(mesh.vertices.data[6].at.x, 1 << 27);
+    assert_int_equal(mesh.vertices.data[6].at.y, 1 << 27);
+    kiriMesh_Release(&mesh);
+}
+
+/* Doubled vertices are the lips of a cut: it ends where the vertex is single. */
+static void TakesSlits(void** state)
+{
+    (void)state;
+    const float positions[] = { 0, 0, 1, 0, 2, 0, 0, 1, 1, 1, 2, 1, 1, 0 };
+    const int32_t indices[] = { 0, 1, 4, 0, 4, 3, 6, 2, 5, 6, 5, 4 };
+    kiriMeshData mesh;
+    assert_int_equal(Init(&mesh, positions, 7, indices, 4), KIRI_OK);
+    int32_t h = Find(&mesh, 1, 0, 1, 1);
+    assert_true(kiriMesh_IsOpen(&mesh, h));
+    assert_true(kiriMesh_Twin(&mesh, h) != KIRI_NONE);
+    assert_int_equal(VerticesAt(&mesh, 1, 0), 2);
+    /* the slit ends at the outline above: two fans, so the shared vertex is divided */
+    assert_int_equal(mesh.vertices.count, 8);
+    assert_int_equal(CheckMesh(&mesh), 2);
+    kiriMesh_Release(&mesh);
+}
+
+/* Two squares that share only a corner. */
+static void DividesPinchedVertices(void** state)
+{
+    (void)state;
+    const float positions[] = { 0, 0, 1, 0, 0, 1, 1, 1, 2, 1, 1, 2, 2, 2 };
+    const int32_t indices[] = { 0, 1, 3, 0, 3, 2, 3, 4, 6, 3, 6, 5 };
+    kiriMeshData mesh;
+    assert_int_equal(Init(&mesh, positions, 7, indices, 4), KIRI_OK);
+    assert_int_equal(mesh.vertices.count, 8);
+    assert_int_equal(mesh.vertices.data[7].source, 2);
+    assert_int_equal(mesh.triangles.data[0].vertex[2], 3);
+    assert_int_equal(mesh.triangles.data[2].vertex[0], 7);
+    assert_int_equal(CheckMesh(&mesh), 2);
+    kiriMesh_Release(&mesh);
+}
+
+static void InitWithoutMemory(void** state)
+{
+    (void)state;
+    Rectangle r = Rectangle_Make(6, 5, 1.0f, 1.0f);
+    kiriResult result = KIRI_ERROR_MEMORY;
+    for (int32_t n = 0; result != KIRI_OK; ++n) {
+        Meter meter = { n, 0 };
+        kiriMemory memory = kiriMemory_Make(MeterAlloc, MeterFree, &meter);
+        kiriMeshData mesh;
+        const char* why = NULL;
+        result = kiriMesh_Init(&mesh, &memory, r.positions, r.vertexCount, r.indices, r.triangleCount, 8, &why);
+        assert_true(result == KIRI_OK || result == KIRI_ERROR_MEMORY);
+        assert_int_equal(result == KIRI_OK, meter.live > 0);
+        if (result == KIRI_OK) {
+            assert_true(n > 8);
+            kiriMesh_Release(&mesh);
+        }
+        assert_int_equal(meter.live, 0);
+    }
+    Rectangle_Free(&r);
+}
+
+/* ---- Changing ---------------------------------------------------------------------------------------------------- */
+
+static void SplitsEdges(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 2, 2, 2.0f, 2.0f, 4);
+    kiriPoint inside = kiriMesh_Snap(&mesh, kiriVec2_Make(1.0, 0.25)),
+              border = kiriMesh_Snap(&mesh, kiriVec2_Make(0.75, 0.0));
+    uint32_t revision = mesh.revision;
+    int32_t h = Find(&mesh, 1, 0, 1, 1);
+    assert_true(kiriMesh_CanSplitEdge(&mesh, h, inside));
+    assert_false(kiriMesh_CanSplitEdge(&mesh, h, border));
+    assert_false(kiriMesh_CanSplitEdge(&mesh, h, TailAt(&mesh, h)));
+    int32_t v = kiriMesh_SplitEdge(&mesh, h, inside);
+    assert_int_equal(v, 9);
+    assert_int_equal(mesh.triangles.count, 10);
+    assert_true(mesh.births.data[0].share[0] == 0.75 && mesh.births.data[0].share[1] == 0.25);
+    CheckMesh(&mesh);
+    h = Find(&mesh, 0, 0, 1, 0);
+    assert_true(kiriMesh_CanSplitEdge(&mesh, h, border));
+    assert_int_equal(kiriMesh_SplitEdge(&mesh, h, border), 10);
+    assert_int_equal(mesh.triangles.count, 11);
+    assert_int_equal(CheckMesh(&mesh), 1);
+    assert_int_equal(kiriMesh_DoubledArea(&mesh), (int64_t)1 << 59);
+    assert_true(mesh.revision > revision);
+    kiriMesh_Release(&mesh);
+}
+
+/* Each lip gets a point of its own, born on its own side. */
+static void SplitsOpenEdges(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 2, 2, 2.0f, 2.0f, 4);
+    kiriPoint at = kiriMesh_Snap(&mesh, kiriVec2_Make(1.0, 0.25));
+    int32_t h = Find(&mesh, 1, 0, 1, 1);
+    assert_true(kiriMesh_Open(&mesh, h));
+    assert_int_equal(VerticesAt(&mesh, 1, 0), 2);
+    int32_t foot = kiriMesh_Tail(&mesh, h);
+    int32_t v = kiriMesh_SplitEdge(&mesh, h, at);
+    assert_int_equal(mesh.vertices.count, 12);
+    assert_int_equal(VerticesAt(&mesh, 1.0, 0.25), 2);
+    assert_int_equal(mesh.births.data[v - mesh.oldVertexCount].parent[0], foot);
+    assert_true(kiriMesh_IsOpen(&mesh, Find(&mesh, 1, 0, 1, 0.25)));
+    assert_true(kiriMesh_IsOpen(&mesh, Find(&mesh, 1, 1, 1, 0.25)));
+    assert_int_equal(CheckMesh(&mesh), 1);
+    kiriMesh_Release(&mesh);
+}
+
+static void SplitsTriangles(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 2, 2, 2.0f, 2.0f, 4);
+    kiriPoint at = kiriMesh_Snap(&mesh, kiriVec2_Make(0.75, 0.25)),
+              edge = kiriMesh_Snap(&mesh, kiriVec2_Make(0.5, 0.0));
+    int32_t t = kiriMesh_Locate(&mesh, at);
+    assert_true(kiriMesh_CanSplitTriangle(&mesh, t, at));
+    assert_false(kiriMesh_CanSplitTriangle(&mesh, t, edge));
+    assert_int_equal(kiriMesh_SplitTriangle(&mesh, t, at), 9);
+    assert_int_equal(mesh.triangles.count, 10);
+    assert_int_equal(mesh.vertices.data[9].source, t);
+    assert_int_equal(CheckMesh(&mesh), 1);
+    assert_int_equal(kiriMesh_DoubledArea(&mesh), (int64_t)1 << 59);
+    kiriMesh_Release(&mesh);
+}
+
+static void OpensEdges(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 2, 4, 2.0f, 4.0f, 4);
+    /* one edge inside: both its ends stay closed */
+    assert_true(kiriMesh_Open(&mesh, Find(&mesh, 1, 1, 1, 2)));
+    assert_int_equal(mesh.vertices.count, 15);
+    assert_int_equal(CheckMesh(&mesh), 1);
+    /* a second one: the place between tears */
+    assert_true(kiriMesh_Open(&mesh, Find(&mesh, 1, 3, 1, 2)));
+    assert_int_equal(mesh.vertices.count, 16);
+    assert_int_equal(VerticesAt(&mesh, 1, 2), 2);
+    assert_int_equal(CheckMesh(&mesh), 1);
+    /* again, and the outline: nothing happens */
+    uint32_t revision = mesh.revision;
+    assert_true(kiriMesh_Open(&mesh, Find(&mesh, 1, 3, 1, 2)));
+    assert_true(kiriMesh_Open(&mesh, Find(&mesh, 0, 0, 1, 0)));
+    assert_int_equal(mesh.revision, revision);
+    /* to the outline on both sides */
+    assert_true(kiriMesh_Open(&mesh, Find(&mesh, 1, 0, 1, 1)));
+    assert_int_equal(VerticesAt(&mesh, 1, 0), 2);
+    assert_int_equal(CheckMesh(&mesh), 1);
+    assert_true(kiriMesh_Open(&mesh, Find(&mesh, 1, 4, 1, 3)));
+    assert_int_equal(mesh.vertices.count, 20);
+    assert_int_equal(CheckMesh(&mesh), 2);
+    /* across: four fans at the place in the middle */
+    assert_true(kiriMesh_Open(&mesh, Find(&mesh, 0, 2, 1, 2)));
+    assert_true(kiriMesh_Open(&mesh, Find(&mesh, 2, 2, 1, 2)));
+    assert_int_equal(VerticesAt(&mesh, 1, 2), 4);
+    assert_int_equal(CheckMesh(&mesh), 4);
+    kiriMesh_Release(&mesh);
+}
+
+static void Snaps(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 2, 2, 1.0f, 1.0f, 4);
+    const double in[] = { 0.0, 0.9, 1.1, 2.9, 3.1, -0.9, -1.1, -2.9, -3.1 };
+    const int32_t out[] = { 0, 0, 2, 2, 4, 0, -2, -2, -4 };
+    for (int i = 0; i < 9; ++i) {
+        kiriPoint p = kiriMesh_Snap(&mesh, kiriVec2_Make(in[i] * mesh.step, in[8 - i] * mesh.step));
+        assert_int_equal(p.x, out[i]);
+        assert_int_equal(p.y, out[8 - i]);
+    }
+    kiriMesh_Release(&mesh);
+}
+
+/* Random splits and openings. False when memory runs out. */
+static bool Scramble(kiriMeshData* mesh, uint32_t seed, int rounds)
+{
+    for (int i = 0; i < rounds; ++i) {
+        int32_t h = (int32_t)(Random(&seed) % (uint32_t)(3 * mesh->triangles.count));
+        kiriPoint a = TailAt(mesh, h), b = TailAt(mesh, kiriEdge_Next(h)), c = TailAt(mesh, kiriEdge_Previous(h));
+        double s = RandomBetween(&seed, 0.2, 0.8), third = 1.0 / 3.0;
+        kiriPoint onEdge = kiriMesh_Round(kiriVec2_Make(a.x + s * (b.x - a.x), a.y + s * (b.y - a.y)));
+        kiriPoint within =
+            kiriMesh_Round(kiriVec2_Make(third * ((double)a.x + b.x + c.x), third * ((double)a.y + b.y + c.y)));
+        uint32_t choice = Random(&seed) % 4;
+        if (choice == 0 && kiriMesh_CanSplitEdge(mesh, h, onEdge) && kiriMesh_SplitEdge(mesh, h, onEdge) == KIRI_NONE) {
+            return false;
+        }
+        if (choice == 1 && kiriMesh_CanSplitTriangle(mesh, h / 3, within) &&
+            kiriMesh_SplitTriangle(mesh, h / 3, within) == KIRI_NONE) {
+            return false;
+        }
+        if (choice >= 2 && !kiriMesh_Open(mesh, h)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void Locates(void** state)
+{
+    (void)state;
+    uint32_t seed = 11;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 5, 3, 5.0f, 3.0f, 7);
+    kiriMesh_Begin(&mesh);
+    assert_true(Scramble(&mesh, 3, 20));
+    kiriMesh_Rollback(&mesh);
+    for (int i = 0; i < 2000; ++i) {
+        /* also on vertices and edges, on the outline and outside */
+        double grain = i % 2 == 0 ? 0.25 : 1e-6;
+        double x = grain * (int)(RandomBetween(&seed, -1.0, 6.0) / grain);
+        double y = grain * (int)(RandomBetween(&seed, -1.0, 4.0) / grain);
+        kiriPoint p = kiriMesh_Snap(&mesh, kiriVec2_Make(x, y));
+        int32_t expected = KIRI_NONE;
+        for (int32_t t = mesh.triangles.count - 1; t >= 0; --t) {
+            kiriPoint c[3];
+            kiriMesh_Corners(&mesh, t, c);
+            bool holds =
+                kiriOrient(c[0], c[1], p) >= 0 && kiriOrient(c[1], c[2], p) >= 0 && kiriOrient(c[2], c[0], p) >= 0;
+            expected = holds ? t : expected;
+        }
+        assert_int_equal(kiriMesh_Locate(&mesh, p), expected);
+    }
+    kiriMesh_Release(&mesh);
+}
+
+static void ScramblesAndRollsBack(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 4, 4, 1.0f, 1.0f, 8);
+    for (uint32_t round = 1; round <= 30; ++round) {
+        kiriMesh_Begin(&mesh);
+        Copy copy = Copy_Make(&mesh);
+        assert_true(Scramble(&mesh, 77 * round, 60));
+        CheckMesh(&mesh);
+        assert_false(Copy_Equals(&copy, &mesh));
+        kiriMesh_Rollback(&mesh);
+        assert_true(Copy_Equals(&copy, &mesh));
+        CheckMesh(&mesh);
+        Copy_Free(&copy);
+        kiriMesh_Begin(&mesh);
+        assert_true(Scramble(&mesh, 99 * round, 20));
+        CheckMesh(&mesh);
+        kiriMesh_Commit(&mesh);
+    }
+    kiriMesh_Release(&mesh);
+}
+
+static void RollsBackWithoutMemory(void** state)
+{
+    (void)state;
+    Rectangle r = Rectangle_Make(4, 4, 1.0f, 1.0f);
+    bool done = false;
+    for (int32_t n = 0; !done; ++n) {
+        Meter meter = { -1, 0 };
+        kiriMemory memory = kiriMemory_Make(MeterAlloc, MeterFree, &meter);
+        kiriMeshData mesh;
+        const char* why = NULL;
+        assert_int_equal(kiriMesh_Init(&mesh, &memory, r.positions, r.vertexCount, r.indices, r.triangleCount, 8, &why),
+                         0);
+        kiriMesh_Begin(&mesh);
+        Copy copy = Copy_Make(&mesh);
+        meter.untilFailure = n;
+        done = Scramble(&mesh, 5, 150);
+        assert_true(done || meter.untilFailure == 0);
+        meter.untilFailure = 0;
+        kiriMesh_Rollback(&mesh);
+        assert_true(Copy_Equals(&copy, &mesh));
+        CheckMesh(&mesh);
+        Copy_Free(&copy);
+        kiriMesh_Release(&mesh);
+        assert_int_equal(meter.live, 0);
+        assert_true(!done || n > 8);
+    }
+    Rectangle_Free(&r);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(SquaresListWhatTheyOverlap),
+        cmocka_unit_test(SquaresAroundPoints),
+        cmocka_unit_test(SquaresWithoutMemory),
+        cmocka_unit_test(RefusesArguments),
+        cmocka_unit_test(RefusesWhatIsNoSheet),
+        cmocka_unit_test(RefusesOverlap),
+        cmocka_unit_test(RefusesWindingTwice),
+        cmocka_unit_test(TakesRectangles),
+        cmocka_unit_test(TakesSlits),
+        cmocka_unit_test(DividesPinchedVertices),
+        cmocka_unit_test(InitWithoutMemory),
+        cmocka_unit_test(SplitsEdges),
+        cmocka_unit_test(SplitsOpenEdges),
+        cmocka_unit_test(SplitsTriangles),
+        cmocka_unit_test(OpensEdges),
+        cmocka_unit_test(Locates),
+        cmocka_unit_test(Snaps),
+        cmocka_unit_test(ScramblesAndRollsBack),
+        cmocka_unit_test(RollsBackWithoutMemory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

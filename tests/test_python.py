@@ -1,0 +1,216 @@
+"""Tests of the Python binding. Needs a C compiler: $CC, or cc."""
+
+import array
+import gc
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import weakref
+
+repository = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(repository / "bindings/python"))
+sys.dont_write_bytecode = True
+
+import kiri  # noqa: E402
+
+library = os.path.abspath(os.environ.get("KIRI_LIBRARY", repository / "build/release/libkiri.so"))
+
+
+def raises(error, function, *arguments, **fields):
+    try:
+        function(*arguments, **fields)
+    except error as caught:
+        return caught
+    raise AssertionError(f"{function.__name__} did not raise {error.__name__}")
+
+
+def make_scene(**fields):
+    """The same as in python_twin.c."""
+    world = kiri.World(gravity=(1.0, 0.0, -9.81), **fields)
+    sheet = world.create_rectangle(1.0, 0.75, 16, 12, position=(0, 0, 1), material={"youngsModulus": 1e7}, frameCount=6)
+    sheet.create_pin((0.0, 0.0), (0.0, 0.0, 1.0))
+    sheet.create_pin((1.0, 0.0), (1.0, 0.0, 1.0))
+    cut = sheet.begin_cut((0.3, -0.1))
+    cut.extend([(0.3, 0.4), (0.7, 0.45), (0.65, 0.85)])
+    cut.end()
+    return world, sheet, cut
+
+
+def run_scene():
+    world, sheet, cut = make_scene()
+    for _ in range(30):
+        world.tick(1 / 60, 2)
+    return world, sheet, cut
+
+
+def run_twin():
+    with tempfile.TemporaryDirectory() as folder:
+        program = os.path.join(folder, "twin")
+        subprocess.run([os.environ.get("CC", "cc"), "-std=c99", f"-I{repository}/include",
+                        f"{repository}/tests/python_twin.c", library, f"-Wl,-rpath,{os.path.dirname(library)}",
+                        "-o", program], check=True)
+        lines = subprocess.run([program], check=True, capture_output=True, text=True).stdout.splitlines()
+    return dict(line.split() for line in lines)
+
+
+def test_same_hash_and_sizes_as_c():
+    twin = run_twin()
+    assert f"{run_scene()[0].state_hash():016x}" == twin.pop("hash")
+    assert len(twin) == 12
+    for name, size in twin.items():
+        assert kiri.ffi.sizeof(name) == int(size), name
+
+
+def test_two_runs_agree_and_another_gravity_does_not():
+    assert run_scene()[0].state_hash() == run_scene()[0].state_hash()
+    world, _, _ = make_scene()
+    world.set_gravity((0.0, 0.0, -1.0))
+    for _ in range(30):
+        world.tick(1 / 60, 2)
+    assert world.state_hash() != run_scene()[0].state_hash()
+
+
+def test_cut():
+    world, sheet, cut = make_scene()
+    before = sheet.counts()
+    world.tick(1 / 60)
+    finished, = (event for event in world.events() if event.type == kiri.KIRI_EVENT_CUT_FINISHED)
+    assert finished.cut == cut.id and finished.sheet == sheet.id
+    assert any(event.type == kiri.KIRI_EVENT_PIECE_OFF for event in world.events())
+    assert sheet.counts().vertices > before.vertices and sheet.counts().pieces == before.pieces + 1
+    assert abs(sheet.totals().area - 0.75) < 1e-6
+    assert world.profile().trianglesSplit > 0
+    assert raises(kiri.KiriError, cut.end).result == kiri.KIRI_ERROR_ID
+
+
+def test_slice():
+    world = kiri.World()
+    sheet = world.create_rectangle(1.0, 1.0, 8, 8)
+    sheet.slice([(0.5, -1, -1), (0.5, -1, 1), (0.5, 2, 1), (0.5, 2, -1)])
+    world.tick(1 / 60)
+    assert sheet.counts().pieces == 2
+
+
+def test_views():
+    world, sheet, _ = run_scene()
+    mesh = sheet.mesh()
+    assert mesh.positions.shape == (mesh.vertexCount, 3) and mesh.indices.shape == (mesh.triangleCount, 3)
+    assert mesh.sourceTriangles.shape == (mesh.vertexCount,)
+    pointer = world.get("kiriSheet_GetMesh", "kiriMesh", sheet.id).positions
+    for view in (mesh.positions, mesh.normals, mesh.indices):
+        raises((TypeError, ValueError), view.__setitem__, (0, 0), 1)
+    assert [mesh.positions[7, i] for i in range(3)] == [pointer[21 + i] for i in range(3)]
+    address = kiri.ffi.cast("uintptr_t", kiri.ffi.from_buffer(mesh.positions))
+    assert int(address) == int(kiri.ffi.cast("uintptr_t", pointer))
+    for i in range(mesh.vertexCount):
+        assert abs(sum(mesh.normals[i, k] ** 2 for k in range(3)) - 1.0) < 1e-5
+        assert abs(sum(mesh.sourceWeights[i, k] for k in range(3)) - 1.0) < 1e-5
+
+
+def test_views_without_numpy():
+    numpy, kiri.numpy = kiri.numpy, None
+    try:
+        assert isinstance(run_scene()[1].mesh().positions, memoryview)
+        test_views()
+        assert len(run_scene()[1].collision_points()) == 0
+    finally:
+        kiri.numpy = numpy
+
+
+def test_view_keeps_world():
+    world, sheet, _ = make_scene()
+    alive, positions = weakref.ref(world), sheet.mesh().positions
+    del world, sheet, _
+    gc.collect()
+    assert alive() is not None and all(abs(positions[i, 0]) < 2.0 for i in range(len(positions)))
+    del positions
+    gc.collect()
+    assert alive() is None
+
+
+def test_buffers_are_taken():
+    positions = array.array("f", [0, 0, 1, 0, 1, 1, 0, 1])
+    triangles = array.array("i", [0, 1, 2, 0, 2, 3])
+    world = kiri.World()
+    nested = world.create_sheet([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1, 2), (0, 2, 3)])
+    shared = world.create_sheet(positions, triangles)
+    assert nested.counts() == shared.counts() and shared.counts().triangles == 2
+    if kiri.numpy:
+        doubles = world.create_sheet(kiri.numpy.array(positions, dtype=float).reshape(-1, 2), [0, 1, 2, 0, 2, 3])
+        assert doubles.counts() == shared.counts()
+
+
+def test_frames_and_weights():
+    world, sheet, _ = make_scene()
+    frames = sheet.frames()
+    assert len(frames) == sheet.counts().frames and len(set(frames)) == len(frames)
+    weights = sheet.weights((0.4, 0.3))
+    assert set(weights) <= set(frames) and abs(sum(weights.values()) - 1.0) < 1e-6
+    frames[0].hold((0.0, 0.0, 2.0), (1, 0, 0, 0, 1, 0, 0, 0, 1))
+    world.tick(1 / 60)
+    assert frames[0].state().held == 1 and abs(frames[0].state().position[2] - 2.0) < 1e-6
+    frames[0].release()
+    world.tick(1 / 60)
+    assert frames[0].state().held == 0
+
+
+def test_force_and_contacts():
+    world = kiri.World(gravity=(0, 0, 0))
+    sheet = world.create_rectangle(1.0, 1.0, 8, 8, frameCount=1, rigidArea=1.0, collisionPoints=9,
+                                   material={"airDamping": 0.0})
+    frame, = sheet.frames()
+    frame.apply_force((0.0, 0.0, 3.0))
+    world.tick(0.01)
+    assert abs(sheet.totals().momentum[2] - 0.03) < 1e-6
+    points = sheet.collision_points()
+    height = sheet.totals().center[2]
+    contact = {"normal": (0, 0, 1), "offset": 1.0, "stiffness": 10.0}
+    sheet.set_contacts([{"point": i, **contact} for i in range(len(points))])
+    world.tick(0.01)
+    assert sheet.totals().momentum[2] > 0.04 and sheet.totals().center[2] > height
+
+
+def test_raycast():
+    world = kiri.World()
+    sheet = world.create_rectangle(1.0, 1.0, 8, 8)
+    hit = sheet.raycast((0.25, 0.4, 1.0), (0.0, 0.0, -1.0), 5.0)
+    assert abs(hit.distance - 1.0) < 1e-6 and abs(hit.restPoint[0] - 0.25) < 1e-6
+    assert sheet.raycast((2.0, 0.4, 1.0), (0.0, 0.0, -1.0), 5.0) is None
+
+
+def test_errors():
+    world, sheet, _ = make_scene()
+    error = raises(kiri.KiriError, world.tick, -1.0)
+    assert error.result == kiri.KIRI_ERROR_ARGUMENT and str(error).startswith("KIRI_ERROR_ARGUMENT: ")
+    raises(TypeError, world.create_rectangle, 1, 1, 2, 2, noSuchField=1)
+    raises(ValueError, sheet.begin_cut, (0.5,))
+    sheet.destroy()
+    assert raises(kiri.KiriError, sheet.mesh).result == kiri.KIRI_ERROR_ID
+    world.close()
+    assert raises(kiri.KiriError, world.tick, 1 / 60).result == kiri.KIRI_ERROR_ARGUMENT
+
+
+def test_log():
+    lines = []
+    world, _, _ = make_scene(log=lambda user, line: lines.append(kiri.ffi.string(line).decode()))
+    raises(kiri.KiriError, world.tick, float("nan"))
+    assert len(lines) == 1 and lines[0]
+
+
+def main():
+    failed = 0
+    tests = [test for name, test in globals().items() if name.startswith("test_")]
+    for test in tests:
+        try:
+            test()
+        except Exception as error:
+            failed += 1
+            print(f"{test.__name__}: {type(error).__name__}: {error}")
+    print(f"{len(tests) - failed} passed, {failed} failed")
+    return failed > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,451 @@
+#include "scene.h"
+
+static void Build(Scene* scene, kiriRegions* regions, const kiriSite* sites, int32_t count)
+{
+    memset(regions, 0, sizeof(*regions));
+    assert_true(kiriRegions_Build(regions, &scene->memory, &scene->grid, &scene->mesh, &scene->field, sites, count));
+    for (int32_t c = 0; c < scene->grid.cells.count; ++c) {
+        assert_int_equal(scene->field.distance.data[c], KIRI_FAR);
+    }
+}
+
+static void Finish(Scene* scene, kiriRegions* regions)
+{
+    kiriRegions_Release(regions, &scene->memory);
+    Scene_Release(scene);
+}
+
+/* The distance on the grid from one site to another, by a flood of its own. */
+static double GridDistance(Scene* scene, int32_t from, int32_t to)
+{
+    kiriSeed seed = { from, 0, 0 };
+    assert_true(kiriField_Flood(&scene->field, &scene->memory, &scene->grid, &seed, 1, KIRI_FAR - 1, NULL, NULL));
+    double distance = scene->field.distance.data[to] * scene->grid.side / KIRI_UNIT;
+    kiriField_Reset(&scene->field);
+    return distance;
+}
+
+static void StripHasStraightLinks(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriRegions regions;
+    kiriSite sites[5];
+    Scene_Init(&scene, 1.0, 0.25, 8, 2, 36);
+    Scene_BuildGrid(&scene);
+    for (int i = 0; i < 5; ++i) {
+        sites[i] = Scene_Site(&scene, (4.5 + 7 * i) / 36, 0.125);
+    }
+    Build(&scene, &regions, sites, 5);
+    assert_int_equal(regions.links.count, 4);
+    for (int k = 0; k < 4; ++k) {
+        const kiriLink* link = &regions.links.data[k];
+        assert_int_equal(link->i, k);
+        assert_int_equal(link->j, k + 1);
+        AssertNear(link->width, 0.25, 1e-12);
+        AssertNear(link->length, 7.0 * scene.grid.side, 1e-12);
+        AssertNear(link->moment, 0.25 * 0.25 * 0.25 / 12.0, 1e-12);
+        AssertNear(link->normal.x, 1.0, 0.0);
+        AssertNear(link->normal.y, 0.0, 0.0);
+        AssertNear(link->tangent.y, 1.0, 0.0);
+        AssertNear(link->centroid.x, (8 + 7 * k) * scene.grid.side, 1e-6);
+        AssertNear(link->centroid.y, 0.125, 1e-12);
+        AssertNear(link->crossing.x, 0.5 * (sites[k].at.x + sites[k + 1].at.x), 1e-12);
+        AssertNear(link->crossing.y, sites[k].at.y, 1e-12);
+    }
+    for (int i = 0; i < 5; ++i) {
+        int32_t columns = i == 0 ? 8 : i == 4 ? 7 : 7;
+        AssertNear(regions.regions.data[i].material.area, 0.25 * columns / 36.0, 1e-5);
+    }
+    Finish(&scene, &regions);
+}
+
+/* The same border, crossed from right to left: the link is seen from the lower index. */
+static void NormalPointsToTheHigherIndex(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriRegions regions;
+    Scene_Init(&scene, 1.0, 0.25, 8, 2, 36);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.8, 0.1), Scene_Site(&scene, 0.2, 0.1) };
+    Build(&scene, &regions, sites, 2);
+    assert_int_equal(regions.links.count, 1);
+    AssertNear(regions.links.data[0].normal.x, -1.0, 0.0);
+    AssertNear(regions.links.data[0].tangent.y, -1.0, 0.0);
+    AssertNear(regions.links.data[0].width, 0.25, 1e-12);
+    Finish(&scene, &regions);
+}
+
+static void SlitMakesTheLongWay(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriRegions regions;
+    Scene_Init(&scene, 1.0, 1.0, 10, 10, 21);
+    Scene_Slit(&scene, 0.5, 0.0, 0.5, 0.8);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.25, 0.25), Scene_Site(&scene, 0.75, 0.25) };
+    Build(&scene, &regions, sites, 2);
+    assert_int_equal(regions.links.count, 1);
+    const kiriLink* link = &regions.links.data[0];
+    double across = 0.5 * (sites[1].at.x - sites[0].at.x), up = 0.8 - sites[0].at.y;
+    double way = 2.0 * sqrt(across * across + up * up);
+    AssertNear(link->length, GridDistance(&scene, sites[0].cell, sites[1].cell), 1e-12);
+    AssertNear(link->length / way, 1.04, 0.06);
+    AssertNear(link->crossing.x, 0.5, 0.03);
+    AssertNear(link->crossing.y, 0.8, 0.04);
+    AssertNear(link->width, 0.2, 0.05); /* the border may cross the slit's last square on either side */
+    Finish(&scene, &regions);
+}
+
+static void CompleteCutHasNoLink(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriRegions regions;
+    Scene_Init(&scene, 1.0, 1.0, 10, 10, 21);
+    Scene_Slit(&scene, 0.5, 0.0, 0.5, 1.0);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.25, 0.25), Scene_Site(&scene, 0.75, 0.25) };
+    Build(&scene, &regions, sites, 2);
+    assert_int_equal(regions.links.count, 0);
+    AssertNear(regions.regions.data[0].material.area, 0.5, 1e-6);
+    AssertNear(regions.regions.data[1].material.area, 0.5, 1e-6);
+    kiriRegions_Release(&regions, &scene.memory);
+    Build(&scene, &regions, sites, 1);
+    AssertNear(regions.regions.data[0].material.area, 0.5, 1e-6);
+    assert_int_equal(regions.owner.data[sites[1].cell], KIRI_NONE);
+    Finish(&scene, &regions);
+}
+
+static void HoleMakesTwoStretches(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriRegions regions;
+    Scene_Init(&scene, 1.0, 0.5, 10, 5, 41);
+    Scene_Slit(&scene, 0.4, 0.2, 0.6, 0.2);
+    Scene_Slit(&scene, 0.6, 0.2, 0.6, 0.4);
+    Scene_Slit(&scene, 0.6, 0.4, 0.4, 0.4);
+    Scene_Slit(&scene, 0.4, 0.4, 0.4, 0.2);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.25, 0.25), Scene_Site(&scene, 0.75, 0.25) };
+    Build(&scene, &regions, sites, 2);
+    assert_int_equal(regions.links.count, 2);
+    for (int k = 0; k < 2; ++k) {
+        const kiriLink* link = &regions.links.data[k];
+        assert_int_equal(link->i, 0);
+        assert_int_equal(link->j, 1);
+        AssertNear(link->width, k == 0 ? 0.2 : 0.1, 1e-6);
+        AssertNear(link->moment, link->width * link->width * link->width / 12.0, 1e-9);
+        AssertNear(link->centroid.y, k == 0 ? 0.1 : 0.45, 1e-6);
+    }
+    /* Over the hole it is a longer way than under it, and one that passes by a corner of the hole. */
+    assert_true(regions.links.data[1].length > regions.links.data[0].length);
+    AssertNear(regions.links.data[1].crossing.y, 0.41, 0.02);
+    Finish(&scene, &regions);
+}
+
+static void DiagonalBorderHasItsTrueLength(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriRegions regions;
+    Scene_Init(&scene, 1.0, 1.0, 4, 4, 41);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 10.5 / 41, 10.5 / 41), Scene_Site(&scene, 30.5 / 41, 30.5 / 41) };
+    Build(&scene, &regions, sites, 2);
+    assert_int_equal(regions.links.count, 1);
+    const kiriLink* link = &regions.links.data[0];
+    double width = sqrt(2.0) * 40.0 / 41.0; /* ties go to frame 0; the last row and column have no square beyond them */
+    AssertNear(link->width, width, 1e-6);
+    AssertNear(link->normal.x, sqrt(0.5), 0.02);
+    AssertNear(link->normal.y, sqrt(0.5), 0.02);
+    AssertNear(link->centroid.x, 0.5, 0.02);
+    AssertNear(link->centroid.y, 0.5, 0.02);
+    AssertNear(link->moment, width * width * width / 12.0, 1e-6);
+    AssertNear(link->length, 20.0 * sqrt(2.0) * scene.grid.side, 1e-12);
+    AssertNear(link->crossing.x, 20.5 * scene.grid.side, 1e-6);
+    Finish(&scene, &regions);
+}
+
+/* The nearest neighbours on a diagonal: a way over faces alone would be half as long again. */
+static void ShortDiagonalIsStraight(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriRegions regions;
+    Scene_Init(&scene, 1.0, 1.0, 4, 4, 8);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.3, 0.3), Scene_Site(&scene, 0.55, 0.55) };
+    Build(&scene, &regions, sites, 2);
+    assert_int_equal(regions.links.count, 1);
+    AssertNear(regions.links.data[0].length, 2.0 * sqrt(2.0) * scene.grid.side, 1e-12);
+    AssertNear(regions.links.data[0].crossing.x, 0.5 * (sites[0].at.x + sites[1].at.x), 1e-12);
+    Finish(&scene, &regions);
+}
+
+/* Frame 0 sits at the bottom of a corridor, and frame 1 before its mouth, hardly farther from it: the border turns back
+   around the mouth and runs along the corridor on both sides. */
+static void BentBorderIsSplit(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriRegions regions;
+    Scene_Init(&scene, 1.0, 1.0, 20, 20, 41);
+    Scene_Slit(&scene, 0.0, 0.45, 0.4, 0.45);
+    Scene_Slit(&scene, 0.0, 0.55, 0.4, 0.55);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.01, 0.5), Scene_Site(&scene, 0.85, 0.5) };
+    Build(&scene, &regions, sites, 2);
+    assert_true(regions.links.count >= 3);
+    double total = 0.0, expected = 0.0;
+    kiriVec2 vector = { 0.0, 0.0 };
+    for (int32_t k = 0; k < regions.links.count; ++k) {
+        const kiriLink* link = &regions.links.data[k];
+        assert_true(link->width > 0.0);
+        assert_true(fabs(link->normal.x) == 1.0 || fabs(link->normal.y) == 1.0);
+        total += link->width;
+        vector = kiriVec2_Add(vector, kiriVec2_Scale(link->width, link->normal));
+    }
+    for (int32_t f = 0; f < scene.grid.faces.count; ++f) {
+        const kiriFace* face = &scene.grid.faces.data[f];
+        expected += regions.owner.data[face->cell[0]] != regions.owner.data[face->cell[1]] ? face->width : 0.0;
+    }
+    AssertNear(total, expected, 1e-12);
+    assert_true(kiriVec2_Length(vector) < 0.5 * total);
+    Finish(&scene, &regions);
+}
+
+/* Width, centroid and second moment of a link between partly covered squares, where the faces are no whole sides. */
+static void PartialFacesCount(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriRegions regions;
+    Scene_Init(&scene, 1.0, 0.13, 7, 1, 10);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.25, 0.05), Scene_Site(&scene, 0.75, 0.05) };
+    Build(&scene, &regions, sites, 2);
+    assert_int_equal(regions.links.count, 1);
+    AssertNear(regions.links.data[0].width, 0.13, 1e-7);
+    AssertNear(regions.links.data[0].centroid.y, 0.065, 1e-7);
+    AssertNear(regions.links.data[0].moment, 0.13 * 0.13 * 0.13 / 12.0, 1e-9);
+    Finish(&scene, &regions);
+}
+
+/* Distances from a site off the middle of its square are right to a part of a cell. */
+static void DistanceKnowsWhereInItsCellTheSiteIs(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriRegions regions = { { 0 }, { 0 }, { 0 }, { 0 } };
+    Scene_Init(&scene, 1.0, 1.0, 3, 3, 20);
+    Scene_BuildGrid(&scene);
+    uint32_t seed = 7;
+    for (int round = 0; round < 50; ++round) {
+        kiriVec2 at = RandomVec2(&seed, 0.01, 0.99);
+        kiriSite site = { at, Scene_Cell(&scene, at.x, at.y) };
+        assert_true(kiriRegions_Divide(&regions, &scene.memory, &scene.grid, &scene.mesh, &scene.field, &site, 1));
+        for (int32_t c = 0; c < scene.grid.cells.count; ++c) {
+            double true_ = kiriVec2_Length(kiriVec2_Sub(kiriGrid_Middle(&scene.grid, &scene.mesh, c), at));
+            double measured = regions.distance.data[c] * scene.grid.side / KIRI_UNIT;
+            assert_true(measured > 0.998 * true_ - 0.01 * scene.grid.side);
+            assert_true(measured < 1.03 * true_ + 0.08 * scene.grid.side);
+        }
+    }
+    Finish(&scene, &regions);
+}
+
+/* However close sites crowd, each owns its own cell. */
+static void CrowdedSitesOwnTheirCells(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriRegions regions = { { 0 }, { 0 }, { 0 }, { 0 } };
+    kiriSite sites[64];
+    uint32_t seed = 11;
+    Scene_Init(&scene, 1.0, 1.0, 3, 3, 8);
+    Scene_BuildGrid(&scene);
+    assert_int_equal(scene.grid.cells.count, 64);
+    for (int round = 0; round < 200; ++round) {
+        int32_t count = 0;
+        for (int32_t c = 0; c < 64; ++c) {
+            if (Random(&seed) % 3 > 0) {
+                double half = 0.499 * scene.grid.side;
+                kiriVec2 off = RandomVec2(&seed, -half, half);
+                sites[count].at = kiriVec2_Add(kiriGrid_Middle(&scene.grid, &scene.mesh, c), off);
+                sites[count++].cell = c;
+            }
+        }
+        assert_true(kiriRegions_Divide(&regions, &scene.memory, &scene.grid, &scene.mesh, &scene.field, sites, count));
+        for (int32_t i = 0; i < count; ++i) {
+            assert_int_equal(regions.owner.data[sites[i].cell], i);
+        }
+    }
+    Finish(&scene, &regions);
+}
+
+/* On randomly cut sheets: the regions share out the sheet; the links are in order, no shorter than the straight
+   line, and add up to the vector sum of the border, pair by pair. */
+static void RandomSheetsAddUp(void** state)
+{
+    (void)state;
+    uint32_t seed = 3;
+    int32_t links = 0;
+    for (int round = 0; round < 150; ++round) {
+        Scene scene;
+        kiriSites sites;
+        kiriRegions regions;
+        Scene_InitRandom(&scene, &sites, 2 + (int32_t)(Random(&seed) % 20), &seed);
+        int32_t n = sites.count;
+        Build(&scene, &regions, sites.data, n);
+        kiriVec2* sums = calloc((size_t)(n * n), sizeof(kiriVec2));
+        double area = 0.0;
+        for (int32_t i = 0; i < n; ++i) {
+            area += regions.regions.data[i].material.area;
+            assert_int_equal(regions.owner.data[sites.data[i].cell], i);
+        }
+        AssertNear(area, Scene_Area(&scene), 1e-12);
+        for (int32_t f = 0; f < scene.grid.faces.count; ++f) {
+            const kiriFace* face = &scene.grid.faces.data[f];
+            int32_t a = regions.owner.data[face->cell[0]], b = regions.owner.data[face->cell[1]];
+            double width = a < b ? face->width : -face->width;
+            if (a != b) {
+                kiriVec2* sum = &sums[a < b ? a * n + b : b * n + a];
+                sum->x += face->axis == 0 ? width : 0.0;
+                sum->y += face->axis == 1 ? width : 0.0;
+            }
+        }
+        for (int32_t k = 0; k < regions.links.count; ++k) {
+            const kiriLink* link = &regions.links.data[k];
+            const kiriLink* before = k > 0 ? link - 1 : NULL;
+            kiriVec2 straight = kiriVec2_Sub(sites.data[link->j].at, sites.data[link->i].at);
+            assert_true(link->i < link->j);
+            assert_true(before == NULL || before->i < link->i || (before->i == link->i && before->j <= link->j));
+            assert_true(link->width > 0.0);
+            assert_true(link->moment >= 0.0);
+            assert_true(link->length >= kiriVec2_Length(straight));
+            AssertNear(kiriVec2_Length(link->normal), 1.0, 1e-14);
+            AssertNear(link->tangent.x, -link->normal.y, 0.0);
+            AssertNear(link->tangent.y, link->normal.x, 0.0);
+            kiriVec2* sum = &sums[link->i * n + link->j];
+            *sum = kiriVec2_Sub(*sum, kiriVec2_Scale(link->width, link->normal));
+        }
+        for (int32_t k = 0; k < n * n; ++k) {
+            AssertNear(kiriVec2_Length(sums[k]), 0.0, 1e-12);
+        }
+        links += regions.links.count;
+        free(sums);
+        kiriArray_Release(&scene.memory, &sites);
+        Finish(&scene, &regions);
+    }
+    assert_true(links > 1000);
+}
+
+/* A slit that ends at the border parts the border, though the squares before it are whole. */
+static void SlitAcrossTheBorderPartsIt(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriRegions regions;
+    Scene_Init(&scene, 1.0, 0.5, 10, 2, 41);
+    Scene_Slit(&scene, 0.5, 0.25, 0.7, 0.25);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 10.5 / 41, 0.25), Scene_Site(&scene, 30.5 / 41, 0.25) };
+    Build(&scene, &regions, sites, 2);
+    assert_int_equal(regions.links.count, 2);
+    for (int k = 0; k < 2; ++k) {
+        AssertNear(regions.links.data[k].width, 0.25, 1e-6);
+        AssertNear(regions.links.data[k].centroid.y, k == 0 ? 0.125 : 0.375, 1e-6);
+    }
+    Finish(&scene, &regions);
+}
+
+/* Centroid and second moment of a border that is no straight line, against the integral over its projection: points
+   spread evenly over every face, each with the share that the face shows to the normal. */
+static void MomentsOfASlantedBorder(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriRegions regions;
+    Scene_Init(&scene, 1.0, 0.7, 4, 4, 23);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.3, 0.2), Scene_Site(&scene, 0.6, 0.6) };
+    Build(&scene, &regions, sites, 2);
+    assert_int_equal(regions.links.count, 1);
+    const kiriLink* link = &regions.links.data[0];
+    double weight = 0.0, first = 0.0, second = 0.0, across = 0.0;
+    for (int32_t f = 0; f < scene.grid.faces.count; ++f) {
+        const kiriFace* face = &scene.grid.faces.data[f];
+        if (regions.owner.data[face->cell[0]] != regions.owner.data[face->cell[1]]) {
+            double share = fabs(face->axis == 0 ? link->normal.x : link->normal.y);
+            for (int k = 0; k < 1000; ++k) {
+                double t = face->width * ((k + 0.5) / 1000 - 0.5), part = share * face->width / 1000;
+                kiriVec2 p =
+                    kiriVec2_Add(face->middle, kiriVec2_Make(face->axis == 0 ? 0.0 : t, face->axis == 0 ? t : 0.0));
+                double s = kiriVec2_Dot(p, link->tangent);
+                weight += part;
+                first += part * s;
+                second += part * s * s;
+                across += part * kiriVec2_Dot(p, link->normal);
+            }
+        }
+    }
+    double mean = first / weight;
+    AssertNear(kiriVec2_Dot(link->centroid, link->tangent), mean, 1e-9);
+    AssertNear(kiriVec2_Dot(link->centroid, link->normal), across / weight, 1e-9);
+    AssertNear(link->moment, second - weight * mean * mean, 1e-6 * link->moment);
+    assert_true(fabs(link->normal.x) > 0.3 && fabs(link->normal.x) < 0.65);
+    AssertNear(weight, link->width, 1e-9);
+    Finish(&scene, &regions);
+}
+
+static void FailingAllocatorLeaksNothing(void** state)
+{
+    (void)state;
+    uint32_t seed = 5;
+    Scene scene;
+    kiriSites sites;
+    Scene_InitRandom(&scene, &sites, 12, &seed);
+    int64_t before = scene.purse.out;
+    bool done = false;
+    for (int64_t budget = 0; !done; ++budget) {
+        kiriRegions regions = { { 0 }, { 0 }, { 0 }, { 0 } };
+        kiriField field = { { 0 }, { 0 }, { 0 }, { 0 } };
+        assert_true(kiriField_Init(&field, &scene.memory, scene.grid.cells.count));
+        scene.purse.budget = budget;
+        done = kiriRegions_Build(&regions, &scene.memory, &scene.grid, &scene.mesh, &field, sites.data, sites.count);
+        scene.purse.budget = -1;
+        assert_true(done || budget < 100);
+        assert_true(!done || budget > 5);
+        kiriRegions_Release(&regions, &scene.memory);
+        kiriField_Release(&field, &scene.memory);
+        assert_int_equal(scene.purse.out, before);
+    }
+    kiriArray_Release(&scene.memory, &sites);
+    Scene_Release(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(StripHasStraightLinks),
+        cmocka_unit_test(NormalPointsToTheHigherIndex),
+        cmocka_unit_test(SlitMakesTheLongWay),
+        cmocka_unit_test(CompleteCutHasNoLink),
+        cmocka_unit_test(HoleMakesTwoStretches),
+        cmocka_unit_test(DiagonalBorderHasItsTrueLength),
+        cmocka_unit_test(ShortDiagonalIsStraight),
+        cmocka_unit_test(BentBorderIsSplit),
+        cmocka_unit_test(PartialFacesCount),
+        cmocka_unit_test(DistanceKnowsWhereInItsCellTheSiteIs),
+        cmocka_unit_test(CrowdedSitesOwnTheirCells),
+        cmocka_unit_test(RandomSheetsAddUp),
+        cmocka_unit_test(SlitAcrossTheBorderPartsIt),
+        cmocka_unit_test(MomentsOfASlantedBorder),
+        cmocka_unit_test(FailingAllocatorLeaksNothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

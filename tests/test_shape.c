@@ -1,0 +1,492 @@
+#include "scene.h"
+
+typedef struct Weights {
+    kiriRegions regions;
+    kiriShape shape;
+} Weights;
+
+static void Build(Scene* scene, Weights* w, const kiriSite* sites, int32_t count)
+{
+    memset(w, 0, sizeof(*w));
+    assert_true(
+        kiriRegions_Build(&w->regions, &scene->memory, &scene->grid, &scene->mesh, &scene->field, sites, count));
+    assert_true(kiriShape_Build(&w->shape, &scene->memory, &scene->grid, &scene->mesh, &w->regions, &scene->field,
+                                sites, count));
+    for (int32_t c = 0; c < scene->grid.cells.count; ++c) {
+        assert_int_equal(scene->field.distance.data[c], KIRI_FAR);
+    }
+}
+
+static void Release(Scene* scene, Weights* w)
+{
+    kiriRegions_Release(&w->regions, &scene->memory);
+    kiriShape_Release(&w->shape, &scene->memory);
+}
+
+static double WeightOf(const Weights* w, int32_t cell, int32_t frame)
+{
+    for (int32_t k = w->shape.start.data[cell]; k < w->shape.start.data[cell + 1]; ++k) {
+        if (w->shape.weights.data[k].frame == frame) {
+            return w->shape.weights.data[k].value;
+        }
+    }
+    return 0.0;
+}
+
+/* A random even lattice point in a random triangle, and its cell. */
+static int32_t RandomCell(const Scene* scene, uint32_t* seed, kiriVec2* at)
+{
+    for (;;) {
+        int32_t triangle = (int32_t)(Random(seed) % (uint32_t)scene->mesh.triangles.count);
+        kiriPoint corners[3];
+        kiriMesh_Corners(&scene->mesh, triangle, corners);
+        double a = RandomBetween(seed, 0.0, 1.0), b = RandomBetween(seed, 0.0, 1.0);
+        if (a + b < 1.0) {
+            double x = corners[0].x + a * (corners[1].x - corners[0].x) + b * (corners[2].x - corners[0].x);
+            double y = corners[0].y + a * (corners[1].y - corners[0].y) + b * (corners[2].y - corners[0].y);
+            kiriPoint p = { 2 * (int32_t)(0.5 * x), 2 * (int32_t)(0.5 * y) };
+            if (kiriSquares_Overlap(&scene->mesh.squares, kiriSquares_At(&scene->mesh.squares, p), corners)) {
+                *at = kiriMesh_Local(&scene->mesh, p);
+                return kiriGrid_CellOf(&scene->grid, &scene->mesh, triangle, p);
+            }
+        }
+    }
+}
+
+static void CheckPoint(const Scene* scene, const Weights* w, int32_t cell, kiriVec2 at, kiriPointWeights* out)
+{
+    assert_true(kiriShape_At(&w->shape, &scene->memory, &scene->grid, &scene->mesh, cell, at, out));
+    double sum = 0.0, scale = 1.0 / scene->grid.side;
+    kiriVec2 gradient = { 0.0, 0.0 };
+    assert_true(out->count > 0);
+    for (int32_t k = 0; k < out->count; ++k) {
+        assert_true(k == 0 || out->data[k].frame > out->data[k - 1].frame);
+        assert_true(out->data[k].value >= 0.0);
+        sum += out->data[k].value;
+        gradient = kiriVec2_Add(gradient, out->data[k].gradient);
+    }
+    AssertNear(sum, 1.0, 1e-12);
+    AssertNear(gradient.x, 0.0, 1e-12 * scale);
+    AssertNear(gradient.y, 0.0, 1e-12 * scale);
+}
+
+/* In the cells: exact at the sites, a partition of unity, sorted, and above zero. */
+static void CheckCells(const Scene* scene, const Weights* w, const kiriSite* sites, int32_t count)
+{
+    assert_int_equal(w->shape.start.count, scene->grid.cells.count + 1);
+    for (int32_t c = 0; c < scene->grid.cells.count; ++c) {
+        int32_t first = w->shape.start.data[c], end = w->shape.start.data[c + 1];
+        double sum = 0.0;
+        for (int32_t k = first; k < end; ++k) {
+            assert_true(k == first || w->shape.weights.data[k].frame > w->shape.weights.data[k - 1].frame);
+            assert_true(w->shape.weights.data[k].value > 0.0);
+            sum += w->shape.weights.data[k].value;
+        }
+        assert_int_equal(first < end, w->regions.owner.data[c] != KIRI_NONE);
+        if (first < end) {
+            AssertNear(sum, 1.0, 1e-12);
+            assert_true(WeightOf(w, c, w->regions.owner.data[c]) > 0.0);
+        }
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t first = w->shape.start.data[sites[i].cell];
+        assert_int_equal(w->shape.start.data[sites[i].cell + 1], first + 1);
+        assert_int_equal(w->shape.weights.data[first].frame, i);
+        assert_true(w->shape.weights.data[first].value == 1.0);
+    }
+}
+
+static void RandomSheetsArePartitioned(void** state)
+{
+    (void)state;
+    uint32_t seed = 17;
+    for (int round = 0; round < 100; ++round) {
+        Scene scene;
+        kiriSites sites;
+        Weights w;
+        kiriPointWeights out = { 0 };
+        Scene_InitRandom(&scene, &sites, 1 + (int32_t)(Random(&seed) % 20), &seed);
+        Build(&scene, &w, sites.data, sites.count);
+        CheckCells(&scene, &w, sites.data, sites.count);
+        for (int k = 0; k < 200; ++k) {
+            kiriVec2 at;
+            int32_t cell = RandomCell(&scene, &seed, &at);
+            CheckPoint(&scene, &w, cell, at, &out);
+        }
+        kiriArray_Release(&scene.memory, &out);
+        kiriArray_Release(&scene.memory, &sites);
+        Release(&scene, &w);
+        Scene_Release(&scene);
+    }
+}
+
+/* Sites anywhere in their cells, in neighbouring cells too. */
+static void CrowdedSitesArePartitioned(void** state)
+{
+    (void)state;
+    uint32_t seed = 23;
+    Scene scene;
+    kiriSite sites[64];
+    Scene_Init(&scene, 1.0, 1.0, 3, 3, 8);
+    Scene_BuildGrid(&scene);
+    for (int round = 0; round < 50; ++round) {
+        Weights w;
+        int32_t count = 0;
+        for (int32_t c = 0; c < 64; ++c) {
+            if (Random(&seed) % 3 == 0) {
+                double half = 0.499 * scene.grid.side;
+                kiriVec2 off = RandomVec2(&seed, -half, half);
+                sites[count].at = kiriVec2_Add(kiriGrid_Middle(&scene.grid, &scene.mesh, c), off);
+                sites[count++].cell = c;
+            }
+        }
+        Build(&scene, &w, sites, count);
+        CheckCells(&scene, &w, sites, 0);
+        Release(&scene, &w);
+    }
+    Scene_Release(&scene);
+}
+
+/* On the straight way from site to site weights are linear; beside it nearly so. */
+static void LinearBetweenTwoFrames(void** state)
+{
+    (void)state;
+    Scene scene;
+    Weights w;
+    Scene_Init(&scene, 1.0, 0.25, 8, 2, 36);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 4.5 / 36, 0.125), Scene_Site(&scene, 32.5 / 36, 0.125) };
+    Build(&scene, &w, sites, 2);
+    CheckCells(&scene, &w, sites, 2);
+    double length = sites[1].at.x - sites[0].at.x;
+    for (int32_t c = 0; c < scene.grid.cells.count; ++c) {
+        kiriVec2 p = kiriGrid_Middle(&scene.grid, &scene.mesh, c);
+        double x = (p.x - sites[0].at.x) / length;
+        if (x >= 0.0 && x <= 1.0) {
+            bool onTheWay = fabs(p.y - sites[0].at.y) < 1e-9;
+            AssertNear(WeightOf(&w, c, 0), 1.0 - x, onTheWay ? 1e-12 : 0.06);
+            AssertNear(WeightOf(&w, c, 1), x, onTheWay ? 1e-12 : 0.06);
+        }
+    }
+    Release(&scene, &w);
+    Scene_Release(&scene);
+}
+
+/* An odd number of lengths between the sites: the border lies between two cells, and halves are rounded. */
+static void LinearWhereTheBorderIsBetweenCells(void** state)
+{
+    (void)state;
+    Scene scene;
+    Weights w;
+    Scene_Init(&scene, 1.0, 0.25, 8, 2, 36);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 4.5 / 36, 0.125), Scene_Site(&scene, 31.5 / 36, 0.125) };
+    Build(&scene, &w, sites, 2);
+    for (int32_t k = 0; k <= 27; ++k) {
+        AssertNear(WeightOf(&w, Scene_Cell(&scene, (4.5 + k) / 36, 0.125), 0), 1.0 - k / 27.0, 1e-12);
+    }
+    Release(&scene, &w);
+    Scene_Release(&scene);
+}
+
+/* Frames 0 and 1 face each other over a slit whose tip is far: neither reaches the other side near its root, and
+   weights change little from cell to cell wherever there is material between, around the tip too. */
+static void WeightsKnowTheSlit(void** state)
+{
+    (void)state;
+    Scene scene;
+    Weights w;
+    Scene_Init(&scene, 1.0, 1.0, 10, 10, 41);
+    Scene_Slit(&scene, 0.5, 0.0, 0.5, 0.8);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[4] = { Scene_Site(&scene, 0.3, 0.15), Scene_Site(&scene, 0.7, 0.15), Scene_Site(&scene, 0.3, 0.7),
+                          Scene_Site(&scene, 0.7, 0.7) };
+    Build(&scene, &w, sites, 4);
+    CheckCells(&scene, &w, sites, 4);
+    int32_t beside = 0;
+    for (int32_t c = 0; c < scene.grid.cells.count; ++c) {
+        kiriVec2 p = kiriMoments_Center(&scene.grid.cells.data[c].material);
+        if (p.y < 0.5) {
+            ++beside;
+            assert_true(WeightOf(&w, c, p.x < 0.5 ? 1 : 0) == 0.0);
+        }
+    }
+    assert_true(beside > 41 * 20);
+    for (int32_t f = 0; f < scene.grid.faces.count; ++f) {
+        const kiriFace* face = &scene.grid.faces.data[f];
+        for (int i = 0; i < 4; ++i) {
+            AssertNear(WeightOf(&w, face->cell[0], i), WeightOf(&w, face->cell[1], i), 4.0 / 41.0 / 0.4);
+        }
+    }
+    double jump = fabs(WeightOf(&w, Scene_Cell(&scene, 0.48, 0.1), 0) - WeightOf(&w, Scene_Cell(&scene, 0.52, 0.1), 0));
+    assert_true(jump > 0.5);
+    Release(&scene, &w);
+    Scene_Release(&scene);
+}
+
+static void PieceWithOneFrameIsItsOwn(void** state)
+{
+    (void)state;
+    Scene scene;
+    Weights w;
+    kiriPointWeights out = { 0 };
+    Scene_Init(&scene, 1.0, 1.0, 10, 10, 21);
+    Scene_Slit(&scene, 0.5, 0.0, 0.5, 1.0);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[3] = { Scene_Site(&scene, 0.25, 0.25), Scene_Site(&scene, 0.75, 0.25),
+                          Scene_Site(&scene, 0.7, 0.8) };
+    Build(&scene, &w, sites, 3);
+    uint32_t seed = 5;
+    for (int k = 0; k < 500; ++k) {
+        kiriVec2 at;
+        int32_t cell = RandomCell(&scene, &seed, &at);
+        CheckPoint(&scene, &w, cell, at, &out);
+        if (kiriMoments_Center(&scene.grid.cells.data[cell].material).x < 0.5) {
+            assert_true(WeightOf(&w, cell, 0) == 1.0);
+            assert_int_equal(out.count, 1);
+            assert_true(out.data[0].value == 1.0);
+            AssertNear(out.data[0].gradient.x, 0.0, 1e-11);
+        } else {
+            assert_true(WeightOf(&w, cell, 0) == 0.0);
+        }
+    }
+    kiriArray_Release(&scene.memory, &out);
+    Release(&scene, &w);
+    Scene_Release(&scene);
+}
+
+/* Cells without an owner have no weights, nor have points in them. */
+static void PieceWithoutFrameHasNoWeights(void** state)
+{
+    (void)state;
+    Scene scene;
+    Weights w;
+    kiriPointWeights out = { 0 };
+    Scene_Init(&scene, 1.0, 1.0, 10, 10, 21);
+    Scene_Slit(&scene, 0.5, 0.0, 0.5, 1.0);
+    Scene_BuildGrid(&scene);
+    kiriSite site = Scene_Site(&scene, 0.25, 0.25);
+    Build(&scene, &w, &site, 1);
+    CheckCells(&scene, &w, &site, 1);
+    kiriVec2 at = { 0.75, 0.5 };
+    assert_true(
+        kiriShape_At(&w.shape, &scene.memory, &scene.grid, &scene.mesh, Scene_Cell(&scene, at.x, at.y), at, &out));
+    assert_int_equal(out.count, 0);
+    kiriArray_Release(&scene.memory, &out);
+    Release(&scene, &w);
+    Scene_Release(&scene);
+}
+
+/* Do the cell and those around it span the plane? */
+static bool Spans(const Scene* scene, int32_t cell)
+{
+    kiriVec2 middle = kiriGrid_Middle(&scene->grid, &scene->mesh, cell), first = { 0.0, 0.0 };
+    for (int32_t s = scene->grid.stepStart.data[cell]; s < scene->grid.stepStart.data[cell + 1]; ++s) {
+        if (scene->grid.steps.data[s].length <= KIRI_UNIT_DIAGONAL) {
+            kiriVec2 p =
+                kiriVec2_Sub(kiriGrid_Middle(&scene->grid, &scene->mesh, scene->grid.steps.data[s].cell), middle);
+            if (fabs(first.x * p.y - first.y * p.x) > 0.5 * scene->grid.side * scene->grid.side) {
+                return true;
+            }
+            first = p;
+        }
+    }
+    return false;
+}
+
+/* Two weights that are linear at the middles of all cells are linear, with their slope, at every point. */
+static void FitIsExactForLinearFields(void** state)
+{
+    (void)state;
+    uint32_t seed = 29;
+    int32_t spanned = 0;
+    for (int round = 0; round < 30; ++round) {
+        Scene scene;
+        kiriSites sites;
+        Weights w;
+        kiriPointWeights out = { 0 };
+        Scene_InitRandom(&scene, &sites, 1, &seed);
+        memset(&w, 0, sizeof(w));
+        double gu = RandomBetween(&seed, -0.3, 0.3), gv = RandomBetween(&seed, -0.3, 0.3);
+        for (int32_t c = 0; c <= scene.grid.cells.count; ++c) {
+            assert_true(kiriArray_Push(&scene.memory, &w.shape.start, 2 * c));
+            if (c < scene.grid.cells.count) {
+                kiriVec2 p = kiriGrid_Middle(&scene.grid, &scene.mesh, c);
+                kiriWeight a = { 3, 0.5 + gu * (p.x - 0.5) + gv * (p.y - 0.5) }, b = { 7, 1.0 - a.value };
+                assert_true(kiriArray_Push(&scene.memory, &w.shape.weights, a));
+                assert_true(kiriArray_Push(&scene.memory, &w.shape.weights, b));
+            }
+        }
+        for (int k = 0; k < 300; ++k) {
+            kiriVec2 at;
+            int32_t cell = RandomCell(&scene, &seed, &at);
+            CheckPoint(&scene, &w, cell, at, &out);
+            if (Spans(&scene, cell)) {
+                ++spanned;
+                assert_int_equal(out.count, 2);
+                AssertNear(out.data[0].value, 0.5 + gu * (at.x - 0.5) + gv * (at.y - 0.5), 1e-9);
+                AssertNear(out.data[0].gradient.x, gu, 1e-7);
+                AssertNear(out.data[0].gradient.y, gv, 1e-7);
+                AssertNear(out.data[1].gradient.x, -gu, 1e-7);
+            }
+        }
+        kiriArray_Release(&scene.memory, &out);
+        kiriArray_Release(&scene.memory, &sites);
+        Release(&scene, &w);
+        Scene_Release(&scene);
+    }
+    assert_true(spanned > 5000);
+}
+
+/* One row of cells: a slope along it, none across. The last cell that frame 1 reaches is more than twice as far as its
+   region's farthest cell, since the border lies between two cells. */
+static void FitDropsWhatIsNotSpanned(void** state)
+{
+    (void)state;
+    Scene scene;
+    Weights w;
+    kiriPointWeights out = { 0 };
+    Scene_Init(&scene, 1.0, 0.09, 10, 1, 10);
+    Scene_BuildGrid(&scene);
+    assert_int_equal(scene.grid.cells.count, 10);
+    kiriSite sites[2] = { Scene_MiddleOf(&scene, 0), Scene_MiddleOf(&scene, 8) };
+    Build(&scene, &w, sites, 2);
+    for (int k = 0; k < 13; ++k) { /* up to the cell before the second frame */
+        kiriVec2 at = { 0.11 + 0.05 * k, 0.002 + 0.005 * k };
+        CheckPoint(&scene, &w, Scene_Cell(&scene, at.x, at.y), at, &out);
+        double x = (at.x - sites[0].at.x) / (sites[1].at.x - sites[0].at.x);
+        assert_int_equal(out.count, 2);
+        AssertNear(out.data[1].value, x, 1e-9);
+        AssertNear(out.data[1].gradient.x, 1.25, 1e-5);
+        AssertNear(out.data[1].gradient.y, 0.0, 1e-9);
+    }
+    kiriArray_Release(&scene.memory, &out);
+    Release(&scene, &w);
+    Scene_Release(&scene);
+}
+
+static void SingleCellHasNoSlope(void** state)
+{
+    (void)state;
+    Scene scene;
+    Weights w;
+    kiriPointWeights out = { 0 };
+    Scene_Init(&scene, 1.0, 1.0, 2, 2, 1);
+    Scene_BuildGrid(&scene);
+    assert_int_equal(scene.grid.cells.count, 1);
+    kiriSite only = Scene_MiddleOf(&scene, 0);
+    Build(&scene, &w, &only, 1);
+    CheckPoint(&scene, &w, 0, kiriVec2_Make(0.1, 0.9), &out);
+    assert_int_equal(out.count, 1);
+    assert_true(out.data[0].value == 1.0 && out.data[0].gradient.x == 0.0 && out.data[0].gradient.y == 0.0);
+    kiriArray_Release(&scene.memory, &out);
+    Release(&scene, &w);
+    Scene_Release(&scene);
+}
+
+/* Between two frames the gradient is one over the distance. */
+static void GradientBetweenTwoFrames(void** state)
+{
+    (void)state;
+    Scene scene;
+    Weights w;
+    kiriPointWeights out = { 0 };
+    Scene_Init(&scene, 1.0, 0.25, 8, 2, 36);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 4.5 / 36, 0.125), Scene_Site(&scene, 32.5 / 36, 0.125) };
+    Build(&scene, &w, sites, 2);
+    kiriVec2 at = { 0.4, 0.125 };
+    CheckPoint(&scene, &w, Scene_Cell(&scene, at.x, at.y), at, &out);
+    assert_int_equal(out.count, 2);
+    AssertNear(out.data[1].gradient.x * (sites[1].at.x - sites[0].at.x), 1.0, 0.02);
+    AssertNear(out.data[1].gradient.y, 0.0, 0.02);
+    AssertNear(out.data[1].value, (at.x - sites[0].at.x) / (sites[1].at.x - sites[0].at.x), 0.01);
+    kiriArray_Release(&scene.memory, &out);
+    Release(&scene, &w);
+    Scene_Release(&scene);
+}
+
+/* From cell to cell the fit hardly jumps where their material is shared. */
+static void FitIsContinuousOverFaces(void** state)
+{
+    (void)state;
+    Scene scene;
+    Weights w;
+    kiriPointWeights a = { 0 }, b = { 0 };
+    Scene_Init(&scene, 1.0, 1.0, 4, 4, 20);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[4] = { Scene_Site(&scene, 0.2, 0.3), Scene_Site(&scene, 0.8, 0.2), Scene_Site(&scene, 0.3, 0.8),
+                          Scene_Site(&scene, 0.7, 0.7) };
+    Build(&scene, &w, sites, 4);
+    for (int32_t f = 0; f < scene.grid.faces.count; ++f) {
+        const kiriFace* face = &scene.grid.faces.data[f];
+        CheckPoint(&scene, &w, face->cell[0], face->middle, &a);
+        CheckPoint(&scene, &w, face->cell[1], face->middle, &b);
+        for (int32_t k = 0; k < a.count; ++k) {
+            for (int32_t m = 0; m < b.count; ++m) {
+                if (a.data[k].frame == b.data[m].frame) {
+                    AssertNear(a.data[k].value, b.data[m].value, 1e-12);
+                }
+            }
+        }
+    }
+    kiriArray_Release(&scene.memory, &a);
+    kiriArray_Release(&scene.memory, &b);
+    Release(&scene, &w);
+    Scene_Release(&scene);
+}
+
+static void FailingAllocatorLeaksNothing(void** state)
+{
+    (void)state;
+    uint32_t seed = 5;
+    Scene scene;
+    kiriSites sites;
+    kiriRegions regions = { { 0 }, { 0 }, { 0 }, { 0 } };
+    Scene_InitRandom(&scene, &sites, 12, &seed);
+    assert_true(
+        kiriRegions_Build(&regions, &scene.memory, &scene.grid, &scene.mesh, &scene.field, sites.data, sites.count));
+    int64_t before = scene.purse.out;
+    bool done = false;
+    for (int64_t budget = 0; !done; ++budget) {
+        kiriShape shape = { { 0 }, { 0 } };
+        kiriField field = { { 0 }, { 0 }, { 0 }, { 0 } };
+        kiriPointWeights out = { 0 };
+        assert_true(kiriField_Init(&field, &scene.memory, scene.grid.cells.count));
+        scene.purse.budget = budget;
+        done =
+            kiriShape_Build(&shape, &scene.memory, &scene.grid, &scene.mesh, &regions, &field, sites.data,
+                            sites.count) &&
+            kiriShape_At(&shape, &scene.memory, &scene.grid, &scene.mesh, sites.data[0].cell, sites.data[0].at, &out);
+        scene.purse.budget = -1;
+        assert_true(done || budget < 100);
+        assert_true(!done || budget > 5);
+        kiriShape_Release(&shape, &scene.memory);
+        kiriArray_Release(&scene.memory, &out);
+        kiriField_Release(&field, &scene.memory);
+        assert_int_equal(scene.purse.out, before);
+    }
+    kiriArray_Release(&scene.memory, &sites);
+    kiriRegions_Release(&regions, &scene.memory);
+    Scene_Release(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(RandomSheetsArePartitioned),
+        cmocka_unit_test(CrowdedSitesArePartitioned),
+        cmocka_unit_test(LinearBetweenTwoFrames),
+        cmocka_unit_test(LinearWhereTheBorderIsBetweenCells),
+        cmocka_unit_test(WeightsKnowTheSlit),
+        cmocka_unit_test(PieceWithOneFrameIsItsOwn),
+        cmocka_unit_test(PieceWithoutFrameHasNoWeights),
+        cmocka_unit_test(FitIsExactForLinearFields),
+        cmocka_unit_test(FitDropsWhatIsNotSpanned),
+        cmocka_unit_test(SingleCellHasNoSlope),
+        cmocka_unit_test(GradientBetweenTwoFrames),
+        cmocka_unit_test(FitIsContinuousOverFaces),
+        cmocka_unit_test(FailingAllocatorLeaksNothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

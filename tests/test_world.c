@@ -1,0 +1,1079 @@
+/* How a world behaves, seen through the public header alone. */
+#include "host.h"
+
+static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+
+static void Tick(Host* host, float dt, int32_t substeps)
+{
+    OK(kiriWorld_Tick(host->world, dt, substeps));
+}
+
+static kiriPin AddPin(Host* host, kiriSheet sheet, float u, float v, float x, float y, float z)
+{
+    kiriPinDef def;
+    kiriPin pin = 0;
+    kiriDefaultPinDef(&def);
+    def.restPoint[0] = u;
+    def.restPoint[1] = v;
+    def.target[0] = x;
+    def.target[1] = y;
+    def.target[2] = z;
+    OK(kiriCreatePin(host->world, sheet, &def, &pin));
+    return pin;
+}
+
+static void AssertNear(double a, double b, double tolerance, const char* what)
+{
+    if (!(fabs(a - b) <= tolerance)) {
+        fail_msg("%s: %.17g is not %.17g, off by %g", what, a, b, fabs(a - b));
+    }
+}
+
+static double Distance(const double* a, const double* b)
+{
+    return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+}
+
+/* ---- Memory ---- */
+
+typedef struct Scenario {
+    kiriSheetDef def;
+    float line[6], loop[10];
+    kiriSheet sheet;
+    kiriPin pin;
+    kiriCut cut, slice;
+    kiriContact contacts[12];
+    Rectangle mesh;
+} Scenario;
+
+enum { STEPS = 11 };
+
+/* One call of a scenario: the host asks for everything that allocates. The steps after the first need the ones before. */
+static kiriResult Perform(Host* host, Scenario* s, int step)
+{
+    static const float blade[12] = { 0.6f, -1.0f, -1.0f, 0.6f, -1.0f, 1.0f, 0.6f, 2.0f, 1.0f, 0.6f, 2.0f, -1.0f };
+    kiriPinDef pin;
+    float weights[16], gradients[32], at[2] = { 0.31f, 0.47f };
+    kiriFrame frames[16];
+    int32_t count;
+    kiriDefaultPinDef(&pin);
+    pin.restPoint[0] = 0.1f;
+    pin.restPoint[1] = 0.9f;
+    pin.target[0] = 0.1f;
+    pin.target[1] = 0.9f;
+    switch (step) {
+    case 0: return kiriCreateSheet(host->world, &s->def, &s->sheet);
+    case 1: return kiriCreatePin(host->world, s->sheet, &pin, &s->pin);
+    case 2: return kiriSheet_SetContacts(host->world, s->sheet, s->contacts, 6);
+    case 3: return kiriSheet_GetWeights(host->world, s->sheet, at, frames, weights, gradients, 16, &count);
+    case 4: return kiriWorld_Tick(host->world, 0.01f, 2);
+    case 5: return kiriBeginCut(host->world, s->sheet, s->line, &s->cut);
+    case 6: return kiriCut_Extend(host->world, s->cut, s->line, 3);
+    case 7: return kiriWorld_Tick(host->world, 0.01f, 1);
+    case 8: return kiriCut_Extend(host->world, s->cut, s->loop, 5);
+    case 9: return kiriSheet_Slice(host->world, s->sheet, blade, &s->slice);
+    default: return kiriWorld_Tick(host->world, 0.01f, 2);
+    }
+}
+
+static Scenario MakeScenario(void)
+{
+    static const float line[6] = { -0.2f, 0.31f, 0.4f, 0.33f, 0.5f, 0.5f };
+    static const float loop[10] = { 0.7f, 0.2f, 0.9f, 0.3f, 0.75f, 0.45f, 0.62f, 0.3f, 0.7f, 0.2f };
+    Scenario s;
+    memset(&s, 0, sizeof(s));
+    s.def = Host_SmallDef();
+    memcpy(s.line, line, sizeof(line));
+    memcpy(s.loop, loop, sizeof(loop));
+    for (int i = 0; i < 12; ++i) {
+        kiriContact contact = { i % 6, { 0.0f, 0.0f, 1.0f }, 0.001f, 0.3f, 50.0f };
+        s.contacts[i] = contact;
+    }
+    s.mesh = Rectangle_Make(&s.def, 1.0f, 1.0f, 3, 3);
+    return s;
+}
+
+/* A hash of what the host sees of the sheet. */
+static uint64_t ViewHash(const Host* host, kiriSheet sheet)
+{
+    kiriMesh mesh = Host_Mesh(host, sheet);
+    const float* points;
+    int32_t count;
+    uint64_t hash = 14695981039346656037u;
+    OK(kiriSheet_GetCollisionPoints(host->world, sheet, &points, &count));
+    const struct {
+        const void* data;
+        size_t bytes;
+    } parts[] = { { mesh.positions, 12u * (size_t)mesh.vertexCount },      { mesh.normals, 12u * (size_t)mesh.vertexCount },
+                  { mesh.restPositions, 8u * (size_t)mesh.vertexCount },   { mesh.indices, 12u * (size_t)mesh.triangleCount },
+                  { mesh.sourceTriangles, 4u * (size_t)mesh.vertexCount }, { mesh.sourceWeights, 12u * (size_t)mesh.vertexCount },
+                  { points, 12u * (size_t)count },                         { &mesh.revision, sizeof(mesh.revision) } };
+    for (size_t i = 0; i < sizeof(parts) / sizeof(parts[0]); ++i) {
+        for (size_t k = 0; k < parts[i].bytes; ++k) {
+            hash = (hash ^ ((const unsigned char*)parts[i].data)[k]) * 1099511628211u;
+        }
+    }
+    return hash;
+}
+
+/* Performs the step with the n-th allocation refused, for n = 0, 1, 2, ... until it goes through. */
+static int PerformPoorly(Host* host, Scenario* s, int step, bool once, bool* viewLost)
+{
+    uint64_t hash = Host_Hash(host), view = step > 0 ? ViewHash(host, s->sheet) : 0;
+    for (int n = 0;; ++n) {
+        int32_t lines = host->lines;
+        host->calls = 0;
+        host->failAt = n;
+        host->failOnce = once;
+        kiriResult result = Perform(host, s, step);
+        host->failAt = -1;
+        if (result == KIRI_OK) {
+            return n;
+        }
+        if (result != KIRI_ERROR_MEMORY || Host_Hash(host) != hash || host->lines != lines + 1) {
+            fail_msg("step %d, allocation %d: result %d, %d lines, hash %s", step, n, (int)result,
+                     (int)(host->lines - lines), Host_Hash(host) == hash ? "kept" : "changed");
+        }
+        *viewLost = *viewLost || (step > 0 && ViewHash(host, s->sheet) != view);
+    }
+}
+
+static void MemoryRunsOut(void** state)
+{
+    (void)state;
+    uint64_t hashes[STEPS];
+    Host rich;
+    Scenario s = MakeScenario();
+    Host_Start(&rich);
+    for (int step = 0; step < STEPS; ++step) {
+        OK(Perform(&rich, &s, step));
+        hashes[step] = Host_Hash(&rich);
+    }
+    kiriCounts counts = Host_Counts(&rich, s.sheet);
+    /* The slice, the way in that goes on to it, and the loop, which the way in divides. */
+    assert_true(counts.pieces == 5 && counts.collisionPoints >= 5 && counts.frames > 4);
+    Host_Stop(&rich);
+    for (int once = 0; once < 2; ++once) {
+        Host poor;
+        int refused = 0;
+        bool viewLost = false;
+        Host_Start(&poor);
+        for (int step = 0; step < STEPS; ++step) {
+            refused += PerformPoorly(&poor, &s, step, once == 1, &viewLost);
+            assert_true(Host_Hash(&poor) == hashes[step]);
+        }
+        print_message("%d allocations refused\n", refused);
+        assert_true(refused > 50);
+        Host_Stop(&poor);
+        if (viewLost) {
+            fail_msg("after a tick that failed the mesh that the host sees was another one");
+        }
+    }
+    Rectangle_Free(&s.mesh);
+}
+
+static void MemoryForWorld(void** state)
+{
+    (void)state;
+    for (int n = 0;; ++n) {
+        Host host;
+        memset(&host, 0, sizeof(host));
+        host.failAt = n;
+        kiriWorldDef def = Host_Def(&host);
+        host.world = (kiriWorld*)&host;
+        kiriResult result = kiriCreateWorld(&def, &host.world);
+        if (result == KIRI_OK) {
+            assert_true(n > 0);
+            host.failAt = -1;
+            Host_Stop(&host);
+            return;
+        }
+        assert_int_equal(result, KIRI_ERROR_MEMORY);
+        assert_null(host.world);
+        assert_int_equal(host.live, 0);
+    }
+}
+
+/* Between cuts a tick allocates nothing. */
+static void QuietTicks(void** state)
+{
+    (void)state;
+    Host host;
+    Scenario s = MakeScenario();
+    Host_Start(&host);
+    for (int step = 0; step < STEPS; ++step) {
+        OK(Perform(&host, &s, step));
+    }
+    int64_t calls = host.calls;
+    for (int i = 0; i < 20; ++i) {
+        Tick(&host, 0.01f, 2);
+    }
+    assert_int_equal(host.calls, calls);
+    Host_Stop(&host);
+    Rectangle_Free(&s.mesh);
+}
+
+/* ---- Worlds and sheets beside each other ---- */
+
+static void WorldsAreApart(void** state)
+{
+    (void)state;
+    Scenario s = MakeScenario(), same = s, other = s;
+    Host alone, a, b;
+    uint64_t hashes[STEPS];
+    Host_Start(&alone);
+    for (int step = 0; step < STEPS; ++step) {
+        OK(Perform(&alone, &s, step));
+        hashes[step] = Host_Hash(&alone);
+        assert_true(step == 0 || step == 3 || hashes[step] != hashes[step - 1]); /* 3 only reads */
+    }
+    Host_Stop(&alone);
+    Host_Start(&a);
+    Host_Start(&b);
+    OK(kiriWorld_SetGravity(b.world, eye));
+    for (int step = 0; step < STEPS; ++step) {
+        OK(Perform(&a, &same, step));
+        assert_true(Host_Hash(&a) == hashes[step]);
+        OK(Perform(&b, &other, step));
+        assert_true(Host_Hash(&a) == hashes[step] && Host_Hash(&b) != hashes[step]);
+    }
+    Host_Stop(&a);
+    Host_Stop(&b);
+    Rectangle_Free(&s.mesh);
+}
+
+static void SheetsAreApart(void** state)
+{
+    (void)state;
+    static const float line[4] = { 0.5f, -0.1f, 0.52f, 1.1f };
+    for (int order = 0; order < 6; ++order) {
+        static const int orders[6][3] = { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 2, 1, 0 } };
+        Host host, single;
+        kiriSheet sheets[3], lonely;
+        kiriSheetDef def = Host_SmallDef();
+        Host_Start(&host);
+        Host_Start(&single);
+        for (int i = 0; i < 3; ++i) {
+            sheets[i] = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 3, 3);
+        }
+        lonely = Host_AddRectangle(&single, &def, 1.0f, 1.0f, 3, 3);
+        AddPin(&host, sheets[1], 0.1f, 0.1f, 0.1f, 0.1f, 0.2f);
+        AddPin(&single, lonely, 0.1f, 0.1f, 0.1f, 0.1f, 0.2f);
+        Host_Cut(&host, sheets[0], line, 2);
+        for (int i = 0; i < 5; ++i) {
+            Tick(&host, 0.01f, 1);
+            Tick(&single, 0.01f, 1);
+        }
+        assert_true(ViewHash(&host, sheets[1]) == ViewHash(&single, lonely));
+        assert_true(ViewHash(&host, sheets[0]) != ViewHash(&host, sheets[2]));
+        assert_true(Host_Counts(&host, sheets[0]).pieces == 2 && Host_Counts(&host, sheets[2]).pieces == 1);
+        for (int i = 0; i < 3; ++i) {
+            float point[2] = { 0.5f, 0.5f };
+            kiriCut open;
+            OK(kiriBeginCut(host.world, sheets[orders[order][i]], point, &open));
+            OK(kiriDestroySheet(host.world, sheets[orders[order][i]]));
+            Tick(&host, 0.01f, 1);
+        }
+        Host_Stop(&host);
+        Host_Stop(&single);
+    }
+}
+
+/* The hash tells apart what the coming ticks tell apart. */
+static void HashSeesAll(void** state)
+{
+    (void)state;
+    uint64_t hashes[9];
+    int same = 0;
+    for (int what = 0; what < 9; ++what) {
+        Host host;
+        kiriSheetDef def = Host_SmallDef();
+        float v[3] = { 0.0f, 0.0f, 1.0f }, up[3] = { 0.0f, 0.0f, 2.0f };
+        float turned[9] = { 0.0f, 1.0f, 0.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+        kiriFrame frame;
+        int32_t count;
+        Host_Start(&host);
+        def.material.youngsModulus *= what == 3 ? 2.0f : 1.0f;
+        def.material.airDamping += what == 4 ? 1.0f : 0.0f;
+        def.iterations += what == 5;
+        def.snapDistance = what == 6 ? 0.01f : 0.0f;
+        def.maxFrames -= what == 7;
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 3, 3);
+        OK(kiriSheet_GetFrames(host.world, sheet, &frame, 1, &count));
+        OK(kiriFrame_Hold(host.world, frame, what == 1 ? up : v, what == 2 ? turned : eye));
+        if (what == 8) {
+            OK(kiriFrame_Hold(host.world, frame, NULL, NULL));
+        }
+        hashes[what] = Host_Hash(&host);
+        for (int other = 0; other < what; ++other) {
+            if (hashes[other] == hashes[what]) {
+                print_message("states %d and %d have the same hash\n", other, what);
+                ++same;
+            }
+        }
+        Host_Stop(&host);
+    }
+    assert_int_equal(same, 0);
+}
+
+/* ---- Motion ---- */
+
+static void FreeFall(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    const float gravity[3] = { 0.5f, -0.25f, -9.81f }, dt = 0.0123f;
+    def.material.airDamping = 0.0f;
+    def.position[2] = 3.0f;
+    def.velocity[0] = 1.5f;
+    def.velocity[2] = 2.0f;
+    OK(kiriWorld_SetGravity(host.world, gravity));
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriTotals totals = Host_Totals(&host, sheet);
+    double x[3] = { 0.5, 0.5, 3.0 }, v[3] = { 1.5, 0.0, 2.0 }, mass = (double)def.material.density * def.material.thickness;
+    AssertNear(Distance(totals.center, x), 0.0, 1e-9, "start");
+    AssertNear(totals.mass, mass, 1e-9 * mass, "mass");
+    for (int tick = 0; tick < 40; ++tick) {
+        int32_t substeps = 1 + tick % 3;
+        Tick(&host, dt, substeps);
+        for (int32_t k = 0; k < substeps; ++k) {
+            for (int axis = 0; axis < 3; ++axis) {
+                v[axis] += (double)gravity[axis] * dt / substeps;
+                x[axis] += v[axis] * dt / substeps;
+            }
+        }
+        totals = Host_Totals(&host, sheet);
+        for (int axis = 0; axis < 3; ++axis) {
+            AssertNear(totals.center[axis], x[axis], 1e-9 * (1.0 + fabs(x[axis])), "center");
+            AssertNear(totals.momentum[axis], mass * v[axis], 1e-9 * mass * (1.0 + fabs(v[axis])), "momentum");
+        }
+        AssertNear(totals.elasticEnergy, 0.0, 1e-12, "elastic energy");
+        double kinetic = 0.5 * mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        AssertNear(totals.kineticEnergy, kinetic, 1e-8 * kinetic, "kinetic energy");
+    }
+    Host_Stop(&host);
+}
+
+static void AirDampingFades(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    const float zero[3] = { 0.0f, 0.0f, 0.0f };
+    def.material.airDamping = 2.0f;
+    def.velocity[1] = 1.0f;
+    OK(kiriWorld_SetGravity(host.world, zero));
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    double start = Host_Totals(&host, sheet).momentum[1];
+    for (int tick = 0; tick < 500; ++tick) {
+        Tick(&host, 0.001f, 1);
+    }
+    AssertNear(Host_Totals(&host, sheet).momentum[1] / start, 0.36788, 2e-3, "exp(-1)"); /* first order in the step */
+    Host_Stop(&host);
+}
+
+static void HangingComesToRest(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    def.material.airDamping = 3.0f;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    AddPin(&host, sheet, 0.05f, 0.95f, 0.05f, 0.95f, 0.0f);
+    AddPin(&host, sheet, 0.95f, 0.95f, 0.95f, 0.95f, 0.0f);
+    double mostKinetic = 0.0;
+    /* Long: it first rests in its symmetric shape, which is not stable, and then in another. */
+    for (int tick = 0; tick < 2500; ++tick) {
+        Tick(&host, 1.0f / 60.0f, 1);
+        double kinetic = Host_Totals(&host, sheet).kineticEnergy;
+        mostKinetic = kinetic > mostKinetic ? kinetic : mostKinetic;
+    }
+    kiriTotals totals = Host_Totals(&host, sheet);
+    assert_true(mostKinetic > 0.01);
+    assert_true(totals.kineticEnergy < 1e-12 * mostKinetic);
+    AssertNear(totals.center[0], 0.5, 1e-3, "hangs straight");
+    AssertNear(totals.center[1], 0.95, 0.1, "hangs below its pins");
+    assert_true(totals.center[2] < -0.3 && totals.center[2] > -0.6);
+    Host_Stop(&host);
+}
+
+static void FramesAreHeld(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriFrame frames[4];
+    kiriFrameState held;
+    int32_t count;
+    OK(kiriSheet_GetFrames(host.world, sheet, frames, 4, &count));
+    assert_int_equal(count, 4);
+    float turned[9] = { 0.8f, 0.6f, 0.0f, -0.6f, 0.8f, 0.0f, 0.0f, 0.0f, 1.0f };
+    for (int tick = 0; tick < 60; ++tick) {
+        float at[3] = { 0.2f + 0.002f * (float)tick, 0.3f, 0.001f * (float)tick };
+        bool moves = tick < 30;
+        if (moves) {
+            OK(kiriFrame_Hold(host.world, frames[0], at, turned));
+        } else {
+            at[0] = 0.2f + 0.002f * 29.0f;
+            at[2] = 0.001f * 29.0f;
+        }
+        Tick(&host, 0.01f, 1 + tick % 3);
+        OK(kiriFrame_GetState(host.world, frames[0], &held));
+        assert_int_equal(held.held, 1);
+        for (int k = 0; k < 3; ++k) {
+            AssertNear(held.position[k], at[k], 1e-6, "held position");
+        }
+        for (int k = 0; k < 9; ++k) {
+            AssertNear(held.rotation[k], turned[k], 1e-6, "held rotation");
+        }
+    }
+    AssertNear(held.restPoint[0], 0.1875, 1e-6, "rest point");
+    OK(kiriFrame_Hold(host.world, frames[0], NULL, NULL));
+    for (int tick = 0; tick < 20; ++tick) {
+        Tick(&host, 0.01f, 1);
+    }
+    OK(kiriFrame_GetState(host.world, frames[0], &held));
+    assert_true(held.held == 0 && held.position[2] < 0.0f);
+    Host_Stop(&host);
+}
+
+/* A force acts for one tick: momentum is force times time. */
+static void ForcesPush(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    const float zero[3] = { 0.0f, 0.0f, 0.0f }, force[3] = { 0.02f, -0.03f, 0.05f };
+    def.material.airDamping = 0.0f;
+    OK(kiriWorld_SetGravity(host.world, zero));
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriFrame frame;
+    int32_t count;
+    OK(kiriSheet_GetFrames(host.world, sheet, &frame, 1, &count));
+    OK(kiriFrame_ApplyForce(host.world, frame, force, zero));
+    OK(kiriFrame_ApplyForce(host.world, frame, force, zero)); /* forces add up */
+    for (int tick = 0; tick < 5; ++tick) {
+        Tick(&host, 0.02f, 2);
+        kiriTotals totals = Host_Totals(&host, sheet);
+        for (int k = 0; k < 3; ++k) {
+            AssertNear(totals.momentum[k], 2.0 * 0.02 * (double)force[k], 1e-8, "momentum");
+        }
+    }
+    Host_Stop(&host);
+}
+
+static void ContactsCarry(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    def.position[2] = 0.3f;
+    def.collisionPoints = 25;
+    def.material.airDamping = 1.0f;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriContact contacts[64];
+    const float* points;
+    int32_t count;
+    double lowest = 1.0;
+    for (int tick = 0; tick < 240; ++tick) {
+        OK(kiriSheet_GetCollisionPoints(host.world, sheet, &points, &count));
+        assert_true(count >= 20 && count <= 64);
+        for (int32_t i = 0; i < count; ++i) {
+            kiriContact contact = { i, { 0.0f, 0.0f, 1.0f }, 0.0f, 0.5f, 200.0f };
+            contacts[i] = contact;
+            lowest = points[3 * i + 2] < lowest ? points[3 * i + 2] : lowest;
+        }
+        OK(kiriSheet_SetContacts(host.world, sheet, contacts, count));
+        Tick(&host, 1.0f / 60.0f, 2);
+    }
+    kiriTotals totals = Host_Totals(&host, sheet);
+    assert_true(lowest > -0.05 && totals.center[2] < 0.05 && totals.center[2] > -0.02);
+    assert_true(totals.kineticEnergy < 1e-5);
+    for (int tick = 0; tick < 60; ++tick) {
+        Tick(&host, 1.0f / 60.0f, 1); /* contacts are gone after their tick */
+    }
+    assert_true(Host_Totals(&host, sheet).center[2] < -1.0);
+    Host_Stop(&host);
+}
+
+static void StepExtremes(void** state)
+{
+    (void)state;
+    static const float steps[] = { 1e-6f, 10.0f };
+    static const float line[4] = { 0.5f, -0.1f, 0.5f, 0.6f };
+    for (int i = 0; i < 2; ++i) {
+        Host host;
+        Host_Start(&host);
+        kiriSheetDef def = Host_SmallDef();
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+        AddPin(&host, sheet, 0.05f, 0.95f, 0.05f, 0.95f, 0.1f);
+        AddPin(&host, sheet, 0.95f, 0.95f, 0.95f, 0.95f, 0.0f);
+        Host_Cut(&host, sheet, line, 2);
+        for (int tick = 0; tick < 30; ++tick) {
+            kiriResult result = kiriWorld_Tick(host.world, steps[i], tick % 2 == 0 ? 1 : 64);
+            assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
+            assert_true((result == KIRI_DIVERGED) == (Host_Events(&host, KIRI_EVENT_DIVERGED, NULL) == 1));
+            kiriMesh mesh = Host_Mesh(&host, sheet);
+            assert_true(AllFinite(mesh.positions, 3 * mesh.vertexCount));
+        }
+        assert_true(fabs(Host_Totals(&host, sheet).center[2]) < 2.0);
+        Host_Stop(&host);
+    }
+}
+
+/* ---- Cuts ---- */
+
+static double TriangleArea(const kiriMesh* mesh, int32_t t)
+{
+    const int32_t* v = &mesh->indices[3 * t];
+    const float *a = &mesh->restPositions[2 * v[0]], *b = &mesh->restPositions[2 * v[1]], *c = &mesh->restPositions[2 * v[2]];
+    return 0.5 * (((double)b[0] - a[0]) * ((double)c[1] - a[1]) - ((double)b[1] - a[1]) * ((double)c[0] - a[0]));
+}
+
+/* Provenance against the def, unit normals. */
+static void CheckMesh(const kiriMesh* mesh, const Rectangle* source)
+{
+    for (int32_t v = 0; v < mesh->vertexCount; ++v) {
+        const float *w = &mesh->sourceWeights[3 * v], *n = &mesh->normals[3 * v];
+        const int32_t* corner = &source->indices[3 * mesh->sourceTriangles[v]];
+        for (int axis = 0; axis < 2; ++axis) {
+            double x = 0.0;
+            for (int k = 0; k < 3; ++k) {
+                assert_true(w[k] >= 0.0f);
+                x += (double)w[k] * source->positions[2 * corner[k] + axis];
+            }
+            AssertNear(x, mesh->restPositions[2 * v + axis], 1e-6, "provenance");
+        }
+        AssertNear(w[0] + w[1] + w[2], 1.0, 1e-6, "sum of source weights");
+        AssertNear(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1.0, 1e-5, "normal");
+    }
+}
+
+static void PieceFalls(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = 16;
+    def.collisionPoints = 10;
+    Rectangle source = Rectangle_Make(&def, 1.0f, 1.0f, 6, 6);
+    kiriSheet sheet;
+    OK(kiriCreateSheet(host.world, &def, &sheet));
+    AddPin(&host, sheet, 0.05f, 0.95f, 0.05f, 0.95f, 0.0f);
+    AddPin(&host, sheet, 0.95f, 0.95f, 0.95f, 0.95f, 0.0f);
+    for (int tick = 0; tick < 20; ++tick) {
+        Tick(&host, 0.01f, 1);
+    }
+    kiriTotals before = Host_Totals(&host, sheet);
+    uint32_t revision = Host_Mesh(&host, sheet).revision;
+    /* A hexagon, closed; its area by the shoelace formula. */
+    static const float loop[14] = { 0.3f, 0.2f, 0.61f, 0.17f, 0.72f, 0.33f, 0.66f, 0.58f, 0.41f, 0.63f, 0.22f, 0.4f, 0.3f, 0.2f };
+    double area = 0.0;
+    for (int i = 0; i < 6; ++i) {
+        area += 0.5 * ((double)loop[2 * i] * loop[2 * i + 3] - (double)loop[2 * i + 2] * loop[2 * i + 1]);
+    }
+    kiriCut cut = Host_Cut(&host, sheet, loop, 7);
+    int32_t frames = Host_Counts(&host, sheet).frames;
+    Tick(&host, 0.01f, 1);
+    kiriCounts counts = Host_Counts(&host, sheet);
+    kiriTotals after = Host_Totals(&host, sheet);
+    kiriMesh mesh = Host_Mesh(&host, sheet);
+    const kiriEvent* events;
+    int32_t eventCount;
+    OK(kiriWorld_GetEvents(host.world, &events, &eventCount));
+    assert_int_equal(counts.pieces, 2);
+    assert_int_equal(eventCount, 2 + counts.frames - frames);
+    assert_int_equal(events[0].type, KIRI_EVENT_PIECE_OFF);
+    assert_true(events[0].piece >= 0 && events[0].piece < 2 && events[0].sheet == sheet && events[0].cut == 0);
+    AssertNear(events[0].area, area, 1e-3 * area, "piece");
+    for (int32_t i = 1; i + 1 < eventCount; ++i) {
+        kiriFrameState frame;
+        assert_int_equal(events[i].type, KIRI_EVENT_FRAME_ADDED);
+        OK(kiriFrame_GetState(host.world, events[i].frame, &frame));
+        assert_true(frame.mass > 0.0f && frame.area > 0.0f);
+    }
+    assert_int_equal(events[eventCount - 1].type, KIRI_EVENT_CUT_FINISHED);
+    assert_int_equal(events[eventCount - 1].cut, cut);
+    AssertNear(after.area, before.area, 1e-12 * before.area, "area");
+    AssertNear(after.mass, before.mass, 1e-12 * before.mass, "mass");
+    assert_true(mesh.revision > revision);
+    CheckMesh(&mesh, &source);
+    for (int tick = 0; tick < 100; ++tick) {
+        Tick(&host, 0.01f, 1);
+    }
+    assert_true(Host_Mesh(&host, sheet).revision == mesh.revision);
+    /* What is far below is the hexagon. */
+    double fallen = 0.0, rest = 0.0;
+    mesh = Host_Mesh(&host, sheet);
+    for (int32_t t = 0; t < mesh.triangleCount; ++t) {
+        *(mesh.positions[3 * mesh.indices[3 * t] + 2] < -2.0f ? &fallen : &rest) += TriangleArea(&mesh, t);
+    }
+    AssertNear(fallen, area, 1e-3 * area, "fallen area");
+    AssertNear(rest, 1.0 - area, 1e-3, "rest");
+    CheckMesh(&mesh, &source);
+    AssertNear(Host_Totals(&host, sheet).mass, before.mass, 1e-12 * before.mass, "mass");
+    Rectangle_Free(&source);
+    Host_Stop(&host);
+}
+
+/* The largest piece goes on, wherever the frames are. */
+static void SmallPieceComesOff(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    static const float corner[2] = { 0.0625f, 0.0625f }, line[4] = { 0.2f, -0.01f, -0.01f, 0.2f };
+    kiriSheetDef def = Host_SmallDef();
+    def.framePoints = corner;
+    def.frameCount = 1;
+    def.maxFrames = 1;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    Host_Cut(&host, sheet, line, 2);
+    Tick(&host, 0.01f, 1);
+    kiriEvent event = { 0 };
+    assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
+    assert_int_equal(Host_Events(&host, KIRI_EVENT_PIECE_OFF, &event), 1);
+    AssertNear(event.area, 0.5 * 0.19 * 0.19, 1e-4, "the corner");
+    Host_Stop(&host);
+}
+
+/* A blade that comes tick by tick cuts what it cuts at once. */
+static void BladeMovesOn(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheet slow = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4), fast = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    static const float points[10] = { -0.1f, 0.4f, 0.3f, 0.45f, 0.31f, 0.71f, 0.66f, 0.55f, 1.1f, 0.6f };
+    kiriCut cut;
+    kiriEvent event = { 0 };
+    OK(kiriBeginCut(host.world, slow, points, &cut));
+    for (int i = 1; i < 5; ++i) {
+        OK(kiriCut_Extend(host.world, cut, &points[2 * i], 1));
+        if (i == 4) {
+            Host_Cut(&host, fast, points, 5);
+        }
+        Tick(&host, 0.01f, 1);
+        assert_int_equal(Host_Counts(&host, slow).pieces, i < 4 ? 1 : 2);
+        assert_int_equal(Host_Events(&host, KIRI_EVENT_CUT_FINISHED, NULL), i < 4 ? 0 : 1);
+    }
+    OK(kiriCut_End(host.world, cut));
+    Tick(&host, 0.01f, 1);
+    assert_int_equal(Host_Events(&host, KIRI_EVENT_CUT_FINISHED, &event), 1);
+    assert_int_equal(event.cut, cut);
+    kiriMesh a = Host_Mesh(&host, slow), b = Host_Mesh(&host, fast);
+    assert_true(a.vertexCount == b.vertexCount && a.triangleCount == b.triangleCount);
+    assert_memory_equal(a.indices, b.indices, sizeof(int32_t) * 3 * (size_t)a.triangleCount);
+    assert_memory_equal(a.restPositions, b.restPositions, sizeof(float) * 2 * (size_t)a.vertexCount);
+    Host_Stop(&host);
+}
+
+/* A moving, spinning sheet falls in two: what its momentum does at the commit. `stir` bends it before. */
+static void CommitKeepsMomentum(bool stir, double tolerance)
+{
+    Host host;
+    Host_Start(&host);
+    const float zero[3] = { 0.0f, 0.0f, 0.0f };
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = 16;
+    def.frameCount = 9;
+    def.material.airDamping = 0.0f;
+    def.velocity[0] = 1.0f;
+    def.velocity[2] = 0.5f;
+    OK(kiriWorld_SetGravity(host.world, zero));
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 6, 6);
+    kiriFrame frames[16];
+    int32_t count;
+    OK(kiriSheet_GetFrames(host.world, sheet, frames, 16, &count));
+    for (int tick = 0; tick < (stir ? 25 : 400); ++tick) {
+        for (int32_t i = 0; tick < 10 && i < count; ++i) {
+            float torque[3] = { 0.0f, 0.0f, 0.02f }, force[3] = { 0.0f, 0.0f, stir ? 0.2f * (float)(i % 3 - 1) : 0.0f };
+            OK(kiriFrame_ApplyForce(host.world, frames[i], force, torque));
+        }
+        Tick(&host, 1e-3f, 1);
+    }
+    static const float line[4] = { 0.37f, -0.1f, 0.61f, 1.1f };
+    kiriTotals before = Host_Totals(&host, sheet);
+    Host_Cut(&host, sheet, line, 2);
+    Tick(&host, 1e-6f, 1); /* as good as the commit alone */
+    kiriTotals after = Host_Totals(&host, sheet);
+    const double none[3] = { 0.0, 0.0, 0.0 };
+    double linear = Distance(after.momentum, before.momentum) / Distance(before.momentum, none);
+    double angular = Distance(after.angularMomentum, before.angularMomentum) / Distance(before.angularMomentum, none);
+    double moved = Distance(after.center, before.center), kinetic = after.kineticEnergy / before.kineticEnergy - 1.0;
+    print_message("%s: momentum jumps by %.2e, angular by %.2e, energy by %.2e, centre by %.2e m\n",
+                  stir ? "bent" : "flat", linear, angular, kinetic, moved);
+    assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
+    assert_true(Distance(before.angularMomentum, none) > 1e-4);
+    assert_true(linear < tolerance && angular < tolerance && moved < 0.01 * tolerance + 2e-6);
+    Host_Stop(&host);
+}
+
+static void MomentumAtCommit(void** state)
+{
+    (void)state;
+    CommitKeepsMomentum(false, 1e-3);
+    CommitKeepsMomentum(true, 0.05);
+}
+
+static void SetAxes(kiriSheetDef* def)
+{
+    /* Turned about two axes, and away from the origin. */
+    const float u[3] = { 0.8f, 0.36f, 0.48f }, v[3] = { -0.6f, 0.48f, 0.64f }, position[3] = { 3.0f, -2.0f, 5.0f };
+    memcpy(def->axisU, u, sizeof(u));
+    memcpy(def->axisV, v, sizeof(v));
+    memcpy(def->position, position, sizeof(position));
+}
+
+/* The world point at height h over rest point (u, v). */
+static void Above(const kiriSheetDef* def, float u, float v, float h, float* x)
+{
+    const float *a = def->axisU, *b = def->axisV;
+    for (int k = 0; k < 3; ++k) {
+        int m = (k + 1) % 3, n = (k + 2) % 3;
+        x[k] = def->position[k] + u * a[k] + v * b[k] + h * (a[m] * b[n] - a[n] * b[m]);
+    }
+}
+
+static void Slices(void** state)
+{
+    (void)state;
+    static const float ways[4][4] = { { 0.37f, -0.3f, 0.37f, 1.3f },
+                                      { -0.3f, 0.61f, 1.3f, 0.58f },
+                                      { 0.5f, -0.3f, 0.5f, 1.3f }, /* along mesh edges */
+                                      { -0.2f, -0.2f, 1.2f, 1.2f } };
+    for (int i = 0; i < 4; ++i) {
+        Host host;
+        Host_Start(&host);
+        kiriSheetDef def = Host_SmallDef();
+        SetAxes(&def);
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+        float blade[12], miss[12];
+        kiriCut cut;
+        kiriEvent event = { 0 };
+        for (int k = 0; k < 4; ++k) {
+            int end = k < 2 ? 0 : 2;
+            float height = k == 0 || k == 3 ? 0.4f : -0.3f;
+            Above(&def, ways[i][end], ways[i][end + 1], height, &blade[3 * k]);
+            Above(&def, ways[i][end], ways[i][end + 1], height + 1.0f, &miss[3 * k]);
+        }
+        OK(kiriSheet_Slice(host.world, sheet, miss, &cut));
+        Tick(&host, 1e-6f, 1);
+        assert_true(Host_Events(&host, KIRI_EVENT_CUT_FINISHED, &event) == 1 && event.cut == cut);
+        assert_int_equal(Host_Counts(&host, sheet).pieces, 1);
+        OK(kiriSheet_Slice(host.world, sheet, blade, &cut));
+        Tick(&host, 1e-6f, 1);
+        assert_true(Host_Events(&host, KIRI_EVENT_CUT_FINISHED, &event) == 1 && event.cut == cut);
+        if (Host_Counts(&host, sheet).pieces != 2) {
+            fail_msg("slice %d: %d pieces", i, (int)Host_Counts(&host, sheet).pieces);
+        }
+        Host_Stop(&host);
+    }
+}
+
+static void Rays(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    SetAxes(&def);
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    uint32_t seed = 5;
+    for (int i = 0; i < 200; ++i) {
+        float u = (float)RandomBetween(&seed, -0.5, 1.5), v = (float)RandomBetween(&seed, -0.5, 1.5);
+        float eyePoint[3], target[3], direction[3];
+        float side = i % 2 == 0 ? 2.0f : -2.0f, scale = (float)RandomBetween(&seed, 0.5, 2.0);
+        bool hits = u > 0.0f && u < 1.0f && v > 0.0f && v < 1.0f;
+        kiriHit hit;
+        Above(&def, u + 0.3f, v - 0.2f, side, eyePoint);
+        Above(&def, u, v, 0.0f, target);
+        for (int k = 0; k < 3; ++k) {
+            direction[k] = scale * (target[k] - eyePoint[k]);
+        }
+        OK(kiriSheet_Raycast(host.world, sheet, eyePoint, direction, 100.0f, &hit));
+        assert_int_equal(hit.triangle >= 0, hits);
+        if (hits) {
+            float length = 0.0f, facing[3];
+            Above(&def, 0.0f, 0.0f, 1.0f, facing);
+            for (int k = 0; k < 3; ++k) {
+                length += direction[k] * direction[k];
+                AssertNear(hit.position[k], target[k], 1e-5, "hit position");
+                AssertNear(hit.normal[k], facing[k] - def.position[k], 1e-4, "hit normal");
+            }
+            AssertNear(hit.restPoint[0], u, 1e-5, "hit u");
+            AssertNear(hit.restPoint[1], v, 1e-5, "hit v");
+            length = sqrtf(length) / scale;
+            /* m along the direction, whatever its length */
+            AssertNear(hit.distance, length, 1e-4, "hit distance");
+            OK(kiriSheet_Raycast(host.world, sheet, eyePoint, direction, 0.9f * length, &hit));
+            assert_int_equal(hit.triangle, -1);
+            for (int k = 0; k < 3; ++k) {
+                direction[k] = -direction[k];
+            }
+            OK(kiriSheet_Raycast(host.world, sheet, eyePoint, direction, 100.0f, &hit));
+            assert_int_equal(hit.triangle, -1);
+        }
+    }
+    Host_Stop(&host);
+}
+
+/* ---- Shape functions ---- */
+
+static float WeightOf(const Host* host, kiriSheet sheet, float u, float v, kiriFrame frame)
+{
+    const float at[2] = { u, v };
+    kiriFrame frames[32];
+    float weights[32];
+    int32_t count;
+    OK(kiriSheet_GetWeights(host->world, sheet, at, frames, weights, NULL, 32, &count));
+    for (int32_t i = 0; i < count; ++i) {
+        if (frames[i] == frame) {
+            return weights[i];
+        }
+    }
+    return 0.0f;
+}
+
+/* At a cell that holds a frame its weight is exactly 1 (test_shape.c); at points, least squares round the peak off. */
+static void WeightsAtFrames(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    def.maxFrames = 4;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriFrame frames[4];
+    kiriFrameState frame;
+    int32_t count;
+    OK(kiriSheet_GetFrames(host.world, sheet, frames, 4, &count));
+    for (int i = 0; i < 4; ++i) {
+        OK(kiriFrame_GetState(host.world, frames[i], &frame));
+        for (int k = 0; k < 4; ++k) {
+            AssertNear(WeightOf(&host, sheet, frame.restPoint[0], frame.restPoint[1], frames[k]), i == k, 0.1, "peak");
+        }
+    }
+    Host_Stop(&host);
+}
+
+static void Weights(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    def.maxFrames = 4;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriFrame frames[4], found[4];
+    float weights[4], gradients[8], more[4];
+    int32_t count;
+    uint32_t seed = 9;
+    OK(kiriSheet_GetFrames(host.world, sheet, frames, 4, &count));
+    for (int i = 0; i < 200; ++i) {
+        float at[2] = { (float)RandomBetween(&seed, 0.0, 1.0), (float)RandomBetween(&seed, 0.0, 1.0) };
+        double sum = 0.0, du = 0.0, dv = 0.0;
+        OK(kiriSheet_GetWeights(host.world, sheet, at, found, weights, gradients, 4, &count));
+        for (int32_t k = 0; k < count; ++k) {
+            sum += weights[k];
+            du += gradients[2 * k];
+            dv += gradients[2 * k + 1];
+        }
+        AssertNear(sum, 1.0, 1e-6, "sum of weights");
+        AssertNear(fabs(du) + fabs(dv), 0.0, 1e-4, "sum of gradients");
+        int32_t all = count;
+        OK(kiriSheet_GetWeights(host.world, sheet, at, found, more, NULL, 1, &count));
+        assert_true(count == all && more[0] == weights[0]);
+        OK(kiriSheet_GetWeights(host.world, sheet, at, NULL, NULL, NULL, 0, &count));
+        assert_int_equal(count, all);
+    }
+    /* A slit between the left and the right half, but for the top: the right frame below is out of reach. */
+    float before = WeightOf(&host, sheet, 0.47f, 0.2f, frames[1]);
+    static const float slit[4] = { 0.5f, -0.1f, 0.5f, 0.95f };
+    Host_Cut(&host, sheet, slit, 2);
+    Tick(&host, 1e-6f, 1);
+    float after = WeightOf(&host, sheet, 0.47f, 0.2f, frames[1]);
+    print_message("a frame across a slit: weight %.3f before, %.3f after\n", (double)before, (double)after);
+    assert_true(before > 0.1f && after < 1e-6f);
+    AssertNear(WeightOf(&host, sheet, 0.53f, 0.2f, frames[0]), 0.0, 1e-6, "the other way");
+    Host_Stop(&host);
+}
+
+/* ---- Shapes of sheets ---- */
+
+/* The triangles of a rectangle that `keep` says; vertices that none of them uses are left out. */
+static kiriSheet AddParts(Host* host, kiriSheetDef* def, bool (*keep)(double u, double v), double* area)
+{
+    Rectangle r = Rectangle_Make(def, 1.0f, 1.0f, 8, 8);
+    int32_t map[81], vertices = 0, triangles = 0;
+    kiriSheet sheet = 0;
+    memset(map, -1, sizeof(map));
+    for (int32_t t = 0; t < def->triangleCount; ++t) {
+        const int32_t* v = &r.indices[3 * t];
+        double u = (r.positions[2 * v[0]] + r.positions[2 * v[1]] + r.positions[2 * v[2]]) / 3.0;
+        double w = (r.positions[2 * v[0] + 1] + r.positions[2 * v[1] + 1] + r.positions[2 * v[2] + 1]) / 3.0;
+        if (keep(u, w)) {
+            memmove(&r.indices[3 * triangles++], v, 3 * sizeof(int32_t));
+        }
+    }
+    for (int32_t i = 0; i < 3 * triangles; ++i) {
+        map[r.indices[i]] = 0;
+    }
+    for (int32_t v = 0; v < 81; ++v) {
+        if (map[v] == 0) {
+            memmove(&r.positions[2 * vertices], &r.positions[2 * v], 2 * sizeof(float));
+            map[v] = vertices++;
+        }
+    }
+    for (int32_t i = 0; i < 3 * triangles; ++i) {
+        r.indices[i] = map[r.indices[i]];
+    }
+    def->vertexCount = vertices;
+    def->triangleCount = triangles;
+    *area = triangles / 128.0;
+    OK(kiriCreateSheet(host->world, def, &sheet));
+    Rectangle_Free(&r);
+    return sheet;
+}
+
+static bool HasHole(double u, double v) { return u < 0.25 || u > 0.75 || v < 0.25 || v > 0.75; }
+static bool InTwoParts(double u, double v) { return (u < 0.25 || u > 0.5) && v >= 0.0; }
+
+static void Holes(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    double area;
+    kiriHit hit;
+    static const float origin[3] = { 0.45f, 0.55f, 1.0f }, down[3] = { 0.0f, 0.0f, -1.0f }, in[2] = { 0.45f, 0.55f };
+    static const float left[4] = { -0.1f, 0.51f, 0.3f, 0.51f }, right[4] = { 0.6f, 0.49f, 1.1f, 0.49f };
+    kiriFrame frame;
+    float weight;
+    int32_t count;
+    kiriSheet sheet = AddParts(&host, &def, HasHole, &area);
+    AssertNear(Host_Totals(&host, sheet).area, area, 1e-9, "area");
+    OK(kiriSheet_Raycast(host.world, sheet, origin, down, 10.0f, &hit));
+    assert_int_equal(hit.triangle, -1);
+    assert_int_equal(kiriSheet_GetWeights(host.world, sheet, in, &frame, &weight, NULL, 1, &count), KIRI_ERROR_ARGUMENT);
+    Host_Cut(&host, sheet, left, 2);
+    Tick(&host, 0.01f, 1);
+    assert_int_equal(Host_Counts(&host, sheet).pieces, 1);
+    Host_Cut(&host, sheet, right, 2);
+    Tick(&host, 0.01f, 1);
+    assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
+    AssertNear(Host_Totals(&host, sheet).area, area, 1e-12, "area");
+    Host_Stop(&host);
+}
+
+static void TwoParts(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    double area, left = 0.0, sum = 0.0;
+    def.framePoints = NULL;
+    def.frameCount = 1;
+    def.maxFrames = 1;
+    def.collisionPoints = 1;
+    kiriSheet sheet = AddParts(&host, &def, InTwoParts, &area);
+    kiriCounts counts = Host_Counts(&host, sheet);
+    kiriFrame frames[2];
+    int32_t count;
+    assert_true(counts.pieces == 2 && counts.frames == 2 && counts.collisionPoints == 2 && counts.links == 0);
+    OK(kiriSheet_GetFrames(host.world, sheet, frames, 2, &count));
+    for (int i = 0; i < 2; ++i) {
+        kiriFrameState frame;
+        OK(kiriFrame_GetState(host.world, frames[i], &frame));
+        left += frame.restPoint[0] < 0.4f ? frame.area : 0.0;
+        sum += frame.area;
+    }
+    AssertNear(left, 0.25, 1e-6, "left part");
+    AssertNear(sum, area, 1e-6, "both parts");
+    AddPin(&host, sheet, 0.1f, 0.5f, 0.1f, 0.5f, 0.0f);
+    for (int tick = 0; tick < 100; ++tick) {
+        Tick(&host, 0.01f, 1);
+    }
+    kiriFrameState falling, hanging;
+    OK(kiriFrame_GetState(host.world, frames[0], &hanging));
+    OK(kiriFrame_GetState(host.world, frames[1], &falling));
+    assert_true(fabsf(hanging.position[2] - falling.position[2]) > 2.0f);
+    assert_int_equal(Host_Events(&host, KIRI_EVENT_PIECE_OFF, NULL), 0);
+    Host_Stop(&host);
+}
+
+/* ---- Profile ---- */
+
+static double CountingClock(void* user)
+{
+    Host* host = user;
+    return 0.5 * (double)host->calls++;
+}
+
+static void Profile(void** state)
+{
+    (void)state;
+    static const float line[8] = { 0.1f, 0.33f, 0.4f, 0.35f, 0.6f, 0.62f, 0.9f, 0.63f };
+    for (int timed = 0; timed < 2; ++timed) {
+        Host host;
+        memset(&host, 0, sizeof(host));
+        host.failAt = -1;
+        kiriWorldDef worldDef = Host_Def(&host);
+        worldDef.clock = timed ? CountingClock : NULL;
+        OK(kiriCreateWorld(&worldDef, &host.world));
+        kiriSheetDef def = Host_SmallDef();
+        def.iterations = 3;
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+        kiriProfile profile;
+        Tick(&host, 0.01f, 2);
+        OK(kiriWorld_GetProfile(host.world, &profile));
+        assert_true(profile.cutSegments == 0 && profile.trianglesSplit == 0 && profile.cellsSettled == 0 &&
+                    profile.samplesRefreshed == 0 && profile.solverIterations >= 2);
+        for (int i = 0; i < KIRI_STAGE_COUNT; ++i) {
+            assert_true(timed && i >= KIRI_STAGE_SOLVE ? profile.seconds[i] > 0.0 : profile.seconds[i] == 0.0);
+        }
+        int32_t triangles = Host_Counts(&host, sheet).triangles;
+        Host_Cut(&host, sheet, line, 4);
+        Tick(&host, 0.01f, 1);
+        OK(kiriWorld_GetProfile(host.world, &profile));
+        kiriCounts counts = Host_Counts(&host, sheet);
+        assert_int_equal(profile.cutSegments, 3);
+        assert_true(profile.trianglesSplit >= counts.triangles - triangles && profile.trianglesSplit <= counts.triangles);
+        assert_true(profile.cellsSettled > 0 && profile.cellsSettled <= counts.cells);
+        assert_true(profile.samplesRefreshed > 0 &&
+                    profile.samplesRefreshed <= counts.vertices + counts.collisionPoints);
+        for (int i = 0; i < KIRI_STAGE_COUNT; ++i) {
+            assert_true(timed ? profile.seconds[i] > 0.0 : profile.seconds[i] == 0.0);
+        }
+        Host_Stop(&host);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(MemoryRunsOut),      cmocka_unit_test(MemoryForWorld),   cmocka_unit_test(QuietTicks),
+        cmocka_unit_test(WorldsAreApart),     cmocka_unit_test(SheetsAreApart),   cmocka_unit_test(HashSeesAll),
+        cmocka_unit_test(FreeFall),           cmocka_unit_test(AirDampingFades),  cmocka_unit_test(HangingComesToRest),
+        cmocka_unit_test(FramesAreHeld),      cmocka_unit_test(ForcesPush),       cmocka_unit_test(ContactsCarry),
+        cmocka_unit_test(StepExtremes),       cmocka_unit_test(PieceFalls),       cmocka_unit_test(SmallPieceComesOff),
+        cmocka_unit_test(BladeMovesOn),       cmocka_unit_test(MomentumAtCommit), cmocka_unit_test(Slices),
+        cmocka_unit_test(Rays),               cmocka_unit_test(Weights),          cmocka_unit_test(Holes),
+        cmocka_unit_test(WeightsAtFrames),    cmocka_unit_test(TwoParts),           cmocka_unit_test(Profile),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
