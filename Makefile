@@ -17,7 +17,8 @@ config ?= release
 SCENE ?= bunny
 ARGS ?=
 
-DEBIAN_PACKAGES := gcc g++ make libeigen3-dev libosmesa6-dev libpng-dev libcmocka-dev libbox2d-dev
+DEBIAN_PACKAGES := gcc g++ make libeigen3-dev libosmesa6-dev libpng-dev libcmocka-dev libbox2d-dev \
+                   python3-cffi
 
 BUILD := build/$(config)
 EIGEN ?= $(or $(patsubst -I%,%,$(shell pkg-config --cflags-only-I eigen3 2>/dev/null)),/usr/include/eigen3)
@@ -45,7 +46,8 @@ BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench*.c))
 RUN := $(BUILD)/samples/kiri-run
 BOX2D := $(BUILD)/samples/kiri-box2d
 # The Python binding is tested where Python has cffi; a sanitized library cannot be loaded by a plain Python.
-PYTHON ?= python3
+# Debian's own python has Debian's python3-cffi.
+PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 PYTHON_CHECK := $(if $(filter sanitize,$(config)),,python)
 
 .PHONY: all run box2d python test check lib bench gallery deps format clean header exports

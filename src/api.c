@@ -61,9 +61,18 @@ static bool AreFinite(const float* values, int32_t count)
     return true;
 }
 
-static bool IsAbove(float value, float low) { return isfinite(value) && value > low; }
-static bool IsAtLeast(float value, float low) { return isfinite(value) && value >= low; }
-static bool IsWithin(int32_t value, int32_t low, int32_t high) { return value >= low && value <= high; }
+static bool IsAbove(float value, float low)
+{
+    return isfinite(value) && value > low;
+}
+static bool IsAtLeast(float value, float low)
+{
+    return isfinite(value) && value >= low;
+}
+static bool IsWithin(int32_t value, int32_t low, int32_t high)
+{
+    return value >= low && value <= high;
+}
 
 static bool AreOrthonormal(const float* a, const float* b)
 {
@@ -85,16 +94,26 @@ int32_t kiriGetVersion(void)
 const char* kiriGetResultName(kiriResult result)
 {
     switch (result) {
-    case KIRI_OK: return "KIRI_OK";
-    case KIRI_PENDING: return "KIRI_PENDING";
-    case KIRI_ERROR_ARGUMENT: return "KIRI_ERROR_ARGUMENT";
-    case KIRI_ERROR_DEF: return "KIRI_ERROR_DEF";
-    case KIRI_ERROR_ID: return "KIRI_ERROR_ID";
-    case KIRI_ERROR_MESH: return "KIRI_ERROR_MESH";
-    case KIRI_ERROR_STATE: return "KIRI_ERROR_STATE";
-    case KIRI_ERROR_MEMORY: return "KIRI_ERROR_MEMORY";
-    case KIRI_DIVERGED: return "KIRI_DIVERGED";
-    default: return "unknown";
+    case KIRI_OK:
+        return "KIRI_OK";
+    case KIRI_PENDING:
+        return "KIRI_PENDING";
+    case KIRI_ERROR_ARGUMENT:
+        return "KIRI_ERROR_ARGUMENT";
+    case KIRI_ERROR_DEF:
+        return "KIRI_ERROR_DEF";
+    case KIRI_ERROR_ID:
+        return "KIRI_ERROR_ID";
+    case KIRI_ERROR_MESH:
+        return "KIRI_ERROR_MESH";
+    case KIRI_ERROR_STATE:
+        return "KIRI_ERROR_STATE";
+    case KIRI_ERROR_MEMORY:
+        return "KIRI_ERROR_MEMORY";
+    case KIRI_DIVERGED:
+        return "KIRI_DIVERGED";
+    default:
+        return "unknown";
     }
 }
 
@@ -368,7 +387,8 @@ kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* 
     return KIRI_OK;
 }
 
-kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet, const float** positions, int32_t* count)
+kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet, const float** positions,
+                                        int32_t* count)
 {
     BEGIN(world);
     CHECK(positions != NULL && count != NULL, "positions or count is null");
@@ -566,8 +586,7 @@ kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrame
     kiriVec3_Store(&state->rotation[0], data->A.u);
     kiriVec3_Store(&state->rotation[3], data->A.v);
     kiriVec3_Store(&state->rotation[6], data->A.d);
-    kiriVec3_Store(state->velocity,
-                   kiriVec3_Add(data->velocity, kiriVec3_Cross(data->spin, kiriVec3_Sub(x, data->x))));
+    kiriVec3_Store(state->velocity, kiriVec3_Add(data->velocity, kiriVec3_Cross(data->spin, kiriVec3_Sub(x, data->x))));
     kiriVec3_Store(state->angularVelocity, data->spin);
     state->area = (float)data->area;
     state->mass = (float)data->mass;
@@ -640,8 +659,8 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
     int32_t frame = inRange ? kiriSheet_FrameAt(data, made.at) : KIRI_NONE;
     CHECK(frame != KIRI_NONE, "restPoint lies outside the material");
     made.target = kiriVec3_Load(def->target);
-    made.stiffness = def->stiffness > 0.0f ? def->stiffness
-                                           : 10.0 * data->material.youngsModulus * data->material.thickness;
+    made.stiffness =
+        def->stiffness > 0.0f ? def->stiffness : 10.0 * data->material.youngsModulus * data->material.thickness;
     if (!kiriPool_Reserve(&world->pinIds, &world->memory, 1) || !kiriSheet_AddPin(data, &made, frame)) {
         return FAIL(KIRI_ERROR_MEMORY, "out of memory");
     }
@@ -677,8 +696,7 @@ static const char* FaultOfContact(const kiriContact* contact, int32_t points)
     if (!IsWithin(contact->point, 0, points - 1)) {
         return "a contact names no collision point";
     }
-    if (!AreFinite(contact->normal, 3) ||
-        fabs(kiriVec3_Length(kiriVec3_Load(contact->normal)) - 1.0) > 1e-3) {
+    if (!AreFinite(contact->normal, 3) || fabs(kiriVec3_Length(kiriVec3_Load(contact->normal)) - 1.0) > 1e-3) {
         return "the normal of a contact is not a unit vector";
     }
     return isfinite(contact->offset) && IsAtLeast(contact->friction, 0.0f) && IsAbove(contact->stiffness, 0.0f)

@@ -26,8 +26,9 @@ static void WriteContactRows(kiriSheetData* sheet)
         kiriVec3 normal = kiriVec3_Load(contact->normal);
         kiriVec3 seen = kiriSkin_Position(&sheet->model.pointSkin, contact->point, sheet->frames.data, at);
         kiriVec3 off = kiriVec3_Sub(kiriFrame_Carry(&sheet->frames.data[frame], at), seen);
-        kiriContactRow row = { frame, at, normal, contact->offset + kiriVec3_Dot(normal, off), contact->friction,
-                               contact->stiffness };
+        kiriContactRow row = {
+            frame, at, normal, contact->offset + kiriVec3_Dot(normal, off), contact->friction, contact->stiffness
+        };
         sheet->contactRows.data[i] = row;
     }
 }

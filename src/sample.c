@@ -10,8 +10,7 @@ static bool Begin(kiriSkin* skin, const kiriMemory* memory, int32_t sampleCount)
 {
     skin->start.count = 0;
     skin->weights.count = 0;
-    return kiriArray_Reserve(memory, &skin->start, (int64_t)sampleCount + 1) &&
-           kiriArray_Push(memory, &skin->start, 0);
+    return kiriArray_Reserve(memory, &skin->start, (int64_t)sampleCount + 1) && kiriArray_Push(memory, &skin->start, 0);
 }
 
 /* One more sample, with these weights. */
@@ -127,7 +126,9 @@ static void AddMotion(kiriMotion* sum, const kiriFrameData* frame, kiriVec2 loca
 kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* frames, const kiriMeshData* mesh,
                            int32_t triangle, kiriPoint at)
 {
-    kiriMotion motion = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 },
+    kiriMotion motion = { { 0.0, 0.0, 0.0 },
+                          { 0.0, 0.0, 0.0 },
+                          { 0.0, 0.0, 0.0 },
                           { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } } };
     kiriVec2 local = kiriMesh_Local(mesh, at);
     kiriPoint corners[3];

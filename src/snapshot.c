@@ -8,8 +8,14 @@ static void Bytes(uint64_t* hash, const void* data, size_t bytes)
     }
 }
 
-static void Int(uint64_t* hash, int32_t value) { Bytes(hash, &value, sizeof(value)); }
-static void Real(uint64_t* hash, double value) { Bytes(hash, &value, sizeof(value)); }
+static void Int(uint64_t* hash, int32_t value)
+{
+    Bytes(hash, &value, sizeof(value));
+}
+static void Real(uint64_t* hash, double value)
+{
+    Bytes(hash, &value, sizeof(value));
+}
 
 static void Vec2(uint64_t* hash, kiriVec2 a)
 {

@@ -55,8 +55,8 @@ static void WriteNormals(kiriSheetData* sheet)
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         const int32_t* vertex = mesh->triangles.data[t].vertex;
         kiriVec3 a = Position(sheet, vertex[0]);
-        kiriVec3 normal = kiriVec3_Cross(kiriVec3_Sub(Position(sheet, vertex[1]), a),
-                                         kiriVec3_Sub(Position(sheet, vertex[2]), a));
+        kiriVec3 normal =
+            kiriVec3_Cross(kiriVec3_Sub(Position(sheet, vertex[1]), a), kiriVec3_Sub(Position(sheet, vertex[2]), a));
         for (int k = 0; k < 3; ++k) {
             float* sum = &sheet->normals.data[3 * vertex[k]];
             kiriVec3_Store(sum, kiriVec3_Add(kiriVec3_Load(sum), normal));
@@ -74,7 +74,8 @@ void kiriView_WritePositions(kiriSheetData* sheet)
     const kiriModel* model = &sheet->model;
     for (int32_t v = 0; v < sheet->mesh.vertices.count; ++v) {
         kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[v].at);
-        kiriVec3_Store(&sheet->positions.data[3 * v], kiriSkin_Position(&model->vertexSkin, v, sheet->frames.data, local));
+        kiriVec3_Store(&sheet->positions.data[3 * v],
+                       kiriSkin_Position(&model->vertexSkin, v, sheet->frames.data, local));
     }
     for (int32_t i = 0; i < model->points.count; ++i) {
         kiriVec2 local = kiriMesh_Local(&sheet->mesh, model->points.data[i].at);
@@ -122,7 +123,8 @@ static kiriVec2 RestPoint(const kiriSheetData* sheet, int32_t triangle, double b
     return kiriVec2_Add(p, kiriVec2_Scale(c, kiriMesh_Local(&sheet->mesh, corner[2])));
 }
 
-static void WriteHit(const kiriSheetData* sheet, int32_t triangle, const kiriVec3 corner[3], Barycentric at, kiriHit* hit)
+static void WriteHit(const kiriSheetData* sheet, int32_t triangle, const kiriVec3 corner[3], Barycentric at,
+                     kiriHit* hit)
 {
     kiriVec3 ab = kiriVec3_Sub(corner[1], corner[0]), ac = kiriVec3_Sub(corner[2], corner[0]);
     kiriVec2 rest = kiriVec2_Add(sheet->mesh.origin, RestPoint(sheet, triangle, at.b, at.c));

@@ -71,7 +71,7 @@ typedef struct kiriWorldDef {
     float gravity[3];   /* m/s^2; default (0, 0, -9.81) */
     kiriAllocFn* alloc; /* null: malloc and free. Both or none. */
     kiriFreeFn* free;
-    kiriLogFn* log; /* one line for each error; null: silent */
+    kiriLogFn* log;     /* one line for each error; null: silent */
     kiriClockFn* clock; /* null: the profile counts, and shows no times */
     void* user;         /* handed to the four functions above */
 } kiriWorldDef;
@@ -119,14 +119,14 @@ KIRI_API kiriResult kiriWorld_GetEvents(const kiriWorld* world, const kiriEvent*
 
 /* The stages of a tick in their order. */
 enum {
-    KIRI_STAGE_CUT,      /* split the mesh along the blade */
-    KIRI_STAGE_GRID,     /* cells and what links them */
-    KIRI_STAGE_REGIONS,  /* geodesic distances, regions, links; placing of frames */
-    KIRI_STAGE_SHAPE,    /* shape functions */
-    KIRI_STAGE_SAMPLES,  /* weights of vertices and collision points */
+    KIRI_STAGE_CUT,       /* split the mesh along the blade */
+    KIRI_STAGE_GRID,      /* cells and what links them */
+    KIRI_STAGE_REGIONS,   /* geodesic distances, regions, links; placing of frames */
+    KIRI_STAGE_SHAPE,     /* shape functions */
+    KIRI_STAGE_SAMPLES,   /* weights of vertices and collision points */
     KIRI_STAGE_CONSTANTS, /* mass, and the pattern of the solver's matrix */
-    KIRI_STAGE_SOLVE,    /* the motion of the frames */
-    KIRI_STAGE_SKIN,     /* positions and normals of the mesh */
+    KIRI_STAGE_SOLVE,     /* the motion of the frames */
+    KIRI_STAGE_SKIN,      /* positions and normals of the mesh */
     KIRI_STAGE_COUNT
 };
 
@@ -295,7 +295,8 @@ KIRI_API kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, 
 KIRI_API kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9]);
 
 /* A force (N, world) on the frame's centre of mass and a torque (N m), for the next tick only. */
-KIRI_API kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3], const float torque[3]);
+KIRI_API kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3],
+                                         const float torque[3]);
 
 /* ---- Pin and contact -------------------------------------------------------------------------------------------- */
 
@@ -322,7 +323,8 @@ typedef struct kiriContact {
 } kiriContact;
 
 /* The contacts of the next tick; they replace those of an earlier call, and are gone after the tick. */
-KIRI_API kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriContact* contacts, int32_t count);
+KIRI_API kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriContact* contacts,
+                                          int32_t count);
 
 #ifdef __cplusplus
 }
