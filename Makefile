@@ -100,41 +100,50 @@ lib: $(BUILD)/libkiri.a $(BUILD)/libkiri.so
 
 $(BUILD)/libkiri.a: $(LIBRARY_OBJECTS)
 	@rm -f $@
-	$(AR) rcs $@ $^
+	@$(AR) rcs $@ $^
 
 # The script hides the C++ templates too, which -fvisibility=hidden alone does not.
 $(BUILD)/libkiri.so: $(LIBRARY_OBJECTS)
 	@echo '{ global: kiri*; local: *; };' > $(BUILD)/kiri.map
-	$(LINK) -shared -Wl,--version-script=$(BUILD)/kiri.map -o $@ $^ -lm
+	@echo "  $@"
+	@$(LINK) -shared -Wl,--version-script=$(BUILD)/kiri.map -o $@ $^ -lm
 
 $(BUILD)/src/%.c.o: src/%.c
 	@mkdir -p $(@D)
-	$(COMPILE_C) -fvisibility=hidden -Iinclude -Isrc -c $< -o $@
+	@echo "  $<"
+	@$(COMPILE_C) -fvisibility=hidden -Iinclude -Isrc -c $< -o $@
 
 $(BUILD)/src/%.cpp.o: src/%.cpp
 	@mkdir -p $(@D)
-	$(COMPILE_CXX) -fvisibility=hidden -fvisibility-inlines-hidden -Iinclude -Isrc -isystem $(EIGEN) -c $< -o $@
+	@echo "  $<"
+	@$(COMPILE_CXX) -fvisibility=hidden -fvisibility-inlines-hidden -Iinclude -Isrc -isystem $(EIGEN) -c $< -o $@
 
 $(BUILD)/samples/%.c.o: samples/%.c
 	@mkdir -p $(@D)
-	$(COMPILE_C) -Iinclude -c $< -o $@
+	@echo "  $<"
+	@$(COMPILE_C) -Iinclude -c $< -o $@
 
 $(BUILD)/samples/%.cpp.o: samples/%.cpp
 	@mkdir -p $(@D)
-	$(COMPILE_CXX) -Iinclude -c $< -o $@
+	@echo "  $<"
+	@$(COMPILE_CXX) -Iinclude -c $< -o $@
 
 $(BUILD)/tests/%.c.o: tests/%.c
 	@mkdir -p $(@D)
-	$(COMPILE_C) -Iinclude -Isrc -Isamples -Itests -c $< -o $@
+	@echo "  $<"
+	@$(COMPILE_C) -Iinclude -Isrc -Isamples -Itests -c $< -o $@
 
 $(RUN): $(filter %.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
-	$(LINK) -o $@ $^ -lOSMesa -lpng -lm
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lOSMesa -lpng -lm
 
 $(BOX2D): $(filter %/box2d.cpp.o %/draw.c.o %/image.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
-	$(LINK) -o $@ $^ -lbox2d -lOSMesa -lpng -lm
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lbox2d -lOSMesa -lpng -lm
 
 $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(SCENE_OBJECTS) $(BUILD)/libkiri.a
-	$(LINK) -o $@ $^ -lcmocka -lm
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lcmocka -lm
 
 deps:
 	@if ! command -v apt-get >/dev/null; then echo "needed, as Debian names it: $(DEBIAN_PACKAGES)"; exit 0; fi; \

@@ -22,7 +22,7 @@ typedef struct Options {
     const char* output;
     const char* data;
     const char* weights; /* null, "all", or the number of a frame */
-    int32_t ticks, every, width, height, grid, controlFrames;
+    int32_t ticks, every, width, height, grid, controlFrames, budget;
     bool axes, quiet, help;
 } Options;
 
@@ -37,6 +37,7 @@ static void PrintHelp(void)
            "  --every N             ticks from picture to picture (2); 0: no pictures\n"
            "  --grid N              grid squares along the sheet (the scene's own)\n"
            "  --control-frames N    control frames at the start (the scene's own)\n"
+           "  --budget N            blade points taken in one tick; 0: no limit (0)\n"
            "  --frames-axes         show the control frames\n"
            "  --weights all|N       colour the sheet by the shape functions of all frames, or of frame N\n"
            "  --quiet               no progress line\n"
@@ -86,6 +87,9 @@ static bool ReadValue(const char* name, const char* value, Options* options)
         return ReadNumber(value, 1, 4096, &options->grid);
     } else if (strcmp(name, "--control-frames") == 0) {
         return ReadNumber(value, 1, MAX_FRAMES, &options->controlFrames);
+    }
+    if (strcmp(name, "--budget") == 0) {
+        return ReadNumber(value, 0, 1 << 24, &options->budget);
     }
     return false;
 }
@@ -463,6 +467,7 @@ int main(int count, char** words)
     kiriWorldDef def;
     kiriDefaultWorldDef(&def);
     def.clock = ReadClock;
+    def.cutBudget = options.budget;
     SceneOptions sceneOptions = { .dataFolder = options.data,
                                   .gridResolution = options.grid,
                                   .frameCount = options.controlFrames };

@@ -141,7 +141,7 @@ static kiriResult CheckWorldDef(const kiriWorldDef* def)
         return KIRI_ERROR_DEF;
     }
     bool hooksMatch = (def->alloc == NULL) == (def->free == NULL);
-    return hooksMatch && AreFinite(def->gravity, 3) ? KIRI_OK : KIRI_ERROR_ARGUMENT;
+    return hooksMatch && def->cutBudget >= 0 && AreFinite(def->gravity, 3) ? KIRI_OK : KIRI_ERROR_ARGUMENT;
 }
 
 kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
@@ -170,6 +170,7 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     made->clock = def->clock;
     made->user = def->user;
     made->gravity = kiriVec3_Load(def->gravity);
+    made->cutBudget = def->cutBudget;
     made->stage = KIRI_NONE;
     kiriPool_Init(&made->sheetIds, KIRI_KIND_SHEET);
     kiriPool_Init(&made->cutIds, KIRI_KIND_CUT);
@@ -471,6 +472,7 @@ static void Wait(kiriCutData* cut, kiriVec2 to, bool jump)
 {
     kiriSheetData* sheet = cut->sheet;
     kiriStroke stroke = { cut, to, jump };
+    cut->waiting += 1;
     sheet->queue.data[sheet->queue.count++] = stroke;
 }
 

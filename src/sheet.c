@@ -179,7 +179,7 @@ static bool TakeStroke(kiriSheetData* sheet, const kiriStroke* stroke)
 bool kiriSheet_SplitMesh(kiriSheetData* sheet)
 {
     kiriMesh_Begin(&sheet->mesh);
-    for (int32_t i = 0; i < sheet->queue.count; ++i) {
+    for (int32_t i = 0; i < sheet->granted; ++i) {
         if (!TakeStroke(sheet, &sheet->queue.data[i])) {
             return false;
         }
@@ -482,7 +482,15 @@ void kiriSheet_SwapModel(kiriSheetData* sheet)
 void kiriSheet_Commit(kiriSheetData* sheet)
 {
     kiriMesh_Commit(&sheet->mesh);
-    sheet->queue.count = 0;
+    for (int32_t i = 0; i < sheet->queue.count; ++i) {
+        if (i < sheet->granted) {
+            sheet->queue.data[i].cut->waiting -= 1;
+        } else {
+            sheet->queue.data[i - sheet->granted] = sheet->queue.data[i];
+        }
+    }
+    sheet->queue.count -= sheet->granted;
+    sheet->granted = 0;
     for (int32_t i = 0; i < sheet->cuts.count; ++i) {
         sheet->cuts.data[i]->committed = sheet->cuts.data[i]->tip;
     }

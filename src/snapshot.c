@@ -173,6 +173,7 @@ uint64_t kiriSnapshot_Hash(const kiriWorld* world)
 {
     uint64_t hash = 14695981039346656037u;
     Vec3(&hash, world->gravity);
+    Int(&hash, world->cutBudget);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         const kiriSheetData* sheet = world->sheets.data[i];
         Parameters(&hash, sheet);

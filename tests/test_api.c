@@ -167,7 +167,7 @@ static void WorldDefs(void** state)
     memset(&plain, 0, sizeof(plain));
     plain.failAt = -1;
     kiriWorld* const mark = (kiriWorld*)&plain;
-    for (int bad = 0; bad < 13; ++bad) {
+    for (int bad = 0; bad < 14; ++bad) {
         kiriWorldDef def = Host_Def(&plain);
         kiriWorld* world = mark;
         if (bad < 9) {
@@ -177,11 +177,13 @@ static void WorldDefs(void** state)
         } else if (bad == 10) {
             def.free = NULL;
         } else if (bad == 11) {
+            def.cutBudget = -1;
+        } else if (bad == 12) {
             def.cookie ^= 1;
         } else {
             memset(&def, 0, sizeof(def));
         }
-        assert_int_equal(kiriCreateWorld(&def, &world), bad < 11 ? KIRI_ERROR_ARGUMENT : KIRI_ERROR_DEF);
+        assert_int_equal(kiriCreateWorld(&def, &world), bad < 12 ? KIRI_ERROR_ARGUMENT : KIRI_ERROR_DEF);
         assert_null(world);
         assert_int_equal(plain.live, 0);
     }

@@ -69,6 +69,7 @@ typedef double kiriClockFn(void* user); /* seconds; read for the profile only, n
 typedef struct kiriWorldDef {
     uint32_t cookie;
     float gravity[3];   /* m/s^2; default (0, 0, -9.81) */
+    int32_t cutBudget;  /* blade points taken in one tick, over all sheets, first come first served; 0: no limit */
     kiriAllocFn* alloc; /* null: malloc and free. Both or none. */
     kiriFreeFn* free;
     kiriLogFn* log;     /* one line for each error; null: silent */
@@ -85,7 +86,8 @@ KIRI_API kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 KIRI_API void kiriDestroyWorld(kiriWorld* world);
 
 /* One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut points,
-   then moves every sheet. KIRI_ERROR_MEMORY: nothing moved and the cut points still wait, call again.
+   then moves every sheet. KIRI_PENDING: the cut budget is spent, and more points wait; a cut that waits leaves its sheet
+   in a valid state. KIRI_ERROR_MEMORY: nothing moved and the cut points still wait, call again.
    KIRI_DIVERGED: the sheets named by the events were put to rest, the others moved. */
 KIRI_API kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
 
