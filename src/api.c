@@ -1,4 +1,5 @@
 /* The public API: checks arguments, turns ids into pointers, and calls the floor below. The only file that does either. */
+#include "material.h"
 #include "snapshot.h"
 #include "world.h"
 
@@ -256,18 +257,26 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     if (def == NULL) {
         return;
     }
-    /* Cotton cloth in its look; the material is the host's to choose. */
-    static const kiriMaterial cloth = { 5e6f, 0.3f, 5e-4f, 400.0f, 0.5f, 2e-3f };
     memset(def, 0, sizeof(*def));
     def->cookie = COOKIE(kiriSheetDef);
     def->axisU[0] = 1.0f;
     def->axisV[1] = 1.0f;
-    def->material = cloth;
+    def->material = *kiriMaterial_Preset(KIRI_MATERIAL_COTTON);
     def->gridResolution = 32;
     def->frameCount = 5;
     def->maxFrames = 256;
     def->rigidWeight = 0.95f;
     def->iterations = 2;
+}
+
+kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material)
+{
+    const kiriMaterial* found = kiriMaterial_Preset(preset);
+    if (found == NULL || material == NULL) {
+        return KIRI_ERROR_ARGUMENT;
+    }
+    *material = *found;
+    return KIRI_OK;
 }
 
 static const char* FaultOfMaterial(const kiriMaterial* m)

@@ -157,6 +157,17 @@ typedef struct kiriMaterial {
     float flexDamping;   /* s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
 } kiriMaterial;
 
+/* Materials to start from; material.c says where their numbers come from. */
+enum {
+    KIRI_MATERIAL_PAPER,  /* printing paper, 0.11 mm */
+    KIRI_MATERIAL_COTTON, /* cloth, 0.5 mm; the default of a sheet def */
+    KIRI_MATERIAL_RUBBER, /* natural rubber, 1 mm */
+    KIRI_MATERIAL_FOIL,   /* aluminium, 16 um */
+    KIRI_MATERIAL_COUNT
+};
+
+KIRI_API kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
+
 typedef struct kiriSheetDef {
     uint32_t cookie;
 
