@@ -5,6 +5,8 @@
 #   make test     builds and runs all tests
 #   make lib      build/<config>/libkiri.a and libkiri.so
 #   make bench    runs the benchmarks
+#   make accuracy compares with references from outside, and plots error against cost
+#   make extremes runs what nobody should do to a sheet, and says what became of it
 #   make gallery  renders the pictures of the README
 #   make deps     installs what is missing (Debian and its relatives)
 #   make format   clang-format over all sources
@@ -50,7 +52,7 @@ BOX2D := $(BUILD)/samples/kiri-box2d
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 PYTHON_CHECK := $(if $(filter sanitize,$(config)),,python)
 
-.PHONY: all run box2d python test check lib bench gallery deps format clean header exports
+.PHONY: all run box2d python test check lib bench accuracy extremes gallery deps format clean header exports
 .DEFAULT_GOAL := all
 .SECONDARY:
 
@@ -71,6 +73,11 @@ test: deps
 bench: deps
 	@$(MAKE) --no-print-directory $(BENCHES)
 	@set -e; for bench in $(BENCHES); do $$bench; done
+
+accuracy extremes: %: deps
+	@$(MAKE) --no-print-directory $(BUILD)/tests/$@
+	@mkdir -p build/$@
+	$(BUILD)/tests/$@ $(if $(filter accuracy,$@),tests/data build/accuracy)
 
 gallery: deps
 	@$(MAKE) --no-print-directory $(RUN)
@@ -140,6 +147,16 @@ $(RUN): $(filter %.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
 $(BOX2D): $(filter %/box2d.cpp.o %/draw.c.o %/image.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lbox2d -lOSMesa -lpng -lm
+
+$(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy tests/reference tests/plot samples/image) $(BUILD)/libkiri.a
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lpng -lm
+
+$(BUILD)/tests/extremes: $(BUILD)/tests/extremes_main.c.o $(BUILD)/tests/extremes.c.o $(BUILD)/libkiri.a
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lm
+
+$(BUILD)/tests/test_extremes: $(BUILD)/tests/extremes.c.o
 
 $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(SCENE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"

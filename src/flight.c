@@ -33,16 +33,32 @@ static kiriMat3 Weighted(const kiriMassMoments* m, const kiriMat3* A)
     return r;
 }
 
-kiriMat3 kiriFlight_Inertia(const kiriFlight* flight, const kiriMat3* A)
+static kiriMat3 Inertia(const kiriMassMoments* m, const kiriMat3* A)
 {
     /* trace(M) - A M A^T, M the moments */
-    const kiriMassMoments* m = &flight->moments;
     double trace = m->uu + m->vv + m->dd;
     kiriMat3 w = Weighted(m, A), r;
     r.u = kiriVec3_Sub(kiriVec3_Make(trace, 0.0, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.x, A->v.x, A->d.x)));
     r.v = kiriVec3_Sub(kiriVec3_Make(0.0, trace, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.y, A->v.y, A->d.y)));
     r.d = kiriVec3_Sub(kiriVec3_Make(0.0, 0.0, trace), kiriMat3_Mul(w, kiriVec3_Make(A->u.z, A->v.z, A->d.z)));
     return r;
+}
+
+kiriMat3 kiriFlight_Inertia(const kiriFlight* flight, const kiriMat3* A)
+{
+    return Inertia(&flight->moments, A);
+}
+
+kiriVec3 kiriFrame_AngularMomentum(const kiriFrameData* frame, const kiriMaterial* material)
+{
+    kiriMassMoments moments = MomentsOf(frame, (double)material->thickness);
+    return kiriMat3_Mul(Inertia(&moments, &frame->A), frame->spin);
+}
+
+double kiriFrame_KineticEnergy(const kiriFrameData* frame, const kiriMaterial* material)
+{
+    return 0.5 * frame->mass * kiriVec3_Dot(frame->velocity, frame->velocity) +
+           0.5 * kiriVec3_Dot(frame->spin, kiriFrame_AngularMomentum(frame, material));
 }
 
 double kiriFlight_TurnSquared(const kiriFlight* flight, const kiriMat3* A)

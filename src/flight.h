@@ -43,6 +43,10 @@ kiriFlight kiriFlight_Free(const kiriFrameData* frame, const kiriMaterial* mater
 /* The way of a frame that the host moves. */
 kiriFlight kiriFlight_Held(const kiriFrameData* frame, const kiriMaterial* material, double dt);
 
+/* Kinetic energy, J, and angular momentum about the centre of mass. */
+double kiriFrame_KineticEnergy(const kiriFrameData* frame, const kiriMaterial* material);
+kiriVec3 kiriFrame_AngularMomentum(const kiriFrameData* frame, const kiriMaterial* material);
+
 /* The inertia tensor, symmetric, in space. */
 kiriMat3 kiriFlight_Inertia(const kiriFlight* flight, const kiriMat3* A);
 

@@ -1,5 +1,7 @@
 #include "motion.h"
 
+#include "flight.h"
+
 #include <string.h>
 
 static void WritePinRows(kiriSheetData* sheet)
@@ -85,24 +87,6 @@ int32_t kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int3
     return total;
 }
 
-double kiriMotion_KineticEnergy(const kiriFrameData* frame)
-{
-    kiriVec3 u = kiriVec3_Cross(frame->spin, frame->A.u), v = kiriVec3_Cross(frame->spin, frame->A.v);
-    return 0.5 * frame->mass * kiriVec3_Dot(frame->velocity, frame->velocity) +
-           0.5 * frame->inertia[0] * kiriVec3_Dot(u, u) + frame->inertia[1] * kiriVec3_Dot(u, v) +
-           0.5 * frame->inertia[2] * kiriVec3_Dot(v, v);
-}
-
-kiriVec3 kiriMotion_AngularMomentum(const kiriFrameData* frame)
-{
-    /* The integral of density r x (spin x r) with r = u A_u + v A_v. */
-    kiriVec3 u = kiriVec3_Cross(frame->spin, frame->A.u), v = kiriVec3_Cross(frame->spin, frame->A.v);
-    kiriVec3 momentum = kiriVec3_Scale(frame->inertia[0], kiriVec3_Cross(frame->A.u, u));
-    momentum = kiriVec3_AddScaled(momentum, frame->inertia[1], kiriVec3_Cross(frame->A.u, v));
-    momentum = kiriVec3_AddScaled(momentum, frame->inertia[1], kiriVec3_Cross(frame->A.v, u));
-    return kiriVec3_AddScaled(momentum, frame->inertia[2], kiriVec3_Cross(frame->A.v, v));
-}
-
 static void StoreDoubles(double* to, kiriVec3 a)
 {
     to[0] = a.x;
@@ -120,10 +104,11 @@ kiriTotals kiriMotion_Totals(const kiriSheetData* sheet)
         kiriVec3 p = kiriVec3_Scale(frame->mass, frame->velocity);
         totals.area += frame->area;
         totals.mass += frame->mass;
-        totals.kineticEnergy += kiriMotion_KineticEnergy(frame);
+        totals.kineticEnergy += kiriFrame_KineticEnergy(frame, &sheet->material);
         center = kiriVec3_AddScaled(center, frame->mass, frame->x);
         momentum = kiriVec3_Add(momentum, p);
-        angular = kiriVec3_Add(angular, kiriVec3_Add(kiriMotion_AngularMomentum(frame), kiriVec3_Cross(frame->x, p)));
+        angular = kiriVec3_Add(angular, kiriFrame_AngularMomentum(frame, &sheet->material));
+        angular = kiriVec3_Add(angular, kiriVec3_Cross(frame->x, p));
     }
     kiriSystem system = MakeSystem((kiriSheetData*)sheet, kiriVec3_Make(0.0, 0.0, 0.0));
     totals.elasticEnergy = kiriSolver_ElasticEnergy(&system);

@@ -11,6 +11,7 @@
 /* Before our own header, which includes C's headers as C. */
 #include <Eigen/Sparse>
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <new>
 #include <vector>
@@ -25,8 +26,9 @@ const double LONGEST_TURN = 1.0; /* of a frame in one Gauss-Newton step: a Cayle
 const int HALVINGS = 12;         /* of a step that does not lower the objective */
 const int SECOND_CHANCES = 4;    /* more iterations where the objective ends above that of the start of the step, */
 const int FRESH_STARTS = 2;      /* and iterations from there should they fail */
-const double ROUNDING = 1e-9;    /* of an objective, relative */
-const double SLIDE_FLOOR = 1e-9; /* m: a shorter way is no slide */
+const double ROUNDING = 1e-12;   /* of an objective, relative */
+const double LAST_BITS = 8.0 * DBL_EPSILON; /* of a length: what a few operations round off */
+const double SLIDE_FLOOR = 1e-9;            /* m: a shorter way is no slide */
 
 typedef kiriVec3 Vec;
 typedef Eigen::SparseMatrix<double> Matrix;
@@ -51,9 +53,11 @@ inline double Length(Vec a)
 {
     return kiriVec3_Length(a);
 }
-inline bool Finite(Vec a)
+/* The host reads floats. An eighth leaves room for the sums and blends that they are made of. NaN does not fit. */
+inline bool Fits(Vec a)
 {
-    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+    const double most = 0.125 * (double)FLT_MAX;
+    return std::fabs(a.x) <= most && std::fabs(a.y) <= most && std::fabs(a.z) <= most;
 }
 
 /* Eigen's factorisation of the upper triangle, in our own order of unknowns: so it takes the matrix as it is, without a
@@ -68,7 +72,7 @@ class Factor : public Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Eigen::Natural
     bool Factorize(const Matrix& matrix)
     {
         this->template factorize_preordered<true>(matrix);
-        return info() == Eigen::Success;
+        return info() == Eigen::Success && this->m_diag.size() > 0 && this->m_diag.minCoeff() > 0.0;
     }
 };
 
@@ -87,6 +91,7 @@ struct Slot {
 struct kiriSolver {
     kiriMemory memory;
     double dt, damping;                        /* of this step; flexDamping / dt */
+    double noise;                              /* J: what rounding leaves unknown of the objective */
     std::vector<int32_t> place;                /* a frame's place in the order of unknowns */
     std::vector<int32_t> blocks;               /* of a block column, above the diagonal */
     std::vector<Slot> slots;                   /* one a link */
@@ -219,49 +224,81 @@ Vec SlideOf(const kiriSystem* system, const kiriContactRow& contact, Vec point)
     return way - Dot(way, contact.normal) * contact.normal;
 }
 
-double PinEnergy(const kiriSystem* system, const kiriPinRow& pin, const Poses& poses)
+/* The objective, and what of it is energy that the sheet has: the rest is lost, or the inertia's. */
+struct Energy {
+    double objective, potential;
+
+    void Add(double stored, double lost)
+    {
+        potential += stored;
+        objective += stored + lost;
+    }
+};
+
+void AddPinEnergy(const kiriSystem* system, const kiriPinRow& pin, const Poses& poses, Energy* sum)
 {
     Vec off = poses[pin.frame].x + ArmOf(system, pin.frame, pin.at, poses[pin.frame]) - pin.target;
-    return 0.5 * pin.stiffness * Dot(off, off);
+    sum->Add(0.5 * pin.stiffness * Dot(off, off), 0.0);
 }
 
-double ContactEnergy(const kiriSystem* system, const kiriContactRow& contact, double brake, const Poses& poses)
+void AddContactEnergy(const kiriSystem* system, const kiriContactRow& contact, double brake, const Poses& poses,
+                      Energy* sum)
 {
     Vec point = poses[contact.frame].x + ArmOf(system, contact.frame, contact.at, poses[contact.frame]);
     double depth = std::max(contact.offset - Dot(contact.normal, point), 0.0);
     Vec slide = SlideOf(system, contact, point);
-    return 0.5 * contact.stiffness * depth * depth + 0.5 * brake * Dot(slide, slide);
+    sum->Add(0.5 * contact.stiffness * depth * depth, 0.5 * brake * Dot(slide, slide));
 }
 
-double LinkEnergy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const Poses& poses)
+void AddLinkEnergy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const Poses& poses, Energy* sum)
 {
     const Slot& slot = solver->slots[k];
-    double strain[KIRI_STRAINS], sum = 0.0;
+    double strain[KIRI_STRAINS];
     Measure(system, system->links[k], poses, strain, NULL);
     for (int e = 0; e < KIRI_STRAINS; ++e) {
         double change = strain[e] - slot.start[e];
-        sum += 0.5 * slot.stiffness[e] * (strain[e] * strain[e] + solver->damping * change * change);
+        sum->Add(0.5 * slot.stiffness[e] * strain[e] * strain[e],
+                 0.5 * slot.stiffness[e] * solver->damping * change * change);
     }
-    return sum;
 }
 
-double Objective(const kiriSolver* solver, const kiriSystem* system, const Poses& poses)
+Energy Evaluate(const kiriSolver* solver, const kiriSystem* system, const Poses& poses)
 {
-    double moved = 0.0, sum = 0.0;
+    Energy sum = { 0.0, 0.0 };
+    double moved = 0.0;
     for (int32_t f = 0; f < system->frameCount; ++f) {
         Vec off = poses[f].x - solver->flights[f].pose.x;
         moved += system->frames[f].mass * Dot(off, off) + kiriFlight_TurnSquared(&solver->flights[f], &poses[f].A);
     }
+    sum.Add(0.0, 0.5 * moved / (solver->dt * solver->dt));
     for (int32_t k = 0; k < system->linkCount; ++k) {
-        sum += LinkEnergy(solver, system, k, poses);
+        AddLinkEnergy(solver, system, k, poses, &sum);
     }
     for (int32_t k = 0; k < system->pinCount; ++k) {
-        sum += PinEnergy(system, system->pins[k], poses);
+        AddPinEnergy(system, system->pins[k], poses, &sum);
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
-        sum += ContactEnergy(system, system->contacts[k], solver->brakes[k], poses);
+        AddContactEnergy(system, system->contacts[k], solver->brakes[k], poses, &sum);
     }
-    return sum + 0.5 * moved / (solver->dt * solver->dt);
+    return sum;
+}
+
+/* The energy of every spring and of the inertia when lengths are off by their last bits. A sheet at rest has no
+   more. */
+double Noise(const kiriSolver* solver, const kiriSystem* system)
+{
+    double sum = 0.0;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        Vec x = solver->start[f].x;
+        sum += system->frames[f].mass * Dot(x, x) / (solver->dt * solver->dt);
+    }
+    for (int32_t k = 0; k < system->linkCount; ++k) {
+        const double* stiffness = solver->slots[k].stiffness;
+        double reach = Length(solver->start[system->links[k].i].x) + system->links[k].length;
+        sum += reach * reach * (stiffness[KIRI_STRETCH] + stiffness[KIRI_SHEAR] + stiffness[KIRI_NORMAL_GAP]);
+        sum += stiffness[KIRI_PLANE_BENDING] + stiffness[KIRI_BENDING] + stiffness[KIRI_TWIST];
+    }
+    return LAST_BITS * LAST_BITS * (1.0 + solver->damping) * sum;
 }
 
 /* ---- Matrix and forces ------------------------------------------------------------------------------------------- */
@@ -420,7 +457,7 @@ void Assemble(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* ---- Step -------------------------------------------------------------------------------------------------------- */
+/* ---- Iteration --------------------------------------------------------------------------------------------------- */
 
 void Begin(kiriSolver* solver, const kiriSystem* system, double dt)
 {
@@ -444,6 +481,7 @@ void Begin(kiriSolver* solver, const kiriSystem* system, double dt)
             solver->start[f] = solver->flights[f].pose;
         }
     }
+    solver->noise = Noise(solver, system);
 }
 
 /* How much of the Gauss-Newton step turns no frame too far. */
@@ -467,22 +505,37 @@ void Try(kiriSolver* solver, double scale)
     }
 }
 
+/* Where springs are stiffer than inertia by more than doubles tell apart, elimination cancels what the inertia put on
+   the diagonal, and rounding decides the sign. An addition of the size of what is rounded off makes the matrix
+   positive; so light a sheet then falls too slowly. */
+bool Factorize(kiriSolver* solver)
+{
+    if (solver->factor.Factorize(solver->matrix)) {
+        return true;
+    }
+    for (Eigen::Index c = 0; c < solver->matrix.cols(); ++c) {
+        solver->matrix.valuePtr()[solver->matrix.outerIndexPtr()[c + 1] - 1] *= 1.0 + LAST_BITS;
+    }
+    return solver->factor.Factorize(solver->matrix);
+}
+
 /* One Gauss-Newton step, halved until the objective falls, or is at most `allowed`. False when the matrix has no
    factor. */
-bool Iterate(kiriSolver* solver, const kiriSystem* system, double allowed, double* objective)
+bool Iterate(kiriSolver* solver, const kiriSystem* system, double allowed, Energy* energy)
 {
     Assemble(solver, system);
-    if (!solver->factor.Factorize(solver->matrix)) {
+    if (!Factorize(solver)) {
         return false;
     }
     solver->move = solver->factor.solve(solver->force);
-    *objective = Objective(solver, system, solver->poses);
-    double enough = std::max(allowed, *objective) * (1.0 + ROUNDING), scale = LongestStep(solver), taken = 0.0;
+    *energy = Evaluate(solver, system, solver->poses);
+    double enough = std::max(allowed, energy->objective) * (1.0 + ROUNDING) + solver->noise;
+    double scale = LongestStep(solver), taken = 0.0;
     for (int halving = 0; halving <= HALVINGS && taken == 0.0; ++halving, scale *= 0.5) {
         Try(solver, scale);
-        double value = Objective(solver, system, solver->trial);
-        if (value <= enough) {
-            *objective = value;
+        Energy value = Evaluate(solver, system, solver->trial);
+        if (value.objective <= enough) {
+            *energy = value;
             taken = scale;
         }
     }
@@ -491,19 +544,108 @@ bool Iterate(kiriSolver* solver, const kiriSystem* system, double allowed, doubl
     return true;
 }
 
+/* ---- Energy ------------------------------------------------------------------------------------------------------ */
+
+/* Velocities at the end of the step. */
+Vec VelocityOf(const kiriSolver* solver, int32_t f)
+{
+    const kiriFlight& flight = solver->flights[f];
+    return flight.velocity + (1.0 / solver->dt) * (solver->poses[f].x - flight.pose.x);
+}
+
+Vec SpinOf(const kiriSolver* solver, int32_t f)
+{
+    const kiriFlight& flight = solver->flights[f];
+    kiriMat3 inertia = kiriFlight_Inertia(&flight, &solver->poses[f].A);
+    Vec turn = kiriMat3_Solve(&inertia, kiriFlight_TurnGradient(&flight, &solver->poses[f].A));
+    return flight.spin + (1.0 / solver->dt) * turn;
+}
+
+double KineticEnergy(const kiriSolver* solver, const kiriSystem* system, int32_t f, const kiriMat3& A, Vec velocity,
+                     Vec spin)
+{
+    kiriMat3 inertia = kiriFlight_Inertia(&solver->flights[f], &A);
+    return 0.5 * system->frames[f].mass * Dot(velocity, velocity) + 0.5 * Dot(spin, kiriMat3_Mul(inertia, spin));
+}
+
+/* By how much kinetic and potential energy grow in the step beyond the work of gravity and of the host's forces; what
+   rounding explains is no gain. A held frame counts as moved before the step. */
+double Gain(const kiriSolver* solver, const kiriSystem* system, double potentialBefore, double potentialAfter)
+{
+    double before = potentialBefore, after = potentialAfter, work = 0.0;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriFrameData& frame = system->frames[f];
+        if (!frame.held) {
+            Vec velocity = VelocityOf(solver, f), spin = SpinOf(solver, f);
+            before += KineticEnergy(solver, system, f, frame.A, frame.velocity, frame.spin);
+            after += KineticEnergy(solver, system, f, solver->poses[f].A, velocity, spin);
+            work += frame.mass * Dot(system->gravity, solver->poses[f].x - frame.x) +
+                    Dot(frame.force, solver->poses[f].x - frame.x) + solver->dt * Dot(frame.torque, spin);
+        }
+    }
+    return after - before - work - ROUNDING * (before + after + std::fabs(work)) - solver->noise;
+}
+
+/* The factor that takes an energy out of velocities that have `kinetic`; what they do not have is left in `energy`. */
+double Keep(double kinetic, double* energy)
+{
+    double taken = std::min(kinetic, *energy);
+    *energy -= taken;
+    return taken < kinetic ? std::sqrt(1.0 - taken / kinetic) : 0.0;
+}
+
+/* Takes an energy out of the velocities: as they differ from the mean first, for so momentum stays. Only where pins or
+   contacts change momentum can there be more to take. */
+void Brake(kiriSolver* solver, const kiriSystem* system, double energy)
+{
+    double mass = 0.0, kinetic = 0.0;
+    Vec momentum = kiriVec3_Make(0.0, 0.0, 0.0);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (!system->frames[f].held) {
+            mass += system->frames[f].mass;
+            momentum = momentum + system->frames[f].mass * solver->flights[f].velocity;
+        }
+    }
+    Vec mean = (1.0 / std::max(mass, DBL_MIN)) * momentum;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (!system->frames[f].held) {
+            const kiriFlight& flight = solver->flights[f];
+            kinetic += KineticEnergy(solver, system, f, solver->poses[f].A, flight.velocity - mean, flight.spin);
+        }
+    }
+    double keep = Keep(kinetic, &energy), keepMean = Keep(0.5 * mass * Dot(mean, mean), &energy);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (!system->frames[f].held) {
+            kiriFlight& flight = solver->flights[f];
+            flight.velocity = keepMean * mean + keep * (flight.velocity - mean);
+            flight.spin = keep * flight.spin;
+        }
+    }
+}
+
+/* ---- Step -------------------------------------------------------------------------------------------------------- */
+
 /* The iteration starts where the frames coast by their velocities: a strip that swings is then nearly there, and one at
    rest is there. The first step may raise the objective up to that of the free flight: it has to turn stiff frames,
    which stretches links before the next step lets them go, and halving it there would freeze the turning.
 
-   The objective must not end above that of not moving at all. Then kinetic and elastic energy at the end are at most
-   those at the start and the work of the forces, however long the step: nothing is ever flung away. Should it end above
-   all the same, the iteration starts anew from not moving, from where it only falls. */
-int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations)
+   The objective must not end above that of not moving at all. Should it end above all the same, the iteration starts
+   anew from not moving, from where it only falls. Then, with v the velocities before and w those after the step,
+
+       potential after + 1/2 m (w - v)^2  <=  potential before + 1/2 m v^2 + work,
+
+   which bounds w by 2 v and no better. At the minimum w^2 stands for (w - v)^2, but for parts of the energy that are
+   not convex; so while energy is gained, iterations are added, and what is gained even then is taken out of the
+   velocities. Nothing is ever flung away, however long the step. */
+int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations, double* gain)
 {
-    double allowed = Objective(solver, system, solver->trial), objective = HUGE_VAL;
-    double limit = Objective(solver, system, solver->start) * (1.0 + ROUNDING);
+    double allowed = Evaluate(solver, system, solver->trial).objective;
+    Energy start = Evaluate(solver, system, solver->start), energy = { HUGE_VAL, HUGE_VAL };
+    double limit = start.objective * (1.0 + ROUNDING) + solver->noise;
     int32_t done = 0, chances = iterations + SECOND_CHANCES;
-    while (done < iterations || (done < chances + FRESH_STARTS && !(objective <= limit))) {
+    *gain = HUGE_VAL;
+    while (done < iterations || (*gain > 0.0 && done < chances) ||
+           (done < chances + FRESH_STARTS && !(energy.objective <= limit))) {
         if (done == chances) {
             solver->poses = solver->start;
         }
@@ -511,25 +653,36 @@ int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iteration
         if (done > 0 || iterations == 1) {
             SetBrakes(solver, system);
         }
-        if (!Iterate(solver, system, done == 0 ? allowed : 0.0, &objective)) {
+        if (!Iterate(solver, system, done == 0 ? allowed : 0.0, &energy)) {
             return -1;
         }
         ++done;
+        *gain = done < iterations ? HUGE_VAL : Gain(solver, system, start.potential, energy.potential);
     }
     return done;
 }
 
-/* Velocities at the end of the step. False when something is not finite. */
-bool Land(kiriSolver* solver, const kiriSystem* system)
+/* Velocities at the end of the step. */
+void Land(kiriSolver* solver, const kiriSystem* system, double gain)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {
-        kiriFlight& flight = solver->flights[f];
+        Vec velocity = VelocityOf(solver, f), spin = SpinOf(solver, f);
+        solver->flights[f].velocity = velocity;
+        solver->flights[f].spin = spin;
+    }
+    if (gain > 0.0) {
+        Brake(solver, system, gain);
+    }
+}
+
+bool CanBeRead(const kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriPose& pose = solver->poses[f];
-        kiriMat3 inertia = kiriFlight_Inertia(&flight, &pose.A);
-        Vec turn = kiriMat3_Solve(&inertia, kiriFlight_TurnGradient(&flight, &pose.A));
-        flight.velocity = flight.velocity + (1.0 / solver->dt) * (pose.x - flight.pose.x);
-        flight.spin = flight.spin + (1.0 / solver->dt) * turn;
-        if (!Finite(pose.x) || !Finite(pose.A.u + pose.A.v + pose.A.d) || !Finite(flight.velocity + flight.spin)) {
+        const kiriFlight& flight = solver->flights[f];
+        Vec arm = ArmOf(system, f, system->frames[f].site.at, pose);
+        if (!Fits(pose.x) || !Fits(pose.A.u + pose.A.v + pose.A.d) || !Fits(flight.velocity) || !Fits(flight.spin) ||
+            !Fits(kiriVec3_Cross(flight.spin, arm))) {
             return false;
         }
     }
@@ -584,8 +737,13 @@ extern "C" int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system,
 {
     try {
         Begin(solver, system, dt);
-        int32_t done = Minimise(solver, system, iterations);
-        if (done < 0 || !Land(solver, system)) {
+        double gain;
+        int32_t done = Minimise(solver, system, iterations, &gain);
+        if (done < 0) {
+            return -1;
+        }
+        Land(solver, system, gain);
+        if (!CanBeRead(solver, system)) {
             return -1;
         }
         Finish(solver, system);

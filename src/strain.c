@@ -5,6 +5,11 @@
 /* and the offset g makes it longer by 3/5 g^2 / l, where a straight line has 1/2. */
 #define ARC 1.2
 #define NORMAL_STOP_SHARE 0.5
+/* Of the line between the centres: what an offset lengthens it by, is that of a line this long at least. */
+#define LEAST_AHEAD 0.5
+/* Links along both directions share a shear when frames turn; a strip one region wide has those of one direction only,
+   and Timoshenko's 5/6 G, over E. */
+#define SHEAR_BEAM (5.0 / 12.0)
 
 /* The mean axes of two frames. When the frames turn by w_0 and w_1, the axes turn by the sum over k of
    n (nBy[k] . w_k) + tau (tauBy[k] . w_k) + d (dBy[k] . w_k). */
@@ -116,15 +121,17 @@ static double LeverOf(const kiriLink* link, const kiriFrameData* const frames[2]
     return apart < 0.5 * l ? 0.5 * l : apart < l ? apart : l;
 }
 
+/* The strain is signed along n: the length alone would be at rest again where the frames have passed through each other,
+   and a sheet that was crushed would stay inside out. */
 static void MeasureStretch(double lever, const Axes* axes, const Pair* b, double* strain, kiriStrainRow* row)
 {
     double ahead = lever + kiriVec3_Dot(b->gap, axes->n), aside = kiriVec3_Dot(b->gap, axes->d);
-    double line = sqrt(ahead * ahead + ARC * aside * aside);
-    *strain = line - lever;
+    double least = LEAST_AHEAD * lever, base = ahead > least ? ahead : least;
+    double line = sqrt(base * base + ARC * aside * aside);
+    *strain = ahead - lever + (line - base);
     if (row != NULL) {
         kiriStrainRow n = GapRow(axes, axes->n, b), d = GapRow(axes, axes->d, b);
-        double scale = line > 0.0 ? 1.0 / line : 0.0;
-        *row = Combined(scale * ahead, &n, scale * ARC * aside, &d);
+        *row = Combined(ahead > least ? ahead / line : 1.0, &n, ARC * aside / line, &d);
     }
 }
 
@@ -166,7 +173,7 @@ void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, do
     double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = link->length;
     double membrane = (double)material->youngsModulus * h / l, bending = membrane * h * h / (12.0 * (1.0 - nu * nu));
     stiffness[KIRI_STRETCH] = membrane * link->width;
-    stiffness[KIRI_SHEAR] = membrane * link->width;
+    stiffness[KIRI_SHEAR] = membrane * link->width * (SHEAR_BEAM + link->braced * (1.0 - SHEAR_BEAM));
     stiffness[KIRI_PLANE_BENDING] = membrane * link->moment;
     stiffness[KIRI_BENDING] = bending * link->width;
     stiffness[KIRI_TWIST] = bending * link->width;

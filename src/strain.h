@@ -13,7 +13,7 @@ extern "C" {
 
    strain         what                                                stiffness
    stretch        |(c + gap(b) . n, sqrt(6/5) gap(b) . d)| - c        E h W / l
-   shear          gap(b) . tau                                        E h W / l
+   shear          gap(b) . tau                                        E h W / l; 5/12 of it where unbraced
    plane bending  ((A_j - A_i) tau) . n                               E h I / l
    bending        (d_j - d_i) . n                                     D W / l
    twist          (d_j - d_i) . tau                                   D W / l
@@ -25,6 +25,8 @@ extern "C" {
    Stretch is that of the line between the centres of mass, c apart: an offset along the normal makes it longer. With
    gap(b) . n alone, tension would turn the frames away from that line and, above 12 D / l^2 newtons a metre of width,
    lay the sheet in steps, as tension buckles a column that is soft in shear; cloth would fall apart.
+   Where c + gap(b) . n is less than c / 2, what the offset adds to it is what it adds to c / 2: so frames that have passed
+   through each other are pushed back, and the strain grows with gap(b) . n everywhere.
 
    The stop catches sheets that bend within less than l, whose normal gap nothing would bound. */
 enum {
