@@ -296,8 +296,10 @@ static void SetLength(const Border* border, kiriLink* link)
     Way way = ShortestWay(border);
     link->length = way.length * (border->grid->side / KIRI_UNIT);
     link->crossing = way.crossing;
+    link->span = kiriVec2_Scale(link->length, link->normal);
     if (link->length < 1.08 * straight + 0.5 * border->grid->side) {
         link->length = straight;
+        link->span = kiriVec2_Sub(b, a);
         link->crossing = kiriVec2_Scale(0.5, kiriVec2_Add(a, b));
     }
     double least = 0.1 * border->grid->side;

@@ -32,6 +32,7 @@ typedef struct kiriLink {
     double length;     /* l: from site i to site j through it, m */
     double moment;     /* I: second moment of the border along the tangent about the centroid, m^3 */
     double braced;     /* how far its regions have neighbours along the tangent: 0 in a strip one region wide, to 1 */
+    kiriVec2 span;     /* s: from site i to site j; l along the normal where the way between them is not straight */
     kiriVec2 normal;   /* unit, from i to j */
     kiriVec2 tangent;  /* unit, the normal turned left */
     kiriVec2 centroid; /* b: of the border, local m */

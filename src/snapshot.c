@@ -75,6 +75,7 @@ static void Link(uint64_t* hash, const kiriLink* link)
     Int(hash, link->j);
     Vec3(hash, kiriVec3_Make(link->width, link->length, link->moment));
     Real(hash, link->braced);
+    Vec2(hash, link->span);
     Vec2(hash, link->normal);
     Vec2(hash, link->tangent);
     Vec2(hash, link->centroid);

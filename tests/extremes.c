@@ -456,7 +456,7 @@ const Extreme extremes[] = {
     { .name = "density 1e6", .script = Hang, .density = 1e6, .calm = 2e-2 },
     { .name = "E 1e13, density 1e-6", .script = Hang, .size = 0.05, .modulus = 1e13, .density = 1e-6 },
     { .name = "dt 1e-6", .script = Hang, .dt = 1e-6, .cause = 300, .calm = 1.0 },
-    { .name = "dt 1e-4", .script = Hang, .dt = 1e-4, .cause = 3000, .ticks = 20000, .calm = 2e-2, .full = true },
+    { .name = "dt 1e-4", .script = Hang, .dt = 1e-4, .cause = 3000, .ticks = 40000, .calm = 2e-2, .full = true },
     { .name = "dt 0.1", .script = Hang, .dt = 0.1 },
     { .name = "dt 1", .script = Hang, .dt = 1.0 },
     { .name = "dt 10", .script = Hang, .dt = 10.0 },

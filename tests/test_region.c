@@ -52,6 +52,8 @@ static void StripHasStraightLinks(void** state)
         AssertNear(link->centroid.y, 0.125, 1e-12);
         AssertNear(link->crossing.x, 0.5 * (sites[k].at.x + sites[k + 1].at.x), 1e-12);
         AssertNear(link->crossing.y, sites[k].at.y, 1e-12);
+        AssertNear(link->span.x, 7.0 * scene.grid.side, 1e-12);
+        AssertNear(link->span.y, 0.0, 1e-12);
         AssertNear(link->braced, 0.0, 0.0);
     }
     for (int i = 0; i < 5; ++i) {
