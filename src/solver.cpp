@@ -16,6 +16,7 @@
 #include <new>
 #include <vector>
 
+#include "momentum.h"
 #include "solver.h"
 #include "strain.h"
 
@@ -90,9 +91,11 @@ struct Slot {
 
 struct kiriSolver {
     kiriMemory memory;
-    double dt, damping;                        /* of this step; flexDamping / dt */
-    double noise;                              /* J: what rounding leaves unknown of the objective */
-    std::vector<int32_t> place;                /* a frame's place in the order of unknowns */
+    double dt, damping;         /* of this step; flexDamping / dt */
+    double noise;               /* J: what rounding leaves unknown of the objective */
+    std::vector<int32_t> place; /* a frame's place in the order of unknowns */
+    std::vector<int32_t> piece; /* a frame's piece: what links hold together */
+    std::vector<kiriPieceMomentum> pieces;
     std::vector<int32_t> blocks;               /* of a block column, above the diagonal */
     std::vector<Slot> slots;                   /* one a link */
     std::vector<kiriFlight> flights;           /* one a frame, as are the poses */
@@ -185,10 +188,35 @@ void MakePattern(kiriSolver* solver, const BlockRows& rows)
     solver->factor.Analyze(solver->matrix);
 }
 
+/* Numbers the pieces by their lowest frame. */
+void FindPieces(kiriSolver* solver, const kiriLink* links, int32_t linkCount)
+{
+    std::vector<int32_t>& piece = solver->piece;
+    for (size_t f = 0; f < piece.size(); ++f) {
+        piece[f] = (int32_t)f; /* first: a lower frame of the same piece, or itself */
+    }
+    for (int32_t k = 0; k < linkCount; ++k) {
+        int32_t a = links[k].i, b = links[k].j;
+        while (piece[a] != a) {
+            a = piece[a] = piece[piece[a]];
+        }
+        while (piece[b] != b) {
+            b = piece[b] = piece[piece[b]];
+        }
+        piece[std::max(a, b)] = std::min(a, b);
+    }
+    int32_t count = 0;
+    for (size_t f = 0; f < piece.size(); ++f) {
+        piece[f] = piece[f] == (int32_t)f ? count++ : piece[piece[f]];
+    }
+    solver->pieces.resize(count);
+}
+
 void Prepare(kiriSolver* solver, int32_t frameCount, const kiriLink* links, int32_t linkCount)
 {
     solver->place.resize(frameCount);
     solver->blocks.resize(frameCount);
+    solver->piece.resize(frameCount);
     solver->slots.resize(linkCount);
     solver->flights.resize(frameCount);
     solver->start.resize(frameCount);
@@ -198,6 +226,7 @@ void Prepare(kiriSolver* solver, int32_t frameCount, const kiriLink* links, int3
     solver->move.setZero(6 * frameCount);
     PlaceFrames(solver, links);
     MakePattern(solver, PlaceBlocks(solver, links));
+    FindPieces(solver, links, linkCount);
 }
 
 /* ---- Objective --------------------------------------------------------------------------------------------------- */
@@ -662,6 +691,22 @@ int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iteration
     return done;
 }
 
+void MarkHeld(kiriSolver* solver, const kiriSystem* system)
+{
+    for (size_t i = 0; i < solver->pieces.size(); ++i) {
+        solver->pieces[i].isHeld = 0;
+    }
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        solver->pieces[solver->piece[f]].isHeld |= system->frames[f].held;
+    }
+    for (int32_t k = 0; k < system->pinCount; ++k) {
+        solver->pieces[solver->piece[system->pins[k].frame]].isHeld = 1;
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        solver->pieces[solver->piece[system->contacts[k].frame]].isHeld = 1;
+    }
+}
+
 /* Velocities at the end of the step. */
 void Land(kiriSolver* solver, const kiriSystem* system, double gain)
 {
@@ -672,6 +717,11 @@ void Land(kiriSolver* solver, const kiriSystem* system, double gain)
     }
     if (gain > 0.0) {
         Brake(solver, system, gain);
+    } else {
+        MarkHeld(solver, system);
+        kiriMomentum_Restore(system->frames, system->frameCount, solver->poses.data(), solver->flights.data(),
+                             solver->piece.data(), solver->pieces.data(), (int32_t)solver->pieces.size(),
+                             &system->material, solver->dt, -gain);
     }
 }
 

@@ -503,7 +503,7 @@ const Extreme extremes[] = {
     { .name = "pin teleports", .script = Teleport, .cause = 10 },
     { .name = "contacts 1e9", .script = Floor },
     { .name = "slivers 1e-6", .script = Slivers, .resample = true },
-    { .name = "neck 1e-6", .script = Neck, .resample = true },
+    { .name = "neck 1e-6", .script = Neck, .resample = true, .ticks = 1200 },
     { .name = "three necks", .script = Thread, .resample = true },
     { .name = "32 cuts, one point", .script = Star, .grid = 32 },
     { .name = "506 confetti", .script = Confetti, .grid = 64, .ticks = 60, .full = true },
