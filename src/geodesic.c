@@ -1,7 +1,7 @@
 #include "geodesic.h"
 
-static const int32_t stepLengths[] = { KIRI_UNIT, KIRI_UNIT_DIAGONAL, KIRI_UNIT_KNIGHT };
-enum { STEP_LENGTHS = 3, FROM_SEED = 3, FROM_NOWHERE = 4 };
+static const int32_t stepLengths[KIRI_STEP_LENGTHS] = { KIRI_UNIT, KIRI_UNIT_DIAGONAL, KIRI_UNIT_KNIGHT };
+enum { FROM_SEED = KIRI_STEP_LENGTHS, FROM_NOWHERE };
 
 bool kiriField_Init(kiriField* field, const kiriMemory* memory, int32_t cellCount)
 {
@@ -91,11 +91,11 @@ static void Reach(kiriField* field, int32_t cell, int32_t distance, int32_t owne
 }
 
 /* Where the sweep goes on: at which distance, no farther than `limit`, and from which cursor. */
-static int NearestSource(const kiriField* field, const int32_t cursor[STEP_LENGTHS], int64_t limit, int64_t* distance)
+static int NearestSource(const kiriField* field, const int32_t cursor[KIRI_STEP_LENGTHS], int64_t limit, int64_t* distance)
 {
     int source = FROM_NOWHERE;
     *distance = limit;
-    for (int k = 0; k < STEP_LENGTHS; ++k) {
+    for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
         if (cursor[k] < field->settled.count) {
             int64_t d = (int64_t)field->distance.data[field->settled.data[cursor[k]]] + stepLengths[k];
             if (d <= *distance) {
@@ -114,12 +114,12 @@ static int NearestSource(const kiriField* field, const int32_t cursor[STEP_LENGT
 /* Dijkstra without a queue: there are only three lengths of steps, and cells settle by growing distance; so what the steps
    of one length reach is sorted already, and a cursor for each length over the settled cells finds the next. */
 bool kiriField_Flood(kiriField* field, const kiriMemory* memory, const kiriGrid* grid, const kiriSeed* seeds,
-                     int32_t seedCount, int32_t limit, kiriStepFn* allow, const void* context)
+                     int32_t seedCount, int32_t limit, kiriPassFn* pass, const void* context)
 {
     if (!LoadSeeds(field, memory, seeds, seedCount)) {
         return false;
     }
-    int32_t cursor[STEP_LENGTHS] = { 0 };
+    int32_t cursor[KIRI_STEP_LENGTHS] = { 0 };
     int64_t farthest = limit < KIRI_FAR ? limit : KIRI_FAR - 1, distance;
     for (;;) {
         int source = NearestSource(field, cursor, farthest, &distance);
@@ -131,12 +131,11 @@ bool kiriField_Flood(kiriField* field, const kiriMemory* memory, const kiriGrid*
             Reach(field, seed.cell, seed.distance, seed.owner);
             continue;
         }
-        int32_t from = field->settled.data[cursor[source]++];
-        for (int32_t s = grid->stepStart.data[from]; s < grid->stepStart.data[from + 1]; ++s) {
-            kiriStep step = grid->steps.data[s];
-            if (step.length == stepLengths[source] && (allow == NULL || allow(context, from, step.cell))) {
-                Reach(field, step.cell, (int32_t)distance, field->owner.data[from]);
-            }
+        int32_t from = field->settled.data[cursor[source]++], owner = field->owner.data[from];
+        const int32_t* start = &grid->lengthStart.data[KIRI_STEP_LENGTHS * from + source];
+        int32_t end = pass == NULL || pass(context, from) ? start[1] : start[0];
+        for (int32_t s = start[0]; s < end; ++s) {
+            Reach(field, grid->steps.data[s].cell, (int32_t)distance, owner);
         }
     }
 }

@@ -17,7 +17,6 @@ typedef struct Work {
     Ints head;       /* a triangle's first node */
     Ints parent;     /* union-find over entries of `node`, then over cells */
     Ints mark;
-    KIRI_ARRAY(kiriPoint) place; /* column and row of a cell */
     Ints nearStart;              /* straight and diagonal steps, as stepStart and steps of the grid */
     KIRI_ARRAY(kiriStep) near;
 } Work;
@@ -31,7 +30,6 @@ static void ReleaseWork(Work* work, const kiriMemory* memory)
     kiriArray_Release(memory, &work->head);
     kiriArray_Release(memory, &work->parent);
     kiriArray_Release(memory, &work->mark);
-    kiriArray_Release(memory, &work->place);
     kiriArray_Release(memory, &work->nearStart);
     kiriArray_Release(memory, &work->near);
 }
@@ -481,11 +479,23 @@ static void SortSteps(kiriStep* steps, int32_t from, int32_t end)
     }
 }
 
+static kiriStep Straight(const kiriFace* face, int32_t from)
+{
+    int8_t way = face->cell[0] == from ? 1 : -1;
+    return (kiriStep){ OtherCell(face, from), KIRI_UNIT, face->axis == 0 ? way : 0, face->axis == 1 ? way : 0 };
+}
+
+/* One step after another. */
+static kiriStep Joined(kiriStep a, kiriStep b, int16_t length)
+{
+    return (kiriStep){ b.cell, length, (int8_t)(a.u + b.u), (int8_t)(a.v + b.v) };
+}
+
 static bool AddStraightSteps(const kiriGrid* grid, Work* work, const kiriMemory* memory, int32_t c)
 {
     for (int32_t f = grid->faceHead.data[c]; f != KIRI_NONE; f = NextFace(&grid->faces.data[f], c)) {
-        kiriStep step = { OtherCell(&grid->faces.data[f], c), KIRI_UNIT };
-        if (!kiriArray_Push(memory, &work->near, step)) {
+        const kiriFace* face = &grid->faces.data[f];
+        if (!kiriArray_Push(memory, &work->near, Straight(face, c))) {
             return false;
         }
     }
@@ -501,10 +511,10 @@ static bool AddDiagonalSteps(const kiriGrid* grid, Work* work, const kiriMemory*
             int32_t between = OtherCell(&faces[f], c);
             int32_t g = faces[f].axis == axis ? grid->faceHead.data[between] : KIRI_NONE;
             for (; g != KIRI_NONE; g = NextFace(&faces[g], between)) {
-                kiriStep step = { OtherCell(&faces[g], between), KIRI_UNIT_DIAGONAL };
                 if (faces[g].axis == axis) {
                     continue;
                 }
+                kiriStep step = Joined(Straight(&faces[f], c), Straight(&faces[g], between), KIRI_UNIT_DIAGONAL);
                 if (axis == 0) {
                     work->mark.data[step.cell] = First(c);
                 } else if (work->mark.data[step.cell] == First(c)) {
@@ -522,7 +532,8 @@ static bool AddDiagonalSteps(const kiriGrid* grid, Work* work, const kiriMemory*
 static bool BuildNearSteps(const kiriGrid* grid, Work* work, const kiriMemory* memory)
 {
     work->near.count = 0;
-    if (!Fill(memory, &work->mark, grid->cells.count, 0) || !Fill(memory, &work->nearStart, grid->cells.count + 1, 0)) {
+    if (!Fill(memory, &work->mark, grid->cells.count, 0) || !Fill(memory, &work->nearStart, grid->cells.count + 1, 0) ||
+        !kiriArray_Reserve(memory, &work->near, 8 * (int64_t)grid->cells.count)) {
         return false;
     }
     for (int32_t c = 0; c < grid->cells.count; ++c) {
@@ -536,10 +547,9 @@ static bool BuildNearSteps(const kiriGrid* grid, Work* work, const kiriMemory* m
     return true;
 }
 
-static bool IsKnightMove(kiriPoint p, kiriPoint q)
+static bool IsKnightMove(kiriStep step)
 {
-    int32_t x = p.x < q.x ? q.x - p.x : p.x - q.x, y = p.y < q.y ? q.y - p.y : p.y - q.y;
-    return x + y == 3;
+    return (step.u < 0 ? -step.u : step.u) + (step.v < 0 ? -step.v : step.v) == 3;
 }
 
 /* To cells reached straight, then diagonally, and also diagonally, then straight: a slit is never jumped. */
@@ -549,12 +559,12 @@ static bool AddKnightSteps(kiriGrid* grid, Work* work, const kiriMemory* memory,
     const kiriStep* near = work->near.data;
     for (int32_t i = start[c]; i < start[c + 1]; ++i) {
         for (int32_t j = start[near[i].cell]; j < start[near[i].cell + 1]; ++j) {
-            kiriStep step = { near[j].cell, KIRI_UNIT_KNIGHT };
             if (near[i].length == near[j].length) {
                 continue;
             }
+            kiriStep step = Joined(near[i], near[j], KIRI_UNIT_KNIGHT);
             if (near[i].length == KIRI_UNIT) { /* straight ones come first */
-                if (IsKnightMove(work->place.data[c], work->place.data[step.cell])) {
+                if (IsKnightMove(step)) {
                     work->mark.data[step.cell] = First(c);
                 }
             } else if (work->mark.data[step.cell] == First(c)) {
@@ -568,41 +578,33 @@ static bool AddKnightSteps(kiriGrid* grid, Work* work, const kiriMemory* memory,
     return true;
 }
 
-static bool FillPlaces(const kiriGrid* grid, Work* work, const kiriMeshData* mesh)
-{
-    if (!kiriArray_Resize(mesh->memory, &work->place, grid->cells.count)) {
-        return false;
-    }
-    for (int32_t c = 0; c < grid->cells.count; ++c) {
-        work->place.data[c].x = grid->cells.data[c].square % mesh->squares.columns;
-        work->place.data[c].y = grid->cells.data[c].square / mesh->squares.columns;
-    }
-    return true;
-}
-
 static bool BuildSteps(kiriGrid* grid, Work* work, const kiriMeshData* mesh)
 {
     const kiriMemory* memory = mesh->memory;
     grid->steps.count = grid->stepStart.count = 0;
-    if (!BuildNearSteps(grid, work, memory) || !FillPlaces(grid, work, mesh) ||
-        !Fill(memory, &work->mark, grid->cells.count, 0) ||
-        !kiriArray_Resize(memory, &grid->stepStart, (int64_t)grid->cells.count + 1)) {
+    if (!BuildNearSteps(grid, work, memory) || !Fill(memory, &work->mark, grid->cells.count, 0) ||
+        !kiriArray_Reserve(memory, &grid->steps, 2 * (int64_t)work->near.count) ||
+        !kiriArray_Resize(memory, &grid->stepStart, (int64_t)grid->cells.count + 1) ||
+        !kiriArray_Resize(memory, &grid->lengthStart, KIRI_STEP_LENGTHS * (int64_t)grid->cells.count + 1)) {
         return false;
     }
-    grid->stepStart.data[0] = 0;
     for (int32_t c = 0; c < grid->cells.count; ++c) {
-        int32_t from = grid->steps.count;
+        int32_t* start = &grid->lengthStart.data[KIRI_STEP_LENGTHS * c];
+        grid->stepStart.data[c] = start[0] = start[1] = grid->steps.count;
         for (int32_t i = work->nearStart.data[c]; i < work->nearStart.data[c + 1]; ++i) {
             if (!kiriArray_Push(memory, &grid->steps, work->near.data[i])) {
                 return false;
             }
+            start[1] += work->near.data[i].length == KIRI_UNIT;
         }
+        start[2] = grid->steps.count;
         if (!AddKnightSteps(grid, work, memory, c)) {
             return false;
         }
-        SortSteps(grid->steps.data, from, grid->steps.count);
-        grid->stepStart.data[c + 1] = grid->steps.count;
+        SortSteps(grid->steps.data, start[2], grid->steps.count);
     }
+    grid->stepStart.data[grid->cells.count] = grid->steps.count;
+    grid->lengthStart.data[KIRI_STEP_LENGTHS * grid->cells.count] = grid->steps.count;
     return true;
 }
 
@@ -623,6 +625,7 @@ void kiriGrid_Release(kiriGrid* grid, const kiriMemory* memory)
     kiriArray_Release(memory, &grid->faces);
     kiriArray_Release(memory, &grid->faceHead);
     kiriArray_Release(memory, &grid->stepStart);
+    kiriArray_Release(memory, &grid->lengthStart);
     kiriArray_Release(memory, &grid->steps);
     kiriArray_Release(memory, &grid->squareCell);
     kiriArray_Release(memory, &grid->nodeCell);

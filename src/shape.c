@@ -12,13 +12,29 @@ typedef struct Builder {
     const kiriGrid* grid;
     const kiriMeshData* mesh;
     const kiriRegions* regions;
-    kiriField* field;
+    KIRI_ARRAY(uint8_t) onBorder; /* 1 where a step from the cell leads to another region */
     int32_t frame;                /* the frame at hand, and for it: */
-    KIRI_ARRAY(int32_t) fromSite; /* distance of each cell to its site; KIRI_FAR where its weight is zero anyway */
-    KIRI_ARRAY(int32_t) near;     /* the cells that are not FAR */
+    kiriField* fromSite;          /* distances to its site, no farther than its weight may be above zero, */
+    kiriField fromBorder;         /* and to the border of its region */
     kiriSeeds seeds;
     KIRI_ARRAY(Entry) entries; /* by frame */
 } Builder;
+
+static bool FindBorders(Builder* b)
+{
+    const kiriGrid* grid = b->grid;
+    const int32_t* owner = b->regions->owner.data;
+    if (!kiriArray_Resize(b->memory, &b->onBorder, grid->cells.count)) {
+        return false;
+    }
+    for (int32_t c = 0; c < grid->cells.count; ++c) {
+        b->onBorder.data[c] = 0;
+        for (int32_t s = grid->stepStart.data[c]; s < grid->stepStart.data[c + 1]; ++s) {
+            b->onBorder.data[c] |= owner[grid->steps.data[s].cell] != owner[c];
+        }
+    }
+    return true;
+}
 
 static bool Inside(const Builder* b, int32_t cell)
 {
@@ -32,37 +48,33 @@ static bool MeasureFromSite(Builder* b, const kiriSite* site)
     int64_t twice = 2 * ((int64_t)b->regions->regions.data[b->frame].reach + KIRI_UNIT_KNIGHT);
     int32_t limit = twice < KIRI_FAR ? (int32_t)twice : KIRI_FAR - 1;
     b->seeds.count = 0;
-    bool ok = kiriSite_Seed(site, b->frame, b->memory, b->grid, b->mesh, &b->seeds) &&
-              kiriField_Flood(b->field, b->memory, b->grid, b->seeds.data, b->seeds.count, limit, NULL, NULL) &&
-              kiriArray_Resize(b->memory, &b->near, b->field->settled.count);
-    for (int32_t k = 0; ok && k < b->near.count; ++k) {
-        int32_t cell = b->field->settled.data[k];
-        b->near.data[k] = cell;
-        b->fromSite.data[cell] = b->field->distance.data[cell];
-    }
-    kiriField_Reset(b->field);
-    return ok;
+    return kiriSite_Seed(site, b->frame, b->memory, b->grid, b->mesh, &b->seeds) &&
+           kiriField_Flood(b->fromSite, b->memory, b->grid, b->seeds.data, b->seeds.count, limit, NULL, NULL);
 }
 
 /* The border lies on the way between x and y where the distances to their sites are equal. A half is rounded up. */
-static bool SeedAt(Builder* b, int32_t x, int32_t y, int32_t length)
+static int32_t DistanceToBorder(const Builder* b, int32_t x)
 {
     const int32_t* distance = b->regions->distance.data;
-    kiriSeed seed = { x, (distance[y] + length - distance[x] + 1) / 2, b->frame };
-    return kiriArray_Push(b->memory, &b->seeds, seed);
+    int32_t least = KIRI_FAR;
+    for (int32_t s = b->grid->stepStart.data[x]; s < b->grid->stepStart.data[x + 1]; ++s) {
+        kiriStep step = b->grid->steps.data[s];
+        if (Inside(b, step.cell) != Inside(b, x)) {
+            int32_t half = (distance[step.cell] + step.length - distance[x] + 1) / 2;
+            least = half < least ? half : least;
+        }
+    }
+    return least;
 }
 
 static bool SeedBorder(Builder* b)
 {
-    const kiriGrid* grid = b->grid;
     b->seeds.count = 0;
-    for (int32_t k = 0; k < b->near.count; ++k) {
-        int32_t x = b->near.data[k];
-        int32_t end = Inside(b, x) ? grid->stepStart.data[x + 1] : 0;
-        for (int32_t s = grid->stepStart.data[x]; s < end; ++s) {
-            kiriStep step = grid->steps.data[s];
-            if (!Inside(b, step.cell) &&
-                !(SeedAt(b, x, step.cell, step.length) && SeedAt(b, step.cell, x, step.length))) {
+    for (int32_t k = 0; k < b->fromSite->settled.count; ++k) {
+        int32_t cell = b->fromSite->settled.data[k];
+        if (b->onBorder.data[cell]) {
+            kiriSeed seed = { cell, DistanceToBorder(b, cell), b->frame };
+            if (seed.distance < KIRI_FAR && !kiriArray_Push(b->memory, &b->seeds, seed)) {
                 return false;
             }
         }
@@ -87,28 +99,32 @@ static double Weigh(bool inside, int32_t d, int32_t e)
     return (double)d > 2.0 * e ? 0.5 * (1.0 - e / ((double)d - e)) : 0.0;
 }
 
+static double WeightAt(const Builder* b, int32_t cell)
+{
+    return Weigh(Inside(b, cell), b->fromSite->distance.data[cell], b->fromBorder.distance.data[cell]);
+}
+
 /* Distances to the border are measured outside only as far as the weight is above zero: e grows along a way at least
    as fast as d. To keep the flood on its side of the border is needless: no step over it is shorter than the seed
    beyond. */
-static bool HasWeight(const void* context, int32_t from, int32_t to)
+static bool HasWeight(const void* context, int32_t cell)
 {
     const Builder* b = context;
-    return b->fromSite.data[to] != KIRI_FAR &&
-           (Inside(b, from) || Weigh(false, b->fromSite.data[from], b->field->distance.data[from]) > 0.0);
+    return b->fromSite->distance.data[cell] != KIRI_FAR && WeightAt(b, cell) > 0.0;
 }
 
 static bool AddFrame(Builder* b, const kiriSite* site)
 {
     bool ok = MeasureFromSite(b, site) && SeedBorder(b) &&
-              kiriField_Flood(b->field, b->memory, b->grid, b->seeds.data, b->seeds.count, KIRI_FAR - 1, HasWeight, b);
-    for (int32_t k = 0; ok && k < b->near.count; ++k) {
-        int32_t cell = b->near.data[k];
-        double value = Weigh(Inside(b, cell), b->fromSite.data[cell], b->field->distance.data[cell]);
-        Entry entry = { cell, { b->frame, value } };
-        ok = !(value > 0.0) || kiriArray_Push(b->memory, &b->entries, entry);
-        b->fromSite.data[cell] = KIRI_FAR;
+              kiriField_Flood(&b->fromBorder, b->memory, b->grid, b->seeds.data, b->seeds.count, KIRI_FAR - 1,
+                              HasWeight, b);
+    for (int32_t k = 0; ok && k < b->fromSite->settled.count; ++k) {
+        int32_t cell = b->fromSite->settled.data[k];
+        Entry entry = { cell, { b->frame, WeightAt(b, cell) } };
+        ok = !(entry.weight.value > 0.0) || kiriArray_Push(b->memory, &b->entries, entry);
     }
-    kiriField_Reset(b->field);
+    kiriField_Reset(b->fromSite);
+    kiriField_Reset(&b->fromBorder);
     return ok;
 }
 
@@ -152,11 +168,13 @@ static void Normalize(kiriShape* shape)
 bool kiriShape_Build(kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                      const kiriRegions* regions, kiriField* field, const kiriSite* sites, int32_t siteCount)
 {
-    Builder b = { memory, grid, mesh, regions, field, 0, { 0 }, { 0 }, { 0 }, { 0 } };
-    bool ok = kiriArray_Resize(memory, &b.fromSite, grid->cells.count);
-    for (int32_t c = 0; ok && c < grid->cells.count; ++c) {
-        b.fromSite.data[c] = KIRI_FAR;
-    }
+    Builder b = { 0 };
+    b.memory = memory;
+    b.grid = grid;
+    b.mesh = mesh;
+    b.regions = regions;
+    b.fromSite = field;
+    bool ok = FindBorders(&b) && kiriField_Init(&b.fromBorder, memory, grid->cells.count);
     for (b.frame = 0; ok && b.frame < siteCount; ++b.frame) {
         ok = AddFrame(&b, &sites[b.frame]);
     }
@@ -164,8 +182,8 @@ bool kiriShape_Build(kiriShape* shape, const kiriMemory* memory, const kiriGrid*
     if (ok) {
         Normalize(shape);
     }
-    kiriArray_Release(memory, &b.fromSite);
-    kiriArray_Release(memory, &b.near);
+    kiriArray_Release(memory, &b.onBorder);
+    kiriField_Release(&b.fromBorder, memory);
     kiriArray_Release(memory, &b.seeds);
     kiriArray_Release(memory, &b.entries);
     return ok;
