@@ -208,37 +208,27 @@ static double Spline(double t)
    numbers, so that cells in one line are seen as such. */
 typedef struct Fit {
     kiriVec2 at;
-    double sum;        /* of the kernel; and with it the offsets' */
-    kiriVec2 mean;     /* mean */
-    double xx, xy, yy; /* and (pseudo-)inverse of the second moments about the mean */
+    double splineU[3], splineV[3]; /* at offsets -1, 0, 1: the kernel is their product */
+    double sum;                    /* of the kernel; and with it the offsets' */
+    kiriVec2 mean;                 /* mean */
+    double xx, xy, yy;             /* and (pseudo-)inverse of the second moments about the mean */
 } Fit;
 
-static double Kernel(const Fit* fit, kiriVec2 offset)
+static double Kernel(const Fit* fit, kiriStep to)
 {
-    return Spline(offset.x - fit->at.x) * Spline(offset.y - fit->at.y);
+    return fit->splineU[to.u + 1] * fit->splineV[to.v + 1];
 }
 
-static kiriVec2 Offset(const kiriGrid* grid, const kiriMeshData* mesh, int32_t from, int32_t to)
+/* The cells of a fit: k = 0 is the cell itself, then those a straight or diagonal step away. */
+static kiriStep Neighbor(const kiriGrid* grid, int32_t cell, int32_t k)
 {
-    int32_t columns = mesh->squares.columns;
-    int32_t a = grid->cells.data[from].square, b = grid->cells.data[to].square;
-    return kiriVec2_Make(b % columns - a % columns, b / columns - a / columns);
-}
-
-/* The cells of a fit: k = 0 is the cell itself, then those a straight or diagonal step away. KIRI_NONE for other
-   steps. */
-static int32_t Neighbor(const kiriGrid* grid, int32_t cell, int32_t k)
-{
-    if (k == 0) {
-        return cell;
-    }
-    kiriStep step = grid->steps.data[grid->stepStart.data[cell] + k - 1];
-    return step.length <= KIRI_UNIT_DIAGONAL ? step.cell : KIRI_NONE;
+    kiriStep own = { cell, 0, 0, 0 };
+    return k == 0 ? own : grid->steps.data[grid->stepStart.data[cell] + k - 1];
 }
 
 static int32_t NeighborCount(const kiriGrid* grid, int32_t cell)
 {
-    return 1 + grid->stepStart.data[cell + 1] - grid->stepStart.data[cell];
+    return 1 + grid->lengthStart.data[KIRI_STEP_LENGTHS * cell + 2] - grid->stepStart.data[cell];
 }
 
 /* Inverts the second moments; a direction that the neighbours do not span is dropped (no slope along it). */
@@ -260,18 +250,19 @@ static void Invert(Fit* fit)
 static Fit FitAround(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriVec2 at)
 {
     kiriVec2 off = kiriVec2_Sub(at, kiriGrid_Middle(grid, mesh, cell));
-    Fit fit = { kiriVec2_Scale(1.0 / grid->side, off), 0.0, { 0.0, 0.0 }, 0.0, 0.0, 0.0 };
+    Fit fit = { kiriVec2_Scale(1.0 / grid->side, off), { 0.0 }, { 0.0 }, 0.0, { 0.0, 0.0 }, 0.0, 0.0, 0.0 };
+    for (int i = 0; i < 3; ++i) {
+        fit.splineU[i] = Spline(i - 1 - fit.at.x);
+        fit.splineV[i] = Spline(i - 1 - fit.at.y);
+    }
     for (int32_t k = 0; k < NeighborCount(grid, cell); ++k) {
-        int32_t neighbor = Neighbor(grid, cell, k);
-        if (neighbor != KIRI_NONE) {
-            kiriVec2 p = Offset(grid, mesh, cell, neighbor);
-            double kernel = Kernel(&fit, p);
-            fit.sum += kernel;
-            fit.mean = kiriVec2_Add(fit.mean, kiriVec2_Scale(kernel, p));
-            fit.xx += kernel * p.x * p.x;
-            fit.xy += kernel * p.x * p.y;
-            fit.yy += kernel * p.y * p.y;
-        }
+        kiriStep to = Neighbor(grid, cell, k);
+        double kernel = Kernel(&fit, to);
+        fit.sum += kernel;
+        fit.mean = kiriVec2_Add(fit.mean, kiriVec2_Make(kernel * to.u, kernel * to.v));
+        fit.xx += kernel * to.u * to.u;
+        fit.xy += kernel * to.u * to.v;
+        fit.yy += kernel * to.v * to.v;
     }
     fit.mean = kiriVec2_Scale(1.0 / fit.sum, fit.mean);
     fit.xx -= fit.sum * fit.mean.x * fit.mean.x;
@@ -281,41 +272,38 @@ static Fit FitAround(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cel
     return fit;
 }
 
-/* The weight of this frame in `out`, which is sorted by frame; a new one is zero. Null for memory. */
-static kiriPointWeight* Find(kiriPointWeights* out, const kiriMemory* memory, int32_t frame)
+/* A weight of zero at place k. */
+static bool Insert(kiriPointWeights* out, const kiriMemory* memory, int32_t k, int32_t frame)
 {
-    int32_t k = out->count;
-    while (k > 0 && out->data[k - 1].frame > frame) {
-        --k;
-    }
-    if (k > 0 && out->data[k - 1].frame == frame) {
-        return &out->data[k - 1];
-    }
     kiriPointWeight fresh = { frame, 0.0, { 0.0, 0.0 } };
     if (!kiriArray_Push(memory, out, fresh)) {
-        return NULL;
+        return false;
     }
     for (int32_t m = out->count - 1; m > k; --m) {
         out->data[m] = out->data[m - 1];
     }
     out->data[k] = fresh;
-    return &out->data[k];
+    return true;
 }
 
-/* What one cell at an offset brings to value and gradient of the fit. */
-static bool AddCell(const kiriShape* shape, const kiriMemory* memory, const Fit* fit, int32_t cell, kiriVec2 offset,
-                    double side, kiriPointWeights* out)
+/* What one cell brings to value and gradient of the fit. */
+static bool AddCell(const kiriShape* shape, const kiriMemory* memory, const Fit* fit, kiriStep to, double side,
+                    kiriPointWeights* out)
 {
-    double kernel = Kernel(fit, offset);
-    kiriVec2 p = kiriVec2_Sub(offset, fit->mean);
+    double kernel = Kernel(fit, to);
+    kiriVec2 p = kiriVec2_Make(to.u - fit->mean.x, to.v - fit->mean.y);
     kiriVec2 slope = kiriVec2_Make(kernel * (fit->xx * p.x + fit->xy * p.y), kernel * (fit->xy * p.x + fit->yy * p.y));
     double share = kernel / fit->sum + kiriVec2_Dot(slope, kiriVec2_Sub(fit->at, fit->mean));
-    for (int32_t k = shape->start.data[cell]; k < shape->start.data[cell + 1]; ++k) {
+    int32_t at = 0; /* both lists are sorted by frame */
+    for (int32_t k = shape->start.data[to.cell]; k < shape->start.data[to.cell + 1]; ++k) {
         kiriWeight weight = shape->weights.data[k];
-        kiriPointWeight* sum = Find(out, memory, weight.frame);
-        if (sum == NULL) {
+        while (at < out->count && out->data[at].frame < weight.frame) {
+            ++at;
+        }
+        if ((at == out->count || out->data[at].frame != weight.frame) && !Insert(out, memory, at, weight.frame)) {
             return false;
         }
+        kiriPointWeight* sum = &out->data[at];
         sum->value += weight.value * share;
         sum->gradient = kiriVec2_Add(sum->gradient, kiriVec2_Scale(weight.value / side, slope));
     }
@@ -349,9 +337,7 @@ bool kiriShape_At(const kiriShape* shape, const kiriMemory* memory, const kiriGr
     Fit fit = FitAround(grid, mesh, cell, at);
     out->count = 0;
     for (int32_t k = 0; k < NeighborCount(grid, cell); ++k) {
-        int32_t neighbor = Neighbor(grid, cell, k);
-        if (neighbor != KIRI_NONE &&
-            !AddCell(shape, memory, &fit, neighbor, Offset(grid, mesh, cell, neighbor), grid->side, out)) {
+        if (!AddCell(shape, memory, &fit, Neighbor(grid, cell, k), grid->side, out)) {
             return false;
         }
     }
