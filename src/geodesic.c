@@ -85,7 +85,7 @@ static void Reach(kiriField* field, int32_t cell, int32_t distance, int32_t owne
         field->distance.data[cell] = distance;
         field->owner.data[cell] = owner;
         field->settled.data[field->settled.count++] = cell;
-    } else if (field->distance.data[cell] == distance && owner < field->owner.data[cell]) {
+    } else if (owner < field->owner.data[cell] && field->distance.data[cell] == distance) {
         field->owner.data[cell] = owner;
     }
 }
