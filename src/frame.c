@@ -9,9 +9,9 @@ typedef struct Placer {
     kiriField* field;
     int32_t piece;
     const uint8_t* allowed; /* cells to sample, or null */
-    kiriSites sites;     /* of the piece: floods from them never leave it */
-    int32_t oldCount;    /* sites before it stay where they are */
-    kiriRegions regions; /* scratch */
+    kiriSites sites;        /* of the piece: floods from them never leave it */
+    int32_t oldCount;       /* sites before it stay where they are */
+    kiriRegions regions;    /* scratch */
 } Placer;
 
 /* A full cell is taken at its middle, where the cell's weight is exactly 1; of others the middle may not be material. */

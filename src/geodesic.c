@@ -91,7 +91,8 @@ static void Reach(kiriField* field, int32_t cell, int32_t distance, int32_t owne
 }
 
 /* Where the sweep goes on: at which distance, no farther than `limit`, and from which cursor. */
-static int NearestSource(const kiriField* field, const int32_t cursor[KIRI_STEP_LENGTHS], int64_t limit, int64_t* distance)
+static int NearestSource(const kiriField* field, const int32_t cursor[KIRI_STEP_LENGTHS], int64_t limit,
+                         int64_t* distance)
 {
     int source = FROM_NOWHERE;
     *distance = limit;

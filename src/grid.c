@@ -326,7 +326,9 @@ static bool AddWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t squar
 {
     const kiriSquareNode* nodes = mesh->squares.nodes.data;
     double x = grid->side, area = x * x;
-    kiriMoments about = { area, x / 2.0 * area, x / 2.0 * area, area * area / 3.0, area * area / 4.0, area * area / 3.0 };
+    kiriMoments about = {
+        area, x / 2.0 * area, x / 2.0 * area, area * area / 3.0, area * area / 4.0, area * area / 3.0
+    };
     kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));
     kiriCell cell = { square, KIRI_NONE, KIRI_NONE, INT32_MAX,
                       kiriMoments_About(&about, kiriVec2_Scale(-1.0, corner)) };
@@ -555,11 +557,11 @@ static bool NumberPieces(kiriGrid* grid, Work* work, const kiriMemory* memory)
 
 /* All steps from a cell amid whole squares, by length, then cell: cells are numbered square by square. */
 static const kiriStep openSteps[] = {
-    { 0, KIRI_UNIT, 0, -1 },           { 0, KIRI_UNIT, -1, 0 },          { 0, KIRI_UNIT, 1, 0 },
-    { 0, KIRI_UNIT, 0, 1 },            { 0, KIRI_UNIT_DIAGONAL, -1, -1 }, { 0, KIRI_UNIT_DIAGONAL, 1, -1 },
-    { 0, KIRI_UNIT_DIAGONAL, -1, 1 },  { 0, KIRI_UNIT_DIAGONAL, 1, 1 },   { 0, KIRI_UNIT_KNIGHT, -1, -2 },
-    { 0, KIRI_UNIT_KNIGHT, 1, -2 },    { 0, KIRI_UNIT_KNIGHT, -2, -1 },   { 0, KIRI_UNIT_KNIGHT, 2, -1 },
-    { 0, KIRI_UNIT_KNIGHT, -2, 1 },    { 0, KIRI_UNIT_KNIGHT, 2, 1 },     { 0, KIRI_UNIT_KNIGHT, -1, 2 },
+    { 0, KIRI_UNIT, 0, -1 },          { 0, KIRI_UNIT, -1, 0 },           { 0, KIRI_UNIT, 1, 0 },
+    { 0, KIRI_UNIT, 0, 1 },           { 0, KIRI_UNIT_DIAGONAL, -1, -1 }, { 0, KIRI_UNIT_DIAGONAL, 1, -1 },
+    { 0, KIRI_UNIT_DIAGONAL, -1, 1 }, { 0, KIRI_UNIT_DIAGONAL, 1, 1 },   { 0, KIRI_UNIT_KNIGHT, -1, -2 },
+    { 0, KIRI_UNIT_KNIGHT, 1, -2 },   { 0, KIRI_UNIT_KNIGHT, -2, -1 },   { 0, KIRI_UNIT_KNIGHT, 2, -1 },
+    { 0, KIRI_UNIT_KNIGHT, -2, 1 },   { 0, KIRI_UNIT_KNIGHT, 2, 1 },     { 0, KIRI_UNIT_KNIGHT, -1, 2 },
     { 0, KIRI_UNIT_KNIGHT, 1, 2 },
 };
 enum { OPEN_NEAR = 8, OPEN_ALL = 16 };

@@ -45,10 +45,11 @@ typedef struct kiriGrid {
     double side;                /* m */
     KIRI_ARRAY(kiriCell) cells; /* square by square, in one square by lowest triangle */
     KIRI_ARRAY(kiriFace) faces;
-    KIRI_ARRAY(int32_t) faceHead;   /* a cell's first face, or KIRI_NONE */
-    KIRI_ARRAY(int32_t) stepStart;  /* cells + 1 */
-    KIRI_ARRAY(int32_t) lengthStart; /* 3 * cells + 1: of cell c its straight steps start at 3 c, then diagonal, knight */
-    kiriSteps steps;                /* of cell c: stepStart[c] to stepStart[c + 1], by length, then cell */
+    KIRI_ARRAY(int32_t) faceHead;  /* a cell's first face, or KIRI_NONE */
+    KIRI_ARRAY(int32_t) stepStart; /* cells + 1 */
+    KIRI_ARRAY(int32_t)
+    lengthStart;     /* 3 * cells + 1: of cell c its straight steps start at 3 c, then diagonal, knight */
+    kiriSteps steps; /* of cell c: stepStart[c] to stepStart[c + 1], by length, then cell */
     KIRI_ARRAY(int32_t) squareCell; /* a square's first cell, or KIRI_NONE */
     KIRI_ARRAY(int32_t) nodeCell;   /* the cell of each node of mesh->squares.nodes, or KIRI_NONE for free nodes */
     int32_t pieces;

@@ -115,9 +115,9 @@ static bool HasWeight(const void* context, int32_t cell)
 
 static bool AddFrame(Builder* b, const kiriSite* site)
 {
-    bool ok = MeasureFromSite(b, site) && SeedBorder(b) &&
-              kiriField_Flood(&b->fromBorder, b->memory, b->grid, b->seeds.data, b->seeds.count, KIRI_FAR - 1,
-                              HasWeight, b);
+    bool ok =
+        MeasureFromSite(b, site) && SeedBorder(b) &&
+        kiriField_Flood(&b->fromBorder, b->memory, b->grid, b->seeds.data, b->seeds.count, KIRI_FAR - 1, HasWeight, b);
     for (int32_t k = 0; ok && k < b->fromSite->settled.count; ++k) {
         int32_t cell = b->fromSite->settled.data[k];
         Entry entry = { cell, { b->frame, WeightAt(b, cell) } };
