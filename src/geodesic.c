@@ -112,6 +112,15 @@ static int NearestSource(const kiriField* field, const int32_t cursor[KIRI_STEP_
     return source;
 }
 
+static void TakeSteps(kiriField* field, const kiriGrid* grid, int32_t from, int source, int32_t distance, bool pass)
+{
+    const int32_t* start = &grid->lengthStart.data[KIRI_STEP_LENGTHS * from + source];
+    int32_t owner = field->owner.data[from], end = pass ? start[1] : start[0];
+    for (int32_t s = start[0]; s < end; ++s) {
+        Reach(field, grid->steps.data[s].cell, distance, owner);
+    }
+}
+
 /* Dijkstra without a queue: there are only three lengths of steps, and cells settle by growing distance; so what the steps
    of one length reach is sorted already, and a cursor for each length over the settled cells finds the next. */
 bool kiriField_Flood(kiriField* field, const kiriMemory* memory, const kiriGrid* grid, const kiriSeed* seeds,
@@ -132,11 +141,11 @@ bool kiriField_Flood(kiriField* field, const kiriMemory* memory, const kiriGrid*
             Reach(field, seed.cell, seed.distance, seed.owner);
             continue;
         }
-        int32_t from = field->settled.data[cursor[source]++], owner = field->owner.data[from];
-        const int32_t* start = &grid->lengthStart.data[KIRI_STEP_LENGTHS * from + source];
-        int32_t end = pass == NULL || pass(context, from) ? start[1] : start[0];
-        for (int32_t s = start[0]; s < end; ++s) {
-            Reach(field, grid->steps.data[s].cell, (int32_t)distance, owner);
-        }
+        int32_t from = field->settled.data[cursor[source]];
+        int32_t passed = field->distance.data[from];
+        do { /* all that lie at this distance: saves asking for the source again */
+            TakeSteps(field, grid, from, source, (int32_t)distance, pass == NULL || pass(context, from));
+            from = ++cursor[source] < field->settled.count ? field->settled.data[cursor[source]] : KIRI_NONE;
+        } while (from != KIRI_NONE && field->distance.data[from] == passed);
     }
 }

@@ -110,7 +110,8 @@ static double WeightAt(const Builder* b, int32_t cell)
 static bool HasWeight(const void* context, int32_t cell)
 {
     const Builder* b = context;
-    return b->fromSite->distance.data[cell] != KIRI_FAR && WeightAt(b, cell) > 0.0;
+    int64_t d = b->fromSite->distance.data[cell], e = b->fromBorder.distance.data[cell];
+    return d != KIRI_FAR && (d > 2 * e || Inside(b, cell));
 }
 
 static bool AddFrame(Builder* b, const kiriSite* site)
