@@ -9,9 +9,9 @@ typedef struct Placer {
     kiriField* field;
     int32_t piece;
     const uint8_t* allowed; /* cells to sample, or null */
-    kiriSites* sites;
-    int32_t oldCount;    /* sites before it stay where they are */
-    kiriRegions regions; /* scratch */
+    kiriSites sites;        /* of the piece: floods from them never leave it */
+    int32_t oldCount;       /* sites before it stay where they are */
+    kiriRegions regions;    /* scratch */
 } Placer;
 
 /* A full cell is taken at its middle, where the cell's weight is exactly 1; of others the middle may not be material. */
@@ -41,7 +41,7 @@ static double SquaredDistance(kiriVec2 a, kiriVec2 b)
 
 static bool Divide(Placer* p)
 {
-    return kiriRegions_Divide(&p->regions, p->memory, p->grid, p->mesh, p->field, p->sites->data, p->sites->count);
+    return kiriRegions_Divide(&p->regions, p->memory, p->grid, p->mesh, p->field, p->sites.data, p->sites.count);
 }
 
 /* The free cell of the piece that is farthest from all sites, or KIRI_NONE. In a piece without a site all cells are
@@ -50,8 +50,8 @@ static int32_t FarthestCell(Placer* p)
 {
     int32_t* distance = p->regions.distance.data;
     int32_t best = KIRI_NONE;
-    for (int32_t i = 0; i < p->sites->count; ++i) {
-        distance[p->sites->data[i].cell] = KIRI_NONE; /* taken */
+    for (int32_t i = 0; i < p->sites.count; ++i) {
+        distance[p->sites.data[i].cell] = KIRI_NONE; /* taken */
     }
     for (int32_t c = 0; c < p->grid->cells.count; ++c) {
         bool isFree = distance[c] != KIRI_NONE && (p->allowed == NULL || p->allowed[c]);
@@ -75,7 +75,7 @@ static bool AddFarthest(Placer* p, int32_t count)
         if (cell == KIRI_NONE) {
             break;
         }
-        if (!kiriArray_Push(p->memory, p->sites, SiteIn(p, cell))) {
+        if (!kiriArray_Push(p->memory, &p->sites, SiteIn(p, cell))) {
             return false;
         }
     }
@@ -92,7 +92,7 @@ typedef struct Target {
 static void Aim(const Placer* p, Target* targets)
 {
     const int32_t* owner = p->regions.owner.data;
-    for (int32_t i = 0; i < p->sites->count; ++i) {
+    for (int32_t i = 0; i < p->sites.count; ++i) {
         targets[i] = (Target){ { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 }, KIRI_NONE, 0.0 };
     }
     for (int32_t c = 0; c < p->grid->cells.count; ++c) {
@@ -138,14 +138,37 @@ static bool Relax(Placer* p, Target* targets)
         }
         Aim(p, targets);
         moved = false;
-        for (int32_t i = p->oldCount; i < p->sites->count; ++i) {
+        for (int32_t i = p->oldCount; i < p->sites.count; ++i) {
             kiriSite site = SiteFor(p, &targets[i]);
-            moved = moved || SquaredDistance(site.at, p->sites->data[i].at) > 0.0001 * p->grid->side * p->grid->side;
-            p->sites->data[i] = site;
+            moved = moved || SquaredDistance(site.at, p->sites.data[i].at) > 0.0001 * p->grid->side * p->grid->side;
+            p->sites.data[i] = site;
         }
     }
-    for (int32_t i = p->oldCount; i < p->sites->count; ++i) {
-        p->sites->data[i] = SiteIn(p, p->sites->data[i].cell);
+    for (int32_t i = p->oldCount; i < p->sites.count; ++i) {
+        p->sites.data[i] = SiteIn(p, p->sites.data[i].cell);
+    }
+    return true;
+}
+
+static bool TakeSitesOfPiece(Placer* p, const kiriSites* sites)
+{
+    for (int32_t i = 0; i < sites->count; ++i) {
+        kiriSite site = sites->data[i];
+        if (p->grid->cells.data[site.cell].piece == p->piece && !kiriArray_Push(p->memory, &p->sites, site)) {
+            return false;
+        }
+    }
+    p->oldCount = p->sites.count;
+    return true;
+}
+
+static bool GiveNewSites(const Placer* p, kiriSites* sites)
+{
+    if (!kiriArray_Reserve(p->memory, sites, (int64_t)sites->count + p->sites.count - p->oldCount)) {
+        return false;
+    }
+    for (int32_t i = p->oldCount; i < p->sites.count; ++i) {
+        sites->data[sites->count++] = p->sites.data[i];
     }
     return true;
 }
@@ -153,13 +176,12 @@ static bool Relax(Placer* p, Target* targets)
 bool kiriFrames_Place(kiriSites* sites, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       kiriField* field, int32_t piece, const uint8_t* allowed, int32_t count)
 {
-    Placer p = { memory, grid, mesh, field, piece, allowed, sites, sites->count, { { 0 }, { 0 }, { 0 }, { 0 } } };
+    Placer p = { memory, grid, mesh, field, piece, allowed, { 0 }, 0, { { 0 }, { 0 }, { 0 }, { 0 } } };
     KIRI_ARRAY(Target) targets = { 0 };
-    bool ok = AddFarthest(&p, count) && kiriArray_Resize(memory, &targets, sites->count) && Relax(&p, targets.data);
-    if (!ok) {
-        sites->count = p.oldCount;
-    }
+    bool ok = TakeSitesOfPiece(&p, sites) && AddFarthest(&p, count) &&
+              kiriArray_Resize(memory, &targets, p.sites.count) && Relax(&p, targets.data) && GiveNewSites(&p, sites);
     kiriArray_Release(memory, &targets);
+    kiriArray_Release(memory, &p.sites);
     kiriRegions_Release(&p.regions, memory);
     return ok;
 }

@@ -1,7 +1,7 @@
 #include "geodesic.h"
 
-static const int32_t stepLengths[] = { KIRI_UNIT, KIRI_UNIT_DIAGONAL, KIRI_UNIT_KNIGHT };
-enum { STEP_LENGTHS = 3, FROM_SEED = 3, FROM_NOWHERE = 4 };
+static const int32_t stepLengths[KIRI_STEP_LENGTHS] = { KIRI_UNIT, KIRI_UNIT_DIAGONAL, KIRI_UNIT_KNIGHT };
+enum { FROM_SEED = KIRI_STEP_LENGTHS, FROM_NOWHERE };
 
 bool kiriField_Init(kiriField* field, const kiriMemory* memory, int32_t cellCount)
 {
@@ -85,17 +85,18 @@ static void Reach(kiriField* field, int32_t cell, int32_t distance, int32_t owne
         field->distance.data[cell] = distance;
         field->owner.data[cell] = owner;
         field->settled.data[field->settled.count++] = cell;
-    } else if (field->distance.data[cell] == distance && owner < field->owner.data[cell]) {
+    } else if (owner < field->owner.data[cell] && field->distance.data[cell] == distance) {
         field->owner.data[cell] = owner;
     }
 }
 
 /* Where the sweep goes on: at which distance, no farther than `limit`, and from which cursor. */
-static int NearestSource(const kiriField* field, const int32_t cursor[STEP_LENGTHS], int64_t limit, int64_t* distance)
+static int NearestSource(const kiriField* field, const int32_t cursor[KIRI_STEP_LENGTHS], int64_t limit,
+                         int64_t* distance)
 {
     int source = FROM_NOWHERE;
     *distance = limit;
-    for (int k = 0; k < STEP_LENGTHS; ++k) {
+    for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
         if (cursor[k] < field->settled.count) {
             int64_t d = (int64_t)field->distance.data[field->settled.data[cursor[k]]] + stepLengths[k];
             if (d <= *distance) {
@@ -111,15 +112,24 @@ static int NearestSource(const kiriField* field, const int32_t cursor[STEP_LENGT
     return source;
 }
 
+static void TakeSteps(kiriField* field, const kiriGrid* grid, int32_t from, int source, int32_t distance, bool pass)
+{
+    const int32_t* start = &grid->lengthStart.data[KIRI_STEP_LENGTHS * from + source];
+    int32_t owner = field->owner.data[from], end = pass ? start[1] : start[0];
+    for (int32_t s = start[0]; s < end; ++s) {
+        Reach(field, grid->steps.data[s].cell, distance, owner);
+    }
+}
+
 /* Dijkstra without a queue: there are only three lengths of steps, and cells settle by growing distance; so what the steps
    of one length reach is sorted already, and a cursor for each length over the settled cells finds the next. */
 bool kiriField_Flood(kiriField* field, const kiriMemory* memory, const kiriGrid* grid, const kiriSeed* seeds,
-                     int32_t seedCount, int32_t limit, kiriStepFn* allow, const void* context)
+                     int32_t seedCount, int32_t limit, kiriPassFn* pass, const void* context)
 {
     if (!LoadSeeds(field, memory, seeds, seedCount)) {
         return false;
     }
-    int32_t cursor[STEP_LENGTHS] = { 0 };
+    int32_t cursor[KIRI_STEP_LENGTHS] = { 0 };
     int64_t farthest = limit < KIRI_FAR ? limit : KIRI_FAR - 1, distance;
     for (;;) {
         int source = NearestSource(field, cursor, farthest, &distance);
@@ -131,12 +141,11 @@ bool kiriField_Flood(kiriField* field, const kiriMemory* memory, const kiriGrid*
             Reach(field, seed.cell, seed.distance, seed.owner);
             continue;
         }
-        int32_t from = field->settled.data[cursor[source]++];
-        for (int32_t s = grid->stepStart.data[from]; s < grid->stepStart.data[from + 1]; ++s) {
-            kiriStep step = grid->steps.data[s];
-            if (step.length == stepLengths[source] && (allow == NULL || allow(context, from, step.cell))) {
-                Reach(field, step.cell, (int32_t)distance, field->owner.data[from]);
-            }
-        }
+        int32_t from = field->settled.data[cursor[source]];
+        int32_t passed = field->distance.data[from];
+        do { /* all that lie at this distance: saves asking for the source again */
+            TakeSteps(field, grid, from, source, (int32_t)distance, pass == NULL || pass(context, from));
+            from = ++cursor[source] < field->settled.count ? field->settled.data[cursor[source]] : KIRI_NONE;
+        } while (from != KIRI_NONE && field->distance.data[from] == passed);
     }
 }

@@ -27,10 +27,10 @@ bool kiriField_Init(kiriField* field, const kiriMemory* memory, int32_t cellCoun
 void kiriField_Release(kiriField* field, const kiriMemory* memory);
 void kiriField_Reset(kiriField* field);
 
-/* Floods from the seeds up to and including `limit`. `allow` (or null) says for a step whether it may be taken. False for
-   memory. The field must be reset. */
-typedef bool kiriStepFn(const void* context, int32_t fromCell, int32_t toCell);
+/* Floods from the seeds up to and including `limit`. `pass` (or null) says of a cell that is settled whether the flood
+   goes on from it. False for memory. The field must be reset. */
+typedef bool kiriPassFn(const void* context, int32_t cell);
 bool kiriField_Flood(kiriField* field, const kiriMemory* memory, const kiriGrid* grid, const kiriSeed* seeds,
-                     int32_t seedCount, int32_t limit, kiriStepFn* allow, const void* context);
+                     int32_t seedCount, int32_t limit, kiriPassFn* pass, const void* context);
 
 #endif

@@ -10,28 +10,22 @@ typedef KIRI_ARRAY(int32_t) Ints;
 
 /* What building needs and the grid does not keep. */
 typedef struct Work {
-    Ints start;      /* a square's first entry in `node`; squares + 1 */
-    Ints node;       /* nodes square by square, in one square by triangle: the order in its list does not matter */
-    Ints nodeSquare; /* of each node in use */
-    Ints chain;      /* the next node of the same triangle */
-    Ints head;       /* a triangle's first node */
-    Ints parent;     /* union-find over entries of `node`, then over cells */
+    KIRI_ARRAY(uint8_t) whole; /* of each square, see MarkWholeSquares */
+    Ints start;                /* a square's first entry in `node`; squares + 1 */
+    Ints node;                 /* of squares that are not whole or next to such: nodes by triangle */
+    Ints parent;               /* union-find over entries of `node`, then over cells */
     Ints mark;
-    KIRI_ARRAY(kiriPoint) place; /* column and row of a cell */
-    Ints nearStart;              /* straight and diagonal steps, as stepStart and steps of the grid */
-    KIRI_ARRAY(kiriStep) near;
+    Ints nearStart; /* straight and diagonal steps, as stepStart and steps of the grid */
+    kiriSteps near;
 } Work;
 
 static void ReleaseWork(Work* work, const kiriMemory* memory)
 {
+    kiriArray_Release(memory, &work->whole);
     kiriArray_Release(memory, &work->start);
     kiriArray_Release(memory, &work->node);
-    kiriArray_Release(memory, &work->nodeSquare);
-    kiriArray_Release(memory, &work->chain);
-    kiriArray_Release(memory, &work->head);
     kiriArray_Release(memory, &work->parent);
     kiriArray_Release(memory, &work->mark);
-    kiriArray_Release(memory, &work->place);
     kiriArray_Release(memory, &work->nearStart);
     kiriArray_Release(memory, &work->near);
 }
@@ -81,62 +75,7 @@ static bool FillParents(const kiriMemory* memory, Ints* parent, int32_t count)
     return true;
 }
 
-/* ---- Cells ------------------------------------------------------------------------------------------------------- */
-
-static bool SortNodes(Work* work, const kiriMeshData* mesh)
-{
-    const kiriSquares* squares = &mesh->squares;
-    const kiriSquareNode* nodes = squares->nodes.data;
-    int32_t squareCount = squares->columns * squares->rows, total = 0;
-    if (!Fill(mesh->memory, &work->start, squareCount + 1, 0) ||
-        !Fill(mesh->memory, &work->head, mesh->triangles.count, KIRI_NONE) ||
-        !Fill(mesh->memory, &work->nodeSquare, squares->nodes.count, KIRI_NONE) ||
-        !Fill(mesh->memory, &work->chain, squares->nodes.count, KIRI_NONE)) {
-        return false;
-    }
-    for (int32_t s = 0; s < squareCount; ++s) {
-        work->start.data[s] = total;
-        for (int32_t n = squares->head[s]; n != KIRI_NONE; n = nodes[n].next, ++total) {
-            work->nodeSquare.data[n] = s;
-            work->chain.data[n] = work->head.data[nodes[n].triangle];
-            work->head.data[nodes[n].triangle] = n;
-        }
-    }
-    work->start.data[squareCount] = total;
-    if (!Fill(mesh->memory, &work->node, total, KIRI_NONE) || !FillParents(mesh->memory, &work->parent, total)) {
-        return false;
-    }
-    int32_t* fill = work->start.data;
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        for (int32_t n = work->head.data[t]; n != KIRI_NONE; n = work->chain.data[n]) {
-            work->node.data[fill[work->nodeSquare.data[n]]++] = n;
-        }
-    }
-    memmove(fill + 1, fill,
-            (size_t)squareCount * sizeof(*fill)); /* each start had moved to the end, the next one's start */
-    fill[0] = 0;
-    return true;
-}
-
-static int32_t TriangleAt(const Work* work, const kiriMeshData* mesh, int32_t entry)
-{
-    return mesh->squares.nodes.data[work->node.data[entry]].triangle;
-}
-
-/* The entry of a triangle among sorted ones, or KIRI_NONE. */
-static int32_t FindEntry(const Work* work, const kiriMeshData* mesh, int32_t from, int32_t end, int32_t triangle)
-{
-    int32_t last = end;
-    while (from < last) {
-        int32_t middle = from + (last - from) / 2;
-        if (TriangleAt(work, mesh, middle) < triangle) {
-            from = middle + 1;
-        } else {
-            last = middle;
-        }
-    }
-    return from < end && TriangleAt(work, mesh, from) == triangle ? from : KIRI_NONE;
-}
+/* ---- Whole squares ----------------------------------------------------------------------------------------------- */
 
 static int32_t Least(int32_t a, int32_t b)
 {
@@ -159,6 +98,129 @@ static bool RunsThrough(const kiriSquares* squares, int32_t square, kiriPoint a,
     kiriPoint p = { low.x, rises ? high.y : low.y }, q = { high.x, rises ? low.y : high.y };
     int64_t sideP = kiriOrient(a, b, p), sideQ = kiriOrient(a, b, q);
     return (sideP < 0 && sideQ > 0) || (sideP > 0 && sideQ < 0);
+}
+
+static void MarkCrossed(Work* work, const kiriSquares* squares, kiriPoint a, kiriPoint b)
+{
+    int32_t lastColumn = (Most(a.x, b.x) + 1) / squares->side, lastRow = (Most(a.y, b.y) + 1) / squares->side;
+    for (int32_t row = (Least(a.y, b.y) + 1) / squares->side; row <= lastRow; ++row) {
+        for (int32_t column = (Least(a.x, b.x) + 1) / squares->side; column <= lastColumn; ++column) {
+            int32_t square = row * squares->columns + column;
+            if (RunsThrough(squares, square, a, b)) {
+                work->whole.data[square] = 0;
+            }
+        }
+    }
+}
+
+/* A square is whole where there is material and neither the outline nor an open edge runs through it. Then it is wholly
+   covered, its triangles all hang together in it, and it has one cell: no need to join or to clip. Most squares are. */
+static bool MarkWholeSquares(Work* work, const kiriMeshData* mesh)
+{
+    const kiriSquares* squares = &mesh->squares;
+    if (!kiriArray_Resize(mesh->memory, &work->whole, squares->columns * squares->rows)) {
+        return false;
+    }
+    for (int32_t s = 0; s < work->whole.count; ++s) {
+        work->whole.data[s] = squares->head[s] != KIRI_NONE;
+    }
+    for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
+        int32_t twin = kiriMesh_Twin(mesh, h);
+        if (twin == KIRI_NONE || (twin > h && kiriMesh_IsOpen(mesh, h))) {
+            MarkCrossed(work, squares, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
+                        mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at);
+        }
+    }
+    return true;
+}
+
+/* Is the square whole, and all those around that a diagonal step (radius 1) or one like a knight (2) may touch? */
+static bool IsWholeAround(const Work* work, const kiriSquares* squares, int32_t square, int32_t radius)
+{
+    int32_t column = square % squares->columns, row = square / squares->columns;
+    if (column < radius || column >= squares->columns - radius || row < radius || row >= squares->rows - radius) {
+        return false;
+    }
+    for (int32_t v = -radius; v <= radius; ++v) {
+        int32_t width = v == -2 || v == 2 ? 1 : radius;
+        for (int32_t u = -width; u <= width; ++u) {
+            if (!work->whole.data[square + v * squares->columns + u]) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* ---- Cells ------------------------------------------------------------------------------------------------------- */
+
+/* Must the triangles of the square be known one by one? For its cells, or for the faces of cells beside it. */
+static bool NeedsNodes(const Work* work, const kiriSquares* squares, int32_t square)
+{
+    const uint8_t* whole = work->whole.data;
+    int32_t columns = squares->columns, column = square % columns, row = square / columns;
+    return !whole[square] || (column > 0 && !whole[square - 1]) || (column + 1 < columns && !whole[square + 1]) ||
+           (row > 0 && !whole[square - columns]) || (row + 1 < squares->rows && !whole[square + columns]);
+}
+
+/* By triangle (Shell 1959): the order of a square's list does not matter. */
+static void SortNodes(const kiriSquareNode* nodes, int32_t* node, int32_t count)
+{
+    int32_t gap = 1;
+    while (gap < count / 3) {
+        gap = 3 * gap + 1;
+    }
+    for (; gap > 0; gap /= 3) {
+        for (int32_t i = gap; i < count; ++i) {
+            int32_t moving = node[i], j = i;
+            for (; j >= gap && nodes[node[j - gap]].triangle > nodes[moving].triangle; j -= gap) {
+                node[j] = node[j - gap];
+            }
+            node[j] = moving;
+        }
+    }
+}
+
+static bool CollectNodes(Work* work, const kiriMeshData* mesh)
+{
+    const kiriSquares* squares = &mesh->squares;
+    int32_t squareCount = squares->columns * squares->rows;
+    if (!kiriArray_Resize(mesh->memory, &work->start, (int64_t)squareCount + 1)) {
+        return false;
+    }
+    work->node.count = 0;
+    for (int32_t s = 0; s < squareCount; ++s) {
+        int32_t first = work->start.data[s] = work->node.count;
+        int32_t n = NeedsNodes(work, squares, s) ? squares->head[s] : KIRI_NONE;
+        for (; n != KIRI_NONE; n = squares->nodes.data[n].next) {
+            if (!kiriArray_Push(mesh->memory, &work->node, n)) {
+                return false;
+            }
+        }
+        SortNodes(squares->nodes.data, work->node.data + first, work->node.count - first);
+    }
+    work->start.data[squareCount] = work->node.count;
+    return FillParents(mesh->memory, &work->parent, work->node.count);
+}
+
+static int32_t TriangleAt(const Work* work, const kiriMeshData* mesh, int32_t entry)
+{
+    return mesh->squares.nodes.data[work->node.data[entry]].triangle;
+}
+
+/* The entry of a triangle among sorted ones, or KIRI_NONE. */
+static int32_t FindEntry(const Work* work, const kiriMeshData* mesh, int32_t from, int32_t end, int32_t triangle)
+{
+    int32_t last = end;
+    while (from < last) {
+        int32_t middle = from + (last - from) / 2;
+        if (TriangleAt(work, mesh, middle) < triangle) {
+            from = middle + 1;
+        } else {
+            last = middle;
+        }
+    }
+    return from < end && TriangleAt(work, mesh, from) == triangle ? from : KIRI_NONE;
 }
 
 /* Joins the triangles of a square over the closed edges that run through it (algorithm 3). */
@@ -200,17 +262,15 @@ static double Depth(kiriVec2 p, int axis, bool upper, double side)
    whichever way the triangle runs, so neighbours at this edge get the very same point. */
 static void Clip(Polygon* polygon, int axis, bool upper, double side)
 {
-    Polygon was;
     double depth[MOST_CORNERS], least = side;
-    was.count = polygon->count;
-    for (int32_t i = 0; i < was.count; ++i) {
-        was.at[i] = polygon->at[i];
-        depth[i] = Depth(was.at[i], axis, upper, side);
+    for (int32_t i = 0; i < polygon->count; ++i) {
+        depth[i] = Depth(polygon->at[i], axis, upper, side);
         least = depth[i] < least ? depth[i] : least;
     }
     if (least > 0.0) {
         return;
     }
+    Polygon was = *polygon;
     polygon->count = 0;
     for (int32_t i = 0; i < was.count; ++i) {
         int32_t j = i + 1 < was.count ? i + 1 : 0;
@@ -261,10 +321,30 @@ static kiriMoments Speck(double side)
     return m;
 }
 
+/* Makes the one cell of a whole square. */
+static bool AddWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+{
+    const kiriSquareNode* nodes = mesh->squares.nodes.data;
+    double x = grid->side, area = x * x;
+    kiriMoments about = {
+        area, x / 2.0 * area, x / 2.0 * area, area * area / 3.0, area * area / 4.0, area * area / 3.0
+    };
+    kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));
+    kiriCell cell = { square, KIRI_NONE, KIRI_NONE, INT32_MAX,
+                      kiriMoments_About(&about, kiriVec2_Scale(-1.0, corner)) };
+    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = nodes[n].next) {
+        cell.triangle = Least(cell.triangle, nodes[n].triangle);
+        grid->nodeCell.data[n] = grid->cells.count;
+    }
+    grid->squareCell.data[square] = grid->cells.count;
+    return kiriArray_Push(mesh->memory, &grid->cells, cell);
+}
+
 /* Makes the cells of a square, by lowest triangle. */
 static bool AddCells(kiriGrid* grid, Work* work, const kiriMeshData* mesh, int32_t square)
 {
     int32_t first = grid->cells.count;
+    JoinTriangles(work, mesh, square);
     for (int32_t i = work->start.data[square]; i < work->start.data[square + 1]; ++i) {
         int32_t root = Find(work->parent.data, i), triangle = TriangleAt(work, mesh, i);
         if (root == i) {
@@ -297,7 +377,8 @@ static bool BuildCells(kiriGrid* grid, Work* work, const kiriMeshData* mesh)
     int32_t squareCount = mesh->squares.columns * mesh->squares.rows;
     grid->side = mesh->step * mesh->squares.side;
     grid->cells.count = grid->squareCell.count = grid->nodeCell.count = 0;
-    if (!SortNodes(work, mesh) || !kiriArray_Resize(mesh->memory, &grid->squareCell, squareCount) ||
+    if (!MarkWholeSquares(work, mesh) || !CollectNodes(work, mesh) ||
+        !kiriArray_Resize(mesh->memory, &grid->squareCell, squareCount) ||
         !kiriArray_Resize(mesh->memory, &grid->nodeCell, mesh->squares.nodes.count)) {
         return false;
     }
@@ -305,8 +386,7 @@ static bool BuildCells(kiriGrid* grid, Work* work, const kiriMeshData* mesh)
         grid->nodeCell.data[n] = KIRI_NONE;
     }
     for (int32_t s = 0; s < squareCount; ++s) {
-        JoinTriangles(work, mesh, s);
-        if (!AddCells(grid, work, mesh, s)) {
+        if (!(work->whole.data[s] ? AddWholeCell(grid, mesh, s) : AddCells(grid, work, mesh, s))) {
             return false;
         }
     }
@@ -353,6 +433,18 @@ static Stretch CoveredStretch(const kiriMeshData* mesh, int32_t triangle, int32_
     return stretch;
 }
 
+/* Null for memory. */
+static kiriFace* AddFace(kiriGrid* grid, const kiriMemory* memory, int32_t a, int32_t b, int axis)
+{
+    int32_t* head = grid->faceHead.data;
+    kiriFace face = { { a, b }, { head[a], head[b] }, axis, 0.0, { 0.0, 0.0 }, 0.0 };
+    if (!kiriArray_Push(memory, &grid->faces, face)) {
+        return NULL;
+    }
+    head[a] = head[b] = grid->faces.count - 1;
+    return &grid->faces.data[grid->faces.count - 1];
+}
+
 /* The face between two cells, new if there is none yet; null for memory. Looks from both ends at once, since a cell with
    many faces, a comb, most often touches cells with few. */
 static kiriFace* FaceBetween(kiriGrid* grid, const kiriMemory* memory, int32_t a, int32_t b, int axis)
@@ -369,12 +461,7 @@ static kiriFace* FaceBetween(kiriGrid* grid, const kiriMemory* memory, int32_t a
         f = NextFace(ofA, a);
         g = NextFace(ofB, b);
     }
-    kiriFace face = { { a, b }, { head[a], head[b] }, axis, 0.0, { 0.0, 0.0 }, 0.0 };
-    if (!kiriArray_Push(memory, &grid->faces, face)) {
-        return NULL;
-    }
-    head[a] = head[b] = grid->faces.count - 1;
-    return &grid->faces.data[grid->faces.count - 1];
+    return AddFace(grid, memory, a, b, axis);
 }
 
 /* Adds a stretch by the parallel axis rule: each term is positive, so a narrow face has a sound moment too. */
@@ -393,11 +480,25 @@ static void AddStretch(kiriFace* face, const kiriMeshData* mesh, kiriPoint low, 
     face->width = sum;
 }
 
+/* Whole squares share their whole side. */
+static bool AddWholeFace(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, int32_t square, int axis)
+{
+    Stretch side = { 0.0, mesh->squares.side };
+    kiriFace* face = AddFace(grid, mesh->memory, grid->squareCell.data[before], grid->squareCell.data[square], axis);
+    if (face != NULL) {
+        AddStretch(face, mesh, kiriSquares_Corner(&mesh->squares, square), side);
+    }
+    return face != NULL;
+}
+
 /* Links the cells of a square to those of the one before it along the axis. A triangle with material in both covers a
    stretch of the side between them, for both together are convex. */
 static bool AddFaces(kiriGrid* grid, const Work* work, const kiriMeshData* mesh, int32_t before, int32_t square,
                      int axis)
 {
+    if (work->whole.data[before] && work->whole.data[square]) {
+        return AddWholeFace(grid, mesh, before, square, axis);
+    }
     kiriPoint low = kiriSquares_Corner(&mesh->squares, square);
     int32_t i = work->start.data[before], iEnd = work->start.data[before + 1];
     int32_t j = work->start.data[square], jEnd = work->start.data[square + 1];
@@ -454,6 +555,31 @@ static bool NumberPieces(kiriGrid* grid, Work* work, const kiriMemory* memory)
 
 /* ---- Steps ------------------------------------------------------------------------------------------------------- */
 
+/* All steps from a cell amid whole squares, by length, then cell: cells are numbered square by square. */
+static const kiriStep openSteps[] = {
+    { 0, KIRI_UNIT, 0, -1 },          { 0, KIRI_UNIT, -1, 0 },           { 0, KIRI_UNIT, 1, 0 },
+    { 0, KIRI_UNIT, 0, 1 },           { 0, KIRI_UNIT_DIAGONAL, -1, -1 }, { 0, KIRI_UNIT_DIAGONAL, 1, -1 },
+    { 0, KIRI_UNIT_DIAGONAL, -1, 1 }, { 0, KIRI_UNIT_DIAGONAL, 1, 1 },   { 0, KIRI_UNIT_KNIGHT, -1, -2 },
+    { 0, KIRI_UNIT_KNIGHT, 1, -2 },   { 0, KIRI_UNIT_KNIGHT, -2, -1 },   { 0, KIRI_UNIT_KNIGHT, 2, -1 },
+    { 0, KIRI_UNIT_KNIGHT, -2, 1 },   { 0, KIRI_UNIT_KNIGHT, 2, 1 },     { 0, KIRI_UNIT_KNIGHT, -1, 2 },
+    { 0, KIRI_UNIT_KNIGHT, 1, 2 },
+};
+enum { OPEN_NEAR = 8, OPEN_ALL = 16 };
+
+static bool AddOpenSteps(const kiriGrid* grid, kiriSteps* steps, const kiriMeshData* mesh, int32_t cell, int first,
+                         int end)
+{
+    int32_t square = grid->cells.data[cell].square;
+    for (int k = first; k < end; ++k) {
+        kiriStep step = openSteps[k];
+        step.cell = grid->squareCell.data[square + step.v * mesh->squares.columns + step.u];
+        if (!kiriArray_Push(mesh->memory, steps, step)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* A cell that is reached from c in two ways: the first leaves the mark First(c), the second finds it. */
 static int32_t First(int32_t c)
 {
@@ -481,11 +607,23 @@ static void SortSteps(kiriStep* steps, int32_t from, int32_t end)
     }
 }
 
+static kiriStep Straight(const kiriFace* face, int32_t from)
+{
+    int8_t way = face->cell[0] == from ? 1 : -1;
+    return (kiriStep){ OtherCell(face, from), KIRI_UNIT, face->axis == 0 ? way : 0, face->axis == 1 ? way : 0 };
+}
+
+/* One step after another. */
+static kiriStep Joined(kiriStep a, kiriStep b, int16_t length)
+{
+    return (kiriStep){ b.cell, length, (int8_t)(a.u + b.u), (int8_t)(a.v + b.v) };
+}
+
 static bool AddStraightSteps(const kiriGrid* grid, Work* work, const kiriMemory* memory, int32_t c)
 {
     for (int32_t f = grid->faceHead.data[c]; f != KIRI_NONE; f = NextFace(&grid->faces.data[f], c)) {
-        kiriStep step = { OtherCell(&grid->faces.data[f], c), KIRI_UNIT };
-        if (!kiriArray_Push(memory, &work->near, step)) {
+        const kiriFace* face = &grid->faces.data[f];
+        if (!kiriArray_Push(memory, &work->near, Straight(face, c))) {
             return false;
         }
     }
@@ -501,10 +639,10 @@ static bool AddDiagonalSteps(const kiriGrid* grid, Work* work, const kiriMemory*
             int32_t between = OtherCell(&faces[f], c);
             int32_t g = faces[f].axis == axis ? grid->faceHead.data[between] : KIRI_NONE;
             for (; g != KIRI_NONE; g = NextFace(&faces[g], between)) {
-                kiriStep step = { OtherCell(&faces[g], between), KIRI_UNIT_DIAGONAL };
                 if (faces[g].axis == axis) {
                     continue;
                 }
+                kiriStep step = Joined(Straight(&faces[f], c), Straight(&faces[g], between), KIRI_UNIT_DIAGONAL);
                 if (axis == 0) {
                     work->mark.data[step.cell] = First(c);
                 } else if (work->mark.data[step.cell] == First(c)) {
@@ -519,90 +657,101 @@ static bool AddDiagonalSteps(const kiriGrid* grid, Work* work, const kiriMemory*
     return true;
 }
 
-static bool BuildNearSteps(const kiriGrid* grid, Work* work, const kiriMemory* memory)
+static bool AddNearSteps(const kiriGrid* grid, Work* work, const kiriMeshData* mesh, int32_t c)
 {
+    if (IsWholeAround(work, &mesh->squares, grid->cells.data[c].square, 1)) {
+        return AddOpenSteps(grid, &work->near, mesh, c, 0, OPEN_NEAR);
+    }
+    int32_t from = work->near.count;
+    bool ok = AddStraightSteps(grid, work, mesh->memory, c) && AddDiagonalSteps(grid, work, mesh->memory, c);
+    SortSteps(work->near.data, from, work->near.count);
+    return ok;
+}
+
+static bool BuildNearSteps(const kiriGrid* grid, Work* work, const kiriMeshData* mesh)
+{
+    const kiriMemory* memory = mesh->memory;
     work->near.count = 0;
-    if (!Fill(memory, &work->mark, grid->cells.count, 0) || !Fill(memory, &work->nearStart, grid->cells.count + 1, 0)) {
+    if (!Fill(memory, &work->mark, grid->cells.count, 0) || !Fill(memory, &work->nearStart, grid->cells.count + 1, 0) ||
+        !kiriArray_Reserve(memory, &work->near, OPEN_NEAR * (int64_t)grid->cells.count)) {
         return false;
     }
     for (int32_t c = 0; c < grid->cells.count; ++c) {
-        int32_t from = work->near.count;
-        if (!AddStraightSteps(grid, work, memory, c) || !AddDiagonalSteps(grid, work, memory, c)) {
+        if (!AddNearSteps(grid, work, mesh, c)) {
             return false;
         }
-        SortSteps(work->near.data, from, work->near.count);
         work->nearStart.data[c + 1] = work->near.count;
     }
     return true;
 }
 
-static bool IsKnightMove(kiriPoint p, kiriPoint q)
+static bool IsKnightMove(kiriStep step)
 {
-    int32_t x = p.x < q.x ? q.x - p.x : p.x - q.x, y = p.y < q.y ? q.y - p.y : p.y - q.y;
-    return x + y == 3;
+    return (step.u < 0 ? -step.u : step.u) + (step.v < 0 ? -step.v : step.v) == 3;
 }
 
 /* To cells reached straight, then diagonally, and also diagonally, then straight: a slit is never jumped. */
-static bool AddKnightSteps(kiriGrid* grid, Work* work, const kiriMemory* memory, int32_t c)
+static bool AddKnightSteps(kiriGrid* grid, Work* work, const kiriMeshData* mesh, int32_t c)
 {
     const int32_t* start = work->nearStart.data;
     const kiriStep* near = work->near.data;
+    int32_t from = grid->steps.count;
+    if (IsWholeAround(work, &mesh->squares, grid->cells.data[c].square, 2)) {
+        return AddOpenSteps(grid, &grid->steps, mesh, c, OPEN_NEAR, OPEN_ALL);
+    }
     for (int32_t i = start[c]; i < start[c + 1]; ++i) {
         for (int32_t j = start[near[i].cell]; j < start[near[i].cell + 1]; ++j) {
-            kiriStep step = { near[j].cell, KIRI_UNIT_KNIGHT };
             if (near[i].length == near[j].length) {
                 continue;
             }
+            kiriStep step = Joined(near[i], near[j], KIRI_UNIT_KNIGHT);
             if (near[i].length == KIRI_UNIT) { /* straight ones come first */
-                if (IsKnightMove(work->place.data[c], work->place.data[step.cell])) {
+                if (IsKnightMove(step)) {
                     work->mark.data[step.cell] = First(c);
                 }
             } else if (work->mark.data[step.cell] == First(c)) {
                 work->mark.data[step.cell] = Second(c);
-                if (!kiriArray_Push(memory, &grid->steps, step)) {
+                if (!kiriArray_Push(mesh->memory, &grid->steps, step)) {
                     return false;
                 }
             }
         }
     }
+    SortSteps(grid->steps.data, from, grid->steps.count);
     return true;
 }
 
-static bool FillPlaces(const kiriGrid* grid, Work* work, const kiriMeshData* mesh)
+static bool AddSteps(kiriGrid* grid, Work* work, const kiriMeshData* mesh, int32_t c)
 {
-    if (!kiriArray_Resize(mesh->memory, &work->place, grid->cells.count)) {
-        return false;
+    int32_t* start = &grid->lengthStart.data[KIRI_STEP_LENGTHS * c];
+    grid->stepStart.data[c] = start[0] = start[1] = grid->steps.count;
+    for (int32_t i = work->nearStart.data[c]; i < work->nearStart.data[c + 1]; ++i) {
+        if (!kiriArray_Push(mesh->memory, &grid->steps, work->near.data[i])) {
+            return false;
+        }
+        start[1] += work->near.data[i].length == KIRI_UNIT;
     }
-    for (int32_t c = 0; c < grid->cells.count; ++c) {
-        work->place.data[c].x = grid->cells.data[c].square % mesh->squares.columns;
-        work->place.data[c].y = grid->cells.data[c].square / mesh->squares.columns;
-    }
-    return true;
+    start[2] = grid->steps.count;
+    return AddKnightSteps(grid, work, mesh, c);
 }
 
 static bool BuildSteps(kiriGrid* grid, Work* work, const kiriMeshData* mesh)
 {
     const kiriMemory* memory = mesh->memory;
+    int32_t cellCount = grid->cells.count;
     grid->steps.count = grid->stepStart.count = 0;
-    if (!BuildNearSteps(grid, work, memory) || !FillPlaces(grid, work, mesh) ||
-        !Fill(memory, &work->mark, grid->cells.count, 0) ||
-        !kiriArray_Resize(memory, &grid->stepStart, (int64_t)grid->cells.count + 1)) {
+    if (!BuildNearSteps(grid, work, mesh) || !Fill(memory, &work->mark, cellCount, 0) ||
+        !kiriArray_Reserve(memory, &grid->steps, OPEN_ALL * (int64_t)cellCount) ||
+        !kiriArray_Resize(memory, &grid->stepStart, (int64_t)cellCount + 1) ||
+        !kiriArray_Resize(memory, &grid->lengthStart, KIRI_STEP_LENGTHS * (int64_t)cellCount + 1)) {
         return false;
     }
-    grid->stepStart.data[0] = 0;
-    for (int32_t c = 0; c < grid->cells.count; ++c) {
-        int32_t from = grid->steps.count;
-        for (int32_t i = work->nearStart.data[c]; i < work->nearStart.data[c + 1]; ++i) {
-            if (!kiriArray_Push(memory, &grid->steps, work->near.data[i])) {
-                return false;
-            }
-        }
-        if (!AddKnightSteps(grid, work, memory, c)) {
+    for (int32_t c = 0; c < cellCount; ++c) {
+        if (!AddSteps(grid, work, mesh, c)) {
             return false;
         }
-        SortSteps(grid->steps.data, from, grid->steps.count);
-        grid->stepStart.data[c + 1] = grid->steps.count;
     }
+    grid->stepStart.data[cellCount] = grid->lengthStart.data[KIRI_STEP_LENGTHS * cellCount] = grid->steps.count;
     return true;
 }
 
@@ -623,6 +772,7 @@ void kiriGrid_Release(kiriGrid* grid, const kiriMemory* memory)
     kiriArray_Release(memory, &grid->faces);
     kiriArray_Release(memory, &grid->faceHead);
     kiriArray_Release(memory, &grid->stepStart);
+    kiriArray_Release(memory, &grid->lengthStart);
     kiriArray_Release(memory, &grid->steps);
     kiriArray_Release(memory, &grid->squareCell);
     kiriArray_Release(memory, &grid->nodeCell);

@@ -34,16 +34,22 @@ typedef struct kiriFace {
    is open too. */
 typedef struct kiriStep {
     int32_t cell;
-    int32_t length; /* KIRI_UNIT... */
+    int16_t length; /* KIRI_UNIT... */
+    int8_t u, v;    /* squares that it goes along each axis */
 } kiriStep;
+
+enum { KIRI_STEP_LENGTHS = 3 };
+typedef KIRI_ARRAY(kiriStep) kiriSteps;
 
 typedef struct kiriGrid {
     double side;                /* m */
     KIRI_ARRAY(kiriCell) cells; /* square by square, in one square by lowest triangle */
     KIRI_ARRAY(kiriFace) faces;
-    KIRI_ARRAY(int32_t) faceHead;   /* a cell's first face, or KIRI_NONE */
-    KIRI_ARRAY(int32_t) stepStart;  /* cells + 1 */
-    KIRI_ARRAY(kiriStep) steps;     /* of cell c: stepStart[c] to stepStart[c + 1] */
+    KIRI_ARRAY(int32_t) faceHead;  /* a cell's first face, or KIRI_NONE */
+    KIRI_ARRAY(int32_t) stepStart; /* cells + 1 */
+    KIRI_ARRAY(int32_t)
+    lengthStart;     /* 3 * cells + 1: of cell c its straight steps start at 3 c, then diagonal, knight */
+    kiriSteps steps; /* of cell c: stepStart[c] to stepStart[c + 1], by length, then cell */
     KIRI_ARRAY(int32_t) squareCell; /* a square's first cell, or KIRI_NONE */
     KIRI_ARRAY(int32_t) nodeCell;   /* the cell of each node of mesh->squares.nodes, or KIRI_NONE for free nodes */
     int32_t pieces;

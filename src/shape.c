@@ -12,13 +12,29 @@ typedef struct Builder {
     const kiriGrid* grid;
     const kiriMeshData* mesh;
     const kiriRegions* regions;
-    kiriField* field;
+    KIRI_ARRAY(uint8_t) onBorder; /* 1 where a step from the cell leads to another region */
     int32_t frame;                /* the frame at hand, and for it: */
-    KIRI_ARRAY(int32_t) fromSite; /* distance of each cell to its site; KIRI_FAR where its weight is zero anyway */
-    KIRI_ARRAY(int32_t) near;     /* the cells that are not FAR */
+    kiriField* fromSite;          /* distances to its site, no farther than its weight may be above zero, */
+    kiriField fromBorder;         /* and to the border of its region */
     kiriSeeds seeds;
     KIRI_ARRAY(Entry) entries; /* by frame */
 } Builder;
+
+static bool FindBorders(Builder* b)
+{
+    const kiriGrid* grid = b->grid;
+    const int32_t* owner = b->regions->owner.data;
+    if (!kiriArray_Resize(b->memory, &b->onBorder, grid->cells.count)) {
+        return false;
+    }
+    for (int32_t c = 0; c < grid->cells.count; ++c) {
+        b->onBorder.data[c] = 0;
+        for (int32_t s = grid->stepStart.data[c]; s < grid->stepStart.data[c + 1]; ++s) {
+            b->onBorder.data[c] |= owner[grid->steps.data[s].cell] != owner[c];
+        }
+    }
+    return true;
+}
 
 static bool Inside(const Builder* b, int32_t cell)
 {
@@ -32,37 +48,33 @@ static bool MeasureFromSite(Builder* b, const kiriSite* site)
     int64_t twice = 2 * ((int64_t)b->regions->regions.data[b->frame].reach + KIRI_UNIT_KNIGHT);
     int32_t limit = twice < KIRI_FAR ? (int32_t)twice : KIRI_FAR - 1;
     b->seeds.count = 0;
-    bool ok = kiriSite_Seed(site, b->frame, b->memory, b->grid, b->mesh, &b->seeds) &&
-              kiriField_Flood(b->field, b->memory, b->grid, b->seeds.data, b->seeds.count, limit, NULL, NULL) &&
-              kiriArray_Resize(b->memory, &b->near, b->field->settled.count);
-    for (int32_t k = 0; ok && k < b->near.count; ++k) {
-        int32_t cell = b->field->settled.data[k];
-        b->near.data[k] = cell;
-        b->fromSite.data[cell] = b->field->distance.data[cell];
-    }
-    kiriField_Reset(b->field);
-    return ok;
+    return kiriSite_Seed(site, b->frame, b->memory, b->grid, b->mesh, &b->seeds) &&
+           kiriField_Flood(b->fromSite, b->memory, b->grid, b->seeds.data, b->seeds.count, limit, NULL, NULL);
 }
 
 /* The border lies on the way between x and y where the distances to their sites are equal. A half is rounded up. */
-static bool SeedAt(Builder* b, int32_t x, int32_t y, int32_t length)
+static int32_t DistanceToBorder(const Builder* b, int32_t x)
 {
     const int32_t* distance = b->regions->distance.data;
-    kiriSeed seed = { x, (distance[y] + length - distance[x] + 1) / 2, b->frame };
-    return kiriArray_Push(b->memory, &b->seeds, seed);
+    int32_t least = KIRI_FAR;
+    for (int32_t s = b->grid->stepStart.data[x]; s < b->grid->stepStart.data[x + 1]; ++s) {
+        kiriStep step = b->grid->steps.data[s];
+        if (Inside(b, step.cell) != Inside(b, x)) {
+            int32_t half = (distance[step.cell] + step.length - distance[x] + 1) / 2;
+            least = half < least ? half : least;
+        }
+    }
+    return least;
 }
 
 static bool SeedBorder(Builder* b)
 {
-    const kiriGrid* grid = b->grid;
     b->seeds.count = 0;
-    for (int32_t k = 0; k < b->near.count; ++k) {
-        int32_t x = b->near.data[k];
-        int32_t end = Inside(b, x) ? grid->stepStart.data[x + 1] : 0;
-        for (int32_t s = grid->stepStart.data[x]; s < end; ++s) {
-            kiriStep step = grid->steps.data[s];
-            if (!Inside(b, step.cell) &&
-                !(SeedAt(b, x, step.cell, step.length) && SeedAt(b, step.cell, x, step.length))) {
+    for (int32_t k = 0; k < b->fromSite->settled.count; ++k) {
+        int32_t cell = b->fromSite->settled.data[k];
+        if (b->onBorder.data[cell]) {
+            kiriSeed seed = { cell, DistanceToBorder(b, cell), b->frame };
+            if (seed.distance < KIRI_FAR && !kiriArray_Push(b->memory, &b->seeds, seed)) {
                 return false;
             }
         }
@@ -87,28 +99,33 @@ static double Weigh(bool inside, int32_t d, int32_t e)
     return (double)d > 2.0 * e ? 0.5 * (1.0 - e / ((double)d - e)) : 0.0;
 }
 
+static double WeightAt(const Builder* b, int32_t cell)
+{
+    return Weigh(Inside(b, cell), b->fromSite->distance.data[cell], b->fromBorder.distance.data[cell]);
+}
+
 /* Distances to the border are measured outside only as far as the weight is above zero: e grows along a way at least
    as fast as d. To keep the flood on its side of the border is needless: no step over it is shorter than the seed
    beyond. */
-static bool HasWeight(const void* context, int32_t from, int32_t to)
+static bool HasWeight(const void* context, int32_t cell)
 {
     const Builder* b = context;
-    return b->fromSite.data[to] != KIRI_FAR &&
-           (Inside(b, from) || Weigh(false, b->fromSite.data[from], b->field->distance.data[from]) > 0.0);
+    int64_t d = b->fromSite->distance.data[cell], e = b->fromBorder.distance.data[cell];
+    return d != KIRI_FAR && (d > 2 * e || Inside(b, cell));
 }
 
 static bool AddFrame(Builder* b, const kiriSite* site)
 {
-    bool ok = MeasureFromSite(b, site) && SeedBorder(b) &&
-              kiriField_Flood(b->field, b->memory, b->grid, b->seeds.data, b->seeds.count, KIRI_FAR - 1, HasWeight, b);
-    for (int32_t k = 0; ok && k < b->near.count; ++k) {
-        int32_t cell = b->near.data[k];
-        double value = Weigh(Inside(b, cell), b->fromSite.data[cell], b->field->distance.data[cell]);
-        Entry entry = { cell, { b->frame, value } };
-        ok = !(value > 0.0) || kiriArray_Push(b->memory, &b->entries, entry);
-        b->fromSite.data[cell] = KIRI_FAR;
+    bool ok =
+        MeasureFromSite(b, site) && SeedBorder(b) &&
+        kiriField_Flood(&b->fromBorder, b->memory, b->grid, b->seeds.data, b->seeds.count, KIRI_FAR - 1, HasWeight, b);
+    for (int32_t k = 0; ok && k < b->fromSite->settled.count; ++k) {
+        int32_t cell = b->fromSite->settled.data[k];
+        Entry entry = { cell, { b->frame, WeightAt(b, cell) } };
+        ok = !(entry.weight.value > 0.0) || kiriArray_Push(b->memory, &b->entries, entry);
     }
-    kiriField_Reset(b->field);
+    kiriField_Reset(b->fromSite);
+    kiriField_Reset(&b->fromBorder);
     return ok;
 }
 
@@ -152,11 +169,13 @@ static void Normalize(kiriShape* shape)
 bool kiriShape_Build(kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                      const kiriRegions* regions, kiriField* field, const kiriSite* sites, int32_t siteCount)
 {
-    Builder b = { memory, grid, mesh, regions, field, 0, { 0 }, { 0 }, { 0 }, { 0 } };
-    bool ok = kiriArray_Resize(memory, &b.fromSite, grid->cells.count);
-    for (int32_t c = 0; ok && c < grid->cells.count; ++c) {
-        b.fromSite.data[c] = KIRI_FAR;
-    }
+    Builder b = { 0 };
+    b.memory = memory;
+    b.grid = grid;
+    b.mesh = mesh;
+    b.regions = regions;
+    b.fromSite = field;
+    bool ok = FindBorders(&b) && kiriField_Init(&b.fromBorder, memory, grid->cells.count);
     for (b.frame = 0; ok && b.frame < siteCount; ++b.frame) {
         ok = AddFrame(&b, &sites[b.frame]);
     }
@@ -164,8 +183,8 @@ bool kiriShape_Build(kiriShape* shape, const kiriMemory* memory, const kiriGrid*
     if (ok) {
         Normalize(shape);
     }
-    kiriArray_Release(memory, &b.fromSite);
-    kiriArray_Release(memory, &b.near);
+    kiriArray_Release(memory, &b.onBorder);
+    kiriField_Release(&b.fromBorder, memory);
     kiriArray_Release(memory, &b.seeds);
     kiriArray_Release(memory, &b.entries);
     return ok;
@@ -190,37 +209,27 @@ static double Spline(double t)
    numbers, so that cells in one line are seen as such. */
 typedef struct Fit {
     kiriVec2 at;
-    double sum;        /* of the kernel; and with it the offsets' */
-    kiriVec2 mean;     /* mean */
-    double xx, xy, yy; /* and (pseudo-)inverse of the second moments about the mean */
+    double splineU[3], splineV[3]; /* at offsets -1, 0, 1: the kernel is their product */
+    double sum;                    /* of the kernel; and with it the offsets' */
+    kiriVec2 mean;                 /* mean */
+    double xx, xy, yy;             /* and (pseudo-)inverse of the second moments about the mean */
 } Fit;
 
-static double Kernel(const Fit* fit, kiriVec2 offset)
+static double Kernel(const Fit* fit, kiriStep to)
 {
-    return Spline(offset.x - fit->at.x) * Spline(offset.y - fit->at.y);
+    return fit->splineU[to.u + 1] * fit->splineV[to.v + 1];
 }
 
-static kiriVec2 Offset(const kiriGrid* grid, const kiriMeshData* mesh, int32_t from, int32_t to)
+/* The cells of a fit: k = 0 is the cell itself, then those a straight or diagonal step away. */
+static kiriStep Neighbor(const kiriGrid* grid, int32_t cell, int32_t k)
 {
-    int32_t columns = mesh->squares.columns;
-    int32_t a = grid->cells.data[from].square, b = grid->cells.data[to].square;
-    return kiriVec2_Make(b % columns - a % columns, b / columns - a / columns);
-}
-
-/* The cells of a fit: k = 0 is the cell itself, then those a straight or diagonal step away. KIRI_NONE for other
-   steps. */
-static int32_t Neighbor(const kiriGrid* grid, int32_t cell, int32_t k)
-{
-    if (k == 0) {
-        return cell;
-    }
-    kiriStep step = grid->steps.data[grid->stepStart.data[cell] + k - 1];
-    return step.length <= KIRI_UNIT_DIAGONAL ? step.cell : KIRI_NONE;
+    kiriStep own = { cell, 0, 0, 0 };
+    return k == 0 ? own : grid->steps.data[grid->stepStart.data[cell] + k - 1];
 }
 
 static int32_t NeighborCount(const kiriGrid* grid, int32_t cell)
 {
-    return 1 + grid->stepStart.data[cell + 1] - grid->stepStart.data[cell];
+    return 1 + grid->lengthStart.data[KIRI_STEP_LENGTHS * cell + 2] - grid->stepStart.data[cell];
 }
 
 /* Inverts the second moments; a direction that the neighbours do not span is dropped (no slope along it). */
@@ -242,18 +251,19 @@ static void Invert(Fit* fit)
 static Fit FitAround(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriVec2 at)
 {
     kiriVec2 off = kiriVec2_Sub(at, kiriGrid_Middle(grid, mesh, cell));
-    Fit fit = { kiriVec2_Scale(1.0 / grid->side, off), 0.0, { 0.0, 0.0 }, 0.0, 0.0, 0.0 };
+    Fit fit = { kiriVec2_Scale(1.0 / grid->side, off), { 0.0 }, { 0.0 }, 0.0, { 0.0, 0.0 }, 0.0, 0.0, 0.0 };
+    for (int i = 0; i < 3; ++i) {
+        fit.splineU[i] = Spline(i - 1 - fit.at.x);
+        fit.splineV[i] = Spline(i - 1 - fit.at.y);
+    }
     for (int32_t k = 0; k < NeighborCount(grid, cell); ++k) {
-        int32_t neighbor = Neighbor(grid, cell, k);
-        if (neighbor != KIRI_NONE) {
-            kiriVec2 p = Offset(grid, mesh, cell, neighbor);
-            double kernel = Kernel(&fit, p);
-            fit.sum += kernel;
-            fit.mean = kiriVec2_Add(fit.mean, kiriVec2_Scale(kernel, p));
-            fit.xx += kernel * p.x * p.x;
-            fit.xy += kernel * p.x * p.y;
-            fit.yy += kernel * p.y * p.y;
-        }
+        kiriStep to = Neighbor(grid, cell, k);
+        double kernel = Kernel(&fit, to);
+        fit.sum += kernel;
+        fit.mean = kiriVec2_Add(fit.mean, kiriVec2_Make(kernel * to.u, kernel * to.v));
+        fit.xx += kernel * to.u * to.u;
+        fit.xy += kernel * to.u * to.v;
+        fit.yy += kernel * to.v * to.v;
     }
     fit.mean = kiriVec2_Scale(1.0 / fit.sum, fit.mean);
     fit.xx -= fit.sum * fit.mean.x * fit.mean.x;
@@ -263,41 +273,38 @@ static Fit FitAround(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cel
     return fit;
 }
 
-/* The weight of this frame in `out`, which is sorted by frame; a new one is zero. Null for memory. */
-static kiriPointWeight* Find(kiriPointWeights* out, const kiriMemory* memory, int32_t frame)
+/* A weight of zero at place k. */
+static bool Insert(kiriPointWeights* out, const kiriMemory* memory, int32_t k, int32_t frame)
 {
-    int32_t k = out->count;
-    while (k > 0 && out->data[k - 1].frame > frame) {
-        --k;
-    }
-    if (k > 0 && out->data[k - 1].frame == frame) {
-        return &out->data[k - 1];
-    }
     kiriPointWeight fresh = { frame, 0.0, { 0.0, 0.0 } };
     if (!kiriArray_Push(memory, out, fresh)) {
-        return NULL;
+        return false;
     }
     for (int32_t m = out->count - 1; m > k; --m) {
         out->data[m] = out->data[m - 1];
     }
     out->data[k] = fresh;
-    return &out->data[k];
+    return true;
 }
 
-/* What one cell at an offset brings to value and gradient of the fit. */
-static bool AddCell(const kiriShape* shape, const kiriMemory* memory, const Fit* fit, int32_t cell, kiriVec2 offset,
-                    double side, kiriPointWeights* out)
+/* What one cell brings to value and gradient of the fit. */
+static bool AddCell(const kiriShape* shape, const kiriMemory* memory, const Fit* fit, kiriStep to, double side,
+                    kiriPointWeights* out)
 {
-    double kernel = Kernel(fit, offset);
-    kiriVec2 p = kiriVec2_Sub(offset, fit->mean);
+    double kernel = Kernel(fit, to);
+    kiriVec2 p = kiriVec2_Make(to.u - fit->mean.x, to.v - fit->mean.y);
     kiriVec2 slope = kiriVec2_Make(kernel * (fit->xx * p.x + fit->xy * p.y), kernel * (fit->xy * p.x + fit->yy * p.y));
     double share = kernel / fit->sum + kiriVec2_Dot(slope, kiriVec2_Sub(fit->at, fit->mean));
-    for (int32_t k = shape->start.data[cell]; k < shape->start.data[cell + 1]; ++k) {
+    int32_t at = 0; /* both lists are sorted by frame */
+    for (int32_t k = shape->start.data[to.cell]; k < shape->start.data[to.cell + 1]; ++k) {
         kiriWeight weight = shape->weights.data[k];
-        kiriPointWeight* sum = Find(out, memory, weight.frame);
-        if (sum == NULL) {
+        while (at < out->count && out->data[at].frame < weight.frame) {
+            ++at;
+        }
+        if ((at == out->count || out->data[at].frame != weight.frame) && !Insert(out, memory, at, weight.frame)) {
             return false;
         }
+        kiriPointWeight* sum = &out->data[at];
         sum->value += weight.value * share;
         sum->gradient = kiriVec2_Add(sum->gradient, kiriVec2_Scale(weight.value / side, slope));
     }
@@ -331,9 +338,7 @@ bool kiriShape_At(const kiriShape* shape, const kiriMemory* memory, const kiriGr
     Fit fit = FitAround(grid, mesh, cell, at);
     out->count = 0;
     for (int32_t k = 0; k < NeighborCount(grid, cell); ++k) {
-        int32_t neighbor = Neighbor(grid, cell, k);
-        if (neighbor != KIRI_NONE &&
-            !AddCell(shape, memory, &fit, neighbor, Offset(grid, mesh, cell, neighbor), grid->side, out)) {
+        if (!AddCell(shape, memory, &fit, Neighbor(grid, cell, k), grid->side, out)) {
             return false;
         }
     }

@@ -398,6 +398,7 @@ static void CheckSteps(const Sheet* sheet)
     for (int32_t a = 0; a < n; ++a) {
         int32_t s = grid->stepStart.data[a];
         for (int kind = 0; kind < 3; ++kind) {
+            assert_int_equal(s, grid->lengthStart.data[3 * a + kind]);
             const char* is = kind == 0 ? straight : kind == 1 ? diagonal : knight;
             for (int32_t b = 0; b < n; ++b) {
                 if (is[a * n + b]) {
@@ -405,11 +406,15 @@ static void CheckSteps(const Sheet* sheet)
                     assert_int_equal(grid->steps.data[s].cell, b);
                     assert_int_equal(grid->steps.data[s].length, kind == 0 ? 256 : kind == 1 ? 362 : 572);
                     assert_int_equal(StepLength(grid, b, a), grid->steps.data[s].length);
+                    assert_int_equal(grid->cells.data[a].square + grid->steps.data[s].u +
+                                         columns * grid->steps.data[s].v,
+                                     grid->cells.data[b].square);
                     ++s;
                 }
             }
         }
         assert_int_equal(s, grid->stepStart.data[a + 1]);
+        assert_int_equal(s, grid->lengthStart.data[3 * (a + 1)]);
     }
     free(straight);
     free(diagonal);
@@ -780,6 +785,7 @@ static void assert_same_grid(const kiriGrid* a, const kiriGrid* b)
     assert_same_array(a->cells, b->cells);
     assert_same_array(a->faceHead, b->faceHead);
     assert_same_array(a->stepStart, b->stepStart);
+    assert_same_array(a->lengthStart, b->lengthStart);
     assert_same_array(a->steps, b->steps);
     assert_same_array(a->squareCell, b->squareCell);
     assert_same_array(a->nodeCell, b->nodeCell);
