@@ -79,11 +79,12 @@ accuracy extremes: %: deps
 	@mkdir -p build/$@
 	$(BUILD)/tests/$@ $(if $(filter accuracy,$@),tests/data build/accuracy)
 
-gallery: deps
+gallery: accuracy
 	@$(MAKE) --no-print-directory $(RUN)
 	@mkdir -p samples/pictures
 	$(RUN) --scene bunny --size 800x600 --output build/gallery
 	cp build/gallery/contact_sheet.png samples/pictures/bunny.png
+	cp build/accuracy/trade.png samples/pictures/trade.png
 
 check: $(TESTS) $(RUN) $(BOX2D) header exports $(PYTHON_CHECK)
 	@failed=; for test in $(TESTS); do echo "== $$test"; $$test || failed="$$failed $$test"; done; \
@@ -148,7 +149,7 @@ $(BOX2D): $(filter %/box2d.cpp.o %/draw.c.o %/image.c.o,$(SAMPLE_OBJECTS)) $(BUI
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lbox2d -lOSMesa -lpng -lm
 
-$(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy tests/reference tests/plot samples/image) $(BUILD)/libkiri.a
+$(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy tests/trade tests/sweep tests/reference tests/plot samples/image) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lpng -lm
 
@@ -157,6 +158,8 @@ $(BUILD)/tests/extremes: $(BUILD)/tests/extremes_main.c.o $(BUILD)/tests/extreme
 	@$(LINK) -o $@ $^ -lm
 
 $(BUILD)/tests/test_extremes: $(BUILD)/tests/extremes.c.o
+
+$(BUILD)/tests/test_quality: $(BUILD)/tests/sweep.c.o
 
 $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(SCENE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"

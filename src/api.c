@@ -1,5 +1,6 @@
 /* The public API: checks arguments, turns ids into pointers, and calls the floor below. The only file that does either. */
 #include "material.h"
+#include "quality.h"
 #include "snapshot.h"
 #include "world.h"
 
@@ -276,6 +277,16 @@ kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material)
         return KIRI_ERROR_ARGUMENT;
     }
     *material = *found;
+    return KIRI_OK;
+}
+
+kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality)
+{
+    const kiriQuality* found = kiriQuality_Preset(preset);
+    if (found == NULL || quality == NULL) {
+        return KIRI_ERROR_ARGUMENT;
+    }
+    *quality = *found;
     return KIRI_OK;
 }
 

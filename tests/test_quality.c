@@ -1,0 +1,111 @@
+#include "support.h"
+#include "sweep.h"
+
+/* Not as fine as the one of `make accuracy`: a thousandth off is near enough here. */
+static const Setting referenceSetting = { 33, 1, 80, 2, 64, 4 };
+
+static Setting settings[SWEEP_SETTINGS];
+static Outcome outcomes[SWEEP_SETTINGS];
+static int count;
+
+static int RunSweep(void** state)
+{
+    (void)state;
+    count = Sweep_Settings(settings, true);
+    bool ok = Sweep_Prepare(&referenceSetting);
+    for (int i = 0; i < count && ok; ++i) {
+        ok = Sweep_Run(&settings[i], NULL, &outcomes[i]);
+    }
+    return ok ? 0 : -1;
+}
+
+static Outcome RunPreset(int32_t preset, Setting* setting)
+{
+    kiriQuality quality;
+    Outcome outcome;
+    assert_int_equal(kiriGetQuality(preset, &quality), KIRI_OK);
+    *setting = Sweep_FromQuality(&quality);
+    assert_true(Sweep_Run(setting, NULL, &outcome));
+    return outcome;
+}
+
+static void TestReferenceIsConverged(void** state)
+{
+    Setting half = referenceSetting;
+    Outcome outcome;
+    (void)state;
+    half.substeps /= 2;
+    assert_true(Sweep_Run(&half, NULL, &outcome));
+    assert_true(outcome.error > 0.0 && outcome.error < 0.001);
+}
+
+static void TestNoPresetIsDominated(void** state)
+{
+    (void)state;
+    for (int32_t p = 0; p < KIRI_QUALITY_COUNT; ++p) {
+        Setting setting;
+        Outcome outcome = RunPreset(p, &setting);
+        int better = Sweep_Dominating(settings, outcomes, count, &setting, &outcome);
+        if (better >= 0) {
+            const Setting* s = &settings[better];
+            fail_msg("preset %d: error %g at %g; %d frames, grid %d, %d iterations, %d substeps: %g at %g", p,
+                     outcome.error, outcome.cost, s->columns, s->gridResolution, s->iterations, s->substeps,
+                     outcomes[better].error, outcomes[better].cost);
+        }
+    }
+}
+
+/* And most settings are: the test above can fail. */
+static void TestMostAreDominated(void** state)
+{
+    int dominated = 0;
+    (void)state;
+    for (int i = 0; i < count; ++i) {
+        dominated += Sweep_Dominating(settings, outcomes, count, &settings[i], &outcomes[i]) >= 0 ? 1 : 0;
+    }
+    assert_true(2 * dominated > count);
+}
+
+/* What kiri.h says of them. */
+static void TestErrorsAreAsDocumented(void** state)
+{
+    static const double errors[KIRI_QUALITY_COUNT] = { 0.074, 0.023, 0.010 };
+    (void)state;
+    for (int32_t p = 0; p < KIRI_QUALITY_COUNT; ++p) {
+        Setting setting;
+        Outcome outcome = RunPreset(p, &setting);
+        assert_true(outcome.error > errors[p] - 0.001 && outcome.error < errors[p] + 0.001);
+    }
+}
+
+static void TestErrorFallsAndCostGrows(void** state)
+{
+    Setting setting;
+    Outcome before = RunPreset(0, &setting);
+    (void)state;
+    for (int32_t p = 1; p < KIRI_QUALITY_COUNT; ++p) {
+        Outcome outcome = RunPreset(p, &setting);
+        assert_true(outcome.error < 0.5 * before.error && outcome.cost > before.cost);
+        before = outcome;
+    }
+}
+
+static void TestArguments(void** state)
+{
+    kiriQuality quality = { 7, 7, 7, 7 };
+    (void)state;
+    assert_int_equal(kiriGetQuality(-1, &quality), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriGetQuality(KIRI_QUALITY_COUNT, &quality), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriGetQuality(KIRI_QUALITY_FAST, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(quality.framesAlong, 7);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestReferenceIsConverged),   cmocka_unit_test(TestNoPresetIsDominated),
+        cmocka_unit_test(TestMostAreDominated),       cmocka_unit_test(TestErrorsAreAsDocumented),
+        cmocka_unit_test(TestErrorFallsAndCostGrows), cmocka_unit_test(TestArguments),
+    };
+    return cmocka_run_group_tests(tests, RunSweep, NULL);
+}
