@@ -5,6 +5,7 @@
 #define MOST_PARTS 8
 
 static const kiriMat3 Identity = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+static const kiriMat3 None = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
 
 static kiriVec3 MulTransposed(const kiriMat3* m, kiriVec3 a)
 {
@@ -45,10 +46,21 @@ kiriMat3 kiriFlight_Inertia(const kiriFlight* flight, const kiriMat3* A)
     return r;
 }
 
+static kiriMat3 Difference(const kiriMat3* A, const kiriMat3* B)
+{
+    kiriMat3 off = { kiriVec3_Sub(A->u, B->u), kiriVec3_Sub(A->v, B->v), kiriVec3_Sub(A->d, B->d) };
+    return off;
+}
+
+kiriMat3 kiriFlight_Gradient(const kiriFlight* flight, const kiriMat3* A)
+{
+    kiriMat3 off = Difference(A, &flight->pose.A);
+    return Weighted(&flight->moments, &off);
+}
+
 double kiriFlight_TurnSquared(const kiriFlight* flight, const kiriMat3* A)
 {
-    const kiriMat3* free = &flight->pose.A;
-    kiriMat3 off = { kiriVec3_Sub(A->u, free->u), kiriVec3_Sub(A->v, free->v), kiriVec3_Sub(A->d, free->d) };
+    kiriMat3 off = Difference(A, &flight->pose.A);
     kiriMat3 w = Weighted(&flight->moments, &off);
     return kiriVec3_Dot(w.u, off.u) + kiriVec3_Dot(w.v, off.v) + kiriVec3_Dot(w.d, off.d);
 }
@@ -110,7 +122,7 @@ static void TurnFreely(kiriFlight* flight, kiriVec3 L, double dt)
 kiriFlight kiriFlight_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity, double dt)
 {
     kiriFlight flight = { MomentsOf(frame, (double)material->thickness), kiriPose_Of(frame), frame->velocity,
-                          frame->spin, kiriPose_Of(frame) };
+                          frame->spin, None, kiriPose_Of(frame) };
     double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
     kiriVec3 coasting = kiriVec3_Scale(fade, frame->velocity);
     kiriVec3 push = kiriVec3_AddScaled(gravity, 1.0 / frame->mass, frame->force);
@@ -123,6 +135,98 @@ kiriFlight kiriFlight_Free(const kiriFrameData* frame, const kiriMaterial* mater
     flight.coast.A = flight.pose.A;
     return flight;
 }
+
+/* ---- Affine frames ---- */
+
+static kiriMat3 AddScaled(const kiriMat3* A, double s, const kiriMat3* B)
+{
+    kiriMat3 r = { kiriVec3_AddScaled(A->u, s, B->u), kiriVec3_AddScaled(A->v, s, B->v),
+                   kiriVec3_AddScaled(A->d, s, B->d) };
+    return r;
+}
+
+static kiriMat3 Cross(kiriVec3 w, const kiriMat3* A)
+{
+    kiriMat3 r = { kiriVec3_Cross(w, A->u), kiriVec3_Cross(w, A->v), kiriVec3_Cross(w, A->d) };
+    return r;
+}
+
+/* Sum of the cross products of the columns. */
+static kiriVec3 SumCross(const kiriMat3* A, const kiriMat3* B)
+{
+    return kiriVec3_Add(kiriVec3_Add(kiriVec3_Cross(A->u, B->u), kiriVec3_Cross(A->v, B->v)),
+                        kiriVec3_Cross(A->d, B->d));
+}
+
+kiriVec3 kiriMat3_Spin(const kiriMat3* A, const kiriMat3* rate)
+{
+    return kiriVec3_Scale(0.5, SumCross(A, rate));
+}
+
+kiriMat3 kiriMat3_Beside(const kiriMat3* A, const kiriMat3* rate, kiriVec3 spin)
+{
+    kiriMat3 turning = Cross(spin, A);
+    return AddScaled(rate, -1.0, &turning);
+}
+
+kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change)
+{
+    kiriVec3 w = kiriMat3_Spin(A, change);
+    double length = kiriVec3_Length(w);
+    if (length > LONGEST_TURN) {
+        w = kiriVec3_Scale(LONGEST_TURN / length, w);
+    }
+    kiriMat3 rest = kiriMat3_Beside(A, change, w), grown = AddScaled(A, 1.0, &rest);
+    return kiriMat3_MulMat(kiriMat3_Cayley(w), grown);
+}
+
+/* The inertia of an A that is no rotation. */
+static kiriMat3 AffineInertia(const kiriMassMoments* m, const kiriMat3* A)
+{
+    kiriMat3 w = Weighted(m, A), r;
+    double trace = kiriVec3_Dot(w.u, A->u) + kiriVec3_Dot(w.v, A->v) + kiriVec3_Dot(w.d, A->d);
+    r.u = kiriVec3_Sub(kiriVec3_Make(trace, 0.0, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.x, A->v.x, A->d.x)));
+    r.v = kiriVec3_Sub(kiriVec3_Make(0.0, trace, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.y, A->v.y, A->d.y)));
+    r.d = kiriVec3_Sub(kiriVec3_Make(0.0, 0.0, trace), kiriMat3_Mul(w, kiriVec3_Make(A->u.z, A->v.z, A->d.z)));
+    return r;
+}
+
+static kiriVec3 AffineMomentum(const kiriMassMoments* m, const kiriMat3* A, const kiriMat3* rate)
+{
+    kiriMat3 w = Weighted(m, rate);
+    return SumCross(A, &w);
+}
+
+/* A turns by its spin and grows by what its rate has beside it. At the end the spin is what the angular momentum, which
+   stays, asks of the turned moments; as in TurnFreely it gains no energy. */
+kiriFlight kiriFlight_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity, double dt)
+{
+    kiriFlight flight = kiriFlight_Free(frame, material, gravity, dt);
+    const kiriMassMoments* m = &flight.moments;
+    double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
+    kiriMat3 inertia = AffineInertia(m, &frame->A), grown = AddScaled(&frame->A, dt * fade, &frame->rate);
+    kiriVec3 push = kiriVec3_Scale(dt, frame->torque), spinning = kiriMat3_Mul(inertia, frame->spin);
+    kiriVec3 L = kiriVec3_AddScaled(push, fade, spinning), spin = kiriMat3_Solve(&inertia, L);
+    double before = kiriVec3_Dot(L, spin);
+    kiriMat3 turn = kiriMat3_Cayley(CayleyVector(kiriVec3_Scale(dt, spin)));
+    kiriMat3 rate = kiriMat3_MulMat(turn, frame->rate);
+    flight.pose.A = kiriMat3_MulMat(turn, grown);
+    flight.coast.A = flight.pose.A;
+    L = kiriVec3_AddScaled(L, fade, AffineMomentum(m, &frame->A, &frame->rate));
+    L = kiriVec3_AddScaled(L, -fade, AffineMomentum(m, &flight.pose.A, &rate));
+    inertia = AffineInertia(m, &flight.pose.A);
+    spin = kiriMat3_Solve(&inertia, L);
+    double after = kiriVec3_Dot(L, spin);
+    if (after > before) {
+        spin = kiriVec3_Scale(sqrt(before / after), spin);
+    }
+    flight.spin = spin;
+    flight.rate = Cross(spin, &flight.pose.A);
+    flight.rate = AddScaled(&flight.rate, fade, &rate);
+    return flight;
+}
+
+/* ---- Held frames ---- */
 
 /* The vector of the turn from one rotation to another: the inverse of Cayley, its length made an angle to the fourth
    order. */
@@ -141,6 +245,7 @@ kiriFlight kiriFlight_Held(const kiriFrameData* frame, const kiriMaterial* mater
                           { frame->heldPosition, frame->heldRotation },
                           frame->velocity,
                           frame->spin,
+                          None,
                           kiriPose_Of(frame) };
     kiriVec3 arm = kiriPose_Along(&flight.pose, kiriVec2_Sub(frame->site.at, frame->center));
     flight.pose.x = kiriVec3_Sub(frame->heldPosition, arm);

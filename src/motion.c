@@ -43,6 +43,8 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     system.pinCount = sheet->pinRows.count;
     system.contacts = sheet->contactRows.data;
     system.contactCount = sheet->contactRows.count;
+    system.mechanics = sheet->mechanics;
+    system.patches = &sheet->model.patches;
     system.material = sheet->material;
     system.gravity = gravity;
     return system;
@@ -53,6 +55,7 @@ static void PutToRest(kiriSheetData* sheet)
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         memset(&sheet->frames.data[i].velocity, 0, sizeof(kiriVec3));
         memset(&sheet->frames.data[i].spin, 0, sizeof(kiriVec3));
+        memset(&sheet->frames.data[i].rate, 0, sizeof(kiriMat3));
     }
 }
 
@@ -86,7 +89,8 @@ int32_t kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int3
 
 double kiriMotion_KineticEnergy(const kiriFrameData* frame)
 {
-    kiriVec3 u = kiriVec3_Cross(frame->spin, frame->A.u), v = kiriVec3_Cross(frame->spin, frame->A.v);
+    kiriMat3 rate = kiriFrame_Rate(frame);
+    kiriVec3 u = rate.u, v = rate.v;
     return 0.5 * frame->mass * kiriVec3_Dot(frame->velocity, frame->velocity) +
            0.5 * frame->inertia[0] * kiriVec3_Dot(u, u) + frame->inertia[1] * kiriVec3_Dot(u, v) +
            0.5 * frame->inertia[2] * kiriVec3_Dot(v, v);
@@ -94,8 +98,9 @@ double kiriMotion_KineticEnergy(const kiriFrameData* frame)
 
 kiriVec3 kiriMotion_AngularMomentum(const kiriFrameData* frame)
 {
-    /* The integral of density r x (spin x r) with r = u A_u + v A_v. */
-    kiriVec3 u = kiriVec3_Cross(frame->spin, frame->A.u), v = kiriVec3_Cross(frame->spin, frame->A.v);
+    /* The integral of density r x r', with r = u A_u + v A_v. */
+    kiriMat3 rate = kiriFrame_Rate(frame);
+    kiriVec3 u = rate.u, v = rate.v;
     kiriVec3 momentum = kiriVec3_Scale(frame->inertia[0], kiriVec3_Cross(frame->A.u, u));
     momentum = kiriVec3_AddScaled(momentum, frame->inertia[1], kiriVec3_Cross(frame->A.u, v));
     momentum = kiriVec3_AddScaled(momentum, frame->inertia[1], kiriVec3_Cross(frame->A.v, u));

@@ -1,0 +1,38 @@
+/* Affine frames joined by links: sheets that stretch visibly (README, "Mechanics"). */
+#ifndef KIRI_AFFINE_H
+#define KIRI_AFFINE_H
+
+#include "patch.h"
+
+/* The strains of a link. With gap(p) = x_j(p) - x_i(p) and the part in the plane what is left of a vector without its
+   part along the mean director:
+
+   strain         what                               stiffness
+   gap            gap(b) in the plane                0.3 E h W / l    three rows
+   plane bending  ((A_j - A_i) tau) in the plane     0.3 E h I / l    three rows
+   bending        d_j - d_i                          D W / l          three rows
+   normal gap     gap(m) . d                         beta D W / l^3, beta = 12
+   normal stop    what |gap(m) . d| has above l / 2  E h W / l
+
+   The first two are 0.3 E h / l times the gap squared, over the border: they hold together what the membrane energy of
+   the regions, which sees means only, lets go. They vanish where the sheet stretches evenly. */
+enum {
+    KIRI_AFFINE_GAP,
+    KIRI_AFFINE_PLANE_BENDING = 3,
+    KIRI_AFFINE_BENDING = 6,
+    KIRI_AFFINE_NORMAL_GAP = 9,
+    KIRI_AFFINE_NORMAL_STOP,
+    KIRI_AFFINE_STRAINS
+};
+
+/* As kiriStrain_Measure; two rows, of i and j, a strain. */
+void kiriAffine_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
+                        double strain[KIRI_AFFINE_STRAINS], kiriAffineRow rows[][2]);
+void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_AFFINE_STRAINS]);
+
+/* Two patches a region. One has the membrane energy of F_i = A_i + 1/(2 a_i) times the integral of gap (x) n over its
+   border, which is the mean of the gradient when each border gap is shared by both sides: exact for an even stretch in
+   any layout, inner forces included. The other keeps the director normal. A planar sheet needs no such. */
+bool kiriAffine_Build(kiriPatches* patches, const kiriMemory* memory, const kiriRegions* regions, bool planar);
+
+#endif
