@@ -134,6 +134,9 @@ $(BOX2D): $(filter %/box2d.cpp.o %/draw.c.o %/image.c.o,$(SAMPLE_OBJECTS)) $(BUI
 $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(SCENE_OBJECTS) $(BUILD)/libkiri.a
 	$(LINK) -o $@ $^ -lcmocka -lm
 
+# Tests that compare with the heavy elastica.
+$(BUILD)/tests/test_affine $(BUILD)/tests/test_point: $(BUILD)/tests/reference.c.o
+
 deps:
 	@if ! command -v apt-get >/dev/null; then echo "needed, as Debian names it: $(DEBIAN_PACKAGES)"; exit 0; fi; \
 	missing=; for package in $(DEBIAN_PACKAGES); do \

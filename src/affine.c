@@ -1,6 +1,7 @@
 #include "affine.h"
 
 #define IN_PLANE 0.3
+#define LEAN 3.0
 /* As those of strain.c. */
 #define NORMAL_GAP_BETA 12.0
 #define NORMAL_STOP_SHARE 0.5
@@ -127,7 +128,7 @@ void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, do
     double membrane = (double)material->youngsModulus * h / l, bending = membrane * h * h / (12.0 * (1.0 - nu * nu));
     for (int a = 0; a < 3; ++a) {
         stiffness[KIRI_AFFINE_GAP + a] = IN_PLANE * membrane * link->width;
-        stiffness[KIRI_AFFINE_PLANE_BENDING + a] = IN_PLANE * membrane * link->moment;
+        stiffness[KIRI_AFFINE_PLANE_BENDING + a] = membrane * link->moment;
         stiffness[KIRI_AFFINE_BENDING + a] = bending * link->width;
     }
     stiffness[KIRI_AFFINE_NORMAL_GAP] = NORMAL_GAP_BETA * bending * link->width / (l * l);
@@ -196,7 +197,7 @@ static bool AddMembrane(kiriPatches* patches, const kiriMemory* memory, const ki
                         const kiriLink* const* links, int32_t linkCount, int32_t frame)
 {
     double area = regions->regions.data[frame].material.area;
-    kiriPatch patch = { area, patches->shares.count, 0, KIRI_PATCH_AREA, KIRI_PATCH_SHEAR + 1 };
+    kiriPatch patch = { area, LEAN, patches->shares.count, 0, KIRI_PATCH_AREA, KIRI_PATCH_SHEAR + 1 };
     bool ok = Begin(patches, memory, &patch, frame);
     for (int32_t k = 0; ok && k < linkCount; ++k) {
         ok = AddBorder(patches, memory, &patch, regions, links[k]);
@@ -207,7 +208,7 @@ static bool AddMembrane(kiriPatches* patches, const kiriMemory* memory, const ki
 static bool AddDirector(kiriPatches* patches, const kiriMemory* memory, const kiriRegions* regions, int32_t frame)
 {
     double area = regions->regions.data[frame].material.area;
-    kiriPatch patch = { area, patches->shares.count, 0, KIRI_PATCH_LEAN_U, KIRI_PATCH_STRAINS };
+    kiriPatch patch = { area, 0.0, patches->shares.count, 0, KIRI_PATCH_LEAN_U, KIRI_PATCH_STRAINS };
     return Begin(patches, memory, &patch, frame) && kiriArray_Push(memory, &patches->patches, patch);
 }
 

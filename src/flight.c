@@ -158,9 +158,23 @@ static kiriVec3 SumCross(const kiriMat3* A, const kiriMat3* B)
                         kiriVec3_Cross(A->d, B->d));
 }
 
+/* The inertia of an A that is no rotation. It has an inverse even where A has collapsed. */
+static kiriMat3 AffineInertia(const kiriMassMoments* m, const kiriMat3* A)
+{
+    kiriMat3 w = Weighted(m, A), r;
+    double trace = kiriVec3_Dot(w.u, A->u) + kiriVec3_Dot(w.v, A->v) + kiriVec3_Dot(w.d, A->d);
+    trace += 1e-12 * (trace + m->uu + m->vv + m->dd);
+    r.u = kiriVec3_Sub(kiriVec3_Make(trace, 0.0, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.x, A->v.x, A->d.x)));
+    r.v = kiriVec3_Sub(kiriVec3_Make(0.0, trace, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.y, A->v.y, A->d.y)));
+    r.d = kiriVec3_Sub(kiriVec3_Make(0.0, 0.0, trace), kiriMat3_Mul(w, kiriVec3_Make(A->u.z, A->v.z, A->d.z)));
+    return r;
+}
+
 kiriVec3 kiriMat3_Spin(const kiriMat3* A, const kiriMat3* rate)
 {
-    return kiriVec3_Scale(0.5, SumCross(A, rate));
+    const kiriMassMoments even = { 1.0, 0.0, 1.0, 1.0 };
+    kiriMat3 inertia = AffineInertia(&even, A);
+    return kiriMat3_Solve(&inertia, SumCross(A, rate));
 }
 
 kiriMat3 kiriMat3_Beside(const kiriMat3* A, const kiriMat3* rate, kiriVec3 spin)
@@ -180,48 +194,26 @@ kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change)
     return kiriMat3_MulMat(kiriMat3_Cayley(w), grown);
 }
 
-/* The inertia of an A that is no rotation. */
-static kiriMat3 AffineInertia(const kiriMassMoments* m, const kiriMat3* A)
-{
-    kiriMat3 w = Weighted(m, A), r;
-    double trace = kiriVec3_Dot(w.u, A->u) + kiriVec3_Dot(w.v, A->v) + kiriVec3_Dot(w.d, A->d);
-    r.u = kiriVec3_Sub(kiriVec3_Make(trace, 0.0, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.x, A->v.x, A->d.x)));
-    r.v = kiriVec3_Sub(kiriVec3_Make(0.0, trace, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.y, A->v.y, A->d.y)));
-    r.d = kiriVec3_Sub(kiriVec3_Make(0.0, 0.0, trace), kiriMat3_Mul(w, kiriVec3_Make(A->u.z, A->v.z, A->d.z)));
-    return r;
-}
-
-static kiriVec3 AffineMomentum(const kiriMassMoments* m, const kiriMat3* A, const kiriMat3* rate)
-{
-    kiriMat3 w = Weighted(m, rate);
-    return SumCross(A, &w);
-}
-
-/* A turns by its spin and grows by what its rate has beside it. At the end the spin is what the angular momentum, which
-   stays, asks of the turned moments; as in TurnFreely it gains no energy. */
+/* A turns, by the angular momentum it has or gets, as a rigid one would; what its rate has beside the spin turns with it,
+   and stretches it on. */
 kiriFlight kiriFlight_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity, double dt)
 {
     kiriFlight flight = kiriFlight_Free(frame, material, gravity, dt);
-    const kiriMassMoments* m = &flight.moments;
     double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
-    kiriMat3 inertia = AffineInertia(m, &frame->A), grown = AddScaled(&frame->A, dt * fade, &frame->rate);
-    kiriVec3 push = kiriVec3_Scale(dt, frame->torque), spinning = kiriMat3_Mul(inertia, frame->spin);
-    kiriVec3 L = kiriVec3_AddScaled(push, fade, spinning), spin = kiriMat3_Solve(&inertia, L);
-    double before = kiriVec3_Dot(L, spin);
-    kiriMat3 turn = kiriMat3_Cayley(CayleyVector(kiriVec3_Scale(dt, spin)));
-    kiriMat3 rate = kiriMat3_MulMat(turn, frame->rate);
-    flight.pose.A = kiriMat3_MulMat(turn, grown);
-    flight.coast.A = flight.pose.A;
-    L = kiriVec3_AddScaled(L, fade, AffineMomentum(m, &frame->A, &frame->rate));
-    L = kiriVec3_AddScaled(L, -fade, AffineMomentum(m, &flight.pose.A, &rate));
-    inertia = AffineInertia(m, &flight.pose.A);
-    spin = kiriMat3_Solve(&inertia, L);
-    double after = kiriVec3_Dot(L, spin);
-    if (after > before) {
-        spin = kiriVec3_Scale(sqrt(before / after), spin);
+    kiriMat3 inertia = AffineInertia(&flight.moments, &frame->A), turn = Identity;
+    kiriVec3 L = kiriVec3_AddScaled(kiriVec3_Scale(dt, frame->torque), fade, kiriMat3_Mul(inertia, frame->spin));
+    kiriVec3 spin = kiriMat3_Solve(&inertia, L);
+    double angle = dt * kiriVec3_Length(spin), before = kiriVec3_Dot(L, spin);
+    int parts = angle < 2.0 ? 1 + (int)(4.0 * angle) : MOST_PARTS;
+    for (int part = 0; part < parts; ++part) {
+        turn = Turn(&turn, &inertia, L, dt / parts);
     }
-    flight.spin = spin;
-    flight.rate = Cross(spin, &flight.pose.A);
+    kiriMat3 grown = AddScaled(&frame->A, dt * fade, &frame->rate), rate = kiriMat3_MulMat(turn, frame->rate);
+    flight.pose.A = flight.coast.A = kiriMat3_MulMat(turn, grown);
+    spin = kiriMat3_Mul(turn, kiriMat3_Solve(&inertia, MulTransposed(&turn, L)));
+    double after = kiriVec3_Dot(L, spin);
+    flight.spin = after > before ? kiriVec3_Scale(sqrt(before / after), spin) : spin;
+    flight.rate = Cross(flight.spin, &flight.pose.A);
     flight.rate = AddScaled(&flight.rate, fade, &rate);
     return flight;
 }

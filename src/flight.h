@@ -47,7 +47,7 @@ kiriFlight kiriFlight_Affine(const kiriFrameData* frame, const kiriMaterial* mat
 /* A (1 + ..) turned: where A gets by a change of `change`, whose turning part turns it and leaves its lengths. */
 kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change);
 
-/* The spin of an A that changes at a rate, and what the rate has beside it. */
+/* The spin that comes nearest to the rate at which A changes, and what the rate has beside it. */
 kiriVec3 kiriMat3_Spin(const kiriMat3* A, const kiriMat3* rate);
 kiriMat3 kiriMat3_Beside(const kiriMat3* A, const kiriMat3* rate, kiriVec3 spin);
 

@@ -36,27 +36,33 @@ static Shape ShapeOf(const kiriPatch* patch, const kiriShare* shares, const kiri
     return s;
 }
 
-static void StrainsOf(const Shape* s, double strain[KIRI_PATCH_STRAINS])
+static void StrainsOf(const Shape* s, double lean, double strain[KIRI_PATCH_STRAINS])
 {
     double uu = kiriVec3_Dot(s->u, s->u), vv = kiriVec3_Dot(s->v, s->v);
+    double leanU = kiriVec3_Dot(s->u, s->d), leanV = kiriVec3_Dot(s->v, s->d);
     double bendU = kiriVec3_Dot(s->u, s->du), bendV = kiriVec3_Dot(s->v, s->dv);
-    strain[KIRI_PATCH_AREA] = 0.5 * (uu + vv) - 1.0;
-    strain[KIRI_PATCH_STRETCH] = 0.5 * (uu - vv);
-    strain[KIRI_PATCH_SHEAR] = kiriVec3_Dot(s->u, s->v);
+    strain[KIRI_PATCH_AREA] = 0.5 * (uu + vv + lean * (leanU * leanU + leanV * leanV)) - 1.0;
+    strain[KIRI_PATCH_STRETCH] = 0.5 * (uu - vv + lean * (leanU * leanU - leanV * leanV));
+    strain[KIRI_PATCH_SHEAR] = kiriVec3_Dot(s->u, s->v) + lean * leanU * leanV;
     strain[KIRI_PATCH_DOME] = bendU + bendV;
     strain[KIRI_PATCH_SADDLE] = bendU - bendV;
     strain[KIRI_PATCH_TWIST] = kiriVec3_Dot(s->u, s->dv) + kiriVec3_Dot(s->v, s->du);
-    strain[KIRI_PATCH_LEAN_U] = kiriVec3_Dot(s->u, s->d);
-    strain[KIRI_PATCH_LEAN_V] = kiriVec3_Dot(s->v, s->d);
+    strain[KIRI_PATCH_LEAN_U] = leanU;
+    strain[KIRI_PATCH_LEAN_V] = leanV;
     strain[KIRI_PATCH_THICKNESS] = 0.5 * (kiriVec3_Dot(s->d, s->d) - 1.0);
 }
 
 /* The derivative of each strain by the shape. */
-static void SlopesOf(const Shape* s, Shape slope[KIRI_PATCH_STRAINS])
+static void SlopesOf(const Shape* s, double lean, Shape slope[KIRI_PATCH_STRAINS])
 {
     kiriVec3 zero = { 0.0, 0.0, 0.0 }, minusV = kiriVec3_Scale(-1.0, s->v), minusDv = kiriVec3_Scale(-1.0, s->dv);
+    double leanU = lean * kiriVec3_Dot(s->u, s->d), leanV = lean * kiriVec3_Dot(s->v, s->d);
+    kiriVec3 u = kiriVec3_AddScaled(s->u, leanU, s->d), v = kiriVec3_AddScaled(s->v, leanV, s->d);
+    kiriVec3 byU = kiriVec3_Scale(leanU, s->u), byV = kiriVec3_Scale(leanV, s->v);
     const Shape slopes[KIRI_PATCH_STRAINS] = {
-        { s->u, s->v, zero, zero, zero },   { s->u, minusV, zero, zero, zero },    { s->v, s->u, zero, zero, zero },
+        { u, v, zero, zero, kiriVec3_Add(byU, byV) },
+        { u, kiriVec3_Scale(-1.0, v), zero, zero, kiriVec3_Sub(byU, byV) },
+        { v, u, zero, zero, kiriVec3_AddScaled(kiriVec3_Scale(leanU, s->v), leanV, s->u) },
         { s->du, s->dv, s->u, s->v, zero }, { s->du, minusDv, s->u, minusV, zero }, { s->dv, s->du, s->v, s->u, zero },
         { s->d, zero, zero, zero, s->u },   { zero, s->d, zero, zero, s->v },      { zero, zero, zero, zero, s->d },
     };
@@ -83,12 +89,12 @@ void kiriPatch_Measure(const kiriPatch* patch, const kiriShare* shares, const ki
 {
     Shape shape = ShapeOf(patch, shares, frames, poses), slope[KIRI_PATCH_STRAINS];
     double all[KIRI_PATCH_STRAINS];
-    StrainsOf(&shape, all);
+    StrainsOf(&shape, patch->lean, all);
     for (int e = patch->firstRow; e < patch->lastRow; ++e) {
         strain[e - patch->firstRow] = all[e];
     }
     if (rows != NULL) {
-        SlopesOf(&shape, slope);
+        SlopesOf(&shape, patch->lean, slope);
         for (int e = patch->firstRow; e < patch->lastRow; ++e) {
             for (int32_t k = 0; k < patch->count; ++k) {
                 *rows++ = RowOf(&slope[e], &shares[patch->first + k]);

@@ -40,6 +40,7 @@ typedef struct kiriShare {
 
 typedef struct kiriPatch {
     double area;               /* m^2 */
+    double lean;               /* what leaning counts for, in the membrane strains */
     int32_t first, count;      /* shares, by frame */
     int32_t firstRow, lastRow; /* the strains that count */
 } kiriPatch;

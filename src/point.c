@@ -12,7 +12,7 @@ typedef struct Builder {
    linear around it. */
 static bool AddPatch(Builder* b, kiriVec2 point, kiriVec2 off, double area)
 {
-    kiriPatch patch = { area, b->patches->shares.count, b->weights.count, 0, b->lastRow };
+    kiriPatch patch = { area, 0.0, b->patches->shares.count, b->weights.count, 0, b->lastRow };
     kiriVec2 at = kiriVec2_Add(point, off);
     for (int32_t k = 0; k < b->weights.count; ++k) {
         kiriPointWeight w = b->weights.data[k];
