@@ -119,7 +119,8 @@ void kiriAffine_Measure(const kiriLink* link, const kiriFrameData* const frames[
     MeasureInPlane(&side, &mean, strain + KIRI_AFFINE_PLANE_BENDING,
                    rows != NULL ? rows + KIRI_AFFINE_PLANE_BENDING : NULL);
     MeasureBending(poses, strain + KIRI_AFFINE_BENDING, rows != NULL ? rows + KIRI_AFFINE_BENDING : NULL);
-    MeasureNormal(link, &m, &mean, strain + KIRI_AFFINE_NORMAL_GAP, rows != NULL ? rows + KIRI_AFFINE_NORMAL_GAP : NULL);
+    MeasureNormal(link, &m, &mean, strain + KIRI_AFFINE_NORMAL_GAP,
+                  rows != NULL ? rows + KIRI_AFFINE_NORMAL_GAP : NULL);
 }
 
 void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_AFFINE_STRAINS])
@@ -164,8 +165,10 @@ static void AddEnd(kiriShare* share, const kiriLink* link, kiriVec2 center, doub
 {
     kiriVec2 normal = kiriVec2_Scale(scale * link->width, link->normal), arm = kiriVec2_Sub(link->centroid, center);
     share->move = kiriVec2_Add(share->move, normal);
-    share->u = kiriVec2_Add(share->u, kiriVec2_Add(kiriVec2_Scale(arm.x, normal), kiriVec2_Scale(scale, link->spread[0])));
-    share->v = kiriVec2_Add(share->v, kiriVec2_Add(kiriVec2_Scale(arm.y, normal), kiriVec2_Scale(scale, link->spread[1])));
+    share->u =
+        kiriVec2_Add(share->u, kiriVec2_Add(kiriVec2_Scale(arm.x, normal), kiriVec2_Scale(scale, link->spread[0])));
+    share->v =
+        kiriVec2_Add(share->v, kiriVec2_Add(kiriVec2_Scale(arm.y, normal), kiriVec2_Scale(scale, link->spread[1])));
 }
 
 static bool AddBorder(kiriPatches* patches, const kiriMemory* memory, kiriPatch* patch, const kiriRegions* regions,

@@ -16,7 +16,8 @@ static void Add(kiriVec3* sum, double a, kiriVec3 b)
     *sum = kiriVec3_AddScaled(*sum, a, b);
 }
 
-static Shape ShapeOf(const kiriPatch* patch, const kiriShare* shares, const kiriFrameData* frames, const kiriPose* poses)
+static Shape ShapeOf(const kiriPatch* patch, const kiriShare* shares, const kiriFrameData* frames,
+                     const kiriPose* poses)
 {
     kiriVec3 zero = { 0.0, 0.0, 0.0 };
     Shape s = { zero, zero, zero, zero, zero };
@@ -63,8 +64,12 @@ static void SlopesOf(const Shape* s, double lean, Shape slope[KIRI_PATCH_STRAINS
         { u, v, zero, zero, kiriVec3_Add(byU, byV) },
         { u, kiriVec3_Scale(-1.0, v), zero, zero, kiriVec3_Sub(byU, byV) },
         { v, u, zero, zero, kiriVec3_AddScaled(kiriVec3_Scale(leanU, s->v), leanV, s->u) },
-        { s->du, s->dv, s->u, s->v, zero }, { s->du, minusDv, s->u, minusV, zero }, { s->dv, s->du, s->v, s->u, zero },
-        { s->d, zero, zero, zero, s->u },   { zero, s->d, zero, zero, s->v },      { zero, zero, zero, zero, s->d },
+        { s->du, s->dv, s->u, s->v, zero },
+        { s->du, minusDv, s->u, minusV, zero },
+        { s->dv, s->du, s->v, s->u, zero },
+        { s->d, zero, zero, zero, s->u },
+        { zero, s->d, zero, zero, s->v },
+        { zero, zero, zero, zero, s->d },
     };
     for (int e = 0; e < KIRI_PATCH_STRAINS; ++e) {
         slope[e] = slopes[e];

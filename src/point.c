@@ -17,8 +17,12 @@ static bool AddPatch(Builder* b, kiriVec2 point, kiriVec2 off, double area)
     for (int32_t k = 0; k < b->weights.count; ++k) {
         kiriPointWeight w = b->weights.data[k];
         kiriVec2 arm = kiriVec2_Sub(at, kiriMoments_Center(&b->regions->regions.data[w.frame].material));
-        kiriShare share = { w.frame,  w.gradient, kiriVec2_Scale(arm.x, w.gradient), kiriVec2_Scale(arm.y, w.gradient),
-                            w.value + kiriVec2_Dot(w.gradient, off), w.gradient };
+        kiriShare share = { w.frame,
+                            w.gradient,
+                            kiriVec2_Scale(arm.x, w.gradient),
+                            kiriVec2_Scale(arm.y, w.gradient),
+                            w.value + kiriVec2_Dot(w.gradient, off),
+                            w.gradient };
         share.u.x += share.weight;
         share.v.y += share.weight;
         if (!kiriArray_Push(b->memory, &b->patches->shares, share)) {
@@ -35,8 +39,9 @@ static bool AddFour(Builder* b, kiriVec2 point, const kiriMoments* material)
     kiriMoments about = kiriMoments_About(material, point);
     double perArea = 2.0 / about.area, u = sqrt(perArea * about.uu), v = u > 0.0 ? perArea * about.uv / u : 0.0;
     double rest = perArea * about.vv - v * v;
-    const kiriVec2 off[4] = { { u, v }, { -u, -v }, { 0.0, sqrt(rest > 0.0 ? rest : 0.0) },
-                              { 0.0, -sqrt(rest > 0.0 ? rest : 0.0) } };
+    const kiriVec2 off[4] = {
+        { u, v }, { -u, -v }, { 0.0, sqrt(rest > 0.0 ? rest : 0.0) }, { 0.0, -sqrt(rest > 0.0 ? rest : 0.0) }
+    };
     bool ok = true;
     for (int k = 0; ok && k < 4; ++k) {
         ok = AddPatch(b, point, off[k], 0.25 * about.area);

@@ -14,12 +14,12 @@
 
 #include <string.h>
 
-#define LONGEST_TURN 1.0  /* of a frame in one Gauss-Newton step: a Cayley vector */
-#define HALVINGS 12       /* of a step that does not lower the objective */
-#define SECOND_CHANCES 4  /* more iterations where the objective ends above that of the start of the step, */
-#define FRESH_STARTS 2    /* and iterations from there should they fail */
-#define ROUNDING 1e-9     /* of an objective, relative */
-#define SLIDE_FLOOR 1e-9  /* m: a shorter way is no slide */
+#define LONGEST_TURN 1.0 /* of a frame in one Gauss-Newton step: a Cayley vector */
+#define HALVINGS 12      /* of a step that does not lower the objective */
+#define SECOND_CHANCES 4 /* more iterations where the objective ends above that of the start of the step, */
+#define FRESH_STARTS 2   /* and iterations from there should they fail */
+#define ROUNDING 1e-9    /* of an objective, relative */
+#define SLIDE_FLOOR 1e-9 /* m: a shorter way is no slide */
 
 /* A link or patch has at most so many strains. */
 enum { MOST_ROWS = (int)KIRI_STRAINS > (int)KIRI_AFFINE_STRAINS ? (int)KIRI_STRAINS : (int)KIRI_AFFINE_STRAINS };
@@ -37,15 +37,15 @@ typedef struct Unknown {
 
 struct kiriSolver {
     kiriMemory memory;
-    double dt, damping;                          /* of this step; flexDamping / dt */
+    double dt, damping; /* of this step; flexDamping / dt */
     bool isBraking;
-    int32_t size;                                /* unknowns a frame */
+    int32_t size; /* unknowns a frame */
     Unknown unknowns[KIRI_MOST_UNKNOWNS];
     kiriMatrix* matrix;
-    KIRI_ARRAY(kiriFlight) flights;              /* one a frame, as are the poses */
-    KIRI_ARRAY(kiriPose) start, poses, trial;    /* at the start of the step, now, and where a step would lead */
-    KIRI_ARRAY(double) stiffness, startStrain;   /* MOST_ROWS an element; strains at the start of the step */
-    KIRI_ARRAY(double) force, move;              /* the right side: minus the gradient; and the solution */
+    KIRI_ARRAY(kiriFlight) flights;            /* one a frame, as are the poses */
+    KIRI_ARRAY(kiriPose) start, poses, trial;  /* at the start of the step, now, and where a step would lead */
+    KIRI_ARRAY(double) stiffness, startStrain; /* MOST_ROWS an element; strains at the start of the step */
+    KIRI_ARRAY(double) force, move;            /* the right side: minus the gradient; and the solution */
     /* Scratch for one element. */
     KIRI_ARRAY(int32_t) members;
     KIRI_ARRAY(kiriAffineRow) rows;
@@ -244,8 +244,7 @@ static bool Prepare(kiriSolver* solver, const kiriSystem* system)
     ChooseUnknowns(solver, &system->mechanics);
     if (MakeRoom(solver, system->frameCount, ElementCount(system), MostMembers(system->patches)) &&
         CollectPairs(&solver->memory, system, solver->members.data, &pairs)) {
-        solver->matrix =
-            kiriMatrix_Create(&solver->memory, solver->size, system->frameCount, pairs.data, pairs.count);
+        solver->matrix = kiriMatrix_Create(&solver->memory, solver->size, system->frameCount, pairs.data, pairs.count);
     }
     kiriArray_Release(&solver->memory, &pairs);
     return solver->matrix != NULL;
@@ -737,8 +736,8 @@ static bool Land(kiriSolver* solver, const kiriSystem* system)
         } else if (!system->frames[f].held) {
             LandAffine(solver, f);
         }
-        if (!IsFinite(pose->x) || !AreFinite(&pose->A) || !AreFinite(&flight->rate) ||
-            !IsFinite(flight->velocity) || !IsFinite(flight->spin)) {
+        if (!IsFinite(pose->x) || !AreFinite(&pose->A) || !AreFinite(&flight->rate) || !IsFinite(flight->velocity) ||
+            !IsFinite(flight->spin)) {
             return false;
         }
     }
@@ -751,8 +750,9 @@ static void Finish(const kiriSolver* solver, const kiriSystem* system)
         kiriFrameData* frame = &system->frames[f];
         const kiriPose* pose = &solver->poses.data[f];
         frame->x = pose->x;
-        frame->A = frame->held ? frame->heldRotation
-                               : IsAffine(&system->mechanics) ? pose->A : kiriMat3_Rotation(pose->A);
+        frame->A = frame->held                    ? frame->heldRotation
+                   : IsAffine(&system->mechanics) ? pose->A
+                                                  : kiriMat3_Rotation(pose->A);
         frame->velocity = solver->flights.data[f].velocity;
         frame->spin = solver->flights.data[f].spin;
         frame->rate = solver->flights.data[f].rate;

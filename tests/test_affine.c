@@ -186,8 +186,7 @@ static void SumForces(const Body* b, kiriAffineRow* forces)
             for (int k = 0; k < 4 * patch->count; ++k) {
                 int32_t frame = b->patches.shares.data[patch->first + k / 4].frame;
                 kiriVec3* sum = &forces[frame].by[k % 4];
-                *sum = kiriVec3_AddScaled(*sum, stiffness[e] * strain[e],
-                                          rows[e * patch->count + k / 4].by[k % 4]);
+                *sum = kiriVec3_AddScaled(*sum, stiffness[e] * strain[e], rows[e * patch->count + k / 4].by[k % 4]);
             }
         }
     }
@@ -494,8 +493,7 @@ static void Wave(Body* b, int model)
     b->contacts[b->system.contactCount++] = row;
     for (int n = 0; n < 60; ++n) {
         b->frames[0].heldPosition.x += 1e-4;
-        b->frames[0].heldRotation =
-            kiriMat3_MulMat(kiriMat3_Cayley(Vec3(0.0, 0.01, 0.0)), b->frames[0].heldRotation);
+        b->frames[0].heldRotation = kiriMat3_MulMat(kiriMat3_Cayley(Vec3(0.0, 0.01, 0.0)), b->frames[0].heldRotation);
         Body_Steps(b, 1, 1.0 / 60.0, 2);
     }
 }

@@ -100,7 +100,8 @@ static void TestEvenStretch(void** state)
     for (int trial = 0; trial < 12; ++trial) {
         BodyDef def = DefOf(0.2, 0.15, 60, 1 + trial % 2, Rubber);
         double E = (double)def.material.youngsModulus, nu = (double)def.material.poissonsRatio;
-        double h = (double)def.material.thickness, a = RandomBetween(&seed, 0.8, 1.5), b = RandomBetween(&seed, 0.8, 1.5);
+        double h = (double)def.material.thickness, a = RandomBetween(&seed, 0.8, 1.5),
+               b = RandomBetween(&seed, 0.8, 1.5);
         double uu = 0.5 * (a * a - 1.0), vv = 0.5 * (b * b - 1.0);
         kiriMat3 F = { { a, 0.0, 0.0 }, { 0.0, b, 0.0 }, { 0.0, 0.0, 1.0 } };
         kiriMat3 turn = kiriMat3_Cayley(RandomVec3(&seed, 2.0));
@@ -109,7 +110,8 @@ static void TestEvenStretch(void** state)
         assert_true(kiriSolver_ElasticEnergy(&body.system) < 1e-20);
         F = kiriMat3_MulMat(turn, F);
         Body_Deform(&body, &F, RandomVec3(&seed, 1.0));
-        double even = 0.5 * E / (1.0 - nu * nu) * (uu * uu + vv * vv + 2.0 * nu * uu * vv) * h * Scene_Area(&body.scene);
+        double even =
+            0.5 * E / (1.0 - nu * nu) * (uu * uu + vv * vv + 2.0 * nu * uu * vv) * h * Scene_Area(&body.scene);
         AssertNear(kiriSolver_ElasticEnergy(&body.system) / even, 1.0, 1e-9);
         Body_Drop(&body);
     }
@@ -175,8 +177,9 @@ static void TestLocking(void** state)
     (void)state;
     Elastica_Solve(&elastica, 1000.0 * 9.81 * 5e-4 * 8e-3 * 12.0 / (5e8 * 1.25e-10));
     double slab5 = CantileverError(0.02, 5), slab9 = CantileverError(0.02, 9), sheet9 = CantileverError(5e-4, 9);
-    print_message("cantilever, thickness over length 1/10: %.1f %% with 5 frames, %.1f %% with 9; 1/400: %.1f %% with 9\n",
-                  100.0 * slab5, 100.0 * slab9, 100.0 * sheet9);
+    print_message(
+        "cantilever, thickness over length 1/10: %.1f %% with 5 frames, %.1f %% with 9; 1/400: %.1f %% with 9\n",
+        100.0 * slab5, 100.0 * slab9, 100.0 * sheet9);
     assert_true(slab9 < 0.15 && slab9 < 0.5 * slab5);
     assert_true(sheet9 > 0.25);
 }
@@ -225,8 +228,8 @@ static void TestMomentum(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestMoments), cmocka_unit_test(TestPieces),    cmocka_unit_test(TestEvenStretch),
-        cmocka_unit_test(TestInPlane), cmocka_unit_test(TestLocking),   cmocka_unit_test(TestStability),
+        cmocka_unit_test(TestMoments),  cmocka_unit_test(TestPieces),  cmocka_unit_test(TestEvenStretch),
+        cmocka_unit_test(TestInPlane),  cmocka_unit_test(TestLocking), cmocka_unit_test(TestStability),
         cmocka_unit_test(TestMomentum),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
