@@ -194,8 +194,8 @@ kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change)
     return kiriMat3_MulMat(kiriMat3_Cayley(w), grown);
 }
 
-/* A turns, by the angular momentum it has or gets, as a rigid one would; what its rate has beside the spin turns with it,
-   and stretches it on. */
+/* A turns, by the angular momentum it has or gets, as a rigid one would; what its rate has beside the spin turns with
+   it, and stretches it on. */
 kiriFlight kiriFlight_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity, double dt)
 {
     kiriFlight flight = kiriFlight_Free(frame, material, gravity, dt);

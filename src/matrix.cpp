@@ -118,23 +118,36 @@ struct Squares {
     int32_t rows, stride;
 };
 
-/* The block of frames number a and b of the element, a's unknowns down. */
+/* The block of frames number a and b of the element, a's unknowns down. The size is known to the compiler, for
+   speed. */
+template <int size>
 void AddBlock(kiriMatrix* matrix, const Squares& s, int32_t a, int32_t row, int32_t b, int32_t column)
 {
-    int32_t size = matrix->size;
     for (int32_t c = 0; c < size; ++c) {
-        int32_t count = row == column ? c + 1 : size;
-        double sum[KIRI_MOST_UNKNOWNS] = { 0.0 };
+        double sum[size] = { 0.0 };
         for (int32_t e = 0; e < s.rows; ++e) {
             const double* J = s.J + e * s.stride;
             double pull = s.k[e] * J[size * b + c];
-            for (int32_t r = 0; r < count; ++r) {
+            for (int32_t r = 0; r < size; ++r) {
                 sum[r] += pull * J[size * a + r];
             }
         }
         double* out = matrix->Block(row, column, c);
+        int32_t count = row == column ? c + 1 : size;
         for (int32_t r = 0; r < count; ++r) {
             out[r] += sum[r];
+        }
+    }
+}
+
+template <int size> void AddBlocks(kiriMatrix* matrix, const Squares& squares, const int32_t* frames, int32_t count)
+{
+    for (int32_t b = 0; b < count; ++b) {
+        for (int32_t a = 0; a < count; ++a) {
+            int32_t row = matrix->place[frames[a]], column = matrix->place[frames[b]];
+            if (row <= column) {
+                AddBlock<size>(matrix, squares, a, row, b, column);
+            }
         }
     }
 }
@@ -197,14 +210,9 @@ extern "C" void kiriMatrix_AddSquares(kiriMatrix* matrix, const int32_t* frames,
                                       const double* k, int32_t rows)
 {
     const Squares squares = { J, k, rows, matrix->size * frameCount };
-    for (int32_t b = 0; b < frameCount; ++b) {
-        for (int32_t a = 0; a < frameCount; ++a) {
-            int32_t row = matrix->place[frames[a]], column = matrix->place[frames[b]];
-            if (row <= column) {
-                AddBlock(matrix, squares, a, row, b, column);
-            }
-        }
-    }
+    matrix->size == 3   ? AddBlocks<3>(matrix, squares, frames, frameCount)
+    : matrix->size == 6 ? AddBlocks<6>(matrix, squares, frames, frameCount)
+                        : AddBlocks<12>(matrix, squares, frames, frameCount);
 }
 
 extern "C" bool kiriMatrix_Factor(kiriMatrix* matrix)

@@ -6,7 +6,8 @@
 #include "flight.h"
 
 /* With F = [F_u F_v] the deformation gradient of the mid-surface, D the director, D_u and D_v its slopes; Green strains,
-   plane stress. Every energy is 1/2 stiffness strain^2; G = E / (2 (1 + nu)), K = E / (2 (1 - nu)), a the area.
+   plane stress. Every energy is 1/2 stiffness strain^2; G = E / (2 (1 + nu)), K = E / (2 (1 - nu)), a the area. With a
+   patch's `lean` above zero the products of F_u and F_v in the first three count their parts along D 1 + lean times.
 
    strain     what                                   stiffness
    area       (F_u . F_u + F_v . F_v) / 2 - 1        K h a
@@ -40,7 +41,7 @@ typedef struct kiriShare {
 
 typedef struct kiriPatch {
     double area;               /* m^2 */
-    double lean;               /* what leaning counts for, in the membrane strains */
+    double lean;
     int32_t first, count;      /* shares, by frame */
     int32_t firstRow, lastRow; /* the strains that count */
 } kiriPatch;

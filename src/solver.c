@@ -334,8 +334,8 @@ static double PinEnergy(const kiriSystem* system, const kiriPinRow* pin, const k
     return 0.5 * pin->stiffness * kiriVec3_Dot(off, off);
 }
 
-/* The spring against sliding, N/m. Friction is at most `friction` times the push. Both are those before the iteration, so
-   that the objective is a sum of squares while it is searched. */
+/* The spring against sliding, N/m. Friction is at most `friction` times the push. Both are those before the iteration,
+   so that the objective is a sum of squares while it is searched. */
 static double BrakeOf(const kiriSolver* solver, const kiriSystem* system, const kiriContactRow* contact)
 {
     kiriVec3 point = PointOf(system, contact->frame, contact->at, solver->poses.data);
@@ -398,8 +398,9 @@ static void AddHeld(kiriSolver* solver, int32_t f)
     kiriMatrix_AddOwn(solver->matrix, f, block);
 }
 
-/* The mass matrix times a change of the frame. */
-static Slots Massive(const kiriSolver* solver, const kiriSystem* system, int32_t f, const Slots* a)
+/* The mass matrix times a change of the frame; `inertia` is that of a rigid one. */
+static Slots Massive(const kiriSolver* solver, const kiriSystem* system, int32_t f, const kiriMat3* inertia,
+                     const Slots* a)
 {
     const kiriMassMoments* m = &solver->flights.data[f].moments;
     Slots r;
@@ -410,7 +411,7 @@ static Slots Massive(const kiriSolver* solver, const kiriSystem* system, int32_t
         r.by[2] = kiriVec3_AddScaled(kiriVec3_Scale(m->vv, a->by[2]), m->uv, a->by[1]);
         r.by[3] = kiriVec3_Scale(m->dd, a->by[3]);
     } else {
-        r.by[1] = kiriMat3_Mul(kiriFlight_Inertia(&solver->flights.data[f], &solver->poses.data[f].A), a->by[1]);
+        r.by[1] = kiriMat3_Mul(*inertia, a->by[1]);
     }
     return r;
 }
@@ -437,10 +438,11 @@ static void AddMass(kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
     double perTime = 1.0 / (solver->dt * solver->dt), block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS];
     double* force = &solver->force.data[solver->size * f];
+    kiriMat3 inertia = kiriFlight_Inertia(&solver->flights.data[f], &solver->poses.data[f].A);
     for (int32_t n = 0; n < solver->size; ++n) {
         double unit[KIRI_MOST_UNKNOWNS] = { 0.0 };
         unit[n] = perTime;
-        Slots change = Expand(solver, 1.0, unit), mass = Massive(solver, system, f, &change);
+        Slots change = Expand(solver, 1.0, unit), mass = Massive(solver, system, f, &inertia, &change);
         Reduce(solver, mass.by, &block[solver->size * n]);
     }
     kiriMatrix_AddOwn(solver->matrix, f, block);

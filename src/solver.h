@@ -52,8 +52,8 @@ kiriSolver* kiriSolver_CreateFor(const kiriMemory* memory, const kiriMechanics* 
 kiriSolver* kiriSolver_Create(const kiriMemory* memory, int32_t frameCount, const kiriLink* links, int32_t linkCount);
 void kiriSolver_Destroy(kiriSolver* solver);
 
-/* Moves the frames by dt. Mechanics, links and patches are those that it was created for; normals of contacts are unit, heldRotation is a
-   rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the motion asks for them.
+/* Moves the frames by dt. Mechanics, links and patches are those that it was created for; normals of contacts are unit,
+   heldRotation is a rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the motion asks for them.
    Or -1 when it cannot be continued (not finite, or no memory); the frames are then as before the call. Forces on
    frames are used, not cleared. */
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations);
