@@ -5,6 +5,8 @@
 #   make test     builds and runs all tests
 #   make lib      build/<config>/libkiri.a and libkiri.so
 #   make bench    runs the benchmarks
+#   make accuracy compares with references from outside, and plots error against cost
+#   make extremes runs what nobody should do to a sheet, and says what became of it
 #   make gallery  renders the pictures of the README
 #   make deps     installs what is missing (Debian and its relatives)
 #   make format   clang-format over all sources
@@ -17,7 +19,8 @@ config ?= release
 SCENE ?= bunny
 ARGS ?=
 
-DEBIAN_PACKAGES := gcc g++ make libeigen3-dev libosmesa6-dev libpng-dev libcmocka-dev libbox2d-dev
+DEBIAN_PACKAGES := gcc g++ make libeigen3-dev libosmesa6-dev libpng-dev libcmocka-dev libbox2d-dev \
+                   python3-cffi
 
 BUILD := build/$(config)
 EIGEN ?= $(or $(patsubst -I%,%,$(shell pkg-config --cflags-only-I eigen3 2>/dev/null)),/usr/include/eigen3)
@@ -45,10 +48,11 @@ BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench*.c))
 RUN := $(BUILD)/samples/kiri-run
 BOX2D := $(BUILD)/samples/kiri-box2d
 # The Python binding is tested where Python has cffi; a sanitized library cannot be loaded by a plain Python.
-PYTHON ?= python3
+# Debian's own python has Debian's python3-cffi.
+PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 PYTHON_CHECK := $(if $(filter sanitize,$(config)),,python)
 
-.PHONY: all run box2d python test check lib bench gallery deps format clean header exports
+.PHONY: all run box2d python test check lib bench accuracy extremes gallery deps format clean header exports
 .DEFAULT_GOAL := all
 .SECONDARY:
 
@@ -69,6 +73,11 @@ test: deps
 bench: deps
 	@$(MAKE) --no-print-directory $(BENCHES)
 	@set -e; for bench in $(BENCHES); do $$bench; done
+
+accuracy extremes: %: deps
+	@$(MAKE) --no-print-directory $(BUILD)/tests/$@
+	@mkdir -p build/$@
+	$(BUILD)/tests/$@ $(if $(filter accuracy,$@),tests/data build/accuracy)
 
 gallery: deps
 	@$(MAKE) --no-print-directory $(RUN)
@@ -98,41 +107,60 @@ lib: $(BUILD)/libkiri.a $(BUILD)/libkiri.so
 
 $(BUILD)/libkiri.a: $(LIBRARY_OBJECTS)
 	@rm -f $@
-	$(AR) rcs $@ $^
+	@$(AR) rcs $@ $^
 
 # The script hides the C++ templates too, which -fvisibility=hidden alone does not.
 $(BUILD)/libkiri.so: $(LIBRARY_OBJECTS)
 	@echo '{ global: kiri*; local: *; };' > $(BUILD)/kiri.map
-	$(LINK) -shared -Wl,--version-script=$(BUILD)/kiri.map -o $@ $^ -lm
+	@echo "  $@"
+	@$(LINK) -shared -Wl,--version-script=$(BUILD)/kiri.map -o $@ $^ -lm
 
 $(BUILD)/src/%.c.o: src/%.c
 	@mkdir -p $(@D)
-	$(COMPILE_C) -fvisibility=hidden -Iinclude -Isrc -c $< -o $@
+	@echo "  $<"
+	@$(COMPILE_C) -fvisibility=hidden -Iinclude -Isrc -c $< -o $@
 
 $(BUILD)/src/%.cpp.o: src/%.cpp
 	@mkdir -p $(@D)
-	$(COMPILE_CXX) -fvisibility=hidden -fvisibility-inlines-hidden -Iinclude -Isrc -isystem $(EIGEN) -c $< -o $@
+	@echo "  $<"
+	@$(COMPILE_CXX) -fvisibility=hidden -fvisibility-inlines-hidden -Iinclude -Isrc -isystem $(EIGEN) -c $< -o $@
 
 $(BUILD)/samples/%.c.o: samples/%.c
 	@mkdir -p $(@D)
-	$(COMPILE_C) -Iinclude -c $< -o $@
+	@echo "  $<"
+	@$(COMPILE_C) -Iinclude -c $< -o $@
 
 $(BUILD)/samples/%.cpp.o: samples/%.cpp
 	@mkdir -p $(@D)
-	$(COMPILE_CXX) -Iinclude -c $< -o $@
+	@echo "  $<"
+	@$(COMPILE_CXX) -Iinclude -c $< -o $@
 
 $(BUILD)/tests/%.c.o: tests/%.c
 	@mkdir -p $(@D)
-	$(COMPILE_C) -Iinclude -Isrc -Isamples -Itests -c $< -o $@
+	@echo "  $<"
+	@$(COMPILE_C) -Iinclude -Isrc -Isamples -Itests -c $< -o $@
 
 $(RUN): $(filter %.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
-	$(LINK) -o $@ $^ -lOSMesa -lpng -lm
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lOSMesa -lpng -lm
 
 $(BOX2D): $(filter %/box2d.cpp.o %/draw.c.o %/image.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
-	$(LINK) -o $@ $^ -lbox2d -lOSMesa -lpng -lm
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lbox2d -lOSMesa -lpng -lm
+
+$(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy tests/reference tests/plot samples/image) $(BUILD)/libkiri.a
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lpng -lm
+
+$(BUILD)/tests/extremes: $(BUILD)/tests/extremes_main.c.o $(BUILD)/tests/extremes.c.o $(BUILD)/libkiri.a
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lm
+
+$(BUILD)/tests/test_extremes: $(BUILD)/tests/extremes.c.o
 
 $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(SCENE_OBJECTS) $(BUILD)/libkiri.a
-	$(LINK) -o $@ $^ -lcmocka -lm
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lcmocka -lm
 
 # Tests that compare with the heavy elastica.
 $(BUILD)/tests/test_affine $(BUILD)/tests/test_point: $(BUILD)/tests/reference.c.o

@@ -126,10 +126,10 @@ static void MakeShadow(Painter* painter, const kiriMesh* mesh)
     glMatrixMode(GL_PROJECTION);
     glLoadIdentity();
     glOrtho(-shadowReach, shadowReach, -shadowReach, shadowReach, -1.0, 1.0);
-    const float along[16] = { 1.0f, 0.0f, 0.0f, 0.0f,
-                              0.0f, 1.0f, 0.0f, 0.0f,
-                              -toLight[0] / toLight[2], -toLight[1] / toLight[2], 0.0f, 0.0f,
-                              0.0f, 0.0f, 0.0f, 1.0f };
+    float along[16] = { 0.0f }; /* onto the floor, along the light */
+    along[0] = along[5] = along[15] = 1.0f;
+    along[8] = -toLight[0] / toLight[2];
+    along[9] = -toLight[1] / toLight[2];
     glMatrixMode(GL_MODELVIEW);
     glLoadMatrixf(along);
     glDisable(GL_DEPTH_TEST);

@@ -22,7 +22,7 @@ typedef struct Options {
     const char* output;
     const char* data;
     const char* weights; /* null, "all", or the number of a frame */
-    int32_t ticks, every, width, height, grid, controlFrames;
+    int32_t ticks, every, width, height, grid, controlFrames, budget;
     bool axes, quiet, help;
 } Options;
 
@@ -33,10 +33,11 @@ static void PrintHelp(void)
            "  --output FOLDER       where the pictures go (build/pictures)\n"
            "  --data FOLDER         where the outlines are (samples/data)\n"
            "  --ticks N             sixtieths of a second to run (the scene's own)\n"
-           "  --size WxH            of a picture, in pixels (640x480)\n"
+           "  --size WxH            of a picture, in pixels, 100x100 or more (640x480)\n"
            "  --every N             ticks from picture to picture (2); 0: no pictures\n"
            "  --grid N              grid squares along the sheet (the scene's own)\n"
            "  --control-frames N    control frames at the start (the scene's own)\n"
+           "  --budget N            blade points taken in one tick; 0: no limit (0)\n"
            "  --frames-axes         show the control frames\n"
            "  --weights all|N       colour the sheet by the shape functions of all frames, or of frame N\n"
            "  --quiet               no progress line\n"
@@ -86,6 +87,9 @@ static bool ReadValue(const char* name, const char* value, Options* options)
         return ReadNumber(value, 1, 4096, &options->grid);
     } else if (strcmp(name, "--control-frames") == 0) {
         return ReadNumber(value, 1, MAX_FRAMES, &options->controlFrames);
+    }
+    if (strcmp(name, "--budget") == 0) {
+        return ReadNumber(value, 0, 1 << 24, &options->budget);
     }
     return false;
 }
@@ -151,7 +155,11 @@ static void Film_Destroy(Film* film)
 
 static bool Film_Create(Film* film, const Options* options)
 {
-    *film = (Film){ .painter = Painter_Create(options->width, options->height) };
+    *film = (Film){ .painter = NULL };
+    if (options->every == 0) {
+        return true;
+    }
+    film->painter = Painter_Create(options->width, options->height);
     int32_t width = options->width / 2, height = options->height / 2;
     bool fine = film->painter != NULL && Image_Create(&film->picture, options->width, options->height) &&
                 Image_Create(&film->tile, width, height) &&
@@ -393,6 +401,9 @@ static void Record_Print(Record* record, const Scene* scene)
     printf("  %lld cut segments, %lld triangles split, %lld cells settled, %lld linear systems\n",
            (long long)record->cutSegments, (long long)record->trianglesSplit, (long long)record->cellsSettled,
            (long long)record->solverIterations);
+    uint64_t hash = 0;
+    kiriWorld_GetStateHash(scene->world, &hash);
+    printf("  state hash %016llx\n", (unsigned long long)hash);
 }
 
 /* ---- Running ---------------------------------------------------------------------------------------------------- */
@@ -425,7 +436,7 @@ static bool RunScene(Scene* scene, const Options* options)
     Film film;
     Record record;
     int32_t ticks = options->ticks > 0 ? options->ticks : scene->type->ticks;
-    if (!MakeFolders(options->output) || !Film_Create(&film, options)) {
+    if ((options->every > 0 && !MakeFolders(options->output)) || !Film_Create(&film, options)) {
         return false;
     }
     bool fine = Record_Create(&record, ticks);
@@ -456,9 +467,10 @@ int main(int count, char** words)
     kiriWorldDef def;
     kiriDefaultWorldDef(&def);
     def.clock = ReadClock;
-    SceneOptions sceneOptions = {
-        .dataFolder = options.data, .gridResolution = options.grid, .frameCount = options.controlFrames
-    };
+    def.cutBudget = options.budget;
+    SceneOptions sceneOptions = { .dataFolder = options.data,
+                                  .gridResolution = options.grid,
+                                  .frameCount = options.controlFrames };
     Scene scene;
     if (!Scene_Start(&scene, Scene_FindType(options.scene), &def, &sceneOptions)) {
         return 1;

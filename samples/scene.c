@@ -8,12 +8,12 @@
 
 /* ---- What scenes are made of ------------------------------------------------------------------------------------ */
 
-static kiriMaterial Cotton(void)
+static kiriMaterial Felt(void)
 {
     return (kiriMaterial){ .youngsModulus = 1e7f,
                            .poissonsRatio = 0.3f,
-                           .thickness = 0.0005f,
-                           .density = 400.0f,
+                           .thickness = 0.0015f,
+                           .density = 200.0f,
                            .airDamping = 0.8f,
                            .flexDamping = 0.03f };
 }
@@ -101,12 +101,13 @@ static bool StartBunny(Scene* scene, const SceneOptions* options)
     def.position[2] = 0.4f;
     memcpy(def.axisU, (float[]){ 1.0f, 0.0f, 0.0f }, sizeof def.axisU);
     memcpy(def.axisV, (float[]){ 0.0f, 0.0f, 1.0f }, sizeof def.axisV);
-    def.material = Cotton();
+    def.material = Felt();
     def.gridResolution = 50;
     def.frameCount = 9;
+    def.rigidArea = 0.022f;
     def.collisionPoints = 200;
-    if (!MakeRectangle(scene, &def, options, 1.0f, 1.0f, 64, 64) ||
-        !PinAt(scene, 0.0f, 1.0f, -0.49f, 0.0f, 1.4f) || !PinAt(scene, 1.0f, 1.0f, 0.49f, 0.0f, 1.4f)) {
+    if (!MakeRectangle(scene, &def, options, 1.0f, 1.0f, 64, 64) || !PinAt(scene, 0.0f, 1.0f, -0.49f, 0.0f, 1.4f) ||
+        !PinAt(scene, 1.0f, 1.0f, 0.49f, 0.0f, 1.4f)) {
         return false;
     }
 

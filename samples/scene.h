@@ -45,7 +45,7 @@ struct Scene {
     const SceneType* type;
     kiriWorld* world;
     kiriSheet sheet;
-    int32_t tick; /* ticks done */
+    int32_t tick;  /* ticks done */
     float* points; /* of all strokes */
     Stroke strokes[SCENE_MAX_STROKES];
     int32_t strokeCount;

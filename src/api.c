@@ -1,4 +1,5 @@
 /* The public API: checks arguments, turns ids into pointers, and calls the floor below. The only file that does either. */
+#include "material.h"
 #include "snapshot.h"
 #include "world.h"
 
@@ -61,9 +62,18 @@ static bool AreFinite(const float* values, int32_t count)
     return true;
 }
 
-static bool IsAbove(float value, float low) { return isfinite(value) && value > low; }
-static bool IsAtLeast(float value, float low) { return isfinite(value) && value >= low; }
-static bool IsWithin(int32_t value, int32_t low, int32_t high) { return value >= low && value <= high; }
+static bool IsAbove(float value, float low)
+{
+    return isfinite(value) && value > low;
+}
+static bool IsAtLeast(float value, float low)
+{
+    return isfinite(value) && value >= low;
+}
+static bool IsWithin(int32_t value, int32_t low, int32_t high)
+{
+    return value >= low && value <= high;
+}
 
 static bool AreOrthonormal(const float* a, const float* b)
 {
@@ -85,16 +95,26 @@ int32_t kiriGetVersion(void)
 const char* kiriGetResultName(kiriResult result)
 {
     switch (result) {
-    case KIRI_OK: return "KIRI_OK";
-    case KIRI_PENDING: return "KIRI_PENDING";
-    case KIRI_ERROR_ARGUMENT: return "KIRI_ERROR_ARGUMENT";
-    case KIRI_ERROR_DEF: return "KIRI_ERROR_DEF";
-    case KIRI_ERROR_ID: return "KIRI_ERROR_ID";
-    case KIRI_ERROR_MESH: return "KIRI_ERROR_MESH";
-    case KIRI_ERROR_STATE: return "KIRI_ERROR_STATE";
-    case KIRI_ERROR_MEMORY: return "KIRI_ERROR_MEMORY";
-    case KIRI_DIVERGED: return "KIRI_DIVERGED";
-    default: return "unknown";
+    case KIRI_OK:
+        return "KIRI_OK";
+    case KIRI_PENDING:
+        return "KIRI_PENDING";
+    case KIRI_ERROR_ARGUMENT:
+        return "KIRI_ERROR_ARGUMENT";
+    case KIRI_ERROR_DEF:
+        return "KIRI_ERROR_DEF";
+    case KIRI_ERROR_ID:
+        return "KIRI_ERROR_ID";
+    case KIRI_ERROR_MESH:
+        return "KIRI_ERROR_MESH";
+    case KIRI_ERROR_STATE:
+        return "KIRI_ERROR_STATE";
+    case KIRI_ERROR_MEMORY:
+        return "KIRI_ERROR_MEMORY";
+    case KIRI_DIVERGED:
+        return "KIRI_DIVERGED";
+    default:
+        return "unknown";
     }
 }
 
@@ -122,7 +142,7 @@ static kiriResult CheckWorldDef(const kiriWorldDef* def)
         return KIRI_ERROR_DEF;
     }
     bool hooksMatch = (def->alloc == NULL) == (def->free == NULL);
-    return hooksMatch && AreFinite(def->gravity, 3) ? KIRI_OK : KIRI_ERROR_ARGUMENT;
+    return hooksMatch && def->cutBudget >= 0 && AreFinite(def->gravity, 3) ? KIRI_OK : KIRI_ERROR_ARGUMENT;
 }
 
 kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
@@ -151,6 +171,7 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     made->clock = def->clock;
     made->user = def->user;
     made->gravity = kiriVec3_Load(def->gravity);
+    made->cutBudget = def->cutBudget;
     made->stage = KIRI_NONE;
     kiriPool_Init(&made->sheetIds, KIRI_KIND_SHEET);
     kiriPool_Init(&made->cutIds, KIRI_KIND_CUT);
@@ -236,19 +257,27 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     if (def == NULL) {
         return;
     }
-    /* Cotton cloth in its look; the material is the host's to choose. */
-    static const kiriMaterial cloth = { 5e6f, 0.3f, 5e-4f, 400.0f, 0.5f, 2e-3f };
     memset(def, 0, sizeof(*def));
     def->cookie = COOKIE(kiriSheetDef);
     def->axisU[0] = 1.0f;
     def->axisV[1] = 1.0f;
-    def->material = cloth;
+    def->material = *kiriMaterial_Preset(KIRI_MATERIAL_COTTON);
     def->gridResolution = 32;
     def->frameCount = 5;
     def->maxFrames = 256;
     def->rigidWeight = 0.95f;
     def->iterations = 2;
     def->integrationOrder = 1;
+}
+
+kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material)
+{
+    const kiriMaterial* found = kiriMaterial_Preset(preset);
+    if (found == NULL || material == NULL) {
+        return KIRI_ERROR_ARGUMENT;
+    }
+    *material = *found;
+    return KIRI_OK;
 }
 
 static const char* FaultOfMaterial(const kiriMaterial* m)
@@ -380,7 +409,8 @@ kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* 
     return KIRI_OK;
 }
 
-kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet, const float** positions, int32_t* count)
+kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet, const float** positions,
+                                        int32_t* count)
 {
     BEGIN(world);
     CHECK(positions != NULL && count != NULL, "positions or count is null");
@@ -463,6 +493,7 @@ static void Wait(kiriCutData* cut, kiriVec2 to, bool jump)
 {
     kiriSheetData* sheet = cut->sheet;
     kiriStroke stroke = { cut, to, jump };
+    cut->waiting += 1;
     sheet->queue.data[sheet->queue.count++] = stroke;
 }
 
@@ -654,8 +685,8 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
     int32_t frame = inRange ? kiriSheet_FrameAt(data, made.at) : KIRI_NONE;
     CHECK(frame != KIRI_NONE, "restPoint lies outside the material");
     made.target = kiriVec3_Load(def->target);
-    made.stiffness = def->stiffness > 0.0f ? def->stiffness
-                                           : 10.0 * data->material.youngsModulus * data->material.thickness;
+    made.stiffness =
+        def->stiffness > 0.0f ? def->stiffness : 10.0 * data->material.youngsModulus * data->material.thickness;
     if (!kiriPool_Reserve(&world->pinIds, &world->memory, 1) || !kiriSheet_AddPin(data, &made, frame)) {
         return FAIL(KIRI_ERROR_MEMORY, "out of memory");
     }
@@ -691,8 +722,7 @@ static const char* FaultOfContact(const kiriContact* contact, int32_t points)
     if (!IsWithin(contact->point, 0, points - 1)) {
         return "a contact names no collision point";
     }
-    if (!AreFinite(contact->normal, 3) ||
-        fabs(kiriVec3_Length(kiriVec3_Load(contact->normal)) - 1.0) > 1e-3) {
+    if (!AreFinite(contact->normal, 3) || fabs(kiriVec3_Length(kiriVec3_Load(contact->normal)) - 1.0) > 1e-3) {
         return "the normal of a contact is not a unit vector";
     }
     return isfinite(contact->offset) && IsAtLeast(contact->friction, 0.0f) && IsAbove(contact->stiffness, 0.0f)

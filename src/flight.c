@@ -34,10 +34,9 @@ static kiriMat3 Weighted(const kiriMassMoments* m, const kiriMat3* A)
     return r;
 }
 
-kiriMat3 kiriFlight_Inertia(const kiriFlight* flight, const kiriMat3* A)
+static kiriMat3 Inertia(const kiriMassMoments* m, const kiriMat3* A)
 {
     /* trace(M) - A M A^T, M the moments */
-    const kiriMassMoments* m = &flight->moments;
     double trace = m->uu + m->vv + m->dd;
     kiriMat3 w = Weighted(m, A), r;
     r.u = kiriVec3_Sub(kiriVec3_Make(trace, 0.0, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.x, A->v.x, A->d.x)));
@@ -52,23 +51,53 @@ static kiriMat3 Difference(const kiriMat3* A, const kiriMat3* B)
     return off;
 }
 
+static double SumDot(const kiriMat3* A, const kiriMat3* B)
+{
+    return kiriVec3_Dot(A->u, B->u) + kiriVec3_Dot(A->v, B->v) + kiriVec3_Dot(A->d, B->d);
+}
+
+static kiriVec3 SumCross(const kiriMat3* A, const kiriMat3* B)
+{
+    return kiriVec3_Add(kiriVec3_Add(kiriVec3_Cross(A->u, B->u), kiriVec3_Cross(A->v, B->v)),
+                        kiriVec3_Cross(A->d, B->d));
+}
+
 kiriMat3 kiriFlight_Gradient(const kiriFlight* flight, const kiriMat3* A)
 {
     kiriMat3 off = Difference(A, &flight->pose.A);
     return Weighted(&flight->moments, &off);
 }
 
+kiriMat3 kiriFlight_Inertia(const kiriFlight* flight, const kiriMat3* A)
+{
+    return Inertia(&flight->moments, A);
+}
+
+kiriVec3 kiriFrame_AngularMomentum(const kiriFrameData* frame, const kiriMaterial* material)
+{
+    kiriMassMoments moments = MomentsOf(frame, (double)material->thickness);
+    kiriMat3 weighted = Weighted(&moments, &frame->A), rate = kiriFrame_Rate(frame);
+    return SumCross(&weighted, &rate);
+}
+
+double kiriFrame_KineticEnergy(const kiriFrameData* frame, const kiriMaterial* material)
+{
+    kiriMassMoments moments = MomentsOf(frame, (double)material->thickness);
+    kiriMat3 rate = kiriFrame_Rate(frame), weighted = Weighted(&moments, &rate);
+    return 0.5 * frame->mass * kiriVec3_Dot(frame->velocity, frame->velocity) + 0.5 * SumDot(&weighted, &rate);
+}
+
 double kiriFlight_TurnSquared(const kiriFlight* flight, const kiriMat3* A)
 {
     kiriMat3 off = Difference(A, &flight->pose.A);
     kiriMat3 w = Weighted(&flight->moments, &off);
-    return kiriVec3_Dot(w.u, off.u) + kiriVec3_Dot(w.v, off.v) + kiriVec3_Dot(w.d, off.d);
+    return SumDot(&w, &off);
 }
 
 kiriVec3 kiriFlight_TurnGradient(const kiriFlight* flight, const kiriMat3* A)
 {
     kiriMat3 w = Weighted(&flight->moments, &flight->pose.A);
-    return kiriVec3_Add(kiriVec3_Add(kiriVec3_Cross(w.u, A->u), kiriVec3_Cross(w.v, A->v)), kiriVec3_Cross(w.d, A->d));
+    return SumCross(&w, A);
 }
 
 /* The Cayley vector that turns by |w|, to the sixth order. */
@@ -121,8 +150,12 @@ static void TurnFreely(kiriFlight* flight, kiriVec3 L, double dt)
 
 kiriFlight kiriFlight_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity, double dt)
 {
-    kiriFlight flight = { MomentsOf(frame, (double)material->thickness), kiriPose_Of(frame), frame->velocity,
-                          frame->spin, None, kiriPose_Of(frame) };
+    kiriFlight flight = { MomentsOf(frame, (double)material->thickness),
+                          kiriPose_Of(frame),
+                          frame->velocity,
+                          frame->spin,
+                          None,
+                          kiriPose_Of(frame) };
     double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
     kiriVec3 coasting = kiriVec3_Scale(fade, frame->velocity);
     kiriVec3 push = kiriVec3_AddScaled(gravity, 1.0 / frame->mass, frame->force);
@@ -151,23 +184,22 @@ static kiriMat3 Cross(kiriVec3 w, const kiriMat3* A)
     return r;
 }
 
-/* Sum of the cross products of the columns. */
-static kiriVec3 SumCross(const kiriMat3* A, const kiriMat3* B)
-{
-    return kiriVec3_Add(kiriVec3_Add(kiriVec3_Cross(A->u, B->u), kiriVec3_Cross(A->v, B->v)),
-                        kiriVec3_Cross(A->d, B->d));
-}
-
 /* The inertia of an A that is no rotation. It has an inverse even where A has collapsed. */
 static kiriMat3 AffineInertia(const kiriMassMoments* m, const kiriMat3* A)
 {
     kiriMat3 w = Weighted(m, A), r;
-    double trace = kiriVec3_Dot(w.u, A->u) + kiriVec3_Dot(w.v, A->v) + kiriVec3_Dot(w.d, A->d);
+    double trace = SumDot(&w, A);
     trace += 1e-12 * (trace + m->uu + m->vv + m->dd);
     r.u = kiriVec3_Sub(kiriVec3_Make(trace, 0.0, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.x, A->v.x, A->d.x)));
     r.v = kiriVec3_Sub(kiriVec3_Make(0.0, trace, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.y, A->v.y, A->d.y)));
     r.d = kiriVec3_Sub(kiriVec3_Make(0.0, 0.0, trace), kiriMat3_Mul(w, kiriVec3_Make(A->u.z, A->v.z, A->d.z)));
     return r;
+}
+
+kiriMat3 kiriFrame_Inertia(const kiriFrameData* frame, const kiriMaterial* material)
+{
+    kiriMassMoments moments = MomentsOf(frame, (double)material->thickness);
+    return AffineInertia(&moments, &frame->A);
 }
 
 kiriVec3 kiriMat3_Spin(const kiriMat3* A, const kiriMat3* rate)

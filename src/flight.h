@@ -1,4 +1,4 @@
-/* A rigid frame by itself: its mass, and how it flies over a step when no link, pin or contact acts on it. */
+/* A frame by itself: its mass, and how it flies over a step when no link, pin or contact acts on it. */
 #ifndef KIRI_FLIGHT_H
 #define KIRI_FLIGHT_H
 
@@ -22,7 +22,7 @@ typedef struct kiriFlight {
     kiriMassMoments moments;
     kiriPose pose; /* at the end of the step */
     kiriVec3 velocity, spin;
-    kiriMat3 rate; /* of A, all of it; of affine frames only */
+    kiriMat3 rate;  /* of A, all of it; of affine frames only */
     kiriPose coast; /* the same without forces */
 } kiriFlight;
 
@@ -54,7 +54,13 @@ kiriMat3 kiriMat3_Beside(const kiriMat3* A, const kiriMat3* rate, kiriVec3 spin)
 /* The way of a frame that the host moves. */
 kiriFlight kiriFlight_Held(const kiriFrameData* frame, const kiriMaterial* material, double dt);
 
-/* The inertia tensor, symmetric, in space. */
+/* Kinetic energy, J, and angular momentum about the centre of mass, rigid or not; and by how much the latter grows with
+   the spin, symmetric, in space. */
+double kiriFrame_KineticEnergy(const kiriFrameData* frame, const kiriMaterial* material);
+kiriVec3 kiriFrame_AngularMomentum(const kiriFrameData* frame, const kiriMaterial* material);
+kiriMat3 kiriFrame_Inertia(const kiriFrameData* frame, const kiriMaterial* material);
+
+/* The inertia tensor of a rigid frame, symmetric, in space. */
 kiriMat3 kiriFlight_Inertia(const kiriFlight* flight, const kiriMat3* A);
 
 /* Sum over the region's mass points p of m |A p - A* p|^2, with A* that the flight ends with. */

@@ -7,9 +7,9 @@
 
 /* Lengths on the grid are whole numbers, so that sums are exact and a distance does not depend on the order of work. */
 enum {
-    KIRI_UNIT = 256,            /* the side of a square */
-    KIRI_UNIT_DIAGONAL = 362,   /* times sqrt 2 */
-    KIRI_UNIT_KNIGHT = 572,     /* times sqrt 5 */
+    KIRI_UNIT = 256,          /* the side of a square */
+    KIRI_UNIT_DIAGONAL = 362, /* times sqrt 2 */
+    KIRI_UNIT_KNIGHT = 572,   /* times sqrt 5 */
 };
 
 typedef struct kiriCell {
@@ -38,14 +38,14 @@ typedef struct kiriStep {
 } kiriStep;
 
 typedef struct kiriGrid {
-    double side; /* m */
-    KIRI_ARRAY(kiriCell) cells;      /* square by square, in one square by lowest triangle */
+    double side;                /* m */
+    KIRI_ARRAY(kiriCell) cells; /* square by square, in one square by lowest triangle */
     KIRI_ARRAY(kiriFace) faces;
-    KIRI_ARRAY(int32_t) faceHead;    /* a cell's first face, or KIRI_NONE */
-    KIRI_ARRAY(int32_t) stepStart;   /* cells + 1 */
-    KIRI_ARRAY(kiriStep) steps;      /* of cell c: stepStart[c] to stepStart[c + 1] */
-    KIRI_ARRAY(int32_t) squareCell;  /* a square's first cell, or KIRI_NONE */
-    KIRI_ARRAY(int32_t) nodeCell;    /* the cell of each node of mesh->squares.nodes, or KIRI_NONE for free nodes */
+    KIRI_ARRAY(int32_t) faceHead;   /* a cell's first face, or KIRI_NONE */
+    KIRI_ARRAY(int32_t) stepStart;  /* cells + 1 */
+    KIRI_ARRAY(kiriStep) steps;     /* of cell c: stepStart[c] to stepStart[c + 1] */
+    KIRI_ARRAY(int32_t) squareCell; /* a square's first cell, or KIRI_NONE */
+    KIRI_ARRAY(int32_t) nodeCell;   /* the cell of each node of mesh->squares.nodes, or KIRI_NONE for free nodes */
     int32_t pieces;
 } kiriGrid;
 

@@ -3,6 +3,7 @@
 /* Before our own header, which includes C's headers as C. */
 #include <Eigen/Sparse>
 #include <algorithm>
+#include <cfloat>
 #include <new>
 #include <vector>
 
@@ -12,6 +13,8 @@ namespace
 {
 
 typedef Eigen::SparseMatrix<double> Matrix;
+
+const double LAST_BITS = 8.0 * DBL_EPSILON; /* of an entry: what a few operations round off */
 
 /* Eigen's factorisation of the upper triangle, in our own order of unknowns: so it takes the matrix as it is, without a
    copy, and allocates nothing once it is analysed. */
@@ -25,7 +28,7 @@ class Factor : public Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Eigen::Natural
     bool Factorize(const Matrix& matrix)
     {
         this->template factorize_preordered<true>(matrix);
-        return info() == Eigen::Success;
+        return info() == Eigen::Success && this->m_diag.size() > 0 && this->m_diag.minCoeff() > 0.0;
     }
 };
 
@@ -53,6 +56,16 @@ namespace
 {
 
 typedef std::vector<Eigen::Triplet<double>> Entries;
+
+/* Where springs are stiffer than inertia by more than doubles tell apart, elimination cancels what the inertia put on
+   the diagonal, and rounding decides the sign. An addition of the size of what is rounded off makes the matrix
+   positive; so light a sheet then falls too slowly. */
+void ShiftDiagonal(kiriMatrix* matrix)
+{
+    for (Eigen::Index c = 0; c < matrix->values.cols(); ++c) {
+        matrix->values.valuePtr()[matrix->values.outerIndexPtr()[c + 1] - 1] *= 1.0 + LAST_BITS;
+    }
+}
 
 /* An order of the frames that keeps the factor sparse. */
 void PlaceFrames(kiriMatrix* matrix, const kiriPair* pairs, int64_t pairCount)
@@ -218,6 +231,10 @@ extern "C" void kiriMatrix_AddSquares(kiriMatrix* matrix, const int32_t* frames,
 extern "C" bool kiriMatrix_Factor(kiriMatrix* matrix)
 {
     try {
+        if (matrix->factor.Factorize(matrix->values)) {
+            return true;
+        }
+        ShiftDiagonal(matrix);
         return matrix->factor.Factorize(matrix->values);
     } catch (...) {
         return false;

@@ -34,7 +34,8 @@ void kiriMatrix_AddOwn(kiriMatrix* matrix, int32_t frame, const double* block);
 void kiriMatrix_AddSquares(kiriMatrix* matrix, const int32_t* frames, int32_t frameCount, const double* J,
                            const double* k, int32_t rows);
 
-/* False when there is no factor. Solve needs one; both sides have size numbers a frame. */
+/* May add to the diagonal what rounding takes off. False when there is no factor even then. Solve needs one; both sides
+   have size numbers a frame. */
 bool kiriMatrix_Factor(kiriMatrix* matrix);
 void kiriMatrix_Solve(kiriMatrix* matrix, const double* right, double* solution);
 

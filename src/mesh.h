@@ -109,8 +109,14 @@ static inline kiriVec2 kiriMesh_Local(const kiriMeshData* mesh, kiriPoint p)
 kiriPoint kiriMesh_Round(kiriVec2 lattice);
 kiriPoint kiriMesh_Snap(const kiriMeshData* mesh, kiriVec2 local);
 
-static inline int32_t kiriEdge_Next(int32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
-static inline int32_t kiriEdge_Previous(int32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+static inline int32_t kiriEdge_Next(int32_t h)
+{
+    return h % 3 == 2 ? h - 2 : h + 1;
+}
+static inline int32_t kiriEdge_Previous(int32_t h)
+{
+    return h % 3 == 0 ? h + 2 : h - 1;
+}
 
 static inline int32_t kiriMesh_Tail(const kiriMeshData* mesh, int32_t h)
 {

@@ -1,5 +1,7 @@
 #include "motion.h"
 
+#include "flight.h"
+
 #include <string.h>
 
 static void WritePinRows(kiriSheetData* sheet)
@@ -26,8 +28,9 @@ static void WriteContactRows(kiriSheetData* sheet)
         kiriVec3 normal = kiriVec3_Load(contact->normal);
         kiriVec3 seen = kiriSkin_Position(&sheet->model.pointSkin, contact->point, sheet->frames.data, at);
         kiriVec3 off = kiriVec3_Sub(kiriFrame_Carry(&sheet->frames.data[frame], at), seen);
-        kiriContactRow row = { frame, at, normal, contact->offset + kiriVec3_Dot(normal, off), contact->friction,
-                               contact->stiffness };
+        kiriContactRow row = {
+            frame, at, normal, contact->offset + kiriVec3_Dot(normal, off), contact->friction, contact->stiffness
+        };
         sheet->contactRows.data[i] = row;
     }
 }
@@ -87,26 +90,6 @@ int32_t kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int3
     return total;
 }
 
-double kiriMotion_KineticEnergy(const kiriFrameData* frame)
-{
-    kiriMat3 rate = kiriFrame_Rate(frame);
-    kiriVec3 u = rate.u, v = rate.v;
-    return 0.5 * frame->mass * kiriVec3_Dot(frame->velocity, frame->velocity) +
-           0.5 * frame->inertia[0] * kiriVec3_Dot(u, u) + frame->inertia[1] * kiriVec3_Dot(u, v) +
-           0.5 * frame->inertia[2] * kiriVec3_Dot(v, v);
-}
-
-kiriVec3 kiriMotion_AngularMomentum(const kiriFrameData* frame)
-{
-    /* The integral of density r x r', with r = u A_u + v A_v. */
-    kiriMat3 rate = kiriFrame_Rate(frame);
-    kiriVec3 u = rate.u, v = rate.v;
-    kiriVec3 momentum = kiriVec3_Scale(frame->inertia[0], kiriVec3_Cross(frame->A.u, u));
-    momentum = kiriVec3_AddScaled(momentum, frame->inertia[1], kiriVec3_Cross(frame->A.u, v));
-    momentum = kiriVec3_AddScaled(momentum, frame->inertia[1], kiriVec3_Cross(frame->A.v, u));
-    return kiriVec3_AddScaled(momentum, frame->inertia[2], kiriVec3_Cross(frame->A.v, v));
-}
-
 static void StoreDoubles(double* to, kiriVec3 a)
 {
     to[0] = a.x;
@@ -124,10 +107,11 @@ kiriTotals kiriMotion_Totals(const kiriSheetData* sheet)
         kiriVec3 p = kiriVec3_Scale(frame->mass, frame->velocity);
         totals.area += frame->area;
         totals.mass += frame->mass;
-        totals.kineticEnergy += kiriMotion_KineticEnergy(frame);
+        totals.kineticEnergy += kiriFrame_KineticEnergy(frame, &sheet->material);
         center = kiriVec3_AddScaled(center, frame->mass, frame->x);
         momentum = kiriVec3_Add(momentum, p);
-        angular = kiriVec3_Add(angular, kiriVec3_Add(kiriMotion_AngularMomentum(frame), kiriVec3_Cross(frame->x, p)));
+        angular = kiriVec3_Add(angular, kiriFrame_AngularMomentum(frame, &sheet->material));
+        angular = kiriVec3_Add(angular, kiriVec3_Cross(frame->x, p));
     }
     kiriSystem system = MakeSystem((kiriSheetData*)sheet, kiriVec3_Make(0.0, 0.0, 0.0));
     totals.elasticEnergy = kiriSolver_ElasticEnergy(&system);

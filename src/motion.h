@@ -10,8 +10,4 @@ int32_t kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int3
 
 kiriTotals kiriMotion_Totals(const kiriSheetData* sheet);
 
-/* The kinetic energy of a frame, J, and its angular momentum about its centre of mass. */
-double kiriMotion_KineticEnergy(const kiriFrameData* frame);
-kiriVec3 kiriMotion_AngularMomentum(const kiriFrameData* frame);
-
 #endif

@@ -40,7 +40,7 @@ typedef struct kiriShare {
 } kiriShare;
 
 typedef struct kiriPatch {
-    double area;               /* m^2 */
+    double area; /* m^2 */
     double lean;
     int32_t first, count;      /* shares, by frame */
     int32_t firstRow, lastRow; /* the strains that count */

@@ -79,7 +79,7 @@ static bool Measure(kiriRegions* regions, const kiriMemory* memory, const kiriGr
         return false;
     }
     for (int32_t i = 0; i < siteCount; ++i) {
-        regions->regions.data[i] = (kiriRegion){ { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 }, 0 };
+        regions->regions.data[i] = (kiriRegion){ { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 }, 0, { 0.0, 0.0, 0.0 } };
     }
     for (int32_t c = 0; c < grid->cells.count; ++c) {
         if (regions->owner.data[c] != KIRI_NONE) {
@@ -310,8 +310,10 @@ static void SetLength(const Border* border, kiriLink* link)
     Way way = ShortestWay(border);
     link->length = way.length * (border->grid->side / KIRI_UNIT);
     link->crossing = way.crossing;
+    link->span = kiriVec2_Scale(link->length, link->normal);
     if (link->length < 1.08 * straight + 0.5 * border->grid->side) {
         link->length = straight;
+        link->span = kiriVec2_Sub(b, a);
         link->crossing = kiriVec2_Scale(0.5, kiriVec2_Add(a, b));
     }
     double least = 0.1 * border->grid->side;
@@ -357,6 +359,34 @@ static bool AddLinks(Border* border)
     return true;
 }
 
+static void AddSpread(kiriRegion* region, const kiriLink* link)
+{
+    double half = 0.5 * link->width * link->length;
+    region->spread[0] += half * link->normal.x * link->normal.x;
+    region->spread[1] += half * link->normal.x * link->normal.y;
+    region->spread[2] += half * link->normal.y * link->normal.y;
+}
+
+static double BracedIn(const kiriRegion* region, kiriVec2 t)
+{
+    const double* spread = region->spread;
+    double sum = t.x * t.x * spread[0] + 2.0 * t.x * t.y * spread[1] + t.y * t.y * spread[2];
+    return sum < region->material.area ? sum / region->material.area : 1.0;
+}
+
+static void SetBraced(kiriRegions* regions)
+{
+    for (int32_t k = 0; k < regions->links.count; ++k) {
+        AddSpread(&regions->regions.data[regions->links.data[k].i], &regions->links.data[k]);
+        AddSpread(&regions->regions.data[regions->links.data[k].j], &regions->links.data[k]);
+    }
+    for (int32_t k = 0; k < regions->links.count; ++k) {
+        kiriLink* link = &regions->links.data[k];
+        const kiriRegion *i = &regions->regions.data[link->i], *j = &regions->regions.data[link->j];
+        link->braced = 0.5 * (BracedIn(i, link->tangent) + BracedIn(j, link->tangent));
+    }
+}
+
 /* One pass of a radix sort: stable, by i or by j. */
 static void SortLinks(const kiriLink* from, kiriLink* to, int32_t count, int32_t* start, int32_t siteCount, bool byI)
 {
@@ -397,6 +427,9 @@ bool kiriRegions_Build(kiriRegions* regions, const kiriMemory* memory, const kir
     regions->links.count = 0;
     bool ok = kiriRegions_Divide(regions, memory, grid, mesh, field, sites, siteCount) &&
               Measure(regions, memory, grid, siteCount) && AddLinks(&border) && OrderLinks(regions, memory, siteCount);
+    if (ok) {
+        SetBraced(regions);
+    }
     kiriArray_Release(memory, &border.marks);
     kiriArray_Release(memory, &border.stretch);
     return ok;

@@ -21,6 +21,8 @@ bool kiriSite_Seed(const kiriSite* site, int32_t owner, const kiriMemory* memory
 typedef struct kiriRegion {
     kiriMoments material; /* about the local origin */
     int32_t reach;        /* d_max: the largest distance in it from its frame */
+    double spread[3];     /* half the sum of W l n n over its links: uu, uv, vv; about the area times the identity
+                             where neighbours are all around, less at free edges */
 } kiriRegion;
 
 /* One connected stretch of border between regions i < j. */
@@ -29,6 +31,8 @@ typedef struct kiriLink {
     double width;      /* W: length of the vector sum of its faces, m */
     double length;     /* l: from site i to site j through it, m */
     double moment;     /* I: second moment of the border along the tangent about the centroid, m^3 */
+    double braced;     /* how far its regions have neighbours along the tangent: 0 in a strip one region wide, to 1 */
+    kiriVec2 span;     /* s: from site i to site j; l along the normal where the way between them is not straight */
     kiriVec2 normal;   /* unit, from i to j */
     kiriVec2 tangent;  /* unit, the normal turned left */
     kiriVec2 centroid; /* b: of the border, local m */

@@ -12,8 +12,7 @@ static bool Begin(kiriSkin* skin, const kiriMemory* memory, int32_t sampleCount)
 {
     skin->start.count = 0;
     skin->weights.count = 0;
-    return kiriArray_Reserve(memory, &skin->start, (int64_t)sampleCount + 1) &&
-           kiriArray_Push(memory, &skin->start, 0);
+    return kiriArray_Reserve(memory, &skin->start, (int64_t)sampleCount + 1) && kiriArray_Push(memory, &skin->start, 0);
 }
 
 /* One more sample, with these weights. */

@@ -116,7 +116,8 @@ static void StartFrame(kiriSheetData* sheet, const kiriSheetDef* def, int32_t in
     frame->center = site.at;
     frame->A = sheet->mechanics.axes;
     kiriVec2 rest = kiriVec2_Add(sheet->mesh.origin, site.at);
-    frame->x = kiriVec3_AddScaled(kiriVec3_AddScaled(kiriVec3_Load(def->position), rest.x, frame->A.u), rest.y, frame->A.v);
+    frame->x =
+        kiriVec3_AddScaled(kiriVec3_AddScaled(kiriVec3_Load(def->position), rest.x, frame->A.u), rest.y, frame->A.v);
     frame->velocity = kiriVec3_Load(def->velocity);
     if (sheet->mechanics.planar) {
         double across = kiriVec3_Dot(frame->velocity, frame->A.d);
@@ -143,7 +144,8 @@ static kiriResult Build(kiriSheetData* sheet, const kiriSheetDef* def, const cha
     if (result != KIRI_OK) {
         return result;
     }
-    if (!SpreadSites(sheet, def->framePoints != NULL ? 0 : def->frameCount) || !kiriSheet_BuildShape(sheet) || !kiriSheet_BuildSamples(sheet) || !kiriSheet_BuildConstants(sheet)) {
+    if (!SpreadSites(sheet, def->framePoints != NULL ? 0 : def->frameCount) || !kiriSheet_BuildShape(sheet) ||
+        !kiriSheet_BuildSamples(sheet) || !kiriSheet_BuildConstants(sheet)) {
         return KIRI_ERROR_MEMORY;
     }
     sheet->frames.count = sheet->next.sites.count;
@@ -196,7 +198,7 @@ static bool TakeStroke(kiriSheetData* sheet, const kiriStroke* stroke)
 bool kiriSheet_SplitMesh(kiriSheetData* sheet)
 {
     kiriMesh_Begin(&sheet->mesh);
-    for (int32_t i = 0; i < sheet->queue.count; ++i) {
+    for (int32_t i = 0; i < sheet->granted; ++i) {
         if (!TakeStroke(sheet, &sheet->queue.data[i])) {
             return false;
         }
@@ -296,7 +298,8 @@ static bool MarkRigidCells(const kiriSheetData* sheet, uint8_t* rigid)
 static bool PlaceIn(kiriSheetData* sheet, int32_t piece, const uint8_t* allowed, int32_t count)
 {
     kiriModel* next = &sheet->next;
-    return kiriFrames_Place(&next->sites, sheet->memory, &next->grid, &sheet->mesh, &sheet->field, piece, allowed, count);
+    return kiriFrames_Place(&next->sites, sheet->memory, &next->grid, &sheet->mesh, &sheet->field, piece, allowed,
+                            count);
 }
 
 /* One more site in the piece, in a rigid cell. In a piece all of whose sites are new they are all placed again, to lie
@@ -346,8 +349,8 @@ bool kiriSheet_BuildShape(kiriSheetData* sheet)
     kiriModel* next = &sheet->next;
     bool added = true;
     while (added) {
-        if (!kiriRegions_Build(&next->regions, sheet->memory, &next->grid, &sheet->mesh, &sheet->field, next->sites.data,
-                               next->sites.count) ||
+        if (!kiriRegions_Build(&next->regions, sheet->memory, &next->grid, &sheet->mesh, &sheet->field,
+                               next->sites.data, next->sites.count) ||
             !kiriShape_Build(&next->shape, sheet->memory, &next->grid, &sheet->mesh, &next->regions, &sheet->field,
                              next->sites.data, next->sites.count) ||
             !AddFrames(sheet, &added)) {
@@ -373,7 +376,8 @@ static bool BuildPoints(kiriSheetData* sheet)
         kiriSample sample = { old->data[i].at, kiriSheet_CellAt(next, &sheet->mesh, old->data[i].at) };
         next->points.data[next->points.count++] = sample;
     }
-    return kiriSamples_Spread(&next->points, sheet->memory, &next->grid, &sheet->mesh, &sheet->field, sheet->pointCount);
+    return kiriSamples_Spread(&next->points, sheet->memory, &next->grid, &sheet->mesh, &sheet->field,
+                              sheet->pointCount);
 }
 
 bool kiriSheet_BuildSamples(kiriSheetData* sheet)
@@ -381,7 +385,8 @@ bool kiriSheet_BuildSamples(kiriSheetData* sheet)
     kiriModel* next = &sheet->next;
     return BuildPoints(sheet) &&
            kiriSkin_BuildVertices(&next->vertexSkin, sheet->memory, &next->shape, &next->grid, &sheet->mesh) &&
-           kiriSkin_BuildSamples(&next->pointSkin, sheet->memory, &next->shape, &next->grid, &sheet->mesh, &next->points);
+           kiriSkin_BuildSamples(&next->pointSkin, sheet->memory, &next->shape, &next->grid, &sheet->mesh,
+                                 &next->points);
 }
 
 /* The old piece that the material of a cell was in: that of a frame which moves it on the old surface. */
@@ -522,7 +527,15 @@ void kiriSheet_SwapModel(kiriSheetData* sheet)
 void kiriSheet_Commit(kiriSheetData* sheet)
 {
     kiriMesh_Commit(&sheet->mesh);
-    sheet->queue.count = 0;
+    for (int32_t i = 0; i < sheet->queue.count; ++i) {
+        if (i < sheet->granted) {
+            sheet->queue.data[i].cut->waiting -= 1;
+        } else {
+            sheet->queue.data[i - sheet->granted] = sheet->queue.data[i];
+        }
+    }
+    sheet->queue.count -= sheet->granted;
+    sheet->granted = 0;
     for (int32_t i = 0; i < sheet->cuts.count; ++i) {
         sheet->cuts.data[i]->committed = sheet->cuts.data[i]->tip;
     }
@@ -548,7 +561,8 @@ int32_t kiriSheet_FrameAt(const kiriSheetData* sheet, kiriPoint at)
 bool kiriSheet_AddPin(kiriSheetData* sheet, const kiriPinData* pin, int32_t frame)
 {
     int64_t need = (int64_t)sheet->pins.count + 1;
-    if (!kiriArray_Reserve(sheet->memory, &sheet->pins, need) || !kiriArray_Reserve(sheet->memory, &sheet->pinRows, need) ||
+    if (!kiriArray_Reserve(sheet->memory, &sheet->pins, need) ||
+        !kiriArray_Reserve(sheet->memory, &sheet->pinRows, need) ||
         !kiriArray_Reserve(sheet->memory, &sheet->model.pinFrame, need)) {
         return false;
     }

@@ -23,7 +23,7 @@ typedef struct kiriModel {
     kiriShape shape;
     kiriSamples points;
     kiriSkin vertexSkin, pointSkin;
-    kiriPatches patches; /* of affine frames */
+    kiriPatches patches;          /* of affine frames */
     KIRI_ARRAY(int32_t) pinFrame; /* the frame that each pin holds */
     kiriSolver* solver;
 } kiriModel;
@@ -45,7 +45,8 @@ typedef struct kiriCutData {
     kiriCut id;
     struct kiriSheetData* sheet;
     kiriTip tip, committed;
-    bool ended; /* by the host; finished when the queue has been taken */
+    int32_t waiting; /* points in the queue */
+    bool ended;      /* by the host; finished when none waits */
 } kiriCutData;
 
 /* A point that waits for the next tick. */
@@ -70,6 +71,7 @@ typedef struct kiriSheetData {
     kiriField field;       /* scratch of the next model */
 
     KIRI_ARRAY(kiriStroke) queue;
+    int32_t granted; /* strokes of the queue that this tick takes */
     KIRI_ARRAY(kiriCutData*) cuts;
     KIRI_ARRAY(kiriPinData) pins;
     KIRI_ARRAY(kiriContact) contacts;
@@ -81,6 +83,7 @@ typedef struct kiriSheetData {
     /* What the host reads, see view.h. */
     KIRI_ARRAY(float) positions, normals, restPositions, sourceWeights, pointPositions;
     KIRI_ARRAY(int32_t) indices, sourceTriangles;
+    KIRI_ARRAY(kiriVec3) exact, slopes; /* positions before they are rounded to floats; sums for the normals */
 } kiriSheetData;
 
 /* On failure *why says what is wrong, and the sheet needs no release. Ids of sheet and frames are given by the world. */

@@ -8,8 +8,14 @@ static void Bytes(uint64_t* hash, const void* data, size_t bytes)
     }
 }
 
-static void Int(uint64_t* hash, int32_t value) { Bytes(hash, &value, sizeof(value)); }
-static void Real(uint64_t* hash, double value) { Bytes(hash, &value, sizeof(value)); }
+static void Int(uint64_t* hash, int32_t value)
+{
+    Bytes(hash, &value, sizeof(value));
+}
+static void Real(uint64_t* hash, double value)
+{
+    Bytes(hash, &value, sizeof(value));
+}
 
 static void Vec2(uint64_t* hash, kiriVec2 a)
 {
@@ -68,6 +74,8 @@ static void Link(uint64_t* hash, const kiriLink* link)
     Int(hash, link->i);
     Int(hash, link->j);
     Vec3(hash, kiriVec3_Make(link->width, link->length, link->moment));
+    Real(hash, link->braced);
+    Vec2(hash, link->span);
     Vec2(hash, link->normal);
     Vec2(hash, link->tangent);
     Vec2(hash, link->centroid);
@@ -194,6 +202,7 @@ uint64_t kiriSnapshot_Hash(const kiriWorld* world)
 {
     uint64_t hash = 14695981039346656037u;
     Vec3(&hash, world->gravity);
+    Int(&hash, world->cutBudget);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         const kiriSheetData* sheet = world->sheets.data[i];
         Parameters(&hash, sheet);

@@ -10,16 +10,19 @@
 
 #include "affine.h"
 #include "matrix.h"
+#include "momentum.h"
 #include "strain.h"
 
+#include <float.h>
 #include <string.h>
 
-#define LONGEST_TURN 1.0 /* of a frame in one Gauss-Newton step: a Cayley vector */
-#define HALVINGS 12      /* of a step that does not lower the objective */
-#define SECOND_CHANCES 4 /* more iterations where the objective ends above that of the start of the step, */
-#define FRESH_STARTS 2   /* and iterations from there should they fail */
-#define ROUNDING 1e-9    /* of an objective, relative */
-#define SLIDE_FLOOR 1e-9 /* m: a shorter way is no slide */
+#define LONGEST_TURN 1.0              /* of a frame in one Gauss-Newton step: a Cayley vector */
+#define HALVINGS 12                   /* of a step that does not lower the objective */
+#define SECOND_CHANCES 4              /* more iterations where energy is gained or the objective ends too high, */
+#define FRESH_STARTS 2                /* and iterations from the start of the step should they fail */
+#define ROUNDING 1e-12                /* of an objective, relative */
+#define LAST_BITS (8.0 * DBL_EPSILON) /* of a length: what a few operations round off */
+#define SLIDE_FLOOR 1e-9              /* m: a shorter way is no slide */
 
 /* A link or patch has at most so many strains. */
 enum { MOST_ROWS = (int)KIRI_STRAINS > (int)KIRI_AFFINE_STRAINS ? (int)KIRI_STRAINS : (int)KIRI_AFFINE_STRAINS };
@@ -38,10 +41,14 @@ typedef struct Unknown {
 struct kiriSolver {
     kiriMemory memory;
     double dt, damping; /* of this step; flexDamping / dt */
+    double noise;       /* J: what rounding leaves unknown of the objective */
     bool isBraking;
     int32_t size; /* unknowns a frame */
     Unknown unknowns[KIRI_MOST_UNKNOWNS];
     kiriMatrix* matrix;
+    KIRI_ARRAY(int32_t) piece; /* a frame's piece: what elements hold together */
+    KIRI_ARRAY(kiriPieceMomentum) pieces;
+    KIRI_ARRAY(kiriFrameData) before, after;   /* the step, flattened where the sheet is planar */
     KIRI_ARRAY(kiriFlight) flights;            /* one a frame, as are the poses */
     KIRI_ARRAY(kiriPose) start, poses, trial;  /* at the start of the step, now, and where a step would lead */
     KIRI_ARRAY(double) stiffness, startStrain; /* MOST_ROWS an element; strains at the start of the step */
@@ -214,6 +221,29 @@ static bool CollectPairs(const kiriMemory* memory, const kiriSystem* system, int
     return true;
 }
 
+/* Numbers the pieces by their lowest frame. */
+static bool FindPieces(kiriSolver* solver, const Pairs* pairs)
+{
+    int32_t *piece = solver->piece.data, count = 0;
+    for (int32_t f = 0; f < solver->piece.count; ++f) {
+        piece[f] = f; /* first: a lower frame of the same piece, or itself */
+    }
+    for (int32_t k = 0; k < pairs->count; ++k) {
+        int32_t a = pairs->data[k].a, b = pairs->data[k].b;
+        while (piece[a] != a) {
+            a = piece[a] = piece[piece[a]];
+        }
+        while (piece[b] != b) {
+            b = piece[b] = piece[piece[b]];
+        }
+        piece[a > b ? a : b] = a > b ? b : a;
+    }
+    for (int32_t f = 0; f < solver->piece.count; ++f) {
+        piece[f] = piece[f] == f ? count++ : piece[piece[f]];
+    }
+    return kiriArray_Resize(&solver->memory, &solver->pieces, count);
+}
+
 static int32_t MostMembers(const kiriPatches* patches)
 {
     int32_t most = 2;
@@ -227,7 +257,10 @@ static bool MakeRoom(kiriSolver* solver, int32_t frameCount, int32_t elementCoun
 {
     const kiriMemory* memory = &solver->memory;
     int64_t unknowns = (int64_t)solver->size * frameCount, rows = (int64_t)MOST_ROWS * most;
-    return kiriArray_Resize(memory, &solver->flights, frameCount) &&
+    return kiriArray_Resize(memory, &solver->piece, frameCount) &&
+           kiriArray_Resize(memory, &solver->before, frameCount) &&
+           kiriArray_Resize(memory, &solver->after, frameCount) &&
+           kiriArray_Resize(memory, &solver->flights, frameCount) &&
            kiriArray_Resize(memory, &solver->start, frameCount) &&
            kiriArray_Resize(memory, &solver->poses, frameCount) &&
            kiriArray_Resize(memory, &solver->trial, frameCount) &&
@@ -243,7 +276,7 @@ static bool Prepare(kiriSolver* solver, const kiriSystem* system)
     Pairs pairs = { NULL, 0, 0 };
     ChooseUnknowns(solver, &system->mechanics);
     if (MakeRoom(solver, system->frameCount, ElementCount(system), MostMembers(system->patches)) &&
-        CollectPairs(&solver->memory, system, solver->members.data, &pairs)) {
+        CollectPairs(&solver->memory, system, solver->members.data, &pairs) && FindPieces(solver, &pairs)) {
         solver->matrix = kiriMatrix_Create(&solver->memory, solver->size, system->frameCount, pairs.data, pairs.count);
     }
     kiriArray_Release(&solver->memory, &pairs);
@@ -287,6 +320,10 @@ void kiriSolver_Destroy(kiriSolver* solver)
     }
     kiriMemory memory = solver->memory;
     kiriMatrix_Destroy(solver->matrix);
+    kiriArray_Release(&memory, &solver->piece);
+    kiriArray_Release(&memory, &solver->pieces);
+    kiriArray_Release(&memory, &solver->before);
+    kiriArray_Release(&memory, &solver->after);
     kiriArray_Release(&memory, &solver->flights);
     kiriArray_Release(&memory, &solver->start);
     kiriArray_Release(&memory, &solver->poses);
@@ -328,10 +365,21 @@ static double DepthOf(const kiriContactRow* contact, kiriVec3 point)
     return depth > 0.0 ? depth : 0.0;
 }
 
-static double PinEnergy(const kiriSystem* system, const kiriPinRow* pin, const kiriPose* poses)
+/* The objective, and what of it is energy that the sheet has: the rest is lost, or the inertia's. */
+typedef struct Energy {
+    double objective, potential;
+} Energy;
+
+static void AddEnergy(Energy* sum, double stored, double lost)
+{
+    sum->potential += stored;
+    sum->objective += stored + lost;
+}
+
+static void AddPinEnergy(const kiriSystem* system, const kiriPinRow* pin, const kiriPose* poses, Energy* sum)
 {
     kiriVec3 off = kiriVec3_Sub(PointOf(system, pin->frame, pin->at, poses), pin->target);
-    return 0.5 * pin->stiffness * kiriVec3_Dot(off, off);
+    AddEnergy(sum, 0.5 * pin->stiffness * kiriVec3_Dot(off, off), 0.0);
 }
 
 /* The spring against sliding, N/m. Friction is at most `friction` times the push. Both are those before the iteration,
@@ -345,45 +393,91 @@ static double BrakeOf(const kiriSolver* solver, const kiriSystem* system, const 
     return !solver->isBraking ? 0.0 : brake < contact->stiffness ? brake : contact->stiffness;
 }
 
-static double ContactEnergy(const kiriSystem* system, const kiriContactRow* contact, double brake,
-                            const kiriPose* poses)
+static void AddContactEnergy(const kiriSystem* system, const kiriContactRow* contact, double brake,
+                             const kiriPose* poses, Energy* sum)
 {
     kiriVec3 point = PointOf(system, contact->frame, contact->at, poses), slide = SlideOf(system, contact, point);
     double depth = DepthOf(contact, point);
-    return 0.5 * contact->stiffness * depth * depth + 0.5 * brake * kiriVec3_Dot(slide, slide);
+    AddEnergy(sum, 0.5 * contact->stiffness * depth * depth, 0.5 * brake * kiriVec3_Dot(slide, slide));
 }
 
-static double ElementEnergy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses)
+static void AddElementEnergy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses,
+                             Energy* sum)
 {
     const double* stiffness = &solver->stiffness.data[MOST_ROWS * k];
     const double* start = &solver->startStrain.data[MOST_ROWS * k];
-    double strain[MOST_ROWS], sum = 0.0;
+    double strain[MOST_ROWS];
     Measure(system, k, poses, strain, NULL);
     for (int e = 0; e < RowCount(system, k); ++e) {
         double change = strain[e] - start[e];
-        sum += 0.5 * stiffness[e] * (strain[e] * strain[e] + solver->damping * change * change);
+        AddEnergy(sum, 0.5 * stiffness[e] * strain[e] * strain[e],
+                  0.5 * stiffness[e] * solver->damping * change * change);
     }
-    return sum;
 }
 
-static double Objective(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
+static Energy Evaluate(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
-    double moved = 0.0, sum = 0.0;
+    Energy sum = { 0.0, 0.0 };
+    double moved = 0.0;
     for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriFlight* flight = &solver->flights.data[f];
         kiriVec3 off = kiriVec3_Sub(poses[f].x, flight->pose.x);
         moved += system->frames[f].mass * kiriVec3_Dot(off, off) + kiriFlight_TurnSquared(flight, &poses[f].A);
     }
+    AddEnergy(&sum, 0.0, 0.5 * moved / (solver->dt * solver->dt));
     for (int32_t k = 0; k < ElementCount(system); ++k) {
-        sum += ElementEnergy(solver, system, k, poses);
+        AddElementEnergy(solver, system, k, poses, &sum);
     }
     for (int32_t k = 0; k < system->pinCount; ++k) {
-        sum += PinEnergy(system, &system->pins[k], poses);
+        AddPinEnergy(system, &system->pins[k], poses, &sum);
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
-        sum += ContactEnergy(system, &system->contacts[k], BrakeOf(solver, system, &system->contacts[k]), poses);
+        const kiriContactRow* contact = &system->contacts[k];
+        AddContactEnergy(system, contact, BrakeOf(solver, system, contact), poses, &sum);
     }
-    return sum + 0.5 * moved / (solver->dt * solver->dt);
+    return sum;
+}
+
+static double LinkNoise(const kiriSolver* solver, const kiriLink* link, const double* stiffness)
+{
+    double reach = kiriVec3_Length(solver->start.data[link->i].x) + link->length;
+    return reach * reach * (stiffness[KIRI_STRETCH] + stiffness[KIRI_SHEAR] + stiffness[KIRI_NORMAL_GAP]) +
+           stiffness[KIRI_PLANE_BENDING] + stiffness[KIRI_BENDING] + stiffness[KIRI_TWIST];
+}
+
+/* The columns of A have lengths near 1. */
+static double AffineNoise(const kiriSolver* solver, const kiriSystem* system, int32_t k, const double* stiffness)
+{
+    int32_t count = MembersOf(system, k, solver->members.data);
+    double strain[MOST_ROWS], sum = 0.0;
+    Measure(system, k, solver->start.data, strain, solver->rows.data);
+    for (int e = 0; e < RowCount(system, k); ++e) {
+        double reach = 0.0;
+        for (int32_t m = 0; m < count; ++m) {
+            const kiriVec3* by = solver->rows.data[count * e + m].by;
+            reach += kiriVec3_Length(by[0]) * kiriVec3_Length(solver->start.data[solver->members.data[m]].x) +
+                     kiriVec3_Length(by[1]) + kiriVec3_Length(by[2]) + kiriVec3_Length(by[3]);
+        }
+        sum += stiffness[e] * reach * reach;
+    }
+    return sum;
+}
+
+/* The energy of every spring and of the inertia when lengths are off by their last bits. A sheet at rest has no
+   more. */
+static double Noise(const kiriSolver* solver, const kiriSystem* system)
+{
+    double sum = 0.0;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        kiriVec3 x = solver->start.data[f].x;
+        sum += system->frames[f].mass * kiriVec3_Dot(x, x) / (solver->dt * solver->dt);
+    }
+    for (int32_t k = 0; k < ElementCount(system); ++k) {
+        const double* stiffness = &solver->stiffness.data[MOST_ROWS * k];
+        sum += IsAffine(&system->mechanics) ? AffineNoise(solver, system, k, stiffness)
+                                            : LinkNoise(solver, LinkOf(system, k), stiffness);
+    }
+    return LAST_BITS * LAST_BITS * (1.0 + solver->damping) * sum;
 }
 
 /* ---- Matrix and forces ------------------------------------------------------------------------------------------ */
@@ -556,7 +650,7 @@ static void Assemble(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* ---- Step ------------------------------------------------------------------------------------------------------- */
+/* ---- Iteration --------------------------------------------------------------------------------------------------- */
 
 /* What is left of a vector in the plane. */
 static kiriVec3 InPlane(const kiriMechanics* mechanics, kiriVec3 a)
@@ -569,31 +663,33 @@ static kiriVec3 AlongNormal(const kiriMechanics* mechanics, kiriVec3 a)
     return kiriVec3_Scale(kiriVec3_Dot(a, mechanics->axes.d), mechanics->axes.d);
 }
 
-/* A frame of a planar sheet, with only what moves it in the plane. */
-static void Flatten(const kiriMechanics* mechanics, kiriFrameData* frame)
+/* In a planar sheet, a frame with only what moves it in the plane. */
+static kiriFrameData FlattenedOf(const kiriMechanics* mechanics, const kiriFrameData* from)
 {
-    kiriVec3 off = kiriVec3_Sub(frame->heldPosition, frame->x);
-    frame->velocity = InPlane(mechanics, frame->velocity);
-    frame->spin = AlongNormal(mechanics, frame->spin);
-    frame->force = InPlane(mechanics, frame->force);
-    frame->torque = AlongNormal(mechanics, frame->torque);
-    frame->heldPosition = kiriVec3_Sub(frame->heldPosition, AlongNormal(mechanics, off));
+    kiriFrameData frame = *from;
+    if (mechanics->planar) {
+        kiriVec3 off = kiriVec3_Sub(frame.heldPosition, frame.x);
+        frame.velocity = InPlane(mechanics, frame.velocity);
+        frame.spin = AlongNormal(mechanics, frame.spin);
+        frame.force = InPlane(mechanics, frame.force);
+        frame.torque = AlongNormal(mechanics, frame.torque);
+        frame.heldPosition = kiriVec3_Sub(frame.heldPosition, AlongNormal(mechanics, off));
+    }
+    return frame;
 }
 
-static kiriFlight FlightOf(const kiriSystem* system, int32_t f, double dt)
+static kiriVec3 GravityOf(const kiriSystem* system)
 {
-    const kiriMechanics* mechanics = &system->mechanics;
-    kiriFrameData frame = system->frames[f];
-    kiriVec3 gravity = system->gravity;
-    if (mechanics->planar) {
-        Flatten(mechanics, &frame);
-        gravity = InPlane(mechanics, gravity);
+    return system->mechanics.planar ? InPlane(&system->mechanics, system->gravity) : system->gravity;
+}
+
+static kiriFlight FlightOf(const kiriSystem* system, const kiriFrameData* frame, double dt)
+{
+    if (frame->held) {
+        return kiriFlight_Held(frame, &system->material, dt);
     }
-    if (frame.held) {
-        return kiriFlight_Held(&frame, &system->material, dt);
-    }
-    return IsAffine(mechanics) ? kiriFlight_Affine(&frame, &system->material, gravity, dt)
-                               : kiriFlight_Free(&frame, &system->material, gravity, dt);
+    return IsAffine(&system->mechanics) ? kiriFlight_Affine(frame, &system->material, GravityOf(system), dt)
+                                        : kiriFlight_Free(frame, &system->material, GravityOf(system), dt);
 }
 
 static void Begin(kiriSolver* solver, const kiriSystem* system, double dt)
@@ -603,7 +699,8 @@ static void Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     solver->isBraking = false;
     for (int32_t f = 0; f < system->frameCount; ++f) {
         solver->start.data[f] = kiriPose_Of(&system->frames[f]);
-        solver->flights.data[f] = FlightOf(system, f, dt);
+        solver->before.data[f] = FlattenedOf(&system->mechanics, &system->frames[f]);
+        solver->flights.data[f] = FlightOf(system, &solver->before.data[f], dt);
         solver->poses.data[f] = solver->flights.data[f].coast;
         solver->trial.data[f] = solver->flights.data[f].pose;
     }
@@ -616,6 +713,7 @@ static void Begin(kiriSolver* solver, const kiriSystem* system, double dt)
             solver->start.data[f] = solver->flights.data[f].pose;
         }
     }
+    solver->noise = Noise(solver, system);
 }
 
 /* How much of the Gauss-Newton step turns no frame too far. */
@@ -652,20 +750,21 @@ static void TakeTrial(kiriSolver* solver)
 
 /* One Gauss-Newton step, halved until the objective falls, or is at most `allowed`. False when the matrix has no
    factor. */
-static bool Iterate(kiriSolver* solver, const kiriSystem* system, double allowed, double* objective)
+static bool Iterate(kiriSolver* solver, const kiriSystem* system, double allowed, Energy* energy)
 {
     Assemble(solver, system);
     if (!kiriMatrix_Factor(solver->matrix)) {
         return false;
     }
     kiriMatrix_Solve(solver->matrix, solver->force.data, solver->move.data);
-    *objective = Objective(solver, system, solver->poses.data);
-    double most = allowed > *objective ? allowed : *objective, scale = LongestStep(solver, system), taken = 0.0;
+    *energy = Evaluate(solver, system, solver->poses.data);
+    double most = allowed > energy->objective ? allowed : energy->objective;
+    double enough = most * (1.0 + ROUNDING) + solver->noise, scale = LongestStep(solver, system), taken = 0.0;
     for (int halving = 0; halving <= HALVINGS && taken == 0.0; ++halving, scale *= 0.5) {
         Try(solver, system, scale);
-        double value = Objective(solver, system, solver->trial.data);
-        if (value <= most * (1.0 + ROUNDING)) {
-            *objective = value;
+        Energy value = Evaluate(solver, system, solver->trial.data);
+        if (value.objective <= enough) {
+            *energy = value;
             taken = scale;
         }
     }
@@ -674,72 +773,196 @@ static bool Iterate(kiriSolver* solver, const kiriSystem* system, double allowed
     return true;
 }
 
+/* ---- Energy ----------------------------------------------------------------------------------------------------- */
+
+/* By how much the rate of A differs from that of the free flight. */
+static void LandAffine(const kiriFlight* flight, double perTime, kiriFrameData* frame)
+{
+    kiriMat3 rate = flight->rate;
+    rate.u = kiriVec3_AddScaled(rate.u, perTime, kiriVec3_Sub(frame->A.u, flight->pose.A.u));
+    rate.v = kiriVec3_AddScaled(rate.v, perTime, kiriVec3_Sub(frame->A.v, flight->pose.A.v));
+    rate.d = kiriVec3_AddScaled(rate.d, perTime, kiriVec3_Sub(frame->A.d, flight->pose.A.d));
+    frame->spin = kiriMat3_Spin(&frame->A, &rate);
+    frame->rate = kiriMat3_Beside(&frame->A, &rate, frame->spin);
+}
+
+/* The frames at the end of the step, if it ended here. */
+static void Land(kiriSolver* solver, const kiriSystem* system)
+{
+    double perTime = 1.0 / solver->dt;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriFlight* flight = &solver->flights.data[f];
+        kiriFrameData* frame = &solver->after.data[f];
+        *frame = solver->before.data[f];
+        frame->x = solver->poses.data[f].x;
+        frame->A = solver->poses.data[f].A;
+        frame->velocity = kiriVec3_AddScaled(flight->velocity, perTime, kiriVec3_Sub(frame->x, flight->pose.x));
+        if (frame->held) {
+            frame->spin = flight->spin;
+            frame->rate = flight->rate;
+        } else if (IsAffine(&system->mechanics)) {
+            LandAffine(flight, perTime, frame);
+        } else {
+            kiriMat3 inertia = kiriFlight_Inertia(flight, &frame->A);
+            kiriVec3 turn = kiriMat3_Solve(&inertia, kiriFlight_TurnGradient(flight, &frame->A));
+            frame->spin = kiriVec3_AddScaled(flight->spin, perTime, turn);
+        }
+    }
+}
+
+/* By how much kinetic and potential energy grow in the step beyond the work of gravity and of the host's forces; what
+   rounding explains is no gain. A held frame counts as moved before the step. */
+static double Gain(const kiriSolver* solver, const kiriSystem* system, double potentialBefore, double potentialAfter)
+{
+    double before = potentialBefore, after = potentialAfter, work = 0.0;
+    kiriVec3 gravity = GravityOf(system);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
+        if (!start->held) {
+            kiriVec3 way = kiriVec3_Sub(end->x, start->x);
+            before += kiriFrame_KineticEnergy(start, &system->material);
+            after += kiriFrame_KineticEnergy(end, &system->material);
+            work += start->mass * kiriVec3_Dot(gravity, way) + kiriVec3_Dot(start->force, way) +
+                    solver->dt * kiriVec3_Dot(start->torque, end->spin);
+        }
+    }
+    return after - before - work - ROUNDING * (before + after + fabs(work)) - solver->noise;
+}
+
+/* The factor that takes an energy out of velocities that have `kinetic`; what they do not have is left in `energy`. */
+static double Keep(double kinetic, double* energy)
+{
+    double taken = kinetic < *energy ? kinetic : *energy;
+    *energy -= taken;
+    return taken < kinetic ? sqrt(1.0 - taken / kinetic) : 0.0;
+}
+
+static kiriVec3 MeanVelocity(const kiriSolver* solver, double* mass)
+{
+    kiriVec3 momentum = { 0.0, 0.0, 0.0 };
+    *mass = 0.0;
+    for (int32_t f = 0; f < solver->after.count; ++f) {
+        const kiriFrameData* frame = &solver->after.data[f];
+        if (!frame->held) {
+            *mass += frame->mass;
+            momentum = kiriVec3_AddScaled(momentum, frame->mass, frame->velocity);
+        }
+    }
+    return kiriVec3_Scale(1.0 / (*mass > DBL_MIN ? *mass : DBL_MIN), momentum);
+}
+
+static void Slow(kiriFrameData* frame, double keep, kiriVec3 mean, double keepMean)
+{
+    kiriVec3 own = kiriVec3_Sub(frame->velocity, mean);
+    frame->velocity = kiriVec3_AddScaled(kiriVec3_Scale(keepMean, mean), keep, own);
+    frame->spin = kiriVec3_Scale(keep, frame->spin);
+    frame->rate.u = kiriVec3_Scale(keep, frame->rate.u);
+    frame->rate.v = kiriVec3_Scale(keep, frame->rate.v);
+    frame->rate.d = kiriVec3_Scale(keep, frame->rate.d);
+}
+
+/* Takes an energy out of the velocities: as they differ from the mean first, for so momentum stays. Only where pins or
+   contacts change momentum can there be more to take. */
+static void Brake(kiriSolver* solver, const kiriSystem* system, double energy)
+{
+    double mass, kinetic = 0.0;
+    kiriVec3 mean = MeanVelocity(solver, &mass);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        kiriFrameData frame = solver->after.data[f];
+        frame.velocity = kiriVec3_Sub(frame.velocity, mean);
+        kinetic += frame.held ? 0.0 : kiriFrame_KineticEnergy(&frame, &system->material);
+    }
+    double keep = Keep(kinetic, &energy), keepMean = Keep(0.5 * mass * kiriVec3_Dot(mean, mean), &energy);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (!solver->after.data[f].held) {
+            Slow(&solver->after.data[f], keep, mean, keepMean);
+        }
+    }
+}
+
+/* ---- Step ------------------------------------------------------------------------------------------------------- */
+
 /* The iteration starts where the frames coast by their velocities: a strip that swings is then nearly there, and one at
    rest is there. The first step may raise the objective up to that of the free flight: it has to turn stiff frames,
    which stretches links before the next step lets them go, and halving it there would freeze the turning.
 
-   The objective must not end above that of not moving at all. Then kinetic and elastic energy at the end are at most
-   those at the start and the work of the forces, however long the step: nothing is ever flung away. Should it end above
-   all the same, the iteration starts anew from not moving, from where it only falls. */
-static int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations)
+   The objective must not end above that of not moving at all. Should it end above all the same, the iteration starts
+   anew from not moving, from where it only falls. Then, with v the velocities before and w those after the step,
+
+       potential after + 1/2 m (w - v)^2  <=  potential before + 1/2 m v^2 + work,
+
+   which bounds w by 2 v and no better. At the minimum w^2 stands for (w - v)^2, but for parts of the energy that are
+   not convex; so while energy is gained, iterations are added, and what is gained even then is taken out of the
+   velocities. Nothing is ever flung away, however long the step. */
+static int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations, double* gain)
 {
-    double allowed = Objective(solver, system, solver->trial.data), objective = HUGE_VAL;
-    double limit = Objective(solver, system, solver->start.data) * (1.0 + ROUNDING);
+    double allowed = Evaluate(solver, system, solver->trial.data).objective;
+    Energy start = Evaluate(solver, system, solver->start.data), energy = { HUGE_VAL, HUGE_VAL };
+    double limit = start.objective * (1.0 + ROUNDING) + solver->noise;
     int32_t done = 0, chances = iterations + SECOND_CHANCES;
-    while (done < iterations || (done < chances + FRESH_STARTS && !(objective <= limit))) {
+    *gain = HUGE_VAL;
+    while (done < iterations || (*gain > 0.0 && done < chances) ||
+           (done < chances + FRESH_STARTS && !(energy.objective <= limit))) {
         if (done == chances) {
             memcpy(solver->poses.data, solver->start.data, sizeof(kiriPose) * (size_t)system->frameCount);
         }
         /* Before the first step the push is that of the free flight, far too strong at an impact. */
         solver->isBraking = done > 0 || iterations == 1;
-        if (!Iterate(solver, system, done == 0 ? allowed : 0.0, &objective)) {
+        if (!Iterate(solver, system, done == 0 ? allowed : 0.0, &energy)) {
             return -1;
         }
         ++done;
+        if (done >= iterations) {
+            Land(solver, system);
+            *gain = Gain(solver, system, start.potential, energy.potential);
+        }
     }
     return done;
 }
 
-static bool IsFinite(kiriVec3 a)
+static void MarkHeld(kiriSolver* solver, const kiriSystem* system)
 {
-    return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
-}
-
-static bool AreFinite(const kiriMat3* A)
-{
-    return IsFinite(A->u) && IsFinite(A->v) && IsFinite(A->d);
-}
-
-/* By how much the rate of A differs from that of the free flight. */
-static void LandAffine(const kiriSolver* solver, int32_t f)
-{
-    kiriFlight* flight = &solver->flights.data[f];
-    const kiriMat3 *A = &solver->poses.data[f].A, *free = &flight->pose.A;
-    double perTime = 1.0 / solver->dt;
-    flight->rate.u = kiriVec3_AddScaled(flight->rate.u, perTime, kiriVec3_Sub(A->u, free->u));
-    flight->rate.v = kiriVec3_AddScaled(flight->rate.v, perTime, kiriVec3_Sub(A->v, free->v));
-    flight->rate.d = kiriVec3_AddScaled(flight->rate.d, perTime, kiriVec3_Sub(A->d, free->d));
-    flight->spin = kiriMat3_Spin(A, &flight->rate);
-    flight->rate = kiriMat3_Beside(A, &flight->rate, flight->spin);
-}
-
-/* Velocities at the end of the step. False when something is not finite. */
-static bool Land(kiriSolver* solver, const kiriSystem* system)
-{
+    const int32_t* piece = solver->piece.data;
+    for (int32_t i = 0; i < solver->pieces.count; ++i) {
+        solver->pieces.data[i].isHeld = 0;
+    }
     for (int32_t f = 0; f < system->frameCount; ++f) {
-        kiriFlight* flight = &solver->flights.data[f];
-        const kiriPose* pose = &solver->poses.data[f];
-        flight->velocity =
-            kiriVec3_AddScaled(flight->velocity, 1.0 / solver->dt, kiriVec3_Sub(pose->x, flight->pose.x));
-        if (!IsAffine(&system->mechanics)) {
-            kiriMat3 inertia = kiriFlight_Inertia(flight, &pose->A);
-            kiriVec3 turn = kiriMat3_Solve(&inertia, kiriFlight_TurnGradient(flight, &pose->A));
-            flight->spin = kiriVec3_AddScaled(flight->spin, 1.0 / solver->dt, turn);
-        } else if (!system->frames[f].held) {
-            LandAffine(solver, f);
-        }
-        if (!IsFinite(pose->x) || !AreFinite(&pose->A) || !AreFinite(&flight->rate) || !IsFinite(flight->velocity) ||
-            !IsFinite(flight->spin)) {
+        solver->pieces.data[piece[f]].isHeld |= system->frames[f].held;
+    }
+    for (int32_t k = 0; k < system->pinCount; ++k) {
+        solver->pieces.data[piece[system->pins[k].frame]].isHeld = 1;
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        solver->pieces.data[piece[system->contacts[k].frame]].isHeld = 1;
+    }
+}
+
+/* What the energy gained or lost in the step asks of the velocities. */
+static void Settle(kiriSolver* solver, const kiriSystem* system, double gain)
+{
+    if (gain > 0.0) {
+        Brake(solver, system, gain);
+    } else {
+        MarkHeld(solver, system);
+        kiriMomentum_Restore(solver->before.data, solver->after.data, system->frameCount, solver->piece.data,
+                             solver->pieces.data, solver->pieces.count, &system->material, solver->dt, -gain);
+    }
+}
+
+/* The host reads floats. An eighth leaves room for the sums and blends that they are made of. NaN does not fit. */
+static bool Fits(kiriVec3 a)
+{
+    const double most = 0.125 * (double)FLT_MAX;
+    return fabs(a.x) <= most && fabs(a.y) <= most && fabs(a.z) <= most;
+}
+
+static bool CanBeRead(const kiriSolver* solver)
+{
+    for (int32_t f = 0; f < solver->after.count; ++f) {
+        const kiriFrameData* frame = &solver->after.data[f];
+        if (!Fits(frame->x) || !Fits(frame->A.u) || !Fits(frame->A.v) || !Fits(frame->A.d) || !Fits(frame->velocity) ||
+            !Fits(frame->spin) || !Fits(frame->rate.u) || !Fits(frame->rate.v) || !Fits(frame->rate.d) ||
+            !Fits(kiriFrame_VelocityAt(frame, frame->site.at))) {
             return false;
         }
     }
@@ -750,22 +973,27 @@ static void Finish(const kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {
         kiriFrameData* frame = &system->frames[f];
-        const kiriPose* pose = &solver->poses.data[f];
-        frame->x = pose->x;
+        const kiriFrameData* end = &solver->after.data[f];
+        frame->x = end->x;
         frame->A = frame->held                    ? frame->heldRotation
-                   : IsAffine(&system->mechanics) ? pose->A
-                                                  : kiriMat3_Rotation(pose->A);
-        frame->velocity = solver->flights.data[f].velocity;
-        frame->spin = solver->flights.data[f].spin;
-        frame->rate = solver->flights.data[f].rate;
+                   : IsAffine(&system->mechanics) ? end->A
+                                                  : kiriMat3_Rotation(end->A);
+        frame->velocity = end->velocity;
+        frame->spin = end->spin;
+        frame->rate = end->rate;
     }
 }
 
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations)
 {
+    double gain;
     Begin(solver, system, dt);
-    int32_t done = Minimise(solver, system, iterations);
-    if (done < 0 || !Land(solver, system)) {
+    int32_t done = Minimise(solver, system, iterations, &gain);
+    if (done < 0) {
+        return -1;
+    }
+    Settle(solver, system, gain);
+    if (!CanBeRead(solver)) {
         return -1;
     }
     Finish(solver, system);

@@ -14,7 +14,7 @@ typedef struct kiriSquareNode {
 
 typedef struct kiriSquares {
     int32_t columns, rows;
-    int32_t side; /* lattice steps, even; grid line k lies at k * side - 1 */
+    int32_t side;  /* lattice steps, even; grid line k lies at k * side - 1 */
     int32_t* head; /* a square's first node, or KIRI_NONE; columns * rows, row by row */
     KIRI_ARRAY(kiriSquareNode) nodes;
     int32_t freeNode;

@@ -5,6 +5,13 @@
 /* and the offset g makes it longer by 3/5 g^2 / l, where a straight line has 1/2. */
 #define ARC 1.2
 #define NORMAL_STOP_SHARE 0.5
+/* Of the line between the centres: what an offset lengthens it by, is that of a line this long at least. */
+#define LEAST_AHEAD 0.5
+/* Square of the angle at which the arc between two sites is taken for a half. */
+#define ARC_FOLD 2.5
+/* Links along both directions share a shear when frames turn; a strip one region wide has those of one direction only,
+   and Timoshenko's 5/6 G, over E. */
+#define SHEAR_BEAM (5.0 / 12.0)
 
 /* The mean axes of two frames. When the frames turn by w_0 and w_1, the axes turn by the sum over k of
    n (nBy[k] . w_k) + tau (tauBy[k] . w_k) + d (dBy[k] . w_k). */
@@ -108,23 +115,31 @@ static kiriStrainRow Combined(double a, const kiriStrainRow* first, double b, co
     return row;
 }
 
+/* What a frame turns about: its centre of mass, or its site when the host holds it there. */
+static kiriVec2 PivotOf(const kiriFrameData* frame)
+{
+    return frame->held ? frame->site.at : frame->center;
+}
+
 /* The length of the line that carries tension: between the centres of mass, so that tension has no lever to turn a
    frame with. Never much shorter than the way through the link, which may lead around a slit. */
 static double LeverOf(const kiriLink* link, const kiriFrameData* const frames[2])
 {
-    double apart = kiriVec2_Dot(kiriVec2_Sub(frames[1]->center, frames[0]->center), link->normal), l = link->length;
+    double apart = kiriVec2_Dot(kiriVec2_Sub(PivotOf(frames[1]), PivotOf(frames[0])), link->normal), l = link->length;
     return apart < 0.5 * l ? 0.5 * l : apart < l ? apart : l;
 }
 
+/* The strain is signed along n: the length alone would be at rest again where the frames have passed through each other,
+   and a sheet that was crushed would stay inside out. */
 static void MeasureStretch(double lever, const Axes* axes, const Pair* b, double* strain, kiriStrainRow* row)
 {
     double ahead = lever + kiriVec3_Dot(b->gap, axes->n), aside = kiriVec3_Dot(b->gap, axes->d);
-    double line = sqrt(ahead * ahead + ARC * aside * aside);
-    *strain = line - lever;
+    double least = LEAST_AHEAD * lever, base = ahead > least ? ahead : least;
+    double line = sqrt(base * base + ARC * aside * aside);
+    *strain = ahead - lever + (line - base);
     if (row != NULL) {
         kiriStrainRow n = GapRow(axes, axes->n, b), d = GapRow(axes, axes->d, b);
-        double scale = line > 0.0 ? 1.0 / line : 0.0;
-        *row = Combined(scale * ahead, &n, scale * ARC * aside, &d);
+        *row = Combined(ahead > least ? ahead / line : 1.0, &n, ARC * aside / line, &d);
     }
 }
 
@@ -137,6 +152,58 @@ static void MeasureNormal(const kiriLink* link, const Axes* axes, const Pair* m,
         kiriStrainRow row = GapRow(axes, axes->d, m);
         rows[KIRI_NORMAL_GAP] = row;
         rows[KIRI_NORMAL_STOP] = Combined(over > 0.0 ? 1.0 : 0.0, &row, 0.0, &row);
+    }
+}
+
+/* The difference of the directors is the chord of the angle between them, 2 sin(a / 2): its arc to the third order. */
+static void TakeAngle(double* strain, kiriStrainRow* rows)
+{
+    double bending = strain[KIRI_BENDING], twist = strain[KIRI_TWIST];
+    double longer = 1.0 + (bending * bending + twist * twist) / 24.0;
+    strain[KIRI_BENDING] *= longer;
+    strain[KIRI_TWIST] *= longer;
+    if (rows != NULL) {
+        kiriStrainRow change = Combined(bending / 12.0, &rows[KIRI_BENDING], twist / 12.0, &rows[KIRI_TWIST]);
+        rows[KIRI_BENDING] = Combined(longer, &rows[KIRI_BENDING], bending, &change);
+        rows[KIRI_TWIST] = Combined(longer, &rows[KIRI_TWIST], twist, &change);
+    }
+}
+
+/* How long an arc may be so that tension does not turn the frames. With pivots c apart, e from their middle to b, psi
+   the angle from their line to the mean of the frames and delta the angle between these, tension times
+
+       0.1 c psi^2 - 1.2 e psi delta + (c / 8 + 0.6 e^2 / c - s / 12) delta^2
+
+   is the work of turning them: positive for s < 1.5 c - 36 e^2 / c. */
+static double LongestArc(const kiriLink* link, const kiriFrameData* const frames[2])
+{
+    double before = kiriVec2_Dot(kiriVec2_Sub(link->centroid, PivotOf(frames[0])), link->normal);
+    double behind = kiriVec2_Dot(kiriVec2_Sub(PivotOf(frames[1]), link->centroid), link->normal);
+    double c = before + behind, e = 0.5 * (before - behind);
+    double most = c > 0.0 ? 1.4 * c - 36.0 * e * e / c : 0.0;
+    return most > 0.0 ? most : 0.0;
+}
+
+/* Takes off what the arc between the two sites adds to the gap. Folds of more than two radians are no arcs: there the
+   term fades, or a crumpled sheet would find rest in them. */
+static void TakeArc(const kiriLink* link, const kiriFrameData* const frames[2], double* strain, kiriStrainRow* rows)
+{
+    double length = kiriVec2_Length(link->span), most = LongestArc(link, frames);
+    double twelfth = length > most ? most / (12.0 * length) : 1.0 / 12.0;
+    double n = twelfth * kiriVec2_Dot(link->span, link->normal);
+    double tau = twelfth * kiriVec2_Dot(link->span, link->tangent);
+    double bending = strain[KIRI_BENDING], twist = strain[KIRI_TWIST], turn = n * bending + tau * twist;
+    double fold = (bending * bending + twist * twist) / ARC_FOLD, keep = 1.0 / (1.0 + fold * fold);
+    strain[KIRI_STRETCH] -= keep * turn * bending;
+    strain[KIRI_SHEAR] -= keep * turn * twist;
+    if (rows != NULL) {
+        kiriStrainRow angle = Combined(bending, &rows[KIRI_BENDING], twist, &rows[KIRI_TWIST]);
+        kiriStrainRow turnRow = Combined(n, &rows[KIRI_BENDING], tau, &rows[KIRI_TWIST]);
+        turnRow = Combined(keep, &turnRow, -4.0 * keep * keep * fold / ARC_FOLD * turn, &angle);
+        kiriStrainRow stretch = Combined(keep * turn, &rows[KIRI_BENDING], bending, &turnRow);
+        kiriStrainRow shear = Combined(keep * turn, &rows[KIRI_TWIST], twist, &turnRow);
+        rows[KIRI_STRETCH] = Combined(1.0, &rows[KIRI_STRETCH], -1.0, &stretch);
+        rows[KIRI_SHEAR] = Combined(1.0, &rows[KIRI_SHEAR], -1.0, &shear);
     }
 }
 
@@ -159,6 +226,8 @@ void kiriStrain_Measure(const kiriLink* link, const kiriFrameData* const frames[
         rows[KIRI_BENDING] = TurnRow(&axes, axes.n, &directors);
         rows[KIRI_TWIST] = TurnRow(&axes, axes.tau, &directors);
     }
+    TakeAngle(strain, rows);
+    TakeArc(link, frames, strain, rows);
 }
 
 void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS])
@@ -166,7 +235,7 @@ void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, do
     double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = link->length;
     double membrane = (double)material->youngsModulus * h / l, bending = membrane * h * h / (12.0 * (1.0 - nu * nu));
     stiffness[KIRI_STRETCH] = membrane * link->width;
-    stiffness[KIRI_SHEAR] = membrane * link->width;
+    stiffness[KIRI_SHEAR] = membrane * link->width * (SHEAR_BEAM + link->braced * (1.0 - SHEAR_BEAM));
     stiffness[KIRI_PLANE_BENDING] = membrane * link->moment;
     stiffness[KIRI_BENDING] = bending * link->width;
     stiffness[KIRI_TWIST] = bending * link->width;

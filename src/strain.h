@@ -12,19 +12,27 @@ extern "C" {
    Every energy is 1/2 stiffness strain^2.
 
    strain         what                                                stiffness
-   stretch        |(c + gap(b) . n, sqrt(6/5) gap(b) . d)| - c        E h W / l
-   shear          gap(b) . tau                                        E h W / l
+   stretch        |(c + gap(b) . n, sqrt(6/5) gap(b) . d)| - c - a.n  E h W / l
+   shear          gap(b) . tau - a . tau                              E h W / l; 5/12 of it where unbraced
    plane bending  ((A_j - A_i) tau) . n                               E h I / l
-   bending        (d_j - d_i) . n                                     D W / l
-   twist          (d_j - d_i) . tau                                   D W / l
+   bending        w . n, w = (d_j - d_i) (1 + |d_j - d_i|^2 / 24)     D W / l
+   twist          w . tau                                             D W / l
    normal gap     gap(m) . d                                          beta D W / l^3, beta = 12
    normal stop    what |gap(m) . d| has above l / 2                   E h W / l
 
-   Bending and twist together are the Laplacian of the director, for d_j - d_i has no part along the mean d.
+   Bending and twist together are the Laplacian of the director, for d_j - d_i has no part along the mean d; w is the
+   angle between the two, of which their difference is only the chord.
 
-   Stretch is that of the line between the centres of mass, c apart: an offset along the normal makes it longer. With
-   gap(b) . n alone, tension would turn the frames away from that line and, above 12 D / l^2 newtons a metre of width,
-   lay the sheet in steps, as tension buckles a column that is soft in shear; cloth would fall apart.
+   a = (s . w) w / 12: between two sites that touch one circular arc, the chord is that much longer than their tangents
+   reach, which is no stretch. In a row of frames a only moves them; where frames lie in no row, links of all directions
+   would demand different moves, and lock.
+
+   Stretch is that of the line between the centres of mass, c apart (for a held frame, of its site): an offset along the
+   normal makes it longer. With gap(b) . n alone, tension would turn the frames away from that line and, above
+   12 D / l^2 newtons a metre of width, lay the sheet in steps, as tension buckles a column that is soft in shear; cloth
+   would fall apart. An arc that is long beside c would do the same, and is cut short.
+   Where c + gap(b) . n is less than c / 2, what the offset adds to it is what it adds to c / 2: so frames that have passed
+   through each other are pushed back, and the strain grows with gap(b) . n everywhere.
 
    The stop catches sheets that bend within less than l, whose normal gap nothing would bound. */
 enum {

@@ -31,7 +31,6 @@ static kiriMat3 Orthonormal(kiriMat3 m)
     return r;
 }
 
-
 /* (trace(P) I - P)^-1 t with P the symmetric part of m r^T; t itself over the trace where that is not positive. */
 static kiriVec3 NewtonTurn(kiriMat3 r, kiriMat3 m, kiriVec3 t, double along)
 {
@@ -54,8 +53,8 @@ kiriMat3 kiriMat3_Rotation(kiriMat3 m)
 {
     kiriMat3 r = Orthonormal(m);
     for (int iteration = 0; iteration < 40; ++iteration) {
-        kiriVec3 turn = kiriVec3_Add(kiriVec3_Add(kiriVec3_Cross(r.u, m.u), kiriVec3_Cross(r.v, m.v)),
-                                     kiriVec3_Cross(r.d, m.d));
+        kiriVec3 turn =
+            kiriVec3_Add(kiriVec3_Add(kiriVec3_Cross(r.u, m.u), kiriVec3_Cross(r.v, m.v)), kiriVec3_Cross(r.d, m.d));
         double along = fabs(kiriVec3_Dot(r.u, m.u) + kiriVec3_Dot(r.v, m.v) + kiriVec3_Dot(r.d, m.d));
         if (!(kiriVec3_Length(turn) > 1e-14 * along)) {
             break;

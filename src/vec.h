@@ -43,11 +43,26 @@ static inline kiriVec2 kiriVec2_Make(double x, double y)
     return r;
 }
 
-static inline kiriVec2 kiriVec2_Add(kiriVec2 a, kiriVec2 b) { return kiriVec2_Make(a.x + b.x, a.y + b.y); }
-static inline kiriVec2 kiriVec2_Sub(kiriVec2 a, kiriVec2 b) { return kiriVec2_Make(a.x - b.x, a.y - b.y); }
-static inline kiriVec2 kiriVec2_Scale(double s, kiriVec2 a) { return kiriVec2_Make(s * a.x, s * a.y); }
-static inline double kiriVec2_Dot(kiriVec2 a, kiriVec2 b) { return a.x * b.x + a.y * b.y; }
-static inline double kiriVec2_Length(kiriVec2 a) { return sqrt(kiriVec2_Dot(a, a)); }
+static inline kiriVec2 kiriVec2_Add(kiriVec2 a, kiriVec2 b)
+{
+    return kiriVec2_Make(a.x + b.x, a.y + b.y);
+}
+static inline kiriVec2 kiriVec2_Sub(kiriVec2 a, kiriVec2 b)
+{
+    return kiriVec2_Make(a.x - b.x, a.y - b.y);
+}
+static inline kiriVec2 kiriVec2_Scale(double s, kiriVec2 a)
+{
+    return kiriVec2_Make(s * a.x, s * a.y);
+}
+static inline double kiriVec2_Dot(kiriVec2 a, kiriVec2 b)
+{
+    return a.x * b.x + a.y * b.y;
+}
+static inline double kiriVec2_Length(kiriVec2 a)
+{
+    return sqrt(kiriVec2_Dot(a, a));
+}
 
 static inline kiriVec3 kiriVec3_Make(double x, double y, double z)
 {
@@ -55,7 +70,10 @@ static inline kiriVec3 kiriVec3_Make(double x, double y, double z)
     return r;
 }
 
-static inline kiriVec3 kiriVec3_Load(const float* f) { return kiriVec3_Make(f[0], f[1], f[2]); }
+static inline kiriVec3 kiriVec3_Load(const float* f)
+{
+    return kiriVec3_Make(f[0], f[1], f[2]);
+}
 
 static inline void kiriVec3_Store(float* f, kiriVec3 a)
 {
@@ -64,12 +82,30 @@ static inline void kiriVec3_Store(float* f, kiriVec3 a)
     f[2] = (float)a.z;
 }
 
-static inline kiriVec3 kiriVec3_Add(kiriVec3 a, kiriVec3 b) { return kiriVec3_Make(a.x + b.x, a.y + b.y, a.z + b.z); }
-static inline kiriVec3 kiriVec3_Sub(kiriVec3 a, kiriVec3 b) { return kiriVec3_Make(a.x - b.x, a.y - b.y, a.z - b.z); }
-static inline kiriVec3 kiriVec3_Scale(double s, kiriVec3 a) { return kiriVec3_Make(s * a.x, s * a.y, s * a.z); }
-static inline kiriVec3 kiriVec3_AddScaled(kiriVec3 a, double s, kiriVec3 b) { return kiriVec3_Add(a, kiriVec3_Scale(s, b)); }
-static inline double kiriVec3_Dot(kiriVec3 a, kiriVec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static inline double kiriVec3_Length(kiriVec3 a) { return sqrt(kiriVec3_Dot(a, a)); }
+static inline kiriVec3 kiriVec3_Add(kiriVec3 a, kiriVec3 b)
+{
+    return kiriVec3_Make(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+static inline kiriVec3 kiriVec3_Sub(kiriVec3 a, kiriVec3 b)
+{
+    return kiriVec3_Make(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+static inline kiriVec3 kiriVec3_Scale(double s, kiriVec3 a)
+{
+    return kiriVec3_Make(s * a.x, s * a.y, s * a.z);
+}
+static inline kiriVec3 kiriVec3_AddScaled(kiriVec3 a, double s, kiriVec3 b)
+{
+    return kiriVec3_Add(a, kiriVec3_Scale(s, b));
+}
+static inline double kiriVec3_Dot(kiriVec3 a, kiriVec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+static inline double kiriVec3_Length(kiriVec3 a)
+{
+    return sqrt(kiriVec3_Dot(a, a));
+}
 
 static inline kiriVec3 kiriVec3_Cross(kiriVec3 a, kiriVec3 b)
 {

@@ -8,6 +8,7 @@ bool kiriView_Resize(kiriSheetData* sheet, int32_t pointCount)
     int64_t vertices = sheet->mesh.vertices.count, triangles = sheet->mesh.triangles.count;
     return kiriArray_Resize(memory, &sheet->positions, 3 * vertices) &&
            kiriArray_Resize(memory, &sheet->normals, 3 * vertices) &&
+           kiriArray_Resize(memory, &sheet->exact, vertices) && kiriArray_Resize(memory, &sheet->slopes, vertices) &&
            kiriArray_Resize(memory, &sheet->restPositions, 2 * vertices) &&
            kiriArray_Resize(memory, &sheet->sourceTriangles, vertices) &&
            kiriArray_Resize(memory, &sheet->sourceWeights, 3 * vertices) &&
@@ -19,6 +20,8 @@ void kiriView_Release(kiriSheetData* sheet)
 {
     kiriArray_Release(sheet->memory, &sheet->positions);
     kiriArray_Release(sheet->memory, &sheet->normals);
+    kiriArray_Release(sheet->memory, &sheet->exact);
+    kiriArray_Release(sheet->memory, &sheet->slopes);
     kiriArray_Release(sheet->memory, &sheet->restPositions);
     kiriArray_Release(sheet->memory, &sheet->sourceTriangles);
     kiriArray_Release(sheet->memory, &sheet->sourceWeights);
@@ -42,30 +45,32 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
     }
 }
 
+/* Not the floats that the host reads: far from the origin they tell the corners of a triangle no more apart. */
 static kiriVec3 Position(const kiriSheetData* sheet, int32_t vertex)
 {
-    return kiriVec3_Load(&sheet->positions.data[3 * vertex]);
+    return sheet->exact.data[vertex];
 }
 
-/* Area-weighted: the cross product of two sides is twice the area times the normal. */
+/* Area-weighted: the cross product of two sides is twice the area times the normal. Summed in doubles, for a length
+   that fits a float may have a square that does not. */
 static void WriteNormals(kiriSheetData* sheet)
 {
     const kiriMeshData* mesh = &sheet->mesh;
-    memset(sheet->normals.data, 0, 3 * sizeof(float) * (size_t)mesh->vertices.count);
+    memset(sheet->slopes.data, 0, sizeof(kiriVec3) * (size_t)mesh->vertices.count);
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         const int32_t* vertex = mesh->triangles.data[t].vertex;
         kiriVec3 a = Position(sheet, vertex[0]);
-        kiriVec3 normal = kiriVec3_Cross(kiriVec3_Sub(Position(sheet, vertex[1]), a),
-                                         kiriVec3_Sub(Position(sheet, vertex[2]), a));
+        kiriVec3 normal =
+            kiriVec3_Cross(kiriVec3_Sub(Position(sheet, vertex[1]), a), kiriVec3_Sub(Position(sheet, vertex[2]), a));
         for (int k = 0; k < 3; ++k) {
-            float* sum = &sheet->normals.data[3 * vertex[k]];
-            kiriVec3_Store(sum, kiriVec3_Add(kiriVec3_Load(sum), normal));
+            kiriVec3* sum = &sheet->slopes.data[vertex[k]];
+            *sum = kiriVec3_Add(*sum, normal);
         }
     }
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
-        float* normal = &sheet->normals.data[3 * v];
-        kiriVec3 unit = kiriVec3_Normalize(kiriVec3_Load(normal));
-        kiriVec3_Store(normal, kiriVec3_Dot(unit, unit) > 0.0 ? unit : kiriVec3_Make(0.0, 0.0, 1.0));
+        kiriVec3 unit = kiriVec3_Normalize(sheet->slopes.data[v]);
+        bool known = kiriVec3_Dot(unit, unit) > 0.0;
+        kiriVec3_Store(&sheet->normals.data[3 * v], known ? unit : kiriVec3_Make(0.0, 0.0, 1.0));
     }
 }
 
@@ -74,7 +79,8 @@ void kiriView_WritePositions(kiriSheetData* sheet)
     const kiriModel* model = &sheet->model;
     for (int32_t v = 0; v < sheet->mesh.vertices.count; ++v) {
         kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[v].at);
-        kiriVec3_Store(&sheet->positions.data[3 * v], kiriSkin_Position(&model->vertexSkin, v, sheet->frames.data, local));
+        sheet->exact.data[v] = kiriSkin_Position(&model->vertexSkin, v, sheet->frames.data, local);
+        kiriVec3_Store(&sheet->positions.data[3 * v], sheet->exact.data[v]);
     }
     for (int32_t i = 0; i < model->points.count; ++i) {
         kiriVec2 local = kiriMesh_Local(&sheet->mesh, model->points.data[i].at);
@@ -122,7 +128,8 @@ static kiriVec2 RestPoint(const kiriSheetData* sheet, int32_t triangle, double b
     return kiriVec2_Add(p, kiriVec2_Scale(c, kiriMesh_Local(&sheet->mesh, corner[2])));
 }
 
-static void WriteHit(const kiriSheetData* sheet, int32_t triangle, const kiriVec3 corner[3], Barycentric at, kiriHit* hit)
+static void WriteHit(const kiriSheetData* sheet, int32_t triangle, const kiriVec3 corner[3], Barycentric at,
+                     kiriHit* hit)
 {
     kiriVec3 ab = kiriVec3_Sub(corner[1], corner[0]), ac = kiriVec3_Sub(corner[2], corner[0]);
     kiriVec2 rest = kiriVec2_Add(sheet->mesh.origin, RestPoint(sheet, triangle, at.b, at.c));

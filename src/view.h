@@ -15,7 +15,8 @@ void kiriView_WriteTopology(kiriSheetData* sheet);
 void kiriView_WritePositions(kiriSheetData* sheet);
 
 /* The first triangle that the ray meets, up to maxDistance (m) along its direction, a unit vector. hit->triangle is -1 when there is none. */
-void kiriView_Raycast(const kiriSheetData* sheet, kiriVec3 origin, kiriVec3 direction, double maxDistance, kiriHit* hit);
+void kiriView_Raycast(const kiriSheetData* sheet, kiriVec3 origin, kiriVec3 direction, double maxDistance,
+                      kiriHit* hit);
 
 /* The rest segments in which the quadrilateral meets the mesh: pairs of local points. False for memory. */
 typedef KIRI_ARRAY(kiriVec2) kiriRestPoints;

@@ -32,7 +32,18 @@ static void Enter(kiriWorld* world, int32_t stage)
 
 static bool HasStrokes(const kiriSheetData* sheet)
 {
-    return sheet->queue.count > 0;
+    return sheet->granted > 0;
+}
+
+/* Shares the budget out, sheet by sheet. What is not granted waits. */
+static void Grant(kiriWorld* world)
+{
+    int32_t left = world->cutBudget > 0 ? world->cutBudget : INT32_MAX;
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriSheetData* sheet = world->sheets.data[i];
+        sheet->granted = sheet->queue.count < left ? sheet->queue.count : left;
+        left -= sheet->granted;
+    }
 }
 
 static bool IsRecut(const kiriSheetData* sheet)
@@ -103,7 +114,7 @@ static kiriEvent* AddEvent(kiriWorld* world, int32_t type, const kiriSheetData* 
 
 static void CountWork(kiriProfile* profile, const kiriSheetData* sheet)
 {
-    for (int32_t i = 0; i < sheet->queue.count; ++i) {
+    for (int32_t i = 0; i < sheet->granted; ++i) {
         profile->cutSegments += !sheet->queue.data[i].jump;
     }
     if (IsRecut(sheet)) {
@@ -142,7 +153,7 @@ static void FinishCuts(kiriWorld* world, kiriSheetData* sheet)
     int32_t kept = 0;
     for (int32_t i = 0; i < sheet->cuts.count; ++i) {
         kiriCutData* cut = sheet->cuts.data[i];
-        if (cut->ended) {
+        if (cut->ended && cut->waiting == 0) {
             AddEvent(world, KIRI_EVENT_CUT_FINISHED, sheet)->cut = cut->id;
             RemoveCut(world, cut);
         } else {
@@ -172,6 +183,9 @@ static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps)
     kiriResult result = KIRI_OK;
     Enter(world, KIRI_STAGE_SOLVE);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
+        if (world->sheets.data[i]->queue.count > 0 && result == KIRI_OK) {
+            result = KIRI_PENDING;
+        }
         int32_t solved = kiriMotion_Solve(world->sheets.data[i], world->gravity, dt, substeps);
         if (solved < 0) {
             AddEvent(world, KIRI_EVENT_DIVERGED, world->sheets.data[i]);
@@ -197,6 +211,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     world->events.count = 0;
     kiriResult result = KIRI_ERROR_MEMORY;
     int32_t begun;
+    Grant(world);
     if (RecutAll(world, &begun) && ReserveRoom(world)) {
         CommitAll(world);
         result = SolveAll(world, dt, substeps);

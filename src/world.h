@@ -17,6 +17,7 @@ struct kiriWorld {
     kiriClockFn* clock;
     void* user;
     kiriVec3 gravity;
+    int32_t cutBudget; /* 0: no limit */
     kiriPool sheetIds, cutIds, frameIds, pinIds;
     KIRI_ARRAY(kiriSheetData*) sheets; /* in the order of their making */
     KIRI_ARRAY(kiriEvent) events;
@@ -26,7 +27,7 @@ struct kiriWorld {
     kiriError* error; /* apart, so that functions which only read can report too */
 };
 
-/* One tick: KIRI_OK, KIRI_ERROR_MEMORY (nothing moved), or KIRI_DIVERGED. */
+/* One tick: KIRI_OK, KIRI_PENDING (cut points wait), KIRI_ERROR_MEMORY (nothing moved), or KIRI_DIVERGED. */
 kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps);
 
 /* Makes a sheet of the def, which has been checked, and gives it and its frames their ids. */

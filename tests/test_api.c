@@ -160,6 +160,24 @@ static void Names(void** state)
     assert_true(kiriGetVersion() >= 0);
 }
 
+/* Every preset makes a sheet; other numbers make none. */
+static void Materials(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    for (int32_t preset = 0; preset < KIRI_MATERIAL_COUNT; ++preset) {
+        kiriSheetDef def = Host_SmallDef();
+        assert_int_equal(kiriGetMaterial(preset, &def.material), KIRI_OK);
+        Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    }
+    kiriMaterial material;
+    assert_int_equal(kiriGetMaterial(-1, &material), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriGetMaterial(KIRI_MATERIAL_COUNT, &material), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriGetMaterial(0, NULL), KIRI_ERROR_ARGUMENT);
+    Host_Stop(&host);
+}
+
 static void WorldDefs(void** state)
 {
     (void)state;
@@ -167,7 +185,7 @@ static void WorldDefs(void** state)
     memset(&plain, 0, sizeof(plain));
     plain.failAt = -1;
     kiriWorld* const mark = (kiriWorld*)&plain;
-    for (int bad = 0; bad < 13; ++bad) {
+    for (int bad = 0; bad < 14; ++bad) {
         kiriWorldDef def = Host_Def(&plain);
         kiriWorld* world = mark;
         if (bad < 9) {
@@ -177,11 +195,13 @@ static void WorldDefs(void** state)
         } else if (bad == 10) {
             def.free = NULL;
         } else if (bad == 11) {
+            def.cutBudget = -1;
+        } else if (bad == 12) {
             def.cookie ^= 1;
         } else {
             memset(&def, 0, sizeof(def));
         }
-        assert_int_equal(kiriCreateWorld(&def, &world), bad < 11 ? KIRI_ERROR_ARGUMENT : KIRI_ERROR_DEF);
+        assert_int_equal(kiriCreateWorld(&def, &world), bad < 12 ? KIRI_ERROR_ARGUMENT : KIRI_ERROR_DEF);
         assert_null(world);
         assert_int_equal(plain.live, 0);
     }
@@ -782,7 +802,7 @@ static void HugeSheets(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(NullWorld),      cmocka_unit_test(Names),          cmocka_unit_test(WorldDefs),
+        cmocka_unit_test(NullWorld),      cmocka_unit_test(Names),          cmocka_unit_test(WorldDefs),         cmocka_unit_test(Materials),
         cmocka_unit_test(WorldArguments), cmocka_unit_test(SheetDefFloats), cmocka_unit_test(SheetDefInts),
         cmocka_unit_test(Meshes),         cmocka_unit_test(FillRectangle),  cmocka_unit_test(Ids),
         cmocka_unit_test(SheetArguments), cmocka_unit_test(CutArguments),   cmocka_unit_test(FrameArguments),

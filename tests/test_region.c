@@ -52,10 +52,35 @@ static void StripHasStraightLinks(void** state)
         AssertNear(link->centroid.y, 0.125, 1e-12);
         AssertNear(link->crossing.x, 0.5 * (sites[k].at.x + sites[k + 1].at.x), 1e-12);
         AssertNear(link->crossing.y, sites[k].at.y, 1e-12);
+        AssertNear(link->span.x, 7.0 * scene.grid.side, 1e-12);
+        AssertNear(link->span.y, 0.0, 1e-12);
+        AssertNear(link->braced, 0.0, 0.0);
     }
     for (int i = 0; i < 5; ++i) {
         int32_t columns = i == 0 ? 8 : i == 4 ? 7 : 7;
         AssertNear(regions.regions.data[i].material.area, 0.25 * columns / 36.0, 1e-5);
+    }
+    Finish(&scene, &regions);
+}
+
+/* Sixteen square regions: a link is braced by what its two regions have on both sides along the tangent. */
+static void NeighboursBrace(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriRegions regions;
+    kiriSite sites[16];
+    Scene_Init(&scene, 1.0, 1.0, 4, 4, 36);
+    Scene_BuildGrid(&scene);
+    for (int i = 0; i < 16; ++i) {
+        sites[i] = Scene_Site(&scene, (4.5 + 9 * (i % 4)) / 36, (4.5 + 9 * (i / 4)) / 36);
+    }
+    Build(&scene, &regions, sites, 16);
+    assert_int_equal(regions.links.count, 24);
+    for (int k = 0; k < 24; ++k) {
+        const kiriLink* link = &regions.links.data[k];
+        int line = link->j - link->i == 1 ? link->i / 4 : link->i % 4; /* of regions, that the link lies in */
+        AssertNear(link->braced, line == 0 || line == 3 ? 0.5 : 1.0, 1e-4);
     }
     Finish(&scene, &regions);
 }
@@ -432,6 +457,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(StripHasStraightLinks),
+        cmocka_unit_test(NeighboursBrace),
         cmocka_unit_test(NormalPointsToTheHigherIndex),
         cmocka_unit_test(SlitMakesTheLongWay),
         cmocka_unit_test(CompleteCutHasNoLink),

@@ -64,6 +64,8 @@ static void AddLink(Scene* s, int i, int j, kiriVec2 normal, double width, kiriV
     k->width = width;
     k->length = kiriVec2_Length(kiriVec2_Sub(b, a));
     k->moment = width * width * width / 12.0;
+    k->braced = 1.0;
+    k->span = kiriVec2_Sub(b, a);
     k->normal = normal;
     k->tangent = kiriVec2_Make(-normal.y, normal.x);
     k->centroid = at;
@@ -258,6 +260,7 @@ static Couple RandomCouple(uint32_t* seed)
     c.link.width = 0.7;
     c.link.length = 1.0;
     c.link.normal = kiriVec2_Make(cos(angle), sin(angle));
+    c.link.span = kiriVec2_Make(RandomBetween(seed, -1.0, 1.0), RandomBetween(seed, -1.0, 1.0));
     c.link.tangent = kiriVec2_Make(-sin(angle), cos(angle));
     c.link.centroid = kiriVec2_Make(RandomBetween(seed, -0.3, 0.3), RandomBetween(seed, -0.3, 0.3));
     c.link.crossing = kiriVec2_Make(RandomBetween(seed, -0.3, 0.3), RandomBetween(seed, -0.3, 0.3));
@@ -324,6 +327,39 @@ static void TestInnerForcesBalance(void** state)
     }
 }
 
+/* Two sites on a cylinder, the frames tangent to it: the strains are the angle between them and nothing else, whatever
+   way the link runs and wherever its border lies. */
+static void TestArcIsBendingOnly(void** state)
+{
+    uint32_t seed = 13;
+    (void)state;
+    for (int trial = 0; trial < 200; ++trial) {
+        double strain[KIRI_STRAINS], way = RandomBetween(&seed, 0.0, 6.28), aslant = RandomBetween(&seed, -0.5, 0.5);
+        double angle = RandomBetween(&seed, -0.3, 0.3), turn = angle * cos(way);
+        Couple c = RandomCouple(&seed);
+        c.link.span = kiriVec2_Make(cos(way), sin(way));
+        c.link.normal = kiriVec2_Make(cos(way + aslant), sin(way + aslant));
+        c.link.tangent = kiriVec2_Make(-c.link.normal.y, c.link.normal.x);
+        c.link.crossing = kiriVec2_Make(0.0, 0.0);
+        c.link.centroid = kiriVec2_Scale(RandomBetween(&seed, -0.3, 0.3), kiriVec2_Make(-sin(way), cos(way)));
+        for (int k = 0; k < 2; ++k) {
+            double half = k == 0 ? -0.5 : 0.5, a = half * turn;
+            c.frames[k].center = kiriVec2_Scale(half, c.link.span);
+            c.poses[k].A = IdentityMatrix();
+            c.poses[k].A.u = kiriVec3_Make(cos(a), 0.0, -sin(a));
+            c.poses[k].A.d = kiriVec3_Make(sin(a), 0.0, cos(a));
+            c.poses[k].x =
+                kiriVec3_Make(angle != 0.0 ? sin(a) / angle : half * cos(way), half * sin(way), (cos(a) - 1.0) / angle);
+        }
+        MeasureCouple(&c, strain, NULL);
+        double bent = sqrt(strain[KIRI_BENDING] * strain[KIRI_BENDING] + strain[KIRI_TWIST] * strain[KIRI_TWIST]);
+        AssertNear(bent, fabs(turn), 0.001 * fabs(turn));
+        AssertNear(strain[KIRI_SHEAR], 0.0, 0.05 * turn * turn);
+        AssertNear(strain[KIRI_STRETCH], 0.0, 0.1 * turn * turn);
+        AssertNear(strain[KIRI_NORMAL_GAP], 0.0, 1e-12);
+    }
+}
+
 /* Frames folded flat on each other have no mean axes: the strains stay finite. */
 static void TestFoldedFlat(void** state)
 {
@@ -381,7 +417,9 @@ static void TestEnergies(void** state)
     AssertNear(shear / (0.5 * membrane * e * e), 1.0, 1e-6);
     AssertNear(normal / (0.5 * 12.0 * D * W / (L * L * L) * e * e), 1.0, 0.02); /* a little stretch */
     AssertNear(plane / (0.5 * membrane * W * W / 12.0 * e * e), 1.0, 1e-6);
-    AssertNear(bend / (0.5 * D * W / L * e * e), 1.0, 1e-6);
+    /* The sites stay a chord apart, and an arc would draw them nearer by L e^2 / 12. */
+    double arc = L * e * e / 12.0;
+    AssertNear((bend - 0.5 * membrane * arc * arc) / (0.5 * D * W / L * e * e), 1.0, 1e-6);
     AssertNear(twist / (0.5 * D * W / L * e * e), 1.0, 1e-6);
 }
 
@@ -491,12 +529,10 @@ static double AngularLoss(double dt)
 
 static void TestMomentum(void** state)
 {
-    double coarse = AngularLoss(1e-2), fine = AngularLoss(1e-3), finest = AngularLoss(1e-4);
     (void)state;
-    print_message("angular momentum lost in 0.1 s: %.2e %.2e %.2e at dt 1e-2 1e-3 1e-4\n", coarse, fine, finest);
-    assert_true(coarse < 2e-2);
-    assert_true(fine < 0.15 * coarse);
-    assert_true(finest < 0.15 * fine);
+    assert_true(AngularLoss(1e-2) < 1e-9);
+    assert_true(AngularLoss(1e-3) < 1e-9);
+    assert_true(AngularLoss(1e-4) < 1e-9);
 }
 
 static void TestAirDamping(void** state)
@@ -646,7 +682,7 @@ static double ElasticaError(int frames)
 static void TestCantilever(void** state)
 {
     const int frames[4] = { 3, 5, 9, 17 };
-    const double bounds[4] = { 0.040, 0.012, 0.006, 0.002 };
+    const double bounds[4] = { 0.020, 0.005, 0.002, 0.001 };
     (void)state;
     SolveElastica(1000.0 * 9.81 * 5e-4 * 8e-3 * 12.0 / (5e8 * 1.25e-10));
     for (int k = 0; k < 4; ++k) {
@@ -675,7 +711,7 @@ static void TestSoftCantileverHangs(void** state)
     }
 }
 
-/* In its plane: a deep beam after Timoshenko, and a bar, under fifty times their weight; as in the reference. */
+/* In its plane, one region wide: a deep beam after Timoshenko, and a bar, under fifty times their weight. */
 static void TestInPlane(void** state)
 {
     const double w = 1000.0 * 5e-4 * 0.05 * 9.81 * 50.0, L = 0.2, EI = 5e8 * 5e-4 * 0.05 * 0.05 * 0.05 / 12.0;
@@ -686,12 +722,15 @@ static void TestInPlane(void** state)
         MakeSheet(&scene, 9, 1, L, 0.05, Strip);
         scene.system.material.airDamping = 100.0f;
         scene.system.gravity = k == 0 ? kiriVec3_Make(0.0, -9.81 * 50.0, 0.0) : kiriVec3_Make(9.81 * 50.0, 0.0, 0.0);
+        for (int n = 0; n < scene.system.linkCount; ++n) {
+            scene.links[n].braced = 0.0;
+        }
         Hold(&scene, 0);
         Settle(&scene, 0.05);
         kiriVec3 tip = SitePosition(&scene.frames[8]);
         double ratio = k == 0 ? (0.025 - tip.y) / sag : (tip.x - L) / longer;
         print_message("%s, 9 frames: %.3f of theory\n", k == 0 ? "in-plane bending" : "tension", ratio);
-        AssertNear(ratio, 1.0, 0.1);
+        AssertNear(ratio, 1.0, 0.015);
         Drop(&scene);
     }
 }
@@ -709,9 +748,9 @@ static void TestTensionDoesNotBuckle(void** state)
         scene.frames[f].A = kiriMat3_Cayley(RandomVector(&seed, 1e-3));
     }
     scene.frames[4].force = kiriVec3_Make(10.0, 0.0, 0.0); /* 200 N/m; 12 D / l^2 is 0.9 N/m */
-    Steps(&scene, 400, 1.0 / 60.0, 2);
+    Steps(&scene, 2000, 1.0 / 60.0, 2);                    /* the tilts grow at first, and then die out */
     for (int f = 1; f < 5; ++f) {
-        AssertNear(scene.frames[f].A.d.z, 1.0, 1e-6);
+        AssertNear(scene.frames[f].A.d.z, 1.0, 1e-8);
         AssertNear(scene.frames[f].x.z, 0.0, 1e-4);
     }
     Drop(&scene);
@@ -931,6 +970,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestStrainDerivatives),
         cmocka_unit_test(TestInnerForcesBalance),
+        cmocka_unit_test(TestArcIsBendingOnly),
         cmocka_unit_test(TestFoldedFlat),
         cmocka_unit_test(TestEnergies),
         cmocka_unit_test(TestRigidMotionCostsNothing),

@@ -69,9 +69,10 @@ typedef double kiriClockFn(void* user); /* seconds; read for the profile only, n
 typedef struct kiriWorldDef {
     uint32_t cookie;
     float gravity[3];   /* m/s^2; default (0, 0, -9.81) */
+    int32_t cutBudget;  /* blade points taken in one tick, over all sheets, first come first served; 0: no limit */
     kiriAllocFn* alloc; /* null: malloc and free. Both or none. */
     kiriFreeFn* free;
-    kiriLogFn* log; /* one line for each error; null: silent */
+    kiriLogFn* log;     /* one line for each error; null: silent */
     kiriClockFn* clock; /* null: the profile counts, and shows no times */
     void* user;         /* handed to the four functions above */
 } kiriWorldDef;
@@ -85,7 +86,8 @@ KIRI_API kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 KIRI_API void kiriDestroyWorld(kiriWorld* world);
 
 /* One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut points,
-   then moves every sheet. KIRI_ERROR_MEMORY: nothing moved and the cut points still wait, call again.
+   then moves every sheet. KIRI_PENDING: the cut budget is spent, and more points wait; a cut that waits leaves its sheet
+   in a valid state. KIRI_ERROR_MEMORY: nothing moved and the cut points still wait, call again.
    KIRI_DIVERGED: the sheets named by the events were put to rest, the others moved. */
 KIRI_API kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
 
@@ -119,14 +121,14 @@ KIRI_API kiriResult kiriWorld_GetEvents(const kiriWorld* world, const kiriEvent*
 
 /* The stages of a tick in their order. */
 enum {
-    KIRI_STAGE_CUT,      /* split the mesh along the blade */
-    KIRI_STAGE_GRID,     /* cells and what links them */
-    KIRI_STAGE_REGIONS,  /* geodesic distances, regions, links; placing of frames */
-    KIRI_STAGE_SHAPE,    /* shape functions */
-    KIRI_STAGE_SAMPLES,  /* weights of vertices and collision points */
+    KIRI_STAGE_CUT,       /* split the mesh along the blade */
+    KIRI_STAGE_GRID,      /* cells and what links them */
+    KIRI_STAGE_REGIONS,   /* geodesic distances, regions, links; placing of frames */
+    KIRI_STAGE_SHAPE,     /* shape functions */
+    KIRI_STAGE_SAMPLES,   /* weights of vertices and collision points */
     KIRI_STAGE_CONSTANTS, /* mass, and the pattern of the solver's matrix */
-    KIRI_STAGE_SOLVE,    /* the motion of the frames */
-    KIRI_STAGE_SKIN,     /* positions and normals of the mesh */
+    KIRI_STAGE_SOLVE,     /* the motion of the frames */
+    KIRI_STAGE_SKIN,      /* positions and normals of the mesh */
     KIRI_STAGE_COUNT
 };
 
@@ -154,6 +156,17 @@ typedef struct kiriMaterial {
     float airDamping;    /* 1/s, 0 or more: velocities fade as exp(-airDamping t) */
     float flexDamping;   /* s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
 } kiriMaterial;
+
+/* Materials to start from; material.c says where their numbers come from. */
+enum {
+    KIRI_MATERIAL_PAPER,  /* printing paper, 0.11 mm */
+    KIRI_MATERIAL_COTTON, /* cloth, 0.5 mm; the default of a sheet def */
+    KIRI_MATERIAL_RUBBER, /* natural rubber, 1 mm */
+    KIRI_MATERIAL_FOIL,   /* aluminium, 16 um */
+    KIRI_MATERIAL_COUNT
+};
+
+KIRI_API kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
 
 /* How a sheet deforms. */
 enum {
@@ -324,7 +337,8 @@ KIRI_API kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, 
 KIRI_API kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9]);
 
 /* A force (N, world) on the frame's centre of mass and a torque (N m), for the next tick only. */
-KIRI_API kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3], const float torque[3]);
+KIRI_API kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3],
+                                         const float torque[3]);
 
 /* ---- Pin and contact -------------------------------------------------------------------------------------------- */
 
@@ -351,7 +365,8 @@ typedef struct kiriContact {
 } kiriContact;
 
 /* The contacts of the next tick; they replace those of an earlier call, and are gone after the tick. */
-KIRI_API kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriContact* contacts, int32_t count);
+KIRI_API kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriContact* contacts,
+                                          int32_t count);
 
 #ifdef __cplusplus
 }
