@@ -165,6 +165,9 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(SCENE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lcmocka -lm
 
+# Tests that compare with the heavy elastica.
+$(BUILD)/tests/test_affine $(BUILD)/tests/test_point: $(BUILD)/tests/reference.c.o
+
 deps:
 	@if ! command -v apt-get >/dev/null; then echo "needed, as Debian names it: $(DEBIAN_PACKAGES)"; exit 0; fi; \
 	missing=; for package in $(DEBIAN_PACKAGES); do \

@@ -268,6 +268,7 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     def->maxFrames = 256;
     def->rigidWeight = 0.95f;
     def->iterations = 2;
+    def->integrationOrder = 1;
 }
 
 kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material)
@@ -323,10 +324,21 @@ static const char* FaultOfFrames(const kiriSheetDef* def)
     return NULL;
 }
 
+static const char* FaultOfModel(const kiriSheetDef* def)
+{
+    if (!IsWithin(def->model, KIRI_MODEL_LINKS, KIRI_MODEL_POINTS) || !IsWithin(def->planar, 0, 1)) {
+        return "model is not one of KIRI_MODEL, or planar not 0 or 1";
+    }
+    return IsWithin(def->integrationPoints, 0, 1 << 20) && IsWithin(def->integrationOrder, 1, 2)
+               ? NULL
+               : "integrationPoints is not within 0 and 1048576, or integrationOrder not 1 or 2";
+}
+
 static const char* FaultOfSheet(const kiriSheetDef* def)
 {
-    const char* faults[] = { FaultOfMaterial(&def->material), FaultOfPlacement(def), FaultOfFrames(def) };
-    for (int i = 0; i < 3; ++i) {
+    const char* faults[] = { FaultOfMaterial(&def->material), FaultOfPlacement(def), FaultOfFrames(def),
+                             FaultOfModel(def) };
+    for (int i = 0; i < 4; ++i) {
         if (faults[i] != NULL) {
             return faults[i];
         }
@@ -608,7 +620,7 @@ kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrame
     kiriVec3_Store(&state->rotation[0], data->A.u);
     kiriVec3_Store(&state->rotation[3], data->A.v);
     kiriVec3_Store(&state->rotation[6], data->A.d);
-    kiriVec3_Store(state->velocity, kiriVec3_Add(data->velocity, kiriVec3_Cross(data->spin, kiriVec3_Sub(x, data->x))));
+    kiriVec3_Store(state->velocity, kiriFrame_VelocityAt(data, data->site.at));
     kiriVec3_Store(state->angularVelocity, data->spin);
     state->area = (float)data->area;
     state->mass = (float)data->mass;
@@ -634,6 +646,9 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
           "rotation is not orthonormal");
     kiriMat3 m = { kiriVec3_Load(&rotation[0]), kiriVec3_Load(&rotation[3]), kiriVec3_Load(&rotation[6]) };
     CHECK(kiriVec3_Dot(kiriVec3_Cross(m.u, m.v), m.d) > 0.0, "rotation mirrors");
+    const kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frame)->owner;
+    CHECK(!sheet->mechanics.planar || kiriVec3_Dot(m.d, sheet->mechanics.axes.d) > 0.999999,
+          "rotation turns a planar sheet out of its plane");
     data->held = 1;
     data->heldPosition = kiriVec3_Load(position);
     data->heldRotation = kiriMat3_Rotation(m);

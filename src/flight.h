@@ -1,4 +1,4 @@
-/* A rigid frame by itself: its mass, and how it flies over a step when no link, pin or contact acts on it. */
+/* A frame by itself: its mass, and how it flies over a step when no link, pin or contact acts on it. */
 #ifndef KIRI_FLIGHT_H
 #define KIRI_FLIGHT_H
 
@@ -22,6 +22,7 @@ typedef struct kiriFlight {
     kiriMassMoments moments;
     kiriPose pose; /* at the end of the step */
     kiriVec3 velocity, spin;
+    kiriMat3 rate;  /* of A, all of it; of affine frames only */
     kiriPose coast; /* the same without forces */
 } kiriFlight;
 
@@ -40,18 +41,33 @@ static inline kiriVec3 kiriPose_Along(const kiriPose* pose, kiriVec2 a)
 /* The flight of a free frame under gravity and its own force and torque. */
 kiriFlight kiriFlight_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity, double dt);
 
+/* The same of an affine frame, which turns by its spin and goes on stretching. */
+kiriFlight kiriFlight_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity, double dt);
+
+/* A (1 + ..) turned: where A gets by a change of `change`, whose turning part turns it and leaves its lengths. */
+kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change);
+
+/* The spin that comes nearest to the rate at which A changes, and what the rate has beside it. */
+kiriVec3 kiriMat3_Spin(const kiriMat3* A, const kiriMat3* rate);
+kiriMat3 kiriMat3_Beside(const kiriMat3* A, const kiriMat3* rate, kiriVec3 spin);
+
 /* The way of a frame that the host moves. */
 kiriFlight kiriFlight_Held(const kiriFrameData* frame, const kiriMaterial* material, double dt);
 
-/* Kinetic energy, J, and angular momentum about the centre of mass. */
+/* Kinetic energy, J, and angular momentum about the centre of mass, rigid or not; and by how much the latter grows with
+   the spin, symmetric, in space. */
 double kiriFrame_KineticEnergy(const kiriFrameData* frame, const kiriMaterial* material);
 kiriVec3 kiriFrame_AngularMomentum(const kiriFrameData* frame, const kiriMaterial* material);
+kiriMat3 kiriFrame_Inertia(const kiriFrameData* frame, const kiriMaterial* material);
 
-/* The inertia tensor, symmetric, in space. */
+/* The inertia tensor of a rigid frame, symmetric, in space. */
 kiriMat3 kiriFlight_Inertia(const kiriFlight* flight, const kiriMat3* A);
 
-/* Sum over the region's mass points p of m |A p - A* p|^2, with A* the rotation that the flight ends with. */
+/* Sum over the region's mass points p of m |A p - A* p|^2, with A* that the flight ends with. */
 double kiriFlight_TurnSquared(const kiriFlight* flight, const kiriMat3* A);
+
+/* Half its gradient by the columns of A. */
+kiriMat3 kiriFlight_Gradient(const kiriFlight* flight, const kiriMat3* A);
 
 /* Half its gradient by turning A: a turning impulse, times the step. */
 kiriVec3 kiriFlight_TurnGradient(const kiriFlight* flight, const kiriMat3* A);

@@ -193,7 +193,7 @@ void kiriFrame_Recenter(kiriFrameData* frame, const kiriMoments* material, doubl
     kiriVec2 center = kiriMoments_Center(material);
     kiriMoments about = kiriMoments_About(material, center);
     kiriVec3 x = kiriFrame_Carry(frame, center);
-    frame->velocity = kiriVec3_Add(frame->velocity, kiriVec3_Cross(frame->spin, kiriVec3_Sub(x, frame->x)));
+    frame->velocity = kiriFrame_VelocityAt(frame, center);
     frame->x = x;
     frame->center = center;
     frame->area = material->area;

@@ -5,18 +5,17 @@ static kiriVec3 Zero(void)
     return kiriVec3_Make(0.0, 0.0, 0.0);
 }
 
-static void GatherCenters(const kiriFrameData* frames, int32_t frameCount, const kiriPose* poses,
-                          const kiriFlight* flights, const int32_t* piece, kiriPieceMomentum* pieces,
-                          int32_t pieceCount)
+static void GatherCenters(const kiriFrameData* before, const kiriFrameData* after, int32_t frameCount,
+                          const int32_t* piece, kiriPieceMomentum* pieces, int32_t pieceCount)
 {
     for (int32_t f = 0; f < frameCount; ++f) {
         kiriPieceMomentum* p = &pieces[piece[f]];
-        double m = frames[f].mass;
+        double m = before[f].mass;
         p->mass += m;
-        p->centerBefore = kiriVec3_AddScaled(p->centerBefore, m, frames[f].x);
-        p->velocityBefore = kiriVec3_AddScaled(p->velocityBefore, m, frames[f].velocity);
-        p->centerAfter = kiriVec3_AddScaled(p->centerAfter, m, poses[f].x);
-        p->velocityAfter = kiriVec3_AddScaled(p->velocityAfter, m, flights[f].velocity);
+        p->centerBefore = kiriVec3_AddScaled(p->centerBefore, m, before[f].x);
+        p->velocityBefore = kiriVec3_AddScaled(p->velocityBefore, m, before[f].velocity);
+        p->centerAfter = kiriVec3_AddScaled(p->centerAfter, m, after[f].x);
+        p->velocityAfter = kiriVec3_AddScaled(p->velocityAfter, m, after[f].velocity);
     }
     for (int32_t i = 0; i < pieceCount; ++i) {
         kiriPieceMomentum* p = &pieces[i];
@@ -44,30 +43,28 @@ static void AddInertia(kiriMat3* sum, const kiriMat3* part)
     sum->d = kiriVec3_Add(sum->d, part->d);
 }
 
-/* What a frame adds: with inertia J about its centre, mass m at r with velocity v. */
-static kiriVec3 Angular(const kiriMat3* J, kiriVec3 spin, double m, kiriVec3 r, kiriVec3 v)
+/* What a frame adds, about a centre that moves. The true rate of A counts, by which affine frames also stretch. */
+static kiriVec3 Angular(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 center, kiriVec3 velocity)
 {
-    return kiriVec3_Add(kiriMat3_Mul(*J, spin), kiriVec3_Scale(m, kiriVec3_Cross(r, v)));
+    kiriVec3 r = kiriVec3_Sub(frame->x, center), v = kiriVec3_Sub(frame->velocity, velocity);
+    return kiriVec3_AddScaled(kiriFrame_AngularMomentum(frame, material), frame->mass, kiriVec3_Cross(r, v));
 }
 
-static void GatherTurning(const kiriFrameData* frames, int32_t frameCount, const kiriPose* poses,
-                          const kiriFlight* flights, const int32_t* piece, kiriPieceMomentum* pieces, double fade,
-                          double dt)
+static void GatherTurning(const kiriFrameData* before, const kiriFrameData* after, int32_t frameCount,
+                          const int32_t* piece, kiriPieceMomentum* pieces, const kiriMaterial* material, double dt)
 {
+    double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
     for (int32_t f = 0; f < frameCount; ++f) {
-        const kiriFrameData* frame = &frames[f];
+        const kiriFrameData* frame = &before[f];
         kiriPieceMomentum* p = &pieces[piece[f]];
-        kiriMat3 before = kiriFlight_Inertia(&flights[f], &frame->A),
-                 after = kiriFlight_Inertia(&flights[f], &poses[f].A);
-        kiriVec3 r = kiriVec3_Sub(frame->x, p->centerBefore), s = kiriVec3_Sub(poses[f].x, p->centerAfter);
-        kiriVec3 v = kiriVec3_Sub(frame->velocity, p->velocityBefore);
-        kiriVec3 w = kiriVec3_Sub(flights[f].velocity, p->velocityAfter);
-        kiriVec3 torque = kiriVec3_Add(frame->torque, kiriVec3_Cross(r, frame->force));
-        kiriMat3 point = PointInertia(frame->mass, s);
-        p->due = kiriVec3_AddScaled(p->due, fade, Angular(&before, frame->spin, frame->mass, r, v));
+        kiriVec3 arm = kiriVec3_Sub(frame->x, p->centerBefore);
+        kiriVec3 torque = kiriVec3_Add(frame->torque, kiriVec3_Cross(arm, frame->force));
+        kiriMat3 own = kiriFrame_Inertia(&after[f], material);
+        kiriMat3 point = PointInertia(frame->mass, kiriVec3_Sub(after[f].x, p->centerAfter));
+        p->due = kiriVec3_AddScaled(p->due, fade, Angular(frame, material, p->centerBefore, p->velocityBefore));
         p->due = kiriVec3_AddScaled(p->due, dt, torque);
-        p->angular = kiriVec3_Add(p->angular, Angular(&after, flights[f].spin, frame->mass, s, w));
-        AddInertia(&p->inertia, &after);
+        p->angular = kiriVec3_Add(p->angular, Angular(&after[f], material, p->centerAfter, p->velocityAfter));
+        AddInertia(&p->inertia, &own);
         AddInertia(&p->inertia, &point);
     }
 }
@@ -85,9 +82,9 @@ static double FindTurns(kiriPieceMomentum* pieces, int32_t pieceCount)
     return energy;
 }
 
-void kiriMomentum_Restore(const kiriFrameData* frames, int32_t frameCount, const kiriPose* poses, kiriFlight* flights,
-                          const int32_t* piece, kiriPieceMomentum* pieces, int32_t pieceCount,
-                          const kiriMaterial* material, double dt, double lost)
+void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t frameCount, const int32_t* piece,
+                          kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, double dt,
+                          double lost)
 {
     for (int32_t i = 0; i < pieceCount; ++i) {
         int32_t isHeld = pieces[i].isHeld;
@@ -95,15 +92,13 @@ void kiriMomentum_Restore(const kiriFrameData* frames, int32_t frameCount, const
         kiriPieceMomentum p = { isHeld, 0.0, Zero(), Zero(), Zero(), Zero(), Zero(), Zero(), none, Zero() };
         pieces[i] = p;
     }
-    double fade = 1.0 / (1.0 + dt * material->airDamping);
-    GatherCenters(frames, frameCount, poses, flights, piece, pieces, pieceCount);
-    GatherTurning(frames, frameCount, poses, flights, piece, pieces, fade, dt);
+    GatherCenters(before, after, frameCount, piece, pieces, pieceCount);
+    GatherTurning(before, after, frameCount, piece, pieces, material, dt);
     double energy = FindTurns(pieces, pieceCount), share = energy > lost ? lost / energy : 1.0;
     for (int32_t f = 0; f < frameCount; ++f) {
         const kiriPieceMomentum* p = &pieces[piece[f]];
-        kiriVec3 turn = kiriVec3_Scale(share, p->turn);
-        flights[f].velocity =
-            kiriVec3_Add(flights[f].velocity, kiriVec3_Cross(turn, kiriVec3_Sub(poses[f].x, p->centerAfter)));
-        flights[f].spin = kiriVec3_Add(flights[f].spin, turn);
+        kiriVec3 turn = kiriVec3_Scale(share, p->turn), arm = kiriVec3_Sub(after[f].x, p->centerAfter);
+        after[f].velocity = kiriVec3_Add(after[f].velocity, kiriVec3_Cross(turn, arm));
+        after[f].spin = kiriVec3_Add(after[f].spin, turn);
     }
 }

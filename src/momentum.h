@@ -21,11 +21,11 @@ typedef struct kiriPieceMomentum {
 } kiriPieceMomentum;
 
 /* Turns the pieces that are not held as rigid bodies until they have the angular momentum that they should have, as far as
-   `lost` (J) goes: the energy that the step has lost. frames are as before the step; poses and flights (with velocities
-   and spins) as after it. piece[f] is the piece of frame f; isHeld is set in `pieces`, the rest is scratch. */
-void kiriMomentum_Restore(const kiriFrameData* frames, int32_t frameCount, const kiriPose* poses, kiriFlight* flights,
-                          const int32_t* piece, kiriPieceMomentum* pieces, int32_t pieceCount,
-                          const kiriMaterial* material, double dt, double lost);
+   `lost` (J) goes: the energy that the step has lost. Frames are those before and after the step; piece[f] is the piece of
+   frame f; isHeld is set in `pieces`, the rest is scratch. */
+void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t frameCount, const int32_t* piece,
+                          kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, double dt,
+                          double lost);
 
 #ifdef __cplusplus
 }

@@ -46,6 +46,8 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     system.pinCount = sheet->pinRows.count;
     system.contacts = sheet->contactRows.data;
     system.contactCount = sheet->contactRows.count;
+    system.mechanics = sheet->mechanics;
+    system.patches = &sheet->model.patches;
     system.material = sheet->material;
     system.gravity = gravity;
     return system;
@@ -56,6 +58,7 @@ static void PutToRest(kiriSheetData* sheet)
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         memset(&sheet->frames.data[i].velocity, 0, sizeof(kiriVec3));
         memset(&sheet->frames.data[i].spin, 0, sizeof(kiriVec3));
+        memset(&sheet->frames.data[i].rate, 0, sizeof(kiriMat3));
     }
 }
 

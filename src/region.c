@@ -244,6 +244,20 @@ static void SetMoments(const Border* border, kiriLink* link)
     }
 }
 
+/* The border is a staircase of faces, whose normals differ: what the link's one normal leaves out. */
+static void SetSpread(const Border* border, kiriLink* link)
+{
+    for (int32_t k = 0; k < border->stretch.count; ++k) {
+        const kiriFace* face = &border->grid->faces.data[border->stretch.data[k]];
+        Side side = SideOf(border, border->stretch.data[k]);
+        kiriVec2 arm = kiriVec2_Sub(face->middle, link->centroid);
+        double along = side.sign * face->width;
+        kiriVec2 normal = { side.axis == 0 ? along : 0.0, side.axis == 0 ? 0.0 : along };
+        link->spread[0] = kiriVec2_Add(link->spread[0], kiriVec2_Scale(arm.x, normal));
+        link->spread[1] = kiriVec2_Add(link->spread[1], kiriVec2_Scale(arm.y, normal));
+    }
+}
+
 /* A way from site i to site j. */
 typedef struct Way {
     int32_t length;
@@ -318,6 +332,7 @@ static bool AddLink(Border* border)
     link.normal = kiriVec2_Scale(1.0 / link.width, normal);
     link.tangent = kiriVec2_Make(-link.normal.y, link.normal.x);
     SetMoments(border, &link);
+    SetSpread(border, &link);
     SetLength(border, &link);
     return kiriArray_Push(border->memory, &border->regions->links, link);
 }

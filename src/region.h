@@ -38,6 +38,7 @@ typedef struct kiriLink {
     kiriVec2 centroid; /* b: of the border, local m */
     kiriVec2
         crossing; /* m: where the way from i to j crosses it; the midpoint of the sites where that way is straight */
+    kiriVec2 spread[2]; /* integrals over the border of (p - b)_u and of (p - b)_v, times its normal, m^2 */
 } kiriLink;
 
 typedef struct kiriRegions {

@@ -1,5 +1,7 @@
 #include "sample.h"
 
+#include <string.h>
+
 void kiriSkin_Release(kiriSkin* skin, const kiriMemory* memory)
 {
     kiriArray_Release(memory, &skin->start);
@@ -111,25 +113,28 @@ kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrame
     return x;
 }
 
+static void AddColumns(kiriMat3* sum, double w, const kiriMat3* A)
+{
+    sum->u = kiriVec3_AddScaled(sum->u, w, A->u);
+    sum->v = kiriVec3_AddScaled(sum->v, w, A->v);
+    sum->d = kiriVec3_AddScaled(sum->d, w, A->d);
+}
+
 static void AddMotion(kiriMotion* sum, const kiriFrameData* frame, kiriVec2 local, double w)
 {
-    kiriVec3 x = kiriFrame_Carry(frame, local);
-    kiriVec3 velocity = kiriVec3_Add(frame->velocity, kiriVec3_Cross(frame->spin, kiriVec3_Sub(x, frame->x)));
-    sum->x = kiriVec3_AddScaled(sum->x, w, x);
-    sum->velocity = kiriVec3_AddScaled(sum->velocity, w, velocity);
+    kiriMat3 rate = kiriFrame_Rate(frame);
+    sum->x = kiriVec3_AddScaled(sum->x, w, kiriFrame_Carry(frame, local));
+    sum->velocity = kiriVec3_AddScaled(sum->velocity, w, kiriFrame_VelocityAt(frame, local));
     sum->spin = kiriVec3_AddScaled(sum->spin, w, frame->spin);
-    sum->A.u = kiriVec3_AddScaled(sum->A.u, w, frame->A.u);
-    sum->A.v = kiriVec3_AddScaled(sum->A.v, w, frame->A.v);
-    sum->A.d = kiriVec3_AddScaled(sum->A.d, w, frame->A.d);
+    AddColumns(&sum->A, w, &frame->A);
+    AddColumns(&sum->rate, w, &rate);
 }
 
 kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* frames, const kiriMeshData* mesh,
                            int32_t triangle, kiriPoint at)
 {
-    kiriMotion motion = { { 0.0, 0.0, 0.0 },
-                          { 0.0, 0.0, 0.0 },
-                          { 0.0, 0.0, 0.0 },
-                          { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } } };
+    kiriMotion motion;
+    memset(&motion, 0, sizeof(motion));
     kiriVec2 local = kiriMesh_Local(mesh, at);
     kiriPoint corners[3];
     kiriMesh_Corners(mesh, triangle, corners);

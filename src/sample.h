@@ -21,7 +21,7 @@ typedef KIRI_ARRAY(kiriSample) kiriSamples;
 /* What blended frames do at a point: linear-blend skinning and its velocity. A is not a rotation. */
 typedef struct kiriMotion {
     kiriVec3 x, velocity, spin;
-    kiriMat3 A;
+    kiriMat3 A, rate; /* rate: of A, all of it */
 } kiriMotion;
 
 void kiriSkin_Release(kiriSkin* skin, const kiriMemory* memory);

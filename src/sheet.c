@@ -1,5 +1,7 @@
 #include "sheet.h"
 
+#include "affine.h"
+#include "point.h"
 #include "view.h"
 
 #include <string.h>
@@ -16,6 +18,7 @@ static void ReleaseModel(kiriModel* model, const kiriMemory* memory)
     kiriArray_Release(memory, &model->points);
     kiriSkin_Release(&model->vertexSkin, memory);
     kiriSkin_Release(&model->pointSkin, memory);
+    kiriPatches_Release(&model->patches, memory);
     kiriArray_Release(memory, &model->pinFrame);
     kiriSolver_Destroy(model->solver);
 }
@@ -37,6 +40,15 @@ void kiriSheet_Release(kiriSheetData* sheet)
     kiriView_Release(sheet);
 }
 
+static kiriMat3 AxesOf(const kiriSheetDef* def)
+{
+    kiriMat3 axes;
+    axes.u = kiriVec3_Normalize(kiriVec3_Load(def->axisU));
+    axes.d = kiriVec3_Normalize(kiriVec3_Cross(axes.u, kiriVec3_Load(def->axisV)));
+    axes.v = kiriVec3_Cross(axes.d, axes.u);
+    return axes;
+}
+
 static void SetParameters(kiriSheetData* sheet, const kiriSheetDef* def)
 {
     double longer = 536870912.0; /* 2^29 lattice steps, see mesh.h */
@@ -48,6 +60,11 @@ static void SetParameters(kiriSheetData* sheet, const kiriSheetDef* def)
     sheet->maxFrames = def->maxFrames > def->frameCount ? def->maxFrames : def->frameCount;
     sheet->iterations = def->iterations;
     sheet->pointCount = def->collisionPoints;
+    sheet->mechanics.model = def->model;
+    sheet->mechanics.planar = def->planar != 0;
+    sheet->mechanics.axes = AxesOf(def);
+    sheet->integrationPoints = def->integrationPoints > 0 ? def->integrationPoints : 4 * def->frameCount;
+    sheet->integrationOrder = def->integrationOrder;
 }
 
 bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriPoint* at)
@@ -97,13 +114,15 @@ static void StartFrame(kiriSheetData* sheet, const kiriSheetDef* def, int32_t in
                         ? kiriMesh_Snap(&sheet->mesh, site.at)
                         : kiriGrid_Anchor(&sheet->next.grid, &sheet->mesh, site.cell);
     frame->center = site.at;
-    frame->A.u = kiriVec3_Normalize(kiriVec3_Load(def->axisU));
-    frame->A.d = kiriVec3_Normalize(kiriVec3_Cross(frame->A.u, kiriVec3_Load(def->axisV)));
-    frame->A.v = kiriVec3_Cross(frame->A.d, frame->A.u);
+    frame->A = sheet->mechanics.axes;
     kiriVec2 rest = kiriVec2_Add(sheet->mesh.origin, site.at);
     frame->x =
         kiriVec3_AddScaled(kiriVec3_AddScaled(kiriVec3_Load(def->position), rest.x, frame->A.u), rest.y, frame->A.v);
     frame->velocity = kiriVec3_Load(def->velocity);
+    if (sheet->mechanics.planar) {
+        double across = kiriVec3_Dot(frame->velocity, frame->A.d);
+        frame->velocity = kiriVec3_AddScaled(frame->velocity, -across, frame->A.d);
+    }
 }
 
 /* Frames for the pieces that have none, at least one each. */
@@ -423,12 +442,32 @@ static bool BuildPieces(kiriSheetData* sheet)
     return true;
 }
 
+/* What affine frames need beside links. */
+static bool BuildPatches(kiriSheetData* sheet)
+{
+    kiriModel* next = &sheet->next;
+    bool planar = sheet->mechanics.planar;
+    switch (sheet->mechanics.model) {
+    case KIRI_MODEL_AFFINE:
+        return kiriAffine_Build(&next->patches, sheet->memory, &next->regions, planar);
+    case KIRI_MODEL_POINTS:
+        return kiriPoints_Build(&next->patches, sheet->memory, &next->grid, &sheet->mesh, &sheet->field, &next->shape,
+                                &next->regions, sheet->integrationPoints, sheet->integrationOrder, planar);
+    default:
+        return true;
+    }
+}
+
 bool kiriSheet_BuildConstants(kiriSheetData* sheet)
 {
     kiriModel* next = &sheet->next;
     kiriSolver_Destroy(next->solver);
-    next->solver =
-        kiriSolver_Create(sheet->memory, next->sites.count, next->regions.links.data, next->regions.links.count);
+    next->solver = NULL;
+    if (!BuildPatches(sheet)) {
+        return false;
+    }
+    next->solver = kiriSolver_CreateFor(sheet->memory, &sheet->mechanics, next->sites.count, next->regions.links.data,
+                                        next->regions.links.count, &next->patches);
     if (next->solver == NULL || !kiriArray_Resize(sheet->memory, &next->pinFrame, sheet->pins.count)) {
         return false;
     }
@@ -454,9 +493,15 @@ static kiriFrameData NewFrame(const kiriSheetData* sheet, kiriSite site)
     kiriMotion motion =
         kiriSkin_Motion(&sheet->model.vertexSkin, sheet->frames.data, &sheet->mesh, triangle, frame.anchor);
     frame.x = motion.x;
-    frame.A = kiriMat3_Rotation(motion.A);
     frame.velocity = motion.velocity;
-    frame.spin = motion.spin;
+    if (sheet->mechanics.model == KIRI_MODEL_LINKS) {
+        frame.A = kiriMat3_Rotation(motion.A);
+        frame.spin = motion.spin;
+    } else {
+        frame.A = motion.A;
+        frame.spin = kiriMat3_Spin(&motion.A, &motion.rate);
+        frame.rate = kiriMat3_Beside(&motion.A, &motion.rate, frame.spin);
+    }
     return frame;
 }
 

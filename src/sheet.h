@@ -23,6 +23,7 @@ typedef struct kiriModel {
     kiriShape shape;
     kiriSamples points;
     kiriSkin vertexSkin, pointSkin;
+    kiriPatches patches;          /* of affine frames */
     KIRI_ARRAY(int32_t) pinFrame; /* the frame that each pin holds */
     kiriSolver* solver;
 } kiriModel;
@@ -61,8 +62,9 @@ typedef struct kiriSheetData {
     kiriMeshData mesh;
     kiriMaterial material;
     double snap; /* lattice steps */
+    kiriMechanics mechanics;
     double rigidWeight, rigidArea;
-    int32_t maxFrames, iterations, pointCount;
+    int32_t maxFrames, iterations, pointCount, integrationPoints, integrationOrder;
 
     KIRI_ARRAY(kiriFrameData) frames;
     kiriModel model, next; /* after a commit, next holds the model before it */

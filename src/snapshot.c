@@ -80,6 +80,25 @@ static void Link(uint64_t* hash, const kiriLink* link)
     Vec2(hash, link->tangent);
     Vec2(hash, link->centroid);
     Vec2(hash, link->crossing);
+    Vec2(hash, link->spread[0]);
+    Vec2(hash, link->spread[1]);
+}
+
+static void Patches(uint64_t* hash, const kiriPatches* patches)
+{
+    for (int32_t i = 0; i < patches->patches.count; ++i) {
+        Real(hash, patches->patches.data[i].area);
+        Int(hash, patches->patches.data[i].count);
+    }
+    for (int32_t i = 0; i < patches->shares.count; ++i) {
+        const kiriShare* share = &patches->shares.data[i];
+        Int(hash, share->frame);
+        Real(hash, share->weight);
+        Vec2(hash, share->slope);
+        Vec2(hash, share->move);
+        Vec2(hash, share->u);
+        Vec2(hash, share->v);
+    }
 }
 
 static void Model(uint64_t* hash, const kiriModel* model)
@@ -93,6 +112,7 @@ static void Model(uint64_t* hash, const kiriModel* model)
     for (int32_t i = 0; i < model->regions.links.count; ++i) {
         Link(hash, &model->regions.links.data[i]);
     }
+    Patches(hash, &model->patches);
     for (int32_t i = 0; i < model->points.count; ++i) {
         Point(hash, model->points.data[i].at);
     }
@@ -113,6 +133,9 @@ static void Frame(uint64_t* hash, const kiriFrameData* frame)
     Vec3(hash, frame->A.d);
     Vec3(hash, frame->velocity);
     Vec3(hash, frame->spin);
+    Vec3(hash, frame->rate.u);
+    Vec3(hash, frame->rate.v);
+    Vec3(hash, frame->rate.d);
     Vec3(hash, frame->force);
     Vec3(hash, frame->torque);
     Point(hash, frame->anchor);
@@ -131,6 +154,10 @@ static void Parameters(uint64_t* hash, const kiriSheetData* sheet)
     Vec3(hash, kiriVec3_Make(m->youngsModulus, m->poissonsRatio, m->thickness));
     Vec3(hash, kiriVec3_Make(m->density, m->airDamping, m->flexDamping));
     Vec3(hash, kiriVec3_Make(sheet->snap, sheet->rigidWeight, sheet->rigidArea));
+    Int(hash, sheet->mechanics.model);
+    Int(hash, sheet->mechanics.planar);
+    Int(hash, sheet->integrationPoints);
+    Int(hash, sheet->integrationOrder);
     Int(hash, sheet->maxFrames);
     Int(hash, sheet->iterations);
     Int(hash, sheet->pointCount);

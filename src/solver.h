@@ -1,13 +1,8 @@
-/* The motion of rigid frames joined by links: backward Euler as a minimisation, solved by Gauss-Newton steps with
-   Eigen's sparse Cholesky. The only file that knows Eigen; nothing is thrown across this header. */
+/* The motion of frames: backward Euler as a minimisation, solved by Gauss-Newton steps. */
 #ifndef KIRI_SOLVER_H
 #define KIRI_SOLVER_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-#include "frame.h"
+#include "patch.h"
 
 typedef struct kiriSolver kiriSolver;
 
@@ -27,11 +22,20 @@ typedef struct kiriContactRow {
     double offset, friction, stiffness;
 } kiriContactRow;
 
+/* What moves, and how. */
+typedef struct kiriMechanics {
+    int32_t model; /* KIRI_MODEL_... */
+    bool planar;   /* frames stay in the plane of axes.u and axes.v */
+    kiriMat3 axes; /* orthonormal; only used then */
+} kiriMechanics;
+
 typedef struct kiriSystem {
+    kiriMechanics mechanics;
     kiriFrameData* frames;
     int32_t frameCount;
     const kiriLink* links;
     int32_t linkCount;
+    const kiriPatches* patches; /* of affine frames; may be null where there are none */
     const kiriPinRow* pins;
     int32_t pinCount;
     const kiriContactRow* contacts;
@@ -40,22 +44,21 @@ typedef struct kiriSystem {
     kiriVec3 gravity;
 } kiriSystem;
 
-/* Pattern and symbolic factorisation for these links. Null for memory. The solver itself lies in `memory`; Eigen's
-   matrices take theirs from malloc, here and not in a step. */
+/* Pattern and symbolic factorisation for these links and patches. Null for memory. A step allocates nothing. */
+kiriSolver* kiriSolver_CreateFor(const kiriMemory* memory, const kiriMechanics* mechanics, int32_t frameCount,
+                                 const kiriLink* links, int32_t linkCount, const kiriPatches* patches);
+
+/* For rigid frames joined by links, in space. */
 kiriSolver* kiriSolver_Create(const kiriMemory* memory, int32_t frameCount, const kiriLink* links, int32_t linkCount);
 void kiriSolver_Destroy(kiriSolver* solver);
 
-/* Moves the frames by dt. Links are those of kiriSolver_Create; normals of contacts are unit, heldRotation is a
-   rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the motion asks for them.
+/* Moves the frames by dt. Mechanics, links and patches are those that it was created for; normals of contacts are unit,
+   heldRotation is a rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the motion asks for them.
    Or -1 when it cannot be continued (not finite, or no memory); the frames are then as before the call. Forces on
    frames are used, not cleared. */
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations);
 
-/* Elastic energy of the links, J. */
+/* Elastic energy of links and patches, J. */
 double kiriSolver_ElasticEnergy(const kiriSystem* system);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

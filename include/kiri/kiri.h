@@ -183,6 +183,21 @@ enum { KIRI_QUALITY_FAST, KIRI_QUALITY_BALANCED, KIRI_QUALITY_ACCURATE, KIRI_QUA
 
 KIRI_API kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality);
 
+/* How a sheet deforms. */
+enum {
+    /* Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, which its neighbours couple. */
+    KIRI_MODEL_LINKS = 0,
+
+    /* Affine frames joined by links: cloth and rubber, whose stretch inside a region is seen. 12 unknowns a frame, which
+       neighbours of neighbours couple: some ten times the work of KIRI_MODEL_LINKS. From 1e8 Pa or so on it wants more
+       `iterations`, 8 say. */
+    KIRI_MODEL_AFFINE = 1,
+
+    /* Affine frames, strains at integration points: the scheme of the paper, to compare with. Much too stiff in bending
+       where the sheet is thin, however many points there are. 12 unknowns a frame. */
+    KIRI_MODEL_POINTS = 2
+};
+
 typedef struct kiriSheetDef {
     uint32_t cookie;
 
@@ -218,6 +233,18 @@ typedef struct kiriSheetDef {
 
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
     int32_t iterations;      /* Newton steps a substep, 1 to 64; default 2 */
+
+    int32_t model; /* KIRI_MODEL_..., default KIRI_MODEL_LINKS */
+
+    /* 1: the sheet stays in the plane where it starts, without bending; what velocities, forces and held positions have
+       across the plane is dropped. 3 unknowns a rigid frame, 6 an affine one: half of the work, or a fifth. Default 0. */
+    int32_t planar;
+
+    /* KIRI_MODEL_POINTS only. Work grows with the points: spread evenly over the sheet, at least one in every piece;
+       default 0: four for each of frameCount. Order 1 (default) takes the strain at a point for all of the material
+       around it, order 2 a strain linear in it, at four times the work a point. */
+    int32_t integrationPoints; /* 0 to 1048576 */
+    int32_t integrationOrder;  /* 1 or 2 */
 } kiriSheetDef;
 
 KIRI_API void kiriDefaultSheetDef(kiriSheetDef* def);
@@ -304,7 +331,8 @@ KIRI_API kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const flo
 typedef struct kiriFrameState {
     float restPoint[2];
     float position[3];        /* of the rest point */
-    float rotation[9];        /* columns: direction of u, direction of v, normal */
+    float rotation[9];        /* columns: direction of u, direction of v, normal; of an affine frame the columns of A,
+                                 which stretch with the sheet */
     float velocity[3];        /* m/s */
     float angularVelocity[3]; /* rad/s */
     float area;               /* m^2 of its region */
@@ -319,7 +347,8 @@ KIRI_API kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet,
 KIRI_API kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state);
 
 /* The host moves the frame: its rest point goes to `position` with `rotation` (a rotation matrix, columns as above) in
-   the next tick, and stays there until the next call. Null, null: it is free again. */
+   the next tick, and stays there until the next call. An affine frame is not stretched then. On a planar sheet the
+   rotation is about its normal. Null, null: it is free again. */
 KIRI_API kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9]);
 
 /* A force (N, world) on the frame's centre of mass and a torque (N m), for the next tick only. */

@@ -1,0 +1,1015 @@
+/* Backward Euler as a minimisation over the poses of the frames at the end of the step. The objective is
+
+       1/2 sum over mass points of m |x - x*|^2 / dt^2,  x* where the free flight ends
+     + energies of links (strain.h, affine.h), patches (patch.h), pins and contacts
+     + flex damping: 1/2 k (flexDamping / dt) (strain - strain at the start of the step)^2 for each strain.
+
+   All are squares, so a Gauss-Newton step solves with J^T k J + mass: positive definite by itself, with a pattern that
+   only the links and patches decide. The order of summation is fixed. */
+#include "solver.h"
+
+#include "affine.h"
+#include "matrix.h"
+#include "momentum.h"
+#include "strain.h"
+
+#include <float.h>
+#include <string.h>
+
+#define LONGEST_TURN 1.0              /* of a frame in one Gauss-Newton step: a Cayley vector */
+#define HALVINGS 12                   /* of a step that does not lower the objective */
+#define SECOND_CHANCES 4              /* more iterations where energy is gained or the objective ends too high, */
+#define FRESH_STARTS 2                /* and iterations from the start of the step should they fail */
+#define ROUNDING 1e-12                /* of an objective, relative */
+#define LAST_BITS (8.0 * DBL_EPSILON) /* of a length: what a few operations round off */
+#define SLIDE_FLOOR 1e-9              /* m: a shorter way is no slide */
+
+/* A link or patch has at most so many strains. */
+enum { MOST_ROWS = (int)KIRI_STRAINS > (int)KIRI_AFFINE_STRAINS ? (int)KIRI_STRAINS : (int)KIRI_AFFINE_STRAINS };
+
+/* By how much something changes with a frame: its move and its turn if it is rigid, else x and the columns of A. */
+typedef struct Slots {
+    kiriVec3 by[4];
+} Slots;
+
+/* One of a frame's unknowns: the part of a slot along an axis. */
+typedef struct Unknown {
+    int slot;
+    kiriVec3 axis;
+} Unknown;
+
+struct kiriSolver {
+    kiriMemory memory;
+    double dt, damping; /* of this step; flexDamping / dt */
+    double noise;       /* J: what rounding leaves unknown of the objective */
+    bool isBraking;
+    int32_t size; /* unknowns a frame */
+    Unknown unknowns[KIRI_MOST_UNKNOWNS];
+    kiriMatrix* matrix;
+    KIRI_ARRAY(int32_t) piece; /* a frame's piece: what elements hold together */
+    KIRI_ARRAY(kiriPieceMomentum) pieces;
+    KIRI_ARRAY(kiriFrameData) before, after;   /* the step, flattened where the sheet is planar */
+    KIRI_ARRAY(kiriFlight) flights;            /* one a frame, as are the poses */
+    KIRI_ARRAY(kiriPose) start, poses, trial;  /* at the start of the step, now, and where a step would lead */
+    KIRI_ARRAY(double) stiffness, startStrain; /* MOST_ROWS an element; strains at the start of the step */
+    KIRI_ARRAY(double) force, move;            /* the right side: minus the gradient; and the solution */
+    /* Scratch for one element. */
+    KIRI_ARRAY(int32_t) members;
+    KIRI_ARRAY(kiriAffineRow) rows;
+    KIRI_ARRAY(double) J;
+};
+
+static bool IsAffine(const kiriMechanics* mechanics)
+{
+    return mechanics->model != KIRI_MODEL_LINKS;
+}
+
+/* ---- Elements: links, then patches ------------------------------------------------------------------------------ */
+
+static int32_t LinkElements(const kiriMechanics* mechanics, int32_t linkCount)
+{
+    return mechanics->model == KIRI_MODEL_POINTS ? 0 : linkCount;
+}
+
+static int32_t PatchElements(const kiriPatches* patches)
+{
+    return patches != NULL ? patches->patches.count : 0;
+}
+
+static int32_t ElementCount(const kiriSystem* system)
+{
+    return LinkElements(&system->mechanics, system->linkCount) + PatchElements(system->patches);
+}
+
+static const kiriLink* LinkOf(const kiriSystem* system, int32_t k)
+{
+    return k < LinkElements(&system->mechanics, system->linkCount) ? &system->links[k] : NULL;
+}
+
+static const kiriPatch* PatchOf(const kiriSystem* system, int32_t k)
+{
+    return &system->patches->patches.data[k - LinkElements(&system->mechanics, system->linkCount)];
+}
+
+/* Strains that can be other than zero. */
+static int RowCount(const kiriSystem* system, int32_t k)
+{
+    bool planar = system->mechanics.planar;
+    if (LinkOf(system, k) == NULL) {
+        return PatchOf(system, k)->lastRow - PatchOf(system, k)->firstRow;
+    }
+    return IsAffine(&system->mechanics) ? (planar ? KIRI_AFFINE_BENDING : KIRI_AFFINE_STRAINS)
+                                        : (planar ? KIRI_PLANE_BENDING + 1 : KIRI_STRAINS);
+}
+
+/* Writes the frames of an element, and returns how many there are. */
+static int32_t MembersOf(const kiriSystem* system, int32_t k, int32_t* members)
+{
+    const kiriLink* link = LinkOf(system, k);
+    if (link != NULL) {
+        members[0] = link->i;
+        members[1] = link->j;
+        return 2;
+    }
+    const kiriPatch* patch = PatchOf(system, k);
+    for (int32_t m = 0; m < patch->count; ++m) {
+        members[m] = system->patches->shares.data[patch->first + m].frame;
+    }
+    return patch->count;
+}
+
+static void StiffnessOf(const kiriSystem* system, int32_t k, double* stiffness)
+{
+    const kiriLink* link = LinkOf(system, k);
+    if (link == NULL) {
+        kiriPatch_Stiffness(PatchOf(system, k), &system->material, stiffness);
+    } else if (IsAffine(&system->mechanics)) {
+        kiriAffine_Stiffness(link, &system->material, stiffness);
+    } else {
+        kiriStrain_Stiffness(link, &system->material, stiffness);
+    }
+}
+
+static void MeasureRigid(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
+                         double* strain, kiriAffineRow* rows)
+{
+    kiriStrainRow found[KIRI_STRAINS];
+    kiriStrain_Measure(link, frames, poses, strain, rows != NULL ? found : NULL);
+    for (int e = 0; rows != NULL && e < KIRI_STRAINS; ++e) {
+        for (int end = 0; end < 2; ++end) {
+            rows[2 * e + end].by[0] = found[e].move[end];
+            rows[2 * e + end].by[1] = found[e].turn[end];
+        }
+    }
+}
+
+/* The strains and, unless `rows` is null, their derivatives: one a strain and frame. Null poses: as the frames are. */
+static void Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strain, kiriAffineRow* rows)
+{
+    const kiriLink* link = LinkOf(system, k);
+    if (link == NULL) {
+        kiriPatch_Measure(PatchOf(system, k), system->patches->shares.data, system->frames, poses, strain, rows);
+        return;
+    }
+    const kiriFrameData* const frames[2] = { &system->frames[link->i], &system->frames[link->j] };
+    const kiriPose now[2] = { poses != NULL ? poses[link->i] : kiriPose_Of(frames[0]),
+                              poses != NULL ? poses[link->j] : kiriPose_Of(frames[1]) };
+    const kiriPose* const ends[2] = { &now[0], &now[1] };
+    if (IsAffine(&system->mechanics)) {
+        kiriAffine_Measure(link, frames, ends, strain, (kiriAffineRow(*)[2])rows);
+    } else {
+        MeasureRigid(link, frames, ends, strain, rows);
+    }
+}
+
+/* ---- Unknowns --------------------------------------------------------------------------------------------------- */
+
+static void ChooseUnknowns(kiriSolver* solver, const kiriMechanics* mechanics)
+{
+    const kiriVec3 space[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+    const kiriVec3 plane[3] = { mechanics->axes.u, mechanics->axes.v, mechanics->axes.d };
+    bool affine = IsAffine(mechanics), planar = mechanics->planar;
+    int slots = !affine ? 2 : planar ? 3 : 4;
+    solver->size = 0;
+    for (int slot = 0; slot < slots; ++slot) {
+        for (int axis = 0; axis < 3; ++axis) {
+            /* In the plane, a rigid frame turns about the normal; nothing else leaves along it. */
+            bool turns = !affine && slot == 1;
+            if (!planar || (axis == 2) == turns) {
+                Unknown unknown = { slot, planar ? plane[axis] : space[axis] };
+                solver->unknowns[solver->size++] = unknown;
+            }
+        }
+    }
+}
+
+static void Reduce(const kiriSolver* solver, const kiriVec3* slots, double* values)
+{
+    for (int32_t n = 0; n < solver->size; ++n) {
+        values[n] = kiriVec3_Dot(slots[solver->unknowns[n].slot], solver->unknowns[n].axis);
+    }
+}
+
+static Slots Expand(const kiriSolver* solver, double scale, const double* values)
+{
+    Slots slots;
+    memset(&slots, 0, sizeof(slots));
+    for (int32_t n = 0; n < solver->size; ++n) {
+        kiriVec3* by = &slots.by[solver->unknowns[n].slot];
+        *by = kiriVec3_AddScaled(*by, scale * values[n], solver->unknowns[n].axis);
+    }
+    return slots;
+}
+
+/* ---- Making ----------------------------------------------------------------------------------------------------- */
+
+typedef KIRI_ARRAY(kiriPair) Pairs;
+
+static bool CollectPairs(const kiriMemory* memory, const kiriSystem* system, int32_t* members, Pairs* pairs)
+{
+    for (int32_t k = 0; k < ElementCount(system); ++k) {
+        int32_t count = MembersOf(system, k, members);
+        for (int32_t b = 1; b < count; ++b) {
+            for (int32_t a = 0; a < b; ++a) {
+                kiriPair pair = { members[a], members[b] };
+                if (!kiriArray_Push(memory, pairs, pair)) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}
+
+/* Numbers the pieces by their lowest frame. */
+static bool FindPieces(kiriSolver* solver, const Pairs* pairs)
+{
+    int32_t *piece = solver->piece.data, count = 0;
+    for (int32_t f = 0; f < solver->piece.count; ++f) {
+        piece[f] = f; /* first: a lower frame of the same piece, or itself */
+    }
+    for (int32_t k = 0; k < pairs->count; ++k) {
+        int32_t a = pairs->data[k].a, b = pairs->data[k].b;
+        while (piece[a] != a) {
+            a = piece[a] = piece[piece[a]];
+        }
+        while (piece[b] != b) {
+            b = piece[b] = piece[piece[b]];
+        }
+        piece[a > b ? a : b] = a > b ? b : a;
+    }
+    for (int32_t f = 0; f < solver->piece.count; ++f) {
+        piece[f] = piece[f] == f ? count++ : piece[piece[f]];
+    }
+    return kiriArray_Resize(&solver->memory, &solver->pieces, count);
+}
+
+static int32_t MostMembers(const kiriPatches* patches)
+{
+    int32_t most = 2;
+    for (int32_t k = 0; k < PatchElements(patches); ++k) {
+        most = patches->patches.data[k].count > most ? patches->patches.data[k].count : most;
+    }
+    return most;
+}
+
+static bool MakeRoom(kiriSolver* solver, int32_t frameCount, int32_t elementCount, int32_t most)
+{
+    const kiriMemory* memory = &solver->memory;
+    int64_t unknowns = (int64_t)solver->size * frameCount, rows = (int64_t)MOST_ROWS * most;
+    return kiriArray_Resize(memory, &solver->piece, frameCount) &&
+           kiriArray_Resize(memory, &solver->before, frameCount) &&
+           kiriArray_Resize(memory, &solver->after, frameCount) &&
+           kiriArray_Resize(memory, &solver->flights, frameCount) &&
+           kiriArray_Resize(memory, &solver->start, frameCount) &&
+           kiriArray_Resize(memory, &solver->poses, frameCount) &&
+           kiriArray_Resize(memory, &solver->trial, frameCount) &&
+           kiriArray_Resize(memory, &solver->stiffness, (int64_t)MOST_ROWS * elementCount) &&
+           kiriArray_Resize(memory, &solver->startStrain, (int64_t)MOST_ROWS * elementCount) &&
+           kiriArray_Resize(memory, &solver->force, unknowns) && kiriArray_Resize(memory, &solver->move, unknowns) &&
+           kiriArray_Resize(memory, &solver->members, most) && kiriArray_Resize(memory, &solver->rows, rows) &&
+           kiriArray_Resize(memory, &solver->J, rows * solver->size);
+}
+
+static bool Prepare(kiriSolver* solver, const kiriSystem* system)
+{
+    Pairs pairs = { NULL, 0, 0 };
+    ChooseUnknowns(solver, &system->mechanics);
+    if (MakeRoom(solver, system->frameCount, ElementCount(system), MostMembers(system->patches)) &&
+        CollectPairs(&solver->memory, system, solver->members.data, &pairs) && FindPieces(solver, &pairs)) {
+        solver->matrix = kiriMatrix_Create(&solver->memory, solver->size, system->frameCount, pairs.data, pairs.count);
+    }
+    kiriArray_Release(&solver->memory, &pairs);
+    return solver->matrix != NULL;
+}
+
+kiriSolver* kiriSolver_CreateFor(const kiriMemory* memory, const kiriMechanics* mechanics, int32_t frameCount,
+                                 const kiriLink* links, int32_t linkCount, const kiriPatches* patches)
+{
+    kiriSolver* solver = kiriMemory_Alloc(memory, (int64_t)sizeof(kiriSolver));
+    if (solver == NULL) {
+        return NULL;
+    }
+    kiriSystem system;
+    memset(&system, 0, sizeof(system));
+    memset(solver, 0, sizeof(*solver));
+    solver->memory = *memory;
+    system.mechanics = *mechanics;
+    system.frameCount = frameCount;
+    system.links = links;
+    system.linkCount = linkCount;
+    system.patches = patches;
+    if (!Prepare(solver, &system)) {
+        kiriSolver_Destroy(solver);
+        return NULL;
+    }
+    return solver;
+}
+
+kiriSolver* kiriSolver_Create(const kiriMemory* memory, int32_t frameCount, const kiriLink* links, int32_t linkCount)
+{
+    kiriMechanics mechanics;
+    memset(&mechanics, 0, sizeof(mechanics));
+    return kiriSolver_CreateFor(memory, &mechanics, frameCount, links, linkCount, NULL);
+}
+
+void kiriSolver_Destroy(kiriSolver* solver)
+{
+    if (solver == NULL) {
+        return;
+    }
+    kiriMemory memory = solver->memory;
+    kiriMatrix_Destroy(solver->matrix);
+    kiriArray_Release(&memory, &solver->piece);
+    kiriArray_Release(&memory, &solver->pieces);
+    kiriArray_Release(&memory, &solver->before);
+    kiriArray_Release(&memory, &solver->after);
+    kiriArray_Release(&memory, &solver->flights);
+    kiriArray_Release(&memory, &solver->start);
+    kiriArray_Release(&memory, &solver->poses);
+    kiriArray_Release(&memory, &solver->trial);
+    kiriArray_Release(&memory, &solver->stiffness);
+    kiriArray_Release(&memory, &solver->startStrain);
+    kiriArray_Release(&memory, &solver->force);
+    kiriArray_Release(&memory, &solver->move);
+    kiriArray_Release(&memory, &solver->members);
+    kiriArray_Release(&memory, &solver->rows);
+    kiriArray_Release(&memory, &solver->J);
+    kiriMemory_Free(&memory, solver);
+}
+
+/* ---- Objective -------------------------------------------------------------------------------------------------- */
+
+/* A material point as seen from its frame's x. */
+static kiriVec3 ArmOf(const kiriSystem* system, int32_t frame, kiriVec2 at, const kiriPose* pose)
+{
+    return kiriPose_Along(pose, kiriVec2_Sub(at, system->frames[frame].center));
+}
+
+static kiriVec3 PointOf(const kiriSystem* system, int32_t frame, kiriVec2 at, const kiriPose* poses)
+{
+    return kiriVec3_Add(poses[frame].x, ArmOf(system, frame, at, &poses[frame]));
+}
+
+/* How far the point of a contact has slid since the start of the step. */
+static kiriVec3 SlideOf(const kiriSystem* system, const kiriContactRow* contact, kiriVec3 point)
+{
+    kiriVec3 way = kiriVec3_Sub(point, kiriFrame_Carry(&system->frames[contact->frame], contact->at));
+    return kiriVec3_AddScaled(way, -kiriVec3_Dot(way, contact->normal), contact->normal);
+}
+
+/* How deep a point is below the plane of its contact; 0 above. */
+static double DepthOf(const kiriContactRow* contact, kiriVec3 point)
+{
+    double depth = contact->offset - kiriVec3_Dot(contact->normal, point);
+    return depth > 0.0 ? depth : 0.0;
+}
+
+/* The objective, and what of it is energy that the sheet has: the rest is lost, or the inertia's. */
+typedef struct Energy {
+    double objective, potential;
+} Energy;
+
+static void AddEnergy(Energy* sum, double stored, double lost)
+{
+    sum->potential += stored;
+    sum->objective += stored + lost;
+}
+
+static void AddPinEnergy(const kiriSystem* system, const kiriPinRow* pin, const kiriPose* poses, Energy* sum)
+{
+    kiriVec3 off = kiriVec3_Sub(PointOf(system, pin->frame, pin->at, poses), pin->target);
+    AddEnergy(sum, 0.5 * pin->stiffness * kiriVec3_Dot(off, off), 0.0);
+}
+
+/* The spring against sliding, N/m. Friction is at most `friction` times the push. Both are those before the iteration,
+   so that the objective is a sum of squares while it is searched. */
+static double BrakeOf(const kiriSolver* solver, const kiriSystem* system, const kiriContactRow* contact)
+{
+    kiriVec3 point = PointOf(system, contact->frame, contact->at, solver->poses.data);
+    double push = contact->stiffness * DepthOf(contact, point);
+    double slide = kiriVec3_Length(SlideOf(system, contact, point));
+    double brake = contact->friction * push / (slide > SLIDE_FLOOR ? slide : SLIDE_FLOOR);
+    return !solver->isBraking ? 0.0 : brake < contact->stiffness ? brake : contact->stiffness;
+}
+
+static void AddContactEnergy(const kiriSystem* system, const kiriContactRow* contact, double brake,
+                             const kiriPose* poses, Energy* sum)
+{
+    kiriVec3 point = PointOf(system, contact->frame, contact->at, poses), slide = SlideOf(system, contact, point);
+    double depth = DepthOf(contact, point);
+    AddEnergy(sum, 0.5 * contact->stiffness * depth * depth, 0.5 * brake * kiriVec3_Dot(slide, slide));
+}
+
+static void AddElementEnergy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses,
+                             Energy* sum)
+{
+    const double* stiffness = &solver->stiffness.data[MOST_ROWS * k];
+    const double* start = &solver->startStrain.data[MOST_ROWS * k];
+    double strain[MOST_ROWS];
+    Measure(system, k, poses, strain, NULL);
+    for (int e = 0; e < RowCount(system, k); ++e) {
+        double change = strain[e] - start[e];
+        AddEnergy(sum, 0.5 * stiffness[e] * strain[e] * strain[e],
+                  0.5 * stiffness[e] * solver->damping * change * change);
+    }
+}
+
+static Energy Evaluate(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
+{
+    Energy sum = { 0.0, 0.0 };
+    double moved = 0.0;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriFlight* flight = &solver->flights.data[f];
+        kiriVec3 off = kiriVec3_Sub(poses[f].x, flight->pose.x);
+        moved += system->frames[f].mass * kiriVec3_Dot(off, off) + kiriFlight_TurnSquared(flight, &poses[f].A);
+    }
+    AddEnergy(&sum, 0.0, 0.5 * moved / (solver->dt * solver->dt));
+    for (int32_t k = 0; k < ElementCount(system); ++k) {
+        AddElementEnergy(solver, system, k, poses, &sum);
+    }
+    for (int32_t k = 0; k < system->pinCount; ++k) {
+        AddPinEnergy(system, &system->pins[k], poses, &sum);
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        const kiriContactRow* contact = &system->contacts[k];
+        AddContactEnergy(system, contact, BrakeOf(solver, system, contact), poses, &sum);
+    }
+    return sum;
+}
+
+static double LinkNoise(const kiriSolver* solver, const kiriLink* link, const double* stiffness)
+{
+    double reach = kiriVec3_Length(solver->start.data[link->i].x) + link->length;
+    return reach * reach * (stiffness[KIRI_STRETCH] + stiffness[KIRI_SHEAR] + stiffness[KIRI_NORMAL_GAP]) +
+           stiffness[KIRI_PLANE_BENDING] + stiffness[KIRI_BENDING] + stiffness[KIRI_TWIST];
+}
+
+/* The columns of A have lengths near 1. */
+static double AffineNoise(const kiriSolver* solver, const kiriSystem* system, int32_t k, const double* stiffness)
+{
+    int32_t count = MembersOf(system, k, solver->members.data);
+    double strain[MOST_ROWS], sum = 0.0;
+    Measure(system, k, solver->start.data, strain, solver->rows.data);
+    for (int e = 0; e < RowCount(system, k); ++e) {
+        double reach = 0.0;
+        for (int32_t m = 0; m < count; ++m) {
+            const kiriVec3* by = solver->rows.data[count * e + m].by;
+            reach += kiriVec3_Length(by[0]) * kiriVec3_Length(solver->start.data[solver->members.data[m]].x) +
+                     kiriVec3_Length(by[1]) + kiriVec3_Length(by[2]) + kiriVec3_Length(by[3]);
+        }
+        sum += stiffness[e] * reach * reach;
+    }
+    return sum;
+}
+
+/* The energy of every spring and of the inertia when lengths are off by their last bits. A sheet at rest has no
+   more. */
+static double Noise(const kiriSolver* solver, const kiriSystem* system)
+{
+    double sum = 0.0;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        kiriVec3 x = solver->start.data[f].x;
+        sum += system->frames[f].mass * kiriVec3_Dot(x, x) / (solver->dt * solver->dt);
+    }
+    for (int32_t k = 0; k < ElementCount(system); ++k) {
+        const double* stiffness = &solver->stiffness.data[MOST_ROWS * k];
+        sum += IsAffine(&system->mechanics) ? AffineNoise(solver, system, k, stiffness)
+                                            : LinkNoise(solver, LinkOf(system, k), stiffness);
+    }
+    return LAST_BITS * LAST_BITS * (1.0 + solver->damping) * sum;
+}
+
+/* ---- Matrix and forces ------------------------------------------------------------------------------------------ */
+
+/* A held frame has the identity and no force: it stays where it was put. */
+static void AddHeld(kiriSolver* solver, int32_t f)
+{
+    double block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS] = { 0.0 };
+    for (int32_t n = 0; n < solver->size; ++n) {
+        block[(solver->size + 1) * n] = 1.0;
+    }
+    kiriMatrix_AddOwn(solver->matrix, f, block);
+}
+
+/* The mass matrix times a change of the frame; `inertia` is that of a rigid one. */
+static Slots Massive(const kiriSolver* solver, const kiriSystem* system, int32_t f, const kiriMat3* inertia,
+                     const Slots* a)
+{
+    const kiriMassMoments* m = &solver->flights.data[f].moments;
+    Slots r;
+    memset(&r, 0, sizeof(r));
+    r.by[0] = kiriVec3_Scale(system->frames[f].mass, a->by[0]);
+    if (IsAffine(&system->mechanics)) {
+        r.by[1] = kiriVec3_AddScaled(kiriVec3_Scale(m->uu, a->by[1]), m->uv, a->by[2]);
+        r.by[2] = kiriVec3_AddScaled(kiriVec3_Scale(m->vv, a->by[2]), m->uv, a->by[1]);
+        r.by[3] = kiriVec3_Scale(m->dd, a->by[3]);
+    } else {
+        r.by[1] = kiriMat3_Mul(*inertia, a->by[1]);
+    }
+    return r;
+}
+
+static Slots MassForce(const kiriSolver* solver, const kiriSystem* system, int32_t f)
+{
+    const kiriFlight* flight = &solver->flights.data[f];
+    const kiriPose* pose = &solver->poses.data[f];
+    Slots r;
+    memset(&r, 0, sizeof(r));
+    r.by[0] = kiriVec3_Scale(system->frames[f].mass, kiriVec3_Sub(flight->pose.x, pose->x));
+    if (IsAffine(&system->mechanics)) {
+        kiriMat3 gradient = kiriFlight_Gradient(flight, &pose->A);
+        r.by[1] = kiriVec3_Scale(-1.0, gradient.u);
+        r.by[2] = kiriVec3_Scale(-1.0, gradient.v);
+        r.by[3] = kiriVec3_Scale(-1.0, gradient.d);
+    } else {
+        r.by[1] = kiriVec3_Scale(-1.0, kiriFlight_TurnGradient(flight, &pose->A));
+    }
+    return r;
+}
+
+static void AddMass(kiriSolver* solver, const kiriSystem* system, int32_t f)
+{
+    double perTime = 1.0 / (solver->dt * solver->dt), block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS];
+    double* force = &solver->force.data[solver->size * f];
+    kiriMat3 inertia = kiriFlight_Inertia(&solver->flights.data[f], &solver->poses.data[f].A);
+    for (int32_t n = 0; n < solver->size; ++n) {
+        double unit[KIRI_MOST_UNKNOWNS] = { 0.0 };
+        unit[n] = perTime;
+        Slots change = Expand(solver, 1.0, unit), mass = Massive(solver, system, f, &inertia, &change);
+        Reduce(solver, mass.by, &block[solver->size * n]);
+    }
+    kiriMatrix_AddOwn(solver->matrix, f, block);
+    Slots gradient = MassForce(solver, system, f);
+    Reduce(solver, gradient.by, force);
+    for (int32_t n = 0; n < solver->size; ++n) {
+        force[n] *= perTime;
+    }
+}
+
+/* Adds the squares of `rows` strains: J has their derivatives by the unknowns of the frames, each frame's together. */
+static void AddSquares(kiriSolver* solver, const int32_t* frames, int32_t frameCount, const double* J,
+                       const double* springs, const double* pulls, int rows)
+{
+    int32_t stride = solver->size * frameCount;
+    for (int32_t column = 0; column < stride; ++column) {
+        double force = 0.0;
+        for (int e = 0; e < rows; ++e) {
+            force += pulls[e] * J[e * stride + column];
+        }
+        solver->force.data[solver->size * frames[column / solver->size] + column % solver->size] += force;
+    }
+    kiriMatrix_AddSquares(solver->matrix, frames, frameCount, J, springs, rows);
+}
+
+/* The derivatives by the unknowns of a held frame are zero. */
+static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    const double* stiffness = &solver->stiffness.data[MOST_ROWS * k];
+    const double* start = &solver->startStrain.data[MOST_ROWS * k];
+    int rows = RowCount(system, k);
+    int32_t count = MembersOf(system, k, solver->members.data);
+    double strain[MOST_ROWS], springs[MOST_ROWS], pulls[MOST_ROWS];
+    Measure(system, k, solver->poses.data, strain, solver->rows.data);
+    for (int e = 0; e < rows; ++e) {
+        springs[e] = stiffness[e] * (1.0 + solver->damping);
+        pulls[e] = -stiffness[e] * (strain[e] + solver->damping * (strain[e] - start[e]));
+        for (int32_t m = 0; m < count; ++m) {
+            double* J = &solver->J.data[solver->size * (count * e + m)];
+            if (system->frames[solver->members.data[m]].held) {
+                memset(J, 0, sizeof(double) * (size_t)solver->size);
+            } else {
+                Reduce(solver, solver->rows.data[count * e + m].by, J);
+            }
+        }
+    }
+    AddSquares(solver, solver->members.data, count, solver->J.data, springs, pulls, rows);
+}
+
+/* A spring on a point of a frame, stretched by `length` along the unit vector `axis`. */
+static void AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t f, kiriVec2 at, kiriVec3 axis,
+                      double length, double stiffness)
+{
+    kiriVec2 local = kiriVec2_Sub(at, system->frames[f].center);
+    double J[KIRI_MOST_UNKNOWNS], pull = -stiffness * length;
+    Slots slots = { { axis, kiriVec3_Scale(local.x, axis), kiriVec3_Scale(local.y, axis), { 0.0, 0.0, 0.0 } } };
+    if (!IsAffine(&system->mechanics)) {
+        slots.by[1] = kiriVec3_Cross(ArmOf(system, f, at, &solver->poses.data[f]), axis);
+    }
+    Reduce(solver, slots.by, J);
+    AddSquares(solver, &f, 1, J, &stiffness, &pull, 1);
+}
+
+static void AddPin(kiriSolver* solver, const kiriSystem* system, const kiriPinRow* pin)
+{
+    kiriVec3 off = kiriVec3_Sub(PointOf(system, pin->frame, pin->at, solver->poses.data), pin->target);
+    AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(1.0, 0.0, 0.0), off.x, pin->stiffness);
+    AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(0.0, 1.0, 0.0), off.y, pin->stiffness);
+    AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(0.0, 0.0, 1.0), off.z, pin->stiffness);
+}
+
+static void AddContact(kiriSolver* solver, const kiriSystem* system, const kiriContactRow* contact)
+{
+    kiriVec3 n = contact->normal, point = PointOf(system, contact->frame, contact->at, solver->poses.data);
+    double depth = DepthOf(contact, point), brake = BrakeOf(solver, system, contact);
+    if (depth > 0.0) {
+        AddSpring(solver, system, contact->frame, contact->at, n, -depth, contact->stiffness);
+    }
+    if (brake > 0.0) {
+        kiriVec3 axis = fabs(n.x) < 0.7 ? kiriVec3_Make(1.0, 0.0, 0.0) : kiriVec3_Make(0.0, 1.0, 0.0);
+        kiriVec3 side = kiriVec3_Normalize(kiriVec3_Cross(n, axis)), ahead = kiriVec3_Cross(side, n);
+        kiriVec3 slide = SlideOf(system, contact, point);
+        AddSpring(solver, system, contact->frame, contact->at, side, kiriVec3_Dot(slide, side), brake);
+        AddSpring(solver, system, contact->frame, contact->at, ahead, kiriVec3_Dot(slide, ahead), brake);
+    }
+}
+
+static void Assemble(kiriSolver* solver, const kiriSystem* system)
+{
+    kiriMatrix_Clear(solver->matrix);
+    memset(solver->force.data, 0, sizeof(double) * (size_t)solver->force.count);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (system->frames[f].held) {
+            AddHeld(solver, f);
+        } else {
+            AddMass(solver, system, f);
+        }
+    }
+    for (int32_t k = 0; k < ElementCount(system); ++k) {
+        AddElement(solver, system, k);
+    }
+    for (int32_t k = 0; k < system->pinCount; ++k) {
+        if (!system->frames[system->pins[k].frame].held) {
+            AddPin(solver, system, &system->pins[k]);
+        }
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        if (!system->frames[system->contacts[k].frame].held) {
+            AddContact(solver, system, &system->contacts[k]);
+        }
+    }
+}
+
+/* ---- Iteration --------------------------------------------------------------------------------------------------- */
+
+/* What is left of a vector in the plane. */
+static kiriVec3 InPlane(const kiriMechanics* mechanics, kiriVec3 a)
+{
+    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, mechanics->axes.d), mechanics->axes.d);
+}
+
+static kiriVec3 AlongNormal(const kiriMechanics* mechanics, kiriVec3 a)
+{
+    return kiriVec3_Scale(kiriVec3_Dot(a, mechanics->axes.d), mechanics->axes.d);
+}
+
+/* In a planar sheet, a frame with only what moves it in the plane. */
+static kiriFrameData FlattenedOf(const kiriMechanics* mechanics, const kiriFrameData* from)
+{
+    kiriFrameData frame = *from;
+    if (mechanics->planar) {
+        kiriVec3 off = kiriVec3_Sub(frame.heldPosition, frame.x);
+        frame.velocity = InPlane(mechanics, frame.velocity);
+        frame.spin = AlongNormal(mechanics, frame.spin);
+        frame.force = InPlane(mechanics, frame.force);
+        frame.torque = AlongNormal(mechanics, frame.torque);
+        frame.heldPosition = kiriVec3_Sub(frame.heldPosition, AlongNormal(mechanics, off));
+    }
+    return frame;
+}
+
+static kiriVec3 GravityOf(const kiriSystem* system)
+{
+    return system->mechanics.planar ? InPlane(&system->mechanics, system->gravity) : system->gravity;
+}
+
+static kiriFlight FlightOf(const kiriSystem* system, const kiriFrameData* frame, double dt)
+{
+    if (frame->held) {
+        return kiriFlight_Held(frame, &system->material, dt);
+    }
+    return IsAffine(&system->mechanics) ? kiriFlight_Affine(frame, &system->material, GravityOf(system), dt)
+                                        : kiriFlight_Free(frame, &system->material, GravityOf(system), dt);
+}
+
+static void Begin(kiriSolver* solver, const kiriSystem* system, double dt)
+{
+    solver->dt = dt;
+    solver->damping = (double)system->material.flexDamping / dt;
+    solver->isBraking = false;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        solver->start.data[f] = kiriPose_Of(&system->frames[f]);
+        solver->before.data[f] = FlattenedOf(&system->mechanics, &system->frames[f]);
+        solver->flights.data[f] = FlightOf(system, &solver->before.data[f], dt);
+        solver->poses.data[f] = solver->flights.data[f].coast;
+        solver->trial.data[f] = solver->flights.data[f].pose;
+    }
+    for (int32_t k = 0; k < ElementCount(system); ++k) {
+        StiffnessOf(system, k, &solver->stiffness.data[MOST_ROWS * k]);
+        Measure(system, k, solver->start.data, &solver->startStrain.data[MOST_ROWS * k], NULL);
+    }
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (system->frames[f].held) {
+            solver->start.data[f] = solver->flights.data[f].pose;
+        }
+    }
+    solver->noise = Noise(solver, system);
+}
+
+/* How much of the Gauss-Newton step turns no frame too far. */
+static double LongestStep(const kiriSolver* solver, const kiriSystem* system)
+{
+    double longest = LONGEST_TURN;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        Slots change = Expand(solver, 1.0, &solver->move.data[solver->size * f]);
+        double turn = kiriVec3_Length(change.by[1]);
+        longest = !IsAffine(&system->mechanics) && turn > longest ? turn : longest;
+    }
+    return LONGEST_TURN / longest;
+}
+
+static void Try(kiriSolver* solver, const kiriSystem* system, double scale)
+{
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriPose* pose = &solver->poses.data[f];
+        Slots change = Expand(solver, scale, &solver->move.data[solver->size * f]);
+        kiriMat3 columns = { change.by[1], change.by[2], change.by[3] };
+        solver->trial.data[f].x = kiriVec3_Add(pose->x, change.by[0]);
+        solver->trial.data[f].A = IsAffine(&system->mechanics)
+                                      ? kiriMat3_Advance(&pose->A, &columns)
+                                      : kiriMat3_MulMat(kiriMat3_Cayley(change.by[1]), pose->A);
+    }
+}
+
+static void TakeTrial(kiriSolver* solver)
+{
+    kiriPose* taken = solver->trial.data;
+    solver->trial.data = solver->poses.data;
+    solver->poses.data = taken;
+}
+
+/* One Gauss-Newton step, halved until the objective falls, or is at most `allowed`. False when the matrix has no
+   factor. */
+static bool Iterate(kiriSolver* solver, const kiriSystem* system, double allowed, Energy* energy)
+{
+    Assemble(solver, system);
+    if (!kiriMatrix_Factor(solver->matrix)) {
+        return false;
+    }
+    kiriMatrix_Solve(solver->matrix, solver->force.data, solver->move.data);
+    *energy = Evaluate(solver, system, solver->poses.data);
+    double most = allowed > energy->objective ? allowed : energy->objective;
+    double enough = most * (1.0 + ROUNDING) + solver->noise, scale = LongestStep(solver, system), taken = 0.0;
+    for (int halving = 0; halving <= HALVINGS && taken == 0.0; ++halving, scale *= 0.5) {
+        Try(solver, system, scale);
+        Energy value = Evaluate(solver, system, solver->trial.data);
+        if (value.objective <= enough) {
+            *energy = value;
+            taken = scale;
+        }
+    }
+    Try(solver, system, taken);
+    TakeTrial(solver);
+    return true;
+}
+
+/* ---- Energy ----------------------------------------------------------------------------------------------------- */
+
+/* By how much the rate of A differs from that of the free flight. */
+static void LandAffine(const kiriFlight* flight, double perTime, kiriFrameData* frame)
+{
+    kiriMat3 rate = flight->rate;
+    rate.u = kiriVec3_AddScaled(rate.u, perTime, kiriVec3_Sub(frame->A.u, flight->pose.A.u));
+    rate.v = kiriVec3_AddScaled(rate.v, perTime, kiriVec3_Sub(frame->A.v, flight->pose.A.v));
+    rate.d = kiriVec3_AddScaled(rate.d, perTime, kiriVec3_Sub(frame->A.d, flight->pose.A.d));
+    frame->spin = kiriMat3_Spin(&frame->A, &rate);
+    frame->rate = kiriMat3_Beside(&frame->A, &rate, frame->spin);
+}
+
+/* The frames at the end of the step, if it ended here. */
+static void Land(kiriSolver* solver, const kiriSystem* system)
+{
+    double perTime = 1.0 / solver->dt;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriFlight* flight = &solver->flights.data[f];
+        kiriFrameData* frame = &solver->after.data[f];
+        *frame = solver->before.data[f];
+        frame->x = solver->poses.data[f].x;
+        frame->A = solver->poses.data[f].A;
+        frame->velocity = kiriVec3_AddScaled(flight->velocity, perTime, kiriVec3_Sub(frame->x, flight->pose.x));
+        if (frame->held) {
+            frame->spin = flight->spin;
+            frame->rate = flight->rate;
+        } else if (IsAffine(&system->mechanics)) {
+            LandAffine(flight, perTime, frame);
+        } else {
+            kiriMat3 inertia = kiriFlight_Inertia(flight, &frame->A);
+            kiriVec3 turn = kiriMat3_Solve(&inertia, kiriFlight_TurnGradient(flight, &frame->A));
+            frame->spin = kiriVec3_AddScaled(flight->spin, perTime, turn);
+        }
+    }
+}
+
+/* By how much kinetic and potential energy grow in the step beyond the work of gravity and of the host's forces; what
+   rounding explains is no gain. A held frame counts as moved before the step. */
+static double Gain(const kiriSolver* solver, const kiriSystem* system, double potentialBefore, double potentialAfter)
+{
+    double before = potentialBefore, after = potentialAfter, work = 0.0;
+    kiriVec3 gravity = GravityOf(system);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
+        if (!start->held) {
+            kiriVec3 way = kiriVec3_Sub(end->x, start->x);
+            before += kiriFrame_KineticEnergy(start, &system->material);
+            after += kiriFrame_KineticEnergy(end, &system->material);
+            work += start->mass * kiriVec3_Dot(gravity, way) + kiriVec3_Dot(start->force, way) +
+                    solver->dt * kiriVec3_Dot(start->torque, end->spin);
+        }
+    }
+    return after - before - work - ROUNDING * (before + after + fabs(work)) - solver->noise;
+}
+
+/* The factor that takes an energy out of velocities that have `kinetic`; what they do not have is left in `energy`. */
+static double Keep(double kinetic, double* energy)
+{
+    double taken = kinetic < *energy ? kinetic : *energy;
+    *energy -= taken;
+    return taken < kinetic ? sqrt(1.0 - taken / kinetic) : 0.0;
+}
+
+static kiriVec3 MeanVelocity(const kiriSolver* solver, double* mass)
+{
+    kiriVec3 momentum = { 0.0, 0.0, 0.0 };
+    *mass = 0.0;
+    for (int32_t f = 0; f < solver->after.count; ++f) {
+        const kiriFrameData* frame = &solver->after.data[f];
+        if (!frame->held) {
+            *mass += frame->mass;
+            momentum = kiriVec3_AddScaled(momentum, frame->mass, frame->velocity);
+        }
+    }
+    return kiriVec3_Scale(1.0 / (*mass > DBL_MIN ? *mass : DBL_MIN), momentum);
+}
+
+static void Slow(kiriFrameData* frame, double keep, kiriVec3 mean, double keepMean)
+{
+    kiriVec3 own = kiriVec3_Sub(frame->velocity, mean);
+    frame->velocity = kiriVec3_AddScaled(kiriVec3_Scale(keepMean, mean), keep, own);
+    frame->spin = kiriVec3_Scale(keep, frame->spin);
+    frame->rate.u = kiriVec3_Scale(keep, frame->rate.u);
+    frame->rate.v = kiriVec3_Scale(keep, frame->rate.v);
+    frame->rate.d = kiriVec3_Scale(keep, frame->rate.d);
+}
+
+/* Takes an energy out of the velocities: as they differ from the mean first, for so momentum stays. Only where pins or
+   contacts change momentum can there be more to take. */
+static void Brake(kiriSolver* solver, const kiriSystem* system, double energy)
+{
+    double mass, kinetic = 0.0;
+    kiriVec3 mean = MeanVelocity(solver, &mass);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        kiriFrameData frame = solver->after.data[f];
+        frame.velocity = kiriVec3_Sub(frame.velocity, mean);
+        kinetic += frame.held ? 0.0 : kiriFrame_KineticEnergy(&frame, &system->material);
+    }
+    double keep = Keep(kinetic, &energy), keepMean = Keep(0.5 * mass * kiriVec3_Dot(mean, mean), &energy);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (!solver->after.data[f].held) {
+            Slow(&solver->after.data[f], keep, mean, keepMean);
+        }
+    }
+}
+
+/* ---- Step ------------------------------------------------------------------------------------------------------- */
+
+/* The iteration starts where the frames coast by their velocities: a strip that swings is then nearly there, and one at
+   rest is there. The first step may raise the objective up to that of the free flight: it has to turn stiff frames,
+   which stretches links before the next step lets them go, and halving it there would freeze the turning.
+
+   The objective must not end above that of not moving at all. Should it end above all the same, the iteration starts
+   anew from not moving, from where it only falls. Then, with v the velocities before and w those after the step,
+
+       potential after + 1/2 m (w - v)^2  <=  potential before + 1/2 m v^2 + work,
+
+   which bounds w by 2 v and no better. At the minimum w^2 stands for (w - v)^2, but for parts of the energy that are
+   not convex; so while energy is gained, iterations are added, and what is gained even then is taken out of the
+   velocities. Nothing is ever flung away, however long the step. */
+static int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations, double* gain)
+{
+    double allowed = Evaluate(solver, system, solver->trial.data).objective;
+    Energy start = Evaluate(solver, system, solver->start.data), energy = { HUGE_VAL, HUGE_VAL };
+    double limit = start.objective * (1.0 + ROUNDING) + solver->noise;
+    int32_t done = 0, chances = iterations + SECOND_CHANCES;
+    *gain = HUGE_VAL;
+    while (done < iterations || (*gain > 0.0 && done < chances) ||
+           (done < chances + FRESH_STARTS && !(energy.objective <= limit))) {
+        if (done == chances) {
+            memcpy(solver->poses.data, solver->start.data, sizeof(kiriPose) * (size_t)system->frameCount);
+        }
+        /* Before the first step the push is that of the free flight, far too strong at an impact. */
+        solver->isBraking = done > 0 || iterations == 1;
+        if (!Iterate(solver, system, done == 0 ? allowed : 0.0, &energy)) {
+            return -1;
+        }
+        ++done;
+        if (done >= iterations) {
+            Land(solver, system);
+            *gain = Gain(solver, system, start.potential, energy.potential);
+        }
+    }
+    return done;
+}
+
+static void MarkHeld(kiriSolver* solver, const kiriSystem* system)
+{
+    const int32_t* piece = solver->piece.data;
+    for (int32_t i = 0; i < solver->pieces.count; ++i) {
+        solver->pieces.data[i].isHeld = 0;
+    }
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        solver->pieces.data[piece[f]].isHeld |= system->frames[f].held;
+    }
+    for (int32_t k = 0; k < system->pinCount; ++k) {
+        solver->pieces.data[piece[system->pins[k].frame]].isHeld = 1;
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        solver->pieces.data[piece[system->contacts[k].frame]].isHeld = 1;
+    }
+}
+
+/* What the energy gained or lost in the step asks of the velocities. */
+static void Settle(kiriSolver* solver, const kiriSystem* system, double gain)
+{
+    if (gain > 0.0) {
+        Brake(solver, system, gain);
+    } else {
+        MarkHeld(solver, system);
+        kiriMomentum_Restore(solver->before.data, solver->after.data, system->frameCount, solver->piece.data,
+                             solver->pieces.data, solver->pieces.count, &system->material, solver->dt, -gain);
+    }
+}
+
+/* The host reads floats. An eighth leaves room for the sums and blends that they are made of. NaN does not fit. */
+static bool Fits(kiriVec3 a)
+{
+    const double most = 0.125 * (double)FLT_MAX;
+    return fabs(a.x) <= most && fabs(a.y) <= most && fabs(a.z) <= most;
+}
+
+static bool CanBeRead(const kiriSolver* solver)
+{
+    for (int32_t f = 0; f < solver->after.count; ++f) {
+        const kiriFrameData* frame = &solver->after.data[f];
+        if (!Fits(frame->x) || !Fits(frame->A.u) || !Fits(frame->A.v) || !Fits(frame->A.d) || !Fits(frame->velocity) ||
+            !Fits(frame->spin) || !Fits(frame->rate.u) || !Fits(frame->rate.v) || !Fits(frame->rate.d) ||
+            !Fits(kiriFrame_VelocityAt(frame, frame->site.at))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void Finish(const kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        kiriFrameData* frame = &system->frames[f];
+        const kiriFrameData* end = &solver->after.data[f];
+        frame->x = end->x;
+        frame->A = frame->held                    ? frame->heldRotation
+                   : IsAffine(&system->mechanics) ? end->A
+                                                  : kiriMat3_Rotation(end->A);
+        frame->velocity = end->velocity;
+        frame->spin = end->spin;
+        frame->rate = end->rate;
+    }
+}
+
+int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations)
+{
+    double gain;
+    Begin(solver, system, dt);
+    int32_t done = Minimise(solver, system, iterations, &gain);
+    if (done < 0) {
+        return -1;
+    }
+    Settle(solver, system, gain);
+    if (!CanBeRead(solver)) {
+        return -1;
+    }
+    Finish(solver, system);
+    return done;
+}
+
+double kiriSolver_ElasticEnergy(const kiriSystem* system)
+{
+    double sum = 0.0;
+    for (int32_t k = 0; k < ElementCount(system); ++k) {
+        double strain[MOST_ROWS], stiffness[MOST_ROWS];
+        Measure(system, k, NULL, strain, NULL);
+        StiffnessOf(system, k, stiffness);
+        for (int e = 0; e < RowCount(system, k); ++e) {
+            sum += 0.5 * stiffness[e] * strain[e] * strain[e];
+        }
+    }
+    return sum;
+}

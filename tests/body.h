@@ -1,0 +1,231 @@
+/* A sheet with frames for the tests of the mechanical models: regions and patches from the grid, moved by the solver. */
+#ifndef KIRI_TEST_BODY_H
+#define KIRI_TEST_BODY_H
+
+#include "affine.h"
+#include "point.h"
+#include "scene.h"
+#include "solver.h"
+
+enum { BODY_FRAMES = 64 };
+
+typedef struct Body {
+    Scene scene;
+    kiriSites sites;
+    kiriRegions regions;
+    kiriShape shape;
+    kiriPatches patches;
+    kiriFrameData frames[BODY_FRAMES];
+    kiriPinRow pins[4];
+    kiriContactRow contacts[4];
+    kiriSystem system;
+    kiriSolver* solver;
+} Body;
+
+typedef struct BodyDef {
+    double width, height;
+    int32_t resolution; /* cells along the longer side, and mesh squares: four cells each */
+    int model, planar, points, order;
+    kiriMaterial material;
+} BodyDef;
+
+static inline kiriVec3 Vec3(double x, double y, double z)
+{
+    return kiriVec3_Make(x, y, z);
+}
+
+static inline kiriVec3 RandomVec3(uint32_t* seed, double size)
+{
+    double x = RandomBetween(seed, -size, size), y = RandomBetween(seed, -size, size);
+    return Vec3(x, y, RandomBetween(seed, -size, size));
+}
+
+static inline double Distance(kiriVec3 a, kiriVec3 b)
+{
+    return kiriVec3_Length(kiriVec3_Sub(a, b));
+}
+
+static inline void Body_Begin(Body* body, const BodyDef* def)
+{
+    memset(body, 0, sizeof(*body));
+    double longer = def->width > def->height ? def->width : def->height, square = 4.0 * longer / def->resolution;
+    Scene_Init(&body->scene, def->width, def->height, (int32_t)(def->width / square + 0.5),
+               (int32_t)(def->height / square + 0.5), def->resolution);
+    Scene_BuildGrid(&body->scene);
+    body->system.material = def->material;
+    body->system.mechanics.model = def->model;
+    body->system.mechanics.planar = def->planar != 0;
+    body->system.mechanics.axes.u = Vec3(1.0, 0.0, 0.0);
+    body->system.mechanics.axes.v = Vec3(0.0, 1.0, 0.0);
+    body->system.mechanics.axes.d = Vec3(0.0, 0.0, 1.0);
+    body->system.gravity = Vec3(0.0, 0.0, -9.81);
+}
+
+static inline void Body_AddSite(Body* body, double u, double v)
+{
+    assert_true(kiriArray_Push(&body->scene.memory, &body->sites, Scene_Site(&body->scene, u, v)));
+}
+
+/* nu by nv sites, the outermost columns on the ends; inner ones jittered by a share of the spacing. */
+static inline void Body_AddRows(Body* body, int nu, int nv, double jitter, uint32_t seed)
+{
+    double width = body->scene.width, height = body->scene.height;
+    for (int i = 0; i < nu; ++i) {
+        for (int j = 0; j < nv; ++j) {
+            double u = width * i / (nu - 1), v = height * (j + 0.5) / nv;
+            if (i > 0 && i < nu - 1) {
+                u += jitter * width / (nu - 1) * RandomBetween(&seed, -1.0, 1.0);
+                v += jitter * height / nv * RandomBetween(&seed, -1.0, 1.0);
+            }
+            double edge = 1e-4 * width;
+            Body_AddSite(body, u < edge ? edge : u > width - edge ? width - edge : u, v);
+        }
+    }
+}
+
+static inline void Body_StartFrame(Body* body, int32_t i)
+{
+    kiriFrameData* frame = &body->frames[i];
+    const kiriMoments* material = &body->regions.regions.data[i].material;
+    frame->site = body->sites.data[i];
+    frame->center = kiriMoments_Center(material);
+    frame->x = Vec3(frame->center.x, frame->center.y, 0.0);
+    frame->A = body->system.mechanics.axes;
+    kiriFrame_Recenter(frame, material,
+                       (double)body->system.material.density * (double)body->system.material.thickness);
+}
+
+static inline void Body_End(Body* body, const BodyDef* def)
+{
+    Scene* s = &body->scene;
+    assert_true(body->sites.count <= BODY_FRAMES);
+    assert_true(kiriRegions_Build(&body->regions, &s->memory, &s->grid, &s->mesh, &s->field, body->sites.data,
+                                  body->sites.count));
+    assert_true(kiriShape_Build(&body->shape, &s->memory, &s->grid, &s->mesh, &body->regions, &s->field,
+                                body->sites.data, body->sites.count));
+    bool built = true;
+    if (def->model == KIRI_MODEL_AFFINE) {
+        built = kiriAffine_Build(&body->patches, &s->memory, &body->regions, def->planar != 0);
+    } else if (def->model == KIRI_MODEL_POINTS) {
+        built = kiriPoints_Build(&body->patches, &s->memory, &s->grid, &s->mesh, &s->field, &body->shape,
+                                 &body->regions, def->points, def->order, def->planar != 0);
+    }
+    assert_true(built);
+    for (int32_t i = 0; i < body->sites.count; ++i) {
+        Body_StartFrame(body, i);
+    }
+    body->system.frames = body->frames;
+    body->system.frameCount = body->sites.count;
+    body->system.links = body->regions.links.data;
+    body->system.linkCount = body->regions.links.count;
+    body->system.patches = &body->patches;
+    body->system.pins = body->pins;
+    body->system.contacts = body->contacts;
+    body->solver = kiriSolver_CreateFor(&s->memory, &body->system.mechanics, body->sites.count, body->system.links,
+                                        body->system.linkCount, &body->patches);
+    assert_non_null(body->solver);
+}
+
+static inline void Body_Drop(Body* body)
+{
+    const kiriMemory* memory = &body->scene.memory;
+    kiriSolver_Destroy(body->solver);
+    kiriPatches_Release(&body->patches, memory);
+    kiriShape_Release(&body->shape, memory);
+    kiriRegions_Release(&body->regions, memory);
+    kiriArray_Release(memory, &body->sites);
+    Scene_Release(&body->scene);
+}
+
+static inline kiriVec3 Body_SitePosition(const Body* body, int32_t f)
+{
+    return kiriFrame_Carry(&body->frames[f], body->frames[f].site.at);
+}
+
+static inline void Body_Hold(Body* body, int32_t f)
+{
+    body->frames[f].held = 1;
+    body->frames[f].heldPosition = Body_SitePosition(body, f);
+    body->frames[f].heldRotation = body->frames[f].A;
+}
+
+static inline void Body_Steps(Body* body, int count, double dt, int iterations)
+{
+    for (int k = 0; k < count; ++k) {
+        int32_t done = kiriSolver_Step(body->solver, &body->system, dt, iterations);
+        assert_true(done >= iterations && done <= iterations + 6);
+    }
+}
+
+/* Until nothing moves; false where it does after so many steps. */
+static inline bool Body_Settle(Body* body, double dt, int most)
+{
+    double speed = 1.0;
+    for (int k = 0; k < most && speed > 1e-9; ++k) {
+        Body_Steps(body, 1, dt, 2);
+        speed = 0.0;
+        for (int32_t f = 0; f < body->system.frameCount; ++f) {
+            speed += kiriVec3_Length(body->frames[f].velocity);
+        }
+    }
+    return speed <= 1e-9;
+}
+
+static inline kiriVec3 Body_Momentum(const Body* body)
+{
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    for (int32_t f = 0; f < body->system.frameCount; ++f) {
+        sum = kiriVec3_AddScaled(sum, body->frames[f].mass, body->frames[f].velocity);
+    }
+    return sum;
+}
+
+/* About the origin: sum over the columns of A of moment A x A', with the thickness, and that of the centres. */
+static inline kiriVec3 Body_AngularMomentum(const Body* body)
+{
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    double h = (double)body->system.material.thickness;
+    for (int32_t f = 0; f < body->system.frameCount; ++f) {
+        const kiriFrameData* frame = &body->frames[f];
+        kiriMat3 rate = kiriFrame_Rate(frame);
+        double flat = frame->mass * h * h / 12.0;
+        sum = kiriVec3_AddScaled(sum, frame->mass, kiriVec3_Cross(frame->x, frame->velocity));
+        sum = kiriVec3_AddScaled(sum, frame->inertia[0] + flat, kiriVec3_Cross(frame->A.u, rate.u));
+        sum = kiriVec3_AddScaled(sum, frame->inertia[1], kiriVec3_Cross(frame->A.u, rate.v));
+        sum = kiriVec3_AddScaled(sum, frame->inertia[1], kiriVec3_Cross(frame->A.v, rate.u));
+        sum = kiriVec3_AddScaled(sum, frame->inertia[2] + flat, kiriVec3_Cross(frame->A.v, rate.v));
+        sum = kiriVec3_AddScaled(sum, flat, kiriVec3_Cross(frame->A.d, rate.d));
+    }
+    return sum;
+}
+
+/* An even deformation of the sheet, with the plane's columns of F and the director. */
+static inline void Body_Deform(Body* body, const kiriMat3* F, kiriVec3 move)
+{
+    for (int32_t f = 0; f < body->system.frameCount; ++f) {
+        body->frames[f].A = *F;
+        body->frames[f].x = kiriVec3_AddScaled(kiriVec3_AddScaled(move, body->frames[f].center.x, F->u),
+                                               body->frames[f].center.y, F->v);
+    }
+}
+
+/* Turns and moves the sheet, and sets it in rigid motion about its centre of mass. */
+static inline void Body_MoveRigidly(Body* body, kiriMat3 turn, kiriVec3 move, kiriVec3 velocity, kiriVec3 spin)
+{
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    double mass = 0.0;
+    for (int32_t f = 0; f < body->system.frameCount; ++f) {
+        kiriFrameData* frame = &body->frames[f];
+        frame->x = kiriVec3_Add(kiriMat3_Mul(turn, frame->x), move);
+        frame->A = kiriMat3_MulMat(turn, frame->A);
+        sum = kiriVec3_AddScaled(sum, frame->mass, frame->x);
+        mass += frame->mass;
+    }
+    for (int32_t f = 0; f < body->system.frameCount; ++f) {
+        kiriVec3 arm = kiriVec3_AddScaled(body->frames[f].x, -1.0 / mass, sum);
+        body->frames[f].velocity = kiriVec3_Add(velocity, kiriVec3_Cross(spin, arm));
+        body->frames[f].spin = spin;
+    }
+}
+
+#endif
