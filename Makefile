@@ -80,9 +80,11 @@ accuracy extremes: %: deps
 	$(BUILD)/tests/$@ $(if $(filter accuracy,$@),tests/data build/accuracy)
 
 gallery: accuracy
-	@$(MAKE) --no-print-directory $(RUN)
+	@$(MAKE) --no-print-directory $(RUN) $(BOX2D)
 	@mkdir -p samples/pictures
 	$(RUN) --scene bunny --size 800x600 --output build/gallery
+	$(BOX2D) --output build/gallery/box2d
+	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
 	cp build/gallery/contact_sheet.png samples/pictures/bunny.png
 	cp build/accuracy/trade.png samples/pictures/trade.png
 
