@@ -17,11 +17,25 @@ enum {
 static const float LENGTH = 0.2f, WIDTH = 0.05f;
 
 /* Backward Euler is of first order: it takes steps much shorter than any setting's to know where the strip is. */
-const Setting sweepReference = { 33, 1, 160, 2, 64, 8 };
+const Setting sweepReference = { 33, 1, 160, 2, 64, 8, KIRI_MODEL_LINKS };
 
 static float reference[SWEEP_TICKS][3 * VERTICES];
 
 /* ---- Settings --------------------------------------------------------------------------------------------------- */
+
+/* Affine frames want more iterations than rigid ones in stiff paper. */
+static int AddModel(Setting* settings, int32_t model)
+{
+    static const int32_t columns[] = { 5, 9, 17 }, substeps[] = { 1, 4, 16 };
+    int count = 0;
+    for (int c = 0; c < COUNT(columns); ++c) {
+        for (int s = 0; s < COUNT(substeps); ++s) {
+            Setting setting = { columns[c], 1, 40, 8, substeps[s], 1, model };
+            settings[count++] = setting;
+        }
+    }
+    return count;
+}
 
 int Sweep_Settings(Setting settings[SWEEP_SETTINGS], bool thin)
 {
@@ -32,19 +46,24 @@ int Sweep_Settings(Setting settings[SWEEP_SETTINGS], bool thin)
             for (int i = 0; i < 4; ++i) {
                 for (int s = 0; s < COUNT(powers); ++s) {
                     bool keep = !thin || i < 2;
-                    Setting setting = { columns[c], 1, grids[g], powers[i], powers[s], 1 };
+                    Setting setting = { columns[c], 1, grids[g], powers[i], powers[s], 1, KIRI_MODEL_LINKS };
                     settings[count] = setting;
                     count += keep ? 1 : 0;
                 }
             }
         }
     }
+    if (!thin) {
+        count += AddModel(&settings[count], KIRI_MODEL_AFFINE);
+        count += AddModel(&settings[count], KIRI_MODEL_POINTS);
+    }
     return count;
 }
 
 Setting Sweep_FromQuality(const kiriQuality* quality)
 {
-    Setting setting = { quality->framesAlong, 1, quality->gridResolution, quality->iterations, quality->substeps, 1 };
+    Setting setting = { quality->framesAlong, 1, quality->gridResolution, quality->iterations,
+                        quality->substeps,    1, KIRI_MODEL_LINKS };
     return setting;
 }
 
@@ -88,6 +107,7 @@ static bool AddStrip(Scene* scene, const Setting* setting)
     def.rigidWeight = 2.0f;
     def.gridResolution = setting->gridResolution;
     def.iterations = setting->iterations;
+    def.model = setting->model;
     return kiriCreateSheet(scene->world, &def, &scene->sheet) == KIRI_OK;
 }
 
@@ -134,7 +154,8 @@ static bool Tick(const Scene* scene, const Setting* setting, Outcome* outcome)
             return false;
         }
         kiriWorld_GetProfile(scene->world, &profile);
-        outcome->cost += (double)profile.solverIterations * setting->columns * setting->rows;
+        double frames = setting->columns * setting->rows * (setting->model == KIRI_MODEL_LINKS ? 1.0 : 8.0);
+        outcome->cost += profile.solverIterations * frames;
         outcome->seconds += profile.seconds[KIRI_STAGE_SOLVE] + profile.seconds[KIRI_STAGE_SKIN];
     }
     return true;

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <time.h>
 
-enum { REPEATS = 5, MAX_CURVES = 12 };
+enum { REPEATS = 5, MAX_CURVES = 16 };
 
 static Setting settings[SWEEP_SETTINGS];
 static Outcome outcomes[SWEEP_SETTINGS];
@@ -70,7 +70,8 @@ static const char* PresetName(const Setting* setting)
         kiriQuality q;
         kiriGetQuality(p, &q);
         if (q.framesAlong == setting->columns && q.gridResolution == setting->gridResolution &&
-            q.iterations == setting->iterations && q.substeps == setting->substeps) {
+            q.iterations == setting->iterations && q.substeps == setting->substeps &&
+            setting->model == KIRI_MODEL_LINKS) {
             return names[p];
         }
     }
@@ -105,25 +106,28 @@ static bool WriteRows(const char* folder)
     if (file == NULL) {
         return false;
     }
-    fprintf(file, "frames,grid,iterations,substeps,error,systems x frames a tick,ms a tick,ms create,front,preset\n");
+    fprintf(file,
+            "model,frames,grid,iterations,substeps,error,systems x frames a tick,ms a tick,ms create,front,preset\n");
     for (int i = 0; i < count; ++i) {
         const Setting* s = &settings[i];
         const Outcome* o = &outcomes[i];
-        fprintf(file, "%d,%d,%d,%d,%.6g,%.6g,%.6g,%.6g,%d,%s\n", s->columns * s->rows, s->gridResolution, s->iterations,
-                s->substeps, o->error, o->cost, 1e3 * o->seconds, 1e3 * o->create, OnFront(i) ? 1 : 0, PresetName(s));
+        static const char* const models[] = { "links", "affine", "points" };
+        fprintf(file, "%s,%d,%d,%d,%d,%.6g,%.6g,%.6g,%.6g,%d,%s\n", models[s->model], s->columns * s->rows,
+                s->gridResolution, s->iterations, s->substeps, o->error, o->cost, 1e3 * o->seconds, 1e3 * o->create,
+                OnFront(i) ? 1 : 0, PresetName(s));
     }
     return fclose(file) == 0;
 }
 
 /* ---- Plot ------------------------------------------------------------------------------------------------------- */
 
-/* The settings that agree with `pattern` where it is above 0. */
+/* The settings of the pattern's model that agree with `pattern` where it is above 0. */
 static Curve MakeCurve(const char* name, Setting pattern)
 {
     Curve curve = { name, { 0.0 }, { 0.0 }, 0 };
     for (int i = 0; i < count && curve.count < CURVE_POINTS; ++i) {
         const Setting* s = &settings[i];
-        if ((pattern.columns == 0 || s->columns == pattern.columns) &&
+        if (s->model == pattern.model && (pattern.columns == 0 || s->columns == pattern.columns) &&
             (pattern.gridResolution == 0 || s->gridResolution == pattern.gridResolution) &&
             (pattern.iterations == 0 || s->iterations == pattern.iterations) &&
             (pattern.substeps == 0 || s->substeps == pattern.substeps)) {
@@ -140,13 +144,18 @@ static bool WritePicture(const char* folder)
     char path[512];
     Curve curves[MAX_CURVES];
     int drawn = 0;
-    curves[drawn++] = MakeCurve("3 frames, substeps 1 to 16", (Setting){ 3, 1, 40, 1, 0, 1 });
-    curves[drawn++] = MakeCurve("5 frames, substeps 1 to 16", (Setting){ 5, 1, 40, 1, 0, 1 });
-    curves[drawn++] = MakeCurve("9 frames, substeps 1 to 16", (Setting){ 9, 1, 40, 1, 0, 1 });
-    curves[drawn++] = MakeCurve("17 frames, substeps 1 to 16", (Setting){ 17, 1, 40, 1, 0, 1 });
-    curves[drawn++] = MakeCurve("5 frames, 2 substeps, iterations 1 to 8", (Setting){ 5, 1, 40, 0, 2, 1 });
-    curves[drawn++] = MakeCurve("9 frames, 8 substeps, iterations 1 to 8", (Setting){ 9, 1, 40, 0, 8, 1 });
-    curves[drawn++] = MakeCurve("17 frames, 16 substeps, grid 20 to 80", (Setting){ 17, 1, 0, 1, 16, 1 });
+    curves[drawn++] = MakeCurve("3 frames, substeps 1 to 16", (Setting){ 3, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS });
+    curves[drawn++] = MakeCurve("5 frames, substeps 1 to 16", (Setting){ 5, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS });
+    curves[drawn++] = MakeCurve("9 frames, substeps 1 to 16", (Setting){ 9, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS });
+    curves[drawn++] = MakeCurve("17 frames, substeps 1 to 16", (Setting){ 17, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS });
+    curves[drawn++] =
+        MakeCurve("5 frames, 2 substeps, iterations 1 to 8", (Setting){ 5, 1, 40, 0, 2, 1, KIRI_MODEL_LINKS });
+    curves[drawn++] =
+        MakeCurve("9 frames, 8 substeps, iterations 1 to 8", (Setting){ 9, 1, 40, 0, 8, 1, KIRI_MODEL_LINKS });
+    curves[drawn++] =
+        MakeCurve("17 frames, 16 substeps, grid 20 to 80", (Setting){ 17, 1, 0, 1, 16, 1, KIRI_MODEL_LINKS });
+    curves[drawn++] = MakeCurve("affine, 9 frames, 8 iterations", (Setting){ 9, 1, 40, 8, 0, 1, KIRI_MODEL_AFFINE });
+    curves[drawn++] = MakeCurve("points, 9 frames, 8 iterations", (Setting){ 9, 1, 40, 8, 0, 1, KIRI_MODEL_POINTS });
     for (int32_t p = 0; p < KIRI_QUALITY_COUNT; ++p) {
         kiriQuality quality;
         kiriGetQuality(p, &quality);
