@@ -18,8 +18,8 @@ typedef struct kiriPair {
     int32_t a, b;
 } kiriPair;
 
-/* Pattern and symbolic factorisation. `size` is the unknowns a frame: 3, 6 or 12; pairs may come more than once. Null for memory. The
-   matrix itself lies in `memory`; Eigen takes its own from malloc. */
+/* Pattern and symbolic factorisation. `size` is the unknowns a frame: 3, 6 or 12; pairs may come more than once. Null for
+   memory. The matrix itself lies in `memory`; Eigen takes its own from malloc. */
 kiriMatrix* kiriMatrix_Create(const kiriMemory* memory, int32_t size, int32_t frameCount, const kiriPair* pairs,
                               int64_t pairCount);
 void kiriMatrix_Destroy(kiriMatrix* matrix);

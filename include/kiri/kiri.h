@@ -226,10 +226,10 @@ typedef struct kiriSheetDef {
     int32_t maxFrames; /* re-sampling stops here; default 256 */
 
     /* Where the weight of one frame exceeds rigidWeight over an area larger than rigidArea (m^2), frames are added
-       (section 5 of the paper), also at once: a sheet that is to stay rigid on one frame sets maxFrames to 1. rigidArea 0: a quarter of the area that a frame has at the start. */
+       (section 5 of the paper), also at once: a sheet that is to stay rigid sets frameCount and maxFrames to 1.
+       rigidArea 0: a quarter of the area that a frame has at the start. */
     float rigidWeight; /* default 0.95 */
-
-    float rigidArea;
+    float rigidArea;   /* default 0 */
 
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
     int32_t iterations;      /* Newton steps a substep, 1 to 64; default 2 */
