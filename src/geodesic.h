@@ -1,5 +1,7 @@
 /* Distances inside the cut sheet: Dijkstra over the steps of the grid. Lengths are whole numbers, so a field is the one
-   fixed point of d = min(seed, d of neighbour + step), whatever the order of work. */
+   fixed point of (distance, owner) = min over the seed and the neighbours' (distance + step, owner), whatever the order of
+   work; ties go to the lower owner. So a field can be repaired where the grid has changed (after Ramalingam and Reps
+   1996), and equals one from scratch. */
 #ifndef KIRI_GEODESIC_H
 #define KIRI_GEODESIC_H
 
@@ -11,26 +13,58 @@ typedef struct kiriSeed {
     int32_t owner;
 } kiriSeed;
 
-/* A field over the cells of a grid. Between floods all distances are KIRI_FAR; Reset makes them so again by undoing only
-   what the last flood settled. */
 enum { KIRI_FAR = INT32_MAX };
 
+/* What makes a field. */
+typedef bool kiriPassFn(const void* context, int32_t cell);     /* may the way go on from a cell (whose distance is final)? */
+typedef kiriSeed kiriSeedFn(const void* context, int32_t cell); /* distance KIRI_FAR where there is none */
+typedef struct kiriRule {
+    const kiriGrid* grid;
+    int32_t limit;    /* the farthest that is reached */
+    kiriPassFn* pass; /* or null */
+    kiriSeedFn* seed; /* of repairs only */
+    const void* context;
+} kiriRule;
+
 typedef struct kiriField {
-    KIRI_ARRAY(int32_t) distance; /* one a cell */
-    KIRI_ARRAY(int32_t) owner;    /* of the nearest seed; ties go to the lower owner; KIRI_NONE where FAR */
-    KIRI_ARRAY(int32_t) settled;  /* cells reached, by growing distance */
-    KIRI_ARRAY(kiriSeed) seeds;   /* a heap: those that the sweep has not come to yet */
+    KIRI_ARRAY(int32_t) distance; /* one a cell; KIRI_FAR where the field does not reach */
+    KIRI_ARRAY(int32_t) owner;    /* of the nearest seed; KIRI_NONE where FAR */
+    KIRI_ARRAY(int32_t) settled;  /* of floods: cells reached, by growing distance */
+    KIRI_ARRAY(kiriSeed) log;     /* of repairs: what cells were before, each once; some may be the same again */
+
+    /* Work at hand. */
+    KIRI_ARRAY(kiriSeed) heap;
+    KIRI_ARRAY(int32_t) suspects;
+    KIRI_ARRAY(uint8_t) marks; /* one a cell */
+    int32_t cursor[KIRI_STEP_LENGTHS + 1];
 } kiriField;
 
-/* The field is zeroed, or one that was used before, whose memory is then used again. On failure it wants a release. */
-bool kiriField_Init(kiriField* field, const kiriMemory* memory, int32_t cellCount);
+/* Room for so many cells; new ones are FAR. A zeroed field is empty. False for memory: what was there stays. */
+bool kiriField_Resize(kiriField* field, const kiriMemory* memory, int32_t cellCount);
 void kiriField_Release(kiriField* field, const kiriMemory* memory);
+
+/* ---- From scratch ---- */
+
+/* Starts a flood from the seeds. The field must be empty: FAR everywhere. */
+bool kiriField_Start(kiriField* field, const kiriMemory* memory, const kiriSeed* seeds, int32_t seedCount);
+
+/* Goes on. An item of the quota is a cell settled. Allocates nothing. */
+kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* quota);
+
+/* Makes all cells FAR again by undoing only what floods settled. */
 void kiriField_Reset(kiriField* field);
 
-/* Floods from the seeds up to and including `limit`. `pass` (or null) says of a cell that is settled whether the flood
-   goes on from it. False for memory. The field must be reset. */
-typedef bool kiriPassFn(const void* context, int32_t cell);
-bool kiriField_Flood(kiriField* field, const kiriMemory* memory, const kiriGrid* grid, const kiriSeed* seeds,
-                     int32_t seedCount, int32_t limit, kiriPassFn* pass, const void* context);
+/* ---- Repairs ---- */
+
+/* The cell's steps or seed may have changed, or whether ways pass through it. Never fails: room is made by Resize. */
+void kiriField_Suspect(kiriField* field, int32_t cell);
+
+/* The cell is no more (or shall be empty); cells that it led to must be suspects. */
+void kiriField_Forget(kiriField* field, const kiriMemory* memory, int32_t cell);
+
+/* Makes the field right again, given that all cells about which something has changed are suspects. An item of the quota is a
+   cell whose distance is taken away or given. KIRI_MORE: call again with the same rule before anything changes. The log
+   tells what changed; empty it when it is read. On KIRI_FAILED the field is of no use. */
+kiriProgress kiriField_Repair(kiriField* field, const kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);
 
 #endif

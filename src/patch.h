@@ -4,6 +4,7 @@
 #define KIRI_PATCH_H
 
 #include "flight.h"
+#include "link.h"
 
 /* With F = [F_u F_v] the deformation gradient of the mid-surface, D the director, D_u and D_v its slopes; Green strains,
    plane stress. Every energy is 1/2 stiffness strain^2; G = E / (2 (1 + nu)), K = E / (2 (1 - nu)), a the area. With a

@@ -1,9 +1,9 @@
-/* Regions: the geodesic Voronoi diagram of the frames on the grid; and the links between them, where the sheet's
-   elasticity is measured (README, "Mechanics"). */
+/* Regions: the geodesic Voronoi diagram of the frames on the grid. */
 #ifndef KIRI_REGION_H
 #define KIRI_REGION_H
 
 #include "geodesic.h"
+#include "tally.h"
 
 /* A frame's place in the rest plane. */
 typedef struct kiriSite {
@@ -11,6 +11,7 @@ typedef struct kiriSite {
     int32_t cell; /* that holds it */
 } kiriSite;
 
+typedef KIRI_ARRAY(kiriSite) kiriSites;
 typedef KIRI_ARRAY(kiriSeed) kiriSeeds;
 
 /* Adds the seeds of distances to the site. Where it lies off the middle of its square, the cells one step away are
@@ -18,43 +19,36 @@ typedef KIRI_ARRAY(kiriSeed) kiriSeeds;
 bool kiriSite_Seed(const kiriSite* site, int32_t owner, const kiriMemory* memory, const kiriGrid* grid,
                    const kiriMeshData* mesh, kiriSeeds* seeds);
 
-typedef struct kiriRegion {
-    kiriMoments material; /* about the local origin */
-    int32_t reach;        /* d_max: the largest distance in it from its frame */
-    double spread[3];     /* half the sum of W l n n over its links: uu, uv, vv; about the area times the identity
-                             where neighbours are all around, less at free edges */
-} kiriRegion;
-
-/* One connected stretch of border between regions i < j. */
-typedef struct kiriLink {
-    int32_t i, j;
-    double width;      /* W: length of the vector sum of its faces, m */
-    double length;     /* l: from site i to site j through it, m */
-    double moment;     /* I: second moment of the border along the tangent about the centroid, m^3 */
-    double braced;     /* how far its regions have neighbours along the tangent: 0 in a strip one region wide, to 1 */
-    kiriVec2 span;     /* s: from site i to site j; l along the normal where the way between them is not straight */
-    kiriVec2 normal;   /* unit, from i to j */
-    kiriVec2 tangent;  /* unit, the normal turned left */
-    kiriVec2 centroid; /* b: of the border, local m */
-    kiriVec2
-        crossing; /* m: where the way from i to j crosses it; the midpoint of the sites where that way is straight */
-    kiriVec2 spread[2]; /* integrals over the border of (p - b)_u and of (p - b)_v, times its normal, m^2 */
-} kiriLink;
+/* The same seed seen from a cell: distance KIRI_FAR where the site sends none there. */
+kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, const kiriMeshData* mesh,
+                         int32_t cell);
 
 typedef struct kiriRegions {
-    KIRI_ARRAY(int32_t) owner;      /* of each cell; KIRI_NONE where no frame is in the piece */
-    KIRI_ARRAY(int32_t) distance;   /* of each cell to its owner's site */
-    KIRI_ARRAY(kiriRegion) regions; /* one a site */
-    KIRI_ARRAY(kiriLink) links;     /* by (i, j), then by their lowest face */
+    kiriField field;              /* owner: the frame whose region a cell is in; KIRI_NONE where no frame is in the piece */
+    KIRI_ARRAY(int32_t) siteAt;   /* of each cell: the frame whose site it holds, or KIRI_NONE; two sites never share one */
+    KIRI_ARRAY(uint8_t) onBorder; /* of each cell: a step from it leads to another region */
+    KIRI_ARRAY(kiriTally) material; /* of each frame's region, exact */
+    KIRI_ARRAY(uint8_t) touched;    /* of each frame: its region, distances in it, or its cells' steps or material changed */
+
+    /* Since kiriRegions_Settle: cells whose owner or distance changed, and what they were; without cells that are gone. */
+    KIRI_ARRAY(kiriSeed) changes;
+    KIRI_ARRAY(int32_t) orphans; /* cells with no frame in their piece, in the order of cells */
+    bool running;                /* an update waits for more quota */
 } kiriRegions;
 
-/* From scratch; two sites never share a cell. `field` is scratch of the grid's size, reset before and after. */
-bool kiriRegions_Build(kiriRegions* regions, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                       kiriField* field, const kiriSite* sites, int32_t siteCount);
+/* Follows the grid's changes and those of the sites: `moved` marks sites (by frame) that are new or elsewhere (their `was`
+   cell, KIRI_NONE for new ones, no longer holds them). Sites are in cells that live. An item of the quota: see
+   kiriField_Repair. From scratch: a zeroed or reset kiriRegions, all cells of the grid in changes.made, all sites moved. */
+typedef struct kiriSiteMove {
+    int32_t frame, was;
+} kiriSiteMove;
+kiriProgress kiriRegions_Update(kiriRegions* regions, const kiriMemory* memory, const kiriGrid* grid,
+                                const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
+                                const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
 
-/* Owner and distance only, for placing frames. A site always owns its own cell. */
-bool kiriRegions_Divide(kiriRegions* regions, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                        kiriField* field, const kiriSite* sites, int32_t siteCount);
+/* All who follow the regions have seen `changes`; `touched` stays until the sheet's commit clears it. */
+void kiriRegions_Settle(kiriRegions* regions);
+void kiriRegions_Reset(kiriRegions* regions);
 void kiriRegions_Release(kiriRegions* regions, const kiriMemory* memory);
 
 #endif

@@ -4,16 +4,24 @@
 
 #include "frame.h"
 
+/* A sample that shall have other weights. */
+typedef struct kiriReweighed {
+    int32_t sample;
+    kiriSpan span;
+} kiriReweighed;
+
 /* The weights of a row of samples. */
 typedef struct kiriSkin {
-    KIRI_ARRAY(int32_t) start; /* samples + 1 */
-    KIRI_ARRAY(kiriWeight) weights;
+    KIRI_ARRAY(kiriSpan) spans; /* one a sample */
+    KIRI_ARRAY(kiriWeight) weights; /* by spans; in a span by frame */
+    kiriSpans room;
+    KIRI_ARRAY(kiriReweighed) staged; /* weights that take effect with the commit */
 } kiriSkin;
 
 /* A material point that the host collides with the world. */
 typedef struct kiriSample {
     kiriPoint at; /* in the material */
-    int32_t cell; /* that holds it */
+    int32_t frame; /* in whose region it is */
 } kiriSample;
 
 typedef KIRI_ARRAY(kiriSample) kiriSamples;
@@ -26,11 +34,43 @@ typedef struct kiriMotion {
 
 void kiriSkin_Release(kiriSkin* skin, const kiriMemory* memory);
 
-/* From scratch, for all vertices of the mesh; for all samples. False for memory. */
-bool kiriSkin_BuildVertices(kiriSkin* skin, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
-                            const kiriMeshData* mesh);
-bool kiriSkin_BuildSamples(kiriSkin* skin, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
-                           const kiriMeshData* mesh, const kiriSamples* samples);
+/* Stages the weights of a sample at a local point of a cell. A sample is staged at most once before a commit; those from
+   `spans.count` on are new and must be staged in their order. False for memory. */
+bool kiriSkin_Stage(kiriSkin* skin, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+                    const kiriMeshData* mesh, int32_t sample, int32_t cell, kiriVec2 at);
+
+/* The weights staged become those of the samples, or are dropped. Neither fails. */
+void kiriSkin_Commit(kiriSkin* skin);
+void kiriSkin_Drop(kiriSkin* skin);
+
+/* The cell around a lattice point of the material, and of a vertex. A point on a slanted outline may be off the material by
+   a rounding of the lattice after a cut: it is given the first cell of its square. KIRI_NONE outside. */
+int32_t kiriSample_Around(const kiriGrid* grid, const kiriMeshData* mesh, kiriPoint at);
+
+/* Which samples lie in which square, for samples that never move: a list a square. */
+typedef struct kiriPlaces {
+    KIRI_ARRAY(int32_t) head; /* of each square, or KIRI_NONE */
+    KIRI_ARRAY(int32_t) next; /* of each sample */
+} kiriPlaces;
+bool kiriPlaces_Add(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, kiriPoint at);
+void kiriPlaces_Truncate(kiriPlaces* places, const kiriMeshData* mesh, int32_t sampleCount, const kiriPoint* at);
+void kiriPlaces_Release(kiriPlaces* places, const kiriMemory* memory);
+
+/* Stages, of all samples that follow the shape functions, those whose weights may have changed: each in a cell of
+   shape->changes, or one straight or diagonal step from one. An item of the quota is a sample staged. */
+typedef struct kiriRefresh {
+    KIRI_ARRAY(int32_t) squares; /* with such cells */
+    KIRI_ARRAY(uint8_t) marks;   /* of each square */
+    int32_t square, sample;      /* where the work goes on */
+} kiriRefresh;
+bool kiriRefresh_Start(kiriRefresh* refresh, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+                       const kiriMeshData* mesh);
+kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, const kiriMemory* memory, const kiriShape* shape,
+                                  const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
+kiriProgress kiriRefresh_Points(kiriRefresh* refresh, kiriSkin* skin, const kiriPlaces* places, const kiriSamples* points,
+                                const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+                                const kiriMeshData* mesh, kiriQuota* quota);
+void kiriRefresh_Release(kiriRefresh* refresh, const kiriMemory* memory);
 
 /* Vertices born since kiriMesh_Begin take a blend of their parents' weights, so that they lie on the surface as it was.
    Truncate takes that back. */
@@ -45,14 +85,5 @@ kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* fram
 
 /* The cell that holds a lattice point of the material, or KIRI_NONE. */
 int32_t kiriSample_Cell(const kiriGrid* grid, const kiriMeshData* mesh, kiriPoint at);
-
-/* Sites for every piece that has none: `count` over the whole sheet in proportion to area, at least one in each such
-   piece; farthest-point sampling and Lloyd relaxation. Those that are there stay. False for memory. */
-bool kiriSites_Spread(kiriSites* sites, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                      kiriField* field, int32_t count);
-
-/* The same for samples. */
-bool kiriSamples_Spread(kiriSamples* samples, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                        kiriField* field, int32_t count);
 
 #endif

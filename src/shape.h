@@ -1,4 +1,4 @@
-/* Voronoi shape functions (section 4.1 of the paper, algorithm 2; after Faure, Gilles, Bousquet, Pai 2011) on the
+/* Shape functions: weights of the frames (section 4.1 of the paper, algorithm 2; after Faure, Gilles, Bousquet, Pai 2011) on the
    cells, and weights with derivatives at any point by least squares over linked neighbours. */
 #ifndef KIRI_SHAPE_H
 #define KIRI_SHAPE_H
@@ -10,14 +10,46 @@ typedef struct kiriWeight {
     double value;
 } kiriWeight;
 
+/* A weight at a cell, and what it was before the weights there were made to sum to 1. */
+typedef struct kiriCellWeight {
+    int32_t frame;
+    double value, raw;
+} kiriCellWeight;
+
+/* How far a cell is from a frame's site, and from the border of its region. */
+typedef struct kiriReach {
+    int32_t cell, fromSite, fromBorder;
+} kiriReach;
+
+typedef KIRI_ARRAY(kiriReach) kiriReaches;
+
+typedef struct kiriShapeWork kiriShapeWork; /* private to shape.c */
+
 typedef struct kiriShape {
-    KIRI_ARRAY(int32_t) start;      /* cells + 1 */
-    KIRI_ARRAY(kiriWeight) weights; /* of cell c: start[c] to start[c + 1], by frame; above zero, sum 1 */
+    KIRI_ARRAY(kiriSpan) spans;           /* of each cell: its weights */
+    KIRI_ARRAY(kiriCellWeight) weights;   /* by spans; in a span by frame; above zero, sum of values 1 */
+    kiriSpans room;
+    KIRI_ARRAY(kiriReaches) reaches; /* of each frame: the cells that its distances reach, in no order */
+
+    /* Of each frame: the cells in which its weight exceeds rigidWeight, as shares of whole squares, in units of 2^-40: a whole
+       number, so that it does not depend on the order of adding. */
+    KIRI_ARRAY(int64_t) rigid;
+    double rigidWeight; /* set before the first update */
+
+    /* Since kiriShape_Settle: live cells, each once, whose weights changed or which are in the grid's made or restepped. */
+    KIRI_ARRAY(int32_t) changes;
+    int64_t recomputed; /* and for how many of them a weight was computed */
+    kiriShapeWork* work;
 } kiriShape;
 
-/* From scratch. `field` as in kiriRegions_Build. Every cell with an owner gets weights. */
-bool kiriShape_Build(kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                     const kiriRegions* regions, kiriField* field, const kiriSite* sites, int32_t siteCount);
+/* Follows the changes of grid and regions (which are settled after it): costs what it touches, and a look at the cells
+   of frames near by. `moves` as in kiriRegions_Update: distances to such a site are made from scratch. An item of the
+   quota is a cell whose distance is taken away, given or flooded. Every cell with an owner gets weights. */
+kiriProgress kiriShape_Update(kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid,
+                              const kiriMeshData* mesh, const kiriRegions* regions, const kiriSite* sites,
+                              int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
+void kiriShape_Settle(kiriShape* shape);
+void kiriShape_Reset(kiriShape* shape);
 void kiriShape_Release(kiriShape* shape, const kiriMemory* memory);
 
 /* A weight at a point, with its gradient (1/m). */

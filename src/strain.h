@@ -7,6 +7,7 @@ extern "C" {
 #endif
 
 #include "flight.h"
+#include "link.h"
 
 /* With gap(p) = x_j(p) - x_i(p); n, tau, d the mean axes of the two frames, orthonormal; D = E h^3 / (12 (1 - nu^2)).
    Every energy is 1/2 stiffness strain^2.
