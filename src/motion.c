@@ -78,7 +78,7 @@ int32_t kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int3
     kiriSystem system = MakeSystem(sheet, gravity);
     int32_t total = 0;
     for (int32_t i = 0; i < substeps; ++i) {
-        int32_t solved = kiriSolver_Step(sheet->model.solver, &system, dt / substeps, sheet->iterations);
+        int32_t solved = kiriSolver_Step(sheet->solver, &system, dt / substeps, sheet->iterations, INT32_MAX);
         if (solved < 0) {
             PutToRest(sheet);
             total = -1;

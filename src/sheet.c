@@ -20,7 +20,6 @@ static void ReleaseModel(kiriModel* model, const kiriMemory* memory)
     kiriSkin_Release(&model->pointSkin, memory);
     kiriPatches_Release(&model->patches, memory);
     kiriArray_Release(memory, &model->pinFrame);
-    kiriSolver_Destroy(model->solver);
 }
 
 void kiriSheet_Release(kiriSheetData* sheet)
@@ -29,6 +28,7 @@ void kiriSheet_Release(kiriSheetData* sheet)
     ReleaseModel(&sheet->model, memory);
     ReleaseModel(&sheet->next, memory);
     kiriField_Release(&sheet->field, memory);
+    kiriSolver_Destroy(sheet->solver);
     kiriMesh_Release(&sheet->mesh);
     kiriArray_Release(memory, &sheet->frames);
     kiriArray_Release(memory, &sheet->queue);
@@ -461,14 +461,13 @@ static bool BuildPatches(kiriSheetData* sheet)
 bool kiriSheet_BuildConstants(kiriSheetData* sheet)
 {
     kiriModel* next = &sheet->next;
-    kiriSolver_Destroy(next->solver);
-    next->solver = NULL;
-    if (!BuildPatches(sheet)) {
-        return false;
+    if (sheet->solver == NULL) {
+        sheet->solver = kiriSolver_Create(sheet->memory, &sheet->mechanics);
     }
-    next->solver = kiriSolver_CreateFor(sheet->memory, &sheet->mechanics, next->sites.count, next->regions.links.data,
-                                        next->regions.links.count, &next->patches);
-    if (next->solver == NULL || !kiriArray_Resize(sheet->memory, &next->pinFrame, sheet->pins.count)) {
+    if (sheet->solver == NULL || !BuildPatches(sheet) ||
+        !kiriSolver_Stage(sheet->solver, next->sites.count, next->regions.links.data, next->regions.links.count,
+                          &next->patches) ||
+        !kiriArray_Resize(sheet->memory, &next->pinFrame, sheet->pins.count)) {
         return false;
     }
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
@@ -515,6 +514,7 @@ void kiriSheet_SwapModel(kiriSheetData* sheet)
     sheet->frames.count = sheet->next.sites.count;
     sheet->model = sheet->next;
     sheet->next = old;
+    kiriSolver_Commit(sheet->solver);
     double densityPerArea = (double)sheet->material.density * sheet->material.thickness;
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         kiriFrameData* frame = &sheet->frames.data[i];

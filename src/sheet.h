@@ -25,7 +25,6 @@ typedef struct kiriModel {
     kiriSkin vertexSkin, pointSkin;
     kiriPatches patches;          /* of affine frames */
     KIRI_ARRAY(int32_t) pinFrame; /* the frame that each pin holds */
-    kiriSolver* solver;
 } kiriModel;
 
 typedef struct kiriPinData {
@@ -69,6 +68,7 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriFrameData) frames;
     kiriModel model, next; /* after a commit, next holds the model before it */
     kiriField field;       /* scratch of the next model */
+    kiriSolver* solver;    /* of the model; the next one is staged in it */
 
     KIRI_ARRAY(kiriStroke) queue;
     int32_t granted; /* strokes of the queue that this tick takes */
