@@ -212,6 +212,8 @@ uint64_t kiriSnapshot_Hash(const kiriWorld* world)
         Parameters(&hash, sheet);
         Mesh(&hash, &sheet->mesh);
         Model(&hash, sheet);
+        uint64_t pattern = kiriSolver_Hash(sheet->solver);
+        Bytes(&hash, &pattern, sizeof(pattern));
         Waiting(&hash, sheet);
         for (int32_t f = 0; f < sheet->frames.count; ++f) {
             Frame(&hash, &sheet->frames.data[f]);
