@@ -71,23 +71,31 @@ static void ClearForces(kiriSheetData* sheet)
     }
 }
 
-int32_t kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps)
+/* Fewer and longer substeps where the quota asks for it, and one system at least for each. */
+static kiriProgress Move(kiriSheetData* sheet, const kiriSystem* system, double dt, int32_t substeps, kiriQuota* quota)
+{
+    substeps = quota->left < substeps ? (int32_t)quota->left : substeps;
+    for (int32_t i = 0; i < substeps; ++i) {
+        int64_t most = quota->left - (substeps - 1 - i);
+        int32_t solved = kiriSolver_Step(sheet->solver, system, dt / substeps, sheet->iterations,
+                                         most < INT32_MAX ? (int32_t)most : INT32_MAX);
+        if (solved < 0) {
+            PutToRest(sheet);
+            return KIRI_FAILED;
+        }
+        kiriQuota_Take(quota, solved);
+    }
+    return substeps > 0 ? KIRI_DONE : KIRI_MORE;
+}
+
+kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
     WritePinRows(sheet);
     WriteContactRows(sheet);
     kiriSystem system = MakeSystem(sheet, gravity);
-    int32_t total = 0;
-    for (int32_t i = 0; i < substeps; ++i) {
-        int32_t solved = kiriSolver_Step(sheet->solver, &system, dt / substeps, sheet->iterations, INT32_MAX);
-        if (solved < 0) {
-            PutToRest(sheet);
-            total = -1;
-            break;
-        }
-        total += solved;
-    }
+    kiriProgress progress = Move(sheet, &system, dt, substeps, systems);
     ClearForces(sheet);
-    return total;
+    return progress;
 }
 
 static void StoreDoubles(double* to, kiriVec3 a)
