@@ -283,6 +283,8 @@ static void Cell(uint64_t* hash, const kiriSheetData* sheet, int32_t cell)
 uint64_t kiriSnapshot_HashLayout(const kiriSheetData* sheet)
 {
     uint64_t hash = 14695981039346656037u;
+    Mesh(&hash, &sheet->mesh);
+    Model(&hash, sheet);
     for (int32_t s = 0; s < sheet->grid.squareCell.count; ++s) {
         for (int32_t c = sheet->grid.squareCell.data[s]; c != KIRI_NONE; c = sheet->grid.cells.data[c].next) {
             Cell(&hash, sheet, c);
