@@ -64,14 +64,85 @@ static void PutToRest(kiriSheetData* sheet)
 
 static void ClearForces(kiriSheetData* sheet)
 {
-    sheet->contacts.count = 0;
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         memset(&sheet->frames.data[i].force, 0, sizeof(kiriVec3));
         memset(&sheet->frames.data[i].torque, 0, sizeof(kiriVec3));
     }
 }
 
-int32_t kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps)
+/* ---- Sleep ---- */
+
+#define CALM_SECONDS 0.5
+#define CALM_SLOPE 1e-3 /* by how much the normal of a contact may change meanwhile */
+
+void kiriMotion_Wake(kiriSheetData* sheet)
+{
+    sheet->asleep = false;
+    sheet->calm = 0.0;
+}
+
+/* Hosts find contacts anew each tick, where a sheet that hardly moves is seen: a plane that passes the point as near as
+   the sheet may have gone meanwhile is the same. */
+static bool IsSameContact(const kiriSheetData* sheet, const kiriContact* a, const kiriContact* b)
+{
+    kiriVec3 seen = kiriVec3_Load(&sheet->pointPositions.data[3 * a->point]);
+    kiriVec3 tilt = kiriVec3_Sub(kiriVec3_Load(b->normal), kiriVec3_Load(a->normal));
+    double rise = (double)b->offset - (double)a->offset - kiriVec3_Dot(tilt, seen);
+    return a->point == b->point && a->friction == b->friction && a->stiffness == b->stiffness &&
+           kiriVec3_Length(tilt) <= CALM_SLOPE && fabs(rise) <= CALM_SECONDS * sheet->sleepSpeed;
+}
+
+static bool AreContactsNew(const kiriSheetData* sheet)
+{
+    bool same = sheet->contacts.count == sheet->lastContacts.count;
+    for (int32_t i = 0; same && i < sheet->contacts.count; ++i) {
+        same = IsSameContact(sheet, &sheet->lastContacts.data[i], &sheet->contacts.data[i]);
+    }
+    return !same;
+}
+
+/* Falls asleep before a tick, not after one, so that what is seen is where it came to rest. */
+static bool Sleeps(kiriSheetData* sheet)
+{
+    if (sheet->calm >= CALM_SECONDS && AreContactsNew(sheet)) {
+        kiriMotion_Wake(sheet);
+    }
+    if (sheet->calm >= CALM_SECONDS && !sheet->asleep) {
+        PutToRest(sheet);
+        sheet->asleep = true;
+    }
+    return sheet->asleep;
+}
+
+/* The fastest frame counts, by the root mean square over its material. */
+static bool IsCalm(const kiriSheetData* sheet)
+{
+    double limit = 0.5 * sheet->sleepSpeed * sheet->sleepSpeed;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        const kiriFrameData* frame = &sheet->frames.data[i];
+        if (!(kiriFrame_KineticEnergy(frame, &sheet->material) < limit * frame->mass)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* ---- Tick ---- */
+
+/* Contacts are gone after the tick; those that moved the sheet last are what its sleep is compared with. */
+static void EndContacts(kiriSheetData* sheet)
+{
+    kiriContact* data = sheet->contacts.data;
+    int32_t capacity = sheet->contacts.capacity;
+    sheet->contacts.data = sheet->lastContacts.data;
+    sheet->contacts.capacity = sheet->lastContacts.capacity;
+    sheet->lastContacts.data = data;
+    sheet->lastContacts.capacity = capacity;
+    sheet->lastContacts.count = sheet->contacts.count;
+    sheet->contacts.count = 0;
+}
+
+static int32_t Move(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps)
 {
     WritePinRows(sheet);
     WriteContactRows(sheet);
@@ -81,11 +152,23 @@ int32_t kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int3
         int32_t solved = kiriSolver_Step(sheet->solver, &system, dt / substeps, sheet->iterations, INT32_MAX);
         if (solved < 0) {
             PutToRest(sheet);
-            total = -1;
-            break;
+            kiriMotion_Wake(sheet);
+            return -1;
         }
         total += solved;
     }
+    sheet->calm = IsCalm(sheet) ? sheet->calm + dt : 0.0;
+    return total;
+}
+
+int32_t kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps)
+{
+    if (Sleeps(sheet)) {
+        sheet->contacts.count = 0;
+        return 0;
+    }
+    int32_t total = Move(sheet, gravity, dt, substeps);
+    EndContacts(sheet);
     ClearForces(sheet);
     return total;
 }

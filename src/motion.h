@@ -4,7 +4,10 @@
 
 #include "sheet.h"
 
-/* Moves the frames by dt in equal substeps. Returns the linear systems solved, or -1 when the motion could not be continued:
+/* What makes a sheet move that rests calls this: it is awake, for half a second at least. */
+void kiriMotion_Wake(kiriSheetData* sheet);
+
+/* Moves the frames by dt in equal substeps, unless the sheet sleeps or falls asleep. Returns the linear systems solved, or -1 when the motion could not be continued:
    the frames then rest where they were. Forces and contacts are used up. */
 int32_t kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps);
 

@@ -173,6 +173,7 @@ static void CommitAll(kiriWorld* world)
         }
         if (HasStrokes(sheet)) {
             kiriSheet_Commit(sheet);
+            kiriMotion_Wake(sheet);
         }
         FinishCuts(world, sheet);
     }
@@ -201,7 +202,9 @@ static void SkinAll(kiriWorld* world)
 {
     Enter(world, KIRI_STAGE_SKIN);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriView_WritePositions(world->sheets.data[i]);
+        if (!world->sheets.data[i]->asleep) {
+            kiriView_WritePositions(world->sheets.data[i]);
+        }
     }
 }
 
