@@ -118,7 +118,11 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriStroke) queue;
     KIRI_ARRAY(kiriCutData*) cuts;
     KIRI_ARRAY(kiriPinData) pins;
-    KIRI_ARRAY(kiriContact) contacts;
+    KIRI_ARRAY(kiriContact) contacts, lastContacts; /* of the next tick, and of the last one that moved the sheet */
+
+    double sleepSpeed; /* m/s; 0: never sleeps */
+    double calm;       /* s for which it has been slower */
+    bool asleep;       /* it was not moved by the last tick, and rests */
 
     /* Room reserved by whoever makes it needed, so that a tick without a cut allocates nothing. */
     KIRI_ARRAY(kiriPinRow) pinRows;
