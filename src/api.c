@@ -137,13 +137,19 @@ void kiriDefaultWorldDef(kiriWorldDef* def)
     }
 }
 
+static bool IsBudget(const kiriBudget* budget)
+{
+    return (budget->triangles == 0 || budget->triangles >= KIRI_LEAST_TRIANGLES) && budget->cells >= 0 &&
+           budget->samples >= 0 && budget->iterations >= 0;
+}
+
 static kiriResult CheckWorldDef(const kiriWorldDef* def)
 {
     if (def->cookie != COOKIE(kiriWorldDef)) {
         return KIRI_ERROR_DEF;
     }
     bool hooksMatch = (def->alloc == NULL) == (def->free == NULL);
-    return hooksMatch && def->cutBudget >= 0 && AreFinite(def->gravity, 3) ? KIRI_OK : KIRI_ERROR_ARGUMENT;
+    return hooksMatch && IsBudget(&def->budget) && AreFinite(def->gravity, 3) ? KIRI_OK : KIRI_ERROR_ARGUMENT;
 }
 
 kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
@@ -172,7 +178,7 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     made->clock = def->clock;
     made->user = def->user;
     made->gravity = kiriVec3_Load(def->gravity);
-    made->cutBudget = def->cutBudget;
+    made->budget = def->budget;
     made->stage = KIRI_NONE;
     kiriPool_Init(&made->sheetIds, KIRI_KIND_SHEET);
     kiriPool_Init(&made->cutIds, KIRI_KIND_CUT);
@@ -223,6 +229,43 @@ kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3])
     BEGIN(world);
     CHECK(gravity != NULL && AreFinite(gravity, 3), "gravity is null or not finite");
     world->gravity = kiriVec3_Load(gravity);
+    return KIRI_OK;
+}
+
+kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget)
+{
+    BEGIN(world);
+    CHECK(budget != NULL && IsBudget(budget), "budget is null, or below 0, or its triangles below KIRI_LEAST_TRIANGLES");
+    world->budget = *budget;
+    return KIRI_OK;
+}
+
+/* So many times the items that took `seconds`. */
+static int32_t ScaleItems(int32_t items, double times, int32_t least, int32_t was)
+{
+    double scaled = items * times;
+    return items <= 0 ? was : scaled < least ? least : scaled < INT32_MAX ? (int32_t)scaled : INT32_MAX;
+}
+
+kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget)
+{
+    if (profile == NULL || budget == NULL || !IsAbove(microseconds, 0.0f) || !IsBudget(budget)) {
+        return KIRI_ERROR_ARGUMENT;
+    }
+    double seconds = 0.0;
+    for (int i = 0; i < KIRI_STAGE_COUNT; ++i) {
+        if (!(profile->seconds[i] >= 0.0)) {
+            return KIRI_ERROR_ARGUMENT;
+        }
+        seconds += profile->seconds[i];
+    }
+    if (seconds > 0.0) {
+        double times = 1e-6 * microseconds / seconds;
+        budget->triangles = ScaleItems(profile->trianglesSplit, times, KIRI_LEAST_TRIANGLES, budget->triangles);
+        budget->cells = ScaleItems(profile->cellsSettled, times, 1, budget->cells);
+        budget->samples = ScaleItems(profile->samplesRefreshed, times, 1, budget->samples);
+        budget->iterations = ScaleItems(profile->solverIterations, times, 1, budget->iterations);
+    }
     return KIRI_OK;
 }
 
@@ -326,8 +369,9 @@ static const char* FaultOfFrames(const kiriSheetDef* def)
 
 static const char* FaultOfModel(const kiriSheetDef* def)
 {
-    if (!IsWithin(def->model, KIRI_MODEL_LINKS, KIRI_MODEL_POINTS) || !IsWithin(def->planar, 0, 1)) {
-        return "model is not one of KIRI_MODEL, or planar not 0 or 1";
+    if (!IsWithin(def->model, KIRI_MODEL_LINKS, KIRI_MODEL_POINTS) || !IsWithin(def->planar, 0, 1) ||
+        !IsWithin(def->fromScratch, 0, 1)) {
+        return "model is not one of KIRI_MODEL, or planar or fromScratch not 0 or 1";
     }
     return IsWithin(def->integrationPoints, 0, 1 << 20) && IsWithin(def->integrationOrder, 1, 2)
                ? NULL
@@ -427,7 +471,7 @@ kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet,
     CHECK(positions != NULL && count != NULL, "positions or count is null");
     FIND(data, kiriSheetData, sheetIds, sheet);
     *positions = data->pointPositions.data;
-    *count = data->model.points.count;
+    *count = data->points.count;
     return KIRI_OK;
 }
 
@@ -438,11 +482,11 @@ kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCoun
     FIND(data, kiriSheetData, sheetIds, sheet);
     counts->vertices = data->mesh.vertices.count;
     counts->triangles = data->mesh.triangles.count;
-    counts->cells = data->model.grid.cells.count;
+    counts->cells = data->grid.cellCount;
     counts->frames = data->frames.count;
-    counts->links = data->model.regions.links.count;
-    counts->pieces = data->model.grid.pieces;
-    counts->collisionPoints = data->model.points.count;
+    counts->links = data->links.links.count;
+    counts->pieces = data->model.pieces.count;
+    counts->collisionPoints = data->points.count;
     return KIRI_OK;
 }
 
@@ -475,12 +519,15 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
     CHECK(restPoint != NULL && AreFinite(restPoint, 2) && count != NULL, "restPoint or count is null, or not finite");
     CHECK(capacity == 0 || (capacity > 0 && frames != NULL && weights != NULL), "capacity without frames and weights");
     FIND(data, kiriSheetData, sheetIds, sheet);
+    if (data->update.stage > 0 || data->update.isStale) {
+        return FAIL(KIRI_ERROR_STATE, "a cut is being worked on; ask again when its work is done");
+    }
     kiriPoint at;
     bool inRange = kiriSheet_ToLattice(data, restPoint, &at);
-    int32_t cell = inRange ? kiriSample_Cell(&data->model.grid, &data->mesh, at) : KIRI_NONE;
+    int32_t cell = inRange ? kiriSample_Cell(&data->grid, &data->mesh, at) : KIRI_NONE;
     CHECK(cell != KIRI_NONE, "restPoint lies outside the material");
     kiriPointWeights found = { NULL, 0, 0 };
-    if (!kiriShape_At(&data->model.shape, &world->memory, &data->model.grid, &data->mesh, cell,
+    if (!kiriShape_At(&data->shape, &world->memory, &data->grid, &data->mesh, cell,
                       kiriMesh_Local(&data->mesh, at), &found)) {
         kiriArray_Release(&world->memory, &found);
         return FAIL(KIRI_ERROR_MEMORY, "out of memory");
@@ -500,10 +547,10 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
 
 /* ---- Cut ---- */
 
-static void Wait(kiriCutData* cut, kiriVec2 to, bool jump)
+static void Wait(const kiriWorld* world, kiriCutData* cut, kiriVec2 to, bool jump)
 {
     kiriSheetData* sheet = cut->sheet;
-    kiriStroke stroke = { cut, to, jump };
+    kiriStroke stroke = { cut, to, world->ticks, jump };
     cut->waiting += 1;
     sheet->queue.data[sheet->queue.count++] = stroke;
 }
@@ -521,7 +568,7 @@ kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint
     if (made == NULL) {
         return FAIL(KIRI_ERROR_MEMORY, "out of memory");
     }
-    Wait(made, kiriSheet_ToLocal(data, restPoint), true);
+    Wait(world, made, kiriSheet_ToLocal(data, restPoint), true);
     *cut = made->id;
     return KIRI_OK;
 }
@@ -540,7 +587,7 @@ kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints
         return FAIL(KIRI_ERROR_MEMORY, "out of memory");
     }
     for (int32_t i = 0; i < count; ++i) {
-        Wait(data, kiriSheet_ToLocal(sheet, &restPoints[2 * i]), false);
+        Wait(world, data, kiriSheet_ToLocal(sheet, &restPoints[2 * i]), false);
     }
     return KIRI_OK;
 }
@@ -571,7 +618,7 @@ kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[
         made = kiriWorld_AddCut(world, data);
     }
     for (int32_t i = 0; made != NULL && i < segments.count; ++i) {
-        Wait(made, segments.data[i], i % 2 == 0);
+        Wait(world, made, segments.data[i], i % 2 == 0);
     }
     kiriArray_Release(&world->memory, &segments);
     if (made == NULL) {
@@ -747,7 +794,7 @@ kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriCo
     CHECK(count == 0 || (count > 0 && contacts != NULL), "contacts is null, or count below 0");
     FIND(data, kiriSheetData, sheetIds, sheet);
     for (int32_t i = 0; i < count; ++i) {
-        const char* why = FaultOfContact(&contacts[i], data->model.points.count);
+        const char* why = FaultOfContact(&contacts[i], data->points.count);
         CHECK(why == NULL, why);
     }
     if (!kiriArray_Reserve(&world->memory, &data->contacts, count) ||

@@ -22,11 +22,11 @@ static void WriteContactRows(kiriSheetData* sheet)
     sheet->contactRows.count = sheet->contacts.count;
     for (int32_t i = 0; i < sheet->contacts.count; ++i) {
         const kiriContact* contact = &sheet->contacts.data[i];
-        const kiriSample* point = &sheet->model.points.data[contact->point];
-        int32_t frame = sheet->model.regions.owner.data[point->cell];
+        const kiriSample* point = &sheet->points.data[contact->point];
+        int32_t frame = point->frame;
         kiriVec2 at = kiriMesh_Local(&sheet->mesh, point->at);
         kiriVec3 normal = kiriVec3_Load(contact->normal);
-        kiriVec3 seen = kiriSkin_Position(&sheet->model.pointSkin, contact->point, sheet->frames.data, at);
+        kiriVec3 seen = kiriSkin_Position(&sheet->pointSkin, contact->point, sheet->frames.data, at);
         kiriVec3 off = kiriVec3_Sub(kiriFrame_Carry(&sheet->frames.data[frame], at), seen);
         kiriContactRow row = {
             frame, at, normal, contact->offset + kiriVec3_Dot(normal, off), contact->friction, contact->stiffness
@@ -40,8 +40,8 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     kiriSystem system;
     system.frames = sheet->frames.data;
     system.frameCount = sheet->frames.count;
-    system.links = sheet->model.regions.links.data;
-    system.linkCount = sheet->model.regions.links.count;
+    system.links = sheet->links.links.data;
+    system.linkCount = sheet->links.links.count;
     system.pins = sheet->pinRows.data;
     system.pinCount = sheet->pinRows.count;
     system.contacts = sheet->contactRows.data;
@@ -71,23 +71,31 @@ static void ClearForces(kiriSheetData* sheet)
     }
 }
 
-int32_t kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps)
+/* Fewer and longer substeps where the quota asks for it, and one system at least for each. */
+static kiriProgress Move(kiriSheetData* sheet, const kiriSystem* system, double dt, int32_t substeps, kiriQuota* quota)
+{
+    substeps = quota->left < substeps ? (int32_t)quota->left : substeps;
+    for (int32_t i = 0; i < substeps; ++i) {
+        int64_t most = quota->left - (substeps - 1 - i);
+        int32_t solved = kiriSolver_Step(sheet->solver, system, dt / substeps, sheet->iterations,
+                                         most < INT32_MAX ? (int32_t)most : INT32_MAX);
+        if (solved < 0) {
+            PutToRest(sheet);
+            return KIRI_FAILED;
+        }
+        kiriQuota_Take(quota, solved);
+    }
+    return substeps > 0 ? KIRI_DONE : KIRI_MORE;
+}
+
+kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
     WritePinRows(sheet);
     WriteContactRows(sheet);
     kiriSystem system = MakeSystem(sheet, gravity);
-    int32_t total = 0;
-    for (int32_t i = 0; i < substeps; ++i) {
-        int32_t solved = kiriSolver_Step(sheet->model.solver, &system, dt / substeps, sheet->iterations);
-        if (solved < 0) {
-            PutToRest(sheet);
-            total = -1;
-            break;
-        }
-        total += solved;
-    }
+    kiriProgress progress = Move(sheet, &system, dt, substeps, systems);
     ClearForces(sheet);
-    return total;
+    return progress;
 }
 
 static void StoreDoubles(double* to, kiriVec3 a)

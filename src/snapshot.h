@@ -8,4 +8,8 @@
    never counts. */
 uint64_t kiriSnapshot_Hash(const kiriWorld* world);
 
+/* A hash of grid, regions and shape functions that does not depend on the order in which cuts were made. Meant for tests: all of
+   it follows from mesh and sites, so the state hash needs none of it. No update may be at hand. */
+uint64_t kiriSnapshot_HashLayout(const kiriSheetData* sheet);
+
 #endif

@@ -762,6 +762,92 @@ static void RepeatsAfterRollback(void** state)
     kiriMesh_Release(&twice);
 }
 
+/* ---- Touched squares --------------------------------------------------------------------------------------------- */
+
+static uint64_t Mix(uint64_t hash, int64_t value)
+{
+    hash = (hash ^ (uint64_t)value) * 0x9E3779B97F4A7C15u;
+    return hash ^ hash >> 29;
+}
+
+/* All that a grid can see of a square, whatever the order of its lists: its triangles, how they hang together in it, and
+   its vertices. */
+static uint64_t Fingerprint(const kiriMeshData* mesh, int32_t square)
+{
+    const kiriSquares* squares = &mesh->squares;
+    uint64_t sum = 0;
+    for (int32_t i = squares->head[square]; i != KIRI_NONE; i = squares->nodes.data[i].next) {
+        int32_t t = squares->nodes.data[i].triangle;
+        uint64_t hash = Mix(1, t);
+        for (int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+            kiriPoint a = TailAt(mesh, h), b = TailAt(mesh, kiriEdge_Next(h));
+            hash = Mix(Mix(hash, a.x), a.y);
+            if (kiriSquares_RunsThrough(squares, square, a, b)) {
+                hash = Mix(Mix(hash, kiriMesh_Twin(mesh, h)), kiriMesh_IsOpen(mesh, h));
+            }
+        }
+        sum += hash;
+    }
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        const kiriVertex* vertex = &mesh->vertices.data[v];
+        if (kiriSquares_At(squares, vertex->at) == square) {
+            sum += Mix(Mix(Mix(Mix(2, v), vertex->at.x), vertex->at.y), vertex->edge);
+        }
+    }
+    return sum;
+}
+
+static void TakeFingerprints(const kiriMeshData* mesh, uint64_t* prints)
+{
+    for (int32_t s = 0; s < mesh->squares.columns * mesh->squares.rows; ++s) {
+        prints[s] = Fingerprint(mesh, s);
+    }
+}
+
+/* What has changed is touched. Returns how many squares are touched and have not changed. */
+static int32_t CheckTouched(const kiriMeshData* mesh, uint64_t* prints)
+{
+    int32_t needless = 0;
+    for (int32_t s = 0; s < mesh->squares.columns * mesh->squares.rows; ++s) {
+        uint64_t now = Fingerprint(mesh, s);
+        assert_true(now == prints[s] || mesh->squares.isTouched[s]);
+        needless += now == prints[s] && mesh->squares.isTouched[s] ? 1 : 0;
+        prints[s] = now;
+    }
+    return needless;
+}
+
+static void TouchesWhatChanges(void** state)
+{
+    (void)state;
+    static uint64_t prints[32 * 32];
+    int32_t changed = 0;
+    for (uint32_t round = 0; round < 4; ++round) {
+        kiriMeshData mesh;
+        uint32_t seed = 60 + round;
+        Pool pool = { { { 0, 0 } }, 0 };
+        InitRectangle(&mesh, round % 2 == 0 ? 24 : 2, 16, 1.0f, 1.0f, 32);
+        assert_int_equal(mesh.squares.touched.count, mesh.squares.columns * mesh.squares.rows);
+        TakeFingerprints(&mesh, prints);
+        for (int i = 0; i < 30; ++i) {
+            Polyline line = RandomPolyline(&seed, &pool, round < 2 ? 0.05 : 0.4);
+            kiriSquares_ClearTouched(&mesh.squares);
+            kiriMesh_Begin(&mesh);
+            assert_true(CutPolyline(&mesh, &line, 1e-4 * LatticeSize));
+            assert_int_equal(CheckTouched(&mesh, prints), 0);
+            changed += mesh.squares.touched.count;
+            if (i % 3 == 0) { /* taking it back changes the same squares again */
+                kiriSquares_ClearTouched(&mesh.squares);
+                kiriMesh_Rollback(&mesh);
+                CheckTouched(&mesh, prints);
+            }
+        }
+        CheckMesh(&mesh);
+        kiriMesh_Release(&mesh);
+    }
+    assert_true(changed > 1000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -791,6 +877,7 @@ int main(void)
         cmocka_unit_test(CutsAtRandomOnARing),
         cmocka_unit_test(RollsBackWithoutMemory),
         cmocka_unit_test(RepeatsAfterRollback),
+        cmocka_unit_test(TouchesWhatChanges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
