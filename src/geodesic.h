@@ -15,9 +15,14 @@ typedef struct kiriSeed {
 
 enum { KIRI_FAR = INT32_MAX };
 
+/* May the way go on from a cell? Floods ask when its distance is final, repairs before that, too: so a cell that passes at
+   some distance must pass at every shorter one. */
+typedef bool kiriPassFn(const void* context, int32_t cell);
+
+/* The nearest of the cell's own seeds (of equals, that of the lowest owner); distance KIRI_FAR where there is none. */
+typedef kiriSeed kiriSeedFn(const void* context, int32_t cell);
+
 /* What makes a field. */
-typedef bool kiriPassFn(const void* context, int32_t cell);     /* may the way go on from a cell (whose distance is final)? */
-typedef kiriSeed kiriSeedFn(const void* context, int32_t cell); /* distance KIRI_FAR where there is none */
 typedef struct kiriRule {
     const kiriGrid* grid;
     int32_t limit;    /* the farthest that is reached */
@@ -29,18 +34,21 @@ typedef struct kiriRule {
 typedef struct kiriField {
     KIRI_ARRAY(int32_t) distance; /* one a cell; KIRI_FAR where the field does not reach */
     KIRI_ARRAY(int32_t) owner;    /* of the nearest seed; KIRI_NONE where FAR */
-    KIRI_ARRAY(int32_t) settled;  /* of floods: cells reached, by growing distance */
+    KIRI_ARRAY(int32_t) settled;  /* of floods: cells reached, by growing distance; none after a repair */
     KIRI_ARRAY(kiriSeed) log;     /* of repairs: what cells were before, each once; some may be the same again */
 
     /* Work at hand. */
     KIRI_ARRAY(kiriSeed) heap;
     KIRI_ARRAY(int32_t) suspects;
-    KIRI_ARRAY(uint8_t) marks; /* one a cell */
+    KIRI_ARRAY(uint8_t) marks; /* one a cell; between repairs only of suspects */
     int32_t cursor[KIRI_STEP_LENGTHS + 1];
 } kiriField;
 
 /* Room for so many cells; new ones are FAR. A zeroed field is empty. False for memory: what was there stays. */
 bool kiriField_Resize(kiriField* field, const kiriMemory* memory, int32_t cellCount);
+
+/* Makes it a field of no cells, whatever its state; keeps the memory. */
+void kiriField_Clear(kiriField* field);
 void kiriField_Release(kiriField* field, const kiriMemory* memory);
 
 /* ---- From scratch ---- */
@@ -48,10 +56,11 @@ void kiriField_Release(kiriField* field, const kiriMemory* memory);
 /* Starts a flood from the seeds. The field must be empty: FAR everywhere. */
 bool kiriField_Start(kiriField* field, const kiriMemory* memory, const kiriSeed* seeds, int32_t seedCount);
 
-/* Goes on. An item of the quota is a cell settled. Allocates nothing. */
+/* Goes on. An item of the quota is a cell settled; the last step may settle a few more. Allocates nothing: never
+   KIRI_FAILED. */
 kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* quota);
 
-/* Makes all cells FAR again by undoing only what floods settled. */
+/* Makes all cells FAR again by undoing only what floods settled, where no repair has changed the field since. */
 void kiriField_Reset(kiriField* field);
 
 /* ---- Repairs ---- */
@@ -59,12 +68,13 @@ void kiriField_Reset(kiriField* field);
 /* The cell's steps or seed may have changed, or whether ways pass through it. Never fails: room is made by Resize. */
 void kiriField_Suspect(kiriField* field, int32_t cell);
 
-/* The cell is no more (or shall be empty); cells that it led to must be suspects. */
-void kiriField_Forget(kiriField* field, const kiriMemory* memory, int32_t cell);
+/* The cell is no more (or shall be empty); cells that it led to must be suspects, it must not. Not logged. */
+void kiriField_Forget(kiriField* field, int32_t cell);
 
-/* Makes the field right again, given that all cells about which something has changed are suspects. An item of the quota is a
-   cell whose distance is taken away or given. KIRI_MORE: call again with the same rule before anything changes. The log
-   tells what changed; empty it when it is read. On KIRI_FAILED the field is of no use. */
+/* Makes the field right again, given that all cells about which something has changed are suspects; where the limit has
+   grown, these are all from which a step leads beyond the old one. An item of the quota is a cell whose distance is taken
+   away or given, or a suspect that keeps it. KIRI_MORE: call again with the same rule before anything changes. The
+   log tells what changed; empty it (its count) when it is read. On KIRI_FAILED only Clear or Release make sense. */
 kiriProgress kiriField_Repair(kiriField* field, const kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);
 
 #endif

@@ -5,17 +5,18 @@
 
 #include "vec.h"
 
-/* A number in units of 2^-98 of a scale: value = (high * 2^38 + low) units. */
+/* A share of a scale: high * 2^-60 + low * 2^-122, with 0 <= low < 2^62. So each number has one form only, and a sliver of
+   1e-14 of a square of a grid of 4096 squares keeps the digits of its double. */
 typedef struct kiriExact {
     int64_t high, low;
 } kiriExact;
 
-/* Moments of material (see kiriMoments); coordinates are at most `extent` (m, local) and areas at most its square. */
+/* Moments of material (see kiriMoments); coordinates are at most `extent` (m, local). */
 typedef struct kiriTally {
     kiriExact area, u, v, uu, uv, vv;
 } kiriTally;
 
-/* Up to 2^24 cells may be in a tally at a time. `sign` is 1 or -1. */
+/* The area in a tally, of however many parts, is at most 7 extent^2 at a time. `sign` is 1 or -1. */
 void kiriTally_Add(kiriTally* tally, const kiriMoments* moments, int sign, double extent);
 kiriMoments kiriTally_Moments(const kiriTally* tally, double extent);
 
