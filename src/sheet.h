@@ -6,8 +6,8 @@
 #define KIRI_SHEET_H
 
 #include "cut.h"
+#include "point.h"
 #include "pool.h"
-#include "sample.h"
 #include "solver.h"
 
 typedef struct kiriPiece {
@@ -86,6 +86,7 @@ typedef struct kiriUpdate {
     kiriModel next;
     KIRI_ARRAY(int32_t) parent;     /* of frames: union-find */
     kiriRefresh refresh;
+    kiriPointsWork points;
     KIRI_ARRAY(kiriSample) newPoints;
     KIRI_ARRAY(kiriSample) movedPoints; /* `frame` is the index of a point, `cell` where it is now */
     kiriTouched touched;
