@@ -467,7 +467,7 @@ int main(int count, char** words)
     kiriWorldDef def;
     kiriDefaultWorldDef(&def);
     def.clock = ReadClock;
-    def.cutBudget = options.budget;
+    def.budget.cells = options.budget;
     SceneOptions sceneOptions = { .dataFolder = options.data,
                                   .gridResolution = options.grid,
                                   .frameCount = options.controlFrames };

@@ -137,13 +137,19 @@ void kiriDefaultWorldDef(kiriWorldDef* def)
     }
 }
 
+static bool IsBudget(const kiriBudget* budget)
+{
+    return (budget->triangles == 0 || budget->triangles >= KIRI_LEAST_TRIANGLES) && budget->cells >= 0 &&
+           budget->samples >= 0 && budget->iterations >= 0;
+}
+
 static kiriResult CheckWorldDef(const kiriWorldDef* def)
 {
     if (def->cookie != COOKIE(kiriWorldDef)) {
         return KIRI_ERROR_DEF;
     }
     bool hooksMatch = (def->alloc == NULL) == (def->free == NULL);
-    return hooksMatch && def->cutBudget >= 0 && AreFinite(def->gravity, 3) ? KIRI_OK : KIRI_ERROR_ARGUMENT;
+    return hooksMatch && IsBudget(&def->budget) && AreFinite(def->gravity, 3) ? KIRI_OK : KIRI_ERROR_ARGUMENT;
 }
 
 kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
@@ -172,7 +178,7 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     made->clock = def->clock;
     made->user = def->user;
     made->gravity = kiriVec3_Load(def->gravity);
-    made->cutBudget = def->cutBudget;
+    made->budget = def->budget;
     made->stage = KIRI_NONE;
     kiriPool_Init(&made->sheetIds, KIRI_KIND_SHEET);
     kiriPool_Init(&made->cutIds, KIRI_KIND_CUT);
@@ -222,7 +228,48 @@ kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3])
 {
     BEGIN(world);
     CHECK(gravity != NULL && AreFinite(gravity, 3), "gravity is null or not finite");
+    kiriVec3 before = world->gravity;
     world->gravity = kiriVec3_Load(gravity);
+    for (int32_t i = 0; i < world->sheets.count && !kiriVec3_Equal(before, world->gravity); ++i) {
+        kiriMotion_Wake(world->sheets.data[i]);
+    }
+    return KIRI_OK;
+}
+
+kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget)
+{
+    BEGIN(world);
+    CHECK(budget != NULL && IsBudget(budget), "budget is null, or below 0, or its triangles below KIRI_LEAST_TRIANGLES");
+    world->budget = *budget;
+    return KIRI_OK;
+}
+
+/* So many times the items that took `seconds`. */
+static int32_t ScaleItems(int32_t items, double times, int32_t least, int32_t was)
+{
+    double scaled = items * times;
+    return items <= 0 ? was : scaled < least ? least : scaled < INT32_MAX ? (int32_t)scaled : INT32_MAX;
+}
+
+kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget)
+{
+    if (profile == NULL || budget == NULL || !IsAbove(microseconds, 0.0f) || !IsBudget(budget)) {
+        return KIRI_ERROR_ARGUMENT;
+    }
+    double seconds = 0.0;
+    for (int i = 0; i < KIRI_STAGE_COUNT; ++i) {
+        if (!(profile->seconds[i] >= 0.0)) {
+            return KIRI_ERROR_ARGUMENT;
+        }
+        seconds += profile->seconds[i];
+    }
+    if (seconds > 0.0) {
+        double times = 1e-6 * microseconds / seconds;
+        budget->triangles = ScaleItems(profile->trianglesSplit, times, KIRI_LEAST_TRIANGLES, budget->triangles);
+        budget->cells = ScaleItems(profile->cellsSettled, times, 1, budget->cells);
+        budget->samples = ScaleItems(profile->samplesRefreshed, times, 1, budget->samples);
+        budget->iterations = ScaleItems(profile->solverIterations, times, 1, budget->iterations);
+    }
     return KIRI_OK;
 }
 
@@ -269,6 +316,7 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     def->rigidWeight = 0.95f;
     def->iterations = 2;
     def->integrationOrder = 1;
+    def->sleepSpeed = 0.001f;
 }
 
 kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material)
@@ -326,8 +374,9 @@ static const char* FaultOfFrames(const kiriSheetDef* def)
 
 static const char* FaultOfModel(const kiriSheetDef* def)
 {
-    if (!IsWithin(def->model, KIRI_MODEL_LINKS, KIRI_MODEL_POINTS) || !IsWithin(def->planar, 0, 1)) {
-        return "model is not one of KIRI_MODEL, or planar not 0 or 1";
+    if (!IsWithin(def->model, KIRI_MODEL_LINKS, KIRI_MODEL_POINTS) || !IsWithin(def->planar, 0, 1) ||
+        !IsWithin(def->fromScratch, 0, 1)) {
+        return "model is not one of KIRI_MODEL, or planar or fromScratch not 0 or 1";
     }
     return IsWithin(def->integrationPoints, 0, 1 << 20) && IsWithin(def->integrationOrder, 1, 2)
                ? NULL
@@ -348,6 +397,9 @@ static const char* FaultOfSheet(const kiriSheetDef* def)
     }
     if (!IsAtLeast(def->snapDistance, 0.0f)) {
         return "snapDistance is below 0";
+    }
+    if (!IsAtLeast(def->sleepSpeed, 0.0f)) {
+        return "sleepSpeed is below 0";
     }
     if (!IsWithin(def->collisionPoints, 0, 1 << 20) || !IsWithin(def->iterations, 1, 64)) {
         return "collisionPoints is not within 0 and 1048576, or iterations not within 1 and 64";
@@ -427,7 +479,7 @@ kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet,
     CHECK(positions != NULL && count != NULL, "positions or count is null");
     FIND(data, kiriSheetData, sheetIds, sheet);
     *positions = data->pointPositions.data;
-    *count = data->model.points.count;
+    *count = data->points.count;
     return KIRI_OK;
 }
 
@@ -438,11 +490,11 @@ kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCoun
     FIND(data, kiriSheetData, sheetIds, sheet);
     counts->vertices = data->mesh.vertices.count;
     counts->triangles = data->mesh.triangles.count;
-    counts->cells = data->model.grid.cells.count;
+    counts->cells = data->grid.cellCount;
     counts->frames = data->frames.count;
-    counts->links = data->model.regions.links.count;
-    counts->pieces = data->model.grid.pieces;
-    counts->collisionPoints = data->model.points.count;
+    counts->links = data->links.links.count;
+    counts->pieces = data->model.pieces.count;
+    counts->collisionPoints = data->points.count;
     return KIRI_OK;
 }
 
@@ -452,6 +504,23 @@ kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet, kiriTota
     CHECK(totals != NULL, "totals is null");
     FIND(data, kiriSheetData, sheetIds, sheet);
     *totals = kiriMotion_Totals(data);
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, int32_t* awake)
+{
+    BEGIN(world);
+    CHECK(awake != NULL, "awake is null");
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    *awake = !data->asleep;
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet)
+{
+    BEGIN(world);
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    kiriMotion_Wake(data);
     return KIRI_OK;
 }
 
@@ -475,12 +544,15 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
     CHECK(restPoint != NULL && AreFinite(restPoint, 2) && count != NULL, "restPoint or count is null, or not finite");
     CHECK(capacity == 0 || (capacity > 0 && frames != NULL && weights != NULL), "capacity without frames and weights");
     FIND(data, kiriSheetData, sheetIds, sheet);
+    if (data->update.stage > 0 || data->update.isStale) {
+        return FAIL(KIRI_ERROR_STATE, "a cut is being worked on; ask again when its work is done");
+    }
     kiriPoint at;
     bool inRange = kiriSheet_ToLattice(data, restPoint, &at);
-    int32_t cell = inRange ? kiriSample_Cell(&data->model.grid, &data->mesh, at) : KIRI_NONE;
+    int32_t cell = inRange ? kiriSample_Cell(&data->grid, &data->mesh, at) : KIRI_NONE;
     CHECK(cell != KIRI_NONE, "restPoint lies outside the material");
     kiriPointWeights found = { NULL, 0, 0 };
-    if (!kiriShape_At(&data->model.shape, &world->memory, &data->model.grid, &data->mesh, cell,
+    if (!kiriShape_At(&data->shape, &world->memory, &data->grid, &data->mesh, cell,
                       kiriMesh_Local(&data->mesh, at), &found)) {
         kiriArray_Release(&world->memory, &found);
         return FAIL(KIRI_ERROR_MEMORY, "out of memory");
@@ -500,10 +572,10 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
 
 /* ---- Cut ---- */
 
-static void Wait(kiriCutData* cut, kiriVec2 to, bool jump)
+static void Wait(const kiriWorld* world, kiriCutData* cut, kiriVec2 to, bool jump)
 {
     kiriSheetData* sheet = cut->sheet;
-    kiriStroke stroke = { cut, to, jump };
+    kiriStroke stroke = { cut, to, world->ticks, jump };
     cut->waiting += 1;
     sheet->queue.data[sheet->queue.count++] = stroke;
 }
@@ -521,7 +593,7 @@ kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint
     if (made == NULL) {
         return FAIL(KIRI_ERROR_MEMORY, "out of memory");
     }
-    Wait(made, kiriSheet_ToLocal(data, restPoint), true);
+    Wait(world, made, kiriSheet_ToLocal(data, restPoint), true);
     *cut = made->id;
     return KIRI_OK;
 }
@@ -540,7 +612,7 @@ kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints
         return FAIL(KIRI_ERROR_MEMORY, "out of memory");
     }
     for (int32_t i = 0; i < count; ++i) {
-        Wait(data, kiriSheet_ToLocal(sheet, &restPoints[2 * i]), false);
+        Wait(world, data, kiriSheet_ToLocal(sheet, &restPoints[2 * i]), false);
     }
     return KIRI_OK;
 }
@@ -571,7 +643,7 @@ kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[
         made = kiriWorld_AddCut(world, data);
     }
     for (int32_t i = 0; made != NULL && i < segments.count; ++i) {
-        Wait(made, segments.data[i], i % 2 == 0);
+        Wait(world, made, segments.data[i], i % 2 == 0);
     }
     kiriArray_Release(&world->memory, &segments);
     if (made == NULL) {
@@ -636,7 +708,11 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
     if (data == NULL) {
         return FAIL(KIRI_ERROR_ID, "no such frame id");
     }
+    kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frame)->owner;
     if (position == NULL) {
+        if (data->held) {
+            kiriMotion_Wake(sheet);
+        }
         data->held = 0;
         return KIRI_OK;
     }
@@ -646,12 +722,17 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
           "rotation is not orthonormal");
     kiriMat3 m = { kiriVec3_Load(&rotation[0]), kiriVec3_Load(&rotation[3]), kiriVec3_Load(&rotation[6]) };
     CHECK(kiriVec3_Dot(kiriVec3_Cross(m.u, m.v), m.d) > 0.0, "rotation mirrors");
-    const kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frame)->owner;
     CHECK(!sheet->mechanics.planar || kiriVec3_Dot(m.d, sheet->mechanics.axes.d) > 0.999999,
           "rotation turns a planar sheet out of its plane");
+    kiriFrameData before = *data;
     data->held = 1;
     data->heldPosition = kiriVec3_Load(position);
     data->heldRotation = kiriMat3_Rotation(m);
+    if (!before.held || !kiriVec3_Equal(before.heldPosition, data->heldPosition) ||
+        !kiriVec3_Equal(before.heldRotation.u, data->heldRotation.u) ||
+        !kiriVec3_Equal(before.heldRotation.v, data->heldRotation.v)) {
+        kiriMotion_Wake(sheet);
+    }
     return KIRI_OK;
 }
 
@@ -664,8 +745,12 @@ kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float f
     if (data == NULL) {
         return FAIL(KIRI_ERROR_ID, "no such frame id");
     }
+    kiriVec3 none = { 0.0, 0.0, 0.0 };
     data->force = kiriVec3_Add(data->force, kiriVec3_Load(force));
     data->torque = kiriVec3_Add(data->torque, kiriVec3_Load(torque));
+    if (!kiriVec3_Equal(kiriVec3_Load(force), none) || !kiriVec3_Equal(kiriVec3_Load(torque), none)) {
+        kiriMotion_Wake(kiriPool_Find(&world->frameIds, frame)->owner);
+    }
     return KIRI_OK;
 }
 
@@ -703,6 +788,7 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
     }
     *pin = kiriPool_Add(&world->pinIds, &world->memory, data, data->pins.count - 1);
     data->pins.data[data->pins.count - 1].id = *pin;
+    kiriMotion_Wake(data);
     return KIRI_OK;
 }
 
@@ -711,7 +797,11 @@ kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3
     BEGIN(world);
     CHECK(target != NULL && AreFinite(target, 3), "target is null or not finite");
     FIND(sheet, kiriSheetData, pinIds, pin);
-    sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index].target = kiriVec3_Load(target);
+    kiriPinData* data = &sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index];
+    if (!kiriVec3_Equal(data->target, kiriVec3_Load(target))) {
+        data->target = kiriVec3_Load(target);
+        kiriMotion_Wake(sheet);
+    }
     return KIRI_OK;
 }
 
@@ -721,6 +811,7 @@ kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin)
     FIND(sheet, kiriSheetData, pinIds, pin);
     int32_t index = kiriPool_Find(&world->pinIds, pin)->index;
     kiriSheet_RemovePin(sheet, index);
+    kiriMotion_Wake(sheet);
     if (index < sheet->pins.count) {
         kiriPool_Find(&world->pinIds, sheet->pins.data[index].id)->index = index;
     }
@@ -747,10 +838,11 @@ kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriCo
     CHECK(count == 0 || (count > 0 && contacts != NULL), "contacts is null, or count below 0");
     FIND(data, kiriSheetData, sheetIds, sheet);
     for (int32_t i = 0; i < count; ++i) {
-        const char* why = FaultOfContact(&contacts[i], data->model.points.count);
+        const char* why = FaultOfContact(&contacts[i], data->points.count);
         CHECK(why == NULL, why);
     }
     if (!kiriArray_Reserve(&world->memory, &data->contacts, count) ||
+        !kiriArray_Reserve(&world->memory, &data->lastContacts, count) ||
         !kiriArray_Reserve(&world->memory, &data->contactRows, count)) {
         return FAIL(KIRI_ERROR_MEMORY, "out of memory");
     }

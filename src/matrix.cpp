@@ -1,6 +1,8 @@
-/* The only file that knows Eigen: its sparse Cholesky, of the upper triangle, with an order of unknowns that we choose. */
+/* The only file that knows Eigen: its order of unknowns that keeps a factor sparse, and its small vectors. The Cholesky
+   factorisation is our own, for Eigen's goes entry by entry: blocks whose size the compiler knows take a fraction of the
+   time, and their memory is the host's. Vectors are only scaled and added, in a fixed order: the same bits everywhere. */
 
-/* Before our own header, which includes C's headers as C. */
+/* Before our own headers, which include C's headers as C. */
 #include <Eigen/Sparse>
 #include <algorithm>
 #include <cfloat>
@@ -8,70 +10,54 @@
 #include <vector>
 
 #include "matrix.h"
+extern "C" {
+#include "array.h"
+}
 
 namespace
 {
 
-typedef Eigen::SparseMatrix<double> Matrix;
-
 const double LAST_BITS = 8.0 * DBL_EPSILON; /* of an entry: what a few operations round off */
 
-/* Eigen's factorisation of the upper triangle, in our own order of unknowns: so it takes the matrix as it is, without a
-   copy, and allocates nothing once it is analysed. */
-class Factor : public Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Eigen::NaturalOrdering<int>>
-{
-  public:
-    void Analyze(const Matrix& matrix)
-    {
-        this->analyzePattern_preordered(matrix, true);
-    }
-    bool Factorize(const Matrix& matrix)
-    {
-        this->template factorize_preordered<true>(matrix);
-        return info() == Eigen::Success && this->m_diag.size() > 0 && this->m_diag.minCoeff() > 0.0;
-    }
+/* Which blocks there are on and below the diagonal: the rows of column c are those from start[c] on, ascending, so that
+   the diagonal block comes first. */
+struct Pattern {
+    KIRI_ARRAY(int32_t) start, row;
+};
+
+/* A block of the factor left of the diagonal, and its column. */
+struct Left {
+    int32_t block, column;
 };
 
 } // namespace
 
+/* Frames have places in the order of unknowns; rows and columns are places. Blocks lie one after the other, column by
+   column, and so do the entries of a block. With ones on the diagonal of L, matrix = L D L^T; in a factor's diagonal
+   block D stands on the diagonal, and what is above it means nothing. */
 struct kiriMatrix {
     kiriMemory memory;
-    int32_t size;
-    std::vector<int32_t> place;              /* a frame's place in the order of unknowns */
-    std::vector<std::vector<int32_t>> above; /* of each block column: its block rows above the diagonal, ascending */
-    Matrix values;
-    Factor factor;
-    Eigen::VectorXd right, solution; /* in the order of unknowns */
-
-    /* The rows of block (row, column), row <= column, in one of its columns. */
-    double* Block(int32_t row, int32_t column, int32_t inner)
-    {
-        const std::vector<int32_t>& rows = above[column];
-        size_t block = row == column ? rows.size() : std::lower_bound(rows.begin(), rows.end(), row) - rows.begin();
-        return values.valuePtr() + values.outerIndexPtr()[size * column + inner] + size * block;
-    }
+    int32_t size, count;
+    KIRI_ARRAY(int32_t) place; /* of a frame */
+    Pattern own, factor;
+    KIRI_ARRAY(int32_t) source;    /* what a block of the factor starts from: a block of the matrix, or KIRI_NONE */
+    KIRI_ARRAY(int32_t) leftStart; /* of each row */
+    KIRI_ARRAY(Left) left;
+    KIRI_ARRAY(double) values, factors, right;
+    KIRI_ARRAY(int64_t) keys;                 /* scratch: blocks to be sorted */
+    KIRI_ARRAY(int32_t) child, sibling, mark; /* scratch: the elimination tree; a column's mark on its rows */
 };
 
 namespace
 {
 
-typedef std::vector<Eigen::Triplet<double>> Entries;
-
-/* Where springs are stiffer than inertia by more than doubles tell apart, elimination cancels what the inertia put on
-   the diagonal, and rounding decides the sign. An addition of the size of what is rounded off makes the matrix
-   positive; so light a sheet then falls too slowly. */
-void ShiftDiagonal(kiriMatrix* matrix)
-{
-    for (Eigen::Index c = 0; c < matrix->values.cols(); ++c) {
-        matrix->values.valuePtr()[matrix->values.outerIndexPtr()[c + 1] - 1] *= 1.0 + LAST_BITS;
-    }
-}
+/* ---- Pattern ---- */
 
 /* An order of the frames that keeps the factor sparse. */
 void PlaceFrames(kiriMatrix* matrix, const kiriPair* pairs, int64_t pairCount)
 {
-    int32_t count = (int32_t)matrix->place.size();
-    Entries entries;
+    int32_t count = matrix->count;
+    std::vector<Eigen::Triplet<double>> entries;
     for (int32_t f = 0; f < count; ++f) {
         entries.push_back(Eigen::Triplet<double>(f, f, 1.0));
     }
@@ -79,50 +65,161 @@ void PlaceFrames(kiriMatrix* matrix, const kiriPair* pairs, int64_t pairCount)
         entries.push_back(Eigen::Triplet<double>(pairs[k].a, pairs[k].b, 1.0));
         entries.push_back(Eigen::Triplet<double>(pairs[k].b, pairs[k].a, 1.0));
     }
-    Matrix graph(count, count);
+    Eigen::SparseMatrix<double> graph(count, count);
     graph.setFromTriplets(entries.begin(), entries.end());
     Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
     Eigen::AMDOrdering<int>()(graph, order);
     for (int32_t place = 0; place < count; ++place) {
-        matrix->place[order.indices()[place]] = place;
+        matrix->place.data[order.indices()[place]] = place;
     }
 }
 
-void PlaceBlocks(kiriMatrix* matrix, const kiriPair* pairs, int64_t pairCount)
+bool PlaceBlocks(kiriMatrix* matrix, const kiriPair* pairs, int64_t pairCount)
 {
+    Pattern* own = &matrix->own;
+    const int32_t* place = matrix->place.data;
+    if (!kiriArray_Resize(&matrix->memory, &matrix->keys, matrix->count + pairCount) ||
+        !kiriArray_Reserve(&matrix->memory, &own->row, matrix->count + pairCount)) {
+        return false;
+    }
+    int64_t *keys = matrix->keys.data, *end = keys;
+    for (int32_t c = 0; c < matrix->count; ++c) {
+        *end++ = ((int64_t)c << 32) + c;
+    }
     for (int64_t k = 0; k < pairCount; ++k) {
-        int32_t a = matrix->place[pairs[k].a], b = matrix->place[pairs[k].b];
-        if (a != b) {
-            matrix->above[std::max(a, b)].push_back(std::min(a, b));
+        int32_t a = place[pairs[k].a], b = place[pairs[k].b];
+        *end++ = ((int64_t)std::min(a, b) << 32) + std::max(a, b);
+    }
+    std::sort(keys, end);
+    end = std::unique(keys, end);
+    own->row.count = 0;
+    for (const int64_t* key = keys; key != end; ++key) {
+        int32_t column = (int32_t)(*key >> 32), row = (int32_t)(*key & INT32_MAX);
+        if (row == column) {
+            own->start.data[column] = own->row.count;
         }
+        own->row.data[own->row.count++] = row;
     }
-    for (std::vector<int32_t>& rows : matrix->above) {
-        std::sort(rows.begin(), rows.end());
-        rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-    }
+    own->start.data[matrix->count] = own->row.count;
+    return true;
 }
 
-/* In each column the blocks above the diagonal, then the upper triangle of the diagonal block. */
-void MakePattern(kiriMatrix* matrix)
+/* Adds the rows of a column, from `first` on, that the factor's column c does not have yet. */
+bool AddRows(kiriMatrix* matrix, const Pattern* from, int32_t column, int32_t c)
 {
-    int32_t size = matrix->size, unknowns = size * (int32_t)matrix->place.size();
-    Entries entries;
-    for (int32_t c = 0; c < unknowns; ++c) {
-        for (int32_t row : matrix->above[c / size]) {
-            for (int32_t r = size * row; r < size * row + size; ++r) {
-                entries.push_back(Eigen::Triplet<double>(r, c, 0.0));
+    Pattern* factor = &matrix->factor;
+    for (int32_t b = from->start.data[column]; b < from->start.data[column + 1]; ++b) {
+        int32_t row = from->row.data[b];
+        if (row >= c && matrix->mark.data[row] != c) {
+            matrix->mark.data[row] = c;
+            if (!kiriArray_Push(&matrix->memory, &factor->row, row)) {
+                return false;
             }
         }
-        for (int32_t r = c - c % size; r <= c; ++r) {
-            entries.push_back(Eigen::Triplet<double>(r, c, r == c ? 1.0 : 0.0));
+    }
+    return true;
+}
+
+/* A column of the factor has the rows of the matrix, and those of its children in the elimination tree: the columns
+   whose first row below the diagonal it is. */
+bool Eliminate(kiriMatrix* matrix)
+{
+    Pattern* factor = &matrix->factor;
+    int32_t *child = matrix->child.data, *sibling = matrix->sibling.data;
+    std::fill(child, child + matrix->count, (int32_t)KIRI_NONE);
+    std::fill(matrix->mark.data, matrix->mark.data + matrix->count, (int32_t)KIRI_NONE);
+    factor->start.data[0] = factor->row.count = 0;
+    for (int32_t c = 0; c < matrix->count; ++c) {
+        int32_t first = factor->row.count;
+        bool ok = AddRows(matrix, &matrix->own, c, c);
+        for (int32_t k = child[c]; ok && k != KIRI_NONE; k = sibling[k]) {
+            ok = AddRows(matrix, factor, k, c);
+        }
+        if (!ok) {
+            return false;
+        }
+        std::sort(factor->row.data + first, factor->row.data + factor->row.count);
+        factor->start.data[c + 1] = factor->row.count;
+        if (factor->row.count > first + 1) {
+            int32_t parent = factor->row.data[first + 1];
+            sibling[c] = child[parent];
+            child[parent] = c;
         }
     }
-    matrix->values.resize(unknowns, unknowns);
-    matrix->values.setFromTriplets(entries.begin(), entries.end());
-    matrix->factor.Analyze(matrix->values);
-    matrix->right.setZero(unknowns);
-    matrix->solution.setZero(unknowns);
+    return true;
 }
+
+/* The rows of the factor, by the columns that they have blocks in. */
+void CollectLeft(kiriMatrix* matrix)
+{
+    const Pattern* factor = &matrix->factor;
+    int32_t *start = matrix->leftStart.data, count = matrix->count;
+    std::fill(start, start + count + 1, 0);
+    for (int32_t b = 0; b < factor->row.count; ++b) {
+        ++start[factor->row.data[b]];
+    }
+    for (int32_t r = 0, sum = 0; r < count; ++r) {
+        sum += start[r] - 1; /* not the diagonal block */
+        start[r] = sum;
+    }
+    start[count] = factor->row.count - count;
+    for (int32_t c = count - 1; c >= 0; --c) {
+        for (int32_t b = factor->start.data[c] + 1; b < factor->start.data[c + 1]; ++b) {
+            Left left = { b, c };
+            matrix->left.data[--start[factor->row.data[b]]] = left;
+        }
+    }
+}
+
+void FindSources(kiriMatrix* matrix)
+{
+    const Pattern *own = &matrix->own, *factor = &matrix->factor;
+    for (int32_t c = 0; c < matrix->count; ++c) {
+        int32_t from = own->start.data[c], end = own->start.data[c + 1];
+        for (int32_t b = factor->start.data[c]; b < factor->start.data[c + 1]; ++b) {
+            bool isOwn = from < end && own->row.data[from] == factor->row.data[b];
+            matrix->source.data[b] = isOwn ? from++ : (int32_t)KIRI_NONE;
+        }
+    }
+}
+
+bool MakeRoomForFrames(kiriMatrix* matrix)
+{
+    const kiriMemory* memory = &matrix->memory;
+    int64_t count = matrix->count;
+    return kiriArray_Resize(memory, &matrix->place, count) && kiriArray_Resize(memory, &matrix->child, count) &&
+           kiriArray_Resize(memory, &matrix->sibling, count) && kiriArray_Resize(memory, &matrix->mark, count) &&
+           kiriArray_Resize(memory, &matrix->own.start, count + 1) &&
+           kiriArray_Resize(memory, &matrix->factor.start, count + 1) &&
+           kiriArray_Resize(memory, &matrix->leftStart, count + 1) &&
+           kiriArray_Resize(memory, &matrix->right, count * matrix->size);
+}
+
+bool MakeRoomForBlocks(kiriMatrix* matrix)
+{
+    const kiriMemory* memory = &matrix->memory;
+    int64_t area = (int64_t)matrix->size * matrix->size;
+    int64_t own = matrix->own.row.count, factor = matrix->factor.row.count;
+    return area * factor <= INT32_MAX && kiriArray_Resize(memory, &matrix->source, factor) &&
+           kiriArray_Resize(memory, &matrix->left, factor - matrix->count) &&
+           kiriArray_Resize(memory, &matrix->values, area * own) &&
+           kiriArray_Resize(memory, &matrix->factors, area * factor);
+}
+
+/* ---- Entries ---- */
+
+/* The block (row, column) of the matrix, row >= column; KIRI_NONE where there is none. */
+int32_t BlockAt(const kiriMatrix* matrix, int32_t row, int32_t column)
+{
+    const int32_t *rows = matrix->own.row.data, *end = rows + matrix->own.start.data[column + 1];
+    const int32_t* at = std::lower_bound(rows + matrix->own.start.data[column], end, row);
+    return at != end && *at == row ? (int32_t)(at - rows) : (int32_t)KIRI_NONE;
+}
+
+/* A column of a block: the compiler knows how long it is. */
+template <int size> using Column = Eigen::Matrix<double, size, 1>;
+template <int size> using In = Eigen::Map<const Column<size>>;
+template <int size> using Out = Eigen::Map<Column<size>>;
 
 /* One element: its derivatives, and the springs between them. */
 struct Squares {
@@ -131,25 +228,16 @@ struct Squares {
     int32_t rows, stride;
 };
 
-/* The block of frames number a and b of the element, a's unknowns down. The size is known to the compiler, for
-   speed. */
-template <int size>
-void AddBlock(kiriMatrix* matrix, const Squares& s, int32_t a, int32_t row, int32_t b, int32_t column)
+/* Adds the block of frames number a and b of the element, a's unknowns down. */
+template <int size> void AddBlock(double* block, const Squares& s, int32_t a, int32_t b)
 {
     for (int32_t c = 0; c < size; ++c) {
-        double sum[size] = { 0.0 };
+        Column<size> sum = Column<size>::Zero();
         for (int32_t e = 0; e < s.rows; ++e) {
             const double* J = s.J + e * s.stride;
-            double pull = s.k[e] * J[size * b + c];
-            for (int32_t r = 0; r < size; ++r) {
-                sum[r] += pull * J[size * a + r];
-            }
+            sum += s.k[e] * J[size * b + c] * In<size>(J + size * a);
         }
-        double* out = matrix->Block(row, column, c);
-        int32_t count = row == column ? c + 1 : size;
-        for (int32_t r = 0; r < count; ++r) {
-            out[r] += sum[r];
-        }
+        Out<size>(block + size * c) += sum;
     }
 }
 
@@ -157,65 +245,285 @@ template <int size> void AddBlocks(kiriMatrix* matrix, const Squares& squares, c
 {
     for (int32_t b = 0; b < count; ++b) {
         for (int32_t a = 0; a < count; ++a) {
-            int32_t row = matrix->place[frames[a]], column = matrix->place[frames[b]];
-            if (row <= column) {
-                AddBlock<size>(matrix, squares, a, row, b, column);
+            int32_t row = matrix->place.data[frames[a]], column = matrix->place.data[frames[b]];
+            if (row >= column) {
+                AddBlock<size>(&matrix->values.data[(int64_t)size * size * BlockAt(matrix, row, column)], squares, a,
+                               b);
             }
         }
     }
 }
 
+/* Where springs are stiffer than inertia by more than doubles tell apart, elimination cancels what the inertia put on
+   the diagonal, and rounding decides the sign. An addition of the size of what is rounded off makes the matrix
+   positive; so light a sheet then falls too slowly. */
+void ShiftDiagonal(kiriMatrix* matrix)
+{
+    int32_t size = matrix->size;
+    for (int32_t c = 0; c < matrix->count; ++c) {
+        double* block = &matrix->values.data[(int64_t)size * size * matrix->own.start.data[c]];
+        for (int32_t n = 0; n < size; ++n) {
+            block[(size + 1) * n] *= 1.0 + LAST_BITS;
+        }
+    }
+}
+
+/* ---- Factorisation ---- */
+
+/* out -= a D b^T */
+template <int size> void SubtractProduct(double* out, const double* a, const double* d, const double* b)
+{
+    for (int32_t c = 0; c < size; ++c) {
+        Column<size> sum = Out<size>(out + size * c);
+        for (int32_t m = 0; m < size; ++m) {
+            sum -= (d[m] * b[size * m + c]) * In<size>(a + size * m);
+        }
+        Out<size>(out + size * c) = sum;
+    }
+}
+
+/* Of a diagonal block. False where it is not positive definite. */
+template <int size> bool FactorBlock(double* block)
+{
+    for (int32_t m = 0; m < size; ++m) {
+        double d = block[(size + 1) * m];
+        if (!(d > 0.0)) {
+            return false;
+        }
+        for (int32_t c = m + 1; c < size; ++c) {
+            double l = block[size * m + c] / d;
+            for (int32_t r = c; r < size; ++r) {
+                block[size * c + r] -= l * block[size * m + r];
+            }
+        }
+        for (int32_t r = m + 1; r < size; ++r) {
+            block[size * m + r] /= d;
+        }
+    }
+    return true;
+}
+
+/* What is below the diagonal: block (L D)^-T */
+template <int size> void DivideBlock(double* block, const double* diagonal)
+{
+    for (int32_t m = 0; m < size; ++m) {
+        Column<size> column = Out<size>(block + size * m);
+        for (int32_t n = 0; n < m; ++n) {
+            column -= diagonal[size * n + m] * In<size>(block + size * n);
+        }
+        Out<size>(block + size * m) = column;
+    }
+    for (int32_t m = 0; m < size; ++m) {
+        Out<size>(block + size * m) *= 1.0 / diagonal[(size + 1) * m];
+    }
+}
+
+template <int size> void StartColumn(kiriMatrix* matrix, int32_t column)
+{
+    const int64_t area = size * size;
+    for (int32_t b = matrix->factor.start.data[column]; b < matrix->factor.start.data[column + 1]; ++b) {
+        double* out = &matrix->factors.data[area * b];
+        int32_t source = matrix->source.data[b];
+        matrix->mark.data[matrix->factor.row.data[b]] = b;
+        if (source != KIRI_NONE) {
+            std::copy(&matrix->values.data[area * source], &matrix->values.data[area * source] + area, out);
+        } else {
+            std::fill(out, out + area, 0.0);
+        }
+    }
+}
+
+/* Takes off what the columns before it put into the column. */
+template <int size> void UpdateColumn(kiriMatrix* matrix, int32_t column)
+{
+    const int64_t area = size * size;
+    double* factors = matrix->factors.data;
+    for (int32_t k = matrix->leftStart.data[column]; k < matrix->leftStart.data[column + 1]; ++k) {
+        Left left = matrix->left.data[k];
+        const double* diagonal = &factors[area * matrix->factor.start.data[left.column]];
+        double d[size];
+        for (int32_t m = 0; m < size; ++m) {
+            d[m] = diagonal[(size + 1) * m];
+        }
+        for (int32_t b = left.block; b < matrix->factor.start.data[left.column + 1]; ++b) {
+            double* out = &factors[area * matrix->mark.data[matrix->factor.row.data[b]]];
+            SubtractProduct<size>(out, &factors[area * b], d, &factors[area * left.block]);
+        }
+    }
+}
+
+template <int size> bool FactorAll(kiriMatrix* matrix)
+{
+    const int64_t area = size * size;
+    for (int32_t c = 0; c < matrix->count; ++c) {
+        int32_t first = matrix->factor.start.data[c], end = matrix->factor.start.data[c + 1];
+        double* diagonal = &matrix->factors.data[area * first];
+        StartColumn<size>(matrix, c);
+        UpdateColumn<size>(matrix, c);
+        if (!FactorBlock<size>(diagonal)) {
+            return false;
+        }
+        for (int32_t b = first + 1; b < end; ++b) {
+            DivideBlock<size>(&matrix->factors.data[area * b], diagonal);
+        }
+    }
+    return true;
+}
+
+/* L y = right in place, then y / D. */
+template <int size> void SolveDown(kiriMatrix* matrix, double* right)
+{
+    const int64_t area = size * size;
+    for (int32_t c = 0; c < matrix->count; ++c) {
+        int32_t first = matrix->factor.start.data[c], end = matrix->factor.start.data[c + 1];
+        const double* diagonal = &matrix->factors.data[area * first];
+        double* y = right + size * c;
+        for (int32_t m = 0; m < size; ++m) {
+            for (int32_t r = m + 1; r < size; ++r) {
+                y[r] -= diagonal[size * m + r] * y[m];
+            }
+        }
+        for (int32_t b = first + 1; b < end; ++b) {
+            const double* block = &matrix->factors.data[area * b];
+            Out<size> below(right + size * matrix->factor.row.data[b]);
+            for (int32_t m = 0; m < size; ++m) {
+                below -= y[m] * In<size>(block + size * m);
+            }
+        }
+        for (int32_t m = 0; m < size; ++m) {
+            y[m] /= diagonal[(size + 1) * m];
+        }
+    }
+}
+
+/* L^T x = y in place. */
+template <int size> void SolveUp(kiriMatrix* matrix, double* y)
+{
+    const int64_t area = size * size;
+    for (int32_t c = matrix->count - 1; c >= 0; --c) {
+        int32_t first = matrix->factor.start.data[c], end = matrix->factor.start.data[c + 1];
+        const double* diagonal = &matrix->factors.data[area * first];
+        double* x = y + size * c;
+        for (int32_t b = first + 1; b < end; ++b) {
+            const double *block = &matrix->factors.data[area * b], *below = y + size * matrix->factor.row.data[b];
+            for (int32_t m = 0; m < size; ++m) {
+                double sum = 0.0;
+                for (int32_t r = 0; r < size; ++r) {
+                    sum += block[size * m + r] * below[r];
+                }
+                x[m] -= sum;
+            }
+        }
+        for (int32_t m = size - 1; m >= 0; --m) {
+            for (int32_t r = m + 1; r < size; ++r) {
+                x[m] -= diagonal[size * m + r] * x[r];
+            }
+        }
+    }
+}
+
+bool FactorOnce(kiriMatrix* matrix)
+{
+    return matrix->size == 3 ? FactorAll<3>(matrix) : matrix->size == 6 ? FactorAll<6>(matrix) : FactorAll<12>(matrix);
+}
+
+template <int size> void SolveBoth(kiriMatrix* matrix)
+{
+    SolveDown<size>(matrix, matrix->right.data);
+    SolveUp<size>(matrix, matrix->right.data);
+}
+
 } // namespace
 
-extern "C" kiriMatrix* kiriMatrix_Create(const kiriMemory* memory, int32_t size, int32_t frameCount,
-                                         const kiriPair* pairs, int64_t pairCount)
+extern "C" kiriMatrix* kiriMatrix_Create(const kiriMemory* memory, int32_t size)
 {
     void* room = kiriMemory_Alloc(memory, (int64_t)sizeof(kiriMatrix));
     if (room == NULL) {
         return NULL;
     }
-    kiriMatrix* matrix = NULL;
-    try {
-        matrix = new (room) kiriMatrix();
-        matrix->memory = *memory;
-        matrix->size = size;
-        matrix->place.resize(frameCount);
-        matrix->above.resize(frameCount);
-        PlaceFrames(matrix, pairs, pairCount);
-        PlaceBlocks(matrix, pairs, pairCount);
-        MakePattern(matrix);
-        return matrix;
-    } catch (...) {
-        if (matrix != NULL) {
-            matrix->~kiriMatrix();
-        }
-        kiriMemory_Free(memory, room);
-        return NULL;
-    }
+    kiriMatrix* matrix = new (room) kiriMatrix();
+    matrix->memory = *memory;
+    matrix->size = size;
+    return matrix;
 }
 
 extern "C" void kiriMatrix_Destroy(kiriMatrix* matrix)
 {
-    if (matrix != NULL) {
-        kiriMemory memory = matrix->memory;
-        matrix->~kiriMatrix();
-        kiriMemory_Free(&memory, matrix);
+    if (matrix == NULL) {
+        return;
     }
+    kiriMemory memory = matrix->memory;
+    kiriArray_Release(&memory, &matrix->place);
+    kiriArray_Release(&memory, &matrix->own.start);
+    kiriArray_Release(&memory, &matrix->own.row);
+    kiriArray_Release(&memory, &matrix->factor.start);
+    kiriArray_Release(&memory, &matrix->factor.row);
+    kiriArray_Release(&memory, &matrix->source);
+    kiriArray_Release(&memory, &matrix->leftStart);
+    kiriArray_Release(&memory, &matrix->left);
+    kiriArray_Release(&memory, &matrix->values);
+    kiriArray_Release(&memory, &matrix->factors);
+    kiriArray_Release(&memory, &matrix->right);
+    kiriArray_Release(&memory, &matrix->keys);
+    kiriArray_Release(&memory, &matrix->child);
+    kiriArray_Release(&memory, &matrix->sibling);
+    kiriArray_Release(&memory, &matrix->mark);
+    kiriMemory_Free(&memory, matrix);
+}
+
+extern "C" bool kiriMatrix_Shape(kiriMatrix* matrix, int32_t frameCount, const kiriPair* pairs, int64_t pairCount)
+{
+    matrix->count = frameCount;
+    if (!MakeRoomForFrames(matrix)) {
+        return false;
+    }
+    try {
+        PlaceFrames(matrix, pairs, pairCount);
+    } catch (...) {
+        return false;
+    }
+    if (!PlaceBlocks(matrix, pairs, pairCount) || !Eliminate(matrix) || !MakeRoomForBlocks(matrix)) {
+        return false;
+    }
+    CollectLeft(matrix);
+    FindSources(matrix);
+    return true;
+}
+
+extern "C" int32_t kiriMatrix_FrameCount(const kiriMatrix* matrix)
+{
+    return matrix->count;
+}
+
+extern "C" bool kiriMatrix_Covers(const kiriMatrix* matrix, kiriPair pair)
+{
+    int32_t a = matrix->place.data[pair.a], b = matrix->place.data[pair.b];
+    return BlockAt(matrix, std::max(a, b), std::min(a, b)) != KIRI_NONE;
+}
+
+extern "C" uint64_t kiriMatrix_Hash(const kiriMatrix* matrix)
+{
+    uint64_t hash = 14695981039346656037u;
+    for (int32_t f = 0; f < matrix->count; ++f) {
+        hash = (hash ^ (uint64_t)matrix->place.data[f]) * 1099511628211u;
+    }
+    for (int32_t b = 0; matrix->count > 0 && b < matrix->own.row.count; ++b) {
+        hash = (hash ^ (uint64_t)matrix->own.row.data[b]) * 1099511628211u;
+    }
+    return hash;
 }
 
 extern "C" void kiriMatrix_Clear(kiriMatrix* matrix)
 {
-    std::fill(matrix->values.valuePtr(), matrix->values.valuePtr() + matrix->values.nonZeros(), 0.0);
+    std::fill(matrix->values.data, matrix->values.data + matrix->values.count, 0.0);
 }
 
 extern "C" void kiriMatrix_AddOwn(kiriMatrix* matrix, int32_t frame, const double* block)
 {
-    int32_t place = matrix->place[frame];
-    for (int32_t c = 0; c < matrix->size; ++c) {
-        double* out = matrix->Block(place, place, c);
-        for (int32_t r = 0; r <= c; ++r) {
-            out[r] += block[matrix->size * c + r];
-        }
+    int32_t area = matrix->size * matrix->size;
+    double* out = &matrix->values.data[(int64_t)area * matrix->own.start.data[matrix->place.data[frame]]];
+    for (int32_t n = 0; n < area; ++n) {
+        out[n] += block[n];
     }
 }
 
@@ -230,27 +538,22 @@ extern "C" void kiriMatrix_AddSquares(kiriMatrix* matrix, const int32_t* frames,
 
 extern "C" bool kiriMatrix_Factor(kiriMatrix* matrix)
 {
-    try {
-        if (matrix->factor.Factorize(matrix->values)) {
-            return true;
-        }
-        ShiftDiagonal(matrix);
-        return matrix->factor.Factorize(matrix->values);
-    } catch (...) {
-        return false;
+    if (FactorOnce(matrix)) {
+        return true;
     }
+    ShiftDiagonal(matrix);
+    return FactorOnce(matrix);
 }
 
 extern "C" void kiriMatrix_Solve(kiriMatrix* matrix, const double* right, double* solution)
 {
     int32_t size = matrix->size;
-    for (size_t f = 0; f < matrix->place.size(); ++f) {
-        std::copy(right + size * f, right + size * (f + 1), matrix->right.data() + size * matrix->place[f]);
+    for (int32_t f = 0; f < matrix->count; ++f) {
+        std::copy(right + size * f, right + size * (f + 1), matrix->right.data + size * matrix->place.data[f]);
     }
-    /* Solves in place: nothing is thrown. */
-    matrix->solution = matrix->factor.solve(matrix->right);
-    for (size_t f = 0; f < matrix->place.size(); ++f) {
-        const double* from = matrix->solution.data() + size * matrix->place[f];
+    matrix->size == 3 ? SolveBoth<3>(matrix) : matrix->size == 6 ? SolveBoth<6>(matrix) : SolveBoth<12>(matrix);
+    for (int32_t f = 0; f < matrix->count; ++f) {
+        const double* from = matrix->right.data + size * matrix->place.data[f];
         std::copy(from, from + size, solution + size * f);
     }
 }

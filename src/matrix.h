@@ -1,5 +1,5 @@
 /* A symmetric positive definite matrix of square blocks, one row and column of blocks a frame, and its factorisation.
-   Nothing is allocated after creation, and nothing is thrown across this header. */
+   Nothing is allocated but by Shape, and nothing is thrown across this header. */
 #ifndef KIRI_MATRIX_H
 #define KIRI_MATRIX_H
 
@@ -18,11 +18,22 @@ typedef struct kiriPair {
     int32_t a, b;
 } kiriPair;
 
-/* Pattern and symbolic factorisation. `size` is the unknowns a frame: 3, 6 or 12; pairs may come more than once. Null for
-   memory. The matrix itself lies in `memory`; Eigen takes its own from malloc. */
-kiriMatrix* kiriMatrix_Create(const kiriMemory* memory, int32_t size, int32_t frameCount, const kiriPair* pairs,
-                              int64_t pairCount);
+/* A matrix without frames. `size` is the unknowns a frame: 3, 6 or 12. Null for memory. */
+kiriMatrix* kiriMatrix_Create(const kiriMemory* memory, int32_t size);
 void kiriMatrix_Destroy(kiriMatrix* matrix);
+
+/* Gives it a pattern, and the symbolic factorisation of it; pairs may come more than once. Memory is kept from one pattern
+   to the next; the order of unknowns takes some from malloc while it is sought. False for memory: the matrix is then good
+   for nothing but another call. */
+bool kiriMatrix_Shape(kiriMatrix* matrix, int32_t frameCount, const kiriPair* pairs, int64_t pairCount);
+
+int32_t kiriMatrix_FrameCount(const kiriMatrix* matrix);
+
+/* Is the pair in the pattern? */
+bool kiriMatrix_Covers(const kiriMatrix* matrix, kiriPair pair);
+
+/* Of the pattern and the order of unknowns, on which the last bits of a solution depend. */
+uint64_t kiriMatrix_Hash(const kiriMatrix* matrix);
 
 void kiriMatrix_Clear(kiriMatrix* matrix);
 

@@ -98,6 +98,10 @@ void kiriMesh_Rollback(kiriMeshData* mesh)
     for (int32_t i = 0; i < mesh->savedTriangles.count; ++i) {
         mesh->triangles.data[mesh->savedTriangles.data[i].index] = mesh->savedTriangles.data[i].was;
     }
+    for (int32_t v = mesh->vertices.count - 1; v >= mesh->oldVertexCount; --v) {
+        const kiriVertex* vertex = &mesh->vertices.data[v];
+        mesh->squares.vertexHead[kiriSquares_At(&mesh->squares, vertex->at)] = vertex->next;
+    }
     mesh->triangles.count = mesh->oldTriangleCount;
     mesh->vertices.count = mesh->oldVertexCount;
     mesh->revision = mesh->oldRevision;
@@ -107,6 +111,15 @@ void kiriMesh_Rollback(kiriMeshData* mesh)
         (void)InsertSquares(mesh, mesh->savedTriangles.data[i].index);
     }
     kiriMesh_Commit(mesh);
+}
+
+/* A vertex never moves, so it stays in the list of its square, which begins with the latest. */
+static void ListVertex(kiriMeshData* mesh, int32_t vertex)
+{
+    kiriVertex* v = &mesh->vertices.data[vertex];
+    int32_t* head = &mesh->squares.vertexHead[kiriSquares_At(&mesh->squares, v->at)];
+    v->next = *head;
+    *head = vertex;
 }
 
 /* ---- Changing the mesh ------------------------------------------------------------------------------------------- */
@@ -178,6 +191,7 @@ static int32_t AddVertex(kiriMeshData* mesh, kiriPoint at, int32_t source, const
     memset(v, 0, sizeof(*v));
     v->at = at;
     v->edge = KIRI_NONE;
+    ListVertex(mesh, index);
     SetSource(mesh, index, source);
     mesh->births.data[mesh->births.count++] = *birth;
     return index;
@@ -316,6 +330,8 @@ bool kiriMesh_Open(kiriMeshData* mesh, int32_t h)
     ++mesh->revision;
     SetOpen(mesh, h, true);
     SetOpen(mesh, twin, true);
+    kiriSquares_TouchEdge(&mesh->squares, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
+                          mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at);
     return TearFan(mesh, h) && TearFan(mesh, twin);
 }
 
@@ -720,9 +736,14 @@ static kiriResult Build(kiriMeshData* mesh, const Input* input, int32_t resoluti
     if (result != KIRI_OK) {
         return result;
     }
-    bool done = ClaimFans(mesh) && kiriSquares_Init(&mesh->squares, mesh->memory, extent, resolution) &&
-                FillSquares(mesh, &mesh->squares);
-    return done ? KIRI_OK : RefuseMemory(why);
+    if (!ClaimFans(mesh) || !kiriSquares_Init(&mesh->squares, mesh->memory, extent, resolution) ||
+        !FillSquares(mesh, &mesh->squares)) {
+        return RefuseMemory(why);
+    }
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        ListVertex(mesh, v);
+    }
+    return KIRI_OK;
 }
 
 kiriResult kiriMesh_Init(kiriMeshData* mesh, const kiriMemory* memory, const float* positions, int32_t vertexCount,

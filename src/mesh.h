@@ -19,6 +19,7 @@ typedef struct kiriTriangle {
 typedef struct kiriVertex {
     kiriPoint at;
     int32_t edge;   /* a half-edge that leaves it, in its own fan */
+    int32_t next;   /* an older vertex in the same square, or KIRI_NONE; squares.vertexHead is the latest one */
     int32_t source; /* triangle of the caller, */
     float share[3]; /* and barycentric coordinates in it, not negative, sum 1 */
     uint32_t stamp;

@@ -22,11 +22,11 @@ static void WriteContactRows(kiriSheetData* sheet)
     sheet->contactRows.count = sheet->contacts.count;
     for (int32_t i = 0; i < sheet->contacts.count; ++i) {
         const kiriContact* contact = &sheet->contacts.data[i];
-        const kiriSample* point = &sheet->model.points.data[contact->point];
-        int32_t frame = sheet->model.regions.owner.data[point->cell];
+        const kiriSample* point = &sheet->points.data[contact->point];
+        int32_t frame = point->frame;
         kiriVec2 at = kiriMesh_Local(&sheet->mesh, point->at);
         kiriVec3 normal = kiriVec3_Load(contact->normal);
-        kiriVec3 seen = kiriSkin_Position(&sheet->model.pointSkin, contact->point, sheet->frames.data, at);
+        kiriVec3 seen = kiriSkin_Position(&sheet->pointSkin, contact->point, sheet->frames.data, at);
         kiriVec3 off = kiriVec3_Sub(kiriFrame_Carry(&sheet->frames.data[frame], at), seen);
         kiriContactRow row = {
             frame, at, normal, contact->offset + kiriVec3_Dot(normal, off), contact->friction, contact->stiffness
@@ -40,8 +40,8 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     kiriSystem system;
     system.frames = sheet->frames.data;
     system.frameCount = sheet->frames.count;
-    system.links = sheet->model.regions.links.data;
-    system.linkCount = sheet->model.regions.links.count;
+    system.links = sheet->links.links.data;
+    system.linkCount = sheet->links.links.count;
     system.pins = sheet->pinRows.data;
     system.pinCount = sheet->pinRows.count;
     system.contacts = sheet->contactRows.data;
@@ -64,30 +64,126 @@ static void PutToRest(kiriSheetData* sheet)
 
 static void ClearForces(kiriSheetData* sheet)
 {
-    sheet->contacts.count = 0;
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         memset(&sheet->frames.data[i].force, 0, sizeof(kiriVec3));
         memset(&sheet->frames.data[i].torque, 0, sizeof(kiriVec3));
     }
 }
 
-int32_t kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps)
+/* ---- Sleep ---- */
+
+#define CALM_SECONDS 0.5
+#define CALM_SLOPE 1e-3 /* by how much the normal of a contact may change meanwhile */
+
+void kiriMotion_Wake(kiriSheetData* sheet)
+{
+    sheet->asleep = false;
+    sheet->calm = 0.0;
+}
+
+/* Hosts find contacts anew each tick, where a sheet that hardly moves is seen: a plane that passes the point as near as
+   the sheet may have gone meanwhile is the same. */
+static bool IsSameContact(const kiriSheetData* sheet, const kiriContact* a, const kiriContact* b)
+{
+    kiriVec3 seen = kiriVec3_Load(&sheet->pointPositions.data[3 * a->point]);
+    kiriVec3 tilt = kiriVec3_Sub(kiriVec3_Load(b->normal), kiriVec3_Load(a->normal));
+    double rise = (double)b->offset - (double)a->offset - kiriVec3_Dot(tilt, seen);
+    return a->point == b->point && a->friction == b->friction && a->stiffness == b->stiffness &&
+           kiriVec3_Length(tilt) <= CALM_SLOPE && fabs(rise) <= CALM_SECONDS * sheet->sleepSpeed;
+}
+
+static bool AreContactsNew(const kiriSheetData* sheet)
+{
+    bool same = sheet->contacts.count == sheet->lastContacts.count;
+    for (int32_t i = 0; same && i < sheet->contacts.count; ++i) {
+        same = IsSameContact(sheet, &sheet->lastContacts.data[i], &sheet->contacts.data[i]);
+    }
+    return !same;
+}
+
+/* Falls asleep before a tick, not after one, so that what is seen is where it came to rest. */
+static bool Sleeps(kiriSheetData* sheet)
+{
+    if (sheet->calm >= CALM_SECONDS && AreContactsNew(sheet)) {
+        kiriMotion_Wake(sheet);
+    }
+    if (sheet->calm >= CALM_SECONDS && !sheet->asleep) {
+        PutToRest(sheet);
+        sheet->asleep = true;
+    }
+    return sheet->asleep;
+}
+
+/* The fastest frame counts, by the root mean square over its material. */
+static bool IsCalm(const kiriSheetData* sheet)
+{
+    double limit = 0.5 * sheet->sleepSpeed * sheet->sleepSpeed;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        const kiriFrameData* frame = &sheet->frames.data[i];
+        if (!(kiriFrame_KineticEnergy(frame, &sheet->material) < limit * frame->mass)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* ---- Tick ---- */
+
+/* Contacts are gone after the tick; those that moved the sheet last are what its sleep is compared with. */
+static void EndContacts(kiriSheetData* sheet)
+{
+    kiriContact* data = sheet->contacts.data;
+    int32_t capacity = sheet->contacts.capacity;
+    sheet->contacts.data = sheet->lastContacts.data;
+    sheet->contacts.capacity = sheet->lastContacts.capacity;
+    sheet->lastContacts.data = data;
+    sheet->lastContacts.capacity = capacity;
+    sheet->lastContacts.count = sheet->contacts.count;
+    sheet->contacts.count = 0;
+}
+
+/* Fewer and longer substeps where the quota asks for it, and one system at least for each. */
+static kiriProgress TakeSteps(kiriSheetData* sheet, const kiriSystem* system, double dt, int32_t substeps,
+                              kiriQuota* systems)
+{
+    substeps = systems->left < substeps ? (int32_t)systems->left : substeps;
+    for (int32_t i = 0; i < substeps; ++i) {
+        int64_t most = systems->left - (substeps - 1 - i);
+        int32_t solved = kiriSolver_Step(sheet->solver, system, dt / substeps, sheet->iterations,
+                                         most < INT32_MAX ? (int32_t)most : INT32_MAX);
+        if (solved < 0) {
+            return KIRI_FAILED;
+        }
+        kiriQuota_Take(systems, solved);
+    }
+    return substeps > 0 ? KIRI_DONE : KIRI_MORE;
+}
+
+static kiriProgress Move(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
     WritePinRows(sheet);
     WriteContactRows(sheet);
     kiriSystem system = MakeSystem(sheet, gravity);
-    int32_t total = 0;
-    for (int32_t i = 0; i < substeps; ++i) {
-        int32_t solved = kiriSolver_Step(sheet->model.solver, &system, dt / substeps, sheet->iterations);
-        if (solved < 0) {
-            PutToRest(sheet);
-            total = -1;
-            break;
-        }
-        total += solved;
+    kiriProgress progress = TakeSteps(sheet, &system, dt, substeps, systems);
+    if (progress == KIRI_FAILED) {
+        PutToRest(sheet);
+        kiriMotion_Wake(sheet);
+    } else if (progress == KIRI_DONE) {
+        sheet->calm = IsCalm(sheet) ? sheet->calm + dt : 0.0;
     }
+    return progress;
+}
+
+kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
+{
+    if (Sleeps(sheet)) {
+        sheet->contacts.count = 0;
+        return KIRI_DONE;
+    }
+    kiriProgress progress = Move(sheet, gravity, dt, substeps, systems);
+    EndContacts(sheet);
     ClearForces(sheet);
-    return total;
+    return progress;
 }
 
 static void StoreDoubles(double* to, kiriVec3 a)

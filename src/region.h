@@ -23,25 +23,43 @@ bool kiriSite_Seed(const kiriSite* site, int32_t owner, const kiriMemory* memory
 kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, const kiriMeshData* mesh,
                          int32_t cell);
 
+/* How far the lists of the grid's changes were followed. */
+typedef struct kiriSeenChanges {
+    int32_t made, gone, restepped, remade;
+} kiriSeenChanges;
+
 typedef struct kiriRegions {
-    kiriField field;              /* owner: the frame whose region a cell is in; KIRI_NONE where no frame is in the piece */
-    KIRI_ARRAY(int32_t) siteAt;   /* of each cell: the frame whose site it holds, or KIRI_NONE; two sites never share one */
-    KIRI_ARRAY(uint8_t) onBorder; /* of each cell: a step from it leads to another region */
-    KIRI_ARRAY(kiriTally) material; /* of each frame's region, exact */
-    KIRI_ARRAY(uint8_t) touched;    /* of each frame: its region, distances in it, or its cells' steps or material changed */
+    kiriField field; /* owner: the frame whose region a cell is in; KIRI_NONE where no frame is in the piece */
+
+    /* Of each cell: */
+    KIRI_ARRAY(int32_t) siteAt;   /* the frame whose site it holds, or KIRI_NONE; two sites never share one */
+    KIRI_ARRAY(uint8_t) onBorder; /* a step from it leads to another region */
+
+    /* Of each frame: */
+    KIRI_ARRAY(kiriTally) material; /* of its region, exact */
+    KIRI_ARRAY(uint8_t) touched;    /* its region, distances in it, or its cells' steps or material changed */
 
     /* Since kiriRegions_Settle: cells whose owner or distance changed, and what they were; without cells that are gone. */
     KIRI_ARRAY(kiriSeed) changes;
-    KIRI_ARRAY(int32_t) orphans; /* cells with no frame in their piece, in the order of cells */
+    KIRI_ARRAY(int32_t) orphans; /* all cells with no frame in their piece, in the order of cells */
     bool running;                /* an update waits for more quota */
+
+    /* Private. */
+    bool flooding;              /* the update is one from scratch */
+    KIRI_ARRAY(uint8_t) listed; /* of each cell: it is in `changes` */
+    kiriSeenChanges seen;
 } kiriRegions;
 
-/* Follows the grid's changes and those of the sites: `moved` marks sites (by frame) that are new or elsewhere (their `was`
-   cell, KIRI_NONE for new ones, no longer holds them). Sites are in cells that live. An item of the quota: see
-   kiriField_Repair. From scratch: a zeroed or reset kiriRegions, all cells of the grid in changes.made, all sites moved. */
+/* A site that is new or elsewhere: also where it has only moved within its cell, or that cell has another index. */
 typedef struct kiriSiteMove {
-    int32_t frame, was;
+    int32_t frame;
+    int32_t was; /* the cell that held it, which may be gone; KIRI_NONE for a new one */
 } kiriSiteMove;
+
+/* Follows the grid's changes and those of the sites. Sites are in cells that live, and are never taken away. An item of the
+   quota: see kiriField_Repair. From scratch: a zeroed or reset kiriRegions, and all sites in `moves`. KIRI_MORE: call again
+   with the same arguments. On KIRI_FAILED, Reset. There may be several updates, of more sites, before grid and regions
+   are settled, which is together, and before the grid is updated again. */
 kiriProgress kiriRegions_Update(kiriRegions* regions, const kiriMemory* memory, const kiriGrid* grid,
                                 const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
                                 const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);

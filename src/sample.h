@@ -21,6 +21,7 @@ typedef struct kiriSkin {
 /* A material point that the host collides with the world. */
 typedef struct kiriSample {
     kiriPoint at; /* in the material */
+    int32_t cell;  /* around it */
     int32_t frame; /* in whose region it is */
 } kiriSample;
 
@@ -52,6 +53,8 @@ typedef struct kiriPlaces {
     KIRI_ARRAY(int32_t) head; /* of each square, or KIRI_NONE */
     KIRI_ARRAY(int32_t) next; /* of each sample */
 } kiriPlaces;
+/* After it Add does not fail until there are so many samples. */
+bool kiriPlaces_Reserve(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount);
 bool kiriPlaces_Add(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, kiriPoint at);
 void kiriPlaces_Truncate(kiriPlaces* places, const kiriMeshData* mesh, int32_t sampleCount, const kiriPoint* at);
 void kiriPlaces_Release(kiriPlaces* places, const kiriMemory* memory);

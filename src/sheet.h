@@ -1,11 +1,13 @@
-/* A sheet owns its mesh, its frames, and all that is derived from the two: the model. A cut builds the next model beside the
-   one that moves the sheet, and one commit swaps them; whatever fails before the commit leaves the sheet as it was. */
+/* A sheet owns its mesh, its frames, and all that is derived from the two. What is derived comes in two parts. Grid, regions
+   and shape functions follow the mesh in place, for as many ticks as their budget asks. The model, which moves the sheet,
+   is what they were when they were last complete; new links, weights and frames are staged beside it, and one commit puts
+   them in force. update.h says how. */
 #ifndef KIRI_SHEET_H
 #define KIRI_SHEET_H
 
 #include "cut.h"
+#include "point.h"
 #include "pool.h"
-#include "sample.h"
 #include "solver.h"
 
 typedef struct kiriPiece {
@@ -14,18 +16,12 @@ typedef struct kiriPiece {
     bool cameOff;   /* it is not the largest part of its origin: that goes on, the others came off */
 } kiriPiece;
 
-/* Derived from the mesh and the sites of the frames. */
+/* What moves the sheet, and what of it is staged for the next commit. Pieces are numbered by their lowest frame. */
 typedef struct kiriModel {
-    kiriGrid grid;
     KIRI_ARRAY(kiriPiece) pieces;
-    kiriSites sites; /* one a frame */
-    kiriRegions regions;
-    kiriShape shape;
-    kiriSamples points;
-    kiriSkin vertexSkin, pointSkin;
-    kiriPatches patches;          /* of affine frames */
-    KIRI_ARRAY(int32_t) pinFrame; /* the frame that each pin holds */
-    kiriSolver* solver;
+    KIRI_ARRAY(int32_t) framePiece; /* of each frame */
+    KIRI_ARRAY(int32_t) pinFrame;   /* the frame that each pin holds */
+    kiriPatches patches;            /* of affine frames */
 } kiriModel;
 
 typedef struct kiriPinData {
@@ -49,12 +45,52 @@ typedef struct kiriCutData {
     bool ended;      /* by the host; finished when none waits */
 } kiriCutData;
 
-/* A point that waits for the next tick. */
+/* A point that waits. */
 typedef struct kiriStroke {
     kiriCutData* cut;
-    kiriVec2 to; /* local */
-    bool jump;   /* put the blade there without cutting */
+    kiriVec2 to;   /* local */
+    int64_t stamp; /* the tick that it was given before */
+    bool jump;     /* put the blade there without cutting */
 } kiriStroke;
+
+/* What a commit has changed, for the profile. */
+typedef struct kiriTouched {
+    int32_t cells, weights, vertices, points, links;
+} kiriTouched;
+
+/* How far the work that a cut sets off has come. It takes all points given before one tick together, however many ticks the
+   budget makes of it; so what comes of a cut does not depend on the budget. */
+typedef struct kiriUpdate {
+    int32_t stage; /* the next to run, see world.c; KIRI_NONE: nothing at hand */
+    int32_t step;  /* within the stage */
+    int64_t stamp;
+    int32_t count, taken; /* strokes at the head of the queue; of these, in the mesh */
+    bool isTorn;          /* they changed the mesh */
+    bool isStale;         /* grid, regions and shape are of no use: to be made from scratch */
+    bool isScratch;       /* as they are now */
+
+    bool isBegun; /* in this tick; as it started: */
+    int32_t startStage, startTaken;
+    bool startTorn;
+
+    kiriSites sites; /* of the frames that are there, then of new ones */
+    KIRI_ARRAY(kiriSiteMove) moves;
+    int32_t movesSeen; /* by the regions */
+    int32_t spread;    /* frames to spread over the sheet, at its start */
+    kiriPlacer placer;
+    bool isPlacing;
+    int32_t at;                     /* orphan, frame or piece that is being seen to */
+    KIRI_ARRAY(uint8_t) marks;      /* of cells, or frames */
+    KIRI_ARRAY(uint8_t) allowed;    /* of cells */
+    KIRI_ARRAY(kiriMoments) material; /* of each frame's region */
+    kiriModel next;
+    KIRI_ARRAY(int32_t) parent;     /* of frames: union-find */
+    kiriRefresh refresh;
+    kiriPointsWork points;
+    KIRI_ARRAY(kiriSample) newPoints;
+    KIRI_ARRAY(kiriSample) movedPoints; /* `frame` is the index of a point, `cell` where it is now */
+    kiriTouched touched;
+} kiriUpdate;
 
 typedef struct kiriSheetData {
     kiriSheet id;
@@ -63,18 +99,31 @@ typedef struct kiriSheetData {
     kiriMaterial material;
     double snap; /* lattice steps */
     kiriMechanics mechanics;
-    double rigidWeight, rigidArea;
+    double rigidArea;
     int32_t maxFrames, iterations, pointCount, integrationPoints, integrationOrder;
+    bool alwaysScratch;
+
+    kiriGrid grid;
+    kiriRegions regions;
+    kiriShape shape;
+    kiriUpdate update;
 
     KIRI_ARRAY(kiriFrameData) frames;
-    kiriModel model, next; /* after a commit, next holds the model before it */
-    kiriField field;       /* scratch of the next model */
+    kiriModel model;
+    kiriLinks links;
+    kiriSamples points;
+    kiriSkin vertexSkin, pointSkin;
+    kiriPlaces pointPlaces;
+    kiriSolver* solver;
 
     KIRI_ARRAY(kiriStroke) queue;
-    int32_t granted; /* strokes of the queue that this tick takes */
     KIRI_ARRAY(kiriCutData*) cuts;
     KIRI_ARRAY(kiriPinData) pins;
-    KIRI_ARRAY(kiriContact) contacts;
+    KIRI_ARRAY(kiriContact) contacts, lastContacts; /* of the next tick, and of the last one that moved the sheet */
+
+    double sleepSpeed; /* m/s; 0: never sleeps */
+    double calm;       /* s for which it has been slower */
+    bool asleep;       /* it was not moved by the last tick, and rests */
 
     /* Room reserved by whoever makes it needed, so that a tick without a cut allocates nothing. */
     KIRI_ARRAY(kiriPinRow) pinRows;
@@ -90,27 +139,7 @@ typedef struct kiriSheetData {
 kiriResult kiriSheet_Init(kiriSheetData* sheet, const kiriMemory* memory, const kiriSheetDef* def, const char** why);
 void kiriSheet_Release(kiriSheetData* sheet);
 
-/* The stages of a cut, in this order; world.c calls them. False for memory: then kiriSheet_Rollback. */
-bool kiriSheet_SplitMesh(kiriSheetData* sheet);
-bool kiriSheet_BuildGrid(kiriSheetData* sheet);
-bool kiriSheet_BuildRegions(kiriSheetData* sheet);
-bool kiriSheet_BuildShape(kiriSheetData* sheet);
-bool kiriSheet_BuildSamples(kiriSheetData* sheet);
-bool kiriSheet_BuildConstants(kiriSheetData* sheet);
-
-/* Did SplitMesh change the mesh? */
-bool kiriSheet_IsTorn(const kiriSheetData* sheet);
-
-/* What SplitMesh did becomes final, or is taken back (the queue stays). Neither fails. */
-void kiriSheet_Commit(kiriSheetData* sheet);
-void kiriSheet_Rollback(kiriSheetData* sheet);
-
-/* The next model becomes the model; call it before Commit. New frames take their motion from the surface as it was
-   (section 5 of the paper). Never fails. */
-void kiriSheet_SwapModel(kiriSheetData* sheet);
-
-/* The cell around a point of the material, and the index of the frame that holds it; KIRI_NONE outside the material. */
-int32_t kiriSheet_CellAt(const kiriModel* model, const kiriMeshData* mesh, kiriPoint at);
+/* The index of the frame that holds a point of the material; KIRI_NONE outside. */
 int32_t kiriSheet_FrameAt(const kiriSheetData* sheet, kiriPoint at);
 
 /* Adds a pin and all the room that it needs; false for memory. */

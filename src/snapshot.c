@@ -58,13 +58,14 @@ static void Moments(uint64_t* hash, const kiriMoments* m)
     Vec3(hash, kiriVec3_Make(m->uu, m->uv, m->vv));
 }
 
-static void Weights(uint64_t* hash, const int32_t* start, int32_t startCount, const kiriWeight* weights)
+static void Skin(uint64_t* hash, const kiriSkin* skin)
 {
-    for (int32_t i = 0; i + 1 < startCount; ++i) {
-        Int(hash, start[i + 1] - start[i]);
-        for (int32_t k = start[i]; k < start[i + 1]; ++k) {
-            Int(hash, weights[k].frame);
-            Real(hash, weights[k].value);
+    for (int32_t i = 0; i < skin->spans.count; ++i) {
+        kiriSpan span = skin->spans.data[i];
+        Int(hash, span.count);
+        for (int32_t k = span.first; k < span.first + span.count; ++k) {
+            Int(hash, skin->weights.data[k].frame);
+            Real(hash, skin->weights.data[k].value);
         }
     }
 }
@@ -101,24 +102,25 @@ static void Patches(uint64_t* hash, const kiriPatches* patches)
     }
 }
 
-static void Model(uint64_t* hash, const kiriModel* model)
+static void Model(uint64_t* hash, const kiriSheetData* sheet)
 {
-    for (int32_t c = 0; c < model->grid.cells.count; ++c) {
-        Int(hash, model->grid.cells.data[c].square);
-        Moments(hash, &model->grid.cells.data[c].material);
-        Int(hash, model->regions.owner.data[c]);
-        Int(hash, model->regions.distance.data[c]);
-    }
-    for (int32_t i = 0; i < model->regions.links.count; ++i) {
-        Link(hash, &model->regions.links.data[i]);
+    const kiriModel* model = &sheet->model;
+    for (int32_t i = 0; i < sheet->links.links.count; ++i) {
+        Link(hash, &sheet->links.links.data[i]);
     }
     Patches(hash, &model->patches);
-    for (int32_t i = 0; i < model->points.count; ++i) {
-        Point(hash, model->points.data[i].at);
+    for (int32_t i = 0; i < sheet->points.count; ++i) {
+        Point(hash, sheet->points.data[i].at);
+        Int(hash, sheet->points.data[i].frame);
     }
-    Weights(hash, model->shape.start.data, model->shape.start.count, model->shape.weights.data);
-    Weights(hash, model->vertexSkin.start.data, model->vertexSkin.start.count, model->vertexSkin.weights.data);
-    Weights(hash, model->pointSkin.start.data, model->pointSkin.start.count, model->pointSkin.weights.data);
+    Skin(hash, &sheet->vertexSkin);
+    Skin(hash, &sheet->pointSkin);
+    for (int32_t i = 0; i < model->framePiece.count; ++i) {
+        Int(hash, model->framePiece.data[i]);
+    }
+    for (int32_t i = 0; i < model->pinFrame.count; ++i) {
+        Int(hash, model->pinFrame.data[i]);
+    }
 }
 
 static void Frame(uint64_t* hash, const kiriFrameData* frame)
@@ -153,7 +155,7 @@ static void Parameters(uint64_t* hash, const kiriSheetData* sheet)
     const kiriMaterial* m = &sheet->material;
     Vec3(hash, kiriVec3_Make(m->youngsModulus, m->poissonsRatio, m->thickness));
     Vec3(hash, kiriVec3_Make(m->density, m->airDamping, m->flexDamping));
-    Vec3(hash, kiriVec3_Make(sheet->snap, sheet->rigidWeight, sheet->rigidArea));
+    Vec3(hash, kiriVec3_Make(sheet->snap, sheet->shape.rigidWeight, sheet->rigidArea));
     Int(hash, sheet->mechanics.model);
     Int(hash, sheet->mechanics.planar);
     Int(hash, sheet->integrationPoints);
@@ -172,11 +174,22 @@ static int32_t IndexOf(const kiriSheetData* sheet, const kiriCutData* cut)
     return index;
 }
 
+static void Contacts(uint64_t* hash, const kiriContact* contacts, int32_t count)
+{
+    Int(hash, count);
+    for (int32_t i = 0; i < count; ++i) {
+        Int(hash, contacts[i].point);
+        Vec3(hash, kiriVec3_Load(contacts[i].normal));
+        Vec3(hash, kiriVec3_Make(contacts[i].offset, contacts[i].friction, contacts[i].stiffness));
+    }
+}
+
 static void Waiting(uint64_t* hash, const kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->queue.count; ++i) {
         Vec2(hash, sheet->queue.data[i].to);
         Int(hash, sheet->queue.data[i].jump);
+        Int(hash, i > 0 && sheet->queue.data[i].stamp != sheet->queue.data[i - 1].stamp);
         Int(hash, IndexOf(sheet, sheet->queue.data[i].cut));
     }
     for (int32_t i = 0; i < sheet->cuts.count; ++i) {
@@ -190,28 +203,111 @@ static void Waiting(uint64_t* hash, const kiriSheetData* sheet)
         Vec3(hash, sheet->pins.data[i].target);
         Real(hash, sheet->pins.data[i].stiffness);
     }
-    for (int32_t i = 0; i < sheet->contacts.count; ++i) {
-        const kiriContact* contact = &sheet->contacts.data[i];
-        Int(hash, contact->point);
-        Vec3(hash, kiriVec3_Load(contact->normal));
-        Vec3(hash, kiriVec3_Make(contact->offset, contact->friction, contact->stiffness));
-    }
+    Contacts(hash, sheet->contacts.data, sheet->contacts.count);
+}
+
+static void Sleep(uint64_t* hash, const kiriSheetData* sheet)
+{
+    Real(hash, sheet->sleepSpeed);
+    Real(hash, sheet->calm);
+    Int(hash, sheet->asleep);
+    Contacts(hash, sheet->lastContacts.data, sheet->lastContacts.count);
 }
 
 uint64_t kiriSnapshot_Hash(const kiriWorld* world)
 {
     uint64_t hash = 14695981039346656037u;
     Vec3(&hash, world->gravity);
-    Int(&hash, world->cutBudget);
+    Bytes(&hash, &world->budget, sizeof(world->budget));
+    Int(&hash, world->turn);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         const kiriSheetData* sheet = world->sheets.data[i];
         Parameters(&hash, sheet);
         Mesh(&hash, &sheet->mesh);
-        Model(&hash, &sheet->model);
+        Model(&hash, sheet);
+        uint64_t pattern = kiriSolver_Hash(sheet->solver);
+        Bytes(&hash, &pattern, sizeof(pattern));
         Waiting(&hash, sheet);
+        Sleep(&hash, sheet);
         for (int32_t f = 0; f < sheet->frames.count; ++f) {
             Frame(&hash, &sheet->frames.data[f]);
         }
+    }
+    return hash;
+}
+
+/* ---- Grid, regions and shape, by what does not depend on indices ---- */
+
+static void Place(uint64_t* hash, const kiriGrid* grid, int32_t cell)
+{
+    Int(hash, cell == KIRI_NONE ? KIRI_NONE : grid->cells.data[cell].square);
+    Int(hash, cell == KIRI_NONE ? KIRI_NONE : grid->cells.data[cell].triangle);
+}
+
+static void Steps(uint64_t* hash, const kiriGrid* grid, int32_t cell)
+{
+    kiriStepRun run = grid->runs.data[cell];
+    for (int32_t s = run.first; s < run.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        kiriStep step = grid->steps.data[s];
+        Place(hash, grid, step.cell);
+        Int(hash, step.length);
+    }
+}
+
+/* A sum, for a cell's faces come in no order. */
+static uint64_t Faces(const kiriGrid* grid, int32_t cell)
+{
+    uint64_t sum = 0;
+    for (int32_t f = grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
+        const kiriFace* face = &grid->faces.data[f];
+        uint64_t hash = 14695981039346656037u;
+        Place(&hash, grid, face->cell[0]);
+        Place(&hash, grid, face->cell[1]);
+        Int(&hash, face->axis);
+        Vec3(&hash, kiriVec3_Make(face->width, face->moment, 0.0));
+        Vec2(&hash, face->middle);
+        sum += hash;
+        f = face->next[face->cell[1] == cell];
+    }
+    return sum;
+}
+
+static void CellWeights(uint64_t* hash, const kiriShape* shape, int32_t cell)
+{
+    kiriSpan span = shape->spans.data[cell];
+    for (int32_t k = span.first; k < span.first + span.count; ++k) {
+        Int(hash, shape->weights.data[k].frame);
+        Real(hash, shape->weights.data[k].value);
+    }
+}
+
+static void Cell(uint64_t* hash, const kiriSheetData* sheet, int32_t cell)
+{
+    uint64_t faces = Faces(&sheet->grid, cell);
+    Place(hash, &sheet->grid, cell);
+    Moments(hash, &sheet->grid.cells.data[cell].material);
+    Steps(hash, &sheet->grid, cell);
+    Bytes(hash, &faces, sizeof(faces));
+    Int(hash, sheet->regions.field.owner.data[cell]);
+    Int(hash, sheet->regions.field.distance.data[cell]);
+    Int(hash, sheet->regions.onBorder.data[cell]);
+    CellWeights(hash, &sheet->shape, cell);
+}
+
+uint64_t kiriSnapshot_HashLayout(const kiriSheetData* sheet)
+{
+    uint64_t hash = 14695981039346656037u;
+    Mesh(&hash, &sheet->mesh);
+    Model(&hash, sheet);
+    for (int32_t s = 0; s < sheet->grid.squareCell.count; ++s) {
+        for (int32_t c = sheet->grid.squareCell.data[s]; c != KIRI_NONE; c = sheet->grid.cells.data[c].next) {
+            Cell(&hash, sheet, c);
+        }
+    }
+    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+        Bytes(&hash, &sheet->regions.material.data[f], sizeof(kiriTally));
+        Bytes(&hash, &sheet->shape.rigid.data[f], sizeof(int64_t));
+        Place(&hash, &sheet->grid, sheet->frames.data[f].site.cell);
     }
     return hash;
 }

@@ -34,19 +34,28 @@ typedef struct Slots {
 
 /* One of a frame's unknowns: the part of a slot along an axis. */
 typedef struct Unknown {
-    int slot;
+    int slot, number; /* of the axis */
     kiriVec3 axis;
 } Unknown;
 
+typedef KIRI_ARRAY(int32_t) Indices;
+
 struct kiriSolver {
     kiriMemory memory;
+    kiriMechanics mechanics;
     double dt, damping; /* of this step; flexDamping / dt */
     double noise;       /* J: what rounding leaves unknown of the objective */
     bool isBraking;
+    bool isHeld;  /* does the host move a frame? */
     int32_t size; /* unknowns a frame */
     Unknown unknowns[KIRI_MOST_UNKNOWNS];
-    kiriMatrix* matrix;
-    KIRI_ARRAY(int32_t) piece; /* a frame's piece: what elements hold together */
+    kiriMatrix *matrix, *nextMatrix; /* now, and room for the next pattern */
+    Indices piece, nextPiece;        /* a frame's piece: what elements hold together */
+    int32_t pieceCount, nextPieceCount;
+    bool isStaged, isNextMatrix; /* is there a next configuration, and has it a pattern of its own? */
+    int64_t renewals;            /* of the pattern */
+    KIRI_ARRAY(kiriPair) pairs;  /* scratch: of the next configuration */
+    /* Room for the larger of the two configurations. */
     KIRI_ARRAY(kiriPieceMomentum) pieces;
     KIRI_ARRAY(kiriFrameData) before, after;   /* the step, flattened where the sheet is planar */
     KIRI_ARRAY(kiriFlight) flights;            /* one a frame, as are the poses */
@@ -54,7 +63,7 @@ struct kiriSolver {
     KIRI_ARRAY(double) stiffness, startStrain; /* MOST_ROWS an element; strains at the start of the step */
     KIRI_ARRAY(double) force, move;            /* the right side: minus the gradient; and the solution */
     /* Scratch for one element. */
-    KIRI_ARRAY(int32_t) members;
+    Indices members;
     KIRI_ARRAY(kiriAffineRow) rows;
     KIRI_ARRAY(double) J;
 };
@@ -176,7 +185,7 @@ static void ChooseUnknowns(kiriSolver* solver, const kiriMechanics* mechanics)
             /* In the plane, a rigid frame turns about the normal; nothing else leaves along it. */
             bool turns = !affine && slot == 1;
             if (!planar || (axis == 2) == turns) {
-                Unknown unknown = { slot, planar ? plane[axis] : space[axis] };
+                Unknown unknown = { slot, axis, planar ? plane[axis] : space[axis] };
                 solver->unknowns[solver->size++] = unknown;
             }
         }
@@ -185,6 +194,10 @@ static void ChooseUnknowns(kiriSolver* solver, const kiriMechanics* mechanics)
 
 static void Reduce(const kiriSolver* solver, const kiriVec3* slots, double* values)
 {
+    if (!solver->mechanics.planar) {
+        memcpy(values, slots, sizeof(double) * (size_t)solver->size); /* the axes of space */
+        return;
+    }
     for (int32_t n = 0; n < solver->size; ++n) {
         values[n] = kiriVec3_Dot(slots[solver->unknowns[n].slot], solver->unknowns[n].axis);
     }
@@ -203,114 +216,23 @@ static Slots Expand(const kiriSolver* solver, double scale, const double* values
 
 /* ---- Making ----------------------------------------------------------------------------------------------------- */
 
-typedef KIRI_ARRAY(kiriPair) Pairs;
-
-static bool CollectPairs(const kiriMemory* memory, const kiriSystem* system, int32_t* members, Pairs* pairs)
-{
-    for (int32_t k = 0; k < ElementCount(system); ++k) {
-        int32_t count = MembersOf(system, k, members);
-        for (int32_t b = 1; b < count; ++b) {
-            for (int32_t a = 0; a < b; ++a) {
-                kiriPair pair = { members[a], members[b] };
-                if (!kiriArray_Push(memory, pairs, pair)) {
-                    return false;
-                }
-            }
-        }
-    }
-    return true;
-}
-
-/* Numbers the pieces by their lowest frame. */
-static bool FindPieces(kiriSolver* solver, const Pairs* pairs)
-{
-    int32_t *piece = solver->piece.data, count = 0;
-    for (int32_t f = 0; f < solver->piece.count; ++f) {
-        piece[f] = f; /* first: a lower frame of the same piece, or itself */
-    }
-    for (int32_t k = 0; k < pairs->count; ++k) {
-        int32_t a = pairs->data[k].a, b = pairs->data[k].b;
-        while (piece[a] != a) {
-            a = piece[a] = piece[piece[a]];
-        }
-        while (piece[b] != b) {
-            b = piece[b] = piece[piece[b]];
-        }
-        piece[a > b ? a : b] = a > b ? b : a;
-    }
-    for (int32_t f = 0; f < solver->piece.count; ++f) {
-        piece[f] = piece[f] == f ? count++ : piece[piece[f]];
-    }
-    return kiriArray_Resize(&solver->memory, &solver->pieces, count);
-}
-
-static int32_t MostMembers(const kiriPatches* patches)
-{
-    int32_t most = 2;
-    for (int32_t k = 0; k < PatchElements(patches); ++k) {
-        most = patches->patches.data[k].count > most ? patches->patches.data[k].count : most;
-    }
-    return most;
-}
-
-static bool MakeRoom(kiriSolver* solver, int32_t frameCount, int32_t elementCount, int32_t most)
-{
-    const kiriMemory* memory = &solver->memory;
-    int64_t unknowns = (int64_t)solver->size * frameCount, rows = (int64_t)MOST_ROWS * most;
-    return kiriArray_Resize(memory, &solver->piece, frameCount) &&
-           kiriArray_Resize(memory, &solver->before, frameCount) &&
-           kiriArray_Resize(memory, &solver->after, frameCount) &&
-           kiriArray_Resize(memory, &solver->flights, frameCount) &&
-           kiriArray_Resize(memory, &solver->start, frameCount) &&
-           kiriArray_Resize(memory, &solver->poses, frameCount) &&
-           kiriArray_Resize(memory, &solver->trial, frameCount) &&
-           kiriArray_Resize(memory, &solver->stiffness, (int64_t)MOST_ROWS * elementCount) &&
-           kiriArray_Resize(memory, &solver->startStrain, (int64_t)MOST_ROWS * elementCount) &&
-           kiriArray_Resize(memory, &solver->force, unknowns) && kiriArray_Resize(memory, &solver->move, unknowns) &&
-           kiriArray_Resize(memory, &solver->members, most) && kiriArray_Resize(memory, &solver->rows, rows) &&
-           kiriArray_Resize(memory, &solver->J, rows * solver->size);
-}
-
-static bool Prepare(kiriSolver* solver, const kiriSystem* system)
-{
-    Pairs pairs = { NULL, 0, 0 };
-    ChooseUnknowns(solver, &system->mechanics);
-    if (MakeRoom(solver, system->frameCount, ElementCount(system), MostMembers(system->patches)) &&
-        CollectPairs(&solver->memory, system, solver->members.data, &pairs) && FindPieces(solver, &pairs)) {
-        solver->matrix = kiriMatrix_Create(&solver->memory, solver->size, system->frameCount, pairs.data, pairs.count);
-    }
-    kiriArray_Release(&solver->memory, &pairs);
-    return solver->matrix != NULL;
-}
-
-kiriSolver* kiriSolver_CreateFor(const kiriMemory* memory, const kiriMechanics* mechanics, int32_t frameCount,
-                                 const kiriLink* links, int32_t linkCount, const kiriPatches* patches)
+kiriSolver* kiriSolver_Create(const kiriMemory* memory, const kiriMechanics* mechanics)
 {
     kiriSolver* solver = kiriMemory_Alloc(memory, (int64_t)sizeof(kiriSolver));
     if (solver == NULL) {
         return NULL;
     }
-    kiriSystem system;
-    memset(&system, 0, sizeof(system));
     memset(solver, 0, sizeof(*solver));
     solver->memory = *memory;
-    system.mechanics = *mechanics;
-    system.frameCount = frameCount;
-    system.links = links;
-    system.linkCount = linkCount;
-    system.patches = patches;
-    if (!Prepare(solver, &system)) {
+    solver->mechanics = *mechanics;
+    ChooseUnknowns(solver, mechanics);
+    solver->matrix = kiriMatrix_Create(memory, solver->size);
+    solver->nextMatrix = kiriMatrix_Create(memory, solver->size);
+    if (solver->matrix == NULL || solver->nextMatrix == NULL) {
         kiriSolver_Destroy(solver);
         return NULL;
     }
     return solver;
-}
-
-kiriSolver* kiriSolver_Create(const kiriMemory* memory, int32_t frameCount, const kiriLink* links, int32_t linkCount)
-{
-    kiriMechanics mechanics;
-    memset(&mechanics, 0, sizeof(mechanics));
-    return kiriSolver_CreateFor(memory, &mechanics, frameCount, links, linkCount, NULL);
 }
 
 void kiriSolver_Destroy(kiriSolver* solver)
@@ -320,7 +242,10 @@ void kiriSolver_Destroy(kiriSolver* solver)
     }
     kiriMemory memory = solver->memory;
     kiriMatrix_Destroy(solver->matrix);
+    kiriMatrix_Destroy(solver->nextMatrix);
     kiriArray_Release(&memory, &solver->piece);
+    kiriArray_Release(&memory, &solver->nextPiece);
+    kiriArray_Release(&memory, &solver->pairs);
     kiriArray_Release(&memory, &solver->pieces);
     kiriArray_Release(&memory, &solver->before);
     kiriArray_Release(&memory, &solver->after);
@@ -336,6 +261,137 @@ void kiriSolver_Destroy(kiriSolver* solver)
     kiriArray_Release(&memory, &solver->rows);
     kiriArray_Release(&memory, &solver->J);
     kiriMemory_Free(&memory, solver);
+}
+
+/* ---- Staging ---------------------------------------------------------------------------------------------------- */
+
+static int32_t MostMembers(const kiriPatches* patches)
+{
+    int32_t most = 2;
+    for (int32_t k = 0; k < PatchElements(patches); ++k) {
+        most = patches->patches.data[k].count > most ? patches->patches.data[k].count : most;
+    }
+    return most;
+}
+
+/* Only scratch, so that nothing is lost by growing. */
+static bool MakeRoom(kiriSolver* solver, int32_t frameCount, int32_t elementCount, int32_t most)
+{
+    const kiriMemory* memory = &solver->memory;
+    int64_t unknowns = (int64_t)solver->size * frameCount, rows = (int64_t)MOST_ROWS * most;
+    return kiriArray_Reserve(memory, &solver->nextPiece, frameCount) &&
+           kiriArray_Reserve(memory, &solver->pieces, frameCount) &&
+           kiriArray_Reserve(memory, &solver->before, frameCount) &&
+           kiriArray_Reserve(memory, &solver->after, frameCount) &&
+           kiriArray_Reserve(memory, &solver->flights, frameCount) &&
+           kiriArray_Reserve(memory, &solver->start, frameCount) &&
+           kiriArray_Reserve(memory, &solver->poses, frameCount) &&
+           kiriArray_Reserve(memory, &solver->trial, frameCount) &&
+           kiriArray_Reserve(memory, &solver->stiffness, (int64_t)MOST_ROWS * elementCount) &&
+           kiriArray_Reserve(memory, &solver->startStrain, (int64_t)MOST_ROWS * elementCount) &&
+           kiriArray_Reserve(memory, &solver->force, unknowns) && kiriArray_Reserve(memory, &solver->move, unknowns) &&
+           kiriArray_Reserve(memory, &solver->members, most) && kiriArray_Reserve(memory, &solver->rows, rows) &&
+           kiriArray_Reserve(memory, &solver->J, rows * solver->size);
+}
+
+static bool CollectPairs(kiriSolver* solver, const kiriSystem* system)
+{
+    solver->pairs.count = 0;
+    for (int32_t k = 0; k < ElementCount(system); ++k) {
+        int32_t* members = solver->members.data;
+        int32_t count = MembersOf(system, k, members);
+        for (int32_t b = 1; b < count; ++b) {
+            for (int32_t a = 0; a < b; ++a) {
+                kiriPair pair = { members[a], members[b] };
+                if (!kiriArray_Push(&solver->memory, &solver->pairs, pair)) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}
+
+/* Numbers the pieces by their lowest frame. */
+static void FindPieces(kiriSolver* solver, int32_t frameCount)
+{
+    int32_t *piece = solver->nextPiece.data, count = 0;
+    for (int32_t f = 0; f < frameCount; ++f) {
+        piece[f] = f; /* first: a lower frame of the same piece, or itself */
+    }
+    for (int32_t k = 0; k < solver->pairs.count; ++k) {
+        int32_t a = solver->pairs.data[k].a, b = solver->pairs.data[k].b;
+        while (piece[a] != a) {
+            a = piece[a] = piece[piece[a]];
+        }
+        while (piece[b] != b) {
+            b = piece[b] = piece[piece[b]];
+        }
+        piece[a > b ? a : b] = a > b ? b : a;
+    }
+    for (int32_t f = 0; f < frameCount; ++f) {
+        piece[f] = piece[f] == f ? count++ : piece[piece[f]];
+    }
+    solver->nextPieceCount = count;
+}
+
+/* Does the pattern that is there have a block for every pair? */
+static bool IsCovered(const kiriSolver* solver, int32_t frameCount)
+{
+    bool covered = kiriMatrix_FrameCount(solver->matrix) == frameCount;
+    for (int32_t k = 0; covered && k < solver->pairs.count; ++k) {
+        covered = kiriMatrix_Covers(solver->matrix, solver->pairs.data[k]);
+    }
+    return covered;
+}
+
+bool kiriSolver_Stage(kiriSolver* solver, int32_t frameCount, const kiriLink* links, int32_t linkCount,
+                      const kiriPatches* patches)
+{
+    kiriSystem system;
+    memset(&system, 0, sizeof(system));
+    system.mechanics = solver->mechanics;
+    system.frameCount = frameCount;
+    system.links = links;
+    system.linkCount = linkCount;
+    system.patches = patches;
+    solver->isStaged = false;
+    if (!MakeRoom(solver, frameCount, ElementCount(&system), MostMembers(patches)) || !CollectPairs(solver, &system)) {
+        return false;
+    }
+    FindPieces(solver, frameCount);
+    solver->isNextMatrix = !IsCovered(solver, frameCount);
+    solver->isStaged = !solver->isNextMatrix ||
+                       kiriMatrix_Shape(solver->nextMatrix, frameCount, solver->pairs.data, solver->pairs.count);
+    return solver->isStaged;
+}
+
+void kiriSolver_Commit(kiriSolver* solver)
+{
+    if (!solver->isStaged) {
+        return;
+    }
+    Indices piece = solver->piece;
+    solver->piece = solver->nextPiece;
+    solver->nextPiece = piece;
+    solver->pieceCount = solver->nextPieceCount;
+    if (solver->isNextMatrix) {
+        kiriMatrix* matrix = solver->matrix;
+        solver->matrix = solver->nextMatrix;
+        solver->nextMatrix = matrix;
+        ++solver->renewals;
+    }
+    solver->isStaged = false;
+}
+
+uint64_t kiriSolver_Hash(const kiriSolver* solver)
+{
+    return kiriMatrix_Hash(solver->matrix);
+}
+
+int64_t kiriSolver_Renewals(const kiriSolver* solver)
+{
+    return solver->renewals;
 }
 
 /* ---- Objective -------------------------------------------------------------------------------------------------- */
@@ -401,21 +457,21 @@ static void AddContactEnergy(const kiriSystem* system, const kiriContactRow* con
     AddEnergy(sum, 0.5 * contact->stiffness * depth * depth, 0.5 * brake * kiriVec3_Dot(slide, slide));
 }
 
-static void AddElementEnergy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses,
-                             Energy* sum)
+/* `strain` of element k. */
+static void AddStrainEnergy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const double* strain,
+                            Energy* sum)
 {
     const double* stiffness = &solver->stiffness.data[MOST_ROWS * k];
     const double* start = &solver->startStrain.data[MOST_ROWS * k];
-    double strain[MOST_ROWS];
-    Measure(system, k, poses, strain, NULL);
-    for (int e = 0; e < RowCount(system, k); ++e) {
+    int rows = RowCount(system, k);
+    for (int e = 0; e < rows; ++e) {
         double change = strain[e] - start[e];
         AddEnergy(sum, 0.5 * stiffness[e] * strain[e] * strain[e],
                   0.5 * stiffness[e] * solver->damping * change * change);
     }
 }
 
-static Energy Evaluate(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
+static Energy InertialEnergy(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
     Energy sum = { 0.0, 0.0 };
     double moved = 0.0;
@@ -425,16 +481,33 @@ static Energy Evaluate(const kiriSolver* solver, const kiriSystem* system, const
         moved += system->frames[f].mass * kiriVec3_Dot(off, off) + kiriFlight_TurnSquared(flight, &poses[f].A);
     }
     AddEnergy(&sum, 0.0, 0.5 * moved / (solver->dt * solver->dt));
-    for (int32_t k = 0; k < ElementCount(system); ++k) {
-        AddElementEnergy(solver, system, k, poses, &sum);
-    }
+    return sum;
+}
+
+static void AddHostEnergy(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses, Energy* sum)
+{
     for (int32_t k = 0; k < system->pinCount; ++k) {
-        AddPinEnergy(system, &system->pins[k], poses, &sum);
+        AddPinEnergy(system, &system->pins[k], poses, sum);
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
         const kiriContactRow* contact = &system->contacts[k];
-        AddContactEnergy(system, contact, BrakeOf(solver, system, contact), poses, &sum);
+        AddContactEnergy(system, contact, BrakeOf(solver, system, contact), poses, sum);
     }
+}
+
+static Energy Evaluate(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
+{
+    Energy sum = InertialEnergy(solver, system, poses);
+    /* Held frames start from where the host puts them. */
+    bool isKnown = poses == solver->start.data && !solver->isHeld;
+    for (int32_t k = 0; k < ElementCount(system); ++k) {
+        double strain[MOST_ROWS];
+        if (!isKnown) {
+            Measure(system, k, poses, strain, NULL);
+        }
+        AddStrainEnergy(solver, system, k, isKnown ? &solver->startStrain.data[MOST_ROWS * k] : strain, &sum);
+    }
+    AddHostEnergy(solver, system, poses, &sum);
     return sum;
 }
 
@@ -492,24 +565,6 @@ static void AddHeld(kiriSolver* solver, int32_t f)
     kiriMatrix_AddOwn(solver->matrix, f, block);
 }
 
-/* The mass matrix times a change of the frame; `inertia` is that of a rigid one. */
-static Slots Massive(const kiriSolver* solver, const kiriSystem* system, int32_t f, const kiriMat3* inertia,
-                     const Slots* a)
-{
-    const kiriMassMoments* m = &solver->flights.data[f].moments;
-    Slots r;
-    memset(&r, 0, sizeof(r));
-    r.by[0] = kiriVec3_Scale(system->frames[f].mass, a->by[0]);
-    if (IsAffine(&system->mechanics)) {
-        r.by[1] = kiriVec3_AddScaled(kiriVec3_Scale(m->uu, a->by[1]), m->uv, a->by[2]);
-        r.by[2] = kiriVec3_AddScaled(kiriVec3_Scale(m->vv, a->by[2]), m->uv, a->by[1]);
-        r.by[3] = kiriVec3_Scale(m->dd, a->by[3]);
-    } else {
-        r.by[1] = kiriMat3_Mul(*inertia, a->by[1]);
-    }
-    return r;
-}
-
 static Slots MassForce(const kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
     const kiriFlight* flight = &solver->flights.data[f];
@@ -530,16 +585,22 @@ static Slots MassForce(const kiriSolver* solver, const kiriSystem* system, int32
 
 static void AddMass(kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
-    double perTime = 1.0 / (solver->dt * solver->dt), block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS];
-    double* force = &solver->force.data[solver->size * f];
+    const kiriMassMoments* m = &solver->flights.data[f].moments;
+    const double moments[4][4] = { { system->frames[f].mass, 0.0, 0.0, 0.0 },
+                                   { 0.0, m->uu, m->uv, 0.0 },
+                                   { 0.0, m->uv, m->vv, 0.0 },
+                                   { 0.0, 0.0, 0.0, m->dd } };
     kiriMat3 inertia = kiriFlight_Inertia(&solver->flights.data[f], &solver->poses.data[f].A);
-    for (int32_t n = 0; n < solver->size; ++n) {
-        double unit[KIRI_MOST_UNKNOWNS] = { 0.0 };
-        unit[n] = perTime;
-        Slots change = Expand(solver, 1.0, unit), mass = Massive(solver, system, f, &inertia, &change);
-        Reduce(solver, mass.by, &block[solver->size * n]);
+    double perTime = 1.0 / (solver->dt * solver->dt), block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS];
+    for (int32_t n = 0; n < solver->size * solver->size; ++n) {
+        const Unknown *a = &solver->unknowns[n / solver->size], *b = &solver->unknowns[n % solver->size];
+        bool turns = a->slot == 1 && b->slot == 1 && !IsAffine(&system->mechanics);
+        block[n] = turns                    ? perTime * kiriVec3_Dot(a->axis, kiriMat3_Mul(inertia, b->axis))
+                   : a->number == b->number ? perTime * moments[a->slot][b->slot]
+                                            : 0.0;
     }
     kiriMatrix_AddOwn(solver->matrix, f, block);
+    double* force = &solver->force.data[solver->size * f];
     Slots gradient = MassForce(solver, system, f);
     Reduce(solver, gradient.by, force);
     for (int32_t n = 0; n < solver->size; ++n) {
@@ -551,26 +612,37 @@ static void AddMass(kiriSolver* solver, const kiriSystem* system, int32_t f)
 static void AddSquares(kiriSolver* solver, const int32_t* frames, int32_t frameCount, const double* J,
                        const double* springs, const double* pulls, int rows)
 {
-    int32_t stride = solver->size * frameCount;
-    for (int32_t column = 0; column < stride; ++column) {
-        double force = 0.0;
-        for (int e = 0; e < rows; ++e) {
-            force += pulls[e] * J[e * stride + column];
+    int32_t size = solver->size;
+    for (int e = 0; e < rows; ++e) {
+        for (int32_t m = 0; m < frameCount; ++m, J += size) {
+            double* force = &solver->force.data[size * frames[m]];
+            for (int32_t n = 0; n < size; ++n) {
+                force[n] += pulls[e] * J[n];
+            }
         }
-        solver->force.data[solver->size * frames[column / solver->size] + column % solver->size] += force;
     }
+    J -= size * frameCount * rows;
     kiriMatrix_AddSquares(solver->matrix, frames, frameCount, J, springs, rows);
 }
 
+/* Strains that change: the stop of a link comes last, and has no derivative where it does not act. */
+static int ActiveRows(const kiriSystem* system, int32_t k, const double* strain)
+{
+    int rows = RowCount(system, k);
+    bool isStopped = LinkOf(system, k) == NULL || system->mechanics.planar || strain[rows - 1] != 0.0;
+    return isStopped ? rows : rows - 1;
+}
+
 /* The derivatives by the unknowns of a held frame are zero. */
-static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k)
+static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, Energy* energy)
 {
     const double* stiffness = &solver->stiffness.data[MOST_ROWS * k];
     const double* start = &solver->startStrain.data[MOST_ROWS * k];
-    int rows = RowCount(system, k);
     int32_t count = MembersOf(system, k, solver->members.data);
     double strain[MOST_ROWS], springs[MOST_ROWS], pulls[MOST_ROWS];
     Measure(system, k, solver->poses.data, strain, solver->rows.data);
+    AddStrainEnergy(solver, system, k, strain, energy);
+    int rows = ActiveRows(system, k, strain);
     for (int e = 0; e < rows; ++e) {
         springs[e] = stiffness[e] * (1.0 + solver->damping);
         pulls[e] = -stiffness[e] * (strain[e] + solver->damping * (strain[e] - start[e]));
@@ -624,10 +696,11 @@ static void AddContact(kiriSolver* solver, const kiriSystem* system, const kiriC
     }
 }
 
-static void Assemble(kiriSolver* solver, const kiriSystem* system)
+/* The system of a Gauss-Newton step from the poses. Returns the energy there, as Evaluate does. */
+static Energy Assemble(kiriSolver* solver, const kiriSystem* system)
 {
     kiriMatrix_Clear(solver->matrix);
-    memset(solver->force.data, 0, sizeof(double) * (size_t)solver->force.count);
+    memset(solver->force.data, 0, sizeof(double) * (size_t)(solver->size * system->frameCount));
     for (int32_t f = 0; f < system->frameCount; ++f) {
         if (system->frames[f].held) {
             AddHeld(solver, f);
@@ -635,8 +708,9 @@ static void Assemble(kiriSolver* solver, const kiriSystem* system)
             AddMass(solver, system, f);
         }
     }
+    Energy energy = InertialEnergy(solver, system, solver->poses.data);
     for (int32_t k = 0; k < ElementCount(system); ++k) {
-        AddElement(solver, system, k);
+        AddElement(solver, system, k, &energy);
     }
     for (int32_t k = 0; k < system->pinCount; ++k) {
         if (!system->frames[system->pins[k].frame].held) {
@@ -648,6 +722,8 @@ static void Assemble(kiriSolver* solver, const kiriSystem* system)
             AddContact(solver, system, &system->contacts[k]);
         }
     }
+    AddHostEnergy(solver, system, solver->poses.data, &energy);
+    return energy;
 }
 
 /* ---- Iteration --------------------------------------------------------------------------------------------------- */
@@ -696,13 +772,13 @@ static void Begin(kiriSolver* solver, const kiriSystem* system, double dt)
 {
     solver->dt = dt;
     solver->damping = (double)system->material.flexDamping / dt;
-    solver->isBraking = false;
+    solver->isBraking = solver->isHeld = false;
     for (int32_t f = 0; f < system->frameCount; ++f) {
+        solver->isHeld |= system->frames[f].held != 0;
         solver->start.data[f] = kiriPose_Of(&system->frames[f]);
         solver->before.data[f] = FlattenedOf(&system->mechanics, &system->frames[f]);
         solver->flights.data[f] = FlightOf(system, &solver->before.data[f], dt);
         solver->poses.data[f] = solver->flights.data[f].coast;
-        solver->trial.data[f] = solver->flights.data[f].pose;
     }
     for (int32_t k = 0; k < ElementCount(system); ++k) {
         StiffnessOf(system, k, &solver->stiffness.data[MOST_ROWS * k]);
@@ -748,28 +824,43 @@ static void TakeTrial(kiriSolver* solver)
     solver->poses.data = taken;
 }
 
-/* One Gauss-Newton step, halved until the objective falls, or is at most `allowed`. False when the matrix has no
-   factor. */
-static bool Iterate(kiriSolver* solver, const kiriSystem* system, double allowed, Energy* energy)
+/* The objective of the free flight, without the springs. */
+static double FlyingObjective(kiriSolver* solver, const kiriSystem* system)
 {
-    Assemble(solver, system);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        solver->trial.data[f] = solver->flights.data[f].pose;
+    }
+    bool isBraking = solver->isBraking;
+    solver->isBraking = false;
+    double objective = Evaluate(solver, system, solver->trial.data).objective;
+    solver->isBraking = isBraking;
+    return objective;
+}
+
+/* One Gauss-Newton step, halved until the objective falls; the first one may also reach that of the free flight. False
+   when the matrix has no factor. */
+static bool Iterate(kiriSolver* solver, const kiriSystem* system, bool isFirst, Energy* energy)
+{
+    *energy = Assemble(solver, system);
     if (!kiriMatrix_Factor(solver->matrix)) {
         return false;
     }
     kiriMatrix_Solve(solver->matrix, solver->force.data, solver->move.data);
-    *energy = Evaluate(solver, system, solver->poses.data);
-    double most = allowed > energy->objective ? allowed : energy->objective;
-    double enough = most * (1.0 + ROUNDING) + solver->noise, scale = LongestStep(solver, system), taken = 0.0;
-    for (int halving = 0; halving <= HALVINGS && taken == 0.0; ++halving, scale *= 0.5) {
+    double enough = energy->objective * (1.0 + ROUNDING) + solver->noise, scale = LongestStep(solver, system);
+    for (int halving = 0; halving <= HALVINGS; ++halving, scale *= 0.5) {
         Try(solver, system, scale);
         Energy value = Evaluate(solver, system, solver->trial.data);
+        if (isFirst && halving == 0 && !(value.objective <= enough)) {
+            double allowed = FlyingObjective(solver, system) * (1.0 + ROUNDING) + solver->noise;
+            enough = allowed > enough ? allowed : enough;
+            Try(solver, system, scale);
+        }
         if (value.objective <= enough) {
             *energy = value;
-            taken = scale;
+            TakeTrial(solver);
+            return true;
         }
     }
-    Try(solver, system, taken);
-    TakeTrial(solver);
     return true;
 }
 
@@ -837,11 +928,11 @@ static double Keep(double kinetic, double* energy)
     return taken < kinetic ? sqrt(1.0 - taken / kinetic) : 0.0;
 }
 
-static kiriVec3 MeanVelocity(const kiriSolver* solver, double* mass)
+static kiriVec3 MeanVelocity(const kiriSolver* solver, int32_t frameCount, double* mass)
 {
     kiriVec3 momentum = { 0.0, 0.0, 0.0 };
     *mass = 0.0;
-    for (int32_t f = 0; f < solver->after.count; ++f) {
+    for (int32_t f = 0; f < frameCount; ++f) {
         const kiriFrameData* frame = &solver->after.data[f];
         if (!frame->held) {
             *mass += frame->mass;
@@ -866,7 +957,7 @@ static void Slow(kiriFrameData* frame, double keep, kiriVec3 mean, double keepMe
 static void Brake(kiriSolver* solver, const kiriSystem* system, double energy)
 {
     double mass, kinetic = 0.0;
-    kiriVec3 mean = MeanVelocity(solver, &mass);
+    kiriVec3 mean = MeanVelocity(solver, system->frameCount, &mass);
     for (int32_t f = 0; f < system->frameCount; ++f) {
         kiriFrameData frame = solver->after.data[f];
         frame.velocity = kiriVec3_Sub(frame.velocity, mean);
@@ -882,6 +973,11 @@ static void Brake(kiriSolver* solver, const kiriSystem* system, double energy)
 
 /* ---- Step ------------------------------------------------------------------------------------------------------- */
 
+static void Restart(kiriSolver* solver, const kiriSystem* system)
+{
+    memcpy(solver->poses.data, solver->start.data, sizeof(kiriPose) * (size_t)system->frameCount);
+}
+
 /* The iteration starts where the frames coast by their velocities: a strip that swings is then nearly there, and one at
    rest is there. The first step may raise the objective up to that of the free flight: it has to turn stiff frames,
    which stretches links before the next step lets them go, and halving it there would freeze the turning.
@@ -894,28 +990,37 @@ static void Brake(kiriSolver* solver, const kiriSystem* system, double energy)
    which bounds w by 2 v and no better. At the minimum w^2 stands for (w - v)^2, but for parts of the energy that are
    not convex; so while energy is gained, iterations are added, and what is gained even then is taken out of the
    velocities. Nothing is ever flung away, however long the step. */
-static int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations, double* gain)
+static int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations, int32_t most, double* gain)
 {
-    double allowed = Evaluate(solver, system, solver->trial.data).objective;
     Energy start = Evaluate(solver, system, solver->start.data), energy = { HUGE_VAL, HUGE_VAL };
     double limit = start.objective * (1.0 + ROUNDING) + solver->noise;
     int32_t done = 0, chances = iterations + SECOND_CHANCES;
+    bool isOver = false;
     *gain = HUGE_VAL;
-    while (done < iterations || (*gain > 0.0 && done < chances) ||
-           (done < chances + FRESH_STARTS && !(energy.objective <= limit))) {
+    while (done < iterations || (*gain > 0.0 && done < chances) || (isOver && done < chances + FRESH_STARTS)) {
+        if (done == most) {
+            break;
+        }
         if (done == chances) {
-            memcpy(solver->poses.data, solver->start.data, sizeof(kiriPose) * (size_t)system->frameCount);
+            Restart(solver, system);
         }
         /* Before the first step the push is that of the free flight, far too strong at an impact. */
         solver->isBraking = done > 0 || iterations == 1;
-        if (!Iterate(solver, system, done == 0 ? allowed : 0.0, &energy)) {
+        if (!Iterate(solver, system, done == 0, &energy)) {
             return -1;
         }
         ++done;
+        isOver = !(energy.objective <= limit);
         if (done >= iterations) {
             Land(solver, system);
             *gain = Gain(solver, system, start.potential, energy.potential);
         }
+    }
+    if (isOver && done < chances + FRESH_STARTS) {
+        /* Cut short: it does not move at all. */
+        Restart(solver, system);
+        Land(solver, system);
+        *gain = Gain(solver, system, start.potential, start.potential);
     }
     return done;
 }
@@ -923,7 +1028,7 @@ static int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t it
 static void MarkHeld(kiriSolver* solver, const kiriSystem* system)
 {
     const int32_t* piece = solver->piece.data;
-    for (int32_t i = 0; i < solver->pieces.count; ++i) {
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
         solver->pieces.data[i].isHeld = 0;
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {
@@ -945,7 +1050,7 @@ static void Settle(kiriSolver* solver, const kiriSystem* system, double gain)
     } else {
         MarkHeld(solver, system);
         kiriMomentum_Restore(solver->before.data, solver->after.data, system->frameCount, solver->piece.data,
-                             solver->pieces.data, solver->pieces.count, &system->material, solver->dt, -gain);
+                             solver->pieces.data, solver->pieceCount, &system->material, solver->dt, -gain);
     }
 }
 
@@ -956,9 +1061,9 @@ static bool Fits(kiriVec3 a)
     return fabs(a.x) <= most && fabs(a.y) <= most && fabs(a.z) <= most;
 }
 
-static bool CanBeRead(const kiriSolver* solver)
+static bool CanBeRead(const kiriSolver* solver, int32_t frameCount)
 {
-    for (int32_t f = 0; f < solver->after.count; ++f) {
+    for (int32_t f = 0; f < frameCount; ++f) {
         const kiriFrameData* frame = &solver->after.data[f];
         if (!Fits(frame->x) || !Fits(frame->A.u) || !Fits(frame->A.v) || !Fits(frame->A.d) || !Fits(frame->velocity) ||
             !Fits(frame->spin) || !Fits(frame->rate.u) || !Fits(frame->rate.v) || !Fits(frame->rate.d) ||
@@ -984,16 +1089,16 @@ static void Finish(const kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations)
+int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations, int32_t most)
 {
     double gain;
     Begin(solver, system, dt);
-    int32_t done = Minimise(solver, system, iterations, &gain);
+    int32_t done = Minimise(solver, system, iterations < most ? iterations : most, most, &gain);
     if (done < 0) {
         return -1;
     }
     Settle(solver, system, gain);
-    if (!CanBeRead(solver)) {
+    if (!CanBeRead(solver, system->frameCount)) {
         return -1;
     }
     Finish(solver, system);

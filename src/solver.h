@@ -44,19 +44,30 @@ typedef struct kiriSystem {
     kiriVec3 gravity;
 } kiriSystem;
 
-/* Pattern and symbolic factorisation for these links and patches. Null for memory. A step allocates nothing. */
-kiriSolver* kiriSolver_CreateFor(const kiriMemory* memory, const kiriMechanics* mechanics, int32_t frameCount,
-                                 const kiriLink* links, int32_t linkCount, const kiriPatches* patches);
-
-/* For rigid frames joined by links, in space. */
-kiriSolver* kiriSolver_Create(const kiriMemory* memory, int32_t frameCount, const kiriLink* links, int32_t linkCount);
+/* A solver for no frames yet. Null for memory. */
+kiriSolver* kiriSolver_Create(const kiriMemory* memory, const kiriMechanics* mechanics);
 void kiriSolver_Destroy(kiriSolver* solver);
 
-/* Moves the frames by dt. Mechanics, links and patches are those that it was created for; normals of contacts are unit,
-   heldRotation is a rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the motion asks for them.
-   Or -1 when it cannot be continued (not finite, or no memory); the frames are then as before the call. Forces on
-   frames are used, not cleared. */
-int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations);
+/* Prepares for these frames, links and patches; replaces what was staged before. Steps go on with the current ones.
+   The pattern of the matrix is renewed only where it does not cover the pairs of frames that they couple, or where
+   frameCount differs: links that vanish leave zero blocks. Otherwise nothing is allocated but room that grows. False for
+   memory: nothing is staged then. */
+bool kiriSolver_Stage(kiriSolver* solver, int32_t frameCount, const kiriLink* links, int32_t linkCount,
+                      const kiriPatches* patches);
+
+/* What is staged, if anything, becomes current. */
+void kiriSolver_Commit(kiriSolver* solver);
+
+/* Of the pattern, which depends on what was staged before: steps depend on it in their last bits. And how often it was
+   renewed, the first included. */
+uint64_t kiriSolver_Hash(const kiriSolver* solver);
+int64_t kiriSolver_Renewals(const kiriSolver* solver);
+
+/* Moves the frames by dt. Links and patches are those that were committed; normals of contacts are unit, heldRotation is a
+   rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the motion asks for them,
+   but at most `most` (1 or more). Or -1 when it cannot be continued (not finite); the frames are then as before the call.
+   Allocates nothing. Forces on frames are used, not cleared. */
+int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations, int32_t most);
 
 /* Elastic energy of links and patches, J. */
 double kiriSolver_ElasticEnergy(const kiriSystem* system);

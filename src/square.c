@@ -1,5 +1,7 @@
 #include "square.h"
 
+#include <string.h>
+
 typedef struct Range {
     int32_t firstColumn, lastColumn, firstRow, lastRow;
 } Range;
@@ -24,19 +26,22 @@ static int32_t Max3(int32_t a, int32_t b, int32_t c)
 bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriPoint extent, int32_t resolution)
 {
     int64_t longer = extent.x > extent.y ? extent.x : extent.y;
+    memset(squares, 0, sizeof(*squares));
     squares->side = (int32_t)(2 * CeilDivide(longer + 2, 2 * (int64_t)resolution));
     squares->columns = (int32_t)CeilDivide((int64_t)extent.x + 2, squares->side);
     squares->rows = (int32_t)CeilDivide((int64_t)extent.y + 2, squares->side);
-    squares->nodes.data = NULL;
-    squares->nodes.count = squares->nodes.capacity = 0;
     squares->freeNode = KIRI_NONE;
     int64_t count = (int64_t)squares->columns * squares->rows;
     squares->head = kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t));
-    if (squares->head == NULL) {
+    squares->vertexHead = kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t));
+    squares->isTouched = kiriMemory_Alloc(memory, count);
+    if (squares->head == NULL || squares->vertexHead == NULL || squares->isTouched == NULL ||
+        !kiriArray_Reserve(memory, &squares->touched, count)) {
         return false;
     }
     for (int64_t i = 0; i < count; ++i) {
-        squares->head[i] = KIRI_NONE;
+        squares->head[i] = squares->vertexHead[i] = KIRI_NONE;
+        squares->isTouched[i] = 0;
     }
     return true;
 }
@@ -44,8 +49,11 @@ bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriPoint 
 void kiriSquares_Release(kiriSquares* squares, const kiriMemory* memory)
 {
     kiriMemory_Free(memory, squares->head);
-    squares->head = NULL;
+    kiriMemory_Free(memory, squares->vertexHead);
+    kiriMemory_Free(memory, squares->isTouched);
     kiriArray_Release(memory, &squares->nodes);
+    kiriArray_Release(memory, &squares->touched);
+    memset(squares, 0, sizeof(*squares));
 }
 
 /* The squares that the box of the corners overlaps. Corners are even and grid lines odd, so no corner is on a line. */
@@ -83,6 +91,51 @@ bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriP
            EdgesOverlap(squares, square, corners);
 }
 
+static void Touch(kiriSquares* squares, int32_t square)
+{
+    if (!squares->isTouched[square]) {
+        squares->isTouched[square] = 1;
+        squares->touched.data[squares->touched.count++] = square;
+    }
+}
+
+void kiriSquares_ClearTouched(kiriSquares* squares)
+{
+    for (int32_t i = 0; i < squares->touched.count; ++i) {
+        squares->isTouched[squares->touched.data[i]] = 0;
+    }
+    squares->touched.count = 0;
+}
+
+/* Separating axes: the sides of the square, and the segment. */
+bool kiriSquares_RunsThrough(const kiriSquares* squares, int32_t square, kiriPoint a, kiriPoint b)
+{
+    kiriPoint low = kiriSquares_Corner(squares, square), high = { low.x + squares->side, low.y + squares->side };
+    if ((a.x <= low.x && b.x <= low.x) || (a.x >= high.x && b.x >= high.x) || (a.y <= low.y && b.y <= low.y) ||
+        (a.y >= high.y && b.y >= high.y)) {
+        return false;
+    }
+    /* The two corners farthest to the left and to the right of a line that rises, or falls. */
+    bool rises = (a.x < b.x) == (a.y < b.y);
+    kiriPoint p = { low.x, rises ? high.y : low.y }, q = { high.x, rises ? low.y : high.y };
+    int64_t sideP = kiriOrient(a, b, p), sideQ = kiriOrient(a, b, q);
+    return (sideP < 0 && sideQ > 0) || (sideP > 0 && sideQ < 0);
+}
+
+void kiriSquares_TouchEdge(kiriSquares* squares, kiriPoint a, kiriPoint b)
+{
+    const kiriPoint ends[3] = { a, b, b };
+    Range r = BoxOf(squares, ends);
+    for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
+        for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
+            int32_t square = row * squares->columns + column;
+            if (kiriSquares_RunsThrough(squares, square, a, b)) {
+                Touch(squares, square);
+            }
+        }
+    }
+}
+
 static bool AddNode(kiriSquares* squares, const kiriMemory* memory, int32_t square, int32_t triangle)
 {
     kiriSquareNode node = { triangle, squares->head[square] };
@@ -97,6 +150,7 @@ static bool AddNode(kiriSquares* squares, const kiriMemory* memory, int32_t squa
         }
     }
     squares->head[square] = slot;
+    Touch(squares, square);
     return true;
 }
 
@@ -111,6 +165,7 @@ static void RemoveNode(kiriSquares* squares, int32_t square, int32_t triangle)
             nodes[slot].triangle = KIRI_NONE;
             nodes[slot].next = squares->freeNode;
             squares->freeNode = slot;
+            Touch(squares, square);
             return;
         }
     }

@@ -1,5 +1,6 @@
 /* The squares of the regular grid, and for each the triangles whose interior overlaps its interior (exactly). It finds
-   the triangle under a point, the edges near a blade, and the material of the cells. */
+   the triangle under a point, the edges near a blade, and the material of the cells. It also knows which squares have
+   changed, so that a cut costs no more than what it passes through, and which vertices are in a square. */
 #ifndef KIRI_SQUARE_H
 #define KIRI_SQUARE_H
 
@@ -18,6 +19,9 @@ typedef struct kiriSquares {
     int32_t* head; /* a square's first node, or KIRI_NONE; columns * rows, row by row */
     KIRI_ARRAY(kiriSquareNode) nodes;
     int32_t freeNode;
+    int32_t* vertexHead;         /* a square's first vertex, or KIRI_NONE: see kiriVertex */
+    KIRI_ARRAY(int32_t) touched; /* squares that have changed since ClearTouched, each once; it never grows */
+    uint8_t* isTouched;          /* of each square: is it in `touched`? */
 } kiriSquares;
 
 /* `resolution` squares along the longer of the two extents (lattice steps, from 0). */
@@ -25,9 +29,16 @@ bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriPoint 
 void kiriSquares_Release(kiriSquares* squares, const kiriMemory* memory);
 
 /* The triangle's corners are counter-clockwise. Insert fails only for memory, and then changes nothing. After a Remove,
-   inserting as many nodes as it took never fails. */
+   inserting as many nodes as it took never fails. Both touch the squares that they change. */
 bool kiriSquares_Insert(kiriSquares* squares, const kiriMemory* memory, int32_t triangle, const kiriPoint corners[3]);
 void kiriSquares_Remove(kiriSquares* squares, int32_t triangle, const kiriPoint corners[3]);
+
+/* Touches the squares whose open interior the edge between two vertices runs through. */
+void kiriSquares_TouchEdge(kiriSquares* squares, kiriPoint a, kiriPoint b);
+void kiriSquares_ClearTouched(kiriSquares* squares);
+
+/* Does the segment run through the open square? Exact; neither end may be on a grid line. */
+bool kiriSquares_RunsThrough(const kiriSquares* squares, int32_t square, kiriPoint a, kiriPoint b);
 
 /* The square around a vertex position, or KIRI_NONE outside the grid. */
 int32_t kiriSquares_At(const kiriSquares* squares, kiriPoint p);

@@ -1,24 +1,35 @@
 #include "world.h"
 
+#include "update.h"
+
 #include <string.h>
 
 /* ---- The tick: algorithm 1 of the paper ---- */
 
+enum { TRIANGLES, CELLS, SAMPLES, ITERATIONS, NOTHING, QUOTA_COUNT };
+
+/* What is left of the budget in this tick. */
+typedef struct Quotas {
+    kiriQuota of[QUOTA_COUNT];
+} Quotas;
+
 typedef struct Stage {
     int32_t name;
-    bool (*run)(kiriSheetData* sheet);
+    int quota;
+    kiriProgress (*run)(kiriSheetData* sheet, kiriQuota* quota);
 } Stage;
 
-/* What a cut sets off, in order. Any stage may run out of memory; nothing is final before the commit. */
-static const Stage cutStages[] = {
-    { KIRI_STAGE_CUT, kiriSheet_SplitMesh },            /* appendix A, algorithm 4 */
-    { KIRI_STAGE_GRID, kiriSheet_BuildGrid },           /* section 4.2, algorithm 3 */
-    { KIRI_STAGE_REGIONS, kiriSheet_BuildRegions },     /* section 5: frames for pieces that have none */
-    { KIRI_STAGE_SHAPE, kiriSheet_BuildShape },         /* section 4.1, algorithm 2; re-sampling of section 5 */
-    { KIRI_STAGE_SAMPLES, kiriSheet_BuildSamples },     /* section 6 */
-    { KIRI_STAGE_CONSTANTS, kiriSheet_BuildConstants }, /* mass, links, the pattern of the matrix */
+/* What a cut sets off, in order. Any stage may spend its quota, or run out of memory; nothing is in force before the
+   commit. */
+static const Stage stages[] = {
+    { KIRI_STAGE_CUT, TRIANGLES, kiriUpdate_SplitMesh },      /* appendix A, algorithm 4 */
+    { KIRI_STAGE_GRID, CELLS, kiriUpdate_Grid },              /* section 4.2, algorithm 3 */
+    { KIRI_STAGE_REGIONS, CELLS, kiriUpdate_Regions },        /* section 5: frames for pieces that have none */
+    { KIRI_STAGE_SHAPE, CELLS, kiriUpdate_Shape },            /* section 4.1, algorithm 2; re-sampling of section 5 */
+    { KIRI_STAGE_SAMPLES, SAMPLES, kiriUpdate_Samples },      /* section 6 */
+    { KIRI_STAGE_CONSTANTS, NOTHING, kiriUpdate_Constants },  /* mass, links, the pattern of the matrix */
 };
-enum { CUT_STAGE_COUNT = sizeof(cutStages) / sizeof(cutStages[0]) };
+enum { STAGE_COUNT = sizeof(stages) / sizeof(stages[0]) };
 
 static void Enter(kiriWorld* world, int32_t stage)
 {
@@ -30,72 +41,94 @@ static void Enter(kiriWorld* world, int32_t stage)
     world->stageStart = now;
 }
 
-static bool HasStrokes(const kiriSheetData* sheet)
+static int64_t Limit(int32_t items)
 {
-    return sheet->granted > 0;
+    return items > 0 ? items : INT64_MAX;
 }
 
-/* Shares the budget out, sheet by sheet. What is not granted waits. */
-static void Grant(kiriWorld* world)
+static Quotas ShareOut(const kiriBudget* budget)
 {
-    int32_t left = world->cutBudget > 0 ? world->cutBudget : INT32_MAX;
+    Quotas quotas = { { { Limit(budget->triangles), 0 },
+                        { Limit(budget->cells), 0 },
+                        { Limit(budget->samples), 0 },
+                        { Limit(budget->iterations), 0 },
+                        { 0, 0 } } };
+    return quotas;
+}
+
+static bool IsReady(const kiriSheetData* sheet)
+{
+    return sheet->update.stage == STAGE_COUNT;
+}
+
+/* Carries the sheet's update on as far as its quotas go. False for memory. */
+static bool Update(kiriWorld* world, kiriSheetData* sheet, Quotas* quotas)
+{
+    kiriUpdate* u = &sheet->update;
+    u->isBegun = true;
+    u->startStage = u->stage;
+    u->startTaken = u->taken;
+    u->startTorn = u->isTorn;
+    while (u->stage < STAGE_COUNT) {
+        const Stage* stage = &stages[u->stage];
+        Enter(world, stage->name);
+        kiriProgress progress = stage->run(sheet, &quotas->of[stage->quota]);
+        if (progress != KIRI_DONE) {
+            return progress == KIRI_MORE;
+        }
+        /* A blade may move outside the sheet, or along edges that are open already. */
+        u->stage = u->isTorn ? u->stage + 1 : STAGE_COUNT;
+    }
+    return true;
+}
+
+/* The earliest tick, from this one on, before which points were given that are at hand now; -1 when there is none. */
+static int64_t NextStamp(const kiriWorld* world, int64_t from)
+{
+    int64_t next = -1;
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriSheetData* sheet = world->sheets.data[i];
-        sheet->granted = sheet->queue.count < left ? sheet->queue.count : left;
-        left -= sheet->granted;
-    }
-}
-
-static bool IsRecut(const kiriSheetData* sheet)
-{
-    return HasStrokes(sheet) && kiriSheet_IsTorn(sheet);
-}
-
-/* Takes the waiting blade points, and builds the model that follows from the mesh they leave. */
-static bool Recut(kiriWorld* world, kiriSheetData* sheet)
-{
-    for (int32_t i = 0; i < CUT_STAGE_COUNT; ++i) {
-        Enter(world, cutStages[i].name);
-        if (!cutStages[i].run(sheet)) {
-            return false;
-        }
-        if (!kiriSheet_IsTorn(sheet)) {
-            break; /* the blade moved outside the sheet, or along edges that are open already */
+        const kiriUpdate* u = &world->sheets.data[i]->update;
+        if (u->stage != KIRI_NONE && u->stamp >= from && (next < 0 || u->stamp < next)) {
+            next = u->stamp;
         }
     }
-    return true;
+    return next;
 }
 
-static bool RecutAll(kiriWorld* world, int32_t* begun)
+/* First come, first served; of those that came together, in the order of sheets. */
+static bool UpdateAll(kiriWorld* world, Quotas* quotas)
 {
-    for (*begun = 0; *begun < world->sheets.count;) {
-        kiriSheetData* sheet = world->sheets.data[(*begun)++];
-        if (HasStrokes(sheet) && !Recut(world, sheet)) {
-            return false;
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriUpdate_Start(world->sheets.data[i]);
+    }
+    for (int64_t stamp = NextStamp(world, 0); stamp >= 0; stamp = NextStamp(world, stamp + 1)) {
+        for (int32_t i = 0; i < world->sheets.count; ++i) {
+            kiriSheetData* sheet = world->sheets.data[i];
+            if (sheet->update.stage != KIRI_NONE && sheet->update.stamp == stamp && !Update(world, sheet, quotas)) {
+                return false;
+            }
         }
     }
     return true;
 }
 
-static void RollbackAll(kiriWorld* world, int32_t begun)
+static void AbortAll(kiriWorld* world)
 {
-    for (int32_t i = 0; i < begun; ++i) {
-        if (HasStrokes(world->sheets.data[i])) {
-            kiriSheet_Rollback(world->sheets.data[i]);
-        }
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriUpdate_Abort(world->sheets.data[i]);
     }
 }
 
-/* Room for the ids and events of the commits to come. */
+/* Room for the ids and events of the tick. */
 static bool ReserveRoom(kiriWorld* world)
 {
-    int64_t frames = 0, events = world->sheets.count;
+    int64_t frames = 0, events = 2 * (int64_t)world->sheets.count;
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         const kiriSheetData* sheet = world->sheets.data[i];
         events += sheet->cuts.count;
-        if (IsRecut(sheet)) {
-            frames += sheet->next.sites.count - sheet->frames.count;
-            events += sheet->next.grid.pieces;
+        if (IsReady(sheet) && sheet->update.isTorn) {
+            frames += sheet->update.sites.count - sheet->frames.count;
+            events += sheet->update.next.pieces.count;
         }
     }
     return kiriPool_Reserve(&world->frameIds, &world->memory, (int32_t)frames) &&
@@ -108,28 +141,27 @@ static kiriEvent* AddEvent(kiriWorld* world, int32_t type, const kiriSheetData* 
     memset(event, 0, sizeof(*event));
     event->type = type;
     event->sheet = sheet->id;
-    event->piece = KIRI_NONE;
+    event->piece = event->stage = KIRI_NONE;
     return event;
 }
 
 static void CountWork(kiriProfile* profile, const kiriSheetData* sheet)
 {
-    for (int32_t i = 0; i < sheet->granted; ++i) {
-        profile->cutSegments += !sheet->queue.data[i].jump;
-    }
-    if (IsRecut(sheet)) {
-        profile->trianglesSplit +=
-            sheet->mesh.savedTriangles.count + sheet->mesh.triangles.count - sheet->mesh.oldTriangleCount;
-        profile->cellsSettled += sheet->next.grid.cells.count;
-        profile->samplesRefreshed += sheet->mesh.vertices.count + sheet->next.points.count;
-    }
+    const kiriTouched* touched = &sheet->update.touched;
+    profile->cellsChanged += touched->cells;
+    profile->weightsChanged += touched->weights;
+    profile->verticesChanged += touched->vertices;
+    profile->pointsChanged += touched->points;
+    profile->linksChanged += touched->links;
+    profile->commits += 1;
 }
 
-static void SwapModel(kiriWorld* world, kiriSheetData* sheet)
+static void Commit(kiriWorld* world, kiriSheetData* sheet)
 {
     int32_t oldFrames = sheet->frames.count;
-    kiriSheet_SwapModel(sheet);
-    for (int32_t piece = 0; piece < sheet->model.grid.pieces; ++piece) {
+    kiriUpdate_Commit(sheet);
+    CountWork(&world->profile, sheet);
+    for (int32_t piece = 0; piece < sheet->model.pieces.count; ++piece) {
         if (sheet->model.pieces.data[piece].cameOff) {
             kiriEvent* event = AddEvent(world, KIRI_EVENT_PIECE_OFF, sheet);
             event->piece = piece;
@@ -163,35 +195,66 @@ static void FinishCuts(kiriWorld* world, kiriSheetData* sheet)
     sheet->cuts.count = kept;
 }
 
+static void Finish(kiriWorld* world, kiriSheetData* sheet)
+{
+    for (int32_t i = 0; i < sheet->update.count; ++i) {
+        world->profile.cutSegments += !sheet->queue.data[i].jump;
+    }
+    if (sheet->update.isTorn) {
+        Commit(world, sheet);
+    }
+    kiriUpdate_Finish(sheet);
+}
+
 static void CommitAll(kiriWorld* world)
 {
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         kiriSheetData* sheet = world->sheets.data[i];
-        CountWork(&world->profile, sheet);
-        if (IsRecut(sheet)) {
-            SwapModel(world, sheet);
+        if (sheet->update.isBegun) {
+            kiriUpdate_CommitMesh(sheet);
+            kiriMotion_Wake(sheet);
         }
-        if (HasStrokes(sheet)) {
-            kiriSheet_Commit(sheet);
+        if (IsReady(sheet)) {
+            Finish(world, sheet);
         }
         FinishCuts(world, sheet);
     }
 }
 
-static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps)
+/* Says which sheets have work left, and where it stands. */
+static bool ReportDeferred(kiriWorld* world)
 {
-    kiriResult result = KIRI_OK;
-    Enter(world, KIRI_STAGE_SOLVE);
+    bool any = false;
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        if (world->sheets.data[i]->queue.count > 0 && result == KIRI_OK) {
-            result = KIRI_PENDING;
+        const kiriSheetData* sheet = world->sheets.data[i];
+        if (sheet->queue.count > 0) {
+            kiriEvent* event = AddEvent(world, KIRI_EVENT_DEFERRED, sheet);
+            event->stage = sheet->update.stage == KIRI_NONE ? KIRI_STAGE_CUT : stages[sheet->update.stage].name;
+            event->waiting = sheet->queue.count;
+            any = true;
         }
-        int32_t solved = kiriMotion_Solve(world->sheets.data[i], world->gravity, dt, substeps);
-        if (solved < 0) {
+    }
+    return any;
+}
+
+/* Moves the sheets, first the one that came too late in the last tick. */
+static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps, kiriQuota* iterations)
+{
+    kiriResult result = ReportDeferred(world) ? KIRI_PENDING : KIRI_OK;
+    bool isLate = false;
+    int32_t count = world->sheets.count, first = count > 0 ? world->turn % count : 0;
+    Enter(world, KIRI_STAGE_SOLVE);
+    world->turn = 0;
+    for (int32_t k = 0; k < count; ++k) {
+        int32_t i = (first + k) % count;
+        kiriProgress progress = kiriMotion_Solve(world->sheets.data[i], world->gravity, dt, substeps, iterations);
+        if (progress == KIRI_FAILED) {
             AddEvent(world, KIRI_EVENT_DIVERGED, world->sheets.data[i]);
             result = KIRI_DIVERGED;
-        } else {
-            world->profile.solverIterations += solved;
+        } else if (progress == KIRI_MORE) {
+            world->turn = isLate ? world->turn : i;
+            result = result == KIRI_OK ? KIRI_PENDING : result;
+            isLate = true;
         }
     }
     return result;
@@ -201,8 +264,18 @@ static void SkinAll(kiriWorld* world)
 {
     Enter(world, KIRI_STAGE_SKIN);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriView_WritePositions(world->sheets.data[i]);
+        if (!world->sheets.data[i]->asleep) {
+            kiriView_WritePositions(world->sheets.data[i]);
+        }
     }
+}
+
+static void CountItems(kiriProfile* profile, const Quotas* quotas)
+{
+    profile->trianglesSplit = (int32_t)quotas->of[TRIANGLES].used;
+    profile->cellsSettled = (int32_t)quotas->of[CELLS].used;
+    profile->samplesRefreshed = (int32_t)quotas->of[SAMPLES].used;
+    profile->solverIterations = (int32_t)quotas->of[ITERATIONS].used;
 }
 
 kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
@@ -210,15 +283,16 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     memset(&world->profile, 0, sizeof(world->profile));
     world->events.count = 0;
     kiriResult result = KIRI_ERROR_MEMORY;
-    int32_t begun;
-    Grant(world);
-    if (RecutAll(world, &begun) && ReserveRoom(world)) {
+    Quotas quotas = ShareOut(&world->budget);
+    if (UpdateAll(world, &quotas) && ReserveRoom(world)) {
         CommitAll(world);
-        result = SolveAll(world, dt, substeps);
+        result = SolveAll(world, dt, substeps, &quotas.of[ITERATIONS]);
         SkinAll(world);
+        world->ticks += 1;
     } else {
-        RollbackAll(world, begun);
+        AbortAll(world);
     }
+    CountItems(&world->profile, &quotas);
     Enter(world, KIRI_NONE);
     return result;
 }

@@ -17,7 +17,9 @@ struct kiriWorld {
     kiriClockFn* clock;
     void* user;
     kiriVec3 gravity;
-    int32_t cutBudget; /* 0: no limit */
+    kiriBudget budget;
+    int64_t ticks;
+    int32_t turn; /* the sheet that is moved first: the one for which the last tick had no iterations left */
     kiriPool sheetIds, cutIds, frameIds, pinIds;
     KIRI_ARRAY(kiriSheetData*) sheets; /* in the order of their making */
     KIRI_ARRAY(kiriEvent) events;
@@ -27,7 +29,7 @@ struct kiriWorld {
     kiriError* error; /* apart, so that functions which only read can report too */
 };
 
-/* One tick: KIRI_OK, KIRI_PENDING (cut points wait), KIRI_ERROR_MEMORY (nothing moved), or KIRI_DIVERGED. */
+/* One tick: KIRI_OK, KIRI_PENDING (work waits), KIRI_ERROR_MEMORY (nothing moved), or KIRI_DIVERGED. */
 kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps);
 
 /* Makes a sheet of the def, which has been checked, and gives it and its frames their ids. */

@@ -95,6 +95,15 @@ static inline void Body_StartFrame(Body* body, int32_t i)
                        (double)body->system.material.density * (double)body->system.material.thickness);
 }
 
+static inline void Body_MakeSolver(Body* body)
+{
+    body->solver = kiriSolver_Create(&body->scene.memory, &body->system.mechanics);
+    assert_non_null(body->solver);
+    assert_true(kiriSolver_Stage(body->solver, body->system.frameCount, body->system.links, body->system.linkCount,
+                                 &body->patches));
+    kiriSolver_Commit(body->solver);
+}
+
 static inline void Body_End(Body* body, const BodyDef* def)
 {
     Scene* s = &body->scene;
@@ -121,9 +130,7 @@ static inline void Body_End(Body* body, const BodyDef* def)
     body->system.patches = &body->patches;
     body->system.pins = body->pins;
     body->system.contacts = body->contacts;
-    body->solver = kiriSolver_CreateFor(&s->memory, &body->system.mechanics, body->sites.count, body->system.links,
-                                        body->system.linkCount, &body->patches);
-    assert_non_null(body->solver);
+    Body_MakeSolver(body);
 }
 
 static inline void Body_Drop(Body* body)
@@ -152,7 +159,7 @@ static inline void Body_Hold(Body* body, int32_t f)
 static inline void Body_Steps(Body* body, int count, double dt, int iterations)
 {
     for (int k = 0; k < count; ++k) {
-        int32_t done = kiriSolver_Step(body->solver, &body->system, dt, iterations);
+        int32_t done = kiriSolver_Step(body->solver, &body->system, dt, iterations, INT32_MAX);
         assert_true(done >= iterations && done <= iterations + 6);
     }
 }

@@ -263,6 +263,29 @@ static inline void CheckSquares(const kiriMeshData* mesh)
     free(seen);
 }
 
+/* Each vertex is in the list of its square, and the touched squares are marked, each once. */
+static inline void CheckLists(const kiriMeshData* mesh)
+{
+    const kiriSquares* squares = &mesh->squares;
+    int32_t listed = 0, marked = 0;
+    for (int32_t s = 0; s < squares->columns * squares->rows; ++s) {
+        int32_t last = INT32_MAX;
+        for (int32_t v = squares->vertexHead[s]; v != KIRI_NONE; v = mesh->vertices.data[v].next) {
+            assert_in_range(v, 0, mesh->vertices.count - 1);
+            assert_true(v < last);
+            assert_int_equal(kiriSquares_At(squares, mesh->vertices.data[v].at), s);
+            last = v;
+            ++listed;
+        }
+        marked += squares->isTouched[s] ? 1 : 0;
+    }
+    for (int32_t i = 0; i < squares->touched.count; ++i) {
+        assert_true(squares->isTouched[squares->touched.data[i]]);
+    }
+    assert_int_equal(listed, mesh->vertices.count);
+    assert_int_equal(marked, squares->touched.count);
+}
+
 /* The fan of a vertex has a part of the vertex's source triangle: a torn vertex takes nothing from the other lip. */
 static inline void CheckSources(const kiriMeshData* mesh)
 {
@@ -378,6 +401,7 @@ static inline int32_t CheckMesh(const kiriMeshData* mesh)
     CheckTwins(mesh);
     CheckFans(mesh);
     CheckSquares(mesh);
+    CheckLists(mesh);
     CheckProvenance(mesh);
     return CheckPieces(mesh);
 }

@@ -120,6 +120,46 @@ static void SquaresListWhatTheyOverlap(void** state)
     kiriSquares_Release(&squares, Heap());
 }
 
+/* The part of the segment between two parallels, as shares of its length. */
+static void ClipShares(double a, double b, double low, double high, double* from, double* to)
+{
+    double first = (low - a) / (b - a), last = (high - a) / (b - a);
+    if (a == b) {
+        first = a > low && a < high ? 0.0 : 2.0;
+        last = 1.0;
+    }
+    *from = fmax(*from, fmin(first, last));
+    *to = fmin(*to, fmax(first, last));
+}
+
+static void SquaresThatEdgesRunThrough(void** state)
+{
+    (void)state;
+    uint32_t seed = 9;
+    kiriPoint extent = { 60, 34 };
+    kiriSquares squares;
+    assert_true(kiriSquares_Init(&squares, Heap(), extent, 7));
+    for (int round = 0; round < 3000; ++round) {
+        kiriPoint a = { (int32_t)(2 * (Random(&seed) % 31)), (int32_t)(2 * (Random(&seed) % 18)) };
+        kiriPoint b = { (int32_t)(2 * (Random(&seed) % 31)), (int32_t)(2 * (Random(&seed) % 18)) };
+        if (a.x == b.x && a.y == b.y) {
+            continue;
+        }
+        kiriSquares_TouchEdge(&squares, a, b);
+        for (int32_t s = 0; s < 28; ++s) {
+            kiriPoint low = kiriSquares_Corner(&squares, s);
+            double from = 0.0, to = 1.0;
+            ClipShares(a.x, b.x, low.x, low.x + 10.0, &from, &to);
+            ClipShares(a.y, b.y, low.y, low.y + 10.0, &from, &to);
+            assert_int_equal(kiriSquares_RunsThrough(&squares, s, a, b), to > from + 1e-12);
+            assert_int_equal(squares.isTouched[s], to > from + 1e-12);
+        }
+        kiriSquares_ClearTouched(&squares);
+        assert_int_equal(squares.touched.count, 0);
+    }
+    kiriSquares_Release(&squares, Heap());
+}
+
 static void SquaresAroundPoints(void** state)
 {
     (void)state;
@@ -538,6 +578,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(SquaresListWhatTheyOverlap),
+        cmocka_unit_test(SquaresThatEdgesRunThrough),
         cmocka_unit_test(SquaresAroundPoints),
         cmocka_unit_test(SquaresWithoutMemory),
         cmocka_unit_test(RefusesArguments),

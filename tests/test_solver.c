@@ -86,8 +86,10 @@ static void BeginScene(Scene* s, kiriMaterial material)
 static void EndScene(Scene* s)
 {
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
-    s->solver = kiriSolver_Create(&memory, s->system.frameCount, s->links, s->system.linkCount);
+    s->solver = kiriSolver_Create(&memory, &s->system.mechanics);
     assert_non_null(s->solver);
+    assert_true(kiriSolver_Stage(s->solver, s->system.frameCount, s->links, s->system.linkCount, NULL));
+    kiriSolver_Commit(s->solver);
 }
 
 /* nu by nv frames, the outermost sites on the ends; one row has its sites in the middle. */
@@ -144,7 +146,7 @@ static void Pin(Scene* s, int f, double stiffness)
 static void Steps(Scene* s, int count, double dt, int iterations)
 {
     for (int k = 0; k < count; ++k) {
-        int32_t done = kiriSolver_Step(s->solver, &s->system, dt, iterations);
+        int32_t done = kiriSolver_Step(s->solver, &s->system, dt, iterations, INT32_MAX);
         assert_true(done >= iterations && done <= iterations + 6);
     }
 }
@@ -936,7 +938,7 @@ static void TestNotFinite(void** state)
     Steps(&scene, 5, 0.01, 2);
     scene.frames[7].force.y = NAN;
     memcpy(twin.frames, scene.frames, sizeof(scene.frames));
-    assert_int_equal(kiriSolver_Step(scene.solver, &scene.system, 0.01, 2), -1);
+    assert_int_equal(kiriSolver_Step(scene.solver, &scene.system, 0.01, 2, INT32_MAX), -1);
     assert_memory_equal(scene.frames, twin.frames, sizeof(scene.frames));
     scene.frames[7].force.y = 0.0;
     Steps(&scene, 5, 0.01, 2);
@@ -961,7 +963,7 @@ static void TestNoMemory(void** state)
 {
     kiriMemory memory = kiriMemory_Make(NoMemory, NothingToFree, NULL);
     (void)state;
-    assert_null(kiriSolver_Create(&memory, 1, NULL, 0));
+    assert_null(kiriSolver_Create(&memory, &scene.system.mechanics));
     kiriSolver_Destroy(NULL);
 }
 

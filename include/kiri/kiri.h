@@ -66,10 +66,23 @@ typedef void kiriFreeFn(void* user, void* pointer);
 typedef void kiriLogFn(void* user, const char* line);
 typedef double kiriClockFn(void* user); /* seconds; read for the profile only, never by the simulation */
 
+/* The most work that one tick may do, over all sheets, first come first served. What does not fit goes on in the next tick,
+   and in the end is what it would have been without a limit: the points given to a sheet before one tick take effect
+   together, when all that follows from them is done. Until then the lips of a fresh cut move together. 0: no limit. */
+typedef struct kiriBudget {
+    int32_t triangles;  /* split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
+    int32_t cells;      /* looked at, or given another distance: grid, regions and shape functions */
+    int32_t samples;    /* vertices and collision points with new weights */
+    int32_t iterations; /* linear systems solved. A sheet that gets fewer than its substeps takes longer ones; one that gets
+                           none stands still in this tick, and comes first in the next */
+} kiriBudget;
+
+enum { KIRI_LEAST_TRIANGLES = 16 };
+
 typedef struct kiriWorldDef {
     uint32_t cookie;
     float gravity[3];   /* m/s^2; default (0, 0, -9.81) */
-    int32_t cutBudget;  /* blade points taken in one tick, over all sheets, first come first served; 0: no limit */
+    kiriBudget budget;  /* default: no limit */
     kiriAllocFn* alloc; /* null: malloc and free. Both or none. */
     kiriFreeFn* free;
     kiriLogFn* log;     /* one line for each error; null: silent */
@@ -86,8 +99,8 @@ KIRI_API kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 KIRI_API void kiriDestroyWorld(kiriWorld* world);
 
 /* One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut points,
-   then moves every sheet. KIRI_PENDING: the cut budget is spent, and more points wait; a cut that waits leaves its sheet
-   in a valid state. KIRI_ERROR_MEMORY: nothing moved and the cut points still wait, call again.
+   then moves every sheet. KIRI_PENDING: the budget is spent, and more work waits; the events say where.
+   KIRI_ERROR_MEMORY: nothing moved and the cut points still wait, call again.
    KIRI_DIVERGED: the sheets named by the events were put to rest, the others moved. */
 KIRI_API kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
 
@@ -95,6 +108,9 @@ KIRI_API kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps)
 KIRI_API const char* kiriWorld_GetLastError(const kiriWorld* world);
 
 KIRI_API kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
+
+/* Takes effect with the next tick. */
+KIRI_API kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget);
 
 /* A hash of everything that the coming ticks depend on: two worlds that got the same calls have the same hash. */
 KIRI_API kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash);
@@ -104,7 +120,8 @@ enum {
     KIRI_EVENT_CUT_FINISHED = 1, /* cut: all of it is in the mesh; the id is stale from now on */
     KIRI_EVENT_PIECE_OFF = 2,    /* piece, area: a connected part came off the sheet */
     KIRI_EVENT_FRAME_ADDED = 3,  /* frame */
-    KIRI_EVENT_DIVERGED = 4      /* the sheet was put to rest */
+    KIRI_EVENT_DIVERGED = 4,     /* the sheet was put to rest */
+    KIRI_EVENT_DEFERRED = 5      /* stage, waiting: the budget ended in this stage of the sheet's work */
 };
 
 typedef struct kiriEvent {
@@ -114,6 +131,8 @@ typedef struct kiriEvent {
     kiriFrame frame; /* or 0 */
     int32_t piece;   /* index of the piece, or -1 */
     float area;      /* m^2 of the piece, or 0 */
+    int32_t stage;   /* KIRI_STAGE_..., or -1 */
+    int32_t waiting; /* blade points that wait, with those that are being worked on; or 0 */
 } kiriEvent;
 
 /* *events points to *count events, valid until the next tick. */
@@ -134,14 +153,23 @@ enum {
 
 typedef struct kiriProfile {
     double seconds[KIRI_STAGE_COUNT]; /* of the last tick; zero without a clock */
-    int32_t cutSegments;              /* blade segments taken */
-    int32_t trianglesSplit;           /* triangles changed or made by them */
-    int32_t cellsSettled;             /* cells rebuilt */
-    int32_t samplesRefreshed;         /* vertices and collision points with new weights */
-    int32_t solverIterations;         /* linear systems solved */
+    int32_t cutSegments;              /* blade segments that took effect */
+
+    /* What the budget counts. */
+    int32_t trianglesSplit, cellsSettled, samplesRefreshed, solverIterations;
+
+    /* What commits changed: cells made or with other material, cells with other weights, vertices and collision points with
+       other weights, links measured anew. Of how many: kiriSheet_GetCounts. */
+    int32_t cellsChanged, weightsChanged, verticesChanged, pointsChanged, linksChanged;
+    int32_t commits; /* sheets in which a cut took effect */
 } kiriProfile;
 
 KIRI_API kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile);
+
+/* For hosts that would rather think in time than in items: the budget whose work would have taken so many microseconds a tick at
+   the pace of the profile, which may be the sum of several. Each item that the profile has some of is set; others stay. The
+   simulation never reads a clock: the choice is the host's, and a replay must hand in the same budgets. */
+KIRI_API kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget);
 
 /* The name of a stage, for tables; "" for a number that is none. */
 KIRI_API const char* kiriGetStageName(int32_t stage);
@@ -234,6 +262,11 @@ typedef struct kiriSheetDef {
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
     int32_t iterations;      /* Newton steps a substep, 1 to 64; default 2 */
 
+    /* A sheet all of whose frames move slower than this (m/s, rms over the material of each) for half a second falls
+       asleep: it rests, and its ticks cost nothing. What is new wakes it: a cut, a pin or its target, a hold, a force,
+       gravity, contacts other than those it fell asleep with, kiriSheet_Wake. Default 0.001; 0: it never sleeps. */
+    float sleepSpeed;
+
     int32_t model; /* KIRI_MODEL_..., default KIRI_MODEL_LINKS */
 
     /* 1: the sheet stays in the plane where it starts, without bending; what velocities, forces and held positions have
@@ -245,6 +278,10 @@ typedef struct kiriSheetDef {
        around it, order 2 a strain linear in it, at four times the work a point. */
     int32_t integrationPoints; /* 0 to 1048576 */
     int32_t integrationOrder;  /* 1 or 2 */
+
+    /* 1: every cut rebuilds grid, regions and shape functions from scratch, as the paper does, to compare with; the outcome
+       is the same bit for bit. Default 0. */
+    int32_t fromScratch;
 } kiriSheetDef;
 
 KIRI_API void kiriDefaultSheetDef(kiriSheetDef* def);
@@ -292,6 +329,10 @@ typedef struct kiriTotals {
 
 KIRI_API kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet, kiriTotals* totals);
 
+/* *awake is 0 for a sheet that sleeps, see sleepSpeed. */
+KIRI_API kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, int32_t* awake);
+KIRI_API kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet);
+
 /* Where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: nowhere. */
 typedef struct kiriHit {
     float restPoint[2]; /* where to cut */
@@ -305,7 +346,8 @@ KIRI_API kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, c
                                       const float direction[3], float maxDistance, kiriHit* hit);
 
 /* The shape functions at a rest point: up to `capacity` frames with their weights (sum 1) and, unless null, gradients
-   (2 floats a frame, 1/m). *count is how many there are, however many fit. Outside the sheet: KIRI_ERROR_ARGUMENT. */
+   (2 floats a frame, 1/m). *count is how many there are, however many fit. Outside the sheet: KIRI_ERROR_ARGUMENT; while
+   work on a cut waits for its budget: KIRI_ERROR_STATE. */
 KIRI_API kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const float restPoint[2],
                                          kiriFrame* frames, float* weights, float* gradients, int32_t capacity,
                                          int32_t* count);
@@ -319,7 +361,8 @@ KIRI_API kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float 
 /* restPoints: 2 floats a point, count is 1 or more. */
 KIRI_API kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints, int32_t count);
 
-/* No more points come. After the tick that takes the last of them the id is stale and KIRI_EVENT_CUT_FINISHED tells. */
+/* No more points come. After the tick in which the last of them takes effect the id is stale, and KIRI_EVENT_CUT_FINISHED
+   tells. */
 KIRI_API kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
 
 /* A blade (a straight edge) that moves in world space from blade[0]-blade[1] to blade[3]-blade[2] cuts where the swept
