@@ -433,7 +433,8 @@ static void CheckPiece(Scene* scene, kiriPlacer* placer, kiriRegions* regions, P
 {
     const kiriMemory* memory = &scene->memory;
     uint8_t* allowed = NULL;
-    int32_t count = (int32_t)(Random(seed) % 7), oldCount = Random(seed) % 3 == 0 ? 0 : (int32_t)(Random(seed) % 6);
+    int32_t most = Random(seed) % 8 == 0 ? 50 : 7, count = (int32_t)(Random(seed) % (uint32_t)most);
+    int32_t oldCount = Random(seed) % 3 == 0 ? 0 : (int32_t)(Random(seed) % 6);
     AddOldSites(p, oldCount, seed);
     if (Random(seed) % 3 == 0) {
         allowed = malloc((size_t)scene->grid.cells.count);
