@@ -351,6 +351,7 @@ static bool FinishRepair(const Update* u)
 static bool FinishFlood(const Update* u)
 {
     kiriRegions* r = u->regions;
+    r->orphans.count = 0;
     for (int32_t s = 0; s < u->grid->squareCell.count; ++s) {
         for (int32_t c = u->grid->squareCell.data[s]; c != KIRI_NONE; c = u->grid->cells.data[c].next) {
             kiriSeed was = { c, KIRI_FAR, KIRI_NONE };
@@ -376,7 +377,7 @@ static void MarkSeen(const Update* u)
 static bool Begin(const Update* u)
 {
     kiriRegions* r = u->regions;
-    r->flooding = r->field.distance.count == 0;
+    r->flooding = r->material.count == 0; /* no frames yet, so nothing of the field to keep */
     if (!MakeRoom(u) || (r->flooding && !StartFlood(u))) {
         return false;
     }
