@@ -171,17 +171,24 @@ static void AddEnd(kiriShare* share, const kiriLink* link, kiriVec2 center, doub
         kiriVec2_Add(share->v, kiriVec2_Add(kiriVec2_Scale(arm.y, normal), kiriVec2_Scale(scale, link->spread[1])));
 }
 
-static bool AddBorder(kiriPatches* patches, const kiriMemory* memory, kiriPatch* patch, const kiriRegions* regions,
-                      const kiriLink* link)
+/* What the regions are built from: the links of region i are links[start[i]] to links[start[i + 1]]. */
+typedef struct Ring {
+    const kiriMemory* memory;
+    const kiriMoments* material; /* of each region */
+    KIRI_ARRAY(int32_t) start;
+    KIRI_ARRAY(const kiriLink*) links;
+} Ring;
+
+static bool AddBorder(kiriPatches* patches, const Ring* ring, kiriPatch* patch, const kiriLink* link)
 {
     for (int end = 0; end < 2; ++end) {
         int32_t frame = end == 0 ? link->i : link->j;
-        kiriShare* share = ShareOf(patches, memory, patch, frame);
+        kiriShare* share = ShareOf(patches, ring->memory, patch, frame);
         if (share == NULL) {
             return false;
         }
         double half = 0.5 / patch->area;
-        AddEnd(share, link, kiriMoments_Center(&regions->regions.data[frame].material), end == 0 ? -half : half);
+        AddEnd(share, link, kiriMoments_Center(&ring->material[frame]), end == 0 ? -half : half);
     }
     return true;
 }
@@ -196,65 +203,56 @@ static bool Begin(kiriPatches* patches, const kiriMemory* memory, kiriPatch* pat
     return share != NULL;
 }
 
-static bool AddMembrane(kiriPatches* patches, const kiriMemory* memory, const kiriRegions* regions,
-                        const kiriLink* const* links, int32_t linkCount, int32_t frame)
+static bool AddMembrane(kiriPatches* patches, const Ring* ring, int32_t frame)
 {
-    double area = regions->regions.data[frame].material.area;
+    double area = ring->material[frame].area;
     kiriPatch patch = { area, LEAN, patches->shares.count, 0, KIRI_PATCH_AREA, KIRI_PATCH_SHEAR + 1 };
-    bool ok = Begin(patches, memory, &patch, frame);
-    for (int32_t k = 0; ok && k < linkCount; ++k) {
-        ok = AddBorder(patches, memory, &patch, regions, links[k]);
+    bool ok = Begin(patches, ring->memory, &patch, frame);
+    for (int32_t k = ring->start.data[frame]; ok && k < ring->start.data[frame + 1]; ++k) {
+        ok = AddBorder(patches, ring, &patch, ring->links.data[k]);
     }
-    return ok && kiriArray_Push(memory, &patches->patches, patch);
+    return ok && kiriArray_Push(ring->memory, &patches->patches, patch);
 }
 
-static bool AddDirector(kiriPatches* patches, const kiriMemory* memory, const kiriRegions* regions, int32_t frame)
+static bool AddDirector(kiriPatches* patches, const Ring* ring, int32_t frame)
 {
-    double area = regions->regions.data[frame].material.area;
+    double area = ring->material[frame].area;
     kiriPatch patch = { area, 0.0, patches->shares.count, 0, KIRI_PATCH_LEAN_U, KIRI_PATCH_STRAINS };
-    return Begin(patches, memory, &patch, frame) && kiriArray_Push(memory, &patches->patches, patch);
+    return Begin(patches, ring->memory, &patch, frame) && kiriArray_Push(ring->memory, &patches->patches, patch);
 }
 
-/* The links of every region: those of region i are links[start[i]] to links[start[i + 1]]. */
-typedef struct Ring {
-    KIRI_ARRAY(int32_t) start;
-    KIRI_ARRAY(const kiriLink*) links;
-} Ring;
-
-static bool Collect(Ring* ring, const kiriMemory* memory, const kiriRegions* regions)
+static bool Collect(Ring* ring, const kiriLink* links, int32_t linkCount, int32_t frameCount)
 {
-    int32_t frames = regions->regions.count, count = regions->links.count;
-    if (!kiriArray_Resize(memory, &ring->start, (int64_t)frames + 1) ||
-        !kiriArray_Resize(memory, &ring->links, 2 * (int64_t)count)) {
+    if (!kiriArray_Resize(ring->memory, &ring->start, (int64_t)frameCount + 1) ||
+        !kiriArray_Resize(ring->memory, &ring->links, 2 * (int64_t)linkCount)) {
         return false;
     }
     int32_t* start = ring->start.data;
-    for (int32_t i = 0; i <= frames; ++i) {
+    for (int32_t i = 0; i <= frameCount; ++i) {
         start[i] = 0;
     }
-    for (int32_t k = 0; k < count; ++k) {
-        ++start[regions->links.data[k].i];
-        ++start[regions->links.data[k].j];
+    for (int32_t k = 0; k < linkCount; ++k) {
+        ++start[links[k].i];
+        ++start[links[k].j];
     }
-    for (int32_t i = 0; i < frames; ++i) {
+    for (int32_t i = 0; i < frameCount; ++i) {
         start[i + 1] += start[i];
     }
-    for (int32_t k = count - 1; k >= 0; --k) {
-        ring->links.data[--start[regions->links.data[k].i]] = &regions->links.data[k];
-        ring->links.data[--start[regions->links.data[k].j]] = &regions->links.data[k];
+    for (int32_t k = linkCount - 1; k >= 0; --k) {
+        ring->links.data[--start[links[k].i]] = &links[k];
+        ring->links.data[--start[links[k].j]] = &links[k];
     }
     return true;
 }
 
-bool kiriAffine_Build(kiriPatches* patches, const kiriMemory* memory, const kiriRegions* regions, bool planar)
+bool kiriAffine_Build(kiriPatches* patches, const kiriMemory* memory, const kiriLink* links, int32_t linkCount,
+                      const kiriMoments* material, int32_t frameCount, bool planar)
 {
-    Ring ring = { { 0 }, { 0 } };
+    Ring ring = { memory, material, { 0 }, { 0 } };
     patches->patches.count = patches->shares.count = 0;
-    bool ok = Collect(&ring, memory, regions);
-    for (int32_t i = 0; ok && i < regions->regions.count; ++i) {
-        int32_t start = ring.start.data[i];
-        ok = AddMembrane(patches, memory, regions, ring.links.data + start, ring.start.data[i + 1] - start, i) &&
-             (planar || AddDirector(patches, memory, regions, i));
+    bool ok = Collect(&ring, links, linkCount, frameCount);
+    for (int32_t i = 0; ok && i < frameCount; ++i) {
+        ok = AddMembrane(patches, &ring, i) && (planar || AddDirector(patches, &ring, i));
     }
     kiriArray_Release(memory, &ring.start);
     kiriArray_Release(memory, &ring.links);

@@ -31,13 +31,14 @@ void kiriAffine_Measure(const kiriLink* link, const kiriFrameData* const frames[
                         double strain[KIRI_AFFINE_STRAINS], kiriAffineRow rows[][2]);
 void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_AFFINE_STRAINS]);
 
-/* Two patches a region. One has the membrane energy of F_i = A_i + 1/(2 a_i) times the integral of gap (x) n over its
+/* Two patches a frame's region, whose material is given. One has the membrane energy of F_i = A_i + 1/(2 a_i) times the integral of gap (x) n over its
    border, which is the mean of the gradient when each border gap is shared by both sides: exact for an even stretch in
    any layout, inner forces included. The other keeps the director normal. A planar sheet needs no such.
 
    Frames that lean all one way, in steps, make a free end longer: its F_i takes only a part of its slope from the border,
    a quarter at least. Under tension that would lay the sheet in steps (see strain.h). Leaning, d_i . F_i, therefore counts
    four times in the membrane strains; it vanishes where frames follow the sheet. */
-bool kiriAffine_Build(kiriPatches* patches, const kiriMemory* memory, const kiriRegions* regions, bool planar);
+bool kiriAffine_Build(kiriPatches* patches, const kiriMemory* memory, const kiriLink* links, int32_t linkCount,
+                      const kiriMoments* material, int32_t frameCount, bool planar);
 
 #endif

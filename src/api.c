@@ -228,7 +228,11 @@ kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3])
 {
     BEGIN(world);
     CHECK(gravity != NULL && AreFinite(gravity, 3), "gravity is null or not finite");
+    kiriVec3 before = world->gravity;
     world->gravity = kiriVec3_Load(gravity);
+    for (int32_t i = 0; i < world->sheets.count && !kiriVec3_Equal(before, world->gravity); ++i) {
+        kiriMotion_Wake(world->sheets.data[i]);
+    }
     return KIRI_OK;
 }
 
@@ -312,6 +316,7 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     def->rigidWeight = 0.95f;
     def->iterations = 2;
     def->integrationOrder = 1;
+    def->sleepSpeed = 0.001f;
 }
 
 kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material)
@@ -392,6 +397,9 @@ static const char* FaultOfSheet(const kiriSheetDef* def)
     }
     if (!IsAtLeast(def->snapDistance, 0.0f)) {
         return "snapDistance is below 0";
+    }
+    if (!IsAtLeast(def->sleepSpeed, 0.0f)) {
+        return "sleepSpeed is below 0";
     }
     if (!IsWithin(def->collisionPoints, 0, 1 << 20) || !IsWithin(def->iterations, 1, 64)) {
         return "collisionPoints is not within 0 and 1048576, or iterations not within 1 and 64";
@@ -496,6 +504,23 @@ kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet, kiriTota
     CHECK(totals != NULL, "totals is null");
     FIND(data, kiriSheetData, sheetIds, sheet);
     *totals = kiriMotion_Totals(data);
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, int32_t* awake)
+{
+    BEGIN(world);
+    CHECK(awake != NULL, "awake is null");
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    *awake = !data->asleep;
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet)
+{
+    BEGIN(world);
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    kiriMotion_Wake(data);
     return KIRI_OK;
 }
 
@@ -683,7 +708,11 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
     if (data == NULL) {
         return FAIL(KIRI_ERROR_ID, "no such frame id");
     }
+    kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frame)->owner;
     if (position == NULL) {
+        if (data->held) {
+            kiriMotion_Wake(sheet);
+        }
         data->held = 0;
         return KIRI_OK;
     }
@@ -693,12 +722,17 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
           "rotation is not orthonormal");
     kiriMat3 m = { kiriVec3_Load(&rotation[0]), kiriVec3_Load(&rotation[3]), kiriVec3_Load(&rotation[6]) };
     CHECK(kiriVec3_Dot(kiriVec3_Cross(m.u, m.v), m.d) > 0.0, "rotation mirrors");
-    const kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frame)->owner;
     CHECK(!sheet->mechanics.planar || kiriVec3_Dot(m.d, sheet->mechanics.axes.d) > 0.999999,
           "rotation turns a planar sheet out of its plane");
+    kiriFrameData before = *data;
     data->held = 1;
     data->heldPosition = kiriVec3_Load(position);
     data->heldRotation = kiriMat3_Rotation(m);
+    if (!before.held || !kiriVec3_Equal(before.heldPosition, data->heldPosition) ||
+        !kiriVec3_Equal(before.heldRotation.u, data->heldRotation.u) ||
+        !kiriVec3_Equal(before.heldRotation.v, data->heldRotation.v)) {
+        kiriMotion_Wake(sheet);
+    }
     return KIRI_OK;
 }
 
@@ -711,8 +745,12 @@ kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float f
     if (data == NULL) {
         return FAIL(KIRI_ERROR_ID, "no such frame id");
     }
+    kiriVec3 none = { 0.0, 0.0, 0.0 };
     data->force = kiriVec3_Add(data->force, kiriVec3_Load(force));
     data->torque = kiriVec3_Add(data->torque, kiriVec3_Load(torque));
+    if (!kiriVec3_Equal(kiriVec3_Load(force), none) || !kiriVec3_Equal(kiriVec3_Load(torque), none)) {
+        kiriMotion_Wake(kiriPool_Find(&world->frameIds, frame)->owner);
+    }
     return KIRI_OK;
 }
 
@@ -750,6 +788,7 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
     }
     *pin = kiriPool_Add(&world->pinIds, &world->memory, data, data->pins.count - 1);
     data->pins.data[data->pins.count - 1].id = *pin;
+    kiriMotion_Wake(data);
     return KIRI_OK;
 }
 
@@ -758,7 +797,11 @@ kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3
     BEGIN(world);
     CHECK(target != NULL && AreFinite(target, 3), "target is null or not finite");
     FIND(sheet, kiriSheetData, pinIds, pin);
-    sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index].target = kiriVec3_Load(target);
+    kiriPinData* data = &sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index];
+    if (!kiriVec3_Equal(data->target, kiriVec3_Load(target))) {
+        data->target = kiriVec3_Load(target);
+        kiriMotion_Wake(sheet);
+    }
     return KIRI_OK;
 }
 
@@ -768,6 +811,7 @@ kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin)
     FIND(sheet, kiriSheetData, pinIds, pin);
     int32_t index = kiriPool_Find(&world->pinIds, pin)->index;
     kiriSheet_RemovePin(sheet, index);
+    kiriMotion_Wake(sheet);
     if (index < sheet->pins.count) {
         kiriPool_Find(&world->pinIds, sheet->pins.data[index].id)->index = index;
     }
@@ -798,6 +842,7 @@ kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriCo
         CHECK(why == NULL, why);
     }
     if (!kiriArray_Reserve(&world->memory, &data->contacts, count) ||
+        !kiriArray_Reserve(&world->memory, &data->lastContacts, count) ||
         !kiriArray_Reserve(&world->memory, &data->contactRows, count)) {
         return FAIL(KIRI_ERROR_MEMORY, "out of memory");
     }

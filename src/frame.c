@@ -1,18 +1,67 @@
 #include "frame.h"
 
-/* ---- Placing (section 5) ---------------------------------------------------------------------------------------- */
+#include <string.h>
 
-typedef struct Placer {
+/* ---- Placing (section 5) ----------------------------------------------------------------------------------------
+
+   What is computed, whatever the order of work (tests/test_frame.c does it plainly):
+
+   A cell belongs to the site that is nearest by the steps of the grid, the lower index where two are as near; but a site's own
+   cell belongs to it. So no region is ever empty, and no two sites come to share a cell.
+
+   Sampling: the next site goes to the free cell that is farthest from all sites. Relaxation (Lloyd 1982): each new site goes
+   to the centroid of its region, all at once, up to 20 times; then it takes the cell that it has come to.
+
+   What is the same from round to round is kept: distances to the old sites are flooded once, those to the new sites only as
+   far as these are nearer. */
+
+enum { ROUNDS = 20, FREE = KIRI_NONE, BARRED = -2 };
+
+typedef enum Stage {
+    REST,
+    FLOOD_OLD, /* distances to the old sites */
+    SCAN,      /* for the farthest cell */
+    FLOOD_NEW, /* distances to the site just sampled, where it is the nearest */
+    LOWER,     /* the distances of sampling by these */
+    DIVIDE,    /* distances to all new sites, where they are the nearest */
+    SUM,       /* the material of their regions */
+    AIM,       /* for the cells nearest to the regions' centroids */
+    BALANCE,   /* the material of the part, */
+    SETTLE,    /* and the cell nearest to its centroid, for one site by itself */
+    STAGES
+} Stage;
+
+/* Where a new site shall go. */
+typedef struct Target {
+    kiriTally material;
+    kiriVec2 center;
+    int32_t cell; /* of the region, nearest to the center */
+    double distance;
+} Target;
+
+struct kiriPlacerWork {
+    kiriField old;               /* from the old sites */
+    kiriField fresh;             /* from the site just sampled, or from all new ones */
+    KIRI_ARRAY(int32_t) sampled; /* of each cell: distance to the nearest new site while sampling */
+    KIRI_ARRAY(int32_t) holds;   /* of each cell: the site in it, or FREE, or BARRED to sampling */
+    KIRI_ARRAY(uint8_t) marks;   /* of each cell: zero, but while a piece is taken */
+    KIRI_ARRAY(Target) targets;  /* of each new site */
+    kiriSeeds seeds;
+    Stage stage;
+    int32_t cursor;   /* of the stage: how many cells of its list it has seen */
+    int32_t left;     /* sites still to sample */
+    int32_t farthest; /* cell found so far, or KIRI_NONE */
+    int32_t round;
+};
+
+typedef struct Job {
+    kiriPlacer* placer;
+    kiriPlacerWork* work;
     const kiriMemory* memory;
     const kiriGrid* grid;
     const kiriMeshData* mesh;
-    kiriField* field;
-    int32_t piece;
-    const uint8_t* allowed; /* cells to sample, or null */
-    kiriSites sites;        /* of the piece: floods from them never leave it */
-    int32_t oldCount;       /* sites before it stay where they are */
-    kiriRegions regions;    /* scratch */
-} Placer;
+    kiriQuota* quota;
+} Job;
 
 /* A full cell is taken at its middle, where the cell's weight is exactly 1; of others the middle may not be material. */
 kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
@@ -23,14 +72,9 @@ kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32
     return site;
 }
 
-static kiriSite SiteIn(const Placer* p, int32_t cell)
+static bool MostlyCovered(const kiriGrid* grid, int32_t cell)
 {
-    return kiriFrames_SiteIn(p->grid, p->mesh, cell);
-}
-
-static bool MostlyCovered(const Placer* p, int32_t cell)
-{
-    return p->grid->cells.data[cell].material.area > 0.5 * p->grid->side * p->grid->side;
+    return grid->cells.data[cell].material.area > 0.5 * grid->side * grid->side;
 }
 
 static double SquaredDistance(kiriVec2 a, kiriVec2 b)
@@ -39,151 +83,472 @@ static double SquaredDistance(kiriVec2 a, kiriVec2 b)
     return kiriVec2_Dot(d, d);
 }
 
-static bool Divide(Placer* p)
+/* Visits the cells of a list, from the cursor on. */
+static kiriProgress Walk(Job* job, const int32_t* cells, int32_t count, void visit(Job* job, int32_t cell))
 {
-    return kiriRegions_Divide(&p->regions, p->memory, p->grid, p->mesh, p->field, p->sites.data, p->sites.count);
+    int32_t from = job->work->cursor, end = count;
+    if (end - from > job->quota->left) {
+        end = from + (int32_t)job->quota->left;
+    }
+    kiriQuota_Take(job->quota, end - from);
+    for (int32_t i = from; i < end; ++i) {
+        visit(job, cells[i]);
+    }
+    job->work->cursor = end < count ? end : 0;
+    return end < count ? KIRI_MORE : KIRI_DONE;
 }
 
-/* The free cell of the piece that is farthest from all sites, or KIRI_NONE. In a piece without a site all cells are
-   equally far; relaxation makes up for where the first one goes. */
-static int32_t FarthestCell(Placer* p)
+static kiriProgress WalkPart(Job* job, void visit(Job* job, int32_t cell))
 {
-    int32_t* distance = p->regions.distance.data;
-    int32_t best = KIRI_NONE;
-    for (int32_t i = 0; i < p->sites.count; ++i) {
-        distance[p->sites.data[i].cell] = KIRI_NONE; /* taken */
-    }
-    for (int32_t c = 0; c < p->grid->cells.count; ++c) {
-        bool isFree = distance[c] != KIRI_NONE && (p->allowed == NULL || p->allowed[c]);
-        if (isFree && p->grid->cells.data[c].piece == p->piece) {
-            bool farther = best == KIRI_NONE || distance[c] > distance[best];
-            if (farther || (distance[c] == distance[best] && MostlyCovered(p, c) && !MostlyCovered(p, best))) {
-                best = c;
-            }
-        }
-    }
-    return best;
+    return Walk(job, job->placer->cells.data, job->placer->cells.count, visit);
 }
 
-static bool AddFarthest(Placer* p, int32_t count)
+static kiriProgress WalkFresh(Job* job, void visit(Job* job, int32_t cell))
 {
-    for (int32_t k = 0; k < count; ++k) {
-        if (!Divide(p)) {
-            return false;
-        }
-        int32_t cell = FarthestCell(p);
-        if (cell == KIRI_NONE) {
-            break;
-        }
-        if (!kiriArray_Push(p->memory, &p->sites, SiteIn(p, cell))) {
+    return Walk(job, job->work->fresh.settled.data, job->work->fresh.settled.count, visit);
+}
+
+/* Makes a field ready to flood from sites first to end. */
+static bool StartFlood(Job* job, kiriField* field, int32_t first, int32_t end)
+{
+    kiriSeeds* seeds = &job->work->seeds;
+    kiriField_Reset(field);
+    seeds->count = 0;
+    for (int32_t i = first; i < end; ++i) {
+        if (!kiriSite_Seed(&job->placer->sites.data[i], i, job->memory, job->grid, job->mesh, seeds)) {
             return false;
         }
     }
-    return true;
+    return kiriField_Start(field, job->memory, seeds->data, seeds->count);
 }
 
-typedef struct Target {
-    kiriMoments material;
-    int32_t cell; /* of the region, nearest to its centroid */
-    double distance;
-} Target;
-
-/* For every site the cell of its region that is nearest to the region's centroid. */
-static void Aim(const Placer* p, Target* targets)
+static kiriProgress Flood(Job* job, kiriField* field, kiriPassFn* pass)
 {
-    const int32_t* owner = p->regions.owner.data;
-    for (int32_t i = 0; i < p->sites.count; ++i) {
-        targets[i] = (Target){ { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 }, KIRI_NONE, 0.0 };
+    kiriRule rule = { job->grid, KIRI_FAR - 1, pass, NULL, job->work };
+    return kiriField_Flood(field, &rule, job->quota);
+}
+
+static bool IsNearerThanOld(const void* context, int32_t cell)
+{
+    const kiriPlacerWork* work = context;
+    return work->fresh.distance.data[cell] < work->old.distance.data[cell];
+}
+
+static bool IsNearest(const void* context, int32_t cell)
+{
+    const kiriPlacerWork* work = context;
+    return IsNearerThanOld(work, cell) && work->fresh.distance.data[cell] < work->sampled.data[cell];
+}
+
+/* ---- Sampling */
+
+static kiriProgress FloodOld(Job* job)
+{
+    kiriProgress progress = Flood(job, &job->work->old, NULL);
+    if (progress == KIRI_DONE) {
+        job->work->stage = SCAN;
     }
-    for (int32_t c = 0; c < p->grid->cells.count; ++c) {
-        if (owner[c] != KIRI_NONE) {
-            kiriMoments_Add(&targets[owner[c]].material, &p->grid->cells.data[c].material);
-        }
+    return progress;
+}
+
+static int32_t SampledDistance(const kiriPlacerWork* work, int32_t cell)
+{
+    int32_t old = work->old.distance.data[cell], sampled = work->sampled.data[cell];
+    return old < sampled ? old : sampled;
+}
+
+/* In a part without a site all cells are equally far; relaxation makes up for where the first one goes. */
+static void FindFarthest(Job* job, int32_t cell)
+{
+    kiriPlacerWork* work = job->work;
+    if (work->holds.data[cell] != FREE) {
+        return;
     }
-    for (int32_t c = 0; c < p->grid->cells.count; ++c) {
-        if (owner[c] != KIRI_NONE) {
-            Target* target = &targets[owner[c]];
-            kiriVec2 center = kiriMoments_Center(&target->material);
-            double distance = SquaredDistance(kiriGrid_Middle(p->grid, p->mesh, c), center);
-            bool nearer = target->cell == KIRI_NONE || distance < target->distance;
-            if (nearer || (distance == target->distance && MostlyCovered(p, c) && !MostlyCovered(p, target->cell))) {
-                target->cell = c;
-                target->distance = distance;
-            }
-        }
+    int32_t best = work->farthest, distance = SampledDistance(work, cell);
+    int32_t farthest = best == KIRI_NONE ? KIRI_NONE : SampledDistance(work, best);
+    if (distance > farthest ||
+        (distance == farthest && MostlyCovered(job->grid, cell) && !MostlyCovered(job->grid, best))) {
+        work->farthest = cell;
     }
 }
 
-/* The centroid itself where it lies in the square of the target cell. */
-static kiriSite SiteFor(const Placer* p, const Target* target)
+/* Ready for a round of relaxation. */
+static kiriProgress StartRound(Job* job)
 {
-    kiriVec2 center = kiriMoments_Center(&target->material);
-    kiriVec2 off = kiriVec2_Sub(center, kiriGrid_Middle(p->grid, p->mesh, target->cell));
-    double half = 0.5 * p->grid->side;
-    kiriSite site = SiteIn(p, target->cell);
+    kiriPlacerWork* work = job->work;
+    const kiriSites* sites = &job->placer->sites;
+    for (int32_t i = job->placer->oldCount; i < sites->count; ++i) {
+        memset(&work->targets.data[i - job->placer->oldCount], 0, sizeof(Target));
+        work->targets.data[i - job->placer->oldCount].cell = KIRI_NONE;
+    }
+    work->stage = DIVIDE;
+    return StartFlood(job, &work->fresh, job->placer->oldCount, sites->count) ? KIRI_DONE : KIRI_FAILED;
+}
+
+static kiriProgress Scan(Job* job)
+{
+    kiriPlacerWork* work = job->work;
+    kiriSites* sites = &job->placer->sites;
+    kiriProgress progress = WalkPart(job, FindFarthest);
+    if (progress != KIRI_DONE) {
+        return progress;
+    }
+    if (work->farthest != KIRI_NONE) {
+        work->holds.data[work->farthest] = sites->count;
+        sites->data[sites->count++] = kiriFrames_SiteIn(job->grid, job->mesh, work->farthest); /* Start made room */
+    }
+    work->left = work->farthest == KIRI_NONE ? 0 : work->left - 1;
+    work->farthest = KIRI_NONE;
+    if (work->left == 0) {
+        return StartRound(job);
+    }
+    work->stage = FLOOD_NEW;
+    return StartFlood(job, &work->fresh, sites->count - 1, sites->count) ? KIRI_DONE : KIRI_FAILED;
+}
+
+static kiriProgress FloodNew(Job* job)
+{
+    kiriProgress progress = Flood(job, &job->work->fresh, IsNearest);
+    if (progress == KIRI_DONE) {
+        job->work->stage = LOWER;
+    }
+    return progress;
+}
+
+static void LowerCell(Job* job, int32_t cell)
+{
+    kiriPlacerWork* work = job->work;
+    if (work->fresh.distance.data[cell] < work->sampled.data[cell]) {
+        work->sampled.data[cell] = work->fresh.distance.data[cell];
+    }
+}
+
+static kiriProgress Lower(Job* job)
+{
+    kiriProgress progress = WalkFresh(job, LowerCell);
+    if (progress == KIRI_DONE) {
+        job->work->stage = SCAN;
+    }
+    return progress;
+}
+
+/* ---- Relaxation */
+
+static kiriProgress Divide(Job* job)
+{
+    kiriProgress progress = Flood(job, &job->work->fresh, IsNearerThanOld);
+    if (progress == KIRI_DONE) {
+        job->work->stage = SUM;
+    }
+    return progress;
+}
+
+/* The target of the new site that a cell belongs to; null where it is an old one. */
+static Target* TargetOf(Job* job, int32_t cell)
+{
+    kiriPlacerWork* work = job->work;
+    int32_t owner = work->holds.data[cell];
+    if (owner < 0) {
+        owner = IsNearerThanOld(work, cell) ? work->fresh.owner.data[cell] : 0;
+    }
+    return owner < job->placer->oldCount ? NULL : &work->targets.data[owner - job->placer->oldCount];
+}
+
+static double Extent(const Job* job)
+{
+    const kiriSquares* squares = &job->mesh->squares;
+    return job->grid->side * (squares->columns > squares->rows ? squares->columns : squares->rows);
+}
+
+static void AddMaterial(const Job* job, Target* target, int32_t cell)
+{
+    kiriTally_Add(&target->material, &job->grid->cells.data[cell].material, 1, Extent(job));
+}
+
+static void FindCenter(const Job* job, Target* target)
+{
+    kiriMoments material = kiriTally_Moments(&target->material, Extent(job));
+    target->center = kiriMoments_Center(&material);
+}
+
+/* Does the target like the cell better than the one that it has? Cells come in any order. */
+static bool IsBetter(const Job* job, const Target* target, int32_t cell, double distance)
+{
+    if (target->cell == KIRI_NONE || distance != target->distance) {
+        return target->cell == KIRI_NONE || distance < target->distance;
+    }
+    bool mostly = MostlyCovered(job->grid, cell);
+    return mostly != MostlyCovered(job->grid, target->cell) ? mostly : kiriGrid_IsBefore(job->grid, cell, target->cell);
+}
+
+static void Consider(const Job* job, Target* target, int32_t cell)
+{
+    double distance = SquaredDistance(kiriGrid_Middle(job->grid, job->mesh, cell), target->center);
+    if (IsBetter(job, target, cell, distance)) {
+        target->cell = cell;
+        target->distance = distance;
+    }
+}
+
+static void SumCell(Job* job, int32_t cell)
+{
+    Target* target = TargetOf(job, cell);
+    if (target != NULL) {
+        AddMaterial(job, target, cell);
+    }
+}
+
+static kiriProgress Sum(Job* job)
+{
+    kiriProgress progress = WalkFresh(job, SumCell);
+    if (progress == KIRI_DONE) {
+        for (int32_t k = 0; k < job->placer->sites.count - job->placer->oldCount; ++k) {
+            FindCenter(job, &job->work->targets.data[k]);
+        }
+        job->work->stage = AIM;
+    }
+    return progress;
+}
+
+static void AimCell(Job* job, int32_t cell)
+{
+    Target* target = TargetOf(job, cell);
+    if (target != NULL) {
+        Consider(job, target, cell);
+    }
+}
+
+/* The centroid itself where it lies in the square of the target cell: on the way a site may lie anywhere in its cell, for
+   from middle to middle it would stick where its centroid is less than half a side away. */
+static kiriSite SiteFor(const Job* job, const Target* target)
+{
+    kiriVec2 off = kiriVec2_Sub(target->center, kiriGrid_Middle(job->grid, job->mesh, target->cell));
+    double half = 0.5 * job->grid->side;
+    kiriSite site = kiriFrames_SiteIn(job->grid, job->mesh, target->cell);
     if (fabs(off.x) < half && fabs(off.y) < half) {
-        site.at = center;
+        site.at = target->center;
     }
     return site;
 }
 
-/* Lloyd's iteration. Regions share no cell, so neither do the sites that move within them. On the way a site may lie
-   anywhere in its cell: from middle to middle it would stick where its centroid is less than half a side away. */
-static bool Relax(Placer* p, Target* targets)
+/* All new sites go to their targets. Did one go farther than a hundredth of a side? */
+static bool Move(Job* job)
 {
-    bool moved = true;
-    for (int round = 0; round < 20 && moved; ++round) {
-        if (!Divide(p)) {
-            return false;
-        }
-        Aim(p, targets);
-        moved = false;
-        for (int32_t i = p->oldCount; i < p->sites.count; ++i) {
-            kiriSite site = SiteFor(p, &targets[i]);
-            moved = moved || SquaredDistance(site.at, p->sites.data[i].at) > 0.0001 * p->grid->side * p->grid->side;
-            p->sites.data[i] = site;
-        }
+    kiriPlacer* placer = job->placer;
+    bool moved = false;
+    for (int32_t i = placer->oldCount; i < placer->sites.count; ++i) {
+        job->work->holds.data[placer->sites.data[i].cell] = FREE;
     }
-    for (int32_t i = p->oldCount; i < p->sites.count; ++i) {
-        p->sites.data[i] = SiteIn(p, p->sites.data[i].cell);
+    for (int32_t i = placer->oldCount; i < placer->sites.count; ++i) {
+        kiriSite site = SiteFor(job, &job->work->targets.data[i - placer->oldCount]);
+        moved =
+            moved || SquaredDistance(site.at, placer->sites.data[i].at) > 0.0001 * job->grid->side * job->grid->side;
+        placer->sites.data[i] = site;
+        job->work->holds.data[site.cell] = i;
     }
-    return true;
+    return moved;
 }
 
-static bool TakeSitesOfPiece(Placer* p, const kiriSites* sites)
+static kiriProgress Aim(Job* job)
 {
-    for (int32_t i = 0; i < sites->count; ++i) {
-        kiriSite site = sites->data[i];
-        if (p->grid->cells.data[site.cell].piece == p->piece && !kiriArray_Push(p->memory, &p->sites, site)) {
-            return false;
-        }
+    kiriPlacer* placer = job->placer;
+    kiriProgress progress = WalkFresh(job, AimCell);
+    if (progress != KIRI_DONE) {
+        return progress;
     }
-    p->oldCount = p->sites.count;
-    return true;
+    if (Move(job) && ++job->work->round < ROUNDS) {
+        return StartRound(job);
+    }
+    for (int32_t i = placer->oldCount; i < placer->sites.count; ++i) {
+        placer->sites.data[i] = kiriFrames_SiteIn(job->grid, job->mesh, placer->sites.data[i].cell);
+    }
+    job->work->stage = REST;
+    return KIRI_DONE;
 }
 
-static bool GiveNewSites(const Placer* p, kiriSites* sites)
+/* ---- One site by itself */
+
+static void BalanceCell(Job* job, int32_t cell)
 {
-    if (!kiriArray_Reserve(p->memory, sites, (int64_t)sites->count + p->sites.count - p->oldCount)) {
+    AddMaterial(job, &job->work->targets.data[0], cell);
+}
+
+static kiriProgress Balance(Job* job)
+{
+    kiriProgress progress = WalkPart(job, BalanceCell);
+    if (progress == KIRI_DONE) {
+        FindCenter(job, &job->work->targets.data[0]);
+        job->work->stage = SETTLE;
+    }
+    return progress;
+}
+
+static void SettleCell(Job* job, int32_t cell)
+{
+    if (job->work->holds.data[cell] == FREE) {
+        Consider(job, &job->work->targets.data[0], cell);
+    }
+}
+
+static kiriProgress Settle(Job* job)
+{
+    kiriProgress progress = WalkPart(job, SettleCell);
+    if (progress == KIRI_DONE) {
+        kiriSites* sites = &job->placer->sites;
+        int32_t cell = job->work->targets.data[0].cell;
+        if (cell != KIRI_NONE) {
+            sites->data[sites->count++] = kiriFrames_SiteIn(job->grid, job->mesh, cell);
+        }
+        job->work->stage = REST;
+    }
+    return progress;
+}
+
+/* ---- The job */
+
+static kiriProgress (*const stages[STAGES])(Job* job) = {
+    NULL, FloodOld, Scan, FloodNew, Lower, Divide, Sum, Aim, Balance, Settle,
+};
+
+kiriProgress kiriPlacer_Run(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid,
+                            const kiriMeshData* mesh, kiriQuota* quota)
+{
+    Job job = { placer, placer->work, memory, grid, mesh, quota };
+    kiriProgress progress = KIRI_DONE;
+    while (progress == KIRI_DONE && job.work != NULL && job.work->stage != REST) {
+        progress = stages[job.work->stage](&job);
+    }
+    return progress;
+}
+
+static kiriPlacerWork* WorkOf(kiriPlacer* placer, const kiriMemory* memory)
+{
+    if (placer->work == NULL) {
+        placer->work = kiriMemory_Alloc(memory, sizeof(kiriPlacerWork));
+        if (placer->work != NULL) {
+            memset(placer->work, 0, sizeof(kiriPlacerWork));
+        }
+    }
+    return placer->work;
+}
+
+/* Room for the job, so that only seeds need memory while it runs. */
+static bool MakeRoom(kiriPlacer* placer, kiriPlacerWork* work, const kiriMemory* memory, const kiriGrid* grid,
+                     int32_t count)
+{
+    int32_t cells = grid->cells.count;
+    return kiriField_Resize(&work->old, memory, cells) && kiriField_Resize(&work->fresh, memory, cells) &&
+           kiriArray_Resize(memory, &work->sampled, cells) && kiriArray_Resize(memory, &work->holds, cells) &&
+           kiriArray_Resize(memory, &work->targets, count) &&
+           kiriArray_Reserve(memory, &placer->sites, (int64_t)placer->sites.count + count);
+}
+
+/* Of `sampled` and `holds` only the cells of the part are ever read: floods do not leave it. */
+static void ClearPart(const kiriPlacer* placer, const uint8_t* allowed)
+{
+    kiriPlacerWork* work = placer->work;
+    for (int32_t k = 0; k < placer->cells.count; ++k) {
+        int32_t cell = placer->cells.data[k];
+        work->sampled.data[cell] = KIRI_FAR;
+        work->holds.data[cell] = allowed == NULL || allowed[cell] ? FREE : BARRED;
+    }
+    for (int32_t i = 0; i < placer->sites.count; ++i) {
+        work->holds.data[placer->sites.data[i].cell] = i;
+    }
+}
+
+bool kiriPlacer_Start(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                      const uint8_t* allowed, int32_t count)
+{
+    kiriPlacerWork* work = WorkOf(placer, memory);
+    count = count < placer->cells.count ? count : placer->cells.count;
+    placer->oldCount = placer->sites.count;
+    if (work == NULL) {
         return false;
     }
-    for (int32_t i = p->oldCount; i < p->sites.count; ++i) {
-        sites->data[sites->count++] = p->sites.data[i];
+    work->stage = REST;
+    if (!MakeRoom(placer, work, memory, grid, count)) {
+        return false;
+    }
+    Job job = { placer, work, memory, grid, mesh, NULL };
+    if (!StartFlood(&job, &work->old, 0, placer->oldCount)) {
+        return false;
+    }
+    ClearPart(placer, allowed);
+    work->cursor = work->round = 0;
+    work->left = count;
+    work->farthest = KIRI_NONE;
+    if (count == 1 && placer->oldCount == 0) {
+        memset(work->targets.data, 0, sizeof(Target));
+        work->targets.data[0].cell = KIRI_NONE;
+        work->stage = BALANCE;
+    } else {
+        work->stage = count > 0 ? FLOOD_OLD : REST;
     }
     return true;
 }
 
-bool kiriFrames_Place(kiriSites* sites, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                      kiriField* field, int32_t piece, const uint8_t* allowed, int32_t count)
+static bool Reach(kiriPlacer* placer, const kiriMemory* memory, int32_t cell)
 {
-    Placer p = { memory, grid, mesh, field, piece, allowed, { 0 }, 0, { { 0 }, { 0 }, { 0 }, { 0 } } };
-    KIRI_ARRAY(Target) targets = { 0 };
-    bool ok = TakeSitesOfPiece(&p, sites) && AddFarthest(&p, count) &&
-              kiriArray_Resize(memory, &targets, p.sites.count) && Relax(&p, targets.data) && GiveNewSites(&p, sites);
-    kiriArray_Release(memory, &targets);
-    kiriArray_Release(memory, &p.sites);
-    kiriRegions_Release(&p.regions, memory);
+    uint8_t* mark = &placer->work->marks.data[cell];
+    if (*mark) {
+        return true;
+    }
+    *mark = 1;
+    if (!kiriArray_Push(memory, &placer->cells, cell)) {
+        *mark = 0;
+        return false;
+    }
+    return true;
+}
+
+/* Breadth first over straight steps: there is one for every two cells that share a face. */
+static bool Gather(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, int32_t cell)
+{
+    bool ok = Reach(placer, memory, cell);
+    for (int32_t k = 0; ok && k < placer->cells.count; ++k) {
+        const kiriStepRun* run = &grid->runs.data[placer->cells.data[k]];
+        for (int32_t s = run->first; ok && s < run->end[0]; ++s) {
+            ok = Reach(placer, memory, grid->steps.data[s].cell);
+        }
+    }
     return ok;
+}
+
+bool kiriPlacer_TakePiece(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, int32_t cell)
+{
+    kiriPlacerWork* work = WorkOf(placer, memory);
+    if (work == NULL || !kiriArray_Reserve(memory, &work->marks, grid->cells.count)) {
+        return false;
+    }
+    while (work->marks.count < grid->cells.count) {
+        work->marks.data[work->marks.count++] = 0;
+    }
+    placer->cells.count = 0;
+    bool ok = Gather(placer, memory, grid, cell);
+    for (int32_t k = 0; k < placer->cells.count; ++k) {
+        work->marks.data[placer->cells.data[k]] = 0;
+    }
+    kiriGrid_SortCells(grid, placer->cells.data, placer->cells.count);
+    return ok;
+}
+
+void kiriPlacer_Release(kiriPlacer* placer, const kiriMemory* memory)
+{
+    kiriPlacerWork* work = placer->work;
+    kiriArray_Release(memory, &placer->sites);
+    kiriArray_Release(memory, &placer->cells);
+    if (work != NULL) {
+        kiriField_Release(&work->old, memory);
+        kiriField_Release(&work->fresh, memory);
+        kiriArray_Release(memory, &work->sampled);
+        kiriArray_Release(memory, &work->holds);
+        kiriArray_Release(memory, &work->marks);
+        kiriArray_Release(memory, &work->targets);
+        kiriArray_Release(memory, &work->seeds);
+        kiriMemory_Free(memory, work);
+        placer->work = NULL;
+    }
 }
 
 /* ---- State ------------------------------------------------------------------------------------------------------ */

@@ -8,42 +8,291 @@ static const double leastShare = 1e-14;
 
 typedef KIRI_ARRAY(int32_t) Ints;
 
-/* What building needs and the grid does not keep. */
-typedef struct Work {
-    KIRI_ARRAY(uint8_t) whole; /* of each square, see MarkWholeSquares */
-    Ints start;                /* a square's first entry in `node`; squares + 1 */
-    Ints node;                 /* of squares that are not whole or next to such: nodes by triangle */
-    Ints parent;               /* union-find over entries of `node`, then over cells */
-    Ints mark;
-    Ints nearStart; /* straight and diagonal steps, as stepStart and steps of the grid */
-    kiriSteps near;
-} Work;
+/* What the update at hand does to a square. */
+enum {
+    SQUARE_COLLECTED = 1, /* its triangles are in `node` */
+    SQUARE_REMADE = 2,    /* its cells and their faces are made again */
+    SQUARE_RELINKED = 4,  /* a face of its cells came or went */
+    SQUARE_RESTEPPED = 8, /* the steps of its cells are made again */
+};
 
-static void ReleaseWork(Work* work, const kiriMemory* memory)
+/* Which lists of changes a cell is in. */
+enum { CELL_MADE = 1, CELL_REMADE = 2, CELL_RESTEPPED = 4 };
+
+/* Where a square's triangles are in `node`. */
+typedef struct Entries {
+    int32_t first, end;
+} Entries;
+
+/* A cell as it should be, and its index. */
+typedef struct Fresh {
+    int32_t triangle, cell;
+    kiriMoments material;
+} Fresh;
+
+typedef struct OldFace {
+    int32_t face;
+    kiriFace was;
+} OldFace;
+
+/* An update goes through stages (see kiriGrid_Update), each over the items of a list. All faces need all cells, diagonal steps all
+   faces, and knights all diagonal steps. */
+struct kiriGridWork {
+    bool running, fromScratch;
+    int32_t stage, item; /* where the update is */
+    Ints remade;         /* squares whose cells and faces are made again */
+    Ints relinked;       /* squares around which steps are made again */
+    Ints stepped;        /* cells whose steps are made again */
+    Ints knights;        /* those of them whose knights are not those of the open plane */
+
+    KIRI_ARRAY(uint8_t) squareFlags; /* of each square */
+    Ints flagged;                    /* squares that have flags */
+    KIRI_ARRAY(Entries) entries;     /* of each square that is collected */
+    Ints node;                       /* of squares that are collected: nodes by triangle */
+    Ints parent;                     /* union-find over entries of `node` */
+
+    KIRI_ARRAY(uint8_t) cellFlags; /* of each cell */
+    KIRI_ARRAY(int64_t) mark;      /* of each cell, for cells that are reached in two ways */
+    int64_t lastMark;
+
+    KIRI_ARRAY(Fresh) fresh;      /* cells of a square */
+    KIRI_ARRAY(OldFace) oldFaces; /* of a side */
+    KIRI_ARRAY(kiriStep) steps;   /* of a cell */
+};
+
+static int32_t Least(int32_t a, int32_t b)
 {
-    kiriArray_Release(memory, &work->whole);
-    kiriArray_Release(memory, &work->start);
-    kiriArray_Release(memory, &work->node);
-    kiriArray_Release(memory, &work->parent);
-    kiriArray_Release(memory, &work->mark);
-    kiriArray_Release(memory, &work->nearStart);
-    kiriArray_Release(memory, &work->near);
+    return a < b ? a : b;
+}
+static int32_t Most(int32_t a, int32_t b)
+{
+    return a > b ? a : b;
 }
 
-static bool Fill(const kiriMemory* memory, Ints* array, int64_t count, int32_t value)
+/* ---- What changes ------------------------------------------------------------------------------------------------ */
+
+static bool IsFlagged(const kiriGridWork* work, int32_t square, int flag)
 {
-    array->count = 0;
-    if (!kiriArray_Resize(memory, array, count)) {
+    return (work->squareFlags.data[square] & flag) != 0;
+}
+
+static bool FlagSquare(kiriGridWork* work, const kiriMemory* memory, int32_t square, int flag)
+{
+    uint8_t* flags = &work->squareFlags.data[square];
+    bool ok = *flags != 0 || kiriArray_Push(memory, &work->flagged, square);
+    *flags |= (uint8_t)flag;
+    return ok;
+}
+
+/* Puts the square in the list of a flag, once an update. */
+static bool ListSquare(kiriGridWork* work, const kiriMemory* memory, int32_t square, int flag, Ints* list)
+{
+    return IsFlagged(work, square, flag) ||
+           (FlagSquare(work, memory, square, flag) && kiriArray_Push(memory, list, square));
+}
+
+static bool Restep(kiriGrid* grid, const kiriMemory* memory, int32_t cell)
+{
+    uint8_t* flags = &grid->work->cellFlags.data[cell];
+    bool listed = (*flags & CELL_RESTEPPED) != 0;
+    *flags |= CELL_RESTEPPED;
+    return listed || kiriArray_Push(memory, &grid->changes.restepped, cell);
+}
+
+/* The face between two cells comes or goes. */
+static bool Relink(kiriGrid* grid, const kiriMemory* memory, int32_t a, int32_t b)
+{
+    kiriGridWork* work = grid->work;
+    return work->fromScratch ||
+           (Restep(grid, memory, a) && Restep(grid, memory, b) &&
+            ListSquare(work, memory, grid->cells.data[a].square, SQUARE_RELINKED, &work->relinked) &&
+            ListSquare(work, memory, grid->cells.data[b].square, SQUARE_RELINKED, &work->relinked));
+}
+
+static bool SetMaterial(kiriGrid* grid, const kiriMemory* memory, int32_t c, const kiriMoments* material)
+{
+    kiriCell* cell = &grid->cells.data[c];
+    kiriRemade remade = { c, cell->material };
+    uint8_t* flags = &grid->work->cellFlags.data[c];
+    if (memcmp(&cell->material, material, sizeof(*material)) == 0) {
+        return true;
+    }
+    cell->material = *material;
+    if ((*flags & (CELL_MADE | CELL_REMADE)) != 0) {
+        return true;
+    }
+    *flags |= CELL_REMADE;
+    return kiriArray_Push(memory, &grid->changes.remade, remade);
+}
+
+/* The index of a new cell, or KIRI_NONE for memory. */
+static int32_t AddCell(kiriGrid* grid, const kiriMemory* memory, int32_t square)
+{
+    const kiriCell cell = { square, KIRI_NONE, KIRI_NONE, KIRI_NONE, { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 } };
+    const kiriStepRun run = { 0, { 0, 0, 0 } };
+    kiriGridWork* work = grid->work;
+    int32_t c = grid->freeCell;
+    if (c != KIRI_NONE) {
+        grid->freeCell = grid->cells.data[c].next;
+        grid->cells.data[c] = cell;
+    } else if (kiriArray_Push(memory, &grid->cells, cell) && kiriArray_Push(memory, &grid->runs, run) &&
+               kiriArray_Push(memory, &work->cellFlags, 0) && kiriArray_Push(memory, &work->mark, 0)) {
+        c = grid->cells.count - 1;
+    } else {
+        return KIRI_NONE;
+    }
+    ++grid->cellCount;
+    work->cellFlags.data[c] = CELL_MADE | CELL_RESTEPPED;
+    bool ok = kiriArray_Push(memory, &grid->changes.made, c) && kiriArray_Push(memory, &grid->changes.restepped, c) &&
+              (!work->fromScratch || kiriArray_Push(memory, &work->stepped, c));
+    return ok ? c : KIRI_NONE;
+}
+
+static void FreeCell(kiriGrid* grid, int32_t c)
+{
+    grid->cells.data[c].next = grid->freeCell;
+    grid->freeCell = c;
+}
+
+/* Takes cells that are gone from the lists of others. Whoever follows the grid need not hear of those that came since it
+   was settled. */
+static void ForgetGone(kiriGrid* grid)
+{
+    kiriGridChanges* changes = &grid->changes;
+    int32_t restepped = 0, remade = 0, made = 0;
+    for (int32_t i = 0; i < changes->restepped.count; ++i) {
+        changes->restepped.data[restepped] = changes->restepped.data[i];
+        restepped += kiriGrid_IsCell(grid, changes->restepped.data[i]);
+    }
+    for (int32_t i = 0; i < changes->remade.count; ++i) {
+        kiriRemade r = changes->remade.data[i];
+        changes->remade.data[remade] = r;
+        if (kiriGrid_IsCell(grid, r.cell)) {
+            ++remade;
+        } else {
+            grid->cells.data[r.cell].material = r.was;
+        }
+    }
+    for (int32_t i = 0; i < changes->made.count; ++i) {
+        int32_t c = changes->made.data[i];
+        changes->made.data[made] = c;
+        if (kiriGrid_IsCell(grid, c)) {
+            ++made;
+        } else {
+            FreeCell(grid, c);
+        }
+    }
+    changes->restepped.count = restepped;
+    changes->remade.count = remade;
+    changes->made.count = made;
+}
+
+/* ---- Whole squares ----------------------------------------------------------------------------------------------- */
+
+/* A square is whole where there is material and neither the outline nor an open edge runs through it. Then it is wholly
+   covered, its triangles all hang together in it, and it has one cell: no need to join or to clip. Most squares are. */
+static bool IsWhole(const kiriMeshData* mesh, int32_t square)
+{
+    const kiriSquares* squares = &mesh->squares;
+    for (int32_t n = squares->head[square]; n != KIRI_NONE; n = squares->nodes.data[n].next) {
+        const kiriTriangle* t = &mesh->triangles.data[squares->nodes.data[n].triangle];
+        for (int i = 0; i < 3; ++i) {
+            if ((t->twin[i] == KIRI_NONE || (t->open >> i & 1) != 0) &&
+                kiriSquares_RunsThrough(squares, square, mesh->vertices.data[t->vertex[i]].at,
+                                        mesh->vertices.data[t->vertex[(i + 1) % 3]].at)) {
+                return false;
+            }
+        }
+    }
+    return squares->head[square] != KIRI_NONE;
+}
+
+/* Half the squares in a row that a diagonal step (radius 1) or one like a knight (2) may touch. */
+static int32_t ReachInRow(int32_t radius, int32_t v)
+{
+    return v == -2 || v == 2 ? 1 : radius;
+}
+
+/* Is the square whole, and all those around that such a step may touch? */
+static bool IsWholeAround(const kiriGrid* grid, const kiriSquares* squares, int32_t square, int32_t radius)
+{
+    int32_t column = square % squares->columns, row = square / squares->columns;
+    if (column < radius || column >= squares->columns - radius || row < radius || row >= squares->rows - radius) {
         return false;
     }
-    for (int64_t i = 0; i < count; ++i) {
-        array->data[i] = value;
+    for (int32_t v = -radius; v <= radius; ++v) {
+        int32_t width = ReachInRow(radius, v);
+        for (int32_t u = -width; u <= width; ++u) {
+            if (!grid->whole.data[square + v * squares->columns + u]) {
+                return false;
+            }
+        }
     }
     return true;
 }
 
-/* ---- Union-find, the lowest index stands for all ----------------------------------------------------------------- */
+/* ---- Triangles of a square --------------------------------------------------------------------------------------- */
 
+/* By triangle (Shell 1959): the order of a square's list does not matter. */
+static void SortNodes(const kiriSquareNode* nodes, int32_t* node, int32_t count)
+{
+    int32_t gap = 1;
+    while (gap < count / 3) {
+        gap = 3 * gap + 1;
+    }
+    for (; gap > 0; gap /= 3) {
+        for (int32_t i = gap; i < count; ++i) {
+            int32_t moving = node[i], j = i;
+            for (; j >= gap && nodes[node[j - gap]].triangle > nodes[moving].triangle; j -= gap) {
+                node[j] = node[j - gap];
+            }
+            node[j] = moving;
+        }
+    }
+}
+
+/* Where the square's triangles must be known one by one: for its cells, or for the faces of cells beside it. */
+static bool Collect(kiriGridWork* work, const kiriMeshData* mesh, int32_t square)
+{
+    const kiriSquares* squares = &mesh->squares;
+    if (IsFlagged(work, square, SQUARE_COLLECTED)) {
+        return true;
+    }
+    int32_t first = work->node.count;
+    for (int32_t n = squares->head[square]; n != KIRI_NONE; n = squares->nodes.data[n].next) {
+        if (!kiriArray_Push(mesh->memory, &work->parent, work->node.count) ||
+            !kiriArray_Push(mesh->memory, &work->node, n)) {
+            return false;
+        }
+    }
+    SortNodes(squares->nodes.data, work->node.data + first, work->node.count - first);
+    Entries entries = { first, work->node.count };
+    work->entries.data[square] = entries;
+    return FlagSquare(work, mesh->memory, square, SQUARE_COLLECTED);
+}
+
+static int32_t TriangleAt(const kiriGridWork* work, const kiriMeshData* mesh, int32_t entry)
+{
+    return mesh->squares.nodes.data[work->node.data[entry]].triangle;
+}
+
+/* The entry of a triangle among sorted ones, or KIRI_NONE. */
+static int32_t FindEntry(const kiriGridWork* work, const kiriMeshData* mesh, int32_t from, int32_t end,
+                         int32_t triangle)
+{
+    int32_t last = end;
+    while (from < last) {
+        int32_t middle = from + (last - from) / 2;
+        if (TriangleAt(work, mesh, middle) < triangle) {
+            from = middle + 1;
+        } else {
+            last = middle;
+        }
+    }
+    return from < end && TriangleAt(work, mesh, from) == triangle ? from : KIRI_NONE;
+}
+
+/* Union-find; the lowest index stands for all. */
 static int32_t Find(int32_t* parent, int32_t i)
 {
     while (parent[i] != i) {
@@ -64,184 +313,28 @@ static void Join(int32_t* parent, int32_t i, int32_t j)
     }
 }
 
-static bool FillParents(const kiriMemory* memory, Ints* parent, int32_t count)
-{
-    if (!Fill(memory, parent, count, 0)) {
-        return false;
-    }
-    for (int32_t i = 0; i < count; ++i) {
-        parent->data[i] = i;
-    }
-    return true;
-}
-
-/* ---- Whole squares ----------------------------------------------------------------------------------------------- */
-
-static int32_t Least(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
-static int32_t Most(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
-
-/* Does the segment run through the open square? Exact, by separating axes: the sides of the square and the segment. */
-static bool RunsThrough(const kiriSquares* squares, int32_t square, kiriPoint a, kiriPoint b)
-{
-    kiriPoint low = kiriSquares_Corner(squares, square), high = { low.x + squares->side, low.y + squares->side };
-    if (Most(a.x, b.x) <= low.x || Least(a.x, b.x) >= high.x || Most(a.y, b.y) <= low.y || Least(a.y, b.y) >= high.y) {
-        return false;
-    }
-    /* The two corners farthest to the left and to the right of a line that rises, or falls. */
-    bool rises = (a.x < b.x) == (a.y < b.y);
-    kiriPoint p = { low.x, rises ? high.y : low.y }, q = { high.x, rises ? low.y : high.y };
-    int64_t sideP = kiriOrient(a, b, p), sideQ = kiriOrient(a, b, q);
-    return (sideP < 0 && sideQ > 0) || (sideP > 0 && sideQ < 0);
-}
-
-static void MarkCrossed(Work* work, const kiriSquares* squares, kiriPoint a, kiriPoint b)
-{
-    int32_t lastColumn = (Most(a.x, b.x) + 1) / squares->side, lastRow = (Most(a.y, b.y) + 1) / squares->side;
-    for (int32_t row = (Least(a.y, b.y) + 1) / squares->side; row <= lastRow; ++row) {
-        for (int32_t column = (Least(a.x, b.x) + 1) / squares->side; column <= lastColumn; ++column) {
-            int32_t square = row * squares->columns + column;
-            if (RunsThrough(squares, square, a, b)) {
-                work->whole.data[square] = 0;
-            }
-        }
-    }
-}
-
-/* A square is whole where there is material and neither the outline nor an open edge runs through it. Then it is wholly
-   covered, its triangles all hang together in it, and it has one cell: no need to join or to clip. Most squares are. */
-static bool MarkWholeSquares(Work* work, const kiriMeshData* mesh)
-{
-    const kiriSquares* squares = &mesh->squares;
-    if (!kiriArray_Resize(mesh->memory, &work->whole, squares->columns * squares->rows)) {
-        return false;
-    }
-    for (int32_t s = 0; s < work->whole.count; ++s) {
-        work->whole.data[s] = squares->head[s] != KIRI_NONE;
-    }
-    for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
-        int32_t twin = kiriMesh_Twin(mesh, h);
-        if (twin == KIRI_NONE || (twin > h && kiriMesh_IsOpen(mesh, h))) {
-            MarkCrossed(work, squares, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
-                        mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at);
-        }
-    }
-    return true;
-}
-
-/* Is the square whole, and all those around that a diagonal step (radius 1) or one like a knight (2) may touch? */
-static bool IsWholeAround(const Work* work, const kiriSquares* squares, int32_t square, int32_t radius)
-{
-    int32_t column = square % squares->columns, row = square / squares->columns;
-    if (column < radius || column >= squares->columns - radius || row < radius || row >= squares->rows - radius) {
-        return false;
-    }
-    for (int32_t v = -radius; v <= radius; ++v) {
-        int32_t width = v == -2 || v == 2 ? 1 : radius;
-        for (int32_t u = -width; u <= width; ++u) {
-            if (!work->whole.data[square + v * squares->columns + u]) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
-/* ---- Cells ------------------------------------------------------------------------------------------------------- */
-
-/* Must the triangles of the square be known one by one? For its cells, or for the faces of cells beside it. */
-static bool NeedsNodes(const Work* work, const kiriSquares* squares, int32_t square)
-{
-    const uint8_t* whole = work->whole.data;
-    int32_t columns = squares->columns, column = square % columns, row = square / columns;
-    return !whole[square] || (column > 0 && !whole[square - 1]) || (column + 1 < columns && !whole[square + 1]) ||
-           (row > 0 && !whole[square - columns]) || (row + 1 < squares->rows && !whole[square + columns]);
-}
-
-/* By triangle (Shell 1959): the order of a square's list does not matter. */
-static void SortNodes(const kiriSquareNode* nodes, int32_t* node, int32_t count)
-{
-    int32_t gap = 1;
-    while (gap < count / 3) {
-        gap = 3 * gap + 1;
-    }
-    for (; gap > 0; gap /= 3) {
-        for (int32_t i = gap; i < count; ++i) {
-            int32_t moving = node[i], j = i;
-            for (; j >= gap && nodes[node[j - gap]].triangle > nodes[moving].triangle; j -= gap) {
-                node[j] = node[j - gap];
-            }
-            node[j] = moving;
-        }
-    }
-}
-
-static bool CollectNodes(Work* work, const kiriMeshData* mesh)
-{
-    const kiriSquares* squares = &mesh->squares;
-    int32_t squareCount = squares->columns * squares->rows;
-    if (!kiriArray_Resize(mesh->memory, &work->start, (int64_t)squareCount + 1)) {
-        return false;
-    }
-    work->node.count = 0;
-    for (int32_t s = 0; s < squareCount; ++s) {
-        int32_t first = work->start.data[s] = work->node.count;
-        int32_t n = NeedsNodes(work, squares, s) ? squares->head[s] : KIRI_NONE;
-        for (; n != KIRI_NONE; n = squares->nodes.data[n].next) {
-            if (!kiriArray_Push(mesh->memory, &work->node, n)) {
-                return false;
-            }
-        }
-        SortNodes(squares->nodes.data, work->node.data + first, work->node.count - first);
-    }
-    work->start.data[squareCount] = work->node.count;
-    return FillParents(mesh->memory, &work->parent, work->node.count);
-}
-
-static int32_t TriangleAt(const Work* work, const kiriMeshData* mesh, int32_t entry)
-{
-    return mesh->squares.nodes.data[work->node.data[entry]].triangle;
-}
-
-/* The entry of a triangle among sorted ones, or KIRI_NONE. */
-static int32_t FindEntry(const Work* work, const kiriMeshData* mesh, int32_t from, int32_t end, int32_t triangle)
-{
-    int32_t last = end;
-    while (from < last) {
-        int32_t middle = from + (last - from) / 2;
-        if (TriangleAt(work, mesh, middle) < triangle) {
-            from = middle + 1;
-        } else {
-            last = middle;
-        }
-    }
-    return from < end && TriangleAt(work, mesh, from) == triangle ? from : KIRI_NONE;
-}
-
 /* Joins the triangles of a square over the closed edges that run through it (algorithm 3). */
-static void JoinTriangles(Work* work, const kiriMeshData* mesh, int32_t square)
+static void JoinTriangles(kiriGridWork* work, const kiriMeshData* mesh, int32_t square)
 {
-    int32_t end = work->start.data[square + 1];
-    for (int32_t i = work->start.data[square]; i < end; ++i) {
+    Entries entries = work->entries.data[square];
+    for (int32_t i = entries.first; i < entries.end; ++i) {
         int32_t triangle = TriangleAt(work, mesh, i);
         for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
             int32_t twin = kiriMesh_Twin(mesh, h);
             if (twin < h || kiriMesh_IsOpen(mesh, h)) {
                 continue;
             }
-            int32_t j = FindEntry(work, mesh, i + 1, end, twin / 3);
-            if (j != KIRI_NONE && RunsThrough(&mesh->squares, square, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
-                                              mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at)) {
+            int32_t j = FindEntry(work, mesh, i + 1, entries.end, twin / 3);
+            if (j != KIRI_NONE &&
+                kiriSquares_RunsThrough(&mesh->squares, square, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
+                                        mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at)) {
                 Join(work->parent.data, i, j);
             }
         }
     }
 }
+
+/* ---- Material ---------------------------------------------------------------------------------------------------- */
 
 /* Room for what clipping may make of a triangle even where rounding spoils its convexity: at most twice as many corners
    a time, and 3, 4, 6, 9, 13 when counted closely. */
@@ -321,78 +414,6 @@ static kiriMoments Speck(double side)
     return m;
 }
 
-/* Makes the one cell of a whole square. */
-static bool AddWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
-{
-    const kiriSquareNode* nodes = mesh->squares.nodes.data;
-    double x = grid->side, area = x * x;
-    kiriMoments about = {
-        area, x / 2.0 * area, x / 2.0 * area, area * area / 3.0, area * area / 4.0, area * area / 3.0
-    };
-    kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));
-    kiriCell cell = { square, KIRI_NONE, KIRI_NONE, INT32_MAX,
-                      kiriMoments_About(&about, kiriVec2_Scale(-1.0, corner)) };
-    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = nodes[n].next) {
-        cell.triangle = Least(cell.triangle, nodes[n].triangle);
-        grid->nodeCell.data[n] = grid->cells.count;
-    }
-    grid->squareCell.data[square] = grid->cells.count;
-    return kiriArray_Push(mesh->memory, &grid->cells, cell);
-}
-
-/* Makes the cells of a square, by lowest triangle. */
-static bool AddCells(kiriGrid* grid, Work* work, const kiriMeshData* mesh, int32_t square)
-{
-    int32_t first = grid->cells.count;
-    JoinTriangles(work, mesh, square);
-    for (int32_t i = work->start.data[square]; i < work->start.data[square + 1]; ++i) {
-        int32_t root = Find(work->parent.data, i), triangle = TriangleAt(work, mesh, i);
-        if (root == i) {
-            kiriCell cell = { square, KIRI_NONE, KIRI_NONE, triangle, { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 } };
-            grid->nodeCell.data[work->node.data[i]] = grid->cells.count;
-            if (!kiriArray_Push(mesh->memory, &grid->cells, cell)) {
-                return false;
-            }
-        }
-        int32_t c = grid->nodeCell.data[work->node.data[root]];
-        kiriMoments part = MaterialInSquare(mesh, triangle, square);
-        kiriMoments_Add(&grid->cells.data[c].material, &part);
-        grid->nodeCell.data[work->node.data[i]] = c;
-    }
-    kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));
-    for (int32_t c = first; c < grid->cells.count; ++c) {
-        kiriCell* cell = &grid->cells.data[c];
-        if (!(cell->material.area > leastShare * grid->side * grid->side)) {
-            cell->material = Speck(grid->side);
-        }
-        cell->material = kiriMoments_About(&cell->material, kiriVec2_Scale(-1.0, corner));
-        cell->next = c + 1 < grid->cells.count ? c + 1 : KIRI_NONE;
-    }
-    grid->squareCell.data[square] = first < grid->cells.count ? first : KIRI_NONE;
-    return true;
-}
-
-static bool BuildCells(kiriGrid* grid, Work* work, const kiriMeshData* mesh)
-{
-    int32_t squareCount = mesh->squares.columns * mesh->squares.rows;
-    grid->side = mesh->step * mesh->squares.side;
-    grid->cells.count = grid->squareCell.count = grid->nodeCell.count = 0;
-    if (!MarkWholeSquares(work, mesh) || !CollectNodes(work, mesh) ||
-        !kiriArray_Resize(mesh->memory, &grid->squareCell, squareCount) ||
-        !kiriArray_Resize(mesh->memory, &grid->nodeCell, mesh->squares.nodes.count)) {
-        return false;
-    }
-    for (int32_t n = 0; n < grid->nodeCell.count; ++n) {
-        grid->nodeCell.data[n] = KIRI_NONE;
-    }
-    for (int32_t s = 0; s < squareCount; ++s) {
-        if (!(work->whole.data[s] ? AddWholeCell(grid, mesh, s) : AddCells(grid, work, mesh, s))) {
-            return false;
-        }
-    }
-    return true;
-}
-
 /* ---- Faces ------------------------------------------------------------------------------------------------------- */
 
 static int32_t OtherCell(const kiriFace* face, int32_t cell)
@@ -402,6 +423,66 @@ static int32_t OtherCell(const kiriFace* face, int32_t cell)
 static int32_t NextFace(const kiriFace* face, int32_t cell)
 {
     return face->next[face->cell[1] == cell];
+}
+
+/* Null for memory. */
+static kiriFace* AddFace(kiriGrid* grid, const kiriMemory* memory, int32_t a, int32_t b, int axis)
+{
+    kiriCell *cellA = &grid->cells.data[a], *cellB = &grid->cells.data[b];
+    const kiriFace face = { { a, b }, { cellA->firstFace, cellB->firstFace }, axis, 0.0, { 0.0, 0.0 }, 0.0 };
+    int32_t f = grid->freeFace;
+    if (f != KIRI_NONE) {
+        grid->freeFace = grid->faces.data[f].next[0];
+        grid->faces.data[f] = face;
+    } else if (kiriArray_Push(memory, &grid->faces, face)) {
+        f = grid->faces.count - 1;
+    }
+    if (f == KIRI_NONE || !Relink(grid, memory, a, b)) {
+        return NULL;
+    }
+    cellA->firstFace = cellB->firstFace = f;
+    return &grid->faces.data[f];
+}
+
+static void UnlinkFace(kiriGrid* grid, int32_t f, int32_t cell)
+{
+    int32_t* link = &grid->cells.data[cell].firstFace;
+    while (*link != f) {
+        kiriFace* face = &grid->faces.data[*link];
+        link = &face->next[face->cell[1] == cell];
+    }
+    *link = NextFace(&grid->faces.data[f], cell);
+}
+
+static bool RemoveFace(kiriGrid* grid, const kiriMemory* memory, int32_t f)
+{
+    kiriFace* face = &grid->faces.data[f];
+    bool ok = Relink(grid, memory, face->cell[0], face->cell[1]);
+    UnlinkFace(grid, f, face->cell[0]);
+    UnlinkFace(grid, f, face->cell[1]);
+    face->cell[0] = KIRI_NONE;
+    face->next[0] = grid->freeFace;
+    grid->freeFace = f;
+    return ok;
+}
+
+/* The face between two cells, new if there is none yet; null for memory. Looks from both ends at once, since a cell with
+   many faces, a comb, most often touches cells with few. */
+static kiriFace* FaceBetween(kiriGrid* grid, const kiriMemory* memory, int32_t a, int32_t b, int axis)
+{
+    int32_t f = grid->cells.data[a].firstFace, g = grid->cells.data[b].firstFace;
+    while (f != KIRI_NONE && g != KIRI_NONE) {
+        kiriFace *ofA = &grid->faces.data[f], *ofB = &grid->faces.data[g];
+        if (OtherCell(ofA, a) == b) {
+            return ofA;
+        }
+        if (OtherCell(ofB, b) == a) {
+            return ofB;
+        }
+        f = NextFace(ofA, a);
+        g = NextFace(ofB, b);
+    }
+    return AddFace(grid, memory, a, b, axis);
 }
 
 /* A stretch of a side: its ends, in lattice steps from the lower end of the side. */
@@ -433,37 +514,6 @@ static Stretch CoveredStretch(const kiriMeshData* mesh, int32_t triangle, int32_
     return stretch;
 }
 
-/* Null for memory. */
-static kiriFace* AddFace(kiriGrid* grid, const kiriMemory* memory, int32_t a, int32_t b, int axis)
-{
-    int32_t* head = grid->faceHead.data;
-    kiriFace face = { { a, b }, { head[a], head[b] }, axis, 0.0, { 0.0, 0.0 }, 0.0 };
-    if (!kiriArray_Push(memory, &grid->faces, face)) {
-        return NULL;
-    }
-    head[a] = head[b] = grid->faces.count - 1;
-    return &grid->faces.data[grid->faces.count - 1];
-}
-
-/* The face between two cells, new if there is none yet; null for memory. Looks from both ends at once, since a cell with
-   many faces, a comb, most often touches cells with few. */
-static kiriFace* FaceBetween(kiriGrid* grid, const kiriMemory* memory, int32_t a, int32_t b, int axis)
-{
-    int32_t* head = grid->faceHead.data;
-    for (int32_t f = head[a], g = head[b]; f != KIRI_NONE && g != KIRI_NONE;) {
-        kiriFace *ofA = &grid->faces.data[f], *ofB = &grid->faces.data[g];
-        if (OtherCell(ofA, a) == b) {
-            return ofA;
-        }
-        if (OtherCell(ofB, b) == a) {
-            return ofB;
-        }
-        f = NextFace(ofA, a);
-        g = NextFace(ofB, b);
-    }
-    return AddFace(grid, memory, a, b, axis);
-}
-
 /* Adds a stretch by the parallel axis rule: each term is positive, so a narrow face has a sound moment too. */
 static void AddStretch(kiriFace* face, const kiriMeshData* mesh, kiriPoint low, Stretch stretch)
 {
@@ -484,7 +534,8 @@ static void AddStretch(kiriFace* face, const kiriMeshData* mesh, kiriPoint low, 
 static bool AddWholeFace(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, int32_t square, int axis)
 {
     Stretch side = { 0.0, mesh->squares.side };
-    kiriFace* face = AddFace(grid, mesh->memory, grid->squareCell.data[before], grid->squareCell.data[square], axis);
+    kiriFace* face =
+        FaceBetween(grid, mesh->memory, grid->squareCell.data[before], grid->squareCell.data[square], axis);
     if (face != NULL) {
         AddStretch(face, mesh, kiriSquares_Corner(&mesh->squares, square), side);
     }
@@ -493,20 +544,22 @@ static bool AddWholeFace(kiriGrid* grid, const kiriMeshData* mesh, int32_t befor
 
 /* Links the cells of a square to those of the one before it along the axis. A triangle with material in both covers a
    stretch of the side between them, for both together are convex. */
-static bool AddFaces(kiriGrid* grid, const Work* work, const kiriMeshData* mesh, int32_t before, int32_t square,
-                     int axis)
+static bool AddFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, int32_t square, int axis)
 {
-    if (work->whole.data[before] && work->whole.data[square]) {
+    kiriGridWork* work = grid->work;
+    if (grid->whole.data[before] && grid->whole.data[square]) {
         return AddWholeFace(grid, mesh, before, square, axis);
     }
+    if (!Collect(work, mesh, before) || !Collect(work, mesh, square)) {
+        return false;
+    }
     kiriPoint low = kiriSquares_Corner(&mesh->squares, square);
-    int32_t i = work->start.data[before], iEnd = work->start.data[before + 1];
-    int32_t j = work->start.data[square], jEnd = work->start.data[square + 1];
-    while (i < iEnd && j < jEnd) {
+    Entries a = work->entries.data[before], b = work->entries.data[square];
+    for (int32_t i = a.first, j = b.first; i < a.end && j < b.end;) {
         int32_t t = TriangleAt(work, mesh, i), u = TriangleAt(work, mesh, j);
         if (t == u) {
-            int32_t a = grid->nodeCell.data[work->node.data[i]], b = grid->nodeCell.data[work->node.data[j]];
-            kiriFace* face = FaceBetween(grid, mesh->memory, a, b, axis);
+            kiriFace* face = FaceBetween(grid, mesh->memory, grid->nodeCell.data[work->node.data[i]],
+                                         grid->nodeCell.data[work->node.data[j]], axis);
             if (face == NULL) {
                 return false;
             }
@@ -518,44 +571,276 @@ static bool AddFaces(kiriGrid* grid, const Work* work, const kiriMeshData* mesh,
     return true;
 }
 
-static bool BuildFaces(kiriGrid* grid, const Work* work, const kiriMeshData* mesh)
+/* Empties the faces on the lower side of a square along the axis, and keeps what they were. */
+static bool EmptyFaces(kiriGrid* grid, const kiriMemory* memory, int32_t square, int axis)
 {
-    grid->faces.count = grid->faceHead.count = 0;
-    if (!kiriArray_Resize(mesh->memory, &grid->faceHead, grid->cells.count)) {
+    kiriGridWork* work = grid->work;
+    work->oldFaces.count = 0;
+    for (int32_t c = grid->squareCell.data[square]; c != KIRI_NONE; c = grid->cells.data[c].next) {
+        for (int32_t f = grid->cells.data[c].firstFace; f != KIRI_NONE; f = NextFace(&grid->faces.data[f], c)) {
+            kiriFace* face = &grid->faces.data[f];
+            if (face->cell[1] == c && face->axis == axis) {
+                OldFace old = { f, *face };
+                if (!kiriArray_Push(memory, &work->oldFaces, old)) {
+                    return false;
+                }
+                face->width = face->moment = 0.0;
+            }
+        }
+    }
+    return true;
+}
+
+/* Finds out what became of the faces that were emptied. */
+static bool CompareFaces(kiriGrid* grid, const kiriMemory* memory)
+{
+    for (int32_t i = 0; i < grid->work->oldFaces.count; ++i) {
+        const OldFace* old = &grid->work->oldFaces.data[i];
+        const kiriFace *was = &old->was, *is = &grid->faces.data[old->face];
+        if (is->width == 0.0) {
+            if (!RemoveFace(grid, memory, old->face)) {
+                return false;
+            }
+        } else if (is->width != was->width || is->moment != was->moment || is->middle.x != was->middle.x ||
+                   is->middle.y != was->middle.y) {
+            if (!Restep(grid, memory, is->cell[0]) || !Restep(grid, memory, is->cell[1])) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static bool MakeSide(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, int32_t square, int axis)
+{
+    if (grid->squareCell.data[before] == KIRI_NONE || grid->squareCell.data[square] == KIRI_NONE) {
+        return true;
+    }
+    return EmptyFaces(grid, mesh->memory, square, axis) && AddFaces(grid, mesh, before, square, axis) &&
+           CompareFaces(grid, mesh->memory);
+}
+
+/* The faces on all sides of a square. Between two squares that are both made again, the one behind does it. */
+static bool MakeFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+{
+    int32_t square = grid->work->remade.data[item], columns = mesh->squares.columns, rows = mesh->squares.rows;
+    bool right = square % columns + 1 < columns && !IsFlagged(grid->work, square + 1, SQUARE_REMADE);
+    bool above = square / columns + 1 < rows && !IsFlagged(grid->work, square + columns, SQUARE_REMADE);
+    return (square % columns == 0 || MakeSide(grid, mesh, square - 1, square, 0)) &&
+           (square < columns || MakeSide(grid, mesh, square - columns, square, 1)) &&
+           (!right || MakeSide(grid, mesh, square, square + 1, 0)) &&
+           (!above || MakeSide(grid, mesh, square, square + columns, 1));
+}
+
+/* ---- Room for steps ---------------------------------------------------------------------------------------------- */
+
+/* How many steps a cell amid whole squares has: straight and diagonal ones, and all. */
+enum { OPEN_NEAR = 8, OPEN_ALL = 16 };
+
+/* There is room for those at least, so that most runs never move. */
+static int32_t RoomFor(int32_t count)
+{
+    return count == 0 ? 0 : Most(count, OPEN_ALL);
+}
+
+static int32_t CountSteps(const kiriStepRun* run)
+{
+    return run->end[KIRI_STEP_LENGTHS - 1] - run->first;
+}
+
+/* Room for so many steps; false for memory. */
+static bool SetStepCount(kiriGrid* grid, const kiriMemory* memory, int32_t c, int32_t count)
+{
+    kiriStepRun* run = &grid->runs.data[c];
+    kiriSpan span = { run->first, RoomFor(CountSteps(run)) };
+    bool ok = kiriSpan_Resize(&span, &grid->stepRoom, memory, &grid->steps, sizeof(kiriStep), RoomFor(count));
+    run->first = span.first;
+    run->end[0] = run->end[1] = run->end[2] = span.first + count;
+    return ok;
+}
+
+/* The cell's steps become those in `work`, so many of each length. */
+static bool SetSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c, int32_t straight, int32_t near)
+{
+    const kiriGridWork* work = grid->work;
+    kiriStepRun* run = &grid->runs.data[c];
+    size_t bytes = sizeof(kiriStep) * (size_t)work->steps.count;
+    if (CountSteps(run) == work->steps.count && run->end[0] - run->first == straight &&
+        run->end[1] - run->first == near &&
+        (bytes == 0 || memcmp(&grid->steps.data[run->first], work->steps.data, bytes) == 0)) {
+        return true;
+    }
+    if (!SetStepCount(grid, memory, c, work->steps.count)) {
         return false;
     }
-    for (int32_t c = 0; c < grid->cells.count; ++c) {
-        grid->faceHead.data[c] = KIRI_NONE;
+    if (bytes > 0) {
+        memcpy(&grid->steps.data[run->first], work->steps.data, bytes);
     }
-    int32_t columns = mesh->squares.columns, rows = mesh->squares.rows;
-    for (int32_t s = 0; s < columns * rows; ++s) {
-        if ((s % columns > 0 && !AddFaces(grid, work, mesh, s - 1, s, 0)) ||
-            (s >= columns && !AddFaces(grid, work, mesh, s - columns, s, 1))) {
+    run->end[0] = run->first + straight;
+    run->end[1] = run->first + near;
+    return Restep(grid, memory, c);
+}
+
+/* ---- Cells ------------------------------------------------------------------------------------------------------- */
+
+static bool RemoveCell(kiriGrid* grid, const kiriMemory* memory, int32_t c)
+{
+    kiriCell* cell = &grid->cells.data[c];
+    while (cell->firstFace != KIRI_NONE) {
+        if (!RemoveFace(grid, memory, cell->firstFace)) {
+            return false;
+        }
+    }
+    (void)SetStepCount(grid, memory, c, 0); /* cannot fail: it shrinks */
+    cell->square = cell->next = KIRI_NONE;
+    --grid->cellCount;
+    return (grid->work->cellFlags.data[c] & CELL_MADE) != 0 || kiriArray_Push(memory, &grid->changes.gone, c);
+}
+
+/* The one cell of a square that was whole and still is: only its triangles may be others. */
+static void RefreshWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+{
+    const kiriSquareNode* nodes = mesh->squares.nodes.data;
+    int32_t c = grid->squareCell.data[square], lowest = INT32_MAX;
+    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = nodes[n].next) {
+        lowest = Least(lowest, nodes[n].triangle);
+        grid->nodeCell.data[n] = c;
+    }
+    grid->cells.data[c].triangle = lowest;
+}
+
+/* The one cell of a whole square. */
+static bool FindWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+{
+    const kiriSquareNode* nodes = mesh->squares.nodes.data;
+    double x = grid->side, area = x * x;
+    kiriMoments about = {
+        area, x / 2.0 * area, x / 2.0 * area, area * area / 3.0, area * area / 4.0, area * area / 3.0
+    };
+    kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));
+    Fresh fresh = { INT32_MAX, KIRI_NONE, kiriMoments_About(&about, kiriVec2_Scale(-1.0, corner)) };
+    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = nodes[n].next) {
+        fresh.triangle = Least(fresh.triangle, nodes[n].triangle);
+        grid->nodeCell.data[n] = 0;
+    }
+    return kiriArray_Push(mesh->memory, &grid->work->fresh, fresh);
+}
+
+/* The cells of a square that is not whole, by lowest triangle. */
+static bool FindCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+{
+    kiriGridWork* work = grid->work;
+    if (!Collect(work, mesh, square)) {
+        return false;
+    }
+    JoinTriangles(work, mesh, square);
+    for (int32_t i = work->entries.data[square].first; i < work->entries.data[square].end; ++i) {
+        int32_t root = Find(work->parent.data, i), node = work->node.data[i], triangle = TriangleAt(work, mesh, i);
+        const Fresh none = { triangle, KIRI_NONE, { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 } };
+        if (root == i && !kiriArray_Push(mesh->memory, &work->fresh, none)) {
+            return false;
+        }
+        int32_t rank = root == i ? work->fresh.count - 1 : grid->nodeCell.data[work->node.data[root]];
+        kiriMoments part = MaterialInSquare(mesh, triangle, square);
+        kiriMoments_Add(&work->fresh.data[rank].material, &part);
+        grid->nodeCell.data[node] = rank;
+    }
+    kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));
+    for (int32_t rank = 0; rank < work->fresh.count; ++rank) {
+        kiriMoments* material = &work->fresh.data[rank].material;
+        if (!(material->area > leastShare * grid->side * grid->side)) {
+            *material = Speck(grid->side);
+        }
+        *material = kiriMoments_About(material, kiriVec2_Scale(-1.0, corner));
+    }
+    return true;
+}
+
+/* The old cells of the square become the new ones in their order; what is left over comes or goes. */
+static bool ReplaceCells(kiriGrid* grid, const kiriMemory* memory, int32_t square)
+{
+    int32_t old = grid->squareCell.data[square], last = KIRI_NONE;
+    grid->squareCell.data[square] = KIRI_NONE;
+    for (int32_t i = 0; i < grid->work->fresh.count; ++i) {
+        Fresh* fresh = &grid->work->fresh.data[i];
+        fresh->cell = old != KIRI_NONE ? old : AddCell(grid, memory, square);
+        if (fresh->cell == KIRI_NONE || !SetMaterial(grid, memory, fresh->cell, &fresh->material)) {
+            return false;
+        }
+        kiriCell* cell = &grid->cells.data[fresh->cell];
+        old = cell->next;
+        cell->triangle = fresh->triangle;
+        cell->next = KIRI_NONE;
+        *(last == KIRI_NONE ? &grid->squareCell.data[square] : &grid->cells.data[last].next) = fresh->cell;
+        last = fresh->cell;
+    }
+    while (old != KIRI_NONE) {
+        int32_t gone = old;
+        old = grid->cells.data[gone].next;
+        if (!RemoveCell(grid, memory, gone)) {
             return false;
         }
     }
     return true;
 }
 
-static bool NumberPieces(kiriGrid* grid, Work* work, const kiriMemory* memory)
+/* The cells of a square that has changed. */
+static bool MakeCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
-    if (!FillParents(memory, &work->parent, grid->cells.count)) {
+    kiriGridWork* work = grid->work;
+    int32_t square = work->fromScratch ? item : mesh->squares.touched.data[item];
+    bool wasWhole = grid->whole.data[square], isWhole = IsWhole(mesh, square);
+    if (wasWhole && isWhole) {
+        RefreshWholeCell(grid, mesh, square);
+        return true;
+    }
+    grid->whole.data[square] = isWhole;
+    work->fresh.count = 0;
+    if (!ListSquare(work, mesh->memory, square, SQUARE_REMADE, &work->remade) ||
+        !(isWhole ? FindWholeCell(grid, mesh, square) : FindCells(grid, mesh, square)) ||
+        !ReplaceCells(grid, mesh->memory, square)) {
         return false;
     }
-    for (int32_t f = 0; f < grid->faces.count; ++f) {
-        Join(work->parent.data, grid->faces.data[f].cell[0], grid->faces.data[f].cell[1]);
-    }
-    grid->pieces = 0;
-    for (int32_t c = 0; c < grid->cells.count; ++c) {
-        int32_t root = Find(work->parent.data, c);
-        grid->cells.data[c].piece = root == c ? grid->pieces++ : grid->cells.data[root].piece;
+    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
+        grid->nodeCell.data[n] = work->fresh.data[grid->nodeCell.data[n]].cell;
     }
     return true;
 }
 
 /* ---- Steps ------------------------------------------------------------------------------------------------------- */
 
-/* All steps from a cell amid whole squares, by length, then cell: cells are numbered square by square. */
+/* The steps of the square's cells are to be made again. */
+static bool StepSquare(kiriGrid* grid, const kiriMemory* memory, int32_t square)
+{
+    if (IsFlagged(grid->work, square, SQUARE_RESTEPPED)) {
+        return true;
+    }
+    for (int32_t c = grid->squareCell.data[square]; c != KIRI_NONE; c = grid->cells.data[c].next) {
+        if (!kiriArray_Push(memory, &grid->work->stepped, c)) {
+            return false;
+        }
+    }
+    return FlagSquare(grid->work, memory, square, SQUARE_RESTEPPED);
+}
+
+/* All cells from which a step may touch a square where a face came or went. */
+static bool Spread(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+{
+    kiriGridWork* work = grid->work;
+    const kiriSquares* squares = &mesh->squares;
+    int32_t square = work->relinked.data[item], column = square % squares->columns, row = square / squares->columns;
+    for (int32_t v = Most(-2, -row); v <= 2 && row + v < squares->rows; ++v) {
+        int32_t reach = ReachInRow(2, v);
+        for (int32_t u = Most(-reach, -column); u <= reach && column + u < squares->columns; ++u) {
+            if (!StepSquare(grid, mesh->memory, square + v * squares->columns + u)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* All steps from a cell amid whole squares, in their order. */
 static const kiriStep openSteps[] = {
     { 0, KIRI_UNIT, 0, -1 },          { 0, KIRI_UNIT, -1, 0 },           { 0, KIRI_UNIT, 1, 0 },
     { 0, KIRI_UNIT, 0, 1 },           { 0, KIRI_UNIT_DIAGONAL, -1, -1 }, { 0, KIRI_UNIT_DIAGONAL, 1, -1 },
@@ -564,43 +849,54 @@ static const kiriStep openSteps[] = {
     { 0, KIRI_UNIT_KNIGHT, -2, 1 },   { 0, KIRI_UNIT_KNIGHT, 2, 1 },     { 0, KIRI_UNIT_KNIGHT, -1, 2 },
     { 0, KIRI_UNIT_KNIGHT, 1, 2 },
 };
-enum { OPEN_NEAR = 8, OPEN_ALL = 16 };
 
-static bool AddOpenSteps(const kiriGrid* grid, kiriSteps* steps, const kiriMeshData* mesh, int32_t cell, int first,
-                         int end)
+static bool AddStep(kiriGrid* grid, const kiriMemory* memory, kiriStep step)
 {
-    int32_t square = grid->cells.data[cell].square;
-    for (int k = first; k < end; ++k) {
-        kiriStep step = openSteps[k];
-        step.cell = grid->squareCell.data[square + step.v * mesh->squares.columns + step.u];
-        if (!kiriArray_Push(mesh->memory, steps, step)) {
+    return kiriArray_Push(memory, &grid->work->steps, step);
+}
+
+/* Adds steps that the cell has. */
+static bool AddSteps(kiriGrid* grid, const kiriMemory* memory, int32_t from, int32_t end)
+{
+    for (int32_t s = from; s < end; ++s) {
+        if (!AddStep(grid, memory, grid->steps.data[s])) {
             return false;
         }
     }
     return true;
 }
 
-/* A cell that is reached from c in two ways: the first leaves the mark First(c), the second finds it. */
-static int32_t First(int32_t c)
+static bool AddOpenSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, int count)
 {
-    return 2 * c + 1;
-}
-static int32_t Second(int32_t c)
-{
-    return 2 * c + 2;
+    for (int k = 0; k < count; ++k) {
+        kiriStep step = openSteps[k];
+        step.cell = grid->squareCell.data[square + step.v * mesh->squares.columns + step.u];
+        if (!AddStep(grid, mesh->memory, step)) {
+            return false;
+        }
+    }
+    return true;
 }
 
-/* By length, then cell. */
-static void SortSteps(kiriStep* steps, int32_t from, int32_t end)
+/* Does step a come before b? Both from the same cell: the way tells the order of squares. */
+static bool ComesBefore(const kiriGrid* grid, kiriStep a, kiriStep b)
 {
-    for (int32_t i = from + 1; i < end; ++i) {
+    if (a.length != b.length) {
+        return a.length < b.length;
+    }
+    if (a.v != b.v) {
+        return a.v < b.v;
+    }
+    return a.u != b.u ? a.u < b.u : grid->cells.data[a.cell].triangle < grid->cells.data[b.cell].triangle;
+}
+
+static void SortSteps(kiriGrid* grid, int32_t from)
+{
+    kiriStep* steps = grid->work->steps.data;
+    for (int32_t i = from + 1; i < grid->work->steps.count; ++i) {
         kiriStep step = steps[i];
         int32_t j = i;
-        for (; j > from; --j) {
-            if (steps[j - 1].length < step.length ||
-                (steps[j - 1].length == step.length && steps[j - 1].cell < step.cell)) {
-                break;
-            }
+        for (; j > from && ComesBefore(grid, step, steps[j - 1]); --j) {
             steps[j] = steps[j - 1];
         }
         steps[j] = step;
@@ -619,11 +915,28 @@ static kiriStep Joined(kiriStep a, kiriStep b, int16_t length)
     return (kiriStep){ b.cell, length, (int8_t)(a.u + b.u), (int8_t)(a.v + b.v) };
 }
 
-static bool AddStraightSteps(const kiriGrid* grid, Work* work, const kiriMemory* memory, int32_t c)
+/* Steps that lead to a cell in two ways count, once: the first way marks the cell, the second finds the mark. */
+static void StartMarks(kiriGridWork* work)
 {
-    for (int32_t f = grid->faceHead.data[c]; f != KIRI_NONE; f = NextFace(&grid->faces.data[f], c)) {
-        const kiriFace* face = &grid->faces.data[f];
-        if (!kiriArray_Push(memory, &work->near, Straight(face, c))) {
+    work->lastMark += 2;
+}
+
+static void MarkFirst(kiriGridWork* work, int32_t cell)
+{
+    work->mark.data[cell] = work->lastMark;
+}
+
+static bool MarkSecond(kiriGridWork* work, int32_t cell)
+{
+    bool isSecond = work->mark.data[cell] == work->lastMark;
+    work->mark.data[cell] += isSecond;
+    return isSecond;
+}
+
+static bool AddStraightSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c)
+{
+    for (int32_t f = grid->cells.data[c].firstFace; f != KIRI_NONE; f = NextFace(&grid->faces.data[f], c)) {
+        if (!AddStep(grid, memory, Straight(&grid->faces.data[f], c))) {
             return false;
         }
     }
@@ -631,25 +944,23 @@ static bool AddStraightSteps(const kiriGrid* grid, Work* work, const kiriMemory*
 }
 
 /* To cells reached along u, then v, and also along v, then u: both ways around the corner. */
-static bool AddDiagonalSteps(const kiriGrid* grid, Work* work, const kiriMemory* memory, int32_t c)
+static bool AddDiagonalSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c)
 {
     const kiriFace* faces = grid->faces.data;
+    StartMarks(grid->work);
     for (int axis = 0; axis < 2; ++axis) {
-        for (int32_t f = grid->faceHead.data[c]; f != KIRI_NONE; f = NextFace(&faces[f], c)) {
+        for (int32_t f = grid->cells.data[c].firstFace; f != KIRI_NONE; f = NextFace(&faces[f], c)) {
             int32_t between = OtherCell(&faces[f], c);
-            int32_t g = faces[f].axis == axis ? grid->faceHead.data[between] : KIRI_NONE;
+            int32_t g = faces[f].axis == axis ? grid->cells.data[between].firstFace : KIRI_NONE;
             for (; g != KIRI_NONE; g = NextFace(&faces[g], between)) {
                 if (faces[g].axis == axis) {
                     continue;
                 }
                 kiriStep step = Joined(Straight(&faces[f], c), Straight(&faces[g], between), KIRI_UNIT_DIAGONAL);
                 if (axis == 0) {
-                    work->mark.data[step.cell] = First(c);
-                } else if (work->mark.data[step.cell] == First(c)) {
-                    work->mark.data[step.cell] = Second(c);
-                    if (!kiriArray_Push(memory, &work->near, step)) {
-                        return false;
-                    }
+                    MarkFirst(grid->work, step.cell);
+                } else if (MarkSecond(grid->work, step.cell) && !AddStep(grid, memory, step)) {
+                    return false;
                 }
             }
         }
@@ -657,32 +968,28 @@ static bool AddDiagonalSteps(const kiriGrid* grid, Work* work, const kiriMemory*
     return true;
 }
 
-static bool AddNearSteps(const kiriGrid* grid, Work* work, const kiriMeshData* mesh, int32_t c)
+/* A cell's straight and diagonal steps. The knights stay for the time being, unless they are those of the open plane. */
+static bool MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
-    if (IsWholeAround(work, &mesh->squares, grid->cells.data[c].square, 1)) {
-        return AddOpenSteps(grid, &work->near, mesh, c, 0, OPEN_NEAR);
-    }
-    int32_t from = work->near.count;
-    bool ok = AddStraightSteps(grid, work, mesh->memory, c) && AddDiagonalSteps(grid, work, mesh->memory, c);
-    SortSteps(work->near.data, from, work->near.count);
-    return ok;
-}
-
-static bool BuildNearSteps(const kiriGrid* grid, Work* work, const kiriMeshData* mesh)
-{
+    kiriGridWork* work = grid->work;
     const kiriMemory* memory = mesh->memory;
-    work->near.count = 0;
-    if (!Fill(memory, &work->mark, grid->cells.count, 0) || !Fill(memory, &work->nearStart, grid->cells.count + 1, 0) ||
-        !kiriArray_Reserve(memory, &work->near, OPEN_NEAR * (int64_t)grid->cells.count)) {
+    int32_t c = work->stepped.data[item], square = grid->cells.data[c].square;
+    const kiriStepRun* run = &grid->runs.data[c];
+    work->steps.count = 0;
+    if (IsWholeAround(grid, &mesh->squares, square, 2)) {
+        return AddOpenSteps(grid, mesh, square, OPEN_ALL) && SetSteps(grid, memory, c, OPEN_NEAR / 2, OPEN_NEAR);
+    }
+    if (!AddStraightSteps(grid, memory, c)) {
         return false;
     }
-    for (int32_t c = 0; c < grid->cells.count; ++c) {
-        if (!AddNearSteps(grid, work, mesh, c)) {
-            return false;
-        }
-        work->nearStart.data[c + 1] = work->near.count;
+    int32_t straight = work->steps.count;
+    if (!AddDiagonalSteps(grid, memory, c)) {
+        return false;
     }
-    return true;
+    int32_t near = work->steps.count;
+    SortSteps(grid, 0);
+    return AddSteps(grid, memory, run->end[1], run->end[2]) && SetSteps(grid, memory, c, straight, near) &&
+           kiriArray_Push(memory, &work->knights, c);
 }
 
 static bool IsKnightMove(kiriStep step)
@@ -691,91 +998,231 @@ static bool IsKnightMove(kiriStep step)
 }
 
 /* To cells reached straight, then diagonally, and also diagonally, then straight: a slit is never jumped. */
-static bool AddKnightSteps(kiriGrid* grid, Work* work, const kiriMeshData* mesh, int32_t c)
+static bool AddKnightSteps(kiriGrid* grid, const kiriMemory* memory, const kiriStepRun* run)
 {
-    const int32_t* start = work->nearStart.data;
-    const kiriStep* near = work->near.data;
-    int32_t from = grid->steps.count;
-    if (IsWholeAround(work, &mesh->squares, grid->cells.data[c].square, 2)) {
-        return AddOpenSteps(grid, &grid->steps, mesh, c, OPEN_NEAR, OPEN_ALL);
-    }
-    for (int32_t i = start[c]; i < start[c + 1]; ++i) {
-        for (int32_t j = start[near[i].cell]; j < start[near[i].cell + 1]; ++j) {
-            if (near[i].length == near[j].length) {
-                continue;
-            }
-            kiriStep step = Joined(near[i], near[j], KIRI_UNIT_KNIGHT);
-            if (near[i].length == KIRI_UNIT) { /* straight ones come first */
+    StartMarks(grid->work);
+    for (int32_t i = run->first; i < run->end[1]; ++i) {
+        kiriStep first = grid->steps.data[i];
+        bool isStraight = first.length == KIRI_UNIT; /* straight ones come first */
+        const kiriStepRun* after = &grid->runs.data[first.cell];
+        for (int32_t j = isStraight ? after->end[0] : after->first; j < after->end[isStraight ? 1 : 0]; ++j) {
+            kiriStep step = Joined(first, grid->steps.data[j], KIRI_UNIT_KNIGHT);
+            if (isStraight) {
                 if (IsKnightMove(step)) {
-                    work->mark.data[step.cell] = First(c);
+                    MarkFirst(grid->work, step.cell);
                 }
-            } else if (work->mark.data[step.cell] == First(c)) {
-                work->mark.data[step.cell] = Second(c);
-                if (!kiriArray_Push(mesh->memory, &grid->steps, step)) {
-                    return false;
-                }
+            } else if (MarkSecond(grid->work, step.cell) && !AddStep(grid, memory, step)) {
+                return false;
             }
         }
     }
-    SortSteps(grid->steps.data, from, grid->steps.count);
     return true;
 }
 
-static bool AddSteps(kiriGrid* grid, Work* work, const kiriMeshData* mesh, int32_t c)
-{
-    int32_t* start = &grid->lengthStart.data[KIRI_STEP_LENGTHS * c];
-    grid->stepStart.data[c] = start[0] = start[1] = grid->steps.count;
-    for (int32_t i = work->nearStart.data[c]; i < work->nearStart.data[c + 1]; ++i) {
-        if (!kiriArray_Push(mesh->memory, &grid->steps, work->near.data[i])) {
-            return false;
-        }
-        start[1] += work->near.data[i].length == KIRI_UNIT;
-    }
-    start[2] = grid->steps.count;
-    return AddKnightSteps(grid, work, mesh, c);
-}
-
-static bool BuildSteps(kiriGrid* grid, Work* work, const kiriMeshData* mesh)
+static bool MakeKnightSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
     const kiriMemory* memory = mesh->memory;
-    int32_t cellCount = grid->cells.count;
-    grid->steps.count = grid->stepStart.count = 0;
-    if (!BuildNearSteps(grid, work, mesh) || !Fill(memory, &work->mark, cellCount, 0) ||
-        !kiriArray_Reserve(memory, &grid->steps, OPEN_ALL * (int64_t)cellCount) ||
-        !kiriArray_Resize(memory, &grid->stepStart, (int64_t)cellCount + 1) ||
-        !kiriArray_Resize(memory, &grid->lengthStart, KIRI_STEP_LENGTHS * (int64_t)cellCount + 1)) {
+    int32_t c = grid->work->knights.data[item];
+    const kiriStepRun run = grid->runs.data[c];
+    grid->work->steps.count = 0;
+    if (!AddSteps(grid, memory, run.first, run.end[1]) || !AddKnightSteps(grid, memory, &run)) {
         return false;
     }
-    for (int32_t c = 0; c < cellCount; ++c) {
-        if (!AddSteps(grid, work, mesh, c)) {
-            return false;
-        }
+    SortSteps(grid, run.end[1] - run.first);
+    return SetSteps(grid, memory, c, run.end[0] - run.first, run.end[1] - run.first);
+}
+
+/* ---- The update -------------------------------------------------------------------------------------------------- */
+
+enum { STAGE_CELLS, STAGE_FACES, STAGE_SPREAD, STAGE_NEAR_STEPS, STAGE_KNIGHT_STEPS, STAGES };
+
+static int32_t CountItems(const kiriGridWork* work, const kiriMeshData* mesh)
+{
+    switch (work->stage) {
+    case STAGE_CELLS:
+        return work->fromScratch ? mesh->squares.columns * mesh->squares.rows : mesh->squares.touched.count;
+    case STAGE_FACES:
+        return work->remade.count;
+    case STAGE_SPREAD:
+        return work->relinked.count;
+    case STAGE_NEAR_STEPS:
+        return work->stepped.count;
+    default:
+        return work->knights.count;
     }
-    grid->stepStart.data[cellCount] = grid->lengthStart.data[KIRI_STEP_LENGTHS * cellCount] = grid->steps.count;
+}
+
+static bool MakeItem(kiriGrid* grid, const kiriMeshData* mesh)
+{
+    int32_t item = grid->work->item++;
+    switch (grid->work->stage) {
+    case STAGE_CELLS:
+        return MakeCells(grid, mesh, item);
+    case STAGE_FACES:
+        return MakeFaces(grid, mesh, item);
+    case STAGE_SPREAD:
+        return Spread(grid, mesh, item);
+    case STAGE_NEAR_STEPS:
+        return MakeNearSteps(grid, mesh, item);
+    default:
+        return MakeKnightSteps(grid, mesh, item);
+    }
+}
+
+/* Before the first update ever, or after a reset. */
+static bool StartFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
+{
+    kiriGridWork* work = grid->work;
+    int32_t squareCount = mesh->squares.columns * mesh->squares.rows;
+    if (!kiriArray_Resize(mesh->memory, &grid->squareCell, squareCount) ||
+        !kiriArray_Resize(mesh->memory, &grid->whole, squareCount) ||
+        !kiriArray_Resize(mesh->memory, &work->squareFlags, squareCount) ||
+        !kiriArray_Resize(mesh->memory, &work->entries, squareCount)) {
+        return false;
+    }
+    memset(grid->whole.data, 0, (size_t)squareCount);
+    memset(work->squareFlags.data, 0, (size_t)squareCount);
+    for (int32_t s = 0; s < squareCount; ++s) {
+        grid->squareCell.data[s] = KIRI_NONE;
+    }
+    grid->side = mesh->step * mesh->squares.side;
+    grid->freeCell = grid->freeFace = KIRI_NONE;
     return true;
 }
 
-/* ---- The grid ---------------------------------------------------------------------------------------------------- */
-
-bool kiriGrid_Build(kiriGrid* grid, const kiriMeshData* mesh)
+static bool Start(kiriGrid* grid, const kiriMeshData* mesh)
 {
-    Work work = { 0 };
-    bool built = BuildCells(grid, &work, mesh) && BuildFaces(grid, &work, mesh) &&
-                 NumberPieces(grid, &work, mesh->memory) && BuildSteps(grid, &work, mesh);
-    ReleaseWork(&work, mesh->memory);
-    return built;
+    if (grid->work == NULL) {
+        grid->work = kiriMemory_Alloc(mesh->memory, (int64_t)sizeof(*grid->work));
+        if (grid->work == NULL) {
+            return false;
+        }
+        memset(grid->work, 0, sizeof(*grid->work));
+    }
+    grid->work->fromScratch = grid->squareCell.count == 0;
+    grid->work->running = true;
+    return (!grid->work->fromScratch || StartFromScratch(grid, mesh)) &&
+           kiriArray_Resize(mesh->memory, &grid->nodeCell, mesh->squares.nodes.count);
+}
+
+/* Forgets the update at hand. */
+static void Rest(kiriGridWork* work)
+{
+    for (int32_t i = 0; i < work->flagged.count; ++i) {
+        work->squareFlags.data[work->flagged.data[i]] = 0;
+    }
+    work->flagged.count = work->remade.count = work->relinked.count = work->stepped.count = work->knights.count = 0;
+    work->node.count = work->parent.count = 0;
+    work->stage = work->item = 0;
+    work->running = false;
+}
+
+kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
+{
+    if ((grid->work == NULL || !grid->work->running) && !Start(grid, mesh)) {
+        return KIRI_FAILED;
+    }
+    kiriGridWork* work = grid->work;
+    for (; work->stage < STAGES; ++work->stage, work->item = 0) {
+        while (work->item < CountItems(work, mesh)) {
+            if (!kiriQuota_Take(quota, 1)) {
+                return KIRI_MORE;
+            }
+            if (!MakeItem(grid, mesh)) {
+                return KIRI_FAILED;
+            }
+        }
+    }
+    ForgetGone(grid);
+    Rest(work);
+    return KIRI_DONE;
+}
+
+void kiriGrid_Settle(kiriGrid* grid)
+{
+    kiriGridChanges* changes = &grid->changes;
+    for (int32_t i = 0; i < changes->gone.count; ++i) {
+        FreeCell(grid, changes->gone.data[i]);
+    }
+    for (int32_t i = 0; i < changes->restepped.count; ++i) {
+        grid->work->cellFlags.data[changes->restepped.data[i]] = 0;
+    }
+    for (int32_t i = 0; i < changes->remade.count; ++i) {
+        grid->work->cellFlags.data[changes->remade.data[i].cell] = 0;
+    }
+    changes->made.count = changes->gone.count = changes->restepped.count = changes->remade.count = 0;
+}
+
+void kiriGrid_Reset(kiriGrid* grid)
+{
+    kiriGridChanges* changes = &grid->changes;
+    grid->cells.count = grid->runs.count = grid->steps.count = grid->faces.count = grid->squareCell.count = 0;
+    grid->nodeCell.count = grid->whole.count = grid->cellCount = 0;
+    changes->made.count = changes->gone.count = changes->restepped.count = changes->remade.count = 0;
+    memset(&grid->stepRoom, 0, sizeof(grid->stepRoom));
+    if (grid->work != NULL) {
+        grid->work->flagged.count = 0;
+        grid->work->cellFlags.count = grid->work->mark.count = 0;
+        Rest(grid->work);
+    }
+}
+
+static void ReleaseWork(kiriGridWork* work, const kiriMemory* memory)
+{
+    kiriArray_Release(memory, &work->remade);
+    kiriArray_Release(memory, &work->relinked);
+    kiriArray_Release(memory, &work->stepped);
+    kiriArray_Release(memory, &work->knights);
+    kiriArray_Release(memory, &work->squareFlags);
+    kiriArray_Release(memory, &work->flagged);
+    kiriArray_Release(memory, &work->entries);
+    kiriArray_Release(memory, &work->node);
+    kiriArray_Release(memory, &work->parent);
+    kiriArray_Release(memory, &work->cellFlags);
+    kiriArray_Release(memory, &work->mark);
+    kiriArray_Release(memory, &work->fresh);
+    kiriArray_Release(memory, &work->oldFaces);
+    kiriArray_Release(memory, &work->steps);
+    kiriMemory_Free(memory, work);
 }
 
 void kiriGrid_Release(kiriGrid* grid, const kiriMemory* memory)
 {
+    if (grid->work != NULL) {
+        ReleaseWork(grid->work, memory);
+    }
     kiriArray_Release(memory, &grid->cells);
-    kiriArray_Release(memory, &grid->faces);
-    kiriArray_Release(memory, &grid->faceHead);
-    kiriArray_Release(memory, &grid->stepStart);
-    kiriArray_Release(memory, &grid->lengthStart);
+    kiriArray_Release(memory, &grid->runs);
     kiriArray_Release(memory, &grid->steps);
+    kiriArray_Release(memory, &grid->faces);
     kiriArray_Release(memory, &grid->squareCell);
     kiriArray_Release(memory, &grid->nodeCell);
+    kiriArray_Release(memory, &grid->whole);
+    kiriArray_Release(memory, &grid->changes.made);
+    kiriArray_Release(memory, &grid->changes.gone);
+    kiriArray_Release(memory, &grid->changes.restepped);
+    kiriArray_Release(memory, &grid->changes.remade);
+    memset(grid, 0, sizeof(*grid));
+}
+
+/* ---- Questions --------------------------------------------------------------------------------------------------- */
+
+/* Shell 1959; what is sorted already, as after an update from scratch, costs next to nothing. */
+void kiriGrid_SortCells(const kiriGrid* grid, int32_t* cells, int32_t count)
+{
+    int32_t gap = 1;
+    while (gap < count / 3) {
+        gap = 3 * gap + 1;
+    }
+    for (; gap > 0; gap /= 3) {
+        for (int32_t i = gap; i < count; ++i) {
+            int32_t moving = cells[i], j = i;
+            for (; j >= gap && kiriGrid_IsBefore(grid, moving, cells[j - gap]); j -= gap) {
+                cells[j] = cells[j - gap];
+            }
+            cells[j] = moving;
+        }
+    }
 }
 
 int32_t kiriGrid_CellOf(const kiriGrid* grid, const kiriMeshData* mesh, int32_t triangle, kiriPoint at)
@@ -803,11 +1250,15 @@ kiriVec2 kiriGrid_Middle(const kiriGrid* grid, const kiriMeshData* mesh, int32_t
 kiriPoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
 {
     kiriMoments largest = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
-    int32_t square = grid->cells.data[cell].square;
+    int32_t square = grid->cells.data[cell].square, lowest = INT32_MAX;
     for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
         if (grid->nodeCell.data[n] == cell) {
-            kiriMoments material = MaterialInSquare(mesh, mesh->squares.nodes.data[n].triangle, square);
-            largest = material.area > largest.area ? material : largest;
+            int32_t triangle = mesh->squares.nodes.data[n].triangle;
+            kiriMoments material = MaterialInSquare(mesh, triangle, square);
+            if (material.area > largest.area || (material.area == largest.area && triangle < lowest)) {
+                largest = material;
+                lowest = triangle;
+            }
         }
     }
     kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));

@@ -64,36 +64,124 @@ static void PutToRest(kiriSheetData* sheet)
 
 static void ClearForces(kiriSheetData* sheet)
 {
-    sheet->contacts.count = 0;
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         memset(&sheet->frames.data[i].force, 0, sizeof(kiriVec3));
         memset(&sheet->frames.data[i].torque, 0, sizeof(kiriVec3));
     }
 }
 
-/* Fewer and longer substeps where the quota asks for it, and one system at least for each. */
-static kiriProgress Move(kiriSheetData* sheet, const kiriSystem* system, double dt, int32_t substeps, kiriQuota* quota)
+/* ---- Sleep ---- */
+
+#define CALM_SECONDS 0.5
+#define CALM_SLOPE 1e-3 /* by how much the normal of a contact may change meanwhile */
+
+void kiriMotion_Wake(kiriSheetData* sheet)
 {
-    substeps = quota->left < substeps ? (int32_t)quota->left : substeps;
+    sheet->asleep = false;
+    sheet->calm = 0.0;
+}
+
+/* Hosts find contacts anew each tick, where a sheet that hardly moves is seen: a plane that passes the point as near as
+   the sheet may have gone meanwhile is the same. */
+static bool IsSameContact(const kiriSheetData* sheet, const kiriContact* a, const kiriContact* b)
+{
+    kiriVec3 seen = kiriVec3_Load(&sheet->pointPositions.data[3 * a->point]);
+    kiriVec3 tilt = kiriVec3_Sub(kiriVec3_Load(b->normal), kiriVec3_Load(a->normal));
+    double rise = (double)b->offset - (double)a->offset - kiriVec3_Dot(tilt, seen);
+    return a->point == b->point && a->friction == b->friction && a->stiffness == b->stiffness &&
+           kiriVec3_Length(tilt) <= CALM_SLOPE && fabs(rise) <= CALM_SECONDS * sheet->sleepSpeed;
+}
+
+static bool AreContactsNew(const kiriSheetData* sheet)
+{
+    bool same = sheet->contacts.count == sheet->lastContacts.count;
+    for (int32_t i = 0; same && i < sheet->contacts.count; ++i) {
+        same = IsSameContact(sheet, &sheet->lastContacts.data[i], &sheet->contacts.data[i]);
+    }
+    return !same;
+}
+
+/* Falls asleep before a tick, not after one, so that what is seen is where it came to rest. */
+static bool Sleeps(kiriSheetData* sheet)
+{
+    if (sheet->calm >= CALM_SECONDS && AreContactsNew(sheet)) {
+        kiriMotion_Wake(sheet);
+    }
+    if (sheet->calm >= CALM_SECONDS && !sheet->asleep) {
+        PutToRest(sheet);
+        sheet->asleep = true;
+    }
+    return sheet->asleep;
+}
+
+/* The fastest frame counts, by the root mean square over its material. */
+static bool IsCalm(const kiriSheetData* sheet)
+{
+    double limit = 0.5 * sheet->sleepSpeed * sheet->sleepSpeed;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        const kiriFrameData* frame = &sheet->frames.data[i];
+        if (!(kiriFrame_KineticEnergy(frame, &sheet->material) < limit * frame->mass)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* ---- Tick ---- */
+
+/* Contacts are gone after the tick; those that moved the sheet last are what its sleep is compared with. */
+static void EndContacts(kiriSheetData* sheet)
+{
+    kiriContact* data = sheet->contacts.data;
+    int32_t capacity = sheet->contacts.capacity;
+    sheet->contacts.data = sheet->lastContacts.data;
+    sheet->contacts.capacity = sheet->lastContacts.capacity;
+    sheet->lastContacts.data = data;
+    sheet->lastContacts.capacity = capacity;
+    sheet->lastContacts.count = sheet->contacts.count;
+    sheet->contacts.count = 0;
+}
+
+/* Fewer and longer substeps where the quota asks for it, and one system at least for each. */
+static kiriProgress TakeSteps(kiriSheetData* sheet, const kiriSystem* system, double dt, int32_t substeps,
+                              kiriQuota* systems)
+{
+    substeps = systems->left < substeps ? (int32_t)systems->left : substeps;
     for (int32_t i = 0; i < substeps; ++i) {
-        int64_t most = quota->left - (substeps - 1 - i);
+        int64_t most = systems->left - (substeps - 1 - i);
         int32_t solved = kiriSolver_Step(sheet->solver, system, dt / substeps, sheet->iterations,
                                          most < INT32_MAX ? (int32_t)most : INT32_MAX);
         if (solved < 0) {
-            PutToRest(sheet);
             return KIRI_FAILED;
         }
-        kiriQuota_Take(quota, solved);
+        kiriQuota_Take(systems, solved);
     }
     return substeps > 0 ? KIRI_DONE : KIRI_MORE;
 }
 
-kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
+static kiriProgress Move(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
     WritePinRows(sheet);
     WriteContactRows(sheet);
     kiriSystem system = MakeSystem(sheet, gravity);
-    kiriProgress progress = Move(sheet, &system, dt, substeps, systems);
+    kiriProgress progress = TakeSteps(sheet, &system, dt, substeps, systems);
+    if (progress == KIRI_FAILED) {
+        PutToRest(sheet);
+        kiriMotion_Wake(sheet);
+    } else if (progress == KIRI_DONE) {
+        sheet->calm = IsCalm(sheet) ? sheet->calm + dt : 0.0;
+    }
+    return progress;
+}
+
+kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
+{
+    if (Sleeps(sheet)) {
+        sheet->contacts.count = 0;
+        return KIRI_DONE;
+    }
+    kiriProgress progress = Move(sheet, gravity, dt, substeps, systems);
+    EndContacts(sheet);
     ClearForces(sheet);
     return progress;
 }

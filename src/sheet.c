@@ -36,6 +36,7 @@ void kiriSheet_Release(kiriSheetData* sheet)
     kiriArray_Release(memory, &sheet->cuts);
     kiriArray_Release(memory, &sheet->pins);
     kiriArray_Release(memory, &sheet->contacts);
+    kiriArray_Release(memory, &sheet->lastContacts);
     kiriArray_Release(memory, &sheet->pinRows);
     kiriArray_Release(memory, &sheet->contactRows);
     kiriView_Release(sheet);
@@ -66,6 +67,7 @@ static void SetParameters(kiriSheetData* sheet, const kiriSheetDef* def)
     sheet->mechanics.axes = AxesOf(def);
     sheet->integrationPoints = def->integrationPoints > 0 ? def->integrationPoints : 4 * def->frameCount;
     sheet->integrationOrder = def->integrationOrder;
+    sheet->sleepSpeed = def->sleepSpeed;
     sheet->alwaysScratch = def->fromScratch != 0;
 }
 

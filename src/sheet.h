@@ -6,8 +6,8 @@
 #define KIRI_SHEET_H
 
 #include "cut.h"
+#include "point.h"
 #include "pool.h"
-#include "sample.h"
 #include "solver.h"
 
 typedef struct kiriPiece {
@@ -86,6 +86,7 @@ typedef struct kiriUpdate {
     kiriModel next;
     KIRI_ARRAY(int32_t) parent;     /* of frames: union-find */
     kiriRefresh refresh;
+    kiriPointsWork points;
     KIRI_ARRAY(kiriSample) newPoints;
     KIRI_ARRAY(kiriSample) movedPoints; /* `frame` is the index of a point, `cell` where it is now */
     kiriTouched touched;
@@ -118,7 +119,11 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriStroke) queue;
     KIRI_ARRAY(kiriCutData*) cuts;
     KIRI_ARRAY(kiriPinData) pins;
-    KIRI_ARRAY(kiriContact) contacts;
+    KIRI_ARRAY(kiriContact) contacts, lastContacts; /* of the next tick, and of the last one that moved the sheet */
+
+    double sleepSpeed; /* m/s; 0: never sleeps */
+    double calm;       /* s for which it has been slower */
+    bool asleep;       /* it was not moved by the last tick, and rests */
 
     /* Room reserved by whoever makes it needed, so that a tick without a cut allocates nothing. */
     KIRI_ARRAY(kiriPinRow) pinRows;

@@ -174,6 +174,16 @@ static int32_t IndexOf(const kiriSheetData* sheet, const kiriCutData* cut)
     return index;
 }
 
+static void Contacts(uint64_t* hash, const kiriContact* contacts, int32_t count)
+{
+    Int(hash, count);
+    for (int32_t i = 0; i < count; ++i) {
+        Int(hash, contacts[i].point);
+        Vec3(hash, kiriVec3_Load(contacts[i].normal));
+        Vec3(hash, kiriVec3_Make(contacts[i].offset, contacts[i].friction, contacts[i].stiffness));
+    }
+}
+
 static void Waiting(uint64_t* hash, const kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->queue.count; ++i) {
@@ -193,12 +203,15 @@ static void Waiting(uint64_t* hash, const kiriSheetData* sheet)
         Vec3(hash, sheet->pins.data[i].target);
         Real(hash, sheet->pins.data[i].stiffness);
     }
-    for (int32_t i = 0; i < sheet->contacts.count; ++i) {
-        const kiriContact* contact = &sheet->contacts.data[i];
-        Int(hash, contact->point);
-        Vec3(hash, kiriVec3_Load(contact->normal));
-        Vec3(hash, kiriVec3_Make(contact->offset, contact->friction, contact->stiffness));
-    }
+    Contacts(hash, sheet->contacts.data, sheet->contacts.count);
+}
+
+static void Sleep(uint64_t* hash, const kiriSheetData* sheet)
+{
+    Real(hash, sheet->sleepSpeed);
+    Real(hash, sheet->calm);
+    Int(hash, sheet->asleep);
+    Contacts(hash, sheet->lastContacts.data, sheet->lastContacts.count);
 }
 
 uint64_t kiriSnapshot_Hash(const kiriWorld* world)
@@ -215,6 +228,7 @@ uint64_t kiriSnapshot_Hash(const kiriWorld* world)
         uint64_t pattern = kiriSolver_Hash(sheet->solver);
         Bytes(&hash, &pattern, sizeof(pattern));
         Waiting(&hash, sheet);
+        Sleep(&hash, sheet);
         for (int32_t f = 0; f < sheet->frames.count; ++f) {
             Frame(&hash, &sheet->frames.data[f]);
         }
@@ -283,6 +297,8 @@ static void Cell(uint64_t* hash, const kiriSheetData* sheet, int32_t cell)
 uint64_t kiriSnapshot_HashLayout(const kiriSheetData* sheet)
 {
     uint64_t hash = 14695981039346656037u;
+    Mesh(&hash, &sheet->mesh);
+    Model(&hash, sheet);
     for (int32_t s = 0; s < sheet->grid.squareCell.count; ++s) {
         for (int32_t c = sheet->grid.squareCell.data[s]; c != KIRI_NONE; c = sheet->grid.cells.data[c].next) {
             Cell(&hash, sheet, c);

@@ -97,6 +97,7 @@ void kiriUpdate_Release(kiriSheetData* sheet)
     kiriArray_Release(memory, &u->material);
     kiriArray_Release(memory, &u->parent);
     kiriRefresh_Release(&u->refresh, memory);
+    kiriPointsWork_Release(&u->points, memory);
     kiriArray_Release(memory, &u->newPoints);
     kiriArray_Release(memory, &u->movedPoints);
 }
@@ -796,7 +797,7 @@ static bool BuildPatches(kiriSheetData* sheet)
         return kiriAffine_Build(&u->next.patches, sheet->memory, sheet->links.next.data, sheet->links.next.count,
                                 u->material.data, u->sites.count, planar);
     case KIRI_MODEL_POINTS:
-        return kiriPoints_Build(&u->next.patches, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->shape,
+        return kiriPoints_Build(&u->next.patches, &u->points, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->shape,
                                 u->material.data, sheet->integrationPoints, sheet->integrationOrder, planar);
     default:
         return true;

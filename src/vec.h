@@ -107,6 +107,11 @@ static inline double kiriVec3_Length(kiriVec3 a)
     return sqrt(kiriVec3_Dot(a, a));
 }
 
+static inline bool kiriVec3_Equal(kiriVec3 a, kiriVec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
 static inline kiriVec3 kiriVec3_Cross(kiriVec3 a, kiriVec3 b)
 {
     return kiriVec3_Make(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);

@@ -212,6 +212,7 @@ static void CommitAll(kiriWorld* world)
         kiriSheetData* sheet = world->sheets.data[i];
         if (sheet->update.isBegun) {
             kiriUpdate_CommitMesh(sheet);
+            kiriMotion_Wake(sheet);
         }
         if (IsReady(sheet)) {
             Finish(world, sheet);
@@ -263,7 +264,9 @@ static void SkinAll(kiriWorld* world)
 {
     Enter(world, KIRI_STAGE_SKIN);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriView_WritePositions(world->sheets.data[i]);
+        if (!world->sheets.data[i]->asleep) {
+            kiriView_WritePositions(world->sheets.data[i]);
+        }
     }
 }
 

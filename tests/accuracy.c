@@ -133,6 +133,7 @@ static kiriSheetDef DefOf(const Strip* strip)
     float longer = strip->length > strip->width ? strip->length : strip->width;
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
+    def.sleepSpeed = 0.0f;
     def.material = strip->material;
     def.gridResolution = (int32_t)(longer / strip->square + 0.5f);
     def.frameCount = strip->frames;

@@ -121,6 +121,7 @@ static kiriResult AddSheet(kiriWorld* world, int32_t side, int32_t grid, int32_t
 {
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
+    def.sleepSpeed = 0.0f;
     int32_t squares = side - 1;
     float* positions = malloc(2 * sizeof(float) * (size_t)side * (size_t)side);
     int32_t* indices = malloc(6 * sizeof(int32_t) * (size_t)squares * (size_t)squares);

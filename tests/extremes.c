@@ -516,6 +516,7 @@ static kiriSheetDef DefOf(const Extreme* e, bool damped)
 {
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
+    def.sleepSpeed = 0.0f;
     double size = Or(e->size, 1.0);
     kiriMaterial material = { (float)Or(e->modulus, 1e9),
                               0.3f,

@@ -92,6 +92,7 @@ static bool AddStrip(Scene* scene, const Setting* setting)
     static int32_t indices[3 * TRIANGLES];
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
+    def.sleepSpeed = 0.0f;
     kiriFillRectangle(LENGTH, WIDTH, COLUMNS, ROWS, rest, indices);
     for (int i = 0; i < setting->columns * setting->rows; ++i) {
         points[2 * i] = LENGTH * (float)(i / setting->rows) / (float)(setting->columns - 1);

@@ -110,7 +110,8 @@ static void CutAlong(Sheet* sheet, const double* points, int32_t count)
     kiriBlade blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(points[0], points[1]));
     for (int32_t i = 1; i < count; ++i) {
         kiriPoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(points[2 * i], points[2 * i + 1]));
-        assert_true(kiriCut_Move(&sheet->mesh, &blade, to, 16.0));
+        kiriQuota all = { INT64_MAX, 0 };
+        assert_int_equal(kiriCut_Move(&sheet->mesh, &blade, to, 16.0, &all), KIRI_DONE);
     }
     kiriMesh_Commit(&sheet->mesh);
 }
@@ -135,9 +136,19 @@ static void CutRandomly(Sheet* sheet, uint32_t* seed, int32_t cuts)
     }
 }
 
+static void Update(kiriGrid* grid, const kiriMeshData* mesh)
+{
+    kiriQuota quota = { INT64_MAX, 0 };
+    assert_int_equal(kiriGrid_Update(grid, mesh, &quota), KIRI_DONE);
+}
+
+/* From scratch, but with the memory of the grid before. */
 static void Build(Sheet* sheet)
 {
-    assert_true(kiriGrid_Build(&sheet->grid, &sheet->mesh));
+    kiriGrid_Reset(&sheet->grid);
+    Update(&sheet->grid, &sheet->mesh);
+    kiriSquares_ClearTouched(&sheet->mesh.squares);
+    assert_int_equal(sheet->grid.cellCount, sheet->grid.cells.count); /* no gaps */
 }
 
 /* ---- What must hold for every grid -------------------------------------------------------------------------------- */
@@ -179,9 +190,14 @@ static const kiriFace* FindFace(const kiriGrid* grid, int32_t a, int32_t b)
     return NULL;
 }
 
+static int32_t CountSteps(const kiriGrid* grid, int32_t c)
+{
+    return grid->runs.data[c].end[2] - grid->runs.data[c].first;
+}
+
 static int32_t StepLength(const kiriGrid* grid, int32_t a, int32_t b)
 {
-    for (int32_t s = grid->stepStart.data[a]; s < grid->stepStart.data[a + 1]; ++s) {
+    for (int32_t s = grid->runs.data[a].first; s < grid->runs.data[a].end[2]; ++s) {
         if (grid->steps.data[s].cell == b) {
             return grid->steps.data[s].length;
         }
@@ -216,33 +232,61 @@ static void CheckMaterial(const Sheet* sheet)
     assert_near(cells.vv, triangles.vv, 1e-12 * triangles.vv);
 }
 
+/* Numbers what hangs together over faces, in the order of cells. Returns how many there are. */
+static int32_t PiecesOf(const kiriGrid* grid, int32_t* piece)
+{
+    int32_t count = 0;
+    for (int32_t c = 0; c < grid->cells.count; ++c) {
+        piece[c] = c;
+    }
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (int32_t f = 0; f < grid->faces.count; ++f) {
+            const int32_t* cell = grid->faces.data[f].cell;
+            int32_t a = cell[0] == KIRI_NONE ? 0 : piece[cell[0]], b = cell[0] == KIRI_NONE ? 0 : piece[cell[1]];
+            if (a != b) {
+                piece[cell[0]] = piece[cell[1]] = a < b ? a : b;
+                changed = true;
+            }
+        }
+    }
+    for (int32_t c = 0; c < grid->cells.count; ++c) {
+        piece[c] = piece[c] == c ? count++ : piece[piece[c]];
+    }
+    return count;
+}
+
+static int32_t CountPieces(const kiriGrid* grid)
+{
+    int32_t* piece = malloc(sizeof(int32_t) * (size_t)grid->cells.count);
+    int32_t count = PiecesOf(grid, piece);
+    free(piece);
+    return count;
+}
+
 /* A piece of the mesh is a piece of the grid, and the other way round. */
 static void CheckPieces(const Sheet* sheet)
 {
     int32_t triangles = sheet->mesh.triangles.count, count;
     int32_t* piece = malloc(sizeof(int32_t) * (size_t)triangles);
     int32_t* match = malloc(sizeof(int32_t) * (size_t)triangles);
+    int32_t* ofCell = malloc(sizeof(int32_t) * (size_t)sheet->grid.cells.count);
     kiriMesh_Pieces(&sheet->mesh, piece, &count);
-    assert_int_equal(count, sheet->grid.pieces);
+    assert_int_equal(count, PiecesOf(&sheet->grid, ofCell));
     for (int32_t i = 0; i < count; ++i) {
         match[i] = KIRI_NONE;
     }
     for (int32_t s = 0; s < sheet->mesh.squares.columns * sheet->mesh.squares.rows; ++s) {
         for (int32_t n = sheet->mesh.squares.head[s]; n != KIRI_NONE; n = sheet->mesh.squares.nodes.data[n].next) {
             int32_t ofMesh = piece[sheet->mesh.squares.nodes.data[n].triangle];
-            int32_t ofGrid = sheet->grid.cells.data[sheet->grid.nodeCell.data[n]].piece;
+            int32_t ofGrid = ofCell[sheet->grid.nodeCell.data[n]];
             assert_true(match[ofMesh] == KIRI_NONE || match[ofMesh] == ofGrid);
             match[ofMesh] = ofGrid;
         }
     }
-    int32_t seen = 0;
-    for (int32_t c = 0; c < sheet->grid.cells.count; ++c) {
-        assert_true(sheet->grid.cells.data[c].piece <= seen);
-        seen += sheet->grid.cells.data[c].piece == seen;
-    }
-    assert_int_equal(seen, count);
     free(piece);
     free(match);
+    free(ofCell);
 }
 
 /* Where a side is covered from end to end, its faces together are the whole side: width, middle and moment. */
@@ -251,7 +295,7 @@ static void CheckSide(const Sheet* sheet, int32_t before, int32_t square, int ax
     double width = 0.0, first = 0.0, second = 0.0, side = sheet->grid.side;
     kiriVec2 corner = kiriMesh_Local(&sheet->mesh, kiriSquares_Corner(&sheet->mesh.squares, square));
     for (int32_t c = sheet->grid.squareCell.data[square]; c != KIRI_NONE; c = sheet->grid.cells.data[c].next) {
-        for (int32_t f = sheet->grid.faceHead.data[c]; f != KIRI_NONE;) {
+        for (int32_t f = sheet->grid.cells.data[c].firstFace; f != KIRI_NONE;) {
             const kiriFace* face = &sheet->grid.faces.data[f];
             if (face->cell[1] == c && sheet->grid.cells.data[face->cell[0]].square == before) {
                 double along = axis == 0 ? face->middle.y - corner.y : face->middle.x - corner.x;
@@ -396,13 +440,12 @@ static void CheckSteps(const Sheet* sheet)
         }
     }
     for (int32_t a = 0; a < n; ++a) {
-        int32_t s = grid->stepStart.data[a];
+        int32_t s = grid->runs.data[a].first;
         for (int kind = 0; kind < 3; ++kind) {
-            assert_int_equal(s, grid->lengthStart.data[3 * a + kind]);
             const char* is = kind == 0 ? straight : kind == 1 ? diagonal : knight;
             for (int32_t b = 0; b < n; ++b) {
                 if (is[a * n + b]) {
-                    assert_true(s < grid->stepStart.data[a + 1]);
+                    assert_true(s < grid->runs.data[a].end[kind]);
                     assert_int_equal(grid->steps.data[s].cell, b);
                     assert_int_equal(grid->steps.data[s].length, kind == 0 ? 256 : kind == 1 ? 362 : 572);
                     assert_int_equal(StepLength(grid, b, a), grid->steps.data[s].length);
@@ -412,9 +455,8 @@ static void CheckSteps(const Sheet* sheet)
                     ++s;
                 }
             }
+            assert_int_equal(s, grid->runs.data[a].end[kind]);
         }
-        assert_int_equal(s, grid->stepStart.data[a + 1]);
-        assert_int_equal(s, grid->lengthStart.data[3 * (a + 1)]);
     }
     free(straight);
     free(diagonal);
@@ -441,7 +483,7 @@ static void TestDividedInTwo(void** state)
     CutLine(&sheet, 0.4, -0.1, 0.4, 1.1);
     Build(&sheet);
     CheckAll(&sheet);
-    assert_int_equal(sheet.grid.pieces, 2);
+    assert_int_equal(CountPieces(&sheet.grid), 2);
     for (int32_t row = 0; row < 4; ++row) {
         for (int32_t column = 0; column < 4; ++column) {
             assert_int_equal(CellsIn(&sheet, column, row), column == 1 ? 2 : 1);
@@ -476,7 +518,7 @@ static void TestConfettiInOneSquare(void** state)
     }
     Build(&sheet);
     CheckAll(&sheet);
-    assert_int_equal(sheet.grid.pieces, 4);
+    assert_int_equal(CountPieces(&sheet.grid), 4);
     assert_int_equal(CellsIn(&sheet, 1, 1), 4);
     assert_int_equal(sheet.grid.cells.count, 16 + 3);
     int32_t around = CellAt(&sheet, 0.27, 0.4);
@@ -484,8 +526,8 @@ static void TestConfettiInOneSquare(void** state)
     for (int i = 0; i < 3; ++i) {
         int32_t c = CellAt(&sheet, at[i][0] + 0.02, at[i][1] + 0.02);
         assert_near(sheet.grid.cells.data[c].material.area, 0.002, 1e-8);
-        assert_int_equal(sheet.grid.faceHead.data[c], KIRI_NONE);
-        assert_int_equal(sheet.grid.stepStart.data[c], sheet.grid.stepStart.data[c + 1]);
+        assert_int_equal(sheet.grid.cells.data[c].firstFace, KIRI_NONE);
+        assert_int_equal(CountSteps(&sheet.grid, c), 0);
         assert_int_equal(sheet.grid.cells.data[c].square, sheet.grid.cells.data[around].square);
     }
     CloseSheet(&sheet);
@@ -501,12 +543,12 @@ static void TestThinStrip(void** state)
     Build(&sheet);
     CheckAll(&sheet);
     CheckInnerSides(&sheet);
-    assert_int_equal(sheet.grid.pieces, 3);
+    assert_int_equal(CountPieces(&sheet.grid), 3);
     for (int32_t row = 0; row < 8; ++row) {
         assert_int_equal(CellsIn(&sheet, 3, row), 3);
         int32_t c = CellAt(&sheet, 0.415, (row + 0.5) / 8.0);
         int32_t neighbours = row == 0 || row == 7 ? 1 : 2;
-        assert_int_equal(sheet.grid.stepStart.data[c + 1] - sheet.grid.stepStart.data[c], neighbours);
+        assert_int_equal(CountSteps(&sheet.grid, c), neighbours);
         if (row > 0) {
             const kiriFace* face = FindFace(&sheet.grid, c, CellAt(&sheet, 0.415, (row - 0.5) / 8.0));
             assert_near(face->width, 0.01, 1e-7);
@@ -529,7 +571,7 @@ static void TestGapNarrowerThanACell(void** state)
     OpenSheet(&sheet, positions, 8, indices, 4, 8);
     Build(&sheet);
     CheckAll(&sheet);
-    assert_int_equal(sheet.grid.pieces, 2);
+    assert_int_equal(CountPieces(&sheet.grid), 2);
     assert_int_equal(sheet.grid.cells.count, 64 + 8);
     int32_t left = CellAt(&sheet, 0.405, 0.55), right = CellAt(&sheet, 0.425, 0.55);
     assert_int_equal(sheet.grid.cells.data[left].square, sheet.grid.cells.data[right].square);
@@ -548,7 +590,7 @@ static void TestTipOfSlit(void** state)
     Build(&sheet);
     CheckAll(&sheet);
     CheckInnerSides(&sheet);
-    assert_int_equal(sheet.grid.pieces, 1);
+    assert_int_equal(CountPieces(&sheet.grid), 1);
     for (int32_t column = 0; column < 10; ++column) {
         assert_int_equal(CellsIn(&sheet, column, 4), column < 5 ? 2 : 1);
     }
@@ -607,7 +649,7 @@ static void TestMeshFinerCoarserAligned(void** state)
         int32_t n = cases[i][2];
         assert_int_equal(sheet.grid.cells.count, n * n);
         assert_int_equal(sheet.grid.faces.count, 2 * n * (n - 1));
-        assert_int_equal(sheet.grid.pieces, 1);
+        assert_int_equal(CountPieces(&sheet.grid), 1);
         for (int32_t f = 0; f < sheet.grid.faces.count; ++f) {
             assert_near(sheet.grid.faces.data[f].width, 1.0 / n, 1e-7); /* squares are a few steps larger */
         }
@@ -629,11 +671,14 @@ static void TestEveryTriangleAPiece(void** state)
     kiriMesh_Commit(&sheet.mesh);
     Build(&sheet);
     CheckAll(&sheet);
-    assert_int_equal(sheet.grid.pieces, 128);
+    assert_int_equal(CountPieces(&sheet.grid), 128);
     double area[128] = { 0.0 };
+    int32_t* piece = malloc(sizeof(int32_t) * (size_t)sheet.grid.cells.count);
+    PiecesOf(&sheet.grid, piece);
     for (int32_t c = 0; c < sheet.grid.cells.count; ++c) {
-        area[sheet.grid.cells.data[c].piece] += sheet.grid.cells.data[c].material.area;
+        area[piece[c]] += sheet.grid.cells.data[c].material.area;
     }
+    free(piece);
     for (int i = 0; i < 128; ++i) {
         assert_near(area[i], 1.0 / 128.0, 1e-12);
     }
@@ -711,7 +756,7 @@ static void TestClosedCurveAroundHole(void** state)
     OpenRing(&sheet, 20);
     Build(&sheet);
     CheckAll(&sheet);
-    assert_int_equal(sheet.grid.pieces, 1);
+    assert_int_equal(CountPieces(&sheet.grid), 1);
     assert_near(0.5 * (double)kiriMesh_DoubledArea(&sheet.mesh) * sheet.mesh.step * sheet.mesh.step,
                 0.5 * 48.0 * 0.13052619222005157 * (0.25 - 0.04), 1e-6);
     double sum[2] = { 0.0, 0.0 }, length = 0.0;
@@ -762,7 +807,7 @@ static void TestRandomCuts(void** state)
                 assert_true(kiriMesh_DoubledArea(&sheet.mesh) == area);
             }
         }
-        pieces += sheet.grid.pieces;
+        pieces += CountPieces(&sheet.grid);
         for (int32_t c = 0; c < sheet.grid.cells.count; ++c) {
             copies += sheet.grid.cells.data[c].next != KIRI_NONE;
         }
@@ -771,33 +816,443 @@ static void TestRandomCuts(void** state)
     assert_true(pieces > 200 && copies > 2000); /* the cuts were worth testing */
 }
 
-static void assert_same_bytes(const void* a, const void* b, int32_t countA, int32_t countB, size_t itemBytes)
+/* ---- Updates: the same as from scratch ----------------------------------------------------------------------------- */
+
+static bool SameBits(const void* a, const void* b, size_t bytes)
 {
-    assert_int_equal(countA, countB);
-    assert_memory_equal(a, b, (size_t)countA * itemBytes);
+    return memcmp(a, b, bytes) == 0;
 }
 
-#define assert_same_array(a, b) assert_same_bytes((a).data, (b).data, (a).count, (b).count, sizeof(*(a).data))
-
-static void assert_same_grid(const kiriGrid* a, const kiriGrid* b)
+static bool SameFace(const kiriFace* a, const kiriFace* b)
 {
-    assert_int_equal(a->pieces, b->pieces);
-    assert_same_array(a->cells, b->cells);
-    assert_same_array(a->faceHead, b->faceHead);
-    assert_same_array(a->stepStart, b->stepStart);
-    assert_same_array(a->lengthStart, b->lengthStart);
-    assert_same_array(a->steps, b->steps);
-    assert_same_array(a->squareCell, b->squareCell);
-    assert_same_array(a->nodeCell, b->nodeCell);
-    assert_int_equal(a->faces.count, b->faces.count);
-    for (int32_t f = 0; f < a->faces.count; ++f) { /* one by one: the struct may hold padding */
-        const kiriFace *p = &a->faces.data[f], *q = &b->faces.data[f];
-        assert_memory_equal(p->cell, q->cell, sizeof(p->cell));
-        assert_memory_equal(p->next, q->next, sizeof(p->next));
-        assert_int_equal(p->axis, q->axis);
-        assert_true(p->width == q->width && p->moment == q->moment);
-        assert_true(p->middle.x == q->middle.x && p->middle.y == q->middle.y);
+    return a->axis == b->axis && SameBits(&a->width, &b->width, sizeof(a->width)) &&
+           SameBits(&a->middle, &b->middle, sizeof(a->middle)) && SameBits(&a->moment, &b->moment, sizeof(a->moment));
+}
+
+static int32_t NextOf(const kiriFace* face, int32_t cell)
+{
+    return face->next[face->cell[1] == cell];
+}
+
+/* The face of cell a that leads from or to cell b, in the list of a. */
+static const kiriFace* FaceInList(const kiriGrid* grid, int32_t a, int32_t b)
+{
+    for (int32_t f = grid->cells.data[a].firstFace; f != KIRI_NONE; f = NextOf(&grid->faces.data[f], a)) {
+        if (grid->faces.data[f].cell[0] == b || grid->faces.data[f].cell[1] == b) {
+            return &grid->faces.data[f];
+        }
     }
+    return NULL;
+}
+
+/* The cell of the second grid for each cell of the first: the same place in the list of the same square. */
+static int32_t* MatchCells(const kiriGrid* a, const kiriGrid* b)
+{
+    int32_t* match = malloc(sizeof(int32_t) * (size_t)a->cells.count);
+    int32_t live = 0;
+    for (int32_t c = 0; c < a->cells.count; ++c) {
+        match[c] = KIRI_NONE;
+    }
+    assert_int_equal(a->squareCell.count, b->squareCell.count);
+    for (int32_t s = 0; s < a->squareCell.count; ++s) {
+        int32_t c = a->squareCell.data[s], d = b->squareCell.data[s];
+        for (int32_t last = KIRI_NONE; c != KIRI_NONE && d != KIRI_NONE; ++live) {
+            assert_int_equal(a->cells.data[c].square, s);
+            assert_int_equal(a->cells.data[c].triangle, b->cells.data[d].triangle);
+            assert_true(a->cells.data[c].triangle > last);
+            last = a->cells.data[c].triangle;
+            match[c] = d;
+            c = a->cells.data[c].next;
+            d = b->cells.data[d].next;
+        }
+        assert_int_equal(c, KIRI_NONE);
+        assert_int_equal(d, KIRI_NONE);
+    }
+    assert_int_equal(live, a->cellCount);
+    assert_int_equal(live, b->cellCount);
+    for (int32_t c = 0; c < a->cells.count; ++c) {
+        assert_int_equal(kiriGrid_IsCell(a, c), match[c] != KIRI_NONE);
+        live -= kiriGrid_IsCell(a, c);
+    }
+    assert_int_equal(live, 0);
+    return match;
+}
+
+static int32_t CountFaces(const kiriGrid* grid)
+{
+    int32_t count = 0;
+    for (int32_t f = 0; f < grid->faces.count; ++f) {
+        count += grid->faces.data[f].cell[0] != KIRI_NONE;
+    }
+    return count;
+}
+
+static void CheckSameFaces(const kiriGrid* a, const kiriGrid* b, const int32_t* match)
+{
+    int32_t ends = 0;
+    assert_int_equal(CountFaces(a), CountFaces(b));
+    for (int32_t c = 0; c < a->cells.count; ++c) {
+        for (int32_t f = match[c] == KIRI_NONE ? KIRI_NONE : a->cells.data[c].firstFace; f != KIRI_NONE; ++ends) {
+            const kiriFace* face = &a->faces.data[f];
+            bool second = face->cell[1] == c;
+            const kiriFace* other = FaceInList(b, match[c], match[face->cell[!second]]);
+            assert_int_equal(face->cell[second], c);
+            assert_non_null(other);
+            assert_int_equal(other->cell[second], match[c]);
+            assert_true(SameFace(face, other));
+            f = face->next[second];
+        }
+    }
+    assert_int_equal(ends, 2 * CountFaces(a));
+}
+
+static void CheckSameSteps(const kiriGrid* a, const kiriGrid* b, const int32_t* match)
+{
+    for (int32_t c = 0; c < a->cells.count; ++c) {
+        if (match[c] == KIRI_NONE) {
+            continue;
+        }
+        const kiriStepRun *p = &a->runs.data[c], *q = &b->runs.data[match[c]];
+        for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
+            assert_int_equal(p->end[k] - p->first, q->end[k] - q->first);
+        }
+        for (int32_t i = 0; i < CountSteps(a, c); ++i) {
+            kiriStep s = a->steps.data[p->first + i], t = b->steps.data[q->first + i];
+            assert_true(match[s.cell] == t.cell && s.length == t.length && s.u == t.u && s.v == t.v);
+        }
+    }
+}
+
+/* Equal bit for bit, but for the indices. */
+static void CheckSameGrid(const kiriGrid* a, const kiriGrid* b, const kiriSquares* squares)
+{
+    int32_t* match = MatchCells(a, b);
+    assert_true(a->side == b->side);
+    assert_memory_equal(a->whole.data, b->whole.data, (size_t)a->whole.count);
+    for (int32_t c = 0; c < a->cells.count; ++c) {
+        assert_true(match[c] == KIRI_NONE ||
+                    SameBits(&a->cells.data[c].material, &b->cells.data[match[c]].material, sizeof(kiriMoments)));
+    }
+    for (int32_t s = 0; s < a->squareCell.count; ++s) {
+        for (int32_t n = squares->head[s]; n != KIRI_NONE; n = squares->nodes.data[n].next) {
+            assert_int_equal(match[a->nodeCell.data[n]], b->nodeCell.data[n]);
+        }
+    }
+    CheckSameFaces(a, b, match);
+    CheckSameSteps(a, b, match);
+    free(match);
+}
+
+static void CheckAgainstScratch(const Sheet* sheet)
+{
+    kiriGrid fresh = { 0 };
+    Update(&fresh, &sheet->mesh);
+    CheckSameGrid(&sheet->grid, &fresh, &sheet->mesh.squares);
+    kiriGrid_Release(&fresh, &sheet->memory);
+}
+
+/* ---- Updates: what they say has changed ---------------------------------------------------------------------------- */
+
+/* A copy of what followers see of a grid. */
+static void* CopyBytes(const void* data, size_t bytes)
+{
+    void* copy = malloc(bytes + 1);
+    if (bytes > 0) {
+        memcpy(copy, data, bytes);
+    }
+    return copy;
+}
+
+static kiriGrid CopyGrid(const kiriGrid* grid)
+{
+    kiriGrid copy = *grid;
+    copy.cells.data = CopyBytes(grid->cells.data, sizeof(kiriCell) * (size_t)grid->cells.count);
+    copy.runs.data = CopyBytes(grid->runs.data, sizeof(kiriStepRun) * (size_t)grid->runs.count);
+    copy.steps.data = CopyBytes(grid->steps.data, sizeof(kiriStep) * (size_t)grid->steps.count);
+    copy.faces.data = CopyBytes(grid->faces.data, sizeof(kiriFace) * (size_t)grid->faces.count);
+    return copy;
+}
+
+static void FreeCopy(kiriGrid* copy)
+{
+    free(copy->cells.data);
+    free(copy->runs.data);
+    free(copy->steps.data);
+    free(copy->faces.data);
+}
+
+static bool HadCell(const kiriGrid* was, int32_t c)
+{
+    return c < was->cells.count && kiriGrid_IsCell(was, c);
+}
+
+static bool SameSteps(const kiriGrid* was, const kiriGrid* is, int32_t c)
+{
+    const kiriStepRun *p = &was->runs.data[c], *q = &is->runs.data[c];
+    bool same = true;
+    for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
+        same = same && p->end[k] - p->first == q->end[k] - q->first;
+    }
+    return same && (CountSteps(was, c) == 0 || SameBits(&was->steps.data[p->first], &is->steps.data[q->first],
+                                                        sizeof(kiriStep) * (size_t)CountSteps(was, c)));
+}
+
+static bool HasFacesOf(const kiriGrid* a, const kiriGrid* b, int32_t c)
+{
+    for (int32_t f = a->cells.data[c].firstFace; f != KIRI_NONE; f = NextOf(&a->faces.data[f], c)) {
+        const kiriFace *face = &a->faces.data[f], *other = FaceInList(b, c, face->cell[face->cell[0] == c]);
+        if (other == NULL || other->cell[0] != face->cell[0] || !SameFace(face, other)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool SameFaces(const kiriGrid* was, const kiriGrid* is, int32_t c)
+{
+    return HasFacesOf(was, is, c) && HasFacesOf(is, was, c);
+}
+
+enum { IN_MADE = 1, IN_GONE = 2, IN_RESTEPPED = 4, IN_REMADE = 8 };
+
+static void Enlist(uint8_t* lists, int32_t c, int list)
+{
+    assert_int_equal(lists[c] & list, 0); /* once */
+    lists[c] |= (uint8_t)list;
+}
+
+static uint8_t* ListsOf(const kiriGrid* grid)
+{
+    uint8_t* lists = calloc((size_t)grid->cells.count + 1, 1);
+    const kiriGridChanges* changes = &grid->changes;
+    for (int32_t i = 0; i < changes->made.count; ++i) {
+        Enlist(lists, changes->made.data[i], IN_MADE);
+    }
+    for (int32_t i = 0; i < changes->gone.count; ++i) {
+        Enlist(lists, changes->gone.data[i], IN_GONE);
+    }
+    for (int32_t i = 0; i < changes->restepped.count; ++i) {
+        Enlist(lists, changes->restepped.data[i], IN_RESTEPPED);
+    }
+    for (int32_t i = 0; i < changes->remade.count; ++i) {
+        Enlist(lists, changes->remade.data[i].cell, IN_REMADE);
+    }
+    return lists;
+}
+
+/* The lists of changes against a copy from before. `exact`: there has been only one update since. */
+static void CheckChanges(const kiriGrid* was, const kiriGrid* is, bool exact)
+{
+    uint8_t* lists = ListsOf(is);
+    for (int32_t c = 0; c < is->cells.count; ++c) {
+        bool had = HadCell(was, c), has = kiriGrid_IsCell(is, c);
+        if (!had || !has) {
+            assert_int_equal(lists[c], has ? IN_MADE | IN_RESTEPPED : had ? IN_GONE : 0);
+            assert_true(!had ||
+                        SameBits(&was->cells.data[c].material, &is->cells.data[c].material, sizeof(kiriMoments)));
+            continue;
+        }
+        assert_int_equal(was->cells.data[c].square, is->cells.data[c].square);
+        bool remade = !SameBits(&was->cells.data[c].material, &is->cells.data[c].material, sizeof(kiriMoments));
+        bool restepped = !SameSteps(was, is, c) || !SameFaces(was, is, c);
+        int expected = (remade ? IN_REMADE : 0) | (restepped ? IN_RESTEPPED : 0);
+        assert_int_equal(exact ? lists[c] : lists[c] & expected, expected);
+        assert_int_equal(lists[c] & (IN_MADE | IN_GONE), 0);
+    }
+    for (int32_t i = 0; i < is->changes.remade.count; ++i) {
+        kiriRemade r = is->changes.remade.data[i];
+        assert_true(SameBits(&r.was, &was->cells.data[r.cell].material, sizeof(kiriMoments)));
+    }
+    free(lists);
+}
+
+/* ---- Updates: properties ------------------------------------------------------------------------------------------- */
+
+typedef struct Tour {
+    uint32_t seed;
+    double x, y; /* the blade */
+    int64_t updates, made, gone, restepped, remade;
+} Tour;
+
+/* A few segments of a cut of some kind from the blade on. Points stay on lines of the grid or mesh for some. */
+static void CutOn(Sheet* sheet, Tour* tour, int kind, int32_t lines)
+{
+    double points[24], reach = kind % 2 == 0 ? 0.1 : 0.5;
+    int32_t count = 2 + (int32_t)(Random(&tour->seed) % 4);
+    for (int32_t i = 0; i < count; ++i) {
+        points[2 * i] = tour->x;
+        points[2 * i + 1] = tour->y;
+        double dx = RandomBetween(&tour->seed, -reach, reach), dy = RandomBetween(&tour->seed, -reach, reach);
+        if (kind == 2) { /* along lines */
+            dx = Random(&tour->seed) % 2 == 0 ? 0.0 : dx;
+            dy = dx == 0.0 ? dy : 0.0;
+            tour->x = (double)(int32_t)(lines * (tour->x + dx) + 0.5) / lines;
+            tour->y = (double)(int32_t)(lines * (tour->y + dy) + 0.5) / lines;
+        } else if (kind == 3 && i > 0) { /* a sliver: there and back */
+            tour->x = points[2 * i - 2] + 0.004;
+            tour->y = points[2 * i - 1] + 0.003;
+        } else {
+            tour->x += dx;
+            tour->y += dy;
+        }
+    }
+    if (kind == 4 && count > 2) { /* a loop */
+        points[2 * count] = points[0];
+        points[2 * count + 1] = points[1];
+        ++count;
+    }
+    CutAlong(sheet, points, count);
+    if (kind == 3 || tour->x < 0.0 || tour->x > 1.0 || tour->y < 0.0 || tour->y > 1.0 || Random(&tour->seed) % 4 == 0) {
+        tour->x = RandomBetween(&tour->seed, 0.0, 1.0);
+        tour->y = RandomBetween(&tour->seed, 0.0, 1.0);
+    }
+}
+
+/* The teeth of a comb: a cell with many faces. */
+static void CutComb(Sheet* sheet, Tour* tour)
+{
+    double x = RandomBetween(&tour->seed, 0.1, 0.6), y = RandomBetween(&tour->seed, 0.1, 0.6);
+    bool upright = Random(&tour->seed) % 2 == 0;
+    for (int i = 0; i < 6; ++i) {
+        double at = 0.012 * i;
+        if (upright) {
+            CutLine(sheet, x + at, y, x + at, y + 0.3);
+        } else {
+            CutLine(sheet, x, y + at, x + 0.3, y + at);
+        }
+    }
+}
+
+static void OpenAnySheet(Sheet* sheet, uint32_t* seed, int32_t* lines)
+{
+    const int32_t meshes[6] = { 1, 2, 5, 9, 16, 30 };
+    int32_t mesh = meshes[Random(seed) % 6], resolution = 1 + (int32_t)(Random(seed) % 28);
+    *lines = Random(seed) % 2 == 0 ? mesh : resolution;
+    if (Random(seed) % 6 == 0) {
+        OpenRing(sheet, resolution);
+    } else {
+        OpenRectangle(sheet, 1.0f, Random(seed) % 3 == 0 ? 0.6f : 1.0f, mesh, 1 + mesh / 2, resolution);
+    }
+}
+
+/* With quotas up to `most`, or all at once for 0. */
+static void UpdateInParts(Sheet* sheet, uint32_t* seed, int32_t most)
+{
+    for (kiriProgress progress = KIRI_MORE; progress != KIRI_DONE;) {
+        int64_t left = most == 0 ? INT64_MAX : (int64_t)(Random(seed) % (uint32_t)most);
+        kiriQuota quota = { left, 0 };
+        progress = kiriGrid_Update(&sheet->grid, &sheet->mesh, &quota);
+        assert_int_not_equal(progress, KIRI_FAILED);
+        assert_true(quota.used >= 0 && quota.left >= 0 && quota.used + quota.left == left);
+        assert_true(progress == KIRI_DONE || quota.left == 0);
+    }
+    kiriSquares_ClearTouched(&sheet->mesh.squares);
+}
+
+static void CountChanges(const kiriGrid* grid, Tour* tour)
+{
+    ++tour->updates;
+    tour->made += grid->changes.made.count;
+    tour->gone += grid->changes.gone.count;
+    tour->restepped += grid->changes.restepped.count;
+    tour->remade += grid->changes.remade.count;
+}
+
+/* Cuts a sheet step by step and checks the grid after each. `batch`: so many updates before the changes are settled. */
+static void CheckProgressiveCuts(Tour* tour, int32_t mostQuota, int32_t batch)
+{
+    Sheet sheet;
+    int32_t lines;
+    OpenAnySheet(&sheet, &tour->seed, &lines);
+    UpdateInParts(&sheet, &tour->seed, mostQuota);
+    CheckAgainstScratch(&sheet);
+    kiriGrid_Settle(&sheet.grid);
+    int kind = (int)(Random(&tour->seed) % 6);
+    tour->x = RandomBetween(&tour->seed, -0.1, 1.1);
+    tour->y = RandomBetween(&tour->seed, -0.1, 1.1);
+    for (int step = 0; step < 6; ++step) {
+        kiriGrid was = CopyGrid(&sheet.grid);
+        for (int32_t i = 0; i < batch; ++i) {
+            if (kind == 5 && step % 3 == 0) {
+                CutComb(&sheet, tour);
+            } else {
+                CutOn(&sheet, tour, kind, lines);
+            }
+            UpdateInParts(&sheet, &tour->seed, mostQuota);
+        }
+        CheckAgainstScratch(&sheet);
+        CheckChanges(&was, &sheet.grid, batch == 1);
+        CountChanges(&sheet.grid, tour);
+        kiriGrid_Settle(&sheet.grid);
+        FreeCopy(&was);
+    }
+    CloseSheet(&sheet);
+}
+
+static void TestUpdateEqualsScratch(void** state)
+{
+    (void)state;
+    Tour tour = { 20150, 0.0, 0.0, 0, 0, 0, 0, 0 };
+    for (int round = 0; round < 150; ++round) {
+        CheckProgressiveCuts(&tour, 0, 1);
+    }
+    assert_true(tour.updates == 900 && tour.made > 4000 && tour.gone > 20); /* the cuts were worth testing */
+    assert_true(tour.restepped > 20000 && tour.remade > 10000);
+}
+
+static void TestUpdateWithTinyQuotas(void** state)
+{
+    (void)state;
+    Tour tour = { 711, 0.0, 0.0, 0, 0, 0, 0, 0 };
+    for (int round = 0; round < 60; ++round) {
+        CheckProgressiveCuts(&tour, 2 + round % 9, 1);
+    }
+    assert_true(tour.made > 1000);
+}
+
+/* Cells may come and go again before anybody has heard of them. */
+static void TestManyUpdatesBeforeSettling(void** state)
+{
+    (void)state;
+    Tour tour = { 99, 0.0, 0.0, 0, 0, 0, 0, 0 };
+    for (int round = 0; round < 60; ++round) {
+        CheckProgressiveCuts(&tour, 0, 3);
+    }
+    assert_true(tour.made > 2000 && tour.gone > 5);
+}
+
+/* All squares looked at, and nothing found. */
+static void TestNothingChanged(void** state)
+{
+    (void)state;
+    uint32_t seed = 41;
+    Sheet sheet;
+    OpenRectangle(&sheet, 1.0f, 1.0f, 9, 11, 13);
+    CutRandomly(&sheet, &seed, 6);
+    Build(&sheet);
+    kiriGrid_Settle(&sheet.grid);
+    kiriGrid was = CopyGrid(&sheet.grid);
+    for (int again = 0; again < 2; ++again) {
+        int32_t calls = sheet.blocks.calls;
+        for (int32_t h = 0; h < 3 * sheet.mesh.triangles.count; ++h) {
+            kiriSquares_TouchEdge(&sheet.mesh.squares, sheet.mesh.vertices.data[kiriMesh_Tail(&sheet.mesh, h)].at,
+                                  sheet.mesh.vertices.data[kiriMesh_Tail(&sheet.mesh, kiriEdge_Next(h))].at);
+        }
+        assert_int_equal(sheet.mesh.squares.touched.count, 13 * 13);
+        UpdateInParts(&sheet, &seed, 0);
+        CheckChanges(&was, &sheet.grid, true);
+        assert_int_equal(sheet.grid.changes.restepped.count + sheet.grid.changes.remade.count, 0);
+        CheckAgainstScratch(&sheet);
+        if (again == 1) { /* the scratch grid's own memory is not counted */
+            calls = sheet.blocks.calls;
+            kiriQuota quota = { INT64_MAX, 0 };
+            assert_int_equal(kiriGrid_Update(&sheet.grid, &sheet.mesh, &quota), KIRI_DONE);
+            assert_int_equal(quota.used, 0); /* nothing is touched: nothing is done */
+        }
+        assert_true(sheet.blocks.calls >= calls);
+    }
+    FreeCopy(&was);
+    CloseSheet(&sheet);
 }
 
 static void ReverseLists(kiriSquares* squares)
@@ -822,15 +1277,62 @@ static void TestSameBitsWhateverTheLists(void** state)
     OpenRectangle(&sheet, 1.0f, 0.7f, 11, 9, 13);
     CutRandomly(&sheet, &seed, 12);
     Build(&sheet);
-    kiriGrid second = { 0 };
+    int32_t count = sheet.grid.cells.count;
+    kiriPoint* anchors = malloc(sizeof(kiriPoint) * (size_t)count);
+    for (int32_t c = 0; c < count; ++c) {
+        anchors[c] = kiriGrid_Anchor(&sheet.grid, &sheet.mesh, c);
+    }
     ReverseLists(&sheet.mesh.squares);
-    assert_true(kiriGrid_Build(&second, &sheet.mesh));
-    assert_same_grid(&sheet.grid, &second);
-    kiriGrid_Release(&second, &sheet.memory);
+    CheckAgainstScratch(&sheet);
+    for (int32_t c = 0; c < count; ++c) {
+        assert_true(kiriDistanceSquared(anchors[c], kiriGrid_Anchor(&sheet.grid, &sheet.mesh, c)) == 0);
+    }
+    free(anchors);
     CloseSheet(&sheet);
 }
 
-static void TestRebuildUsesItsMemoryAgain(void** state)
+/* An anchor finds its cell: some triangle there is the cell's. */
+static void TestAnchors(void** state)
+{
+    (void)state;
+    uint32_t seed = 8;
+    Sheet sheet;
+    OpenRectangle(&sheet, 1.0f, 1.0f, 7, 7, 9);
+    CutRandomly(&sheet, &seed, 10);
+    Build(&sheet);
+    for (int32_t c = 0; c < sheet.grid.cells.count; ++c) {
+        if (sheet.grid.cells.data[c].material.area > 1e-6 * sheet.grid.side * sheet.grid.side) {
+            kiriPoint at = kiriGrid_Anchor(&sheet.grid, &sheet.mesh, c);
+            assert_int_equal(kiriGrid_CellOf(&sheet.grid, &sheet.mesh, kiriMesh_Locate(&sheet.mesh, at), at), c);
+        }
+    }
+    CloseSheet(&sheet);
+}
+
+static void TestSortCells(void** state)
+{
+    (void)state;
+    uint32_t seed = 12;
+    Sheet sheet;
+    OpenRectangle(&sheet, 1.0f, 1.0f, 4, 4, 12);
+    CutRandomly(&sheet, &seed, 10);
+    Build(&sheet);
+    int32_t count = sheet.grid.cells.count, *cells = malloc(sizeof(int32_t) * (size_t)count);
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t j = (int32_t)(Random(&seed) % (uint32_t)(i + 1));
+        cells[i] = cells[j];
+        cells[j] = i;
+    }
+    kiriGrid_SortCells(&sheet.grid, cells, count);
+    for (int32_t i = 0; i < count; ++i) {
+        assert_int_equal(cells[i], i); /* from scratch, indices are in order */
+    }
+    free(cells);
+    CloseSheet(&sheet);
+}
+
+/* What is done again in the same memory asks for no more. */
+static void TestMemoryIsUsedAgain(void** state)
 {
     (void)state;
     uint32_t seed = 5;
@@ -838,21 +1340,38 @@ static void TestRebuildUsesItsMemoryAgain(void** state)
     OpenRectangle(&sheet, 1.0f, 1.0f, 11, 9, 13);
     CutRandomly(&sheet, &seed, 8);
     Build(&sheet);
-    void* before[] = { sheet.grid.cells.data,     sheet.grid.faces.data, sheet.grid.faceHead.data,
-                       sheet.grid.stepStart.data, sheet.grid.steps.data, sheet.grid.squareCell.data,
-                       sheet.grid.nodeCell.data };
-    int32_t live = sheet.blocks.live;
+    int32_t calls = sheet.blocks.calls;
     Build(&sheet);
-    void* after[] = { sheet.grid.cells.data,     sheet.grid.faces.data, sheet.grid.faceHead.data,
-                      sheet.grid.stepStart.data, sheet.grid.steps.data, sheet.grid.squareCell.data,
-                      sheet.grid.nodeCell.data };
-    assert_memory_equal(before, after, sizeof(before));
-    assert_int_equal(sheet.blocks.live, live);
-    kiriGrid fresh = { 0 };
-    assert_true(kiriGrid_Build(&fresh, &sheet.mesh));
-    assert_same_grid(&sheet.grid, &fresh);
-    kiriGrid_Release(&fresh, &sheet.memory);
+    assert_int_equal(sheet.blocks.calls, calls);
+    CheckAgainstScratch(&sheet);
     CloseSheet(&sheet);
+}
+
+/* Whatever allocation of an update fails, what is left can be reset, and is right again. */
+static void TestFailingUpdate(void** state)
+{
+    (void)state;
+    int32_t failures = 0;
+    for (bool done = false; !done; ++failures) {
+        uint32_t seed = 3;
+        Sheet sheet;
+        OpenRectangle(&sheet, 1.0f, 1.0f, 3, 3, 9);
+        Build(&sheet);
+        kiriGrid_Settle(&sheet.grid);
+        CutRandomly(&sheet, &seed, 8);
+        sheet.blocks.calls = 0;
+        sheet.blocks.failAt = failures + 1;
+        kiriQuota quota = { INT64_MAX, 0 };
+        done = kiriGrid_Update(&sheet.grid, &sheet.mesh, &quota) == KIRI_DONE;
+        assert_int_equal(done, sheet.blocks.calls < sheet.blocks.failAt);
+        sheet.blocks.failAt = 0;
+        if (failures % 2 == 0) {
+            Build(&sheet);
+            CheckAgainstScratch(&sheet);
+        }
+        CloseSheet(&sheet);
+    }
+    assert_true(failures > 10);
 }
 
 static void TestFailingMemory(void** state)
@@ -865,9 +1384,10 @@ static void TestFailingMemory(void** state)
     int32_t live = sheet.blocks.live, failures = 0;
     for (bool built = false; !built; ++failures) {
         kiriGrid grid = { 0 };
+        kiriQuota quota = { INT64_MAX, 0 };
         sheet.blocks.calls = 0;
         sheet.blocks.failAt = failures + 1;
-        built = kiriGrid_Build(&grid, &sheet.mesh);
+        built = kiriGrid_Update(&grid, &sheet.mesh, &quota) == KIRI_DONE;
         assert_int_equal(built, sheet.blocks.calls < sheet.blocks.failAt);
         kiriGrid_Release(&grid, &sheet.memory);
         assert_int_equal(sheet.blocks.live, live);
@@ -890,8 +1410,15 @@ int main(void)
         cmocka_unit_test(TestGrazedCorner),
         cmocka_unit_test(TestClosedCurveAroundHole),
         cmocka_unit_test(TestRandomCuts),
+        cmocka_unit_test(TestUpdateEqualsScratch),
+        cmocka_unit_test(TestUpdateWithTinyQuotas),
+        cmocka_unit_test(TestManyUpdatesBeforeSettling),
+        cmocka_unit_test(TestNothingChanged),
         cmocka_unit_test(TestSameBitsWhateverTheLists),
-        cmocka_unit_test(TestRebuildUsesItsMemoryAgain),
+        cmocka_unit_test(TestAnchors),
+        cmocka_unit_test(TestSortCells),
+        cmocka_unit_test(TestMemoryIsUsedAgain),
+        cmocka_unit_test(TestFailingUpdate),
         cmocka_unit_test(TestFailingMemory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -262,6 +262,11 @@ typedef struct kiriSheetDef {
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
     int32_t iterations;      /* Newton steps a substep, 1 to 64; default 2 */
 
+    /* A sheet all of whose frames move slower than this (m/s, rms over the material of each) for half a second falls
+       asleep: it rests, and its ticks cost nothing. What is new wakes it: a cut, a pin or its target, a hold, a force,
+       gravity, contacts other than those it fell asleep with, kiriSheet_Wake. Default 0.001; 0: it never sleeps. */
+    float sleepSpeed;
+
     int32_t model; /* KIRI_MODEL_..., default KIRI_MODEL_LINKS */
 
     /* 1: the sheet stays in the plane where it starts, without bending; what velocities, forces and held positions have
@@ -323,6 +328,10 @@ typedef struct kiriTotals {
 } kiriTotals;
 
 KIRI_API kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet, kiriTotals* totals);
+
+/* *awake is 0 for a sheet that sleeps, see sleepSpeed. */
+KIRI_API kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, int32_t* awake);
+KIRI_API kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet);
 
 /* Where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: nowhere. */
 typedef struct kiriHit {

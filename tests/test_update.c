@@ -1,0 +1,369 @@
+/* A cut costs what it touches, and no tick costs more than its budget; both without changing what comes of it. */
+#include "host.h"
+
+#include "snapshot.h"
+
+#include <stdio.h>
+
+static const kiriSheetData* SheetOf(const Host* host, int32_t index)
+{
+    return host->world->sheets.data[index];
+}
+
+static uint64_t Layout(const Host* host, int32_t index)
+{
+    return kiriSnapshot_HashLayout(SheetOf(host, index));
+}
+
+/* ---- Blades that wander at random ---- */
+
+typedef struct Wanderer {
+    float at[2], heading[2];
+    int32_t left; /* points until it ends */
+    kiriCut cuts[2]; /* in each of two worlds */
+} Wanderer;
+
+static void Turn(Wanderer* w, uint32_t* seed)
+{
+    w->heading[0] = (float)RandomBetween(seed, -1.0, 1.0);
+    w->heading[1] = (float)RandomBetween(seed, -1.0, 1.0);
+}
+
+static void Enter(Wanderer* w, uint32_t* seed)
+{
+    w->at[0] = (float)RandomBetween(seed, -0.1, 1.1);
+    w->at[1] = (float)RandomBetween(seed, -0.1, 1.1);
+    w->left = 5 + (int32_t)(Random(seed) % 25);
+    Turn(w, seed);
+}
+
+/* Mostly straight on, at times around a bend so tight that it comes back on its own way. */
+static void Step(Wanderer* w, float length, uint32_t* seed)
+{
+    float turn = (float)RandomBetween(seed, -0.6, 0.9);
+    float u = w->heading[0], v = w->heading[1], size = sqrtf(u * u + v * v) + 1e-3f;
+    w->heading[0] = (u - turn * v) / size;
+    w->heading[1] = (v + turn * u) / size;
+    w->at[0] += length * w->heading[0];
+    w->at[1] += length * w->heading[1];
+    w->left -= 1;
+}
+
+static void Advance(Host hosts[2], kiriSheet sheets[2], Wanderer* w, float length, uint32_t* seed)
+{
+    bool isNew = w->left == 0;
+    if (isNew) {
+        Enter(w, seed);
+    } else {
+        Step(w, length, seed);
+    }
+    for (int k = 0; k < 2; ++k) {
+        if (isNew) {
+            OK(kiriBeginCut(hosts[k].world, sheets[k], w->at, &w->cuts[k]));
+        } else {
+            OK(kiriCut_Extend(hosts[k].world, w->cuts[k], w->at, 1));
+        }
+        if (w->left == 0) {
+            OK(kiriCut_End(hosts[k].world, w->cuts[k]));
+        }
+    }
+}
+
+/* ---- Incremental equals from scratch ---- */
+
+typedef struct Case {
+    int32_t mesh, grid, frames, model, planar;
+    float step;
+    int32_t ticks;
+} Case;
+
+static kiriSheetDef DefOf(const Case* c)
+{
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = c->grid;
+    def.frameCount = c->frames;
+    def.maxFrames = c->frames + 12;
+    def.collisionPoints = 40;
+    def.model = c->model;
+    def.planar = c->planar;
+    def.iterations = 1;
+    def.material.airDamping = 2.0f;
+    return def;
+}
+
+static void Compare(const Host hosts[2], int32_t number, int32_t tick)
+{
+    uint64_t a = Layout(&hosts[0], 0), b = Layout(&hosts[1], 0);
+    if (a != b) {
+        fail_msg("case %d, tick %d: what a cut left differs from what is made from scratch", number, tick);
+    }
+    if (Host_Hash(&hosts[0]) != Host_Hash(&hosts[1])) {
+        fail_msg("case %d, tick %d: the motion differs", number, tick);
+    }
+}
+
+static void WanderBothWays(const Case* c, int32_t number, uint32_t seed)
+{
+    Host hosts[2];
+    kiriSheet sheets[2];
+    Wanderer wanderers[3];
+    memset(wanderers, 0, sizeof(wanderers));
+    for (int k = 0; k < 2; ++k) {
+        kiriSheetDef def = DefOf(c);
+        def.fromScratch = k;
+        Host_Start(&hosts[k]);
+        sheets[k] = Host_AddRectangle(&hosts[k], &def, 1.0f, 1.0f, c->mesh, c->mesh);
+    }
+    int32_t blades = 1 + (int32_t)(Random(&seed) % 3);
+    for (int32_t tick = 0; tick < c->ticks; ++tick) {
+        for (int32_t i = 0; i < blades; ++i) {
+            Advance(hosts, sheets, &wanderers[i], c->step, &seed);
+        }
+        for (int k = 0; k < 2; ++k) {
+            OK(kiriWorld_Tick(hosts[k].world, 1.0f / 60.0f, 1));
+        }
+        Compare(hosts, number, tick);
+    }
+    Host_Stop(&hosts[0]);
+    Host_Stop(&hosts[1]);
+}
+
+static void TestIncrementalEqualsFromScratch(void** state)
+{
+    (void)state;
+    for (int32_t number = 0; number < 120; ++number) {
+        uint32_t seed = 1000u + (uint32_t)number;
+        Case c;
+        c.mesh = 4 + (int32_t)(Random(&seed) % 16);
+        c.grid = 6 + (int32_t)(Random(&seed) % 24);
+        c.frames = 1 + (int32_t)(Random(&seed) % 8);
+        c.model = number % 10 == 8 ? KIRI_MODEL_AFFINE : number % 10 == 9 ? KIRI_MODEL_POINTS : KIRI_MODEL_LINKS;
+        c.planar = number % 7 == 3;
+        c.step = (float)RandomBetween(&seed, 0.01, 0.12);
+        c.ticks = 40;
+        WanderBothWays(&c, number, seed);
+    }
+}
+
+/* ---- Budgets ---- */
+
+static const kiriBudget tight = { .triangles = 20, .cells = 60, .samples = 15, .iterations = 0 };
+
+static void CheckBudget(const Host* host, const kiriBudget* budget)
+{
+    kiriProfile profile;
+    OK(kiriWorld_GetProfile(host->world, &profile));
+    assert_true(budget->triangles == 0 || profile.trianglesSplit <= budget->triangles);
+    assert_true(budget->cells == 0 || profile.cellsSettled <= budget->cells);
+    assert_true(budget->samples == 0 || profile.samplesRefreshed <= budget->samples);
+    assert_true(budget->iterations == 0 || profile.solverIterations <= budget->iterations);
+}
+
+/* Ticks until nothing waits; returns how many ticks it took. */
+static int32_t Settle(Host* host, const kiriBudget* budget)
+{
+    for (int32_t ticks = 1; ticks < 100000; ++ticks) {
+        kiriResult result = kiriWorld_Tick(host->world, 1.0f / 60.0f, 1);
+        CheckBudget(host, budget);
+        int32_t deferred = Host_Events(host, KIRI_EVENT_DEFERRED, NULL);
+        if (result == KIRI_OK) {
+            assert_int_equal(deferred, 0);
+            return ticks;
+        }
+        assert_int_equal(result, KIRI_PENDING);
+        assert_true(deferred > 0);
+    }
+    fail_msg("the work never ends");
+    return 0;
+}
+
+static void StartPair(Host hosts[2], const kiriBudget* budget)
+{
+    const float still[3] = { 0.0f, 0.0f, 0.0f };
+    for (int k = 0; k < 2; ++k) {
+        Host_Start(&hosts[k]);
+        OK(kiriWorld_SetGravity(hosts[k].world, still));
+    }
+    OK(kiriWorld_SetBudget(hosts[1].world, budget));
+}
+
+static void CompareLayouts(const Host hosts[2])
+{
+    for (int32_t i = 0; i < hosts[0].world->sheets.count; ++i) {
+        assert_true(Layout(&hosts[0], i) == Layout(&hosts[1], i));
+    }
+}
+
+/* Points on a circle that closes: a piece comes off. */
+static void Circle(float* points, int32_t count, float u, float v, float radius)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        double t = 2.0 * 3.14159265358979 * i / (count - 1);
+        points[2 * i] = u + radius * (float)cos(t);
+        points[2 * i + 1] = v + radius * (float)sin(t);
+    }
+    points[2 * count - 2] = points[0];
+    points[2 * count - 1] = points[1];
+}
+
+static void TestCutOfTwoThousandPoints(void** state)
+{
+    (void)state;
+    enum { COUNT = 2000 };
+    float* points = malloc(2 * COUNT * sizeof(float));
+    for (int32_t i = 0; i < COUNT; ++i) {
+        double t = 6.0 * 3.14159265358979 * i / (COUNT - 1), r = 0.1 + 0.35 * i / (COUNT - 1);
+        points[2 * i] = (float)(0.5 + r * cos(t) + 0.01 * sin(9.0 * t));
+        points[2 * i + 1] = (float)(0.5 + r * sin(t));
+    }
+    Host hosts[2];
+    StartPair(hosts, &tight);
+    int32_t ticks[2];
+    for (int k = 0; k < 2; ++k) {
+        kiriSheetDef def = Host_SmallDef();
+        def.gridResolution = 24;
+        kiriSheet sheet = Host_AddRectangle(&hosts[k], &def, 1.0f, 1.0f, 16, 16);
+        Host_Cut(&hosts[k], sheet, points, COUNT);
+        ticks[k] = Settle(&hosts[k], k == 0 ? &(kiriBudget){ 0, 0, 0, 0 } : &tight);
+    }
+    assert_int_equal(ticks[0], 1);
+    assert_true(ticks[1] > 100);
+    CompareLayouts(hosts);
+    free(points);
+    Host_Stop(&hosts[0]);
+    Host_Stop(&hosts[1]);
+}
+
+static void TestFiftyCutsOnFiftySheets(void** state)
+{
+    (void)state;
+    enum { SHEETS = 50, COUNT = 40 };
+    float points[2 * COUNT];
+    Host hosts[2];
+    StartPair(hosts, &tight);
+    for (int k = 0; k < 2; ++k) {
+        for (int32_t i = 0; i < SHEETS; ++i) {
+            kiriSheetDef def = Host_SmallDef();
+            def.position[0] = 2.0f * (float)i;
+            kiriSheet sheet = Host_AddRectangle(&hosts[k], &def, 1.0f, 1.0f, 8, 8);
+            Circle(points, COUNT, 0.5f, 0.45f, 0.2f + 0.004f * (float)i);
+            Host_Cut(&hosts[k], sheet, points, COUNT);
+        }
+        int32_t ticks = Settle(&hosts[k], k == 0 ? &(kiriBudget){ 0, 0, 0, 0 } : &tight);
+        assert_true(k == 0 ? ticks == 1 : ticks > SHEETS);
+        for (int32_t i = 0; i < SHEETS; ++i) {
+            assert_int_equal(Host_Counts(&hosts[k], SheetOf(&hosts[k], i)->id).pieces, 2);
+        }
+    }
+    CompareLayouts(hosts);
+    Host_Stop(&hosts[0]);
+    Host_Stop(&hosts[1]);
+}
+
+/* Points come every tick, faster than the budget takes them; what is given before one tick still takes effect together. */
+static void TestBladeFasterThanItsBudget(void** state)
+{
+    (void)state;
+    for (uint32_t number = 0; number < 12; ++number) {
+        Host hosts[2];
+        kiriSheet sheets[2];
+        Wanderer wanderers[2];
+        uint32_t seed = 77u + number;
+        memset(wanderers, 0, sizeof(wanderers));
+        StartPair(hosts, &tight);
+        for (int k = 0; k < 2; ++k) {
+            kiriSheetDef def = Host_SmallDef();
+            def.gridResolution = 16;
+            def.collisionPoints = 30;
+            sheets[k] = Host_AddRectangle(&hosts[k], &def, 1.0f, 1.0f, 12, 12);
+        }
+        for (int32_t tick = 0; tick < 30; ++tick) {
+            for (int32_t i = 0; i < 8; ++i) {
+                Advance(hosts, sheets, &wanderers[i % 2], 0.07f, &seed);
+            }
+            OK(kiriWorld_Tick(hosts[0].world, 1.0f / 60.0f, 1));
+            kiriResult result = kiriWorld_Tick(hosts[1].world, 1.0f / 60.0f, 1);
+            assert_true(result == KIRI_OK || result == KIRI_PENDING);
+            CheckBudget(&hosts[1], &tight);
+            assert_true(AllFinite(Host_Mesh(&hosts[1], sheets[1]).positions, 3));
+        }
+        assert_true(Settle(&hosts[1], &tight) > 10);
+        CompareLayouts(hosts);
+        Host_Stop(&hosts[0]);
+        Host_Stop(&hosts[1]);
+    }
+}
+
+/* Three sheets that want two systems each, and a budget of four, then of one: none starves, and none is solved too often. */
+static void TestIterationsAreShared(void** state)
+{
+    (void)state;
+    for (int32_t most = 1; most <= 4; most += 3) {
+        Host host;
+        kiriSheet sheets[3];
+        kiriBudget budget = { 0, 0, 0, most };
+        Host_Start(&host);
+        OK(kiriWorld_SetBudget(host.world, &budget));
+        for (int32_t i = 0; i < 3; ++i) {
+            kiriSheetDef def = Host_SmallDef();
+            sheets[i] = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
+        }
+        for (int32_t tick = 0; tick < 30; ++tick) {
+            kiriResult result = kiriWorld_Tick(host.world, 1.0f / 60.0f, 2);
+            assert_true(result == KIRI_OK || result == KIRI_PENDING);
+            CheckBudget(&host, &budget);
+        }
+        for (int32_t i = 0; i < 3; ++i) {
+            assert_true(Host_Totals(&host, sheets[i]).momentum[2] < -1e-3);
+        }
+        Host_Stop(&host);
+    }
+}
+
+static void TestBudgetsThatAreNone(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriBudget few = { .triangles = KIRI_LEAST_TRIANGLES - 1, .cells = 0, .samples = 0, .iterations = 0 };
+    kiriBudget below = { .triangles = 0, .cells = -1, .samples = 0, .iterations = 0 };
+    assert_int_equal(kiriWorld_SetBudget(host.world, &few), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_SetBudget(host.world, &below), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_SetBudget(host.world, NULL), KIRI_ERROR_ARGUMENT);
+    few.triangles = KIRI_LEAST_TRIANGLES;
+    OK(kiriWorld_SetBudget(host.world, &few));
+    Host_Stop(&host);
+}
+
+static void TestBudgetFromTime(void** state)
+{
+    (void)state;
+    kiriProfile profile;
+    memset(&profile, 0, sizeof(profile));
+    kiriBudget budget = { 100, 200, 300, 400 };
+    OK(kiriFitBudget(&profile, 500.0f, &budget));
+    assert_int_equal(budget.cells, 200); /* nothing is known */
+    profile.seconds[KIRI_STAGE_GRID] = 1e-3;
+    profile.seconds[KIRI_STAGE_SOLVE] = 1e-3;
+    profile.cellsSettled = 5000;
+    profile.solverIterations = 8;
+    OK(kiriFitBudget(&profile, 500.0f, &budget));
+    assert_int_equal(budget.triangles, 100);
+    assert_int_equal(budget.cells, 1250);
+    assert_int_equal(budget.samples, 300);
+    assert_int_equal(budget.iterations, 2);
+    assert_int_equal(kiriFitBudget(&profile, -1.0f, &budget), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriFitBudget(NULL, 1.0f, &budget), KIRI_ERROR_ARGUMENT);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestIncrementalEqualsFromScratch), cmocka_unit_test(TestCutOfTwoThousandPoints),
+        cmocka_unit_test(TestFiftyCutsOnFiftySheets),       cmocka_unit_test(TestBladeFasterThanItsBudget),
+        cmocka_unit_test(TestIterationsAreShared),          cmocka_unit_test(TestBudgetsThatAreNone),
+        cmocka_unit_test(TestBudgetFromTime),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
