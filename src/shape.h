@@ -65,7 +65,7 @@ typedef KIRI_ARRAY(kiriPointWeight) kiriPointWeights;
 
 /* What the points of one cell have in common: the weights of the cell and of those a straight or diagonal step away. */
 typedef struct kiriStencil {
-    int32_t cell; /* set to KIRI_NONE where the shape changes; a zeroed stencil has none either, as it has no steps */
+    int32_t cell; /* or KIRI_NONE */
     bool full;    /* all nine squares around have one cell each */
     kiriVec2 middle;
     double side;
