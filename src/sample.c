@@ -384,9 +384,3 @@ kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* fram
     }
     return motion;
 }
-
-int32_t kiriSample_Cell(const kiriGrid* grid, const kiriMeshData* mesh, kiriPoint at)
-{
-    int32_t triangle = kiriMesh_Locate(mesh, at);
-    return triangle == KIRI_NONE ? KIRI_NONE : kiriGrid_CellOf(grid, mesh, triangle, at);
-}
