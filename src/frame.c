@@ -15,7 +15,7 @@
    What is the same from round to round is kept: distances to the old sites are flooded once, those to the new sites only as
    far as these are nearer. */
 
-enum { ROUNDS = 20, FREE = KIRI_NONE, BARRED = -2 };
+enum { ROUNDS = 20, FREE = KIRI_NONE, BARRED = -2, SHARE = 1 << 24 };
 
 typedef enum Stage {
     REST,
@@ -31,9 +31,10 @@ typedef enum Stage {
     STAGES
 } Stage;
 
-/* Where a new site shall go. */
+/* Where a new site shall go. The material is summed in whole numbers, so that the order of adding does not matter: area in
+   units of 1 / SHARE of a square, moments in as many of its sides. */
 typedef struct Target {
-    kiriTally material;
+    int64_t area, u, v;
     kiriVec2 center;
     int32_t cell; /* of the region, nearest to the center */
     double distance;
@@ -254,21 +255,23 @@ static Target* TargetOf(Job* job, int32_t cell)
     return owner < job->placer->oldCount ? NULL : &work->targets.data[owner - job->placer->oldCount];
 }
 
-static double Extent(const Job* job)
-{
-    const kiriSquares* squares = &job->mesh->squares;
-    return job->grid->side * (squares->columns > squares->rows ? squares->columns : squares->rows);
-}
-
+/* No cell counts for nothing, so that every region has a center. */
 static void AddMaterial(const Job* job, Target* target, int32_t cell)
 {
-    kiriTally_Add(&target->material, &job->grid->cells.data[cell].material, 1, Extent(job));
+    const kiriMoments* material = &job->grid->cells.data[cell].material;
+    double side = job->grid->side;
+    int64_t area = (int64_t)(SHARE * (material->area / (side * side)) + 0.5);
+    area = area > 0 ? area : 1;
+    double scale = (double)area / (material->area * side);
+    target->area += area;
+    target->u += (int64_t)(scale * material->u + 0.5);
+    target->v += (int64_t)(scale * material->v + 0.5);
 }
 
 static void FindCenter(const Job* job, Target* target)
 {
-    kiriMoments material = kiriTally_Moments(&target->material, Extent(job));
-    target->center = kiriMoments_Center(&material);
+    double scale = job->grid->side / (double)target->area;
+    target->center = kiriVec2_Make(scale * (double)target->u, scale * (double)target->v);
 }
 
 /* Does the target like the cell better than the one that it has? Cells come in any order. */
