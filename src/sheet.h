@@ -7,6 +7,7 @@
 #include "pool.h"
 #include "sample.h"
 #include "solver.h"
+#include "surface.h"
 
 typedef struct kiriPiece {
     double area;    /* m^2 */
@@ -20,6 +21,7 @@ typedef struct kiriModel {
     KIRI_ARRAY(kiriPiece) pieces;
     kiriSites sites; /* one a frame */
     kiriRegions regions;
+    kiriLinks links;
     kiriShape shape;
     kiriSamples points;
     kiriSkin vertexSkin, pointSkin;
@@ -81,9 +83,8 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriContactRow) contactRows;
 
     /* What the host reads, see view.h. */
-    KIRI_ARRAY(float) positions, normals, restPositions, sourceWeights, pointPositions;
-    KIRI_ARRAY(int32_t) indices, sourceTriangles;
-    KIRI_ARRAY(kiriVec3) exact, slopes; /* positions before they are rounded to floats; sums for the normals */
+    kiriSurface surface;
+    KIRI_ARRAY(float) pointPositions;
 } kiriSheetData;
 
 /* On failure *why says what is wrong, and the sheet needs no release. Ids of sheet and frames are given by the world. */
