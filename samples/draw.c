@@ -11,7 +11,6 @@ enum { OVERSAMPLING = 3, SHADOW_SIZE = 256, CLOTH_SIZE = 64 };
 static const float shadowReach = 1.6f; /* m: half the side of the square of floor that the shadow texture covers */
 static const float toLight[3] = { -0.35f, -0.45f, 1.0f };
 static const float edgeColor[3] = { 0.13f, 0.16f, 0.24f };
-static const float cutColor[3] = { 0.93f, 0.30f, 0.12f };
 
 typedef struct Edge {
     int32_t a, b;
@@ -203,16 +202,18 @@ static void SetLights(void)
     glEnable(GL_NORMALIZE);
 }
 
-static void DrawCloth(const Painter* painter, const kiriMesh* mesh)
+static void DrawCloth(const Painter* painter, const kiriMesh* mesh, const Look* look)
 {
-    SetMaterial(GL_FRONT, 0.38f, 0.64f, 0.90f);
-    SetMaterial(GL_BACK, 0.96f, 0.80f, 0.55f);
+    SetMaterial(GL_FRONT, look->front[0], look->front[1], look->front[2]);
+    SetMaterial(GL_BACK, look->back[0], look->back[1], look->back[2]);
     glBindTexture(GL_TEXTURE_2D, painter->clothTexture);
     glMatrixMode(GL_TEXTURE);
     glLoadIdentity();
-    glScalef(10.0f, 10.0f, 1.0f);
+    glScalef(look->checks, look->checks, 1.0f);
     glMatrixMode(GL_MODELVIEW);
-    glEnable(GL_TEXTURE_2D);
+    if (look->checks > 0.0f) {
+        glEnable(GL_TEXTURE_2D);
+    }
     glEnableClientState(GL_NORMAL_ARRAY);
     glEnableClientState(GL_TEXTURE_COORD_ARRAY);
     glNormalPointer(GL_FLOAT, 0, mesh->normals);
@@ -248,7 +249,7 @@ static void DrawSheet(const Painter* painter, const View* view)
     if (view->colors != NULL) {
         DrawColored(&view->mesh, view->colors);
     } else {
-        DrawCloth(painter, &view->mesh);
+        DrawCloth(painter, &view->mesh, &view->look);
     }
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDisable(GL_LIGHTING);
@@ -308,7 +309,7 @@ static int32_t KeepOpenEdges(Edge* edges, int32_t count)
 }
 
 /* A lip of a cut has its twin at the same place of the rest plane; an edge of the outline has none. */
-static void DrawOpenEdges(Painter* painter, const kiriMesh* mesh)
+static void DrawOpenEdges(Painter* painter, const kiriMesh* mesh, const float cutColor[3])
 {
     Edge* edges = painter->edges;
     int32_t count = KeepOpenEdges(edges, ListEdges(edges, mesh));
@@ -387,6 +388,27 @@ static void DrawBlade(const float tip[3])
     glPopMatrix();
 }
 
+/* A thread from the ceiling, and a knot. */
+static void DrawPins(const float* pins, int32_t count)
+{
+    glLineWidth(0.8f * OVERSAMPLING);
+    glPointSize(4.5f * OVERSAMPLING);
+    glEnable(GL_POINT_SMOOTH);
+    glEnable(GL_BLEND);
+    glColor3f(0.35f, 0.35f, 0.38f);
+    for (int32_t i = 0; i < count; i++) {
+        glBegin(GL_LINES);
+        glVertex3fv(pins + 3 * i);
+        glVertex3f(pins[3 * i], pins[3 * i + 1], pins[3 * i + 2] + 4.0f);
+        glEnd();
+        glBegin(GL_POINTS);
+        glVertex3fv(pins + 3 * i);
+        glEnd();
+    }
+    glDisable(GL_BLEND);
+    glDisable(GL_POINT_SMOOTH);
+}
+
 /* ---- Painter ---------------------------------------------------------------------------------------------------- */
 
 Painter* Painter_Create(int32_t width, int32_t height)
@@ -442,10 +464,11 @@ bool Painter_Paint(Painter* painter, const View* view, Image* image)
     SetLights();
     DrawShadow(painter);
     DrawSheet(painter, view);
-    DrawOpenEdges(painter, &view->mesh);
+    DrawOpenEdges(painter, &view->mesh, view->look.lip);
+    DrawPins(view->pins, view->pinCount);
     DrawAxes(view->axes, view->axesCount);
-    if (view->blade != NULL) {
-        DrawBlade(view->blade);
+    for (int32_t i = 0; i < view->bladeCount; i++) {
+        DrawBlade(view->blades + 3 * i);
     }
     glDisableClientState(GL_VERTEX_ARRAY);
     glFinish();
