@@ -7,6 +7,7 @@
 
 typedef struct View {
     Camera camera;
+    float size; /* m: one of the camera's lengths; 0: 1 */
     kiriMesh mesh;
     Look look;
     const float* colors; /* 9 a triangle: red, green, blue at its corners; null: as it looks */

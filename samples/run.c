@@ -263,9 +263,11 @@ static const float* FindVertex(const kiriMesh* mesh, const float restPoint[2])
 static bool Film_Shoot(Film* film, const Scene* scene, const Options* options)
 {
     static kiriFrameState axes[MAX_FRAMES];
-    View view = {
-        .camera = scene->type->camera, .look = scene->type->look, .pins = scene->targets[0], .pinCount = scene->pinCount
-    };
+    View view = { .camera = scene->type->camera,
+                  .size = scene->type->size,
+                  .look = scene->type->look,
+                  .pins = scene->targets[0],
+                  .pinCount = scene->pinCount };
     float restPoints[MAX_BLADES][2], blades[MAX_BLADES][3];
     kiriSheet_GetMesh(scene->world, scene->sheet, &view.mesh);
     if (options->weights != NULL) {

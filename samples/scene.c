@@ -8,7 +8,7 @@
 
 /* ---- What scenes are made of ------------------------------------------------------------------------------------ */
 
-static const float floorGap = 0.004f; /* m: a sheet lies so high above the floor z = 0 */
+static const float floorGap = 0.004f; /* a sheet lies so high above the floor z = 0, in its sizes */
 
 static kiriMaterial Felt(void)
 {
@@ -22,45 +22,78 @@ static kiriMaterial Felt(void)
 
 static kiriMaterial Paper(void)
 {
-    return (kiriMaterial){ .youngsModulus = 2e9f,
-                           .poissonsRatio = 0.3f,
-                           .thickness = 0.0001f,
-                           .density = 800.0f,
-                           .airDamping = 1.0f,
-                           .flexDamping = 0.005f };
+    kiriMaterial paper;
+    kiriGetMaterial(KIRI_MATERIAL_PAPER, &paper);
+    return paper;
 }
 
-/* Fills the def's mesh with a rectangle and makes the sheet. */
-static bool MakeRectangle(Scene* scene, kiriSheetDef* def, const SceneOptions* options, float width, float height,
-                          int32_t columns, int32_t rows)
+/* Lengths below are in sizes of the scene's sheet. `corner` is where the rest point (0, 0) starts; axis u is x. */
+static kiriSheetDef PlaceSheet(const Scene* scene, const float corner[3], const float axisV[3], kiriMaterial material)
 {
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    for (int i = 0; i < 3; i++) {
+        def.position[i] = scene->type->size * corner[i];
+        def.axisU[i] = i == 0 ? 1.0f : 0.0f;
+        def.axisV[i] = axisV[i];
+    }
+    def.material = material;
+    return def;
+}
+
+static void Scale(float* numbers, int32_t count, float factor)
+{
+    for (int32_t i = 0; i < count; i++) {
+        numbers[i] *= factor;
+    }
+}
+
+typedef struct Rectangle {
+    float width, height;
+    int32_t columns, rows;
+    const float* frames; /* 2 a frame; null: they spread evenly */
+} Rectangle;
+
+/* Fills the def's mesh with a rectangle and makes the sheet. */
+static bool MakeRectangle(Scene* scene, kiriSheetDef* def, const SceneOptions* options, const Rectangle* rectangle)
+{
+    const float size = scene->type->size;
+    int32_t columns = rectangle->columns, rows = rectangle->rows;
     def->vertexCount = (columns + 1) * (rows + 1);
     def->triangleCount = 2 * columns * rows;
+    def->gridResolution = options->gridResolution > 0 ? options->gridResolution : def->gridResolution;
+    size_t frameNumbers = 2 * (size_t)def->frameCount;
     float* positions = malloc(2 * sizeof(float) * (size_t)def->vertexCount);
     int32_t* indices = malloc(3 * sizeof(int32_t) * (size_t)def->triangleCount);
+    float* frames = malloc(frameNumbers * sizeof(float));
     kiriResult result = KIRI_ERROR_MEMORY;
-    if (positions != NULL && indices != NULL) {
-        kiriFillRectangle(width, height, columns, rows, positions, indices);
+    if (positions != NULL && indices != NULL && frames != NULL) {
+        kiriFillRectangle(size * rectangle->width, size * rectangle->height, columns, rows, positions, indices);
         def->restPositions = positions;
         def->indices = indices;
-        def->gridResolution = options->gridResolution > 0 ? options->gridResolution : def->gridResolution;
-        def->frameCount = options->frameCount > 0 ? options->frameCount : def->frameCount;
+        if (options->frameCount > 0) {
+            def->frameCount = options->frameCount;
+        } else if (rectangle->frames != NULL) {
+            memcpy(frames, rectangle->frames, frameNumbers * sizeof(float));
+            Scale(frames, (int32_t)frameNumbers, size);
+            def->framePoints = frames;
+        }
         result = kiriCreateSheet(scene->world, def, &scene->sheet);
     }
     free(positions);
     free(indices);
+    free(frames);
     return result == KIRI_OK;
 }
 
 static bool PinAt(Scene* scene, float u, float v, float x, float y, float z)
 {
+    const float size = scene->type->size;
     kiriPinDef def;
     kiriDefaultPinDef(&def);
-    def.restPoint[0] = u;
-    def.restPoint[1] = v;
-    float* target = scene->targets[scene->pinCount];
-    memcpy(target, (float[]){ x, y, z }, 3 * sizeof(float));
-    memcpy(def.target, target, 3 * sizeof(float));
+    memcpy(def.restPoint, (float[]){ size * u, size * v }, sizeof def.restPoint);
+    memcpy(def.target, (float[]){ size * x, size * y, size * z }, sizeof def.target);
+    memcpy(scene->targets[scene->pinCount], def.target, sizeof def.target);
     return kiriCreatePin(scene->world, scene->sheet, &def, &scene->pins[scene->pinCount++]) == KIRI_OK;
 }
 
@@ -69,15 +102,15 @@ static bool PinHere(Scene* scene, const kiriSheetDef* def, float u, float v)
 {
     float x[3];
     for (int i = 0; i < 3; i++) {
-        x[i] = def->position[i] + u * def->axisU[i] + v * def->axisV[i];
+        x[i] = def->position[i] / scene->type->size + u * def->axisU[i] + v * def->axisV[i];
     }
     return PinAt(scene, u, v, x[0], x[1], x[2]);
 }
 
-static void MovePin(Scene* scene, int32_t pin, const float target[3])
+static void RaisePin(Scene* scene, int32_t pin, float z)
 {
-    memcpy(scene->targets[pin], target, 3 * sizeof(float));
-    kiriPin_SetTarget(scene->world, scene->pins[pin], target);
+    scene->targets[pin][2] = scene->type->size * z;
+    kiriPin_SetTarget(scene->world, scene->pins[pin], scene->targets[pin]);
 }
 
 /* 0 to 1 from one tick to another, without a jerk. */
@@ -92,8 +125,8 @@ static Outline* AddStroke(Scene* scene)
     return &scene->strokes[scene->strokeCount++].way;
 }
 
-/* All blades at once, or one after the other, each as fast as the others. */
-static void DivideTime(Scene* scene)
+/* The strokes are drawn. All blades at once, or one after the other, each as fast as the others. */
+static void FinishStrokes(Scene* scene)
 {
     const SceneType* type = scene->type;
     double all = 0.0, done = 0.0;
@@ -102,8 +135,9 @@ static void DivideTime(Scene* scene)
     }
     for (int32_t i = 0; i < scene->strokeCount; i++) {
         Stroke* stroke = &scene->strokes[i];
+        Scale(stroke->way.points, 2 * stroke->way.count, type->size);
         double before = type->together ? 0.0 : done / all;
-        done += Outline_GetLength(&stroke->way);
+        done += Outline_GetLength(&stroke->way) / type->size;
         double after = type->together ? 1.0 : done / all;
         stroke->firstTick = type->firstCut + (int32_t)((type->lastCut - type->firstCut) * before + 0.5);
         stroke->lastTick = type->firstCut + (int32_t)((type->lastCut - type->firstCut) * after + 0.5);
@@ -112,6 +146,7 @@ static void DivideTime(Scene* scene)
 
 static void TouchFloor(Scene* scene)
 {
+    const float gap = scene->type->size * floorGap;
     enum { MAX_CONTACTS = 1024 };
     kiriContact contacts[MAX_CONTACTS];
     const float* points;
@@ -120,9 +155,9 @@ static void TouchFloor(Scene* scene)
         return;
     }
     for (int32_t i = 0; i < pointCount && count < MAX_CONTACTS; i++) {
-        if (points[3 * i + 2] < 0.01f) {
+        if (points[3 * i + 2] < 2.5f * gap) {
             contacts[count++] = (kiriContact){
-                .point = i, .normal = { 0.0f, 0.0f, 1.0f }, .offset = floorGap, .friction = 0.6f, .stiffness = 40.0f
+                .point = i, .normal = { 0.0f, 0.0f, 1.0f }, .offset = gap, .friction = 0.6f, .stiffness = 40.0f
             };
         }
     }
@@ -174,28 +209,16 @@ static void PushFigure(Scene* scene, const Stroke* stroke, float foot)
     }
 }
 
-static kiriSheetDef HangingCloth(float width, float height, float bottom)
-{
-    (void)height;
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
-    def.position[0] = -0.5f * width;
-    def.position[2] = bottom;
-    memcpy(def.axisU, (float[]){ 1.0f, 0.0f, 0.0f }, sizeof def.axisU);
-    memcpy(def.axisV, (float[]){ 0.0f, 0.0f, 1.0f }, sizeof def.axisV);
-    def.material = Felt();
-    def.gridResolution = 50;
-    def.collisionPoints = 200;
-    return def;
-}
-
 static bool StartBunny(Scene* scene, const SceneOptions* options)
 {
-    kiriSheetDef def = HangingCloth(1.0f, 1.0f, 0.4f);
+    kiriSheetDef def = PlaceSheet(scene, (float[]){ -0.5f, 0.0f, 0.4f }, (float[]){ 0.0f, 0.0f, 1.0f }, Felt());
+    def.gridResolution = 50;
+    def.collisionPoints = 200;
     def.frameCount = 9;
     def.rigidArea = 0.022f;
+    const Rectangle rectangle = { 1.0f, 1.0f, 64, 64, NULL };
     const Figure figure = { "bunny", 0.55f, 0.5f, 0.5f };
-    return MakeRectangle(scene, &def, options, 1.0f, 1.0f, 64, 64) && PinAt(scene, 0.0f, 1.0f, -0.49f, 0.0f, 1.4f) &&
+    return MakeRectangle(scene, &def, options, &rectangle) && PinAt(scene, 0.0f, 1.0f, -0.49f, 0.0f, 1.4f) &&
            PinAt(scene, 1.0f, 1.0f, 0.49f, 0.0f, 1.4f) && AddFigure(scene, options, &figure);
 }
 
@@ -216,16 +239,15 @@ enum { PATCHES = sizeof patches / sizeof patches[0] };
 
 static bool StartPatchwork(Scene* scene, const SceneOptions* options)
 {
-    kiriSheetDef def = HangingCloth(1.0f, 1.0f, 0.45f);
+    kiriSheetDef def = PlaceSheet(scene, (float[]){ -0.5f, 0.0f, 0.45f }, (float[]){ 0.0f, 0.0f, 1.0f }, Felt());
     const float frames[] = { 0.06f, 0.92f, 0.94f, 0.92f, 0.5f, 0.5f, 0.06f, 0.06f, 0.94f, 0.06f };
+    const Rectangle rectangle = { 1.0f, 1.0f, 64, 64, frames };
+    def.gridResolution = 50;
+    def.collisionPoints = 200;
     def.frameCount = 5;
-    def.framePoints = options->frameCount > 0 ? NULL : frames;
     def.maxFrames = 12;
-    def.rigidArea = 0.02f;
-    if (!MakeRectangle(scene, &def, options, 1.0f, 1.0f, 64, 64)) {
-        return false;
-    }
-    bool fine = true;
+    def.rigidArea = 0.035f;
+    bool fine = MakeRectangle(scene, &def, options, &rectangle);
     for (int32_t i = 0; fine && i < 3; i++) {
         fine = PinHere(scene, &def, 0.5f * (float)i, 1.0f);
     }
@@ -245,17 +267,9 @@ static void PushPatches(Scene* scene)
 
 /* ---- Paper ------------------------------------------------------------------------------------------------------- */
 
-static kiriSheetDef LevelPaper(float width, float height, float z)
+static kiriSheetDef LevelPaper(const Scene* scene, float z)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
-    def.position[0] = -0.5f * width;
-    def.position[1] = -0.5f * height;
-    def.position[2] = z;
-    memcpy(def.axisU, (float[]){ 1.0f, 0.0f, 0.0f }, sizeof def.axisU);
-    memcpy(def.axisV, (float[]){ 0.0f, 1.0f, 0.0f }, sizeof def.axisV);
-    def.material = Paper();
-    return def;
+    return PlaceSheet(scene, (float[]){ -0.5f, -0.5f, z }, (float[]){ 0.0f, 1.0f, 0.0f }, Paper());
 }
 
 /* In the corners and half-way between them. */
@@ -268,46 +282,44 @@ static bool PinBorder(Scene* scene, const kiriSheetDef* def, float width, float 
     return fine;
 }
 
-/* Lifts the first pin, which holds the middle of a sheet that lies on the floor. */
-static void LiftMiddle(Scene* scene, float height, int32_t first, int32_t last)
+enum { MIDDLE_PINS = 3 };
+
+/* Three pins hold the middle level. */
+static bool PinMiddle(Scene* scene, const kiriSheetDef* def)
 {
-    MovePin(scene, 0, (float[]){ 0.0f, 0.0f, floorGap + height * Ease(scene->tick, first, last) });
+    return PinHere(scene, def, 0.47f, 0.48f) && PinHere(scene, def, 0.53f, 0.48f) && PinHere(scene, def, 0.5f, 0.53f);
 }
 
-/* ---- Spiral: unwinds as its middle is lifted ---------------------------------------------------------------------- */
+/* ---- Spiral: cut from the border of a sheet that is held in the middle -------------------------------------------- */
 
 static bool StartSpiral(Scene* scene, const SceneOptions* options)
 {
-    kiriSheetDef def = LevelPaper(1.0f, 1.0f, floorGap);
-    const float frames[] = { 0.5f, 0.5f, 0.5f, 0.68f, 0.25f, 0.5f, 0.5f, 0.18f, 0.94f, 0.94f };
+    kiriSheetDef def = LevelPaper(scene, 1.4f);
+    /* From the middle of the sheet to the end of the strip. */
+    const float frames[] = { 0.5f, 0.5f, 0.35f, 0.6f, 0.72f, 0.67f, 0.72f, 0.19f, 0.1f, 0.2f };
+    const Rectangle rectangle = { 1.0f, 1.0f, 8, 8, frames };
     def.gridResolution = 40;
     def.frameCount = def.maxFrames = 5;
-    def.framePoints = options->frameCount > 0 ? NULL : frames;
     def.collisionPoints = 200;
-    const Spiral spiral = { { 0.5, 0.5 }, 0.07, 0.46, 0.0, 5.0, 0.0115 };
-    return MakeRectangle(scene, &def, options, 1.0f, 1.0f, 8, 8) && PinHere(scene, &def, 0.5f, 0.5f) &&
-           PinBorder(scene, &def, 1.0f, 1.0f) && Outline_AddSpiral(AddStroke(scene), &spiral);
-}
-
-static void LiftSpiral(Scene* scene)
-{
-    TouchFloor(scene);
-    LiftMiddle(scene, 0.9f, scene->type->firstCut + 60, scene->type->lastCut + 60);
+    const Spiral spiral = { { 0.5, 0.5 }, 0.52, 0.08, 0.0, 5.0, 0.0115 };
+    return MakeRectangle(scene, &def, options, &rectangle) && PinMiddle(scene, &def) &&
+           Outline_AddSpiral(AddStroke(scene), &spiral);
 }
 
 /* ---- Vortex: two spirals meet in the middle, and two arms hang down ---------------------------------------------- */
 
 static bool StartVortex(Scene* scene, const SceneOptions* options)
 {
-    kiriSheetDef def = LevelPaper(1.0f, 1.0f, 0.8f);
-    const float frames[] = { 0.5f, 0.62f, 0.5f, 0.38f, 0.72f, 0.5f, 0.28f, 0.5f, 0.93f, 0.93f };
+    kiriSheetDef def = LevelPaper(scene, 0.9f);
+    /* One an arm, near its end, and three in the border. */
+    const float frames[] = { 0.486f, 0.387f, 0.514f, 0.613f, 0.08f, 0.2f, 0.92f, 0.8f, 0.2f, 0.92f };
+    const Rectangle rectangle = { 1.0f, 1.0f, 64, 64, frames };
     def.gridResolution = 68;
     def.frameCount = def.maxFrames = 5;
-    def.framePoints = options->frameCount > 0 ? NULL : frames;
     def.collisionPoints = 200;
-    const Spiral first = { { 0.5, 0.5 }, 0.0, 0.34, 0.0, 1.1, 0.014 };
-    const Spiral second = { { 0.5, 0.5 }, 0.0, 0.34, 0.5, 1.1, 0.014 };
-    return MakeRectangle(scene, &def, options, 1.0f, 1.0f, 64, 64) && PinBorder(scene, &def, 1.0f, 1.0f) &&
+    const Spiral first = { { 0.5, 0.5 }, 0.0, 0.38, 0.0, 1.6, 0.014 };
+    const Spiral second = { { 0.5, 0.5 }, 0.0, 0.38, 0.5, 1.6, 0.014 };
+    return MakeRectangle(scene, &def, options, &rectangle) && PinBorder(scene, &def, 1.0f, 1.0f) &&
            Outline_AddSpiral(AddStroke(scene), &first) && Outline_AddSpiral(AddStroke(scene), &second);
 }
 
@@ -352,18 +364,33 @@ static bool PlaceFrames(Outline* frames)
     return fine;
 }
 
+/* Holds the last frames of the sheet where they are, as if taped to the floor. */
+static bool HoldLastFrames(Scene* scene, int32_t held)
+{
+    kiriFrame frames[256];
+    kiriFrameState state;
+    int32_t count = 0;
+    kiriSheet_GetFrames(scene->world, scene->sheet, frames, 256, &count);
+    bool fine = count >= held && count <= 256;
+    for (int32_t i = count - held; fine && i < count; i++) {
+        fine = kiriFrame_GetState(scene->world, frames[i], &state) == KIRI_OK &&
+               kiriFrame_Hold(scene->world, frames[i], state.position, state.rotation) == KIRI_OK;
+    }
+    return fine;
+}
+
 static bool StartKirigami(Scene* scene, const SceneOptions* options)
 {
-    kiriSheetDef def = LevelPaper(1.0f, 1.0f, floorGap);
+    kiriSheetDef def = LevelPaper(scene, floorGap);
     Outline frames = { .points = NULL };
-    def.gridResolution = 68;
-    def.collisionPoints = 600;
     bool fine = PlaceFrames(&frames);
+    const Rectangle rectangle = { 1.0f, 1.0f, 64, 64, frames.points };
+    def.gridResolution = 68;
     def.frameCount = def.maxFrames = frames.count;
-    def.framePoints = options->frameCount > 0 ? NULL : frames.points;
-    fine = fine && MakeRectangle(scene, &def, options, 1.0f, 1.0f, 64, 64) && PinHere(scene, &def, 0.5f, 0.5f) &&
-           PinBorder(scene, &def, 1.0f, 1.0f);
+    def.collisionPoints = 600;
+    fine = fine && MakeRectangle(scene, &def, options, &rectangle) && PinMiddle(scene, &def);
     Outline_Free(&frames);
+    fine = fine && HoldLastFrames(scene, 4);
     for (int32_t i = 0; fine && i < RINGS * SLITS; i++) {
         fine = AddSlit(scene, i / SLITS, i % SLITS);
     }
@@ -373,24 +400,27 @@ static bool StartKirigami(Scene* scene, const SceneOptions* options)
 static void PullKirigami(Scene* scene)
 {
     TouchFloor(scene);
-    LiftMiddle(scene, 0.45f, scene->type->lastCut + 20, scene->type->lastCut + 20 + PULL_TICKS);
+    int32_t first = scene->type->lastCut + 20;
+    for (int32_t i = 0; i < MIDDLE_PINS; i++) {
+        RaisePin(scene, i, floorGap + 0.36f * Ease(scene->tick, first, first + PULL_TICKS));
+    }
 }
 
 /* ---- Falling guy: swings down, and hangs on by a finger ------------------------------------------------------------ */
 
 static bool StartFallingGuy(Scene* scene, const SceneOptions* options)
 {
-    kiriSheetDef def = LevelPaper(2.0f, 1.0f, 1.75f);
-    memcpy(def.axisV, (float[]){ 0.0f, 0.8f, 0.6f }, sizeof def.axisV);
-    /* Left and right, below and above; forearm, head, chest, elbow, both legs. */
-    const float frames[] = { 0.07f, 0.5f,  1.93f, 0.5f,  1.0f,  0.04f, 1.0f,  0.96f, 0.51f, 0.84f,
-                             0.56f, 0.61f, 0.83f, 0.62f, 0.86f, 0.30f, 1.48f, 0.73f, 1.48f, 0.44f };
+    kiriSheetDef def = PlaceSheet(scene, (float[]){ -1.0f, -0.45f, 1.75f }, (float[]){ 0.0f, 0.96f, 0.28f }, Paper());
+    /* Left and right, below and above; forearm, head, chest, elbow, both legs. The finger is half-way from the first to
+       the forearm, so that the regions meet where it is thin. */
+    const float frames[] = { 0.06f, 0.17f, 1.93f, 0.5f,  1.0f,  0.04f, 1.0f,  0.96f, 0.42f, 0.17f,
+                             0.56f, 0.39f, 0.83f, 0.38f, 0.86f, 0.70f, 1.48f, 0.27f, 1.48f, 0.56f };
+    const Rectangle rectangle = { 2.0f, 1.0f, 16, 16, frames };
+    const Figure guy = { "fallingguy", 1.6f, 1.0f, 0.5f };
     def.gridResolution = 100;
     def.frameCount = def.maxFrames = 10;
-    def.framePoints = options->frameCount > 0 ? NULL : frames;
     def.collisionPoints = 500;
-    const Figure guy = { "fallingguy", 1.6f, 1.0f, 0.5f };
-    bool fine = MakeRectangle(scene, &def, options, 2.0f, 1.0f, 16, 16) && PinBorder(scene, &def, 2.0f, 1.0f) &&
+    bool fine = MakeRectangle(scene, &def, options, &rectangle) && PinBorder(scene, &def, 2.0f, 1.0f) &&
                 AddFigure(scene, options, &guy);
     if (fine) {
         scene->strokes[0].way.count--; /* from one side of the finger to the other: not closed */
@@ -402,12 +432,13 @@ static bool StartFallingGuy(Scene* scene, const SceneOptions* options)
 
 #define PAPER_LOOK(red, green, blue)                                                                                   \
     {                                                                                                                  \
-        { 0.82f, 0.80f, 0.76f }, { red, green, blue }, { 0.45f, 0.42f, 0.40f }, 0.0f                                   \
+        { 0.81f, 0.80f, 0.775f }, { red, green, blue }, { 0.45f, 0.42f, 0.40f }, 0.0f                                  \
     }
 
 static const SceneType types[] = {
     { .name = "bunny",
       .about = "a bunny is cut out of a hanging cloth and falls",
+      .size = 1.0f,
       .ticks = 210,
       .substeps = 2,
       .firstCut = 18,
@@ -419,17 +450,19 @@ static const SceneType types[] = {
       .push = PushBunny },
     { .name = "spiral",
       .about = "a long spiral is cut into a sheet of paper, from its middle, and unwinds",
-      .ticks = 540,
+      .size = 0.2f,
+      .ticks = 600,
       .substeps = 2,
       .firstCut = 60,
-      .lastCut = 360,
-      .moments = { 60, 120, 180, 240, 300, 360, 420, 540 },
-      .camera = { { 1.1f, -2.5f, 1.55f }, { 0.0f, 0.0f, 0.45f }, 30.0f },
+      .lastCut = 480,
+      .moments = { 60, 140, 200, 280, 360, 440, 490, 600 },
+      .camera = { { 1.2f, -3.2f, 1.7f }, { 0.0f, 0.0f, 0.72f }, 32.0f },
       .look = PAPER_LOOK(0.85f, 0.25f, 0.20f),
       .start = StartSpiral,
-      .push = LiftSpiral },
+      .push = TouchFloor },
     { .name = "kirigami",
       .about = "48 slits let a sheet of paper rise when its middle is pulled up",
+      .size = 0.3f,
       .ticks = 800,
       .substeps = 2,
       .firstCut = 60,
@@ -441,6 +474,7 @@ static const SceneType types[] = {
       .push = PullKirigami },
     { .name = "patchwork",
       .about = "a bunny, a teapot, a dragon and an armadillo are cut out of a cloth, and fall",
+      .size = 1.0f,
       .ticks = 600,
       .substeps = 2,
       .firstCut = 60,
@@ -453,6 +487,7 @@ static const SceneType types[] = {
     { .name = "vortex",
       .together = true,
       .about = "two spirals that meet let two arms of a sheet of paper hang down",
+      .size = 0.45f,
       .ticks = 420,
       .substeps = 2,
       .firstCut = 60,
@@ -464,12 +499,13 @@ static const SceneType types[] = {
       .push = TouchFloor },
     { .name = "fallingguy",
       .about = "a man is cut out of a sheet of paper, swings down and hangs on by a finger",
+      .size = 0.4f,
       .ticks = 600,
       .substeps = 2,
       .firstCut = 60,
       .lastCut = 300,
       .moments = { 60, 140, 220, 290, 310, 330, 360, 600 },
-      .camera = { { 1.2f, -4.8f, 2.4f }, { 0.0f, 0.0f, 0.95f }, 33.0f },
+      .camera = { { 1.0f, -4.7f, 2.2f }, { -0.25f, 0.0f, 1.0f }, 31.0f },
       .look = PAPER_LOOK(0.90f, 0.60f, 0.15f),
       .start = StartFallingGuy,
       .push = TouchFloor },
@@ -501,7 +537,7 @@ bool Scene_Start(Scene* scene, const SceneType* type, const kiriWorldDef* def, c
         return false;
     }
     bool fine = type->start(scene, &filled);
-    DivideTime(scene);
+    FinishStrokes(scene);
     if (!fine) {
         fprintf(stderr, "scene %s does not start: %s\n", type->name, kiriWorld_GetLastError(scene->world));
         Scene_Stop(scene);

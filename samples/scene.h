@@ -9,14 +9,14 @@
 #include <stdint.h>
 
 typedef struct Camera {
-    float eye[3], target[3];
-    float fieldOfView; /* degrees, from bottom to top */
+    float eye[3], target[3]; /* in sizes of the scene */
+    float fieldOfView;       /* degrees, from bottom to top */
 } Camera;
 
 /* What the sheet looks like. */
 typedef struct Look {
     float front[3], back[3], lip[3]; /* red, green, blue of its sides, and of the edges of cuts */
-    float checks;                    /* a metre; 0: plain */
+    float checks;                    /* along the sheet's height; 0: plain */
 } Look;
 
 typedef struct SceneOptions {
@@ -38,6 +38,7 @@ typedef struct Scene Scene;
 typedef struct SceneType {
     const char* name;
     const char* about;
+    float size; /* m: of the sheet's height, and of the picture */
     int32_t ticks, substeps;
     int32_t firstCut, lastCut; /* ticks from the first move of a blade to the last */
     bool together;             /* all blades at once; else one after the other */
