@@ -9,9 +9,7 @@ static void AddShare(kiriExact* sum, double share, int sign)
 {
     double scaled = share * highUnits;
     int64_t high = (int64_t)scaled;
-    high -= scaled < (double)high ? 1 : 0;
     int64_t low = (int64_t)((scaled - (double)high) * lowUnits);
-    low -= low == lowRange ? 1 : 0; /* from below zero by less than a double can tell */
     sum->low += sign * low;
     /* -1, 0 or 1: at random, so without a branch. */
     int64_t carry = (int64_t)(((uint64_t)sum->low + (uint64_t)lowRange) >> 62) - 1;
