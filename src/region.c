@@ -296,7 +296,6 @@ static bool FollowChange(const Update* u, kiriSeed was)
     if (was.distance == r->field.distance.data[was.cell] && was.owner == owner) {
         return true;
     }
-    Touch(r, was.owner);
     Touch(r, owner);
     if (was.owner != owner) {
         Account(u, was.owner, MaterialOf(u, was.cell), -1);

@@ -109,11 +109,21 @@ static void CutLine(Sheet* sheet, double x0, double y0, double x1, double y1)
     kiriMesh_Commit(&sheet->mesh);
 }
 
-static void CutRandomly(Sheet* sheet, uint32_t* seed, double length)
+/* Between Begin and Commit. */
+static void MoveBlade(Sheet* sheet, uint32_t* seed, double length)
 {
     double x = RandomBetween(seed, -0.1, 1.1), y = RandomBetween(seed, -0.1, 1.1);
     double u = RandomBetween(seed, -length, length), v = RandomBetween(seed, -length, length);
-    CutLine(sheet, x, y, x + u, y + v);
+    kiriBlade blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(x, y));
+    kiriPoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x + u, y + v));
+    assert_true(kiriCut_Move(&sheet->mesh, &blade, to, 16.0));
+}
+
+static void CutRandomly(Sheet* sheet, uint32_t* seed, double length)
+{
+    kiriMesh_Begin(&sheet->mesh);
+    MoveBlade(sheet, seed, length);
+    kiriMesh_Commit(&sheet->mesh);
 }
 
 static int32_t CellAt(const Sheet* sheet, kiriPoint at)
@@ -602,6 +612,70 @@ static void FollowsCutsAndSites(void** state)
     assert_true(adopted > 100 && left > 50 && untouched > 5000);
 }
 
+/* Cuts that are taken back: cells go, and others come again. */
+static void FollowsCutsTakenBack(void** state)
+{
+    (void)state;
+    uint32_t seed = 29;
+    int32_t gone = 0, owned = 0;
+    for (int round = 0; round < 30; ++round) {
+        Sheet sheet;
+        OpenSquare(&sheet, 4 + (int32_t)(Random(&seed) % 12));
+        AddSites(&sheet, 3 + (int32_t)(Random(&seed) % 12), &seed);
+        Update(&sheet);
+        Settle(&sheet);
+        for (int step = 0; step < 12; ++step) {
+            kiriMesh_Begin(&sheet.mesh);
+            for (int cuts = 0; cuts < 3; ++cuts) {
+                MoveBlade(&sheet, &seed, 0.7);
+            }
+            for (int back = 0; back < 2; ++back) {
+                if (back) {
+                    kiriMesh_Rollback(&sheet.mesh);
+                }
+                UpdateGrid(&sheet);
+                for (int32_t k = 0; k < sheet.grid.changes.gone.count; ++k, ++gone) {
+                    owned += sheet.regions.field.owner.data[sheet.grid.changes.gone.data[k]] != KIRI_NONE;
+                }
+                FollowMaterial(&sheet, &seed);
+                Update(&sheet);
+                CheckAll(&sheet);
+                AdoptOrphans(&sheet, &seed);
+                CheckAll(&sheet);
+                Settle(&sheet);
+            }
+        }
+        CloseSheet(&sheet);
+    }
+    assert_true(gone > 1000 && owned > 1000);
+}
+
+/* A site that goes and comes back before all is settled has changed nothing. */
+static void ThereAndBack(void** state)
+{
+    (void)state;
+    uint32_t seed = 41;
+    Sheet sheet;
+    OpenSquare(&sheet, 15);
+    AddSites(&sheet, 8, &seed);
+    Update(&sheet);
+    Settle(&sheet);
+    for (int round = 0; round < 20; ++round) {
+        int32_t frame = round % 8, away = AnyCell(&sheet, &seed);
+        kiriSite was = sheet.sites.data[frame];
+        if (!IsTaken(&sheet, away)) {
+            Place(&sheet, frame, SiteIn(&sheet, away, &seed));
+            Update(&sheet);
+            assert_true(CheckChanges(&sheet) > 0);
+            Place(&sheet, frame, was);
+            Update(&sheet);
+            assert_int_equal(CheckAll(&sheet), 0);
+            assert_int_equal(sheet.regions.changes.count, 0);
+        }
+    }
+    CloseSheet(&sheet);
+}
+
 /* Where many frames share a sheet, a short cut changes little, and costs little. */
 static void WorkIsLocal(void** state)
 {
@@ -682,6 +756,8 @@ int main(void)
         cmocka_unit_test(SeedsAgree),
         cmocka_unit_test(CompleteCutParts),
         cmocka_unit_test(FollowsCutsAndSites),
+        cmocka_unit_test(FollowsCutsTakenBack),
+        cmocka_unit_test(ThereAndBack),
         cmocka_unit_test(WorkIsLocal),
         cmocka_unit_test(FailsCleanly),
     };
