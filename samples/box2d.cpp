@@ -415,7 +415,8 @@ bool Paint(Simulation& simulation, Painter* painter, Image* image)
     view.mesh.vertexCount = static_cast<int32_t>(soup.positions.size() / 3);
     view.mesh.triangleCount = static_cast<int32_t>(soup.indices.size() / 3);
     view.colors = soup.colors.data();
-    view.blade = simulation.cutting ? simulation.blade.data() : nullptr;
+    view.blades = simulation.blade.data();
+    view.bladeCount = simulation.cutting ? 1 : 0;
     return Painter_Paint(painter, &view, image);
 }
 

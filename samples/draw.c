@@ -8,10 +8,9 @@
 
 enum { OVERSAMPLING = 3, SHADOW_SIZE = 256, CLOTH_SIZE = 64 };
 
-static const float shadowReach = 1.6f; /* m: half the side of the square of floor that the shadow texture covers */
+static const float shadowReach = 1.6f; /* half the side of the square of floor that the shadow texture covers */
 static const float toLight[3] = { -0.35f, -0.45f, 1.0f };
 static const float edgeColor[3] = { 0.13f, 0.16f, 0.24f };
-static const float cutColor[3] = { 0.93f, 0.30f, 0.12f };
 
 typedef struct Edge {
     int32_t a, b;
@@ -118,7 +117,7 @@ static void BlurRows(uint8_t* pixels, int32_t step, int32_t stride, int32_t radi
 }
 
 /* The sheet as the light sees it on the floor, blurred, as a texture. Uses a corner of the picture, so it comes first. */
-static void MakeShadow(Painter* painter, const kiriMesh* mesh)
+static void MakeShadow(Painter* painter, const kiriMesh* mesh, float zoom)
 {
     glViewport(0, 0, SHADOW_SIZE, SHADOW_SIZE);
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
@@ -132,6 +131,7 @@ static void MakeShadow(Painter* painter, const kiriMesh* mesh)
     along[9] = -toLight[1] / toLight[2];
     glMatrixMode(GL_MODELVIEW);
     glLoadMatrixf(along);
+    glScalef(zoom, zoom, zoom);
     glDisable(GL_DEPTH_TEST);
     glColor3f(1.0f, 1.0f, 1.0f);
     glDrawElements(GL_TRIANGLES, 3 * mesh->triangleCount, GL_UNSIGNED_INT, mesh->indices);
@@ -203,16 +203,18 @@ static void SetLights(void)
     glEnable(GL_NORMALIZE);
 }
 
-static void DrawCloth(const Painter* painter, const kiriMesh* mesh)
+static void DrawCloth(const Painter* painter, const kiriMesh* mesh, const Look* look, float zoom)
 {
-    SetMaterial(GL_FRONT, 0.38f, 0.64f, 0.90f);
-    SetMaterial(GL_BACK, 0.96f, 0.80f, 0.55f);
+    SetMaterial(GL_FRONT, look->front[0], look->front[1], look->front[2]);
+    SetMaterial(GL_BACK, look->back[0], look->back[1], look->back[2]);
     glBindTexture(GL_TEXTURE_2D, painter->clothTexture);
     glMatrixMode(GL_TEXTURE);
     glLoadIdentity();
-    glScalef(10.0f, 10.0f, 1.0f);
+    glScalef(zoom * look->checks, zoom * look->checks, 1.0f);
     glMatrixMode(GL_MODELVIEW);
-    glEnable(GL_TEXTURE_2D);
+    if (look->checks > 0.0f) {
+        glEnable(GL_TEXTURE_2D);
+    }
     glEnableClientState(GL_NORMAL_ARRAY);
     glEnableClientState(GL_TEXTURE_COORD_ARRAY);
     glNormalPointer(GL_FLOAT, 0, mesh->normals);
@@ -240,7 +242,7 @@ static void DrawColored(const kiriMesh* mesh, const float* colors)
     glDisable(GL_COLOR_MATERIAL);
 }
 
-static void DrawSheet(const Painter* painter, const View* view)
+static void DrawSheet(const Painter* painter, const View* view, float zoom)
 {
     glEnable(GL_LIGHTING);
     glEnable(GL_POLYGON_OFFSET_FILL);
@@ -248,7 +250,7 @@ static void DrawSheet(const Painter* painter, const View* view)
     if (view->colors != NULL) {
         DrawColored(&view->mesh, view->colors);
     } else {
-        DrawCloth(painter, &view->mesh);
+        DrawCloth(painter, &view->mesh, &view->look, zoom);
     }
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDisable(GL_LIGHTING);
@@ -308,7 +310,7 @@ static int32_t KeepOpenEdges(Edge* edges, int32_t count)
 }
 
 /* A lip of a cut has its twin at the same place of the rest plane; an edge of the outline has none. */
-static void DrawOpenEdges(Painter* painter, const kiriMesh* mesh)
+static void DrawOpenEdges(Painter* painter, const kiriMesh* mesh, const float cutColor[3])
 {
     Edge* edges = painter->edges;
     int32_t count = KeepOpenEdges(edges, ListEdges(edges, mesh));
@@ -337,7 +339,7 @@ static bool ReserveEdges(Painter* painter, int32_t count)
 
 /* ---- Axes and blade --------------------------------------------------------------------------------------------- */
 
-static void DrawAxes(const kiriFrameState* frames, int32_t count)
+static void DrawAxes(const kiriFrameState* frames, int32_t count, float length)
 {
     glDisable(GL_DEPTH_TEST);
     glLineWidth(2.0f * OVERSAMPLING);
@@ -349,8 +351,8 @@ static void DrawAxes(const kiriFrameState* frames, int32_t count)
         color[i % 3] = 0.9f;
         glColor3fv(color);
         glVertex3fv(frame->position);
-        glVertex3f(frame->position[0] + 0.05f * axis[0], frame->position[1] + 0.05f * axis[1],
-                   frame->position[2] + 0.05f * axis[2]);
+        glVertex3f(frame->position[0] + length * axis[0], frame->position[1] + length * axis[1],
+                   frame->position[2] + length * axis[2]);
     }
     glEnd();
     glEnable(GL_DEPTH_TEST);
@@ -371,10 +373,10 @@ static void DrawBar(float bottom, float top, float bottomRadius, float topRadius
     glEnd();
 }
 
-static void DrawBlade(const float tip[3])
+static void DrawBlade(const float tip[3], float zoom)
 {
     glPushMatrix();
-    glTranslatef(tip[0], tip[1], tip[2]);
+    glTranslatef(zoom * tip[0], zoom * tip[1], zoom * tip[2]);
     glRotatef(62.0f, 1.0f, 0.0f, 0.0f);
     glRotatef(38.0f, 0.0f, 1.0f, 0.0f);
     glEnable(GL_LIGHTING);
@@ -385,6 +387,28 @@ static void DrawBlade(const float tip[3])
     DrawBar(0.22f, 0.2201f, 0.012f, 0.0f);
     glDisable(GL_LIGHTING);
     glPopMatrix();
+}
+
+/* A thread from the ceiling, and a knot. */
+static void DrawPins(const float* pins, int32_t count, float zoom)
+{
+    glLineWidth(0.8f * OVERSAMPLING);
+    glPointSize(4.5f * OVERSAMPLING);
+    glEnable(GL_POINT_SMOOTH);
+    glEnable(GL_BLEND);
+    glColor3f(0.35f, 0.35f, 0.38f);
+    for (int32_t i = 0; i < count; i++) {
+        float floorReach = 0.02f / zoom; /* nothing hangs there */
+        glBegin(GL_LINES);
+        glVertex3fv(pins + 3 * i);
+        glVertex3f(pins[3 * i], pins[3 * i + 1], pins[3 * i + 2] + (pins[3 * i + 2] > floorReach ? 4.0f / zoom : 0.0f));
+        glEnd();
+        glBegin(GL_POINTS);
+        glVertex3fv(pins + 3 * i);
+        glEnd();
+    }
+    glDisable(GL_BLEND);
+    glDisable(GL_POINT_SMOOTH);
 }
 
 /* ---- Painter ---------------------------------------------------------------------------------------------------- */
@@ -432,20 +456,25 @@ bool Painter_Paint(Painter* painter, const View* view, Image* image)
         return false;
     }
     int32_t columns = OVERSAMPLING * painter->width, rows = OVERSAMPLING * painter->height;
+    float zoom = view->size > 0.0f ? 1.0f / view->size : 1.0f;
     glEnableClientState(GL_VERTEX_ARRAY);
     glVertexPointer(3, GL_FLOAT, 0, view->mesh.positions);
-    MakeShadow(painter, &view->mesh);
+    MakeShadow(painter, &view->mesh, zoom);
     glViewport(0, 0, columns, rows);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     DrawBackground();
     SetCamera(&view->camera, (float)columns / (float)rows);
     SetLights();
     DrawShadow(painter);
-    DrawSheet(painter, view);
-    DrawOpenEdges(painter, &view->mesh);
-    DrawAxes(view->axes, view->axesCount);
-    if (view->blade != NULL) {
-        DrawBlade(view->blade);
+    glPushMatrix();
+    glScalef(zoom, zoom, zoom);
+    DrawSheet(painter, view, zoom);
+    DrawOpenEdges(painter, &view->mesh, view->look.lip);
+    DrawPins(view->pins, view->pinCount, zoom);
+    DrawAxes(view->axes, view->axesCount, 0.05f / zoom);
+    glPopMatrix();
+    for (int32_t i = 0; i < view->bladeCount; i++) {
+        DrawBlade(view->blades + 3 * i, zoom);
     }
     glDisableClientState(GL_VERTEX_ARRAY);
     glFinish();

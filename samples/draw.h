@@ -7,11 +7,16 @@
 
 typedef struct View {
     Camera camera;
+    float size; /* m: one of the camera's lengths; 0: 1 */
     kiriMesh mesh;
-    const float* colors; /* 9 a triangle: red, green, blue at its corners; null: cloth */
+    Look look;
+    const float* colors; /* 9 a triangle: red, green, blue at its corners; null: as it looks */
+    const float* pins;   /* 3 a pin: the sheet hangs from threads here */
+    int32_t pinCount;
     const kiriFrameState* axes;
     int32_t axesCount;
-    const float* blade; /* where its tip is, 3 floats; null: none */
+    const float* blades; /* 3 a blade: where its tip is */
+    int32_t bladeCount;
 } View;
 
 typedef struct Painter Painter;

@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <time.h>
 
-enum { SHEET_COLUMNS = 4, SHEET_ROWS = 2, SHEET_GAP = 4, MAX_FRAMES = 1024 };
+enum { SHEET_COLUMNS = 4, SHEET_ROWS = 2, SHEET_GAP = 4, MAX_FRAMES = 1024, MAX_BLADES = 4 };
 
 /* ---- Options ---------------------------------------------------------------------------------------------------- */
 
@@ -263,8 +263,12 @@ static const float* FindVertex(const kiriMesh* mesh, const float restPoint[2])
 static bool Film_Shoot(Film* film, const Scene* scene, const Options* options)
 {
     static kiriFrameState axes[MAX_FRAMES];
-    View view = { .camera = scene->type->camera };
-    float restPoint[2];
+    View view = { .camera = scene->type->camera,
+                  .size = scene->type->size,
+                  .look = scene->type->look,
+                  .pins = scene->targets[0],
+                  .pinCount = scene->pinCount };
+    float restPoints[MAX_BLADES][2], blades[MAX_BLADES][3];
     kiriSheet_GetMesh(scene->world, scene->sheet, &view.mesh);
     if (options->weights != NULL) {
         if (!ColorByWeights(film, scene, options, &view.mesh)) {
@@ -276,8 +280,10 @@ static bool Film_Shoot(Film* film, const Scene* scene, const Options* options)
         view.axes = axes;
         view.axesCount = GetAxes(scene, axes);
     }
-    if (Scene_GetBlade(scene, restPoint)) {
-        view.blade = FindVertex(&view.mesh, restPoint);
+    view.bladeCount = Scene_GetBlades(scene, restPoints, MAX_BLADES);
+    view.blades = blades[0];
+    for (int32_t i = 0; i < view.bladeCount; i++) {
+        memcpy(blades[i], FindVertex(&view.mesh, restPoints[i]), sizeof blades[i]);
     }
     return Painter_Paint(film->painter, &view, &film->picture);
 }

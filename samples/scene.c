@@ -8,6 +8,8 @@
 
 /* ---- What scenes are made of ------------------------------------------------------------------------------------ */
 
+static const float floorGap = 0.004f; /* a sheet lies so high above the floor z = 0, in its sizes */
+
 static kiriMaterial Felt(void)
 {
     return (kiriMaterial){ .youngsModulus = 1e7f,
@@ -20,58 +22,131 @@ static kiriMaterial Felt(void)
 
 static kiriMaterial Paper(void)
 {
-    return (kiriMaterial){ .youngsModulus = 2e9f,
-                           .poissonsRatio = 0.3f,
-                           .thickness = 0.0001f,
-                           .density = 800.0f,
-                           .airDamping = 1.0f,
-                           .flexDamping = 0.005f };
+    kiriMaterial paper;
+    kiriGetMaterial(KIRI_MATERIAL_PAPER, &paper);
+    return paper;
 }
 
-/* Fills the def's mesh with a rectangle and makes the sheet. */
-static bool MakeRectangle(Scene* scene, kiriSheetDef* def, const SceneOptions* options, float width, float height,
-                          int32_t columns, int32_t rows)
+/* Lengths below are in sizes of the scene's sheet. `corner` is where the rest point (0, 0) starts; axis u is x. */
+static kiriSheetDef PlaceSheet(const Scene* scene, const float corner[3], const float axisV[3], kiriMaterial material)
 {
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    for (int i = 0; i < 3; i++) {
+        def.position[i] = scene->type->size * corner[i];
+        def.axisU[i] = i == 0 ? 1.0f : 0.0f;
+        def.axisV[i] = axisV[i];
+    }
+    def.material = material;
+    return def;
+}
+
+static void Scale(float* numbers, int32_t count, float factor)
+{
+    for (int32_t i = 0; i < count; i++) {
+        numbers[i] *= factor;
+    }
+}
+
+typedef struct Rectangle {
+    float width, height;
+    int32_t columns, rows;
+    const float* frames; /* 2 a frame; null: they spread evenly */
+} Rectangle;
+
+/* Fills the def's mesh with a rectangle and makes the sheet. */
+static bool MakeRectangle(Scene* scene, kiriSheetDef* def, const SceneOptions* options, const Rectangle* rectangle)
+{
+    const float size = scene->type->size;
+    int32_t columns = rectangle->columns, rows = rectangle->rows;
     def->vertexCount = (columns + 1) * (rows + 1);
     def->triangleCount = 2 * columns * rows;
+    def->gridResolution = options->gridResolution > 0 ? options->gridResolution : def->gridResolution;
+    size_t frameNumbers = 2 * (size_t)def->frameCount;
     float* positions = malloc(2 * sizeof(float) * (size_t)def->vertexCount);
     int32_t* indices = malloc(3 * sizeof(int32_t) * (size_t)def->triangleCount);
+    float* frames = malloc(frameNumbers * sizeof(float));
     kiriResult result = KIRI_ERROR_MEMORY;
-    if (positions != NULL && indices != NULL) {
-        kiriFillRectangle(width, height, columns, rows, positions, indices);
+    if (positions != NULL && indices != NULL && frames != NULL) {
+        kiriFillRectangle(size * rectangle->width, size * rectangle->height, columns, rows, positions, indices);
         def->restPositions = positions;
         def->indices = indices;
-        def->gridResolution = options->gridResolution > 0 ? options->gridResolution : def->gridResolution;
-        def->frameCount = options->frameCount > 0 ? options->frameCount : def->frameCount;
+        if (options->frameCount > 0) {
+            def->frameCount = options->frameCount;
+        } else if (rectangle->frames != NULL) {
+            memcpy(frames, rectangle->frames, frameNumbers * sizeof(float));
+            Scale(frames, (int32_t)frameNumbers, size);
+            def->framePoints = frames;
+        }
         result = kiriCreateSheet(scene->world, def, &scene->sheet);
     }
     free(positions);
     free(indices);
+    free(frames);
     return result == KIRI_OK;
 }
 
 static bool PinAt(Scene* scene, float u, float v, float x, float y, float z)
 {
+    const float size = scene->type->size;
     kiriPinDef def;
     kiriDefaultPinDef(&def);
-    def.restPoint[0] = u;
-    def.restPoint[1] = v;
-    def.target[0] = x;
-    def.target[1] = y;
-    def.target[2] = z;
-    kiriPin pin;
-    return kiriCreatePin(scene->world, scene->sheet, &def, &pin) == KIRI_OK;
+    memcpy(def.restPoint, (float[]){ size * u, size * v }, sizeof def.restPoint);
+    memcpy(def.target, (float[]){ size * x, size * y, size * z }, sizeof def.target);
+    memcpy(scene->targets[scene->pinCount], def.target, sizeof def.target);
+    return kiriCreatePin(scene->world, scene->sheet, &def, &scene->pins[scene->pinCount++]) == KIRI_OK;
 }
 
-static void AddStroke(Scene* scene, const float* points, int32_t count, int32_t firstTick, int32_t lastTick)
+/* Pins a rest point where it is when the sheet starts. */
+static bool PinHere(Scene* scene, const kiriSheetDef* def, float u, float v)
 {
-    scene->strokes[scene->strokeCount++] =
-        (Stroke){ .points = points, .count = count, .firstTick = firstTick, .lastTick = lastTick };
+    float x[3];
+    for (int i = 0; i < 3; i++) {
+        x[i] = def->position[i] / scene->type->size + u * def->axisU[i] + v * def->axisV[i];
+    }
+    return PinAt(scene, u, v, x[0], x[1], x[2]);
 }
 
-/* The floor is the plane z = 0. */
+static void RaisePin(Scene* scene, int32_t pin, float z)
+{
+    scene->targets[pin][2] = scene->type->size * z;
+    kiriPin_SetTarget(scene->world, scene->pins[pin], scene->targets[pin]);
+}
+
+/* 0 to 1 from one tick to another, without a jerk. */
+static float Ease(int32_t tick, int32_t first, int32_t last)
+{
+    float x = tick <= first ? 0.0f : tick >= last ? 1.0f : (float)(tick - first) / (float)(last - first);
+    return x * x * (3.0f - 2.0f * x);
+}
+
+static Outline* AddStroke(Scene* scene)
+{
+    return &scene->strokes[scene->strokeCount++].way;
+}
+
+/* The strokes are drawn. All blades at once, or one after the other, each as fast as the others. */
+static void FinishStrokes(Scene* scene)
+{
+    const SceneType* type = scene->type;
+    double all = 0.0, done = 0.0;
+    for (int32_t i = 0; i < scene->strokeCount; i++) {
+        all += Outline_GetLength(&scene->strokes[i].way);
+    }
+    for (int32_t i = 0; i < scene->strokeCount; i++) {
+        Stroke* stroke = &scene->strokes[i];
+        Scale(stroke->way.points, 2 * stroke->way.count, type->size);
+        double before = type->together ? 0.0 : done / all;
+        done += Outline_GetLength(&stroke->way) / type->size;
+        double after = type->together ? 1.0 : done / all;
+        stroke->firstTick = type->firstCut + (int32_t)((type->lastCut - type->firstCut) * before + 0.5);
+        stroke->lastTick = type->firstCut + (int32_t)((type->lastCut - type->firstCut) * after + 0.5);
+    }
+}
+
 static void TouchFloor(Scene* scene)
 {
+    const float gap = scene->type->size * floorGap;
     enum { MAX_CONTACTS = 1024 };
     kiriContact contacts[MAX_CONTACTS];
     const float* points;
@@ -80,59 +155,43 @@ static void TouchFloor(Scene* scene)
         return;
     }
     for (int32_t i = 0; i < pointCount && count < MAX_CONTACTS; i++) {
-        if (points[3 * i + 2] < 0.01f) {
+        if (points[3 * i + 2] < 2.5f * gap) {
             contacts[count++] = (kiriContact){
-                .point = i, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 0.004f, .friction = 0.6f, .stiffness = 40.0f
+                .point = i, .normal = { 0.0f, 0.0f, 1.0f }, .offset = gap, .friction = 0.6f, .stiffness = 40.0f
             };
         }
     }
     kiriSheet_SetContacts(scene->world, scene->sheet, contacts, count);
 }
 
-/* ---- Bunny: cut out of a hanging cloth -------------------------------------------------------------------------- */
+/* ---- Figures cut out of a hanging cloth -------------------------------------------------------------------------- */
 
-static const float bunnySize = 0.55f;
+typedef struct Figure {
+    const char* name; /* of its outline */
+    float size, u, v;
+} Figure;
 
-static bool StartBunny(Scene* scene, const SceneOptions* options)
+static bool AddFigure(Scene* scene, const SceneOptions* options, const Figure* figure)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
-    def.position[0] = -0.5f;
-    def.position[2] = 0.4f;
-    memcpy(def.axisU, (float[]){ 1.0f, 0.0f, 0.0f }, sizeof def.axisU);
-    memcpy(def.axisV, (float[]){ 0.0f, 0.0f, 1.0f }, sizeof def.axisV);
-    def.material = Felt();
-    def.gridResolution = 50;
-    def.frameCount = 9;
-    def.rigidArea = 0.022f;
-    def.collisionPoints = 200;
-    if (!MakeRectangle(scene, &def, options, 1.0f, 1.0f, 64, 64) || !PinAt(scene, 0.0f, 1.0f, -0.49f, 0.0f, 1.4f) ||
-        !PinAt(scene, 1.0f, 1.0f, 0.49f, 0.0f, 1.4f)) {
-        return false;
-    }
-
     char path[1024];
-    snprintf(path, sizeof path, "%s/bunny.csv", options->dataFolder);
+    snprintf(path, sizeof path, "%s/%s.csv", options->dataFolder, figure->name);
     Outline outline;
     if (!Outline_Read(path, &outline)) {
         return false;
     }
-    scene->points = malloc(2 * sizeof(float) * (size_t)(outline.count + 1));
-    if (scene->points != NULL) {
-        for (int32_t i = 0; i <= 2 * outline.count + 1; i++) {
-            scene->points[i] = 0.5f + bunnySize * outline.points[i % (2 * outline.count)];
-        }
-        AddStroke(scene, scene->points, outline.count + 1, 18, 138);
+    Outline* way = AddStroke(scene);
+    bool fine = true;
+    for (int32_t i = 0; fine && i <= outline.count; i++) {
+        const float* point = outline.points + 2 * (i % outline.count);
+        fine = Outline_Add(way, figure->u + figure->size * point[0], figure->v + figure->size * point[1]);
     }
     Outline_Free(&outline);
-    return scene->points != NULL;
+    return fine;
 }
 
-/* A push against the bunny when it comes off, harder at the ears, so that it topples out of the hole. */
-static void PushBunny(Scene* scene)
+/* A push against a figure when it comes off, harder the higher above `foot`, so that it topples out of the hole. */
+static void PushFigure(Scene* scene, const Stroke* stroke, float foot)
 {
-    TouchFloor(scene);
-    const Stroke* stroke = &scene->strokes[0];
     if (scene->tick <= stroke->lastTick || scene->tick > stroke->lastTick + 12) {
         return;
     }
@@ -142,77 +201,313 @@ static void PushBunny(Scene* scene)
     for (int32_t i = 0; i < count && i < 256; i++) {
         kiriFrameState state;
         if (kiriFrame_GetState(scene->world, frames[i], &state) == KIRI_OK &&
-            Outline_Holds(stroke->points, stroke->count - 1, state.restPoint)) {
-            float force[3] = { 0.0f, -state.mass * (1.6f + 8.0f * (state.restPoint[1] - 0.45f)), 0.0f };
+            Outline_Holds(stroke->way.points, stroke->way.count - 1, state.restPoint)) {
+            float force[3] = { 0.0f, -state.mass * (1.6f + 8.0f * (state.restPoint[1] - foot)), 0.0f };
             float torque[3] = { 0.0f, 0.0f, 0.0f };
             kiriFrame_ApplyForce(scene->world, frames[i], force, torque);
         }
     }
 }
 
-/* ---- Spiral: a sheet of paper unwinds --------------------------------------------------------------------------- */
+static bool StartBunny(Scene* scene, const SceneOptions* options)
+{
+    kiriSheetDef def = PlaceSheet(scene, (float[]){ -0.5f, 0.0f, 0.4f }, (float[]){ 0.0f, 0.0f, 1.0f }, Felt());
+    def.gridResolution = 50;
+    def.collisionPoints = 200;
+    def.frameCount = 9;
+    def.rigidArea = 0.022f;
+    const Rectangle rectangle = { 1.0f, 1.0f, 64, 64, NULL };
+    const Figure figure = { "bunny", 0.55f, 0.5f, 0.5f };
+    return MakeRectangle(scene, &def, options, &rectangle) && PinAt(scene, 0.0f, 1.0f, -0.49f, 0.0f, 1.4f) &&
+           PinAt(scene, 1.0f, 1.0f, 0.49f, 0.0f, 1.4f) && AddFigure(scene, options, &figure);
+}
+
+static void PushBunny(Scene* scene)
+{
+    TouchFloor(scene);
+    PushFigure(scene, &scene->strokes[0], 0.45f);
+}
+
+static const Figure patches[] = {
+    { "bunny", 0.38f, 0.27f, 0.74f },
+    { "teapot", 0.42f, 0.74f, 0.73f },
+    { "dragon", 0.42f, 0.26f, 0.26f },
+    { "armadillo", 0.42f, 0.74f, 0.26f },
+};
+
+enum { PATCHES = sizeof patches / sizeof patches[0] };
+
+static bool StartPatchwork(Scene* scene, const SceneOptions* options)
+{
+    kiriSheetDef def = PlaceSheet(scene, (float[]){ -0.5f, 0.0f, 0.45f }, (float[]){ 0.0f, 0.0f, 1.0f }, Felt());
+    const float frames[] = { 0.06f, 0.92f, 0.94f, 0.92f, 0.5f, 0.5f, 0.06f, 0.06f, 0.94f, 0.06f };
+    const Rectangle rectangle = { 1.0f, 1.0f, 64, 64, frames };
+    def.gridResolution = 50;
+    def.collisionPoints = 200;
+    def.frameCount = 5;
+    def.maxFrames = 12;
+    def.rigidArea = 0.035f;
+    bool fine = MakeRectangle(scene, &def, options, &rectangle);
+    for (int32_t i = 0; fine && i < 3; i++) {
+        fine = PinHere(scene, &def, 0.5f * (float)i, 1.0f);
+    }
+    for (int32_t i = 0; fine && i < PATCHES; i++) {
+        fine = AddFigure(scene, options, &patches[i]);
+    }
+    return fine;
+}
+
+static void PushPatches(Scene* scene)
+{
+    TouchFloor(scene);
+    for (int32_t i = 0; i < PATCHES; i++) {
+        PushFigure(scene, &scene->strokes[i], patches[i].v - 0.05f);
+    }
+}
+
+/* ---- Paper ------------------------------------------------------------------------------------------------------- */
+
+static kiriSheetDef LevelPaper(const Scene* scene, float z)
+{
+    return PlaceSheet(scene, (float[]){ -0.5f, -0.5f, z }, (float[]){ 0.0f, 1.0f, 0.0f }, Paper());
+}
+
+/* In the corners and half-way between them. */
+static bool PinBorder(Scene* scene, const kiriSheetDef* def, float width, float height)
+{
+    bool fine = true;
+    for (int32_t i = 0; fine && i < 9; i++) {
+        fine = i == 4 || PinHere(scene, def, 0.5f * width * (float)(i % 3), 0.5f * height * (float)(i / 3));
+    }
+    return fine;
+}
+
+enum { MIDDLE_PINS = 3 };
+
+/* Three pins hold the middle level. */
+static bool PinMiddle(Scene* scene, const kiriSheetDef* def)
+{
+    return PinHere(scene, def, 0.47f, 0.48f) && PinHere(scene, def, 0.53f, 0.48f) && PinHere(scene, def, 0.5f, 0.53f);
+}
+
+/* ---- Spiral: cut from the border of a sheet that is held in the middle -------------------------------------------- */
 
 static bool StartSpiral(Scene* scene, const SceneOptions* options)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
-    def.position[0] = -0.5f;
-    def.position[1] = -0.5f;
-    def.position[2] = 1.3f;
-    memcpy(def.axisU, (float[]){ 1.0f, 0.0f, 0.0f }, sizeof def.axisU);
-    memcpy(def.axisV, (float[]){ 0.0f, 1.0f, 0.0f }, sizeof def.axisV);
-    def.material = Paper();
-    def.gridResolution = 64;
-    def.frameCount = 49;
+    kiriSheetDef def = LevelPaper(scene, 1.4f);
+    /* From the middle of the sheet to the end of the strip. */
+    const float frames[] = { 0.5f, 0.5f, 0.35f, 0.6f, 0.72f, 0.67f, 0.72f, 0.19f, 0.1f, 0.2f };
+    const Rectangle rectangle = { 1.0f, 1.0f, 8, 8, frames };
+    def.gridResolution = 40;
+    def.frameCount = def.maxFrames = 5;
     def.collisionPoints = 200;
-    if (!MakeRectangle(scene, &def, options, 1.0f, 1.0f, 64, 64)) {
-        return false;
-    }
-    for (int32_t i = 0; i < 4; i++) {
-        float u = (float)(i & 1), v = (float)(i >> 1);
-        if (!PinAt(scene, u, v, u - 0.5f, v - 0.5f, 1.3f)) {
-            return false;
+    const Spiral spiral = { { 0.5, 0.5 }, 0.52, 0.08, 0.0, 5.0, 0.0115 };
+    return MakeRectangle(scene, &def, options, &rectangle) && PinMiddle(scene, &def) &&
+           Outline_AddSpiral(AddStroke(scene), &spiral);
+}
+
+/* ---- Vortex: two spirals meet in the middle, and two arms hang down ---------------------------------------------- */
+
+static bool StartVortex(Scene* scene, const SceneOptions* options)
+{
+    kiriSheetDef def = LevelPaper(scene, 0.9f);
+    /* One an arm, near its end, and three in the border. */
+    const float frames[] = { 0.486f, 0.387f, 0.514f, 0.613f, 0.08f, 0.2f, 0.92f, 0.8f, 0.2f, 0.92f };
+    const Rectangle rectangle = { 1.0f, 1.0f, 64, 64, frames };
+    def.gridResolution = 68;
+    def.frameCount = def.maxFrames = 5;
+    def.collisionPoints = 200;
+    const Spiral first = { { 0.5, 0.5 }, 0.0, 0.38, 0.0, 1.6, 0.014 };
+    const Spiral second = { { 0.5, 0.5 }, 0.0, 0.38, 0.5, 1.6, 0.014 };
+    return MakeRectangle(scene, &def, options, &rectangle) && PinBorder(scene, &def, 1.0f, 1.0f) &&
+           Outline_AddSpiral(AddStroke(scene), &first) && Outline_AddSpiral(AddStroke(scene), &second);
+}
+
+/* ---- Kirigami: 8 rings of 6 slits, and the middle is pulled up ---------------------------------------------------- */
+
+enum { RINGS = 8, SLITS = 6, PULL_TICKS = 180 };
+
+static double RadiusOf(int32_t ring)
+{
+    return 0.06 + 0.05 * ring;
+}
+
+/* Rings are turned by half a slit from one to the next, so that a bridge leads to the middle of a slit. */
+static double BridgeTurn(int32_t ring, int32_t bridge)
+{
+    return (bridge + 0.5 * (ring % 2)) / SLITS;
+}
+
+static bool AddSlit(Scene* scene, int32_t ring, int32_t slit)
+{
+    const double bridge = 0.035; /* m */
+    double radius = RadiusOf(ring), gap = bridge / (6.283185307 * radius);
+    const Spiral arc = { { 0.5, 0.5 }, radius, radius, BridgeTurn(ring, slit) + 0.5 * gap, 1.0 / SLITS - gap, 0.02 };
+    return Outline_AddSpiral(AddStroke(scene), &arc);
+}
+
+/* In the middle, at every bridge but the innermost, and in the corners. */
+static bool PlaceFrames(Outline* frames)
+{
+    bool fine = Outline_Add(frames, 0.5f, 0.5f);
+    for (int32_t ring = 1; fine && ring < RINGS; ring++) {
+        for (int32_t bridge = 0; fine && bridge < SLITS; bridge++) {
+            double turn = BridgeTurn(ring, bridge), radius = RadiusOf(ring);
+            const Spiral point = { { 0.5, 0.5 }, radius, radius, turn, 0.0, 1.0 };
+            fine = Outline_AddSpiral(frames, &point);
+            frames->count--; /* both of its ends */
         }
     }
+    for (int32_t i = 0; fine && i < 4; i++) {
+        fine = Outline_Add(frames, 0.04f + 0.92f * (float)(i & 1), 0.04f + 0.92f * (float)(i >> 1));
+    }
+    return fine;
+}
 
-    enum { TURNS = 3, STEPS = 64 };
-    const double cosine = 0.99518472667219693, sine = 0.098017140329560604; /* of a turn divided by STEPS */
-    const int32_t count = TURNS * STEPS + 1;
-    scene->points = malloc(2 * sizeof(float) * (size_t)count);
-    if (scene->points == NULL) {
-        return false;
+/* Holds the last frames of the sheet where they are, as if taped to the floor. */
+static bool HoldLastFrames(Scene* scene, int32_t held)
+{
+    kiriFrame frames[256];
+    kiriFrameState state;
+    int32_t count = 0;
+    kiriSheet_GetFrames(scene->world, scene->sheet, frames, 256, &count);
+    bool fine = count >= held && count <= 256;
+    for (int32_t i = count - held; fine && i < count; i++) {
+        fine = kiriFrame_GetState(scene->world, frames[i], &state) == KIRI_OK &&
+               kiriFrame_Hold(scene->world, frames[i], state.position, state.rotation) == KIRI_OK;
     }
-    double x = 1.0, y = 0.0;
-    for (int32_t i = 0; i < count; i++) {
-        double radius = 0.06 + 0.37 * i / (count - 1);
-        scene->points[2 * i] = (float)(0.5 + radius * x);
-        scene->points[2 * i + 1] = (float)(0.5 + radius * y);
-        double turned = cosine * x - sine * y;
-        y = sine * x + cosine * y;
-        x = turned;
+    return fine;
+}
+
+static bool StartKirigami(Scene* scene, const SceneOptions* options)
+{
+    kiriSheetDef def = LevelPaper(scene, floorGap);
+    Outline frames = { .points = NULL };
+    bool fine = PlaceFrames(&frames);
+    const Rectangle rectangle = { 1.0f, 1.0f, 64, 64, frames.points };
+    def.gridResolution = 68;
+    def.frameCount = def.maxFrames = frames.count;
+    def.collisionPoints = 600;
+    fine = fine && MakeRectangle(scene, &def, options, &rectangle) && PinMiddle(scene, &def);
+    Outline_Free(&frames);
+    fine = fine && HoldLastFrames(scene, 4);
+    for (int32_t i = 0; fine && i < RINGS * SLITS; i++) {
+        fine = AddSlit(scene, i / SLITS, i % SLITS);
     }
-    AddStroke(scene, scene->points, count, 18, 168);
-    return true;
+    return fine;
+}
+
+static void PullKirigami(Scene* scene)
+{
+    TouchFloor(scene);
+    int32_t first = scene->type->lastCut + 20;
+    for (int32_t i = 0; i < MIDDLE_PINS; i++) {
+        RaisePin(scene, i, floorGap + 0.36f * Ease(scene->tick, first, first + PULL_TICKS));
+    }
+}
+
+/* ---- Falling guy: swings down, and hangs on by a finger ------------------------------------------------------------ */
+
+static bool StartFallingGuy(Scene* scene, const SceneOptions* options)
+{
+    kiriSheetDef def = PlaceSheet(scene, (float[]){ -1.0f, -0.45f, 1.75f }, (float[]){ 0.0f, 0.96f, 0.28f }, Paper());
+    /* Left and right, below and above; forearm, head, chest, elbow, both legs. The finger is half-way from the first to
+       the forearm, so that the regions meet where it is thin. */
+    const float frames[] = { 0.06f, 0.17f, 1.93f, 0.5f,  1.0f,  0.04f, 1.0f,  0.96f, 0.42f, 0.17f,
+                             0.56f, 0.39f, 0.83f, 0.38f, 0.86f, 0.70f, 1.48f, 0.27f, 1.48f, 0.56f };
+    const Rectangle rectangle = { 2.0f, 1.0f, 16, 16, frames };
+    const Figure guy = { "fallingguy", 1.6f, 1.0f, 0.5f };
+    def.gridResolution = 100;
+    def.frameCount = def.maxFrames = 10;
+    def.collisionPoints = 500;
+    bool fine = MakeRectangle(scene, &def, options, &rectangle) && PinBorder(scene, &def, 2.0f, 1.0f) &&
+                AddFigure(scene, options, &guy);
+    if (fine) {
+        scene->strokes[0].way.count--; /* from one side of the finger to the other: not closed */
+    }
+    return fine;
 }
 
 /* ---- All of them ------------------------------------------------------------------------------------------------ */
 
+#define PAPER_LOOK(red, green, blue)                                                                                   \
+    {                                                                                                                  \
+        { 0.81f, 0.80f, 0.775f }, { red, green, blue }, { 0.45f, 0.42f, 0.40f }, 0.0f                                  \
+    }
+
 static const SceneType types[] = {
     { .name = "bunny",
       .about = "a bunny is cut out of a hanging cloth and falls",
+      .size = 1.0f,
       .ticks = 210,
       .substeps = 2,
+      .firstCut = 18,
+      .lastCut = 138,
       .moments = { 17, 60, 100, 138, 149, 157, 167, 210 },
       .camera = { { 0.95f, -2.75f, 1.2f }, { 0.04f, -0.1f, 0.6f }, 34.0f },
+      .look = { { 0.38f, 0.64f, 0.90f }, { 0.96f, 0.80f, 0.55f }, { 0.93f, 0.30f, 0.12f }, 10.0f },
       .start = StartBunny,
       .push = PushBunny },
     { .name = "spiral",
-      .about = "a spiral is cut into a sheet of paper, which unwinds under its weight",
-      .ticks = 240,
+      .about = "a long spiral is cut into a sheet of paper, from its middle, and unwinds",
+      .size = 0.2f,
+      .ticks = 600,
       .substeps = 2,
-      .moments = { 17, 60, 95, 120, 140, 160, 180, 240 },
-      .camera = { { 1.1f, -2.7f, 1.95f }, { 0.1f, 0.0f, 0.6f }, 36.0f },
+      .firstCut = 60,
+      .lastCut = 480,
+      .moments = { 60, 140, 200, 280, 360, 440, 490, 600 },
+      .camera = { { 1.2f, -3.2f, 1.7f }, { 0.0f, 0.0f, 0.72f }, 32.0f },
+      .look = PAPER_LOOK(0.85f, 0.25f, 0.20f),
       .start = StartSpiral,
+      .push = TouchFloor },
+    { .name = "kirigami",
+      .about = "48 slits let a sheet of paper rise when its middle is pulled up",
+      .size = 0.3f,
+      .ticks = 800,
+      .substeps = 2,
+      .firstCut = 60,
+      .lastCut = 540,
+      .moments = { 60, 200, 400, 540, 600, 650, 710, 800 },
+      .camera = { { 1.0f, -2.2f, 1.5f }, { 0.0f, 0.0f, 0.2f }, 30.0f },
+      .look = PAPER_LOOK(0.20f, 0.55f, 0.50f),
+      .start = StartKirigami,
+      .push = PullKirigami },
+    { .name = "patchwork",
+      .about = "a bunny, a teapot, a dragon and an armadillo are cut out of a cloth, and fall",
+      .size = 1.0f,
+      .ticks = 600,
+      .substeps = 2,
+      .firstCut = 60,
+      .lastCut = 480,
+      .moments = { 60, 165, 200, 290, 400, 480, 500, 600 },
+      .camera = { { 0.95f, -2.75f, 1.2f }, { 0.04f, -0.1f, 0.65f }, 34.0f },
+      .look = { { 0.80f, 0.28f, 0.25f }, { 0.95f, 0.85f, 0.60f }, { 0.98f, 0.95f, 0.88f }, 10.0f },
+      .start = StartPatchwork,
+      .push = PushPatches },
+    { .name = "vortex",
+      .together = true,
+      .about = "two spirals that meet let two arms of a sheet of paper hang down",
+      .size = 0.45f,
+      .ticks = 420,
+      .substeps = 2,
+      .firstCut = 60,
+      .lastCut = 260,
+      .moments = { 60, 110, 160, 210, 235, 260, 320, 420 },
+      .camera = { { 1.1f, -2.5f, 1.55f }, { 0.0f, 0.0f, 0.45f }, 30.0f },
+      .look = PAPER_LOOK(0.20f, 0.35f, 0.70f),
+      .start = StartVortex,
+      .push = TouchFloor },
+    { .name = "fallingguy",
+      .about = "a man is cut out of a sheet of paper, swings down and hangs on by a finger",
+      .size = 0.4f,
+      .ticks = 600,
+      .substeps = 2,
+      .firstCut = 60,
+      .lastCut = 300,
+      .moments = { 60, 140, 220, 290, 310, 330, 360, 600 },
+      .camera = { { 1.0f, -4.7f, 2.2f }, { -0.25f, 0.0f, 1.0f }, 31.0f },
+      .look = PAPER_LOOK(0.90f, 0.60f, 0.15f),
+      .start = StartFallingGuy,
       .push = TouchFloor },
 };
 
@@ -241,7 +536,9 @@ bool Scene_Start(Scene* scene, const SceneType* type, const kiriWorldDef* def, c
         fprintf(stderr, "no world: %s\n", kiriGetResultName(result));
         return false;
     }
-    if (!type->start(scene, &filled)) {
+    bool fine = type->start(scene, &filled);
+    FinishStrokes(scene);
+    if (!fine) {
         fprintf(stderr, "scene %s does not start: %s\n", type->name, kiriWorld_GetLastError(scene->world));
         Scene_Stop(scene);
         return false;
@@ -252,21 +549,22 @@ bool Scene_Start(Scene* scene, const SceneType* type, const kiriWorldDef* def, c
 /* Gives the library the points up to this tick. */
 static kiriResult MoveBlade(Scene* scene, Stroke* stroke)
 {
-    if (scene->tick < stroke->firstTick || stroke->taken == stroke->count) {
+    const Outline* way = &stroke->way;
+    if (scene->tick < stroke->firstTick || stroke->taken == way->count) {
         return KIRI_OK;
     }
     kiriResult result = KIRI_OK;
     if (stroke->taken == 0) {
-        result = kiriBeginCut(scene->world, scene->sheet, stroke->points, &stroke->cut);
+        result = kiriBeginCut(scene->world, scene->sheet, way->points, &stroke->cut);
         stroke->taken = 1;
     }
     int32_t ticks = stroke->lastTick - stroke->firstTick, done = scene->tick - stroke->firstTick;
-    int32_t until = done < ticks ? 1 + (stroke->count - 1) * done / ticks : stroke->count;
+    int32_t until = done < ticks ? 1 + (way->count - 1) * done / ticks : way->count;
     if (result == KIRI_OK && until > stroke->taken) {
-        result = kiriCut_Extend(scene->world, stroke->cut, stroke->points + 2 * stroke->taken, until - stroke->taken);
+        result = kiriCut_Extend(scene->world, stroke->cut, way->points + 2 * stroke->taken, until - stroke->taken);
         stroke->taken = until;
     }
-    if (result == KIRI_OK && stroke->taken == stroke->count) {
+    if (result == KIRI_OK && stroke->taken == way->count) {
         result = kiriCut_End(scene->world, stroke->cut);
     }
     return result;
@@ -287,21 +585,23 @@ kiriResult Scene_Tick(Scene* scene)
     return kiriWorld_Tick(scene->world, 1.0f / 60.0f, scene->type->substeps);
 }
 
-bool Scene_GetBlade(const Scene* scene, float restPoint[2])
+int32_t Scene_GetBlades(const Scene* scene, float (*restPoints)[2], int32_t capacity)
 {
-    for (int32_t i = 0; i < scene->strokeCount; i++) {
+    int32_t count = 0;
+    for (int32_t i = 0; i < scene->strokeCount && count < capacity; i++) {
         const Stroke* stroke = &scene->strokes[i];
         if (stroke->taken > 0 && scene->tick <= stroke->lastTick + 1) {
-            memcpy(restPoint, stroke->points + 2 * (stroke->taken - 1), 2 * sizeof(float));
-            return true;
+            memcpy(restPoints[count++], stroke->way.points + 2 * (stroke->taken - 1), 2 * sizeof(float));
         }
     }
-    return false;
+    return count;
 }
 
 void Scene_Stop(Scene* scene)
 {
     kiriDestroyWorld(scene->world);
-    free(scene->points);
+    for (int32_t i = 0; i < scene->strokeCount; i++) {
+        Outline_Free(&scene->strokes[i].way);
+    }
     *scene = (Scene){ .type = NULL };
 }

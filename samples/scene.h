@@ -3,14 +3,21 @@
 #define SCENE_H
 
 #include "kiri/kiri.h"
+#include "outline.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
 typedef struct Camera {
-    float eye[3], target[3];
-    float fieldOfView; /* degrees, from bottom to top */
+    float eye[3], target[3]; /* in sizes of the scene */
+    float fieldOfView;       /* degrees, from bottom to top */
 } Camera;
+
+/* What the sheet looks like. */
+typedef struct Look {
+    float front[3], back[3], lip[3]; /* red, green, blue of its sides, and of the edges of cuts */
+    float checks;                    /* along the sheet's height; 0: plain */
+} Look;
 
 typedef struct SceneOptions {
     const char* dataFolder; /* null: samples/data */
@@ -20,8 +27,7 @@ typedef struct SceneOptions {
 
 /* The way of a blade, point by point from one tick to another. */
 typedef struct Stroke {
-    const float* points; /* 2 a point */
-    int32_t count;
+    Outline way;
     int32_t firstTick, lastTick;
     int32_t taken; /* points given to the library */
     kiriCut cut;
@@ -32,23 +38,29 @@ typedef struct Scene Scene;
 typedef struct SceneType {
     const char* name;
     const char* about;
+    float size; /* m: of the sheet's height, and of the picture */
     int32_t ticks, substeps;
-    int32_t moments[8]; /* ticks worth a picture, rising */
+    int32_t firstCut, lastCut; /* ticks from the first move of a blade to the last */
+    bool together;             /* all blades at once; else one after the other */
+    int32_t moments[8];        /* ticks worth a picture, rising */
     Camera camera;
+    Look look;
     bool (*start)(Scene* scene, const SceneOptions* options); /* makes the sheet, its pins, and the strokes */
     void (*push)(Scene* scene);                               /* forces and contacts of a tick; may be null */
 } SceneType;
 
-enum { SCENE_MAX_STROKES = 64 };
+enum { SCENE_MAX_STROKES = 64, SCENE_MAX_PINS = 16 };
 
 struct Scene {
     const SceneType* type;
     kiriWorld* world;
     kiriSheet sheet;
-    int32_t tick;  /* ticks done */
-    float* points; /* of all strokes */
+    int32_t tick; /* ticks done */
     Stroke strokes[SCENE_MAX_STROKES];
     int32_t strokeCount;
+    kiriPin pins[SCENE_MAX_PINS];
+    float targets[SCENE_MAX_PINS][3]; /* where the pins are held */
+    int32_t pinCount;
 };
 
 /* The scene number `index`, or null when there are no more. */
@@ -63,8 +75,8 @@ bool Scene_Start(Scene* scene, const SceneType* type, const kiriWorldDef* def, c
 /* Moves the blades, then the world, by a sixtieth of a second. */
 kiriResult Scene_Tick(Scene* scene);
 
-/* Where the blade is now; false when none cuts. */
-bool Scene_GetBlade(const Scene* scene, float restPoint[2]);
+/* Where the blades are now; returns how many cut. */
+int32_t Scene_GetBlades(const Scene* scene, float (*restPoints)[2], int32_t capacity);
 
 void Scene_Stop(Scene* scene);
 

@@ -460,15 +460,16 @@ kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* 
     BEGIN(world);
     CHECK(mesh != NULL, "mesh is null");
     FIND(data, kiriSheetData, sheetIds, sheet);
-    mesh->positions = data->positions.data;
-    mesh->normals = data->normals.data;
-    mesh->restPositions = data->restPositions.data;
-    mesh->indices = data->indices.data;
-    mesh->sourceTriangles = data->sourceTriangles.data;
-    mesh->sourceWeights = data->sourceWeights.data;
-    mesh->vertexCount = data->mesh.vertices.count;
-    mesh->triangleCount = data->mesh.triangles.count;
-    mesh->revision = data->mesh.revision;
+    const kiriSurface* surface = &data->surface;
+    mesh->positions = surface->positions.data;
+    mesh->normals = surface->normals.data;
+    mesh->restPositions = surface->restPositions.data;
+    mesh->indices = surface->indices.data;
+    mesh->sourceTriangles = surface->sourceTriangles.data;
+    mesh->sourceWeights = surface->sourceWeights.data;
+    mesh->vertexCount = surface->vertexCount;
+    mesh->triangleCount = surface->triangleCount;
+    mesh->revision = surface->revision;
     return KIRI_OK;
 }
 

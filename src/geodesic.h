@@ -72,7 +72,8 @@ void kiriField_Suspect(kiriField* field, int32_t cell);
 void kiriField_Forget(kiriField* field, int32_t cell);
 
 /* Makes the field right again, given that all cells about which something has changed are suspects; where the limit has
-   grown, these are all from which a step leads beyond the old one. An item of the quota is a cell whose distance is taken
+   grown, these are all from which a step leads beyond the old one; where it has shrunk, all beyond the new one that are
+   not forgotten. An item of the quota is a cell whose distance is taken
    away or given, or a suspect that keeps it. KIRI_MORE: call again with the same rule before anything changes. The
    log tells what changed; empty it (its count) when it is read. On KIRI_FAILED only Clear or Release make sense. */
 kiriProgress kiriField_Repair(kiriField* field, const kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);

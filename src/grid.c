@@ -207,23 +207,24 @@ static bool IsWhole(const kiriMeshData* mesh, int32_t square)
     return squares->head[square] != KIRI_NONE;
 }
 
-/* Half the squares in a row that a diagonal step (radius 1) or one like a knight (2) may touch. */
-static int32_t ReachInRow(int32_t radius, int32_t v)
+/* Steps touch the squares up to two rows away, in row v so many on each side of the column. */
+enum { REACH = 2 };
+static int32_t ReachInRow(int32_t v)
 {
-    return v == -2 || v == 2 ? 1 : radius;
+    return v == -REACH || v == REACH ? 1 : REACH;
 }
 
-/* Is the square whole, and all those around that such a step may touch? */
-static bool IsWholeAround(const kiriGrid* grid, const kiriSquares* squares, int32_t square, int32_t radius)
+/* Is the square whole, and all those around that a step may touch? */
+static bool IsWholeAround(const kiriGrid* grid, const kiriSquares* squares, int32_t square)
 {
     int32_t column = square % squares->columns, row = square / squares->columns;
-    if (column < radius || column >= squares->columns - radius || row < radius || row >= squares->rows - radius) {
+    if (column < REACH || column >= squares->columns - REACH || row < REACH || row >= squares->rows - REACH) {
         return false;
     }
-    for (int32_t v = -radius; v <= radius; ++v) {
-        int32_t width = ReachInRow(radius, v);
-        for (int32_t u = -width; u <= width; ++u) {
-            if (!grid->whole.data[square + v * squares->columns + u]) {
+    for (int32_t v = -REACH; v <= REACH; ++v) {
+        const uint8_t* whole = &grid->whole.data[square + v * squares->columns];
+        for (int32_t u = -ReachInRow(v); u <= ReachInRow(v); ++u) {
+            if (!whole[u]) {
                 return false;
             }
         }
@@ -576,7 +577,8 @@ static bool EmptyFaces(kiriGrid* grid, const kiriMemory* memory, int32_t square,
 {
     kiriGridWork* work = grid->work;
     work->oldFaces.count = 0;
-    for (int32_t c = grid->squareCell.data[square]; c != KIRI_NONE; c = grid->cells.data[c].next) {
+    for (int32_t c = work->fromScratch ? KIRI_NONE : grid->squareCell.data[square]; c != KIRI_NONE;
+         c = grid->cells.data[c].next) {
         for (int32_t f = grid->cells.data[c].firstFace; f != KIRI_NONE; f = NextFace(&grid->faces.data[f], c)) {
             kiriFace* face = &grid->faces.data[f];
             if (face->cell[1] == c && face->axis == axis) {
@@ -697,8 +699,8 @@ static bool RemoveCell(kiriGrid* grid, const kiriMemory* memory, int32_t c)
     return (grid->work->cellFlags.data[c] & CELL_MADE) != 0 || kiriArray_Push(memory, &grid->changes.gone, c);
 }
 
-/* The one cell of a square that was whole and still is: only its triangles may be others. */
-static void RefreshWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+/* The one cell of a whole square holds all its triangles. Where the square was whole before, only they may be others. */
+static void FillWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
 {
     const kiriSquareNode* nodes = mesh->squares.nodes.data;
     int32_t c = grid->squareCell.data[square], lowest = INT32_MAX;
@@ -709,20 +711,14 @@ static void RefreshWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t s
     grid->cells.data[c].triangle = lowest;
 }
 
-/* The one cell of a whole square. */
 static bool FindWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
 {
-    const kiriSquareNode* nodes = mesh->squares.nodes.data;
     double x = grid->side, area = x * x;
     kiriMoments about = {
         area, x / 2.0 * area, x / 2.0 * area, area * area / 3.0, area * area / 4.0, area * area / 3.0
     };
     kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));
-    Fresh fresh = { INT32_MAX, KIRI_NONE, kiriMoments_About(&about, kiriVec2_Scale(-1.0, corner)) };
-    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = nodes[n].next) {
-        fresh.triangle = Least(fresh.triangle, nodes[n].triangle);
-        grid->nodeCell.data[n] = 0;
-    }
+    Fresh fresh = { KIRI_NONE, KIRI_NONE, kiriMoments_About(&about, kiriVec2_Scale(-1.0, corner)) };
     return kiriArray_Push(mesh->memory, &grid->work->fresh, fresh);
 }
 
@@ -784,25 +780,33 @@ static bool ReplaceCells(kiriGrid* grid, const kiriMemory* memory, int32_t squar
     return true;
 }
 
+/* The square's triangles learn their cells: so far they have ranks. */
+static void FillCells(kiriGrid* grid, int32_t square)
+{
+    const kiriGridWork* work = grid->work;
+    for (int32_t i = work->entries.data[square].first; i < work->entries.data[square].end; ++i) {
+        int32_t* cell = &grid->nodeCell.data[work->node.data[i]];
+        *cell = work->fresh.data[*cell].cell;
+    }
+}
+
 /* The cells of a square that has changed. */
 static bool MakeCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
     kiriGridWork* work = grid->work;
     int32_t square = work->fromScratch ? item : mesh->squares.touched.data[item];
     bool wasWhole = grid->whole.data[square], isWhole = IsWhole(mesh, square);
-    if (wasWhole && isWhole) {
-        RefreshWholeCell(grid, mesh, square);
-        return true;
-    }
     grid->whole.data[square] = isWhole;
     work->fresh.count = 0;
-    if (!ListSquare(work, mesh->memory, square, SQUARE_REMADE, &work->remade) ||
-        !(isWhole ? FindWholeCell(grid, mesh, square) : FindCells(grid, mesh, square)) ||
-        !ReplaceCells(grid, mesh->memory, square)) {
+    if (!(wasWhole && isWhole) && (!ListSquare(work, mesh->memory, square, SQUARE_REMADE, &work->remade) ||
+                                   !(isWhole ? FindWholeCell(grid, mesh, square) : FindCells(grid, mesh, square)) ||
+                                   !ReplaceCells(grid, mesh->memory, square))) {
         return false;
     }
-    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
-        grid->nodeCell.data[n] = work->fresh.data[grid->nodeCell.data[n]].cell;
+    if (isWhole) {
+        FillWholeCell(grid, mesh, square);
+    } else {
+        FillCells(grid, square);
     }
     return true;
 }
@@ -829,8 +833,8 @@ static bool Spread(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
     kiriGridWork* work = grid->work;
     const kiriSquares* squares = &mesh->squares;
     int32_t square = work->relinked.data[item], column = square % squares->columns, row = square / squares->columns;
-    for (int32_t v = Most(-2, -row); v <= 2 && row + v < squares->rows; ++v) {
-        int32_t reach = ReachInRow(2, v);
+    for (int32_t v = Most(-REACH, -row); v <= REACH && row + v < squares->rows; ++v) {
+        int32_t reach = ReachInRow(v);
         for (int32_t u = Most(-reach, -column); u <= reach && column + u < squares->columns; ++u) {
             if (!StepSquare(grid, mesh->memory, square + v * squares->columns + u)) {
                 return false;
@@ -858,24 +862,30 @@ static bool AddStep(kiriGrid* grid, const kiriMemory* memory, kiriStep step)
 /* Adds steps that the cell has. */
 static bool AddSteps(kiriGrid* grid, const kiriMemory* memory, int32_t from, int32_t end)
 {
-    for (int32_t s = from; s < end; ++s) {
-        if (!AddStep(grid, memory, grid->steps.data[s])) {
-            return false;
-        }
+    kiriGridWork* work = grid->work;
+    int32_t count = work->steps.count;
+    if (!kiriArray_Resize(memory, &work->steps, (int64_t)count + end - from)) {
+        return false;
+    }
+    if (from < end) {
+        memcpy(&work->steps.data[count], &grid->steps.data[from], sizeof(kiriStep) * (size_t)(end - from));
     }
     return true;
 }
 
-static bool AddOpenSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, int count)
+/* The steps of a cell amid whole squares. */
+static bool MakeOpenSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t c)
 {
-    for (int k = 0; k < count; ++k) {
-        kiriStep step = openSteps[k];
-        step.cell = grid->squareCell.data[square + step.v * mesh->squares.columns + step.u];
-        if (!AddStep(grid, mesh->memory, step)) {
-            return false;
-        }
+    int32_t square = grid->cells.data[c].square;
+    if (!kiriArray_Resize(mesh->memory, &grid->work->steps, OPEN_ALL)) {
+        return false;
     }
-    return true;
+    kiriStep* steps = grid->work->steps.data;
+    for (int k = 0; k < OPEN_ALL; ++k) {
+        steps[k] = openSteps[k];
+        steps[k].cell = grid->squareCell.data[square + steps[k].v * mesh->squares.columns + steps[k].u];
+    }
+    return SetSteps(grid, mesh->memory, c, OPEN_NEAR / 2, OPEN_NEAR);
 }
 
 /* Does step a come before b? Both from the same cell: the way tells the order of squares. */
@@ -973,11 +983,11 @@ static bool MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item
 {
     kiriGridWork* work = grid->work;
     const kiriMemory* memory = mesh->memory;
-    int32_t c = work->stepped.data[item], square = grid->cells.data[c].square;
+    int32_t c = work->stepped.data[item];
     const kiriStepRun* run = &grid->runs.data[c];
     work->steps.count = 0;
-    if (IsWholeAround(grid, &mesh->squares, square, 2)) {
-        return AddOpenSteps(grid, mesh, square, OPEN_ALL) && SetSteps(grid, memory, c, OPEN_NEAR / 2, OPEN_NEAR);
+    if (IsWholeAround(grid, &mesh->squares, grid->cells.data[c].square)) {
+        return MakeOpenSteps(grid, mesh, c);
     }
     if (!AddStraightSteps(grid, memory, c)) {
         return false;
@@ -1069,6 +1079,24 @@ static bool MakeItem(kiriGrid* grid, const kiriMeshData* mesh)
     }
 }
 
+/* Room for a cell a square and for more that cuts make, so that the first cut need not move everything. */
+static bool ReserveCells(kiriGrid* grid, const kiriMeshData* mesh)
+{
+    kiriGridWork* work = grid->work;
+    const kiriMemory* memory = mesh->memory;
+    int64_t squares = 0;
+    for (int32_t s = 0; s < grid->squareCell.count; ++s) {
+        squares += mesh->squares.head[s] != KIRI_NONE;
+    }
+    int64_t cells = squares + squares / 4 + 64;
+    return kiriArray_Reserve(memory, &grid->cells, cells) && kiriArray_Reserve(memory, &grid->runs, cells) &&
+           kiriArray_Reserve(memory, &work->cellFlags, cells) && kiriArray_Reserve(memory, &work->mark, cells) &&
+           kiriArray_Reserve(memory, &grid->changes.made, cells) &&
+           kiriArray_Reserve(memory, &grid->changes.restepped, cells) &&
+           kiriArray_Reserve(memory, &work->stepped, cells) && kiriArray_Reserve(memory, &grid->faces, 2 * cells) &&
+           kiriArray_Reserve(memory, &grid->steps, OPEN_ALL * cells);
+}
+
 /* Before the first update ever, or after a reset. */
 static bool StartFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
 {
@@ -1087,7 +1115,7 @@ static bool StartFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
     }
     grid->side = mesh->step * mesh->squares.side;
     grid->freeCell = grid->freeFace = KIRI_NONE;
-    return true;
+    return ReserveCells(grid, mesh);
 }
 
 static bool Start(kiriGrid* grid, const kiriMeshData* mesh)

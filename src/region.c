@@ -296,7 +296,6 @@ static bool FollowChange(const Update* u, kiriSeed was)
     if (was.distance == r->field.distance.data[was.cell] && was.owner == owner) {
         return true;
     }
-    Touch(r, was.owner);
     Touch(r, owner);
     if (was.owner != owner) {
         Account(u, was.owner, MaterialOf(u, was.cell), -1);
@@ -351,6 +350,7 @@ static bool FinishRepair(const Update* u)
 static bool FinishFlood(const Update* u)
 {
     kiriRegions* r = u->regions;
+    r->orphans.count = 0;
     for (int32_t s = 0; s < u->grid->squareCell.count; ++s) {
         for (int32_t c = u->grid->squareCell.data[s]; c != KIRI_NONE; c = u->grid->cells.data[c].next) {
             kiriSeed was = { c, KIRI_FAR, KIRI_NONE };
@@ -376,7 +376,7 @@ static void MarkSeen(const Update* u)
 static bool Begin(const Update* u)
 {
     kiriRegions* r = u->regions;
-    r->flooding = r->field.distance.count == 0;
+    r->flooding = r->material.count == 0; /* no frames yet, so nothing of the field to keep */
     if (!MakeRoom(u) || (r->flooding && !StartFlood(u))) {
         return false;
     }

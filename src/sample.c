@@ -2,92 +2,127 @@
 
 #include <string.h>
 
+/* ---- Weights ---------------------------------------------------------------------------------------------------- */
+
 void kiriSkin_Release(kiriSkin* skin, const kiriMemory* memory)
 {
-    kiriArray_Release(memory, &skin->start);
+    kiriArray_Release(memory, &skin->spans);
     kiriArray_Release(memory, &skin->weights);
+    kiriArray_Release(memory, &skin->staged);
 }
 
-static bool Begin(kiriSkin* skin, const kiriMemory* memory, int32_t sampleCount)
+static bool ResizeSpan(kiriSkin* skin, const kiriMemory* memory, kiriSpan* span, int32_t count)
 {
-    skin->start.count = 0;
-    skin->weights.count = 0;
-    return kiriArray_Reserve(memory, &skin->start, (int64_t)sampleCount + 1) && kiriArray_Push(memory, &skin->start, 0);
+    return kiriSpan_Resize(span, &skin->room, memory, &skin->weights, sizeof(*skin->weights.data), count);
 }
 
-/* One more sample, with these weights. */
-static bool Append(kiriSkin* skin, const kiriMemory* memory, const kiriPointWeights* weights)
+/* Gives room back, which needs no memory. */
+static void Drop(kiriSkin* skin, kiriSpan* span)
 {
-    if (!kiriArray_Reserve(memory, &skin->weights, (int64_t)skin->weights.count + weights->count)) {
+    ResizeSpan(skin, NULL, span, 0);
+}
+
+/* Stages what the stencil has weighed. Makes room for the commit, too. */
+static bool Stage(kiriSkin* skin, const kiriMemory* memory, const kiriStencil* stencil, int32_t sample)
+{
+    kiriReweighed staged = { sample, { 0, 0 } };
+    int32_t count = 0;
+    for (int32_t i = 0; i < stencil->frames.count; ++i) {
+        count += stencil->values.data[i] > 0.0;
+    }
+    if (!kiriArray_Reserve(memory, &skin->spans, (int64_t)sample + 1) ||
+        !kiriArray_Reserve(memory, &skin->staged, (int64_t)skin->staged.count + 1) ||
+        !ResizeSpan(skin, memory, &staged.span, count)) {
         return false;
     }
-    for (int32_t i = 0; i < weights->count; ++i) {
-        kiriWeight weight = { weights->data[i].frame, weights->data[i].value };
-        if (weight.value > 0.0) {
-            skin->weights.data[skin->weights.count++] = weight;
+    kiriWeight* weight = skin->weights.data + staged.span.first;
+    for (int32_t i = 0; i < stencil->frames.count; ++i) {
+        if (stencil->values.data[i] > 0.0) {
+            *weight++ = (kiriWeight){ stencil->frames.data[i], stencil->values.data[i] };
         }
     }
-    return kiriArray_Push(memory, &skin->start, skin->weights.count);
+    skin->staged.data[skin->staged.count++] = staged;
+    return true;
 }
 
-bool kiriSkin_BuildVertices(kiriSkin* skin, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
-                            const kiriMeshData* mesh)
+bool kiriSkin_Stage(kiriSkin* skin, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+                    const kiriMeshData* mesh, int32_t sample, int32_t cell, kiriVec2 at)
 {
-    kiriPointWeights weights = { NULL, 0, 0 };
-    bool done = Begin(skin, memory, mesh->vertices.count);
-    for (int32_t v = 0; done && v < mesh->vertices.count; ++v) {
-        int32_t cell = kiriGrid_CellOfVertex(grid, mesh, v);
-        kiriVec2 local = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
-        done = kiriShape_At(shape, memory, grid, mesh, cell, local, &weights) && Append(skin, memory, &weights);
+    kiriStencil stencil = { 0 };
+    bool ok = kiriStencil_Gather(&stencil, memory, shape, grid, mesh, cell);
+    if (ok) {
+        kiriStencil_Weigh(&stencil, at);
+        ok = Stage(skin, memory, &stencil, sample);
     }
-    kiriArray_Release(memory, &weights);
-    return done;
+    kiriStencil_Release(&stencil, memory);
+    return ok;
 }
 
-bool kiriSkin_BuildSamples(kiriSkin* skin, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
-                           const kiriMeshData* mesh, const kiriSamples* samples)
+void kiriSkin_Commit(kiriSkin* skin)
 {
-    kiriPointWeights weights = { NULL, 0, 0 };
-    bool done = Begin(skin, memory, samples->count);
-    for (int32_t i = 0; done && i < samples->count; ++i) {
-        const kiriSample* sample = &samples->data[i];
-        kiriVec2 local = kiriMesh_Local(mesh, sample->at);
-        done = kiriShape_At(shape, memory, grid, mesh, sample->cell, local, &weights) && Append(skin, memory, &weights);
-    }
-    kiriArray_Release(memory, &weights);
-    return done;
-}
-
-/* Adds share * weight of the frame to the weights from `first` on. */
-static bool Blend(kiriSkin* skin, const kiriMemory* memory, int32_t first, kiriWeight weight, double share)
-{
-    for (int32_t i = first; i < skin->weights.count; ++i) {
-        if (skin->weights.data[i].frame == weight.frame) {
-            skin->weights.data[i].value += share * weight.value;
-            return true;
+    for (int32_t k = 0; k < skin->staged.count; ++k) {
+        kiriReweighed staged = skin->staged.data[k];
+        if (staged.sample < skin->spans.count) {
+            Drop(skin, &skin->spans.data[staged.sample]);
+            skin->spans.data[staged.sample] = staged.span;
+        } else {
+            skin->spans.data[skin->spans.count++] = staged.span;
         }
     }
-    kiriWeight scaled = { weight.frame, share * weight.value };
-    return kiriArray_Push(memory, &skin->weights, scaled);
+    skin->staged.count = 0;
+}
+
+void kiriSkin_Drop(kiriSkin* skin)
+{
+    for (int32_t k = 0; k < skin->staged.count; ++k) {
+        Drop(skin, &skin->staged.data[k].span);
+    }
+    skin->staged.count = 0;
+}
+
+/* Adds to the weights of the span, which has room; they stay sorted by frame. */
+static void Blend(kiriSkin* skin, kiriSpan* span, int32_t frame, double value)
+{
+    kiriWeight* weights = skin->weights.data + span->first;
+    int32_t k = 0;
+    while (k < span->count && weights[k].frame < frame) {
+        ++k;
+    }
+    if (k == span->count || weights[k].frame != frame) {
+        memmove(weights + k + 1, weights + k, (size_t)(span->count - k) * sizeof(*weights));
+        weights[k] = (kiriWeight){ frame, 0.0 };
+        ++span->count;
+    }
+    weights[k].value += value;
 }
 
 static bool InheritOne(kiriSkin* skin, const kiriMemory* memory, const kiriBirth* birth)
 {
-    int32_t first = skin->weights.count;
+    kiriSpan span = { 0, 0 };
+    int32_t most = 0;
     for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
-        int32_t parent = birth->parent[k];
-        for (int32_t i = skin->start.data[parent]; i < skin->start.data[parent + 1]; ++i) {
-            if (!Blend(skin, memory, first, skin->weights.data[i], birth->share[k])) {
-                return false;
-            }
+        most += skin->spans.data[birth->parent[k]].count;
+    }
+    if (!kiriArray_Reserve(memory, &skin->spans, (int64_t)skin->spans.count + 1) ||
+        !ResizeSpan(skin, memory, &span, most)) {
+        return false;
+    }
+    kiriSpan sum = { span.first, 0 };
+    for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
+        kiriSpan parent = skin->spans.data[birth->parent[k]];
+        for (int32_t i = parent.first; i < parent.first + parent.count; ++i) {
+            kiriWeight weight = skin->weights.data[i];
+            Blend(skin, &sum, weight.frame, birth->share[k] * weight.value);
         }
     }
-    return kiriArray_Push(memory, &skin->start, skin->weights.count);
+    ResizeSpan(skin, memory, &span, sum.count);
+    skin->spans.data[skin->spans.count++] = span;
+    return true;
 }
 
 bool kiriSkin_Inherit(kiriSkin* skin, const kiriMemory* memory, const kiriMeshData* mesh)
 {
-    for (int32_t v = skin->start.count - 1; v < mesh->vertices.count; ++v) {
+    for (int32_t v = skin->spans.count; v < mesh->vertices.count; ++v) {
         if (!InheritOne(skin, memory, &mesh->births.data[v - mesh->oldVertexCount])) {
             return false;
         }
@@ -97,16 +132,216 @@ bool kiriSkin_Inherit(kiriSkin* skin, const kiriMemory* memory, const kiriMeshDa
 
 void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount)
 {
-    if (skin->start.count > sampleCount + 1) {
-        skin->start.count = sampleCount + 1;
-        skin->weights.count = skin->start.data[sampleCount];
+    while (skin->spans.count > sampleCount) {
+        Drop(skin, &skin->spans.data[--skin->spans.count]);
     }
 }
+
+/* ---- Where samples are ------------------------------------------------------------------------------------------ */
+
+int32_t kiriSample_Cell(const kiriGrid* grid, const kiriMeshData* mesh, kiriPoint at)
+{
+    int32_t triangle = kiriMesh_Locate(mesh, at);
+    return triangle == KIRI_NONE ? KIRI_NONE : kiriGrid_CellOf(grid, mesh, triangle, at);
+}
+
+int32_t kiriSample_Around(const kiriGrid* grid, const kiriMeshData* mesh, kiriPoint at)
+{
+    int32_t square = kiriSquares_At(&mesh->squares, at);
+    int32_t first = square == KIRI_NONE ? KIRI_NONE : grid->squareCell.data[square];
+    if (first == KIRI_NONE || grid->cells.data[first].next == KIRI_NONE) {
+        return first; /* there is no choice */
+    }
+    int32_t cell = kiriSample_Cell(grid, mesh, at);
+    return cell == KIRI_NONE ? first : cell;
+}
+
+static int32_t SquareCount(const kiriMeshData* mesh)
+{
+    return mesh->squares.columns * mesh->squares.rows;
+}
+
+bool kiriPlaces_Reserve(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount)
+{
+    int32_t old = places->head.count;
+    if (!kiriArray_Reserve(memory, &places->next, sampleCount) ||
+        !kiriArray_Resize(memory, &places->head, SquareCount(mesh))) {
+        return false;
+    }
+    for (int32_t s = old; s < places->head.count; ++s) {
+        places->head.data[s] = KIRI_NONE;
+    }
+    return true;
+}
+
+bool kiriPlaces_Add(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, kiriPoint at)
+{
+    if (!kiriPlaces_Reserve(places, memory, mesh, (int64_t)places->next.count + 1)) {
+        return false;
+    }
+    int32_t square = kiriSquares_At(&mesh->squares, at), sample = places->next.count++;
+    places->next.data[sample] = KIRI_NONE;
+    if (square != KIRI_NONE) {
+        places->next.data[sample] = places->head.data[square];
+        places->head.data[square] = sample;
+    }
+    return true;
+}
+
+/* The latest sample of a square is the first in its list. */
+void kiriPlaces_Truncate(kiriPlaces* places, const kiriMeshData* mesh, int32_t sampleCount, const kiriPoint* at)
+{
+    while (places->next.count > sampleCount) {
+        int32_t sample = --places->next.count, square = kiriSquares_At(&mesh->squares, at[sample]);
+        if (square != KIRI_NONE) {
+            places->head.data[square] = places->next.data[sample];
+        }
+    }
+}
+
+void kiriPlaces_Release(kiriPlaces* places, const kiriMemory* memory)
+{
+    kiriArray_Release(memory, &places->head);
+    kiriArray_Release(memory, &places->next);
+}
+
+/* ---- Refreshing ------------------------------------------------------------------------------------------------- */
+
+/* There is room for every square. */
+static void AddSquare(kiriRefresh* refresh, int32_t square)
+{
+    if (!refresh->marks.data[square]) {
+        refresh->marks.data[square] = 1;
+        refresh->squares.data[refresh->squares.count++] = square;
+    }
+}
+
+/* The squares whose mesh changed hold the vertices that are new, and points that now are in another triangle. */
+bool kiriRefresh_Start(kiriRefresh* refresh, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+                       const kiriMeshData* mesh)
+{
+    int32_t old = refresh->marks.count;
+    refresh->squares.count = refresh->square = 0;
+    refresh->sample = refresh->stencil.cell = KIRI_NONE;
+    if (!kiriArray_Reserve(memory, &refresh->squares, SquareCount(mesh)) ||
+        !kiriArray_Resize(memory, &refresh->marks, SquareCount(mesh))) {
+        return false;
+    }
+    for (int32_t s = old; s < refresh->marks.count; ++s) {
+        refresh->marks.data[s] = 0;
+    }
+    for (int32_t k = 0; k < shape->changes.count; ++k) {
+        int32_t cell = shape->changes.data[k];
+        AddSquare(refresh, grid->cells.data[cell].square);
+        for (int32_t s = grid->runs.data[cell].first; s < grid->runs.data[cell].end[1]; ++s) {
+            AddSquare(refresh, grid->cells.data[grid->steps.data[s].cell].square);
+        }
+    }
+    for (int32_t k = 0; k < mesh->squares.touched.count; ++k) {
+        AddSquare(refresh, mesh->squares.touched.data[k]);
+    }
+    for (int32_t k = 0; k < refresh->squares.count; ++k) {
+        refresh->marks.data[refresh->squares.data[k]] = 0;
+    }
+    return true;
+}
+
+/* What a refresh works on. */
+typedef struct Samples {
+    kiriSkin* skin;
+    const kiriMemory* memory;
+    const kiriShape* shape;
+    const kiriGrid* grid;
+    const kiriMeshData* mesh;
+    const kiriPlaces* places; /* null: vertices */
+    const kiriSamples* points;
+} Samples;
+
+static int32_t FirstOf(const Samples* samples, int32_t square)
+{
+    return samples->places == NULL ? samples->mesh->squares.vertexHead[square] : samples->places->head.data[square];
+}
+
+static int32_t NextOf(const Samples* samples, int32_t sample)
+{
+    return samples->places == NULL ? samples->mesh->vertices.data[sample].next : samples->places->next.data[sample];
+}
+
+static int32_t CellOf(const Samples* samples, int32_t square, int32_t sample)
+{
+    int32_t first = samples->grid->squareCell.data[square];
+    if (samples->grid->cells.data[first].next == KIRI_NONE) {
+        return first;
+    }
+    return samples->places == NULL ? kiriGrid_CellOfVertex(samples->grid, samples->mesh, sample)
+                                   : kiriSample_Around(samples->grid, samples->mesh, samples->points->data[sample].at);
+}
+
+/* A sample has often the cell of the one before. */
+static bool RefreshOne(kiriRefresh* refresh, const Samples* samples, int32_t square, int32_t sample)
+{
+    kiriStencil* stencil = &refresh->stencil;
+    int32_t cell = CellOf(samples, square, sample);
+    kiriPoint at = samples->places == NULL ? samples->mesh->vertices.data[sample].at : samples->points->data[sample].at;
+    if (stencil->cell != cell &&
+        !kiriStencil_Gather(stencil, samples->memory, samples->shape, samples->grid, samples->mesh, cell)) {
+        return false;
+    }
+    kiriStencil_Weigh(stencil, kiriMesh_Local(samples->mesh, at));
+    return Stage(samples->skin, samples->memory, stencil, sample);
+}
+
+static kiriProgress Refresh(kiriRefresh* refresh, const Samples* samples, kiriQuota* quota)
+{
+    for (; refresh->square < refresh->squares.count; ++refresh->square) {
+        int32_t square = refresh->squares.data[refresh->square];
+        int32_t sample = refresh->sample == KIRI_NONE ? FirstOf(samples, square) : refresh->sample;
+        for (; sample != KIRI_NONE; sample = NextOf(samples, sample)) {
+            refresh->sample = sample;
+            if (!kiriQuota_Take(quota, 1)) {
+                return KIRI_MORE;
+            }
+            if (!RefreshOne(refresh, samples, square, sample)) {
+                return KIRI_FAILED;
+            }
+        }
+        refresh->sample = KIRI_NONE;
+    }
+    refresh->square = 0;
+    return KIRI_DONE;
+}
+
+kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, const kiriMemory* memory,
+                                  const kiriShape* shape, const kiriGrid* grid, const kiriMeshData* mesh,
+                                  kiriQuota* quota)
+{
+    Samples samples = { skin, memory, shape, grid, mesh, NULL, NULL };
+    return Refresh(refresh, &samples, quota);
+}
+
+kiriProgress kiriRefresh_Points(kiriRefresh* refresh, kiriSkin* skin, const kiriPlaces* places,
+                                const kiriSamples* points, const kiriMemory* memory, const kiriShape* shape,
+                                const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
+{
+    Samples samples = { skin, memory, shape, grid, mesh, places, points };
+    /* Before the first point there are no lists. */
+    return places->next.count > 0 ? Refresh(refresh, &samples, quota) : KIRI_DONE;
+}
+
+void kiriRefresh_Release(kiriRefresh* refresh, const kiriMemory* memory)
+{
+    kiriArray_Release(memory, &refresh->squares);
+    kiriArray_Release(memory, &refresh->marks);
+    kiriStencil_Release(&refresh->stencil, memory);
+}
+
+/* ---- Motion ----------------------------------------------------------------------------------------------------- */
 
 kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrameData* frames, kiriVec2 local)
 {
     kiriVec3 x = { 0.0, 0.0, 0.0 };
-    for (int32_t i = skin->start.data[sample]; i < skin->start.data[sample + 1]; ++i) {
+    kiriSpan span = skin->spans.data[sample];
+    for (int32_t i = span.first; i < span.first + span.count; ++i) {
         kiriWeight weight = skin->weights.data[i];
         x = kiriVec3_AddScaled(x, weight.value, kiriFrame_Carry(&frames[weight.frame], local));
     }
@@ -141,93 +376,11 @@ kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* fram
     double area = (double)kiriOrient(corners[0], corners[1], corners[2]);
     for (int k = 0; k < 3; ++k) {
         double share = (double)kiriOrient(corners[(k + 1) % 3], corners[(k + 2) % 3], at) / area;
-        int32_t vertex = mesh->triangles.data[triangle].vertex[k];
-        for (int32_t i = vertexSkin->start.data[vertex]; i < vertexSkin->start.data[vertex + 1]; ++i) {
+        kiriSpan span = vertexSkin->spans.data[mesh->triangles.data[triangle].vertex[k]];
+        for (int32_t i = span.first; i < span.first + span.count; ++i) {
             kiriWeight weight = vertexSkin->weights.data[i];
             AddMotion(&motion, &frames[weight.frame], local, share * weight.value);
         }
     }
     return motion;
-}
-
-int32_t kiriSample_Cell(const kiriGrid* grid, const kiriMeshData* mesh, kiriPoint at)
-{
-    int32_t triangle = kiriMesh_Locate(mesh, at);
-    return triangle == KIRI_NONE ? KIRI_NONE : kiriGrid_CellOf(grid, mesh, triangle, at);
-}
-
-typedef struct Piece {
-    kiriMoments material;
-    int32_t middle; /* the cell nearest to the centroid, where there is no site yet */
-    double distance;
-    bool isTaken;
-} Piece;
-
-static void MeasurePieces(Piece* pieces, const kiriSites* sites, const kiriGrid* grid, const kiriMeshData* mesh)
-{
-    for (int32_t p = 0; p < grid->pieces; ++p) {
-        pieces[p] = (Piece){ { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 }, KIRI_NONE, 0.0, false };
-    }
-    for (int32_t c = 0; c < grid->cells.count; ++c) {
-        kiriMoments_Add(&pieces[grid->cells.data[c].piece].material, &grid->cells.data[c].material);
-    }
-    for (int32_t i = 0; i < sites->count; ++i) {
-        pieces[grid->cells.data[sites->data[i].cell].piece].isTaken = true;
-    }
-    for (int32_t c = 0; c < grid->cells.count; ++c) {
-        Piece* piece = &pieces[grid->cells.data[c].piece];
-        if (!piece->isTaken) {
-            kiriVec2 way = kiriVec2_Sub(kiriGrid_Middle(grid, mesh, c), kiriMoments_Center(&piece->material));
-            double distance = kiriVec2_Dot(way, way);
-            if (piece->middle == KIRI_NONE || distance < piece->distance) {
-                piece->middle = c;
-                piece->distance = distance;
-            }
-        }
-    }
-}
-
-bool kiriSites_Spread(kiriSites* sites, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                      kiriField* field, int32_t count)
-{
-    Piece* pieces = kiriMemory_Alloc(memory, (int64_t)sizeof(Piece) * grid->pieces);
-    if (pieces == NULL) {
-        return false;
-    }
-    MeasurePieces(pieces, sites, grid, mesh);
-    double total = 0.0;
-    for (int32_t p = 0; p < grid->pieces; ++p) {
-        total += pieces[p].material.area;
-    }
-    bool done = true;
-    for (int32_t p = 0; done && p < grid->pieces; ++p) {
-        int32_t share = (int32_t)(count * pieces[p].material.area / total + 0.5);
-        if (!pieces[p].isTaken && share > 1) {
-            done = kiriFrames_Place(sites, memory, grid, mesh, field, p, NULL, share);
-        } else if (!pieces[p].isTaken) {
-            /* One site in the middle, without a flood: confetti comes in thousands. */
-            done = kiriArray_Push(memory, sites, kiriFrames_SiteIn(grid, mesh, pieces[p].middle));
-        }
-    }
-    kiriMemory_Free(memory, pieces);
-    return done;
-}
-
-bool kiriSamples_Spread(kiriSamples* samples, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                        kiriField* field, int32_t count)
-{
-    kiriSites sites = { NULL, 0, 0 };
-    bool done = true;
-    for (int32_t i = 0; done && i < samples->count; ++i) {
-        kiriSite site = { { 0.0, 0.0 }, samples->data[i].cell };
-        done = kiriArray_Push(memory, &sites, site);
-    }
-    done = done && kiriSites_Spread(&sites, memory, grid, mesh, field, count);
-    for (int32_t i = samples->count; done && i < sites.count; ++i) {
-        int32_t cell = sites.data[i].cell;
-        kiriSample sample = { kiriGrid_Anchor(grid, mesh, cell), cell };
-        done = kiriArray_Push(memory, samples, sample);
-    }
-    kiriArray_Release(memory, &sites);
-    return done;
 }

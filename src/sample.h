@@ -12,7 +12,7 @@ typedef struct kiriReweighed {
 
 /* The weights of a row of samples. */
 typedef struct kiriSkin {
-    KIRI_ARRAY(kiriSpan) spans; /* one a sample */
+    KIRI_ARRAY(kiriSpan) spans;     /* one a sample */
     KIRI_ARRAY(kiriWeight) weights; /* by spans; in a span by frame */
     kiriSpans room;
     KIRI_ARRAY(kiriReweighed) staged; /* weights that take effect with the commit */
@@ -20,7 +20,7 @@ typedef struct kiriSkin {
 
 /* A material point that the host collides with the world. */
 typedef struct kiriSample {
-    kiriPoint at; /* in the material */
+    kiriPoint at;  /* in the material */
     int32_t cell;  /* around it */
     int32_t frame; /* in whose region it is */
 } kiriSample;
@@ -65,14 +65,18 @@ typedef struct kiriRefresh {
     KIRI_ARRAY(int32_t) squares; /* with such cells */
     KIRI_ARRAY(uint8_t) marks;   /* of each square */
     int32_t square, sample;      /* where the work goes on */
+    kiriStencil stencil;         /* of the cell at hand */
 } kiriRefresh;
+
+/* Reads the mesh's squares.touched, too: they must not be cleared before. */
 bool kiriRefresh_Start(kiriRefresh* refresh, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                        const kiriMeshData* mesh);
-kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, const kiriMemory* memory, const kiriShape* shape,
-                                  const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
-kiriProgress kiriRefresh_Points(kiriRefresh* refresh, kiriSkin* skin, const kiriPlaces* places, const kiriSamples* points,
-                                const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
-                                const kiriMeshData* mesh, kiriQuota* quota);
+kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, const kiriMemory* memory,
+                                  const kiriShape* shape, const kiriGrid* grid, const kiriMeshData* mesh,
+                                  kiriQuota* quota);
+kiriProgress kiriRefresh_Points(kiriRefresh* refresh, kiriSkin* skin, const kiriPlaces* places,
+                                const kiriSamples* points, const kiriMemory* memory, const kiriShape* shape,
+                                const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
 void kiriRefresh_Release(kiriRefresh* refresh, const kiriMemory* memory);
 
 /* Vertices born since kiriMesh_Begin take a blend of their parents' weights, so that they lie on the surface as it was.

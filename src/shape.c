@@ -1,65 +1,94 @@
 #include "shape.h"
 
+#include <string.h>
+
 /* ---- Weights of the cells (algorithm 2) ------------------------------------------------------------------------- */
 
+/* Of a cell. */
+enum {
+    RESTEPPED = 1, /* new, or its steps changed */
+    GONE = 2,
+    REOWNED = 4,  /* its owner or the distance to its site changed */
+    LISTED = 8,   /* it is in shape->changes, */
+    COUNTED = 16, /* and in shape->recomputed */
+    DIRTY = 32,   /* its weights do not sum to 1 yet */
+};
+
+/* A raw weight to be put in its place; 0: to be taken away. */
 typedef struct Entry {
-    int32_t cell;
-    kiriWeight weight;
+    int32_t cell, frame;
+    double raw;
 } Entry;
 
-typedef struct Builder {
+/* What an update knows of a frame. */
+typedef struct Look {
+    int32_t limit; /* of the distances in its list */
+    int32_t reach; /* the largest distance of cells that came to its region */
+    bool moved;    /* its site */
+    bool reowned;  /* a cell came to its region, left it, or lies elsewhere in it */
+} Look;
+
+typedef enum Stage { AT_REST, NEXT_FRAME, FROM_SITE, FROM_BORDER, PUTTING, NORMALIZING } Stage;
+
+struct kiriShapeWork {
+    /* Of the frame at hand; empty between frames. */
+    kiriField fromSite;   /* distances to its site, no farther than its weight may be above zero, */
+    kiriField fromBorder; /* and to the border of its region */
+    kiriSeeds seeds;
+
+    KIRI_ARRAY(uint8_t) marks;    /* of each cell */
+    KIRI_ARRAY(int32_t) wasOwner; /* of cells marked REOWNED */
+    KIRI_ARRAY(int32_t) fresh;    /* of cells without weights: how many entries still go there */
+    KIRI_ARRAY(int64_t) shares;   /* of each cell: what it adds to the rigid sums of its frames */
+    KIRI_ARRAY(Look) looks;       /* of each frame */
+    KIRI_ARRAY(Entry) entries;    /* by frame */
+    KIRI_ARRAY(int32_t) dirty;
+    int32_t low[2], high[2]; /* the box of columns and rows in which something changed */
+    Stage stage;
+    int32_t next; /* frame, entry or dirty cell at which the work goes on */
+};
+
+/* An update, and the frame at hand. */
+typedef struct Job {
+    kiriShape* shape;
+    kiriShapeWork* work;
     const kiriMemory* memory;
     const kiriGrid* grid;
     const kiriMeshData* mesh;
     const kiriRegions* regions;
-    KIRI_ARRAY(uint8_t) onBorder; /* 1 where a step from the cell leads to another region */
-    int32_t frame;                /* the frame at hand, and for it: */
-    kiriField* fromSite;          /* distances to its site, no farther than its weight may be above zero, */
-    kiriField fromBorder;         /* and to the border of its region */
-    kiriSeeds seeds;
-    KIRI_ARRAY(Entry) entries; /* by frame */
-} Builder;
+    const kiriSite* sites;
+    int32_t siteCount;
+    int32_t frame;
+} Job;
 
-static bool FindBorders(Builder* b)
+static bool Inside(const Job* job, int32_t cell)
 {
-    const kiriGrid* grid = b->grid;
-    const int32_t* owner = b->regions->owner.data;
-    if (!kiriArray_Resize(b->memory, &b->onBorder, grid->cells.count)) {
-        return false;
-    }
-    for (int32_t c = 0; c < grid->cells.count; ++c) {
-        b->onBorder.data[c] = 0;
-        for (int32_t s = grid->stepStart.data[c]; s < grid->stepStart.data[c + 1]; ++s) {
-            b->onBorder.data[c] |= owner[grid->steps.data[s].cell] != owner[c];
-        }
-    }
-    return true;
-}
-
-static bool Inside(const Builder* b, int32_t cell)
-{
-    return b->regions->owner.data[cell] == b->frame;
+    return job->regions->field.owner.data[cell] == job->frame;
 }
 
 /* The border lies up to one step beyond the reach. At twice that distance it is no nearer than half the way to the
    site, so the weight is zero from there on. */
-static bool MeasureFromSite(Builder* b, const kiriSite* site)
+static int32_t LimitOf(int32_t reach)
 {
-    int64_t twice = 2 * ((int64_t)b->regions->regions.data[b->frame].reach + KIRI_UNIT_KNIGHT);
-    int32_t limit = twice < KIRI_FAR ? (int32_t)twice : KIRI_FAR - 1;
-    b->seeds.count = 0;
-    return kiriSite_Seed(site, b->frame, b->memory, b->grid, b->mesh, &b->seeds) &&
-           kiriField_Flood(b->fromSite, b->memory, b->grid, b->seeds.data, b->seeds.count, limit, NULL, NULL);
+    int64_t twice = 2 * ((int64_t)reach + KIRI_UNIT_KNIGHT);
+    return twice < KIRI_FAR ? (int32_t)twice : KIRI_FAR - 1;
+}
+
+static kiriSeed SiteSeed(const void* context, int32_t cell)
+{
+    const Job* job = context;
+    return kiriSite_SeedAt(&job->sites[job->frame], job->frame, job->grid, job->mesh, cell);
 }
 
 /* The border lies on the way between x and y where the distances to their sites are equal. A half is rounded up. */
-static int32_t DistanceToBorder(const Builder* b, int32_t x)
+static int32_t DistanceToBorder(const Job* job, int32_t x)
 {
-    const int32_t* distance = b->regions->distance.data;
+    const int32_t* distance = job->regions->field.distance.data;
+    const kiriStepRun* run = &job->grid->runs.data[x];
     int32_t least = KIRI_FAR;
-    for (int32_t s = b->grid->stepStart.data[x]; s < b->grid->stepStart.data[x + 1]; ++s) {
-        kiriStep step = b->grid->steps.data[s];
-        if (Inside(b, step.cell) != Inside(b, x)) {
+    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        kiriStep step = job->grid->steps.data[s];
+        if (Inside(job, step.cell) != Inside(job, x)) {
             int32_t half = (distance[step.cell] + step.length - distance[x] + 1) / 2;
             least = half < least ? half : least;
         }
@@ -67,19 +96,23 @@ static int32_t DistanceToBorder(const Builder* b, int32_t x)
     return least;
 }
 
-static bool SeedBorder(Builder* b)
+static kiriSeed BorderSeed(const void* context, int32_t cell)
 {
-    b->seeds.count = 0;
-    for (int32_t k = 0; k < b->fromSite->settled.count; ++k) {
-        int32_t cell = b->fromSite->settled.data[k];
-        if (b->onBorder.data[cell]) {
-            kiriSeed seed = { cell, DistanceToBorder(b, cell), b->frame };
-            if (seed.distance < KIRI_FAR && !kiriArray_Push(b->memory, &b->seeds, seed)) {
-                return false;
-            }
-        }
-    }
-    return true;
+    const Job* job = context;
+    bool has = job->regions->onBorder.data[cell] && job->work->fromSite.distance.data[cell] != KIRI_FAR;
+    kiriSeed seed = { cell, has ? DistanceToBorder(job, cell) : KIRI_FAR, job->frame };
+    return seed;
+}
+
+/* Distances to the border are measured outside only as far as the weight is above zero: e grows along a way at least
+   as fast as d. To keep the flood on its side of the border is needless: no step over it is shorter than the seed
+   beyond. Whether a way goes on depends on what e is where it passes, but on nothing farther: so there is still one
+   fixed point, and a repair finds it. */
+static bool HasWeight(const void* context, int32_t cell)
+{
+    const Job* job = context;
+    int64_t d = job->work->fromSite.distance.data[cell], e = job->work->fromBorder.distance.data[cell];
+    return d != KIRI_FAR && (d > 2 * e || Inside(job, cell));
 }
 
 /* Algorithm 2, with d the distance to the site and e the distance to the border of its region: linear along a
@@ -99,101 +132,662 @@ static double Weigh(bool inside, int32_t d, int32_t e)
     return (double)d > 2.0 * e ? 0.5 * (1.0 - e / ((double)d - e)) : 0.0;
 }
 
-static double WeightAt(const Builder* b, int32_t cell)
-{
-    return Weigh(Inside(b, cell), b->fromSite->distance.data[cell], b->fromBorder.distance.data[cell]);
-}
+/* ---- Weights in their places ---- */
 
-/* Distances to the border are measured outside only as far as the weight is above zero: e grows along a way at least
-   as fast as d. To keep the flood on its side of the border is needless: no step over it is shorter than the seed
-   beyond. */
-static bool HasWeight(const void* context, int32_t cell)
+/* Adds the cell to the rigid sums of its frames, or takes it away from them. */
+static void AddRigid(Job* job, int32_t cell, int64_t share)
 {
-    const Builder* b = context;
-    int64_t d = b->fromSite->distance.data[cell], e = b->fromBorder.distance.data[cell];
-    return d != KIRI_FAR && (d > 2 * e || Inside(b, cell));
-}
-
-static bool AddFrame(Builder* b, const kiriSite* site)
-{
-    bool ok =
-        MeasureFromSite(b, site) && SeedBorder(b) &&
-        kiriField_Flood(&b->fromBorder, b->memory, b->grid, b->seeds.data, b->seeds.count, KIRI_FAR - 1, HasWeight, b);
-    for (int32_t k = 0; ok && k < b->fromSite->settled.count; ++k) {
-        int32_t cell = b->fromSite->settled.data[k];
-        Entry entry = { cell, { b->frame, WeightAt(b, cell) } };
-        ok = !(entry.weight.value > 0.0) || kiriArray_Push(b->memory, &b->entries, entry);
+    kiriSpan span = job->shape->spans.data[cell];
+    for (int32_t k = span.first; k < span.first + span.count; ++k) {
+        const kiriCellWeight* weight = &job->shape->weights.data[k];
+        if (weight->value > job->shape->rigidWeight) {
+            job->shape->rigid.data[weight->frame] += share;
+        }
     }
-    kiriField_Reset(b->fromSite);
-    kiriField_Reset(&b->fromBorder);
+}
+
+/* There is room for every cell. */
+static void ListChange(Job* job, int32_t cell)
+{
+    if ((job->work->marks.data[cell] & LISTED) == 0) {
+        job->work->marks.data[cell] |= LISTED;
+        job->shape->changes.data[job->shape->changes.count++] = cell;
+    }
+}
+
+/* The weights of the cell, or what they count, are about to change. There is room for every cell. */
+static void Spoil(Job* job, int32_t cell)
+{
+    if ((job->work->marks.data[cell] & DIRTY) == 0) {
+        job->work->marks.data[cell] |= DIRTY;
+        job->work->dirty.data[job->work->dirty.count++] = cell;
+        AddRigid(job, cell, -job->work->shares.data[cell]);
+    }
+}
+
+static void SpoilWeights(Job* job, int32_t cell)
+{
+    Spoil(job, cell);
+    ListChange(job, cell);
+    job->shape->recomputed += (job->work->marks.data[cell] & COUNTED) == 0;
+    job->work->marks.data[cell] |= COUNTED;
+}
+
+static bool ResizeSpan(Job* job, int32_t cell, int32_t count)
+{
+    kiriShape* shape = job->shape;
+    return kiriSpan_Resize(&shape->spans.data[cell], &shape->room, job->memory, &shape->weights,
+                           sizeof(*shape->weights.data), count);
+}
+
+/* A cell without weights gets room for all at once. */
+static bool OpenSpan(Job* job, int32_t cell)
+{
+    if (job->shape->spans.data[cell].count > 0) {
+        return true;
+    }
+    SpoilWeights(job, cell);
+    return ResizeSpan(job, cell, job->work->fresh.data[cell]);
+}
+
+/* Puts, changes or takes away one weight among those that are there. */
+static bool Replace(Job* job, const Entry* entry)
+{
+    kiriSpan* span = &job->shape->spans.data[entry->cell];
+    kiriCellWeight* weights = job->shape->weights.data + span->first;
+    int32_t k = 0;
+    while (k < span->count && weights[k].frame < entry->frame) {
+        ++k;
+    }
+    bool found = k < span->count && weights[k].frame == entry->frame, kept = entry->raw > 0.0;
+    if (found ? weights[k].raw == entry->raw : !kept) {
+        return true;
+    }
+    SpoilWeights(job, entry->cell);
+    if (found && !kept) {
+        memmove(weights + k, weights + k + 1, (size_t)(span->count - k - 1) * sizeof(*weights));
+        return ResizeSpan(job, entry->cell, span->count - 1);
+    }
+    if (!found) {
+        if (!ResizeSpan(job, entry->cell, span->count + 1)) {
+            return false;
+        }
+        weights = job->shape->weights.data + span->first;
+        memmove(weights + k + 1, weights + k, (size_t)(span->count - k - 1) * sizeof(*weights));
+    }
+    weights[k] = (kiriCellWeight){ entry->frame, 0.0, entry->raw };
+    return true;
+}
+
+static bool Put(Job* job, const Entry* entry)
+{
+    int32_t* fresh = &job->work->fresh.data[entry->cell];
+    if (*fresh == 0) {
+        return Replace(job, entry);
+    }
+    if (!OpenSpan(job, entry->cell)) {
+        return false;
+    }
+    kiriSpan span = job->shape->spans.data[entry->cell];
+    job->shape->weights.data[span.first + span.count - (*fresh)--] = (kiriCellWeight){ entry->frame, 0.0, entry->raw };
+    return true;
+}
+
+/* The share of a square that the cell covers, in units of 2^-40. */
+static int64_t ShareOf(const kiriGrid* grid, int32_t cell)
+{
+    return (int64_t)(grid->cells.data[cell].material.area / (grid->side * grid->side) * 1099511627776.0 + 0.5);
+}
+
+static void Normalize(Job* job, int32_t cell)
+{
+    kiriSpan span = job->shape->spans.data[cell];
+    kiriCellWeight* weights = job->shape->weights.data + span.first;
+    double sum = 0.0;
+    for (int32_t k = 0; k < span.count; ++k) {
+        sum += weights[k].raw;
+    }
+    for (int32_t k = 0; k < span.count; ++k) {
+        weights[k].value = weights[k].raw / sum;
+    }
+    job->work->shares.data[cell] = ShareOf(job->grid, cell);
+    AddRigid(job, cell, job->work->shares.data[cell]);
+    job->work->marks.data[cell] &= (uint8_t)~DIRTY;
+}
+
+/* ---- One frame ---- */
+
+/* No way goes farther than a square a KIRI_UNIT, but for what a site off the middle of its square gains at its start. */
+static bool IsInBox(const Job* job)
+{
+    int32_t square = job->grid->cells.data[job->sites[job->frame].cell].square, columns = job->mesh->squares.columns;
+    int32_t radius = job->work->looks.data[job->frame].limit / KIRI_UNIT + 2;
+    const int32_t at[2] = { square % columns, square / columns };
+    return job->work->low[0] <= at[0] + radius && job->work->high[0] >= at[0] - radius &&
+           job->work->low[1] <= at[1] + radius && job->work->high[1] >= at[1] - radius;
+}
+
+/* May its distances have changed? They do only where a cell changes that they reach: ways come from there. */
+static bool IsConcerned(const Job* job)
+{
+    const Look* look = &job->work->looks.data[job->frame];
+    const kiriReaches* list = &job->shape->reaches.data[job->frame];
+    if (look->moved || look->reowned) {
+        return true;
+    }
+    if (!IsInBox(job)) {
+        return false;
+    }
+    uint8_t changed = 0;
+    for (int32_t k = 0; k < list->count && changed == 0; ++k) {
+        changed = job->work->marks.data[list->data[k].cell] & (RESTEPPED | GONE | REOWNED);
+    }
+    return changed != 0;
+}
+
+/* The largest distance of the cells of its region: they all came to it, or are in its list. */
+static int32_t ReachOf(const Job* job)
+{
+    const kiriReaches* list = &job->shape->reaches.data[job->frame];
+    const kiriField* field = &job->regions->field;
+    int32_t reach = job->work->looks.data[job->frame].reach;
+    for (int32_t k = 0; k < list->count; ++k) {
+        int32_t cell = list->data[k].cell;
+        bool own = Inside(job, cell) && (job->work->marks.data[cell] & GONE) == 0;
+        reach = own && field->distance.data[cell] > reach ? field->distance.data[cell] : reach;
+    }
+    return reach;
+}
+
+/* Its distance to the border may have changed; where owner or distance did, so may the seeds of cells beside it that see
+   a border between the two. */
+static void SuspectBorder(Job* job, int32_t cell)
+{
+    kiriShapeWork* work = job->work;
+    kiriField_Suspect(&work->fromBorder, cell);
+    if ((work->marks.data[cell] & REOWNED) != 0) {
+        const kiriStepRun* run = &job->grid->runs.data[cell];
+        bool own = Inside(job, cell) || work->wasOwner.data[cell] == job->frame;
+        for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+            int32_t beside = job->grid->steps.data[s].cell;
+            if (own || Inside(job, beside)) {
+                kiriField_Suspect(&work->fromBorder, beside);
+            }
+        }
+    }
+}
+
+/* Loads the distances of the list but for those of cells that are gone or beyond the limit, and suspects the others that
+   may change: all that is known at first. A site's seeds depend on the steps of its cell. */
+static void Load(Job* job, int32_t limit)
+{
+    kiriShapeWork* work = job->work;
+    const kiriReaches* list = &job->shape->reaches.data[job->frame];
+    int32_t old = work->looks.data[job->frame].limit, rim = limit > old ? old - KIRI_UNIT_KNIGHT : KIRI_FAR;
+    for (int32_t k = 0; k < list->count; ++k) {
+        kiriReach reach = list->data[k];
+        uint8_t mark = work->marks.data[reach.cell];
+        if ((mark & GONE) != 0) {
+            continue;
+        }
+        if (reach.fromSite <= limit) {
+            work->fromSite.distance.data[reach.cell] = reach.fromSite;
+            work->fromSite.owner.data[reach.cell] = job->frame;
+            if ((mark & RESTEPPED) != 0 || reach.fromSite > rim) {
+                kiriField_Suspect(&work->fromSite, reach.cell);
+            }
+        }
+        if (reach.fromBorder != KIRI_FAR) {
+            work->fromBorder.distance.data[reach.cell] = reach.fromBorder;
+            work->fromBorder.owner.data[reach.cell] = job->frame;
+        }
+        if ((mark & (RESTEPPED | REOWNED)) != 0 || reach.fromSite > limit) {
+            SuspectBorder(job, reach.cell);
+        }
+    }
+    int32_t cell = job->sites[job->frame].cell;
+    const kiriStepRun* run = &job->grid->runs.data[cell];
+    for (int32_t s = run->first; (work->marks.data[cell] & RESTEPPED) && s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        kiriField_Suspect(&work->fromSite, job->grid->steps.data[s].cell);
+    }
+}
+
+static bool StartFromSite(Job* job)
+{
+    kiriShapeWork* work = job->work;
+    Look* look = &work->looks.data[job->frame];
+    int32_t limit = LimitOf(ReachOf(job));
+    bool ok = true;
+    if (look->moved) {
+        work->seeds.count = 0;
+        ok = kiriSite_Seed(&job->sites[job->frame], job->frame, job->memory, job->grid, job->mesh, &work->seeds) &&
+             kiriField_Start(&work->fromSite, job->memory, work->seeds.data, work->seeds.count);
+    } else {
+        Load(job, limit);
+    }
+    look->limit = limit;
     return ok;
 }
 
-/* Sorts the entries by cell; they come by frame and stay so within a cell. */
-static bool Gather(kiriShape* shape, const Builder* b)
+static bool SeedBorder(Job* job)
 {
-    int32_t cellCount = b->grid->cells.count;
-    if (!kiriArray_Resize(b->memory, &shape->start, (int64_t)cellCount + 1) ||
-        !kiriArray_Resize(b->memory, &shape->weights, b->entries.count)) {
-        return false;
+    kiriShapeWork* work = job->work;
+    work->seeds.count = 0;
+    for (int32_t k = 0; k < work->fromSite.settled.count; ++k) {
+        kiriSeed seed = BorderSeed(job, work->fromSite.settled.data[k]);
+        if (seed.distance < KIRI_FAR && !kiriArray_Push(job->memory, &work->seeds, seed)) {
+            return false;
+        }
     }
-    int32_t* start = shape->start.data;
-    for (int32_t c = 0; c <= cellCount; ++c) {
-        start[c] = 0;
+    return kiriField_Start(&work->fromBorder, job->memory, work->seeds.data, work->seeds.count);
+}
+
+/* Ways to the border pass where the site is near enough. */
+static bool StartFromBorder(Job* job)
+{
+    kiriShapeWork* work = job->work;
+    if (work->looks.data[job->frame].moved) {
+        return SeedBorder(job);
     }
-    for (int32_t k = 0; k < b->entries.count; ++k) {
-        ++start[b->entries.data[k].cell];
-    }
-    for (int32_t c = 0; c < cellCount; ++c) {
-        start[c + 1] += start[c];
-    }
-    for (int32_t k = b->entries.count - 1; k >= 0; --k) {
-        shape->weights.data[--start[b->entries.data[k].cell]] = b->entries.data[k].weight;
+    for (int32_t k = 0; k < work->fromSite.log.count; ++k) {
+        kiriSeed was = work->fromSite.log.data[k];
+        if (work->fromSite.distance.data[was.cell] != was.distance) {
+            SuspectBorder(job, was.cell);
+        }
     }
     return true;
 }
 
-static void Normalize(kiriShape* shape)
+static kiriProgress GoOn(Job* job, kiriField* field, const kiriRule* rule, kiriQuota* quota)
 {
-    for (int32_t c = 0; c + 1 < shape->start.count; ++c) {
-        double sum = 0.0;
-        for (int32_t k = shape->start.data[c]; k < shape->start.data[c + 1]; ++k) {
-            sum += shape->weights.data[k].value;
+    return job->work->looks.data[job->frame].moved ? kiriField_Flood(field, rule, quota)
+                                                   : kiriField_Repair(field, job->memory, rule, quota);
+}
+
+static void AddEntry(Job* job, int32_t cell, int32_t d, int32_t e)
+{
+    kiriShapeWork* work = job->work;
+    double raw = d == KIRI_FAR ? 0.0 : Weigh(Inside(job, cell), d, e);
+    bool none = job->shape->spans.data[cell].count == 0;
+    if (raw > 0.0 || !none) {
+        work->fresh.data[cell] += none;
+        work->entries.data[work->entries.count++] = (Entry){ cell, job->frame, raw };
+    }
+}
+
+static kiriReach Unload(kiriShapeWork* work, int32_t cell)
+{
+    kiriReach reach = { cell, work->fromSite.distance.data[cell], work->fromBorder.distance.data[cell] };
+    kiriField_Forget(&work->fromSite, cell);
+    kiriField_Forget(&work->fromBorder, cell);
+    return reach;
+}
+
+static void WriteOld(Job* job)
+{
+    kiriShapeWork* work = job->work;
+    kiriReaches* list = &job->shape->reaches.data[job->frame];
+    for (int32_t k = 0; k < list->count;) {
+        kiriReach was = list->data[k], is = Unload(work, was.cell);
+        uint8_t mark = work->marks.data[was.cell];
+        bool changed = is.fromSite != was.fromSite || is.fromBorder != was.fromBorder || (mark & REOWNED) != 0;
+        if (changed && (mark & GONE) == 0) {
+            AddEntry(job, was.cell, is.fromSite, is.fromBorder);
         }
-        for (int32_t k = shape->start.data[c]; k < shape->start.data[c + 1]; ++k) {
-            shape->weights.data[k].value /= sum;
+        list->data[k] = is.fromSite != KIRI_FAR ? is : list->data[--list->count];
+        k += is.fromSite != KIRI_FAR;
+    }
+}
+
+/* What is still loaded now is new. */
+static void WriteNew(Job* job, int32_t cell)
+{
+    kiriReaches* list = &job->shape->reaches.data[job->frame];
+    kiriReach is = Unload(job->work, cell);
+    if (is.fromSite != KIRI_FAR) {
+        list->data[list->count++] = is;
+        AddEntry(job, cell, is.fromSite, is.fromBorder);
+    }
+}
+
+/* Compares the distances with those of the list; leaves the fields empty. */
+static bool Write(Job* job)
+{
+    kiriShapeWork* work = job->work;
+    kiriReaches* list = &job->shape->reaches.data[job->frame];
+    int32_t settled = work->fromSite.settled.count, logged = work->fromSite.log.count;
+    int64_t most = (int64_t)list->count + settled + logged;
+    if (!kiriArray_Reserve(job->memory, list, most) ||
+        !kiriArray_Reserve(job->memory, &work->entries, work->entries.count + most)) {
+        return false;
+    }
+    WriteOld(job);
+    for (int32_t k = 0; k < settled; ++k) {
+        WriteNew(job, work->fromSite.settled.data[k]);
+    }
+    for (int32_t k = 0; k < logged; ++k) {
+        WriteNew(job, work->fromSite.log.data[k].cell);
+    }
+    /* Distances to the border are given one step farther than ways go on. */
+    for (int32_t k = 0; k < work->fromBorder.log.count; ++k) {
+        kiriField_Forget(&work->fromBorder, work->fromBorder.log.data[k].cell);
+    }
+    kiriField_Reset(&work->fromSite);
+    kiriField_Reset(&work->fromBorder);
+    work->fromSite.log.count = work->fromBorder.log.count = 0;
+    return true;
+}
+
+/* ---- All frames ---- */
+
+static bool MakeRoom(Job* job)
+{
+    kiriShape* shape = job->shape;
+    kiriShapeWork* work = job->work;
+    int32_t cells = job->grid->cells.count, old = work->marks.count;
+    bool ok =
+        kiriField_Resize(&work->fromSite, job->memory, cells) &&
+        kiriField_Resize(&work->fromBorder, job->memory, cells) &&
+        kiriArray_Resize(job->memory, &shape->spans, cells) && kiriArray_Reserve(job->memory, &shape->changes, cells) &&
+        kiriArray_Reserve(job->memory, &work->dirty, cells) && kiriArray_Resize(job->memory, &work->wasOwner, cells) &&
+        kiriArray_Resize(job->memory, &work->fresh, cells) && kiriArray_Resize(job->memory, &work->shares, cells) &&
+        kiriArray_Resize(job->memory, &work->marks, cells) &&
+        kiriArray_Reserve(job->memory, &shape->reaches, job->siteCount) &&
+        kiriArray_Reserve(job->memory, &shape->rigid, job->siteCount) &&
+        kiriArray_Reserve(job->memory, &work->looks, job->siteCount);
+    for (int32_t c = old; ok && c < cells; ++c) {
+        shape->spans.data[c] = (kiriSpan){ 0, 0 };
+        work->fresh.data[c] = 0;
+        work->shares.data[c] = 0;
+        work->marks.data[c] = 0;
+    }
+    while (ok && shape->reaches.count < job->siteCount) {
+        memset(&shape->reaches.data[shape->reaches.count++], 0, sizeof(*shape->reaches.data));
+    }
+    while (ok && shape->rigid.count < job->siteCount) {
+        shape->rigid.data[shape->rigid.count++] = 0;
+        memset(&work->looks.data[work->looks.count++], 0, sizeof(*work->looks.data));
+    }
+    return ok;
+}
+
+static void MarkChange(Job* job, int32_t cell, uint8_t mark)
+{
+    kiriShapeWork* work = job->work;
+    int32_t square = job->grid->cells.data[cell].square, columns = job->mesh->squares.columns;
+    const int32_t at[2] = { square % columns, square / columns };
+    work->marks.data[cell] |= mark;
+    for (int i = 0; i < 2; ++i) {
+        work->low[i] = at[i] < work->low[i] ? at[i] : work->low[i];
+        work->high[i] = at[i] > work->high[i] ? at[i] : work->high[i];
+    }
+}
+
+/* Cells whose owner or distance changed, as the frames will ask for them. */
+static void MarkReowned(Job* job)
+{
+    kiriShapeWork* work = job->work;
+    const kiriField* field = &job->regions->field;
+    for (int32_t k = 0; k < job->regions->changes.count; ++k) {
+        kiriSeed was = job->regions->changes.data[k];
+        int32_t owner = field->owner.data[was.cell];
+        MarkChange(job, was.cell, REOWNED);
+        work->wasOwner.data[was.cell] = was.owner;
+        if (was.owner != KIRI_NONE) {
+            work->looks.data[was.owner].reowned = true;
+        }
+        if (owner != KIRI_NONE) {
+            Look* look = &work->looks.data[owner];
+            int32_t distance = field->distance.data[was.cell];
+            look->reowned = true;
+            look->reach = distance > look->reach ? distance : look->reach;
         }
     }
 }
 
-bool kiriShape_Build(kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                     const kiriRegions* regions, kiriField* field, const kiriSite* sites, int32_t siteCount)
+/* Cells that are gone have made others in their squares, so the box holds them too. */
+static void MarkChanges(Job* job)
 {
-    Builder b = { 0 };
-    b.memory = memory;
-    b.grid = grid;
-    b.mesh = mesh;
-    b.regions = regions;
-    b.fromSite = field;
-    bool ok = FindBorders(&b) && kiriField_Init(&b.fromBorder, memory, grid->cells.count);
-    for (b.frame = 0; ok && b.frame < siteCount; ++b.frame) {
-        ok = AddFrame(&b, &sites[b.frame]);
+    const kiriGridChanges* changes = &job->grid->changes;
+    for (int32_t k = 0; k < changes->gone.count; ++k) {
+        int32_t cell = changes->gone.data[k];
+        AddRigid(job, cell, -job->work->shares.data[cell]);
+        ResizeSpan(job, cell, 0);
+        job->work->shares.data[cell] = 0;
+        job->work->marks.data[cell] |= GONE;
     }
-    ok = ok && Gather(shape, &b);
-    if (ok) {
-        Normalize(shape);
+    for (int32_t k = 0; k < changes->made.count; ++k) {
+        if (kiriGrid_IsCell(job->grid, changes->made.data[k])) {
+            MarkChange(job, changes->made.data[k], RESTEPPED);
+            ListChange(job, changes->made.data[k]);
+        }
     }
-    kiriArray_Release(memory, &b.onBorder);
-    kiriField_Release(&b.fromBorder, memory);
-    kiriArray_Release(memory, &b.seeds);
-    kiriArray_Release(memory, &b.entries);
+    for (int32_t k = 0; k < changes->restepped.count; ++k) {
+        if (kiriGrid_IsCell(job->grid, changes->restepped.data[k])) {
+            MarkChange(job, changes->restepped.data[k], RESTEPPED);
+            ListChange(job, changes->restepped.data[k]);
+        }
+    }
+    for (int32_t k = 0; k < changes->remade.count; ++k) {
+        if (kiriGrid_IsCell(job->grid, changes->remade.data[k].cell)) {
+            Spoil(job, changes->remade.data[k].cell);
+        }
+    }
+    MarkReowned(job);
+}
+
+static bool Begin(Job* job, const kiriSiteMove* moves, int32_t moveCount)
+{
+    kiriShapeWork* work = job->work;
+    if (!MakeRoom(job)) {
+        return false;
+    }
+    for (int32_t f = 0; f < job->siteCount; ++f) {
+        Look* look = &work->looks.data[f];
+        look->reach = 0;
+        look->moved = look->reowned = false;
+    }
+    for (int32_t k = 0; k < moveCount; ++k) {
+        work->looks.data[moves[k].frame].moved = true;
+    }
+    work->low[0] = work->low[1] = INT32_MAX;
+    work->high[0] = work->high[1] = INT32_MIN;
+    work->entries.count = work->dirty.count = 0;
+    MarkChanges(job);
+    work->stage = NEXT_FRAME;
+    work->next = 0;
+    return true;
+}
+
+static kiriProgress Measure(Job* job, kiriQuota* quota)
+{
+    kiriShapeWork* work = job->work;
+    kiriRule site = { job->grid, 0, NULL, SiteSeed, job };
+    kiriRule border = { job->grid, KIRI_FAR - 1, HasWeight, BorderSeed, job };
+    for (; work->next < job->siteCount; ++work->next) {
+        kiriProgress progress = KIRI_DONE;
+        job->frame = work->next;
+        if (work->stage == NEXT_FRAME) {
+            if (!IsConcerned(job)) {
+                continue;
+            }
+            if (!StartFromSite(job)) {
+                return KIRI_FAILED;
+            }
+            work->stage = FROM_SITE;
+        }
+        if (work->stage == FROM_SITE) {
+            site.limit = work->looks.data[job->frame].limit;
+            progress = GoOn(job, &work->fromSite, &site, quota);
+            if (progress == KIRI_DONE) {
+                progress = StartFromBorder(job) ? KIRI_DONE : KIRI_FAILED;
+                work->stage = FROM_BORDER;
+            }
+        }
+        progress = progress == KIRI_DONE ? GoOn(job, &work->fromBorder, &border, quota) : progress;
+        if (progress != KIRI_DONE) {
+            return progress;
+        }
+        if (!Write(job)) {
+            return KIRI_FAILED;
+        }
+        work->stage = NEXT_FRAME;
+    }
+    return KIRI_DONE;
+}
+
+/* The first weights of all lie in the order of cells, close to those of their neighbours. */
+static bool StartPutting(Job* job)
+{
+    bool ok = true;
+    for (int32_t c = 0; ok && job->shape->weights.count == 0 && c < job->grid->cells.count; ++c) {
+        ok = job->work->fresh.data[c] == 0 || OpenSpan(job, c);
+    }
+    job->work->stage = PUTTING;
+    job->work->next = 0;
     return ok;
+}
+
+static kiriProgress PutAll(Job* job, kiriQuota* quota)
+{
+    kiriShapeWork* work = job->work;
+    for (; work->next < work->entries.count; ++work->next) {
+        if (!kiriQuota_Take(quota, 1)) {
+            return KIRI_MORE;
+        }
+        if (!Put(job, &work->entries.data[work->next])) {
+            return KIRI_FAILED;
+        }
+    }
+    work->stage = NORMALIZING;
+    work->next = 0;
+    return KIRI_DONE;
+}
+
+static kiriProgress NormalizeAll(Job* job, kiriQuota* quota)
+{
+    kiriShapeWork* work = job->work;
+    for (; work->next < work->dirty.count; ++work->next) {
+        if (!kiriQuota_Take(quota, 1)) {
+            return KIRI_MORE;
+        }
+        Normalize(job, work->dirty.data[work->next]);
+    }
+    return KIRI_DONE;
+}
+
+/* Takes back the marks of this update, and cells that are gone out of the list of changes. */
+static void End(Job* job)
+{
+    kiriShape* shape = job->shape;
+    const kiriGridChanges* changes = &job->grid->changes;
+    uint8_t* marks = job->work->marks.data;
+    const uint8_t kept = (uint8_t) ~(RESTEPPED | GONE | REOWNED);
+    int32_t count = 0;
+    for (int32_t k = 0; k < changes->made.count; ++k) {
+        marks[changes->made.data[k]] &= kept;
+    }
+    for (int32_t k = 0; k < changes->restepped.count; ++k) {
+        marks[changes->restepped.data[k]] &= kept;
+    }
+    for (int32_t k = 0; k < job->regions->changes.count; ++k) {
+        marks[job->regions->changes.data[k].cell] &= kept;
+    }
+    for (int32_t k = 0; k < shape->changes.count; ++k) {
+        int32_t cell = shape->changes.data[k];
+        if ((marks[cell] & GONE) == 0) {
+            shape->changes.data[count++] = cell;
+        }
+    }
+    shape->changes.count = count;
+    for (int32_t k = 0; k < changes->gone.count; ++k) {
+        marks[changes->gone.data[k]] = 0;
+    }
+    job->work->stage = AT_REST;
+}
+
+kiriProgress kiriShape_Update(kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid,
+                              const kiriMeshData* mesh, const kiriRegions* regions, const kiriSite* sites,
+                              int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota)
+{
+    if (shape->work == NULL) {
+        shape->work = kiriMemory_Alloc(memory, sizeof(*shape->work));
+        if (shape->work == NULL) {
+            return KIRI_FAILED;
+        }
+        memset(shape->work, 0, sizeof(*shape->work));
+    }
+    Job job = { shape, shape->work, memory, grid, mesh, regions, sites, siteCount, 0 };
+    kiriProgress progress = KIRI_DONE;
+    if (shape->work->stage == AT_REST && !Begin(&job, moves, moveCount)) {
+        return KIRI_FAILED;
+    }
+    if (shape->work->stage < PUTTING) {
+        progress = Measure(&job, quota);
+        if (progress == KIRI_DONE && !StartPutting(&job)) {
+            return KIRI_FAILED;
+        }
+    }
+    if (progress == KIRI_DONE && shape->work->stage == PUTTING) {
+        progress = PutAll(&job, quota);
+    }
+    progress = progress == KIRI_DONE ? NormalizeAll(&job, quota) : progress;
+    if (progress == KIRI_DONE) {
+        End(&job);
+    }
+    return progress;
+}
+
+void kiriShape_Settle(kiriShape* shape)
+{
+    for (int32_t k = 0; k < shape->changes.count; ++k) {
+        shape->work->marks.data[shape->changes.data[k]] &= (uint8_t) ~(LISTED | COUNTED);
+    }
+    shape->changes.count = 0;
+    shape->recomputed = 0;
+}
+
+void kiriShape_Reset(kiriShape* shape)
+{
+    for (int32_t f = 0; f < shape->reaches.count; ++f) {
+        shape->reaches.data[f].count = 0;
+    }
+    shape->spans.count = shape->weights.count = shape->rigid.count = shape->changes.count = 0;
+    memset(&shape->room, 0, sizeof(shape->room));
+    shape->recomputed = 0;
+    if (shape->work != NULL) {
+        kiriField_Clear(&shape->work->fromSite);
+        kiriField_Clear(&shape->work->fromBorder);
+        shape->work->marks.count = shape->work->looks.count = 0;
+        shape->work->stage = AT_REST;
+    }
 }
 
 void kiriShape_Release(kiriShape* shape, const kiriMemory* memory)
 {
-    kiriArray_Release(memory, &shape->start);
+    kiriShapeWork* work = shape->work;
+    for (int32_t f = 0; f < shape->reaches.count; ++f) {
+        kiriArray_Release(memory, &shape->reaches.data[f]);
+    }
+    kiriArray_Release(memory, &shape->reaches);
+    kiriArray_Release(memory, &shape->spans);
     kiriArray_Release(memory, &shape->weights);
+    kiriArray_Release(memory, &shape->rigid);
+    kiriArray_Release(memory, &shape->changes);
+    if (work != NULL) {
+        kiriField_Release(&work->fromSite, memory);
+        kiriField_Release(&work->fromBorder, memory);
+        kiriArray_Release(memory, &work->seeds);
+        kiriArray_Release(memory, &work->marks);
+        kiriArray_Release(memory, &work->wasOwner);
+        kiriArray_Release(memory, &work->fresh);
+        kiriArray_Release(memory, &work->shares);
+        kiriArray_Release(memory, &work->looks);
+        kiriArray_Release(memory, &work->entries);
+        kiriArray_Release(memory, &work->dirty);
+        kiriMemory_Free(memory, work);
+        shape->work = NULL;
+    }
 }
 
 /* ---- Weights of a point: moving least squares (section 4.2) ------------------------------------------------------ */
@@ -209,27 +803,23 @@ static double Spline(double t)
    numbers, so that cells in one line are seen as such. */
 typedef struct Fit {
     kiriVec2 at;
-    double splineU[3], splineV[3]; /* at offsets -1, 0, 1: the kernel is their product */
-    double sum;                    /* of the kernel; and with it the offsets' */
-    kiriVec2 mean;                 /* mean */
-    double xx, xy, yy;             /* and (pseudo-)inverse of the second moments about the mean */
+    double sum;        /* of the kernel; and with it the offsets' */
+    kiriVec2 mean;     /* mean */
+    double xx, xy, yy; /* and (pseudo-)inverse of the second moments about the mean */
 } Fit;
 
-static double Kernel(const Fit* fit, kiriStep to)
+static kiriVec2 SetKernel(kiriStencil* stencil, kiriVec2 at)
 {
-    return fit->splineU[to.u + 1] * fit->splineV[to.v + 1];
-}
-
-/* The cells of a fit: k = 0 is the cell itself, then those a straight or diagonal step away. */
-static kiriStep Neighbor(const kiriGrid* grid, int32_t cell, int32_t k)
-{
-    kiriStep own = { cell, 0, 0, 0 };
-    return k == 0 ? own : grid->steps.data[grid->stepStart.data[cell] + k - 1];
-}
-
-static int32_t NeighborCount(const kiriGrid* grid, int32_t cell)
-{
-    return 1 + grid->lengthStart.data[KIRI_STEP_LENGTHS * cell + 2] - grid->stepStart.data[cell];
+    kiriVec2 off = kiriVec2_Scale(1.0 / stencil->side, kiriVec2_Sub(at, stencil->middle));
+    double u[3], v[3];
+    for (int i = 0; i < 3; ++i) {
+        u[i] = Spline(i - 1 - off.x);
+        v[i] = Spline(i - 1 - off.y);
+    }
+    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+        stencil->shares.data[k] = u[stencil->steps.data[k].u + 1] * v[stencil->steps.data[k].v + 1];
+    }
+    return off;
 }
 
 /* Inverts the second moments; a direction that the neighbours do not span is dropped (no slope along it). */
@@ -248,17 +838,13 @@ static void Invert(Fit* fit)
     fit->yy *= scale;
 }
 
-static Fit FitAround(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriVec2 at)
+/* Leaves the kernel in the stencil's shares. */
+static Fit FitAround(kiriStencil* stencil, kiriVec2 at)
 {
-    kiriVec2 off = kiriVec2_Sub(at, kiriGrid_Middle(grid, mesh, cell));
-    Fit fit = { kiriVec2_Scale(1.0 / grid->side, off), { 0.0 }, { 0.0 }, 0.0, { 0.0, 0.0 }, 0.0, 0.0, 0.0 };
-    for (int i = 0; i < 3; ++i) {
-        fit.splineU[i] = Spline(i - 1 - fit.at.x);
-        fit.splineV[i] = Spline(i - 1 - fit.at.y);
-    }
-    for (int32_t k = 0; k < NeighborCount(grid, cell); ++k) {
-        kiriStep to = Neighbor(grid, cell, k);
-        double kernel = Kernel(&fit, to);
+    Fit fit = { SetKernel(stencil, at), 0.0, { 0.0, 0.0 }, 0.0, 0.0, 0.0 };
+    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+        kiriStep to = stencil->steps.data[k];
+        double kernel = stencil->shares.data[k];
         fit.sum += kernel;
         fit.mean = kiriVec2_Add(fit.mean, kiriVec2_Make(kernel * to.u, kernel * to.v));
         fit.xx += kernel * to.u * to.u;
@@ -273,59 +859,166 @@ static Fit FitAround(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cel
     return fit;
 }
 
-/* A weight of zero at place k. */
-static bool Insert(kiriPointWeights* out, const kiriMemory* memory, int32_t k, int32_t frame)
+/* The slope of a function on the cells is the sum of its values times these. */
+static kiriVec2 SlopeOf(const Fit* fit, kiriStep to, double kernel)
 {
-    kiriPointWeight fresh = { frame, 0.0, { 0.0, 0.0 } };
-    if (!kiriArray_Push(memory, out, fresh)) {
+    kiriVec2 p = kiriVec2_Make(to.u - fit->mean.x, to.v - fit->mean.y);
+    return kiriVec2_Make(kernel * (fit->xx * p.x + fit->xy * p.y), kernel * (fit->xy * p.x + fit->yy * p.y));
+}
+
+/* What the cells count at the point. Splines reproduce linear functions: where no cell is missing, they are the fit. */
+static void SetShares(kiriStencil* stencil, kiriVec2 at)
+{
+    if (stencil->full) {
+        SetKernel(stencil, at);
+        return;
+    }
+    Fit fit = FitAround(stencil, at);
+    kiriVec2 way = kiriVec2_Sub(fit.at, fit.mean);
+    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+        double kernel = stencil->shares.data[k];
+        stencil->shares.data[k] = kernel / fit.sum + kiriVec2_Dot(SlopeOf(&fit, stencil->steps.data[k], kernel), way);
+    }
+}
+
+/* The fit may undershoot: no value below zero, sum 1. */
+void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at)
+{
+    int32_t count = stencil->frames.count;
+    double *values = stencil->values.data, sum = 0.0;
+    SetShares(stencil, at);
+    for (int32_t i = 0; i < count; ++i) {
+        values[i] = 0.0;
+    }
+    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+        const double* weights = stencil->weights.data + (size_t)k * (size_t)count;
+        double share = stencil->shares.data[k];
+        for (int32_t i = 0; i < count; ++i) {
+            values[i] += weights[i] * share;
+        }
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        values[i] = values[i] > 0.0 ? values[i] : 0.0;
+        sum += values[i];
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        values[i] /= sum;
+    }
+}
+
+static bool GatherSteps(kiriStencil* stencil, const kiriMemory* memory, const kiriGrid* grid, int32_t cell)
+{
+    const kiriStepRun* run = &grid->runs.data[cell];
+    int32_t count = run->end[1] - run->first, seen = 0;
+    if (!kiriArray_Resize(memory, &stencil->steps, (int64_t)count + 1) ||
+        !kiriArray_Resize(memory, &stencil->shares, (int64_t)count + 1)) {
         return false;
     }
-    for (int32_t m = out->count - 1; m > k; --m) {
-        out->data[m] = out->data[m - 1];
+    stencil->steps.data[0] = (kiriStep){ cell, 0, 0, 0 };
+    for (int32_t k = 1; k <= count; ++k) {
+        kiriStep to = grid->steps.data[run->first + k - 1];
+        stencil->steps.data[k] = to;
+        seen |= 1 << (3 * (to.v + 1) + to.u + 1);
     }
-    out->data[k] = fresh;
+    stencil->full = count == 8 && (seen | 1 << 4) == 511;
     return true;
 }
 
-/* What one cell brings to value and gradient of the fit. */
-static bool AddCell(const kiriShape* shape, const kiriMemory* memory, const Fit* fit, kiriStep to, double side,
-                    kiriPointWeights* out)
+/* The frames with weight in any of the cells, sorted, and in `columns` where they are. */
+static bool GatherFrames(kiriStencil* stencil, const kiriMemory* memory, const kiriShape* shape)
 {
-    double kernel = Kernel(fit, to);
-    kiriVec2 p = kiriVec2_Make(to.u - fit->mean.x, to.v - fit->mean.y);
-    kiriVec2 slope = kiriVec2_Make(kernel * (fit->xx * p.x + fit->xy * p.y), kernel * (fit->xy * p.x + fit->yy * p.y));
-    double share = kernel / fit->sum + kiriVec2_Dot(slope, kiriVec2_Sub(fit->at, fit->mean));
-    int32_t at = 0; /* both lists are sorted by frame */
-    for (int32_t k = shape->start.data[to.cell]; k < shape->start.data[to.cell + 1]; ++k) {
-        kiriWeight weight = shape->weights.data[k];
-        while (at < out->count && out->data[at].frame < weight.frame) {
-            ++at;
-        }
-        if ((at == out->count || out->data[at].frame != weight.frame) && !Insert(out, memory, at, weight.frame)) {
+    int32_t old = stencil->columns.count;
+    if (!kiriArray_Resize(memory, &stencil->columns, old > shape->rigid.count ? old : shape->rigid.count)) {
+        return false;
+    }
+    for (int32_t f = old; f < stencil->columns.count; ++f) {
+        stencil->columns.data[f] = 0;
+    }
+    stencil->frames.count = 0;
+    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+        kiriSpan span = shape->spans.data[stencil->steps.data[k].cell];
+        if (!kiriArray_Reserve(memory, &stencil->frames, (int64_t)stencil->frames.count + span.count)) {
             return false;
         }
-        kiriPointWeight* sum = &out->data[at];
-        sum->value += weight.value * share;
-        sum->gradient = kiriVec2_Add(sum->gradient, kiriVec2_Scale(weight.value / side, slope));
+        for (int32_t w = span.first; w < span.first + span.count; ++w) {
+            int32_t frame = shape->weights.data[w].frame, at = stencil->frames.count;
+            if (stencil->columns.data[frame] == 0) {
+                stencil->columns.data[frame] = 1;
+                for (; at > 0 && stencil->frames.data[at - 1] > frame; --at) {
+                    stencil->frames.data[at] = stencil->frames.data[at - 1];
+                }
+                stencil->frames.data[at] = frame;
+                ++stencil->frames.count;
+            }
+        }
+    }
+    for (int32_t i = 0; i < stencil->frames.count; ++i) {
+        stencil->columns.data[stencil->frames.data[i]] = i + 1;
     }
     return true;
 }
 
-/* The fit may undershoot: no value below zero, sum 1; what rounding leaves of the gradients goes to the largest. */
-static void Complete(kiriPointWeights* out)
+static bool GatherWeights(kiriStencil* stencil, const kiriMemory* memory, const kiriShape* shape)
 {
-    double sum = 0.0;
+    int32_t count = stencil->frames.count;
+    if (!kiriArray_Resize(memory, &stencil->weights, (int64_t)count * stencil->steps.count) ||
+        !kiriArray_Resize(memory, &stencil->values, count)) {
+        return false;
+    }
+    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+        kiriSpan span = shape->spans.data[stencil->steps.data[k].cell];
+        double* weights = stencil->weights.data + (size_t)k * (size_t)count;
+        for (int32_t i = 0; i < count; ++i) {
+            weights[i] = 0.0;
+        }
+        for (int32_t w = span.first; w < span.first + span.count; ++w) {
+            weights[stencil->columns.data[shape->weights.data[w].frame] - 1] = shape->weights.data[w].value;
+        }
+    }
+    return true;
+}
+
+bool kiriStencil_Gather(kiriStencil* stencil, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+                        const kiriMeshData* mesh, int32_t cell)
+{
+    bool ok = GatherSteps(stencil, memory, grid, cell) && GatherFrames(stencil, memory, shape) &&
+              GatherWeights(stencil, memory, shape);
+    for (int32_t i = 0; i < stencil->frames.count; ++i) {
+        stencil->columns.data[stencil->frames.data[i]] = 0;
+    }
+    stencil->cell = ok ? cell : KIRI_NONE;
+    stencil->middle = kiriGrid_Middle(grid, mesh, cell);
+    stencil->side = grid->side;
+    return ok;
+}
+
+void kiriStencil_Release(kiriStencil* stencil, const kiriMemory* memory)
+{
+    kiriArray_Release(memory, &stencil->steps);
+    kiriArray_Release(memory, &stencil->frames);
+    kiriArray_Release(memory, &stencil->weights);
+    kiriArray_Release(memory, &stencil->shares);
+    kiriArray_Release(memory, &stencil->values);
+    kiriArray_Release(memory, &stencil->columns);
+}
+
+/* What rounding leaves of the gradients goes to the largest weight. */
+static void SetGradients(kiriStencil* stencil, kiriVec2 at, kiriPointWeights* out)
+{
+    Fit fit = FitAround(stencil, at);
     kiriVec2 rest = { 0.0, 0.0 };
     int32_t largest = 0;
-    for (int32_t k = 0; k < out->count; ++k) {
-        kiriPointWeight* w = &out->data[k];
-        w->value = w->value > 0.0 ? w->value : 0.0;
-        sum += w->value;
-        rest = kiriVec2_Add(rest, w->gradient);
-        largest = w->value > out->data[largest].value ? k : largest;
+    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+        kiriVec2 slope = SlopeOf(&fit, stencil->steps.data[k], stencil->shares.data[k]);
+        const double* weights = stencil->weights.data + (size_t)k * (size_t)out->count;
+        for (int32_t i = 0; i < out->count; ++i) {
+            kiriPointWeight* weight = &out->data[i];
+            weight->gradient = kiriVec2_Add(weight->gradient, kiriVec2_Scale(weights[i] / stencil->side, slope));
+        }
     }
-    for (int32_t k = 0; k < out->count; ++k) {
-        out->data[k].value /= sum;
+    for (int32_t i = 0; i < out->count; ++i) {
+        rest = kiriVec2_Add(rest, out->data[i].gradient);
+        largest = out->data[i].value > out->data[largest].value ? i : largest;
     }
     if (out->count > 0) {
         out->data[largest].gradient = kiriVec2_Sub(out->data[largest].gradient, rest);
@@ -335,13 +1028,16 @@ static void Complete(kiriPointWeights* out)
 bool kiriShape_At(const kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                   int32_t cell, kiriVec2 at, kiriPointWeights* out)
 {
-    Fit fit = FitAround(grid, mesh, cell, at);
-    out->count = 0;
-    for (int32_t k = 0; k < NeighborCount(grid, cell); ++k) {
-        if (!AddCell(shape, memory, &fit, Neighbor(grid, cell, k), grid->side, out)) {
-            return false;
+    kiriStencil stencil = { 0 };
+    bool ok = kiriStencil_Gather(&stencil, memory, shape, grid, mesh, cell) &&
+              kiriArray_Resize(memory, out, stencil.frames.count);
+    if (ok) {
+        kiriStencil_Weigh(&stencil, at);
+        for (int32_t i = 0; i < out->count; ++i) {
+            out->data[i] = (kiriPointWeight){ stencil.frames.data[i], stencil.values.data[i], { 0.0, 0.0 } };
         }
+        SetGradients(&stencil, at, out);
     }
-    Complete(out);
-    return true;
+    kiriStencil_Release(&stencil, memory);
+    return ok;
 }

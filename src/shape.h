@@ -26,8 +26,8 @@ typedef KIRI_ARRAY(kiriReach) kiriReaches;
 typedef struct kiriShapeWork kiriShapeWork; /* private to shape.c */
 
 typedef struct kiriShape {
-    KIRI_ARRAY(kiriSpan) spans;           /* of each cell: its weights */
-    KIRI_ARRAY(kiriCellWeight) weights;   /* by spans; in a span by frame; above zero, sum of values 1 */
+    KIRI_ARRAY(kiriSpan) spans;         /* of each cell: its weights */
+    KIRI_ARRAY(kiriCellWeight) weights; /* by spans; in a span by frame; above zero, sum of values 1 */
     kiriSpans room;
     KIRI_ARRAY(kiriReaches) reaches; /* of each frame: the cells that its distances reach, in no order */
 
@@ -44,7 +44,9 @@ typedef struct kiriShape {
 
 /* Follows the changes of grid and regions (which are settled after it): costs what it touches, and a look at the cells
    of frames near by. `moves` as in kiriRegions_Update: distances to such a site are made from scratch. An item of the
-   quota is a cell whose distance is taken away, given or flooded. Every cell with an owner gets weights. */
+   quota is a cell whose distance is taken away, given or flooded, a weight put in its place, or a cell whose weights are
+   made to sum to 1. Every cell with an owner gets weights. KIRI_MORE: call again before grid, regions or sites change. On
+   KIRI_FAILED only Reset or Release make sense. */
 kiriProgress kiriShape_Update(kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid,
                               const kiriMeshData* mesh, const kiriRegions* regions, const kiriSite* sites,
                               int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
@@ -61,9 +63,31 @@ typedef struct kiriPointWeight {
 
 typedef KIRI_ARRAY(kiriPointWeight) kiriPointWeights;
 
+/* What the points of one cell have in common: the weights of the cell and of those a straight or diagonal step away. */
+typedef struct kiriStencil {
+    int32_t cell; /* or KIRI_NONE */
+    bool full;    /* all nine squares around have one cell each */
+    kiriVec2 middle;
+    double side;
+    KIRI_ARRAY(kiriStep) steps;  /* to these cells, first to the cell itself */
+    KIRI_ARRAY(int32_t) frames;  /* that have weight in any of them, in order */
+    KIRI_ARRAY(double) weights;  /* by step, then frame */
+    KIRI_ARRAY(double) shares;   /* of the point at hand: what each step, */
+    KIRI_ARRAY(double) values;   /* and what each frame counts there; sum 1 */
+    KIRI_ARRAY(int32_t) columns; /* of all frames: place in `frames` plus 1, while they are gathered */
+} kiriStencil;
+
+/* Gathers the weights around a cell. False for memory: then the stencil has no cell. */
+bool kiriStencil_Gather(kiriStencil* stencil, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+                        const kiriMeshData* mesh, int32_t cell);
+
+/* The weights at a local point of the cell, as kiriShape_At has them, into `values`. */
+void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at);
+void kiriStencil_Release(kiriStencil* stencil, const kiriMemory* memory);
+
 /* Weights at a local point of the cell, by frame: moving least squares, first order, over the cell and those a
    straight or diagonal step away; never negative, sum 1 (the gradients sum to 0). Replaces what is in `out`. False
-   for memory. */
+   for memory. Many points of a cell are quicker with a stencil. */
 bool kiriShape_At(const kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                   int32_t cell, kiriVec2 at, kiriPointWeights* out);
 

@@ -68,6 +68,7 @@ static void SetParameters(kiriSheetData* sheet, const kiriSheetDef* def)
     sheet->integrationPoints = def->integrationPoints > 0 ? def->integrationPoints : 4 * def->frameCount;
     sheet->integrationOrder = def->integrationOrder;
     sheet->sleepSpeed = def->sleepSpeed;
+    sheet->surface.skinning = def->skinning;
     sheet->alwaysScratch = def->fromScratch != 0;
 }
 

@@ -9,6 +9,7 @@
 #include "point.h"
 #include "pool.h"
 #include "solver.h"
+#include "surface.h"
 
 typedef struct kiriPiece {
     double area;    /* m^2 */
@@ -130,9 +131,8 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriContactRow) contactRows;
 
     /* What the host reads, see view.h. */
-    KIRI_ARRAY(float) positions, normals, restPositions, sourceWeights, pointPositions;
-    KIRI_ARRAY(int32_t) indices, sourceTriangles;
-    KIRI_ARRAY(kiriVec3) exact, slopes; /* positions before they are rounded to floats; sums for the normals */
+    kiriSurface surface;
+    KIRI_ARRAY(float) pointPositions;
 } kiriSheetData;
 
 /* On failure *why says what is wrong, and the sheet needs no release. Ids of sheet and frames are given by the world. */

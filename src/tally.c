@@ -9,23 +9,12 @@ static void AddShare(kiriExact* sum, double share, int sign)
 {
     double scaled = share * highUnits;
     int64_t high = (int64_t)scaled;
-    high -= scaled < (double)high ? 1 : 0;
     int64_t low = (int64_t)((scaled - (double)high) * lowUnits);
-    low -= low == lowRange ? 1 : 0; /* from below zero by less than a double can tell */
-    if (sign > 0) {
-        sum->high += high;
-        sum->low += low;
-    } else {
-        sum->high -= high;
-        sum->low -= low;
-    }
-    if (sum->low < 0) {
-        sum->low += lowRange;
-        --sum->high;
-    } else if (sum->low >= lowRange) {
-        sum->low -= lowRange;
-        ++sum->high;
-    }
+    sum->low += sign * low;
+    /* -1, 0 or 1: at random, so without a branch. */
+    int64_t carry = (int64_t)(((uint64_t)sum->low + (uint64_t)lowRange) >> 62) - 1;
+    sum->high += sign * high + carry;
+    sum->low -= carry * lowRange;
 }
 
 static double ShareOf(kiriExact sum)

@@ -139,7 +139,7 @@ kiriProgress kiriUpdate_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles)
     u->isTorn = u->isTorn || sheet->mesh.savedTriangles.count > 0;
     bool hasRoom = progress != KIRI_FAILED &&
                    kiriSkin_Inherit(&sheet->vertexSkin, sheet->memory, &sheet->mesh) &&
-                   kiriView_Resize(sheet, sheet->points.count);
+                   kiriView_Resize(sheet, sheet->frames.count, sheet->points.count);
     return hasRoom ? progress : KIRI_FAILED;
 }
 
@@ -823,7 +823,7 @@ static bool ReservePoints(kiriSheetData* sheet)
     int64_t need = (int64_t)sheet->points.count + u->newPoints.count;
     return kiriArray_Reserve(sheet->memory, &sheet->points, need) &&
            kiriPlaces_Reserve(&sheet->pointPlaces, sheet->memory, &sheet->mesh, need) &&
-           kiriView_Resize(sheet, (int32_t)need);
+           kiriView_Resize(sheet, sheet->update.sites.count, (int32_t)need);
 }
 
 kiriProgress kiriUpdate_Constants(kiriSheetData* sheet, kiriQuota* none)

@@ -4,14 +4,14 @@
 
 #include "sheet.h"
 
-/* Room for the mesh as it is and for so many collision points; after it the others never allocate. */
-bool kiriView_Resize(kiriSheetData* sheet, int32_t pointCount);
+/* Room for the mesh as it is, for so many frames and collision points; after it writing never fails. */
+bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount);
 void kiriView_Release(kiriSheetData* sheet);
 
-/* Indices, rest positions and provenance, when the mesh has changed. */
+/* What has changed in the mesh; before kiriMesh_Commit. */
 void kiriView_WriteTopology(kiriSheetData* sheet);
 
-/* Positions and normals from the frames (linear-blend skinning, equation 1 of the paper). */
+/* Positions and normals from the frames (section 4.1 of the paper). */
 void kiriView_WritePositions(kiriSheetData* sheet);
 
 /* The first triangle that the ray meets, up to maxDistance (m) along its direction, a unit vector. hit->triangle is -1 when there is none. */

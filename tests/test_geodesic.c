@@ -75,15 +75,32 @@ static void CutRandomly(Sheet* sheet, uint32_t* seed, int32_t cuts)
     }
 }
 
+static void UpdateGrid(Sheet* sheet)
+{
+    kiriQuota quota = { INT64_MAX, 0 };
+    assert_int_equal(kiriGrid_Update(&sheet->grid, &sheet->mesh, &quota), KIRI_DONE);
+    kiriSquares_ClearTouched(&sheet->mesh.squares);
+}
+
 static void Build(Sheet* sheet)
 {
-    assert_true(kiriGrid_Build(&sheet->grid, &sheet->mesh));
-    assert_true(kiriField_Init(&sheet->field, &sheet->memory, sheet->grid.cells.count));
+    UpdateGrid(sheet);
+    kiriGrid_Settle(&sheet->grid);
+    kiriField_Clear(&sheet->field);
+    assert_true(kiriField_Resize(&sheet->field, &sheet->memory, sheet->grid.cells.count));
+}
+
+static void FloodBy(Sheet* sheet, kiriField* field, const kiriRule* rule, const kiriSeed* seeds, int32_t count)
+{
+    kiriQuota quota = { INT64_MAX, 0 };
+    assert_true(kiriField_Start(field, &sheet->memory, seeds, count));
+    assert_int_equal(kiriField_Flood(field, rule, &quota), KIRI_DONE);
 }
 
 static void Flood(Sheet* sheet, const kiriSeed* seeds, int32_t count, int32_t limit)
 {
-    assert_true(kiriField_Flood(&sheet->field, &sheet->memory, &sheet->grid, seeds, count, limit, NULL, NULL));
+    kiriRule rule = { &sheet->grid, limit, NULL, NULL, NULL };
+    FloodBy(sheet, &sheet->field, &rule, seeds, count);
 }
 
 static void FloodFrom(Sheet* sheet, int32_t cell)
@@ -99,6 +116,27 @@ static int32_t CellAt(const Sheet* sheet, double x, double y)
     int32_t triangle = kiriMesh_Locate(&sheet->mesh, at);
     assert_int_not_equal(triangle, KIRI_NONE);
     return kiriGrid_CellOf(&sheet->grid, &sheet->mesh, triangle, at);
+}
+
+/* For each cell one of its piece, connected over faces: the same for all of them. */
+static int32_t* Pieces(const kiriGrid* grid)
+{
+    int32_t* piece = malloc(sizeof(int32_t) * (size_t)grid->cells.count);
+    for (int32_t c = 0; c < grid->cells.count; ++c) {
+        piece[c] = c;
+    }
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (int32_t f = 0; f < grid->faces.count; ++f) {
+            const int32_t* cell = grid->faces.data[f].cell;
+            if (cell[0] != KIRI_NONE && piece[cell[0]] != piece[cell[1]]) {
+                int32_t low = piece[cell[0]] < piece[cell[1]] ? piece[cell[0]] : piece[cell[1]];
+                piece[cell[0]] = piece[cell[1]] = low;
+                changed = true;
+            }
+        }
+    }
+    return piece;
 }
 
 /* ---- Independent answers ------------------------------------------------------------------------------------------- */
@@ -128,7 +166,8 @@ static void Relax(const kiriGrid* grid, const kiriSeed* seeds, int32_t count, in
     for (bool changed = true; changed;) {
         changed = false;
         for (int32_t c = 0; c < grid->cells.count; ++c) {
-            for (int32_t s = grid->stepStart.data[c]; s < grid->stepStart.data[c + 1] && distance[c] < KIRI_FAR; ++s) {
+            int32_t end = distance[c] < KIRI_FAR ? grid->runs.data[c].end[KIRI_STEP_LENGTHS - 1] : 0;
+            for (int32_t s = grid->runs.data[c].first; s < end; ++s) {
                 int32_t to = grid->steps.data[s].cell, d = distance[c] + grid->steps.data[s].length;
                 if (d <= limit && (d < distance[to] || (d == distance[to] && owner[c] < owner[to])) &&
                     (pass == NULL || pass(context, c))) {
@@ -147,7 +186,8 @@ static void CheckAgainstRelaxing(Sheet* sheet, const kiriSeed* seeds, int32_t co
     int32_t n = sheet->grid.cells.count, reached = 0;
     int32_t *distance = malloc(sizeof(int32_t) * (size_t)n), *owner = malloc(sizeof(int32_t) * (size_t)n);
     Relax(&sheet->grid, seeds, count, limit, pass, context, distance, owner);
-    assert_true(kiriField_Flood(&sheet->field, &sheet->memory, &sheet->grid, seeds, count, limit, pass, context));
+    kiriRule rule = { &sheet->grid, limit, pass, NULL, context };
+    FloodBy(sheet, &sheet->field, &rule, seeds, count);
     assert_memory_equal(distance, sheet->field.distance.data, sizeof(int32_t) * (size_t)n);
     assert_memory_equal(owner, sheet->field.owner.data, sizeof(int32_t) * (size_t)n);
     for (int32_t c = 0; c < n; ++c) {
@@ -198,6 +238,7 @@ static void TestSymmetric(void** state)
     Build(&sheet);
     int32_t n = sheet.grid.cells.count;
     int32_t* all = malloc(sizeof(int32_t) * (size_t)n * (size_t)n);
+    int32_t* piece = Pieces(&sheet.grid);
     for (int32_t c = 0; c < n; ++c) {
         FloodFrom(&sheet, c);
         memcpy(all + c * n, sheet.field.distance.data, sizeof(int32_t) * (size_t)n);
@@ -205,10 +246,10 @@ static void TestSymmetric(void** state)
     for (int32_t a = 0; a < n; ++a) {
         for (int32_t b = 0; b < n; ++b) {
             assert_int_equal(all[a * n + b], all[b * n + a]);
-            assert_int_equal(all[a * n + b] == KIRI_FAR,
-                             sheet.grid.cells.data[a].piece != sheet.grid.cells.data[b].piece);
+            assert_int_equal(all[a * n + b] == KIRI_FAR, piece[a] != piece[b]);
         }
     }
+    free(piece);
     free(all);
     CloseSheet(&sheet);
 }
@@ -248,15 +289,16 @@ static void TestOtherPieceIsFar(void** state)
     CutLine(&sheet, -0.1, 0.33, 1.1, 0.57);
     Build(&sheet);
     FloodFrom(&sheet, CellAt(&sheet, 0.5, 0.1));
-    int32_t piece = sheet.grid.cells.data[CellAt(&sheet, 0.5, 0.1)].piece, far = 0;
-    assert_int_equal(sheet.grid.pieces, 2);
+    int32_t *piece = Pieces(&sheet.grid), below = piece[CellAt(&sheet, 0.5, 0.1)], far = 0;
+    assert_int_not_equal(piece[CellAt(&sheet, 0.5, 0.9)], below);
     for (int32_t c = 0; c < sheet.grid.cells.count; ++c) {
         bool isFar = sheet.field.distance.data[c] == KIRI_FAR;
-        assert_int_equal(isFar, sheet.grid.cells.data[c].piece != piece);
+        assert_int_equal(isFar, piece[c] != below);
         assert_int_equal(isFar, sheet.field.owner.data[c] == KIRI_NONE);
         far += isFar;
     }
     assert_int_equal(sheet.field.settled.count, sheet.grid.cells.count - far);
+    free(piece);
     CloseSheet(&sheet);
 }
 
@@ -404,6 +446,77 @@ static void TestCutsOnlyMakeWaysLonger(void** state)
     CloseSheet(&sheet);
 }
 
+/* ---- Repairs ------------------------------------------------------------------------------------------------------- */
+
+typedef struct Starts {
+    const kiriGrid* grid;
+    int32_t columns;
+} Starts;
+
+/* All cells of some squares are seeds. */
+static kiriSeed StartOf(const void* context, int32_t cell)
+{
+    const Starts* starts = context;
+    int32_t square = starts->grid->cells.data[cell].square, column = square % starts->columns;
+    int32_t row = square / starts->columns;
+    kiriSeed start = { cell, 3 * row, square }, none = { cell, KIRI_FAR, KIRI_NONE };
+    return column % 7 == 3 && row % 9 == 4 ? start : none;
+}
+
+/* The field from scratch, in another one; equal to the repaired one. */
+static void CheckRepaired(Sheet* sheet, const kiriRule* rule)
+{
+    kiriField other = { 0 };
+    KIRI_ARRAY(kiriSeed) seeds = { 0 };
+    int32_t n = sheet->grid.cells.count;
+    for (int32_t c = 0; c < n; ++c) {
+        kiriSeed start = StartOf(rule->context, c);
+        if (kiriGrid_IsCell(&sheet->grid, c) && start.distance != KIRI_FAR) {
+            assert_true(kiriArray_Push(&sheet->memory, &seeds, start));
+        }
+    }
+    assert_true(kiriField_Resize(&other, &sheet->memory, n));
+    FloodBy(sheet, &other, rule, seeds.data, seeds.count);
+    assert_memory_equal(other.distance.data, sheet->field.distance.data, sizeof(int32_t) * (size_t)n);
+    assert_memory_equal(other.owner.data, sheet->field.owner.data, sizeof(int32_t) * (size_t)n);
+    kiriField_Release(&other, &sheet->memory);
+    kiriArray_Release(&sheet->memory, &seeds);
+}
+
+/* Cut after cut, over many squares or within one, through and through or not. */
+static void TestRepairsFollowCuts(void** state)
+{
+    (void)state;
+    uint32_t seed = 12;
+    for (int round = 0; round < 12; ++round) {
+        Sheet sheet;
+        OpenSquare(&sheet, 10 + (int32_t)(Random(&seed) % 20));
+        Starts starts = { &sheet.grid, sheet.mesh.squares.columns };
+        kiriRule rule = { &sheet.grid, round % 3 == 2 ? 1500 : KIRI_FAR, NULL, StartOf, &starts };
+        for (int cut = 0; cut < 40; ++cut) {
+            CutRandomly(&sheet, &seed, cut % 3);
+            UpdateGrid(&sheet);
+            const kiriGridChanges* changes = &sheet.grid.changes;
+            assert_true(kiriField_Resize(&sheet.field, &sheet.memory, sheet.grid.cells.count));
+            for (int32_t k = 0; k < changes->gone.count; ++k) {
+                kiriField_Forget(&sheet.field, changes->gone.data[k]);
+            }
+            for (int32_t k = 0; k < changes->made.count + changes->restepped.count; ++k) {
+                int32_t cell =
+                    k < changes->made.count ? changes->made.data[k] : changes->restepped.data[k - changes->made.count];
+                if (kiriGrid_IsCell(&sheet.grid, cell)) {
+                    kiriField_Suspect(&sheet.field, cell);
+                }
+            }
+            kiriQuota quota = { INT64_MAX, 0 };
+            assert_int_equal(kiriField_Repair(&sheet.field, &sheet.memory, &rule, &quota), KIRI_DONE);
+            kiriGrid_Settle(&sheet.grid);
+            CheckRepaired(&sheet, &rule);
+        }
+        CloseSheet(&sheet);
+    }
+}
+
 static void TestFailingMemory(void** state)
 {
     (void)state;
@@ -416,13 +529,13 @@ static void TestFailingMemory(void** state)
         kiriField field = { 0 };
         sheet.blocks.calls = 0;
         sheet.blocks.failAt = failures + 1;
-        done = kiriField_Init(&field, &sheet.memory, sheet.grid.cells.count) &&
-               kiriField_Flood(&field, &sheet.memory, &sheet.grid, seeds, 2, KIRI_FAR, NULL, NULL);
+        done = kiriField_Resize(&field, &sheet.memory, sheet.grid.cells.count) &&
+               kiriField_Start(&field, &sheet.memory, seeds, 2);
         assert_int_equal(done, sheet.blocks.calls < sheet.blocks.failAt);
         kiriField_Release(&field, &sheet.memory);
         assert_int_equal(sheet.blocks.live, live);
     }
-    assert_int_equal(failures, 5); /* four arrays */
+    assert_int_equal(failures, 8); /* seven arrays */
     CloseSheet(&sheet);
 }
 
@@ -438,6 +551,7 @@ int main(void)
         cmocka_unit_test(TestLateSeeds),
         cmocka_unit_test(TestRandomSheets),
         cmocka_unit_test(TestCutsOnlyMakeWaysLonger),
+        cmocka_unit_test(TestRepairsFollowCuts),
         cmocka_unit_test(TestFailingMemory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -270,7 +270,7 @@ static void ChangeLimit(Net* net, uint32_t* seed)
     for (int32_t c = 0; c < net->count; ++c) {
         int32_t distance = net->field.distance.data[c];
         if (distance != KIRI_FAR && distance > net->rule.limit) {
-            kiriField_Forget(&net->field, c);
+            (old % 2 == 0 ? kiriField_Forget : kiriField_Suspect)(&net->field, c);
         } else if (distance != KIRI_FAR && old < KIRI_FAR && distance > old - KIRI_UNIT_KNIGHT) {
             kiriField_Suspect(&net->field, c);
         }

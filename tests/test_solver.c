@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MOST_FRAMES = 64 };
@@ -967,6 +968,190 @@ static void TestNoMemory(void** state)
     kiriSolver_Destroy(NULL);
 }
 
+/* ---- Staging ----------------------------------------------------------------------------------------------------- */
+
+static bool StageLinks(Scene* s, int32_t linkCount)
+{
+    return kiriSolver_Stage(s->solver, s->system.frameCount, s->links, linkCount, NULL);
+}
+
+static void CommitLinks(Scene* s, int32_t linkCount)
+{
+    assert_true(StageLinks(s, linkCount));
+    kiriSolver_Commit(s->solver);
+    s->system.linkCount = linkCount;
+}
+
+/* Two sheets of the same frames, that swing. */
+static void MakeTwins(void)
+{
+    Scene* scenes[2] = { &scene, &twin };
+    for (int k = 0; k < 2; ++k) {
+        MakeSheet(scenes[k], 5, 4, 0.2, 0.15, Paper);
+        Hold(scenes[k], 0);
+        Steps(scenes[k], 10, 0.01, 2);
+    }
+}
+
+static void AssertTwins(double tolerance)
+{
+    for (int f = 0; f < scene.system.frameCount; ++f) {
+        AssertNear(kiriVec3_Length(kiriVec3_Sub(scene.frames[f].x, twin.frames[f].x)), 0.0, tolerance);
+        AssertNear(kiriVec3_Length(kiriVec3_Sub(scene.frames[f].A.d, twin.frames[f].A.d)), 0.0, tolerance);
+    }
+}
+
+static void Drop2(void)
+{
+    Drop(&scene);
+    Drop(&twin);
+}
+
+/* Links that vanish leave the pattern; links that come back find it. It moves as one made for the links that are left. */
+static void TestPatternStays(void** state)
+{
+    (void)state;
+    MakeTwins();
+    uint64_t hash = kiriSolver_Hash(scene.solver);
+    int32_t all = scene.system.linkCount;
+    CommitLinks(&scene, all / 2);
+    assert_int_equal(kiriSolver_Renewals(scene.solver), 1);
+    assert_true(kiriSolver_Hash(scene.solver) == hash);
+    Drop(&twin);
+    twin.system.linkCount = all / 2;
+    EndScene(&twin);
+    assert_true(kiriSolver_Hash(twin.solver) != hash);
+    Steps(&scene, 20, 0.01, 2);
+    Steps(&twin, 20, 0.01, 2);
+    AssertTwins(1e-9);
+    CommitLinks(&scene, all);
+    assert_int_equal(kiriSolver_Renewals(scene.solver), 1);
+    CommitLinks(&twin, all);
+    assert_int_equal(kiriSolver_Renewals(twin.solver), 2);
+    assert_true(kiriSolver_Hash(twin.solver) == hash); /* the pattern of exactly these links, however it was come by */
+    Drop2();
+}
+
+/* What is staged does not show before the commit, and may be staged anew. */
+static void TestStagedIsApart(void** state)
+{
+    (void)state;
+    MakeTwins();
+    AddFrame(&scene, kiriVec2_Make(0.3, 0.0), kiriVec2_Make(0.4, 0.1), kiriVec2_Make(0.35, 0.05));
+    int32_t links = scene.system.linkCount;
+    AddLink(&scene, 7, 20, kiriVec2_Make(1.0, 0.0), 0.1, kiriVec2_Make(0.3, 0.05));
+    assert_true(kiriSolver_Stage(scene.solver, 21, scene.links, links + 1, NULL));
+    scene.system.frameCount = 20;
+    scene.system.linkCount = links;
+    Steps(&scene, 5, 0.01, 2);
+    Steps(&twin, 5, 0.01, 2);
+    assert_memory_equal(scene.frames, twin.frames, 20 * sizeof(kiriFrameData));
+    assert_true(StageLinks(&scene, links)); /* back to what there is */
+    kiriSolver_Commit(scene.solver);
+    kiriSolver_Commit(scene.solver); /* nothing is staged: nothing changes */
+    Steps(&scene, 5, 0.01, 2);
+    Steps(&twin, 5, 0.01, 2);
+    assert_memory_equal(scene.frames, twin.frames, 20 * sizeof(kiriFrameData));
+    assert_int_equal(kiriSolver_Renewals(scene.solver), 1);
+    scene.system.frameCount = 21;
+    CommitLinks(&scene, links + 1);
+    assert_int_equal(kiriSolver_Renewals(scene.solver), 2);
+    scene.frames[20].velocity.z = 1.0; /* it is tied: the frame that it is linked to follows */
+    double before = scene.frames[7].x.z;
+    Steps(&scene, 5, 0.01, 2);
+    Steps(&twin, 5, 0.01, 2);
+    assert_true(scene.frames[7].x.z > before && twin.frames[7].x.z < before + 1e-3);
+    Drop2();
+}
+
+typedef struct Purse {
+    int64_t left, calls;
+} Purse;
+
+static void* PurseAlloc(void* user, int64_t bytes)
+{
+    Purse* purse = user;
+    ++purse->calls;
+    return purse->left-- > 0 ? malloc((size_t)bytes) : NULL;
+}
+
+static void PurseFree(void* user, void* pointer)
+{
+    (void)user;
+    free(pointer);
+}
+
+/* Refused at any of its allocations, staging leaves what there is; a pattern that covers takes no memory at all. */
+static void TestStagingPoorly(void** state)
+{
+    (void)state;
+    Purse purse = { INT64_MAX, 0 };
+    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
+    int refused = 0;
+    MakeTwins();
+    Drop(&scene);
+    scene.solver = kiriSolver_Create(&memory, &scene.system.mechanics);
+    assert_non_null(scene.solver);
+    CommitLinks(&scene, scene.system.linkCount);
+    int64_t calls = purse.calls;
+    CommitLinks(&scene, scene.system.linkCount);
+    int64_t grown = purse.calls - calls; /* the second of two arrays that take turns */
+    calls = purse.calls;
+    CommitLinks(&scene, scene.system.linkCount - 3);
+    CommitLinks(&scene, scene.system.linkCount + 3);
+    assert_true(grown <= 1 && purse.calls == calls);
+    AddLink(&scene, 1, 18, kiriVec2_Make(1.0, 0.0), 0.01, kiriVec2_Make(0.1, 0.1));
+    --scene.system.linkCount;
+    for (purse.left = 0; !StageLinks(&scene, scene.system.linkCount + 1); purse.left = ++refused) {
+        kiriSolver_Commit(scene.solver);
+        assert_int_equal(kiriSolver_Renewals(scene.solver), 1);
+        Steps(&scene, 1, 0.01, 2);
+        Steps(&twin, 1, 0.01, 2);
+        assert_memory_equal(scene.frames, twin.frames, 20 * sizeof(kiriFrameData));
+    }
+    assert_true(refused >= 3); /* what it got, it keeps for the next call */
+    Drop2();
+}
+
+/* ---- Quota ------------------------------------------------------------------------------------------------------- */
+
+/* Frames turned at random want more systems than they are promised; with any quota energy falls, and nothing is lost of
+   the count. */
+static void TestQuota(void** state)
+{
+    (void)state;
+    uint32_t seed = 4711;
+    int32_t largest = 0;
+    for (int32_t most = 1; most <= 9; ++most) {
+        for (int trial = 0; trial < 8; ++trial) {
+            MakeSheet(&scene, 4, 3, 0.2, 0.15, Paper);
+            scene.system.gravity = kiriVec3_Make(0.0, 0.0, 0.0);
+            for (int f = 0; f < scene.system.frameCount; ++f) {
+                kiriVec3 turn;
+                turn.x = RandomBetween(&seed, -3.0, 3.0);
+                turn.y = RandomBetween(&seed, -3.0, 3.0);
+                turn.z = RandomBetween(&seed, -3.0, 3.0);
+                scene.frames[f].A = kiriMat3_Cayley(turn);
+                scene.frames[f].x = kiriVec3_Scale(0.05, turn);
+            }
+            double energy = kiriSolver_ElasticEnergy(&scene.system);
+            for (int step = 0; step < 40; ++step) {
+                int32_t done = kiriSolver_Step(scene.solver, &scene.system, 0.01, 2, most);
+                assert_true(done >= 1 && done <= most && done <= 8 && (done >= 2 || most == 1));
+                largest = done > largest ? done : largest;
+                double now = kiriSolver_ElasticEnergy(&scene.system);
+                for (int f = 0; f < scene.system.frameCount; ++f) {
+                    now += kiriFrame_KineticEnergy(&scene.frames[f], &scene.system.material);
+                }
+                assert_true(now <= energy * (1.0 + 1e-9));
+                energy = now;
+            }
+            Drop(&scene);
+        }
+    }
+    assert_true(largest > 2);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -999,6 +1184,10 @@ int main(void)
         cmocka_unit_test(TestSameCallsSameBits),
         cmocka_unit_test(TestNotFinite),
         cmocka_unit_test(TestNoMemory),
+        cmocka_unit_test(TestPatternStays),
+        cmocka_unit_test(TestStagedIsApart),
+        cmocka_unit_test(TestStagingPoorly),
+        cmocka_unit_test(TestQuota),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -226,6 +226,12 @@ enum {
     KIRI_MODEL_POINTS = 2
 };
 
+/* What is seen between the frames. It does not change how the sheet moves. */
+enum {
+    KIRI_SKINNING_LINEAR = 0, /* each frame carries a flat patch; the weights blend them (equation 1 of the paper) */
+    KIRI_SKINNING_SMOOTH = 1  /* each carries a patch that bends towards its neighbours: no bumps at the frames */
+};
+
 typedef struct kiriSheetDef {
     uint32_t cookie;
 
@@ -267,7 +273,8 @@ typedef struct kiriSheetDef {
        gravity, contacts other than those it fell asleep with, kiriSheet_Wake. Default 0.001; 0: it never sleeps. */
     float sleepSpeed;
 
-    int32_t model; /* KIRI_MODEL_..., default KIRI_MODEL_LINKS */
+    int32_t model;    /* KIRI_MODEL_..., default KIRI_MODEL_LINKS */
+    int32_t skinning; /* KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
 
     /* 1: the sheet stays in the plane where it starts, without bending; what velocities, forces and held positions have
        across the plane is dropped. 3 unknowns a rigid frame, 6 an affine one: half of the work, or a fifth. Default 0. */
@@ -309,6 +316,18 @@ typedef struct kiriMesh {
 } kiriMesh;
 
 KIRI_API kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* mesh);
+
+/* What has changed in the mesh, for hosts that keep a copy of it, on a GPU say. Positions and normals change with every
+   tick; all else of a vertex, and the corners of a triangle, only in these ranges. */
+typedef struct kiriRange {
+    int32_t first, count;
+} kiriRange;
+
+typedef struct kiriDirty {
+    kiriRange newVertices, newTriangles; /* up to the last one of the mesh */
+    kiriRange oldVertices, oldTriangles; /* the least ranges that hold all older ones with other data */
+    uint32_t revision;                   /* for the next call */
+} kiriDirty;
 
 /* Collision points: 3 floats of position (m, world) a point, valid until the next tick. */
 KIRI_API kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet, const float** positions,

@@ -1,0 +1,116 @@
+/* A tick without a cut allocates nothing: neither from the host nor behind its back. */
+#include "host.h"
+
+/* malloc of the whole program, counted, where the C library lets us stand in front of it. */
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define IS_SANITIZED 1
+#endif
+#endif
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(IS_SANITIZED)
+#define COUNTS_MALLOC 1
+extern void* __libc_malloc(size_t bytes);
+extern void* __libc_calloc(size_t count, size_t bytes);
+extern void* __libc_realloc(void* pointer, size_t bytes);
+
+static int64_t taken;
+
+void* malloc(size_t bytes)
+{
+    ++taken;
+    return __libc_malloc(bytes);
+}
+
+void* calloc(size_t count, size_t bytes)
+{
+    ++taken;
+    return __libc_calloc(count, bytes);
+}
+
+void* realloc(void* pointer, size_t bytes)
+{
+    ++taken;
+    return __libc_realloc(pointer, bytes);
+}
+#else
+#define COUNTS_MALLOC 0
+static int64_t taken;
+#endif
+
+typedef struct Setting {
+    int32_t model, planar, order;
+} Setting;
+
+/* Everything that acts on a sheet, found anew each tick. */
+static void Act(Host* host, kiriSheet sheet, int tick)
+{
+    static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+    kiriFrame frames[64];
+    int32_t count;
+    float force[3] = { 0.01f, 0.02f, tick % 2 == 0 ? 0.0f : 0.03f }, torque[3] = { 0.0f, 0.0f, 0.001f };
+    float place[3] = { 0.1f, 0.1f + 0.001f * (float)tick, 0.0f };
+    kiriContact contacts[4];
+    for (int i = 0; i < 4; ++i) {
+        kiriContact contact = { i, { 0.0f, 0.0f, 1.0f }, 0.001f, 0.3f, 50.0f };
+        contacts[i] = contact;
+    }
+    OK(kiriSheet_GetFrames(host->world, sheet, frames, 64, &count));
+    OK(kiriFrame_Hold(host->world, frames[0], place, eye));
+    OK(kiriFrame_ApplyForce(host->world, frames[1], force, torque));
+    OK(kiriSheet_SetContacts(host->world, sheet, contacts, 1 + tick % 4));
+    OK(kiriWorld_Tick(host->world, 1.0f / 60.0f, 1 + tick % 3));
+}
+
+static kiriSheet AddSheet(Host* host, const Setting* setting)
+{
+    kiriSheetDef def = Host_SmallDef();
+    def.framePoints = NULL;
+    def.frameCount = 9;
+    def.model = setting->model;
+    def.planar = setting->planar;
+    def.integrationOrder = setting->order;
+    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 6, 6);
+    kiriPinDef pin;
+    kiriPin id;
+    kiriDefaultPinDef(&pin);
+    pin.restPoint[0] = pin.restPoint[1] = pin.target[0] = pin.target[1] = 0.9f;
+    OK(kiriCreatePin(host->world, sheet, &pin, &id));
+    return sheet;
+}
+
+static void TestPlainTicks(void** state)
+{
+    (void)state;
+    static const Setting settings[] = { { KIRI_MODEL_LINKS, 0, 1 },  { KIRI_MODEL_LINKS, 1, 1 },
+                                        { KIRI_MODEL_AFFINE, 0, 1 }, { KIRI_MODEL_AFFINE, 1, 1 },
+                                        { KIRI_MODEL_POINTS, 0, 2 }, { KIRI_MODEL_POINTS, 1, 1 } };
+    static const float across[6] = { -0.1f, 0.4f, 0.5f, 0.45f, 1.1f, 0.4f };
+    for (size_t i = 0; i < sizeof(settings) / sizeof(settings[0]); ++i) {
+        Host host;
+        Host_Start(&host);
+        int64_t calls = host.calls, before = taken;
+        kiriSheet sheet = AddSheet(&host, &settings[i]);
+        assert_true(host.calls > calls);
+        assert_true(!COUNTS_MALLOC || taken - before >= host.calls - calls); /* so it does count */
+        for (int pass = 0; pass < 2; ++pass) {
+            for (int tick = 0; tick < 4; ++tick) {
+                Act(&host, sheet, tick);
+            }
+            calls = host.calls;
+            before = taken;
+            for (int tick = 4; tick < 40; ++tick) {
+                Act(&host, sheet, tick);
+            }
+            assert_int_equal(host.calls, calls);
+            assert_int_equal(taken, before);
+            Host_Cut(&host, sheet, across, 3); /* and again for what the cut leaves */
+        }
+        Host_Stop(&host);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(TestPlainTicks) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,391 @@
+/* Sheets that come to rest, sleep, and wake, through the public header alone. */
+#include "host.h"
+
+static const float dt = 1.0f / 60.0f;
+enum { HALF_SECOND = 30 };
+
+static bool IsAwake(const Host* host, kiriSheet sheet)
+{
+    int32_t awake = -1;
+    OK(kiriSheet_IsAwake(host->world, sheet, &awake));
+    assert_true(awake == 0 || awake == 1);
+    return awake == 1;
+}
+
+static void Tick(Host* host)
+{
+    OK(kiriWorld_Tick(host->world, dt, 2));
+}
+
+/* Ticks until it sleeps: how many. */
+static int TicksToSleep(Host* host, kiriSheet sheet, int most)
+{
+    int ticks = 0;
+    for (; ticks < most && IsAwake(host, sheet); ++ticks) {
+        Tick(host);
+    }
+    return ticks;
+}
+
+static kiriPin AddPin(Host* host, kiriSheet sheet, float u, float v)
+{
+    kiriPinDef def;
+    kiriPin pin = 0;
+    kiriDefaultPinDef(&def);
+    def.restPoint[0] = def.target[0] = u;
+    def.restPoint[1] = def.target[1] = v;
+    OK(kiriCreatePin(host->world, sheet, &def, &pin));
+    return pin;
+}
+
+/* A damped cloth that hangs from two corners, at rest and asleep. */
+static kiriSheet HangAsleep(Host* host, kiriPin pins[2])
+{
+    kiriSheetDef def = Host_SmallDef();
+    def.material.airDamping = 4.0f;
+    def.material.flexDamping = 0.01f;
+    Host_Start(host);
+    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
+    pins[0] = AddPin(host, sheet, 0.0f, 1.0f);
+    pins[1] = AddPin(host, sheet, 1.0f, 1.0f);
+    int ticks = TicksToSleep(host, sheet, 3000);
+    assert_true(ticks > HALF_SECOND && ticks < 3000);
+    return sheet;
+}
+
+static void TestHangingSheetSleeps(void** state)
+{
+    (void)state;
+    Host host;
+    kiriPin pins[2];
+    float before[75];
+    kiriSheet sheet = HangAsleep(&host, pins);
+    kiriMesh mesh = Host_Mesh(&host, sheet);
+    assert_int_equal(mesh.vertexCount, 25);
+    memcpy(before, mesh.positions, sizeof(before));
+    uint64_t hash = Host_Hash(&host);
+    for (int k = 0; k < 100; ++k) {
+        kiriProfile profile;
+        Tick(&host);
+        OK(kiriWorld_GetProfile(host.world, &profile));
+        assert_int_equal(profile.solverIterations, 0);
+    }
+    assert_false(IsAwake(&host, sheet));
+    assert_true(Host_Hash(&host) == hash);
+    assert_memory_equal(before, Host_Mesh(&host, sheet).positions, sizeof(before));
+    assert_true(Host_Totals(&host, sheet).kineticEnergy == 0.0);
+    /* It did come to rest, and did not just stop: awake it stays where it is. */
+    OK(kiriSheet_Wake(host.world, sheet));
+    for (int k = 0; k < 20; ++k) {
+        Tick(&host);
+        assert_true(IsAwake(&host, sheet));
+    }
+    for (int k = 0; k < 75; ++k) {
+        assert_true(fabs((double)before[k] - (double)Host_Mesh(&host, sheet).positions[k]) < 2e-3);
+    }
+    Host_Stop(&host);
+}
+
+static void TestCutWakes(void** state)
+{
+    (void)state;
+    static const float across[4] = { -0.1f, 0.41f, 1.1f, 0.43f };
+    Host host;
+    kiriPin pins[2];
+    kiriSheet sheet = HangAsleep(&host, pins);
+    double height = Host_Totals(&host, sheet).center[2];
+    kiriCut cut = 0;
+    OK(kiriBeginCut(host.world, sheet, across, &cut));
+    assert_false(IsAwake(&host, sheet));
+    OK(kiriCut_Extend(host.world, cut, across + 2, 1));
+    Tick(&host);
+    assert_true(IsAwake(&host, sheet));
+    for (int k = 0; k < 20; ++k) {
+        Tick(&host);
+    }
+    /* 0.42 of it falls for a third of a second, more than 0.2 m in air */
+    assert_true(Host_Totals(&host, sheet).center[2] < height - 0.42 * 0.2);
+    Host_Stop(&host);
+}
+
+typedef enum Call {
+    SAME_TARGET,
+    SAME_GRAVITY,
+    NO_FORCE,
+    FREE_AGAIN,
+    NO_CONTACTS,
+    LAST_IDLE,
+    TARGET = LAST_IDLE,
+    GRAVITY,
+    FORCE,
+    TORQUE,
+    HOLD,
+    PIN,
+    UNPIN,
+    CONTACT,
+    WAKE,
+    CALLS
+} Call;
+
+static void Perform(Host* host, kiriSheet sheet, const kiriPin pins[2], Call call)
+{
+    static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+    static const float none[3] = { 0.0f, 0.0f, 0.0f }, some[3] = { 0.0f, 1e-3f, 0.0f };
+    static const float gravity[3] = { 0.0f, 0.0f, -9.81f }, lighter[3] = { 0.0f, 0.0f, -9.8f };
+    static const float target[3] = { 0.0f, 1.0f, 0.0f }, farther[3] = { 0.0f, 1.001f, 0.0f };
+    kiriContact contact = { 0, { 0.0f, 0.0f, 1.0f }, -5.0f, 0.0f, 1.0f };
+    kiriFrame frames[8];
+    int32_t count;
+    OK(kiriSheet_GetFrames(host->world, sheet, frames, 8, &count));
+    switch (call) {
+    case SAME_TARGET:
+        OK(kiriPin_SetTarget(host->world, pins[0], target));
+        break;
+    case SAME_GRAVITY:
+        OK(kiriWorld_SetGravity(host->world, gravity));
+        break;
+    case NO_FORCE:
+        OK(kiriFrame_ApplyForce(host->world, frames[1], none, none));
+        break;
+    case FREE_AGAIN:
+        OK(kiriFrame_Hold(host->world, frames[1], NULL, NULL));
+        break;
+    case NO_CONTACTS:
+        OK(kiriSheet_SetContacts(host->world, sheet, NULL, 0));
+        break;
+    case TARGET:
+        OK(kiriPin_SetTarget(host->world, pins[0], farther));
+        break;
+    case GRAVITY:
+        OK(kiriWorld_SetGravity(host->world, lighter));
+        break;
+    case FORCE:
+        OK(kiriFrame_ApplyForce(host->world, frames[1], some, none));
+        break;
+    case TORQUE:
+        OK(kiriFrame_ApplyForce(host->world, frames[1], none, some));
+        break;
+    case HOLD:
+        OK(kiriFrame_Hold(host->world, frames[1], target, eye));
+        break;
+    case PIN:
+        AddPin(host, sheet, 0.5f, 0.5f);
+        break;
+    case UNPIN:
+        OK(kiriDestroyPin(host->world, pins[1]));
+        break;
+    case CONTACT:
+        OK(kiriSheet_SetContacts(host->world, sheet, &contact, 1));
+        break;
+    default:
+        OK(kiriSheet_Wake(host->world, sheet));
+        break;
+    }
+}
+
+/* What is new wakes it, and what is as it was does not. */
+static void TestCallsWake(void** state)
+{
+    (void)state;
+    for (int call = 0; call < CALLS; ++call) {
+        Host host;
+        kiriPin pins[2];
+        kiriSheet sheet = HangAsleep(&host, pins);
+        kiriProfile profile;
+        Perform(&host, sheet, pins, (Call)call);
+        Tick(&host);
+        OK(kiriWorld_GetProfile(host.world, &profile));
+        if (IsAwake(&host, sheet) != (call >= LAST_IDLE) || (profile.solverIterations > 0) != (call >= LAST_IDLE)) {
+            fail_msg("call %d", call);
+        }
+        Host_Stop(&host);
+    }
+}
+
+/* A hold stays a hold however often it is said; one that moves, or ends, wakes. */
+static void TestHeldSheetSleeps(void** state)
+{
+    (void)state;
+    static const float turned[9] = { 0.0f, 1.0f, 0.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+    Host host;
+    kiriPin pins[2];
+    kiriSheet sheet = HangAsleep(&host, pins);
+    kiriFrame frames[8];
+    int32_t count;
+    OK(kiriSheet_GetFrames(host.world, sheet, frames, 8, &count));
+    kiriFrameState at;
+    OK(kiriFrame_GetState(host.world, frames[0], &at));
+    for (int k = 0; k < 3000 && (k < 2 || IsAwake(&host, sheet)); ++k) {
+        OK(kiriFrame_Hold(host.world, frames[0], at.position, at.rotation));
+        Tick(&host);
+    }
+    assert_false(IsAwake(&host, sheet));
+    OK(kiriFrame_Hold(host.world, frames[0], at.position, turned));
+    assert_true(IsAwake(&host, sheet));
+    assert_true(TicksToSleep(&host, sheet, 3000) < 3000);
+    OK(kiriFrame_Hold(host.world, frames[0], NULL, NULL));
+    assert_true(IsAwake(&host, sheet));
+    Host_Stop(&host);
+}
+
+/* ---- Floor ---- */
+
+/* Contacts for the points near the floor, found anew from where they are seen. */
+static void Touch(Host* host, kiriSheet sheet, float floor, float sway)
+{
+    kiriContact contacts[16];
+    const float* points;
+    int32_t count, found = 0;
+    OK(kiriSheet_GetCollisionPoints(host->world, sheet, &points, &count));
+    for (int32_t i = 0; i < count && i < 16; ++i) {
+        if (points[3 * i + 2] < floor + 0.02f) {
+            kiriContact contact = { i, { sway, 0.0f, 1.0f }, floor + sway * points[3 * i], 0.5f, 50.0f };
+            contacts[found++] = contact;
+        }
+    }
+    OK(kiriSheet_SetContacts(host->world, sheet, contacts, found));
+}
+
+static kiriSheet LieAsleep(Host* host)
+{
+    kiriSheetDef def = Host_SmallDef();
+    def.collisionPoints = 16;
+    def.material.flexDamping = 0.02f;
+    def.material.airDamping = 2.0f;
+    def.position[2] = 0.05f;
+    Host_Start(host);
+    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
+    int tick = 0;
+    for (; tick < 3000 && IsAwake(host, sheet); ++tick) {
+        Touch(host, sheet, 0.0f, 0.0f);
+        Tick(host);
+    }
+    assert_true(tick > HALF_SECOND && tick < 3000);
+    return sheet;
+}
+
+static void TestSheetOnFloorSleeps(void** state)
+{
+    (void)state;
+    static const struct {
+        float floor, sway;
+        bool wakes;
+    } cases[] = { { 0.0f, 0.0f, false },  { 1e-5f, 0.0f, false }, { 0.0f, 1e-4f, false },
+                  { 0.002f, 0.0f, true }, { 0.0f, 0.01f, true },  { -1.0f, 0.0f, true } };
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); ++i) {
+        Host host;
+        kiriSheet sheet = LieAsleep(&host);
+        for (int k = 0; k < 5; ++k) {
+            Touch(&host, sheet, cases[i].floor, cases[i].sway);
+            Tick(&host);
+        }
+        if (IsAwake(&host, sheet) != cases[i].wakes) {
+            fail_msg("case %d", (int)i);
+        }
+        Host_Stop(&host);
+    }
+}
+
+/* The floor creeps up, each tick by less than what wakes it: it is the floor that it fell asleep on that counts. */
+static void TestCreepingFloorWakes(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheet sheet = LieAsleep(&host);
+    int tick = 0;
+    for (; tick < 100 && !IsAwake(&host, sheet); ++tick) {
+        Touch(&host, sheet, 5e-5f * (float)tick, 0.0f);
+        Tick(&host);
+    }
+    assert_true(tick > 5 && tick < 20);
+    Host_Stop(&host);
+}
+
+/* ---- Drift ---- */
+
+static kiriSheet Float(Host* host, float speed, float sleepSpeed)
+{
+    static const float none[3] = { 0.0f, 0.0f, 0.0f };
+    kiriSheetDef def = Host_SmallDef();
+    def.material.airDamping = 0.0f;
+    def.velocity[0] = speed;
+    def.sleepSpeed = sleepSpeed;
+    Host_Start(host);
+    OK(kiriWorld_SetGravity(host->world, none));
+    return Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
+}
+
+static void TestSlowDrift(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheet sheet = Float(&host, 0.002f, 0.001f);
+    assert_int_equal(TicksToSleep(&host, sheet, 600), 600);
+    assert_true(fabs(Host_Totals(&host, sheet).center[0] - 0.5 - 0.002 * 10.0) < 1e-6);
+    Host_Stop(&host);
+
+    sheet = Float(&host, 0.0005f, 0.001f);
+    int ticks = TicksToSleep(&host, sheet, 600);
+    assert_true(ticks >= HALF_SECOND && ticks <= HALF_SECOND + 2);
+    Host_Stop(&host);
+
+    sheet = Float(&host, 0.0f, 0.0f); /* 0: never */
+    assert_int_equal(TicksToSleep(&host, sheet, 300), 300);
+    Host_Stop(&host);
+}
+
+static void TestArguments(void** state)
+{
+    (void)state;
+    Host host;
+    int32_t awake;
+    kiriSheet sheet = Float(&host, 0.0f, 0.001f);
+    assert_int_equal(kiriSheet_IsAwake(host.world, sheet, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_IsAwake(host.world, sheet + 1, &awake), KIRI_ERROR_ID);
+    assert_int_equal(kiriSheet_IsAwake(NULL, sheet, &awake), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_Wake(host.world, 0), KIRI_ERROR_ID);
+    assert_int_equal(kiriSheet_Wake(NULL, sheet), KIRI_ERROR_ARGUMENT);
+    kiriSheetDef def = Host_SmallDef();
+    const float wrong[3] = { -1.0f, NAN, INFINITY };
+    for (int k = 0; k < 3; ++k) {
+        def.sleepSpeed = wrong[k];
+        assert_int_equal(Host_TryRectangle(&host, &def, 1.0f, 1.0f, 2, 2, &sheet), KIRI_ERROR_ARGUMENT);
+    }
+    Host_Stop(&host);
+}
+
+/* Two worlds with the same calls sleep and wake alike; one that sleeps has another hash than one that was just woken. */
+static void TestSameCallsSameBits(void** state)
+{
+    (void)state;
+    Host hosts[2];
+    kiriPin pins[2];
+    kiriSheet sheets[2];
+    for (int k = 0; k < 2; ++k) {
+        sheets[k] = HangAsleep(&hosts[k], pins);
+    }
+    assert_true(Host_Hash(&hosts[0]) == Host_Hash(&hosts[1]));
+    OK(kiriSheet_Wake(hosts[0].world, sheets[0]));
+    assert_true(Host_Hash(&hosts[0]) != Host_Hash(&hosts[1]));
+    OK(kiriSheet_Wake(hosts[1].world, sheets[1]));
+    for (int tick = 0; tick < 100; ++tick) {
+        Tick(&hosts[0]);
+        Tick(&hosts[1]);
+        assert_true(Host_Hash(&hosts[0]) == Host_Hash(&hosts[1]));
+    }
+    assert_false(IsAwake(&hosts[0], sheets[0]));
+    Host_Stop(&hosts[0]);
+    Host_Stop(&hosts[1]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestHangingSheetSleeps), cmocka_unit_test(TestCutWakes),
+        cmocka_unit_test(TestCallsWake),          cmocka_unit_test(TestHeldSheetSleeps),
+        cmocka_unit_test(TestSheetOnFloorSleeps), cmocka_unit_test(TestCreepingFloorWakes),
+        cmocka_unit_test(TestSlowDrift),          cmocka_unit_test(TestArguments),
+        cmocka_unit_test(TestSameCallsSameBits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
