@@ -198,47 +198,48 @@ static void TakeSeed(kiriField* field)
     }
 }
 
-/* Takes the steps of one length. */
-static void TakeSteps(kiriField* field, const kiriRule* rule, int32_t from, int length, int32_t distance)
+/* Takes the steps of one length; false where so many cells are settled before it is through: to take them again does no
+   harm. */
+static bool TakeSteps(kiriField* field, const kiriRule* rule, int32_t from, int length, int32_t distance, int64_t most)
 {
     const kiriStepRun* run = &rule->grid->runs.data[from];
     const kiriStep* steps = rule->grid->steps.data;
     int32_t owner = field->owner.data[from], end = Passes(rule, from) ? run->end[length] : 0;
     int32_t s = length == 0 ? run->first : run->end[length - 1];
     if (field->cursor[STAGE] == GIVING) {
-        for (; s < end; ++s) {
+        for (; s < end && field->settled.count < most; ++s) {
             kiriSeed to = { steps[s].cell, distance, owner };
             ReachAgain(field, to, false);
         }
-        return;
+    } else {
+        for (; s < end && field->settled.count < most; ++s) {
+            Reach(field, steps[s].cell, distance, owner);
+        }
     }
-    for (; s < end; ++s) {
-        Reach(field, steps[s].cell, distance, owner);
-    }
+    return s >= end;
 }
 
-/* Until nothing is left, or as many cells are settled as the quota has; the last step may settle a few more. */
+/* Until nothing is left, or as many cells are settled as the quota has. */
 static kiriProgress Sweep(kiriField* field, const kiriRule* rule, kiriQuota* quota)
 {
     int32_t before = field->settled.count, farthest = FarthestOf(rule), distance;
+    int64_t most = quota->left < INT32_MAX ? before + quota->left : INT64_MAX;
     int source = NearestSource(field, farthest, &distance);
-    while (source != FROM_NOWHERE && field->settled.count - before < quota->left) {
+    while (source != FROM_NOWHERE && field->settled.count < most) {
         if (source == FROM_SEED) {
             TakeSeed(field);
         } else {
             int32_t from = field->settled.data[field->cursor[source]], passed = field->distance.data[from];
-            do { /* all that lie at this distance: saves asking for the source again */
-                TakeSteps(field, rule, from, source, distance);
+            /* All that lie at this distance: saves asking for the source again. */
+            while (from != KIRI_NONE && field->distance.data[from] == passed &&
+                   TakeSteps(field, rule, from, source, distance, most)) {
                 bool more = ++field->cursor[source] < field->settled.count;
                 from = more ? field->settled.data[field->cursor[source]] : KIRI_NONE;
-            } while (from != KIRI_NONE && field->distance.data[from] == passed &&
-                     field->settled.count - before < quota->left);
+            }
         }
         source = NearestSource(field, farthest, &distance);
     }
-    int64_t used = field->settled.count - before;
-    quota->used += used;
-    quota->left -= used < quota->left ? used : quota->left;
+    kiriQuota_Take(quota, field->settled.count - before);
     return source == FROM_NOWHERE ? KIRI_DONE : KIRI_MORE;
 }
 

@@ -56,8 +56,7 @@ void kiriField_Release(kiriField* field, const kiriMemory* memory);
 /* Starts a flood from the seeds. The field must be empty: FAR everywhere. */
 bool kiriField_Start(kiriField* field, const kiriMemory* memory, const kiriSeed* seeds, int32_t seedCount);
 
-/* Goes on. An item of the quota is a cell settled; the last step may settle a few more. Allocates nothing: never
-   KIRI_FAILED. */
+/* Goes on. An item of the quota is a cell settled. Allocates nothing: never KIRI_FAILED. */
 kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* quota);
 
 /* Makes all cells FAR again by undoing only what floods settled, where no repair has changed the field since. */
