@@ -189,22 +189,33 @@ static void ForgetGone(kiriGrid* grid)
 
 /* ---- Whole squares ----------------------------------------------------------------------------------------------- */
 
+/* Does the outline or an open edge of the triangle run through the square? */
+static bool BoundsSquare(const kiriMeshData* mesh, const kiriTriangle* t, int32_t square)
+{
+    for (int i = 0; i < 3; ++i) {
+        if ((t->twin[i] == KIRI_NONE || (t->open >> i & 1) != 0) &&
+            kiriSquares_RunsThrough(&mesh->squares, square, mesh->vertices.data[t->vertex[i]].at,
+                                    mesh->vertices.data[t->vertex[(i + 1) % 3]].at)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* A square is whole where there is material and neither the outline nor an open edge runs through it. Then it is wholly
    covered, its triangles all hang together in it, and it has one cell: no need to join or to clip. Most squares are. */
 static bool IsWhole(const kiriMeshData* mesh, int32_t square)
 {
-    const kiriSquares* squares = &mesh->squares;
-    for (int32_t n = squares->head[square]; n != KIRI_NONE; n = squares->nodes.data[n].next) {
-        const kiriTriangle* t = &mesh->triangles.data[squares->nodes.data[n].triangle];
-        for (int i = 0; i < 3; ++i) {
-            if ((t->twin[i] == KIRI_NONE || (t->open >> i & 1) != 0) &&
-                kiriSquares_RunsThrough(squares, square, mesh->vertices.data[t->vertex[i]].at,
-                                        mesh->vertices.data[t->vertex[(i + 1) % 3]].at)) {
-                return false;
-            }
+    const kiriSquareNode* nodes = mesh->squares.nodes.data;
+    int32_t first = mesh->squares.head[square];
+    for (int32_t n = first; n != KIRI_NONE; n = nodes[n].next) {
+        const kiriTriangle* t = &mesh->triangles.data[nodes[n].triangle];
+        bool isInner = t->open == 0 && (t->twin[0] | t->twin[1] | t->twin[2]) >= 0; /* KIRI_NONE has the sign bit */
+        if (!isInner && BoundsSquare(mesh, t, square)) {
+            return false;
         }
     }
-    return squares->head[square] != KIRI_NONE;
+    return first != KIRI_NONE;
 }
 
 /* Steps touch the squares up to two rows away, in row v so many on each side of the column. */
@@ -381,21 +392,35 @@ static void Clip(Polygon* polygon, int axis, bool upper, double side)
     }
 }
 
+/* Most triangles reach over few sides of a square, if any: whole numbers tell faster. */
+static void ClipToSquare(Polygon* part, const kiriPoint c[3], kiriPoint low, int32_t side)
+{
+    kiriPoint high = { low.x + side, low.y + side };
+    if (c[0].x < low.x || c[1].x < low.x || c[2].x < low.x) {
+        Clip(part, 0, false, side);
+    }
+    if (c[0].x > high.x || c[1].x > high.x || c[2].x > high.x) {
+        Clip(part, 0, true, side);
+    }
+    if (c[0].y < low.y || c[1].y < low.y || c[2].y < low.y) {
+        Clip(part, 1, false, side);
+    }
+    if (c[0].y > high.y || c[1].y > high.y || c[2].y > high.y) {
+        Clip(part, 1, true, side);
+    }
+}
+
 /* The part of a triangle in a square, about the square's lower corner, so that nothing cancels in a small one. */
 static kiriMoments MaterialInSquare(const kiriMeshData* mesh, int32_t triangle, int32_t square)
 {
     kiriPoint low = kiriSquares_Corner(&mesh->squares, square), corners[3];
     kiriMesh_Corners(mesh, triangle, corners);
-    double side = mesh->squares.side;
     Polygon part;
     part.count = 3;
     for (int i = 0; i < 3; ++i) {
         part.at[i] = kiriVec2_Make((double)corners[i].x - low.x, (double)corners[i].y - low.y);
     }
-    Clip(&part, 0, false, side);
-    Clip(&part, 0, true, side);
-    Clip(&part, 1, false, side);
-    Clip(&part, 1, true, side);
+    ClipToSquare(&part, corners, low, mesh->squares.side);
     kiriMoments sum = { 0 };
     for (int32_t i = 0; i < part.count; ++i) {
         part.at[i] = kiriVec2_Scale(mesh->step, part.at[i]);
@@ -524,10 +549,16 @@ static void AddStretch(kiriFace* face, const kiriMeshData* mesh, kiriPoint low, 
     double along = 0.5 * mesh->step * (stretch.from + stretch.to);
     kiriVec2 middle =
         face->axis == 0 ? kiriVec2_Make(corner.x, corner.y + along) : kiriVec2_Make(corner.x + along, corner.y);
-    kiriVec2 apart = face->width > 0.0 ? kiriVec2_Sub(middle, face->middle) : kiriVec2_Make(0.0, 0.0);
+    if (face->width == 0.0) {
+        face->width = width;
+        face->middle = middle;
+        face->moment = width * width * width / 12.0;
+        return;
+    }
+    kiriVec2 apart = kiriVec2_Sub(middle, face->middle);
     double sum = face->width + width;
     face->moment += width * width * width / 12.0 + kiriVec2_Dot(apart, apart) * face->width * width / sum;
-    face->middle = face->width > 0.0 ? kiriVec2_Add(face->middle, kiriVec2_Scale(width / sum, apart)) : middle;
+    face->middle = kiriVec2_Add(face->middle, kiriVec2_Scale(width / sum, apart));
     face->width = sum;
 }
 
@@ -625,10 +656,11 @@ static bool MakeSide(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, i
 /* The faces on all sides of a square. Between two squares that are both made again, the one behind does it. */
 static bool MakeFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
-    int32_t square = grid->work->remade.data[item], columns = mesh->squares.columns, rows = mesh->squares.rows;
-    bool right = square % columns + 1 < columns && !IsFlagged(grid->work, square + 1, SQUARE_REMADE);
-    bool above = square / columns + 1 < rows && !IsFlagged(grid->work, square + columns, SQUARE_REMADE);
-    return (square % columns == 0 || MakeSide(grid, mesh, square - 1, square, 0)) &&
+    const kiriGridWork* work = grid->work;
+    int32_t square = work->remade.data[item], columns = mesh->squares.columns, column = square % columns;
+    bool right = column + 1 < columns && !IsFlagged(work, square + 1, SQUARE_REMADE);
+    bool above = square + columns < work->squareFlags.count && !IsFlagged(work, square + columns, SQUARE_REMADE);
+    return (column == 0 || MakeSide(grid, mesh, square - 1, square, 0)) &&
            (square < columns || MakeSide(grid, mesh, square - columns, square, 1)) &&
            (!right || MakeSide(grid, mesh, square, square + 1, 0)) &&
            (!above || MakeSide(grid, mesh, square, square + columns, 1));
