@@ -957,22 +957,12 @@ static kiriStep Joined(kiriStep a, kiriStep b, int16_t length)
     return (kiriStep){ b.cell, length, (int8_t)(a.u + b.u), (int8_t)(a.v + b.v) };
 }
 
-/* Steps that lead to a cell in two ways count, once: the first way marks the cell, the second finds the mark. */
-static void StartMarks(kiriGridWork* work)
+/* A step counts where two ways lead to its cell, and counts once: the first way marks the cell with the number that this
+   returns, the second way finds it and makes it one more. */
+static int64_t NewMark(kiriGridWork* work)
 {
     work->lastMark += 2;
-}
-
-static void MarkFirst(kiriGridWork* work, int32_t cell)
-{
-    work->mark.data[cell] = work->lastMark;
-}
-
-static bool MarkSecond(kiriGridWork* work, int32_t cell)
-{
-    bool isSecond = work->mark.data[cell] == work->lastMark;
-    work->mark.data[cell] += isSecond;
-    return isSecond;
+    return work->lastMark;
 }
 
 static bool AddStraightSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c)
@@ -989,20 +979,24 @@ static bool AddStraightSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c
 static bool AddDiagonalSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c)
 {
     const kiriFace* faces = grid->faces.data;
-    StartMarks(grid->work);
+    const kiriCell* cells = grid->cells.data;
+    int64_t *mark = grid->work->mark.data, first = NewMark(grid->work);
     for (int axis = 0; axis < 2; ++axis) {
-        for (int32_t f = grid->cells.data[c].firstFace; f != KIRI_NONE; f = NextFace(&faces[f], c)) {
+        for (int32_t f = cells[c].firstFace; f != KIRI_NONE; f = NextFace(&faces[f], c)) {
             int32_t between = OtherCell(&faces[f], c);
-            int32_t g = faces[f].axis == axis ? grid->cells.data[between].firstFace : KIRI_NONE;
+            int32_t g = faces[f].axis == axis ? cells[between].firstFace : KIRI_NONE;
             for (; g != KIRI_NONE; g = NextFace(&faces[g], between)) {
                 if (faces[g].axis == axis) {
                     continue;
                 }
                 kiriStep step = Joined(Straight(&faces[f], c), Straight(&faces[g], between), KIRI_UNIT_DIAGONAL);
                 if (axis == 0) {
-                    MarkFirst(grid->work, step.cell);
-                } else if (MarkSecond(grid->work, step.cell) && !AddStep(grid, memory, step)) {
-                    return false;
+                    mark[step.cell] = first;
+                } else if (mark[step.cell] == first) {
+                    mark[step.cell] = first + 1;
+                    if (!AddStep(grid, memory, step)) {
+                        return false;
+                    }
                 }
             }
         }
@@ -1034,27 +1028,32 @@ static bool MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item
            kiriArray_Push(memory, &work->knights, c);
 }
 
-static bool IsKnightMove(kiriStep step)
+/* Does a diagonal step after a straight one lead on, not back? */
+static bool IsKnightMove(kiriStep straight, kiriStep diagonal)
 {
-    return (step.u < 0 ? -step.u : step.u) + (step.v < 0 ? -step.v : step.v) == 3;
+    return straight.u == diagonal.u || straight.v == diagonal.v;
 }
 
 /* To cells reached straight, then diagonally, and also diagonally, then straight: a slit is never jumped. */
 static bool AddKnightSteps(kiriGrid* grid, const kiriMemory* memory, const kiriStepRun* run)
 {
-    StartMarks(grid->work);
-    for (int32_t i = run->first; i < run->end[1]; ++i) {
-        kiriStep first = grid->steps.data[i];
-        bool isStraight = first.length == KIRI_UNIT; /* straight ones come first */
-        const kiriStepRun* after = &grid->runs.data[first.cell];
-        for (int32_t j = isStraight ? after->end[0] : after->first; j < after->end[isStraight ? 1 : 0]; ++j) {
-            kiriStep step = Joined(first, grid->steps.data[j], KIRI_UNIT_KNIGHT);
-            if (isStraight) {
-                if (IsKnightMove(step)) {
-                    MarkFirst(grid->work, step.cell);
+    const kiriStep* steps = grid->steps.data;
+    const kiriStepRun* runs = grid->runs.data;
+    int64_t *mark = grid->work->mark.data, first = NewMark(grid->work);
+    for (int32_t i = run->first; i < run->end[0]; ++i) {
+        for (int32_t j = runs[steps[i].cell].end[0]; j < runs[steps[i].cell].end[1]; ++j) {
+            if (IsKnightMove(steps[i], steps[j])) {
+                mark[steps[j].cell] = first;
+            }
+        }
+    }
+    for (int32_t i = run->end[0]; i < run->end[1]; ++i) {
+        for (int32_t j = runs[steps[i].cell].first; j < runs[steps[i].cell].end[0]; ++j) {
+            if (mark[steps[j].cell] == first) {
+                mark[steps[j].cell] = first + 1;
+                if (!AddStep(grid, memory, Joined(steps[i], steps[j], KIRI_UNIT_KNIGHT))) {
+                    return false;
                 }
-            } else if (MarkSecond(grid->work, step.cell) && !AddStep(grid, memory, step)) {
-                return false;
             }
         }
     }
