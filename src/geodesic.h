@@ -19,8 +19,7 @@ enum { KIRI_FAR = INT32_MAX };
    passes at some distance must pass at every shorter one. */
 typedef bool kiriPassFn(const void* context, int32_t cell);
 
-/* The nearest of the cell's own seeds (of equals, that of the lowest owner); distance KIRI_FAR where there is none.
-   */
+/* The nearest of the cell's own seeds (of equals, that of the lowest owner), or KIRI_FAR as its distance. */
 typedef kiriSeed kiriSeedFn(const void* context, int32_t cell);
 
 /* What makes a field. */

@@ -39,8 +39,7 @@ typedef struct kiriRegions {
     KIRI_ARRAY(kiriTally) material; /* of its region, exact */
     KIRI_ARRAY(uint8_t) touched;    /* its region, distances in it, or its cells' steps or material changed */
 
-    /* Since kiriRegions_Settle: cells whose owner or distance changed, and what they were; without cells that are
-       gone. */
+    /* Since kiriRegions_Settle: cells that live whose owner or distance changed, and what they were. */
     KIRI_ARRAY(kiriSeed) changes;
     KIRI_ARRAY(int32_t) orphans; /* all cells with no frame in their piece, in the order of cells */
     bool running;                /* an update waits for more quota */

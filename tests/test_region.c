@@ -1,5 +1,4 @@
-/* Regions: against distances by relaxing all steps, and regions that follow cuts and sites against ones from scratch.
-   */
+/* Regions: against distances by relaxing all steps, and regions that follow cuts against ones from scratch. */
 #include "region.h"
 #include "cut.h"
 #include "support.h"
@@ -381,8 +380,8 @@ static void CheckMaterial(const Sheet* sheet)
     }
 }
 
-/* The changes are what has changed since all was settled, and frames that it concerns are touched. Returns how many.
-   */
+/* The changes are what has changed since all was settled, and frames that it concerns are touched. Returns how
+   many. */
 static int32_t CheckChanges(const Sheet* sheet)
 {
     const kiriRegions* regions = &sheet->regions;
