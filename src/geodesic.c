@@ -64,7 +64,7 @@ void kiriField_Clear(kiriField* field)
     field->cursor[STAGE] = AT_REST;
 }
 
-/* ---- The heap of seeds, nearest on top ----------------------------------------------------------------------------- */
+/* ---- The heap of seeds, nearest on top --------------------------------------------------------------------------- */
 
 static bool IsNearer(kiriSeed a, kiriSeed b)
 {
@@ -106,13 +106,13 @@ static kiriSeed PopSeed(kiriField* field)
     return top;
 }
 
-/* ---- The sweep: Dijkstra without a queue ----------------------------------------------------------------------------- */
+/* ---- The sweep: Dijkstra without a queue ------------------------------------------------------------------------- */
 
-/* There are only three lengths of steps, and cells settle by growing distance; so what the steps of one length reach is
-   sorted already, and a cursor for each length over the settled cells finds the next. */
+/* There are only three lengths of steps, and cells settle by growing distance; so what the steps of one length reach
+   is sorted already, and a cursor for each length over the settled cells finds the next. */
 
-/* The first to reach a cell is the nearest. An owner may still get lower until the sweep moves on, which is before the
-   cell passes it on, for every step is longer than nothing. */
+/* The first to reach a cell is the nearest. An owner may still get lower until the sweep moves on, which is before
+   the cell passes it on, for every step is longer than nothing. */
 static void Reach(kiriField* field, int32_t cell, int32_t distance, int32_t owner)
 {
     if (field->distance.data[cell] == KIRI_FAR) {
@@ -139,8 +139,8 @@ static void Log(kiriField* field, int32_t cell)
     }
 }
 
-/* The same where cells may have kept a value. One that has the very value of a seed is a suspect: it is settled so that it
-   passes that on once more. */
+/* The same where cells may have kept a value. One that has the very value of a seed is a suspect: it is settled so
+   that it passes that on once more. */
 static void ReachAgain(kiriField* field, kiriSeed to, bool seed)
 {
     kiriSeed value = ValueOf(field, to.cell);
@@ -263,7 +263,7 @@ kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* 
     return Sweep(field, rule, quota);
 }
 
-/* ---- Repairs --------------------------------------------------------------------------------------------------------- */
+/* ---- Repairs ----------------------------------------------------------------------------------------------------- */
 
 void kiriField_Suspect(kiriField* field, int32_t cell)
 {
@@ -279,8 +279,8 @@ void kiriField_Forget(kiriField* field, int32_t cell)
     field->owner.data[cell] = KIRI_NONE;
 }
 
-/* Does the cell have its value from its seed, or from a neighbour? No step is shorter than nothing, so no ring of cells
-   can have its values from itself. */
+/* Does the cell have its value from its seed, or from a neighbour? No step is shorter than nothing, so no ring of
+   cells can have its values from itself. */
 static bool IsGiven(const kiriField* field, const kiriRule* rule, int32_t cell)
 {
     const kiriStepRun* run = &rule->grid->runs.data[cell];
@@ -319,8 +319,8 @@ static bool SuspectDependents(kiriField* field, const kiriMemory* memory, const 
     return true;
 }
 
-/* Takes away what nothing gives any more; what is left are ways that still exist, if not the shortest. Of the caller's
-   suspects only: where ways do not pass (any longer), dependents may have lost theirs. */
+/* Takes away what nothing gives any more; what is left are ways that still exist, if not the shortest. Of the
+   caller's suspects only: where ways do not pass (any longer), dependents may have lost theirs. */
 static kiriProgress TakeAway(kiriField* field, const kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
 {
     for (; field->cursor[CHECKED] < field->suspects.count; ++field->cursor[CHECKED]) {
@@ -361,8 +361,8 @@ static kiriSeed BestOf(const kiriField* field, const kiriRule* rule, int32_t cel
     return best;
 }
 
-/* The seeds of the sweep: all that is known at the rim of what was taken away, and at suspects, which may reach farther now
-   than they did. */
+/* The seeds of the sweep: all that is known at the rim of what was taken away, and at suspects, which may reach
+   farther now than they did. */
 static bool SeedSweep(kiriField* field, const kiriMemory* memory, const kiriRule* rule)
 {
     field->heap.count = 0;
