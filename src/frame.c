@@ -6,8 +6,10 @@
 
    What is computed, whatever the order of work (tests/test_frame.c does it plainly):
 
-   A cell belongs to the site that is nearest by the steps of the grid, the lower index where two are as near; but a site's own
-   cell belongs to it. So no region is ever empty, and no two sites come to share a cell.
+   A site sends its seeds to the cells around (kiriSite_Seed), but to none that holds another site. A cell belongs to the
+   site that is nearest from there by the steps of the grid, of two as near to the lower index; but a site's own cell is
+   its own. So no region is ever empty, and no two sites come to share a cell. Old sites take no notice of new ones, nor, in
+   sampling, new sites of those that follow.
 
    Sampling: the next site goes to the free cell that is farthest from all sites. Relaxation (Lloyd 1982): each new site goes
    to the centroid of its region, all at once, up to 20 times; then it takes the cell that it has come to.
@@ -40,8 +42,11 @@ typedef struct Target {
     double distance;
 } Target;
 
+static const Target noTarget = { 0, 0, 0, { 0.0, 0.0 }, KIRI_NONE, 0.0 };
+
 struct kiriPlacerWork {
-    kiriField old;               /* from the old sites */
+    const kiriField* old; /* from the old sites: `flooded`, or the caller's */
+    kiriField flooded;
     kiriField fresh;             /* from the site just sampled, or from all new ones */
     KIRI_ARRAY(int32_t) sampled; /* of each cell: distance to the nearest new site while sampling */
     KIRI_ARRAY(int32_t) holds;   /* of each cell: the site in it, or FREE, or BARRED to sampling */
@@ -109,6 +114,20 @@ static kiriProgress WalkFresh(Job* job, void visit(Job* job, int32_t cell))
     return Walk(job, job->work->fresh.settled.data, job->work->fresh.settled.count, visit);
 }
 
+/* Drops seeds, from the first on, in cells that hold another site. */
+static void DropSeeds(Job* job, int32_t first, int32_t owner)
+{
+    kiriSeeds* seeds = &job->work->seeds;
+    int32_t kept = first;
+    for (int32_t k = first; k < seeds->count; ++k) {
+        int32_t holds = job->work->holds.data[seeds->data[k].cell];
+        if (holds < 0 || holds == owner) {
+            seeds->data[kept++] = seeds->data[k];
+        }
+    }
+    seeds->count = kept;
+}
+
 /* Makes a field ready to flood from sites first to end. */
 static bool StartFlood(Job* job, kiriField* field, int32_t first, int32_t end)
 {
@@ -116,9 +135,11 @@ static bool StartFlood(Job* job, kiriField* field, int32_t first, int32_t end)
     kiriField_Reset(field);
     seeds->count = 0;
     for (int32_t i = first; i < end; ++i) {
+        int32_t before = seeds->count;
         if (!kiriSite_Seed(&job->placer->sites.data[i], i, job->memory, job->grid, job->mesh, seeds)) {
             return false;
         }
+        DropSeeds(job, before, i);
     }
     return kiriField_Start(field, job->memory, seeds->data, seeds->count);
 }
@@ -132,7 +153,7 @@ static kiriProgress Flood(Job* job, kiriField* field, kiriPassFn* pass)
 static bool IsNearerThanOld(const void* context, int32_t cell)
 {
     const kiriPlacerWork* work = context;
-    return work->fresh.distance.data[cell] < work->old.distance.data[cell];
+    return work->fresh.distance.data[cell] < work->old->distance.data[cell];
 }
 
 static bool IsNearest(const void* context, int32_t cell)
@@ -145,7 +166,7 @@ static bool IsNearest(const void* context, int32_t cell)
 
 static kiriProgress FloodOld(Job* job)
 {
-    kiriProgress progress = Flood(job, &job->work->old, NULL);
+    kiriProgress progress = Flood(job, &job->work->flooded, NULL);
     if (progress == KIRI_DONE) {
         job->work->stage = SCAN;
     }
@@ -154,7 +175,7 @@ static kiriProgress FloodOld(Job* job)
 
 static int32_t SampledDistance(const kiriPlacerWork* work, int32_t cell)
 {
-    int32_t old = work->old.distance.data[cell], sampled = work->sampled.data[cell];
+    int32_t old = work->old->distance.data[cell], sampled = work->sampled.data[cell];
     return old < sampled ? old : sampled;
 }
 
@@ -179,8 +200,7 @@ static kiriProgress StartRound(Job* job)
     kiriPlacerWork* work = job->work;
     const kiriSites* sites = &job->placer->sites;
     for (int32_t i = job->placer->oldCount; i < sites->count; ++i) {
-        memset(&work->targets.data[i - job->placer->oldCount], 0, sizeof(Target));
-        work->targets.data[i - job->placer->oldCount].cell = KIRI_NONE;
+        work->targets.data[i - job->placer->oldCount] = noTarget;
     }
     work->stage = DIVIDE;
     return StartFlood(job, &work->fresh, job->placer->oldCount, sites->count) ? KIRI_DONE : KIRI_FAILED;
@@ -440,9 +460,9 @@ static bool MakeRoom(kiriPlacer* placer, kiriPlacerWork* work, const kiriMemory*
                      int32_t count)
 {
     int32_t cells = grid->cells.count;
-    return kiriField_Resize(&work->old, memory, cells) && kiriField_Resize(&work->fresh, memory, cells) &&
+    return kiriField_Resize(&work->flooded, memory, cells) && kiriField_Resize(&work->fresh, memory, cells) &&
            kiriArray_Resize(memory, &work->sampled, cells) && kiriArray_Resize(memory, &work->holds, cells) &&
-           kiriArray_Resize(memory, &work->targets, count) &&
+           kiriArray_Resize(memory, &work->targets, count > 0 ? count : 1) &&
            kiriArray_Reserve(memory, &placer->sites, (int64_t)placer->sites.count + count);
 }
 
@@ -460,12 +480,26 @@ static void ClearPart(const kiriPlacer* placer, const uint8_t* allowed)
     }
 }
 
+static Stage FirstStage(const kiriPlacer* placer)
+{
+    const kiriPlacerWork* work = placer->work;
+    if (work->left == 0) {
+        return REST;
+    }
+    if (work->left == 1 && placer->oldCount == 0) {
+        return BALANCE;
+    }
+    return work->old == &work->flooded ? FLOOD_OLD : SCAN;
+}
+
 bool kiriPlacer_Start(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const uint8_t* allowed, int32_t count)
 {
     kiriPlacerWork* work = WorkOf(placer, memory);
+    const kiriField* known = placer->known;
     count = count < placer->cells.count ? count : placer->cells.count;
     placer->oldCount = placer->sites.count;
+    placer->known = NULL;
     if (work == NULL) {
         return false;
     }
@@ -473,21 +507,17 @@ bool kiriPlacer_Start(kiriPlacer* placer, const kiriMemory* memory, const kiriGr
     if (!MakeRoom(placer, work, memory, grid, count)) {
         return false;
     }
+    ClearPart(placer, allowed);
     Job job = { placer, work, memory, grid, mesh, NULL };
-    if (!StartFlood(&job, &work->old, 0, placer->oldCount)) {
+    if (!StartFlood(&job, &work->flooded, 0, known == NULL ? placer->oldCount : 0)) {
         return false;
     }
-    ClearPart(placer, allowed);
+    work->old = known == NULL ? &work->flooded : known;
     work->cursor = work->round = 0;
     work->left = count;
     work->farthest = KIRI_NONE;
-    if (count == 1 && placer->oldCount == 0) {
-        memset(work->targets.data, 0, sizeof(Target));
-        work->targets.data[0].cell = KIRI_NONE;
-        work->stage = BALANCE;
-    } else {
-        work->stage = count > 0 ? FLOOD_OLD : REST;
-    }
+    work->targets.data[0] = noTarget;
+    work->stage = FirstStage(placer);
     return true;
 }
 
@@ -518,6 +548,30 @@ static bool Gather(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid*
     return ok;
 }
 
+/* Brings the cells, which are marked, into their order. Where they fill a good part of the rows from the first to the last
+   of them, it is cheaper to look into all squares there than to sort. */
+static void Order(kiriPlacer* placer, const kiriGrid* grid)
+{
+    int32_t count = placer->cells.count, first = INT32_MAX, last = 0;
+    for (int32_t k = 0; k < count; ++k) {
+        int32_t square = grid->cells.data[placer->cells.data[k]].square;
+        first = square < first ? square : first;
+        last = square > last ? square : last;
+    }
+    if (last - first > 8 * (int64_t)count) {
+        kiriGrid_SortCells(grid, placer->cells.data, count);
+        return;
+    }
+    int32_t* cells = placer->cells.data;
+    for (int32_t square = first; square <= last; ++square) {
+        for (int32_t c = grid->squareCell.data[square]; c != KIRI_NONE; c = grid->cells.data[c].next) {
+            if (placer->work->marks.data[c]) {
+                *cells++ = c;
+            }
+        }
+    }
+}
+
 bool kiriPlacer_TakePiece(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
     kiriPlacerWork* work = WorkOf(placer, memory);
@@ -529,10 +583,12 @@ bool kiriPlacer_TakePiece(kiriPlacer* placer, const kiriMemory* memory, const ki
     }
     placer->cells.count = 0;
     bool ok = Gather(placer, memory, grid, cell);
+    if (ok) {
+        Order(placer, grid);
+    }
     for (int32_t k = 0; k < placer->cells.count; ++k) {
         work->marks.data[placer->cells.data[k]] = 0;
     }
-    kiriGrid_SortCells(grid, placer->cells.data, placer->cells.count);
     return ok;
 }
 
@@ -542,7 +598,7 @@ void kiriPlacer_Release(kiriPlacer* placer, const kiriMemory* memory)
     kiriArray_Release(memory, &placer->sites);
     kiriArray_Release(memory, &placer->cells);
     if (work != NULL) {
-        kiriField_Release(&work->old, memory);
+        kiriField_Release(&work->flooded, memory);
         kiriField_Release(&work->fresh, memory);
         kiriArray_Release(memory, &work->sampled);
         kiriArray_Release(memory, &work->holds);

@@ -56,9 +56,12 @@ typedef struct kiriPlacerWork kiriPlacerWork; /* private to frame.c */
 /* Puts sites evenly into a part of the sheet: farthest-point sampling, then Lloyd relaxation of the new ones only. A job that
    a budget may interrupt. */
 typedef struct kiriPlacer {
-    kiriSites sites;         /* those that were there, then the new ones; right when Run is done */
-    int32_t oldCount;        /* sites before it stay where they are */
+    kiriSites sites;           /* those that were there, then the new ones; right when Run is done */
+    int32_t oldCount;          /* sites before it stay where they are */
     KIRI_ARRAY(int32_t) cells; /* the part: cells that hang together, in their order (or all cells, of many pieces) */
+    /* Distances to the sites that are there, as kiriRegions has them, where the caller knows them; they must stay until the
+       job is done. Null: they are flooded. Start takes it, and makes it null. */
+    const kiriField* known;
     kiriPlacerWork* work;
 } kiriPlacer;
 
@@ -72,9 +75,9 @@ bool kiriPlacer_TakePiece(kiriPlacer* placer, const kiriMemory* memory, const ki
 bool kiriPlacer_Start(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const uint8_t* allowed, int32_t count);
 
-/* An item of the quota is a cell looked at or settled. */
-kiriProgress kiriPlacer_Run(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                            kiriQuota* quota);
+/* An item of the quota is a cell looked at or settled. After KIRI_FAILED, start again. */
+kiriProgress kiriPlacer_Run(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid,
+                            const kiriMeshData* mesh, kiriQuota* quota);
 void kiriPlacer_Release(kiriPlacer* placer, const kiriMemory* memory);
 
 /* The site that a frame takes in a cell. */

@@ -1,8 +1,199 @@
 #include "scene.h"
 
-static bool Place(Scene* scene, kiriSites* sites, int32_t piece, int32_t count)
+/* ---- What placing must come to, computed plainly ----------------------------------------------------------------- */
+
+typedef struct Plain {
+    const kiriGrid* grid;
+    const kiriMeshData* mesh;
+    int32_t* cells; /* the part, sorted */
+    int32_t count;
+    int32_t* holds;     /* of each cell: site, or KIRI_NONE */
+    int64_t* distance;  /* of each site and cell */
+    kiriSite sites[64]; /* old ones first */
+    int32_t siteCount, oldCount;
+} Plain;
+
+enum { AWAY = 1 << 28 };
+
+static int64_t* DistanceOf(const Plain* p, int32_t site, int32_t cell)
 {
-    return kiriFrames_Place(sites, &scene->memory, &scene->grid, &scene->mesh, &scene->field, piece, NULL, count);
+    return &p->distance[(int64_t)site * p->grid->cells.count + cell];
+}
+
+/* Bellman and Ford's distances from one site, whose seeds keep away from the cells of sites before `minded`. */
+static void Measure(Plain* p, int32_t site, int32_t minded)
+{
+    kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
+    kiriSeeds seeds = { 0 };
+    for (int32_t k = 0; k < p->count; ++k) {
+        *DistanceOf(p, site, p->cells[k]) = AWAY;
+    }
+    assert_true(kiriSite_Seed(&p->sites[site], site, &memory, p->grid, p->mesh, &seeds));
+    for (int32_t k = 0; k < seeds.count; ++k) {
+        bool taken = false;
+        for (int32_t i = 0; i < minded; ++i) {
+            taken = taken || (i != site && p->sites[i].cell == seeds.data[k].cell);
+        }
+        if (!taken) {
+            *DistanceOf(p, site, seeds.data[k].cell) = seeds.data[k].distance;
+        }
+    }
+    kiriArray_Release(&memory, &seeds);
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (int32_t k = 0; k < p->count; ++k) {
+            int32_t cell = p->cells[k];
+            const kiriStepRun* run = &p->grid->runs.data[cell];
+            for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+                kiriStep step = p->grid->steps.data[s];
+                if (*DistanceOf(p, site, cell) + step.length < *DistanceOf(p, site, step.cell)) {
+                    *DistanceOf(p, site, step.cell) = *DistanceOf(p, site, cell) + step.length;
+                    changed = true;
+                }
+            }
+        }
+    }
+}
+
+static bool IsMostly(const Plain* p, int32_t cell)
+{
+    return p->grid->cells.data[cell].material.area > 0.5 * p->grid->side * p->grid->side;
+}
+
+/* The first of the best free cells: farthest, then mostly covered. */
+static int32_t PlainFarthest(const Plain* p, const uint8_t* allowed)
+{
+    int32_t best = KIRI_NONE;
+    int64_t bestDistance = -1;
+    for (int32_t k = 0; k < p->count; ++k) {
+        int32_t c = p->cells[k];
+        int64_t distance = AWAY;
+        bool isFree = allowed == NULL || allowed[c];
+        for (int32_t i = 0; i < p->siteCount; ++i) {
+            isFree = isFree && p->sites[i].cell != c;
+            distance = *DistanceOf(p, i, c) < distance ? *DistanceOf(p, i, c) : distance;
+        }
+        if (isFree && (distance > bestDistance || (distance == bestDistance && IsMostly(p, c) && !IsMostly(p, best)))) {
+            best = c;
+            bestDistance = distance;
+        }
+    }
+    return best;
+}
+
+static int32_t PlainOwner(const Plain* p, int32_t cell)
+{
+    int32_t owner = 0;
+    for (int32_t i = 0; i < p->siteCount; ++i) {
+        if (p->sites[i].cell == cell) {
+            return i;
+        }
+        owner = *DistanceOf(p, i, cell) < *DistanceOf(p, owner, cell) ? i : owner;
+    }
+    return owner;
+}
+
+/* The centroid of a site's region (all of the part: KIRI_NONE), and its cell nearest to it that is allowed. */
+static int32_t PlainTarget(const Plain* p, int32_t site, const uint8_t* allowed, kiriVec2* center)
+{
+    const double side = p->grid->side;
+    int64_t area = 0, u = 0, v = 0;
+    for (int32_t k = 0; k < p->count; ++k) {
+        if (site == KIRI_NONE || PlainOwner(p, p->cells[k]) == site) {
+            kiriMoments m = p->grid->cells.data[p->cells[k]].material;
+            int64_t share = (int64_t)(16777216.0 * (m.area / (side * side)) + 0.5);
+            share = share > 0 ? share : 1;
+            area += share;
+            u += (int64_t)((double)share / (m.area * side) * m.u + 0.5);
+            v += (int64_t)((double)share / (m.area * side) * m.v + 0.5);
+        }
+    }
+    *center = kiriVec2_Scale(side / (double)area, kiriVec2_Make((double)u, (double)v));
+    int32_t best = KIRI_NONE;
+    double nearest = 0.0;
+    for (int32_t k = 0; k < p->count; ++k) {
+        int32_t c = p->cells[k];
+        if ((site == KIRI_NONE || PlainOwner(p, c) == site) && (allowed == NULL || allowed[c])) {
+            kiriVec2 off = kiriVec2_Sub(kiriGrid_Middle(p->grid, p->mesh, c), *center);
+            double distance = kiriVec2_Dot(off, off);
+            if (best == KIRI_NONE || distance < nearest ||
+                (distance == nearest && IsMostly(p, c) && !IsMostly(p, best))) {
+                best = c;
+                nearest = distance;
+            }
+        }
+    }
+    return best;
+}
+
+/* One round of Lloyd's; did a site move? */
+static bool PlainRound(Plain* p)
+{
+    kiriSite next[64];
+    bool moved = false;
+    for (int32_t i = p->oldCount; i < p->siteCount; ++i) {
+        Measure(p, i, p->siteCount);
+    }
+    for (int32_t i = p->oldCount; i < p->siteCount; ++i) {
+        kiriVec2 center;
+        int32_t cell = PlainTarget(p, i, NULL, &center);
+        kiriVec2 middle = kiriGrid_Middle(p->grid, p->mesh, cell);
+        next[i] = kiriFrames_SiteIn(p->grid, p->mesh, cell);
+        if (fabs(center.x - middle.x) < 0.5 * p->grid->side && fabs(center.y - middle.y) < 0.5 * p->grid->side) {
+            next[i].at = center;
+        }
+        kiriVec2 way = kiriVec2_Sub(next[i].at, p->sites[i].at);
+        moved = moved || kiriVec2_Dot(way, way) > 0.0001 * p->grid->side * p->grid->side;
+    }
+    for (int32_t i = p->oldCount; i < p->siteCount; ++i) {
+        p->sites[i] = next[i];
+    }
+    return moved;
+}
+
+static void PlainPlace(Plain* p, const uint8_t* allowed, int32_t count)
+{
+    if (p->oldCount == 0 && count == 1) {
+        kiriVec2 center;
+        int32_t cell = PlainTarget(p, KIRI_NONE, allowed, &center);
+        if (cell != KIRI_NONE) {
+            p->sites[p->siteCount++] = kiriFrames_SiteIn(p->grid, p->mesh, cell);
+        }
+        return;
+    }
+    for (int32_t i = 0; i < p->oldCount; ++i) {
+        Measure(p, i, p->oldCount);
+    }
+    for (int32_t k = 0; k < count; ++k) {
+        int32_t cell = PlainFarthest(p, allowed);
+        if (cell == KIRI_NONE) {
+            break;
+        }
+        p->sites[p->siteCount++] = kiriFrames_SiteIn(p->grid, p->mesh, cell);
+        Measure(p, p->siteCount - 1, p->siteCount);
+    }
+    for (int round = 0; round < 20 && PlainRound(p); ++round) {
+    }
+    for (int32_t i = p->oldCount; i < p->siteCount; ++i) {
+        p->sites[i] = kiriFrames_SiteIn(p->grid, p->mesh, p->sites[i].cell);
+    }
+}
+
+/* ---- Placing ------------------------------------------------------------------------------------------------------- */
+
+static kiriQuota Endless(void)
+{
+    kiriQuota quota = { INT64_MAX, 0 };
+    return quota;
+}
+
+/* `count` sites more in the piece of a cell; those in `sites` before are all of that piece. */
+static bool Place(Scene* scene, kiriPlacer* placer, int32_t cell, int32_t count)
+{
+    kiriQuota quota = Endless();
+    return kiriPlacer_TakePiece(placer, &scene->memory, &scene->grid, cell) &&
+           kiriPlacer_Start(placer, &scene->memory, &scene->grid, &scene->mesh, NULL, count) &&
+           kiriPlacer_Run(placer, &scene->memory, &scene->grid, &scene->mesh, &quota) == KIRI_DONE;
 }
 
 static void AssertDistinct(const Scene* scene, const kiriSites* sites)
@@ -17,27 +208,56 @@ static void AssertDistinct(const Scene* scene, const kiriSites* sites)
     }
 }
 
+static int32_t CellAt(const Scene* scene, int32_t n)
+{
+    for (int32_t s = 0; s < scene->grid.squareCell.count; ++s) {
+        for (int32_t c = scene->grid.squareCell.data[s]; c != KIRI_NONE; c = scene->grid.cells.data[c].next) {
+            if (n-- == 0) {
+                return c;
+            }
+        }
+    }
+    fail();
+    return KIRI_NONE;
+}
+
+/* Every cell is nearest to one of the sites; the areas of their regions are about even. */
+static void AssertEven(Scene* scene, const kiriSites* sites)
+{
+    double* area = calloc((size_t)sites->count, sizeof(double));
+    kiriRule rule = { &scene->grid, KIRI_FAR, NULL, NULL, NULL };
+    kiriQuota quota = Endless();
+    kiriSeeds seeds = { 0 };
+    for (int32_t i = 0; i < sites->count; ++i) {
+        assert_true(kiriSite_Seed(&sites->data[i], i, &scene->memory, &scene->grid, &scene->mesh, &seeds));
+    }
+    assert_true(kiriField_Start(&scene->field, &scene->memory, seeds.data, seeds.count));
+    assert_int_equal(kiriField_Flood(&scene->field, &rule, &quota), KIRI_DONE);
+    for (int32_t c = 0; c < scene->grid.cells.count; ++c) {
+        area[scene->field.owner.data[c]] += scene->grid.cells.data[c].material.area;
+    }
+    for (int32_t i = 0; i < sites->count; ++i) {
+        double share = area[i] * sites->count / Scene_Area(scene);
+        assert_true(share > 0.6 && share < 1.6);
+    }
+    kiriArray_Release(&scene->memory, &seeds);
+    free(area);
+}
+
 static void SpreadsEvenly(void** state)
 {
     (void)state;
     int32_t counts[4] = { 2, 5, 16, 47 };
     for (int k = 0; k < 4; ++k) {
         Scene scene;
-        kiriSites sites = { 0 };
-        kiriRegions regions = { { 0 }, { 0 }, { 0 }, { 0 } };
+        kiriPlacer placer = { 0 };
         Scene_Init(&scene, 1.0, 1.0, 8, 8, 48);
         Scene_BuildGrid(&scene);
-        assert_true(Place(&scene, &sites, 0, counts[k]));
-        assert_int_equal(sites.count, counts[k]);
-        AssertDistinct(&scene, &sites);
-        assert_true(kiriRegions_Build(&regions, &scene.memory, &scene.grid, &scene.mesh, &scene.field, sites.data,
-                                      sites.count));
-        for (int32_t i = 0; i < sites.count; ++i) {
-            double share = regions.regions.data[i].material.area * counts[k];
-            assert_true(share > 0.6 && share < 1.6);
-        }
-        kiriRegions_Release(&regions, &scene.memory);
-        kiriArray_Release(&scene.memory, &sites);
+        assert_true(Place(&scene, &placer, 0, counts[k]));
+        assert_int_equal(placer.sites.count, counts[k]);
+        AssertDistinct(&scene, &placer.sites);
+        AssertEven(&scene, &placer.sites);
+        kiriPlacer_Release(&placer, &scene.memory);
         Scene_Release(&scene);
     }
 }
@@ -47,21 +267,24 @@ static void OneFrameForEachPiece(void** state)
 {
     (void)state;
     Scene scene;
-    kiriSites sites = { 0 };
+    kiriPlacer placer = { 0 };
     Scene_Init(&scene, 1.0, 1.0, 10, 10, 31);
     Scene_Slit(&scene, 0.3, 0.0, 0.3, 1.0);
     Scene_BuildGrid(&scene);
-    assert_int_equal(scene.grid.pieces, 2);
-    for (int32_t piece = 1; piece >= 0; --piece) {
-        assert_true(Place(&scene, &sites, piece, 1));
-        kiriSite site = sites.data[sites.count - 1];
-        assert_int_equal(scene.grid.cells.data[site.cell].piece, piece);
-        AssertNear(site.at.x, site.at.x < 0.3 ? 0.15 : 0.65, 0.6 * scene.grid.side);
-        AssertNear(site.at.y, 0.5, 0.6 * scene.grid.side);
+    for (int k = 0; k < 2; ++k) {
+        int32_t cell = Scene_Cell(&scene, k == 0 ? 0.9 : 0.1, 0.2), cells = 0;
+        placer.sites.count = 0;
+        assert_true(Place(&scene, &placer, cell, 1));
+        assert_int_equal(placer.sites.count, 1);
+        AssertNear(placer.sites.data[0].at.x, k == 0 ? 0.65 : 0.15, 0.6 * scene.grid.side);
+        AssertNear(placer.sites.data[0].at.y, 0.5, 0.6 * scene.grid.side);
+        for (int32_t i = 0; i < placer.cells.count; ++i) {
+            cells += placer.cells.data[i] == placer.sites.data[0].cell;
+            assert_true(i == 0 || kiriGrid_IsBefore(&scene.grid, placer.cells.data[i - 1], placer.cells.data[i]));
+        }
+        assert_int_equal(cells, 1);
     }
-    assert_int_equal(sites.count, 2);
-    assert_true((sites.data[0].at.x < 0.3) != (sites.data[1].at.x < 0.3));
-    kiriArray_Release(&scene.memory, &sites);
+    kiriPlacer_Release(&placer, &scene.memory);
     Scene_Release(&scene);
 }
 
@@ -69,17 +292,18 @@ static void OldSitesStay(void** state)
 {
     (void)state;
     Scene scene;
-    kiriSites sites = { 0 };
+    kiriPlacer placer = { 0 };
     Scene_Init(&scene, 1.0, 1.0, 4, 4, 32);
     Scene_BuildGrid(&scene);
     kiriSite old[2] = { Scene_Site(&scene, 0.1, 0.1), Scene_Site(&scene, 0.2, 0.15) };
-    assert_true(kiriArray_Push(&scene.memory, &sites, old[0]));
-    assert_true(kiriArray_Push(&scene.memory, &sites, old[1]));
-    assert_true(Place(&scene, &sites, 0, 1));
-    assert_int_equal(sites.count, 3);
-    assert_memory_equal(sites.data, old, sizeof(old));
-    assert_true(sites.data[2].at.x > 0.5 && sites.data[2].at.y > 0.5);
-    kiriArray_Release(&scene.memory, &sites);
+    assert_true(kiriArray_Push(&scene.memory, &placer.sites, old[0]));
+    assert_true(kiriArray_Push(&scene.memory, &placer.sites, old[1]));
+    assert_true(Place(&scene, &placer, 0, 1));
+    assert_int_equal(placer.oldCount, 2);
+    assert_int_equal(placer.sites.count, 3);
+    assert_memory_equal(placer.sites.data, old, sizeof(old));
+    assert_true(placer.sites.data[2].at.x > 0.5 && placer.sites.data[2].at.y > 0.5);
+    kiriPlacer_Release(&placer, &scene.memory);
     Scene_Release(&scene);
 }
 
@@ -88,57 +312,330 @@ static void CountIsLimitedByCells(void** state)
 {
     (void)state;
     Scene scene;
-    kiriSites sites = { 0 };
+    kiriPlacer placer = { 0 };
     Scene_Init(&scene, 1.0, 0.7, 3, 3, 5);
     Scene_BuildGrid(&scene);
     int32_t cells = scene.grid.cells.count;
     kiriSite old = { { 0.39, 0.21 }, Scene_Cell(&scene, 0.39, 0.21) };
-    assert_true(kiriArray_Push(&scene.memory, &sites, old));
-    assert_true(Place(&scene, &sites, 0, 1000));
-    assert_int_equal(sites.count, cells);
-    AssertDistinct(&scene, &sites);
-    assert_true(Place(&scene, &sites, 0, 1));
-    assert_true(Place(&scene, &sites, 0, 0));
-    assert_int_equal(sites.count, cells);
-    kiriArray_Release(&scene.memory, &sites);
+    assert_true(kiriArray_Push(&scene.memory, &placer.sites, old));
+    assert_true(Place(&scene, &placer, 0, 1000));
+    assert_int_equal(placer.sites.count, cells);
+    AssertDistinct(&scene, &placer.sites);
+    assert_true(Place(&scene, &placer, 0, 1));
+    assert_true(Place(&scene, &placer, 0, 0));
+    assert_int_equal(placer.sites.count, cells);
+    kiriPlacer_Release(&placer, &scene.memory);
     Scene_Release(&scene);
 }
 
-/* On randomly cut sheets: in the right piece, in cells of their own, the same again on a second run. */
-static void RandomPiecesAreFilled(void** state)
+/* ---- Against the plain answer ---------------------------------------------------------------------------------------- */
+
+static int ComparePlain(const Plain* p, int32_t a, int32_t b)
+{
+    const kiriCell *x = &p->grid->cells.data[a], *y = &p->grid->cells.data[b];
+    return x->square != y->square ? (x->square < y->square ? -1 : 1) : (x->triangle < y->triangle ? -1 : 1);
+}
+
+/* The cells of a piece, by insertion. */
+static void InitPlain(Plain* p, const Scene* scene, const int32_t* piece, int32_t which)
+{
+    const kiriGrid* grid = &scene->grid;
+    memset(p, 0, sizeof(*p));
+    p->grid = grid;
+    p->mesh = &scene->mesh;
+    p->cells = malloc(sizeof(int32_t) * (size_t)grid->cells.count);
+    p->distance = malloc(sizeof(int64_t) * 64 * (size_t)grid->cells.count);
+    for (int32_t c = 0; c < grid->cells.count; ++c) {
+        if (kiriGrid_IsCell(grid, c) && piece[c] == which) {
+            int32_t k = p->count++;
+            for (; k > 0 && ComparePlain(p, c, p->cells[k - 1]) < 0; --k) {
+                p->cells[k] = p->cells[k - 1];
+            }
+            p->cells[k] = c;
+        }
+    }
+}
+
+static void FreePlain(Plain* p)
+{
+    free(p->cells);
+    free(p->distance);
+}
+
+/* Some sites in cells of their own: as frames take them, or anywhere in the square. */
+static void AddOldSites(Plain* p, int32_t count, uint32_t* seed)
+{
+    for (int32_t k = 0; k < count; ++k) {
+        int32_t cell = p->cells[Random(seed) % (uint32_t)p->count];
+        kiriSite site = kiriFrames_SiteIn(p->grid, p->mesh, cell);
+        bool taken = false;
+        for (int32_t i = 0; i < p->siteCount; ++i) {
+            taken = taken || p->sites[i].cell == cell;
+        }
+        if (Random(seed) % 2 == 0) {
+            double half = 0.49 * p->grid->side;
+            site.at = kiriVec2_Add(kiriGrid_Middle(p->grid, p->mesh, cell), RandomVec2(seed, -half, half));
+        }
+        if (!taken) {
+            p->sites[p->siteCount++] = site;
+        }
+    }
+    p->oldCount = p->siteCount;
+}
+
+static void GiveOldSites(const Plain* p, const kiriMemory* memory, kiriPlacer* placer)
+{
+    placer->sites.count = 0;
+    for (int32_t i = 0; i < p->oldCount; ++i) {
+        assert_true(kiriArray_Push(memory, &placer->sites, p->sites[i]));
+    }
+}
+
+/* Runs the job with quotas below `most`, or all at once for 0. */
+static void RunInParts(kiriPlacer* placer, const Scene* scene, const kiriGrid* grid, int32_t most, uint32_t* seed)
+{
+    for (kiriProgress progress = KIRI_MORE; progress != KIRI_DONE;) {
+        int64_t left = most == 0 ? INT64_MAX : (int64_t)(Random(seed) % (uint32_t)most);
+        kiriQuota quota = { left, 0 };
+        progress = kiriPlacer_Run(placer, &scene->memory, grid, &scene->mesh, &quota);
+        assert_int_not_equal(progress, KIRI_FAILED);
+        assert_true(quota.left >= 0 && (progress == KIRI_DONE || quota.left == 0));
+        assert_true(quota.used <= left || left < 64); /* a step of a flood may settle a few more */
+    }
+}
+
+static void AssertSites(const kiriPlacer* placer, const Plain* p)
+{
+    assert_int_equal(placer->oldCount, p->oldCount);
+    assert_int_equal(placer->sites.count, p->siteCount);
+    for (int32_t i = 0; i < p->siteCount; ++i) {
+        assert_int_equal(placer->sites.data[i].cell, p->sites[i].cell);
+        assert_true(placer->sites.data[i].at.x == p->sites[i].at.x && placer->sites.data[i].at.y == p->sites[i].at.y);
+    }
+}
+
+/* Distances to the old sites, as regions have them. */
+static void UpdateRegions(kiriRegions* regions, Scene* scene, const Plain* p)
+{
+    kiriSiteMove moves[64];
+    kiriQuota quota = Endless();
+    for (int32_t i = 0; i < p->oldCount; ++i) {
+        moves[i] = (kiriSiteMove){ i, KIRI_NONE };
+    }
+    kiriRegions_Reset(regions);
+    assert_int_equal(kiriRegions_Update(regions, &scene->memory, &scene->grid, &scene->mesh, p->sites, p->oldCount,
+                                        moves, p->oldCount, &quota),
+                     KIRI_DONE);
+}
+
+/* In one piece: all at once, by quota, after a job that was given up, and with distances known. */
+static void CheckPiece(Scene* scene, kiriPlacer* placer, kiriRegions* regions, Plain* p, uint32_t* seed)
+{
+    const kiriMemory* memory = &scene->memory;
+    uint8_t* allowed = NULL;
+    int32_t most = Random(seed) % 8 == 0 ? 50 : 7, count = (int32_t)(Random(seed) % (uint32_t)most);
+    int32_t oldCount = Random(seed) % 3 == 0 ? 0 : (int32_t)(Random(seed) % 6);
+    AddOldSites(p, oldCount, seed);
+    if (Random(seed) % 3 == 0) {
+        allowed = malloc((size_t)scene->grid.cells.count);
+        for (int32_t c = 0; c < scene->grid.cells.count; ++c) {
+            allowed[c] = Random(seed) % 3 == 0;
+        }
+    }
+    PlainPlace(p, allowed, count < p->count ? count : p->count);
+    for (int run = 0; run < 4; ++run) {
+        GiveOldSites(p, memory, placer);
+        if (run == 3) {
+            UpdateRegions(regions, scene, p);
+            placer->known = &regions->field;
+        }
+        assert_true(kiriPlacer_TakePiece(placer, memory, &scene->grid, p->cells[Random(seed) % (uint32_t)p->count]));
+        assert_int_equal(placer->cells.count, p->count);
+        assert_memory_equal(placer->cells.data, p->cells, sizeof(int32_t) * (size_t)p->count);
+        assert_true(kiriPlacer_Start(placer, memory, &scene->grid, &scene->mesh, allowed, count));
+        assert_null(placer->known);
+        if (run == 1) { /* given up here or there */
+            kiriQuota quota = { (int64_t)(Random(seed) % (uint32_t)(8 * p->count)), 0 };
+            kiriPlacer_Run(placer, memory, &scene->grid, &scene->mesh, &quota);
+            continue;
+        }
+        RunInParts(placer, scene, &scene->grid, run == 2 ? 6 : 0, seed);
+        AssertSites(placer, p);
+    }
+    free(allowed);
+}
+
+static void EqualsPlainPlacing(void** state)
 {
     (void)state;
     uint32_t seed = 41;
+    int32_t pieces = 0, several = 0;
+    for (int round = 0; round < 80; ++round) {
+        Scene scene;
+        kiriSites random;
+        kiriPlacer placer = { 0 };
+        kiriRegions regions;
+        int32_t* piece;
+        memset(&regions, 0, sizeof(regions));
+        Scene_InitRandom(&scene, &random, 0, &seed);
+        for (int32_t which = Scene_Pieces(&scene, &piece) - 1; which >= 0; --which) {
+            Plain plain;
+            InitPlain(&plain, &scene, piece, which);
+            CheckPiece(&scene, &placer, &regions, &plain, &seed);
+            ++pieces;
+            several += plain.siteCount - plain.oldCount > 1;
+            FreePlain(&plain);
+        }
+        free(piece);
+        kiriRegions_Release(&regions, &scene.memory);
+        kiriPlacer_Release(&placer, &scene.memory);
+        kiriArray_Release(&scene.memory, &random);
+        Scene_Release(&scene);
+    }
+    assert_true(pieces > 150 && several > 60);
+}
+
+/* ---- Indices of cells mean nothing ------------------------------------------------------------------------------------- */
+
+/* The same grid, cell c with index to[c]; what placing reads of it. */
+static void Permute(kiriGrid* out, const kiriGrid* grid, const kiriMemory* memory, const int32_t* to)
+{
+    int32_t count = grid->cells.count;
+    memset(out, 0, sizeof(*out));
+    out->side = grid->side;
+    assert_true(kiriArray_Resize(memory, &out->cells, count) && kiriArray_Resize(memory, &out->runs, count) &&
+                kiriArray_Resize(memory, &out->steps, grid->steps.count) &&
+                kiriArray_Resize(memory, &out->squareCell, grid->squareCell.count));
+    for (int32_t c = 0; c < count; ++c) {
+        out->cells.data[to[c]] = grid->cells.data[c];
+        out->cells.data[to[c]].next = grid->cells.data[c].next == KIRI_NONE ? KIRI_NONE : to[grid->cells.data[c].next];
+        out->runs.data[to[c]] = grid->runs.data[c];
+    }
+    for (int32_t c = 0; c < count; ++c) {
+        const kiriStepRun* run = &grid->runs.data[c];
+        for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+            out->steps.data[s] = grid->steps.data[s];
+            out->steps.data[s].cell = to[grid->steps.data[s].cell];
+        }
+    }
+    for (int32_t s = 0; s < grid->squareCell.count; ++s) {
+        int32_t first = grid->squareCell.data[s];
+        out->squareCell.data[s] = first == KIRI_NONE ? KIRI_NONE : to[first];
+    }
+}
+
+static void ReleasePermuted(kiriGrid* grid, const kiriMemory* memory)
+{
+    kiriArray_Release(memory, &grid->cells);
+    kiriArray_Release(memory, &grid->runs);
+    kiriArray_Release(memory, &grid->steps);
+    kiriArray_Release(memory, &grid->squareCell);
+}
+
+static int32_t* RandomPermutation(int32_t count, uint32_t* seed)
+{
+    int32_t* to = malloc(sizeof(int32_t) * (size_t)count);
+    for (int32_t c = 0; c < count; ++c) {
+        int32_t k = (int32_t)(Random(seed) % (uint32_t)(c + 1));
+        to[c] = to[k];
+        to[k] = c;
+    }
+    return to;
+}
+
+static void DoesNotDependOnIndices(void** state)
+{
+    (void)state;
+    uint32_t seed = 77;
     for (int round = 0; round < 60; ++round) {
         Scene scene;
-        kiriSites random, sites[2] = { { 0 }, { 0 } };
+        kiriSites random;
+        kiriPlacer first = { 0 }, second = { 0 };
+        kiriGrid grid;
         Scene_InitRandom(&scene, &random, 0, &seed);
-        for (int run = 0; run < 2; ++run) {
-            for (int32_t piece = 0; piece < scene.grid.pieces; ++piece) {
-                int32_t before = sites[run].count, cells = 0, count = 1 + (piece + round) % 7;
-                for (int32_t c = 0; c < scene.grid.cells.count; ++c) {
-                    cells += scene.grid.cells.data[c].piece == piece;
-                }
-                assert_true(Place(&scene, &sites[run], piece, count));
-                assert_int_equal(sites[run].count - before, count < cells ? count : cells);
-                for (int32_t i = before; i < sites[run].count; ++i) {
-                    assert_int_equal(scene.grid.cells.data[sites[run].data[i].cell].piece, piece);
-                }
+        int32_t* to = RandomPermutation(scene.grid.cells.count, &seed);
+        Permute(&grid, &scene.grid, &scene.memory, to);
+        for (int32_t i = 0; i < random.count; ++i) { /* one in each piece */
+            int32_t count = 1 + (int32_t)(Random(&seed) % 6), old = (int32_t)(Random(&seed) % 2);
+            first.sites.count = second.sites.count = 0;
+            if (old == 1) {
+                kiriSite moved = random.data[i];
+                moved.cell = to[moved.cell];
+                assert_true(kiriArray_Push(&scene.memory, &first.sites, random.data[i]));
+                assert_true(kiriArray_Push(&scene.memory, &second.sites, moved));
             }
-            AssertDistinct(&scene, &sites[run]);
+            assert_true(Place(&scene, &first, random.data[i].cell, count));
+            assert_true(kiriPlacer_TakePiece(&second, &scene.memory, &grid, to[random.data[i].cell]));
+            assert_true(kiriPlacer_Start(&second, &scene.memory, &grid, &scene.mesh, NULL, count));
+            RunInParts(&second, &scene, &grid, 0, &seed);
+            assert_int_equal(first.cells.count, second.cells.count);
+            assert_int_equal(first.sites.count, second.sites.count);
+            for (int32_t k = 0; k < first.sites.count; ++k) {
+                assert_int_equal(to[first.sites.data[k].cell], second.sites.data[k].cell);
+                assert_memory_equal(&first.sites.data[k].at, &second.sites.data[k].at, sizeof(kiriVec2));
+            }
         }
-        assert_int_equal(sites[0].count, sites[1].count);
-        for (int32_t i = 0; i < sites[0].count; ++i) {
-            assert_int_equal(sites[0].data[i].cell, sites[1].data[i].cell);
-            assert_true(sites[0].data[i].at.x == sites[1].data[i].at.x &&
-                        sites[0].data[i].at.y == sites[1].data[i].at.y);
-        }
+        free(to);
+        ReleasePermuted(&grid, &scene.memory);
+        kiriPlacer_Release(&first, &scene.memory);
+        kiriPlacer_Release(&second, &scene.memory);
         kiriArray_Release(&scene.memory, &random);
-        kiriArray_Release(&scene.memory, &sites[0]);
-        kiriArray_Release(&scene.memory, &sites[1]);
         Scene_Release(&scene);
     }
 }
+
+/* A grid that followed cuts, and the same from scratch. */
+static void EqualsFromScratch(void** state)
+{
+    (void)state;
+    uint32_t seed = 99;
+    int32_t elsewhere = 0;
+    for (int round = 0; round < 30; ++round) {
+        Scene scene;
+        kiriPlacer first = { 0 }, second = { 0 };
+        int32_t* piece;
+        Scene_InitMesh(&scene, 1.0, 0.8, 13, 11, 9 + (int32_t)(Random(&seed) % 16), 0.2, seed);
+        Scene_BuildGrid(&scene);
+        for (int cut = 0; cut < 4; ++cut) {
+            kiriMesh_Begin(&scene.mesh);
+            Scene_CutAtRandom(&scene, 4, 14, &seed);
+            Scene_UpdateGrid(&scene);
+            kiriGrid_Settle(&scene.grid);
+        }
+        kiriGrid followed = scene.grid;
+        memset(&scene.grid, 0, sizeof(scene.grid));
+        Scene_BuildGrid(&scene);
+        for (int32_t which = Scene_Pieces(&scene, &piece) - 1; which >= 0; --which) {
+            int32_t n = 0, count = 1 + (int32_t)(Random(&seed) % 6);
+            while (piece[CellAt(&scene, n)] != which) {
+                ++n;
+            }
+            first.sites.count = second.sites.count = 0;
+            assert_true(Place(&scene, &first, CellAt(&scene, n), count));
+            kiriGrid fresh = scene.grid;
+            scene.grid = followed;
+            assert_true(kiriField_Resize(&scene.field, &scene.memory, followed.cells.count));
+            assert_true(Place(&scene, &second, CellAt(&scene, n), count));
+            scene.grid = fresh;
+            assert_int_equal(first.sites.count, second.sites.count);
+            for (int32_t k = 0; k < first.sites.count; ++k) {
+                const kiriCell* a = &fresh.cells.data[first.sites.data[k].cell];
+                const kiriCell* b = &followed.cells.data[second.sites.data[k].cell];
+                assert_true(a->square == b->square && a->triangle == b->triangle);
+                assert_memory_equal(&first.sites.data[k].at, &second.sites.data[k].at, sizeof(kiriVec2));
+                elsewhere += first.sites.data[k].cell != second.sites.data[k].cell;
+            }
+        }
+        free(piece);
+        kiriGrid_Release(&followed, &scene.memory);
+        kiriPlacer_Release(&first, &scene.memory);
+        kiriPlacer_Release(&second, &scene.memory);
+        Scene_Release(&scene);
+    }
+    assert_true(elsewhere > 30); /* or the test would see nothing */
+}
+
+/* ---- Recentering ----------------------------------------------------------------------------------------------------- */
 
 static kiriVec3 RandomVec3(uint32_t* seed)
 {
@@ -238,6 +735,8 @@ static void RecenterKeepsTheMomentum(void** state)
     }
 }
 
+/* ---- Memory ---------------------------------------------------------------------------------------------------------- */
+
 static void FailingAllocatorLeaksNothing(void** state)
 {
     (void)state;
@@ -245,21 +744,44 @@ static void FailingAllocatorLeaksNothing(void** state)
     Scene scene;
     kiriSites random;
     Scene_InitRandom(&scene, &random, 0, &seed);
-    int64_t before = scene.purse.out;
-    bool done = false;
-    for (int64_t budget = 0; !done; ++budget) {
-        kiriSites sites = { 0 };
-        assert_true(kiriArray_Push(&scene.memory, &sites, Scene_MiddleOf(&scene, 0)));
-        scene.purse.budget = budget;
-        done = Place(&scene, &sites, 0, 12);
+    int64_t before = scene.purse.out, fewest = 0;
+    int32_t cell = random.data[0].cell;
+    for (bool done = false; !done; ++fewest) {
+        kiriPlacer placer = { 0 };
+        kiriSite old = Scene_MiddleOf(&scene, cell);
+        assert_true(kiriArray_Push(&scene.memory, &placer.sites, old));
+        scene.purse.budget = fewest;
+        done = Place(&scene, &placer, cell, 12);
         scene.purse.budget = -1;
-        assert_int_equal(sites.count, done ? 13 : 1);
-        assert_true(done || budget < 1000);
-        assert_true(!done || budget > 5);
-        kiriArray_Release(&scene.memory, &sites);
-        assert_true(scene.purse.out <= before + 1); /* the field may have grown once */
+        assert_true(done || fewest < 1000);
+        assert_true(placer.oldCount == 0 || placer.oldCount == 1);
+        placer.sites.count = 1;
+        assert_true(Place(&scene, &placer, cell, 12)); /* what is left is of use */
+        assert_int_equal(placer.sites.count, 13);
+        kiriPlacer_Release(&placer, &scene.memory);
+        assert_int_equal(scene.purse.out, before);
     }
+    assert_true(fewest > 10);
     kiriArray_Release(&scene.memory, &random);
+    Scene_Release(&scene);
+}
+
+/* Once there is room, placing allocates nothing. */
+static void PlacingAgainAllocatesNothing(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriPlacer placer = { 0 };
+    Scene_Init(&scene, 1.0, 1.0, 8, 8, 24);
+    Scene_BuildGrid(&scene);
+    assert_true(Place(&scene, &placer, 0, 9));
+    scene.purse.budget = 0;
+    for (int32_t count = 1; count < 9; ++count) {
+        placer.sites.count = 0;
+        assert_true(Place(&scene, &placer, 0, count));
+    }
+    scene.purse.budget = -1;
+    kiriPlacer_Release(&placer, &scene.memory);
     Scene_Release(&scene);
 }
 
@@ -270,10 +792,13 @@ int main(void)
         cmocka_unit_test(OneFrameForEachPiece),
         cmocka_unit_test(OldSitesStay),
         cmocka_unit_test(CountIsLimitedByCells),
-        cmocka_unit_test(RandomPiecesAreFilled),
+        cmocka_unit_test(EqualsPlainPlacing),
+        cmocka_unit_test(DoesNotDependOnIndices),
+        cmocka_unit_test(EqualsFromScratch),
         cmocka_unit_test(RecenterKeepsTheMotion),
         cmocka_unit_test(RecenterKeepsTheMomentum),
         cmocka_unit_test(FailingAllocatorLeaksNothing),
+        cmocka_unit_test(PlacingAgainAllocatesNothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
