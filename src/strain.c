@@ -1,5 +1,7 @@
 #include "strain.h"
 
+#include <string.h>
+
 /* Clamped at both ends, a strip of length l resists an offset of its ends with 12 D W / l^3. */
 #define NORMAL_GAP_BETA 12.0
 /* and the offset g makes it longer by 3/5 g^2 / l, where a straight line has 1/2. */
@@ -20,46 +22,45 @@ typedef struct Axes {
     kiriVec3 nBy[2], tauBy[2], dBy[2];
 } Axes;
 
-/* Where the sheet is folded flat on itself there is no mean: the first frame's axes serve. */
-static Axes FirstAxes(const kiriLink* link, const kiriPose* first)
+/* How the mean axes turn, from what they were made of. */
+static void FindTurns(Axes* axes, const kiriVec3 normals[2], const kiriPose* const poses[2], double lean,
+                      double lengthN, double lengthD)
 {
-    kiriVec3 zero = { 0.0, 0.0, 0.0 };
-    Axes axes = { kiriPose_Along(first, link->normal),
-                  kiriPose_Along(first, link->tangent),
-                  first->A.d,
-                  { zero, zero },
-                  { zero, zero },
-                  { zero, zero } };
-    axes.nBy[0] = axes.n;
-    axes.tauBy[0] = axes.tau;
-    axes.dBy[0] = axes.d;
-    return axes;
+    for (int k = 0; k < 2; ++k) {
+        axes->nBy[k] = kiriVec3_Scale(1.0 / lengthD, kiriVec3_Cross(axes->tau, poses[k]->A.d));
+        axes->tauBy[k] = kiriVec3_Scale(1.0 / lengthD, kiriVec3_Cross(poses[k]->A.d, axes->n));
+        kiriVec3 about = kiriVec3_AddScaled(kiriVec3_Cross(normals[k], axes->tau), lean, axes->nBy[k]);
+        axes->dBy[k] = kiriVec3_Scale(1.0 / lengthN, about);
+    }
 }
 
-static Axes MeanAxes(const kiriLink* link, const kiriPose* const poses[2])
+/* Where the sheet is folded flat on itself there is no mean: the first frame's axes serve. */
+static void TakeFirstAxes(Axes* axes, const kiriLink* link, const kiriPose* first)
 {
-    kiriVec3 normals[2] = { kiriPose_Along(poses[0], link->normal), kiriPose_Along(poses[1], link->normal) };
-    kiriVec3 d = kiriVec3_Add(poses[0]->A.d, poses[1]->A.d);
+    memset(axes, 0, sizeof(*axes));
+    axes->n = axes->nBy[0] = kiriPose_Along(first, link->normal);
+    axes->tau = axes->tauBy[0] = kiriPose_Along(first, link->tangent);
+    axes->d = axes->dBy[0] = first->A.d;
+}
+
+static void TakeMeanAxes(Axes* axes, const kiriLink* link, const kiriPose* const poses[2], bool turns)
+{
+    const kiriVec3 normals[2] = { kiriPose_Along(poses[0], link->normal), kiriPose_Along(poses[1], link->normal) };
+    kiriVec3 d = kiriVec3_Add(poses[0]->A.d, poses[1]->A.d), n = kiriVec3_Add(normals[0], normals[1]);
     double lengthD = kiriVec3_Length(d);
-    d = kiriVec3_Normalize(d);
-    kiriVec3 n = kiriVec3_Add(normals[0], normals[1]);
-    double lean = kiriVec3_Dot(n, d);
-    n = kiriVec3_AddScaled(n, -lean, d);
+    axes->d = kiriVec3_Scale(1.0 / lengthD, d);
+    double lean = kiriVec3_Dot(n, axes->d);
+    n = kiriVec3_AddScaled(n, -lean, axes->d);
     double lengthN = kiriVec3_Length(n);
     if (!(lengthD > 1e-6 && lengthN > 1e-6)) {
-        return FirstAxes(link, poses[0]);
+        TakeFirstAxes(axes, link, poses[0]);
+        return;
     }
-    Axes axes;
-    axes.d = d;
-    axes.n = kiriVec3_Scale(1.0 / lengthN, n);
-    axes.tau = kiriVec3_Cross(d, axes.n);
-    for (int k = 0; k < 2; ++k) {
-        axes.nBy[k] = kiriVec3_Scale(1.0 / lengthD, kiriVec3_Cross(axes.tau, poses[k]->A.d));
-        axes.tauBy[k] = kiriVec3_Scale(1.0 / lengthD, kiriVec3_Cross(poses[k]->A.d, axes.n));
-        kiriVec3 about = kiriVec3_AddScaled(kiriVec3_Cross(normals[k], axes.tau), lean, axes.nBy[k]);
-        axes.dBy[k] = kiriVec3_Scale(1.0 / lengthN, about);
+    axes->n = kiriVec3_Scale(1.0 / lengthN, n);
+    axes->tau = kiriVec3_Cross(axes->d, axes->n);
+    if (turns) {
+        FindTurns(axes, normals, poses, lean, lengthN, lengthD);
     }
-    return axes;
 }
 
 /* A vector of each frame, and their difference, as a link sees them; for a point the arms from the frames' x, and the
@@ -210,7 +211,8 @@ static void TakeArc(const kiriLink* link, const kiriFrameData* const frames[2], 
 void kiriStrain_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
                         double strain[KIRI_STRAINS], kiriStrainRow* rows)
 {
-    Axes axes = MeanAxes(link, poses);
+    Axes axes;
+    TakeMeanAxes(&axes, link, poses, rows != NULL);
     Pair b = Points(frames, poses, link->centroid), m = Points(frames, poses, link->crossing);
     Pair directors = Directions(poses[0]->A.d, poses[1]->A.d);
     Pair tangents = Directions(kiriPose_Along(poses[0], link->tangent), kiriPose_Along(poses[1], link->tangent));
