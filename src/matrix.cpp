@@ -242,9 +242,13 @@ template <int size> void AddBlock(double* block, const Squares& s, int32_t a, in
         typename Wide<size>::Columns sum = Wide<size>::Columns::Zero();
         for (int32_t e = 0; e < s.rows; ++e) {
             const double* J = s.J + e * s.stride;
+            const double *across = J + size * b + c, *last = across + Wide<size>::count - 1;
+            if (*across == 0.0 && *last == 0.0) {
+                continue; /* half of the strains of rigid frames do not see them move */
+            }
             In<size> down(J + size * a);
             for (int32_t n = 0; n < Wide<size>::count; ++n) {
-                sum.col(n) += (s.k[e] * J[size * b + c + n]) * down;
+                sum.col(n) += (s.k[e] * across[n]) * down;
             }
         }
         Eigen::Map<typename Wide<size>::Columns>(block + size * c) += sum;
@@ -357,8 +361,7 @@ template <int size> void UpdateColumn(kiriMatrix* matrix, int32_t column)
         const double* diagonal = &factors[area * matrix->factor.start.data[left.column]];
         double scaled[size * size]; /* times D */
         for (int32_t m = 0; m < size; ++m) {
-            Out<size>(scaled + size * m) =
-                diagonal[(size + 1) * m] * In<size>(&factors[area * left.block + size * m]);
+            Out<size>(scaled + size * m) = diagonal[(size + 1) * m] * In<size>(&factors[area * left.block + size * m]);
         }
         for (int32_t b = left.block; b < matrix->factor.start.data[left.column + 1]; ++b) {
             double* out = &factors[area * matrix->mark.data[matrix->factor.row.data[b]]];

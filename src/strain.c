@@ -84,36 +84,40 @@ static Pair Points(const kiriFrameData* const frames[2], const kiriPose* const p
 }
 
 /* The derivative of gap . axis: the ends turn with their frames, and the axis with both. */
-static kiriStrainRow TurnRow(const Axes* axes, kiriVec3 axis, const Pair* pair)
+static void WriteTurns(const Axes* axes, kiriVec3 axis, const Pair* pair, kiriStrainRow* row)
 {
     kiriVec3 g = kiriVec3_Cross(axis, pair->gap), zero = { 0.0, 0.0, 0.0 };
     double gn = kiriVec3_Dot(g, axes->n), gtau = kiriVec3_Dot(g, axes->tau), gd = kiriVec3_Dot(g, axes->d);
-    kiriStrainRow row = { { zero, zero },
-                          { kiriVec3_Cross(axis, pair->ends[0]), kiriVec3_Cross(pair->ends[1], axis) } };
     for (int k = 0; k < 2; ++k) {
-        row.turn[k] = kiriVec3_AddScaled(row.turn[k], gn, axes->nBy[k]);
-        row.turn[k] = kiriVec3_AddScaled(row.turn[k], gtau, axes->tauBy[k]);
-        row.turn[k] = kiriVec3_AddScaled(row.turn[k], gd, axes->dBy[k]);
+        kiriVec3 arm = kiriVec3_Cross(axis, pair->ends[k]), turn = k == 0 ? arm : kiriVec3_Scale(-1.0, arm);
+        turn = kiriVec3_AddScaled(turn, gn, axes->nBy[k]);
+        turn = kiriVec3_AddScaled(turn, gtau, axes->tauBy[k]);
+        row->end[k].turn = kiriVec3_AddScaled(turn, gd, axes->dBy[k]);
+        row->end[k].move = zero;
     }
-    return row;
 }
 
-static kiriStrainRow GapRow(const Axes* axes, kiriVec3 axis, const Pair* points)
+static void WriteGap(const Axes* axes, kiriVec3 axis, const Pair* points, kiriStrainRow* row)
 {
-    kiriStrainRow row = TurnRow(axes, axis, points);
-    row.move[0] = kiriVec3_Scale(-1.0, axis);
-    row.move[1] = axis;
-    return row;
+    WriteTurns(axes, axis, points, row);
+    row->end[0].move = kiriVec3_Scale(-1.0, axis);
+    row->end[1].move = axis;
 }
 
-static kiriStrainRow Combined(double a, const kiriStrainRow* first, double b, const kiriStrainRow* second)
+static void Scale(kiriStrainRow* row, double a)
 {
-    kiriStrainRow row;
     for (int k = 0; k < 2; ++k) {
-        row.move[k] = kiriVec3_AddScaled(kiriVec3_Scale(a, first->move[k]), b, second->move[k]);
-        row.turn[k] = kiriVec3_AddScaled(kiriVec3_Scale(a, first->turn[k]), b, second->turn[k]);
+        row->end[k].move = kiriVec3_Scale(a, row->end[k].move);
+        row->end[k].turn = kiriVec3_Scale(a, row->end[k].turn);
     }
-    return row;
+}
+
+static void Add(kiriStrainRow* row, double a, const kiriStrainRow* other)
+{
+    for (int k = 0; k < 2; ++k) {
+        row->end[k].move = kiriVec3_AddScaled(row->end[k].move, a, other->end[k].move);
+        row->end[k].turn = kiriVec3_AddScaled(row->end[k].turn, a, other->end[k].turn);
+    }
 }
 
 /* What a frame turns about: its centre of mass, or its site when the host holds it there. */
@@ -139,8 +143,11 @@ static void MeasureStretch(double lever, const Axes* axes, const Pair* b, double
     double line = sqrt(base * base + ARC * aside * aside);
     *strain = ahead - lever + (line - base);
     if (row != NULL) {
-        kiriStrainRow n = GapRow(axes, axes->n, b), d = GapRow(axes, axes->d, b);
-        *row = Combined(ahead > least ? ahead / line : 1.0, &n, ARC * aside / line, &d);
+        kiriStrainRow d;
+        WriteGap(axes, axes->d, b, &d);
+        WriteGap(axes, axes->n, b, row);
+        Scale(row, ahead > least ? ahead / line : 1.0);
+        Add(row, ARC * aside / line, &d);
     }
 }
 
@@ -150,9 +157,11 @@ static void MeasureNormal(const kiriLink* link, const Axes* axes, const Pair* m,
     strain[KIRI_NORMAL_GAP] = gap;
     strain[KIRI_NORMAL_STOP] = over <= 0.0 ? 0.0 : gap > 0.0 ? over : -over;
     if (rows != NULL) {
-        kiriStrainRow row = GapRow(axes, axes->d, m);
-        rows[KIRI_NORMAL_GAP] = row;
-        rows[KIRI_NORMAL_STOP] = Combined(over > 0.0 ? 1.0 : 0.0, &row, 0.0, &row);
+        WriteGap(axes, axes->d, m, &rows[KIRI_NORMAL_GAP]);
+        rows[KIRI_NORMAL_STOP] = rows[KIRI_NORMAL_GAP];
+        if (over <= 0.0) {
+            memset(&rows[KIRI_NORMAL_STOP], 0, sizeof(rows[0]));
+        }
     }
 }
 
@@ -164,9 +173,11 @@ static void TakeAngle(double* strain, kiriStrainRow* rows)
     strain[KIRI_BENDING] *= longer;
     strain[KIRI_TWIST] *= longer;
     if (rows != NULL) {
-        kiriStrainRow change = Combined(bending / 12.0, &rows[KIRI_BENDING], twist / 12.0, &rows[KIRI_TWIST]);
-        rows[KIRI_BENDING] = Combined(longer, &rows[KIRI_BENDING], bending, &change);
-        rows[KIRI_TWIST] = Combined(longer, &rows[KIRI_TWIST], twist, &change);
+        kiriStrainRow before = rows[KIRI_BENDING];
+        Scale(&rows[KIRI_BENDING], longer + bending * bending / 12.0);
+        Add(&rows[KIRI_BENDING], bending * twist / 12.0, &rows[KIRI_TWIST]);
+        Scale(&rows[KIRI_TWIST], longer + twist * twist / 12.0);
+        Add(&rows[KIRI_TWIST], bending * twist / 12.0, &before);
     }
 }
 
@@ -198,13 +209,12 @@ static void TakeArc(const kiriLink* link, const kiriFrameData* const frames[2], 
     strain[KIRI_STRETCH] -= keep * turn * bending;
     strain[KIRI_SHEAR] -= keep * turn * twist;
     if (rows != NULL) {
-        kiriStrainRow angle = Combined(bending, &rows[KIRI_BENDING], twist, &rows[KIRI_TWIST]);
-        kiriStrainRow turnRow = Combined(n, &rows[KIRI_BENDING], tau, &rows[KIRI_TWIST]);
-        turnRow = Combined(keep, &turnRow, -4.0 * keep * keep * fold / ARC_FOLD * turn, &angle);
-        kiriStrainRow stretch = Combined(keep * turn, &rows[KIRI_BENDING], bending, &turnRow);
-        kiriStrainRow shear = Combined(keep * turn, &rows[KIRI_TWIST], twist, &turnRow);
-        rows[KIRI_STRETCH] = Combined(1.0, &rows[KIRI_STRETCH], -1.0, &stretch);
-        rows[KIRI_SHEAR] = Combined(1.0, &rows[KIRI_SHEAR], -1.0, &shear);
+        double fade = 4.0 * keep * keep * fold / ARC_FOLD * turn;
+        double byBending = keep * n - fade * bending, byTwist = keep * tau - fade * twist;
+        Add(&rows[KIRI_STRETCH], -(keep * turn + bending * byBending), &rows[KIRI_BENDING]);
+        Add(&rows[KIRI_STRETCH], -bending * byTwist, &rows[KIRI_TWIST]);
+        Add(&rows[KIRI_SHEAR], -twist * byBending, &rows[KIRI_BENDING]);
+        Add(&rows[KIRI_SHEAR], -(keep * turn + twist * byTwist), &rows[KIRI_TWIST]);
     }
 }
 
@@ -223,10 +233,10 @@ void kiriStrain_Measure(const kiriLink* link, const kiriFrameData* const frames[
     strain[KIRI_BENDING] = kiriVec3_Dot(directors.gap, axes.n);
     strain[KIRI_TWIST] = kiriVec3_Dot(directors.gap, axes.tau);
     if (rows != NULL) {
-        rows[KIRI_SHEAR] = GapRow(&axes, axes.tau, &b);
-        rows[KIRI_PLANE_BENDING] = TurnRow(&axes, axes.n, &tangents);
-        rows[KIRI_BENDING] = TurnRow(&axes, axes.n, &directors);
-        rows[KIRI_TWIST] = TurnRow(&axes, axes.tau, &directors);
+        WriteGap(&axes, axes.tau, &b, &rows[KIRI_SHEAR]);
+        WriteTurns(&axes, axes.n, &tangents, &rows[KIRI_PLANE_BENDING]);
+        WriteTurns(&axes, axes.n, &directors, &rows[KIRI_BENDING]);
+        WriteTurns(&axes, axes.tau, &directors, &rows[KIRI_TWIST]);
     }
     TakeAngle(strain, rows);
     TakeArc(link, frames, strain, rows);
