@@ -300,29 +300,30 @@ template <int size> void SubtractProduct(double* out, const double* a, const dou
     }
 }
 
-/* Of a diagonal block. False where it is not positive definite. */
-template <int size> bool FactorBlock(double* block)
+/* Of a diagonal block, with the inverses of D. False where it is not positive definite. */
+template <int size> bool FactorBlock(double* block, double* inverse)
 {
     for (int32_t m = 0; m < size; ++m) {
         double d = block[(size + 1) * m];
         if (!(d > 0.0)) {
             return false;
         }
+        inverse[m] = 1.0 / d;
         for (int32_t c = m + 1; c < size; ++c) {
-            double l = block[size * m + c] / d;
+            double l = inverse[m] * block[size * m + c];
             for (int32_t r = c; r < size; ++r) {
                 block[size * c + r] -= l * block[size * m + r];
             }
         }
         for (int32_t r = m + 1; r < size; ++r) {
-            block[size * m + r] /= d;
+            block[size * m + r] *= inverse[m];
         }
     }
     return true;
 }
 
 /* What is below the diagonal: block (L D)^-T */
-template <int size> void DivideBlock(double* block, const double* diagonal)
+template <int size> void DivideBlock(double* block, const double* diagonal, const double* inverse)
 {
     for (int32_t m = 0; m < size; ++m) {
         Column<size> column = Out<size>(block + size * m);
@@ -332,7 +333,7 @@ template <int size> void DivideBlock(double* block, const double* diagonal)
         Out<size>(block + size * m) = column;
     }
     for (int32_t m = 0; m < size; ++m) {
-        Out<size>(block + size * m) *= 1.0 / diagonal[(size + 1) * m];
+        Out<size>(block + size * m) *= inverse[m];
     }
 }
 
@@ -378,11 +379,12 @@ template <int size> bool FactorAll(kiriMatrix* matrix)
         double* diagonal = &matrix->factors.data[area * first];
         StartColumn<size>(matrix, c);
         UpdateColumn<size>(matrix, c);
-        if (!FactorBlock<size>(diagonal)) {
+        double inverse[size];
+        if (!FactorBlock<size>(diagonal, inverse)) {
             return false;
         }
         for (int32_t b = first + 1; b < end; ++b) {
-            DivideBlock<size>(&matrix->factors.data[area * b], diagonal);
+            DivideBlock<size>(&matrix->factors.data[area * b], diagonal, inverse);
         }
     }
     return true;

@@ -614,12 +614,16 @@ static void AddMass(kiriSolver* solver, const kiriSystem* system, int32_t f)
                                    { 0.0, 0.0, 0.0, m->dd } };
     kiriMat3 inertia = kiriFlight_Inertia(&solver->flights.data[f], &solver->poses.data[f].A);
     double perTime = 1.0 / (solver->dt * solver->dt), block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS];
-    for (int32_t n = 0; n < solver->size * solver->size; ++n) {
-        const Unknown *a = &solver->unknowns[n / solver->size], *b = &solver->unknowns[n % solver->size];
-        bool turns = a->slot == 1 && b->slot == 1 && !IsAffine(&system->mechanics);
-        block[n] = turns                    ? perTime * kiriVec3_Dot(a->axis, kiriMat3_Mul(inertia, b->axis))
-                   : a->number == b->number ? perTime * moments[a->slot][b->slot]
-                                            : 0.0;
+    for (int32_t r = 0; r < solver->size; ++r) {
+        const Unknown* a = &solver->unknowns[r];
+        bool turns = a->slot == 1 && !IsAffine(&system->mechanics);
+        kiriVec3 spun = turns ? kiriMat3_Mul(inertia, a->axis) : a->axis;
+        for (int32_t c = 0; c < solver->size; ++c) {
+            const Unknown* b = &solver->unknowns[c];
+            block[solver->size * r + c] = turns && b->slot == 1    ? perTime * kiriVec3_Dot(b->axis, spun)
+                                          : a->number == b->number ? perTime * moments[a->slot][b->slot]
+                                                                   : 0.0;
+        }
     }
     kiriMatrix_AddOwn(solver->matrix, f, block);
     double* force = &solver->force.data[solver->size * f];

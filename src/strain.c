@@ -26,11 +26,12 @@ typedef struct Axes {
 static void FindTurns(Axes* axes, const kiriVec3 normals[2], const kiriPose* const poses[2], double lean,
                       double lengthN, double lengthD)
 {
+    double perN = 1.0 / lengthN, perD = 1.0 / lengthD;
     for (int k = 0; k < 2; ++k) {
-        axes->nBy[k] = kiriVec3_Scale(1.0 / lengthD, kiriVec3_Cross(axes->tau, poses[k]->A.d));
-        axes->tauBy[k] = kiriVec3_Scale(1.0 / lengthD, kiriVec3_Cross(poses[k]->A.d, axes->n));
+        axes->nBy[k] = kiriVec3_Scale(perD, kiriVec3_Cross(axes->tau, poses[k]->A.d));
+        axes->tauBy[k] = kiriVec3_Scale(perD, kiriVec3_Cross(poses[k]->A.d, axes->n));
         kiriVec3 about = kiriVec3_AddScaled(kiriVec3_Cross(normals[k], axes->tau), lean, axes->nBy[k]);
-        axes->dBy[k] = kiriVec3_Scale(1.0 / lengthN, about);
+        axes->dBy[k] = kiriVec3_Scale(perN, about);
     }
 }
 
@@ -169,15 +170,16 @@ static void MeasureNormal(const kiriLink* link, const Axes* axes, const Pair* m,
 static void TakeAngle(double* strain, kiriStrainRow* rows)
 {
     double bending = strain[KIRI_BENDING], twist = strain[KIRI_TWIST];
-    double longer = 1.0 + (bending * bending + twist * twist) / 24.0;
+    const double twelfth = 1.0 / 12.0;
+    double longer = 1.0 + 0.5 * twelfth * (bending * bending + twist * twist);
     strain[KIRI_BENDING] *= longer;
     strain[KIRI_TWIST] *= longer;
     if (rows != NULL) {
         kiriStrainRow before = rows[KIRI_BENDING];
-        Scale(&rows[KIRI_BENDING], longer + bending * bending / 12.0);
-        Add(&rows[KIRI_BENDING], bending * twist / 12.0, &rows[KIRI_TWIST]);
-        Scale(&rows[KIRI_TWIST], longer + twist * twist / 12.0);
-        Add(&rows[KIRI_TWIST], bending * twist / 12.0, &before);
+        Scale(&rows[KIRI_BENDING], longer + twelfth * bending * bending);
+        Add(&rows[KIRI_BENDING], twelfth * bending * twist, &rows[KIRI_TWIST]);
+        Scale(&rows[KIRI_TWIST], longer + twelfth * twist * twist);
+        Add(&rows[KIRI_TWIST], twelfth * bending * twist, &before);
     }
 }
 
@@ -205,11 +207,12 @@ static void TakeArc(const kiriLink* link, const kiriFrameData* const frames[2], 
     double n = twelfth * kiriVec2_Dot(link->span, link->normal);
     double tau = twelfth * kiriVec2_Dot(link->span, link->tangent);
     double bending = strain[KIRI_BENDING], twist = strain[KIRI_TWIST], turn = n * bending + tau * twist;
-    double fold = (bending * bending + twist * twist) / ARC_FOLD, keep = 1.0 / (1.0 + fold * fold);
+    const double perFold = 1.0 / ARC_FOLD;
+    double fold = perFold * (bending * bending + twist * twist), keep = 1.0 / (1.0 + fold * fold);
     strain[KIRI_STRETCH] -= keep * turn * bending;
     strain[KIRI_SHEAR] -= keep * turn * twist;
     if (rows != NULL) {
-        double fade = 4.0 * keep * keep * fold / ARC_FOLD * turn;
+        double fade = 4.0 * keep * keep * fold * perFold * turn;
         double byBending = keep * n - fade * bending, byTwist = keep * tau - fade * twist;
         Add(&rows[KIRI_STRETCH], -(keep * turn + bending * byBending), &rows[KIRI_BENDING]);
         Add(&rows[KIRI_STRETCH], -bending * byTwist, &rows[KIRI_TWIST]);
