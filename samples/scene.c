@@ -97,14 +97,27 @@ static bool PinAt(Scene* scene, float u, float v, float x, float y, float z)
     return kiriCreatePin(scene->world, scene->sheet, &def, &scene->pins[scene->pinCount++]) == KIRI_OK;
 }
 
+static void GetStart(const Scene* scene, const kiriSheetDef* def, float u, float v, float x[3])
+{
+    for (int i = 0; i < 3; i++) {
+        x[i] = def->position[i] / scene->type->size + u * def->axisU[i] + v * def->axisV[i];
+    }
+}
+
 /* Pins a rest point where it is when the sheet starts. */
 static bool PinHere(Scene* scene, const kiriSheetDef* def, float u, float v)
 {
     float x[3];
-    for (int i = 0; i < 3; i++) {
-        x[i] = def->position[i] / scene->type->size + u * def->axisU[i] + v * def->axisV[i];
-    }
+    GetStart(scene, def, u, v, x);
     return PinAt(scene, u, v, x[0], x[1], x[2]);
+}
+
+/* A thread for the eye alone, where a frame is held. */
+static void ShowThread(Scene* scene, const kiriSheetDef* def, float u, float v)
+{
+    float* x = scene->targets[scene->pinCount++];
+    GetStart(scene, def, u, v, x);
+    Scale(x, 3, scene->type->size);
 }
 
 static void RaisePin(Scene* scene, int32_t pin, float z)
@@ -282,6 +295,21 @@ static bool PinBorder(Scene* scene, const kiriSheetDef* def, float width, float 
     return fine;
 }
 
+/* Holds the last frames of the sheet where they are, as if taped to the floor. */
+static bool HoldLastFrames(Scene* scene, int32_t held)
+{
+    kiriFrame frames[256];
+    kiriFrameState state;
+    int32_t count = 0;
+    kiriSheet_GetFrames(scene->world, scene->sheet, frames, 256, &count);
+    bool fine = count >= held && count <= 256;
+    for (int32_t i = count - held; fine && i < count; i++) {
+        fine = kiriFrame_GetState(scene->world, frames[i], &state) == KIRI_OK &&
+               kiriFrame_Hold(scene->world, frames[i], state.position, state.rotation) == KIRI_OK;
+    }
+    return fine;
+}
+
 enum { MIDDLE_PINS = 3 };
 
 /* Three pins hold the middle level. */
@@ -301,25 +329,34 @@ static bool StartSpiral(Scene* scene, const SceneOptions* options)
     def.gridResolution = 40;
     def.frameCount = def.maxFrames = 5;
     def.collisionPoints = 200;
-    const Spiral spiral = { { 0.5, 0.5 }, 0.52, 0.08, 0.0, 5.0, 0.0115 };
+    const Spiral spiral = { { 0.5, 0.5 }, 0.52, 0.08, 0.0, 5.0, 0.014 };
     return MakeRectangle(scene, &def, options, &rectangle) && PinMiddle(scene, &def) &&
            Outline_AddSpiral(AddStroke(scene), &spiral);
 }
 
 /* ---- Vortex: two spirals meet in the middle, and two arms hang down ---------------------------------------------- */
 
+/* Pins would pull at whichever frame is nearest, and that changes as blades pass: so the frames are held. */
+static bool HoldBorder(Scene* scene, const kiriSheetDef* def)
+{
+    for (int32_t i = 0; i < 4; i++) {
+        ShowThread(scene, def, (float)(i & 1), (float)(i >> 1));
+    }
+    return HoldLastFrames(scene, 3);
+}
+
 static bool StartVortex(Scene* scene, const SceneOptions* options)
 {
     kiriSheetDef def = LevelPaper(scene, 0.9f);
-    /* One an arm, near its end, and three in the border. */
-    const float frames[] = { 0.486f, 0.387f, 0.514f, 0.613f, 0.08f, 0.2f, 0.92f, 0.8f, 0.2f, 0.92f };
+    /* One an arm, near its end, and three in the border, so that an arm always hangs from the same one. */
+    const float frames[] = { 0.486f, 0.387f, 0.514f, 0.613f, 0.08f, 0.2f, 0.92f, 0.8f, 0.05f, 0.05f };
     const Rectangle rectangle = { 1.0f, 1.0f, 64, 64, frames };
     def.gridResolution = 68;
     def.frameCount = def.maxFrames = 5;
     def.collisionPoints = 200;
     const Spiral first = { { 0.5, 0.5 }, 0.0, 0.38, 0.0, 1.6, 0.014 };
     const Spiral second = { { 0.5, 0.5 }, 0.0, 0.38, 0.5, 1.6, 0.014 };
-    return MakeRectangle(scene, &def, options, &rectangle) && PinBorder(scene, &def, 1.0f, 1.0f) &&
+    return MakeRectangle(scene, &def, options, &rectangle) && HoldBorder(scene, &def) &&
            Outline_AddSpiral(AddStroke(scene), &first) && Outline_AddSpiral(AddStroke(scene), &second);
 }
 
@@ -364,21 +401,6 @@ static bool PlaceFrames(Outline* frames)
     return fine;
 }
 
-/* Holds the last frames of the sheet where they are, as if taped to the floor. */
-static bool HoldLastFrames(Scene* scene, int32_t held)
-{
-    kiriFrame frames[256];
-    kiriFrameState state;
-    int32_t count = 0;
-    kiriSheet_GetFrames(scene->world, scene->sheet, frames, 256, &count);
-    bool fine = count >= held && count <= 256;
-    for (int32_t i = count - held; fine && i < count; i++) {
-        fine = kiriFrame_GetState(scene->world, frames[i], &state) == KIRI_OK &&
-               kiriFrame_Hold(scene->world, frames[i], state.position, state.rotation) == KIRI_OK;
-    }
-    return fine;
-}
-
 static bool StartKirigami(Scene* scene, const SceneOptions* options)
 {
     kiriSheetDef def = LevelPaper(scene, floorGap);
@@ -402,7 +424,7 @@ static void PullKirigami(Scene* scene)
     TouchFloor(scene);
     int32_t first = scene->type->lastCut + 20;
     for (int32_t i = 0; i < MIDDLE_PINS; i++) {
-        RaisePin(scene, i, floorGap + 0.36f * Ease(scene->tick, first, first + PULL_TICKS));
+        RaisePin(scene, i, floorGap + 0.32f * Ease(scene->tick, first, first + PULL_TICKS));
     }
 }
 
@@ -464,7 +486,7 @@ static const SceneType types[] = {
       .about = "48 slits let a sheet of paper rise when its middle is pulled up",
       .size = 0.3f,
       .ticks = 800,
-      .substeps = 2,
+      .substeps = 4,
       .firstCut = 60,
       .lastCut = 540,
       .moments = { 60, 200, 400, 540, 600, 650, 710, 800 },
@@ -487,12 +509,12 @@ static const SceneType types[] = {
     { .name = "vortex",
       .together = true,
       .about = "two spirals that meet let two arms of a sheet of paper hang down",
-      .size = 0.45f,
-      .ticks = 420,
+      .size = 0.36f,
+      .ticks = 540,
       .substeps = 2,
       .firstCut = 60,
-      .lastCut = 260,
-      .moments = { 60, 110, 160, 210, 235, 260, 320, 420 },
+      .lastCut = 390,
+      .moments = { 60, 160, 240, 290, 340, 375, 400, 540 },
       .camera = { { 1.1f, -2.5f, 1.55f }, { 0.0f, 0.0f, 0.45f }, 30.0f },
       .look = PAPER_LOOK(0.20f, 0.35f, 0.70f),
       .start = StartVortex,

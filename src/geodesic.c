@@ -64,7 +64,7 @@ void kiriField_Clear(kiriField* field)
     field->cursor[STAGE] = AT_REST;
 }
 
-/* ---- The heap of seeds, nearest on top ----------------------------------------------------------------------------- */
+/* ---- The heap of seeds, nearest on top --------------------------------------------------------------------------- */
 
 static bool IsNearer(kiriSeed a, kiriSeed b)
 {
@@ -106,13 +106,13 @@ static kiriSeed PopSeed(kiriField* field)
     return top;
 }
 
-/* ---- The sweep: Dijkstra without a queue ----------------------------------------------------------------------------- */
+/* ---- The sweep: Dijkstra without a queue ------------------------------------------------------------------------- */
 
-/* There are only three lengths of steps, and cells settle by growing distance; so what the steps of one length reach is
-   sorted already, and a cursor for each length over the settled cells finds the next. */
+/* There are only three lengths of steps, and cells settle by growing distance; so what the steps of one length reach
+   is sorted already, and a cursor for each length over the settled cells finds the next. */
 
-/* The first to reach a cell is the nearest. An owner may still get lower until the sweep moves on, which is before the
-   cell passes it on, for every step is longer than nothing. */
+/* The first to reach a cell is the nearest. An owner may still get lower until the sweep moves on, which is before
+   the cell passes it on, for every step is longer than nothing. */
 static void Reach(kiriField* field, int32_t cell, int32_t distance, int32_t owner)
 {
     if (field->distance.data[cell] == KIRI_FAR) {
@@ -139,8 +139,8 @@ static void Log(kiriField* field, int32_t cell)
     }
 }
 
-/* The same where cells may have kept a value. One that has the very value of a seed is a suspect: it is settled so that it
-   passes that on once more. */
+/* The same where cells may have kept a value. One that has the very value of a seed is a suspect: it is settled so
+   that it passes that on once more. */
 static void ReachAgain(kiriField* field, kiriSeed to, bool seed)
 {
     kiriSeed value = ValueOf(field, to.cell);
@@ -198,47 +198,48 @@ static void TakeSeed(kiriField* field)
     }
 }
 
-/* Takes the steps of one length. */
-static void TakeSteps(kiriField* field, const kiriRule* rule, int32_t from, int length, int32_t distance)
+/* Takes the steps of one length; false where so many cells are settled before it is through: to take them again does no
+   harm. */
+static bool TakeSteps(kiriField* field, const kiriRule* rule, int32_t from, int length, int32_t distance, int64_t most)
 {
     const kiriStepRun* run = &rule->grid->runs.data[from];
     const kiriStep* steps = rule->grid->steps.data;
     int32_t owner = field->owner.data[from], end = Passes(rule, from) ? run->end[length] : 0;
     int32_t s = length == 0 ? run->first : run->end[length - 1];
     if (field->cursor[STAGE] == GIVING) {
-        for (; s < end; ++s) {
+        for (; s < end && field->settled.count < most; ++s) {
             kiriSeed to = { steps[s].cell, distance, owner };
             ReachAgain(field, to, false);
         }
-        return;
+    } else {
+        for (; s < end && field->settled.count < most; ++s) {
+            Reach(field, steps[s].cell, distance, owner);
+        }
     }
-    for (; s < end; ++s) {
-        Reach(field, steps[s].cell, distance, owner);
-    }
+    return s >= end;
 }
 
-/* Until nothing is left, or as many cells are settled as the quota has; the last step may settle a few more. */
+/* Until nothing is left, or as many cells are settled as the quota has. */
 static kiriProgress Sweep(kiriField* field, const kiriRule* rule, kiriQuota* quota)
 {
     int32_t before = field->settled.count, farthest = FarthestOf(rule), distance;
+    int64_t most = quota->left < INT32_MAX ? before + quota->left : INT64_MAX;
     int source = NearestSource(field, farthest, &distance);
-    while (source != FROM_NOWHERE && field->settled.count - before < quota->left) {
+    while (source != FROM_NOWHERE && field->settled.count < most) {
         if (source == FROM_SEED) {
             TakeSeed(field);
         } else {
             int32_t from = field->settled.data[field->cursor[source]], passed = field->distance.data[from];
-            do { /* all that lie at this distance: saves asking for the source again */
-                TakeSteps(field, rule, from, source, distance);
+            /* All that lie at this distance: saves asking for the source again. */
+            while (from != KIRI_NONE && field->distance.data[from] == passed &&
+                   TakeSteps(field, rule, from, source, distance, most)) {
                 bool more = ++field->cursor[source] < field->settled.count;
                 from = more ? field->settled.data[field->cursor[source]] : KIRI_NONE;
-            } while (from != KIRI_NONE && field->distance.data[from] == passed &&
-                     field->settled.count - before < quota->left);
+            }
         }
         source = NearestSource(field, farthest, &distance);
     }
-    int64_t used = field->settled.count - before;
-    quota->used += used;
-    quota->left -= used < quota->left ? used : quota->left;
+    kiriQuota_Take(quota, field->settled.count - before);
     return source == FROM_NOWHERE ? KIRI_DONE : KIRI_MORE;
 }
 
@@ -262,7 +263,7 @@ kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* 
     return Sweep(field, rule, quota);
 }
 
-/* ---- Repairs --------------------------------------------------------------------------------------------------------- */
+/* ---- Repairs ----------------------------------------------------------------------------------------------------- */
 
 void kiriField_Suspect(kiriField* field, int32_t cell)
 {
@@ -278,8 +279,8 @@ void kiriField_Forget(kiriField* field, int32_t cell)
     field->owner.data[cell] = KIRI_NONE;
 }
 
-/* Does the cell have its value from its seed, or from a neighbour? No step is shorter than nothing, so no ring of cells
-   can have its values from itself. */
+/* Does the cell have its value from its seed, or from a neighbour? No step is shorter than nothing, so no ring of
+   cells can have its values from itself. */
 static bool IsGiven(const kiriField* field, const kiriRule* rule, int32_t cell)
 {
     const kiriStepRun* run = &rule->grid->runs.data[cell];
@@ -318,8 +319,8 @@ static bool SuspectDependents(kiriField* field, const kiriMemory* memory, const 
     return true;
 }
 
-/* Takes away what nothing gives any more; what is left are ways that still exist, if not the shortest. Of the caller's
-   suspects only: where ways do not pass (any longer), dependents may have lost theirs. */
+/* Takes away what nothing gives any more; what is left are ways that still exist, if not the shortest. Of the
+   caller's suspects only: where ways do not pass (any longer), dependents may have lost theirs. */
 static kiriProgress TakeAway(kiriField* field, const kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
 {
     for (; field->cursor[CHECKED] < field->suspects.count; ++field->cursor[CHECKED]) {
@@ -360,8 +361,8 @@ static kiriSeed BestOf(const kiriField* field, const kiriRule* rule, int32_t cel
     return best;
 }
 
-/* The seeds of the sweep: all that is known at the rim of what was taken away, and at suspects, which may reach farther now
-   than they did. */
+/* The seeds of the sweep: all that is known at the rim of what was taken away, and at suspects, which may reach
+   farther now than they did. */
 static bool SeedSweep(kiriField* field, const kiriMemory* memory, const kiriRule* rule)
 {
     field->heap.count = 0;

@@ -1,7 +1,7 @@
-/* Distances inside the cut sheet: Dijkstra over the steps of the grid. Lengths are whole numbers, so a field is the one
-   fixed point of (distance, owner) = min over the seed and the neighbours' (distance + step, owner), whatever the order of
-   work; ties go to the lower owner. So a field can be repaired where the grid has changed (after Ramalingam and Reps
-   1996), and equals one from scratch. */
+/* Distances inside the cut sheet: Dijkstra over the steps of the grid. Lengths are whole numbers, so a field is the
+   one fixed point of (distance, owner) = min over the seed and the neighbours' (distance + step, owner), whatever the
+   order of work; ties go to the lower owner. So a field can be repaired where the grid has changed (after Ramalingam
+   and Reps 1996), and equals one from scratch. */
 #ifndef KIRI_GEODESIC_H
 #define KIRI_GEODESIC_H
 
@@ -15,11 +15,11 @@ typedef struct kiriSeed {
 
 enum { KIRI_FAR = INT32_MAX };
 
-/* May the way go on from a cell? Floods ask when its distance is final, repairs before that, too: so a cell that passes at
-   some distance must pass at every shorter one. */
+/* May the way go on from a cell? Floods ask when its distance is final, repairs before that, too: so a cell that
+   passes at some distance must pass at every shorter one. */
 typedef bool kiriPassFn(const void* context, int32_t cell);
 
-/* The nearest of the cell's own seeds (of equals, that of the lowest owner); distance KIRI_FAR where there is none. */
+/* The nearest of the cell's own seeds (of equals, that of the lowest owner), or KIRI_FAR as its distance. */
 typedef kiriSeed kiriSeedFn(const void* context, int32_t cell);
 
 /* What makes a field. */
@@ -56,8 +56,7 @@ void kiriField_Release(kiriField* field, const kiriMemory* memory);
 /* Starts a flood from the seeds. The field must be empty: FAR everywhere. */
 bool kiriField_Start(kiriField* field, const kiriMemory* memory, const kiriSeed* seeds, int32_t seedCount);
 
-/* Goes on. An item of the quota is a cell settled; the last step may settle a few more. Allocates nothing: never
-   KIRI_FAILED. */
+/* Goes on. An item of the quota is a cell settled. Allocates nothing: never KIRI_FAILED. */
 kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* quota);
 
 /* Makes all cells FAR again by undoing only what floods settled, where no repair has changed the field since. */
@@ -71,11 +70,11 @@ void kiriField_Suspect(kiriField* field, int32_t cell);
 /* The cell is no more (or shall be empty); cells that it led to must be suspects, it must not. Not logged. */
 void kiriField_Forget(kiriField* field, int32_t cell);
 
-/* Makes the field right again, given that all cells about which something has changed are suspects; where the limit has
-   grown, these are all from which a step leads beyond the old one; where it has shrunk, all beyond the new one that are
-   not forgotten. An item of the quota is a cell whose distance is taken
-   away or given, or a suspect that keeps it. KIRI_MORE: call again with the same rule before anything changes. The
-   log tells what changed; empty it (its count) when it is read. On KIRI_FAILED only Clear or Release make sense. */
+/* Makes the field right again, given that all cells about which something has changed are suspects; where the limit
+   has grown, these are all from which a step leads beyond the old one; where it has shrunk, all beyond the new one
+   that are not forgotten. An item of the quota is a cell whose distance is taken away or given, or a suspect that
+   keeps it. KIRI_MORE: call again with the same rule before anything changes. The log tells what changed; empty it
+   (its count) when it is read. On KIRI_FAILED only Clear or Release make sense. */
 kiriProgress kiriField_Repair(kiriField* field, const kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);
 
 #endif

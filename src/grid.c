@@ -189,22 +189,33 @@ static void ForgetGone(kiriGrid* grid)
 
 /* ---- Whole squares ----------------------------------------------------------------------------------------------- */
 
+/* Does the outline or an open edge of the triangle run through the square? */
+static bool BoundsSquare(const kiriMeshData* mesh, const kiriTriangle* t, int32_t square)
+{
+    for (int i = 0; i < 3; ++i) {
+        if ((t->twin[i] == KIRI_NONE || (t->open >> i & 1) != 0) &&
+            kiriSquares_RunsThrough(&mesh->squares, square, mesh->vertices.data[t->vertex[i]].at,
+                                    mesh->vertices.data[t->vertex[(i + 1) % 3]].at)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* A square is whole where there is material and neither the outline nor an open edge runs through it. Then it is wholly
    covered, its triangles all hang together in it, and it has one cell: no need to join or to clip. Most squares are. */
 static bool IsWhole(const kiriMeshData* mesh, int32_t square)
 {
-    const kiriSquares* squares = &mesh->squares;
-    for (int32_t n = squares->head[square]; n != KIRI_NONE; n = squares->nodes.data[n].next) {
-        const kiriTriangle* t = &mesh->triangles.data[squares->nodes.data[n].triangle];
-        for (int i = 0; i < 3; ++i) {
-            if ((t->twin[i] == KIRI_NONE || (t->open >> i & 1) != 0) &&
-                kiriSquares_RunsThrough(squares, square, mesh->vertices.data[t->vertex[i]].at,
-                                        mesh->vertices.data[t->vertex[(i + 1) % 3]].at)) {
-                return false;
-            }
+    const kiriSquareNode* nodes = mesh->squares.nodes.data;
+    int32_t first = mesh->squares.head[square];
+    for (int32_t n = first; n != KIRI_NONE; n = nodes[n].next) {
+        const kiriTriangle* t = &mesh->triangles.data[nodes[n].triangle];
+        bool isInner = t->open == 0 && (t->twin[0] | t->twin[1] | t->twin[2]) >= 0; /* KIRI_NONE has the sign bit */
+        if (!isInner && BoundsSquare(mesh, t, square)) {
+            return false;
         }
     }
-    return squares->head[square] != KIRI_NONE;
+    return first != KIRI_NONE;
 }
 
 /* Steps touch the squares up to two rows away, in row v so many on each side of the column. */
@@ -381,21 +392,35 @@ static void Clip(Polygon* polygon, int axis, bool upper, double side)
     }
 }
 
+/* Most triangles reach over few sides of a square, if any: whole numbers tell faster. */
+static void ClipToSquare(Polygon* part, const kiriPoint c[3], kiriPoint low, int32_t side)
+{
+    kiriPoint high = { low.x + side, low.y + side };
+    if (c[0].x < low.x || c[1].x < low.x || c[2].x < low.x) {
+        Clip(part, 0, false, side);
+    }
+    if (c[0].x > high.x || c[1].x > high.x || c[2].x > high.x) {
+        Clip(part, 0, true, side);
+    }
+    if (c[0].y < low.y || c[1].y < low.y || c[2].y < low.y) {
+        Clip(part, 1, false, side);
+    }
+    if (c[0].y > high.y || c[1].y > high.y || c[2].y > high.y) {
+        Clip(part, 1, true, side);
+    }
+}
+
 /* The part of a triangle in a square, about the square's lower corner, so that nothing cancels in a small one. */
 static kiriMoments MaterialInSquare(const kiriMeshData* mesh, int32_t triangle, int32_t square)
 {
     kiriPoint low = kiriSquares_Corner(&mesh->squares, square), corners[3];
     kiriMesh_Corners(mesh, triangle, corners);
-    double side = mesh->squares.side;
     Polygon part;
     part.count = 3;
     for (int i = 0; i < 3; ++i) {
         part.at[i] = kiriVec2_Make((double)corners[i].x - low.x, (double)corners[i].y - low.y);
     }
-    Clip(&part, 0, false, side);
-    Clip(&part, 0, true, side);
-    Clip(&part, 1, false, side);
-    Clip(&part, 1, true, side);
+    ClipToSquare(&part, corners, low, mesh->squares.side);
     kiriMoments sum = { 0 };
     for (int32_t i = 0; i < part.count; ++i) {
         part.at[i] = kiriVec2_Scale(mesh->step, part.at[i]);
@@ -524,10 +549,16 @@ static void AddStretch(kiriFace* face, const kiriMeshData* mesh, kiriPoint low, 
     double along = 0.5 * mesh->step * (stretch.from + stretch.to);
     kiriVec2 middle =
         face->axis == 0 ? kiriVec2_Make(corner.x, corner.y + along) : kiriVec2_Make(corner.x + along, corner.y);
-    kiriVec2 apart = face->width > 0.0 ? kiriVec2_Sub(middle, face->middle) : kiriVec2_Make(0.0, 0.0);
+    if (face->width == 0.0) {
+        face->width = width;
+        face->middle = middle;
+        face->moment = width * width * width / 12.0;
+        return;
+    }
+    kiriVec2 apart = kiriVec2_Sub(middle, face->middle);
     double sum = face->width + width;
     face->moment += width * width * width / 12.0 + kiriVec2_Dot(apart, apart) * face->width * width / sum;
-    face->middle = face->width > 0.0 ? kiriVec2_Add(face->middle, kiriVec2_Scale(width / sum, apart)) : middle;
+    face->middle = kiriVec2_Add(face->middle, kiriVec2_Scale(width / sum, apart));
     face->width = sum;
 }
 
@@ -625,10 +656,11 @@ static bool MakeSide(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, i
 /* The faces on all sides of a square. Between two squares that are both made again, the one behind does it. */
 static bool MakeFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
-    int32_t square = grid->work->remade.data[item], columns = mesh->squares.columns, rows = mesh->squares.rows;
-    bool right = square % columns + 1 < columns && !IsFlagged(grid->work, square + 1, SQUARE_REMADE);
-    bool above = square / columns + 1 < rows && !IsFlagged(grid->work, square + columns, SQUARE_REMADE);
-    return (square % columns == 0 || MakeSide(grid, mesh, square - 1, square, 0)) &&
+    const kiriGridWork* work = grid->work;
+    int32_t square = work->remade.data[item], columns = mesh->squares.columns, column = square % columns;
+    bool right = column + 1 < columns && !IsFlagged(work, square + 1, SQUARE_REMADE);
+    bool above = square + columns < work->squareFlags.count && !IsFlagged(work, square + columns, SQUARE_REMADE);
+    return (column == 0 || MakeSide(grid, mesh, square - 1, square, 0)) &&
            (square < columns || MakeSide(grid, mesh, square - columns, square, 1)) &&
            (!right || MakeSide(grid, mesh, square, square + 1, 0)) &&
            (!above || MakeSide(grid, mesh, square, square + columns, 1));
@@ -925,22 +957,12 @@ static kiriStep Joined(kiriStep a, kiriStep b, int16_t length)
     return (kiriStep){ b.cell, length, (int8_t)(a.u + b.u), (int8_t)(a.v + b.v) };
 }
 
-/* Steps that lead to a cell in two ways count, once: the first way marks the cell, the second finds the mark. */
-static void StartMarks(kiriGridWork* work)
+/* A step counts where two ways lead to its cell, and counts once: the first way marks the cell with the number that this
+   returns, the second way finds it and makes it one more. */
+static int64_t NewMark(kiriGridWork* work)
 {
     work->lastMark += 2;
-}
-
-static void MarkFirst(kiriGridWork* work, int32_t cell)
-{
-    work->mark.data[cell] = work->lastMark;
-}
-
-static bool MarkSecond(kiriGridWork* work, int32_t cell)
-{
-    bool isSecond = work->mark.data[cell] == work->lastMark;
-    work->mark.data[cell] += isSecond;
-    return isSecond;
+    return work->lastMark;
 }
 
 static bool AddStraightSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c)
@@ -957,20 +979,24 @@ static bool AddStraightSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c
 static bool AddDiagonalSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c)
 {
     const kiriFace* faces = grid->faces.data;
-    StartMarks(grid->work);
+    const kiriCell* cells = grid->cells.data;
+    int64_t *mark = grid->work->mark.data, first = NewMark(grid->work);
     for (int axis = 0; axis < 2; ++axis) {
-        for (int32_t f = grid->cells.data[c].firstFace; f != KIRI_NONE; f = NextFace(&faces[f], c)) {
+        for (int32_t f = cells[c].firstFace; f != KIRI_NONE; f = NextFace(&faces[f], c)) {
             int32_t between = OtherCell(&faces[f], c);
-            int32_t g = faces[f].axis == axis ? grid->cells.data[between].firstFace : KIRI_NONE;
+            int32_t g = faces[f].axis == axis ? cells[between].firstFace : KIRI_NONE;
             for (; g != KIRI_NONE; g = NextFace(&faces[g], between)) {
                 if (faces[g].axis == axis) {
                     continue;
                 }
                 kiriStep step = Joined(Straight(&faces[f], c), Straight(&faces[g], between), KIRI_UNIT_DIAGONAL);
                 if (axis == 0) {
-                    MarkFirst(grid->work, step.cell);
-                } else if (MarkSecond(grid->work, step.cell) && !AddStep(grid, memory, step)) {
-                    return false;
+                    mark[step.cell] = first;
+                } else if (mark[step.cell] == first) {
+                    mark[step.cell] = first + 1;
+                    if (!AddStep(grid, memory, step)) {
+                        return false;
+                    }
                 }
             }
         }
@@ -1002,27 +1028,32 @@ static bool MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item
            kiriArray_Push(memory, &work->knights, c);
 }
 
-static bool IsKnightMove(kiriStep step)
+/* Does a diagonal step after a straight one lead on, not back? */
+static bool IsKnightMove(kiriStep straight, kiriStep diagonal)
 {
-    return (step.u < 0 ? -step.u : step.u) + (step.v < 0 ? -step.v : step.v) == 3;
+    return straight.u == diagonal.u || straight.v == diagonal.v;
 }
 
 /* To cells reached straight, then diagonally, and also diagonally, then straight: a slit is never jumped. */
 static bool AddKnightSteps(kiriGrid* grid, const kiriMemory* memory, const kiriStepRun* run)
 {
-    StartMarks(grid->work);
-    for (int32_t i = run->first; i < run->end[1]; ++i) {
-        kiriStep first = grid->steps.data[i];
-        bool isStraight = first.length == KIRI_UNIT; /* straight ones come first */
-        const kiriStepRun* after = &grid->runs.data[first.cell];
-        for (int32_t j = isStraight ? after->end[0] : after->first; j < after->end[isStraight ? 1 : 0]; ++j) {
-            kiriStep step = Joined(first, grid->steps.data[j], KIRI_UNIT_KNIGHT);
-            if (isStraight) {
-                if (IsKnightMove(step)) {
-                    MarkFirst(grid->work, step.cell);
+    const kiriStep* steps = grid->steps.data;
+    const kiriStepRun* runs = grid->runs.data;
+    int64_t *mark = grid->work->mark.data, first = NewMark(grid->work);
+    for (int32_t i = run->first; i < run->end[0]; ++i) {
+        for (int32_t j = runs[steps[i].cell].end[0]; j < runs[steps[i].cell].end[1]; ++j) {
+            if (IsKnightMove(steps[i], steps[j])) {
+                mark[steps[j].cell] = first;
+            }
+        }
+    }
+    for (int32_t i = run->end[0]; i < run->end[1]; ++i) {
+        for (int32_t j = runs[steps[i].cell].first; j < runs[steps[i].cell].end[0]; ++j) {
+            if (mark[steps[j].cell] == first) {
+                mark[steps[j].cell] = first + 1;
+                if (!AddStep(grid, memory, Joined(steps[i], steps[j], KIRI_UNIT_KNIGHT))) {
+                    return false;
                 }
-            } else if (MarkSecond(grid->work, step.cell) && !AddStep(grid, memory, step)) {
-                return false;
             }
         }
     }

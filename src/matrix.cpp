@@ -228,16 +228,30 @@ struct Squares {
     int32_t rows, stride;
 };
 
+/* Columns that are summed together: a short one by itself would wait for each of its additions, and long ones together
+   would find no registers. */
+template <int size> struct Wide {
+    enum { count = size == 6 ? 2 : 1 };
+    typedef Eigen::Matrix<double, size, count> Columns;
+};
+
 /* Adds the block of frames number a and b of the element, a's unknowns down. */
 template <int size> void AddBlock(double* block, const Squares& s, int32_t a, int32_t b)
 {
-    for (int32_t c = 0; c < size; ++c) {
-        Column<size> sum = Column<size>::Zero();
+    for (int32_t c = 0; c < size; c += Wide<size>::count) {
+        typename Wide<size>::Columns sum = Wide<size>::Columns::Zero();
         for (int32_t e = 0; e < s.rows; ++e) {
             const double* J = s.J + e * s.stride;
-            sum += s.k[e] * J[size * b + c] * In<size>(J + size * a);
+            const double *across = J + size * b + c, *last = across + Wide<size>::count - 1;
+            if (*across == 0.0 && *last == 0.0) {
+                continue; /* half of the strains of rigid frames do not see them move */
+            }
+            In<size> down(J + size * a);
+            for (int32_t n = 0; n < Wide<size>::count; ++n) {
+                sum.col(n) += (s.k[e] * across[n]) * down;
+            }
         }
-        Out<size>(block + size * c) += sum;
+        Eigen::Map<typename Wide<size>::Columns>(block + size * c) += sum;
     }
 }
 
@@ -270,41 +284,46 @@ void ShiftDiagonal(kiriMatrix* matrix)
 
 /* ---- Factorisation ---- */
 
-/* out -= a D b^T */
-template <int size> void SubtractProduct(double* out, const double* a, const double* d, const double* b)
+/* out -= a b^T */
+template <int size> void SubtractProduct(double* out, const double* a, const double* b)
 {
-    for (int32_t c = 0; c < size; ++c) {
-        Column<size> sum = Out<size>(out + size * c);
+    typedef typename Wide<size>::Columns Columns;
+    for (int32_t c = 0; c < size; c += Wide<size>::count) {
+        Columns sum = Eigen::Map<const Columns>(out + size * c);
         for (int32_t m = 0; m < size; ++m) {
-            sum -= (d[m] * b[size * m + c]) * In<size>(a + size * m);
+            In<size> column(a + size * m);
+            for (int32_t n = 0; n < Wide<size>::count; ++n) {
+                sum.col(n) -= b[size * m + c + n] * column;
+            }
         }
-        Out<size>(out + size * c) = sum;
+        Eigen::Map<Columns>(out + size * c) = sum;
     }
 }
 
-/* Of a diagonal block. False where it is not positive definite. */
-template <int size> bool FactorBlock(double* block)
+/* Of a diagonal block, with the inverses of D. False where it is not positive definite. */
+template <int size> bool FactorBlock(double* block, double* inverse)
 {
     for (int32_t m = 0; m < size; ++m) {
         double d = block[(size + 1) * m];
         if (!(d > 0.0)) {
             return false;
         }
+        inverse[m] = 1.0 / d;
         for (int32_t c = m + 1; c < size; ++c) {
-            double l = block[size * m + c] / d;
+            double l = inverse[m] * block[size * m + c];
             for (int32_t r = c; r < size; ++r) {
                 block[size * c + r] -= l * block[size * m + r];
             }
         }
         for (int32_t r = m + 1; r < size; ++r) {
-            block[size * m + r] /= d;
+            block[size * m + r] *= inverse[m];
         }
     }
     return true;
 }
 
 /* What is below the diagonal: block (L D)^-T */
-template <int size> void DivideBlock(double* block, const double* diagonal)
+template <int size> void DivideBlock(double* block, const double* diagonal, const double* inverse)
 {
     for (int32_t m = 0; m < size; ++m) {
         Column<size> column = Out<size>(block + size * m);
@@ -314,7 +333,7 @@ template <int size> void DivideBlock(double* block, const double* diagonal)
         Out<size>(block + size * m) = column;
     }
     for (int32_t m = 0; m < size; ++m) {
-        Out<size>(block + size * m) *= 1.0 / diagonal[(size + 1) * m];
+        Out<size>(block + size * m) *= inverse[m];
     }
 }
 
@@ -341,13 +360,13 @@ template <int size> void UpdateColumn(kiriMatrix* matrix, int32_t column)
     for (int32_t k = matrix->leftStart.data[column]; k < matrix->leftStart.data[column + 1]; ++k) {
         Left left = matrix->left.data[k];
         const double* diagonal = &factors[area * matrix->factor.start.data[left.column]];
-        double d[size];
+        double scaled[size * size]; /* times D */
         for (int32_t m = 0; m < size; ++m) {
-            d[m] = diagonal[(size + 1) * m];
+            Out<size>(scaled + size * m) = diagonal[(size + 1) * m] * In<size>(&factors[area * left.block + size * m]);
         }
         for (int32_t b = left.block; b < matrix->factor.start.data[left.column + 1]; ++b) {
             double* out = &factors[area * matrix->mark.data[matrix->factor.row.data[b]]];
-            SubtractProduct<size>(out, &factors[area * b], d, &factors[area * left.block]);
+            SubtractProduct<size>(out, &factors[area * b], scaled);
         }
     }
 }
@@ -360,11 +379,12 @@ template <int size> bool FactorAll(kiriMatrix* matrix)
         double* diagonal = &matrix->factors.data[area * first];
         StartColumn<size>(matrix, c);
         UpdateColumn<size>(matrix, c);
-        if (!FactorBlock<size>(diagonal)) {
+        double inverse[size];
+        if (!FactorBlock<size>(diagonal, inverse)) {
             return false;
         }
         for (int32_t b = first + 1; b < end; ++b) {
-            DivideBlock<size>(&matrix->factors.data[area * b], diagonal);
+            DivideBlock<size>(&matrix->factors.data[area * b], diagonal, inverse);
         }
     }
     return true;

@@ -1,6 +1,6 @@
 #include "region.h"
 
-/* ---- Seeds --------------------------------------------------------------------------------------------------------- */
+/* ---- Seeds ------------------------------------------------------------------------------------------------------- */
 
 static int32_t GridLength(double meters, double side)
 {
@@ -72,8 +72,8 @@ typedef struct Update {
     double extent; /* of the tallies */
 } Update;
 
-/* The seed of a cell. One that holds a site takes none but that site's. So no region is ever empty: a site is within half
-   a diagonal of its cell's middle, and every way into that cell is at least a side long. */
+/* The seed of a cell. One that holds a site takes none but that site's. So no region is ever empty: a site is within
+   half a diagonal of its cell's middle, and every way into that cell is at least a side long. */
 static kiriSeed SeedOf(const void* context, int32_t cell)
 {
     const Update* u = context;

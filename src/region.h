@@ -39,7 +39,7 @@ typedef struct kiriRegions {
     KIRI_ARRAY(kiriTally) material; /* of its region, exact */
     KIRI_ARRAY(uint8_t) touched;    /* its region, distances in it, or its cells' steps or material changed */
 
-    /* Since kiriRegions_Settle: cells whose owner or distance changed, and what they were; without cells that are gone. */
+    /* Since kiriRegions_Settle: cells that live whose owner or distance changed, and what they were. */
     KIRI_ARRAY(kiriSeed) changes;
     KIRI_ARRAY(int32_t) orphans; /* all cells with no frame in their piece, in the order of cells */
     bool running;                /* an update waits for more quota */
@@ -56,10 +56,10 @@ typedef struct kiriSiteMove {
     int32_t was; /* the cell that held it, which may be gone; KIRI_NONE for a new one */
 } kiriSiteMove;
 
-/* Follows the grid's changes and those of the sites. Sites are in cells that live, and are never taken away. An item of the
-   quota: see kiriField_Repair. From scratch: a zeroed or reset kiriRegions, and all sites in `moves`. KIRI_MORE: call again
-   with the same arguments. On KIRI_FAILED, Reset. There may be several updates, of more sites, before grid and regions
-   are settled, which is together, and before the grid is updated again. */
+/* Follows the grid's changes and those of the sites. Sites are in cells that live, and are never taken away. An item
+   of the quota: see kiriField_Repair. From scratch: a zeroed or reset kiriRegions, and all sites in `moves`.
+   KIRI_MORE: call again with the same arguments. On KIRI_FAILED, Reset. There may be several updates, of more sites,
+   before grid and regions are settled, which is together, and before the grid is updated again. */
 kiriProgress kiriRegions_Update(kiriRegions* regions, const kiriMemory* memory, const kiriGrid* grid,
                                 const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
                                 const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);

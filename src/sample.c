@@ -216,9 +216,8 @@ static void AddSquare(kiriRefresh* refresh, int32_t square)
     }
 }
 
-/* The squares whose mesh changed hold the vertices that are new, and points that now are in another triangle. */
 bool kiriRefresh_Start(kiriRefresh* refresh, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
-                       const kiriMeshData* mesh)
+                       const kiriMeshData* mesh, int32_t firstVertex)
 {
     int32_t old = refresh->marks.count;
     refresh->squares.count = refresh->square = 0;
@@ -237,8 +236,8 @@ bool kiriRefresh_Start(kiriRefresh* refresh, const kiriMemory* memory, const kir
             AddSquare(refresh, grid->cells.data[grid->steps.data[s].cell].square);
         }
     }
-    for (int32_t k = 0; k < mesh->squares.touched.count; ++k) {
-        AddSquare(refresh, mesh->squares.touched.data[k]);
+    for (int32_t v = firstVertex; v < mesh->vertices.count; ++v) {
+        AddSquare(refresh, kiriSquares_At(&mesh->squares, mesh->vertices.data[v].at));
     }
     for (int32_t k = 0; k < refresh->squares.count; ++k) {
         refresh->marks.data[refresh->squares.data[k]] = 0;

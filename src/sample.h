@@ -68,9 +68,9 @@ typedef struct kiriRefresh {
     kiriStencil stencil;         /* of the cell at hand */
 } kiriRefresh;
 
-/* Reads the mesh's squares.touched, too: they must not be cleared before. */
+/* Vertices from `firstVertex` on are new, and are staged all. */
 bool kiriRefresh_Start(kiriRefresh* refresh, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
-                       const kiriMeshData* mesh);
+                       const kiriMeshData* mesh, int32_t firstVertex);
 kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, const kiriMemory* memory,
                                   const kiriShape* shape, const kiriGrid* grid, const kiriMeshData* mesh,
                                   kiriQuota* quota);

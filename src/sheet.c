@@ -130,6 +130,17 @@ static void StartFrame(kiriSheetData* sheet, const kiriSheetDef* def, int32_t in
     }
 }
 
+/* No vertex has weights yet. */
+static bool StartSkin(kiriSheetData* sheet)
+{
+    kiriSkin* skin = &sheet->vertexSkin;
+    if (!kiriArray_Resize(sheet->memory, &skin->spans, sheet->mesh.vertices.count)) {
+        return false;
+    }
+    memset(skin->spans.data, 0, sizeof(kiriSpan) * (size_t)skin->spans.count);
+    return true;
+}
+
 /* The first update: all stages but the mesh's, without a limit. */
 static bool BuildAll(kiriSheetData* sheet, const kiriSheetDef* def)
 {
@@ -137,7 +148,7 @@ static bool BuildAll(kiriSheetData* sheet, const kiriSheetDef* def)
     kiriQuota all = { INT64_MAX, 0 };
     u->step = 1; /* sites that the caller placed are where they shall be */
     u->spread = def->framePoints != NULL ? 0 : def->frameCount;
-    return kiriUpdate_Regions(sheet, &all) == KIRI_DONE && kiriUpdate_Shape(sheet, &all) == KIRI_DONE &&
+    return StartSkin(sheet) && kiriUpdate_Regions(sheet, &all) == KIRI_DONE && kiriUpdate_Shape(sheet, &all) == KIRI_DONE &&
            kiriUpdate_Samples(sheet, &all) == KIRI_DONE && kiriUpdate_Constants(sheet, &all) == KIRI_DONE;
 }
 

@@ -69,6 +69,7 @@ typedef struct kiriUpdate {
     bool isTorn;          /* they changed the mesh */
     bool isStale;         /* grid, regions and shape are of no use: to be made from scratch */
     bool isScratch;       /* as they are now */
+    int32_t oldVertices;  /* at the last commit: those from there on have the weights that they were born with */
 
     bool isBegun; /* in this tick; as it started: */
     int32_t startStage, startTaken;

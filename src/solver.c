@@ -146,13 +146,13 @@ static void MeasureRigid(const kiriLink* link, const kiriFrameData* const frames
     kiriStrain_Measure(link, frames, poses, strain, rows != NULL ? found : NULL);
     for (int e = 0; rows != NULL && e < KIRI_STRAINS; ++e) {
         for (int end = 0; end < 2; ++end) {
-            rows[2 * e + end].by[0] = found[e].move[end];
-            rows[2 * e + end].by[1] = found[e].turn[end];
+            rows[2 * e + end].by[0] = found[e].end[end].move;
+            rows[2 * e + end].by[1] = found[e].end[end].turn;
         }
     }
 }
 
-/* The strains and, unless `rows` is null, their derivatives: one a strain and frame. Null poses: as the frames are. */
+/* The strains and, unless `rows` is null, their derivatives: one a strain and frame. */
 static void Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strain, kiriAffineRow* rows)
 {
     const kiriLink* link = LinkOf(system, k);
@@ -161,13 +161,29 @@ static void Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, 
         return;
     }
     const kiriFrameData* const frames[2] = { &system->frames[link->i], &system->frames[link->j] };
-    const kiriPose now[2] = { poses != NULL ? poses[link->i] : kiriPose_Of(frames[0]),
-                              poses != NULL ? poses[link->j] : kiriPose_Of(frames[1]) };
-    const kiriPose* const ends[2] = { &now[0], &now[1] };
+    const kiriPose* const ends[2] = { &poses[link->i], &poses[link->j] };
     if (IsAffine(&system->mechanics)) {
         kiriAffine_Measure(link, frames, ends, strain, (kiriAffineRow(*)[2])rows);
     } else {
         MeasureRigid(link, frames, ends, strain, rows);
+    }
+}
+
+/* The same at the frames' own poses, the strains alone. */
+static void MeasureFrames(const kiriSystem* system, int32_t k, double* strain)
+{
+    const kiriLink* link = LinkOf(system, k);
+    if (link == NULL) {
+        kiriPatch_Measure(PatchOf(system, k), system->patches->shares.data, system->frames, NULL, strain, NULL);
+        return;
+    }
+    const kiriFrameData* const frames[2] = { &system->frames[link->i], &system->frames[link->j] };
+    const kiriPose now[2] = { kiriPose_Of(frames[0]), kiriPose_Of(frames[1]) };
+    const kiriPose* const ends[2] = { &now[0], &now[1] };
+    if (IsAffine(&system->mechanics)) {
+        kiriAffine_Measure(link, frames, ends, strain, NULL);
+    } else {
+        kiriStrain_Measure(link, frames, ends, strain, NULL);
     }
 }
 
@@ -207,6 +223,12 @@ static Slots Expand(const kiriSolver* solver, double scale, const double* values
 {
     Slots slots;
     memset(&slots, 0, sizeof(slots));
+    if (!solver->mechanics.planar) {
+        for (int32_t n = 0; n < solver->size; n += 3) {
+            slots.by[n / 3] = kiriVec3_Make(scale * values[n], scale * values[n + 1], scale * values[n + 2]);
+        }
+        return slots;
+    }
     for (int32_t n = 0; n < solver->size; ++n) {
         kiriVec3* by = &slots.by[solver->unknowns[n].slot];
         *by = kiriVec3_AddScaled(*by, scale * values[n], solver->unknowns[n].axis);
@@ -592,12 +614,16 @@ static void AddMass(kiriSolver* solver, const kiriSystem* system, int32_t f)
                                    { 0.0, 0.0, 0.0, m->dd } };
     kiriMat3 inertia = kiriFlight_Inertia(&solver->flights.data[f], &solver->poses.data[f].A);
     double perTime = 1.0 / (solver->dt * solver->dt), block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS];
-    for (int32_t n = 0; n < solver->size * solver->size; ++n) {
-        const Unknown *a = &solver->unknowns[n / solver->size], *b = &solver->unknowns[n % solver->size];
-        bool turns = a->slot == 1 && b->slot == 1 && !IsAffine(&system->mechanics);
-        block[n] = turns                    ? perTime * kiriVec3_Dot(a->axis, kiriMat3_Mul(inertia, b->axis))
-                   : a->number == b->number ? perTime * moments[a->slot][b->slot]
-                                            : 0.0;
+    for (int32_t r = 0; r < solver->size; ++r) {
+        const Unknown* a = &solver->unknowns[r];
+        bool turns = a->slot == 1 && !IsAffine(&system->mechanics);
+        kiriVec3 spun = turns ? kiriMat3_Mul(inertia, a->axis) : a->axis;
+        for (int32_t c = 0; c < solver->size; ++c) {
+            const Unknown* b = &solver->unknowns[c];
+            block[solver->size * r + c] = turns && b->slot == 1    ? perTime * kiriVec3_Dot(b->axis, spun)
+                                          : a->number == b->number ? perTime * moments[a->slot][b->slot]
+                                                                   : 0.0;
+        }
     }
     kiriMatrix_AddOwn(solver->matrix, f, block);
     double* force = &solver->force.data[solver->size * f];
@@ -633,27 +659,42 @@ static int ActiveRows(const kiriSystem* system, int32_t k, const double* strain)
     return isStopped ? rows : rows - 1;
 }
 
-/* The derivatives by the unknowns of a held frame are zero. */
+/* The strains of an element at the poses, and J: their derivatives by the unknowns of its frames, zero for held ones. */
+static void Derive(kiriSolver* solver, const kiriSystem* system, int32_t k, int32_t count, double* strain)
+{
+    size_t bytes = sizeof(double) * (size_t)solver->size;
+    bool isRigid = LinkOf(system, k) != NULL && !IsAffine(&system->mechanics);
+    double* J = solver->J.data;
+    if (isRigid && !system->mechanics.planar) {
+        const kiriLink* link = LinkOf(system, k);
+        const kiriFrameData* const frames[2] = { &system->frames[link->i], &system->frames[link->j] };
+        const kiriPose* const ends[2] = { &solver->poses.data[link->i], &solver->poses.data[link->j] };
+        kiriStrain_Measure(link, frames, ends, strain, (kiriStrainRow*)J); /* rows are J as it is */
+    } else {
+        Measure(system, k, solver->poses.data, strain, solver->rows.data);
+        for (int32_t n = 0; n < RowCount(system, k) * count; ++n) {
+            Reduce(solver, solver->rows.data[n].by, &J[solver->size * n]);
+        }
+    }
+    for (int32_t m = 0; solver->isHeld && m < count; ++m) {
+        for (int e = 0; system->frames[solver->members.data[m]].held && e < RowCount(system, k); ++e) {
+            memset(&J[solver->size * (count * e + m)], 0, bytes);
+        }
+    }
+}
+
 static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, Energy* energy)
 {
     const double* stiffness = &solver->stiffness.data[MOST_ROWS * k];
     const double* start = &solver->startStrain.data[MOST_ROWS * k];
     int32_t count = MembersOf(system, k, solver->members.data);
     double strain[MOST_ROWS], springs[MOST_ROWS], pulls[MOST_ROWS];
-    Measure(system, k, solver->poses.data, strain, solver->rows.data);
+    Derive(solver, system, k, count, strain);
     AddStrainEnergy(solver, system, k, strain, energy);
     int rows = ActiveRows(system, k, strain);
     for (int e = 0; e < rows; ++e) {
         springs[e] = stiffness[e] * (1.0 + solver->damping);
         pulls[e] = -stiffness[e] * (strain[e] + solver->damping * (strain[e] - start[e]));
-        for (int32_t m = 0; m < count; ++m) {
-            double* J = &solver->J.data[solver->size * (count * e + m)];
-            if (system->frames[solver->members.data[m]].held) {
-                memset(J, 0, sizeof(double) * (size_t)solver->size);
-            } else {
-                Reduce(solver, solver->rows.data[count * e + m].by, J);
-            }
-        }
     }
     AddSquares(solver, solver->members.data, count, solver->J.data, springs, pulls, rows);
 }
@@ -1110,7 +1151,7 @@ double kiriSolver_ElasticEnergy(const kiriSystem* system)
     double sum = 0.0;
     for (int32_t k = 0; k < ElementCount(system); ++k) {
         double strain[MOST_ROWS], stiffness[MOST_ROWS];
-        Measure(system, k, NULL, strain, NULL);
+        MeasureFrames(system, k, strain);
         StiffnessOf(system, k, stiffness);
         for (int e = 0; e < RowCount(system, k); ++e) {
             sum += 0.5 * stiffness[e] * strain[e] * strain[e];

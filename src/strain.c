@@ -1,5 +1,7 @@
 #include "strain.h"
 
+#include <string.h>
+
 /* Clamped at both ends, a strip of length l resists an offset of its ends with 12 D W / l^3. */
 #define NORMAL_GAP_BETA 12.0
 /* and the offset g makes it longer by 3/5 g^2 / l, where a straight line has 1/2. */
@@ -20,46 +22,46 @@ typedef struct Axes {
     kiriVec3 nBy[2], tauBy[2], dBy[2];
 } Axes;
 
-/* Where the sheet is folded flat on itself there is no mean: the first frame's axes serve. */
-static Axes FirstAxes(const kiriLink* link, const kiriPose* first)
+/* How the mean axes turn, from what they were made of. */
+static void FindTurns(Axes* axes, const kiriVec3 normals[2], const kiriPose* const poses[2], double lean,
+                      double lengthN, double lengthD)
 {
-    kiriVec3 zero = { 0.0, 0.0, 0.0 };
-    Axes axes = { kiriPose_Along(first, link->normal),
-                  kiriPose_Along(first, link->tangent),
-                  first->A.d,
-                  { zero, zero },
-                  { zero, zero },
-                  { zero, zero } };
-    axes.nBy[0] = axes.n;
-    axes.tauBy[0] = axes.tau;
-    axes.dBy[0] = axes.d;
-    return axes;
+    double perN = 1.0 / lengthN, perD = 1.0 / lengthD;
+    for (int k = 0; k < 2; ++k) {
+        axes->nBy[k] = kiriVec3_Scale(perD, kiriVec3_Cross(axes->tau, poses[k]->A.d));
+        axes->tauBy[k] = kiriVec3_Scale(perD, kiriVec3_Cross(poses[k]->A.d, axes->n));
+        kiriVec3 about = kiriVec3_AddScaled(kiriVec3_Cross(normals[k], axes->tau), lean, axes->nBy[k]);
+        axes->dBy[k] = kiriVec3_Scale(perN, about);
+    }
 }
 
-static Axes MeanAxes(const kiriLink* link, const kiriPose* const poses[2])
+/* Where the sheet is folded flat on itself there is no mean: the first frame's axes serve. */
+static void TakeFirstAxes(Axes* axes, const kiriLink* link, const kiriPose* first)
 {
-    kiriVec3 normals[2] = { kiriPose_Along(poses[0], link->normal), kiriPose_Along(poses[1], link->normal) };
-    kiriVec3 d = kiriVec3_Add(poses[0]->A.d, poses[1]->A.d);
+    memset(axes, 0, sizeof(*axes));
+    axes->n = axes->nBy[0] = kiriPose_Along(first, link->normal);
+    axes->tau = axes->tauBy[0] = kiriPose_Along(first, link->tangent);
+    axes->d = axes->dBy[0] = first->A.d;
+}
+
+static void TakeMeanAxes(Axes* axes, const kiriLink* link, const kiriPose* const poses[2], bool turns)
+{
+    const kiriVec3 normals[2] = { kiriPose_Along(poses[0], link->normal), kiriPose_Along(poses[1], link->normal) };
+    kiriVec3 d = kiriVec3_Add(poses[0]->A.d, poses[1]->A.d), n = kiriVec3_Add(normals[0], normals[1]);
     double lengthD = kiriVec3_Length(d);
-    d = kiriVec3_Normalize(d);
-    kiriVec3 n = kiriVec3_Add(normals[0], normals[1]);
-    double lean = kiriVec3_Dot(n, d);
-    n = kiriVec3_AddScaled(n, -lean, d);
+    axes->d = kiriVec3_Scale(1.0 / lengthD, d);
+    double lean = kiriVec3_Dot(n, axes->d);
+    n = kiriVec3_AddScaled(n, -lean, axes->d);
     double lengthN = kiriVec3_Length(n);
     if (!(lengthD > 1e-6 && lengthN > 1e-6)) {
-        return FirstAxes(link, poses[0]);
+        TakeFirstAxes(axes, link, poses[0]);
+        return;
     }
-    Axes axes;
-    axes.d = d;
-    axes.n = kiriVec3_Scale(1.0 / lengthN, n);
-    axes.tau = kiriVec3_Cross(d, axes.n);
-    for (int k = 0; k < 2; ++k) {
-        axes.nBy[k] = kiriVec3_Scale(1.0 / lengthD, kiriVec3_Cross(axes.tau, poses[k]->A.d));
-        axes.tauBy[k] = kiriVec3_Scale(1.0 / lengthD, kiriVec3_Cross(poses[k]->A.d, axes.n));
-        kiriVec3 about = kiriVec3_AddScaled(kiriVec3_Cross(normals[k], axes.tau), lean, axes.nBy[k]);
-        axes.dBy[k] = kiriVec3_Scale(1.0 / lengthN, about);
+    axes->n = kiriVec3_Scale(1.0 / lengthN, n);
+    axes->tau = kiriVec3_Cross(axes->d, axes->n);
+    if (turns) {
+        FindTurns(axes, normals, poses, lean, lengthN, lengthD);
     }
-    return axes;
 }
 
 /* A vector of each frame, and their difference, as a link sees them; for a point the arms from the frames' x, and the
@@ -83,36 +85,40 @@ static Pair Points(const kiriFrameData* const frames[2], const kiriPose* const p
 }
 
 /* The derivative of gap . axis: the ends turn with their frames, and the axis with both. */
-static kiriStrainRow TurnRow(const Axes* axes, kiriVec3 axis, const Pair* pair)
+static void WriteTurns(const Axes* axes, kiriVec3 axis, const Pair* pair, kiriStrainRow* row)
 {
     kiriVec3 g = kiriVec3_Cross(axis, pair->gap), zero = { 0.0, 0.0, 0.0 };
     double gn = kiriVec3_Dot(g, axes->n), gtau = kiriVec3_Dot(g, axes->tau), gd = kiriVec3_Dot(g, axes->d);
-    kiriStrainRow row = { { zero, zero },
-                          { kiriVec3_Cross(axis, pair->ends[0]), kiriVec3_Cross(pair->ends[1], axis) } };
     for (int k = 0; k < 2; ++k) {
-        row.turn[k] = kiriVec3_AddScaled(row.turn[k], gn, axes->nBy[k]);
-        row.turn[k] = kiriVec3_AddScaled(row.turn[k], gtau, axes->tauBy[k]);
-        row.turn[k] = kiriVec3_AddScaled(row.turn[k], gd, axes->dBy[k]);
+        kiriVec3 arm = kiriVec3_Cross(axis, pair->ends[k]), turn = k == 0 ? arm : kiriVec3_Scale(-1.0, arm);
+        turn = kiriVec3_AddScaled(turn, gn, axes->nBy[k]);
+        turn = kiriVec3_AddScaled(turn, gtau, axes->tauBy[k]);
+        row->end[k].turn = kiriVec3_AddScaled(turn, gd, axes->dBy[k]);
+        row->end[k].move = zero;
     }
-    return row;
 }
 
-static kiriStrainRow GapRow(const Axes* axes, kiriVec3 axis, const Pair* points)
+static void WriteGap(const Axes* axes, kiriVec3 axis, const Pair* points, kiriStrainRow* row)
 {
-    kiriStrainRow row = TurnRow(axes, axis, points);
-    row.move[0] = kiriVec3_Scale(-1.0, axis);
-    row.move[1] = axis;
-    return row;
+    WriteTurns(axes, axis, points, row);
+    row->end[0].move = kiriVec3_Scale(-1.0, axis);
+    row->end[1].move = axis;
 }
 
-static kiriStrainRow Combined(double a, const kiriStrainRow* first, double b, const kiriStrainRow* second)
+static void Scale(kiriStrainRow* row, double a)
 {
-    kiriStrainRow row;
     for (int k = 0; k < 2; ++k) {
-        row.move[k] = kiriVec3_AddScaled(kiriVec3_Scale(a, first->move[k]), b, second->move[k]);
-        row.turn[k] = kiriVec3_AddScaled(kiriVec3_Scale(a, first->turn[k]), b, second->turn[k]);
+        row->end[k].move = kiriVec3_Scale(a, row->end[k].move);
+        row->end[k].turn = kiriVec3_Scale(a, row->end[k].turn);
     }
-    return row;
+}
+
+static void Add(kiriStrainRow* row, double a, const kiriStrainRow* other)
+{
+    for (int k = 0; k < 2; ++k) {
+        row->end[k].move = kiriVec3_AddScaled(row->end[k].move, a, other->end[k].move);
+        row->end[k].turn = kiriVec3_AddScaled(row->end[k].turn, a, other->end[k].turn);
+    }
 }
 
 /* What a frame turns about: its centre of mass, or its site when the host holds it there. */
@@ -138,8 +144,11 @@ static void MeasureStretch(double lever, const Axes* axes, const Pair* b, double
     double line = sqrt(base * base + ARC * aside * aside);
     *strain = ahead - lever + (line - base);
     if (row != NULL) {
-        kiriStrainRow n = GapRow(axes, axes->n, b), d = GapRow(axes, axes->d, b);
-        *row = Combined(ahead > least ? ahead / line : 1.0, &n, ARC * aside / line, &d);
+        kiriStrainRow d;
+        WriteGap(axes, axes->d, b, &d);
+        WriteGap(axes, axes->n, b, row);
+        Scale(row, ahead > least ? ahead / line : 1.0);
+        Add(row, ARC * aside / line, &d);
     }
 }
 
@@ -149,9 +158,11 @@ static void MeasureNormal(const kiriLink* link, const Axes* axes, const Pair* m,
     strain[KIRI_NORMAL_GAP] = gap;
     strain[KIRI_NORMAL_STOP] = over <= 0.0 ? 0.0 : gap > 0.0 ? over : -over;
     if (rows != NULL) {
-        kiriStrainRow row = GapRow(axes, axes->d, m);
-        rows[KIRI_NORMAL_GAP] = row;
-        rows[KIRI_NORMAL_STOP] = Combined(over > 0.0 ? 1.0 : 0.0, &row, 0.0, &row);
+        WriteGap(axes, axes->d, m, &rows[KIRI_NORMAL_GAP]);
+        rows[KIRI_NORMAL_STOP] = rows[KIRI_NORMAL_GAP];
+        if (over <= 0.0) {
+            memset(&rows[KIRI_NORMAL_STOP], 0, sizeof(rows[0]));
+        }
     }
 }
 
@@ -159,13 +170,16 @@ static void MeasureNormal(const kiriLink* link, const Axes* axes, const Pair* m,
 static void TakeAngle(double* strain, kiriStrainRow* rows)
 {
     double bending = strain[KIRI_BENDING], twist = strain[KIRI_TWIST];
-    double longer = 1.0 + (bending * bending + twist * twist) / 24.0;
+    const double twelfth = 1.0 / 12.0;
+    double longer = 1.0 + 0.5 * twelfth * (bending * bending + twist * twist);
     strain[KIRI_BENDING] *= longer;
     strain[KIRI_TWIST] *= longer;
     if (rows != NULL) {
-        kiriStrainRow change = Combined(bending / 12.0, &rows[KIRI_BENDING], twist / 12.0, &rows[KIRI_TWIST]);
-        rows[KIRI_BENDING] = Combined(longer, &rows[KIRI_BENDING], bending, &change);
-        rows[KIRI_TWIST] = Combined(longer, &rows[KIRI_TWIST], twist, &change);
+        kiriStrainRow before = rows[KIRI_BENDING];
+        Scale(&rows[KIRI_BENDING], longer + twelfth * bending * bending);
+        Add(&rows[KIRI_BENDING], twelfth * bending * twist, &rows[KIRI_TWIST]);
+        Scale(&rows[KIRI_TWIST], longer + twelfth * twist * twist);
+        Add(&rows[KIRI_TWIST], twelfth * bending * twist, &before);
     }
 }
 
@@ -193,24 +207,25 @@ static void TakeArc(const kiriLink* link, const kiriFrameData* const frames[2], 
     double n = twelfth * kiriVec2_Dot(link->span, link->normal);
     double tau = twelfth * kiriVec2_Dot(link->span, link->tangent);
     double bending = strain[KIRI_BENDING], twist = strain[KIRI_TWIST], turn = n * bending + tau * twist;
-    double fold = (bending * bending + twist * twist) / ARC_FOLD, keep = 1.0 / (1.0 + fold * fold);
+    const double perFold = 1.0 / ARC_FOLD;
+    double fold = perFold * (bending * bending + twist * twist), keep = 1.0 / (1.0 + fold * fold);
     strain[KIRI_STRETCH] -= keep * turn * bending;
     strain[KIRI_SHEAR] -= keep * turn * twist;
     if (rows != NULL) {
-        kiriStrainRow angle = Combined(bending, &rows[KIRI_BENDING], twist, &rows[KIRI_TWIST]);
-        kiriStrainRow turnRow = Combined(n, &rows[KIRI_BENDING], tau, &rows[KIRI_TWIST]);
-        turnRow = Combined(keep, &turnRow, -4.0 * keep * keep * fold / ARC_FOLD * turn, &angle);
-        kiriStrainRow stretch = Combined(keep * turn, &rows[KIRI_BENDING], bending, &turnRow);
-        kiriStrainRow shear = Combined(keep * turn, &rows[KIRI_TWIST], twist, &turnRow);
-        rows[KIRI_STRETCH] = Combined(1.0, &rows[KIRI_STRETCH], -1.0, &stretch);
-        rows[KIRI_SHEAR] = Combined(1.0, &rows[KIRI_SHEAR], -1.0, &shear);
+        double fade = 4.0 * keep * keep * fold * perFold * turn;
+        double byBending = keep * n - fade * bending, byTwist = keep * tau - fade * twist;
+        Add(&rows[KIRI_STRETCH], -(keep * turn + bending * byBending), &rows[KIRI_BENDING]);
+        Add(&rows[KIRI_STRETCH], -bending * byTwist, &rows[KIRI_TWIST]);
+        Add(&rows[KIRI_SHEAR], -twist * byBending, &rows[KIRI_BENDING]);
+        Add(&rows[KIRI_SHEAR], -(keep * turn + twist * byTwist), &rows[KIRI_TWIST]);
     }
 }
 
 void kiriStrain_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
                         double strain[KIRI_STRAINS], kiriStrainRow* rows)
 {
-    Axes axes = MeanAxes(link, poses);
+    Axes axes;
+    TakeMeanAxes(&axes, link, poses, rows != NULL);
     Pair b = Points(frames, poses, link->centroid), m = Points(frames, poses, link->crossing);
     Pair directors = Directions(poses[0]->A.d, poses[1]->A.d);
     Pair tangents = Directions(kiriPose_Along(poses[0], link->tangent), kiriPose_Along(poses[1], link->tangent));
@@ -221,10 +236,10 @@ void kiriStrain_Measure(const kiriLink* link, const kiriFrameData* const frames[
     strain[KIRI_BENDING] = kiriVec3_Dot(directors.gap, axes.n);
     strain[KIRI_TWIST] = kiriVec3_Dot(directors.gap, axes.tau);
     if (rows != NULL) {
-        rows[KIRI_SHEAR] = GapRow(&axes, axes.tau, &b);
-        rows[KIRI_PLANE_BENDING] = TurnRow(&axes, axes.n, &tangents);
-        rows[KIRI_BENDING] = TurnRow(&axes, axes.n, &directors);
-        rows[KIRI_TWIST] = TurnRow(&axes, axes.tau, &directors);
+        WriteGap(&axes, axes.tau, &b, &rows[KIRI_SHEAR]);
+        WriteTurns(&axes, axes.n, &tangents, &rows[KIRI_PLANE_BENDING]);
+        WriteTurns(&axes, axes.n, &directors, &rows[KIRI_BENDING]);
+        WriteTurns(&axes, axes.tau, &directors, &rows[KIRI_TWIST]);
     }
     TakeAngle(strain, rows);
     TakeArc(link, frames, strain, rows);

@@ -47,9 +47,11 @@ enum {
     KIRI_STRAINS
 };
 
-/* The derivative of a strain by the moves and the turns of frames i and j. */
+/* The derivative of a strain by the moves and the turns of frames i and j: twelve numbers in a row. */
 typedef struct kiriStrainRow {
-    kiriVec3 move[2], turn[2];
+    struct {
+        kiriVec3 move, turn;
+    } end[2];
 } kiriStrainRow;
 
 /* The strains and, unless `rows` is null, their derivatives, which are exact: so the inner forces and their moments sum

@@ -1,12 +1,12 @@
-/* Exact sums: the same whatever the order of adding, and what was added can be taken away again. So the mass of a region
-   needs no walk over its cells when one of them changes. */
+/* Exact sums: the same whatever the order of adding, and what was added can be taken away again. So the mass of a
+   region needs no walk over its cells when one of them changes. */
 #ifndef KIRI_TALLY_H
 #define KIRI_TALLY_H
 
 #include "vec.h"
 
-/* A share of a scale: high * 2^-60 + low * 2^-122, with 0 <= low < 2^62. So each number has one form only, and a sliver of
-   1e-14 of a square of a grid of 4096 squares keeps the digits of its double. */
+/* A share of a scale: high * 2^-60 + low * 2^-122, with 0 <= low < 2^62. So each number has one form only, and a
+   sliver of 1e-14 of a square of a grid of 4096 squares keeps the digits of its double. */
 typedef struct kiriExact {
     int64_t high, low;
 } kiriExact;

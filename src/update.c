@@ -754,7 +754,8 @@ static kiriProgress PlacePoints(kiriSheetData* sheet, kiriQuota* samples)
 static bool BeginSamples(kiriSheetData* sheet)
 {
     return BuildPieces(sheet) &&
-           kiriRefresh_Start(&sheet->update.refresh, sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh);
+           kiriRefresh_Start(&sheet->update.refresh, sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh,
+                             sheet->update.oldVertices);
 }
 
 kiriProgress kiriUpdate_Samples(kiriSheetData* sheet, kiriQuota* samples)
@@ -914,4 +915,5 @@ void kiriUpdate_Commit(kiriSheetData* sheet)
     u->next = model;
     kiriShape_Settle(&sheet->shape);
     u->isScratch = false;
+    u->oldVertices = sheet->mesh.vertices.count;
 }

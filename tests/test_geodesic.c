@@ -1,5 +1,5 @@
-/* Distances inside the cut sheet: against the closed formula where there are no cuts, and against Bellman and Ford where
-   there are. */
+/* Distances inside the cut sheet: against the closed formula where there are no cuts, and against Bellman and Ford
+   where there are. */
 #include "geodesic.h"
 #include "cut.h"
 #include "support.h"
@@ -139,9 +139,10 @@ static int32_t* Pieces(const kiriGrid* grid)
     return piece;
 }
 
-/* ---- Independent answers ------------------------------------------------------------------------------------------- */
+/* ---- Independent answers ----------------------------------------------------------------------------------------- */
 
-/* The shortest way in an open plane: knight moves while they are nearest to the direction, the rest straight or diagonal. */
+/* The shortest way in an open plane: knight moves while they are nearest to the direction, the rest straight or
+   diagonal. */
 static int32_t OpenDistance(int32_t dx, int32_t dy)
 {
     int32_t a = abs(dx) > abs(dy) ? abs(dx) : abs(dy), b = abs(dx) > abs(dy) ? abs(dy) : abs(dx);
@@ -203,7 +204,7 @@ static void CheckAgainstRelaxing(Sheet* sheet, const kiriSeed* seeds, int32_t co
     free(owner);
 }
 
-/* ---- The open sheet ------------------------------------------------------------------------------------------------ */
+/* ---- The open sheet ---------------------------------------------------------------------------------------------- */
 
 static void TestOpenSheet(void** state)
 {
@@ -254,7 +255,7 @@ static void TestSymmetric(void** state)
     CloseSheet(&sheet);
 }
 
-/* ---- Cuts ---------------------------------------------------------------------------------------------------------- */
+/* ---- Cuts -------------------------------------------------------------------------------------------------------- */
 
 /* A slit from the left as far as into column 12, inside row 10: the way from above to below leads through its tip. */
 static void TestDetourAroundSlit(void** state)
@@ -302,7 +303,7 @@ static void TestOtherPieceIsFar(void** state)
     CloseSheet(&sheet);
 }
 
-/* ---- Seeds --------------------------------------------------------------------------------------------------------- */
+/* ---- Seeds ------------------------------------------------------------------------------------------------------- */
 
 static void TestTiesGoToTheLowerOwner(void** state)
 {
@@ -376,7 +377,7 @@ static void TestLateSeeds(void** state)
     CloseSheet(&sheet);
 }
 
-/* ---- Properties ---------------------------------------------------------------------------------------------------- */
+/* ---- Properties -------------------------------------------------------------------------------------------------- */
 
 /* Stops at some cells: whatever the caller's rule, it is followed. */
 static bool PassSome(const void* context, int32_t cell)
@@ -412,8 +413,8 @@ static void TestRandomSheets(void** state)
     }
 }
 
-/* A cut divides cells and takes steps away, so from the copies of one square to those of another the way only grows. The
-   field of the old grid serves the new one. */
+/* A cut divides cells and takes steps away, so from the copies of one square to those of another the way only grows.
+   The field of the old grid serves the new one. */
 static void TestCutsOnlyMakeWaysLonger(void** state)
 {
     (void)state;
@@ -446,7 +447,7 @@ static void TestCutsOnlyMakeWaysLonger(void** state)
     CloseSheet(&sheet);
 }
 
-/* ---- Repairs ------------------------------------------------------------------------------------------------------- */
+/* ---- Repairs ----------------------------------------------------------------------------------------------------- */
 
 typedef struct Starts {
     const kiriGrid* grid;

@@ -1,4 +1,4 @@
-/* Regions: against distances by relaxing all steps, and regions that follow cuts and sites against ones from scratch. */
+/* Regions: against distances by relaxing all steps, and regions that follow cuts against ones from scratch. */
 #include "region.h"
 #include "cut.h"
 #include "support.h"
@@ -142,7 +142,7 @@ static int32_t AnyCell(const Sheet* sheet, uint32_t* seed)
     return cell;
 }
 
-/* ---- Sites --------------------------------------------------------------------------------------------------------- */
+/* ---- Sites ------------------------------------------------------------------------------------------------------- */
 
 static bool IsTaken(const Sheet* sheet, int32_t cell)
 {
@@ -226,7 +226,7 @@ static void MoveSites(Sheet* sheet, int32_t count, uint32_t* seed)
     }
 }
 
-/* ---- Updates ------------------------------------------------------------------------------------------------------- */
+/* ---- Updates ----------------------------------------------------------------------------------------------------- */
 
 static kiriProgress TryUpdate(Sheet* sheet, kiriRegions* regions)
 {
@@ -263,7 +263,7 @@ static void MakeFromScratch(Sheet* sheet, kiriRegions* regions)
     sheet->moves.count = moves;
 }
 
-/* ---- Checks -------------------------------------------------------------------------------------------------------- */
+/* ---- Checks ------------------------------------------------------------------------------------------------------ */
 
 static int32_t EndOf(const kiriGrid* grid, int32_t cell)
 {
@@ -380,7 +380,8 @@ static void CheckMaterial(const Sheet* sheet)
     }
 }
 
-/* The changes are what has changed since all was settled, and frames that it concerns are touched. Returns how many. */
+/* The changes are what has changed since all was settled, and frames that it concerns are touched. Returns how
+   many. */
 static int32_t CheckChanges(const Sheet* sheet)
 {
     const kiriRegions* regions = &sheet->regions;
@@ -470,7 +471,7 @@ static int32_t AdoptOrphans(Sheet* sheet, uint32_t* seed)
     return adopted;
 }
 
-/* ---- From scratch -------------------------------------------------------------------------------------------------- */
+/* ---- From scratch ------------------------------------------------------------------------------------------------ */
 
 /* Distances from a site off the middle of its square are right to a part of a cell. */
 static void DistanceKnowsWhereInItsCellTheSiteIs(void** state)
@@ -571,7 +572,7 @@ static void CompleteCutParts(void** state)
     CloseSheet(&sheet);
 }
 
-/* ---- Following ----------------------------------------------------------------------------------------------------- */
+/* ---- Following --------------------------------------------------------------------------------------------------- */
 
 /* Long cuts and short ones, sites that move and new ones, pieces that come off; now and then without a frame. */
 static void FollowsCutsAndSites(void** state)
@@ -706,7 +707,7 @@ static void WorkIsLocal(void** state)
     CloseSheet(&sheet);
 }
 
-/* ---- Memory -------------------------------------------------------------------------------------------------------- */
+/* ---- Memory ------------------------------------------------------------------------------------------------------ */
 
 static void FailsCleanly(void** state)
 {

@@ -1,5 +1,5 @@
-/* Repairs of distances, on nets made by hand: cells on a square lattice, up to two a square, with random steps between them;
-   against Dijkstra without a heap. */
+/* Repairs of distances, on nets made by hand: cells on a square lattice, up to two a square, with random steps
+   between them; against Dijkstra without a heap. */
 #include "geodesic.h"
 #include "support.h"
 
@@ -126,7 +126,7 @@ static void FloodNet(Net* net)
     assert_int_equal(quota.used, net->field.settled.count);
 }
 
-/* ---- The right answer ---------------------------------------------------------------------------------------------- */
+/* ---- The right answer -------------------------------------------------------------------------------------------- */
 
 typedef struct Values {
     int32_t distance[MOST], owner[MOST];
@@ -208,7 +208,7 @@ static int32_t CheckLog(const Net* net, const Values* before)
     return changed;
 }
 
-/* ---- Changes ------------------------------------------------------------------------------------------------------- */
+/* ---- Changes ----------------------------------------------------------------------------------------------------- */
 
 static int32_t AnyCell(const Net* net, uint32_t* seed)
 {
@@ -370,7 +370,7 @@ static void OpenRandomly(Net* net, int round, uint32_t* seed)
     CheckField(net);
 }
 
-/* ---- Tests --------------------------------------------------------------------------------------------------------- */
+/* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 static void RepairedEqualsFlooded(void** state)
 {

@@ -84,8 +84,8 @@ static void TakingAwayLeavesZero(void** state)
     }
 }
 
-/* A region of one sliver, in the grid's far corner and near its origin, left over of much more. Near the origin its second
-   moments are smaller by eight decades. */
+/* A region of one sliver, in the grid's far corner and near its origin, left over of much more. Near the origin its
+   second moments are smaller by eight decades. */
 static void SliversKeepTheirDigits(void** state)
 {
     (void)state;
