@@ -14,6 +14,8 @@ typedef struct Body {
     kiriSites sites;
     kiriRegions regions;
     kiriShape shape;
+    kiriLinks links;
+    kiriMoments material[BODY_FRAMES]; /* of the regions */
     kiriPatches patches;
     kiriFrameData frames[BODY_FRAMES];
     kiriPinRow pins[4];
@@ -86,7 +88,7 @@ static inline void Body_AddRows(Body* body, int nu, int nv, double jitter, uint3
 static inline void Body_StartFrame(Body* body, int32_t i)
 {
     kiriFrameData* frame = &body->frames[i];
-    const kiriMoments* material = &body->regions.regions.data[i].material;
+    const kiriMoments* material = &body->material[i];
     frame->site = body->sites.data[i];
     frame->center = kiriMoments_Center(material);
     frame->x = Vec3(frame->center.x, frame->center.y, 0.0);
@@ -104,29 +106,59 @@ static inline void Body_MakeSolver(Body* body)
     kiriSolver_Commit(body->solver);
 }
 
-static inline void Body_End(Body* body, const BodyDef* def)
+/* Regions, shape and links of the sites. */
+static inline void Body_Divide(Body* body)
 {
     Scene* s = &body->scene;
-    assert_true(body->sites.count <= BODY_FRAMES);
-    assert_true(kiriRegions_Build(&body->regions, &s->memory, &s->grid, &s->mesh, &s->field, body->sites.data,
-                                  body->sites.count));
-    assert_true(kiriShape_Build(&body->shape, &s->memory, &s->grid, &s->mesh, &body->regions, &s->field,
-                                body->sites.data, body->sites.count));
+    kiriQuota all = { INT64_MAX, 0 };
+    kiriSiteMove moves[BODY_FRAMES];
+    int32_t count = body->sites.count;
+    assert_true(count <= BODY_FRAMES);
+    for (int32_t i = 0; i < count; ++i) {
+        moves[i] = (kiriSiteMove){ i, KIRI_NONE };
+    }
+    body->shape.rigidWeight = 0.95;
+    assert_int_equal(kiriRegions_Update(&body->regions, &s->memory, &s->grid, &s->mesh, body->sites.data, count, moves,
+                                        count, &all),
+                     KIRI_DONE);
+    assert_int_equal(kiriShape_Update(&body->shape, &s->memory, &s->grid, &s->mesh, &body->regions, body->sites.data,
+                                      count, moves, count, &all),
+                     KIRI_DONE);
+    assert_true(kiriLinks_Update(&body->links, &s->memory, &s->grid, &s->mesh, &body->regions, &body->shape,
+                                 body->sites.data, count));
+    kiriLinks_Commit(&body->links);
+    for (int32_t i = 0; i < count; ++i) {
+        body->material[i] = kiriTally_Moments(&body->regions.material.data[i], 536870912.0 * s->mesh.step);
+    }
+}
+
+static inline void Body_MakePatches(Body* body, const BodyDef* def)
+{
+    Scene* s = &body->scene;
     bool built = true;
     if (def->model == KIRI_MODEL_AFFINE) {
-        built = kiriAffine_Build(&body->patches, &s->memory, &body->regions, def->planar != 0);
+        built = kiriAffine_Build(&body->patches, &s->memory, body->links.links.data, body->links.links.count,
+                                 body->material, body->sites.count, def->planar != 0);
     } else if (def->model == KIRI_MODEL_POINTS) {
-        built = kiriPoints_Build(&body->patches, &s->memory, &s->grid, &s->mesh, &s->field, &body->shape,
-                                 &body->regions, def->points, def->order, def->planar != 0);
+        kiriPointsWork work = { 0 };
+        built = kiriPoints_Build(&body->patches, &work, &s->memory, &s->grid, &s->mesh, &body->shape, body->material,
+                                 def->points, def->order, def->planar != 0);
+        kiriPointsWork_Release(&work, &s->memory);
     }
     assert_true(built);
+}
+
+static inline void Body_End(Body* body, const BodyDef* def)
+{
+    Body_Divide(body);
+    Body_MakePatches(body, def);
     for (int32_t i = 0; i < body->sites.count; ++i) {
         Body_StartFrame(body, i);
     }
     body->system.frames = body->frames;
     body->system.frameCount = body->sites.count;
-    body->system.links = body->regions.links.data;
-    body->system.linkCount = body->regions.links.count;
+    body->system.links = body->links.links.data;
+    body->system.linkCount = body->links.links.count;
     body->system.patches = &body->patches;
     body->system.pins = body->pins;
     body->system.contacts = body->contacts;
@@ -138,6 +170,7 @@ static inline void Body_Drop(Body* body)
     const kiriMemory* memory = &body->scene.memory;
     kiriSolver_Destroy(body->solver);
     kiriPatches_Release(&body->patches, memory);
+    kiriLinks_Release(&body->links, memory);
     kiriShape_Release(&body->shape, memory);
     kiriRegions_Release(&body->regions, memory);
     kiriArray_Release(memory, &body->sites);
