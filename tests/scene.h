@@ -124,11 +124,49 @@ static inline void Scene_CutAtRandom(Scene* scene, int32_t count, int32_t steps,
     }
 }
 
+/* The grid follows the mesh, from the one before. */
+static inline void Scene_UpdateGrid(Scene* scene)
+{
+    kiriQuota quota = { INT64_MAX, 0 };
+    kiriMesh_Commit(&scene->mesh);
+    assert_int_equal(kiriGrid_Update(&scene->grid, &scene->mesh, &quota), KIRI_DONE);
+    kiriSquares_ClearTouched(&scene->mesh.squares);
+    assert_true(kiriField_Resize(&scene->field, &scene->memory, scene->grid.cells.count));
+}
+
 static inline void Scene_BuildGrid(Scene* scene)
 {
-    kiriMesh_Commit(&scene->mesh);
-    assert_true(kiriGrid_Build(&scene->grid, &scene->mesh));
-    assert_true(kiriField_Init(&scene->field, &scene->memory, scene->grid.cells.count));
+    kiriGrid_Reset(&scene->grid);
+    Scene_UpdateGrid(scene);
+}
+
+/* Numbers the pieces in the order of cells, over faces, and returns how many there are; `piece`, of each cell, is the
+   caller's to free. */
+static inline int32_t Scene_Pieces(const Scene* scene, int32_t** piece)
+{
+    const kiriGrid* grid = &scene->grid;
+    int32_t pieces = 0, *of = malloc(sizeof(int32_t) * (size_t)(grid->cells.count + 1));
+    for (int32_t c = 0; c < grid->cells.count; ++c) {
+        of[c] = KIRI_NONE;
+    }
+    for (int32_t s = 0; s < grid->squareCell.count; ++s) {
+        for (int32_t c = grid->squareCell.data[s]; c != KIRI_NONE; c = grid->cells.data[c].next) {
+            bool grown = of[c] == KIRI_NONE;
+            of[c] = grown ? pieces++ : of[c];
+            while (grown) {
+                grown = false;
+                for (int32_t f = 0; f < grid->faces.count; ++f) {
+                    const int32_t* ends = grid->faces.data[f].cell;
+                    if (ends[0] != KIRI_NONE && (of[ends[0]] == of[c]) != (of[ends[1]] == of[c])) {
+                        of[ends[0]] = of[ends[1]] = of[c];
+                        grown = true;
+                    }
+                }
+            }
+        }
+    }
+    *piece = of;
+    return pieces;
 }
 
 static inline void Scene_Init(Scene* scene, double width, double height, int32_t columns, int32_t rows,
@@ -180,15 +218,18 @@ static inline void Scene_InitRandom(Scene* scene, kiriSites* sites, int32_t coun
     Scene_CutAtRandom(scene, 12, 14, seed);
     Scene_BuildGrid(scene);
     memset(sites, 0, sizeof(*sites));
-    int32_t piece = 0;
+    int32_t* piece;
     bool* taken = calloc((size_t)scene->grid.cells.count, sizeof(bool));
-    for (int32_t c = 0; c < scene->grid.cells.count; ++c) {
-        if (scene->grid.cells.data[c].piece == piece) {
-            ++piece;
-            taken[c] = true;
-            assert_true(kiriArray_Push(&scene->memory, sites, Scene_MiddleOf(scene, c)));
+    int32_t pieces = Scene_Pieces(scene, &piece);
+    for (int32_t p = 0; p < pieces; ++p) {
+        int32_t c = 0;
+        while (piece[c] != p) {
+            ++c;
         }
+        taken[c] = true;
+        assert_true(kiriArray_Push(&scene->memory, sites, Scene_MiddleOf(scene, c)));
     }
+    free(piece);
     for (int32_t k = 0; k < count; ++k) {
         int32_t c = (int32_t)(Random(seed) % (uint32_t)scene->grid.cells.count);
         if (!taken[c]) {
