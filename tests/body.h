@@ -15,7 +15,8 @@ typedef struct Body {
     kiriRegions regions;
     kiriShape shape;
     kiriLinks links;
-    kiriMoments material[BODY_FRAMES]; /* of the regions */
+    KIRI_ARRAY(kiriMoments) material; /* of each region */
+    kiriPointsWork points;
     kiriPatches patches;
     kiriFrameData frames[BODY_FRAMES];
     kiriPinRow pins[4];
@@ -88,7 +89,7 @@ static inline void Body_AddRows(Body* body, int nu, int nv, double jitter, uint3
 static inline void Body_StartFrame(Body* body, int32_t i)
 {
     kiriFrameData* frame = &body->frames[i];
-    const kiriMoments* material = &body->material[i];
+    const kiriMoments* material = &body->material.data[i];
     frame->site = body->sites.data[i];
     frame->center = kiriMoments_Center(material);
     frame->x = Vec3(frame->center.x, frame->center.y, 0.0);
@@ -106,52 +107,47 @@ static inline void Body_MakeSolver(Body* body)
     kiriSolver_Commit(body->solver);
 }
 
-/* Regions, shape and links of the sites. */
+/* Regions, shape functions and links, and the material of each region summed plainly. */
 static inline void Body_Divide(Body* body)
 {
     Scene* s = &body->scene;
-    kiriQuota all = { INT64_MAX, 0 };
-    kiriSiteMove moves[BODY_FRAMES];
     int32_t count = body->sites.count;
-    assert_true(count <= BODY_FRAMES);
+    kiriQuota quota = { INT64_MAX, 0 };
+    kiriSiteMove moves[BODY_FRAMES];
     for (int32_t i = 0; i < count; ++i) {
         moves[i] = (kiriSiteMove){ i, KIRI_NONE };
     }
-    body->shape.rigidWeight = 0.95;
+    body->shape.rigidWeight = 0.9;
     assert_int_equal(kiriRegions_Update(&body->regions, &s->memory, &s->grid, &s->mesh, body->sites.data, count, moves,
-                                        count, &all),
+                                        count, &quota),
                      KIRI_DONE);
     assert_int_equal(kiriShape_Update(&body->shape, &s->memory, &s->grid, &s->mesh, &body->regions, body->sites.data,
-                                      count, moves, count, &all),
+                                      count, moves, count, &quota),
                      KIRI_DONE);
     assert_true(kiriLinks_Update(&body->links, &s->memory, &s->grid, &s->mesh, &body->regions, &body->shape,
                                  body->sites.data, count));
     kiriLinks_Commit(&body->links);
-    for (int32_t i = 0; i < count; ++i) {
-        body->material[i] = kiriTally_Moments(&body->regions.material.data[i], 536870912.0 * s->mesh.step);
+    assert_true(kiriArray_Resize(&s->memory, &body->material, count));
+    memset(body->material.data, 0, sizeof(kiriMoments) * (size_t)count);
+    for (int32_t c = 0; c < s->grid.cells.count; ++c) {
+        kiriMoments_Add(&body->material.data[body->regions.field.owner.data[c]], &s->grid.cells.data[c].material);
     }
-}
-
-static inline void Body_MakePatches(Body* body, const BodyDef* def)
-{
-    Scene* s = &body->scene;
-    bool built = true;
-    if (def->model == KIRI_MODEL_AFFINE) {
-        built = kiriAffine_Build(&body->patches, &s->memory, body->links.links.data, body->links.links.count,
-                                 body->material, body->sites.count, def->planar != 0);
-    } else if (def->model == KIRI_MODEL_POINTS) {
-        kiriPointsWork work = { 0 };
-        built = kiriPoints_Build(&body->patches, &work, &s->memory, &s->grid, &s->mesh, &body->shape, body->material,
-                                 def->points, def->order, def->planar != 0);
-        kiriPointsWork_Release(&work, &s->memory);
-    }
-    assert_true(built);
 }
 
 static inline void Body_End(Body* body, const BodyDef* def)
 {
+    Scene* s = &body->scene;
+    assert_true(body->sites.count <= BODY_FRAMES);
     Body_Divide(body);
-    Body_MakePatches(body, def);
+    bool built = true;
+    if (def->model == KIRI_MODEL_AFFINE) {
+        built = kiriAffine_Build(&body->patches, &s->memory, body->links.links.data, body->links.links.count,
+                                 body->material.data, body->sites.count, def->planar != 0);
+    } else if (def->model == KIRI_MODEL_POINTS) {
+        built = kiriPoints_Build(&body->patches, &body->points, &s->memory, &s->grid, &s->mesh, &body->shape,
+                                 body->material.data, def->points, def->order, def->planar != 0);
+    }
+    assert_true(built);
     for (int32_t i = 0; i < body->sites.count; ++i) {
         Body_StartFrame(body, i);
     }
@@ -170,6 +166,8 @@ static inline void Body_Drop(Body* body)
     const kiriMemory* memory = &body->scene.memory;
     kiriSolver_Destroy(body->solver);
     kiriPatches_Release(&body->patches, memory);
+    kiriPointsWork_Release(&body->points, memory);
+    kiriArray_Release(memory, &body->material);
     kiriLinks_Release(&body->links, memory);
     kiriShape_Release(&body->shape, memory);
     kiriRegions_Release(&body->regions, memory);
