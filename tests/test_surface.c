@@ -8,7 +8,7 @@
 #include <string.h>
 
 typedef struct Cloth {
-    kiriMemory memory;
+    kiriMemory memory, room; /* room: of the surface */
     kiriMeshData mesh;
     kiriSkin skin;
     kiriSurface surface;
@@ -39,7 +39,7 @@ static void Cloth_Init(Cloth* cloth, int32_t rows)
     }
     /* One triangle less, so that the last one has no partner. */
     memset(cloth, 0, sizeof(*cloth));
-    cloth->memory = kiriMemory_Make(NULL, NULL, NULL);
+    cloth->memory = cloth->room = kiriMemory_Make(NULL, NULL, NULL);
     const char* why = "";
     if (kiriMesh_Init(&cloth->mesh, &cloth->memory, positions, (SIDE + 1) * (rows + 1), indices, count / 3 - 1, 8,
                       &why) != KIRI_OK) {
@@ -49,7 +49,7 @@ static void Cloth_Init(Cloth* cloth, int32_t rows)
 
 static void Cloth_Release(Cloth* cloth)
 {
-    kiriSurface_Release(&cloth->surface, &cloth->memory);
+    kiriSurface_Release(&cloth->surface, &cloth->room);
     kiriArray_Release(&cloth->memory, &cloth->skin.spans);
     kiriArray_Release(&cloth->memory, &cloth->skin.weights);
     kiriArray_Release(&cloth->memory, &cloth->frames);
@@ -107,7 +107,7 @@ static void AddWeights(Cloth* cloth, kiriVec2 at)
 
 static void Write(Cloth* cloth)
 {
-    assert_true(kiriSurface_Resize(&cloth->surface, &cloth->memory, &cloth->mesh, cloth->frames.count));
+    assert_true(kiriSurface_Resize(&cloth->surface, &cloth->room, &cloth->mesh, cloth->frames.count));
     kiriSurface_WriteTopology(&cloth->surface, &cloth->mesh);
     kiriMesh_Commit(&cloth->mesh);
     for (int32_t v = cloth->skin.spans.count; v < cloth->mesh.vertices.count; ++v) {
@@ -369,9 +369,8 @@ static void RoomMayBeRefused(void** state)
     Cloth cloth;
     Copy copy;
     Purse purse = { -1, 0 };
-    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
     Cloth_Init(&cloth, SIDE);
-    cloth.memory = memory;
+    cloth.room = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
     FillCopy(&copy);
     AddFrame(&cloth, 0.5, 0.5);
     Write(&cloth);
@@ -380,7 +379,8 @@ static void RoomMayBeRefused(void** state)
     kiriMesh_Begin(&cloth.mesh);
     Cut(&cloth, 300, &seed);
     int32_t refused = 0;
-    for (purse.budget = 0; !kiriSurface_Resize(&cloth.surface, &memory, &cloth.mesh, 40); purse.budget = ++refused) {
+    for (purse.budget = 0; !kiriSurface_Resize(&cloth.surface, &cloth.room, &cloth.mesh, 40);
+         purse.budget = ++refused) {
         kiriRange vertices = { 0, cloth.surface.vertexCount }, triangles = { 0, cloth.surface.triangleCount };
         assert_int_equal(vertices.count, cloth.mesh.oldVertexCount);
         Fetch(&copy, &cloth.surface, vertices, triangles);
@@ -394,7 +394,6 @@ static void RoomMayBeRefused(void** state)
     CheckCopy(&copy, &cloth.mesh);
     CheckNormals(&cloth);
     FreeCopy(&copy);
-    kiriMesh_Release(&cloth.mesh);
     Cloth_Release(&cloth);
     assert_int_equal(purse.out, 0);
 }
