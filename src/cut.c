@@ -11,6 +11,7 @@ typedef struct Walk {
     double snap;
     kiriPoint at;   /* where the blade is now, */
     int32_t vertex; /* and a vertex there; KIRI_NONE outside the sheet */
+    int32_t splits; /* triangles made or reshaped */
     bool failed;    /* no memory */
 } Walk;
 
@@ -62,6 +63,7 @@ static kiriPoint Between(kiriPoint a, kiriPoint b, double share)
 
 static int32_t SplitEdge(Walk* walk, int32_t h, kiriPoint at)
 {
+    walk->splits += kiriMesh_Twin(walk->mesh, h) == KIRI_NONE ? 2 : 4;
     int32_t vertex = kiriMesh_SplitEdge(walk->mesh, h, at);
     walk->failed = walk->failed || vertex == KIRI_NONE;
     return vertex;
@@ -69,6 +71,7 @@ static int32_t SplitEdge(Walk* walk, int32_t h, kiriPoint at)
 
 static int32_t SplitTriangle(Walk* walk, int32_t triangle, kiriPoint at)
 {
+    walk->splits += 3;
     int32_t vertex = kiriMesh_SplitTriangle(walk->mesh, triangle, at);
     walk->failed = walk->failed || vertex == KIRI_NONE;
     return vertex;
@@ -315,9 +318,21 @@ static int32_t NextVertex(Walk* walk, int32_t h)
     return vertex != KIRI_NONE && IsNearer(walk, PlaceOf(walk, vertex)) ? vertex : KIRI_NONE;
 }
 
+/* The blade starts amid a triangle: it needs a vertex there. */
+static void Land(Walk* walk, int32_t triangle)
+{
+    walk->vertex = VertexIn(walk, triangle, walk->at);
+    walk->at = walk->failed ? walk->at : PlaceOf(walk, walk->vertex);
+}
+
 /* One step of the walk. False: the blade is where it can get, or there is no memory. */
 static bool Step(Walk* walk)
 {
+    int32_t triangle = walk->vertex == KIRI_NONE ? kiriMesh_Locate(walk->mesh, walk->at) : KIRI_NONE;
+    if (triangle != KIRI_NONE) {
+        Land(walk, triangle);
+        return !walk->failed;
+    }
     int32_t h = walk->vertex == KIRI_NONE ? KIRI_NONE : FindWedge(walk);
     if (h == KIRI_NONE) {
         return Enter(walk);
@@ -331,25 +346,23 @@ static bool Step(Walk* walk)
     return true;
 }
 
-bool kiriCut_Move(kiriMeshData* mesh, kiriBlade* blade, kiriPoint to, double snap)
+kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBlade* blade, kiriPoint to, double snap, kiriQuota* quota)
 {
-    if (SamePlace(blade->at, to)) {
-        return true;
-    }
-    Walk walk = { mesh, blade->at, to, snap, blade->at, blade->vertex, false };
-    int32_t triangle = walk.vertex == KIRI_NONE ? kiriMesh_Locate(mesh, walk.at) : KIRI_NONE;
-    if (triangle != KIRI_NONE) {
-        walk.vertex = VertexIn(&walk, triangle, walk.at);
-        walk.at = walk.failed ? walk.at : PlaceOf(&walk, walk.vertex);
-    }
-    while (!walk.failed && !SamePlace(walk.at, to) && Step(&walk)) {
+    Walk walk = { mesh, blade->isOnItsWay ? blade->from : blade->at, to, snap, blade->at, blade->vertex, 0, false };
+    bool isOnItsWay = !SamePlace(walk.from, to);
+    while (isOnItsWay && quota->left >= KIRI_MOST_SPLITS) {
+        walk.splits = 0;
+        isOnItsWay = Step(&walk) && !SamePlace(walk.at, to);
+        kiriQuota_Take(quota, walk.splits > 0 ? walk.splits : 1);
     }
     if (walk.failed) {
-        return false;
+        return KIRI_FAILED;
     }
     blade->at = walk.at;
     blade->vertex = walk.vertex;
-    return true;
+    blade->isOnItsWay = isOnItsWay;
+    blade->from = walk.from;
+    return isOnItsWay ? KIRI_MORE : KIRI_DONE;
 }
 
 static double Clamp(double x, double low, double high)
@@ -363,6 +376,8 @@ kiriBlade kiriCut_Place(const kiriMeshData* mesh, kiriVec2 local)
     blade.at = kiriMesh_Round(kiriVec2_Make(Clamp(local.x / mesh->step, LowestCoordinate, HighestCoordinate),
                                             Clamp(local.y / mesh->step, LowestCoordinate, HighestCoordinate)));
     blade.vertex = KIRI_NONE;
+    blade.isOnItsWay = false;
+    blade.from = blade.at;
     return blade;
 }
 

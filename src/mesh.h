@@ -53,7 +53,9 @@ typedef struct kiriMeshData {
     /* The caller's triangles, for provenance: their corners on the lattice, three a triangle. */
     KIRI_ARRAY(kiriPoint) sourceCorners;
 
-    /* The journal: what changed since kiriMesh_Begin. */
+    /* The journal: what changed since kiriMesh_Begin. Until Commit these are all that can have changed: the triangles of
+       savedTriangles and those from oldTriangleCount on; the vertices of savedVertices (their source and share, never
+       their place) and those from oldVertexCount on. So a view of the mesh needs to write no others. */
     uint32_t stamp;
     int32_t oldTriangleCount, oldVertexCount;
     uint32_t oldRevision;

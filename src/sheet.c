@@ -192,7 +192,8 @@ static bool TakeStroke(kiriSheetData* sheet, const kiriStroke* stroke)
     if (tip->blade.vertex == KIRI_NONE && (start.x != tip->blade.at.x || start.y != tip->blade.at.y)) {
         tip->blade = kiriCut_Place(mesh, from); /* it comes from far outside */
     }
-    return kiriCut_Move(mesh, &tip->blade, kiriMesh_Snap(mesh, to), sheet->snap);
+    kiriQuota all = { INT64_MAX, 0 };
+    return kiriCut_Move(mesh, &tip->blade, kiriMesh_Snap(mesh, to), sheet->snap, &all) == KIRI_DONE;
 }
 
 bool kiriSheet_SplitMesh(kiriSheetData* sheet)

@@ -28,6 +28,7 @@ bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriPoint 
     int64_t longer = extent.x > extent.y ? extent.x : extent.y;
     memset(squares, 0, sizeof(*squares));
     squares->side = (int32_t)(2 * CeilDivide(longer + 2, 2 * (int64_t)resolution));
+    squares->perStep = 1.0 / squares->side;
     squares->columns = (int32_t)CeilDivide((int64_t)extent.x + 2, squares->side);
     squares->rows = (int32_t)CeilDivide((int64_t)extent.y + 2, squares->side);
     squares->freeNode = KIRI_NONE;
@@ -56,26 +57,38 @@ void kiriSquares_Release(kiriSquares* squares, const kiriMemory* memory)
     memset(squares, 0, sizeof(*squares));
 }
 
+/* The column or row of an even coordinate, not negative. The quotient is at least 1 / side from a whole number: so its
+   rounding does not show, and the multiplication is as good as a division and faster. */
+static int32_t LineOf(const kiriSquares* squares, int32_t coordinate)
+{
+    return (int32_t)(squares->perStep * ((double)coordinate + 1.0));
+}
+
 /* The squares that the box of the corners overlaps. Corners are even and grid lines odd, so no corner is on a line. */
 static Range BoxOf(const kiriSquares* squares, const kiriPoint c[3])
 {
     Range range;
-    range.firstColumn = (Min3(c[0].x, c[1].x, c[2].x) + 1) / squares->side;
-    range.lastColumn = (Max3(c[0].x, c[1].x, c[2].x) + 1) / squares->side;
-    range.firstRow = (Min3(c[0].y, c[1].y, c[2].y) + 1) / squares->side;
-    range.lastRow = (Max3(c[0].y, c[1].y, c[2].y) + 1) / squares->side;
+    range.firstColumn = LineOf(squares, Min3(c[0].x, c[1].x, c[2].x));
+    range.lastColumn = LineOf(squares, Max3(c[0].x, c[1].x, c[2].x));
+    range.firstRow = LineOf(squares, Min3(c[0].y, c[1].y, c[2].y));
+    range.lastRow = LineOf(squares, Max3(c[0].y, c[1].y, c[2].y));
     return range;
+}
+
+static kiriPoint CornerOf(const kiriSquares* squares, int32_t column, int32_t row)
+{
+    kiriPoint corner = { column * squares->side - 1, row * squares->side - 1 };
+    return corner;
 }
 
 /* Separating axes: those of the square are its lines against the triangle's box, those of the triangle are its edges
    against the corner of the square that is farthest to their left. The caller has done the former. */
-static bool EdgesOverlap(const kiriSquares* squares, int32_t square, const kiriPoint c[3])
+static bool EdgesOverlap(kiriPoint low, int32_t side, const kiriPoint c[3])
 {
-    kiriPoint low = kiriSquares_Corner(squares, square);
     for (int i = 0; i < 3; ++i) {
         kiriPoint a = c[i], b = c[(i + 1) % 3], far;
-        far.x = b.y > a.y ? low.x : low.x + squares->side;
-        far.y = b.x > a.x ? low.y + squares->side : low.y;
+        far.x = b.y > a.y ? low.x : low.x + side;
+        far.y = b.x > a.x ? low.y + side : low.y;
         if (kiriOrient(a, b, far) <= 0) {
             return false;
         }
@@ -83,12 +96,19 @@ static bool EdgesOverlap(const kiriSquares* squares, int32_t square, const kiriP
     return true;
 }
 
+/* Does the triangle overlap this square of its box? In a box of one row or column it goes through all squares. */
+static bool OverlapsInBox(const kiriSquares* squares, Range box, int32_t column, int32_t row, const kiriPoint c[3])
+{
+    return box.firstColumn == box.lastColumn || box.firstRow == box.lastRow ||
+           EdgesOverlap(CornerOf(squares, column, row), squares->side, c);
+}
+
 bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriPoint corners[3])
 {
     Range r = BoxOf(squares, corners);
     int32_t column = square % squares->columns, row = square / squares->columns;
     return column >= r.firstColumn && column <= r.lastColumn && row >= r.firstRow && row <= r.lastRow &&
-           EdgesOverlap(squares, square, corners);
+           OverlapsInBox(squares, r, column, row, corners);
 }
 
 static void Touch(kiriSquares* squares, int32_t square)
@@ -177,7 +197,7 @@ bool kiriSquares_Insert(kiriSquares* squares, const kiriMemory* memory, int32_t 
     for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
         for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
             int32_t square = row * squares->columns + column;
-            if (EdgesOverlap(squares, square, corners) && !AddNode(squares, memory, square, triangle)) {
+            if (OverlapsInBox(squares, r, column, row, corners) && !AddNode(squares, memory, square, triangle)) {
                 kiriSquares_Remove(squares, triangle, corners);
                 return false;
             }
@@ -191,9 +211,8 @@ void kiriSquares_Remove(kiriSquares* squares, int32_t triangle, const kiriPoint 
     Range r = BoxOf(squares, corners);
     for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
         for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
-            int32_t square = row * squares->columns + column;
-            if (EdgesOverlap(squares, square, corners)) {
-                RemoveNode(squares, square, triangle);
+            if (OverlapsInBox(squares, r, column, row, corners)) {
+                RemoveNode(squares, row * squares->columns + column, triangle);
             }
         }
     }
@@ -201,7 +220,7 @@ void kiriSquares_Remove(kiriSquares* squares, int32_t triangle, const kiriPoint 
 
 int32_t kiriSquares_At(const kiriSquares* squares, kiriPoint p)
 {
-    int32_t column = (p.x + 1) / squares->side, row = (p.y + 1) / squares->side;
+    int32_t column = LineOf(squares, p.x), row = LineOf(squares, p.y);
     if (p.x < 0 || p.y < 0 || column >= squares->columns || row >= squares->rows) {
         return KIRI_NONE;
     }
@@ -210,8 +229,5 @@ int32_t kiriSquares_At(const kiriSquares* squares, kiriPoint p)
 
 kiriPoint kiriSquares_Corner(const kiriSquares* squares, int32_t square)
 {
-    kiriPoint corner;
-    corner.x = square % squares->columns * squares->side - 1;
-    corner.y = square / squares->columns * squares->side - 1;
-    return corner;
+    return CornerOf(squares, square % squares->columns, square / squares->columns);
 }

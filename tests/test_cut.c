@@ -11,11 +11,19 @@ static void InitSheet(kiriMeshData* mesh)
     kiriMesh_Begin(mesh);
 }
 
+/* All the way. */
+static kiriProgress Move(kiriMeshData* mesh, kiriBlade* blade, kiriPoint to, double snap)
+{
+    kiriQuota all = { INT64_MAX, 0 };
+    return kiriCut_Move(mesh, blade, to, snap, &all);
+}
+
 static kiriBlade Cut(kiriMeshData* mesh, const double* xy, int count, double snap)
 {
     kiriBlade blade = kiriCut_Place(mesh, kiriVec2_Make(xy[0], xy[1]));
     for (int i = 1; i < count; ++i) {
-        assert_true(kiriCut_Move(mesh, &blade, kiriMesh_Snap(mesh, kiriVec2_Make(xy[2 * i], xy[2 * i + 1])), snap));
+        assert_int_equal(Move(mesh, &blade, kiriMesh_Snap(mesh, kiriVec2_Make(xy[2 * i], xy[2 * i + 1])), snap),
+                         KIRI_DONE);
     }
     return blade;
 }
@@ -116,7 +124,7 @@ static void BladeGoesOn(void** state)
     assert_int_equal(blade.vertex, KIRI_NONE);
     for (int i = 0; i <= 12; ++i) {
         kiriPoint to = kiriMesh_Snap(&mesh, kiriVec2_Make(1.3, -0.75 + 0.5 * i));
-        assert_true(kiriCut_Move(&mesh, &blade, to, 1e-4 * LatticeSize));
+        assert_int_equal(Move(&mesh, &blade, to, 1e-4 * LatticeSize), KIRI_DONE);
         assert_int_equal(blade.vertex == KIRI_NONE, i < 2 || i > 9);
         assert_int_equal(CheckMesh(&mesh), i > 9 ? 2 : 1);
         kiriMesh_Commit(&mesh);
@@ -126,7 +134,7 @@ static void BladeGoesOn(void** state)
     /* standing still does nothing, wherever */
     int32_t triangles = mesh.triangles.count;
     blade = kiriCut_Place(&mesh, kiriVec2_Make(2.6, 2.7));
-    assert_true(kiriCut_Move(&mesh, &blade, blade.at, 1e-4 * LatticeSize));
+    assert_int_equal(Move(&mesh, &blade, blade.at, 1e-4 * LatticeSize), KIRI_DONE);
     assert_int_equal(mesh.triangles.count, triangles);
     kiriMesh_Release(&mesh);
 }
@@ -510,7 +518,7 @@ static void PlacesWithinRange(void** state)
     const double xy[] = { -9.0, -9.0, 9.0, 9.0 };
     blade = kiriCut_Place(&mesh, kiriVec2_Make(xy[0], xy[1]));
     kiriBlade end = kiriCut_Place(&mesh, kiriVec2_Make(xy[2], xy[3]));
-    assert_true(kiriCut_Move(&mesh, &blade, end.at, 1.0));
+    assert_int_equal(Move(&mesh, &blade, end.at, 1.0), KIRI_DONE);
     assert_int_equal(CheckMesh(&mesh), 2);
     kiriMesh_Release(&mesh);
 }
@@ -569,9 +577,9 @@ static Polyline RandomPolyline(uint32_t* seed, Pool* pool, double reach)
 
 static bool CutPolyline(kiriMeshData* mesh, const Polyline* line, double snap)
 {
-    kiriBlade blade = { line->points[0], KIRI_NONE };
+    kiriBlade blade = { line->points[0], KIRI_NONE, false, { 0, 0 } };
     for (int i = 1; i < line->count; ++i) {
-        if (!kiriCut_Move(mesh, &blade, line->points[i], snap)) {
+        if (Move(mesh, &blade, line->points[i], snap) != KIRI_DONE) {
             return false;
         }
     }
@@ -762,6 +770,113 @@ static void RepeatsAfterRollback(void** state)
     kiriMesh_Release(&twice);
 }
 
+/* ---- Interrupted moves ------------------------------------------------------------------------------------------- */
+
+/* Triangles that were not there, or had corners elsewhere: tearing a vertex does not count. */
+static int64_t CountReshaped(const kiriMeshData* mesh, const Copy* before)
+{
+    int64_t count = mesh->triangles.count - before->triangleCount;
+    for (int32_t t = 0; t < before->triangleCount; ++t) {
+        bool same = true;
+        for (int i = 0; i < 3; ++i) {
+            kiriPoint p = before->vertices[before->triangles[t].vertex[i]].at, q = TailAt(mesh, 3 * t + i);
+            same = same && p.x == q.x && p.y == q.y;
+        }
+        count += same ? 0 : 1;
+    }
+    return count;
+}
+
+static bool SameMesh(const kiriMeshData* a, const kiriMeshData* b)
+{
+    Copy copy = Copy_Make(a);
+    bool same = Copy_Equals(&copy, b) && a->births.count == b->births.count;
+    for (int32_t i = 0; same && i < a->births.count; ++i) {
+        const kiriBirth *p = &a->births.data[i], *q = &b->births.data[i];
+        same =
+            memcmp(p->parent, q->parent, sizeof(p->parent)) == 0 && memcmp(p->share, q->share, sizeof(p->share)) == 0;
+    }
+    Copy_Free(&copy);
+    return same;
+}
+
+/* Cuts with quotas up to `most` items, just enough for a step at least. Returns the items used. */
+static int64_t CutInParts(kiriMeshData* mesh, const Polyline* line, double snap, uint32_t* seed, uint32_t most,
+                          bool count)
+{
+    kiriBlade blade = { line->points[0], KIRI_NONE, false, { 0, 0 } };
+    int64_t used = 0;
+    for (int i = 1; i < line->count; ++i) {
+        kiriProgress progress = KIRI_MORE;
+        while (progress == KIRI_MORE) {
+            int64_t given = KIRI_MOST_SPLITS + (most > 0 ? Random(seed) % most : 0);
+            kiriQuota quota = { given, 0 };
+            Copy before = count ? Copy_Make(mesh) : (Copy){ NULL, NULL, 0, 0, 0 };
+            progress = kiriCut_Move(mesh, &blade, line->points[i], snap, &quota);
+            assert_true(progress != KIRI_FAILED && quota.left >= 0 && quota.left + quota.used == given);
+            assert_true(progress == KIRI_DONE || quota.left < KIRI_MOST_SPLITS);
+            if (count && quota.used > 0) { /* one step */
+                int64_t reshaped = CountReshaped(mesh, &before);
+                assert_true(quota.used == (reshaped > 0 ? reshaped : 1));
+            }
+            Copy_Free(&before);
+            used += quota.used;
+        }
+    }
+    return used;
+}
+
+static void InterruptedMovesGoOn(void** state)
+{
+    (void)state;
+    const double snaps[] = { 0.0, 1e-6, 1e-4, 1e-2 };
+    for (uint32_t round = 0; round < 8; ++round) {
+        kiriMeshData whole, steps, parts;
+        kiriMeshData* meshes[] = { &whole, &steps, &parts };
+        uint32_t seed = 70 + round;
+        Pool pool = { { { 0, 0 } }, 0 };
+        for (int k = 0; k < 3; ++k) {
+            InitRectangle(meshes[k], 8, 8, 1.0f, 1.0f, 16);
+        }
+        for (int i = 0; i < 12; ++i) {
+            double snap = snaps[round % 4] * LatticeSize;
+            Polyline line = RandomPolyline(&seed, &pool, round < 4 ? 0.6 : 0.1);
+            for (int k = 0; k < 3; ++k) {
+                kiriMesh_Begin(meshes[k]);
+            }
+            assert_true(CutPolyline(&whole, &line, snap));
+            int64_t used = CutInParts(&steps, &line, snap, &seed, 0, true);
+            assert_true(CutInParts(&parts, &line, snap, &seed, 40, false) == used);
+            assert_true(SameMesh(&whole, &steps) && SameMesh(&whole, &parts));
+        }
+        assert_true(whole.triangles.count > 300);
+        CheckMesh(&parts);
+        for (int k = 0; k < 3; ++k) {
+            kiriMesh_Release(meshes[k]);
+        }
+    }
+}
+
+/* Less than a step needs: nothing happens, however often. */
+static void SmallQuotasWait(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitSheet(&mesh);
+    kiriBlade blade = kiriCut_Place(&mesh, kiriVec2_Make(0.3, 0.2));
+    kiriPoint to = kiriMesh_Snap(&mesh, kiriVec2_Make(3.7, 2.9));
+    Copy copy = Copy_Make(&mesh);
+    kiriQuota quota = { KIRI_MOST_SPLITS - 1, 0 };
+    for (int i = 0; i < 3; ++i) {
+        assert_int_equal(kiriCut_Move(&mesh, &blade, to, 1.0, &quota), KIRI_MORE);
+    }
+    assert_true(quota.left == KIRI_MOST_SPLITS - 1 && quota.used == 0 && Copy_Equals(&copy, &mesh));
+    assert_int_equal(Move(&mesh, &blade, to, 1.0), KIRI_DONE);
+    assert_true(blade.at.x == to.x && blade.at.y == to.y);
+    Copy_Free(&copy);
+    kiriMesh_Release(&mesh);
+}
+
 /* ---- Touched squares --------------------------------------------------------------------------------------------- */
 
 static uint64_t Mix(uint64_t hash, int64_t value)
@@ -877,6 +992,8 @@ int main(void)
         cmocka_unit_test(CutsAtRandomOnARing),
         cmocka_unit_test(RollsBackWithoutMemory),
         cmocka_unit_test(RepeatsAfterRollback),
+        cmocka_unit_test(InterruptedMovesGoOn),
+        cmocka_unit_test(SmallQuotasWait),
         cmocka_unit_test(TouchesWhatChanges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -61,7 +61,9 @@ static void CutLine(Sheet* sheet, double x0, double y0, double x1, double y1)
 {
     kiriMesh_Begin(&sheet->mesh);
     kiriBlade blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(x0, y0));
-    assert_true(kiriCut_Move(&sheet->mesh, &blade, kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x1, y1)), 16.0));
+    kiriPoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x1, y1));
+    kiriQuota all = { INT64_MAX, 0 };
+    assert_int_equal(kiriCut_Move(&sheet->mesh, &blade, to, 16.0, &all), KIRI_DONE);
     kiriMesh_Commit(&sheet->mesh);
 }
 

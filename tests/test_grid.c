@@ -109,7 +109,8 @@ static void CutWithin(Sheet* sheet, const double* points, int32_t count)
     kiriBlade blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(points[0], points[1]));
     for (int32_t i = 1; i < count; ++i) {
         kiriPoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(points[2 * i], points[2 * i + 1]));
-        assert_true(kiriCut_Move(&sheet->mesh, &blade, to, 16.0));
+        kiriQuota all = { INT64_MAX, 0 };
+        assert_int_equal(kiriCut_Move(&sheet->mesh, &blade, to, 16.0, &all), KIRI_DONE);
     }
 }
 

@@ -545,6 +545,39 @@ static void ScramblesAndRollsBack(void** state)
     kiriMesh_Release(&mesh);
 }
 
+/* A view that is written where the journal says is as good as one that is written anew. */
+static void JournalTellsWhatChanged(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    static kiriTriangle triangles[1 << 14];
+    static kiriVertex vertices[1 << 14];
+    InitRectangle(&mesh, 8, 8, 1.0f, 1.0f, 8);
+    memcpy(triangles, mesh.triangles.data, (size_t)mesh.triangles.count * sizeof(kiriTriangle));
+    memcpy(vertices, mesh.vertices.data, (size_t)mesh.vertices.count * sizeof(kiriVertex));
+    for (uint32_t round = 1; round <= 40; ++round) {
+        kiriMesh_Begin(&mesh);
+        assert_true(Scramble(&mesh, 33 * round, 1 + (int)round));
+        for (int32_t i = 0; i < mesh.savedTriangles.count; ++i) {
+            int32_t t = mesh.savedTriangles.data[i].index;
+            triangles[t] = mesh.triangles.data[t];
+        }
+        for (int32_t i = 0; i < mesh.savedVertices.count; ++i) {
+            int32_t v = mesh.savedVertices.data[i].index;
+            vertices[v] = mesh.vertices.data[v];
+        }
+        memcpy(triangles + mesh.oldTriangleCount, mesh.triangles.data + mesh.oldTriangleCount,
+               (size_t)(mesh.triangles.count - mesh.oldTriangleCount) * sizeof(kiriTriangle));
+        memcpy(vertices + mesh.oldVertexCount, mesh.vertices.data + mesh.oldVertexCount,
+               (size_t)(mesh.vertices.count - mesh.oldVertexCount) * sizeof(kiriVertex));
+        kiriMesh_Commit(&mesh);
+        Copy view = { triangles, vertices, mesh.triangles.count, mesh.vertices.count, mesh.revision };
+        assert_true(Copy_Equals(&view, &mesh));
+    }
+    assert_in_range(mesh.triangles.count, 300, 1 << 14);
+    kiriMesh_Release(&mesh);
+}
+
 static void RollsBackWithoutMemory(void** state)
 {
     (void)state;
@@ -596,6 +629,7 @@ int main(void)
         cmocka_unit_test(Locates),
         cmocka_unit_test(Snaps),
         cmocka_unit_test(ScramblesAndRollsBack),
+        cmocka_unit_test(JournalTellsWhatChanged),
         cmocka_unit_test(RollsBackWithoutMemory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
