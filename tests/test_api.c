@@ -790,17 +790,19 @@ static void Copies(void** state)
     Host_Start(host);
     kiriSheetDef def = Host_SmallDef();
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 6, 6);
-    enum { MOST = 4096 };
+    enum { MOST = 16384 };
     static float places[8 * MOST], rest[2 * MOST];
     static uint16_t indices[3 * MOST];
     uint32_t revision = 0, seed = 5;
     kiriCut cut;
     float point[2] = { 0.1f, 0.5f };
     OK(kiriBeginCut(host->world, sheet, point, &cut));
-    for (int tick = 0; tick < 60; ++tick) {
+    for (int tick = 0; tick < 50; ++tick) {
         kiriDirty dirty;
         OK(kiriSheet_GetDirty(host->world, sheet, revision, &dirty));
         kiriMesh mesh = Host_Mesh(host, sheet);
+        assert_true(mesh.vertexCount <= MOST && mesh.triangleCount <= MOST);
+        assert_true(tick == 0 || dirty.newTriangles.first > 0);
         revision = dirty.revision;
         const kiriRange vertices[2] = { dirty.newVertices, dirty.oldVertices };
         const kiriRange triangles[2] = { dirty.newTriangles, dirty.oldTriangles };
