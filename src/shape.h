@@ -44,8 +44,8 @@ typedef struct kiriShape {
 
 /* Follows the changes of grid and regions (which are settled after it): costs what it touches, and a look at the cells
    of frames near by. `moves` as in kiriRegions_Update: distances to such a site are made from scratch. An item of the
-   quota is a cell whose distance is taken away, given or flooded, a weight put in its place, or a cell whose weights are
-   made to sum to 1. Every cell with an owner gets weights. KIRI_MORE: call again before grid, regions or sites change. On
+   quota is a cell whose distance is taken away, given or flooded, a weight put in its place, or a cell that gets room for
+   its first weights or whose weights are made to sum to 1. Every cell with an owner gets weights. KIRI_MORE: call again before grid, regions or sites change. On
    KIRI_FAILED only Reset or Release make sense. */
 kiriProgress kiriShape_Update(kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid,
                               const kiriMeshData* mesh, const kiriRegions* regions, const kiriSite* sites,

@@ -260,6 +260,7 @@ static inline void Follow_ScratchWeights(Follow* f, const Follow* other)
     f->memory = other->memory;
     f->mesh = other->mesh;
     f->shape.rigidWeight = other->shape.rigidWeight;
+    f->slice = other->slice;
     Follow_Grid(f);
     for (int32_t i = 0; i < other->sites.count; ++i) {
         int32_t a = other->grid.squareCell.data[other->grid.cells.data[other->sites.data[i].cell].square];
