@@ -31,8 +31,8 @@ typedef struct Look {
 typedef enum Stage { AT_REST, NEXT_FRAME, FROM_SITE, FROM_BORDER, OPENING, PUTTING, NORMALIZING } Stage;
 
 struct kiriShapeWork {
-    /* Of the frame at hand; empty between frames. All seeds are its own, so they need no owner, and lists that are loaded
-       neither. */
+    /* Of the frame at hand; empty between frames. All seeds are its own, so they need no owner, and lists that are
+       loaded neither. */
     kiriField fromSite;   /* distances to its site, no farther than its weight may be above zero, */
     kiriField fromBorder; /* and to the border of its region */
     kiriSeeds seeds;
@@ -255,7 +255,8 @@ static void Normalize(Job* job, int32_t cell)
 
 /* ---- One frame ---- */
 
-/* No way goes farther than a square a KIRI_UNIT, but for what a site off the middle of its square gains at its start. */
+/* No way goes farther than a square a KIRI_UNIT, but for what a site off the middle of its square gains at its start.
+   */
 static bool IsInBox(const Job* job)
 {
     int32_t square = job->grid->cells.data[job->sites[job->frame].cell].square, columns = job->mesh->squares.columns;
@@ -296,8 +297,8 @@ static int32_t ReachOf(const Job* job)
     return reach;
 }
 
-/* A cell has another owner, or is nearer to its site or farther: so the seeds of cells beside it may differ that see a border
-   of the frame's region between the two, and its own. */
+/* A cell has another owner, or is nearer to its site or farther: so the seeds of cells beside it may differ that see a
+   border of the frame's region between the two, and its own. */
 static void SuspectSeeds(Job* job, int32_t cell)
 {
     kiriField* field = &job->work->fromBorder;
@@ -339,8 +340,8 @@ static void LoadChanged(Job* job, kiriReach reach, int32_t limit, int32_t rim)
     }
 }
 
-/* Loads the list into the fields, and suspects what may change: all that is known at first. A site's seeds depend on the
-   steps of its cell. */
+/* Loads the list into the fields, and suspects what may change: all that is known at first. A site's seeds depend on
+   the steps of its cell. */
 static void Load(Job* job, int32_t limit)
 {
     kiriShapeWork* work = job->work;

@@ -1,4 +1,5 @@
-/* All that follows the cuts of a mesh, from grid to samples; for tests that compare it with the same made from scratch. */
+/* All that follows the cuts of a mesh, from grid to samples; for tests that compare it with the same made from scratch.
+   */
 #ifndef KIRI_TEST_FOLLOW_H
 #define KIRI_TEST_FOLLOW_H
 
