@@ -69,8 +69,7 @@ static bool IsTouched(const Border* border, int32_t region)
 
 /* ---- Order ------------------------------------------------------------------------------------------------------ */
 
-/* By square, axis, and the lowest triangles of the two cells: what does not depend on indices. No two faces share all.
-   */
+/* By square, axis, and the lowest triangles of the two cells: what does not depend on indices. No two faces share it. */
 static bool IsFaceBefore(const Border* border, int32_t a, int32_t b)
 {
     const kiriCell* cells = border->grid->cells.data;

@@ -1,5 +1,4 @@
-/* Samples: points that take their weights from the grid (section 6 of the paper). Mesh vertices and collision points.
-   */
+/* Samples: points that take their weights from the grid (section 6 of the paper): mesh vertices, collision points. */
 #ifndef KIRI_SAMPLE_H
 #define KIRI_SAMPLE_H
 

@@ -255,8 +255,7 @@ static void Normalize(Job* job, int32_t cell)
 
 /* ---- One frame ---- */
 
-/* No way goes farther than a square a KIRI_UNIT, but for what a site off the middle of its square gains at its start.
-   */
+/* No way goes farther than a square a KIRI_UNIT, but for what a site off its middle gains at the start. */
 static bool IsInBox(const Job* job)
 {
     int32_t square = job->grid->cells.data[job->sites[job->frame].cell].square, columns = job->mesh->squares.columns;
