@@ -69,7 +69,7 @@ static bool IsTouched(const Border* border, int32_t region)
 
 /* ---- Order ------------------------------------------------------------------------------------------------------ */
 
-/* By square, axis, and the lowest triangles of the two cells: what does not depend on indices. No two faces share it. */
+/* By square, axis, and the lowest triangles of the two cells: not by indices. No two faces share all of it. */
 static bool IsFaceBefore(const Border* border, int32_t a, int32_t b)
 {
     const kiriCell* cells = border->grid->cells.data;
@@ -310,7 +310,7 @@ static bool AddLink(const Border* border)
     return kiriArray_Push(border->memory, &border->work->made, made);
 }
 
-/* ---- All links of regions that are touched ------------------------------------------------------------------------ */
+/* ---- All links of regions that are touched ---------------------------------------------------------------------- */
 
 /* A face between two such regions is found from the lower one. */
 static bool FindFacesOf(const Border* border, int32_t region, int32_t cell)
