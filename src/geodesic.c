@@ -139,20 +139,26 @@ static void Log(kiriField* field, int32_t cell)
     }
 }
 
-/* The same where cells may have kept a value. One that has the very value of a seed is a suspect: it is settled so
-   that it passes that on once more. */
-static void ReachAgain(kiriField* field, kiriSeed to, bool seed)
+/* Takes a value that is nearer, or one that shall be passed on once more. */
+static void Give(kiriField* field, kiriSeed to)
 {
-    kiriSeed value = ValueOf(field, to.cell);
-    bool nearer = IsNearer(to, value);
-    if (nearer) {
+    if (IsNearer(to, ValueOf(field, to.cell))) {
         Log(field, to.cell);
         field->distance.data[to.cell] = to.distance;
         field->owner.data[to.cell] = to.owner;
     }
-    if ((nearer || (seed && !IsNearer(value, to))) && (field->marks.data[to.cell] & GIVEN) == 0) {
+    if ((field->marks.data[to.cell] & GIVEN) == 0) {
         field->marks.data[to.cell] |= GIVEN;
         field->settled.data[field->settled.count++] = to.cell;
+    }
+}
+
+/* Reach where cells may have kept a value: most have one that is nearer. */
+static void ReachAgain(kiriField* field, int32_t cell, int32_t distance, int32_t owner)
+{
+    int32_t has = field->distance.data[cell];
+    if (distance < has || (distance == has && owner < field->owner.data[cell])) {
+        Give(field, (kiriSeed){ cell, distance, owner });
     }
 }
 
@@ -192,7 +198,10 @@ static void TakeSeed(kiriField* field)
 {
     kiriSeed seed = PopSeed(field);
     if (field->cursor[STAGE] == GIVING) {
-        ReachAgain(field, seed, true);
+        /* One that has the very value of a seed is a suspect. */
+        if (!IsNearer(ValueOf(field, seed.cell), seed)) {
+            Give(field, seed);
+        }
     } else {
         Reach(field, seed.cell, seed.distance, seed.owner);
     }
@@ -208,8 +217,7 @@ static bool TakeSteps(kiriField* field, const kiriRule* rule, int32_t from, int 
     int32_t s = length == 0 ? run->first : run->end[length - 1];
     if (field->cursor[STAGE] == GIVING) {
         for (; s < end && field->settled.count < most; ++s) {
-            kiriSeed to = { steps[s].cell, distance, owner };
-            ReachAgain(field, to, false);
+            ReachAgain(field, steps[s].cell, distance, owner);
         }
     } else {
         for (; s < end && field->settled.count < most; ++s) {
