@@ -1,5 +1,6 @@
 /* The public API: checks arguments, turns ids into pointers, and calls the floor below. The only file that does either. */
 #include "material.h"
+#include "piece.h"
 #include "quality.h"
 #include "snapshot.h"
 #include "world.h"
@@ -568,6 +569,67 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
     }
     *count = found.count;
     kiriArray_Release(&world->memory, &found);
+    return KIRI_OK;
+}
+
+/* ---- Piece ---- */
+
+#define FIND_PIECE(data, piece)                                                                                        \
+    do {                                                                                                               \
+        CHECK(IsWithin(piece, 0, data->model.pieces.count - 1), "the sheet has no such piece");                        \
+        if (!kiriPieces_List(data)) {                                                                                  \
+            return FAIL(KIRI_ERROR_MEMORY, "out of memory");                                                           \
+        }                                                                                                              \
+    } while (0)
+
+kiriResult kiriSheet_GetPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceState* state)
+{
+    BEGIN(world);
+    CHECK(state != NULL, "state is null");
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    FIND_PIECE(data, piece);
+    *state = kiriPiece_State(data, piece);
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceMesh* mesh)
+{
+    BEGIN(world);
+    CHECK(mesh != NULL, "mesh is null");
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    FIND_PIECE(data, piece);
+    const kiriPieceLists* lists = &data->lists;
+    kiriSpan vertices = kiriPiece_Span(&lists->vertices, piece), triangles = kiriPiece_Span(&lists->triangles, piece);
+    kiriSpan points = kiriPiece_Span(&lists->points, piece);
+    mesh->vertices = lists->vertices.items.data + vertices.first;
+    mesh->triangles = lists->triangles.items.data + triangles.first;
+    mesh->indices = lists->corners.data + 3 * (int64_t)triangles.first;
+    mesh->collisionPoints = points.count > 0 ? lists->points.items.data + points.first : NULL;
+    mesh->vertexCount = vertices.count;
+    mesh->triangleCount = triangles.count;
+    mesh->collisionPointCount = points.count;
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, int32_t piece, const kiriFrame** frames,
+                                    int32_t* count)
+{
+    BEGIN(world);
+    CHECK(frames != NULL && count != NULL, "frames or count is null");
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    FIND_PIECE(data, piece);
+    kiriSpan span = kiriPiece_Span(&data->lists.frames, piece);
+    *frames = data->lists.ids.data + span.first;
+    *count = span.count;
+    return KIRI_OK;
+}
+
+kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* piece)
+{
+    BEGIN(world);
+    CHECK(piece != NULL, "piece is null");
+    FIND(sheet, kiriSheetData, frameIds, frame);
+    *piece = sheet->model.framePiece.data[kiriPool_Find(&world->frameIds, frame)->index];
     return KIRI_OK;
 }
 

@@ -1,5 +1,6 @@
 #include "sheet.h"
 
+#include "piece.h"
 #include "update.h"
 #include "view.h"
 
@@ -40,6 +41,7 @@ void kiriSheet_Release(kiriSheetData* sheet)
     kiriArray_Release(memory, &sheet->pinRows);
     kiriArray_Release(memory, &sheet->contactRows);
     kiriView_Release(sheet);
+    kiriPieces_Release(&sheet->lists, memory);
 }
 
 static kiriMat3 AxesOf(const kiriSheetDef* def)

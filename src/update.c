@@ -1,6 +1,7 @@
 #include "update.h"
 
 #include "affine.h"
+#include "piece.h"
 #include "point.h"
 #include "view.h"
 
@@ -146,6 +147,7 @@ kiriProgress kiriUpdate_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles)
 void kiriUpdate_CommitMesh(kiriSheetData* sheet)
 {
     if (sheet->mesh.savedTriangles.count > 0) {
+        sheet->lists.isFresh = false;
         kiriView_WriteTopology(sheet);
     }
     kiriMesh_Commit(&sheet->mesh);
@@ -573,95 +575,6 @@ kiriProgress kiriUpdate_Shape(kiriSheetData* sheet, kiriQuota* cells)
     }
 }
 
-/* ---- Pieces ---- */
-
-static int32_t Find(int32_t* parent, int32_t i)
-{
-    while (parent[i] != i) {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    return i;
-}
-
-/* Regions that links join are one piece, and others are not. */
-static bool JoinFrames(kiriSheetData* sheet)
-{
-    kiriUpdate* u = &sheet->update;
-    if (!kiriArray_Resize(sheet->memory, &u->parent, u->sites.count)) {
-        return false;
-    }
-    for (int32_t i = 0; i < u->sites.count; ++i) {
-        u->parent.data[i] = i;
-    }
-    for (int32_t k = 0; k < sheet->links.next.count; ++k) {
-        const kiriLink* link = &sheet->links.next.data[k];
-        int32_t i = Find(u->parent.data, link->i), j = Find(u->parent.data, link->j);
-        u->parent.data[i < j ? j : i] = i < j ? i : j;
-    }
-    return true;
-}
-
-/* The old piece that the material of a frame was in: of a new one, that of a frame which moves it on the old surface. */
-static int32_t OriginOf(const kiriSheetData* sheet, int32_t frame)
-{
-    if (frame < sheet->frames.count) {
-        return sheet->model.framePiece.data[frame];
-    }
-    if (sheet->frames.count == 0) {
-        return KIRI_NONE;
-    }
-    int32_t triangle = sheet->grid.cells.data[sheet->update.sites.data[frame].cell].triangle;
-    int32_t vertex = sheet->mesh.triangles.data[triangle].vertex[0];
-    kiriSpan span = sheet->vertexSkin.spans.data[vertex];
-    return sheet->model.framePiece.data[sheet->vertexSkin.weights.data[span.first].frame];
-}
-
-/* Of the parts of one old piece the largest goes on, and the others came off. */
-static void MarkCameOff(kiriSheetData* sheet)
-{
-    kiriModel* next = &sheet->update.next;
-    int32_t* largest = sheet->update.parent.data; /* of each origin; there are no more of them than frames */
-    for (int32_t o = 0; o < sheet->model.pieces.count; ++o) {
-        largest[o] = KIRI_NONE;
-    }
-    for (int32_t p = 0; p < next->pieces.count; ++p) {
-        int32_t o = next->pieces.data[p].origin;
-        if (o != KIRI_NONE && (largest[o] == KIRI_NONE ||
-                               next->pieces.data[p].area > next->pieces.data[largest[o]].area)) {
-            largest[o] = p;
-        }
-    }
-    for (int32_t p = 0; p < next->pieces.count; ++p) {
-        kiriPiece* piece = &next->pieces.data[p];
-        piece->cameOff = piece->origin != KIRI_NONE && largest[piece->origin] != p;
-    }
-}
-
-static bool BuildPieces(kiriSheetData* sheet)
-{
-    kiriUpdate* u = &sheet->update;
-    kiriModel* next = &u->next;
-    next->pieces.count = 0;
-    if (!JoinFrames(sheet) || !kiriArray_Resize(sheet->memory, &next->framePiece, u->sites.count)) {
-        return false;
-    }
-    for (int32_t i = 0; i < u->sites.count; ++i) {
-        int32_t root = Find(u->parent.data, i);
-        if (root == i) {
-            kiriPiece piece = { 0.0, OriginOf(sheet, i), false };
-            next->framePiece.data[i] = next->pieces.count;
-            if (!kiriArray_Push(sheet->memory, &next->pieces, piece)) {
-                return false;
-            }
-        }
-        next->framePiece.data[i] = next->framePiece.data[root];
-        next->pieces.data[next->framePiece.data[i]].area += u->material.data[i].area;
-    }
-    MarkCameOff(sheet);
-    return true;
-}
-
 /* ---- Samples ---- */
 
 /* The points that were staged, in their new cells. */
@@ -702,10 +615,7 @@ static bool MarkPieces(kiriSheetData* sheet)
 static bool StartPoints(kiriSheetData* sheet, int32_t piece)
 {
     kiriUpdate* u = &sheet->update;
-    int32_t frame = 0;
-    while (u->next.framePiece.data[frame] != piece) {
-        ++frame;
-    }
+    int32_t frame = u->next.pieces.data[piece].frame;
     u->placer.sites.count = 0;
     return kiriPlacer_TakePiece(&u->placer, sheet->memory, &sheet->grid, u->sites.data[frame].cell) &&
            kiriPlacer_Start(&u->placer, sheet->memory, &sheet->grid, &sheet->mesh, NULL,
@@ -753,7 +663,7 @@ static kiriProgress PlacePoints(kiriSheetData* sheet, kiriQuota* samples)
 
 static bool BeginSamples(kiriSheetData* sheet)
 {
-    return BuildPieces(sheet) &&
+    return kiriPieces_Stage(sheet) &&
            kiriRefresh_Start(&sheet->update.refresh, sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh,
                              sheet->update.oldVertices);
 }
@@ -904,6 +814,7 @@ void kiriUpdate_Commit(kiriSheetData* sheet)
     u->touched.vertices = sheet->vertexSkin.staged.count;
     u->touched.points = sheet->pointSkin.staged.count;
     u->touched.links = sheet->links.rebuilt;
+    sheet->lists.isFresh = false;
     CommitFrames(sheet);
     CommitPoints(sheet);
     kiriSkin_Commit(&sheet->vertexSkin);

@@ -161,15 +161,18 @@ static void Commit(kiriWorld* world, kiriSheetData* sheet)
     int32_t oldFrames = sheet->frames.count;
     kiriUpdate_Commit(sheet);
     CountWork(&world->profile, sheet);
+    for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
+        sheet->frames.data[i].id = kiriPool_Add(&world->frameIds, &world->memory, sheet, i);
+    }
     for (int32_t piece = 0; piece < sheet->model.pieces.count; ++piece) {
         if (sheet->model.pieces.data[piece].cameOff) {
             kiriEvent* event = AddEvent(world, KIRI_EVENT_PIECE_OFF, sheet);
             event->piece = piece;
+            event->frame = sheet->frames.data[sheet->model.pieces.data[piece].frame].id;
             event->area = (float)sheet->model.pieces.data[piece].area;
         }
     }
     for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
-        sheet->frames.data[i].id = kiriPool_Add(&world->frameIds, &world->memory, sheet, i);
         AddEvent(world, KIRI_EVENT_FRAME_ADDED, sheet)->frame = sheet->frames.data[i].id;
     }
 }
