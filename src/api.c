@@ -633,6 +633,60 @@ kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* 
     return KIRI_OK;
 }
 
+/* Why the sheet cannot be taken apart now, or null. */
+static const char* FaultOfParting(const kiriSheetData* sheet)
+{
+    if (sheet->update.stage != KIRI_NONE || sheet->update.isStale) {
+        return "a cut is being worked on; ask again when its work is done";
+    }
+    return NULL;
+}
+
+#define CHECK_PARTING(data, piece)                                                                                     \
+    do {                                                                                                               \
+        const char* parting = FaultOfParting(data);                                                                    \
+        if (parting != NULL) {                                                                                         \
+            return FAIL(KIRI_ERROR_STATE, parting);                                                                    \
+        }                                                                                                              \
+        CHECK(IsWithin(piece, 0, data->model.pieces.count - 1), "the sheet has no such piece");                        \
+        if (data->model.pieces.count == 1) {                                                                           \
+            return FAIL(KIRI_ERROR_STATE, "the piece is all of the sheet");                                            \
+        }                                                                                                              \
+    } while (0)
+
+kiriResult kiriSheet_DetachPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriSheet* detached)
+{
+    BEGIN(world);
+    CHECK(detached != NULL, "detached is null");
+    *detached = 0;
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    CHECK_PARTING(data, piece);
+    bool ok = kiriWorld_DetachPiece(world, data, piece, detached);
+    return ok ? KIRI_OK : FAIL(KIRI_ERROR_MEMORY, "out of memory; nothing has changed");
+}
+
+kiriResult kiriSheet_DestroyPiece(kiriWorld* world, kiriSheet sheet, int32_t piece)
+{
+    BEGIN(world);
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    CHECK_PARTING(data, piece);
+    bool ok = kiriWorld_DropPiece(world, data, piece);
+    return ok ? KIRI_OK : FAIL(KIRI_ERROR_MEMORY, "out of memory; nothing has changed");
+}
+
+kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count)
+{
+    BEGIN(world);
+    CHECK(count != NULL && IsAtLeast(area, 0.0f), "count is null, or area not finite or below 0");
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    const char* why = FaultOfParting(data);
+    if (why != NULL) {
+        return FAIL(KIRI_ERROR_STATE, why);
+    }
+    bool ok = kiriWorld_DropCrumbs(world, data, area, count);
+    return ok ? KIRI_OK : FAIL(KIRI_ERROR_MEMORY, "out of memory; nothing has changed");
+}
+
 /* ---- Cut ---- */
 
 static void Wait(const kiriWorld* world, kiriCutData* cut, kiriVec2 to, bool jump)

@@ -56,7 +56,7 @@ static kiriMat3 AxesOf(const kiriSheetDef* def)
 static void SetParameters(kiriSheetData* sheet, const kiriSheetDef* def)
 {
     double longer = 536870912.0; /* 2^29 lattice steps, see mesh.h */
-    double area = 0.5 * (double)kiriMesh_DoubledArea(&sheet->mesh) * sheet->mesh.step * sheet->mesh.step;
+    double area = kiriUpdate_WholeArea(sheet);
     sheet->material = def->material;
     sheet->snap = def->snapDistance > 0.0f ? def->snapDistance / sheet->mesh.step : 1e-4 * longer;
     sheet->shape.rigidWeight = def->rigidWeight;
@@ -149,6 +149,7 @@ static bool BuildAll(kiriSheetData* sheet, const kiriSheetDef* def)
     kiriUpdate* u = &sheet->update;
     kiriQuota all = { INT64_MAX, 0 };
     u->step = 1; /* sites that the caller placed are where they shall be */
+    u->whole = kiriUpdate_WholeArea(sheet);
     u->spread = def->framePoints != NULL ? 0 : def->frameCount;
     return StartSkin(sheet) && kiriUpdate_Regions(sheet, &all) == KIRI_DONE && kiriUpdate_Shape(sheet, &all) == KIRI_DONE &&
            kiriUpdate_Samples(sheet, &all) == KIRI_DONE && kiriUpdate_Constants(sheet, &all) == KIRI_DONE;

@@ -96,6 +96,7 @@ typedef struct kiriUpdate {
     int32_t spread;    /* frames to spread over the sheet, at its start */
     kiriPlacer placer;
     bool isPlacing;
+    double whole;                   /* m^2 of the sheet; while things are spread over it */
     int32_t at;                     /* orphan, frame or piece that is being seen to */
     KIRI_ARRAY(uint8_t) marks;      /* of cells, or frames */
     KIRI_ARRAY(uint8_t) allowed;    /* of cells */
@@ -117,7 +118,8 @@ typedef struct kiriSheetData {
     double snap; /* lattice steps */
     kiriMechanics mechanics;
     double rigidArea;
-    int32_t maxFrames, iterations, pointCount, integrationPoints, integrationOrder;
+    int32_t maxFrames, iterations, integrationOrder;
+    double pointCount, integrationPoints; /* of the def; of a part of a sheet its share of them */
     bool alwaysScratch;
 
     kiriGrid grid;

@@ -318,19 +318,19 @@ static double AreaOf(const kiriSheetData* sheet, const int32_t* cells, int32_t c
     return area;
 }
 
-static double WholeArea(const kiriSheetData* sheet)
+double kiriUpdate_WholeArea(const kiriSheetData* sheet)
 {
     return 0.5 * (double)kiriMesh_DoubledArea(&sheet->mesh) * sheet->mesh.step * sheet->mesh.step;
 }
 
 /* How many of `count` things spread over the sheet fall to the piece in the placer. */
-static int32_t ShareOf(const kiriSheetData* sheet, int32_t count)
+static int32_t ShareOf(const kiriSheetData* sheet, double count)
 {
     const kiriPlacer* placer = &sheet->update.placer;
-    if (count == 0) {
+    if (count == 0.0) {
         return 1;
     }
-    double share = AreaOf(sheet, placer->cells.data, placer->cells.count) / WholeArea(sheet);
+    double share = AreaOf(sheet, placer->cells.data, placer->cells.count) / sheet->update.whole;
     int32_t whole = (int32_t)(count * share + 0.5);
     return whole > 1 ? whole : 1;
 }
@@ -595,7 +595,7 @@ static bool MovePoints(kiriSheetData* sheet)
 /* A piece with points only changes into one without when it falls apart. */
 static bool NeedsPoints(const kiriSheetData* sheet)
 {
-    return sheet->pointCount > 0 && sheet->update.next.pieces.count != sheet->model.pieces.count;
+    return sheet->pointCount > 0.0 && sheet->update.next.pieces.count != sheet->model.pieces.count;
 }
 
 /* Marks the pieces that hold a point. */
@@ -605,6 +605,7 @@ static bool MarkPieces(kiriSheetData* sheet)
     if (!ClearMarks(sheet, u->next.pieces.count)) {
         return false;
     }
+    u->whole = NeedsPoints(sheet) ? kiriUpdate_WholeArea(sheet) : 0.0;
     for (int32_t i = 0; NeedsPoints(sheet) && i < sheet->points.count; ++i) {
         int32_t cell = kiriSample_Around(&sheet->grid, &sheet->mesh, sheet->points.data[i].at);
         u->marks.data[u->next.framePiece.data[sheet->regions.field.owner.data[cell]]] = 1;

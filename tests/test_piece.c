@@ -1,6 +1,9 @@
 /* Pieces: what is in them, and sheets of their own. Where the header can tell, only it is asked. */
 #include "host.h"
 
+#include "piece.h"
+#include "world.h"
+
 enum { MOST_PIECES = 4096 };
 
 /* ---- Scenes ---- */
@@ -315,12 +318,366 @@ static void TestEventNamesFrame(void** state)
     Host_Stop(&host);
 }
 
+/* ---- Sheets of their own ---- */
+
+static kiriSheetData* DataOf(const Host* host, kiriSheet sheet)
+{
+    for (int32_t i = 0; i < host->world->sheets.count; ++i) {
+        if (host->world->sheets.data[i]->id == sheet) {
+            return host->world->sheets.data[i];
+        }
+    }
+    return NULL;
+}
+
+/* What a sheet was, by value, and where each vertex, triangle, frame and point of a part comes from. */
+typedef struct Before {
+    kiriSheetData data; /* its arrays are copies */
+    kiriTotals totals;
+} Before;
+
+#define COPY(array)                                                                                                    \
+    do {                                                                                                               \
+        void* copy = malloc(sizeof(*(array).data) * (size_t)((array).count + 1));                                      \
+        memcpy(copy, (array).data, sizeof(*(array).data) * (size_t)(array).count);                                     \
+        (array).data = copy;                                                                                           \
+    } while (0)
+
+static Before Remember(Host* host, kiriSheet sheet)
+{
+    Before before = { *DataOf(host, sheet), Host_Totals(host, sheet) };
+    kiriSheetData* data = &before.data;
+    assert_true(kiriPieces_List(DataOf(host, sheet)));
+    data->lists = DataOf(host, sheet)->lists;
+    COPY(data->mesh.triangles);
+    COPY(data->mesh.vertices);
+    COPY(data->vertexSkin.spans);
+    COPY(data->vertexSkin.weights);
+    COPY(data->pointSkin.spans);
+    COPY(data->pointSkin.weights);
+    COPY(data->frames);
+    COPY(data->points);
+    COPY(data->pins);
+    COPY(data->links.links);
+    COPY(data->grid.cells);
+    COPY(data->grid.squareCell);
+    COPY(data->regions.field.owner);
+    COPY(data->regions.field.distance);
+    COPY(data->regions.onBorder);
+    COPY(data->shape.spans);
+    COPY(data->shape.weights);
+    COPY(data->model.patches.patches);
+    COPY(data->model.patches.shares);
+    COPY(data->model.pinFrame);
+    COPY(data->model.framePiece);
+    COPY(data->surface.positions);
+    COPY(data->surface.exact);
+    return before;
+}
+
+static void Forget(Before* before)
+{
+    kiriSheetData* data = &before->data;
+    void* copies[] = { data->mesh.triangles.data,       data->mesh.vertices.data,       data->vertexSkin.spans.data,
+                       data->vertexSkin.weights.data,   data->pointSkin.spans.data,     data->pointSkin.weights.data,
+                       data->frames.data,               data->points.data,              data->pins.data,
+                       data->links.links.data,          data->grid.cells.data,          data->grid.squareCell.data,
+                       data->regions.field.owner.data,  data->regions.field.distance.data,
+                       data->regions.onBorder.data,     data->shape.spans.data,         data->shape.weights.data,
+                       data->model.patches.patches.data, data->model.patches.shares.data, data->model.pinFrame.data,
+                       data->model.framePiece.data,     data->surface.positions.data,   data->surface.exact.data };
+    for (size_t i = 0; i < sizeof(copies) / sizeof(copies[0]); ++i) {
+        free(copies[i]);
+    }
+}
+
+/* The maps of a part, made here from the pieces that it holds. */
+typedef struct Maps {
+    int32_t *vertex, *triangle, *frame, *point; /* of the part: index in the sheet */
+    int32_t *vertexTo, *triangleTo, *frameTo;   /* and back, or KIRI_NONE */
+} Maps;
+
+static int32_t* Back(const int32_t* from, int32_t count, int32_t whole)
+{
+    int32_t* back = malloc(sizeof(int32_t) * (size_t)(whole + 1));
+    for (int32_t i = 0; i < whole; ++i) {
+        back[i] = KIRI_NONE;
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        back[from[i]] = i;
+    }
+    return back;
+}
+
+static bool IsIn(const kiriSheetData* was, int32_t frame, int32_t piece, bool isRest)
+{
+    return (was->model.framePiece.data[frame] == piece) != isRest;
+}
+
+static int32_t FrameOfVertex(const kiriSheetData* was, int32_t vertex)
+{
+    return was->vertexSkin.weights.data[was->vertexSkin.spans.data[vertex].first].frame;
+}
+
+static Maps Map(const kiriSheetData* was, const kiriSheetData* part, int32_t piece, bool isRest)
+{
+    Maps maps;
+    int32_t n = 0;
+    maps.vertex = malloc(sizeof(int32_t) * (size_t)was->mesh.vertices.count);
+    maps.triangle = malloc(sizeof(int32_t) * (size_t)was->mesh.triangles.count);
+    maps.frame = malloc(sizeof(int32_t) * (size_t)was->frames.count);
+    maps.point = malloc(sizeof(int32_t) * (size_t)(was->points.count + 1));
+    for (int32_t v = 0; v < was->mesh.vertices.count; ++v) {
+        maps.vertex[n] = v;
+        n += IsIn(was, FrameOfVertex(was, v), piece, isRest);
+    }
+    assert_int_equal(n, part->mesh.vertices.count);
+    n = 0;
+    for (int32_t t = 0; t < was->mesh.triangles.count; ++t) {
+        maps.triangle[n] = t;
+        n += IsIn(was, FrameOfVertex(was, was->mesh.triangles.data[t].vertex[0]), piece, isRest);
+    }
+    assert_int_equal(n, part->mesh.triangles.count);
+    n = 0;
+    for (int32_t f = 0; f < was->frames.count; ++f) {
+        maps.frame[n] = f;
+        n += IsIn(was, f, piece, isRest);
+    }
+    assert_int_equal(n, part->frames.count);
+    n = 0;
+    for (int32_t i = 0; i < was->points.count; ++i) {
+        maps.point[n] = i;
+        n += IsIn(was, was->points.data[i].frame, piece, isRest);
+    }
+    assert_int_equal(n, part->points.count);
+    maps.vertexTo = Back(maps.vertex, part->mesh.vertices.count, was->mesh.vertices.count);
+    maps.triangleTo = Back(maps.triangle, part->mesh.triangles.count, was->mesh.triangles.count);
+    maps.frameTo = Back(maps.frame, part->frames.count, was->frames.count);
+    return maps;
+}
+
+static void Maps_Free(Maps* maps)
+{
+    free(maps->vertex);
+    free(maps->triangle);
+    free(maps->frame);
+    free(maps->point);
+    free(maps->vertexTo);
+    free(maps->triangleTo);
+    free(maps->frameTo);
+}
+
+static void CheckSkin(const kiriSkin* was, const kiriSkin* is, const int32_t* sample, int32_t count, const Maps* maps)
+{
+    assert_int_equal(is->spans.count, count);
+    for (int32_t i = 0; i < count; ++i) {
+        kiriSpan a = was->spans.data[sample[i]], b = is->spans.data[i];
+        assert_int_equal(a.count, b.count);
+        for (int32_t k = 0; k < a.count; ++k) {
+            kiriWeight x = was->weights.data[a.first + k], y = is->weights.data[b.first + k];
+            assert_int_equal(maps->frameTo[x.frame], y.frame);
+            assert_memory_equal(&x.value, &y.value, sizeof(double));
+        }
+    }
+}
+
+static void CheckMesh(const kiriSheetData* was, const kiriSheetData* is, const Maps* maps)
+{
+    for (int32_t t = 0; t < is->mesh.triangles.count; ++t) {
+        kiriTriangle a = was->mesh.triangles.data[maps->triangle[t]], b = is->mesh.triangles.data[t];
+        assert_int_equal(a.source, b.source);
+        for (int k = 0; k < 3; ++k) {
+            int32_t twin = a.twin[k] == KIRI_NONE ? KIRI_NONE : maps->triangleTo[a.twin[k] / 3];
+            assert_int_equal(maps->vertexTo[a.vertex[k]], b.vertex[k]);
+            assert_int_equal(b.twin[k], twin == KIRI_NONE ? KIRI_NONE : 3 * twin + a.twin[k] % 3);
+            assert_int_equal(b.open >> k & 1, twin == KIRI_NONE ? 0 : a.open >> k & 1);
+        }
+    }
+    for (int32_t v = 0; v < is->mesh.vertices.count; ++v) {
+        const kiriVertex *a = &was->mesh.vertices.data[maps->vertex[v]], *b = &is->mesh.vertices.data[v];
+        assert_memory_equal(&a->at, &b->at, sizeof(a->at));
+        assert_int_equal(a->source, b->source);
+        assert_memory_equal(a->share, b->share, sizeof(a->share));
+        assert_int_equal(is->mesh.triangles.data[b->edge / 3].vertex[b->edge % 3], v);
+        kiriVec3 off = kiriVec3_Sub(was->surface.exact.data[maps->vertex[v]], is->surface.exact.data[v]);
+        assert_true(kiriVec3_Length(off) <= (is->surface.skinning == KIRI_SKINNING_LINEAR ? 0.0 : 1e-14));
+    }
+}
+
+/* Regions and weights, cell by cell. */
+static void CheckCells(const kiriSheetData* was, const kiriSheetData* is, const Maps* maps)
+{
+    int32_t seen = 0;
+    for (int32_t s = 0; s < is->grid.squareCell.count; ++s) {
+        int32_t a = was->grid.squareCell.data[s];
+        for (int32_t b = is->grid.squareCell.data[s]; b != KIRI_NONE; b = is->grid.cells.data[b].next, ++seen) {
+            while (maps->triangleTo[was->grid.cells.data[a].triangle] != is->grid.cells.data[b].triangle) {
+                a = was->grid.cells.data[a].next;
+            }
+            assert_memory_equal(&was->grid.cells.data[a].material, &is->grid.cells.data[b].material,
+                                sizeof(kiriMoments));
+            assert_int_equal(maps->frameTo[was->regions.field.owner.data[a]], is->regions.field.owner.data[b]);
+            assert_int_equal(was->regions.field.distance.data[a], is->regions.field.distance.data[b]);
+            assert_int_equal(was->regions.onBorder.data[a], is->regions.onBorder.data[b]);
+            kiriSpan x = was->shape.spans.data[a], y = is->shape.spans.data[b];
+            assert_int_equal(x.count, y.count);
+            for (int32_t k = 0; k < x.count; ++k) {
+                const kiriCellWeight *p = &was->shape.weights.data[x.first + k],
+                                     *q = &is->shape.weights.data[y.first + k];
+                assert_int_equal(maps->frameTo[p->frame], q->frame);
+                assert_memory_equal(&p->value, &q->value, sizeof(double));
+            }
+        }
+    }
+    assert_int_equal(seen, is->grid.cellCount);
+}
+
+static void CheckLinks(const kiriSheetData* was, const kiriSheetData* is, const Maps* maps)
+{
+    int32_t n = 0;
+    for (int32_t k = 0; k < was->links.links.count; ++k) {
+        kiriLink link = was->links.links.data[k];
+        link.i = maps->frameTo[link.i];
+        link.j = maps->frameTo[link.j];
+        if (link.i != KIRI_NONE) {
+            assert_memory_equal(&link, &is->links.links.data[n++], sizeof(link));
+        }
+    }
+    assert_int_equal(n, is->links.links.count);
+    n = 0;
+    for (int32_t k = 0; k < was->model.patches.patches.count; ++k) {
+        const kiriPatch* patch = &was->model.patches.patches.data[k];
+        const kiriShare* share = &was->model.patches.shares.data[patch->first];
+        if (maps->frameTo[share->frame] == KIRI_NONE) {
+            continue;
+        }
+        const kiriPatch* other = &is->model.patches.patches.data[n++];
+        assert_true(patch->area == other->area && patch->lean == other->lean);
+        assert_int_equal(patch->count, other->count);
+        for (int32_t m = 0; m < patch->count; ++m) {
+            kiriShare x = share[m], y = is->model.patches.shares.data[other->first + m];
+            assert_int_equal(maps->frameTo[x.frame], y.frame);
+            assert_true(x.weight == y.weight && x.slope.x == y.slope.x && x.move.y == y.move.y && x.u.x == y.u.x);
+        }
+    }
+    assert_int_equal(n, is->model.patches.patches.count);
+}
+
+static void CheckFrames(Host* host, kiriSheet sheet, const kiriSheetData* was, const kiriSheetData* is,
+                        const Maps* maps)
+{
+    for (int32_t f = 0; f < is->frames.count; ++f) {
+        kiriFrameData a = was->frames.data[maps->frame[f]], b = is->frames.data[f];
+        assert_memory_equal(&a.site.at, &b.site.at, sizeof(a.site.at));
+        memcpy(&a.site, &b.site, sizeof(a.site));
+        assert_memory_equal(&a, &b, sizeof(a));
+        const kiriSlot* slot = kiriPool_Find(&host->world->frameIds, b.id);
+        assert_true(slot->owner == is && slot->index == f);
+        assert_int_equal(is->id, sheet);
+    }
+    for (int32_t i = 0; i < is->points.count; ++i) {
+        const kiriSample *a = &was->points.data[maps->point[i]], *b = &is->points.data[i];
+        assert_memory_equal(&a->at, &b->at, sizeof(a->at));
+        assert_int_equal(maps->frameTo[a->frame], b->frame);
+    }
+    for (int32_t i = 0, n = 0; i < was->pins.count; ++i) {
+        if (maps->frameTo[was->model.pinFrame.data[i]] != KIRI_NONE) {
+            const kiriSlot* slot = kiriPool_Find(&host->world->pinIds, was->pins.data[i].id);
+            assert_memory_equal(&was->pins.data[i], &is->pins.data[n], sizeof(kiriPinData));
+            assert_int_equal(maps->frameTo[was->model.pinFrame.data[i]], is->model.pinFrame.data[n]);
+            assert_true(slot->owner == is && slot->index == n++);
+        }
+    }
+}
+
+static void CheckPart(Host* host, kiriSheet sheet, const Before* before, int32_t piece, bool isRest)
+{
+    const kiriSheetData *was = &before->data, *is = DataOf(host, sheet);
+    Maps maps = Map(was, is, piece, isRest);
+    CheckMesh(was, is, &maps);
+    CheckCells(was, is, &maps);
+    CheckLinks(was, is, &maps);
+    CheckSkin(&was->vertexSkin, &is->vertexSkin, maps.vertex, is->mesh.vertices.count, &maps);
+    CheckSkin(&was->pointSkin, &is->pointSkin, maps.point, is->points.count, &maps);
+    CheckFrames(host, sheet, was, is, &maps);
+    Maps_Free(&maps);
+    CheckPieces(host, sheet);
+}
+
+/* Area, mass, energy and momentum of both are those of the one before. */
+static void CheckSum(Host* host, const Before* before, kiriSheet a, kiriSheet b)
+{
+    kiriTotals x = Host_Totals(host, a), y = Host_Totals(host, b), was = before->totals;
+    double speed = sqrt(2.0 * was.kineticEnergy * was.mass) + 1e-300;
+    assert_true(IsNear(x.area + y.area, was.area, 0.0) && IsNear(x.mass + y.mass, was.mass, 0.0));
+    assert_true(IsNear(x.kineticEnergy + y.kineticEnergy, was.kineticEnergy, 0.0));
+    assert_true(IsNear(x.elasticEnergy + y.elasticEnergy, was.elasticEnergy, 0.0));
+    for (int k = 0; k < 3; ++k) {
+        assert_true(IsNear(x.momentum[k] + y.momentum[k], was.momentum[k], speed));
+        assert_true(IsNear(x.angularMomentum[k] + y.angularMomentum[k], was.angularMomentum[k], speed));
+    }
+}
+
+/* Pins in two corners, held frames and contacts: all that a sheet can have. */
+static kiriSheet Furnish(Host* host, kiriSheetDef* def, int32_t lines, uint32_t* seed)
+{
+    kiriSheet sheet = Host_AddRectangle(host, def, 1.0f, 1.0f, 10, 10);
+    for (int i = 0; i < 4; ++i) {
+        kiriPinDef pin;
+        kiriPin id;
+        kiriDefaultPinDef(&pin);
+        pin.restPoint[0] = pin.target[0] = i % 2 == 0 ? 0.0f : 0.97f;
+        pin.restPoint[1] = pin.target[1] = i / 2 == 0 ? 0.01f : 1.0f;
+        OK(kiriCreatePin(host->world, sheet, &pin, &id));
+    }
+    Shred(host, sheet, lines, seed);
+    Tick(host, 5);
+    return sheet;
+}
+
+static void TestPartsAreWhatTheyWere(void** state)
+{
+    (void)state;
+    for (uint32_t run = 1; run <= 12; ++run) {
+        uint32_t seed = 191u * run;
+        Host host;
+        Host_Start(&host);
+        kiriSheetDef def = AnyDef(&seed);
+        def.skinning = (int32_t)(run % 2);
+        kiriSheet sheet = Furnish(&host, &def, 4, &seed);
+        for (int pass = 0; pass < 4; ++pass) {
+            Tick(&host, 1);
+            int32_t pieces = Host_Counts(&host, sheet).pieces;
+            int32_t piece = (int32_t)(Random(&seed) % (uint32_t)pieces);
+            Before before = Remember(&host, sheet);
+            kiriMesh old = Host_Mesh(&host, sheet);
+            kiriSheet detached;
+            OK(kiriSheet_DetachPiece(host.world, sheet, piece, &detached));
+            assert_true(Host_Mesh(&host, sheet).revision > old.revision);
+            kiriDirty dirty;
+            kiriSurface_GetDirty(&DataOf(&host, sheet)->surface, old.revision, &dirty);
+            assert_int_equal(dirty.newVertices.first, 0);
+            assert_int_equal(dirty.newTriangles.count, Host_Counts(&host, sheet).triangles);
+            assert_int_equal(Host_Counts(&host, detached).pieces, 1);
+            assert_int_equal(Host_Counts(&host, sheet).pieces, pieces - 1);
+            CheckPart(&host, detached, &before, piece, false);
+            CheckPart(&host, sheet, &before, piece, true);
+            CheckSum(&host, &before, sheet, detached);
+            Forget(&before);
+        }
+        Shred(&host, sheet, 2, &seed); /* cutting goes on */
+        Tick(&host, 3);
+        CheckPieces(&host, sheet);
+        Host_Stop(&host);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestListsOfConfetti), cmocka_unit_test(TestListsWhileWorkWaits),
         cmocka_unit_test(TestListsAreLazy),    cmocka_unit_test(TestPieceErrors),
-        cmocka_unit_test(TestEventNamesFrame),
+        cmocka_unit_test(TestEventNamesFrame), cmocka_unit_test(TestPartsAreWhatTheyWere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

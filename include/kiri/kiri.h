@@ -404,6 +404,21 @@ KIRI_API kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, in
 KIRI_API kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, int32_t piece, const kiriFrame** frames,
                                              int32_t* count);
 
+/* Makes a sheet of the piece. Its frames, pins and collision points move along, in their order; they keep their ids and
+   states, and what waits for the next tick: the motion goes on as if nothing had happened. Both sheets have all settings
+   (of collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself, and sleep each
+   for itself. Cuts stay with the rest: a blade in the piece cuts nothing until it is back. Indices of vertices, triangles
+   and collision points of the rest change (its revision grows), and so do the numbers of pieces behind this one: they are
+   one less. Both keep the grid of the whole sheet, which takes about 40 bytes a square: crumbs are better dropped.
+   KIRI_ERROR_STATE: it is the only piece, or work on a cut waits for its budget. */
+KIRI_API kiriResult kiriSheet_DetachPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriSheet* detached);
+
+/* The same without keeping the piece: ids of its frames and pins are stale. */
+KIRI_API kiriResult kiriSheet_DestroyPiece(kiriWorld* world, kiriSheet sheet, int32_t piece);
+
+/* Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is how many. */
+KIRI_API kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count);
+
 /* The piece of its sheet that the frame is in. */
 KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* piece);
 
