@@ -672,12 +672,372 @@ static void TestPartsAreWhatTheyWere(void** state)
     }
 }
 
+/* The farthest that a vertex of the part is from where it is in the sheet that was not taken apart. */
+static double Gap(const kiriSheetData* whole, const kiriSheetData* part, const int32_t* vertex)
+{
+    double most = 0.0;
+    for (int32_t v = 0; v < part->mesh.vertices.count; ++v) {
+        double gap = kiriVec3_Length(kiriVec3_Sub(whole->surface.exact.data[vertex[v]], part->surface.exact.data[v]));
+        most = gap > most ? gap : most;
+    }
+    return most;
+}
+
+/* Both worlds go on alike until the solver takes more linear systems than it was asked for: then it guards the energy of a
+   sheet as a whole, and what is done to one piece is done to all. Returns the ticks. */
+static int32_t TickBoth(Host hosts[2], int32_t iterations)
+{
+    for (int32_t tick = 0; tick < 60; ++tick) {
+        for (int h = 0; h < 2; ++h) {
+            kiriProfile profile;
+            Tick(&hosts[h], 1);
+            OK(kiriWorld_GetProfile(hosts[h].world, &profile));
+            if (profile.solverIterations > 2 * iterations * hosts[h].world->sheets.count) {
+                return tick;
+            }
+        }
+    }
+    return 60;
+}
+
+/* The same scene twice, with pieces detached in one of them. Returns the ticks for which both go on; *gap is how far
+   vertices are then from each other. */
+static int32_t RunTwice(const kiriSheetDef* def, uint32_t seed, int32_t detach, double* gap)
+{
+    Host hosts[2];
+    kiriSheet sheets[2], part = 0;
+    for (int h = 0; h < 2; ++h) {
+        uint32_t own = seed;
+        kiriSheetDef copy = *def;
+        Host_Start(&hosts[h]);
+        sheets[h] = Furnish(&hosts[h], &copy, 3, &own);
+    }
+    Before before = Remember(&hosts[0], sheets[0]);
+    int32_t pieces = Host_Counts(&hosts[0], sheets[0]).pieces;
+    Maps maps[8];
+    const kiriSheetData* parts[8];
+    assert_true(detach < pieces && detach < 8);
+    for (int32_t k = 0; k < detach; ++k) {
+        OK(kiriSheet_DetachPiece(hosts[1].world, sheets[1], pieces - 1 - k, &part));
+        parts[k] = DataOf(&hosts[1], part);
+        maps[k] = Map(&before.data, parts[k], pieces - 1 - k, false);
+    }
+    int32_t ticks = TickBoth(hosts, def->iterations);
+    *gap = 0.0;
+    for (int32_t k = 0; k < detach; ++k) {
+        if (ticks == 60) {
+            *gap = fmax(*gap, Gap(DataOf(&hosts[0], sheets[0]), parts[k], maps[k].vertex));
+        }
+        Maps_Free(&maps[k]);
+    }
+    if (detach == 1 && ticks == 60) {
+        Maps rest = Map(&before.data, DataOf(&hosts[1], sheets[1]), pieces - 1, true);
+        *gap = fmax(*gap, Gap(DataOf(&hosts[0], sheets[0]), DataOf(&hosts[1], sheets[1]), rest.vertex));
+        Maps_Free(&rest);
+    }
+    Forget(&before);
+    Host_Stop(&hosts[0]);
+    Host_Stop(&hosts[1]);
+    return ticks;
+}
+
+static void TestMotionGoesOn(void** state)
+{
+    (void)state;
+    int32_t whole = 0, models[3] = { 0, 0, 0 };
+    for (uint32_t run = 1; run <= 18; ++run) {
+        uint32_t seed = 401u * run;
+        kiriSheetDef def = AnyDef(&seed);
+        def.velocity[0] = 0.3f;
+        def.material.youngsModulus = 1e6f;
+        def.iterations = 16;
+        def.model = (int32_t)(run % 3);
+        double gap;
+        if (RunTwice(&def, seed, run % 2 == 0 ? 1 : 4, &gap) == 60) {
+            assert_true(gap < 1e-9);
+            models[def.model] += 1;
+            ++whole;
+        }
+    }
+    assert_true(whole >= 6 && models[KIRI_MODEL_LINKS] > 0 && models[KIRI_MODEL_AFFINE] > 0);
+}
+
+/* ---- What else can happen to parts ---- */
+
+/* A sheet in four strips: 0 is the lowest frame's, and so on. */
+static kiriSheet Strips(Host* host, int32_t count)
+{
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = 16;
+    def.frameCount = 6;
+    def.collisionPoints = 12;
+    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 8, 8);
+    for (int32_t i = 1; i < count; ++i) {
+        float v = (float)i / (float)count + 0.013f, way[4] = { -0.1f, v, 1.1f, v };
+        Host_Cut(host, sheet, way, 2);
+    }
+    Tick(host, 1);
+    assert_int_equal(Host_Counts(host, sheet).pieces, count);
+    return sheet;
+}
+
+static int32_t PieceAt(Host* host, kiriSheet sheet, double v)
+{
+    int32_t found = KIRI_NONE;
+    for (int32_t p = 0; p < Host_Counts(host, sheet).pieces; ++p) {
+        kiriPieceMesh mesh = MeshOf(host, sheet, p);
+        double low = 2.0, high = -1.0;
+        for (int32_t i = 0; i < mesh.vertexCount; ++i) {
+            double at = Host_Mesh(host, sheet).restPositions[2 * mesh.vertices[i] + 1];
+            low = fmin(low, at);
+            high = fmax(high, at);
+        }
+        found = v > low && v < high ? p : found;
+    }
+    return found;
+}
+
+/* A blade that stands in a piece which goes cuts nothing there, but cuts the rest when it gets there. */
+static void TestCutsStayWithTheRest(void** state)
+{
+    (void)state;
+    for (int kept = 0; kept < 2; ++kept) {
+        Host host;
+        Host_Start(&host);
+        kiriSheet sheet = Strips(&host, 3), detached = 0;
+        float start[2] = { 0.5f, 0.1f }, inside[2] = { 0.5f, 0.2f }, on[4] = { 0.53f, 0.3f, 0.5f, 1.1f };
+        kiriCut cut;
+        OK(kiriBeginCut(host.world, sheet, start, &cut));
+        OK(kiriCut_Extend(host.world, cut, inside, 1));
+        Tick(&host, 1);
+        assert_int_equal(Host_Counts(&host, sheet).pieces, 3);
+        int32_t piece = PieceAt(&host, sheet, 0.15);
+        OK(kept ? kiriSheet_DetachPiece(host.world, sheet, piece, &detached)
+                : kiriSheet_DestroyPiece(host.world, sheet, piece));
+        OK(kiriCut_Extend(host.world, cut, on, 2));
+        OK(kiriCut_End(host.world, cut));
+        kiriCounts before = { 0 };
+        if (kept) {
+            before = Host_Counts(&host, detached);
+        }
+        Tick(&host, 1);
+        assert_int_equal(Host_Events(&host, KIRI_EVENT_CUT_FINISHED, NULL), 1);
+        assert_int_equal(Host_Counts(&host, sheet).pieces, 4); /* two strips in two */
+        if (kept) {
+            kiriCounts after = Host_Counts(&host, detached);
+            assert_memory_equal(&before, &after, sizeof(before));
+        }
+        CheckPieces(&host, sheet);
+        Host_Stop(&host);
+    }
+}
+
+/* The blade stands in the rest, on a vertex that gets another number. */
+static void TestBladeOfTheRestGoesOn(void** state)
+{
+    (void)state;
+    uint64_t areas = 0;
+    double most[2] = { 0.0, 0.0 };
+    for (int detach = 0; detach < 2; ++detach) {
+        Host host;
+        Host_Start(&host);
+        kiriSheet sheet = Strips(&host, 3), detached = 0;
+        float start[2] = { 0.31f, 0.8f }, inside[2] = { 0.42f, 0.85f }, on[4] = { 0.6f, 0.9f, 0.55f, 1.1f };
+        kiriCut cut;
+        OK(kiriBeginCut(host.world, sheet, start, &cut));
+        OK(kiriCut_Extend(host.world, cut, inside, 1));
+        Tick(&host, 1);
+        if (detach) {
+            OK(kiriSheet_DetachPiece(host.world, sheet, PieceAt(&host, sheet, 0.1), &detached));
+        }
+        OK(kiriCut_Extend(host.world, cut, on, 2));
+        OK(kiriCut_End(host.world, cut));
+        Tick(&host, 1);
+        kiriPieceMesh mesh = MeshOf(&host, sheet, PieceAt(&host, sheet, 0.8));
+        most[detach] = mesh.triangleCount;
+        areas += (uint64_t)mesh.vertexCount;
+        Host_Stop(&host);
+    }
+    assert_true(most[0] == most[1] && areas % 2 == 0);
+}
+
+static void TestIdsMoveAlong(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheet sheet = Strips(&host, 3), detached;
+    kiriPin pins[3];
+    for (int i = 0; i < 3; ++i) {
+        kiriPinDef def;
+        kiriDefaultPinDef(&def);
+        def.restPoint[0] = def.target[0] = 0.5f;
+        def.restPoint[1] = def.target[1] = 0.2f + 0.3f * (float)i;
+        OK(kiriCreatePin(host.world, sheet, &def, &pins[i]));
+    }
+    kiriFrame frames[3];
+    for (int i = 0; i < 3; ++i) {
+        const kiriFrame* list;
+        int32_t count;
+        OK(kiriSheet_GetPieceFrames(host.world, sheet, PieceAt(&host, sheet, 0.2 + 0.3 * i), &list, &count));
+        frames[i] = list[0];
+    }
+    OK(kiriSheet_DetachPiece(host.world, sheet, PieceAt(&host, sheet, 0.2), &detached));
+    OK(kiriSheet_DestroyPiece(host.world, sheet, PieceAt(&host, sheet, 0.5)));
+    static const float target[3] = { 0.5f, 0.2f, 0.3f };
+    kiriFrameState frame;
+    OK(kiriPin_SetTarget(host.world, pins[0], target));
+    assert_int_equal(kiriPin_SetTarget(host.world, pins[1], target), KIRI_ERROR_ID);
+    OK(kiriPin_SetTarget(host.world, pins[2], target));
+    OK(kiriFrame_GetState(host.world, frames[0], &frame));
+    assert_int_equal(kiriFrame_GetState(host.world, frames[1], &frame), KIRI_ERROR_ID);
+    OK(kiriFrame_GetState(host.world, frames[2], &frame));
+    Tick(&host, 2);
+    OK(kiriDestroyPin(host.world, pins[0]));
+    OK(kiriDestroyPin(host.world, pins[2]));
+    OK(kiriDestroySheet(host.world, sheet));
+    OK(kiriFrame_GetState(host.world, frames[0], &frame));
+    assert_int_equal(kiriFrame_GetState(host.world, frames[2], &frame), KIRI_ERROR_ID);
+    OK(kiriDestroySheet(host.world, detached));
+    Host_Stop(&host);
+}
+
+/* Contacts that wait push the part that has the point. */
+static void TestContactsMoveAlong(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    static const float none[3] = { 0.0f, 0.0f, 0.0f };
+    OK(kiriWorld_SetGravity(host.world, none));
+    kiriSheet sheet = Strips(&host, 2), detached;
+    int32_t piece = PieceAt(&host, sheet, 0.8);
+    kiriContact contact = { MeshOf(&host, sheet, piece).collisionPoints[0], { 0.0f, 0.0f, 1.0f }, 0.1f, 0.0f, 50.0f };
+    OK(kiriSheet_SetContacts(host.world, sheet, &contact, 1));
+    OK(kiriSheet_DetachPiece(host.world, sheet, piece, &detached));
+    Tick(&host, 1);
+    assert_true(Host_Totals(&host, detached).momentum[2] > 1e-3);
+    assert_true(fabs(Host_Totals(&host, sheet).momentum[2]) < 1e-12);
+    Host_Stop(&host);
+}
+
+static void TestPartsAreRefused(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheet sheet = Strips(&host, 2), detached = 1;
+    int32_t count;
+    assert_int_equal(kiriSheet_DetachPiece(host.world, sheet, 2, &detached), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(detached, 0);
+    assert_int_equal(kiriSheet_DetachPiece(host.world, sheet, 0, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_DetachPiece(host.world, 0, 0, &detached), KIRI_ERROR_ID);
+    assert_int_equal(kiriSheet_DropCrumbs(host.world, sheet, -1.0f, &count), KIRI_ERROR_ARGUMENT);
+    kiriBudget budget = { 0, 5, 0, 0 };
+    OK(kiriWorld_SetBudget(host.world, &budget));
+    static const float way[4] = { 0.3f, -0.1f, 0.3f, 1.1f };
+    Host_Cut(&host, sheet, way, 2);
+    assert_int_equal(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1), KIRI_PENDING);
+    assert_int_equal(kiriSheet_DetachPiece(host.world, sheet, 0, &detached), KIRI_ERROR_STATE);
+    assert_int_equal(kiriSheet_DestroyPiece(host.world, sheet, 0), KIRI_ERROR_STATE);
+    assert_int_equal(kiriSheet_DropCrumbs(host.world, sheet, 1.0f, &count), KIRI_ERROR_STATE);
+    while (kiriWorld_Tick(host.world, 1.0f / 60.0f, 1) == KIRI_PENDING) {
+    }
+    assert_int_equal(Host_Counts(&host, sheet).pieces, 4);
+    OK(kiriSheet_DropCrumbs(host.world, sheet, 10.0f, &count));
+    assert_int_equal(count, 3);
+    assert_int_equal(kiriSheet_DetachPiece(host.world, sheet, 0, &detached), KIRI_ERROR_STATE);
+    assert_int_equal(kiriSheet_DestroyPiece(host.world, sheet, 0), KIRI_ERROR_STATE);
+    assert_float_equal(Host_Totals(&host, sheet).area, 0.7 * 0.513, 1e-4);
+    CheckPieces(&host, sheet);
+    Host_Stop(&host);
+}
+
+/* Whatever allocation fails, all is as before, and the same call does it afterwards. */
+static void TestPartsWithoutMemory(void** state)
+{
+    (void)state;
+    for (int what = 0; what < 3; ++what) {
+        Host host;
+        Host_Start(&host);
+        kiriSheet sheet = Strips(&host, 3), detached;
+        int32_t failures = 0, dropped;
+        uint64_t before = Host_Hash(&host);
+        kiriMesh mesh = Host_Mesh(&host, sheet);
+        kiriResult result;
+        do {
+            int64_t live = host.live;
+            host.failAt = host.calls + failures;
+            host.failOnce = failures % 2 == 0;
+            result = what == 0   ? kiriSheet_DetachPiece(host.world, sheet, 1, &detached)
+                     : what == 1 ? kiriSheet_DestroyPiece(host.world, sheet, 1)
+                                 : kiriSheet_DropCrumbs(host.world, sheet, 0.33f, &dropped);
+            host.failAt = -1;
+            if (result != KIRI_OK) {
+                assert_int_equal(result, KIRI_ERROR_MEMORY);
+                assert_int_equal(Host_Hash(&host), before);
+                assert_ptr_equal(Host_Mesh(&host, sheet).positions, mesh.positions);
+                assert_true(host.live <= live + 8); /* room in the world's own lists */
+                ++failures;
+            }
+        } while (result != KIRI_OK);
+        assert_true(failures > 100);
+        Tick(&host, 2);
+        CheckPieces(&host, sheet);
+        Host_Stop(&host);
+    }
+}
+
+/* ---- Crumbs ---- */
+
+static void TestDropCrumbs(void** state)
+{
+    (void)state;
+    for (uint32_t run = 1; run <= 6; ++run) {
+        uint32_t seed = 1009u * run;
+        Host host;
+        Host_Start(&host);
+        kiriSheetDef def = AnyDef(&seed);
+        kiriSheet sheet = Furnish(&host, &def, 8, &seed);
+        double kept = 0.0, largest = 0.0;
+        int32_t below = 0, count, pieces = Host_Counts(&host, sheet).pieces;
+        float limit = (float)RandomBetween(&seed, 0.01, run == 1 ? 1.0 : 0.05);
+        for (int32_t p = 0; p < pieces; ++p) {
+            double area = StateOf(&host, sheet, p).area;
+            below += area < limit;
+            kept += area < limit ? 0.0 : area;
+            largest = fmax(largest, area);
+        }
+        kept = largest < limit ? largest : kept;
+        OK(kiriSheet_DropCrumbs(host.world, sheet, limit, &count));
+        assert_int_equal(count, below - (largest < limit));
+        assert_int_equal(Host_Counts(&host, sheet).pieces, pieces - count);
+        assert_float_equal(Host_Totals(&host, sheet).area, kept, 1e-12);
+        CheckPieces(&host, sheet);
+        uint64_t hash = Host_Hash(&host);
+        OK(kiriSheet_DropCrumbs(host.world, sheet, limit, &count));
+        assert_int_equal(count, 0);
+        assert_int_equal(Host_Hash(&host), hash);
+        Tick(&host, 2);
+        Host_Stop(&host);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestListsOfConfetti), cmocka_unit_test(TestListsWhileWorkWaits),
         cmocka_unit_test(TestListsAreLazy),    cmocka_unit_test(TestPieceErrors),
         cmocka_unit_test(TestEventNamesFrame), cmocka_unit_test(TestPartsAreWhatTheyWere),
+        cmocka_unit_test(TestMotionGoesOn),
+        cmocka_unit_test(TestCutsStayWithTheRest),
+        cmocka_unit_test(TestBladeOfTheRestGoesOn),
+        cmocka_unit_test(TestIdsMoveAlong),
+        cmocka_unit_test(TestContactsMoveAlong),
+        cmocka_unit_test(TestPartsAreRefused),
+        cmocka_unit_test(TestPartsWithoutMemory),
+        cmocka_unit_test(TestDropCrumbs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
