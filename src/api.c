@@ -367,8 +367,8 @@ static const char* FaultOfFrames(const kiriSheetDef* def)
     if (def->framePoints != NULL && !AreFinite(def->framePoints, 2 * def->frameCount)) {
         return "a frame point is not finite";
     }
-    if (!IsAbove(def->rigidWeight, 0.0f) || !IsAtLeast(def->rigidArea, 0.0f)) {
-        return "rigidWeight is not above 0, or rigidArea below 0";
+    if (!IsAbove(def->rigidWeight, 0.0f) || !IsAtLeast(def->rigidArea, 0.0f) || !IsAtLeast(def->crumbArea, 0.0f)) {
+        return "rigidWeight is not above 0, or rigidArea or crumbArea below 0";
     }
     return NULL;
 }

@@ -87,6 +87,7 @@ static void TakeParameters(kiriSheetData* to, const kiriSheetData* from)
     to->snap = from->snap;
     to->mechanics = from->mechanics;
     to->rigidArea = from->rigidArea;
+    to->crumbArea = from->crumbArea;
     to->iterations = from->iterations;
     to->pointCount = share * from->pointCount;
     to->integrationPoints = share * from->integrationPoints;

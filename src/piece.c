@@ -219,6 +219,7 @@ kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece)
     state.frames = frames.count;
     state.vertices = vertices.count;
     state.triangles = kiriPiece_Span(&lists->triangles, piece).count;
+    state.crumb = sheet->model.pieces.data[piece].area < sheet->crumbArea;
     state.collisionPoints = kiriPiece_Span(&lists->points, piece).count;
     return state;
 }

@@ -62,6 +62,7 @@ static void SetParameters(kiriSheetData* sheet, const kiriSheetDef* def)
     sheet->shape.rigidWeight = def->rigidWeight;
     sheet->rigidArea = def->rigidArea > 0.0f ? def->rigidArea : 0.25 * area / def->frameCount;
     sheet->maxFrames = def->maxFrames > def->frameCount ? def->maxFrames : def->frameCount;
+    sheet->crumbArea = def->crumbArea;
     sheet->iterations = def->iterations;
     sheet->pointCount = def->collisionPoints;
     sheet->mechanics.model = def->model;

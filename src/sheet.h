@@ -100,6 +100,8 @@ typedef struct kiriUpdate {
     int32_t at;                     /* orphan, frame or piece that is being seen to */
     KIRI_ARRAY(uint8_t) marks;      /* of cells, or frames */
     KIRI_ARRAY(uint8_t) allowed;    /* of cells */
+    KIRI_ARRAY(uint8_t) flags;      /* of squares or cells */
+    KIRI_ARRAY(int32_t) own;        /* frames of the piece in the placer */
     KIRI_ARRAY(kiriMoments) material; /* of each frame's region */
     kiriModel next;
     KIRI_ARRAY(int32_t) parent;     /* of frames: union-find */
@@ -117,7 +119,7 @@ typedef struct kiriSheetData {
     kiriMaterial material;
     double snap; /* lattice steps */
     kiriMechanics mechanics;
-    double rigidArea;
+    double rigidArea, crumbArea;
     int32_t maxFrames, iterations, integrationOrder;
     double pointCount, integrationPoints; /* of the def; of a part of a sheet its share of them */
     bool alwaysScratch;

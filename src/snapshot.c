@@ -156,6 +156,7 @@ static void Parameters(uint64_t* hash, const kiriSheetData* sheet)
     Vec3(hash, kiriVec3_Make(m->youngsModulus, m->poissonsRatio, m->thickness));
     Vec3(hash, kiriVec3_Make(m->density, m->airDamping, m->flexDamping));
     Vec3(hash, kiriVec3_Make(sheet->snap, sheet->shape.rigidWeight, sheet->rigidArea));
+    Real(hash, sheet->crumbArea);
     Int(hash, sheet->mechanics.model);
     Int(hash, sheet->mechanics.planar);
     Real(hash, sheet->integrationPoints);

@@ -170,6 +170,7 @@ static void Commit(kiriWorld* world, kiriSheetData* sheet)
             kiriEvent* event = AddEvent(world, KIRI_EVENT_PIECE_OFF, sheet);
             event->piece = piece;
             event->frame = sheet->frames.data[sheet->model.pieces.data[piece].frame].id;
+            event->crumb = sheet->model.pieces.data[piece].area < sheet->crumbArea;
             event->area = (float)sheet->model.pieces.data[piece].area;
         }
     }

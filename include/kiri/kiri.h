@@ -119,7 +119,7 @@ KIRI_API kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* has
 /* What happened since the start of the last tick. */
 enum {
     KIRI_EVENT_CUT_FINISHED = 1, /* cut: all of it is in the mesh; the id is stale from now on */
-    KIRI_EVENT_PIECE_OFF = 2,    /* piece, frame (its first), area: a connected part came off the sheet */
+    KIRI_EVENT_PIECE_OFF = 2,    /* piece, frame (its first), crumb, area: a connected part came off the sheet */
     KIRI_EVENT_FRAME_ADDED = 3,  /* frame */
     KIRI_EVENT_DIVERGED = 4,     /* the sheet was put to rest */
     KIRI_EVENT_DEFERRED = 5      /* stage, waiting: the budget ended in this stage of the sheet's work */
@@ -131,6 +131,7 @@ typedef struct kiriEvent {
     kiriCut cut;     /* or 0 */
     kiriFrame frame; /* or 0 */
     int32_t piece;   /* index of the piece, or -1 */
+    int32_t crumb;   /* 1: the piece is a crumb, see kiriSheetDef */
     float area;      /* m^2 of the piece, or 0 */
     int32_t stage;   /* KIRI_STAGE_..., or -1 */
     int32_t waiting; /* blade points that wait, with those that are being worked on; or 0 */
@@ -267,6 +268,9 @@ typedef struct kiriSheetDef {
     float rigidWeight; /* default 0.95 */
     float rigidArea;   /* default 0 */
 
+    /* A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no frames are added to it. Default 0. */
+    float crumbArea;
+
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
     int32_t iterations;      /* Newton steps a substep, 1 to 64; default 2 */
 
@@ -383,6 +387,7 @@ typedef struct kiriPieceState {
     double center[3], momentum[3], angularMomentum[3];    /* of mass, m; kg m/s; kg m^2/s */
     float lower[3], upper[3];                             /* m, world: the least box around its vertices */
     int32_t frames, vertices, triangles, collisionPoints; /* how many */
+    int32_t crumb;                                        /* 1: see kiriSheetDef */
 } kiriPieceState;
 
 /* What is in a piece, in the order of the mesh. The arrays are parts of one for all pieces, piece after piece, and stay as
@@ -405,7 +410,8 @@ KIRI_API kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, 
                                              int32_t* count);
 
 /* Makes a sheet of the piece. Its frames, pins and collision points move along, in their order; they keep their ids and
-   states, and what waits for the next tick: the motion goes on as if nothing had happened. Both sheets have all settings
+   states, and what waits for the next tick: the motion goes on as if nothing had happened, but for the solver's guard over
+   energy and step length, which is one for each sheet. Both sheets have all settings
    (of collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself, and sleep each
    for itself. Cuts stay with the rest: a blade in the piece cuts nothing until it is back. Indices of vertices, triangles
    and collision points of the rest change (its revision grows), and so do the numbers of pieces behind this one: they are
