@@ -1,5 +1,6 @@
 /* The public API: checks arguments, turns ids into pointers, and calls the floor below. The only file that does either. */
 #include "material.h"
+#include "piece.h"
 #include "quality.h"
 #include "snapshot.h"
 #include "world.h"
@@ -369,8 +370,8 @@ static const char* FaultOfFrames(const kiriSheetDef* def)
     if (def->framePoints != NULL && !AreFinite(def->framePoints, 2 * def->frameCount)) {
         return "a frame point is not finite";
     }
-    if (!IsAbove(def->rigidWeight, 0.0f) || !IsAtLeast(def->rigidArea, 0.0f)) {
-        return "rigidWeight is not above 0, or rigidArea below 0";
+    if (!IsAbove(def->rigidWeight, 0.0f) || !IsAtLeast(def->rigidArea, 0.0f) || !IsAtLeast(def->crumbArea, 0.0f)) {
+        return "rigidWeight is not above 0, or rigidArea or crumbArea below 0";
     }
     return NULL;
 }
@@ -614,6 +615,121 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
     *count = found.count;
     kiriArray_Release(&world->memory, &found);
     return KIRI_OK;
+}
+
+/* ---- Piece ---- */
+
+#define FIND_PIECE(data, piece)                                                                                        \
+    do {                                                                                                               \
+        CHECK(IsWithin(piece, 0, data->model.pieces.count - 1), "the sheet has no such piece");                        \
+        if (!kiriPieces_List(data)) {                                                                                  \
+            return FAIL(KIRI_ERROR_MEMORY, "out of memory");                                                           \
+        }                                                                                                              \
+    } while (0)
+
+kiriResult kiriSheet_GetPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceState* state)
+{
+    BEGIN(world);
+    CHECK(state != NULL, "state is null");
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    FIND_PIECE(data, piece);
+    *state = kiriPiece_State(data, piece);
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceMesh* mesh)
+{
+    BEGIN(world);
+    CHECK(mesh != NULL, "mesh is null");
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    FIND_PIECE(data, piece);
+    const kiriPieceLists* lists = &data->lists;
+    kiriSpan vertices = kiriPiece_Span(&lists->vertices, piece), triangles = kiriPiece_Span(&lists->triangles, piece);
+    kiriSpan points = kiriPiece_Span(&lists->points, piece);
+    mesh->vertices = lists->vertices.items.data + vertices.first;
+    mesh->triangles = lists->triangles.items.data + triangles.first;
+    mesh->indices = lists->corners.data + 3 * (int64_t)triangles.first;
+    mesh->collisionPoints = points.count > 0 ? lists->points.items.data + points.first : NULL;
+    mesh->vertexCount = vertices.count;
+    mesh->triangleCount = triangles.count;
+    mesh->collisionPointCount = points.count;
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, int32_t piece, const kiriFrame** frames,
+                                    int32_t* count)
+{
+    BEGIN(world);
+    CHECK(frames != NULL && count != NULL, "frames or count is null");
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    FIND_PIECE(data, piece);
+    kiriSpan span = kiriPiece_Span(&data->lists.frames, piece);
+    *frames = data->lists.ids.data + span.first;
+    *count = span.count;
+    return KIRI_OK;
+}
+
+kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* piece)
+{
+    BEGIN(world);
+    CHECK(piece != NULL, "piece is null");
+    FIND(sheet, kiriSheetData, frameIds, frame);
+    *piece = sheet->model.framePiece.data[kiriPool_Find(&world->frameIds, frame)->index];
+    return KIRI_OK;
+}
+
+/* Why the sheet cannot be taken apart now, or null. */
+static const char* FaultOfParting(const kiriSheetData* sheet)
+{
+    if (sheet->update.stage != KIRI_NONE || sheet->update.isStale) {
+        return "a cut is being worked on; ask again when its work is done";
+    }
+    return NULL;
+}
+
+#define CHECK_PARTING(data, piece)                                                                                     \
+    do {                                                                                                               \
+        const char* parting = FaultOfParting(data);                                                                    \
+        if (parting != NULL) {                                                                                         \
+            return FAIL(KIRI_ERROR_STATE, parting);                                                                    \
+        }                                                                                                              \
+        CHECK(IsWithin(piece, 0, data->model.pieces.count - 1), "the sheet has no such piece");                        \
+        if (data->model.pieces.count == 1) {                                                                           \
+            return FAIL(KIRI_ERROR_STATE, "the piece is all of the sheet");                                            \
+        }                                                                                                              \
+    } while (0)
+
+kiriResult kiriSheet_DetachPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriSheet* detached)
+{
+    BEGIN(world);
+    CHECK(detached != NULL, "detached is null");
+    *detached = 0;
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    CHECK_PARTING(data, piece);
+    bool ok = kiriWorld_DetachPiece(world, data, piece, detached);
+    return ok ? KIRI_OK : FAIL(KIRI_ERROR_MEMORY, "out of memory; nothing has changed");
+}
+
+kiriResult kiriSheet_DestroyPiece(kiriWorld* world, kiriSheet sheet, int32_t piece)
+{
+    BEGIN(world);
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    CHECK_PARTING(data, piece);
+    bool ok = kiriWorld_DropPiece(world, data, piece);
+    return ok ? KIRI_OK : FAIL(KIRI_ERROR_MEMORY, "out of memory; nothing has changed");
+}
+
+kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count)
+{
+    BEGIN(world);
+    CHECK(count != NULL && IsAtLeast(area, 0.0f), "count is null, or area not finite or below 0");
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    const char* why = FaultOfParting(data);
+    if (why != NULL) {
+        return FAIL(KIRI_ERROR_STATE, why);
+    }
+    bool ok = kiriWorld_DropCrumbs(world, data, area, count);
+    return ok ? KIRI_OK : FAIL(KIRI_ERROR_MEMORY, "out of memory; nothing has changed");
 }
 
 /* ---- Cut ---- */

@@ -193,13 +193,13 @@ static void StoreDoubles(double* to, kiriVec3 a)
     to[2] = a.z;
 }
 
-kiriTotals kiriMotion_Totals(const kiriSheetData* sheet)
+kiriTotals kiriMotion_Sum(const kiriSheetData* sheet, const int32_t* indices, int32_t count)
 {
     kiriTotals totals;
     memset(&totals, 0, sizeof(totals));
     kiriVec3 center = { 0.0, 0.0, 0.0 }, momentum = center, angular = center;
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        const kiriFrameData* frame = &sheet->frames.data[i];
+    for (int32_t i = 0; i < count; ++i) {
+        const kiriFrameData* frame = &sheet->frames.data[indices != NULL ? indices[i] : i];
         kiriVec3 p = kiriVec3_Scale(frame->mass, frame->velocity);
         totals.area += frame->area;
         totals.mass += frame->mass;
@@ -209,10 +209,16 @@ kiriTotals kiriMotion_Totals(const kiriSheetData* sheet)
         angular = kiriVec3_Add(angular, kiriFrame_AngularMomentum(frame, &sheet->material));
         angular = kiriVec3_Add(angular, kiriVec3_Cross(frame->x, p));
     }
-    kiriSystem system = MakeSystem((kiriSheetData*)sheet, kiriVec3_Make(0.0, 0.0, 0.0));
-    totals.elasticEnergy = kiriSolver_ElasticEnergy(&system);
     StoreDoubles(totals.center, kiriVec3_Scale(1.0 / totals.mass, center));
     StoreDoubles(totals.momentum, momentum);
     StoreDoubles(totals.angularMomentum, angular);
+    return totals;
+}
+
+kiriTotals kiriMotion_Totals(const kiriSheetData* sheet)
+{
+    kiriTotals totals = kiriMotion_Sum(sheet, NULL, sheet->frames.count);
+    kiriSystem system = MakeSystem((kiriSheetData*)sheet, kiriVec3_Make(0.0, 0.0, 0.0));
+    totals.elasticEnergy = kiriSolver_ElasticEnergy(&system);
     return totals;
 }

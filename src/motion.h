@@ -14,4 +14,7 @@ kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt,
 
 kiriTotals kiriMotion_Totals(const kiriSheetData* sheet);
 
+/* The same of some frames (null: of the first ones), without the elastic energy. */
+kiriTotals kiriMotion_Sum(const kiriSheetData* sheet, const int32_t* frames, int32_t count);
+
 #endif

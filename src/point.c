@@ -173,7 +173,7 @@ static double TotalArea(const kiriGrid* grid)
 }
 
 bool kiriPoints_Build(kiriPatches* patches, kiriPointsWork* work, const kiriMemory* memory, const kiriGrid* grid,
-                      const kiriMeshData* mesh, const kiriShape* shape, const kiriMoments* material, int32_t count,
+                      const kiriMeshData* mesh, const kiriShape* shape, const kiriMoments* material, double count,
                       int32_t order, bool planar)
 {
     Builder b = { memory, grid, mesh, shape, material, work, patches, 0.0, order, KIRI_PATCH_STRAINS };

@@ -1,5 +1,6 @@
 #include "sheet.h"
 
+#include "piece.h"
 #include "update.h"
 #include "view.h"
 
@@ -40,6 +41,7 @@ void kiriSheet_Release(kiriSheetData* sheet)
     kiriArray_Release(memory, &sheet->pinRows);
     kiriArray_Release(memory, &sheet->contactRows);
     kiriView_Release(sheet);
+    kiriPieces_Release(&sheet->lists, memory);
 }
 
 static kiriMat3 AxesOf(const kiriSheetDef* def)
@@ -80,7 +82,7 @@ static void SetFrames(kiriSheetData* sheet, const kiriSheetDef* def, double area
         share = sheet->frameLength * sheet->frameLength;
         points = 4.0 * area / share < 1e6 ? 4.0 * area / share : 1e6;
     }
-    sheet->integrationPoints = def->integrationPoints > 0 ? def->integrationPoints : (int32_t)points;
+    sheet->integrationPoints = def->integrationPoints > 0 ? def->integrationPoints : points;
     sheet->shape.rigidWeight = def->rigidWeight;
     sheet->rigidArea = def->rigidArea > 0.0f ? def->rigidArea : 0.25 * share;
 }
@@ -88,10 +90,11 @@ static void SetFrames(kiriSheetData* sheet, const kiriSheetDef* def, double area
 static void SetParameters(kiriSheetData* sheet, const kiriSheetDef* def)
 {
     double longer = 536870912.0; /* 2^29 lattice steps, see mesh.h */
-    double area = 0.5 * (double)kiriMesh_DoubledArea(&sheet->mesh) * sheet->mesh.step * sheet->mesh.step;
+    double area = kiriUpdate_WholeArea(sheet);
     sheet->material = def->material;
     sheet->snap = def->snapDistance > 0.0f ? def->snapDistance / sheet->mesh.step : 1e-4 * longer;
     SetFrames(sheet, def, area);
+    sheet->crumbArea = def->crumbArea;
     sheet->iterations = def->iterations;
     sheet->pointCount = def->collisionPoints;
     sheet->mechanics.model = def->model;
@@ -178,6 +181,7 @@ static bool BuildAll(kiriSheetData* sheet, const kiriSheetDef* def)
     kiriUpdate* u = &sheet->update;
     kiriQuota all = { INT64_MAX, 0 };
     u->step = 1; /* sites that the caller placed are where they shall be */
+    u->whole = kiriUpdate_WholeArea(sheet);
     u->spread = def->framePoints != NULL ? 0 : def->frameCount;
     return StartSkin(sheet) && kiriUpdate_Regions(sheet, &all) == KIRI_DONE && kiriUpdate_Shape(sheet, &all) == KIRI_DONE &&
            kiriUpdate_Samples(sheet, &all) == KIRI_DONE && kiriUpdate_Constants(sheet, &all) == KIRI_DONE;

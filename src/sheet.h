@@ -13,6 +13,7 @@
 
 typedef struct kiriPiece {
     double area;    /* m^2 */
+    int32_t frame;  /* its lowest */
     int32_t origin; /* the piece of the model before that it was a part of; KIRI_NONE in the first model */
     bool cameOff;   /* it is not the largest part of its origin: that goes on, the others came off */
 } kiriPiece;
@@ -24,6 +25,20 @@ typedef struct kiriModel {
     KIRI_ARRAY(int32_t) pinFrame;   /* the frame that each pin holds */
     kiriPatches patches;            /* of affine frames */
 } kiriModel;
+
+/* What is in each piece, by index: first the items of piece 0, and so on. */
+typedef struct kiriPieceList {
+    KIRI_ARRAY(int32_t) first; /* of each piece: its first item; where the next one begins it ends */
+    KIRI_ARRAY(int32_t) items;
+} kiriPieceList;
+
+/* Made when the host asks for them. */
+typedef struct kiriPieceLists {
+    bool isFresh; /* neither mesh nor pieces have changed since */
+    kiriPieceList frames, vertices, triangles, points;
+    KIRI_ARRAY(kiriFrame) ids;   /* of the frames */
+    KIRI_ARRAY(int32_t) corners; /* of the triangles */
+} kiriPieceLists;
 
 typedef struct kiriPinData {
     kiriPin id;
@@ -81,9 +96,12 @@ typedef struct kiriUpdate {
     int32_t spread;    /* frames to spread over the sheet, at its start */
     kiriPlacer placer;
     bool isPlacing;
+    double whole;                   /* m^2 of the sheet; while things are spread over it */
     int32_t at;                     /* orphan, frame or piece that is being seen to */
     KIRI_ARRAY(uint8_t) marks;      /* of cells, or frames */
     KIRI_ARRAY(uint8_t) allowed;    /* of cells */
+    KIRI_ARRAY(uint8_t) flags;      /* of squares or cells */
+    KIRI_ARRAY(int32_t) own;        /* frames of the piece in the placer */
     KIRI_ARRAY(kiriMoments) material; /* of each frame's region */
     kiriModel next;
     KIRI_ARRAY(int32_t) parent;     /* of frames: union-find */
@@ -101,9 +119,10 @@ typedef struct kiriSheetData {
     kiriMaterial material;
     double snap; /* lattice steps */
     kiriMechanics mechanics;
-    double rigidArea;
+    double rigidArea, crumbArea;
     double frameLength; /* m: the size above which a region is split; 0: none is */
-    int32_t maxFrames, iterations, pointCount, integrationPoints, integrationOrder;
+    int32_t maxFrames, iterations, integrationOrder;
+    double pointCount, integrationPoints; /* of the def; of a part of a sheet its share of them */
     bool alwaysScratch;
 
     kiriGrid grid;
@@ -135,6 +154,7 @@ typedef struct kiriSheetData {
     /* What the host reads, see view.h. */
     kiriSurface surface;
     KIRI_ARRAY(float) pointPositions;
+    kiriPieceLists lists;
 } kiriSheetData;
 
 /* On failure *why says what is wrong, and the sheet needs no release. Ids of sheet and frames are given by the world. */

@@ -156,13 +156,15 @@ static void Parameters(uint64_t* hash, const kiriSheetData* sheet)
     Vec3(hash, kiriVec3_Make(m->youngsModulus, m->poissonsRatio, m->thickness));
     Vec3(hash, kiriVec3_Make(m->density, m->airDamping, m->flexDamping));
     Vec3(hash, kiriVec3_Make(sheet->snap, sheet->shape.rigidWeight, sheet->rigidArea));
+    Real(hash, sheet->crumbArea);
+    Real(hash, sheet->frameLength);
     Int(hash, sheet->mechanics.model);
     Int(hash, sheet->mechanics.planar);
-    Int(hash, sheet->integrationPoints);
+    Real(hash, sheet->integrationPoints);
     Int(hash, sheet->integrationOrder);
     Int(hash, sheet->maxFrames);
     Int(hash, sheet->iterations);
-    Int(hash, sheet->pointCount);
+    Real(hash, sheet->pointCount);
 }
 
 static int32_t IndexOf(const kiriSheetData* sheet, const kiriCutData* cut)

@@ -23,14 +23,10 @@ static int32_t Max3(int32_t a, int32_t b, int32_t c)
     return ab > c ? ab : c;
 }
 
-bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriPoint extent, int32_t resolution)
+/* Empty squares, whose number and side are set. */
+static bool MakeRoom(kiriSquares* squares, const kiriMemory* memory)
 {
-    int64_t longer = extent.x > extent.y ? extent.x : extent.y;
-    memset(squares, 0, sizeof(*squares));
-    squares->side = (int32_t)(2 * CeilDivide(longer + 2, 2 * (int64_t)resolution));
     squares->perStep = 1.0 / squares->side;
-    squares->columns = (int32_t)CeilDivide((int64_t)extent.x + 2, squares->side);
-    squares->rows = (int32_t)CeilDivide((int64_t)extent.y + 2, squares->side);
     squares->freeNode = KIRI_NONE;
     int64_t count = (int64_t)squares->columns * squares->rows;
     squares->head = kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t));
@@ -45,6 +41,25 @@ bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriPoint 
         squares->isTouched[i] = 0;
     }
     return true;
+}
+
+bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriPoint extent, int32_t resolution)
+{
+    int64_t longer = extent.x > extent.y ? extent.x : extent.y;
+    memset(squares, 0, sizeof(*squares));
+    squares->side = (int32_t)(2 * CeilDivide(longer + 2, 2 * (int64_t)resolution));
+    squares->columns = (int32_t)CeilDivide((int64_t)extent.x + 2, squares->side);
+    squares->rows = (int32_t)CeilDivide((int64_t)extent.y + 2, squares->side);
+    return MakeRoom(squares, memory);
+}
+
+bool kiriSquares_InitLike(kiriSquares* squares, const kiriMemory* memory, const kiriSquares* like)
+{
+    memset(squares, 0, sizeof(*squares));
+    squares->side = like->side;
+    squares->columns = like->columns;
+    squares->rows = like->rows;
+    return MakeRoom(squares, memory);
 }
 
 void kiriSquares_Release(kiriSquares* squares, const kiriMemory* memory)

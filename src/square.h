@@ -27,6 +27,9 @@ typedef struct kiriSquares {
 
 /* `resolution` squares along the longer of the two extents (lattice steps, from 0). */
 bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriPoint extent, int32_t resolution);
+
+/* The same squares, without triangles and vertices. */
+bool kiriSquares_InitLike(kiriSquares* squares, const kiriMemory* memory, const kiriSquares* like);
 void kiriSquares_Release(kiriSquares* squares, const kiriMemory* memory);
 
 /* The triangle's corners are counter-clockwise. Insert fails only for memory, and then changes nothing. After a Remove,

@@ -1,6 +1,7 @@
 #include "update.h"
 
 #include "affine.h"
+#include "piece.h"
 #include "point.h"
 #include "view.h"
 
@@ -19,6 +20,9 @@ enum {
     POINTS,
     NEW_POINTS,
 };
+
+/* Marks of frames, while pieces with rigid ones are seen to. */
+enum { SEEN = 1, OWN = 2 /* of the piece at hand */, MOST_SORTED = 64 };
 
 /* ---- Begin and end ---- */
 
@@ -94,6 +98,8 @@ void kiriUpdate_Release(kiriSheetData* sheet)
     kiriPlacer_Release(&u->placer, memory);
     kiriArray_Release(memory, &u->marks);
     kiriArray_Release(memory, &u->allowed);
+    kiriArray_Release(memory, &u->flags);
+    kiriArray_Release(memory, &u->own);
     kiriArray_Release(memory, &u->material);
     kiriArray_Release(memory, &u->parent);
     kiriRefresh_Release(&u->refresh, memory);
@@ -146,6 +152,7 @@ kiriProgress kiriUpdate_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles)
 void kiriUpdate_CommitMesh(kiriSheetData* sheet)
 {
     if (sheet->mesh.savedTriangles.count > 0) {
+        sheet->lists.isFresh = false;
         kiriView_WriteTopology(sheet);
     }
     kiriMesh_Commit(&sheet->mesh);
@@ -189,88 +196,76 @@ static bool AddSite(kiriSheetData* sheet, kiriSite site)
            Move(sheet, sheet->update.sites.count - 1, KIRI_NONE);
 }
 
-/* Does another site lie in the cell? Only sites of one square can be in each other's way. */
-static bool IsTaken(const kiriUpdate* u, int32_t cell, int32_t before)
-{
-    for (int32_t m = 0; m < before; ++m) {
-        if (u->sites.data[u->moves.data[m].frame].cell == cell) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/* The cell of a site that was there. Cells only ever fall apart, so two sites that had cells of their own still can: where
-   rounding says otherwise, the later site takes a free cell of its square. */
-static void Relocate(kiriSheetData* sheet, int32_t m)
+/* Flags of squares, or of cells: all are down between uses, so that a use costs what it raises. */
+static bool MakeFlags(kiriSheetData* sheet)
 {
     kiriUpdate* u = &sheet->update;
-    int32_t frame = u->moves.data[m].frame;
-    int32_t cell = kiriSample_Around(&sheet->grid, &sheet->mesh, sheet->frames.data[frame].anchor);
-    if (IsTaken(u, cell, m)) {
-        cell = sheet->grid.squareCell.data[sheet->grid.cells.data[cell].square];
-        while (IsTaken(u, cell, m) && sheet->grid.cells.data[cell].next != KIRI_NONE) {
-            cell = sheet->grid.cells.data[cell].next;
-        }
+    int32_t old = u->flags.count, squares = sheet->mesh.squares.columns * sheet->mesh.squares.rows;
+    int32_t most = sheet->grid.cells.count > squares ? sheet->grid.cells.count : squares;
+    if (most > old && !kiriArray_Resize(sheet->memory, &u->flags, most)) {
+        return false;
     }
-    u->sites.data[frame].cell = cell;
-}
-
-/* Notes the frame whose site was in a cell that has changed, and those that share its square. */
-static bool NoteSite(kiriSheetData* sheet, int32_t cell)
-{
-    kiriUpdate* u = &sheet->update;
-    int32_t found = cell < sheet->regions.siteAt.count ? sheet->regions.siteAt.data[cell] : KIRI_NONE;
-    if (found == KIRI_NONE) {
-        return true;
-    }
-    int32_t square = kiriSquares_At(&sheet->mesh.squares, sheet->frames.data[found].anchor);
-    for (int32_t f = 0; f < sheet->frames.count; ++f) {
-        if (!u->marks.data[f] && kiriSquares_At(&sheet->mesh.squares, sheet->frames.data[f].anchor) == square) {
-            u->marks.data[f] = 1;
-            if (!Move(sheet, f, u->sites.data[f].cell)) {
-                return false;
-            }
-        }
-    }
+    memset(u->flags.data + old, 0, (size_t)(u->flags.count - old));
     return true;
 }
 
-static void SortMoves(kiriUpdate* u)
+/* The cell of a site that was there. Cells only ever fall apart, so two sites that had cells of their own still can: where
+   rounding says otherwise, the later site takes a free cell of its square. Cells that are taken are flagged. */
+static void Relocate(kiriSheetData* sheet, int32_t frame)
 {
-    for (int32_t i = 1; i < u->moves.count; ++i) {
-        kiriSiteMove move = u->moves.data[i];
-        int32_t j = i;
-        for (; j > 0 && u->moves.data[j - 1].frame > move.frame; --j) {
-            u->moves.data[j] = u->moves.data[j - 1];
+    kiriUpdate* u = &sheet->update;
+    int32_t cell = kiriSample_Around(&sheet->grid, &sheet->mesh, sheet->frames.data[frame].anchor);
+    if (u->flags.data[cell]) {
+        cell = sheet->grid.squareCell.data[sheet->grid.cells.data[cell].square];
+        while (u->flags.data[cell] && sheet->grid.cells.data[cell].next != KIRI_NONE) {
+            cell = sheet->grid.cells.data[cell].next;
         }
-        u->moves.data[j] = move;
     }
+    u->flags.data[cell] = 1;
+    u->sites.data[frame].cell = cell;
+}
+
+/* The square of the site that was in a cell, or KIRI_NONE. */
+static int32_t SquareOfSite(const kiriSheetData* sheet, int32_t cell)
+{
+    int32_t frame = cell < sheet->regions.siteAt.count ? sheet->regions.siteAt.data[cell] : KIRI_NONE;
+    return frame == KIRI_NONE ? KIRI_NONE : kiriSquares_At(&sheet->mesh.squares, sheet->frames.data[frame].anchor);
+}
+
+/* Flags, or lets down, the squares of sites whose cells have changed: all sites there may have to be found again, for only
+   those of one square can be in each other's way. Is there any? */
+static bool FlagSquares(kiriSheetData* sheet, uint8_t flag)
+{
+    const kiriGridChanges* changes = &sheet->grid.changes;
+    int32_t gone = changes->gone.count, restepped = gone + changes->restepped.count;
+    bool any = false;
+    for (int32_t i = 0; i < restepped + changes->remade.count; ++i) {
+        int32_t square = SquareOfSite(sheet, i < gone        ? changes->gone.data[i]
+                                             : i < restepped ? changes->restepped.data[i - gone]
+                                                             : changes->remade.data[i - restepped].cell);
+        if (square != KIRI_NONE) {
+            sheet->update.flags.data[square] = flag;
+            any = true;
+        }
+    }
+    return any;
 }
 
 /* The frames whose sites may have to be found again: all of them when regions are made from scratch. */
 static bool CollectMoves(kiriSheetData* sheet)
 {
     kiriUpdate* u = &sheet->update;
-    const kiriGridChanges* changes = &sheet->grid.changes;
-    bool ok = kiriArray_Resize(sheet->memory, &u->marks, sheet->frames.count);
-    for (int32_t f = 0; ok && f < sheet->frames.count; ++f) {
-        u->marks.data[f] = 0;
-        ok = !u->isScratch || Move(sheet, f, KIRI_NONE);
+    bool any = u->isScratch || FlagSquares(sheet, 1), ok = true;
+    for (int32_t f = 0; ok && any && f < sheet->frames.count; ++f) {
+        if (u->isScratch) {
+            ok = Move(sheet, f, KIRI_NONE);
+        } else if (u->flags.data[kiriSquares_At(&sheet->mesh.squares, sheet->frames.data[f].anchor)]) {
+            ok = Move(sheet, f, u->sites.data[f].cell);
+        }
     }
-    if (u->isScratch) {
-        return ok;
+    if (!u->isScratch) {
+        FlagSquares(sheet, 0);
     }
-    for (int32_t i = 0; ok && i < changes->gone.count; ++i) {
-        ok = NoteSite(sheet, changes->gone.data[i]);
-    }
-    for (int32_t i = 0; ok && i < changes->restepped.count; ++i) {
-        ok = NoteSite(sheet, changes->restepped.data[i]);
-    }
-    for (int32_t i = 0; ok && i < changes->remade.count; ++i) {
-        ok = NoteSite(sheet, changes->remade.data[i].cell);
-    }
-    SortMoves(u);
     return ok;
 }
 
@@ -278,15 +273,16 @@ static bool RelocateSites(kiriSheetData* sheet)
 {
     kiriUpdate* u = &sheet->update;
     u->moves.count = u->movesSeen = 0;
-    if (!CollectMoves(sheet)) {
+    if (!MakeFlags(sheet) || !CollectMoves(sheet)) {
         return false;
     }
     int32_t kept = 0;
     for (int32_t m = 0; m < u->moves.count; ++m) {
-        Relocate(sheet, m);
+        Relocate(sheet, u->moves.data[m].frame);
     }
     for (int32_t m = 0; m < u->moves.count; ++m) {
         kiriSiteMove move = u->moves.data[m];
+        u->flags.data[u->sites.data[move.frame].cell] = 0;
         if (u->sites.data[move.frame].cell != move.was) {
             u->moves.data[kept++] = move;
         }
@@ -307,41 +303,47 @@ static kiriProgress Divide(kiriSheetData* sheet, kiriQuota* cells)
     return progress;
 }
 
-static double AreaOf(const kiriSheetData* sheet, const int32_t* cells, int32_t count)
+/* Of the piece in the placer. */
+static double TakenArea(const kiriSheetData* sheet)
 {
+    const kiriPlacer* placer = &sheet->update.placer;
     double area = 0.0;
-    for (int32_t i = 0; i < count; ++i) {
-        area += sheet->grid.cells.data[cells[i]].material.area;
+    for (int32_t i = 0; i < placer->cells.count; ++i) {
+        area += sheet->grid.cells.data[placer->cells.data[i]].material.area;
     }
     return area;
 }
 
-static double WholeArea(const kiriSheetData* sheet)
+static bool IsCrumbTaken(const kiriSheetData* sheet)
+{
+    return sheet->crumbArea > 0.0 && TakenArea(sheet) < sheet->crumbArea;
+}
+
+double kiriUpdate_WholeArea(const kiriSheetData* sheet)
 {
     return 0.5 * (double)kiriMesh_DoubledArea(&sheet->mesh) * sheet->mesh.step * sheet->mesh.step;
 }
 
 /* How many of `count` things spread over the sheet fall to the piece in the placer. */
-static int32_t ShareOf(const kiriSheetData* sheet, int32_t count)
+static int32_t ShareOf(const kiriSheetData* sheet, double count)
 {
-    const kiriPlacer* placer = &sheet->update.placer;
-    if (count == 0) {
+    if (count == 0.0) {
         return 1;
     }
-    double share = AreaOf(sheet, placer->cells.data, placer->cells.count) / WholeArea(sheet);
-    int32_t whole = (int32_t)(count * share + 0.5);
+    int32_t whole = (int32_t)(count * (TakenArea(sheet) / sheet->update.whole) + 0.5);
     return whole > 1 ? whole : 1;
 }
 
 /* How many frames the piece in the placer starts with. */
 static int32_t FramesFor(const kiriSheetData* sheet)
 {
-    const kiriPlacer* placer = &sheet->update.placer;
+    if (IsCrumbTaken(sheet)) {
+        return 1;
+    }
     if (sheet->frameLength == 0.0) {
         return ShareOf(sheet, sheet->update.spread);
     }
-    double area = AreaOf(sheet, placer->cells.data, placer->cells.count);
-    double count = area / (sheet->frameLength * sheet->frameLength) + 0.5;
+    double count = TakenArea(sheet) / (sheet->frameLength * sheet->frameLength) + 0.5;
     int32_t most = sheet->maxFrames - sheet->update.sites.count;
     return count < 1.0 || most < 1 ? 1 : count < most ? (int32_t)count : most;
 }
@@ -475,30 +477,54 @@ static bool MarkRigidCells(kiriSheetData* sheet)
     return true;
 }
 
-/* The sites of the piece in the placer, by frame; their frames are marked as seen to. *old says whether one of them was there
-   before this update. */
+/* Brings `own` in order. A few are sorted; many are found by looking at all. */
+static void SortOwn(kiriUpdate* u)
+{
+    int32_t* own = u->own.data;
+    if (u->own.count > MOST_SORTED) {
+        int32_t count = 0;
+        for (int32_t f = 0; count < u->own.count; ++f) {
+            if (u->marks.data[f] == OWN) {
+                own[count++] = f;
+            }
+        }
+        return;
+    }
+    for (int32_t i = 1; i < u->own.count; ++i) {
+        int32_t frame = own[i], j = i;
+        for (; j > 0 && own[j - 1] > frame; --j) {
+            own[j] = own[j - 1];
+        }
+        own[j] = frame;
+    }
+}
+
+/* The frames of the piece in the placer, and its sites; *old says whether one of them was there before this update. */
 static bool TakeSites(kiriSheetData* sheet, bool* old)
 {
     kiriUpdate* u = &sheet->update;
-    u->placer.sites.count = 0;
+    u->placer.sites.count = u->own.count = 0;
     *old = false;
     for (int32_t i = 0; i < u->placer.cells.count; ++i) {
         int32_t frame = sheet->regions.siteAt.data[u->placer.cells.data[i]];
         if (frame != KIRI_NONE) {
-            u->marks.data[frame] = 2; /* of the piece at hand */
+            u->marks.data[frame] = OWN;
             *old = *old || frame < sheet->frames.count;
+            if (!kiriArray_Push(sheet->memory, &u->own, frame)) {
+                return false;
+            }
         }
     }
-    for (int32_t f = 0; f < u->marks.count; ++f) {
-        if (u->marks.data[f] == 2 && !kiriArray_Push(sheet->memory, &u->placer.sites, u->sites.data[f])) {
-            return false;
-        }
+    SortOwn(u);
+    bool ok = true;
+    for (int32_t i = 0; ok && i < u->own.count; ++i) {
+        ok = kiriArray_Push(sheet->memory, &u->placer.sites, u->sites.data[u->own.data[i]]);
     }
-    return true;
+    return ok;
 }
 
 /* One more site in the piece of the frame, in a rigid cell. In a piece all of whose sites are new they are all placed
-   again, to lie evenly. */
+   again, to lie evenly. A crumb gets none. */
 static bool StartResample(kiriSheetData* sheet, int32_t frame)
 {
     kiriUpdate* u = &sheet->update;
@@ -508,7 +534,9 @@ static bool StartResample(kiriSheetData* sheet, int32_t frame)
         !MarkRigidCells(sheet) || !TakeSites(sheet, &old)) {
         return false;
     }
-    if (!old) {
+    if (IsCrumbTaken(sheet)) {
+        count = 0;
+    } else if (!old) {
         count += u->placer.sites.count;
         u->placer.sites.count = 0;
     }
@@ -520,15 +548,14 @@ static bool StartResample(kiriSheetData* sheet, int32_t frame)
 static bool GiveSites(kiriSheetData* sheet)
 {
     kiriUpdate* u = &sheet->update;
-    int32_t next = u->placer.oldCount, known = u->marks.count;
+    int32_t next = u->placer.oldCount;
     bool again = next == 0, ok = true;
-    for (int32_t f = 0; ok && f < known; ++f) {
-        if (u->marks.data[f] == 2) {
-            u->marks.data[f] = 1;
-            if (again && next < u->placer.sites.count) {
-                ok = Move(sheet, f, u->sites.data[f].cell);
-                u->sites.data[f] = u->placer.sites.data[next++];
-            }
+    for (int32_t i = 0; ok && i < u->own.count; ++i) {
+        int32_t f = u->own.data[i];
+        u->marks.data[f] = SEEN;
+        if (again && next < u->placer.sites.count) {
+            ok = Move(sheet, f, u->sites.data[f].cell);
+            u->sites.data[f] = u->placer.sites.data[next++];
         }
     }
     while (ok && next < u->placer.sites.count) {
@@ -537,12 +564,19 @@ static bool GiveSites(kiriSheetData* sheet)
     return ok;
 }
 
+/* Was the piece of the frame a crumb already? Then it is one. */
+static bool IsOfCrumb(const kiriSheetData* sheet, int32_t frame)
+{
+    return frame < sheet->frames.count &&
+           sheet->model.pieces.data[sheet->model.framePiece.data[frame]].area < sheet->crumbArea;
+}
+
 /* One more frame for each piece with a rigid one. */
 static kiriProgress Resample(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = &sheet->update;
     for (; u->at < u->marks.count && u->sites.count < sheet->maxFrames; ++u->at) {
-        if (!u->isPlacing && (u->marks.data[u->at] || !NeedsAnother(sheet, u->at))) {
+        if (!u->isPlacing && (u->marks.data[u->at] || !NeedsAnother(sheet, u->at) || IsOfCrumb(sheet, u->at))) {
             continue;
         }
         if (!u->isPlacing && !StartResample(sheet, u->at)) {
@@ -609,95 +643,6 @@ kiriProgress kiriUpdate_Shape(kiriSheetData* sheet, kiriQuota* cells)
     }
 }
 
-/* ---- Pieces ---- */
-
-static int32_t Find(int32_t* parent, int32_t i)
-{
-    while (parent[i] != i) {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    return i;
-}
-
-/* Regions that links join are one piece, and others are not. */
-static bool JoinFrames(kiriSheetData* sheet)
-{
-    kiriUpdate* u = &sheet->update;
-    if (!kiriArray_Resize(sheet->memory, &u->parent, u->sites.count)) {
-        return false;
-    }
-    for (int32_t i = 0; i < u->sites.count; ++i) {
-        u->parent.data[i] = i;
-    }
-    for (int32_t k = 0; k < sheet->links.next.count; ++k) {
-        const kiriLink* link = &sheet->links.next.data[k];
-        int32_t i = Find(u->parent.data, link->i), j = Find(u->parent.data, link->j);
-        u->parent.data[i < j ? j : i] = i < j ? i : j;
-    }
-    return true;
-}
-
-/* The old piece that the material of a frame was in: of a new one, that of a frame which moves it on the old surface. */
-static int32_t OriginOf(const kiriSheetData* sheet, int32_t frame)
-{
-    if (frame < sheet->frames.count) {
-        return sheet->model.framePiece.data[frame];
-    }
-    if (sheet->frames.count == 0) {
-        return KIRI_NONE;
-    }
-    int32_t triangle = sheet->grid.cells.data[sheet->update.sites.data[frame].cell].triangle;
-    int32_t vertex = sheet->mesh.triangles.data[triangle].vertex[0];
-    kiriSpan span = sheet->vertexSkin.spans.data[vertex];
-    return sheet->model.framePiece.data[sheet->vertexSkin.weights.data[span.first].frame];
-}
-
-/* Of the parts of one old piece the largest goes on, and the others came off. */
-static void MarkCameOff(kiriSheetData* sheet)
-{
-    kiriModel* next = &sheet->update.next;
-    int32_t* largest = sheet->update.parent.data; /* of each origin; there are no more of them than frames */
-    for (int32_t o = 0; o < sheet->model.pieces.count; ++o) {
-        largest[o] = KIRI_NONE;
-    }
-    for (int32_t p = 0; p < next->pieces.count; ++p) {
-        int32_t o = next->pieces.data[p].origin;
-        if (o != KIRI_NONE && (largest[o] == KIRI_NONE ||
-                               next->pieces.data[p].area > next->pieces.data[largest[o]].area)) {
-            largest[o] = p;
-        }
-    }
-    for (int32_t p = 0; p < next->pieces.count; ++p) {
-        kiriPiece* piece = &next->pieces.data[p];
-        piece->cameOff = piece->origin != KIRI_NONE && largest[piece->origin] != p;
-    }
-}
-
-static bool BuildPieces(kiriSheetData* sheet)
-{
-    kiriUpdate* u = &sheet->update;
-    kiriModel* next = &u->next;
-    next->pieces.count = 0;
-    if (!JoinFrames(sheet) || !kiriArray_Resize(sheet->memory, &next->framePiece, u->sites.count)) {
-        return false;
-    }
-    for (int32_t i = 0; i < u->sites.count; ++i) {
-        int32_t root = Find(u->parent.data, i);
-        if (root == i) {
-            kiriPiece piece = { 0.0, OriginOf(sheet, i), false };
-            next->framePiece.data[i] = next->pieces.count;
-            if (!kiriArray_Push(sheet->memory, &next->pieces, piece)) {
-                return false;
-            }
-        }
-        next->framePiece.data[i] = next->framePiece.data[root];
-        next->pieces.data[next->framePiece.data[i]].area += u->material.data[i].area;
-    }
-    MarkCameOff(sheet);
-    return true;
-}
-
 /* ---- Samples ---- */
 
 /* The points that were staged, in their new cells. */
@@ -718,7 +663,7 @@ static bool MovePoints(kiriSheetData* sheet)
 /* A piece with points only changes into one without when it falls apart. */
 static bool NeedsPoints(const kiriSheetData* sheet)
 {
-    return sheet->pointCount > 0 && sheet->update.next.pieces.count != sheet->model.pieces.count;
+    return sheet->pointCount > 0.0 && sheet->update.next.pieces.count != sheet->model.pieces.count;
 }
 
 /* Marks the pieces that hold a point. */
@@ -728,6 +673,7 @@ static bool MarkPieces(kiriSheetData* sheet)
     if (!ClearMarks(sheet, u->next.pieces.count)) {
         return false;
     }
+    u->whole = NeedsPoints(sheet) ? kiriUpdate_WholeArea(sheet) : 0.0;
     for (int32_t i = 0; NeedsPoints(sheet) && i < sheet->points.count; ++i) {
         int32_t cell = kiriSample_Around(&sheet->grid, &sheet->mesh, sheet->points.data[i].at);
         u->marks.data[u->next.framePiece.data[sheet->regions.field.owner.data[cell]]] = 1;
@@ -738,10 +684,7 @@ static bool MarkPieces(kiriSheetData* sheet)
 static bool StartPoints(kiriSheetData* sheet, int32_t piece)
 {
     kiriUpdate* u = &sheet->update;
-    int32_t frame = 0;
-    while (u->next.framePiece.data[frame] != piece) {
-        ++frame;
-    }
+    int32_t frame = u->next.pieces.data[piece].frame;
     u->placer.sites.count = 0;
     return kiriPlacer_TakePiece(&u->placer, sheet->memory, &sheet->grid, u->sites.data[frame].cell) &&
            kiriPlacer_Start(&u->placer, sheet->memory, &sheet->grid, &sheet->mesh, NULL,
@@ -789,7 +732,7 @@ static kiriProgress PlacePoints(kiriSheetData* sheet, kiriQuota* samples)
 
 static bool BeginSamples(kiriSheetData* sheet)
 {
-    return BuildPieces(sheet) &&
+    return kiriPieces_Stage(sheet) &&
            kiriRefresh_Start(&sheet->update.refresh, sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh,
                              sheet->update.oldVertices);
 }
@@ -940,6 +883,7 @@ void kiriUpdate_Commit(kiriSheetData* sheet)
     u->touched.vertices = sheet->vertexSkin.staged.count;
     u->touched.points = sheet->pointSkin.staged.count;
     u->touched.links = sheet->links.rebuilt;
+    sheet->lists.isFresh = false;
     CommitFrames(sheet);
     CommitPoints(sheet);
     kiriSkin_Commit(&sheet->vertexSkin);

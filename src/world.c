@@ -1,5 +1,6 @@
 #include "world.h"
 
+#include "extract.h"
 #include "update.h"
 
 #include <string.h>
@@ -161,15 +162,19 @@ static void Commit(kiriWorld* world, kiriSheetData* sheet)
     int32_t oldFrames = sheet->frames.count;
     kiriUpdate_Commit(sheet);
     CountWork(&world->profile, sheet);
+    for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
+        sheet->frames.data[i].id = kiriPool_Add(&world->frameIds, &world->memory, sheet, i);
+    }
     for (int32_t piece = 0; piece < sheet->model.pieces.count; ++piece) {
         if (sheet->model.pieces.data[piece].cameOff) {
             kiriEvent* event = AddEvent(world, KIRI_EVENT_PIECE_OFF, sheet);
             event->piece = piece;
+            event->frame = sheet->frames.data[sheet->model.pieces.data[piece].frame].id;
+            event->crumb = sheet->model.pieces.data[piece].area < sheet->crumbArea;
             event->area = (float)sheet->model.pieces.data[piece].area;
         }
     }
     for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
-        sheet->frames.data[i].id = kiriPool_Add(&world->frameIds, &world->memory, sheet, i);
         AddEvent(world, KIRI_EVENT_FRAME_ADDED, sheet)->frame = sheet->frames.data[i].id;
     }
 }
@@ -367,4 +372,141 @@ kiriCutData* kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet)
     cut->id = kiriPool_Add(&world->cutIds, &world->memory, cut, 0);
     sheet->cuts.data[sheet->cuts.count++] = cut;
     return cut;
+}
+
+/* ---- Pieces ---- */
+
+/* Ids name what has moved to this sheet, or to another place in it. */
+static void PointIds(kiriWorld* world, kiriSheetData* sheet)
+{
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        kiriSlot* slot = kiriPool_Find(&world->frameIds, sheet->frames.data[i].id);
+        slot->owner = sheet;
+        slot->index = i;
+    }
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        kiriSlot* slot = kiriPool_Find(&world->pinIds, sheet->pins.data[i].id);
+        slot->owner = sheet;
+        slot->index = i;
+    }
+}
+
+/* A sheet of the pieces that are kept, without ids; null for memory. */
+static kiriSheetData* Part(kiriWorld* world, kiriExtract* extract)
+{
+    kiriSheetData* part = kiriMemory_Alloc(&world->memory, sizeof(*part));
+    if (part != NULL && !kiriExtract_Build(extract, part)) {
+        kiriMemory_Free(&world->memory, part);
+        part = NULL;
+    }
+    return part;
+}
+
+static void Replace(kiriWorld* world, const kiriExtract* extract, kiriSheetData* sheet, kiriSheetData* rest)
+{
+    kiriExtract_Replace(extract, sheet, rest);
+    kiriMemory_Free(&world->memory, rest);
+    PointIds(world, sheet);
+}
+
+static void Invert(kiriExtract* extract)
+{
+    for (int32_t p = 0; p < extract->keep.count; ++p) {
+        extract->keep.data[p] = !extract->keep.data[p];
+    }
+}
+
+static bool Detach(kiriWorld* world, kiriSheetData* sheet, kiriExtract* extract, kiriSheet* id)
+{
+    if (!kiriArray_Reserve(&world->memory, &world->sheets, (int64_t)world->sheets.count + 1) ||
+        !kiriPool_Reserve(&world->sheetIds, &world->memory, 1)) {
+        return false;
+    }
+    kiriSheetData* part = Part(world, extract);
+    Invert(extract);
+    kiriSheetData* rest = part != NULL ? Part(world, extract) : NULL;
+    if (rest == NULL) {
+        if (part != NULL) {
+            kiriSheet_Release(part);
+        }
+        kiriMemory_Free(&world->memory, part);
+        return false;
+    }
+    Replace(world, extract, sheet, rest);
+    world->sheets.data[world->sheets.count++] = part;
+    part->id = *id = kiriPool_Add(&world->sheetIds, &world->memory, part, 0);
+    PointIds(world, part);
+    return true;
+}
+
+/* Only what is kept stays. */
+static bool Drop(kiriWorld* world, kiriSheetData* sheet, kiriExtract* extract)
+{
+    kiriSheetData* rest = Part(world, extract);
+    if (rest == NULL) {
+        return false;
+    }
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        if (extract->frameTo.data[i] == KIRI_NONE) {
+            kiriPool_Remove(&world->frameIds, sheet->frames.data[i].id);
+        }
+    }
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        if (extract->pinTo.data[i] == KIRI_NONE) {
+            kiriPool_Remove(&world->pinIds, sheet->pins.data[i].id);
+        }
+    }
+    Replace(world, extract, sheet, rest);
+    return true;
+}
+
+bool kiriWorld_DetachPiece(kiriWorld* world, kiriSheetData* sheet, int32_t piece, kiriSheet* id)
+{
+    kiriExtract extract;
+    bool ok = kiriExtract_Init(&extract, sheet);
+    if (ok) {
+        extract.keep.data[piece] = 1;
+        ok = Detach(world, sheet, &extract, id);
+    }
+    kiriExtract_Release(&extract);
+    return ok;
+}
+
+bool kiriWorld_DropPiece(kiriWorld* world, kiriSheetData* sheet, int32_t piece)
+{
+    kiriExtract extract;
+    bool ok = kiriExtract_Init(&extract, sheet);
+    if (ok) {
+        extract.keep.data[piece] = 1;
+        Invert(&extract);
+        ok = Drop(world, sheet, &extract);
+    }
+    kiriExtract_Release(&extract);
+    return ok;
+}
+
+/* Marks what stays, and returns how many pieces do not. */
+static int32_t KeepAbove(kiriExtract* extract, double area)
+{
+    const kiriModel* model = &extract->from->model;
+    int32_t largest = 0, dropped = 0;
+    for (int32_t p = 1; p < model->pieces.count; ++p) {
+        largest = model->pieces.data[p].area > model->pieces.data[largest].area ? p : largest;
+    }
+    for (int32_t p = 0; p < model->pieces.count; ++p) {
+        extract->keep.data[p] = p == largest || model->pieces.data[p].area >= area;
+        dropped += !extract->keep.data[p];
+    }
+    return dropped;
+}
+
+bool kiriWorld_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, int32_t* count)
+{
+    kiriExtract extract;
+    bool ok = kiriExtract_Init(&extract, sheet);
+    int32_t dropped = ok ? KeepAbove(&extract, area) : 0;
+    ok = ok && (dropped == 0 || Drop(world, sheet, &extract));
+    *count = ok ? dropped : 0;
+    kiriExtract_Release(&extract);
+    return ok;
 }

@@ -36,6 +36,12 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps);
 kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, const char** why);
 void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet);
 
+/* A piece that is not the only one gets a sheet of its own, or is taken away; so are all pieces below an area but the
+   largest. No update is at hand in the sheet. False for memory: nothing has changed. */
+bool kiriWorld_DetachPiece(kiriWorld* world, kiriSheetData* sheet, int32_t piece, kiriSheet* id);
+bool kiriWorld_DropPiece(kiriWorld* world, kiriSheetData* sheet, int32_t piece);
+bool kiriWorld_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, int32_t* count);
+
 /* A cut with no points yet; null for memory. */
 kiriCutData* kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet);
 

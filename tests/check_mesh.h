@@ -307,7 +307,7 @@ static inline void CheckProvenance(const kiriMeshData* mesh)
         const kiriVertex* vertex = &mesh->vertices.data[v];
         double x = 0.0, y = 0.0, sum = 0.0, size = 536870912.0;
         for (int i = 0; i < 3; ++i) {
-            kiriPoint c = mesh->sourceCorners.data[3 * vertex->source + i];
+            kiriPoint c = mesh->sourceCorners.data[3 * (vertex->source - mesh->firstSource) + i];
             assert_true(vertex->share[i] >= 0.0f);
             x += (double)vertex->share[i] * c.x;
             y += (double)vertex->share[i] * c.y;

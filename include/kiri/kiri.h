@@ -70,10 +70,11 @@ typedef double kiriClockFn(void* user); /* seconds; read for the profile only, n
    and in the end is what it would have been without a limit: the points given to a sheet before one tick take effect
    together, when all that follows from them is done. Until then the lips of a fresh cut move together. 0: no limit. */
 typedef struct kiriBudget {
-    int32_t triangles;  /* split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
-    int32_t cells;      /* looked at, or given another distance: grid, regions and shape functions */
-    int32_t samples;    /* vertices and collision points with new weights */
-    int32_t iterations; /* linear systems solved. A sheet that gets fewer than its substeps takes longer ones; one that gets
+    int32_t triangles; /* split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
+    int32_t cells;     /* looked at, or given another distance: grid, regions and shape functions */
+    int32_t samples;   /* vertices and collision points with new weights */
+    int32_t
+        iterations; /* linear systems solved. A sheet that gets fewer than its substeps takes longer ones; one that gets
                            none stands still in this tick, and comes first in the next */
 } kiriBudget;
 
@@ -118,7 +119,7 @@ KIRI_API kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* has
 /* What happened since the start of the last tick. */
 enum {
     KIRI_EVENT_CUT_FINISHED = 1, /* cut: all of it is in the mesh; the id is stale from now on */
-    KIRI_EVENT_PIECE_OFF = 2,    /* piece, area: a connected part came off the sheet */
+    KIRI_EVENT_PIECE_OFF = 2,    /* piece, frame (its first), crumb, area: a connected part came off the sheet */
     KIRI_EVENT_FRAME_ADDED = 3,  /* frame */
     KIRI_EVENT_DIVERGED = 4,     /* the sheet was put to rest */
     KIRI_EVENT_DEFERRED = 5      /* stage, waiting: the budget ended in this stage of the sheet's work */
@@ -130,6 +131,7 @@ typedef struct kiriEvent {
     kiriCut cut;     /* or 0 */
     kiriFrame frame; /* or 0 */
     int32_t piece;   /* index of the piece, or -1 */
+    int32_t crumb;   /* 1: the piece is a crumb, see kiriSheetDef */
     float area;      /* m^2 of the piece, or 0 */
     int32_t stage;   /* KIRI_STAGE_..., or -1 */
     int32_t waiting; /* blade points that wait, with those that are being worked on; or 0 */
@@ -271,6 +273,9 @@ typedef struct kiriSheetDef {
     float rigidWeight; /* default 0.95 */
     float rigidArea;   /* default 0 */
 
+    /* A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no frames are added to it. Default 0. */
+    float crumbArea;
+
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
     int32_t iterations;      /* Newton steps a substep, 1 to 64; default 2 */
 
@@ -390,6 +395,57 @@ KIRI_API kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, c
 KIRI_API kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const float restPoint[2],
                                          kiriFrame* frames, float* weights, float* gradients, int32_t capacity,
                                          int32_t* count);
+
+/* ---- Piece ------------------------------------------------------------------------------------------------------ */
+
+/* The connected parts of a sheet, from 0 on to kiriCounts.pieces. Their order is that of their first frames, so a piece's
+   number changes when others come off or are taken away: frames are for keeping, see kiriFrame_GetPiece. A cut whose work
+   waits for its budget has not parted anything yet. Momentum is about the world's origin. */
+typedef struct kiriPieceState {
+    double area, mass;                                    /* m^2, kg */
+    double center[3], momentum[3], angularMomentum[3];    /* of mass, m; kg m/s; kg m^2/s */
+    float lower[3], upper[3];                             /* m, world: the least box around its vertices */
+    int32_t frames, vertices, triangles, collisionPoints; /* how many */
+    int32_t crumb;                                        /* 1: see kiriSheetDef */
+} kiriPieceState;
+
+/* What is in a piece, in the order of the mesh. The arrays are parts of one for all pieces, piece after piece, and stay as
+   they are until the next tick or until a piece is taken away. */
+typedef struct kiriPieceMesh {
+    const int32_t* vertices;        /* of kiriMesh */
+    const int32_t* triangles;       /* of kiriMesh */
+    const int32_t* indices;         /* 3 a triangle, as in kiriMesh: draw them */
+    const int32_t* collisionPoints; /* see kiriSheet_GetCollisionPoints */
+    int32_t vertexCount, triangleCount, collisionPointCount;
+} kiriPieceMesh;
+
+/* The first of these calls after a cut sorts the sheet by pieces, which may fail with KIRI_ERROR_MEMORY. A number that is no
+   piece's: KIRI_ERROR_ARGUMENT. */
+KIRI_API kiriResult kiriSheet_GetPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceState* state);
+KIRI_API kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceMesh* mesh);
+
+/* *frames points to *count ids, as long as the arrays above. */
+KIRI_API kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, int32_t piece, const kiriFrame** frames,
+                                             int32_t* count);
+
+/* Makes a sheet of the piece. Its frames, pins and collision points move along, in their order; they keep their ids and
+   states, and what waits for the next tick: the motion goes on as if nothing had happened, but for the solver's guard over
+   energy and step length, which is one for each sheet. Both sheets have all settings
+   (of collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself, and sleep each
+   for itself. Cuts stay with the rest: a blade in the piece cuts nothing until it is back. Indices of vertices, triangles
+   and collision points of the rest change (its revision grows), and so do the numbers of pieces behind this one: they are
+   one less. Both keep the grid of the whole sheet, which takes about 40 bytes a square: crumbs are better dropped.
+   KIRI_ERROR_STATE: it is the only piece, or work on a cut waits for its budget. */
+KIRI_API kiriResult kiriSheet_DetachPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriSheet* detached);
+
+/* The same without keeping the piece: ids of its frames and pins are stale. */
+KIRI_API kiriResult kiriSheet_DestroyPiece(kiriWorld* world, kiriSheet sheet, int32_t piece);
+
+/* Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is how many. */
+KIRI_API kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count);
+
+/* The piece of its sheet that the frame is in. */
+KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* piece);
 
 /* ---- Cut -------------------------------------------------------------------------------------------------------- */
 
