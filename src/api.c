@@ -375,8 +375,8 @@ static const char* FaultOfFrames(const kiriSheetDef* def)
 static const char* FaultOfModel(const kiriSheetDef* def)
 {
     if (!IsWithin(def->model, KIRI_MODEL_LINKS, KIRI_MODEL_POINTS) || !IsWithin(def->planar, 0, 1) ||
-        !IsWithin(def->fromScratch, 0, 1)) {
-        return "model is not one of KIRI_MODEL, or planar or fromScratch not 0 or 1";
+        !IsWithin(def->fromScratch, 0, 1) || !IsWithin(def->popping, 0, 1)) {
+        return "model is not one of KIRI_MODEL, or planar, fromScratch or popping not 0 or 1";
     }
     return IsWithin(def->integrationPoints, 0, 1 << 20) && IsWithin(def->integrationOrder, 1, 2)
                ? NULL

@@ -70,6 +70,7 @@ static void SetParameters(kiriSheetData* sheet, const kiriSheetDef* def)
     sheet->sleepSpeed = def->sleepSpeed;
     sheet->surface.skinning = def->skinning;
     sheet->alwaysScratch = def->fromScratch != 0;
+    sheet->popping = def->popping != 0;
 }
 
 bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriPoint* at)

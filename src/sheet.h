@@ -8,6 +8,7 @@
 #include "cut.h"
 #include "point.h"
 #include "pool.h"
+#include "refit.h"
 #include "solver.h"
 #include "surface.h"
 
@@ -89,6 +90,7 @@ typedef struct kiriUpdate {
     KIRI_ARRAY(int32_t) parent;     /* of frames: union-find */
     kiriRefresh refresh;
     kiriPointsWork points;
+    kiriRefit refit;
     KIRI_ARRAY(kiriSample) newPoints;
     KIRI_ARRAY(kiriSample) movedPoints; /* `frame` is the index of a point, `cell` where it is now */
     kiriTouched touched;
@@ -104,6 +106,7 @@ typedef struct kiriSheetData {
     double rigidArea;
     int32_t maxFrames, iterations, pointCount, integrationPoints, integrationOrder;
     bool alwaysScratch;
+    bool popping; /* frames are not fitted at a commit */
 
     kiriGrid grid;
     kiriRegions regions;

@@ -289,6 +289,10 @@ typedef struct kiriSheetDef {
     /* 1: every cut rebuilds grid, regions and shape functions from scratch, as the paper does, to compare with; the outcome
        is the same bit for bit. Default 0. */
     int32_t fromScratch;
+
+    /* 1: when a cut takes effect, only new frames take their motion from the surface, as in the paper, to compare with: what
+       is seen jumps, and momentum is not kept. Default 0. */
+    int32_t popping;
 } kiriSheetDef;
 
 KIRI_API void kiriDefaultSheetDef(kiriSheetDef* def);
