@@ -317,6 +317,7 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     def->iterations = 2;
     def->integrationOrder = 1;
     def->sleepSpeed = 0.001f;
+    def->fadeTime = 0.2f;
 }
 
 kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material)
@@ -398,8 +399,8 @@ static const char* FaultOfSheet(const kiriSheetDef* def)
     if (!IsAtLeast(def->snapDistance, 0.0f)) {
         return "snapDistance is below 0";
     }
-    if (!IsAtLeast(def->sleepSpeed, 0.0f)) {
-        return "sleepSpeed is below 0";
+    if (!IsAtLeast(def->sleepSpeed, 0.0f) || !IsAtLeast(def->fadeTime, 0.0f)) {
+        return "sleepSpeed or fadeTime is below 0";
     }
     if (!IsWithin(def->collisionPoints, 0, 1 << 20) || !IsWithin(def->iterations, 1, 64)) {
         return "collisionPoints is not within 0 and 1048576, or iterations not within 1 and 64";

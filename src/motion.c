@@ -107,7 +107,7 @@ static bool Sleeps(kiriSheetData* sheet)
     if (sheet->calm >= CALM_SECONDS && AreContactsNew(sheet)) {
         kiriMotion_Wake(sheet);
     }
-    if (sheet->calm >= CALM_SECONDS && !sheet->asleep) {
+    if (sheet->calm >= CALM_SECONDS && sheet->fades.fading.count == 0 && !sheet->asleep) {
         PutToRest(sheet);
         sheet->asleep = true;
     }

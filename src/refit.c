@@ -428,30 +428,9 @@ static bool FitFrame(Fit* fit, int32_t frame, const kiriTally* region, const kir
     return true;
 }
 
-/* A sheet that flattens while it turns has less inertia, and turns faster with the momentum that it has. Other frames have
-   lost more than that, as a rule; if not, turning is braked where it would bring energy. */
-static void Brake(kiriRefit* refit, const kiriMaterial* material)
-{
-    double gained = 0.0;
-    for (int32_t k = 0; k < refit->fits.count; ++k) {
-        const kiriFit* fit = &refit->fits.data[k];
-        gained += kiriFrame_KineticEnergy(&fit->state, material) - fit->was;
-    }
-    for (int32_t k = 0; gained > 0.0 && k < refit->fits.count; ++k) {
-        kiriFit* fit = &refit->fits.data[k];
-        kiriFrameData* state = &fit->state;
-        double energy = kiriFrame_KineticEnergy(state, material);
-        double straight = 0.5 * state->mass * kiriVec3_Dot(state->velocity, state->velocity);
-        if (energy > fit->was) {
-            double share = sqrt(fit->was > straight ? (fit->was - straight) / (energy - straight) : 0.0);
-            state->spin = kiriVec3_Scale(share, state->spin);
-            state->rate = Scaled(share, &state->rate);
-        }
-    }
-}
-
 void kiriRefit_Solve(kiriRefit* refit, const kiriFrameData* frames, int32_t frameCount, const kiriMeshData* mesh,
-                     const kiriRegions* regions, const kiriMoments* regionMoments, const kiriMaterial* material, bool isRigid)
+                     const kiriRegions* regions, const kiriMoments* regionMoments, const kiriMaterial* material,
+                     bool isRigid)
 {
     Fit fit;
     memset(&fit, 0, sizeof(fit));
@@ -472,9 +451,114 @@ void kiriRefit_Solve(kiriRefit* refit, const kiriFrameData* frames, int32_t fram
         fit.state = &next->state;
         if (FitFrame(&fit, f, &regions->material.data[f], &regionMoments[f])) {
             next->frame = f;
-            next->was = fit.energy;
+            next->gained = kiriFrame_KineticEnergy(&next->state, material) - fit.energy;
             refit->fits.count += 1;
         }
     }
-    Brake(refit, material);
+}
+
+/* ---- Energy ----
+
+   A sheet that flattens while it turns has less inertia, and turns faster with the momentum that it has. Other frames have
+   lost more energy than that, as a rule. If not, the piece pays by what it moves beside its turning as one body, which costs
+   no momentum. Only a piece that does nothing but turn is braked. */
+
+/* The frames of a piece as one body. */
+typedef struct Body {
+    int32_t piece;
+    double gained, energy, mass;
+    kiriVec3 x, velocity, angular, spin;
+    kiriMat3 inertia;
+} Body;
+
+static void AddMass(Body* body, const kiriFrameData* frame, const kiriMaterial* material)
+{
+    body->mass += frame->mass;
+    body->energy += kiriFrame_KineticEnergy(frame, material);
+    body->x = kiriVec3_AddScaled(body->x, frame->mass, frame->x);
+    body->velocity = kiriVec3_AddScaled(body->velocity, frame->mass, frame->velocity);
+}
+
+static void AddTurning(Body* body, const kiriFrameData* frame, const kiriMaterial* material)
+{
+    kiriVec3 arm = kiriVec3_Sub(frame->x, body->x), velocity = kiriVec3_Sub(frame->velocity, body->velocity);
+    double square = frame->mass * kiriVec3_Dot(arm, arm);
+    kiriMat3 own = kiriFrame_Inertia(frame, material);
+    kiriMat3 orbit = { kiriVec3_AddScaled(kiriVec3_Make(square, 0.0, 0.0), -frame->mass * arm.x, arm),
+                       kiriVec3_AddScaled(kiriVec3_Make(0.0, square, 0.0), -frame->mass * arm.y, arm),
+                       kiriVec3_AddScaled(kiriVec3_Make(0.0, 0.0, square), -frame->mass * arm.z, arm) };
+    AddScaled(&body->inertia, 1.0, &own);
+    AddScaled(&body->inertia, 1.0, &orbit);
+    body->angular = kiriVec3_Add(body->angular, kiriFrame_AngularMomentum(frame, material));
+    body->angular = kiriVec3_AddScaled(body->angular, frame->mass, kiriVec3_Cross(arm, velocity));
+}
+
+static void GatherBody(Body* body, const kiriFrameData* frames, int32_t frameCount, const int32_t* piece,
+                       const kiriMaterial* material)
+{
+    for (int32_t f = 0; f < frameCount; ++f) {
+        if (piece[f] == body->piece) {
+            AddMass(body, &frames[f], material);
+        }
+    }
+    body->x = kiriVec3_Scale(1.0 / body->mass, body->x);
+    body->velocity = kiriVec3_Scale(1.0 / body->mass, body->velocity);
+    for (int32_t f = 0; f < frameCount; ++f) {
+        if (piece[f] == body->piece) {
+            AddTurning(body, &frames[f], material);
+        }
+    }
+    body->spin = kiriMat3_Solve(&body->inertia, body->angular);
+}
+
+/* Leaves `turning` of the turning as one body, and `rest` of all else but the flight. */
+static void Slow(const Body* body, kiriFrameData* frame, double turning, double rest)
+{
+    kiriVec3 round = kiriVec3_Cross(body->spin, kiriVec3_Sub(frame->x, body->x));
+    kiriVec3 beside = kiriVec3_Sub(kiriVec3_Sub(frame->velocity, body->velocity), round);
+    kiriVec3 spin = kiriVec3_Sub(frame->spin, body->spin);
+    frame->velocity = kiriVec3_AddScaled(kiriVec3_AddScaled(body->velocity, turning, round), rest, beside);
+    frame->spin = kiriVec3_AddScaled(kiriVec3_Scale(turning, body->spin), rest, spin);
+    frame->rate = Scaled(rest, &frame->rate);
+}
+
+/* The root of a share, which is none where there is nothing to share. */
+static double RootOfShare(double part, double whole)
+{
+    return part > 0.0 && whole > part ? sqrt(part / whole) : part > 0.0 ? 1.0 : 0.0;
+}
+
+static void BrakePiece(Body* body, kiriFrameData* frames, int32_t frameCount, const int32_t* piece,
+                       const kiriMaterial* material)
+{
+    GatherBody(body, frames, frameCount, piece, material);
+    double flight = 0.5 * body->mass * kiriVec3_Dot(body->velocity, body->velocity);
+    double turning = 0.5 * kiriVec3_Dot(body->spin, body->angular), due = body->energy - body->gained;
+    double ofRest = RootOfShare(due - flight - turning, body->energy - flight - turning);
+    double ofTurning = ofRest > 0.0 ? 1.0 : RootOfShare(due - flight, turning);
+    for (int32_t f = 0; f < frameCount; ++f) {
+        if (piece[f] == body->piece && !frames[f].held) {
+            Slow(body, &frames[f], ofTurning, ofRest);
+        }
+    }
+}
+
+void kiriRefit_Brake(const kiriRefit* refit, kiriFrameData* frames, int32_t frameCount, const int32_t* piece,
+                     int32_t pieceCount, const kiriMaterial* material)
+{
+    double gained = 0.0;
+    for (int32_t k = 0; k < refit->fits.count; ++k) {
+        gained += refit->fits.data[k].gained;
+    }
+    for (int32_t p = 0; gained > 0.0 && p < pieceCount; ++p) {
+        Body body;
+        memset(&body, 0, sizeof(body));
+        body.piece = p;
+        for (int32_t k = 0; k < refit->fits.count; ++k) {
+            body.gained += piece[refit->fits.data[k].frame] == p ? refit->fits.data[k].gained : 0.0;
+        }
+        if (body.gained > 0.0) {
+            BrakePiece(&body, frames, frameCount, piece, material);
+        }
+    }
 }

@@ -33,7 +33,7 @@ typedef struct kiriTransfer {
 /* What a frame becomes. */
 typedef struct kiriFit {
     int32_t frame;
-    double was;          /* kinetic energy of its material before, J */
+    double gained;       /* kinetic energy that its material did not have before, J */
     kiriFrameData state; /* with the mass and centre of its new region */
 } kiriFit;
 
@@ -69,7 +69,12 @@ void kiriRefit_Drop(kiriRefit* refit);
    ones, of which only the state is not known; `regionMoments` are of the regions to come. Held frames are not fitted. Never
    fails. */
 void kiriRefit_Solve(kiriRefit* refit, const kiriFrameData* frames, int32_t frameCount, const kiriMeshData* mesh,
-                     const kiriRegions* regions, const kiriMoments* regionMoments, const kiriMaterial* material, bool isRigid);
+                     const kiriRegions* regions, const kiriMoments* regionMoments, const kiriMaterial* material,
+                     bool isRigid);
+
+/* When the frames have their fits: takes back what kinetic energy these have brought. `piece` of each frame. Never fails. */
+void kiriRefit_Brake(const kiriRefit* refit, kiriFrameData* frames, int32_t frameCount, const int32_t* piece,
+                     int32_t pieceCount, const kiriMaterial* material);
 
 /* The regions come in force. Never fails. */
 void kiriRefit_Commit(kiriRefit* refit, const kiriMeshData* mesh);

@@ -136,6 +136,8 @@ typedef struct kiriSheetData {
 
     /* What the host reads, see view.h. */
     kiriSurface surface;
+    kiriFades fades;
+    bool isSeenElsewhere; /* vertices are new, or a cut took effect, since positions were written */
     KIRI_ARRAY(float) pointPositions;
 } kiriSheetData;
 

@@ -34,6 +34,7 @@ bool kiriUpdate_Start(kiriSheetData* sheet)
         }
     }
     u->isBegun = false;
+    sheet->fades.jump = sheet->fades.move = 0.0;
     return u->stage != KIRI_NONE;
 }
 
@@ -895,6 +896,9 @@ static void TakeFits(kiriSheetData* sheet)
         frame->spin = state->spin;
         frame->rate = state->rate;
     }
+    const kiriModel* next = &sheet->update.next;
+    kiriRefit_Brake(refit, sheet->frames.data, sheet->frames.count, next->framePiece.data, next->pieces.count,
+                    &sheet->material);
     kiriRefit_Commit(refit, &sheet->mesh);
 }
 
@@ -951,5 +955,6 @@ void kiriUpdate_Commit(kiriSheetData* sheet)
     u->next = model;
     kiriShape_Settle(&sheet->shape);
     u->isScratch = false;
+    sheet->isSeenElsewhere = true;
     u->oldVertices = sheet->mesh.vertices.count;
 }

@@ -5,24 +5,68 @@
 bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount)
 {
     return kiriSurface_Resize(&sheet->surface, sheet->memory, &sheet->mesh, frameCount) &&
-           kiriArray_Resize(sheet->memory, &sheet->pointPositions, 3 * (int64_t)pointCount);
+           kiriArray_Resize(sheet->memory, &sheet->pointPositions, 3 * (int64_t)pointCount) &&
+           (!sheet->update.isBegun || kiriFades_Reserve(&sheet->fades, sheet->memory, sheet->mesh.vertices.count));
 }
 
 void kiriView_Release(kiriSheetData* sheet)
 {
     kiriSurface_Release(&sheet->surface, sheet->memory);
+    kiriFades_Release(&sheet->fades, sheet->memory);
     kiriArray_Release(sheet->memory, &sheet->pointPositions);
+}
+
+/* A newborn vertex lies on the triangle that was seen. */
+static void PlaceNewborn(kiriSheetData* sheet, int32_t vertex)
+{
+    const kiriBirth* birth = &sheet->mesh.births.data[vertex - sheet->mesh.oldVertexCount];
+    kiriVec3 at = { 0.0, 0.0, 0.0 };
+    for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
+        at = kiriVec3_AddScaled(at, birth->share[k], sheet->surface.exact.data[birth->parent[k]]);
+    }
+    sheet->surface.exact.data[vertex] = at;
 }
 
 void kiriView_WriteTopology(kiriSheetData* sheet)
 {
+    for (int32_t v = sheet->mesh.oldVertexCount; v < sheet->mesh.oldVertexCount + sheet->mesh.births.count; ++v) {
+        PlaceNewborn(sheet, v);
+    }
     kiriSurface_WriteTopology(&sheet->surface, &sheet->mesh);
+    sheet->isSeenElsewhere = true;
+}
+
+static void WriteExact(kiriSheetData* sheet)
+{
+    kiriSurface_WritePositions(&sheet->surface, &sheet->vertexSkin, sheet->frames.data, sheet->frames.count,
+                               sheet->links.links.data, sheet->links.links.count);
+}
+
+void kiriView_TakeJump(kiriSheetData* sheet)
+{
+    kiriSurface* surface = &sheet->surface;
+    if (sheet->isSeenElsewhere) {
+        memcpy(sheet->fades.seen.data, surface->exact.data, sizeof(kiriVec3) * (size_t)surface->vertexCount);
+        WriteExact(sheet);
+        kiriFades_Take(&sheet->fades, surface->exact.data, surface->vertexCount);
+        sheet->isSeenElsewhere = false;
+    }
+}
+
+void kiriView_Fade(kiriSheetData* sheet, double dt)
+{
+    kiriFades_Advance(&sheet->fades, dt);
+    if (!sheet->update.isBegun) {
+        kiriFades_Trim(&sheet->fades, sheet->memory);
+    }
 }
 
 void kiriView_WritePositions(kiriSheetData* sheet)
 {
-    kiriSurface_WritePositions(&sheet->surface, &sheet->vertexSkin, sheet->frames.data, sheet->frames.count,
-                               sheet->links.links.data, sheet->links.links.count);
+    WriteExact(sheet);
+    kiriSurface_AddFades(&sheet->surface, &sheet->fades);
+    kiriSurface_WriteNormals(&sheet->surface);
+    sheet->isSeenElsewhere = false;
     /* Linear whatever is seen: here contacts push (see motion.c). */
     for (int32_t i = 0; i < sheet->points.count; ++i) {
         kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->points.data[i].at);
