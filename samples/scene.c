@@ -78,6 +78,7 @@ static bool MakeRectangle(Scene* scene, kiriSheetDef* def, const SceneOptions* o
             Scale(frames, (int32_t)frameNumbers, size);
             def->framePoints = frames;
         }
+        scene->gridResolution = def->gridResolution;
         result = kiriCreateSheet(scene->world, def, &scene->sheet);
     }
     free(positions);
@@ -203,7 +204,7 @@ static bool AddFigure(Scene* scene, const SceneOptions* options, const Figure* f
 }
 
 /* A push against a figure when it comes off, harder the higher above `foot`, so that it topples out of the hole. */
-static void PushFigure(Scene* scene, const Stroke* stroke, float foot)
+static void PushFigure(Scene* scene, const Stroke* stroke, float foot, float strength)
 {
     if (scene->tick <= stroke->lastTick || scene->tick > stroke->lastTick + 12) {
         return;
@@ -215,7 +216,7 @@ static void PushFigure(Scene* scene, const Stroke* stroke, float foot)
         kiriFrameState state;
         if (kiriFrame_GetState(scene->world, frames[i], &state) == KIRI_OK &&
             Outline_Holds(stroke->way.points, stroke->way.count - 1, state.restPoint)) {
-            float force[3] = { 0.0f, -state.mass * (1.6f + 8.0f * (state.restPoint[1] - foot)), 0.0f };
+            float force[3] = { 0.0f, -strength * state.mass * (1.6f + 8.0f * (state.restPoint[1] - foot)), 0.0f };
             float torque[3] = { 0.0f, 0.0f, 0.0f };
             kiriFrame_ApplyForce(scene->world, frames[i], force, torque);
         }
@@ -238,7 +239,7 @@ static bool StartBunny(Scene* scene, const SceneOptions* options)
 static void PushBunny(Scene* scene)
 {
     TouchFloor(scene);
-    PushFigure(scene, &scene->strokes[0], 0.45f);
+    PushFigure(scene, &scene->strokes[0], 0.45f, 1.0f);
 }
 
 static const Figure patches[] = {
@@ -274,7 +275,7 @@ static void PushPatches(Scene* scene)
 {
     TouchFloor(scene);
     for (int32_t i = 0; i < PATCHES; i++) {
-        PushFigure(scene, &scene->strokes[i], patches[i].v - 0.05f);
+        PushFigure(scene, &scene->strokes[i], patches[i].v - 0.05f, 1.5f);
     }
 }
 
@@ -318,7 +319,7 @@ static bool PinMiddle(Scene* scene, const kiriSheetDef* def)
     return PinHere(scene, def, 0.47f, 0.48f) && PinHere(scene, def, 0.53f, 0.48f) && PinHere(scene, def, 0.5f, 0.53f);
 }
 
-/* ---- Spiral: cut from the border of a sheet that is held in the middle -------------------------------------------- */
+/* ---- Spiral: cut from the border of a sheet that is held in the middle ------------------------------------------- */
 
 static bool StartSpiral(Scene* scene, const SceneOptions* options)
 {
@@ -339,9 +340,8 @@ static bool StartSpiral(Scene* scene, const SceneOptions* options)
 /* Pins would pull at whichever frame is nearest, and that changes as blades pass: so the frames are held. */
 static bool HoldBorder(Scene* scene, const kiriSheetDef* def)
 {
-    for (int32_t i = 0; i < 4; i++) {
-        ShowThread(scene, def, (float)(i & 1), (float)(i >> 1));
-    }
+    ShowThread(scene, def, 0.0f, 0.0f);
+    ShowThread(scene, def, 1.0f, 1.0f);
     return HoldLastFrames(scene, 3);
 }
 
@@ -360,7 +360,7 @@ static bool StartVortex(Scene* scene, const SceneOptions* options)
            Outline_AddSpiral(AddStroke(scene), &first) && Outline_AddSpiral(AddStroke(scene), &second);
 }
 
-/* ---- Kirigami: 8 rings of 6 slits, and the middle is pulled up ---------------------------------------------------- */
+/* ---- Kirigami: 8 rings of 6 slits, and the middle is pulled up --------------------------------------------------- */
 
 enum { RINGS = 8, SLITS = 6, PULL_TICKS = 180 };
 
@@ -428,7 +428,7 @@ static void PullKirigami(Scene* scene)
     }
 }
 
-/* ---- Falling guy: swings down, and hangs on by a finger ------------------------------------------------------------ */
+/* ---- Falling guy: swings down, and hangs on by a finger ---------------------------------------------------------- */
 
 static bool StartFallingGuy(Scene* scene, const SceneOptions* options)
 {
@@ -489,8 +489,8 @@ static const SceneType types[] = {
       .substeps = 4,
       .firstCut = 60,
       .lastCut = 540,
-      .moments = { 60, 200, 400, 540, 600, 650, 710, 800 },
-      .camera = { { 1.0f, -2.2f, 1.5f }, { 0.0f, 0.0f, 0.2f }, 30.0f },
+      .moments = { 60, 200, 400, 540, 620, 650, 690, 800 },
+      .camera = { { 1.0f, -2.2f, 1.35f }, { 0.0f, 0.0f, 0.1f }, 25.0f },
       .look = PAPER_LOOK(0.20f, 0.55f, 0.50f),
       .start = StartKirigami,
       .push = PullKirigami },
@@ -502,7 +502,7 @@ static const SceneType types[] = {
       .firstCut = 60,
       .lastCut = 480,
       .moments = { 60, 165, 200, 290, 400, 480, 500, 600 },
-      .camera = { { 0.95f, -2.75f, 1.2f }, { 0.04f, -0.1f, 0.65f }, 34.0f },
+      .camera = { { 0.95f, -2.85f, 1.2f }, { 0.04f, -0.1f, 0.6f }, 35.0f },
       .look = { { 0.80f, 0.28f, 0.25f }, { 0.95f, 0.85f, 0.60f }, { 0.98f, 0.95f, 0.88f }, 10.0f },
       .start = StartPatchwork,
       .push = PushPatches },
@@ -514,8 +514,8 @@ static const SceneType types[] = {
       .substeps = 2,
       .firstCut = 60,
       .lastCut = 390,
-      .moments = { 60, 160, 240, 290, 340, 375, 400, 540 },
-      .camera = { { 1.1f, -2.5f, 1.55f }, { 0.0f, 0.0f, 0.45f }, 30.0f },
+      .moments = { 60, 160, 225, 250, 280, 330, 390, 540 },
+      .camera = { { 1.1f, -2.5f, 1.45f }, { 0.0f, 0.0f, 0.5f }, 28.0f },
       .look = PAPER_LOOK(0.20f, 0.35f, 0.70f),
       .start = StartVortex,
       .push = TouchFloor },

@@ -35,10 +35,11 @@ typedef struct OldFace {
     kiriFace was;
 } OldFace;
 
-/* An update goes through stages (see kiriGrid_Update), each over the items of a list. All faces need all cells, diagonal steps all
-   faces, and knights all diagonal steps. */
+/* An update goes through stages, each over the items of a list. All faces need all cells, diagonal steps all faces, and
+   knights all diagonal steps. */
 struct kiriGridWork {
     bool running, fromScratch;
+    bool removed;        /* a cell is gone */
     int32_t stage, item; /* where the update is */
     Ints remade;         /* squares whose cells and faces are made again */
     Ints relinked;       /* squares around which steps are made again */
@@ -154,8 +155,8 @@ static void FreeCell(kiriGrid* grid, int32_t c)
     grid->freeCell = c;
 }
 
-/* Takes cells that are gone from the lists of others. Whoever follows the grid need not hear of those that came since it
-   was settled. */
+/* Takes cells that are gone from the other lists. Whoever follows the grid need not hear of those that also came since
+   it was settled. */
 static void ForgetGone(kiriGrid* grid)
 {
     kiriGridChanges* changes = &grid->changes;
@@ -492,8 +493,8 @@ static bool RemoveFace(kiriGrid* grid, const kiriMemory* memory, int32_t f)
     return ok;
 }
 
-/* The face between two cells, new if there is none yet; null for memory. Looks from both ends at once, since a cell with
-   many faces, a comb, most often touches cells with few. */
+/* The face between two cells, new if there is none yet; null for memory. Looks from both ends at once, since a cell
+   with many faces, a comb, most often touches cells with few. */
 static kiriFace* FaceBetween(kiriGrid* grid, const kiriMemory* memory, int32_t a, int32_t b, int axis)
 {
     int32_t f = grid->cells.data[a].firstFace, g = grid->cells.data[b].firstFace;
@@ -728,10 +729,11 @@ static bool RemoveCell(kiriGrid* grid, const kiriMemory* memory, int32_t c)
     (void)SetStepCount(grid, memory, c, 0); /* cannot fail: it shrinks */
     cell->square = cell->next = KIRI_NONE;
     --grid->cellCount;
+    grid->work->removed = true;
     return (grid->work->cellFlags.data[c] & CELL_MADE) != 0 || kiriArray_Push(memory, &grid->changes.gone, c);
 }
 
-/* The one cell of a whole square holds all its triangles. Where the square was whole before, only they may be others. */
+/* The one cell of a whole square holds all its triangles. Where it was whole before, only they may be others. */
 static void FillWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
 {
     const kiriSquareNode* nodes = mesh->squares.nodes.data;
@@ -957,8 +959,8 @@ static kiriStep Joined(kiriStep a, kiriStep b, int16_t length)
     return (kiriStep){ b.cell, length, (int8_t)(a.u + b.u), (int8_t)(a.v + b.v) };
 }
 
-/* A step counts where two ways lead to its cell, and counts once: the first way marks the cell with the number that this
-   returns, the second way finds it and makes it one more. */
+/* A step counts where two ways lead to its cell, and counts once: the first way marks the cell with the number that
+   this returns, the second way finds it and makes it one more. */
 static int64_t NewMark(kiriGridWork* work)
 {
     work->lastMark += 2;
@@ -1004,7 +1006,7 @@ static bool AddDiagonalSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c
     return true;
 }
 
-/* A cell's straight and diagonal steps. The knights stay for the time being, unless they are those of the open plane. */
+/* A cell's straight and diagonal steps. Its knights stay for the time being, or are those of the open plane. */
 static bool MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
     kiriGridWork* work = grid->work;
@@ -1161,6 +1163,7 @@ static bool Start(kiriGrid* grid, const kiriMeshData* mesh)
     grid->work->fromScratch = grid->squareCell.count == 0;
     grid->work->running = true;
     return (!grid->work->fromScratch || StartFromScratch(grid, mesh)) &&
+           kiriArray_Reserve(mesh->memory, &grid->nodeCell, mesh->squares.nodes.capacity) &&
            kiriArray_Resize(mesh->memory, &grid->nodeCell, mesh->squares.nodes.count);
 }
 
@@ -1173,7 +1176,7 @@ static void Rest(kiriGridWork* work)
     work->flagged.count = work->remade.count = work->relinked.count = work->stepped.count = work->knights.count = 0;
     work->node.count = work->parent.count = 0;
     work->stage = work->item = 0;
-    work->running = false;
+    work->running = work->removed = false;
 }
 
 kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
@@ -1192,7 +1195,9 @@ kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota
             }
         }
     }
-    ForgetGone(grid);
+    if (work->removed) {
+        ForgetGone(grid);
+    }
     Rest(work);
     return KIRI_DONE;
 }
@@ -1220,7 +1225,6 @@ void kiriGrid_Reset(kiriGrid* grid)
     changes->made.count = changes->gone.count = changes->restepped.count = changes->remade.count = 0;
     memset(&grid->stepRoom, 0, sizeof(grid->stepRoom));
     if (grid->work != NULL) {
-        grid->work->flagged.count = 0;
         grid->work->cellFlags.count = grid->work->mark.count = 0;
         Rest(grid->work);
     }

@@ -70,8 +70,7 @@ static bool RunScene(const SceneType* type)
     kiriResult result = KIRI_OK;
     for (int32_t i = 0; i < type->ticks && result >= 0; i++) {
         kiriProfile profile;
-        const Stroke* stroke = &scene.strokes[0];
-        int phase = i < stroke->firstTick ? BEFORE : i <= stroke->lastTick ? DURING : AFTER;
+        int phase = i < type->firstCut ? BEFORE : i <= type->lastCut ? DURING : AFTER;
         double start = ReadClock(NULL);
         result = Scene_Tick(&scene);
         Add(&stages[phase][KIRI_STAGE_COUNT], 1e3 * (ReadClock(NULL) - start));
