@@ -1,62 +1,11 @@
 /* A cut that takes effect changes how the sheet is divided, and not how it moves. */
-#include "host.h"
-
-#include "world.h"
+#include "probe.h"
 
 #include <stdio.h>
 
-/* ---- A probe: the world reads its clock between stages, last before and first after a commit ---- */
-
-typedef struct Probe {
-    Host host; /* first: it is the user of the world's functions */
-    kiriSheet sheet;
-    kiriTotals last, now;
-    int32_t commits;
-    double momentum, angular, energy; /* the largest jumps, relative; energy: the largest rise */
-    double size;
-} Probe;
-
-static double Distance(const double a[3], const double b[3])
-{
-    double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-    return sqrt(x * x + y * y + z * z);
-}
-
-static void Record(Probe* probe)
-{
-    const kiriTotals *a = &probe->last, *b = &probe->now;
-    double scale = sqrt(2.0 * a->mass * a->kineticEnergy) + 1e-30;
-    double reach = sqrt(a->center[0] * a->center[0] + a->center[1] * a->center[1] + a->center[2] * a->center[2]);
-    double momentum = Distance(a->momentum, b->momentum) / scale;
-    double angular = Distance(a->angularMomentum, b->angularMomentum) / (scale * (probe->size + reach));
-    double energy = (b->kineticEnergy - a->kineticEnergy) / (a->kineticEnergy + 1e-30);
-    probe->momentum = fmax(probe->momentum, momentum);
-    probe->angular = fmax(probe->angular, angular);
-    probe->energy = fmax(probe->energy, energy);
-    probe->commits += 1;
-}
-
-static double Probe_Clock(void* user)
-{
-    Probe* probe = user;
-    if (probe->sheet != 0) {
-        probe->last = probe->now;
-        probe->now = Host_Totals(&probe->host, probe->sheet);
-        if (probe->host.world->stage == KIRI_STAGE_CONSTANTS) {
-            Record(probe);
-        }
-    }
-    return 0.0;
-}
-
 static void Probe_Start(Probe* probe)
 {
-    memset(probe, 0, sizeof(*probe));
-    probe->host.failAt = -1;
-    probe->size = 1.0;
-    probe->energy = -1e30;
-    kiriWorldDef def = Host_Def(&probe->host);
-    def.clock = Probe_Clock;
+    kiriWorldDef def = Probe_Def(probe, 1.0);
     OK(kiriCreateWorld(&def, &probe->host.world));
 }
 
