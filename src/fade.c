@@ -41,22 +41,28 @@ static double TimeLeft(const kiriFades* fades, const kiriFading* older, double j
     return sum > 0.0 ? (length * older->left + jump * fades->time) / sum : 0.0;
 }
 
+static void TakeOne(kiriFades* fades, const kiriFading* older, kiriVec3 offset)
+{
+    double jump = kiriVec3_Length(kiriVec3_Sub(offset, older->offset));
+    fades->jump = jump > fades->jump ? jump : fades->jump;
+    if (fades->time > 0.0 && kiriVec3_Length(offset) > fades->least) {
+        kiriFading next = { older->sample, TimeLeft(fades, older, jump), offset };
+        fades->fading.data[fades->fading.count++] = next; /* Reserve has made room */
+    }
+}
+
 void kiriFades_Take(kiriFades* fades, const kiriVec3* now, int32_t sampleCount)
 {
     int32_t k = 0;
+    double least = fades->least * fades->least;
     MakeOlder(fades);
     for (int32_t i = 0; i < sampleCount; ++i) {
-        kiriFading older = { i, 0.0, { 0.0, 0.0, 0.0 } };
+        kiriVec3 offset = kiriVec3_Sub(fades->seen.data[i], now[i]);
+        kiriFading none = { i, 0.0, { 0.0, 0.0, 0.0 } };
         if (k < fades->older.count && fades->older.data[k].sample == i) {
-            older = fades->older.data[k++];
-        }
-        kiriFading next = older;
-        next.offset = kiriVec3_Sub(fades->seen.data[i], now[i]);
-        double jump = kiriVec3_Length(kiriVec3_Sub(next.offset, older.offset));
-        fades->jump = jump > fades->jump ? jump : fades->jump;
-        next.left = TimeLeft(fades, &older, jump);
-        if (fades->time > 0.0 && kiriVec3_Length(next.offset) > fades->least) {
-            fades->fading.data[fades->fading.count++] = next; /* Reserve has made room */
+            TakeOne(fades, &fades->older.data[k++], offset);
+        } else if (kiriVec3_Dot(offset, offset) > least) { /* few do */
+            TakeOne(fades, &none, offset);
         }
     }
 }

@@ -546,11 +546,12 @@ static void BrakePiece(Body* body, kiriFrameData* frames, int32_t frameCount, co
 void kiriRefit_Brake(const kiriRefit* refit, kiriFrameData* frames, int32_t frameCount, const int32_t* piece,
                      int32_t pieceCount, const kiriMaterial* material)
 {
-    double gained = 0.0;
+    double gained = 0.0, rounding = 0.0;
     for (int32_t k = 0; k < refit->fits.count; ++k) {
         gained += refit->fits.data[k].gained;
+        rounding += 1e-13 * kiriFrame_KineticEnergy(&refit->fits.data[k].state, material);
     }
-    for (int32_t p = 0; gained > 0.0 && p < pieceCount; ++p) {
+    for (int32_t p = 0; gained > rounding && p < pieceCount; ++p) {
         Body body;
         memset(&body, 0, sizeof(body));
         body.piece = p;

@@ -42,11 +42,22 @@ static void WriteExact(kiriSheetData* sheet)
                                sheet->links.links.data, sheet->links.links.count);
 }
 
+/* Where vertices are seen becomes where they were seen; the room for both is the same. */
+static void SwapSeen(kiriFades* fades, kiriSurface* surface)
+{
+    kiriVec3* data = fades->seen.data;
+    int32_t capacity = fades->seen.capacity;
+    fades->seen.data = surface->exact.data;
+    fades->seen.capacity = surface->exact.capacity;
+    surface->exact.data = data;
+    surface->exact.capacity = capacity;
+}
+
 void kiriView_TakeJump(kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->surface;
     if (sheet->isSeenElsewhere) {
-        memcpy(sheet->fades.seen.data, surface->exact.data, sizeof(kiriVec3) * (size_t)surface->vertexCount);
+        SwapSeen(&sheet->fades, surface);
         WriteExact(sheet);
         kiriFades_Take(&sheet->fades, surface->exact.data, surface->vertexCount);
         sheet->isSeenElsewhere = false;
