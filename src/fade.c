@@ -41,6 +41,16 @@ static double TimeLeft(const kiriFades* fades, const kiriFading* older, double j
     return sum > 0.0 ? (length * older->left + jump * fades->time) / sum : 0.0;
 }
 
+void kiriFades_Remember(kiriFades* fades, kiriVec3** samples, int32_t* capacity)
+{
+    kiriVec3* data = fades->seen.data;
+    int32_t room = fades->seen.capacity;
+    fades->seen.data = *samples;
+    fades->seen.capacity = *capacity;
+    *samples = data;
+    *capacity = room;
+}
+
 static void TakeOne(kiriFades* fades, const kiriFading* older, kiriVec3 offset)
 {
     double jump = kiriVec3_Length(kiriVec3_Sub(offset, older->offset));

@@ -28,6 +28,9 @@ bool kiriFades_Reserve(kiriFades* fades, const kiriMemory* memory, int32_t sampl
 void kiriFades_Trim(kiriFades* fades, const kiriMemory* memory);
 void kiriFades_Release(kiriFades* fades, const kiriMemory* memory);
 
+/* Swaps fades->seen with the samples' own array, which had where they are seen. Both have room for all. */
+void kiriFades_Remember(kiriFades* fades, kiriVec3** samples, int32_t* capacity);
+
 /* Samples that are seen at fades->seen would be at `now`, if nothing faded: the difference fades from here on. */
 void kiriFades_Take(kiriFades* fades, const kiriVec3* now, int32_t sampleCount);
 

@@ -73,6 +73,7 @@ static void SetParameters(kiriSheetData* sheet, const kiriSheetDef* def)
     sheet->popping = def->popping != 0;
     sheet->fades.time = sheet->popping ? 0.0 : def->fadeTime;
     sheet->fades.least = 1e-7 * longer * sheet->mesh.step; /* of the longer side */
+    sheet->pointFades = sheet->fades;
 }
 
 bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriPoint* at)

@@ -136,7 +136,9 @@ typedef struct kiriSheetData {
 
     /* What the host reads, see view.h. */
     kiriSurface surface;
-    kiriFades fades;
+    kiriFades fades, pointFades; /* of vertices, and of collision points */
+    KIRI_ARRAY(kiriVec3) exactPoints; /* where they are seen, */
+    int32_t seenPoints;               /* so many */
     bool isSeenElsewhere; /* vertices are new, or a cut took effect, since positions were written */
     KIRI_ARRAY(float) pointPositions;
 } kiriSheetData;

@@ -241,6 +241,7 @@ uint64_t kiriSnapshot_Hash(const kiriWorld* world)
         Waiting(&hash, sheet);
         Sleep(&hash, sheet);
         Fades(&hash, &sheet->fades);
+        Fades(&hash, &sheet->pointFades);
         for (int32_t f = 0; f < sheet->frames.count; ++f) {
             Frame(&hash, &sheet->frames.data[f]);
         }

@@ -256,7 +256,8 @@ static void TestFarFramesKeepTheirState(void** state)
 typedef struct Seen {
     Probe probe;
     kiriVec3 at[4000]; /* after the last tick */
-    double jump, longest;
+    double jump, longest, pointJump;
+    int32_t pointCount; /* after the last tick */
 } Seen;
 
 static kiriVec3 OffsetOf(const kiriFades* fades, int32_t vertex)
@@ -290,6 +291,13 @@ static void CheckSeen(Probe* probe)
         seen->jump = fmax(seen->jump, kiriVec3_Length(kiriVec3_Sub(kiriVec3_Add(x, offset), was)));
         seen->longest = fmax(seen->longest, kiriVec3_Length(offset));
     }
+    for (int32_t i = 0; i < seen->pointCount; ++i) {
+        kiriVec2 local = kiriMesh_Local(mesh, sheet->points.data[i].at);
+        kiriVec3 x = kiriVec3_Add(kiriSkin_Position(&sheet->pointSkin, i, sheet->frames.data, local),
+                                  OffsetOf(&sheet->pointFades, i));
+        kiriVec3 was = kiriVec3_Load(&sheet->pointPositions.data[3 * i]); /* since the last tick */
+        seen->pointJump = fmax(seen->pointJump, kiriVec3_Length(kiriVec3_Sub(x, was)));
+    }
 }
 
 /* A cloth that swings is cut, point by point. */
@@ -302,13 +310,14 @@ static void CutWhatSwings(Seen* seen, const kiriSheetDef* def)
     Probe_Start(probe);
     probe->sheet = Host_AddRectangle(&probe->host, (kiriSheetDef*)def, 1.0f, 1.0f, 16, 16);
     probe->record = CheckSeen;
-    seen->jump = seen->longest = 0.0;
+    seen->jump = seen->longest = seen->pointJump = 0.0;
     Spin(probe, flight, turn, 2.0, &seed);
     Circle(way, 30, 0.5, 0.45, 0.3);
     OK(kiriBeginCut(probe->host.world, probe->sheet, way[0], &cut));
     for (int32_t tick = 0; tick < 40; ++tick) {
         const kiriSurface* surface = &DataOf(probe)->surface;
         assert_true(surface->vertexCount <= 3000);
+        seen->pointCount = DataOf(probe)->points.count;
         memcpy(seen->at, surface->exact.data, sizeof(kiriVec3) * (size_t)surface->vertexCount);
         if (tick >= 10) {
             OK(kiriCut_Extend(probe->host.world, cut, way[tick - 10], 1));
@@ -326,15 +335,17 @@ static void TestNothingSeenJumps(void** state)
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
     def.frameCount = 8;
+    def.collisionPoints = 40;
     CutWhatSwings(seen, &def);
     printf("with fades: jumps of %.1e m, offsets of up to %.1e m\n", seen->jump, seen->longest);
     assert_true(seen->jump < 1e-6 && seen->longest > 1e-3);
+    assert_true(seen->pointCount >= 40 && seen->pointJump < 1e-6);
     Host_Stop(&seen->probe.host);
 
     def.fadeTime = 0.0f;
     CutWhatSwings(seen, &def);
     double fitted = seen->jump;
-    assert_true(fitted > 1e-3 && seen->longest == 0.0);
+    assert_true(fitted > 1e-3 && seen->pointJump > 1e-3 && seen->longest == 0.0);
     Host_Stop(&seen->probe.host);
 
     def.fadeTime = 0.2f;
