@@ -1,5 +1,5 @@
-/* What is left of a jump when a cut takes effect: samples are seen to go on where they were, and go over to where the new
-   weights have them within a few ticks. */
+/* What is left of a jump when a cut takes effect: samples are seen to go on where they were, and go over to where the
+   new weights have them within a few ticks. */
 #ifndef KIRI_FADE_H
 #define KIRI_FADE_H
 

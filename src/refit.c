@@ -4,9 +4,9 @@
 
 /* ---- Who owned what ---------------------------------------------------------------------------------------------
 
-   Cells have no lasting name: an update from scratch makes all of them anew. But cells only ever fall apart, and a triangle
-   is convex, so what it has in a square lies in one cell, and so does what its parts have there later. So a square that is
-   one cell keeps its owner, and a divided one the owner by triangle. */
+   Cells have no lasting name: an update from scratch makes all of them anew. But cells only ever fall apart, and a
+   triangle is convex, so what it has in a square lies in one cell, and so does what its parts have there later. So a
+   square that is one cell keeps its owner, and a divided one the owner by triangle. */
 
 static bool Note(kiriRefit* refit, const kiriMemory* memory, int32_t square)
 {
@@ -105,7 +105,8 @@ static bool StageTransfers(kiriRefit* refit, const kiriMemory* memory, const kir
 {
     double extent = Extent(mesh);
     for (int32_t c = grid->squareCell.data[square]; c != KIRI_NONE; c = grid->cells.data[c].next) {
-        int32_t to = regions->field.owner.data[c], from = OwnerBefore(refit, mesh, square, grid->cells.data[c].triangle);
+        int32_t to = regions->field.owner.data[c];
+        int32_t from = OwnerBefore(refit, mesh, square, grid->cells.data[c].triangle);
         if (from != KIRI_NONE && from != to) {
             kiriTransfer* transfer = TransferOf(refit, memory, to, from);
             if (transfer == NULL) {
@@ -236,8 +237,8 @@ void kiriRefit_Release(kiriRefit* refit, const kiriMemory* memory)
 
 /* ---- The fit ----------------------------------------------------------------------------------------------------
 
-   A part of the new region moves, before the commit, as a frame with the part's own mass and centre would. So all that is
-   known of frames holds for parts. */
+   A part of the new region moves, before the commit, as a frame with the part's own mass and centre would. So all that
+   is known of frames holds for parts. */
 
 typedef struct Fit {
     const kiriRefit* refit;
@@ -247,9 +248,9 @@ typedef struct Fit {
     double extent, densityPerArea;
     bool isRigid;
 
-    kiriFrameData* state;  /* that is sought; its centre, x and velocity are those of all parts before the second pass */
-    double mass;           /* of the parts */
-    kiriMat3 A, rate;      /* their means */
+    kiriFrameData* state; /* that is sought; its centre, x and velocity are those of all parts before the second pass */
+    double mass;          /* of the parts */
+    kiriMat3 A, rate;     /* their means */
     kiriMat3 lean, growth; /* integrals of density times position, and velocity, times the way from the centre */
     kiriVec3 angular;      /* momentum about the centre */
     double energy;         /* kinetic */
@@ -297,7 +298,8 @@ static void VisitPart(Fit* fit, int32_t from, const kiriTally* tally, void visit
 }
 
 /* What stayed with the frame, then what came to it. */
-static void VisitParts(Fit* fit, int32_t frame, const kiriTally* region, void visit(Fit* fit, const kiriFrameData* part))
+static void VisitParts(Fit* fit, int32_t frame, const kiriTally* region,
+                       void visit(Fit* fit, const kiriFrameData* part))
 {
     const kiriTransfer* transfers = fit->refit->transfers.data;
     kiriTally kept = *region;
@@ -372,7 +374,8 @@ static void SumLeans(Fit* fit, const kiriFrameData* part)
     fit->energy += kiriFrame_KineticEnergy(part, fit->material);
 }
 
-/* The slope whose integral comes nearest to `lean`, from the mean: where the region is a thread, that stays across it. */
+/* The slope whose integral comes nearest to `lean`, from the mean: where the region is a thread, that stays across it.
+   */
 static kiriMat3 SlopeOf(const Fit* fit, const kiriMat3* mean, const kiriMat3* lean)
 {
     kiriMassMoments m = MomentsOf(fit, fit->state);
@@ -459,9 +462,9 @@ void kiriRefit_Solve(kiriRefit* refit, const kiriFrameData* frames, int32_t fram
 
 /* ---- Energy ----
 
-   A sheet that flattens while it turns has less inertia, and turns faster with the momentum that it has. Other frames have
-   lost more energy than that, as a rule. If not, the piece pays by what it moves beside its turning as one body, which costs
-   no momentum. Only a piece that does nothing but turn is braked. */
+   A sheet that flattens while it turns has less inertia, and turns faster with the momentum that it has. Other frames
+   have lost more energy than that, as a rule. If not, the piece pays by what it moves beside its turning as one body,
+   which costs no momentum. Only a piece that does nothing but turn is braked. */
 
 /* The frames of a piece as one body. */
 typedef struct Body {

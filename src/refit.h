@@ -1,7 +1,7 @@
-/* What frames do after a commit that gives cells to other frames. The motion before is one of frames over their old regions;
-   after it each frame moves as the material that is now its own did: the projection of that motion, in the norm of mass. So
-   linear and angular momentum stay what they were, and the rigid motion of a sheet goes on. A frame whose region only lost
-   cells, or none, goes on as it did. */
+/* What frames do after a commit that gives cells to other frames. The motion before is one of frames over their old
+   regions; after it each frame moves as the material that is now its own did: the projection of that motion, in the
+   norm of mass. So linear and angular momentum stay what they were, and the rigid motion of a sheet goes on. A frame
+   whose region only lost cells, or none, goes on as it did. */
 #ifndef KIRI_REFIT_H
 #define KIRI_REFIT_H
 
@@ -12,7 +12,8 @@ typedef struct kiriOwned {
     int32_t triangle, owner;
 } kiriOwned;
 
-/* Owners in force of the cells of a square, by what outlives the cells: one that is divided knows them by its triangles. */
+/* Owners in force of the cells of a square, by what outlives the cells: one that is divided knows them by its
+   triangles. */
 typedef struct kiriTenure {
     int32_t owner; /* of the whole square, where `parts` is empty; KIRI_NONE: nobody has owned it yet */
     kiriSpan parts;
@@ -52,8 +53,8 @@ typedef struct kiriRefit {
     KIRI_ARRAY(kiriFit) fits;
 } kiriRefit;
 
-/* Notes squares in which owners may change: those of mesh->squares.touched, and those of regions->changes. Call them before
-   these are cleared or settled. All false for memory. */
+/* Notes squares in which owners may change: those of mesh->squares.touched, and those of regions->changes. Call them
+   before these are cleared or settled. All false for memory. */
 bool kiriRefit_NoteTouched(kiriRefit* refit, const kiriMemory* memory, const kiriMeshData* mesh);
 bool kiriRefit_NoteChanges(kiriRefit* refit, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                            const kiriRegions* regions);
@@ -65,14 +66,15 @@ bool kiriRefit_Stage(kiriRefit* refit, const kiriMemory* memory, const kiriGrid*
 /* Forgets what is noted and staged. */
 void kiriRefit_Drop(kiriRefit* refit);
 
-/* Fits the frames to which material comes, into `fits`, by frame. `frames` are those in force, and from frameCount on new
-   ones, of which only the state is not known; `regionMoments` are of the regions to come. Held frames are not fitted. Never
-   fails. */
+/* Fits the frames to which material comes, into `fits`, by frame. `frames` are those in force, and from frameCount on
+   new ones, of which only the state is not known; `regionMoments` are of the regions to come. Held frames are not
+   fitted. Never fails. */
 void kiriRefit_Solve(kiriRefit* refit, const kiriFrameData* frames, int32_t frameCount, const kiriMeshData* mesh,
                      const kiriRegions* regions, const kiriMoments* regionMoments, const kiriMaterial* material,
                      bool isRigid);
 
-/* When the frames have their fits: takes back what kinetic energy these have brought. `piece` of each frame. Never fails. */
+/* When the frames have their fits: takes back what kinetic energy these have brought. `piece` of each frame. Never
+   fails. */
 void kiriRefit_Brake(const kiriRefit* refit, kiriFrameData* frames, int32_t frameCount, const int32_t* piece,
                      int32_t pieceCount, const kiriMaterial* material);
 

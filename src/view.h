@@ -11,8 +11,8 @@ void kiriView_Release(kiriSheetData* sheet);
 /* What has changed in the mesh; before kiriMesh_Commit. */
 void kiriView_WriteTopology(kiriSheetData* sheet);
 
-/* After all commits of a tick, and before the sheet moves: what is seen stays where it is, and fades from there to where it
-   belongs. Then time goes on. */
+/* After all commits of a tick, and before the sheet moves: what is seen stays where it is, and fades from there to
+   where it belongs. Then time goes on. */
 void kiriView_TakeJump(kiriSheetData* sheet);
 void kiriView_Fade(kiriSheetData* sheet, double dt);
 

@@ -1,5 +1,5 @@
-/* How what is seen, and how it moves, jumps when cuts take effect: as the paper has it (new frames take their motion from the
-   surface, nothing else happens), with fitted frames, and with the rest faded. */
+/* How what is seen, and how it moves, jumps when cuts take effect: as the paper has it (new frames take their motion
+   from the surface, nothing else happens), with fitted frames, and with the rest faded. */
 #include "probe.h"
 #include "../samples/scene.h"
 
@@ -8,74 +8,89 @@
 enum { PAPER, FITTED, FADED, WAYS };
 
 typedef struct Jumps {
-    double jump, meanJump, fade, momentum, angular, energy;
-    int32_t commits;
+    Probe probe; /* first: so the probe's record finds the rest */
+    kiriVec3* at;
+    int32_t room;
+    double cell, jump, sum, fade; /* jumps and ways in cells */
 } Jumps;
 
-static void Choose(Probe* probe, int way)
+static kiriSheetData* SheetOf(const Jumps* jumps)
 {
-    kiriSheetData* sheet = probe->host.world->sheets.data[0];
+    return jumps->probe.host.world->sheets.data[0];
+}
+
+static void Record(Probe* probe)
+{
+    Jumps* jumps = (Jumps*)probe;
+    double jump = Probe_SeenJump(SheetOf(jumps), jumps->at) / jumps->cell;
+    jumps->jump = fmax(jumps->jump, jump);
+    jumps->sum += jump;
+}
+
+static void Choose(kiriSheetData* sheet, int way)
+{
     sheet->popping = way == PAPER;
     if (way != FADED) {
-        sheet->fades.time = 0.0;
+        sheet->fades.time = sheet->pointFades.time = 0.0;
     }
 }
 
-static double CellSize(const Probe* probe)
+/* Where vertices are; with room for as many as a tick may add. */
+static void Remember(Jumps* jumps)
 {
-    return probe->host.world->sheets.data[0]->grid.side;
+    const kiriSurface* surface = &SheetOf(jumps)->surface;
+    if (jumps->room < surface->vertexCount + 10000) {
+        jumps->room = 2 * surface->vertexCount + 20000;
+        free(jumps->at);
+        jumps->at = malloc(sizeof(kiriVec3) * (size_t)jumps->room);
+    }
+    memcpy(jumps->at, surface->exact.data, sizeof(kiriVec3) * (size_t)surface->vertexCount);
 }
 
-/* Lengths in cells. */
-static Jumps Measure(const SceneType* type, int way)
+static void Measure(Jumps* jumps, const SceneType* type, int way)
 {
-    Probe probe;
-    Scene scene;
-    kiriWorldDef def = Probe_Def(&probe, type->size);
+    static Scene scene;
+    memset(jumps, 0, sizeof(*jumps));
+    kiriWorldDef def = Probe_Def(&jumps->probe, type->size);
     const SceneOptions options = { NULL, 0, 0 };
-    Jumps jumps = { 0 };
     if (!Scene_Start(&scene, type, &def, &options)) {
         exit(1);
     }
-    probe.host.world = scene.world;
-    probe.sheet = scene.sheet;
-    Choose(&probe, way);
-    double cell = CellSize(&probe), sum = 0.0;
+    jumps->probe.host.world = scene.world;
+    jumps->probe.sheet = scene.sheet;
+    jumps->probe.record = Record;
+    jumps->cell = SheetOf(jumps)->grid.side;
+    Choose(SheetOf(jumps), way);
     for (int32_t tick = 0; tick < type->ticks; ++tick) {
         kiriProfile profile;
+        Remember(jumps);
         Scene_Tick(&scene);
         kiriWorld_GetProfile(scene.world, &profile);
-        jumps.jump = fmax(jumps.jump, profile.largestJump / cell);
-        jumps.fade = fmax(jumps.fade, profile.largestFade / cell);
-        sum += profile.commits > 0 ? profile.largestJump / cell : 0.0;
+        jumps->fade = fmax(jumps->fade, profile.largestFade / jumps->cell);
     }
-    jumps.commits = probe.commits;
-    jumps.meanJump = sum / probe.commits;
-    jumps.momentum = probe.momentum;
-    jumps.angular = probe.angular;
-    jumps.energy = probe.energy;
     Scene_Stop(&scene);
-    return jumps;
+    free(jumps->at);
 }
 
 static void Print(const char* scene, int way, const Jumps* jumps)
 {
     static const char* const names[WAYS] = { "paper", "fitted", "faded" };
-    printf("%-11s %-7s %7d %10.2e %10.2e %10.2e %10.1e %10.1e %+10.1e\n", scene, names[way], jumps->commits,
-           way == FADED ? 0.0 : jumps->jump, way == FADED ? 0.0 : jumps->meanJump, way == FADED ? jumps->fade : 0.0,
-           jumps->momentum, jumps->angular, jumps->energy);
+    const Probe* probe = &jumps->probe;
+    printf("%-11s %-7s %7d %10.2e %10.2e %10.2e %10.1e %10.1e %+10.1e\n", scene, names[way], probe->commits,
+           jumps->jump, jumps->sum / probe->commits, jumps->fade, probe->momentum, probe->angular, probe->energy);
 }
 
+/* The argument is a scene; none: all. */
 int main(int count, char** arguments)
 {
-    printf("%-11s %-7s %7s %10s %10s %10s %10s %10s %10s\n", "scene", "way", "commits", "jump/cell", "mean", "a tick",
-           "momentum", "angular", "energy");
+    static Jumps jumps;
+    printf("%-11s %-7s %7s %10s %10s %10s %10s %10s %10s\n", "scene", "way", "commits", "jump/cell", "mean",
+           "fade/tick", "momentum", "angular", "energy");
     for (int32_t i = 0; Scene_GetType(i) != NULL; ++i) {
         const SceneType* type = Scene_GetType(i);
         for (int way = 0; way < WAYS && (count < 2 || strcmp(arguments[1], type->name) == 0); ++way) {
-            Jumps jumps = Measure(type, way);
+            Measure(&jumps, type, way);
             Print(type->name, way, &jumps);
-            fflush(stdout);
         }
     }
     return 0;

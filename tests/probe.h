@@ -1,5 +1,5 @@
-/* Looks at a sheet right before and right after each commit: the world reads its clock between stages, and not between the
-   commit and what comes before and after it. */
+/* Looks at a sheet right before and right after each commit: the world reads its clock between stages, and not between
+   the commit and what comes before and after it. */
 #ifndef KIRI_TEST_PROBE_H
 #define KIRI_TEST_PROBE_H
 
@@ -10,7 +10,7 @@
 typedef struct Probe {
     Host host; /* first: it is the user of the world's functions */
     kiriSheet sheet;
-    double size; /* m */
+    double size;                         /* m */
     void (*record)(struct Probe* probe); /* or null */
     kiriTotals last, now;                /* before and after the commit */
 
@@ -64,6 +64,43 @@ static inline kiriWorldDef Probe_Def(Probe* probe, double size)
     kiriWorldDef def = Host_Def(&probe->host);
     def.clock = Probe_Clock;
     return def;
+}
+
+/* What fades of a sample. */
+static inline kiriVec3 Probe_OffsetOf(const kiriFades* fades, int32_t sample)
+{
+    kiriVec3 offset = { 0.0, 0.0, 0.0 };
+    int32_t low = 0, high = fades->fading.count;
+    while (low < high) {
+        int32_t middle = (low + high) / 2;
+        bool isBelow = fades->fading.data[middle].sample < sample;
+        low = isBelow ? middle + 1 : low;
+        high = isBelow ? high : middle;
+    }
+    if (low < fades->fading.count && fades->fading.data[low].sample == sample) {
+        offset = fades->fading.data[low].offset;
+    }
+    return offset;
+}
+
+/* The farthest that a vertex of a linear surface is seen to jump at the commit. `seen`: where vertices were after the
+   last tick; it has room for all, and newborn ones, which lie on the triangles that were seen, are added. */
+static inline double Probe_SeenJump(const kiriSheetData* sheet, kiriVec3* seen)
+{
+    const kiriMeshData* mesh = &sheet->mesh;
+    double jump = 0.0;
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        kiriVec2 local = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
+        kiriVec3 x = kiriSkin_Position(&sheet->vertexSkin, v, sheet->frames.data, local);
+        kiriVec3 offset = Probe_OffsetOf(&sheet->fades, v), was = { 0.0, 0.0, 0.0 };
+        const kiriBirth* birth = &mesh->births.data[v - mesh->oldVertexCount];
+        for (int k = 0; k < 3 && v >= mesh->oldVertexCount && birth->parent[k] != KIRI_NONE; ++k) {
+            was = kiriVec3_AddScaled(was, birth->share[k], seen[birth->parent[k]]);
+        }
+        seen[v] = v < mesh->oldVertexCount ? seen[v] : was;
+        jump = fmax(jump, kiriVec3_Length(kiriVec3_Sub(kiriVec3_Add(x, offset), seen[v])));
+    }
+    return jump;
 }
 
 #endif

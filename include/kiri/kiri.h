@@ -163,7 +163,8 @@ typedef struct kiriProfile {
     int32_t cellsChanged, weightsChanged, verticesChanged, pointsChanged, linksChanged;
     int32_t commits; /* sheets in which a cut took effect */
 
-    /* The farthest that a vertex would have jumped when a cut took effect, without fadeTime, and that one went by a fade, m. */
+    /* The farthest that a vertex would have jumped, m, when a cut took effect, without fadeTime; and that one went by a
+       fade. */
     double largestJump, largestFade;
 } kiriProfile;
 
@@ -298,8 +299,8 @@ typedef struct kiriSheetDef {
        belongs within this time (s). Default 0.2; 0: at once. */
     float fadeTime;
 
-    /* 1: when a cut takes effect, only new frames take their motion from the surface, as in the paper, to compare with: what
-       is seen jumps, and momentum is not kept. Default 0. */
+    /* 1: when a cut takes effect, only new frames take their motion from the surface, as in the paper, to compare with:
+       what is seen jumps, and momentum is not kept. Default 0. */
     int32_t popping;
 } kiriSheetDef;
 
