@@ -442,6 +442,7 @@ static bool StartFallingGuy(Scene* scene, const SceneOptions* options)
     def.gridResolution = 100;
     def.frameCount = def.maxFrames = 10;
     def.collisionPoints = 500;
+    def.iterations = 4; /* large turns at each tick while he swings */
     bool fine = MakeRectangle(scene, &def, options, &rectangle) && PinBorder(scene, &def, 2.0f, 1.0f) &&
                 AddFigure(scene, options, &guy);
     if (fine) {

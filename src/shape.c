@@ -23,16 +23,16 @@ typedef struct Entry {
 /* What an update knows of a frame. */
 typedef struct Look {
     int32_t limit; /* of the distances in its list */
-    int32_t reach; /* the largest distance of cells that came to its region */
+    int32_t reach; /* the least limit that cells which came to its region ask for, or lie elsewhere in it */
     bool moved;    /* its site */
     bool reowned;  /* a cell came to its region, left it, or lies elsewhere in it */
 } Look;
 
-typedef enum Stage { AT_REST, NEXT_FRAME, FROM_SITE, FROM_BORDER, PUTTING, NORMALIZING } Stage;
+typedef enum Stage { AT_REST, NEXT_FRAME, FROM_SITE, FROM_BORDER, OPENING, PUTTING, NORMALIZING } Stage;
 
 struct kiriShapeWork {
-    /* Of the frame at hand; empty between frames. All seeds are its own, so they need no owner, and lists that are loaded
-       neither. */
+    /* Of the frame at hand; empty between frames. All seeds are its own, so they need no owner, and lists that are
+       loaded neither. */
     kiriField fromSite;   /* distances to its site, no farther than its weight may be above zero, */
     kiriField fromBorder; /* and to the border of its region */
     kiriSeeds seeds;
@@ -67,12 +67,30 @@ static bool Inside(const Job* job, int32_t cell)
     return job->regions->field.owner.data[cell] == job->frame;
 }
 
-/* The border lies up to one step beyond the reach. At twice that distance it is no nearer than half the way to the
-   site, so the weight is zero from there on. */
+/* How far distances to the site of its region have to go for the sake of a cell x: to itself, and where a step leads over the
+   border to y, to the last cell that gets weight from there. Let the nearest way from such a cell c to the border come in
+   by y. Then d <= D(x) + |xy| + |yc|, and the weight is above zero only where d > 2 e = D(x) + |xy| - D(y) + 2 |yc|: where
+   |yc| < D(y), and so d < D(x) + |xy| + D(y). */
+static int32_t ReachAt(const kiriRegions* regions, const kiriGrid* grid, int32_t x)
+{
+    const int32_t *owner = regions->field.owner.data, *distance = regions->field.distance.data;
+    const kiriStepRun* run = &grid->runs.data[x];
+    int64_t farthest = distance[x];
+    for (int32_t s = run->first; regions->onBorder.data[x] && s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        kiriStep step = grid->steps.data[s];
+        if (owner[step.cell] != owner[x]) {
+            int64_t over = (int64_t)distance[x] + step.length + distance[step.cell];
+            farthest = over > farthest ? over : farthest;
+        }
+    }
+    return farthest < KIRI_FAR ? (int32_t)farthest : KIRI_FAR - 1;
+}
+
+/* In whole sides, so that it seldom changes. */
 static int32_t LimitOf(int32_t reach)
 {
-    int64_t twice = 2 * ((int64_t)reach + KIRI_UNIT_KNIGHT);
-    return twice < KIRI_FAR ? (int32_t)twice : KIRI_FAR - 1;
+    int64_t sides = reach / KIRI_UNIT + 1;
+    return sides * KIRI_UNIT < KIRI_FAR ? (int32_t)(sides * KIRI_UNIT) : KIRI_FAR - 1;
 }
 
 static kiriSeed SiteSeed(const void* context, int32_t cell)
@@ -255,7 +273,7 @@ static void Normalize(Job* job, int32_t cell)
 
 /* ---- One frame ---- */
 
-/* No way goes farther than a square a KIRI_UNIT, but for what a site off the middle of its square gains at its start. */
+/* No way goes farther than a square a KIRI_UNIT, but for what a site off its middle gains at the start. */
 static bool IsInBox(const Job* job)
 {
     int32_t square = job->grid->cells.data[job->sites[job->frame].cell].square, columns = job->mesh->squares.columns;
@@ -283,21 +301,24 @@ static bool IsConcerned(const Job* job)
     return changed != 0;
 }
 
-/* The largest distance of the cells of its region: they all came to it, or are in its list. */
+/* What the cells of its region ask for: they all came to it, or are in its list. */
 static int32_t ReachOf(const Job* job)
 {
     const kiriReaches* list = &job->shape->reaches.data[job->frame];
-    const int32_t *owner = job->regions->field.owner.data, *distance = job->regions->field.distance.data;
+    const int32_t* owner = job->regions->field.owner.data;
     int32_t reach = job->work->looks.data[job->frame].reach;
     for (int32_t k = 0; k < list->count; ++k) {
         int32_t cell = list->data[k].cell; /* has no owner where it is gone */
-        reach = owner[cell] == job->frame && distance[cell] > reach ? distance[cell] : reach;
+        if (owner[cell] == job->frame) {
+            int32_t at = ReachAt(job->regions, job->grid, cell);
+            reach = at > reach ? at : reach;
+        }
     }
     return reach;
 }
 
-/* A cell has another owner, or is nearer to its site or farther: so the seeds of cells beside it may differ that see a border
-   of the frame's region between the two, and its own. */
+/* A cell has another owner, or is nearer to its site or farther: so the seeds of cells beside it may differ that see a
+   border of the frame's region between the two, and its own. */
 static void SuspectSeeds(Job* job, int32_t cell)
 {
     kiriField* field = &job->work->fromBorder;
@@ -339,8 +360,8 @@ static void LoadChanged(Job* job, kiriReach reach, int32_t limit, int32_t rim)
     }
 }
 
-/* Loads the list into the fields, and suspects what may change: all that is known at first. A site's seeds depend on the
-   steps of its cell. */
+/* Loads the list into the fields, and suspects what may change: all that is known at first. A site's seeds depend on
+   the steps of its cell. */
 static void Load(Job* job, int32_t limit)
 {
     kiriShapeWork* work = job->work;
@@ -563,9 +584,9 @@ static void MarkReowned(Job* job)
         }
         if (owner != KIRI_NONE) {
             Look* look = &work->looks.data[owner];
-            int32_t distance = field->distance.data[was.cell];
+            int32_t reach = ReachAt(job->regions, job->grid, was.cell);
             look->reowned = true;
-            look->reach = distance > look->reach ? distance : look->reach;
+            look->reach = reach > look->reach ? reach : look->reach;
         }
     }
 }
@@ -658,19 +679,28 @@ static kiriProgress Measure(Job* job, kiriQuota* quota)
         }
         work->stage = NEXT_FRAME;
     }
+    work->stage = job->shape->weights.count == 0 ? OPENING : PUTTING;
+    work->next = 0;
     return KIRI_DONE;
 }
 
 /* The first weights of all lie in the order of cells, close to those of their neighbours. */
-static bool StartPutting(Job* job)
+static kiriProgress OpenAll(Job* job, kiriQuota* quota)
 {
-    bool ok = true;
-    for (int32_t c = 0; ok && job->shape->weights.count == 0 && c < job->grid->cells.count; ++c) {
-        ok = job->work->fresh.data[c] == 0 || OpenSpan(job, c);
+    kiriShapeWork* work = job->work;
+    for (; work->next < job->grid->cells.count; ++work->next) {
+        if (work->fresh.data[work->next] > 0) {
+            if (!kiriQuota_Take(quota, 1)) {
+                return KIRI_MORE;
+            }
+            if (!OpenSpan(job, work->next)) {
+                return KIRI_FAILED;
+            }
+        }
     }
-    job->work->stage = PUTTING;
-    job->work->next = 0;
-    return ok;
+    work->stage = PUTTING;
+    work->next = 0;
+    return KIRI_DONE;
 }
 
 static kiriProgress PutAll(Job* job, kiriQuota* quota)
@@ -747,11 +777,11 @@ kiriProgress kiriShape_Update(kiriShape* shape, const kiriMemory* memory, const 
     if (shape->work->stage == AT_REST && !Begin(&job, moves, moveCount)) {
         return KIRI_FAILED;
     }
-    if (shape->work->stage < PUTTING) {
+    if (shape->work->stage < OPENING) {
         progress = Measure(&job, quota);
-        if (progress == KIRI_DONE && !StartPutting(&job)) {
-            return KIRI_FAILED;
-        }
+    }
+    if (progress == KIRI_DONE && shape->work->stage == OPENING) {
+        progress = OpenAll(&job, quota);
     }
     if (progress == KIRI_DONE && shape->work->stage == PUTTING) {
         progress = PutAll(&job, quota);

@@ -104,6 +104,7 @@ typedef struct kiriSheetData {
     double snap; /* lattice steps */
     kiriMechanics mechanics;
     double rigidArea;
+    double frameLength; /* m: the size above which a region is split; 0: none is */
     int32_t maxFrames, iterations, pointCount, integrationPoints, integrationOrder;
     bool alwaysScratch;
     bool popping; /* frames are not fitted at a commit */

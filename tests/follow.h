@@ -1,4 +1,5 @@
-/* All that follows the cuts of a mesh, from grid to samples; for tests that compare it with the same made from scratch. */
+/* All that follows the cuts of a mesh, from grid to samples; for tests that compare it with the same made from scratch.
+   */
 #ifndef KIRI_TEST_FOLLOW_H
 #define KIRI_TEST_FOLLOW_H
 
@@ -260,6 +261,7 @@ static inline void Follow_ScratchWeights(Follow* f, const Follow* other)
     f->memory = other->memory;
     f->mesh = other->mesh;
     f->shape.rigidWeight = other->shape.rigidWeight;
+    f->slice = other->slice;
     Follow_Grid(f);
     for (int32_t i = 0; i < other->sites.count; ++i) {
         int32_t a = other->grid.squareCell.data[other->grid.cells.data[other->sites.data[i].cell].square];
