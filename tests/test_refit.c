@@ -416,6 +416,26 @@ static void TestNoSleepBeforeTheEnd(void** state)
     Host_Stop(&host);
 }
 
+static void TestDefsThatAreNone(void** state)
+{
+    (void)state;
+    const struct {
+        float fadeTime;
+        int32_t popping;
+    } wrong[] = { { -0.1f, 0 }, { NAN, 0 }, { INFINITY, 0 }, { 0.2f, 2 }, { 0.2f, -1 } };
+    Host host;
+    Host_Start(&host);
+    for (size_t k = 0; k < sizeof(wrong) / sizeof(*wrong); ++k) {
+        kiriSheet sheet;
+        kiriSheetDef def;
+        kiriDefaultSheetDef(&def);
+        def.fadeTime = wrong[k].fadeTime;
+        def.popping = wrong[k].popping;
+        assert_int_equal(Host_TryRectangle(&host, &def, 1.0f, 1.0f, 4, 4, &sheet), KIRI_ERROR_ARGUMENT);
+    }
+    Host_Stop(&host);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -426,6 +446,7 @@ int main(void)
         cmocka_unit_test(TestFadesEnd),
         cmocka_unit_test(TestFadesAreInTheHash),
         cmocka_unit_test(TestNoSleepBeforeTheEnd),
+        cmocka_unit_test(TestDefsThatAreNone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
