@@ -318,6 +318,7 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     def->iterations = 2;
     def->integrationOrder = 1;
     def->sleepSpeed = 0.001f;
+    def->fadeTime = 0.2f;
 }
 
 kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material)
@@ -382,8 +383,8 @@ static const char* FaultOfModel(const kiriSheetDef* def)
         !IsWithin(def->skinning, KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH)) {
         return "model is not one of KIRI_MODEL, or skinning not one of KIRI_SKINNING";
     }
-    if (!IsWithin(def->planar, 0, 1) || !IsWithin(def->fromScratch, 0, 1)) {
-        return "planar or fromScratch is not 0 or 1";
+    if (!IsWithin(def->planar, 0, 1) || !IsWithin(def->fromScratch, 0, 1) || !IsWithin(def->popping, 0, 1)) {
+        return "planar, fromScratch or popping is not 0 or 1";
     }
     return IsWithin(def->integrationPoints, 0, 1 << 20) && IsWithin(def->integrationOrder, 1, 2)
                ? NULL
@@ -405,8 +406,8 @@ static const char* FaultOfSheet(const kiriSheetDef* def)
     if (!IsAtLeast(def->snapDistance, 0.0f)) {
         return "snapDistance is below 0";
     }
-    if (!IsAtLeast(def->sleepSpeed, 0.0f)) {
-        return "sleepSpeed is below 0";
+    if (!IsAtLeast(def->sleepSpeed, 0.0f) || !IsAtLeast(def->fadeTime, 0.0f)) {
+        return "sleepSpeed or fadeTime is below 0";
     }
     if (!IsWithin(def->collisionPoints, 0, 1 << 20) || !IsWithin(def->iterations, 1, 64)) {
         return "collisionPoints is not within 0 and 1048576, or iterations not within 1 and 64";

@@ -96,6 +96,11 @@ static void TakeParameters(kiriSheetData* to, const kiriSheetData* from)
     to->alwaysScratch = from->alwaysScratch;
     to->shape.rigidWeight = from->shape.rigidWeight;
     to->surface.skinning = from->surface.skinning;
+    to->popping = from->popping;
+    to->fades.time = from->fades.time;
+    to->fades.least = from->fades.least;
+    to->pointFades.time = from->pointFades.time;
+    to->pointFades.least = from->pointFades.least;
     to->sleepSpeed = from->sleepSpeed;
     to->calm = from->calm;
     to->asleep = from->asleep;
@@ -221,10 +226,37 @@ static void TakeFrames(const kiriExtract* extract, kiriSheetData* to)
     }
 }
 
+/* What is still seen elsewhere goes on to fade. Samples keep their order. */
+static bool TakeFades(kiriFades* to, const kiriMemory* memory, const kiriFades* from, const int32_t* sampleTo,
+                      int32_t sampleCount)
+{
+    if (from->fading.count == 0) {
+        return true;
+    }
+    if (!kiriFades_Reserve(to, memory, sampleCount)) {
+        return false;
+    }
+    for (int32_t k = 0; k < from->fading.count; ++k) {
+        kiriFading fading = from->fading.data[k];
+        fading.sample = sampleTo[fading.sample];
+        if (fading.sample != KIRI_NONE) {
+            to->fading.data[to->fading.count++] = fading;
+        }
+    }
+    return true;
+}
+
+static bool TakeAllFades(const kiriExtract* extract, kiriSheetData* to)
+{
+    const kiriSheetData* from = extract->from;
+    return TakeFades(&to->fades, to->memory, &from->fades, extract->vertexTo.data, to->mesh.vertices.count) &&
+           TakeFades(&to->pointFades, to->memory, &from->pointFades, extract->pointTo.data, to->points.count);
+}
+
 static bool Build(const kiriExtract* extract, kiriSheetData* to)
 {
     to->solver = kiriSolver_Create(to->memory, &to->mechanics);
-    if (to->solver == NULL || !RunStages(extract, to)) {
+    if (to->solver == NULL || !RunStages(extract, to) || !TakeAllFades(extract, to)) {
         return false;
     }
     TakeFrames(extract, to);

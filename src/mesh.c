@@ -197,10 +197,10 @@ static int32_t AddVertex(kiriMeshData* mesh, kiriPoint at, int32_t source, const
     return index;
 }
 
-static int32_t AddTriangle(kiriMeshData* mesh, int32_t a, int32_t b, int32_t c, int32_t source)
+static int32_t AddTriangle(kiriMeshData* mesh, int32_t a, int32_t b, int32_t c, int32_t source, int32_t parent)
 {
     int32_t index = mesh->triangles.count++;
-    kiriTriangle t = { { a, b, c }, { KIRI_NONE, KIRI_NONE, KIRI_NONE }, source, 0, 0 };
+    kiriTriangle t = { { a, b, c }, { KIRI_NONE, KIRI_NONE, KIRI_NONE }, source, parent, 0, 0 };
     mesh->triangles.data[index] = t;
     return index;
 }
@@ -220,7 +220,7 @@ static int32_t AddOnEdge(kiriMeshData* mesh, int32_t h, kiriPoint at)
 static int32_t SplitSide(kiriMeshData* mesh, int32_t h, int32_t p)
 {
     int32_t next = kiriEdge_Next(h), b = kiriMesh_Tail(mesh, next), c = kiriMesh_Tail(mesh, kiriEdge_Previous(h));
-    int32_t added = 3 * AddTriangle(mesh, p, b, c, mesh->triangles.data[h / 3].source);
+    int32_t added = 3 * AddTriangle(mesh, p, b, c, mesh->triangles.data[h / 3].source, h / 3);
     SetOpen(mesh, added, kiriMesh_IsOpen(mesh, h));
     MoveHalfEdge(mesh, next, added + 1);
     mesh->triangles.data[next / 3].vertex[next % 3] = p;
@@ -279,8 +279,8 @@ int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriPoint a
     kiriTriangle was = mesh->triangles.data[triangle];
     kiriBirth birth = BirthInside(mesh, triangle, at);
     int32_t p = AddVertex(mesh, at, was.source, &birth);
-    int32_t k = 3 * AddTriangle(mesh, was.vertex[1], was.vertex[2], p, was.source);
-    int32_t l = 3 * AddTriangle(mesh, was.vertex[2], was.vertex[0], p, was.source);
+    int32_t k = 3 * AddTriangle(mesh, was.vertex[1], was.vertex[2], p, was.source, triangle);
+    int32_t l = 3 * AddTriangle(mesh, was.vertex[2], was.vertex[0], p, was.source, triangle);
     MoveHalfEdge(mesh, h + 1, k);
     MoveHalfEdge(mesh, h + 2, l);
     mesh->triangles.data[triangle].vertex[2] = p;
@@ -559,7 +559,7 @@ static kiriResult TakeTriangles(kiriMeshData* mesh, const Input* input, const ch
     for (int32_t t = 0; t < input->triangleCount; ++t) {
         const int32_t* v = &input->indices[3 * (int64_t)t];
         kiriPoint* c = &mesh->sourceCorners.data[3 * (int64_t)t];
-        AddTriangle(mesh, v[0], v[1], v[2], t);
+        AddTriangle(mesh, v[0], v[1], v[2], t, KIRI_NONE);
         kiriMesh_Corners(mesh, t, c);
         int64_t area = kiriOrient(c[0], c[1], c[2]);
         if (area <= 0) {

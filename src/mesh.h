@@ -12,6 +12,7 @@ typedef struct kiriTriangle {
     int32_t vertex[3]; /* counter-clockwise, never degenerate */
     int32_t twin[3];   /* the half-edge on the other side, also across open edges; KIRI_NONE at the outline */
     int32_t source;    /* the triangle of the caller that it is a part of */
+    int32_t parent;    /* the older triangle that it was split from, or KIRI_NONE */
     int32_t open;      /* bit i: half-edge i is open (cut); its twin agrees. Outline edges are not marked. */
     uint32_t stamp;    /* number of the journal that has saved it already */
 } kiriTriangle;

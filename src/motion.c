@@ -26,7 +26,7 @@ static void WriteContactRows(kiriSheetData* sheet)
         int32_t frame = point->frame;
         kiriVec2 at = kiriMesh_Local(&sheet->mesh, point->at);
         kiriVec3 normal = kiriVec3_Load(contact->normal);
-        kiriVec3 seen = kiriSkin_Position(&sheet->pointSkin, contact->point, sheet->frames.data, at);
+        kiriVec3 seen = sheet->exactPoints.data[contact->point];
         kiriVec3 off = kiriVec3_Sub(kiriFrame_Carry(&sheet->frames.data[frame], at), seen);
         kiriContactRow row = {
             frame, at, normal, contact->offset + kiriVec3_Dot(normal, off), contact->friction, contact->stiffness
@@ -101,13 +101,18 @@ static bool AreContactsNew(const kiriSheetData* sheet)
     return !same;
 }
 
+static bool IsFading(const kiriSheetData* sheet)
+{
+    return sheet->fades.fading.count > 0 || sheet->pointFades.fading.count > 0;
+}
+
 /* Falls asleep before a tick, not after one, so that what is seen is where it came to rest. */
 static bool Sleeps(kiriSheetData* sheet)
 {
     if (sheet->calm >= CALM_SECONDS && AreContactsNew(sheet)) {
         kiriMotion_Wake(sheet);
     }
-    if (sheet->calm >= CALM_SECONDS && !sheet->asleep) {
+    if (sheet->calm >= CALM_SECONDS && !IsFading(sheet) && !sheet->asleep) {
         PutToRest(sheet);
         sheet->asleep = true;
     }

@@ -104,6 +104,10 @@ static void SetParameters(kiriSheetData* sheet, const kiriSheetDef* def)
     sheet->sleepSpeed = def->sleepSpeed;
     sheet->surface.skinning = def->skinning;
     sheet->alwaysScratch = def->fromScratch != 0;
+    sheet->popping = def->popping != 0;
+    sheet->fades.time = sheet->popping ? 0.0 : def->fadeTime;
+    sheet->fades.least = 1e-7 * longer * sheet->mesh.step; /* of the longer side */
+    sheet->pointFades = sheet->fades;
 }
 
 bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriPoint* at)

@@ -8,6 +8,7 @@
 #include "cut.h"
 #include "point.h"
 #include "pool.h"
+#include "refit.h"
 #include "solver.h"
 #include "surface.h"
 
@@ -107,6 +108,7 @@ typedef struct kiriUpdate {
     KIRI_ARRAY(int32_t) parent;     /* of frames: union-find */
     kiriRefresh refresh;
     kiriPointsWork points;
+    kiriRefit refit;
     KIRI_ARRAY(kiriSample) newPoints;
     KIRI_ARRAY(kiriSample) movedPoints; /* `frame` is the index of a point, `cell` where it is now */
     kiriTouched touched;
@@ -124,6 +126,7 @@ typedef struct kiriSheetData {
     int32_t maxFrames, iterations, integrationOrder;
     double pointCount, integrationPoints; /* of the def; of a part of a sheet its share of them */
     bool alwaysScratch;
+    bool popping; /* frames are not fitted at a commit */
 
     kiriGrid grid;
     kiriRegions regions;
@@ -153,6 +156,10 @@ typedef struct kiriSheetData {
 
     /* What the host reads, see view.h. */
     kiriSurface surface;
+    kiriFades fades, pointFades; /* of vertices, and of collision points */
+    KIRI_ARRAY(kiriVec3) exactPoints; /* where they are seen, */
+    int32_t seenPoints;               /* so many */
+    bool isSeenElsewhere; /* vertices are new, or a cut took effect, since positions were written */
     KIRI_ARRAY(float) pointPositions;
     kiriPieceLists lists;
 } kiriSheetData;

@@ -165,6 +165,7 @@ static void Parameters(uint64_t* hash, const kiriSheetData* sheet)
     Int(hash, sheet->maxFrames);
     Int(hash, sheet->iterations);
     Real(hash, sheet->pointCount);
+    Int(hash, sheet->popping);
 }
 
 static int32_t IndexOf(const kiriSheetData* sheet, const kiriCutData* cut)
@@ -208,6 +209,16 @@ static void Waiting(uint64_t* hash, const kiriSheetData* sheet)
     Contacts(hash, sheet->contacts.data, sheet->contacts.count);
 }
 
+static void Fades(uint64_t* hash, const kiriFades* fades)
+{
+    Real(hash, fades->time);
+    for (int32_t k = 0; k < fades->fading.count; ++k) {
+        Int(hash, fades->fading.data[k].sample);
+        Real(hash, fades->fading.data[k].left);
+        Vec3(hash, fades->fading.data[k].offset);
+    }
+}
+
 static void Sleep(uint64_t* hash, const kiriSheetData* sheet)
 {
     Real(hash, sheet->sleepSpeed);
@@ -231,6 +242,8 @@ uint64_t kiriSnapshot_Hash(const kiriWorld* world)
         Bytes(&hash, &pattern, sizeof(pattern));
         Waiting(&hash, sheet);
         Sleep(&hash, sheet);
+        Fades(&hash, &sheet->fades);
+        Fades(&hash, &sheet->pointFades);
         for (int32_t f = 0; f < sheet->frames.count; ++f) {
             Frame(&hash, &sheet->frames.data[f]);
         }

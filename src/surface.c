@@ -412,7 +412,7 @@ static void SumSlopes(kiriSurface* surface)
 
 /* In floats where the squared length has a place there: twice as fast. A length that fits a float may have a square
    that does not. */
-static void WriteNormals(kiriSurface* surface)
+static void Normalize(kiriSurface* surface)
 {
     for (int32_t v = 0; v < surface->vertexCount; ++v) {
         kiriVec3 slope = surface->slopes.data[v];
@@ -440,6 +440,20 @@ void kiriSurface_WritePositions(kiriSurface* surface, const kiriSkin* skin, cons
         BendCarriers(surface, frames, frameCount, links, linkCount);
     }
     BlendAll(surface, skin, isBent);
+}
+
+void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades)
+{
+    for (int32_t k = 0; k < fades->fading.count; ++k) {
+        kiriFading fading = fades->fading.data[k];
+        kiriVec3* exact = &surface->exact.data[fading.sample];
+        *exact = kiriVec3_Add(*exact, fading.offset);
+        Store(&surface->positions.data[3 * (size_t)fading.sample], *exact);
+    }
+}
+
+void kiriSurface_WriteNormals(kiriSurface* surface)
+{
     SumSlopes(surface);
-    WriteNormals(surface);
+    Normalize(surface);
 }

@@ -3,6 +3,7 @@
 #ifndef KIRI_SURFACE_H
 #define KIRI_SURFACE_H
 
+#include "fade.h"
 #include "link.h"
 #include "sample.h"
 
@@ -58,9 +59,15 @@ void kiriSurface_Release(kiriSurface* surface, const kiriMemory* memory);
    all of the mesh. */
 void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh);
 
-/* Positions and normals from the frames. The links tell a smooth surface how to bend; a linear one does not ask. */
+/* Positions from the frames. The links tell a smooth surface how to bend; a linear one does not ask. */
 void kiriSurface_WritePositions(kiriSurface* surface, const kiriSkin* skin, const kiriFrameData* frames,
                                 int32_t frameCount, const kiriLink* links, int32_t linkCount);
+
+/* Moves the vertices that are seen elsewhere. */
+void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades);
+
+/* Normals from the positions. */
+void kiriSurface_WriteNormals(kiriSurface* surface);
 
 /* What has changed since the host saw that revision: all, where that is too long ago. */
 void kiriSurface_GetDirty(const kiriSurface* surface, uint32_t sinceRevision, kiriDirty* dirty);

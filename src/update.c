@@ -38,6 +38,7 @@ bool kiriUpdate_Start(kiriSheetData* sheet)
         }
     }
     u->isBegun = false;
+    sheet->fades.jump = sheet->fades.move = 0.0;
     return u->stage != KIRI_NONE;
 }
 
@@ -65,6 +66,7 @@ static void DropStaged(kiriSheetData* sheet)
     u->moves.count = u->movesSeen = 0;
     u->isPlacing = false;
     u->step = 0;
+    kiriRefit_Drop(&u->refit);
 }
 
 void kiriUpdate_Abort(kiriSheetData* sheet)
@@ -104,6 +106,7 @@ void kiriUpdate_Release(kiriSheetData* sheet)
     kiriArray_Release(memory, &u->parent);
     kiriRefresh_Release(&u->refresh, memory);
     kiriPointsWork_Release(&u->points, memory);
+    kiriRefit_Release(&u->refit, memory);
     kiriArray_Release(memory, &u->newPoints);
     kiriArray_Release(memory, &u->movedPoints);
 }
@@ -176,6 +179,9 @@ kiriProgress kiriUpdate_Grid(kiriSheetData* sheet, kiriQuota* cells)
     kiriProgress progress = kiriGrid_Update(&sheet->grid, &sheet->mesh, cells);
     if (progress == KIRI_DONE) {
         const kiriGridChanges* changes = &sheet->grid.changes;
+        if (!kiriRefit_NoteTouched(&u->refit, sheet->memory, &sheet->mesh)) {
+            return KIRI_FAILED;
+        }
         kiriSquares_ClearTouched(&sheet->mesh.squares);
         u->touched.cells = changes->made.count + changes->remade.count;
     }
@@ -601,6 +607,9 @@ static kiriProgress Weigh(kiriSheetData* sheet, kiriQuota* cells)
     kiriProgress progress = kiriShape_Update(&sheet->shape, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions,
                                              u->sites.data, u->sites.count, u->moves.data, u->moves.count, cells);
     if (progress == KIRI_DONE) {
+        if (!kiriRefit_NoteChanges(&u->refit, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions)) {
+            return KIRI_FAILED;
+        }
         kiriGrid_Settle(&sheet->grid);
         kiriRegions_Settle(&sheet->regions);
         u->moves.count = u->movesSeen = 0;
@@ -811,6 +820,7 @@ kiriProgress kiriUpdate_Constants(kiriSheetData* sheet, kiriQuota* none)
     kiriUpdate* u = &sheet->update;
     (void)none;
     bool ok = BuildPatches(sheet) && FindPinFrames(sheet) && ReservePoints(sheet) &&
+              kiriRefit_Stage(&u->refit, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, u->isScratch) &&
               kiriArray_Reserve(sheet->memory, &sheet->frames, u->sites.count) &&
               kiriSolver_Stage(sheet->solver, u->sites.count, sheet->links.next.data, sheet->links.next.count,
                                &u->next.patches);
@@ -843,6 +853,34 @@ static kiriFrameData NewFrame(const kiriSheetData* sheet, kiriSite site)
     return frame;
 }
 
+/* What the frames with new material do, all from the motion before: see refit.h. */
+static void FitFrames(kiriSheetData* sheet, int32_t oldCount)
+{
+    kiriUpdate* u = &sheet->update;
+    if (!sheet->popping) {
+        kiriRefit_Solve(&u->refit, sheet->frames.data, oldCount, &sheet->mesh, &sheet->regions, u->material.data,
+                        &sheet->material, sheet->mechanics.model == KIRI_MODEL_LINKS);
+    }
+}
+
+static void TakeFits(kiriSheetData* sheet)
+{
+    kiriRefit* refit = &sheet->update.refit;
+    for (int32_t k = 0; k < refit->fits.count; ++k) {
+        const kiriFrameData* state = &refit->fits.data[k].state;
+        kiriFrameData* frame = &sheet->frames.data[refit->fits.data[k].frame];
+        frame->x = state->x;
+        frame->A = state->A;
+        frame->velocity = state->velocity;
+        frame->spin = state->spin;
+        frame->rate = state->rate;
+    }
+    const kiriModel* next = &sheet->update.next;
+    kiriRefit_Brake(refit, sheet->frames.data, sheet->frames.count, next->framePiece.data, next->pieces.count,
+                    &sheet->material);
+    kiriRefit_Commit(refit, &sheet->mesh);
+}
+
 static void CommitFrames(kiriSheetData* sheet)
 {
     const kiriUpdate* u = &sheet->update;
@@ -850,6 +888,7 @@ static void CommitFrames(kiriSheetData* sheet)
     for (int32_t i = sheet->frames.count; i < u->sites.count; ++i) {
         sheet->frames.data[i] = NewFrame(sheet, u->sites.data[i]);
     }
+    FitFrames(sheet, sheet->frames.count);
     sheet->frames.count = u->sites.count;
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         sheet->frames.data[i].site = u->sites.data[i];
@@ -858,6 +897,7 @@ static void CommitFrames(kiriSheetData* sheet)
             sheet->regions.touched.data[i] = 0;
         }
     }
+    TakeFits(sheet);
 }
 
 static void CommitPoints(kiriSheetData* sheet)
@@ -895,5 +935,6 @@ void kiriUpdate_Commit(kiriSheetData* sheet)
     u->next = model;
     kiriShape_Settle(&sheet->shape);
     u->isScratch = false;
+    sheet->isSeenElsewhere = true;
     u->oldVertices = sheet->mesh.vertices.count;
 }

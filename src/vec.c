@@ -49,9 +49,9 @@ static kiriVec3 NewtonTurn(kiriMat3 r, kiriMat3 m, kiriVec3 t, double along)
     return kiriVec3_Scale(1.0 / det, w);
 }
 
-kiriMat3 kiriMat3_Rotation(kiriMat3 m)
+kiriMat3 kiriMat3_RotationFrom(kiriMat3 start, kiriMat3 m)
 {
-    kiriMat3 r = Orthonormal(m);
+    kiriMat3 r = start;
     for (int iteration = 0; iteration < 40; ++iteration) {
         kiriVec3 turn =
             kiriVec3_Add(kiriVec3_Add(kiriVec3_Cross(r.u, m.u), kiriVec3_Cross(r.v, m.v)), kiriVec3_Cross(r.d, m.d));
@@ -62,6 +62,11 @@ kiriMat3 kiriMat3_Rotation(kiriMat3 m)
         r = kiriMat3_MulMat(kiriMat3_Cayley(NewtonTurn(r, m, turn, along)), r);
     }
     return Orthonormal(r);
+}
+
+kiriMat3 kiriMat3_Rotation(kiriMat3 m)
+{
+    return kiriMat3_RotationFrom(Orthonormal(m), m);
 }
 
 kiriMoments kiriMoments_Triangle(kiriVec2 a, kiriVec2 b, kiriVec2 c)

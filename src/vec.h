@@ -141,6 +141,9 @@ kiriMat3 kiriMat3_Cayley(kiriVec3 w);
 /* The rotation nearest to m (its polar factor); for a singular m any rotation near it. */
 kiriMat3 kiriMat3_Rotation(kiriMat3 m);
 
+/* The same from a rotation near it: where m says little about a turn, that one stays. */
+kiriMat3 kiriMat3_RotationFrom(kiriMat3 start, kiriMat3 m);
+
 /* Moments of a patch of material about the origin of the rest coordinates: integrals of 1, u, v, u^2, u v, v^2. */
 typedef struct kiriMoments {
     double area, u, v, uu, uv, vv;

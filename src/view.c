@@ -5,30 +5,114 @@
 bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount)
 {
     return kiriSurface_Resize(&sheet->surface, sheet->memory, &sheet->mesh, frameCount) &&
-           kiriArray_Resize(sheet->memory, &sheet->pointPositions, 3 * (int64_t)pointCount);
+           kiriArray_Resize(sheet->memory, &sheet->pointPositions, 3 * (int64_t)pointCount) &&
+           kiriArray_Resize(sheet->memory, &sheet->exactPoints, pointCount) &&
+           (!sheet->update.isBegun ||
+            (kiriFades_Reserve(&sheet->fades, sheet->memory, sheet->mesh.vertices.count) &&
+             kiriFades_Reserve(&sheet->pointFades, sheet->memory, pointCount)));
 }
 
 void kiriView_Release(kiriSheetData* sheet)
 {
     kiriSurface_Release(&sheet->surface, sheet->memory);
+    kiriFades_Release(&sheet->fades, sheet->memory);
+    kiriFades_Release(&sheet->pointFades, sheet->memory);
+    kiriArray_Release(sheet->memory, &sheet->exactPoints);
     kiriArray_Release(sheet->memory, &sheet->pointPositions);
+}
+
+/* A newborn vertex lies on the triangle that was seen. */
+static void PlaceNewborn(kiriSheetData* sheet, int32_t vertex)
+{
+    const kiriBirth* birth = &sheet->mesh.births.data[vertex - sheet->mesh.oldVertexCount];
+    kiriVec3 at = { 0.0, 0.0, 0.0 };
+    for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
+        at = kiriVec3_AddScaled(at, birth->share[k], sheet->surface.exact.data[birth->parent[k]]);
+    }
+    sheet->surface.exact.data[vertex] = at;
 }
 
 void kiriView_WriteTopology(kiriSheetData* sheet)
 {
+    for (int32_t v = sheet->mesh.oldVertexCount; v < sheet->mesh.oldVertexCount + sheet->mesh.births.count; ++v) {
+        PlaceNewborn(sheet, v);
+    }
     kiriSurface_WriteTopology(&sheet->surface, &sheet->mesh);
+    sheet->isSeenElsewhere = true;
+}
+
+static void WriteExact(kiriSheetData* sheet)
+{
+    kiriSurface_WritePositions(&sheet->surface, &sheet->vertexSkin, sheet->frames.data, sheet->frames.count,
+                               sheet->links.links.data, sheet->links.links.count);
+}
+
+/* Linear whatever is seen: here contacts push (see motion.c). */
+static void WriteExactPoints(kiriSheetData* sheet)
+{
+    for (int32_t i = 0; i < sheet->points.count; ++i) {
+        kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->points.data[i].at);
+        sheet->exactPoints.data[i] = kiriSkin_Position(&sheet->pointSkin, i, sheet->frames.data, local);
+    }
+}
+
+static void AddPointFades(kiriSheetData* sheet)
+{
+    for (int32_t k = 0; k < sheet->pointFades.fading.count; ++k) {
+        kiriFading fading = sheet->pointFades.fading.data[k];
+        kiriVec3* at = &sheet->exactPoints.data[fading.sample];
+        *at = kiriVec3_Add(*at, fading.offset);
+    }
+}
+
+/* Points that are new have not been seen elsewhere. */
+static void TakePointJump(kiriSheetData* sheet)
+{
+    kiriFades* fades = &sheet->pointFades;
+    kiriFades_Remember(fades, &sheet->exactPoints.data, &sheet->exactPoints.capacity);
+    WriteExactPoints(sheet);
+    for (int32_t i = sheet->seenPoints; i < sheet->points.count; ++i) {
+        fades->seen.data[i] = sheet->exactPoints.data[i];
+    }
+    kiriFades_Take(fades, sheet->exactPoints.data, sheet->points.count);
+    AddPointFades(sheet);
+    sheet->seenPoints = sheet->points.count;
+}
+
+void kiriView_TakeJump(kiriSheetData* sheet)
+{
+    kiriSurface* surface = &sheet->surface;
+    if (sheet->isSeenElsewhere) {
+        kiriFades_Remember(&sheet->fades, &surface->exact.data, &surface->exact.capacity);
+        WriteExact(sheet);
+        kiriFades_Take(&sheet->fades, surface->exact.data, surface->vertexCount);
+        TakePointJump(sheet);
+        sheet->isSeenElsewhere = false;
+    }
+}
+
+void kiriView_Fade(kiriSheetData* sheet, double dt)
+{
+    kiriFades_Advance(&sheet->fades, dt);
+    kiriFades_Advance(&sheet->pointFades, dt);
+    if (!sheet->update.isBegun) {
+        kiriFades_Trim(&sheet->fades, sheet->memory);
+        kiriFades_Trim(&sheet->pointFades, sheet->memory);
+    }
 }
 
 void kiriView_WritePositions(kiriSheetData* sheet)
 {
-    kiriSurface_WritePositions(&sheet->surface, &sheet->vertexSkin, sheet->frames.data, sheet->frames.count,
-                               sheet->links.links.data, sheet->links.links.count);
-    /* Linear whatever is seen: here contacts push (see motion.c). */
+    WriteExact(sheet);
+    kiriSurface_AddFades(&sheet->surface, &sheet->fades);
+    kiriSurface_WriteNormals(&sheet->surface);
+    WriteExactPoints(sheet);
+    AddPointFades(sheet);
     for (int32_t i = 0; i < sheet->points.count; ++i) {
-        kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->points.data[i].at);
-        kiriVec3_Store(&sheet->pointPositions.data[3 * i],
-                       kiriSkin_Position(&sheet->pointSkin, i, sheet->frames.data, local));
+        kiriVec3_Store(&sheet->pointPositions.data[3 * i], sheet->exactPoints.data[i]);
     }
+    sheet->seenPoints = sheet->points.count;
+    sheet->isSeenElsewhere = false;
 }
 
 /* ---- Rays ---- */

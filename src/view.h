@@ -11,6 +11,11 @@ void kiriView_Release(kiriSheetData* sheet);
 /* What has changed in the mesh; before kiriMesh_Commit. */
 void kiriView_WriteTopology(kiriSheetData* sheet);
 
+/* After all commits of a tick, and before the sheet moves: what is seen stays where it is, and fades from there to
+   where it belongs. Then time goes on. */
+void kiriView_TakeJump(kiriSheetData* sheet);
+void kiriView_Fade(kiriSheetData* sheet, double dt);
+
 /* Positions and normals from the frames (section 4.1 of the paper). */
 void kiriView_WritePositions(kiriSheetData* sheet);
 

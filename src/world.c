@@ -222,6 +222,7 @@ static void CommitAll(kiriWorld* world)
         if (IsReady(sheet)) {
             Finish(world, sheet);
         }
+        kiriView_TakeJump(sheet);
         FinishCuts(world, sheet);
     }
 }
@@ -265,13 +266,23 @@ static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps, kiriQu
     return result;
 }
 
-static void SkinAll(kiriWorld* world)
+static void CountJumps(kiriProfile* profile, const kiriSheetData* sheet)
+{
+    const kiriFades* fades = &sheet->fades;
+    profile->largestJump = fades->jump > profile->largestJump ? fades->jump : profile->largestJump;
+    profile->largestFade = fades->move > profile->largestFade ? fades->move : profile->largestFade;
+}
+
+static void SkinAll(kiriWorld* world, double dt)
 {
     Enter(world, KIRI_STAGE_SKIN);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        if (!world->sheets.data[i]->asleep) {
-            kiriView_WritePositions(world->sheets.data[i]);
+        kiriSheetData* sheet = world->sheets.data[i];
+        if (!sheet->asleep) {
+            kiriView_Fade(sheet, dt);
+            kiriView_WritePositions(sheet);
         }
+        CountJumps(&world->profile, sheet);
     }
 }
 
@@ -292,7 +303,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     if (UpdateAll(world, &quotas) && ReserveRoom(world)) {
         CommitAll(world);
         result = SolveAll(world, dt, substeps, &quotas.of[ITERATIONS]);
-        SkinAll(world);
+        SkinAll(world, dt);
         world->ticks += 1;
     } else {
         AbortAll(world);

@@ -119,6 +119,7 @@ static void Pose(Cloth* cloth)
 {
     kiriSurface_WritePositions(&cloth->surface, &cloth->skin, cloth->frames.data, cloth->frames.count,
                                cloth->links.data, cloth->links.count);
+    kiriSurface_WriteNormals(&cloth->surface);
 }
 
 static void TurnAtRandom(kiriFrameData* frame, double away, uint32_t* seed)

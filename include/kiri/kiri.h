@@ -164,6 +164,10 @@ typedef struct kiriProfile {
        other weights, links measured anew. Of how many: kiriSheet_GetCounts. */
     int32_t cellsChanged, weightsChanged, verticesChanged, pointsChanged, linksChanged;
     int32_t commits; /* sheets in which a cut took effect */
+
+    /* The farthest that a vertex would have jumped, m, when a cut took effect, without fadeTime; and that one went by a
+       fade. */
+    double largestJump, largestFade;
 } kiriProfile;
 
 KIRI_API kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile);
@@ -300,6 +304,14 @@ typedef struct kiriSheetDef {
     /* 1: every cut rebuilds grid, regions and shape functions from scratch, as the paper does, to compare with; the outcome
        is the same bit for bit. Default 0. */
     int32_t fromScratch;
+
+    /* When a cut takes effect, weights change, and what is seen between the frames would jump. It goes over to where it
+       belongs within this time (s). Default 0.2; 0: at once. */
+    float fadeTime;
+
+    /* 1: when a cut takes effect, only new frames take their motion from the surface, as in the paper, to compare with:
+       what is seen jumps, and momentum is not kept. Default 0. */
+    int32_t popping;
 } kiriSheetDef;
 
 KIRI_API void kiriDefaultSheetDef(kiriSheetDef* def);
