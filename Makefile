@@ -79,13 +79,19 @@ accuracy extremes: %: deps
 	@mkdir -p build/$@
 	$(BUILD)/tests/$@ $(if $(filter accuracy,$@),tests/data build/accuracy)
 
+# The last of them shows the shape functions, as figure 2 of the paper does.
+GALLERY := bunny spiral kirigami patchwork vortex fallingguy
+
 gallery: accuracy
 	@$(MAKE) --no-print-directory $(RUN) $(BOX2D)
 	@mkdir -p samples/pictures
-	$(RUN) --scene bunny --size 800x600 --output build/gallery
+	set -e; for scene in $(GALLERY); do \
+	    $(RUN) --scene $$scene --size 800x600 --every 1000 --output build/gallery/$$scene; \
+	    cp build/gallery/$$scene/contact_sheet.png samples/pictures/$$scene.png; done
+	$(RUN) --scene fallingguy --weights all --size 800x600 --every 1000 --output build/gallery/weights
+	cp build/gallery/weights/contact_sheet.png samples/pictures/weights.png
 	$(BOX2D) --output build/gallery/box2d
 	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
-	cp build/gallery/contact_sheet.png samples/pictures/bunny.png
 	cp build/accuracy/trade.png samples/pictures/trade.png
 
 check: $(TESTS) $(RUN) $(BOX2D) header exports $(PYTHON_CHECK)

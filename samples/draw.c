@@ -22,7 +22,7 @@ struct Painter {
     OSMesaContext context;
     int32_t width, height; /* of the picture; the buffer is OVERSAMPLING times as large */
     uint8_t* buffer;
-    GLuint clothTexture, shadowTexture;
+    GLuint clothTexture, shadowTexture, rasterTexture;
     Edge* edges;
     int32_t edgeCapacity;
 };
@@ -203,7 +203,7 @@ static void SetLights(void)
     glEnable(GL_NORMALIZE);
 }
 
-static void DrawCloth(const Painter* painter, const kiriMesh* mesh, const Look* look, float zoom)
+static void SetClothTexture(const Painter* painter, const Look* look, float zoom)
 {
     SetMaterial(GL_FRONT, look->front[0], look->front[1], look->front[2]);
     SetMaterial(GL_BACK, look->back[0], look->back[1], look->back[2]);
@@ -215,6 +215,25 @@ static void DrawCloth(const Painter* painter, const kiriMesh* mesh, const Look* 
     if (look->checks > 0.0f) {
         glEnable(GL_TEXTURE_2D);
     }
+}
+
+static void SetRasterTexture(const Painter* painter, const View* view)
+{
+    SetMaterial(GL_FRONT_AND_BACK, 0.85f, 0.85f, 0.85f);
+    glBindTexture(GL_TEXTURE_2D, painter->rasterTexture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, view->rasterSize, view->rasterSize, 0, GL_RGB, GL_UNSIGNED_BYTE,
+                 view->raster);
+    glMatrixMode(GL_TEXTURE);
+    glLoadIdentity();
+    glScalef(1.0f / view->rasterWidth, 1.0f / view->rasterWidth, 1.0f);
+    glTranslatef(-view->rasterOrigin[0], -view->rasterOrigin[1], 0.0f);
+    glMatrixMode(GL_MODELVIEW);
+    glEnable(GL_TEXTURE_2D);
+}
+
+static void DrawTextured(const kiriMesh* mesh)
+{
     glEnableClientState(GL_NORMAL_ARRAY);
     glEnableClientState(GL_TEXTURE_COORD_ARRAY);
     glNormalPointer(GL_FLOAT, 0, mesh->normals);
@@ -250,7 +269,12 @@ static void DrawSheet(const Painter* painter, const View* view, float zoom)
     if (view->colors != NULL) {
         DrawColored(&view->mesh, view->colors);
     } else {
-        DrawCloth(painter, &view->mesh, &view->look, zoom);
+        if (view->raster != NULL) {
+            SetRasterTexture(painter, view);
+        } else {
+            SetClothTexture(painter, &view->look, zoom);
+        }
+        DrawTextured(&view->mesh);
     }
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDisable(GL_LIGHTING);
@@ -358,6 +382,39 @@ static void DrawAxes(const kiriFrameState* frames, int32_t count, float length)
     glEnable(GL_DEPTH_TEST);
 }
 
+static void DrawLines(const float* lines, int32_t count)
+{
+    glDisable(GL_DEPTH_TEST);
+    glLineWidth(1.6f * OVERSAMPLING);
+    glPointSize(6.0f * OVERSAMPLING);
+    glEnable(GL_POINT_SMOOTH);
+    glEnable(GL_BLEND);
+    glColor3f(0.08f, 0.08f, 0.10f);
+    for (int k = 0; k < 2; k++) {
+        glBegin(k == 0 ? GL_LINES : GL_POINTS);
+        for (int32_t i = 0; i < 2 * count; i++) {
+            if (k == 0 || i % 4 == 0 || i % 4 == 3) { /* two lines a link: points at its frames */
+                glVertex3fv(lines + 3 * i);
+            }
+        }
+        glEnd();
+    }
+    glDisable(GL_BLEND);
+    glDisable(GL_POINT_SMOOTH);
+    glEnable(GL_DEPTH_TEST);
+}
+
+static void DrawPoints(const float* points, int32_t count)
+{
+    glPointSize(4.0f * OVERSAMPLING);
+    glColor3f(0.85f, 0.10f, 0.45f);
+    glBegin(GL_POINTS);
+    for (int32_t i = 0; i < count; i++) {
+        glVertex3fv(points + 3 * i);
+    }
+    glEnd();
+}
+
 /* A round bar along the z axis. */
 static void DrawBar(float bottom, float top, float bottomRadius, float topRadius)
 {
@@ -434,6 +491,7 @@ Painter* Painter_Create(int32_t width, int32_t height)
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glGenTextures(1, &painter->clothTexture);
     glGenTextures(1, &painter->shadowTexture);
+    glGenTextures(1, &painter->rasterTexture);
     glBindTexture(GL_TEXTURE_2D, painter->shadowTexture);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     MakeClothTexture(painter);
@@ -471,6 +529,8 @@ bool Painter_Paint(Painter* painter, const View* view, Image* image)
     DrawSheet(painter, view, zoom);
     DrawOpenEdges(painter, &view->mesh, view->look.lip);
     DrawPins(view->pins, view->pinCount, zoom);
+    DrawPoints(view->points, view->pointCount);
+    DrawLines(view->lines, view->lineCount);
     DrawAxes(view->axes, view->axesCount, 0.05f / zoom);
     glPopMatrix();
     for (int32_t i = 0; i < view->bladeCount; i++) {

@@ -13,6 +13,13 @@ typedef struct View {
     const float* colors; /* 9 a triangle: red, green, blue at its corners; null: as it looks */
     const float* pins;   /* 3 a pin: the sheet hangs from threads here */
     int32_t pinCount;
+    const uint8_t* raster; /* rasterSize x rasterSize colours over the rest plane instead of the look; or null */
+    int32_t rasterSize;
+    float rasterOrigin[2], rasterWidth; /* m */
+    const float* lines;                 /* 6 a line, over all else */
+    int32_t lineCount;
+    const float* points; /* 3 a point */
+    int32_t pointCount;
     const kiriFrameState* axes;
     int32_t axesCount;
     const float* blades; /* 3 a blade: where its tip is */

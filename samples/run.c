@@ -1,6 +1,7 @@
 /* Runs a scene, writes its pictures, and prints what the library did and how long it took. */
 #define _POSIX_C_SOURCE 199309L
 
+#include "debug.h"
 #include "draw.h"
 #include "image.h"
 #include "scene.h"
@@ -13,7 +14,7 @@
 #include <sys/stat.h>
 #include <time.h>
 
-enum { SHEET_COLUMNS = 4, SHEET_ROWS = 2, SHEET_GAP = 4, MAX_FRAMES = 1024, MAX_BLADES = 4 };
+enum { SHEET_COLUMNS = 4, SHEET_ROWS = 2, SHEET_GAP = 4, MAX_BLADES = 4 };
 
 /* ---- Options ---------------------------------------------------------------------------------------------------- */
 
@@ -21,7 +22,7 @@ typedef struct Options {
     const char* scene;
     const char* output;
     const char* data;
-    const char* weights; /* null, "all", or the number of a frame */
+    DebugOptions debug;
     int32_t ticks, every, width, height, grid, controlFrames, budget;
     bool axes, quiet, help;
 } Options;
@@ -40,6 +41,10 @@ static void PrintHelp(void)
            "  --budget N            blade points taken in one tick; 0: no limit (0)\n"
            "  --frames-axes         show the control frames\n"
            "  --weights all|N       colour the sheet by the shape functions of all frames, or of frame N\n"
+           "  --regions             show where each frame has the largest weight\n"
+           "  --links               show which regions touch\n"
+           "  --cells               show the grid, and which of its squares the cuts divide\n"
+           "  --points              show the collision points\n"
            "  --quiet               no progress line\n"
            "  --help\n\nScenes:\n");
     for (int32_t i = 0; Scene_GetType(i) != NULL; i++) {
@@ -62,9 +67,35 @@ static bool ReadSize(const char* text, Options* options)
            options->height >= 100 && options->width <= 4096 && options->height <= 4096;
 }
 
+static bool ReadFlag(const char* name, Options* options)
+{
+    const struct {
+        const char* name;
+        bool* flag;
+    } flags[] = { { "--help", &options->help },          { "--quiet", &options->quiet },
+                  { "--frames-axes", &options->axes },   { "--regions", &options->debug.regions },
+                  { "--links", &options->debug.links },  { "--cells", &options->debug.cells },
+                  { "--points", &options->debug.points } };
+    for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
+        if (strcmp(name, flags[i].name) == 0) {
+            *flags[i].flag = true;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool ReadWeights(const char* text, Options* options)
+{
+    if (strcmp(text, "all") == 0) {
+        options->debug.weightsOf = DEBUG_ALL_FRAMES;
+        return true;
+    }
+    return ReadNumber(text, 0, DEBUG_MAX_FRAMES - 1, &options->debug.weightsOf);
+}
+
 static bool ReadValue(const char* name, const char* value, Options* options)
 {
-    int32_t frame;
     if (strcmp(name, "--scene") == 0) {
         options->scene = value;
         return Scene_FindType(value) != NULL;
@@ -75,8 +106,7 @@ static bool ReadValue(const char* name, const char* value, Options* options)
         options->data = value;
         return true;
     } else if (strcmp(name, "--weights") == 0) {
-        options->weights = value;
-        return strcmp(value, "all") == 0 || ReadNumber(value, 0, MAX_FRAMES - 1, &frame);
+        return ReadWeights(value, options);
     } else if (strcmp(name, "--size") == 0) {
         return ReadSize(value, options);
     } else if (strcmp(name, "--ticks") == 0) {
@@ -86,7 +116,7 @@ static bool ReadValue(const char* name, const char* value, Options* options)
     } else if (strcmp(name, "--grid") == 0) {
         return ReadNumber(value, 1, 4096, &options->grid);
     } else if (strcmp(name, "--control-frames") == 0) {
-        return ReadNumber(value, 1, MAX_FRAMES, &options->controlFrames);
+        return ReadNumber(value, 1, DEBUG_MAX_FRAMES, &options->controlFrames);
     }
     if (strcmp(name, "--budget") == 0) {
         return ReadNumber(value, 0, 1 << 24, &options->budget);
@@ -97,12 +127,8 @@ static bool ReadValue(const char* name, const char* value, Options* options)
 static bool ReadOptions(int count, char** words, Options* options)
 {
     for (int i = 1; i < count; i++) {
-        if (strcmp(words[i], "--help") == 0) {
-            options->help = true;
-        } else if (strcmp(words[i], "--quiet") == 0) {
-            options->quiet = true;
-        } else if (strcmp(words[i], "--frames-axes") == 0) {
-            options->axes = true;
+        if (ReadFlag(words[i], options)) {
+            continue;
         } else if (i + 1 < count && ReadValue(words[i], words[i + 1], options)) {
             i++;
         } else {
@@ -138,7 +164,7 @@ static bool MakeFolders(const char* path)
 typedef struct Film {
     Painter* painter;
     Image picture, tile, contactSheet;
-    float* colors; /* for --weights: 9 a triangle */
+    Debug debug;
     int32_t pictures, moments;
 } Film;
 
@@ -150,7 +176,7 @@ static void Film_Destroy(Film* film)
     Image_Free(&film->picture);
     Image_Free(&film->tile);
     Image_Free(&film->contactSheet);
-    free(film->colors);
+    Debug_Destroy(&film->debug);
 }
 
 static bool Film_Create(Film* film, const Options* options)
@@ -161,7 +187,8 @@ static bool Film_Create(Film* film, const Options* options)
     }
     film->painter = Painter_Create(options->width, options->height);
     int32_t width = options->width / 2, height = options->height / 2;
-    bool fine = film->painter != NULL && Image_Create(&film->picture, options->width, options->height) &&
+    bool fine = film->painter != NULL && Debug_Create(&film->debug) &&
+                Image_Create(&film->picture, options->width, options->height) &&
                 Image_Create(&film->tile, width, height) &&
                 Image_Create(&film->contactSheet, SHEET_COLUMNS * width + (SHEET_COLUMNS - 1) * SHEET_GAP,
                              SHEET_ROWS * height + (SHEET_ROWS - 1) * SHEET_GAP);
@@ -172,74 +199,12 @@ static bool Film_Create(Film* film, const Options* options)
     return fine;
 }
 
-/* A colour of its own for every frame: hues by the golden ratio. */
-static void ColorOfFrame(int32_t frame, float color[3])
-{
-    float hue = fmodf(0.58f + 0.61803399f * (float)frame, 1.0f) * 6.0f;
-    for (int i = 0; i < 3; i++) {
-        float distance = fabsf(fmodf(hue + 6.0f - 2.0f * (float)i, 6.0f) - 3.0f);
-        color[i] = 0.30f + 0.65f * fminf(fmaxf(distance - 1.0f, 0.0f), 1.0f);
-    }
-}
-
-static void ColorAt(const Scene* scene, const Options* options, const kiriFrame* all, int32_t allCount,
-                    const float restPoint[2], float color[3])
-{
-    kiriFrame frames[64];
-    float weights[64];
-    int32_t count = 0, shown = -1;
-    ReadNumber(options->weights, 0, MAX_FRAMES - 1, &shown);
-    shown = strcmp(options->weights, "all") == 0 ? -1 : shown;
-    kiriSheet_GetWeights(scene->world, scene->sheet, restPoint, frames, weights, NULL, 64, &count);
-    memset(color, 0, 3 * sizeof(float));
-    for (int32_t i = 0; i < count && i < 64; i++) {
-        int32_t frame = 0;
-        while (frame < allCount && all[frame] != frames[i]) {
-            frame++;
-        }
-        float own[3] = { 0.95f, 0.45f, 0.10f };
-        if (shown < 0) {
-            ColorOfFrame(frame, own);
-        } else if (frame != shown) {
-            memcpy(own, (float[]){ 0.90f, 0.91f, 0.93f }, sizeof own);
-        }
-        for (int c = 0; c < 3; c++) {
-            color[c] += weights[i] * own[c];
-        }
-    }
-}
-
-/* Weights jump at a cut, so each corner of a triangle is asked for a little inside of it. */
-static bool ColorByWeights(Film* film, const Scene* scene, const Options* options, const kiriMesh* mesh)
-{
-    kiriFrame all[MAX_FRAMES];
-    int32_t count = 0;
-    free(film->colors);
-    film->colors = malloc(9 * sizeof(float) * (size_t)mesh->triangleCount);
-    if (film->colors == NULL) {
-        return false;
-    }
-    kiriSheet_GetFrames(scene->world, scene->sheet, all, MAX_FRAMES, &count);
-    for (int32_t i = 0; i < 3 * mesh->triangleCount; i++) {
-        float point[2];
-        for (int c = 0; c < 2; c++) {
-            float sum = 0.0f;
-            for (int k = 0; k < 3; k++) {
-                sum += mesh->restPositions[2 * mesh->indices[i / 3 * 3 + k] + c];
-            }
-            point[c] = 0.9f * mesh->restPositions[2 * mesh->indices[i] + c] + 0.1f * sum / 3.0f;
-        }
-        ColorAt(scene, options, all, count < MAX_FRAMES ? count : MAX_FRAMES, point, film->colors + 3 * i);
-    }
-    return true;
-}
-
 static int32_t GetAxes(const Scene* scene, kiriFrameState* states)
 {
-    kiriFrame frames[MAX_FRAMES];
+    kiriFrame frames[DEBUG_MAX_FRAMES];
     int32_t count = 0, known = 0;
-    kiriSheet_GetFrames(scene->world, scene->sheet, frames, MAX_FRAMES, &count);
-    for (int32_t i = 0; i < count && i < MAX_FRAMES; i++) {
+    kiriSheet_GetFrames(scene->world, scene->sheet, frames, DEBUG_MAX_FRAMES, &count);
+    for (int32_t i = 0; i < count && i < DEBUG_MAX_FRAMES; i++) {
         known += kiriFrame_GetState(scene->world, frames[i], &states[known]) == KIRI_OK;
     }
     return known;
@@ -260,9 +225,24 @@ static const float* FindVertex(const kiriMesh* mesh, const float restPoint[2])
     return mesh->positions + 3 * best;
 }
 
+static bool ShowDebug(View* view, Film* film, const Scene* scene, const Options* options)
+{
+    const Raster* raster = &film->debug.raster;
+    if (!Debug_Update(&film->debug, scene, &view->mesh, &options->debug)) {
+        return false;
+    }
+    view->raster = raster->colors;
+    view->rasterSize = RASTER_SIZE;
+    memcpy(view->rasterOrigin, raster->origin, sizeof view->rasterOrigin);
+    view->rasterWidth = RASTER_SIZE * raster->side;
+    view->lines = film->debug.lines;
+    view->lineCount = film->debug.lineCount;
+    return true;
+}
+
 static bool Film_Shoot(Film* film, const Scene* scene, const Options* options)
 {
-    static kiriFrameState axes[MAX_FRAMES];
+    static kiriFrameState axes[DEBUG_MAX_FRAMES];
     View view = { .camera = scene->type->camera,
                   .size = scene->type->size,
                   .look = scene->type->look,
@@ -270,11 +250,11 @@ static bool Film_Shoot(Film* film, const Scene* scene, const Options* options)
                   .pinCount = scene->pinCount };
     float restPoints[MAX_BLADES][2], blades[MAX_BLADES][3];
     kiriSheet_GetMesh(scene->world, scene->sheet, &view.mesh);
-    if (options->weights != NULL) {
-        if (!ColorByWeights(film, scene, options, &view.mesh)) {
-            return false;
-        }
-        view.colors = film->colors;
+    if (Debug_IsWanted(&options->debug) && !ShowDebug(&view, film, scene, options)) {
+        return false;
+    }
+    if (options->debug.points) {
+        kiriSheet_GetCollisionPoints(scene->world, scene->sheet, &view.points, &view.pointCount);
     }
     if (options->axes) {
         view.axes = axes;
@@ -465,7 +445,12 @@ static bool RunScene(Scene* scene, const Options* options)
 
 int main(int count, char** words)
 {
-    Options options = { .scene = "bunny", .output = "build/pictures", .every = 2, .width = 640, .height = 480 };
+    Options options = { .scene = "bunny",
+                        .output = "build/pictures",
+                        .every = 2,
+                        .width = 640,
+                        .height = 480,
+                        .debug = { .weightsOf = DEBUG_NO_FRAME } };
     if (!ReadOptions(count, words, &options) || options.help) {
         PrintHelp();
         return options.help ? 0 : 2;

@@ -79,6 +79,7 @@ static bool MakeRectangle(Scene* scene, kiriSheetDef* def, const SceneOptions* o
             Scale(frames, (int32_t)frameNumbers, size);
             def->framePoints = frames;
         }
+        scene->gridResolution = def->gridResolution;
         result = kiriCreateSheet(scene->world, def, &scene->sheet);
     }
     free(positions);
@@ -340,9 +341,8 @@ static bool StartSpiral(Scene* scene, const SceneOptions* options)
 /* Pins would pull at whichever frame is nearest, and that changes as blades pass: so the frames are held. */
 static bool HoldBorder(Scene* scene, const kiriSheetDef* def)
 {
-    for (int32_t i = 0; i < 4; i++) {
-        ShowThread(scene, def, (float)(i & 1), (float)(i >> 1));
-    }
+    ShowThread(scene, def, 0.0f, 0.0f);
+    ShowThread(scene, def, 1.0f, 1.0f);
     return HoldLastFrames(scene, 3);
 }
 
@@ -490,8 +490,8 @@ static const SceneType types[] = {
       .substeps = 4,
       .firstCut = 60,
       .lastCut = 540,
-      .moments = { 60, 200, 400, 540, 600, 650, 710, 800 },
-      .camera = { { 1.0f, -2.2f, 1.5f }, { 0.0f, 0.0f, 0.2f }, 30.0f },
+      .moments = { 60, 200, 400, 540, 620, 650, 690, 800 },
+      .camera = { { 1.0f, -2.2f, 1.35f }, { 0.0f, 0.0f, 0.1f }, 25.0f },
       .look = PAPER_LOOK(0.20f, 0.55f, 0.50f),
       .start = StartKirigami,
       .push = PullKirigami },
@@ -515,8 +515,8 @@ static const SceneType types[] = {
       .substeps = 2,
       .firstCut = 60,
       .lastCut = 390,
-      .moments = { 60, 160, 240, 290, 340, 375, 400, 540 },
-      .camera = { { 1.1f, -2.5f, 1.55f }, { 0.0f, 0.0f, 0.45f }, 30.0f },
+      .moments = { 60, 160, 225, 250, 280, 330, 390, 540 },
+      .camera = { { 1.1f, -2.5f, 1.45f }, { 0.0f, 0.0f, 0.5f }, 28.0f },
       .look = PAPER_LOOK(0.20f, 0.35f, 0.70f),
       .start = StartVortex,
       .push = TouchFloor },

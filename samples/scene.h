@@ -56,6 +56,7 @@ struct Scene {
     const SceneType* type;
     kiriWorld* world;
     kiriSheet sheet;
+    int32_t gridResolution;
     int32_t tick; /* ticks done */
     Stroke strokes[SCENE_MAX_STROKES];
     int32_t strokeCount;

@@ -39,6 +39,7 @@ typedef struct OldFace {
    faces, and knights all diagonal steps. */
 struct kiriGridWork {
     bool running, fromScratch;
+    bool removed;        /* a cell is gone */
     int32_t stage, item; /* where the update is */
     Ints remade;         /* squares whose cells and faces are made again */
     Ints relinked;       /* squares around which steps are made again */
@@ -728,6 +729,7 @@ static bool RemoveCell(kiriGrid* grid, const kiriMemory* memory, int32_t c)
     (void)SetStepCount(grid, memory, c, 0); /* cannot fail: it shrinks */
     cell->square = cell->next = KIRI_NONE;
     --grid->cellCount;
+    grid->work->removed = true;
     return (grid->work->cellFlags.data[c] & CELL_MADE) != 0 || kiriArray_Push(memory, &grid->changes.gone, c);
 }
 
@@ -1161,6 +1163,7 @@ static bool Start(kiriGrid* grid, const kiriMeshData* mesh)
     grid->work->fromScratch = grid->squareCell.count == 0;
     grid->work->running = true;
     return (!grid->work->fromScratch || StartFromScratch(grid, mesh)) &&
+           kiriArray_Reserve(mesh->memory, &grid->nodeCell, mesh->squares.nodes.capacity) &&
            kiriArray_Resize(mesh->memory, &grid->nodeCell, mesh->squares.nodes.count);
 }
 
@@ -1173,7 +1176,7 @@ static void Rest(kiriGridWork* work)
     work->flagged.count = work->remade.count = work->relinked.count = work->stepped.count = work->knights.count = 0;
     work->node.count = work->parent.count = 0;
     work->stage = work->item = 0;
-    work->running = false;
+    work->running = work->removed = false;
 }
 
 kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
@@ -1192,7 +1195,9 @@ kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota
             }
         }
     }
-    ForgetGone(grid);
+    if (work->removed) {
+        ForgetGone(grid);
+    }
     Rest(work);
     return KIRI_DONE;
 }
@@ -1220,7 +1225,6 @@ void kiriGrid_Reset(kiriGrid* grid)
     changes->made.count = changes->gone.count = changes->restepped.count = changes->remade.count = 0;
     memset(&grid->stepRoom, 0, sizeof(grid->stepRoom));
     if (grid->work != NULL) {
-        grid->work->flagged.count = 0;
         grid->work->cellFlags.count = grid->work->mark.count = 0;
         Rest(grid->work);
     }

@@ -5,7 +5,7 @@
 #include "patch.h"
 #include "sample.h"
 
-/* What building works in, kept so that building again does not allocate. A zeroed one is empty. */
+/* What building works in, kept so that building again finds its room there. A zeroed one is empty. */
 typedef struct kiriPointsWork {
     kiriPlacer placer; /* for the piece at hand */
     kiriField field;   /* from its points */

@@ -31,7 +31,8 @@ typedef struct Look {
 typedef enum Stage { AT_REST, NEXT_FRAME, FROM_SITE, FROM_BORDER, PUTTING, NORMALIZING } Stage;
 
 struct kiriShapeWork {
-    /* Of the frame at hand; empty between frames. */
+    /* Of the frame at hand; empty between frames. All seeds are its own, so they need no owner, and lists that are loaded
+       neither. */
     kiriField fromSite;   /* distances to its site, no farther than its weight may be above zero, */
     kiriField fromBorder; /* and to the border of its region */
     kiriSeeds seeds;
@@ -77,7 +78,7 @@ static int32_t LimitOf(int32_t reach)
 static kiriSeed SiteSeed(const void* context, int32_t cell)
 {
     const Job* job = context;
-    return kiriSite_SeedAt(&job->sites[job->frame], job->frame, job->grid, job->mesh, cell);
+    return kiriSite_SeedAt(&job->sites[job->frame], KIRI_NONE, job->grid, job->mesh, cell);
 }
 
 /* The border lies on the way between x and y where the distances to their sites are equal. A half is rounded up. */
@@ -100,7 +101,7 @@ static kiriSeed BorderSeed(const void* context, int32_t cell)
 {
     const Job* job = context;
     bool has = job->regions->onBorder.data[cell] && job->work->fromSite.distance.data[cell] != KIRI_FAR;
-    kiriSeed seed = { cell, has ? DistanceToBorder(job, cell) : KIRI_FAR, job->frame };
+    kiriSeed seed = { cell, has ? DistanceToBorder(job, cell) : KIRI_FAR, KIRI_NONE };
     return seed;
 }
 
@@ -183,9 +184,6 @@ static bool ResizeSpan(Job* job, int32_t cell, int32_t count)
 /* A cell without weights gets room for all at once. */
 static bool OpenSpan(Job* job, int32_t cell)
 {
-    if (job->shape->spans.data[cell].count > 0) {
-        return true;
-    }
     SpoilWeights(job, cell);
     return ResizeSpan(job, cell, job->work->fresh.data[cell]);
 }
@@ -225,7 +223,7 @@ static bool Put(Job* job, const Entry* entry)
     if (*fresh == 0) {
         return Replace(job, entry);
     }
-    if (!OpenSpan(job, entry->cell)) {
+    if (job->shape->spans.data[entry->cell].count == 0 && !OpenSpan(job, entry->cell)) {
         return false;
     }
     kiriSpan span = job->shape->spans.data[entry->cell];
@@ -289,65 +287,80 @@ static bool IsConcerned(const Job* job)
 static int32_t ReachOf(const Job* job)
 {
     const kiriReaches* list = &job->shape->reaches.data[job->frame];
-    const kiriField* field = &job->regions->field;
+    const int32_t *owner = job->regions->field.owner.data, *distance = job->regions->field.distance.data;
     int32_t reach = job->work->looks.data[job->frame].reach;
     for (int32_t k = 0; k < list->count; ++k) {
-        int32_t cell = list->data[k].cell;
-        bool own = Inside(job, cell) && (job->work->marks.data[cell] & GONE) == 0;
-        reach = own && field->distance.data[cell] > reach ? field->distance.data[cell] : reach;
+        int32_t cell = list->data[k].cell; /* has no owner where it is gone */
+        reach = owner[cell] == job->frame && distance[cell] > reach ? distance[cell] : reach;
     }
     return reach;
 }
 
-/* Its distance to the border may have changed; where owner or distance did, so may the seeds of cells beside it that see
-   a border between the two. */
-static void SuspectBorder(Job* job, int32_t cell)
+/* A cell has another owner, or is nearer to its site or farther: so the seeds of cells beside it may differ that see a border
+   of the frame's region between the two, and its own. */
+static void SuspectSeeds(Job* job, int32_t cell)
 {
-    kiriShapeWork* work = job->work;
-    kiriField_Suspect(&work->fromBorder, cell);
-    if ((work->marks.data[cell] & REOWNED) != 0) {
-        const kiriStepRun* run = &job->grid->runs.data[cell];
-        bool own = Inside(job, cell) || work->wasOwner.data[cell] == job->frame;
-        for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-            int32_t beside = job->grid->steps.data[s].cell;
-            if (own || Inside(job, beside)) {
-                kiriField_Suspect(&work->fromBorder, beside);
-            }
+    kiriField* field = &job->work->fromBorder;
+    const kiriStepRun* run = &job->grid->runs.data[cell];
+    bool inside = Inside(job, cell), turned = inside != (job->work->wasOwner.data[cell] == job->frame);
+    if (turned) {
+        kiriField_Suspect(field, cell);
+    }
+    for (int32_t s = run->first; (turned || job->regions->onBorder.data[cell]) && s < run->end[KIRI_STEP_LENGTHS - 1];
+         ++s) {
+        int32_t beside = job->grid->steps.data[s].cell;
+        if (turned || Inside(job, beside) != inside) {
+            kiriField_Suspect(field, cell);
+            kiriField_Suspect(field, beside);
         }
     }
 }
 
-/* Loads the distances of the list but for those of cells that are gone or beyond the limit, and suspects the others that
-   may change: all that is known at first. A site's seeds depend on the steps of its cell. */
+/* Loads a cell about which something has changed: not at all where it is gone or beyond the limit. */
+static void LoadChanged(Job* job, kiriReach reach, int32_t limit, int32_t rim)
+{
+    kiriShapeWork* work = job->work;
+    uint8_t mark = work->marks.data[reach.cell];
+    if ((mark & GONE) != 0) {
+        return;
+    }
+    if (reach.fromSite <= limit) {
+        work->fromSite.distance.data[reach.cell] = reach.fromSite;
+        if ((mark & RESTEPPED) != 0 || reach.fromSite > rim) {
+            kiriField_Suspect(&work->fromSite, reach.cell);
+        }
+    }
+    work->fromBorder.distance.data[reach.cell] = reach.fromBorder;
+    if ((mark & RESTEPPED) != 0 || reach.fromSite > limit) {
+        kiriField_Suspect(&work->fromBorder, reach.cell);
+    }
+    if ((mark & REOWNED) != 0) {
+        SuspectSeeds(job, reach.cell);
+    }
+}
+
+/* Loads the list into the fields, and suspects what may change: all that is known at first. A site's seeds depend on the
+   steps of its cell. */
 static void Load(Job* job, int32_t limit)
 {
     kiriShapeWork* work = job->work;
     const kiriReaches* list = &job->shape->reaches.data[job->frame];
+    int32_t *fromSite = work->fromSite.distance.data, *fromBorder = work->fromBorder.distance.data;
+    const uint8_t* marks = work->marks.data;
     int32_t old = work->looks.data[job->frame].limit, rim = limit > old ? old - KIRI_UNIT_KNIGHT : KIRI_FAR;
+    int32_t plain = limit > old ? rim : limit; /* what is no farther has changed only where it is marked */
     for (int32_t k = 0; k < list->count; ++k) {
         kiriReach reach = list->data[k];
-        uint8_t mark = work->marks.data[reach.cell];
-        if ((mark & GONE) != 0) {
-            continue;
-        }
-        if (reach.fromSite <= limit) {
-            work->fromSite.distance.data[reach.cell] = reach.fromSite;
-            work->fromSite.owner.data[reach.cell] = job->frame;
-            if ((mark & RESTEPPED) != 0 || reach.fromSite > rim) {
-                kiriField_Suspect(&work->fromSite, reach.cell);
-            }
-        }
-        if (reach.fromBorder != KIRI_FAR) {
-            work->fromBorder.distance.data[reach.cell] = reach.fromBorder;
-            work->fromBorder.owner.data[reach.cell] = job->frame;
-        }
-        if ((mark & (RESTEPPED | REOWNED)) != 0 || reach.fromSite > limit) {
-            SuspectBorder(job, reach.cell);
+        if (reach.fromSite <= plain && (marks[reach.cell] & (RESTEPPED | GONE | REOWNED)) == 0) {
+            fromSite[reach.cell] = reach.fromSite;
+            fromBorder[reach.cell] = reach.fromBorder;
+        } else {
+            LoadChanged(job, reach, limit, rim);
         }
     }
     int32_t cell = job->sites[job->frame].cell;
     const kiriStepRun* run = &job->grid->runs.data[cell];
-    for (int32_t s = run->first; (work->marks.data[cell] & RESTEPPED) && s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+    for (int32_t s = run->first; (marks[cell] & RESTEPPED) && s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
         kiriField_Suspect(&work->fromSite, job->grid->steps.data[s].cell);
     }
 }
@@ -360,7 +373,7 @@ static bool StartFromSite(Job* job)
     bool ok = true;
     if (look->moved) {
         work->seeds.count = 0;
-        ok = kiriSite_Seed(&job->sites[job->frame], job->frame, job->memory, job->grid, job->mesh, &work->seeds) &&
+        ok = kiriSite_Seed(&job->sites[job->frame], KIRI_NONE, job->memory, job->grid, job->mesh, &work->seeds) &&
              kiriField_Start(&work->fromSite, job->memory, work->seeds.data, work->seeds.count);
     } else {
         Load(job, limit);
@@ -372,11 +385,15 @@ static bool StartFromSite(Job* job)
 static bool SeedBorder(Job* job)
 {
     kiriShapeWork* work = job->work;
+    const uint8_t* onBorder = job->regions->onBorder.data;
     work->seeds.count = 0;
     for (int32_t k = 0; k < work->fromSite.settled.count; ++k) {
-        kiriSeed seed = BorderSeed(job, work->fromSite.settled.data[k]);
-        if (seed.distance < KIRI_FAR && !kiriArray_Push(job->memory, &work->seeds, seed)) {
-            return false;
+        int32_t cell = work->fromSite.settled.data[k];
+        if (onBorder[cell]) {
+            kiriSeed seed = { cell, DistanceToBorder(job, cell), KIRI_NONE };
+            if (seed.distance < KIRI_FAR && !kiriArray_Push(job->memory, &work->seeds, seed)) {
+                return false;
+            }
         }
     }
     return kiriField_Start(&work->fromBorder, job->memory, work->seeds.data, work->seeds.count);
@@ -392,7 +409,10 @@ static bool StartFromBorder(Job* job)
     for (int32_t k = 0; k < work->fromSite.log.count; ++k) {
         kiriSeed was = work->fromSite.log.data[k];
         if (work->fromSite.distance.data[was.cell] != was.distance) {
-            SuspectBorder(job, was.cell);
+            kiriField_Suspect(&work->fromBorder, was.cell);
+            if ((work->marks.data[was.cell] & REOWNED) != 0) {
+                SuspectSeeds(job, was.cell);
+            }
         }
     }
     return true;
@@ -404,22 +424,23 @@ static kiriProgress GoOn(Job* job, kiriField* field, const kiriRule* rule, kiriQ
                                                    : kiriField_Repair(field, job->memory, rule, quota);
 }
 
-static void AddEntry(Job* job, int32_t cell, int32_t d, int32_t e)
+/* There is room. */
+static void AddEntry(Job* job, kiriReach is)
 {
     kiriShapeWork* work = job->work;
-    double raw = d == KIRI_FAR ? 0.0 : Weigh(Inside(job, cell), d, e);
-    bool none = job->shape->spans.data[cell].count == 0;
+    double raw = is.fromSite == KIRI_FAR ? 0.0 : Weigh(Inside(job, is.cell), is.fromSite, is.fromBorder);
+    bool none = job->shape->spans.data[is.cell].count == 0;
     if (raw > 0.0 || !none) {
-        work->fresh.data[cell] += none;
-        work->entries.data[work->entries.count++] = (Entry){ cell, job->frame, raw };
+        work->fresh.data[is.cell] += none;
+        work->entries.data[work->entries.count++] = (Entry){ is.cell, job->frame, raw };
     }
 }
 
-static kiriReach Unload(kiriShapeWork* work, int32_t cell)
+/* Takes the distances of a cell out of the fields. */
+static kiriReach Unload(int32_t* fromSite, int32_t* fromBorder, int32_t cell)
 {
-    kiriReach reach = { cell, work->fromSite.distance.data[cell], work->fromBorder.distance.data[cell] };
-    kiriField_Forget(&work->fromSite, cell);
-    kiriField_Forget(&work->fromBorder, cell);
+    kiriReach reach = { cell, fromSite[cell], fromBorder[cell] };
+    fromSite[cell] = fromBorder[cell] = KIRI_FAR;
     return reach;
 }
 
@@ -427,26 +448,31 @@ static void WriteOld(Job* job)
 {
     kiriShapeWork* work = job->work;
     kiriReaches* list = &job->shape->reaches.data[job->frame];
+    int32_t *fromSite = work->fromSite.distance.data, *fromBorder = work->fromBorder.distance.data;
+    const uint8_t* marks = work->marks.data;
     for (int32_t k = 0; k < list->count;) {
-        kiriReach was = list->data[k], is = Unload(work, was.cell);
-        uint8_t mark = work->marks.data[was.cell];
-        bool changed = is.fromSite != was.fromSite || is.fromBorder != was.fromBorder || (mark & REOWNED) != 0;
-        if (changed && (mark & GONE) == 0) {
-            AddEntry(job, was.cell, is.fromSite, is.fromBorder);
+        kiriReach was = list->data[k], is = Unload(fromSite, fromBorder, was.cell);
+        bool same = is.fromSite == was.fromSite && is.fromBorder == was.fromBorder;
+        if (same && (marks[was.cell] & REOWNED) == 0) {
+            ++k;
+            continue;
+        }
+        if ((marks[was.cell] & GONE) == 0) {
+            AddEntry(job, is);
         }
         list->data[k] = is.fromSite != KIRI_FAR ? is : list->data[--list->count];
         k += is.fromSite != KIRI_FAR;
     }
 }
 
-/* What is still loaded now is new. */
+/* Cells of a flood or a log that are still loaded are new in the list. */
 static void WriteNew(Job* job, int32_t cell)
 {
     kiriReaches* list = &job->shape->reaches.data[job->frame];
-    kiriReach is = Unload(job->work, cell);
+    kiriReach is = Unload(job->work->fromSite.distance.data, job->work->fromBorder.distance.data, cell);
     if (is.fromSite != KIRI_FAR) {
         list->data[list->count++] = is;
-        AddEntry(job, cell, is.fromSite, is.fromBorder);
+        AddEntry(job, is);
     }
 }
 
@@ -454,27 +480,26 @@ static void WriteNew(Job* job, int32_t cell)
 static bool Write(Job* job)
 {
     kiriShapeWork* work = job->work;
+    kiriField *site = &work->fromSite, *border = &work->fromBorder;
     kiriReaches* list = &job->shape->reaches.data[job->frame];
-    int32_t settled = work->fromSite.settled.count, logged = work->fromSite.log.count;
-    int64_t most = (int64_t)list->count + settled + logged;
+    int64_t most = (int64_t)list->count + site->settled.count + site->log.count;
     if (!kiriArray_Reserve(job->memory, list, most) ||
         !kiriArray_Reserve(job->memory, &work->entries, work->entries.count + most)) {
         return false;
     }
     WriteOld(job);
-    for (int32_t k = 0; k < settled; ++k) {
-        WriteNew(job, work->fromSite.settled.data[k]);
+    for (int32_t k = 0; k < site->settled.count; ++k) {
+        WriteNew(job, site->settled.data[k]);
     }
-    for (int32_t k = 0; k < logged; ++k) {
-        WriteNew(job, work->fromSite.log.data[k].cell);
+    for (int32_t k = 0; k < site->log.count; ++k) {
+        WriteNew(job, site->log.data[k].cell);
     }
     /* Distances to the border are given one step farther than ways go on. */
-    for (int32_t k = 0; k < work->fromBorder.log.count; ++k) {
-        kiriField_Forget(&work->fromBorder, work->fromBorder.log.data[k].cell);
+    for (int32_t k = 0; k < border->log.count; ++k) {
+        border->distance.data[border->log.data[k].cell] = KIRI_FAR;
     }
-    kiriField_Reset(&work->fromSite);
-    kiriField_Reset(&work->fromBorder);
-    work->fromSite.log.count = work->fromBorder.log.count = 0;
+    kiriField_Reset(border);
+    site->settled.count = site->log.count = border->log.count = 0;
     return true;
 }
 

@@ -174,7 +174,8 @@ static kiriResult Build(kiriSheetData* sheet, const kiriSheetDef* def, const cha
         StartFrame(sheet, def, i);
     }
     kiriUpdate_Commit(sheet);
-    kiriUpdate_CommitMesh(sheet);
+    kiriView_WriteTopology(sheet);
+    kiriMesh_Commit(&sheet->mesh);
     sheet->update.spread = 0;
     return KIRI_OK;
 }

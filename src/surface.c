@@ -226,14 +226,16 @@ bool kiriSurface_CopyIndices16(const kiriSurface* surface, int32_t firstTriangle
 
 /* ---- Curvature ----
 
-   In a flat patch the surface bulges over each frame's neighbours: half-way between two frames at an angle t on a
-   cylinder of radius R, both patches are R t^2 / 8 outside. So the patch of a frame follows the arc that its neighbours'
-   directors tell: with K the curvature, g = K q, h = q . g and f^2 = g . g it goes to
-   x + q (sin f) / f in the plane, and up by (1 - cos f) / K. That is for one direction of bending, which is what thin
-   sheets have; elsewhere it is right to the second order. */
+   In a flat patch the surface bulges: half-way between two frames that stand at an angle t on a cylinder of radius R,
+   both patches are R t^2 / 8 outside. So the patch of a frame follows the arc that its neighbours' directors tell. Be K
+   the curvature, g = K q and f^2 = g . g: the patch goes from q to q sin f / f in the plane, and up by
+   q . g (1 - cos f) / f^2. That is exact for one direction of bending, which is what thin sheets have, and right to the
+   second order elsewhere.
 
-/* The angle, of which this is the cosine, over its sine: Pade's [4/4] of the half-angle's arc tangent, 0.7 % at 120
-   degrees. Never above 4 or so: frames back to back tell nothing. */
+   A frame that stretches by s has arcs s times as long for the same angles: K and six, divided by s^2, say so. */
+
+/* The angle, of which this is the cosine, over its sine: Pade's [4/4] of the half-angle's arc tangent, 0.7 % off at 120
+   degrees. Never above 8: frames back to back tell nothing. */
 static double AngleOverSine(double cosine)
 {
     double lower = 1.0 + cosine > 0.1 ? 1.0 + cosine : 0.1, x = (2.0 - lower) / lower;
@@ -261,12 +263,15 @@ static void Curve(kiriCarrier* carrier, const kiriBend* bend)
     double least = 1e-3 * (bend->uu + bend->vv), m = bend->uv;
     double a = bend->uu + least, c = bend->vv + least, b = bend->uu + bend->vv + 2.0 * least;
     double det = a * (b * c - m * m) - m * m * c;
-    if (!(det > 0.0)) {
+    double square = kiriVec3_Length(kiriVec3_Cross(carrier->u, carrier->v));
+    if (!(det > 0.0 && square > 0.0)) {
         return;
     }
-    carrier->uu = ((b * c - m * m) * bend->ruu - m * c * bend->ruv + m * m * bend->rvv) / det;
-    carrier->uv = (-m * c * bend->ruu + a * c * bend->ruv - a * m * bend->rvv) / det;
-    carrier->vv = (m * m * bend->ruu - a * m * bend->ruv + (a * b - m * m) * bend->rvv) / det;
+    double scale = 1.0 / (square * det);
+    carrier->six = 6.0 / square;
+    carrier->uu = scale * ((b * c - m * m) * bend->ruu - m * c * bend->ruv + m * m * bend->rvv);
+    carrier->uv = scale * (-m * c * bend->ruu + a * c * bend->ruv - a * m * bend->rvv);
+    carrier->vv = scale * (m * m * bend->ruu - a * m * bend->ruv + (a * b - m * m) * bend->rvv);
 }
 
 /* From center to center along the link. */
@@ -304,6 +309,7 @@ static void WriteCarriers(kiriSurface* surface, const kiriFrameData* frames, int
         carrier->v = frames[i].A.v;
         carrier->x = frames[i].x;
         carrier->center = frames[i].center;
+        carrier->six = 6.0;
         carrier->origin = kiriFrame_Carry(&frames[i], kiriVec2_Make(0.0, 0.0));
         carrier->d = kiriVec3_Normalize(kiriVec3_Cross(carrier->u, carrier->v));
     }
@@ -322,8 +328,8 @@ static kiriVec3 BlendFlat(const kiriCarrier* carriers, const kiriWeight* weights
     return sum;
 }
 
-/* sin f / f and (1 - cos f) / f^2 as fractions over 12 + f^2: half a thousandth off at 40 degrees, and never folding
-   farther back than q itself. */
+/* sin f / f and (1 - cos f) / f^2 as fractions over 12 + f^2: one thousandth off at 40 degrees, and however strongly
+   bent never farther from the center than twice q. */
 static kiriVec3 BlendBent(const kiriCarrier* carriers, const kiriWeight* weights, int32_t count, kiriVec2 p)
 {
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
@@ -331,7 +337,7 @@ static kiriVec3 BlendBent(const kiriCarrier* carriers, const kiriWeight* weights
         const kiriCarrier* k = &carriers[weights[i].frame];
         double w = weights[i].value, qu = p.x - k->center.x, qv = p.y - k->center.y;
         double gu = k->uu * qu + k->uv * qv, gv = k->uv * qu + k->vv * qv;
-        double bow = (gu * qu + gv * qv) / (6.0 + 0.5 * (gu * gu + gv * gv));
+        double bow = (gu * qu + gv * qv) / (k->six + 0.5 * (gu * gu + gv * gv));
         double a = qu - bow * gu, b = qv - bow * gv, c = 3.0 * bow;
         sum.x += w * (k->x.x + a * k->u.x + b * k->v.x + c * k->d.x);
         sum.y += w * (k->x.y + a * k->u.y + b * k->v.y + c * k->d.y);
@@ -375,8 +381,8 @@ static void Add(kiriVec3* sum, kiriVec3 a)
     sum->z += a.z;
 }
 
-/* The cross product of two sides is twice the area times the normal: sums are area-weighted. Where two triangles share an
-   edge, their corners on it get one sum from both. */
+/* The cross product of two sides is twice the area times the normal: sums are area-weighted. Where two triangles share
+   an edge, their corners on it get one sum from both. */
 static void SumSlopes(kiriSurface* surface)
 {
     const kiriVec3* x = surface->exact.data;

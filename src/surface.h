@@ -1,18 +1,18 @@
-/* The surface that the host sees: the mesh as the frames carry it. It has corners and rest positions of its own, so that
-   the mesh may change while the surface still shows what was before. */
+/* The surface that the host sees: the mesh as the frames carry it. It has corners and rest positions of its own, so
+   that the mesh may change while the surface still shows what was before. */
 #ifndef KIRI_SURFACE_H
 #define KIRI_SURFACE_H
 
 #include "link.h"
 #include "sample.h"
 
-/* A frame as skinning reads it: the rest point p goes to x + a u + b v + c d. In a flat patch (a, b) is q = p - center and
-   c is 0; a bent one follows the arc that its curvature gives, see surface.c. */
+/* A frame as skinning reads it: the rest point p goes to x + a u + b v + c d. In a flat patch (a, b) is q = p - center
+   and c is 0; a bent one follows the arc that its curvature gives, see surface.c. */
 typedef struct kiriCarrier {
     kiriVec3 origin; /* where the flat patch has the local origin */
     kiriVec3 u, v, d, x;
     kiriVec2 center;
-    double uu, uv, vv; /* curvature K, 1/m */
+    double uu, uv, vv, six; /* curvature K, 1/m; 6 for a rigid frame */
 } kiriCarrier;
 
 /* What a frame's neighbours tell about its curvature: normal equations. */
@@ -54,7 +54,8 @@ typedef struct kiriSurface {
 bool kiriSurface_Resize(kiriSurface* surface, const kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount);
 void kiriSurface_Release(kiriSurface* surface, const kiriMemory* memory);
 
-/* Takes over what kiriMesh_Begin's journal says has changed; call it before kiriMesh_Commit. All of it the first time. */
+/* Takes over what kiriMesh_Begin's journal says has changed; call it before kiriMesh_Commit. The first time
+   all of the mesh. */
 void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh);
 
 /* Positions and normals from the frames. The links tell a smooth surface how to bend; a linear one does not ask. */

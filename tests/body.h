@@ -14,6 +14,9 @@ typedef struct Body {
     kiriSites sites;
     kiriRegions regions;
     kiriShape shape;
+    kiriLinks links;
+    KIRI_ARRAY(kiriMoments) material; /* of each region */
+    kiriPointsWork points;
     kiriPatches patches;
     kiriFrameData frames[BODY_FRAMES];
     kiriPinRow pins[4];
@@ -86,7 +89,7 @@ static inline void Body_AddRows(Body* body, int nu, int nv, double jitter, uint3
 static inline void Body_StartFrame(Body* body, int32_t i)
 {
     kiriFrameData* frame = &body->frames[i];
-    const kiriMoments* material = &body->regions.regions.data[i].material;
+    const kiriMoments* material = &body->material.data[i];
     frame->site = body->sites.data[i];
     frame->center = kiriMoments_Center(material);
     frame->x = Vec3(frame->center.x, frame->center.y, 0.0);
@@ -104,20 +107,45 @@ static inline void Body_MakeSolver(Body* body)
     kiriSolver_Commit(body->solver);
 }
 
+/* Regions, shape functions and links, and the material of each region summed plainly. */
+static inline void Body_Divide(Body* body)
+{
+    Scene* s = &body->scene;
+    int32_t count = body->sites.count;
+    kiriQuota quota = { INT64_MAX, 0 };
+    kiriSiteMove moves[BODY_FRAMES];
+    for (int32_t i = 0; i < count; ++i) {
+        moves[i] = (kiriSiteMove){ i, KIRI_NONE };
+    }
+    body->shape.rigidWeight = 0.9;
+    assert_int_equal(kiriRegions_Update(&body->regions, &s->memory, &s->grid, &s->mesh, body->sites.data, count, moves,
+                                        count, &quota),
+                     KIRI_DONE);
+    assert_int_equal(kiriShape_Update(&body->shape, &s->memory, &s->grid, &s->mesh, &body->regions, body->sites.data,
+                                      count, moves, count, &quota),
+                     KIRI_DONE);
+    assert_true(kiriLinks_Update(&body->links, &s->memory, &s->grid, &s->mesh, &body->regions, &body->shape,
+                                 body->sites.data, count));
+    kiriLinks_Commit(&body->links);
+    assert_true(kiriArray_Resize(&s->memory, &body->material, count));
+    memset(body->material.data, 0, sizeof(kiriMoments) * (size_t)count);
+    for (int32_t c = 0; c < s->grid.cells.count; ++c) {
+        kiriMoments_Add(&body->material.data[body->regions.field.owner.data[c]], &s->grid.cells.data[c].material);
+    }
+}
+
 static inline void Body_End(Body* body, const BodyDef* def)
 {
     Scene* s = &body->scene;
     assert_true(body->sites.count <= BODY_FRAMES);
-    assert_true(kiriRegions_Build(&body->regions, &s->memory, &s->grid, &s->mesh, &s->field, body->sites.data,
-                                  body->sites.count));
-    assert_true(kiriShape_Build(&body->shape, &s->memory, &s->grid, &s->mesh, &body->regions, &s->field,
-                                body->sites.data, body->sites.count));
+    Body_Divide(body);
     bool built = true;
     if (def->model == KIRI_MODEL_AFFINE) {
-        built = kiriAffine_Build(&body->patches, &s->memory, &body->regions, def->planar != 0);
+        built = kiriAffine_Build(&body->patches, &s->memory, body->links.links.data, body->links.links.count,
+                                 body->material.data, body->sites.count, def->planar != 0);
     } else if (def->model == KIRI_MODEL_POINTS) {
-        built = kiriPoints_Build(&body->patches, &s->memory, &s->grid, &s->mesh, &s->field, &body->shape,
-                                 &body->regions, def->points, def->order, def->planar != 0);
+        built = kiriPoints_Build(&body->patches, &body->points, &s->memory, &s->grid, &s->mesh, &body->shape,
+                                 body->material.data, def->points, def->order, def->planar != 0);
     }
     assert_true(built);
     for (int32_t i = 0; i < body->sites.count; ++i) {
@@ -125,8 +153,8 @@ static inline void Body_End(Body* body, const BodyDef* def)
     }
     body->system.frames = body->frames;
     body->system.frameCount = body->sites.count;
-    body->system.links = body->regions.links.data;
-    body->system.linkCount = body->regions.links.count;
+    body->system.links = body->links.links.data;
+    body->system.linkCount = body->links.links.count;
     body->system.patches = &body->patches;
     body->system.pins = body->pins;
     body->system.contacts = body->contacts;
@@ -138,6 +166,9 @@ static inline void Body_Drop(Body* body)
     const kiriMemory* memory = &body->scene.memory;
     kiriSolver_Destroy(body->solver);
     kiriPatches_Release(&body->patches, memory);
+    kiriPointsWork_Release(&body->points, memory);
+    kiriArray_Release(memory, &body->material);
+    kiriLinks_Release(&body->links, memory);
     kiriShape_Release(&body->shape, memory);
     kiriRegions_Release(&body->regions, memory);
     kiriArray_Release(memory, &body->sites);

@@ -167,7 +167,7 @@ static void FindInner(const Body* b, bool* inner)
         kiriVec2 p = kiriGrid_Middle(grid, &b->scene.mesh, c);
         double rim = fmin(fmin(p.x, b->scene.width - p.x), fmin(p.y, b->scene.height - p.y));
         if (rim < grid->side) {
-            inner[b->regions.owner.data[c]] = false;
+            inner[b->regions.field.owner.data[c]] = false;
         }
     }
 }

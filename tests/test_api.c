@@ -195,7 +195,7 @@ static void WorldDefs(void** state)
         } else if (bad == 10) {
             def.free = NULL;
         } else if (bad == 11) {
-            def.cutBudget = -1;
+            def.budget.cells = -1;
         } else if (bad == 12) {
             def.cookie ^= 1;
         } else {

@@ -2,18 +2,18 @@
 
 /* ---- What placing must come to, computed plainly ----------------------------------------------------------------- */
 
+enum { AWAY = 1 << 28, MOST = 100 };
+
 typedef struct Plain {
     const kiriGrid* grid;
     const kiriMeshData* mesh;
     int32_t* cells; /* the part, sorted */
     int32_t count;
-    int32_t* holds;     /* of each cell: site, or KIRI_NONE */
-    int64_t* distance;  /* of each site and cell */
-    kiriSite sites[64]; /* old ones first */
+    int32_t* holds;       /* of each cell: site, or KIRI_NONE */
+    int64_t* distance;    /* of each site and cell */
+    kiriSite sites[MOST]; /* old ones first */
     int32_t siteCount, oldCount;
 } Plain;
-
-enum { AWAY = 1 << 28 };
 
 static int64_t* DistanceOf(const Plain* p, int32_t site, int32_t cell)
 {
@@ -129,7 +129,7 @@ static int32_t PlainTarget(const Plain* p, int32_t site, const uint8_t* allowed,
 /* One round of Lloyd's; did a site move? */
 static bool PlainRound(Plain* p)
 {
-    kiriSite next[64];
+    kiriSite next[MOST];
     bool moved = false;
     for (int32_t i = p->oldCount; i < p->siteCount; ++i) {
         Measure(p, i, p->siteCount);
@@ -344,7 +344,7 @@ static void InitPlain(Plain* p, const Scene* scene, const int32_t* piece, int32_
     p->grid = grid;
     p->mesh = &scene->mesh;
     p->cells = malloc(sizeof(int32_t) * (size_t)grid->cells.count);
-    p->distance = malloc(sizeof(int64_t) * 64 * (size_t)grid->cells.count);
+    p->distance = malloc(sizeof(int64_t) * MOST * (size_t)grid->cells.count);
     for (int32_t c = 0; c < grid->cells.count; ++c) {
         if (kiriGrid_IsCell(grid, c) && piece[c] == which) {
             int32_t k = p->count++;
@@ -362,19 +362,25 @@ static void FreePlain(Plain* p)
     free(p->distance);
 }
 
-/* Some sites in cells of their own: as frames take them, or anywhere in the square. */
+/* Some sites in cells of their own, as frames take them, or at sides and corners of the square; many next to the last. */
 static void AddOldSites(Plain* p, int32_t count, uint32_t* seed)
 {
     for (int32_t k = 0; k < count; ++k) {
         int32_t cell = p->cells[Random(seed) % (uint32_t)p->count];
+        if (p->siteCount > 0 && Random(seed) % 2 == 0) {
+            const kiriStepRun* run = &p->grid->runs.data[p->sites[p->siteCount - 1].cell];
+            int32_t steps = run->end[0] - run->first;
+            cell = steps > 0 ? p->grid->steps.data[run->first + (int32_t)(Random(seed) % (uint32_t)steps)].cell : cell;
+        }
         kiriSite site = kiriFrames_SiteIn(p->grid, p->mesh, cell);
         bool taken = false;
         for (int32_t i = 0; i < p->siteCount; ++i) {
             taken = taken || p->sites[i].cell == cell;
         }
-        if (Random(seed) % 2 == 0) {
-            double half = 0.49 * p->grid->side;
-            site.at = kiriVec2_Add(kiriGrid_Middle(p->grid, p->mesh, cell), RandomVec2(seed, -half, half));
+        if (Random(seed) % 4 > 0) {
+            double u = 0.49 * ((int)(Random(seed) % 3) - 1), v = 0.49 * ((int)(Random(seed) % 3) - 1);
+            kiriVec2 off = kiriVec2_Scale(p->grid->side, kiriVec2_Make(u, v));
+            site.at = kiriVec2_Add(kiriGrid_Middle(p->grid, p->mesh, cell), off);
         }
         if (!taken) {
             p->sites[p->siteCount++] = site;
@@ -417,7 +423,7 @@ static void AssertSites(const kiriPlacer* placer, const Plain* p)
 /* Distances to the old sites, as regions have them. */
 static void UpdateRegions(kiriRegions* regions, Scene* scene, const Plain* p)
 {
-    kiriSiteMove moves[64];
+    kiriSiteMove moves[MOST];
     kiriQuota quota = Endless();
     for (int32_t i = 0; i < p->oldCount; ++i) {
         moves[i] = (kiriSiteMove){ i, KIRI_NONE };
@@ -428,20 +434,11 @@ static void UpdateRegions(kiriRegions* regions, Scene* scene, const Plain* p)
                      KIRI_DONE);
 }
 
-/* In one piece: all at once, by quota, after a job that was given up, and with distances known. */
-static void CheckPiece(Scene* scene, kiriPlacer* placer, kiriRegions* regions, Plain* p, uint32_t* seed)
+/* All at once, by quota, after a job that was given up, and with distances known. */
+static void CheckPlacing(Scene* scene, kiriPlacer* placer, kiriRegions* regions, Plain* p, const uint8_t* allowed,
+                         int32_t count, uint32_t* seed)
 {
     const kiriMemory* memory = &scene->memory;
-    uint8_t* allowed = NULL;
-    int32_t most = Random(seed) % 8 == 0 ? 50 : 7, count = (int32_t)(Random(seed) % (uint32_t)most);
-    int32_t oldCount = Random(seed) % 3 == 0 ? 0 : (int32_t)(Random(seed) % 6);
-    AddOldSites(p, oldCount, seed);
-    if (Random(seed) % 3 == 0) {
-        allowed = malloc((size_t)scene->grid.cells.count);
-        for (int32_t c = 0; c < scene->grid.cells.count; ++c) {
-            allowed[c] = Random(seed) % 3 == 0;
-        }
-    }
     PlainPlace(p, allowed, count < p->count ? count : p->count);
     for (int run = 0; run < 4; ++run) {
         GiveOldSites(p, memory, placer);
@@ -462,6 +459,20 @@ static void CheckPiece(Scene* scene, kiriPlacer* placer, kiriRegions* regions, P
         RunInParts(placer, scene, &scene->grid, run == 2 ? 6 : 0, seed);
         AssertSites(placer, p);
     }
+}
+
+static void CheckPiece(Scene* scene, kiriPlacer* placer, kiriRegions* regions, Plain* p, uint32_t* seed)
+{
+    uint8_t* allowed = NULL;
+    int32_t most = Random(seed) % 8 == 0 ? 50 : 7, count = (int32_t)(Random(seed) % (uint32_t)most);
+    AddOldSites(p, Random(seed) % 3 == 0 ? 0 : (int32_t)(Random(seed) % 6), seed);
+    if (Random(seed) % 3 == 0) {
+        allowed = malloc((size_t)scene->grid.cells.count);
+        for (int32_t c = 0; c < scene->grid.cells.count; ++c) {
+            allowed[c] = Random(seed) % 3 == 0;
+        }
+    }
+    CheckPlacing(scene, placer, regions, p, allowed, count, seed);
     free(allowed);
 }
 
@@ -493,6 +504,38 @@ static void EqualsPlainPlacing(void** state)
         Scene_Release(&scene);
     }
     assert_true(pieces > 150 && several > 60);
+}
+
+/* Two sites side by side, anywhere in their squares, and then one in every other cell: the order in which these come tells
+   all distances. */
+static void EqualsPlainBesideNeighbours(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriPlacer placer = { 0 };
+    kiriRegions regions;
+    uint32_t seed = 3;
+    memset(&regions, 0, sizeof(regions));
+    Scene_Init(&scene, 1.0, 1.0, 3, 3, 9);
+    Scene_BuildGrid(&scene);
+    int32_t* piece = calloc((size_t)scene.grid.cells.count, sizeof(int32_t));
+    for (int k = 0; k < 81; ++k) {
+        const int places[4] = { k % 3, k / 3 % 3, k / 9 % 3, k / 27 };
+        Plain plain;
+        InitPlain(&plain, &scene, piece, 0);
+        for (int i = 0; i < 2; ++i) {
+            kiriVec2 off = kiriVec2_Make(0.49 * (places[2 * i] - 1), 0.49 * (places[2 * i + 1] - 1));
+            plain.sites[i] = Scene_Site(&scene, i == 0 ? 0.4 : 0.5, 0.3);
+            plain.sites[i].at = kiriVec2_Add(plain.sites[i].at, kiriVec2_Scale(scene.grid.side, off));
+        }
+        plain.siteCount = plain.oldCount = 2;
+        CheckPlacing(&scene, &placer, &regions, &plain, NULL, 79, &seed);
+        FreePlain(&plain);
+    }
+    free(piece);
+    kiriRegions_Release(&regions, &scene.memory);
+    kiriPlacer_Release(&placer, &scene.memory);
+    Scene_Release(&scene);
 }
 
 /* ---- Indices of cells mean nothing ------------------------------------------------------------------------------------- */
@@ -793,6 +836,7 @@ int main(void)
         cmocka_unit_test(OldSitesStay),
         cmocka_unit_test(CountIsLimitedByCells),
         cmocka_unit_test(EqualsPlainPlacing),
+        cmocka_unit_test(EqualsPlainBesideNeighbours),
         cmocka_unit_test(DoesNotDependOnIndices),
         cmocka_unit_test(EqualsFromScratch),
         cmocka_unit_test(RecenterKeepsTheMotion),

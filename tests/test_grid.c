@@ -1140,9 +1140,10 @@ static void OpenAnySheet(Sheet* sheet, uint32_t* seed, int32_t* lines)
     }
 }
 
-/* With quotas up to `most`, or all at once for 0. */
-static void UpdateInParts(Sheet* sheet, uint32_t* seed, int32_t most)
+/* With quotas up to `most`, or all at once for 0. Returns the items it took. */
+static int64_t UpdateInParts(Sheet* sheet, uint32_t* seed, int32_t most)
 {
+    int64_t items = 0;
     for (kiriProgress progress = KIRI_MORE; progress != KIRI_DONE;) {
         int64_t left = most == 0 ? INT64_MAX : (int64_t)(Random(seed) % (uint32_t)most);
         kiriQuota quota = { left, 0 };
@@ -1150,8 +1151,10 @@ static void UpdateInParts(Sheet* sheet, uint32_t* seed, int32_t most)
         assert_int_not_equal(progress, KIRI_FAILED);
         assert_true(quota.used >= 0 && quota.left >= 0 && quota.used + quota.left == left);
         assert_true(progress == KIRI_DONE || quota.left == 0);
+        items += quota.used;
     }
     kiriSquares_ClearTouched(&sheet->mesh.squares);
+    return items;
 }
 
 static void CountChanges(const kiriGrid* grid, Tour* tour)
@@ -1226,7 +1229,33 @@ static void TestManyUpdatesBeforeSettling(void** state)
     assert_true(tour.made > 2000);
 }
 
-/* Cuts that are taken back: cells merge again. */
+static void CutAcross(Sheet* sheet, uint32_t* seed)
+{
+    double points[8];
+    for (int i = 0; i < 8; ++i) {
+        points[i] = RandomBetween(seed, 0.0, 1.0);
+    }
+    CutWithin(sheet, points, 4);
+}
+
+/* After Settle, every index is a cell's or waits to be one's, and so for faces. */
+static void CheckFreeIndices(const kiriGrid* grid)
+{
+    int32_t cells = grid->cellCount, faces = CountFaces(grid);
+    for (int32_t c = grid->freeCell; c != KIRI_NONE; c = grid->cells.data[c].next) {
+        assert_false(kiriGrid_IsCell(grid, c));
+        ++cells;
+    }
+    for (int32_t f = grid->freeFace; f != KIRI_NONE; f = grid->faces.data[f].next[0]) {
+        assert_int_equal(grid->faces.data[f].cell[0], KIRI_NONE);
+        ++faces;
+    }
+    assert_int_equal(cells, grid->cells.count);
+    assert_int_equal(faces, grid->faces.count);
+}
+
+/* Two cuts that are taken back as one, so that cells merge again. They are settled after the first, the second, both, or
+   never: cells go that were known and have changed since, or that nobody has heard of. */
 static void CheckCutsTakenBack(Tour* tour, int32_t mostQuota)
 {
     Sheet sheet;
@@ -1234,30 +1263,29 @@ static void CheckCutsTakenBack(Tour* tour, int32_t mostQuota)
     OpenAnySheet(&sheet, &tour->seed, &lines);
     CutRandomly(&sheet, &tour->seed, 2);
     UpdateInParts(&sheet, &tour->seed, mostQuota);
-    for (int round = 0; round < 3; ++round) {
+    for (uint32_t round = 0; round < 4; ++round) {
         kiriGrid_Settle(&sheet.grid);
-        kiriGrid before = CopyGrid(&sheet.grid);
+        CheckFreeIndices(&sheet.grid);
+        kiriGrid was = CopyGrid(&sheet.grid);
+        int32_t cellCount = sheet.grid.cellCount;
         kiriMesh_Begin(&sheet.mesh);
-        double points[8];
-        for (int i = 0; i < 8; ++i) {
-            points[i] = RandomBetween(&tour->seed, 0.0, 1.0);
+        for (uint32_t cut = 0; cut < 2; ++cut) {
+            CutAcross(&sheet, &tour->seed);
+            UpdateInParts(&sheet, &tour->seed, mostQuota);
+            CheckAgainstScratch(&sheet);
+            if ((round >> cut & 1) != 0) {
+                kiriGrid_Settle(&sheet.grid);
+                FreeCopy(&was);
+                was = CopyGrid(&sheet.grid);
+            }
         }
-        CutWithin(&sheet, points, 4);
-        UpdateInParts(&sheet, &tour->seed, mostQuota);
-        CheckAgainstScratch(&sheet);
-        bool settle = Random(&tour->seed) % 2 == 0;
-        if (settle) {
-            kiriGrid_Settle(&sheet.grid);
-        }
-        kiriGrid cut = CopyGrid(&sheet.grid);
         kiriMesh_Rollback(&sheet.mesh);
         UpdateInParts(&sheet, &tour->seed, mostQuota);
         CheckAgainstScratch(&sheet);
-        CheckChanges(settle ? &cut : &before, &sheet.grid, settle);
+        CheckChanges(&was, &sheet.grid, round >= 2);
         CountChanges(&sheet.grid, tour);
-        assert_int_equal(sheet.grid.cellCount, before.cellCount);
-        FreeCopy(&cut);
-        FreeCopy(&before);
+        assert_int_equal(sheet.grid.cellCount, cellCount);
+        FreeCopy(&was);
     }
     CloseSheet(&sheet);
 }
@@ -1272,6 +1300,25 @@ static void TestCutsTakenBack(void** state)
     assert_true(tour.gone > 500);
 }
 
+/* However the quota is cut up, the work is the same. */
+static void TestQuotaCountsAll(void** state)
+{
+    (void)state;
+    int64_t items[2][4];
+    for (int parts = 0; parts < 2; ++parts) {
+        uint32_t cuts = 6, quotas = 9;
+        Sheet sheet;
+        OpenRectangle(&sheet, 1.0f, 1.0f, 5, 8, 12);
+        for (int i = 0; i < 4; ++i) {
+            items[parts][i] = UpdateInParts(&sheet, &quotas, parts * 5);
+            CutRandomly(&sheet, &cuts, 1);
+        }
+        CloseSheet(&sheet);
+    }
+    assert_memory_equal(items[0], items[1], sizeof(items[0]));
+    assert_true(items[0][0] > 3 * 144 && items[0][1] < items[0][0]);
+}
+
 /* All squares looked at, and nothing found. */
 static void TestNothingChanged(void** state)
 {
@@ -1283,25 +1330,21 @@ static void TestNothingChanged(void** state)
     Build(&sheet);
     kiriGrid_Settle(&sheet.grid);
     kiriGrid was = CopyGrid(&sheet.grid);
+    int32_t calls = sheet.blocks.calls;
     for (int again = 0; again < 2; ++again) {
-        int32_t calls = sheet.blocks.calls;
         for (int32_t h = 0; h < 3 * sheet.mesh.triangles.count; ++h) {
             kiriSquares_TouchEdge(&sheet.mesh.squares, sheet.mesh.vertices.data[kiriMesh_Tail(&sheet.mesh, h)].at,
                                   sheet.mesh.vertices.data[kiriMesh_Tail(&sheet.mesh, kiriEdge_Next(h))].at);
         }
         assert_int_equal(sheet.mesh.squares.touched.count, 13 * 13);
-        UpdateInParts(&sheet, &seed, 0);
+        assert_true(UpdateInParts(&sheet, &seed, 0) > 13 * 13);
+        assert_true(again == 0 || sheet.blocks.calls == calls); /* the second time asks for no memory */
+        calls = sheet.blocks.calls;
         CheckChanges(&was, &sheet.grid, true);
         assert_int_equal(sheet.grid.changes.restepped.count + sheet.grid.changes.remade.count, 0);
-        CheckAgainstScratch(&sheet);
-        if (again == 1) { /* the scratch grid's own memory is not counted */
-            calls = sheet.blocks.calls;
-            kiriQuota quota = { INT64_MAX, 0 };
-            assert_int_equal(kiriGrid_Update(&sheet.grid, &sheet.mesh, &quota), KIRI_DONE);
-            assert_int_equal(quota.used, 0); /* nothing is touched: nothing is done */
-        }
-        assert_true(sheet.blocks.calls >= calls);
     }
+    CheckAgainstScratch(&sheet);
+    assert_int_equal(UpdateInParts(&sheet, &seed, 0), 0); /* nothing is touched: nothing is done */
     FreeCopy(&was);
     CloseSheet(&sheet);
 }
@@ -1320,13 +1363,13 @@ static void ReverseLists(kiriSquares* squares)
     }
 }
 
-static void TestSameBitsWhateverTheLists(void** state)
+/* `mesh` lines of the mesh and some cuts: the second sheet has many triangles of the same size in each square. */
+static void CheckSameBitsWhateverTheLists(int32_t mesh, int32_t resolution)
 {
-    (void)state;
     uint32_t seed = 77;
     Sheet sheet;
-    OpenRectangle(&sheet, 1.0f, 0.7f, 11, 9, 13);
-    CutRandomly(&sheet, &seed, 12);
+    OpenRectangle(&sheet, 1.0f, 0.7f, mesh, mesh, resolution);
+    CutRandomly(&sheet, &seed, mesh);
     Build(&sheet);
     int32_t count = sheet.grid.cells.count;
     kiriPoint* anchors = malloc(sizeof(kiriPoint) * (size_t)count);
@@ -1340,6 +1383,13 @@ static void TestSameBitsWhateverTheLists(void** state)
     }
     free(anchors);
     CloseSheet(&sheet);
+}
+
+static void TestSameBitsWhateverTheLists(void** state)
+{
+    (void)state;
+    CheckSameBitsWhateverTheLists(11, 13);
+    CheckSameBitsWhateverTheLists(32, 4);
 }
 
 /* An anchor finds its cell: some triangle there is the cell's. */
@@ -1465,6 +1515,7 @@ int main(void)
         cmocka_unit_test(TestUpdateWithTinyQuotas),
         cmocka_unit_test(TestManyUpdatesBeforeSettling),
         cmocka_unit_test(TestCutsTakenBack),
+        cmocka_unit_test(TestQuotaCountsAll),
         cmocka_unit_test(TestNothingChanged),
         cmocka_unit_test(TestSameBitsWhateverTheLists),
         cmocka_unit_test(TestAnchors),

@@ -78,18 +78,67 @@ static void TestPieces(void** state)
     kiriMesh_Begin(&body.scene.mesh);
     Scene_Slit(&body.scene, 0.02, 0.0, 0.02, 0.1);
     Scene_Slit(&body.scene, 0.18, 0.0, 0.18, 0.1);
-    kiriField_Release(&body.scene.field, &body.scene.memory);
     Scene_BuildGrid(&body.scene);
     Body_AddSite(&body, 0.01, 0.05);
     Body_AddSite(&body, 0.1, 0.05);
     Body_AddSite(&body, 0.19, 0.05);
     Body_End(&body, &def);
-    assert_int_equal(body.scene.grid.pieces, 3);
+    int32_t* piece;
+    assert_int_equal(Scene_Pieces(&body.scene, &piece), 3);
+    free(piece);
     for (int32_t k = 0; k < body.patches.shares.count; ++k) {
         reached[body.patches.shares.data[k].frame] = true;
     }
     assert_true(reached[0] && reached[1] && reached[2]);
     Body_Drop(&body);
+}
+
+static bool Rebuild(kiriPatches* patches, kiriPointsWork* work, const BodyDef* def)
+{
+    Scene* s = &body.scene;
+    return kiriPoints_Build(patches, work, &s->memory, &s->grid, &s->mesh, &body.shape, body.material.data, def->points,
+                            def->order, false);
+}
+
+/* Building again gives the same; so does building anew, whatever allocation failed before. */
+static void TestBuildingAgain(void** state)
+{
+    (void)state;
+    for (int order = 1; order <= 2; ++order) {
+        BodyDef def = DefOf(0.2, 0.1, 40, order, Rubber);
+        kiriPatches patches = { { 0 }, { 0 } };
+        kiriPointsWork work;
+        int64_t fewest = 0;
+        memset(&work, 0, sizeof(work));
+        Make(&body, &def, 5, 3, 0.2, 6);
+        kiriPatches first = body.patches;
+        memset(&body.patches, 0, sizeof(body.patches));
+        for (bool built = false; !built; ++fewest) {
+            kiriPatches_Release(&patches, &body.scene.memory);
+            kiriPointsWork_Release(&work, &body.scene.memory);
+            memset(&work, 0, sizeof(work));
+            body.scene.purse.budget = fewest;
+            built = Rebuild(&patches, &work, &def);
+            assert_true(fewest < 1000);
+        }
+        assert_true(fewest > 10);
+        body.scene.purse.budget = -1;
+        assert_true(Rebuild(&patches, &work, &def));
+        assert_int_equal(patches.patches.count, first.patches.count);
+        assert_int_equal(patches.shares.count, first.shares.count);
+        for (int32_t k = 0; k < patches.patches.count; ++k) {
+            assert_true(patches.patches.data[k].area == first.patches.data[k].area);
+        }
+        for (int32_t k = 0; k < patches.shares.count; ++k) {
+            const kiriShare *a = &patches.shares.data[k], *b = &first.shares.data[k];
+            assert_true(a->frame == b->frame && a->weight == b->weight);
+            assert_true(a->slope.x == b->slope.x && a->slope.y == b->slope.y && a->u.x == b->u.x && a->v.y == b->v.y);
+        }
+        kiriPatches_Release(&patches, &body.scene.memory);
+        kiriPatches_Release(&first, &body.scene.memory);
+        kiriPointsWork_Release(&work, &body.scene.memory);
+        Body_Drop(&body);
+    }
 }
 
 /* An even stretch is exact, whatever the weights are; so is standing still, turned. */
@@ -228,9 +277,9 @@ static void TestMomentum(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestMoments),  cmocka_unit_test(TestPieces),  cmocka_unit_test(TestEvenStretch),
-        cmocka_unit_test(TestInPlane),  cmocka_unit_test(TestLocking), cmocka_unit_test(TestStability),
-        cmocka_unit_test(TestMomentum),
+        cmocka_unit_test(TestMoments),     cmocka_unit_test(TestPieces),   cmocka_unit_test(TestBuildingAgain),
+        cmocka_unit_test(TestEvenStretch), cmocka_unit_test(TestInPlane),  cmocka_unit_test(TestLocking),
+        cmocka_unit_test(TestStability),   cmocka_unit_test(TestMomentum),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -648,43 +648,6 @@ static void SmallPieceComesOff(void** state)
 }
 
 /* A blade that comes tick by tick cuts what it cuts at once. */
-/* A cut that takes many ticks leaves the same mesh as one that takes one, and no tick takes more than the budget. */
-static void BudgetIsKept(void** state)
-{
-    (void)state;
-    Host free, tight;
-    Host_Start(&free);
-    memset(&tight, 0, sizeof(tight));
-    tight.failAt = -1;
-    kiriWorldDef worldDef = Host_Def(&tight);
-    worldDef.cutBudget = 3;
-    OK(kiriCreateWorld(&worldDef, &tight.world));
-    kiriSheetDef def = Host_SmallDef();
-    kiriSheet a = Host_AddRectangle(&free, &def, 1.0f, 1.0f, 4, 4), b = Host_AddRectangle(&tight, &def, 1.0f, 1.0f, 4, 4);
-    float points[2 * 20];
-    uint32_t seed = 77;
-    for (int i = 0; i < 40; ++i) {
-        points[i] = (float)RandomBetween(&seed, -0.1, 1.1);
-    }
-    Host_Cut(&free, a, points, 20);
-    Host_Cut(&tight, b, points, 20);
-    OK(kiriWorld_Tick(free.world, 0.01f, 1));
-    for (int left = 20 - 3; left > -3; left -= 3) {
-        kiriProfile profile;
-        assert_int_equal(Host_Events(&tight, KIRI_EVENT_CUT_FINISHED, NULL), 0);
-        assert_int_equal(kiriWorld_Tick(tight.world, 0.01f, 1), left > 0 ? KIRI_PENDING : KIRI_OK);
-        OK(kiriWorld_GetProfile(tight.world, &profile));
-        assert_in_range(profile.cutSegments, 1, 3);
-    }
-    assert_int_equal(Host_Events(&tight, KIRI_EVENT_CUT_FINISHED, NULL), 1);
-    kiriMesh one = Host_Mesh(&free, a), other = Host_Mesh(&tight, b);
-    assert_int_equal(one.triangleCount, other.triangleCount);
-    assert_memory_equal(one.indices, other.indices, sizeof(int32_t) * 3 * (size_t)one.triangleCount);
-    assert_int_equal(Host_Counts(&free, a).pieces, Host_Counts(&tight, b).pieces);
-    Host_Stop(&free);
-    Host_Stop(&tight);
-}
-
 static void BladeMovesOn(void** state)
 {
     (void)state;
@@ -1090,7 +1053,11 @@ static void Profile(void** state)
         kiriCounts counts = Host_Counts(&host, sheet);
         assert_int_equal(profile.cutSegments, 3);
         assert_true(profile.trianglesSplit >= counts.triangles - triangles && profile.trianglesSplit <= counts.triangles);
-        assert_true(profile.cellsSettled > 0 && profile.cellsSettled <= counts.cells);
+        assert_int_equal(profile.commits, 1);
+        assert_true(profile.cellsSettled > 0 && profile.linksChanged > 0);
+        assert_true(profile.cellsChanged > 0 && profile.cellsChanged <= counts.cells);
+        assert_true(profile.weightsChanged > 0 && profile.weightsChanged <= counts.cells);
+        assert_true(profile.verticesChanged + profile.pointsChanged == profile.samplesRefreshed);
         assert_true(profile.samplesRefreshed > 0 &&
                     profile.samplesRefreshed <= counts.vertices + counts.collisionPoints);
         for (int i = 0; i < KIRI_STAGE_COUNT; ++i) {
@@ -1109,8 +1076,7 @@ int main(void)
         cmocka_unit_test(FramesAreHeld),      cmocka_unit_test(ForcesPush),       cmocka_unit_test(ContactsCarry),
         cmocka_unit_test(StepExtremes),       cmocka_unit_test(PieceFalls),       cmocka_unit_test(SmallPieceComesOff),
         cmocka_unit_test(BladeMovesOn),       cmocka_unit_test(MomentumAtCommit), cmocka_unit_test(Slices),
-        cmocka_unit_test(Rays),               cmocka_unit_test(Weights),          cmocka_unit_test(Holes),
-        cmocka_unit_test(BudgetIsKept), cmocka_unit_test(WeightsAtFrames),    cmocka_unit_test(TwoParts),           cmocka_unit_test(Profile),
+        cmocka_unit_test(Rays),               cmocka_unit_test(Weights),          cmocka_unit_test(Holes), cmocka_unit_test(WeightsAtFrames),    cmocka_unit_test(TwoParts),           cmocka_unit_test(Profile),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -226,7 +226,8 @@ enum {
     KIRI_MODEL_POINTS = 2
 };
 
-/* What is seen between the frames. It does not change how the sheet moves. */
+/* What is seen between the frames, and met by rays and blades. It does not change how the sheet moves: collision points
+   stay on the linear surface, where contacts push. */
 enum {
     KIRI_SKINNING_LINEAR = 0, /* each frame carries a flat patch; the weights blend them (equation 1 of the paper) */
     KIRI_SKINNING_SMOOTH = 1  /* each carries a patch that bends towards its neighbours: no bumps at the frames */

@@ -1,0 +1,158 @@
+/* The scenes of the samples are what the paper's table 1 says, and what they say of themselves. */
+#include "../samples/scene.h"
+
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+typedef struct Row {
+    const char* name;
+    int32_t grid, vertices, strokes, firstFrames, lastFrames;
+} Row;
+
+/* Table 1: grid along the longer side, vertices before the cut, frames before and after. */
+static const Row table[] = {
+    { "spiral", 40, 81, 1, 5, 5 },   { "kirigami", 68, 4225, 48, 47, 47 },  { "patchwork", 50, 4225, 4, 5, 12 },
+    { "vortex", 68, 4225, 2, 5, 5 }, { "fallingguy", 100, 289, 1, 10, 10 },
+};
+
+enum { ROWS = sizeof table / sizeof table[0] };
+
+static void Start(Scene* scene, const char* name)
+{
+    kiriWorldDef def;
+    kiriDefaultWorldDef(&def);
+    assert_non_null(Scene_FindType(name));
+    assert_true(Scene_Start(scene, Scene_FindType(name), &def, &(SceneOptions){ .dataFolder = NULL }));
+}
+
+static void TestTable(void** state)
+{
+    (void)state;
+    for (int i = 0; i < ROWS; i++) {
+        Scene scene;
+        kiriCounts counts;
+        Start(&scene, table[i].name);
+        kiriSheet_GetCounts(scene.world, scene.sheet, &counts);
+        assert_int_equal(scene.gridResolution, table[i].grid);
+        assert_int_equal(counts.vertices, table[i].vertices);
+        assert_int_equal(counts.frames, table[i].firstFrames);
+        assert_int_equal(counts.pieces, 1);
+        assert_int_equal(scene.strokeCount, table[i].strokes);
+        Scene_Stop(&scene);
+    }
+}
+
+/* Strokes fill the time of cutting without a gap, and all blades are about as fast. */
+static void TestTimes(void** state)
+{
+    (void)state;
+    for (int i = 0; Scene_GetType(i) != NULL; i++) {
+        const SceneType* type = Scene_GetType(i);
+        Scene scene;
+        Start(&scene, type->name);
+        assert_true(type->firstCut > 0 && type->firstCut < type->lastCut && type->lastCut + 30 < type->ticks);
+        assert_int_equal(scene.strokes[0].firstTick, type->firstCut);
+        assert_int_equal(scene.strokes[scene.strokeCount - 1].lastTick, type->lastCut);
+        for (int32_t k = 1; k < scene.strokeCount; k++) {
+            assert_int_equal(scene.strokes[k].firstTick,
+                             type->together ? type->firstCut : scene.strokes[k - 1].lastTick);
+        }
+        for (int32_t k = 1; k < 8; k++) {
+            assert_true(type->moments[k] > type->moments[k - 1] && type->moments[k] <= type->ticks);
+        }
+        Scene_Stop(&scene);
+    }
+}
+
+/* Cuts only in the ticks that the type names; frames and pieces as in the table; nothing gets lost on the way. */
+static void RunWhole(const Row* row)
+{
+    Scene scene;
+    kiriCounts counts;
+    kiriTotals before, after;
+    Start(&scene, row->name);
+    kiriSheet_GetTotals(scene.world, scene.sheet, &before);
+    for (int32_t tick = 0; tick < scene.type->ticks; tick++) {
+        kiriProfile profile;
+        assert_true(Scene_Tick(&scene) >= 0);
+        kiriWorld_GetProfile(scene.world, &profile);
+        if (tick < scene.type->firstCut || tick > scene.type->lastCut) {
+            assert_int_equal(profile.cutSegments, 0);
+        }
+    }
+    kiriSheet_GetCounts(scene.world, scene.sheet, &counts);
+    kiriSheet_GetTotals(scene.world, scene.sheet, &after);
+    assert_int_equal(counts.frames, row->lastFrames);
+    assert_int_equal(counts.pieces, strcmp(row->name, "patchwork") == 0 ? 5 : 1);
+    assert_true(fabs(after.mass - before.mass) < 1e-9 * before.mass);
+    int32_t corners = 0;
+    for (int32_t i = 0; i < scene.strokeCount; i++) {
+        assert_int_equal(scene.strokes[i].taken, scene.strokes[i].way.count);
+        corners += scene.strokes[i].way.count;
+    }
+    assert_true(counts.vertices > row->vertices + 2 * corners); /* two lips, and where mesh edges cross */
+    Scene_Stop(&scene);
+}
+
+static void TestSpiralScene(void** state)
+{
+    (void)state;
+    RunWhole(&table[0]);
+}
+
+static void TestPatchworkScene(void** state)
+{
+    (void)state;
+    RunWhole(&table[2]);
+}
+
+/* A spiral of equal steps, whose radius is linear in the angle; lengths as by calculus. */
+static void TestSpiral(void** state)
+{
+    (void)state;
+    const Spiral spiral = { { 0.3, -0.2 }, 0.05, 0.4, 0.125, 3.0, 0.004 };
+    const double tau = 6.283185307179586;
+    Outline outline = { .points = NULL };
+    assert_true(Outline_AddSpiral(&outline, &spiral));
+    for (int32_t i = 0; i < outline.count; i++) {
+        double u = outline.points[2 * i] - 0.3, v = outline.points[2 * i + 1] + 0.2, radius = sqrt(u * u + v * v);
+        double angle = tau * (0.125 + 3.0 * (radius - 0.05) / 0.35);
+        assert_true(fabs(u - radius * cos(angle)) < 1e-4 && fabs(v - radius * sin(angle)) < 1e-4);
+    }
+    /* The integral of sqrt(r^2 + (dr/da)^2) over the angle, by the middles of many short stretches. */
+    double length = 0.0, slope = 0.35 / (3.0 * tau);
+    for (int32_t i = 0; i < 100000; i++) {
+        double radius = 0.05 + 0.35 * (i + 0.5) / 100000;
+        length += 3.0 * tau / 100000 * sqrt(radius * radius + slope * slope);
+    }
+    assert_true(fabs(Outline_GetLength(&outline) - length) < 1e-3 * length);
+    Outline_Free(&outline);
+}
+
+static void TestCircle(void** state)
+{
+    (void)state;
+    const Spiral circle = { { 0.0, 0.0 }, 0.5, 0.5, 0.9, -1.0, 0.001 };
+    Outline outline = { .points = NULL };
+    assert_true(Outline_AddSpiral(&outline, &circle));
+    assert_true(fabs(Outline_GetLength(&outline) - 3.14159265) < 1e-4);
+    assert_true(Outline_Holds(outline.points, outline.count - 1, (float[]){ 0.34f, 0.34f }));
+    assert_false(Outline_Holds(outline.points, outline.count - 1, (float[]){ 0.37f, 0.37f }));
+    Outline_Free(&outline);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestTable),  cmocka_unit_test(TestTimes),       cmocka_unit_test(TestSpiral),
+        cmocka_unit_test(TestCircle), cmocka_unit_test(TestSpiralScene), cmocka_unit_test(TestPatchworkScene),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
