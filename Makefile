@@ -79,7 +79,7 @@ accuracy extremes: %: deps
 	@mkdir -p build/$@
 	$(BUILD)/tests/$@ $(if $(filter accuracy,$@),tests/data build/accuracy)
 
-# The last of them shows the shape functions, as figure 2 of the paper does.
+# Scenes in the README; and the shape functions of one, as in figure 2 of the paper.
 GALLERY := bunny spiral kirigami patchwork vortex fallingguy
 
 gallery: accuracy
