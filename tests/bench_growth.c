@@ -89,13 +89,14 @@ static void PrintSize(Table* table, const Size* size, CommitTimes times[2], doub
 
 static bool BenchGrowth(void)
 {
-    static const char* const columns[] = { "grid",      "frames", "cut",   "grid",     "regions", "shape",   "samples",
-                                           "constants", "all",    "worst", "to 64's",  "scratch", "times",   NULL };
+    static const char* const columns[] = { "grid",      "frames", "cut",   "grid",    "regions", "shape", "samples",
+                                           "constants", "all",    "worst", "to 64's", "scratch", "times", NULL };
     Table table;
-    if (!Table_Start(&table, "growth",
-                     "A short cut in the middle of sheets of growing size: ms of a commit in each stage, median. Aim: at "
-                     "most 1.5 times\nwhat it costs on a grid of 64.",
-                     columns)) {
+    if (!Table_Start(
+            &table, "growth",
+            "A short cut in the middle of sheets of growing size: ms of a commit in each stage, median. Aim: at "
+            "most 1.5 times\nwhat it costs on a grid of 64.",
+            columns)) {
         return false;
     }
     bool fine = true;
@@ -125,11 +126,11 @@ typedef struct Load {
 } Load;
 
 static const Load loads[] = {
-    { 31, 32, 25, 1, false },   { 63, 32, 25, 1, false },   { 127, 32, 25, 1, false }, { 255, 32, 25, 1, false },
-    { 511, 32, 25, 1, false },  { 1023, 32, 25, 1, false }, { 31, 64, 5, 1, false },   { 31, 64, 15, 1, false },
-    { 31, 64, 50, 1, false },   { 31, 64, 150, 1, false },  { 31, 64, 500, 1, false }, { 16, 16, 5, 1, false },
-    { 16, 16, 5, 10, false },   { 16, 16, 5, 100, false },  { 16, 16, 5, 1000, false }, { 16, 16, 5, 1, true },
-    { 16, 16, 5, 10, true },    { 16, 16, 5, 100, true },   { 16, 16, 5, 1000, true },
+    { 31, 32, 25, 1, false },  { 63, 32, 25, 1, false },   { 127, 32, 25, 1, false },  { 255, 32, 25, 1, false },
+    { 511, 32, 25, 1, false }, { 1023, 32, 25, 1, false }, { 31, 64, 5, 1, false },    { 31, 64, 15, 1, false },
+    { 31, 64, 50, 1, false },  { 31, 64, 150, 1, false },  { 31, 64, 500, 1, false },  { 16, 16, 5, 1, false },
+    { 16, 16, 5, 10, false },  { 16, 16, 5, 100, false },  { 16, 16, 5, 1000, false }, { 16, 16, 5, 1, true },
+    { 16, 16, 5, 10, true },   { 16, 16, 5, 100, true },   { 16, 16, 5, 1000, true },
 };
 
 typedef struct LoadTimes {
@@ -220,11 +221,12 @@ static bool BenchLoads(void)
     static const char* const columns[] = { "vertices", "frames", "sheets", "asleep",   "tick",      "worst",
                                            "solve",    "skin",   "memcpy", "memcpy %", "ns/vertex", NULL };
     Table table;
-    if (!Table_Start(&table, "loads",
-                     "ms of a tick without a cut, median and worst, as vertices, frames and sheets grow (vertices and "
-                     "frames are of each sheet).\nmemcpy: of the bytes that skinning writes; %: of the time that skinning "
-                     "takes.",
-                     columns)) {
+    if (!Table_Start(
+            &table, "loads",
+            "ms of a tick without a cut, median and worst, as vertices, frames and sheets grow (vertices and "
+            "frames are of each sheet).\nmemcpy: of the bytes that skinning writes; %: of the time that skinning "
+            "takes.",
+            columns)) {
         return false;
     }
     bool fine = true;

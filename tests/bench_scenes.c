@@ -41,6 +41,7 @@ typedef struct Facts {
 typedef struct Recording {
     const Paper* paper;
     const SceneType* type;
+    int32_t grid;
     Facts facts[MAX_TICKS];
     uint64_t hash[MODES];
     float times[MODES][MAX_TICKS][QUANTITIES][RUNS];
@@ -108,6 +109,7 @@ static bool Record(Recording* recording, int mode, int run)
             recording->facts[i] = facts;
         }
     }
+    recording->grid = scene.gridResolution;
     fine = fine && kiriWorld_GetStateHash(scene.world, &recording->hash[mode]) == KIRI_OK;
     Scene_Stop(&scene);
     return fine;
@@ -133,10 +135,10 @@ static bool RecordAll(Recording* recording, const Paper* paper)
 static int PhaseOf(const Recording* recording, int32_t tick)
 {
     const SceneType* type = recording->type;
-    return tick < type->firstCut                              ? BEFORE
-           : recording->facts[tick].profile.commits > 0       ? CUTTING
-           : tick <= type->lastCut                            ? PAUSE
-                                                              : AFTER;
+    return tick < type->firstCut                        ? BEFORE
+           : recording->facts[tick].profile.commits > 0 ? CUTTING
+           : tick <= type->lastCut                      ? PAUSE
+                                                        : AFTER;
 }
 
 /* The median over the runs. */
@@ -168,15 +170,17 @@ static Series TimesOf(const Recording* recording, int mode, int first, int last,
 
 static bool PrintRates(void)
 {
-    static const char* const columns[] = { "scene",        "cells",         "last",        "frames",       "last",
-                                           "vertices",     "last",          "before",      "cutting",      "after",
-                                           "paper before", "paper cutting", "paper after", "times faster", NULL };
+    static const char* const columns[] = { "scene       ",  "grid",        "frames",       "last",  "vertices",
+                                           "last",          "before",      "cutting",      "after", "paper before",
+                                           "paper cutting", "paper after", "times faster", NULL };
     static const int phases[3][2] = { { BEFORE, BEFORE }, { CUTTING, PAUSE }, { AFTER, AFTER } };
     Table table;
-    if (!Table_Start(&table, "rates",
-                     "Table 1 of the paper: cells, frames and vertices, first and last, and the lowest rate, ticks a "
-                     "second before,\nwhile and after cutting; the paper's frames a second on twelve cores of 2015.",
-                     columns)) {
+    if (!Table_Start(
+            &table, "rates",
+            "Table 1 of the paper: squares along the grid, frames and vertices, first and last, and the lowest rate, "
+            "ticks a second\nbefore, while and after cutting; the paper's frames a second are of twelve cores of 2015. "
+            "Aim: more of them.",
+            columns)) {
         return false;
     }
     for (int s = 0; s < PAPERS; s++) {
@@ -184,9 +188,8 @@ static bool PrintRates(void)
         const kiriCounts *first = &r->facts[0].counts, *last = &r->facts[r->type->ticks - 1].counts;
         double rates[3];
         Table_Text(&table, r->paper->scene);
-        const int32_t counts[] = { first->cells, last->cells,    first->frames,
-                                   last->frames, first->vertices, last->vertices };
-        for (int i = 0; i < 6; i++) {
+        const int32_t counts[] = { r->grid, first->frames, last->frames, first->vertices, last->vertices };
+        for (int i = 0; i < 5; i++) {
             Table_Number(&table, counts[i]);
         }
         for (int i = 0; i < 3; i++) {
@@ -208,10 +211,10 @@ static double AimOf(const Recording* recording, int phase, int quantity, bool wo
 {
     int32_t frames = recording->facts[phase == BEFORE ? 0 : recording->type->ticks - 1].counts.frames;
     bool plain = quantity == ALL && !worst && phase != CUTTING;
-    return plain                                         ? 0.1 + 0.4 * (frames - 5) / 42.0
+    return plain                                          ? 0.1 + 0.4 * (frames - 5) / 42.0
            : quantity == ALL && worst && phase == CUTTING ? 2.0
-           : quantity == SEGMENT && !worst               ? 3.0
-                                                         : (double)INFINITY;
+           : quantity == SEGMENT && !worst                ? 3.0
+                                                          : (double)INFINITY;
 }
 
 /* Median and worst. */
@@ -242,7 +245,7 @@ static double RatioOf(const Recording* recording, int quantity)
 
 static bool PrintStages(const Recording* recording)
 {
-    static const char* const columns[] = { "stage   ", "before",    "worst", "cutting", "worst", "scratch",
+    static const char* const columns[] = { "stage   ", "before",          "worst", "cutting", "worst", "scratch",
                                            "worst",    "scratch/cutting", "after", "worst",   NULL };
     char name[64], title[512];
     Table table;
@@ -296,14 +299,16 @@ static void PrintShareRow(Table* table, const Recording* recording, int last)
 
 static bool PrintShares(void)
 {
-    static const char* const columns[] = { "scene       ", "mean over          ", "cells", "weights", "vertices",
-                                           "points",       "links",               NULL };
+    static const char* const columns[] = {
+        "scene       ", "mean over          ", "cells", "weights", "vertices", "points", "links", NULL
+    };
     Table table;
-    if (!Table_Start(&table, "shares",
-                     "Table 2 of the paper: % of grid cells, shape functions at cells, vertices, collision points and "
-                     "links that a cut\nchanges. Links are measured anew where the paper updates integration points. Aim: "
-                     "less than the paper.",
-                     columns)) {
+    if (!Table_Start(
+            &table, "shares",
+            "Table 2 of the paper: % of grid cells, shape functions at cells, vertices, collision points and "
+            "links that a cut\nchanges. Links are measured anew where the paper updates integration points. Aim: "
+            "less than the paper.",
+            columns)) {
         return false;
     }
     for (int s = 0; s < PAPERS; s++) {
@@ -342,10 +347,11 @@ static bool PrintAllocations(void)
     static const char* const columns[] = { "scene       ", "before", "worst", "cutting", "worst",
                                            "late",         "worst",  "after", "worst",   NULL };
     Table table;
-    if (!Table_Start(&table, "allocations",
-                     "Calls of the allocator a tick, mean and worst: before (but for the first tick), with cuts, with cuts "
-                     "in the last quarter of\nthe way, after. Aim: none without a cut.",
-                     columns)) {
+    if (!Table_Start(
+            &table, "allocations",
+            "Calls of the allocator a tick, mean and worst: before (but for the first tick), with cuts, with cuts "
+            "in the last quarter of\nthe way, after. Aim: none without a cut.",
+            columns)) {
         return false;
     }
     for (int s = 0; s < PAPERS; s++) {
