@@ -1,5 +1,5 @@
 /* Pictures of what the library works with: shape functions, regions, links, cells. All of it is asked for through the
-   public header, on a raster over the rest plane; so it shows what a host can know, as exactly as the raster is fine. */
+   public header, on a raster over the rest plane: it shows what a host can know, as exactly as the raster is fine. */
 #ifndef DEBUG_H
 #define DEBUG_H
 

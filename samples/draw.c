@@ -116,7 +116,7 @@ static void BlurRows(uint8_t* pixels, int32_t step, int32_t stride, int32_t radi
     }
 }
 
-/* The sheet as the light sees it on the floor, blurred, as a texture. Uses a corner of the picture, so it comes first. */
+/* The sheet as the light sees it on the floor, blurred, as a texture. Uses a corner of the picture: it comes first. */
 static void MakeShadow(Painter* painter, const kiriMesh* mesh, float zoom)
 {
     glViewport(0, 0, SHADOW_SIZE, SHADOW_SIZE);

@@ -17,7 +17,7 @@ void Outline_Free(Outline* outline);
 /* One more corner; false without memory. */
 bool Outline_Add(Outline* outline, float u, float v);
 
-/* An arc whose radius changes evenly with the angle. Angles in turns, counter-clockwise; a corner about every `step`. */
+/* An arc whose radius is linear in the angle. Angles in turns, counter-clockwise; a corner each `step` or so. */
 typedef struct Spiral {
     double center[2], fromRadius, toRadius, fromTurn, turns, step;
 } Spiral;

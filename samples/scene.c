@@ -205,7 +205,7 @@ static bool AddFigure(Scene* scene, const SceneOptions* options, const Figure* f
 }
 
 /* A push against a figure when it comes off, harder the higher above `foot`, so that it topples out of the hole. */
-static void PushFigure(Scene* scene, const Stroke* stroke, float foot)
+static void PushFigure(Scene* scene, const Stroke* stroke, float foot, float strength)
 {
     if (scene->tick <= stroke->lastTick || scene->tick > stroke->lastTick + 12) {
         return;
@@ -217,7 +217,7 @@ static void PushFigure(Scene* scene, const Stroke* stroke, float foot)
         kiriFrameState state;
         if (kiriFrame_GetState(scene->world, frames[i], &state) == KIRI_OK &&
             Outline_Holds(stroke->way.points, stroke->way.count - 1, state.restPoint)) {
-            float force[3] = { 0.0f, -state.mass * (1.6f + 8.0f * (state.restPoint[1] - foot)), 0.0f };
+            float force[3] = { 0.0f, -strength * state.mass * (1.6f + 8.0f * (state.restPoint[1] - foot)), 0.0f };
             float torque[3] = { 0.0f, 0.0f, 0.0f };
             kiriFrame_ApplyForce(scene->world, frames[i], force, torque);
         }
@@ -240,7 +240,7 @@ static bool StartBunny(Scene* scene, const SceneOptions* options)
 static void PushBunny(Scene* scene)
 {
     TouchFloor(scene);
-    PushFigure(scene, &scene->strokes[0], 0.45f);
+    PushFigure(scene, &scene->strokes[0], 0.45f, 1.0f);
 }
 
 static const Figure patches[] = {
@@ -276,7 +276,7 @@ static void PushPatches(Scene* scene)
 {
     TouchFloor(scene);
     for (int32_t i = 0; i < PATCHES; i++) {
-        PushFigure(scene, &scene->strokes[i], patches[i].v - 0.05f);
+        PushFigure(scene, &scene->strokes[i], patches[i].v - 0.05f, 1.5f);
     }
 }
 
@@ -320,7 +320,7 @@ static bool PinMiddle(Scene* scene, const kiriSheetDef* def)
     return PinHere(scene, def, 0.47f, 0.48f) && PinHere(scene, def, 0.53f, 0.48f) && PinHere(scene, def, 0.5f, 0.53f);
 }
 
-/* ---- Spiral: cut from the border of a sheet that is held in the middle -------------------------------------------- */
+/* ---- Spiral: cut from the border of a sheet that is held in the middle ------------------------------------------- */
 
 static bool StartSpiral(Scene* scene, const SceneOptions* options)
 {
@@ -361,7 +361,7 @@ static bool StartVortex(Scene* scene, const SceneOptions* options)
            Outline_AddSpiral(AddStroke(scene), &first) && Outline_AddSpiral(AddStroke(scene), &second);
 }
 
-/* ---- Kirigami: 8 rings of 6 slits, and the middle is pulled up ---------------------------------------------------- */
+/* ---- Kirigami: 8 rings of 6 slits, and the middle is pulled up --------------------------------------------------- */
 
 enum { RINGS = 8, SLITS = 6, PULL_TICKS = 180 };
 
@@ -429,7 +429,7 @@ static void PullKirigami(Scene* scene)
     }
 }
 
-/* ---- Falling guy: swings down, and hangs on by a finger ------------------------------------------------------------ */
+/* ---- Falling guy: swings down, and hangs on by a finger ---------------------------------------------------------- */
 
 static bool StartFallingGuy(Scene* scene, const SceneOptions* options)
 {
@@ -443,6 +443,7 @@ static bool StartFallingGuy(Scene* scene, const SceneOptions* options)
     def.gridResolution = 100;
     def.frameCount = def.maxFrames = 10;
     def.collisionPoints = 500;
+    def.iterations = 4; /* large turns at each tick while he swings */
     bool fine = MakeRectangle(scene, &def, options, &rectangle) && PinBorder(scene, &def, 2.0f, 1.0f) &&
                 AddFigure(scene, options, &guy);
     if (fine) {
@@ -503,7 +504,7 @@ static const SceneType types[] = {
       .firstCut = 60,
       .lastCut = 480,
       .moments = { 60, 165, 200, 290, 400, 480, 500, 600 },
-      .camera = { { 0.95f, -2.75f, 1.2f }, { 0.04f, -0.1f, 0.65f }, 34.0f },
+      .camera = { { 0.95f, -2.85f, 1.2f }, { 0.04f, -0.1f, 0.6f }, 35.0f },
       .look = { { 0.80f, 0.28f, 0.25f }, { 0.95f, 0.85f, 0.60f }, { 0.98f, 0.95f, 0.88f }, 10.0f },
       .start = StartPatchwork,
       .push = PushPatches },

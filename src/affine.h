@@ -31,9 +31,10 @@ void kiriAffine_Measure(const kiriLink* link, const kiriFrameData* const frames[
                         double strain[KIRI_AFFINE_STRAINS], kiriAffineRow rows[][2]);
 void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_AFFINE_STRAINS]);
 
-/* Two patches a frame's region, whose material is given. One has the membrane energy of F_i = A_i + 1/(2 a_i) times the integral of gap (x) n over its
-   border, which is the mean of the gradient when each border gap is shared by both sides: exact for an even stretch in
-   any layout, inner forces included. The other keeps the director normal. A planar sheet needs no such.
+/* Two patches a region, whose material is given. One has the membrane energy of F_i = A_i + 1/(2 a_i) times the
+   integral of gap (x) n over its border, which is the mean of the gradient when each border gap is shared by both sides:
+   exact for an even stretch in any layout, inner forces included. The other keeps the director normal. A planar sheet
+   needs no such.
 
    Frames that lean all one way, in steps, make a free end longer: its F_i takes only a part of its slope from the border,
    a quarter at least. Under tension that would lay the sheet in steps (see strain.h). Leaning, d_i . F_i, therefore counts

@@ -374,9 +374,12 @@ static const char* FaultOfFrames(const kiriSheetDef* def)
 
 static const char* FaultOfModel(const kiriSheetDef* def)
 {
-    if (!IsWithin(def->model, KIRI_MODEL_LINKS, KIRI_MODEL_POINTS) || !IsWithin(def->planar, 0, 1) ||
-        !IsWithin(def->fromScratch, 0, 1)) {
-        return "model is not one of KIRI_MODEL, or planar or fromScratch not 0 or 1";
+    if (!IsWithin(def->model, KIRI_MODEL_LINKS, KIRI_MODEL_POINTS) ||
+        !IsWithin(def->skinning, KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH)) {
+        return "model is not one of KIRI_MODEL, or skinning not one of KIRI_SKINNING";
+    }
+    if (!IsWithin(def->planar, 0, 1) || !IsWithin(def->fromScratch, 0, 1)) {
+        return "planar or fromScratch is not 0 or 1";
     }
     return IsWithin(def->integrationPoints, 0, 1 << 20) && IsWithin(def->integrationOrder, 1, 2)
                ? NULL
@@ -470,6 +473,45 @@ kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* 
     mesh->vertexCount = surface->vertexCount;
     mesh->triangleCount = surface->triangleCount;
     mesh->revision = surface->revision;
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t sinceRevision, kiriDirty* dirty)
+{
+    BEGIN(world);
+    CHECK(dirty != NULL, "dirty is null");
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    kiriSurface_GetDirty(&data->surface, sinceRevision, dirty);
+    return KIRI_OK;
+}
+
+static bool IsRange(int32_t first, int32_t count, int32_t all)
+{
+    return first >= 0 && count >= 0 && first <= all && count <= all - first;
+}
+
+kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count,
+                                  void* positions, int32_t positionStride, void* normals, int32_t normalStride)
+{
+    BEGIN(world);
+    CHECK((positions == NULL || positionStride >= 12) && (normals == NULL || normalStride >= 12),
+          "a stride is below 12 bytes");
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    CHECK(IsRange(first, count, data->surface.vertexCount), "the sheet has no such vertices");
+    kiriSurface_CopyVertices(&data->surface, first, count, positions, positionStride, normals, normalStride);
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count,
+                                   uint16_t* indices)
+{
+    BEGIN(world);
+    CHECK(count == 0 || indices != NULL, "indices is null");
+    FIND(data, kiriSheetData, sheetIds, sheet);
+    CHECK(IsRange(firstTriangle, count, data->surface.triangleCount), "the sheet has no such triangles");
+    if (!kiriSurface_CopyIndices16(&data->surface, firstTriangle, count, indices)) {
+        return FAIL(KIRI_ERROR_STATE, "16 bits are not enough for so many vertices");
+    }
     return KIRI_OK;
 }
 

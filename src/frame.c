@@ -6,16 +6,16 @@
 
    What is computed, whatever the order of work (tests/test_frame.c does it plainly):
 
-   A site sends its seeds to the cells around (kiriSite_Seed), but to none that holds another site. A cell belongs to the
-   site that is nearest from there by the steps of the grid, of two as near to the lower index; but a site's own cell is
-   its own. So no region is ever empty, and no two sites come to share a cell. Old sites take no notice of new ones, nor, in
-   sampling, new sites of those that follow.
+   A site sends its seeds to the cells around (kiriSite_Seed), but to none that holds another site. A cell belongs to
+   the site that is nearest from there by the steps of the grid, of two as near to the lower index; but a site's own cell
+   is its own. So no region is ever empty, and no two sites come to share a cell. Old sites take no notice of new ones,
+   nor, in sampling, new sites of those that follow.
 
-   Sampling: the next site goes to the free cell that is farthest from all sites. Relaxation (Lloyd 1982): each new site goes
-   to the centroid of its region, all at once, up to 20 times; then it takes the cell that it has come to.
+   Sampling: the next site goes to the free cell that is farthest from all sites. Relaxation (Lloyd 1982): each new site
+   goes to the centroid of its region, all at once, up to 20 times; then it takes the cell that it has come to.
 
-   What is the same from round to round is kept: distances to the old sites are flooded once, those to the new sites only as
-   far as these are nearer. */
+   What is the same from round to round is kept: distances to the old sites are flooded once, those to the new sites
+   only as far as these are nearer. */
 
 enum { ROUNDS = 20, FREE = KIRI_NONE, BARRED = -2, SHARE = 1 << 24 };
 
@@ -33,8 +33,8 @@ typedef enum Stage {
     STAGES
 } Stage;
 
-/* Where a new site shall go. The material is summed in whole numbers, so that the order of adding does not matter: area in
-   units of 1 / SHARE of a square, moments in as many of its sides. */
+/* Where a new site shall go. The material is summed in whole numbers, so that the order of adding does not matter:
+   area in units of 1 / SHARE of a square, moments in as many of its sides. */
 typedef struct Target {
     int64_t area, u, v;
     kiriVec2 center;
@@ -69,7 +69,8 @@ typedef struct Job {
     kiriQuota* quota;
 } Job;
 
-/* A full cell is taken at its middle, where the cell's weight is exactly 1; of others the middle may not be material. */
+/* A full cell is taken at its middle, where the cell's weight is exactly 1; of others the middle may not be
+   material. */
 kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
 {
     const kiriMoments* material = &grid->cells.data[cell].material;
@@ -341,8 +342,8 @@ static void AimCell(Job* job, int32_t cell)
     }
 }
 
-/* The centroid itself where it lies in the square of the target cell: on the way a site may lie anywhere in its cell, for
-   from middle to middle it would stick where its centroid is less than half a side away. */
+/* The centroid itself where it lies in the square of the target cell: on the way a site may lie anywhere in its cell,
+   for from middle to middle it would stick where its centroid is less than half a side away. */
 static kiriSite SiteFor(const Job* job, const Target* target)
 {
     kiriVec2 off = kiriVec2_Sub(target->center, kiriGrid_Middle(job->grid, job->mesh, target->cell));
@@ -548,8 +549,8 @@ static bool Gather(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid*
     return ok;
 }
 
-/* Brings the cells, which are marked, into their order. Where they fill a good part of the rows from the first to the last
-   of them, it is cheaper to look into all squares there than to sort. */
+/* Brings the cells, which are marked, into their order. Where they fill a good part of the rows from the first to the
+   last of them, it is cheaper to look into all squares there than to sort. */
 static void Order(kiriPlacer* placer, const kiriGrid* grid)
 {
     int32_t count = placer->cells.count, first = INT32_MAX, last = 0;

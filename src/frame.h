@@ -53,25 +53,26 @@ static inline kiriVec3 kiriFrame_VelocityAt(const kiriFrameData* frame, kiriVec2
 
 typedef struct kiriPlacerWork kiriPlacerWork; /* private to frame.c */
 
-/* Puts sites evenly into a part of the sheet: farthest-point sampling, then Lloyd relaxation of the new ones only. A job that
-   a budget may interrupt. */
+/* Puts sites evenly into a part of the sheet: farthest-point sampling, then Lloyd relaxation of the new ones only. A
+   job that a budget may interrupt. */
 typedef struct kiriPlacer {
     kiriSites sites;           /* those that were there, then the new ones; right when Run is done */
     int32_t oldCount;          /* sites before it stay where they are */
     KIRI_ARRAY(int32_t) cells; /* the part: cells that hang together, in their order (or all cells, of many pieces) */
-    /* Distances to the sites that are there, as kiriRegions has them, where the caller knows them; they must stay until the
-       job is done. Null: they are flooded. Start takes it, and makes it null. */
+    /* Distances to the sites that are there, as kiriRegions has them, where the caller knows them; they must stay
+       until the job is done. Null: they are flooded. Start takes it, and makes it null. */
     const kiriField* known;
     kiriPlacerWork* work;
 } kiriPlacer;
 
-/* The cells that hang together with this one over faces, in the order of cells, into placer->cells. False for memory. */
+/* The cells that hang together with this one over faces, in the order of cells, into placer->cells. False for
+   memory. */
 bool kiriPlacer_TakePiece(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, int32_t cell);
 
-/* For the part in placer->cells and the sites in placer->sites, which lie in it: `count` more. Sampling takes only cells
-   that `allowed` marks (one byte a cell of the grid; null: all); it is read now and not kept. Fewer when there are fewer
-   free cells. One site in a part without sites goes to the cell nearest to its centroid, without relaxation: confetti comes
-   in thousands. False for memory. */
+/* For the part in placer->cells and the sites in placer->sites, which lie in it: `count` more. Sampling takes only
+   cells that `allowed` marks (one byte a cell of the grid; null: all); it is read now and not kept. Fewer when there
+   are fewer free cells. One site in a part without sites goes to the cell nearest to its centroid, without
+   relaxation: confetti comes in thousands. False for memory. */
 bool kiriPlacer_Start(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const uint8_t* allowed, int32_t count);
 

@@ -35,8 +35,8 @@ typedef struct OldFace {
     kiriFace was;
 } OldFace;
 
-/* An update goes through stages (see kiriGrid_Update), each over the items of a list. All faces need all cells, diagonal steps all
-   faces, and knights all diagonal steps. */
+/* An update goes through stages, each over the items of a list. All faces need all cells, diagonal steps all faces, and
+   knights all diagonal steps. */
 struct kiriGridWork {
     bool running, fromScratch;
     bool removed;        /* a cell is gone */
@@ -155,8 +155,8 @@ static void FreeCell(kiriGrid* grid, int32_t c)
     grid->freeCell = c;
 }
 
-/* Takes cells that are gone from the lists of others. Whoever follows the grid need not hear of those that came since it
-   was settled. */
+/* Takes cells that are gone from the other lists. Whoever follows the grid need not hear of those that also came since
+   it was settled. */
 static void ForgetGone(kiriGrid* grid)
 {
     kiriGridChanges* changes = &grid->changes;
@@ -493,8 +493,8 @@ static bool RemoveFace(kiriGrid* grid, const kiriMemory* memory, int32_t f)
     return ok;
 }
 
-/* The face between two cells, new if there is none yet; null for memory. Looks from both ends at once, since a cell with
-   many faces, a comb, most often touches cells with few. */
+/* The face between two cells, new if there is none yet; null for memory. Looks from both ends at once, since a cell
+   with many faces, a comb, most often touches cells with few. */
 static kiriFace* FaceBetween(kiriGrid* grid, const kiriMemory* memory, int32_t a, int32_t b, int axis)
 {
     int32_t f = grid->cells.data[a].firstFace, g = grid->cells.data[b].firstFace;
@@ -733,7 +733,7 @@ static bool RemoveCell(kiriGrid* grid, const kiriMemory* memory, int32_t c)
     return (grid->work->cellFlags.data[c] & CELL_MADE) != 0 || kiriArray_Push(memory, &grid->changes.gone, c);
 }
 
-/* The one cell of a whole square holds all its triangles. Where the square was whole before, only they may be others. */
+/* The one cell of a whole square holds all its triangles. Where it was whole before, only they may be others. */
 static void FillWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
 {
     const kiriSquareNode* nodes = mesh->squares.nodes.data;
@@ -959,8 +959,8 @@ static kiriStep Joined(kiriStep a, kiriStep b, int16_t length)
     return (kiriStep){ b.cell, length, (int8_t)(a.u + b.u), (int8_t)(a.v + b.v) };
 }
 
-/* A step counts where two ways lead to its cell, and counts once: the first way marks the cell with the number that this
-   returns, the second way finds it and makes it one more. */
+/* A step counts where two ways lead to its cell, and counts once: the first way marks the cell with the number that
+   this returns, the second way finds it and makes it one more. */
 static int64_t NewMark(kiriGridWork* work)
 {
     work->lastMark += 2;
@@ -1006,7 +1006,7 @@ static bool AddDiagonalSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c
     return true;
 }
 
-/* A cell's straight and diagonal steps. The knights stay for the time being, unless they are those of the open plane. */
+/* A cell's straight and diagonal steps. Its knights stay for the time being, or are those of the open plane. */
 static bool MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
     kiriGridWork* work = grid->work;

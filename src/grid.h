@@ -1,5 +1,5 @@
-/* The non-manifold grid (section 4.2 of the paper, algorithm 3). A cell is one copy of a grid square: one connected part of
-   the material in it. */
+/* The non-manifold grid (section 4.2 of the paper, algorithm 3). A cell is one copy of a grid square: one connected
+   part of the material in it. */
 #ifndef KIRI_GRID_H
 #define KIRI_GRID_H
 
@@ -31,8 +31,8 @@ typedef struct kiriFace {
     double moment;   /* m^3: second moment of the stretch about its middle */
 } kiriFace;
 
-/* A move of the geodesic: straight over a face, or diagonally or like a knight where every way around the corner between
-   is open too. What leads from a to b also leads from b to a. */
+/* A move of the geodesic: straight over a face, or diagonally or like a knight where every way around the corner
+   between is open too. What leads from a to b also leads from b to a. */
 typedef struct kiriStep {
     int32_t cell;
     int16_t length; /* KIRI_UNIT... */
@@ -41,7 +41,7 @@ typedef struct kiriStep {
 
 enum { KIRI_STEP_LENGTHS = 3 };
 
-/* Where the steps of a cell are: straight ones from first to end[0], then diagonal ones to end[1], knights to end[2]. */
+/* Where the steps of a cell are: straight ones from first to end[0], diagonal ones to end[1], knights to end[2]. */
 typedef struct kiriStepRun {
     int32_t first, end[KIRI_STEP_LENGTHS];
 } kiriStepRun;
@@ -52,25 +52,26 @@ typedef struct kiriRemade {
     kiriMoments was;
 } kiriRemade;
 
-/* What updates have done since kiriGrid_Settle. A cell may be in several lists, in each at most once. */
+/* What updates have done since kiriGrid_Settle, complete when an update is done. A cell may be in several lists, in
+   each at most once. One that is gone is in no other list, has square KIRI_NONE, and its index is not taken again
+   before Settle; one that came and went again is in none. */
 typedef struct kiriGridChanges {
     KIRI_ARRAY(int32_t) made;      /* cells that are new */
-    KIRI_ARRAY(int32_t) gone;      /* that are no more: square is KIRI_NONE, but `material` is what it was; their indices
-                                      are not taken again before Settle */
-    KIRI_ARRAY(int32_t) restepped; /* whose steps changed, or lead to other cells, or whose faces did in width; with new ones */
-    KIRI_ARRAY(kiriRemade) remade; /* whose material changed, without new ones and those that are gone */
+    KIRI_ARRAY(int32_t) gone;      /* that are no more; their `material` is what it was when the grid was settled */
+    KIRI_ARRAY(int32_t) restepped; /* whose steps changed, or whose faces did in anything; with new ones */
+    KIRI_ARRAY(kiriRemade) remade; /* whose material changed; without new ones */
 } kiriGridChanges;
 
 typedef struct kiriGridWork kiriGridWork; /* what updating needs beside; private to grid.c */
 
-/* Cells keep their index as long as they live. What has an order has one that does not depend on indices, nor on what was
-   cut in which order: cells by square, then lowest triangle. So a grid that was updated equals one from scratch, but for
-   the indices. */
+/* Cells keep their index as long as they live. What has an order has one that does not depend on indices, nor on what
+   was cut in which order: cells by square, then lowest triangle. So a grid that was updated equals one from scratch,
+   but for the indices. */
 typedef struct kiriGrid {
     double side;                  /* m */
     KIRI_ARRAY(kiriCell) cells;   /* by index, with gaps */
     KIRI_ARRAY(kiriStepRun) runs; /* of each cell */
-    KIRI_ARRAY(kiriStep) steps;   /* by runs; in a run by length, then square, then lowest triangle */
+    KIRI_ARRAY(kiriStep) steps;   /* by runs, with gaps; in a run by length, then square, then lowest triangle */
     kiriSpans stepRoom;
     KIRI_ARRAY(kiriFace) faces;     /* by index, with gaps */
     KIRI_ARRAY(int32_t) squareCell; /* a square's first cell, or KIRI_NONE */
@@ -82,10 +83,10 @@ typedef struct kiriGrid {
     kiriGridWork* work;
 } kiriGrid;
 
-/* The grid of the mesh as it is, from the one before and mesh->squares.touched: all squares that changed since. A zeroed
-   grid is made from scratch, of all squares. Costs what it touches: an item of the quota is a square looked at, or a cell
-   whose steps are made. KIRI_MORE: call again before the mesh changes. KIRI_FAILED: the grid is of no use any more but
-   for kiriGrid_Reset or a release. */
+/* The grid of the mesh as it is, from the one before and mesh->squares.touched: all squares that changed since. A
+   zeroed or reset grid is made from scratch, of all squares. Costs what it touches: an item of the quota is a square
+   looked at, or a cell whose steps are made. KIRI_MORE: call again before the mesh changes, or `touched` is cleared.
+   KIRI_FAILED: the grid is of no use any more but for kiriGrid_Reset or a release. */
 kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
 
 /* All who follow the grid have seen its changes. */

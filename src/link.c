@@ -69,7 +69,7 @@ static bool IsTouched(const Border* border, int32_t region)
 
 /* ---- Order ------------------------------------------------------------------------------------------------------ */
 
-/* By square, axis, and the lowest triangles of the two cells: what does not depend on indices. No two faces share all. */
+/* By square, axis, and the lowest triangles of the two cells: not by indices. No two faces share all of it. */
 static bool IsFaceBefore(const Border* border, int32_t a, int32_t b)
 {
     const kiriCell* cells = border->grid->cells.data;
@@ -270,8 +270,8 @@ static Way ShortestWay(const Border* border)
     return way;
 }
 
-/* Lengths on the grid exceed true ones by up to 3 %, and by parts of a side at both ends: a way that is not clearly longer
-   than the straight line is one. */
+/* Lengths on the grid exceed true ones by up to 3 %, and by parts of a side at both ends: a way that is not clearly
+   longer than the straight line is one. */
 static void SetLength(const Border* border, kiriLink* link)
 {
     kiriVec2 a = border->sites[link->i].at, b = border->sites[link->j].at;
@@ -310,7 +310,7 @@ static bool AddLink(const Border* border)
     return kiriArray_Push(border->memory, &border->work->made, made);
 }
 
-/* ---- All links of regions that are touched ------------------------------------------------------------------------ */
+/* ---- All links of regions that are touched ---------------------------------------------------------------------- */
 
 /* A face between two such regions is found from the lower one. */
 static bool FindFacesOf(const Border* border, int32_t region, int32_t cell)

@@ -24,17 +24,17 @@ typedef struct kiriLink {
 typedef struct kiriLinkWork kiriLinkWork; /* private to link.c */
 
 typedef struct kiriLinks {
-    KIRI_ARRAY(kiriLink) links; /* by (i, j), then by their lowest face: by square, axis, and the lowest triangles of its cells */
-    KIRI_ARRAY(kiriLink) next;  /* what kiriLinks_Update made; Commit swaps */
-    int32_t rebuilt;            /* links that Update made anew */
+    /* By (i, j), then by their lowest face: by square, axis, and the lowest triangles of its cells. */
+    KIRI_ARRAY(kiriLink) links;
+    KIRI_ARRAY(kiriLink) next; /* what kiriLinks_Update made; Commit swaps */
+    int32_t rebuilt;           /* links that Update made anew */
     kiriLinkWork* work;
 } kiriLinks;
 
 /* The links of the regions as they are, into `next`: those between regions that are not touched (regions->touched) are
    taken over from `links`, the others made anew. False for memory: `links` is as before. */
 bool kiriLinks_Update(kiriLinks* links, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                      const kiriRegions* regions, const kiriShape* shape, const kiriSite* sites,
-                      int32_t siteCount);
+                      const kiriRegions* regions, const kiriShape* shape, const kiriSite* sites, int32_t siteCount);
 void kiriLinks_Commit(kiriLinks* links);
 void kiriLinks_Release(kiriLinks* links, const kiriMemory* memory);
 

@@ -515,6 +515,25 @@ extern "C" int32_t kiriMatrix_FrameCount(const kiriMatrix* matrix)
     return matrix->count;
 }
 
+extern "C" int32_t kiriMatrix_PairCount(const kiriMatrix* matrix)
+{
+    return matrix->own.row.count - matrix->count;
+}
+
+extern "C" void kiriMatrix_GetPairs(kiriMatrix* matrix, kiriPair* pairs)
+{
+    int32_t* frameAt = matrix->child.data; /* of each place */
+    for (int32_t f = 0; f < matrix->count; ++f) {
+        frameAt[matrix->place.data[f]] = f;
+    }
+    for (int32_t c = 0; c < matrix->count; ++c) {
+        for (int32_t b = matrix->own.start.data[c] + 1; b < matrix->own.start.data[c + 1]; ++b) {
+            kiriPair pair = { frameAt[c], frameAt[matrix->own.row.data[b]] };
+            *pairs++ = pair;
+        }
+    }
+}
+
 extern "C" bool kiriMatrix_Covers(const kiriMatrix* matrix, kiriPair pair)
 {
     int32_t a = matrix->place.data[pair.a], b = matrix->place.data[pair.b];

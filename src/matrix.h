@@ -29,6 +29,10 @@ bool kiriMatrix_Shape(kiriMatrix* matrix, int32_t frameCount, const kiriPair* pa
 
 int32_t kiriMatrix_FrameCount(const kiriMatrix* matrix);
 
+/* The pairs of the pattern, each once. */
+int32_t kiriMatrix_PairCount(const kiriMatrix* matrix);
+void kiriMatrix_GetPairs(kiriMatrix* matrix, kiriPair* pairs);
+
 /* Is the pair in the pattern? */
 bool kiriMatrix_Covers(const kiriMatrix* matrix, kiriPair pair);
 

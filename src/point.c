@@ -42,8 +42,8 @@ static bool AddPatch(Builder* b, kiriVec2 point, kiriVec2 off, double area)
     return kiriArray_Push(b->memory, &b->patches->patches, patch);
 }
 
-/* Two pairs of places on either side of the point, that together have the region's second moments: the columns of their
-   Cholesky factor. */
+/* Two pairs of places on either side of the point, that together have the region's second moments: the columns of
+   their Cholesky factor. */
 static bool AddFour(Builder* b, kiriVec2 point, const kiriMoments* material)
 {
     kiriMoments about = kiriMoments_About(material, point);
@@ -147,7 +147,7 @@ static bool AddPiece(Builder* b, int32_t cell)
     return ok;
 }
 
-/* ---- All ---------------------------------------------------------------------------------------------------------- */
+/* ---- All ------------------------------------------------------------------------------------------------------ */
 
 static bool ClearSeen(Builder* b)
 {

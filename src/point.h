@@ -15,10 +15,10 @@ typedef struct kiriPointsWork {
     kiriPointWeights weights;         /* at the point at hand */
 } kiriPointsWork;
 
-/* `count` points, relaxed on the grid, at least one in every piece. Each stands for its region of the grid. With order 1
-   the strain at the point holds for all of it; with order 2 the strain is linear in it (after the elastons of Martin et
-   al. 2010): it is taken at four places that have the region's second moments, which costs four times as much. `material`
-   is that of each frame's region. */
+/* `count` points, relaxed on the grid, at least one in every piece. Each stands for its region of the grid. With
+   order 1 the strain at the point holds for all of it; with order 2 the strain is linear in it (after the elastons of
+   Martin et al. 2010): it is taken at four places that have the region's second moments, which costs four times as
+   much. `material` is that of each frame's region. */
 bool kiriPoints_Build(kiriPatches* patches, kiriPointsWork* work, const kiriMemory* memory, const kiriGrid* grid,
                       const kiriMeshData* mesh, const kiriShape* shape, const kiriMoments* material, int32_t count,
                       int32_t order, bool planar);

@@ -1,4 +1,4 @@
-/* Samples: points that take their weights from the grid (section 6 of the paper). Mesh vertices and collision points. */
+/* Samples: points that take their weights from the grid (section 6 of the paper): mesh vertices, collision points. */
 #ifndef KIRI_SAMPLE_H
 #define KIRI_SAMPLE_H
 
@@ -35,8 +35,8 @@ typedef struct kiriMotion {
 
 void kiriSkin_Release(kiriSkin* skin, const kiriMemory* memory);
 
-/* Stages the weights of a sample at a local point of a cell. A sample is staged at most once before a commit; those from
-   `spans.count` on are new and must be staged in their order. False for memory. */
+/* Stages the weights of a sample at a local point of a cell. A sample is staged at most once before a commit; those
+   from `spans.count` on are new and must be staged in their order. False for memory. */
 bool kiriSkin_Stage(kiriSkin* skin, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                     const kiriMeshData* mesh, int32_t sample, int32_t cell, kiriVec2 at);
 
@@ -44,8 +44,8 @@ bool kiriSkin_Stage(kiriSkin* skin, const kiriMemory* memory, const kiriShape* s
 void kiriSkin_Commit(kiriSkin* skin);
 void kiriSkin_Drop(kiriSkin* skin);
 
-/* The cell around a lattice point of the material, and of a vertex. A point on a slanted outline may be off the material by
-   a rounding of the lattice after a cut: it is given the first cell of its square. KIRI_NONE outside. */
+/* The cell around a lattice point of the material, and of a vertex. A point on a slanted outline may be off the
+   material by a rounding of the lattice after a cut: it is given the first cell of its square. KIRI_NONE outside. */
 int32_t kiriSample_Around(const kiriGrid* grid, const kiriMeshData* mesh, kiriPoint at);
 
 /* Which samples lie in which square, for samples that never move: a list a square. */

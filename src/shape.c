@@ -28,11 +28,11 @@ typedef struct Look {
     bool reowned;  /* a cell came to its region, left it, or lies elsewhere in it */
 } Look;
 
-typedef enum Stage { AT_REST, NEXT_FRAME, FROM_SITE, FROM_BORDER, PUTTING, NORMALIZING } Stage;
+typedef enum Stage { AT_REST, NEXT_FRAME, FROM_SITE, FROM_BORDER, OPENING, PUTTING, NORMALIZING } Stage;
 
 struct kiriShapeWork {
-    /* Of the frame at hand; empty between frames. All seeds are its own, so they need no owner, and lists that are loaded
-       neither. */
+    /* Of the frame at hand; empty between frames. All seeds are its own, so they need no owner, and lists that are
+       loaded neither. */
     kiriField fromSite;   /* distances to its site, no farther than its weight may be above zero, */
     kiriField fromBorder; /* and to the border of its region */
     kiriSeeds seeds;
@@ -255,7 +255,7 @@ static void Normalize(Job* job, int32_t cell)
 
 /* ---- One frame ---- */
 
-/* No way goes farther than a square a KIRI_UNIT, but for what a site off the middle of its square gains at its start. */
+/* No way goes farther than a square a KIRI_UNIT, but for what a site off its middle gains at the start. */
 static bool IsInBox(const Job* job)
 {
     int32_t square = job->grid->cells.data[job->sites[job->frame].cell].square, columns = job->mesh->squares.columns;
@@ -296,8 +296,8 @@ static int32_t ReachOf(const Job* job)
     return reach;
 }
 
-/* A cell has another owner, or is nearer to its site or farther: so the seeds of cells beside it may differ that see a border
-   of the frame's region between the two, and its own. */
+/* A cell has another owner, or is nearer to its site or farther: so the seeds of cells beside it may differ that see a
+   border of the frame's region between the two, and its own. */
 static void SuspectSeeds(Job* job, int32_t cell)
 {
     kiriField* field = &job->work->fromBorder;
@@ -339,8 +339,8 @@ static void LoadChanged(Job* job, kiriReach reach, int32_t limit, int32_t rim)
     }
 }
 
-/* Loads the list into the fields, and suspects what may change: all that is known at first. A site's seeds depend on the
-   steps of its cell. */
+/* Loads the list into the fields, and suspects what may change: all that is known at first. A site's seeds depend on
+   the steps of its cell. */
 static void Load(Job* job, int32_t limit)
 {
     kiriShapeWork* work = job->work;
@@ -658,19 +658,28 @@ static kiriProgress Measure(Job* job, kiriQuota* quota)
         }
         work->stage = NEXT_FRAME;
     }
+    work->stage = job->shape->weights.count == 0 ? OPENING : PUTTING;
+    work->next = 0;
     return KIRI_DONE;
 }
 
 /* The first weights of all lie in the order of cells, close to those of their neighbours. */
-static bool StartPutting(Job* job)
+static kiriProgress OpenAll(Job* job, kiriQuota* quota)
 {
-    bool ok = true;
-    for (int32_t c = 0; ok && job->shape->weights.count == 0 && c < job->grid->cells.count; ++c) {
-        ok = job->work->fresh.data[c] == 0 || OpenSpan(job, c);
+    kiriShapeWork* work = job->work;
+    for (; work->next < job->grid->cells.count; ++work->next) {
+        if (work->fresh.data[work->next] > 0) {
+            if (!kiriQuota_Take(quota, 1)) {
+                return KIRI_MORE;
+            }
+            if (!OpenSpan(job, work->next)) {
+                return KIRI_FAILED;
+            }
+        }
     }
-    job->work->stage = PUTTING;
-    job->work->next = 0;
-    return ok;
+    work->stage = PUTTING;
+    work->next = 0;
+    return KIRI_DONE;
 }
 
 static kiriProgress PutAll(Job* job, kiriQuota* quota)
@@ -747,11 +756,11 @@ kiriProgress kiriShape_Update(kiriShape* shape, const kiriMemory* memory, const 
     if (shape->work->stage == AT_REST && !Begin(&job, moves, moveCount)) {
         return KIRI_FAILED;
     }
-    if (shape->work->stage < PUTTING) {
+    if (shape->work->stage < OPENING) {
         progress = Measure(&job, quota);
-        if (progress == KIRI_DONE && !StartPutting(&job)) {
-            return KIRI_FAILED;
-        }
+    }
+    if (progress == KIRI_DONE && shape->work->stage == OPENING) {
+        progress = OpenAll(&job, quota);
     }
     if (progress == KIRI_DONE && shape->work->stage == PUTTING) {
         progress = PutAll(&job, quota);

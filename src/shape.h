@@ -1,5 +1,5 @@
-/* Shape functions: weights of the frames (section 4.1 of the paper, algorithm 2; after Faure, Gilles, Bousquet, Pai 2011) on the
-   cells, and weights with derivatives at any point by least squares over linked neighbours. */
+/* Shape functions: weights of the frames (section 4.1 of the paper, algorithm 2; after Faure, Gilles, Bousquet, Pai
+   2011) on the cells, and weights with derivatives at any point by least squares over linked neighbours. */
 #ifndef KIRI_SHAPE_H
 #define KIRI_SHAPE_H
 
@@ -31,12 +31,13 @@ typedef struct kiriShape {
     kiriSpans room;
     KIRI_ARRAY(kiriReaches) reaches; /* of each frame: the cells that its distances reach, in no order */
 
-    /* Of each frame: the cells in which its weight exceeds rigidWeight, as shares of whole squares, in units of 2^-40: a whole
-       number, so that it does not depend on the order of adding. */
+    /* Of each frame: the cells in which its weight exceeds rigidWeight, as shares of whole squares, in units of 2^-40:
+       a whole number, so that it does not depend on the order of adding. */
     KIRI_ARRAY(int64_t) rigid;
     double rigidWeight; /* set before the first update */
 
-    /* Since kiriShape_Settle: live cells, each once, whose weights changed or which are in the grid's made or restepped. */
+    /* Since kiriShape_Settle: live cells, each once, whose weights changed or which are in the grid's made or
+       restepped. */
     KIRI_ARRAY(int32_t) changes;
     int64_t recomputed; /* and for how many of them a weight was computed */
     kiriShapeWork* work;
@@ -44,9 +45,9 @@ typedef struct kiriShape {
 
 /* Follows the changes of grid and regions (which are settled after it): costs what it touches, and a look at the cells
    of frames near by. `moves` as in kiriRegions_Update: distances to such a site are made from scratch. An item of the
-   quota is a cell whose distance is taken away, given or flooded, a weight put in its place, or a cell whose weights are
-   made to sum to 1. Every cell with an owner gets weights. KIRI_MORE: call again before grid, regions or sites change. On
-   KIRI_FAILED only Reset or Release make sense. */
+   quota is a cell whose distance is taken away, given or flooded, a weight put in its place, or a cell that gets room
+   for its first weights or whose weights are made to sum to 1. Every cell with an owner gets weights. KIRI_MORE: call
+   again before grid, regions or sites change. On KIRI_FAILED only Reset or Release make sense. */
 kiriProgress kiriShape_Update(kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid,
                               const kiriMeshData* mesh, const kiriRegions* regions, const kiriSite* sites,
                               int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);

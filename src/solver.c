@@ -367,6 +367,21 @@ static bool IsCovered(const kiriSolver* solver, int32_t frameCount)
     return covered;
 }
 
+/* Regions that came apart may meet again as a blade goes round: a new pattern keeps the pairs of the old one, unless they
+   are too many. */
+static bool KeepPairs(kiriSolver* solver, int32_t frameCount)
+{
+    int32_t own = solver->pairs.count, old = kiriMatrix_PairCount(solver->matrix);
+    if (kiriMatrix_FrameCount(solver->matrix) != frameCount || old > 2 * own) {
+        return true;
+    }
+    if (!kiriArray_Resize(&solver->memory, &solver->pairs, (int64_t)own + old)) {
+        return false;
+    }
+    kiriMatrix_GetPairs(solver->matrix, solver->pairs.data + own);
+    return true;
+}
+
 bool kiriSolver_Stage(kiriSolver* solver, int32_t frameCount, const kiriLink* links, int32_t linkCount,
                       const kiriPatches* patches)
 {
@@ -384,7 +399,8 @@ bool kiriSolver_Stage(kiriSolver* solver, int32_t frameCount, const kiriLink* li
     FindPieces(solver, frameCount);
     solver->isNextMatrix = !IsCovered(solver, frameCount);
     solver->isStaged = !solver->isNextMatrix ||
-                       kiriMatrix_Shape(solver->nextMatrix, frameCount, solver->pairs.data, solver->pairs.count);
+                       (KeepPairs(solver, frameCount) &&
+                        kiriMatrix_Shape(solver->nextMatrix, frameCount, solver->pairs.data, solver->pairs.count));
     return solver->isStaged;
 }
 

@@ -50,7 +50,8 @@ void kiriSolver_Destroy(kiriSolver* solver);
 
 /* Prepares for these frames, links and patches; replaces what was staged before. Steps go on with the current ones.
    The pattern of the matrix is renewed only where it does not cover the pairs of frames that they couple, or where
-   frameCount differs: links that vanish leave zero blocks. Otherwise nothing is allocated but room that grows. False for
+   frameCount differs: links that vanish leave zero blocks, also in a new pattern, until these are more than twice as many
+   as the others. Otherwise nothing is allocated but room that grows. False for
    memory: nothing is staged then. */
 bool kiriSolver_Stage(kiriSolver* solver, int32_t frameCount, const kiriLink* links, int32_t linkCount,
                       const kiriPatches* patches);

@@ -477,6 +477,7 @@ static bool StartResample(kiriSheetData* sheet, int32_t frame)
         count += u->placer.sites.count;
         u->placer.sites.count = 0;
     }
+    u->placer.known = old ? &sheet->regions.field : NULL;
     return kiriPlacer_Start(&u->placer, sheet->memory, &sheet->grid, &sheet->mesh, old ? u->allowed.data : NULL, count);
 }
 

@@ -1,4 +1,5 @@
-/* A sheet with frames for the tests of the mechanical models: regions and patches from the grid, moved by the solver. */
+/* A sheet with frames for the tests of the mechanical models: regions and patches from the grid, moved by the
+   solver. */
 #ifndef KIRI_TEST_BODY_H
 #define KIRI_TEST_BODY_H
 

@@ -1,4 +1,5 @@
-/* All that follows the cuts of a mesh, from grid to samples; for tests that compare it with the same made from scratch. */
+/* All that follows the cuts of a mesh, from grid to samples; for tests that compare it with the same made from scratch.
+   */
 #ifndef KIRI_TEST_FOLLOW_H
 #define KIRI_TEST_FOLLOW_H
 
@@ -22,7 +23,8 @@ typedef struct Follow {
     kiriSkin vertexSkin, pointSkin;
     kiriPlaces places;
     kiriSamples points;
-    int64_t slice; /* items of a quota; 0: all at once */
+    int32_t oldVertices; /* of the last commit */
+    int64_t slice;       /* items of a quota; 0: all at once */
     int64_t used;
 } Follow;
 
@@ -162,8 +164,8 @@ static inline kiriProgress Follow_Shape(Follow* f)
     kiriProgress progress;
     do {
         kiriQuota quota = Follow_Quota(f);
-        progress = kiriShape_Update(&f->shape, f->memory, &f->grid, f->mesh, &f->regions, f->sites.data,
-                                    f->sites.count, f->moves.data, f->moves.count, &quota);
+        progress = kiriShape_Update(&f->shape, f->memory, &f->grid, f->mesh, &f->regions, f->sites.data, f->sites.count,
+                                    f->moves.data, f->moves.count, &quota);
         Follow_Spend(f, &quota);
         assert_true(progress != KIRI_MORE || (f->slice > 0 && quota.used > 0));
     } while (progress == KIRI_MORE);
@@ -183,8 +185,9 @@ static inline bool Follow_Links(Follow* f)
 
 static inline kiriProgress Follow_Samples(Follow* f)
 {
-    kiriProgress progress = kiriRefresh_Start(&f->refresh, f->memory, &f->shape, &f->grid, f->mesh) ? KIRI_MORE
-                                                                                                     : KIRI_FAILED;
+    kiriProgress progress = kiriRefresh_Start(&f->refresh, f->memory, &f->shape, &f->grid, f->mesh, f->oldVertices)
+                                ? KIRI_MORE
+                                : KIRI_FAILED;
     while (progress == KIRI_MORE) {
         kiriQuota quota = Follow_Quota(f);
         progress = kiriRefresh_Vertices(&f->refresh, &f->vertexSkin, f->memory, &f->shape, &f->grid, f->mesh, &quota);
@@ -206,35 +209,59 @@ static inline void Follow_Commit(Follow* f)
     kiriSkin_Commit(&f->pointSkin);
     kiriLinks_Commit(&f->links);
     kiriShape_Settle(&f->shape);
+    f->oldVertices = f->mesh->vertices.count;
     for (int32_t i = 0; i < f->regions.touched.count; ++i) {
         f->regions.touched.data[i] = 0;
     }
 }
 
-/* All of it, and a frame more at times, as where a rigid one is split. The mesh has been cut. */
-static inline void Follow_Update(Follow* f, uint32_t* seed)
+/* Up to the weights, with a frame more at times, as where a rigid one is split. The mesh has been cut. */
+static inline void Follow_Weights(Follow* f, uint32_t* seed)
 {
     Follow_Grid(f);
     Follow_Relocate(f);
     Follow_AllRegions(f);
     assert_int_equal(Follow_Shape(f), KIRI_DONE);
-    if (seed != NULL && Random(seed) % 3 == 0) {
+    if (Random(seed) % 3 == 0) {
         Follow_AddSite(f, seed);
         Follow_AllRegions(f);
         assert_int_equal(Follow_Shape(f), KIRI_DONE);
     }
+}
+
+static inline void Follow_Update(Follow* f, uint32_t* seed)
+{
+    Follow_Weights(f, seed);
     assert_true(Follow_Links(f));
     assert_int_equal(Follow_Samples(f), KIRI_DONE);
     Follow_Commit(f);
 }
 
+/* Forgets grid, regions and shape, and makes grid and regions anew: all sites are new. */
+static inline void Follow_StartAgain(Follow* f)
+{
+    kiriGrid_Reset(&f->grid);
+    kiriRegions_Reset(&f->regions);
+    kiriShape_Reset(&f->shape);
+    f->shape.rigidWeight = 0.9;
+    Follow_Grid(f);
+    f->moves.count = 0;
+    for (int32_t i = 0; i < f->sites.count; ++i) {
+        kiriSiteMove move = { i, KIRI_NONE };
+        f->sites.data[i].cell = kiriSample_Around(&f->grid, f->mesh, f->anchors.data[i]);
+        assert_true(kiriArray_Push(f->memory, &f->moves, move));
+    }
+    Follow_Regions(f, 0);
+}
+
 /* The same from scratch: all sites are new. */
-static inline void Follow_Scratch(Follow* f, const Follow* other)
+static inline void Follow_ScratchWeights(Follow* f, const Follow* other)
 {
     memset(f, 0, sizeof(*f));
     f->memory = other->memory;
     f->mesh = other->mesh;
     f->shape.rigidWeight = other->shape.rigidWeight;
+    f->slice = other->slice;
     Follow_Grid(f);
     for (int32_t i = 0; i < other->sites.count; ++i) {
         int32_t a = other->grid.squareCell.data[other->grid.cells.data[other->sites.data[i].cell].square];
@@ -245,17 +272,23 @@ static inline void Follow_Scratch(Follow* f, const Follow* other)
         kiriSite site = { other->sites.data[i].at, b };
         Follow_Move(f, i, site);
     }
-    for (int32_t i = 0; i < other->points.count; ++i) {
-        assert_true(kiriArray_Push(f->memory, &f->points, other->points.data[i]));
-        assert_true(kiriPlaces_Add(&f->places, f->memory, f->mesh, other->points.data[i].at));
-        assert_true(kiriArray_Push(f->memory, &f->pointSkin.spans, ((kiriSpan){ 0, 0 })));
-    }
-    for (int32_t v = 0; v < f->mesh->vertices.count; ++v) {
-        assert_true(kiriArray_Push(f->memory, &f->vertexSkin.spans, ((kiriSpan){ 0, 0 })));
-    }
     Follow_Regions(f, 0);
     assert_int_equal(f->regions.orphans.count, other->regions.orphans.count);
     assert_int_equal(Follow_Shape(f), KIRI_DONE);
+}
+
+static inline void Follow_Scratch(Follow* f, const Follow* other)
+{
+    kiriSpan none = { 0, 0 };
+    Follow_ScratchWeights(f, other);
+    for (int32_t i = 0; i < other->points.count; ++i) {
+        assert_true(kiriArray_Push(f->memory, &f->points, other->points.data[i]));
+        assert_true(kiriPlaces_Add(&f->places, f->memory, f->mesh, other->points.data[i].at));
+        assert_true(kiriArray_Push(f->memory, &f->pointSkin.spans, none));
+    }
+    for (int32_t v = 0; v < f->mesh->vertices.count; ++v) {
+        assert_true(kiriArray_Push(f->memory, &f->vertexSkin.spans, none));
+    }
     assert_true(Follow_Links(f));
     assert_int_equal(Follow_Samples(f), KIRI_DONE);
     Follow_Commit(f);
@@ -264,6 +297,7 @@ static inline void Follow_Scratch(Follow* f, const Follow* other)
 /* A new sheet whose mesh is not cut yet, but may be slit. */
 static inline void Follow_Start(Follow* f, const Scene* scene, int32_t siteCount, int32_t pointCount, uint32_t* seed)
 {
+    kiriSpan none = { 0, 0 };
     Follow_Init(f, scene);
     Follow_Grid(f);
     for (int32_t k = 0; k < siteCount; ++k) {
@@ -274,10 +308,10 @@ static inline void Follow_Start(Follow* f, const Scene* scene, int32_t siteCount
         kiriSample point = { kiriGrid_Anchor(&f->grid, f->mesh, cell), cell, KIRI_NONE };
         assert_true(kiriArray_Push(f->memory, &f->points, point));
         assert_true(kiriPlaces_Add(&f->places, f->memory, f->mesh, point.at));
-        assert_true(kiriArray_Push(f->memory, &f->pointSkin.spans, ((kiriSpan){ 0, 0 })));
+        assert_true(kiriArray_Push(f->memory, &f->pointSkin.spans, none));
     }
     for (int32_t v = 0; v < f->mesh->vertices.count; ++v) {
-        assert_true(kiriArray_Push(f->memory, &f->vertexSkin.spans, ((kiriSpan){ 0, 0 })));
+        assert_true(kiriArray_Push(f->memory, &f->vertexSkin.spans, none));
     }
     Follow_AllRegions(f);
     assert_int_equal(Follow_Shape(f), KIRI_DONE);
@@ -314,8 +348,8 @@ static inline void Wander_Cut(Wander* w, Follow* f, double length, uint32_t* see
         w->blade = kiriCut_Place(f->mesh, w->at);
     }
     double turn = RandomBetween(seed, -0.6, 0.9), size = kiriVec2_Length(w->heading) + 1e-3;
-    w->heading = kiriVec2_Scale(1.0 / size, kiriVec2_Make(w->heading.x - turn * w->heading.y,
-                                                          w->heading.y + turn * w->heading.x));
+    w->heading = kiriVec2_Scale(1.0 / size,
+                                kiriVec2_Make(w->heading.x - turn * w->heading.y, w->heading.y + turn * w->heading.x));
     size = kiriVec2_Length(w->heading) + 1e-3;
     kiriVec2 from = w->at, to = kiriVec2_Add(w->at, kiriVec2_Scale(length / size, w->heading));
     w->at = to;

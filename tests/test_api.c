@@ -92,6 +92,9 @@ static void NullWorld(void** state)
     uint32_t id;
     kiriProfile profile;
     kiriMesh mesh;
+    kiriDirty dirty;
+    uint16_t indices[3];
+    kiriBudget budget = { 0, 0, 0, 0 };
     kiriCounts counts;
     kiriTotals totals;
     kiriHit hit;
@@ -113,7 +116,11 @@ static void NullWorld(void** state)
         kiriWorld_GetProfile(NULL, &profile),
         kiriCreateSheet(NULL, &sheetDef, &id),
         kiriDestroySheet(NULL, 1),
+        kiriWorld_SetBudget(NULL, &budget),
         kiriSheet_GetMesh(NULL, 1, &mesh),
+        kiriSheet_GetDirty(NULL, 1, 0, &dirty),
+        kiriSheet_CopyVertices(NULL, 1, 0, 1, v, 12, NULL, 0),
+        kiriSheet_CopyIndices16(NULL, 1, 0, 1, indices),
         kiriSheet_GetCollisionPoints(NULL, 1, &positions, &count),
         kiriSheet_GetCounts(NULL, 1, &counts),
         kiriSheet_GetTotals(NULL, 1, &totals),
@@ -516,6 +523,7 @@ static void SheetArguments(void** state)
     kiriHit hit;
     float weight;
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetMesh(w, s, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetDirty(w, s, 0, NULL));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetCollisionPoints(w, s, NULL, &count));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetCollisionPoints(w, s, &positions, NULL));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetCounts(w, s, NULL));
@@ -774,6 +782,56 @@ static void HugeValues(void** state)
     }
 }
 
+/* What a host with a copy of the mesh needs, and no less: after every tick its copy is the mesh. */
+static void Copies(void** state)
+{
+    (void)state;
+    Host h, *host = &h;
+    Host_Start(host);
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 6, 6);
+    enum { MOST = 16384 };
+    static float places[8 * MOST], rest[2 * MOST];
+    static uint16_t indices[3 * MOST];
+    uint32_t revision = 0, seed = 5;
+    kiriCut cut;
+    float point[2] = { 0.1f, 0.5f };
+    OK(kiriBeginCut(host->world, sheet, point, &cut));
+    for (int tick = 0; tick < 50; ++tick) {
+        kiriDirty dirty;
+        OK(kiriSheet_GetDirty(host->world, sheet, revision, &dirty));
+        kiriMesh mesh = Host_Mesh(host, sheet);
+        assert_true(mesh.vertexCount <= MOST && mesh.triangleCount <= MOST);
+        assert_true(tick == 0 || dirty.newTriangles.first > 0);
+        revision = dirty.revision;
+        const kiriRange vertices[2] = { dirty.newVertices, dirty.oldVertices };
+        const kiriRange triangles[2] = { dirty.newTriangles, dirty.oldTriangles };
+        for (int k = 0; k < 2; ++k) {
+            memcpy(&rest[2 * vertices[k].first], &mesh.restPositions[2 * vertices[k].first],
+                   2 * sizeof(float) * (size_t)vertices[k].count);
+            OK(kiriSheet_CopyIndices16(host->world, sheet, triangles[k].first, triangles[k].count,
+                                       &indices[3 * triangles[k].first]));
+        }
+        OK(kiriSheet_CopyVertices(host->world, sheet, 0, mesh.vertexCount, places, 32, places + 3, 32));
+        assert_memory_equal(rest, mesh.restPositions, 2 * sizeof(float) * (size_t)mesh.vertexCount);
+        for (int32_t i = 0; i < 3 * mesh.triangleCount; ++i) {
+            assert_int_equal(indices[i], mesh.indices[i]);
+        }
+        for (int32_t v = 0; v < mesh.vertexCount; ++v) {
+            assert_memory_equal(&places[8 * v], &mesh.positions[3 * v], 3 * sizeof(float));
+            assert_memory_equal(&places[8 * v + 3], &mesh.normals[3 * v], 3 * sizeof(float));
+        }
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_CopyVertices(host->world, sheet, 1, mesh.vertexCount, places, 12, NULL, 0));
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_CopyVertices(host->world, sheet, 0, 1, places, 8, NULL, 0));
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_CopyIndices16(host->world, sheet, 0, mesh.triangleCount + 1, indices));
+        point[0] = (float)RandomBetween(&seed, 0.0, 1.0);
+        point[1] = (float)RandomBetween(&seed, 0.0, 1.0);
+        OK(kiriCut_Extend(host->world, cut, point, 1));
+        OK(kiriWorld_Tick(host->world, 0.01f, 1));
+    }
+    Host_Stop(host);
+}
+
 static void HugeSheets(void** state)
 {
     (void)state;
@@ -807,7 +865,7 @@ int main(void)
         cmocka_unit_test(Meshes),         cmocka_unit_test(FillRectangle),  cmocka_unit_test(Ids),
         cmocka_unit_test(SheetArguments), cmocka_unit_test(CutArguments),   cmocka_unit_test(FrameArguments),
         cmocka_unit_test(PinArguments),   cmocka_unit_test(ContactArguments), cmocka_unit_test(HarmlessCuts),
-        cmocka_unit_test(HugeValues),     cmocka_unit_test(HugeSheets),
+        cmocka_unit_test(HugeValues),     cmocka_unit_test(HugeSheets),     cmocka_unit_test(Copies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

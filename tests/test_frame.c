@@ -1,6 +1,6 @@
 #include "scene.h"
 
-/* ---- What placing must come to, computed plainly ----------------------------------------------------------------- */
+/* ---- What placing must come to, computed plainly ------------------------------------------------------------- */
 
 enum { AWAY = 1 << 28, MOST = 100 };
 
@@ -179,7 +179,7 @@ static void PlainPlace(Plain* p, const uint8_t* allowed, int32_t count)
     }
 }
 
-/* ---- Placing ------------------------------------------------------------------------------------------------------- */
+/* ---- Placing --------------------------------------------------------------------------------------------------- */
 
 static kiriQuota Endless(void)
 {
@@ -328,7 +328,7 @@ static void CountIsLimitedByCells(void** state)
     Scene_Release(&scene);
 }
 
-/* ---- Against the plain answer ---------------------------------------------------------------------------------------- */
+/* ---- Against the plain answer ------------------------------------------------------------------------------------ */
 
 static int ComparePlain(const Plain* p, int32_t a, int32_t b)
 {
@@ -362,7 +362,8 @@ static void FreePlain(Plain* p)
     free(p->distance);
 }
 
-/* Some sites in cells of their own, as frames take them, or at sides and corners of the square; many next to the last. */
+/* Some sites in cells of their own, as frames take them, or at sides and corners of the square; many next to the
+   last. */
 static void AddOldSites(Plain* p, int32_t count, uint32_t* seed)
 {
     for (int32_t k = 0; k < count; ++k) {
@@ -506,8 +507,8 @@ static void EqualsPlainPlacing(void** state)
     assert_true(pieces > 150 && several > 60);
 }
 
-/* Two sites side by side, anywhere in their squares, and then one in every other cell: the order in which these come tells
-   all distances. */
+/* Two sites side by side, anywhere in their squares, and then one in every other cell: the order in which these come
+   tells all distances. */
 static void EqualsPlainBesideNeighbours(void** state)
 {
     (void)state;
@@ -538,7 +539,7 @@ static void EqualsPlainBesideNeighbours(void** state)
     Scene_Release(&scene);
 }
 
-/* ---- Indices of cells mean nothing ------------------------------------------------------------------------------------- */
+/* ---- Indices of cells mean nothing -------------------------------------------------------------------------------- */
 
 /* The same grid, cell c with index to[c]; what placing reads of it. */
 static void Permute(kiriGrid* out, const kiriGrid* grid, const kiriMemory* memory, const int32_t* to)
@@ -678,7 +679,7 @@ static void EqualsFromScratch(void** state)
     assert_true(elsewhere > 30); /* or the test would see nothing */
 }
 
-/* ---- Recentering ----------------------------------------------------------------------------------------------------- */
+/* ---- Recentering ------------------------------------------------------------------------------------------------- */
 
 static kiriVec3 RandomVec3(uint32_t* seed)
 {
@@ -778,7 +779,7 @@ static void RecenterKeepsTheMomentum(void** state)
     }
 }
 
-/* ---- Memory ---------------------------------------------------------------------------------------------------------- */
+/* ---- Memory ------------------------------------------------------------------------------------------------------ */
 
 static void FailingAllocatorLeaksNothing(void** state)
 {

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Sheets ------------------------------------------------------------------------------------------------------ */
+/* ---- Sheets ----------------------------------------------------------------------------------------------------- */
 
 /* Counts live blocks, and returns null at the allocation numbered failAt. */
 typedef struct Blocks {
@@ -156,7 +156,7 @@ static void Build(Sheet* sheet)
     assert_int_equal(sheet->grid.cellCount, sheet->grid.cells.count); /* no gaps */
 }
 
-/* ---- What must hold for every grid -------------------------------------------------------------------------------- */
+/* ---- What must hold for every grid ------------------------------------------------------------------------------ */
 
 static void assert_near(double a, double b, double tolerance)
 {
@@ -478,7 +478,7 @@ static void CheckAll(const Sheet* sheet)
     }
 }
 
-/* ---- Shapes whose cells are known (figure 4 of the paper) ----------------------------------------------------------- */
+/* ---- Shapes whose cells are known (figure 4 of the paper) ------------------------------------------------------- */
 
 static void TestDividedInTwo(void** state)
 {
@@ -690,9 +690,9 @@ static void TestEveryTriangleAPiece(void** state)
     CloseSheet(&sheet);
 }
 
-/* A point p of the lattice, with the edge from (0, 0) to p passing the corner at the least distance there is, on its left
-   or right: orient(0, p, corner) = 2 or -2. By Euclid's algorithm; false where the corner's coordinates have a common
-   divisor. */
+/* A point p of the lattice, with the edge from (0, 0) to p passing the corner at the least distance there is, on its
+   left or right: orient(0, p, corner) = 2 or -2. By Euclid's algorithm; false where the corner's coordinates have a
+   common divisor. */
 static bool GrazingPoint(kiriPoint corner, bool left, kiriPoint* p)
 {
     int64_t a = left ? corner.y : corner.x, b = left ? corner.x : corner.y;
@@ -785,7 +785,7 @@ static void TestClosedCurveAroundHole(void** state)
     CloseSheet(&sheet);
 }
 
-/* ---- Properties ---------------------------------------------------------------------------------------------------- */
+/* ---- Properties ------------------------------------------------------------------------------------------------- */
 
 static void TestRandomCuts(void** state)
 {
@@ -821,7 +821,7 @@ static void TestRandomCuts(void** state)
     assert_true(pieces > 200 && copies > 2000); /* the cuts were worth testing */
 }
 
-/* ---- Updates: the same as from scratch ----------------------------------------------------------------------------- */
+/* ---- Updates: the same as from scratch -------------------------------------------------------------------------- */
 
 static bool SameBits(const void* a, const void* b, size_t bytes)
 {
@@ -956,7 +956,7 @@ static void CheckAgainstScratch(const Sheet* sheet)
     kiriGrid_Release(&fresh, &sheet->memory);
 }
 
-/* ---- Updates: what they say has changed ---------------------------------------------------------------------------- */
+/* ---- Updates: what they say has changed ------------------------------------------------------------------------- */
 
 /* A copy of what followers see of a grid. */
 static void* CopyBytes(const void* data, size_t bytes)
@@ -1071,7 +1071,7 @@ static void CheckChanges(const kiriGrid* was, const kiriGrid* is, bool exact)
     free(lists);
 }
 
-/* ---- Updates: properties ------------------------------------------------------------------------------------------- */
+/* ---- Updates: properties ---------------------------------------------------------------------------------------- */
 
 typedef struct Tour {
     uint32_t seed;
@@ -1254,8 +1254,8 @@ static void CheckFreeIndices(const kiriGrid* grid)
     assert_int_equal(faces, grid->faces.count);
 }
 
-/* Two cuts that are taken back as one, so that cells merge again. They are settled after the first, the second, both, or
-   never: cells go that were known and have changed since, or that nobody has heard of. */
+/* Two cuts that are taken back as one, so that cells merge again. They are settled after the first, the second, both,
+   or never: cells go that were known and have changed since, or that nobody has heard of. */
 static void CheckCutsTakenBack(Tour* tour, int32_t mostQuota)
 {
     Sheet sheet;

@@ -1,4 +1,4 @@
-/* A tick without a cut allocates nothing: neither from the host nor behind its back. */
+/* A tick without a cut allocates nothing: neither from the host nor behind its back; and few with one do. */
 #include "host.h"
 
 /* malloc of the whole program, counted, where the C library lets us stand in front of it. */
@@ -109,8 +109,38 @@ static void TestPlainTicks(void** state)
     }
 }
 
+/* A long spiral, from its middle, a cell or so a tick. What it leaves grows, and so does the room for it, which doubles:
+   so ever fewer ticks ask for memory. */
+static void TestCuttingTicks(void** state)
+{
+    (void)state;
+    enum { TICKS = 800 };
+    Host host;
+    kiriCut cut;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    def.gridResolution = 40;
+    def.collisionPoints = 100;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 16, 16);
+    int32_t first = 0, second = 0;
+    for (int32_t tick = 0; tick < TICKS; ++tick) {
+        float t = 75.0f * (float)tick / TICKS, r = 0.02f + 0.44f * (float)tick / TICKS;
+        float point[2] = { 0.5f + r * cosf(t), 0.5f + r * sinf(t) };
+        OK(tick == 0 ? kiriBeginCut(host.world, sheet, point, &cut) : kiriCut_Extend(host.world, cut, point, 1));
+        int64_t calls = host.calls, before = taken;
+        OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
+        bool asked = host.calls > calls || taken > before;
+        first += asked && tick < TICKS / 2;
+        second += asked && tick >= TICKS / 2;
+    }
+    assert_in_range(first, 1, TICKS / 8);
+    assert_in_range(second, 0, 3 * first / 4);
+    assert_true(Host_Counts(&host, sheet).vertices > 2000);
+    Host_Stop(&host);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(TestPlainTicks) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(TestPlainTicks), cmocka_unit_test(TestCuttingTicks) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,10 +23,12 @@ static void Make(Body* b, const BodyDef* def, int nu, int nv, double jitter, uin
     Body_End(b, def);
 }
 
-/* Where a patch lies: linear-blend skinning of the rest shape is the identity, so F is too, and this gives its place. */
+/* Where a patch lies: linear-blend skinning of the rest shape is the identity, so F is too, and this gives its
+   place. */
 static kiriVec2 PlaceOf(const Body* b, const kiriPatch* patch)
 {
-    /* u is the sum of (arm slope + weight e_u), arm from the frame's centre: solve for the arm of any frame with a slope */
+    /* u is the sum of (arm slope + weight e_u), arm from the frame's centre: solve for the arm of any frame with a
+       slope */
     const kiriShare* shares = &b->patches.shares.data[patch->first];
     for (int32_t k = 0; k < patch->count; ++k) {
         if (kiriVec2_Length(shares[k].slope) > 1.0) {
@@ -219,8 +221,8 @@ static double CantileverError(double thickness, int frames)
     return sqrt(sum / frames) / (0.2 * elastica.drop[ELASTICA_STEPS]);
 }
 
-/* A slab bends as it should with enough frames; a sheet as thin as cloth hardly does. Weight and bending stiffness are the
-   same. */
+/* A slab bends as it should with enough frames; a sheet as thin as cloth hardly does. Weight and bending stiffness
+   are the same. */
 static void TestLocking(void** state)
 {
     (void)state;

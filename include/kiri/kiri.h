@@ -330,6 +330,20 @@ typedef struct kiriDirty {
     uint32_t revision;                   /* for the next call */
 } kiriDirty;
 
+/* What changed since the host saw that revision; all of the mesh where that is too long ago, or 0. */
+KIRI_API kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t sinceRevision,
+                                       kiriDirty* dirty);
+
+/* Copies positions and normals of some vertices, 3 floats each, to where the host wants them; strides in bytes, 12 or more.
+   Null: without these. */
+KIRI_API kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count,
+                                           void* positions, int32_t positionStride, void* normals,
+                                           int32_t normalStride);
+
+/* Copies the indices of some triangles, 3 each, as 16-bit numbers. KIRI_ERROR_STATE: there are more than 65535 vertices. */
+KIRI_API kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,
+                                            int32_t count, uint16_t* indices);
+
 /* Collision points: 3 floats of position (m, world) a point, valid until the next tick. */
 KIRI_API kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet, const float** positions,
                                                  int32_t* count);

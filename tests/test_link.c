@@ -1,0 +1,516 @@
+#include "follow.h"
+
+typedef struct Links {
+    kiriRegions regions;
+    kiriShape shape;
+    kiriLinks made;
+} Links;
+
+static void Build(Scene* scene, Links* l, const kiriSite* sites, int32_t count)
+{
+    kiriSiteMove* moves = malloc(sizeof(kiriSiteMove) * (size_t)(count + 1));
+    kiriQuota quota = { INT64_MAX, 0 };
+    for (int32_t i = 0; i < count; ++i) {
+        moves[i] = (kiriSiteMove){ i, KIRI_NONE };
+    }
+    memset(l, 0, sizeof(*l));
+    assert_int_equal(
+        kiriRegions_Update(&l->regions, &scene->memory, &scene->grid, &scene->mesh, sites, count, moves, count, &quota),
+        KIRI_DONE);
+    assert_int_equal(kiriShape_Update(&l->shape, &scene->memory, &scene->grid, &scene->mesh, &l->regions, sites, count,
+                                      moves, count, &quota),
+                     KIRI_DONE);
+    assert_true(
+        kiriLinks_Update(&l->made, &scene->memory, &scene->grid, &scene->mesh, &l->regions, &l->shape, sites, count));
+    assert_int_equal(l->made.links.count, 0);
+    assert_int_equal(l->made.rebuilt, l->made.next.count);
+    kiriLinks_Commit(&l->made);
+    free(moves);
+}
+
+static void Release(Scene* scene, Links* l)
+{
+    kiriLinks_Release(&l->made, &scene->memory);
+    kiriShape_Release(&l->shape, &scene->memory);
+    kiriRegions_Release(&l->regions, &scene->memory);
+}
+
+static void Finish(Scene* scene, Links* l)
+{
+    Release(scene, l);
+    Scene_Release(scene);
+}
+
+static int32_t OwnerOf(const Links* l, int32_t cell)
+{
+    return l->regions.field.owner.data[cell];
+}
+
+/* The distance on the grid from one site to another, by a flood of its own. */
+static double GridDistance(Scene* scene, int32_t from, int32_t to)
+{
+    kiriSeed seed = { from, 0, 0 };
+    kiriQuota quota = { INT64_MAX, 0 };
+    kiriRule rule = { &scene->grid, KIRI_FAR - 1, NULL, NULL, NULL };
+    assert_true(kiriField_Start(&scene->field, &scene->memory, &seed, 1));
+    assert_int_equal(kiriField_Flood(&scene->field, &rule, &quota), KIRI_DONE);
+    double distance = scene->field.distance.data[to] * scene->grid.side / KIRI_UNIT;
+    kiriField_Reset(&scene->field);
+    return distance;
+}
+
+static void StripHasStraightLinks(void** state)
+{
+    (void)state;
+    Scene scene;
+    Links links;
+    kiriSite sites[5];
+    Scene_Init(&scene, 1.0, 0.25, 8, 2, 36);
+    Scene_BuildGrid(&scene);
+    for (int i = 0; i < 5; ++i) {
+        sites[i] = Scene_Site(&scene, (4.5 + 7 * i) / 36, 0.125);
+    }
+    Build(&scene, &links, sites, 5);
+    assert_int_equal(links.made.links.count, 4);
+    for (int k = 0; k < 4; ++k) {
+        const kiriLink* link = &links.made.links.data[k];
+        assert_int_equal(link->i, k);
+        assert_int_equal(link->j, k + 1);
+        AssertNear(link->width, 0.25, 1e-12);
+        AssertNear(link->length, 7.0 * scene.grid.side, 1e-12);
+        AssertNear(link->moment, 0.25 * 0.25 * 0.25 / 12.0, 1e-12);
+        AssertNear(link->normal.x, 1.0, 0.0);
+        AssertNear(link->normal.y, 0.0, 0.0);
+        AssertNear(link->tangent.y, 1.0, 0.0);
+        AssertNear(link->centroid.x, (8 + 7 * k) * scene.grid.side, 1e-6);
+        AssertNear(link->centroid.y, 0.125, 1e-12);
+        AssertNear(link->crossing.x, 0.5 * (sites[k].at.x + sites[k + 1].at.x), 1e-12);
+        AssertNear(link->crossing.y, sites[k].at.y, 1e-12);
+        AssertNear(link->span.x, 7.0 * scene.grid.side, 1e-12);
+        AssertNear(link->span.y, 0.0, 1e-12);
+        AssertNear(link->braced, 0.0, 0.0);
+    }
+    Finish(&scene, &links);
+}
+
+/* Sixteen square regions: a link is braced by what its two regions have on both sides along the tangent. */
+static void NeighboursBrace(void** state)
+{
+    (void)state;
+    Scene scene;
+    Links links;
+    kiriSite sites[16];
+    Scene_Init(&scene, 1.0, 1.0, 4, 4, 36);
+    Scene_BuildGrid(&scene);
+    for (int i = 0; i < 16; ++i) {
+        sites[i] = Scene_Site(&scene, (4.5 + 9 * (i % 4)) / 36, (4.5 + 9 * (i / 4)) / 36);
+    }
+    Build(&scene, &links, sites, 16);
+    assert_int_equal(links.made.links.count, 24);
+    for (int k = 0; k < 24; ++k) {
+        const kiriLink* link = &links.made.links.data[k];
+        int line = link->j - link->i == 1 ? link->i / 4 : link->i % 4; /* of regions, that the link lies in */
+        AssertNear(link->braced, line == 0 || line == 3 ? 0.5 : 1.0, 1e-4);
+    }
+    Finish(&scene, &links);
+}
+
+/* The same border, crossed from right to left: the link is seen from the lower index. */
+static void NormalPointsToTheHigherIndex(void** state)
+{
+    (void)state;
+    Scene scene;
+    Links links;
+    Scene_Init(&scene, 1.0, 0.25, 8, 2, 36);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.8, 0.1), Scene_Site(&scene, 0.2, 0.1) };
+    Build(&scene, &links, sites, 2);
+    assert_int_equal(links.made.links.count, 1);
+    AssertNear(links.made.links.data[0].normal.x, -1.0, 0.0);
+    AssertNear(links.made.links.data[0].tangent.y, -1.0, 0.0);
+    AssertNear(links.made.links.data[0].width, 0.25, 1e-12);
+    Finish(&scene, &links);
+}
+
+static void SlitMakesTheLongWay(void** state)
+{
+    (void)state;
+    Scene scene;
+    Links links;
+    Scene_Init(&scene, 1.0, 1.0, 10, 10, 21);
+    Scene_Slit(&scene, 0.5, 0.0, 0.5, 0.8);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.25, 0.25), Scene_Site(&scene, 0.75, 0.25) };
+    Build(&scene, &links, sites, 2);
+    assert_int_equal(links.made.links.count, 1);
+    const kiriLink* link = &links.made.links.data[0];
+    double across = 0.5 * (sites[1].at.x - sites[0].at.x), up = 0.8 - sites[0].at.y;
+    double way = 2.0 * sqrt(across * across + up * up);
+    AssertNear(link->length, GridDistance(&scene, sites[0].cell, sites[1].cell), 1e-12);
+    AssertNear(link->length / way, 1.04, 0.06);
+    AssertNear(link->crossing.x, 0.5, 0.03);
+    AssertNear(link->crossing.y, 0.8, 0.04);
+    AssertNear(link->width, 0.2, 0.05); /* the border may cross the slit's last square on either side */
+    Finish(&scene, &links);
+}
+
+static void CompleteCutHasNoLink(void** state)
+{
+    (void)state;
+    Scene scene;
+    Links links;
+    Scene_Init(&scene, 1.0, 1.0, 10, 10, 21);
+    Scene_Slit(&scene, 0.5, 0.0, 0.5, 1.0);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.25, 0.25), Scene_Site(&scene, 0.75, 0.25) };
+    Build(&scene, &links, sites, 2);
+    assert_int_equal(links.made.links.count, 0);
+    Release(&scene, &links);
+    Build(&scene, &links, sites, 1);
+    assert_int_equal(OwnerOf(&links, sites[1].cell), KIRI_NONE);
+    Finish(&scene, &links);
+}
+
+static void HoleMakesTwoStretches(void** state)
+{
+    (void)state;
+    Scene scene;
+    Links links;
+    Scene_Init(&scene, 1.0, 0.5, 10, 5, 41);
+    Scene_Slit(&scene, 0.4, 0.2, 0.6, 0.2);
+    Scene_Slit(&scene, 0.6, 0.2, 0.6, 0.4);
+    Scene_Slit(&scene, 0.6, 0.4, 0.4, 0.4);
+    Scene_Slit(&scene, 0.4, 0.4, 0.4, 0.2);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.25, 0.25), Scene_Site(&scene, 0.75, 0.25) };
+    Build(&scene, &links, sites, 2);
+    assert_int_equal(links.made.links.count, 2);
+    for (int k = 0; k < 2; ++k) {
+        const kiriLink* link = &links.made.links.data[k];
+        assert_int_equal(link->i, 0);
+        assert_int_equal(link->j, 1);
+        AssertNear(link->width, k == 0 ? 0.2 : 0.1, 1e-6);
+        AssertNear(link->moment, link->width * link->width * link->width / 12.0, 1e-9);
+        AssertNear(link->centroid.y, k == 0 ? 0.1 : 0.45, 1e-6);
+    }
+    /* Over the hole it is a longer way than under it, and one that passes by a corner of the hole. */
+    assert_true(links.made.links.data[1].length > links.made.links.data[0].length);
+    AssertNear(links.made.links.data[1].crossing.y, 0.41, 0.02);
+    Finish(&scene, &links);
+}
+
+static void DiagonalBorderHasItsTrueLength(void** state)
+{
+    (void)state;
+    Scene scene;
+    Links links;
+    Scene_Init(&scene, 1.0, 1.0, 4, 4, 41);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 10.5 / 41, 10.5 / 41), Scene_Site(&scene, 30.5 / 41, 30.5 / 41) };
+    Build(&scene, &links, sites, 2);
+    assert_int_equal(links.made.links.count, 1);
+    const kiriLink* link = &links.made.links.data[0];
+    double width = sqrt(2.0) * 40.0 / 41.0; /* ties go to frame 0; the last row and column have no square beyond them */
+    AssertNear(link->width, width, 1e-6);
+    AssertNear(link->normal.x, sqrt(0.5), 0.02);
+    AssertNear(link->normal.y, sqrt(0.5), 0.02);
+    AssertNear(link->centroid.x, 0.5, 0.02);
+    AssertNear(link->centroid.y, 0.5, 0.02);
+    AssertNear(link->moment, width * width * width / 12.0, 1e-6);
+    AssertNear(link->length, 20.0 * sqrt(2.0) * scene.grid.side, 1e-12);
+    AssertNear(link->crossing.x, 20.5 * scene.grid.side, 1e-6);
+    Finish(&scene, &links);
+}
+
+/* The nearest neighbours on a diagonal: a way over faces alone would be half as long again. */
+static void ShortDiagonalIsStraight(void** state)
+{
+    (void)state;
+    Scene scene;
+    Links links;
+    Scene_Init(&scene, 1.0, 1.0, 4, 4, 8);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.3, 0.3), Scene_Site(&scene, 0.55, 0.55) };
+    Build(&scene, &links, sites, 2);
+    assert_int_equal(links.made.links.count, 1);
+    AssertNear(links.made.links.data[0].length, 2.0 * sqrt(2.0) * scene.grid.side, 1e-12);
+    AssertNear(links.made.links.data[0].crossing.x, 0.5 * (sites[0].at.x + sites[1].at.x), 1e-12);
+    Finish(&scene, &links);
+}
+
+/* Frame 0 sits at the bottom of a corridor, and frame 1 before its mouth, hardly farther from it: the border turns back
+   around the mouth and runs along the corridor on both sides. */
+static void BentBorderIsSplit(void** state)
+{
+    (void)state;
+    Scene scene;
+    Links links;
+    Scene_Init(&scene, 1.0, 1.0, 20, 20, 41);
+    Scene_Slit(&scene, 0.0, 0.45, 0.4, 0.45);
+    Scene_Slit(&scene, 0.0, 0.55, 0.4, 0.55);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.01, 0.5), Scene_Site(&scene, 0.85, 0.5) };
+    Build(&scene, &links, sites, 2);
+    assert_true(links.made.links.count >= 3);
+    double total = 0.0, expected = 0.0;
+    kiriVec2 vector = { 0.0, 0.0 };
+    for (int32_t k = 0; k < links.made.links.count; ++k) {
+        const kiriLink* link = &links.made.links.data[k];
+        assert_true(link->width > 0.0);
+        assert_true(fabs(link->normal.x) == 1.0 || fabs(link->normal.y) == 1.0);
+        total += link->width;
+        vector = kiriVec2_Add(vector, kiriVec2_Scale(link->width, link->normal));
+    }
+    for (int32_t f = 0; f < scene.grid.faces.count; ++f) {
+        const kiriFace* face = &scene.grid.faces.data[f];
+        expected += OwnerOf(&links, face->cell[0]) != OwnerOf(&links, face->cell[1]) ? face->width : 0.0;
+    }
+    AssertNear(total, expected, 1e-12);
+    assert_true(kiriVec2_Length(vector) < 0.5 * total);
+    Finish(&scene, &links);
+}
+
+/* Width, centroid and second moment of a link between partly covered squares, where the faces are no whole sides. */
+static void PartialFacesCount(void** state)
+{
+    (void)state;
+    Scene scene;
+    Links links;
+    Scene_Init(&scene, 1.0, 0.13, 7, 1, 10);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.25, 0.05), Scene_Site(&scene, 0.75, 0.05) };
+    Build(&scene, &links, sites, 2);
+    assert_int_equal(links.made.links.count, 1);
+    AssertNear(links.made.links.data[0].width, 0.13, 1e-7);
+    AssertNear(links.made.links.data[0].centroid.y, 0.065, 1e-7);
+    AssertNear(links.made.links.data[0].moment, 0.13 * 0.13 * 0.13 / 12.0, 1e-9);
+    Finish(&scene, &links);
+}
+
+/* On randomly cut sheets: the regions share out the sheet; the links are in order, no shorter than the straight
+   line, and add up to the vector sum of the border, pair by pair. */
+static void RandomSheetsAddUp(void** state)
+{
+    (void)state;
+    uint32_t seed = 3;
+    int32_t found = 0;
+    for (int round = 0; round < 150; ++round) {
+        Scene scene;
+        kiriSites sites;
+        Links links;
+        Scene_InitRandom(&scene, &sites, 2 + (int32_t)(Random(&seed) % 20), &seed);
+        int32_t n = sites.count;
+        Build(&scene, &links, sites.data, n);
+        kiriVec2* sums = calloc((size_t)(n * n), sizeof(kiriVec2));
+        for (int32_t i = 0; i < n; ++i) {
+            assert_int_equal(OwnerOf(&links, sites.data[i].cell), i);
+        }
+        for (int32_t f = 0; f < scene.grid.faces.count; ++f) {
+            const kiriFace* face = &scene.grid.faces.data[f];
+            int32_t a = OwnerOf(&links, face->cell[0]), b = OwnerOf(&links, face->cell[1]);
+            double width = a < b ? face->width : -face->width;
+            if (a != b) {
+                kiriVec2* sum = &sums[a < b ? a * n + b : b * n + a];
+                sum->x += face->axis == 0 ? width : 0.0;
+                sum->y += face->axis == 1 ? width : 0.0;
+            }
+        }
+        for (int32_t k = 0; k < links.made.links.count; ++k) {
+            const kiriLink* link = &links.made.links.data[k];
+            const kiriLink* before = k > 0 ? link - 1 : NULL;
+            kiriVec2 straight = kiriVec2_Sub(sites.data[link->j].at, sites.data[link->i].at);
+            assert_true(link->i < link->j);
+            assert_true(before == NULL || before->i < link->i || (before->i == link->i && before->j <= link->j));
+            assert_true(link->width > 0.0);
+            assert_true(link->moment >= 0.0);
+            assert_true(link->length >= kiriVec2_Length(straight));
+            AssertNear(kiriVec2_Length(link->normal), 1.0, 1e-14);
+            AssertNear(link->tangent.x, -link->normal.y, 0.0);
+            AssertNear(link->tangent.y, link->normal.x, 0.0);
+            kiriVec2* sum = &sums[link->i * n + link->j];
+            *sum = kiriVec2_Sub(*sum, kiriVec2_Scale(link->width, link->normal));
+        }
+        for (int32_t k = 0; k < n * n; ++k) {
+            AssertNear(kiriVec2_Length(sums[k]), 0.0, 1e-12);
+        }
+        found += links.made.links.count;
+        free(sums);
+        kiriArray_Release(&scene.memory, &sites);
+        Finish(&scene, &links);
+    }
+    assert_true(found > 1000);
+}
+
+/* A slit that ends at the border parts the border, though the squares before it are whole. */
+static void SlitAcrossTheBorderPartsIt(void** state)
+{
+    (void)state;
+    Scene scene;
+    Links links;
+    Scene_Init(&scene, 1.0, 0.5, 10, 2, 41);
+    Scene_Slit(&scene, 0.5, 0.25, 0.7, 0.25);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 10.5 / 41, 0.25), Scene_Site(&scene, 30.5 / 41, 0.25) };
+    Build(&scene, &links, sites, 2);
+    assert_int_equal(links.made.links.count, 2);
+    for (int k = 0; k < 2; ++k) {
+        AssertNear(links.made.links.data[k].width, 0.25, 1e-6);
+        AssertNear(links.made.links.data[k].centroid.y, k == 0 ? 0.125 : 0.375, 1e-6);
+    }
+    Finish(&scene, &links);
+}
+
+/* Centroid and second moment of a border that is no straight line, against the integral over its projection: points
+   spread evenly over every face, each with the share that the face shows to the normal. */
+static void MomentsOfASlantedBorder(void** state)
+{
+    (void)state;
+    Scene scene;
+    Links links;
+    Scene_Init(&scene, 1.0, 0.7, 4, 4, 23);
+    Scene_BuildGrid(&scene);
+    kiriSite sites[2] = { Scene_Site(&scene, 0.3, 0.2), Scene_Site(&scene, 0.6, 0.6) };
+    Build(&scene, &links, sites, 2);
+    assert_int_equal(links.made.links.count, 1);
+    const kiriLink* link = &links.made.links.data[0];
+    double weight = 0.0, first = 0.0, second = 0.0, across = 0.0;
+    for (int32_t f = 0; f < scene.grid.faces.count; ++f) {
+        const kiriFace* face = &scene.grid.faces.data[f];
+        if (OwnerOf(&links, face->cell[0]) != OwnerOf(&links, face->cell[1])) {
+            double share = fabs(face->axis == 0 ? link->normal.x : link->normal.y);
+            for (int k = 0; k < 1000; ++k) {
+                double t = face->width * ((k + 0.5) / 1000 - 0.5), part = share * face->width / 1000;
+                kiriVec2 p =
+                    kiriVec2_Add(face->middle, kiriVec2_Make(face->axis == 0 ? 0.0 : t, face->axis == 0 ? t : 0.0));
+                double s = kiriVec2_Dot(p, link->tangent);
+                weight += part;
+                first += part * s;
+                second += part * s * s;
+                across += part * kiriVec2_Dot(p, link->normal);
+            }
+        }
+    }
+    double mean = first / weight;
+    AssertNear(kiriVec2_Dot(link->centroid, link->tangent), mean, 1e-9);
+    AssertNear(kiriVec2_Dot(link->centroid, link->normal), across / weight, 1e-9);
+    AssertNear(link->moment, second - weight * mean * mean, 1e-6 * link->moment);
+    assert_true(fabs(link->normal.x) > 0.3 && fabs(link->normal.x) < 0.65);
+    AssertNear(weight, link->width, 1e-9);
+    Finish(&scene, &links);
+}
+
+/* ---- Following cuts ---------------------------------------------------------------------------------------------- */
+
+/* A link is the same bits as before where neither region is touched, and as one from scratch everywhere. */
+static void CutSheetsEqualThoseFromScratch(void** state)
+{
+    (void)state;
+    int64_t all = 0, rebuilt = 0;
+    for (uint32_t round = 0; round < 40; ++round) {
+        uint32_t seed = 29 + 7919 * round;
+        Scene scene;
+        Follow f, scratch;
+        Wander wander;
+        memset(&wander, 0, sizeof(wander));
+        Scene_InitMesh(&scene, 1.0, RandomBetween(&seed, 0.3, 1.0), 7, 6, 3 + (int32_t)(Random(&seed) % 28), 0.2, seed);
+        Scene_CutAtRandom(&scene, (int32_t)(Random(&seed) % 4), 8, &seed);
+        kiriMesh_Commit(&scene.mesh);
+        Follow_Start(&f, &scene, 1 + (int32_t)(Random(&seed) % 24), 0, &seed);
+        double length = RandomBetween(&seed, 0.3, 2.5) * f.grid.side;
+        for (int step = 0; step < 30; ++step) {
+            Wander_Cut(&wander, &f, length, &seed);
+            Follow_Weights(&f, &seed);
+            assert_true(Follow_Links(&f));
+            all += f.links.next.count;
+            rebuilt += f.links.rebuilt;
+            Follow_Commit(&f);
+            kiriSquares_ClearTouched(&scene.mesh.squares);
+            Follow_ScratchWeights(&scratch, &f);
+            assert_true(Follow_Links(&scratch));
+            Follow_Commit(&scratch);
+            Follow_CompareLinks(&f, &scratch);
+            Follow_Release(&scratch);
+        }
+        Follow_Release(&f);
+        Scene_Release(&scene);
+    }
+    assert_true(all > 10000);
+    assert_true(2 * rebuilt < all);
+}
+
+/* Wherever memory fails the links are as before, and the next update makes them. */
+static void FailingAllocatorLeaksNothing(void** state)
+{
+    (void)state;
+    int32_t failures = 0;
+    bool done = false;
+    for (int64_t budget = 0; !done; ++budget) {
+        uint32_t seed = 5;
+        Scene scene;
+        Follow f, scratch;
+        Wander wander;
+        memset(&wander, 0, sizeof(wander));
+        Scene_InitMesh(&scene, 1.0, 0.8, 5, 4, 16, 0.2, seed);
+        kiriMesh_Commit(&scene.mesh);
+        Follow_Init(&f, &scene);
+        Follow_Grid(&f);
+        for (int32_t k = 0; k < 14; ++k) {
+            Follow_AddSite(&f, &seed);
+        }
+        Follow_AllRegions(&f);
+        assert_int_equal(Follow_Shape(&f), KIRI_DONE);
+        for (int step = 0; step < 2; ++step) {
+            kiriLinks was = f.links;
+            scene.purse.budget = budget;
+            done = Follow_Links(&f);
+            scene.purse.budget = -1;
+            if (!done) {
+                ++failures;
+                assert_ptr_equal(f.links.links.data, was.links.data);
+                assert_int_equal(f.links.links.count, was.links.count);
+                assert_true(Follow_Links(&f));
+            }
+            Follow_Commit(&f);
+            Follow_ScratchWeights(&scratch, &f);
+            assert_true(Follow_Links(&scratch));
+            Follow_Commit(&scratch);
+            Follow_CompareLinks(&f, &scratch);
+            Follow_Release(&scratch);
+            for (int cut = 0; cut < 9; ++cut) {
+                kiriMesh_Begin(f.mesh);
+                kiriQuota quota = { INT64_MAX, 0 };
+                kiriBlade blade = kiriCut_Place(f.mesh, kiriVec2_Make(0.1 * cut, 0.2));
+                kiriPoint to = kiriMesh_Snap(f.mesh, kiriVec2_Make(0.1 * cut + 0.05, 0.5));
+                assert_int_equal(kiriCut_Move(f.mesh, &blade, to, 16.0, &quota), KIRI_DONE);
+                kiriMesh_Commit(f.mesh);
+            }
+            Follow_Weights(&f, &seed);
+        }
+        Follow_Release(&f);
+        Scene_Release(&scene);
+        assert_true(budget < 500);
+    }
+    assert_true(failures > 10);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(StripHasStraightLinks),
+        cmocka_unit_test(NeighboursBrace),
+        cmocka_unit_test(NormalPointsToTheHigherIndex),
+        cmocka_unit_test(SlitMakesTheLongWay),
+        cmocka_unit_test(CompleteCutHasNoLink),
+        cmocka_unit_test(HoleMakesTwoStretches),
+        cmocka_unit_test(DiagonalBorderHasItsTrueLength),
+        cmocka_unit_test(ShortDiagonalIsStraight),
+        cmocka_unit_test(BentBorderIsSplit),
+        cmocka_unit_test(PartialFacesCount),
+        cmocka_unit_test(RandomSheetsAddUp),
+        cmocka_unit_test(SlitAcrossTheBorderPartsIt),
+        cmocka_unit_test(MomentsOfASlantedBorder),
+        cmocka_unit_test(CutSheetsEqualThoseFromScratch),
+        cmocka_unit_test(FailingAllocatorLeaksNothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
