@@ -1,5 +1,5 @@
-/* What the benchmarks share: a clock, series of numbers, and tables that are printed and written to build/bench/NAME.csv. A
-   number that misses its aim is marked with *. Nothing is asserted about time: machines differ. */
+/* What the benchmarks share: a clock, series of numbers, and tables that are printed, and written to build/bench. A number
+   that misses its aim is marked with *. Nothing is asserted about time: machines differ. */
 #ifndef KIRI_BENCH_H
 #define KIRI_BENCH_H
 

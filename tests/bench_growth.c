@@ -1,11 +1,11 @@
-/* How costs grow: that of a short cut with the size of the sheet, and that of a tick with vertices, frames and sheets. */
+/* How costs grow: that of a short cut with the size of the sheet, and of a tick with vertices, frames and sheets. */
 #define _POSIX_C_SOURCE 199309L
 
 #include "bench.h"
 
-static const float tick = 1.0f / 60.0f;
+static const float stepSeconds = 1.0f / 60.0f;
 
-/* ---- The same cut in ever larger sheets --------------------------------------------------------------------------- */
+/* ---- The same cut in ever larger sheets -------------------------------------------------------------------------- */
 
 enum { CELLS_A_FRAME = 200, SEGMENTS = 10, PLACES = 4 };
 
@@ -18,7 +18,8 @@ typedef struct Size {
 static const Size sizes[] = { { 32, PLACES }, { 64, PLACES }, { 128, PLACES }, { 256, 1 }, { 512, 1 } };
 
 typedef struct CommitTimes {
-    Series stage[KIRI_STAGE_CONSTANTS + 1], all;
+    Series stage[KIRI_STAGE_CONSTANTS + 1], all, items;
+    double first; /* commit of the sheet, which makes room for more to come */
 } CommitTimes;
 
 static void NoteCommit(CommitTimes* times, const kiriProfile* profile)
@@ -28,7 +29,20 @@ static void NoteCommit(CommitTimes* times, const kiriProfile* profile)
         seconds += profile->seconds[k];
         Series_Add(&times->stage[k], 1e3 * profile->seconds[k]);
     }
+    if (times->all.count == 0) {
+        times->first = 1e3 * seconds;
+    }
     Series_Add(&times->all, 1e3 * seconds);
+    Series_Add(&times->items, profile->trianglesSplit + profile->cellsSettled + profile->samplesRefreshed);
+}
+
+static void FreeTimes(CommitTimes* times)
+{
+    for (int32_t k = 0; k <= KIRI_STAGE_CONSTANTS; k++) {
+        Series_Free(&times->stage[k]);
+    }
+    Series_Free(&times->all);
+    Series_Free(&times->items);
 }
 
 /* One segment a tick, each about as long as a cell, in zigzag, in the middle of the sheet. */
@@ -41,7 +55,7 @@ static bool CutShort(kiriWorld* world, kiriSheet sheet, int32_t grid, int32_t pl
     for (int32_t i = 1; fine && i <= SEGMENTS; i++) {
         float point[2] = { u + 0.97f * cell * (float)i, v + 0.3f * cell * (float)(i % 2) };
         kiriProfile profile;
-        fine = kiriCut_Extend(world, cut, point, 1) == KIRI_OK && kiriWorld_Tick(world, tick, 1) == KIRI_OK &&
+        fine = kiriCut_Extend(world, cut, point, 1) == KIRI_OK && kiriWorld_Tick(world, stepSeconds, 1) == KIRI_OK &&
                kiriWorld_GetProfile(world, &profile) == KIRI_OK;
         if (fine && profile.commits > 0) {
             NoteCommit(times, &profile);
@@ -81,7 +95,8 @@ static void PrintSize(Table* table, const Size* size, CommitTimes times[2], doub
         Table_Number(table, Series_Median(&times[0].stage[k]));
     }
     Table_Number(table, median);
-    Table_Number(table, Series_Worst(&times[0].all));
+    Table_Number(table, times[0].first);
+    Table_Number(table, Series_Median(&times[0].items));
     Table_Judge(table, growth, !(growth > 1.5));
     Table_Number(table, scratch);
     Table_Number(table, scratch / median);
@@ -89,13 +104,16 @@ static void PrintSize(Table* table, const Size* size, CommitTimes times[2], doub
 
 static bool BenchGrowth(void)
 {
-    static const char* const columns[] = { "grid",      "frames", "cut",   "grid",    "regions", "shape", "samples",
-                                           "constants", "all",    "worst", "to 64's", "scratch", "times", NULL };
+    static const char* const columns[] = { "grid",  "frames",    "cut",       "grid",        "regions",
+                                           "shape", "samples",   "constants", "all",         "first",
+                                           "items", "all to 64", "scratch",   "scratch/all", NULL };
     Table table;
     if (!Table_Start(
             &table, "growth",
-            "A short cut in the middle of sheets of growing size: ms of a commit in each stage, median. Aim: at "
-            "most 1.5 times\nwhat it costs on a grid of 64.",
+            "A short cut in the middle of sheets of growing size: ms of a commit in each stage, median; the first "
+            "of all, which makes room;\nthe items of work in it, as budgets count them. Frames, and all that is "
+            "skinned, grow with the grid, so ever more of what a cut\nneeds has left the caches. Aim: at most 1.5 "
+            "times what it costs on a grid of 64.",
             columns)) {
         return false;
     }
@@ -106,17 +124,13 @@ static bool BenchGrowth(void)
         fine = RunSize(sizes[i].grid, PLACES, false, &times[0]) &&
                RunSize(sizes[i].grid, sizes[i].places, true, &times[1]);
         PrintSize(&table, &sizes[i], times, &reference);
-        for (int mode = 0; mode < 2; mode++) {
-            for (int32_t k = 0; k <= KIRI_STAGE_CONSTANTS; k++) {
-                Series_Free(&times[mode].stage[k]);
-            }
-            Series_Free(&times[mode].all);
-        }
+        FreeTimes(&times[0]);
+        FreeTimes(&times[1]);
     }
     return Table_Stop(&table) && fine;
 }
 
-/* ---- A tick under load -------------------------------------------------------------------------------------------- */
+/* ---- A tick under load ------------------------------------------------------------------------------------------- */
 
 enum { WARM_TICKS = 40, TICKS = 40 }; /* a sheet at rest falls asleep after 30 */
 
@@ -155,7 +169,7 @@ static bool TimeTicks(kiriWorld* world, const kiriSheet* sheets, int32_t count, 
     for (int32_t i = -WARM_TICKS; i < TICKS; i++) {
         kiriProfile profile;
         double start = Bench_Clock(NULL);
-        if (kiriWorld_Tick(world, tick, 1) != KIRI_OK || kiriWorld_GetProfile(world, &profile) != KIRI_OK) {
+        if (kiriWorld_Tick(world, stepSeconds, 1) != KIRI_OK || kiriWorld_GetProfile(world, &profile) != KIRI_OK) {
             return false;
         }
         double seconds = Bench_Clock(NULL) - start, copy = 0.0;

@@ -1,5 +1,5 @@
-/* A storm of cuts: blades run through many sheets at once, in waves. With a budget the work is spread over ticks, no tick
-   does more than it allows, and in the end all is cut as without. */
+/* A storm of cuts: blades run through many sheets at once, in waves. With a budget the work is spread over ticks, no
+   tick does more than it allows, and in the end all is cut as without. */
 #define _POSIX_C_SOURCE 199309L
 
 #include "bench.h"
