@@ -258,6 +258,7 @@ static bool BenchLoads(void)
 
 int main(void)
 {
+    Bench_WeighClock();
     bool fine = BenchGrowth() && BenchLoads();
     if (!fine) {
         fprintf(stderr, "bench_growth: something failed\n");

@@ -365,6 +365,7 @@ static bool PrintAllocations(void)
 
 int main(void)
 {
+    Bench_WeighClock();
     bool fine = true;
     for (int s = 0; fine && s < PAPERS; s++) {
         fine = RecordAll(&recordings[s], &papers[s]);

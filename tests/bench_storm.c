@@ -156,6 +156,7 @@ int main(void)
         float milliseconds; /* for what cuts set off */
         int32_t iterations;
     } cases[] = { { "none", 0.0f, 0 }, { "8 ms", 8.0f, 0 }, { "2 ms", 2.0f, 0 }, { "2 ms, 48 iterations", 2.0f, 48 } };
+    Bench_WeighClock();
     Table table;
     bool fine = Table_Start(
         &table, "storm",
