@@ -360,8 +360,11 @@ static const char* FaultOfPlacement(const kiriSheetDef* def)
 
 static const char* FaultOfFrames(const kiriSheetDef* def)
 {
-    if (!IsWithin(def->frameCount, 1, 65536) || def->maxFrames < 1) {
-        return "frameCount or maxFrames is below 1, or frameCount above 65536";
+    if (!IsWithin(def->frameCount, 0, 65536) || def->maxFrames < 1) {
+        return "frameCount is not within 0 and 65536, or maxFrames below 1";
+    }
+    if (!IsAtLeast(def->frameLength, 0.0f) || (def->frameCount == 0 && def->framePoints != NULL)) {
+        return "frameLength is below 0, or there are framePoints and no frameCount";
     }
     if (def->framePoints != NULL && !AreFinite(def->framePoints, 2 * def->frameCount)) {
         return "a frame point is not finite";

@@ -51,21 +51,52 @@ static kiriMat3 AxesOf(const kiriSheetDef* def)
     return axes;
 }
 
+/* Newton's iteration from above. */
+static double CubeRoot(double a)
+{
+    double x = a > 1.0 ? a : 1.0;
+    for (int i = 0; i < 200; ++i) {
+        x = (2.0 * x + a / (x * x)) / 3.0;
+    }
+    return x;
+}
+
+/* Over which the material bends under its own weight: stiffness and weight of an area balance. */
+static double BendingLength(const kiriMaterial* m)
+{
+    double h = m->thickness, nu = m->poissonsRatio;
+    double stiffness = m->youngsModulus * h * h * h / (12.0 * (1.0 - nu * nu));
+    return CubeRoot(stiffness / (m->density * h * 9.81));
+}
+
+static void SetFrames(kiriSheetData* sheet, const kiriSheetDef* def, double area)
+{
+    double share = area / (def->frameCount > 0 ? def->frameCount : 1), points = 4.0 * def->frameCount;
+    sheet->maxFrames = def->maxFrames > def->frameCount ? def->maxFrames : def->frameCount;
+    if (def->frameCount == 0) {
+        double least = 3.0 * sheet->mesh.step * sheet->mesh.squares.side;
+        double length = def->frameLength > 0.0f ? def->frameLength : BendingLength(&sheet->material);
+        sheet->frameLength = length > least ? length : least;
+        share = sheet->frameLength * sheet->frameLength;
+        points = 4.0 * area / share < 1e6 ? 4.0 * area / share : 1e6;
+    }
+    sheet->integrationPoints = def->integrationPoints > 0 ? def->integrationPoints : (int32_t)points;
+    sheet->shape.rigidWeight = def->rigidWeight;
+    sheet->rigidArea = def->rigidArea > 0.0f ? def->rigidArea : 0.25 * share;
+}
+
 static void SetParameters(kiriSheetData* sheet, const kiriSheetDef* def)
 {
     double longer = 536870912.0; /* 2^29 lattice steps, see mesh.h */
     double area = 0.5 * (double)kiriMesh_DoubledArea(&sheet->mesh) * sheet->mesh.step * sheet->mesh.step;
     sheet->material = def->material;
     sheet->snap = def->snapDistance > 0.0f ? def->snapDistance / sheet->mesh.step : 1e-4 * longer;
-    sheet->shape.rigidWeight = def->rigidWeight;
-    sheet->rigidArea = def->rigidArea > 0.0f ? def->rigidArea : 0.25 * area / def->frameCount;
-    sheet->maxFrames = def->maxFrames > def->frameCount ? def->maxFrames : def->frameCount;
+    SetFrames(sheet, def, area);
     sheet->iterations = def->iterations;
     sheet->pointCount = def->collisionPoints;
     sheet->mechanics.model = def->model;
     sheet->mechanics.planar = def->planar != 0;
     sheet->mechanics.axes = AxesOf(def);
-    sheet->integrationPoints = def->integrationPoints > 0 ? def->integrationPoints : 4 * def->frameCount;
     sheet->integrationOrder = def->integrationOrder;
     sheet->sleepSpeed = def->sleepSpeed;
     sheet->surface.skinning = def->skinning;

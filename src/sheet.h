@@ -102,6 +102,7 @@ typedef struct kiriSheetData {
     double snap; /* lattice steps */
     kiriMechanics mechanics;
     double rigidArea;
+    double frameLength; /* m: the size above which a region is split; 0: none is */
     int32_t maxFrames, iterations, pointCount, integrationPoints, integrationOrder;
     bool alwaysScratch;
 

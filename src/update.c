@@ -333,6 +333,19 @@ static int32_t ShareOf(const kiriSheetData* sheet, int32_t count)
     return whole > 1 ? whole : 1;
 }
 
+/* How many frames the piece in the placer starts with. */
+static int32_t FramesFor(const kiriSheetData* sheet)
+{
+    const kiriPlacer* placer = &sheet->update.placer;
+    if (sheet->frameLength == 0.0) {
+        return ShareOf(sheet, sheet->update.spread);
+    }
+    double area = AreaOf(sheet, placer->cells.data, placer->cells.count);
+    double count = area / (sheet->frameLength * sheet->frameLength) + 0.5;
+    int32_t most = sheet->maxFrames - sheet->update.sites.count;
+    return count < 1.0 || most < 1 ? 1 : count < most ? (int32_t)count : most;
+}
+
 /* Starts placing frames in the piece of an orphan, and marks its cells as seen to. */
 static bool StartOrphan(kiriSheetData* sheet, int32_t cell)
 {
@@ -344,7 +357,7 @@ static bool StartOrphan(kiriSheetData* sheet, int32_t cell)
     for (int32_t i = 0; i < u->placer.cells.count; ++i) {
         u->marks.data[u->placer.cells.data[i]] = 1;
     }
-    return kiriPlacer_Start(&u->placer, sheet->memory, &sheet->grid, &sheet->mesh, NULL, ShareOf(sheet, u->spread));
+    return kiriPlacer_Start(&u->placer, sheet->memory, &sheet->grid, &sheet->mesh, NULL, FramesFor(sheet));
 }
 
 /* Frames for the pieces that have none, at least one each (section 5 of the paper). */
@@ -421,17 +434,39 @@ static bool IsRigid(const kiriSheetData* sheet, int32_t frame)
     return (double)sheet->shape.rigid.data[frame] * square > sheet->rigidArea;
 }
 
-/* Marks the cells of the piece in which the weight of a rigid frame exceeds rigidWeight. */
+/* Is the region of the frame too large to be one? By its radius of gyration, so that long ones count as large; a square is as
+   large as its side. */
+static bool IsLarge(const kiriSheetData* sheet, int32_t frame)
+{
+    if (sheet->frameLength == 0.0) {
+        return false;
+    }
+    kiriMoments m = kiriTally_Moments(&sheet->regions.material.data[frame], 536870912.0 * sheet->mesh.step);
+    kiriMoments about = kiriMoments_About(&m, kiriMoments_Center(&m));
+    /* A quarter more than the length that frames are placed at: their regions differ. */
+    return 6.0 * (about.uu + about.vv) > 1.5625 * sheet->frameLength * sheet->frameLength * m.area;
+}
+
+static bool NeedsAnother(const kiriSheetData* sheet, int32_t frame)
+{
+    return IsRigid(sheet, frame) || IsLarge(sheet, frame);
+}
+
+/* Marks the cells of the piece in which the weight of a rigid frame exceeds rigidWeight, or whose region is too large. */
 static bool MarkRigidCells(kiriSheetData* sheet)
 {
     kiriUpdate* u = &sheet->update;
     if (!kiriArray_Resize(sheet->memory, &u->allowed, sheet->grid.cells.count)) {
         return false;
     }
+    int32_t last = KIRI_NONE; /* cells come region by region, more or less */
+    bool isLarge = false;
     for (int32_t i = 0; i < u->placer.cells.count; ++i) {
-        int32_t cell = u->placer.cells.data[i];
+        int32_t cell = u->placer.cells.data[i], owner = sheet->regions.field.owner.data[cell];
         kiriSpan span = sheet->shape.spans.data[cell];
-        u->allowed.data[cell] = 0;
+        isLarge = owner == last ? isLarge : IsLarge(sheet, owner);
+        last = owner;
+        u->allowed.data[cell] = isLarge;
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
             const kiriCellWeight* weight = &sheet->shape.weights.data[k];
             u->allowed.data[cell] |= weight->value > sheet->shape.rigidWeight && IsRigid(sheet, weight->frame);
@@ -507,7 +542,7 @@ static kiriProgress Resample(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = &sheet->update;
     for (; u->at < u->marks.count && u->sites.count < sheet->maxFrames; ++u->at) {
-        if (!u->isPlacing && (u->marks.data[u->at] || !IsRigid(sheet, u->at))) {
+        if (!u->isPlacing && (u->marks.data[u->at] || !NeedsAnother(sheet, u->at))) {
             continue;
         }
         if (!u->isPlacing && !StartResample(sheet, u->at)) {

@@ -1067,6 +1067,59 @@ static void Profile(void** state)
     }
 }
 
+/* The largest region of a sheet, by its radius of gyration, as kiri.h says. */
+static double LargestRegion(const Host* host, kiriSheet sheet, int32_t* frames)
+{
+    kiriFrame ids[512];
+    double largest = 0.0;
+    OK(kiriSheet_GetFrames(host->world, sheet, ids, 512, frames));
+    for (int32_t i = 0; i < *frames; ++i) {
+        kiriFrameState state;
+        OK(kiriFrame_GetState(host->world, ids[i], &state));
+        largest = (double)state.area > largest ? (double)state.area : largest;
+    }
+    return sqrt(largest);
+}
+
+/* Frames in number as the material asks for them, and more where a cut leaves long arms; never more than the cap. */
+static void FramesByThemselves(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetDef def;
+    int32_t before, after;
+    Host_Start(&host);
+    kiriDefaultSheetDef(&def);
+    def.frameCount = 0;
+    def.gridResolution = 50;
+    OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 0.3f, 0.3f, 12, 12);
+    const kiriMaterial* m = &def.material;
+    double h = (double)m->thickness, nu = (double)m->poissonsRatio;
+    double length = cbrt((double)m->youngsModulus * h * h / (12.0 * (1.0 - nu * nu) * (double)m->density * 9.81));
+    assert_true(length > 0.03 && length < 0.1);
+    assert_true(LargestRegion(&host, sheet, &before) < 1.3 * length);
+    assert_in_range(before, (int32_t)(0.6 * 0.09 / (length * length)), (int32_t)(1.6 * 0.09 / (length * length)) + 1);
+    float points[2 * 120];
+    for (int i = 0; i < 120; ++i) {
+        float t = 0.2f * (float)i, r = 0.005f + 0.0011f * (float)i;
+        points[2 * i] = 0.15f + r * cosf(t);
+        points[2 * i + 1] = 0.15f + r * sinf(t);
+    }
+    Host_Cut(&host, sheet, points, 120);
+    Tick(&host, 0.01f, 1);
+    assert_true(LargestRegion(&host, sheet, &after) < 1.3 * length);
+    assert_true(after > before);
+    def.maxFrames = 9;
+    sheet = Host_AddRectangle(&host, &def, 0.3f, 0.3f, 12, 12);
+    assert_int_equal(Host_Counts(&host, sheet).frames, 9);
+    def.maxFrames = 256;
+    def.frameLength = 0.15f;
+    sheet = Host_AddRectangle(&host, &def, 0.3f, 0.3f, 12, 12);
+    assert_in_range(Host_Counts(&host, sheet).frames, 4, 7);
+    Host_Stop(&host);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -1075,7 +1128,8 @@ int main(void)
         cmocka_unit_test(FreeFall),           cmocka_unit_test(AirDampingFades),  cmocka_unit_test(HangingComesToRest),
         cmocka_unit_test(FramesAreHeld),      cmocka_unit_test(ForcesPush),       cmocka_unit_test(ContactsCarry),
         cmocka_unit_test(StepExtremes),       cmocka_unit_test(PieceFalls),       cmocka_unit_test(SmallPieceComesOff),
-        cmocka_unit_test(BladeMovesOn),       cmocka_unit_test(MomentumAtCommit), cmocka_unit_test(Slices),
+        cmocka_unit_test(BladeMovesOn),
+        cmocka_unit_test(FramesByThemselves),       cmocka_unit_test(MomentumAtCommit), cmocka_unit_test(Slices),
         cmocka_unit_test(Rays),               cmocka_unit_test(Weights),          cmocka_unit_test(Holes), cmocka_unit_test(WeightsAtFrames),    cmocka_unit_test(TwoParts),           cmocka_unit_test(Profile),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

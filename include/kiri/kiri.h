@@ -255,8 +255,13 @@ typedef struct kiriSheetDef {
     int32_t gridResolution; /* grid squares along the longer side, 1 to 4096; default 32 */
     float snapDistance;     /* m: a blade this near to a vertex or an edge takes it; 0: 1e-4 of the longer side */
 
-    /* Control frames. framePoints: 2 floats a frame, in the material; null: frameCount frames are spread evenly. */
-    int32_t frameCount; /* 1 or more; default 5 */
+    /* Control frames. framePoints: 2 floats a frame, in the material; null: frameCount frames are spread evenly.
+       frameCount 0: as many as the sheet needs: a region is split while its size, 2.45 times its radius of gyration, exceeds
+       frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0: the length over which
+       the material bends under its own weight, (D / (density thickness 9.81))^(1/3) with D its bending stiffness (6 cm
+       for printing paper), but three squares of the grid at least. */
+    int32_t frameCount; /* 0, or 1 and more; default 5 */
+    float frameLength;  /* m; used where frameCount is 0 */
     const float* framePoints;
     int32_t maxFrames; /* re-sampling stops here; default 256 */
 
