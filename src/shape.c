@@ -23,7 +23,7 @@ typedef struct Entry {
 /* What an update knows of a frame. */
 typedef struct Look {
     int32_t limit; /* of the distances in its list */
-    int32_t reach; /* the largest distance of cells that came to its region */
+    int32_t reach; /* the least limit that cells which came to its region ask for, or lie elsewhere in it */
     bool moved;    /* its site */
     bool reowned;  /* a cell came to its region, left it, or lies elsewhere in it */
 } Look;
@@ -67,12 +67,30 @@ static bool Inside(const Job* job, int32_t cell)
     return job->regions->field.owner.data[cell] == job->frame;
 }
 
-/* The border lies up to one step beyond the reach. At twice that distance it is no nearer than half the way to the
-   site, so the weight is zero from there on. */
+/* How far distances to the site of its region have to go for the sake of a cell x: to itself, and where a step leads over the
+   border to y, to the last cell that gets weight from there. Let the nearest way from such a cell c to the border come in
+   by y. Then d <= D(x) + |xy| + |yc|, and the weight is above zero only where d > 2 e = D(x) + |xy| - D(y) + 2 |yc|: where
+   |yc| < D(y), and so d < D(x) + |xy| + D(y). */
+static int32_t ReachAt(const kiriRegions* regions, const kiriGrid* grid, int32_t x)
+{
+    const int32_t *owner = regions->field.owner.data, *distance = regions->field.distance.data;
+    const kiriStepRun* run = &grid->runs.data[x];
+    int64_t farthest = distance[x];
+    for (int32_t s = run->first; regions->onBorder.data[x] && s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        kiriStep step = grid->steps.data[s];
+        if (owner[step.cell] != owner[x]) {
+            int64_t over = (int64_t)distance[x] + step.length + distance[step.cell];
+            farthest = over > farthest ? over : farthest;
+        }
+    }
+    return farthest < KIRI_FAR ? (int32_t)farthest : KIRI_FAR - 1;
+}
+
+/* In whole sides, so that it seldom changes. */
 static int32_t LimitOf(int32_t reach)
 {
-    int64_t twice = 2 * ((int64_t)reach + KIRI_UNIT_KNIGHT);
-    return twice < KIRI_FAR ? (int32_t)twice : KIRI_FAR - 1;
+    int64_t sides = reach / KIRI_UNIT + 1;
+    return sides * KIRI_UNIT < KIRI_FAR ? (int32_t)(sides * KIRI_UNIT) : KIRI_FAR - 1;
 }
 
 static kiriSeed SiteSeed(const void* context, int32_t cell)
@@ -283,15 +301,18 @@ static bool IsConcerned(const Job* job)
     return changed != 0;
 }
 
-/* The largest distance of the cells of its region: they all came to it, or are in its list. */
+/* What the cells of its region ask for: they all came to it, or are in its list. */
 static int32_t ReachOf(const Job* job)
 {
     const kiriReaches* list = &job->shape->reaches.data[job->frame];
-    const int32_t *owner = job->regions->field.owner.data, *distance = job->regions->field.distance.data;
+    const int32_t* owner = job->regions->field.owner.data;
     int32_t reach = job->work->looks.data[job->frame].reach;
     for (int32_t k = 0; k < list->count; ++k) {
         int32_t cell = list->data[k].cell; /* has no owner where it is gone */
-        reach = owner[cell] == job->frame && distance[cell] > reach ? distance[cell] : reach;
+        if (owner[cell] == job->frame) {
+            int32_t at = ReachAt(job->regions, job->grid, cell);
+            reach = at > reach ? at : reach;
+        }
     }
     return reach;
 }
@@ -563,9 +584,9 @@ static void MarkReowned(Job* job)
         }
         if (owner != KIRI_NONE) {
             Look* look = &work->looks.data[owner];
-            int32_t distance = field->distance.data[was.cell];
+            int32_t reach = ReachAt(job->regions, job->grid, was.cell);
             look->reowned = true;
-            look->reach = distance > look->reach ? distance : look->reach;
+            look->reach = reach > look->reach ? reach : look->reach;
         }
     }
 }
