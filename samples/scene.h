@@ -23,6 +23,7 @@ typedef struct SceneOptions {
     const char* dataFolder; /* null: samples/data */
     int32_t gridResolution; /* 0: the scene's own */
     int32_t frameCount;     /* 0: the scene's own */
+    bool fromScratch;       /* of the sheet def */
 } SceneOptions;
 
 /* The way of a blade, point by point from one tick to another. */
