@@ -60,7 +60,7 @@ struct kiriSolver {
     KIRI_ARRAY(kiriFrameData) before, after;   /* the step, flattened where the sheet is planar */
     KIRI_ARRAY(kiriFlight) flights;            /* one a frame, as are the poses */
     KIRI_ARRAY(kiriPose) start, poses, trial;  /* at the start of the step, now, and where a step would lead */
-    KIRI_ARRAY(double) stiffness, startStrain; /* MOST_ROWS an element; strains at the start of the step */
+    KIRI_ARRAY(double) stiffness, loss, startStrain; /* MOST_ROWS an element; damping, and strains at the start of the step */
     KIRI_ARRAY(double) force, move;            /* the right side: minus the gradient; and the solution */
     /* Scratch for one element. */
     Indices members;
@@ -276,6 +276,7 @@ void kiriSolver_Destroy(kiriSolver* solver)
     kiriArray_Release(&memory, &solver->poses);
     kiriArray_Release(&memory, &solver->trial);
     kiriArray_Release(&memory, &solver->stiffness);
+    kiriArray_Release(&memory, &solver->loss);
     kiriArray_Release(&memory, &solver->startStrain);
     kiriArray_Release(&memory, &solver->force);
     kiriArray_Release(&memory, &solver->move);
@@ -310,6 +311,7 @@ static bool MakeRoom(kiriSolver* solver, int32_t frameCount, int32_t elementCoun
            kiriArray_Reserve(memory, &solver->poses, frameCount) &&
            kiriArray_Reserve(memory, &solver->trial, frameCount) &&
            kiriArray_Reserve(memory, &solver->stiffness, (int64_t)MOST_ROWS * elementCount) &&
+           kiriArray_Reserve(memory, &solver->loss, (int64_t)MOST_ROWS * elementCount) &&
            kiriArray_Reserve(memory, &solver->startStrain, (int64_t)MOST_ROWS * elementCount) &&
            kiriArray_Reserve(memory, &solver->force, unknowns) && kiriArray_Reserve(memory, &solver->move, unknowns) &&
            kiriArray_Reserve(memory, &solver->members, most) && kiriArray_Reserve(memory, &solver->rows, rows) &&
@@ -500,12 +502,12 @@ static void AddStrainEnergy(const kiriSolver* solver, const kiriSystem* system, 
                             Energy* sum)
 {
     const double* stiffness = &solver->stiffness.data[MOST_ROWS * k];
+    const double* loss = &solver->loss.data[MOST_ROWS * k];
     const double* start = &solver->startStrain.data[MOST_ROWS * k];
     int rows = RowCount(system, k);
     for (int e = 0; e < rows; ++e) {
         double change = strain[e] - start[e];
-        AddEnergy(sum, 0.5 * stiffness[e] * strain[e] * strain[e],
-                  0.5 * stiffness[e] * solver->damping * change * change);
+        AddEnergy(sum, 0.5 * stiffness[e] * strain[e] * strain[e], 0.5 * loss[e] * change * change);
     }
 }
 
@@ -702,6 +704,7 @@ static void Derive(kiriSolver* solver, const kiriSystem* system, int32_t k, int3
 static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, Energy* energy)
 {
     const double* stiffness = &solver->stiffness.data[MOST_ROWS * k];
+    const double* loss = &solver->loss.data[MOST_ROWS * k];
     const double* start = &solver->startStrain.data[MOST_ROWS * k];
     int32_t count = MembersOf(system, k, solver->members.data);
     double strain[MOST_ROWS], springs[MOST_ROWS], pulls[MOST_ROWS];
@@ -709,8 +712,8 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     AddStrainEnergy(solver, system, k, strain, energy);
     int rows = ActiveRows(system, k, strain);
     for (int e = 0; e < rows; ++e) {
-        springs[e] = stiffness[e] * (1.0 + solver->damping);
-        pulls[e] = -stiffness[e] * (strain[e] + solver->damping * (strain[e] - start[e]));
+        springs[e] = stiffness[e] + loss[e];
+        pulls[e] = -stiffness[e] * strain[e] - loss[e] * (strain[e] - start[e]);
     }
     AddSquares(solver, solver->members.data, count, solver->J.data, springs, pulls, rows);
 }
@@ -825,6 +828,18 @@ static kiriFlight FlightOf(const kiriSystem* system, const kiriFrameData* frame,
                                         : kiriFlight_Free(frame, &system->material, GravityOf(system), dt);
 }
 
+static void BeginElement(kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    double *stiffness = &solver->stiffness.data[MOST_ROWS * k], *strain = &solver->startStrain.data[MOST_ROWS * k];
+    StiffnessOf(system, k, stiffness);
+    Measure(system, k, solver->start.data, strain, NULL);
+    bool isRigid = LinkOf(system, k) != NULL && !IsAffine(&system->mechanics);
+    double damping = solver->damping * (isRigid ? kiriStrain_Damping(strain) : 1.0);
+    for (int e = 0; e < RowCount(system, k); ++e) {
+        solver->loss.data[MOST_ROWS * k + e] = damping * stiffness[e];
+    }
+}
+
 static void Begin(kiriSolver* solver, const kiriSystem* system, double dt)
 {
     solver->dt = dt;
@@ -838,8 +853,7 @@ static void Begin(kiriSolver* solver, const kiriSystem* system, double dt)
         solver->poses.data[f] = solver->flights.data[f].coast;
     }
     for (int32_t k = 0; k < ElementCount(system); ++k) {
-        StiffnessOf(system, k, &solver->stiffness.data[MOST_ROWS * k]);
-        Measure(system, k, solver->start.data, &solver->startStrain.data[MOST_ROWS * k], NULL);
+        BeginElement(solver, system, k);
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {
         if (system->frames[f].held) {

@@ -15,11 +15,22 @@
    and Timoshenko's 5/6 G, over E. */
 #define SHEAR_BEAM (5.0 / 12.0)
 
+/* Square of the cosine of half the fold below which the strains that need the mean axes fade. */
+#define FADING 0.1
+/* A sum of axes that is shorter has no direction. */
+#define LEAST_AXIS 1e-6
+
+#define HALF_TURN 3.14159265358979
+/* Folds up to this angle have all of their damping. */
+#define DAMPED_FOLD 2.5
+
 /* The mean axes of two frames. When the frames turn by w_0 and w_1, the axes turn by the sum over k of
    n (nBy[k] . w_k) + tau (tauBy[k] . w_k) + d (dBy[k] . w_k). */
 typedef struct Axes {
     kiriVec3 n, tau, d;
     kiriVec3 nBy[2], tauBy[2], dBy[2];
+    double open; /* the cosine of half the angle between the directors: 1 where the sheet is flat, 0 where it is folded */
+    kiriVec3 openBy[2];
 } Axes;
 
 /* How the mean axes turn, from what they were made of. */
@@ -35,13 +46,18 @@ static void FindTurns(Axes* axes, const kiriVec3 normals[2], const kiriPose* con
     }
 }
 
-/* Where the sheet is folded flat on itself there is no mean: the first frame's axes serve. */
+/* Where the frames are turned against each other there is no mean: the first frame's axes serve. Folded flat, they stand
+   half-way in one of the two folds that may have led there. */
 static void TakeFirstAxes(Axes* axes, const kiriLink* link, const kiriPose* first)
 {
-    memset(axes, 0, sizeof(*axes));
-    axes->n = axes->nBy[0] = kiriPose_Along(first, link->normal);
+    kiriVec3 n = kiriPose_Along(first, link->normal), d = first->A.d;
+    bool isFlat = 2.0 * axes->open > LEAST_AXIS;
+    axes->n = axes->nBy[0] = isFlat ? n : d;
     axes->tau = axes->tauBy[0] = kiriPose_Along(first, link->tangent);
-    axes->d = axes->dBy[0] = first->A.d;
+    axes->d = axes->dBy[0] = isFlat ? d : kiriVec3_Scale(-1.0, n);
+    memset(&axes->nBy[1], 0, sizeof(kiriVec3));
+    memset(&axes->tauBy[1], 0, sizeof(kiriVec3));
+    memset(&axes->dBy[1], 0, sizeof(kiriVec3));
 }
 
 static void TakeMeanAxes(Axes* axes, const kiriLink* link, const kiriPose* const poses[2], bool turns)
@@ -53,14 +69,18 @@ static void TakeMeanAxes(Axes* axes, const kiriLink* link, const kiriPose* const
     double lean = kiriVec3_Dot(n, axes->d);
     n = kiriVec3_AddScaled(n, -lean, axes->d);
     double lengthN = kiriVec3_Length(n);
-    if (!(lengthD > 1e-6 && lengthN > 1e-6)) {
+    axes->open = 0.5 * lengthD;
+    if (!(lengthD > LEAST_AXIS && lengthN > LEAST_AXIS)) {
         TakeFirstAxes(axes, link, poses[0]);
-        return;
+    } else {
+        axes->n = kiriVec3_Scale(1.0 / lengthN, n);
+        axes->tau = kiriVec3_Cross(axes->d, axes->n);
+        if (turns) {
+            FindTurns(axes, normals, poses, lean, lengthN, lengthD);
+        }
     }
-    axes->n = kiriVec3_Scale(1.0 / lengthN, n);
-    axes->tau = kiriVec3_Cross(axes->d, axes->n);
-    if (turns) {
-        FindTurns(axes, normals, poses, lean, lengthN, lengthD);
+    for (int k = 0; turns && k < 2; ++k) {
+        axes->openBy[k] = kiriVec3_Scale(0.5, kiriVec3_Cross(poses[k]->A.d, axes->d));
     }
 }
 
@@ -152,34 +172,86 @@ static void MeasureStretch(double lever, const Axes* axes, const Pair* b, double
     }
 }
 
-static void MeasureNormal(const kiriLink* link, const Axes* axes, const Pair* m, double* strain, kiriStrainRow* rows)
+/* How much of a strain along the mean axes counts, and how that changes with `open`. Where the directors are nearly
+   opposite, a small turn swings the mean axes round: gaps of no energy along one would have all that of stretch along the
+   next, and no motion would find a way past. */
+typedef struct Fade {
+    double keep, slope;
+} Fade;
+
+static Fade FadeOf(const Axes* axes)
 {
-    double gap = kiriVec3_Dot(m->gap, axes->d), over = fabs(gap) - NORMAL_STOP_SHARE * link->length;
-    strain[KIRI_NORMAL_GAP] = gap;
-    strain[KIRI_NORMAL_STOP] = over <= 0.0 ? 0.0 : gap > 0.0 ? over : -over;
-    if (rows != NULL) {
-        WriteGap(axes, axes->d, m, &rows[KIRI_NORMAL_GAP]);
-        rows[KIRI_NORMAL_STOP] = rows[KIRI_NORMAL_GAP];
-        if (over <= 0.0) {
-            memset(&rows[KIRI_NORMAL_STOP], 0, sizeof(rows[0]));
-        }
+    double share = axes->open * axes->open / FADING;
+    Fade fade = { 1.0, 0.0 };
+    if (share < 1.0) {
+        fade.keep = share * (2.0 - share);
+        fade.slope = 4.0 * (1.0 - share) * axes->open / FADING;
+    }
+    return fade;
+}
+
+static void AddOpening(const Axes* axes, double a, kiriStrainRow* row)
+{
+    for (int k = 0; k < 2; ++k) {
+        row->end[k].turn = kiriVec3_AddScaled(row->end[k].turn, a, axes->openBy[k]);
     }
 }
 
-/* The difference of the directors is the chord of the angle between them, 2 sin(a / 2): its arc to the third order. */
-static void TakeAngle(double* strain, kiriStrainRow* rows)
+static void FadeStrain(const Axes* axes, Fade fade, double* strain, kiriStrainRow* row)
 {
-    double bending = strain[KIRI_BENDING], twist = strain[KIRI_TWIST];
-    const double twelfth = 1.0 / 12.0;
-    double longer = 1.0 + 0.5 * twelfth * (bending * bending + twist * twist);
-    strain[KIRI_BENDING] *= longer;
-    strain[KIRI_TWIST] *= longer;
+    if (row != NULL) {
+        Scale(row, fade.keep);
+        AddOpening(axes, fade.slope * *strain, row);
+    }
+    *strain *= fade.keep;
+}
+
+/* What the length of the gap has above `most`; only its part along the mean normal where that is known. */
+static void MeasureStop(double most, const Axes* axes, const Pair* m, double* strain, kiriStrainRow* row)
+{
+    Fade fade = FadeOf(axes);
+    double normal = kiriVec3_Dot(m->gap, axes->d), lost = 1.0 - fade.keep;
+    double aside = kiriVec3_Dot(m->gap, m->gap) - normal * normal;
+    double length = sqrt(normal * normal + lost * lost * aside);
+    *strain = length > most ? length - most : 0.0;
+    if (row != NULL) {
+        memset(row, 0, sizeof(*row));
+    }
+    if (row != NULL && length > most) {
+        kiriStrainRow whole;
+        double per = 1.0 / length;
+        WriteGap(axes, axes->d, m, row);
+        Scale(row, per * (1.0 - lost * lost) * normal);
+        WriteGap(axes, m->gap, m, &whole);
+        Add(row, per * lost * lost, &whole);
+        AddOpening(axes, -per * lost * aside * fade.slope, row);
+    }
+}
+
+static void MeasureNormal(const kiriLink* link, const Axes* axes, const Pair* m, double* strain, kiriStrainRow* rows)
+{
+    strain[KIRI_NORMAL_GAP] = kiriVec3_Dot(m->gap, axes->d);
     if (rows != NULL) {
-        kiriStrainRow before = rows[KIRI_BENDING];
-        Scale(&rows[KIRI_BENDING], longer + twelfth * bending * bending);
-        Add(&rows[KIRI_BENDING], twelfth * bending * twist, &rows[KIRI_TWIST]);
-        Scale(&rows[KIRI_TWIST], longer + twelfth * twist * twist);
-        Add(&rows[KIRI_TWIST], twelfth * bending * twist, &before);
+        WriteGap(axes, axes->d, m, &rows[KIRI_NORMAL_GAP]);
+    }
+    MeasureStop(NORMAL_STOP_SHARE * link->length, axes, m, &strain[KIRI_NORMAL_STOP],
+                rows != NULL ? &rows[KIRI_NORMAL_STOP] : NULL);
+}
+
+/* The difference of the directors is the chord of the angle between them, 2 sin(a / 2). With e = 1 - cos(a / 2), the arc is
+   longer by 1 + e / 3 + 2 e^2 / 15 + ...; the last term is that which is missing at a half turn, where the angle, unlike
+   the chord, has a slope: no fold stays because it is complete. */
+static void TakeAngle(const Axes* axes, double* strain, kiriStrainRow* rows)
+{
+    const double a = 1.0 / 3.0, b = 2.0 / 15.0, c = 0.5 * HALF_TURN - 1.0 - a - b;
+    double e = axes->open < 1.0 ? 1.0 - axes->open : 0.0;
+    double longer = 1.0 + e * (a + e * (b + e * c)), slope = a + e * (2.0 * b + e * 3.0 * c);
+    for (int s = KIRI_BENDING; s <= KIRI_TWIST; ++s) {
+        if (rows != NULL) {
+            Scale(&rows[s], longer);
+            AddOpening(axes, -slope * strain[s], &rows[s]);
+        }
+        strain[s] *= longer;
     }
 }
 
@@ -221,6 +293,15 @@ static void TakeArc(const kiriLink* link, const kiriFrameData* const frames[2], 
     }
 }
 
+static void FadeStrains(const Axes* axes, double* strain, kiriStrainRow* rows)
+{
+    const int fading[] = { KIRI_STRETCH, KIRI_SHEAR, KIRI_PLANE_BENDING, KIRI_NORMAL_GAP };
+    Fade fade = FadeOf(axes);
+    for (int k = 0; fade.keep < 1.0 && k < (int)(sizeof(fading) / sizeof(fading[0])); ++k) {
+        FadeStrain(axes, fade, &strain[fading[k]], rows != NULL ? &rows[fading[k]] : NULL);
+    }
+}
+
 void kiriStrain_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
                         double strain[KIRI_STRAINS], kiriStrainRow* rows)
 {
@@ -241,8 +322,16 @@ void kiriStrain_Measure(const kiriLink* link, const kiriFrameData* const frames[
         WriteTurns(&axes, axes.n, &directors, &rows[KIRI_BENDING]);
         WriteTurns(&axes, axes.tau, &directors, &rows[KIRI_TWIST]);
     }
-    TakeAngle(strain, rows);
+    TakeAngle(&axes, strain, rows);
     TakeArc(link, frames, strain, rows);
+    FadeStrains(&axes, strain, rows);
+}
+
+double kiriStrain_Damping(const double strain[KIRI_STRAINS])
+{
+    double fold = strain[KIRI_BENDING] * strain[KIRI_BENDING] + strain[KIRI_TWIST] * strain[KIRI_TWIST];
+    double share = (HALF_TURN * HALF_TURN - fold) / (HALF_TURN * HALF_TURN - DAMPED_FOLD * DAMPED_FOLD);
+    return share < 0.0 ? 0.0 : share < 1.0 ? share : 1.0;
 }
 
 void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS])

@@ -16,13 +16,14 @@ extern "C" {
    stretch        |(c + gap(b) . n, sqrt(6/5) gap(b) . d)| - c - a.n  E h W / l
    shear          gap(b) . tau - a . tau                              E h W / l; 5/12 of it where unbraced
    plane bending  ((A_j - A_i) tau) . n                               E h I / l
-   bending        w . n, w = (d_j - d_i) (1 + |d_j - d_i|^2 / 24)     D W / l
+   bending        w . n, w along d_j - d_i                            D W / l
    twist          w . tau                                             D W / l
    normal gap     gap(m) . d                                          beta D W / l^3, beta = 12
    normal stop    what |gap(m) . d| has above l / 2                   E h W / l
 
-   Bending and twist together are the Laplacian of the director, for d_j - d_i has no part along the mean d; w is the
-   angle between the two, of which their difference is only the chord.
+   Bending and twist together are the Laplacian of the director, for d_j - d_i has no part along the mean d; |w| is the
+   angle between the two, of which their difference is only the chord. Where the angle nears half a turn the mean axes
+   lose their meaning: strains of a gap and plane bending fade out, and the stop takes all of the gap.
 
    a = (s . w) w / 12: between two sites that touch one circular arc, the chord is that much longer than their tangents
    reach, which is no stretch. In a row of frames a only moves them; where frames lie in no row, links of all directions
@@ -58,6 +59,10 @@ typedef struct kiriStrainRow {
    to zero. Strains do not change when both frames move rigidly. frames and poses are those of i and j. */
 void kiriStrain_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
                         double strain[KIRI_STRAINS], kiriStrainRow* rows);
+
+/* How much of its damping a link has in a step that starts with these strains: none when it is folded by half a turn, for
+   there bending and twist change their signs while the sheet hardly moves. */
+double kiriStrain_Damping(const double strain[KIRI_STRAINS]);
 
 void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS]);
 
