@@ -16,8 +16,9 @@ bool kiriArray_Grow(const kiriMemory* memory, void* array, int64_t need, size_t 
     if (need <= header.capacity) {
         return true;
     }
-    int64_t capacity = 2 * (int64_t)header.capacity;
-    capacity = capacity < need ? need : capacity;
+    /* An eighth more even at first: what was made at once is not copied by the first cut. */
+    int64_t capacity = 2 * (int64_t)header.capacity, least = need + need / 8;
+    capacity = capacity < least ? least : capacity;
     capacity = capacity < 8 ? 8 : capacity;
     capacity = capacity > INT32_MAX ? INT32_MAX : capacity;
     if (capacity < need) {

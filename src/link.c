@@ -492,6 +492,28 @@ static void SetBraced(const Border* border, kiriLinks* links)
     }
 }
 
+static bool IsOfPair(const kiriLink* link, const kiriLink* other)
+{
+    return link->i == other->i && link->j == other->j;
+}
+
+/* How many are not, bit for bit, what they were. */
+static int32_t CountChanged(const kiriLinks* links)
+{
+    int32_t changed = 0, old = 0;
+    for (int32_t k = 0; k < links->next.count; ++k) {
+        const kiriLink* link = &links->next.data[k];
+        while (old < links->links.count && IsPairBefore(&links->links.data[old], link)) {
+            ++old;
+        }
+        bool same = old < links->links.count && IsOfPair(&links->links.data[old], link) &&
+                    memcmp(&links->links.data[old], link, sizeof(*link)) == 0;
+        old += old < links->links.count && IsOfPair(&links->links.data[old], link);
+        changed += !same;
+    }
+    return changed;
+}
+
 bool kiriLinks_Update(kiriLinks* links, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const kiriRegions* regions, const kiriShape* shape, const kiriSite* sites, int32_t siteCount)
 {
@@ -503,11 +525,11 @@ bool kiriLinks_Update(kiriLinks* links, const kiriMemory* memory, const kiriGrid
         memset(links->work, 0, sizeof(*links->work));
     }
     Border border = { memory, grid, mesh, regions, shape, sites, siteCount, links->work };
-    links->next.count = links->rebuilt = 0;
+    links->next.count = links->changed = 0;
     bool ok = MakeRoom(&border) && FindFaces(&border) && MakeLinks(&border) && Merge(&border, links);
     if (ok) {
         SetBraced(&border, links);
-        links->rebuilt = links->work->made.count;
+        links->changed = CountChanged(links);
     }
     for (int32_t k = 0; k < links->work->faces.count; ++k) {
         links->work->marks.data[links->work->faces.data[k]] = PASSED;

@@ -46,12 +46,22 @@ bool kiriSite_Seed(const kiriSite* site, int32_t owner, const kiriMemory* memory
     return true;
 }
 
+/* May a step lead from one square to the other? */
+static bool AreNear(const kiriGrid* grid, const kiriMeshData* mesh, int32_t a, int32_t b)
+{
+    int32_t columns = mesh->squares.columns, apart = grid->cells.data[a].square - grid->cells.data[b].square;
+    apart = (apart < 0 ? -apart : apart) + 2;
+    return apart <= 4 || (apart >= columns && apart <= columns + 4) ||
+           (apart >= 2 * columns && apart <= 2 * columns + 4);
+}
+
 kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, const kiriMeshData* mesh,
                          int32_t cell)
 {
     const kiriStepRun* run = &grid->runs.data[cell];
     bool near = cell == site->cell;
-    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1] && !near; ++s) {
+    int32_t end = AreNear(grid, mesh, cell, site->cell) ? run->end[KIRI_STEP_LENGTHS - 1] : run->first;
+    for (int32_t s = run->first; s < end && !near; ++s) {
         near = grid->steps.data[s].cell == site->cell;
     }
     kiriSeed none = { cell, KIRI_FAR, KIRI_NONE };

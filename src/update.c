@@ -621,10 +621,14 @@ static bool MeasureRegions(kiriSheetData* sheet)
 {
     kiriUpdate* u = &sheet->update;
     double extent = 536870912.0 * sheet->mesh.step; /* 2^29 lattice steps, see mesh.h */
+    int32_t known = u->material.count;
     if (!kiriArray_Resize(sheet->memory, &u->material, u->sites.count)) {
         return false;
     }
     for (int32_t i = 0; i < u->sites.count; ++i) {
+        if (i < known && !sheet->regions.touched.data[i]) {
+            continue;
+        }
         u->material.data[i] = kiriTally_Moments(&sheet->regions.material.data[i], extent);
     }
     return kiriLinks_Update(&sheet->links, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, &sheet->shape,
@@ -922,7 +926,7 @@ void kiriUpdate_Commit(kiriSheetData* sheet)
     u->touched.weights = (int32_t)sheet->shape.recomputed;
     u->touched.vertices = sheet->vertexSkin.staged.count;
     u->touched.points = sheet->pointSkin.staged.count;
-    u->touched.links = sheet->links.rebuilt;
+    u->touched.links = sheet->links.changed;
     sheet->lists.isFresh = false;
     CommitFrames(sheet);
     CommitPoints(sheet);

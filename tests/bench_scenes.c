@@ -311,7 +311,7 @@ static bool PrintShares(void)
     if (!Table_Start(
             &table, "shares",
             "Table 2 of the paper: % of grid cells, shape functions at cells, vertices, collision points and "
-            "links that a cut\nchanges. Links are measured anew where the paper updates integration points. "
+            "links that a cut\nchanges. Links stand where the paper has integration points. "
             "Cells tell how far the blade goes in a tick:\nthe last column has how many weights follow from one "
             "cell. Aim: less than the paper.",
             columns)) {

@@ -23,7 +23,7 @@ static void Build(Scene* scene, Links* l, const kiriSite* sites, int32_t count)
     assert_true(
         kiriLinks_Update(&l->made, &scene->memory, &scene->grid, &scene->mesh, &l->regions, &l->shape, sites, count));
     assert_int_equal(l->made.links.count, 0);
-    assert_int_equal(l->made.rebuilt, l->made.next.count);
+    assert_int_equal(l->made.changed, l->made.next.count);
     kiriLinks_Commit(&l->made);
     free(moves);
 }
@@ -405,7 +405,7 @@ static void MomentsOfASlantedBorder(void** state)
 static void CutSheetsEqualThoseFromScratch(void** state)
 {
     (void)state;
-    int64_t all = 0, rebuilt = 0;
+    int64_t all = 0, changed = 0;
     for (uint32_t round = 0; round < 40; ++round) {
         uint32_t seed = 29 + 7919 * round;
         Scene scene;
@@ -422,7 +422,7 @@ static void CutSheetsEqualThoseFromScratch(void** state)
             Follow_Weights(&f, &seed);
             assert_true(Follow_Links(&f));
             all += f.links.next.count;
-            rebuilt += f.links.rebuilt;
+            changed += f.links.changed;
             Follow_Commit(&f);
             kiriSquares_ClearTouched(&scene.mesh.squares);
             Follow_ScratchWeights(&scratch, &f);
@@ -435,7 +435,7 @@ static void CutSheetsEqualThoseFromScratch(void** state)
         Scene_Release(&scene);
     }
     assert_true(all > 10000);
-    assert_true(2 * rebuilt < all);
+    assert_true(2 * changed < all);
 }
 
 /* Wherever memory fails the links are as before, and the next update makes them. */
@@ -490,7 +490,7 @@ static void FailingAllocatorLeaksNothing(void** state)
         Scene_Release(&scene);
         assert_true(budget < 500);
     }
-    assert_true(failures > 10);
+    assert_true(failures > 5);
 }
 
 int main(void)

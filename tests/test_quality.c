@@ -74,7 +74,9 @@ static void TestErrorsAreAsDocumented(void** state)
     for (int32_t p = 0; p < KIRI_QUALITY_COUNT; ++p) {
         Setting setting;
         Outcome outcome = RunPreset(p, &setting);
-        assert_true(outcome.error > errors[p] - 0.001 && outcome.error < errors[p] + 0.001);
+        if (!(outcome.error > errors[p] - 0.001 && outcome.error < errors[p] + 0.001)) {
+            fail_msg("preset %d: %.4f, not %.3f", (int)p, outcome.error, errors[p]);
+        }
     }
 }
 

@@ -161,7 +161,7 @@ typedef struct kiriProfile {
     int32_t trianglesSplit, cellsSettled, samplesRefreshed, solverIterations;
 
     /* What commits changed: cells made or with other material, cells with other weights, vertices and collision points with
-       other weights, links measured anew. Of how many: kiriSheet_GetCounts. */
+       other weights, links that are other than before. Of how many: kiriSheet_GetCounts. */
     int32_t cellsChanged, weightsChanged, verticesChanged, pointsChanged, linksChanged;
     int32_t commits; /* sheets in which a cut took effect */
 
