@@ -69,36 +69,34 @@ static void GatherTurning(const kiriFrameData* before, const kiriFrameData* afte
     }
 }
 
-/* The turns that are missing; returns the energy that they take. */
-static double FindTurns(kiriPieceMomentum* pieces, int32_t pieceCount)
+/* The turns that are missing, as far as the energy goes. */
+static void FindTurns(kiriPieceMomentum* pieces, int32_t pieceCount)
 {
-    double energy = 0.0;
     for (int32_t i = 0; i < pieceCount; ++i) {
         kiriPieceMomentum* p = &pieces[i];
         kiriVec3 missing = kiriVec3_Sub(p->due, p->angular);
         p->turn = p->isHeld ? Zero() : kiriMat3_Solve(&p->inertia, missing);
-        energy += kiriVec3_Dot(p->turn, kiriVec3_AddScaled(p->angular, 0.5, missing));
+        double energy = kiriVec3_Dot(p->turn, kiriVec3_AddScaled(p->angular, 0.5, missing));
+        p->turn = kiriVec3_Scale(energy > p->lost ? p->lost / energy : 1.0, p->turn);
     }
-    return energy;
 }
 
 void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t frameCount, const int32_t* piece,
-                          kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, double dt,
-                          double lost)
+                          kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, double dt)
 {
     for (int32_t i = 0; i < pieceCount; ++i) {
         int32_t isHeld = pieces[i].isHeld;
         kiriMat3 none = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
-        kiriPieceMomentum p = { isHeld, 0.0, Zero(), Zero(), Zero(), Zero(), Zero(), Zero(), none, Zero() };
+        kiriPieceMomentum p = { isHeld, pieces[i].lost, 0.0, Zero(), Zero(), Zero(), Zero(), Zero(), Zero(), none, Zero() };
         pieces[i] = p;
     }
     GatherCenters(before, after, frameCount, piece, pieces, pieceCount);
     GatherTurning(before, after, frameCount, piece, pieces, material, dt);
-    double energy = FindTurns(pieces, pieceCount), share = energy > lost ? lost / energy : 1.0;
+    FindTurns(pieces, pieceCount);
     for (int32_t f = 0; f < frameCount; ++f) {
         const kiriPieceMomentum* p = &pieces[piece[f]];
-        kiriVec3 turn = kiriVec3_Scale(share, p->turn), arm = kiriVec3_Sub(after[f].x, p->centerAfter);
-        after[f].velocity = kiriVec3_Add(after[f].velocity, kiriVec3_Cross(turn, arm));
-        after[f].spin = kiriVec3_Add(after[f].spin, turn);
+        kiriVec3 arm = kiriVec3_Sub(after[f].x, p->centerAfter);
+        after[f].velocity = kiriVec3_Add(after[f].velocity, kiriVec3_Cross(p->turn, arm));
+        after[f].spin = kiriVec3_Add(after[f].spin, p->turn);
     }
 }

@@ -12,6 +12,7 @@ extern "C" {
 /* Of one piece, about its centre of mass; sums while they are gathered. */
 typedef struct kiriPieceMomentum {
     int32_t isHeld; /* by pins, contacts or the host: its momentum is not its own */
+    double lost;    /* J: the energy that the step has lost */
     double mass;
     kiriVec3 centerBefore, velocityBefore, centerAfter, velocityAfter;
     kiriVec3 due;     /* the angular momentum that it should have after the step, */
@@ -21,11 +22,10 @@ typedef struct kiriPieceMomentum {
 } kiriPieceMomentum;
 
 /* Turns the pieces that are not held as rigid bodies until they have the angular momentum that they should have, as far as
-   `lost` (J) goes: the energy that the step has lost. Frames are those before and after the step; piece[f] is the piece of
-   frame f; isHeld is set in `pieces`, the rest is scratch. */
+   their `lost` energy goes. Frames are those before and after the step; piece[f] is the piece of frame f; isHeld and lost
+   are set in `pieces`, the rest is scratch. */
 void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t frameCount, const int32_t* piece,
-                          kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, double dt,
-                          double lost);
+                          kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, double dt);
 
 #ifdef __cplusplus
 }

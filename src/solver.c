@@ -20,6 +20,8 @@
 #define HALVINGS 12                   /* of a step that does not lower the objective */
 #define SECOND_CHANCES 4              /* more iterations where energy is gained or the objective ends too high, */
 #define FRESH_STARTS 2                /* and iterations from the start of the step should they fail */
+#define SHORT_STEP 0.3                /* a step of which no more than this is taken is not the last one */
+#define MOST_BRAKED 0.5               /* of the kinetic energy, where a piece need not start anew */
 #define ROUNDING 1e-12                /* of an objective, relative */
 #define LAST_BITS (8.0 * DBL_EPSILON) /* of a length: what a few operations round off */
 #define SLIDE_FLOOR 1e-9              /* m: a shorter way is no slide */
@@ -40,11 +42,31 @@ typedef struct Unknown {
 
 typedef KIRI_ARRAY(int32_t) Indices;
 
+/* The objective, and what of it is energy that the sheet has: the rest is lost, or the inertia's. */
+typedef struct Energy {
+    double objective, potential;
+} Energy;
+
+/* The step of one piece. Pieces share no links, so each goes its own way, and none waits for another. */
+typedef struct Course {
+    Energy sum;              /* what was evaluated last */
+    Energy start, now;       /* where the step starts, and where the iteration is */
+    double noise;            /* J: what rounding leaves unknown of the objective */
+    double kinetic;          /* J: after the step; while it brakes, beside that of the mean */
+    double gain;             /* J: what the energy grows by in the step beyond work */
+    double scale, enough;    /* of the step that is tried, and the objective that it has to reach */
+    double keep, keepMean;   /* of velocities that are braked: of their difference from the mean, and of that */
+    kiriVec3 mean;           /* by mass, over its frames: of velocities, or of ways to go */
+    double mass;
+    bool isFree;     /* do only gravity and forces act on it? */
+    bool isIterated; /* does the iteration go on? */
+    bool isSought;   /* is a step sought that lowers the objective? */
+} Course;
+
 struct kiriSolver {
     kiriMemory memory;
     kiriMechanics mechanics;
     double dt, damping; /* of this step; flexDamping / dt */
-    double noise;       /* J: what rounding leaves unknown of the objective */
     bool isBraking;
     bool isHeld;  /* does the host move a frame? */
     int32_t size; /* unknowns a frame */
@@ -54,19 +76,27 @@ struct kiriSolver {
     int32_t pieceCount, nextPieceCount;
     bool isStaged, isNextMatrix; /* is there a next configuration, and has it a pattern of its own? */
     int64_t renewals;            /* of the pattern */
+    int64_t restarts;            /* of pieces */
     KIRI_ARRAY(kiriPair) pairs;  /* scratch: of the next configuration */
     /* Room for the larger of the two configurations. */
     KIRI_ARRAY(kiriPieceMomentum) pieces;
+    KIRI_ARRAY(Course) courses;
     KIRI_ARRAY(kiriFrameData) before, after;   /* the step, flattened where the sheet is planar */
     KIRI_ARRAY(kiriFlight) flights;            /* one a frame, as are the poses */
     KIRI_ARRAY(kiriPose) start, poses, trial;  /* at the start of the step, now, and where a step would lead */
     KIRI_ARRAY(double) stiffness, loss, startStrain; /* MOST_ROWS an element; damping, and strains at the start of the step */
     KIRI_ARRAY(double) force, move;            /* the right side: minus the gradient; and the solution */
+    KIRI_ARRAY(uint8_t) stopping; /* would a step have brought this element to its stop? */
     /* Scratch for one element. */
     Indices members;
     KIRI_ARRAY(kiriAffineRow) rows;
     KIRI_ARRAY(double) J;
 };
+
+int64_t kiriSolver_Restarts(const kiriSolver* solver)
+{
+    return solver->restarts;
+}
 
 static bool IsAffine(const kiriMechanics* mechanics)
 {
@@ -269,6 +299,7 @@ void kiriSolver_Destroy(kiriSolver* solver)
     kiriArray_Release(&memory, &solver->nextPiece);
     kiriArray_Release(&memory, &solver->pairs);
     kiriArray_Release(&memory, &solver->pieces);
+    kiriArray_Release(&memory, &solver->courses);
     kiriArray_Release(&memory, &solver->before);
     kiriArray_Release(&memory, &solver->after);
     kiriArray_Release(&memory, &solver->flights);
@@ -280,6 +311,7 @@ void kiriSolver_Destroy(kiriSolver* solver)
     kiriArray_Release(&memory, &solver->startStrain);
     kiriArray_Release(&memory, &solver->force);
     kiriArray_Release(&memory, &solver->move);
+    kiriArray_Release(&memory, &solver->stopping);
     kiriArray_Release(&memory, &solver->members);
     kiriArray_Release(&memory, &solver->rows);
     kiriArray_Release(&memory, &solver->J);
@@ -304,6 +336,7 @@ static bool MakeRoom(kiriSolver* solver, int32_t frameCount, int32_t elementCoun
     int64_t unknowns = (int64_t)solver->size * frameCount, rows = (int64_t)MOST_ROWS * most;
     return kiriArray_Reserve(memory, &solver->nextPiece, frameCount) &&
            kiriArray_Reserve(memory, &solver->pieces, frameCount) &&
+           kiriArray_Reserve(memory, &solver->courses, frameCount) &&
            kiriArray_Reserve(memory, &solver->before, frameCount) &&
            kiriArray_Reserve(memory, &solver->after, frameCount) &&
            kiriArray_Reserve(memory, &solver->flights, frameCount) &&
@@ -313,6 +346,7 @@ static bool MakeRoom(kiriSolver* solver, int32_t frameCount, int32_t elementCoun
            kiriArray_Reserve(memory, &solver->stiffness, (int64_t)MOST_ROWS * elementCount) &&
            kiriArray_Reserve(memory, &solver->loss, (int64_t)MOST_ROWS * elementCount) &&
            kiriArray_Reserve(memory, &solver->startStrain, (int64_t)MOST_ROWS * elementCount) &&
+           kiriArray_Reserve(memory, &solver->stopping, elementCount) &&
            kiriArray_Reserve(memory, &solver->force, unknowns) && kiriArray_Reserve(memory, &solver->move, unknowns) &&
            kiriArray_Reserve(memory, &solver->members, most) && kiriArray_Reserve(memory, &solver->rows, rows) &&
            kiriArray_Reserve(memory, &solver->J, rows * solver->size);
@@ -461,11 +495,6 @@ static double DepthOf(const kiriContactRow* contact, kiriVec3 point)
     return depth > 0.0 ? depth : 0.0;
 }
 
-/* The objective, and what of it is energy that the sheet has: the rest is lost, or the inertia's. */
-typedef struct Energy {
-    double objective, potential;
-} Energy;
-
 static void AddEnergy(Energy* sum, double stored, double lost)
 {
     sum->potential += stored;
@@ -511,44 +540,77 @@ static void AddStrainEnergy(const kiriSolver* solver, const kiriSystem* system, 
     }
 }
 
-static Energy InertialEnergy(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
+static Course* CourseOf(const kiriSolver* solver, int32_t frame)
 {
-    Energy sum = { 0.0, 0.0 };
-    double moved = 0.0;
-    for (int32_t f = 0; f < system->frameCount; ++f) {
-        const kiriFlight* flight = &solver->flights.data[f];
-        kiriVec3 off = kiriVec3_Sub(poses[f].x, flight->pose.x);
-        moved += system->frames[f].mass * kiriVec3_Dot(off, off) + kiriFlight_TurnSquared(flight, &poses[f].A);
-    }
-    AddEnergy(&sum, 0.0, 0.5 * moved / (solver->dt * solver->dt));
-    return sum;
+    return &solver->courses.data[solver->piece.data[frame]];
 }
 
-static void AddHostEnergy(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses, Energy* sum)
+/* Of an element. */
+static Course* ElementCourse(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    const kiriLink* link = LinkOf(system, k);
+    return CourseOf(solver, link != NULL ? link->i
+                                         : system->patches->shares.data[PatchOf(system, k)->first].frame);
+}
+
+/* Starts the sums of the pieces that a step is sought for, with what the inertia has. */
+static void SumInertia(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
+{
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        memset(&solver->courses.data[i].sum, 0, sizeof(Energy));
+    }
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (CourseOf(solver, f)->isSought) {
+            const kiriFlight* flight = &solver->flights.data[f];
+            kiriVec3 off = kiriVec3_Sub(poses[f].x, flight->pose.x);
+            double moved =
+                system->frames[f].mass * kiriVec3_Dot(off, off) + kiriFlight_TurnSquared(flight, &poses[f].A);
+            AddEnergy(&CourseOf(solver, f)->sum, 0.0, 0.5 * moved / (solver->dt * solver->dt));
+        }
+    }
+}
+
+/* Is the element a link of rigid frames that may leave their plane? */
+static bool HasStop(const kiriSystem* system, int32_t k)
+{
+    return LinkOf(system, k) != NULL && !IsAffine(&system->mechanics) && !system->mechanics.planar;
+}
+
+static void SumHost(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
     for (int32_t k = 0; k < system->pinCount; ++k) {
-        AddPinEnergy(system, &system->pins[k], poses, sum);
+        Course* course = CourseOf(solver, system->pins[k].frame);
+        if (course->isSought) {
+            AddPinEnergy(system, &system->pins[k], poses, &course->sum);
+        }
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
         const kiriContactRow* contact = &system->contacts[k];
-        AddContactEnergy(system, contact, BrakeOf(solver, system, contact), poses, sum);
+        Course* course = CourseOf(solver, contact->frame);
+        if (course->isSought) {
+            AddContactEnergy(system, contact, BrakeOf(solver, system, contact), poses, &course->sum);
+        }
     }
 }
 
-static Energy Evaluate(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
+static void Evaluate(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
-    Energy sum = InertialEnergy(solver, system, poses);
+    SumInertia(solver, system, poses);
     /* Held frames start from where the host puts them. */
     bool isKnown = poses == solver->start.data && !solver->isHeld;
     for (int32_t k = 0; k < ElementCount(system); ++k) {
+        Course* course = ElementCourse(solver, system, k);
         double strain[MOST_ROWS];
+        if (!course->isSought) {
+            continue;
+        }
         if (!isKnown) {
             Measure(system, k, poses, strain, NULL);
         }
-        AddStrainEnergy(solver, system, k, isKnown ? &solver->startStrain.data[MOST_ROWS * k] : strain, &sum);
+        AddStrainEnergy(solver, system, k, isKnown ? &solver->startStrain.data[MOST_ROWS * k] : strain, &course->sum);
+        solver->stopping.data[k] |= !isKnown && HasStop(system, k) && strain[KIRI_NORMAL_STOP] != 0.0;
     }
-    AddHostEnergy(solver, system, poses, &sum);
-    return sum;
+    SumHost(solver, system, poses);
 }
 
 static double LinkNoise(const kiriSolver* solver, const kiriLink* link, const double* stiffness)
@@ -578,24 +640,30 @@ static double AffineNoise(const kiriSolver* solver, const kiriSystem* system, in
 
 /* The energy of every spring and of the inertia when lengths are off by their last bits. A sheet at rest has no
    more. */
-static double Noise(const kiriSolver* solver, const kiriSystem* system)
+static void FindNoise(kiriSolver* solver, const kiriSystem* system)
 {
-    double sum = 0.0;
+    const double share = LAST_BITS * LAST_BITS * (1.0 + solver->damping);
     for (int32_t f = 0; f < system->frameCount; ++f) {
         kiriVec3 x = solver->start.data[f].x;
-        sum += system->frames[f].mass * kiriVec3_Dot(x, x) / (solver->dt * solver->dt);
+        CourseOf(solver, f)->noise +=
+            share * system->frames[f].mass * kiriVec3_Dot(x, x) / (solver->dt * solver->dt);
     }
     for (int32_t k = 0; k < ElementCount(system); ++k) {
         const double* stiffness = &solver->stiffness.data[MOST_ROWS * k];
-        sum += IsAffine(&system->mechanics) ? AffineNoise(solver, system, k, stiffness)
-                                            : LinkNoise(solver, LinkOf(system, k), stiffness);
+        ElementCourse(solver, system, k)->noise +=
+            share * (IsAffine(&system->mechanics) ? AffineNoise(solver, system, k, stiffness)
+                                                  : LinkNoise(solver, LinkOf(system, k), stiffness));
     }
-    return LAST_BITS * LAST_BITS * (1.0 + solver->damping) * sum;
 }
 
 /* ---- Matrix and forces ------------------------------------------------------------------------------------------ */
 
-/* A held frame has the identity and no force: it stays where it was put. */
+/* A frame that is held, or whose piece has done its step, has the identity and no force: it stays where it is. */
+static bool IsStill(const kiriSolver* solver, const kiriSystem* system, int32_t f)
+{
+    return system->frames[f].held || !CourseOf(solver, f)->isSought;
+}
+
 static void AddHeld(kiriSolver* solver, int32_t f)
 {
     double block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS] = { 0.0 };
@@ -715,6 +783,10 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
         springs[e] = stiffness[e] + loss[e];
         pulls[e] = -stiffness[e] * strain[e] - loss[e] * (strain[e] - start[e]);
     }
+    /* No step gets past a stop that it does not see. */
+    if (solver->stopping.data[k] && rows == KIRI_NORMAL_STOP) {
+        springs[KIRI_NORMAL_GAP] += stiffness[KIRI_NORMAL_STOP];
+    }
     AddSquares(solver, solver->members.data, count, solver->J.data, springs, pulls, rows);
 }
 
@@ -756,34 +828,36 @@ static void AddContact(kiriSolver* solver, const kiriSystem* system, const kiriC
     }
 }
 
-/* The system of a Gauss-Newton step from the poses. Returns the energy there, as Evaluate does. */
-static Energy Assemble(kiriSolver* solver, const kiriSystem* system)
+/* The system of a Gauss-Newton step from the poses, and the energy there, as Evaluate does. */
+static void Assemble(kiriSolver* solver, const kiriSystem* system)
 {
     kiriMatrix_Clear(solver->matrix);
     memset(solver->force.data, 0, sizeof(double) * (size_t)(solver->size * system->frameCount));
     for (int32_t f = 0; f < system->frameCount; ++f) {
-        if (system->frames[f].held) {
+        if (IsStill(solver, system, f)) {
             AddHeld(solver, f);
         } else {
             AddMass(solver, system, f);
         }
     }
-    Energy energy = InertialEnergy(solver, system, solver->poses.data);
+    SumInertia(solver, system, solver->poses.data);
     for (int32_t k = 0; k < ElementCount(system); ++k) {
-        AddElement(solver, system, k, &energy);
+        Course* course = ElementCourse(solver, system, k);
+        if (course->isSought) {
+            AddElement(solver, system, k, &course->sum);
+        }
     }
     for (int32_t k = 0; k < system->pinCount; ++k) {
-        if (!system->frames[system->pins[k].frame].held) {
+        if (!IsStill(solver, system, system->pins[k].frame)) {
             AddPin(solver, system, &system->pins[k]);
         }
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
-        if (!system->frames[system->contacts[k].frame].held) {
+        if (!IsStill(solver, system, system->contacts[k].frame)) {
             AddContact(solver, system, &system->contacts[k]);
         }
     }
-    AddHostEnergy(solver, system, solver->poses.data, &energy);
-    return energy;
+    SumHost(solver, system, solver->poses.data);
 }
 
 /* ---- Iteration --------------------------------------------------------------------------------------------------- */
@@ -834,9 +908,28 @@ static void BeginElement(kiriSolver* solver, const kiriSystem* system, int32_t k
     StiffnessOf(system, k, stiffness);
     Measure(system, k, solver->start.data, strain, NULL);
     bool isRigid = LinkOf(system, k) != NULL && !IsAffine(&system->mechanics);
+    solver->stopping.data[k] = 0;
     double damping = solver->damping * (isRigid ? kiriStrain_Damping(strain) : 1.0);
     for (int e = 0; e < RowCount(system, k); ++e) {
         solver->loss.data[MOST_ROWS * k + e] = damping * stiffness[e];
+    }
+}
+
+/* Which pieces are free, and nothing more. */
+static void BeginCourses(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        memset(&solver->courses.data[i], 0, sizeof(Course));
+        solver->courses.data[i].isFree = true;
+    }
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        CourseOf(solver, f)->isFree &= !system->frames[f].held;
+    }
+    for (int32_t k = 0; k < system->pinCount; ++k) {
+        CourseOf(solver, system->pins[k].frame)->isFree = false;
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        CourseOf(solver, system->contacts[k].frame)->isFree = false;
     }
 }
 
@@ -860,77 +953,110 @@ static void Begin(kiriSolver* solver, const kiriSystem* system, double dt)
             solver->start.data[f] = solver->flights.data[f].pose;
         }
     }
-    solver->noise = Noise(solver, system);
+    BeginCourses(solver, system);
+    FindNoise(solver, system);
 }
 
-/* How much of the Gauss-Newton step turns no frame too far. */
-static double LongestStep(const kiriSolver* solver, const kiriSystem* system)
+/* Sets out from the whole of the Gauss-Newton step, or as much as turns no frame too far. */
+static void StartSearch(kiriSolver* solver, const kiriSystem* system)
 {
-    double longest = LONGEST_TURN;
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        Course* course = &solver->courses.data[i];
+        course->now = course->sum;
+        course->enough = course->now.objective * (1.0 + ROUNDING) + course->noise;
+        course->scale = LONGEST_TURN;
+    }
+    for (int32_t f = 0; !IsAffine(&system->mechanics) && f < system->frameCount; ++f) {
         Slots change = Expand(solver, 1.0, &solver->move.data[solver->size * f]);
         double turn = kiriVec3_Length(change.by[1]);
-        longest = !IsAffine(&system->mechanics) && turn > longest ? turn : longest;
+        CourseOf(solver, f)->scale = turn > CourseOf(solver, f)->scale ? turn : CourseOf(solver, f)->scale;
     }
-    return LONGEST_TURN / longest;
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        solver->courses.data[i].scale = LONGEST_TURN / solver->courses.data[i].scale;
+    }
 }
 
-static void Try(kiriSolver* solver, const kiriSystem* system, double scale)
+static void Try(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriPose* pose = &solver->poses.data[f];
-        Slots change = Expand(solver, scale, &solver->move.data[solver->size * f]);
+        if (!CourseOf(solver, f)->isSought) {
+            continue;
+        }
+        Slots change = Expand(solver, CourseOf(solver, f)->scale, &solver->move.data[solver->size * f]);
         kiriMat3 columns = { change.by[1], change.by[2], change.by[3] };
         solver->trial.data[f].x = kiriVec3_Add(pose->x, change.by[0]);
         solver->trial.data[f].A = IsAffine(&system->mechanics)
                                       ? kiriMat3_Advance(&pose->A, &columns)
                                       : kiriMat3_MulMat(kiriMat3_Cayley(change.by[1]), pose->A);
     }
+    Evaluate(solver, system, solver->trial.data);
 }
 
-static void TakeTrial(kiriSolver* solver)
+/* Pieces whose step is good enough take it. Returns whether there are others. */
+static bool TakeTrial(kiriSolver* solver, const kiriSystem* system)
 {
-    kiriPose* taken = solver->trial.data;
-    solver->trial.data = solver->poses.data;
-    solver->poses.data = taken;
+    bool isLeft = false;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const Course* course = CourseOf(solver, f);
+        if (course->isSought && course->sum.objective <= course->enough) {
+            solver->poses.data[f] = solver->trial.data[f];
+        }
+    }
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        Course* course = &solver->courses.data[i];
+        if (course->isSought && course->sum.objective <= course->enough) {
+            course->now = course->sum;
+            course->isSought = false;
+        }
+        isLeft |= course->isSought;
+    }
+    return isLeft;
 }
 
-/* The objective of the free flight, without the springs. */
-static double FlyingObjective(kiriSolver* solver, const kiriSystem* system)
+/* Pieces for which a step is still sought may reach the objective of the free flight, without the springs. */
+static void AllowFlight(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {
         solver->trial.data[f] = solver->flights.data[f].pose;
     }
     bool isBraking = solver->isBraking;
     solver->isBraking = false;
-    double objective = Evaluate(solver, system, solver->trial.data).objective;
+    Evaluate(solver, system, solver->trial.data);
     solver->isBraking = isBraking;
-    return objective;
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        Course* course = &solver->courses.data[i];
+        double allowed = course->sum.objective * (1.0 + ROUNDING) + course->noise;
+        course->enough = course->isSought && allowed > course->enough ? allowed : course->enough;
+    }
 }
 
 /* One Gauss-Newton step, halved until the objective falls; the first one may also reach that of the free flight. False
    when the matrix has no factor. */
-static bool Iterate(kiriSolver* solver, const kiriSystem* system, bool isFirst, Energy* energy)
+static bool Iterate(kiriSolver* solver, const kiriSystem* system, bool isFirst)
 {
-    *energy = Assemble(solver, system);
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        solver->courses.data[i].isSought = solver->courses.data[i].isIterated;
+    }
+    Assemble(solver, system);
     if (!kiriMatrix_Factor(solver->matrix)) {
         return false;
     }
     kiriMatrix_Solve(solver->matrix, solver->force.data, solver->move.data);
-    double enough = energy->objective * (1.0 + ROUNDING) + solver->noise, scale = LongestStep(solver, system);
-    for (int halving = 0; halving <= HALVINGS; ++halving, scale *= 0.5) {
-        Try(solver, system, scale);
-        Energy value = Evaluate(solver, system, solver->trial.data);
-        if (isFirst && halving == 0 && !(value.objective <= enough)) {
-            double allowed = FlyingObjective(solver, system) * (1.0 + ROUNDING) + solver->noise;
-            enough = allowed > enough ? allowed : enough;
-            Try(solver, system, scale);
+    StartSearch(solver, system);
+    Try(solver, system);
+    bool isLeft = TakeTrial(solver, system);
+    if (isLeft && isFirst) {
+        AllowFlight(solver, system);
+        Try(solver, system);
+        isLeft = TakeTrial(solver, system);
+    }
+    for (int halving = 0; isLeft && halving < HALVINGS; ++halving) {
+        for (int32_t i = 0; i < solver->pieceCount; ++i) {
+            solver->courses.data[i].scale *= 0.5;
         }
-        if (value.objective <= enough) {
-            *energy = value;
-            TakeTrial(solver);
-            return true;
-        }
+        Try(solver, system);
+        isLeft = TakeTrial(solver, system);
     }
     return true;
 }
@@ -974,21 +1100,27 @@ static void Land(kiriSolver* solver, const kiriSystem* system)
 
 /* By how much kinetic and potential energy grow in the step beyond the work of gravity and of the host's forces; what
    rounding explains is no gain. A held frame counts as moved before the step. */
-static double Gain(const kiriSolver* solver, const kiriSystem* system, double potentialBefore, double potentialAfter)
+static void FindGains(kiriSolver* solver, const kiriSystem* system)
 {
-    double before = potentialBefore, after = potentialAfter, work = 0.0;
     kiriVec3 gravity = GravityOf(system);
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        Course* course = &solver->courses.data[i];
+        course->kinetic = 0.0;
+        course->gain = -ROUNDING * (course->start.potential + course->now.potential) - course->noise +
+                       course->now.potential - course->start.potential;
+    }
     for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
         if (!start->held) {
             kiriVec3 way = kiriVec3_Sub(end->x, start->x);
-            before += kiriFrame_KineticEnergy(start, &system->material);
-            after += kiriFrame_KineticEnergy(end, &system->material);
-            work += start->mass * kiriVec3_Dot(gravity, way) + kiriVec3_Dot(start->force, way) +
-                    solver->dt * kiriVec3_Dot(start->torque, end->spin);
+            double before = kiriFrame_KineticEnergy(start, &system->material);
+            double after = kiriFrame_KineticEnergy(end, &system->material);
+            double work = start->mass * kiriVec3_Dot(gravity, way) + kiriVec3_Dot(start->force, way) +
+                          solver->dt * kiriVec3_Dot(start->torque, end->spin);
+            CourseOf(solver, f)->kinetic += after;
+            CourseOf(solver, f)->gain += after - before - work - ROUNDING * (before + after + fabs(work));
         }
     }
-    return after - before - work - ROUNDING * (before + after + fabs(work)) - solver->noise;
 }
 
 /* The factor that takes an energy out of velocities that have `kinetic`; what they do not have is left in `energy`. */
@@ -999,18 +1131,26 @@ static double Keep(double kinetic, double* energy)
     return taken < kinetic ? sqrt(1.0 - taken / kinetic) : 0.0;
 }
 
-static kiriVec3 MeanVelocity(const kiriSolver* solver, int32_t frameCount, double* mass)
+/* The mean velocity of each piece, by mass. */
+static void FindMeans(kiriSolver* solver, int32_t frameCount)
 {
-    kiriVec3 momentum = { 0.0, 0.0, 0.0 };
-    *mass = 0.0;
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        Course* course = &solver->courses.data[i];
+        course->mean = kiriVec3_Make(0.0, 0.0, 0.0);
+        course->mass = course->kinetic = 0.0;
+    }
     for (int32_t f = 0; f < frameCount; ++f) {
         const kiriFrameData* frame = &solver->after.data[f];
+        Course* course = CourseOf(solver, f);
         if (!frame->held) {
-            *mass += frame->mass;
-            momentum = kiriVec3_AddScaled(momentum, frame->mass, frame->velocity);
+            course->mass += frame->mass;
+            course->mean = kiriVec3_AddScaled(course->mean, frame->mass, frame->velocity);
         }
     }
-    return kiriVec3_Scale(1.0 / (*mass > DBL_MIN ? *mass : DBL_MIN), momentum);
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        Course* course = &solver->courses.data[i];
+        course->mean = kiriVec3_Scale(1.0 / (course->mass > DBL_MIN ? course->mass : DBL_MIN), course->mean);
+    }
 }
 
 static void Slow(kiriFrameData* frame, double keep, kiriVec3 mean, double keepMean)
@@ -1023,106 +1163,155 @@ static void Slow(kiriFrameData* frame, double keep, kiriVec3 mean, double keepMe
     frame->rate.d = kiriVec3_Scale(keep, frame->rate.d);
 }
 
-/* Takes an energy out of the velocities: as they differ from the mean first, for so momentum stays. Only where pins or
-   contacts change momentum can there be more to take. */
-static void Brake(kiriSolver* solver, const kiriSystem* system, double energy)
+/* Takes what pieces gained out of their velocities: as they differ from the mean first, for so momentum stays. Only where
+   pins or contacts change momentum can there be more to take. */
+static void Brake(kiriSolver* solver, const kiriSystem* system)
 {
-    double mass, kinetic = 0.0;
-    kiriVec3 mean = MeanVelocity(solver, system->frameCount, &mass);
+    FindMeans(solver, system->frameCount);
     for (int32_t f = 0; f < system->frameCount; ++f) {
         kiriFrameData frame = solver->after.data[f];
-        frame.velocity = kiriVec3_Sub(frame.velocity, mean);
-        kinetic += frame.held ? 0.0 : kiriFrame_KineticEnergy(&frame, &system->material);
+        frame.velocity = kiriVec3_Sub(frame.velocity, CourseOf(solver, f)->mean);
+        CourseOf(solver, f)->kinetic += frame.held ? 0.0 : kiriFrame_KineticEnergy(&frame, &system->material);
     }
-    double keep = Keep(kinetic, &energy), keepMean = Keep(0.5 * mass * kiriVec3_Dot(mean, mean), &energy);
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        Course* course = &solver->courses.data[i];
+        double energy = course->gain > 0.0 ? course->gain : 0.0;
+        course->keep = Keep(course->kinetic, &energy);
+        course->keepMean = Keep(0.5 * course->mass * kiriVec3_Dot(course->mean, course->mean), &energy);
+    }
     for (int32_t f = 0; f < system->frameCount; ++f) {
-        if (!solver->after.data[f].held) {
-            Slow(&solver->after.data[f], keep, mean, keepMean);
+        const Course* course = CourseOf(solver, f);
+        if (course->gain > 0.0 && !solver->after.data[f].held) {
+            Slow(&solver->after.data[f], course->keep, course->mean, course->keepMean);
         }
     }
 }
 
 /* ---- Step ------------------------------------------------------------------------------------------------------- */
 
-static void Restart(kiriSolver* solver, const kiriSystem* system)
+/* Nothing holds the centre of mass of a free piece: it is where the flight ends, however far the iteration came. */
+static void Center(kiriSolver* solver, const kiriSystem* system)
 {
-    memcpy(solver->poses.data, solver->start.data, sizeof(kiriPose) * (size_t)system->frameCount);
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        solver->courses.data[i].mean = kiriVec3_Make(0.0, 0.0, 0.0);
+        solver->courses.data[i].mass = 0.0;
+    }
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        Course* course = CourseOf(solver, f);
+        kiriVec3 off = kiriVec3_Sub(solver->flights.data[f].pose.x, solver->poses.data[f].x);
+        course->mean = kiriVec3_AddScaled(course->mean, system->frames[f].mass, off);
+        course->mass += system->frames[f].mass;
+    }
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const Course* course = CourseOf(solver, f);
+        kiriVec3* x = &solver->poses.data[f].x;
+        *x = course->isFree ? kiriVec3_AddScaled(*x, 1.0 / course->mass, course->mean) : *x;
+    }
+}
+
+/* The frames at the end of the step, and what energy they gained. */
+static void Arrive(kiriSolver* solver, const kiriSystem* system)
+{
+    Center(solver, system);
+    Land(solver, system);
+    FindGains(solver, system);
+}
+
+/* Pieces go on that gained energy, or whose steps were cut short. Returns whether there are any. */
+static bool ChooseUnfinished(kiriSolver* solver)
+{
+    bool any = false;
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        Course* course = &solver->courses.data[i];
+        course->isIterated = course->isIterated && (!(course->gain <= 0.0) || course->scale < SHORT_STEP);
+        any |= course->isIterated;
+    }
+    return any;
+}
+
+/* Of these, only those go on that brakes would stop; they stand where they stood before the step. Returns whether there
+   are any. */
+static bool Restart(kiriSolver* solver, const kiriSystem* system)
+{
+    bool any = false;
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        Course* course = &solver->courses.data[i];
+        course->isIterated = course->isIterated && !(course->gain <= MOST_BRAKED * course->kinetic);
+        course->now = course->isIterated ? course->start : course->now;
+        solver->restarts += course->isIterated;
+        any |= course->isIterated;
+    }
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (CourseOf(solver, f)->isIterated) {
+            solver->poses.data[f] = solver->start.data[f];
+        }
+    }
+    return any;
+}
+
+static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        solver->courses.data[i].isIterated = solver->courses.data[i].isSought = true;
+    }
+    Evaluate(solver, system, solver->start.data);
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        solver->courses.data[i].start = solver->courses.data[i].sum;
+    }
 }
 
 /* The iteration starts where the frames coast by their velocities: a strip that swings is then nearly there, and one at
    rest is there. The first step may raise the objective up to that of the free flight: it has to turn stiff frames,
    which stretches links before the next step lets them go, and halving it there would freeze the turning.
 
-   The objective must not end above that of not moving at all. Should it end above all the same, the iteration starts
-   anew from not moving, from where it only falls. Then, with v the velocities before and w those after the step,
+   Pieces that have gained energy, or took only a part of their last step, are iterated on. What a piece has gained even
+   then is taken out of its velocities. Where that would all but stop it, it starts anew from not moving, and its objective
+   only falls from there. Then, with v the velocities before and w those after the step,
 
        potential after + 1/2 m (w - v)^2  <=  potential before + 1/2 m v^2 + work,
 
    which bounds w by 2 v and no better. At the minimum w^2 stands for (w - v)^2, but for parts of the energy that are
-   not convex; so while energy is gained, iterations are added, and what is gained even then is taken out of the
-   velocities. Nothing is ever flung away, however long the step. */
-static int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations, int32_t most, double* gain)
+   not convex. Nothing is ever flung away, however long the step. */
+static int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations, int32_t most)
 {
-    Energy start = Evaluate(solver, system, solver->start.data), energy = { HUGE_VAL, HUGE_VAL };
-    double limit = start.objective * (1.0 + ROUNDING) + solver->noise;
-    int32_t done = 0, chances = iterations + SECOND_CHANCES;
-    bool isOver = false;
-    *gain = HUGE_VAL;
-    while (done < iterations || (*gain > 0.0 && done < chances) || (isOver && done < chances + FRESH_STARTS)) {
-        if (done == most) {
-            break;
-        }
-        if (done == chances) {
-            Restart(solver, system);
-        }
+    int32_t done = 0, last = iterations + SECOND_CHANCES;
+    bool isLeft = true, isFresh = false;
+    EvaluateStart(solver, system);
+    while (isLeft && done < most) {
         /* Before the first step the push is that of the free flight, far too strong at an impact. */
         solver->isBraking = done > 0 || iterations == 1;
-        if (!Iterate(solver, system, done == 0, &energy)) {
+        if (!Iterate(solver, system, done == 0)) {
             return -1;
         }
         ++done;
-        isOver = !(energy.objective <= limit);
         if (done >= iterations) {
-            Land(solver, system);
-            *gain = Gain(solver, system, start.potential, energy.potential);
+            Arrive(solver, system);
+            isLeft = ChooseUnfinished(solver) && !(done == last && isFresh);
+        }
+        if (isLeft && done == last) {
+            isLeft = Restart(solver, system);
+            isFresh = true;
+            last += FRESH_STARTS;
         }
     }
-    if (isOver && done < chances + FRESH_STARTS) {
-        /* Cut short: it does not move at all. */
-        Restart(solver, system);
-        Land(solver, system);
-        *gain = Gain(solver, system, start.potential, start.potential);
+    if (isLeft && !isFresh && Restart(solver, system)) {
+        /* Cut short: those that would stop do not move at all. */
+        Arrive(solver, system);
     }
     return done;
 }
 
-static void MarkHeld(kiriSolver* solver, const kiriSystem* system)
-{
-    const int32_t* piece = solver->piece.data;
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
-        solver->pieces.data[i].isHeld = 0;
-    }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
-        solver->pieces.data[piece[f]].isHeld |= system->frames[f].held;
-    }
-    for (int32_t k = 0; k < system->pinCount; ++k) {
-        solver->pieces.data[piece[system->pins[k].frame]].isHeld = 1;
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        solver->pieces.data[piece[system->contacts[k].frame]].isHeld = 1;
-    }
-}
-
 /* What the energy gained or lost in the step asks of the velocities. */
-static void Settle(kiriSolver* solver, const kiriSystem* system, double gain)
+static void Settle(kiriSolver* solver, const kiriSystem* system)
 {
-    if (gain > 0.0) {
-        Brake(solver, system, gain);
-    } else {
-        MarkHeld(solver, system);
-        kiriMomentum_Restore(solver->before.data, solver->after.data, system->frameCount, solver->piece.data,
-                             solver->pieces.data, solver->pieceCount, &system->material, solver->dt, -gain);
+    Brake(solver, system);
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        const Course* course = &solver->courses.data[i];
+        solver->pieces.data[i].isHeld = !course->isFree || course->gain > 0.0;
+        solver->pieces.data[i].lost = course->gain < 0.0 ? -course->gain : 0.0;
     }
+    kiriMomentum_Restore(solver->before.data, solver->after.data, system->frameCount, solver->piece.data,
+                         solver->pieces.data, solver->pieceCount, &system->material, solver->dt);
 }
 
 /* The host reads floats. An eighth leaves room for the sums and blends that they are made of. NaN does not fit. */
@@ -1162,13 +1351,12 @@ static void Finish(const kiriSolver* solver, const kiriSystem* system)
 
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations, int32_t most)
 {
-    double gain;
     Begin(solver, system, dt);
-    int32_t done = Minimise(solver, system, iterations < most ? iterations : most, most, &gain);
+    int32_t done = Minimise(solver, system, iterations < most ? iterations : most, most);
     if (done < 0) {
         return -1;
     }
-    Settle(solver, system, gain);
+    Settle(solver, system);
     if (!CanBeRead(solver, system->frameCount)) {
         return -1;
     }

@@ -64,6 +64,9 @@ void kiriSolver_Commit(kiriSolver* solver);
 uint64_t kiriSolver_Hash(const kiriSolver* solver);
 int64_t kiriSolver_Renewals(const kiriSolver* solver);
 
+/* How often a piece had to start its step anew. */
+int64_t kiriSolver_Restarts(const kiriSolver* solver);
+
 /* Moves the frames by dt. Links and patches are those that were committed; normals of contacts are unit, heldRotation is a
    rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the motion asks for them,
    but at most `most` (1 or more). Or -1 when it cannot be continued (not finite); the frames are then as before the call.

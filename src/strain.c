@@ -7,8 +7,6 @@
 /* and the offset g makes it longer by 3/5 g^2 / l, where a straight line has 1/2. */
 #define ARC 1.2
 #define NORMAL_STOP_SHARE 0.5
-/* Of the line between the centres: what an offset lengthens it by, is that of a line this long at least. */
-#define LEAST_AHEAD 0.5
 /* Square of the angle at which the arc between two sites is taken for a half. */
 #define ARC_FOLD 2.5
 /* Links along both directions share a shear when frames turn; a strip one region wide has those of one direction only,
@@ -46,18 +44,22 @@ static void FindTurns(Axes* axes, const kiriVec3 normals[2], const kiriPose* con
     }
 }
 
-/* Where the frames are turned against each other there is no mean: the first frame's axes serve. Folded flat, they stand
-   half-way in one of the two folds that may have led there. */
+static kiriVec3 Beside(kiriVec3 a, kiriVec3 d)
+{
+    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, d), d);
+}
+
+/* Where the normals have no mean those of the first frame serve, or its director where these lie along d; and all turns
+   with that frame. */
 static void TakeFirstAxes(Axes* axes, const kiriLink* link, const kiriPose* first)
 {
-    kiriVec3 n = kiriPose_Along(first, link->normal), d = first->A.d;
-    bool isFlat = 2.0 * axes->open > LEAST_AXIS;
-    axes->n = axes->nBy[0] = isFlat ? n : d;
-    axes->tau = axes->tauBy[0] = kiriPose_Along(first, link->tangent);
-    axes->d = axes->dBy[0] = isFlat ? d : kiriVec3_Scale(-1.0, n);
-    memset(&axes->nBy[1], 0, sizeof(kiriVec3));
-    memset(&axes->tauBy[1], 0, sizeof(kiriVec3));
-    memset(&axes->dBy[1], 0, sizeof(kiriVec3));
+    kiriVec3 n = Beside(kiriPose_Along(first, link->normal), axes->d);
+    memset(axes->nBy, 0, sizeof(axes->nBy));
+    memset(axes->tauBy, 0, sizeof(axes->tauBy));
+    memset(axes->dBy, 0, sizeof(axes->dBy));
+    axes->n = axes->nBy[0] = kiriVec3_Normalize(kiriVec3_Length(n) > 0.5 ? n : Beside(first->A.d, axes->d));
+    axes->tau = axes->tauBy[0] = kiriVec3_Cross(axes->d, axes->n);
+    axes->dBy[0] = axes->d;
 }
 
 static void TakeMeanAxes(Axes* axes, const kiriLink* link, const kiriPose* const poses[2], bool turns)
@@ -65,11 +67,12 @@ static void TakeMeanAxes(Axes* axes, const kiriLink* link, const kiriPose* const
     const kiriVec3 normals[2] = { kiriPose_Along(poses[0], link->normal), kiriPose_Along(poses[1], link->normal) };
     kiriVec3 d = kiriVec3_Add(poses[0]->A.d, poses[1]->A.d), n = kiriVec3_Add(normals[0], normals[1]);
     double lengthD = kiriVec3_Length(d);
-    axes->d = kiriVec3_Scale(1.0 / lengthD, d);
+    /* Folded flat, it is that of one of the two folds that may have led there. */
+    axes->d = lengthD > LEAST_AXIS ? kiriVec3_Scale(1.0 / lengthD, d) : kiriVec3_Scale(-1.0, normals[0]);
+    axes->open = 0.5 * lengthD;
     double lean = kiriVec3_Dot(n, axes->d);
     n = kiriVec3_AddScaled(n, -lean, axes->d);
     double lengthN = kiriVec3_Length(n);
-    axes->open = 0.5 * lengthD;
     if (!(lengthD > LEAST_AXIS && lengthN > LEAST_AXIS)) {
         TakeFirstAxes(axes, link, poses[0]);
     } else {
@@ -160,14 +163,15 @@ static double LeverOf(const kiriLink* link, const kiriFrameData* const frames[2]
 static void MeasureStretch(double lever, const Axes* axes, const Pair* b, double* strain, kiriStrainRow* row)
 {
     double ahead = lever + kiriVec3_Dot(b->gap, axes->n), aside = kiriVec3_Dot(b->gap, axes->d);
-    double least = LEAST_AHEAD * lever, base = ahead > least ? ahead : least;
+    double per = ahead < 0.0 ? 0.0 : ahead < lever ? ahead / lever : 1.0; /* base by ahead */
+    double base = ahead > lever ? ahead : 0.5 * lever * (1.0 + per * per);
     double line = sqrt(base * base + ARC * aside * aside);
     *strain = ahead - lever + (line - base);
     if (row != NULL) {
         kiriStrainRow d;
         WriteGap(axes, axes->d, b, &d);
         WriteGap(axes, axes->n, b, row);
-        Scale(row, ahead > least ? ahead / line : 1.0);
+        Scale(row, 1.0 - per * (1.0 - base / line));
         Add(row, ARC * aside / line, &d);
     }
 }

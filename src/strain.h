@@ -33,8 +33,9 @@ extern "C" {
    normal makes it longer. With gap(b) . n alone, tension would turn the frames away from that line and, above
    12 D / l^2 newtons a metre of width, lay the sheet in steps, as tension buckles a column that is soft in shear; cloth
    would fall apart. An arc that is long beside c would do the same, and is cut short.
-   Where c + gap(b) . n is less than c / 2, what the offset adds to it is what it adds to c / 2: so frames that have passed
-   through each other are pushed back, and the strain grows with gap(b) . n everywhere.
+   Where a = c + gap(b) . n is less than c, what the offset adds to it is what it adds to (c + a^2 / c) / 2, and to c / 2
+   where a < 0: so frames that have passed through each other are pushed back, the strain grows with gap(b) . n everywhere,
+   and it has no kink for a motion to be caught in.
 
    The stop catches sheets that bend within less than l, whose normal gap nothing would bound. */
 enum {
