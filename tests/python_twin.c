@@ -70,6 +70,8 @@ int main(void)
     PRINT_SIZE(kiriSheetDef);
     PRINT_SIZE(kiriMesh);
     PRINT_SIZE(kiriCounts);
+    PRINT_SIZE(kiriPieceState);
+    PRINT_SIZE(kiriPieceMesh);
     PRINT_SIZE(kiriTotals);
     PRINT_SIZE(kiriHit);
     PRINT_SIZE(kiriFrameState);

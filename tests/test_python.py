@@ -58,7 +58,7 @@ def run_twin():
 def test_same_hash_and_sizes_as_c():
     twin = run_twin()
     assert f"{run_scene()[0].state_hash():016x}" == twin.pop("hash")
-    assert len(twin) == 12
+    assert len(twin) == 14
     for name, size in twin.items():
         assert kiri.ffi.sizeof(name) == int(size), name
 
@@ -170,6 +170,33 @@ def test_force_and_contacts():
     sheet.set_contacts([{"point": i, **contact} for i in range(len(points))])
     world.tick(0.01)
     assert sheet.totals().momentum[2] > 0.04 and sheet.totals().center[2] > height
+
+
+def test_pieces():
+    world = kiri.World()
+    sheet = world.create_rectangle(1.0, 1.0, 8, 8, collisionPoints=9)
+    for height in (0.2, 0.5):
+        cut = sheet.begin_cut((-0.1, height))
+        cut.extend([(1.1, height)])
+        cut.end()
+    world.tick(1 / 60)
+    off = [event for event in world.events() if event.type == kiri.KIRI_EVENT_PIECE_OFF]
+    assert len(off) == 2 and all(kiri.Frame(world, event.frame).piece() == event.piece for event in off)
+    pieces = [sheet.piece(i) for i in range(sheet.counts().pieces)]
+    assert sorted(round(piece.area, 5) for piece in pieces) == [0.2, 0.3, 0.5]
+    for i, piece in enumerate(pieces):
+        mesh = sheet.piece_mesh(i)
+        assert (len(mesh.vertices), len(mesh.triangles)) == (piece.vertices, piece.triangles)
+        assert len(mesh.collisionPoints) == piece.collisionPoints > 0
+        assert [mesh.indices[0, k] for k in range(3)] == [sheet.mesh().indices[mesh.triangles[0], k] for k in range(3)]
+        assert [frame.piece() for frame in sheet.piece_frames(i)] == [i] * piece.frames
+    middle, = (i for i, piece in enumerate(pieces) if abs(piece.area - 0.3) < 1e-5)
+    frames = sheet.piece_frames(middle)
+    strip = sheet.detach_piece(middle)
+    assert strip.frames() == frames and abs(strip.totals().area - 0.3) < 1e-5
+    assert raises(kiri.KiriError, strip.destroy_piece, 0).result == kiri.KIRI_ERROR_STATE
+    assert sheet.drop_crumbs(0.25) == 1 and sheet.counts().pieces == 1
+    world.tick(1 / 60)
 
 
 def test_raycast():

@@ -282,6 +282,36 @@ class Sheet(_Handle):
         self.world.call("kiriSheet_GetFrames", self.id, frames, capacity, count)
         return [Frame(self.world, frame) for frame in frames]
 
+    def piece(self, piece):
+        """A kiriPieceState."""
+        return _record(self.world.get("kiriSheet_GetPiece", "kiriPieceState", self.id, piece))
+
+    def piece_mesh(self, piece):
+        """Views of the arrays of kiriPieceMesh."""
+        mesh = self.world.get("kiriSheet_GetPieceMesh", "kiriPieceMesh", self.id, piece)
+        view = self.world.view
+        return types.SimpleNamespace(
+            vertices=view(mesh.vertices, "i", mesh.vertexCount, 1),
+            triangles=view(mesh.triangles, "i", mesh.triangleCount, 1),
+            indices=view(mesh.indices, "i", mesh.triangleCount, 3),
+            collisionPoints=view(mesh.collisionPoints, "i", mesh.collisionPointCount, 1))
+
+    def piece_frames(self, piece):
+        frames, count = ffi.new("const kiriFrame**"), ffi.new("int32_t*")
+        self.world.call("kiriSheet_GetPieceFrames", self.id, piece, frames, count)
+        return [Frame(self.world, frames[0][i]) for i in range(count[0])]
+
+    def detach_piece(self, piece):
+        """The piece as a sheet of its own."""
+        return Sheet(self.world, self.world.get("kiriSheet_DetachPiece", "kiriSheet", self.id, piece))
+
+    def destroy_piece(self, piece):
+        self.world.call("kiriSheet_DestroyPiece", self.id, piece)
+
+    def drop_crumbs(self, area):
+        """Destroys the pieces below an area; how many there were."""
+        return self.world.get("kiriSheet_DropCrumbs", "int32_t", self.id, area)
+
     def begin_cut(self, rest_point):
         return Cut(self.world, self.world.get("kiriBeginCut", "kiriCut", self.id, _vector(rest_point, 2)))
 
@@ -309,6 +339,10 @@ class Cut(_Handle):
 class Frame(_Handle):
     def state(self):
         return _record(self.world.get("kiriFrame_GetState", "kiriFrameState", self.id))
+
+    def piece(self):
+        """The number of its piece."""
+        return self.world.get("kiriFrame_GetPiece", "int32_t", self.id)
 
     def hold(self, position, rotation):
         """Rotation: 9 numbers, column after column."""
