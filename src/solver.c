@@ -21,6 +21,7 @@
 #define SECOND_CHANCES 4              /* more iterations where energy is gained or the objective ends too high, */
 #define FRESH_STARTS 2                /* and iterations from the start of the step should they fail */
 #define SHORT_STEP 0.3                /* a step of which no more than this is taken is not the last one */
+#define WORTHWHILE 1e-6               /* of the objective, where a longer one would lower it by more */
 #define MOST_BRAKED 0.5               /* of the kinetic energy, where a piece need not start anew */
 #define ROUNDING 1e-12                /* of an objective, relative */
 #define LAST_BITS (8.0 * DBL_EPSILON) /* of a length: what a few operations round off */
@@ -55,6 +56,7 @@ typedef struct Course {
     double kinetic;          /* J: after the step; while it brakes, beside that of the mean */
     double gain;             /* J: what the energy grows by in the step beyond work */
     double scale, enough;    /* of the step that is tried, and the objective that it has to reach */
+    double promise;          /* J: by how much the whole of it would lower the objective, were that quadratic */
     double keep, keepMean;   /* of velocities that are braked: of their difference from the mean, and of that */
     kiriVec3 mean;           /* by mass, over its frames: of velocities, or of ways to go */
     double mass;
@@ -962,9 +964,13 @@ static void StartSearch(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         Course* course = &solver->courses.data[i];
-        course->now = course->sum;
+        course->now = course->isSought ? course->sum : course->now;
         course->enough = course->now.objective * (1.0 + ROUNDING) + course->noise;
         course->scale = LONGEST_TURN;
+        course->promise = 0.0;
+    }
+    for (int32_t n = 0; n < solver->size * system->frameCount; ++n) {
+        CourseOf(solver, n / solver->size)->promise += 0.5 * solver->force.data[n] * solver->move.data[n];
     }
     for (int32_t f = 0; !IsAffine(&system->mechanics) && f < system->frameCount; ++f) {
         Slots change = Expand(solver, 1.0, &solver->move.data[solver->size * f]);
@@ -1223,7 +1229,8 @@ static bool ChooseUnfinished(kiriSolver* solver)
     bool any = false;
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         Course* course = &solver->courses.data[i];
-        course->isIterated = course->isIterated && (!(course->gain <= 0.0) || course->scale < SHORT_STEP);
+        bool isShort = course->scale < SHORT_STEP && course->promise > WORTHWHILE * course->now.objective;
+        course->isIterated = course->isIterated && (!(course->gain <= 0.0) || isShort);
         any |= course->isIterated;
     }
     return any;
@@ -1277,7 +1284,7 @@ static int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t it
     int32_t done = 0, last = iterations + SECOND_CHANCES;
     bool isLeft = true, isFresh = false;
     EvaluateStart(solver, system);
-    while (isLeft && done < most) {
+    while (isLeft && done < most && done < last) {
         /* Before the first step the push is that of the free flight, far too strong at an impact. */
         solver->isBraking = done > 0 || iterations == 1;
         if (!Iterate(solver, system, done == 0)) {
@@ -1286,17 +1293,14 @@ static int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t it
         ++done;
         if (done >= iterations) {
             Arrive(solver, system);
-            isLeft = ChooseUnfinished(solver) && !(done == last && isFresh);
+            isLeft = ChooseUnfinished(solver);
         }
-        if (isLeft && done == last) {
+        if (isLeft && !isFresh && (done == last || done == most)) {
             isLeft = Restart(solver, system);
+            Arrive(solver, system);
             isFresh = true;
             last += FRESH_STARTS;
         }
-    }
-    if (isLeft && !isFresh && Restart(solver, system)) {
-        /* Cut short: those that would stop do not move at all. */
-        Arrive(solver, system);
     }
     return done;
 }
