@@ -418,6 +418,7 @@ static bool StartKirigami(Scene* scene, const SceneOptions* options)
     def.gridResolution = 68;
     def.frameCount = def.maxFrames = frames.count;
     def.collisionPoints = 600;
+    def.iterations = 1;
     fine = fine && MakeRectangle(scene, &def, options, &rectangle) && PinMiddle(scene, &def);
     Outline_Free(&frames);
     fine = fine && HoldLastFrames(scene, 4);
@@ -450,7 +451,7 @@ static bool StartFallingGuy(Scene* scene, const SceneOptions* options)
     def.gridResolution = 100;
     def.frameCount = def.maxFrames = 10;
     def.collisionPoints = 500;
-    def.iterations = 4; /* large turns at each tick while he swings */
+    def.iterations = 2; /* large turns at each tick while he swings */
     bool fine = MakeRectangle(scene, &def, options, &rectangle) && PinBorder(scene, &def, 2.0f, 1.0f) &&
                 AddFigure(scene, options, &guy);
     if (fine) {

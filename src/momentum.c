@@ -87,7 +87,8 @@ void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int
     for (int32_t i = 0; i < pieceCount; ++i) {
         int32_t isHeld = pieces[i].isHeld;
         kiriMat3 none = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
-        kiriPieceMomentum p = { isHeld, pieces[i].lost, 0.0, Zero(), Zero(), Zero(), Zero(), Zero(), Zero(), none, Zero() };
+        kiriPieceMomentum p = { isHeld, pieces[i].lost, 0.0,    Zero(), Zero(), Zero(),
+                                Zero(), Zero(),         Zero(), none,   Zero() };
         pieces[i] = p;
     }
     GatherCenters(before, after, frameCount, piece, pieces, pieceCount);

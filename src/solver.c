@@ -21,6 +21,7 @@
 #define SECOND_CHANCES 4              /* more iterations where energy is gained or the objective ends too high, */
 #define FRESH_STARTS 2                /* and iterations from the start of the step should they fail */
 #define SHORT_STEP 0.3                /* a step of which no more than this is taken is not the last one */
+#define WORTHWHILE 1e-6               /* of the objective, where a longer one would lower it by more */
 #define MOST_BRAKED 0.5               /* of the kinetic energy, where a piece need not start anew */
 #define ROUNDING 1e-12                /* of an objective, relative */
 #define LAST_BITS (8.0 * DBL_EPSILON) /* of a length: what a few operations round off */
@@ -49,14 +50,15 @@ typedef struct Energy {
 
 /* The step of one piece. Pieces share no links, so each goes its own way, and none waits for another. */
 typedef struct Course {
-    Energy sum;              /* what was evaluated last */
-    Energy start, now;       /* where the step starts, and where the iteration is */
-    double noise;            /* J: what rounding leaves unknown of the objective */
-    double kinetic;          /* J: after the step; while it brakes, beside that of the mean */
-    double gain;             /* J: what the energy grows by in the step beyond work */
-    double scale, enough;    /* of the step that is tried, and the objective that it has to reach */
-    double keep, keepMean;   /* of velocities that are braked: of their difference from the mean, and of that */
-    kiriVec3 mean;           /* by mass, over its frames: of velocities, or of ways to go */
+    Energy sum;            /* what was evaluated last */
+    Energy start, now;     /* where the step starts, and where the iteration is */
+    double noise;          /* J: what rounding leaves unknown of the objective */
+    double kinetic;        /* J: after the step, beside that of the mean velocity */
+    double gain;           /* J: what the energy grows by in the step beyond work */
+    double scale, enough;  /* of the step that is tried, and the objective that it has to reach */
+    double promise;        /* J: by how much the whole of it would lower the objective, were that quadratic */
+    double keep, keepMean; /* of velocities that are braked: of their difference from the mean, and of that */
+    kiriVec3 mean;         /* by mass, over its frames: of velocities, or of ways to go */
     double mass;
     bool isFree;     /* do only gravity and forces act on it? */
     bool isIterated; /* does the iteration go on? */
@@ -81,12 +83,13 @@ struct kiriSolver {
     /* Room for the larger of the two configurations. */
     KIRI_ARRAY(kiriPieceMomentum) pieces;
     KIRI_ARRAY(Course) courses;
-    KIRI_ARRAY(kiriFrameData) before, after;   /* the step, flattened where the sheet is planar */
-    KIRI_ARRAY(kiriFlight) flights;            /* one a frame, as are the poses */
-    KIRI_ARRAY(kiriPose) start, poses, trial;  /* at the start of the step, now, and where a step would lead */
-    KIRI_ARRAY(double) stiffness, loss, startStrain; /* MOST_ROWS an element; damping, and strains at the start of the step */
-    KIRI_ARRAY(double) force, move;            /* the right side: minus the gradient; and the solution */
-    KIRI_ARRAY(uint8_t) stopping; /* would a step have brought this element to its stop? */
+    KIRI_ARRAY(kiriFrameData) before, after;  /* the step, flattened where the sheet is planar */
+    KIRI_ARRAY(kiriFlight) flights;           /* one a frame, as are the poses */
+    KIRI_ARRAY(kiriPose) start, poses, trial; /* at the start of the step, now, and where a step would lead */
+    KIRI_ARRAY(double)
+    stiffness, loss, startStrain;   /* MOST_ROWS an element; damping, and strains at the start of the step */
+    KIRI_ARRAY(double) force, move; /* the right side: minus the gradient; and the solution */
+    KIRI_ARRAY(uint8_t) stopping;   /* would a step have brought this element to its stop? */
     /* Scratch for one element. */
     Indices members;
     KIRI_ARRAY(kiriAffineRow) rows;
@@ -549,8 +552,7 @@ static Course* CourseOf(const kiriSolver* solver, int32_t frame)
 static Course* ElementCourse(const kiriSolver* solver, const kiriSystem* system, int32_t k)
 {
     const kiriLink* link = LinkOf(system, k);
-    return CourseOf(solver, link != NULL ? link->i
-                                         : system->patches->shares.data[PatchOf(system, k)->first].frame);
+    return CourseOf(solver, link != NULL ? link->i : system->patches->shares.data[PatchOf(system, k)->first].frame);
 }
 
 /* Starts the sums of the pieces that a step is sought for, with what the inertia has. */
@@ -645,8 +647,7 @@ static void FindNoise(kiriSolver* solver, const kiriSystem* system)
     const double share = LAST_BITS * LAST_BITS * (1.0 + solver->damping);
     for (int32_t f = 0; f < system->frameCount; ++f) {
         kiriVec3 x = solver->start.data[f].x;
-        CourseOf(solver, f)->noise +=
-            share * system->frames[f].mass * kiriVec3_Dot(x, x) / (solver->dt * solver->dt);
+        CourseOf(solver, f)->noise += share * system->frames[f].mass * kiriVec3_Dot(x, x) / (solver->dt * solver->dt);
     }
     for (int32_t k = 0; k < ElementCount(system); ++k) {
         const double* stiffness = &solver->stiffness.data[MOST_ROWS * k];
@@ -962,9 +963,13 @@ static void StartSearch(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         Course* course = &solver->courses.data[i];
-        course->now = course->sum;
+        course->now = course->isSought ? course->sum : course->now;
         course->enough = course->now.objective * (1.0 + ROUNDING) + course->noise;
         course->scale = LONGEST_TURN;
+        course->promise = 0.0;
+    }
+    for (int32_t n = 0; n < solver->size * system->frameCount; ++n) {
+        CourseOf(solver, n / solver->size)->promise += 0.5 * solver->force.data[n] * solver->move.data[n];
     }
     for (int32_t f = 0; !IsAffine(&system->mechanics) && f < system->frameCount; ++f) {
         Slots change = Expand(solver, 1.0, &solver->move.data[solver->size * f]);
@@ -1098,46 +1103,13 @@ static void Land(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* By how much kinetic and potential energy grow in the step beyond the work of gravity and of the host's forces; what
-   rounding explains is no gain. A held frame counts as moved before the step. */
-static void FindGains(kiriSolver* solver, const kiriSystem* system)
-{
-    kiriVec3 gravity = GravityOf(system);
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
-        Course* course = &solver->courses.data[i];
-        course->kinetic = 0.0;
-        course->gain = -ROUNDING * (course->start.potential + course->now.potential) - course->noise +
-                       course->now.potential - course->start.potential;
-    }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
-        const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
-        if (!start->held) {
-            kiriVec3 way = kiriVec3_Sub(end->x, start->x);
-            double before = kiriFrame_KineticEnergy(start, &system->material);
-            double after = kiriFrame_KineticEnergy(end, &system->material);
-            double work = start->mass * kiriVec3_Dot(gravity, way) + kiriVec3_Dot(start->force, way) +
-                          solver->dt * kiriVec3_Dot(start->torque, end->spin);
-            CourseOf(solver, f)->kinetic += after;
-            CourseOf(solver, f)->gain += after - before - work - ROUNDING * (before + after + fabs(work));
-        }
-    }
-}
-
-/* The factor that takes an energy out of velocities that have `kinetic`; what they do not have is left in `energy`. */
-static double Keep(double kinetic, double* energy)
-{
-    double taken = kinetic < *energy ? kinetic : *energy;
-    *energy -= taken;
-    return taken < kinetic ? sqrt(1.0 - taken / kinetic) : 0.0;
-}
-
 /* The mean velocity of each piece, by mass. */
 static void FindMeans(kiriSolver* solver, int32_t frameCount)
 {
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         Course* course = &solver->courses.data[i];
         course->mean = kiriVec3_Make(0.0, 0.0, 0.0);
-        course->mass = course->kinetic = 0.0;
+        course->mass = 0.0;
     }
     for (int32_t f = 0; f < frameCount; ++f) {
         const kiriFrameData* frame = &solver->after.data[f];
@@ -1153,6 +1125,54 @@ static void FindMeans(kiriSolver* solver, int32_t frameCount)
     }
 }
 
+/* Of a frame after the step, beside what its piece's mean velocity has. */
+static double OwnKinetic(const kiriSolver* solver, const kiriSystem* system, int32_t f)
+{
+    kiriFrameData frame = solver->after.data[f];
+    frame.velocity = kiriVec3_Sub(frame.velocity, CourseOf(solver, f)->mean);
+    return kiriFrame_KineticEnergy(&frame, &system->material);
+}
+
+/* What brakes can take: the velocity of the centre of mass of a free piece is not theirs. */
+static double Brakeable(const Course* course)
+{
+    return course->kinetic + (course->isFree ? 0.0 : 0.5 * course->mass * kiriVec3_Dot(course->mean, course->mean));
+}
+
+/* By how much kinetic and potential energy grow in the step beyond the work of gravity and of the host's forces; what
+   rounding explains is no gain. A held frame counts as moved before the step. */
+static void FindGains(kiriSolver* solver, const kiriSystem* system)
+{
+    FindMeans(solver, system->frameCount);
+    kiriVec3 gravity = GravityOf(system);
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        Course* course = &solver->courses.data[i];
+        course->kinetic = 0.0;
+        course->gain = -ROUNDING * (course->start.potential + course->now.potential) - course->noise +
+                       course->now.potential - course->start.potential;
+    }
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
+        if (!start->held) {
+            kiriVec3 way = kiriVec3_Sub(end->x, start->x);
+            double before = kiriFrame_KineticEnergy(start, &system->material);
+            double after = kiriFrame_KineticEnergy(end, &system->material);
+            double work = start->mass * kiriVec3_Dot(gravity, way) + kiriVec3_Dot(start->force, way) +
+                          solver->dt * kiriVec3_Dot(start->torque, end->spin);
+            CourseOf(solver, f)->kinetic += OwnKinetic(solver, system, f);
+            CourseOf(solver, f)->gain += after - before - work - ROUNDING * (before + after + fabs(work));
+        }
+    }
+}
+
+/* The factor that takes an energy out of velocities that have `kinetic`; what they do not have is left in `energy`. */
+static double Keep(double kinetic, double* energy)
+{
+    double taken = kinetic < *energy ? kinetic : *energy;
+    *energy -= taken;
+    return taken < kinetic ? sqrt(1.0 - taken / kinetic) : 0.0;
+}
+
 static void Slow(kiriFrameData* frame, double keep, kiriVec3 mean, double keepMean)
 {
     kiriVec3 own = kiriVec3_Sub(frame->velocity, mean);
@@ -1164,20 +1184,15 @@ static void Slow(kiriFrameData* frame, double keep, kiriVec3 mean, double keepMe
 }
 
 /* Takes what pieces gained out of their velocities: as they differ from the mean first, for so momentum stays. Only where
-   pins or contacts change momentum can there be more to take. */
+   something changes momentum can there be more to take. */
 static void Brake(kiriSolver* solver, const kiriSystem* system)
 {
-    FindMeans(solver, system->frameCount);
-    for (int32_t f = 0; f < system->frameCount; ++f) {
-        kiriFrameData frame = solver->after.data[f];
-        frame.velocity = kiriVec3_Sub(frame.velocity, CourseOf(solver, f)->mean);
-        CourseOf(solver, f)->kinetic += frame.held ? 0.0 : kiriFrame_KineticEnergy(&frame, &system->material);
-    }
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         Course* course = &solver->courses.data[i];
         double energy = course->gain > 0.0 ? course->gain : 0.0;
         course->keep = Keep(course->kinetic, &energy);
-        course->keepMean = Keep(0.5 * course->mass * kiriVec3_Dot(course->mean, course->mean), &energy);
+        course->keepMean =
+            course->isFree ? 1.0 : Keep(0.5 * course->mass * kiriVec3_Dot(course->mean, course->mean), &energy);
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {
         const Course* course = CourseOf(solver, f);
@@ -1205,7 +1220,10 @@ static void Center(kiriSolver* solver, const kiriSystem* system)
     for (int32_t f = 0; f < system->frameCount; ++f) {
         const Course* course = CourseOf(solver, f);
         kiriVec3* x = &solver->poses.data[f].x;
-        *x = course->isFree ? kiriVec3_AddScaled(*x, 1.0 / course->mass, course->mean) : *x;
+        double squared = kiriVec3_Dot(course->mean, course->mean) / (course->mass * solver->dt * solver->dt);
+        if (course->isFree && 0.5 * squared > course->noise) {
+            *x = kiriVec3_AddScaled(*x, 1.0 / course->mass, course->mean);
+        }
     }
 }
 
@@ -1223,20 +1241,21 @@ static bool ChooseUnfinished(kiriSolver* solver)
     bool any = false;
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         Course* course = &solver->courses.data[i];
-        course->isIterated = course->isIterated && (!(course->gain <= 0.0) || course->scale < SHORT_STEP);
+        bool isShort = course->scale < SHORT_STEP && course->promise > WORTHWHILE * course->now.objective;
+        course->isIterated = course->isIterated && (!(course->gain <= 0.0) || isShort);
         any |= course->isIterated;
     }
     return any;
 }
 
-/* Of these, only those go on that brakes would stop; they stand where they stood before the step. Returns whether there
-   are any. */
+/* Of these, only those go on that would lose too much of their motion to brakes; they stand where they stood
+   before the step. Returns whether there are any. */
 static bool Restart(kiriSolver* solver, const kiriSystem* system)
 {
     bool any = false;
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         Course* course = &solver->courses.data[i];
-        course->isIterated = course->isIterated && !(course->gain <= MOST_BRAKED * course->kinetic);
+        course->isIterated = course->isIterated && !(course->gain <= MOST_BRAKED * Brakeable(course));
         course->now = course->isIterated ? course->start : course->now;
         solver->restarts += course->isIterated;
         any |= course->isIterated;
@@ -1277,7 +1296,7 @@ static int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t it
     int32_t done = 0, last = iterations + SECOND_CHANCES;
     bool isLeft = true, isFresh = false;
     EvaluateStart(solver, system);
-    while (isLeft && done < most) {
+    while (isLeft && done < most && done < last) {
         /* Before the first step the push is that of the free flight, far too strong at an impact. */
         solver->isBraking = done > 0 || iterations == 1;
         if (!Iterate(solver, system, done == 0)) {
@@ -1286,17 +1305,14 @@ static int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t it
         ++done;
         if (done >= iterations) {
             Arrive(solver, system);
-            isLeft = ChooseUnfinished(solver) && !(done == last && isFresh);
+            isLeft = ChooseUnfinished(solver);
         }
-        if (isLeft && done == last) {
+        if (isLeft && !isFresh && (done == last || done == most)) {
             isLeft = Restart(solver, system);
+            Arrive(solver, system);
             isFresh = true;
             last += FRESH_STARTS;
         }
-    }
-    if (isLeft && !isFresh && Restart(solver, system)) {
-        /* Cut short: those that would stop do not move at all. */
-        Arrive(solver, system);
     }
     return done;
 }

@@ -27,7 +27,8 @@
 typedef struct Axes {
     kiriVec3 n, tau, d;
     kiriVec3 nBy[2], tauBy[2], dBy[2];
-    double open; /* the cosine of half the angle between the directors: 1 where the sheet is flat, 0 where it is folded */
+    double
+        open; /* the cosine of half the angle between the directors: 1 where the sheet is flat, 0 where it is folded */
     kiriVec3 openBy[2];
 } Axes;
 

@@ -384,6 +384,74 @@ static void TestFoldedFlat(void** state)
     Drop(&scene);
 }
 
+/* Turned against each other by up to half a turn: derivatives, and no jump on the way to the other side. */
+static void TestFoldsAreSmooth(void** state)
+{
+    uint32_t seed = 17;
+    const double eps = 1e-6, pi = 3.14159265358979;
+    (void)state;
+    for (int trial = 0; trial < 400; ++trial) {
+        Couple couple = RandomCouple(&seed);
+        double strain[KIRI_STRAINS], ahead[KIRI_STRAINS], behind[KIRI_STRAINS];
+        kiriStrainRow rows[KIRI_STRAINS];
+        double way = RandomBetween(&seed, 0.0, 2.0 * pi), angle = RandomBetween(&seed, 0.7 * pi, 0.97 * pi);
+        kiriVec3 axis = kiriPose_Along(&couple.poses[0], kiriVec2_Make(cos(way), sin(way)));
+        kiriMat3 turn = kiriMat3_Cayley(kiriVec3_Scale(2.0 * tan(0.5 * angle), axis));
+        couple.poses[1].A = kiriMat3_MulMat(turn, couple.poses[0].A);
+        MeasureCouple(&couple, strain, rows);
+        for (int k = 0; k < 2; ++k) {
+            kiriVec3 move = RandomVector(&seed, 1.0), spin = RandomVector(&seed, 1.0);
+            Couple a = Displaced(&couple, k, kiriVec3_Scale(eps, move), kiriVec3_Scale(eps, spin));
+            Couple b = Displaced(&couple, k, kiriVec3_Scale(-eps, move), kiriVec3_Scale(-eps, spin));
+            MeasureCouple(&a, ahead, NULL);
+            MeasureCouple(&b, behind, NULL);
+            for (int e = 0; e < KIRI_STRAINS; ++e) {
+                double slope = kiriVec3_Dot(rows[e].end[k].move, move) + kiriVec3_Dot(rows[e].end[k].turn, spin);
+                AssertNear((ahead[e] - behind[e]) / (2.0 * eps), slope, 1e-4 * (1.0 + fabs(slope)));
+            }
+        }
+    }
+}
+
+/* What stretch, shear and plane bending cost next to half a turn, however the frames are offset and whichever way they
+   lean: nothing, so that there is no wall on the way round. */
+static void TestHalfTurnHasNoWall(void** state)
+{
+    uint32_t seed = 19;
+    const double pi = 3.14159265358979;
+    (void)state;
+    for (int trial = 0; trial < 200; ++trial) {
+        Couple couple = RandomCouple(&seed);
+        double strain[KIRI_STRAINS], way = RandomBetween(&seed, 0.0, 2.0 * pi);
+        kiriVec3 axis = kiriPose_Along(&couple.poses[0], kiriVec2_Make(cos(way), sin(way)));
+        kiriVec3 lean = RandomVector(&seed, 1e-3);
+        couple.poses[1].A = kiriMat3_MulMat(kiriMat3_Cayley(kiriVec3_Scale(1e5, axis)), couple.poses[0].A);
+        couple.poses[1].A = kiriMat3_MulMat(kiriMat3_Cayley(lean), couple.poses[1].A);
+        MeasureCouple(&couple, strain, NULL);
+        for (int e = 0; e < KIRI_STRAINS; ++e) {
+            bool isFold = e == KIRI_BENDING || e == KIRI_TWIST || e == KIRI_NORMAL_STOP;
+            assert_true(isFold || fabs(strain[e]) < 1e-4);
+        }
+        AssertNear(sqrt(strain[KIRI_BENDING] * strain[KIRI_BENDING] + strain[KIRI_TWIST] * strain[KIRI_TWIST]), pi,
+                   2e-3);
+    }
+}
+
+/* Two frames folded flat on each other spring open. */
+static void TestFoldOpens(void** state)
+{
+    const kiriMat3 folded = { { -1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, -1.0 } };
+    (void)state;
+    MakeSheet(&scene, 2, 1, 0.2, 0.1, Paper);
+    scene.system.gravity = kiriVec3_Make(0.0, 0.0, 0.0);
+    scene.system.material.airDamping = 2.0f;
+    scene.frames[1].A = folded;
+    scene.frames[1].x = kiriVec3_Make(0.05, 0.05, 0.0);
+    Steps(&scene, 240, 1.0 / 60.0, 2);
+    assert_true(kiriVec3_Dot(scene.frames[0].A.d, scene.frames[1].A.d) > 0.9);
+    Drop(&scene);
+}
+
 static double CoupleEnergy(Scene* s, kiriVec3 move, kiriVec3 turn)
 {
     kiriFrameData rest = s->frames[1];
@@ -458,6 +526,45 @@ static void TestFreeFall(void** state)
     }
     assert_true(kiriSolver_ElasticEnergy(&scene.system) < 1e-18);
     Drop(&scene);
+}
+
+/* Of two sheets in one solver, one falls flat; the frames of the other are strewn about. Nothing holds either: the first
+   falls as if alone, to the bit, and so does the centre of mass of the second. */
+static void TestPiecesFallByThemselves(void** state)
+{
+    const double dt = 1.0 / 60.0;
+    uint32_t seed = 23;
+    (void)state;
+    for (int trial = 0; trial < 10; ++trial) {
+        MakeSheet(&scene, 6, 2, 0.2, 0.05, Paper);
+        int kept = 0;
+        for (int k = 0; k < scene.system.linkCount; ++k) {
+            if (scene.links[k].i / 6 == scene.links[k].j / 6) {
+                scene.links[kept++] = scene.links[k];
+            }
+        }
+        scene.system.linkCount = kept;
+        assert_true(kiriSolver_Stage(scene.solver, 12, scene.links, kept, NULL));
+        kiriSolver_Commit(scene.solver);
+        kiriVec3 start = { 0.0, 0.0, 0.0 };
+        double mass = 0.0;
+        for (int f = 6; f < 12; ++f) {
+            scene.frames[f].A = kiriMat3_Cayley(RandomVector(&seed, 3.0));
+            scene.frames[f].x = RandomVector(&seed, 0.1);
+            start = kiriVec3_AddScaled(start, scene.frames[f].mass, scene.frames[f].x);
+            mass += scene.frames[f].mass;
+        }
+        for (int n = 1; n <= 60; ++n) {
+            double way = -9.81 * dt * dt * n * (n + 1) / 2.0, fallen = 0.0;
+            Steps(&scene, 1, dt, 2);
+            for (int f = 0; f < 12; ++f) {
+                fallen += f < 6 ? 0.0 : scene.frames[f].mass * scene.frames[f].x.z;
+                AssertNear(f < 6 ? scene.frames[f].x.z : way, way, 1e-9);
+            }
+            AssertNear((fallen - start.z) / mass, way, 1e-9);
+        }
+        Drop(&scene);
+    }
 }
 
 /* A single frame, about its normal, about u, and about no axis of its own: angular momentum and energy stay. */
@@ -1159,9 +1266,13 @@ int main(void)
         cmocka_unit_test(TestInnerForcesBalance),
         cmocka_unit_test(TestArcIsBendingOnly),
         cmocka_unit_test(TestFoldedFlat),
+        cmocka_unit_test(TestFoldsAreSmooth),
+        cmocka_unit_test(TestHalfTurnHasNoWall),
+        cmocka_unit_test(TestFoldOpens),
         cmocka_unit_test(TestEnergies),
         cmocka_unit_test(TestRigidMotionCostsNothing),
         cmocka_unit_test(TestFreeFall),
+        cmocka_unit_test(TestPiecesFallByThemselves),
         cmocka_unit_test(TestFrameSpins),
         cmocka_unit_test(TestFrameTurnsByItsSpin),
         cmocka_unit_test(TestSlenderFrameStaysBounded),
