@@ -135,6 +135,12 @@ static float Ease(int32_t tick, int32_t first, int32_t last)
     return x * x * (3.0f - 2.0f * x);
 }
 
+/* As many ticks at another pace. */
+static int32_t Slow(int32_t ticks, float pace)
+{
+    return (int32_t)((double)ticks / (double)pace + 0.5);
+}
+
 static Outline* AddStroke(Scene* scene)
 {
     return &scene->strokes[scene->strokeCount++].way;
@@ -204,7 +210,8 @@ static bool AddFigure(Scene* scene, const SceneOptions* options, const Figure* f
     return fine;
 }
 
-/* A push against a figure when it comes off, harder the higher above `foot`, so that it topples out of the hole. */
+/* A push against a figure when it comes off, harder the higher above `foot`, so that it topples out of the hole. As short
+   at any pace of the blade: the figure falls as fast. */
 static void PushFigure(Scene* scene, const Stroke* stroke, float foot, float strength)
 {
     if (scene->tick <= stroke->lastTick || scene->tick > stroke->lastTick + 12) {
@@ -363,7 +370,7 @@ static bool StartVortex(Scene* scene, const SceneOptions* options)
 
 /* ---- Kirigami: 8 rings of 6 slits, and the middle is pulled up --------------------------------------------------- */
 
-enum { RINGS = 8, SLITS = 6, PULL_TICKS = 180 };
+enum { RINGS = 8, SLITS = 6, PULL_PAUSE = 20, PULL_TICKS = 180 };
 
 static double RadiusOf(int32_t ring)
 {
@@ -424,9 +431,9 @@ static bool StartKirigami(Scene* scene, const SceneOptions* options)
 static void PullKirigami(Scene* scene)
 {
     TouchFloor(scene);
-    int32_t first = scene->type->lastCut + 20;
+    int32_t first = scene->type->lastCut + Slow(PULL_PAUSE, scene->pace), last = first + Slow(PULL_TICKS, scene->pace);
     for (int32_t i = 0; i < MIDDLE_PINS; i++) {
-        RaisePin(scene, i, floorGap + 0.32f * Ease(scene->tick, first, first + PULL_TICKS));
+        RaisePin(scene, i, floorGap + 0.32f * Ease(scene->tick, first, last));
     }
 }
 
@@ -551,9 +558,32 @@ const SceneType* Scene_FindType(const char* name)
     return NULL;
 }
 
+/* The type with all that comes after its first cut at another pace. */
+static SceneType SlowType(const SceneType* type, float pace)
+{
+    SceneType paced = *type;
+    paced.lastCut = type->firstCut + Slow(type->lastCut - type->firstCut, pace);
+    paced.ticks = type->firstCut + Slow(type->ticks - type->firstCut, pace);
+    for (int32_t i = 0; i < 8; i++) {
+        int32_t after = type->moments[i] - type->firstCut;
+        paced.moments[i] = after > 0 ? type->firstCut + Slow(after, pace) : type->moments[i];
+    }
+    return paced;
+}
+
+static void Initialize(Scene* scene, const SceneType* type, float pace)
+{
+    *scene = (Scene){ .type = type, .pace = 1.0f };
+    if (pace > 0.0f && pace != 1.0f) {
+        scene->paced = SlowType(type, pace);
+        scene->type = &scene->paced;
+        scene->pace = pace;
+    }
+}
+
 bool Scene_Start(Scene* scene, const SceneType* type, const kiriWorldDef* def, const SceneOptions* options)
 {
-    *scene = (Scene){ .type = type };
+    Initialize(scene, type, options->pace);
     SceneOptions filled = *options;
     filled.dataFolder = filled.dataFolder != NULL ? filled.dataFolder : "samples/data";
     kiriResult result = kiriCreateWorld(def, &scene->world);
@@ -571,7 +601,34 @@ bool Scene_Start(Scene* scene, const SceneType* type, const kiriWorldDef* def, c
     return true;
 }
 
-/* Gives the library the points up to this tick. */
+/* Gives the library the points of the way up to that number. */
+static kiriResult TakePoints(Scene* scene, Stroke* stroke, int32_t until)
+{
+    if (until <= stroke->taken) {
+        return KIRI_OK;
+    }
+    const float* points = stroke->way.points + 2 * stroke->taken;
+    int32_t count = until - stroke->taken;
+    stroke->taken = until;
+    memcpy(stroke->tip, stroke->way.points + 2 * (until - 1), sizeof stroke->tip);
+    return kiriCut_Extend(scene->world, stroke->cut, points, count);
+}
+
+/* And the point at `share` of the way from the last one to the next. */
+static kiriResult TakeTip(Scene* scene, Stroke* stroke, float share)
+{
+    const float *from = stroke->way.points + 2 * (stroke->taken - 1), *to = from + 2;
+    if (!(share > 0.0f)) {
+        return KIRI_OK;
+    }
+    for (int i = 0; i < 2; i++) {
+        stroke->tip[i] = from[i] + share * (to[i] - from[i]);
+    }
+    return kiriCut_Extend(scene->world, stroke->cut, stroke->tip, 1);
+}
+
+/* Gives the library the points up to this tick: those of the way, and at a pace of its own, where the blade moves
+   smoothly, also where it is between them. */
 static kiriResult MoveBlade(Scene* scene, Stroke* stroke)
 {
     const Outline* way = &stroke->way;
@@ -581,16 +638,17 @@ static kiriResult MoveBlade(Scene* scene, Stroke* stroke)
     kiriResult result = KIRI_OK;
     if (stroke->taken == 0) {
         result = kiriBeginCut(scene->world, scene->sheet, way->points, &stroke->cut);
+        memcpy(stroke->tip, way->points, sizeof stroke->tip);
         stroke->taken = 1;
     }
     int32_t ticks = stroke->lastTick - stroke->firstTick, done = scene->tick - stroke->firstTick;
-    int32_t until = done < ticks ? 1 + (way->count - 1) * done / ticks : way->count;
-    if (result == KIRI_OK && until > stroke->taken) {
-        result = kiriCut_Extend(scene->world, stroke->cut, way->points + 2 * stroke->taken, until - stroke->taken);
-        stroke->taken = until;
-    }
-    if (result == KIRI_OK && stroke->taken == way->count) {
+    int64_t gone = (int64_t)(way->count - 1) * done;
+    int32_t until = done < ticks ? 1 + (int32_t)(gone / ticks) : way->count;
+    result = result == KIRI_OK ? TakePoints(scene, stroke, until) : result;
+    if (result == KIRI_OK && until == way->count) {
         result = kiriCut_End(scene->world, stroke->cut);
+    } else if (result == KIRI_OK && scene->pace != 1.0f) {
+        result = TakeTip(scene, stroke, (float)(gone % ticks) / (float)ticks);
     }
     return result;
 }
@@ -616,7 +674,7 @@ int32_t Scene_GetBlades(const Scene* scene, float (*restPoints)[2], int32_t capa
     for (int32_t i = 0; i < scene->strokeCount && count < capacity; i++) {
         const Stroke* stroke = &scene->strokes[i];
         if (stroke->taken > 0 && scene->tick <= stroke->lastTick + 1) {
-            memcpy(restPoints[count++], stroke->way.points + 2 * (stroke->taken - 1), 2 * sizeof(float));
+            memcpy(restPoints[count++], stroke->tip, sizeof stroke->tip);
         }
     }
     return count;

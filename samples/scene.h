@@ -24,6 +24,7 @@ typedef struct SceneOptions {
     int32_t gridResolution; /* 0: the scene's own */
     int32_t frameCount;     /* 0: the scene's own */
     bool fromScratch;       /* of the sheet def */
+    float pace;             /* of blades and pins; 0.2: they take five times as many ticks; 0 or 1: the scene's own */
 } SceneOptions;
 
 /* The way of a blade, point by point from one tick to another. */
@@ -31,6 +32,7 @@ typedef struct Stroke {
     Outline way;
     int32_t firstTick, lastTick;
     int32_t taken; /* points given to the library */
+    float tip[2];  /* the last point given, which may lie between two of the way */
     kiriCut cut;
 } Stroke;
 
@@ -53,7 +55,9 @@ typedef struct SceneType {
 enum { SCENE_MAX_STROKES = 64, SCENE_MAX_PINS = 16 };
 
 struct Scene {
-    const SceneType* type;
+    const SceneType* type; /* with an own pace: `paced` */
+    SceneType paced;
+    float pace; /* 1: as the type has it */
     kiriWorld* world;
     kiriSheet sheet;
     int32_t gridResolution;

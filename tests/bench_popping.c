@@ -52,7 +52,7 @@ static void Measure(Jumps* jumps, const SceneType* type, int way)
     static Scene scene;
     memset(jumps, 0, sizeof(*jumps));
     kiriWorldDef def = Probe_Def(&jumps->probe, type->size);
-    const SceneOptions options = { NULL, 0, 0 };
+    const SceneOptions options = { .dataFolder = NULL };
     if (!Scene_Start(&scene, type, &def, &options)) {
         exit(1);
     }

@@ -24,12 +24,17 @@ static const Row table[] = {
 
 enum { ROWS = sizeof table / sizeof table[0] };
 
-static void Start(Scene* scene, const char* name)
+static void StartAt(Scene* scene, const char* name, float pace)
 {
     kiriWorldDef def;
     kiriDefaultWorldDef(&def);
     assert_non_null(Scene_FindType(name));
-    assert_true(Scene_Start(scene, Scene_FindType(name), &def, &(SceneOptions){ .dataFolder = NULL }));
+    assert_true(Scene_Start(scene, Scene_FindType(name), &def, &(SceneOptions){ .pace = pace }));
+}
+
+static void Start(Scene* scene, const char* name)
+{
+    StartAt(scene, name, 0.0f);
 }
 
 static void TestTable(void** state)
@@ -50,25 +55,123 @@ static void TestTable(void** state)
 }
 
 /* Strokes fill the time of cutting without a gap, and all blades are about as fast. */
+static void CheckTimes(const Scene* scene)
+{
+    const SceneType* type = scene->type;
+    assert_true(type->firstCut > 0 && type->firstCut < type->lastCut && type->lastCut + 30 < type->ticks);
+    assert_int_equal(scene->strokes[0].firstTick, type->firstCut);
+    assert_int_equal(scene->strokes[scene->strokeCount - 1].lastTick, type->lastCut);
+    for (int32_t k = 1; k < scene->strokeCount; k++) {
+        assert_int_equal(scene->strokes[k].firstTick, type->together ? type->firstCut : scene->strokes[k - 1].lastTick);
+    }
+    for (int32_t k = 1; k < 8; k++) {
+        assert_true(type->moments[k] > type->moments[k - 1] && type->moments[k] <= type->ticks);
+    }
+}
+
+/* And so at any pace, in as many more ticks. */
 static void TestTimes(void** state)
 {
     (void)state;
+    static const float paces[] = { 1.0f, 0.25f, 2.0f };
     for (int i = 0; Scene_GetType(i) != NULL; i++) {
         const SceneType* type = Scene_GetType(i);
-        Scene scene;
-        Start(&scene, type->name);
-        assert_true(type->firstCut > 0 && type->firstCut < type->lastCut && type->lastCut + 30 < type->ticks);
-        assert_int_equal(scene.strokes[0].firstTick, type->firstCut);
-        assert_int_equal(scene.strokes[scene.strokeCount - 1].lastTick, type->lastCut);
-        for (int32_t k = 1; k < scene.strokeCount; k++) {
-            assert_int_equal(scene.strokes[k].firstTick,
-                             type->together ? type->firstCut : scene.strokes[k - 1].lastTick);
+        for (int k = 0; k < 3; k++) {
+            Scene scene;
+            StartAt(&scene, type->name, paces[k]);
+            CheckTimes(&scene);
+            assert_int_equal(scene.type->firstCut, type->firstCut);
+            assert_true(fabsf(paces[k] * (float)(scene.type->lastCut - type->firstCut) -
+                              (float)(type->lastCut - type->firstCut)) <= 1.0f);
+            assert_true(fabsf(paces[k] * (float)(scene.type->ticks - type->firstCut) -
+                              (float)(type->ticks - type->firstCut)) <= 1.0f);
+            Scene_Stop(&scene);
         }
-        for (int32_t k = 1; k < 8; k++) {
-            assert_true(type->moments[k] > type->moments[k - 1] && type->moments[k] <= type->ticks);
-        }
-        Scene_Stop(&scene);
     }
+}
+
+static uint64_t HashAt(float pace)
+{
+    Scene scene;
+    uint64_t hash;
+    StartAt(&scene, "bunny", pace);
+    for (int32_t i = 0; i < 60; i++) {
+        assert_true(Scene_Tick(&scene) >= 0);
+    }
+    assert_int_equal(kiriWorld_GetStateHash(scene.world, &hash), KIRI_OK);
+    Scene_Stop(&scene);
+    return hash;
+}
+
+static void TestPaceOfOne(void** state)
+{
+    (void)state;
+    assert_true(HashAt(0.0f) == HashAt(1.0f));
+    assert_true(HashAt(0.0f) != HashAt(0.5f));
+}
+
+static float DistanceToWay(const Outline* way, const float point[2])
+{
+    float least = FLT_MAX;
+    for (int32_t i = 0; i + 1 < way->count; i++) {
+        const float *from = way->points + 2 * i, *to = from + 2;
+        float u = to[0] - from[0], v = to[1] - from[1], length = u * u + v * v;
+        float along = ((point[0] - from[0]) * u + (point[1] - from[1]) * v) / length;
+        along = fminf(fmaxf(along, 0.0f), 1.0f);
+        least = fminf(least, hypotf(from[0] + along * u - point[0], from[1] + along * v - point[1]));
+    }
+    return least;
+}
+
+static bool HasVertex(const kiriMesh* mesh, const float point[2], float distance)
+{
+    for (int32_t i = 0; i < mesh->vertexCount; i++) {
+        const float* x = mesh->restPositions + 2 * i;
+        if (hypotf(x[0] - point[0], x[1] - point[1]) < distance) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static float LongestSide(const Outline* way)
+{
+    float longest = 0.0f;
+    for (int32_t i = 0; i + 1 < way->count; i++) {
+        const float* x = way->points + 2 * i;
+        longest = fmaxf(longest, hypotf(x[2] - x[0], x[3] - x[1]));
+    }
+    return longest;
+}
+
+/* At a slow pace the blade goes on a little in every tick, on its way, and all points of the way are cut. */
+static void TestSlowBlade(void** state)
+{
+    (void)state;
+    Scene scene;
+    StartAt(&scene, "bunny", 0.2f);
+    const Stroke* stroke = &scene.strokes[0];
+    const Outline* way = &stroke->way;
+    float before[2] = { way->points[0], way->points[1] }, tip[1][2];
+    float most = 1.01f * LongestSide(way) * (float)(way->count - 1) / (float)(stroke->lastTick - stroke->firstTick);
+    assert_true(most < 0.5f * LongestSide(way));
+    while (scene.tick <= stroke->lastTick) {
+        bool cuts = scene.tick > stroke->firstTick;
+        assert_true(Scene_Tick(&scene) >= 0);
+        if (cuts) {
+            assert_int_equal(Scene_GetBlades(&scene, tip, 1), 1);
+            float step = hypotf(tip[0][0] - before[0], tip[0][1] - before[1]);
+            assert_true(step > 0.0f && step < most && DistanceToWay(way, tip[0]) < 1e-6f);
+            memcpy(before, tip[0], sizeof before);
+        }
+    }
+    kiriMesh mesh;
+    assert_int_equal(kiriSheet_GetMesh(scene.world, scene.sheet, &mesh), KIRI_OK);
+    assert_memory_equal(before, way->points + 2 * (way->count - 1), sizeof before);
+    for (int32_t i = 0; i < way->count; i++) {
+        assert_true(HasVertex(&mesh, way->points + 2 * i, 1.1e-4f)); /* what a blade may snap by */
+    }
+    Scene_Stop(&scene);
 }
 
 /* Cuts only in the ticks that the type names; frames and pieces as in the table; nothing gets lost on the way. */
@@ -175,8 +278,9 @@ static void TestCircle(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestTable),  cmocka_unit_test(TestTimes),       cmocka_unit_test(TestSpiral),
-        cmocka_unit_test(TestCircle), cmocka_unit_test(TestSpiralScene), cmocka_unit_test(TestPatchworkScene),
+        cmocka_unit_test(TestTable),       cmocka_unit_test(TestTimes),          cmocka_unit_test(TestPaceOfOne),
+        cmocka_unit_test(TestSlowBlade),   cmocka_unit_test(TestSpiral),         cmocka_unit_test(TestCircle),
+        cmocka_unit_test(TestSpiralScene), cmocka_unit_test(TestPatchworkScene),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
