@@ -784,8 +784,9 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
         springs[e] = stiffness[e] + loss[e];
         pulls[e] = -stiffness[e] * strain[e] - loss[e] * (strain[e] - start[e]);
     }
-    /* No step gets past a stop that it does not see. */
-    if (solver->stopping.data[k] && rows == KIRI_NORMAL_STOP) {
+    /* No step gets past a stop that it does not see: after one that was cut short, those count that it ran into. */
+    bool wasShort = ElementCourse(solver, system, k)->scale < SHORT_STEP;
+    if (wasShort && solver->stopping.data[k] && rows == KIRI_NORMAL_STOP) {
         springs[KIRI_NORMAL_GAP] += stiffness[KIRI_NORMAL_STOP];
     }
     AddSquares(solver, solver->members.data, count, solver->J.data, springs, pulls, rows);
@@ -922,6 +923,7 @@ static void BeginCourses(kiriSolver* solver, const kiriSystem* system)
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         memset(&solver->courses.data[i], 0, sizeof(Course));
         solver->courses.data[i].isFree = true;
+        solver->courses.data[i].scale = 1.0;
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {
         CourseOf(solver, f)->isFree &= !system->frames[f].held;
