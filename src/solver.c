@@ -784,8 +784,9 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
         springs[e] = stiffness[e] + loss[e];
         pulls[e] = -stiffness[e] * strain[e] - loss[e] * (strain[e] - start[e]);
     }
-    /* No step gets past a stop that it does not see. */
-    if (solver->stopping.data[k] && rows == KIRI_NORMAL_STOP) {
+    /* No step gets past a stop that it does not see: after one that was cut short, those count that it ran into. */
+    bool wasShort = ElementCourse(solver, system, k)->scale < SHORT_STEP;
+    if (wasShort && solver->stopping.data[k] && rows == KIRI_NORMAL_STOP) {
         springs[KIRI_NORMAL_GAP] += stiffness[KIRI_NORMAL_STOP];
     }
     AddSquares(solver, solver->members.data, count, solver->J.data, springs, pulls, rows);
@@ -922,6 +923,7 @@ static void BeginCourses(kiriSolver* solver, const kiriSystem* system)
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         memset(&solver->courses.data[i], 0, sizeof(Course));
         solver->courses.data[i].isFree = true;
+        solver->courses.data[i].scale = 1.0;
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {
         CourseOf(solver, f)->isFree &= !system->frames[f].held;
@@ -1256,7 +1258,8 @@ static bool Restart(kiriSolver* solver, const kiriSystem* system)
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         Course* course = &solver->courses.data[i];
         bool isOver = !(course->now.objective <= course->start.objective * (1.0 + ROUNDING) + course->noise);
-        course->isIterated = course->isIterated && isOver && !(course->gain <= MOST_BRAKED * Brakeable(course));
+        double most = (isOver ? MOST_BRAKED : 1.0) * Brakeable(course);
+        course->isIterated = course->isIterated && !(course->gain <= most);
         course->now = course->isIterated ? course->start : course->now;
         solver->restarts += course->isIterated;
         any |= course->isIterated;
@@ -1285,8 +1288,7 @@ static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
    which stretches links before the next step lets them go, and halving it there would freeze the turning.
 
    Pieces that have gained energy, or took only a part of their last step, are iterated on. What a piece has gained even
-   then is taken out of its velocities. Where that would all but stop it, and its objective is above that of not moving, it
-   starts anew from not moving, and its objective
+   then is taken out of its velocities. Where that would all but stop it, it starts anew from not moving, and its objective
    only falls from there. Then, with v the velocities before and w those after the step,
 
        potential after + 1/2 m (w - v)^2  <=  potential before + 1/2 m v^2 + work,
