@@ -82,7 +82,7 @@ static bool MapRest(kiriExtract* extract)
 /* What is spread over the sheet falls to its parts by area. */
 static void TakeParameters(kiriSheetData* to, const kiriSheetData* from)
 {
-    double share = kiriUpdate_WholeArea(to) / kiriUpdate_WholeArea(from);
+    double share = kiriMesh_Area(&to->mesh) / kiriMesh_Area(&from->mesh);
     to->material = from->material;
     to->snap = from->snap;
     to->mechanics = from->mechanics;

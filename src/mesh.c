@@ -385,6 +385,11 @@ int64_t kiriMesh_DoubledArea(const kiriMeshData* mesh)
     return sum;
 }
 
+double kiriMesh_Area(const kiriMeshData* mesh)
+{
+    return 0.5 * (double)kiriMesh_DoubledArea(mesh) * mesh->step * mesh->step;
+}
+
 static int32_t FindRoot(int32_t* parent, int32_t t)
 {
     while (parent[t] != t) {

@@ -106,6 +106,9 @@ int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriPoint at);
 /* Twice the area, in lattice steps squared. Exact: cuts that do not split slanted outline edges never change it. */
 int64_t kiriMesh_DoubledArea(const kiriMeshData* mesh);
 
+/* The area, m^2. */
+double kiriMesh_Area(const kiriMeshData* mesh);
+
 /* The pieces: piece[t] for each triangle, numbered by their lowest triangle; and how many there are. */
 void kiriMesh_Pieces(const kiriMeshData* mesh, int32_t* piece, int32_t* count);
 

@@ -90,7 +90,7 @@ static void SetFrames(kiriSheetData* sheet, const kiriSheetDef* def, double area
 static void SetParameters(kiriSheetData* sheet, const kiriSheetDef* def)
 {
     double longer = 536870912.0; /* 2^29 lattice steps, see mesh.h */
-    double area = kiriUpdate_WholeArea(sheet);
+    double area = kiriMesh_Area(&sheet->mesh);
     sheet->material = def->material;
     sheet->snap = def->snapDistance > 0.0f ? def->snapDistance / sheet->mesh.step : 1e-4 * longer;
     SetFrames(sheet, def, area);
@@ -185,7 +185,7 @@ static bool BuildAll(kiriSheetData* sheet, const kiriSheetDef* def)
     kiriUpdate* u = &sheet->update;
     kiriQuota all = { INT64_MAX, 0 };
     u->step = 1; /* sites that the caller placed are where they shall be */
-    u->whole = kiriUpdate_WholeArea(sheet);
+    u->whole = kiriMesh_Area(&sheet->mesh);
     u->spread = def->framePoints != NULL ? 0 : def->frameCount;
     return StartSkin(sheet) && kiriUpdate_Regions(sheet, &all) == KIRI_DONE && kiriUpdate_Shape(sheet, &all) == KIRI_DONE &&
            kiriUpdate_Samples(sheet, &all) == KIRI_DONE && kiriUpdate_Constants(sheet, &all) == KIRI_DONE;

@@ -1255,7 +1255,8 @@ static bool Restart(kiriSolver* solver, const kiriSystem* system)
     bool any = false;
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         Course* course = &solver->courses.data[i];
-        course->isIterated = course->isIterated && !(course->gain <= MOST_BRAKED * Brakeable(course));
+        bool isOver = !(course->now.objective <= course->start.objective * (1.0 + ROUNDING) + course->noise);
+        course->isIterated = course->isIterated && isOver && !(course->gain <= MOST_BRAKED * Brakeable(course));
         course->now = course->isIterated ? course->start : course->now;
         solver->restarts += course->isIterated;
         any |= course->isIterated;
@@ -1284,7 +1285,8 @@ static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
    which stretches links before the next step lets them go, and halving it there would freeze the turning.
 
    Pieces that have gained energy, or took only a part of their last step, are iterated on. What a piece has gained even
-   then is taken out of its velocities. Where that would all but stop it, it starts anew from not moving, and its objective
+   then is taken out of its velocities. Where that would all but stop it, and its objective is above that of not moving, it
+   starts anew from not moving, and its objective
    only falls from there. Then, with v the velocities before and w those after the step,
 
        potential after + 1/2 m (w - v)^2  <=  potential before + 1/2 m v^2 + work,

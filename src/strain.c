@@ -243,14 +243,14 @@ static void MeasureNormal(const kiriLink* link, const Axes* axes, const Pair* m,
                 rows != NULL ? &rows[KIRI_NORMAL_STOP] : NULL);
 }
 
-/* The difference of the directors is the chord of the angle between them, 2 sin(a / 2). With e = 1 - cos(a / 2), the arc is
-   longer by 1 + e / 3 + 2 e^2 / 15 + ...; the last term is that which is missing at a half turn, where the angle, unlike
-   the chord, has a slope: no fold stays because it is complete. */
+/* The difference of the directors is the chord of the angle between them, 2 sin(a / 2), and with e = 1 - cos(a / 2) its arc
+   to the third order is longer by 1 + (2 e - e^2) / 6. The last term is what that lacks of half a turn, where the angle,
+   unlike the chord, has a slope: no fold stays because it is complete. */
 static void TakeAngle(const Axes* axes, double* strain, kiriStrainRow* rows)
 {
-    const double a = 1.0 / 3.0, b = 2.0 / 15.0, c = 0.5 * HALF_TURN - 1.0 - a - b;
-    double e = axes->open < 1.0 ? 1.0 - axes->open : 0.0;
-    double longer = 1.0 + e * (a + e * (b + e * c)), slope = a + e * (2.0 * b + e * 3.0 * c);
+    const double lacking = 0.5 * HALF_TURN - 7.0 / 6.0;
+    double e = axes->open < 1.0 ? 1.0 - axes->open : 0.0, e3 = e * e * e;
+    double longer = 1.0 + (2.0 * e - e * e) / 6.0 + lacking * e3 * e, slope = (1.0 - e) / 3.0 + 4.0 * lacking * e3;
     for (int s = KIRI_BENDING; s <= KIRI_TWIST; ++s) {
         if (rows != NULL) {
             Scale(&rows[s], longer);

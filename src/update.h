@@ -16,9 +16,6 @@ kiriProgress kiriUpdate_Shape(kiriSheetData* sheet, kiriQuota* cells);
 kiriProgress kiriUpdate_Samples(kiriSheetData* sheet, kiriQuota* samples);
 kiriProgress kiriUpdate_Constants(kiriSheetData* sheet, kiriQuota* none);
 
-/* Of the mesh as it is, m^2. */
-double kiriUpdate_WholeArea(const kiriSheetData* sheet);
-
 /* What this tick did to the mesh becomes final. Never fails. */
 void kiriUpdate_CommitMesh(kiriSheetData* sheet);
 
