@@ -210,8 +210,8 @@ static bool AddFigure(Scene* scene, const SceneOptions* options, const Figure* f
     return fine;
 }
 
-/* A push against a figure when it comes off, harder the higher above `foot`, so that it topples out of the hole. As short
-   at any pace of the blade: the figure falls as fast. */
+/* A push against a figure when it comes off, harder the higher above `foot`, so that it topples out of the hole. As
+   short at any pace of the blade: the figure falls as fast. */
 static void PushFigure(Scene* scene, const Stroke* stroke, float foot, float strength)
 {
     if (scene->tick <= stroke->lastTick || scene->tick > stroke->lastTick + 12) {

@@ -4,7 +4,7 @@
 #include "../samples/scene.h"
 #include "bench.h"
 
-enum { RUNS = 3, MAX_TICKS = 1536, CELLS_ALLOWED = 10000, SAMPLES_ALLOWED = 1500 };
+enum { RUNS = 3, MAX_TICKS = 1536, CELLS_ALLOWED = 10000, SAMPLES_ALLOWED = 2000 };
 enum { CELLS, SAMPLES, ITEMS };
 
 /* For all scenes: what keeps a tick near 2 ms. Triangles are few, and linear systems as many in each tick anyway. */

@@ -19,7 +19,10 @@ typedef struct Paper {
     const char* scene;
     double rates[3];       /* lowest frames a second before, while and after cutting (table 1) */
     double shares[SHARES]; /* % updated (table 2) */
-    float pace;            /* of our blade, so that it changes the paper's share of cells; 0: its own */
+
+    /* Of our blade, so that it changes the paper's share of cells; 0: its own. Where it changes more at any
+       pace, since a point cuts into one cell at least: the paper's share by ours. */
+    float pace;
 } Paper;
 
 static const Paper papers[] = {
