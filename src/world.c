@@ -222,8 +222,11 @@ static void CommitAll(kiriWorld* world)
         if (IsReady(sheet)) {
             Finish(world, sheet);
         }
-        kiriView_TakeJump(sheet);
         FinishCuts(world, sheet);
+    }
+    Enter(world, KIRI_STAGE_SKIN);
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriView_TakeJump(world->sheets.data[i]);
     }
 }
 

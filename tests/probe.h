@@ -13,6 +13,7 @@ typedef struct Probe {
     double size;                         /* m */
     void (*record)(struct Probe* probe); /* or null */
     kiriTotals last, now;                /* before and after the commit */
+    bool isNew;                          /* and not recorded yet */
 
     int32_t commits;
     double momentum, angular, energy; /* the largest jumps, relative; energy: the largest rise, or the least loss */
@@ -44,12 +45,17 @@ static inline void Probe_Record(Probe* probe)
 static inline double Probe_Clock(void* user)
 {
     Probe* probe = user;
-    if (probe->sheet != 0) {
+    if (probe->sheet == 0) {
+        return 0.0;
+    }
+    int32_t stage = probe->host.world->stage;
+    if (stage == KIRI_STAGE_SKIN && probe->isNew) {
+        Probe_Record(probe); /* what is seen has followed the commit */
+        probe->isNew = false;
+    } else {
         probe->last = probe->now;
         probe->now = Host_Totals(&probe->host, probe->sheet);
-        if (probe->host.world->stage == KIRI_STAGE_CONSTANTS) {
-            Probe_Record(probe);
-        }
+        probe->isNew = stage == KIRI_STAGE_CONSTANTS;
     }
     return 0.0;
 }
