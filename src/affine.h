@@ -14,9 +14,9 @@
    normal gap     gap(m) . d                         beta D W / l^3, beta = 12
    normal stop    what |gap(m) . d| has above l / 2  E h W / l
 
-   The gap is a penalty: it holds together what the membrane energy of the regions, which sees means only, lets go. Plane
-   bending is the rest of that energy, that of the strain's slope inside a region. Both vanish where the sheet stretches
-   evenly. */
+   The gap is a penalty: it holds together what the membrane energy of the regions, which sees means only, lets go.
+   Plane bending is the rest of that energy, that of the strain's slope inside a region. Both vanish where the sheet
+   stretches evenly. */
 enum {
     KIRI_AFFINE_GAP,
     KIRI_AFFINE_PLANE_BENDING = 3,
@@ -32,13 +32,13 @@ void kiriAffine_Measure(const kiriLink* link, const kiriFrameData* const frames[
 void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_AFFINE_STRAINS]);
 
 /* Two patches a region, whose material is given. One has the membrane energy of F_i = A_i + 1/(2 a_i) times the
-   integral of gap (x) n over its border, which is the mean of the gradient when each border gap is shared by both sides:
-   exact for an even stretch in any layout, inner forces included. The other keeps the director normal. A planar sheet
-   needs no such.
+   integral of gap (x) n over its border, which is the mean of the gradient when each border gap is shared by both
+   sides: exact for an even stretch in any layout, inner forces included. The other keeps the director normal. A planar
+   sheet needs no such.
 
-   Frames that lean all one way, in steps, make a free end longer: its F_i takes only a part of its slope from the border,
-   a quarter at least. Under tension that would lay the sheet in steps (see strain.h). Leaning, d_i . F_i, therefore counts
-   four times in the membrane strains; it vanishes where frames follow the sheet. */
+   Frames that lean all one way, in steps, make a free end longer: its F_i takes only a part of its slope from the
+   border, a quarter at least. Under tension that would lay the sheet in steps (see strain.h). Leaning, d_i . F_i,
+   therefore counts four times in the membrane strains; it vanishes where frames follow the sheet. */
 bool kiriAffine_Build(kiriPatches* patches, const kiriMemory* memory, const kiriLink* links, int32_t linkCount,
                       const kiriMoments* material, int32_t frameCount, bool planar);
 

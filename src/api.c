@@ -1,4 +1,5 @@
-/* The public API: checks arguments, turns ids into pointers, and calls the floor below. The only file that does either. */
+/* The public API: checks arguments, turns ids into pointers, and calls the floor below. The only file that does
+   either. */
 #include "material.h"
 #include "piece.h"
 #include "quality.h"
@@ -240,7 +241,8 @@ kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3])
 kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget)
 {
     BEGIN(world);
-    CHECK(budget != NULL && IsBudget(budget), "budget is null, or below 0, or its triangles below KIRI_LEAST_TRIANGLES");
+    CHECK(budget != NULL && IsBudget(budget),
+          "budget is null, or below 0, or its triangles below KIRI_LEAST_TRIANGLES");
     world->budget = *budget;
     return KIRI_OK;
 }
@@ -600,8 +602,8 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
     int32_t cell = inRange ? kiriSample_Cell(&data->grid, &data->mesh, at) : KIRI_NONE;
     CHECK(cell != KIRI_NONE, "restPoint lies outside the material");
     kiriPointWeights found = { NULL, 0, 0 };
-    if (!kiriShape_At(&data->shape, &world->memory, &data->grid, &data->mesh, cell,
-                      kiriMesh_Local(&data->mesh, at), &found)) {
+    if (!kiriShape_At(&data->shape, &world->memory, &data->grid, &data->mesh, cell, kiriMesh_Local(&data->mesh, at),
+                      &found)) {
         kiriArray_Release(&world->memory, &found);
         return FAIL(KIRI_ERROR_MEMORY, "out of memory");
     }

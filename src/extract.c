@@ -194,8 +194,8 @@ static bool StartSkin(kiriSheetData* to)
     return true;
 }
 
-/* All stages but the mesh's, without a limit. No frame is added: whoever wants one has asked before, or asks with the next
-   cut. */
+/* All stages but the mesh's, without a limit. No frame is added: whoever wants one has asked before, or asks with the
+   next cut. */
 static bool RunStages(const kiriExtract* extract, kiriSheetData* to)
 {
     kiriQuota all = { INT64_MAX, 0 };

@@ -7,9 +7,9 @@
    What is computed, whatever the order of work (tests/test_frame.c does it plainly):
 
    A site sends its seeds to the cells around (kiriSite_Seed), but to none that holds another site. A cell belongs to
-   the site that is nearest from there by the steps of the grid, of two as near to the lower index; but a site's own cell
-   is its own. So no region is ever empty, and no two sites come to share a cell. Old sites take no notice of new ones,
-   nor, in sampling, new sites of those that follow.
+   the site that is nearest from there by the steps of the grid, of two as near to the lower index; but a site's own
+   cell is its own. So no region is ever empty, and no two sites come to share a cell. Old sites take no notice of new
+   ones, nor, in sampling, new sites of those that follow.
 
    Sampling: the next site goes to the free cell that is farthest from all sites. Relaxation (Lloyd 1982): each new site
    goes to the centroid of its region, all at once, up to 20 times; then it takes the cell that it has come to.

@@ -27,7 +27,7 @@ typedef struct kiriLinks {
     /* By (i, j), then by their lowest face: by square, axis, and the lowest triangles of its cells. */
     KIRI_ARRAY(kiriLink) links;
     KIRI_ARRAY(kiriLink) next; /* what kiriLinks_Update made; Commit swaps */
-    int32_t changed; /* of `next`: links that are other than before */
+    int32_t changed;           /* of `next`: links that are other than before */
     kiriLinkWork* work;
 } kiriLinks;
 

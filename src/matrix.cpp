@@ -1,6 +1,7 @@
 /* The only file that knows Eigen: its order of unknowns that keeps a factor sparse, and its small vectors. The Cholesky
-   factorisation is our own, for Eigen's goes entry by entry: blocks whose size the compiler knows take a fraction of the
-   time, and their memory is the host's. Vectors are only scaled and added, in a fixed order: the same bits everywhere. */
+   factorisation is our own, for Eigen's goes entry by entry: blocks whose size the compiler knows take a fraction of
+   the time, and their memory is the host's. Vectors are only scaled and added, in a fixed order: the same bits
+   everywhere. */
 
 /* Before our own headers, which include C's headers as C. */
 #include <Eigen/Sparse>

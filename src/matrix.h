@@ -22,9 +22,9 @@ typedef struct kiriPair {
 kiriMatrix* kiriMatrix_Create(const kiriMemory* memory, int32_t size);
 void kiriMatrix_Destroy(kiriMatrix* matrix);
 
-/* Gives it a pattern, and the symbolic factorisation of it; pairs may come more than once. Memory is kept from one pattern
-   to the next; the order of unknowns takes some from malloc while it is sought. False for memory: the matrix is then good
-   for nothing but another call. */
+/* Gives it a pattern, and the symbolic factorisation of it; pairs may come more than once. Memory is kept from one
+   pattern to the next; the order of unknowns takes some from malloc while it is sought. False for memory: the matrix is
+   then good for nothing but another call. */
 bool kiriMatrix_Shape(kiriMatrix* matrix, int32_t frameCount, const kiriPair* pairs, int64_t pairCount);
 
 int32_t kiriMatrix_FrameCount(const kiriMatrix* matrix);
@@ -44,8 +44,8 @@ void kiriMatrix_Clear(kiriMatrix* matrix);
 /* Adds a symmetric block of size x size to a frame's own. */
 void kiriMatrix_AddOwn(kiriMatrix* matrix, int32_t frame, const double* block);
 
-/* Adds J^T k J, J of `rows` rows and size columns for each of the frames, which are all different; all pairs of them are in
-   the pattern. */
+/* Adds J^T k J, J of `rows` rows and size columns for each of the frames, which are all different; all pairs of them
+   are in the pattern. */
 void kiriMatrix_AddSquares(kiriMatrix* matrix, const int32_t* frames, int32_t frameCount, const double* J,
                            const double* k, int32_t rows);
 

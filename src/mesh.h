@@ -51,13 +51,14 @@ typedef struct kiriMeshData {
     kiriSquares squares;
     uint32_t revision; /* grows with every change */
 
-    /* The caller's triangles, for provenance: their corners on the lattice, three a triangle, from the first that is left. */
+    /* The caller's triangles, for provenance: their corners on the lattice, three a triangle, from the first that is
+       left. */
     KIRI_ARRAY(kiriPoint) sourceCorners;
     int32_t firstSource;
 
-    /* The journal: what changed since kiriMesh_Begin. Until Commit these are all that can have changed: the triangles of
-       savedTriangles and those from oldTriangleCount on; the vertices of savedVertices (their source and share, never
-       their place) and those from oldVertexCount on. So a view of the mesh needs to write no others. */
+    /* The journal: what changed since kiriMesh_Begin. Until Commit these are all that can have changed: the triangles
+       of savedTriangles and those from oldTriangleCount on; the vertices of savedVertices (their source and share,
+       never their place) and those from oldVertexCount on. So a view of the mesh needs to write no others. */
     uint32_t stamp;
     int32_t oldTriangleCount, oldVertexCount;
     uint32_t oldRevision;
@@ -72,9 +73,9 @@ kiriResult kiriMesh_Init(kiriMeshData* mesh, const kiriMemory* memory, const flo
                          const int32_t* indices, int32_t triangleCount, int32_t resolution, const char** why);
 void kiriMesh_Release(kiriMeshData* mesh);
 
-/* The part of another mesh that the maps keep, on the same lattice and squares. The index that each triangle and vertex gets,
-   in their old order, or KIRI_NONE; vertices are kept with all of their fan. On failure, which is for memory, the mesh
-   needs no release. */
+/* The part of another mesh that the maps keep, on the same lattice and squares. The index that each triangle and vertex
+   gets, in their old order, or KIRI_NONE; vertices are kept with all of their fan. On failure, which is for memory, the
+   mesh needs no release. */
 bool kiriMesh_InitPart(kiriMeshData* mesh, const kiriMeshData* from, const int32_t* triangleTo,
                        const int32_t* vertexTo);
 

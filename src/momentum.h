@@ -1,5 +1,6 @@
-/* The angular momentum of pieces that nothing holds. Backward Euler keeps the linear one exactly, but bleeds the angular:
-   a frame that goes round flies off along the tangent and is pulled back to where the step ends, not to where it is. */
+/* The angular momentum of pieces that nothing holds. Backward Euler keeps the linear one exactly, but bleeds the
+   angular: a frame that goes round flies off along the tangent and is pulled back to where the step ends, not to where
+   it is. */
 #ifndef KIRI_MOMENTUM_H
 #define KIRI_MOMENTUM_H
 
@@ -21,9 +22,9 @@ typedef struct kiriPieceMomentum {
     kiriVec3 turn;    /* the angular velocity that makes up for the difference */
 } kiriPieceMomentum;
 
-/* Turns the pieces that are not held as rigid bodies until they have the angular momentum that they should have, as far as
-   their `lost` energy goes. Frames are those before and after the step; piece[f] is the piece of frame f; isHeld and lost
-   are set in `pieces`, the rest is scratch. */
+/* Turns the pieces that are not held as rigid bodies until they have the angular momentum that they should have, as far
+   as their `lost` energy goes. Frames are those before and after the step; piece[f] is the piece of frame f; isHeld and
+   lost are set in `pieces`, the rest is scratch. */
 void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t frameCount, const int32_t* piece,
                           kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, double dt);
 

@@ -15,8 +15,8 @@ static void WritePinRows(kiriSheetData* sheet)
     }
 }
 
-/* A contact acts on the frame whose region holds the point. The host has measured where the point is seen, between frames;
-   the plane moves by as much as the frame's own point is off. */
+/* A contact acts on the frame whose region holds the point. The host has measured where the point is seen, between
+   frames; the plane moves by as much as the frame's own point is off. */
 static void WriteContactRows(kiriSheetData* sheet)
 {
     sheet->contactRows.count = sheet->contacts.count;

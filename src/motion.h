@@ -7,9 +7,9 @@
 /* What makes a sheet move that rests calls this: it is awake, for half a second at least. */
 void kiriMotion_Wake(kiriSheetData* sheet);
 
-/* Moves the frames by dt in equal substeps, unless the sheet sleeps or falls asleep. An item of the quota is a linear system
-   solved. KIRI_MORE: there was none left, and the frames are where they were. KIRI_FAILED: the motion could not be continued, the frames rest where they were. Forces
-   and contacts are used up. */
+/* Moves the frames by dt in equal substeps, unless the sheet sleeps or falls asleep. An item of the quota is a linear
+   system solved. KIRI_MORE: there was none left, and the frames are where they were. KIRI_FAILED: the motion could not
+   be continued, the frames rest where they were. Forces and contacts are used up. */
 kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems);
 
 kiriTotals kiriMotion_Totals(const kiriSheetData* sheet);

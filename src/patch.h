@@ -1,13 +1,13 @@
-/* Patches of material that several affine frames deform together: the strains at a point of the mid-surface, to which the
-   models of affine.h and point.h bring their own deformation gradients. */
+/* Patches of material that several affine frames deform together: the strains at a point of the mid-surface, to which
+   the models of affine.h and point.h bring their own deformation gradients. */
 #ifndef KIRI_PATCH_H
 #define KIRI_PATCH_H
 
 #include "flight.h"
 #include "link.h"
 
-/* With F = [F_u F_v] the deformation gradient of the mid-surface, D the director, D_u and D_v its slopes; Green strains,
-   plane stress. Every energy is 1/2 stiffness strain^2; G = E / (2 (1 + nu)), K = E / (2 (1 - nu)), a the area. With a
+/* With F = [F_u F_v] the deformation gradient of the mid-surface, D the director, D_u and D_v its slopes; Green
+   strains, plane stress. Every energy is 1/2 stiffness strain^2; G = E / (2 (1 + nu)), K = E / (2 (1 - nu)), a the area. With a
    patch's `lean` above zero the products of F_u and F_v in the first three count their parts along D 1 + lean times.
 
    strain     what                                   stiffness
@@ -59,8 +59,8 @@ typedef struct kiriAffineRow {
 
 void kiriPatches_Release(kiriPatches* patches, const kiriMemory* memory);
 
-/* The patch's strains from firstRow to lastRow and, unless `rows` is null, their derivatives: `count` a strain. Poses are
-   those of all frames; null: as the frames are. */
+/* The patch's strains from firstRow to lastRow and, unless `rows` is null, their derivatives: `count` a strain. Poses
+   are those of all frames; null: as the frames are. */
 void kiriPatch_Measure(const kiriPatch* patch, const kiriShare* shares, const kiriFrameData* frames,
                        const kiriPose* poses, double* strain, kiriAffineRow* rows);
 void kiriPatch_Stiffness(const kiriPatch* patch, const kiriMaterial* material, double* stiffness);

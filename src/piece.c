@@ -39,7 +39,8 @@ int32_t kiriPiece_OfVertex(const kiriSheetData* sheet, int32_t vertex)
     return sheet->model.framePiece.data[sheet->vertexSkin.weights.data[first].frame];
 }
 
-/* The old piece that the material of a frame was in: of a new one, that of a frame which moves it on the old surface. */
+/* The old piece that the material of a frame was in: of a new one, that of a frame which moves it on the old
+   surface. */
 static int32_t OriginOf(const kiriSheetData* sheet, int32_t frame)
 {
     if (frame < sheet->frames.count) {

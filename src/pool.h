@@ -1,5 +1,5 @@
-/* Ids: kind in 3 bits, generation in 11, slot in 18. An id of another kind, or of something that is gone, finds nothing. A
-   slot whose generations are used up is never used again, so no id ever comes twice. */
+/* Ids: kind in 3 bits, generation in 11, slot in 18. An id of another kind, or of something that is gone, finds
+   nothing. A slot whose generations are used up is never used again, so no id ever comes twice. */
 #ifndef KIRI_POOL_H
 #define KIRI_POOL_H
 

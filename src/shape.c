@@ -67,10 +67,10 @@ static bool Inside(const Job* job, int32_t cell)
     return job->regions->field.owner.data[cell] == job->frame;
 }
 
-/* How far distances to the site of its region have to go for the sake of a cell x: to itself, and where a step leads over the
-   border to y, to the last cell that gets weight from there. Let the nearest way from such a cell c to the border come in
-   by y. Then d <= D(x) + |xy| + |yc|, and the weight is above zero only where d > 2 e = D(x) + |xy| - D(y) + 2 |yc|: where
-   |yc| < D(y), and so d < D(x) + |xy| + D(y). */
+/* How far distances to the site of its region have to go for the sake of a cell x: to itself, and where a step leads
+   over the border to y, to the last cell that gets weight from there. Let the nearest way from such a cell c to the
+   border come in by y. Then d <= D(x) + |xy| + |yc|, and the weight is above zero only where d > 2 e = D(x) + |xy| -
+   D(y) + 2 |yc|: where |yc| < D(y), and so d < D(x) + |xy| + D(y). */
 static int32_t ReachAt(const kiriRegions* regions, const kiriGrid* grid, int32_t x)
 {
     const int32_t *owner = regions->field.owner.data, *distance = regions->field.distance.data;

@@ -187,8 +187,9 @@ static bool BuildAll(kiriSheetData* sheet, const kiriSheetDef* def)
     u->step = 1; /* sites that the caller placed are where they shall be */
     u->whole = kiriMesh_Area(&sheet->mesh);
     u->spread = def->framePoints != NULL ? 0 : def->frameCount;
-    return StartSkin(sheet) && kiriUpdate_Regions(sheet, &all) == KIRI_DONE && kiriUpdate_Shape(sheet, &all) == KIRI_DONE &&
-           kiriUpdate_Samples(sheet, &all) == KIRI_DONE && kiriUpdate_Constants(sheet, &all) == KIRI_DONE;
+    return StartSkin(sheet) && kiriUpdate_Regions(sheet, &all) == KIRI_DONE &&
+           kiriUpdate_Shape(sheet, &all) == KIRI_DONE && kiriUpdate_Samples(sheet, &all) == KIRI_DONE &&
+           kiriUpdate_Constants(sheet, &all) == KIRI_DONE;
 }
 
 static kiriResult Build(kiriSheetData* sheet, const kiriSheetDef* def, const char** why)

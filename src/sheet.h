@@ -1,7 +1,7 @@
-/* A sheet owns its mesh, its frames, and all that is derived from the two. What is derived comes in two parts. Grid, regions
-   and shape functions follow the mesh in place, for as many ticks as their budget asks. The model, which moves the sheet,
-   is what they were when they were last complete; new links, weights and frames are staged beside it, and one commit puts
-   them in force. update.h says how. */
+/* A sheet owns its mesh, its frames, and all that is derived from the two. What is derived comes in two parts. Grid,
+   regions and shape functions follow the mesh in place, for as many ticks as their budget asks. The model, which moves
+   the sheet, is what they were when they were last complete; new links, weights and frames are staged beside it, and
+   one commit puts them in force. update.h says how. */
 #ifndef KIRI_SHEET_H
 #define KIRI_SHEET_H
 
@@ -75,8 +75,8 @@ typedef struct kiriTouched {
     int32_t cells, weights, vertices, points, links;
 } kiriTouched;
 
-/* How far the work that a cut sets off has come. It takes all points given before one tick together, however many ticks the
-   budget makes of it; so what comes of a cut does not depend on the budget. */
+/* How far the work that a cut sets off has come. It takes all points given before one tick together, however many ticks
+   the budget makes of it; so what comes of a cut does not depend on the budget. */
 typedef struct kiriUpdate {
     int32_t stage; /* the next to run, see world.c; KIRI_NONE: nothing at hand */
     int32_t step;  /* within the stage */
@@ -97,15 +97,15 @@ typedef struct kiriUpdate {
     int32_t spread;    /* frames to spread over the sheet, at its start */
     kiriPlacer placer;
     bool isPlacing;
-    double whole;                   /* m^2 of the sheet; while things are spread over it */
-    int32_t at;                     /* orphan, frame or piece that is being seen to */
-    KIRI_ARRAY(uint8_t) marks;      /* of cells, or frames */
-    KIRI_ARRAY(uint8_t) allowed;    /* of cells */
-    KIRI_ARRAY(uint8_t) flags;      /* of squares or cells */
-    KIRI_ARRAY(int32_t) own;        /* frames of the piece in the placer */
+    double whole;                     /* m^2 of the sheet; while things are spread over it */
+    int32_t at;                       /* orphan, frame or piece that is being seen to */
+    KIRI_ARRAY(uint8_t) marks;        /* of cells, or frames */
+    KIRI_ARRAY(uint8_t) allowed;      /* of cells */
+    KIRI_ARRAY(uint8_t) flags;        /* of squares or cells */
+    KIRI_ARRAY(int32_t) own;          /* frames of the piece in the placer */
     KIRI_ARRAY(kiriMoments) material; /* of each frame's region */
     kiriModel next;
-    KIRI_ARRAY(int32_t) parent;     /* of frames: union-find */
+    KIRI_ARRAY(int32_t) parent; /* of frames: union-find */
     kiriRefresh refresh;
     kiriPointsWork points;
     kiriRefit refit;
@@ -156,15 +156,16 @@ typedef struct kiriSheetData {
 
     /* What the host reads, see view.h. */
     kiriSurface surface;
-    kiriFades fades, pointFades; /* of vertices, and of collision points */
+    kiriFades fades, pointFades;      /* of vertices, and of collision points */
     KIRI_ARRAY(kiriVec3) exactPoints; /* where they are seen, */
     int32_t seenPoints;               /* so many */
-    bool isSeenElsewhere; /* vertices are new, or a cut took effect, since positions were written */
+    bool isSeenElsewhere;             /* vertices are new, or a cut took effect, since positions were written */
     KIRI_ARRAY(float) pointPositions;
     kiriPieceLists lists;
 } kiriSheetData;
 
-/* On failure *why says what is wrong, and the sheet needs no release. Ids of sheet and frames are given by the world. */
+/* On failure *why says what is wrong, and the sheet needs no release. Ids of sheet and frames are given by the
+   world. */
 kiriResult kiriSheet_Init(kiriSheetData* sheet, const kiriMemory* memory, const kiriSheetDef* def, const char** why);
 void kiriSheet_Release(kiriSheetData* sheet);
 

@@ -29,8 +29,8 @@ static bool MakeFlags(kiriSheetData* sheet)
     return true;
 }
 
-/* The cell of a site that was there. Cells only ever fall apart, so two sites that had cells of their own still can: where
-   rounding says otherwise, the later site takes a free cell of its square. Cells that are taken are flagged. */
+/* The cell of a site that was there. Cells only ever fall apart, so two sites that had cells of their own still can:
+   where rounding says otherwise, the later site takes a free cell of its square. Cells that are taken are flagged. */
 static void Relocate(kiriSheetData* sheet, int32_t frame)
 {
     kiriUpdate* u = &sheet->update;
@@ -52,8 +52,8 @@ static int32_t SquareOfSite(const kiriSheetData* sheet, int32_t cell)
     return frame == KIRI_NONE ? KIRI_NONE : kiriSquares_At(&sheet->mesh.squares, sheet->frames.data[frame].anchor);
 }
 
-/* Flags, or lets down, the squares of sites whose cells have changed: all sites there may have to be found again, for only
-   those of one square can be in each other's way. Is there any? */
+/* Flags, or lets down, the squares of sites whose cells have changed: all sites there may have to be found again, for
+   only those of one square can be in each other's way. Is there any? */
 static bool FlagSquares(kiriSheetData* sheet, uint8_t flag)
 {
     const kiriGridChanges* changes = &sheet->grid.changes;
@@ -219,8 +219,8 @@ static bool IsRigid(const kiriSheetData* sheet, int32_t frame)
     return (double)sheet->shape.rigid.data[frame] * square > sheet->rigidArea;
 }
 
-/* Is the region of the frame too large to be one? By its radius of gyration, so that long ones count as large; a square is as
-   large as its side. */
+/* Is the region of the frame too large to be one? By its radius of gyration, so that long ones count as large; a square
+   is as large as its side. */
 static bool IsLarge(const kiriSheetData* sheet, int32_t frame)
 {
     if (sheet->frameLength == 0.0) {
@@ -237,7 +237,8 @@ static bool NeedsAnother(const kiriSheetData* sheet, int32_t frame)
     return IsRigid(sheet, frame) || IsLarge(sheet, frame);
 }
 
-/* Marks the cells of the piece in which the weight of a rigid frame exceeds rigidWeight, or whose region is too large. */
+/* Marks the cells of the piece in which the weight of a rigid frame exceeds rigidWeight, or whose region is too
+   large. */
 static bool MarkRigidCells(kiriSheetData* sheet)
 {
     kiriUpdate* u = &sheet->update;

@@ -1,11 +1,13 @@
-/* Where the frames of a sheet have their sites: found again after a cut, added to pieces that have none, and where frames are
-   too few (section 5 of the paper). Steps of an update; what they change is in sheet->update: sites and moves. */
+/* Where the frames of a sheet have their sites: found again after a cut, added to pieces that have none, and where
+   frames are too few (section 5 of the paper). Steps of an update; what they change is in sheet->update: sites and
+   moves. */
 #ifndef KIRI_SITE_H
 #define KIRI_SITE_H
 
 #include "sheet.h"
 
-/* The cells of the sites that were there, in the grid as it is; a move for each that is in another cell. False for memory. */
+/* The cells of the sites that were there, in the grid as it is; a move for each that is in another cell. False for
+   memory. */
 bool kiriSites_Relocate(kiriSheetData* sheet);
 
 /* Sites for the pieces of orphans, at least one each; marks are cleared before, one a cell. */

@@ -8,9 +8,9 @@
    never counts. */
 uint64_t kiriSnapshot_Hash(const kiriWorld* world);
 
-/* A hash of all that a sheet is but for its motion: mesh, grid, regions, shape functions, links, weights of samples. It does
-   not depend on the indices of cells, which tell in what order they were made. Meant for tests. No update may be at
-   hand. */
+/* A hash of all that a sheet is but for its motion: mesh, grid, regions, shape functions, links, weights of samples. It
+   does not depend on the indices of cells, which tell in what order they were made. Meant for tests. No update may be
+   at hand. */
 uint64_t kiriSnapshot_HashLayout(const kiriSheetData* sheet);
 
 #endif

@@ -406,8 +406,8 @@ static bool IsCovered(const kiriSolver* solver, int32_t frameCount)
     return covered;
 }
 
-/* Regions that came apart may meet again as a blade goes round: a new pattern keeps the pairs of the old one, unless they
-   are too many. */
+/* Regions that came apart may meet again as a blade goes round: a new pattern keeps the pairs of the old one, unless
+   they are too many. */
 static bool KeepPairs(kiriSolver* solver, int32_t frameCount)
 {
     int32_t own = solver->pairs.count, old = kiriMatrix_PairCount(solver->matrix);
@@ -746,7 +746,8 @@ static int ActiveRows(const kiriSystem* system, int32_t k, const double* strain)
     return isStopped ? rows : rows - 1;
 }
 
-/* The strains of an element at the poses, and J: their derivatives by the unknowns of its frames, zero for held ones. */
+/* The strains of an element at the poses, and J: their derivatives by the unknowns of its frames, zero for held
+   ones. */
 static void Derive(kiriSolver* solver, const kiriSystem* system, int32_t k, int32_t count, double* strain)
 {
     size_t bytes = sizeof(double) * (size_t)solver->size;
@@ -1185,8 +1186,8 @@ static void Slow(kiriFrameData* frame, double keep, kiriVec3 mean, double keepMe
     frame->rate.d = kiriVec3_Scale(keep, frame->rate.d);
 }
 
-/* Takes what pieces gained out of their velocities: as they differ from the mean first, for so momentum stays. Only where
-   something changes momentum can there be more to take. */
+/* Takes what pieces gained out of their velocities: as they differ from the mean first, for so momentum stays. Only
+   where something changes momentum can there be more to take. */
 static void Brake(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
@@ -1288,10 +1289,10 @@ static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
    which stretches links before the next step lets them go, and halving it there would freeze the turning.
 
    Pieces that have gained energy, or took only a part of their last step, are iterated on. What a piece has gained even
-   then is taken out of its velocities. Where that would all but stop it, it starts anew from not moving, and its objective
-   only falls from there. Then, with v the velocities before and w those after the step,
+   then is taken out of its velocities. Where that would all but stop it, it starts anew from not moving, and its
+   objective only falls from there. Then, with v the velocities before and w those after the step,
 
-       potential after + 1/2 m (w - v)^2  <=  potential before + 1/2 m v^2 + work,
+   potential after + 1/2 m (w - v)^2  <=  potential before + 1/2 m v^2 + work,
 
    which bounds w by 2 v and no better. At the minimum w^2 stands for (w - v)^2, but for parts of the energy that are
    not convex. Nothing is ever flung away, however long the step. */

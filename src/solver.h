@@ -48,11 +48,10 @@ typedef struct kiriSystem {
 kiriSolver* kiriSolver_Create(const kiriMemory* memory, const kiriMechanics* mechanics);
 void kiriSolver_Destroy(kiriSolver* solver);
 
-/* Prepares for these frames, links and patches; replaces what was staged before. Steps go on with the current ones.
-   The pattern of the matrix is renewed only where it does not cover the pairs of frames that they couple, or where
-   frameCount differs: links that vanish leave zero blocks, also in a new pattern, until these are more than twice as many
-   as the others. Otherwise nothing is allocated but room that grows. False for
-   memory: nothing is staged then. */
+/* Prepares for these frames, links and patches; replaces what was staged before. Steps go on with the current ones. The
+   pattern of the matrix is renewed only where it does not cover the pairs of frames that they couple, or where
+   frameCount differs: links that vanish leave zero blocks, also in a new pattern, until these are more than twice as
+   many as the others. Otherwise nothing is allocated but room that grows. False for memory: nothing is staged then. */
 bool kiriSolver_Stage(kiriSolver* solver, int32_t frameCount, const kiriLink* links, int32_t linkCount,
                       const kiriPatches* patches);
 
@@ -67,10 +66,10 @@ int64_t kiriSolver_Renewals(const kiriSolver* solver);
 /* How often a piece had to start its step anew. */
 int64_t kiriSolver_Restarts(const kiriSolver* solver);
 
-/* Moves the frames by dt. Links and patches are those that were committed; normals of contacts are unit, heldRotation is a
-   rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the motion asks for them,
-   but at most `most` (1 or more). Or -1 when it cannot be continued (not finite); the frames are then as before the call.
-   Allocates nothing. Forces on frames are used, not cleared. */
+/* Moves the frames by dt. Links and patches are those that were committed; normals of contacts are unit, heldRotation
+   is a rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the motion asks for
+   them, but at most `most` (1 or more). Or -1 when it cannot be continued (not finite); the frames are then as before
+   the call. Allocates nothing. Forces on frames are used, not cleared. */
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations, int32_t most);
 
 /* Elastic energy of links and patches, J. */

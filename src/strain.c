@@ -159,8 +159,8 @@ static double LeverOf(const kiriLink* link, const kiriFrameData* const frames[2]
     return apart < 0.5 * l ? 0.5 * l : apart < l ? apart : l;
 }
 
-/* The strain is signed along n: the length alone would be at rest again where the frames have passed through each other,
-   and a sheet that was crushed would stay inside out. */
+/* The strain is signed along n: the length alone would be at rest again where the frames have passed through each
+   other, and a sheet that was crushed would stay inside out. */
 static void MeasureStretch(double lever, const Axes* axes, const Pair* b, double* strain, kiriStrainRow* row)
 {
     double ahead = lever + kiriVec3_Dot(b->gap, axes->n), aside = kiriVec3_Dot(b->gap, axes->d);
@@ -178,8 +178,8 @@ static void MeasureStretch(double lever, const Axes* axes, const Pair* b, double
 }
 
 /* How much of a strain along the mean axes counts, and how that changes with `open`. Where the directors are nearly
-   opposite, a small turn swings the mean axes round: gaps of no energy along one would have all that of stretch along the
-   next, and no motion would find a way past. */
+   opposite, a small turn swings the mean axes round: gaps of no energy along one would have all that of stretch along
+   the next, and no motion would find a way past. */
 typedef struct Fade {
     double keep, slope;
 } Fade;
@@ -243,9 +243,9 @@ static void MeasureNormal(const kiriLink* link, const Axes* axes, const Pair* m,
                 rows != NULL ? &rows[KIRI_NORMAL_STOP] : NULL);
 }
 
-/* The difference of the directors is the chord of the angle between them, 2 sin(a / 2), and with e = 1 - cos(a / 2) its arc
-   to the third order is longer by 1 + (2 e - e^2) / 6. The last term is what that lacks of half a turn, where the angle,
-   unlike the chord, has a slope: no fold stays because it is complete. */
+/* The difference of the directors is the chord of the angle between them, 2 sin(a / 2), and with e = 1 - cos(a / 2) its
+   arc to the third order is longer by 1 + (2 e - e^2) / 6. The last term is what that lacks of half a turn, where the
+   angle, unlike the chord, has a slope: no fold stays because it is complete. */
 static void TakeAngle(const Axes* axes, double* strain, kiriStrainRow* rows)
 {
     const double lacking = 0.5 * HALF_TURN - 7.0 / 6.0;

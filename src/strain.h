@@ -33,9 +33,9 @@ extern "C" {
    normal makes it longer. With gap(b) . n alone, tension would turn the frames away from that line and, above
    12 D / l^2 newtons a metre of width, lay the sheet in steps, as tension buckles a column that is soft in shear; cloth
    would fall apart. An arc that is long beside c would do the same, and is cut short.
-   Where a = c + gap(b) . n is less than c, what the offset adds to it is what it adds to (c + a^2 / c) / 2, and to c / 2
-   where a < 0: so frames that have passed through each other are pushed back, the strain grows with gap(b) . n everywhere,
-   and it has no kink for a motion to be caught in.
+   Where a = c + gap(b) . n is less than c, what the offset adds to it is what it adds to (c + a^2 / c) / 2, and to
+   c / 2 where a < 0: so frames that have passed through each other are pushed back, the strain grows with gap(b) . n
+   everywhere, and it has no kink for a motion to be caught in.
 
    The stop catches sheets that bend within less than l, whose normal gap nothing would bound. */
 enum {
@@ -61,8 +61,8 @@ typedef struct kiriStrainRow {
 void kiriStrain_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
                         double strain[KIRI_STRAINS], kiriStrainRow* rows);
 
-/* How much of its damping a link has in a step that starts with these strains: none when it is folded by half a turn, for
-   there bending and twist change their signs while the sheet hardly moves. */
+/* How much of its damping a link has in a step that starts with these strains: none when it is folded by half a turn,
+   for there bending and twist change their signs while the sheet hardly moves. */
 double kiriStrain_Damping(const double strain[KIRI_STRAINS]);
 
 void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS]);

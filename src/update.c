@@ -144,8 +144,7 @@ kiriProgress kiriUpdate_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles)
         u->taken += progress == KIRI_DONE;
     }
     u->isTorn = u->isTorn || sheet->mesh.savedTriangles.count > 0;
-    bool hasRoom = progress != KIRI_FAILED &&
-                   kiriSkin_Inherit(&sheet->vertexSkin, sheet->memory, &sheet->mesh) &&
+    bool hasRoom = progress != KIRI_FAILED && kiriSkin_Inherit(&sheet->vertexSkin, sheet->memory, &sheet->mesh) &&
                    kiriView_Resize(sheet, sheet->frames.count, sheet->points.count);
     return hasRoom ? progress : KIRI_FAILED;
 }
@@ -371,9 +370,8 @@ static kiriProgress PlacePoints(kiriSheetData* sheet, kiriQuota* samples)
 
 static bool BeginSamples(kiriSheetData* sheet)
 {
-    return kiriPieces_Stage(sheet) &&
-           kiriRefresh_Start(&sheet->update.refresh, sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh,
-                             sheet->update.oldVertices);
+    return kiriPieces_Stage(sheet) && kiriRefresh_Start(&sheet->update.refresh, sheet->memory, &sheet->shape,
+                                                        &sheet->grid, &sheet->mesh, sheet->update.oldVertices);
 }
 
 kiriProgress kiriUpdate_Samples(kiriSheetData* sheet, kiriQuota* samples)

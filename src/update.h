@@ -1,5 +1,5 @@
-/* What a cut sets off in a sheet, stage by stage; world.c runs the stages, and says what they cost. Each goes on where the
-   last tick's quota ended, and costs what the cut touched. */
+/* What a cut sets off in a sheet, stage by stage; world.c runs the stages, and says what they cost. Each goes on where
+   the last tick's quota ended, and costs what the cut touched. */
 #ifndef KIRI_UPDATE_H
 #define KIRI_UPDATE_H
 
@@ -19,8 +19,8 @@ kiriProgress kiriUpdate_Constants(kiriSheetData* sheet, kiriQuota* none);
 /* What this tick did to the mesh becomes final. Never fails. */
 void kiriUpdate_CommitMesh(kiriSheetData* sheet);
 
-/* After the last stage: what is staged comes in force. New frames take their motion from the surface as it was (section 5
-   of the paper). Never fails. */
+/* After the last stage: what is staged comes in force. New frames take their motion from the surface as it was (section
+   5 of the paper). Never fails. */
 void kiriUpdate_Commit(kiriSheetData* sheet);
 
 /* After a commit, or when the strokes changed nothing: they leave the queue. */

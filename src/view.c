@@ -7,9 +7,8 @@ bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCoun
     return kiriSurface_Resize(&sheet->surface, sheet->memory, &sheet->mesh, frameCount) &&
            kiriArray_Resize(sheet->memory, &sheet->pointPositions, 3 * (int64_t)pointCount) &&
            kiriArray_Resize(sheet->memory, &sheet->exactPoints, pointCount) &&
-           (!sheet->update.isBegun ||
-            (kiriFades_Reserve(&sheet->fades, sheet->memory, sheet->mesh.vertices.count) &&
-             kiriFades_Reserve(&sheet->pointFades, sheet->memory, pointCount)));
+           (!sheet->update.isBegun || (kiriFades_Reserve(&sheet->fades, sheet->memory, sheet->mesh.vertices.count) &&
+                                       kiriFades_Reserve(&sheet->pointFades, sheet->memory, pointCount)));
 }
 
 void kiriView_Release(kiriSheetData* sheet)

@@ -19,7 +19,8 @@ void kiriView_Fade(kiriSheetData* sheet, double dt);
 /* Positions and normals from the frames (section 4.1 of the paper). */
 void kiriView_WritePositions(kiriSheetData* sheet);
 
-/* The first triangle that the ray meets, up to maxDistance (m) along its direction, a unit vector. hit->triangle is -1 when there is none. */
+/* The first triangle that the ray meets, up to maxDistance (m) along its direction, a unit vector. hit->triangle is -1
+   when there is none. */
 void kiriView_Raycast(const kiriSheetData* sheet, kiriVec3 origin, kiriVec3 direction, double maxDistance,
                       kiriHit* hit);
 

@@ -23,12 +23,12 @@ typedef struct Stage {
 /* What a cut sets off, in order. Any stage may spend its quota, or run out of memory; nothing is in force before the
    commit. */
 static const Stage stages[] = {
-    { KIRI_STAGE_CUT, TRIANGLES, kiriUpdate_SplitMesh },      /* appendix A, algorithm 4 */
-    { KIRI_STAGE_GRID, CELLS, kiriUpdate_Grid },              /* section 4.2, algorithm 3 */
-    { KIRI_STAGE_REGIONS, CELLS, kiriUpdate_Regions },        /* section 5: frames for pieces that have none */
-    { KIRI_STAGE_SHAPE, CELLS, kiriUpdate_Shape },            /* section 4.1, algorithm 2; re-sampling of section 5 */
-    { KIRI_STAGE_SAMPLES, SAMPLES, kiriUpdate_Samples },      /* section 6 */
-    { KIRI_STAGE_CONSTANTS, NOTHING, kiriUpdate_Constants },  /* mass, links, the pattern of the matrix */
+    { KIRI_STAGE_CUT, TRIANGLES, kiriUpdate_SplitMesh },     /* appendix A, algorithm 4 */
+    { KIRI_STAGE_GRID, CELLS, kiriUpdate_Grid },             /* section 4.2, algorithm 3 */
+    { KIRI_STAGE_REGIONS, CELLS, kiriUpdate_Regions },       /* section 5: frames for pieces that have none */
+    { KIRI_STAGE_SHAPE, CELLS, kiriUpdate_Shape },           /* section 4.1, algorithm 2; re-sampling of section 5 */
+    { KIRI_STAGE_SAMPLES, SAMPLES, kiriUpdate_Samples },     /* section 6 */
+    { KIRI_STAGE_CONSTANTS, NOTHING, kiriUpdate_Constants }, /* mass, links, the pattern of the matrix */
 };
 enum { STAGE_COUNT = sizeof(stages) / sizeof(stages[0]) };
 

@@ -1,8 +1,8 @@
-/* How far sheets at rest are from the truth, and what a tick costs: a table here, a CSV file and a plot in build/accuracy.
-   What moves is in trade.c.
+/* How far sheets at rest are from the truth, and what a tick costs: a table here, a CSV file and a plot in
+   build/accuracy. What moves is in trade.c.
 
-   The error is rms |x - x_ref| over the sample points by rms |x_ref - (u, v, 0)| over the same points. Sample points are
-   the frames, whose motion is what is computed; and all vertices of the mesh, which is what is seen. */
+   The error is rms |x - x_ref| over the sample points by rms |x_ref - (u, v, 0)| over the same points. Sample points
+   are the frames, whose motion is what is computed; and all vertices of the mesh, which is what is seen. */
 #include "kiri/kiri.h"
 
 #include "plot.h"
@@ -269,8 +269,8 @@ static Scene MakeRemainder(const Strip* strip, float margin, int frames)
     return scene;
 }
 
-/* A held row on the edge u = 0, as dense as the rest, that answers for half a spacing of the strip; the others are spread
-   evenly over what remains, by the library. */
+/* A held row on the edge u = 0, as dense as the rest, that answers for half a spacing of the strip; the others are
+   spread evenly over what remains, by the library. */
 static void PlaceEvenly(Strip* strip, int frames)
 {
     kiriFrame ids[MAX_FRAMES];

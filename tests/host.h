@@ -1,5 +1,5 @@
-/* A host of the library for the tests that use the public header alone: an allocator that counts, poisons and refuses, a
-   log, and rectangles. */
+/* A host of the library for the tests that use the public header alone: an allocator that counts, poisons and refuses,
+   a log, and rectangles. */
 #ifndef KIRI_TEST_HOST_H
 #define KIRI_TEST_HOST_H
 

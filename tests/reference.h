@@ -34,8 +34,8 @@ typedef struct Shell {
 
 bool Shell_Read(Shell* shell, const char* path, const float* slit, int slitPoints);
 
-/* The position of a rest point, by a quadratic fitted to the nodes around it that lie on its side of the slit. `side` is
-   a point near `rest` and off the slit. */
+/* The position of a rest point, by a quadratic fitted to the nodes around it that lie on its side of the slit. `side`
+   is a point near `rest` and off the slit. */
 void Shell_At(const Shell* shell, const double rest[2], const double side[2], double position[3]);
 
 #endif

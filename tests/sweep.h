@@ -40,8 +40,8 @@ bool Sweep_Prepare(const Setting* setting);
 
 bool Sweep_Run(const Setting* setting, kiriClockFn* clock, Outcome* outcome);
 
-/* Another setting with a smaller error at no more cost, and a grid as coarse; or -1. The grid costs nothing in this scene
-   but at every cut, so a finer grid is not for free. */
+/* Another setting with a smaller error at no more cost, and a grid as coarse; or -1. The grid costs nothing in this
+   scene but at every cut, so a finer grid is not for free. */
 int Sweep_Dominating(const Setting* settings, const Outcome* outcomes, int count, const Setting* setting,
                      const Outcome* outcome);
 

@@ -24,7 +24,8 @@ static void CheckRefused(Host* host, Before before, kiriResult result, kiriResul
         fail_msg("line %d: %s gave %d, not %d, and says '%s'", line, call, (int)result, (int)expected, error);
     }
     if (host->lines != before.lines + 1 || strcmp(host->line, error) != 0) {
-        fail_msg("line %d: %s logged %d lines, the last '%s'", line, call, (int)(host->lines - before.lines), host->line);
+        fail_msg("line %d: %s logged %d lines, the last '%s'", line, call, (int)(host->lines - before.lines),
+                 host->line);
     }
     if (Host_Hash(host) != before.hash || host->live != before.live) {
         fail_msg("line %d: %s left a trace", line, call);
@@ -264,10 +265,10 @@ static void SheetDefFloats(void** state)
     const struct {
         float* first;
         int count;
-    } fields[] = { { def.position, 3 },          { def.axisU, 3 },          { def.axisV, 3 },     { def.velocity, 3 },
-                   { &m->youngsModulus, 1 },     { &m->poissonsRatio, 1 },  { &m->thickness, 1 }, { &m->density, 1 },
-                   { &m->airDamping, 1 },        { &m->flexDamping, 1 },    { points, 8 },        { &def.snapDistance, 1 },
-                   { &def.rigidWeight, 1 },      { &def.rigidArea, 1 },     { r.positions, 18 } };
+    } fields[] = { { def.position, 3 },      { def.axisU, 3 },         { def.axisV, 3 },     { def.velocity, 3 },
+                   { &m->youngsModulus, 1 }, { &m->poissonsRatio, 1 }, { &m->thickness, 1 }, { &m->density, 1 },
+                   { &m->airDamping, 1 },    { &m->flexDamping, 1 },   { points, 8 },        { &def.snapDistance, 1 },
+                   { &def.rigidWeight, 1 },  { &def.rigidArea, 1 },    { r.positions, 18 } };
     for (size_t i = 0; i < sizeof(fields) / sizeof(fields[0]); ++i) {
         kiriSheet made = 0;
         REFUSED_FLOATS(fields[i].first, fields[i].count, kiriCreateSheet(host->world, &def, &made));
@@ -275,14 +276,14 @@ static void SheetDefFloats(void** state)
     const struct {
         float* field;
         float value;
-    } ranges[] = { { &m->youngsModulus, 0.0f },  { &m->youngsModulus, -1.0f }, { &m->poissonsRatio, -0.1f },
-                   { &m->poissonsRatio, 0.5f },  { &m->thickness, 0.0f },      { &m->thickness, -1.0f },
-                   { &m->density, 0.0f },        { &m->density, -1.0f },       { &m->airDamping, -0.1f },
-                   { &m->flexDamping, -0.1f },   { &def.snapDistance, -0.1f }, { &def.rigidWeight, 0.0f },
-                   { &def.rigidArea, -1.0f },    { &def.axisU[0], 0.0f },      { &def.axisU[0], 1.1f },
-                   { &def.axisU[1], 0.1f },      { &def.axisV[1], -2.0f },     { &def.axisV[0], 1e30f },
-                   { &points[0], -0.1f },        { &points[1], 1.1f },         { &points[2], 1e30f },
-                   { &points[3], -1e30f },       { &points[4], 16.1875f },     { &points[5], -7.1875f } };
+    } ranges[] = { { &m->youngsModulus, 0.0f }, { &m->youngsModulus, -1.0f }, { &m->poissonsRatio, -0.1f },
+                   { &m->poissonsRatio, 0.5f }, { &m->thickness, 0.0f },      { &m->thickness, -1.0f },
+                   { &m->density, 0.0f },       { &m->density, -1.0f },       { &m->airDamping, -0.1f },
+                   { &m->flexDamping, -0.1f },  { &def.snapDistance, -0.1f }, { &def.rigidWeight, 0.0f },
+                   { &def.rigidArea, -1.0f },   { &def.axisU[0], 0.0f },      { &def.axisU[0], 1.1f },
+                   { &def.axisU[1], 0.1f },     { &def.axisV[1], -2.0f },     { &def.axisV[0], 1e30f },
+                   { &points[0], -0.1f },       { &points[1], 1.1f },         { &points[2], 1e30f },
+                   { &points[3], -1e30f },      { &points[4], 16.1875f },     { &points[5], -7.1875f } };
     for (size_t i = 0; i < sizeof(ranges) / sizeof(ranges[0]); ++i) {
         float kept = *ranges[i].field;
         *ranges[i].field = ranges[i].value;
@@ -346,7 +347,8 @@ static void Meshes(void** state)
     Fixture f;
     Setup(&f);
     Host* host = &f.host;
-    static const float square[14] = { 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, 1.0f, 0.0f, 1.0f, 0.5f, 0.5f, 0.25f, 0.25f, 0.75f, 0.6f };
+    static const float square[14] = { 0.0f, 0.0f, 1.0f, 0.0f,  1.0f,  1.0f,  0.0f,
+                                      1.0f, 0.5f, 0.5f, 0.25f, 0.25f, 0.75f, 0.6f };
     static const struct {
         int32_t vertices, triangles;
         int32_t indices[9];
@@ -372,7 +374,8 @@ static void Meshes(void** state)
         def.gridResolution = 8;
         REFUSED_DEF(KIRI_ERROR_MESH);
     }
-    static const float flat[] = { 0.0f, 0.0f, 0.5f, 0.5f, 1.0f, 1.0f }, point[6] = { 2.0f, 2.0f, 2.0f, 2.0f, 2.0f, 2.0f };
+    static const float flat[] = { 0.0f, 0.0f, 0.5f, 0.5f, 1.0f, 1.0f },
+                       point[6] = { 2.0f, 2.0f, 2.0f, 2.0f, 2.0f, 2.0f };
     static const float* const degenerate[] = { flat, point };
     for (int i = 0; i < 2; ++i) {
         kiriSheetDef def;
@@ -409,9 +412,18 @@ static void FillRectangle(void** state)
 /* What names nothing of a kind: nothing, garbage, neighbours of a living id, ids of other kinds, and the dead. */
 static int32_t WrongIds(const Fixture* f, uint32_t living, uint32_t dead, uint32_t* ids)
 {
-    const uint32_t all[] = { 0,          dead,      0x12345678u,          0xffffffffu,    living + 1,
-                             living ^ (1u << 18), living | 0xffffu, living ^ 0x80000000u, f->sheet, f->cut,
-                             f->frame,   f->pin };
+    const uint32_t all[] = { 0,
+                             dead,
+                             0x12345678u,
+                             0xffffffffu,
+                             living + 1,
+                             living ^ (1u << 18),
+                             living | 0xffffu,
+                             living ^ 0x80000000u,
+                             f->sheet,
+                             f->cut,
+                             f->frame,
+                             f->pin };
     int32_t count = 0;
     for (size_t i = 0; i < sizeof(all) / sizeof(all[0]); ++i) {
         if (all[i] != living) {
@@ -515,8 +527,8 @@ static void SheetArguments(void** state)
     kiriWorld* w = host->world;
     kiriSheet s = f.sheet;
     float a[3] = { 0.5f, 0.5f, 1.0f }, b[3] = { 0.0f, 0.0f, -1.0f }, far = 1.0f;
-    float out[8][2] = { { -0.01f, 0.5f },  { 1.01f, 0.5f },   { 0.5f, -0.01f }, { 0.5f, 1.01f },
-                        { 1e30f, 0.5f },   { 0.5f, -1e30f },  { 16.5f, 0.5f },  { 3.4e38f, 3.4e38f } };
+    float out[8][2] = { { -0.01f, 0.5f }, { 1.01f, 0.5f },  { 0.5f, -0.01f }, { 0.5f, 1.01f },
+                        { 1e30f, 0.5f },  { 0.5f, -1e30f }, { 16.5f, 0.5f },  { 3.4e38f, 3.4e38f } };
     const float* positions;
     int32_t count;
     kiriFrame frame;
@@ -658,7 +670,8 @@ static void ContactArguments(void** state)
     Host* host = &f.host;
     kiriWorld* w = host->world;
     int32_t points = Host_Counts(host, f.sheet).collisionPoints;
-    kiriContact c[2] = { { 0, { 0.0f, 0.6f, 0.8f }, 0.0f, 0.5f, 100.0f }, { 1, { 1.0f, 0.0f, 0.0f }, 0.0f, 0.5f, 100.0f } };
+    kiriContact c[2] = { { 0, { 0.0f, 0.6f, 0.8f }, 0.0f, 0.5f, 100.0f },
+                         { 1, { 1.0f, 0.0f, 0.0f }, 0.0f, 0.5f, 100.0f } };
     const struct {
         float* field;
         int count;
@@ -675,8 +688,9 @@ static void ContactArguments(void** state)
     const struct {
         float* field;
         float value;
-    } ranges[] = { { &c[1].normal[0], 0.0f }, { &c[1].normal[0], 1.1f },  { &c[1].normal[1], 0.5f }, { &c[1].normal[2], 1e30f },
-                   { &c[1].friction, -0.1f }, { &c[1].stiffness, 0.0f },  { &c[1].stiffness, -1.0f } };
+    } ranges[] = { { &c[1].normal[0], 0.0f },  { &c[1].normal[0], 1.1f }, { &c[1].normal[1], 0.5f },
+                   { &c[1].normal[2], 1e30f }, { &c[1].friction, -0.1f }, { &c[1].stiffness, 0.0f },
+                   { &c[1].stiffness, -1.0f } };
     for (int i = 0; i < 7; ++i) {
         float kept = *ranges[i].field;
         *ranges[i].field = ranges[i].value;
@@ -724,7 +738,8 @@ static void HarmlessCuts(void** state)
         OK(kiriWorld_Tick(host->world, 0.01f, 1));
         assert_int_equal(Host_Events(host, KIRI_EVENT_CUT_FINISHED, &event), 1);
         assert_true(event.cut == cut && event.sheet == f.sheet && event.piece == -1 && event.frame == 0);
-        assert_int_equal(Host_Events(host, KIRI_EVENT_PIECE_OFF, NULL) + Host_Events(host, KIRI_EVENT_FRAME_ADDED, NULL), 0);
+        assert_int_equal(
+            Host_Events(host, KIRI_EVENT_PIECE_OFF, NULL) + Host_Events(host, KIRI_EVENT_FRAME_ADDED, NULL), 0);
         kiriCounts after = Host_Counts(host, f.sheet);
         if (memcmp(&before, &after, sizeof(before)) != 0) {
             fail_msg("cut %d made %d vertices of %d", (int)i, (int)after.vertices, (int)before.vertices);
@@ -757,13 +772,27 @@ static void HugeValues(void** state)
         memcpy(pin.target, huge, sizeof(huge));
         pin.stiffness = 1e30f;
         switch (what) {
-        case 0: OK(kiriWorld_SetGravity(w, huge)); break;
-        case 1: OK(kiriPin_SetTarget(w, f.pin, huge)); break;
-        case 2: OK(kiriCreatePin(w, f.sheet, &pin, &made)); break;
-        case 3: OK(kiriFrame_ApplyForce(w, f.frame, huge, huge)); break;
-        case 4: OK(kiriFrame_Hold(w, f.frame, huge, eye)); break;
-        case 5: OK(kiriSheet_SetContacts(w, f.sheet, &contact, 1)); break;
-        case 6: OK(kiriSheet_Slice(w, f.sheet, blade, &cut)); break;
+        case 0:
+            OK(kiriWorld_SetGravity(w, huge));
+            break;
+        case 1:
+            OK(kiriPin_SetTarget(w, f.pin, huge));
+            break;
+        case 2:
+            OK(kiriCreatePin(w, f.sheet, &pin, &made));
+            break;
+        case 3:
+            OK(kiriFrame_ApplyForce(w, f.frame, huge, huge));
+            break;
+        case 4:
+            OK(kiriFrame_Hold(w, f.frame, huge, eye));
+            break;
+        case 5:
+            OK(kiriSheet_SetContacts(w, f.sheet, &contact, 1));
+            break;
+        case 6:
+            OK(kiriSheet_Slice(w, f.sheet, blade, &cut));
+            break;
         default:
             OK(kiriCut_Extend(w, f.cut, huge, 1));
             OK(kiriCut_Extend(w, f.cut, inside, 1));
@@ -821,7 +850,8 @@ static void Copies(void** state)
             assert_memory_equal(&places[8 * v], &mesh.positions[3 * v], 3 * sizeof(float));
             assert_memory_equal(&places[8 * v + 3], &mesh.normals[3 * v], 3 * sizeof(float));
         }
-        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_CopyVertices(host->world, sheet, 1, mesh.vertexCount, places, 12, NULL, 0));
+        REFUSED(KIRI_ERROR_ARGUMENT,
+                kiriSheet_CopyVertices(host->world, sheet, 1, mesh.vertexCount, places, 12, NULL, 0));
         REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_CopyVertices(host->world, sheet, 0, 1, places, 8, NULL, 0));
         REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_CopyIndices16(host->world, sheet, 0, mesh.triangleCount + 1, indices));
         point[0] = (float)RandomBetween(&seed, 0.0, 1.0);
@@ -860,12 +890,16 @@ static void HugeSheets(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(NullWorld),      cmocka_unit_test(Names),          cmocka_unit_test(WorldDefs),         cmocka_unit_test(Materials),
-        cmocka_unit_test(WorldArguments), cmocka_unit_test(SheetDefFloats), cmocka_unit_test(SheetDefInts),
-        cmocka_unit_test(Meshes),         cmocka_unit_test(FillRectangle),  cmocka_unit_test(Ids),
-        cmocka_unit_test(SheetArguments), cmocka_unit_test(CutArguments),   cmocka_unit_test(FrameArguments),
-        cmocka_unit_test(PinArguments),   cmocka_unit_test(ContactArguments), cmocka_unit_test(HarmlessCuts),
-        cmocka_unit_test(HugeValues),     cmocka_unit_test(HugeSheets),     cmocka_unit_test(Copies),
+        cmocka_unit_test(NullWorld),        cmocka_unit_test(Names),
+        cmocka_unit_test(WorldDefs),        cmocka_unit_test(Materials),
+        cmocka_unit_test(WorldArguments),   cmocka_unit_test(SheetDefFloats),
+        cmocka_unit_test(SheetDefInts),     cmocka_unit_test(Meshes),
+        cmocka_unit_test(FillRectangle),    cmocka_unit_test(Ids),
+        cmocka_unit_test(SheetArguments),   cmocka_unit_test(CutArguments),
+        cmocka_unit_test(FrameArguments),   cmocka_unit_test(PinArguments),
+        cmocka_unit_test(ContactArguments), cmocka_unit_test(HarmlessCuts),
+        cmocka_unit_test(HugeValues),       cmocka_unit_test(HugeSheets),
+        cmocka_unit_test(Copies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -269,7 +269,8 @@ static void RotationIsPolarFactor(void** state)
     (void)state;
     uint32_t seed = 777;
     for (int i = 0; i < 200; ++i) {
-        double a = RandomBetween(&seed, 0.3, 3.0), b = RandomBetween(&seed, 0.3, 3.0), c = RandomBetween(&seed, 0.3, 3.0);
+        double a = RandomBetween(&seed, 0.3, 3.0), b = RandomBetween(&seed, 0.3, 3.0),
+               c = RandomBetween(&seed, 0.3, 3.0);
         kiriMat3 q = RandomRotation(&seed), r = kiriMat3_Rotation(q);
         for (int k = 0; k < 9; ++k) {
             assert_true(fabs(Entry(q, k / 3, k % 3) - Entry(r, k / 3, k % 3)) < 1e-12); /* a rotation is its own */
@@ -285,16 +286,18 @@ static void RotationOfSingular(void** state)
     (void)state;
     uint32_t seed = 4242;
     const kiriVec3 zero = { 0.0, 0.0, 0.0 }, x = { 1.0, 0.0, 0.0 }, z = { 0.0, 0.0, 1.0 };
-    const kiriMat3 special[] = { { zero, zero, zero }, { x, x, x },      { x, zero, zero }, { zero, x, zero },
-                                 { zero, zero, x },    { x, zero, z },   { zero, x, z },    { x, z, zero },
-                                 { { 1e-200, 0.0, 0.0 }, { 0.0, 1e-200, 0.0 }, { 0.0, 0.0, 1e-200 } } };
+    const kiriMat3 special[] = {
+        { zero, zero, zero }, { x, x, x },       { x, zero, zero },
+        { zero, x, zero },    { zero, zero, x }, { x, zero, z },
+        { zero, x, z },       { x, z, zero },    { { 1e-200, 0.0, 0.0 }, { 0.0, 1e-200, 0.0 }, { 0.0, 0.0, 1e-200 } }
+    };
     for (size_t i = 0; i < sizeof(special) / sizeof(special[0]); ++i) {
         CheckRotation(kiriMat3_Rotation(special[i]), 1e-12);
     }
     for (int i = 0; i < 200; ++i) {
         double a = RandomBetween(&seed, 0.5, 2.0), b = RandomBetween(&seed, 0.5, 2.0);
-        CheckPolar(Stretched(&seed, a, b, 0.0), 1e-6);       /* flat */
-        CheckPolar(Stretched(&seed, a, b, -0.1 * a), 1e-6);  /* mirrored: the nearest that does not mirror */
+        CheckPolar(Stretched(&seed, a, b, 0.0), 1e-6);      /* flat */
+        CheckPolar(Stretched(&seed, a, b, -0.1 * a), 1e-6); /* mirrored: the nearest that does not mirror */
         CheckRotation(kiriMat3_Rotation(Stretched(&seed, a, 0.0, 0.0)), 1e-12);
         CheckRotation(kiriMat3_Rotation(Stretched(&seed, -a, -a, -a)), 1e-12);
     }
@@ -358,10 +361,17 @@ static void MomentsOfTriangles(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ArraysGrow),       cmocka_unit_test(ArraysFail),       cmocka_unit_test(MemoryByDefault),
-        cmocka_unit_test(PoolsFindWhatIsThere), cmocka_unit_test(PoolsNeverRepeat), cmocka_unit_test(PoolsFillUp),
-        cmocka_unit_test(PoolsFail),        cmocka_unit_test(CayleyRotates),    cmocka_unit_test(RotationIsPolarFactor),
-        cmocka_unit_test(RotationOfSingular), cmocka_unit_test(MomentsOfTriangles),
+        cmocka_unit_test(ArraysGrow),
+        cmocka_unit_test(ArraysFail),
+        cmocka_unit_test(MemoryByDefault),
+        cmocka_unit_test(PoolsFindWhatIsThere),
+        cmocka_unit_test(PoolsNeverRepeat),
+        cmocka_unit_test(PoolsFillUp),
+        cmocka_unit_test(PoolsFail),
+        cmocka_unit_test(CayleyRotates),
+        cmocka_unit_test(RotationIsPolarFactor),
+        cmocka_unit_test(RotationOfSingular),
+        cmocka_unit_test(MomentsOfTriangles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -885,8 +885,8 @@ static uint64_t Mix(uint64_t hash, int64_t value)
     return hash ^ hash >> 29;
 }
 
-/* All that a grid can see of a square, whatever the order of its lists: its triangles, how they hang together in it, and
-   its vertices. */
+/* All that a grid can see of a square, whatever the order of its lists: its triangles, how they hang together in it,
+   and its vertices. */
 static uint64_t Fingerprint(const kiriMeshData* mesh, int32_t square)
 {
     const kiriSquares* squares = &mesh->squares;

@@ -539,7 +539,8 @@ static void EqualsPlainBesideNeighbours(void** state)
     Scene_Release(&scene);
 }
 
-/* ---- Indices of cells mean nothing -------------------------------------------------------------------------------- */
+/* ---- Indices of cells mean nothing
+   -------------------------------------------------------------------------------- */
 
 /* The same grid, cell c with index to[c]; what placing reads of it. */
 static void Permute(kiriGrid* out, const kiriGrid* grid, const kiriMemory* memory, const int32_t* to)

@@ -109,8 +109,8 @@ static void TestPlainTicks(void** state)
     }
 }
 
-/* A long spiral, from its middle, a cell or so a tick. What it leaves grows, and so does the room for it, which doubles:
-   so ever fewer ticks ask for memory. */
+/* A long spiral, from its middle, a cell or so a tick. What it leaves grows, and so does the room for it, which
+   doubles: so ever fewer ticks ask for memory. */
 static void TestCuttingTicks(void** state)
 {
     (void)state;

@@ -339,7 +339,9 @@ typedef struct Before {
 #define COPY(array)                                                                                                    \
     do {                                                                                                               \
         void* copy = malloc(sizeof(*(array).data) * (size_t)((array).count + 1));                                      \
-        memcpy(copy, (array).data, sizeof(*(array).data) * (size_t)(array).count);                                     \
+        if ((array).count > 0) {                                                                                       \
+            memcpy(copy, (array).data, sizeof(*(array).data) * (size_t)(array).count);                                 \
+        }                                                                                                              \
         (array).data = copy;                                                                                           \
     } while (0)
 

@@ -111,7 +111,8 @@ static void CheckSheet(const Host* host, kiriSheet sheet, const kiriTotals* firs
     kiriMesh mesh = Host_Mesh(host, sheet);
     kiriTotals totals = Host_Totals(host, sheet);
     kiriCounts counts = Host_Counts(host, sheet);
-    if (!(fabs(totals.area - first->area) <= 1e-12 * first->area && fabs(totals.mass - first->mass) <= 1e-12 * first->mass)) {
+    if (!(fabs(totals.area - first->area) <= 1e-12 * first->area &&
+          fabs(totals.mass - first->mass) <= 1e-12 * first->mass)) {
         fail_msg("the area is off by %g of itself", totals.area / first->area - 1.0);
     }
     CheckTriangles(&mesh, first->area);
@@ -126,9 +127,12 @@ static void CheckSheet(const Host* host, kiriSheet sheet, const kiriTotals* firs
 static float Coordinate(uint32_t* seed)
 {
     switch (Random(seed) % 4) {
-    case 0: return (float)(Random(seed) % (COLUMNS + 1)) / COLUMNS; /* on a line of the mesh */
-    case 1: return (float)(Random(seed) % 9) / 8.0f;                /* on a line of the grid */
-    default: return (float)RandomBetween(seed, -0.1, 1.1);
+    case 0:
+        return (float)(Random(seed) % (COLUMNS + 1)) / COLUMNS; /* on a line of the mesh */
+    case 1:
+        return (float)(Random(seed) % 9) / 8.0f; /* on a line of the grid */
+    default:
+        return (float)RandomBetween(seed, -0.1, 1.1);
     }
 }
 
@@ -140,7 +144,9 @@ static void RandomCut(Host* host, kiriSheet sheet, uint32_t* seed)
     for (int32_t i = 0; i < count; ++i) {
         bool far = Random(seed) % 500 == 0;
         points[2 * i] = i == 0 ? (float)x : far ? Coordinate(seed) : (float)(x + RandomBetween(seed, -reach, reach));
-        points[2 * i + 1] = i == 0 ? (float)y : far ? Coordinate(seed) : (float)(y + RandomBetween(seed, -reach, reach));
+        points[2 * i + 1] = i == 0 ? (float)y
+                            : far  ? Coordinate(seed)
+                                   : (float)(y + RandomBetween(seed, -reach, reach));
     }
     if (count > 2 && Random(seed) % 8 == 0) { /* closed */
         points[2 * count - 2] = points[0];
@@ -163,7 +169,8 @@ static uint64_t Run(uint32_t seed, bool check)
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, COLUMNS, COLUMNS);
     kiriTotals first = Host_Totals(&host, sheet);
     for (int32_t cut = 0; cut < CUTS;) {
-        int32_t batch = 1 + (int32_t)(Random(&seed) % (2 * CUTS_A_TICK - 1)), end = cut + batch < CUTS ? cut + batch : CUTS;
+        int32_t batch = 1 + (int32_t)(Random(&seed) % (2 * CUTS_A_TICK - 1)),
+                end = cut + batch < CUTS ? cut + batch : CUTS;
         for (; cut < end; ++cut) {
             RandomCut(&host, sheet, &seed);
         }
@@ -174,7 +181,8 @@ static uint64_t Run(uint32_t seed, bool check)
     }
     if (check) {
         kiriCounts counts = Host_Counts(&host, sheet);
-        print_message("%d triangles, %d pieces, %d frames\n", (int)counts.triangles, (int)counts.pieces, (int)counts.frames);
+        print_message("%d triangles, %d pieces, %d frames\n", (int)counts.triangles, (int)counts.pieces,
+                      (int)counts.frames);
         assert_true(counts.pieces > 10); /* or the cuts were too tame to show anything */
     }
     uint64_t hash = Host_Hash(&host);

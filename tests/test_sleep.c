@@ -354,7 +354,8 @@ static void TestArguments(void** state)
     Host_Stop(&host);
 }
 
-/* Two worlds with the same calls sleep and wake alike; one that sleeps has another hash than one that was just woken. */
+/* Two worlds with the same calls sleep and wake alike; one that sleeps has another hash than one that was just
+   woken. */
 static void TestSameCallsSameBits(void** state)
 {
     (void)state;

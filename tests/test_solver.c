@@ -528,8 +528,8 @@ static void TestFreeFall(void** state)
     Drop(&scene);
 }
 
-/* Of two sheets in one solver, one falls flat; the frames of the other are strewn about. Nothing holds either: the first
-   falls as if alone, to the bit, and so does the centre of mass of the second. */
+/* Of two sheets in one solver, one falls flat; the frames of the other are strewn about. Nothing holds either: the
+   first falls as if alone, to the bit, and so does the centre of mass of the second. */
 static void TestPiecesFallByThemselves(void** state)
 {
     const double dt = 1.0 / 60.0;
@@ -1114,7 +1114,8 @@ static void Drop2(void)
     Drop(&twin);
 }
 
-/* Links that vanish leave the pattern; links that come back find it. It moves as one made for the links that are left. */
+/* Links that vanish leave the pattern; links that come back find it. It moves as one made for the links that are
+   left. */
 static void TestPatternStays(void** state)
 {
     (void)state;

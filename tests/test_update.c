@@ -19,7 +19,7 @@ static uint64_t Layout(const Host* host, int32_t index)
 
 typedef struct Wanderer {
     float at[2], heading[2];
-    int32_t left; /* points until it ends */
+    int32_t left;    /* points until it ends */
     kiriCut cuts[2]; /* in each of two worlds */
 } Wanderer;
 
@@ -262,7 +262,8 @@ static void TestFiftyCutsOnFiftySheets(void** state)
     Host_Stop(&hosts[1]);
 }
 
-/* Points come every tick, faster than the budget takes them; what is given before one tick still takes effect together. */
+/* Points come every tick, faster than the budget takes them; what is given before one tick still takes effect
+   together. */
 static void TestBladeFasterThanItsBudget(void** state)
 {
     (void)state;
@@ -296,7 +297,8 @@ static void TestBladeFasterThanItsBudget(void** state)
     }
 }
 
-/* Three sheets that want two systems each, and a budget of four, then of one: none starves, and none is solved too often. */
+/* Three sheets that want two systems each, and a budget of four, then of one: none starves, and none is solved too
+   often. */
 static void TestIterationsAreShared(void** state)
 {
     (void)state;
@@ -361,9 +363,12 @@ static void TestBudgetFromTime(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestIncrementalEqualsFromScratch), cmocka_unit_test(TestCutOfTwoThousandPoints),
-        cmocka_unit_test(TestFiftyCutsOnFiftySheets),       cmocka_unit_test(TestBladeFasterThanItsBudget),
-        cmocka_unit_test(TestIterationsAreShared),          cmocka_unit_test(TestBudgetsThatAreNone),
+        cmocka_unit_test(TestIncrementalEqualsFromScratch),
+        cmocka_unit_test(TestCutOfTwoThousandPoints),
+        cmocka_unit_test(TestFiftyCutsOnFiftySheets),
+        cmocka_unit_test(TestBladeFasterThanItsBudget),
+        cmocka_unit_test(TestIterationsAreShared),
+        cmocka_unit_test(TestBudgetsThatAreNone),
         cmocka_unit_test(TestBudgetFromTime),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -48,7 +48,8 @@ typedef struct Scenario {
 
 enum { STEPS = 11 };
 
-/* One call of a scenario: the host asks for everything that allocates. The steps after the first need the ones before. */
+/* One call of a scenario: the host asks for everything that allocates. The steps after the first need the ones
+   before. */
 static kiriResult Perform(Host* host, Scenario* s, int step)
 {
     static const float blade[12] = { 0.6f, -1.0f, -1.0f, 0.6f, -1.0f, 1.0f, 0.6f, 2.0f, 1.0f, 0.6f, 2.0f, -1.0f };
@@ -62,17 +63,28 @@ static kiriResult Perform(Host* host, Scenario* s, int step)
     pin.target[0] = 0.1f;
     pin.target[1] = 0.9f;
     switch (step) {
-    case 0: return kiriCreateSheet(host->world, &s->def, &s->sheet);
-    case 1: return kiriCreatePin(host->world, s->sheet, &pin, &s->pin);
-    case 2: return kiriSheet_SetContacts(host->world, s->sheet, s->contacts, 6);
-    case 3: return kiriSheet_GetWeights(host->world, s->sheet, at, frames, weights, gradients, 16, &count);
-    case 4: return kiriWorld_Tick(host->world, 0.01f, 2);
-    case 5: return kiriBeginCut(host->world, s->sheet, s->line, &s->cut);
-    case 6: return kiriCut_Extend(host->world, s->cut, s->line, 3);
-    case 7: return kiriWorld_Tick(host->world, 0.01f, 1);
-    case 8: return kiriCut_Extend(host->world, s->cut, s->loop, 5);
-    case 9: return kiriSheet_Slice(host->world, s->sheet, blade, &s->slice);
-    default: return kiriWorld_Tick(host->world, 0.01f, 2);
+    case 0:
+        return kiriCreateSheet(host->world, &s->def, &s->sheet);
+    case 1:
+        return kiriCreatePin(host->world, s->sheet, &pin, &s->pin);
+    case 2:
+        return kiriSheet_SetContacts(host->world, s->sheet, s->contacts, 6);
+    case 3:
+        return kiriSheet_GetWeights(host->world, s->sheet, at, frames, weights, gradients, 16, &count);
+    case 4:
+        return kiriWorld_Tick(host->world, 0.01f, 2);
+    case 5:
+        return kiriBeginCut(host->world, s->sheet, s->line, &s->cut);
+    case 6:
+        return kiriCut_Extend(host->world, s->cut, s->line, 3);
+    case 7:
+        return kiriWorld_Tick(host->world, 0.01f, 1);
+    case 8:
+        return kiriCut_Extend(host->world, s->cut, s->loop, 5);
+    case 9:
+        return kiriSheet_Slice(host->world, s->sheet, blade, &s->slice);
+    default:
+        return kiriWorld_Tick(host->world, 0.01f, 2);
     }
 }
 
@@ -104,10 +116,14 @@ static uint64_t ViewHash(const Host* host, kiriSheet sheet)
     const struct {
         const void* data;
         size_t bytes;
-    } parts[] = { { mesh.positions, 12u * (size_t)mesh.vertexCount },      { mesh.normals, 12u * (size_t)mesh.vertexCount },
-                  { mesh.restPositions, 8u * (size_t)mesh.vertexCount },   { mesh.indices, 12u * (size_t)mesh.triangleCount },
-                  { mesh.sourceTriangles, 4u * (size_t)mesh.vertexCount }, { mesh.sourceWeights, 12u * (size_t)mesh.vertexCount },
-                  { points, 12u * (size_t)count },                         { &mesh.revision, sizeof(mesh.revision) } };
+    } parts[] = { { mesh.positions, 12u * (size_t)mesh.vertexCount },
+                  { mesh.normals, 12u * (size_t)mesh.vertexCount },
+                  { mesh.restPositions, 8u * (size_t)mesh.vertexCount },
+                  { mesh.indices, 12u * (size_t)mesh.triangleCount },
+                  { mesh.sourceTriangles, 4u * (size_t)mesh.vertexCount },
+                  { mesh.sourceWeights, 12u * (size_t)mesh.vertexCount },
+                  { points, 12u * (size_t)count },
+                  { &mesh.revision, sizeof(mesh.revision) } };
     for (size_t i = 0; i < sizeof(parts) / sizeof(parts[0]); ++i) {
         for (size_t k = 0; k < parts[i].bytes; ++k) {
             hash = (hash ^ ((const unsigned char*)parts[i].data)[k]) * 1099511628211u;
@@ -247,7 +263,9 @@ static void SheetsAreApart(void** state)
     (void)state;
     static const float line[4] = { 0.5f, -0.1f, 0.52f, 1.1f };
     for (int order = 0; order < 6; ++order) {
-        static const int orders[6][3] = { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 2, 1, 0 } };
+        static const int orders[6][3] = {
+            { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 2, 1, 0 }
+        };
         Host host, single;
         kiriSheet sheets[3], lonely;
         kiriSheetDef def = Host_SmallDef();
@@ -332,7 +350,8 @@ static void FreeFall(void** state)
     OK(kiriWorld_SetGravity(host.world, gravity));
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
     kiriTotals totals = Host_Totals(&host, sheet);
-    double x[3] = { 0.5, 0.5, 3.0 }, v[3] = { 1.5, 0.0, 2.0 }, mass = (double)def.material.density * def.material.thickness;
+    double x[3] = { 0.5, 0.5, 3.0 }, v[3] = { 1.5, 0.0, 2.0 },
+           mass = (double)def.material.density * def.material.thickness;
     AssertNear(Distance(totals.center, x), 0.0, 1e-9, "start");
     AssertNear(totals.mass, mass, 1e-9 * mass, "mass");
     for (int tick = 0; tick < 40; ++tick) {
@@ -534,7 +553,8 @@ static void StepExtremes(void** state)
 static double TriangleArea(const kiriMesh* mesh, int32_t t)
 {
     const int32_t* v = &mesh->indices[3 * t];
-    const float *a = &mesh->restPositions[2 * v[0]], *b = &mesh->restPositions[2 * v[1]], *c = &mesh->restPositions[2 * v[2]];
+    const float *a = &mesh->restPositions[2 * v[0]], *b = &mesh->restPositions[2 * v[1]],
+                *c = &mesh->restPositions[2 * v[2]];
     return 0.5 * (((double)b[0] - a[0]) * ((double)c[1] - a[1]) - ((double)b[1] - a[1]) * ((double)c[0] - a[0]));
 }
 
@@ -577,7 +597,8 @@ static void PieceFalls(void** state)
     kiriTotals before = Host_Totals(&host, sheet);
     uint32_t revision = Host_Mesh(&host, sheet).revision;
     /* A hexagon, closed; its area by the shoelace formula. */
-    static const float loop[14] = { 0.3f, 0.2f, 0.61f, 0.17f, 0.72f, 0.33f, 0.66f, 0.58f, 0.41f, 0.63f, 0.22f, 0.4f, 0.3f, 0.2f };
+    static const float loop[14] = { 0.3f,  0.2f,  0.61f, 0.17f, 0.72f, 0.33f, 0.66f,
+                                    0.58f, 0.41f, 0.63f, 0.22f, 0.4f,  0.3f,  0.2f };
     double area = 0.0;
     for (int i = 0; i < 6; ++i) {
         area += 0.5 * ((double)loop[2 * i] * loop[2 * i + 3] - (double)loop[2 * i + 2] * loop[2 * i + 1]);
@@ -654,7 +675,8 @@ static void BladeMovesOn(void** state)
     Host host;
     Host_Start(&host);
     kiriSheetDef def = Host_SmallDef();
-    kiriSheet slow = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4), fast = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriSheet slow = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4),
+              fast = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
     static const float points[10] = { -0.1f, 0.4f, 0.3f, 0.45f, 0.31f, 0.71f, 0.66f, 0.55f, 1.1f, 0.6f };
     kiriCut cut;
     kiriEvent event = { 0 };
@@ -948,8 +970,14 @@ static kiriSheet AddParts(Host* host, kiriSheetDef* def, bool (*keep)(double u, 
     return sheet;
 }
 
-static bool HasHole(double u, double v) { return u < 0.25 || u > 0.75 || v < 0.25 || v > 0.75; }
-static bool InTwoParts(double u, double v) { return (u < 0.25 || u > 0.5) && v >= 0.0; }
+static bool HasHole(double u, double v)
+{
+    return u < 0.25 || u > 0.75 || v < 0.25 || v > 0.75;
+}
+static bool InTwoParts(double u, double v)
+{
+    return (u < 0.25 || u > 0.5) && v >= 0.0;
+}
 
 static void Holes(void** state)
 {
@@ -968,7 +996,8 @@ static void Holes(void** state)
     AssertNear(Host_Totals(&host, sheet).area, area, 1e-9, "area");
     OK(kiriSheet_Raycast(host.world, sheet, origin, down, 10.0f, &hit));
     assert_int_equal(hit.triangle, -1);
-    assert_int_equal(kiriSheet_GetWeights(host.world, sheet, in, &frame, &weight, NULL, 1, &count), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_GetWeights(host.world, sheet, in, &frame, &weight, NULL, 1, &count),
+                     KIRI_ERROR_ARGUMENT);
     Host_Cut(&host, sheet, left, 2);
     Tick(&host, 0.01f, 1);
     assert_int_equal(Host_Counts(&host, sheet).pieces, 1);
@@ -1052,7 +1081,8 @@ static void Profile(void** state)
         OK(kiriWorld_GetProfile(host.world, &profile));
         kiriCounts counts = Host_Counts(&host, sheet);
         assert_int_equal(profile.cutSegments, 3);
-        assert_true(profile.trianglesSplit >= counts.triangles - triangles && profile.trianglesSplit <= counts.triangles);
+        assert_true(profile.trianglesSplit >= counts.triangles - triangles &&
+                    profile.trianglesSplit <= counts.triangles);
         assert_int_equal(profile.commits, 1);
         assert_true(profile.cellsSettled > 0 && profile.linksChanged > 0);
         assert_true(profile.cellsChanged > 0 && profile.cellsChanged <= counts.cells);
@@ -1123,14 +1153,31 @@ static void FramesByThemselves(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(MemoryRunsOut),      cmocka_unit_test(MemoryForWorld),   cmocka_unit_test(QuietTicks),
-        cmocka_unit_test(WorldsAreApart),     cmocka_unit_test(SheetsAreApart),   cmocka_unit_test(HashSeesAll),
-        cmocka_unit_test(FreeFall),           cmocka_unit_test(AirDampingFades),  cmocka_unit_test(HangingComesToRest),
-        cmocka_unit_test(FramesAreHeld),      cmocka_unit_test(ForcesPush),       cmocka_unit_test(ContactsCarry),
-        cmocka_unit_test(StepExtremes),       cmocka_unit_test(PieceFalls),       cmocka_unit_test(SmallPieceComesOff),
+        cmocka_unit_test(MemoryRunsOut),
+        cmocka_unit_test(MemoryForWorld),
+        cmocka_unit_test(QuietTicks),
+        cmocka_unit_test(WorldsAreApart),
+        cmocka_unit_test(SheetsAreApart),
+        cmocka_unit_test(HashSeesAll),
+        cmocka_unit_test(FreeFall),
+        cmocka_unit_test(AirDampingFades),
+        cmocka_unit_test(HangingComesToRest),
+        cmocka_unit_test(FramesAreHeld),
+        cmocka_unit_test(ForcesPush),
+        cmocka_unit_test(ContactsCarry),
+        cmocka_unit_test(StepExtremes),
+        cmocka_unit_test(PieceFalls),
+        cmocka_unit_test(SmallPieceComesOff),
         cmocka_unit_test(BladeMovesOn),
-        cmocka_unit_test(FramesByThemselves),       cmocka_unit_test(MomentumAtCommit), cmocka_unit_test(Slices),
-        cmocka_unit_test(Rays),               cmocka_unit_test(Weights),          cmocka_unit_test(Holes), cmocka_unit_test(WeightsAtFrames),    cmocka_unit_test(TwoParts),           cmocka_unit_test(Profile),
+        cmocka_unit_test(FramesByThemselves),
+        cmocka_unit_test(MomentumAtCommit),
+        cmocka_unit_test(Slices),
+        cmocka_unit_test(Rays),
+        cmocka_unit_test(Weights),
+        cmocka_unit_test(Holes),
+        cmocka_unit_test(WeightsAtFrames),
+        cmocka_unit_test(TwoParts),
+        cmocka_unit_test(Profile),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

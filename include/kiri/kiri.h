@@ -66,9 +66,10 @@ typedef void kiriFreeFn(void* user, void* pointer);
 typedef void kiriLogFn(void* user, const char* line);
 typedef double kiriClockFn(void* user); /* seconds; read for the profile only, never by the simulation */
 
-/* The most work that one tick may do, over all sheets, first come first served. What does not fit goes on in the next tick,
-   and in the end is what it would have been without a limit: the points given to a sheet before one tick take effect
-   together, when all that follows from them is done. Until then the lips of a fresh cut move together. 0: no limit. */
+/* The most work that one tick may do, over all sheets, first come first served. What does not fit goes on in the next
+   tick, and in the end is what it would have been without a limit: the points given to a sheet before one tick take
+   effect together, when all that follows from them is done. Until then the lips of a fresh cut move together. 0: no
+   limit. */
 typedef struct kiriBudget {
     int32_t triangles; /* split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
     int32_t cells;     /* looked at, or given another distance: grid, regions and shape functions */
@@ -160,8 +161,8 @@ typedef struct kiriProfile {
     /* What the budget counts. */
     int32_t trianglesSplit, cellsSettled, samplesRefreshed, solverIterations;
 
-    /* What commits changed: cells made or with other material, cells with other weights, vertices and collision points with
-       other weights, links that are other than before. Of how many: kiriSheet_GetCounts. */
+    /* What commits changed: cells made or with other material, cells with other weights, vertices and collision points
+       with other weights, links that are other than before. Of how many: kiriSheet_GetCounts. */
     int32_t cellsChanged, weightsChanged, verticesChanged, pointsChanged, linksChanged;
     int32_t commits; /* sheets in which a cut took effect */
 
@@ -172,9 +173,10 @@ typedef struct kiriProfile {
 
 KIRI_API kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile);
 
-/* For hosts that would rather think in time than in items: the budget whose work would have taken so many microseconds a tick at
-   the pace of the profile, which may be the sum of several. Each item that the profile has some of is set; others stay. The
-   simulation never reads a clock: the choice is the host's, and a replay must hand in the same budgets. */
+/* For hosts that would rather think in time than in items: the budget whose work would have taken so many microseconds
+   a tick at the pace of the profile, which may be the sum of several. Each item that the profile has some of is set;
+   others stay. The simulation never reads a clock: the choice is the host's, and a replay must hand in the same
+   budgets. */
 KIRI_API kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget);
 
 /* The name of a stage, for tables; "" for a number that is none. */
@@ -203,9 +205,9 @@ enum {
 KIRI_API kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
 
 /* How much work for how much accuracy. The presets are measured: a strip of stiff paper, 0.2 m x 0.05 m, one row of
-   frames, clamped at one end, is let go and swings for 0.4 s at 60 ticks a second; tests/sweep.h. Error: rms distance of
-   the vertices from where 33 frames and 512 substeps a tick bring them, by the rms way that they go. Cost: linear systems
-   a tick, times frames. FAST: 7.4 %, cost 10. BALANCED: 2.3 %, cost 72. ACCURATE: 1.0 %, cost 272. */
+   frames, clamped at one end, is let go and swings for 0.4 s at 60 ticks a second; tests/sweep.h. Error: rms distance
+   of the vertices from where 33 frames and 512 substeps a tick bring them, by the rms way that they go. Cost: linear
+   systems a tick, times frames. FAST: 7.4 %, cost 10. BALANCED: 2.3 %, cost 72. ACCURATE: 1.0 %, cost 272. */
 typedef struct kiriQuality {
     int32_t framesAlong;    /* control frames along the longer side; as many in all do for a strip */
     int32_t gridResolution; /* for the sheet def */
@@ -222,9 +224,9 @@ enum {
     /* Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, which its neighbours couple. */
     KIRI_MODEL_LINKS = 0,
 
-    /* Affine frames joined by links: cloth and rubber, whose stretch inside a region is seen. 12 unknowns a frame, which
-       neighbours of neighbours couple: some ten times the work of KIRI_MODEL_LINKS. From 1e8 Pa or so on it wants more
-       `iterations`, 8 say. */
+    /* Affine frames joined by links: cloth and rubber, whose stretch inside a region is seen. 12 unknowns a frame,
+       which neighbours of neighbours couple: some ten times the work of KIRI_MODEL_LINKS. From 1e8 Pa or so on it wants
+       more `iterations`, 8 say. */
     KIRI_MODEL_AFFINE = 1,
 
     /* Affine frames, strains at integration points: the scheme of the paper, to compare with. Much too stiff in bending
@@ -262,10 +264,10 @@ typedef struct kiriSheetDef {
     float snapDistance;     /* m: a blade this near to a vertex or an edge takes it; 0: 1e-4 of the longer side */
 
     /* Control frames. framePoints: 2 floats a frame, in the material; null: frameCount frames are spread evenly.
-       frameCount 0: as many as the sheet needs: a region is split while its size, 2.45 times its radius of gyration, exceeds
-       frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0: the length over which
-       the material bends under its own weight, (D / (density thickness 9.81))^(1/3) with D its bending stiffness (6 cm
-       for printing paper), but three squares of the grid at least. */
+       frameCount 0: as many as the sheet needs: a region is split while its size, 2.45 times its radius of gyration,
+       exceeds frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0: the length
+       over which the material bends under its own weight, (D / (density thickness 9.81))^(1/3) with D its bending
+       stiffness (6 cm for printing paper), but three squares of the grid at least. */
     int32_t frameCount; /* 0, or 1 and more; default 5 */
     float frameLength;  /* m; used where frameCount is 0 */
     const float* framePoints;
@@ -277,7 +279,8 @@ typedef struct kiriSheetDef {
     float rigidWeight; /* default 0.95 */
     float rigidArea;   /* default 0 */
 
-    /* A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no frames are added to it. Default 0. */
+    /* A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no frames are added to it. Default
+       0. */
     float crumbArea;
 
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
@@ -291,8 +294,9 @@ typedef struct kiriSheetDef {
     int32_t model;    /* KIRI_MODEL_..., default KIRI_MODEL_LINKS */
     int32_t skinning; /* KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
 
-    /* 1: the sheet stays in the plane where it starts, without bending; what velocities, forces and held positions have
-       across the plane is dropped. 3 unknowns a rigid frame, 6 an affine one: half of the work, or a fifth. Default 0. */
+    /* 1: the sheet stays in the plane where it starts, without bending; what velocities, forces and held positions
+       have across the plane is dropped. 3 unknowns a rigid frame, 6 an affine one: half of the work, or a fifth.
+       Default 0. */
     int32_t planar;
 
     /* KIRI_MODEL_POINTS only. Work grows with the points: spread evenly over the sheet, at least one in every piece;
@@ -301,8 +305,8 @@ typedef struct kiriSheetDef {
     int32_t integrationPoints; /* 0 to 1048576 */
     int32_t integrationOrder;  /* 1 or 2 */
 
-    /* 1: every cut rebuilds grid, regions and shape functions from scratch, as the paper does, to compare with; the outcome
-       is the same bit for bit. Default 0. */
+    /* 1: every cut rebuilds grid, regions and shape functions from scratch, as the paper does, to compare with; the
+       outcome is the same bit for bit. Default 0. */
     int32_t fromScratch;
 
     /* When a cut takes effect, weights change, and what is seen between the frames would jump. It goes over to where it
@@ -356,13 +360,14 @@ typedef struct kiriDirty {
 KIRI_API kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t sinceRevision,
                                        kiriDirty* dirty);
 
-/* Copies positions and normals of some vertices, 3 floats each, to where the host wants them; strides in bytes, 12 or more.
-   Null: without these. */
+/* Copies positions and normals of some vertices, 3 floats each, to where the host wants them; strides in bytes, 12 or
+   more. Null: without these. */
 KIRI_API kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count,
                                            void* positions, int32_t positionStride, void* normals,
                                            int32_t normalStride);
 
-/* Copies the indices of some triangles, 3 each, as 16-bit numbers. KIRI_ERROR_STATE: there are more than 65535 vertices. */
+/* Copies the indices of some triangles, 3 each, as 16-bit numbers. KIRI_ERROR_STATE: there are more than 65535
+   vertices. */
 KIRI_API kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,
                                             int32_t count, uint16_t* indices);
 
@@ -402,17 +407,17 @@ KIRI_API kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, c
                                       const float direction[3], float maxDistance, kiriHit* hit);
 
 /* The shape functions at a rest point: up to `capacity` frames with their weights (sum 1) and, unless null, gradients
-   (2 floats a frame, 1/m). *count is how many there are, however many fit. Outside the sheet: KIRI_ERROR_ARGUMENT; while
-   work on a cut waits for its budget: KIRI_ERROR_STATE. */
+   (2 floats a frame, 1/m). *count is how many there are, however many fit. Outside the sheet: KIRI_ERROR_ARGUMENT;
+   while work on a cut waits for its budget: KIRI_ERROR_STATE. */
 KIRI_API kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const float restPoint[2],
                                          kiriFrame* frames, float* weights, float* gradients, int32_t capacity,
                                          int32_t* count);
 
 /* ---- Piece ------------------------------------------------------------------------------------------------------ */
 
-/* The connected parts of a sheet, from 0 on to kiriCounts.pieces. Their order is that of their first frames, so a piece's
-   number changes when others come off or are taken away: frames are for keeping, see kiriFrame_GetPiece. A cut whose work
-   waits for its budget has not parted anything yet. Momentum is about the world's origin. */
+/* The connected parts of a sheet, from 0 on to kiriCounts.pieces. Their order is that of their first frames, so a
+   piece's number changes when others come off or are taken away: frames are for keeping, see kiriFrame_GetPiece. A cut
+   whose work waits for its budget has not parted anything yet. Momentum is about the world's origin. */
 typedef struct kiriPieceState {
     double area, mass;                                    /* m^2, kg */
     double center[3], momentum[3], angularMomentum[3];    /* of mass, m; kg m/s; kg m^2/s */
@@ -421,8 +426,8 @@ typedef struct kiriPieceState {
     int32_t crumb;                                        /* 1: see kiriSheetDef */
 } kiriPieceState;
 
-/* What is in a piece, in the order of the mesh. The arrays are parts of one for all pieces, piece after piece, and stay as
-   they are until the next tick or until a piece is taken away. */
+/* What is in a piece, in the order of the mesh. The arrays are parts of one for all pieces, piece after piece, and stay
+   as they are until the next tick or until a piece is taken away. */
 typedef struct kiriPieceMesh {
     const int32_t* vertices;        /* of kiriMesh */
     const int32_t* triangles;       /* of kiriMesh */
@@ -431,8 +436,8 @@ typedef struct kiriPieceMesh {
     int32_t vertexCount, triangleCount, collisionPointCount;
 } kiriPieceMesh;
 
-/* The first of these calls after a cut sorts the sheet by pieces, which may fail with KIRI_ERROR_MEMORY. A number that is no
-   piece's: KIRI_ERROR_ARGUMENT. */
+/* The first of these calls after a cut sorts the sheet by pieces, which may fail with KIRI_ERROR_MEMORY. A number that
+   is no piece's: KIRI_ERROR_ARGUMENT. */
 KIRI_API kiriResult kiriSheet_GetPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceState* state);
 KIRI_API kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceMesh* mesh);
 
@@ -441,12 +446,12 @@ KIRI_API kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, 
                                              int32_t* count);
 
 /* Makes a sheet of the piece. Its frames, pins and collision points move along, in their order; they keep their ids and
-   states, and what waits for the next tick: the motion goes on as if nothing had happened, but for the solver's guard over
-   energy and step length, which is one for each sheet. Both sheets have all settings
-   (of collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself, and sleep each
-   for itself. Cuts stay with the rest: a blade in the piece cuts nothing until it is back. Indices of vertices, triangles
-   and collision points of the rest change (its revision grows), and so do the numbers of pieces behind this one: they are
-   one less. Both keep the grid of the whole sheet, which takes about 40 bytes a square: crumbs are better dropped.
+   states, and what waits for the next tick: the motion goes on as if nothing had happened, but for the solver's guard
+   over energy and step length, which is one for each sheet. Both sheets have all settings (of collisionPoints and
+   integrationPoints the share that falls to their area), maxFrames each for itself, and sleep each for itself. Cuts
+   stay with the rest: a blade in the piece cuts nothing until it is back. Indices of vertices, triangles and collision
+   points of the rest change (its revision grows), and so do the numbers of pieces behind this one: they are one less.
+   Both keep the grid of the whole sheet, which takes about 40 bytes a square: crumbs are better dropped.
    KIRI_ERROR_STATE: it is the only piece, or work on a cut waits for its budget. */
 KIRI_API kiriResult kiriSheet_DetachPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriSheet* detached);
 
@@ -468,8 +473,8 @@ KIRI_API kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float 
 /* restPoints: 2 floats a point, count is 1 or more. */
 KIRI_API kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints, int32_t count);
 
-/* No more points come. After the tick in which the last of them takes effect the id is stale, and KIRI_EVENT_CUT_FINISHED
-   tells. */
+/* No more points come. After the tick in which the last of them takes effect the id is stale, and
+   KIRI_EVENT_CUT_FINISHED tells. */
 KIRI_API kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
 
 /* A blade (a straight edge) that moves in world space from blade[0]-blade[1] to blade[3]-blade[2] cuts where the swept
