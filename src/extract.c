@@ -253,6 +253,18 @@ static bool TakeAllFades(const kiriExtract* extract, kiriSheetData* to)
            TakeFades(&to->pointFades, to->memory, &from->pointFades, extract->pointTo.data, to->points.count);
 }
 
+/* Links come in the order that they had. */
+static void TakeEases(const kiriExtract* extract, kiriSheetData* to)
+{
+    const kiriSheetData* from = extract->from;
+    int32_t count = 0;
+    for (int32_t k = 0; k < from->eases.eases.count && count < to->eases.eases.count; ++k) {
+        if (extract->frameTo.data[from->links.links.data[k].i] != KIRI_NONE) {
+            to->eases.eases.data[count++] = from->eases.eases.data[k];
+        }
+    }
+}
+
 static bool Build(const kiriExtract* extract, kiriSheetData* to)
 {
     to->solver = kiriSolver_Create(to->memory, &to->mechanics);
@@ -262,6 +274,7 @@ static bool Build(const kiriExtract* extract, kiriSheetData* to)
     TakeFrames(extract, to);
     kiriUpdate_Commit(to);
     TakeFrames(extract, to);
+    TakeEases(extract, to);
     kiriView_WriteTopology(to);
     kiriMesh_Commit(&to->mesh);
     kiriView_WritePositions(to);

@@ -42,6 +42,7 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     system.frameCount = sheet->frames.count;
     system.links = sheet->links.links.data;
     system.linkCount = sheet->links.links.count;
+    system.eases = sheet->eases.eases.count > 0 ? sheet->eases.eases.data : NULL;
     system.pins = sheet->pinRows.data;
     system.pinCount = sheet->pinRows.count;
     system.contacts = sheet->contactRows.data;
@@ -174,6 +175,7 @@ static kiriProgress Move(kiriSheetData* sheet, kiriVec3 gravity, double dt, int3
         PutToRest(sheet);
         kiriMotion_Wake(sheet);
     } else if (progress == KIRI_DONE) {
+        kiriEases_Advance(&sheet->eases, dt, sheet->fades.time);
         sheet->calm = IsCalm(sheet) ? sheet->calm + dt : 0.0;
     }
     return progress;

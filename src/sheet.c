@@ -23,6 +23,7 @@ void kiriSheet_Release(kiriSheetData* sheet)
     ReleaseModel(&sheet->model, memory);
     ReleaseModel(&sheet->update.next, memory);
     kiriLinks_Release(&sheet->links, memory);
+    kiriEases_Release(&sheet->eases, memory);
     kiriArray_Release(memory, &sheet->points);
     kiriSkin_Release(&sheet->vertexSkin, memory);
     kiriSkin_Release(&sheet->pointSkin, memory);

@@ -136,6 +136,7 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriFrameData) frames;
     kiriModel model;
     kiriLinks links;
+    kiriEases eases; /* of links between rigid frames */
     kiriSamples points;
     kiriSkin vertexSkin, pointSkin;
     kiriPlaces pointPlaces;

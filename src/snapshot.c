@@ -209,6 +209,15 @@ static void Waiting(uint64_t* hash, const kiriSheetData* sheet)
     Contacts(hash, sheet->contacts.data, sheet->contacts.count);
 }
 
+static void Eases(uint64_t* hash, const kiriEases* eases)
+{
+    for (int32_t k = 0; k < eases->eases.count; ++k) {
+        for (int e = 0; e < KIRI_STRAINS; ++e) {
+            Real(hash, eases->eases.data[k].strain[e]);
+        }
+    }
+}
+
 static void Fades(uint64_t* hash, const kiriFades* fades)
 {
     Real(hash, fades->time);
@@ -242,6 +251,7 @@ uint64_t kiriSnapshot_Hash(const kiriWorld* world)
         Bytes(&hash, &pattern, sizeof(pattern));
         Waiting(&hash, sheet);
         Sleep(&hash, sheet);
+        Eases(&hash, &sheet->eases);
         Fades(&hash, &sheet->fades);
         Fades(&hash, &sheet->pointFades);
         for (int32_t f = 0; f < sheet->frames.count; ++f) {

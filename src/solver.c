@@ -185,6 +185,18 @@ static void MeasureRigid(const kiriLink* link, const kiriFrameData* const frames
     }
 }
 
+/* The part of a strain that pulls. */
+static double Pulling(const kiriSystem* system, int32_t k, int e, double strain)
+{
+    bool eases = system->eases != NULL && k < system->linkCount && !IsAffine(&system->mechanics);
+    double eased = eases ? system->eases[k].strain[e] : 0.0;
+    if (e == KIRI_NORMAL_STOP && eases) {
+        double over = fabs(strain) - fabs(eased); /* it only pushes */
+        return over <= 0.0 ? 0.0 : strain > 0.0 ? over : -over;
+    }
+    return strain - eased;
+}
+
 /* The strains and, unless `rows` is null, their derivatives: one a strain and frame. */
 static void Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strain, kiriAffineRow* rows)
 {
@@ -538,8 +550,8 @@ static void AddStrainEnergy(const kiriSolver* solver, const kiriSystem* system, 
     const double* start = &solver->startStrain.data[MOST_ROWS * k];
     int rows = RowCount(system, k);
     for (int e = 0; e < rows; ++e) {
-        double change = strain[e] - start[e];
-        AddEnergy(sum, 0.5 * stiffness[e] * strain[e] * strain[e], 0.5 * loss[e] * change * change);
+        double change = strain[e] - start[e], pulling = Pulling(system, k, e, strain[e]);
+        AddEnergy(sum, 0.5 * stiffness[e] * pulling * pulling, 0.5 * loss[e] * change * change);
     }
 }
 
@@ -783,7 +795,7 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     int rows = ActiveRows(system, k, strain);
     for (int e = 0; e < rows; ++e) {
         springs[e] = stiffness[e] + loss[e];
-        pulls[e] = -stiffness[e] * strain[e] - loss[e] * (strain[e] - start[e]);
+        pulls[e] = -stiffness[e] * Pulling(system, k, e, strain[e]) - loss[e] * (strain[e] - start[e]);
     }
     /* No step gets past a stop that it does not see: after one that was cut short, those count that it ran into. */
     bool wasShort = ElementCourse(solver, system, k)->scale < SHORT_STEP;
@@ -1393,7 +1405,8 @@ double kiriSolver_ElasticEnergy(const kiriSystem* system)
         MeasureFrames(system, k, strain);
         StiffnessOf(system, k, stiffness);
         for (int e = 0; e < RowCount(system, k); ++e) {
-            sum += 0.5 * stiffness[e] * strain[e] * strain[e];
+            double pulling = Pulling(system, k, e, strain[e]);
+            sum += 0.5 * stiffness[e] * pulling * pulling;
         }
     }
     return sum;

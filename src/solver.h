@@ -2,6 +2,7 @@
 #ifndef KIRI_SOLVER_H
 #define KIRI_SOLVER_H
 
+#include "ease.h"
 #include "patch.h"
 
 typedef struct kiriSolver kiriSolver;
@@ -35,6 +36,7 @@ typedef struct kiriSystem {
     int32_t frameCount;
     const kiriLink* links;
     int32_t linkCount;
+    const kiriEase* eases;      /* one a link between rigid frames, or null: what strains count less */
     const kiriPatches* patches; /* of affine frames; may be null where there are none */
     const kiriPinRow* pins;
     int32_t pinCount;

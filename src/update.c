@@ -443,11 +443,25 @@ static bool ReservePoints(kiriSheetData* sheet)
            kiriView_Resize(sheet, sheet->update.sites.count, (int32_t)need);
 }
 
+/* Do links go on with their strains when a cut changes them? */
+static bool Eases(const kiriSheetData* sheet)
+{
+    return sheet->mechanics.model == KIRI_MODEL_LINKS && sheet->fades.time > 0.0;
+}
+
+static int32_t Larger(int32_t a, int32_t b)
+{
+    return a > b ? a : b;
+}
+
 kiriProgress kiriUpdate_Constants(kiriSheetData* sheet, kiriQuota* none)
 {
     kiriUpdate* u = &sheet->update;
     (void)none;
-    bool ok = BuildPatches(sheet) && FindPinFrames(sheet) && ReservePoints(sheet) &&
+    bool ok = (!Eases(sheet) ||
+               kiriEases_Reserve(&sheet->eases, sheet->memory,
+                                 Larger(sheet->links.next.count, sheet->links.links.count), u->sites.count)) &&
+              BuildPatches(sheet) && FindPinFrames(sheet) && ReservePoints(sheet) &&
               kiriRefit_Stage(&u->refit, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, u->isScratch) &&
               kiriArray_Reserve(sheet->memory, &sheet->frames, u->sites.count) &&
               kiriSolver_Stage(sheet->solver, u->sites.count, sheet->links.next.data, sheet->links.next.count,
@@ -552,11 +566,20 @@ void kiriUpdate_Commit(kiriSheetData* sheet)
     u->touched.points = sheet->pointSkin.staged.count;
     u->touched.links = sheet->links.changed;
     sheet->lists.isFresh = false;
+    int32_t oldLinks = sheet->links.links.count;
+    bool eases = Eases(sheet);
+    if (eases) {
+        kiriEases_Remember(&sheet->eases, sheet->frames.data, sheet->frames.count);
+    }
     CommitFrames(sheet);
     CommitPoints(sheet);
     kiriSkin_Commit(&sheet->vertexSkin);
     kiriSkin_Commit(&sheet->pointSkin);
     kiriLinks_Commit(&sheet->links);
+    if (eases) {
+        kiriEases_Take(&sheet->eases, sheet->links.next.data, oldLinks, sheet->links.links.data,
+                       sheet->links.links.count, sheet->frames.data);
+    }
     kiriSolver_Commit(sheet->solver);
     kiriModel model = sheet->model;
     sheet->model = u->next;

@@ -241,6 +241,25 @@ static void TestPatchworkScene(void** state)
 }
 
 /* A spiral of equal steps, whose radius is linear in the angle; lengths as by calculus. */
+/* Cuts set the spiral free, and do not throw it: it never moves faster than a fall by its own size would make it, though each
+   commit changes the borders of bent regions. */
+static void TestSpiralIsNotThrown(void** state)
+{
+    (void)state;
+    Scene scene;
+    Start(&scene, "spiral");
+    double most = 0.0, fall = 0.0;
+    for (int32_t tick = 0; tick < scene.type->ticks; ++tick) {
+        kiriTotals totals;
+        Scene_Tick(&scene);
+        assert_int_equal(kiriSheet_GetTotals(scene.world, scene.sheet, &totals), KIRI_OK);
+        most = fmax(most, totals.kineticEnergy);
+        fall = 9.81 * totals.mass * (double)scene.type->size;
+    }
+    assert_true(most > 0.0 && most < fall);
+    Scene_Stop(&scene);
+}
+
 static void TestSpiral(void** state)
 {
     (void)state;
@@ -278,9 +297,15 @@ static void TestCircle(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestTable),       cmocka_unit_test(TestTimes),          cmocka_unit_test(TestPaceOfOne),
-        cmocka_unit_test(TestSlowBlade),   cmocka_unit_test(TestSpiral),         cmocka_unit_test(TestCircle),
-        cmocka_unit_test(TestSpiralScene), cmocka_unit_test(TestPatchworkScene),
+        cmocka_unit_test(TestTable),
+        cmocka_unit_test(TestTimes),
+        cmocka_unit_test(TestPaceOfOne),
+        cmocka_unit_test(TestSlowBlade),
+        cmocka_unit_test(TestSpiral),
+        cmocka_unit_test(TestCircle),
+        cmocka_unit_test(TestSpiralIsNotThrown),
+        cmocka_unit_test(TestSpiralScene),
+        cmocka_unit_test(TestPatchworkScene),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

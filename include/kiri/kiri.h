@@ -310,7 +310,8 @@ typedef struct kiriSheetDef {
     int32_t fromScratch;
 
     /* When a cut takes effect, weights change, and what is seen between the frames would jump. It goes over to where it
-       belongs within this time (s). Default 0.2; 0: at once. */
+       belongs within this time (s), and links of KIRI_MODEL_LINKS, whose borders lie elsewhere then, ease into their new
+       strains as fast. Default 0.2; 0: at once. */
     float fadeTime;
 
     /* 1: when a cut takes effect, only new frames take their motion from the surface, as in the paper, to compare with:
