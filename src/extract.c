@@ -185,15 +185,6 @@ static bool TakeContacts(const kiriExtract* extract, kiriSheetData* to)
     return true;
 }
 
-static bool StartSkin(kiriSheetData* to)
-{
-    if (!kiriArray_Resize(to->memory, &to->vertexSkin.spans, to->mesh.vertices.count)) {
-        return false;
-    }
-    memset(to->vertexSkin.spans.data, 0, sizeof(kiriSpan) * (size_t)to->vertexSkin.spans.count);
-    return true;
-}
-
 /* All stages but the mesh's, without a limit. No frame is added: whoever wants one has asked before, or asks with the
    next cut. */
 static bool RunStages(const kiriExtract* extract, kiriSheetData* to)
@@ -202,7 +193,7 @@ static bool RunStages(const kiriExtract* extract, kiriSheetData* to)
     kiriUpdate* u = &to->update;
     u->isScratch = true;
     if (kiriUpdate_Grid(to, &all) != KIRI_DONE || !TakeSites(extract, to) || !TakePoints(extract, to) ||
-        !TakePins(extract, to) || !TakeContacts(extract, to) || !StartSkin(to)) {
+        !TakePins(extract, to) || !TakeContacts(extract, to) || !kiriSheet_StartSkin(to)) {
         return false;
     }
     u->step = 1; /* sites are where they shall be */

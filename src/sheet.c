@@ -169,8 +169,7 @@ static void StartFrame(kiriSheetData* sheet, const kiriSheetDef* def, int32_t in
     }
 }
 
-/* No vertex has weights yet. */
-static bool StartSkin(kiriSheetData* sheet)
+bool kiriSheet_StartSkin(kiriSheetData* sheet)
 {
     kiriSkin* skin = &sheet->vertexSkin;
     if (!kiriArray_Resize(sheet->memory, &skin->spans, sheet->mesh.vertices.count)) {
@@ -188,7 +187,7 @@ static bool BuildAll(kiriSheetData* sheet, const kiriSheetDef* def)
     u->step = 1; /* sites that the caller placed are where they shall be */
     u->whole = kiriMesh_Area(&sheet->mesh);
     u->spread = def->framePoints != NULL ? 0 : def->frameCount;
-    return StartSkin(sheet) && kiriUpdate_Regions(sheet, &all) == KIRI_DONE &&
+    return kiriSheet_StartSkin(sheet) && kiriUpdate_Regions(sheet, &all) == KIRI_DONE &&
            kiriUpdate_Shape(sheet, &all) == KIRI_DONE && kiriUpdate_Samples(sheet, &all) == KIRI_DONE &&
            kiriUpdate_Constants(sheet, &all) == KIRI_DONE;
 }

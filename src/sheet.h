@@ -170,6 +170,9 @@ typedef struct kiriSheetData {
 kiriResult kiriSheet_Init(kiriSheetData* sheet, const kiriMemory* memory, const kiriSheetDef* def, const char** why);
 void kiriSheet_Release(kiriSheetData* sheet);
 
+/* Weights for all vertices, none yet, before the first update. False for memory. */
+bool kiriSheet_StartSkin(kiriSheetData* sheet);
+
 /* The index of the frame that holds a point of the material; KIRI_NONE outside. */
 int32_t kiriSheet_FrameAt(const kiriSheetData* sheet, kiriPoint at);
 
