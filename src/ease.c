@@ -17,7 +17,9 @@ void kiriEases_Release(kiriEases* eases, const kiriMemory* memory)
 
 void kiriEases_Remember(kiriEases* eases, const kiriFrameData* frames, int32_t frameCount)
 {
-    memcpy(eases->frames.data, frames, sizeof(*frames) * (size_t)frameCount);
+    if (frameCount > 0) {
+        memcpy(eases->frames.data, frames, sizeof(*frames) * (size_t)frameCount);
+    }
     eases->frames.count = frameCount;
 }
 
@@ -66,7 +68,9 @@ void kiriEases_Take(kiriEases* eases, const kiriLink* old, int32_t oldCount, con
 {
     const kiriEase none = { { 0.0 } };
     int32_t o = 0, had = eases->eases.count;
-    memcpy(eases->older.data, eases->eases.data, sizeof(kiriEase) * (size_t)had);
+    if (had > 0) {
+        memcpy(eases->older.data, eases->eases.data, sizeof(kiriEase) * (size_t)had);
+    }
     for (int32_t k = 0; k < linkCount; ++k) {
         while (o < oldCount && IsBefore(&old[o], &links[k])) {
             ++o;
