@@ -39,7 +39,7 @@ COMPILE_C = $(CC) -std=c99 $(FLAGS) $(CFLAGS)
 COMPILE_CXX = $(CXX) -std=c++14 $(FLAGS) $(CXXFLAGS)
 LINK = $(CXX) $(FLAGS_$(config)) $(LDFLAGS)
 
-LIBRARY_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard src/*.c src/*.cpp))
+LIBRARY_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard src/*/*.c src/*/*.cpp))
 SAMPLE_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard samples/*.c samples/*.cpp))
 # What tests and benchmarks take from the samples: the scenes.
 SCENE_OBJECTS := $(filter %/scene.c.o %/outline.c.o,$(SAMPLE_OBJECTS))
@@ -52,7 +52,7 @@ BOX2D := $(BUILD)/samples/kiri-box2d
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 PYTHON_CHECK := $(if $(filter sanitize,$(config)),,python)
 
-.PHONY: all run box2d python test check lib bench accuracy extremes gallery deps format clean header exports
+.PHONY: all run box2d python test check floors lib bench accuracy extremes gallery deps format clean header exports
 .DEFAULT_GOAL := all
 .SECONDARY:
 
@@ -94,13 +94,22 @@ gallery: accuracy
 	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
 	cp build/accuracy/trade.png samples/pictures/trade.png
 
-check: $(TESTS) $(RUN) $(BOX2D) header exports $(PYTHON_CHECK)
+check: $(TESTS) $(RUN) $(BOX2D) floors header exports $(PYTHON_CHECK)
 	@failed=; for test in $(TESTS); do echo "== $$test"; $$test || failed="$$failed $$test"; done; \
 	if [ -n "$$failed" ]; then echo "FAILED:$$failed"; exit 1; fi; echo "all tests passed ($(config))"
 
 python: $(BUILD)/libkiri.so
 	@if ! $(PYTHON) -c 'import cffi' 2>/dev/null; then echo "python: no cffi, binding not tested"; exit 0; fi; \
 	echo "== tests/test_python.py"; KIRI_LIBRARY=$(abspath $<) $(PYTHON) tests/test_python.py
+
+# The folders of src are floors: a file includes from its own and from those below, never from above.
+FLOORS := core mesh field motion view sheet world
+
+floors:
+	@upper="$(FLOORS)"; for floor in $(FLOORS); do \
+	    upper=$${upper#* }; [ $$floor != $$upper ] || break; \
+	    for up in $$upper; do ! grep -n "#include \"\.\./$$up/" src/$$floor/* || exit 1; done; \
+	done; echo "src includes no file of a floor above"
 
 # The public header stands alone, in strict C99 and C++11.
 header:
@@ -127,12 +136,12 @@ $(BUILD)/libkiri.so: $(LIBRARY_OBJECTS)
 $(BUILD)/src/%.c.o: src/%.c
 	@mkdir -p $(@D)
 	@echo "  $<"
-	@$(COMPILE_C) -fvisibility=hidden -Iinclude -Isrc -c $< -o $@
+	@$(COMPILE_C) -fvisibility=hidden -c $< -o $@
 
 $(BUILD)/src/%.cpp.o: src/%.cpp
 	@mkdir -p $(@D)
 	@echo "  $<"
-	@$(COMPILE_CXX) -fvisibility=hidden -fvisibility-inlines-hidden -Iinclude -Isrc -isystem $(EIGEN) -c $< -o $@
+	@$(COMPILE_CXX) -fvisibility=hidden -fvisibility-inlines-hidden -isystem $(EIGEN) -c $< -o $@
 
 $(BUILD)/samples/%.c.o: samples/%.c
 	@mkdir -p $(@D)
@@ -187,9 +196,9 @@ deps:
 	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get -y --no-install-recommends install $$missing
 
 format:
-	clang-format -i $(wildcard include/kiri/*.h src/*.h src/*.c src/*.cpp samples/*.h samples/*.c samples/*.cpp tests/*.h tests/*.c)
+	clang-format -i $(wildcard include/kiri/*.h src/*/*.h src/*/*.c src/*/*.cpp samples/*.h samples/*.c samples/*.cpp tests/*.h tests/*.c)
 
 clean:
 	rm -rf build
 
--include $(wildcard $(BUILD)/*/*.d)
+-include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d)

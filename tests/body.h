@@ -3,10 +3,10 @@
 #ifndef KIRI_TEST_BODY_H
 #define KIRI_TEST_BODY_H
 
-#include "affine.h"
-#include "point.h"
+#include "motion/kiri_affine.h"
+#include "motion/kiri_integration.h"
 #include "scene.h"
-#include "solver.h"
+#include "motion/kiri_solver.h"
 
 enum { BODY_FRAMES = 64 };
 

@@ -1,6 +1,6 @@
 #include "extremes.h"
 
-#include "vec.h"
+#include "core/kiri_vec.h"
 
 #include <float.h>
 #include <stdlib.h>

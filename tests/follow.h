@@ -5,9 +5,9 @@
 
 #include "scene.h"
 
-#include "cut.h"
-#include "link.h"
-#include "sample.h"
+#include "mesh/kiri_cut.h"
+#include "field/kiri_link.h"
+#include "view/kiri_sample.h"
 
 typedef struct Follow {
     const kiriMemory* memory;
@@ -83,7 +83,7 @@ static inline void Follow_Relocate(Follow* f)
 {
     for (int32_t i = 0; i < f->sites.count; ++i) {
         kiriSite* site = &f->sites.data[i];
-        int32_t was = site->cell, cell = kiriSample_Around(&f->grid, f->mesh, f->anchors.data[i]);
+        int32_t was = site->cell, cell = kiriGrid_CellAround(&f->grid, f->mesh, f->anchors.data[i]);
         if (cell != was) {
             site->cell = KIRI_NONE;
             for (cell = Follow_IsTaken(f, cell) ? f->grid.squareCell.data[f->grid.cells.data[cell].square] : cell;
@@ -248,7 +248,7 @@ static inline void Follow_StartAgain(Follow* f)
     f->moves.count = 0;
     for (int32_t i = 0; i < f->sites.count; ++i) {
         kiriSiteMove move = { i, KIRI_NONE };
-        f->sites.data[i].cell = kiriSample_Around(&f->grid, f->mesh, f->anchors.data[i]);
+        f->sites.data[i].cell = kiriGrid_CellAround(&f->grid, f->mesh, f->anchors.data[i]);
         assert_true(kiriArray_Push(f->memory, &f->moves, move));
     }
     Follow_Regions(f, 0);

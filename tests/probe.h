@@ -5,7 +5,7 @@
 
 #include "host.h"
 
-#include "world.h"
+#include "world/kiri_world.h"
 
 typedef struct Probe {
     Host host; /* first: it is the user of the world's functions */

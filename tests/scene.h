@@ -2,7 +2,9 @@
 #ifndef KIRI_TEST_SCENE_H
 #define KIRI_TEST_SCENE_H
 
-#include "frame.h"
+#include "field/kiri_place.h"
+#include "field/kiri_shape.h"
+#include "motion/kiri_frame.h"
 #include "support.h"
 
 #include <stdlib.h>

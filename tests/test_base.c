@@ -1,7 +1,7 @@
 /* Arrays, ids, rotations, moments: the ground floor, against independent computations. */
-#include "pool.h"
+#include "core/kiri_pool.h"
 #include "scene.h"
-#include "vec.h"
+#include "core/kiri_vec.h"
 
 /* ---- Arrays ---- */
 

@@ -1,6 +1,6 @@
 /* Cutting: hand-made cases with their counts, and random cuts after which everything must still hold. */
 #include "check_mesh.h"
-#include "cut.h"
+#include "mesh/kiri_cut.h"
 
 static const double LatticeSize = 536870912.0;
 

@@ -1,7 +1,7 @@
 /* Distances inside the cut sheet: against the closed formula where there are no cuts, and against Bellman and Ford
    where there are. */
-#include "geodesic.h"
-#include "cut.h"
+#include "field/kiri_geodesic.h"
+#include "mesh/kiri_cut.h"
 #include "support.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* The non-manifold grid: against shapes whose cells are known, and against slow independent ways to find them. */
-#include "grid.h"
-#include "cut.h"
+#include "field/kiri_grid.h"
+#include "mesh/kiri_cut.h"
 #include "support.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* The block matrix against a dense one, summed and solved here. */
-#include "matrix.h"
+#include "motion/kiri_block_factor.h"
 #include "support.h"
 
 #include <math.h>

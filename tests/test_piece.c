@@ -1,8 +1,8 @@
 /* Pieces: what is in them, and sheets of their own. Where the header can tell, only it is asked. */
 #include "host.h"
 
-#include "piece.h"
-#include "world.h"
+#include "sheet/kiri_piece.h"
+#include "world/kiri_world.h"
 
 enum { MOST_PIECES = 4096 };
 

@@ -1,8 +1,8 @@
 /* A cut that takes effect changes how the sheet is divided, and not how it moves. */
 #include "probe.h"
 
-#include "update.h"
-#include "view.h"
+#include "sheet/kiri_update.h"
+#include "sheet/kiri_seen.h"
 
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 /* Regions: against distances by relaxing all steps, and regions that follow cuts against ones from scratch. */
-#include "region.h"
-#include "cut.h"
+#include "field/kiri_region.h"
+#include "mesh/kiri_cut.h"
 #include "support.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Repairs of distances, on nets made by hand: cells on a square lattice, up to two a square, with random steps
    between them; against Dijkstra without a heap. */
-#include "geodesic.h"
+#include "field/kiri_geodesic.h"
 #include "support.h"
 
 #include <stdlib.h>

@@ -238,7 +238,7 @@ static void FailingAllocatorLeaksNothing(void** state)
                 listed = listed || f.pointSkin.staged.data[k].sample == s;
             }
             kiriPoint at = f.points.data[s].at;
-            int32_t cell = kiriSample_Around(&f.grid, f.mesh, at);
+            int32_t cell = kiriGrid_CellAround(&f.grid, f.mesh, at);
             assert_true(listed || kiriSkin_Stage(&f.pointSkin, f.memory, &f.shape, &f.grid, f.mesh, s, cell,
                                                  kiriMesh_Local(f.mesh, at)));
         }

@@ -1,7 +1,7 @@
 /* Sheets of frames and links filled by hand, against closed forms, an elastica integrated here, and each other. */
-#include "flight.h"
-#include "solver.h"
-#include "strain.h"
+#include "motion/kiri_prediction.h"
+#include "motion/kiri_solver.h"
+#include "motion/kiri_strain.h"
 #include "support.h"
 
 #include <math.h>

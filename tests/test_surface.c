@@ -1,5 +1,5 @@
 /* The surface: skinning against sums of its own, what commits write, what hosts are told and copy, and bent patches. */
-#include "surface.h"
+#include "view/kiri_surface.h"
 
 #include "support.h"
 

@@ -1,7 +1,7 @@
 /* A cut costs what it touches, and no tick costs more than its budget; both without changing what comes of it. */
 #include "host.h"
 
-#include "snapshot.h"
+#include "world/kiri_state_hash.h"
 
 #include <stdio.h>
 

@@ -1,0 +1,162 @@
+/* Small vectors, exact orientation, and the moments of an area. Plain + - x / and sqrt: the same bits everywhere. */
+#ifndef KIRI_VEC_H
+#define KIRI_VEC_H
+
+#include "kiri_base.h"
+
+#include <math.h>
+
+typedef struct kiriVec2 {
+    double x, y;
+} kiriVec2;
+
+typedef struct kiriVec3 {
+    double x, y, z;
+} kiriVec3;
+
+/* Columns. For a frame: direction of u, direction of v, director. */
+typedef struct kiriMat3 {
+    kiriVec3 u, v, d;
+} kiriMat3;
+
+/* A point of the rest plane's lattice. Vertices have even coordinates, grid lines odd ones, so no vertex ever lies on a
+   grid line. Coordinates stay within 2^30 of each other: orientations fit 64 bits. */
+typedef struct kiriPoint {
+    int32_t x, y;
+} kiriPoint;
+
+/* Twice the signed area of a, b, c: positive when counter-clockwise. Exact. */
+static inline int64_t kiriOrient(kiriPoint a, kiriPoint b, kiriPoint c)
+{
+    return ((int64_t)b.x - a.x) * ((int64_t)c.y - a.y) - ((int64_t)b.y - a.y) * ((int64_t)c.x - a.x);
+}
+
+static inline int64_t kiriDistanceSquared(kiriPoint a, kiriPoint b)
+{
+    int64_t x = (int64_t)b.x - a.x, y = (int64_t)b.y - a.y;
+    return x * x + y * y;
+}
+
+static inline kiriVec2 kiriVec2_Make(double x, double y)
+{
+    kiriVec2 r = { x, y };
+    return r;
+}
+
+static inline kiriVec2 kiriVec2_Add(kiriVec2 a, kiriVec2 b)
+{
+    return kiriVec2_Make(a.x + b.x, a.y + b.y);
+}
+static inline kiriVec2 kiriVec2_Sub(kiriVec2 a, kiriVec2 b)
+{
+    return kiriVec2_Make(a.x - b.x, a.y - b.y);
+}
+static inline kiriVec2 kiriVec2_Scale(double s, kiriVec2 a)
+{
+    return kiriVec2_Make(s * a.x, s * a.y);
+}
+static inline double kiriVec2_Dot(kiriVec2 a, kiriVec2 b)
+{
+    return a.x * b.x + a.y * b.y;
+}
+static inline double kiriVec2_Length(kiriVec2 a)
+{
+    return sqrt(kiriVec2_Dot(a, a));
+}
+
+static inline kiriVec3 kiriVec3_Make(double x, double y, double z)
+{
+    kiriVec3 r = { x, y, z };
+    return r;
+}
+
+static inline kiriVec3 kiriVec3_Load(const float* f)
+{
+    return kiriVec3_Make(f[0], f[1], f[2]);
+}
+
+static inline void kiriVec3_Store(float* f, kiriVec3 a)
+{
+    f[0] = (float)a.x;
+    f[1] = (float)a.y;
+    f[2] = (float)a.z;
+}
+
+static inline kiriVec3 kiriVec3_Add(kiriVec3 a, kiriVec3 b)
+{
+    return kiriVec3_Make(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+static inline kiriVec3 kiriVec3_Sub(kiriVec3 a, kiriVec3 b)
+{
+    return kiriVec3_Make(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+static inline kiriVec3 kiriVec3_Scale(double s, kiriVec3 a)
+{
+    return kiriVec3_Make(s * a.x, s * a.y, s * a.z);
+}
+static inline kiriVec3 kiriVec3_AddScaled(kiriVec3 a, double s, kiriVec3 b)
+{
+    return kiriVec3_Add(a, kiriVec3_Scale(s, b));
+}
+static inline double kiriVec3_Dot(kiriVec3 a, kiriVec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+static inline double kiriVec3_Length(kiriVec3 a)
+{
+    return sqrt(kiriVec3_Dot(a, a));
+}
+
+static inline bool kiriVec3_Equal(kiriVec3 a, kiriVec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+static inline kiriVec3 kiriVec3_Cross(kiriVec3 a, kiriVec3 b)
+{
+    return kiriVec3_Make(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+/* The zero vector stays what it is. */
+static inline kiriVec3 kiriVec3_Normalize(kiriVec3 a)
+{
+    double length = kiriVec3_Length(a);
+    return length > 0.0 ? kiriVec3_Scale(1.0 / length, a) : a;
+}
+
+static inline kiriVec3 kiriMat3_Mul(kiriMat3 m, kiriVec3 a)
+{
+    return kiriVec3_AddScaled(kiriVec3_AddScaled(kiriVec3_Scale(a.x, m.u), a.y, m.v), a.z, m.d);
+}
+
+static inline kiriMat3 kiriMat3_MulMat(kiriMat3 m, kiriMat3 n)
+{
+    kiriMat3 r = { kiriMat3_Mul(m, n.u), kiriMat3_Mul(m, n.v), kiriMat3_Mul(m, n.d) };
+    return r;
+}
+
+/* The rotation of a rotation vector by the Cayley map: exact rotation, no trigonometry. It turns by 2 atan(|w| / 2). */
+kiriMat3 kiriMat3_Cayley(kiriVec3 w);
+
+/* The rotation nearest to m (its polar factor); for a singular m any rotation near it. */
+kiriMat3 kiriMat3_Rotation(kiriMat3 m);
+
+/* The same from a rotation near it: where m says little about a turn, that one stays. */
+kiriMat3 kiriMat3_RotationFrom(kiriMat3 start, kiriMat3 m);
+
+/* Moments of a patch of material about the origin of the rest coordinates: integrals of 1, u, v, u^2, u v, v^2. */
+typedef struct kiriMoments {
+    double area, u, v, uu, uv, vv;
+} kiriMoments;
+
+/* Those of a triangle, which must be counter-clockwise. */
+kiriMoments kiriMoments_Triangle(kiriVec2 a, kiriVec2 b, kiriVec2 c);
+void kiriMoments_Add(kiriMoments* sum, const kiriMoments* part);
+
+/* Its centroid; the area must be above zero. */
+kiriVec2 kiriMoments_Center(const kiriMoments* m);
+
+/* The same patch about another origin. */
+kiriMoments kiriMoments_About(const kiriMoments* m, kiriVec2 origin);
+
+#endif

@@ -1,0 +1,80 @@
+/* Distances inside the cut sheet: Dijkstra over the steps of the grid. Lengths are whole numbers, so a field is the
+   one fixed point of (distance, owner) = min over the seed and the neighbours' (distance + step, owner), whatever the
+   order of work; ties go to the lower owner. So a field can be repaired where the grid has changed (after Ramalingam
+   and Reps 1996), and equals one from scratch. */
+#ifndef KIRI_GEODESIC_H
+#define KIRI_GEODESIC_H
+
+#include "kiri_grid.h"
+
+typedef struct kiriSeed {
+    int32_t cell;
+    int32_t distance; /* 0 or more */
+    int32_t owner;
+} kiriSeed;
+
+enum { KIRI_FAR = INT32_MAX };
+
+/* May the way go on from a cell? Floods ask when its distance is final, repairs before that, too: so a cell that
+   passes at some distance must pass at every shorter one. */
+typedef bool kiriPassFn(const void* context, int32_t cell);
+
+/* The nearest of the cell's own seeds (of equals, that of the lowest owner), or KIRI_FAR as its distance. */
+typedef kiriSeed kiriSeedFn(const void* context, int32_t cell);
+
+/* What makes a field. */
+typedef struct kiriRule {
+    const kiriGrid* grid;
+    int32_t limit;    /* the farthest that is reached */
+    kiriPassFn* pass; /* or null */
+    kiriSeedFn* seed; /* of repairs only */
+    const void* context;
+} kiriRule;
+
+typedef struct kiriField {
+    KIRI_ARRAY(int32_t) distance; /* one a cell; KIRI_FAR where the field does not reach */
+    KIRI_ARRAY(int32_t) owner;    /* of the nearest seed; KIRI_NONE where FAR */
+    KIRI_ARRAY(int32_t) settled;  /* of floods: cells reached, by growing distance; none after a repair */
+    KIRI_ARRAY(kiriSeed) log;     /* of repairs: what cells were before, each once; some may be the same again */
+
+    /* Work at hand. */
+    KIRI_ARRAY(kiriSeed) heap;
+    KIRI_ARRAY(int32_t) suspects;
+    KIRI_ARRAY(uint8_t) marks; /* one a cell; between repairs only of suspects */
+    int32_t cursor[KIRI_STEP_LENGTHS + 1];
+} kiriField;
+
+/* Room for so many cells; new ones are FAR. A zeroed field is empty. False for memory: what was there stays. */
+bool kiriField_Resize(kiriField* field, const kiriMemory* memory, int32_t cellCount);
+
+/* Makes it a field of no cells, whatever its state; keeps the memory. */
+void kiriField_Clear(kiriField* field);
+void kiriField_Release(kiriField* field, const kiriMemory* memory);
+
+/* ---- From scratch ---- */
+
+/* Starts a flood from the seeds. The field must be empty: FAR everywhere. */
+bool kiriField_Start(kiriField* field, const kiriMemory* memory, const kiriSeed* seeds, int32_t seedCount);
+
+/* Goes on. An item of the quota is a cell settled. Allocates nothing: never KIRI_FAILED. */
+kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* quota);
+
+/* Makes all cells FAR again by undoing only what floods settled, where no repair has changed the field since. */
+void kiriField_Reset(kiriField* field);
+
+/* ---- Repairs ---- */
+
+/* The cell's steps or seed may have changed, or whether ways pass through it. Never fails: room is made by Resize. */
+void kiriField_Suspect(kiriField* field, int32_t cell);
+
+/* The cell is no more (or shall be empty); cells that it led to must be suspects, it must not. Not logged. */
+void kiriField_Forget(kiriField* field, int32_t cell);
+
+/* Makes the field right again, given that all cells about which something has changed are suspects; where the limit
+   has grown, these are all from which a step leads beyond the old one; where it has shrunk, all beyond the new one
+   that are not forgotten. An item of the quota is a cell whose distance is taken away or given, or a suspect that
+   keeps it. KIRI_MORE: call again with the same rule before anything changes. The log tells what changed; empty it
+   (its count) when it is read. On KIRI_FAILED only Clear or Release make sense. */
+kiriProgress kiriField_Repair(kiriField* field, const kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);
+
+#endif

@@ -1,0 +1,133 @@
+/* The non-manifold grid (section 4.2 of the paper, algorithm 3). A cell is one copy of a grid square: one connected
+   part of the material in it. */
+#ifndef KIRI_GRID_H
+#define KIRI_GRID_H
+
+#include "../mesh/kiri_mesh.h"
+#include "../core/kiri_span.h"
+
+/* Lengths on the grid are whole numbers, so that sums are exact and a distance does not depend on the order of work. */
+enum {
+    KIRI_UNIT = 256,          /* the side of a square */
+    KIRI_UNIT_DIAGONAL = 362, /* times sqrt 2 */
+    KIRI_UNIT_KNIGHT = 572,   /* times sqrt 5 */
+};
+
+typedef struct kiriCell {
+    int32_t square;       /* KIRI_NONE: there is no cell of this index now */
+    int32_t next;         /* the next cell of the same square, by lowest triangle, or KIRI_NONE */
+    int32_t triangle;     /* lowest triangle of its material */
+    int32_t firstFace;    /* or KIRI_NONE */
+    kiriMoments material; /* covered area and moments, about the local origin; m */
+} kiriCell;
+
+/* The material shared by two cells of neighbouring squares: the stretch of the squares' common side that it covers. */
+typedef struct kiriFace {
+    int32_t cell[2]; /* [0] in the square with the lower coordinate; [0] is KIRI_NONE: no face has this index now */
+    int32_t next[2]; /* next face of cell[0], of cell[1], or KIRI_NONE; in no order that means anything */
+    int32_t axis;    /* 0: the side is a vertical line u = const, normal +u; 1: v = const, normal +v */
+    double width;    /* m, above zero */
+    kiriVec2 middle; /* local m: centroid of the covered stretch, on the side */
+    double moment;   /* m^3: second moment of the stretch about its middle */
+} kiriFace;
+
+/* A move of the geodesic: straight over a face, or diagonally or like a knight where every way around the corner
+   between is open too. What leads from a to b also leads from b to a. */
+typedef struct kiriStep {
+    int32_t cell;
+    int16_t length; /* KIRI_UNIT... */
+    int8_t u, v;    /* squares that it goes along each axis */
+} kiriStep;
+
+enum { KIRI_STEP_LENGTHS = 3 };
+
+/* Where the steps of a cell are: straight ones from first to end[0], diagonal ones to end[1], knights to end[2]. */
+typedef struct kiriStepRun {
+    int32_t first, end[KIRI_STEP_LENGTHS];
+} kiriStepRun;
+
+/* A cell whose material changed, and what it was. */
+typedef struct kiriRemade {
+    int32_t cell;
+    kiriMoments was;
+} kiriRemade;
+
+/* What updates have done since kiriGrid_Settle, complete when an update is done. A cell may be in several lists, in
+   each at most once. One that is gone is in no other list, has square KIRI_NONE, and its index is not taken again
+   before Settle; one that came and went again is in none. */
+typedef struct kiriGridChanges {
+    KIRI_ARRAY(int32_t) made;      /* cells that are new */
+    KIRI_ARRAY(int32_t) gone;      /* that are no more; their `material` is what it was when the grid was settled */
+    KIRI_ARRAY(int32_t) restepped; /* whose steps changed, or whose faces did in anything; with new ones */
+    KIRI_ARRAY(kiriRemade) remade; /* whose material changed; without new ones */
+} kiriGridChanges;
+
+typedef struct kiriGridWork kiriGridWork; /* what updating needs beside; private to grid.c */
+
+/* Cells keep their index as long as they live. What has an order has one that does not depend on indices, nor on what
+   was cut in which order: cells by square, then lowest triangle. So a grid that was updated equals one from scratch,
+   but for the indices. */
+typedef struct kiriGrid {
+    double side;                  /* m */
+    KIRI_ARRAY(kiriCell) cells;   /* by index, with gaps */
+    KIRI_ARRAY(kiriStepRun) runs; /* of each cell */
+    KIRI_ARRAY(kiriStep) steps;   /* by runs, with gaps; in a run by length, then square, then lowest triangle */
+    kiriSpans stepRoom;
+    KIRI_ARRAY(kiriFace) faces;     /* by index, with gaps */
+    KIRI_ARRAY(int32_t) squareCell; /* a square's first cell, or KIRI_NONE */
+    KIRI_ARRAY(int32_t) nodeCell;   /* the cell of each node of mesh->squares.nodes; unused ones mean nothing */
+    KIRI_ARRAY(uint8_t) whole;      /* of each square: wholly covered, and no outline or open edge runs through it */
+    int32_t cellCount;              /* that live */
+    int32_t freeCell, freeFace;     /* heads of lists, or KIRI_NONE */
+    kiriGridChanges changes;
+    kiriGridWork* work;
+} kiriGrid;
+
+/* The grid of the mesh as it is, from the one before and mesh->squares.touched: all squares that changed since. A
+   zeroed or reset grid is made from scratch, of all squares. Costs what it touches: an item of the quota is a square
+   looked at, or a cell whose steps are made. KIRI_MORE: call again before the mesh changes, or `touched` is cleared.
+   KIRI_FAILED: the grid is of no use any more but for kiriGrid_Reset or a release. */
+kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
+
+/* All who follow the grid have seen its changes. */
+void kiriGrid_Settle(kiriGrid* grid);
+
+/* Forgets everything but its memory: the next update is from scratch. */
+void kiriGrid_Reset(kiriGrid* grid);
+void kiriGrid_Release(kiriGrid* grid, const kiriMemory* memory);
+
+/* Comes cell a before cell b in the order of cells? */
+static inline bool kiriGrid_IsBefore(const kiriGrid* grid, int32_t a, int32_t b)
+{
+    const kiriCell *x = &grid->cells.data[a], *y = &grid->cells.data[b];
+    return x->square != y->square ? x->square < y->square : x->triangle < y->triangle;
+}
+
+static inline bool kiriGrid_IsCell(const kiriGrid* grid, int32_t cell)
+{
+    return grid->cells.data[cell].square != KIRI_NONE;
+}
+
+/* Sorts cells by their order. */
+void kiriGrid_SortCells(const kiriGrid* grid, int32_t* cells, int32_t count);
+
+/* The cell that holds this part of this triangle; KIRI_NONE where it does not overlap the square around `at`. */
+int32_t kiriGrid_CellOf(const kiriGrid* grid, const kiriMeshData* mesh, int32_t triangle, kiriPoint at);
+
+/* The cell of a vertex: that of its fan. */
+int32_t kiriGrid_CellOfVertex(const kiriGrid* grid, const kiriMeshData* mesh, int32_t vertex);
+
+/* Middle of a cell's square, local m. */
+kiriVec2 kiriGrid_Middle(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
+
+/* A lattice point of the cell's material, well inside: it finds the material again when the cell falls apart. */
+kiriPoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
+
+/* The cell that holds a lattice point of the material, or KIRI_NONE. */
+int32_t kiriGrid_CellAt(const kiriGrid* grid, const kiriMeshData* mesh, kiriPoint at);
+
+/* The same; but a point on a slanted outline, which a cut may have put off the material by a rounding of the lattice, is
+   given the first cell of its square. KIRI_NONE outside. */
+int32_t kiriGrid_CellAround(const kiriGrid* grid, const kiriMeshData* mesh, kiriPoint at);
+
+#endif

@@ -1,0 +1,566 @@
+#include "kiri_link.h"
+
+#include <string.h>
+
+/* What is known of a face. */
+typedef enum Mark {
+    PASSED, /* not between the regions at hand, or already in a link */
+    FRESH,
+    SEEN,
+    BENT /* the stretch is split where its normal turns */
+} Mark;
+
+/* A link that was made anew, and its lowest face. */
+typedef struct Made {
+    kiriLink link;
+    int32_t face;
+} Made;
+
+/* Sum over the links of a region of half W l n n^T. */
+typedef struct Spread {
+    double xx, xy, yy;
+} Spread;
+
+struct kiriLinkWork {
+    KIRI_ARRAY(uint8_t) marks;   /* a Mark a face; all PASSED between updates */
+    KIRI_ARRAY(int32_t) faces;   /* border faces of regions that are touched */
+    KIRI_ARRAY(int32_t) whole;   /* a connected stretch of them, in order, */
+    KIRI_ARRAY(int32_t) stretch; /* and the faces of the link at hand, in order */
+    KIRI_ARRAY(Made) made;
+    KIRI_ARRAY(int32_t) order; /* of what was made */
+    KIRI_ARRAY(int32_t) scratch;
+    KIRI_ARRAY(Spread) spreads;  /* of each region */
+    KIRI_ARRAY(uint8_t) stirred; /* of each region: its material or one of its links changed */
+};
+
+typedef struct Border {
+    const kiriMemory* memory;
+    const kiriGrid* grid;
+    const kiriMeshData* mesh;
+    const kiriRegions* regions;
+    const kiriShape* shape;
+    const kiriSite* sites;
+    int32_t siteCount;
+    kiriLinkWork* work;
+} Border;
+
+/* A border face seen from the region with the lower index. */
+typedef struct Side {
+    int32_t x, y; /* its cells in regions i and j, i < j */
+    int32_t i, j;
+    int32_t axis;
+    double sign; /* of the normal from i to j along the axis */
+} Side;
+
+static Side SideOf(const Border* border, int32_t face)
+{
+    const kiriFace* f = &border->grid->faces.data[face];
+    const int32_t* owner = border->regions->field.owner.data;
+    int32_t low = owner[f->cell[0]] < owner[f->cell[1]] ? 0 : 1;
+    Side side = { f->cell[low], f->cell[1 - low],     owner[f->cell[low]], owner[f->cell[1 - low]],
+                  f->axis,      low == 0 ? 1.0 : -1.0 };
+    return side;
+}
+
+static bool IsTouched(const Border* border, int32_t region)
+{
+    return border->regions->touched.data[region] != 0;
+}
+
+/* ---- Order ------------------------------------------------------------------------------------------------------ */
+
+/* By square, axis, and the lowest triangles of the two cells: not by indices. No two faces share all of it. */
+static bool IsFaceBefore(const Border* border, int32_t a, int32_t b)
+{
+    const kiriCell* cells = border->grid->cells.data;
+    const kiriFace *f = &border->grid->faces.data[a], *g = &border->grid->faces.data[b];
+    const kiriCell *fHigh = &cells[f->cell[1]], *gHigh = &cells[g->cell[1]];
+    if (fHigh->square != gHigh->square) {
+        return fHigh->square < gHigh->square;
+    }
+    if (f->axis != g->axis) {
+        return f->axis < g->axis;
+    }
+    int32_t fLow = cells[f->cell[0]].triangle, gLow = cells[g->cell[0]].triangle;
+    return fLow != gLow ? fLow < gLow : fHigh->triangle < gHigh->triangle;
+}
+
+static bool IsMadeBefore(const Border* border, int32_t a, int32_t b)
+{
+    const Made *x = &border->work->made.data[a], *y = &border->work->made.data[b];
+    if (x->link.i != y->link.i) {
+        return x->link.i < y->link.i;
+    }
+    return x->link.j != y->link.j ? x->link.j < y->link.j : IsFaceBefore(border, x->face, y->face);
+}
+
+typedef bool BeforeFn(const Border* border, int32_t a, int32_t b);
+
+/* Merges runs of doubling length. */
+static bool Sort(const Border* border, BeforeFn* before, int32_t* items, int32_t count)
+{
+    if (!kiriArray_Resize(border->memory, &border->work->scratch, count)) {
+        return false;
+    }
+    int32_t* other = border->work->scratch.data;
+    for (int64_t run = 1; run < count; run *= 2) {
+        for (int64_t first = 0; first < count; first += 2 * run) {
+            int64_t middle = first + run < count ? first + run : count;
+            int64_t end = middle + run < count ? middle + run : count, a = first, b = middle;
+            for (int64_t k = first; k < end; ++k) {
+                bool low = b == end || (a < middle && !before(border, items[b], items[a]));
+                other[k] = items[low ? a++ : b++];
+            }
+        }
+        memcpy(items, other, (size_t)count * sizeof(*items));
+    }
+    return true;
+}
+
+/* ---- Stretches -------------------------------------------------------------------------------------------------- */
+
+/* The same cell, or a straight or diagonal step apart. */
+static bool Touch(const kiriGrid* grid, int32_t a, int32_t b)
+{
+    const kiriStepRun* run = &grid->runs.data[a];
+    for (int32_t s = run->first; a != b && s < run->end[1]; ++s) {
+        if (grid->steps.data[s].cell == b) {
+            return true;
+        }
+    }
+    return a == b;
+}
+
+/* Adds the faces of `cell` that carry on the stretch from side `from`. */
+static bool GatherAt(const Border* border, const Side* from, int32_t cell, Mark mark, Mark next)
+{
+    const kiriGrid* grid = border->grid;
+    for (int32_t f = grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
+        const kiriFace* face = &grid->faces.data[f];
+        if (border->work->marks.data[f] == mark) {
+            Side side = SideOf(border, f);
+            bool sameWay = side.axis == from->axis && side.sign == from->sign;
+            if (side.x == cell && side.i == from->i && side.j == from->j && (sameWay || mark != BENT) &&
+                Touch(grid, side.y, from->y)) {
+                border->work->marks.data[f] = (uint8_t)next;
+                if (!kiriArray_Push(border->memory, &border->work->stretch, f)) {
+                    return false;
+                }
+            }
+        }
+        f = face->next[face->cell[0] == cell ? 0 : 1];
+    }
+    return true;
+}
+
+/* The connected stretch around a face, as far as the faces bear the same mark, in order; they are marked `next`. */
+static bool Gather(const Border* border, int32_t face, Mark next)
+{
+    const kiriGrid* grid = border->grid;
+    kiriLinkWork* work = border->work;
+    Mark mark = (Mark)work->marks.data[face];
+    work->stretch.count = 0;
+    work->marks.data[face] = (uint8_t)next;
+    bool ok = kiriArray_Push(border->memory, &work->stretch, face);
+    for (int32_t k = 0; ok && k < work->stretch.count; ++k) {
+        Side side = SideOf(border, work->stretch.data[k]);
+        const kiriStepRun* run = &grid->runs.data[side.x];
+        ok = GatherAt(border, &side, side.x, mark, next);
+        for (int32_t s = run->first; ok && s < run->end[1]; ++s) {
+            ok = GatherAt(border, &side, grid->steps.data[s].cell, mark, next);
+        }
+    }
+    return ok && Sort(border, IsFaceBefore, work->stretch.data, work->stretch.count);
+}
+
+/* The vector sum of the faces, as normals from i to j; *sum is their plain sum. */
+static kiriVec2 SumNormals(const Border* border, double* sum)
+{
+    double n[2] = { 0.0, 0.0 };
+    *sum = 0.0;
+    for (int32_t k = 0; k < border->work->stretch.count; ++k) {
+        double width = border->grid->faces.data[border->work->stretch.data[k]].width;
+        Side side = SideOf(border, border->work->stretch.data[k]);
+        n[side.axis] += side.sign * width;
+        *sum += width;
+    }
+    return kiriVec2_Make(n[0], n[1]);
+}
+
+/* ---- One link --------------------------------------------------------------------------------------------------- */
+
+/* Centroid and second moment along the tangent; a face counts by what it shows to the normal. */
+static void SetMoments(const Border* border, kiriLink* link)
+{
+    double normal[2] = { link->normal.x, link->normal.y };
+    double total = 0.0;
+    kiriVec2 first = { 0.0, 0.0 };
+    for (int32_t k = 0; k < border->work->stretch.count; ++k) {
+        const kiriFace* face = &border->grid->faces.data[border->work->stretch.data[k]];
+        double weight = face->width * fabs(normal[face->axis]);
+        total += weight;
+        first = kiriVec2_Add(first, kiriVec2_Scale(weight, face->middle));
+    }
+    link->centroid = kiriVec2_Scale(1.0 / total, first);
+    link->moment = 0.0;
+    for (int32_t k = 0; k < border->work->stretch.count; ++k) {
+        const kiriFace* face = &border->grid->faces.data[border->work->stretch.data[k]];
+        /* The side's direction along the tangent is as its normal along the normal. */
+        double share = fabs(normal[face->axis]);
+        double s = kiriVec2_Dot(kiriVec2_Sub(face->middle, link->centroid), link->tangent);
+        link->moment += share * (face->width * s * s + face->moment * share * share);
+    }
+}
+
+/* The border is a staircase of faces, whose normals differ: what the link's one normal leaves out. */
+static void SetSpread(const Border* border, kiriLink* link)
+{
+    for (int32_t k = 0; k < border->work->stretch.count; ++k) {
+        const kiriFace* face = &border->grid->faces.data[border->work->stretch.data[k]];
+        Side side = SideOf(border, border->work->stretch.data[k]);
+        kiriVec2 arm = kiriVec2_Sub(face->middle, link->centroid);
+        double along = side.sign * face->width;
+        kiriVec2 normal = { side.axis == 0 ? along : 0.0, side.axis == 0 ? 0.0 : along };
+        link->spread[0] = kiriVec2_Add(link->spread[0], kiriVec2_Scale(arm.x, normal));
+        link->spread[1] = kiriVec2_Add(link->spread[1], kiriVec2_Scale(arm.y, normal));
+    }
+}
+
+/* A way from site i to site j. */
+typedef struct Way {
+    int32_t length;
+    kiriVec2 crossing;
+} Way;
+
+/* Takes the longer steps from `cell` over the border into region `to` where they shorten the way. */
+static void TrySteps(const Border* border, int32_t cell, int32_t to, Way* way)
+{
+    const kiriGrid* grid = border->grid;
+    const kiriField* field = &border->regions->field;
+    const kiriStepRun* run = &grid->runs.data[cell];
+    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        kiriStep step = grid->steps.data[s];
+        if (field->owner.data[step.cell] == to) {
+            int32_t length = field->distance.data[cell] + step.length + field->distance.data[step.cell];
+            if (length < way->length) {
+                kiriVec2 a = kiriGrid_Middle(grid, border->mesh, cell);
+                kiriVec2 b = kiriGrid_Middle(grid, border->mesh, step.cell);
+                way->length = length;
+                way->crossing = kiriVec2_Scale(0.5, kiriVec2_Add(a, b));
+            }
+        }
+    }
+}
+
+static Way ShortestWay(const Border* border)
+{
+    const int32_t* distance = border->regions->field.distance.data;
+    Way way = { KIRI_FAR, { 0.0, 0.0 } };
+    for (int32_t k = 0; k < border->work->stretch.count; ++k) {
+        int32_t face = border->work->stretch.data[k];
+        Side side = SideOf(border, face);
+        int32_t length = distance[side.x] + KIRI_UNIT + distance[side.y];
+        if (length < way.length) {
+            way.length = length;
+            way.crossing = border->grid->faces.data[face].middle;
+        }
+        TrySteps(border, side.x, side.j, &way);
+        TrySteps(border, side.y, side.i, &way);
+    }
+    return way;
+}
+
+/* Lengths on the grid exceed true ones by up to 3 %, and by parts of a side at both ends: a way that is not clearly
+   longer than the straight line is one. */
+static void SetLength(const Border* border, kiriLink* link)
+{
+    kiriVec2 a = border->sites[link->i].at, b = border->sites[link->j].at;
+    double straight = kiriVec2_Length(kiriVec2_Sub(b, a));
+    Way way = ShortestWay(border);
+    link->length = way.length * (border->grid->side / KIRI_UNIT);
+    link->crossing = way.crossing;
+    link->span = kiriVec2_Scale(link->length, link->normal);
+    if (link->length < 1.08 * straight + 0.5 * border->grid->side) {
+        link->length = straight;
+        link->span = kiriVec2_Sub(b, a);
+        link->crossing = kiriVec2_Scale(0.5, kiriVec2_Add(a, b));
+    }
+    double least = 0.1 * border->grid->side;
+    link->length = link->length > least ? link->length : least;
+}
+
+/* From the stretch at hand. */
+static bool AddLink(const Border* border)
+{
+    int32_t lowest = border->work->stretch.data[0];
+    Side side = SideOf(border, lowest);
+    double sum;
+    kiriVec2 normal = SumNormals(border, &sum);
+    Made made;
+    memset(&made, 0, sizeof(made));
+    made.face = lowest;
+    made.link.i = side.i;
+    made.link.j = side.j;
+    made.link.width = kiriVec2_Length(normal);
+    made.link.normal = kiriVec2_Scale(1.0 / made.link.width, normal);
+    made.link.tangent = kiriVec2_Make(-made.link.normal.y, made.link.normal.x);
+    SetMoments(border, &made.link);
+    SetSpread(border, &made.link);
+    SetLength(border, &made.link);
+    return kiriArray_Push(border->memory, &border->work->made, made);
+}
+
+/* ---- All links of regions that are touched ---------------------------------------------------------------------- */
+
+/* A face between two such regions is found from the lower one. */
+static bool FindFacesOf(const Border* border, int32_t region, int32_t cell)
+{
+    const kiriGrid* grid = border->grid;
+    for (int32_t f = grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
+        const kiriFace* face = &grid->faces.data[f];
+        int32_t end = face->cell[0] == cell ? 0 : 1;
+        int32_t other = border->regions->field.owner.data[face->cell[1 - end]];
+        if (other != region && (region < other || !IsTouched(border, other))) {
+            border->work->marks.data[f] = FRESH;
+            if (!kiriArray_Push(border->memory, &border->work->faces, f)) {
+                return false;
+            }
+        }
+        f = face->next[end];
+    }
+    return true;
+}
+
+static bool FindFaces(const Border* border)
+{
+    const kiriRegions* regions = border->regions;
+    for (int32_t i = 0; i < border->siteCount; ++i) {
+        const kiriReaches* list = &border->shape->reaches.data[i];
+        for (int32_t k = 0; IsTouched(border, i) && k < list->count; ++k) {
+            int32_t cell = list->data[k].cell;
+            if (regions->onBorder.data[cell] && regions->field.owner.data[cell] == i && !FindFacesOf(border, i, cell)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* A border that turns back on itself (around the tip of a slit, say) loses its width in the vector sum: it is
+   split into stretches of one normal each. */
+static bool Split(const Border* border)
+{
+    kiriLinkWork* work = border->work;
+    if (!kiriArray_Resize(border->memory, &work->whole, work->stretch.count)) {
+        return false;
+    }
+    for (int32_t k = 0; k < work->stretch.count; ++k) {
+        work->whole.data[k] = work->stretch.data[k];
+        work->marks.data[work->whole.data[k]] = BENT;
+    }
+    for (int32_t k = 0; k < work->whole.count; ++k) {
+        int32_t face = work->whole.data[k];
+        if (work->marks.data[face] == BENT && !(Gather(border, face, PASSED) && AddLink(border))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool MakeLinks(const Border* border)
+{
+    kiriLinkWork* work = border->work;
+    for (int32_t k = 0; k < work->faces.count; ++k) {
+        if (work->marks.data[work->faces.data[k]] == FRESH) {
+            double sum;
+            if (!Gather(border, work->faces.data[k], SEEN)) {
+                return false;
+            }
+            bool bent = kiriVec2_Length(SumNormals(border, &sum)) < 0.5 * sum;
+            if (!(bent ? Split(border) : AddLink(border))) {
+                return false;
+            }
+        }
+    }
+    if (!kiriArray_Resize(border->memory, &work->order, work->made.count)) {
+        return false;
+    }
+    for (int32_t k = 0; k < work->order.count; ++k) {
+        work->order.data[k] = k;
+    }
+    return Sort(border, IsMadeBefore, work->order.data, work->order.count);
+}
+
+/* ---- The whole -------------------------------------------------------------------------------------------------- */
+
+static bool MakeRoom(const Border* border)
+{
+    kiriLinkWork* work = border->work;
+    int32_t old = work->marks.count;
+    if (!kiriArray_Resize(border->memory, &work->spreads, border->siteCount) ||
+        !kiriArray_Resize(border->memory, &work->stirred, border->siteCount) ||
+        (old < border->grid->faces.count &&
+         !kiriArray_Resize(border->memory, &work->marks, border->grid->faces.count))) {
+        return false;
+    }
+    for (int32_t f = old; f < work->marks.count; ++f) {
+        work->marks.data[f] = PASSED;
+    }
+    for (int32_t i = 0; i < border->siteCount; ++i) {
+        work->spreads.data[i] = (Spread){ 0.0, 0.0, 0.0 };
+        work->stirred.data[i] = border->regions->touched.data[i];
+    }
+    work->faces.count = work->made.count = 0;
+    return true;
+}
+
+/* Regions that had a link to one that is touched, or have one now. */
+static void Stir(const Border* border, const kiriLink* link)
+{
+    if (IsTouched(border, link->i) || IsTouched(border, link->j)) {
+        border->work->stirred.data[link->i] = border->work->stirred.data[link->j] = 1;
+    }
+}
+
+static bool IsPairBefore(const kiriLink* a, const kiriLink* b)
+{
+    return a->i != b->i ? a->i < b->i : a->j < b->j;
+}
+
+/* Takes over the links of pairs that are not touched, between those that were made; no pair has both. */
+static bool Merge(const Border* border, kiriLinks* links)
+{
+    kiriLinkWork* work = border->work;
+    int32_t made = 0;
+    if (!kiriArray_Reserve(border->memory, &links->next, (int64_t)links->links.count + work->made.count)) {
+        return false;
+    }
+    for (int32_t k = 0; k < links->links.count; ++k) {
+        const kiriLink* link = &links->links.data[k];
+        Stir(border, link);
+        if (!IsTouched(border, link->i) && !IsTouched(border, link->j)) {
+            for (; made < work->made.count; ++made) {
+                const kiriLink* first = &work->made.data[work->order.data[made]].link;
+                if (!IsPairBefore(first, link)) {
+                    break;
+                }
+                links->next.data[links->next.count++] = *first;
+            }
+            links->next.data[links->next.count++] = *link;
+        }
+    }
+    for (; made < work->made.count; ++made) {
+        links->next.data[links->next.count++] = work->made.data[work->order.data[made]].link;
+    }
+    for (int32_t k = 0; k < work->made.count; ++k) {
+        Stir(border, &work->made.data[k].link);
+    }
+    return true;
+}
+
+static void AddSpread(Spread* spread, const kiriLink* link)
+{
+    double half = 0.5 * link->width * link->length;
+    spread->xx += half * link->normal.x * link->normal.x;
+    spread->xy += half * link->normal.x * link->normal.y;
+    spread->yy += half * link->normal.y * link->normal.y;
+}
+
+static double BracedIn(const Border* border, int32_t region, kiriVec2 t)
+{
+    Spread spread = border->work->spreads.data[region];
+    double extent = 536870912.0 * border->mesh->step; /* 2^29 lattice steps, see mesh.h */
+    double area = kiriTally_Moments(&border->regions->material.data[region], extent).area;
+    double sum = t.x * t.x * spread.xx + 2.0 * t.x * t.y * spread.xy + t.y * t.y * spread.yy;
+    return sum < area ? sum / area : 1.0;
+}
+
+/* Where nothing has changed it is what it was: sums run in the order of links. */
+static void SetBraced(const Border* border, kiriLinks* links)
+{
+    kiriLinkWork* work = border->work;
+    for (int32_t k = 0; k < links->next.count; ++k) {
+        const kiriLink* link = &links->next.data[k];
+        AddSpread(&work->spreads.data[link->i], link);
+        AddSpread(&work->spreads.data[link->j], link);
+    }
+    for (int32_t k = 0; k < links->next.count; ++k) {
+        kiriLink* link = &links->next.data[k];
+        if (work->stirred.data[link->i] || work->stirred.data[link->j]) {
+            link->braced = 0.5 * (BracedIn(border, link->i, link->tangent) + BracedIn(border, link->j, link->tangent));
+        }
+    }
+}
+
+static bool IsOfPair(const kiriLink* link, const kiriLink* other)
+{
+    return link->i == other->i && link->j == other->j;
+}
+
+/* How many are not, bit for bit, what they were. */
+static int32_t CountChanged(const kiriLinks* links)
+{
+    int32_t changed = 0, old = 0;
+    for (int32_t k = 0; k < links->next.count; ++k) {
+        const kiriLink* link = &links->next.data[k];
+        while (old < links->links.count && IsPairBefore(&links->links.data[old], link)) {
+            ++old;
+        }
+        bool same = old < links->links.count && IsOfPair(&links->links.data[old], link) &&
+                    memcmp(&links->links.data[old], link, sizeof(*link)) == 0;
+        old += old < links->links.count && IsOfPair(&links->links.data[old], link);
+        changed += !same;
+    }
+    return changed;
+}
+
+bool kiriLinks_Update(kiriLinks* links, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                      const kiriRegions* regions, const kiriShape* shape, const kiriSite* sites, int32_t siteCount)
+{
+    if (links->work == NULL) {
+        links->work = kiriMemory_Alloc(memory, sizeof(*links->work));
+        if (links->work == NULL) {
+            return false;
+        }
+        memset(links->work, 0, sizeof(*links->work));
+    }
+    Border border = { memory, grid, mesh, regions, shape, sites, siteCount, links->work };
+    links->next.count = links->changed = 0;
+    bool ok = MakeRoom(&border) && FindFaces(&border) && MakeLinks(&border) && Merge(&border, links);
+    if (ok) {
+        SetBraced(&border, links);
+        links->changed = CountChanged(links);
+    }
+    for (int32_t k = 0; k < links->work->faces.count; ++k) {
+        links->work->marks.data[links->work->faces.data[k]] = PASSED;
+    }
+    return ok;
+}
+
+void kiriLinks_Commit(kiriLinks* links)
+{
+    kiriLinks was = *links;
+    memcpy(&links->links, &was.next, sizeof(links->links));
+    memcpy(&links->next, &was.links, sizeof(links->next));
+    links->next.count = 0;
+}
+
+void kiriLinks_Release(kiriLinks* links, const kiriMemory* memory)
+{
+    kiriLinkWork* work = links->work;
+    kiriArray_Release(memory, &links->links);
+    kiriArray_Release(memory, &links->next);
+    if (work != NULL) {
+        kiriArray_Release(memory, &work->marks);
+        kiriArray_Release(memory, &work->faces);
+        kiriArray_Release(memory, &work->whole);
+        kiriArray_Release(memory, &work->stretch);
+        kiriArray_Release(memory, &work->made);
+        kiriArray_Release(memory, &work->order);
+        kiriArray_Release(memory, &work->scratch);
+        kiriArray_Release(memory, &work->spreads);
+        kiriArray_Release(memory, &work->stirred);
+        kiriMemory_Free(memory, work);
+        links->work = NULL;
+    }
+}

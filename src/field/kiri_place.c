@@ -1,0 +1,612 @@
+#include "kiri_place.h"
+
+#include <string.h>
+
+/* ---- Placing (section 5) ----------------------------------------------------------------------------------------
+
+   What is computed, whatever the order of work (tests/test_frame.c does it plainly):
+
+   A site sends its seeds to the cells around (kiriSite_Seed), but to none that holds another site. A cell belongs to
+   the site that is nearest from there by the steps of the grid, of two as near to the lower index; but a site's own
+   cell is its own. So no region is ever empty, and no two sites come to share a cell. Old sites take no notice of new
+   ones, nor, in sampling, new sites of those that follow.
+
+   Sampling: the next site goes to the free cell that is farthest from all sites. Relaxation (Lloyd 1982): each new site
+   goes to the centroid of its region, all at once, up to 20 times; then it takes the cell that it has come to.
+
+   What is the same from round to round is kept: distances to the old sites are flooded once, those to the new sites
+   only as far as these are nearer. */
+
+enum { ROUNDS = 20, FREE = KIRI_NONE, BARRED = -2, SHARE = 1 << 24 };
+
+typedef enum Stage {
+    REST,
+    FLOOD_OLD, /* distances to the old sites */
+    SCAN,      /* for the farthest cell */
+    FLOOD_NEW, /* distances to the site just sampled, where it is the nearest */
+    LOWER,     /* the distances of sampling by these */
+    DIVIDE,    /* distances to all new sites, where they are the nearest */
+    SUM,       /* the material of their regions */
+    AIM,       /* for the cells nearest to the regions' centroids */
+    BALANCE,   /* the material of the part, */
+    SETTLE,    /* and the cell nearest to its centroid, for one site by itself */
+    STAGES
+} Stage;
+
+/* Where a new site shall go. The material is summed in whole numbers, so that the order of adding does not matter:
+   area in units of 1 / SHARE of a square, moments in as many of its sides. */
+typedef struct Target {
+    int64_t area, u, v;
+    kiriVec2 center;
+    int32_t cell; /* of the region, nearest to the center */
+    double distance;
+} Target;
+
+static const Target noTarget = { 0, 0, 0, { 0.0, 0.0 }, KIRI_NONE, 0.0 };
+
+struct kiriPlacerWork {
+    const kiriField* old; /* from the old sites: `flooded`, or the caller's */
+    kiriField flooded;
+    kiriField fresh;             /* from the site just sampled, or from all new ones */
+    KIRI_ARRAY(int32_t) sampled; /* of each cell: distance to the nearest new site while sampling */
+    KIRI_ARRAY(int32_t) holds;   /* of each cell: the site in it, or FREE, or BARRED to sampling */
+    KIRI_ARRAY(uint8_t) marks;   /* of each cell: zero, but while a piece is taken */
+    KIRI_ARRAY(Target) targets;  /* of each new site */
+    kiriSeeds seeds;
+    Stage stage;
+    int32_t cursor;   /* of the stage: how many cells of its list it has seen */
+    int32_t left;     /* sites still to sample */
+    int32_t farthest; /* cell found so far, or KIRI_NONE */
+    int32_t round;
+};
+
+typedef struct Job {
+    kiriPlacer* placer;
+    kiriPlacerWork* work;
+    const kiriMemory* memory;
+    const kiriGrid* grid;
+    const kiriMeshData* mesh;
+    kiriQuota* quota;
+} Job;
+
+/* A full cell is taken at its middle, where the cell's weight is exactly 1; of others the middle may not be
+   material. */
+kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
+{
+    const kiriMoments* material = &grid->cells.data[cell].material;
+    bool full = material->area > 0.999 * grid->side * grid->side;
+    kiriSite site = { full ? kiriGrid_Middle(grid, mesh, cell) : kiriMoments_Center(material), cell };
+    return site;
+}
+
+static bool MostlyCovered(const kiriGrid* grid, int32_t cell)
+{
+    return grid->cells.data[cell].material.area > 0.5 * grid->side * grid->side;
+}
+
+static double SquaredDistance(kiriVec2 a, kiriVec2 b)
+{
+    kiriVec2 d = kiriVec2_Sub(a, b);
+    return kiriVec2_Dot(d, d);
+}
+
+/* Visits the cells of a list, from the cursor on. */
+static kiriProgress Walk(Job* job, const int32_t* cells, int32_t count, void visit(Job* job, int32_t cell))
+{
+    int32_t from = job->work->cursor, end = count;
+    if (end - from > job->quota->left) {
+        end = from + (int32_t)job->quota->left;
+    }
+    kiriQuota_Take(job->quota, end - from);
+    for (int32_t i = from; i < end; ++i) {
+        visit(job, cells[i]);
+    }
+    job->work->cursor = end < count ? end : 0;
+    return end < count ? KIRI_MORE : KIRI_DONE;
+}
+
+static kiriProgress WalkPart(Job* job, void visit(Job* job, int32_t cell))
+{
+    return Walk(job, job->placer->cells.data, job->placer->cells.count, visit);
+}
+
+static kiriProgress WalkFresh(Job* job, void visit(Job* job, int32_t cell))
+{
+    return Walk(job, job->work->fresh.settled.data, job->work->fresh.settled.count, visit);
+}
+
+/* Drops seeds, from the first on, in cells that hold another site. */
+static void DropSeeds(Job* job, int32_t first, int32_t owner)
+{
+    kiriSeeds* seeds = &job->work->seeds;
+    int32_t kept = first;
+    for (int32_t k = first; k < seeds->count; ++k) {
+        int32_t holds = job->work->holds.data[seeds->data[k].cell];
+        if (holds < 0 || holds == owner) {
+            seeds->data[kept++] = seeds->data[k];
+        }
+    }
+    seeds->count = kept;
+}
+
+/* Makes a field ready to flood from sites first to end. */
+static bool StartFlood(Job* job, kiriField* field, int32_t first, int32_t end)
+{
+    kiriSeeds* seeds = &job->work->seeds;
+    kiriField_Reset(field);
+    seeds->count = 0;
+    for (int32_t i = first; i < end; ++i) {
+        int32_t before = seeds->count;
+        if (!kiriSite_Seed(&job->placer->sites.data[i], i, job->memory, job->grid, job->mesh, seeds)) {
+            return false;
+        }
+        DropSeeds(job, before, i);
+    }
+    return kiriField_Start(field, job->memory, seeds->data, seeds->count);
+}
+
+static kiriProgress Flood(Job* job, kiriField* field, kiriPassFn* pass)
+{
+    kiriRule rule = { job->grid, KIRI_FAR - 1, pass, NULL, job->work };
+    return kiriField_Flood(field, &rule, job->quota);
+}
+
+static bool IsNearerThanOld(const void* context, int32_t cell)
+{
+    const kiriPlacerWork* work = context;
+    return work->fresh.distance.data[cell] < work->old->distance.data[cell];
+}
+
+static bool IsNearest(const void* context, int32_t cell)
+{
+    const kiriPlacerWork* work = context;
+    return IsNearerThanOld(work, cell) && work->fresh.distance.data[cell] < work->sampled.data[cell];
+}
+
+/* ---- Sampling */
+
+static kiriProgress FloodOld(Job* job)
+{
+    kiriProgress progress = Flood(job, &job->work->flooded, NULL);
+    if (progress == KIRI_DONE) {
+        job->work->stage = SCAN;
+    }
+    return progress;
+}
+
+static int32_t SampledDistance(const kiriPlacerWork* work, int32_t cell)
+{
+    int32_t old = work->old->distance.data[cell], sampled = work->sampled.data[cell];
+    return old < sampled ? old : sampled;
+}
+
+/* In a part without a site all cells are equally far; relaxation makes up for where the first one goes. */
+static void FindFarthest(Job* job, int32_t cell)
+{
+    kiriPlacerWork* work = job->work;
+    if (work->holds.data[cell] != FREE) {
+        return;
+    }
+    int32_t best = work->farthest, distance = SampledDistance(work, cell);
+    int32_t farthest = best == KIRI_NONE ? KIRI_NONE : SampledDistance(work, best);
+    if (distance > farthest ||
+        (distance == farthest && MostlyCovered(job->grid, cell) && !MostlyCovered(job->grid, best))) {
+        work->farthest = cell;
+    }
+}
+
+/* Ready for a round of relaxation. */
+static kiriProgress StartRound(Job* job)
+{
+    kiriPlacerWork* work = job->work;
+    const kiriSites* sites = &job->placer->sites;
+    for (int32_t i = job->placer->oldCount; i < sites->count; ++i) {
+        work->targets.data[i - job->placer->oldCount] = noTarget;
+    }
+    work->stage = DIVIDE;
+    return StartFlood(job, &work->fresh, job->placer->oldCount, sites->count) ? KIRI_DONE : KIRI_FAILED;
+}
+
+static kiriProgress Scan(Job* job)
+{
+    kiriPlacerWork* work = job->work;
+    kiriSites* sites = &job->placer->sites;
+    kiriProgress progress = WalkPart(job, FindFarthest);
+    if (progress != KIRI_DONE) {
+        return progress;
+    }
+    if (work->farthest != KIRI_NONE) {
+        work->holds.data[work->farthest] = sites->count;
+        sites->data[sites->count++] = kiriFrames_SiteIn(job->grid, job->mesh, work->farthest); /* Start made room */
+    }
+    work->left = work->farthest == KIRI_NONE ? 0 : work->left - 1;
+    work->farthest = KIRI_NONE;
+    if (work->left == 0) {
+        return StartRound(job);
+    }
+    work->stage = FLOOD_NEW;
+    return StartFlood(job, &work->fresh, sites->count - 1, sites->count) ? KIRI_DONE : KIRI_FAILED;
+}
+
+static kiriProgress FloodNew(Job* job)
+{
+    kiriProgress progress = Flood(job, &job->work->fresh, IsNearest);
+    if (progress == KIRI_DONE) {
+        job->work->stage = LOWER;
+    }
+    return progress;
+}
+
+static void LowerCell(Job* job, int32_t cell)
+{
+    kiriPlacerWork* work = job->work;
+    if (work->fresh.distance.data[cell] < work->sampled.data[cell]) {
+        work->sampled.data[cell] = work->fresh.distance.data[cell];
+    }
+}
+
+static kiriProgress Lower(Job* job)
+{
+    kiriProgress progress = WalkFresh(job, LowerCell);
+    if (progress == KIRI_DONE) {
+        job->work->stage = SCAN;
+    }
+    return progress;
+}
+
+/* ---- Relaxation */
+
+static kiriProgress Divide(Job* job)
+{
+    kiriProgress progress = Flood(job, &job->work->fresh, IsNearerThanOld);
+    if (progress == KIRI_DONE) {
+        job->work->stage = SUM;
+    }
+    return progress;
+}
+
+/* The target of the new site that a cell belongs to; null where it is an old one. */
+static Target* TargetOf(Job* job, int32_t cell)
+{
+    kiriPlacerWork* work = job->work;
+    int32_t owner = work->holds.data[cell];
+    if (owner < 0) {
+        owner = IsNearerThanOld(work, cell) ? work->fresh.owner.data[cell] : 0;
+    }
+    return owner < job->placer->oldCount ? NULL : &work->targets.data[owner - job->placer->oldCount];
+}
+
+/* No cell counts for nothing, so that every region has a center. */
+static void AddMaterial(const Job* job, Target* target, int32_t cell)
+{
+    const kiriMoments* material = &job->grid->cells.data[cell].material;
+    double side = job->grid->side;
+    int64_t area = (int64_t)(SHARE * (material->area / (side * side)) + 0.5);
+    area = area > 0 ? area : 1;
+    double scale = (double)area / (material->area * side);
+    target->area += area;
+    target->u += (int64_t)(scale * material->u + 0.5);
+    target->v += (int64_t)(scale * material->v + 0.5);
+}
+
+static void FindCenter(const Job* job, Target* target)
+{
+    double scale = job->grid->side / (double)target->area;
+    target->center = kiriVec2_Make(scale * (double)target->u, scale * (double)target->v);
+}
+
+/* Does the target like the cell better than the one that it has? Cells come in any order. */
+static bool IsBetter(const Job* job, const Target* target, int32_t cell, double distance)
+{
+    if (target->cell == KIRI_NONE || distance != target->distance) {
+        return target->cell == KIRI_NONE || distance < target->distance;
+    }
+    bool mostly = MostlyCovered(job->grid, cell);
+    return mostly != MostlyCovered(job->grid, target->cell) ? mostly : kiriGrid_IsBefore(job->grid, cell, target->cell);
+}
+
+static void Consider(const Job* job, Target* target, int32_t cell)
+{
+    double distance = SquaredDistance(kiriGrid_Middle(job->grid, job->mesh, cell), target->center);
+    if (IsBetter(job, target, cell, distance)) {
+        target->cell = cell;
+        target->distance = distance;
+    }
+}
+
+static void SumCell(Job* job, int32_t cell)
+{
+    Target* target = TargetOf(job, cell);
+    if (target != NULL) {
+        AddMaterial(job, target, cell);
+    }
+}
+
+static kiriProgress Sum(Job* job)
+{
+    kiriProgress progress = WalkFresh(job, SumCell);
+    if (progress == KIRI_DONE) {
+        for (int32_t k = 0; k < job->placer->sites.count - job->placer->oldCount; ++k) {
+            FindCenter(job, &job->work->targets.data[k]);
+        }
+        job->work->stage = AIM;
+    }
+    return progress;
+}
+
+static void AimCell(Job* job, int32_t cell)
+{
+    Target* target = TargetOf(job, cell);
+    if (target != NULL) {
+        Consider(job, target, cell);
+    }
+}
+
+/* The centroid itself where it lies in the square of the target cell: on the way a site may lie anywhere in its cell,
+   for from middle to middle it would stick where its centroid is less than half a side away. */
+static kiriSite SiteFor(const Job* job, const Target* target)
+{
+    kiriVec2 off = kiriVec2_Sub(target->center, kiriGrid_Middle(job->grid, job->mesh, target->cell));
+    double half = 0.5 * job->grid->side;
+    kiriSite site = kiriFrames_SiteIn(job->grid, job->mesh, target->cell);
+    if (fabs(off.x) < half && fabs(off.y) < half) {
+        site.at = target->center;
+    }
+    return site;
+}
+
+/* All new sites go to their targets. Did one go farther than a hundredth of a side? */
+static bool Move(Job* job)
+{
+    kiriPlacer* placer = job->placer;
+    bool moved = false;
+    for (int32_t i = placer->oldCount; i < placer->sites.count; ++i) {
+        job->work->holds.data[placer->sites.data[i].cell] = FREE;
+    }
+    for (int32_t i = placer->oldCount; i < placer->sites.count; ++i) {
+        kiriSite site = SiteFor(job, &job->work->targets.data[i - placer->oldCount]);
+        moved =
+            moved || SquaredDistance(site.at, placer->sites.data[i].at) > 0.0001 * job->grid->side * job->grid->side;
+        placer->sites.data[i] = site;
+        job->work->holds.data[site.cell] = i;
+    }
+    return moved;
+}
+
+static kiriProgress Aim(Job* job)
+{
+    kiriPlacer* placer = job->placer;
+    kiriProgress progress = WalkFresh(job, AimCell);
+    if (progress != KIRI_DONE) {
+        return progress;
+    }
+    if (Move(job) && ++job->work->round < ROUNDS) {
+        return StartRound(job);
+    }
+    for (int32_t i = placer->oldCount; i < placer->sites.count; ++i) {
+        placer->sites.data[i] = kiriFrames_SiteIn(job->grid, job->mesh, placer->sites.data[i].cell);
+    }
+    job->work->stage = REST;
+    return KIRI_DONE;
+}
+
+/* ---- One site by itself */
+
+static void BalanceCell(Job* job, int32_t cell)
+{
+    AddMaterial(job, &job->work->targets.data[0], cell);
+}
+
+static kiriProgress Balance(Job* job)
+{
+    kiriProgress progress = WalkPart(job, BalanceCell);
+    if (progress == KIRI_DONE) {
+        FindCenter(job, &job->work->targets.data[0]);
+        job->work->stage = SETTLE;
+    }
+    return progress;
+}
+
+static void SettleCell(Job* job, int32_t cell)
+{
+    if (job->work->holds.data[cell] == FREE) {
+        Consider(job, &job->work->targets.data[0], cell);
+    }
+}
+
+static kiriProgress Settle(Job* job)
+{
+    kiriProgress progress = WalkPart(job, SettleCell);
+    if (progress == KIRI_DONE) {
+        kiriSites* sites = &job->placer->sites;
+        int32_t cell = job->work->targets.data[0].cell;
+        if (cell != KIRI_NONE) {
+            sites->data[sites->count++] = kiriFrames_SiteIn(job->grid, job->mesh, cell);
+        }
+        job->work->stage = REST;
+    }
+    return progress;
+}
+
+/* ---- The job */
+
+static kiriProgress (*const stages[STAGES])(Job* job) = {
+    NULL, FloodOld, Scan, FloodNew, Lower, Divide, Sum, Aim, Balance, Settle,
+};
+
+kiriProgress kiriPlacer_Run(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid,
+                            const kiriMeshData* mesh, kiriQuota* quota)
+{
+    Job job = { placer, placer->work, memory, grid, mesh, quota };
+    kiriProgress progress = KIRI_DONE;
+    while (progress == KIRI_DONE && job.work != NULL && job.work->stage != REST) {
+        progress = stages[job.work->stage](&job);
+    }
+    return progress;
+}
+
+static kiriPlacerWork* WorkOf(kiriPlacer* placer, const kiriMemory* memory)
+{
+    if (placer->work == NULL) {
+        placer->work = kiriMemory_Alloc(memory, sizeof(kiriPlacerWork));
+        if (placer->work != NULL) {
+            memset(placer->work, 0, sizeof(kiriPlacerWork));
+        }
+    }
+    return placer->work;
+}
+
+/* Room for the job, so that only seeds need memory while it runs. */
+static bool MakeRoom(kiriPlacer* placer, kiriPlacerWork* work, const kiriMemory* memory, const kiriGrid* grid,
+                     int32_t count)
+{
+    int32_t cells = grid->cells.count;
+    return kiriField_Resize(&work->flooded, memory, cells) && kiriField_Resize(&work->fresh, memory, cells) &&
+           kiriArray_Resize(memory, &work->sampled, cells) && kiriArray_Resize(memory, &work->holds, cells) &&
+           kiriArray_Resize(memory, &work->targets, count > 0 ? count : 1) &&
+           kiriArray_Reserve(memory, &placer->sites, (int64_t)placer->sites.count + count);
+}
+
+/* Of `sampled` and `holds` only the cells of the part are ever read: floods do not leave it. */
+static void ClearPart(const kiriPlacer* placer, const uint8_t* allowed)
+{
+    kiriPlacerWork* work = placer->work;
+    for (int32_t k = 0; k < placer->cells.count; ++k) {
+        int32_t cell = placer->cells.data[k];
+        work->sampled.data[cell] = KIRI_FAR;
+        work->holds.data[cell] = allowed == NULL || allowed[cell] ? FREE : BARRED;
+    }
+    for (int32_t i = 0; i < placer->sites.count; ++i) {
+        work->holds.data[placer->sites.data[i].cell] = i;
+    }
+}
+
+static Stage FirstStage(const kiriPlacer* placer)
+{
+    const kiriPlacerWork* work = placer->work;
+    if (work->left == 0) {
+        return REST;
+    }
+    if (work->left == 1 && placer->oldCount == 0) {
+        return BALANCE;
+    }
+    return work->old == &work->flooded ? FLOOD_OLD : SCAN;
+}
+
+bool kiriPlacer_Start(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                      const uint8_t* allowed, int32_t count)
+{
+    kiriPlacerWork* work = WorkOf(placer, memory);
+    const kiriField* known = placer->known;
+    count = count < placer->cells.count ? count : placer->cells.count;
+    placer->oldCount = placer->sites.count;
+    placer->known = NULL;
+    if (work == NULL) {
+        return false;
+    }
+    work->stage = REST;
+    if (!MakeRoom(placer, work, memory, grid, count)) {
+        return false;
+    }
+    ClearPart(placer, allowed);
+    Job job = { placer, work, memory, grid, mesh, NULL };
+    if (!StartFlood(&job, &work->flooded, 0, known == NULL ? placer->oldCount : 0)) {
+        return false;
+    }
+    work->old = known == NULL ? &work->flooded : known;
+    work->cursor = work->round = 0;
+    work->left = count;
+    work->farthest = KIRI_NONE;
+    work->targets.data[0] = noTarget;
+    work->stage = FirstStage(placer);
+    return true;
+}
+
+static bool Reach(kiriPlacer* placer, const kiriMemory* memory, int32_t cell)
+{
+    uint8_t* mark = &placer->work->marks.data[cell];
+    if (*mark) {
+        return true;
+    }
+    *mark = 1;
+    if (!kiriArray_Push(memory, &placer->cells, cell)) {
+        *mark = 0;
+        return false;
+    }
+    return true;
+}
+
+/* Breadth first over straight steps: there is one for every two cells that share a face. */
+static bool Gather(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, int32_t cell)
+{
+    bool ok = Reach(placer, memory, cell);
+    for (int32_t k = 0; ok && k < placer->cells.count; ++k) {
+        const kiriStepRun* run = &grid->runs.data[placer->cells.data[k]];
+        for (int32_t s = run->first; ok && s < run->end[0]; ++s) {
+            ok = Reach(placer, memory, grid->steps.data[s].cell);
+        }
+    }
+    return ok;
+}
+
+/* Brings the cells, which are marked, into their order. Where they fill a good part of the rows from the first to the
+   last of them, it is cheaper to look into all squares there than to sort. */
+static void Order(kiriPlacer* placer, const kiriGrid* grid)
+{
+    int32_t count = placer->cells.count, first = INT32_MAX, last = 0;
+    for (int32_t k = 0; k < count; ++k) {
+        int32_t square = grid->cells.data[placer->cells.data[k]].square;
+        first = square < first ? square : first;
+        last = square > last ? square : last;
+    }
+    if (last - first > 8 * (int64_t)count) {
+        kiriGrid_SortCells(grid, placer->cells.data, count);
+        return;
+    }
+    int32_t* cells = placer->cells.data;
+    for (int32_t square = first; square <= last; ++square) {
+        for (int32_t c = grid->squareCell.data[square]; c != KIRI_NONE; c = grid->cells.data[c].next) {
+            if (placer->work->marks.data[c]) {
+                *cells++ = c;
+            }
+        }
+    }
+}
+
+bool kiriPlacer_TakePiece(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, int32_t cell)
+{
+    kiriPlacerWork* work = WorkOf(placer, memory);
+    if (work == NULL || !kiriArray_Reserve(memory, &work->marks, grid->cells.count)) {
+        return false;
+    }
+    while (work->marks.count < grid->cells.count) {
+        work->marks.data[work->marks.count++] = 0;
+    }
+    placer->cells.count = 0;
+    bool ok = Gather(placer, memory, grid, cell);
+    if (ok) {
+        Order(placer, grid);
+    }
+    for (int32_t k = 0; k < placer->cells.count; ++k) {
+        work->marks.data[placer->cells.data[k]] = 0;
+    }
+    return ok;
+}
+
+void kiriPlacer_Release(kiriPlacer* placer, const kiriMemory* memory)
+{
+    kiriPlacerWork* work = placer->work;
+    kiriArray_Release(memory, &placer->sites);
+    kiriArray_Release(memory, &placer->cells);
+    if (work != NULL) {
+        kiriField_Release(&work->flooded, memory);
+        kiriField_Release(&work->fresh, memory);
+        kiriArray_Release(memory, &work->sampled);
+        kiriArray_Release(memory, &work->holds);
+        kiriArray_Release(memory, &work->marks);
+        kiriArray_Release(memory, &work->targets);
+        kiriArray_Release(memory, &work->seeds);
+        kiriMemory_Free(memory, work);
+        placer->work = NULL;
+    }
+}

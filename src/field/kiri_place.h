@@ -1,0 +1,40 @@
+/* Where control frames are placed (section 5 of the paper). */
+#ifndef KIRI_PLACE_H
+#define KIRI_PLACE_H
+
+#include "kiri_region.h"
+
+typedef struct kiriPlacerWork kiriPlacerWork; /* private to kiri_place.c */
+
+/* Puts sites evenly into a part of the sheet: farthest-point sampling, then Lloyd relaxation of the new ones only. A
+   job that a budget may interrupt. */
+typedef struct kiriPlacer {
+    kiriSites sites;           /* those that were there, then the new ones; right when Run is done */
+    int32_t oldCount;          /* sites before it stay where they are */
+    KIRI_ARRAY(int32_t) cells; /* the part: cells that hang together, in their order (or all cells, of many pieces) */
+    /* Distances to the sites that are there, as kiriRegions has them, where the caller knows them; they must stay
+       until the job is done. Null: they are flooded. Start takes it, and makes it null. */
+    const kiriField* known;
+    kiriPlacerWork* work;
+} kiriPlacer;
+
+/* The cells that hang together with this one over faces, in the order of cells, into placer->cells. False for
+   memory. */
+bool kiriPlacer_TakePiece(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, int32_t cell);
+
+/* For the part in placer->cells and the sites in placer->sites, which lie in it: `count` more. Sampling takes only
+   cells that `allowed` marks (one byte a cell of the grid; null: all); it is read now and not kept. Fewer when there
+   are fewer free cells. One site in a part without sites goes to the cell nearest to its centroid, without
+   relaxation: confetti comes in thousands. False for memory. */
+bool kiriPlacer_Start(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                      const uint8_t* allowed, int32_t count);
+
+/* An item of the quota is a cell looked at or settled. After KIRI_FAILED, start again. */
+kiriProgress kiriPlacer_Run(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid,
+                            const kiriMeshData* mesh, kiriQuota* quota);
+void kiriPlacer_Release(kiriPlacer* placer, const kiriMemory* memory);
+
+/* The site that a frame takes in a cell. */
+kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
+
+#endif

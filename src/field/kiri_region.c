@@ -1,0 +1,451 @@
+#include "kiri_region.h"
+
+/* ---- Seeds ------------------------------------------------------------------------------------------------------- */
+
+static int32_t GridLength(double meters, double side)
+{
+    return (int32_t)(KIRI_UNIT * (meters / side) + 0.5);
+}
+
+static double WayTo(const kiriSite* site, const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
+{
+    return kiriVec2_Length(kiriVec2_Sub(kiriGrid_Middle(grid, mesh, cell), site->at));
+}
+
+static bool IsAtMiddle(const kiriSite* site, const kiriGrid* grid, const kiriMeshData* mesh)
+{
+    return WayTo(site, grid, mesh, site->cell) <= 0.01 * grid->side;
+}
+
+/* In the site's own cell, or one step away from it. */
+static kiriSeed SeedNear(const kiriSite* site, int32_t owner, const kiriGrid* grid, const kiriMeshData* mesh,
+                         int32_t cell)
+{
+    kiriSeed seed = { cell, GridLength(WayTo(site, grid, mesh, cell), grid->side), owner };
+    if (IsAtMiddle(site, grid, mesh)) {
+        seed.distance = cell == site->cell ? 0 : KIRI_FAR;
+    }
+    return seed;
+}
+
+bool kiriSite_Seed(const kiriSite* site, int32_t owner, const kiriMemory* memory, const kiriGrid* grid,
+                   const kiriMeshData* mesh, kiriSeeds* seeds)
+{
+    const kiriStepRun* run = &grid->runs.data[site->cell];
+    kiriSeed own = SeedNear(site, owner, grid, mesh, site->cell);
+    if (!kiriArray_Push(memory, seeds, own)) {
+        return false;
+    }
+    int32_t end = IsAtMiddle(site, grid, mesh) ? run->first : run->end[KIRI_STEP_LENGTHS - 1];
+    for (int32_t s = run->first; s < end; ++s) {
+        kiriSeed seed = SeedNear(site, owner, grid, mesh, grid->steps.data[s].cell);
+        if (!kiriArray_Push(memory, seeds, seed)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* May a step lead from one square to the other? */
+static bool AreNear(const kiriGrid* grid, const kiriMeshData* mesh, int32_t a, int32_t b)
+{
+    int32_t columns = mesh->squares.columns, apart = grid->cells.data[a].square - grid->cells.data[b].square;
+    apart = (apart < 0 ? -apart : apart) + 2;
+    return apart <= 4 || (apart >= columns && apart <= columns + 4) ||
+           (apart >= 2 * columns && apart <= 2 * columns + 4);
+}
+
+kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, const kiriMeshData* mesh,
+                         int32_t cell)
+{
+    const kiriStepRun* run = &grid->runs.data[cell];
+    bool near = cell == site->cell;
+    int32_t end = AreNear(grid, mesh, cell, site->cell) ? run->end[KIRI_STEP_LENGTHS - 1] : run->first;
+    for (int32_t s = run->first; s < end && !near; ++s) {
+        near = grid->steps.data[s].cell == site->cell;
+    }
+    kiriSeed none = { cell, KIRI_FAR, KIRI_NONE };
+    return near ? SeedNear(site, owner, grid, mesh, cell) : none;
+}
+
+/* ---- An update --------------------------------------------------------------------------------------------------- */
+
+typedef struct Update {
+    kiriRegions* regions;
+    const kiriMemory* memory;
+    const kiriGrid* grid;
+    const kiriMeshData* mesh;
+    const kiriSite* sites;
+    int32_t siteCount;
+    const kiriSiteMove* moves;
+    int32_t moveCount;
+    double extent; /* of the tallies */
+} Update;
+
+/* The seed of a cell. One that holds a site takes none but that site's. So no region is ever empty: a site is within
+   half a diagonal of its cell's middle, and every way into that cell is at least a side long. */
+static kiriSeed SeedOf(const void* context, int32_t cell)
+{
+    const Update* u = context;
+    const int32_t* siteAt = u->regions->siteAt.data;
+    kiriSeed best = { cell, KIRI_FAR, KIRI_NONE };
+    if (siteAt[cell] != KIRI_NONE) {
+        return SeedNear(&u->sites[siteAt[cell]], siteAt[cell], u->grid, u->mesh, cell);
+    }
+    const kiriStepRun* run = &u->grid->runs.data[cell];
+    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        int32_t owner = siteAt[u->grid->steps.data[s].cell];
+        if (owner != KIRI_NONE) {
+            kiriSeed seed = SeedNear(&u->sites[owner], owner, u->grid, u->mesh, cell);
+            bool nearer = seed.distance < best.distance || (seed.distance == best.distance && owner < best.owner);
+            best = nearer && seed.distance != KIRI_FAR ? seed : best;
+        }
+    }
+    return best;
+}
+
+static void Touch(kiriRegions* regions, int32_t frame)
+{
+    if (frame != KIRI_NONE) {
+        regions->touched.data[frame] = 1;
+    }
+}
+
+/* Material comes to a region (sign 1), or leaves it. */
+static void Account(const Update* u, int32_t frame, const kiriMoments* material, int sign)
+{
+    if (frame != KIRI_NONE) {
+        kiriTally_Add(&u->regions->material.data[frame], material, sign, u->extent);
+        u->regions->touched.data[frame] = 1;
+    }
+}
+
+static const kiriMoments* MaterialOf(const Update* u, int32_t cell)
+{
+    return &u->grid->cells.data[cell].material;
+}
+
+/* Room for all cells and frames. */
+static bool MakeRoom(const Update* u)
+{
+    kiriRegions* r = u->regions;
+    int32_t cell = r->siteAt.count, frame = r->material.count, cellCount = u->grid->cells.count;
+    if (!kiriField_Resize(&r->field, u->memory, cellCount) || !kiriArray_Resize(u->memory, &r->siteAt, cellCount) ||
+        !kiriArray_Resize(u->memory, &r->onBorder, cellCount) || !kiriArray_Resize(u->memory, &r->listed, cellCount) ||
+        !kiriArray_Resize(u->memory, &r->material, u->siteCount) ||
+        !kiriArray_Resize(u->memory, &r->touched, u->siteCount)) {
+        return false;
+    }
+    for (; cell < cellCount; ++cell) {
+        r->siteAt.data[cell] = KIRI_NONE;
+        r->onBorder.data[cell] = r->listed.data[cell] = 0;
+    }
+    for (; frame < u->siteCount; ++frame) {
+        r->material.data[frame] = (kiriTally){ { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 } };
+        r->touched.data[frame] = 0;
+    }
+    return true;
+}
+
+/* ---- What has changed ------------------------------------------------------------------------------------------ */
+
+static void SuspectAround(const Update* u, int32_t cell)
+{
+    const kiriStepRun* run = &u->grid->runs.data[cell];
+    if (kiriGrid_IsCell(u->grid, cell)) {
+        kiriField_Suspect(&u->regions->field, cell);
+        for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+            kiriField_Suspect(&u->regions->field, u->grid->steps.data[s].cell);
+        }
+    }
+}
+
+static void MoveSites(const Update* u)
+{
+    int32_t* siteAt = u->regions->siteAt.data;
+    for (int32_t k = 0; k < u->moveCount; ++k) {
+        kiriSiteMove move = u->moves[k];
+        if (!u->regions->flooding && move.was != KIRI_NONE && siteAt[move.was] == move.frame) {
+            siteAt[move.was] = KIRI_NONE;
+        }
+    }
+    for (int32_t k = 0; k < u->moveCount; ++k) {
+        int32_t frame = u->moves[k].frame;
+        siteAt[u->sites[frame].cell] = frame;
+        Touch(u->regions, frame);
+    }
+}
+
+/* What the grid has changed since the last update. */
+static void FollowGrid(const Update* u)
+{
+    kiriRegions* r = u->regions;
+    const kiriGridChanges* changes = &u->grid->changes;
+    for (int32_t k = r->seen.gone; k < changes->gone.count; ++k) {
+        int32_t cell = changes->gone.data[k];
+        Account(u, r->field.owner.data[cell], MaterialOf(u, cell), -1);
+        kiriField_Forget(&r->field, cell);
+        r->siteAt.data[cell] = KIRI_NONE;
+        r->onBorder.data[cell] = 0;
+    }
+    for (int32_t k = r->seen.remade; k < changes->remade.count; ++k) {
+        const kiriRemade* remade = &changes->remade.data[k];
+        int32_t owner = r->field.owner.data[remade->cell];
+        Account(u, owner, &remade->was, -1);
+        Account(u, owner, MaterialOf(u, remade->cell), 1);
+    }
+    for (int32_t k = r->seen.restepped; k < changes->restepped.count; ++k) {
+        int32_t cell = changes->restepped.data[k];
+        if (kiriGrid_IsCell(u->grid, cell)) {
+            Touch(r, r->field.owner.data[cell]);
+            kiriField_Suspect(&r->field, cell);
+        }
+    }
+    for (int32_t k = r->seen.made; k < changes->made.count; ++k) {
+        if (kiriGrid_IsCell(u->grid, changes->made.data[k])) {
+            kiriField_Suspect(&r->field, changes->made.data[k]);
+        }
+    }
+}
+
+static void Suspect(const Update* u)
+{
+    FollowGrid(u);
+    MoveSites(u);
+    for (int32_t k = 0; k < u->moveCount; ++k) {
+        if (u->moves[k].was != KIRI_NONE) {
+            SuspectAround(u, u->moves[k].was);
+        }
+        SuspectAround(u, u->sites[u->moves[k].frame].cell);
+    }
+}
+
+/* From scratch: the seeds of all sites, less those in the own cell of another (see SeedOf). */
+static bool StartFlood(const Update* u)
+{
+    kiriSeeds seeds = { 0 };
+    bool ok = true;
+    MoveSites(u);
+    for (int32_t i = 0; ok && i < u->siteCount; ++i) {
+        ok = kiriSite_Seed(&u->sites[i], i, u->memory, u->grid, u->mesh, &seeds);
+    }
+    int32_t kept = 0;
+    for (int32_t k = 0; ok && k < seeds.count; ++k) {
+        int32_t holder = u->regions->siteAt.data[seeds.data[k].cell];
+        if (holder == KIRI_NONE || holder == seeds.data[k].owner) {
+            seeds.data[kept++] = seeds.data[k];
+        }
+    }
+    ok = ok && kiriField_Start(&u->regions->field, u->memory, seeds.data, kept);
+    kiriArray_Release(u->memory, &seeds);
+    return ok;
+}
+
+/* ---- What follows from it ---------------------------------------------------------------------------------------- */
+
+static void FindBorder(const Update* u, int32_t cell)
+{
+    const kiriStepRun* run = &u->grid->runs.data[cell];
+    const int32_t* owner = u->regions->field.owner.data;
+    uint8_t border = 0;
+    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        border |= owner[u->grid->steps.data[s].cell] != owner[cell];
+    }
+    u->regions->onBorder.data[cell] = border;
+}
+
+/* The cell has another owner. Where a neighbour has changed too, its own turn comes. */
+static void FindBordersAround(const Update* u, int32_t cell)
+{
+    const kiriStepRun* run = &u->grid->runs.data[cell];
+    const int32_t* owner = u->regions->field.owner.data;
+    uint8_t* onBorder = u->regions->onBorder.data;
+    FindBorder(u, cell);
+    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        int32_t next = u->grid->steps.data[s].cell;
+        if (owner[next] != owner[cell]) {
+            onBorder[next] = 1;
+        } else if (onBorder[next]) {
+            FindBorder(u, next);
+        }
+    }
+}
+
+/* Each cell is among the changes once, as it was before the first. */
+static bool ListChange(const Update* u, kiriSeed was)
+{
+    if (u->regions->listed.data[was.cell]) {
+        return true;
+    }
+    u->regions->listed.data[was.cell] = 1;
+    return kiriArray_Push(u->memory, &u->regions->changes, was);
+}
+
+/* An update may undo what one before did. */
+static void DropUnchanged(const Update* u)
+{
+    kiriRegions* r = u->regions;
+    int32_t kept = 0;
+    for (int32_t k = 0; k < r->changes.count; ++k) {
+        kiriSeed was = r->changes.data[k];
+        bool same = was.distance == r->field.distance.data[was.cell] && was.owner == r->field.owner.data[was.cell];
+        if (same || !kiriGrid_IsCell(u->grid, was.cell)) {
+            r->listed.data[was.cell] = 0;
+        } else {
+            r->changes.data[kept++] = was;
+        }
+    }
+    r->changes.count = kept;
+}
+
+/* A cell is what the log says no more. */
+static bool FollowChange(const Update* u, kiriSeed was)
+{
+    kiriRegions* r = u->regions;
+    int32_t owner = r->field.owner.data[was.cell];
+    if (was.distance == r->field.distance.data[was.cell] && was.owner == owner) {
+        return true;
+    }
+    Touch(r, owner);
+    if (was.owner != owner) {
+        Account(u, was.owner, MaterialOf(u, was.cell), -1);
+        Account(u, owner, MaterialOf(u, was.cell), 1);
+        FindBordersAround(u, was.cell);
+    }
+    return ListChange(u, was) && (owner != KIRI_NONE || kiriArray_Push(u->memory, &r->orphans, was.cell));
+}
+
+static void DropOrphans(const Update* u)
+{
+    kiriRegions* r = u->regions;
+    int32_t kept = 0;
+    for (int32_t k = 0; k < r->orphans.count; ++k) {
+        int32_t cell = r->orphans.data[k];
+        if (kiriGrid_IsCell(u->grid, cell) && r->field.owner.data[cell] == KIRI_NONE) {
+            r->orphans.data[kept++] = cell;
+        }
+    }
+    r->orphans.count = kept;
+}
+
+static bool FinishRepair(const Update* u)
+{
+    kiriRegions* r = u->regions;
+    const kiriGridChanges* changes = &u->grid->changes;
+    bool ok = true;
+    DropOrphans(u);
+    for (int32_t k = 0; ok && k < r->field.log.count; ++k) {
+        ok = FollowChange(u, r->field.log.data[k]);
+    }
+    for (int32_t k = r->seen.restepped; k < changes->restepped.count; ++k) {
+        if (kiriGrid_IsCell(u->grid, changes->restepped.data[k])) {
+            FindBorder(u, changes->restepped.data[k]);
+        }
+    }
+    for (int32_t k = r->seen.made; ok && k < changes->made.count; ++k) {
+        int32_t cell = changes->made.data[k];
+        if (kiriGrid_IsCell(u->grid, cell) && r->field.owner.data[cell] == KIRI_NONE) {
+            ok = kiriArray_Push(u->memory, &r->orphans, cell);
+        }
+    }
+    if (ok) {
+        kiriGrid_SortCells(u->grid, r->orphans.data, r->orphans.count);
+        DropUnchanged(u);
+        r->field.log.count = 0;
+    }
+    return ok;
+}
+
+/* All cells, in their order. */
+static bool FinishFlood(const Update* u)
+{
+    kiriRegions* r = u->regions;
+    r->orphans.count = 0;
+    for (int32_t s = 0; s < u->grid->squareCell.count; ++s) {
+        for (int32_t c = u->grid->squareCell.data[s]; c != KIRI_NONE; c = u->grid->cells.data[c].next) {
+            kiriSeed was = { c, KIRI_FAR, KIRI_NONE };
+            int32_t owner = r->field.owner.data[c];
+            Account(u, owner, MaterialOf(u, c), 1);
+            FindBorder(u, c);
+            if (owner == KIRI_NONE ? !kiriArray_Push(u->memory, &r->orphans, c) : !ListChange(u, was)) {
+                return false;
+            }
+        }
+    }
+    r->field.settled.count = 0;
+    return true;
+}
+
+static void MarkSeen(const Update* u)
+{
+    const kiriGridChanges* changes = &u->grid->changes;
+    u->regions->seen =
+        (kiriSeenChanges){ changes->made.count, changes->gone.count, changes->restepped.count, changes->remade.count };
+}
+
+static bool Begin(const Update* u)
+{
+    kiriRegions* r = u->regions;
+    r->flooding = r->material.count == 0; /* no frames yet, so nothing of the field to keep */
+    if (!MakeRoom(u) || (r->flooding && !StartFlood(u))) {
+        return false;
+    }
+    if (!r->flooding) {
+        Suspect(u);
+    }
+    return true;
+}
+
+kiriProgress kiriRegions_Update(kiriRegions* regions, const kiriMemory* memory, const kiriGrid* grid,
+                                const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
+                                const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota)
+{
+    Update u = { regions, memory, grid, mesh, sites, siteCount, moves, moveCount, mesh->step * 536870912.0 };
+    if (!regions->running && !Begin(&u)) {
+        return KIRI_FAILED;
+    }
+    kiriRule rule = { grid, KIRI_FAR, NULL, SeedOf, &u };
+    kiriProgress progress = regions->flooding ? kiriField_Flood(&regions->field, &rule, quota)
+                                              : kiriField_Repair(&regions->field, memory, &rule, quota);
+    regions->running = progress == KIRI_MORE;
+    if (progress != KIRI_DONE) {
+        return progress;
+    }
+    if (regions->flooding ? !FinishFlood(&u) : !FinishRepair(&u)) {
+        return KIRI_FAILED;
+    }
+    MarkSeen(&u);
+    return KIRI_DONE;
+}
+
+void kiriRegions_Settle(kiriRegions* regions)
+{
+    for (int32_t k = 0; k < regions->changes.count; ++k) {
+        regions->listed.data[regions->changes.data[k].cell] = 0;
+    }
+    regions->changes.count = 0;
+    regions->seen = (kiriSeenChanges){ 0, 0, 0, 0 };
+}
+
+void kiriRegions_Reset(kiriRegions* regions)
+{
+    kiriField_Clear(&regions->field);
+    regions->siteAt.count = regions->onBorder.count = regions->listed.count = 0;
+    regions->material.count = regions->touched.count = 0;
+    regions->changes.count = regions->orphans.count = 0;
+    regions->seen = (kiriSeenChanges){ 0, 0, 0, 0 };
+    regions->running = false;
+}
+
+void kiriRegions_Release(kiriRegions* regions, const kiriMemory* memory)
+{
+    kiriField_Release(&regions->field, memory);
+    kiriArray_Release(memory, &regions->siteAt);
+    kiriArray_Release(memory, &regions->onBorder);
+    kiriArray_Release(memory, &regions->listed);
+    kiriArray_Release(memory, &regions->material);
+    kiriArray_Release(memory, &regions->touched);
+    kiriArray_Release(memory, &regions->changes);
+    kiriArray_Release(memory, &regions->orphans);
+    kiriRegions_Reset(regions);
+}

@@ -1,0 +1,72 @@
+/* Regions: the geodesic Voronoi diagram of the frames on the grid. */
+#ifndef KIRI_REGION_H
+#define KIRI_REGION_H
+
+#include "kiri_geodesic.h"
+#include "../core/kiri_tally.h"
+
+/* A frame's place in the rest plane. */
+typedef struct kiriSite {
+    kiriVec2 at;  /* local m */
+    int32_t cell; /* that holds it */
+} kiriSite;
+
+typedef KIRI_ARRAY(kiriSite) kiriSites;
+typedef KIRI_ARRAY(kiriSeed) kiriSeeds;
+
+/* Adds the seeds of distances to the site. Where it lies off the middle of its square, the cells one step away are
+   seeds as well, so that distances know where in its cell the site is. False for memory. */
+bool kiriSite_Seed(const kiriSite* site, int32_t owner, const kiriMemory* memory, const kiriGrid* grid,
+                   const kiriMeshData* mesh, kiriSeeds* seeds);
+
+/* The same seed seen from a cell: distance KIRI_FAR where the site sends none there. */
+kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, const kiriMeshData* mesh,
+                         int32_t cell);
+
+/* How far the lists of the grid's changes were followed. */
+typedef struct kiriSeenChanges {
+    int32_t made, gone, restepped, remade;
+} kiriSeenChanges;
+
+typedef struct kiriRegions {
+    kiriField field; /* owner: the frame whose region a cell is in; KIRI_NONE where no frame is in the piece */
+
+    /* Of each cell: */
+    KIRI_ARRAY(int32_t) siteAt;   /* the frame whose site it holds, or KIRI_NONE; two sites never share one */
+    KIRI_ARRAY(uint8_t) onBorder; /* a step from it leads to another region */
+
+    /* Of each frame: */
+    KIRI_ARRAY(kiriTally) material; /* of its region, exact */
+    KIRI_ARRAY(uint8_t) touched;    /* its region, distances in it, or its cells' steps or material changed */
+
+    /* Since kiriRegions_Settle: cells that live whose owner or distance changed, and what they were. */
+    KIRI_ARRAY(kiriSeed) changes;
+    KIRI_ARRAY(int32_t) orphans; /* all cells with no frame in their piece, in the order of cells */
+    bool running;                /* an update waits for more quota */
+
+    /* Private. */
+    bool flooding;              /* the update is one from scratch */
+    KIRI_ARRAY(uint8_t) listed; /* of each cell: it is in `changes` */
+    kiriSeenChanges seen;
+} kiriRegions;
+
+/* A site that is new or elsewhere: also where it has only moved within its cell, or that cell has another index. */
+typedef struct kiriSiteMove {
+    int32_t frame;
+    int32_t was; /* the cell that held it, which may be gone; KIRI_NONE for a new one */
+} kiriSiteMove;
+
+/* Follows the grid's changes and those of the sites. Sites are in cells that live, and are never taken away. An item
+   of the quota: see kiriField_Repair. From scratch: a zeroed or reset kiriRegions, and all sites in `moves`.
+   KIRI_MORE: call again with the same arguments. On KIRI_FAILED, Reset. There may be several updates, of more sites,
+   before grid and regions are settled, which is together, and before the grid is updated again. */
+kiriProgress kiriRegions_Update(kiriRegions* regions, const kiriMemory* memory, const kiriGrid* grid,
+                                const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
+                                const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
+
+/* All who follow the regions have seen `changes`; `touched` stays until the sheet's commit clears it. */
+void kiriRegions_Settle(kiriRegions* regions);
+void kiriRegions_Reset(kiriRegions* regions);
+void kiriRegions_Release(kiriRegions* regions, const kiriMemory* memory);
+
+#endif

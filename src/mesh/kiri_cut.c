@@ -1,0 +1,405 @@
+#include "kiri_cut.h"
+
+/* The range of the lattice: the box of the sheet and half its longer side around it. */
+static const double LowestCoordinate = -268435456.0, HighestCoordinate = 805306368.0;
+
+/* One straight move of a blade. The mesh is walked as the plane triangulation that it is, whether edges are open or
+   not; only the outline stops the walk. So older cuts are nothing special. */
+typedef struct Walk {
+    kiriMeshData* mesh;
+    kiriPoint from, to;
+    double snap;
+    kiriPoint at;   /* where the blade is now, */
+    int32_t vertex; /* and a vertex there; KIRI_NONE outside the sheet */
+    int32_t splits; /* triangles made or reshaped */
+    bool failed;    /* no memory */
+} Walk;
+
+static bool SamePlace(kiriPoint a, kiriPoint b)
+{
+    return a.x == b.x && a.y == b.y;
+}
+
+static kiriPoint PlaceOf(const Walk* walk, int32_t vertex)
+{
+    return walk->mesh->vertices.data[vertex].at;
+}
+
+static int64_t Dot(kiriPoint o, kiriPoint a, kiriPoint b)
+{
+    return ((int64_t)a.x - o.x) * ((int64_t)b.x - o.x) + ((int64_t)a.y - o.y) * ((int64_t)b.y - o.y);
+}
+
+/* Every step must bring the blade nearer to its target: so the walk ends, whatever rounding and snapping do. */
+static bool IsNearer(const Walk* walk, kiriPoint p)
+{
+    return kiriDistanceSquared(p, walk->to) < kiriDistanceSquared(walk->at, walk->to);
+}
+
+/* Where an edge of the outline passes through the place of a vertex of another part, splitting it is no step, but the
+   next step goes on from there. */
+static bool IsAsNear(const Walk* walk, kiriPoint p)
+{
+    return IsNearer(walk, p) || SamePlace(walk->at, p);
+}
+
+static bool IsWithin(kiriPoint a, kiriPoint b, double distance)
+{
+    return (double)kiriDistanceSquared(a, b) <= distance * distance;
+}
+
+/* How near a place is to the line that the blade was told to follow. Measured from where the move began, not from where
+   the last snap has led: small errors must not add up to a detour. */
+static bool IsOnLine(const Walk* walk, kiriPoint p, double distance)
+{
+    double length = sqrt((double)kiriDistanceSquared(walk->from, walk->to));
+    return fabs((double)kiriOrient(walk->from, walk->to, p)) <= distance * length;
+}
+
+static kiriPoint Between(kiriPoint a, kiriPoint b, double share)
+{
+    return kiriMesh_Round(kiriVec2_Make(a.x + share * ((double)b.x - a.x), a.y + share * ((double)b.y - a.y)));
+}
+
+static int32_t SplitEdge(Walk* walk, int32_t h, kiriPoint at)
+{
+    walk->splits += kiriMesh_Twin(walk->mesh, h) == KIRI_NONE ? 2 : 4;
+    int32_t vertex = kiriMesh_SplitEdge(walk->mesh, h, at);
+    walk->failed = walk->failed || vertex == KIRI_NONE;
+    return vertex;
+}
+
+static int32_t SplitTriangle(Walk* walk, int32_t triangle, kiriPoint at)
+{
+    walk->splits += 3;
+    int32_t vertex = kiriMesh_SplitTriangle(walk->mesh, triangle, at);
+    walk->failed = walk->failed || vertex == KIRI_NONE;
+    return vertex;
+}
+
+/* ---- Around a place ---------------------------------------------------------------------------------------------- */
+
+/* Half-edges that leave the place of a vertex, counter-clockwise, over open edges too: from the outline on, or all
+   around. */
+static int32_t FirstAround(const kiriMeshData* mesh, int32_t vertex)
+{
+    int32_t start = mesh->vertices.data[vertex].edge, h = start;
+    for (int32_t twin = kiriMesh_Twin(mesh, h); twin != KIRI_NONE; twin = kiriMesh_Twin(mesh, h)) {
+        h = kiriEdge_Next(twin);
+        if (h == start) {
+            break;
+        }
+    }
+    return h;
+}
+
+/* KIRI_NONE after the last. */
+static int32_t NextAround(const kiriMeshData* mesh, int32_t h, int32_t first)
+{
+    int32_t next = kiriMesh_Twin(mesh, kiriEdge_Previous(h));
+    return next == first ? KIRI_NONE : next;
+}
+
+/* Does the way to the target start in the wedge left of h, from h (with it) to the previous half-edge (without it)? */
+static bool WedgeHolds(const Walk* walk, int32_t h)
+{
+    const kiriMeshData* mesh = walk->mesh;
+    int64_t right = kiriOrient(walk->at, PlaceOf(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h))), walk->to);
+    int64_t left = kiriOrient(walk->at, PlaceOf(walk, kiriMesh_Tail(mesh, kiriEdge_Previous(h))), walk->to);
+    return right >= 0 && left < 0;
+}
+
+/* The half-edge whose wedge holds the way to the target, or KIRI_NONE: the blade leaves the sheet. Where corners of the
+   outline touch, twins do not lead from one to the other, but their triangles are in the same square. */
+static int32_t FindWedge(const Walk* walk)
+{
+    const kiriMeshData* mesh = walk->mesh;
+    int32_t first = FirstAround(mesh, walk->vertex), found = KIRI_NONE;
+    for (int32_t h = first; h != KIRI_NONE; h = NextAround(mesh, h, first)) {
+        if (WedgeHolds(walk, h)) {
+            return h;
+        }
+    }
+    int32_t slot = mesh->squares.head[kiriSquares_At(&mesh->squares, walk->at)];
+    for (; slot != KIRI_NONE; slot = mesh->squares.nodes.data[slot].next) {
+        int32_t h = 3 * mesh->squares.nodes.data[slot].triangle;
+        for (int32_t end = h + 3; h < end; ++h) {
+            bool isHere = SamePlace(PlaceOf(walk, kiriMesh_Tail(mesh, h)), walk->at);
+            if (isHere && (found == KIRI_NONE || h < found) && WedgeHolds(walk, h)) {
+                found = h;
+            }
+        }
+    }
+    return found;
+}
+
+/* Opens the edge between two neighbouring places. */
+static bool OpenBetween(Walk* walk, int32_t vertex, kiriPoint other)
+{
+    const kiriMeshData* mesh = walk->mesh;
+    int32_t first = FirstAround(mesh, vertex);
+    for (int32_t h = first; h != KIRI_NONE; h = NextAround(mesh, h, first)) {
+        int32_t previous = kiriEdge_Previous(h);
+        bool leaves = SamePlace(PlaceOf(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h))), other);
+        if (leaves || SamePlace(PlaceOf(walk, kiriMesh_Tail(mesh, previous)), other)) {
+            walk->failed = !kiriMesh_Open(walk->mesh, leaves ? h : previous);
+            return !walk->failed;
+        }
+    }
+    return false;
+}
+
+/* ---- Vertices for the blade -------------------------------------------------------------------------------------- */
+
+static int32_t NearestCorner(const Walk* walk, int32_t triangle, kiriPoint at)
+{
+    const int32_t* v = walk->mesh->triangles.data[triangle].vertex;
+    int32_t nearest = v[0];
+    for (int i = 1; i < 3; ++i) {
+        if (kiriDistanceSquared(PlaceOf(walk, v[i]), at) < kiriDistanceSquared(PlaceOf(walk, nearest), at)) {
+            nearest = v[i];
+        }
+    }
+    return nearest;
+}
+
+/* The half-edge of the triangle that is nearest to a place in it, and its foot there. */
+static int32_t NearestEdge(const Walk* walk, int32_t triangle, kiriPoint at, kiriPoint* foot)
+{
+    kiriPoint c[3];
+    kiriMesh_Corners(walk->mesh, triangle, c);
+    int32_t nearest = KIRI_NONE;
+    for (int i = 0; i < 3; ++i) {
+        kiriPoint a = c[i], b = c[(i + 1) % 3];
+        double share = (double)Dot(a, b, at) / (double)kiriDistanceSquared(a, b);
+        kiriPoint p = Between(a, b, share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share);
+        if (nearest == KIRI_NONE || kiriDistanceSquared(p, at) < kiriDistanceSquared(*foot, at)) {
+            nearest = 3 * triangle + i;
+            *foot = p;
+        }
+    }
+    return nearest;
+}
+
+/* A vertex for a place in the triangle: a corner or a point of an edge where they are near, or a new one inside. */
+static int32_t VertexIn(Walk* walk, int32_t triangle, kiriPoint at)
+{
+    int32_t corner = NearestCorner(walk, triangle, at);
+    if (IsWithin(PlaceOf(walk, corner), at, walk->snap)) {
+        return corner;
+    }
+    kiriPoint foot;
+    int32_t h = NearestEdge(walk, triangle, at, &foot);
+    if (IsWithin(foot, at, walk->snap) && kiriMesh_CanSplitEdge(walk->mesh, h, foot)) {
+        return SplitEdge(walk, h, foot);
+    }
+    return kiriMesh_CanSplitTriangle(walk->mesh, triangle, at) ? SplitTriangle(walk, triangle, at) : corner;
+}
+
+/* A vertex where the way to the target crosses half-edge h: one of its ends where that is near, or a new one, or an end
+   for want of a better. KIRI_NONE: there is none that brings the blade nearer. */
+static int32_t VertexOn(Walk* walk, int32_t h)
+{
+    int32_t a = kiriMesh_Tail(walk->mesh, h), b = kiriMesh_Tail(walk->mesh, kiriEdge_Next(h));
+    kiriPoint pa = PlaceOf(walk, a), pb = PlaceOf(walk, b);
+    double toA = (double)kiriOrient(walk->at, walk->to, pa), toB = (double)kiriOrient(walk->at, walk->to, pb);
+    double share = toA / (toA - toB);
+    kiriPoint crossing = Between(pa, pb, share);
+    int32_t near = share < 0.5 ? a : b, far = share < 0.5 ? b : a;
+    bool canTake = IsNearer(walk, PlaceOf(walk, near));
+    if (canTake && IsWithin(PlaceOf(walk, near), crossing, walk->snap) &&
+        IsOnLine(walk, PlaceOf(walk, near), 2.0 * walk->snap)) {
+        return near;
+    }
+    if (IsAsNear(walk, crossing) && kiriMesh_CanSplitEdge(walk->mesh, h, crossing)) {
+        return SplitEdge(walk, h, crossing);
+    }
+    return canTake ? near : IsNearer(walk, PlaceOf(walk, far)) ? far : KIRI_NONE;
+}
+
+/* ---- Into the sheet ---------------------------------------------------------------------------------------------- */
+
+/* The first place, as a share of the way, where the way comes in over half-edge h; 2 where it does not. Both ends count
+   as part of the edge: a corner that the way only touches is taken, and left again at once. */
+static double EntryOver(const Walk* walk, int32_t h)
+{
+    const kiriMeshData* mesh = walk->mesh;
+    kiriPoint a = PlaceOf(walk, kiriMesh_Tail(mesh, h)), b = PlaceOf(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h)));
+    int64_t here = kiriOrient(a, b, walk->at), there = kiriOrient(a, b, walk->to);
+    if (kiriMesh_Twin(mesh, h) != KIRI_NONE || here > 0 || there <= 0 || SamePlace(a, walk->at) ||
+        SamePlace(b, walk->at) || kiriOrient(walk->at, walk->to, a) < 0 || kiriOrient(walk->at, walk->to, b) > 0) {
+        return 2.0;
+    }
+    return (double)-here / ((double)there - (double)here);
+}
+
+typedef struct Entry {
+    int32_t edge;
+    double share;
+} Entry;
+
+static void FindEntryInSquare(const Walk* walk, int32_t square, Entry* entry)
+{
+    const kiriMeshData* mesh = walk->mesh;
+    for (int32_t i = mesh->squares.head[square]; i != KIRI_NONE; i = mesh->squares.nodes.data[i].next) {
+        int32_t h = 3 * mesh->squares.nodes.data[i].triangle;
+        for (int32_t end = h + 3; h < end; ++h) {
+            double share = EntryOver(walk, h);
+            if (share < entry->share || (share == entry->share && share <= 1.0 && h < entry->edge)) {
+                entry->edge = h;
+                entry->share = share;
+            }
+        }
+    }
+}
+
+/* The first and last of `count` squares of a column or row between two coordinates in any order, and two steps more. */
+static void SquaresBetween(int32_t side, int32_t count, double a, double b, int32_t* first, int32_t* last)
+{
+    double low = (a < b ? a : b) - 1.0, high = (a < b ? b : a) + 3.0;
+    *first = low <= 0.0 ? 0 : (int32_t)(low / side);
+    *last = high < 0.0 ? -1 : (int32_t)(high / side);
+    *last = *last < count ? *last : count - 1;
+}
+
+/* Where the way to the target comes into the sheet first. Only squares along the way are looked at, row by row. */
+static int32_t FindEntry(const Walk* walk)
+{
+    const kiriSquares* squares = &walk->mesh->squares;
+    double dx = (double)walk->to.x - walk->at.x, dy = (double)walk->to.y - walk->at.y;
+    int32_t firstRow, lastRow, first, last;
+    Entry entry = { KIRI_NONE, 2.0 };
+    SquaresBetween(squares->side, squares->rows, walk->at.y, walk->to.y, &firstRow, &lastRow);
+    for (int32_t row = firstRow; row <= lastRow; ++row) {
+        double low = ((double)row * squares->side - 3.0 - walk->at.y) / (dy != 0.0 ? dy : 1.0);
+        double high = low + ((double)squares->side + 4.0) / (dy != 0.0 ? dy : 1.0);
+        double enter = low < high ? low : high, leave = low < high ? high : low;
+        enter = dy == 0.0 || enter < 0.0 ? 0.0 : enter;
+        leave = dy == 0.0 || leave > 1.0 ? 1.0 : leave;
+        SquaresBetween(squares->side, squares->columns, walk->at.x + enter * dx, walk->at.x + leave * dx, &first,
+                       &last);
+        for (int32_t column = first; column <= last; ++column) {
+            FindEntryInSquare(walk, row * squares->columns + column, &entry);
+        }
+    }
+    return entry.edge;
+}
+
+/* From outside, or from the outline outwards: to the next place of the sheet, or all the way to the target. */
+static bool Enter(Walk* walk)
+{
+    int32_t h = FindEntry(walk);
+    walk->vertex = h == KIRI_NONE ? KIRI_NONE : VertexOn(walk, h);
+    walk->at = walk->vertex == KIRI_NONE ? walk->to : PlaceOf(walk, walk->vertex);
+    return !walk->failed;
+}
+
+/* ---- Through the sheet ------------------------------------------------------------------------------------------- */
+
+/* Can the blade go along the edge to this end of it? It must not go past the target. */
+static bool CanFollow(const Walk* walk, int32_t vertex)
+{
+    kiriPoint p = PlaceOf(walk, vertex);
+    return IsNearer(walk, p) && Dot(walk->to, p, walk->at) > 0 && IsOnLine(walk, p, walk->snap);
+}
+
+/* The next vertex in the triangle left of h, whose wedge holds the way to the target. KIRI_NONE: the blade stops. */
+static int32_t NextVertex(Walk* walk, int32_t h)
+{
+    int32_t opposite = kiriEdge_Next(h);
+    int32_t a = kiriMesh_Tail(walk->mesh, opposite), b = kiriMesh_Tail(walk->mesh, kiriEdge_Next(opposite));
+    if (CanFollow(walk, a) || CanFollow(walk, b)) {
+        return CanFollow(walk, a) ? a : b;
+    }
+    if (kiriOrient(PlaceOf(walk, a), PlaceOf(walk, b), walk->to) < 0) {
+        return VertexOn(walk, opposite);
+    }
+    int32_t vertex = VertexIn(walk, h / 3, walk->to);
+    return vertex != KIRI_NONE && IsNearer(walk, PlaceOf(walk, vertex)) ? vertex : KIRI_NONE;
+}
+
+/* The blade starts amid a triangle: it needs a vertex there. */
+static void Land(Walk* walk, int32_t triangle)
+{
+    walk->vertex = VertexIn(walk, triangle, walk->at);
+    walk->at = walk->failed ? walk->at : PlaceOf(walk, walk->vertex);
+}
+
+/* One step of the walk. False: the blade is where it can get, or there is no memory. */
+static bool Step(Walk* walk)
+{
+    int32_t triangle = walk->vertex == KIRI_NONE ? kiriMesh_Locate(walk->mesh, walk->at) : KIRI_NONE;
+    if (triangle != KIRI_NONE) {
+        Land(walk, triangle);
+        return !walk->failed;
+    }
+    int32_t h = walk->vertex == KIRI_NONE ? KIRI_NONE : FindWedge(walk);
+    if (h == KIRI_NONE) {
+        return Enter(walk);
+    }
+    int32_t here = kiriMesh_Tail(walk->mesh, h), next = NextVertex(walk, h);
+    if (next == KIRI_NONE || !OpenBetween(walk, here, PlaceOf(walk, next))) {
+        return false;
+    }
+    walk->vertex = next;
+    walk->at = PlaceOf(walk, next);
+    return true;
+}
+
+kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBlade* blade, kiriPoint to, double snap, kiriQuota* quota)
+{
+    Walk walk = { mesh, blade->isOnItsWay ? blade->from : blade->at, to, snap, blade->at, blade->vertex, 0, false };
+    bool isOnItsWay = !SamePlace(walk.from, to);
+    while (isOnItsWay && quota->left >= KIRI_MOST_SPLITS) {
+        walk.splits = 0;
+        isOnItsWay = Step(&walk) && !SamePlace(walk.at, to);
+        kiriQuota_Take(quota, walk.splits > 0 ? walk.splits : 1);
+    }
+    if (walk.failed) {
+        return KIRI_FAILED;
+    }
+    blade->at = walk.at;
+    blade->vertex = walk.vertex;
+    blade->isOnItsWay = isOnItsWay;
+    blade->from = walk.from;
+    return isOnItsWay ? KIRI_MORE : KIRI_DONE;
+}
+
+static double Clamp(double x, double low, double high)
+{
+    return x < low ? low : x > high ? high : x;
+}
+
+kiriBlade kiriCut_Place(const kiriMeshData* mesh, kiriVec2 local)
+{
+    kiriBlade blade;
+    blade.at = kiriMesh_Round(kiriVec2_Make(Clamp(local.x / mesh->step, LowestCoordinate, HighestCoordinate),
+                                            Clamp(local.y / mesh->step, LowestCoordinate, HighestCoordinate)));
+    blade.vertex = KIRI_NONE;
+    blade.isOnItsWay = false;
+    blade.from = blade.at;
+    return blade;
+}
+
+/* Cuts off what is above the limit on one axis, or below it. (u, v) of an end: its coordinates on this axis and on the
+   other. Halves and shares, so that the largest numbers stay finite. */
+static bool ClipAxis(double* fromU, double* fromV, double* toU, double* toV, double limit, bool above)
+{
+    bool fromOut = above ? *fromU > limit : *fromU < limit, toOut = above ? *toU > limit : *toU < limit;
+    if (fromOut != toOut) {
+        double share = (0.5 * limit - 0.5 * *fromU) / (0.5 * *toU - 0.5 * *fromU);
+        double v = (1.0 - share) * *fromV + share * *toV;
+        *(fromOut ? fromU : toU) = limit;
+        *(fromOut ? fromV : toV) = v;
+    }
+    return !fromOut || !toOut;
+}
+
+bool kiriCut_Clip(const kiriMeshData* mesh, kiriVec2* from, kiriVec2* to)
+{
+    double low = LowestCoordinate * mesh->step, high = HighestCoordinate * mesh->step;
+    return ClipAxis(&from->x, &from->y, &to->x, &to->y, low, false) &&
+           ClipAxis(&from->x, &from->y, &to->x, &to->y, high, true) &&
+           ClipAxis(&from->y, &from->x, &to->y, &to->x, low, false) &&
+           ClipAxis(&from->y, &from->x, &to->y, &to->x, high, true);
+}

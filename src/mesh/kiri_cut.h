@@ -1,0 +1,36 @@
+/* Cutting (appendix A of the paper, algorithm 4): a blade walks from vertex to vertex, splits what it meets, and opens
+   the edges behind it. */
+#ifndef KIRI_CUT_H
+#define KIRI_CUT_H
+
+#include "kiri_mesh.h"
+
+/* Where the blade is. */
+typedef struct kiriBlade {
+    kiriPoint at;
+    int32_t vertex;  /* a vertex at that place, or KIRI_NONE: not in the sheet, or not yet moved */
+    bool isOnItsWay; /* the last move was interrupted, */
+    kiriPoint from;  /* and began here */
+} kiriBlade;
+
+/* A step of the blade, from vertex to vertex, splits an edge or a triangle at most: so many triangles are made or
+   reshaped. Less in a quota takes the blade nowhere. */
+enum { KIRI_MOST_SPLITS = 4 };
+
+/* Moves the blade to `to` in a straight line and cuts on the way; it may leave the sheet and come back. `snap` (lattice
+   steps): a vertex or edge this near is taken instead of making a new one; the cut stays within two snaps of the line.
+   A step takes an item of the quota for each triangle that it makes or reshapes, and one where it finds its way
+   without. KIRI_MORE: less than KIRI_MOST_SPLITS is left, and the blade is on its way; a call with the same `to` goes
+   on, and in the end the mesh is what one call had made of it, bit for bit. KIRI_FAILED: roll the mesh back; the blade
+   is then where it was before the call. */
+kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBlade* blade, kiriPoint to, double snap, kiriQuota* quota);
+
+/* The blade at a place of the local rest plane, for kiriCut_Move. Positions far outside are pulled in to the edge of
+   the lattice's range; pass segments through kiriCut_Clip first where that matters. */
+kiriBlade kiriCut_Place(const kiriMeshData* mesh, kiriVec2 local);
+
+/* Cuts the segment down to the range of the lattice (the sheet's box and half its size around it), in place. False when
+   nothing is left. Coordinates are local, finite, and of any size. */
+bool kiriCut_Clip(const kiriMeshData* mesh, kiriVec2* from, kiriVec2* to);
+
+#endif

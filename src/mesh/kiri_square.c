@@ -1,0 +1,248 @@
+#include "kiri_square.h"
+
+#include <string.h>
+
+typedef struct Range {
+    int32_t firstColumn, lastColumn, firstRow, lastRow;
+} Range;
+
+static int64_t CeilDivide(int64_t a, int64_t b)
+{
+    return (a + b - 1) / b;
+}
+
+static int32_t Min3(int32_t a, int32_t b, int32_t c)
+{
+    int32_t ab = a < b ? a : b;
+    return ab < c ? ab : c;
+}
+
+static int32_t Max3(int32_t a, int32_t b, int32_t c)
+{
+    int32_t ab = a > b ? a : b;
+    return ab > c ? ab : c;
+}
+
+/* Empty squares, whose number and side are set. */
+static bool MakeRoom(kiriSquares* squares, const kiriMemory* memory)
+{
+    squares->perStep = 1.0 / squares->side;
+    squares->freeNode = KIRI_NONE;
+    int64_t count = (int64_t)squares->columns * squares->rows;
+    squares->head = kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t));
+    squares->vertexHead = kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t));
+    squares->isTouched = kiriMemory_Alloc(memory, count);
+    if (squares->head == NULL || squares->vertexHead == NULL || squares->isTouched == NULL ||
+        !kiriArray_Reserve(memory, &squares->touched, count)) {
+        return false;
+    }
+    for (int64_t i = 0; i < count; ++i) {
+        squares->head[i] = squares->vertexHead[i] = KIRI_NONE;
+        squares->isTouched[i] = 0;
+    }
+    return true;
+}
+
+bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriPoint extent, int32_t resolution)
+{
+    int64_t longer = extent.x > extent.y ? extent.x : extent.y;
+    memset(squares, 0, sizeof(*squares));
+    squares->side = (int32_t)(2 * CeilDivide(longer + 2, 2 * (int64_t)resolution));
+    squares->columns = (int32_t)CeilDivide((int64_t)extent.x + 2, squares->side);
+    squares->rows = (int32_t)CeilDivide((int64_t)extent.y + 2, squares->side);
+    return MakeRoom(squares, memory);
+}
+
+bool kiriSquares_InitLike(kiriSquares* squares, const kiriMemory* memory, const kiriSquares* like)
+{
+    memset(squares, 0, sizeof(*squares));
+    squares->side = like->side;
+    squares->columns = like->columns;
+    squares->rows = like->rows;
+    return MakeRoom(squares, memory);
+}
+
+void kiriSquares_Release(kiriSquares* squares, const kiriMemory* memory)
+{
+    kiriMemory_Free(memory, squares->head);
+    kiriMemory_Free(memory, squares->vertexHead);
+    kiriMemory_Free(memory, squares->isTouched);
+    kiriArray_Release(memory, &squares->nodes);
+    kiriArray_Release(memory, &squares->touched);
+    memset(squares, 0, sizeof(*squares));
+}
+
+/* The column or row of an even coordinate, not negative. The quotient is at least 1 / side from a whole number: so its
+   rounding does not show, and the multiplication is as good as a division and faster. */
+static int32_t LineOf(const kiriSquares* squares, int32_t coordinate)
+{
+    return (int32_t)(squares->perStep * ((double)coordinate + 1.0));
+}
+
+/* The squares that the box of the corners overlaps. Corners are even and grid lines odd, so no corner is on a line. */
+static Range BoxOf(const kiriSquares* squares, const kiriPoint c[3])
+{
+    Range range;
+    range.firstColumn = LineOf(squares, Min3(c[0].x, c[1].x, c[2].x));
+    range.lastColumn = LineOf(squares, Max3(c[0].x, c[1].x, c[2].x));
+    range.firstRow = LineOf(squares, Min3(c[0].y, c[1].y, c[2].y));
+    range.lastRow = LineOf(squares, Max3(c[0].y, c[1].y, c[2].y));
+    return range;
+}
+
+static kiriPoint CornerOf(const kiriSquares* squares, int32_t column, int32_t row)
+{
+    kiriPoint corner = { column * squares->side - 1, row * squares->side - 1 };
+    return corner;
+}
+
+/* Separating axes: those of the square are its lines against the triangle's box, those of the triangle are its edges
+   against the corner of the square that is farthest to their left. The caller has done the former. */
+static bool EdgesOverlap(kiriPoint low, int32_t side, const kiriPoint c[3])
+{
+    for (int i = 0; i < 3; ++i) {
+        kiriPoint a = c[i], b = c[(i + 1) % 3], far;
+        far.x = b.y > a.y ? low.x : low.x + side;
+        far.y = b.x > a.x ? low.y + side : low.y;
+        if (kiriOrient(a, b, far) <= 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Does the triangle overlap this square of its box? In a box of one row or column it goes through all squares. */
+static bool OverlapsInBox(const kiriSquares* squares, Range box, int32_t column, int32_t row, const kiriPoint c[3])
+{
+    return box.firstColumn == box.lastColumn || box.firstRow == box.lastRow ||
+           EdgesOverlap(CornerOf(squares, column, row), squares->side, c);
+}
+
+bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriPoint corners[3])
+{
+    Range r = BoxOf(squares, corners);
+    int32_t column = square % squares->columns, row = square / squares->columns;
+    return column >= r.firstColumn && column <= r.lastColumn && row >= r.firstRow && row <= r.lastRow &&
+           OverlapsInBox(squares, r, column, row, corners);
+}
+
+static void Touch(kiriSquares* squares, int32_t square)
+{
+    if (!squares->isTouched[square]) {
+        squares->isTouched[square] = 1;
+        squares->touched.data[squares->touched.count++] = square;
+    }
+}
+
+void kiriSquares_ClearTouched(kiriSquares* squares)
+{
+    for (int32_t i = 0; i < squares->touched.count; ++i) {
+        squares->isTouched[squares->touched.data[i]] = 0;
+    }
+    squares->touched.count = 0;
+}
+
+/* Separating axes: the sides of the square, and the segment. */
+bool kiriSquares_RunsThrough(const kiriSquares* squares, int32_t square, kiriPoint a, kiriPoint b)
+{
+    kiriPoint low = kiriSquares_Corner(squares, square), high = { low.x + squares->side, low.y + squares->side };
+    if ((a.x <= low.x && b.x <= low.x) || (a.x >= high.x && b.x >= high.x) || (a.y <= low.y && b.y <= low.y) ||
+        (a.y >= high.y && b.y >= high.y)) {
+        return false;
+    }
+    /* The two corners farthest to the left and to the right of a line that rises, or falls. */
+    bool rises = (a.x < b.x) == (a.y < b.y);
+    kiriPoint p = { low.x, rises ? high.y : low.y }, q = { high.x, rises ? low.y : high.y };
+    int64_t sideP = kiriOrient(a, b, p), sideQ = kiriOrient(a, b, q);
+    return (sideP < 0 && sideQ > 0) || (sideP > 0 && sideQ < 0);
+}
+
+void kiriSquares_TouchEdge(kiriSquares* squares, kiriPoint a, kiriPoint b)
+{
+    const kiriPoint ends[3] = { a, b, b };
+    Range r = BoxOf(squares, ends);
+    for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
+        for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
+            int32_t square = row * squares->columns + column;
+            if (kiriSquares_RunsThrough(squares, square, a, b)) {
+                Touch(squares, square);
+            }
+        }
+    }
+}
+
+static bool AddNode(kiriSquares* squares, const kiriMemory* memory, int32_t square, int32_t triangle)
+{
+    kiriSquareNode node = { triangle, squares->head[square] };
+    int32_t slot = squares->freeNode;
+    if (slot != KIRI_NONE) {
+        squares->freeNode = squares->nodes.data[slot].next;
+        squares->nodes.data[slot] = node;
+    } else {
+        slot = squares->nodes.count;
+        if (!kiriArray_Push(memory, &squares->nodes, node)) {
+            return false;
+        }
+    }
+    squares->head[square] = slot;
+    Touch(squares, square);
+    return true;
+}
+
+/* A triangle that is not there is fine: taking back half an insertion meets that. */
+static void RemoveNode(kiriSquares* squares, int32_t square, int32_t triangle)
+{
+    kiriSquareNode* nodes = squares->nodes.data;
+    for (int32_t* link = &squares->head[square]; *link != KIRI_NONE; link = &nodes[*link].next) {
+        int32_t slot = *link;
+        if (nodes[slot].triangle == triangle) {
+            *link = nodes[slot].next;
+            nodes[slot].triangle = KIRI_NONE;
+            nodes[slot].next = squares->freeNode;
+            squares->freeNode = slot;
+            Touch(squares, square);
+            return;
+        }
+    }
+}
+
+bool kiriSquares_Insert(kiriSquares* squares, const kiriMemory* memory, int32_t triangle, const kiriPoint corners[3])
+{
+    Range r = BoxOf(squares, corners);
+    for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
+        for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
+            int32_t square = row * squares->columns + column;
+            if (OverlapsInBox(squares, r, column, row, corners) && !AddNode(squares, memory, square, triangle)) {
+                kiriSquares_Remove(squares, triangle, corners);
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+void kiriSquares_Remove(kiriSquares* squares, int32_t triangle, const kiriPoint corners[3])
+{
+    Range r = BoxOf(squares, corners);
+    for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
+        for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
+            if (OverlapsInBox(squares, r, column, row, corners)) {
+                RemoveNode(squares, row * squares->columns + column, triangle);
+            }
+        }
+    }
+}
+
+int32_t kiriSquares_At(const kiriSquares* squares, kiriPoint p)
+{
+    int32_t column = LineOf(squares, p.x), row = LineOf(squares, p.y);
+    if (p.x < 0 || p.y < 0 || column >= squares->columns || row >= squares->rows) {
+        return KIRI_NONE;
+    }
+    return row * squares->columns + column;
+}
+
+kiriPoint kiriSquares_Corner(const kiriSquares* squares, int32_t square)
+{
+    return CornerOf(squares, square % squares->columns, square / squares->columns);
+}

@@ -1,0 +1,56 @@
+/* The squares of the regular grid, and for each the triangles whose interior overlaps its interior (exactly). It finds
+   the triangle under a point, the edges near a blade, and the material of the cells. It also knows which squares have
+   changed, so that a cut costs no more than what it passes through, and which vertices are in a square. */
+#ifndef KIRI_SQUARE_H
+#define KIRI_SQUARE_H
+
+#include "../core/kiri_array.h"
+#include "../core/kiri_vec.h"
+
+/* One triangle in one square. */
+typedef struct kiriSquareNode {
+    int32_t triangle;
+    int32_t next; /* in the same square, or KIRI_NONE */
+} kiriSquareNode;
+
+typedef struct kiriSquares {
+    int32_t columns, rows;
+    int32_t side;   /* lattice steps, even; grid line k lies at k * side - 1 */
+    double perStep; /* 1 / side */
+    int32_t* head;  /* a square's first node, or KIRI_NONE; columns * rows, row by row */
+    KIRI_ARRAY(kiriSquareNode) nodes;
+    int32_t freeNode;
+    int32_t* vertexHead;         /* a square's first vertex, or KIRI_NONE: see kiriVertex */
+    KIRI_ARRAY(int32_t) touched; /* squares that have changed since ClearTouched, each once; it never grows */
+    uint8_t* isTouched;          /* of each square: is it in `touched`? */
+} kiriSquares;
+
+/* `resolution` squares along the longer of the two extents (lattice steps, from 0). */
+bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriPoint extent, int32_t resolution);
+
+/* The same squares, without triangles and vertices. */
+bool kiriSquares_InitLike(kiriSquares* squares, const kiriMemory* memory, const kiriSquares* like);
+void kiriSquares_Release(kiriSquares* squares, const kiriMemory* memory);
+
+/* The triangle's corners are counter-clockwise. Insert fails only for memory, and then changes nothing. After a Remove,
+   inserting as many nodes as it took never fails. Both touch the squares that they change. */
+bool kiriSquares_Insert(kiriSquares* squares, const kiriMemory* memory, int32_t triangle, const kiriPoint corners[3]);
+void kiriSquares_Remove(kiriSquares* squares, int32_t triangle, const kiriPoint corners[3]);
+
+/* Touches the squares whose open interior the edge between two vertices runs through. */
+void kiriSquares_TouchEdge(kiriSquares* squares, kiriPoint a, kiriPoint b);
+void kiriSquares_ClearTouched(kiriSquares* squares);
+
+/* Does the segment run through the open square? Exact; neither end may be on a grid line. */
+bool kiriSquares_RunsThrough(const kiriSquares* squares, int32_t square, kiriPoint a, kiriPoint b);
+
+/* The square around a vertex position, or KIRI_NONE outside the grid. */
+int32_t kiriSquares_At(const kiriSquares* squares, kiriPoint p);
+
+/* The lower corner of a square (odd coordinates). */
+kiriPoint kiriSquares_Corner(const kiriSquares* squares, int32_t square);
+
+/* Do the interiors overlap? Exact. */
+bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriPoint corners[3]);
+
+#endif

@@ -1,0 +1,45 @@
+/* Affine frames joined by links: sheets that stretch visibly (README, "Mechanics"). */
+#ifndef KIRI_AFFINE_H
+#define KIRI_AFFINE_H
+
+#include "kiri_patch.h"
+
+/* The strains of a link. With gap(p) = x_j(p) - x_i(p) and the part in the plane what is left of a vector without its
+   part along the mean director:
+
+   strain         what                               stiffness
+   gap            gap(b) in the plane                0.3 E h W / l    three rows
+   plane bending  ((A_j - A_i) tau) in the plane     E h I / l        three rows
+   bending        d_j - d_i                          D W / l          three rows
+   normal gap     gap(m) . d                         beta D W / l^3, beta = 12
+   normal stop    what |gap(m) . d| has above l / 2  E h W / l
+
+   The gap is a penalty: it holds together what the membrane energy of the regions, which sees means only, lets go.
+   Plane bending is the rest of that energy, that of the strain's slope inside a region. Both vanish where the sheet
+   stretches evenly. */
+enum {
+    KIRI_AFFINE_GAP,
+    KIRI_AFFINE_PLANE_BENDING = 3,
+    KIRI_AFFINE_BENDING = 6,
+    KIRI_AFFINE_NORMAL_GAP = 9,
+    KIRI_AFFINE_NORMAL_STOP,
+    KIRI_AFFINE_STRAINS
+};
+
+/* As kiriStrain_Measure; two rows, of i and j, a strain. */
+void kiriAffine_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
+                        double strain[KIRI_AFFINE_STRAINS], kiriAffineRow rows[][2]);
+void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_AFFINE_STRAINS]);
+
+/* Two patches a region, whose material is given. One has the membrane energy of F_i = A_i + 1/(2 a_i) times the
+   integral of gap (x) n over its border, which is the mean of the gradient when each border gap is shared by both
+   sides: exact for an even stretch in any layout, inner forces included. The other keeps the director normal. A planar
+   sheet needs no such.
+
+   Frames that lean all one way, in steps, make a free end longer: its F_i takes only a part of its slope from the
+   border, a quarter at least. Under tension that would lay the sheet in steps (see strain.h). Leaning, d_i . F_i,
+   therefore counts four times in the membrane strains; it vanishes where frames follow the sheet. */
+bool kiriAffine_Build(kiriPatches* patches, const kiriMemory* memory, const kiriLink* links, int32_t linkCount,
+                      const kiriMoments* material, int32_t frameCount, bool planar);
+
+#endif

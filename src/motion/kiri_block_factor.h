@@ -1,0 +1,61 @@
+/* A symmetric positive definite matrix of square blocks, one row and column of blocks a frame, and its factorisation.
+   Nothing is allocated but by Shape, and nothing is thrown across this header. */
+#ifndef KIRI_MATRIX_H
+#define KIRI_MATRIX_H
+
+#include "../core/kiri_base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { KIRI_MOST_UNKNOWNS = 12 }; /* of a frame */
+
+typedef struct kiriMatrix kiriMatrix;
+
+/* Two frames that share a block. */
+typedef struct kiriPair {
+    int32_t a, b;
+} kiriPair;
+
+/* A matrix without frames. `size` is the unknowns a frame: 3, 6 or 12. Null for memory. */
+kiriMatrix* kiriMatrix_Create(const kiriMemory* memory, int32_t size);
+void kiriMatrix_Destroy(kiriMatrix* matrix);
+
+/* Gives it a pattern, and the symbolic factorisation of it; pairs may come more than once. Memory is kept from one
+   pattern to the next; the order of unknowns takes some from malloc while it is sought. False for memory: the matrix is
+   then good for nothing but another call. */
+bool kiriMatrix_Shape(kiriMatrix* matrix, int32_t frameCount, const kiriPair* pairs, int64_t pairCount);
+
+int32_t kiriMatrix_FrameCount(const kiriMatrix* matrix);
+
+/* The pairs of the pattern, each once. */
+int32_t kiriMatrix_PairCount(const kiriMatrix* matrix);
+void kiriMatrix_GetPairs(kiriMatrix* matrix, kiriPair* pairs);
+
+/* Is the pair in the pattern? */
+bool kiriMatrix_Covers(const kiriMatrix* matrix, kiriPair pair);
+
+/* Of the pattern and the order of unknowns, on which the last bits of a solution depend. */
+uint64_t kiriMatrix_Hash(const kiriMatrix* matrix);
+
+void kiriMatrix_Clear(kiriMatrix* matrix);
+
+/* Adds a symmetric block of size x size to a frame's own. */
+void kiriMatrix_AddOwn(kiriMatrix* matrix, int32_t frame, const double* block);
+
+/* Adds J^T k J, J of `rows` rows and size columns for each of the frames, which are all different; all pairs of them
+   are in the pattern. */
+void kiriMatrix_AddSquares(kiriMatrix* matrix, const int32_t* frames, int32_t frameCount, const double* J,
+                           const double* k, int32_t rows);
+
+/* May add to the diagonal what rounding takes off. False when there is no factor even then. Solve needs one; both sides
+   have size numbers a frame. */
+bool kiriMatrix_Factor(kiriMatrix* matrix);
+void kiriMatrix_Solve(kiriMatrix* matrix, const double* right, double* solution);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

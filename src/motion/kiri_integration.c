@@ -1,0 +1,200 @@
+#include "kiri_integration.h"
+
+typedef struct Builder {
+    const kiriMemory* memory;
+    const kiriGrid* grid;
+    const kiriMeshData* mesh;
+    const kiriShape* shape;
+    const kiriMoments* material; /* of each frame's region */
+    kiriPointsWork* work;
+    kiriPatches* patches;
+    double perArea; /* points, 1/m^2 */
+    int32_t order;
+    int32_t lastRow;
+} Builder;
+
+static const kiriMoments none = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+
+/* ---- Patches ---------------------------------------------------------------------------------------------------- */
+
+/* Linear-blend skinning, x(p) = sum of w_i(p) (x_i + A_i (p - c_i)), at a place `off` the point, with the weights
+   linear around it. */
+static bool AddPatch(Builder* b, kiriVec2 point, kiriVec2 off, double area)
+{
+    const kiriPointWeights* weights = &b->work->weights;
+    kiriPatch patch = { area, 0.0, b->patches->shares.count, weights->count, 0, b->lastRow };
+    kiriVec2 at = kiriVec2_Add(point, off);
+    for (int32_t k = 0; k < weights->count; ++k) {
+        kiriPointWeight w = weights->data[k];
+        kiriVec2 arm = kiriVec2_Sub(at, kiriMoments_Center(&b->material[w.frame]));
+        kiriShare share = { w.frame,
+                            w.gradient,
+                            kiriVec2_Scale(arm.x, w.gradient),
+                            kiriVec2_Scale(arm.y, w.gradient),
+                            w.value + kiriVec2_Dot(w.gradient, off),
+                            w.gradient };
+        share.u.x += share.weight;
+        share.v.y += share.weight;
+        if (!kiriArray_Push(b->memory, &b->patches->shares, share)) {
+            return false;
+        }
+    }
+    return kiriArray_Push(b->memory, &b->patches->patches, patch);
+}
+
+/* Two pairs of places on either side of the point, that together have the region's second moments: the columns of
+   their Cholesky factor. */
+static bool AddFour(Builder* b, kiriVec2 point, const kiriMoments* material)
+{
+    kiriMoments about = kiriMoments_About(material, point);
+    double perArea = 2.0 / about.area, u = sqrt(perArea * about.uu), v = u > 0.0 ? perArea * about.uv / u : 0.0;
+    double rest = perArea * about.vv - v * v;
+    const kiriVec2 off[4] = {
+        { u, v }, { -u, -v }, { 0.0, sqrt(rest > 0.0 ? rest : 0.0) }, { 0.0, -sqrt(rest > 0.0 ? rest : 0.0) }
+    };
+    bool ok = true;
+    for (int k = 0; ok && k < 4; ++k) {
+        ok = AddPatch(b, point, off[k], 0.25 * about.area);
+    }
+    return ok;
+}
+
+static bool AddPoint(Builder* b, const kiriSite* point, const kiriMoments* material)
+{
+    const kiriVec2 here = { 0.0, 0.0 };
+    return kiriShape_At(b->shape, b->memory, b->grid, b->mesh, point->cell, point->at, &b->work->weights) &&
+           (b->order == 1 ? AddPatch(b, point->at, here, material->area) : AddFour(b, point->at, material));
+}
+
+/* ---- Points of a piece ------------------------------------------------------------------------------------------ */
+
+static kiriMoments MaterialOfPiece(const Builder* b)
+{
+    kiriMoments sum = none;
+    for (int32_t k = 0; k < b->work->placer.cells.count; ++k) {
+        kiriMoments_Add(&sum, &b->grid->cells.data[b->work->placer.cells.data[k]].material);
+    }
+    return sum;
+}
+
+static bool PlacePoints(Builder* b, double area)
+{
+    kiriPlacer* placer = &b->work->placer;
+    kiriQuota endless = { INT64_MAX, 0 };
+    double share = area * b->perArea + 0.5;
+    int32_t count = share < 2.0 ? 1 : share < placer->cells.count ? (int32_t)share : placer->cells.count;
+    placer->sites.count = 0;
+    return kiriPlacer_Start(placer, b->memory, b->grid, b->mesh, NULL, count) &&
+           kiriPlacer_Run(placer, b->memory, b->grid, b->mesh, &endless) == KIRI_DONE;
+}
+
+static bool FloodFromPoints(Builder* b)
+{
+    kiriPointsWork* work = b->work;
+    const kiriSites* points = &work->placer.sites;
+    kiriRule rule = { b->grid, KIRI_FAR - 1, NULL, NULL, NULL };
+    kiriQuota endless = { INT64_MAX, 0 };
+    kiriField_Reset(&work->field);
+    work->seeds.count = 0;
+    for (int32_t i = 0; i < points->count; ++i) {
+        if (!kiriSite_Seed(&points->data[i], i, b->memory, b->grid, b->mesh, &work->seeds)) {
+            return false;
+        }
+    }
+    return kiriField_Resize(&work->field, b->memory, b->grid->cells.count) &&
+           kiriField_Start(&work->field, b->memory, work->seeds.data, work->seeds.count) &&
+           kiriField_Flood(&work->field, &rule, &endless) == KIRI_DONE;
+}
+
+/* The regions of points, as placing defines them: a point's own cell is its own. */
+static bool DividePiece(Builder* b)
+{
+    kiriPointsWork* work = b->work;
+    const kiriSites* points = &work->placer.sites;
+    if (!kiriArray_Resize(b->memory, &work->material, points->count) || !FloodFromPoints(b)) {
+        return false;
+    }
+    for (int32_t i = 0; i < points->count; ++i) {
+        work->field.owner.data[points->data[i].cell] = i;
+        work->material.data[i] = none;
+    }
+    for (int32_t k = 0; k < work->placer.cells.count; ++k) {
+        int32_t cell = work->placer.cells.data[k];
+        kiriMoments_Add(&work->material.data[work->field.owner.data[cell]], &b->grid->cells.data[cell].material);
+    }
+    return true;
+}
+
+static bool AddPiece(Builder* b, int32_t cell)
+{
+    kiriPointsWork* work = b->work;
+    if (!kiriPlacer_TakePiece(&work->placer, b->memory, b->grid, cell)) {
+        return false;
+    }
+    for (int32_t k = 0; k < work->placer.cells.count; ++k) {
+        work->seen.data[work->placer.cells.data[k]] = 1;
+    }
+    kiriMoments material = MaterialOfPiece(b);
+    const kiriSites* points = &work->placer.sites;
+    bool ok = PlacePoints(b, material.area);
+    if (ok && points->count == 1) { /* without a flood: confetti comes in thousands */
+        return AddPoint(b, &points->data[0], &material);
+    }
+    ok = ok && DividePiece(b);
+    for (int32_t i = 0; ok && i < points->count; ++i) {
+        ok = AddPoint(b, &points->data[i], &work->material.data[i]);
+    }
+    return ok;
+}
+
+/* ---- All ------------------------------------------------------------------------------------------------------ */
+
+static bool ClearSeen(Builder* b)
+{
+    if (!kiriArray_Resize(b->memory, &b->work->seen, b->grid->cells.count)) {
+        return false;
+    }
+    for (int32_t c = 0; c < b->grid->cells.count; ++c) {
+        b->work->seen.data[c] = 0;
+    }
+    return true;
+}
+
+/* In the order of cells, as are the pieces below. */
+static double TotalArea(const kiriGrid* grid)
+{
+    double total = 0.0;
+    for (int32_t s = 0; s < grid->squareCell.count; ++s) {
+        for (int32_t c = grid->squareCell.data[s]; c != KIRI_NONE; c = grid->cells.data[c].next) {
+            total += grid->cells.data[c].material.area;
+        }
+    }
+    return total;
+}
+
+bool kiriPoints_Build(kiriPatches* patches, kiriPointsWork* work, const kiriMemory* memory, const kiriGrid* grid,
+                      const kiriMeshData* mesh, const kiriShape* shape, const kiriMoments* material, double count,
+                      int32_t order, bool planar)
+{
+    Builder b = { memory, grid, mesh, shape, material, work, patches, 0.0, order, KIRI_PATCH_STRAINS };
+    b.perArea = count / TotalArea(grid);
+    b.lastRow = planar ? KIRI_PATCH_SHEAR + 1 : KIRI_PATCH_STRAINS;
+    patches->patches.count = patches->shares.count = 0;
+    bool ok = ClearSeen(&b);
+    for (int32_t s = 0; ok && s < grid->squareCell.count; ++s) {
+        for (int32_t c = grid->squareCell.data[s]; ok && c != KIRI_NONE; c = grid->cells.data[c].next) {
+            ok = work->seen.data[c] || AddPiece(&b, c);
+        }
+    }
+    return ok;
+}
+
+void kiriPointsWork_Release(kiriPointsWork* work, const kiriMemory* memory)
+{
+    kiriPlacer_Release(&work->placer, memory);
+    kiriField_Release(&work->field, memory);
+    kiriArray_Release(memory, &work->seeds);
+    kiriArray_Release(memory, &work->seen);
+    kiriArray_Release(memory, &work->material);
+    kiriArray_Release(memory, &work->weights);
+}

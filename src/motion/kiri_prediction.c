@@ -1,0 +1,280 @@
+#include "kiri_prediction.h"
+
+/* One part of a step turns by at most this much: a Cayley vector. */
+#define LONGEST_TURN 1.0
+#define MOST_PARTS 8
+
+static const kiriMat3 Identity = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+static const kiriMat3 None = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+
+static kiriVec3 MulTransposed(const kiriMat3* m, kiriVec3 a)
+{
+    return kiriVec3_Make(kiriVec3_Dot(m->u, a), kiriVec3_Dot(m->v, a), kiriVec3_Dot(m->d, a));
+}
+
+kiriVec3 kiriMat3_Solve(const kiriMat3* m, kiriVec3 a)
+{
+    kiriMat3 cofactors = { kiriVec3_Cross(m->v, m->d), kiriVec3_Cross(m->d, m->u), kiriVec3_Cross(m->u, m->v) };
+    return kiriVec3_Scale(1.0 / kiriVec3_Dot(m->u, cofactors.u), MulTransposed(&cofactors, a));
+}
+
+/* The thickness keeps the moments of a sliver above zero. */
+static kiriMassMoments MomentsOf(const kiriFrameData* frame, double thickness)
+{
+    double least = frame->mass * thickness * thickness / 12.0;
+    kiriMassMoments m = { frame->inertia[0] + least, frame->inertia[1], frame->inertia[2] + least, least };
+    return m;
+}
+
+/* A times the matrix of moments. */
+static kiriMat3 Weighted(const kiriMassMoments* m, const kiriMat3* A)
+{
+    kiriMat3 r = { kiriVec3_AddScaled(kiriVec3_Scale(m->uu, A->u), m->uv, A->v),
+                   kiriVec3_AddScaled(kiriVec3_Scale(m->vv, A->v), m->uv, A->u), kiriVec3_Scale(m->dd, A->d) };
+    return r;
+}
+
+static kiriMat3 Inertia(const kiriMassMoments* m, const kiriMat3* A)
+{
+    /* trace(M) - A M A^T, M the moments */
+    double trace = m->uu + m->vv + m->dd;
+    kiriMat3 w = Weighted(m, A), r;
+    r.u = kiriVec3_Sub(kiriVec3_Make(trace, 0.0, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.x, A->v.x, A->d.x)));
+    r.v = kiriVec3_Sub(kiriVec3_Make(0.0, trace, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.y, A->v.y, A->d.y)));
+    r.d = kiriVec3_Sub(kiriVec3_Make(0.0, 0.0, trace), kiriMat3_Mul(w, kiriVec3_Make(A->u.z, A->v.z, A->d.z)));
+    return r;
+}
+
+static kiriMat3 Difference(const kiriMat3* A, const kiriMat3* B)
+{
+    kiriMat3 off = { kiriVec3_Sub(A->u, B->u), kiriVec3_Sub(A->v, B->v), kiriVec3_Sub(A->d, B->d) };
+    return off;
+}
+
+static double SumDot(const kiriMat3* A, const kiriMat3* B)
+{
+    return kiriVec3_Dot(A->u, B->u) + kiriVec3_Dot(A->v, B->v) + kiriVec3_Dot(A->d, B->d);
+}
+
+static kiriVec3 SumCross(const kiriMat3* A, const kiriMat3* B)
+{
+    return kiriVec3_Add(kiriVec3_Add(kiriVec3_Cross(A->u, B->u), kiriVec3_Cross(A->v, B->v)),
+                        kiriVec3_Cross(A->d, B->d));
+}
+
+kiriMat3 kiriFlight_Gradient(const kiriFlight* flight, const kiriMat3* A)
+{
+    kiriMat3 off = Difference(A, &flight->pose.A);
+    return Weighted(&flight->moments, &off);
+}
+
+kiriMat3 kiriFlight_Inertia(const kiriFlight* flight, const kiriMat3* A)
+{
+    return Inertia(&flight->moments, A);
+}
+
+kiriVec3 kiriFrame_AngularMomentum(const kiriFrameData* frame, const kiriMaterial* material)
+{
+    kiriMassMoments moments = MomentsOf(frame, (double)material->thickness);
+    kiriMat3 weighted = Weighted(&moments, &frame->A), rate = kiriFrame_Rate(frame);
+    return SumCross(&weighted, &rate);
+}
+
+double kiriFrame_KineticEnergy(const kiriFrameData* frame, const kiriMaterial* material)
+{
+    kiriMassMoments moments = MomentsOf(frame, (double)material->thickness);
+    kiriMat3 rate = kiriFrame_Rate(frame), weighted = Weighted(&moments, &rate);
+    return 0.5 * frame->mass * kiriVec3_Dot(frame->velocity, frame->velocity) + 0.5 * SumDot(&weighted, &rate);
+}
+
+double kiriFlight_TurnSquared(const kiriFlight* flight, const kiriMat3* A)
+{
+    kiriMat3 off = Difference(A, &flight->pose.A);
+    kiriMat3 w = Weighted(&flight->moments, &off);
+    return SumDot(&w, &off);
+}
+
+kiriVec3 kiriFlight_TurnGradient(const kiriFlight* flight, const kiriMat3* A)
+{
+    kiriMat3 w = Weighted(&flight->moments, &flight->pose.A);
+    return SumCross(&w, A);
+}
+
+/* The Cayley vector that turns by |w|, to the sixth order. */
+static kiriVec3 CayleyVector(kiriVec3 w)
+{
+    double ww = kiriVec3_Dot(w, w);
+    kiriVec3 r = kiriVec3_Scale(1.0 + ww * (1.0 / 12.0 + ww / 120.0), w);
+    double length = kiriVec3_Length(r);
+    return length > LONGEST_TURN ? kiriVec3_Scale(LONGEST_TURN / length, r) : r;
+}
+
+/* Free rotation over h with the angular momentum L: the implicit midpoint rule for L in the body's axes. Its map is a
+   Cayley rotation, and it keeps L and the energy whatever the length of the Cayley vector. */
+static kiriMat3 Turn(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec3 L, double h)
+{
+    kiriVec3 start = MulTransposed(A, L), end = start;
+    kiriMat3 turn = Identity;
+    for (int iteration = 0; iteration < 30; ++iteration) {
+        kiriVec3 middle = kiriVec3_Scale(0.5 * h, kiriVec3_Add(start, end));
+        turn = kiriMat3_Cayley(CayleyVector(kiriMat3_Solve(bodyInertia, middle)));
+        kiriVec3 next = MulTransposed(&turn, start);
+        double change = kiriVec3_Length(kiriVec3_Sub(next, end));
+        end = next;
+        if (!(change > 1e-15 * kiriVec3_Length(L))) {
+            break;
+        }
+    }
+    return kiriMat3_MulMat(*A, turn);
+}
+
+/* Turns of more than two radians a step are followed only roughly; then a slender region might gain energy, which is
+   therefore capped. */
+static void TurnFreely(kiriFlight* flight, kiriVec3 L, double dt)
+{
+    kiriMat3* A = &flight->pose.A;
+    kiriMat3 body = kiriFlight_Inertia(flight, &Identity), inertia = kiriFlight_Inertia(flight, A);
+    kiriVec3 spin = kiriMat3_Solve(&inertia, L);
+    double angle = dt * kiriVec3_Length(spin), before = kiriVec3_Dot(L, spin);
+    int parts = angle < 2.0 ? 1 + (int)(4.0 * angle) : MOST_PARTS;
+    for (int part = 0; part < parts; ++part) {
+        *A = Turn(A, &body, L, dt / parts);
+    }
+    inertia = kiriFlight_Inertia(flight, A);
+    flight->spin = kiriMat3_Solve(&inertia, L);
+    double after = kiriVec3_Dot(L, flight->spin);
+    if (after > before) {
+        flight->spin = kiriVec3_Scale(sqrt(before / after), flight->spin);
+    }
+}
+
+kiriFlight kiriFlight_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity, double dt)
+{
+    kiriFlight flight = { MomentsOf(frame, (double)material->thickness),
+                          kiriPose_Of(frame),
+                          frame->velocity,
+                          frame->spin,
+                          None,
+                          kiriPose_Of(frame) };
+    double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
+    kiriVec3 coasting = kiriVec3_Scale(fade, frame->velocity);
+    kiriVec3 push = kiriVec3_AddScaled(gravity, 1.0 / frame->mass, frame->force);
+    flight.velocity = kiriVec3_AddScaled(coasting, dt, push);
+    flight.pose.x = kiriVec3_AddScaled(frame->x, dt, flight.velocity);
+    kiriMat3 inertia = kiriFlight_Inertia(&flight, &frame->A);
+    kiriVec3 L = kiriVec3_Scale(fade, kiriMat3_Mul(inertia, frame->spin));
+    TurnFreely(&flight, kiriVec3_AddScaled(L, dt, frame->torque), dt);
+    flight.coast.x = kiriVec3_AddScaled(frame->x, dt, coasting);
+    flight.coast.A = flight.pose.A;
+    return flight;
+}
+
+/* ---- Affine frames ---- */
+
+static kiriMat3 AddScaled(const kiriMat3* A, double s, const kiriMat3* B)
+{
+    kiriMat3 r = { kiriVec3_AddScaled(A->u, s, B->u), kiriVec3_AddScaled(A->v, s, B->v),
+                   kiriVec3_AddScaled(A->d, s, B->d) };
+    return r;
+}
+
+static kiriMat3 Cross(kiriVec3 w, const kiriMat3* A)
+{
+    kiriMat3 r = { kiriVec3_Cross(w, A->u), kiriVec3_Cross(w, A->v), kiriVec3_Cross(w, A->d) };
+    return r;
+}
+
+/* The inertia of an A that is no rotation. It has an inverse even where A has collapsed. */
+static kiriMat3 AffineInertia(const kiriMassMoments* m, const kiriMat3* A)
+{
+    kiriMat3 w = Weighted(m, A), r;
+    double trace = SumDot(&w, A);
+    trace += 1e-12 * (trace + m->uu + m->vv + m->dd);
+    r.u = kiriVec3_Sub(kiriVec3_Make(trace, 0.0, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.x, A->v.x, A->d.x)));
+    r.v = kiriVec3_Sub(kiriVec3_Make(0.0, trace, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.y, A->v.y, A->d.y)));
+    r.d = kiriVec3_Sub(kiriVec3_Make(0.0, 0.0, trace), kiriMat3_Mul(w, kiriVec3_Make(A->u.z, A->v.z, A->d.z)));
+    return r;
+}
+
+kiriMat3 kiriFrame_Inertia(const kiriFrameData* frame, const kiriMaterial* material)
+{
+    kiriMassMoments moments = MomentsOf(frame, (double)material->thickness);
+    return AffineInertia(&moments, &frame->A);
+}
+
+kiriVec3 kiriMat3_Spin(const kiriMat3* A, const kiriMat3* rate)
+{
+    const kiriMassMoments even = { 1.0, 0.0, 1.0, 1.0 };
+    kiriMat3 inertia = AffineInertia(&even, A);
+    return kiriMat3_Solve(&inertia, SumCross(A, rate));
+}
+
+kiriMat3 kiriMat3_Beside(const kiriMat3* A, const kiriMat3* rate, kiriVec3 spin)
+{
+    kiriMat3 turning = Cross(spin, A);
+    return AddScaled(rate, -1.0, &turning);
+}
+
+kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change)
+{
+    kiriVec3 w = kiriMat3_Spin(A, change);
+    double length = kiriVec3_Length(w);
+    if (length > LONGEST_TURN) {
+        w = kiriVec3_Scale(LONGEST_TURN / length, w);
+    }
+    kiriMat3 rest = kiriMat3_Beside(A, change, w), grown = AddScaled(A, 1.0, &rest);
+    return kiriMat3_MulMat(kiriMat3_Cayley(w), grown);
+}
+
+/* A turns, by the angular momentum it has or gets, as a rigid one would; what its rate has beside the spin turns with
+   it, and stretches it on. */
+kiriFlight kiriFlight_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity, double dt)
+{
+    kiriFlight flight = kiriFlight_Free(frame, material, gravity, dt);
+    double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
+    kiriMat3 inertia = AffineInertia(&flight.moments, &frame->A), turn = Identity;
+    kiriVec3 L = kiriVec3_AddScaled(kiriVec3_Scale(dt, frame->torque), fade, kiriMat3_Mul(inertia, frame->spin));
+    kiriVec3 spin = kiriMat3_Solve(&inertia, L);
+    double angle = dt * kiriVec3_Length(spin), before = kiriVec3_Dot(L, spin);
+    int parts = angle < 2.0 ? 1 + (int)(4.0 * angle) : MOST_PARTS;
+    for (int part = 0; part < parts; ++part) {
+        turn = Turn(&turn, &inertia, L, dt / parts);
+    }
+    kiriMat3 grown = AddScaled(&frame->A, dt * fade, &frame->rate), rate = kiriMat3_MulMat(turn, frame->rate);
+    flight.pose.A = flight.coast.A = kiriMat3_MulMat(turn, grown);
+    spin = kiriMat3_Mul(turn, kiriMat3_Solve(&inertia, MulTransposed(&turn, L)));
+    double after = kiriVec3_Dot(L, spin);
+    flight.spin = after > before ? kiriVec3_Scale(sqrt(before / after), spin) : spin;
+    flight.rate = Cross(flight.spin, &flight.pose.A);
+    flight.rate = AddScaled(&flight.rate, fade, &rate);
+    return flight;
+}
+
+/* ---- Held frames ---- */
+
+/* The vector of the turn from one rotation to another: the inverse of Cayley, its length made an angle to the fourth
+   order. */
+static kiriVec3 AngleBetween(const kiriMat3* a, const kiriMat3* b)
+{
+    kiriVec3 sine =
+        kiriVec3_Add(kiriVec3_Add(kiriVec3_Cross(a->u, b->u), kiriVec3_Cross(a->v, b->v)), kiriVec3_Cross(a->d, b->d));
+    double trace = kiriVec3_Dot(a->u, b->u) + kiriVec3_Dot(a->v, b->v) + kiriVec3_Dot(a->d, b->d);
+    kiriVec3 w = kiriVec3_Scale(2.0 / (1.0 + trace > 1e-3 ? 1.0 + trace : 1e-3), sine);
+    return kiriVec3_Scale(1.0 / (1.0 + kiriVec3_Dot(w, w) / 12.0), w);
+}
+
+kiriFlight kiriFlight_Held(const kiriFrameData* frame, const kiriMaterial* material, double dt)
+{
+    kiriFlight flight = { MomentsOf(frame, (double)material->thickness),
+                          { frame->heldPosition, frame->heldRotation },
+                          frame->velocity,
+                          frame->spin,
+                          None,
+                          kiriPose_Of(frame) };
+    kiriVec3 arm = kiriPose_Along(&flight.pose, kiriVec2_Sub(frame->site.at, frame->center));
+    flight.pose.x = kiriVec3_Sub(frame->heldPosition, arm);
+    flight.velocity = kiriVec3_Scale(1.0 / dt, kiriVec3_Sub(flight.pose.x, frame->x));
+    flight.spin = kiriVec3_Scale(1.0 / dt, AngleBetween(&frame->A, &flight.pose.A));
+    flight.coast = flight.pose;
+    return flight;
+}

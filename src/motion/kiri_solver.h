@@ -1,0 +1,80 @@
+/* The motion of frames: backward Euler as a minimisation, solved by Gauss-Newton steps. */
+#ifndef KIRI_SOLVER_H
+#define KIRI_SOLVER_H
+
+#include "kiri_strain_offset.h"
+#include "kiri_patch.h"
+
+typedef struct kiriSolver kiriSolver;
+
+/* A material point of a frame held at a place by a spring. */
+typedef struct kiriPinRow {
+    int32_t frame;
+    kiriVec2 at; /* local rest, m */
+    kiriVec3 target;
+    double stiffness; /* N/m */
+} kiriPinRow;
+
+/* A material point of a frame kept above a plane. */
+typedef struct kiriContactRow {
+    int32_t frame;
+    kiriVec2 at;
+    kiriVec3 normal;
+    double offset, friction, stiffness;
+} kiriContactRow;
+
+/* What moves, and how. */
+typedef struct kiriMechanics {
+    int32_t model; /* KIRI_MODEL_... */
+    bool planar;   /* frames stay in the plane of axes.u and axes.v */
+    kiriMat3 axes; /* orthonormal; only used then */
+} kiriMechanics;
+
+typedef struct kiriSystem {
+    kiriMechanics mechanics;
+    kiriFrameData* frames;
+    int32_t frameCount;
+    const kiriLink* links;
+    int32_t linkCount;
+    const kiriEase* eases;      /* one a link between rigid frames, or null: what strains count less */
+    const kiriPatches* patches; /* of affine frames; may be null where there are none */
+    const kiriPinRow* pins;
+    int32_t pinCount;
+    const kiriContactRow* contacts;
+    int32_t contactCount;
+    kiriMaterial material;
+    kiriVec3 gravity;
+} kiriSystem;
+
+/* A solver for no frames yet. Null for memory. */
+kiriSolver* kiriSolver_Create(const kiriMemory* memory, const kiriMechanics* mechanics);
+void kiriSolver_Destroy(kiriSolver* solver);
+
+/* Prepares for these frames, links and patches; replaces what was staged before. Steps go on with the current ones. The
+   pattern of the matrix is renewed only where it does not cover the pairs of frames that they couple, or where
+   frameCount differs: links that vanish leave zero blocks, also in a new pattern, until these are more than twice as
+   many as the others. Otherwise nothing is allocated but room that grows. False for memory: nothing is staged then. */
+bool kiriSolver_Stage(kiriSolver* solver, int32_t frameCount, const kiriLink* links, int32_t linkCount,
+                      const kiriPatches* patches);
+
+/* What is staged, if anything, becomes current. */
+void kiriSolver_Commit(kiriSolver* solver);
+
+/* Of the pattern, which depends on what was staged before: steps depend on it in their last bits. And how often it was
+   renewed, the first included. */
+uint64_t kiriSolver_Hash(const kiriSolver* solver);
+int64_t kiriSolver_Renewals(const kiriSolver* solver);
+
+/* How often a piece had to start its step anew. */
+int64_t kiriSolver_Restarts(const kiriSolver* solver);
+
+/* Moves the frames by dt. Links and patches are those that were committed; normals of contacts are unit, heldRotation
+   is a rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the motion asks for
+   them, but at most `most` (1 or more). Or -1 when it cannot be continued (not finite); the frames are then as before
+   the call. Allocates nothing. Forces on frames are used, not cleared. */
+int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations, int32_t most);
+
+/* Elastic energy of links and patches, J. */
+double kiriSolver_ElasticEnergy(const kiriSystem* system);
+
+#endif

@@ -1,0 +1,315 @@
+#include "kiri_extract.h"
+
+#include "kiri_piece.h"
+#include "kiri_update.h"
+#include "kiri_seen.h"
+
+#include <string.h>
+
+/* ---- What is kept ---- */
+
+bool kiriExtract_Init(kiriExtract* extract, const kiriSheetData* from)
+{
+    memset(extract, 0, sizeof(*extract));
+    extract->from = from;
+    extract->memory = from->memory;
+    if (!kiriArray_Resize(from->memory, &extract->keep, from->model.pieces.count)) {
+        return false;
+    }
+    memset(extract->keep.data, 0, (size_t)extract->keep.count);
+    return true;
+}
+
+void kiriExtract_Release(kiriExtract* extract)
+{
+    const kiriMemory* memory = extract->memory;
+    kiriArray_Release(memory, &extract->keep);
+    kiriArray_Release(memory, &extract->triangleTo);
+    kiriArray_Release(memory, &extract->vertexTo);
+    kiriArray_Release(memory, &extract->frameTo);
+    kiriArray_Release(memory, &extract->pointTo);
+    kiriArray_Release(memory, &extract->pinTo);
+}
+
+static bool IsFrameKept(const kiriExtract* extract, int32_t frame)
+{
+    return extract->keep.data[extract->from->model.framePiece.data[frame]] != 0;
+}
+
+static bool MapMesh(kiriExtract* extract)
+{
+    const kiriSheetData* from = extract->from;
+    const kiriMeshData* mesh = &from->mesh;
+    int32_t triangles = 0, vertices = 0;
+    if (!kiriArray_Resize(from->memory, &extract->triangleTo, mesh->triangles.count) ||
+        !kiriArray_Resize(from->memory, &extract->vertexTo, mesh->vertices.count)) {
+        return false;
+    }
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        bool kept = extract->keep.data[kiriPiece_OfVertex(from, v)] != 0;
+        extract->vertexTo.data[v] = kept ? vertices++ : KIRI_NONE;
+    }
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        bool kept = extract->vertexTo.data[mesh->triangles.data[t].vertex[0]] != KIRI_NONE;
+        extract->triangleTo.data[t] = kept ? triangles++ : KIRI_NONE;
+    }
+    return true;
+}
+
+static bool MapRest(kiriExtract* extract)
+{
+    const kiriSheetData* from = extract->from;
+    int32_t frames = 0, points = 0, pins = 0;
+    if (!kiriArray_Resize(from->memory, &extract->frameTo, from->frames.count) ||
+        !kiriArray_Resize(from->memory, &extract->pointTo, from->points.count) ||
+        !kiriArray_Resize(from->memory, &extract->pinTo, from->pins.count)) {
+        return false;
+    }
+    for (int32_t i = 0; i < from->frames.count; ++i) {
+        extract->frameTo.data[i] = IsFrameKept(extract, i) ? frames++ : KIRI_NONE;
+    }
+    for (int32_t i = 0; i < from->points.count; ++i) {
+        extract->pointTo.data[i] = IsFrameKept(extract, from->points.data[i].frame) ? points++ : KIRI_NONE;
+    }
+    for (int32_t i = 0; i < from->pins.count; ++i) {
+        extract->pinTo.data[i] = IsFrameKept(extract, from->model.pinFrame.data[i]) ? pins++ : KIRI_NONE;
+    }
+    return true;
+}
+
+/* ---- The part ---- */
+
+/* What is spread over the sheet falls to its parts by area. */
+static void TakeParameters(kiriSheetData* to, const kiriSheetData* from)
+{
+    double share = kiriMesh_Area(&to->mesh) / kiriMesh_Area(&from->mesh);
+    to->material = from->material;
+    to->snap = from->snap;
+    to->mechanics = from->mechanics;
+    to->rigidArea = from->rigidArea;
+    to->crumbArea = from->crumbArea;
+    to->frameLength = from->frameLength;
+    to->iterations = from->iterations;
+    to->pointCount = share * from->pointCount;
+    to->integrationPoints = share * from->integrationPoints;
+    to->integrationOrder = from->integrationOrder;
+    to->alwaysScratch = from->alwaysScratch;
+    to->shape.rigidWeight = from->shape.rigidWeight;
+    to->surface.skinning = from->surface.skinning;
+    to->popping = from->popping;
+    to->fades.time = from->fades.time;
+    to->fades.least = from->fades.least;
+    to->pointFades.time = from->pointFades.time;
+    to->pointFades.least = from->pointFades.least;
+    to->sleepSpeed = from->sleepSpeed;
+    to->calm = from->calm;
+    to->asleep = from->asleep;
+}
+
+/* The cell of the part with the material of one of the sheet. */
+static int32_t CellOf(const kiriExtract* extract, const kiriSheetData* to, int32_t cell)
+{
+    const kiriCell* was = &extract->from->grid.cells.data[cell];
+    int32_t found = to->grid.squareCell.data[was->square];
+    while (to->grid.cells.data[found].triangle != extract->triangleTo.data[was->triangle]) {
+        found = to->grid.cells.data[found].next;
+    }
+    return found;
+}
+
+static bool TakeSites(const kiriExtract* extract, kiriSheetData* to)
+{
+    const kiriSheetData* from = extract->from;
+    bool ok = true;
+    for (int32_t i = 0; ok && i < from->frames.count; ++i) {
+        if (extract->frameTo.data[i] != KIRI_NONE) {
+            kiriSite site = from->frames.data[i].site;
+            kiriSiteMove move = { extract->frameTo.data[i], KIRI_NONE };
+            site.cell = CellOf(extract, to, site.cell);
+            ok = kiriArray_Push(to->memory, &to->update.sites, site) &&
+                 kiriArray_Push(to->memory, &to->update.moves, move);
+        }
+    }
+    return ok;
+}
+
+static bool TakePoints(const kiriExtract* extract, kiriSheetData* to)
+{
+    const kiriSheetData* from = extract->from;
+    bool ok = true;
+    for (int32_t i = 0; ok && i < from->points.count; ++i) {
+        if (extract->pointTo.data[i] != KIRI_NONE) {
+            kiriSample point = { from->points.data[i].at, KIRI_NONE, KIRI_NONE };
+            kiriSpan none = { 0, 0 };
+            ok = kiriArray_Push(to->memory, &to->points, point) &&
+                 kiriArray_Push(to->memory, &to->pointSkin.spans, none) &&
+                 kiriPlaces_Add(&to->pointPlaces, to->memory, &to->mesh, point.at);
+        }
+    }
+    return ok;
+}
+
+static bool TakePins(const kiriExtract* extract, kiriSheetData* to)
+{
+    const kiriSheetData* from = extract->from;
+    bool ok = true;
+    for (int32_t i = 0; ok && i < from->pins.count; ++i) {
+        if (extract->pinTo.data[i] != KIRI_NONE) {
+            int32_t frame = extract->frameTo.data[from->model.pinFrame.data[i]];
+            ok = kiriSheet_AddPin(to, &from->pins.data[i], frame);
+        }
+    }
+    return ok;
+}
+
+/* Room for contacts is what SetContacts reserves, so that none is needed later. */
+static bool TakeContacts(const kiriExtract* extract, kiriSheetData* to)
+{
+    const kiriSheetData* from = extract->from;
+    int32_t most = from->contacts.count > from->lastContacts.count ? from->contacts.count : from->lastContacts.count;
+    if (!kiriArray_Reserve(to->memory, &to->contacts, most) ||
+        !kiriArray_Reserve(to->memory, &to->lastContacts, most) ||
+        !kiriArray_Reserve(to->memory, &to->contactRows, most)) {
+        return false;
+    }
+    for (int32_t i = 0; i < from->contacts.count + from->lastContacts.count; ++i) {
+        bool isLast = i >= from->contacts.count;
+        kiriContact contact = isLast ? from->lastContacts.data[i - from->contacts.count] : from->contacts.data[i];
+        contact.point = extract->pointTo.data[contact.point];
+        if (contact.point != KIRI_NONE && isLast) {
+            to->lastContacts.data[to->lastContacts.count++] = contact;
+        } else if (contact.point != KIRI_NONE) {
+            to->contacts.data[to->contacts.count++] = contact;
+        }
+    }
+    return true;
+}
+
+/* All stages but the mesh's, without a limit. No frame is added: whoever wants one has asked before, or asks with the
+   next cut. */
+static bool RunStages(const kiriExtract* extract, kiriSheetData* to)
+{
+    kiriQuota all = { INT64_MAX, 0 };
+    kiriUpdate* u = &to->update;
+    u->isScratch = true;
+    if (kiriUpdate_Grid(to, &all) != KIRI_DONE || !TakeSites(extract, to) || !TakePoints(extract, to) ||
+        !TakePins(extract, to) || !TakeContacts(extract, to) || !kiriSheet_StartSkin(to)) {
+        return false;
+    }
+    u->step = 1; /* sites are where they shall be */
+    to->maxFrames = 0;
+    bool ok = kiriUpdate_Regions(to, &all) == KIRI_DONE && kiriUpdate_Shape(to, &all) == KIRI_DONE &&
+              kiriUpdate_Samples(to, &all) == KIRI_DONE && kiriUpdate_Constants(to, &all) == KIRI_DONE;
+    to->maxFrames = extract->from->maxFrames;
+    return ok;
+}
+
+/* Frames as they are to the last bit, whatever a commit does to new ones. */
+static void TakeFrames(const kiriExtract* extract, kiriSheetData* to)
+{
+    to->frames.count = to->update.sites.count;
+    for (int32_t i = 0; i < extract->from->frames.count; ++i) {
+        if (extract->frameTo.data[i] != KIRI_NONE) {
+            kiriFrameData* frame = &to->frames.data[extract->frameTo.data[i]];
+            *frame = extract->from->frames.data[i];
+            frame->site = to->update.sites.data[extract->frameTo.data[i]];
+        }
+    }
+}
+
+/* What is still seen elsewhere goes on to fade. Samples keep their order. */
+static bool TakeFades(kiriFades* to, const kiriMemory* memory, const kiriFades* from, const int32_t* sampleTo,
+                      int32_t sampleCount)
+{
+    if (from->fading.count == 0) {
+        return true;
+    }
+    if (!kiriFades_Reserve(to, memory, sampleCount)) {
+        return false;
+    }
+    for (int32_t k = 0; k < from->fading.count; ++k) {
+        kiriFading fading = from->fading.data[k];
+        fading.sample = sampleTo[fading.sample];
+        if (fading.sample != KIRI_NONE) {
+            to->fading.data[to->fading.count++] = fading;
+        }
+    }
+    return true;
+}
+
+static bool TakeAllFades(const kiriExtract* extract, kiriSheetData* to)
+{
+    const kiriSheetData* from = extract->from;
+    return TakeFades(&to->fades, to->memory, &from->fades, extract->vertexTo.data, to->mesh.vertices.count) &&
+           TakeFades(&to->pointFades, to->memory, &from->pointFades, extract->pointTo.data, to->points.count);
+}
+
+/* Links come in the order that they had. */
+static void TakeEases(const kiriExtract* extract, kiriSheetData* to)
+{
+    const kiriSheetData* from = extract->from;
+    int32_t count = 0;
+    for (int32_t k = 0; k < from->eases.eases.count && count < to->eases.eases.count; ++k) {
+        if (extract->frameTo.data[from->links.links.data[k].i] != KIRI_NONE) {
+            to->eases.eases.data[count++] = from->eases.eases.data[k];
+        }
+    }
+}
+
+static bool Build(const kiriExtract* extract, kiriSheetData* to)
+{
+    to->solver = kiriSolver_Create(to->memory, &to->mechanics);
+    if (to->solver == NULL || !RunStages(extract, to) || !TakeAllFades(extract, to)) {
+        return false;
+    }
+    TakeFrames(extract, to);
+    kiriUpdate_Commit(to);
+    TakeFrames(extract, to);
+    TakeEases(extract, to);
+    kiriView_WriteTopology(to);
+    kiriMesh_Commit(&to->mesh);
+    kiriView_WritePositions(to);
+    return true;
+}
+
+bool kiriExtract_Build(kiriExtract* extract, kiriSheetData* to)
+{
+    const kiriSheetData* from = extract->from;
+    memset(to, 0, sizeof(*to));
+    to->memory = from->memory;
+    to->update.stage = KIRI_NONE;
+    if (!MapMesh(extract) || !MapRest(extract) ||
+        !kiriMesh_InitPart(&to->mesh, &from->mesh, extract->triangleTo.data, extract->vertexTo.data)) {
+        return false;
+    }
+    TakeParameters(to, from);
+    if (!Build(extract, to)) {
+        kiriSheet_Release(to);
+        return false;
+    }
+    return true;
+}
+
+/* ---- The rest ---- */
+
+static void MoveBlade(const kiriExtract* extract, kiriBlade* blade)
+{
+    if (blade->vertex != KIRI_NONE) {
+        blade->vertex = extract->vertexTo.data[blade->vertex];
+    }
+}
+
+void kiriExtract_Replace(const kiriExtract* extract, kiriSheetData* sheet, kiriSheetData* rest)
+{
+    rest->id = sheet->id;
+    memcpy(&rest->queue, &sheet->queue, sizeof(sheet->queue));
+    memcpy(&rest->cuts, &sheet->cuts, sizeof(sheet->cuts));
+    memset(&sheet->queue, 0, sizeof(sheet->queue));
+    memset(&sheet->cuts, 0, sizeof(sheet->cuts));
+    for (int32_t i = 0; i < rest->cuts.count; ++i) {
+        MoveBlade(extract, &rest->cuts.data[i]->tip.blade);
+        MoveBlade(extract, &rest->cuts.data[i]->committed.blade);
+    }
+    kiriSheet_Release(sheet);
+    *sheet = *rest;
+}

@@ -1,0 +1,226 @@
+#include "kiri_piece.h"
+
+#include "kiri_motion.h"
+
+#include <string.h>
+
+/* ---- Coming off ---- */
+
+static int32_t Find(int32_t* parent, int32_t i)
+{
+    while (parent[i] != i) {
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    return i;
+}
+
+/* Regions that links join are one piece, and others are not. */
+static bool JoinFrames(kiriSheetData* sheet)
+{
+    kiriUpdate* u = &sheet->update;
+    if (!kiriArray_Resize(sheet->memory, &u->parent, u->sites.count)) {
+        return false;
+    }
+    for (int32_t i = 0; i < u->sites.count; ++i) {
+        u->parent.data[i] = i;
+    }
+    for (int32_t k = 0; k < sheet->links.next.count; ++k) {
+        const kiriLink* link = &sheet->links.next.data[k];
+        int32_t i = Find(u->parent.data, link->i), j = Find(u->parent.data, link->j);
+        u->parent.data[i < j ? j : i] = i < j ? i : j;
+    }
+    return true;
+}
+
+int32_t kiriPiece_OfVertex(const kiriSheetData* sheet, int32_t vertex)
+{
+    int32_t first = sheet->vertexSkin.spans.data[vertex].first;
+    return sheet->model.framePiece.data[sheet->vertexSkin.weights.data[first].frame];
+}
+
+/* The old piece that the material of a frame was in: of a new one, that of a frame which moves it on the old
+   surface. */
+static int32_t OriginOf(const kiriSheetData* sheet, int32_t frame)
+{
+    if (frame < sheet->frames.count) {
+        return sheet->model.framePiece.data[frame];
+    }
+    if (sheet->frames.count == 0) {
+        return KIRI_NONE;
+    }
+    int32_t triangle = sheet->grid.cells.data[sheet->update.sites.data[frame].cell].triangle;
+    return kiriPiece_OfVertex(sheet, sheet->mesh.triangles.data[triangle].vertex[0]);
+}
+
+/* Of the parts of one old piece the largest goes on, and the others came off. */
+static void MarkCameOff(kiriSheetData* sheet)
+{
+    kiriModel* next = &sheet->update.next;
+    int32_t* largest = sheet->update.parent.data; /* of each origin; there are no more of them than frames */
+    for (int32_t o = 0; o < sheet->model.pieces.count; ++o) {
+        largest[o] = KIRI_NONE;
+    }
+    for (int32_t p = 0; p < next->pieces.count; ++p) {
+        int32_t o = next->pieces.data[p].origin;
+        if (o != KIRI_NONE &&
+            (largest[o] == KIRI_NONE || next->pieces.data[p].area > next->pieces.data[largest[o]].area)) {
+            largest[o] = p;
+        }
+    }
+    for (int32_t p = 0; p < next->pieces.count; ++p) {
+        kiriPiece* piece = &next->pieces.data[p];
+        piece->cameOff = piece->origin != KIRI_NONE && largest[piece->origin] != p;
+    }
+}
+
+bool kiriPieces_Stage(kiriSheetData* sheet)
+{
+    kiriUpdate* u = &sheet->update;
+    kiriModel* next = &u->next;
+    next->pieces.count = 0;
+    if (!JoinFrames(sheet) || !kiriArray_Resize(sheet->memory, &next->framePiece, u->sites.count)) {
+        return false;
+    }
+    for (int32_t i = 0; i < u->sites.count; ++i) {
+        int32_t root = Find(u->parent.data, i);
+        if (root == i) {
+            kiriPiece piece = { 0.0, i, OriginOf(sheet, i), false };
+            next->framePiece.data[i] = next->pieces.count;
+            if (!kiriArray_Push(sheet->memory, &next->pieces, piece)) {
+                return false;
+            }
+        }
+        next->framePiece.data[i] = next->framePiece.data[root];
+        next->pieces.data[next->framePiece.data[i]].area += u->material.data[i].area;
+    }
+    MarkCameOff(sheet);
+    return true;
+}
+
+/* ---- Lists ---- */
+
+static int32_t OfFrame(const kiriSheetData* sheet, int32_t frame)
+{
+    return sheet->model.framePiece.data[frame];
+}
+
+static int32_t OfPoint(const kiriSheetData* sheet, int32_t point)
+{
+    return sheet->model.framePiece.data[sheet->points.data[point].frame];
+}
+
+static int32_t OfTriangle(const kiriSheetData* sheet, int32_t triangle)
+{
+    return kiriPiece_OfVertex(sheet, sheet->mesh.triangles.data[triangle].vertex[0]);
+}
+
+/* Sorts 0 to count - 1 by piece; what is of one piece stays in its order. */
+static bool Sort(const kiriSheetData* sheet, kiriPieceList* list, int32_t count,
+                 int32_t (*pieceOf)(const kiriSheetData* sheet, int32_t item))
+{
+    int32_t pieces = sheet->model.pieces.count;
+    if (!kiriArray_Resize(sheet->memory, &list->first, pieces + 2) ||
+        !kiriArray_Resize(sheet->memory, &list->items, count)) {
+        return false;
+    }
+    int32_t* first = list->first.data;
+    memset(first, 0, sizeof(int32_t) * (size_t)(pieces + 2));
+    for (int32_t i = 0; i < count; ++i) {
+        first[pieceOf(sheet, i) + 2] += 1;
+    }
+    for (int32_t p = 0; p < pieces; ++p) {
+        first[p + 2] += first[p + 1];
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        list->items.data[first[pieceOf(sheet, i) + 1]++] = i;
+    }
+    return true;
+}
+
+/* What the host reads beside: the ids of frames, and the corners of triangles. */
+static bool Spell(kiriSheetData* sheet)
+{
+    kiriPieceLists* lists = &sheet->lists;
+    int32_t frames = lists->frames.items.count, triangles = lists->triangles.items.count;
+    if (!kiriArray_Resize(sheet->memory, &lists->ids, frames) ||
+        !kiriArray_Resize(sheet->memory, &lists->corners, 3 * (int64_t)triangles)) {
+        return false;
+    }
+    for (int32_t i = 0; i < frames; ++i) {
+        lists->ids.data[i] = sheet->frames.data[lists->frames.items.data[i]].id;
+    }
+    for (int32_t i = 0; i < triangles; ++i) {
+        const kiriTriangle* t = &sheet->mesh.triangles.data[lists->triangles.items.data[i]];
+        memcpy(&lists->corners.data[3 * (size_t)i], t->vertex, sizeof(t->vertex));
+    }
+    return true;
+}
+
+bool kiriPieces_List(kiriSheetData* sheet)
+{
+    kiriPieceLists* lists = &sheet->lists;
+    lists->isFresh = lists->isFresh || (Sort(sheet, &lists->frames, sheet->frames.count, OfFrame) &&
+                                        Sort(sheet, &lists->vertices, sheet->mesh.vertices.count, kiriPiece_OfVertex) &&
+                                        Sort(sheet, &lists->triangles, sheet->mesh.triangles.count, OfTriangle) &&
+                                        Sort(sheet, &lists->points, sheet->points.count, OfPoint) && Spell(sheet));
+    return lists->isFresh;
+}
+
+static void ReleaseList(kiriPieceList* list, const kiriMemory* memory)
+{
+    kiriArray_Release(memory, &list->first);
+    kiriArray_Release(memory, &list->items);
+}
+
+void kiriPieces_Release(kiriPieceLists* lists, const kiriMemory* memory)
+{
+    ReleaseList(&lists->frames, memory);
+    ReleaseList(&lists->vertices, memory);
+    ReleaseList(&lists->triangles, memory);
+    ReleaseList(&lists->points, memory);
+    kiriArray_Release(memory, &lists->ids);
+    kiriArray_Release(memory, &lists->corners);
+    lists->isFresh = false;
+}
+
+kiriSpan kiriPiece_Span(const kiriPieceList* list, int32_t piece)
+{
+    int32_t first = list->first.data[piece];
+    return (kiriSpan){ first, list->first.data[piece + 1] - first };
+}
+
+/* ---- State ---- */
+
+/* The least box around the vertices as they are seen. */
+static void Bound(const kiriSheetData* sheet, kiriSpan span, float lower[3], float upper[3])
+{
+    for (int32_t i = span.first; i < span.first + span.count; ++i) {
+        const float* x = &sheet->surface.positions.data[3 * (size_t)sheet->lists.vertices.items.data[i]];
+        for (int k = 0; k < 3; ++k) {
+            lower[k] = i == span.first || x[k] < lower[k] ? x[k] : lower[k];
+            upper[k] = i == span.first || x[k] > upper[k] ? x[k] : upper[k];
+        }
+    }
+}
+
+kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece)
+{
+    const kiriPieceLists* lists = &sheet->lists;
+    kiriSpan frames = kiriPiece_Span(&lists->frames, piece), vertices = kiriPiece_Span(&lists->vertices, piece);
+    kiriTotals totals = kiriMotion_Sum(sheet, lists->frames.items.data + frames.first, frames.count);
+    kiriPieceState state;
+    memset(&state, 0, sizeof(state));
+    state.area = totals.area;
+    state.mass = totals.mass;
+    memcpy(state.center, totals.center, sizeof(state.center));
+    memcpy(state.momentum, totals.momentum, sizeof(state.momentum));
+    memcpy(state.angularMomentum, totals.angularMomentum, sizeof(state.angularMomentum));
+    Bound(sheet, vertices, state.lower, state.upper);
+    state.frames = frames.count;
+    state.vertices = vertices.count;
+    state.triangles = kiriPiece_Span(&lists->triangles, piece).count;
+    state.crumb = sheet->model.pieces.data[piece].area < sheet->crumbArea;
+    state.collisionPoints = kiriPiece_Span(&lists->points, piece).count;
+    return state;
+}

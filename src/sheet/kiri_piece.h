@@ -1,0 +1,23 @@
+/* Pieces: the connected parts of a sheet, and what is in each. They are numbered by their lowest frame. */
+#ifndef KIRI_PIECE_H
+#define KIRI_PIECE_H
+
+#include "kiri_sheet.h"
+
+/* Stages the pieces that come in force with the next commit, from the links that are staged. False for memory. */
+bool kiriPieces_Stage(kiriSheetData* sheet);
+
+/* The piece of the material that a vertex belongs to: its frames are all of one. */
+int32_t kiriPiece_OfVertex(const kiriSheetData* sheet, int32_t vertex);
+
+/* Brings the lists up to date: costs nothing where neither mesh nor pieces have changed. False for memory. */
+bool kiriPieces_List(kiriSheetData* sheet);
+void kiriPieces_Release(kiriPieceLists* lists, const kiriMemory* memory);
+
+/* Where the piece is in one of the lists. */
+kiriSpan kiriPiece_Span(const kiriPieceList* list, int32_t piece);
+
+/* What the host asks about a piece; the lists are up to date. */
+kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece);
+
+#endif

@@ -1,0 +1,26 @@
+/* Where the frames of a sheet have their sites: found again after a cut, added to pieces that have none, and where
+   frames are too few (section 5 of the paper). Steps of an update; what they change is in sheet->update: sites and
+   moves. */
+#ifndef KIRI_SITE_H
+#define KIRI_SITE_H
+
+#include "kiri_sheet.h"
+
+/* The cells of the sites that were there, in the grid as it is; a move for each that is in another cell. False for
+   memory. */
+bool kiriSites_Relocate(kiriSheetData* sheet);
+
+/* Sites for the pieces of orphans, at least one each; marks are cleared before, one a cell. */
+kiriProgress kiriSites_PlaceInOrphans(kiriSheetData* sheet, kiriQuota* cells);
+
+/* One more site for each piece with a frame that weighs too much or has too large a region; marks are cleared before,
+   one a frame. There are moves after it where it added any. */
+kiriProgress kiriSites_Resample(kiriSheetData* sheet, kiriQuota* cells);
+
+/* Makes sheet->update.marks `count` zeros, and starts at the first. False for memory. */
+bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count);
+
+/* How many of `count` things spread over the sheet fall to the piece in the placer: one at least. */
+int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count);
+
+#endif

@@ -1,0 +1,40 @@
+/* What is left of a jump when a cut takes effect: samples are seen to go on where they were, and go over to where the
+   new weights have them within a few ticks. */
+#ifndef KIRI_FADE_H
+#define KIRI_FADE_H
+
+#include "../core/kiri_array.h"
+#include "../core/kiri_vec.h"
+
+typedef struct kiriFading {
+    int32_t sample;
+    double left; /* s until it is gone */
+    kiriVec3 offset;
+} kiriFading;
+
+/* Of a row of samples: those that are seen elsewhere than their weights have them. */
+typedef struct kiriFades {
+    double time;                          /* s that a jump takes; 0: samples jump at once */
+    double least;                         /* m: what is less is not seen */
+    KIRI_ARRAY(kiriFading) fading, older; /* by sample; the second is room to merge */
+    KIRI_ARRAY(kiriVec3) seen;            /* room for where the samples are seen while a cut takes effect */
+    double jump, move;                    /* m, in this tick: the longest jump that came, and way that a fade went */
+} kiriFades;
+
+/* Room for so many samples, so that the others do not fail. */
+bool kiriFades_Reserve(kiriFades* fades, const kiriMemory* memory, int32_t sampleCount);
+
+/* Gives memory back where nothing fades. */
+void kiriFades_Trim(kiriFades* fades, const kiriMemory* memory);
+void kiriFades_Release(kiriFades* fades, const kiriMemory* memory);
+
+/* Swaps fades->seen with the samples' own array, which had where they are seen. Both have room for all. */
+void kiriFades_Remember(kiriFades* fades, kiriVec3** samples, int32_t* capacity);
+
+/* Samples that are seen at fades->seen would be at `now`, if nothing faded: the difference fades from here on. */
+void kiriFades_Take(kiriFades* fades, const kiriVec3* now, int32_t sampleCount);
+
+/* Time goes on. */
+void kiriFades_Advance(kiriFades* fades, double dt);
+
+#endif

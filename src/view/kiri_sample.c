@@ -1,0 +1,368 @@
+#include "kiri_sample.h"
+
+#include <string.h>
+
+/* ---- Weights ---------------------------------------------------------------------------------------------------- */
+
+void kiriSkin_Release(kiriSkin* skin, const kiriMemory* memory)
+{
+    kiriArray_Release(memory, &skin->spans);
+    kiriArray_Release(memory, &skin->weights);
+    kiriArray_Release(memory, &skin->staged);
+}
+
+static bool ResizeSpan(kiriSkin* skin, const kiriMemory* memory, kiriSpan* span, int32_t count)
+{
+    return kiriSpan_Resize(span, &skin->room, memory, &skin->weights, sizeof(*skin->weights.data), count);
+}
+
+/* Gives room back, which needs no memory. */
+static void Drop(kiriSkin* skin, kiriSpan* span)
+{
+    ResizeSpan(skin, NULL, span, 0);
+}
+
+/* Stages what the stencil has weighed. Makes room for the commit, too. */
+static bool Stage(kiriSkin* skin, const kiriMemory* memory, const kiriStencil* stencil, int32_t sample)
+{
+    kiriReweighed staged = { sample, { 0, 0 } };
+    int32_t count = 0;
+    for (int32_t i = 0; i < stencil->frames.count; ++i) {
+        count += stencil->values.data[i] > 0.0;
+    }
+    if (!kiriArray_Reserve(memory, &skin->spans, (int64_t)sample + 1) ||
+        !kiriArray_Reserve(memory, &skin->staged, (int64_t)skin->staged.count + 1) ||
+        !ResizeSpan(skin, memory, &staged.span, count)) {
+        return false;
+    }
+    kiriWeight* weight = skin->weights.data + staged.span.first;
+    for (int32_t i = 0; i < stencil->frames.count; ++i) {
+        if (stencil->values.data[i] > 0.0) {
+            *weight++ = (kiriWeight){ stencil->frames.data[i], stencil->values.data[i] };
+        }
+    }
+    skin->staged.data[skin->staged.count++] = staged;
+    return true;
+}
+
+bool kiriSkin_Stage(kiriSkin* skin, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+                    const kiriMeshData* mesh, int32_t sample, int32_t cell, kiriVec2 at)
+{
+    kiriStencil stencil = { 0 };
+    bool ok = kiriStencil_Gather(&stencil, memory, shape, grid, mesh, cell);
+    if (ok) {
+        kiriStencil_Weigh(&stencil, at);
+        ok = Stage(skin, memory, &stencil, sample);
+    }
+    kiriStencil_Release(&stencil, memory);
+    return ok;
+}
+
+void kiriSkin_Commit(kiriSkin* skin)
+{
+    for (int32_t k = 0; k < skin->staged.count; ++k) {
+        kiriReweighed staged = skin->staged.data[k];
+        if (staged.sample < skin->spans.count) {
+            Drop(skin, &skin->spans.data[staged.sample]);
+            skin->spans.data[staged.sample] = staged.span;
+        } else {
+            skin->spans.data[skin->spans.count++] = staged.span;
+        }
+    }
+    skin->staged.count = 0;
+}
+
+void kiriSkin_Drop(kiriSkin* skin)
+{
+    for (int32_t k = 0; k < skin->staged.count; ++k) {
+        Drop(skin, &skin->staged.data[k].span);
+    }
+    skin->staged.count = 0;
+}
+
+/* Adds to the weights of the span, which has room; they stay sorted by frame. */
+static void Blend(kiriSkin* skin, kiriSpan* span, int32_t frame, double value)
+{
+    kiriWeight* weights = skin->weights.data + span->first;
+    int32_t k = 0;
+    while (k < span->count && weights[k].frame < frame) {
+        ++k;
+    }
+    if (k == span->count || weights[k].frame != frame) {
+        memmove(weights + k + 1, weights + k, (size_t)(span->count - k) * sizeof(*weights));
+        weights[k] = (kiriWeight){ frame, 0.0 };
+        ++span->count;
+    }
+    weights[k].value += value;
+}
+
+static bool InheritOne(kiriSkin* skin, const kiriMemory* memory, const kiriBirth* birth)
+{
+    kiriSpan span = { 0, 0 };
+    int32_t most = 0;
+    for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
+        most += skin->spans.data[birth->parent[k]].count;
+    }
+    if (!kiriArray_Reserve(memory, &skin->spans, (int64_t)skin->spans.count + 1) ||
+        !ResizeSpan(skin, memory, &span, most)) {
+        return false;
+    }
+    kiriSpan sum = { span.first, 0 };
+    for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
+        kiriSpan parent = skin->spans.data[birth->parent[k]];
+        for (int32_t i = parent.first; i < parent.first + parent.count; ++i) {
+            kiriWeight weight = skin->weights.data[i];
+            Blend(skin, &sum, weight.frame, birth->share[k] * weight.value);
+        }
+    }
+    ResizeSpan(skin, memory, &span, sum.count);
+    skin->spans.data[skin->spans.count++] = span;
+    return true;
+}
+
+bool kiriSkin_Inherit(kiriSkin* skin, const kiriMemory* memory, const kiriMeshData* mesh)
+{
+    for (int32_t v = skin->spans.count; v < mesh->vertices.count; ++v) {
+        if (!InheritOne(skin, memory, &mesh->births.data[v - mesh->oldVertexCount])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount)
+{
+    while (skin->spans.count > sampleCount) {
+        Drop(skin, &skin->spans.data[--skin->spans.count]);
+    }
+}
+
+/* ---- Where samples are ------------------------------------------------------------------------------------------ */
+
+static int32_t SquareCount(const kiriMeshData* mesh)
+{
+    return mesh->squares.columns * mesh->squares.rows;
+}
+
+bool kiriPlaces_Reserve(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount)
+{
+    int32_t old = places->head.count;
+    if (!kiriArray_Reserve(memory, &places->next, sampleCount) ||
+        !kiriArray_Resize(memory, &places->head, SquareCount(mesh))) {
+        return false;
+    }
+    for (int32_t s = old; s < places->head.count; ++s) {
+        places->head.data[s] = KIRI_NONE;
+    }
+    return true;
+}
+
+bool kiriPlaces_Add(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, kiriPoint at)
+{
+    if (!kiriPlaces_Reserve(places, memory, mesh, (int64_t)places->next.count + 1)) {
+        return false;
+    }
+    int32_t square = kiriSquares_At(&mesh->squares, at), sample = places->next.count++;
+    places->next.data[sample] = KIRI_NONE;
+    if (square != KIRI_NONE) {
+        places->next.data[sample] = places->head.data[square];
+        places->head.data[square] = sample;
+    }
+    return true;
+}
+
+/* The latest sample of a square is the first in its list. */
+void kiriPlaces_Truncate(kiriPlaces* places, const kiriMeshData* mesh, int32_t sampleCount, const kiriPoint* at)
+{
+    while (places->next.count > sampleCount) {
+        int32_t sample = --places->next.count, square = kiriSquares_At(&mesh->squares, at[sample]);
+        if (square != KIRI_NONE) {
+            places->head.data[square] = places->next.data[sample];
+        }
+    }
+}
+
+void kiriPlaces_Release(kiriPlaces* places, const kiriMemory* memory)
+{
+    kiriArray_Release(memory, &places->head);
+    kiriArray_Release(memory, &places->next);
+}
+
+/* ---- Refreshing ------------------------------------------------------------------------------------------------- */
+
+/* There is room for every square. */
+static void AddSquare(kiriRefresh* refresh, int32_t square)
+{
+    if (!refresh->marks.data[square]) {
+        refresh->marks.data[square] = 1;
+        refresh->squares.data[refresh->squares.count++] = square;
+    }
+}
+
+bool kiriRefresh_Start(kiriRefresh* refresh, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+                       const kiriMeshData* mesh, int32_t firstVertex)
+{
+    int32_t old = refresh->marks.count;
+    refresh->squares.count = refresh->square = 0;
+    refresh->sample = refresh->stencil.cell = KIRI_NONE;
+    if (!kiriArray_Reserve(memory, &refresh->squares, SquareCount(mesh)) ||
+        !kiriArray_Resize(memory, &refresh->marks, SquareCount(mesh))) {
+        return false;
+    }
+    for (int32_t s = old; s < refresh->marks.count; ++s) {
+        refresh->marks.data[s] = 0;
+    }
+    for (int32_t k = 0; k < shape->changes.count; ++k) {
+        int32_t cell = shape->changes.data[k];
+        AddSquare(refresh, grid->cells.data[cell].square);
+        for (int32_t s = grid->runs.data[cell].first; s < grid->runs.data[cell].end[1]; ++s) {
+            AddSquare(refresh, grid->cells.data[grid->steps.data[s].cell].square);
+        }
+    }
+    for (int32_t v = firstVertex; v < mesh->vertices.count; ++v) {
+        AddSquare(refresh, kiriSquares_At(&mesh->squares, mesh->vertices.data[v].at));
+    }
+    for (int32_t k = 0; k < refresh->squares.count; ++k) {
+        refresh->marks.data[refresh->squares.data[k]] = 0;
+    }
+    return true;
+}
+
+/* What a refresh works on. */
+typedef struct Samples {
+    kiriSkin* skin;
+    const kiriMemory* memory;
+    const kiriShape* shape;
+    const kiriGrid* grid;
+    const kiriMeshData* mesh;
+    const kiriPlaces* places; /* null: vertices */
+    const kiriSamples* points;
+} Samples;
+
+static int32_t FirstOf(const Samples* samples, int32_t square)
+{
+    return samples->places == NULL ? samples->mesh->squares.vertexHead[square] : samples->places->head.data[square];
+}
+
+static int32_t NextOf(const Samples* samples, int32_t sample)
+{
+    return samples->places == NULL ? samples->mesh->vertices.data[sample].next : samples->places->next.data[sample];
+}
+
+static int32_t CellOf(const Samples* samples, int32_t square, int32_t sample)
+{
+    int32_t first = samples->grid->squareCell.data[square];
+    if (samples->grid->cells.data[first].next == KIRI_NONE) {
+        return first;
+    }
+    return samples->places == NULL ? kiriGrid_CellOfVertex(samples->grid, samples->mesh, sample)
+                                   : kiriGrid_CellAround(samples->grid, samples->mesh, samples->points->data[sample].at);
+}
+
+/* A sample has often the cell of the one before. */
+static bool RefreshOne(kiriRefresh* refresh, const Samples* samples, int32_t square, int32_t sample)
+{
+    kiriStencil* stencil = &refresh->stencil;
+    int32_t cell = CellOf(samples, square, sample);
+    kiriPoint at = samples->places == NULL ? samples->mesh->vertices.data[sample].at : samples->points->data[sample].at;
+    if (stencil->cell != cell &&
+        !kiriStencil_Gather(stencil, samples->memory, samples->shape, samples->grid, samples->mesh, cell)) {
+        return false;
+    }
+    kiriStencil_Weigh(stencil, kiriMesh_Local(samples->mesh, at));
+    return Stage(samples->skin, samples->memory, stencil, sample);
+}
+
+static kiriProgress Refresh(kiriRefresh* refresh, const Samples* samples, kiriQuota* quota)
+{
+    for (; refresh->square < refresh->squares.count; ++refresh->square) {
+        int32_t square = refresh->squares.data[refresh->square];
+        int32_t sample = refresh->sample == KIRI_NONE ? FirstOf(samples, square) : refresh->sample;
+        for (; sample != KIRI_NONE; sample = NextOf(samples, sample)) {
+            refresh->sample = sample;
+            if (!kiriQuota_Take(quota, 1)) {
+                return KIRI_MORE;
+            }
+            if (!RefreshOne(refresh, samples, square, sample)) {
+                return KIRI_FAILED;
+            }
+        }
+        refresh->sample = KIRI_NONE;
+    }
+    refresh->square = 0;
+    return KIRI_DONE;
+}
+
+kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, const kiriMemory* memory,
+                                  const kiriShape* shape, const kiriGrid* grid, const kiriMeshData* mesh,
+                                  kiriQuota* quota)
+{
+    Samples samples = { skin, memory, shape, grid, mesh, NULL, NULL };
+    return Refresh(refresh, &samples, quota);
+}
+
+kiriProgress kiriRefresh_Points(kiriRefresh* refresh, kiriSkin* skin, const kiriPlaces* places,
+                                const kiriSamples* points, const kiriMemory* memory, const kiriShape* shape,
+                                const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
+{
+    Samples samples = { skin, memory, shape, grid, mesh, places, points };
+    /* Before the first point there are no lists. */
+    return places->next.count > 0 ? Refresh(refresh, &samples, quota) : KIRI_DONE;
+}
+
+void kiriRefresh_Release(kiriRefresh* refresh, const kiriMemory* memory)
+{
+    kiriArray_Release(memory, &refresh->squares);
+    kiriArray_Release(memory, &refresh->marks);
+    kiriStencil_Release(&refresh->stencil, memory);
+}
+
+/* ---- Motion ----------------------------------------------------------------------------------------------------- */
+
+kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrameData* frames, kiriVec2 local)
+{
+    kiriVec3 x = { 0.0, 0.0, 0.0 };
+    kiriSpan span = skin->spans.data[sample];
+    for (int32_t i = span.first; i < span.first + span.count; ++i) {
+        kiriWeight weight = skin->weights.data[i];
+        x = kiriVec3_AddScaled(x, weight.value, kiriFrame_Carry(&frames[weight.frame], local));
+    }
+    return x;
+}
+
+static void AddColumns(kiriMat3* sum, double w, const kiriMat3* A)
+{
+    sum->u = kiriVec3_AddScaled(sum->u, w, A->u);
+    sum->v = kiriVec3_AddScaled(sum->v, w, A->v);
+    sum->d = kiriVec3_AddScaled(sum->d, w, A->d);
+}
+
+static void AddMotion(kiriMotion* sum, const kiriFrameData* frame, kiriVec2 local, double w)
+{
+    kiriMat3 rate = kiriFrame_Rate(frame);
+    sum->x = kiriVec3_AddScaled(sum->x, w, kiriFrame_Carry(frame, local));
+    sum->velocity = kiriVec3_AddScaled(sum->velocity, w, kiriFrame_VelocityAt(frame, local));
+    sum->spin = kiriVec3_AddScaled(sum->spin, w, frame->spin);
+    AddColumns(&sum->A, w, &frame->A);
+    AddColumns(&sum->rate, w, &rate);
+}
+
+kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* frames, const kiriMeshData* mesh,
+                           int32_t triangle, kiriPoint at)
+{
+    kiriMotion motion;
+    memset(&motion, 0, sizeof(motion));
+    kiriVec2 local = kiriMesh_Local(mesh, at);
+    kiriPoint corners[3];
+    kiriMesh_Corners(mesh, triangle, corners);
+    double area = (double)kiriOrient(corners[0], corners[1], corners[2]);
+    for (int k = 0; k < 3; ++k) {
+        double share = (double)kiriOrient(corners[(k + 1) % 3], corners[(k + 2) % 3], at) / area;
+        kiriSpan span = vertexSkin->spans.data[mesh->triangles.data[triangle].vertex[k]];
+        for (int32_t i = span.first; i < span.first + span.count; ++i) {
+            kiriWeight weight = vertexSkin->weights.data[i];
+            AddMotion(&motion, &frames[weight.frame], local, share * weight.value);
+        }
+    }
+    return motion;
+}

@@ -1,0 +1,90 @@
+/* Samples: points that take their weights from the grid (section 6 of the paper): mesh vertices, collision points. */
+#ifndef KIRI_SAMPLE_H
+#define KIRI_SAMPLE_H
+
+#include "../field/kiri_shape.h"
+#include "../motion/kiri_frame.h"
+
+/* A sample that shall have other weights. */
+typedef struct kiriReweighed {
+    int32_t sample;
+    kiriSpan span;
+} kiriReweighed;
+
+/* The weights of a row of samples. */
+typedef struct kiriSkin {
+    KIRI_ARRAY(kiriSpan) spans;     /* one a sample */
+    KIRI_ARRAY(kiriWeight) weights; /* by spans; in a span by frame */
+    kiriSpans room;
+    KIRI_ARRAY(kiriReweighed) staged; /* weights that take effect with the commit */
+} kiriSkin;
+
+/* A material point that the host collides with the world. */
+typedef struct kiriSample {
+    kiriPoint at;  /* in the material */
+    int32_t cell;  /* around it */
+    int32_t frame; /* in whose region it is */
+} kiriSample;
+
+typedef KIRI_ARRAY(kiriSample) kiriSamples;
+
+/* What blended frames do at a point: linear-blend skinning and its velocity. A is not a rotation. */
+typedef struct kiriMotion {
+    kiriVec3 x, velocity, spin;
+    kiriMat3 A, rate; /* rate: of A, all of it */
+} kiriMotion;
+
+void kiriSkin_Release(kiriSkin* skin, const kiriMemory* memory);
+
+/* Stages the weights of a sample at a local point of a cell. A sample is staged at most once before a commit; those
+   from `spans.count` on are new and must be staged in their order. False for memory. */
+bool kiriSkin_Stage(kiriSkin* skin, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+                    const kiriMeshData* mesh, int32_t sample, int32_t cell, kiriVec2 at);
+
+/* The weights staged become those of the samples, or are dropped. Neither fails. */
+void kiriSkin_Commit(kiriSkin* skin);
+void kiriSkin_Drop(kiriSkin* skin);
+
+/* Which samples lie in which square, for samples that never move: a list a square. */
+typedef struct kiriPlaces {
+    KIRI_ARRAY(int32_t) head; /* of each square, or KIRI_NONE */
+    KIRI_ARRAY(int32_t) next; /* of each sample */
+} kiriPlaces;
+/* After it Add does not fail until there are so many samples. */
+bool kiriPlaces_Reserve(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount);
+bool kiriPlaces_Add(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, kiriPoint at);
+void kiriPlaces_Truncate(kiriPlaces* places, const kiriMeshData* mesh, int32_t sampleCount, const kiriPoint* at);
+void kiriPlaces_Release(kiriPlaces* places, const kiriMemory* memory);
+
+/* Stages, of all samples that follow the shape functions, those whose weights may have changed: each in a cell of
+   shape->changes, or one straight or diagonal step from one. An item of the quota is a sample staged. */
+typedef struct kiriRefresh {
+    KIRI_ARRAY(int32_t) squares; /* with such cells */
+    KIRI_ARRAY(uint8_t) marks;   /* of each square */
+    int32_t square, sample;      /* where the work goes on */
+    kiriStencil stencil;         /* of the cell at hand */
+} kiriRefresh;
+
+/* Vertices from `firstVertex` on are new, and are staged all. */
+bool kiriRefresh_Start(kiriRefresh* refresh, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+                       const kiriMeshData* mesh, int32_t firstVertex);
+kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, const kiriMemory* memory,
+                                  const kiriShape* shape, const kiriGrid* grid, const kiriMeshData* mesh,
+                                  kiriQuota* quota);
+kiriProgress kiriRefresh_Points(kiriRefresh* refresh, kiriSkin* skin, const kiriPlaces* places,
+                                const kiriSamples* points, const kiriMemory* memory, const kiriShape* shape,
+                                const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
+void kiriRefresh_Release(kiriRefresh* refresh, const kiriMemory* memory);
+
+/* Vertices born since kiriMesh_Begin take a blend of their parents' weights, so that they lie on the surface as it was.
+   Truncate takes that back. */
+bool kiriSkin_Inherit(kiriSkin* skin, const kiriMemory* memory, const kiriMeshData* mesh);
+void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount);
+
+kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrameData* frames, kiriVec2 local);
+
+/* The motion at a lattice point of a triangle, from the weights of its corners. */
+kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* frames, const kiriMeshData* mesh,
+                           int32_t triangle, kiriPoint at);
+
+#endif

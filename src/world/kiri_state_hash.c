@@ -1,0 +1,338 @@
+#include "kiri_state_hash.h"
+
+static void Bytes(uint64_t* hash, const void* data, size_t bytes)
+{
+    const unsigned char* byte = data;
+    for (size_t i = 0; i < bytes; ++i) {
+        *hash = (*hash ^ byte[i]) * 1099511628211u;
+    }
+}
+
+static void Int(uint64_t* hash, int32_t value)
+{
+    Bytes(hash, &value, sizeof(value));
+}
+static void Real(uint64_t* hash, double value)
+{
+    Bytes(hash, &value, sizeof(value));
+}
+
+static void Vec2(uint64_t* hash, kiriVec2 a)
+{
+    Real(hash, a.x);
+    Real(hash, a.y);
+}
+
+static void Vec3(uint64_t* hash, kiriVec3 a)
+{
+    Real(hash, a.x);
+    Real(hash, a.y);
+    Real(hash, a.z);
+}
+
+static void Point(uint64_t* hash, kiriPoint p)
+{
+    Int(hash, p.x);
+    Int(hash, p.y);
+}
+
+static void Mesh(uint64_t* hash, const kiriMeshData* mesh)
+{
+    Vec2(hash, mesh->origin);
+    Real(hash, mesh->step);
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        const kiriTriangle* triangle = &mesh->triangles.data[t];
+        Bytes(hash, triangle->vertex, sizeof(triangle->vertex));
+        Bytes(hash, triangle->twin, sizeof(triangle->twin));
+        Int(hash, triangle->open);
+    }
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        Point(hash, mesh->vertices.data[v].at);
+    }
+}
+
+static void Moments(uint64_t* hash, const kiriMoments* m)
+{
+    Real(hash, m->area);
+    Vec2(hash, kiriVec2_Make(m->u, m->v));
+    Vec3(hash, kiriVec3_Make(m->uu, m->uv, m->vv));
+}
+
+static void Skin(uint64_t* hash, const kiriSkin* skin)
+{
+    for (int32_t i = 0; i < skin->spans.count; ++i) {
+        kiriSpan span = skin->spans.data[i];
+        Int(hash, span.count);
+        for (int32_t k = span.first; k < span.first + span.count; ++k) {
+            Int(hash, skin->weights.data[k].frame);
+            Real(hash, skin->weights.data[k].value);
+        }
+    }
+}
+
+static void Link(uint64_t* hash, const kiriLink* link)
+{
+    Int(hash, link->i);
+    Int(hash, link->j);
+    Vec3(hash, kiriVec3_Make(link->width, link->length, link->moment));
+    Real(hash, link->braced);
+    Vec2(hash, link->span);
+    Vec2(hash, link->normal);
+    Vec2(hash, link->tangent);
+    Vec2(hash, link->centroid);
+    Vec2(hash, link->crossing);
+    Vec2(hash, link->spread[0]);
+    Vec2(hash, link->spread[1]);
+}
+
+static void Patches(uint64_t* hash, const kiriPatches* patches)
+{
+    for (int32_t i = 0; i < patches->patches.count; ++i) {
+        Real(hash, patches->patches.data[i].area);
+        Int(hash, patches->patches.data[i].count);
+    }
+    for (int32_t i = 0; i < patches->shares.count; ++i) {
+        const kiriShare* share = &patches->shares.data[i];
+        Int(hash, share->frame);
+        Real(hash, share->weight);
+        Vec2(hash, share->slope);
+        Vec2(hash, share->move);
+        Vec2(hash, share->u);
+        Vec2(hash, share->v);
+    }
+}
+
+static void Model(uint64_t* hash, const kiriSheetData* sheet)
+{
+    const kiriModel* model = &sheet->model;
+    for (int32_t i = 0; i < sheet->links.links.count; ++i) {
+        Link(hash, &sheet->links.links.data[i]);
+    }
+    Patches(hash, &model->patches);
+    for (int32_t i = 0; i < sheet->points.count; ++i) {
+        Point(hash, sheet->points.data[i].at);
+        Int(hash, sheet->points.data[i].frame);
+    }
+    Skin(hash, &sheet->vertexSkin);
+    Skin(hash, &sheet->pointSkin);
+    for (int32_t i = 0; i < model->framePiece.count; ++i) {
+        Int(hash, model->framePiece.data[i]);
+    }
+    for (int32_t i = 0; i < model->pinFrame.count; ++i) {
+        Int(hash, model->pinFrame.data[i]);
+    }
+}
+
+static void Frame(uint64_t* hash, const kiriFrameData* frame)
+{
+    Vec2(hash, frame->site.at);
+    Vec2(hash, frame->center);
+    Real(hash, frame->mass);
+    Vec3(hash, kiriVec3_Make(frame->inertia[0], frame->inertia[1], frame->inertia[2]));
+    Vec3(hash, frame->x);
+    Vec3(hash, frame->A.u);
+    Vec3(hash, frame->A.v);
+    Vec3(hash, frame->A.d);
+    Vec3(hash, frame->velocity);
+    Vec3(hash, frame->spin);
+    Vec3(hash, frame->rate.u);
+    Vec3(hash, frame->rate.v);
+    Vec3(hash, frame->rate.d);
+    Vec3(hash, frame->force);
+    Vec3(hash, frame->torque);
+    Point(hash, frame->anchor);
+    Int(hash, frame->held);
+    if (frame->held) {
+        Vec3(hash, frame->heldPosition);
+        Vec3(hash, frame->heldRotation.u);
+        Vec3(hash, frame->heldRotation.v);
+        Vec3(hash, frame->heldRotation.d);
+    }
+}
+
+static void Parameters(uint64_t* hash, const kiriSheetData* sheet)
+{
+    const kiriMaterial* m = &sheet->material;
+    Vec3(hash, kiriVec3_Make(m->youngsModulus, m->poissonsRatio, m->thickness));
+    Vec3(hash, kiriVec3_Make(m->density, m->airDamping, m->flexDamping));
+    Vec3(hash, kiriVec3_Make(sheet->snap, sheet->shape.rigidWeight, sheet->rigidArea));
+    Real(hash, sheet->crumbArea);
+    Real(hash, sheet->frameLength);
+    Int(hash, sheet->mechanics.model);
+    Int(hash, sheet->mechanics.planar);
+    Real(hash, sheet->integrationPoints);
+    Int(hash, sheet->integrationOrder);
+    Int(hash, sheet->maxFrames);
+    Int(hash, sheet->iterations);
+    Real(hash, sheet->pointCount);
+    Int(hash, sheet->popping);
+}
+
+static int32_t IndexOf(const kiriSheetData* sheet, const kiriCutData* cut)
+{
+    int32_t index = 0;
+    while (sheet->cuts.data[index] != cut) {
+        ++index;
+    }
+    return index;
+}
+
+static void Contacts(uint64_t* hash, const kiriContact* contacts, int32_t count)
+{
+    Int(hash, count);
+    for (int32_t i = 0; i < count; ++i) {
+        Int(hash, contacts[i].point);
+        Vec3(hash, kiriVec3_Load(contacts[i].normal));
+        Vec3(hash, kiriVec3_Make(contacts[i].offset, contacts[i].friction, contacts[i].stiffness));
+    }
+}
+
+static void Waiting(uint64_t* hash, const kiriSheetData* sheet)
+{
+    for (int32_t i = 0; i < sheet->queue.count; ++i) {
+        Vec2(hash, sheet->queue.data[i].to);
+        Int(hash, sheet->queue.data[i].jump);
+        Int(hash, i > 0 && sheet->queue.data[i].stamp != sheet->queue.data[i - 1].stamp);
+        Int(hash, IndexOf(sheet, sheet->queue.data[i].cut));
+    }
+    for (int32_t i = 0; i < sheet->cuts.count; ++i) {
+        Vec2(hash, sheet->cuts.data[i]->tip.last);
+        Point(hash, sheet->cuts.data[i]->tip.blade.at);
+        Int(hash, sheet->cuts.data[i]->tip.blade.vertex);
+        Int(hash, sheet->cuts.data[i]->ended);
+    }
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        Point(hash, sheet->pins.data[i].at);
+        Vec3(hash, sheet->pins.data[i].target);
+        Real(hash, sheet->pins.data[i].stiffness);
+    }
+    Contacts(hash, sheet->contacts.data, sheet->contacts.count);
+}
+
+static void Eases(uint64_t* hash, const kiriEases* eases)
+{
+    for (int32_t k = 0; k < eases->eases.count; ++k) {
+        for (int e = 0; e < KIRI_STRAINS; ++e) {
+            Real(hash, eases->eases.data[k].strain[e]);
+        }
+    }
+}
+
+static void Fades(uint64_t* hash, const kiriFades* fades)
+{
+    Real(hash, fades->time);
+    for (int32_t k = 0; k < fades->fading.count; ++k) {
+        Int(hash, fades->fading.data[k].sample);
+        Real(hash, fades->fading.data[k].left);
+        Vec3(hash, fades->fading.data[k].offset);
+    }
+}
+
+static void Sleep(uint64_t* hash, const kiriSheetData* sheet)
+{
+    Real(hash, sheet->sleepSpeed);
+    Real(hash, sheet->calm);
+    Int(hash, sheet->asleep);
+    Contacts(hash, sheet->lastContacts.data, sheet->lastContacts.count);
+}
+
+uint64_t kiriSnapshot_Hash(const kiriWorld* world)
+{
+    uint64_t hash = 14695981039346656037u;
+    Vec3(&hash, world->gravity);
+    Bytes(&hash, &world->budget, sizeof(world->budget));
+    Int(&hash, world->turn);
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        const kiriSheetData* sheet = world->sheets.data[i];
+        Parameters(&hash, sheet);
+        Mesh(&hash, &sheet->mesh);
+        Model(&hash, sheet);
+        uint64_t pattern = kiriSolver_Hash(sheet->solver);
+        Bytes(&hash, &pattern, sizeof(pattern));
+        Waiting(&hash, sheet);
+        Sleep(&hash, sheet);
+        Eases(&hash, &sheet->eases);
+        Fades(&hash, &sheet->fades);
+        Fades(&hash, &sheet->pointFades);
+        for (int32_t f = 0; f < sheet->frames.count; ++f) {
+            Frame(&hash, &sheet->frames.data[f]);
+        }
+    }
+    return hash;
+}
+
+/* ---- Grid, regions and shape, by what does not depend on indices ---- */
+
+static void Place(uint64_t* hash, const kiriGrid* grid, int32_t cell)
+{
+    Int(hash, cell == KIRI_NONE ? KIRI_NONE : grid->cells.data[cell].square);
+    Int(hash, cell == KIRI_NONE ? KIRI_NONE : grid->cells.data[cell].triangle);
+}
+
+static void Steps(uint64_t* hash, const kiriGrid* grid, int32_t cell)
+{
+    kiriStepRun run = grid->runs.data[cell];
+    for (int32_t s = run.first; s < run.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        kiriStep step = grid->steps.data[s];
+        Place(hash, grid, step.cell);
+        Int(hash, step.length);
+    }
+}
+
+/* A sum, for a cell's faces come in no order. */
+static uint64_t Faces(const kiriGrid* grid, int32_t cell)
+{
+    uint64_t sum = 0;
+    for (int32_t f = grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
+        const kiriFace* face = &grid->faces.data[f];
+        uint64_t hash = 14695981039346656037u;
+        Place(&hash, grid, face->cell[0]);
+        Place(&hash, grid, face->cell[1]);
+        Int(&hash, face->axis);
+        Vec3(&hash, kiriVec3_Make(face->width, face->moment, 0.0));
+        Vec2(&hash, face->middle);
+        sum += hash;
+        f = face->next[face->cell[1] == cell];
+    }
+    return sum;
+}
+
+static void CellWeights(uint64_t* hash, const kiriShape* shape, int32_t cell)
+{
+    kiriSpan span = shape->spans.data[cell];
+    for (int32_t k = span.first; k < span.first + span.count; ++k) {
+        Int(hash, shape->weights.data[k].frame);
+        Real(hash, shape->weights.data[k].value);
+    }
+}
+
+static void Cell(uint64_t* hash, const kiriSheetData* sheet, int32_t cell)
+{
+    uint64_t faces = Faces(&sheet->grid, cell);
+    Place(hash, &sheet->grid, cell);
+    Moments(hash, &sheet->grid.cells.data[cell].material);
+    Steps(hash, &sheet->grid, cell);
+    Bytes(hash, &faces, sizeof(faces));
+    Int(hash, sheet->regions.field.owner.data[cell]);
+    Int(hash, sheet->regions.field.distance.data[cell]);
+    Int(hash, sheet->regions.onBorder.data[cell]);
+    CellWeights(hash, &sheet->shape, cell);
+}
+
+uint64_t kiriSnapshot_HashLayout(const kiriSheetData* sheet)
+{
+    uint64_t hash = 14695981039346656037u;
+    Mesh(&hash, &sheet->mesh);
+    Model(&hash, sheet);
+    for (int32_t s = 0; s < sheet->grid.squareCell.count; ++s) {
+        for (int32_t c = sheet->grid.squareCell.data[s]; c != KIRI_NONE; c = sheet->grid.cells.data[c].next) {
+            Cell(&hash, sheet, c);
+        }
+    }
+    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+        Bytes(&hash, &sheet->regions.material.data[f], sizeof(kiriTally));
+        Bytes(&hash, &sheet->shape.rigid.data[f], sizeof(int64_t));
+        Place(&hash, &sheet->grid, sheet->frames.data[f].site.cell);
+    }
+    return hash;
+}
