@@ -107,7 +107,7 @@ FLOORS := core mesh field motion view sheet world
 
 floors:
 	@upper="$(FLOORS)"; for floor in $(FLOORS); do \
-	    upper=$${upper#* }; [ $$floor != $$upper ] || break; \
+	    upper=$${upper#* }; [ "$$floor" != "$$upper" ] || break; \
 	    for up in $$upper; do ! grep -n "#include \"\.\./$$up/" src/$$floor/* || exit 1; done; \
 	done; echo "src includes no file of a floor above"
 

@@ -17,7 +17,7 @@ typedef struct Body {
     kiriShape shape;
     kiriLinks links;
     KIRI_ARRAY(kiriMoments) material; /* of each region */
-    kiriPointsWork points;
+    kiriIntegrationWork points;
     kiriPatches patches;
     kiriFrameData frames[BODY_FRAMES];
     kiriPinRow pins[4];
@@ -145,8 +145,8 @@ static inline void Body_End(Body* body, const BodyDef* def)
         built = kiriAffine_Build(&body->patches, &s->memory, body->links.links.data, body->links.links.count,
                                  body->material.data, body->sites.count, def->planar != 0);
     } else if (def->model == KIRI_MODEL_POINTS) {
-        built = kiriPoints_Build(&body->patches, &body->points, &s->memory, &s->grid, &s->mesh, &body->shape,
-                                 body->material.data, def->points, def->order, def->planar != 0);
+        built = kiriIntegration_Build(&body->patches, &body->points, &s->memory, &s->grid, &s->mesh, &body->shape,
+                                      body->material.data, def->points, def->order, def->planar != 0);
     }
     assert_true(built);
     for (int32_t i = 0; i < body->sites.count; ++i) {
@@ -167,7 +167,7 @@ static inline void Body_Drop(Body* body)
     const kiriMemory* memory = &body->scene.memory;
     kiriSolver_Destroy(body->solver);
     kiriPatches_Release(&body->patches, memory);
-    kiriPointsWork_Release(&body->points, memory);
+    kiriIntegrationWork_Release(&body->points, memory);
     kiriArray_Release(memory, &body->material);
     kiriLinks_Release(&body->links, memory);
     kiriShape_Release(&body->shape, memory);

@@ -109,7 +109,7 @@ static inline int CompareEdges(const void* a, const void* b)
     return p->h < q->h ? -1 : p->h > q->h;
 }
 
-static inline kiriPoint TailAt(const kiriMeshData* mesh, int32_t h)
+static inline kiriLatticePoint TailAt(const kiriMeshData* mesh, int32_t h)
 {
     return mesh->vertices.data[kiriMesh_Tail(mesh, h)].at;
 }
@@ -121,7 +121,7 @@ static inline SortedEdge* SortEdges(const kiriMeshData* mesh, bool byPlace)
     SortedEdge* edges = malloc((size_t)count * sizeof(SortedEdge));
     for (int32_t h = 0; h < count; ++h) {
         int32_t g = kiriEdge_Next(h);
-        kiriPoint p = TailAt(mesh, h), q = TailAt(mesh, g);
+        kiriLatticePoint p = TailAt(mesh, h), q = TailAt(mesh, g);
         int64_t a = byPlace ? (int64_t)p.x * 4294967296 + p.y : kiriMesh_Tail(mesh, h);
         int64_t b = byPlace ? (int64_t)q.x * 4294967296 + q.y : kiriMesh_Tail(mesh, g);
         edges[h].low = a < b ? a : b;
@@ -229,7 +229,7 @@ static inline void CheckSquares(const kiriMeshData* mesh)
     for (int32_t s = 0; s < squares->columns * squares->rows; ++s) {
         for (int32_t i = squares->head[s]; i != KIRI_NONE; i = squares->nodes.data[i].next) {
             int32_t t = squares->nodes.data[i].triangle;
-            kiriPoint corners[3];
+            kiriLatticePoint corners[3];
             assert_in_range(t, 0, mesh->triangles.count - 1);
             kiriMesh_Corners(mesh, t, corners);
             assert_true(seen[t] != s && kiriSquares_Overlap(squares, s, corners));
@@ -238,7 +238,7 @@ static inline void CheckSquares(const kiriMeshData* mesh)
         }
     }
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        kiriPoint c[3];
+        kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, t, c);
         int32_t low[2] = { INT32_MAX, INT32_MAX }, high[2] = { INT32_MIN, INT32_MIN };
         for (int i = 0; i < 3; ++i) {
@@ -277,13 +277,13 @@ static inline void CheckLists(const kiriMeshData* mesh)
             last = v;
             ++listed;
         }
-        marked += squares->isTouched[s] ? 1 : 0;
+        marked += squares->isDirty[s] ? 1 : 0;
     }
-    for (int32_t i = 0; i < squares->touched.count; ++i) {
-        assert_true(squares->isTouched[squares->touched.data[i]]);
+    for (int32_t i = 0; i < squares->dirty.count; ++i) {
+        assert_true(squares->isDirty[squares->dirty.data[i]]);
     }
     assert_int_equal(listed, mesh->vertices.count);
-    assert_int_equal(marked, squares->touched.count);
+    assert_int_equal(marked, squares->dirty.count);
 }
 
 /* The fan of a vertex has a part of the vertex's source triangle: a torn vertex takes nothing from the other lip. */
@@ -307,7 +307,7 @@ static inline void CheckProvenance(const kiriMeshData* mesh)
         const kiriVertex* vertex = &mesh->vertices.data[v];
         double x = 0.0, y = 0.0, sum = 0.0, size = 536870912.0;
         for (int i = 0; i < 3; ++i) {
-            kiriPoint c = mesh->sourceCorners.data[3 * (vertex->source - mesh->firstSource) + i];
+            kiriLatticePoint c = mesh->sourceCorners.data[3 * (vertex->source - mesh->firstSource) + i];
             assert_true(vertex->share[i] >= 0.0f);
             x += (double)vertex->share[i] * c.x;
             y += (double)vertex->share[i] * c.y;
@@ -320,7 +320,7 @@ static inline void CheckProvenance(const kiriMeshData* mesh)
     assert_int_equal(mesh->births.count, mesh->vertices.count - mesh->oldVertexCount);
     for (int32_t i = 0; i < mesh->births.count; ++i) {
         const kiriBirth* birth = &mesh->births.data[i];
-        kiriPoint at = mesh->vertices.data[mesh->oldVertexCount + i].at;
+        kiriLatticePoint at = mesh->vertices.data[mesh->oldVertexCount + i].at;
         double x = 0.0, y = 0.0;
         for (int k = 0; k < 3; ++k) {
             assert_true(birth->parent[k] < mesh->oldVertexCount + i);
@@ -393,7 +393,7 @@ static inline void Copy_Free(Copy* copy)
 static inline int32_t CheckMesh(const kiriMeshData* mesh)
 {
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        kiriPoint c[3];
+        kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, t, c);
         assert_true(kiriOrient(c[0], c[1], c[2]) > 0);
         assert_true(((c[0].x | c[0].y | c[1].x | c[1].y | c[2].x | c[2].y) & 1) == 0);

@@ -14,7 +14,7 @@ typedef struct Follow {
     kiriMeshData* mesh;
     kiriGrid grid;
     kiriSites sites;
-    KIRI_ARRAY(kiriPoint) anchors; /* of the sites */
+    KIRI_ARRAY(kiriLatticePoint) anchors; /* of the sites */
     KIRI_ARRAY(kiriSiteMove) moves;
     kiriRegions regions;
     kiriShape shape;
@@ -68,7 +68,7 @@ static inline bool Follow_IsTaken(const Follow* f, int32_t cell)
 static inline void Follow_Move(Follow* f, int32_t frame, kiriSite site)
 {
     kiriSiteMove move = { frame, frame < f->sites.count ? f->sites.data[frame].cell : KIRI_NONE };
-    kiriPoint anchor = kiriGrid_Anchor(&f->grid, f->mesh, site.cell);
+    kiriLatticePoint anchor = kiriGrid_Anchor(&f->grid, f->mesh, site.cell);
     assert_true(kiriArray_Push(f->memory, &f->moves, move));
     if (frame == f->sites.count) {
         assert_true(kiriArray_Push(f->memory, &f->sites, site));
@@ -170,8 +170,8 @@ static inline kiriProgress Follow_Shape(Follow* f)
         assert_true(progress != KIRI_MORE || (f->slice > 0 && quota.used > 0));
     } while (progress == KIRI_MORE);
     if (progress == KIRI_DONE) {
-        kiriGrid_Settle(&f->grid);
-        kiriRegions_Settle(&f->regions);
+        kiriGrid_ClearChanges(&f->grid);
+        kiriRegions_ClearChanges(&f->regions);
         f->moves.count = 0;
     }
     return progress;
@@ -208,10 +208,10 @@ static inline void Follow_Commit(Follow* f)
     kiriSkin_Commit(&f->vertexSkin);
     kiriSkin_Commit(&f->pointSkin);
     kiriLinks_Commit(&f->links);
-    kiriShape_Settle(&f->shape);
+    kiriShape_ClearChanges(&f->shape);
     f->oldVertices = f->mesh->vertices.count;
-    for (int32_t i = 0; i < f->regions.touched.count; ++i) {
-        f->regions.touched.data[i] = 0;
+    for (int32_t i = 0; i < f->regions.dirty.count; ++i) {
+        f->regions.dirty.data[i] = 0;
     }
 }
 
@@ -318,7 +318,7 @@ static inline void Follow_Start(Follow* f, const Scene* scene, int32_t siteCount
     assert_true(Follow_Links(f));
     assert_int_equal(Follow_Samples(f), KIRI_DONE);
     Follow_Commit(f);
-    kiriSquares_ClearTouched(&f->mesh->squares);
+    kiriSquares_ClearDirty(&f->mesh->squares);
 }
 
 /* ---- A wandering blade ---- */

@@ -96,7 +96,7 @@ static inline void Scene_Slit(Scene* scene, double u0, double v0, double u1, dou
     kiriVec2 from = { u0, v0 }, way = { u1 - u0, v1 - v0 };
     double length = kiriVec2_Length(way), near = 1e-5;
     for (int32_t h = 0; h < 3 * scene->mesh.triangles.count; ++h) {
-        kiriPoint ends[2];
+        kiriLatticePoint ends[2];
         bool on = kiriMesh_Twin(&scene->mesh, h) != KIRI_NONE && !kiriMesh_IsOpen(&scene->mesh, h);
         ends[0] = scene->mesh.vertices.data[kiriMesh_Tail(&scene->mesh, h)].at;
         ends[1] = scene->mesh.vertices.data[kiriMesh_Tail(&scene->mesh, kiriEdge_Next(h))].at;
@@ -132,7 +132,7 @@ static inline void Scene_UpdateGrid(Scene* scene)
     kiriQuota quota = { INT64_MAX, 0 };
     kiriMesh_Commit(&scene->mesh);
     assert_int_equal(kiriGrid_Update(&scene->grid, &scene->mesh, &quota), KIRI_DONE);
-    kiriSquares_ClearTouched(&scene->mesh.squares);
+    kiriSquares_ClearDirty(&scene->mesh.squares);
     assert_true(kiriField_Resize(&scene->field, &scene->memory, scene->grid.cells.count));
 }
 
@@ -193,7 +193,7 @@ static inline double Scene_Area(const Scene* scene)
 
 static inline int32_t Scene_Cell(const Scene* scene, double u, double v)
 {
-    kiriPoint p = kiriMesh_Snap(&scene->mesh, kiriVec2_Make(u, v));
+    kiriLatticePoint p = kiriMesh_Snap(&scene->mesh, kiriVec2_Make(u, v));
     int32_t triangle = kiriMesh_Locate(&scene->mesh, p);
     assert_int_not_equal(triangle, KIRI_NONE);
     return kiriGrid_CellOf(&scene->grid, &scene->mesh, triangle, p);

@@ -12,7 +12,7 @@ static void InitSheet(kiriMeshData* mesh)
 }
 
 /* All the way. */
-static kiriProgress Move(kiriMeshData* mesh, kiriBlade* blade, kiriPoint to, double snap)
+static kiriProgress Move(kiriMeshData* mesh, kiriBlade* blade, kiriLatticePoint to, double snap)
 {
     kiriQuota all = { INT64_MAX, 0 };
     return kiriCut_Move(mesh, blade, to, snap, &all);
@@ -36,7 +36,7 @@ static void CutLine(kiriMeshData* mesh, double ax, double ay, double bx, double 
 
 static int32_t VerticesAt(const kiriMeshData* mesh, double x, double y)
 {
-    kiriPoint p = kiriMesh_Snap(mesh, kiriVec2_Make(x, y));
+    kiriLatticePoint p = kiriMesh_Snap(mesh, kiriVec2_Make(x, y));
     int32_t count = 0;
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
         count += mesh->vertices.data[v].at.x == p.x && mesh->vertices.data[v].at.y == p.y ? 1 : 0;
@@ -61,7 +61,7 @@ static double AreaAt(const kiriMeshData* mesh, double x, double y)
     int64_t area = 0;
     kiriMesh_Pieces(mesh, piece, &count);
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        kiriPoint c[3];
+        kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, t, c);
         area += piece[t] == piece[here] ? kiriOrient(c[0], c[1], c[2]) : 0;
     }
@@ -123,7 +123,7 @@ static void BladeGoesOn(void** state)
     kiriBlade blade = kiriCut_Place(&mesh, kiriVec2_Make(1.3, -1.0));
     assert_int_equal(blade.vertex, KIRI_NONE);
     for (int i = 0; i <= 12; ++i) {
-        kiriPoint to = kiriMesh_Snap(&mesh, kiriVec2_Make(1.3, -0.75 + 0.5 * i));
+        kiriLatticePoint to = kiriMesh_Snap(&mesh, kiriVec2_Make(1.3, -0.75 + 0.5 * i));
         assert_int_equal(Move(&mesh, &blade, to, 1e-4 * LatticeSize), KIRI_DONE);
         assert_int_equal(blade.vertex == KIRI_NONE, i < 2 || i > 9);
         assert_int_equal(CheckMesh(&mesh), i > 9 ? 2 : 1);
@@ -528,17 +528,17 @@ static void PlacesWithinRange(void** state)
 enum { MOST_POINTS = 12 };
 
 typedef struct Polyline {
-    kiriPoint points[MOST_POINTS];
+    kiriLatticePoint points[MOST_POINTS];
     int count;
 } Polyline;
 
 /* What the generator draws on: earlier points are used again, in this and in later cuts. */
 typedef struct Pool {
-    kiriPoint points[64];
+    kiriLatticePoint points[64];
     uint32_t used;
 } Pool;
 
-static kiriPoint RandomPoint(uint32_t* seed, const Pool* pool, kiriPoint last, double reach)
+static kiriLatticePoint RandomPoint(uint32_t* seed, const Pool* pool, kiriLatticePoint last, double reach)
 {
     uint32_t choice = Random(seed) % 16;
     if (choice == 0 && pool->used > 0) {
@@ -562,7 +562,7 @@ static kiriPoint RandomPoint(uint32_t* seed, const Pool* pool, kiriPoint last, d
 static Polyline RandomPolyline(uint32_t* seed, Pool* pool, double reach)
 {
     Polyline line;
-    kiriPoint middle = { 1 << 28, 1 << 28 };
+    kiriLatticePoint middle = { 1 << 28, 1 << 28 };
     line.count = 2 + (int)(Random(seed) % (MOST_POINTS - 1));
     line.points[0] = RandomPoint(seed, pool, middle, 0.7);
     for (int i = 1; i < line.count; ++i) {
@@ -586,7 +586,7 @@ static bool CutPolyline(kiriMeshData* mesh, const Polyline* line, double snap)
     return true;
 }
 
-static double DistanceToEdge(kiriPoint p, kiriPoint a, kiriPoint b)
+static double DistanceToEdge(kiriLatticePoint p, kiriLatticePoint a, kiriLatticePoint b)
 {
     kiriVec2 ab = kiriVec2_Make((double)b.x - a.x, (double)b.y - a.y),
              ap = kiriVec2_Make((double)p.x - a.x, (double)p.y - a.y);
@@ -596,12 +596,12 @@ static double DistanceToEdge(kiriPoint p, kiriPoint a, kiriPoint b)
 }
 
 /* Distance from a place to the nearest open edge or outline in the squares around it. */
-static double DistanceToCut(const kiriMeshData* mesh, kiriPoint p)
+static double DistanceToCut(const kiriMeshData* mesh, kiriLatticePoint p)
 {
     const kiriSquares* squares = &mesh->squares;
     double least = 1e30;
     for (int32_t k = 0; k < 9; ++k) {
-        kiriPoint q = { p.x + (k % 3 - 1) * squares->side, p.y + (k / 3 - 1) * squares->side };
+        kiriLatticePoint q = { p.x + (k % 3 - 1) * squares->side, p.y + (k / 3 - 1) * squares->side };
         int32_t square = kiriSquares_At(squares, q), i = square == KIRI_NONE ? KIRI_NONE : squares->head[square];
         for (; i != KIRI_NONE; i = squares->nodes.data[i].next) {
             int32_t h = 3 * squares->nodes.data[i].triangle;
@@ -621,10 +621,11 @@ static double DistanceToCut(const kiriMeshData* mesh, kiriPoint p)
 static void CheckFollowed(const kiriMeshData* mesh, const Polyline* line, double snap)
 {
     for (int i = 1; i < line->count; ++i) {
-        kiriPoint a = line->points[i - 1], b = line->points[i];
+        kiriLatticePoint a = line->points[i - 1], b = line->points[i];
         for (int k = 0; k <= 16; ++k) {
             double s = k / 16.0;
-            kiriPoint p = kiriMesh_Round(kiriVec2_Make(a.x + s * ((double)b.x - a.x), a.y + s * ((double)b.y - a.y)));
+            kiriLatticePoint p =
+                kiriMesh_Round(kiriVec2_Make(a.x + s * ((double)b.x - a.x), a.y + s * ((double)b.y - a.y)));
             if (kiriMesh_Locate(mesh, p) != KIRI_NONE) {
                 assert_true(DistanceToCut(mesh, p) <= 3.0 * snap + 64.0);
             }
@@ -779,7 +780,7 @@ static int64_t CountReshaped(const kiriMeshData* mesh, const Copy* before)
     for (int32_t t = 0; t < before->triangleCount; ++t) {
         bool same = true;
         for (int i = 0; i < 3; ++i) {
-            kiriPoint p = before->vertices[before->triangles[t].vertex[i]].at, q = TailAt(mesh, 3 * t + i);
+            kiriLatticePoint p = before->vertices[before->triangles[t].vertex[i]].at, q = TailAt(mesh, 3 * t + i);
             same = same && p.x == q.x && p.y == q.y;
         }
         count += same ? 0 : 1;
@@ -864,7 +865,7 @@ static void SmallQuotasWait(void** state)
     kiriMeshData mesh;
     InitSheet(&mesh);
     kiriBlade blade = kiriCut_Place(&mesh, kiriVec2_Make(0.3, 0.2));
-    kiriPoint to = kiriMesh_Snap(&mesh, kiriVec2_Make(3.7, 2.9));
+    kiriLatticePoint to = kiriMesh_Snap(&mesh, kiriVec2_Make(3.7, 2.9));
     Copy copy = Copy_Make(&mesh);
     kiriQuota quota = { KIRI_MOST_SPLITS - 1, 0 };
     for (int i = 0; i < 3; ++i) {
@@ -895,7 +896,7 @@ static uint64_t Fingerprint(const kiriMeshData* mesh, int32_t square)
         int32_t t = squares->nodes.data[i].triangle;
         uint64_t hash = Mix(1, t);
         for (int32_t h = 3 * t; h < 3 * t + 3; ++h) {
-            kiriPoint a = TailAt(mesh, h), b = TailAt(mesh, kiriEdge_Next(h));
+            kiriLatticePoint a = TailAt(mesh, h), b = TailAt(mesh, kiriEdge_Next(h));
             hash = Mix(Mix(hash, a.x), a.y);
             if (kiriSquares_RunsThrough(squares, square, a, b)) {
                 hash = Mix(Mix(hash, kiriMesh_Twin(mesh, h)), kiriMesh_IsOpen(mesh, h));
@@ -925,8 +926,8 @@ static int32_t CheckTouched(const kiriMeshData* mesh, uint64_t* prints)
     int32_t needless = 0;
     for (int32_t s = 0; s < mesh->squares.columns * mesh->squares.rows; ++s) {
         uint64_t now = Fingerprint(mesh, s);
-        assert_true(now == prints[s] || mesh->squares.isTouched[s]);
-        needless += now == prints[s] && mesh->squares.isTouched[s] ? 1 : 0;
+        assert_true(now == prints[s] || mesh->squares.isDirty[s]);
+        needless += now == prints[s] && mesh->squares.isDirty[s] ? 1 : 0;
         prints[s] = now;
     }
     return needless;
@@ -942,17 +943,17 @@ static void TouchesWhatChanges(void** state)
         uint32_t seed = 60 + round;
         Pool pool = { { { 0, 0 } }, 0 };
         InitRectangle(&mesh, round % 2 == 0 ? 24 : 2, 16, 1.0f, 1.0f, 32);
-        assert_int_equal(mesh.squares.touched.count, mesh.squares.columns * mesh.squares.rows);
+        assert_int_equal(mesh.squares.dirty.count, mesh.squares.columns * mesh.squares.rows);
         TakeFingerprints(&mesh, prints);
         for (int i = 0; i < 30; ++i) {
             Polyline line = RandomPolyline(&seed, &pool, round < 2 ? 0.05 : 0.4);
-            kiriSquares_ClearTouched(&mesh.squares);
+            kiriSquares_ClearDirty(&mesh.squares);
             kiriMesh_Begin(&mesh);
             assert_true(CutPolyline(&mesh, &line, 1e-4 * LatticeSize));
             assert_int_equal(CheckTouched(&mesh, prints), 0);
-            changed += mesh.squares.touched.count;
+            changed += mesh.squares.dirty.count;
             if (i % 3 == 0) { /* taking it back changes the same squares again */
-                kiriSquares_ClearTouched(&mesh.squares);
+                kiriSquares_ClearDirty(&mesh.squares);
                 kiriMesh_Rollback(&mesh);
                 CheckTouched(&mesh, prints);
             }

@@ -61,7 +61,7 @@ static void CutLine(Sheet* sheet, double x0, double y0, double x1, double y1)
 {
     kiriMesh_Begin(&sheet->mesh);
     kiriBlade blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(x0, y0));
-    kiriPoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x1, y1));
+    kiriLatticePoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x1, y1));
     kiriQuota all = { INT64_MAX, 0 };
     assert_int_equal(kiriCut_Move(&sheet->mesh, &blade, to, 16.0, &all), KIRI_DONE);
     kiriMesh_Commit(&sheet->mesh);
@@ -79,13 +79,13 @@ static void UpdateGrid(Sheet* sheet)
 {
     kiriQuota quota = { INT64_MAX, 0 };
     assert_int_equal(kiriGrid_Update(&sheet->grid, &sheet->mesh, &quota), KIRI_DONE);
-    kiriSquares_ClearTouched(&sheet->mesh.squares);
+    kiriSquares_ClearDirty(&sheet->mesh.squares);
 }
 
 static void Build(Sheet* sheet)
 {
     UpdateGrid(sheet);
-    kiriGrid_Settle(&sheet->grid);
+    kiriGrid_ClearChanges(&sheet->grid);
     kiriField_Clear(&sheet->field);
     assert_true(kiriField_Resize(&sheet->field, &sheet->memory, sheet->grid.cells.count));
 }
@@ -112,7 +112,7 @@ static void FloodFrom(Sheet* sheet, int32_t cell)
 
 static int32_t CellAt(const Sheet* sheet, double x, double y)
 {
-    kiriPoint at = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x, y));
+    kiriLatticePoint at = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x, y));
     int32_t triangle = kiriMesh_Locate(&sheet->mesh, at);
     assert_int_not_equal(triangle, KIRI_NONE);
     return kiriGrid_CellOf(&sheet->grid, &sheet->mesh, triangle, at);
@@ -511,7 +511,7 @@ static void TestRepairsFollowCuts(void** state)
             }
             kiriQuota quota = { INT64_MAX, 0 };
             assert_int_equal(kiriField_Repair(&sheet.field, &sheet.memory, &rule, &quota), KIRI_DONE);
-            kiriGrid_Settle(&sheet.grid);
+            kiriGrid_ClearChanges(&sheet.grid);
             CheckRepaired(&sheet, &rule);
         }
         CloseSheet(&sheet);

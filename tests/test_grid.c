@@ -108,7 +108,7 @@ static void CutWithin(Sheet* sheet, const double* points, int32_t count)
 {
     kiriBlade blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(points[0], points[1]));
     for (int32_t i = 1; i < count; ++i) {
-        kiriPoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(points[2 * i], points[2 * i + 1]));
+        kiriLatticePoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(points[2 * i], points[2 * i + 1]));
         kiriQuota all = { INT64_MAX, 0 };
         assert_int_equal(kiriCut_Move(&sheet->mesh, &blade, to, 16.0, &all), KIRI_DONE);
     }
@@ -152,7 +152,7 @@ static void Build(Sheet* sheet)
 {
     kiriGrid_Reset(&sheet->grid);
     Update(&sheet->grid, &sheet->mesh);
-    kiriSquares_ClearTouched(&sheet->mesh.squares);
+    kiriSquares_ClearDirty(&sheet->mesh.squares);
     assert_int_equal(sheet->grid.cellCount, sheet->grid.cells.count); /* no gaps */
 }
 
@@ -178,7 +178,7 @@ static int32_t CellsIn(const Sheet* sheet, int32_t column, int32_t row)
 /* The cell that holds a local point. */
 static int32_t CellAt(const Sheet* sheet, double x, double y)
 {
-    kiriPoint at = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x, y));
+    kiriLatticePoint at = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x, y));
     int32_t triangle = kiriMesh_Locate(&sheet->mesh, at);
     assert_int_not_equal(triangle, KIRI_NONE);
     return kiriGrid_CellOf(&sheet->grid, &sheet->mesh, triangle, at);
@@ -222,7 +222,7 @@ static void CheckMaterial(const Sheet* sheet)
         kiriMoments_Add(&cells, m);
     }
     for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
-        kiriPoint p[3];
+        kiriLatticePoint p[3];
         kiriMesh_Corners(&sheet->mesh, t, p);
         kiriMoments m = kiriMoments_Triangle(kiriMesh_Local(&sheet->mesh, p[0]), kiriMesh_Local(&sheet->mesh, p[1]),
                                              kiriMesh_Local(&sheet->mesh, p[2]));
@@ -334,7 +334,7 @@ static void CheckInnerSides(const Sheet* sheet)
 }
 
 /* Liang and Barsky with fractions: the part from t0 to t1 of the segment that is inside is longer than nothing. */
-static bool SegmentInside(kiriPoint a, kiriPoint b, kiriPoint low, int32_t side)
+static bool SegmentInside(kiriLatticePoint a, kiriLatticePoint b, kiriLatticePoint low, int32_t side)
 {
     int64_t d[2] = { (int64_t)b.x - a.x, (int64_t)b.y - a.y };
     int64_t from[2] = { (int64_t)low.x - a.x, (int64_t)low.y - a.y };
@@ -374,8 +374,8 @@ static void CheckCellsOfSquare(const Sheet* sheet, int32_t square)
         changed = false;
         for (int32_t i = 0; i < count; ++i) {
             for (int32_t h = 3 * mesh->squares.nodes.data[node[i]].triangle, k = h + 3; h < k; ++h) {
-                kiriPoint a = mesh->vertices.data[kiriMesh_Tail(mesh, h)].at;
-                kiriPoint b = mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at;
+                kiriLatticePoint a = mesh->vertices.data[kiriMesh_Tail(mesh, h)].at;
+                kiriLatticePoint b = mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at;
                 for (int32_t j = 0; j < count && !kiriMesh_IsOpen(mesh, h); ++j) {
                     if (kiriMesh_Twin(mesh, h) / 3 == mesh->squares.nodes.data[node[j]].triangle &&
                         kiriMesh_Twin(mesh, h) != KIRI_NONE && lowest[i] < lowest[j] &&
@@ -625,7 +625,7 @@ static void TestCellsOfVertices(void** state)
     Build(&sheet);
     int32_t pairs = 0;
     for (int32_t v = 0; v < sheet.mesh.vertices.count; ++v) {
-        kiriPoint at = sheet.mesh.vertices.data[v].at;
+        kiriLatticePoint at = sheet.mesh.vertices.data[v].at;
         int32_t cell = kiriGrid_CellOfVertex(&sheet.grid, &sheet.mesh, v);
         assert_int_equal(sheet.grid.cells.data[cell].square, kiriSquares_At(&sheet.mesh.squares, at));
         for (int32_t w = 0; w < v; ++w) {
@@ -693,7 +693,7 @@ static void TestEveryTriangleAPiece(void** state)
 /* A point p of the lattice, with the edge from (0, 0) to p passing the corner at the least distance there is, on its
    left or right: orient(0, p, corner) = 2 or -2. By Euclid's algorithm; false where the corner's coordinates have a
    common divisor. */
-static bool GrazingPoint(kiriPoint corner, bool left, kiriPoint* p)
+static bool GrazingPoint(kiriLatticePoint corner, bool left, kiriLatticePoint* p)
 {
     int64_t a = left ? corner.y : corner.x, b = left ? corner.x : corner.y;
     int64_t r0 = a, r1 = b, s0 = 1, s1 = 0, t0 = 0, t1 = 1; /* r = s a + t b */
@@ -711,7 +711,7 @@ static bool GrazingPoint(kiriPoint corner, bool left, kiriPoint* p)
 }
 
 /* Tears off all triangles around p. */
-static void TearAround(Sheet* sheet, kiriPoint p)
+static void TearAround(Sheet* sheet, kiriLatticePoint p)
 {
     int32_t triangle = kiriMesh_Locate(&sheet->mesh, p);
     if (triangle != KIRI_NONE && kiriMesh_CanSplitTriangle(&sheet->mesh, triangle, p)) {
@@ -733,9 +733,9 @@ static void TestGrazedCorner(void** state)
     for (int32_t i = 0; i < 2 * 7 * 7; ++i) {
         Sheet sheet;
         OpenRectangle(&sheet, 1.0f, 1.0f, 1, 1, 8);
-        kiriPoint corner = kiriSquares_Corner(&sheet.mesh.squares, 8 * (1 + i / 2 / 7) + 1 + i / 2 % 7), p;
+        kiriLatticePoint corner = kiriSquares_Corner(&sheet.mesh.squares, 8 * (1 + i / 2 / 7) + 1 + i / 2 % 7), p;
         if (corner.x != corner.y && GrazingPoint(corner, i % 2 == 0, &p)) {
-            kiriPoint start = { 0, 0 };
+            kiriLatticePoint start = { 0, 0 };
             assert_int_equal(kiriOrient(start, p, corner), i % 2 == 0 ? 2 : -2);
             TearAround(&sheet, p);
         }
@@ -1153,7 +1153,7 @@ static int64_t UpdateInParts(Sheet* sheet, uint32_t* seed, int32_t most)
         assert_true(progress == KIRI_DONE || quota.left == 0);
         items += quota.used;
     }
-    kiriSquares_ClearTouched(&sheet->mesh.squares);
+    kiriSquares_ClearDirty(&sheet->mesh.squares);
     return items;
 }
 
@@ -1174,7 +1174,7 @@ static void CheckProgressiveCuts(Tour* tour, int32_t mostQuota, int32_t batch)
     OpenAnySheet(&sheet, &tour->seed, &lines);
     UpdateInParts(&sheet, &tour->seed, mostQuota);
     CheckAgainstScratch(&sheet);
-    kiriGrid_Settle(&sheet.grid);
+    kiriGrid_ClearChanges(&sheet.grid);
     int kind = (int)(Random(&tour->seed) % 6);
     tour->x = RandomBetween(&tour->seed, -0.1, 1.1);
     tour->y = RandomBetween(&tour->seed, -0.1, 1.1);
@@ -1191,7 +1191,7 @@ static void CheckProgressiveCuts(Tour* tour, int32_t mostQuota, int32_t batch)
         CheckAgainstScratch(&sheet);
         CheckChanges(&was, &sheet.grid, batch == 1);
         CountChanges(&sheet.grid, tour);
-        kiriGrid_Settle(&sheet.grid);
+        kiriGrid_ClearChanges(&sheet.grid);
         FreeCopy(&was);
     }
     CloseSheet(&sheet);
@@ -1264,7 +1264,7 @@ static void CheckCutsTakenBack(Tour* tour, int32_t mostQuota)
     CutRandomly(&sheet, &tour->seed, 2);
     UpdateInParts(&sheet, &tour->seed, mostQuota);
     for (uint32_t round = 0; round < 4; ++round) {
-        kiriGrid_Settle(&sheet.grid);
+        kiriGrid_ClearChanges(&sheet.grid);
         CheckFreeIndices(&sheet.grid);
         kiriGrid was = CopyGrid(&sheet.grid);
         int32_t cellCount = sheet.grid.cellCount;
@@ -1274,7 +1274,7 @@ static void CheckCutsTakenBack(Tour* tour, int32_t mostQuota)
             UpdateInParts(&sheet, &tour->seed, mostQuota);
             CheckAgainstScratch(&sheet);
             if ((round >> cut & 1) != 0) {
-                kiriGrid_Settle(&sheet.grid);
+                kiriGrid_ClearChanges(&sheet.grid);
                 FreeCopy(&was);
                 was = CopyGrid(&sheet.grid);
             }
@@ -1328,15 +1328,15 @@ static void TestNothingChanged(void** state)
     OpenRectangle(&sheet, 1.0f, 1.0f, 9, 11, 13);
     CutRandomly(&sheet, &seed, 6);
     Build(&sheet);
-    kiriGrid_Settle(&sheet.grid);
+    kiriGrid_ClearChanges(&sheet.grid);
     kiriGrid was = CopyGrid(&sheet.grid);
     int32_t calls = sheet.blocks.calls;
     for (int again = 0; again < 2; ++again) {
         for (int32_t h = 0; h < 3 * sheet.mesh.triangles.count; ++h) {
-            kiriSquares_TouchEdge(&sheet.mesh.squares, sheet.mesh.vertices.data[kiriMesh_Tail(&sheet.mesh, h)].at,
-                                  sheet.mesh.vertices.data[kiriMesh_Tail(&sheet.mesh, kiriEdge_Next(h))].at);
+            kiriSquares_MarkEdgeDirty(&sheet.mesh.squares, sheet.mesh.vertices.data[kiriMesh_Tail(&sheet.mesh, h)].at,
+                                      sheet.mesh.vertices.data[kiriMesh_Tail(&sheet.mesh, kiriEdge_Next(h))].at);
         }
-        assert_int_equal(sheet.mesh.squares.touched.count, 13 * 13);
+        assert_int_equal(sheet.mesh.squares.dirty.count, 13 * 13);
         assert_true(UpdateInParts(&sheet, &seed, 0) > 13 * 13);
         assert_true(again == 0 || sheet.blocks.calls == calls); /* the second time asks for no memory */
         calls = sheet.blocks.calls;
@@ -1372,7 +1372,7 @@ static void CheckSameBitsWhateverTheLists(int32_t mesh, int32_t resolution)
     CutRandomly(&sheet, &seed, mesh);
     Build(&sheet);
     int32_t count = sheet.grid.cells.count;
-    kiriPoint* anchors = malloc(sizeof(kiriPoint) * (size_t)count);
+    kiriLatticePoint* anchors = malloc(sizeof(kiriLatticePoint) * (size_t)count);
     for (int32_t c = 0; c < count; ++c) {
         anchors[c] = kiriGrid_Anchor(&sheet.grid, &sheet.mesh, c);
     }
@@ -1403,7 +1403,7 @@ static void TestAnchors(void** state)
     Build(&sheet);
     for (int32_t c = 0; c < sheet.grid.cells.count; ++c) {
         if (sheet.grid.cells.data[c].material.area > 1e-6 * sheet.grid.side * sheet.grid.side) {
-            kiriPoint at = kiriGrid_Anchor(&sheet.grid, &sheet.mesh, c);
+            kiriLatticePoint at = kiriGrid_Anchor(&sheet.grid, &sheet.mesh, c);
             assert_int_equal(kiriGrid_CellOf(&sheet.grid, &sheet.mesh, kiriMesh_Locate(&sheet.mesh, at), at), c);
         }
     }
@@ -1458,7 +1458,7 @@ static void TestFailingUpdate(void** state)
         Sheet sheet;
         OpenRectangle(&sheet, 1.0f, 1.0f, 3, 3, 9);
         Build(&sheet);
-        kiriGrid_Settle(&sheet.grid);
+        kiriGrid_ClearChanges(&sheet.grid);
         CutRandomly(&sheet, &seed, 8);
         sheet.blocks.calls = 0;
         sheet.blocks.failAt = failures + 1;

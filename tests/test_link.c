@@ -424,7 +424,7 @@ static void CutSheetsEqualThoseFromScratch(void** state)
             all += f.links.next.count;
             changed += f.links.changed;
             Follow_Commit(&f);
-            kiriSquares_ClearTouched(&scene.mesh.squares);
+            kiriSquares_ClearDirty(&scene.mesh.squares);
             Follow_ScratchWeights(&scratch, &f);
             assert_true(Follow_Links(&scratch));
             Follow_Commit(&scratch);
@@ -480,7 +480,7 @@ static void FailingAllocatorLeaksNothing(void** state)
                 kiriMesh_Begin(f.mesh);
                 kiriQuota quota = { INT64_MAX, 0 };
                 kiriBlade blade = kiriCut_Place(f.mesh, kiriVec2_Make(0.1 * cut, 0.2));
-                kiriPoint to = kiriMesh_Snap(f.mesh, kiriVec2_Make(0.1 * cut + 0.05, 0.5));
+                kiriLatticePoint to = kiriMesh_Snap(f.mesh, kiriVec2_Make(0.1 * cut + 0.05, 0.5));
                 assert_int_equal(kiriCut_Move(f.mesh, &blade, to, 16.0, &quota), KIRI_DONE);
                 kiriMesh_Commit(f.mesh);
             }

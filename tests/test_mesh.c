@@ -28,9 +28,9 @@ static kiriResult Try(const float* positions, int32_t vertexCount, const int32_t
 /* A half-edge from one place to another, or KIRI_NONE. */
 static int32_t Find(const kiriMeshData* mesh, double ax, double ay, double bx, double by)
 {
-    kiriPoint a = kiriMesh_Snap(mesh, kiriVec2_Make(ax, ay)), b = kiriMesh_Snap(mesh, kiriVec2_Make(bx, by));
+    kiriLatticePoint a = kiriMesh_Snap(mesh, kiriVec2_Make(ax, ay)), b = kiriMesh_Snap(mesh, kiriVec2_Make(bx, by));
     for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
-        kiriPoint p = TailAt(mesh, h), q = TailAt(mesh, kiriEdge_Next(h));
+        kiriLatticePoint p = TailAt(mesh, h), q = TailAt(mesh, kiriEdge_Next(h));
         if (p.x == a.x && p.y == a.y && q.x == b.x && q.y == b.y) {
             return h;
         }
@@ -40,7 +40,7 @@ static int32_t Find(const kiriMeshData* mesh, double ax, double ay, double bx, d
 
 static int32_t VerticesAt(const kiriMeshData* mesh, double x, double y)
 {
-    kiriPoint p = kiriMesh_Snap(mesh, kiriVec2_Make(x, y));
+    kiriLatticePoint p = kiriMesh_Snap(mesh, kiriVec2_Make(x, y));
     int32_t count = 0;
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
         count += mesh->vertices.data[v].at.x == p.x && mesh->vertices.data[v].at.y == p.y ? 1 : 0;
@@ -69,7 +69,7 @@ static int ClipHalfPlane(kiriVec2* polygon, int count, kiriVec2 n, double c)
     return size;
 }
 
-static double ClippedArea(const kiriPoint c[3], kiriPoint low, double side)
+static double ClippedArea(const kiriLatticePoint c[3], kiriLatticePoint low, double side)
 {
     kiriVec2 polygon[16];
     for (int i = 0; i < 3; ++i) {
@@ -91,7 +91,7 @@ static void SquaresListWhatTheyOverlap(void** state)
 {
     (void)state;
     uint32_t seed = 7;
-    kiriPoint extent = { 60, 34 };
+    kiriLatticePoint extent = { 60, 34 };
     kiriSquares squares;
     assert_true(kiriSquares_Init(&squares, Heap(), extent, 7));
     /* 60 + 2 over 7 squares of an even side */
@@ -99,7 +99,7 @@ static void SquaresListWhatTheyOverlap(void** state)
     assert_int_equal(squares.columns, 7);
     assert_int_equal(squares.rows, 4);
     for (int round = 0; round < 3000; ++round) {
-        kiriPoint c[3];
+        kiriLatticePoint c[3];
         for (int i = 0; i < 3; ++i) {
             c[i].x = (int32_t)(2 * (Random(&seed) % 31));
             c[i].y = (int32_t)(2 * (Random(&seed) % 18));
@@ -136,26 +136,26 @@ static void SquaresThatEdgesRunThrough(void** state)
 {
     (void)state;
     uint32_t seed = 9;
-    kiriPoint extent = { 60, 34 };
+    kiriLatticePoint extent = { 60, 34 };
     kiriSquares squares;
     assert_true(kiriSquares_Init(&squares, Heap(), extent, 7));
     for (int round = 0; round < 3000; ++round) {
-        kiriPoint a = { (int32_t)(2 * (Random(&seed) % 31)), (int32_t)(2 * (Random(&seed) % 18)) };
-        kiriPoint b = { (int32_t)(2 * (Random(&seed) % 31)), (int32_t)(2 * (Random(&seed) % 18)) };
+        kiriLatticePoint a = { (int32_t)(2 * (Random(&seed) % 31)), (int32_t)(2 * (Random(&seed) % 18)) };
+        kiriLatticePoint b = { (int32_t)(2 * (Random(&seed) % 31)), (int32_t)(2 * (Random(&seed) % 18)) };
         if (a.x == b.x && a.y == b.y) {
             continue;
         }
-        kiriSquares_TouchEdge(&squares, a, b);
+        kiriSquares_MarkEdgeDirty(&squares, a, b);
         for (int32_t s = 0; s < 28; ++s) {
-            kiriPoint low = kiriSquares_Corner(&squares, s);
+            kiriLatticePoint low = kiriSquares_Corner(&squares, s);
             double from = 0.0, to = 1.0;
             ClipShares(a.x, b.x, low.x, low.x + 10.0, &from, &to);
             ClipShares(a.y, b.y, low.y, low.y + 10.0, &from, &to);
             assert_int_equal(kiriSquares_RunsThrough(&squares, s, a, b), to > from + 1e-12);
-            assert_int_equal(squares.isTouched[s], to > from + 1e-12);
+            assert_int_equal(squares.isDirty[s], to > from + 1e-12);
         }
-        kiriSquares_ClearTouched(&squares);
-        assert_int_equal(squares.touched.count, 0);
+        kiriSquares_ClearDirty(&squares);
+        assert_int_equal(squares.dirty.count, 0);
     }
     kiriSquares_Release(&squares, Heap());
 }
@@ -163,14 +163,14 @@ static void SquaresThatEdgesRunThrough(void** state)
 static void SquaresAroundPoints(void** state)
 {
     (void)state;
-    kiriPoint extent = { 60, 34 }, inside = { 10, 8 }, last = { 60, 34 }, left = { -2, 4 }, above = { 4, 40 };
+    kiriLatticePoint extent = { 60, 34 }, inside = { 10, 8 }, last = { 60, 34 }, left = { -2, 4 }, above = { 4, 40 };
     kiriSquares squares;
     assert_true(kiriSquares_Init(&squares, Heap(), extent, 7));
     assert_int_equal(kiriSquares_At(&squares, inside), 1);
     assert_int_equal(kiriSquares_At(&squares, last), 27);
     assert_int_equal(kiriSquares_At(&squares, left), KIRI_NONE);
     assert_int_equal(kiriSquares_At(&squares, above), KIRI_NONE);
-    kiriPoint corner = kiriSquares_Corner(&squares, 8);
+    kiriLatticePoint corner = kiriSquares_Corner(&squares, 8);
     assert_int_equal(corner.x, 9);
     assert_int_equal(corner.y, 9);
     kiriSquares_Release(&squares, Heap());
@@ -180,8 +180,8 @@ static void SquaresAroundPoints(void** state)
 static void SquaresWithoutMemory(void** state)
 {
     (void)state;
-    kiriPoint extent = { 60, 34 }, big[3] = { { 0, 0 }, { 60, 0 }, { 0, 34 } },
-              small[3] = { { 0, 0 }, { 4, 0 }, { 0, 4 } };
+    kiriLatticePoint extent = { 60, 34 }, big[3] = { { 0, 0 }, { 60, 0 }, { 0, 34 } },
+                     small[3] = { { 0, 0 }, { 4, 0 }, { 0, 4 } };
     Meter meter = { -1, 0 };
     kiriMemory memory = kiriMemory_Make(MeterAlloc, MeterFree, &meter);
     kiriSquares squares;
@@ -359,8 +359,8 @@ static void SplitsEdges(void** state)
     (void)state;
     kiriMeshData mesh;
     InitRectangle(&mesh, 2, 2, 2.0f, 2.0f, 4);
-    kiriPoint inside = kiriMesh_Snap(&mesh, kiriVec2_Make(1.0, 0.25)),
-              border = kiriMesh_Snap(&mesh, kiriVec2_Make(0.75, 0.0));
+    kiriLatticePoint inside = kiriMesh_Snap(&mesh, kiriVec2_Make(1.0, 0.25)),
+                     border = kiriMesh_Snap(&mesh, kiriVec2_Make(0.75, 0.0));
     uint32_t revision = mesh.revision;
     int32_t h = Find(&mesh, 1, 0, 1, 1);
     assert_true(kiriMesh_CanSplitEdge(&mesh, h, inside));
@@ -387,7 +387,7 @@ static void SplitsOpenEdges(void** state)
     (void)state;
     kiriMeshData mesh;
     InitRectangle(&mesh, 2, 2, 2.0f, 2.0f, 4);
-    kiriPoint at = kiriMesh_Snap(&mesh, kiriVec2_Make(1.0, 0.25));
+    kiriLatticePoint at = kiriMesh_Snap(&mesh, kiriVec2_Make(1.0, 0.25));
     int32_t h = Find(&mesh, 1, 0, 1, 1);
     assert_true(kiriMesh_Open(&mesh, h));
     assert_int_equal(VerticesAt(&mesh, 1, 0), 2);
@@ -407,8 +407,8 @@ static void SplitsTriangles(void** state)
     (void)state;
     kiriMeshData mesh;
     InitRectangle(&mesh, 2, 2, 2.0f, 2.0f, 4);
-    kiriPoint at = kiriMesh_Snap(&mesh, kiriVec2_Make(0.75, 0.25)),
-              edge = kiriMesh_Snap(&mesh, kiriVec2_Make(0.5, 0.0));
+    kiriLatticePoint at = kiriMesh_Snap(&mesh, kiriVec2_Make(0.75, 0.25)),
+                     edge = kiriMesh_Snap(&mesh, kiriVec2_Make(0.5, 0.0));
     int32_t t = kiriMesh_Locate(&mesh, at);
     assert_true(kiriMesh_CanSplitTriangle(&mesh, t, at));
     assert_false(kiriMesh_CanSplitTriangle(&mesh, t, edge));
@@ -462,7 +462,7 @@ static void Snaps(void** state)
     const double in[] = { 0.0, 0.9, 1.1, 2.9, 3.1, -0.9, -1.1, -2.9, -3.1 };
     const int32_t out[] = { 0, 0, 2, 2, 4, 0, -2, -2, -4 };
     for (int i = 0; i < 9; ++i) {
-        kiriPoint p = kiriMesh_Snap(&mesh, kiriVec2_Make(in[i] * mesh.step, in[8 - i] * mesh.step));
+        kiriLatticePoint p = kiriMesh_Snap(&mesh, kiriVec2_Make(in[i] * mesh.step, in[8 - i] * mesh.step));
         assert_int_equal(p.x, out[i]);
         assert_int_equal(p.y, out[8 - i]);
     }
@@ -474,10 +474,11 @@ static bool Scramble(kiriMeshData* mesh, uint32_t seed, int rounds)
 {
     for (int i = 0; i < rounds; ++i) {
         int32_t h = (int32_t)(Random(&seed) % (uint32_t)(3 * mesh->triangles.count));
-        kiriPoint a = TailAt(mesh, h), b = TailAt(mesh, kiriEdge_Next(h)), c = TailAt(mesh, kiriEdge_Previous(h));
+        kiriLatticePoint a = TailAt(mesh, h), b = TailAt(mesh, kiriEdge_Next(h)),
+                         c = TailAt(mesh, kiriEdge_Previous(h));
         double s = RandomBetween(&seed, 0.2, 0.8), third = 1.0 / 3.0;
-        kiriPoint onEdge = kiriMesh_Round(kiriVec2_Make(a.x + s * (b.x - a.x), a.y + s * (b.y - a.y)));
-        kiriPoint within =
+        kiriLatticePoint onEdge = kiriMesh_Round(kiriVec2_Make(a.x + s * (b.x - a.x), a.y + s * (b.y - a.y)));
+        kiriLatticePoint within =
             kiriMesh_Round(kiriVec2_Make(third * ((double)a.x + b.x + c.x), third * ((double)a.y + b.y + c.y)));
         uint32_t choice = Random(&seed) % 4;
         if (choice == 0 && kiriMesh_CanSplitEdge(mesh, h, onEdge) && kiriMesh_SplitEdge(mesh, h, onEdge) == KIRI_NONE) {
@@ -508,10 +509,10 @@ static void Locates(void** state)
         double grain = i % 2 == 0 ? 0.25 : 1e-6;
         double x = grain * (int)(RandomBetween(&seed, -1.0, 6.0) / grain);
         double y = grain * (int)(RandomBetween(&seed, -1.0, 4.0) / grain);
-        kiriPoint p = kiriMesh_Snap(&mesh, kiriVec2_Make(x, y));
+        kiriLatticePoint p = kiriMesh_Snap(&mesh, kiriVec2_Make(x, y));
         int32_t expected = KIRI_NONE;
         for (int32_t t = mesh.triangles.count - 1; t >= 0; --t) {
-            kiriPoint c[3];
+            kiriLatticePoint c[3];
             kiriMesh_Corners(&mesh, t, c);
             bool holds =
                 kiriOrient(c[0], c[1], p) >= 0 && kiriOrient(c[1], c[2], p) >= 0 && kiriOrient(c[2], c[0], p) >= 0;

@@ -368,10 +368,10 @@ static Before Remember(Host* host, kiriSheet sheet)
     COPY(data->regions.onBorder);
     COPY(data->shape.spans);
     COPY(data->shape.weights);
-    COPY(data->model.patches.patches);
-    COPY(data->model.patches.shares);
-    COPY(data->model.pinFrame);
-    COPY(data->model.framePiece);
+    COPY(data->layout.patches.patches);
+    COPY(data->layout.patches.shares);
+    COPY(data->layout.pinFrame);
+    COPY(data->layout.framePiece);
     COPY(data->surface.positions);
     COPY(data->surface.exact);
     return before;
@@ -397,10 +397,10 @@ static void Forget(Before* before)
                        data->regions.onBorder.data,
                        data->shape.spans.data,
                        data->shape.weights.data,
-                       data->model.patches.patches.data,
-                       data->model.patches.shares.data,
-                       data->model.pinFrame.data,
-                       data->model.framePiece.data,
+                       data->layout.patches.patches.data,
+                       data->layout.patches.shares.data,
+                       data->layout.pinFrame.data,
+                       data->layout.framePiece.data,
                        data->surface.positions.data,
                        data->surface.exact.data };
     for (size_t i = 0; i < sizeof(copies) / sizeof(copies[0]); ++i) {
@@ -428,7 +428,7 @@ static int32_t* Back(const int32_t* from, int32_t count, int32_t whole)
 
 static bool IsIn(const kiriSheetData* was, int32_t frame, int32_t piece, bool isRest)
 {
-    return (was->model.framePiece.data[frame] == piece) != isRest;
+    return (was->layout.framePiece.data[frame] == piece) != isRest;
 }
 
 static int32_t FrameOfVertex(const kiriSheetData* was, int32_t vertex)
@@ -562,22 +562,22 @@ static void CheckLinks(const kiriSheetData* was, const kiriSheetData* is, const 
     }
     assert_int_equal(n, is->links.links.count);
     n = 0;
-    for (int32_t k = 0; k < was->model.patches.patches.count; ++k) {
-        const kiriPatch* patch = &was->model.patches.patches.data[k];
-        const kiriShare* share = &was->model.patches.shares.data[patch->first];
+    for (int32_t k = 0; k < was->layout.patches.patches.count; ++k) {
+        const kiriPatch* patch = &was->layout.patches.patches.data[k];
+        const kiriShare* share = &was->layout.patches.shares.data[patch->first];
         if (maps->frameTo[share->frame] == KIRI_NONE) {
             continue;
         }
-        const kiriPatch* other = &is->model.patches.patches.data[n++];
+        const kiriPatch* other = &is->layout.patches.patches.data[n++];
         assert_true(patch->area == other->area && patch->lean == other->lean);
         assert_int_equal(patch->count, other->count);
         for (int32_t m = 0; m < patch->count; ++m) {
-            kiriShare x = share[m], y = is->model.patches.shares.data[other->first + m];
+            kiriShare x = share[m], y = is->layout.patches.shares.data[other->first + m];
             assert_int_equal(maps->frameTo[x.frame], y.frame);
             assert_true(x.weight == y.weight && x.slope.x == y.slope.x && x.move.y == y.move.y && x.u.x == y.u.x);
         }
     }
-    assert_int_equal(n, is->model.patches.patches.count);
+    assert_int_equal(n, is->layout.patches.patches.count);
 }
 
 static void CheckFrames(Host* host, kiriSheet sheet, const kiriSheetData* was, const kiriSheetData* is,
@@ -598,10 +598,10 @@ static void CheckFrames(Host* host, kiriSheet sheet, const kiriSheetData* was, c
         assert_int_equal(maps->frameTo[a->frame], b->frame);
     }
     for (int32_t i = 0, n = 0; i < was->pins.count; ++i) {
-        if (maps->frameTo[was->model.pinFrame.data[i]] != KIRI_NONE) {
+        if (maps->frameTo[was->layout.pinFrame.data[i]] != KIRI_NONE) {
             const kiriSlot* slot = kiriPool_Find(&host->world->pinIds, was->pins.data[i].id);
             assert_memory_equal(&was->pins.data[i], &is->pins.data[n], sizeof(kiriPinData));
-            assert_int_equal(maps->frameTo[was->model.pinFrame.data[i]], is->model.pinFrame.data[n]);
+            assert_int_equal(maps->frameTo[was->layout.pinFrame.data[i]], is->layout.pinFrame.data[n]);
             assert_true(slot->owner == is && slot->index == n++);
         }
     }
@@ -1117,13 +1117,13 @@ static void TestConfettiHasAll(void** state)
             Shred(&host, sheet, 12, &seed);
             Tick(&host, 1);
             CheckPieces(&host, sheet); /* frames and collision points */
-            const kiriModel* model = &DataOf(&host, sheet)->model;
-            uint8_t* has = calloc((size_t)model->pieces.count, 1);
-            for (int32_t k = 0; k < model->patches.patches.count; ++k) {
-                int32_t frame = model->patches.shares.data[model->patches.patches.data[k].first].frame;
-                has[model->framePiece.data[frame]] = 1;
+            const kiriLayout* layout = &DataOf(&host, sheet)->layout;
+            uint8_t* has = calloc((size_t)layout->pieces.count, 1);
+            for (int32_t k = 0; k < layout->patches.patches.count; ++k) {
+                int32_t frame = layout->patches.shares.data[layout->patches.patches.data[k].first].frame;
+                has[layout->framePiece.data[frame]] = 1;
             }
-            for (int32_t p = 0; p < model->pieces.count; ++p) {
+            for (int32_t p = 0; p < layout->pieces.count; ++p) {
                 assert_true(has[p]);
             }
             free(has);

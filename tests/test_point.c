@@ -95,11 +95,11 @@ static void TestPieces(void** state)
     Body_Drop(&body);
 }
 
-static bool Rebuild(kiriPatches* patches, kiriPointsWork* work, const BodyDef* def)
+static bool Rebuild(kiriPatches* patches, kiriIntegrationWork* work, const BodyDef* def)
 {
     Scene* s = &body.scene;
-    return kiriPoints_Build(patches, work, &s->memory, &s->grid, &s->mesh, &body.shape, body.material.data, def->points,
-                            def->order, false);
+    return kiriIntegration_Build(patches, work, &s->memory, &s->grid, &s->mesh, &body.shape, body.material.data,
+                                 def->points, def->order, false);
 }
 
 /* Building again gives the same; so does building anew, whatever allocation failed before. */
@@ -109,7 +109,7 @@ static void TestBuildingAgain(void** state)
     for (int order = 1; order <= 2; ++order) {
         BodyDef def = DefOf(0.2, 0.1, 40, order, Rubber);
         kiriPatches patches = { { 0 }, { 0 } };
-        kiriPointsWork work;
+        kiriIntegrationWork work;
         int64_t fewest = 0;
         memset(&work, 0, sizeof(work));
         Make(&body, &def, 5, 3, 0.2, 6);
@@ -117,7 +117,7 @@ static void TestBuildingAgain(void** state)
         memset(&body.patches, 0, sizeof(body.patches));
         for (bool built = false; !built; ++fewest) {
             kiriPatches_Release(&patches, &body.scene.memory);
-            kiriPointsWork_Release(&work, &body.scene.memory);
+            kiriIntegrationWork_Release(&work, &body.scene.memory);
             memset(&work, 0, sizeof(work));
             body.scene.purse.budget = fewest;
             built = Rebuild(&patches, &work, &def);
@@ -138,7 +138,7 @@ static void TestBuildingAgain(void** state)
         }
         kiriPatches_Release(&patches, &body.scene.memory);
         kiriPatches_Release(&first, &body.scene.memory);
-        kiriPointsWork_Release(&work, &body.scene.memory);
+        kiriIntegrationWork_Release(&work, &body.scene.memory);
         Body_Drop(&body);
     }
 }

@@ -110,7 +110,7 @@ static bool IsOneBody(const kiriSheetData* sheet, int32_t piece)
     bool same = true;
     for (int32_t f = 0; f < sheet->frames.count; ++f) {
         const kiriFrameData* frame = &sheet->frames.data[f];
-        if (sheet->model.framePiece.data[f] == piece) {
+        if (sheet->layout.framePiece.data[f] == piece) {
             first = first == NULL ? frame : first;
             kiriVec3 round = kiriVec3_Cross(first->spin, kiriVec3_Sub(frame->x, first->x));
             kiriVec3 velocity = kiriVec3_Add(first->velocity, round);
@@ -127,7 +127,7 @@ static void CheckTurned(Probe* probe)
     const kiriSheetData* sheet = DataOf(probe);
     bool any = false;
     if (probe->turned > 1e-9) {
-        for (int32_t p = 0; p < sheet->model.pieces.count; ++p) {
+        for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
             any = any || IsOneBody(sheet, p);
         }
         assert_true(any);
@@ -163,7 +163,7 @@ static void TestMomentumIsKept(void** state)
 
 /* ---- A rigid motion ---- */
 
-static const kiriVec3 flight = { 1.0, -2.0, 0.5 }, turn = { 3.0, -1.0, 7.0 };
+static const kiriVec3 prediction = { 1.0, -2.0, 0.5 }, turn = { 3.0, -1.0, 7.0 };
 
 /* Before the sheet has moved, the point at rest at (u, v) is at (u, v, 0), and moves so. */
 static void CheckRigid(Probe* probe)
@@ -173,7 +173,7 @@ static void CheckRigid(Probe* probe)
     for (int32_t f = 0; f < sheet->frames.count; ++f) {
         const kiriFrameData* frame = &sheet->frames.data[f];
         kiriVec3 at = { frame->center.x, frame->center.y, 0.0 };
-        kiriVec3 velocity = kiriVec3_Add(flight, kiriVec3_Cross(turn, kiriVec3_Sub(at, middle)));
+        kiriVec3 velocity = kiriVec3_Add(prediction, kiriVec3_Cross(turn, kiriVec3_Sub(at, middle)));
         assert_true(kiriVec3_Length(kiriVec3_Sub(frame->x, at)) < 1e-12);
         assert_true(kiriVec3_Length(kiriVec3_Sub(frame->velocity, velocity)) < 1e-10);
         assert_true(kiriVec3_Length(kiriVec3_Sub(frame->spin, turn)) < 1e-7);
@@ -196,7 +196,7 @@ static void TestRigidMotionGoesOn(void** state)
         Probe_Start(&probe);
         probe.sheet = Host_AddRectangle(&probe.host, &def, 1.0f, 1.0f, 20, 20);
         probe.record = CheckRigid;
-        Spin(&probe, flight, turn, 0.0, &seed);
+        Spin(&probe, prediction, turn, 0.0, &seed);
         Circle(way, 40, 0.45, 0.4, 0.22);
         Host_Cut(&probe.host, probe.sheet, way[0], 40);
         OK(kiriWorld_Tick(probe.host.world, 1.0f / 60.0f, 1));
@@ -223,7 +223,7 @@ static void TestFarFramesKeepTheirState(void** state)
     def.frameCount = 32;
     Probe_Start(&probe);
     probe.sheet = Host_AddRectangle(&probe.host, &def, 1.0f, 1.0f, 20, 20);
-    Spin(&probe, flight, turn, 1.0, &seed);
+    Spin(&probe, prediction, turn, 1.0, &seed);
     count = DataOf(&probe)->frames.count;
     memcpy(before, DataOf(&probe)->frames.data, sizeof(before));
     Host_Cut(&probe.host, probe.sheet, way, 3);
@@ -295,7 +295,7 @@ static void CutWhatSwings(Seen* seen, const kiriSheetDef* def)
     probe->sheet = Host_AddRectangle(&probe->host, (kiriSheetDef*)def, 1.0f, 1.0f, 16, 16);
     probe->record = CheckSeen;
     seen->jump = seen->longest = seen->pointJump = 0.0;
-    Spin(probe, flight, turn, 2.0, &seed);
+    Spin(probe, prediction, turn, 2.0, &seed);
     Circle(way, 30, 0.5, 0.45, 0.3);
     OK(kiriBeginCut(probe->host.world, probe->sheet, way[0], &cut));
     for (int32_t tick = 0; tick < 40; ++tick) {

@@ -44,7 +44,7 @@ typedef struct Sheet {
     kiriGrid grid;
     kiriRegions regions;
     kiriSites sites;
-    KIRI_ARRAY(kiriPoint) anchors; /* of the sites */
+    KIRI_ARRAY(kiriLatticePoint) anchors; /* of the sites */
     KIRI_ARRAY(kiriSiteMove) moves;
     KIRI_ARRAY(Was) was; /* by cell */
     int64_t slice;       /* items of a quota */
@@ -60,11 +60,11 @@ static void Settle(Sheet* sheet)
                                     known ? sheet->regions.field.distance.data[c] : KIRI_FAR,
                                     sheet->grid.cells.data[c].material, kiriGrid_IsCell(&sheet->grid, c) };
     }
-    for (int32_t i = 0; i < sheet->regions.touched.count; ++i) {
-        sheet->regions.touched.data[i] = 0;
+    for (int32_t i = 0; i < sheet->regions.dirty.count; ++i) {
+        sheet->regions.dirty.data[i] = 0;
     }
-    kiriGrid_Settle(&sheet->grid);
-    kiriRegions_Settle(&sheet->regions);
+    kiriGrid_ClearChanges(&sheet->grid);
+    kiriRegions_ClearChanges(&sheet->regions);
     assert_int_equal(sheet->regions.changes.count, 0);
 }
 
@@ -72,7 +72,7 @@ static void UpdateGrid(Sheet* sheet)
 {
     kiriQuota quota = { INT64_MAX, 0 };
     assert_int_equal(kiriGrid_Update(&sheet->grid, &sheet->mesh, &quota), KIRI_DONE);
-    kiriSquares_ClearTouched(&sheet->mesh.squares);
+    kiriSquares_ClearDirty(&sheet->mesh.squares);
 }
 
 /* The unit square, of two triangles. Its grid is not settled. */
@@ -118,7 +118,7 @@ static void MoveBlade(Sheet* sheet, uint32_t* seed, double length)
     double u = RandomBetween(seed, -length, length), v = RandomBetween(seed, -length, length);
     kiriQuota all = { INT64_MAX, 0 };
     kiriBlade blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(x, y));
-    kiriPoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x + u, y + v));
+    kiriLatticePoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x + u, y + v));
     assert_int_equal(kiriCut_Move(&sheet->mesh, &blade, to, 16.0, &all), KIRI_DONE);
 }
 
@@ -129,7 +129,7 @@ static void CutRandomly(Sheet* sheet, uint32_t* seed, double length)
     kiriMesh_Commit(&sheet->mesh);
 }
 
-static int32_t CellAt(const Sheet* sheet, kiriPoint at)
+static int32_t CellAt(const Sheet* sheet, kiriLatticePoint at)
 {
     int32_t triangle = kiriMesh_Locate(&sheet->mesh, at);
     assert_int_not_equal(triangle, KIRI_NONE);
@@ -171,7 +171,7 @@ static kiriSite SiteIn(const Sheet* sheet, int32_t cell, uint32_t* seed)
 static void Place(Sheet* sheet, int32_t frame, kiriSite site)
 {
     kiriSiteMove move = { frame, frame < sheet->sites.count ? sheet->sites.data[frame].cell : KIRI_NONE };
-    kiriPoint anchor = kiriGrid_Anchor(&sheet->grid, &sheet->mesh, site.cell);
+    kiriLatticePoint anchor = kiriGrid_Anchor(&sheet->grid, &sheet->mesh, site.cell);
     if (frame == sheet->sites.count) {
         assert_true(kiriArray_Push(&sheet->memory, &sheet->sites, site));
         assert_true(kiriArray_Push(&sheet->memory, &sheet->anchors, anchor));
@@ -408,8 +408,8 @@ static int32_t CheckChanges(const Sheet* sheet)
         bool remade = memcmp(&was.material, &sheet->grid.cells.data[c].material, sizeof(was.material)) != 0;
         assert_int_equal(listed[c], changed && lives);
         if (changed || remade || was.lives != lives) {
-            assert_true(was.owner == KIRI_NONE || regions->touched.data[was.owner]);
-            assert_true(owner == KIRI_NONE || regions->touched.data[owner]);
+            assert_true(was.owner == KIRI_NONE || regions->dirty.data[was.owner]);
+            assert_true(owner == KIRI_NONE || regions->dirty.data[owner]);
         }
         count += changed;
     }
@@ -417,7 +417,7 @@ static int32_t CheckChanges(const Sheet* sheet)
     for (int32_t k = 0; k < sheet->grid.changes.restepped.count; ++k) {
         int32_t cell = sheet->grid.changes.restepped.data[k];
         int32_t owner = kiriGrid_IsCell(&sheet->grid, cell) ? regions->field.owner.data[cell] : KIRI_NONE;
-        assert_true(owner == KIRI_NONE || regions->touched.data[owner]);
+        assert_true(owner == KIRI_NONE || regions->dirty.data[owner]);
     }
     return count;
 }
@@ -607,7 +607,7 @@ static void FollowsCutsAndSites(void** state)
             }
             left += sheet.regions.orphans.count > 0;
             for (int32_t i = 0; i < sheet.sites.count; ++i) {
-                untouched += !sheet.regions.touched.data[i];
+                untouched += !sheet.regions.dirty.data[i];
             }
             Settle(&sheet);
         }

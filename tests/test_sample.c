@@ -29,7 +29,7 @@ static void CutSheetsEqualThoseFromScratch(void** state)
             staged += f.vertexSkin.staged.count;
             Follow_Commit(&f);
             Follow_Compare(&f);
-            kiriSquares_ClearTouched(&scene.mesh.squares);
+            kiriSquares_ClearDirty(&scene.mesh.squares);
         }
         Follow_Release(&f);
         Scene_Release(&scene);
@@ -169,7 +169,7 @@ static void PlacesListSamples(void** state)
     uint32_t seed = 21;
     Scene scene;
     kiriPlaces places = { 0 };
-    kiriPoint at[500];
+    kiriLatticePoint at[500];
     Scene_Init(&scene, 1.0, 0.5, 6, 3, 12);
     Scene_BuildGrid(&scene);
     for (int32_t k = 0; k < 500; ++k) {
@@ -237,7 +237,7 @@ static void FailingAllocatorLeaksNothing(void** state)
             for (int32_t k = 0; k < f.pointSkin.staged.count; ++k) {
                 listed = listed || f.pointSkin.staged.data[k].sample == s;
             }
-            kiriPoint at = f.points.data[s].at;
+            kiriLatticePoint at = f.points.data[s].at;
             int32_t cell = kiriGrid_CellAround(&f.grid, f.mesh, at);
             assert_true(listed || kiriSkin_Stage(&f.pointSkin, f.memory, &f.shape, &f.grid, f.mesh, s, cell,
                                                  kiriMesh_Local(f.mesh, at)));

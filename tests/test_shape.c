@@ -55,13 +55,13 @@ static int32_t RandomCell(const Scene* scene, uint32_t* seed, kiriVec2* at)
 {
     for (;;) {
         int32_t triangle = (int32_t)(Random(seed) % (uint32_t)scene->mesh.triangles.count);
-        kiriPoint corners[3];
+        kiriLatticePoint corners[3];
         kiriMesh_Corners(&scene->mesh, triangle, corners);
         double a = RandomBetween(seed, 0.0, 1.0), b = RandomBetween(seed, 0.0, 1.0);
         if (a + b < 1.0) {
             double x = corners[0].x + a * (corners[1].x - corners[0].x) + b * (corners[2].x - corners[0].x);
             double y = corners[0].y + a * (corners[1].y - corners[0].y) + b * (corners[2].y - corners[0].y);
-            kiriPoint p = { 2 * (int32_t)(0.5 * x), 2 * (int32_t)(0.5 * y) };
+            kiriLatticePoint p = { 2 * (int32_t)(0.5 * x), 2 * (int32_t)(0.5 * y) };
             if (kiriSquares_Overlap(&scene->mesh.squares, kiriSquares_At(&scene->mesh.squares, p), corners)) {
                 *at = kiriMesh_Local(&scene->mesh, p);
                 return kiriGrid_CellOf(&scene->grid, &scene->mesh, triangle, p);
@@ -566,7 +566,7 @@ static void CutSheetsEqualThoseFromScratch(void** state)
             Follow_CompareLists(&f, &scratch);
             Follow_CompareWeights(&f, &scratch);
             Follow_Release(&scratch);
-            kiriSquares_ClearTouched(&scene.mesh.squares);
+            kiriSquares_ClearDirty(&scene.mesh.squares);
         }
         born += f.sites.count - sites;
         Follow_Release(&f);
@@ -644,7 +644,7 @@ static void ChangesAreComplete(void** state)
         assert_true(f.shape.recomputed <= f.shape.changes.count);
         Follow_Commit(&f);
         assert_int_equal(f.shape.changes.count, 0);
-        kiriSquares_ClearTouched(&scene.mesh.squares);
+        kiriSquares_ClearDirty(&scene.mesh.squares);
         free(spans);
         free(was);
         free(listed);

@@ -155,14 +155,15 @@ static void Cut(Cloth* cloth, int32_t count, uint32_t* seed)
     kiriMeshData* mesh = &cloth->mesh;
     for (int32_t k = 0; k < count; ++k) {
         int32_t h = (int32_t)(Random(seed) % (uint32_t)(3 * mesh->triangles.count));
-        kiriPoint c[3], middle = { 0, 0 };
+        kiriLatticePoint c[3], middle = { 0, 0 };
         kiriMesh_Corners(mesh, h / 3, c);
         middle.x = (c[0].x / 6 + c[1].x / 6 + c[2].x / 6) * 2;
         middle.y = (c[0].y / 6 + c[1].y / 6 + c[2].y / 6) * 2;
         if (k % 3 == 0 && kiriMesh_CanSplitTriangle(mesh, h / 3, middle)) {
             assert_int_not_equal(kiriMesh_SplitTriangle(mesh, h / 3, middle), KIRI_NONE);
         }
-        kiriPoint half = { (c[h % 3].x / 4 + c[(h + 1) % 3].x / 4) * 2, (c[h % 3].y / 4 + c[(h + 1) % 3].y / 4) * 2 };
+        kiriLatticePoint half = { (c[h % 3].x / 4 + c[(h + 1) % 3].x / 4) * 2,
+                                  (c[h % 3].y / 4 + c[(h + 1) % 3].y / 4) * 2 };
         if (k % 3 == 1 && kiriMesh_CanSplitEdge(mesh, h, half)) {
             assert_int_not_equal(kiriMesh_SplitEdge(mesh, h, half), KIRI_NONE);
         }
@@ -454,7 +455,7 @@ static void RangesAreSmall(void** state)
     assert_int_equal(dirty.newVertices.count + dirty.oldVertices.count + dirty.newTriangles.count, 0);
     assert_int_equal(dirty.oldTriangles.count, 0);
     for (int32_t k = 0; k <= KIRI_CHANGES; ++k) {
-        kiriPoint c[3], middle;
+        kiriLatticePoint c[3], middle;
         kiriMesh_Begin(&cloth.mesh);
         kiriMesh_Corners(&cloth.mesh, 100 + k, c);
         middle.x = (c[0].x / 6 + c[1].x / 6 + c[2].x / 6) * 2;

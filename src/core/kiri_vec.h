@@ -21,17 +21,17 @@ typedef struct kiriMat3 {
 
 /* A point of the rest plane's lattice. Vertices have even coordinates, grid lines odd ones, so no vertex ever lies on a
    grid line. Coordinates stay within 2^30 of each other: orientations fit 64 bits. */
-typedef struct kiriPoint {
+typedef struct kiriLatticePoint {
     int32_t x, y;
-} kiriPoint;
+} kiriLatticePoint;
 
 /* Twice the signed area of a, b, c: positive when counter-clockwise. Exact. */
-static inline int64_t kiriOrient(kiriPoint a, kiriPoint b, kiriPoint c)
+static inline int64_t kiriOrient(kiriLatticePoint a, kiriLatticePoint b, kiriLatticePoint c)
 {
     return ((int64_t)b.x - a.x) * ((int64_t)c.y - a.y) - ((int64_t)b.y - a.y) * ((int64_t)c.x - a.x);
 }
 
-static inline int64_t kiriDistanceSquared(kiriPoint a, kiriPoint b)
+static inline int64_t kiriDistanceSquared(kiriLatticePoint a, kiriLatticePoint b)
 {
     int64_t x = (int64_t)b.x - a.x, y = (int64_t)b.y - a.y;
     return x * x + y * y;

@@ -394,9 +394,9 @@ static void Clip(Polygon* polygon, int axis, bool upper, double side)
 }
 
 /* Most triangles reach over few sides of a square, if any: whole numbers tell faster. */
-static void ClipToSquare(Polygon* part, const kiriPoint c[3], kiriPoint low, int32_t side)
+static void ClipToSquare(Polygon* part, const kiriLatticePoint c[3], kiriLatticePoint low, int32_t side)
 {
-    kiriPoint high = { low.x + side, low.y + side };
+    kiriLatticePoint high = { low.x + side, low.y + side };
     if (c[0].x < low.x || c[1].x < low.x || c[2].x < low.x) {
         Clip(part, 0, false, side);
     }
@@ -414,7 +414,7 @@ static void ClipToSquare(Polygon* part, const kiriPoint c[3], kiriPoint low, int
 /* The part of a triangle in a square, about the square's lower corner, so that nothing cancels in a small one. */
 static kiriMoments MaterialInSquare(const kiriMeshData* mesh, int32_t triangle, int32_t square)
 {
-    kiriPoint low = kiriSquares_Corner(&mesh->squares, square), corners[3];
+    kiriLatticePoint low = kiriSquares_Corner(&mesh->squares, square), corners[3];
     kiriMesh_Corners(mesh, triangle, corners);
     Polygon part;
     part.count = 3;
@@ -521,12 +521,12 @@ typedef struct Stretch {
    grid line, and no corner lies on it. */
 static Stretch CoveredStretch(const kiriMeshData* mesh, int32_t triangle, int32_t square, int axis)
 {
-    kiriPoint low = kiriSquares_Corner(&mesh->squares, square), corners[3];
+    kiriLatticePoint low = kiriSquares_Corner(&mesh->squares, square), corners[3];
     double side = mesh->squares.side;
     Stretch stretch = { side, 0.0 };
     kiriMesh_Corners(mesh, triangle, corners);
     for (int i = 0; i < 3; ++i) {
-        kiriPoint p = corners[i], q = corners[(i + 1) % 3];
+        kiriLatticePoint p = corners[i], q = corners[(i + 1) % 3];
         /* Across the side and along it, from the side's lower end; 64 bits hold the products below. */
         int64_t pa = axis == 0 ? p.x - low.x : p.y - low.y, ps = axis == 0 ? p.y - low.y : p.x - low.x;
         int64_t qa = axis == 0 ? q.x - low.x : q.y - low.y, qs = axis == 0 ? q.y - low.y : q.x - low.x;
@@ -542,7 +542,7 @@ static Stretch CoveredStretch(const kiriMeshData* mesh, int32_t triangle, int32_
 }
 
 /* Adds a stretch by the parallel axis rule: each term is positive, so a narrow face has a sound moment too. */
-static void AddStretch(kiriFace* face, const kiriMeshData* mesh, kiriPoint low, Stretch stretch)
+static void AddStretch(kiriFace* face, const kiriMeshData* mesh, kiriLatticePoint low, Stretch stretch)
 {
     double width = mesh->step * (stretch.to - stretch.from), least = leastShare * mesh->step * mesh->squares.side;
     width = width > least ? width : least;
@@ -586,7 +586,7 @@ static bool AddFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, i
     if (!Collect(work, mesh, before) || !Collect(work, mesh, square)) {
         return false;
     }
-    kiriPoint low = kiriSquares_Corner(&mesh->squares, square);
+    kiriLatticePoint low = kiriSquares_Corner(&mesh->squares, square);
     Entries a = work->entries.data[before], b = work->entries.data[square];
     for (int32_t i = a.first, j = b.first; i < a.end && j < b.end;) {
         int32_t t = TriangleAt(work, mesh, i), u = TriangleAt(work, mesh, j);
@@ -828,7 +828,7 @@ static void FillCells(kiriGrid* grid, int32_t square)
 static bool MakeCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
     kiriGridWork* work = grid->work;
-    int32_t square = work->fromScratch ? item : mesh->squares.touched.data[item];
+    int32_t square = work->fromScratch ? item : mesh->squares.dirty.data[item];
     bool wasWhole = grid->whole.data[square], isWhole = IsWhole(mesh, square);
     grid->whole.data[square] = isWhole;
     work->fresh.count = 0;
@@ -1083,7 +1083,7 @@ static int32_t CountItems(const kiriGridWork* work, const kiriMeshData* mesh)
 {
     switch (work->stage) {
     case STAGE_CELLS:
-        return work->fromScratch ? mesh->squares.columns * mesh->squares.rows : mesh->squares.touched.count;
+        return work->fromScratch ? mesh->squares.columns * mesh->squares.rows : mesh->squares.dirty.count;
     case STAGE_FACES:
         return work->remade.count;
     case STAGE_SPREAD:
@@ -1202,7 +1202,7 @@ kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota
     return KIRI_DONE;
 }
 
-void kiriGrid_Settle(kiriGrid* grid)
+void kiriGrid_ClearChanges(kiriGrid* grid)
 {
     kiriGridChanges* changes = &grid->changes;
     for (int32_t i = 0; i < changes->gone.count; ++i) {
@@ -1288,7 +1288,7 @@ void kiriGrid_SortCells(const kiriGrid* grid, int32_t* cells, int32_t count)
     }
 }
 
-int32_t kiriGrid_CellOf(const kiriGrid* grid, const kiriMeshData* mesh, int32_t triangle, kiriPoint at)
+int32_t kiriGrid_CellOf(const kiriGrid* grid, const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
 {
     int32_t square = kiriSquares_At(&mesh->squares, at);
     int32_t node = square == KIRI_NONE ? KIRI_NONE : mesh->squares.head[square];
@@ -1310,7 +1310,7 @@ kiriVec2 kiriGrid_Middle(const kiriGrid* grid, const kiriMeshData* mesh, int32_t
     return kiriVec2_Add(corner, kiriVec2_Make(0.5 * grid->side, 0.5 * grid->side));
 }
 
-kiriPoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
+kiriLatticePoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
 {
     kiriMoments largest = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
     int32_t square = grid->cells.data[cell].square, lowest = INT32_MAX;
@@ -1329,13 +1329,13 @@ kiriPoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh, int32_
                                                   : kiriGrid_Middle(grid, mesh, cell));
 }
 
-int32_t kiriGrid_CellAt(const kiriGrid* grid, const kiriMeshData* mesh, kiriPoint at)
+int32_t kiriGrid_CellAt(const kiriGrid* grid, const kiriMeshData* mesh, kiriLatticePoint at)
 {
     int32_t triangle = kiriMesh_Locate(mesh, at);
     return triangle == KIRI_NONE ? KIRI_NONE : kiriGrid_CellOf(grid, mesh, triangle, at);
 }
 
-int32_t kiriGrid_CellAround(const kiriGrid* grid, const kiriMeshData* mesh, kiriPoint at)
+int32_t kiriGrid_CellAround(const kiriGrid* grid, const kiriMeshData* mesh, kiriLatticePoint at)
 {
     int32_t square = kiriSquares_At(&mesh->squares, at);
     int32_t first = square == KIRI_NONE ? KIRI_NONE : grid->squareCell.data[square];

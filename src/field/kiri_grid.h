@@ -52,7 +52,7 @@ typedef struct kiriRemade {
     kiriMoments was;
 } kiriRemade;
 
-/* What updates have done since kiriGrid_Settle, complete when an update is done. A cell may be in several lists, in
+/* What updates have done since kiriGrid_ClearChanges, complete when an update is done. A cell may be in several lists, in
    each at most once. One that is gone is in no other list, has square KIRI_NONE, and its index is not taken again
    before Settle; one that came and went again is in none. */
 typedef struct kiriGridChanges {
@@ -83,14 +83,14 @@ typedef struct kiriGrid {
     kiriGridWork* work;
 } kiriGrid;
 
-/* The grid of the mesh as it is, from the one before and mesh->squares.touched: all squares that changed since. A
+/* The grid of the mesh as it is, from the one before and mesh->squares.dirty: all squares that changed since. A
    zeroed or reset grid is made from scratch, of all squares. Costs what it touches: an item of the quota is a square
-   looked at, or a cell whose steps are made. KIRI_MORE: call again before the mesh changes, or `touched` is cleared.
+   looked at, or a cell whose steps are made. KIRI_MORE: call again before the mesh changes, or the dirty squares are cleared.
    KIRI_FAILED: the grid is of no use any more but for kiriGrid_Reset or a release. */
 kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
 
 /* All who follow the grid have seen its changes. */
-void kiriGrid_Settle(kiriGrid* grid);
+void kiriGrid_ClearChanges(kiriGrid* grid);
 
 /* Forgets everything but its memory: the next update is from scratch. */
 void kiriGrid_Reset(kiriGrid* grid);
@@ -112,7 +112,7 @@ static inline bool kiriGrid_IsCell(const kiriGrid* grid, int32_t cell)
 void kiriGrid_SortCells(const kiriGrid* grid, int32_t* cells, int32_t count);
 
 /* The cell that holds this part of this triangle; KIRI_NONE where it does not overlap the square around `at`. */
-int32_t kiriGrid_CellOf(const kiriGrid* grid, const kiriMeshData* mesh, int32_t triangle, kiriPoint at);
+int32_t kiriGrid_CellOf(const kiriGrid* grid, const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at);
 
 /* The cell of a vertex: that of its fan. */
 int32_t kiriGrid_CellOfVertex(const kiriGrid* grid, const kiriMeshData* mesh, int32_t vertex);
@@ -121,13 +121,13 @@ int32_t kiriGrid_CellOfVertex(const kiriGrid* grid, const kiriMeshData* mesh, in
 kiriVec2 kiriGrid_Middle(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
 
 /* A lattice point of the cell's material, well inside: it finds the material again when the cell falls apart. */
-kiriPoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
+kiriLatticePoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
 
 /* The cell that holds a lattice point of the material, or KIRI_NONE. */
-int32_t kiriGrid_CellAt(const kiriGrid* grid, const kiriMeshData* mesh, kiriPoint at);
+int32_t kiriGrid_CellAt(const kiriGrid* grid, const kiriMeshData* mesh, kiriLatticePoint at);
 
 /* The same; but a point on a slanted outline, which a cut may have put off the material by a rounding of the lattice, is
    given the first cell of its square. KIRI_NONE outside. */
-int32_t kiriGrid_CellAround(const kiriGrid* grid, const kiriMeshData* mesh, kiriPoint at);
+int32_t kiriGrid_CellAround(const kiriGrid* grid, const kiriMeshData* mesh, kiriLatticePoint at);
 
 #endif

@@ -23,14 +23,14 @@ typedef struct Spread {
 
 struct kiriLinkWork {
     KIRI_ARRAY(uint8_t) marks;   /* a Mark a face; all PASSED between updates */
-    KIRI_ARRAY(int32_t) faces;   /* border faces of regions that are touched */
+    KIRI_ARRAY(int32_t) faces;   /* border faces of regions that are dirty */
     KIRI_ARRAY(int32_t) whole;   /* a connected stretch of them, in order, */
     KIRI_ARRAY(int32_t) stretch; /* and the faces of the link at hand, in order */
     KIRI_ARRAY(Made) made;
     KIRI_ARRAY(int32_t) order; /* of what was made */
     KIRI_ARRAY(int32_t) scratch;
-    KIRI_ARRAY(Spread) spreads;  /* of each region */
-    KIRI_ARRAY(uint8_t) stirred; /* of each region: its material or one of its links changed */
+    KIRI_ARRAY(Spread) spreads; /* of each region */
+    KIRI_ARRAY(uint8_t) dirty;  /* of each region: its material or one of its links changed */
 };
 
 typedef struct Border {
@@ -62,9 +62,9 @@ static Side SideOf(const Border* border, int32_t face)
     return side;
 }
 
-static bool IsTouched(const Border* border, int32_t region)
+static bool IsDirty(const Border* border, int32_t region)
 {
-    return border->regions->touched.data[region] != 0;
+    return border->regions->dirty.data[region] != 0;
 }
 
 /* ---- Order ------------------------------------------------------------------------------------------------------ */
@@ -310,7 +310,7 @@ static bool AddLink(const Border* border)
     return kiriArray_Push(border->memory, &border->work->made, made);
 }
 
-/* ---- All links of regions that are touched ---------------------------------------------------------------------- */
+/* ---- All links of regions that are dirty ---------------------------------------------------------------------- */
 
 /* A face between two such regions is found from the lower one. */
 static bool FindFacesOf(const Border* border, int32_t region, int32_t cell)
@@ -320,7 +320,7 @@ static bool FindFacesOf(const Border* border, int32_t region, int32_t cell)
         const kiriFace* face = &grid->faces.data[f];
         int32_t end = face->cell[0] == cell ? 0 : 1;
         int32_t other = border->regions->field.owner.data[face->cell[1 - end]];
-        if (other != region && (region < other || !IsTouched(border, other))) {
+        if (other != region && (region < other || !IsDirty(border, other))) {
             border->work->marks.data[f] = FRESH;
             if (!kiriArray_Push(border->memory, &border->work->faces, f)) {
                 return false;
@@ -336,7 +336,7 @@ static bool FindFaces(const Border* border)
     const kiriRegions* regions = border->regions;
     for (int32_t i = 0; i < border->siteCount; ++i) {
         const kiriReaches* list = &border->shape->reaches.data[i];
-        for (int32_t k = 0; IsTouched(border, i) && k < list->count; ++k) {
+        for (int32_t k = 0; IsDirty(border, i) && k < list->count; ++k) {
             int32_t cell = list->data[k].cell;
             if (regions->onBorder.data[cell] && regions->field.owner.data[cell] == i && !FindFacesOf(border, i, cell)) {
                 return false;
@@ -398,7 +398,7 @@ static bool MakeRoom(const Border* border)
     kiriLinkWork* work = border->work;
     int32_t old = work->marks.count;
     if (!kiriArray_Resize(border->memory, &work->spreads, border->siteCount) ||
-        !kiriArray_Resize(border->memory, &work->stirred, border->siteCount) ||
+        !kiriArray_Resize(border->memory, &work->dirty, border->siteCount) ||
         (old < border->grid->faces.count &&
          !kiriArray_Resize(border->memory, &work->marks, border->grid->faces.count))) {
         return false;
@@ -408,17 +408,17 @@ static bool MakeRoom(const Border* border)
     }
     for (int32_t i = 0; i < border->siteCount; ++i) {
         work->spreads.data[i] = (Spread){ 0.0, 0.0, 0.0 };
-        work->stirred.data[i] = border->regions->touched.data[i];
+        work->dirty.data[i] = border->regions->dirty.data[i];
     }
     work->faces.count = work->made.count = 0;
     return true;
 }
 
-/* Regions that had a link to one that is touched, or have one now. */
-static void Stir(const Border* border, const kiriLink* link)
+/* Regions that had a link to one that is dirty, or have one now. */
+static void MarkDirty(const Border* border, const kiriLink* link)
 {
-    if (IsTouched(border, link->i) || IsTouched(border, link->j)) {
-        border->work->stirred.data[link->i] = border->work->stirred.data[link->j] = 1;
+    if (IsDirty(border, link->i) || IsDirty(border, link->j)) {
+        border->work->dirty.data[link->i] = border->work->dirty.data[link->j] = 1;
     }
 }
 
@@ -427,7 +427,7 @@ static bool IsPairBefore(const kiriLink* a, const kiriLink* b)
     return a->i != b->i ? a->i < b->i : a->j < b->j;
 }
 
-/* Takes over the links of pairs that are not touched, between those that were made; no pair has both. */
+/* Takes over the links of pairs that are not dirty, between those that were made; no pair has both. */
 static bool Merge(const Border* border, kiriLinks* links)
 {
     kiriLinkWork* work = border->work;
@@ -437,8 +437,8 @@ static bool Merge(const Border* border, kiriLinks* links)
     }
     for (int32_t k = 0; k < links->links.count; ++k) {
         const kiriLink* link = &links->links.data[k];
-        Stir(border, link);
-        if (!IsTouched(border, link->i) && !IsTouched(border, link->j)) {
+        MarkDirty(border, link);
+        if (!IsDirty(border, link->i) && !IsDirty(border, link->j)) {
             for (; made < work->made.count; ++made) {
                 const kiriLink* first = &work->made.data[work->order.data[made]].link;
                 if (!IsPairBefore(first, link)) {
@@ -453,7 +453,7 @@ static bool Merge(const Border* border, kiriLinks* links)
         links->next.data[links->next.count++] = work->made.data[work->order.data[made]].link;
     }
     for (int32_t k = 0; k < work->made.count; ++k) {
-        Stir(border, &work->made.data[k].link);
+        MarkDirty(border, &work->made.data[k].link);
     }
     return true;
 }
@@ -486,7 +486,7 @@ static void SetBraced(const Border* border, kiriLinks* links)
     }
     for (int32_t k = 0; k < links->next.count; ++k) {
         kiriLink* link = &links->next.data[k];
-        if (work->stirred.data[link->i] || work->stirred.data[link->j]) {
+        if (work->dirty.data[link->i] || work->dirty.data[link->j]) {
             link->braced = 0.5 * (BracedIn(border, link->i, link->tangent) + BracedIn(border, link->j, link->tangent));
         }
     }
@@ -559,7 +559,7 @@ void kiriLinks_Release(kiriLinks* links, const kiriMemory* memory)
         kiriArray_Release(memory, &work->order);
         kiriArray_Release(memory, &work->scratch);
         kiriArray_Release(memory, &work->spreads);
-        kiriArray_Release(memory, &work->stirred);
+        kiriArray_Release(memory, &work->dirty);
         kiriMemory_Free(memory, work);
         links->work = NULL;
     }

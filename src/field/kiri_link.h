@@ -31,7 +31,7 @@ typedef struct kiriLinks {
     kiriLinkWork* work;
 } kiriLinks;
 
-/* The links of the regions as they are, into `next`: those between regions that are not touched (regions->touched) are
+/* The links of the regions as they are, into `next`: those between regions that are not dirty (regions->dirty) are
    taken over from `links`, the others made anew. False for memory: `links` is as before. */
 bool kiriLinks_Update(kiriLinks* links, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const kiriRegions* regions, const kiriShape* shape, const kiriSite* sites, int32_t siteCount);

@@ -107,7 +107,7 @@ static kiriSeed SeedOf(const void* context, int32_t cell)
 static void Touch(kiriRegions* regions, int32_t frame)
 {
     if (frame != KIRI_NONE) {
-        regions->touched.data[frame] = 1;
+        regions->dirty.data[frame] = 1;
     }
 }
 
@@ -116,7 +116,7 @@ static void Account(const Update* u, int32_t frame, const kiriMoments* material,
 {
     if (frame != KIRI_NONE) {
         kiriTally_Add(&u->regions->material.data[frame], material, sign, u->extent);
-        u->regions->touched.data[frame] = 1;
+        u->regions->dirty.data[frame] = 1;
     }
 }
 
@@ -133,7 +133,7 @@ static bool MakeRoom(const Update* u)
     if (!kiriField_Resize(&r->field, u->memory, cellCount) || !kiriArray_Resize(u->memory, &r->siteAt, cellCount) ||
         !kiriArray_Resize(u->memory, &r->onBorder, cellCount) || !kiriArray_Resize(u->memory, &r->listed, cellCount) ||
         !kiriArray_Resize(u->memory, &r->material, u->siteCount) ||
-        !kiriArray_Resize(u->memory, &r->touched, u->siteCount)) {
+        !kiriArray_Resize(u->memory, &r->dirty, u->siteCount)) {
         return false;
     }
     for (; cell < cellCount; ++cell) {
@@ -142,7 +142,7 @@ static bool MakeRoom(const Update* u)
     }
     for (; frame < u->siteCount; ++frame) {
         r->material.data[frame] = (kiriTally){ { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 } };
-        r->touched.data[frame] = 0;
+        r->dirty.data[frame] = 0;
     }
     return true;
 }
@@ -418,7 +418,7 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, const kiriMemory* memory, 
     return KIRI_DONE;
 }
 
-void kiriRegions_Settle(kiriRegions* regions)
+void kiriRegions_ClearChanges(kiriRegions* regions)
 {
     for (int32_t k = 0; k < regions->changes.count; ++k) {
         regions->listed.data[regions->changes.data[k].cell] = 0;
@@ -431,7 +431,7 @@ void kiriRegions_Reset(kiriRegions* regions)
 {
     kiriField_Clear(&regions->field);
     regions->siteAt.count = regions->onBorder.count = regions->listed.count = 0;
-    regions->material.count = regions->touched.count = 0;
+    regions->material.count = regions->dirty.count = 0;
     regions->changes.count = regions->orphans.count = 0;
     regions->seen = (kiriSeenChanges){ 0, 0, 0, 0 };
     regions->running = false;
@@ -444,7 +444,7 @@ void kiriRegions_Release(kiriRegions* regions, const kiriMemory* memory)
     kiriArray_Release(memory, &regions->onBorder);
     kiriArray_Release(memory, &regions->listed);
     kiriArray_Release(memory, &regions->material);
-    kiriArray_Release(memory, &regions->touched);
+    kiriArray_Release(memory, &regions->dirty);
     kiriArray_Release(memory, &regions->changes);
     kiriArray_Release(memory, &regions->orphans);
     kiriRegions_Reset(regions);

@@ -37,9 +37,9 @@ typedef struct kiriRegions {
 
     /* Of each frame: */
     KIRI_ARRAY(kiriTally) material; /* of its region, exact */
-    KIRI_ARRAY(uint8_t) touched;    /* its region, distances in it, or its cells' steps or material changed */
+    KIRI_ARRAY(uint8_t) dirty;      /* its region, distances in it, or its cells' steps or material changed */
 
-    /* Since kiriRegions_Settle: cells that live whose owner or distance changed, and what they were. */
+    /* Since kiriRegions_ClearChanges: cells that live whose owner or distance changed, and what they were. */
     KIRI_ARRAY(kiriSeed) changes;
     KIRI_ARRAY(int32_t) orphans; /* all cells with no frame in their piece, in the order of cells */
     bool running;                /* an update waits for more quota */
@@ -64,8 +64,8 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, const kiriMemory* memory, 
                                 const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
                                 const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
 
-/* All who follow the regions have seen `changes`; `touched` stays until the sheet's commit clears it. */
-void kiriRegions_Settle(kiriRegions* regions);
+/* All who follow the regions have seen `changes`; `dirty` stays until the sheet's commit clears it. */
+void kiriRegions_ClearChanges(kiriRegions* regions);
 void kiriRegions_Reset(kiriRegions* regions);
 void kiriRegions_Release(kiriRegions* regions, const kiriMemory* memory);
 

@@ -175,7 +175,7 @@ static void ListChange(Job* job, int32_t cell)
 }
 
 /* The weights of the cell, or what they count, are about to change. There is room for every cell. */
-static void Spoil(Job* job, int32_t cell)
+static void MarkDirty(Job* job, int32_t cell)
 {
     if ((job->work->marks.data[cell] & DIRTY) == 0) {
         job->work->marks.data[cell] |= DIRTY;
@@ -184,9 +184,9 @@ static void Spoil(Job* job, int32_t cell)
     }
 }
 
-static void SpoilWeights(Job* job, int32_t cell)
+static void MarkWeightsDirty(Job* job, int32_t cell)
 {
-    Spoil(job, cell);
+    MarkDirty(job, cell);
     ListChange(job, cell);
     job->shape->recomputed += (job->work->marks.data[cell] & COUNTED) == 0;
     job->work->marks.data[cell] |= COUNTED;
@@ -202,7 +202,7 @@ static bool ResizeSpan(Job* job, int32_t cell, int32_t count)
 /* A cell without weights gets room for all at once. */
 static bool OpenSpan(Job* job, int32_t cell)
 {
-    SpoilWeights(job, cell);
+    MarkWeightsDirty(job, cell);
     return ResizeSpan(job, cell, job->work->fresh.data[cell]);
 }
 
@@ -219,7 +219,7 @@ static bool Replace(Job* job, const Entry* entry)
     if (found ? weights[k].raw == entry->raw : !kept) {
         return true;
     }
-    SpoilWeights(job, entry->cell);
+    MarkWeightsDirty(job, entry->cell);
     if (found && !kept) {
         memmove(weights + k, weights + k + 1, (size_t)(span->count - k - 1) * sizeof(*weights));
         return ResizeSpan(job, entry->cell, span->count - 1);
@@ -616,7 +616,7 @@ static void MarkChanges(Job* job)
     }
     for (int32_t k = 0; k < changes->remade.count; ++k) {
         if (kiriGrid_IsCell(job->grid, changes->remade.data[k].cell)) {
-            Spoil(job, changes->remade.data[k].cell);
+            MarkDirty(job, changes->remade.data[k].cell);
         }
     }
     MarkReowned(job);
@@ -793,7 +793,7 @@ kiriProgress kiriShape_Update(kiriShape* shape, const kiriMemory* memory, const 
     return progress;
 }
 
-void kiriShape_Settle(kiriShape* shape)
+void kiriShape_ClearChanges(kiriShape* shape)
 {
     for (int32_t k = 0; k < shape->changes.count; ++k) {
         shape->work->marks.data[shape->changes.data[k]] &= (uint8_t) ~(LISTED | COUNTED);

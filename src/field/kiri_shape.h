@@ -36,7 +36,7 @@ typedef struct kiriShape {
     KIRI_ARRAY(int64_t) rigid;
     double rigidWeight; /* set before the first update */
 
-    /* Since kiriShape_Settle: live cells, each once, whose weights changed or which are in the grid's made or
+    /* Since kiriShape_ClearChanges: live cells, each once, whose weights changed or which are in the grid's made or
        restepped. */
     KIRI_ARRAY(int32_t) changes;
     int64_t recomputed; /* and for how many of them a weight was computed */
@@ -51,7 +51,7 @@ typedef struct kiriShape {
 kiriProgress kiriShape_Update(kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid,
                               const kiriMeshData* mesh, const kiriRegions* regions, const kiriSite* sites,
                               int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
-void kiriShape_Settle(kiriShape* shape);
+void kiriShape_ClearChanges(kiriShape* shape);
 void kiriShape_Reset(kiriShape* shape);
 void kiriShape_Release(kiriShape* shape, const kiriMemory* memory);
 

@@ -7,61 +7,61 @@ static const double LowestCoordinate = -268435456.0, HighestCoordinate = 8053063
    not; only the outline stops the walk. So older cuts are nothing special. */
 typedef struct Walk {
     kiriMeshData* mesh;
-    kiriPoint from, to;
+    kiriLatticePoint from, to;
     double snap;
-    kiriPoint at;   /* where the blade is now, */
-    int32_t vertex; /* and a vertex there; KIRI_NONE outside the sheet */
-    int32_t splits; /* triangles made or reshaped */
-    bool failed;    /* no memory */
+    kiriLatticePoint at; /* where the blade is now, */
+    int32_t vertex;      /* and a vertex there; KIRI_NONE outside the sheet */
+    int32_t splits;      /* triangles made or reshaped */
+    bool failed;         /* no memory */
 } Walk;
 
-static bool SamePlace(kiriPoint a, kiriPoint b)
+static bool SamePlace(kiriLatticePoint a, kiriLatticePoint b)
 {
     return a.x == b.x && a.y == b.y;
 }
 
-static kiriPoint PlaceOf(const Walk* walk, int32_t vertex)
+static kiriLatticePoint PlaceOf(const Walk* walk, int32_t vertex)
 {
     return walk->mesh->vertices.data[vertex].at;
 }
 
-static int64_t Dot(kiriPoint o, kiriPoint a, kiriPoint b)
+static int64_t Dot(kiriLatticePoint o, kiriLatticePoint a, kiriLatticePoint b)
 {
     return ((int64_t)a.x - o.x) * ((int64_t)b.x - o.x) + ((int64_t)a.y - o.y) * ((int64_t)b.y - o.y);
 }
 
 /* Every step must bring the blade nearer to its target: so the walk ends, whatever rounding and snapping do. */
-static bool IsNearer(const Walk* walk, kiriPoint p)
+static bool IsNearer(const Walk* walk, kiriLatticePoint p)
 {
     return kiriDistanceSquared(p, walk->to) < kiriDistanceSquared(walk->at, walk->to);
 }
 
 /* Where an edge of the outline passes through the place of a vertex of another part, splitting it is no step, but the
    next step goes on from there. */
-static bool IsAsNear(const Walk* walk, kiriPoint p)
+static bool IsAsNear(const Walk* walk, kiriLatticePoint p)
 {
     return IsNearer(walk, p) || SamePlace(walk->at, p);
 }
 
-static bool IsWithin(kiriPoint a, kiriPoint b, double distance)
+static bool IsWithin(kiriLatticePoint a, kiriLatticePoint b, double distance)
 {
     return (double)kiriDistanceSquared(a, b) <= distance * distance;
 }
 
 /* How near a place is to the line that the blade was told to follow. Measured from where the move began, not from where
    the last snap has led: small errors must not add up to a detour. */
-static bool IsOnLine(const Walk* walk, kiriPoint p, double distance)
+static bool IsOnLine(const Walk* walk, kiriLatticePoint p, double distance)
 {
     double length = sqrt((double)kiriDistanceSquared(walk->from, walk->to));
     return fabs((double)kiriOrient(walk->from, walk->to, p)) <= distance * length;
 }
 
-static kiriPoint Between(kiriPoint a, kiriPoint b, double share)
+static kiriLatticePoint Between(kiriLatticePoint a, kiriLatticePoint b, double share)
 {
     return kiriMesh_Round(kiriVec2_Make(a.x + share * ((double)b.x - a.x), a.y + share * ((double)b.y - a.y)));
 }
 
-static int32_t SplitEdge(Walk* walk, int32_t h, kiriPoint at)
+static int32_t SplitEdge(Walk* walk, int32_t h, kiriLatticePoint at)
 {
     walk->splits += kiriMesh_Twin(walk->mesh, h) == KIRI_NONE ? 2 : 4;
     int32_t vertex = kiriMesh_SplitEdge(walk->mesh, h, at);
@@ -69,7 +69,7 @@ static int32_t SplitEdge(Walk* walk, int32_t h, kiriPoint at)
     return vertex;
 }
 
-static int32_t SplitTriangle(Walk* walk, int32_t triangle, kiriPoint at)
+static int32_t SplitTriangle(Walk* walk, int32_t triangle, kiriLatticePoint at)
 {
     walk->splits += 3;
     int32_t vertex = kiriMesh_SplitTriangle(walk->mesh, triangle, at);
@@ -134,7 +134,7 @@ static int32_t FindWedge(const Walk* walk)
 }
 
 /* Opens the edge between two neighbouring places. */
-static bool OpenBetween(Walk* walk, int32_t vertex, kiriPoint other)
+static bool OpenBetween(Walk* walk, int32_t vertex, kiriLatticePoint other)
 {
     const kiriMeshData* mesh = walk->mesh;
     int32_t first = FirstAround(mesh, vertex);
@@ -151,7 +151,7 @@ static bool OpenBetween(Walk* walk, int32_t vertex, kiriPoint other)
 
 /* ---- Vertices for the blade -------------------------------------------------------------------------------------- */
 
-static int32_t NearestCorner(const Walk* walk, int32_t triangle, kiriPoint at)
+static int32_t NearestCorner(const Walk* walk, int32_t triangle, kiriLatticePoint at)
 {
     const int32_t* v = walk->mesh->triangles.data[triangle].vertex;
     int32_t nearest = v[0];
@@ -164,15 +164,15 @@ static int32_t NearestCorner(const Walk* walk, int32_t triangle, kiriPoint at)
 }
 
 /* The half-edge of the triangle that is nearest to a place in it, and its foot there. */
-static int32_t NearestEdge(const Walk* walk, int32_t triangle, kiriPoint at, kiriPoint* foot)
+static int32_t NearestEdge(const Walk* walk, int32_t triangle, kiriLatticePoint at, kiriLatticePoint* foot)
 {
-    kiriPoint c[3];
+    kiriLatticePoint c[3];
     kiriMesh_Corners(walk->mesh, triangle, c);
     int32_t nearest = KIRI_NONE;
     for (int i = 0; i < 3; ++i) {
-        kiriPoint a = c[i], b = c[(i + 1) % 3];
+        kiriLatticePoint a = c[i], b = c[(i + 1) % 3];
         double share = (double)Dot(a, b, at) / (double)kiriDistanceSquared(a, b);
-        kiriPoint p = Between(a, b, share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share);
+        kiriLatticePoint p = Between(a, b, share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share);
         if (nearest == KIRI_NONE || kiriDistanceSquared(p, at) < kiriDistanceSquared(*foot, at)) {
             nearest = 3 * triangle + i;
             *foot = p;
@@ -182,13 +182,13 @@ static int32_t NearestEdge(const Walk* walk, int32_t triangle, kiriPoint at, kir
 }
 
 /* A vertex for a place in the triangle: a corner or a point of an edge where they are near, or a new one inside. */
-static int32_t VertexIn(Walk* walk, int32_t triangle, kiriPoint at)
+static int32_t VertexIn(Walk* walk, int32_t triangle, kiriLatticePoint at)
 {
     int32_t corner = NearestCorner(walk, triangle, at);
     if (IsWithin(PlaceOf(walk, corner), at, walk->snap)) {
         return corner;
     }
-    kiriPoint foot;
+    kiriLatticePoint foot;
     int32_t h = NearestEdge(walk, triangle, at, &foot);
     if (IsWithin(foot, at, walk->snap) && kiriMesh_CanSplitEdge(walk->mesh, h, foot)) {
         return SplitEdge(walk, h, foot);
@@ -201,10 +201,10 @@ static int32_t VertexIn(Walk* walk, int32_t triangle, kiriPoint at)
 static int32_t VertexOn(Walk* walk, int32_t h)
 {
     int32_t a = kiriMesh_Tail(walk->mesh, h), b = kiriMesh_Tail(walk->mesh, kiriEdge_Next(h));
-    kiriPoint pa = PlaceOf(walk, a), pb = PlaceOf(walk, b);
+    kiriLatticePoint pa = PlaceOf(walk, a), pb = PlaceOf(walk, b);
     double toA = (double)kiriOrient(walk->at, walk->to, pa), toB = (double)kiriOrient(walk->at, walk->to, pb);
     double share = toA / (toA - toB);
-    kiriPoint crossing = Between(pa, pb, share);
+    kiriLatticePoint crossing = Between(pa, pb, share);
     int32_t near = share < 0.5 ? a : b, far = share < 0.5 ? b : a;
     bool canTake = IsNearer(walk, PlaceOf(walk, near));
     if (canTake && IsWithin(PlaceOf(walk, near), crossing, walk->snap) &&
@@ -224,7 +224,8 @@ static int32_t VertexOn(Walk* walk, int32_t h)
 static double EntryOver(const Walk* walk, int32_t h)
 {
     const kiriMeshData* mesh = walk->mesh;
-    kiriPoint a = PlaceOf(walk, kiriMesh_Tail(mesh, h)), b = PlaceOf(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h)));
+    kiriLatticePoint a = PlaceOf(walk, kiriMesh_Tail(mesh, h)),
+                     b = PlaceOf(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h)));
     int64_t here = kiriOrient(a, b, walk->at), there = kiriOrient(a, b, walk->to);
     if (kiriMesh_Twin(mesh, h) != KIRI_NONE || here > 0 || there <= 0 || SamePlace(a, walk->at) ||
         SamePlace(b, walk->at) || kiriOrient(walk->at, walk->to, a) < 0 || kiriOrient(walk->at, walk->to, b) > 0) {
@@ -299,7 +300,7 @@ static bool Enter(Walk* walk)
 /* Can the blade go along the edge to this end of it? It must not go past the target. */
 static bool CanFollow(const Walk* walk, int32_t vertex)
 {
-    kiriPoint p = PlaceOf(walk, vertex);
+    kiriLatticePoint p = PlaceOf(walk, vertex);
     return IsNearer(walk, p) && Dot(walk->to, p, walk->at) > 0 && IsOnLine(walk, p, walk->snap);
 }
 
@@ -346,7 +347,7 @@ static bool Step(Walk* walk)
     return true;
 }
 
-kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBlade* blade, kiriPoint to, double snap, kiriQuota* quota)
+kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBlade* blade, kiriLatticePoint to, double snap, kiriQuota* quota)
 {
     Walk walk = { mesh, blade->isOnItsWay ? blade->from : blade->at, to, snap, blade->at, blade->vertex, 0, false };
     bool isOnItsWay = !SamePlace(walk.from, to);

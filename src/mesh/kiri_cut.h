@@ -7,10 +7,10 @@
 
 /* Where the blade is. */
 typedef struct kiriBlade {
-    kiriPoint at;
-    int32_t vertex;  /* a vertex at that place, or KIRI_NONE: not in the sheet, or not yet moved */
-    bool isOnItsWay; /* the last move was interrupted, */
-    kiriPoint from;  /* and began here */
+    kiriLatticePoint at;
+    int32_t vertex;        /* a vertex at that place, or KIRI_NONE: not in the sheet, or not yet moved */
+    bool isOnItsWay;       /* the last move was interrupted, */
+    kiriLatticePoint from; /* and began here */
 } kiriBlade;
 
 /* A step of the blade, from vertex to vertex, splits an edge or a triangle at most: so many triangles are made or
@@ -23,7 +23,7 @@ enum { KIRI_MOST_SPLITS = 4 };
    without. KIRI_MORE: less than KIRI_MOST_SPLITS is left, and the blade is on its way; a call with the same `to` goes
    on, and in the end the mesh is what one call had made of it, bit for bit. KIRI_FAILED: roll the mesh back; the blade
    is then where it was before the call. */
-kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBlade* blade, kiriPoint to, double snap, kiriQuota* quota);
+kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBlade* blade, kiriLatticePoint to, double snap, kiriQuota* quota);
 
 /* The blade at a place of the local rest plane, for kiriCut_Move. Positions far outside are pulled in to the edge of
    the lattice's range; pass segments through kiriCut_Clip first where that matters. */

@@ -26,7 +26,7 @@ static int32_t CounterClockwise(const kiriMeshData* mesh, int32_t h)
 
 /* ---- The journal ------------------------------------------------------------------------------------------------- */
 
-static bool TouchTriangle(kiriMeshData* mesh, int32_t triangle)
+static bool SaveTriangle(kiriMeshData* mesh, int32_t triangle)
 {
     kiriTriangle* t = &mesh->triangles.data[triangle];
     if (triangle >= mesh->oldTriangleCount || t->stamp == mesh->stamp) {
@@ -40,7 +40,7 @@ static bool TouchTriangle(kiriMeshData* mesh, int32_t triangle)
     return true;
 }
 
-static bool TouchVertex(kiriMeshData* mesh, int32_t vertex)
+static bool SaveVertex(kiriMeshData* mesh, int32_t vertex)
 {
     kiriVertex* v = &mesh->vertices.data[vertex];
     if (vertex >= mesh->oldVertexCount || v->stamp == mesh->stamp) {
@@ -72,14 +72,14 @@ void kiriMesh_Commit(kiriMeshData* mesh)
 
 static bool InsertSquares(kiriMeshData* mesh, int32_t triangle)
 {
-    kiriPoint corners[3];
+    kiriLatticePoint corners[3];
     kiriMesh_Corners(mesh, triangle, corners);
     return kiriSquares_Insert(&mesh->squares, mesh->memory, triangle, corners);
 }
 
 static void RemoveSquares(kiriMeshData* mesh, int32_t triangle)
 {
-    kiriPoint corners[3];
+    kiriLatticePoint corners[3];
     kiriMesh_Corners(mesh, triangle, corners);
     kiriSquares_Remove(&mesh->squares, triangle, corners);
 }
@@ -127,7 +127,7 @@ static void ListVertex(kiriMeshData* mesh, int32_t vertex)
 /* Where the vertex is in a triangle of the caller. Rounding to the lattice may have put it a step outside. */
 static void SetSource(kiriMeshData* mesh, int32_t vertex, int32_t source)
 {
-    const kiriPoint* c = &mesh->sourceCorners.data[3 * (source - mesh->firstSource)];
+    const kiriLatticePoint* c = &mesh->sourceCorners.data[3 * (source - mesh->firstSource)];
     kiriVertex* v = &mesh->vertices.data[vertex];
     double share[3], sum = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -169,10 +169,10 @@ static void MoveHalfEdge(kiriMeshData* mesh, int32_t h, int32_t g)
 }
 
 /* Saves what moving half-edge h to another triangle changes. */
-static bool TouchHalfEdge(kiriMeshData* mesh, int32_t h)
+static bool SaveHalfEdge(kiriMeshData* mesh, int32_t h)
 {
     int32_t twin = kiriMesh_Twin(mesh, h);
-    return TouchVertex(mesh, kiriMesh_Tail(mesh, h)) && (twin == KIRI_NONE || TouchTriangle(mesh, twin / 3));
+    return SaveVertex(mesh, kiriMesh_Tail(mesh, h)) && (twin == KIRI_NONE || SaveTriangle(mesh, twin / 3));
 }
 
 static bool ReserveSplit(kiriMeshData* mesh)
@@ -184,7 +184,7 @@ static bool ReserveSplit(kiriMeshData* mesh)
 }
 
 /* Room for it is reserved. */
-static int32_t AddVertex(kiriMeshData* mesh, kiriPoint at, int32_t source, const kiriBirth* birth)
+static int32_t AddVertex(kiriMeshData* mesh, kiriLatticePoint at, int32_t source, const kiriBirth* birth)
 {
     int32_t index = mesh->vertices.count++;
     kiriVertex* v = &mesh->vertices.data[index];
@@ -206,7 +206,7 @@ static int32_t AddTriangle(kiriMeshData* mesh, int32_t a, int32_t b, int32_t c, 
 }
 
 /* A new vertex on half-edge h, born of the two ends on its own side. */
-static int32_t AddOnEdge(kiriMeshData* mesh, int32_t h, kiriPoint at)
+static int32_t AddOnEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
 {
     int32_t a = kiriMesh_Tail(mesh, h), b = kiriMesh_Tail(mesh, kiriEdge_Next(h));
     double toA = sqrt((double)kiriDistanceSquared(mesh->vertices.data[a].at, at));
@@ -229,11 +229,11 @@ static int32_t SplitSide(kiriMeshData* mesh, int32_t h, int32_t p)
     return added;
 }
 
-int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriPoint at)
+int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
 {
     int32_t g = kiriMesh_Twin(mesh, h);
-    if (!ReserveSplit(mesh) || !TouchTriangle(mesh, h / 3) || !TouchHalfEdge(mesh, kiriEdge_Next(h)) ||
-        (g != KIRI_NONE && (!TouchTriangle(mesh, g / 3) || !TouchHalfEdge(mesh, kiriEdge_Next(g))))) {
+    if (!ReserveSplit(mesh) || !SaveTriangle(mesh, h / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(h)) ||
+        (g != KIRI_NONE && (!SaveTriangle(mesh, g / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(g))))) {
         return KIRI_NONE;
     }
     ++mesh->revision;
@@ -254,9 +254,9 @@ int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriPoint at)
                : KIRI_NONE;
 }
 
-static kiriBirth BirthInside(const kiriMeshData* mesh, int32_t triangle, kiriPoint at)
+static kiriBirth BirthInside(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
 {
-    kiriPoint c[3];
+    kiriLatticePoint c[3];
     kiriMesh_Corners(mesh, triangle, c);
     double area = (double)kiriOrient(c[0], c[1], c[2]);
     kiriBirth birth;
@@ -267,11 +267,11 @@ static kiriBirth BirthInside(const kiriMeshData* mesh, int32_t triangle, kiriPoi
     return birth;
 }
 
-int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriPoint at)
+int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
 {
     int32_t h = 3 * triangle;
-    if (!ReserveSplit(mesh) || !TouchTriangle(mesh, triangle) || !TouchHalfEdge(mesh, h + 1) ||
-        !TouchHalfEdge(mesh, h + 2)) {
+    if (!ReserveSplit(mesh) || !SaveTriangle(mesh, triangle) || !SaveHalfEdge(mesh, h + 1) ||
+        !SaveHalfEdge(mesh, h + 2)) {
         return KIRI_NONE;
     }
     ++mesh->revision;
@@ -297,14 +297,14 @@ static bool TearFan(kiriMeshData* mesh, int32_t h)
     int32_t old = kiriMesh_Tail(mesh, h), twin = kiriMesh_Twin(mesh, h), last = h;
     for (int32_t c = h; c != KIRI_NONE; c = CounterClockwise(mesh, c)) {
         last = c;
-        if (!TouchTriangle(mesh, c / 3)) {
+        if (!SaveTriangle(mesh, c / 3)) {
             return false;
         }
     }
     if (kiriEdge_Previous(last) == twin) {
         return true; /* all around: the end of a cut */
     }
-    if (!TouchVertex(mesh, old) || !ReserveSplit(mesh)) {
+    if (!SaveVertex(mesh, old) || !ReserveSplit(mesh)) {
         return false;
     }
     kiriBirth birth = { { old, KIRI_NONE, KIRI_NONE }, { 1.0, 0.0, 0.0 } };
@@ -324,47 +324,47 @@ bool kiriMesh_Open(kiriMeshData* mesh, int32_t h)
     if (twin == KIRI_NONE || kiriMesh_IsOpen(mesh, h)) {
         return true;
     }
-    if (!TouchTriangle(mesh, h / 3) || !TouchTriangle(mesh, twin / 3)) {
+    if (!SaveTriangle(mesh, h / 3) || !SaveTriangle(mesh, twin / 3)) {
         return false;
     }
     ++mesh->revision;
     SetOpen(mesh, h, true);
     SetOpen(mesh, twin, true);
-    kiriSquares_TouchEdge(&mesh->squares, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
-                          mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at);
+    kiriSquares_MarkEdgeDirty(&mesh->squares, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
+                              mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at);
     return TearFan(mesh, h) && TearFan(mesh, twin);
 }
 
-static bool CanSplitSide(const kiriMeshData* mesh, int32_t h, kiriPoint at)
+static bool CanSplitSide(const kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
 {
-    kiriPoint c[3];
+    kiriLatticePoint c[3];
     kiriMesh_Corners(mesh, h / 3, c);
-    kiriPoint a = c[h % 3], b = c[(h + 1) % 3], apex = c[(h + 2) % 3];
+    kiriLatticePoint a = c[h % 3], b = c[(h + 1) % 3], apex = c[(h + 2) % 3];
     return kiriOrient(a, at, apex) > 0 && kiriOrient(at, b, apex) > 0;
 }
 
-bool kiriMesh_CanSplitEdge(const kiriMeshData* mesh, int32_t h, kiriPoint at)
+bool kiriMesh_CanSplitEdge(const kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
 {
     int32_t twin = kiriMesh_Twin(mesh, h);
     return CanSplitSide(mesh, h, at) && (twin == KIRI_NONE || CanSplitSide(mesh, twin, at));
 }
 
-bool kiriMesh_CanSplitTriangle(const kiriMeshData* mesh, int32_t triangle, kiriPoint at)
+bool kiriMesh_CanSplitTriangle(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
 {
-    kiriPoint c[3];
+    kiriLatticePoint c[3];
     kiriMesh_Corners(mesh, triangle, c);
     return kiriOrient(c[0], c[1], at) > 0 && kiriOrient(c[1], c[2], at) > 0 && kiriOrient(c[2], c[0], at) > 0;
 }
 
 /* ---- Questions --------------------------------------------------------------------------------------------------- */
 
-int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriPoint at)
+int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriLatticePoint at)
 {
     int32_t square = kiriSquares_At(&mesh->squares, at), found = KIRI_NONE;
     int32_t slot = square == KIRI_NONE ? KIRI_NONE : mesh->squares.head[square];
     for (; slot != KIRI_NONE; slot = mesh->squares.nodes.data[slot].next) {
         int32_t t = mesh->squares.nodes.data[slot].triangle;
-        kiriPoint c[3];
+        kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, t, c);
         if ((found == KIRI_NONE || t < found) && kiriOrient(c[0], c[1], at) >= 0 && kiriOrient(c[1], c[2], at) >= 0 &&
             kiriOrient(c[2], c[0], at) >= 0) {
@@ -378,7 +378,7 @@ int64_t kiriMesh_DoubledArea(const kiriMeshData* mesh)
 {
     int64_t sum = 0;
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        kiriPoint c[3];
+        kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, t, c);
         sum += kiriOrient(c[0], c[1], c[2]);
     }
@@ -429,13 +429,13 @@ static int32_t NearestEven(double x)
     return (int32_t)(2 * floor);
 }
 
-kiriPoint kiriMesh_Round(kiriVec2 lattice)
+kiriLatticePoint kiriMesh_Round(kiriVec2 lattice)
 {
-    kiriPoint p = { NearestEven(lattice.x), NearestEven(lattice.y) };
+    kiriLatticePoint p = { NearestEven(lattice.x), NearestEven(lattice.y) };
     return p;
 }
 
-kiriPoint kiriMesh_Snap(const kiriMeshData* mesh, kiriVec2 local)
+kiriLatticePoint kiriMesh_Snap(const kiriMeshData* mesh, kiriVec2 local)
 {
     return kiriMesh_Round(kiriVec2_Make(local.x / mesh->step, local.y / mesh->step));
 }
@@ -524,7 +524,7 @@ static kiriResult CheckInput(const Input* input, int32_t resolution, const char*
 }
 
 /* The vertices on the lattice. *extent is its upper corner. */
-static kiriResult TakeVertices(kiriMeshData* mesh, const Input* input, kiriPoint* extent, const char** why)
+static kiriResult TakeVertices(kiriMeshData* mesh, const Input* input, kiriLatticePoint* extent, const char** why)
 {
     double low[2], high[2];
     for (int axis = 0; axis < 2; ++axis) {
@@ -563,7 +563,7 @@ static kiriResult TakeTriangles(kiriMeshData* mesh, const Input* input, const ch
     }
     for (int32_t t = 0; t < input->triangleCount; ++t) {
         const int32_t* v = &input->indices[3 * (int64_t)t];
-        kiriPoint* c = &mesh->sourceCorners.data[3 * (int64_t)t];
+        kiriLatticePoint* c = &mesh->sourceCorners.data[3 * (int64_t)t];
         AddTriangle(mesh, v[0], v[1], v[2], t, KIRI_NONE);
         kiriMesh_Corners(mesh, t, c);
         int64_t area = kiriOrient(c[0], c[1], c[2]);
@@ -668,10 +668,10 @@ static bool ClaimFans(kiriMeshData* mesh)
 }
 
 /* Is triangle b on the outer side of an edge of triangle a, but for the tolerance? */
-static bool EdgeSeparates(const kiriPoint a[3], const kiriPoint b[3])
+static bool EdgeSeparates(const kiriLatticePoint a[3], const kiriLatticePoint b[3])
 {
     for (int i = 0; i < 3; ++i) {
-        kiriPoint p = a[i], q = a[(i + 1) % 3];
+        kiriLatticePoint p = a[i], q = a[(i + 1) % 3];
         int64_t length = (q.x > p.x ? (int64_t)q.x - p.x : (int64_t)p.x - q.x) +
                          (q.y > p.y ? (int64_t)q.y - p.y : (int64_t)p.y - q.y);
         int64_t most = OVERLAP_TOLERANCE * length;
@@ -687,7 +687,7 @@ static bool AnyOverlap(const kiriMeshData* mesh, const kiriSquares* squares)
     const kiriSquareNode* nodes = squares->nodes.data;
     for (int32_t square = 0; square < squares->columns * squares->rows; ++square) {
         for (int32_t i = squares->head[square]; i != KIRI_NONE; i = nodes[i].next) {
-            kiriPoint a[3], b[3];
+            kiriLatticePoint a[3], b[3];
             kiriMesh_Corners(mesh, nodes[i].triangle, a);
             for (int32_t j = nodes[i].next; j != KIRI_NONE; j = nodes[j].next) {
                 kiriMesh_Corners(mesh, nodes[j].triangle, b);
@@ -703,7 +703,7 @@ static bool AnyOverlap(const kiriMeshData* mesh, const kiriSquares* squares)
 static bool FillSquares(const kiriMeshData* mesh, kiriSquares* squares)
 {
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        kiriPoint corners[3];
+        kiriLatticePoint corners[3];
         kiriMesh_Corners(mesh, t, corners);
         if (!kiriSquares_Insert(squares, mesh->memory, t, corners)) {
             return false;
@@ -713,7 +713,7 @@ static bool FillSquares(const kiriMeshData* mesh, kiriSquares* squares)
 }
 
 /* Every two triangles that share a square, in squares of their own that hold a few triangles each. */
-static kiriResult CheckOverlaps(const kiriMeshData* mesh, kiriPoint extent, const char** why)
+static kiriResult CheckOverlaps(const kiriMeshData* mesh, kiriLatticePoint extent, const char** why)
 {
     double longer = extent.x > extent.y ? extent.x : extent.y, shorter = extent.x > extent.y ? extent.y : extent.x;
     double resolution = sqrt(mesh->triangles.count * longer / (shorter + 1.0)) + 1.0;
@@ -732,7 +732,7 @@ static kiriResult CheckOverlaps(const kiriMeshData* mesh, kiriPoint extent, cons
 
 static kiriResult Build(kiriMeshData* mesh, const Input* input, int32_t resolution, const char** why)
 {
-    kiriPoint extent = { 0, 0 };
+    kiriLatticePoint extent = { 0, 0 };
     kiriResult result = CheckInput(input, resolution, why);
     result = result == KIRI_OK ? TakeVertices(mesh, input, &extent, why) : result;
     result = result == KIRI_OK ? TakeTriangles(mesh, input, why) : result;
@@ -819,7 +819,7 @@ static bool CopySources(kiriMeshData* mesh, const kiriMeshData* from)
         return false;
     }
     memcpy(mesh->sourceCorners.data, &from->sourceCorners.data[3 * (first - from->firstSource)],
-           sizeof(kiriPoint) * (size_t)count);
+           sizeof(kiriLatticePoint) * (size_t)count);
     return true;
 }
 

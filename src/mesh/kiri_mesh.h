@@ -18,7 +18,7 @@ typedef struct kiriTriangle {
 } kiriTriangle;
 
 typedef struct kiriVertex {
-    kiriPoint at;
+    kiriLatticePoint at;
     int32_t edge;   /* a half-edge that leaves it, in its own fan */
     int32_t next;   /* an older vertex in the same square, or KIRI_NONE; squares.vertexHead is the latest one */
     int32_t source; /* triangle of the caller, */
@@ -53,7 +53,7 @@ typedef struct kiriMeshData {
 
     /* The caller's triangles, for provenance: their corners on the lattice, three a triangle, from the first that is
        left. */
-    KIRI_ARRAY(kiriPoint) sourceCorners;
+    KIRI_ARRAY(kiriLatticePoint) sourceCorners;
     int32_t firstSource;
 
     /* The journal: what changed since kiriMesh_Begin. Until Commit these are all that can have changed: the triangles
@@ -89,20 +89,20 @@ void kiriMesh_Rollback(kiriMeshData* mesh);
 
 /* A new vertex at `at` (even coordinates) on half-edge h and its twin. The four (at the outline: two) new triangles
    must be counter-clockwise: see kiriMesh_CanSplitEdge. Returns the vertex on h's side, or KIRI_NONE. */
-int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriPoint at);
+int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at);
 
 /* A new vertex inside a triangle: see kiriMesh_CanSplitTriangle. Returns it, or KIRI_NONE. */
-int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriPoint at);
+int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at);
 
 /* Opens the edge, and gives each fan at its two ends a vertex of its own. */
 bool kiriMesh_Open(kiriMeshData* mesh, int32_t h);
 
 /* Would all new triangles be counter-clockwise? Exact. */
-bool kiriMesh_CanSplitEdge(const kiriMeshData* mesh, int32_t h, kiriPoint at);
-bool kiriMesh_CanSplitTriangle(const kiriMeshData* mesh, int32_t triangle, kiriPoint at);
+bool kiriMesh_CanSplitEdge(const kiriMeshData* mesh, int32_t h, kiriLatticePoint at);
+bool kiriMesh_CanSplitTriangle(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at);
 
 /* A triangle whose closure holds the point (the lowest index, so that lips of a cut do not matter), or KIRI_NONE. */
-int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriPoint at);
+int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriLatticePoint at);
 
 /* Twice the area, in lattice steps squared. Exact: cuts that do not split slanted outline edges never change it. */
 int64_t kiriMesh_DoubledArea(const kiriMeshData* mesh);
@@ -115,14 +115,14 @@ void kiriMesh_Pieces(const kiriMeshData* mesh, int32_t* piece, int32_t* count);
 
 /* Rest position of a lattice point in metres from the lattice's origin ("local"), and back to the nearest even point;
    positions outside four times the sheet's box are the caller's to clip. */
-static inline kiriVec2 kiriMesh_Local(const kiriMeshData* mesh, kiriPoint p)
+static inline kiriVec2 kiriMesh_Local(const kiriMeshData* mesh, kiriLatticePoint p)
 {
     return kiriVec2_Make(mesh->step * p.x, mesh->step * p.y);
 }
 
 /* The nearest even point to one in lattice steps. */
-kiriPoint kiriMesh_Round(kiriVec2 lattice);
-kiriPoint kiriMesh_Snap(const kiriMeshData* mesh, kiriVec2 local);
+kiriLatticePoint kiriMesh_Round(kiriVec2 lattice);
+kiriLatticePoint kiriMesh_Snap(const kiriMeshData* mesh, kiriVec2 local);
 
 static inline int32_t kiriEdge_Next(int32_t h)
 {
@@ -148,7 +148,7 @@ static inline bool kiriMesh_IsOpen(const kiriMeshData* mesh, int32_t h)
     return (mesh->triangles.data[h / 3].open >> (h % 3) & 1) != 0;
 }
 
-static inline void kiriMesh_Corners(const kiriMeshData* mesh, int32_t triangle, kiriPoint corners[3])
+static inline void kiriMesh_Corners(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint corners[3])
 {
     for (int i = 0; i < 3; ++i) {
         corners[i] = mesh->vertices.data[mesh->triangles.data[triangle].vertex[i]].at;

@@ -31,19 +31,19 @@ static bool MakeRoom(kiriSquares* squares, const kiriMemory* memory)
     int64_t count = (int64_t)squares->columns * squares->rows;
     squares->head = kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t));
     squares->vertexHead = kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t));
-    squares->isTouched = kiriMemory_Alloc(memory, count);
-    if (squares->head == NULL || squares->vertexHead == NULL || squares->isTouched == NULL ||
-        !kiriArray_Reserve(memory, &squares->touched, count)) {
+    squares->isDirty = kiriMemory_Alloc(memory, count);
+    if (squares->head == NULL || squares->vertexHead == NULL || squares->isDirty == NULL ||
+        !kiriArray_Reserve(memory, &squares->dirty, count)) {
         return false;
     }
     for (int64_t i = 0; i < count; ++i) {
         squares->head[i] = squares->vertexHead[i] = KIRI_NONE;
-        squares->isTouched[i] = 0;
+        squares->isDirty[i] = 0;
     }
     return true;
 }
 
-bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriPoint extent, int32_t resolution)
+bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriLatticePoint extent, int32_t resolution)
 {
     int64_t longer = extent.x > extent.y ? extent.x : extent.y;
     memset(squares, 0, sizeof(*squares));
@@ -66,9 +66,9 @@ void kiriSquares_Release(kiriSquares* squares, const kiriMemory* memory)
 {
     kiriMemory_Free(memory, squares->head);
     kiriMemory_Free(memory, squares->vertexHead);
-    kiriMemory_Free(memory, squares->isTouched);
+    kiriMemory_Free(memory, squares->isDirty);
     kiriArray_Release(memory, &squares->nodes);
-    kiriArray_Release(memory, &squares->touched);
+    kiriArray_Release(memory, &squares->dirty);
     memset(squares, 0, sizeof(*squares));
 }
 
@@ -80,7 +80,7 @@ static int32_t LineOf(const kiriSquares* squares, int32_t coordinate)
 }
 
 /* The squares that the box of the corners overlaps. Corners are even and grid lines odd, so no corner is on a line. */
-static Range BoxOf(const kiriSquares* squares, const kiriPoint c[3])
+static Range BoxOf(const kiriSquares* squares, const kiriLatticePoint c[3])
 {
     Range range;
     range.firstColumn = LineOf(squares, Min3(c[0].x, c[1].x, c[2].x));
@@ -90,18 +90,18 @@ static Range BoxOf(const kiriSquares* squares, const kiriPoint c[3])
     return range;
 }
 
-static kiriPoint CornerOf(const kiriSquares* squares, int32_t column, int32_t row)
+static kiriLatticePoint CornerOf(const kiriSquares* squares, int32_t column, int32_t row)
 {
-    kiriPoint corner = { column * squares->side - 1, row * squares->side - 1 };
+    kiriLatticePoint corner = { column * squares->side - 1, row * squares->side - 1 };
     return corner;
 }
 
 /* Separating axes: those of the square are its lines against the triangle's box, those of the triangle are its edges
    against the corner of the square that is farthest to their left. The caller has done the former. */
-static bool EdgesOverlap(kiriPoint low, int32_t side, const kiriPoint c[3])
+static bool EdgesOverlap(kiriLatticePoint low, int32_t side, const kiriLatticePoint c[3])
 {
     for (int i = 0; i < 3; ++i) {
-        kiriPoint a = c[i], b = c[(i + 1) % 3], far;
+        kiriLatticePoint a = c[i], b = c[(i + 1) % 3], far;
         far.x = b.y > a.y ? low.x : low.x + side;
         far.y = b.x > a.x ? low.y + side : low.y;
         if (kiriOrient(a, b, far) <= 0) {
@@ -112,13 +112,14 @@ static bool EdgesOverlap(kiriPoint low, int32_t side, const kiriPoint c[3])
 }
 
 /* Does the triangle overlap this square of its box? In a box of one row or column it goes through all squares. */
-static bool OverlapsInBox(const kiriSquares* squares, Range box, int32_t column, int32_t row, const kiriPoint c[3])
+static bool OverlapsInBox(const kiriSquares* squares, Range box, int32_t column, int32_t row,
+                          const kiriLatticePoint c[3])
 {
     return box.firstColumn == box.lastColumn || box.firstRow == box.lastRow ||
            EdgesOverlap(CornerOf(squares, column, row), squares->side, c);
 }
 
-bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriPoint corners[3])
+bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriLatticePoint corners[3])
 {
     Range r = BoxOf(squares, corners);
     int32_t column = square % squares->columns, row = square / squares->columns;
@@ -126,46 +127,46 @@ bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriP
            OverlapsInBox(squares, r, column, row, corners);
 }
 
-static void Touch(kiriSquares* squares, int32_t square)
+static void MarkDirty(kiriSquares* squares, int32_t square)
 {
-    if (!squares->isTouched[square]) {
-        squares->isTouched[square] = 1;
-        squares->touched.data[squares->touched.count++] = square;
+    if (!squares->isDirty[square]) {
+        squares->isDirty[square] = 1;
+        squares->dirty.data[squares->dirty.count++] = square;
     }
 }
 
-void kiriSquares_ClearTouched(kiriSquares* squares)
+void kiriSquares_ClearDirty(kiriSquares* squares)
 {
-    for (int32_t i = 0; i < squares->touched.count; ++i) {
-        squares->isTouched[squares->touched.data[i]] = 0;
+    for (int32_t i = 0; i < squares->dirty.count; ++i) {
+        squares->isDirty[squares->dirty.data[i]] = 0;
     }
-    squares->touched.count = 0;
+    squares->dirty.count = 0;
 }
 
 /* Separating axes: the sides of the square, and the segment. */
-bool kiriSquares_RunsThrough(const kiriSquares* squares, int32_t square, kiriPoint a, kiriPoint b)
+bool kiriSquares_RunsThrough(const kiriSquares* squares, int32_t square, kiriLatticePoint a, kiriLatticePoint b)
 {
-    kiriPoint low = kiriSquares_Corner(squares, square), high = { low.x + squares->side, low.y + squares->side };
+    kiriLatticePoint low = kiriSquares_Corner(squares, square), high = { low.x + squares->side, low.y + squares->side };
     if ((a.x <= low.x && b.x <= low.x) || (a.x >= high.x && b.x >= high.x) || (a.y <= low.y && b.y <= low.y) ||
         (a.y >= high.y && b.y >= high.y)) {
         return false;
     }
     /* The two corners farthest to the left and to the right of a line that rises, or falls. */
     bool rises = (a.x < b.x) == (a.y < b.y);
-    kiriPoint p = { low.x, rises ? high.y : low.y }, q = { high.x, rises ? low.y : high.y };
+    kiriLatticePoint p = { low.x, rises ? high.y : low.y }, q = { high.x, rises ? low.y : high.y };
     int64_t sideP = kiriOrient(a, b, p), sideQ = kiriOrient(a, b, q);
     return (sideP < 0 && sideQ > 0) || (sideP > 0 && sideQ < 0);
 }
 
-void kiriSquares_TouchEdge(kiriSquares* squares, kiriPoint a, kiriPoint b)
+void kiriSquares_MarkEdgeDirty(kiriSquares* squares, kiriLatticePoint a, kiriLatticePoint b)
 {
-    const kiriPoint ends[3] = { a, b, b };
+    const kiriLatticePoint ends[3] = { a, b, b };
     Range r = BoxOf(squares, ends);
     for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
         for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
             int32_t square = row * squares->columns + column;
             if (kiriSquares_RunsThrough(squares, square, a, b)) {
-                Touch(squares, square);
+                MarkDirty(squares, square);
             }
         }
     }
@@ -185,7 +186,7 @@ static bool AddNode(kiriSquares* squares, const kiriMemory* memory, int32_t squa
         }
     }
     squares->head[square] = slot;
-    Touch(squares, square);
+    MarkDirty(squares, square);
     return true;
 }
 
@@ -200,13 +201,14 @@ static void RemoveNode(kiriSquares* squares, int32_t square, int32_t triangle)
             nodes[slot].triangle = KIRI_NONE;
             nodes[slot].next = squares->freeNode;
             squares->freeNode = slot;
-            Touch(squares, square);
+            MarkDirty(squares, square);
             return;
         }
     }
 }
 
-bool kiriSquares_Insert(kiriSquares* squares, const kiriMemory* memory, int32_t triangle, const kiriPoint corners[3])
+bool kiriSquares_Insert(kiriSquares* squares, const kiriMemory* memory, int32_t triangle,
+                        const kiriLatticePoint corners[3])
 {
     Range r = BoxOf(squares, corners);
     for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
@@ -221,7 +223,7 @@ bool kiriSquares_Insert(kiriSquares* squares, const kiriMemory* memory, int32_t 
     return true;
 }
 
-void kiriSquares_Remove(kiriSquares* squares, int32_t triangle, const kiriPoint corners[3])
+void kiriSquares_Remove(kiriSquares* squares, int32_t triangle, const kiriLatticePoint corners[3])
 {
     Range r = BoxOf(squares, corners);
     for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
@@ -233,7 +235,7 @@ void kiriSquares_Remove(kiriSquares* squares, int32_t triangle, const kiriPoint 
     }
 }
 
-int32_t kiriSquares_At(const kiriSquares* squares, kiriPoint p)
+int32_t kiriSquares_At(const kiriSquares* squares, kiriLatticePoint p)
 {
     int32_t column = LineOf(squares, p.x), row = LineOf(squares, p.y);
     if (p.x < 0 || p.y < 0 || column >= squares->columns || row >= squares->rows) {
@@ -242,7 +244,7 @@ int32_t kiriSquares_At(const kiriSquares* squares, kiriPoint p)
     return row * squares->columns + column;
 }
 
-kiriPoint kiriSquares_Corner(const kiriSquares* squares, int32_t square)
+kiriLatticePoint kiriSquares_Corner(const kiriSquares* squares, int32_t square)
 {
     return CornerOf(squares, square % squares->columns, square / squares->columns);
 }

@@ -20,13 +20,13 @@ typedef struct kiriSquares {
     int32_t* head;  /* a square's first node, or KIRI_NONE; columns * rows, row by row */
     KIRI_ARRAY(kiriSquareNode) nodes;
     int32_t freeNode;
-    int32_t* vertexHead;         /* a square's first vertex, or KIRI_NONE: see kiriVertex */
-    KIRI_ARRAY(int32_t) touched; /* squares that have changed since ClearTouched, each once; it never grows */
-    uint8_t* isTouched;          /* of each square: is it in `touched`? */
+    int32_t* vertexHead;       /* a square's first vertex, or KIRI_NONE: see kiriVertex */
+    KIRI_ARRAY(int32_t) dirty; /* squares that have changed since ClearTouched, each once; it never grows */
+    uint8_t* isDirty;          /* of each square: is it in `dirty`? */
 } kiriSquares;
 
 /* `resolution` squares along the longer of the two extents (lattice steps, from 0). */
-bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriPoint extent, int32_t resolution);
+bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriLatticePoint extent, int32_t resolution);
 
 /* The same squares, without triangles and vertices. */
 bool kiriSquares_InitLike(kiriSquares* squares, const kiriMemory* memory, const kiriSquares* like);
@@ -34,23 +34,24 @@ void kiriSquares_Release(kiriSquares* squares, const kiriMemory* memory);
 
 /* The triangle's corners are counter-clockwise. Insert fails only for memory, and then changes nothing. After a Remove,
    inserting as many nodes as it took never fails. Both touch the squares that they change. */
-bool kiriSquares_Insert(kiriSquares* squares, const kiriMemory* memory, int32_t triangle, const kiriPoint corners[3]);
-void kiriSquares_Remove(kiriSquares* squares, int32_t triangle, const kiriPoint corners[3]);
+bool kiriSquares_Insert(kiriSquares* squares, const kiriMemory* memory, int32_t triangle,
+                        const kiriLatticePoint corners[3]);
+void kiriSquares_Remove(kiriSquares* squares, int32_t triangle, const kiriLatticePoint corners[3]);
 
 /* Touches the squares whose open interior the edge between two vertices runs through. */
-void kiriSquares_TouchEdge(kiriSquares* squares, kiriPoint a, kiriPoint b);
-void kiriSquares_ClearTouched(kiriSquares* squares);
+void kiriSquares_MarkEdgeDirty(kiriSquares* squares, kiriLatticePoint a, kiriLatticePoint b);
+void kiriSquares_ClearDirty(kiriSquares* squares);
 
 /* Does the segment run through the open square? Exact; neither end may be on a grid line. */
-bool kiriSquares_RunsThrough(const kiriSquares* squares, int32_t square, kiriPoint a, kiriPoint b);
+bool kiriSquares_RunsThrough(const kiriSquares* squares, int32_t square, kiriLatticePoint a, kiriLatticePoint b);
 
 /* The square around a vertex position, or KIRI_NONE outside the grid. */
-int32_t kiriSquares_At(const kiriSquares* squares, kiriPoint p);
+int32_t kiriSquares_At(const kiriSquares* squares, kiriLatticePoint p);
 
 /* The lower corner of a square (odd coordinates). */
-kiriPoint kiriSquares_Corner(const kiriSquares* squares, int32_t square);
+kiriLatticePoint kiriSquares_Corner(const kiriSquares* squares, int32_t square);
 
 /* Do the interiors overlap? Exact. */
-bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriPoint corners[3]);
+bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriLatticePoint corners[3]);
 
 #endif

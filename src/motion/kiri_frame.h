@@ -9,19 +9,19 @@
 typedef struct kiriFrameData {
     kiriFrame id;
     kiriSite site;
-    kiriPoint anchor;       /* a point of the material in the site's cell: finds the cell again after a cut */
-    kiriVec2 center;        /* local m */
-    double area;            /* m^2 */
-    double mass;            /* kg */
-    double inertia[3];      /* integrals of density uu, uv, vv about the center, kg m^2 */
-    kiriVec3 x;             /* m */
-    kiriMat3 A;             /* rotation, but for affine frames */
-    kiriVec3 velocity;      /* of x */
-    kiriVec3 spin;          /* angular velocity, world */
-    kiriMat3 rate;          /* how A changes beside spin x A, 1/s: not at all, but for affine frames */
-    kiriVec3 force, torque; /* from the host, for one tick */
-    int32_t held;           /* the host moves it: */
-    kiriVec3 heldPosition;  /* of the site, */
+    kiriLatticePoint anchor; /* a point of the material in the site's cell: finds the cell again after a cut */
+    kiriVec2 center;         /* local m */
+    double area;             /* m^2 */
+    double mass;             /* kg */
+    double inertia[3];       /* integrals of density uu, uv, vv about the center, kg m^2 */
+    kiriVec3 x;              /* m */
+    kiriMat3 A;              /* rotation, but for affine frames */
+    kiriVec3 velocity;       /* of x */
+    kiriVec3 spin;           /* angular velocity, world */
+    kiriMat3 rate;           /* how A changes beside spin x A, 1/s: not at all, but for affine frames */
+    kiriVec3 force, torque;  /* from the host, for one tick */
+    int32_t held;            /* the host moves it: */
+    kiriVec3 heldPosition;   /* of the site, */
     kiriMat3 heldRotation;
 } kiriFrameData;
 

@@ -6,7 +6,7 @@ typedef struct Builder {
     const kiriMeshData* mesh;
     const kiriShape* shape;
     const kiriMoments* material; /* of each frame's region */
-    kiriPointsWork* work;
+    kiriIntegrationWork* work;
     kiriPatches* patches;
     double perArea; /* points, 1/m^2 */
     int32_t order;
@@ -90,7 +90,7 @@ static bool PlacePoints(Builder* b, double area)
 
 static bool FloodFromPoints(Builder* b)
 {
-    kiriPointsWork* work = b->work;
+    kiriIntegrationWork* work = b->work;
     const kiriSites* points = &work->placer.sites;
     kiriRule rule = { b->grid, KIRI_FAR - 1, NULL, NULL, NULL };
     kiriQuota endless = { INT64_MAX, 0 };
@@ -109,7 +109,7 @@ static bool FloodFromPoints(Builder* b)
 /* The regions of points, as placing defines them: a point's own cell is its own. */
 static bool DividePiece(Builder* b)
 {
-    kiriPointsWork* work = b->work;
+    kiriIntegrationWork* work = b->work;
     const kiriSites* points = &work->placer.sites;
     if (!kiriArray_Resize(b->memory, &work->material, points->count) || !FloodFromPoints(b)) {
         return false;
@@ -127,7 +127,7 @@ static bool DividePiece(Builder* b)
 
 static bool AddPiece(Builder* b, int32_t cell)
 {
-    kiriPointsWork* work = b->work;
+    kiriIntegrationWork* work = b->work;
     if (!kiriPlacer_TakePiece(&work->placer, b->memory, b->grid, cell)) {
         return false;
     }
@@ -172,9 +172,9 @@ static double TotalArea(const kiriGrid* grid)
     return total;
 }
 
-bool kiriPoints_Build(kiriPatches* patches, kiriPointsWork* work, const kiriMemory* memory, const kiriGrid* grid,
-                      const kiriMeshData* mesh, const kiriShape* shape, const kiriMoments* material, double count,
-                      int32_t order, bool planar)
+bool kiriIntegration_Build(kiriPatches* patches, kiriIntegrationWork* work, const kiriMemory* memory,
+                           const kiriGrid* grid, const kiriMeshData* mesh, const kiriShape* shape,
+                           const kiriMoments* material, double count, int32_t order, bool planar)
 {
     Builder b = { memory, grid, mesh, shape, material, work, patches, 0.0, order, KIRI_PATCH_STRAINS };
     b.perArea = count / TotalArea(grid);
@@ -189,7 +189,7 @@ bool kiriPoints_Build(kiriPatches* patches, kiriPointsWork* work, const kiriMemo
     return ok;
 }
 
-void kiriPointsWork_Release(kiriPointsWork* work, const kiriMemory* memory)
+void kiriIntegrationWork_Release(kiriIntegrationWork* work, const kiriMemory* memory)
 {
     kiriPlacer_Release(&work->placer, memory);
     kiriField_Release(&work->field, memory);

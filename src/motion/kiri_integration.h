@@ -7,22 +7,22 @@
 #include "../field/kiri_shape.h"
 
 /* What building works in, kept so that building again finds its room there. A zeroed one is empty. */
-typedef struct kiriPointsWork {
+typedef struct kiriIntegrationWork {
     kiriPlacer placer; /* for the piece at hand */
     kiriField field;   /* from its points */
     kiriSeeds seeds;
     KIRI_ARRAY(uint8_t) seen;         /* of each cell: its piece has its points */
     KIRI_ARRAY(kiriMoments) material; /* of the region of each point of the piece at hand */
     kiriPointWeights weights;         /* at the point at hand */
-} kiriPointsWork;
+} kiriIntegrationWork;
 
 /* `count` points, which need not be whole, relaxed on the grid, at least one in every piece. Each stands for its region
    of the grid. With order 1 the strain at the point holds for all of it; with order 2 the strain is linear in it (after
    the elastons of Martin et al. 2010): it is taken at four places that have the region's second moments, which costs
    four times as much. `material` is that of each frame's region. */
-bool kiriPoints_Build(kiriPatches* patches, kiriPointsWork* work, const kiriMemory* memory, const kiriGrid* grid,
-                      const kiriMeshData* mesh, const kiriShape* shape, const kiriMoments* material, double count,
-                      int32_t order, bool planar);
-void kiriPointsWork_Release(kiriPointsWork* work, const kiriMemory* memory);
+bool kiriIntegration_Build(kiriPatches* patches, kiriIntegrationWork* work, const kiriMemory* memory,
+                           const kiriGrid* grid, const kiriMeshData* mesh, const kiriShape* shape,
+                           const kiriMoments* material, double count, int32_t order, bool planar);
+void kiriIntegrationWork_Release(kiriIntegrationWork* work, const kiriMemory* memory);
 
 #endif

@@ -62,15 +62,15 @@ static kiriVec3 SumCross(const kiriMat3* A, const kiriMat3* B)
                         kiriVec3_Cross(A->d, B->d));
 }
 
-kiriMat3 kiriFlight_Gradient(const kiriFlight* flight, const kiriMat3* A)
+kiriMat3 kiriPrediction_Gradient(const kiriPrediction* prediction, const kiriMat3* A)
 {
-    kiriMat3 off = Difference(A, &flight->pose.A);
-    return Weighted(&flight->moments, &off);
+    kiriMat3 off = Difference(A, &prediction->pose.A);
+    return Weighted(&prediction->moments, &off);
 }
 
-kiriMat3 kiriFlight_Inertia(const kiriFlight* flight, const kiriMat3* A)
+kiriMat3 kiriPrediction_Inertia(const kiriPrediction* prediction, const kiriMat3* A)
 {
-    return Inertia(&flight->moments, A);
+    return Inertia(&prediction->moments, A);
 }
 
 kiriVec3 kiriFrame_AngularMomentum(const kiriFrameData* frame, const kiriMaterial* material)
@@ -87,16 +87,16 @@ double kiriFrame_KineticEnergy(const kiriFrameData* frame, const kiriMaterial* m
     return 0.5 * frame->mass * kiriVec3_Dot(frame->velocity, frame->velocity) + 0.5 * SumDot(&weighted, &rate);
 }
 
-double kiriFlight_TurnSquared(const kiriFlight* flight, const kiriMat3* A)
+double kiriPrediction_TurnSquared(const kiriPrediction* prediction, const kiriMat3* A)
 {
-    kiriMat3 off = Difference(A, &flight->pose.A);
-    kiriMat3 w = Weighted(&flight->moments, &off);
+    kiriMat3 off = Difference(A, &prediction->pose.A);
+    kiriMat3 w = Weighted(&prediction->moments, &off);
     return SumDot(&w, &off);
 }
 
-kiriVec3 kiriFlight_TurnGradient(const kiriFlight* flight, const kiriMat3* A)
+kiriVec3 kiriPrediction_TurnGradient(const kiriPrediction* prediction, const kiriMat3* A)
 {
-    kiriMat3 w = Weighted(&flight->moments, &flight->pose.A);
+    kiriMat3 w = Weighted(&prediction->moments, &prediction->pose.A);
     return SumCross(&w, A);
 }
 
@@ -130,43 +130,44 @@ static kiriMat3 Turn(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec3 L,
 
 /* Turns of more than two radians a step are followed only roughly; then a slender region might gain energy, which is
    therefore capped. */
-static void TurnFreely(kiriFlight* flight, kiriVec3 L, double dt)
+static void TurnFreely(kiriPrediction* prediction, kiriVec3 L, double dt)
 {
-    kiriMat3* A = &flight->pose.A;
-    kiriMat3 body = kiriFlight_Inertia(flight, &Identity), inertia = kiriFlight_Inertia(flight, A);
+    kiriMat3* A = &prediction->pose.A;
+    kiriMat3 body = kiriPrediction_Inertia(prediction, &Identity), inertia = kiriPrediction_Inertia(prediction, A);
     kiriVec3 spin = kiriMat3_Solve(&inertia, L);
     double angle = dt * kiriVec3_Length(spin), before = kiriVec3_Dot(L, spin);
     int parts = angle < 2.0 ? 1 + (int)(4.0 * angle) : MOST_PARTS;
     for (int part = 0; part < parts; ++part) {
         *A = Turn(A, &body, L, dt / parts);
     }
-    inertia = kiriFlight_Inertia(flight, A);
-    flight->spin = kiriMat3_Solve(&inertia, L);
-    double after = kiriVec3_Dot(L, flight->spin);
+    inertia = kiriPrediction_Inertia(prediction, A);
+    prediction->spin = kiriMat3_Solve(&inertia, L);
+    double after = kiriVec3_Dot(L, prediction->spin);
     if (after > before) {
-        flight->spin = kiriVec3_Scale(sqrt(before / after), flight->spin);
+        prediction->spin = kiriVec3_Scale(sqrt(before / after), prediction->spin);
     }
 }
 
-kiriFlight kiriFlight_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity, double dt)
+kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
+                                   double dt)
 {
-    kiriFlight flight = { MomentsOf(frame, (double)material->thickness),
-                          kiriPose_Of(frame),
-                          frame->velocity,
-                          frame->spin,
-                          None,
-                          kiriPose_Of(frame) };
+    kiriPrediction prediction = { MomentsOf(frame, (double)material->thickness),
+                                  kiriPose_Of(frame),
+                                  frame->velocity,
+                                  frame->spin,
+                                  None,
+                                  kiriPose_Of(frame) };
     double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
     kiriVec3 coasting = kiriVec3_Scale(fade, frame->velocity);
     kiriVec3 push = kiriVec3_AddScaled(gravity, 1.0 / frame->mass, frame->force);
-    flight.velocity = kiriVec3_AddScaled(coasting, dt, push);
-    flight.pose.x = kiriVec3_AddScaled(frame->x, dt, flight.velocity);
-    kiriMat3 inertia = kiriFlight_Inertia(&flight, &frame->A);
+    prediction.velocity = kiriVec3_AddScaled(coasting, dt, push);
+    prediction.pose.x = kiriVec3_AddScaled(frame->x, dt, prediction.velocity);
+    kiriMat3 inertia = kiriPrediction_Inertia(&prediction, &frame->A);
     kiriVec3 L = kiriVec3_Scale(fade, kiriMat3_Mul(inertia, frame->spin));
-    TurnFreely(&flight, kiriVec3_AddScaled(L, dt, frame->torque), dt);
-    flight.coast.x = kiriVec3_AddScaled(frame->x, dt, coasting);
-    flight.coast.A = flight.pose.A;
-    return flight;
+    TurnFreely(&prediction, kiriVec3_AddScaled(L, dt, frame->torque), dt);
+    prediction.coast.x = kiriVec3_AddScaled(frame->x, dt, coasting);
+    prediction.coast.A = prediction.pose.A;
+    return prediction;
 }
 
 /* ---- Affine frames ---- */
@@ -228,11 +229,12 @@ kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change)
 
 /* A turns, by the angular momentum it has or gets, as a rigid one would; what its rate has beside the spin turns with
    it, and stretches it on. */
-kiriFlight kiriFlight_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity, double dt)
+kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
+                                     double dt)
 {
-    kiriFlight flight = kiriFlight_Free(frame, material, gravity, dt);
+    kiriPrediction prediction = kiriPrediction_Free(frame, material, gravity, dt);
     double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
-    kiriMat3 inertia = AffineInertia(&flight.moments, &frame->A), turn = Identity;
+    kiriMat3 inertia = AffineInertia(&prediction.moments, &frame->A), turn = Identity;
     kiriVec3 L = kiriVec3_AddScaled(kiriVec3_Scale(dt, frame->torque), fade, kiriMat3_Mul(inertia, frame->spin));
     kiriVec3 spin = kiriMat3_Solve(&inertia, L);
     double angle = dt * kiriVec3_Length(spin), before = kiriVec3_Dot(L, spin);
@@ -241,13 +243,13 @@ kiriFlight kiriFlight_Affine(const kiriFrameData* frame, const kiriMaterial* mat
         turn = Turn(&turn, &inertia, L, dt / parts);
     }
     kiriMat3 grown = AddScaled(&frame->A, dt * fade, &frame->rate), rate = kiriMat3_MulMat(turn, frame->rate);
-    flight.pose.A = flight.coast.A = kiriMat3_MulMat(turn, grown);
+    prediction.pose.A = prediction.coast.A = kiriMat3_MulMat(turn, grown);
     spin = kiriMat3_Mul(turn, kiriMat3_Solve(&inertia, MulTransposed(&turn, L)));
     double after = kiriVec3_Dot(L, spin);
-    flight.spin = after > before ? kiriVec3_Scale(sqrt(before / after), spin) : spin;
-    flight.rate = Cross(flight.spin, &flight.pose.A);
-    flight.rate = AddScaled(&flight.rate, fade, &rate);
-    return flight;
+    prediction.spin = after > before ? kiriVec3_Scale(sqrt(before / after), spin) : spin;
+    prediction.rate = Cross(prediction.spin, &prediction.pose.A);
+    prediction.rate = AddScaled(&prediction.rate, fade, &rate);
+    return prediction;
 }
 
 /* ---- Held frames ---- */
@@ -263,18 +265,18 @@ static kiriVec3 AngleBetween(const kiriMat3* a, const kiriMat3* b)
     return kiriVec3_Scale(1.0 / (1.0 + kiriVec3_Dot(w, w) / 12.0), w);
 }
 
-kiriFlight kiriFlight_Held(const kiriFrameData* frame, const kiriMaterial* material, double dt)
+kiriPrediction kiriPrediction_Held(const kiriFrameData* frame, const kiriMaterial* material, double dt)
 {
-    kiriFlight flight = { MomentsOf(frame, (double)material->thickness),
-                          { frame->heldPosition, frame->heldRotation },
-                          frame->velocity,
-                          frame->spin,
-                          None,
-                          kiriPose_Of(frame) };
-    kiriVec3 arm = kiriPose_Along(&flight.pose, kiriVec2_Sub(frame->site.at, frame->center));
-    flight.pose.x = kiriVec3_Sub(frame->heldPosition, arm);
-    flight.velocity = kiriVec3_Scale(1.0 / dt, kiriVec3_Sub(flight.pose.x, frame->x));
-    flight.spin = kiriVec3_Scale(1.0 / dt, AngleBetween(&frame->A, &flight.pose.A));
-    flight.coast = flight.pose;
-    return flight;
+    kiriPrediction prediction = { MomentsOf(frame, (double)material->thickness),
+                                  { frame->heldPosition, frame->heldRotation },
+                                  frame->velocity,
+                                  frame->spin,
+                                  None,
+                                  kiriPose_Of(frame) };
+    kiriVec3 arm = kiriPose_Along(&prediction.pose, kiriVec2_Sub(frame->site.at, frame->center));
+    prediction.pose.x = kiriVec3_Sub(frame->heldPosition, arm);
+    prediction.velocity = kiriVec3_Scale(1.0 / dt, kiriVec3_Sub(prediction.pose.x, frame->x));
+    prediction.spin = kiriVec3_Scale(1.0 / dt, AngleBetween(&frame->A, &prediction.pose.A));
+    prediction.coast = prediction.pose;
+    return prediction;
 }

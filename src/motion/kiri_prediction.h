@@ -18,13 +18,13 @@ typedef struct kiriMassMoments {
     double uu, uv, vv, dd;
 } kiriMassMoments;
 
-typedef struct kiriFlight {
+typedef struct kiriPrediction {
     kiriMassMoments moments;
     kiriPose pose; /* at the end of the step */
     kiriVec3 velocity, spin;
     kiriMat3 rate;  /* of A, all of it; of affine frames only */
     kiriPose coast; /* the same without forces */
-} kiriFlight;
+} kiriPrediction;
 
 static inline kiriPose kiriPose_Of(const kiriFrameData* frame)
 {
@@ -38,11 +38,13 @@ static inline kiriVec3 kiriPose_Along(const kiriPose* pose, kiriVec2 a)
     return kiriVec3_AddScaled(kiriVec3_Scale(a.x, pose->A.u), a.y, pose->A.v);
 }
 
-/* The flight of a free frame under gravity and its own force and torque. */
-kiriFlight kiriFlight_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity, double dt);
+/* The prediction of a free frame under gravity and its own force and torque. */
+kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
+                                   double dt);
 
 /* The same of an affine frame, which turns by its spin and goes on stretching. */
-kiriFlight kiriFlight_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity, double dt);
+kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
+                                     double dt);
 
 /* A (1 + ..) turned: where A gets by a change of `change`, whose turning part turns it and leaves its lengths. */
 kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change);
@@ -52,7 +54,7 @@ kiriVec3 kiriMat3_Spin(const kiriMat3* A, const kiriMat3* rate);
 kiriMat3 kiriMat3_Beside(const kiriMat3* A, const kiriMat3* rate, kiriVec3 spin);
 
 /* The way of a frame that the host moves. */
-kiriFlight kiriFlight_Held(const kiriFrameData* frame, const kiriMaterial* material, double dt);
+kiriPrediction kiriPrediction_Held(const kiriFrameData* frame, const kiriMaterial* material, double dt);
 
 /* Kinetic energy, J, and angular momentum about the centre of mass, rigid or not; and by how much the latter grows with
    the spin, symmetric, in space. */
@@ -61,16 +63,16 @@ kiriVec3 kiriFrame_AngularMomentum(const kiriFrameData* frame, const kiriMateria
 kiriMat3 kiriFrame_Inertia(const kiriFrameData* frame, const kiriMaterial* material);
 
 /* The inertia tensor of a rigid frame, symmetric, in space. */
-kiriMat3 kiriFlight_Inertia(const kiriFlight* flight, const kiriMat3* A);
+kiriMat3 kiriPrediction_Inertia(const kiriPrediction* prediction, const kiriMat3* A);
 
-/* Sum over the region's mass points p of m |A p - A* p|^2, with A* that the flight ends with. */
-double kiriFlight_TurnSquared(const kiriFlight* flight, const kiriMat3* A);
+/* Sum over the region's mass points p of m |A p - A* p|^2, with A* that the prediction ends with. */
+double kiriPrediction_TurnSquared(const kiriPrediction* prediction, const kiriMat3* A);
 
 /* Half its gradient by the columns of A. */
-kiriMat3 kiriFlight_Gradient(const kiriFlight* flight, const kiriMat3* A);
+kiriMat3 kiriPrediction_Gradient(const kiriPrediction* prediction, const kiriMat3* A);
 
 /* Half its gradient by turning A: a turning impulse, times the step. */
-kiriVec3 kiriFlight_TurnGradient(const kiriFlight* flight, const kiriMat3* A);
+kiriVec3 kiriPrediction_TurnGradient(const kiriPrediction* prediction, const kiriMat3* A);
 
 /* m^-1 a, for an m that has an inverse. */
 kiriVec3 kiriMat3_Solve(const kiriMat3* m, kiriVec3 a);

@@ -31,11 +31,11 @@ static bool MakeRoom(kiriRefit* refit, const kiriMemory* memory, const kiriMeshD
     return true;
 }
 
-bool kiriRefit_NoteTouched(kiriRefit* refit, const kiriMemory* memory, const kiriMeshData* mesh)
+bool kiriRefit_NoteDirty(kiriRefit* refit, const kiriMemory* memory, const kiriMeshData* mesh)
 {
     bool ok = MakeRoom(refit, memory, mesh);
-    for (int32_t k = 0; ok && k < mesh->squares.touched.count; ++k) {
-        ok = Note(refit, memory, mesh->squares.touched.data[k]);
+    for (int32_t k = 0; ok && k < mesh->squares.dirty.count; ++k) {
+        ok = Note(refit, memory, mesh->squares.dirty.data[k]);
     }
     return ok;
 }
@@ -341,7 +341,7 @@ static void DivideMeans(Fit* fit)
     fit->rate = Scaled(share, &fit->rate);
 }
 
-/* As flight.c has them. */
+/* As prediction.c has them. */
 static kiriMassMoments MomentsOf(const Fit* fit, const kiriFrameData* frame)
 {
     double h = (double)fit->material->thickness, least = frame->mass * h * h / 12.0;
@@ -514,7 +514,7 @@ static void GatherBody(Body* body, const kiriFrameData* frames, int32_t frameCou
     body->spin = kiriMat3_Solve(&body->inertia, body->angular);
 }
 
-/* Leaves `turning` of the turning as one body, and `rest` of all else but the flight. */
+/* Leaves `turning` of the turning as one body, and `rest` of all else but the prediction. */
 static void Slow(const Body* body, kiriFrameData* frame, double turning, double rest)
 {
     kiriVec3 round = kiriVec3_Cross(body->spin, kiriVec3_Sub(frame->x, body->x));
@@ -535,10 +535,10 @@ static void BrakePiece(Body* body, kiriFrameData* frames, int32_t frameCount, co
                        const kiriMaterial* material)
 {
     GatherBody(body, frames, frameCount, piece, material);
-    double flight = 0.5 * body->mass * kiriVec3_Dot(body->velocity, body->velocity);
+    double prediction = 0.5 * body->mass * kiriVec3_Dot(body->velocity, body->velocity);
     double turning = 0.5 * kiriVec3_Dot(body->spin, body->angular), due = body->energy - body->gained;
-    double ofRest = RootOfShare(due - flight - turning, body->energy - flight - turning);
-    double ofTurning = ofRest > 0.0 ? 1.0 : RootOfShare(due - flight, turning);
+    double ofRest = RootOfShare(due - prediction - turning, body->energy - prediction - turning);
+    double ofTurning = ofRest > 0.0 ? 1.0 : RootOfShare(due - prediction, turning);
     for (int32_t f = 0; f < frameCount; ++f) {
         if (piece[f] == body->piece && !frames[f].held) {
             Slow(body, &frames[f], ofTurning, ofRest);

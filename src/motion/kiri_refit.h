@@ -53,9 +53,9 @@ typedef struct kiriRefit {
     KIRI_ARRAY(kiriFit) fits;
 } kiriRefit;
 
-/* Notes squares in which owners may change: those of mesh->squares.touched, and those of regions->changes. Call them
+/* Notes squares in which owners may change: those of mesh->squares.dirty, and those of regions->changes. Call them
    before these are cleared or settled. All false for memory. */
-bool kiriRefit_NoteTouched(kiriRefit* refit, const kiriMemory* memory, const kiriMeshData* mesh);
+bool kiriRefit_NoteDirty(kiriRefit* refit, const kiriMemory* memory, const kiriMeshData* mesh);
 bool kiriRefit_NoteChanges(kiriRefit* refit, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                            const kiriRegions* regions);
 

@@ -1,6 +1,6 @@
 /* Backward Euler as a minimisation over the poses of the frames at the end of the step. The objective is
 
-       1/2 sum over mass points of m |x - x*|^2 / dt^2,  x* where the free flight ends
+       1/2 sum over mass points of m |x - x*|^2 / dt^2,  x* where the free prediction ends
      + energies of links (strain.h, affine.h), patches (patch.h), pins and contacts
      + flex damping: 1/2 k (flexDamping / dt) (strain - strain at the start of the step)^2 for each strain.
 
@@ -84,7 +84,7 @@ struct kiriSolver {
     KIRI_ARRAY(kiriPieceMomentum) pieces;
     KIRI_ARRAY(Course) courses;
     KIRI_ARRAY(kiriFrameData) before, after;  /* the step, flattened where the sheet is planar */
-    KIRI_ARRAY(kiriFlight) flights;           /* one a frame, as are the poses */
+    KIRI_ARRAY(kiriPrediction) predictions;   /* one a frame, as are the poses */
     KIRI_ARRAY(kiriPose) start, poses, trial; /* at the start of the step, now, and where a step would lead */
     KIRI_ARRAY(double)
     stiffness, loss, startStrain;   /* MOST_ROWS an element; damping, and strains at the start of the step */
@@ -188,9 +188,9 @@ static void MeasureRigid(const kiriLink* link, const kiriFrameData* const frames
 /* The part of a strain that pulls. */
 static double Pulling(const kiriSystem* system, int32_t k, int e, double strain)
 {
-    bool eases = system->eases != NULL && k < system->linkCount && !IsAffine(&system->mechanics);
-    double eased = eases ? system->eases[k].strain[e] : 0.0;
-    if (e == KIRI_NORMAL_STOP && eases) {
+    bool strainOffsets = system->strainOffsets != NULL && k < system->linkCount && !IsAffine(&system->mechanics);
+    double eased = strainOffsets ? system->strainOffsets[k].strain[e] : 0.0;
+    if (e == KIRI_NORMAL_STOP && strainOffsets) {
         double over = fabs(strain) - fabs(eased); /* it only pushes */
         return over <= 0.0 ? 0.0 : strain > 0.0 ? over : -over;
     }
@@ -317,7 +317,7 @@ void kiriSolver_Destroy(kiriSolver* solver)
     kiriArray_Release(&memory, &solver->courses);
     kiriArray_Release(&memory, &solver->before);
     kiriArray_Release(&memory, &solver->after);
-    kiriArray_Release(&memory, &solver->flights);
+    kiriArray_Release(&memory, &solver->predictions);
     kiriArray_Release(&memory, &solver->start);
     kiriArray_Release(&memory, &solver->poses);
     kiriArray_Release(&memory, &solver->trial);
@@ -354,7 +354,7 @@ static bool MakeRoom(kiriSolver* solver, int32_t frameCount, int32_t elementCoun
            kiriArray_Reserve(memory, &solver->courses, frameCount) &&
            kiriArray_Reserve(memory, &solver->before, frameCount) &&
            kiriArray_Reserve(memory, &solver->after, frameCount) &&
-           kiriArray_Reserve(memory, &solver->flights, frameCount) &&
+           kiriArray_Reserve(memory, &solver->predictions, frameCount) &&
            kiriArray_Reserve(memory, &solver->start, frameCount) &&
            kiriArray_Reserve(memory, &solver->poses, frameCount) &&
            kiriArray_Reserve(memory, &solver->trial, frameCount) &&
@@ -575,10 +575,10 @@ static void SumInertia(kiriSolver* solver, const kiriSystem* system, const kiriP
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {
         if (CourseOf(solver, f)->isSought) {
-            const kiriFlight* flight = &solver->flights.data[f];
-            kiriVec3 off = kiriVec3_Sub(poses[f].x, flight->pose.x);
+            const kiriPrediction* prediction = &solver->predictions.data[f];
+            kiriVec3 off = kiriVec3_Sub(poses[f].x, prediction->pose.x);
             double moved =
-                system->frames[f].mass * kiriVec3_Dot(off, off) + kiriFlight_TurnSquared(flight, &poses[f].A);
+                system->frames[f].mass * kiriVec3_Dot(off, off) + kiriPrediction_TurnSquared(prediction, &poses[f].A);
             AddEnergy(&CourseOf(solver, f)->sum, 0.0, 0.5 * moved / (solver->dt * solver->dt));
         }
     }
@@ -688,30 +688,30 @@ static void AddHeld(kiriSolver* solver, int32_t f)
 
 static Slots MassForce(const kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
-    const kiriFlight* flight = &solver->flights.data[f];
+    const kiriPrediction* prediction = &solver->predictions.data[f];
     const kiriPose* pose = &solver->poses.data[f];
     Slots r;
     memset(&r, 0, sizeof(r));
-    r.by[0] = kiriVec3_Scale(system->frames[f].mass, kiriVec3_Sub(flight->pose.x, pose->x));
+    r.by[0] = kiriVec3_Scale(system->frames[f].mass, kiriVec3_Sub(prediction->pose.x, pose->x));
     if (IsAffine(&system->mechanics)) {
-        kiriMat3 gradient = kiriFlight_Gradient(flight, &pose->A);
+        kiriMat3 gradient = kiriPrediction_Gradient(prediction, &pose->A);
         r.by[1] = kiriVec3_Scale(-1.0, gradient.u);
         r.by[2] = kiriVec3_Scale(-1.0, gradient.v);
         r.by[3] = kiriVec3_Scale(-1.0, gradient.d);
     } else {
-        r.by[1] = kiriVec3_Scale(-1.0, kiriFlight_TurnGradient(flight, &pose->A));
+        r.by[1] = kiriVec3_Scale(-1.0, kiriPrediction_TurnGradient(prediction, &pose->A));
     }
     return r;
 }
 
 static void AddMass(kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
-    const kiriMassMoments* m = &solver->flights.data[f].moments;
+    const kiriMassMoments* m = &solver->predictions.data[f].moments;
     const double moments[4][4] = { { system->frames[f].mass, 0.0, 0.0, 0.0 },
                                    { 0.0, m->uu, m->uv, 0.0 },
                                    { 0.0, m->uv, m->vv, 0.0 },
                                    { 0.0, 0.0, 0.0, m->dd } };
-    kiriMat3 inertia = kiriFlight_Inertia(&solver->flights.data[f], &solver->poses.data[f].A);
+    kiriMat3 inertia = kiriPrediction_Inertia(&solver->predictions.data[f], &solver->poses.data[f].A);
     double perTime = 1.0 / (solver->dt * solver->dt), block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS];
     for (int32_t r = 0; r < solver->size; ++r) {
         const Unknown* a = &solver->unknowns[r];
@@ -908,13 +908,13 @@ static kiriVec3 GravityOf(const kiriSystem* system)
     return system->mechanics.planar ? InPlane(&system->mechanics, system->gravity) : system->gravity;
 }
 
-static kiriFlight FlightOf(const kiriSystem* system, const kiriFrameData* frame, double dt)
+static kiriPrediction PredictionOf(const kiriSystem* system, const kiriFrameData* frame, double dt)
 {
     if (frame->held) {
-        return kiriFlight_Held(frame, &system->material, dt);
+        return kiriPrediction_Held(frame, &system->material, dt);
     }
-    return IsAffine(&system->mechanics) ? kiriFlight_Affine(frame, &system->material, GravityOf(system), dt)
-                                        : kiriFlight_Free(frame, &system->material, GravityOf(system), dt);
+    return IsAffine(&system->mechanics) ? kiriPrediction_Affine(frame, &system->material, GravityOf(system), dt)
+                                        : kiriPrediction_Free(frame, &system->material, GravityOf(system), dt);
 }
 
 static void BeginElement(kiriSolver* solver, const kiriSystem* system, int32_t k)
@@ -958,15 +958,15 @@ static void Begin(kiriSolver* solver, const kiriSystem* system, double dt)
         solver->isHeld |= system->frames[f].held != 0;
         solver->start.data[f] = kiriPose_Of(&system->frames[f]);
         solver->before.data[f] = FlattenedOf(&system->mechanics, &system->frames[f]);
-        solver->flights.data[f] = FlightOf(system, &solver->before.data[f], dt);
-        solver->poses.data[f] = solver->flights.data[f].coast;
+        solver->predictions.data[f] = PredictionOf(system, &solver->before.data[f], dt);
+        solver->poses.data[f] = solver->predictions.data[f].coast;
     }
     for (int32_t k = 0; k < ElementCount(system); ++k) {
         BeginElement(solver, system, k);
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {
         if (system->frames[f].held) {
-            solver->start.data[f] = solver->flights.data[f].pose;
+            solver->start.data[f] = solver->predictions.data[f].pose;
         }
     }
     BeginCourses(solver, system);
@@ -1034,11 +1034,11 @@ static bool TakeTrial(kiriSolver* solver, const kiriSystem* system)
     return isLeft;
 }
 
-/* Pieces for which a step is still sought may reach the objective of the free flight, without the springs. */
-static void AllowFlight(kiriSolver* solver, const kiriSystem* system)
+/* Pieces for which a step is still sought may reach the objective of the free prediction, without the springs. */
+static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {
-        solver->trial.data[f] = solver->flights.data[f].pose;
+        solver->trial.data[f] = solver->predictions.data[f].pose;
     }
     bool isBraking = solver->isBraking;
     solver->isBraking = false;
@@ -1051,7 +1051,7 @@ static void AllowFlight(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* One Gauss-Newton step, halved until the objective falls; the first one may also reach that of the free flight. False
+/* One Gauss-Newton step, halved until the objective falls; the first one may also reach that of the free prediction. False
    when the matrix has no factor. */
 static bool Iterate(kiriSolver* solver, const kiriSystem* system, bool isFirst)
 {
@@ -1067,7 +1067,7 @@ static bool Iterate(kiriSolver* solver, const kiriSystem* system, bool isFirst)
     Try(solver, system);
     bool isLeft = TakeTrial(solver, system);
     if (isLeft && isFirst) {
-        AllowFlight(solver, system);
+        AllowPrediction(solver, system);
         Try(solver, system);
         isLeft = TakeTrial(solver, system);
     }
@@ -1083,13 +1083,13 @@ static bool Iterate(kiriSolver* solver, const kiriSystem* system, bool isFirst)
 
 /* ---- Energy ----------------------------------------------------------------------------------------------------- */
 
-/* By how much the rate of A differs from that of the free flight. */
-static void LandAffine(const kiriFlight* flight, double perTime, kiriFrameData* frame)
+/* By how much the rate of A differs from that of the free prediction. */
+static void LandAffine(const kiriPrediction* prediction, double perTime, kiriFrameData* frame)
 {
-    kiriMat3 rate = flight->rate;
-    rate.u = kiriVec3_AddScaled(rate.u, perTime, kiriVec3_Sub(frame->A.u, flight->pose.A.u));
-    rate.v = kiriVec3_AddScaled(rate.v, perTime, kiriVec3_Sub(frame->A.v, flight->pose.A.v));
-    rate.d = kiriVec3_AddScaled(rate.d, perTime, kiriVec3_Sub(frame->A.d, flight->pose.A.d));
+    kiriMat3 rate = prediction->rate;
+    rate.u = kiriVec3_AddScaled(rate.u, perTime, kiriVec3_Sub(frame->A.u, prediction->pose.A.u));
+    rate.v = kiriVec3_AddScaled(rate.v, perTime, kiriVec3_Sub(frame->A.v, prediction->pose.A.v));
+    rate.d = kiriVec3_AddScaled(rate.d, perTime, kiriVec3_Sub(frame->A.d, prediction->pose.A.d));
     frame->spin = kiriMat3_Spin(&frame->A, &rate);
     frame->rate = kiriMat3_Beside(&frame->A, &rate, frame->spin);
 }
@@ -1099,21 +1099,21 @@ static void Land(kiriSolver* solver, const kiriSystem* system)
 {
     double perTime = 1.0 / solver->dt;
     for (int32_t f = 0; f < system->frameCount; ++f) {
-        const kiriFlight* flight = &solver->flights.data[f];
+        const kiriPrediction* prediction = &solver->predictions.data[f];
         kiriFrameData* frame = &solver->after.data[f];
         *frame = solver->before.data[f];
         frame->x = solver->poses.data[f].x;
         frame->A = solver->poses.data[f].A;
-        frame->velocity = kiriVec3_AddScaled(flight->velocity, perTime, kiriVec3_Sub(frame->x, flight->pose.x));
+        frame->velocity = kiriVec3_AddScaled(prediction->velocity, perTime, kiriVec3_Sub(frame->x, prediction->pose.x));
         if (frame->held) {
-            frame->spin = flight->spin;
-            frame->rate = flight->rate;
+            frame->spin = prediction->spin;
+            frame->rate = prediction->rate;
         } else if (IsAffine(&system->mechanics)) {
-            LandAffine(flight, perTime, frame);
+            LandAffine(prediction, perTime, frame);
         } else {
-            kiriMat3 inertia = kiriFlight_Inertia(flight, &frame->A);
-            kiriVec3 turn = kiriMat3_Solve(&inertia, kiriFlight_TurnGradient(flight, &frame->A));
-            frame->spin = kiriVec3_AddScaled(flight->spin, perTime, turn);
+            kiriMat3 inertia = kiriPrediction_Inertia(prediction, &frame->A);
+            kiriVec3 turn = kiriMat3_Solve(&inertia, kiriPrediction_TurnGradient(prediction, &frame->A));
+            frame->spin = kiriVec3_AddScaled(prediction->spin, perTime, turn);
         }
     }
 }
@@ -1219,7 +1219,7 @@ static void Brake(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- Step ------------------------------------------------------------------------------------------------------- */
 
-/* Nothing holds the centre of mass of a free piece: it is where the flight ends, however far the iteration came. */
+/* Nothing holds the centre of mass of a free piece: it is where the prediction ends, however far the iteration came. */
 static void Center(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
@@ -1228,7 +1228,7 @@ static void Center(kiriSolver* solver, const kiriSystem* system)
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {
         Course* course = CourseOf(solver, f);
-        kiriVec3 off = kiriVec3_Sub(solver->flights.data[f].pose.x, solver->poses.data[f].x);
+        kiriVec3 off = kiriVec3_Sub(solver->predictions.data[f].pose.x, solver->poses.data[f].x);
         course->mean = kiriVec3_AddScaled(course->mean, system->frames[f].mass, off);
         course->mass += system->frames[f].mass;
     }
@@ -1297,7 +1297,7 @@ static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
 }
 
 /* The iteration starts where the frames coast by their velocities: a strip that swings is then nearly there, and one at
-   rest is there. The first step may raise the objective up to that of the free flight: it has to turn stiff frames,
+   rest is there. The first step may raise the objective up to that of the free prediction: it has to turn stiff frames,
    which stretches links before the next step lets them go, and halving it there would freeze the turning.
 
    Pieces that have gained energy, or took only a part of their last step, are iterated on. What a piece has gained even
@@ -1314,7 +1314,7 @@ static int32_t Minimise(kiriSolver* solver, const kiriSystem* system, int32_t it
     bool isLeft = true, isFresh = false;
     EvaluateStart(solver, system);
     while (isLeft && done < most && done < last) {
-        /* Before the first step the push is that of the free flight, far too strong at an impact. */
+        /* Before the first step the push is that of the free prediction, far too strong at an impact. */
         solver->isBraking = done > 0 || iterations == 1;
         if (!Iterate(solver, system, done == 0)) {
             return -1;

@@ -36,8 +36,8 @@ typedef struct kiriSystem {
     int32_t frameCount;
     const kiriLink* links;
     int32_t linkCount;
-    const kiriEase* eases;      /* one a link between rigid frames, or null: what strains count less */
-    const kiriPatches* patches; /* of affine frames; may be null where there are none */
+    const kiriStrainOffset* strainOffsets; /* one a link between rigid frames, or null: what strains count less */
+    const kiriPatches* patches;            /* of affine frames; may be null where there are none */
     const kiriPinRow* pins;
     int32_t pinCount;
     const kiriContactRow* contacts;

@@ -2,25 +2,27 @@
 
 #include <string.h>
 
-bool kiriEases_Reserve(kiriEases* eases, const kiriMemory* memory, int32_t linkCount, int32_t frameCount)
+bool kiriStrainOffsets_Reserve(kiriStrainOffsets* strainOffsets, const kiriMemory* memory, int32_t linkCount,
+                               int32_t frameCount)
 {
-    return kiriArray_Reserve(memory, &eases->eases, linkCount) && kiriArray_Reserve(memory, &eases->older, linkCount) &&
-           kiriArray_Reserve(memory, &eases->frames, frameCount);
+    return kiriArray_Reserve(memory, &strainOffsets->strainOffsets, linkCount) &&
+           kiriArray_Reserve(memory, &strainOffsets->older, linkCount) &&
+           kiriArray_Reserve(memory, &strainOffsets->frames, frameCount);
 }
 
-void kiriEases_Release(kiriEases* eases, const kiriMemory* memory)
+void kiriStrainOffsets_Release(kiriStrainOffsets* strainOffsets, const kiriMemory* memory)
 {
-    kiriArray_Release(memory, &eases->eases);
-    kiriArray_Release(memory, &eases->older);
-    kiriArray_Release(memory, &eases->frames);
+    kiriArray_Release(memory, &strainOffsets->strainOffsets);
+    kiriArray_Release(memory, &strainOffsets->older);
+    kiriArray_Release(memory, &strainOffsets->frames);
 }
 
-void kiriEases_Remember(kiriEases* eases, const kiriFrameData* frames, int32_t frameCount)
+void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFrameData* frames, int32_t frameCount)
 {
     if (frameCount > 0) {
-        memcpy(eases->frames.data, frames, sizeof(*frames) * (size_t)frameCount);
+        memcpy(strainOffsets->frames.data, frames, sizeof(*frames) * (size_t)frameCount);
     }
-    eases->frames.count = frameCount;
+    strainOffsets->frames.count = frameCount;
 }
 
 static void Measure(const kiriLink* link, const kiriFrameData* frames, double* strain)
@@ -31,9 +33,9 @@ static void Measure(const kiriLink* link, const kiriFrameData* frames, double* s
     kiriStrain_Measure(link, ends, poses, strain, NULL);
 }
 
-static bool StandsAsBefore(const kiriEases* eases, const kiriFrameData* frames, int32_t f)
+static bool StandsAsBefore(const kiriStrainOffsets* strainOffsets, const kiriFrameData* frames, int32_t f)
 {
-    const kiriFrameData *was = &eases->frames.data[f], *is = &frames[f];
+    const kiriFrameData *was = &strainOffsets->frames.data[f], *is = &frames[f];
     return memcmp(&was->x, &is->x, sizeof(is->x)) == 0 && memcmp(&was->A, &is->A, sizeof(is->A)) == 0 &&
            memcmp(&was->center, &is->center, sizeof(is->center)) == 0;
 }
@@ -44,18 +46,18 @@ static bool IsBefore(const kiriLink* a, const kiriLink* b)
 }
 
 /* Of a link with an older one, or none. */
-static kiriEase EaseOf(const kiriEases* eases, const kiriLink* link, const kiriLink* old, const kiriEase* older,
-                       const kiriFrameData* frames)
+static kiriStrainOffset StrainOffsetOf(const kiriStrainOffsets* strainOffsets, const kiriLink* link,
+                                       const kiriLink* old, const kiriStrainOffset* older, const kiriFrameData* frames)
 {
-    kiriEase ease;
+    kiriStrainOffset ease;
     double was[KIRI_STRAINS] = { 0.0 };
-    if (old != NULL && memcmp(old, link, sizeof(*link)) == 0 && StandsAsBefore(eases, frames, link->i) &&
-        StandsAsBefore(eases, frames, link->j)) {
+    if (old != NULL && memcmp(old, link, sizeof(*link)) == 0 && StandsAsBefore(strainOffsets, frames, link->i) &&
+        StandsAsBefore(strainOffsets, frames, link->j)) {
         return *older;
     }
     Measure(link, frames, ease.strain);
     if (old != NULL) {
-        Measure(old, eases->frames.data, was);
+        Measure(old, strainOffsets->frames.data, was);
     }
     for (int e = 0; e < KIRI_STRAINS; ++e) {
         ease.strain[e] -= old != NULL ? was[e] - older->strain[e] : 0.0;
@@ -63,32 +65,33 @@ static kiriEase EaseOf(const kiriEases* eases, const kiriLink* link, const kiriL
     return ease;
 }
 
-void kiriEases_Take(kiriEases* eases, const kiriLink* old, int32_t oldCount, const kiriLink* links, int32_t linkCount,
-                    const kiriFrameData* frames)
+void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* old, int32_t oldCount,
+                            const kiriLink* links, int32_t linkCount, const kiriFrameData* frames)
 {
-    const kiriEase none = { { 0.0 } };
-    int32_t o = 0, had = eases->eases.count;
+    const kiriStrainOffset none = { { 0.0 } };
+    int32_t o = 0, had = strainOffsets->strainOffsets.count;
     if (had > 0) {
-        memcpy(eases->older.data, eases->eases.data, sizeof(kiriEase) * (size_t)had);
+        memcpy(strainOffsets->older.data, strainOffsets->strainOffsets.data, sizeof(kiriStrainOffset) * (size_t)had);
     }
     for (int32_t k = 0; k < linkCount; ++k) {
         while (o < oldCount && IsBefore(&old[o], &links[k])) {
             ++o;
         }
         bool known = o < oldCount && !IsBefore(&links[k], &old[o]);
-        const kiriEase* older = known && o < had ? &eases->older.data[o] : &none;
-        eases->eases.data[k] = EaseOf(eases, &links[k], known ? &old[o] : NULL, older, frames);
+        const kiriStrainOffset* older = known && o < had ? &strainOffsets->older.data[o] : &none;
+        strainOffsets->strainOffsets.data[k] =
+            StrainOffsetOf(strainOffsets, &links[k], known ? &old[o] : NULL, older, frames);
         o += known;
     }
-    eases->eases.count = linkCount;
+    strainOffsets->strainOffsets.count = linkCount;
 }
 
-void kiriEases_Advance(kiriEases* eases, double dt, double time)
+void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, double dt, double time)
 {
     double keep = time / (time + dt);
-    for (int32_t k = 0; k < eases->eases.count; ++k) {
+    for (int32_t k = 0; k < strainOffsets->strainOffsets.count; ++k) {
         for (int e = 0; e < KIRI_STRAINS; ++e) {
-            double* strain = &eases->eases.data[k].strain[e];
+            double* strain = &strainOffsets->strainOffsets.data[k].strain[e];
             *strain = fabs(*strain) > 1e-12 ? keep * *strain : 0.0;
         }
     }

@@ -1,33 +1,34 @@
 /* Strains that links take over when a cut changes them. Frames stand to each other as they did, but the new borders of
    their regions see more or less of a gap between them, which in a bent stiff sheet is energy out of nowhere. So a
-   link goes on with the strain that it had, and the difference eases off. */
+   link goes on with the strain that it had, and the difference strainOffsets off. */
 #ifndef KIRI_EASE_H
 #define KIRI_EASE_H
 
 #include "kiri_strain.h"
 
 /* What a link's strains count less. */
-typedef struct kiriEase {
+typedef struct kiriStrainOffset {
     double strain[KIRI_STRAINS];
-} kiriEase;
+} kiriStrainOffset;
 
-typedef struct kiriEases {
-    KIRI_ARRAY(kiriEase) eases, older; /* one a link; none where nothing is eased */
-    KIRI_ARRAY(kiriFrameData) frames;  /* as they were before the commit */
-} kiriEases;
+typedef struct kiriStrainOffsets {
+    KIRI_ARRAY(kiriStrainOffset) strainOffsets, older; /* one a link; none where nothing is eased */
+    KIRI_ARRAY(kiriFrameData) frames;                  /* as they were before the commit */
+} kiriStrainOffsets;
 
 /* Room for so many links and frames, so that the others do not fail. */
-bool kiriEases_Reserve(kiriEases* eases, const kiriMemory* memory, int32_t linkCount, int32_t frameCount);
-void kiriEases_Release(kiriEases* eases, const kiriMemory* memory);
+bool kiriStrainOffsets_Reserve(kiriStrainOffsets* strainOffsets, const kiriMemory* memory, int32_t linkCount,
+                               int32_t frameCount);
+void kiriStrainOffsets_Release(kiriStrainOffsets* strainOffsets, const kiriMemory* memory);
 
 /* Before the commit. */
-void kiriEases_Remember(kiriEases* eases, const kiriFrameData* frames, int32_t frameCount);
+void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFrameData* frames, int32_t frameCount);
 
 /* After it: links of the same pair, in their order, go on with their strain; links that are new begin without any. */
-void kiriEases_Take(kiriEases* eases, const kiriLink* old, int32_t oldCount, const kiriLink* links, int32_t linkCount,
-                    const kiriFrameData* frames);
+void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* old, int32_t oldCount,
+                            const kiriLink* links, int32_t linkCount, const kiriFrameData* frames);
 
 /* Time goes on: what is eased falls to 1 / e within `time` (s). */
-void kiriEases_Advance(kiriEases* eases, double dt, double time);
+void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, double dt, double time);
 
 #endif

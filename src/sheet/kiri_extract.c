@@ -13,7 +13,7 @@ bool kiriExtract_Init(kiriExtract* extract, const kiriSheetData* from)
     memset(extract, 0, sizeof(*extract));
     extract->from = from;
     extract->memory = from->memory;
-    if (!kiriArray_Resize(from->memory, &extract->keep, from->model.pieces.count)) {
+    if (!kiriArray_Resize(from->memory, &extract->keep, from->layout.pieces.count)) {
         return false;
     }
     memset(extract->keep.data, 0, (size_t)extract->keep.count);
@@ -33,7 +33,7 @@ void kiriExtract_Release(kiriExtract* extract)
 
 static bool IsFrameKept(const kiriExtract* extract, int32_t frame)
 {
-    return extract->keep.data[extract->from->model.framePiece.data[frame]] != 0;
+    return extract->keep.data[extract->from->layout.framePiece.data[frame]] != 0;
 }
 
 static bool MapMesh(kiriExtract* extract)
@@ -72,7 +72,7 @@ static bool MapRest(kiriExtract* extract)
         extract->pointTo.data[i] = IsFrameKept(extract, from->points.data[i].frame) ? points++ : KIRI_NONE;
     }
     for (int32_t i = 0; i < from->pins.count; ++i) {
-        extract->pinTo.data[i] = IsFrameKept(extract, from->model.pinFrame.data[i]) ? pins++ : KIRI_NONE;
+        extract->pinTo.data[i] = IsFrameKept(extract, from->layout.pinFrame.data[i]) ? pins++ : KIRI_NONE;
     }
     return true;
 }
@@ -155,7 +155,7 @@ static bool TakePins(const kiriExtract* extract, kiriSheetData* to)
     bool ok = true;
     for (int32_t i = 0; ok && i < from->pins.count; ++i) {
         if (extract->pinTo.data[i] != KIRI_NONE) {
-            int32_t frame = extract->frameTo.data[from->model.pinFrame.data[i]];
+            int32_t frame = extract->frameTo.data[from->layout.pinFrame.data[i]];
             ok = kiriSheet_AddPin(to, &from->pins.data[i], frame);
         }
     }
@@ -245,13 +245,14 @@ static bool TakeAllFades(const kiriExtract* extract, kiriSheetData* to)
 }
 
 /* Links come in the order that they had. */
-static void TakeEases(const kiriExtract* extract, kiriSheetData* to)
+static void TakeStrainOffsets(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
     int32_t count = 0;
-    for (int32_t k = 0; k < from->eases.eases.count && count < to->eases.eases.count; ++k) {
+    for (int32_t k = 0; k < from->strainOffsets.strainOffsets.count && count < to->strainOffsets.strainOffsets.count;
+         ++k) {
         if (extract->frameTo.data[from->links.links.data[k].i] != KIRI_NONE) {
-            to->eases.eases.data[count++] = from->eases.eases.data[k];
+            to->strainOffsets.strainOffsets.data[count++] = from->strainOffsets.strainOffsets.data[k];
         }
     }
 }
@@ -265,7 +266,7 @@ static bool Build(const kiriExtract* extract, kiriSheetData* to)
     TakeFrames(extract, to);
     kiriUpdate_Commit(to);
     TakeFrames(extract, to);
-    TakeEases(extract, to);
+    TakeStrainOffsets(extract, to);
     kiriView_WriteTopology(to);
     kiriMesh_Commit(&to->mesh);
     kiriView_WritePositions(to);

@@ -9,7 +9,7 @@ static void WritePinRows(kiriSheetData* sheet)
     sheet->pinRows.count = sheet->pins.count;
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
         const kiriPinData* pin = &sheet->pins.data[i];
-        kiriPinRow row = { sheet->model.pinFrame.data[i], kiriMesh_Local(&sheet->mesh, pin->at), pin->target,
+        kiriPinRow row = { sheet->layout.pinFrame.data[i], kiriMesh_Local(&sheet->mesh, pin->at), pin->target,
                            pin->stiffness };
         sheet->pinRows.data[i] = row;
     }
@@ -42,13 +42,14 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     system.frameCount = sheet->frames.count;
     system.links = sheet->links.links.data;
     system.linkCount = sheet->links.links.count;
-    system.eases = sheet->eases.eases.count > 0 ? sheet->eases.eases.data : NULL;
+    system.strainOffsets =
+        sheet->strainOffsets.strainOffsets.count > 0 ? sheet->strainOffsets.strainOffsets.data : NULL;
     system.pins = sheet->pinRows.data;
     system.pinCount = sheet->pinRows.count;
     system.contacts = sheet->contactRows.data;
     system.contactCount = sheet->contactRows.count;
     system.mechanics = sheet->mechanics;
-    system.patches = &sheet->model.patches;
+    system.patches = &sheet->layout.patches;
     system.material = sheet->material;
     system.gravity = gravity;
     return system;
@@ -175,7 +176,7 @@ static kiriProgress Move(kiriSheetData* sheet, kiriVec3 gravity, double dt, int3
         PutToRest(sheet);
         kiriMotion_Wake(sheet);
     } else if (progress == KIRI_DONE) {
-        kiriEases_Advance(&sheet->eases, dt, sheet->fades.time);
+        kiriStrainOffsets_Advance(&sheet->strainOffsets, dt, sheet->fades.time);
         sheet->calm = IsCalm(sheet) ? sheet->calm + dt : 0.0;
     }
     return progress;

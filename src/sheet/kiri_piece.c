@@ -36,7 +36,7 @@ static bool JoinFrames(kiriSheetData* sheet)
 int32_t kiriPiece_OfVertex(const kiriSheetData* sheet, int32_t vertex)
 {
     int32_t first = sheet->vertexSkin.spans.data[vertex].first;
-    return sheet->model.framePiece.data[sheet->vertexSkin.weights.data[first].frame];
+    return sheet->layout.framePiece.data[sheet->vertexSkin.weights.data[first].frame];
 }
 
 /* The old piece that the material of a frame was in: of a new one, that of a frame which moves it on the old
@@ -44,7 +44,7 @@ int32_t kiriPiece_OfVertex(const kiriSheetData* sheet, int32_t vertex)
 static int32_t OriginOf(const kiriSheetData* sheet, int32_t frame)
 {
     if (frame < sheet->frames.count) {
-        return sheet->model.framePiece.data[frame];
+        return sheet->layout.framePiece.data[frame];
     }
     if (sheet->frames.count == 0) {
         return KIRI_NONE;
@@ -56,9 +56,9 @@ static int32_t OriginOf(const kiriSheetData* sheet, int32_t frame)
 /* Of the parts of one old piece the largest goes on, and the others came off. */
 static void MarkCameOff(kiriSheetData* sheet)
 {
-    kiriModel* next = &sheet->update.next;
+    kiriLayout* next = &sheet->update.next;
     int32_t* largest = sheet->update.parent.data; /* of each origin; there are no more of them than frames */
-    for (int32_t o = 0; o < sheet->model.pieces.count; ++o) {
+    for (int32_t o = 0; o < sheet->layout.pieces.count; ++o) {
         largest[o] = KIRI_NONE;
     }
     for (int32_t p = 0; p < next->pieces.count; ++p) {
@@ -77,7 +77,7 @@ static void MarkCameOff(kiriSheetData* sheet)
 bool kiriPieces_Stage(kiriSheetData* sheet)
 {
     kiriUpdate* u = &sheet->update;
-    kiriModel* next = &u->next;
+    kiriLayout* next = &u->next;
     next->pieces.count = 0;
     if (!JoinFrames(sheet) || !kiriArray_Resize(sheet->memory, &next->framePiece, u->sites.count)) {
         return false;
@@ -102,12 +102,12 @@ bool kiriPieces_Stage(kiriSheetData* sheet)
 
 static int32_t OfFrame(const kiriSheetData* sheet, int32_t frame)
 {
-    return sheet->model.framePiece.data[frame];
+    return sheet->layout.framePiece.data[frame];
 }
 
 static int32_t OfPoint(const kiriSheetData* sheet, int32_t point)
 {
-    return sheet->model.framePiece.data[sheet->points.data[point].frame];
+    return sheet->layout.framePiece.data[sheet->points.data[point].frame];
 }
 
 static int32_t OfTriangle(const kiriSheetData* sheet, int32_t triangle)
@@ -119,7 +119,7 @@ static int32_t OfTriangle(const kiriSheetData* sheet, int32_t triangle)
 static bool Sort(const kiriSheetData* sheet, kiriPieceList* list, int32_t count,
                  int32_t (*pieceOf)(const kiriSheetData* sheet, int32_t item))
 {
-    int32_t pieces = sheet->model.pieces.count;
+    int32_t pieces = sheet->layout.pieces.count;
     if (!kiriArray_Resize(sheet->memory, &list->first, pieces + 2) ||
         !kiriArray_Resize(sheet->memory, &list->items, count)) {
         return false;
@@ -139,7 +139,7 @@ static bool Sort(const kiriSheetData* sheet, kiriPieceList* list, int32_t count,
 }
 
 /* What the host reads beside: the ids of frames, and the corners of triangles. */
-static bool Spell(kiriSheetData* sheet)
+static bool FillHostArrays(kiriSheetData* sheet)
 {
     kiriPieceLists* lists = &sheet->lists;
     int32_t frames = lists->frames.items.count, triangles = lists->triangles.items.count;
@@ -160,10 +160,11 @@ static bool Spell(kiriSheetData* sheet)
 bool kiriPieces_List(kiriSheetData* sheet)
 {
     kiriPieceLists* lists = &sheet->lists;
-    lists->isFresh = lists->isFresh || (Sort(sheet, &lists->frames, sheet->frames.count, OfFrame) &&
-                                        Sort(sheet, &lists->vertices, sheet->mesh.vertices.count, kiriPiece_OfVertex) &&
-                                        Sort(sheet, &lists->triangles, sheet->mesh.triangles.count, OfTriangle) &&
-                                        Sort(sheet, &lists->points, sheet->points.count, OfPoint) && Spell(sheet));
+    lists->isFresh =
+        lists->isFresh || (Sort(sheet, &lists->frames, sheet->frames.count, OfFrame) &&
+                           Sort(sheet, &lists->vertices, sheet->mesh.vertices.count, kiriPiece_OfVertex) &&
+                           Sort(sheet, &lists->triangles, sheet->mesh.triangles.count, OfTriangle) &&
+                           Sort(sheet, &lists->points, sheet->points.count, OfPoint) && FillHostArrays(sheet));
     return lists->isFresh;
 }
 
@@ -220,7 +221,7 @@ kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece)
     state.frames = frames.count;
     state.vertices = vertices.count;
     state.triangles = kiriPiece_Span(&lists->triangles, piece).count;
-    state.crumb = sheet->model.pieces.data[piece].area < sheet->crumbArea;
+    state.crumb = sheet->layout.pieces.data[piece].area < sheet->crumbArea;
     state.collisionPoints = kiriPiece_Span(&lists->points, piece).count;
     return state;
 }

@@ -8,22 +8,22 @@
 
 /* ---- Making and releasing ---- */
 
-static void ReleaseModel(kiriModel* model, const kiriMemory* memory)
+static void ReleaseLayout(kiriLayout* layout, const kiriMemory* memory)
 {
-    kiriArray_Release(memory, &model->pieces);
-    kiriArray_Release(memory, &model->framePiece);
-    kiriArray_Release(memory, &model->pinFrame);
-    kiriPatches_Release(&model->patches, memory);
+    kiriArray_Release(memory, &layout->pieces);
+    kiriArray_Release(memory, &layout->framePiece);
+    kiriArray_Release(memory, &layout->pinFrame);
+    kiriPatches_Release(&layout->patches, memory);
 }
 
 void kiriSheet_Release(kiriSheetData* sheet)
 {
     const kiriMemory* memory = sheet->memory;
     kiriUpdate_Release(sheet);
-    ReleaseModel(&sheet->model, memory);
-    ReleaseModel(&sheet->update.next, memory);
+    ReleaseLayout(&sheet->layout, memory);
+    ReleaseLayout(&sheet->update.next, memory);
     kiriLinks_Release(&sheet->links, memory);
-    kiriEases_Release(&sheet->eases, memory);
+    kiriStrainOffsets_Release(&sheet->strainOffsets, memory);
     kiriArray_Release(memory, &sheet->points);
     kiriSkin_Release(&sheet->vertexSkin, memory);
     kiriSkin_Release(&sheet->pointSkin, memory);
@@ -111,7 +111,7 @@ static void SetParameters(kiriSheetData* sheet, const kiriSheetDef* def)
     sheet->pointFades = sheet->fades;
 }
 
-bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriPoint* at)
+bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriLatticePoint* at)
 {
     kiriVec2 local = kiriSheet_ToLocal(sheet, rest), end = local;
     bool inRange = kiriCut_Clip(&sheet->mesh, &local, &end);
@@ -126,7 +126,7 @@ static kiriResult TakeSites(kiriSheetData* sheet, const kiriSheetDef* def, const
 {
     kiriUpdate* u = &sheet->update;
     for (int32_t i = 0; i < def->frameCount; ++i) {
-        kiriPoint at;
+        kiriLatticePoint at;
         kiriSite site = { kiriSheet_ToLocal(sheet, &def->framePoints[2 * i]), KIRI_NONE };
         if (kiriSheet_ToLattice(sheet, &def->framePoints[2 * i], &at)) {
             site.cell = kiriGrid_CellAt(&sheet->grid, &sheet->mesh, at);
@@ -258,13 +258,13 @@ static int32_t HeaviestAt(const kiriSheetData* sheet, int32_t triangle)
     return heaviest.frame;
 }
 
-int32_t kiriSheet_FrameAt(const kiriSheetData* sheet, kiriPoint at)
+int32_t kiriSheet_FrameAt(const kiriSheetData* sheet, kiriLatticePoint at)
 {
     int32_t triangle = kiriMesh_Locate(&sheet->mesh, at);
     if (triangle == KIRI_NONE) {
         return KIRI_NONE;
     }
-    if (sheet->update.stage > 0 || sheet->update.isStale) {
+    if (sheet->update.stage > 0 || sheet->update.needsRebuild) {
         return HeaviestAt(sheet, triangle);
     }
     int32_t cell = kiriGrid_CellOf(&sheet->grid, &sheet->mesh, triangle, at);
@@ -276,18 +276,18 @@ bool kiriSheet_AddPin(kiriSheetData* sheet, const kiriPinData* pin, int32_t fram
     int64_t need = (int64_t)sheet->pins.count + 1;
     if (!kiriArray_Reserve(sheet->memory, &sheet->pins, need) ||
         !kiriArray_Reserve(sheet->memory, &sheet->pinRows, need) ||
-        !kiriArray_Reserve(sheet->memory, &sheet->model.pinFrame, need)) {
+        !kiriArray_Reserve(sheet->memory, &sheet->layout.pinFrame, need)) {
         return false;
     }
     sheet->pins.data[sheet->pins.count++] = *pin;
-    sheet->model.pinFrame.data[sheet->model.pinFrame.count++] = frame;
+    sheet->layout.pinFrame.data[sheet->layout.pinFrame.count++] = frame;
     return true;
 }
 
 void kiriSheet_RemovePin(kiriSheetData* sheet, int32_t index)
 {
     int32_t last = --sheet->pins.count;
-    sheet->model.pinFrame.count = last;
+    sheet->layout.pinFrame.count = last;
     sheet->pins.data[index] = sheet->pins.data[last];
-    sheet->model.pinFrame.data[index] = sheet->model.pinFrame.data[last];
+    sheet->layout.pinFrame.data[index] = sheet->layout.pinFrame.data[last];
 }

@@ -1,5 +1,5 @@
 /* A sheet owns its mesh, its frames, and all that is derived from the two. What is derived comes in two parts. Grid,
-   regions and shape functions follow the mesh in place, for as many ticks as their budget asks. The model, which moves
+   regions and shape functions follow the mesh in place, for as many ticks as their budget asks. The layout, which moves
    the sheet, is what they were when they were last complete; new links, weights and frames are staged beside it, and
    one commit puts them in force. update.h says how. */
 #ifndef KIRI_SHEET_H
@@ -16,17 +16,17 @@
 typedef struct kiriPiece {
     double area;    /* m^2 */
     int32_t frame;  /* its lowest */
-    int32_t origin; /* the piece of the model before that it was a part of; KIRI_NONE in the first model */
+    int32_t origin; /* the piece of the layout before that it was a part of; KIRI_NONE in the first layout */
     bool cameOff;   /* it is not the largest part of its origin: that goes on, the others came off */
 } kiriPiece;
 
 /* What moves the sheet, and what of it is staged for the next commit. Pieces are numbered by their lowest frame. */
-typedef struct kiriModel {
+typedef struct kiriLayout {
     KIRI_ARRAY(kiriPiece) pieces;
     KIRI_ARRAY(int32_t) framePiece; /* of each frame */
     KIRI_ARRAY(int32_t) pinFrame;   /* the frame that each pin holds */
     kiriPatches patches;            /* of affine frames */
-} kiriModel;
+} kiriLayout;
 
 /* What is in each piece, by index: first the items of piece 0, and so on. */
 typedef struct kiriPieceList {
@@ -44,7 +44,7 @@ typedef struct kiriPieceLists {
 
 typedef struct kiriPinData {
     kiriPin id;
-    kiriPoint at; /* in the material */
+    kiriLatticePoint at; /* in the material */
     kiriVec3 target;
     double stiffness;
 } kiriPinData;
@@ -64,17 +64,17 @@ typedef struct kiriCutData {
 } kiriCutData;
 
 /* A point that waits. */
-typedef struct kiriStroke {
+typedef struct kiriQueuedPoint {
     kiriCutData* cut;
     kiriVec2 to;   /* local */
     int64_t stamp; /* the tick that it was given before */
     bool jump;     /* put the blade there without cutting */
-} kiriStroke;
+} kiriQueuedPoint;
 
 /* What a commit has changed, for the profile. */
-typedef struct kiriTouched {
+typedef struct kiriCommitCounts {
     int32_t cells, weights, vertices, points, links;
-} kiriTouched;
+} kiriCommitCounts;
 
 /* How far the work that a cut sets off has come. It takes all points given before one tick together, however many ticks
    the budget makes of it; so what comes of a cut does not depend on the budget. */
@@ -83,14 +83,14 @@ typedef struct kiriUpdate {
     int32_t step;  /* within the stage */
     int64_t stamp;
     int32_t count, taken; /* strokes at the head of the queue; of these, in the mesh */
-    bool isTorn;          /* they changed the mesh */
-    bool isStale;         /* grid, regions and shape are of no use: to be made from scratch */
+    bool meshChanged;     /* they changed the mesh */
+    bool needsRebuild;    /* grid, regions and shape are of no use: to be made from scratch */
     bool isScratch;       /* as they are now */
     int32_t oldVertices;  /* at the last commit: those from there on have the weights that they were born with */
 
     bool isBegun; /* in this tick; as it started: */
     int32_t startStage, startTaken;
-    bool startTorn;
+    bool startMeshChanged;
 
     kiriSites sites; /* of the frames that are there, then of new ones */
     KIRI_ARRAY(kiriSiteMove) moves;
@@ -105,14 +105,14 @@ typedef struct kiriUpdate {
     KIRI_ARRAY(uint8_t) flags;        /* of squares or cells */
     KIRI_ARRAY(int32_t) own;          /* frames of the piece in the placer */
     KIRI_ARRAY(kiriMoments) material; /* of each frame's region */
-    kiriModel next;
+    kiriLayout next;
     KIRI_ARRAY(int32_t) parent; /* of frames: union-find */
     kiriRefresh refresh;
-    kiriPointsWork points;
+    kiriIntegrationWork points;
     kiriRefit refit;
     KIRI_ARRAY(kiriSample) newPoints;
     KIRI_ARRAY(kiriSample) movedPoints; /* `frame` is the index of a point, `cell` where it is now */
-    kiriTouched touched;
+    kiriCommitCounts counts;
 } kiriUpdate;
 
 typedef struct kiriSheetData {
@@ -135,15 +135,15 @@ typedef struct kiriSheetData {
     kiriUpdate update;
 
     KIRI_ARRAY(kiriFrameData) frames;
-    kiriModel model;
+    kiriLayout layout;
     kiriLinks links;
-    kiriEases eases; /* of links between rigid frames */
+    kiriStrainOffsets strainOffsets; /* of links between rigid frames */
     kiriSamples points;
     kiriSkin vertexSkin, pointSkin;
     kiriPlaces pointPlaces;
     kiriSolver* solver;
 
-    KIRI_ARRAY(kiriStroke) queue;
+    KIRI_ARRAY(kiriQueuedPoint) queue;
     KIRI_ARRAY(kiriCutData*) cuts;
     KIRI_ARRAY(kiriPinData) pins;
     KIRI_ARRAY(kiriContact) contacts, lastContacts; /* of the next tick, and of the last one that moved the sheet */
@@ -175,7 +175,7 @@ void kiriSheet_Release(kiriSheetData* sheet);
 bool kiriSheet_StartSkin(kiriSheetData* sheet);
 
 /* The index of the frame that holds a point of the material; KIRI_NONE outside. */
-int32_t kiriSheet_FrameAt(const kiriSheetData* sheet, kiriPoint at);
+int32_t kiriSheet_FrameAt(const kiriSheetData* sheet, kiriLatticePoint at);
 
 /* Adds a pin and all the room that it needs; false for memory. */
 bool kiriSheet_AddPin(kiriSheetData* sheet, const kiriPinData* pin, int32_t frame);
@@ -187,6 +187,6 @@ static inline kiriVec2 kiriSheet_ToLocal(const kiriSheetData* sheet, const float
 }
 
 /* The lattice point of a rest position; false where it is too far out to have one. */
-bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriPoint* at);
+bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriLatticePoint* at);
 
 #endif

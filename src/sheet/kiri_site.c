@@ -352,7 +352,7 @@ static bool GiveSites(kiriSheetData* sheet)
 static bool IsOfCrumb(const kiriSheetData* sheet, int32_t frame)
 {
     return frame < sheet->frames.count &&
-           sheet->model.pieces.data[sheet->model.framePiece.data[frame]].area < sheet->crumbArea;
+           sheet->layout.pieces.data[sheet->layout.framePiece.data[frame]].area < sheet->crumbArea;
 }
 
 /* One more frame for each piece with a rigid one. */

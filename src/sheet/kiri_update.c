@@ -29,7 +29,7 @@ bool kiriUpdate_Start(kiriSheetData* sheet)
     kiriUpdate* u = &sheet->update;
     if (u->stage == KIRI_NONE && sheet->queue.count > 0) {
         u->stage = u->step = u->count = u->taken = 0;
-        u->isTorn = false;
+        u->meshChanged = false;
         u->stamp = sheet->queue.data[0].stamp;
         while (u->count < sheet->queue.count && sheet->queue.data[u->count].stamp == u->stamp) {
             u->count += 1;
@@ -78,13 +78,13 @@ void kiriUpdate_Abort(kiriSheetData* sheet)
     for (int32_t i = 0; i < sheet->cuts.count; ++i) {
         sheet->cuts.data[i]->tip = sheet->cuts.data[i]->committed;
     }
-    u->isTorn = u->startTorn;
+    u->meshChanged = u->startMeshChanged;
     u->taken = u->startTaken;
     if (u->stage > 0) {
         DropStaged(sheet);
-        u->isStale = true;
+        u->needsRebuild = true;
     }
-    bool isFresh = u->startStage == 0 && u->startTaken == 0 && !u->startTorn;
+    bool isFresh = u->startStage == 0 && u->startTaken == 0 && !u->startMeshChanged;
     u->stage = u->startStage > 0 ? 1 : isFresh ? KIRI_NONE : 0;
     u->isBegun = false;
 }
@@ -103,7 +103,7 @@ void kiriUpdate_Release(kiriSheetData* sheet)
     kiriArray_Release(memory, &u->material);
     kiriArray_Release(memory, &u->parent);
     kiriRefresh_Release(&u->refresh, memory);
-    kiriPointsWork_Release(&u->points, memory);
+    kiriIntegrationWork_Release(&u->points, memory);
     kiriRefit_Release(&u->refit, memory);
     kiriArray_Release(memory, &u->newPoints);
     kiriArray_Release(memory, &u->movedPoints);
@@ -112,7 +112,7 @@ void kiriUpdate_Release(kiriSheetData* sheet)
 /* ---- Mesh ---- */
 
 /* Moves the blade of a cut to the next point of its polyline. */
-static kiriProgress TakeStroke(kiriSheetData* sheet, const kiriStroke* stroke, kiriQuota* triangles)
+static kiriProgress TakeQueuedPoint(kiriSheetData* sheet, const kiriQueuedPoint* stroke, kiriQuota* triangles)
 {
     kiriMeshData* mesh = &sheet->mesh;
     kiriTip* tip = &stroke->cut->tip;
@@ -122,7 +122,7 @@ static kiriProgress TakeStroke(kiriSheetData* sheet, const kiriStroke* stroke, k
         tip->blade = kiriCut_Place(mesh, stroke->to);
         return KIRI_DONE;
     }
-    kiriPoint start = kiriMesh_Snap(mesh, from);
+    kiriLatticePoint start = kiriMesh_Snap(mesh, from);
     if (tip->blade.vertex == KIRI_NONE && (start.x != tip->blade.at.x || start.y != tip->blade.at.y)) {
         tip->blade = kiriCut_Place(mesh, from); /* it comes from far outside */
     }
@@ -140,10 +140,10 @@ kiriProgress kiriUpdate_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles)
     kiriProgress progress = KIRI_DONE;
     kiriMesh_Begin(&sheet->mesh);
     while (progress == KIRI_DONE && u->taken < u->count) {
-        progress = TakeStroke(sheet, &sheet->queue.data[u->taken], triangles);
+        progress = TakeQueuedPoint(sheet, &sheet->queue.data[u->taken], triangles);
         u->taken += progress == KIRI_DONE;
     }
-    u->isTorn = u->isTorn || sheet->mesh.savedTriangles.count > 0;
+    u->meshChanged = u->meshChanged || sheet->mesh.savedTriangles.count > 0;
     bool hasRoom = progress != KIRI_FAILED && kiriSkin_Inherit(&sheet->vertexSkin, sheet->memory, &sheet->mesh) &&
                    kiriView_Resize(sheet, sheet->frames.count, sheet->points.count);
     return hasRoom ? progress : KIRI_FAILED;
@@ -166,21 +166,21 @@ void kiriUpdate_CommitMesh(kiriSheetData* sheet)
 kiriProgress kiriUpdate_Grid(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = &sheet->update;
-    if (u->isStale || (sheet->alwaysScratch && !u->isScratch)) {
+    if (u->needsRebuild || (sheet->alwaysScratch && !u->isScratch)) {
         kiriGrid_Reset(&sheet->grid);
         kiriRegions_Reset(&sheet->regions);
         kiriShape_Reset(&sheet->shape);
-        u->isStale = false;
+        u->needsRebuild = false;
         u->isScratch = true;
     }
     kiriProgress progress = kiriGrid_Update(&sheet->grid, &sheet->mesh, cells);
     if (progress == KIRI_DONE) {
         const kiriGridChanges* changes = &sheet->grid.changes;
-        if (!kiriRefit_NoteTouched(&u->refit, sheet->memory, &sheet->mesh)) {
+        if (!kiriRefit_NoteDirty(&u->refit, sheet->memory, &sheet->mesh)) {
             return KIRI_FAILED;
         }
-        kiriSquares_ClearTouched(&sheet->mesh.squares);
-        u->touched.cells = changes->made.count + changes->remade.count;
+        kiriSquares_ClearDirty(&sheet->mesh.squares);
+        u->counts.cells = changes->made.count + changes->remade.count;
     }
     return progress;
 }
@@ -235,8 +235,8 @@ static kiriProgress Weigh(kiriSheetData* sheet, kiriQuota* cells)
         if (!kiriRefit_NoteChanges(&u->refit, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions)) {
             return KIRI_FAILED;
         }
-        kiriGrid_Settle(&sheet->grid);
-        kiriRegions_Settle(&sheet->regions);
+        kiriGrid_ClearChanges(&sheet->grid);
+        kiriRegions_ClearChanges(&sheet->regions);
         u->moves.count = u->movesSeen = 0;
     }
     return progress;
@@ -251,7 +251,7 @@ static bool MeasureRegions(kiriSheetData* sheet)
         return false;
     }
     for (int32_t i = 0; i < u->sites.count; ++i) {
-        if (i < known && !sheet->regions.touched.data[i]) {
+        if (i < known && !sheet->regions.dirty.data[i]) {
             continue;
         }
         u->material.data[i] = kiriTally_Moments(&sheet->regions.material.data[i], extent);
@@ -289,7 +289,7 @@ static bool MovePoints(kiriSheetData* sheet)
     kiriUpdate* u = &sheet->update;
     for (int32_t k = 0; k < sheet->pointSkin.staged.count; ++k) {
         int32_t point = sheet->pointSkin.staged.data[k].sample;
-        kiriPoint at = sheet->points.data[point].at;
+        kiriLatticePoint at = sheet->points.data[point].at;
         kiriSample moved = { at, kiriGrid_CellAround(&sheet->grid, &sheet->mesh, at), point };
         if (!kiriArray_Push(sheet->memory, &u->movedPoints, moved)) {
             return false;
@@ -301,7 +301,7 @@ static bool MovePoints(kiriSheetData* sheet)
 /* A piece with points only changes into one without when it falls apart. */
 static bool NeedsPoints(const kiriSheetData* sheet)
 {
-    return sheet->pointCount > 0.0 && sheet->update.next.pieces.count != sheet->model.pieces.count;
+    return sheet->pointCount > 0.0 && sheet->update.next.pieces.count != sheet->layout.pieces.count;
 }
 
 /* Marks the pieces that hold a point. */
@@ -414,8 +414,9 @@ static bool BuildPatches(kiriSheetData* sheet)
         return kiriAffine_Build(&u->next.patches, sheet->memory, sheet->links.next.data, sheet->links.next.count,
                                 u->material.data, u->sites.count, planar);
     case KIRI_MODEL_POINTS:
-        return kiriPoints_Build(&u->next.patches, &u->points, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->shape,
-                                u->material.data, sheet->integrationPoints, sheet->integrationOrder, planar);
+        return kiriIntegration_Build(&u->next.patches, &u->points, sheet->memory, &sheet->grid, &sheet->mesh,
+                                     &sheet->shape, u->material.data, sheet->integrationPoints, sheet->integrationOrder,
+                                     planar);
     default:
         return true;
     }
@@ -423,7 +424,7 @@ static bool BuildPatches(kiriSheetData* sheet)
 
 static bool FindPinFrames(kiriSheetData* sheet)
 {
-    kiriModel* next = &sheet->update.next;
+    kiriLayout* next = &sheet->update.next;
     if (!kiriArray_Resize(sheet->memory, &next->pinFrame, sheet->pins.count)) {
         return false;
     }
@@ -459,8 +460,8 @@ kiriProgress kiriUpdate_Constants(kiriSheetData* sheet, kiriQuota* none)
     kiriUpdate* u = &sheet->update;
     (void)none;
     bool ok = (!Eases(sheet) ||
-               kiriEases_Reserve(&sheet->eases, sheet->memory,
-                                 Larger(sheet->links.next.count, sheet->links.links.count), u->sites.count)) &&
+               kiriStrainOffsets_Reserve(&sheet->strainOffsets, sheet->memory,
+                                         Larger(sheet->links.next.count, sheet->links.links.count), u->sites.count)) &&
               BuildPatches(sheet) && FindPinFrames(sheet) && ReservePoints(sheet) &&
               kiriRefit_Stage(&u->refit, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, u->isScratch) &&
               kiriArray_Reserve(sheet->memory, &sheet->frames, u->sites.count) &&
@@ -517,7 +518,7 @@ static void TakeFits(kiriSheetData* sheet)
         frame->spin = state->spin;
         frame->rate = state->rate;
     }
-    const kiriModel* next = &sheet->update.next;
+    const kiriLayout* next = &sheet->update.next;
     kiriRefit_Brake(refit, sheet->frames.data, sheet->frames.count, next->framePiece.data, next->pieces.count,
                     &sheet->material);
     kiriRefit_Commit(refit, &sheet->mesh);
@@ -534,9 +535,9 @@ static void CommitFrames(kiriSheetData* sheet)
     sheet->frames.count = u->sites.count;
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         sheet->frames.data[i].site = u->sites.data[i];
-        if (sheet->regions.touched.data[i]) {
+        if (sheet->regions.dirty.data[i]) {
             kiriFrame_Recenter(&sheet->frames.data[i], &u->material.data[i], densityPerArea);
-            sheet->regions.touched.data[i] = 0;
+            sheet->regions.dirty.data[i] = 0;
         }
     }
     TakeFits(sheet);
@@ -561,30 +562,30 @@ static void CommitPoints(kiriSheetData* sheet)
 void kiriUpdate_Commit(kiriSheetData* sheet)
 {
     kiriUpdate* u = &sheet->update;
-    u->touched.weights = (int32_t)sheet->shape.recomputed;
-    u->touched.vertices = sheet->vertexSkin.staged.count;
-    u->touched.points = sheet->pointSkin.staged.count;
-    u->touched.links = sheet->links.changed;
+    u->counts.weights = (int32_t)sheet->shape.recomputed;
+    u->counts.vertices = sheet->vertexSkin.staged.count;
+    u->counts.points = sheet->pointSkin.staged.count;
+    u->counts.links = sheet->links.changed;
     sheet->lists.isFresh = false;
     int32_t oldLinks = sheet->links.links.count;
-    bool eases = Eases(sheet);
-    if (eases) {
-        kiriEases_Remember(&sheet->eases, sheet->frames.data, sheet->frames.count);
+    bool strainOffsets = Eases(sheet);
+    if (strainOffsets) {
+        kiriStrainOffsets_Remember(&sheet->strainOffsets, sheet->frames.data, sheet->frames.count);
     }
     CommitFrames(sheet);
     CommitPoints(sheet);
     kiriSkin_Commit(&sheet->vertexSkin);
     kiriSkin_Commit(&sheet->pointSkin);
     kiriLinks_Commit(&sheet->links);
-    if (eases) {
-        kiriEases_Take(&sheet->eases, sheet->links.next.data, oldLinks, sheet->links.links.data,
-                       sheet->links.links.count, sheet->frames.data);
+    if (strainOffsets) {
+        kiriStrainOffsets_Take(&sheet->strainOffsets, sheet->links.next.data, oldLinks, sheet->links.links.data,
+                               sheet->links.links.count, sheet->frames.data);
     }
     kiriSolver_Commit(sheet->solver);
-    kiriModel model = sheet->model;
-    sheet->model = u->next;
-    u->next = model;
-    kiriShape_Settle(&sheet->shape);
+    kiriLayout layout = sheet->layout;
+    sheet->layout = u->next;
+    u->next = layout;
+    kiriShape_ClearChanges(&sheet->shape);
     u->isScratch = false;
     sheet->isSeenElsewhere = true;
     u->oldVertices = sheet->mesh.vertices.count;

@@ -157,7 +157,7 @@ bool kiriPlaces_Reserve(kiriPlaces* places, const kiriMemory* memory, const kiri
     return true;
 }
 
-bool kiriPlaces_Add(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, kiriPoint at)
+bool kiriPlaces_Add(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint at)
 {
     if (!kiriPlaces_Reserve(places, memory, mesh, (int64_t)places->next.count + 1)) {
         return false;
@@ -172,7 +172,7 @@ bool kiriPlaces_Add(kiriPlaces* places, const kiriMemory* memory, const kiriMesh
 }
 
 /* The latest sample of a square is the first in its list. */
-void kiriPlaces_Truncate(kiriPlaces* places, const kiriMeshData* mesh, int32_t sampleCount, const kiriPoint* at)
+void kiriPlaces_Truncate(kiriPlaces* places, const kiriMeshData* mesh, int32_t sampleCount, const kiriLatticePoint* at)
 {
     while (places->next.count > sampleCount) {
         int32_t sample = --places->next.count, square = kiriSquares_At(&mesh->squares, at[sample]);
@@ -255,8 +255,9 @@ static int32_t CellOf(const Samples* samples, int32_t square, int32_t sample)
     if (samples->grid->cells.data[first].next == KIRI_NONE) {
         return first;
     }
-    return samples->places == NULL ? kiriGrid_CellOfVertex(samples->grid, samples->mesh, sample)
-                                   : kiriGrid_CellAround(samples->grid, samples->mesh, samples->points->data[sample].at);
+    return samples->places == NULL
+               ? kiriGrid_CellOfVertex(samples->grid, samples->mesh, sample)
+               : kiriGrid_CellAround(samples->grid, samples->mesh, samples->points->data[sample].at);
 }
 
 /* A sample has often the cell of the one before. */
@@ -264,7 +265,8 @@ static bool RefreshOne(kiriRefresh* refresh, const Samples* samples, int32_t squ
 {
     kiriStencil* stencil = &refresh->stencil;
     int32_t cell = CellOf(samples, square, sample);
-    kiriPoint at = samples->places == NULL ? samples->mesh->vertices.data[sample].at : samples->points->data[sample].at;
+    kiriLatticePoint at =
+        samples->places == NULL ? samples->mesh->vertices.data[sample].at : samples->points->data[sample].at;
     if (stencil->cell != cell &&
         !kiriStencil_Gather(stencil, samples->memory, samples->shape, samples->grid, samples->mesh, cell)) {
         return false;
@@ -348,12 +350,12 @@ static void AddMotion(kiriMotion* sum, const kiriFrameData* frame, kiriVec2 loca
 }
 
 kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* frames, const kiriMeshData* mesh,
-                           int32_t triangle, kiriPoint at)
+                           int32_t triangle, kiriLatticePoint at)
 {
     kiriMotion motion;
     memset(&motion, 0, sizeof(motion));
     kiriVec2 local = kiriMesh_Local(mesh, at);
-    kiriPoint corners[3];
+    kiriLatticePoint corners[3];
     kiriMesh_Corners(mesh, triangle, corners);
     double area = (double)kiriOrient(corners[0], corners[1], corners[2]);
     for (int k = 0; k < 3; ++k) {

@@ -21,9 +21,9 @@ typedef struct kiriSkin {
 
 /* A material point that the host collides with the world. */
 typedef struct kiriSample {
-    kiriPoint at;  /* in the material */
-    int32_t cell;  /* around it */
-    int32_t frame; /* in whose region it is */
+    kiriLatticePoint at; /* in the material */
+    int32_t cell;        /* around it */
+    int32_t frame;       /* in whose region it is */
 } kiriSample;
 
 typedef KIRI_ARRAY(kiriSample) kiriSamples;
@@ -52,8 +52,8 @@ typedef struct kiriPlaces {
 } kiriPlaces;
 /* After it Add does not fail until there are so many samples. */
 bool kiriPlaces_Reserve(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount);
-bool kiriPlaces_Add(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, kiriPoint at);
-void kiriPlaces_Truncate(kiriPlaces* places, const kiriMeshData* mesh, int32_t sampleCount, const kiriPoint* at);
+bool kiriPlaces_Add(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint at);
+void kiriPlaces_Truncate(kiriPlaces* places, const kiriMeshData* mesh, int32_t sampleCount, const kiriLatticePoint* at);
 void kiriPlaces_Release(kiriPlaces* places, const kiriMemory* memory);
 
 /* Stages, of all samples that follow the shape functions, those whose weights may have changed: each in a cell of
@@ -85,6 +85,6 @@ kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrame
 
 /* The motion at a lattice point of a triangle, from the weights of its corners. */
 kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* frames, const kiriMeshData* mesh,
-                           int32_t triangle, kiriPoint at);
+                           int32_t triangle, kiriLatticePoint at);
 
 #endif

@@ -543,7 +543,7 @@ kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCoun
     counts->cells = data->grid.cellCount;
     counts->frames = data->frames.count;
     counts->links = data->links.links.count;
-    counts->pieces = data->model.pieces.count;
+    counts->pieces = data->layout.pieces.count;
     counts->collisionPoints = data->points.count;
     return KIRI_OK;
 }
@@ -594,10 +594,10 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
     CHECK(restPoint != NULL && AreFinite(restPoint, 2) && count != NULL, "restPoint or count is null, or not finite");
     CHECK(capacity == 0 || (capacity > 0 && frames != NULL && weights != NULL), "capacity without frames and weights");
     FIND(data, kiriSheetData, sheetIds, sheet);
-    if (data->update.stage > 0 || data->update.isStale) {
+    if (data->update.stage > 0 || data->update.needsRebuild) {
         return FAIL(KIRI_ERROR_STATE, "a cut is being worked on; ask again when its work is done");
     }
-    kiriPoint at;
+    kiriLatticePoint at;
     bool inRange = kiriSheet_ToLattice(data, restPoint, &at);
     int32_t cell = inRange ? kiriGrid_CellAt(&data->grid, &data->mesh, at) : KIRI_NONE;
     CHECK(cell != KIRI_NONE, "restPoint lies outside the material");
@@ -624,7 +624,7 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
 
 #define FIND_PIECE(data, piece)                                                                                        \
     do {                                                                                                               \
-        CHECK(IsWithin(piece, 0, data->model.pieces.count - 1), "the sheet has no such piece");                        \
+        CHECK(IsWithin(piece, 0, data->layout.pieces.count - 1), "the sheet has no such piece");                       \
         if (!kiriPieces_List(data)) {                                                                                  \
             return FAIL(KIRI_ERROR_MEMORY, "out of memory");                                                           \
         }                                                                                                              \
@@ -677,14 +677,14 @@ kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* 
     BEGIN(world);
     CHECK(piece != NULL, "piece is null");
     FIND(sheet, kiriSheetData, frameIds, frame);
-    *piece = sheet->model.framePiece.data[kiriPool_Find(&world->frameIds, frame)->index];
+    *piece = sheet->layout.framePiece.data[kiriPool_Find(&world->frameIds, frame)->index];
     return KIRI_OK;
 }
 
 /* Why the sheet cannot be taken apart now, or null. */
 static const char* FaultOfParting(const kiriSheetData* sheet)
 {
-    if (sheet->update.stage != KIRI_NONE || sheet->update.isStale) {
+    if (sheet->update.stage != KIRI_NONE || sheet->update.needsRebuild) {
         return "a cut is being worked on; ask again when its work is done";
     }
     return NULL;
@@ -696,8 +696,8 @@ static const char* FaultOfParting(const kiriSheetData* sheet)
         if (parting != NULL) {                                                                                         \
             return FAIL(KIRI_ERROR_STATE, parting);                                                                    \
         }                                                                                                              \
-        CHECK(IsWithin(piece, 0, data->model.pieces.count - 1), "the sheet has no such piece");                        \
-        if (data->model.pieces.count == 1) {                                                                           \
+        CHECK(IsWithin(piece, 0, data->layout.pieces.count - 1), "the sheet has no such piece");                       \
+        if (data->layout.pieces.count == 1) {                                                                          \
             return FAIL(KIRI_ERROR_STATE, "the piece is all of the sheet");                                            \
         }                                                                                                              \
     } while (0)
@@ -740,7 +740,7 @@ kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, i
 static void Wait(const kiriWorld* world, kiriCutData* cut, kiriVec2 to, bool jump)
 {
     kiriSheetData* sheet = cut->sheet;
-    kiriStroke stroke = { cut, to, world->ticks, jump };
+    kiriQueuedPoint stroke = { cut, to, world->ticks, jump };
     cut->waiting += 1;
     sheet->queue.data[sheet->queue.count++] = stroke;
 }

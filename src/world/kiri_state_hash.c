@@ -30,7 +30,7 @@ static void Vec3(uint64_t* hash, kiriVec3 a)
     Real(hash, a.z);
 }
 
-static void Point(uint64_t* hash, kiriPoint p)
+static void Point(uint64_t* hash, kiriLatticePoint p)
 {
     Int(hash, p.x);
     Int(hash, p.y);
@@ -102,24 +102,24 @@ static void Patches(uint64_t* hash, const kiriPatches* patches)
     }
 }
 
-static void Model(uint64_t* hash, const kiriSheetData* sheet)
+static void Layout(uint64_t* hash, const kiriSheetData* sheet)
 {
-    const kiriModel* model = &sheet->model;
+    const kiriLayout* layout = &sheet->layout;
     for (int32_t i = 0; i < sheet->links.links.count; ++i) {
         Link(hash, &sheet->links.links.data[i]);
     }
-    Patches(hash, &model->patches);
+    Patches(hash, &layout->patches);
     for (int32_t i = 0; i < sheet->points.count; ++i) {
         Point(hash, sheet->points.data[i].at);
         Int(hash, sheet->points.data[i].frame);
     }
     Skin(hash, &sheet->vertexSkin);
     Skin(hash, &sheet->pointSkin);
-    for (int32_t i = 0; i < model->framePiece.count; ++i) {
-        Int(hash, model->framePiece.data[i]);
+    for (int32_t i = 0; i < layout->framePiece.count; ++i) {
+        Int(hash, layout->framePiece.data[i]);
     }
-    for (int32_t i = 0; i < model->pinFrame.count; ++i) {
-        Int(hash, model->pinFrame.data[i]);
+    for (int32_t i = 0; i < layout->pinFrame.count; ++i) {
+        Int(hash, layout->pinFrame.data[i]);
     }
 }
 
@@ -209,11 +209,11 @@ static void Waiting(uint64_t* hash, const kiriSheetData* sheet)
     Contacts(hash, sheet->contacts.data, sheet->contacts.count);
 }
 
-static void Eases(uint64_t* hash, const kiriEases* eases)
+static void Eases(uint64_t* hash, const kiriStrainOffsets* strainOffsets)
 {
-    for (int32_t k = 0; k < eases->eases.count; ++k) {
+    for (int32_t k = 0; k < strainOffsets->strainOffsets.count; ++k) {
         for (int e = 0; e < KIRI_STRAINS; ++e) {
-            Real(hash, eases->eases.data[k].strain[e]);
+            Real(hash, strainOffsets->strainOffsets.data[k].strain[e]);
         }
     }
 }
@@ -246,12 +246,12 @@ uint64_t kiriSnapshot_Hash(const kiriWorld* world)
         const kiriSheetData* sheet = world->sheets.data[i];
         Parameters(&hash, sheet);
         Mesh(&hash, &sheet->mesh);
-        Model(&hash, sheet);
+        Layout(&hash, sheet);
         uint64_t pattern = kiriSolver_Hash(sheet->solver);
         Bytes(&hash, &pattern, sizeof(pattern));
         Waiting(&hash, sheet);
         Sleep(&hash, sheet);
-        Eases(&hash, &sheet->eases);
+        Eases(&hash, &sheet->strainOffsets);
         Fades(&hash, &sheet->fades);
         Fades(&hash, &sheet->pointFades);
         for (int32_t f = 0; f < sheet->frames.count; ++f) {
@@ -323,7 +323,7 @@ uint64_t kiriSnapshot_HashLayout(const kiriSheetData* sheet)
 {
     uint64_t hash = 14695981039346656037u;
     Mesh(&hash, &sheet->mesh);
-    Model(&hash, sheet);
+    Layout(&hash, sheet);
     for (int32_t s = 0; s < sheet->grid.squareCell.count; ++s) {
         for (int32_t c = sheet->grid.squareCell.data[s]; c != KIRI_NONE; c = sheet->grid.cells.data[c].next) {
             Cell(&hash, sheet, c);

@@ -69,7 +69,7 @@ static bool Update(kiriWorld* world, kiriSheetData* sheet, Quotas* quotas)
     u->isBegun = true;
     u->startStage = u->stage;
     u->startTaken = u->taken;
-    u->startTorn = u->isTorn;
+    u->startMeshChanged = u->meshChanged;
     while (u->stage < STAGE_COUNT) {
         const Stage* stage = &stages[u->stage];
         Enter(world, stage->name);
@@ -78,7 +78,7 @@ static bool Update(kiriWorld* world, kiriSheetData* sheet, Quotas* quotas)
             return progress == KIRI_MORE;
         }
         /* A blade may move outside the sheet, or along edges that are open already. */
-        u->stage = u->isTorn ? u->stage + 1 : STAGE_COUNT;
+        u->stage = u->meshChanged ? u->stage + 1 : STAGE_COUNT;
     }
     return true;
 }
@@ -127,7 +127,7 @@ static bool ReserveRoom(kiriWorld* world)
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         const kiriSheetData* sheet = world->sheets.data[i];
         events += sheet->cuts.count;
-        if (IsReady(sheet) && sheet->update.isTorn) {
+        if (IsReady(sheet) && sheet->update.meshChanged) {
             frames += sheet->update.sites.count - sheet->frames.count;
             events += sheet->update.next.pieces.count;
         }
@@ -148,12 +148,12 @@ static kiriEvent* AddEvent(kiriWorld* world, int32_t type, const kiriSheetData* 
 
 static void CountWork(kiriProfile* profile, const kiriSheetData* sheet)
 {
-    const kiriTouched* touched = &sheet->update.touched;
-    profile->cellsChanged += touched->cells;
-    profile->weightsChanged += touched->weights;
-    profile->verticesChanged += touched->vertices;
-    profile->pointsChanged += touched->points;
-    profile->linksChanged += touched->links;
+    const kiriCommitCounts* counts = &sheet->update.counts;
+    profile->cellsChanged += counts->cells;
+    profile->weightsChanged += counts->weights;
+    profile->verticesChanged += counts->vertices;
+    profile->pointsChanged += counts->points;
+    profile->linksChanged += counts->links;
     profile->commits += 1;
 }
 
@@ -165,13 +165,13 @@ static void Commit(kiriWorld* world, kiriSheetData* sheet)
     for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
         sheet->frames.data[i].id = kiriPool_Add(&world->frameIds, &world->memory, sheet, i);
     }
-    for (int32_t piece = 0; piece < sheet->model.pieces.count; ++piece) {
-        if (sheet->model.pieces.data[piece].cameOff) {
+    for (int32_t piece = 0; piece < sheet->layout.pieces.count; ++piece) {
+        if (sheet->layout.pieces.data[piece].cameOff) {
             kiriEvent* event = AddEvent(world, KIRI_EVENT_PIECE_OFF, sheet);
             event->piece = piece;
-            event->frame = sheet->frames.data[sheet->model.pieces.data[piece].frame].id;
-            event->crumb = sheet->model.pieces.data[piece].area < sheet->crumbArea;
-            event->area = (float)sheet->model.pieces.data[piece].area;
+            event->frame = sheet->frames.data[sheet->layout.pieces.data[piece].frame].id;
+            event->crumb = sheet->layout.pieces.data[piece].area < sheet->crumbArea;
+            event->area = (float)sheet->layout.pieces.data[piece].area;
         }
     }
     for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
@@ -205,7 +205,7 @@ static void Finish(kiriWorld* world, kiriSheetData* sheet)
     for (int32_t i = 0; i < sheet->update.count; ++i) {
         world->profile.cutSegments += !sheet->queue.data[i].jump;
     }
-    if (sheet->update.isTorn) {
+    if (sheet->update.meshChanged) {
         Commit(world, sheet);
     }
     kiriUpdate_Finish(sheet);
@@ -502,13 +502,13 @@ bool kiriWorld_DropPiece(kiriWorld* world, kiriSheetData* sheet, int32_t piece)
 /* Marks what stays, and returns how many pieces do not. */
 static int32_t KeepAbove(kiriExtract* extract, double area)
 {
-    const kiriModel* model = &extract->from->model;
+    const kiriLayout* layout = &extract->from->layout;
     int32_t largest = 0, dropped = 0;
-    for (int32_t p = 1; p < model->pieces.count; ++p) {
-        largest = model->pieces.data[p].area > model->pieces.data[largest].area ? p : largest;
+    for (int32_t p = 1; p < layout->pieces.count; ++p) {
+        largest = layout->pieces.data[p].area > layout->pieces.data[largest].area ? p : largest;
     }
-    for (int32_t p = 0; p < model->pieces.count; ++p) {
-        extract->keep.data[p] = p == largest || model->pieces.data[p].area >= area;
+    for (int32_t p = 0; p < layout->pieces.count; ++p) {
+        extract->keep.data[p] = p == largest || layout->pieces.data[p].area >= area;
         dropped += !extract->keep.data[p];
     }
     return dropped;
