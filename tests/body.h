@@ -164,14 +164,8 @@ static inline void Body_End(Body* body, const BodyDef* def)
 
 static inline void Body_Drop(Body* body)
 {
-    const kiriMemory* memory = &body->scene.memory;
-    kiriSolver_Destroy(body->solver);
-    kiriPatches_Release(&body->patches, memory);
-    kiriIntegrationWork_Release(&body->points, memory);
+    kiriMemory* memory = &body->scene.memory;
     kiriArray_Release(memory, &body->material);
-    kiriLinks_Release(&body->links, memory);
-    kiriShape_Release(&body->shape, memory);
-    kiriRegions_Release(&body->regions, memory);
     kiriArray_Release(memory, &body->sites);
     Scene_Release(&body->scene);
 }

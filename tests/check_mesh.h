@@ -46,10 +46,12 @@ static inline void Rectangle_Free(Rectangle* r)
 }
 
 /* The default memory. */
-static inline const kiriMemory* Heap(void)
+static inline kiriMemory* Heap(void)
 {
     static kiriMemory heap;
-    heap = kiriMemory_Make(NULL, NULL, NULL);
+    if (heap.alloc == NULL) {
+        heap = kiriMemory_Make(NULL, NULL, NULL);
+    }
     return &heap;
 }
 

@@ -10,7 +10,7 @@
 #include "view/kiri_sample.h"
 
 typedef struct Follow {
-    const kiriMemory* memory;
+    kiriMemory* memory;
     kiriMeshData* mesh;
     kiriGrid grid;
     kiriSites sites;
@@ -31,24 +31,16 @@ typedef struct Follow {
 static inline void Follow_Init(Follow* f, const Scene* scene)
 {
     memset(f, 0, sizeof(*f));
-    f->memory = &scene->memory;
+    f->memory = (kiriMemory*)&scene->memory;
     f->mesh = (kiriMeshData*)&scene->mesh;
     f->shape.rigidWeight = 0.9;
 }
 
 static inline void Follow_Release(Follow* f)
 {
-    kiriGrid_Release(&f->grid, f->memory);
     kiriArray_Release(f->memory, &f->sites);
     kiriArray_Release(f->memory, &f->anchors);
     kiriArray_Release(f->memory, &f->moves);
-    kiriRegions_Release(&f->regions, f->memory);
-    kiriShape_Release(&f->shape, f->memory);
-    kiriLinks_Release(&f->links, f->memory);
-    kiriRefresh_Release(&f->refresh, f->memory);
-    kiriSkin_Release(&f->vertexSkin, f->memory);
-    kiriSkin_Release(&f->pointSkin, f->memory);
-    kiriPlaces_Release(&f->places, f->memory);
     kiriArray_Release(f->memory, &f->points);
 }
 

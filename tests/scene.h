@@ -177,12 +177,10 @@ static inline void Scene_Init(Scene* scene, double width, double height, int32_t
     Scene_InitMesh(scene, width, height, columns, rows, resolution, 0.0, 1);
 }
 
-/* Whatever is out after this has leaked. */
+/* Whatever is out after this was not owned. */
 static inline void Scene_Release(Scene* scene)
 {
-    kiriField_Release(&scene->field, &scene->memory);
-    kiriGrid_Release(&scene->grid, &scene->memory);
-    kiriMesh_Release(&scene->mesh);
+    kiriMemory_FreeAll(&scene->memory);
     assert_int_equal(scene->purse.out, 0);
 }
 

@@ -589,7 +589,7 @@ static void TestPlanarStays(void** state)
         BodyDef def = DefOf(0.2, 0.15, model, 1, Rubber);
         kiriMat3 axes = kiriMat3_Cayley(Vec3(0.7, -0.4, 0.3));
         Make(&body, &def, 4, 3, 0.2, 2);
-        kiriSolver_Destroy(body.solver);
+
         body.system.mechanics.axes = axes;
         Body_MakeSolver(&body);
         Body_Deform(&body, &axes, Vec3(0.0, 0.0, 0.0));

@@ -87,8 +87,8 @@ static void PoolsFindWhatIsThere(void** state)
         assert_true(i % 3 == 0 ? slot == NULL : slot->owner == &owners[i] && slot->index == i);
         assert_null(kiriPool_Find(&pools[1], ids[i]));
     }
-    kiriPool_Release(&pools[0], &memory);
-    kiriPool_Release(&pools[1], &memory);
+    kiriMemory_FreeAll(&memory);
+    kiriMemory_FreeAll(&memory);
     assert_int_equal(purse.out, 0);
 }
 
@@ -121,7 +121,7 @@ static void PoolsNeverRepeat(void** state)
     for (int i = 1; i < COUNT; ++i) {
         assert_true(ids[i] != ids[i - 1] && ids[i] != 0);
     }
-    kiriPool_Release(&pool, &memory);
+    kiriMemory_FreeAll(&memory);
 }
 
 /* All slots given: no more, until one comes back. */
@@ -145,7 +145,7 @@ static void PoolsFillUp(void** state)
     kiriPool_Remove(&pool, id);
     assert_true(kiriPool_Reserve(&pool, &memory, 1));
     assert_int_not_equal(kiriPool_Add(&pool, &memory, &owner, 0), 0);
-    kiriPool_Release(&pool, &memory);
+    kiriMemory_FreeAll(&memory);
 }
 
 static void PoolsFail(void** state)
@@ -162,7 +162,7 @@ static void PoolsFail(void** state)
     for (int i = 0; i < 50; ++i) {
         assert_int_not_equal(kiriPool_Add(&pool, &memory, &owner, i), 0); /* cannot fail after Reserve */
     }
-    kiriPool_Release(&pool, &memory);
+    kiriMemory_FreeAll(&memory);
     assert_int_equal(purse.out, 0);
 }
 

@@ -79,7 +79,7 @@ static void Expect(kiriMeshData* mesh, int32_t pieces, int32_t vertices, int32_t
     assert_int_equal(mesh->triangles.count, triangles);
     assert_int_equal(OpenEdges(mesh), openEdges);
     assert_int_equal(kiriMesh_DoubledArea(mesh), (int64_t)1 << 59);
-    kiriMesh_Release(mesh);
+    kiriMemory_FreeAll(mesh->memory);
 }
 
 /* ---- Hand-made cases on the 4 x 4 sheet: 25 vertices, 32 triangles ----------------------------------------------- */
@@ -136,7 +136,7 @@ static void BladeGoesOn(void** state)
     blade = kiriCut_Place(&mesh, kiriVec2_Make(2.6, 2.7));
     assert_int_equal(Move(&mesh, &blade, blade.at, 1e-4 * LatticeSize), KIRI_DONE);
     assert_int_equal(mesh.triangles.count, triangles);
-    kiriMesh_Release(&mesh);
+    kiriMemory_FreeAll(mesh.memory);
 }
 
 static void FollowsEdges(void** state)
@@ -184,7 +184,7 @@ static void SnapsToVerticesAndEdges(void** state)
     InitSheet(&mesh);
     Cut(&mesh, xy, 2, 1e-6 * LatticeSize);
     assert_int_equal(VerticesAt(&mesh, 1.0002, 1.0), 2);
-    kiriMesh_Release(&mesh);
+    kiriMemory_FreeAll(mesh.memory);
 }
 
 /* A row of vertices at a small angle must not lead the blade away. */
@@ -204,7 +204,7 @@ static void DoesNotDrift(void** state)
             ASSERT_NEAR(p.y, 1.0 + p.x * (0.6 / 256.0), 0.02001);
         }
     }
-    kiriMesh_Release(&mesh);
+    kiriMemory_FreeAll(mesh.memory);
 }
 
 static void CrossesCuts(void** state)
@@ -222,7 +222,7 @@ static void CrossesCuts(void** state)
     CutLine(&mesh, 1.25 - 0.5, 2.125 - 0.75, 1.25 + 0.5, 2.125 + 0.75);
     assert_int_equal(VerticesAt(&mesh, 1.25, 2.125), 6);
     assert_int_equal(CheckMesh(&mesh), 4);
-    kiriMesh_Release(&mesh);
+    kiriMemory_FreeAll(mesh.memory);
 }
 
 static void FollowsOlderCuts(void** state)
@@ -256,7 +256,7 @@ static void CrossesItself(void** state)
     }
     double area = 0.5 * ((3.5 - x) * (3.0 - y) - (0.625 - y) * (2.0 - x));
     ASSERT_NEAR(AreaAt(&mesh, 2.2, 1.0), area, 4e-3);
-    kiriMesh_Release(&mesh);
+    kiriMemory_FreeAll(mesh.memory);
 }
 
 static void ClosesLoops(void** state)
@@ -272,7 +272,7 @@ static void ClosesLoops(void** state)
     ASSERT_NEAR(AreaAt(&mesh, 2.0, 2.0), 2.56, 1e-6);
     assert_int_equal(VerticesAt(&mesh, 1.2, 1.2), 2);
     assert_int_equal(CheckMesh(&mesh), 2);
-    kiriMesh_Release(&mesh);
+    kiriMemory_FreeAll(mesh.memory);
 }
 
 static void LeavesAndComesBack(void** state)
@@ -291,7 +291,7 @@ static void LeavesAndComesBack(void** state)
     ASSERT_NEAR(AreaAt(&mesh, 0.1, 0.1), 0.375, 1e-7);
     ASSERT_NEAR(AreaAt(&mesh, 0.1, 3.9), 1.05, 1e-7);
     assert_int_equal(CheckMesh(&mesh), 3);
-    kiriMesh_Release(&mesh);
+    kiriMemory_FreeAll(mesh.memory);
 }
 
 static void LeavesTheOutlineAlone(void** state)
@@ -321,7 +321,7 @@ static void StartsOnTheOutline(void** state)
     CutLine(&mesh, 0.0, 3.0, 3.0, 4.0);
     ASSERT_NEAR(AreaAt(&mesh, 0.1, 3.9), 1.5, 1e-7);
     assert_int_equal(CheckMesh(&mesh), 2);
-    kiriMesh_Release(&mesh);
+    kiriMemory_FreeAll(mesh.memory);
 }
 
 /* ---- Other outlines ---------------------------------------------------------------------------------------------- */
@@ -382,7 +382,7 @@ static void CutsOverGaps(void** state)
     CutLine(&mesh, 3.0, 1.0, 0.0, 1.0);
     assert_int_equal(CheckMesh(&mesh), 3);
     assert_int_equal(OpenEdges(&mesh), 2);
-    kiriMesh_Release(&mesh);
+    kiriMemory_FreeAll(mesh.memory);
 }
 
 static void CutsToHoles(void** state)
@@ -401,7 +401,7 @@ static void CutsToHoles(void** state)
     CutLine(&mesh, -1.0, -1.0, 4.0, 4.0);
     assert_int_equal(CheckMesh(&mesh), 2);
     ASSERT_NEAR(AreaAt(&mesh, 2.0, 0.5), 4.0, 1e-7);
-    kiriMesh_Release(&mesh);
+    kiriMemory_FreeAll(mesh.memory);
 }
 
 /* Squares that touch at corners only: twins do not lead over them. */
@@ -428,7 +428,7 @@ static void CutsThroughPinches(void** state)
         Cut(&mesh, xy, 2, 1e-4 * LatticeSize);
         assert_int_equal(CheckMesh(&mesh), 3 + side);
     }
-    kiriMesh_Release(&mesh);
+    kiriMemory_FreeAll(mesh.memory);
 }
 
 /* The blade only touches the sharp corner; it must not be led along a side. */
@@ -445,7 +445,7 @@ static void TouchesSharpCorners(void** state)
         double base = side > 0 ? 0.0 : 1.0; /* local coordinates start at the box's corner */
         CutLine(&mesh, -1.5, base - side, 3.0, base + 2.0 * side);
         assert_int_equal(mesh.triangles.count, 1);
-        kiriMesh_Release(&mesh);
+        kiriMemory_FreeAll(mesh.memory);
     }
 }
 
@@ -467,7 +467,7 @@ static void CutsThroughSplitSides(void** state)
         CheckFans(&mesh);
         CheckSquares(&mesh);
         assert_int_equal(CheckPieces(&mesh), 4);
-        kiriMesh_Release(&mesh);
+        kiriMemory_FreeAll(mesh.memory);
     }
 }
 
@@ -498,7 +498,7 @@ static void Clips(void** state)
     to = kiriVec2_Make(1.7e308, 0.5);
     assert_true(kiriCut_Clip(&mesh, &from, &to));
     assert_true(from.x == -0.5 && to.x == 1.5 && fabs(from.y - 0.5) < 1e-15 && fabs(to.y - 0.5) < 1e-15);
-    kiriMesh_Release(&mesh);
+    kiriMemory_FreeAll(mesh.memory);
 }
 
 static void PlacesWithinRange(void** state)
@@ -520,7 +520,7 @@ static void PlacesWithinRange(void** state)
     kiriBlade end = kiriCut_Place(&mesh, kiriVec2_Make(xy[2], xy[3]));
     assert_int_equal(Move(&mesh, &blade, end.at, 1.0), KIRI_DONE);
     assert_int_equal(CheckMesh(&mesh), 2);
-    kiriMesh_Release(&mesh);
+    kiriMemory_FreeAll(mesh.memory);
 }
 
 /* ---- Random cuts ------------------------------------------------------------------------------------------------- */
@@ -659,7 +659,7 @@ static void CutsAtRandomOnOneSheet(void** state)
     InitRectangle(&mesh, 16, 16, 1.0f, 1.0f, 32);
     CutAtRandom(&mesh, 2015, 1000, 0.06, 1e-3 * LatticeSize, 40);
     assert_int_equal(kiriMesh_DoubledArea(&mesh), (int64_t)1 << 59);
-    kiriMesh_Release(&mesh);
+    kiriMemory_FreeAll(mesh.memory);
 }
 
 static void CutsAtRandomFarAndWide(void** state)
@@ -672,7 +672,7 @@ static void CutsAtRandomFarAndWide(void** state)
         InitRectangle(&mesh, 16, 16, 1.0f, 1.0f, 1 + (int32_t)round);
         CutAtRandom(&mesh, 100 + round, 8, 0.6, snap, 1);
         assert_int_equal(kiriMesh_DoubledArea(&mesh), (int64_t)1 << 59);
-        kiriMesh_Release(&mesh);
+        kiriMemory_FreeAll(mesh.memory);
     }
 }
 
@@ -707,7 +707,7 @@ static void CutsAtRandomOnARing(void** state)
         int64_t area = kiriMesh_DoubledArea(&mesh);
         CutAtRandom(&mesh, 500 + round, 30, round % 2 == 0 ? 0.5 : 0.1, 1e-4 * LatticeSize, 5);
         assert_true(fabs((double)(kiriMesh_DoubledArea(&mesh) - area)) <= 1e-8 * (double)area);
-        kiriMesh_Release(&mesh);
+        kiriMemory_FreeAll(mesh.memory);
     }
 }
 
@@ -739,7 +739,7 @@ static void RollsBackWithoutMemory(void** state)
         assert_true(Copy_Equals(&copy, &mesh));
         CheckMesh(&mesh);
         Copy_Free(&copy);
-        kiriMesh_Release(&mesh);
+        kiriMemory_FreeAll(mesh.memory);
         assert_int_equal(meter.live, 0);
         assert_true(!done || n > 8);
     }
@@ -767,8 +767,8 @@ static void RepeatsAfterRollback(void** state)
     Copy copy = Copy_Make(&once);
     assert_true(Copy_Equals(&copy, &twice));
     Copy_Free(&copy);
-    kiriMesh_Release(&once);
-    kiriMesh_Release(&twice);
+    kiriMemory_FreeAll(once.memory);
+    kiriMemory_FreeAll(twice.memory);
 }
 
 /* ---- Interrupted moves ------------------------------------------------------------------------------------------- */
@@ -853,7 +853,7 @@ static void InterruptedMovesGoOn(void** state)
         assert_true(whole.triangles.count > 300);
         CheckMesh(&parts);
         for (int k = 0; k < 3; ++k) {
-            kiriMesh_Release(meshes[k]);
+            kiriMemory_FreeAll(meshes[k]->memory);
         }
     }
 }
@@ -875,7 +875,7 @@ static void SmallQuotasWait(void** state)
     assert_int_equal(Move(&mesh, &blade, to, 1.0), KIRI_DONE);
     assert_true(blade.at.x == to.x && blade.at.y == to.y);
     Copy_Free(&copy);
-    kiriMesh_Release(&mesh);
+    kiriMemory_FreeAll(mesh.memory);
 }
 
 /* ---- Touched squares --------------------------------------------------------------------------------------------- */
@@ -959,7 +959,7 @@ static void TouchesWhatChanges(void** state)
             }
         }
         CheckMesh(&mesh);
-        kiriMesh_Release(&mesh);
+        kiriMemory_FreeAll(mesh.memory);
     }
     assert_true(changed > 1000);
 }

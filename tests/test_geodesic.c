@@ -51,9 +51,7 @@ static void OpenSquare(Sheet* sheet, int32_t resolution)
 
 static void CloseSheet(Sheet* sheet)
 {
-    kiriField_Release(&sheet->field, &sheet->memory);
-    kiriGrid_Release(&sheet->grid, &sheet->memory);
-    kiriMesh_Release(&sheet->mesh);
+    kiriMemory_FreeAll(sheet->mesh.memory);
     assert_int_equal(sheet->blocks.live, 0);
 }
 
@@ -480,7 +478,6 @@ static void CheckRepaired(Sheet* sheet, const kiriRule* rule)
     FloodBy(sheet, &other, rule, seeds.data, seeds.count);
     assert_memory_equal(other.distance.data, sheet->field.distance.data, sizeof(int32_t) * (size_t)n);
     assert_memory_equal(other.owner.data, sheet->field.owner.data, sizeof(int32_t) * (size_t)n);
-    kiriField_Release(&other, &sheet->memory);
     kiriArray_Release(&sheet->memory, &seeds);
 }
 
@@ -527,13 +524,13 @@ static void TestFailingMemory(void** state)
     kiriSeed seeds[2] = { { 0, 0, 0 }, { 30, 0, 1 } };
     int32_t live = sheet.blocks.live, failures = 0;
     for (bool done = false; !done; ++failures) {
+        kiriMemory own = kiriMemory_Like(&sheet.memory);
         kiriField field = { 0 };
         sheet.blocks.calls = 0;
         sheet.blocks.failAt = failures + 1;
-        done = kiriField_Resize(&field, &sheet.memory, sheet.grid.cells.count) &&
-               kiriField_Start(&field, &sheet.memory, seeds, 2);
+        done = kiriField_Resize(&field, &own, sheet.grid.cells.count) && kiriField_Start(&field, &own, seeds, 2);
         assert_int_equal(done, sheet.blocks.calls < sheet.blocks.failAt);
-        kiriField_Release(&field, &sheet.memory);
+        kiriMemory_FreeAll(&own);
         assert_int_equal(sheet.blocks.live, live);
     }
     assert_int_equal(failures, 8); /* seven arrays */

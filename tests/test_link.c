@@ -28,19 +28,6 @@ static void Build(Scene* scene, Links* l, const kiriSite* sites, int32_t count)
     free(moves);
 }
 
-static void Release(Scene* scene, Links* l)
-{
-    kiriLinks_Release(&l->made, &scene->memory);
-    kiriShape_Release(&l->shape, &scene->memory);
-    kiriRegions_Release(&l->regions, &scene->memory);
-}
-
-static void Finish(Scene* scene, Links* l)
-{
-    Release(scene, l);
-    Scene_Release(scene);
-}
-
 static int32_t OwnerOf(const Links* l, int32_t cell)
 {
     return l->regions.field.owner.data[cell];
@@ -90,7 +77,7 @@ static void StripHasStraightLinks(void** state)
         AssertNear(link->span.y, 0.0, 1e-12);
         AssertNear(link->braced, 0.0, 0.0);
     }
-    Finish(&scene, &links);
+    Scene_Release(&scene);
 }
 
 /* Sixteen square regions: a link is braced by what its two regions have on both sides along the tangent. */
@@ -112,7 +99,7 @@ static void NeighboursBrace(void** state)
         int line = link->j - link->i == 1 ? link->i / 4 : link->i % 4; /* of regions, that the link lies in */
         AssertNear(link->braced, line == 0 || line == 3 ? 0.5 : 1.0, 1e-4);
     }
-    Finish(&scene, &links);
+    Scene_Release(&scene);
 }
 
 /* The same border, crossed from right to left: the link is seen from the lower index. */
@@ -129,7 +116,7 @@ static void NormalPointsToTheHigherIndex(void** state)
     AssertNear(links.made.links.data[0].normal.x, -1.0, 0.0);
     AssertNear(links.made.links.data[0].tangent.y, -1.0, 0.0);
     AssertNear(links.made.links.data[0].width, 0.25, 1e-12);
-    Finish(&scene, &links);
+    Scene_Release(&scene);
 }
 
 static void SlitMakesTheLongWay(void** state)
@@ -151,7 +138,7 @@ static void SlitMakesTheLongWay(void** state)
     AssertNear(link->crossing.x, 0.5, 0.03);
     AssertNear(link->crossing.y, 0.8, 0.04);
     AssertNear(link->width, 0.2, 0.05); /* the border may cross the slit's last square on either side */
-    Finish(&scene, &links);
+    Scene_Release(&scene);
 }
 
 static void CompleteCutHasNoLink(void** state)
@@ -165,10 +152,9 @@ static void CompleteCutHasNoLink(void** state)
     kiriSite sites[2] = { Scene_Site(&scene, 0.25, 0.25), Scene_Site(&scene, 0.75, 0.25) };
     Build(&scene, &links, sites, 2);
     assert_int_equal(links.made.links.count, 0);
-    Release(&scene, &links);
     Build(&scene, &links, sites, 1);
     assert_int_equal(OwnerOf(&links, sites[1].cell), KIRI_NONE);
-    Finish(&scene, &links);
+    Scene_Release(&scene);
 }
 
 static void HoleMakesTwoStretches(void** state)
@@ -196,7 +182,7 @@ static void HoleMakesTwoStretches(void** state)
     /* Over the hole it is a longer way than under it, and one that passes by a corner of the hole. */
     assert_true(links.made.links.data[1].length > links.made.links.data[0].length);
     AssertNear(links.made.links.data[1].crossing.y, 0.41, 0.02);
-    Finish(&scene, &links);
+    Scene_Release(&scene);
 }
 
 static void DiagonalBorderHasItsTrueLength(void** state)
@@ -219,7 +205,7 @@ static void DiagonalBorderHasItsTrueLength(void** state)
     AssertNear(link->moment, width * width * width / 12.0, 1e-6);
     AssertNear(link->length, 20.0 * sqrt(2.0) * scene.grid.side, 1e-12);
     AssertNear(link->crossing.x, 20.5 * scene.grid.side, 1e-6);
-    Finish(&scene, &links);
+    Scene_Release(&scene);
 }
 
 /* The nearest neighbours on a diagonal: a way over faces alone would be half as long again. */
@@ -235,7 +221,7 @@ static void ShortDiagonalIsStraight(void** state)
     assert_int_equal(links.made.links.count, 1);
     AssertNear(links.made.links.data[0].length, 2.0 * sqrt(2.0) * scene.grid.side, 1e-12);
     AssertNear(links.made.links.data[0].crossing.x, 0.5 * (sites[0].at.x + sites[1].at.x), 1e-12);
-    Finish(&scene, &links);
+    Scene_Release(&scene);
 }
 
 /* Frame 0 sits at the bottom of a corridor, and frame 1 before its mouth, hardly farther from it: the border turns back
@@ -267,7 +253,7 @@ static void BentBorderIsSplit(void** state)
     }
     AssertNear(total, expected, 1e-12);
     assert_true(kiriVec2_Length(vector) < 0.5 * total);
-    Finish(&scene, &links);
+    Scene_Release(&scene);
 }
 
 /* Width, centroid and second moment of a link between partly covered squares, where the faces are no whole sides. */
@@ -284,7 +270,7 @@ static void PartialFacesCount(void** state)
     AssertNear(links.made.links.data[0].width, 0.13, 1e-7);
     AssertNear(links.made.links.data[0].centroid.y, 0.065, 1e-7);
     AssertNear(links.made.links.data[0].moment, 0.13 * 0.13 * 0.13 / 12.0, 1e-9);
-    Finish(&scene, &links);
+    Scene_Release(&scene);
 }
 
 /* On randomly cut sheets: the regions share out the sheet; the links are in order, no shorter than the straight
@@ -336,7 +322,7 @@ static void RandomSheetsAddUp(void** state)
         found += links.made.links.count;
         free(sums);
         kiriArray_Release(&scene.memory, &sites);
-        Finish(&scene, &links);
+        Scene_Release(&scene);
     }
     assert_true(found > 1000);
 }
@@ -357,7 +343,7 @@ static void SlitAcrossTheBorderPartsIt(void** state)
         AssertNear(links.made.links.data[k].width, 0.25, 1e-6);
         AssertNear(links.made.links.data[k].centroid.y, k == 0 ? 0.125 : 0.375, 1e-6);
     }
-    Finish(&scene, &links);
+    Scene_Release(&scene);
 }
 
 /* Centroid and second moment of a border that is no straight line, against the integral over its projection: points
@@ -396,7 +382,7 @@ static void MomentsOfASlantedBorder(void** state)
     AssertNear(link->moment, second - weight * mean * mean, 1e-6 * link->moment);
     assert_true(fabs(link->normal.x) > 0.3 && fabs(link->normal.x) < 0.65);
     AssertNear(weight, link->width, 1e-9);
-    Finish(&scene, &links);
+    Scene_Release(&scene);
 }
 
 /* ---- Following cuts ---------------------------------------------------------------------------------------------- */

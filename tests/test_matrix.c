@@ -114,7 +114,7 @@ static void TestSolves(void** state)
                 assert_true(Residual(unknowns) < 1e-10);
             }
         }
-        kiriMatrix_Destroy(matrix);
+        kiriMemory_FreeAll(&memory);
     }
 }
 
@@ -143,7 +143,7 @@ static void TestCovers(void** state)
         assert_true(kiriMatrix_Shape(matrix, 20, pairs, pairCount) && kiriMatrix_Hash(matrix) == hash);
         assert_true(kiriMatrix_Shape(matrix, 21, pairs, pairCount) && kiriMatrix_Hash(matrix) != hash);
     }
-    kiriMatrix_Destroy(matrix);
+    kiriMemory_FreeAll(&memory);
 }
 
 /* No factor where a pivot is not positive by far; one all the same where only rounding says so. */
@@ -170,7 +170,7 @@ static void TestNotPositive(void** state)
         kiriMatrix_AddSquares(matrix, frames, 2, J, k, isBad ? 0 : 3);
         assert_int_equal(kiriMatrix_Factor(matrix), !isBad);
     }
-    kiriMatrix_Destroy(matrix);
+    kiriMemory_FreeAll(&memory);
 }
 
 int main(void)

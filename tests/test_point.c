@@ -116,8 +116,6 @@ static void TestBuildingAgain(void** state)
         kiriPatches first = body.patches;
         memset(&body.patches, 0, sizeof(body.patches));
         for (bool built = false; !built; ++fewest) {
-            kiriPatches_Release(&patches, &body.scene.memory);
-            kiriIntegrationWork_Release(&work, &body.scene.memory);
             memset(&work, 0, sizeof(work));
             body.scene.purse.budget = fewest;
             built = Rebuild(&patches, &work, &def);
@@ -136,9 +134,6 @@ static void TestBuildingAgain(void** state)
             assert_true(a->frame == b->frame && a->weight == b->weight);
             assert_true(a->slope.x == b->slope.x && a->slope.y == b->slope.y && a->u.x == b->u.x && a->v.y == b->v.y);
         }
-        kiriPatches_Release(&patches, &body.scene.memory);
-        kiriPatches_Release(&first, &body.scene.memory);
-        kiriIntegrationWork_Release(&work, &body.scene.memory);
         Body_Drop(&body);
     }
 }

@@ -91,13 +91,7 @@ static void OpenSquare(Sheet* sheet, int32_t resolution)
 
 static void CloseSheet(Sheet* sheet)
 {
-    kiriRegions_Release(&sheet->regions, &sheet->memory);
-    kiriGrid_Release(&sheet->grid, &sheet->memory);
-    kiriMesh_Release(&sheet->mesh);
-    kiriArray_Release(&sheet->memory, &sheet->sites);
-    kiriArray_Release(&sheet->memory, &sheet->anchors);
-    kiriArray_Release(&sheet->memory, &sheet->moves);
-    kiriArray_Release(&sheet->memory, &sheet->was);
+    kiriMemory_FreeAll(sheet->mesh.memory);
     assert_int_equal(sheet->blocks.live, 0);
 }
 
@@ -450,7 +444,6 @@ static void CheckAgainstScratch(Sheet* sheet)
     if (frames > 0) {
         assert_memory_equal(fresh.material.data, regions->material.data, frames * sizeof(kiriTally));
     }
-    kiriRegions_Release(&fresh, &sheet->memory);
 }
 
 static int32_t CheckAll(Sheet* sheet)

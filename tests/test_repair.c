@@ -105,9 +105,7 @@ static void Open(Net* net, int32_t count, double share, uint32_t* seed)
 
 static void Close(Net* net)
 {
-    kiriArray_Release(&net->memory, &net->grid.runs);
-    kiriArray_Release(&net->memory, &net->grid.steps);
-    kiriField_Release(&net->field, &net->memory);
+    kiriMemory_FreeAll(&net->memory);
     assert_int_equal(net->blocks, 0);
 }
 

@@ -192,7 +192,6 @@ static void PlacesListSamples(void** state)
         }
         assert_int_equal(found, inside);
     }
-    kiriPlaces_Release(&places, &scene.memory);
     Scene_Release(&scene);
 }
 
@@ -216,12 +215,11 @@ static void FailingAllocatorLeaksNothing(void** state)
         }
         Follow_Weights(&f, &seed);
         assert_true(Follow_Links(&f));
-        kiriSkin_Release(&f.pointSkin, f.memory);
+        memset(&f.pointSkin, 0, sizeof(f.pointSkin));
         for (int32_t k = 0; k < f.points.count; ++k) {
             kiriSpan none = { 0, 0 };
             assert_true(kiriArray_Push(f.memory, &f.pointSkin.spans, none));
         }
-        kiriRefresh_Release(&f.refresh, f.memory);
         memset(&f.refresh, 0, sizeof(f.refresh));
         scene.purse.budget = budget;
         done = Follow_Samples(&f) == KIRI_DONE;

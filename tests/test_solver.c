@@ -17,6 +17,7 @@ typedef struct Scene {
     kiriPinRow pins[4];
     kiriContactRow contacts[4];
     kiriSystem system;
+    kiriMemory memory; /* of the solver */
     kiriSolver* solver;
 } Scene;
 
@@ -86,8 +87,8 @@ static void BeginScene(Scene* s, kiriMaterial material)
 
 static void EndScene(Scene* s)
 {
-    kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
-    s->solver = kiriSolver_Create(&memory, &s->system.mechanics);
+    s->memory = kiriMemory_Make(NULL, NULL, NULL);
+    s->solver = kiriSolver_Create(&s->memory, &s->system.mechanics);
     assert_non_null(s->solver);
     assert_true(kiriSolver_Stage(s->solver, s->system.frameCount, s->links, s->system.linkCount, NULL));
     kiriSolver_Commit(s->solver);
@@ -123,7 +124,7 @@ static void MakeSquare(Scene* s, double side, kiriMaterial material)
 
 static void Drop(Scene* s)
 {
-    kiriSolver_Destroy(s->solver);
+    kiriMemory_FreeAll(&s->memory);
 }
 
 static kiriVec3 SitePosition(const kiriFrameData* frame)
@@ -1072,7 +1073,6 @@ static void TestNoMemory(void** state)
     kiriMemory memory = kiriMemory_Make(NoMemory, NothingToFree, NULL);
     (void)state;
     assert_null(kiriSolver_Create(&memory, &scene.system.mechanics));
-    kiriSolver_Destroy(NULL);
 }
 
 /* ---- Staging ----------------------------------------------------------------------------------------------------- */

@@ -49,12 +49,12 @@ static void Cloth_Init(Cloth* cloth, int32_t rows)
 
 static void Cloth_Release(Cloth* cloth)
 {
-    kiriSurface_Release(&cloth->surface, &cloth->room);
+    kiriMemory_FreeAll(&cloth->room);
     kiriArray_Release(&cloth->memory, &cloth->skin.spans);
     kiriArray_Release(&cloth->memory, &cloth->skin.weights);
     kiriArray_Release(&cloth->memory, &cloth->frames);
     kiriArray_Release(&cloth->memory, &cloth->links);
-    kiriMesh_Release(&cloth->mesh);
+    kiriMemory_FreeAll(cloth->mesh.memory);
 }
 
 static kiriVec2 RestOf(const Cloth* cloth, int32_t v)

@@ -9,7 +9,7 @@ typedef struct Header {
     int32_t capacity;
 } Header;
 
-bool kiriArray_Grow(const kiriMemory* memory, void* array, int64_t need, size_t itemBytes)
+bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBytes)
 {
     Header header;
     memcpy(&header, array, sizeof(header));
@@ -38,7 +38,7 @@ bool kiriArray_Grow(const kiriMemory* memory, void* array, int64_t need, size_t 
     return true;
 }
 
-void kiriArray_Release(const kiriMemory* memory, void* array)
+void kiriArray_Release(kiriMemory* memory, void* array)
 {
     Header header;
     memcpy(&header, array, sizeof(header));

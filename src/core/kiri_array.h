@@ -13,10 +13,10 @@
     }
 
 /* Makes room for `need` items in all. `array` points to a KIRI_ARRAY whose items have itemBytes. */
-bool kiriArray_Grow(const kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
+bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
 
 /* Frees the items and leaves the array empty. */
-void kiriArray_Release(const kiriMemory* memory, void* array);
+void kiriArray_Release(kiriMemory* memory, void* array);
 
 #define kiriArray_Reserve(memory, array, need)                                                                         \
     ((int64_t)(need) <= (array)->capacity || kiriArray_Grow((memory), (array), (need), sizeof(*(array)->data)))

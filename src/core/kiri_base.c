@@ -1,6 +1,22 @@
 #include "kiri_base.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+#if defined(KIRI_ASSERTS)
+#include <stdio.h>
+
+void kiriAssertFailed(const char* condition, const char* file, int line)
+{
+    fprintf(stderr, "%s:%d: assertion failed: %s\n", file, line, condition);
+    abort();
+}
+#endif
+
+enum { HEADER_BYTES = 16 }; /* keeps the alignment of the host's block */
+
+/* Fails to compile where a block's header does not fit. */
+typedef char HeaderFits[sizeof(kiriBlock) <= HEADER_BYTES ? 1 : -1];
 
 static void* DefaultAlloc(void* user, int64_t bytes)
 {
@@ -16,7 +32,7 @@ static void DefaultFree(void* user, void* pointer)
 
 kiriMemory kiriMemory_Make(kiriAllocFn* alloc, kiriFreeFn* free, void* user)
 {
-    kiriMemory memory = { DefaultAlloc, DefaultFree, NULL };
+    kiriMemory memory = { DefaultAlloc, DefaultFree, NULL, NULL };
     if (alloc != NULL) {
         memory.alloc = alloc;
         memory.free = free;
@@ -25,14 +41,81 @@ kiriMemory kiriMemory_Make(kiriAllocFn* alloc, kiriFreeFn* free, void* user)
     return memory;
 }
 
-void* kiriMemory_Alloc(const kiriMemory* memory, int64_t bytes)
+kiriMemory kiriMemory_Like(const kiriMemory* memory)
 {
-    return memory->alloc(memory->user, bytes > 0 ? bytes : 1);
+    return kiriMemory_Make(memory->alloc, memory->free, memory->user);
 }
 
-void kiriMemory_Free(const kiriMemory* memory, void* pointer)
+static kiriBlock* BlockOf(void* pointer)
+{
+    return (kiriBlock*)((char*)pointer - HEADER_BYTES);
+}
+
+static void Link(kiriMemory* memory, kiriBlock* block)
+{
+    block->next = memory->blocks;
+    block->link = &memory->blocks;
+    if (block->next != NULL) {
+        block->next->link = &block->next;
+    }
+    memory->blocks = block;
+}
+
+static void Unlink(kiriBlock* block)
+{
+    *block->link = block->next;
+    if (block->next != NULL) {
+        block->next->link = block->link;
+    }
+}
+
+void* kiriMemory_Alloc(kiriMemory* memory, int64_t bytes)
+{
+    KIRI_ASSERT(bytes >= 0);
+    kiriBlock* block = memory->alloc(memory->user, bytes + HEADER_BYTES);
+    if (block == NULL) {
+        return NULL;
+    }
+    Link(memory, block);
+    return (char*)block + HEADER_BYTES;
+}
+
+void* kiriMemory_AllocZeroed(kiriMemory* memory, int64_t bytes)
+{
+    void* pointer = kiriMemory_Alloc(memory, bytes);
+    return pointer != NULL ? memset(pointer, 0, (size_t)bytes) : NULL;
+}
+
+void kiriMemory_Free(kiriMemory* memory, void* pointer)
 {
     if (pointer != NULL) {
-        memory->free(memory->user, pointer);
+        Unlink(BlockOf(pointer));
+        memory->free(memory->user, BlockOf(pointer));
+    }
+}
+
+void kiriMemory_FreeAll(kiriMemory* memory)
+{
+    while (memory->blocks != NULL) {
+        kiriBlock* block = memory->blocks;
+        memory->blocks = block->next;
+        memory->free(memory->user, block);
+    }
+}
+
+void kiriMemory_Adopt(kiriMemory* memory, void* pointer)
+{
+    if (pointer != NULL) {
+        Unlink(BlockOf(pointer));
+        Link(memory, BlockOf(pointer));
+    }
+}
+
+void kiriMemory_AdoptAll(kiriMemory* memory, kiriMemory* from)
+{
+    while (from->blocks != NULL) {
+        kiriBlock* block = from->blocks;
+        Unlink(block);
+        Link(memory, block);
     }
 }

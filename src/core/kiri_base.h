@@ -1,4 +1,4 @@
-/* Memory through the host's hooks. Every other file allocates through this one. */
+/* Memory through the host's hooks, assertions, and what a budget counts. Every other file allocates through this one. */
 #ifndef KIRI_BASE_H
 #define KIRI_BASE_H
 
@@ -14,17 +14,60 @@ extern "C" {
 
 enum { KIRI_NONE = -1 };
 
+/* ---- Assertions ---- */
+
+/* Checked where KIRI_ASSERTS is defined, as `make config=debug` and `config=sanitize` do; elsewhere they cost nothing.
+   A host that defines KIRI_ASSERT_HANDLER as the name of a function of its own gets the call; else the program stops. */
+#if !defined(KIRI_ASSERTS)
+#define KIRI_ASSERT(condition) ((void)sizeof((condition) ? 1 : 0))
+#else
+#if defined(KIRI_ASSERT_HANDLER)
+void KIRI_ASSERT_HANDLER(const char* condition, const char* file, int line);
+#else
+#define KIRI_ASSERT_HANDLER kiriAssertFailed
+void kiriAssertFailed(const char* condition, const char* file, int line);
+#endif
+#define KIRI_ASSERT(condition) ((condition) ? (void)0 : KIRI_ASSERT_HANDLER(#condition, __FILE__, __LINE__))
+#endif
+
+/* ---- Memory ---- */
+
+/* Comes before each block. */
+typedef struct kiriBlock {
+    struct kiriBlock* next;
+    struct kiriBlock** link; /* what points to this block */
+} kiriBlock;
+
+/* The host's hooks, and the list of all blocks that this owner has from them: they are freed together, so nothing made of
+   blocks needs a release of its own. The owner must not move while it has blocks. */
 typedef struct kiriMemory {
     kiriAllocFn* alloc;
     kiriFreeFn* free;
     void* user;
+    kiriBlock* blocks;
 } kiriMemory;
 
 /* malloc and free where the hooks are null. */
 kiriMemory kiriMemory_Make(kiriAllocFn* alloc, kiriFreeFn* free, void* user);
 
+/* Another owner with the same hooks, without blocks. */
+kiriMemory kiriMemory_Like(const kiriMemory* memory);
+
 /* Null when there is no memory. Not zeroed. */
-void* kiriMemory_Alloc(const kiriMemory* memory, int64_t bytes);
+void* kiriMemory_Alloc(kiriMemory* memory, int64_t bytes);
+
+/* The same, zeroed. */
+void* kiriMemory_AllocZeroed(kiriMemory* memory, int64_t bytes);
+
+/* Null is allowed. The block may be of any owner with these hooks. */
+void kiriMemory_Free(kiriMemory* memory, void* pointer);
+void kiriMemory_FreeAll(kiriMemory* memory);
+
+/* The block, or all blocks of another owner with the same hooks, get this owner. Never fails. */
+void kiriMemory_Adopt(kiriMemory* memory, void* pointer);
+void kiriMemory_AdoptAll(kiriMemory* memory, kiriMemory* from);
+
+/* ---- Budget ---- */
 
 /* How far a piece of work has come that a budget may interrupt. */
 typedef enum kiriProgress {
@@ -39,12 +82,10 @@ typedef struct kiriQuota {
     int64_t used;
 } kiriQuota;
 
-/* Null is allowed. */
-void kiriMemory_Free(const kiriMemory* memory, void* pointer);
-
 /* Takes items from the quota; false, and takes none, where fewer are left. */
 static inline bool kiriQuota_Take(kiriQuota* quota, int64_t items)
 {
+    KIRI_ASSERT(items >= 0 && quota->left >= 0);
     if (items > quota->left) {
         return false;
     }

@@ -11,12 +11,7 @@ void kiriPool_Init(kiriPool* pool, uint32_t kind)
     *pool = empty;
 }
 
-void kiriPool_Release(kiriPool* pool, const kiriMemory* memory)
-{
-    kiriArray_Release(memory, &pool->slots);
-}
-
-bool kiriPool_Reserve(kiriPool* pool, const kiriMemory* memory, int32_t count)
+bool kiriPool_Reserve(kiriPool* pool, kiriMemory* memory, int32_t count)
 {
     int64_t need = (int64_t)pool->slots.count + count;
     for (int32_t slot = pool->freeSlot; slot != KIRI_NONE && count > 0; slot = pool->slots.data[slot].index) {
@@ -26,7 +21,7 @@ bool kiriPool_Reserve(kiriPool* pool, const kiriMemory* memory, int32_t count)
     return need <= (int64_t)slotMask + 1 && kiriArray_Reserve(memory, &pool->slots, need);
 }
 
-uint32_t kiriPool_Add(kiriPool* pool, const kiriMemory* memory, void* owner, int32_t index)
+uint32_t kiriPool_Add(kiriPool* pool, kiriMemory* memory, void* owner, int32_t index)
 {
     int32_t slot = pool->freeSlot;
     if (slot != KIRI_NONE) {

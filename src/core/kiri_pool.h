@@ -20,13 +20,12 @@ typedef struct kiriPool {
 } kiriPool;
 
 void kiriPool_Init(kiriPool* pool, uint32_t kind);
-void kiriPool_Release(kiriPool* pool, const kiriMemory* memory);
 
 /* After it, `count` calls of Add cannot fail. */
-bool kiriPool_Reserve(kiriPool* pool, const kiriMemory* memory, int32_t count);
+bool kiriPool_Reserve(kiriPool* pool, kiriMemory* memory, int32_t count);
 
 /* 0 when there is no room. */
-uint32_t kiriPool_Add(kiriPool* pool, const kiriMemory* memory, void* owner, int32_t index);
+uint32_t kiriPool_Add(kiriPool* pool, kiriMemory* memory, void* owner, int32_t index);
 
 /* Null for an id that names nothing here. */
 kiriSlot* kiriPool_Find(const kiriPool* pool, uint32_t id);

@@ -21,7 +21,7 @@ static void* ItemAt(void* array, size_t itemBytes, int32_t index)
 }
 
 /* Room of a size class; KIRI_NONE for memory. */
-static int32_t Take(kiriSpans* spans, const kiriMemory* memory, void* array, size_t itemBytes, int size)
+static int32_t Take(kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes, int size)
 {
     int32_t first = spans->freeHead[size] - 1;
     if (first != KIRI_NONE) {
@@ -44,8 +44,7 @@ static void Give(kiriSpans* spans, void* array, size_t itemBytes, int32_t first,
     spans->freeHead[size] = first + 1;
 }
 
-bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, const kiriMemory* memory, void* array, size_t itemBytes,
-                     int32_t count)
+bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes, int32_t count)
 {
     int from = SizeOf(span->count), to = SizeOf(count);
     if (count > 0 && (span->count == 0 || from < to)) {

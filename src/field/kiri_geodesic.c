@@ -18,7 +18,7 @@ enum {
 };
 enum { AT_REST, TAKING, GIVING }; /* stages of a repair */
 
-bool kiriField_Resize(kiriField* field, const kiriMemory* memory, int32_t cellCount)
+bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount)
 {
     if (!kiriArray_Reserve(memory, &field->distance, cellCount) ||
         !kiriArray_Reserve(memory, &field->owner, cellCount) ||
@@ -34,18 +34,6 @@ bool kiriField_Resize(kiriField* field, const kiriMemory* memory, int32_t cellCo
     }
     field->distance.count = field->owner.count = field->marks.count = cellCount;
     return true;
-}
-
-void kiriField_Release(kiriField* field, const kiriMemory* memory)
-{
-    kiriArray_Release(memory, &field->distance);
-    kiriArray_Release(memory, &field->owner);
-    kiriArray_Release(memory, &field->settled);
-    kiriArray_Release(memory, &field->log);
-    kiriArray_Release(memory, &field->heap);
-    kiriArray_Release(memory, &field->suspects);
-    kiriArray_Release(memory, &field->marks);
-    field->cursor[STAGE] = AT_REST;
 }
 
 void kiriField_Reset(kiriField* field)
@@ -251,7 +239,7 @@ static kiriProgress Sweep(kiriField* field, const kiriRule* rule, kiriQuota* quo
     return source == FROM_NOWHERE ? KIRI_DONE : KIRI_MORE;
 }
 
-bool kiriField_Start(kiriField* field, const kiriMemory* memory, const kiriSeed* seeds, int32_t seedCount)
+bool kiriField_Start(kiriField* field, kiriMemory* memory, const kiriSeed* seeds, int32_t seedCount)
 {
     field->heap.count = 0;
     if (!kiriArray_Resize(memory, &field->heap, seedCount)) {
@@ -308,7 +296,7 @@ static bool IsGiven(const kiriField* field, const kiriRule* rule, int32_t cell)
 }
 
 /* Suspects the cells that may have their value from this one. */
-static bool SuspectDependents(kiriField* field, const kiriMemory* memory, const kiriRule* rule, int32_t cell)
+static bool SuspectDependents(kiriField* field, kiriMemory* memory, const kiriRule* rule, int32_t cell)
 {
     const kiriStepRun* run = &rule->grid->runs.data[cell];
     kiriSeed value = ValueOf(field, cell);
@@ -329,7 +317,7 @@ static bool SuspectDependents(kiriField* field, const kiriMemory* memory, const 
 
 /* Takes away what nothing gives any more; what is left are ways that still exist, if not the shortest. Of the
    caller's suspects only: where ways do not pass (any longer), dependents may have lost theirs. */
-static kiriProgress TakeAway(kiriField* field, const kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
+static kiriProgress TakeAway(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
 {
     for (; field->cursor[CHECKED] < field->suspects.count; ++field->cursor[CHECKED]) {
         int32_t cell = field->suspects.data[field->cursor[CHECKED]];
@@ -371,7 +359,7 @@ static kiriSeed BestOf(const kiriField* field, const kiriRule* rule, int32_t cel
 
 /* The seeds of the sweep: all that is known at the rim of what was taken away, and at suspects, which may reach
    farther now than they did. */
-static bool SeedSweep(kiriField* field, const kiriMemory* memory, const kiriRule* rule)
+static bool SeedSweep(kiriField* field, kiriMemory* memory, const kiriRule* rule)
 {
     field->heap.count = 0;
     if (!kiriArray_Reserve(memory, &field->heap, field->suspects.count)) {
@@ -415,7 +403,7 @@ static void End(kiriField* field)
     field->cursor[STAGE] = AT_REST;
 }
 
-kiriProgress kiriField_Repair(kiriField* field, const kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
+kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
 {
     if (field->cursor[STAGE] == AT_REST) {
         Begin(field);

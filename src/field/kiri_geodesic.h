@@ -45,16 +45,15 @@ typedef struct kiriField {
 } kiriField;
 
 /* Room for so many cells; new ones are FAR. A zeroed field is empty. False for memory: what was there stays. */
-bool kiriField_Resize(kiriField* field, const kiriMemory* memory, int32_t cellCount);
+bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount);
 
 /* Makes it a field of no cells, whatever its state; keeps the memory. */
 void kiriField_Clear(kiriField* field);
-void kiriField_Release(kiriField* field, const kiriMemory* memory);
 
 /* ---- From scratch ---- */
 
 /* Starts a flood from the seeds. The field must be empty: FAR everywhere. */
-bool kiriField_Start(kiriField* field, const kiriMemory* memory, const kiriSeed* seeds, int32_t seedCount);
+bool kiriField_Start(kiriField* field, kiriMemory* memory, const kiriSeed* seeds, int32_t seedCount);
 
 /* Goes on. An item of the quota is a cell settled. Allocates nothing: never KIRI_FAILED. */
 kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* quota);
@@ -75,6 +74,6 @@ void kiriField_Forget(kiriField* field, int32_t cell);
    that are not forgotten. An item of the quota is a cell whose distance is taken away or given, or a suspect that
    keeps it. KIRI_MORE: call again with the same rule before anything changes. The log tells what changed; empty it
    (its count) when it is read. On KIRI_FAILED only Clear or Release make sense. */
-kiriProgress kiriField_Repair(kiriField* field, const kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);
+kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);
 
 #endif

@@ -77,7 +77,7 @@ static bool IsFlagged(const kiriGridWork* work, int32_t square, int flag)
     return (work->squareFlags.data[square] & flag) != 0;
 }
 
-static bool FlagSquare(kiriGridWork* work, const kiriMemory* memory, int32_t square, int flag)
+static bool FlagSquare(kiriGridWork* work, kiriMemory* memory, int32_t square, int flag)
 {
     uint8_t* flags = &work->squareFlags.data[square];
     bool ok = *flags != 0 || kiriArray_Push(memory, &work->flagged, square);
@@ -86,13 +86,13 @@ static bool FlagSquare(kiriGridWork* work, const kiriMemory* memory, int32_t squ
 }
 
 /* Puts the square in the list of a flag, once an update. */
-static bool ListSquare(kiriGridWork* work, const kiriMemory* memory, int32_t square, int flag, Ints* list)
+static bool ListSquare(kiriGridWork* work, kiriMemory* memory, int32_t square, int flag, Ints* list)
 {
     return IsFlagged(work, square, flag) ||
            (FlagSquare(work, memory, square, flag) && kiriArray_Push(memory, list, square));
 }
 
-static bool Restep(kiriGrid* grid, const kiriMemory* memory, int32_t cell)
+static bool Restep(kiriGrid* grid, kiriMemory* memory, int32_t cell)
 {
     uint8_t* flags = &grid->work->cellFlags.data[cell];
     bool listed = (*flags & CELL_RESTEPPED) != 0;
@@ -101,7 +101,7 @@ static bool Restep(kiriGrid* grid, const kiriMemory* memory, int32_t cell)
 }
 
 /* The face between two cells comes or goes. */
-static bool Relink(kiriGrid* grid, const kiriMemory* memory, int32_t a, int32_t b)
+static bool Relink(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b)
 {
     kiriGridWork* work = grid->work;
     return work->fromScratch ||
@@ -110,7 +110,7 @@ static bool Relink(kiriGrid* grid, const kiriMemory* memory, int32_t a, int32_t 
             ListSquare(work, memory, grid->cells.data[b].square, SQUARE_RELINKED, &work->relinked));
 }
 
-static bool SetMaterial(kiriGrid* grid, const kiriMemory* memory, int32_t c, const kiriMoments* material)
+static bool SetMaterial(kiriGrid* grid, kiriMemory* memory, int32_t c, const kiriMoments* material)
 {
     kiriCell* cell = &grid->cells.data[c];
     kiriRemade remade = { c, cell->material };
@@ -127,7 +127,7 @@ static bool SetMaterial(kiriGrid* grid, const kiriMemory* memory, int32_t c, con
 }
 
 /* The index of a new cell, or KIRI_NONE for memory. */
-static int32_t AddCell(kiriGrid* grid, const kiriMemory* memory, int32_t square)
+static int32_t AddCell(kiriGrid* grid, kiriMemory* memory, int32_t square)
 {
     const kiriCell cell = { square, KIRI_NONE, KIRI_NONE, KIRI_NONE, { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 } };
     const kiriStepRun run = { 0, { 0, 0, 0 } };
@@ -453,7 +453,7 @@ static int32_t NextFace(const kiriFace* face, int32_t cell)
 }
 
 /* Null for memory. */
-static kiriFace* AddFace(kiriGrid* grid, const kiriMemory* memory, int32_t a, int32_t b, int axis)
+static kiriFace* AddFace(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b, int axis)
 {
     kiriCell *cellA = &grid->cells.data[a], *cellB = &grid->cells.data[b];
     const kiriFace face = { { a, b }, { cellA->firstFace, cellB->firstFace }, axis, 0.0, { 0.0, 0.0 }, 0.0 };
@@ -481,7 +481,7 @@ static void UnlinkFace(kiriGrid* grid, int32_t f, int32_t cell)
     *link = NextFace(&grid->faces.data[f], cell);
 }
 
-static bool RemoveFace(kiriGrid* grid, const kiriMemory* memory, int32_t f)
+static bool RemoveFace(kiriGrid* grid, kiriMemory* memory, int32_t f)
 {
     kiriFace* face = &grid->faces.data[f];
     bool ok = Relink(grid, memory, face->cell[0], face->cell[1]);
@@ -495,7 +495,7 @@ static bool RemoveFace(kiriGrid* grid, const kiriMemory* memory, int32_t f)
 
 /* The face between two cells, new if there is none yet; null for memory. Looks from both ends at once, since a cell
    with many faces, a comb, most often touches cells with few. */
-static kiriFace* FaceBetween(kiriGrid* grid, const kiriMemory* memory, int32_t a, int32_t b, int axis)
+static kiriFace* FaceBetween(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b, int axis)
 {
     int32_t f = grid->cells.data[a].firstFace, g = grid->cells.data[b].firstFace;
     while (f != KIRI_NONE && g != KIRI_NONE) {
@@ -605,7 +605,7 @@ static bool AddFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, i
 }
 
 /* Empties the faces on the lower side of a square along the axis, and keeps what they were. */
-static bool EmptyFaces(kiriGrid* grid, const kiriMemory* memory, int32_t square, int axis)
+static bool EmptyFaces(kiriGrid* grid, kiriMemory* memory, int32_t square, int axis)
 {
     kiriGridWork* work = grid->work;
     work->oldFaces.count = 0;
@@ -626,7 +626,7 @@ static bool EmptyFaces(kiriGrid* grid, const kiriMemory* memory, int32_t square,
 }
 
 /* Finds out what became of the faces that were emptied. */
-static bool CompareFaces(kiriGrid* grid, const kiriMemory* memory)
+static bool CompareFaces(kiriGrid* grid, kiriMemory* memory)
 {
     for (int32_t i = 0; i < grid->work->oldFaces.count; ++i) {
         const OldFace* old = &grid->work->oldFaces.data[i];
@@ -684,7 +684,7 @@ static int32_t CountSteps(const kiriStepRun* run)
 }
 
 /* Room for so many steps; false for memory. */
-static bool SetStepCount(kiriGrid* grid, const kiriMemory* memory, int32_t c, int32_t count)
+static bool SetStepCount(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t count)
 {
     kiriStepRun* run = &grid->runs.data[c];
     kiriSpan span = { run->first, RoomFor(CountSteps(run)) };
@@ -695,7 +695,7 @@ static bool SetStepCount(kiriGrid* grid, const kiriMemory* memory, int32_t c, in
 }
 
 /* The cell's steps become those in `work`, so many of each length. */
-static bool SetSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c, int32_t straight, int32_t near)
+static bool SetSteps(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t straight, int32_t near)
 {
     const kiriGridWork* work = grid->work;
     kiriStepRun* run = &grid->runs.data[c];
@@ -718,7 +718,7 @@ static bool SetSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c, int32_
 
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
 
-static bool RemoveCell(kiriGrid* grid, const kiriMemory* memory, int32_t c)
+static bool RemoveCell(kiriGrid* grid, kiriMemory* memory, int32_t c)
 {
     kiriCell* cell = &grid->cells.data[c];
     while (cell->firstFace != KIRI_NONE) {
@@ -787,7 +787,7 @@ static bool FindCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
 }
 
 /* The old cells of the square become the new ones in their order; what is left over comes or goes. */
-static bool ReplaceCells(kiriGrid* grid, const kiriMemory* memory, int32_t square)
+static bool ReplaceCells(kiriGrid* grid, kiriMemory* memory, int32_t square)
 {
     int32_t old = grid->squareCell.data[square], last = KIRI_NONE;
     grid->squareCell.data[square] = KIRI_NONE;
@@ -848,7 +848,7 @@ static bool MakeCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 /* ---- Steps ------------------------------------------------------------------------------------------------------- */
 
 /* The steps of the square's cells are to be made again. */
-static bool StepSquare(kiriGrid* grid, const kiriMemory* memory, int32_t square)
+static bool StepSquare(kiriGrid* grid, kiriMemory* memory, int32_t square)
 {
     if (IsFlagged(grid->work, square, SQUARE_RESTEPPED)) {
         return true;
@@ -888,13 +888,13 @@ static const kiriStep openSteps[] = {
     { 0, KIRI_UNIT_KNIGHT, 1, 2 },
 };
 
-static bool AddStep(kiriGrid* grid, const kiriMemory* memory, kiriStep step)
+static bool AddStep(kiriGrid* grid, kiriMemory* memory, kiriStep step)
 {
     return kiriArray_Push(memory, &grid->work->steps, step);
 }
 
 /* Adds steps that the cell has. */
-static bool AddSteps(kiriGrid* grid, const kiriMemory* memory, int32_t from, int32_t end)
+static bool AddSteps(kiriGrid* grid, kiriMemory* memory, int32_t from, int32_t end)
 {
     kiriGridWork* work = grid->work;
     int32_t count = work->steps.count;
@@ -967,7 +967,7 @@ static int64_t NewMark(kiriGridWork* work)
     return work->lastMark;
 }
 
-static bool AddStraightSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c)
+static bool AddStraightSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
 {
     for (int32_t f = grid->cells.data[c].firstFace; f != KIRI_NONE; f = NextFace(&grid->faces.data[f], c)) {
         if (!AddStep(grid, memory, Straight(&grid->faces.data[f], c))) {
@@ -978,7 +978,7 @@ static bool AddStraightSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c
 }
 
 /* To cells reached along u, then v, and also along v, then u: both ways around the corner. */
-static bool AddDiagonalSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c)
+static bool AddDiagonalSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
 {
     const kiriFace* faces = grid->faces.data;
     const kiriCell* cells = grid->cells.data;
@@ -1010,7 +1010,7 @@ static bool AddDiagonalSteps(kiriGrid* grid, const kiriMemory* memory, int32_t c
 static bool MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
     kiriGridWork* work = grid->work;
-    const kiriMemory* memory = mesh->memory;
+    kiriMemory* memory = mesh->memory;
     int32_t c = work->stepped.data[item];
     const kiriStepRun* run = &grid->runs.data[c];
     work->steps.count = 0;
@@ -1037,7 +1037,7 @@ static bool IsKnightMove(kiriStep straight, kiriStep diagonal)
 }
 
 /* To cells reached straight, then diagonally, and also diagonally, then straight: a slit is never jumped. */
-static bool AddKnightSteps(kiriGrid* grid, const kiriMemory* memory, const kiriStepRun* run)
+static bool AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriStepRun* run)
 {
     const kiriStep* steps = grid->steps.data;
     const kiriStepRun* runs = grid->runs.data;
@@ -1064,7 +1064,7 @@ static bool AddKnightSteps(kiriGrid* grid, const kiriMemory* memory, const kiriS
 
 static bool MakeKnightSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
-    const kiriMemory* memory = mesh->memory;
+    kiriMemory* memory = mesh->memory;
     int32_t c = grid->work->knights.data[item];
     const kiriStepRun run = grid->runs.data[c];
     grid->work->steps.count = 0;
@@ -1116,7 +1116,7 @@ static bool MakeItem(kiriGrid* grid, const kiriMeshData* mesh)
 static bool ReserveCells(kiriGrid* grid, const kiriMeshData* mesh)
 {
     kiriGridWork* work = grid->work;
-    const kiriMemory* memory = mesh->memory;
+    kiriMemory* memory = mesh->memory;
     int64_t squares = 0;
     for (int32_t s = 0; s < grid->squareCell.count; ++s) {
         squares += mesh->squares.head[s] != KIRI_NONE;
@@ -1154,11 +1154,10 @@ static bool StartFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
 static bool Start(kiriGrid* grid, const kiriMeshData* mesh)
 {
     if (grid->work == NULL) {
-        grid->work = kiriMemory_Alloc(mesh->memory, (int64_t)sizeof(*grid->work));
-        if (grid->work == NULL) {
-            return false;
-        }
-        memset(grid->work, 0, sizeof(*grid->work));
+        grid->work = kiriMemory_AllocZeroed(mesh->memory, sizeof(*grid->work));
+    }
+    if (grid->work == NULL) {
+        return false;
     }
     grid->work->fromScratch = grid->squareCell.count == 0;
     grid->work->running = true;
@@ -1228,44 +1227,6 @@ void kiriGrid_Reset(kiriGrid* grid)
         grid->work->cellFlags.count = grid->work->mark.count = 0;
         Rest(grid->work);
     }
-}
-
-static void ReleaseWork(kiriGridWork* work, const kiriMemory* memory)
-{
-    kiriArray_Release(memory, &work->remade);
-    kiriArray_Release(memory, &work->relinked);
-    kiriArray_Release(memory, &work->stepped);
-    kiriArray_Release(memory, &work->knights);
-    kiriArray_Release(memory, &work->squareFlags);
-    kiriArray_Release(memory, &work->flagged);
-    kiriArray_Release(memory, &work->entries);
-    kiriArray_Release(memory, &work->node);
-    kiriArray_Release(memory, &work->parent);
-    kiriArray_Release(memory, &work->cellFlags);
-    kiriArray_Release(memory, &work->mark);
-    kiriArray_Release(memory, &work->fresh);
-    kiriArray_Release(memory, &work->oldFaces);
-    kiriArray_Release(memory, &work->steps);
-    kiriMemory_Free(memory, work);
-}
-
-void kiriGrid_Release(kiriGrid* grid, const kiriMemory* memory)
-{
-    if (grid->work != NULL) {
-        ReleaseWork(grid->work, memory);
-    }
-    kiriArray_Release(memory, &grid->cells);
-    kiriArray_Release(memory, &grid->runs);
-    kiriArray_Release(memory, &grid->steps);
-    kiriArray_Release(memory, &grid->faces);
-    kiriArray_Release(memory, &grid->squareCell);
-    kiriArray_Release(memory, &grid->nodeCell);
-    kiriArray_Release(memory, &grid->whole);
-    kiriArray_Release(memory, &grid->changes.made);
-    kiriArray_Release(memory, &grid->changes.gone);
-    kiriArray_Release(memory, &grid->changes.restepped);
-    kiriArray_Release(memory, &grid->changes.remade);
-    memset(grid, 0, sizeof(*grid));
 }
 
 /* ---- Questions --------------------------------------------------------------------------------------------------- */

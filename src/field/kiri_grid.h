@@ -94,7 +94,6 @@ void kiriGrid_ClearChanges(kiriGrid* grid);
 
 /* Forgets everything but its memory: the next update is from scratch. */
 void kiriGrid_Reset(kiriGrid* grid);
-void kiriGrid_Release(kiriGrid* grid, const kiriMemory* memory);
 
 /* Comes cell a before cell b in the order of cells? */
 static inline bool kiriGrid_IsBefore(const kiriGrid* grid, int32_t a, int32_t b)

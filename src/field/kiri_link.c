@@ -34,7 +34,7 @@ struct kiriLinkWork {
 };
 
 typedef struct Border {
-    const kiriMemory* memory;
+    kiriMemory* memory;
     const kiriGrid* grid;
     const kiriMeshData* mesh;
     const kiriRegions* regions;
@@ -514,15 +514,14 @@ static int32_t CountChanged(const kiriLinks* links)
     return changed;
 }
 
-bool kiriLinks_Update(kiriLinks* links, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+bool kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const kiriRegions* regions, const kiriShape* shape, const kiriSite* sites, int32_t siteCount)
 {
     if (links->work == NULL) {
-        links->work = kiriMemory_Alloc(memory, sizeof(*links->work));
-        if (links->work == NULL) {
-            return false;
-        }
-        memset(links->work, 0, sizeof(*links->work));
+        links->work = kiriMemory_AllocZeroed(memory, sizeof(*links->work));
+    }
+    if (links->work == NULL) {
+        return false;
     }
     Border border = { memory, grid, mesh, regions, shape, sites, siteCount, links->work };
     links->next.count = links->changed = 0;
@@ -543,24 +542,4 @@ void kiriLinks_Commit(kiriLinks* links)
     memcpy(&links->links, &was.next, sizeof(links->links));
     memcpy(&links->next, &was.links, sizeof(links->next));
     links->next.count = 0;
-}
-
-void kiriLinks_Release(kiriLinks* links, const kiriMemory* memory)
-{
-    kiriLinkWork* work = links->work;
-    kiriArray_Release(memory, &links->links);
-    kiriArray_Release(memory, &links->next);
-    if (work != NULL) {
-        kiriArray_Release(memory, &work->marks);
-        kiriArray_Release(memory, &work->faces);
-        kiriArray_Release(memory, &work->whole);
-        kiriArray_Release(memory, &work->stretch);
-        kiriArray_Release(memory, &work->made);
-        kiriArray_Release(memory, &work->order);
-        kiriArray_Release(memory, &work->scratch);
-        kiriArray_Release(memory, &work->spreads);
-        kiriArray_Release(memory, &work->dirty);
-        kiriMemory_Free(memory, work);
-        links->work = NULL;
-    }
 }

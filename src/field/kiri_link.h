@@ -33,9 +33,8 @@ typedef struct kiriLinks {
 
 /* The links of the regions as they are, into `next`: those between regions that are not dirty (regions->dirty) are
    taken over from `links`, the others made anew. False for memory: `links` is as before. */
-bool kiriLinks_Update(kiriLinks* links, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+bool kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const kiriRegions* regions, const kiriShape* shape, const kiriSite* sites, int32_t siteCount);
 void kiriLinks_Commit(kiriLinks* links);
-void kiriLinks_Release(kiriLinks* links, const kiriMemory* memory);
 
 #endif

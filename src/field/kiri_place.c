@@ -63,7 +63,7 @@ struct kiriPlacerWork {
 typedef struct Job {
     kiriPlacer* placer;
     kiriPlacerWork* work;
-    const kiriMemory* memory;
+    kiriMemory* memory;
     const kiriGrid* grid;
     const kiriMeshData* mesh;
     kiriQuota* quota;
@@ -434,8 +434,8 @@ static kiriProgress (*const stages[STAGES])(Job* job) = {
     NULL, FloodOld, Scan, FloodNew, Lower, Divide, Sum, Aim, Balance, Settle,
 };
 
-kiriProgress kiriPlacer_Run(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid,
-                            const kiriMeshData* mesh, kiriQuota* quota)
+kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                            kiriQuota* quota)
 {
     Job job = { placer, placer->work, memory, grid, mesh, quota };
     kiriProgress progress = KIRI_DONE;
@@ -445,20 +445,16 @@ kiriProgress kiriPlacer_Run(kiriPlacer* placer, const kiriMemory* memory, const 
     return progress;
 }
 
-static kiriPlacerWork* WorkOf(kiriPlacer* placer, const kiriMemory* memory)
+static kiriPlacerWork* WorkOf(kiriPlacer* placer, kiriMemory* memory)
 {
     if (placer->work == NULL) {
-        placer->work = kiriMemory_Alloc(memory, sizeof(kiriPlacerWork));
-        if (placer->work != NULL) {
-            memset(placer->work, 0, sizeof(kiriPlacerWork));
-        }
+        placer->work = kiriMemory_AllocZeroed(memory, sizeof(kiriPlacerWork));
     }
     return placer->work;
 }
 
 /* Room for the job, so that only seeds need memory while it runs. */
-static bool MakeRoom(kiriPlacer* placer, kiriPlacerWork* work, const kiriMemory* memory, const kiriGrid* grid,
-                     int32_t count)
+static bool MakeRoom(kiriPlacer* placer, kiriPlacerWork* work, kiriMemory* memory, const kiriGrid* grid, int32_t count)
 {
     int32_t cells = grid->cells.count;
     return kiriField_Resize(&work->flooded, memory, cells) && kiriField_Resize(&work->fresh, memory, cells) &&
@@ -493,7 +489,7 @@ static Stage FirstStage(const kiriPlacer* placer)
     return work->old == &work->flooded ? FLOOD_OLD : SCAN;
 }
 
-bool kiriPlacer_Start(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const uint8_t* allowed, int32_t count)
 {
     kiriPlacerWork* work = WorkOf(placer, memory);
@@ -522,7 +518,7 @@ bool kiriPlacer_Start(kiriPlacer* placer, const kiriMemory* memory, const kiriGr
     return true;
 }
 
-static bool Reach(kiriPlacer* placer, const kiriMemory* memory, int32_t cell)
+static bool Reach(kiriPlacer* placer, kiriMemory* memory, int32_t cell)
 {
     uint8_t* mark = &placer->work->marks.data[cell];
     if (*mark) {
@@ -537,7 +533,7 @@ static bool Reach(kiriPlacer* placer, const kiriMemory* memory, int32_t cell)
 }
 
 /* Breadth first over straight steps: there is one for every two cells that share a face. */
-static bool Gather(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, int32_t cell)
+static bool Gather(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
     bool ok = Reach(placer, memory, cell);
     for (int32_t k = 0; ok && k < placer->cells.count; ++k) {
@@ -573,7 +569,7 @@ static void Order(kiriPlacer* placer, const kiriGrid* grid)
     }
 }
 
-bool kiriPlacer_TakePiece(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, int32_t cell)
+bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
     kiriPlacerWork* work = WorkOf(placer, memory);
     if (work == NULL || !kiriArray_Reserve(memory, &work->marks, grid->cells.count)) {
@@ -591,22 +587,4 @@ bool kiriPlacer_TakePiece(kiriPlacer* placer, const kiriMemory* memory, const ki
         work->marks.data[placer->cells.data[k]] = 0;
     }
     return ok;
-}
-
-void kiriPlacer_Release(kiriPlacer* placer, const kiriMemory* memory)
-{
-    kiriPlacerWork* work = placer->work;
-    kiriArray_Release(memory, &placer->sites);
-    kiriArray_Release(memory, &placer->cells);
-    if (work != NULL) {
-        kiriField_Release(&work->flooded, memory);
-        kiriField_Release(&work->fresh, memory);
-        kiriArray_Release(memory, &work->sampled);
-        kiriArray_Release(memory, &work->holds);
-        kiriArray_Release(memory, &work->marks);
-        kiriArray_Release(memory, &work->targets);
-        kiriArray_Release(memory, &work->seeds);
-        kiriMemory_Free(memory, work);
-        placer->work = NULL;
-    }
 }

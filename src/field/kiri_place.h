@@ -20,19 +20,18 @@ typedef struct kiriPlacer {
 
 /* The cells that hang together with this one over faces, in the order of cells, into placer->cells. False for
    memory. */
-bool kiriPlacer_TakePiece(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, int32_t cell);
+bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell);
 
 /* For the part in placer->cells and the sites in placer->sites, which lie in it: `count` more. Sampling takes only
    cells that `allowed` marks (one byte a cell of the grid; null: all); it is read now and not kept. Fewer when there
    are fewer free cells. One site in a part without sites goes to the cell nearest to its centroid, without
    relaxation: confetti comes in thousands. False for memory. */
-bool kiriPlacer_Start(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const uint8_t* allowed, int32_t count);
 
 /* An item of the quota is a cell looked at or settled. After KIRI_FAILED, start again. */
-kiriProgress kiriPlacer_Run(kiriPlacer* placer, const kiriMemory* memory, const kiriGrid* grid,
-                            const kiriMeshData* mesh, kiriQuota* quota);
-void kiriPlacer_Release(kiriPlacer* placer, const kiriMemory* memory);
+kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                            kiriQuota* quota);
 
 /* The site that a frame takes in a cell. */
 kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);

@@ -28,7 +28,7 @@ static kiriSeed SeedNear(const kiriSite* site, int32_t owner, const kiriGrid* gr
     return seed;
 }
 
-bool kiriSite_Seed(const kiriSite* site, int32_t owner, const kiriMemory* memory, const kiriGrid* grid,
+bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, const kiriGrid* grid,
                    const kiriMeshData* mesh, kiriSeeds* seeds)
 {
     const kiriStepRun* run = &grid->runs.data[site->cell];
@@ -72,7 +72,7 @@ kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* gr
 
 typedef struct Update {
     kiriRegions* regions;
-    const kiriMemory* memory;
+    kiriMemory* memory;
     const kiriGrid* grid;
     const kiriMeshData* mesh;
     const kiriSite* sites;
@@ -396,7 +396,7 @@ static bool Begin(const Update* u)
     return true;
 }
 
-kiriProgress kiriRegions_Update(kiriRegions* regions, const kiriMemory* memory, const kiriGrid* grid,
+kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const kiriGrid* grid,
                                 const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
                                 const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota)
 {
@@ -435,17 +435,4 @@ void kiriRegions_Reset(kiriRegions* regions)
     regions->changes.count = regions->orphans.count = 0;
     regions->seen = (kiriSeenChanges){ 0, 0, 0, 0 };
     regions->running = false;
-}
-
-void kiriRegions_Release(kiriRegions* regions, const kiriMemory* memory)
-{
-    kiriField_Release(&regions->field, memory);
-    kiriArray_Release(memory, &regions->siteAt);
-    kiriArray_Release(memory, &regions->onBorder);
-    kiriArray_Release(memory, &regions->listed);
-    kiriArray_Release(memory, &regions->material);
-    kiriArray_Release(memory, &regions->dirty);
-    kiriArray_Release(memory, &regions->changes);
-    kiriArray_Release(memory, &regions->orphans);
-    kiriRegions_Reset(regions);
 }

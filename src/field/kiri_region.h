@@ -16,7 +16,7 @@ typedef KIRI_ARRAY(kiriSeed) kiriSeeds;
 
 /* Adds the seeds of distances to the site. Where it lies off the middle of its square, the cells one step away are
    seeds as well, so that distances know where in its cell the site is. False for memory. */
-bool kiriSite_Seed(const kiriSite* site, int32_t owner, const kiriMemory* memory, const kiriGrid* grid,
+bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, const kiriGrid* grid,
                    const kiriMeshData* mesh, kiriSeeds* seeds);
 
 /* The same seed seen from a cell: distance KIRI_FAR where the site sends none there. */
@@ -60,13 +60,12 @@ typedef struct kiriSiteMove {
    of the quota: see kiriField_Repair. From scratch: a zeroed or reset kiriRegions, and all sites in `moves`.
    KIRI_MORE: call again with the same arguments. On KIRI_FAILED, Reset. There may be several updates, of more sites,
    before grid and regions are settled, which is together, and before the grid is updated again. */
-kiriProgress kiriRegions_Update(kiriRegions* regions, const kiriMemory* memory, const kiriGrid* grid,
+kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const kiriGrid* grid,
                                 const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
                                 const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
 
 /* All who follow the regions have seen `changes`; `dirty` stays until the sheet's commit clears it. */
 void kiriRegions_ClearChanges(kiriRegions* regions);
 void kiriRegions_Reset(kiriRegions* regions);
-void kiriRegions_Release(kiriRegions* regions, const kiriMemory* memory);
 
 #endif

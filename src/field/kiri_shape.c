@@ -53,7 +53,7 @@ struct kiriShapeWork {
 typedef struct Job {
     kiriShape* shape;
     kiriShapeWork* work;
-    const kiriMemory* memory;
+    kiriMemory* memory;
     const kiriGrid* grid;
     const kiriMeshData* mesh;
     const kiriRegions* regions;
@@ -761,16 +761,15 @@ static void End(Job* job)
     job->work->stage = AT_REST;
 }
 
-kiriProgress kiriShape_Update(kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid,
-                              const kiriMeshData* mesh, const kiriRegions* regions, const kiriSite* sites,
-                              int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota)
+kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                              const kiriRegions* regions, const kiriSite* sites, int32_t siteCount,
+                              const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota)
 {
     if (shape->work == NULL) {
-        shape->work = kiriMemory_Alloc(memory, sizeof(*shape->work));
-        if (shape->work == NULL) {
-            return KIRI_FAILED;
-        }
-        memset(shape->work, 0, sizeof(*shape->work));
+        shape->work = kiriMemory_AllocZeroed(memory, sizeof(*shape->work));
+    }
+    if (shape->work == NULL) {
+        return KIRI_FAILED;
     }
     Job job = { shape, shape->work, memory, grid, mesh, regions, sites, siteCount, 0 };
     kiriProgress progress = KIRI_DONE;
@@ -815,33 +814,6 @@ void kiriShape_Reset(kiriShape* shape)
         kiriField_Clear(&shape->work->fromBorder);
         shape->work->marks.count = shape->work->looks.count = 0;
         shape->work->stage = AT_REST;
-    }
-}
-
-void kiriShape_Release(kiriShape* shape, const kiriMemory* memory)
-{
-    kiriShapeWork* work = shape->work;
-    for (int32_t f = 0; f < shape->reaches.count; ++f) {
-        kiriArray_Release(memory, &shape->reaches.data[f]);
-    }
-    kiriArray_Release(memory, &shape->reaches);
-    kiriArray_Release(memory, &shape->spans);
-    kiriArray_Release(memory, &shape->weights);
-    kiriArray_Release(memory, &shape->rigid);
-    kiriArray_Release(memory, &shape->changes);
-    if (work != NULL) {
-        kiriField_Release(&work->fromSite, memory);
-        kiriField_Release(&work->fromBorder, memory);
-        kiriArray_Release(memory, &work->seeds);
-        kiriArray_Release(memory, &work->marks);
-        kiriArray_Release(memory, &work->wasOwner);
-        kiriArray_Release(memory, &work->fresh);
-        kiriArray_Release(memory, &work->shares);
-        kiriArray_Release(memory, &work->looks);
-        kiriArray_Release(memory, &work->entries);
-        kiriArray_Release(memory, &work->dirty);
-        kiriMemory_Free(memory, work);
-        shape->work = NULL;
     }
 }
 
@@ -961,7 +933,7 @@ void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at)
     }
 }
 
-static bool GatherSteps(kiriStencil* stencil, const kiriMemory* memory, const kiriGrid* grid, int32_t cell)
+static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
     const kiriStepRun* run = &grid->runs.data[cell];
     int32_t count = run->end[1] - run->first, seen = 0;
@@ -980,7 +952,7 @@ static bool GatherSteps(kiriStencil* stencil, const kiriMemory* memory, const ki
 }
 
 /* The frames with weight in any of the cells, sorted, and in `columns` where they are. */
-static bool GatherFrames(kiriStencil* stencil, const kiriMemory* memory, const kiriShape* shape)
+static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape)
 {
     int32_t old = stencil->columns.count;
     if (!kiriArray_Resize(memory, &stencil->columns, old > shape->rigid.count ? old : shape->rigid.count)) {
@@ -1013,7 +985,7 @@ static bool GatherFrames(kiriStencil* stencil, const kiriMemory* memory, const k
     return true;
 }
 
-static bool GatherWeights(kiriStencil* stencil, const kiriMemory* memory, const kiriShape* shape)
+static bool GatherWeights(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape)
 {
     int32_t count = stencil->frames.count;
     if (!kiriArray_Resize(memory, &stencil->weights, (int64_t)count * stencil->steps.count) ||
@@ -1033,7 +1005,7 @@ static bool GatherWeights(kiriStencil* stencil, const kiriMemory* memory, const 
     return true;
 }
 
-bool kiriStencil_Gather(kiriStencil* stencil, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                         const kiriMeshData* mesh, int32_t cell)
 {
     bool ok = GatherSteps(stencil, memory, grid, cell) && GatherFrames(stencil, memory, shape) &&
@@ -1045,16 +1017,6 @@ bool kiriStencil_Gather(kiriStencil* stencil, const kiriMemory* memory, const ki
     stencil->middle = kiriGrid_Middle(grid, mesh, cell);
     stencil->side = grid->side;
     return ok;
-}
-
-void kiriStencil_Release(kiriStencil* stencil, const kiriMemory* memory)
-{
-    kiriArray_Release(memory, &stencil->steps);
-    kiriArray_Release(memory, &stencil->frames);
-    kiriArray_Release(memory, &stencil->weights);
-    kiriArray_Release(memory, &stencil->shares);
-    kiriArray_Release(memory, &stencil->values);
-    kiriArray_Release(memory, &stencil->columns);
 }
 
 /* What rounding leaves of the gradients goes to the largest weight. */
@@ -1080,11 +1042,12 @@ static void SetGradients(kiriStencil* stencil, kiriVec2 at, kiriPointWeights* ou
     }
 }
 
-bool kiriShape_At(const kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+bool kiriShape_At(const kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                   int32_t cell, kiriVec2 at, kiriPointWeights* out)
 {
+    kiriMemory scratch = kiriMemory_Like(memory);
     kiriStencil stencil = { 0 };
-    bool ok = kiriStencil_Gather(&stencil, memory, shape, grid, mesh, cell) &&
+    bool ok = kiriStencil_Gather(&stencil, &scratch, shape, grid, mesh, cell) &&
               kiriArray_Resize(memory, out, stencil.frames.count);
     if (ok) {
         kiriStencil_Weigh(&stencil, at);
@@ -1093,6 +1056,6 @@ bool kiriShape_At(const kiriShape* shape, const kiriMemory* memory, const kiriGr
         }
         SetGradients(&stencil, at, out);
     }
-    kiriStencil_Release(&stencil, memory);
+    kiriMemory_FreeAll(&scratch);
     return ok;
 }

@@ -48,12 +48,11 @@ typedef struct kiriShape {
    quota is a cell whose distance is taken away, given or flooded, a weight put in its place, or a cell that gets room
    for its first weights or whose weights are made to sum to 1. Every cell with an owner gets weights. KIRI_MORE: call
    again before grid, regions or sites change. On KIRI_FAILED only Reset or Release make sense. */
-kiriProgress kiriShape_Update(kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid,
-                              const kiriMeshData* mesh, const kiriRegions* regions, const kiriSite* sites,
-                              int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
+kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                              const kiriRegions* regions, const kiriSite* sites, int32_t siteCount,
+                              const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
 void kiriShape_ClearChanges(kiriShape* shape);
 void kiriShape_Reset(kiriShape* shape);
-void kiriShape_Release(kiriShape* shape, const kiriMemory* memory);
 
 /* A weight at a point, with its gradient (1/m). */
 typedef struct kiriPointWeight {
@@ -79,17 +78,16 @@ typedef struct kiriStencil {
 } kiriStencil;
 
 /* Gathers the weights around a cell. False for memory: then the stencil has no cell. */
-bool kiriStencil_Gather(kiriStencil* stencil, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                         const kiriMeshData* mesh, int32_t cell);
 
 /* The weights at a local point of the cell, as kiriShape_At has them, into `values`. */
 void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at);
-void kiriStencil_Release(kiriStencil* stencil, const kiriMemory* memory);
 
 /* Weights at a local point of the cell, by frame: moving least squares, first order, over the cell and those a
    straight or diagonal step away; never negative, sum 1 (the gradients sum to 0). Replaces what is in `out`. False
    for memory. Many points of a cell are quicker with a stencil. */
-bool kiriShape_At(const kiriShape* shape, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+bool kiriShape_At(const kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                   int32_t cell, kiriVec2 at, kiriPointWeights* out);
 
 #endif

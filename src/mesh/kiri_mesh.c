@@ -452,7 +452,7 @@ typedef struct Table {
     uint32_t mask;
 } Table;
 
-static bool Table_Init(Table* table, const kiriMemory* memory, int64_t count)
+static bool Table_Init(Table* table, kiriMemory* memory, int64_t count)
 {
     int64_t size = 16;
     while (size < 2 * count) {
@@ -606,11 +606,12 @@ static kiriResult LinkTwins(kiriMeshData* mesh, Table* table, const int32_t* pla
 
 static kiriResult FindTwins(kiriMeshData* mesh, const char** why)
 {
+    kiriMemory scratch = kiriMemory_Like(mesh->memory);
     Table places = { NULL, 0 }, edges = { NULL, 0 };
     kiriResult result = KIRI_OK;
-    int32_t* place = kiriMemory_Alloc(mesh->memory, mesh->vertices.count * (int64_t)sizeof(int32_t));
-    if (place == NULL || !Table_Init(&places, mesh->memory, mesh->vertices.count) ||
-        !Table_Init(&edges, mesh->memory, 3 * (int64_t)mesh->triangles.count)) {
+    int32_t* place = kiriMemory_Alloc(&scratch, mesh->vertices.count * (int64_t)sizeof(int32_t));
+    if (place == NULL || !Table_Init(&places, &scratch, mesh->vertices.count) ||
+        !Table_Init(&edges, &scratch, 3 * (int64_t)mesh->triangles.count)) {
         result = RefuseMemory(why);
     } else {
         for (int32_t i = 0; i < mesh->vertices.count; ++i) {
@@ -618,9 +619,7 @@ static kiriResult FindTwins(kiriMeshData* mesh, const char** why)
         }
         result = LinkTwins(mesh, &edges, place, why);
     }
-    kiriMemory_Free(mesh->memory, edges.slots);
-    kiriMemory_Free(mesh->memory, places.slots);
-    kiriMemory_Free(mesh->memory, place);
+    kiriMemory_FreeAll(&scratch);
     return result;
 }
 
@@ -700,12 +699,12 @@ static bool AnyOverlap(const kiriMeshData* mesh, const kiriSquares* squares)
     return false;
 }
 
-static bool FillSquares(const kiriMeshData* mesh, kiriSquares* squares)
+static bool FillSquares(const kiriMeshData* mesh, kiriSquares* squares, kiriMemory* memory)
 {
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         kiriLatticePoint corners[3];
         kiriMesh_Corners(mesh, t, corners);
-        if (!kiriSquares_Insert(squares, mesh->memory, t, corners)) {
+        if (!kiriSquares_Insert(squares, memory, t, corners)) {
             return false;
         }
     }
@@ -715,18 +714,19 @@ static bool FillSquares(const kiriMeshData* mesh, kiriSquares* squares)
 /* Every two triangles that share a square, in squares of their own that hold a few triangles each. */
 static kiriResult CheckOverlaps(const kiriMeshData* mesh, kiriLatticePoint extent, const char** why)
 {
+    kiriMemory scratch = kiriMemory_Like(mesh->memory);
     double longer = extent.x > extent.y ? extent.x : extent.y, shorter = extent.x > extent.y ? extent.y : extent.x;
     double resolution = sqrt(mesh->triangles.count * longer / (shorter + 1.0)) + 1.0;
     kiriResult result = KIRI_OK;
     kiriSquares squares;
-    if (!kiriSquares_Init(&squares, mesh->memory, extent,
+    if (!kiriSquares_Init(&squares, &scratch, extent,
                           (int32_t)(resolution < MOST_CHECK_SQUARES ? resolution : MOST_CHECK_SQUARES)) ||
-        !FillSquares(mesh, &squares)) {
+        !FillSquares(mesh, &squares, &scratch)) {
         result = RefuseMemory(why);
     } else if (AnyOverlap(mesh, &squares)) {
         result = Refuse(why, KIRI_ERROR_MESH, "two triangles overlap");
     }
-    kiriSquares_Release(&squares, mesh->memory);
+    kiriMemory_FreeAll(&scratch);
     return result;
 }
 
@@ -742,7 +742,7 @@ static kiriResult Build(kiriMeshData* mesh, const Input* input, int32_t resoluti
         return result;
     }
     if (!ClaimFans(mesh) || !kiriSquares_Init(&mesh->squares, mesh->memory, extent, resolution) ||
-        !FillSquares(mesh, &mesh->squares)) {
+        !FillSquares(mesh, &mesh->squares, mesh->memory)) {
         return RefuseMemory(why);
     }
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
@@ -751,7 +751,7 @@ static kiriResult Build(kiriMeshData* mesh, const Input* input, int32_t resoluti
     return KIRI_OK;
 }
 
-kiriResult kiriMesh_Init(kiriMeshData* mesh, const kiriMemory* memory, const float* positions, int32_t vertexCount,
+kiriResult kiriMesh_Init(kiriMeshData* mesh, kiriMemory* memory, const float* positions, int32_t vertexCount,
                          const int32_t* indices, int32_t triangleCount, int32_t resolution, const char** why)
 {
     Input input = { positions, vertexCount, indices, triangleCount };
@@ -760,7 +760,6 @@ kiriResult kiriMesh_Init(kiriMeshData* mesh, const kiriMemory* memory, const flo
     *why = "";
     kiriResult result = Build(mesh, &input, resolution, why);
     if (result != KIRI_OK) {
-        kiriMesh_Release(mesh);
         return result;
     }
     mesh->revision = 1;
@@ -823,16 +822,17 @@ static bool CopySources(kiriMeshData* mesh, const kiriMeshData* from)
     return true;
 }
 
-bool kiriMesh_InitPart(kiriMeshData* mesh, const kiriMeshData* from, const int32_t* triangleTo, const int32_t* vertexTo)
+bool kiriMesh_InitPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const int32_t* triangleTo,
+                       const int32_t* vertexTo)
 {
     memset(mesh, 0, sizeof(*mesh));
-    mesh->memory = from->memory;
+    mesh->memory = memory;
     mesh->origin = from->origin;
     mesh->step = from->step;
     mesh->revision = from->revision + 1;
     if (!CopyPart(mesh, from, triangleTo, vertexTo) || !CopySources(mesh, from) ||
-        !kiriSquares_InitLike(&mesh->squares, mesh->memory, &from->squares) || !FillSquares(mesh, &mesh->squares)) {
-        kiriMesh_Release(mesh);
+        !kiriSquares_InitLike(&mesh->squares, mesh->memory, &from->squares) ||
+        !FillSquares(mesh, &mesh->squares, mesh->memory)) {
         return false;
     }
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
@@ -840,15 +840,4 @@ bool kiriMesh_InitPart(kiriMeshData* mesh, const kiriMeshData* from, const int32
     }
     kiriMesh_Begin(mesh);
     return true;
-}
-
-void kiriMesh_Release(kiriMeshData* mesh)
-{
-    kiriArray_Release(mesh->memory, &mesh->triangles);
-    kiriArray_Release(mesh->memory, &mesh->vertices);
-    kiriSquares_Release(&mesh->squares, mesh->memory);
-    kiriArray_Release(mesh->memory, &mesh->sourceCorners);
-    kiriArray_Release(mesh->memory, &mesh->savedTriangles);
-    kiriArray_Release(mesh->memory, &mesh->savedVertices);
-    kiriArray_Release(mesh->memory, &mesh->births);
 }

@@ -43,7 +43,7 @@ typedef struct kiriSavedVertex {
 } kiriSavedVertex;
 
 typedef struct kiriMeshData {
-    const kiriMemory* memory;
+    kiriMemory* memory;
     kiriVec2 origin; /* m, rest plane: where lattice (0, 0) is */
     double step;     /* m a lattice step */
     KIRI_ARRAY(kiriTriangle) triangles;
@@ -67,16 +67,13 @@ typedef struct kiriMeshData {
     KIRI_ARRAY(kiriBirth) births; /* of vertex oldVertexCount and on */
 } kiriMeshData;
 
-/* Checks the caller's triangles and takes them over. On failure *why says what is wrong, in one line, and the mesh
-   needs no release. `resolution` is the grid's, along the longer side. */
-kiriResult kiriMesh_Init(kiriMeshData* mesh, const kiriMemory* memory, const float* positions, int32_t vertexCount,
+/* Checks the caller's triangles and takes them over. On failure *why says what is wrong, in one line. `resolution` is the grid's, along the longer side. */
+kiriResult kiriMesh_Init(kiriMeshData* mesh, kiriMemory* memory, const float* positions, int32_t vertexCount,
                          const int32_t* indices, int32_t triangleCount, int32_t resolution, const char** why);
-void kiriMesh_Release(kiriMeshData* mesh);
 
 /* The part of another mesh that the maps keep, on the same lattice and squares. The index that each triangle and vertex
-   gets, in their old order, or KIRI_NONE; vertices are kept with all of their fan. On failure, which is for memory, the
-   mesh needs no release. */
-bool kiriMesh_InitPart(kiriMeshData* mesh, const kiriMeshData* from, const int32_t* triangleTo,
+   gets, in their old order, or KIRI_NONE; vertices are kept with all of their fan. False for memory. */
+bool kiriMesh_InitPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const int32_t* triangleTo,
                        const int32_t* vertexTo);
 
 /* Changes between Begin and Commit can be taken back as a whole: Rollback leaves the mesh as it was at Begin (order

@@ -24,7 +24,7 @@ static int32_t Max3(int32_t a, int32_t b, int32_t c)
 }
 
 /* Empty squares, whose number and side are set. */
-static bool MakeRoom(kiriSquares* squares, const kiriMemory* memory)
+static bool MakeRoom(kiriSquares* squares, kiriMemory* memory)
 {
     squares->perStep = 1.0 / squares->side;
     squares->freeNode = KIRI_NONE;
@@ -43,7 +43,7 @@ static bool MakeRoom(kiriSquares* squares, const kiriMemory* memory)
     return true;
 }
 
-bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriLatticePoint extent, int32_t resolution)
+bool kiriSquares_Init(kiriSquares* squares, kiriMemory* memory, kiriLatticePoint extent, int32_t resolution)
 {
     int64_t longer = extent.x > extent.y ? extent.x : extent.y;
     memset(squares, 0, sizeof(*squares));
@@ -53,23 +53,13 @@ bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriLattic
     return MakeRoom(squares, memory);
 }
 
-bool kiriSquares_InitLike(kiriSquares* squares, const kiriMemory* memory, const kiriSquares* like)
+bool kiriSquares_InitLike(kiriSquares* squares, kiriMemory* memory, const kiriSquares* like)
 {
     memset(squares, 0, sizeof(*squares));
     squares->side = like->side;
     squares->columns = like->columns;
     squares->rows = like->rows;
     return MakeRoom(squares, memory);
-}
-
-void kiriSquares_Release(kiriSquares* squares, const kiriMemory* memory)
-{
-    kiriMemory_Free(memory, squares->head);
-    kiriMemory_Free(memory, squares->vertexHead);
-    kiriMemory_Free(memory, squares->isDirty);
-    kiriArray_Release(memory, &squares->nodes);
-    kiriArray_Release(memory, &squares->dirty);
-    memset(squares, 0, sizeof(*squares));
 }
 
 /* The column or row of an even coordinate, not negative. The quotient is at least 1 / side from a whole number: so its
@@ -172,7 +162,7 @@ void kiriSquares_MarkEdgeDirty(kiriSquares* squares, kiriLatticePoint a, kiriLat
     }
 }
 
-static bool AddNode(kiriSquares* squares, const kiriMemory* memory, int32_t square, int32_t triangle)
+static bool AddNode(kiriSquares* squares, kiriMemory* memory, int32_t square, int32_t triangle)
 {
     kiriSquareNode node = { triangle, squares->head[square] };
     int32_t slot = squares->freeNode;
@@ -207,8 +197,7 @@ static void RemoveNode(kiriSquares* squares, int32_t square, int32_t triangle)
     }
 }
 
-bool kiriSquares_Insert(kiriSquares* squares, const kiriMemory* memory, int32_t triangle,
-                        const kiriLatticePoint corners[3])
+bool kiriSquares_Insert(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3])
 {
     Range r = BoxOf(squares, corners);
     for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {

@@ -26,16 +26,14 @@ typedef struct kiriSquares {
 } kiriSquares;
 
 /* `resolution` squares along the longer of the two extents (lattice steps, from 0). */
-bool kiriSquares_Init(kiriSquares* squares, const kiriMemory* memory, kiriLatticePoint extent, int32_t resolution);
+bool kiriSquares_Init(kiriSquares* squares, kiriMemory* memory, kiriLatticePoint extent, int32_t resolution);
 
 /* The same squares, without triangles and vertices. */
-bool kiriSquares_InitLike(kiriSquares* squares, const kiriMemory* memory, const kiriSquares* like);
-void kiriSquares_Release(kiriSquares* squares, const kiriMemory* memory);
+bool kiriSquares_InitLike(kiriSquares* squares, kiriMemory* memory, const kiriSquares* like);
 
 /* The triangle's corners are counter-clockwise. Insert fails only for memory, and then changes nothing. After a Remove,
    inserting as many nodes as it took never fails. Both touch the squares that they change. */
-bool kiriSquares_Insert(kiriSquares* squares, const kiriMemory* memory, int32_t triangle,
-                        const kiriLatticePoint corners[3]);
+bool kiriSquares_Insert(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3]);
 void kiriSquares_Remove(kiriSquares* squares, int32_t triangle, const kiriLatticePoint corners[3]);
 
 /* Touches the squares whose open interior the edge between two vertices runs through. */

@@ -139,7 +139,7 @@ void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, do
 /* ---- Regions ---------------------------------------------------------------------------------------------------- */
 
 /* The share of a frame in the patch that is being made, in order of frames; links come so. */
-static kiriShare* ShareOf(kiriPatches* patches, const kiriMemory* memory, kiriPatch* patch, int32_t frame)
+static kiriShare* ShareOf(kiriPatches* patches, kiriMemory* memory, kiriPatch* patch, int32_t frame)
 {
     int32_t k = patch->first + patch->count;
     while (k > patch->first && patches->shares.data[k - 1].frame > frame) {
@@ -173,7 +173,7 @@ static void AddEnd(kiriShare* share, const kiriLink* link, kiriVec2 center, doub
 
 /* What the regions are built from: the links of region i are links[start[i]] to links[start[i + 1]]. */
 typedef struct Ring {
-    const kiriMemory* memory;
+    kiriMemory* memory;
     const kiriMoments* material; /* of each region */
     KIRI_ARRAY(int32_t) start;
     KIRI_ARRAY(const kiriLink*) links;
@@ -194,7 +194,7 @@ static bool AddBorder(kiriPatches* patches, const Ring* ring, kiriPatch* patch, 
 }
 
 /* A patch with the frame's own A. */
-static bool Begin(kiriPatches* patches, const kiriMemory* memory, kiriPatch* patch, int32_t frame)
+static bool Begin(kiriPatches* patches, kiriMemory* memory, kiriPatch* patch, int32_t frame)
 {
     kiriShare* share = ShareOf(patches, memory, patch, frame);
     if (share != NULL) {
@@ -245,7 +245,7 @@ static bool Collect(Ring* ring, const kiriLink* links, int32_t linkCount, int32_
     return true;
 }
 
-bool kiriAffine_Build(kiriPatches* patches, const kiriMemory* memory, const kiriLink* links, int32_t linkCount,
+bool kiriAffine_Build(kiriPatches* patches, kiriMemory* memory, const kiriLink* links, int32_t linkCount,
                       const kiriMoments* material, int32_t frameCount, bool planar)
 {
     Ring ring = { memory, material, { 0 }, { 0 } };

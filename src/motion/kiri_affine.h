@@ -39,7 +39,7 @@ void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, do
    Frames that lean all one way, in steps, make a free end longer: its F_i takes only a part of its slope from the
    border, a quarter at least. Under tension that would lay the sheet in steps (see strain.h). Leaning, d_i . F_i,
    therefore counts four times in the membrane strains; it vanishes where frames follow the sheet. */
-bool kiriAffine_Build(kiriPatches* patches, const kiriMemory* memory, const kiriLink* links, int32_t linkCount,
+bool kiriAffine_Build(kiriPatches* patches, kiriMemory* memory, const kiriLink* links, int32_t linkCount,
                       const kiriMoments* material, int32_t frameCount, bool planar);
 
 #endif

@@ -37,7 +37,7 @@ struct Left {
    column, and so do the entries of a block. With ones on the diagonal of L, matrix = L D L^T; in a factor's diagonal
    block D stands on the diagonal, and what is above it means nothing. */
 struct kiriMatrix {
-    kiriMemory memory;
+    kiriMemory* memory;
     int32_t size, count;
     KIRI_ARRAY(int32_t) place; /* of a frame */
     Pattern own, factor;
@@ -79,8 +79,8 @@ bool PlaceBlocks(kiriMatrix* matrix, const kiriPair* pairs, int64_t pairCount)
 {
     Pattern* own = &matrix->own;
     const int32_t* place = matrix->place.data;
-    if (!kiriArray_Resize(&matrix->memory, &matrix->keys, matrix->count + pairCount) ||
-        !kiriArray_Reserve(&matrix->memory, &own->row, matrix->count + pairCount)) {
+    if (!kiriArray_Resize(matrix->memory, &matrix->keys, matrix->count + pairCount) ||
+        !kiriArray_Reserve(matrix->memory, &own->row, matrix->count + pairCount)) {
         return false;
     }
     int64_t *keys = matrix->keys.data, *end = keys;
@@ -113,7 +113,7 @@ bool AddRows(kiriMatrix* matrix, const Pattern* from, int32_t column, int32_t c)
         int32_t row = from->row.data[b];
         if (row >= c && matrix->mark.data[row] != c) {
             matrix->mark.data[row] = c;
-            if (!kiriArray_Push(&matrix->memory, &factor->row, row)) {
+            if (!kiriArray_Push(matrix->memory, &factor->row, row)) {
                 return false;
             }
         }
@@ -186,7 +186,7 @@ void FindSources(kiriMatrix* matrix)
 
 bool MakeRoomForFrames(kiriMatrix* matrix)
 {
-    const kiriMemory* memory = &matrix->memory;
+    kiriMemory* memory = matrix->memory;
     int64_t count = matrix->count;
     return kiriArray_Resize(memory, &matrix->place, count) && kiriArray_Resize(memory, &matrix->child, count) &&
            kiriArray_Resize(memory, &matrix->sibling, count) && kiriArray_Resize(memory, &matrix->mark, count) &&
@@ -198,7 +198,7 @@ bool MakeRoomForFrames(kiriMatrix* matrix)
 
 bool MakeRoomForBlocks(kiriMatrix* matrix)
 {
-    const kiriMemory* memory = &matrix->memory;
+    kiriMemory* memory = matrix->memory;
     int64_t area = (int64_t)matrix->size * matrix->size;
     int64_t own = matrix->own.row.count, factor = matrix->factor.row.count;
     return area * factor <= INT32_MAX && kiriArray_Resize(memory, &matrix->source, factor) &&
@@ -456,40 +456,16 @@ template <int size> void SolveBoth(kiriMatrix* matrix)
 
 } // namespace
 
-extern "C" kiriMatrix* kiriMatrix_Create(const kiriMemory* memory, int32_t size)
+extern "C" kiriMatrix* kiriMatrix_Create(kiriMemory* memory, int32_t size)
 {
     void* room = kiriMemory_Alloc(memory, (int64_t)sizeof(kiriMatrix));
     if (room == NULL) {
         return NULL;
     }
     kiriMatrix* matrix = new (room) kiriMatrix();
-    matrix->memory = *memory;
+    matrix->memory = memory;
     matrix->size = size;
     return matrix;
-}
-
-extern "C" void kiriMatrix_Destroy(kiriMatrix* matrix)
-{
-    if (matrix == NULL) {
-        return;
-    }
-    kiriMemory memory = matrix->memory;
-    kiriArray_Release(&memory, &matrix->place);
-    kiriArray_Release(&memory, &matrix->own.start);
-    kiriArray_Release(&memory, &matrix->own.row);
-    kiriArray_Release(&memory, &matrix->factor.start);
-    kiriArray_Release(&memory, &matrix->factor.row);
-    kiriArray_Release(&memory, &matrix->source);
-    kiriArray_Release(&memory, &matrix->leftStart);
-    kiriArray_Release(&memory, &matrix->left);
-    kiriArray_Release(&memory, &matrix->values);
-    kiriArray_Release(&memory, &matrix->factors);
-    kiriArray_Release(&memory, &matrix->right);
-    kiriArray_Release(&memory, &matrix->keys);
-    kiriArray_Release(&memory, &matrix->child);
-    kiriArray_Release(&memory, &matrix->sibling);
-    kiriArray_Release(&memory, &matrix->mark);
-    kiriMemory_Free(&memory, matrix);
 }
 
 extern "C" bool kiriMatrix_Shape(kiriMatrix* matrix, int32_t frameCount, const kiriPair* pairs, int64_t pairCount)

@@ -19,8 +19,7 @@ typedef struct kiriPair {
 } kiriPair;
 
 /* A matrix without frames. `size` is the unknowns a frame: 3, 6 or 12. Null for memory. */
-kiriMatrix* kiriMatrix_Create(const kiriMemory* memory, int32_t size);
-void kiriMatrix_Destroy(kiriMatrix* matrix);
+kiriMatrix* kiriMatrix_Create(kiriMemory* memory, int32_t size);
 
 /* Gives it a pattern, and the symbolic factorisation of it; pairs may come more than once. Memory is kept from one
    pattern to the next; the order of unknowns takes some from malloc while it is sought. False for memory: the matrix is

@@ -1,7 +1,7 @@
 #include "kiri_integration.h"
 
 typedef struct Builder {
-    const kiriMemory* memory;
+    kiriMemory* memory;
     const kiriGrid* grid;
     const kiriMeshData* mesh;
     const kiriShape* shape;
@@ -172,9 +172,9 @@ static double TotalArea(const kiriGrid* grid)
     return total;
 }
 
-bool kiriIntegration_Build(kiriPatches* patches, kiriIntegrationWork* work, const kiriMemory* memory,
-                           const kiriGrid* grid, const kiriMeshData* mesh, const kiriShape* shape,
-                           const kiriMoments* material, double count, int32_t order, bool planar)
+bool kiriIntegration_Build(kiriPatches* patches, kiriIntegrationWork* work, kiriMemory* memory, const kiriGrid* grid,
+                           const kiriMeshData* mesh, const kiriShape* shape, const kiriMoments* material, double count,
+                           int32_t order, bool planar)
 {
     Builder b = { memory, grid, mesh, shape, material, work, patches, 0.0, order, KIRI_PATCH_STRAINS };
     b.perArea = count / TotalArea(grid);
@@ -187,14 +187,4 @@ bool kiriIntegration_Build(kiriPatches* patches, kiriIntegrationWork* work, cons
         }
     }
     return ok;
-}
-
-void kiriIntegrationWork_Release(kiriIntegrationWork* work, const kiriMemory* memory)
-{
-    kiriPlacer_Release(&work->placer, memory);
-    kiriField_Release(&work->field, memory);
-    kiriArray_Release(memory, &work->seeds);
-    kiriArray_Release(memory, &work->seen);
-    kiriArray_Release(memory, &work->material);
-    kiriArray_Release(memory, &work->weights);
 }

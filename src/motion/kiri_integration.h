@@ -20,9 +20,8 @@ typedef struct kiriIntegrationWork {
    of the grid. With order 1 the strain at the point holds for all of it; with order 2 the strain is linear in it (after
    the elastons of Martin et al. 2010): it is taken at four places that have the region's second moments, which costs
    four times as much. `material` is that of each frame's region. */
-bool kiriIntegration_Build(kiriPatches* patches, kiriIntegrationWork* work, const kiriMemory* memory,
-                           const kiriGrid* grid, const kiriMeshData* mesh, const kiriShape* shape,
-                           const kiriMoments* material, double count, int32_t order, bool planar);
-void kiriIntegrationWork_Release(kiriIntegrationWork* work, const kiriMemory* memory);
+bool kiriIntegration_Build(kiriPatches* patches, kiriIntegrationWork* work, kiriMemory* memory, const kiriGrid* grid,
+                           const kiriMeshData* mesh, const kiriShape* shape, const kiriMoments* material, double count,
+                           int32_t order, bool planar);
 
 #endif

@@ -1,11 +1,5 @@
 #include "kiri_patch.h"
 
-void kiriPatches_Release(kiriPatches* patches, const kiriMemory* memory)
-{
-    kiriArray_Release(memory, &patches->patches);
-    kiriArray_Release(memory, &patches->shares);
-}
-
 /* F_u, F_v, D_u, D_v, D: or what a strain changes by with each. */
 typedef struct Shape {
     kiriVec3 u, v, du, dv, d;

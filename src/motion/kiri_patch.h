@@ -57,8 +57,6 @@ typedef struct kiriAffineRow {
     kiriVec3 by[4];
 } kiriAffineRow;
 
-void kiriPatches_Release(kiriPatches* patches, const kiriMemory* memory);
-
 /* The patch's strains from firstRow to lastRow and, unless `rows` is null, their derivatives: `count` a strain. Poses
    are those of all frames; null: as the frames are. */
 void kiriPatch_Measure(const kiriPatch* patch, const kiriShare* shares, const kiriFrameData* frames,

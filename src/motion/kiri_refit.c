@@ -8,7 +8,7 @@
    triangle is convex, so what it has in a square lies in one cell, and so does what its parts have there later. So a
    square that is one cell keeps its owner, and a divided one the owner by triangle. */
 
-static bool Note(kiriRefit* refit, const kiriMemory* memory, int32_t square)
+static bool Note(kiriRefit* refit, kiriMemory* memory, int32_t square)
 {
     if (refit->marks.data[square]) {
         return true;
@@ -17,7 +17,7 @@ static bool Note(kiriRefit* refit, const kiriMemory* memory, int32_t square)
     return kiriArray_Push(memory, &refit->squares, square);
 }
 
-static bool MakeRoom(kiriRefit* refit, const kiriMemory* memory, const kiriMeshData* mesh)
+static bool MakeRoom(kiriRefit* refit, kiriMemory* memory, const kiriMeshData* mesh)
 {
     int32_t count = mesh->squares.columns * mesh->squares.rows;
     const kiriTenure none = { KIRI_NONE, { 0, 0 } };
@@ -31,7 +31,7 @@ static bool MakeRoom(kiriRefit* refit, const kiriMemory* memory, const kiriMeshD
     return true;
 }
 
-bool kiriRefit_NoteDirty(kiriRefit* refit, const kiriMemory* memory, const kiriMeshData* mesh)
+bool kiriRefit_NoteDirty(kiriRefit* refit, kiriMemory* memory, const kiriMeshData* mesh)
 {
     bool ok = MakeRoom(refit, memory, mesh);
     for (int32_t k = 0; ok && k < mesh->squares.dirty.count; ++k) {
@@ -40,7 +40,7 @@ bool kiriRefit_NoteDirty(kiriRefit* refit, const kiriMemory* memory, const kiriM
     return ok;
 }
 
-bool kiriRefit_NoteChanges(kiriRefit* refit, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+bool kiriRefit_NoteChanges(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                            const kiriRegions* regions)
 {
     bool ok = MakeRoom(refit, memory, mesh);
@@ -81,7 +81,7 @@ static double Extent(const kiriMeshData* mesh)
 }
 
 /* The transfer between the two, an empty one where it is the first. */
-static kiriTransfer* TransferOf(kiriRefit* refit, const kiriMemory* memory, int32_t to, int32_t from)
+static kiriTransfer* TransferOf(kiriRefit* refit, kiriMemory* memory, int32_t to, int32_t from)
 {
     int32_t before = KIRI_NONE, at = refit->first.data[to];
     while (at != KIRI_NONE && refit->transfers.data[at].from < from) {
@@ -100,7 +100,7 @@ static kiriTransfer* TransferOf(kiriRefit* refit, const kiriMemory* memory, int3
     return &refit->transfers.data[index];
 }
 
-static bool StageTransfers(kiriRefit* refit, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+static bool StageTransfers(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                            const kiriRegions* regions, int32_t square)
 {
     double extent = Extent(mesh);
@@ -128,7 +128,7 @@ static int32_t CountNodes(const kiriMeshData* mesh, int32_t square)
 }
 
 /* A square without material has no cells to own. */
-static bool StageTenure(kiriRefit* refit, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+static bool StageTenure(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                         const kiriRegions* regions, int32_t square)
 {
     int32_t cell = grid->squareCell.data[square];
@@ -165,7 +165,7 @@ static void DropStaged(kiriRefit* refit)
     refit->staged.count = refit->transfers.count = 0;
 }
 
-static bool ClearTransfers(kiriRefit* refit, const kiriMemory* memory, int32_t frameCount)
+static bool ClearTransfers(kiriRefit* refit, kiriMemory* memory, int32_t frameCount)
 {
     DropStaged(refit);
     if (!kiriArray_Resize(memory, &refit->first, frameCount)) {
@@ -177,7 +177,7 @@ static bool ClearTransfers(kiriRefit* refit, const kiriMemory* memory, int32_t f
     return true;
 }
 
-bool kiriRefit_Stage(kiriRefit* refit, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+bool kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                      const kiriRegions* regions, bool isScratch)
 {
     bool ok = MakeRoom(refit, memory, mesh) && ClearTransfers(refit, memory, regions->material.count);
@@ -221,18 +221,6 @@ void kiriRefit_Commit(kiriRefit* refit, const kiriMeshData* mesh)
     refit->staged.count = refit->transfers.count = refit->fits.count = 0;
     refit->triangleCount = mesh->triangles.count;
     ForgetSquares(refit);
-}
-
-void kiriRefit_Release(kiriRefit* refit, const kiriMemory* memory)
-{
-    kiriArray_Release(memory, &refit->tenures);
-    kiriArray_Release(memory, &refit->owned);
-    kiriArray_Release(memory, &refit->squares);
-    kiriArray_Release(memory, &refit->marks);
-    kiriArray_Release(memory, &refit->staged);
-    kiriArray_Release(memory, &refit->transfers);
-    kiriArray_Release(memory, &refit->first);
-    kiriArray_Release(memory, &refit->fits);
 }
 
 /* ---- The fit ----------------------------------------------------------------------------------------------------

@@ -55,12 +55,12 @@ typedef struct kiriRefit {
 
 /* Notes squares in which owners may change: those of mesh->squares.dirty, and those of regions->changes. Call them
    before these are cleared or settled. All false for memory. */
-bool kiriRefit_NoteDirty(kiriRefit* refit, const kiriMemory* memory, const kiriMeshData* mesh);
-bool kiriRefit_NoteChanges(kiriRefit* refit, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+bool kiriRefit_NoteDirty(kiriRefit* refit, kiriMemory* memory, const kiriMeshData* mesh);
+bool kiriRefit_NoteChanges(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                            const kiriRegions* regions);
 
 /* Finds what changes owner when the regions come in force; in all squares where `isScratch`. */
-bool kiriRefit_Stage(kiriRefit* refit, const kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+bool kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                      const kiriRegions* regions, bool isScratch);
 
 /* Forgets what is noted and staged. */
@@ -80,6 +80,5 @@ void kiriRefit_Brake(const kiriRefit* refit, kiriFrameData* frames, int32_t fram
 
 /* The regions come in force. Never fails. */
 void kiriRefit_Commit(kiriRefit* refit, const kiriMeshData* mesh);
-void kiriRefit_Release(kiriRefit* refit, const kiriMemory* memory);
 
 #endif

@@ -66,7 +66,7 @@ typedef struct Course {
 } Course;
 
 struct kiriSolver {
-    kiriMemory memory;
+    kiriMemory* memory;
     kiriMechanics mechanics;
     double dt, damping; /* of this step; flexDamping / dt */
     bool isBraking;
@@ -283,54 +283,18 @@ static Slots Expand(const kiriSolver* solver, double scale, const double* values
 
 /* ---- Making ----------------------------------------------------------------------------------------------------- */
 
-kiriSolver* kiriSolver_Create(const kiriMemory* memory, const kiriMechanics* mechanics)
+kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics)
 {
-    kiriSolver* solver = kiriMemory_Alloc(memory, (int64_t)sizeof(kiriSolver));
+    kiriSolver* solver = kiriMemory_AllocZeroed(memory, sizeof(kiriSolver));
     if (solver == NULL) {
         return NULL;
     }
-    memset(solver, 0, sizeof(*solver));
-    solver->memory = *memory;
+    solver->memory = memory;
     solver->mechanics = *mechanics;
     ChooseUnknowns(solver, mechanics);
     solver->matrix = kiriMatrix_Create(memory, solver->size);
     solver->nextMatrix = kiriMatrix_Create(memory, solver->size);
-    if (solver->matrix == NULL || solver->nextMatrix == NULL) {
-        kiriSolver_Destroy(solver);
-        return NULL;
-    }
-    return solver;
-}
-
-void kiriSolver_Destroy(kiriSolver* solver)
-{
-    if (solver == NULL) {
-        return;
-    }
-    kiriMemory memory = solver->memory;
-    kiriMatrix_Destroy(solver->matrix);
-    kiriMatrix_Destroy(solver->nextMatrix);
-    kiriArray_Release(&memory, &solver->piece);
-    kiriArray_Release(&memory, &solver->nextPiece);
-    kiriArray_Release(&memory, &solver->pairs);
-    kiriArray_Release(&memory, &solver->pieces);
-    kiriArray_Release(&memory, &solver->courses);
-    kiriArray_Release(&memory, &solver->before);
-    kiriArray_Release(&memory, &solver->after);
-    kiriArray_Release(&memory, &solver->predictions);
-    kiriArray_Release(&memory, &solver->start);
-    kiriArray_Release(&memory, &solver->poses);
-    kiriArray_Release(&memory, &solver->trial);
-    kiriArray_Release(&memory, &solver->stiffness);
-    kiriArray_Release(&memory, &solver->loss);
-    kiriArray_Release(&memory, &solver->startStrain);
-    kiriArray_Release(&memory, &solver->force);
-    kiriArray_Release(&memory, &solver->move);
-    kiriArray_Release(&memory, &solver->stopping);
-    kiriArray_Release(&memory, &solver->members);
-    kiriArray_Release(&memory, &solver->rows);
-    kiriArray_Release(&memory, &solver->J);
-    kiriMemory_Free(&memory, solver);
+    return solver->matrix != NULL && solver->nextMatrix != NULL ? solver : NULL;
 }
 
 /* ---- Staging ---------------------------------------------------------------------------------------------------- */
@@ -347,7 +311,7 @@ static int32_t MostMembers(const kiriPatches* patches)
 /* Only scratch, so that nothing is lost by growing. */
 static bool MakeRoom(kiriSolver* solver, int32_t frameCount, int32_t elementCount, int32_t most)
 {
-    const kiriMemory* memory = &solver->memory;
+    kiriMemory* memory = solver->memory;
     int64_t unknowns = (int64_t)solver->size * frameCount, rows = (int64_t)MOST_ROWS * most;
     return kiriArray_Reserve(memory, &solver->nextPiece, frameCount) &&
            kiriArray_Reserve(memory, &solver->pieces, frameCount) &&
@@ -376,7 +340,7 @@ static bool CollectPairs(kiriSolver* solver, const kiriSystem* system)
         for (int32_t b = 1; b < count; ++b) {
             for (int32_t a = 0; a < b; ++a) {
                 kiriPair pair = { members[a], members[b] };
-                if (!kiriArray_Push(&solver->memory, &solver->pairs, pair)) {
+                if (!kiriArray_Push(solver->memory, &solver->pairs, pair)) {
                     return false;
                 }
             }
@@ -426,7 +390,7 @@ static bool KeepPairs(kiriSolver* solver, int32_t frameCount)
     if (kiriMatrix_FrameCount(solver->matrix) != frameCount || old > 2 * own) {
         return true;
     }
-    if (!kiriArray_Resize(&solver->memory, &solver->pairs, (int64_t)own + old)) {
+    if (!kiriArray_Resize(solver->memory, &solver->pairs, (int64_t)own + old)) {
         return false;
     }
     kiriMatrix_GetPairs(solver->matrix, solver->pairs.data + own);

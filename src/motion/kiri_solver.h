@@ -47,8 +47,7 @@ typedef struct kiriSystem {
 } kiriSystem;
 
 /* A solver for no frames yet. Null for memory. */
-kiriSolver* kiriSolver_Create(const kiriMemory* memory, const kiriMechanics* mechanics);
-void kiriSolver_Destroy(kiriSolver* solver);
+kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics);
 
 /* Prepares for these frames, links and patches; replaces what was staged before. Steps go on with the current ones. The
    pattern of the matrix is renewed only where it does not cover the pairs of frames that they couple, or where

@@ -2,19 +2,12 @@
 
 #include <string.h>
 
-bool kiriStrainOffsets_Reserve(kiriStrainOffsets* strainOffsets, const kiriMemory* memory, int32_t linkCount,
+bool kiriStrainOffsets_Reserve(kiriStrainOffsets* strainOffsets, kiriMemory* memory, int32_t linkCount,
                                int32_t frameCount)
 {
     return kiriArray_Reserve(memory, &strainOffsets->strainOffsets, linkCount) &&
            kiriArray_Reserve(memory, &strainOffsets->older, linkCount) &&
            kiriArray_Reserve(memory, &strainOffsets->frames, frameCount);
-}
-
-void kiriStrainOffsets_Release(kiriStrainOffsets* strainOffsets, const kiriMemory* memory)
-{
-    kiriArray_Release(memory, &strainOffsets->strainOffsets);
-    kiriArray_Release(memory, &strainOffsets->older);
-    kiriArray_Release(memory, &strainOffsets->frames);
 }
 
 void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFrameData* frames, int32_t frameCount)

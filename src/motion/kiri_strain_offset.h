@@ -17,9 +17,8 @@ typedef struct kiriStrainOffsets {
 } kiriStrainOffsets;
 
 /* Room for so many links and frames, so that the others do not fail. */
-bool kiriStrainOffsets_Reserve(kiriStrainOffsets* strainOffsets, const kiriMemory* memory, int32_t linkCount,
+bool kiriStrainOffsets_Reserve(kiriStrainOffsets* strainOffsets, kiriMemory* memory, int32_t linkCount,
                                int32_t frameCount);
-void kiriStrainOffsets_Release(kiriStrainOffsets* strainOffsets, const kiriMemory* memory);
 
 /* Before the commit. */
 void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFrameData* frames, int32_t frameCount);

@@ -12,23 +12,12 @@ bool kiriExtract_Init(kiriExtract* extract, const kiriSheetData* from)
 {
     memset(extract, 0, sizeof(*extract));
     extract->from = from;
-    extract->memory = from->memory;
-    if (!kiriArray_Resize(from->memory, &extract->keep, from->layout.pieces.count)) {
+    extract->memory = kiriMemory_Like(from->memory);
+    if (!kiriArray_Resize(&extract->memory, &extract->keep, from->layout.pieces.count)) {
         return false;
     }
     memset(extract->keep.data, 0, (size_t)extract->keep.count);
     return true;
-}
-
-void kiriExtract_Release(kiriExtract* extract)
-{
-    const kiriMemory* memory = extract->memory;
-    kiriArray_Release(memory, &extract->keep);
-    kiriArray_Release(memory, &extract->triangleTo);
-    kiriArray_Release(memory, &extract->vertexTo);
-    kiriArray_Release(memory, &extract->frameTo);
-    kiriArray_Release(memory, &extract->pointTo);
-    kiriArray_Release(memory, &extract->pinTo);
 }
 
 static bool IsFrameKept(const kiriExtract* extract, int32_t frame)
@@ -41,8 +30,8 @@ static bool MapMesh(kiriExtract* extract)
     const kiriSheetData* from = extract->from;
     const kiriMeshData* mesh = &from->mesh;
     int32_t triangles = 0, vertices = 0;
-    if (!kiriArray_Resize(from->memory, &extract->triangleTo, mesh->triangles.count) ||
-        !kiriArray_Resize(from->memory, &extract->vertexTo, mesh->vertices.count)) {
+    if (!kiriArray_Resize(&extract->memory, &extract->triangleTo, mesh->triangles.count) ||
+        !kiriArray_Resize(&extract->memory, &extract->vertexTo, mesh->vertices.count)) {
         return false;
     }
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
@@ -60,9 +49,9 @@ static bool MapRest(kiriExtract* extract)
 {
     const kiriSheetData* from = extract->from;
     int32_t frames = 0, points = 0, pins = 0;
-    if (!kiriArray_Resize(from->memory, &extract->frameTo, from->frames.count) ||
-        !kiriArray_Resize(from->memory, &extract->pointTo, from->points.count) ||
-        !kiriArray_Resize(from->memory, &extract->pinTo, from->pins.count)) {
+    if (!kiriArray_Resize(&extract->memory, &extract->frameTo, from->frames.count) ||
+        !kiriArray_Resize(&extract->memory, &extract->pointTo, from->points.count) ||
+        !kiriArray_Resize(&extract->memory, &extract->pinTo, from->pins.count)) {
         return false;
     }
     for (int32_t i = 0; i < from->frames.count; ++i) {
@@ -218,7 +207,7 @@ static void TakeFrames(const kiriExtract* extract, kiriSheetData* to)
 }
 
 /* What is still seen elsewhere goes on to fade. Samples keep their order. */
-static bool TakeFades(kiriFades* to, const kiriMemory* memory, const kiriFades* from, const int32_t* sampleTo,
+static bool TakeFades(kiriFades* to, kiriMemory* memory, const kiriFades* from, const int32_t* sampleTo,
                       int32_t sampleCount)
 {
     if (from->fading.count == 0) {
@@ -276,19 +265,12 @@ static bool Build(const kiriExtract* extract, kiriSheetData* to)
 bool kiriExtract_Build(kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
-    memset(to, 0, sizeof(*to));
-    to->memory = from->memory;
-    to->update.stage = KIRI_NONE;
     if (!MapMesh(extract) || !MapRest(extract) ||
-        !kiriMesh_InitPart(&to->mesh, &from->mesh, extract->triangleTo.data, extract->vertexTo.data)) {
+        !kiriMesh_InitPart(&to->mesh, to->memory, &from->mesh, extract->triangleTo.data, extract->vertexTo.data)) {
         return false;
     }
     TakeParameters(to, from);
-    if (!Build(extract, to)) {
-        kiriSheet_Release(to);
-        return false;
-    }
-    return true;
+    return Build(extract, to);
 }
 
 /* ---- The rest ---- */
@@ -300,7 +282,7 @@ static void MoveBlade(const kiriExtract* extract, kiriBlade* blade)
     }
 }
 
-void kiriExtract_Replace(const kiriExtract* extract, kiriSheetData* sheet, kiriSheetData* rest)
+void kiriExtract_MoveCuts(const kiriExtract* extract, kiriSheetData* sheet, kiriSheetData* rest)
 {
     rest->id = sheet->id;
     memcpy(&rest->queue, &sheet->queue, sizeof(sheet->queue));
@@ -308,9 +290,8 @@ void kiriExtract_Replace(const kiriExtract* extract, kiriSheetData* sheet, kiriS
     memset(&sheet->queue, 0, sizeof(sheet->queue));
     memset(&sheet->cuts, 0, sizeof(sheet->cuts));
     for (int32_t i = 0; i < rest->cuts.count; ++i) {
+        rest->cuts.data[i]->sheet = rest;
         MoveBlade(extract, &rest->cuts.data[i]->tip.blade);
         MoveBlade(extract, &rest->cuts.data[i]->committed.blade);
     }
-    kiriSheet_Release(sheet);
-    *sheet = *rest;
 }

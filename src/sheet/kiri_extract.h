@@ -7,23 +7,21 @@
 /* Which pieces are kept, and the index that everything of theirs gets in the part, or KIRI_NONE; orders are kept. */
 typedef struct kiriExtract {
     const kiriSheetData* from;
-    const kiriMemory* memory;
+    kiriMemory memory;        /* of the arrays; freed by the caller */
     KIRI_ARRAY(uint8_t) keep; /* of each piece; set by the caller */
     KIRI_ARRAY(int32_t) triangleTo, vertexTo, frameTo, pointTo, pinTo;
 } kiriExtract;
 
-/* No piece is kept yet. No update may be at hand in the sheet. False for memory; the extract is to be released
-   anyway. */
+/* No piece is kept yet. No update may be at hand in the sheet. False for memory. */
 bool kiriExtract_Init(kiriExtract* extract, const kiriSheetData* from);
-void kiriExtract_Release(kiriExtract* extract);
 
 /* The sheet of the pieces that are kept: on the same lattice and squares, so that all that follows from the mesh is
-   what it was bit for bit; frames, pins and contacts keep ids and state. Cuts stay behind. False for memory: the sheet
-   needs no release. */
+   what it was bit for bit; frames, pins and contacts keep ids and state. `to` is new. Cuts stay behind. False for
+   memory. */
 bool kiriExtract_Build(kiriExtract* extract, kiriSheetData* to);
 
-/* The sheet that was extracted from becomes `rest`, a part of it made by the extract, and keeps its cuts: a blade that
-   is in no material that is left cuts nothing until it comes back. Never fails. */
-void kiriExtract_Replace(const kiriExtract* extract, kiriSheetData* sheet, kiriSheetData* rest);
+/* `rest`, a part made by the extract, takes the place of the sheet, with its id and its cuts: a blade that is in no
+   material that is left cuts nothing until it comes back. Never fails. */
+void kiriExtract_MoveCuts(const kiriExtract* extract, kiriSheetData* sheet, kiriSheetData* rest);
 
 #endif

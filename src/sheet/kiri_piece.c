@@ -116,12 +116,12 @@ static int32_t OfTriangle(const kiriSheetData* sheet, int32_t triangle)
 }
 
 /* Sorts 0 to count - 1 by piece; what is of one piece stays in its order. */
-static bool Sort(const kiriSheetData* sheet, kiriPieceList* list, int32_t count,
+static bool Sort(kiriSheetData* sheet, kiriPieceList* list, int32_t count,
                  int32_t (*pieceOf)(const kiriSheetData* sheet, int32_t item))
 {
     int32_t pieces = sheet->layout.pieces.count;
-    if (!kiriArray_Resize(sheet->memory, &list->first, pieces + 2) ||
-        !kiriArray_Resize(sheet->memory, &list->items, count)) {
+    if (!kiriArray_Resize(&sheet->shown, &list->first, pieces + 2) ||
+        !kiriArray_Resize(&sheet->shown, &list->items, count)) {
         return false;
     }
     int32_t* first = list->first.data;
@@ -143,8 +143,8 @@ static bool FillHostArrays(kiriSheetData* sheet)
 {
     kiriPieceLists* lists = &sheet->lists;
     int32_t frames = lists->frames.items.count, triangles = lists->triangles.items.count;
-    if (!kiriArray_Resize(sheet->memory, &lists->ids, frames) ||
-        !kiriArray_Resize(sheet->memory, &lists->corners, 3 * (int64_t)triangles)) {
+    if (!kiriArray_Resize(&sheet->shown, &lists->ids, frames) ||
+        !kiriArray_Resize(&sheet->shown, &lists->corners, 3 * (int64_t)triangles)) {
         return false;
     }
     for (int32_t i = 0; i < frames; ++i) {
@@ -166,23 +166,6 @@ bool kiriPieces_List(kiriSheetData* sheet)
                            Sort(sheet, &lists->triangles, sheet->mesh.triangles.count, OfTriangle) &&
                            Sort(sheet, &lists->points, sheet->points.count, OfPoint) && FillHostArrays(sheet));
     return lists->isFresh;
-}
-
-static void ReleaseList(kiriPieceList* list, const kiriMemory* memory)
-{
-    kiriArray_Release(memory, &list->first);
-    kiriArray_Release(memory, &list->items);
-}
-
-void kiriPieces_Release(kiriPieceLists* lists, const kiriMemory* memory)
-{
-    ReleaseList(&lists->frames, memory);
-    ReleaseList(&lists->vertices, memory);
-    ReleaseList(&lists->triangles, memory);
-    ReleaseList(&lists->points, memory);
-    kiriArray_Release(memory, &lists->ids);
-    kiriArray_Release(memory, &lists->corners);
-    lists->isFresh = false;
 }
 
 kiriSpan kiriPiece_Span(const kiriPieceList* list, int32_t piece)

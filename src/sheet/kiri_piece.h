@@ -12,7 +12,6 @@ int32_t kiriPiece_OfVertex(const kiriSheetData* sheet, int32_t vertex);
 
 /* Brings the lists up to date: costs nothing where neither mesh nor pieces have changed. False for memory. */
 bool kiriPieces_List(kiriSheetData* sheet);
-void kiriPieces_Release(kiriPieceLists* lists, const kiriMemory* memory);
 
 /* Where the piece is in one of the lists. */
 kiriSpan kiriPiece_Span(const kiriPieceList* list, int32_t piece);

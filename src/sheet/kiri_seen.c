@@ -4,20 +4,11 @@
 
 bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount)
 {
-    return kiriSurface_Resize(&sheet->surface, sheet->memory, &sheet->mesh, frameCount) &&
-           kiriArray_Resize(sheet->memory, &sheet->pointPositions, 3 * (int64_t)pointCount) &&
+    return kiriSurface_Resize(&sheet->surface, &sheet->shown, &sheet->mesh, frameCount) &&
+           kiriArray_Resize(&sheet->shown, &sheet->pointPositions, 3 * (int64_t)pointCount) &&
            kiriArray_Resize(sheet->memory, &sheet->exactPoints, pointCount) &&
            (!sheet->update.isBegun || (kiriFades_Reserve(&sheet->fades, sheet->memory, sheet->mesh.vertices.count) &&
                                        kiriFades_Reserve(&sheet->pointFades, sheet->memory, pointCount)));
-}
-
-void kiriView_Release(kiriSheetData* sheet)
-{
-    kiriSurface_Release(&sheet->surface, sheet->memory);
-    kiriFades_Release(&sheet->fades, sheet->memory);
-    kiriFades_Release(&sheet->pointFades, sheet->memory);
-    kiriArray_Release(sheet->memory, &sheet->exactPoints);
-    kiriArray_Release(sheet->memory, &sheet->pointPositions);
 }
 
 /* A newborn vertex lies on the triangle that was seen. */

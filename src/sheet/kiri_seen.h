@@ -6,7 +6,6 @@
 
 /* Room for the mesh as it is, for so many frames and collision points; after it writing never fails. */
 bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount);
-void kiriView_Release(kiriSheetData* sheet);
 
 /* What has changed in the mesh; before kiriMesh_Commit. */
 void kiriView_WriteTopology(kiriSheetData* sheet);

@@ -8,41 +8,27 @@
 
 /* ---- Making and releasing ---- */
 
-static void ReleaseLayout(kiriLayout* layout, const kiriMemory* memory)
+kiriSheetData* kiriSheet_New(kiriMemory* memory)
 {
-    kiriArray_Release(memory, &layout->pieces);
-    kiriArray_Release(memory, &layout->framePiece);
-    kiriArray_Release(memory, &layout->pinFrame);
-    kiriPatches_Release(&layout->patches, memory);
+    kiriSheetData* sheet = kiriMemory_AllocZeroed(memory, sizeof(*sheet));
+    if (sheet != NULL) {
+        sheet->own = kiriMemory_Like(memory);
+        sheet->shown = kiriMemory_Like(memory);
+        sheet->memory = &sheet->own;
+        sheet->update.stage = KIRI_NONE;
+    }
+    return sheet;
 }
 
-void kiriSheet_Release(kiriSheetData* sheet)
+void kiriSheet_Delete(kiriSheetData* sheet, kiriMemory* memory)
 {
-    const kiriMemory* memory = sheet->memory;
-    kiriUpdate_Release(sheet);
-    ReleaseLayout(&sheet->layout, memory);
-    ReleaseLayout(&sheet->update.next, memory);
-    kiriLinks_Release(&sheet->links, memory);
-    kiriStrainOffsets_Release(&sheet->strainOffsets, memory);
-    kiriArray_Release(memory, &sheet->points);
-    kiriSkin_Release(&sheet->vertexSkin, memory);
-    kiriSkin_Release(&sheet->pointSkin, memory);
-    kiriPlaces_Release(&sheet->pointPlaces, memory);
-    kiriSolver_Destroy(sheet->solver);
-    kiriShape_Release(&sheet->shape, memory);
-    kiriRegions_Release(&sheet->regions, memory);
-    kiriGrid_Release(&sheet->grid, memory);
-    kiriMesh_Release(&sheet->mesh);
-    kiriArray_Release(memory, &sheet->frames);
-    kiriArray_Release(memory, &sheet->queue);
-    kiriArray_Release(memory, &sheet->cuts);
-    kiriArray_Release(memory, &sheet->pins);
-    kiriArray_Release(memory, &sheet->contacts);
-    kiriArray_Release(memory, &sheet->lastContacts);
-    kiriArray_Release(memory, &sheet->pinRows);
-    kiriArray_Release(memory, &sheet->contactRows);
-    kiriView_Release(sheet);
-    kiriPieces_Release(&sheet->lists, memory);
+    if (sheet != NULL) {
+        kiriMemory_FreeAll(&sheet->shown);
+        kiriMemory_FreeAll(&sheet->own);
+        kiriArray_Release(memory, &sheet->queue);
+        kiriArray_Release(memory, &sheet->cuts);
+        kiriMemory_Free(memory, sheet);
+    }
 }
 
 static kiriMat3 AxesOf(const kiriSheetDef* def)
@@ -220,24 +206,17 @@ static kiriResult Build(kiriSheetData* sheet, const kiriSheetDef* def, const cha
     return KIRI_OK;
 }
 
-kiriResult kiriSheet_Init(kiriSheetData* sheet, const kiriMemory* memory, const kiriSheetDef* def, const char** why)
+kiriResult kiriSheet_Init(kiriSheetData* sheet, const kiriSheetDef* def, const char** why)
 {
-    memset(sheet, 0, sizeof(*sheet));
-    sheet->memory = memory;
-    sheet->update.stage = KIRI_NONE;
-    kiriResult result = kiriMesh_Init(&sheet->mesh, memory, def->restPositions, def->vertexCount, def->indices,
+    kiriResult result = kiriMesh_Init(&sheet->mesh, sheet->memory, def->restPositions, def->vertexCount, def->indices,
                                       def->triangleCount, def->gridResolution, why);
     if (result != KIRI_OK) {
         return result;
     }
     SetParameters(sheet, def);
     kiriMesh_Begin(&sheet->mesh);
-    sheet->solver = kiriSolver_Create(memory, &sheet->mechanics);
-    result = sheet->solver != NULL ? Build(sheet, def, why) : KIRI_ERROR_MEMORY;
-    if (result != KIRI_OK) {
-        kiriSheet_Release(sheet);
-    }
-    return result;
+    sheet->solver = kiriSolver_Create(sheet->memory, &sheet->mechanics);
+    return sheet->solver != NULL ? Build(sheet, def, why) : KIRI_ERROR_MEMORY;
 }
 
 /* ---- Pins ---- */

@@ -117,7 +117,9 @@ typedef struct kiriUpdate {
 
 typedef struct kiriSheetData {
     kiriSheet id;
-    const kiriMemory* memory;
+    kiriMemory* memory; /* `own` */
+    kiriMemory own;     /* frees all of the sheet at once */
+    kiriMemory shown;   /* of arrays that the host may hold until the next tick */
     kiriMeshData mesh;
     kiriMaterial material;
     double snap; /* lattice steps */
@@ -166,10 +168,15 @@ typedef struct kiriSheetData {
     kiriPieceLists lists;
 } kiriSheetData;
 
-/* On failure *why says what is wrong, and the sheet needs no release. Ids of sheet and frames are given by the
-   world. */
-kiriResult kiriSheet_Init(kiriSheetData* sheet, const kiriMemory* memory, const kiriSheetDef* def, const char** why);
-void kiriSheet_Release(kiriSheetData* sheet);
+/* An empty sheet, zeroed; null for memory. Itself, its queue and its list of cuts are blocks of `memory`. */
+kiriSheetData* kiriSheet_New(kiriMemory* memory);
+
+/* Frees the sheet and all that is in it. Null is allowed. */
+void kiriSheet_Delete(kiriSheetData* sheet, kiriMemory* memory);
+
+/* Makes a new sheet what the def says. On failure *why says what is wrong, and the sheet is to be deleted. Ids of sheet
+   and frames are given by the world. */
+kiriResult kiriSheet_Init(kiriSheetData* sheet, const kiriSheetDef* def, const char** why);
 
 /* Weights for all vertices, none yet, before the first update. False for memory. */
 bool kiriSheet_StartSkin(kiriSheetData* sheet);

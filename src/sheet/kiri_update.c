@@ -89,26 +89,6 @@ void kiriUpdate_Abort(kiriSheetData* sheet)
     u->isBegun = false;
 }
 
-void kiriUpdate_Release(kiriSheetData* sheet)
-{
-    kiriUpdate* u = &sheet->update;
-    const kiriMemory* memory = sheet->memory;
-    kiriArray_Release(memory, &u->sites);
-    kiriArray_Release(memory, &u->moves);
-    kiriPlacer_Release(&u->placer, memory);
-    kiriArray_Release(memory, &u->marks);
-    kiriArray_Release(memory, &u->allowed);
-    kiriArray_Release(memory, &u->flags);
-    kiriArray_Release(memory, &u->own);
-    kiriArray_Release(memory, &u->material);
-    kiriArray_Release(memory, &u->parent);
-    kiriRefresh_Release(&u->refresh, memory);
-    kiriIntegrationWork_Release(&u->points, memory);
-    kiriRefit_Release(&u->refit, memory);
-    kiriArray_Release(memory, &u->newPoints);
-    kiriArray_Release(memory, &u->movedPoints);
-}
-
 /* ---- Mesh ---- */
 
 /* Moves the blade of a cut to the next point of its polyline. */

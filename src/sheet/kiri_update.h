@@ -29,6 +29,4 @@ void kiriUpdate_Finish(kiriSheetData* sheet);
 /* Takes back what this tick has done, as far as anyone can see. What grid, regions and shape have learned is lost. */
 void kiriUpdate_Abort(kiriSheetData* sheet);
 
-void kiriUpdate_Release(kiriSheetData* sheet);
-
 #endif

@@ -1,20 +1,20 @@
 #include "kiri_fade.h"
 
-bool kiriFades_Reserve(kiriFades* fades, const kiriMemory* memory, int32_t sampleCount)
+bool kiriFades_Reserve(kiriFades* fades, kiriMemory* memory, int32_t sampleCount)
 {
     int32_t room = fades->time > 0.0 ? sampleCount : 0;
     return kiriArray_Reserve(memory, &fades->seen, sampleCount) && kiriArray_Reserve(memory, &fades->fading, room) &&
            kiriArray_Reserve(memory, &fades->older, room);
 }
 
-void kiriFades_Trim(kiriFades* fades, const kiriMemory* memory)
+void kiriFades_Trim(kiriFades* fades, kiriMemory* memory)
 {
     if (fades->fading.count == 0 && fades->seen.capacity > 0) {
         kiriFades_Release(fades, memory);
     }
 }
 
-void kiriFades_Release(kiriFades* fades, const kiriMemory* memory)
+void kiriFades_Release(kiriFades* fades, kiriMemory* memory)
 {
     kiriArray_Release(memory, &fades->fading);
     kiriArray_Release(memory, &fades->older);

@@ -22,11 +22,11 @@ typedef struct kiriFades {
 } kiriFades;
 
 /* Room for so many samples, so that the others do not fail. */
-bool kiriFades_Reserve(kiriFades* fades, const kiriMemory* memory, int32_t sampleCount);
+bool kiriFades_Reserve(kiriFades* fades, kiriMemory* memory, int32_t sampleCount);
 
 /* Gives memory back where nothing fades. */
-void kiriFades_Trim(kiriFades* fades, const kiriMemory* memory);
-void kiriFades_Release(kiriFades* fades, const kiriMemory* memory);
+void kiriFades_Trim(kiriFades* fades, kiriMemory* memory);
+void kiriFades_Release(kiriFades* fades, kiriMemory* memory);
 
 /* Swaps fades->seen with the samples' own array, which had where they are seen. Both have room for all. */
 void kiriFades_Remember(kiriFades* fades, kiriVec3** samples, int32_t* capacity);

@@ -4,14 +4,7 @@
 
 /* ---- Weights ---------------------------------------------------------------------------------------------------- */
 
-void kiriSkin_Release(kiriSkin* skin, const kiriMemory* memory)
-{
-    kiriArray_Release(memory, &skin->spans);
-    kiriArray_Release(memory, &skin->weights);
-    kiriArray_Release(memory, &skin->staged);
-}
-
-static bool ResizeSpan(kiriSkin* skin, const kiriMemory* memory, kiriSpan* span, int32_t count)
+static bool ResizeSpan(kiriSkin* skin, kiriMemory* memory, kiriSpan* span, int32_t count)
 {
     return kiriSpan_Resize(span, &skin->room, memory, &skin->weights, sizeof(*skin->weights.data), count);
 }
@@ -23,7 +16,7 @@ static void Drop(kiriSkin* skin, kiriSpan* span)
 }
 
 /* Stages what the stencil has weighed. Makes room for the commit, too. */
-static bool Stage(kiriSkin* skin, const kiriMemory* memory, const kiriStencil* stencil, int32_t sample)
+static bool Stage(kiriSkin* skin, kiriMemory* memory, const kiriStencil* stencil, int32_t sample)
 {
     kiriReweighed staged = { sample, { 0, 0 } };
     int32_t count = 0;
@@ -45,16 +38,17 @@ static bool Stage(kiriSkin* skin, const kiriMemory* memory, const kiriStencil* s
     return true;
 }
 
-bool kiriSkin_Stage(kiriSkin* skin, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                     const kiriMeshData* mesh, int32_t sample, int32_t cell, kiriVec2 at)
 {
+    kiriMemory scratch = kiriMemory_Like(memory);
     kiriStencil stencil = { 0 };
-    bool ok = kiriStencil_Gather(&stencil, memory, shape, grid, mesh, cell);
+    bool ok = kiriStencil_Gather(&stencil, &scratch, shape, grid, mesh, cell);
     if (ok) {
         kiriStencil_Weigh(&stencil, at);
         ok = Stage(skin, memory, &stencil, sample);
     }
-    kiriStencil_Release(&stencil, memory);
+    kiriMemory_FreeAll(&scratch);
     return ok;
 }
 
@@ -96,7 +90,7 @@ static void Blend(kiriSkin* skin, kiriSpan* span, int32_t frame, double value)
     weights[k].value += value;
 }
 
-static bool InheritOne(kiriSkin* skin, const kiriMemory* memory, const kiriBirth* birth)
+static bool InheritOne(kiriSkin* skin, kiriMemory* memory, const kiriBirth* birth)
 {
     kiriSpan span = { 0, 0 };
     int32_t most = 0;
@@ -120,7 +114,7 @@ static bool InheritOne(kiriSkin* skin, const kiriMemory* memory, const kiriBirth
     return true;
 }
 
-bool kiriSkin_Inherit(kiriSkin* skin, const kiriMemory* memory, const kiriMeshData* mesh)
+bool kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* mesh)
 {
     for (int32_t v = skin->spans.count; v < mesh->vertices.count; ++v) {
         if (!InheritOne(skin, memory, &mesh->births.data[v - mesh->oldVertexCount])) {
@@ -144,7 +138,7 @@ static int32_t SquareCount(const kiriMeshData* mesh)
     return mesh->squares.columns * mesh->squares.rows;
 }
 
-bool kiriPlaces_Reserve(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount)
+bool kiriPlaces_Reserve(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount)
 {
     int32_t old = places->head.count;
     if (!kiriArray_Reserve(memory, &places->next, sampleCount) ||
@@ -157,7 +151,7 @@ bool kiriPlaces_Reserve(kiriPlaces* places, const kiriMemory* memory, const kiri
     return true;
 }
 
-bool kiriPlaces_Add(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint at)
+bool kiriPlaces_Add(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint at)
 {
     if (!kiriPlaces_Reserve(places, memory, mesh, (int64_t)places->next.count + 1)) {
         return false;
@@ -182,12 +176,6 @@ void kiriPlaces_Truncate(kiriPlaces* places, const kiriMeshData* mesh, int32_t s
     }
 }
 
-void kiriPlaces_Release(kiriPlaces* places, const kiriMemory* memory)
-{
-    kiriArray_Release(memory, &places->head);
-    kiriArray_Release(memory, &places->next);
-}
-
 /* ---- Refreshing ------------------------------------------------------------------------------------------------- */
 
 /* There is room for every square. */
@@ -199,7 +187,7 @@ static void AddSquare(kiriRefresh* refresh, int32_t square)
     }
 }
 
-bool kiriRefresh_Start(kiriRefresh* refresh, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+bool kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                        const kiriMeshData* mesh, int32_t firstVertex)
 {
     int32_t old = refresh->marks.count;
@@ -231,7 +219,7 @@ bool kiriRefresh_Start(kiriRefresh* refresh, const kiriMemory* memory, const kir
 /* What a refresh works on. */
 typedef struct Samples {
     kiriSkin* skin;
-    const kiriMemory* memory;
+    kiriMemory* memory;
     const kiriShape* shape;
     const kiriGrid* grid;
     const kiriMeshData* mesh;
@@ -295,28 +283,20 @@ static kiriProgress Refresh(kiriRefresh* refresh, const Samples* samples, kiriQu
     return KIRI_DONE;
 }
 
-kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, const kiriMemory* memory,
-                                  const kiriShape* shape, const kiriGrid* grid, const kiriMeshData* mesh,
-                                  kiriQuota* quota)
+kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, kiriMemory* memory, const kiriShape* shape,
+                                  const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
 {
     Samples samples = { skin, memory, shape, grid, mesh, NULL, NULL };
     return Refresh(refresh, &samples, quota);
 }
 
 kiriProgress kiriRefresh_Points(kiriRefresh* refresh, kiriSkin* skin, const kiriPlaces* places,
-                                const kiriSamples* points, const kiriMemory* memory, const kiriShape* shape,
+                                const kiriSamples* points, kiriMemory* memory, const kiriShape* shape,
                                 const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
 {
     Samples samples = { skin, memory, shape, grid, mesh, places, points };
     /* Before the first point there are no lists. */
     return places->next.count > 0 ? Refresh(refresh, &samples, quota) : KIRI_DONE;
-}
-
-void kiriRefresh_Release(kiriRefresh* refresh, const kiriMemory* memory)
-{
-    kiriArray_Release(memory, &refresh->squares);
-    kiriArray_Release(memory, &refresh->marks);
-    kiriStencil_Release(&refresh->stencil, memory);
 }
 
 /* ---- Motion ----------------------------------------------------------------------------------------------------- */

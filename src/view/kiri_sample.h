@@ -34,11 +34,9 @@ typedef struct kiriMotion {
     kiriMat3 A, rate; /* rate: of A, all of it */
 } kiriMotion;
 
-void kiriSkin_Release(kiriSkin* skin, const kiriMemory* memory);
-
 /* Stages the weights of a sample at a local point of a cell. A sample is staged at most once before a commit; those
    from `spans.count` on are new and must be staged in their order. False for memory. */
-bool kiriSkin_Stage(kiriSkin* skin, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                     const kiriMeshData* mesh, int32_t sample, int32_t cell, kiriVec2 at);
 
 /* The weights staged become those of the samples, or are dropped. Neither fails. */
@@ -51,10 +49,9 @@ typedef struct kiriPlaces {
     KIRI_ARRAY(int32_t) next; /* of each sample */
 } kiriPlaces;
 /* After it Add does not fail until there are so many samples. */
-bool kiriPlaces_Reserve(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount);
-bool kiriPlaces_Add(kiriPlaces* places, const kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint at);
+bool kiriPlaces_Reserve(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount);
+bool kiriPlaces_Add(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint at);
 void kiriPlaces_Truncate(kiriPlaces* places, const kiriMeshData* mesh, int32_t sampleCount, const kiriLatticePoint* at);
-void kiriPlaces_Release(kiriPlaces* places, const kiriMemory* memory);
 
 /* Stages, of all samples that follow the shape functions, those whose weights may have changed: each in a cell of
    shape->changes, or one straight or diagonal step from one. An item of the quota is a sample staged. */
@@ -66,19 +63,17 @@ typedef struct kiriRefresh {
 } kiriRefresh;
 
 /* Vertices from `firstVertex` on are new, and are staged all. */
-bool kiriRefresh_Start(kiriRefresh* refresh, const kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+bool kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                        const kiriMeshData* mesh, int32_t firstVertex);
-kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, const kiriMemory* memory,
-                                  const kiriShape* shape, const kiriGrid* grid, const kiriMeshData* mesh,
-                                  kiriQuota* quota);
+kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, kiriMemory* memory, const kiriShape* shape,
+                                  const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
 kiriProgress kiriRefresh_Points(kiriRefresh* refresh, kiriSkin* skin, const kiriPlaces* places,
-                                const kiriSamples* points, const kiriMemory* memory, const kiriShape* shape,
+                                const kiriSamples* points, kiriMemory* memory, const kiriShape* shape,
                                 const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
-void kiriRefresh_Release(kiriRefresh* refresh, const kiriMemory* memory);
 
 /* Vertices born since kiriMesh_Begin take a blend of their parents' weights, so that they lie on the surface as it was.
    Truncate takes that back. */
-bool kiriSkin_Inherit(kiriSkin* skin, const kiriMemory* memory, const kiriMeshData* mesh);
+bool kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* mesh);
 void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount);
 
 kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrameData* frames, kiriVec2 local);

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-bool kiriSurface_Resize(kiriSurface* surface, const kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount)
+bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount)
 {
     int64_t vertices = mesh->vertices.count, triangles = mesh->triangles.count;
     return kiriArray_Resize(memory, &surface->positions, 3 * vertices) &&
@@ -16,22 +16,6 @@ bool kiriSurface_Resize(kiriSurface* surface, const kiriMemory* memory, const ki
            kiriArray_Resize(memory, &surface->corners, 3 * (triangles + triangles % 2)) &&
            kiriArray_Resize(memory, &surface->carriers, frameCount) &&
            kiriArray_Resize(memory, &surface->bends, frameCount);
-}
-
-void kiriSurface_Release(kiriSurface* surface, const kiriMemory* memory)
-{
-    kiriArray_Release(memory, &surface->positions);
-    kiriArray_Release(memory, &surface->normals);
-    kiriArray_Release(memory, &surface->restPositions);
-    kiriArray_Release(memory, &surface->sourceWeights);
-    kiriArray_Release(memory, &surface->sourceTriangles);
-    kiriArray_Release(memory, &surface->indices);
-    kiriArray_Release(memory, &surface->rest);
-    kiriArray_Release(memory, &surface->exact);
-    kiriArray_Release(memory, &surface->slopes);
-    kiriArray_Release(memory, &surface->corners);
-    kiriArray_Release(memory, &surface->carriers);
-    kiriArray_Release(memory, &surface->bends);
 }
 
 /* ---- Topology ---- */

@@ -52,8 +52,7 @@ typedef struct kiriSurface {
 } kiriSurface;
 
 /* Room for the mesh as it is and for so many frames; after it the others never fail. */
-bool kiriSurface_Resize(kiriSurface* surface, const kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount);
-void kiriSurface_Release(kiriSurface* surface, const kiriMemory* memory);
+bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount);
 
 /* Takes over what kiriMesh_Begin's journal says has changed; call it before kiriMesh_Commit. The first time
    all of the mesh. */

@@ -13,17 +13,19 @@
 /* The defs are stamped with their size, so that a def of another version, or a forgotten default, is found out. */
 #define COOKIE(Type) (0x4b000000u | (uint32_t)sizeof(Type))
 
-/* Results that are errors set the line; every function ends through here or with KIRI_OK. */
-static kiriResult Fail(const kiriWorld* world, kiriResult result, const char* function, const char* why)
+enum { LINE_BYTES = sizeof(((kiriWorld*)NULL)->error.line) };
+
+/* Every function ends through here or with KIRI_OK. */
+static kiriResult Fail(const kiriWorld* world, char* line, kiriResult result, const char* function, const char* why)
 {
-    snprintf(world->error->line, sizeof(world->error->line), "%s: %s (%s)", function, why, kiriGetResultName(result));
+    snprintf(line, LINE_BYTES, "%s: %s (%s)", function, why, kiriGetResultName(result));
     if (world->log != NULL) {
-        world->log(world->user, world->error->line);
+        world->log(world->user, line);
     }
     return result;
 }
 
-#define FAIL(result, why) Fail(world, result, __func__, why)
+#define FAIL(result, why) Fail(world, line, result, __func__, why)
 
 #define CHECK(condition, why)                                                                                          \
     do {                                                                                                               \
@@ -32,14 +34,20 @@ static kiriResult Fail(const kiriWorld* world, kiriResult result, const char* fu
         }                                                                                                              \
     } while (0)
 
-/* Only a world can hold a line, so a null one just gives the code. */
+/* A function that changes the world keeps its line there; one that only reads gives it to the log alone, so that several
+   threads may read. Without a world there is only the code. */
 #define BEGIN(world)                                                                                                   \
-    do {                                                                                                               \
-        if ((world) == NULL) {                                                                                         \
-            return KIRI_ERROR_ARGUMENT;                                                                                \
-        }                                                                                                              \
-        (world)->error->line[0] = '\0';                                                                                \
-    } while (0)
+    if ((world) == NULL) {                                                                                             \
+        return KIRI_ERROR_ARGUMENT;                                                                                    \
+    }                                                                                                                  \
+    char* line = (world)->error.line;                                                                                  \
+    line[0] = '\0'
+
+#define READ(world)                                                                                                    \
+    if ((world) == NULL) {                                                                                             \
+        return KIRI_ERROR_ARGUMENT;                                                                                    \
+    }                                                                                                                  \
+    char line[LINE_BYTES]
 
 #define FIND(pointer, Type, pool, id)                                                                                  \
     Type* pointer = Owner(&world->pool, id);                                                                           \
@@ -165,17 +173,13 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
         return result;
     }
     kiriMemory memory = kiriMemory_Make(def->alloc, def->free, def->user);
-    kiriWorld* made = kiriMemory_Alloc(&memory, sizeof(*made));
-    kiriError* error = kiriMemory_Alloc(&memory, sizeof(*error));
-    if (made == NULL || error == NULL) {
-        kiriMemory_Free(&memory, made);
-        kiriMemory_Free(&memory, error);
+    kiriWorld* made = memory.alloc(memory.user, sizeof(*made)); /* owns itself: no block of its memory */
+    if (made == NULL) {
         return KIRI_ERROR_MEMORY;
     }
     memset(made, 0, sizeof(*made));
-    memset(error, 0, sizeof(*error));
-    made->memory = memory;
-    made->error = error;
+    made->memory = kiriMemory_Like(&memory);
+    made->retired = kiriMemory_Like(&memory);
     made->log = def->log;
     made->clock = def->clock;
     made->user = def->user;
@@ -198,15 +202,9 @@ void kiriDestroyWorld(kiriWorld* world)
     while (world->sheets.count > 0) {
         kiriWorld_RemoveSheet(world, world->sheets.data[world->sheets.count - 1]);
     }
-    kiriMemory memory = world->memory;
-    kiriPool_Release(&world->sheetIds, &memory);
-    kiriPool_Release(&world->cutIds, &memory);
-    kiriPool_Release(&world->frameIds, &memory);
-    kiriPool_Release(&world->pinIds, &memory);
-    kiriArray_Release(&memory, &world->sheets);
-    kiriArray_Release(&memory, &world->events);
-    kiriMemory_Free(&memory, world->error);
-    kiriMemory_Free(&memory, world);
+    kiriMemory_FreeAll(&world->retired);
+    kiriMemory_FreeAll(&world->memory);
+    world->memory.free(world->memory.user, world);
 }
 
 kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps)
@@ -223,7 +221,7 @@ kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps)
 
 const char* kiriWorld_GetLastError(const kiriWorld* world)
 {
-    return world != NULL ? world->error->line : "";
+    return world != NULL ? world->error.line : "";
 }
 
 kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3])
@@ -278,7 +276,7 @@ kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBud
 
 kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash)
 {
-    BEGIN(world);
+    READ(world);
     CHECK(hash != NULL, "hash is null");
     *hash = kiriSnapshot_Hash(world);
     return KIRI_OK;
@@ -286,7 +284,7 @@ kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash)
 
 kiriResult kiriWorld_GetEvents(const kiriWorld* world, const kiriEvent** events, int32_t* count)
 {
-    BEGIN(world);
+    READ(world);
     CHECK(events != NULL && count != NULL, "events or count is null");
     *events = world->events.data;
     *count = world->events.count;
@@ -295,7 +293,7 @@ kiriResult kiriWorld_GetEvents(const kiriWorld* world, const kiriEvent** events,
 
 kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile)
 {
-    BEGIN(world);
+    READ(world);
     CHECK(profile != NULL, "profile is null");
     *profile = world->profile;
     return KIRI_OK;
@@ -467,7 +465,7 @@ kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t
 
 kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* mesh)
 {
-    BEGIN(world);
+    READ(world);
     CHECK(mesh != NULL, "mesh is null");
     FIND(data, kiriSheetData, sheetIds, sheet);
     const kiriSurface* surface = &data->surface;
@@ -485,7 +483,7 @@ kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* 
 
 kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t sinceRevision, kiriDirty* dirty)
 {
-    BEGIN(world);
+    READ(world);
     CHECK(dirty != NULL, "dirty is null");
     FIND(data, kiriSheetData, sheetIds, sheet);
     kiriSurface_GetDirty(&data->surface, sinceRevision, dirty);
@@ -500,7 +498,7 @@ static bool IsRange(int32_t first, int32_t count, int32_t all)
 kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count,
                                   void* positions, int32_t positionStride, void* normals, int32_t normalStride)
 {
-    BEGIN(world);
+    READ(world);
     CHECK((positions == NULL || positionStride >= 12) && (normals == NULL || normalStride >= 12),
           "a stride is below 12 bytes");
     FIND(data, kiriSheetData, sheetIds, sheet);
@@ -512,7 +510,7 @@ kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet sheet, int32
 kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count,
                                    uint16_t* indices)
 {
-    BEGIN(world);
+    READ(world);
     CHECK(count == 0 || indices != NULL, "indices is null");
     FIND(data, kiriSheetData, sheetIds, sheet);
     CHECK(IsRange(firstTriangle, count, data->surface.triangleCount), "the sheet has no such triangles");
@@ -525,7 +523,7 @@ kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int3
 kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet, const float** positions,
                                         int32_t* count)
 {
-    BEGIN(world);
+    READ(world);
     CHECK(positions != NULL && count != NULL, "positions or count is null");
     FIND(data, kiriSheetData, sheetIds, sheet);
     *positions = data->pointPositions.data;
@@ -535,7 +533,7 @@ kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet,
 
 kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCounts* counts)
 {
-    BEGIN(world);
+    READ(world);
     CHECK(counts != NULL, "counts is null");
     FIND(data, kiriSheetData, sheetIds, sheet);
     counts->vertices = data->mesh.vertices.count;
@@ -550,7 +548,7 @@ kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCoun
 
 kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet, kiriTotals* totals)
 {
-    BEGIN(world);
+    READ(world);
     CHECK(totals != NULL, "totals is null");
     FIND(data, kiriSheetData, sheetIds, sheet);
     *totals = kiriMotion_Totals(data);
@@ -559,7 +557,7 @@ kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet, kiriTota
 
 kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, int32_t* awake)
 {
-    BEGIN(world);
+    READ(world);
     CHECK(awake != NULL, "awake is null");
     FIND(data, kiriSheetData, sheetIds, sheet);
     *awake = !data->asleep;
@@ -577,7 +575,7 @@ kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet)
 kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, const float origin[3], const float direction[3],
                              float maxDistance, kiriHit* hit)
 {
-    BEGIN(world);
+    READ(world);
     CHECK(origin != NULL && direction != NULL && hit != NULL, "origin, direction or hit is null");
     CHECK(AreFinite(origin, 3) && AreFinite(direction, 3) && IsAtLeast(maxDistance, 0.0f),
           "origin, direction or maxDistance is not finite, or maxDistance below 0");
@@ -590,7 +588,7 @@ kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, const floa
 kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriFrame* frames,
                                 float* weights, float* gradients, int32_t capacity, int32_t* count)
 {
-    BEGIN(world);
+    READ(world);
     CHECK(restPoint != NULL && AreFinite(restPoint, 2) && count != NULL, "restPoint or count is null, or not finite");
     CHECK(capacity == 0 || (capacity > 0 && frames != NULL && weights != NULL), "capacity without frames and weights");
     FIND(data, kiriSheetData, sheetIds, sheet);
@@ -602,9 +600,10 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
     int32_t cell = inRange ? kiriGrid_CellAt(&data->grid, &data->mesh, at) : KIRI_NONE;
     CHECK(cell != KIRI_NONE, "restPoint lies outside the material");
     kiriPointWeights found = { NULL, 0, 0 };
-    if (!kiriShape_At(&data->shape, &world->memory, &data->grid, &data->mesh, cell, kiriMesh_Local(&data->mesh, at),
+    kiriMemory scratch = kiriMemory_Like(&world->memory);
+    if (!kiriShape_At(&data->shape, &scratch, &data->grid, &data->mesh, cell, kiriMesh_Local(&data->mesh, at),
                       &found)) {
-        kiriArray_Release(&world->memory, &found);
+        kiriMemory_FreeAll(&scratch);
         return FAIL(KIRI_ERROR_MEMORY, "out of memory");
     }
     for (int32_t i = 0; i < found.count && i < capacity; ++i) {
@@ -616,7 +615,7 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
         }
     }
     *count = found.count;
-    kiriArray_Release(&world->memory, &found);
+    kiriMemory_FreeAll(&scratch);
     return KIRI_OK;
 }
 
@@ -674,7 +673,7 @@ kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, int32_t p
 
 kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* piece)
 {
-    BEGIN(world);
+    READ(world);
     CHECK(piece != NULL, "piece is null");
     FIND(sheet, kiriSheetData, frameIds, frame);
     *piece = sheet->layout.framePiece.data[kiriPool_Find(&world->frameIds, frame)->index];
@@ -830,7 +829,7 @@ static kiriFrameData* FindFrame(const kiriWorld* world, kiriFrame frame)
 kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFrame* frames, int32_t capacity,
                                int32_t* count)
 {
-    BEGIN(world);
+    READ(world);
     CHECK(count != NULL && (capacity == 0 || (capacity > 0 && frames != NULL)), "count is null, or frames is");
     FIND(data, kiriSheetData, sheetIds, sheet);
     for (int32_t i = 0; i < data->frames.count && i < capacity; ++i) {
@@ -842,7 +841,7 @@ kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFram
 
 kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state)
 {
-    BEGIN(world);
+    READ(world);
     CHECK(state != NULL, "state is null");
     const kiriFrameData* data = FindFrame(world, frame);
     if (data == NULL) {

@@ -299,6 +299,7 @@ static void CountItems(kiriProfile* profile, const Quotas* quotas)
 
 kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
 {
+    kiriMemory_FreeAll(&world->retired);
     memset(&world->profile, 0, sizeof(world->profile));
     world->events.count = 0;
     kiriResult result = KIRI_ERROR_MEMORY;
@@ -327,14 +328,13 @@ static bool ReserveSheet(kiriWorld* world, kiriSheetData* sheet)
 
 kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, const char** why)
 {
-    kiriSheetData* sheet = kiriMemory_Alloc(&world->memory, sizeof(*sheet));
-    kiriResult result = sheet == NULL ? KIRI_ERROR_MEMORY : kiriSheet_Init(sheet, &world->memory, def, why);
+    kiriSheetData* sheet = kiriSheet_New(&world->memory);
+    kiriResult result = sheet == NULL ? KIRI_ERROR_MEMORY : kiriSheet_Init(sheet, def, why);
     if (result == KIRI_OK && !ReserveSheet(world, sheet)) {
-        kiriSheet_Release(sheet);
         result = KIRI_ERROR_MEMORY;
     }
     if (result != KIRI_OK) {
-        kiriMemory_Free(&world->memory, sheet);
+        kiriSheet_Delete(sheet, &world->memory);
         return result;
     }
     world->sheets.data[world->sheets.count++] = sheet;
@@ -366,8 +366,8 @@ void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet)
         }
     }
     world->sheets.count = kept;
-    kiriSheet_Release(sheet);
-    kiriMemory_Free(&world->memory, sheet);
+    kiriMemory_AdoptAll(&world->retired, &sheet->shown);
+    kiriSheet_Delete(sheet, &world->memory);
 }
 
 kiriCutData* kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet)
@@ -408,19 +408,25 @@ static void PointIds(kiriWorld* world, kiriSheetData* sheet)
 /* A sheet of the pieces that are kept, without ids; null for memory. */
 static kiriSheetData* Part(kiriWorld* world, kiriExtract* extract)
 {
-    kiriSheetData* part = kiriMemory_Alloc(&world->memory, sizeof(*part));
+    kiriSheetData* part = kiriSheet_New(&world->memory);
     if (part != NULL && !kiriExtract_Build(extract, part)) {
-        kiriMemory_Free(&world->memory, part);
+        kiriSheet_Delete(part, &world->memory);
         part = NULL;
     }
     return part;
 }
 
+/* The rest takes the place of the sheet, which is deleted. */
 static void Replace(kiriWorld* world, const kiriExtract* extract, kiriSheetData* sheet, kiriSheetData* rest)
 {
-    kiriExtract_Replace(extract, sheet, rest);
-    kiriMemory_Free(&world->memory, rest);
-    PointIds(world, sheet);
+    kiriExtract_MoveCuts(extract, sheet, rest);
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        world->sheets.data[i] = world->sheets.data[i] == sheet ? rest : world->sheets.data[i];
+    }
+    kiriPool_Find(&world->sheetIds, rest->id)->owner = rest;
+    PointIds(world, rest);
+    kiriMemory_AdoptAll(&world->retired, &sheet->shown);
+    kiriSheet_Delete(sheet, &world->memory);
 }
 
 static void Invert(kiriExtract* extract)
@@ -440,10 +446,7 @@ static bool Detach(kiriWorld* world, kiriSheetData* sheet, kiriExtract* extract,
     Invert(extract);
     kiriSheetData* rest = part != NULL ? Part(world, extract) : NULL;
     if (rest == NULL) {
-        if (part != NULL) {
-            kiriSheet_Release(part);
-        }
-        kiriMemory_Free(&world->memory, part);
+        kiriSheet_Delete(part, &world->memory);
         return false;
     }
     Replace(world, extract, sheet, rest);
@@ -482,7 +485,7 @@ bool kiriWorld_DetachPiece(kiriWorld* world, kiriSheetData* sheet, int32_t piece
         extract.keep.data[piece] = 1;
         ok = Detach(world, sheet, &extract, id);
     }
-    kiriExtract_Release(&extract);
+    kiriMemory_FreeAll(&extract.memory);
     return ok;
 }
 
@@ -495,7 +498,7 @@ bool kiriWorld_DropPiece(kiriWorld* world, kiriSheetData* sheet, int32_t piece)
         Invert(&extract);
         ok = Drop(world, sheet, &extract);
     }
-    kiriExtract_Release(&extract);
+    kiriMemory_FreeAll(&extract.memory);
     return ok;
 }
 
@@ -521,6 +524,6 @@ bool kiriWorld_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, i
     int32_t dropped = ok ? KeepAbove(&extract, area) : 0;
     ok = ok && (dropped == 0 || Drop(world, sheet, &extract));
     *count = ok ? dropped : 0;
-    kiriExtract_Release(&extract);
+    kiriMemory_FreeAll(&extract.memory);
     return ok;
 }

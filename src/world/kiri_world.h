@@ -13,6 +13,7 @@ typedef struct kiriError {
 
 struct kiriWorld {
     kiriMemory memory;
+    kiriMemory retired; /* arrays that the host may hold until the next tick */
     kiriLogFn* log;
     kiriClockFn* clock;
     void* user;
@@ -26,7 +27,7 @@ struct kiriWorld {
     kiriProfile profile;
     int32_t stage; /* running now, or KIRI_NONE */
     double stageStart;
-    kiriError* error; /* apart, so that functions which only read can report too */
+    kiriError error;
 };
 
 /* One tick: KIRI_OK, KIRI_PENDING (work waits), KIRI_ERROR_MEMORY (nothing moved), or KIRI_DIVERGED. */
