@@ -1,7 +1,9 @@
 #include "kiri_extract.h"
 
+#include "kiri_build.h"
 #include "kiri_piece.h"
-#include "kiri_update.h"
+#include "kiri_pin.h"
+#include "kiri_pipeline.h"
 #include "kiri_seen.h"
 
 #include <string.h>
@@ -69,30 +71,15 @@ static bool MapRest(kiriExtract* extract)
 /* ---- The part ---- */
 
 /* What is spread over the sheet falls to its parts by area. */
-static void TakeParameters(kiriSheetData* to, const kiriSheetData* from)
+static void TakeSettings(kiriSheetData* to, const kiriSheetData* from)
 {
     double share = kiriMesh_Area(&to->mesh) / kiriMesh_Area(&from->mesh);
-    to->material = from->material;
-    to->snap = from->snap;
-    to->mechanics = from->mechanics;
-    to->rigidArea = from->rigidArea;
-    to->crumbArea = from->crumbArea;
-    to->frameLength = from->frameLength;
-    to->iterations = from->iterations;
-    to->pointCount = share * from->pointCount;
-    to->integrationPoints = share * from->integrationPoints;
-    to->integrationOrder = from->integrationOrder;
-    to->alwaysScratch = from->alwaysScratch;
-    to->shape.rigidWeight = from->shape.rigidWeight;
-    to->surface.skinning = from->surface.skinning;
-    to->popping = from->popping;
-    to->fades.time = from->fades.time;
-    to->fades.least = from->fades.least;
-    to->pointFades.time = from->pointFades.time;
-    to->pointFades.least = from->pointFades.least;
-    to->sleepSpeed = from->sleepSpeed;
-    to->calm = from->calm;
-    to->asleep = from->asleep;
+    to->settings = from->settings;
+    to->settings.collisionPoints = share * from->settings.collisionPoints;
+    to->settings.integrationPoints = share * from->settings.integrationPoints;
+    to->rest.calm = from->rest.calm;
+    to->rest.asleep = from->rest.asleep;
+    kiriBuild_ApplySettings(to);
 }
 
 /* The cell of the part with the material of one of the sheet. */
@@ -113,10 +100,8 @@ static bool TakeSites(const kiriExtract* extract, kiriSheetData* to)
     for (int32_t i = 0; ok && i < from->frames.count; ++i) {
         if (extract->frameTo.data[i] != KIRI_NONE) {
             kiriSite site = from->frames.data[i].site;
-            kiriSiteMove move = { extract->frameTo.data[i], KIRI_NONE };
             site.cell = CellOf(extract, to, site.cell);
-            ok = kiriArray_Push(to->memory, &to->update.sites, site) &&
-                 kiriArray_Push(to->memory, &to->update.moves, move);
+            ok = kiriArray_Push(to->memory, &to->update->placing.sites, site);
         }
     }
     return ok;
@@ -145,7 +130,7 @@ static bool TakePins(const kiriExtract* extract, kiriSheetData* to)
     for (int32_t i = 0; ok && i < from->pins.count; ++i) {
         if (extract->pinTo.data[i] != KIRI_NONE) {
             int32_t frame = extract->frameTo.data[from->layout.pinFrame.data[i]];
-            ok = kiriSheet_AddPin(to, &from->pins.data[i], frame);
+            ok = kiriPins_Add(to, &from->pins.data[i], frame);
         }
     }
     return ok;
@@ -155,18 +140,18 @@ static bool TakePins(const kiriExtract* extract, kiriSheetData* to)
 static bool TakeContacts(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
-    int32_t most = from->contacts.count > from->lastContacts.count ? from->contacts.count : from->lastContacts.count;
+    int32_t most = from->contacts.count > from->rest.contacts.count ? from->contacts.count : from->rest.contacts.count;
     if (!kiriArray_Reserve(to->memory, &to->contacts, most) ||
-        !kiriArray_Reserve(to->memory, &to->lastContacts, most) ||
+        !kiriArray_Reserve(to->memory, &to->rest.contacts, most) ||
         !kiriArray_Reserve(to->memory, &to->contactRows, most)) {
         return false;
     }
-    for (int32_t i = 0; i < from->contacts.count + from->lastContacts.count; ++i) {
+    for (int32_t i = 0; i < from->contacts.count + from->rest.contacts.count; ++i) {
         bool isLast = i >= from->contacts.count;
-        kiriContact contact = isLast ? from->lastContacts.data[i - from->contacts.count] : from->contacts.data[i];
+        kiriContact contact = isLast ? from->rest.contacts.data[i - from->contacts.count] : from->contacts.data[i];
         contact.point = extract->pointTo.data[contact.point];
         if (contact.point != KIRI_NONE && isLast) {
-            to->lastContacts.data[to->lastContacts.count++] = contact;
+            to->rest.contacts.data[to->rest.contacts.count++] = contact;
         } else if (contact.point != KIRI_NONE) {
             to->contacts.data[to->contacts.count++] = contact;
         }
@@ -174,34 +159,28 @@ static bool TakeContacts(const kiriExtract* extract, kiriSheetData* to)
     return true;
 }
 
-/* All stages but the mesh's, without a limit. No frame is added: whoever wants one has asked before, or asks with the
-   next cut. */
+/* No frame is added: whoever wants one has asked before, or asks with the next cut. */
 static bool RunStages(const kiriExtract* extract, kiriSheetData* to)
 {
-    kiriQuota all = { INT64_MAX, 0 };
-    kiriUpdate* u = &to->update;
-    u->isScratch = true;
-    if (kiriUpdate_Grid(to, &all) != KIRI_DONE || !TakeSites(extract, to) || !TakePoints(extract, to) ||
-        !TakePins(extract, to) || !TakeContacts(extract, to) || !kiriSheet_StartSkin(to)) {
+    if (!kiriPipeline_Make(to, KIRI_STAGE_REGIONS) || !TakeSites(extract, to) || !TakePoints(extract, to) ||
+        !TakePins(extract, to) || !TakeContacts(extract, to)) {
         return false;
     }
-    u->step = 1; /* sites are where they shall be */
-    to->maxFrames = 0;
-    bool ok = kiriUpdate_Regions(to, &all) == KIRI_DONE && kiriUpdate_Shape(to, &all) == KIRI_DONE &&
-              kiriUpdate_Samples(to, &all) == KIRI_DONE && kiriUpdate_Constants(to, &all) == KIRI_DONE;
-    to->maxFrames = extract->from->maxFrames;
+    to->settings.maxFrames = 0;
+    bool ok = kiriPipeline_Make(to, KIRI_READY);
+    to->settings.maxFrames = extract->from->settings.maxFrames;
     return ok;
 }
 
 /* Frames as they are to the last bit, whatever a commit does to new ones. */
 static void TakeFrames(const kiriExtract* extract, kiriSheetData* to)
 {
-    to->frames.count = to->update.sites.count;
+    to->frames.count = to->update->placing.sites.count;
     for (int32_t i = 0; i < extract->from->frames.count; ++i) {
         if (extract->frameTo.data[i] != KIRI_NONE) {
             kiriFrameData* frame = &to->frames.data[extract->frameTo.data[i]];
             *frame = extract->from->frames.data[i];
-            frame->site = to->update.sites.data[extract->frameTo.data[i]];
+            frame->site = to->update->placing.sites.data[extract->frameTo.data[i]];
         }
     }
 }
@@ -229,8 +208,8 @@ static bool TakeFades(kiriFades* to, kiriMemory* memory, const kiriFades* from, 
 static bool TakeAllFades(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
-    return TakeFades(&to->fades, to->memory, &from->fades, extract->vertexTo.data, to->mesh.vertices.count) &&
-           TakeFades(&to->pointFades, to->memory, &from->pointFades, extract->pointTo.data, to->points.count);
+    return TakeFades(&to->seen.fades, to->memory, &from->seen.fades, extract->vertexTo.data, to->mesh.vertices.count) &&
+           TakeFades(&to->seen.pointFades, to->memory, &from->seen.pointFades, extract->pointTo.data, to->points.count);
 }
 
 /* Links come in the order that they had. */
@@ -248,16 +227,14 @@ static void TakeStrainOffsets(const kiriExtract* extract, kiriSheetData* to)
 
 static bool Build(const kiriExtract* extract, kiriSheetData* to)
 {
-    to->solver = kiriSolver_Create(to->memory, &to->mechanics);
+    to->solver = kiriSolver_Create(to->memory, &to->settings.mechanics);
     if (to->solver == NULL || !RunStages(extract, to) || !TakeAllFades(extract, to)) {
         return false;
     }
     TakeFrames(extract, to);
-    kiriUpdate_Commit(to);
+    kiriBuild_Commit(to);
     TakeFrames(extract, to);
     TakeStrainOffsets(extract, to);
-    kiriView_WriteTopology(to);
-    kiriMesh_Commit(&to->mesh);
     kiriView_WritePositions(to);
     return true;
 }
@@ -269,7 +246,7 @@ bool kiriExtract_Build(kiriExtract* extract, kiriSheetData* to)
         !kiriMesh_InitPart(&to->mesh, to->memory, &from->mesh, extract->triangleTo.data, extract->vertexTo.data)) {
         return false;
     }
-    TakeParameters(to, from);
+    TakeSettings(to, from);
     return Build(extract, to);
 }
 

@@ -2,7 +2,7 @@
 #ifndef KIRI_PIECE_H
 #define KIRI_PIECE_H
 
-#include "kiri_sheet.h"
+#include "kiri_update.h"
 
 /* Stages the pieces that come in force with the next commit, from the links that are staged. False for memory. */
 bool kiriPieces_Stage(kiriSheetData* sheet);

@@ -4,7 +4,7 @@
 #ifndef KIRI_SITE_H
 #define KIRI_SITE_H
 
-#include "kiri_sheet.h"
+#include "kiri_update.h"
 
 /* The cells of the sites that were there, in the grid as it is; a move for each that is in another cell. False for
    memory. */

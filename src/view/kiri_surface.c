@@ -114,6 +114,7 @@ void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
     change.to = mesh->revision;
     change.oldVertexCount = surface->vertexCount;
     change.oldTriangleCount = surface->triangleCount;
+    surface->origin = mesh->origin;
     surface->revision = mesh->revision;
     surface->vertexCount = mesh->vertices.count;
     surface->triangleCount = mesh->triangles.count;

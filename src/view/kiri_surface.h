@@ -33,6 +33,7 @@ enum { KIRI_CHANGES = 32 };
 
 typedef struct kiriSurface {
     int32_t skinning; /* KIRI_SKINNING_... */
+    kiriVec2 origin;  /* m, rest plane: of local coordinates */
 
     /* What the host reads. */
     KIRI_ARRAY(float) positions, normals, restPositions, sourceWeights;

@@ -152,20 +152,20 @@ static void Frame(uint64_t* hash, const kiriFrameData* frame)
 
 static void Parameters(uint64_t* hash, const kiriSheetData* sheet)
 {
-    const kiriMaterial* m = &sheet->material;
+    const kiriMaterial* m = &sheet->settings.material;
     Vec3(hash, kiriVec3_Make(m->youngsModulus, m->poissonsRatio, m->thickness));
     Vec3(hash, kiriVec3_Make(m->density, m->airDamping, m->flexDamping));
-    Vec3(hash, kiriVec3_Make(sheet->snap, sheet->shape.rigidWeight, sheet->rigidArea));
-    Real(hash, sheet->crumbArea);
-    Real(hash, sheet->frameLength);
-    Int(hash, sheet->mechanics.model);
-    Int(hash, sheet->mechanics.planar);
-    Real(hash, sheet->integrationPoints);
-    Int(hash, sheet->integrationOrder);
-    Int(hash, sheet->maxFrames);
-    Int(hash, sheet->iterations);
-    Real(hash, sheet->pointCount);
-    Int(hash, sheet->popping);
+    Vec3(hash, kiriVec3_Make(sheet->settings.snap, sheet->shape.rigidWeight, sheet->settings.rigidArea));
+    Real(hash, sheet->settings.crumbArea);
+    Real(hash, sheet->settings.frameLength);
+    Int(hash, sheet->settings.mechanics.model);
+    Int(hash, sheet->settings.mechanics.planar);
+    Real(hash, sheet->settings.integrationPoints);
+    Int(hash, sheet->settings.integrationOrder);
+    Int(hash, sheet->settings.maxFrames);
+    Int(hash, sheet->settings.iterations);
+    Real(hash, sheet->settings.collisionPoints);
+    Int(hash, sheet->settings.popping);
 }
 
 static int32_t IndexOf(const kiriSheetData* sheet, const kiriCutData* cut)
@@ -230,13 +230,13 @@ static void Fades(uint64_t* hash, const kiriFades* fades)
 
 static void Sleep(uint64_t* hash, const kiriSheetData* sheet)
 {
-    Real(hash, sheet->sleepSpeed);
-    Real(hash, sheet->calm);
-    Int(hash, sheet->asleep);
-    Contacts(hash, sheet->lastContacts.data, sheet->lastContacts.count);
+    Real(hash, sheet->settings.sleepSpeed);
+    Real(hash, sheet->rest.calm);
+    Int(hash, sheet->rest.asleep);
+    Contacts(hash, sheet->rest.contacts.data, sheet->rest.contacts.count);
 }
 
-uint64_t kiriSnapshot_Hash(const kiriWorld* world)
+uint64_t kiriStateHash_Of(const kiriWorld* world)
 {
     uint64_t hash = 14695981039346656037u;
     Vec3(&hash, world->gravity);
@@ -252,8 +252,8 @@ uint64_t kiriSnapshot_Hash(const kiriWorld* world)
         Waiting(&hash, sheet);
         Sleep(&hash, sheet);
         Eases(&hash, &sheet->strainOffsets);
-        Fades(&hash, &sheet->fades);
-        Fades(&hash, &sheet->pointFades);
+        Fades(&hash, &sheet->seen.fades);
+        Fades(&hash, &sheet->seen.pointFades);
         for (int32_t f = 0; f < sheet->frames.count; ++f) {
             Frame(&hash, &sheet->frames.data[f]);
         }
@@ -319,7 +319,7 @@ static void Cell(uint64_t* hash, const kiriSheetData* sheet, int32_t cell)
     CellWeights(hash, &sheet->shape, cell);
 }
 
-uint64_t kiriSnapshot_HashLayout(const kiriSheetData* sheet)
+uint64_t kiriStateHash_OfLayout(const kiriSheetData* sheet)
 {
     uint64_t hash = 14695981039346656037u;
     Mesh(&hash, &sheet->mesh);
