@@ -57,6 +57,7 @@ typedef struct kiriTip {
 typedef struct kiriCutData {
     kiriCut id;
     struct kiriSheetData* sheet;
+    int32_t index; /* in its list of cuts */
     kiriTip tip, committed;
     int32_t waiting; /* points in the queue */
     bool ended;      /* by the host; finished when none waits */

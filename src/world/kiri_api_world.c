@@ -124,7 +124,11 @@ kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps)
     KIRI_CHANGES(world);
     KIRI_CHECK(kiriCall_IsAtLeast(dt, 1e-6f) && dt <= 10.0f, "dt is not within 1e-6 and 10 s");
     KIRI_CHECK(kiriCall_IsWithin(substeps, 1, 64), "substeps is not within 1 and 64");
-    KIRI_RETURN(kiriWorld_Advance(world, dt, substeps));
+    kiriResult result = kiriWorld_Advance(world, dt, substeps);
+    if (result == KIRI_ERROR_MEMORY) {
+        return KIRI_FAIL(result, "out of memory; nothing moved, and cuts still wait");
+    }
+    KIRI_RETURN(result);
 }
 
 const char* kiriWorld_GetLastError(const kiriWorld* world)

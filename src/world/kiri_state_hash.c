@@ -1,5 +1,7 @@
 #include "kiri_state_hash.h"
 
+#include "../sheet/kiri_update.h"
+
 static void Bytes(uint64_t* hash, const void* data, size_t bytes)
 {
     const unsigned char* byte = data;
@@ -9,6 +11,10 @@ static void Bytes(uint64_t* hash, const void* data, size_t bytes)
 }
 
 static void Int(uint64_t* hash, int32_t value)
+{
+    Bytes(hash, &value, sizeof(value));
+}
+static void Long(uint64_t* hash, int64_t value)
 {
     Bytes(hash, &value, sizeof(value));
 }
@@ -166,15 +172,7 @@ static void Parameters(uint64_t* hash, const kiriSheetData* sheet)
     Int(hash, sheet->settings.iterations);
     Real(hash, sheet->settings.collisionPoints);
     Int(hash, sheet->settings.popping);
-}
-
-static int32_t IndexOf(const kiriSheetData* sheet, const kiriCutData* cut)
-{
-    int32_t index = 0;
-    while (sheet->cuts.data[index] != cut) {
-        ++index;
-    }
-    return index;
+    Int(hash, sheet->settings.fromScratch);
 }
 
 static void Contacts(uint64_t* hash, const kiriContact* contacts, int32_t count)
@@ -187,13 +185,32 @@ static void Contacts(uint64_t* hash, const kiriContact* contacts, int32_t count)
     }
 }
 
-static void Waiting(uint64_t* hash, const kiriSheetData* sheet)
+/* How far the work on a cut has come. Which items of it are done follows from how many, for their order does. What is
+   made again after a refused allocation counts where it can change when a cut takes effect. */
+static void Work(uint64_t* hash, const kiriWorld* world, const kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    bool isLimited = world->budget.cells > 0 || world->budget.samples > 0 || u->stage != KIRI_NONE;
+    Int(hash, isLimited && (u->needsRebuild || u->isScratch));
+    Int(hash, u->stage);
+    if (u->stage != KIRI_NONE) {
+        Int(hash, u->step);
+        Long(hash, u->spent);
+        Long(hash, world->ticks - u->cut.stamp);
+        Int(hash, u->cut.count);
+        Int(hash, u->cut.taken);
+        Int(hash, u->cut.meshChanged);
+    }
+}
+
+static void Waiting(uint64_t* hash, const kiriWorld* world, const kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->queue.count; ++i) {
-        Vec2(hash, sheet->queue.data[i].to);
-        Int(hash, sheet->queue.data[i].jump);
-        Int(hash, i > 0 && sheet->queue.data[i].stamp != sheet->queue.data[i - 1].stamp);
-        Int(hash, IndexOf(sheet, sheet->queue.data[i].cut));
+        const kiriQueuedPoint* point = &sheet->queue.data[i];
+        Vec2(hash, point->to);
+        Int(hash, point->jump);
+        Long(hash, world->ticks - point->stamp);
+        Int(hash, point->cut->index);
     }
     for (int32_t i = 0; i < sheet->cuts.count; ++i) {
         Vec2(hash, sheet->cuts.data[i]->tip.last);
@@ -249,7 +266,8 @@ uint64_t kiriStateHash_Of(const kiriWorld* world)
         Layout(&hash, sheet);
         uint64_t pattern = kiriSolver_Hash(sheet->solver);
         Bytes(&hash, &pattern, sizeof(pattern));
-        Waiting(&hash, sheet);
+        Work(&hash, world, sheet);
+        Waiting(&hash, world, sheet);
         Sleep(&hash, sheet);
         Eases(&hash, &sheet->strainOffsets);
         Fades(&hash, &sheet->seen.fades);

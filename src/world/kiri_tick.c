@@ -149,6 +149,7 @@ static void FinishCuts(kiriWorld* world, kiriSheetData* sheet)
             AddEvent(world, KIRI_EVENT_CUT_FINISHED, sheet)->cut = cut->id;
             kiriWorld_RemoveCut(world, cut);
         } else {
+            cut->index = kept;
             sheet->cuts.data[kept++] = cut;
         }
     }

@@ -83,6 +83,7 @@ kiriResult kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet, int64_t poin
     cut->sheet = sheet;
     cut->tip.blade.vertex = cut->committed.blade.vertex = KIRI_NONE;
     cut->id = kiriPool_Add(&world->cutIds, &world->memory, cut, 0);
+    cut->index = sheet->cuts.count;
     sheet->cuts.data[sheet->cuts.count++] = cut;
     *made = cut;
     return KIRI_OK;
