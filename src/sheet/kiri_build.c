@@ -138,7 +138,7 @@ static void StartFrame(kiriSheetData* sheet, const kiriSheetDef* def, int32_t in
     }
 }
 
-static kiriResult Build(kiriSheetData* sheet, const kiriSheetDef* def, const char** why)
+static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, const char** why)
 {
     kiriResult result = kiriPipeline_Make(sheet, KIRI_STAGE_REGIONS) ? KIRI_OK : KIRI_ERROR_MEMORY;
     if (result == KIRI_OK && def->framePoints != NULL) {
@@ -190,5 +190,5 @@ kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, cons
     kiriBuild_ApplySettings(sheet);
     kiriMesh_Begin(&sheet->mesh);
     sheet->solver = kiriSolver_Create(sheet->memory, &sheet->settings.mechanics);
-    return sheet->solver != NULL ? Build(sheet, def, why) : KIRI_ERROR_MEMORY;
+    return sheet->solver != NULL ? BuildFromMesh(sheet, def, why) : KIRI_ERROR_MEMORY;
 }

@@ -71,7 +71,7 @@ static bool MapRest(kiriExtract* extract)
 /* ---- The part ---- */
 
 /* What is spread over the sheet falls to its parts by area. */
-static void TakeSettings(kiriSheetData* to, const kiriSheetData* from)
+static void CopySettings(kiriSheetData* to, const kiriSheetData* from)
 {
     double share = kiriMesh_Area(&to->mesh) / kiriMesh_Area(&from->mesh);
     to->settings = from->settings;
@@ -83,7 +83,7 @@ static void TakeSettings(kiriSheetData* to, const kiriSheetData* from)
 }
 
 /* The cell of the part with the material of one of the sheet. */
-static int32_t CellOf(const kiriExtract* extract, const kiriSheetData* to, int32_t cell)
+static int32_t CellInPart(const kiriExtract* extract, const kiriSheetData* to, int32_t cell)
 {
     const kiriCell* was = &extract->from->grid.cells.data[cell];
     int32_t found = to->grid.squareCell.data[was->square];
@@ -93,21 +93,21 @@ static int32_t CellOf(const kiriExtract* extract, const kiriSheetData* to, int32
     return found;
 }
 
-static bool TakeSites(const kiriExtract* extract, kiriSheetData* to)
+static bool CopySites(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
     bool ok = true;
     for (int32_t i = 0; ok && i < from->frames.count; ++i) {
         if (extract->frameTo.data[i] != KIRI_NONE) {
             kiriSite site = from->frames.data[i].site;
-            site.cell = CellOf(extract, to, site.cell);
+            site.cell = CellInPart(extract, to, site.cell);
             ok = kiriArray_Push(to->memory, &to->update->placing.sites, site);
         }
     }
     return ok;
 }
 
-static bool TakePoints(const kiriExtract* extract, kiriSheetData* to)
+static bool CopyPoints(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
     bool ok = true;
@@ -123,7 +123,7 @@ static bool TakePoints(const kiriExtract* extract, kiriSheetData* to)
     return ok;
 }
 
-static bool TakePins(const kiriExtract* extract, kiriSheetData* to)
+static bool CopyPins(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
     bool ok = true;
@@ -137,7 +137,7 @@ static bool TakePins(const kiriExtract* extract, kiriSheetData* to)
 }
 
 /* Room for contacts is what SetContacts reserves, so that none is needed later. */
-static bool TakeContacts(const kiriExtract* extract, kiriSheetData* to)
+static bool CopyContacts(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
     int32_t most = from->contacts.count > from->rest.contacts.count ? from->contacts.count : from->rest.contacts.count;
@@ -162,8 +162,8 @@ static bool TakeContacts(const kiriExtract* extract, kiriSheetData* to)
 /* No frame is added: whoever wants one has asked before, or asks with the next cut. */
 static bool RunStages(const kiriExtract* extract, kiriSheetData* to)
 {
-    if (!kiriPipeline_Make(to, KIRI_STAGE_REGIONS) || !TakeSites(extract, to) || !TakePoints(extract, to) ||
-        !TakePins(extract, to) || !TakeContacts(extract, to)) {
+    if (!kiriPipeline_Make(to, KIRI_STAGE_REGIONS) || !CopySites(extract, to) || !CopyPoints(extract, to) ||
+        !CopyPins(extract, to) || !CopyContacts(extract, to)) {
         return false;
     }
     to->settings.maxFrames = 0;
@@ -173,7 +173,7 @@ static bool RunStages(const kiriExtract* extract, kiriSheetData* to)
 }
 
 /* Frames as they are to the last bit, whatever a commit does to new ones. */
-static void TakeFrames(const kiriExtract* extract, kiriSheetData* to)
+static void CopyFrames(const kiriExtract* extract, kiriSheetData* to)
 {
     to->frames.count = to->update->placing.sites.count;
     for (int32_t i = 0; i < extract->from->frames.count; ++i) {
@@ -186,7 +186,7 @@ static void TakeFrames(const kiriExtract* extract, kiriSheetData* to)
 }
 
 /* What is still seen elsewhere goes on to fade. Samples keep their order. */
-static bool TakeFades(kiriFades* to, kiriMemory* memory, const kiriFades* from, const int32_t* sampleTo,
+static bool CopyFades(kiriFades* to, kiriMemory* memory, const kiriFades* from, const int32_t* sampleTo,
                       int32_t sampleCount)
 {
     if (from->fading.count == 0) {
@@ -205,15 +205,15 @@ static bool TakeFades(kiriFades* to, kiriMemory* memory, const kiriFades* from, 
     return true;
 }
 
-static bool TakeAllFades(const kiriExtract* extract, kiriSheetData* to)
+static bool CopyAllFades(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
-    return TakeFades(&to->seen.fades, to->memory, &from->seen.fades, extract->vertexTo.data, to->mesh.vertices.count) &&
-           TakeFades(&to->seen.pointFades, to->memory, &from->seen.pointFades, extract->pointTo.data, to->points.count);
+    return CopyFades(&to->seen.fades, to->memory, &from->seen.fades, extract->vertexTo.data, to->mesh.vertices.count) &&
+           CopyFades(&to->seen.pointFades, to->memory, &from->seen.pointFades, extract->pointTo.data, to->points.count);
 }
 
 /* Links come in the order that they had. */
-static void TakeStrainOffsets(const kiriExtract* extract, kiriSheetData* to)
+static void CopyStrainOffsets(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
     int32_t count = 0;
@@ -225,16 +225,16 @@ static void TakeStrainOffsets(const kiriExtract* extract, kiriSheetData* to)
     }
 }
 
-static bool Build(const kiriExtract* extract, kiriSheetData* to)
+static bool BuildPart(const kiriExtract* extract, kiriSheetData* to)
 {
     to->solver = kiriSolver_Create(to->memory, &to->settings.mechanics);
-    if (to->solver == NULL || !RunStages(extract, to) || !TakeAllFades(extract, to)) {
+    if (to->solver == NULL || !RunStages(extract, to) || !CopyAllFades(extract, to)) {
         return false;
     }
-    TakeFrames(extract, to);
+    CopyFrames(extract, to);
     kiriBuild_Commit(to);
-    TakeFrames(extract, to);
-    TakeStrainOffsets(extract, to);
+    CopyFrames(extract, to);
+    CopyStrainOffsets(extract, to);
     kiriView_WritePositions(to);
     return true;
 }
@@ -246,8 +246,8 @@ bool kiriExtract_Build(kiriExtract* extract, kiriSheetData* to)
         !kiriMesh_InitPart(&to->mesh, to->memory, &from->mesh, extract->triangleTo.data, extract->vertexTo.data)) {
         return false;
     }
-    TakeSettings(to, from);
-    return Build(extract, to);
+    CopySettings(to, from);
+    return BuildPart(extract, to);
 }
 
 /* ---- The rest ---- */

@@ -150,8 +150,8 @@ static void EndContacts(kiriSheetData* sheet)
 }
 
 /* Fewer and longer substeps where the quota asks for it, and one system at least for each. */
-static kiriProgress TakeSteps(kiriSheetData* sheet, const kiriSystem* system, double dt, int32_t substeps,
-                              kiriQuota* systems)
+static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system, double dt, int32_t substeps,
+                                 kiriQuota* systems)
 {
     substeps = systems->left < substeps ? (int32_t)systems->left : substeps;
     for (int32_t i = 0; i < substeps; ++i) {
@@ -166,12 +166,12 @@ static kiriProgress TakeSteps(kiriSheetData* sheet, const kiriSystem* system, do
     return substeps > 0 ? KIRI_DONE : KIRI_MORE;
 }
 
-static kiriProgress Move(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
+static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
     WritePinRows(sheet);
     WriteContactRows(sheet);
     kiriSystem system = MakeSystem(sheet, gravity);
-    kiriProgress progress = TakeSteps(sheet, &system, dt, substeps, systems);
+    kiriProgress progress = TakeSubsteps(sheet, &system, dt, substeps, systems);
     if (progress == KIRI_FAILED) {
         PutToRest(sheet);
         kiriMotion_Wake(sheet);
@@ -188,7 +188,7 @@ kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt,
         sheet->contacts.count = 0;
         return KIRI_DONE;
     }
-    kiriProgress progress = Move(sheet, gravity, dt, substeps, systems);
+    kiriProgress progress = MoveFrames(sheet, gravity, dt, substeps, systems);
     EndContacts(sheet);
     ClearForces(sheet);
     return progress;

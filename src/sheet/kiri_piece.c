@@ -6,7 +6,7 @@
 
 /* ---- Coming off ---- */
 
-static int32_t Find(int32_t* parent, int32_t i)
+static int32_t FindPiece(int32_t* parent, int32_t i)
 {
     while (parent[i] != i) {
         parent[i] = parent[parent[i]];
@@ -27,7 +27,7 @@ static bool JoinFrames(kiriSheetData* sheet)
     }
     for (int32_t k = 0; k < sheet->links.next.count; ++k) {
         const kiriLink* link = &sheet->links.next.data[k];
-        int32_t i = Find(u->parent.data, link->i), j = Find(u->parent.data, link->j);
+        int32_t i = FindPiece(u->parent.data, link->i), j = FindPiece(u->parent.data, link->j);
         u->parent.data[i < j ? j : i] = i < j ? i : j;
     }
     return true;
@@ -83,7 +83,7 @@ bool kiriPieces_Stage(kiriSheetData* sheet)
         return false;
     }
     for (int32_t i = 0; i < u->placing.sites.count; ++i) {
-        int32_t root = Find(u->parent.data, i);
+        int32_t root = FindPiece(u->parent.data, i);
         if (root == i) {
             kiriPiece piece = { 0.0, i, OriginOf(sheet, i), false };
             next->framePiece.data[i] = next->pieces.count;
@@ -116,8 +116,8 @@ static int32_t OfTriangle(const kiriSheetData* sheet, int32_t triangle)
 }
 
 /* Sorts 0 to count - 1 by piece; what is of one piece stays in its order. */
-static bool Sort(kiriSheetData* sheet, kiriPieceList* list, int32_t count,
-                 int32_t (*pieceOf)(const kiriSheetData* sheet, int32_t item))
+static bool SortByPiece(kiriSheetData* sheet, kiriPieceList* list, int32_t count,
+                        int32_t (*pieceOf)(const kiriSheetData* sheet, int32_t item))
 {
     int32_t pieces = sheet->layout.pieces.count;
     if (!kiriArray_Resize(&sheet->shown, &list->first, pieces + 2) ||
@@ -161,10 +161,10 @@ bool kiriPieces_List(kiriSheetData* sheet)
 {
     kiriPieceLists* lists = &sheet->lists;
     lists->isFresh =
-        lists->isFresh || (Sort(sheet, &lists->frames, sheet->frames.count, OfFrame) &&
-                           Sort(sheet, &lists->vertices, sheet->mesh.vertices.count, kiriPiece_OfVertex) &&
-                           Sort(sheet, &lists->triangles, sheet->mesh.triangles.count, OfTriangle) &&
-                           Sort(sheet, &lists->points, sheet->points.count, OfPoint) && FillHostArrays(sheet));
+        lists->isFresh || (SortByPiece(sheet, &lists->frames, sheet->frames.count, OfFrame) &&
+                           SortByPiece(sheet, &lists->vertices, sheet->mesh.vertices.count, kiriPiece_OfVertex) &&
+                           SortByPiece(sheet, &lists->triangles, sheet->mesh.triangles.count, OfTriangle) &&
+                           SortByPiece(sheet, &lists->points, sheet->points.count, OfPoint) && FillHostArrays(sheet));
     return lists->isFresh;
 }
 

@@ -4,6 +4,10 @@
 
 #include "kiri_update.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Room for the mesh as it is, for so many frames and collision points; after it writing never fails. */
 bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount);
 
@@ -17,5 +21,9 @@ void kiriView_Fade(kiriSheetData* sheet, double dt);
 
 /* Positions and normals from the frames (section 4.1 of the paper). */
 void kiriView_WritePositions(kiriSheetData* sheet);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

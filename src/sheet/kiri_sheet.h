@@ -12,6 +12,10 @@
 #include "../motion/kiri_solver.h"
 #include "../view/kiri_surface.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct kiriPiece {
     double area;    /* m^2 */
     int32_t frame;  /* its lowest */
@@ -171,5 +175,9 @@ static inline double kiriSheet_Extent(const kiriSheetData* sheet)
 
 /* The lattice point of a rest position; false where it is too far out to have one. */
 bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriLatticePoint* at);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

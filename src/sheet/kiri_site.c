@@ -4,7 +4,7 @@
 
 /* ---- Sites that were there ---- */
 
-static bool Move(kiriSheetData* sheet, int32_t frame, int32_t was)
+static bool RecordMove(kiriSheetData* sheet, int32_t frame, int32_t was)
 {
     kiriSiteMove move = { frame, was };
     return kiriArray_Push(sheet->memory, &sheet->update->placing.moves, move);
@@ -13,7 +13,7 @@ static bool Move(kiriSheetData* sheet, int32_t frame, int32_t was)
 static bool AddSite(kiriSheetData* sheet, kiriSite site)
 {
     return kiriArray_Push(sheet->memory, &sheet->update->placing.sites, site) &&
-           Move(sheet, sheet->update->placing.sites.count - 1, KIRI_NONE);
+           RecordMove(sheet, sheet->update->placing.sites.count - 1, KIRI_NONE);
 }
 
 /* Flags of squares, or of cells: all are down between uses, so that a use costs what it raises. */
@@ -78,9 +78,9 @@ static bool CollectMoves(kiriSheetData* sheet)
     bool any = u->isScratch || FlagSquares(sheet, 1), ok = true;
     for (int32_t f = 0; ok && any && f < sheet->frames.count; ++f) {
         if (u->isScratch) {
-            ok = Move(sheet, f, KIRI_NONE);
+            ok = RecordMove(sheet, f, KIRI_NONE);
         } else if (u->placing.flags.data[kiriSquares_At(&sheet->mesh.squares, sheet->frames.data[f].anchor)]) {
-            ok = Move(sheet, f, u->placing.sites.data[f].cell);
+            ok = RecordMove(sheet, f, u->placing.sites.data[f].cell);
         }
     }
     if (!u->isScratch) {
@@ -94,7 +94,7 @@ static bool MoveGiven(kiriSheetData* sheet)
 {
     bool ok = true;
     for (int32_t i = 0; ok && i < sheet->update->placing.sites.count; ++i) {
-        ok = Move(sheet, i, KIRI_NONE);
+        ok = RecordMove(sheet, i, KIRI_NONE);
     }
     return ok;
 }
@@ -223,7 +223,7 @@ bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count)
 /* ---- Re-sampling ---- */
 
 /* Marks of frames, while pieces with rigid ones are seen to. */
-enum { SEEN = 1, OWN = 2 /* of the piece at hand */, MOST_SORTED = 64 };
+enum { DONE_WITH = 1, OF_PIECE_AT_HAND = 2 /* of the piece at hand */, MOST_SORTED = 64 };
 
 /* Has the frame a weight above rigidWeight over more than rigidArea? */
 static bool IsRigid(const kiriSheetData* sheet, int32_t frame)
@@ -281,7 +281,7 @@ static void SortOwn(kiriUpdate* u)
     if (u->placing.own.count > MOST_SORTED) {
         int32_t count = 0;
         for (int32_t f = 0; count < u->placing.own.count; ++f) {
-            if (u->placing.marks.data[f] == OWN) {
+            if (u->placing.marks.data[f] == OF_PIECE_AT_HAND) {
                 own[count++] = f;
             }
         }
@@ -297,7 +297,7 @@ static void SortOwn(kiriUpdate* u)
 }
 
 /* The frames of the piece in the placer, and its sites; *old says whether one of them was there before this update. */
-static bool TakeSites(kiriSheetData* sheet, bool* old)
+static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
 {
     kiriUpdate* u = sheet->update;
     u->placing.placer.sites.count = u->placing.own.count = 0;
@@ -305,7 +305,7 @@ static bool TakeSites(kiriSheetData* sheet, bool* old)
     for (int32_t i = 0; i < u->placing.placer.cells.count; ++i) {
         int32_t frame = sheet->regions.siteAt.data[u->placing.placer.cells.data[i]];
         if (frame != KIRI_NONE) {
-            u->placing.marks.data[frame] = OWN;
+            u->placing.marks.data[frame] = OF_PIECE_AT_HAND;
             *old = *old || frame < sheet->frames.count;
             if (!kiriArray_Push(sheet->memory, &u->placing.own, frame)) {
                 return false;
@@ -328,7 +328,7 @@ static bool StartResample(kiriSheetData* sheet, int32_t frame)
     bool old;
     int32_t count = 1;
     if (!kiriPlacer_TakePiece(&u->placing.placer, sheet->memory, &sheet->grid, u->placing.sites.data[frame].cell) ||
-        !MarkRigidCells(sheet) || !TakeSites(sheet, &old)) {
+        !MarkRigidCells(sheet) || !TakeSitesOfPiece(sheet, &old)) {
         return false;
     }
     if (IsCrumbTaken(sheet)) {
@@ -354,9 +354,9 @@ static bool GiveSites(kiriSheetData* sheet)
     }
     for (int32_t i = 0; ok && i < u->placing.own.count; ++i) {
         int32_t f = u->placing.own.data[i];
-        u->placing.marks.data[f] = SEEN;
+        u->placing.marks.data[f] = DONE_WITH;
         if (again && next < u->placing.placer.sites.count) {
-            ok = Move(sheet, f, u->placing.sites.data[f].cell);
+            ok = RecordMove(sheet, f, u->placing.sites.data[f].cell);
             u->placing.sites.data[f] = u->placing.placer.sites.data[next++];
         }
     }

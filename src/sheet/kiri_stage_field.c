@@ -3,8 +3,8 @@
 #include "kiri_site.h"
 
 /* The steps of the two stages that have more than one; each starts with its first, 0. */
-enum { RELOCATE, DIVIDE, PLACE };
-enum { WEIGH, RESAMPLE, REDIVIDE };
+enum { RELOCATE_SITES, DIVIDE_REGIONS, PLACE_IN_ORPHANS };
+enum { WEIGH_CELLS, ADD_SITES, DIVIDE_AGAIN };
 
 kiriProgress kiriStage_Grid(kiriSheetData* sheet, kiriQuota* cells)
 {
@@ -30,7 +30,7 @@ kiriProgress kiriStage_Grid(kiriSheetData* sheet, kiriQuota* cells)
 
 /* ---- Regions ---- */
 
-static kiriProgress Divide(kiriSheetData* sheet, kiriQuota* cells)
+static kiriProgress DivideRegions(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
     kiriProgress progress = kiriRegions_Update(
@@ -45,30 +45,31 @@ static kiriProgress Divide(kiriSheetData* sheet, kiriQuota* cells)
 kiriProgress kiriStage_Regions(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
-    if (u->step == RELOCATE) {
+    if (u->step == RELOCATE_SITES) {
         if (!kiriSites_Relocate(sheet)) {
             return KIRI_FAILED;
         }
-        u->step = DIVIDE;
+        u->step = DIVIDE_REGIONS;
     }
     for (;;) {
-        kiriProgress progress = u->step == DIVIDE ? Divide(sheet, cells) : kiriSites_PlaceInOrphans(sheet, cells);
+        kiriProgress progress =
+            u->step == DIVIDE_REGIONS ? DivideRegions(sheet, cells) : kiriSites_PlaceInOrphans(sheet, cells);
         if (progress != KIRI_DONE) {
             return progress;
         }
-        if (u->step == DIVIDE && sheet->regions.orphans.count == 0) {
+        if (u->step == DIVIDE_REGIONS && sheet->regions.orphans.count == 0) {
             return KIRI_DONE;
         }
-        if (u->step == DIVIDE && !kiriSites_ClearMarks(sheet, sheet->grid.cells.count)) {
+        if (u->step == DIVIDE_REGIONS && !kiriSites_ClearMarks(sheet, sheet->grid.cells.count)) {
             return KIRI_FAILED;
         }
-        u->step = u->step == DIVIDE ? PLACE : DIVIDE;
+        u->step = u->step == DIVIDE_REGIONS ? PLACE_IN_ORPHANS : DIVIDE_REGIONS;
     }
 }
 
 /* ---- Shape, and re-sampling (section 5) ---- */
 
-static kiriProgress Weigh(kiriSheetData* sheet, kiriQuota* cells)
+static kiriProgress WeighCells(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
     kiriProgress progress = kiriShape_Update(&sheet->shape, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions,
@@ -107,18 +108,18 @@ kiriProgress kiriStage_Shape(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
     for (;;) {
-        kiriProgress progress = u->step == WEIGH      ? Weigh(sheet, cells)
-                                : u->step == RESAMPLE ? kiriSites_Resample(sheet, cells)
-                                                      : Divide(sheet, cells);
+        kiriProgress progress = u->step == WEIGH_CELLS ? WeighCells(sheet, cells)
+                                : u->step == ADD_SITES ? kiriSites_Resample(sheet, cells)
+                                                       : DivideRegions(sheet, cells);
         if (progress != KIRI_DONE) {
             return progress;
         }
-        if (u->step == RESAMPLE && u->placing.moves.count == 0) {
+        if (u->step == ADD_SITES && u->placing.moves.count == 0) {
             return MeasureRegions(sheet) ? KIRI_DONE : KIRI_FAILED;
         }
-        if (u->step == WEIGH && !kiriSites_ClearMarks(sheet, u->placing.sites.count)) {
+        if (u->step == WEIGH_CELLS && !kiriSites_ClearMarks(sheet, u->placing.sites.count)) {
             return KIRI_FAILED;
         }
-        u->step = u->step == REDIVIDE ? WEIGH : u->step + 1;
+        u->step = u->step == DIVIDE_AGAIN ? WEIGH_CELLS : u->step + 1;
     }
 }

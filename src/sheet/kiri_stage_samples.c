@@ -4,7 +4,7 @@
 #include "kiri_site.h"
 
 /* The points that were staged, in their new cells. */
-static bool MovePoints(kiriSheetData* sheet)
+static bool MoveCollisionPoints(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
     for (int32_t k = 0; k < sheet->pointSkin.staged.count; ++k) {
@@ -25,7 +25,7 @@ static bool NeedsPoints(const kiriSheetData* sheet)
 }
 
 /* Marks the pieces that hold a point. */
-static bool MarkPieces(kiriSheetData* sheet)
+static bool MarkPiecesWithPoints(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
     if (!kiriSites_ClearMarks(sheet, u->next.pieces.count)) {
@@ -39,7 +39,7 @@ static bool MarkPieces(kiriSheetData* sheet)
     return true;
 }
 
-static bool StartPoints(kiriSheetData* sheet, int32_t piece)
+static bool StartPlacingPoints(kiriSheetData* sheet, int32_t piece)
 {
     kiriUpdate* u = sheet->update;
     int32_t frame = u->next.pieces.data[piece].frame;
@@ -49,7 +49,7 @@ static bool StartPoints(kiriSheetData* sheet, int32_t piece)
                             kiriSites_ShareOf(sheet, sheet->settings.collisionPoints));
 }
 
-static bool AddPoints(kiriSheetData* sheet)
+static bool AddCollisionPoints(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
     for (int32_t i = 0; i < u->placing.placer.sites.count; ++i) {
@@ -65,14 +65,14 @@ static bool AddPoints(kiriSheetData* sheet)
 }
 
 /* Collision points for each piece that has none. */
-static kiriProgress PlacePoints(kiriSheetData* sheet, kiriQuota* samples)
+static kiriProgress PlaceCollisionPoints(kiriSheetData* sheet, kiriQuota* samples)
 {
     kiriUpdate* u = sheet->update;
     for (; NeedsPoints(sheet) && u->placing.at < u->next.pieces.count; ++u->placing.at) {
         if (u->placing.marks.data[u->placing.at]) {
             continue;
         }
-        if (!u->placing.isPlacing && !StartPoints(sheet, u->placing.at)) {
+        if (!u->placing.isPlacing && !StartPlacingPoints(sheet, u->placing.at)) {
             return KIRI_FAILED;
         }
         u->placing.isPlacing = true;
@@ -81,7 +81,7 @@ static kiriProgress PlacePoints(kiriSheetData* sheet, kiriQuota* samples)
             return progress;
         }
         u->placing.isPlacing = false;
-        if (!AddPoints(sheet)) {
+        if (!AddCollisionPoints(sheet)) {
             return KIRI_FAILED;
         }
     }
@@ -109,13 +109,14 @@ static kiriProgress WeighPoints(kiriSheetData* sheet, kiriQuota* samples)
     kiriProgress progress =
         kiriRefresh_Points(&sheet->update->samples.refresh, &sheet->pointSkin, &sheet->pointPlaces, &sheet->points,
                            sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh, samples);
-    return progress != KIRI_DONE || (MovePoints(sheet) && MarkPieces(sheet)) ? progress : KIRI_FAILED;
+    return progress != KIRI_DONE || (MoveCollisionPoints(sheet) && MarkPiecesWithPoints(sheet)) ? progress
+                                                                                                : KIRI_FAILED;
 }
 
 kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples)
 {
     static kiriProgress (*const steps[])(kiriSheetData*, kiriQuota*) = { BeginSamples, WeighVertices, WeighPoints,
-                                                                         PlacePoints };
+                                                                         PlaceCollisionPoints };
     kiriProgress progress = KIRI_DONE;
     while (progress == KIRI_DONE && sheet->update->step < (int32_t)(sizeof(steps) / sizeof(steps[0]))) {
         progress = steps[sheet->update->step](sheet, samples);

@@ -6,6 +6,10 @@
 
 #include "kiri_sheet.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* The cut stage: queued points at the head of the queue, given before the same tick. */
 typedef struct kiriCutWork {
     int64_t stamp; /* that tick */
@@ -74,5 +78,9 @@ static inline bool kiriUpdate_IsFieldCurrent(const kiriUpdate* update)
     bool isUntouched = update->stage == KIRI_NONE || (update->stage == KIRI_STAGE_CUT && !update->cut.meshChanged);
     return isUntouched && !update->needsRebuild;
 }
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -18,7 +18,7 @@ static void PointIds(kiriWorld* world, kiriSheetData* sheet)
 }
 
 /* A sheet of the pieces that are kept, without ids; null for memory. */
-static kiriSheetData* Part(kiriWorld* world, kiriExtract* extract)
+static kiriSheetData* MakePart(kiriWorld* world, kiriExtract* extract)
 {
     kiriSheetData* part = kiriSheet_New(&world->memory);
     if (part != NULL && !kiriExtract_Build(extract, part)) {
@@ -29,7 +29,7 @@ static kiriSheetData* Part(kiriWorld* world, kiriExtract* extract)
 }
 
 /* The rest takes the place of the sheet, which is deleted. */
-static void Replace(kiriWorld* world, const kiriExtract* extract, kiriSheetData* sheet, kiriSheetData* rest)
+static void ReplaceByRest(kiriWorld* world, const kiriExtract* extract, kiriSheetData* sheet, kiriSheetData* rest)
 {
     kiriExtract_MoveCuts(extract, sheet, rest);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
@@ -49,17 +49,17 @@ static void KeepOthers(kiriExtract* extract)
     }
 }
 
-static kiriResult Detach(kiriWorld* world, kiriSheetData* sheet, kiriExtract* extract, kiriSheet* id)
+static kiriResult DetachKept(kiriWorld* world, kiriSheetData* sheet, kiriExtract* extract, kiriSheet* id)
 {
     kiriResult result = kiriWorld_ReserveSheet(world);
-    kiriSheetData* part = result == KIRI_OK ? Part(world, extract) : NULL;
+    kiriSheetData* part = result == KIRI_OK ? MakePart(world, extract) : NULL;
     KeepOthers(extract);
-    kiriSheetData* rest = part != NULL ? Part(world, extract) : NULL;
+    kiriSheetData* rest = part != NULL ? MakePart(world, extract) : NULL;
     if (rest == NULL) {
         kiriSheet_Delete(part, &world->memory);
         return result != KIRI_OK ? result : KIRI_ERROR_MEMORY;
     }
-    Replace(world, extract, sheet, rest);
+    ReplaceByRest(world, extract, sheet, rest);
     world->sheets.data[world->sheets.count++] = part;
     part->id = *id = kiriPool_Add(&world->sheetIds, &world->memory, part, 0);
     PointIds(world, part);
@@ -67,9 +67,9 @@ static kiriResult Detach(kiriWorld* world, kiriSheetData* sheet, kiriExtract* ex
 }
 
 /* Only what is kept stays. */
-static kiriResult Drop(kiriWorld* world, kiriSheetData* sheet, kiriExtract* extract)
+static kiriResult KeepOnly(kiriWorld* world, kiriSheetData* sheet, kiriExtract* extract)
 {
-    kiriSheetData* rest = Part(world, extract);
+    kiriSheetData* rest = MakePart(world, extract);
     if (rest == NULL) {
         return KIRI_ERROR_MEMORY;
     }
@@ -83,7 +83,7 @@ static kiriResult Drop(kiriWorld* world, kiriSheetData* sheet, kiriExtract* extr
             kiriPool_Remove(&world->pinIds, sheet->pins.data[i].id);
         }
     }
-    Replace(world, extract, sheet, rest);
+    ReplaceByRest(world, extract, sheet, rest);
     return KIRI_OK;
 }
 
@@ -93,7 +93,7 @@ kiriResult kiriWorld_DetachPiece(kiriWorld* world, kiriSheetData* sheet, int32_t
     kiriResult result = KIRI_ERROR_MEMORY;
     if (kiriExtract_Init(&extract, sheet)) {
         extract.keep.data[piece] = 1;
-        result = Detach(world, sheet, &extract, id);
+        result = DetachKept(world, sheet, &extract, id);
     }
     kiriMemory_FreeAll(&extract.memory);
     return result;
@@ -106,7 +106,7 @@ kiriResult kiriWorld_DestroyPiece(kiriWorld* world, kiriSheetData* sheet, int32_
     if (kiriExtract_Init(&extract, sheet)) {
         extract.keep.data[piece] = 1;
         KeepOthers(&extract);
-        result = Drop(world, sheet, &extract);
+        result = KeepOnly(world, sheet, &extract);
     }
     kiriMemory_FreeAll(&extract.memory);
     return result;
@@ -134,7 +134,7 @@ kiriResult kiriWorld_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double a
     *count = 0;
     if (kiriExtract_Init(&extract, sheet)) {
         int32_t dropped = KeepAbove(&extract, area);
-        result = dropped > 0 ? Drop(world, sheet, &extract) : KIRI_OK;
+        result = dropped > 0 ? KeepOnly(world, sheet, &extract) : KIRI_OK;
         *count = result == KIRI_OK ? dropped : 0;
     }
     kiriMemory_FreeAll(&extract.memory);

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-static void Enter(void* context, int32_t stage)
+static void EnterStage(void* context, int32_t stage)
 {
     kiriWorld* world = context;
     double now = world->clock != NULL ? world->clock(world->user) : 0.0;
@@ -56,7 +56,7 @@ static int64_t NextStamp(const kiriWorld* world, int64_t from)
 /* First come, first served; of those that came together, in the order of sheets. False for memory. */
 static bool UpdateAll(kiriWorld* world, kiriQuotas* quotas)
 {
-    const kiriWatch watch = { Enter, world };
+    const kiriWatch watch = { EnterStage, world };
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         kiriPipeline_Start(world->sheets.data[i]);
     }
@@ -119,7 +119,7 @@ static void CountWork(kiriProfile* profile, const kiriSheetData* sheet)
     profile->commits += 1;
 }
 
-static void Commit(kiriWorld* world, kiriSheetData* sheet)
+static void CommitUpdate(kiriWorld* world, kiriSheetData* sheet)
 {
     int32_t oldFrames = sheet->frames.count;
     kiriStage_Commit(sheet);
@@ -156,13 +156,13 @@ static void FinishCuts(kiriWorld* world, kiriSheetData* sheet)
     sheet->cuts.count = kept;
 }
 
-static void Finish(kiriWorld* world, kiriSheetData* sheet)
+static void FinishUpdate(kiriWorld* world, kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->update->cut.count; ++i) {
         world->profile.cutSegments += !sheet->queue.data[i].jump;
     }
     if (sheet->update->cut.meshChanged) {
-        Commit(world, sheet);
+        CommitUpdate(world, sheet);
     }
     kiriPipeline_Finish(sheet);
 }
@@ -176,11 +176,11 @@ static void CommitAll(kiriWorld* world)
             kiriMotion_Wake(sheet);
         }
         if (IsReady(sheet)) {
-            Finish(world, sheet);
+            FinishUpdate(world, sheet);
         }
         FinishCuts(world, sheet);
     }
-    Enter(world, KIRI_STAGE_SKIN);
+    EnterStage(world, KIRI_STAGE_SKIN);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         kiriView_TakeJump(world->sheets.data[i]);
     }
@@ -208,7 +208,7 @@ static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps, kiriQu
     kiriResult result = ReportDeferred(world) ? KIRI_PENDING : KIRI_OK;
     bool isLate = false;
     int32_t count = world->sheets.count, first = count > 0 ? world->turn % count : 0;
-    Enter(world, KIRI_STAGE_SOLVE);
+    EnterStage(world, KIRI_STAGE_SOLVE);
     world->turn = 0;
     for (int32_t k = 0; k < count; ++k) {
         int32_t i = (first + k) % count;
@@ -234,7 +234,7 @@ static void CountJumps(kiriProfile* profile, const kiriSheetData* sheet)
 
 static void SkinAll(kiriWorld* world, double dt)
 {
-    Enter(world, KIRI_STAGE_SKIN);
+    EnterStage(world, KIRI_STAGE_SKIN);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         kiriSheetData* sheet = world->sheets.data[i];
         if (!sheet->rest.asleep) {
@@ -245,7 +245,7 @@ static void SkinAll(kiriWorld* world, double dt)
     }
 }
 
-static void CountItems(kiriProfile* profile, const kiriQuotas* quotas)
+static void CountSpent(kiriProfile* profile, const kiriQuotas* quotas)
 {
     profile->trianglesSplit = (int32_t)quotas->of[KIRI_QUOTA_TRIANGLES].used;
     profile->cellsSettled = (int32_t)quotas->of[KIRI_QUOTA_CELLS].used;
@@ -270,7 +270,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     } else {
         AbortAll(world);
     }
-    CountItems(&world->profile, &quotas);
-    Enter(world, KIRI_NONE);
+    CountSpent(&world->profile, &quotas);
+    EnterStage(world, KIRI_NONE);
     return result;
 }
