@@ -172,7 +172,6 @@ static void HashSettings(uint64_t* hash, const kiriSheetData* sheet)
     HashInt(hash, sheet->settings.iterations);
     HashReal(hash, sheet->settings.collisionPoints);
     HashInt(hash, sheet->settings.popping);
-    HashInt(hash, sheet->settings.fromScratch);
 }
 
 static void HashContacts(uint64_t* hash, const kiriContact* contacts, int32_t count)
@@ -190,8 +189,9 @@ static void HashContacts(uint64_t* hash, const kiriContact* contacts, int32_t co
 static void HashWork(uint64_t* hash, const kiriWorld* world, const kiriSheetData* sheet)
 {
     const kiriUpdate* u = sheet->update;
-    bool isLimited = world->budget.cells > 0 || world->budget.samples > 0 || u->stage != KIRI_NONE;
-    HashInt(hash, isLimited && (u->needsRebuild || u->isScratch));
+    bool isLimited = world->budget.cells > 0 || world->budget.samples > 0;
+    HashInt(hash, isLimited && sheet->settings.fromScratch);
+    HashInt(hash, (isLimited || u->stage != KIRI_NONE) && (u->needsRebuild || u->isScratch));
     HashInt(hash, u->stage);
     if (u->stage != KIRI_NONE) {
         HashInt(hash, u->step);
