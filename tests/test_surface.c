@@ -117,9 +117,9 @@ static void Write(Cloth* cloth)
 
 static void Pose(Cloth* cloth)
 {
-    kiriSurface_WritePositions(&cloth->surface, &cloth->skin, cloth->frames.data, cloth->frames.count,
+    kiriSurface_Blend(&cloth->surface, &cloth->skin, cloth->frames.data, cloth->frames.count,
                                cloth->links.data, cloth->links.count);
-    kiriSurface_WriteNormals(&cloth->surface);
+    kiriSurface_WriteArrays(&cloth->surface);
 }
 
 static void TurnAtRandom(kiriFrameData* frame, double away, uint32_t* seed)

@@ -32,14 +32,14 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
     sheet->seen.isElsewhere = true;
 }
 
-static void WriteExact(kiriSheetData* sheet)
+static void BlendVertices(kiriSheetData* sheet)
 {
-    kiriSurface_WritePositions(&sheet->seen.surface, &sheet->vertexSkin, sheet->frames.data, sheet->frames.count,
-                               sheet->links.links.data, sheet->links.links.count);
+    kiriSurface_Blend(&sheet->seen.surface, &sheet->vertexSkin, sheet->frames.data, sheet->frames.count,
+                      sheet->links.links.data, sheet->links.links.count);
 }
 
 /* Linear whatever is seen: here contacts push (see motion.c). */
-static void WriteExactPoints(kiriSheetData* sheet)
+static void BlendPoints(kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->points.count; ++i) {
         kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->points.data[i].at);
@@ -61,7 +61,7 @@ static void TakePointJump(kiriSheetData* sheet)
 {
     kiriFades* fades = &sheet->seen.pointFades;
     kiriFades_Remember(fades, &sheet->seen.exactPoints.data, &sheet->seen.exactPoints.capacity);
-    WriteExactPoints(sheet);
+    BlendPoints(sheet);
     for (int32_t i = sheet->seen.pointCount; i < sheet->points.count; ++i) {
         fades->seen.data[i] = sheet->seen.exactPoints.data[i];
     }
@@ -75,7 +75,7 @@ void kiriView_TakeJump(kiriSheetData* sheet)
     kiriSurface* surface = &sheet->seen.surface;
     if (sheet->seen.isElsewhere) {
         kiriFades_Remember(&sheet->seen.fades, &surface->exact.data, &surface->exact.capacity);
-        WriteExact(sheet);
+        BlendVertices(sheet);
         kiriFades_Take(&sheet->seen.fades, surface->exact.data, surface->vertexCount);
         TakePointJump(sheet);
         sheet->seen.isElsewhere = false;
@@ -94,10 +94,10 @@ void kiriView_Fade(kiriSheetData* sheet, double dt)
 
 void kiriView_WritePositions(kiriSheetData* sheet)
 {
-    WriteExact(sheet);
+    BlendVertices(sheet);
     kiriSurface_AddFades(&sheet->seen.surface, &sheet->seen.fades);
-    kiriSurface_WriteNormals(&sheet->seen.surface);
-    WriteExactPoints(sheet);
+    kiriSurface_WriteArrays(&sheet->seen.surface);
+    BlendPoints(sheet);
     AddPointFades(sheet);
     for (int32_t i = 0; i < sheet->points.count; ++i) {
         kiriVec3_Store(&sheet->seen.pointPositions.data[3 * i], sheet->seen.exactPoints.data[i]);

@@ -331,29 +331,19 @@ static kiriVec3 BlendBent(const kiriCarrier* carriers, const kiriWeight* weights
     return sum;
 }
 
-static void Store(float* to, kiriVec3 a)
-{
-    to[0] = (float)a.x;
-    to[1] = (float)a.y;
-    to[2] = (float)a.z;
-}
-
 /* Loops of their own, for speed. */
 static void BlendAll(kiriSurface* surface, const kiriSkin* skin, bool isBent)
 {
     const kiriCarrier* carriers = surface->carriers.data;
     const kiriWeight* weights = skin->weights.data;
     const kiriVec2* rest = surface->rest.data;
-    float* positions = surface->positions.data;
     for (int32_t v = 0; !isBent && v < surface->vertexCount; ++v) {
         kiriSpan span = skin->spans.data[v];
         surface->exact.data[v] = BlendFlat(carriers, weights + span.first, span.count, rest[v]);
-        Store(positions + 3 * (size_t)v, surface->exact.data[v]);
     }
     for (int32_t v = 0; isBent && v < surface->vertexCount; ++v) {
         kiriSpan span = skin->spans.data[v];
         surface->exact.data[v] = BlendBent(carriers, weights + span.first, span.count, rest[v]);
-        Store(positions + 3 * (size_t)v, surface->exact.data[v]);
     }
 }
 
@@ -395,11 +385,12 @@ static void SumSlopes(kiriSurface* surface)
     }
 }
 
-/* In floats where the squared length has a place there: twice as fast. A length that fits a float may have a square
+/* What the host reads. Normals in floats where the squared length has a place there: twice as fast. A length that fits a float may have a square
    that does not. */
-static void NormalizeNormals(kiriSurface* surface)
+static void StoreAll(kiriSurface* surface)
 {
     for (int32_t v = 0; v < surface->vertexCount; ++v) {
+        kiriVec3_Store(&surface->positions.data[3 * (size_t)v], surface->exact.data[v]);
         kiriVec3 slope = surface->slopes.data[v];
         float* normal = &surface->normals.data[3 * (size_t)v];
         double square = kiriVec3_Dot(slope, slope);
@@ -416,8 +407,8 @@ static void NormalizeNormals(kiriSurface* surface)
     }
 }
 
-void kiriSurface_WritePositions(kiriSurface* surface, const kiriSkin* skin, const kiriFrameData* frames,
-                                int32_t frameCount, const kiriLink* links, int32_t linkCount)
+void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriFrameData* frames, int32_t frameCount,
+                       const kiriLink* links, int32_t linkCount)
 {
     bool isBent = surface->skinning == KIRI_SKINNING_SMOOTH && linkCount > 0;
     WriteCarriers(surface, frames, frameCount);
@@ -433,12 +424,11 @@ void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades)
         kiriFading fading = fades->fading.data[k];
         kiriVec3* exact = &surface->exact.data[fading.sample];
         *exact = kiriVec3_Add(*exact, fading.offset);
-        Store(&surface->positions.data[3 * (size_t)fading.sample], *exact);
     }
 }
 
-void kiriSurface_WriteNormals(kiriSurface* surface)
+void kiriSurface_WriteArrays(kiriSurface* surface)
 {
     SumSlopes(surface);
-    NormalizeNormals(surface);
+    StoreAll(surface);
 }

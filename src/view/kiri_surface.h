@@ -63,15 +63,16 @@ bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMesh
    all of the mesh. */
 void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh);
 
-/* Positions from the frames. The links tell a smooth surface how to bend; a linear one does not ask. */
-void kiriSurface_WritePositions(kiriSurface* surface, const kiriSkin* skin, const kiriFrameData* frames,
-                                int32_t frameCount, const kiriLink* links, int32_t linkCount);
+/* Where the vertices are now, in doubles, from the frames. The links tell a smooth surface how to bend; a linear one does
+   not ask. */
+void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriFrameData* frames, int32_t frameCount,
+                       const kiriLink* links, int32_t linkCount);
 
 /* Moves the vertices that are seen elsewhere. */
 void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades);
 
-/* Normals from the positions. */
-void kiriSurface_WriteNormals(kiriSurface* surface);
+/* The positions and normals that the host reads: once in a tick. */
+void kiriSurface_WriteArrays(kiriSurface* surface);
 
 /* What has changed since the host saw that revision: all, where that is too long ago. */
 void kiriSurface_GetDirty(const kiriSurface* surface, uint32_t sinceRevision, kiriDirty* dirty);
