@@ -61,10 +61,6 @@ static void SetAutomatic(kiriSheetDef* def)
     def->frameCount = 0;
     def->frameLength = 0.2f;
 }
-static void SetNoSleep(kiriSheetDef* def)
-{
-    def->sleepSpeed = 0.0f;
-}
 static void SetAsleep(kiriSheetDef* def)
 {
     def->sleepSpeed = 1e6f;
@@ -88,7 +84,6 @@ static const Feature features[] = {
     { "smooth skinning", SetSmooth },
     { "without fading", SetNoFade },
     { "automatic frames", SetAutomatic },
-    { "without sleep", SetNoSleep },
     { "asleep", SetAsleep },
     { "planar", SetPlanar },
     { "affine frames", SetAffine },
@@ -116,6 +111,7 @@ static bool MakeWorld(kiriWorld** world, kiriSheet* sheet, void (*set)(kiriSheet
     def.axisV[2] = 1.0f;
     def.frameCount = 25;
     def.gridResolution = 50;
+    def.sleepSpeed = 0.0f;
     set(&def);
     bool fine = kiriCreateWorld(&worldDef, world) == KIRI_OK && Bench_AddSheet(*world, &def, SQUARES, sheet);
     for (int corner = 0; fine && corner < 2; ++corner) {
