@@ -97,9 +97,11 @@ kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriCo
         const char* why = FaultOfContact(&contacts[i], data->points.count);
         KIRI_CHECK(why == NULL, why);
     }
-    if (!kiriArray_Reserve(&world->memory, &data->contacts, count) ||
-        !kiriArray_Reserve(&world->memory, &data->rest.contacts, count) ||
-        !kiriArray_Reserve(&world->memory, &data->contactRows, count)) {
+    /* Room for a contact of each point at once, so that later calls need no memory. */
+    int32_t room = count > data->points.count ? count : data->points.count;
+    if (count > 0 && (!kiriArray_Reserve(data->memory, &data->contacts, room) ||
+                      !kiriArray_Reserve(data->memory, &data->rest.contacts, room) ||
+                      !kiriArray_Reserve(data->memory, &data->contactRows, room))) {
         return KIRI_FAIL(KIRI_ERROR_MEMORY, NULL);
     }
     if (count > 0) {
