@@ -408,8 +408,8 @@ static int32_t CheckChanges(const Sheet* sheet)
         count += changed;
     }
     free(listed);
-    for (int32_t k = 0; k < sheet->grid.changes.restepped.count; ++k) {
-        int32_t cell = sheet->grid.changes.restepped.data[k];
+    for (int32_t k = 0; k < sheet->grid.changes.steps.count; ++k) {
+        int32_t cell = sheet->grid.changes.steps.data[k];
         int32_t owner = kiriGrid_IsCell(&sheet->grid, cell) ? regions->field.owner.data[cell] : KIRI_NONE;
         assert_true(owner == KIRI_NONE || regions->dirty.data[owner]);
     }
@@ -690,7 +690,7 @@ static void WorkIsLocal(void** state)
         CutRandomly(&sheet, &seed, 0.05);
         UpdateGrid(&sheet);
         FollowMaterial(&sheet, &seed);
-        suspects += sheet.grid.changes.made.count + sheet.grid.changes.restepped.count;
+        suspects += sheet.grid.changes.made.count + sheet.grid.changes.steps.count;
         Update(&sheet);
         used += sheet.used;
         changed += CheckChanges(&sheet);

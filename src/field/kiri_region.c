@@ -188,14 +188,14 @@ static void FollowGrid(const Update* u)
         r->siteAt.data[cell] = KIRI_NONE;
         r->onBorder.data[cell] = 0;
     }
-    for (int32_t k = r->seen.remade; k < changes->remade.count; ++k) {
-        const kiriRemade* remade = &changes->remade.data[k];
+    for (int32_t k = r->seen.material; k < changes->material.count; ++k) {
+        const kiriMaterialChange* remade = &changes->material.data[k];
         int32_t owner = r->field.owner.data[remade->cell];
         Account(u, owner, &remade->was, -1);
         Account(u, owner, MaterialOf(u, remade->cell), 1);
     }
-    for (int32_t k = r->seen.restepped; k < changes->restepped.count; ++k) {
-        int32_t cell = changes->restepped.data[k];
+    for (int32_t k = r->seen.steps; k < changes->steps.count; ++k) {
+        int32_t cell = changes->steps.data[k];
         if (kiriGrid_IsCell(u->grid, cell)) {
             Touch(r, r->field.owner.data[cell]);
             kiriField_Suspect(&r->field, cell);
@@ -337,9 +337,9 @@ static bool FinishRepair(const Update* u)
     for (int32_t k = 0; ok && k < r->field.log.count; ++k) {
         ok = FollowChange(u, r->field.log.data[k]);
     }
-    for (int32_t k = r->seen.restepped; k < changes->restepped.count; ++k) {
-        if (kiriGrid_IsCell(u->grid, changes->restepped.data[k])) {
-            FindBorder(u, changes->restepped.data[k]);
+    for (int32_t k = r->seen.steps; k < changes->steps.count; ++k) {
+        if (kiriGrid_IsCell(u->grid, changes->steps.data[k])) {
+            FindBorder(u, changes->steps.data[k]);
         }
     }
     for (int32_t k = r->seen.made; ok && k < changes->made.count; ++k) {
@@ -380,7 +380,7 @@ static void MarkSeen(const Update* u)
 {
     const kiriGridChanges* changes = &u->grid->changes;
     u->regions->seen =
-        (kiriSeenChanges){ changes->made.count, changes->gone.count, changes->restepped.count, changes->remade.count };
+        (kiriSeenChanges){ changes->made.count, changes->gone.count, changes->steps.count, changes->material.count };
 }
 
 static bool Begin(const Update* u)

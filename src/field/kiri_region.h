@@ -25,7 +25,7 @@ kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* gr
 
 /* How far the lists of the grid's changes were followed. */
 typedef struct kiriSeenChanges {
-    int32_t made, gone, restepped, remade;
+    int32_t made, gone, steps, material;
 } kiriSeenChanges;
 
 typedef struct kiriRegions {

@@ -608,15 +608,15 @@ static void MarkChanges(Job* job)
             ListChange(job, changes->made.data[k]);
         }
     }
-    for (int32_t k = 0; k < changes->restepped.count; ++k) {
-        if (kiriGrid_IsCell(job->grid, changes->restepped.data[k])) {
-            MarkChange(job, changes->restepped.data[k], RESTEPPED);
-            ListChange(job, changes->restepped.data[k]);
+    for (int32_t k = 0; k < changes->steps.count; ++k) {
+        if (kiriGrid_IsCell(job->grid, changes->steps.data[k])) {
+            MarkChange(job, changes->steps.data[k], RESTEPPED);
+            ListChange(job, changes->steps.data[k]);
         }
     }
-    for (int32_t k = 0; k < changes->remade.count; ++k) {
-        if (kiriGrid_IsCell(job->grid, changes->remade.data[k].cell)) {
-            MarkDirty(job, changes->remade.data[k].cell);
+    for (int32_t k = 0; k < changes->material.count; ++k) {
+        if (kiriGrid_IsCell(job->grid, changes->material.data[k].cell)) {
+            MarkDirty(job, changes->material.data[k].cell);
         }
     }
     MarkReowned(job);
@@ -742,8 +742,8 @@ static void End(Job* job)
     for (int32_t k = 0; k < changes->made.count; ++k) {
         marks[changes->made.data[k]] &= kept;
     }
-    for (int32_t k = 0; k < changes->restepped.count; ++k) {
-        marks[changes->restepped.data[k]] &= kept;
+    for (int32_t k = 0; k < changes->steps.count; ++k) {
+        marks[changes->steps.data[k]] &= kept;
     }
     for (int32_t k = 0; k < job->regions->changes.count; ++k) {
         marks[job->regions->changes.data[k].cell] &= kept;
