@@ -516,6 +516,15 @@ static void FitIsContinuousOverFaces(void** state)
 
 /* ---- Following cuts ---------------------------------------------------------------------------------------------- */
 
+static void CompareWithScratch(const Follow* f)
+{
+    Follow scratch;
+    Follow_ScratchWeights(&scratch, f);
+    Follow_CompareLists(f, &scratch);
+    Follow_CompareWeights(f, &scratch);
+    Follow_Release(&scratch);
+}
+
 /* Lists, weights and rigid sums after any cuts are those from scratch, bit for bit, whatever the quota. */
 static void CutSheetsEqualThoseFromScratch(void** state)
 {
@@ -525,7 +534,7 @@ static void CutSheetsEqualThoseFromScratch(void** state)
     for (uint32_t round = 0; round < 40; ++round) {
         uint32_t seed = 17 + 7919 * round;
         Scene scene;
-        Follow f, scratch;
+        Follow f;
         Wander wander;
         memset(&wander, 0, sizeof(wander));
         Scene_InitMesh(&scene, 1.0, RandomBetween(&seed, 0.3, 1.0), 7, 6, 3 + (int32_t)(Random(&seed) % 28), 0.2, seed);
@@ -543,10 +552,7 @@ static void CutSheetsEqualThoseFromScratch(void** state)
             cells += f.grid.cellCount;
             recomputed += f.shape.recomputed;
             Follow_Commit(&f);
-            Follow_ScratchWeights(&scratch, &f);
-            Follow_CompareLists(&f, &scratch);
-            Follow_CompareWeights(&f, &scratch);
-            Follow_Release(&scratch);
+            CompareWithScratch(&f);
             kiriSquares_ClearDirty(&scene.mesh.squares);
         }
         born += f.sites.count - sites;
@@ -557,13 +563,56 @@ static void CutSheetsEqualThoseFromScratch(void** state)
     assert_true(2 * recomputed < cells);
 }
 
+/* Cuts that are taken back: cells that have weights go, and others come. */
+static void CutsTakenBackEqualThoseFromScratch(void** state)
+{
+    (void)state;
+    int32_t gone = 0, weighed = 0;
+    for (uint32_t round = 0; round < 24; ++round) {
+        uint32_t seed = 23 + 104729 * round;
+        Scene scene;
+        Follow f;
+        Scene_InitMesh(&scene, 1.0, 0.8, 6, 5, 4 + (int32_t)(Random(&seed) % 16), 0.2, seed);
+        kiriMesh_Commit(&scene.mesh);
+        Follow_Start(&f, &scene, 2 + (int32_t)(Random(&seed) % 10), 0, &seed);
+        f.slice = round % 3 == 2 ? 3 : 0;
+        for (int step = 0; step < 8; ++step) {
+            Wander wander;
+            memset(&wander, 0, sizeof(wander));
+            kiriMesh_Begin(&scene.mesh);
+            for (int32_t cuts = 4 + (int32_t)(Random(&seed) % 8); cuts > 0; --cuts) {
+                Wander_Move(&wander, &f, 1.5 * f.grid.side, &seed);
+            }
+            for (int back = 0; back < 2; ++back) {
+                if (back) {
+                    kiriMesh_Rollback(&scene.mesh);
+                }
+                Follow_Grid(&f);
+                for (int32_t k = 0; k < f.grid.changes.gone.count; ++k, ++gone) {
+                    weighed += f.shape.spans.data[f.grid.changes.gone.data[k]].count > 0;
+                }
+                Follow_Relocate(&f);
+                Follow_AllRegions(&f);
+                assert_int_equal(Follow_Shape(&f), KIRI_DONE);
+                CompareWithScratch(&f);
+                assert_true(Follow_Links(&f));
+                Follow_Commit(&f);
+                kiriSquares_ClearDirty(&scene.mesh.squares);
+            }
+        }
+        Follow_Release(&f);
+        Scene_Release(&scene);
+    }
+    assert_true(gone > 500 && weighed == gone);
+}
+
 /* Sites that are moved, and moved back. */
 static void SitesMove(void** state)
 {
     (void)state;
     uint32_t seed = 99;
     Scene scene;
-    Follow f, scratch;
+    Follow f;
     Scene_InitMesh(&scene, 1.0, 0.8, 5, 4, 19, 0.2, seed);
     Scene_CutAtRandom(&scene, 4, 8, &seed);
     kiriMesh_Commit(&scene.mesh);
@@ -580,10 +629,7 @@ static void SitesMove(void** state)
                 Follow_AllRegions(&f);
                 assert_int_equal(Follow_Shape(&f), KIRI_DONE);
             }
-            Follow_ScratchWeights(&scratch, &f);
-            Follow_CompareLists(&f, &scratch);
-            Follow_CompareWeights(&f, &scratch);
-            Follow_Release(&scratch);
+            CompareWithScratch(&f);
         }
     }
     Follow_Release(&f);
@@ -672,7 +718,7 @@ static void FailingAllocatorLeaksNothing(void** state)
     for (int64_t budget = 0; !done; ++budget) {
         uint32_t seed = 5;
         Scene scene;
-        Follow f, scratch;
+        Follow f;
         Wander wander;
         memset(&wander, 0, sizeof(wander));
         Scene_InitMesh(&scene, 1.0, 0.8, 5, 4, 12, 0.2, seed);
@@ -696,10 +742,7 @@ static void FailingAllocatorLeaksNothing(void** state)
             Follow_StartAgain(&f);
             assert_int_equal(Follow_Shape(&f), KIRI_DONE);
         }
-        Follow_ScratchWeights(&scratch, &f);
-        Follow_CompareLists(&f, &scratch);
-        Follow_CompareWeights(&f, &scratch);
-        Follow_Release(&scratch);
+        CompareWithScratch(&f);
         Follow_Release(&f);
         Scene_Release(&scene);
         done = done && budget % 2 == 1;
@@ -725,6 +768,7 @@ int main(void)
         cmocka_unit_test(FitIsContinuousOverFaces),
         cmocka_unit_test(WeightsAreThoseOfThePaper),
         cmocka_unit_test(CutSheetsEqualThoseFromScratch),
+        cmocka_unit_test(CutsTakenBackEqualThoseFromScratch),
         cmocka_unit_test(SitesMove),
         cmocka_unit_test(ChangesAreComplete),
         cmocka_unit_test(StencilsEqualPoints),
