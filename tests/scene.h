@@ -3,7 +3,7 @@
 #define KIRI_TEST_SCENE_H
 
 #include "field/kiri_place.h"
-#include "field/kiri_shape.h"
+#include "field/kiri_stencil.h"
 #include "motion/kiri_frame.h"
 #include "support.h"
 

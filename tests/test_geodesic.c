@@ -503,7 +503,7 @@ static void TestRepairsFollowCuts(void** state)
                 int32_t cell =
                     k < changes->made.count ? changes->made.data[k] : changes->steps.data[k - changes->made.count];
                 if (kiriGrid_IsCell(&sheet.grid, cell)) {
-                    kiriField_Suspect(&sheet.field, cell);
+                    kiriField_MarkDirty(&sheet.field, cell);
                 }
             }
             kiriQuota quota = { INT64_MAX, 0 };

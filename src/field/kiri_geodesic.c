@@ -261,7 +261,7 @@ kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* 
 
 /* ---- Repairs ----------------------------------------------------------------------------------------------------- */
 
-void kiriField_Suspect(kiriField* field, int32_t cell)
+void kiriField_MarkDirty(kiriField* field, int32_t cell)
 {
     if ((field->marks.data[cell] & SUSPECT) == 0) {
         field->marks.data[cell] |= SUSPECT;
@@ -309,7 +309,7 @@ static bool SuspectDependents(kiriField* field, kiriMemory* memory, const kiriRu
         int32_t distance = field->distance.data[step.cell];
         if (distance != KIRI_FAR && distance - step.length == value.distance &&
             field->owner.data[step.cell] == value.owner) {
-            kiriField_Suspect(field, step.cell);
+            kiriField_MarkDirty(field, step.cell);
         }
     }
     return true;

@@ -64,7 +64,7 @@ void kiriField_Reset(kiriField* field);
 /* ---- Repairs ---- */
 
 /* The cell's steps or seed may have changed, or whether ways pass through it. Never fails: room is made by Resize. */
-void kiriField_Suspect(kiriField* field, int32_t cell);
+void kiriField_MarkDirty(kiriField* field, int32_t cell);
 
 /* The cell is no more (or shall be empty); cells that it led to must be suspects, it must not. Not logged. */
 void kiriField_Forget(kiriField* field, int32_t cell);

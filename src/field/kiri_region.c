@@ -153,9 +153,9 @@ static void SuspectAround(const Update* u, int32_t cell)
 {
     const kiriStepRun* run = &u->grid->runs.data[cell];
     if (kiriGrid_IsCell(u->grid, cell)) {
-        kiriField_Suspect(&u->regions->field, cell);
+        kiriField_MarkDirty(&u->regions->field, cell);
         for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-            kiriField_Suspect(&u->regions->field, u->grid->steps.data[s].cell);
+            kiriField_MarkDirty(&u->regions->field, u->grid->steps.data[s].cell);
         }
     }
 }
@@ -198,12 +198,12 @@ static void FollowGrid(const Update* u)
         int32_t cell = changes->steps.data[k];
         if (kiriGrid_IsCell(u->grid, cell)) {
             Touch(r, r->field.owner.data[cell]);
-            kiriField_Suspect(&r->field, cell);
+            kiriField_MarkDirty(&r->field, cell);
         }
     }
     for (int32_t k = r->seen.made; k < changes->made.count; ++k) {
         if (kiriGrid_IsCell(u->grid, changes->made.data[k])) {
-            kiriField_Suspect(&r->field, changes->made.data[k]);
+            kiriField_MarkDirty(&r->field, changes->made.data[k]);
         }
     }
 }
