@@ -680,7 +680,7 @@ static void WorkIsLocal(void** state)
     uint32_t seed = 51;
     Sheet sheet;
     int64_t used = 0;
-    int32_t changed = 0, steps = 100, suspects = 0;
+    int32_t changed = 0, steps = 100, dirty = 0;
     OpenSquare(&sheet, 40);
     AddSites(&sheet, 40, &seed);
     Update(&sheet);
@@ -690,7 +690,7 @@ static void WorkIsLocal(void** state)
         CutRandomly(&sheet, &seed, 0.05);
         UpdateGrid(&sheet);
         FollowMaterial(&sheet, &seed);
-        suspects += sheet.grid.changes.made.count + sheet.grid.changes.steps.count;
+        dirty += sheet.grid.changes.made.count + sheet.grid.changes.steps.count;
         Update(&sheet);
         used += sheet.used;
         changed += CheckChanges(&sheet);
@@ -698,7 +698,7 @@ static void WorkIsLocal(void** state)
         Settle(&sheet);
     }
     CheckAll(&sheet);
-    assert_true(used < 3 * (changed + suspects));
+    assert_true(used < 3 * (changed + dirty));
     assert_true(used < steps * 1600 / 10);
     CloseSheet(&sheet);
 }

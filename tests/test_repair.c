@@ -346,7 +346,7 @@ static int64_t Repair(Net* net, int64_t items)
 
 static void CheckAtRest(const Net* net)
 {
-    assert_int_equal(net->field.suspects.count, 0);
+    assert_int_equal(net->field.dirty.count, 0);
     assert_int_equal(net->field.settled.count, 0);
     assert_int_equal(net->field.heap.count, 0);
     for (int32_t c = 0; c < net->count; ++c) {
@@ -362,7 +362,7 @@ static void OpenRandomly(Net* net, int round, uint32_t* seed)
     }
     net->passes = round % 4 >= 2;
     net->rule.pass = net->passes ? NetPass : NULL;
-    net->field.suspects.count = 0;
+    net->field.dirty.count = 0;
     memset(net->field.marks.data, 0, (size_t)net->count);
     FloodNet(net);
     CheckField(net);
@@ -382,12 +382,12 @@ static void RepairedEqualsFlooded(void** state)
         for (int k = 0; k < 30; ++k) {
             Change(&net, &seed);
             Values before = ValuesOf(&net);
-            int32_t suspects = net.field.suspects.count;
+            int32_t dirty = net.field.dirty.count;
             int64_t items = Repair(&net, k % 3 == 0 ? 1 + k % 5 : INT64_MAX / 2);
             CheckField(&net);
             changed += CheckLog(&net, &before);
-            assert_true(items <= 2 * net.field.log.count + suspects);
-            used += items - suspects;
+            assert_true(items <= 2 * net.field.log.count + dirty);
+            used += items - dirty;
             logged += net.field.log.count;
             net.field.log.count = 0;
             CheckAtRest(&net);
@@ -461,8 +461,8 @@ static void WorkIsLocal(void** state)
     }
     kiriField_MarkDirty(&net.field, corner);
     MakeSteps(&net);
-    int32_t suspects = net.field.suspects.count;
-    assert_true(Repair(&net, INT64_MAX) <= suspects + 1);
+    int32_t dirty = net.field.dirty.count;
+    assert_true(Repair(&net, INT64_MAX) <= dirty + 1);
     assert_int_equal(net.field.log.count, 1);
     assert_int_equal(net.field.distance.data[corner], KIRI_FAR);
     CheckField(&net);

@@ -76,8 +76,8 @@ bool kiriGridWork_Collect(kiriGridWork* work, const kiriMeshData* mesh, int32_t 
 }
 
 /* The entry of a triangle among sorted ones, or KIRI_NONE. */
-static int32_t FindEntry(const kiriGridWork* work, const kiriMeshData* mesh, int32_t from, int32_t end,
-                         int32_t triangle)
+static int32_t FindTriangleEntry(const kiriGridWork* work, const kiriMeshData* mesh, int32_t from, int32_t end,
+                                 int32_t triangle)
 {
     int32_t last = end;
     while (from < last) {
@@ -123,7 +123,7 @@ static void JoinTriangles(kiriGridWork* work, const kiriMeshData* mesh, int32_t 
             if (twin < h || kiriMesh_IsOpen(mesh, h)) {
                 continue;
             }
-            int32_t j = FindEntry(work, mesh, i + 1, range.end, twin / 3);
+            int32_t j = FindTriangleEntry(work, mesh, i + 1, range.end, twin / 3);
             if (j != KIRI_NONE &&
                 kiriSquares_RunsThrough(&mesh->squares, square, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
                                         mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at)) {

@@ -5,7 +5,7 @@
 /* SetSteps compares bytes. */
 typedef char StepHasNoPadding[sizeof(kiriStep) == 8 ? 1 : -1];
 
-static int32_t Larger(int32_t a, int32_t b)
+static int32_t LargerOf(int32_t a, int32_t b)
 {
     return a > b ? a : b;
 }
@@ -41,7 +41,7 @@ static bool IsWholeAround(const kiriGrid* grid, const kiriSquares* squares, int3
 /* At least for as many as most cells have, so that most runs never move. */
 static int32_t RoomFor(int32_t count)
 {
-    return count == 0 ? 0 : Larger(count, KIRI_OPEN_STEPS);
+    return count == 0 ? 0 : LargerOf(count, KIRI_OPEN_STEPS);
 }
 
 static int32_t CountSteps(const kiriStepRun* run)
@@ -110,9 +110,9 @@ bool kiriGrid_SpreadDirty(kiriGrid* grid, const kiriMeshData* mesh, int32_t item
     kiriGridWork* work = grid->work;
     const kiriSquares* squares = &mesh->squares;
     int32_t square = work->linksDirty.data[item], column = square % squares->columns, row = square / squares->columns;
-    for (int32_t v = Larger(-STEP_ROWS, -row); v <= STEP_ROWS && row + v < squares->rows; ++v) {
+    for (int32_t v = LargerOf(-STEP_ROWS, -row); v <= STEP_ROWS && row + v < squares->rows; ++v) {
         int32_t reach = StepColumns(v);
-        for (int32_t u = Larger(-reach, -column); u <= reach && column + u < squares->columns; ++u) {
+        for (int32_t u = LargerOf(-reach, -column); u <= reach && column + u < squares->columns; ++u) {
             if (!MarkStepsDirty(grid, mesh->memory, square + v * squares->columns + u)) {
                 return false;
             }

@@ -4,7 +4,7 @@
 
 /* ---- The weights of a cell --------------------------------------------------------------------------------------- */
 
-/* Adds the cell to the rigid sums of its frames, or takes it away from them. */
+/* Adds a share to the rigid sums of the frames that hold the cell rigidly. */
 static void AddRigid(kiriShapeJob* job, int32_t cell, int64_t share)
 {
     kiriSpan span = job->shape->spans.data[cell];
@@ -19,13 +19,15 @@ static void AddRigid(kiriShapeJob* job, int32_t cell, int64_t share)
 /* There is room for every cell. */
 static void AddWeightChange(kiriShapeJob* job, int32_t cell)
 {
+    KIRI_ASSERT(kiriGrid_IsCell(job->grid, cell));
     if ((job->work->marks.data[cell] & KIRI_MARK_CHANGED) == 0) {
         job->work->marks.data[cell] |= KIRI_MARK_CHANGED;
         job->shape->changes.data[job->shape->changes.count++] = cell;
     }
 }
 
-/* The weights of the cell, or what they count, are about to change. There is room for every cell. */
+/* The cell's weights or its material are about to change: they leave the rigid sums until they are normalised again.
+   There is room for every cell. */
 static void MarkSumDirty(kiriShapeJob* job, int32_t cell)
 {
     if ((job->work->marks.data[cell] & KIRI_MARK_DIRTY) == 0) {
@@ -60,6 +62,7 @@ static bool MakeFirstRoom(kiriShapeJob* job, int32_t cell)
 /* Puts, changes or takes away one weight among those that are there. */
 static bool ReplaceWeight(kiriShapeJob* job, const kiriRawWeight* entry)
 {
+    KIRI_ASSERT(entry->frame >= 0 && entry->frame < job->siteCount && kiriGrid_IsCell(job->grid, entry->cell));
     kiriSpan* span = &job->shape->spans.data[entry->cell];
     kiriCellWeight* weights = job->shape->weights.data + span->first;
     int32_t k = 0;
@@ -96,6 +99,7 @@ static bool PlaceWeight(kiriShapeJob* job, const kiriRawWeight* entry)
         return false;
     }
     kiriSpan span = job->shape->spans.data[entry->cell];
+    KIRI_ASSERT(*awaited > 0 && *awaited <= span.count && entry->raw > 0.0);
     job->shape->weights.data[span.first + span.count - (*awaited)--] =
         (kiriCellWeight){ entry->frame, 0.0, entry->raw };
     return true;
@@ -115,6 +119,7 @@ static void NormalizeCell(kiriShapeJob* job, int32_t cell)
     for (int32_t k = 0; k < span.count; ++k) {
         sum += weights[k].raw;
     }
+    KIRI_ASSERT(job->work->awaited.data[cell] == 0 && (span.count == 0 || sum > 0.0));
     for (int32_t k = 0; k < span.count; ++k) {
         weights[k].value = weights[k].raw / sum;
     }
@@ -162,6 +167,7 @@ static void MarkChange(kiriShapeJob* job, int32_t cell, uint8_t mark)
     kiriShapeWork* work = job->work;
     int32_t square = job->grid->cells.data[cell].square, columns = job->mesh->squares.columns;
     const int32_t at[2] = { square % columns, square / columns };
+    KIRI_ASSERT(kiriGrid_IsCell(job->grid, cell));
     work->marks.data[cell] |= mark;
     for (int i = 0; i < 2; ++i) {
         work->low[i] = at[i] < work->low[i] ? at[i] : work->low[i];
@@ -179,6 +185,7 @@ static void MarkRegionChanges(kiriShapeJob* job)
         int32_t owner = field->owner.data[was.cell];
         MarkChange(job, was.cell, KIRI_MARK_REGION);
         work->wasOwner.data[was.cell] = was.owner;
+        KIRI_ASSERT(was.owner < job->siteCount && owner < job->siteCount);
         if (was.owner != KIRI_NONE) {
             work->frames.data[was.owner].dirty = true;
         }
@@ -229,6 +236,7 @@ static bool BeginWeights(kiriShapeJob* job, const kiriSiteMove* moves, int32_t m
         frame->moved = frame->dirty = false;
     }
     for (int32_t k = 0; k < moveCount; ++k) {
+        KIRI_ASSERT(moves[k].frame >= 0 && moves[k].frame < job->siteCount);
         work->frames.data[moves[k].frame].moved = true;
     }
     work->low[0] = work->low[1] = INT32_MAX;
@@ -239,7 +247,7 @@ static bool BeginWeights(kiriShapeJob* job, const kiriSiteMove* moves, int32_t m
     return true;
 }
 
-static kiriProgress MeasureFrames(kiriShapeJob* job, kiriQuota* quota)
+static kiriProgress MeasureAllFrames(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriShapeWork* work = job->work;
     for (; work->next < job->siteCount; ++work->next) {
@@ -255,7 +263,7 @@ static kiriProgress MeasureFrames(kiriShapeJob* job, kiriQuota* quota)
     return KIRI_DONE;
 }
 
-/* The first weights of all lie in the order of cells, close to those of their neighbours. */
+/* Where no cell has weights yet, they get room in the order of cells: so weights of neighbours lie close together. */
 static kiriProgress MakeFirstRooms(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriShapeWork* work = job->work;
@@ -288,7 +296,7 @@ static kiriProgress PlaceWeights(kiriShapeJob* job, kiriQuota* quota)
     return KIRI_DONE;
 }
 
-/* Takes back the marks of this update, and cells that are gone out of the list of changes. */
+/* Clears the marks of this update, and takes cells that are gone out of the list of changes. */
 static void EndWeights(kiriShapeJob* job)
 {
     kiriShape* shape = job->shape;
@@ -328,13 +336,13 @@ static kiriProgress NormalizeCells(kiriShapeJob* job, kiriQuota* quota)
     return KIRI_DONE;
 }
 
-/* Algorithm 2, each stage with an item after the other. */
+/* Algorithm 2, each stage over its items. */
 static kiriProgress (*const shapeStages[])(kiriShapeJob* job, kiriQuota* quota) = {
     NULL,
-    MeasureFrames,  /* distances to the site and to the border, and the raw weights that follow from them */
-    MakeFirstRooms, /* only where no cell has weights yet */
-    PlaceWeights,   /* the raw weights, in the spans of their cells */
-    NormalizeCells, /* to sum 1 */
+    MeasureAllFrames, /* distances to the site and to the border, and the raw weights that follow from them */
+    MakeFirstRooms,   /* only where no cell has weights yet */
+    PlaceWeights,     /* the raw weights, in the spans of their cells */
+    NormalizeCells,   /* to sum 1 */
 };
 
 kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
@@ -347,6 +355,7 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
     if (shape->work == NULL) {
         return KIRI_FAILED;
     }
+    KIRI_ASSERT(!regions->running && regions->material.count == siteCount);
     kiriShapeJob job = { shape, shape->work, memory, grid, mesh, regions, sites, siteCount, 0 };
     if (shape->work->stage == KIRI_SHAPE_REST && !BeginWeights(&job, moves, moveCount)) {
         return KIRI_FAILED;
@@ -360,6 +369,7 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
 
 void kiriShape_ClearChanges(kiriShape* shape)
 {
+    KIRI_ASSERT(shape->work == NULL || shape->work->stage == KIRI_SHAPE_REST);
     for (int32_t k = 0; k < shape->changes.count; ++k) {
         shape->work->marks.data[shape->changes.data[k]] &= (uint8_t) ~(KIRI_MARK_CHANGED | KIRI_MARK_RECOMPUTED);
     }

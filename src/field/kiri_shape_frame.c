@@ -64,10 +64,9 @@ static kiriSeed BorderSeed(const void* context, int32_t cell)
     return seed;
 }
 
-/* Distances to the border are measured outside only as far as the weight is above zero: e grows along a way at least
-   as fast as d. To keep the flood on its side of the border is needless: no step over it is shorter than the seed
-   beyond. Whether a way goes on depends on what e is where it passes, but on nothing farther: so there is still one
-   fixed point, and a repair finds it. */
+/* Outside the region, distances to the border are measured only as far as the weight is above zero: along a way e grows
+   at least as fast as d. The flood may cross the border, for no step over it is shorter than the seed beyond. Whether a
+   way goes on depends only on e where it passes: so there is still one fixed point, and a repair finds it. */
 static bool HasWeight(const void* context, int32_t cell)
 {
     const kiriShapeJob* job = context;
@@ -104,9 +103,10 @@ static bool IsInBox(const kiriShapeJob* job)
            job->work->low[1] <= at[1] + radius && job->work->high[1] >= at[1] - radius;
 }
 
-/* May its distances have changed? They do only where a cell changes that they reach: ways come from there. */
+/* Distances change only where a cell changes that they reach, for ways come from there. */
 bool kiriShapeJob_IsFrameDirty(const kiriShapeJob* job)
 {
+    KIRI_ASSERT(job->frame >= 0 && job->frame < job->siteCount);
     const kiriShapeFrame* frame = &job->work->frames.data[job->frame];
     const kiriReaches* list = &job->shape->reaches.data[job->frame];
     if (frame->moved || frame->dirty) {
@@ -122,7 +122,7 @@ bool kiriShapeJob_IsFrameDirty(const kiriShapeJob* job)
     return changed != 0;
 }
 
-/* What the cells of its region ask for: they all came to it, or are in its list. */
+/* What the cells of its region ask for: each is in its list, or has come to it in this update. */
 static int32_t ReachOf(const kiriShapeJob* job)
 {
     const kiriReaches* list = &job->shape->reaches.data[job->frame];
@@ -138,8 +138,8 @@ static int32_t ReachOf(const kiriShapeJob* job)
     return reach;
 }
 
-/* A cell has another owner, or is nearer to its site or farther: so the seeds of cells beside it may differ that see a
-   border of the frame's region between the two, and its own. */
+/* A cell has another owner or distance. So where the border of the frame's region runs between it and a cell beside it,
+   the seeds of both may differ. */
 static void MarkBorderSeedsDirty(kiriShapeJob* job, int32_t cell)
 {
     kiriField* field = &job->work->fromBorder;
@@ -158,7 +158,7 @@ static void MarkBorderSeedsDirty(kiriShapeJob* job, int32_t cell)
     }
 }
 
-/* Loads a cell about which something has changed: not at all where it is gone or beyond the limit. */
+/* Loads a cell about which something has changed; not where it is gone or beyond the limit. */
 static void LoadDirtyCell(kiriShapeJob* job, kiriReach reach, int32_t limit, int32_t rim)
 {
     kiriShapeWork* work = job->work;
@@ -181,8 +181,8 @@ static void LoadDirtyCell(kiriShapeJob* job, kiriReach reach, int32_t limit, int
     }
 }
 
-/* Loads the list into the fields, and suspects what may change: all that is known at first. A site's seeds depend on
-   the steps of its cell. */
+/* Loads the list into the fields and marks what may change in them. The seeds of a site depend on the steps of its
+   cell, so cells there are dirty too. */
 static void LoadReaches(kiriShapeJob* job, int32_t limit)
 {
     kiriShapeWork* work = job->work;
@@ -242,7 +242,7 @@ static bool SeedBorder(kiriShapeJob* job)
     return kiriField_Start(&work->fromBorder, job->memory, work->seeds.data, work->seeds.count);
 }
 
-/* Ways to the border pass where the site is near enough. */
+/* Where the distance to the site has changed, ways to the border may pass that did not, or no more. */
 static bool StartFromBorder(kiriShapeJob* job)
 {
     kiriShapeWork* work = job->work;
@@ -267,7 +267,7 @@ static kiriProgress MeasureField(kiriShapeJob* job, kiriField* field, const kiri
                                                     : kiriField_Repair(field, job->memory, rule, quota);
 }
 
-/* There is room. */
+/* UnloadFrame has made room. */
 static void AddRawWeight(kiriShapeJob* job, kiriReach is)
 {
     kiriShapeWork* work = job->work;
@@ -275,6 +275,7 @@ static void AddRawWeight(kiriShapeJob* job, kiriReach is)
     bool none = job->shape->spans.data[is.cell].count == 0;
     if (raw > 0.0 || !none) {
         work->awaited.data[is.cell] += none;
+        KIRI_ASSERT(work->rawWeights.count < work->rawWeights.capacity);
         work->rawWeights.data[work->rawWeights.count++] = (kiriRawWeight){ is.cell, job->frame, raw };
     }
 }
@@ -308,18 +309,19 @@ static void UpdateReaches(kiriShapeJob* job)
     }
 }
 
-/* Cells of a flood or a log that are still loaded are new in the list. */
+/* A cell of a flood or a log that is still loaded is new in the list. */
 static void AddReach(kiriShapeJob* job, int32_t cell)
 {
     kiriReaches* list = &job->shape->reaches.data[job->frame];
     kiriReach is = UnloadCell(job->work->fromSite.distance.data, job->work->fromBorder.distance.data, cell);
     if (is.fromSite != KIRI_FAR) {
+        KIRI_ASSERT(list->count < list->capacity && kiriGrid_IsCell(job->grid, cell));
         list->data[list->count++] = is;
         AddRawWeight(job, is);
     }
 }
 
-/* Compares the distances with those of the list; leaves the fields empty. */
+/* Brings the list up to date with the fields, and empties them. */
 static bool UnloadFrame(kiriShapeJob* job)
 {
     kiriShapeWork* work = job->work;

@@ -79,7 +79,7 @@ typedef struct kiriShapeJob {
 /* How far distances to the site of its region have to go for the sake of a cell. */
 int32_t kiriShapeJob_ReachAt(const kiriShapeJob* job, int32_t cell);
 
-/* May distances or weights of the frame at hand have changed? */
+/* May the distances of the frame at hand have changed? */
 bool kiriShapeJob_IsFrameDirty(const kiriShapeJob* job);
 
 /* Measures the distances of the frame at hand again: brings its list up to date, and adds the weights that follow to

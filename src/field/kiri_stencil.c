@@ -8,12 +8,12 @@ static double QuadraticSpline(double t)
 }
 
 /* A first-order fit around a point, in units of squares from the middle of its cell. Offsets of neighbours are whole
-   numbers, so that cells in one line are seen as such. */
+   numbers, so cells in one line have a determinant of zero, but for rounding. */
 typedef struct PointFit {
     kiriVec2 at;
-    double sum;        /* of the kernel; and with it the offsets' */
-    kiriVec2 mean;     /* mean */
-    double xx, xy, yy; /* and (pseudo-)inverse of the second moments about the mean */
+    double sum;        /* of the kernel */
+    kiriVec2 mean;     /* of the offsets, weighed by the kernel */
+    double xx, xy, yy; /* (pseudo-)inverse of their second moments about the mean */
 } PointFit;
 
 static kiriVec2 SetKernel(kiriStencil* stencil, kiriVec2 at)
@@ -74,7 +74,8 @@ static kiriVec2 FitSlope(const PointFit* fit, kiriStep to, double kernel)
     return kiriVec2_Make(kernel * (fit->xx * p.x + fit->xy * p.y), kernel * (fit->xy * p.x + fit->yy * p.y));
 }
 
-/* What the cells count at the point. Splines reproduce linear functions: where no cell is missing, they are the fit. */
+/* What the cells count at the point. Where no cell is missing, the splines are the fit: they reproduce linear
+   functions. */
 static void SetShares(kiriStencil* stencil, kiriVec2 at)
 {
     if (stencil->full) {
@@ -92,6 +93,7 @@ static void SetShares(kiriStencil* stencil, kiriVec2 at)
 /* The fit may undershoot: no value below zero, sum 1. */
 void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at)
 {
+    KIRI_ASSERT(stencil->cell != KIRI_NONE);
     int32_t count = stencil->frames.count;
     double *values = stencil->values.data, sum = 0.0;
     SetShares(stencil, at);
@@ -132,7 +134,7 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
     return true;
 }
 
-/* The frames with weight in any of the cells, sorted, and in `columns` where they are. */
+/* The frames with weight in any of the cells, sorted; `columns` tells where they are. */
 static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape)
 {
     int32_t old = stencil->columns.count;
@@ -189,6 +191,7 @@ static bool GatherWeights(kiriStencil* stencil, kiriMemory* memory, const kiriSh
 bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                         const kiriMeshData* mesh, int32_t cell)
 {
+    KIRI_ASSERT(kiriGrid_IsCell(grid, cell) && cell < shape->spans.count);
     bool ok = GatherSteps(stencil, memory, grid, cell) && GatherFrames(stencil, memory, shape) &&
               GatherWeights(stencil, memory, shape);
     for (int32_t i = 0; i < stencil->frames.count; ++i) {
@@ -200,7 +203,7 @@ bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShap
     return ok;
 }
 
-/* What rounding leaves of the gradients goes to the largest weight. */
+/* The gradients sum to 0: what rounding leaves of them is taken from that of the largest weight. */
 static void SetGradients(kiriStencil* stencil, kiriVec2 at, kiriPointWeights* out)
 {
     PointFit fit = FitAround(stencil, at);

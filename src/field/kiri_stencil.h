@@ -41,7 +41,8 @@ void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at);
 
 /* Weights at a local point of the cell, by frame: moving least squares, first order, over the cell and those a
    straight or diagonal step away; never negative, sum 1 (the gradients sum to 0). Replaces what is in `out`. False
-   for memory. Many points of a cell are quicker with a stencil. */
+   for memory. Many points of a cell are quicker with a stencil. Writes nothing but `out` and blocks of `memory`: threads
+   may ask at the same time, each with memory of its own. */
 bool kiriShape_At(const kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                   int32_t cell, kiriVec2 at, kiriPointWeights* out);
 
