@@ -1,4 +1,8 @@
+#define _POSIX_C_SOURCE 200809L
+
 #include "follow.h"
+
+#include <sys/mman.h>
 
 typedef struct Weights {
     kiriRegions regions;
@@ -731,6 +735,65 @@ static void StencilsEqualPoints(void** state)
     Scene_Release(&scene);
 }
 
+/* Memory that can be made read-only. */
+enum { ARENA_BYTES = 1 << 25, ARENA_ALIGNMENT = 1 << 16 };
+typedef struct Arena {
+    char* bytes;
+    int64_t used;
+} Arena;
+
+static void* ArenaAlloc(void* user, int64_t bytes)
+{
+    Arena* arena = user;
+    char* block = arena->bytes + arena->used;
+    arena->used += (bytes + 15) / 16 * 16;
+    assert_true(arena->used <= ARENA_BYTES);
+    return block;
+}
+
+static void ArenaFree(void* user, void* pointer)
+{
+    (void)user;
+    (void)pointer;
+}
+
+/* Weights of points are asked for where all that they are made from is read-only: threads may ask at the same time. */
+static void PointsOnlyRead(void** state)
+{
+    (void)state;
+    uint32_t seed = 61;
+    Arena arena = { NULL, 0 };
+    void* bytes;
+    assert_int_equal(posix_memalign(&bytes, ARENA_ALIGNMENT, ARENA_BYTES), 0);
+    arena.bytes = bytes;
+    memset(bytes, 0, ARENA_BYTES);
+    Scene* scene = ArenaAlloc(&arena, sizeof(Scene));
+    Weights* w = ArenaAlloc(&arena, sizeof(Weights));
+    scene->memory = kiriMemory_Make(ArenaAlloc, ArenaFree, &arena);
+    Scene_MakeMesh(scene, 1.0, 0.8, 9, 8, 14, 0.2, seed);
+    Scene_CutAtRandom(scene, 6, 10, &seed);
+    Scene_BuildGrid(scene);
+    kiriSite sites[2];
+    for (int k = 0; k < 2; ++k) {
+        sites[k] = Scene_MiddleOf(scene, k * (scene->grid.cells.count - 1));
+    }
+    Build(scene, w, sites, 2);
+    assert_int_equal(mprotect(bytes, ARENA_BYTES, PROT_READ), 0);
+    kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
+    kiriPointWeights out = { 0 };
+    int32_t both = 0;
+    for (int k = 0; k < 500; ++k) {
+        kiriVec2 at;
+        int32_t cell = RandomCell(scene, &seed, &at);
+        assert_true(kiriShape_At(&w->shape, &memory, &scene->grid, &scene->mesh, cell, at, &out));
+        both += out.count == 2;
+    }
+    assert_true(both > 50);
+    kiriMemory_FreeAll(&memory);
+    assert_int_equal(mprotect(bytes, ARENA_BYTES, PROT_READ | PROT_WRITE), 0);
+    free(bytes);
+}
+
 /* Wherever memory fails, a reset and an update from scratch make all right again. */
 static void FailingAllocatorLeaksNothing(void** state)
 {
@@ -794,6 +857,7 @@ int main(void)
         cmocka_unit_test(SitesMove),
         cmocka_unit_test(ChangesAreComplete),
         cmocka_unit_test(StencilsEqualPoints),
+        cmocka_unit_test(PointsOnlyRead),
         cmocka_unit_test(FailingAllocatorLeaksNothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
