@@ -281,7 +281,6 @@ void kiriField_MarkDirty(kiriField* field, int32_t cell)
 void kiriField_Forget(kiriField* field, int32_t cell)
 {
     KIRI_ASSERT(cell >= 0 && cell < field->distance.count);
-    KIRI_ASSERT(field->cursor[REPAIR_STAGE] != REPAIR_NONE || (field->marks.data[cell] & FIELD_DIRTY) == 0);
     field->distance.data[cell] = KIRI_FAR;
     field->owner.data[cell] = KIRI_NONE;
 }

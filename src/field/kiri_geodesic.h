@@ -70,7 +70,8 @@ void kiriField_Reset(kiriField* field);
 /* The cell's steps or seed may have changed, or whether ways pass through it. Never fails: room is made by Resize. */
 void kiriField_MarkDirty(kiriField* field, int32_t cell);
 
-/* The cell is no more, or shall be FAR. It must not be dirty; the cells that its steps led to must be. Not logged. */
+/* The cell is no more, and then it must not be dirty; or it shall be FAR. The cells that its steps led to must be dirty.
+   Not logged. */
 void kiriField_Forget(kiriField* field, int32_t cell);
 
 /* Makes the field right again. All cells about which something has changed must be dirty: where the limit has grown, all
