@@ -1056,9 +1056,9 @@ static void CheckChanges(const kiriGrid* was, const kiriGrid* is, bool exact)
             continue;
         }
         assert_int_equal(was->cells.data[c].square, is->cells.data[c].square);
-        bool remade = !SameBits(&was->cells.data[c].material, &is->cells.data[c].material, sizeof(kiriMoments));
-        bool restepped = !SameSteps(was, is, c) || !SameFaces(was, is, c);
-        int expected = (remade ? IN_MATERIAL : 0) | (restepped ? IN_STEPS : 0);
+        bool material = !SameBits(&was->cells.data[c].material, &is->cells.data[c].material, sizeof(kiriMoments));
+        bool steps = !SameSteps(was, is, c) || !SameFaces(was, is, c);
+        int expected = (material ? IN_MATERIAL : 0) | (steps ? IN_STEPS : 0);
         assert_int_equal(exact ? lists[c] : lists[c] & expected, expected);
         assert_int_equal(lists[c] & (IN_MADE | IN_GONE), 0);
     }
@@ -1164,7 +1164,7 @@ static void CountChanges(const kiriGrid* grid, Tour* tour)
     tour->material += grid->changes.material.count;
 }
 
-/* Cuts a sheet step by step and checks the grid after each. `batch`: so many updates before the changes are settled. */
+/* Cuts a sheet step by step and checks the grid after each. `batch`: so many updates before the changes are cleared. */
 static void CheckProgressiveCuts(Tour* tour, int32_t mostQuota, int32_t batch)
 {
     Sheet sheet;
@@ -1252,7 +1252,7 @@ static void CheckFreeIndices(const kiriGrid* grid)
     assert_int_equal(faces, grid->faces.count);
 }
 
-/* Two cuts that are taken back as one, so that cells merge again. They are settled after the first, the second, both,
+/* Two cuts that are taken back as one, so that cells merge again. The changes are cleared after the first, the second, both,
    or never: cells go that were known and have changed since, or that nobody has heard of. */
 static void CheckCutsTakenBack(Tour* tour, int32_t mostQuota)
 {
@@ -1342,7 +1342,7 @@ static void TestNothingChanged(void** state)
         assert_int_equal(sheet.grid.changes.steps.count + sheet.grid.changes.material.count, 0);
     }
     CheckAgainstScratch(&sheet);
-    assert_int_equal(UpdateInParts(&sheet, &seed, 0), 0); /* nothing is touched: nothing is done */
+    assert_int_equal(UpdateInParts(&sheet, &seed, 0), 0); /* nothing is dirty: nothing is done */
     FreeCopy(&was);
     CloseSheet(&sheet);
 }

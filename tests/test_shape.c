@@ -682,17 +682,17 @@ static void ChangesAreComplete(void** state)
         memcpy(was, f.shape.weights.data, sizeof(kiriCellWeight) * (size_t)weights);
         Wander_Cut(&wander, &f, 1.2 * f.grid.side, &seed);
         Follow_Weights(&f, &seed);
-        int32_t* listed = calloc((size_t)f.grid.cells.count, sizeof(int32_t));
+        int32_t* isChanged = calloc((size_t)f.grid.cells.count, sizeof(int32_t));
         for (int32_t k = 0; k < f.shape.changes.count; ++k) {
             assert_true(kiriGrid_IsCell(&f.grid, f.shape.changes.data[k]));
-            assert_int_equal(listed[f.shape.changes.data[k]]++, 0);
+            assert_int_equal(isChanged[f.shape.changes.data[k]]++, 0);
         }
         for (int32_t c = 0; c < f.grid.cells.count; ++c) {
             kiriSpan span = f.shape.spans.data[c];
             bool same = c < old && spans[c].count == span.count &&
                         memcmp(was + spans[c].first, f.shape.weights.data + span.first,
                                sizeof(kiriCellWeight) * (size_t)span.count) == 0;
-            assert_true(same || listed[c] || !kiriGrid_IsCell(&f.grid, c));
+            assert_true(same || isChanged[c] || !kiriGrid_IsCell(&f.grid, c));
         }
         assert_true(f.shape.recomputed <= f.shape.changes.count);
         Follow_Commit(&f);
@@ -700,7 +700,7 @@ static void ChangesAreComplete(void** state)
         kiriSquares_ClearDirty(&scene.mesh.squares);
         free(spans);
         free(was);
-        free(listed);
+        free(isChanged);
     }
     Follow_Release(&f);
     Scene_Release(&scene);

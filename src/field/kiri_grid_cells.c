@@ -21,7 +21,7 @@ static bool RunsThroughSquare(const kiriMeshData* mesh, const kiriTriangle* t, i
 }
 
 /* A square is whole where there is material and neither the outline nor an open edge runs through it. Then it is wholly
-   covered, its triangles all hang together in it, and it has one cell: no need to join or to clip. Larger squares are. */
+   covered, its triangles all hang together in it, and it has one cell: no need to join or to clip. Most squares are. */
 static bool IsWhole(const kiriMeshData* mesh, int32_t square)
 {
     const kiriSquareNode* nodes = mesh->squares.nodes.data;

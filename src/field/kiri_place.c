@@ -165,15 +165,19 @@ static bool IsNearestSoFar(const void* context, int32_t cell)
     return IsNearerThanOld(work, cell) && work->fresh.distance.data[cell] < work->sampled.data[cell];
 }
 
+static kiriProgress GoOnTo(PlacerJob* job, kiriProgress progress, PlacerStage next)
+{
+    if (progress == KIRI_DONE) {
+        job->work->stage = next;
+    }
+    return progress;
+}
+
 /* ---- Sampling */
 
 static kiriProgress FloodOld(PlacerJob* job)
 {
-    kiriProgress progress = FloodPart(job, &job->work->flooded, NULL);
-    if (progress == KIRI_DONE) {
-        job->work->stage = SAMPLE;
-    }
-    return progress;
+    return GoOnTo(job, FloodPart(job, &job->work->flooded, NULL), SAMPLE);
 }
 
 static int32_t SampledDistance(const kiriPlacerWork* work, int32_t cell)
@@ -233,11 +237,7 @@ static kiriProgress SampleFarthest(PlacerJob* job)
 
 static kiriProgress FloodNew(PlacerJob* job)
 {
-    kiriProgress progress = FloodPart(job, &job->work->fresh, IsNearestSoFar);
-    if (progress == KIRI_DONE) {
-        job->work->stage = LOWER;
-    }
-    return progress;
+    return GoOnTo(job, FloodPart(job, &job->work->fresh, IsNearestSoFar), LOWER);
 }
 
 static void LowerCell(PlacerJob* job, int32_t cell)
@@ -250,22 +250,14 @@ static void LowerCell(PlacerJob* job, int32_t cell)
 
 static kiriProgress LowerDistances(PlacerJob* job)
 {
-    kiriProgress progress = VisitFreshCells(job, LowerCell);
-    if (progress == KIRI_DONE) {
-        job->work->stage = SAMPLE;
-    }
-    return progress;
+    return GoOnTo(job, VisitFreshCells(job, LowerCell), SAMPLE);
 }
 
 /* ---- Relaxation */
 
 static kiriProgress FloodAllNew(PlacerJob* job)
 {
-    kiriProgress progress = FloodPart(job, &job->work->fresh, IsNearerThanOld);
-    if (progress == KIRI_DONE) {
-        job->work->stage = SUM;
-    }
-    return progress;
+    return GoOnTo(job, FloodPart(job, &job->work->fresh, IsNearerThanOld), SUM);
 }
 
 /* The target of the new site that a cell belongs to; null where it is an old one. */
