@@ -70,7 +70,17 @@ static inline void Follow_Move(Follow* f, int32_t frame, kiriSite site)
     f->anchors.data[frame] = anchor;
 }
 
-/* Finds the sites again whose cells are gone. */
+static inline int32_t Follow_AnyFreeCell(const Follow* f)
+{
+    int32_t cell = 0;
+    while (!kiriGrid_IsCell(&f->grid, cell) || Follow_IsTaken(f, cell)) {
+        ++cell;
+        assert_true(cell < f->grid.cells.count);
+    }
+    return cell;
+}
+
+/* Finds the sites again whose cells are gone: where cells of a square have merged, one of their sites moves away. */
 static inline void Follow_Relocate(Follow* f)
 {
     for (int32_t i = 0; i < f->sites.count; ++i) {
@@ -79,9 +89,13 @@ static inline void Follow_Relocate(Follow* f)
         if (cell != was) {
             site->cell = KIRI_NONE;
             for (cell = Follow_IsTaken(f, cell) ? f->grid.squareCell.data[f->grid.cells.data[cell].square] : cell;
-                 Follow_IsTaken(f, cell);) {
+                 cell != KIRI_NONE && Follow_IsTaken(f, cell);) {
                 cell = f->grid.cells.data[cell].next;
-                assert_int_not_equal(cell, KIRI_NONE);
+            }
+            if (cell == KIRI_NONE) {
+                cell = Follow_AnyFreeCell(f);
+                site->at = kiriGrid_Middle(&f->grid, f->mesh, cell);
+                f->anchors.data[i] = kiriGrid_Anchor(&f->grid, f->mesh, cell);
             }
             site->cell = cell;
             kiriSiteMove move = { i, was };
@@ -329,10 +343,9 @@ static inline kiriVec2 Wander_Random(const Follow* f, uint32_t* seed)
     return p;
 }
 
-/* Cuts on by a segment; where it has wandered long enough it starts anew. Newborn vertices inherit their weights. */
-static inline void Wander_Cut(Wander* w, Follow* f, double length, uint32_t* seed)
+/* Cuts on by a segment; where it has wandered long enough it starts anew. Not committed. */
+static inline void Wander_Move(Wander* w, Follow* f, double length, uint32_t* seed)
 {
-    kiriMesh_Begin(f->mesh);
     if (w->left-- <= 0) {
         w->at = Wander_Random(f, seed);
         w->heading = RandomVec2(seed, -1.0, 1.0);
@@ -351,6 +364,13 @@ static inline void Wander_Cut(Wander* w, Follow* f, double length, uint32_t* see
         kiriQuota quota = { INT64_MAX, 0 };
         assert_int_equal(kiriCut_Move(f->mesh, &w->blade, kiriMesh_Snap(f->mesh, to), 16.0, &quota), KIRI_DONE);
     }
+}
+
+/* The same, committed; newborn vertices inherit their weights. */
+static inline void Wander_Cut(Wander* w, Follow* f, double length, uint32_t* seed)
+{
+    kiriMesh_Begin(f->mesh);
+    Wander_Move(w, f, length, seed);
     assert_true(kiriSkin_Inherit(&f->vertexSkin, f->memory, f->mesh));
     kiriMesh_Commit(f->mesh);
 }

@@ -3,7 +3,7 @@
 #define KIRI_TEST_SCENE_H
 
 #include "field/kiri_place.h"
-#include "field/kiri_shape.h"
+#include "field/kiri_stencil.h"
 #include "motion/kiri_frame.h"
 #include "support.h"
 
@@ -51,8 +51,9 @@ typedef struct Scene {
     double width, height;
 } Scene;
 
-/* columns x rows squares of two triangles. Inner vertices move by up to `jitter` of a square. */
-static inline void Scene_InitMesh(Scene* scene, double width, double height, int32_t columns, int32_t rows,
+/* Makes the mesh of a zeroed scene that has its memory: columns x rows squares of two triangles. Inner vertices move by
+   up to `jitter` of a square. */
+static inline void Scene_MakeMesh(Scene* scene, double width, double height, int32_t columns, int32_t rows,
                                   int32_t resolution, double jitter, uint32_t seed)
 {
     float* positions = malloc(2 * sizeof(float) * (size_t)((columns + 1) * (rows + 1)));
@@ -75,9 +76,6 @@ static inline void Scene_InitMesh(Scene* scene, double width, double height, int
             count += 6;
         }
     }
-    memset(scene, 0, sizeof(*scene));
-    scene->purse.budget = -1;
-    scene->memory = kiriMemory_Make(PurseAlloc, PurseFree, &scene->purse);
     scene->width = width;
     scene->height = height;
     const char* why = "";
@@ -88,6 +86,16 @@ static inline void Scene_InitMesh(Scene* scene, double width, double height, int
     kiriMesh_Begin(&scene->mesh);
     free(positions);
     free(indices);
+}
+
+/* The same, with memory that is counted. */
+static inline void Scene_InitMesh(Scene* scene, double width, double height, int32_t columns, int32_t rows,
+                                  int32_t resolution, double jitter, uint32_t seed)
+{
+    memset(scene, 0, sizeof(*scene));
+    scene->purse.budget = -1;
+    scene->memory = kiriMemory_Make(PurseAlloc, PurseFree, &scene->purse);
+    Scene_MakeMesh(scene, width, height, columns, rows, resolution, jitter, seed);
 }
 
 /* Opens the mesh edges that lie on the segment, but for the sheet's outline. */

@@ -324,6 +324,123 @@ static void CountIsLimitedByCells(void** state)
     Scene_Release(&scene);
 }
 
+/* Distances to the old sites, as regions have them. */
+static void UpdateRegions(kiriRegions* regions, Scene* scene, const Plain* p)
+{
+    kiriSiteMove moves[MOST];
+    kiriQuota quota = Endless();
+    for (int32_t i = 0; i < p->oldCount; ++i) {
+        moves[i] = (kiriSiteMove){ i, KIRI_NONE };
+    }
+    kiriRegions_Reset(regions);
+    assert_int_equal(kiriRegions_Update(regions, &scene->memory, &scene->grid, &scene->mesh, p->sites, p->oldCount,
+                                        moves, p->oldCount, &quota),
+                     KIRI_DONE);
+}
+
+/* Asks for `count` sites more in the part beside `old` in its first cells, and checks that it gets what is possible. */
+static void CheckCount(Scene* scene, kiriPlacer* placer, const kiriField* known, int32_t old, int32_t count,
+                       const uint8_t* allowed, int64_t slice)
+{
+    int32_t isFree = 0, cells = placer->cells.count;
+    int64_t used = 0;
+    placer->sites.count = 0;
+    for (int32_t k = 0; k < cells; ++k) {
+        int32_t cell = placer->cells.data[k];
+        if (k < old) {
+            assert_true(kiriArray_Push(&scene->memory, &placer->sites, Scene_MiddleOf(scene, cell)));
+        } else {
+            isFree += allowed == NULL || allowed[cell];
+        }
+    }
+    placer->known = known;
+    assert_true(kiriPlacer_Start(placer, &scene->memory, &scene->grid, &scene->mesh, allowed, count));
+    for (kiriProgress progress = KIRI_MORE; progress != KIRI_DONE;) {
+        kiriQuota quota = { slice, 0 };
+        progress = kiriPlacer_Run(placer, &scene->memory, &scene->grid, &scene->mesh, &quota);
+        used += quota.used;
+        assert_true(progress == KIRI_DONE || (progress == KIRI_MORE && quota.used > 0));
+        assert_true(used <= cells * (3 * (int64_t)cells + 80)); /* samplings, and up to 20 rounds of three visits */
+    }
+    assert_int_equal(placer->oldCount, old);
+    assert_int_equal(placer->sites.count - old, count < isFree ? count : isFree);
+    AssertDistinct(scene, &placer->sites);
+    for (int32_t i = 0; i < placer->sites.count; ++i) {
+        int32_t k = 0;
+        while (k < cells && placer->cells.data[k] != placer->sites.data[i].cell) {
+            ++k;
+        }
+        assert_true(k < cells && (i >= old || k == i));
+    }
+}
+
+/* All numbers of old sites, and all counts up to too many: in the part in the placer. */
+static void CheckCounts(Scene* scene, kiriPlacer* placer, uint32_t* seed)
+{
+    int32_t cells = placer->cells.count, most = scene->grid.cells.count;
+    uint8_t* allowed = malloc((size_t)most);
+    kiriRegions regions = { 0 };
+    for (int32_t old = 0; old <= cells; ++old) {
+        Plain plain = { .oldCount = old };
+        for (int32_t i = 0; i < old; ++i) {
+            plain.sites[i] = Scene_MiddleOf(scene, placer->cells.data[i]);
+        }
+        UpdateRegions(&regions, scene, &plain);
+        for (int32_t count = 0; count <= cells + 3; ++count) {
+            int32_t asked = count == cells + 3 ? INT32_MAX : count == cells + 2 ? 1000000 : count;
+            for (int32_t c = 0; c < most; ++c) {
+                allowed[c] = count % 4 != 3 && Random(seed) % 2;
+            }
+            CheckCount(scene, placer, NULL, old, asked, NULL, INT64_MAX);
+            CheckCount(scene, placer, NULL, old, asked, NULL, 40);
+            CheckCount(scene, placer, NULL, old, asked, allowed, INT64_MAX);
+            CheckCount(scene, placer, &regions.field, old, asked, allowed, 40);
+        }
+    }
+    free(allowed);
+}
+
+/* Tiny parts: of one cell, of two, of slivers, of many pieces. */
+static void TinyPartsGetWhatIsPossible(void** state)
+{
+    (void)state;
+    uint32_t seed = 77;
+    int32_t ones = 0, twos = 0, parts = 0;
+    for (int round = 0; round < 40; ++round) {
+        Scene scene;
+        kiriPlacer placer = { 0 };
+        int32_t resolution = 1 + round % 4;
+        Scene_InitMesh(&scene, 1.0, RandomBetween(&seed, 0.2, 1.0), 5, 4, resolution, 0.2, seed);
+        Scene_CutAtRandom(&scene, round % 6, 9, &seed);
+        Scene_BuildGrid(&scene);
+        int32_t* piece;
+        int32_t pieces = Scene_Pieces(&scene, &piece), cells = scene.grid.cells.count;
+        for (int32_t p = 0; p <= pieces; ++p) {
+            int32_t first = 0;
+            while (first < cells && piece[first] != p) {
+                ++first;
+            }
+            if (p < pieces) {
+                assert_true(kiriPlacer_TakePiece(&placer, &scene.memory, &scene.grid, first));
+            } else { /* all pieces as one part */
+                placer.cells.count = 0;
+                for (int32_t k = 0; k < cells; ++k) {
+                    assert_true(kiriArray_Push(&scene.memory, &placer.cells, CellAt(&scene, k)));
+                }
+            }
+            ones += placer.cells.count == 1;
+            twos += placer.cells.count == 2;
+            parts += placer.cells.count > 2;
+            if (placer.cells.count <= 14) {
+                CheckCounts(&scene, &placer, &seed);
+            }
+        }
+        free(piece);
+        Scene_Release(&scene);
+    }
+    assert_true(ones > 10 && twos > 5 && parts > 20);
+}
+
 /* ---- Against the plain answer ------------------------------------------------------------------------------------ */
 
 static int ComparePlain(const Plain* p, int32_t a, int32_t b)
@@ -415,20 +532,6 @@ static void AssertSites(const kiriPlacer* placer, const Plain* p)
         assert_int_equal(placer->sites.data[i].cell, p->sites[i].cell);
         assert_true(placer->sites.data[i].at.x == p->sites[i].at.x && placer->sites.data[i].at.y == p->sites[i].at.y);
     }
-}
-
-/* Distances to the old sites, as regions have them. */
-static void UpdateRegions(kiriRegions* regions, Scene* scene, const Plain* p)
-{
-    kiriSiteMove moves[MOST];
-    kiriQuota quota = Endless();
-    for (int32_t i = 0; i < p->oldCount; ++i) {
-        moves[i] = (kiriSiteMove){ i, KIRI_NONE };
-    }
-    kiriRegions_Reset(regions);
-    assert_int_equal(kiriRegions_Update(regions, &scene->memory, &scene->grid, &scene->mesh, p->sites, p->oldCount,
-                                        moves, p->oldCount, &quota),
-                     KIRI_DONE);
 }
 
 /* All at once, by quota, after a job that was given up, and with distances known. */
@@ -821,6 +924,7 @@ int main(void)
         cmocka_unit_test(OneFrameForEachPiece),
         cmocka_unit_test(OldSitesStay),
         cmocka_unit_test(CountIsLimitedByCells),
+        cmocka_unit_test(TinyPartsGetWhatIsPossible),
         cmocka_unit_test(EqualsPlainPlacing),
         cmocka_unit_test(EqualsPlainBesideNeighbours),
         cmocka_unit_test(DoesNotDependOnIndices),

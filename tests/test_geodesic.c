@@ -499,11 +499,11 @@ static void TestRepairsFollowCuts(void** state)
             for (int32_t k = 0; k < changes->gone.count; ++k) {
                 kiriField_Forget(&sheet.field, changes->gone.data[k]);
             }
-            for (int32_t k = 0; k < changes->made.count + changes->restepped.count; ++k) {
+            for (int32_t k = 0; k < changes->made.count + changes->steps.count; ++k) {
                 int32_t cell =
-                    k < changes->made.count ? changes->made.data[k] : changes->restepped.data[k - changes->made.count];
+                    k < changes->made.count ? changes->made.data[k] : changes->steps.data[k - changes->made.count];
                 if (kiriGrid_IsCell(&sheet.grid, cell)) {
-                    kiriField_Suspect(&sheet.field, cell);
+                    kiriField_MarkDirty(&sheet.field, cell);
                 }
             }
             kiriQuota quota = { INT64_MAX, 0 };

@@ -1016,7 +1016,7 @@ static bool SameFaces(const kiriGrid* was, const kiriGrid* is, int32_t c)
     return HasFacesOf(was, is, c) && HasFacesOf(is, was, c);
 }
 
-enum { IN_MADE = 1, IN_GONE = 2, IN_RESTEPPED = 4, IN_REMADE = 8 };
+enum { IN_MADE = 1, IN_GONE = 2, IN_STEPS = 4, IN_MATERIAL = 8 };
 
 static void Enlist(uint8_t* lists, int32_t c, int list)
 {
@@ -1034,11 +1034,11 @@ static uint8_t* ListsOf(const kiriGrid* grid)
     for (int32_t i = 0; i < changes->gone.count; ++i) {
         Enlist(lists, changes->gone.data[i], IN_GONE);
     }
-    for (int32_t i = 0; i < changes->restepped.count; ++i) {
-        Enlist(lists, changes->restepped.data[i], IN_RESTEPPED);
+    for (int32_t i = 0; i < changes->steps.count; ++i) {
+        Enlist(lists, changes->steps.data[i], IN_STEPS);
     }
-    for (int32_t i = 0; i < changes->remade.count; ++i) {
-        Enlist(lists, changes->remade.data[i].cell, IN_REMADE);
+    for (int32_t i = 0; i < changes->material.count; ++i) {
+        Enlist(lists, changes->material.data[i].cell, IN_MATERIAL);
     }
     return lists;
 }
@@ -1050,20 +1050,20 @@ static void CheckChanges(const kiriGrid* was, const kiriGrid* is, bool exact)
     for (int32_t c = 0; c < is->cells.count; ++c) {
         bool had = HadCell(was, c), has = kiriGrid_IsCell(is, c);
         if (!had || !has) {
-            assert_int_equal(lists[c], has ? IN_MADE | IN_RESTEPPED : had ? IN_GONE : 0);
+            assert_int_equal(lists[c], has ? IN_MADE | IN_STEPS : had ? IN_GONE : 0);
             assert_true(!had ||
                         SameBits(&was->cells.data[c].material, &is->cells.data[c].material, sizeof(kiriMoments)));
             continue;
         }
         assert_int_equal(was->cells.data[c].square, is->cells.data[c].square);
-        bool remade = !SameBits(&was->cells.data[c].material, &is->cells.data[c].material, sizeof(kiriMoments));
-        bool restepped = !SameSteps(was, is, c) || !SameFaces(was, is, c);
-        int expected = (remade ? IN_REMADE : 0) | (restepped ? IN_RESTEPPED : 0);
+        bool material = !SameBits(&was->cells.data[c].material, &is->cells.data[c].material, sizeof(kiriMoments));
+        bool steps = !SameSteps(was, is, c) || !SameFaces(was, is, c);
+        int expected = (material ? IN_MATERIAL : 0) | (steps ? IN_STEPS : 0);
         assert_int_equal(exact ? lists[c] : lists[c] & expected, expected);
         assert_int_equal(lists[c] & (IN_MADE | IN_GONE), 0);
     }
-    for (int32_t i = 0; i < is->changes.remade.count; ++i) {
-        kiriRemade r = is->changes.remade.data[i];
+    for (int32_t i = 0; i < is->changes.material.count; ++i) {
+        kiriMaterialChange r = is->changes.material.data[i];
         assert_true(SameBits(&r.was, &was->cells.data[r.cell].material, sizeof(kiriMoments)));
     }
     free(lists);
@@ -1074,7 +1074,7 @@ static void CheckChanges(const kiriGrid* was, const kiriGrid* is, bool exact)
 typedef struct Tour {
     uint32_t seed;
     double x, y; /* the blade */
-    int64_t updates, made, gone, restepped, remade;
+    int64_t updates, made, gone, steps, material;
 } Tour;
 
 /* A few segments of a cut of some kind from the blade on. Points stay on lines of the grid or mesh for some. */
@@ -1160,11 +1160,11 @@ static void CountChanges(const kiriGrid* grid, Tour* tour)
     ++tour->updates;
     tour->made += grid->changes.made.count;
     tour->gone += grid->changes.gone.count;
-    tour->restepped += grid->changes.restepped.count;
-    tour->remade += grid->changes.remade.count;
+    tour->steps += grid->changes.steps.count;
+    tour->material += grid->changes.material.count;
 }
 
-/* Cuts a sheet step by step and checks the grid after each. `batch`: so many updates before the changes are settled. */
+/* Cuts a sheet step by step and checks the grid after each. `batch`: so many updates before the changes are cleared. */
 static void CheckProgressiveCuts(Tour* tour, int32_t mostQuota, int32_t batch)
 {
     Sheet sheet;
@@ -1203,7 +1203,7 @@ static void TestUpdateEqualsScratch(void** state)
         CheckProgressiveCuts(&tour, 0, 1);
     }
     assert_true(tour.updates == 900 && tour.made > 3000); /* the cuts were worth testing */
-    assert_true(tour.restepped > 10000 && tour.remade > 3000);
+    assert_true(tour.steps > 10000 && tour.material > 3000);
 }
 
 static void TestUpdateWithTinyQuotas(void** state)
@@ -1252,7 +1252,7 @@ static void CheckFreeIndices(const kiriGrid* grid)
     assert_int_equal(faces, grid->faces.count);
 }
 
-/* Two cuts that are taken back as one, so that cells merge again. They are settled after the first, the second, both,
+/* Two cuts that are taken back as one, so that cells merge again. The changes are cleared after the first, the second, both,
    or never: cells go that were known and have changed since, or that nobody has heard of. */
 static void CheckCutsTakenBack(Tour* tour, int32_t mostQuota)
 {
@@ -1339,10 +1339,10 @@ static void TestNothingChanged(void** state)
         assert_true(again == 0 || sheet.blocks.calls == calls); /* the second time asks for no memory */
         calls = sheet.blocks.calls;
         CheckChanges(&was, &sheet.grid, true);
-        assert_int_equal(sheet.grid.changes.restepped.count + sheet.grid.changes.remade.count, 0);
+        assert_int_equal(sheet.grid.changes.steps.count + sheet.grid.changes.material.count, 0);
     }
     CheckAgainstScratch(&sheet);
-    assert_int_equal(UpdateInParts(&sheet, &seed, 0), 0); /* nothing is touched: nothing is done */
+    assert_int_equal(UpdateInParts(&sheet, &seed, 0), 0); /* nothing is dirty: nothing is done */
     FreeCopy(&was);
     CloseSheet(&sheet);
 }

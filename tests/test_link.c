@@ -387,7 +387,7 @@ static void MomentsOfASlantedBorder(void** state)
 
 /* ---- Following cuts ---------------------------------------------------------------------------------------------- */
 
-/* A link is the same bits as before where neither region is touched, and as one from scratch everywhere. */
+/* A link is the same bits as before where neither region is dirty, and as one from scratch everywhere. */
 static void CutSheetsEqualThoseFromScratch(void** state)
 {
     (void)state;

@@ -30,7 +30,7 @@ static void CountedFree(void* user, void* pointer)
     free(pointer);
 }
 
-/* What a cell was when all was settled. */
+/* What a cell was when the changes were cleared. */
 typedef struct Was {
     int32_t owner, distance;
     kiriMoments material;
@@ -51,7 +51,7 @@ typedef struct Sheet {
     int64_t used;        /* by the last update */
 } Sheet;
 
-static void Settle(Sheet* sheet)
+static void ClearChanges(Sheet* sheet)
 {
     assert_true(kiriArray_Resize(&sheet->memory, &sheet->was, sheet->grid.cells.count));
     for (int32_t c = 0; c < sheet->grid.cells.count; ++c) {
@@ -75,7 +75,7 @@ static void UpdateGrid(Sheet* sheet)
     kiriSquares_ClearDirty(&sheet->mesh.squares);
 }
 
-/* The unit square, of two triangles. Its grid is not settled. */
+/* The unit square, of two triangles. The changes of its grid are not cleared. */
 static void OpenSquare(Sheet* sheet, int32_t resolution)
 {
     const float positions[8] = { 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, 1.0f, 0.0f, 1.0f };
@@ -377,17 +377,17 @@ static void CheckMaterial(const Sheet* sheet)
     }
 }
 
-/* The changes are what has changed since all was settled, and frames that it concerns are touched. Returns how
+/* The changes are what has changed since they were cleared, and frames that it concerns are dirty. Returns how
    many. */
 static int32_t CheckChanges(const Sheet* sheet)
 {
     const kiriRegions* regions = &sheet->regions;
     int32_t n = sheet->grid.cells.count, count = 0;
-    uint8_t* listed = calloc((size_t)n, 1);
+    uint8_t* isChanged = calloc((size_t)n, 1);
     for (int32_t k = 0; k < regions->changes.count; ++k) {
         kiriSeed was = regions->changes.data[k];
-        assert_false(listed[was.cell]);
-        listed[was.cell] = 1;
+        assert_false(isChanged[was.cell]);
+        isChanged[was.cell] = 1;
         assert_true(kiriGrid_IsCell(&sheet->grid, was.cell));
         bool known = was.cell < sheet->was.count;
         assert_int_equal(was.owner, known ? sheet->was.data[was.cell].owner : KIRI_NONE);
@@ -399,17 +399,17 @@ static int32_t CheckChanges(const Sheet* sheet)
         int32_t owner = regions->field.owner.data[c];
         bool lives = kiriGrid_IsCell(&sheet->grid, c);
         bool changed = was.owner != owner || was.distance != regions->field.distance.data[c];
-        bool remade = memcmp(&was.material, &sheet->grid.cells.data[c].material, sizeof(was.material)) != 0;
-        assert_int_equal(listed[c], changed && lives);
-        if (changed || remade || was.lives != lives) {
+        bool material = memcmp(&was.material, &sheet->grid.cells.data[c].material, sizeof(was.material)) != 0;
+        assert_int_equal(isChanged[c], changed && lives);
+        if (changed || material || was.lives != lives) {
             assert_true(was.owner == KIRI_NONE || regions->dirty.data[was.owner]);
             assert_true(owner == KIRI_NONE || regions->dirty.data[owner]);
         }
         count += changed;
     }
-    free(listed);
-    for (int32_t k = 0; k < sheet->grid.changes.restepped.count; ++k) {
-        int32_t cell = sheet->grid.changes.restepped.data[k];
+    free(isChanged);
+    for (int32_t k = 0; k < sheet->grid.changes.steps.count; ++k) {
+        int32_t cell = sheet->grid.changes.steps.data[k];
         int32_t owner = kiriGrid_IsCell(&sheet->grid, cell) ? regions->field.owner.data[cell] : KIRI_NONE;
         assert_true(owner == KIRI_NONE || regions->dirty.data[owner]);
     }
@@ -554,7 +554,7 @@ static void CompleteCutParts(void** state)
     Place(&sheet, 0, SiteIn(&sheet, CellAt(&sheet, kiriMesh_Snap(&sheet.mesh, kiriVec2_Make(0.25, 0.25))), &seed));
     Update(&sheet);
     AssertNear(kiriTally_Moments(&sheet.regions.material.data[0], extent).area, 1.0, 1e-6);
-    Settle(&sheet);
+    ClearChanges(&sheet);
     CutLine(&sheet, 0.5, -0.1, 0.5, 1.1);
     UpdateGrid(&sheet);
     FollowMaterial(&sheet, &seed);
@@ -575,7 +575,7 @@ static void FollowsCutsAndSites(void** state)
 {
     (void)state;
     uint32_t seed = 23;
-    int32_t adopted = 0, left = 0, untouched = 0;
+    int32_t adopted = 0, left = 0, clean = 0;
     for (int round = 0; round < 60; ++round) {
         Sheet sheet;
         OpenSquare(&sheet, 4 + (int32_t)(Random(&seed) % 16));
@@ -583,7 +583,7 @@ static void FollowsCutsAndSites(void** state)
         AddSites(&sheet, (int32_t)(Random(&seed) % 12), &seed);
         Update(&sheet);
         CheckAll(&sheet);
-        Settle(&sheet);
+        ClearChanges(&sheet);
         for (int step = 0; step < 30; ++step) {
             for (uint32_t cuts = Random(&seed) % 3; cuts > 0; --cuts) {
                 CutRandomly(&sheet, &seed, Random(&seed) % 2 == 0 ? 0.1 : 0.8);
@@ -600,13 +600,13 @@ static void FollowsCutsAndSites(void** state)
             }
             left += sheet.regions.orphans.count > 0;
             for (int32_t i = 0; i < sheet.sites.count; ++i) {
-                untouched += !sheet.regions.dirty.data[i];
+                clean += !sheet.regions.dirty.data[i];
             }
-            Settle(&sheet);
+            ClearChanges(&sheet);
         }
         CloseSheet(&sheet);
     }
-    assert_true(adopted > 100 && left > 50 && untouched > 5000);
+    assert_true(adopted > 100 && left > 50 && clean > 5000);
 }
 
 /* Cuts that are taken back: cells go, and others come again. */
@@ -620,7 +620,7 @@ static void FollowsCutsTakenBack(void** state)
         OpenSquare(&sheet, 4 + (int32_t)(Random(&seed) % 12));
         AddSites(&sheet, 3 + (int32_t)(Random(&seed) % 12), &seed);
         Update(&sheet);
-        Settle(&sheet);
+        ClearChanges(&sheet);
         for (int step = 0; step < 12; ++step) {
             kiriMesh_Begin(&sheet.mesh);
             for (int cuts = 0; cuts < 3; ++cuts) {
@@ -639,7 +639,7 @@ static void FollowsCutsTakenBack(void** state)
                 CheckAll(&sheet);
                 AdoptOrphans(&sheet, &seed);
                 CheckAll(&sheet);
-                Settle(&sheet);
+                ClearChanges(&sheet);
             }
         }
         CloseSheet(&sheet);
@@ -647,7 +647,7 @@ static void FollowsCutsTakenBack(void** state)
     assert_true(gone > 1000 && owned > 1000);
 }
 
-/* A site that goes and comes back before all is settled has changed nothing. */
+/* A site that goes and comes back before the changes are cleared has changed nothing. */
 static void ThereAndBack(void** state)
 {
     (void)state;
@@ -656,7 +656,7 @@ static void ThereAndBack(void** state)
     OpenSquare(&sheet, 15);
     AddSites(&sheet, 8, &seed);
     Update(&sheet);
-    Settle(&sheet);
+    ClearChanges(&sheet);
     for (int round = 0; round < 20; ++round) {
         int32_t frame = round % 8, away = AnyCell(&sheet, &seed);
         kiriSite was = sheet.sites.data[frame];
@@ -680,25 +680,25 @@ static void WorkIsLocal(void** state)
     uint32_t seed = 51;
     Sheet sheet;
     int64_t used = 0;
-    int32_t changed = 0, steps = 100, suspects = 0;
+    int32_t changed = 0, steps = 100, dirty = 0;
     OpenSquare(&sheet, 40);
     AddSites(&sheet, 40, &seed);
     Update(&sheet);
     assert_int_equal(sheet.used, 1600);
-    Settle(&sheet);
+    ClearChanges(&sheet);
     for (int step = 0; step < steps; ++step) {
         CutRandomly(&sheet, &seed, 0.05);
         UpdateGrid(&sheet);
         FollowMaterial(&sheet, &seed);
-        suspects += sheet.grid.changes.made.count + sheet.grid.changes.restepped.count;
+        dirty += sheet.grid.changes.made.count + sheet.grid.changes.steps.count;
         Update(&sheet);
         used += sheet.used;
         changed += CheckChanges(&sheet);
         AdoptOrphans(&sheet, &seed);
-        Settle(&sheet);
+        ClearChanges(&sheet);
     }
     CheckAll(&sheet);
-    assert_true(used < 3 * (changed + suspects));
+    assert_true(used < 3 * (changed + dirty));
     assert_true(used < steps * 1600 / 10);
     CloseSheet(&sheet);
 }
@@ -719,7 +719,7 @@ static void FailsCleanly(void** state)
         sheet.blocks.untilFailure = -1;
         if (first) {
             sheet.moves.count = 0;
-            Settle(&sheet);
+            ClearChanges(&sheet);
             for (int k = 0; k < 20; ++k) {
                 CutRandomly(&sheet, &seed, 0.9);
             }

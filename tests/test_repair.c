@@ -220,8 +220,8 @@ static void ChangeSteps(Net* net, uint32_t* seed)
     for (int32_t b = 0; b < net->count; ++b) {
         if (LengthBetween(a, b) > 0 && Random(seed) % 3 == 0) {
             Link(net, a, b, !net->linked[a][b]);
-            kiriField_Suspect(&net->field, a);
-            kiriField_Suspect(&net->field, b);
+            kiriField_MarkDirty(&net->field, a);
+            kiriField_MarkDirty(&net->field, b);
         }
     }
 }
@@ -237,8 +237,8 @@ static void CutNet(Net* net, uint32_t* seed)
             int32_t along = across ? a / 2 / SIDE : a / 2 % SIDE;
             if (net->linked[a][b] && x <= line && y > line && along >= from) {
                 Link(net, a, b, 0);
-                kiriField_Suspect(&net->field, a);
-                kiriField_Suspect(&net->field, b);
+                kiriField_MarkDirty(&net->field, a);
+                kiriField_MarkDirty(&net->field, b);
             }
         }
     }
@@ -250,7 +250,7 @@ static void ChangeSeed(Net* net, uint32_t* seed)
     kiriSeed none = { c, KIRI_FAR, KIRI_NONE };
     kiriSeed some = { c, (int32_t)(Random(seed) % 500), (int32_t)(Random(seed) % 4) };
     net->seeds[c] = net->seeds[c].distance == KIRI_FAR ? some : none;
-    kiriField_Suspect(&net->field, c);
+    kiriField_MarkDirty(&net->field, c);
 }
 
 static void ChangePass(Net* net, uint32_t* seed)
@@ -258,7 +258,7 @@ static void ChangePass(Net* net, uint32_t* seed)
     int32_t c = AnyCell(net, seed);
     net->blocked[c] = !net->blocked[c];
     net->farthest[c] = (int32_t)(Random(seed) % 4000);
-    kiriField_Suspect(&net->field, c);
+    kiriField_MarkDirty(&net->field, c);
 }
 
 static void ChangeLimit(Net* net, uint32_t* seed)
@@ -268,12 +268,12 @@ static void ChangeLimit(Net* net, uint32_t* seed)
     for (int32_t c = 0; c < net->count; ++c) {
         int32_t distance = net->field.distance.data[c];
         if (distance != KIRI_FAR && distance > net->rule.limit) {
-            (old % 2 == 0 ? kiriField_Forget : kiriField_Suspect)(&net->field, c);
+            (old % 2 == 0 ? kiriField_Forget : kiriField_MarkDirty)(&net->field, c);
         } else if (distance != KIRI_FAR && old < KIRI_FAR && distance > old - KIRI_UNIT_KNIGHT) {
-            kiriField_Suspect(&net->field, c);
+            kiriField_MarkDirty(&net->field, c);
         }
         if (net->seeds[c].distance != KIRI_FAR && net->seeds[c].distance > old) {
-            kiriField_Suspect(&net->field, c);
+            kiriField_MarkDirty(&net->field, c);
         }
     }
 }
@@ -286,7 +286,7 @@ static void ReplaceCell(Net* net, uint32_t* seed)
     for (int32_t b = 0; b < net->count; ++b) {
         if (net->linked[a][b]) {
             Link(net, a, b, 0);
-            kiriField_Suspect(&net->field, b);
+            kiriField_MarkDirty(&net->field, b);
         }
     }
     kiriField_Forget(&net->field, a);
@@ -294,10 +294,10 @@ static void ReplaceCell(Net* net, uint32_t* seed)
         for (int32_t b = 0; b < net->count; ++b) {
             if (LengthBetween(a, b) > 0 && Random(seed) % 2 == 0) {
                 Link(net, a, b, 1);
-                kiriField_Suspect(&net->field, b);
+                kiriField_MarkDirty(&net->field, b);
             }
         }
-        kiriField_Suspect(&net->field, a);
+        kiriField_MarkDirty(&net->field, a);
     }
 }
 
@@ -310,10 +310,10 @@ static void AddCell(Net* net, uint32_t* seed)
         for (int32_t b = 0; b < a; ++b) {
             if (LengthBetween(a, b) > 0 && Random(seed) % 2 == 0) {
                 Link(net, a, b, 1);
-                kiriField_Suspect(&net->field, b);
+                kiriField_MarkDirty(&net->field, b);
             }
         }
-        kiriField_Suspect(&net->field, a);
+        kiriField_MarkDirty(&net->field, a);
     }
 }
 
@@ -346,7 +346,7 @@ static int64_t Repair(Net* net, int64_t items)
 
 static void CheckAtRest(const Net* net)
 {
-    assert_int_equal(net->field.suspects.count, 0);
+    assert_int_equal(net->field.dirty.count, 0);
     assert_int_equal(net->field.settled.count, 0);
     assert_int_equal(net->field.heap.count, 0);
     for (int32_t c = 0; c < net->count; ++c) {
@@ -362,7 +362,7 @@ static void OpenRandomly(Net* net, int round, uint32_t* seed)
     }
     net->passes = round % 4 >= 2;
     net->rule.pass = net->passes ? NetPass : NULL;
-    net->field.suspects.count = 0;
+    net->field.dirty.count = 0;
     memset(net->field.marks.data, 0, (size_t)net->count);
     FloodNet(net);
     CheckField(net);
@@ -382,12 +382,12 @@ static void RepairedEqualsFlooded(void** state)
         for (int k = 0; k < 30; ++k) {
             Change(&net, &seed);
             Values before = ValuesOf(&net);
-            int32_t suspects = net.field.suspects.count;
+            int32_t dirty = net.field.dirty.count;
             int64_t items = Repair(&net, k % 3 == 0 ? 1 + k % 5 : INT64_MAX / 2);
             CheckField(&net);
             changed += CheckLog(&net, &before);
-            assert_true(items <= 2 * net.field.log.count + suspects);
-            used += items - suspects;
+            assert_true(items <= 2 * net.field.log.count + dirty);
+            used += items - dirty;
             logged += net.field.log.count;
             net.field.log.count = 0;
             CheckAtRest(&net);
@@ -456,13 +456,13 @@ static void WorkIsLocal(void** state)
     for (int32_t b = 0; b < net.count; ++b) {
         if (net.linked[corner][b]) {
             Link(&net, corner, b, 0);
-            kiriField_Suspect(&net.field, b);
+            kiriField_MarkDirty(&net.field, b);
         }
     }
-    kiriField_Suspect(&net.field, corner);
+    kiriField_MarkDirty(&net.field, corner);
     MakeSteps(&net);
-    int32_t suspects = net.field.suspects.count;
-    assert_true(Repair(&net, INT64_MAX) <= suspects + 1);
+    int32_t dirty = net.field.dirty.count;
+    assert_true(Repair(&net, INT64_MAX) <= dirty + 1);
     assert_int_equal(net.field.log.count, 1);
     assert_int_equal(net.field.distance.data[corner], KIRI_FAR);
     CheckField(&net);

@@ -1,4 +1,8 @@
+#define _POSIX_C_SOURCE 200809L
+
 #include "follow.h"
+
+#include <sys/mman.h>
 
 typedef struct Weights {
     kiriRegions regions;
@@ -516,6 +520,15 @@ static void FitIsContinuousOverFaces(void** state)
 
 /* ---- Following cuts ---------------------------------------------------------------------------------------------- */
 
+static void CompareWithScratch(const Follow* f)
+{
+    Follow scratch;
+    Follow_ScratchWeights(&scratch, f);
+    Follow_CompareLists(f, &scratch);
+    Follow_CompareWeights(f, &scratch);
+    Follow_Release(&scratch);
+}
+
 /* Lists, weights and rigid sums after any cuts are those from scratch, bit for bit, whatever the quota. */
 static void CutSheetsEqualThoseFromScratch(void** state)
 {
@@ -525,7 +538,7 @@ static void CutSheetsEqualThoseFromScratch(void** state)
     for (uint32_t round = 0; round < 40; ++round) {
         uint32_t seed = 17 + 7919 * round;
         Scene scene;
-        Follow f, scratch;
+        Follow f;
         Wander wander;
         memset(&wander, 0, sizeof(wander));
         Scene_InitMesh(&scene, 1.0, RandomBetween(&seed, 0.3, 1.0), 7, 6, 3 + (int32_t)(Random(&seed) % 28), 0.2, seed);
@@ -543,10 +556,7 @@ static void CutSheetsEqualThoseFromScratch(void** state)
             cells += f.grid.cellCount;
             recomputed += f.shape.recomputed;
             Follow_Commit(&f);
-            Follow_ScratchWeights(&scratch, &f);
-            Follow_CompareLists(&f, &scratch);
-            Follow_CompareWeights(&f, &scratch);
-            Follow_Release(&scratch);
+            CompareWithScratch(&f);
             kiriSquares_ClearDirty(&scene.mesh.squares);
         }
         born += f.sites.count - sites;
@@ -557,13 +567,78 @@ static void CutSheetsEqualThoseFromScratch(void** state)
     assert_true(2 * recomputed < cells);
 }
 
+/* Brings the weights up to date; all cells that the grid has made are among the changes, and none that is gone. */
+static void CheckMadeAreChanged(Follow* f)
+{
+    int32_t made = f->grid.changes.made.count, *cells = malloc(sizeof(int32_t) * (size_t)(made + 1));
+    uint8_t* changed = calloc((size_t)f->grid.cells.count, 1);
+    for (int32_t k = 0; k < made; ++k) {
+        cells[k] = f->grid.changes.made.data[k];
+    }
+    assert_int_equal(Follow_Shape(f), KIRI_DONE);
+    for (int32_t k = 0; k < f->shape.changes.count; ++k) {
+        assert_true(kiriGrid_IsCell(&f->grid, f->shape.changes.data[k]));
+        assert_int_equal(changed[f->shape.changes.data[k]]++, 0);
+    }
+    for (int32_t k = 0; k < made; ++k) {
+        assert_true(changed[cells[k]]);
+    }
+    free(cells);
+    free(changed);
+}
+
+/* Cuts that are taken back: cells that have weights go, and others come. */
+static void CutsTakenBackEqualThoseFromScratch(void** state)
+{
+    (void)state;
+    int32_t gone = 0, weighed = 0;
+    for (uint32_t round = 0; round < 24; ++round) {
+        uint32_t seed = 23 + 104729 * round;
+        Scene scene;
+        Follow f;
+        Scene_InitMesh(&scene, 1.0, 0.8, 6, 5, 4 + (int32_t)(Random(&seed) % 16), 0.2, seed);
+        kiriMesh_Commit(&scene.mesh);
+        Follow_Start(&f, &scene, 2 + (int32_t)(Random(&seed) % 10), 0, &seed);
+        f.slice = round % 3 == 2 ? 3 : 0;
+        for (int step = 0; step < 8; ++step) {
+            Wander wander;
+            memset(&wander, 0, sizeof(wander));
+            kiriMesh_Begin(&scene.mesh);
+            for (int32_t cuts = 4 + (int32_t)(Random(&seed) % 8); cuts > 0; --cuts) {
+                Wander_Move(&wander, &f, 1.5 * f.grid.side, &seed);
+            }
+            for (int back = 0; back < 2; ++back) {
+                if (back) {
+                    kiriMesh_Rollback(&scene.mesh);
+                }
+                Follow_Grid(&f);
+                for (int32_t k = 0; k < f.grid.changes.gone.count; ++k, ++gone) {
+                    weighed += f.shape.spans.data[f.grid.changes.gone.data[k]].count > 0;
+                }
+                Follow_Relocate(&f);
+                Follow_AllRegions(&f);
+                CheckMadeAreChanged(&f);
+                CompareWithScratch(&f);
+                assert_true(Follow_Links(&f));
+                if (back || round % 2) {
+                    Follow_Commit(&f); /* else cells go that are among the changes */
+                }
+                kiriSquares_ClearDirty(&scene.mesh.squares);
+            }
+        }
+        Follow_Release(&f);
+        Scene_Release(&scene);
+    }
+    assert_true(gone > 500 && weighed == gone);
+}
+
 /* Sites that are moved, and moved back. */
 static void SitesMove(void** state)
 {
     (void)state;
     uint32_t seed = 99;
     Scene scene;
-    Follow f, scratch;
+    Follow f;
     Scene_InitMesh(&scene, 1.0, 0.8, 5, 4, 19, 0.2, seed);
     Scene_CutAtRandom(&scene, 4, 8, &seed);
     kiriMesh_Commit(&scene.mesh);
@@ -580,10 +655,7 @@ static void SitesMove(void** state)
                 Follow_AllRegions(&f);
                 assert_int_equal(Follow_Shape(&f), KIRI_DONE);
             }
-            Follow_ScratchWeights(&scratch, &f);
-            Follow_CompareLists(&f, &scratch);
-            Follow_CompareWeights(&f, &scratch);
-            Follow_Release(&scratch);
+            CompareWithScratch(&f);
         }
     }
     Follow_Release(&f);
@@ -610,17 +682,17 @@ static void ChangesAreComplete(void** state)
         memcpy(was, f.shape.weights.data, sizeof(kiriCellWeight) * (size_t)weights);
         Wander_Cut(&wander, &f, 1.2 * f.grid.side, &seed);
         Follow_Weights(&f, &seed);
-        int32_t* listed = calloc((size_t)f.grid.cells.count, sizeof(int32_t));
+        int32_t* isChanged = calloc((size_t)f.grid.cells.count, sizeof(int32_t));
         for (int32_t k = 0; k < f.shape.changes.count; ++k) {
             assert_true(kiriGrid_IsCell(&f.grid, f.shape.changes.data[k]));
-            assert_int_equal(listed[f.shape.changes.data[k]]++, 0);
+            assert_int_equal(isChanged[f.shape.changes.data[k]]++, 0);
         }
         for (int32_t c = 0; c < f.grid.cells.count; ++c) {
             kiriSpan span = f.shape.spans.data[c];
             bool same = c < old && spans[c].count == span.count &&
                         memcmp(was + spans[c].first, f.shape.weights.data + span.first,
                                sizeof(kiriCellWeight) * (size_t)span.count) == 0;
-            assert_true(same || listed[c] || !kiriGrid_IsCell(&f.grid, c));
+            assert_true(same || isChanged[c] || !kiriGrid_IsCell(&f.grid, c));
         }
         assert_true(f.shape.recomputed <= f.shape.changes.count);
         Follow_Commit(&f);
@@ -628,7 +700,7 @@ static void ChangesAreComplete(void** state)
         kiriSquares_ClearDirty(&scene.mesh.squares);
         free(spans);
         free(was);
-        free(listed);
+        free(isChanged);
     }
     Follow_Release(&f);
     Scene_Release(&scene);
@@ -663,6 +735,65 @@ static void StencilsEqualPoints(void** state)
     Scene_Release(&scene);
 }
 
+/* Memory that can be made read-only. */
+enum { ARENA_BYTES = 1 << 25, ARENA_ALIGNMENT = 1 << 16 };
+typedef struct Arena {
+    char* bytes;
+    int64_t used;
+} Arena;
+
+static void* ArenaAlloc(void* user, int64_t bytes)
+{
+    Arena* arena = user;
+    char* block = arena->bytes + arena->used;
+    arena->used += (bytes + 15) / 16 * 16;
+    assert_true(arena->used <= ARENA_BYTES);
+    return block;
+}
+
+static void ArenaFree(void* user, void* pointer)
+{
+    (void)user;
+    (void)pointer;
+}
+
+/* Weights of points are asked for where all that they are made from is read-only: threads may ask at the same time. */
+static void PointsOnlyRead(void** state)
+{
+    (void)state;
+    uint32_t seed = 61;
+    Arena arena = { NULL, 0 };
+    void* bytes;
+    assert_int_equal(posix_memalign(&bytes, ARENA_ALIGNMENT, ARENA_BYTES), 0);
+    arena.bytes = bytes;
+    memset(bytes, 0, ARENA_BYTES);
+    Scene* scene = ArenaAlloc(&arena, sizeof(Scene));
+    Weights* w = ArenaAlloc(&arena, sizeof(Weights));
+    scene->memory = kiriMemory_Make(ArenaAlloc, ArenaFree, &arena);
+    Scene_MakeMesh(scene, 1.0, 0.8, 9, 8, 14, 0.2, seed);
+    Scene_CutAtRandom(scene, 6, 10, &seed);
+    Scene_BuildGrid(scene);
+    kiriSite sites[2];
+    for (int k = 0; k < 2; ++k) {
+        sites[k] = Scene_MiddleOf(scene, k * (scene->grid.cells.count - 1));
+    }
+    Build(scene, w, sites, 2);
+    assert_int_equal(mprotect(bytes, ARENA_BYTES, PROT_READ), 0);
+    kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
+    kiriPointWeights out = { 0 };
+    int32_t both = 0;
+    for (int k = 0; k < 500; ++k) {
+        kiriVec2 at;
+        int32_t cell = RandomCell(scene, &seed, &at);
+        assert_true(kiriShape_At(&w->shape, &memory, &scene->grid, &scene->mesh, cell, at, &out));
+        both += out.count == 2;
+    }
+    assert_true(both > 50);
+    kiriMemory_FreeAll(&memory);
+    assert_int_equal(mprotect(bytes, ARENA_BYTES, PROT_READ | PROT_WRITE), 0);
+    free(bytes);
+}
+
 /* Wherever memory fails, a reset and an update from scratch make all right again. */
 static void FailingAllocatorLeaksNothing(void** state)
 {
@@ -672,7 +803,7 @@ static void FailingAllocatorLeaksNothing(void** state)
     for (int64_t budget = 0; !done; ++budget) {
         uint32_t seed = 5;
         Scene scene;
-        Follow f, scratch;
+        Follow f;
         Wander wander;
         memset(&wander, 0, sizeof(wander));
         Scene_InitMesh(&scene, 1.0, 0.8, 5, 4, 12, 0.2, seed);
@@ -696,10 +827,7 @@ static void FailingAllocatorLeaksNothing(void** state)
             Follow_StartAgain(&f);
             assert_int_equal(Follow_Shape(&f), KIRI_DONE);
         }
-        Follow_ScratchWeights(&scratch, &f);
-        Follow_CompareLists(&f, &scratch);
-        Follow_CompareWeights(&f, &scratch);
-        Follow_Release(&scratch);
+        CompareWithScratch(&f);
         Follow_Release(&f);
         Scene_Release(&scene);
         done = done && budget % 2 == 1;
@@ -725,9 +853,11 @@ int main(void)
         cmocka_unit_test(FitIsContinuousOverFaces),
         cmocka_unit_test(WeightsAreThoseOfThePaper),
         cmocka_unit_test(CutSheetsEqualThoseFromScratch),
+        cmocka_unit_test(CutsTakenBackEqualThoseFromScratch),
         cmocka_unit_test(SitesMove),
         cmocka_unit_test(ChangesAreComplete),
         cmocka_unit_test(StencilsEqualPoints),
+        cmocka_unit_test(PointsOnlyRead),
         cmocka_unit_test(FailingAllocatorLeaksNothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -5,26 +5,25 @@ enum { FROM_SEED = KIRI_STEP_LENGTHS, FROM_NOWHERE };
 
 /* Marks of cells while a field is repaired. */
 enum {
-    SUSPECT = 1, /* waits to be checked */
-    LOGGED = 2,
-    GIVEN = 4, /* in `settled` */
+    FIELD_DIRTY = 1,   /* in `dirty`, not checked yet */
+    FIELD_LOGGED = 2,  /* in `log` */
+    FIELD_SETTLED = 4, /* in `settled` */
 };
 
-/* What the cursors mean: in a sweep the first three go over the settled cells, one a length of steps; before it: */
+/* What `cursor` holds. In a sweep the first three go over the settled cells, one for each length of steps. Before it: */
 enum {
-    CHECKED,  /* suspects that were checked */
-    SUSPECTS, /* how many the caller had; those behind are dependents */
-    STAGE = KIRI_STEP_LENGTHS,
+    DIRTY_CHECKED,     /* dirty cells that were checked */
+    DIRTY_FROM_CALLER, /* how many the caller marked; those behind are dependents */
+    REPAIR_STAGE = KIRI_STEP_LENGTHS,
 };
-enum { AT_REST, TAKING, GIVING }; /* stages of a repair */
+enum { REPAIR_NONE, REPAIR_CLEARS, REPAIR_SETTLES };
 
 bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount)
 {
     if (!kiriArray_Reserve(memory, &field->distance, cellCount) ||
         !kiriArray_Reserve(memory, &field->owner, cellCount) ||
         !kiriArray_Reserve(memory, &field->settled, cellCount) || !kiriArray_Reserve(memory, &field->log, cellCount) ||
-        !kiriArray_Reserve(memory, &field->suspects, cellCount) ||
-        !kiriArray_Reserve(memory, &field->marks, cellCount)) {
+        !kiriArray_Reserve(memory, &field->dirty, cellCount) || !kiriArray_Reserve(memory, &field->marks, cellCount)) {
         return false;
     }
     for (int32_t c = field->distance.count; c < cellCount; ++c) {
@@ -48,13 +47,13 @@ void kiriField_Reset(kiriField* field)
 void kiriField_Clear(kiriField* field)
 {
     field->distance.count = field->owner.count = field->marks.count = 0;
-    field->settled.count = field->log.count = field->heap.count = field->suspects.count = 0;
-    field->cursor[STAGE] = AT_REST;
+    field->settled.count = field->log.count = field->heap.count = field->dirty.count = 0;
+    field->cursor[REPAIR_STAGE] = REPAIR_NONE;
 }
 
 /* ---- The heap of seeds, nearest on top --------------------------------------------------------------------------- */
 
-static bool IsNearer(kiriSeed a, kiriSeed b)
+static bool IsNearerSeed(kiriSeed a, kiriSeed b)
 {
     return a.distance != b.distance ? a.distance < b.distance : a.owner < b.owner;
 }
@@ -65,10 +64,10 @@ static void SinkSeed(kiriField* field, int32_t i)
     kiriSeed* seeds = field->heap.data;
     kiriSeed sinking = seeds[i];
     for (int32_t child = 2 * i + 1; child < field->heap.count; child = 2 * i + 1) {
-        if (child + 1 < field->heap.count && IsNearer(seeds[child + 1], seeds[child])) {
+        if (child + 1 < field->heap.count && IsNearerSeed(seeds[child + 1], seeds[child])) {
             ++child;
         }
-        if (!IsNearer(seeds[child], sinking)) {
+        if (!IsNearerSeed(seeds[child], sinking)) {
             break;
         }
         seeds[i] = seeds[child];
@@ -96,14 +95,16 @@ static kiriSeed PopSeed(kiriField* field)
 
 /* ---- The sweep: Dijkstra without a queue ------------------------------------------------------------------------- */
 
-/* There are only three lengths of steps, and cells settle by growing distance; so what the steps of one length reach
-   is sorted already, and a cursor for each length over the settled cells finds the next. */
+/* There are only three lengths of steps, and cells settle by growing distance. So what the steps of one length reach is
+   sorted already: a cursor for each length over the settled cells finds the next. */
 
-/* The first to reach a cell is the nearest. An owner may still get lower until the sweep moves on, which is before
-   the cell passes it on, for every step is longer than nothing. */
-static void Reach(kiriField* field, int32_t cell, int32_t distance, int32_t owner)
+/* The first to reach a cell is the nearest. Its owner may still become a lower one as long as the sweep is at this
+   distance; the cell passes it on later, for every step is longer than nothing. */
+static void SettleFirst(kiriField* field, int32_t cell, int32_t distance, int32_t owner)
 {
+    KIRI_ASSERT(cell >= 0 && cell < field->distance.count && distance >= 0);
     if (field->distance.data[cell] == KIRI_FAR) {
+        KIRI_ASSERT(field->settled.count < field->settled.capacity);
         field->distance.data[cell] = distance;
         field->owner.data[cell] = owner;
         field->settled.data[field->settled.count++] = cell;
@@ -119,34 +120,36 @@ static kiriSeed ValueOf(const kiriField* field, int32_t cell)
 }
 
 /* Each cell is in the log at most once: there is room. */
-static void Log(kiriField* field, int32_t cell)
+static void LogValue(kiriField* field, int32_t cell)
 {
-    if ((field->marks.data[cell] & LOGGED) == 0) {
-        field->marks.data[cell] |= LOGGED;
+    if ((field->marks.data[cell] & FIELD_LOGGED) == 0) {
+        KIRI_ASSERT(field->log.count < field->log.capacity);
+        field->marks.data[cell] |= FIELD_LOGGED;
         field->log.data[field->log.count++] = ValueOf(field, cell);
     }
 }
 
-/* Takes a value that is nearer, or one that shall be passed on once more. */
-static void Give(kiriField* field, kiriSeed to)
+/* Takes a value that is nearer, or equals the cell's own, which is then passed on once more. */
+static void SettleValue(kiriField* field, kiriSeed to)
 {
-    if (IsNearer(to, ValueOf(field, to.cell))) {
-        Log(field, to.cell);
+    if (IsNearerSeed(to, ValueOf(field, to.cell))) {
+        LogValue(field, to.cell);
         field->distance.data[to.cell] = to.distance;
         field->owner.data[to.cell] = to.owner;
     }
-    if ((field->marks.data[to.cell] & GIVEN) == 0) {
-        field->marks.data[to.cell] |= GIVEN;
+    if ((field->marks.data[to.cell] & FIELD_SETTLED) == 0) {
+        KIRI_ASSERT(field->settled.count < field->settled.capacity);
+        field->marks.data[to.cell] |= FIELD_SETTLED;
         field->settled.data[field->settled.count++] = to.cell;
     }
 }
 
-/* Reach where cells may have kept a value: most have one that is nearer. */
-static void ReachAgain(kiriField* field, int32_t cell, int32_t distance, int32_t owner)
+/* SettleFirst where cells may have kept a value: most have a nearer one. */
+static void SettleAgain(kiriField* field, int32_t cell, int32_t distance, int32_t owner)
 {
     int32_t has = field->distance.data[cell];
     if (distance < has || (distance == has && owner < field->owner.data[cell])) {
-        Give(field, (kiriSeed){ cell, distance, owner });
+        SettleValue(field, (kiriSeed){ cell, distance, owner });
     }
 }
 
@@ -160,7 +163,7 @@ static bool Passes(const kiriRule* rule, int32_t cell)
     return rule->pass == NULL || rule->pass(rule->context, cell);
 }
 
-/* Where the sweep goes on: at which distance, no farther than `limit`, and from which cursor. */
+/* Where the sweep goes on: from which cursor, and at which distance, no farther than `limit`. */
 static int NearestSource(const kiriField* field, int32_t limit, int32_t* distance)
 {
     int source = FROM_NOWHERE;
@@ -182,40 +185,41 @@ static int NearestSource(const kiriField* field, int32_t limit, int32_t* distanc
     return source;
 }
 
-static void TakeSeed(kiriField* field)
+static void TakeNearestSeed(kiriField* field)
 {
     kiriSeed seed = PopSeed(field);
-    if (field->cursor[STAGE] == GIVING) {
-        /* One that has the very value of a seed is a suspect. */
-        if (!IsNearer(ValueOf(field, seed.cell), seed)) {
-            Give(field, seed);
+    if (field->cursor[REPAIR_STAGE] == REPAIR_SETTLES) {
+        /* A cell that has the very value of the seed is dirty itself: it passes its value on. */
+        if (!IsNearerSeed(ValueOf(field, seed.cell), seed)) {
+            SettleValue(field, seed);
         }
     } else {
-        Reach(field, seed.cell, seed.distance, seed.owner);
+        SettleFirst(field, seed.cell, seed.distance, seed.owner);
     }
 }
 
-/* Takes the steps of one length; false where so many cells are settled before it is through: to take them again does no
-   harm. */
-static bool TakeSteps(kiriField* field, const kiriRule* rule, int32_t from, int length, int32_t distance, int64_t most)
+/* Takes the steps of one length. False where `most` cells are settled before all are taken: they are all taken again
+   later, which changes nothing. */
+static bool TakeStepsFrom(kiriField* field, const kiriRule* rule, int32_t from, int length, int32_t distance,
+                          int64_t most)
 {
     const kiriStepRun* run = &rule->grid->runs.data[from];
     const kiriStep* steps = rule->grid->steps.data;
     int32_t owner = field->owner.data[from], end = Passes(rule, from) ? run->end[length] : 0;
     int32_t s = length == 0 ? run->first : run->end[length - 1];
-    if (field->cursor[STAGE] == GIVING) {
+    if (field->cursor[REPAIR_STAGE] == REPAIR_SETTLES) {
         for (; s < end && field->settled.count < most; ++s) {
-            ReachAgain(field, steps[s].cell, distance, owner);
+            SettleAgain(field, steps[s].cell, distance, owner);
         }
     } else {
         for (; s < end && field->settled.count < most; ++s) {
-            Reach(field, steps[s].cell, distance, owner);
+            SettleFirst(field, steps[s].cell, distance, owner);
         }
     }
     return s >= end;
 }
 
-/* Until nothing is left, or as many cells are settled as the quota has. */
+/* Until nothing is left, or the quota is spent on settled cells. */
 static kiriProgress Sweep(kiriField* field, const kiriRule* rule, kiriQuota* quota)
 {
     int32_t before = field->settled.count, farthest = FarthestOf(rule), distance;
@@ -223,12 +227,12 @@ static kiriProgress Sweep(kiriField* field, const kiriRule* rule, kiriQuota* quo
     int source = NearestSource(field, farthest, &distance);
     while (source != FROM_NOWHERE && field->settled.count < most) {
         if (source == FROM_SEED) {
-            TakeSeed(field);
+            TakeNearestSeed(field);
         } else {
             int32_t from = field->settled.data[field->cursor[source]], passed = field->distance.data[from];
-            /* All that lie at this distance: saves asking for the source again. */
+            /* All cells at this distance, without asking for the source again. */
             while (from != KIRI_NONE && field->distance.data[from] == passed &&
-                   TakeSteps(field, rule, from, source, distance, most)) {
+                   TakeStepsFrom(field, rule, from, source, distance, most)) {
                 bool more = ++field->cursor[source] < field->settled.count;
                 from = more ? field->settled.data[field->cursor[source]] : KIRI_NONE;
             }
@@ -241,43 +245,49 @@ static kiriProgress Sweep(kiriField* field, const kiriRule* rule, kiriQuota* quo
 
 bool kiriField_Start(kiriField* field, kiriMemory* memory, const kiriSeed* seeds, int32_t seedCount)
 {
+    KIRI_ASSERT(field->settled.count == 0 && field->dirty.count == 0 && field->cursor[REPAIR_STAGE] == REPAIR_NONE);
     field->heap.count = 0;
     if (!kiriArray_Resize(memory, &field->heap, seedCount)) {
         return false;
     }
     for (int32_t i = 0; i < seedCount; ++i) {
+        KIRI_ASSERT(seeds[i].cell >= 0 && seeds[i].cell < field->distance.count);
         field->heap.data[i] = seeds[i];
     }
     MakeHeap(field);
     field->cursor[0] = field->cursor[1] = field->cursor[2] = 0;
-    field->cursor[STAGE] = AT_REST;
+    field->cursor[REPAIR_STAGE] = REPAIR_NONE;
     return true;
 }
 
 kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* quota)
 {
+    KIRI_ASSERT(field->cursor[REPAIR_STAGE] == REPAIR_NONE);
     return Sweep(field, rule, quota);
 }
 
 /* ---- Repairs ----------------------------------------------------------------------------------------------------- */
 
-void kiriField_Suspect(kiriField* field, int32_t cell)
+void kiriField_MarkDirty(kiriField* field, int32_t cell)
 {
-    if ((field->marks.data[cell] & SUSPECT) == 0) {
-        field->marks.data[cell] |= SUSPECT;
-        field->suspects.data[field->suspects.count++] = cell;
+    KIRI_ASSERT(cell >= 0 && cell < field->marks.count);
+    if ((field->marks.data[cell] & FIELD_DIRTY) == 0) {
+        KIRI_ASSERT(field->dirty.count < field->dirty.capacity);
+        field->marks.data[cell] |= FIELD_DIRTY;
+        field->dirty.data[field->dirty.count++] = cell;
     }
 }
 
 void kiriField_Forget(kiriField* field, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < field->distance.count);
     field->distance.data[cell] = KIRI_FAR;
     field->owner.data[cell] = KIRI_NONE;
 }
 
-/* Does the cell have its value from its seed, or from a neighbour? No step is shorter than nothing, so no ring of
-   cells can have its values from itself. */
-static bool IsGiven(const kiriField* field, const kiriRule* rule, int32_t cell)
+/* Do its seed or a neighbour still give the cell its value? Every step is longer than nothing, so the cells of a ring
+   cannot support each other. */
+static bool IsSupported(const kiriField* field, const kiriRule* rule, int32_t cell)
 {
     const kiriStepRun* run = &rule->grid->runs.data[cell];
     kiriSeed value = ValueOf(field, cell);
@@ -295,13 +305,13 @@ static bool IsGiven(const kiriField* field, const kiriRule* rule, int32_t cell)
     return seed.distance == value.distance && seed.owner == value.owner;
 }
 
-/* Suspects the cells that may have their value from this one. */
-static bool SuspectDependents(kiriField* field, kiriMemory* memory, const kiriRule* rule, int32_t cell)
+/* Cells that may have their value from this one are dirty too. */
+static bool MarkDependentsDirty(kiriField* field, kiriMemory* memory, const kiriRule* rule, int32_t cell)
 {
     const kiriStepRun* run = &rule->grid->runs.data[cell];
     kiriSeed value = ValueOf(field, cell);
-    if (!kiriArray_Reserve(memory, &field->suspects,
-                           (int64_t)field->suspects.count + run->end[KIRI_STEP_LENGTHS - 1] - run->first)) {
+    if (!kiriArray_Reserve(memory, &field->dirty,
+                           (int64_t)field->dirty.count + run->end[KIRI_STEP_LENGTHS - 1] - run->first)) {
         return false;
     }
     for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
@@ -309,89 +319,90 @@ static bool SuspectDependents(kiriField* field, kiriMemory* memory, const kiriRu
         int32_t distance = field->distance.data[step.cell];
         if (distance != KIRI_FAR && distance - step.length == value.distance &&
             field->owner.data[step.cell] == value.owner) {
-            kiriField_Suspect(field, step.cell);
+            kiriField_MarkDirty(field, step.cell);
         }
     }
     return true;
 }
 
-/* Takes away what nothing gives any more; what is left are ways that still exist, if not the shortest. Of the
-   caller's suspects only: where ways do not pass (any longer), dependents may have lost theirs. */
-static kiriProgress TakeAway(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
+/* Clears the affected cells (Ramalingam and Reps): those whose value nothing supports any more. The values that are left
+   are lengths of ways that still exist, if not the shortest. A dirty cell of the caller that ways do not pass (any
+   longer) keeps its own value, but its dependents may lose theirs. */
+static kiriProgress ClearAffected(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
 {
-    for (; field->cursor[CHECKED] < field->suspects.count; ++field->cursor[CHECKED]) {
-        int32_t cell = field->suspects.data[field->cursor[CHECKED]];
+    for (; field->cursor[DIRTY_CHECKED] < field->dirty.count; ++field->cursor[DIRTY_CHECKED]) {
+        int32_t cell = field->dirty.data[field->cursor[DIRTY_CHECKED]];
         if (field->distance.data[cell] != KIRI_FAR) {
-            bool given = IsGiven(field, rule, cell);
-            bool blocked = field->cursor[CHECKED] < field->cursor[SUSPECTS] && !Passes(rule, cell);
-            if (!given && !kiriQuota_Take(quota, 1)) {
+            bool supported = IsSupported(field, rule, cell);
+            bool blocked = field->cursor[DIRTY_CHECKED] < field->cursor[DIRTY_FROM_CALLER] && !Passes(rule, cell);
+            if (!supported && !kiriQuota_Take(quota, 1)) {
                 return KIRI_MORE;
             }
-            if ((!given || blocked) && !SuspectDependents(field, memory, rule, cell)) {
+            if ((!supported || blocked) && !MarkDependentsDirty(field, memory, rule, cell)) {
                 return KIRI_FAILED;
             }
-            if (!given) {
-                Log(field, cell);
+            if (!supported) {
+                LogValue(field, cell);
                 kiriField_Forget(field, cell);
             }
         }
-        field->marks.data[cell] &= (uint8_t)~SUSPECT;
+        field->marks.data[cell] &= (uint8_t)~FIELD_DIRTY;
     }
     return KIRI_DONE;
 }
 
-/* The best that seed and neighbours give the cell, or what it has. */
-static kiriSeed BestOf(const kiriField* field, const kiriRule* rule, int32_t cell)
+/* The nearest that seed and neighbours give the cell, or what it has. */
+static kiriSeed NearestFor(const kiriField* field, const kiriRule* rule, int32_t cell)
 {
     const kiriStepRun* run = &rule->grid->runs.data[cell];
     kiriSeed best = rule->seed(rule->context, cell), value = ValueOf(field, cell);
     int32_t farthest = FarthestOf(rule);
-    best = best.distance <= farthest && IsNearer(best, value) ? best : value;
+    best = best.distance <= farthest && IsNearerSeed(best, value) ? best : value;
     for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
         kiriStep step = rule->grid->steps.data[s];
         if (field->distance.data[step.cell] <= farthest - step.length) {
             kiriSeed over = { cell, field->distance.data[step.cell] + step.length, field->owner.data[step.cell] };
-            best = IsNearer(over, best) && Passes(rule, step.cell) ? over : best;
+            best = IsNearerSeed(over, best) && Passes(rule, step.cell) ? over : best;
         }
     }
     return best;
 }
 
-/* The seeds of the sweep: all that is known at the rim of what was taken away, and at suspects, which may reach
-   farther now than they did. */
+/* The seeds of the sweep: what affected cells get from their neighbours, and the values of the caller's dirty cells, for
+   ways from there may be new. */
 static bool SeedSweep(kiriField* field, kiriMemory* memory, const kiriRule* rule)
 {
     field->heap.count = 0;
-    if (!kiriArray_Reserve(memory, &field->heap, field->suspects.count)) {
+    if (!kiriArray_Reserve(memory, &field->heap, field->dirty.count)) {
         return false;
     }
-    for (int32_t i = 0; i < field->suspects.count; ++i) {
-        int32_t cell = field->suspects.data[i];
-        if (i < field->cursor[SUSPECTS] || field->distance.data[cell] == KIRI_FAR) {
-            kiriSeed best = BestOf(field, rule, cell);
+    for (int32_t i = 0; i < field->dirty.count; ++i) {
+        int32_t cell = field->dirty.data[i];
+        if (i < field->cursor[DIRTY_FROM_CALLER] || field->distance.data[cell] == KIRI_FAR) {
+            kiriSeed best = NearestFor(field, rule, cell);
             if (best.distance != KIRI_FAR) {
                 field->heap.data[field->heap.count++] = best;
             }
         }
     }
     MakeHeap(field);
-    field->suspects.count = field->settled.count = 0;
+    field->dirty.count = field->settled.count = 0;
     field->cursor[0] = field->cursor[1] = field->cursor[2] = 0;
-    field->cursor[STAGE] = GIVING;
+    field->cursor[REPAIR_STAGE] = REPAIR_SETTLES;
     return true;
 }
 
-static void Begin(kiriField* field)
+static void BeginRepair(kiriField* field)
 {
     for (int32_t i = 0; i < field->log.count; ++i) {
-        field->marks.data[field->log.data[i].cell] |= LOGGED;
+        field->marks.data[field->log.data[i].cell] |= FIELD_LOGGED;
     }
-    field->cursor[CHECKED] = 0;
-    field->cursor[SUSPECTS] = field->suspects.count;
-    field->cursor[STAGE] = TAKING;
+    field->cursor[DIRTY_CHECKED] = 0;
+    field->cursor[DIRTY_FROM_CALLER] = field->dirty.count;
+    field->cursor[REPAIR_STAGE] = REPAIR_CLEARS;
 }
 
-static void End(kiriField* field)
+static void EndRepair(kiriField* field)
 {
     for (int32_t i = 0; i < field->log.count; ++i) {
         field->marks.data[field->log.data[i].cell] = 0;
@@ -400,16 +411,17 @@ static void End(kiriField* field)
         field->marks.data[field->settled.data[i]] = 0;
     }
     field->settled.count = 0;
-    field->cursor[STAGE] = AT_REST;
+    field->cursor[REPAIR_STAGE] = REPAIR_NONE;
 }
 
 kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
 {
-    if (field->cursor[STAGE] == AT_REST) {
-        Begin(field);
+    KIRI_ASSERT(rule->seed != NULL);
+    if (field->cursor[REPAIR_STAGE] == REPAIR_NONE) {
+        BeginRepair(field);
     }
-    if (field->cursor[STAGE] == TAKING) {
-        kiriProgress progress = TakeAway(field, memory, rule, quota);
+    if (field->cursor[REPAIR_STAGE] == REPAIR_CLEARS) {
+        kiriProgress progress = ClearAffected(field, memory, rule, quota);
         if (progress != KIRI_DONE) {
             return progress;
         }
@@ -420,6 +432,6 @@ kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRu
     if (Sweep(field, rule, quota) == KIRI_MORE) {
         return KIRI_MORE;
     }
-    End(field);
+    EndRepair(field);
     return KIRI_DONE;
 }

@@ -1,11 +1,15 @@
 /* Distances inside the cut sheet: Dijkstra over the steps of the grid. Lengths are whole numbers, so a field is the
    one fixed point of (distance, owner) = min over the seed and the neighbours' (distance + step, owner), whatever the
    order of work; ties go to the lower owner. So a field can be repaired where the grid has changed (after Ramalingam
-   and Reps 1996), and equals one from scratch. */
+   and Reps 1996), and then equals one from scratch. */
 #ifndef KIRI_GEODESIC_H
 #define KIRI_GEODESIC_H
 
 #include "kiri_grid.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 typedef struct kiriSeed {
     int32_t cell;
@@ -15,8 +19,8 @@ typedef struct kiriSeed {
 
 enum { KIRI_FAR = INT32_MAX };
 
-/* May the way go on from a cell? Floods ask when its distance is final, repairs before that, too: so a cell that
-   passes at some distance must pass at every shorter one. */
+/* May ways go on from a cell? Floods ask when its distance is final, repairs also before that: so a cell that lets ways
+   pass at some distance must do so at every shorter one. */
 typedef bool kiriPassFn(const void* context, int32_t cell);
 
 /* The nearest of the cell's own seeds (of equals, that of the lowest owner), or KIRI_FAR as its distance. */
@@ -39,8 +43,8 @@ typedef struct kiriField {
 
     /* Work at hand. */
     KIRI_ARRAY(kiriSeed) heap;
-    KIRI_ARRAY(int32_t) suspects;
-    KIRI_ARRAY(uint8_t) marks; /* one a cell; between repairs only of suspects */
+    KIRI_ARRAY(int32_t) dirty; /* cells to be checked */
+    KIRI_ARRAY(uint8_t) marks; /* one a cell; between repairs only of dirty cells */
     int32_t cursor[KIRI_STEP_LENGTHS + 1];
 } kiriField;
 
@@ -55,25 +59,30 @@ void kiriField_Clear(kiriField* field);
 /* Starts a flood from the seeds. The field must be empty: FAR everywhere. */
 bool kiriField_Start(kiriField* field, kiriMemory* memory, const kiriSeed* seeds, int32_t seedCount);
 
-/* Goes on. An item of the quota is a cell settled. Allocates nothing: never KIRI_FAILED. */
+/* Goes on with it. An item of the quota is a cell settled. Allocates nothing: never KIRI_FAILED. */
 kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* quota);
 
-/* Makes all cells FAR again by undoing only what floods settled, where no repair has changed the field since. */
+/* Makes all cells FAR again, at the cost of those that a flood settled. Not after a repair. */
 void kiriField_Reset(kiriField* field);
 
 /* ---- Repairs ---- */
 
 /* The cell's steps or seed may have changed, or whether ways pass through it. Never fails: room is made by Resize. */
-void kiriField_Suspect(kiriField* field, int32_t cell);
+void kiriField_MarkDirty(kiriField* field, int32_t cell);
 
-/* The cell is no more (or shall be empty); cells that it led to must be suspects, it must not. Not logged. */
+/* The cell is no more, and then it must not be dirty; or it shall be FAR. The cells that its steps led to must be dirty.
+   Not logged. */
 void kiriField_Forget(kiriField* field, int32_t cell);
 
-/* Makes the field right again, given that all cells about which something has changed are suspects; where the limit
-   has grown, these are all from which a step leads beyond the old one; where it has shrunk, all beyond the new one
-   that are not forgotten. An item of the quota is a cell whose distance is taken away or given, or a suspect that
-   keeps it. KIRI_MORE: call again with the same rule before anything changes. The log tells what changed; empty it
-   (its count) when it is read. On KIRI_FAILED only Clear or Release make sense. */
+/* Makes the field right again. All cells about which something has changed must be dirty: where the limit has grown, all
+   from which a step leads beyond the old one; where it has shrunk, all beyond the new one that are not forgotten. An
+   item of the quota is a cell whose distance is cleared or settled. KIRI_MORE: call again with the same rule before
+   anything changes. The log tells what changed; its reader empties it (its count). KIRI_FAILED: only kiriField_Clear
+   helps. */
 kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

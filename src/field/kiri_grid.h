@@ -6,6 +6,10 @@
 #include "../mesh/kiri_mesh.h"
 #include "../core/kiri_span.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Lengths on the grid are whole numbers, so that sums are exact and a distance does not depend on the order of work. */
 enum {
     KIRI_UNIT = 256,          /* the side of a square */
@@ -24,15 +28,15 @@ typedef struct kiriCell {
 /* The material shared by two cells of neighbouring squares: the stretch of the squares' common side that it covers. */
 typedef struct kiriFace {
     int32_t cell[2]; /* [0] in the square with the lower coordinate; [0] is KIRI_NONE: no face has this index now */
-    int32_t next[2]; /* next face of cell[0], of cell[1], or KIRI_NONE; in no order that means anything */
+    int32_t next[2]; /* next face of cell[0], of cell[1], or KIRI_NONE; in no particular order */
     int32_t axis;    /* 0: the side is a vertical line u = const, normal +u; 1: v = const, normal +v */
     double width;    /* m, above zero */
     kiriVec2 middle; /* local m: centroid of the covered stretch, on the side */
     double moment;   /* m^3: second moment of the stretch about its middle */
 } kiriFace;
 
-/* A move of the geodesic: straight over a face, or diagonally or like a knight where every way around the corner
-   between is open too. What leads from a to b also leads from b to a. */
+/* A move of the geodesic: straight over a face, or diagonally, or like a knight in chess. The last two exist where both
+   ways around the corner are open. What leads from a to b also leads from b to a. */
 typedef struct kiriStep {
     int32_t cell;
     int16_t length; /* KIRI_UNIT... */
@@ -47,26 +51,25 @@ typedef struct kiriStepRun {
 } kiriStepRun;
 
 /* A cell whose material changed, and what it was. */
-typedef struct kiriRemade {
+typedef struct kiriMaterialChange {
     int32_t cell;
     kiriMoments was;
-} kiriRemade;
+} kiriMaterialChange;
 
-/* What updates have done since kiriGrid_ClearChanges, complete when an update is done. A cell may be in several lists, in
-   each at most once. One that is gone is in no other list, has square KIRI_NONE, and its index is not taken again
-   before Settle; one that came and went again is in none. */
+/* What updates have done since kiriGrid_ClearChanges, complete when an update is done. A cell may be in several lists,
+   in each at most once. One that is gone is in no other list, has square KIRI_NONE, and its index is not taken again
+   before ClearChanges; one that came and went again is in none. */
 typedef struct kiriGridChanges {
-    KIRI_ARRAY(int32_t) made;      /* cells that are new */
-    KIRI_ARRAY(int32_t) gone;      /* that are no more; their `material` is what it was when the grid was settled */
-    KIRI_ARRAY(int32_t) restepped; /* whose steps changed, or whose faces did in anything; with new ones */
-    KIRI_ARRAY(kiriRemade) remade; /* whose material changed; without new ones */
+    KIRI_ARRAY(int32_t) made;                /* cells that are new */
+    KIRI_ARRAY(int32_t) gone;                /* that are no more; their `material` is what it was at ClearChanges */
+    KIRI_ARRAY(int32_t) steps;               /* whose steps changed, or whose faces did in anything; with new ones */
+    KIRI_ARRAY(kiriMaterialChange) material; /* whose material changed; without new ones */
 } kiriGridChanges;
 
-typedef struct kiriGridWork kiriGridWork; /* what updating needs beside; private to grid.c */
+typedef struct kiriGridWork kiriGridWork; /* the update at hand: kiri_grid_work.h */
 
-/* Cells keep their index as long as they live. What has an order has one that does not depend on indices, nor on what
-   was cut in which order: cells by square, then lowest triangle. So a grid that was updated equals one from scratch,
-   but for the indices. */
+/* Cells keep their index as long as they live. Orders depend neither on indices nor on the order of cuts: cells are
+   ordered by square, then lowest triangle. So a grid that was updated equals one from scratch, but for the indices. */
 typedef struct kiriGrid {
     double side;                  /* m */
     KIRI_ARRAY(kiriCell) cells;   /* by index, with gaps */
@@ -85,29 +88,41 @@ typedef struct kiriGrid {
 
 /* The grid of the mesh as it is, from the one before and mesh->squares.dirty: all squares that changed since. A
    zeroed or reset grid is made from scratch, of all squares. Costs what it touches: an item of the quota is a square
-   looked at, or a cell whose steps are made. KIRI_MORE: call again before the mesh changes, or the dirty squares are cleared.
-   KIRI_FAILED: the grid is of no use any more but for kiriGrid_Reset or a release. */
+   looked at, or a cell whose steps are made. KIRI_MORE: call again before the mesh changes or the dirty squares are
+   cleared. KIRI_FAILED: only kiriGrid_Reset helps. */
 kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
 
-/* All who follow the grid have seen its changes. */
+/* Once all who follow the grid have seen its changes; not during an update. */
 void kiriGrid_ClearChanges(kiriGrid* grid);
 
 /* Forgets everything but its memory: the next update is from scratch. */
 void kiriGrid_Reset(kiriGrid* grid);
 
-/* Comes cell a before cell b in the order of cells? */
+static inline bool kiriGrid_IsCell(const kiriGrid* grid, int32_t cell)
+{
+    KIRI_ASSERT(cell >= 0 && cell < grid->cells.count);
+    return grid->cells.data[cell].square != KIRI_NONE;
+}
+
+/* A face seen from one of its cells: the cell beyond, and the next face of that one. */
+static inline int32_t kiriFace_Other(const kiriFace* face, int32_t cell)
+{
+    KIRI_ASSERT(face->cell[0] == cell || face->cell[1] == cell);
+    return face->cell[face->cell[0] == cell];
+}
+static inline int32_t kiriFace_Next(const kiriFace* face, int32_t cell)
+{
+    KIRI_ASSERT(face->cell[0] == cell || face->cell[1] == cell);
+    return face->next[face->cell[1] == cell];
+}
+
+/* Does cell a come before cell b in the order of cells? */
 static inline bool kiriGrid_IsBefore(const kiriGrid* grid, int32_t a, int32_t b)
 {
     const kiriCell *x = &grid->cells.data[a], *y = &grid->cells.data[b];
     return x->square != y->square ? x->square < y->square : x->triangle < y->triangle;
 }
 
-static inline bool kiriGrid_IsCell(const kiriGrid* grid, int32_t cell)
-{
-    return grid->cells.data[cell].square != KIRI_NONE;
-}
-
-/* Sorts cells by their order. */
 void kiriGrid_SortCells(const kiriGrid* grid, int32_t* cells, int32_t count);
 
 /* The cell that holds this part of this triangle; KIRI_NONE where it does not overlap the square around `at`. */
@@ -125,8 +140,12 @@ kiriLatticePoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh,
 /* The cell that holds a lattice point of the material, or KIRI_NONE. */
 int32_t kiriGrid_CellAt(const kiriGrid* grid, const kiriMeshData* mesh, kiriLatticePoint at);
 
-/* The same; but a point on a slanted outline, which a cut may have put off the material by a rounding of the lattice, is
-   given the first cell of its square. KIRI_NONE outside. */
+/* The same; but a point that is not on the material gets the first cell of its square: a cut of a slanted outline may
+   move the outline past it by a rounding of the lattice. KIRI_NONE in a square without material. */
 int32_t kiriGrid_CellAround(const kiriGrid* grid, const kiriMeshData* mesh, kiriLatticePoint at);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

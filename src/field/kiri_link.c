@@ -2,35 +2,38 @@
 
 #include <string.h>
 
-/* What is known of a face. */
-typedef enum Mark {
-    PASSED, /* not between the regions at hand, or already in a link */
-    FRESH,
-    SEEN,
-    BENT /* the stretch is split where its normal turns */
-} Mark;
+/* CountChanged compares bytes. */
+typedef char LinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 18 * sizeof(double) ? 1 : -1];
+
+/* Of a face. */
+typedef enum FaceMark {
+    FACE_PASSED, /* not between the regions at hand, or already in a link */
+    FACE_FOUND,
+    FACE_GATHERED,
+    FACE_BENT /* the stretch is split where its normal turns */
+} FaceMark;
 
 /* A link that was made anew, and its lowest face. */
-typedef struct Made {
+typedef struct NewLink {
     kiriLink link;
     int32_t face;
-} Made;
+} NewLink;
 
 /* Sum over the links of a region of half W l n n^T. */
-typedef struct Spread {
+typedef struct RegionSpread {
     double xx, xy, yy;
-} Spread;
+} RegionSpread;
 
 struct kiriLinkWork {
-    KIRI_ARRAY(uint8_t) marks;   /* a Mark a face; all PASSED between updates */
+    KIRI_ARRAY(uint8_t) marks;   /* a FaceMark a face; all FACE_PASSED between updates */
     KIRI_ARRAY(int32_t) faces;   /* border faces of regions that are dirty */
     KIRI_ARRAY(int32_t) whole;   /* a connected stretch of them, in order, */
     KIRI_ARRAY(int32_t) stretch; /* and the faces of the link at hand, in order */
-    KIRI_ARRAY(Made) made;
+    KIRI_ARRAY(NewLink) made;
     KIRI_ARRAY(int32_t) order; /* of what was made */
     KIRI_ARRAY(int32_t) scratch;
-    KIRI_ARRAY(Spread) spreads; /* of each region */
-    KIRI_ARRAY(uint8_t) dirty;  /* of each region: its material or one of its links changed */
+    KIRI_ARRAY(RegionSpread) spreads; /* of each region */
+    KIRI_ARRAY(uint8_t) dirty;        /* of each region: its material or one of its links changed */
 };
 
 typedef struct Border {
@@ -45,25 +48,27 @@ typedef struct Border {
 } Border;
 
 /* A border face seen from the region with the lower index. */
-typedef struct Side {
+typedef struct BorderSide {
     int32_t x, y; /* its cells in regions i and j, i < j */
     int32_t i, j;
     int32_t axis;
     double sign; /* of the normal from i to j along the axis */
-} Side;
+} BorderSide;
 
-static Side SideOf(const Border* border, int32_t face)
+static BorderSide BorderSideOf(const Border* border, int32_t face)
 {
     const kiriFace* f = &border->grid->faces.data[face];
     const int32_t* owner = border->regions->field.owner.data;
     int32_t low = owner[f->cell[0]] < owner[f->cell[1]] ? 0 : 1;
-    Side side = { f->cell[low], f->cell[1 - low],     owner[f->cell[low]], owner[f->cell[1 - low]],
-                  f->axis,      low == 0 ? 1.0 : -1.0 };
+    KIRI_ASSERT(f->cell[0] != KIRI_NONE && owner[f->cell[low]] != KIRI_NONE && owner[f->cell[0]] != owner[f->cell[1]]);
+    BorderSide side = { f->cell[low], f->cell[1 - low],     owner[f->cell[low]], owner[f->cell[1 - low]],
+                        f->axis,      low == 0 ? 1.0 : -1.0 };
     return side;
 }
 
-static bool IsDirty(const Border* border, int32_t region)
+static bool IsRegionDirty(const Border* border, int32_t region)
 {
+    KIRI_ASSERT(region >= 0 && region < border->siteCount);
     return border->regions->dirty.data[region] != 0;
 }
 
@@ -87,17 +92,17 @@ static bool IsFaceBefore(const Border* border, int32_t a, int32_t b)
 
 static bool IsMadeBefore(const Border* border, int32_t a, int32_t b)
 {
-    const Made *x = &border->work->made.data[a], *y = &border->work->made.data[b];
+    const NewLink *x = &border->work->made.data[a], *y = &border->work->made.data[b];
     if (x->link.i != y->link.i) {
         return x->link.i < y->link.i;
     }
     return x->link.j != y->link.j ? x->link.j < y->link.j : IsFaceBefore(border, x->face, y->face);
 }
 
-typedef bool BeforeFn(const Border* border, int32_t a, int32_t b);
+typedef bool IsBorderItemBefore(const Border* border, int32_t a, int32_t b);
 
-/* Merges runs of doubling length. */
-static bool Sort(const Border* border, BeforeFn* before, int32_t* items, int32_t count)
+/* Merge sort, by runs of doubling length. */
+static bool SortBorderItems(const Border* border, IsBorderItemBefore* before, int32_t* items, int32_t count)
 {
     if (!kiriArray_Resize(border->memory, &border->work->scratch, count)) {
         return false;
@@ -120,7 +125,7 @@ static bool Sort(const Border* border, BeforeFn* before, int32_t* items, int32_t
 /* ---- Stretches -------------------------------------------------------------------------------------------------- */
 
 /* The same cell, or a straight or diagonal step apart. */
-static bool Touch(const kiriGrid* grid, int32_t a, int32_t b)
+static bool AreCellsNear(const kiriGrid* grid, int32_t a, int32_t b)
 {
     const kiriStepRun* run = &grid->runs.data[a];
     for (int32_t s = run->first; a != b && s < run->end[1]; ++s) {
@@ -131,56 +136,56 @@ static bool Touch(const kiriGrid* grid, int32_t a, int32_t b)
     return a == b;
 }
 
-/* Adds the faces of `cell` that carry on the stretch from side `from`. */
-static bool GatherAt(const Border* border, const Side* from, int32_t cell, Mark mark, Mark next)
+/* Adds the faces of `cell` that continue the stretch of `from`. */
+static bool GatherFacesAt(const Border* border, const BorderSide* from, int32_t cell, FaceMark mark, FaceMark next)
 {
     const kiriGrid* grid = border->grid;
     for (int32_t f = grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
         const kiriFace* face = &grid->faces.data[f];
         if (border->work->marks.data[f] == mark) {
-            Side side = SideOf(border, f);
+            BorderSide side = BorderSideOf(border, f);
             bool sameWay = side.axis == from->axis && side.sign == from->sign;
-            if (side.x == cell && side.i == from->i && side.j == from->j && (sameWay || mark != BENT) &&
-                Touch(grid, side.y, from->y)) {
+            if (side.x == cell && side.i == from->i && side.j == from->j && (sameWay || mark != FACE_BENT) &&
+                AreCellsNear(grid, side.y, from->y)) {
                 border->work->marks.data[f] = (uint8_t)next;
                 if (!kiriArray_Push(border->memory, &border->work->stretch, f)) {
                     return false;
                 }
             }
         }
-        f = face->next[face->cell[0] == cell ? 0 : 1];
+        f = kiriFace_Next(face, cell);
     }
     return true;
 }
 
-/* The connected stretch around a face, as far as the faces bear the same mark, in order; they are marked `next`. */
-static bool Gather(const Border* border, int32_t face, Mark next)
+/* The connected stretch of faces around one that have its mark, in order; their mark becomes `next`. */
+static bool GatherStretch(const Border* border, int32_t face, FaceMark next)
 {
     const kiriGrid* grid = border->grid;
     kiriLinkWork* work = border->work;
-    Mark mark = (Mark)work->marks.data[face];
+    FaceMark mark = (FaceMark)work->marks.data[face];
     work->stretch.count = 0;
     work->marks.data[face] = (uint8_t)next;
     bool ok = kiriArray_Push(border->memory, &work->stretch, face);
     for (int32_t k = 0; ok && k < work->stretch.count; ++k) {
-        Side side = SideOf(border, work->stretch.data[k]);
+        BorderSide side = BorderSideOf(border, work->stretch.data[k]);
         const kiriStepRun* run = &grid->runs.data[side.x];
-        ok = GatherAt(border, &side, side.x, mark, next);
+        ok = GatherFacesAt(border, &side, side.x, mark, next);
         for (int32_t s = run->first; ok && s < run->end[1]; ++s) {
-            ok = GatherAt(border, &side, grid->steps.data[s].cell, mark, next);
+            ok = GatherFacesAt(border, &side, grid->steps.data[s].cell, mark, next);
         }
     }
-    return ok && Sort(border, IsFaceBefore, work->stretch.data, work->stretch.count);
+    return ok && SortBorderItems(border, IsFaceBefore, work->stretch.data, work->stretch.count);
 }
 
-/* The vector sum of the faces, as normals from i to j; *sum is their plain sum. */
+/* The vector sum of the faces, as normals from i to j; *sum is the sum of their widths. */
 static kiriVec2 SumNormals(const Border* border, double* sum)
 {
     double n[2] = { 0.0, 0.0 };
     *sum = 0.0;
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
         double width = border->grid->faces.data[border->work->stretch.data[k]].width;
-        Side side = SideOf(border, border->work->stretch.data[k]);
+        BorderSide side = BorderSideOf(border, border->work->stretch.data[k]);
         n[side.axis] += side.sign * width;
         *sum += width;
     }
@@ -189,7 +194,7 @@ static kiriVec2 SumNormals(const Border* border, double* sum)
 
 /* ---- One link --------------------------------------------------------------------------------------------------- */
 
-/* Centroid and second moment along the tangent; a face counts by what it shows to the normal. */
+/* Centroid and second moment along the tangent; a face counts by its width as seen along the normal. */
 static void SetMoments(const Border* border, kiriLink* link)
 {
     double normal[2] = { link->normal.x, link->normal.y };
@@ -217,7 +222,7 @@ static void SetSpread(const Border* border, kiriLink* link)
 {
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
         const kiriFace* face = &border->grid->faces.data[border->work->stretch.data[k]];
-        Side side = SideOf(border, border->work->stretch.data[k]);
+        BorderSide side = BorderSideOf(border, border->work->stretch.data[k]);
         kiriVec2 arm = kiriVec2_Sub(face->middle, link->centroid);
         double along = side.sign * face->width;
         kiriVec2 normal = { side.axis == 0 ? along : 0.0, side.axis == 0 ? 0.0 : along };
@@ -227,13 +232,13 @@ static void SetSpread(const Border* border, kiriLink* link)
 }
 
 /* A way from site i to site j. */
-typedef struct Way {
+typedef struct SitesWay {
     int32_t length;
     kiriVec2 crossing;
-} Way;
+} SitesWay;
 
-/* Takes the longer steps from `cell` over the border into region `to` where they shorten the way. */
-static void TrySteps(const Border* border, int32_t cell, int32_t to, Way* way)
+/* Ways by the diagonal and knight steps from `cell` over the border into region `to`. */
+static void TryLongSteps(const Border* border, int32_t cell, int32_t to, SitesWay* way)
 {
     const kiriGrid* grid = border->grid;
     const kiriField* field = &border->regions->field;
@@ -252,20 +257,20 @@ static void TrySteps(const Border* border, int32_t cell, int32_t to, Way* way)
     }
 }
 
-static Way ShortestWay(const Border* border)
+static SitesWay ShortestWay(const Border* border)
 {
     const int32_t* distance = border->regions->field.distance.data;
-    Way way = { KIRI_FAR, { 0.0, 0.0 } };
+    SitesWay way = { KIRI_FAR, { 0.0, 0.0 } };
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
         int32_t face = border->work->stretch.data[k];
-        Side side = SideOf(border, face);
+        BorderSide side = BorderSideOf(border, face);
         int32_t length = distance[side.x] + KIRI_UNIT + distance[side.y];
         if (length < way.length) {
             way.length = length;
             way.crossing = border->grid->faces.data[face].middle;
         }
-        TrySteps(border, side.x, side.j, &way);
-        TrySteps(border, side.y, side.i, &way);
+        TryLongSteps(border, side.x, side.j, &way);
+        TryLongSteps(border, side.y, side.i, &way);
     }
     return way;
 }
@@ -276,7 +281,7 @@ static void SetLength(const Border* border, kiriLink* link)
 {
     kiriVec2 a = border->sites[link->i].at, b = border->sites[link->j].at;
     double straight = kiriVec2_Length(kiriVec2_Sub(b, a));
-    Way way = ShortestWay(border);
+    SitesWay way = ShortestWay(border);
     link->length = way.length * (border->grid->side / KIRI_UNIT);
     link->crossing = way.crossing;
     link->span = kiriVec2_Scale(link->length, link->normal);
@@ -293,21 +298,21 @@ static void SetLength(const Border* border, kiriLink* link)
 static bool AddLink(const Border* border)
 {
     int32_t lowest = border->work->stretch.data[0];
-    Side side = SideOf(border, lowest);
+    BorderSide side = BorderSideOf(border, lowest);
     double sum;
     kiriVec2 normal = SumNormals(border, &sum);
-    Made made;
-    memset(&made, 0, sizeof(made));
-    made.face = lowest;
-    made.link.i = side.i;
-    made.link.j = side.j;
-    made.link.width = kiriVec2_Length(normal);
-    made.link.normal = kiriVec2_Scale(1.0 / made.link.width, normal);
-    made.link.tangent = kiriVec2_Make(-made.link.normal.y, made.link.normal.x);
-    SetMoments(border, &made.link);
-    SetSpread(border, &made.link);
-    SetLength(border, &made.link);
-    return kiriArray_Push(border->memory, &border->work->made, made);
+    NewLink link;
+    memset(&link, 0, sizeof(link));
+    link.face = lowest;
+    link.link.i = side.i;
+    link.link.j = side.j;
+    link.link.width = kiriVec2_Length(normal);
+    link.link.normal = kiriVec2_Scale(1.0 / link.link.width, normal);
+    link.link.tangent = kiriVec2_Make(-link.link.normal.y, link.link.normal.x);
+    SetMoments(border, &link.link);
+    SetSpread(border, &link.link);
+    SetLength(border, &link.link);
+    return kiriArray_Push(border->memory, &border->work->made, link);
 }
 
 /* ---- All links of regions that are dirty ---------------------------------------------------------------------- */
@@ -318,15 +323,14 @@ static bool FindFacesOf(const Border* border, int32_t region, int32_t cell)
     const kiriGrid* grid = border->grid;
     for (int32_t f = grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
         const kiriFace* face = &grid->faces.data[f];
-        int32_t end = face->cell[0] == cell ? 0 : 1;
-        int32_t other = border->regions->field.owner.data[face->cell[1 - end]];
-        if (other != region && (region < other || !IsDirty(border, other))) {
-            border->work->marks.data[f] = FRESH;
+        int32_t other = border->regions->field.owner.data[kiriFace_Other(face, cell)];
+        if (other != region && (region < other || !IsRegionDirty(border, other))) {
+            border->work->marks.data[f] = FACE_FOUND;
             if (!kiriArray_Push(border->memory, &border->work->faces, f)) {
                 return false;
             }
         }
-        f = face->next[end];
+        f = kiriFace_Next(face, cell);
     }
     return true;
 }
@@ -336,7 +340,7 @@ static bool FindFaces(const Border* border)
     const kiriRegions* regions = border->regions;
     for (int32_t i = 0; i < border->siteCount; ++i) {
         const kiriReaches* list = &border->shape->reaches.data[i];
-        for (int32_t k = 0; IsDirty(border, i) && k < list->count; ++k) {
+        for (int32_t k = 0; IsRegionDirty(border, i) && k < list->count; ++k) {
             int32_t cell = list->data[k].cell;
             if (regions->onBorder.data[cell] && regions->field.owner.data[cell] == i && !FindFacesOf(border, i, cell)) {
                 return false;
@@ -346,9 +350,9 @@ static bool FindFaces(const Border* border)
     return true;
 }
 
-/* A border that turns back on itself (around the tip of a slit, say) loses its width in the vector sum: it is
+/* A border that turns back on itself, around the tip of a slit for instance, loses its width in the vector sum: it is
    split into stretches of one normal each. */
-static bool Split(const Border* border)
+static bool SplitStretch(const Border* border)
 {
     kiriLinkWork* work = border->work;
     if (!kiriArray_Resize(border->memory, &work->whole, work->stretch.count)) {
@@ -356,11 +360,11 @@ static bool Split(const Border* border)
     }
     for (int32_t k = 0; k < work->stretch.count; ++k) {
         work->whole.data[k] = work->stretch.data[k];
-        work->marks.data[work->whole.data[k]] = BENT;
+        work->marks.data[work->whole.data[k]] = FACE_BENT;
     }
     for (int32_t k = 0; k < work->whole.count; ++k) {
         int32_t face = work->whole.data[k];
-        if (work->marks.data[face] == BENT && !(Gather(border, face, PASSED) && AddLink(border))) {
+        if (work->marks.data[face] == FACE_BENT && !(GatherStretch(border, face, FACE_PASSED) && AddLink(border))) {
             return false;
         }
     }
@@ -371,13 +375,13 @@ static bool MakeLinks(const Border* border)
 {
     kiriLinkWork* work = border->work;
     for (int32_t k = 0; k < work->faces.count; ++k) {
-        if (work->marks.data[work->faces.data[k]] == FRESH) {
+        if (work->marks.data[work->faces.data[k]] == FACE_FOUND) {
             double sum;
-            if (!Gather(border, work->faces.data[k], SEEN)) {
+            if (!GatherStretch(border, work->faces.data[k], FACE_GATHERED)) {
                 return false;
             }
             bool bent = kiriVec2_Length(SumNormals(border, &sum)) < 0.5 * sum;
-            if (!(bent ? Split(border) : AddLink(border))) {
+            if (!(bent ? SplitStretch(border) : AddLink(border))) {
                 return false;
             }
         }
@@ -388,12 +392,12 @@ static bool MakeLinks(const Border* border)
     for (int32_t k = 0; k < work->order.count; ++k) {
         work->order.data[k] = k;
     }
-    return Sort(border, IsMadeBefore, work->order.data, work->order.count);
+    return SortBorderItems(border, IsMadeBefore, work->order.data, work->order.count);
 }
 
 /* ---- The whole -------------------------------------------------------------------------------------------------- */
 
-static bool MakeRoom(const Border* border)
+static bool MakeLinkRoom(const Border* border)
 {
     kiriLinkWork* work = border->work;
     int32_t old = work->marks.count;
@@ -404,10 +408,10 @@ static bool MakeRoom(const Border* border)
         return false;
     }
     for (int32_t f = old; f < work->marks.count; ++f) {
-        work->marks.data[f] = PASSED;
+        work->marks.data[f] = FACE_PASSED;
     }
     for (int32_t i = 0; i < border->siteCount; ++i) {
-        work->spreads.data[i] = (Spread){ 0.0, 0.0, 0.0 };
+        work->spreads.data[i] = (RegionSpread){ 0.0, 0.0, 0.0 };
         work->dirty.data[i] = border->regions->dirty.data[i];
     }
     work->faces.count = work->made.count = 0;
@@ -415,9 +419,9 @@ static bool MakeRoom(const Border* border)
 }
 
 /* Regions that had a link to one that is dirty, or have one now. */
-static void MarkDirty(const Border* border, const kiriLink* link)
+static void MarkBothDirty(const Border* border, const kiriLink* link)
 {
-    if (IsDirty(border, link->i) || IsDirty(border, link->j)) {
+    if (IsRegionDirty(border, link->i) || IsRegionDirty(border, link->j)) {
         border->work->dirty.data[link->i] = border->work->dirty.data[link->j] = 1;
     }
 }
@@ -428,7 +432,7 @@ static bool IsPairBefore(const kiriLink* a, const kiriLink* b)
 }
 
 /* Takes over the links of pairs that are not dirty, between those that were made; no pair has both. */
-static bool Merge(const Border* border, kiriLinks* links)
+static bool MergeLinks(const Border* border, kiriLinks* links)
 {
     kiriLinkWork* work = border->work;
     int32_t made = 0;
@@ -437,8 +441,8 @@ static bool Merge(const Border* border, kiriLinks* links)
     }
     for (int32_t k = 0; k < links->links.count; ++k) {
         const kiriLink* link = &links->links.data[k];
-        MarkDirty(border, link);
-        if (!IsDirty(border, link->i) && !IsDirty(border, link->j)) {
+        MarkBothDirty(border, link);
+        if (!IsRegionDirty(border, link->i) && !IsRegionDirty(border, link->j)) {
             for (; made < work->made.count; ++made) {
                 const kiriLink* first = &work->made.data[work->order.data[made]].link;
                 if (!IsPairBefore(first, link)) {
@@ -453,12 +457,12 @@ static bool Merge(const Border* border, kiriLinks* links)
         links->next.data[links->next.count++] = work->made.data[work->order.data[made]].link;
     }
     for (int32_t k = 0; k < work->made.count; ++k) {
-        MarkDirty(border, &work->made.data[k].link);
+        MarkBothDirty(border, &work->made.data[k].link);
     }
     return true;
 }
 
-static void AddSpread(Spread* spread, const kiriLink* link)
+static void AddSpread(RegionSpread* spread, const kiriLink* link)
 {
     double half = 0.5 * link->width * link->length;
     spread->xx += half * link->normal.x * link->normal.x;
@@ -468,14 +472,14 @@ static void AddSpread(Spread* spread, const kiriLink* link)
 
 static double BracedIn(const Border* border, int32_t region, kiriVec2 t)
 {
-    Spread spread = border->work->spreads.data[region];
+    RegionSpread spread = border->work->spreads.data[region];
     double extent = 536870912.0 * border->mesh->step; /* 2^29 lattice steps, see mesh.h */
     double area = kiriTally_Moments(&border->regions->material.data[region], extent).area;
     double sum = t.x * t.x * spread.xx + 2.0 * t.x * t.y * spread.xy + t.y * t.y * spread.yy;
     return sum < area ? sum / area : 1.0;
 }
 
-/* Where nothing has changed it is what it was: sums run in the order of links. */
+/* Where nothing has changed `braced` stays bit for bit what it was, for sums run in the order of links. */
 static void SetBraced(const Border* border, kiriLinks* links)
 {
     kiriLinkWork* work = border->work;
@@ -497,7 +501,7 @@ static bool IsOfPair(const kiriLink* link, const kiriLink* other)
     return link->i == other->i && link->j == other->j;
 }
 
-/* How many are not, bit for bit, what they were. */
+/* How many links are not bit for bit what they were. */
 static int32_t CountChanged(const kiriLinks* links)
 {
     int32_t changed = 0, old = 0;
@@ -523,15 +527,16 @@ bool kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid
     if (links->work == NULL) {
         return false;
     }
+    KIRI_ASSERT(regions->dirty.count == siteCount && shape->reaches.count >= siteCount && !regions->running);
     Border border = { memory, grid, mesh, regions, shape, sites, siteCount, links->work };
     links->next.count = links->changed = 0;
-    bool ok = MakeRoom(&border) && FindFaces(&border) && MakeLinks(&border) && Merge(&border, links);
+    bool ok = MakeLinkRoom(&border) && FindFaces(&border) && MakeLinks(&border) && MergeLinks(&border, links);
     if (ok) {
         SetBraced(&border, links);
         links->changed = CountChanged(links);
     }
     for (int32_t k = 0; k < links->work->faces.count; ++k) {
-        links->work->marks.data[links->work->faces.data[k]] = PASSED;
+        links->work->marks.data[links->work->faces.data[k]] = FACE_PASSED;
     }
     return ok;
 }

@@ -5,6 +5,10 @@
 
 #include "kiri_shape.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* One connected stretch of border between regions i < j. */
 typedef struct kiriLink {
     int32_t i, j;
@@ -21,7 +25,7 @@ typedef struct kiriLink {
     kiriVec2 spread[2]; /* integrals over the border of (p - b)_u and of (p - b)_v, times its normal, m^2 */
 } kiriLink;
 
-typedef struct kiriLinkWork kiriLinkWork; /* private to link.c */
+typedef struct kiriLinkWork kiriLinkWork; /* private to kiri_link.c */
 
 typedef struct kiriLinks {
     /* By (i, j), then by their lowest face: by square, axis, and the lowest triangles of its cells. */
@@ -36,5 +40,9 @@ typedef struct kiriLinks {
 bool kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const kiriRegions* regions, const kiriShape* shape, const kiriSite* sites, int32_t siteCount);
 void kiriLinks_Commit(kiriLinks* links);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -4,7 +4,7 @@
 
 /* ---- Placing (section 5) ----------------------------------------------------------------------------------------
 
-   What is computed, whatever the order of work (tests/test_frame.c does it plainly):
+   What is computed, whatever the order of work (tests/test_frame.c has a plain version):
 
    A site sends its seeds to the cells around (kiriSite_Seed), but to none that holds another site. A cell belongs to
    the site that is nearest from there by the steps of the grid, of two as near to the lower index; but a site's own
@@ -17,62 +17,63 @@
    What is the same from round to round is kept: distances to the old sites are flooded once, those to the new sites
    only as far as these are nearer. */
 
-enum { ROUNDS = 20, FREE = KIRI_NONE, BARRED = -2, SHARE = 1 << 24 };
+enum { MOST_ROUNDS = 20, CELL_FREE = KIRI_NONE, CELL_BARRED = -2, AREA_UNITS = 1 << 24 };
 
-typedef enum Stage {
-    REST,
-    FLOOD_OLD, /* distances to the old sites */
-    SCAN,      /* for the farthest cell */
-    FLOOD_NEW, /* distances to the site just sampled, where it is the nearest */
-    LOWER,     /* the distances of sampling by these */
-    DIVIDE,    /* distances to all new sites, where they are the nearest */
-    SUM,       /* the material of their regions */
-    AIM,       /* for the cells nearest to the regions' centroids */
-    BALANCE,   /* the material of the part, */
-    SETTLE,    /* and the cell nearest to its centroid, for one site by itself */
-    STAGES
-} Stage;
+typedef enum PlacerStage {
+    PLACER_RESTS,
+    FLOOD_OLD,     /* distances to the old sites */
+    SAMPLE,        /* for the farthest cell */
+    FLOOD_NEW,     /* distances to the site just sampled, where it is the nearest */
+    LOWER,         /* the distances of sampling by these */
+    FLOOD_ALL_NEW, /* distances to all new sites, where they are the nearest */
+    SUM,           /* the material of their regions */
+    AIM,           /* for the cells nearest to the regions' centroids */
+    SUM_PART,      /* the material of the part, */
+    AIM_PART,      /* and the cell nearest to its centroid, for one site by itself */
+    PLACER_STAGES
+} PlacerStage;
 
 /* Where a new site shall go. The material is summed in whole numbers, so that the order of adding does not matter:
-   area in units of 1 / SHARE of a square, moments in as many of its sides. */
-typedef struct Target {
+   area in units of 1 / AREA_UNITS of a square, moments in as many of its sides. */
+typedef struct SiteTarget {
     int64_t area, u, v;
     kiriVec2 center;
     int32_t cell; /* of the region, nearest to the center */
     double distance;
-} Target;
+} SiteTarget;
 
-static const Target noTarget = { 0, 0, 0, { 0.0, 0.0 }, KIRI_NONE, 0.0 };
+static const SiteTarget noTarget = { 0, 0, 0, { 0.0, 0.0 }, KIRI_NONE, 0.0 };
 
 struct kiriPlacerWork {
     const kiriField* old; /* from the old sites: `flooded`, or the caller's */
     kiriField flooded;
-    kiriField fresh;             /* from the site just sampled, or from all new ones */
-    KIRI_ARRAY(int32_t) sampled; /* of each cell: distance to the nearest new site while sampling */
-    KIRI_ARRAY(int32_t) holds;   /* of each cell: the site in it, or FREE, or BARRED to sampling */
-    KIRI_ARRAY(uint8_t) marks;   /* of each cell: zero, but while a piece is taken */
-    KIRI_ARRAY(Target) targets;  /* of each new site */
+    kiriField fresh;                /* from the site just sampled, or from all new ones */
+    KIRI_ARRAY(int32_t) sampled;    /* of each cell: distance to the nearest new site while sampling */
+    KIRI_ARRAY(int32_t) holds;      /* of each cell: the site in it, or CELL_FREE, or CELL_BARRED to sampling */
+    KIRI_ARRAY(uint8_t) marks;      /* of each cell: zero, but while a piece is taken */
+    KIRI_ARRAY(SiteTarget) targets; /* of each new site */
     kiriSeeds seeds;
-    Stage stage;
+    PlacerStage stage;
     int32_t cursor;   /* of the stage: how many cells of its list it has seen */
     int32_t left;     /* sites still to sample */
     int32_t farthest; /* cell found so far, or KIRI_NONE */
     int32_t round;
 };
 
-typedef struct Job {
+typedef struct PlacerJob {
     kiriPlacer* placer;
     kiriPlacerWork* work;
     kiriMemory* memory;
     const kiriGrid* grid;
     const kiriMeshData* mesh;
     kiriQuota* quota;
-} Job;
+} PlacerJob;
 
 /* A full cell is taken at its middle, where the cell's weight is exactly 1; of others the middle may not be
    material. */
 kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
 {
+    KIRI_ASSERT(kiriGrid_IsCell(grid, cell));
     const kiriMoments* material = &grid->cells.data[cell].material;
     bool full = material->area > 0.999 * grid->side * grid->side;
     kiriSite site = { full ? kiriGrid_Middle(grid, mesh, cell) : kiriMoments_Center(material), cell };
@@ -91,7 +92,8 @@ static double SquaredDistance(kiriVec2 a, kiriVec2 b)
 }
 
 /* Visits the cells of a list, from the cursor on. */
-static kiriProgress Walk(Job* job, const int32_t* cells, int32_t count, void visit(Job* job, int32_t cell))
+static kiriProgress VisitCells(PlacerJob* job, const int32_t* cells, int32_t count,
+                               void visit(PlacerJob* job, int32_t cell))
 {
     int32_t from = job->work->cursor, end = count;
     if (end - from > job->quota->left) {
@@ -105,18 +107,18 @@ static kiriProgress Walk(Job* job, const int32_t* cells, int32_t count, void vis
     return end < count ? KIRI_MORE : KIRI_DONE;
 }
 
-static kiriProgress WalkPart(Job* job, void visit(Job* job, int32_t cell))
+static kiriProgress VisitPartCells(PlacerJob* job, void visit(PlacerJob* job, int32_t cell))
 {
-    return Walk(job, job->placer->cells.data, job->placer->cells.count, visit);
+    return VisitCells(job, job->placer->cells.data, job->placer->cells.count, visit);
 }
 
-static kiriProgress WalkFresh(Job* job, void visit(Job* job, int32_t cell))
+static kiriProgress VisitFreshCells(PlacerJob* job, void visit(PlacerJob* job, int32_t cell))
 {
-    return Walk(job, job->work->fresh.settled.data, job->work->fresh.settled.count, visit);
+    return VisitCells(job, job->work->fresh.settled.data, job->work->fresh.settled.count, visit);
 }
 
 /* Drops seeds, from the first on, in cells that hold another site. */
-static void DropSeeds(Job* job, int32_t first, int32_t owner)
+static void DropSeeds(PlacerJob* job, int32_t first, int32_t owner)
 {
     kiriSeeds* seeds = &job->work->seeds;
     int32_t kept = first;
@@ -130,7 +132,7 @@ static void DropSeeds(Job* job, int32_t first, int32_t owner)
 }
 
 /* Makes a field ready to flood from sites first to end. */
-static bool StartFlood(Job* job, kiriField* field, int32_t first, int32_t end)
+static bool StartSiteFlood(PlacerJob* job, kiriField* field, int32_t first, int32_t end)
 {
     kiriSeeds* seeds = &job->work->seeds;
     kiriField_Reset(field);
@@ -145,7 +147,7 @@ static bool StartFlood(Job* job, kiriField* field, int32_t first, int32_t end)
     return kiriField_Start(field, job->memory, seeds->data, seeds->count);
 }
 
-static kiriProgress Flood(Job* job, kiriField* field, kiriPassFn* pass)
+static kiriProgress FloodPart(PlacerJob* job, kiriField* field, kiriPassFn* pass)
 {
     kiriRule rule = { job->grid, KIRI_FAR - 1, pass, NULL, job->work };
     return kiriField_Flood(field, &rule, job->quota);
@@ -157,21 +159,25 @@ static bool IsNearerThanOld(const void* context, int32_t cell)
     return work->fresh.distance.data[cell] < work->old->distance.data[cell];
 }
 
-static bool IsNearest(const void* context, int32_t cell)
+static bool IsNearestSoFar(const void* context, int32_t cell)
 {
     const kiriPlacerWork* work = context;
     return IsNearerThanOld(work, cell) && work->fresh.distance.data[cell] < work->sampled.data[cell];
 }
 
-/* ---- Sampling */
-
-static kiriProgress FloodOld(Job* job)
+static kiriProgress GoOnTo(PlacerJob* job, kiriProgress progress, PlacerStage next)
 {
-    kiriProgress progress = Flood(job, &job->work->flooded, NULL);
     if (progress == KIRI_DONE) {
-        job->work->stage = SCAN;
+        job->work->stage = next;
     }
     return progress;
+}
+
+/* ---- Sampling */
+
+static kiriProgress FloodOld(PlacerJob* job)
+{
+    return GoOnTo(job, FloodPart(job, &job->work->flooded, NULL), SAMPLE);
 }
 
 static int32_t SampledDistance(const kiriPlacerWork* work, int32_t cell)
@@ -180,11 +186,11 @@ static int32_t SampledDistance(const kiriPlacerWork* work, int32_t cell)
     return old < sampled ? old : sampled;
 }
 
-/* In a part without a site all cells are equally far; relaxation makes up for where the first one goes. */
-static void FindFarthest(Job* job, int32_t cell)
+/* In a part without a site all cells are equally far, and the first one is taken: relaxation moves the site on. */
+static void FindFarthest(PlacerJob* job, int32_t cell)
 {
     kiriPlacerWork* work = job->work;
-    if (work->holds.data[cell] != FREE) {
+    if (work->holds.data[cell] != CELL_FREE) {
         return;
     }
     int32_t best = work->farthest, distance = SampledDistance(work, cell);
@@ -196,26 +202,27 @@ static void FindFarthest(Job* job, int32_t cell)
 }
 
 /* Ready for a round of relaxation. */
-static kiriProgress StartRound(Job* job)
+static kiriProgress StartRound(PlacerJob* job)
 {
     kiriPlacerWork* work = job->work;
     const kiriSites* sites = &job->placer->sites;
     for (int32_t i = job->placer->oldCount; i < sites->count; ++i) {
         work->targets.data[i - job->placer->oldCount] = noTarget;
     }
-    work->stage = DIVIDE;
-    return StartFlood(job, &work->fresh, job->placer->oldCount, sites->count) ? KIRI_DONE : KIRI_FAILED;
+    work->stage = FLOOD_ALL_NEW;
+    return StartSiteFlood(job, &work->fresh, job->placer->oldCount, sites->count) ? KIRI_DONE : KIRI_FAILED;
 }
 
-static kiriProgress Scan(Job* job)
+static kiriProgress SampleFarthest(PlacerJob* job)
 {
     kiriPlacerWork* work = job->work;
     kiriSites* sites = &job->placer->sites;
-    kiriProgress progress = WalkPart(job, FindFarthest);
+    kiriProgress progress = VisitPartCells(job, FindFarthest);
     if (progress != KIRI_DONE) {
         return progress;
     }
     if (work->farthest != KIRI_NONE) {
+        KIRI_ASSERT(sites->count < sites->capacity);
         work->holds.data[work->farthest] = sites->count;
         sites->data[sites->count++] = kiriFrames_SiteIn(job->grid, job->mesh, work->farthest); /* Start made room */
     }
@@ -225,19 +232,15 @@ static kiriProgress Scan(Job* job)
         return StartRound(job);
     }
     work->stage = FLOOD_NEW;
-    return StartFlood(job, &work->fresh, sites->count - 1, sites->count) ? KIRI_DONE : KIRI_FAILED;
+    return StartSiteFlood(job, &work->fresh, sites->count - 1, sites->count) ? KIRI_DONE : KIRI_FAILED;
 }
 
-static kiriProgress FloodNew(Job* job)
+static kiriProgress FloodNew(PlacerJob* job)
 {
-    kiriProgress progress = Flood(job, &job->work->fresh, IsNearest);
-    if (progress == KIRI_DONE) {
-        job->work->stage = LOWER;
-    }
-    return progress;
+    return GoOnTo(job, FloodPart(job, &job->work->fresh, IsNearestSoFar), LOWER);
 }
 
-static void LowerCell(Job* job, int32_t cell)
+static void LowerCell(PlacerJob* job, int32_t cell)
 {
     kiriPlacerWork* work = job->work;
     if (work->fresh.distance.data[cell] < work->sampled.data[cell]) {
@@ -245,28 +248,20 @@ static void LowerCell(Job* job, int32_t cell)
     }
 }
 
-static kiriProgress Lower(Job* job)
+static kiriProgress LowerDistances(PlacerJob* job)
 {
-    kiriProgress progress = WalkFresh(job, LowerCell);
-    if (progress == KIRI_DONE) {
-        job->work->stage = SCAN;
-    }
-    return progress;
+    return GoOnTo(job, VisitFreshCells(job, LowerCell), SAMPLE);
 }
 
 /* ---- Relaxation */
 
-static kiriProgress Divide(Job* job)
+static kiriProgress FloodAllNew(PlacerJob* job)
 {
-    kiriProgress progress = Flood(job, &job->work->fresh, IsNearerThanOld);
-    if (progress == KIRI_DONE) {
-        job->work->stage = SUM;
-    }
-    return progress;
+    return GoOnTo(job, FloodPart(job, &job->work->fresh, IsNearerThanOld), SUM);
 }
 
 /* The target of the new site that a cell belongs to; null where it is an old one. */
-static Target* TargetOf(Job* job, int32_t cell)
+static SiteTarget* TargetOf(PlacerJob* job, int32_t cell)
 {
     kiriPlacerWork* work = job->work;
     int32_t owner = work->holds.data[cell];
@@ -276,12 +271,12 @@ static Target* TargetOf(Job* job, int32_t cell)
     return owner < job->placer->oldCount ? NULL : &work->targets.data[owner - job->placer->oldCount];
 }
 
-/* No cell counts for nothing, so that every region has a center. */
-static void AddMaterial(const Job* job, Target* target, int32_t cell)
+/* Every cell counts for something, so that every region has a center. */
+static void AddMaterial(const PlacerJob* job, SiteTarget* target, int32_t cell)
 {
     const kiriMoments* material = &job->grid->cells.data[cell].material;
     double side = job->grid->side;
-    int64_t area = (int64_t)(SHARE * (material->area / (side * side)) + 0.5);
+    int64_t area = (int64_t)(AREA_UNITS * (material->area / (side * side)) + 0.5);
     area = area > 0 ? area : 1;
     double scale = (double)area / (material->area * side);
     target->area += area;
@@ -289,14 +284,14 @@ static void AddMaterial(const Job* job, Target* target, int32_t cell)
     target->v += (int64_t)(scale * material->v + 0.5);
 }
 
-static void FindCenter(const Job* job, Target* target)
+static void FindCenter(const PlacerJob* job, SiteTarget* target)
 {
     double scale = job->grid->side / (double)target->area;
     target->center = kiriVec2_Make(scale * (double)target->u, scale * (double)target->v);
 }
 
-/* Does the target like the cell better than the one that it has? Cells come in any order. */
-static bool IsBetter(const Job* job, const Target* target, int32_t cell, double distance)
+/* Is the cell better for the target than the one that it has? Cells come in any order. */
+static bool IsBetter(const PlacerJob* job, const SiteTarget* target, int32_t cell, double distance)
 {
     if (target->cell == KIRI_NONE || distance != target->distance) {
         return target->cell == KIRI_NONE || distance < target->distance;
@@ -305,7 +300,7 @@ static bool IsBetter(const Job* job, const Target* target, int32_t cell, double 
     return mostly != MostlyCovered(job->grid, target->cell) ? mostly : kiriGrid_IsBefore(job->grid, cell, target->cell);
 }
 
-static void Consider(const Job* job, Target* target, int32_t cell)
+static void Consider(const PlacerJob* job, SiteTarget* target, int32_t cell)
 {
     double distance = SquaredDistance(kiriGrid_Middle(job->grid, job->mesh, cell), target->center);
     if (IsBetter(job, target, cell, distance)) {
@@ -314,17 +309,17 @@ static void Consider(const Job* job, Target* target, int32_t cell)
     }
 }
 
-static void SumCell(Job* job, int32_t cell)
+static void SumCell(PlacerJob* job, int32_t cell)
 {
-    Target* target = TargetOf(job, cell);
+    SiteTarget* target = TargetOf(job, cell);
     if (target != NULL) {
         AddMaterial(job, target, cell);
     }
 }
 
-static kiriProgress Sum(Job* job)
+static kiriProgress SumRegions(PlacerJob* job)
 {
-    kiriProgress progress = WalkFresh(job, SumCell);
+    kiriProgress progress = VisitFreshCells(job, SumCell);
     if (progress == KIRI_DONE) {
         for (int32_t k = 0; k < job->placer->sites.count - job->placer->oldCount; ++k) {
             FindCenter(job, &job->work->targets.data[k]);
@@ -334,17 +329,17 @@ static kiriProgress Sum(Job* job)
     return progress;
 }
 
-static void AimCell(Job* job, int32_t cell)
+static void AimCell(PlacerJob* job, int32_t cell)
 {
-    Target* target = TargetOf(job, cell);
+    SiteTarget* target = TargetOf(job, cell);
     if (target != NULL) {
         Consider(job, target, cell);
     }
 }
 
-/* The centroid itself where it lies in the square of the target cell: on the way a site may lie anywhere in its cell,
-   for from middle to middle it would stick where its centroid is less than half a side away. */
-static kiriSite SiteFor(const Job* job, const Target* target)
+/* The centroid itself where it lies in the square of the target cell. From middle to middle of cells a site would get
+   stuck where its centroid is less than half a side away. */
+static kiriSite SiteFor(const PlacerJob* job, const SiteTarget* target)
 {
     kiriVec2 off = kiriVec2_Sub(target->center, kiriGrid_Middle(job->grid, job->mesh, target->cell));
     double half = 0.5 * job->grid->side;
@@ -356,91 +351,92 @@ static kiriSite SiteFor(const Job* job, const Target* target)
 }
 
 /* All new sites go to their targets. Did one go farther than a hundredth of a side? */
-static bool Move(Job* job)
+static bool MoveToTargets(PlacerJob* job)
 {
     kiriPlacer* placer = job->placer;
     bool moved = false;
     for (int32_t i = placer->oldCount; i < placer->sites.count; ++i) {
-        job->work->holds.data[placer->sites.data[i].cell] = FREE;
+        job->work->holds.data[placer->sites.data[i].cell] = CELL_FREE;
     }
     for (int32_t i = placer->oldCount; i < placer->sites.count; ++i) {
         kiriSite site = SiteFor(job, &job->work->targets.data[i - placer->oldCount]);
         moved =
             moved || SquaredDistance(site.at, placer->sites.data[i].at) > 0.0001 * job->grid->side * job->grid->side;
         placer->sites.data[i] = site;
+        KIRI_ASSERT(job->work->holds.data[site.cell] < 0); /* two sites in a cell */
         job->work->holds.data[site.cell] = i;
     }
     return moved;
 }
 
-static kiriProgress Aim(Job* job)
+static kiriProgress AimAtCenters(PlacerJob* job)
 {
     kiriPlacer* placer = job->placer;
-    kiriProgress progress = WalkFresh(job, AimCell);
+    kiriProgress progress = VisitFreshCells(job, AimCell);
     if (progress != KIRI_DONE) {
         return progress;
     }
-    if (Move(job) && ++job->work->round < ROUNDS) {
+    if (MoveToTargets(job) && ++job->work->round < MOST_ROUNDS) {
         return StartRound(job);
     }
     for (int32_t i = placer->oldCount; i < placer->sites.count; ++i) {
         placer->sites.data[i] = kiriFrames_SiteIn(job->grid, job->mesh, placer->sites.data[i].cell);
     }
-    job->work->stage = REST;
+    job->work->stage = PLACER_RESTS;
     return KIRI_DONE;
 }
 
 /* ---- One site by itself */
 
-static void BalanceCell(Job* job, int32_t cell)
+static void SumPartCell(PlacerJob* job, int32_t cell)
 {
     AddMaterial(job, &job->work->targets.data[0], cell);
 }
 
-static kiriProgress Balance(Job* job)
+static kiriProgress SumPart(PlacerJob* job)
 {
-    kiriProgress progress = WalkPart(job, BalanceCell);
+    kiriProgress progress = VisitPartCells(job, SumPartCell);
     if (progress == KIRI_DONE) {
         FindCenter(job, &job->work->targets.data[0]);
-        job->work->stage = SETTLE;
+        job->work->stage = AIM_PART;
     }
     return progress;
 }
 
-static void SettleCell(Job* job, int32_t cell)
+static void AimPartCell(PlacerJob* job, int32_t cell)
 {
-    if (job->work->holds.data[cell] == FREE) {
+    if (job->work->holds.data[cell] == CELL_FREE) {
         Consider(job, &job->work->targets.data[0], cell);
     }
 }
 
-static kiriProgress Settle(Job* job)
+static kiriProgress AimPart(PlacerJob* job)
 {
-    kiriProgress progress = WalkPart(job, SettleCell);
+    kiriProgress progress = VisitPartCells(job, AimPartCell);
     if (progress == KIRI_DONE) {
         kiriSites* sites = &job->placer->sites;
         int32_t cell = job->work->targets.data[0].cell;
         if (cell != KIRI_NONE) {
             sites->data[sites->count++] = kiriFrames_SiteIn(job->grid, job->mesh, cell);
         }
-        job->work->stage = REST;
+        job->work->stage = PLACER_RESTS;
     }
     return progress;
 }
 
 /* ---- The job */
 
-static kiriProgress (*const stages[STAGES])(Job* job) = {
-    NULL, FloodOld, Scan, FloodNew, Lower, Divide, Sum, Aim, Balance, Settle,
+static kiriProgress (*const placerStages[PLACER_STAGES])(PlacerJob* job) = {
+    NULL, FloodOld, SampleFarthest, FloodNew, LowerDistances, FloodAllNew, SumRegions, AimAtCenters, SumPart, AimPart,
 };
 
 kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                             kiriQuota* quota)
 {
-    Job job = { placer, placer->work, memory, grid, mesh, quota };
+    PlacerJob job = { placer, placer->work, memory, grid, mesh, quota };
     kiriProgress progress = KIRI_DONE;
-    while (progress == KIRI_DONE && job.work != NULL && job.work->stage != REST) {
-        progress = stages[job.work->stage](&job);
+    while (progress == KIRI_DONE && job.work != NULL && job.work->stage != PLACER_RESTS) {
+        progress = placerStages[job.work->stage](&job);
     }
     return progress;
 }
@@ -454,7 +450,8 @@ static kiriPlacerWork* WorkOf(kiriPlacer* placer, kiriMemory* memory)
 }
 
 /* Room for the job, so that only seeds need memory while it runs. */
-static bool MakeRoom(kiriPlacer* placer, kiriPlacerWork* work, kiriMemory* memory, const kiriGrid* grid, int32_t count)
+static bool MakePlacerRoom(kiriPlacer* placer, kiriPlacerWork* work, kiriMemory* memory, const kiriGrid* grid,
+                           int32_t count)
 {
     int32_t cells = grid->cells.count;
     return kiriField_Resize(&work->flooded, memory, cells) && kiriField_Resize(&work->fresh, memory, cells) &&
@@ -463,30 +460,32 @@ static bool MakeRoom(kiriPlacer* placer, kiriPlacerWork* work, kiriMemory* memor
            kiriArray_Reserve(memory, &placer->sites, (int64_t)placer->sites.count + count);
 }
 
-/* Of `sampled` and `holds` only the cells of the part are ever read: floods do not leave it. */
+/* Only cells of the part are ever read from `sampled` and `holds`: floods do not leave it. */
 static void ClearPart(const kiriPlacer* placer, const uint8_t* allowed)
 {
     kiriPlacerWork* work = placer->work;
     for (int32_t k = 0; k < placer->cells.count; ++k) {
         int32_t cell = placer->cells.data[k];
         work->sampled.data[cell] = KIRI_FAR;
-        work->holds.data[cell] = allowed == NULL || allowed[cell] ? FREE : BARRED;
+        work->holds.data[cell] = allowed == NULL || allowed[cell] ? CELL_FREE : CELL_BARRED;
     }
     for (int32_t i = 0; i < placer->sites.count; ++i) {
-        work->holds.data[placer->sites.data[i].cell] = i;
+        int32_t* holds = &work->holds.data[placer->sites.data[i].cell];
+        KIRI_ASSERT(*holds < 0); /* two sites in a cell */
+        *holds = i;
     }
 }
 
-static Stage FirstStage(const kiriPlacer* placer)
+static PlacerStage FirstStage(const kiriPlacer* placer)
 {
     const kiriPlacerWork* work = placer->work;
     if (work->left == 0) {
-        return REST;
+        return PLACER_RESTS;
     }
     if (work->left == 1 && placer->oldCount == 0) {
-        return BALANCE;
+        return SUM_PART;
     }
-    return work->old == &work->flooded ? FLOOD_OLD : SCAN;
+    return work->old == &work->flooded ? FLOOD_OLD : SAMPLE;
 }
 
 bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
@@ -494,19 +493,20 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
 {
     kiriPlacerWork* work = WorkOf(placer, memory);
     const kiriField* known = placer->known;
+    KIRI_ASSERT(count >= 0);
     count = count < placer->cells.count ? count : placer->cells.count;
     placer->oldCount = placer->sites.count;
     placer->known = NULL;
     if (work == NULL) {
         return false;
     }
-    work->stage = REST;
-    if (!MakeRoom(placer, work, memory, grid, count)) {
+    work->stage = PLACER_RESTS;
+    if (!MakePlacerRoom(placer, work, memory, grid, count)) {
         return false;
     }
     ClearPart(placer, allowed);
-    Job job = { placer, work, memory, grid, mesh, NULL };
-    if (!StartFlood(&job, &work->flooded, 0, known == NULL ? placer->oldCount : 0)) {
+    PlacerJob job = { placer, work, memory, grid, mesh, NULL };
+    if (!StartSiteFlood(&job, &work->flooded, 0, known == NULL ? placer->oldCount : 0)) {
         return false;
     }
     work->old = known == NULL ? &work->flooded : known;
@@ -518,7 +518,7 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     return true;
 }
 
-static bool Reach(kiriPlacer* placer, kiriMemory* memory, int32_t cell)
+static bool TakeCell(kiriPlacer* placer, kiriMemory* memory, int32_t cell)
 {
     uint8_t* mark = &placer->work->marks.data[cell];
     if (*mark) {
@@ -533,21 +533,21 @@ static bool Reach(kiriPlacer* placer, kiriMemory* memory, int32_t cell)
 }
 
 /* Breadth first over straight steps: there is one for every two cells that share a face. */
-static bool Gather(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
+static bool GatherPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
-    bool ok = Reach(placer, memory, cell);
+    bool ok = TakeCell(placer, memory, cell);
     for (int32_t k = 0; ok && k < placer->cells.count; ++k) {
         const kiriStepRun* run = &grid->runs.data[placer->cells.data[k]];
         for (int32_t s = run->first; ok && s < run->end[0]; ++s) {
-            ok = Reach(placer, memory, grid->steps.data[s].cell);
+            ok = TakeCell(placer, memory, grid->steps.data[s].cell);
         }
     }
     return ok;
 }
 
-/* Brings the cells, which are marked, into their order. Where they fill a good part of the rows from the first to the
-   last of them, it is cheaper to look into all squares there than to sort. */
-static void Order(kiriPlacer* placer, const kiriGrid* grid)
+/* Brings the cells, which are marked, into their order. Where they fill a good part of the squares from the first to
+   the last, it is cheaper to look into all squares there than to sort. */
+static void OrderPiece(kiriPlacer* placer, const kiriGrid* grid)
 {
     int32_t count = placer->cells.count, first = INT32_MAX, last = 0;
     for (int32_t k = 0; k < count; ++k) {
@@ -578,10 +578,11 @@ bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid
     while (work->marks.count < grid->cells.count) {
         work->marks.data[work->marks.count++] = 0;
     }
+    KIRI_ASSERT(kiriGrid_IsCell(grid, cell));
     placer->cells.count = 0;
-    bool ok = Gather(placer, memory, grid, cell);
+    bool ok = GatherPiece(placer, memory, grid, cell);
     if (ok) {
-        Order(placer, grid);
+        OrderPiece(placer, grid);
     }
     for (int32_t k = 0; k < placer->cells.count; ++k) {
         work->marks.data[placer->cells.data[k]] = 0;

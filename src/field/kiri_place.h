@@ -4,6 +4,10 @@
 
 #include "kiri_region.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct kiriPlacerWork kiriPlacerWork; /* private to kiri_place.c */
 
 /* Puts sites evenly into a part of the sheet: farthest-point sampling, then Lloyd relaxation of the new ones only. A
@@ -22,18 +26,22 @@ typedef struct kiriPlacer {
    memory. */
 bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell);
 
-/* For the part in placer->cells and the sites in placer->sites, which lie in it: `count` more. Sampling takes only
-   cells that `allowed` marks (one byte a cell of the grid; null: all); it is read now and not kept. Fewer when there
-   are fewer free cells. One site in a part without sites goes to the cell nearest to its centroid, without
-   relaxation: confetti comes in thousands. False for memory. */
+/* For the part in placer->cells and the sites in placer->sites, which lie in it, each in a cell of its own: `count`
+   more, or one in each free cell where there are fewer. Sampling takes only cells that `allowed` marks (one byte a cell
+   of the grid; null: all); it is read now and not kept. One site in a part without sites goes to the cell nearest to
+   the centroid, without relaxation: confetti comes in thousands. False for memory. */
 bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const uint8_t* allowed, int32_t count);
 
-/* An item of the quota is a cell looked at or settled. After KIRI_FAILED, start again. */
+/* An item of the quota is a cell visited or settled. After KIRI_FAILED, start again. */
 kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                             kiriQuota* quota);
 
 /* The site that a frame takes in a cell. */
 kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

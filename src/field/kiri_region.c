@@ -70,7 +70,7 @@ kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* gr
 
 /* ---- An update --------------------------------------------------------------------------------------------------- */
 
-typedef struct Update {
+typedef struct RegionUpdate {
     kiriRegions* regions;
     kiriMemory* memory;
     const kiriGrid* grid;
@@ -80,13 +80,13 @@ typedef struct Update {
     const kiriSiteMove* moves;
     int32_t moveCount;
     double extent; /* of the tallies */
-} Update;
+} RegionUpdate;
 
-/* The seed of a cell. One that holds a site takes none but that site's. So no region is ever empty: a site is within
+/* The nearest seed of a cell. One that holds a site takes only that site's. So no region is ever empty: a site is within
    half a diagonal of its cell's middle, and every way into that cell is at least a side long. */
-static kiriSeed SeedOf(const void* context, int32_t cell)
+static kiriSeed NearestSiteSeed(const void* context, int32_t cell)
 {
-    const Update* u = context;
+    const RegionUpdate* u = context;
     const int32_t* siteAt = u->regions->siteAt.data;
     kiriSeed best = { cell, KIRI_FAR, KIRI_NONE };
     if (siteAt[cell] != KIRI_NONE) {
@@ -104,15 +104,15 @@ static kiriSeed SeedOf(const void* context, int32_t cell)
     return best;
 }
 
-static void Touch(kiriRegions* regions, int32_t frame)
+static void MarkRegionDirty(kiriRegions* regions, int32_t frame)
 {
     if (frame != KIRI_NONE) {
         regions->dirty.data[frame] = 1;
     }
 }
 
-/* Material comes to a region (sign 1), or leaves it. */
-static void Account(const Update* u, int32_t frame, const kiriMoments* material, int sign)
+/* Adds material to a region (sign 1), or takes it away (sign -1). */
+static void AddToRegion(const RegionUpdate* u, int32_t frame, const kiriMoments* material, int sign)
 {
     if (frame != KIRI_NONE) {
         kiriTally_Add(&u->regions->material.data[frame], material, sign, u->extent);
@@ -120,25 +120,26 @@ static void Account(const Update* u, int32_t frame, const kiriMoments* material,
     }
 }
 
-static const kiriMoments* MaterialOf(const Update* u, int32_t cell)
+static const kiriMoments* MaterialOf(const RegionUpdate* u, int32_t cell)
 {
     return &u->grid->cells.data[cell].material;
 }
 
 /* Room for all cells and frames. */
-static bool MakeRoom(const Update* u)
+static bool MakeRegionRoom(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     int32_t cell = r->siteAt.count, frame = r->material.count, cellCount = u->grid->cells.count;
     if (!kiriField_Resize(&r->field, u->memory, cellCount) || !kiriArray_Resize(u->memory, &r->siteAt, cellCount) ||
-        !kiriArray_Resize(u->memory, &r->onBorder, cellCount) || !kiriArray_Resize(u->memory, &r->listed, cellCount) ||
+        !kiriArray_Resize(u->memory, &r->onBorder, cellCount) ||
+        !kiriArray_Resize(u->memory, &r->isChanged, cellCount) ||
         !kiriArray_Resize(u->memory, &r->material, u->siteCount) ||
         !kiriArray_Resize(u->memory, &r->dirty, u->siteCount)) {
         return false;
     }
     for (; cell < cellCount; ++cell) {
         r->siteAt.data[cell] = KIRI_NONE;
-        r->onBorder.data[cell] = r->listed.data[cell] = 0;
+        r->onBorder.data[cell] = r->isChanged.data[cell] = 0;
     }
     for (; frame < u->siteCount; ++frame) {
         r->material.data[frame] = (kiriTally){ { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 } };
@@ -149,18 +150,18 @@ static bool MakeRoom(const Update* u)
 
 /* ---- What has changed ------------------------------------------------------------------------------------------ */
 
-static void SuspectAround(const Update* u, int32_t cell)
+static void MarkDirtyAround(const RegionUpdate* u, int32_t cell)
 {
     const kiriStepRun* run = &u->grid->runs.data[cell];
     if (kiriGrid_IsCell(u->grid, cell)) {
-        kiriField_Suspect(&u->regions->field, cell);
+        kiriField_MarkDirty(&u->regions->field, cell);
         for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-            kiriField_Suspect(&u->regions->field, u->grid->steps.data[s].cell);
+            kiriField_MarkDirty(&u->regions->field, u->grid->steps.data[s].cell);
         }
     }
 }
 
-static void MoveSites(const Update* u)
+static void MoveSites(const RegionUpdate* u)
 {
     int32_t* siteAt = u->regions->siteAt.data;
     for (int32_t k = 0; k < u->moveCount; ++k) {
@@ -171,57 +172,53 @@ static void MoveSites(const Update* u)
     }
     for (int32_t k = 0; k < u->moveCount; ++k) {
         int32_t frame = u->moves[k].frame;
+        KIRI_ASSERT(frame >= 0 && frame < u->siteCount && kiriGrid_IsCell(u->grid, u->sites[frame].cell));
+        KIRI_ASSERT(siteAt[u->sites[frame].cell] == KIRI_NONE || siteAt[u->sites[frame].cell] == frame);
         siteAt[u->sites[frame].cell] = frame;
-        Touch(u->regions, frame);
+        MarkRegionDirty(u->regions, frame);
     }
 }
 
 /* What the grid has changed since the last update. */
-static void FollowGrid(const Update* u)
+static void FollowGrid(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     const kiriGridChanges* changes = &u->grid->changes;
     for (int32_t k = r->seen.gone; k < changes->gone.count; ++k) {
         int32_t cell = changes->gone.data[k];
-        Account(u, r->field.owner.data[cell], MaterialOf(u, cell), -1);
+        AddToRegion(u, r->field.owner.data[cell], MaterialOf(u, cell), -1);
         kiriField_Forget(&r->field, cell);
         r->siteAt.data[cell] = KIRI_NONE;
         r->onBorder.data[cell] = 0;
     }
-    for (int32_t k = r->seen.remade; k < changes->remade.count; ++k) {
-        const kiriRemade* remade = &changes->remade.data[k];
-        int32_t owner = r->field.owner.data[remade->cell];
-        Account(u, owner, &remade->was, -1);
-        Account(u, owner, MaterialOf(u, remade->cell), 1);
+    for (int32_t k = r->seen.material; k < changes->material.count; ++k) {
+        const kiriMaterialChange* change = &changes->material.data[k];
+        int32_t owner = r->field.owner.data[change->cell];
+        AddToRegion(u, owner, &change->was, -1);
+        AddToRegion(u, owner, MaterialOf(u, change->cell), 1);
     }
-    for (int32_t k = r->seen.restepped; k < changes->restepped.count; ++k) {
-        int32_t cell = changes->restepped.data[k];
-        if (kiriGrid_IsCell(u->grid, cell)) {
-            Touch(r, r->field.owner.data[cell]);
-            kiriField_Suspect(&r->field, cell);
-        }
-    }
-    for (int32_t k = r->seen.made; k < changes->made.count; ++k) {
-        if (kiriGrid_IsCell(u->grid, changes->made.data[k])) {
-            kiriField_Suspect(&r->field, changes->made.data[k]);
-        }
+    for (int32_t k = r->seen.steps; k < changes->steps.count; ++k) {
+        int32_t cell = changes->steps.data[k];
+        KIRI_ASSERT(kiriGrid_IsCell(u->grid, cell));
+        MarkRegionDirty(r, r->field.owner.data[cell]);
+        kiriField_MarkDirty(&r->field, cell);
     }
 }
 
-static void Suspect(const Update* u)
+static void MarkDirtyCells(const RegionUpdate* u)
 {
     FollowGrid(u);
     MoveSites(u);
     for (int32_t k = 0; k < u->moveCount; ++k) {
         if (u->moves[k].was != KIRI_NONE) {
-            SuspectAround(u, u->moves[k].was);
+            MarkDirtyAround(u, u->moves[k].was);
         }
-        SuspectAround(u, u->sites[u->moves[k].frame].cell);
+        MarkDirtyAround(u, u->sites[u->moves[k].frame].cell);
     }
 }
 
-/* From scratch: the seeds of all sites, less those in the own cell of another (see SeedOf). */
-static bool StartFlood(const Update* u)
+/* From scratch: the seeds of all sites, without those in the cell of another site (see NearestSiteSeed). */
+static bool StartRegionFlood(const RegionUpdate* u)
 {
     kiriSeeds seeds = { 0 };
     bool ok = true;
@@ -243,7 +240,7 @@ static bool StartFlood(const Update* u)
 
 /* ---- What follows from it ---------------------------------------------------------------------------------------- */
 
-static void FindBorder(const Update* u, int32_t cell)
+static void FindBorder(const RegionUpdate* u, int32_t cell)
 {
     const kiriStepRun* run = &u->grid->runs.data[cell];
     const int32_t* owner = u->regions->field.owner.data;
@@ -254,8 +251,8 @@ static void FindBorder(const Update* u, int32_t cell)
     u->regions->onBorder.data[cell] = border;
 }
 
-/* The cell has another owner. Where a neighbour has changed too, its own turn comes. */
-static void FindBordersAround(const Update* u, int32_t cell)
+/* The cell has another owner, so its neighbours may be on a border, or no more. */
+static void FindBordersAround(const RegionUpdate* u, int32_t cell)
 {
     const kiriStepRun* run = &u->grid->runs.data[cell];
     const int32_t* owner = u->regions->field.owner.data;
@@ -272,17 +269,17 @@ static void FindBordersAround(const Update* u, int32_t cell)
 }
 
 /* Each cell is among the changes once, as it was before the first. */
-static bool ListChange(const Update* u, kiriSeed was)
+static bool AddRegionChange(const RegionUpdate* u, kiriSeed was)
 {
-    if (u->regions->listed.data[was.cell]) {
+    if (u->regions->isChanged.data[was.cell]) {
         return true;
     }
-    u->regions->listed.data[was.cell] = 1;
+    u->regions->isChanged.data[was.cell] = 1;
     return kiriArray_Push(u->memory, &u->regions->changes, was);
 }
 
-/* An update may undo what one before did. */
-static void DropUnchanged(const Update* u)
+/* An update may undo what an earlier one did. */
+static void DropUnchanged(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     int32_t kept = 0;
@@ -290,7 +287,7 @@ static void DropUnchanged(const Update* u)
         kiriSeed was = r->changes.data[k];
         bool same = was.distance == r->field.distance.data[was.cell] && was.owner == r->field.owner.data[was.cell];
         if (same || !kiriGrid_IsCell(u->grid, was.cell)) {
-            r->listed.data[was.cell] = 0;
+            r->isChanged.data[was.cell] = 0;
         } else {
             r->changes.data[kept++] = was;
         }
@@ -298,24 +295,26 @@ static void DropUnchanged(const Update* u)
     r->changes.count = kept;
 }
 
-/* A cell is what the log says no more. */
-static bool FollowChange(const Update* u, kiriSeed was)
+/* What follows for region, border and changes where a cell was other than it is. */
+static bool FollowChange(const RegionUpdate* u, kiriSeed was)
 {
     kiriRegions* r = u->regions;
     int32_t owner = r->field.owner.data[was.cell];
+    KIRI_ASSERT(owner >= KIRI_NONE && owner < u->siteCount &&
+                (owner == KIRI_NONE || kiriGrid_IsCell(u->grid, was.cell)));
     if (was.distance == r->field.distance.data[was.cell] && was.owner == owner) {
         return true;
     }
-    Touch(r, owner);
+    MarkRegionDirty(r, owner);
     if (was.owner != owner) {
-        Account(u, was.owner, MaterialOf(u, was.cell), -1);
-        Account(u, owner, MaterialOf(u, was.cell), 1);
+        AddToRegion(u, was.owner, MaterialOf(u, was.cell), -1);
+        AddToRegion(u, owner, MaterialOf(u, was.cell), 1);
         FindBordersAround(u, was.cell);
     }
-    return ListChange(u, was) && (owner != KIRI_NONE || kiriArray_Push(u->memory, &r->orphans, was.cell));
+    return AddRegionChange(u, was) && (owner != KIRI_NONE || kiriArray_Push(u->memory, &r->orphans, was.cell));
 }
 
-static void DropOrphans(const Update* u)
+static void DropOrphans(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     int32_t kept = 0;
@@ -328,7 +327,7 @@ static void DropOrphans(const Update* u)
     r->orphans.count = kept;
 }
 
-static bool FinishRepair(const Update* u)
+static bool FinishRepair(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     const kiriGridChanges* changes = &u->grid->changes;
@@ -337,14 +336,12 @@ static bool FinishRepair(const Update* u)
     for (int32_t k = 0; ok && k < r->field.log.count; ++k) {
         ok = FollowChange(u, r->field.log.data[k]);
     }
-    for (int32_t k = r->seen.restepped; k < changes->restepped.count; ++k) {
-        if (kiriGrid_IsCell(u->grid, changes->restepped.data[k])) {
-            FindBorder(u, changes->restepped.data[k]);
-        }
+    for (int32_t k = r->seen.steps; k < changes->steps.count; ++k) {
+        FindBorder(u, changes->steps.data[k]);
     }
     for (int32_t k = r->seen.made; ok && k < changes->made.count; ++k) {
         int32_t cell = changes->made.data[k];
-        if (kiriGrid_IsCell(u->grid, cell) && r->field.owner.data[cell] == KIRI_NONE) {
+        if (r->field.owner.data[cell] == KIRI_NONE) {
             ok = kiriArray_Push(u->memory, &r->orphans, cell);
         }
     }
@@ -357,7 +354,7 @@ static bool FinishRepair(const Update* u)
 }
 
 /* All cells, in their order. */
-static bool FinishFlood(const Update* u)
+static bool FinishFlood(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     r->orphans.count = 0;
@@ -365,9 +362,10 @@ static bool FinishFlood(const Update* u)
         for (int32_t c = u->grid->squareCell.data[s]; c != KIRI_NONE; c = u->grid->cells.data[c].next) {
             kiriSeed was = { c, KIRI_FAR, KIRI_NONE };
             int32_t owner = r->field.owner.data[c];
-            Account(u, owner, MaterialOf(u, c), 1);
+            KIRI_ASSERT(owner >= KIRI_NONE && owner < u->siteCount);
+            AddToRegion(u, owner, MaterialOf(u, c), 1);
             FindBorder(u, c);
-            if (owner == KIRI_NONE ? !kiriArray_Push(u->memory, &r->orphans, c) : !ListChange(u, was)) {
+            if (owner == KIRI_NONE ? !kiriArray_Push(u->memory, &r->orphans, c) : !AddRegionChange(u, was)) {
                 return false;
             }
         }
@@ -376,22 +374,22 @@ static bool FinishFlood(const Update* u)
     return true;
 }
 
-static void MarkSeen(const Update* u)
+static void MarkSeen(const RegionUpdate* u)
 {
     const kiriGridChanges* changes = &u->grid->changes;
     u->regions->seen =
-        (kiriSeenChanges){ changes->made.count, changes->gone.count, changes->restepped.count, changes->remade.count };
+        (kiriSeenChanges){ changes->made.count, changes->gone.count, changes->steps.count, changes->material.count };
 }
 
-static bool Begin(const Update* u)
+static bool BeginRegions(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     r->flooding = r->material.count == 0; /* no frames yet, so nothing of the field to keep */
-    if (!MakeRoom(u) || (r->flooding && !StartFlood(u))) {
+    if (!MakeRegionRoom(u) || (r->flooding && !StartRegionFlood(u))) {
         return false;
     }
     if (!r->flooding) {
-        Suspect(u);
+        MarkDirtyCells(u);
     }
     return true;
 }
@@ -400,11 +398,12 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
                                 const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
                                 const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota)
 {
-    Update u = { regions, memory, grid, mesh, sites, siteCount, moves, moveCount, mesh->step * 536870912.0 };
-    if (!regions->running && !Begin(&u)) {
+    RegionUpdate u = { regions, memory, grid, mesh, sites, siteCount, moves, moveCount, mesh->step * 536870912.0 };
+    KIRI_ASSERT(siteCount >= regions->material.count && grid->cells.count >= regions->siteAt.count);
+    if (!regions->running && !BeginRegions(&u)) {
         return KIRI_FAILED;
     }
-    kiriRule rule = { grid, KIRI_FAR, NULL, SeedOf, &u };
+    kiriRule rule = { grid, KIRI_FAR, NULL, NearestSiteSeed, &u };
     kiriProgress progress = regions->flooding ? kiriField_Flood(&regions->field, &rule, quota)
                                               : kiriField_Repair(&regions->field, memory, &rule, quota);
     regions->running = progress == KIRI_MORE;
@@ -421,7 +420,7 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
 void kiriRegions_ClearChanges(kiriRegions* regions)
 {
     for (int32_t k = 0; k < regions->changes.count; ++k) {
-        regions->listed.data[regions->changes.data[k].cell] = 0;
+        regions->isChanged.data[regions->changes.data[k].cell] = 0;
     }
     regions->changes.count = 0;
     regions->seen = (kiriSeenChanges){ 0, 0, 0, 0 };
@@ -430,7 +429,7 @@ void kiriRegions_ClearChanges(kiriRegions* regions)
 void kiriRegions_Reset(kiriRegions* regions)
 {
     kiriField_Clear(&regions->field);
-    regions->siteAt.count = regions->onBorder.count = regions->listed.count = 0;
+    regions->siteAt.count = regions->onBorder.count = regions->isChanged.count = 0;
     regions->material.count = regions->dirty.count = 0;
     regions->changes.count = regions->orphans.count = 0;
     regions->seen = (kiriSeenChanges){ 0, 0, 0, 0 };

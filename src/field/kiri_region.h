@@ -5,6 +5,10 @@
 #include "kiri_geodesic.h"
 #include "../core/kiri_tally.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* A frame's place in the rest plane. */
 typedef struct kiriSite {
     kiriVec2 at;  /* local m */
@@ -19,13 +23,13 @@ typedef KIRI_ARRAY(kiriSeed) kiriSeeds;
 bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, const kiriGrid* grid,
                    const kiriMeshData* mesh, kiriSeeds* seeds);
 
-/* The same seed seen from a cell: distance KIRI_FAR where the site sends none there. */
+/* The seed of the site in one cell: distance KIRI_FAR where it sends none there. */
 kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, const kiriMeshData* mesh,
                          int32_t cell);
 
-/* How far the lists of the grid's changes were followed. */
+/* How much of each list of the grid's changes an update has followed already. */
 typedef struct kiriSeenChanges {
-    int32_t made, gone, restepped, remade;
+    int32_t made, gone, steps, material;
 } kiriSeenChanges;
 
 typedef struct kiriRegions {
@@ -42,24 +46,25 @@ typedef struct kiriRegions {
     /* Since kiriRegions_ClearChanges: cells that live whose owner or distance changed, and what they were. */
     KIRI_ARRAY(kiriSeed) changes;
     KIRI_ARRAY(int32_t) orphans; /* all cells with no frame in their piece, in the order of cells */
-    bool running;                /* an update waits for more quota */
+    bool running;                /* an update is at hand: it waits for more quota */
 
     /* Private. */
-    bool flooding;              /* the update is one from scratch */
-    KIRI_ARRAY(uint8_t) listed; /* of each cell: it is in `changes` */
+    bool flooding;                 /* the update is one from scratch */
+    KIRI_ARRAY(uint8_t) isChanged; /* of each cell: it is in `changes` */
     kiriSeenChanges seen;
 } kiriRegions;
 
-/* A site that is new or elsewhere: also where it has only moved within its cell, or that cell has another index. */
+/* A site that is new or has moved, be it only within its cell, or whose cell has another index. */
 typedef struct kiriSiteMove {
     int32_t frame;
     int32_t was; /* the cell that held it, which may be gone; KIRI_NONE for a new one */
 } kiriSiteMove;
 
-/* Follows the grid's changes and those of the sites. Sites are in cells that live, and are never taken away. An item
-   of the quota: see kiriField_Repair. From scratch: a zeroed or reset kiriRegions, and all sites in `moves`.
-   KIRI_MORE: call again with the same arguments. On KIRI_FAILED, Reset. There may be several updates, of more sites,
-   before grid and regions are settled, which is together, and before the grid is updated again. */
+/* Follows the grid's changes and those of the sites. Sites are in cells that live, no two in one, and are never taken
+   away. An item of the quota: see kiriField_Repair. From scratch: a zeroed or reset kiriRegions, and all sites in
+   `moves`. KIRI_MORE: call again with the same arguments. KIRI_FAILED: only kiriRegions_Reset helps. Several updates,
+   each with more sites, may come before the changes of grid and regions are cleared, which is together, and before the
+   grid is updated again. */
 kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const kiriGrid* grid,
                                 const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
                                 const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
@@ -67,5 +72,9 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
 /* All who follow the regions have seen `changes`; `dirty` stays until the sheet's commit clears it. */
 void kiriRegions_ClearChanges(kiriRegions* regions);
 void kiriRegions_Reset(kiriRegions* regions);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

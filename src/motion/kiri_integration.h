@@ -4,7 +4,7 @@
 
 #include "kiri_patch.h"
 #include "../field/kiri_place.h"
-#include "../field/kiri_shape.h"
+#include "../field/kiri_stencil.h"
 
 /* What building works in, kept so that building again finds its room there. A zeroed one is empty. */
 typedef struct kiriIntegrationWork {

@@ -57,12 +57,12 @@ static int32_t SquareOfSite(const kiriSheetData* sheet, int32_t cell)
 static bool FlagSquares(kiriSheetData* sheet, uint8_t flag)
 {
     const kiriGridChanges* changes = &sheet->grid.changes;
-    int32_t gone = changes->gone.count, restepped = gone + changes->restepped.count;
+    int32_t gone = changes->gone.count, steps = gone + changes->steps.count;
     bool any = false;
-    for (int32_t i = 0; i < restepped + changes->remade.count; ++i) {
-        int32_t square = SquareOfSite(sheet, i < gone        ? changes->gone.data[i]
-                                             : i < restepped ? changes->restepped.data[i - gone]
-                                                             : changes->remade.data[i - restepped].cell);
+    for (int32_t i = 0; i < steps + changes->material.count; ++i) {
+        int32_t square = SquareOfSite(sheet, i < gone    ? changes->gone.data[i]
+                                             : i < steps ? changes->steps.data[i - gone]
+                                                         : changes->material.data[i - steps].cell);
         if (square != KIRI_NONE) {
             sheet->update->placing.flags.data[square] = flag;
             any = true;

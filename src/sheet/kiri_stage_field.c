@@ -23,7 +23,7 @@ kiriProgress kiriStage_Grid(kiriSheetData* sheet, kiriQuota* cells)
             return KIRI_FAILED;
         }
         kiriSquares_ClearDirty(&sheet->mesh.squares);
-        u->counts.cells = changes->made.count + changes->remade.count;
+        u->counts.cells = changes->made.count + changes->material.count;
     }
     return progress;
 }

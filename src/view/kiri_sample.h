@@ -2,7 +2,7 @@
 #ifndef KIRI_SAMPLE_H
 #define KIRI_SAMPLE_H
 
-#include "../field/kiri_shape.h"
+#include "../field/kiri_stencil.h"
 #include "../motion/kiri_frame.h"
 
 #ifdef __cplusplus

@@ -1,0 +1,420 @@
+#include "kiri_grid_work.h"
+
+#include <string.h>
+
+/* SetMaterial compares bytes. */
+typedef char MomentsHaveNoPadding[sizeof(kiriMoments) == 6 * sizeof(double) ? 1 : -1];
+
+/* ---- Whole squares ----------------------------------------------------------------------------------------------- */
+
+/* Does the outline or an open edge of the triangle run through the square? */
+static bool RunsThroughSquare(const kiriMeshData* mesh, const kiriTriangle* t, int32_t square)
+{
+    for (int i = 0; i < 3; ++i) {
+        if ((t->twin[i] == KIRI_NONE || (t->open >> i & 1) != 0) &&
+            kiriSquares_RunsThrough(&mesh->squares, square, mesh->vertices.data[t->vertex[i]].at,
+                                    mesh->vertices.data[t->vertex[(i + 1) % 3]].at)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* A square is whole where there is material and neither the outline nor an open edge runs through it. Then it is wholly
+   covered, its triangles all hang together in it, and it has one cell: no need to join or to clip. Most squares are. */
+static bool IsWhole(const kiriMeshData* mesh, int32_t square)
+{
+    const kiriSquareNode* nodes = mesh->squares.nodes.data;
+    int32_t first = mesh->squares.head[square];
+    for (int32_t n = first; n != KIRI_NONE; n = nodes[n].next) {
+        const kiriTriangle* t = &mesh->triangles.data[nodes[n].triangle];
+        bool isInner = t->open == 0 && (t->twin[0] | t->twin[1] | t->twin[2]) >= 0; /* KIRI_NONE has the sign bit */
+        if (!isInner && RunsThroughSquare(mesh, t, square)) {
+            return false;
+        }
+    }
+    return first != KIRI_NONE;
+}
+
+/* ---- Triangles of a square --------------------------------------------------------------------------------------- */
+
+/* By triangle (Shell 1959): the order of a square's list does not matter. */
+static void SortNodes(const kiriSquareNode* nodes, int32_t* node, int32_t count)
+{
+    int32_t gap = 1;
+    while (gap < count / 3) {
+        gap = 3 * gap + 1;
+    }
+    for (; gap > 0; gap /= 3) {
+        for (int32_t i = gap; i < count; ++i) {
+            int32_t moving = node[i], j = i;
+            for (; j >= gap && nodes[node[j - gap]].triangle > nodes[moving].triangle; j -= gap) {
+                node[j] = node[j - gap];
+            }
+            node[j] = moving;
+        }
+    }
+}
+
+bool kiriGridWork_Collect(kiriGridWork* work, const kiriMeshData* mesh, int32_t square)
+{
+    const kiriSquares* squares = &mesh->squares;
+    if (kiriGridWork_IsFlagged(work, square, KIRI_SQUARE_COLLECTED)) {
+        return true;
+    }
+    int32_t first = work->node.count;
+    for (int32_t n = squares->head[square]; n != KIRI_NONE; n = squares->nodes.data[n].next) {
+        if (!kiriArray_Push(mesh->memory, &work->parent, work->node.count) ||
+            !kiriArray_Push(mesh->memory, &work->node, n)) {
+            return false;
+        }
+    }
+    SortNodes(squares->nodes.data, work->node.data + first, work->node.count - first);
+    kiriNodeRange range = { first, work->node.count };
+    work->ranges.data[square] = range;
+    return kiriGridWork_Flag(work, mesh->memory, square, KIRI_SQUARE_COLLECTED);
+}
+
+/* The entry of a triangle among sorted ones, or KIRI_NONE. */
+static int32_t FindTriangleEntry(const kiriGridWork* work, const kiriMeshData* mesh, int32_t from, int32_t end,
+                                 int32_t triangle)
+{
+    int32_t last = end;
+    while (from < last) {
+        int32_t middle = from + (last - from) / 2;
+        if (kiriGridWork_TriangleAt(work, mesh, middle) < triangle) {
+            from = middle + 1;
+        } else {
+            last = middle;
+        }
+    }
+    return from < end && kiriGridWork_TriangleAt(work, mesh, from) == triangle ? from : KIRI_NONE;
+}
+
+/* Union-find; the lowest index stands for all. */
+static int32_t FindTriangleRoot(int32_t* parent, int32_t i)
+{
+    while (parent[i] != i) {
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    return i;
+}
+
+static void JoinRoots(int32_t* parent, int32_t i, int32_t j)
+{
+    i = FindTriangleRoot(parent, i);
+    j = FindTriangleRoot(parent, j);
+    if (i < j) {
+        parent[j] = i;
+    } else {
+        parent[i] = j;
+    }
+}
+
+/* Joins the triangles of a square over the closed edges that run through it (algorithm 3). */
+static void JoinTriangles(kiriGridWork* work, const kiriMeshData* mesh, int32_t square)
+{
+    kiriNodeRange range = work->ranges.data[square];
+    for (int32_t i = range.first; i < range.end; ++i) {
+        int32_t triangle = kiriGridWork_TriangleAt(work, mesh, i);
+        for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
+            int32_t twin = kiriMesh_Twin(mesh, h);
+            if (twin < h || kiriMesh_IsOpen(mesh, h)) {
+                continue;
+            }
+            int32_t j = FindTriangleEntry(work, mesh, i + 1, range.end, twin / 3);
+            if (j != KIRI_NONE &&
+                kiriSquares_RunsThrough(&mesh->squares, square, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
+                                        mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at)) {
+                JoinRoots(work->parent.data, i, j);
+            }
+        }
+    }
+}
+
+/* ---- Material ---------------------------------------------------------------------------------------------------- */
+
+/* Room for what clipping may make of a triangle even where rounding spoils its convexity: at most twice as many corners
+   a time, and 3, 4, 6, 9, 13 when counted closely. */
+enum { MOST_CORNERS = 13 };
+typedef struct ClippedPolygon {
+    kiriVec2 at[MOST_CORNERS];
+    int32_t count;
+} ClippedPolygon;
+
+/* How far beyond the square's lower (or upper) side along an axis. */
+static double DepthInside(kiriVec2 p, int axis, bool upper, double side)
+{
+    double x = axis == 0 ? p.x : p.y;
+    return upper ? side - x : x;
+}
+
+/* Cuts off what is outside one side of the square (Sutherland and Hodgman 1974). An edge is followed from its inner end
+   whichever way the triangle runs, so neighbours at this edge get the very same point. */
+static void ClipAtSide(ClippedPolygon* polygon, int axis, bool upper, double side)
+{
+    double depth[MOST_CORNERS], least = side;
+    for (int32_t i = 0; i < polygon->count; ++i) {
+        depth[i] = DepthInside(polygon->at[i], axis, upper, side);
+        least = depth[i] < least ? depth[i] : least;
+    }
+    if (least > 0.0) {
+        return;
+    }
+    ClippedPolygon was = *polygon;
+    polygon->count = 0;
+    for (int32_t i = 0; i < was.count; ++i) {
+        int32_t j = i + 1 < was.count ? i + 1 : 0;
+        if (depth[i] > 0.0) {
+            polygon->at[polygon->count++] = was.at[i];
+        }
+        if ((depth[i] > 0.0) != (depth[j] > 0.0)) {
+            int32_t in = depth[i] > 0.0 ? i : j, out = i + j - in;
+            kiriVec2 way = kiriVec2_Sub(was.at[out], was.at[in]);
+            kiriVec2 at = kiriVec2_Add(was.at[in], kiriVec2_Scale(depth[in] / (depth[in] - depth[out]), way));
+            *(axis == 0 ? &at.x : &at.y) = upper ? side : 0.0;
+            polygon->at[polygon->count++] = at;
+        }
+    }
+}
+
+/* Most triangles reach over few sides of a square, if any: whole numbers tell faster. */
+static void ClipToSquare(ClippedPolygon* part, const kiriLatticePoint c[3], kiriLatticePoint low, int32_t side)
+{
+    kiriLatticePoint high = { low.x + side, low.y + side };
+    if (c[0].x < low.x || c[1].x < low.x || c[2].x < low.x) {
+        ClipAtSide(part, 0, false, side);
+    }
+    if (c[0].x > high.x || c[1].x > high.x || c[2].x > high.x) {
+        ClipAtSide(part, 0, true, side);
+    }
+    if (c[0].y < low.y || c[1].y < low.y || c[2].y < low.y) {
+        ClipAtSide(part, 1, false, side);
+    }
+    if (c[0].y > high.y || c[1].y > high.y || c[2].y > high.y) {
+        ClipAtSide(part, 1, true, side);
+    }
+}
+
+/* The part of a triangle in a square, about the square's lower corner, so that nothing cancels in a small one. */
+static kiriMoments MaterialInSquare(const kiriMeshData* mesh, int32_t triangle, int32_t square)
+{
+    kiriLatticePoint low = kiriSquares_Corner(&mesh->squares, square), corners[3];
+    kiriMesh_Corners(mesh, triangle, corners);
+    ClippedPolygon part;
+    part.count = 3;
+    for (int i = 0; i < 3; ++i) {
+        part.at[i] = kiriVec2_Make((double)corners[i].x - low.x, (double)corners[i].y - low.y);
+    }
+    ClipToSquare(&part, corners, low, mesh->squares.side);
+    kiriMoments sum = { 0 };
+    for (int32_t i = 0; i < part.count; ++i) {
+        part.at[i] = kiriVec2_Scale(mesh->step, part.at[i]);
+        if (i >= 2) {
+            kiriMoments fan = kiriMoments_Triangle(part.at[0], part.at[i - 1], part.at[i]);
+            kiriMoments_Add(&sum, &fan);
+        }
+    }
+    return sum;
+}
+
+/* A speck of material at the middle of the square. */
+static kiriMoments Speck(double side)
+{
+    double area = kiriLeastShare * side * side, half = 0.5 * side;
+    kiriMoments m = { area, half * area, half * area, half * half * area, half * half * area, half * half * area };
+    return m;
+}
+
+/* ---- Cells ------------------------------------------------------------------------------------------------------- */
+
+/* The index of a new cell, or KIRI_NONE for memory. */
+static int32_t AddCell(kiriGrid* grid, kiriMemory* memory, int32_t square)
+{
+    const kiriCell cell = { square, KIRI_NONE, KIRI_NONE, KIRI_NONE, { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 } };
+    const kiriStepRun run = { 0, { 0, 0, 0 } };
+    kiriGridWork* work = grid->work;
+    int32_t c = grid->freeCell;
+    if (c != KIRI_NONE) {
+        grid->freeCell = grid->cells.data[c].next;
+        grid->cells.data[c] = cell;
+    } else if (kiriArray_Push(memory, &grid->cells, cell) && kiriArray_Push(memory, &grid->runs, run) &&
+               kiriArray_Push(memory, &work->cellFlags, 0) && kiriArray_Push(memory, &work->mark, 0)) {
+        c = grid->cells.count - 1;
+    } else {
+        return KIRI_NONE;
+    }
+    ++grid->cellCount;
+    work->cellFlags.data[c] = KIRI_CELL_MADE | KIRI_CELL_STEPS;
+    bool ok = kiriArray_Push(memory, &grid->changes.made, c) && kiriArray_Push(memory, &grid->changes.steps, c) &&
+              (!work->fromScratch || kiriArray_Push(memory, &work->stepsDirty, c));
+    return ok ? c : KIRI_NONE;
+}
+
+static bool SetMaterial(kiriGrid* grid, kiriMemory* memory, int32_t c, const kiriMoments* material)
+{
+    kiriCell* cell = &grid->cells.data[c];
+    kiriMaterialChange change = { c, cell->material };
+    uint8_t* flags = &grid->work->cellFlags.data[c];
+    if (memcmp(&cell->material, material, sizeof(*material)) == 0) {
+        return true;
+    }
+    cell->material = *material;
+    if ((*flags & (KIRI_CELL_MADE | KIRI_CELL_MATERIAL)) != 0) {
+        return true;
+    }
+    *flags |= KIRI_CELL_MATERIAL;
+    return kiriArray_Push(memory, &grid->changes.material, change);
+}
+
+static bool RemoveCell(kiriGrid* grid, kiriMemory* memory, int32_t c)
+{
+    KIRI_ASSERT(kiriGrid_IsCell(grid, c));
+    kiriCell* cell = &grid->cells.data[c];
+    while (cell->firstFace != KIRI_NONE) {
+        if (!kiriGrid_RemoveFace(grid, memory, cell->firstFace)) {
+            return false;
+        }
+    }
+    kiriGrid_RemoveSteps(grid, memory, c);
+    cell->square = cell->next = KIRI_NONE;
+    --grid->cellCount;
+    grid->work->removed = true;
+    return (grid->work->cellFlags.data[c] & KIRI_CELL_MADE) != 0 || kiriArray_Push(memory, &grid->changes.gone, c);
+}
+
+/* The one cell of a whole square holds all its triangles. Where the square was whole before, nothing else changes. */
+static void FillWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+{
+    const kiriSquareNode* nodes = mesh->squares.nodes.data;
+    int32_t c = grid->squareCell.data[square], lowest = INT32_MAX;
+    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = nodes[n].next) {
+        lowest = nodes[n].triangle < lowest ? nodes[n].triangle : lowest;
+        grid->nodeCell.data[n] = c;
+    }
+    grid->cells.data[c].triangle = lowest;
+}
+
+static bool FindWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+{
+    double x = grid->side, area = x * x;
+    kiriMoments about = {
+        area, x / 2.0 * area, x / 2.0 * area, area * area / 3.0, area * area / 4.0, area * area / 3.0
+    };
+    kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));
+    kiriNewCell whole = { KIRI_NONE, KIRI_NONE, kiriMoments_About(&about, kiriVec2_Scale(-1.0, corner)) };
+    return kiriArray_Push(mesh->memory, &grid->work->newCells, whole);
+}
+
+/* The cells of a square that is not whole, by lowest triangle. */
+static bool FindCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+{
+    kiriGridWork* work = grid->work;
+    if (!kiriGridWork_Collect(work, mesh, square)) {
+        return false;
+    }
+    JoinTriangles(work, mesh, square);
+    for (int32_t i = work->ranges.data[square].first; i < work->ranges.data[square].end; ++i) {
+        int32_t root = FindTriangleRoot(work->parent.data, i), node = work->node.data[i],
+                triangle = kiriGridWork_TriangleAt(work, mesh, i);
+        const kiriNewCell none = { triangle, KIRI_NONE, { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 } };
+        if (root == i && !kiriArray_Push(mesh->memory, &work->newCells, none)) {
+            return false;
+        }
+        int32_t rank = root == i ? work->newCells.count - 1 : grid->nodeCell.data[work->node.data[root]];
+        kiriMoments part = MaterialInSquare(mesh, triangle, square);
+        kiriMoments_Add(&work->newCells.data[rank].material, &part);
+        grid->nodeCell.data[node] = rank;
+    }
+    kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));
+    for (int32_t rank = 0; rank < work->newCells.count; ++rank) {
+        kiriMoments* material = &work->newCells.data[rank].material;
+        if (!(material->area > kiriLeastShare * grid->side * grid->side)) {
+            *material = Speck(grid->side);
+        }
+        *material = kiriMoments_About(material, kiriVec2_Scale(-1.0, corner));
+    }
+    return true;
+}
+
+/* The old cells of the square become the new ones in their order. Where there are more new ones than old, cells are
+   added, and where there are fewer, removed. */
+static bool ReplaceCells(kiriGrid* grid, kiriMemory* memory, int32_t square)
+{
+    int32_t old = grid->squareCell.data[square], last = KIRI_NONE;
+    grid->squareCell.data[square] = KIRI_NONE;
+    for (int32_t i = 0; i < grid->work->newCells.count; ++i) {
+        kiriNewCell* made = &grid->work->newCells.data[i];
+        made->cell = old != KIRI_NONE ? old : AddCell(grid, memory, square);
+        if (made->cell == KIRI_NONE || !SetMaterial(grid, memory, made->cell, &made->material)) {
+            return false;
+        }
+        kiriCell* cell = &grid->cells.data[made->cell];
+        old = cell->next;
+        cell->triangle = made->triangle;
+        cell->next = KIRI_NONE;
+        *(last == KIRI_NONE ? &grid->squareCell.data[square] : &grid->cells.data[last].next) = made->cell;
+        last = made->cell;
+    }
+    while (old != KIRI_NONE) {
+        int32_t gone = old;
+        old = grid->cells.data[gone].next;
+        if (!RemoveCell(grid, memory, gone)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Gives the square's triangles their cells: so far they have the ranks of FindCells. */
+static void FillCells(kiriGrid* grid, int32_t square)
+{
+    const kiriGridWork* work = grid->work;
+    for (int32_t i = work->ranges.data[square].first; i < work->ranges.data[square].end; ++i) {
+        int32_t* cell = &grid->nodeCell.data[work->node.data[i]];
+        *cell = work->newCells.data[*cell].cell;
+    }
+}
+
+bool kiriGrid_MakeCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+{
+    kiriGridWork* work = grid->work;
+    int32_t square = work->fromScratch ? item : mesh->squares.dirty.data[item];
+    KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
+    bool wasWhole = grid->whole.data[square], isWhole = IsWhole(mesh, square);
+    grid->whole.data[square] = isWhole;
+    work->newCells.count = 0;
+    if (!(wasWhole && isWhole) &&
+        (!kiriGridWork_AddOnce(work, mesh->memory, square, KIRI_SQUARE_FACES_DIRTY, &work->facesDirty) ||
+         !(isWhole ? FindWholeCell(grid, mesh, square) : FindCells(grid, mesh, square)) ||
+         !ReplaceCells(grid, mesh->memory, square))) {
+        return false;
+    }
+    if (isWhole) {
+        FillWholeCell(grid, mesh, square);
+    } else {
+        FillCells(grid, square);
+    }
+    return true;
+}
+
+kiriLatticePoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
+{
+    KIRI_ASSERT(kiriGrid_IsCell(grid, cell));
+    kiriMoments largest = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+    int32_t square = grid->cells.data[cell].square, lowest = INT32_MAX;
+    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
+        if (grid->nodeCell.data[n] == cell) {
+            int32_t triangle = mesh->squares.nodes.data[n].triangle;
+            kiriMoments material = MaterialInSquare(mesh, triangle, square);
+            if (material.area > largest.area || (material.area == largest.area && triangle < lowest)) {
+                largest = material;
+                lowest = triangle;
+            }
+        }
+    }
+    kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));
+    return kiriMesh_Snap(mesh, largest.area > 0.0 ? kiriVec2_Add(corner, kiriMoments_Center(&largest))
+                                                  : kiriGrid_Middle(grid, mesh, cell));
+}

@@ -1,0 +1,321 @@
+#include "kiri_grid_work.h"
+
+#include <string.h>
+
+/* SetSteps compares bytes. */
+typedef char StepHasNoPadding[sizeof(kiriStep) == 8 ? 1 : -1];
+
+static int32_t LargerOf(int32_t a, int32_t b)
+{
+    return a > b ? a : b;
+}
+
+/* Steps touch the squares up to two rows away, in row v so many on each side of the column. */
+enum { STEP_ROWS = 2 };
+static int32_t StepColumns(int32_t v)
+{
+    return v == -STEP_ROWS || v == STEP_ROWS ? 1 : STEP_ROWS;
+}
+
+/* Is the square whole, and all those around that a step may touch? */
+static bool IsWholeAround(const kiriGrid* grid, const kiriSquares* squares, int32_t square)
+{
+    int32_t column = square % squares->columns, row = square / squares->columns;
+    if (column < STEP_ROWS || column >= squares->columns - STEP_ROWS || row < STEP_ROWS ||
+        row >= squares->rows - STEP_ROWS) {
+        return false;
+    }
+    for (int32_t v = -STEP_ROWS; v <= STEP_ROWS; ++v) {
+        const uint8_t* whole = &grid->whole.data[square + v * squares->columns];
+        for (int32_t u = -StepColumns(v); u <= StepColumns(v); ++u) {
+            if (!whole[u]) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* ---- Room for steps ---------------------------------------------------------------------------------------------- */
+
+/* At least for as many as most cells have, so that most runs never move. */
+static int32_t RoomFor(int32_t count)
+{
+    return count == 0 ? 0 : LargerOf(count, KIRI_OPEN_STEPS);
+}
+
+static int32_t CountSteps(const kiriStepRun* run)
+{
+    return run->end[KIRI_STEP_LENGTHS - 1] - run->first;
+}
+
+/* Room for so many steps; false for memory. */
+static bool SetStepCount(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t count)
+{
+    kiriStepRun* run = &grid->runs.data[c];
+    kiriSpan span = { run->first, RoomFor(CountSteps(run)) };
+    bool ok = kiriSpan_Resize(&span, &grid->stepRoom, memory, &grid->steps, sizeof(kiriStep), RoomFor(count));
+    run->first = span.first;
+    run->end[0] = run->end[1] = run->end[2] = span.first + count;
+    return ok;
+}
+
+void kiriGrid_RemoveSteps(kiriGrid* grid, kiriMemory* memory, int32_t cell)
+{
+    bool ok = SetStepCount(grid, memory, cell, 0);
+    KIRI_ASSERT(ok); /* it shrinks */
+    (void)ok;
+}
+
+/* The cell's steps become those in `work`: so many straight ones, and so many straight and diagonal ones. */
+static bool SetSteps(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t straight, int32_t near)
+{
+    const kiriGridWork* work = grid->work;
+    kiriStepRun* run = &grid->runs.data[c];
+    KIRI_ASSERT(kiriGrid_IsCell(grid, c) && 0 <= straight && straight <= near && near <= work->steps.count);
+    size_t bytes = sizeof(kiriStep) * (size_t)work->steps.count;
+    if (CountSteps(run) == work->steps.count && run->end[0] - run->first == straight &&
+        run->end[1] - run->first == near &&
+        (bytes == 0 || memcmp(&grid->steps.data[run->first], work->steps.data, bytes) == 0)) {
+        return true;
+    }
+    if (!SetStepCount(grid, memory, c, work->steps.count)) {
+        return false;
+    }
+    if (bytes > 0) {
+        memcpy(&grid->steps.data[run->first], work->steps.data, bytes);
+    }
+    run->end[0] = run->first + straight;
+    run->end[1] = run->first + near;
+    return kiriGrid_RecordSteps(grid, memory, c);
+}
+
+/* ---- Steps ------------------------------------------------------------------------------------------------------- */
+
+static bool MarkStepsDirty(kiriGrid* grid, kiriMemory* memory, int32_t square)
+{
+    if (kiriGridWork_IsFlagged(grid->work, square, KIRI_SQUARE_STEPS_DIRTY)) {
+        return true;
+    }
+    for (int32_t c = grid->squareCell.data[square]; c != KIRI_NONE; c = grid->cells.data[c].next) {
+        if (!kiriArray_Push(memory, &grid->work->stepsDirty, c)) {
+            return false;
+        }
+    }
+    return kiriGridWork_Flag(grid->work, memory, square, KIRI_SQUARE_STEPS_DIRTY);
+}
+
+bool kiriGrid_SpreadDirty(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+{
+    kiriGridWork* work = grid->work;
+    const kiriSquares* squares = &mesh->squares;
+    int32_t square = work->linksDirty.data[item], column = square % squares->columns, row = square / squares->columns;
+    for (int32_t v = LargerOf(-STEP_ROWS, -row); v <= STEP_ROWS && row + v < squares->rows; ++v) {
+        int32_t reach = StepColumns(v);
+        for (int32_t u = LargerOf(-reach, -column); u <= reach && column + u < squares->columns; ++u) {
+            if (!MarkStepsDirty(grid, mesh->memory, square + v * squares->columns + u)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* All steps from a cell amid whole squares, in their order. */
+static const kiriStep openSteps[] = {
+    { 0, KIRI_UNIT, 0, -1 },          { 0, KIRI_UNIT, -1, 0 },           { 0, KIRI_UNIT, 1, 0 },
+    { 0, KIRI_UNIT, 0, 1 },           { 0, KIRI_UNIT_DIAGONAL, -1, -1 }, { 0, KIRI_UNIT_DIAGONAL, 1, -1 },
+    { 0, KIRI_UNIT_DIAGONAL, -1, 1 }, { 0, KIRI_UNIT_DIAGONAL, 1, 1 },   { 0, KIRI_UNIT_KNIGHT, -1, -2 },
+    { 0, KIRI_UNIT_KNIGHT, 1, -2 },   { 0, KIRI_UNIT_KNIGHT, -2, -1 },   { 0, KIRI_UNIT_KNIGHT, 2, -1 },
+    { 0, KIRI_UNIT_KNIGHT, -2, 1 },   { 0, KIRI_UNIT_KNIGHT, 2, 1 },     { 0, KIRI_UNIT_KNIGHT, -1, 2 },
+    { 0, KIRI_UNIT_KNIGHT, 1, 2 },
+};
+
+static bool AddStep(kiriGrid* grid, kiriMemory* memory, kiriStep step)
+{
+    return kiriArray_Push(memory, &grid->work->steps, step);
+}
+
+/* Adds steps that the cell has. */
+static bool AddSteps(kiriGrid* grid, kiriMemory* memory, int32_t from, int32_t end)
+{
+    kiriGridWork* work = grid->work;
+    int32_t count = work->steps.count;
+    if (!kiriArray_Resize(memory, &work->steps, (int64_t)count + end - from)) {
+        return false;
+    }
+    if (from < end) {
+        memcpy(&work->steps.data[count], &grid->steps.data[from], sizeof(kiriStep) * (size_t)(end - from));
+    }
+    return true;
+}
+
+/* The steps of a cell amid whole squares. */
+static bool MakeOpenSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t c)
+{
+    int32_t square = grid->cells.data[c].square;
+    if (!kiriArray_Resize(mesh->memory, &grid->work->steps, KIRI_OPEN_STEPS)) {
+        return false;
+    }
+    kiriStep* steps = grid->work->steps.data;
+    for (int k = 0; k < KIRI_OPEN_STEPS; ++k) {
+        steps[k] = openSteps[k];
+        steps[k].cell = grid->squareCell.data[square + steps[k].v * mesh->squares.columns + steps[k].u];
+        KIRI_ASSERT(kiriGrid_IsCell(grid, steps[k].cell));
+    }
+    return SetSteps(grid, mesh->memory, c, 4, 8);
+}
+
+/* Does step a come before b? Both from the same cell: the way tells the order of squares. */
+static bool ComesBefore(const kiriGrid* grid, kiriStep a, kiriStep b)
+{
+    if (a.length != b.length) {
+        return a.length < b.length;
+    }
+    if (a.v != b.v) {
+        return a.v < b.v;
+    }
+    return a.u != b.u ? a.u < b.u : grid->cells.data[a.cell].triangle < grid->cells.data[b.cell].triangle;
+}
+
+static void SortSteps(kiriGrid* grid, int32_t from)
+{
+    kiriStep* steps = grid->work->steps.data;
+    for (int32_t i = from + 1; i < grid->work->steps.count; ++i) {
+        kiriStep step = steps[i];
+        int32_t j = i;
+        for (; j > from && ComesBefore(grid, step, steps[j - 1]); --j) {
+            steps[j] = steps[j - 1];
+        }
+        steps[j] = step;
+    }
+}
+
+static kiriStep Straight(const kiriFace* face, int32_t from)
+{
+    KIRI_ASSERT(face->width > 0.0);
+    int8_t way = face->cell[0] == from ? 1 : -1;
+    return (kiriStep){ kiriFace_Other(face, from), KIRI_UNIT, face->axis == 0 ? way : 0, face->axis == 1 ? way : 0 };
+}
+
+/* One step after another. */
+static kiriStep Joined(kiriStep a, kiriStep b, int16_t length)
+{
+    return (kiriStep){ b.cell, length, (int8_t)(a.u + b.u), (int8_t)(a.v + b.v) };
+}
+
+/* A step counts where two ways lead to its cell, and counts once: the first way marks the cell with the number that
+   this returns, the second way finds it and makes it one more. */
+static int64_t NewMark(kiriGridWork* work)
+{
+    work->lastMark += 2;
+    return work->lastMark;
+}
+
+static bool AddStraightSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
+{
+    for (int32_t f = grid->cells.data[c].firstFace; f != KIRI_NONE; f = kiriFace_Next(&grid->faces.data[f], c)) {
+        if (!AddStep(grid, memory, Straight(&grid->faces.data[f], c))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* To cells reached along u, then v, and also along v, then u: both ways around the corner. */
+static bool AddDiagonalSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
+{
+    const kiriFace* faces = grid->faces.data;
+    const kiriCell* cells = grid->cells.data;
+    int64_t *mark = grid->work->mark.data, first = NewMark(grid->work);
+    for (int axis = 0; axis < 2; ++axis) {
+        for (int32_t f = cells[c].firstFace; f != KIRI_NONE; f = kiriFace_Next(&faces[f], c)) {
+            int32_t between = kiriFace_Other(&faces[f], c);
+            int32_t g = faces[f].axis == axis ? cells[between].firstFace : KIRI_NONE;
+            for (; g != KIRI_NONE; g = kiriFace_Next(&faces[g], between)) {
+                if (faces[g].axis == axis) {
+                    continue;
+                }
+                kiriStep step = Joined(Straight(&faces[f], c), Straight(&faces[g], between), KIRI_UNIT_DIAGONAL);
+                if (axis == 0) {
+                    mark[step.cell] = first;
+                } else if (mark[step.cell] == first) {
+                    mark[step.cell] = first + 1;
+                    if (!AddStep(grid, memory, step)) {
+                        return false;
+                    }
+                }
+            }
+        }
+    }
+    return true;
+}
+
+/* The knights stay what they are until all diagonal steps are made. */
+bool kiriGrid_MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+{
+    kiriGridWork* work = grid->work;
+    kiriMemory* memory = mesh->memory;
+    int32_t c = work->stepsDirty.data[item];
+    const kiriStepRun* run = &grid->runs.data[c];
+    work->steps.count = 0;
+    if (IsWholeAround(grid, &mesh->squares, grid->cells.data[c].square)) {
+        return MakeOpenSteps(grid, mesh, c);
+    }
+    if (!AddStraightSteps(grid, memory, c)) {
+        return false;
+    }
+    int32_t straight = work->steps.count;
+    if (!AddDiagonalSteps(grid, memory, c)) {
+        return false;
+    }
+    int32_t near = work->steps.count;
+    SortSteps(grid, 0);
+    return AddSteps(grid, memory, run->end[1], run->end[2]) && SetSteps(grid, memory, c, straight, near) &&
+           kiriArray_Push(memory, &work->knightsDirty, c);
+}
+
+/* Does a diagonal step after a straight one lead on, not back? */
+static bool IsKnightMove(kiriStep straight, kiriStep diagonal)
+{
+    return straight.u == diagonal.u || straight.v == diagonal.v;
+}
+
+/* To cells reached straight, then diagonally, and also diagonally, then straight: a slit is never jumped. */
+static bool AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriStepRun* run)
+{
+    const kiriStep* steps = grid->steps.data;
+    const kiriStepRun* runs = grid->runs.data;
+    int64_t *mark = grid->work->mark.data, first = NewMark(grid->work);
+    for (int32_t i = run->first; i < run->end[0]; ++i) {
+        for (int32_t j = runs[steps[i].cell].end[0]; j < runs[steps[i].cell].end[1]; ++j) {
+            if (IsKnightMove(steps[i], steps[j])) {
+                mark[steps[j].cell] = first;
+            }
+        }
+    }
+    for (int32_t i = run->end[0]; i < run->end[1]; ++i) {
+        for (int32_t j = runs[steps[i].cell].first; j < runs[steps[i].cell].end[0]; ++j) {
+            if (mark[steps[j].cell] == first) {
+                mark[steps[j].cell] = first + 1;
+                if (!AddStep(grid, memory, Joined(steps[i], steps[j], KIRI_UNIT_KNIGHT))) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}
+
+bool kiriGrid_MakeKnightSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+{
+    kiriMemory* memory = mesh->memory;
+    int32_t c = grid->work->knightsDirty.data[item];
+    const kiriStepRun run = grid->runs.data[c];
+    grid->work->steps.count = 0;
+    if (!AddSteps(grid, memory, run.first, run.end[1]) || !AddKnightSteps(grid, memory, &run)) {
+        return false;
+    }
+    SortSteps(grid, run.end[1] - run.first);
+    return SetSteps(grid, memory, c, run.end[0] - run.first, run.end[1] - run.first);
+}

@@ -1,0 +1,245 @@
+#include "kiri_stencil.h"
+
+/* Quadratic B-spline, zero from 1.5 on. */
+static double QuadraticSpline(double t)
+{
+    double a = fabs(t);
+    return a < 0.5 ? 0.75 - a * a : a < 1.5 ? 0.5 * (1.5 - a) * (1.5 - a) : 0.0;
+}
+
+/* A first-order fit around a point, in units of squares from the middle of its cell. Offsets of neighbours are whole
+   numbers, so cells in one line have a determinant of zero, but for rounding. */
+typedef struct PointFit {
+    kiriVec2 at;
+    double sum;        /* of the kernel */
+    kiriVec2 mean;     /* of the offsets, weighed by the kernel */
+    double xx, xy, yy; /* (pseudo-)inverse of their second moments about the mean */
+} PointFit;
+
+static kiriVec2 SetKernel(kiriStencil* stencil, kiriVec2 at)
+{
+    kiriVec2 off = kiriVec2_Scale(1.0 / stencil->side, kiriVec2_Sub(at, stencil->middle));
+    double u[3], v[3];
+    for (int i = 0; i < 3; ++i) {
+        u[i] = QuadraticSpline(i - 1 - off.x);
+        v[i] = QuadraticSpline(i - 1 - off.y);
+    }
+    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+        stencil->shares.data[k] = u[stencil->steps.data[k].u + 1] * v[stencil->steps.data[k].v + 1];
+    }
+    return off;
+}
+
+/* Inverts the second moments; a direction that the neighbours do not span is dropped (no slope along it). */
+static void InvertMoments(PointFit* fit)
+{
+    double xx = fit->xx, xy = fit->xy, yy = fit->yy, trace = xx + yy, determinant = xx * yy - xy * xy;
+    double scale = trace > 0.0 ? 1.0 / (trace * trace) : 0.0;
+    if (determinant > 1e-12 * trace * trace) {
+        scale = 1.0 / determinant;
+        fit->xx = yy;
+        fit->xy = -xy;
+        fit->yy = xx;
+    }
+    fit->xx *= scale;
+    fit->xy *= scale;
+    fit->yy *= scale;
+}
+
+/* Leaves the kernel in the stencil's shares. */
+static PointFit FitAround(kiriStencil* stencil, kiriVec2 at)
+{
+    PointFit fit = { SetKernel(stencil, at), 0.0, { 0.0, 0.0 }, 0.0, 0.0, 0.0 };
+    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+        kiriStep to = stencil->steps.data[k];
+        double kernel = stencil->shares.data[k];
+        fit.sum += kernel;
+        fit.mean = kiriVec2_Add(fit.mean, kiriVec2_Make(kernel * to.u, kernel * to.v));
+        fit.xx += kernel * to.u * to.u;
+        fit.xy += kernel * to.u * to.v;
+        fit.yy += kernel * to.v * to.v;
+    }
+    fit.mean = kiriVec2_Scale(1.0 / fit.sum, fit.mean);
+    fit.xx -= fit.sum * fit.mean.x * fit.mean.x;
+    fit.xy -= fit.sum * fit.mean.x * fit.mean.y;
+    fit.yy -= fit.sum * fit.mean.y * fit.mean.y;
+    InvertMoments(&fit);
+    return fit;
+}
+
+/* The slope of a function on the cells is the sum of its values times these. */
+static kiriVec2 FitSlope(const PointFit* fit, kiriStep to, double kernel)
+{
+    kiriVec2 p = kiriVec2_Make(to.u - fit->mean.x, to.v - fit->mean.y);
+    return kiriVec2_Make(kernel * (fit->xx * p.x + fit->xy * p.y), kernel * (fit->xy * p.x + fit->yy * p.y));
+}
+
+/* What the cells count at the point. Where no cell is missing, the splines are the fit: they reproduce linear
+   functions. */
+static void SetShares(kiriStencil* stencil, kiriVec2 at)
+{
+    if (stencil->full) {
+        SetKernel(stencil, at);
+        return;
+    }
+    PointFit fit = FitAround(stencil, at);
+    kiriVec2 way = kiriVec2_Sub(fit.at, fit.mean);
+    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+        double kernel = stencil->shares.data[k];
+        stencil->shares.data[k] = kernel / fit.sum + kiriVec2_Dot(FitSlope(&fit, stencil->steps.data[k], kernel), way);
+    }
+}
+
+/* The fit may undershoot: no value below zero, sum 1. */
+void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at)
+{
+    KIRI_ASSERT(stencil->cell != KIRI_NONE);
+    int32_t count = stencil->frames.count;
+    double *values = stencil->values.data, sum = 0.0;
+    SetShares(stencil, at);
+    for (int32_t i = 0; i < count; ++i) {
+        values[i] = 0.0;
+    }
+    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+        const double* weights = stencil->weights.data + (size_t)k * (size_t)count;
+        double share = stencil->shares.data[k];
+        for (int32_t i = 0; i < count; ++i) {
+            values[i] += weights[i] * share;
+        }
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        values[i] = values[i] > 0.0 ? values[i] : 0.0;
+        sum += values[i];
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        values[i] /= sum;
+    }
+}
+
+static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
+{
+    const kiriStepRun* run = &grid->runs.data[cell];
+    int32_t count = run->end[1] - run->first, seen = 0;
+    if (!kiriArray_Resize(memory, &stencil->steps, (int64_t)count + 1) ||
+        !kiriArray_Resize(memory, &stencil->shares, (int64_t)count + 1)) {
+        return false;
+    }
+    stencil->steps.data[0] = (kiriStep){ cell, 0, 0, 0 };
+    for (int32_t k = 1; k <= count; ++k) {
+        kiriStep to = grid->steps.data[run->first + k - 1];
+        stencil->steps.data[k] = to;
+        seen |= 1 << (3 * (to.v + 1) + to.u + 1);
+    }
+    stencil->full = count == 8 && (seen | 1 << 4) == 511;
+    return true;
+}
+
+/* The frames with weight in any of the cells, sorted; `columns` tells where they are. */
+static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape)
+{
+    int32_t old = stencil->columns.count;
+    if (!kiriArray_Resize(memory, &stencil->columns, old > shape->rigid.count ? old : shape->rigid.count)) {
+        return false;
+    }
+    for (int32_t f = old; f < stencil->columns.count; ++f) {
+        stencil->columns.data[f] = 0;
+    }
+    stencil->frames.count = 0;
+    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+        kiriSpan span = shape->spans.data[stencil->steps.data[k].cell];
+        if (!kiriArray_Reserve(memory, &stencil->frames, (int64_t)stencil->frames.count + span.count)) {
+            return false;
+        }
+        for (int32_t w = span.first; w < span.first + span.count; ++w) {
+            int32_t frame = shape->weights.data[w].frame, at = stencil->frames.count;
+            if (stencil->columns.data[frame] == 0) {
+                stencil->columns.data[frame] = 1;
+                for (; at > 0 && stencil->frames.data[at - 1] > frame; --at) {
+                    stencil->frames.data[at] = stencil->frames.data[at - 1];
+                }
+                stencil->frames.data[at] = frame;
+                ++stencil->frames.count;
+            }
+        }
+    }
+    for (int32_t i = 0; i < stencil->frames.count; ++i) {
+        stencil->columns.data[stencil->frames.data[i]] = i + 1;
+    }
+    return true;
+}
+
+static bool GatherWeights(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape)
+{
+    int32_t count = stencil->frames.count;
+    if (!kiriArray_Resize(memory, &stencil->weights, (int64_t)count * stencil->steps.count) ||
+        !kiriArray_Resize(memory, &stencil->values, count)) {
+        return false;
+    }
+    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+        kiriSpan span = shape->spans.data[stencil->steps.data[k].cell];
+        double* weights = stencil->weights.data + (size_t)k * (size_t)count;
+        for (int32_t i = 0; i < count; ++i) {
+            weights[i] = 0.0;
+        }
+        for (int32_t w = span.first; w < span.first + span.count; ++w) {
+            weights[stencil->columns.data[shape->weights.data[w].frame] - 1] = shape->weights.data[w].value;
+        }
+    }
+    return true;
+}
+
+bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+                        const kiriMeshData* mesh, int32_t cell)
+{
+    KIRI_ASSERT(kiriGrid_IsCell(grid, cell) && cell < shape->spans.count);
+    bool ok = GatherSteps(stencil, memory, grid, cell) && GatherFrames(stencil, memory, shape) &&
+              GatherWeights(stencil, memory, shape);
+    for (int32_t i = 0; i < stencil->frames.count; ++i) {
+        stencil->columns.data[stencil->frames.data[i]] = 0;
+    }
+    stencil->cell = ok ? cell : KIRI_NONE;
+    stencil->middle = kiriGrid_Middle(grid, mesh, cell);
+    stencil->side = grid->side;
+    return ok;
+}
+
+/* The gradients sum to 0: what rounding leaves of them is taken from that of the largest weight. */
+static void SetGradients(kiriStencil* stencil, kiriVec2 at, kiriPointWeights* out)
+{
+    PointFit fit = FitAround(stencil, at);
+    kiriVec2 rest = { 0.0, 0.0 };
+    int32_t largest = 0;
+    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+        kiriVec2 slope = FitSlope(&fit, stencil->steps.data[k], stencil->shares.data[k]);
+        const double* weights = stencil->weights.data + (size_t)k * (size_t)out->count;
+        for (int32_t i = 0; i < out->count; ++i) {
+            kiriPointWeight* weight = &out->data[i];
+            weight->gradient = kiriVec2_Add(weight->gradient, kiriVec2_Scale(weights[i] / stencil->side, slope));
+        }
+    }
+    for (int32_t i = 0; i < out->count; ++i) {
+        rest = kiriVec2_Add(rest, out->data[i].gradient);
+        largest = out->data[i].value > out->data[largest].value ? i : largest;
+    }
+    if (out->count > 0) {
+        out->data[largest].gradient = kiriVec2_Sub(out->data[largest].gradient, rest);
+    }
+}
+
+bool kiriShape_At(const kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                  int32_t cell, kiriVec2 at, kiriPointWeights* out)
+{
+    kiriMemory scratch = kiriMemory_Like(memory);
+    kiriStencil stencil = { 0 };
+    bool ok = kiriStencil_Gather(&stencil, &scratch, shape, grid, mesh, cell) &&
+              kiriArray_Resize(memory, out, stencil.frames.count);
+    if (ok) {
+        kiriStencil_Weigh(&stencil, at);
+        for (int32_t i = 0; i < out->count; ++i) {
+            out->data[i] = (kiriPointWeight){ stencil.frames.data[i], stencil.values.data[i], { 0.0, 0.0 } };
+        }
+        SetGradients(&stencil, at, out);
+    }
+    kiriMemory_FreeAll(&scratch);
+    return ok;
+}
