@@ -820,6 +820,36 @@ static void PinsAfterATickWithoutMemory(void** state)
     Host_Stop(&host);
 }
 
+/* A rigid piece with a site in each of its cells, all new: kiriSites_Resample places them again, one more in vain, and
+   calls that a move, so the shape stage begins anew without end. kiriCreateSheet with gridResolution 4, frameCount 5 and
+   maxFrames 256 does not return for the same reason; here a budget keeps the ticks short. */
+static void ResamplingComesToAnEnd(void** state)
+{
+    (void)state;
+    if (!KNOWN_FAULTS) {
+        skip();
+    }
+    const float line[4] = { 0.625f, -0.1f, 0.625f, 1.1f };
+    const kiriBudget budget = { 0, 2000, 0, 0 };
+    Host host;
+    kiriResult result = KIRI_PENDING;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    def.gridResolution = 4;
+    def.framePoints = NULL;
+    def.frameCount = def.maxFrames = 1;
+    def.rigidArea = 0.01f;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.25f, 4, 1);
+    host.world->sheets.data[0]->maxFrames = 256;
+    OK(kiriWorld_SetBudget(host.world, &budget));
+    Host_Cut(&host, sheet, line, 2);
+    for (int tick = 0; tick < 200 && result == KIRI_PENDING; ++tick) {
+        result = Host_Tick(&host, 0.01f, 1);
+    }
+    assert_int_equal(result, KIRI_OK);
+    Host_Stop(&host);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -832,6 +862,7 @@ int main(void)
         cmocka_unit_test(SeesLostBlocks),
         cmocka_unit_test(PinsWhileTheMeshIsCut),
         cmocka_unit_test(PinsAfterATickWithoutMemory),
+        cmocka_unit_test(ResamplingComesToAnEnd),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
