@@ -4,6 +4,7 @@
 #   make box2d    cuts a strip that lies on bodies of Box2D
 #   make test     builds and runs all tests
 #   make lib      build/<config>/libkiri.a and libkiri.so
+#   make single   build/single: the library as kiri.h, kiri.c and kiri.cpp, to add to any build
 #   make bench    runs the benchmarks
 #   make accuracy compares with references from outside, and plots error against cost
 #   make extremes runs what nobody should do to a sheet, and says what became of it
@@ -28,8 +29,8 @@ EIGEN ?= $(or $(patsubst -I%,%,$(shell pkg-config --cflags-only-I eigen3 2>/dev/
 # Contraction to fused multiply-add would give other bits on other machines.
 FLAGS := -Wall -Wextra -Wpedantic -Wshadow -Werror -ffp-contract=off -fno-math-errno -fPIC -MMD -MP
 FLAGS_release := -O2 -DNDEBUG
-FLAGS_debug := -O0 -g
-FLAGS_sanitize := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all
+FLAGS_debug := -O0 -g -DKIRI_ASSERTS
+FLAGS_sanitize := -O1 -g -DKIRI_ASSERTS -fsanitize=address,undefined -fno-sanitize-recover=all
 ifeq ($(FLAGS_$(config)),)
 $(error config is release, debug or sanitize, not '$(config)')
 endif
@@ -54,7 +55,7 @@ BOX2D := $(BUILD)/samples/kiri-box2d
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 PYTHON_CHECK := $(if $(filter sanitize,$(config)),,python)
 
-.PHONY: all run box2d python test check floors lib bench accuracy extremes gallery deps format clean header exports
+.PHONY: all run box2d python test check floors headers single example lib bench accuracy extremes gallery deps format clean header exports
 .DEFAULT_GOAL := all
 .SECONDARY:
 
@@ -96,7 +97,7 @@ gallery: accuracy
 	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
 	cp build/accuracy/trade.png samples/pictures/trade.png
 
-check: $(TESTS) $(RUN) $(BOX2D) floors header exports $(PYTHON_CHECK)
+check: $(TESTS) $(RUN) $(BOX2D) floors headers exports $(PYTHON_CHECK)
 	@failed=; for test in $(TESTS); do echo "== $$test"; $$test || failed="$$failed $$test"; done; \
 	if [ -n "$$failed" ]; then echo "FAILED:$$failed"; exit 1; fi; echo "all tests passed ($(config))"
 
@@ -104,19 +105,51 @@ python: $(BUILD)/libkiri.so
 	@if ! $(PYTHON) -c 'import cffi' 2>/dev/null; then echo "python: no cffi, binding not tested"; exit 0; fi; \
 	echo "== tests/test_python.py"; KIRI_LIBRARY=$(abspath $<) $(PYTHON) tests/test_python.py
 
-# The folders of src are floors: a file includes from its own and from those below, never from above.
+# The folders of src are floors: a file includes from its own and from those below, never from above; and no two units
+# include each other, directly or by a detour (tsort says where).
 FLOORS := core mesh field motion view sheet world
+UNIT_INCLUDES = sed -nE 's|^src/[a-z]+/(kiri_[a-z_0-9]+)\.[a-z]+:\#include "(\.\./[a-z]+/)?(kiri_[a-z_0-9]+)\.h"|\1 \3|p'
 
 floors:
 	@upper="$(FLOORS)"; for floor in $(FLOORS); do \
 	    upper=$${upper#* }; [ "$$floor" != "$$upper" ] || break; \
 	    for up in $$upper; do ! grep -n "#include \"\.\./$$up/" src/$$floor/* || exit 1; done; \
-	done; echo "src includes no file of a floor above"
+	done
+	@grep -H '#include "' src/*/* | $(UNIT_INCLUDES) | awk '$$1 != $$2' | sort -u | tsort > /dev/null
+	@echo "src: includes go down the floors, and in no circle"
 
-# The public header stands alone, in strict C99 and C++11.
-header:
-	$(CC) -x c -std=c99 -Wall -Wextra -pedantic-errors -Werror -fsyntax-only include/kiri/kiri.h
-	$(CXX) -x c++ -std=c++11 -Wall -Wextra -pedantic-errors -Werror -fsyntax-only include/kiri/kiri.h
+# The public header stands alone, in strict C99 and C++11; each inner header, in C++ without run-time types too.
+headers:
+	@$(CC) -x c -std=c99 -Wall -Wextra -pedantic-errors -Werror -fsyntax-only include/kiri/kiri.h
+	@$(CXX) -x c++ -std=c++11 -Wall -Wextra -pedantic-errors -Werror -fsyntax-only include/kiri/kiri.h
+	@for header in src/*/*.h; do \
+	    $(CC) -x c -std=c99 -Wall -Wextra -Werror -fsyntax-only $$header && \
+	    $(CXX) -x c++ -std=c++14 -fno-rtti -Wall -Wextra -Werror -fsyntax-only $$header || exit 1; \
+	done; echo "headers: each stands alone, in C and C++"
+
+# Puts files into one, with each header where it is first included.
+SINGLE = awk 'function resolve(path) { while (sub(/[^\/]+\/\.\.\//, "", path)) {} return path } \
+    function emit(path, line, folder) { folder = path; sub(/[^\/]*$$/, "", folder); \
+        while ((getline line < path) > 0) { \
+            if (line ~ /^\#include ".*kiri\/kiri\.h"/) print "\#include \"kiri.h\""; \
+            else if (line ~ /^\#include "/) { split(line, part, "\""); part[2] = resolve(folder part[2]); \
+                if (!(part[2] in seen)) { seen[part[2]] = 1; emit(part[2]) } } \
+            else print line } close(path) } \
+    BEGIN { for (i = 1; i < ARGC; ++i) emit(ARGV[i]) }'
+
+single:
+	@mkdir -p build/single
+	@cp include/kiri/kiri.h build/single/kiri.h
+	@$(SINGLE) $(foreach floor,$(FLOORS),$(wildcard src/$(floor)/*.c)) > build/single/kiri.c
+	@$(SINGLE) $(wildcard src/*/*.cpp) > build/single/kiri.cpp
+
+# The example of the README, built from the single files.
+example: single
+	@mkdir -p build/single/kiri && cp include/kiri/kiri.h build/single/kiri/kiri.h
+	@sed -n '/^```c$$/,/^```$$/p' README.md | sed '/^```/d' > build/single/example.c
+	@cd build/single && $(CC) -std=c99 -Wall -Werror -I. -c kiri.c example.c && \
+	    $(CXX) -std=c++14 -fno-rtti -Wall -Werror -isystem $(EIGEN) -c kiri.cpp -o kiri_cpp.o && \
+	    $(CXX) kiri.o example.o kiri_cpp.o -lm -o example && ./example
 
 exports: $(BUILD)/libkiri.so
 	@others=$$(nm -D --defined-only $< | awk '$$NF !~ /^kiri/ { print $$NF }'); \

@@ -62,7 +62,10 @@ static bool MakeRectangle(Scene* scene, kiriSheetDef* def, const SceneOptions* o
     def->vertexCount = (columns + 1) * (rows + 1);
     def->triangleCount = 2 * columns * rows;
     def->gridResolution = options->gridResolution > 0 ? options->gridResolution : def->gridResolution;
-    def->fromScratch = options->fromScratch;
+    kiriPaperDef paper;
+    kiriDefaultPaperDef(&paper);
+    paper.fromScratch = options->fromScratch;
+    def->paper = options->fromScratch ? &paper : NULL;
     size_t frameNumbers = 2 * (size_t)def->frameCount;
     float* positions = malloc(2 * sizeof(float) * (size_t)def->vertexCount);
     int32_t* indices = malloc(3 * sizeof(int32_t) * (size_t)def->triangleCount);

@@ -31,7 +31,7 @@ static void Choose(kiriSheetData* sheet, int way)
 {
     sheet->popping = way == PAPER;
     if (way != FADED) {
-        sheet->fades.time = sheet->pointFades.time = 0.0;
+        sheet->seen.fades.time = sheet->seen.pointFades.time = 0.0;
     }
 }
 

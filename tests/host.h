@@ -162,6 +162,13 @@ static inline kiriSheetDef Host_SmallDef(void)
     return def;
 }
 
+static inline kiriPaperDef Host_PaperDef(void)
+{
+    kiriPaperDef def;
+    kiriDefaultPaperDef(&def);
+    return def;
+}
+
 /* A whole cut, waiting for the next tick. */
 static inline kiriCut Host_Cut(Host* host, kiriSheet sheet, const float* points, int32_t count)
 {
@@ -191,6 +198,16 @@ static inline kiriMesh Host_Mesh(const Host* host, kiriSheet sheet)
     kiriMesh mesh;
     OK(kiriSheet_GetMesh(host->world, sheet, &mesh));
     return mesh;
+}
+
+/* The first frame of a piece, which names it. */
+static inline kiriFrame Host_FrameOf(const Host* host, kiriSheet sheet, int32_t piece)
+{
+    const kiriFrame* frames;
+    int32_t count;
+    OK(kiriSheet_GetPieceFrames(host->world, sheet, piece, &frames, &count));
+    assert_true(count > 0);
+    return frames[0];
 }
 
 /* How many events of this type the last tick had; *first is one of them. */

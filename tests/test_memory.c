@@ -77,7 +77,9 @@ static kiriSheet AddSheet(Host* host, const Setting* setting)
     def.frameCount = 9;
     def.model = setting->model;
     def.planar = setting->planar;
-    def.integrationOrder = setting->order;
+    kiriPaperDef paper = Host_PaperDef();
+    paper.integrationOrder = setting->order;
+    def.paper = &paper;
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 6, 6);
     kiriPinDef pin;
     kiriPin id;

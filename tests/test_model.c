@@ -17,8 +17,11 @@ static kiriSheetDef DefOf(const Choice* choice)
     kiriSheetDef def = Host_SmallDef();
     def.model = choice->model;
     def.planar = choice->planar;
-    def.integrationPoints = choice->points;
-    def.integrationOrder = choice->order;
+    static kiriPaperDef paper;
+    paper = Host_PaperDef();
+    paper.integrationPoints = choice->points;
+    paper.integrationOrder = choice->order;
+    def.paper = &paper;
     def.material.youngsModulus = 2e4f;
     return def;
 }

@@ -308,7 +308,6 @@ static void TestEventNamesFrame(void** state)
     int32_t piece = -1;
     assert_int_equal(Host_Events(&host, KIRI_EVENT_PIECE_OFF, &event), 1);
     OK(kiriFrame_GetPiece(host.world, event.frame, &piece));
-    assert_int_equal(piece, event.piece);
     kiriPieceState off = StateOf(&host, sheet, piece);
     assert_float_equal(off.area, 0.22 * 0.22, 1e-6);
     assert_float_equal(off.area, event.area, 1e-7);
@@ -372,8 +371,8 @@ static Before Remember(Host* host, kiriSheet sheet)
     COPY(data->layout.patches.shares);
     COPY(data->layout.pinFrame);
     COPY(data->layout.framePiece);
-    COPY(data->surface.positions);
-    COPY(data->surface.exact);
+    COPY(data->seen.surface.positions);
+    COPY(data->seen.surface.exact);
     return before;
 }
 
@@ -401,8 +400,8 @@ static void Forget(Before* before)
                        data->layout.patches.shares.data,
                        data->layout.pinFrame.data,
                        data->layout.framePiece.data,
-                       data->surface.positions.data,
-                       data->surface.exact.data };
+                       data->seen.surface.positions.data,
+                       data->seen.surface.exact.data };
     for (size_t i = 0; i < sizeof(copies) / sizeof(copies[0]); ++i) {
         free(copies[i]);
     }
@@ -516,8 +515,8 @@ static void CheckMesh(const kiriSheetData* was, const kiriSheetData* is, const M
         assert_int_equal(a->source, b->source);
         assert_memory_equal(a->share, b->share, sizeof(a->share));
         assert_int_equal(is->mesh.triangles.data[b->edge / 3].vertex[b->edge % 3], v);
-        kiriVec3 off = kiriVec3_Sub(was->surface.exact.data[maps->vertex[v]], is->surface.exact.data[v]);
-        assert_true(kiriVec3_Length(off) <= (is->surface.skinning == KIRI_SKINNING_LINEAR ? 0.0 : 1e-14));
+        kiriVec3 off = kiriVec3_Sub(was->seen.surface.exact.data[maps->vertex[v]], is->seen.surface.exact.data[v]);
+        assert_true(kiriVec3_Length(off) <= (is->seen.surface.skinning == KIRI_SKINNING_LINEAR ? 0.0 : 1e-14));
     }
 }
 
@@ -669,10 +668,10 @@ static void TestPartsAreWhatTheyWere(void** state)
             Before before = Remember(&host, sheet);
             kiriMesh old = Host_Mesh(&host, sheet);
             kiriSheet detached;
-            OK(kiriSheet_DetachPiece(host.world, sheet, piece, &detached));
+            OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, piece), &detached));
             assert_true(Host_Mesh(&host, sheet).revision > old.revision);
             kiriDirty dirty;
-            kiriSurface_GetDirty(&DataOf(&host, sheet)->surface, old.revision, &dirty);
+            kiriSurface_GetDirty(&DataOf(&host, sheet)->seen.surface, old.revision, &dirty);
             assert_int_equal(dirty.newVertices.first, 0);
             assert_int_equal(dirty.newTriangles.count, Host_Counts(&host, sheet).triangles);
             assert_int_equal(Host_Counts(&host, detached).pieces, 1);
@@ -694,7 +693,8 @@ static double Gap(const kiriSheetData* whole, const kiriSheetData* part, const i
 {
     double most = 0.0;
     for (int32_t v = 0; v < part->mesh.vertices.count; ++v) {
-        double gap = kiriVec3_Length(kiriVec3_Sub(whole->surface.exact.data[vertex[v]], part->surface.exact.data[v]));
+        double gap =
+            kiriVec3_Length(kiriVec3_Sub(whole->seen.surface.exact.data[vertex[v]], part->seen.surface.exact.data[v]));
         most = gap > most ? gap : most;
     }
     return most;
@@ -730,7 +730,7 @@ static int32_t RunTwice(const kiriSheetDef* def, uint32_t seed, int32_t detach, 
     const kiriSheetData* parts[8];
     assert_true(detach < pieces && detach < 8);
     for (int32_t k = 0; k < detach; ++k) {
-        OK(kiriSheet_DetachPiece(hosts[1].world, sheets[1], pieces - 1 - k, &part));
+        OK(kiriFrame_DetachPiece(hosts[1].world, Host_FrameOf(&hosts[1], sheets[1], pieces - 1 - k), &part));
         parts[k] = DataOf(&hosts[1], part);
         maps[k] = Map(&before.data, parts[k], pieces - 1 - k, false);
     }
@@ -820,8 +820,8 @@ static void TestCutsStayWithTheRest(void** state)
         Tick(&host, 1);
         assert_int_equal(Host_Counts(&host, sheet).pieces, 3);
         int32_t piece = PieceAt(&host, sheet, 0.15);
-        OK(kept ? kiriSheet_DetachPiece(host.world, sheet, piece, &detached)
-                : kiriSheet_DestroyPiece(host.world, sheet, piece));
+        OK(kept ? kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, piece), &detached)
+                : kiriFrame_DestroyPiece(host.world, Host_FrameOf(&host, sheet, piece)));
         OK(kiriCut_Extend(host.world, cut, on, 2));
         OK(kiriCut_End(host.world, cut));
         kiriCounts before = { 0 };
@@ -856,7 +856,7 @@ static void TestBladeOfTheRestGoesOn(void** state)
         OK(kiriCut_Extend(host.world, cut, inside, 1));
         Tick(&host, 1);
         if (detach) {
-            OK(kiriSheet_DetachPiece(host.world, sheet, PieceAt(&host, sheet, 0.1), &detached));
+            OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, PieceAt(&host, sheet, 0.1)), &detached));
         }
         OK(kiriCut_Extend(host.world, cut, on, 2));
         OK(kiriCut_End(host.world, cut));
@@ -890,8 +890,8 @@ static void TestIdsMoveAlong(void** state)
         OK(kiriSheet_GetPieceFrames(host.world, sheet, PieceAt(&host, sheet, 0.2 + 0.3 * i), &list, &count));
         frames[i] = list[0];
     }
-    OK(kiriSheet_DetachPiece(host.world, sheet, PieceAt(&host, sheet, 0.2), &detached));
-    OK(kiriSheet_DestroyPiece(host.world, sheet, PieceAt(&host, sheet, 0.5)));
+    OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, PieceAt(&host, sheet, 0.2)), &detached));
+    OK(kiriFrame_DestroyPiece(host.world, Host_FrameOf(&host, sheet, PieceAt(&host, sheet, 0.5))));
     static const float target[3] = { 0.5f, 0.2f, 0.3f };
     kiriFrameState frame;
     OK(kiriPin_SetTarget(host.world, pins[0], target));
@@ -922,7 +922,7 @@ static void TestContactsMoveAlong(void** state)
     int32_t piece = PieceAt(&host, sheet, 0.8);
     kiriContact contact = { MeshOf(&host, sheet, piece).collisionPoints[0], { 0.0f, 0.0f, 1.0f }, 0.1f, 0.0f, 50.0f };
     OK(kiriSheet_SetContacts(host.world, sheet, &contact, 1));
-    OK(kiriSheet_DetachPiece(host.world, sheet, piece, &detached));
+    OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, piece), &detached));
     Tick(&host, 1);
     assert_true(Host_Totals(&host, detached).momentum[2] > 1e-3);
     assert_true(fabs(Host_Totals(&host, sheet).momentum[2]) < 1e-12);
@@ -936,26 +936,27 @@ static void TestPartsAreRefused(void** state)
     Host_Start(&host);
     kiriSheet sheet = Strips(&host, 2), detached = 1;
     int32_t count;
-    assert_int_equal(kiriSheet_DetachPiece(host.world, sheet, 2, &detached), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriFrame_DetachPiece(host.world, 0, &detached), KIRI_ERROR_ID);
     assert_int_equal(detached, 0);
-    assert_int_equal(kiriSheet_DetachPiece(host.world, sheet, 0, NULL), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriSheet_DetachPiece(host.world, 0, 0, &detached), KIRI_ERROR_ID);
+    assert_int_equal(kiriFrame_DetachPiece(host.world, sheet, &detached), KIRI_ERROR_ID);
+    assert_int_equal(kiriFrame_DestroyPiece(host.world, sheet), KIRI_ERROR_ID);
+    assert_int_equal(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 0), NULL), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriSheet_DropCrumbs(host.world, sheet, -1.0f, &count), KIRI_ERROR_ARGUMENT);
     kiriBudget budget = { 0, 5, 0, 0 };
     OK(kiriWorld_SetBudget(host.world, &budget));
     static const float way[4] = { 0.3f, -0.1f, 0.3f, 1.1f };
     Host_Cut(&host, sheet, way, 2);
     assert_int_equal(Host_Tick(&host, 1.0f / 60.0f, 1), KIRI_PENDING);
-    assert_int_equal(kiriSheet_DetachPiece(host.world, sheet, 0, &detached), KIRI_ERROR_STATE);
-    assert_int_equal(kiriSheet_DestroyPiece(host.world, sheet, 0), KIRI_ERROR_STATE);
+    assert_int_equal(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 0), &detached), KIRI_ERROR_STATE);
+    assert_int_equal(kiriFrame_DestroyPiece(host.world, Host_FrameOf(&host, sheet, 0)), KIRI_ERROR_STATE);
     assert_int_equal(kiriSheet_DropCrumbs(host.world, sheet, 1.0f, &count), KIRI_ERROR_STATE);
     while (Host_Tick(&host, 1.0f / 60.0f, 1) == KIRI_PENDING) {
     }
     assert_int_equal(Host_Counts(&host, sheet).pieces, 4);
     OK(kiriSheet_DropCrumbs(host.world, sheet, 10.0f, &count));
     assert_int_equal(count, 3);
-    assert_int_equal(kiriSheet_DetachPiece(host.world, sheet, 0, &detached), KIRI_ERROR_STATE);
-    assert_int_equal(kiriSheet_DestroyPiece(host.world, sheet, 0), KIRI_ERROR_STATE);
+    assert_int_equal(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 0), &detached), KIRI_ERROR_STATE);
+    assert_int_equal(kiriFrame_DestroyPiece(host.world, Host_FrameOf(&host, sheet, 0)), KIRI_ERROR_STATE);
     assert_float_equal(Host_Totals(&host, sheet).area, 0.7 * 0.513, 1e-4);
     CheckPieces(&host, sheet);
     Host_Stop(&host);
@@ -972,13 +973,14 @@ static void TestPartsWithoutMemory(void** state)
         int32_t failures = 0, dropped;
         uint64_t before = Host_Hash(&host);
         kiriMesh mesh = Host_Mesh(&host, sheet);
+        kiriFrame frame = Host_FrameOf(&host, sheet, 1);
         kiriResult result;
         do {
             int64_t live = host.live;
             host.failAt = host.calls + failures;
             host.failOnce = failures % 2 == 0;
-            result = what == 0   ? kiriSheet_DetachPiece(host.world, sheet, 1, &detached)
-                     : what == 1 ? kiriSheet_DestroyPiece(host.world, sheet, 1)
+            result = what == 0   ? kiriFrame_DetachPiece(host.world, frame, &detached)
+                     : what == 1 ? kiriFrame_DestroyPiece(host.world, frame)
                                  : kiriSheet_DropCrumbs(host.world, sheet, 0.33f, &dropped);
             host.failAt = -1;
             if (result != KIRI_OK) {

@@ -1,7 +1,8 @@
 /* A cut that takes effect changes how the sheet is divided, and not how it moves. */
 #include "probe.h"
 
-#include "sheet/kiri_update.h"
+#include "sheet/kiri_pipeline.h"
+#include "sheet/kiri_stages.h"
 #include "sheet/kiri_seen.h"
 
 #include <stdio.h>
@@ -204,7 +205,7 @@ static void TestRigidMotionGoesOn(void** state)
         assert_int_equal(probe.commits, 1);
         assert_true(Host_Counts(&probe.host, probe.sheet).pieces >= 2);
         assert_true(profile.largestJump < 1e-9);
-        assert_int_equal(DataOf(&probe)->fades.fading.count, 0);
+        assert_int_equal(DataOf(&probe)->seen.fades.fading.count, 0);
         Host_Stop(&probe.host);
     }
 }
@@ -228,17 +229,14 @@ static void TestFarFramesKeepTheirState(void** state)
     memcpy(before, DataOf(&probe)->frames.data, sizeof(before));
     Host_Cut(&probe.host, probe.sheet, way, 3);
     kiriSheetData* sheet = DataOf(&probe);
-    kiriQuota all = { INT64_MAX, 0 };
-    assert_true(kiriUpdate_Start(sheet));
-    sheet->update.isBegun = true;
-    assert_int_equal(kiriUpdate_SplitMesh(sheet, &all), KIRI_DONE);
-    assert_int_equal(kiriUpdate_Grid(sheet, &all), KIRI_DONE);
-    assert_int_equal(kiriUpdate_Regions(sheet, &all), KIRI_DONE);
-    assert_int_equal(kiriUpdate_Shape(sheet, &all), KIRI_DONE);
-    assert_int_equal(kiriUpdate_Samples(sheet, &all), KIRI_DONE);
-    assert_int_equal(kiriUpdate_Constants(sheet, &all), KIRI_DONE);
-    kiriUpdate_CommitMesh(sheet);
-    kiriUpdate_Commit(sheet);
+    kiriQuotas all;
+    for (int i = 0; i < KIRI_QUOTA_COUNT; ++i) {
+        all.of[i] = (kiriQuota){ INT64_MAX, 0 };
+    }
+    kiriPipeline_Start(sheet);
+    assert_int_equal(kiriPipeline_Run(sheet, &all, NULL), KIRI_DONE);
+    kiriStage_CommitMesh(sheet);
+    kiriStage_Commit(sheet);
     for (int32_t f = 0; f < count; ++f) {
         const kiriFrameData *a = &before[f], *b = &sheet->frames.data[f];
         if (a->mass == b->mass && a->inertia[0] == b->inertia[0] && a->inertia[2] == b->inertia[2]) {
@@ -250,8 +248,8 @@ static void TestFarFramesKeepTheirState(void** state)
         }
     }
     assert_true(same > count / 2 && same < count);
-    kiriUpdate_Finish(sheet);
-    sheet->update.isBegun = false;
+    kiriPipeline_Finish(sheet);
+    sheet->update->isBegun = false;
     kiriView_TakeJump(sheet);
     Host_Stop(&probe.host);
 }
@@ -272,14 +270,14 @@ static void CheckSeen(Probe* probe)
     const kiriSheetData* sheet = DataOf(probe);
     const kiriMeshData* mesh = &sheet->mesh;
     seen->jump = fmax(seen->jump, Probe_SeenJump(sheet, seen->at));
-    for (int32_t k = 0; k < sheet->fades.fading.count; ++k) {
-        seen->longest = fmax(seen->longest, kiriVec3_Length(sheet->fades.fading.data[k].offset));
+    for (int32_t k = 0; k < sheet->seen.fades.fading.count; ++k) {
+        seen->longest = fmax(seen->longest, kiriVec3_Length(sheet->seen.fades.fading.data[k].offset));
     }
     for (int32_t i = 0; i < seen->pointCount; ++i) {
         kiriVec2 local = kiriMesh_Local(mesh, sheet->points.data[i].at);
         kiriVec3 x = kiriVec3_Add(kiriSkin_Position(&sheet->pointSkin, i, sheet->frames.data, local),
-                                  Probe_OffsetOf(&sheet->pointFades, i));
-        kiriVec3 was = kiriVec3_Load(&sheet->pointPositions.data[3 * i]); /* since the last tick */
+                                  Probe_OffsetOf(&sheet->seen.pointFades, i));
+        kiriVec3 was = kiriVec3_Load(&sheet->seen.pointPositions.data[3 * i]); /* since the last tick */
         seen->pointJump = fmax(seen->pointJump, kiriVec3_Length(kiriVec3_Sub(x, was)));
     }
 }
@@ -299,7 +297,7 @@ static void CutWhatSwings(Seen* seen, const kiriSheetDef* def)
     Circle(way, 30, 0.5, 0.45, 0.3);
     OK(kiriBeginCut(probe->host.world, probe->sheet, way[0], &cut));
     for (int32_t tick = 0; tick < 40; ++tick) {
-        const kiriSurface* surface = &DataOf(probe)->surface;
+        const kiriSurface* surface = &DataOf(probe)->seen.surface;
         assert_true(surface->vertexCount <= 3000);
         seen->pointCount = DataOf(probe)->points.count;
         memcpy(seen->at, surface->exact.data, sizeof(kiriVec3) * (size_t)surface->vertexCount);
@@ -333,7 +331,9 @@ static void TestNothingSeenJumps(void** state)
     Host_Stop(&seen->probe.host);
 
     def.fadeTime = 0.2f;
-    def.popping = 1;
+    kiriPaperDef paper = Host_PaperDef();
+    paper.popping = 1;
+    def.paper = &paper;
     CutWhatSwings(seen, &def);
     printf("without: %.1e m; as in the paper: %.1e m, momentum by %.1e\n", fitted, seen->jump, seen->probe.momentum);
     assert_true(seen->longest == 0.0 && seen->probe.momentum > 1e-4); /* the probe sees what it should */
@@ -355,7 +355,7 @@ static void StartFading(Host* host, kiriSheetDef* def, kiriSheet* sheet)
     OK(kiriWorld_Tick(host->world, 1e-6f, 1));
     Host_Cut(host, *sheet, line, 2);
     OK(kiriWorld_Tick(host->world, 1e-6f, 1));
-    assert_true(data->fades.fading.count > 0);
+    assert_true(data->seen.fades.fading.count > 0);
 }
 
 static void TestFadesEnd(void** state)
@@ -366,7 +366,7 @@ static void TestFadesEnd(void** state)
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
     StartFading(&host, &def, &sheet);
-    kiriFades* fades = &host.world->sheets.data[0]->fades;
+    kiriFades* fades = &host.world->sheets.data[0]->seen.fades;
     double length = 1e30;
     int64_t calls = host.calls, live = host.live;
     for (int32_t tick = 0; tick < 12; ++tick) {
@@ -389,7 +389,7 @@ static void TestFadesAreInTheHash(void** state)
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
     StartFading(&host, &def, &sheet);
-    kiriFades* fades = &host.world->sheets.data[0]->fades;
+    kiriFades* fades = &host.world->sheets.data[0]->seen.fades;
     uint64_t hash = Host_Hash(&host);
     fades->fading.data[fades->fading.count - 1].offset.x += 1e-6;
     assert_true(Host_Hash(&host) != hash);
@@ -410,7 +410,7 @@ static void TestNoSleepBeforeTheEnd(void** state)
     for (; awake; ++ticks) {
         OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
         OK(kiriSheet_IsAwake(host.world, sheet, &awake));
-        assert_true(awake || host.world->sheets.data[0]->fades.fading.count == 0);
+        assert_true(awake || host.world->sheets.data[0]->seen.fades.fading.count == 0);
     }
     assert_in_range(ticks, 119, 123);
     Host_Stop(&host);
@@ -430,7 +430,9 @@ static void TestDefsThatAreNone(void** state)
         kiriSheetDef def;
         kiriDefaultSheetDef(&def);
         def.fadeTime = wrong[k].fadeTime;
-        def.popping = wrong[k].popping;
+        kiriPaperDef paper = Host_PaperDef();
+        paper.popping = wrong[k].popping;
+        def.paper = &paper;
         assert_int_equal(Host_TryRectangle(&host, &def, 1.0f, 1.0f, 4, 4, &sheet), KIRI_ERROR_ARGUMENT);
     }
     Host_Stop(&host);

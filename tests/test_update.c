@@ -12,7 +12,7 @@ static const kiriSheetData* SheetOf(const Host* host, int32_t index)
 
 static uint64_t Layout(const Host* host, int32_t index)
 {
-    return kiriSnapshot_HashLayout(SheetOf(host, index));
+    return kiriStateHash_OfLayout(SheetOf(host, index));
 }
 
 /* ---- Blades that wander at random ---- */
@@ -112,7 +112,9 @@ static void WanderBothWays(const Case* c, int32_t number, uint32_t seed)
     memset(wanderers, 0, sizeof(wanderers));
     for (int k = 0; k < 2; ++k) {
         kiriSheetDef def = DefOf(c);
-        def.fromScratch = k;
+        kiriPaperDef paper = Host_PaperDef();
+        paper.fromScratch = k;
+        def.paper = &paper;
         Host_Start(&hosts[k]);
         hosts[k].every = 4; /* to save time, as in all of this file */
         sheets[k] = Host_AddRectangle(&hosts[k], &def, 1.0f, 1.0f, c->mesh, c->mesh);

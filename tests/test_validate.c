@@ -1,6 +1,7 @@
 /* The checks of validate.h see what they are for: a sound world, made wrong in memory in one way at a time. */
 #include "host.h"
 #include "sheet/kiri_piece.h"
+#include "sheet/kiri_update.h"
 #include "world/kiri_world.h"
 
 #include <math.h>
@@ -133,7 +134,7 @@ static const char* CorruptMesh(kiriWorld* world, kiriSheetData* s, int way)
         return "births";
     case 12:
         triangles[mesh->triangles.count - 1].parent = mesh->triangles.count;
-        s->update.refit.triangleCount = mesh->triangles.count - 1;
+        s->update->refit.triangleCount = mesh->triangles.count - 1;
         return "is split from";
     default:
         return NULL;
@@ -376,11 +377,11 @@ static const char* CorruptRegions(kiriWorld* world, kiriSheetData* s, int way)
         s->frames.data[1].center.x += 1e-4;
         return "middle of its region";
     case 10:
-        s->update.refit.tenures.data[s->grid.cells.data[site].square].owner = 1;
+        s->update->refit.tenures.data[s->grid.cells.data[site].square].owner = 1;
         return "handed over";
     case 11:
-        s->update.refit.owned
-            .data[s->update.refit.tenures.data[s->grid.cells.data[DividedCell(&s->grid)].square].parts.first]
+        s->update->refit.owned
+            .data[s->update->refit.tenures.data[s->grid.cells.data[DividedCell(&s->grid)].square].parts.first]
             .owner ^= 1;
         return "handed over";
     default:
@@ -615,7 +616,7 @@ static const char* CorruptSamples(kiriWorld* world, kiriSheetData* s, int way)
 
 static const char* CorruptSurface(kiriWorld* world, kiriSheetData* s, int way)
 {
-    kiriSurface* surface = &s->surface;
+    kiriSurface* surface = &s->seen.surface;
     (void)world;
     switch (way) {
     case 0:
@@ -640,11 +641,11 @@ static const char* CorruptSurface(kiriWorld* world, kiriSheetData* s, int way)
         surface->sourceWeights.data[5] += 0.5f;
         return "another source";
     case 7:
-        assert_true(s->fades.fading.count > 1);
-        s->fades.fading.data[1].sample = s->fades.fading.data[0].sample;
+        assert_true(s->seen.fades.fading.count > 1);
+        s->seen.fades.fading.data[1].sample = s->seen.fades.fading.data[0].sample;
         return "fades: sample";
     case 8:
-        s->fades.fading.data[0].left = 2.0 * s->fades.time;
+        s->seen.fades.fading.data[0].left = 2.0 * s->seen.fades.time;
         return "fades for";
     default:
         return NULL;
@@ -769,7 +770,7 @@ static void HoldAllOver(Host* host, kiriSheet sheet, int32_t* frames)
 }
 
 /* A pin that comes while a budget interrupts the cutting of the mesh: grid->nodeCell does not know the new nodes of
-   mesh->squares, which kiriSheet_FrameAt reads beyond its end. kiriSheet_GetWeights does the same. */
+   mesh->squares, which kiriPins_FrameAt reads beyond its end. kiriSheet_GetWeights does the same. */
 static void PinsWhileTheMeshIsCut(void** state)
 {
     (void)state;
@@ -840,7 +841,7 @@ static void ResamplingComesToAnEnd(void** state)
     def.frameCount = def.maxFrames = 1;
     def.rigidArea = 0.01f;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.25f, 4, 1);
-    host.world->sheets.data[0]->maxFrames = 256;
+    host.world->sheets.data[0]->settings.maxFrames = 256;
     OK(kiriWorld_SetBudget(host.world, &budget));
     Host_Cut(&host, sheet, line, 2);
     for (int tick = 0; tick < 200 && result == KIRI_PENDING; ++tick) {

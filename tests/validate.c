@@ -67,7 +67,7 @@ static bool Check_Blocks(Check* check, const kiriMemory* memory, const char* nam
 static bool Check_Frame(Check* check, const kiriSheetData* sheet, int32_t i)
 {
     const kiriFrameData* f = &sheet->frames.data[i];
-    double density = (double)sheet->material.density * sheet->material.thickness;
+    double density = (double)sheet->settings.material.density * sheet->settings.material.thickness;
     REQUIRE(AreFinite3(f->x) && AreFinite3(f->velocity) && AreFinite3(f->spin), "frame %d is not finite", i);
     REQUIRE(AreFinite3(f->A.u) && AreFinite3(f->A.v) && AreFinite3(f->A.d), "frame %d has no axes", i);
     REQUIRE(AreFinite3(f->rate.u) && AreFinite3(f->rate.v) && AreFinite3(f->rate.d), "frame %d has no rate", i);
@@ -77,7 +77,7 @@ static bool Check_Frame(Check* check, const kiriSheetData* sheet, int32_t i)
     REQUIRE(f->inertia[0] > 0.0 && f->inertia[2] > 0.0 &&
                 f->inertia[1] * f->inertia[1] <= f->inertia[0] * f->inertia[2] * (1.0 + 1e-6),
             "frame %d has inertia %g, %g, %g", i, f->inertia[0], f->inertia[1], f->inertia[2]);
-    if (sheet->mechanics.model == KIRI_MODEL_LINKS) {
+    if (sheet->settings.mechanics.model == KIRI_MODEL_LINKS) {
         kiriVec3 d = kiriVec3_Cross(f->A.u, f->A.v);
         REQUIRE(IsNear(kiriVec3_Length(f->A.u), 1.0, 1e-9) && IsNear(kiriVec3_Length(f->A.v), 1.0, 1e-9) &&
                     IsNear(kiriVec3_Dot(f->A.u, f->A.v), 0.0, 1e-9) && kiriVec3_Length(kiriVec3_Sub(d, f->A.d)) <= 1e-9,
@@ -89,7 +89,7 @@ static bool Check_Frame(Check* check, const kiriSheetData* sheet, int32_t i)
 static bool Check_Frames(Check* check, const kiriSheetData* sheet)
 {
     double mass = 0.0, area = kiriMesh_Area(&sheet->mesh);
-    double whole = area * (double)sheet->material.density * sheet->material.thickness;
+    double whole = area * (double)sheet->settings.material.density * sheet->settings.material.thickness;
     check->part = "frames";
     REQUIRE(sheet->frames.count > 0, "none");
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
@@ -260,7 +260,7 @@ static bool Check_Points(Check* check, const kiriSheetData* sheet)
     }
     check->part = "contacts";
     return Check_ContactsOf(check, sheet, sheet->contacts.data, sheet->contacts.count) &&
-           Check_ContactsOf(check, sheet, sheet->lastContacts.data, sheet->lastContacts.count);
+           Check_ContactsOf(check, sheet, sheet->rest.contacts.data, sheet->rest.contacts.count);
 }
 
 /* ---- Weights of samples ---- */
@@ -332,7 +332,7 @@ static bool Check_Parents(Check* check, const kiriSheetData* sheet)
 
 static bool Check_Topology(Check* check, const kiriSheetData* sheet)
 {
-    const kiriSurface* surface = &sheet->surface;
+    const kiriSurface* surface = &sheet->seen.surface;
     const kiriMeshData* mesh = &sheet->mesh;
     REQUIRE(surface->vertexCount == mesh->vertices.count && surface->triangleCount == mesh->triangles.count,
             "%d vertices of %d, %d triangles of %d", surface->vertexCount, mesh->vertices.count, surface->triangleCount,
@@ -355,7 +355,7 @@ static bool Check_Topology(Check* check, const kiriSheetData* sheet)
 
 static bool Check_Surface(Check* check, const kiriSheetData* sheet)
 {
-    const kiriSurface* surface = &sheet->surface;
+    const kiriSurface* surface = &sheet->seen.surface;
     check->part = "surface";
     if (!Check_Topology(check, sheet)) {
         return false;
@@ -369,9 +369,9 @@ static bool Check_Surface(Check* check, const kiriSheetData* sheet)
                 normal.z);
     }
     for (int32_t i = 0; i < sheet->points.count; ++i) {
-        REQUIRE(AreFinite3(kiriVec3_Load(&sheet->pointPositions.data[3 * i])), "point %d is nowhere", i);
+        REQUIRE(AreFinite3(kiriVec3_Load(&sheet->seen.pointPositions.data[3 * i])), "point %d is nowhere", i);
     }
-    REQUIRE(sheet->seenPoints == sheet->points.count, "%d points are seen, of %d", sheet->seenPoints,
+    REQUIRE(sheet->seen.pointCount == sheet->points.count, "%d points are seen, of %d", sheet->seen.pointCount,
             sheet->points.count);
     return true;
 }
@@ -405,8 +405,9 @@ static bool Check_Queue(Check* check, const kiriSheetData* sheet)
 {
     const kiriUpdate* u = UpdateOf(sheet);
     check->part = "queue";
-    REQUIRE(!HasUpdate(sheet) || (u->taken >= 0 && u->taken <= u->count && u->count <= sheet->queue.count),
-            "%d points taken of %d, %d wait", u->taken, u->count, sheet->queue.count);
+    REQUIRE(!HasUpdate(sheet) ||
+                (u->cut.taken >= 0 && u->cut.taken <= u->cut.count && u->cut.count <= sheet->queue.count),
+            "%d points taken of %d, %d wait", u->cut.taken, u->cut.count, sheet->queue.count);
     for (int32_t i = 0; i < sheet->queue.count; ++i) {
         const kiriQueuedPoint* point = &sheet->queue.data[i];
         bool isKnown = false;
@@ -416,7 +417,8 @@ static bool Check_Queue(Check* check, const kiriSheetData* sheet)
         REQUIRE(isKnown, "point %d is of a cut that is no more", i);
         REQUIRE(i == 0 || point[-1].stamp <= point->stamp, "point %d was given before the one before it", i);
         REQUIRE(IsFinite(point->to.x) && IsFinite(point->to.y), "point %d is nowhere", i);
-        REQUIRE(!HasUpdate(sheet) || (point->stamp == u->stamp) == (i < u->count), "point %d and the update", i);
+        REQUIRE(!HasUpdate(sheet) || (point->stamp == u->cut.stamp) == (i < u->cut.count), "point %d and the update",
+                i);
     }
     for (int32_t k = 0; k < sheet->cuts.count; ++k) {
         const kiriCutData* cut = sheet->cuts.data[k];
@@ -424,7 +426,7 @@ static bool Check_Queue(Check* check, const kiriSheetData* sheet)
         for (int32_t i = 0; i < sheet->queue.count; ++i) {
             waiting += sheet->queue.data[i].cut == cut;
         }
-        REQUIRE(cut->sheet == sheet, "cut %d is of another sheet", k);
+        REQUIRE(cut->sheet == sheet && cut->index == k, "cut %d is of another sheet, or number %d", k, cut->index);
         REQUIRE(waiting == cut->waiting, "%d points of cut %d wait, counted %d", waiting, k, cut->waiting);
         REQUIRE(memcmp(&cut->tip.last, &cut->committed.last, sizeof(kiriVec2)) == 0 &&
                     cut->tip.blade.vertex == cut->committed.blade.vertex,
@@ -505,8 +507,8 @@ static bool Check_Sheet(Check* check, const kiriSheetData* sheet)
            Check_Links(check, sheet) && Check_Pieces(check, sheet) && Check_Patches(check, sheet) &&
            Check_Skins(check, sheet) && (!IsSettled(sheet) || Check_Derived(check, sheet)) &&
            Check_Pins(check, sheet) && Check_Points(check, sheet) && Check_Surface(check, sheet) &&
-           Check_Fades(check, &sheet->fades, sheet->mesh.vertices.count) &&
-           Check_Fades(check, &sheet->pointFades, sheet->points.count) && Check_Queue(check, sheet);
+           Check_Fades(check, &sheet->seen.fades, sheet->mesh.vertices.count) &&
+           Check_Fades(check, &sheet->seen.pointFades, sheet->points.count) && Check_Queue(check, sheet);
 }
 
 const char* Validate_World(const kiriWorld* world)

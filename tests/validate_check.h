@@ -3,13 +3,14 @@
 #define KIRI_TEST_VALIDATE_CHECK_H
 
 #include "sheet/kiri_piece.h"
+#include "sheet/kiri_update.h"
 #include "world/kiri_world.h"
 
 /* ---- The only places that know where a sheet keeps its update ---- */
 
 static inline const kiriUpdate* UpdateOf(const kiriSheetData* sheet)
 {
-    return &sheet->update;
+    return sheet->update;
 }
 
 static inline bool HasUpdate(const kiriSheetData* sheet)

@@ -11,12 +11,21 @@
      kiriWorld_GetLastError says in one line what went wrong.
    - Sheets, cuts, frames and pins are 32-bit ids; 0 is no id. An id of another kind, or of something that is gone,
      gives KIRI_ERROR_ID.
-   - A world is not for two threads at once; two worlds share nothing. */
+   - Arrays that a call hands out belong to the library, and stay as they are until the next kiriWorld_Tick or
+     kiriDestroyWorld, whatever is called in between.
+   - Threads: functions that take a const kiriWorld only read it. Any number of threads may call them at the same time,
+     while no other function runs on that world. Two worlds share nothing. The library starts no thread. */
 
 #ifndef KIRI_H
 #define KIRI_H
 
 #include <stdint.h>
+
+/* Of this header; kiriGetVersion has that of the library. */
+#define KIRI_VERSION_MAJOR 0
+#define KIRI_VERSION_MINOR 2
+#define KIRI_VERSION_PATCH 0
+#define KIRI_VERSION (10000 * KIRI_VERSION_MAJOR + 100 * KIRI_VERSION_MINOR + KIRI_VERSION_PATCH)
 
 #if defined(KIRI_SHARED) && defined(_WIN32)
 #ifdef KIRI_BUILD
@@ -41,7 +50,7 @@ typedef uint32_t kiriFrame;
 typedef uint32_t kiriPin;
 
 typedef int32_t kiriResult;
-enum {
+enum kiriResultCode {
     KIRI_OK = 0,
     KIRI_PENDING = 1,         /* done, and work is left for later ticks */
     KIRI_ERROR_ARGUMENT = -1, /* null pointer, NaN, infinite, or outside the documented range */
@@ -50,10 +59,11 @@ enum {
     KIRI_ERROR_MESH = -4,     /* the triangles do not form a sheet: degenerate, inverted, duplicate, overlapping */
     KIRI_ERROR_STATE = -5,    /* the call comes in the wrong order */
     KIRI_ERROR_MEMORY = -6,   /* the allocator returned null */
-    KIRI_DIVERGED = -7        /* the motion of a sheet could not be continued; it was put to rest where it was */
+    KIRI_DIVERGED = -7,       /* the motion of a sheet could not be continued; it was put to rest where it was */
+    KIRI_ERROR_LIMIT = -8     /* all ids of a kind are used up: 4 194 304 at a time, 2^30 over the life of a world */
 };
 
-/* The library's version: major * 10000 + minor * 100 + patch. */
+/* The library's version, as KIRI_VERSION. */
 KIRI_API int32_t kiriGetVersion(void);
 
 /* The name of a result, "KIRI_OK" and so on; "unknown" for another number. */
@@ -61,6 +71,9 @@ KIRI_API const char* kiriGetResultName(kiriResult result);
 
 /* ---- World ------------------------------------------------------------------------------------------------------ */
 
+/* The host's functions. A thread that reads may call `log`, and in kiriSheet_GetWeights `alloc` and `free`. All memory
+   of a world comes from `alloc`, but for what Eigen takes while it orders the unknowns, when a cut couples frames that
+   were not coupled before. */
 typedef void* kiriAllocFn(void* user, int64_t bytes); /* at least 16-byte aligned, or null */
 typedef void kiriFreeFn(void* user, void* pointer);
 typedef void kiriLogFn(void* user, const char* line);
@@ -79,7 +92,7 @@ typedef struct kiriBudget {
                            none stands still in this tick, and comes first in the next */
 } kiriBudget;
 
-enum { KIRI_LEAST_TRIANGLES = 16 };
+enum kiriBudgetLimit { KIRI_LEAST_TRIANGLES = 16 };
 
 typedef struct kiriWorldDef {
     uint32_t cookie;
@@ -102,11 +115,14 @@ KIRI_API void kiriDestroyWorld(kiriWorld* world);
 
 /* One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut points,
    then moves every sheet. KIRI_PENDING: the budget is spent, and more work waits; the events say where.
-   KIRI_ERROR_MEMORY: nothing moved and the cut points still wait, call again.
+   KIRI_ERROR_MEMORY: nothing moved and the cut points still wait, call again. What the refused work had prepared is
+   made again: with a budget, a cut may then take effect some ticks later than it would have.
+   KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed.
    KIRI_DIVERGED: the sheets named by the events were put to rest, the others moved. */
 KIRI_API kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
 
-/* What went wrong last, in one line; "" when nothing did. Valid until the next call. */
+/* What went wrong in the last function that changes the world, in one line; "" when nothing did. A function that only
+   reads leaves it as it is, and gives its line to the log. Valid until the next function that changes the world. */
 KIRI_API const char* kiriWorld_GetLastError(const kiriWorld* world);
 
 KIRI_API kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
@@ -114,13 +130,15 @@ KIRI_API kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3
 /* Takes effect with the next tick. */
 KIRI_API kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget);
 
-/* A hash of everything that the coming ticks depend on: two worlds that got the same calls have the same hash. */
+/* A hash of everything that the coming ticks depend on, work that waits for its budget included: two worlds that got
+   the same calls have the same hash, and two with the same hash go on alike. (For how many items are made again after a
+   refused allocation it covers while work is at hand, or cells are limited.) */
 KIRI_API kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash);
 
 /* What happened since the start of the last tick. */
-enum {
+enum kiriEventType {
     KIRI_EVENT_CUT_FINISHED = 1, /* cut: all of it is in the mesh; the id is stale from now on */
-    KIRI_EVENT_PIECE_OFF = 2,    /* piece, frame (its first), crumb, area: a connected part came off the sheet */
+    KIRI_EVENT_PIECE_OFF = 2,    /* frame (its first, which names it), crumb, area: a connected part came off */
     KIRI_EVENT_FRAME_ADDED = 3,  /* frame */
     KIRI_EVENT_DIVERGED = 4,     /* the sheet was put to rest */
     KIRI_EVENT_DEFERRED = 5      /* stage, waiting: the budget ended in this stage of the sheet's work */
@@ -131,18 +149,17 @@ typedef struct kiriEvent {
     kiriSheet sheet;
     kiriCut cut;     /* or 0 */
     kiriFrame frame; /* or 0 */
-    int32_t piece;   /* index of the piece, or -1 */
     int32_t crumb;   /* 1: the piece is a crumb, see kiriSheetDef */
     float area;      /* m^2 of the piece, or 0 */
     int32_t stage;   /* KIRI_STAGE_..., or -1 */
     int32_t waiting; /* blade points that wait, with those that are being worked on; or 0 */
 } kiriEvent;
 
-/* *events points to *count events, valid until the next tick. */
+/* *events points to *count events. */
 KIRI_API kiriResult kiriWorld_GetEvents(const kiriWorld* world, const kiriEvent** events, int32_t* count);
 
 /* The stages of a tick in their order. */
-enum {
+enum kiriStage {
     KIRI_STAGE_CUT,       /* split the mesh along the blade */
     KIRI_STAGE_GRID,      /* cells and what links them */
     KIRI_STAGE_REGIONS,   /* geodesic distances, regions, links; placing of frames */
@@ -194,7 +211,7 @@ typedef struct kiriMaterial {
 } kiriMaterial;
 
 /* Materials to start from; material.c says where their numbers come from. */
-enum {
+enum kiriMaterialPreset {
     KIRI_MATERIAL_PAPER,  /* printing paper, 0.11 mm */
     KIRI_MATERIAL_COTTON, /* cloth, 0.5 mm; the default of a sheet def */
     KIRI_MATERIAL_RUBBER, /* natural rubber, 1 mm */
@@ -215,12 +232,12 @@ typedef struct kiriQuality {
     int32_t substeps;       /* for kiriWorld_Tick */
 } kiriQuality;
 
-enum { KIRI_QUALITY_FAST, KIRI_QUALITY_BALANCED, KIRI_QUALITY_ACCURATE, KIRI_QUALITY_COUNT };
+enum kiriQualityPreset { KIRI_QUALITY_FAST, KIRI_QUALITY_BALANCED, KIRI_QUALITY_ACCURATE, KIRI_QUALITY_COUNT };
 
 KIRI_API kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality);
 
 /* How a sheet deforms. */
-enum {
+enum kiriModel {
     /* Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, which its neighbours couple. */
     KIRI_MODEL_LINKS = 0,
 
@@ -236,10 +253,31 @@ enum {
 
 /* What is seen between the frames, and met by rays and blades. It does not change how the sheet moves: collision points
    stay on the linear surface, where contacts push. */
-enum {
+enum kiriSkinning {
     KIRI_SKINNING_LINEAR = 0, /* each frame carries a flat patch; the weights blend them (equation 1 of the paper) */
     KIRI_SKINNING_SMOOTH = 1  /* each carries a patch that bends towards its neighbours: no bumps at the frames */
 };
+
+/* The paper's own ways, to compare with. */
+typedef struct kiriPaperDef {
+    uint32_t cookie;
+
+    /* 1: every cut rebuilds grid, regions and shape functions from scratch; the outcome is the same bit for bit. Default
+       0. */
+    int32_t fromScratch;
+
+    /* 1: when a cut takes effect, only new frames take their motion from the surface: what is seen jumps, and momentum
+       is not kept. Default 0. */
+    int32_t popping;
+
+    /* KIRI_MODEL_POINTS only. Work grows with the points: spread evenly over the sheet, at least one in every piece;
+       default 0: four for each of frameCount. Order 1 (default) takes the strain at a point for all of the material
+       around it, order 2 a strain linear in it, at four times the work a point. */
+    int32_t integrationPoints; /* 0 to 1048576 */
+    int32_t integrationOrder;  /* 1 or 2 */
+} kiriPaperDef;
+
+KIRI_API void kiriDefaultPaperDef(kiriPaperDef* def);
 
 typedef struct kiriSheetDef {
     uint32_t cookie;
@@ -299,24 +337,12 @@ typedef struct kiriSheetDef {
        Default 0. */
     int32_t planar;
 
-    /* KIRI_MODEL_POINTS only. Work grows with the points: spread evenly over the sheet, at least one in every piece;
-       default 0: four for each of frameCount. Order 1 (default) takes the strain at a point for all of the material
-       around it, order 2 a strain linear in it, at four times the work a point. */
-    int32_t integrationPoints; /* 0 to 1048576 */
-    int32_t integrationOrder;  /* 1 or 2 */
-
-    /* 1: every cut rebuilds grid, regions and shape functions from scratch, as the paper does, to compare with; the
-       outcome is the same bit for bit. Default 0. */
-    int32_t fromScratch;
-
     /* When a cut takes effect, weights change, and what is seen between the frames would jump. It goes over to where it
        belongs within this time (s), and links of KIRI_MODEL_LINKS, whose borders lie elsewhere then, ease into their new
        strains as fast. Default 0.2; 0: at once. */
     float fadeTime;
 
-    /* 1: when a cut takes effect, only new frames take their motion from the surface, as in the paper, to compare with:
-       what is seen jumps, and momentum is not kept. Default 0. */
-    int32_t popping;
+    const kiriPaperDef* paper; /* null: none of the paper's own ways */
 } kiriSheetDef;
 
 KIRI_API void kiriDefaultSheetDef(kiriSheetDef* def);
@@ -329,8 +355,10 @@ KIRI_API kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
 KIRI_API kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions,
                                       int32_t* indices);
 
-/* The triangles that are seen, as after the last tick. The arrays belong to the library and stay as they are until the
-   next tick or until the sheet is destroyed. revision grows whenever indices or vertices are added or changed. */
+/* The triangles that are seen, as after the last tick. revision grows whenever indices or vertices are added or changed.
+   Rest positions are floats, 6e-8 of the distance from the origin of the rest plane apart: where triangles are not much
+   larger than that, they look flat or inverted. The library computes with the positions of the def to 2^-29 of the
+   sheet; sourceTriangles and sourceWeights are as exact as the sheet is large. */
 typedef struct kiriMesh {
     const float* positions;         /* 3 a vertex, m, world */
     const float* normals;           /* 3 a vertex, unit */
@@ -372,7 +400,7 @@ KIRI_API kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet she
 KIRI_API kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,
                                             int32_t count, uint16_t* indices);
 
-/* Collision points: 3 floats of position (m, world) a point, valid until the next tick. */
+/* Collision points: 3 floats of position (m, world) a point. */
 KIRI_API kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet, const float** positions,
                                                  int32_t* count);
 
@@ -416,9 +444,10 @@ KIRI_API kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet
 
 /* ---- Piece ------------------------------------------------------------------------------------------------------ */
 
-/* The connected parts of a sheet, from 0 on to kiriCounts.pieces. Their order is that of their first frames, so a
-   piece's number changes when others come off or are taken away: frames are for keeping, see kiriFrame_GetPiece. A cut
-   whose work waits for its budget has not parted anything yet. Momentum is about the world's origin. */
+/* The connected parts of a sheet. A piece is named by any of its frames. To go through all of them there are indices
+   too, from 0 on to kiriCounts.pieces, in the order of first frames: they change when a piece comes off or is taken
+   away; kiriFrame_GetPiece has that of now. A cut whose work waits for its budget has not parted anything yet. Momentum
+   is about the world's origin. */
 typedef struct kiriPieceState {
     double area, mass;                                    /* m^2, kg */
     double center[3], momentum[3], angularMomentum[3];    /* of mass, m; kg m/s; kg m^2/s */
@@ -427,8 +456,7 @@ typedef struct kiriPieceState {
     int32_t crumb;                                        /* 1: see kiriSheetDef */
 } kiriPieceState;
 
-/* What is in a piece, in the order of the mesh. The arrays are parts of one for all pieces, piece after piece, and stay
-   as they are until the next tick or until a piece is taken away. */
+/* What is in a piece, in the order of the mesh. The arrays are parts of one for all pieces, piece after piece. */
 typedef struct kiriPieceMesh {
     const int32_t* vertices;        /* of kiriMesh */
     const int32_t* triangles;       /* of kiriMesh */
@@ -437,33 +465,33 @@ typedef struct kiriPieceMesh {
     int32_t vertexCount, triangleCount, collisionPointCount;
 } kiriPieceMesh;
 
-/* The first of these calls after a cut sorts the sheet by pieces, which may fail with KIRI_ERROR_MEMORY. A number that
+/* The first of these calls after a cut sorts the sheet by pieces, which may fail with KIRI_ERROR_MEMORY. An index that
    is no piece's: KIRI_ERROR_ARGUMENT. */
 KIRI_API kiriResult kiriSheet_GetPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceState* state);
 KIRI_API kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceMesh* mesh);
 
-/* *frames points to *count ids, as long as the arrays above. */
+/* *frames points to *count ids. */
 KIRI_API kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, int32_t piece, const kiriFrame** frames,
                                              int32_t* count);
 
-/* Makes a sheet of the piece. Its frames, pins and collision points move along, in their order; they keep their ids and
-   states, and what waits for the next tick: the motion goes on as if nothing had happened, but for the solver's guard
-   over energy and step length, which is one for each sheet. Both sheets have all settings (of collisionPoints and
-   integrationPoints the share that falls to their area), maxFrames each for itself, and sleep each for itself. Cuts
-   stay with the rest: a blade in the piece cuts nothing until it is back. Indices of vertices, triangles and collision
-   points of the rest change (its revision grows), and so do the numbers of pieces behind this one: they are one less.
-   Both keep the grid of the whole sheet, which takes about 40 bytes a square: crumbs are better dropped.
-   KIRI_ERROR_STATE: it is the only piece, or work on a cut waits for its budget. */
-KIRI_API kiriResult kiriSheet_DetachPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriSheet* detached);
+/* The index that the piece with this frame has now. */
+KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* piece);
+
+/* Makes a sheet of the piece with this frame. Its frames, pins and collision points move along, in their order; they
+   keep their ids and states, and what waits for the next tick: the motion goes on as if nothing had happened, but for the
+   solver's guard over energy and step length, which is one for each sheet. Both sheets have all settings (of
+   collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself, and sleep each
+   for itself. Cuts stay with the rest: a blade in the piece cuts nothing until it is back. Indices of vertices, triangles
+   and collision points of the rest change (its revision grows). Both keep the grid of the whole sheet, which takes about
+   40 bytes a square: crumbs are better dropped. KIRI_ERROR_STATE: it is the only piece, or work on a cut waits for its
+   budget. */
+KIRI_API kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached);
 
 /* The same without keeping the piece: ids of its frames and pins are stale. */
-KIRI_API kiriResult kiriSheet_DestroyPiece(kiriWorld* world, kiriSheet sheet, int32_t piece);
+KIRI_API kiriResult kiriFrame_DestroyPiece(kiriWorld* world, kiriFrame frame);
 
 /* Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is how many. */
 KIRI_API kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count);
-
-/* The piece of its sheet that the frame is in. */
-KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* piece);
 
 /* ---- Cut -------------------------------------------------------------------------------------------------------- */
 

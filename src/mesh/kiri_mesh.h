@@ -7,6 +7,8 @@
 
 #include "kiri_square.h"
 
+enum { KIRI_LATTICE = 1 << 29 }; /* lattice steps along the longer side of the sheet's box */
+
 /* Half-edge 3 t + i runs from vertex[i] to vertex[(i + 1) % 3] of triangle t. */
 typedef struct kiriTriangle {
     int32_t vertex[3]; /* counter-clockwise, never degenerate */

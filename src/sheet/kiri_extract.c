@@ -1,7 +1,9 @@
 #include "kiri_extract.h"
 
+#include "kiri_build.h"
 #include "kiri_piece.h"
-#include "kiri_update.h"
+#include "kiri_pin.h"
+#include "kiri_pipeline.h"
 #include "kiri_seen.h"
 
 #include <string.h>
@@ -69,34 +71,19 @@ static bool MapRest(kiriExtract* extract)
 /* ---- The part ---- */
 
 /* What is spread over the sheet falls to its parts by area. */
-static void TakeParameters(kiriSheetData* to, const kiriSheetData* from)
+static void CopySettings(kiriSheetData* to, const kiriSheetData* from)
 {
     double share = kiriMesh_Area(&to->mesh) / kiriMesh_Area(&from->mesh);
-    to->material = from->material;
-    to->snap = from->snap;
-    to->mechanics = from->mechanics;
-    to->rigidArea = from->rigidArea;
-    to->crumbArea = from->crumbArea;
-    to->frameLength = from->frameLength;
-    to->iterations = from->iterations;
-    to->pointCount = share * from->pointCount;
-    to->integrationPoints = share * from->integrationPoints;
-    to->integrationOrder = from->integrationOrder;
-    to->alwaysScratch = from->alwaysScratch;
-    to->shape.rigidWeight = from->shape.rigidWeight;
-    to->surface.skinning = from->surface.skinning;
-    to->popping = from->popping;
-    to->fades.time = from->fades.time;
-    to->fades.least = from->fades.least;
-    to->pointFades.time = from->pointFades.time;
-    to->pointFades.least = from->pointFades.least;
-    to->sleepSpeed = from->sleepSpeed;
-    to->calm = from->calm;
-    to->asleep = from->asleep;
+    to->settings = from->settings;
+    to->settings.collisionPoints = share * from->settings.collisionPoints;
+    to->settings.integrationPoints = share * from->settings.integrationPoints;
+    to->rest.calm = from->rest.calm;
+    to->rest.asleep = from->rest.asleep;
+    kiriBuild_ApplySettings(to);
 }
 
 /* The cell of the part with the material of one of the sheet. */
-static int32_t CellOf(const kiriExtract* extract, const kiriSheetData* to, int32_t cell)
+static int32_t CellInPart(const kiriExtract* extract, const kiriSheetData* to, int32_t cell)
 {
     const kiriCell* was = &extract->from->grid.cells.data[cell];
     int32_t found = to->grid.squareCell.data[was->square];
@@ -106,23 +93,21 @@ static int32_t CellOf(const kiriExtract* extract, const kiriSheetData* to, int32
     return found;
 }
 
-static bool TakeSites(const kiriExtract* extract, kiriSheetData* to)
+static bool CopySites(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
     bool ok = true;
     for (int32_t i = 0; ok && i < from->frames.count; ++i) {
         if (extract->frameTo.data[i] != KIRI_NONE) {
             kiriSite site = from->frames.data[i].site;
-            kiriSiteMove move = { extract->frameTo.data[i], KIRI_NONE };
-            site.cell = CellOf(extract, to, site.cell);
-            ok = kiriArray_Push(to->memory, &to->update.sites, site) &&
-                 kiriArray_Push(to->memory, &to->update.moves, move);
+            site.cell = CellInPart(extract, to, site.cell);
+            ok = kiriArray_Push(to->memory, &to->update->placing.sites, site);
         }
     }
     return ok;
 }
 
-static bool TakePoints(const kiriExtract* extract, kiriSheetData* to)
+static bool CopyPoints(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
     bool ok = true;
@@ -138,35 +123,35 @@ static bool TakePoints(const kiriExtract* extract, kiriSheetData* to)
     return ok;
 }
 
-static bool TakePins(const kiriExtract* extract, kiriSheetData* to)
+static bool CopyPins(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
     bool ok = true;
     for (int32_t i = 0; ok && i < from->pins.count; ++i) {
         if (extract->pinTo.data[i] != KIRI_NONE) {
             int32_t frame = extract->frameTo.data[from->layout.pinFrame.data[i]];
-            ok = kiriSheet_AddPin(to, &from->pins.data[i], frame);
+            ok = kiriPins_Add(to, &from->pins.data[i], frame);
         }
     }
     return ok;
 }
 
 /* Room for contacts is what SetContacts reserves, so that none is needed later. */
-static bool TakeContacts(const kiriExtract* extract, kiriSheetData* to)
+static bool CopyContacts(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
-    int32_t most = from->contacts.count > from->lastContacts.count ? from->contacts.count : from->lastContacts.count;
+    int32_t most = from->contacts.count > from->rest.contacts.count ? from->contacts.count : from->rest.contacts.count;
     if (!kiriArray_Reserve(to->memory, &to->contacts, most) ||
-        !kiriArray_Reserve(to->memory, &to->lastContacts, most) ||
+        !kiriArray_Reserve(to->memory, &to->rest.contacts, most) ||
         !kiriArray_Reserve(to->memory, &to->contactRows, most)) {
         return false;
     }
-    for (int32_t i = 0; i < from->contacts.count + from->lastContacts.count; ++i) {
+    for (int32_t i = 0; i < from->contacts.count + from->rest.contacts.count; ++i) {
         bool isLast = i >= from->contacts.count;
-        kiriContact contact = isLast ? from->lastContacts.data[i - from->contacts.count] : from->contacts.data[i];
+        kiriContact contact = isLast ? from->rest.contacts.data[i - from->contacts.count] : from->contacts.data[i];
         contact.point = extract->pointTo.data[contact.point];
         if (contact.point != KIRI_NONE && isLast) {
-            to->lastContacts.data[to->lastContacts.count++] = contact;
+            to->rest.contacts.data[to->rest.contacts.count++] = contact;
         } else if (contact.point != KIRI_NONE) {
             to->contacts.data[to->contacts.count++] = contact;
         }
@@ -174,40 +159,34 @@ static bool TakeContacts(const kiriExtract* extract, kiriSheetData* to)
     return true;
 }
 
-/* All stages but the mesh's, without a limit. No frame is added: whoever wants one has asked before, or asks with the
-   next cut. */
+/* No frame is added: whoever wants one has asked before, or asks with the next cut. */
 static bool RunStages(const kiriExtract* extract, kiriSheetData* to)
 {
-    kiriQuota all = { INT64_MAX, 0 };
-    kiriUpdate* u = &to->update;
-    u->isScratch = true;
-    if (kiriUpdate_Grid(to, &all) != KIRI_DONE || !TakeSites(extract, to) || !TakePoints(extract, to) ||
-        !TakePins(extract, to) || !TakeContacts(extract, to) || !kiriSheet_StartSkin(to)) {
+    if (!kiriPipeline_Make(to, KIRI_STAGE_REGIONS) || !CopySites(extract, to) || !CopyPoints(extract, to) ||
+        !CopyPins(extract, to) || !CopyContacts(extract, to)) {
         return false;
     }
-    u->step = 1; /* sites are where they shall be */
-    to->maxFrames = 0;
-    bool ok = kiriUpdate_Regions(to, &all) == KIRI_DONE && kiriUpdate_Shape(to, &all) == KIRI_DONE &&
-              kiriUpdate_Samples(to, &all) == KIRI_DONE && kiriUpdate_Constants(to, &all) == KIRI_DONE;
-    to->maxFrames = extract->from->maxFrames;
+    to->settings.maxFrames = 0;
+    bool ok = kiriPipeline_Make(to, KIRI_READY);
+    to->settings.maxFrames = extract->from->settings.maxFrames;
     return ok;
 }
 
 /* Frames as they are to the last bit, whatever a commit does to new ones. */
-static void TakeFrames(const kiriExtract* extract, kiriSheetData* to)
+static void CopyFrames(const kiriExtract* extract, kiriSheetData* to)
 {
-    to->frames.count = to->update.sites.count;
+    to->frames.count = to->update->placing.sites.count;
     for (int32_t i = 0; i < extract->from->frames.count; ++i) {
         if (extract->frameTo.data[i] != KIRI_NONE) {
             kiriFrameData* frame = &to->frames.data[extract->frameTo.data[i]];
             *frame = extract->from->frames.data[i];
-            frame->site = to->update.sites.data[extract->frameTo.data[i]];
+            frame->site = to->update->placing.sites.data[extract->frameTo.data[i]];
         }
     }
 }
 
 /* What is still seen elsewhere goes on to fade. Samples keep their order. */
-static bool TakeFades(kiriFades* to, kiriMemory* memory, const kiriFades* from, const int32_t* sampleTo,
+static bool CopyFades(kiriFades* to, kiriMemory* memory, const kiriFades* from, const int32_t* sampleTo,
                       int32_t sampleCount)
 {
     if (from->fading.count == 0) {
@@ -226,15 +205,15 @@ static bool TakeFades(kiriFades* to, kiriMemory* memory, const kiriFades* from, 
     return true;
 }
 
-static bool TakeAllFades(const kiriExtract* extract, kiriSheetData* to)
+static bool CopyAllFades(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
-    return TakeFades(&to->fades, to->memory, &from->fades, extract->vertexTo.data, to->mesh.vertices.count) &&
-           TakeFades(&to->pointFades, to->memory, &from->pointFades, extract->pointTo.data, to->points.count);
+    return CopyFades(&to->seen.fades, to->memory, &from->seen.fades, extract->vertexTo.data, to->mesh.vertices.count) &&
+           CopyFades(&to->seen.pointFades, to->memory, &from->seen.pointFades, extract->pointTo.data, to->points.count);
 }
 
 /* Links come in the order that they had. */
-static void TakeStrainOffsets(const kiriExtract* extract, kiriSheetData* to)
+static void CopyStrainOffsets(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
     int32_t count = 0;
@@ -246,18 +225,16 @@ static void TakeStrainOffsets(const kiriExtract* extract, kiriSheetData* to)
     }
 }
 
-static bool Build(const kiriExtract* extract, kiriSheetData* to)
+static bool BuildPart(const kiriExtract* extract, kiriSheetData* to)
 {
-    to->solver = kiriSolver_Create(to->memory, &to->mechanics);
-    if (to->solver == NULL || !RunStages(extract, to) || !TakeAllFades(extract, to)) {
+    to->solver = kiriSolver_Create(to->memory, &to->settings.mechanics);
+    if (to->solver == NULL || !RunStages(extract, to) || !CopyAllFades(extract, to)) {
         return false;
     }
-    TakeFrames(extract, to);
-    kiriUpdate_Commit(to);
-    TakeFrames(extract, to);
-    TakeStrainOffsets(extract, to);
-    kiriView_WriteTopology(to);
-    kiriMesh_Commit(&to->mesh);
+    CopyFrames(extract, to);
+    kiriBuild_Commit(to);
+    CopyFrames(extract, to);
+    CopyStrainOffsets(extract, to);
     kiriView_WritePositions(to);
     return true;
 }
@@ -269,8 +246,8 @@ bool kiriExtract_Build(kiriExtract* extract, kiriSheetData* to)
         !kiriMesh_InitPart(&to->mesh, to->memory, &from->mesh, extract->triangleTo.data, extract->vertexTo.data)) {
         return false;
     }
-    TakeParameters(to, from);
-    return Build(extract, to);
+    CopySettings(to, from);
+    return BuildPart(extract, to);
 }
 
 /* ---- The rest ---- */

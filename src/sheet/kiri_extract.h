@@ -4,6 +4,10 @@
 
 #include "kiri_sheet.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Which pieces are kept, and the index that everything of theirs gets in the part, or KIRI_NONE; orders are kept. */
 typedef struct kiriExtract {
     const kiriSheetData* from;
@@ -23,5 +27,9 @@ bool kiriExtract_Build(kiriExtract* extract, kiriSheetData* to);
 /* `rest`, a part made by the extract, takes the place of the sheet, with its id and its cuts: a blade that is in no
    material that is left cuts nothing until it comes back. Never fails. */
 void kiriExtract_MoveCuts(const kiriExtract* extract, kiriSheetData* sheet, kiriSheetData* rest);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

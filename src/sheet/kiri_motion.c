@@ -26,7 +26,7 @@ static void WriteContactRows(kiriSheetData* sheet)
         int32_t frame = point->frame;
         kiriVec2 at = kiriMesh_Local(&sheet->mesh, point->at);
         kiriVec3 normal = kiriVec3_Load(contact->normal);
-        kiriVec3 seen = sheet->exactPoints.data[contact->point];
+        kiriVec3 seen = sheet->seen.exactPoints.data[contact->point];
         kiriVec3 off = kiriVec3_Sub(kiriFrame_Carry(&sheet->frames.data[frame], at), seen);
         kiriContactRow row = {
             frame, at, normal, contact->offset + kiriVec3_Dot(normal, off), contact->friction, contact->stiffness
@@ -48,9 +48,9 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     system.pinCount = sheet->pinRows.count;
     system.contacts = sheet->contactRows.data;
     system.contactCount = sheet->contactRows.count;
-    system.mechanics = sheet->mechanics;
+    system.mechanics = sheet->settings.mechanics;
     system.patches = &sheet->layout.patches;
-    system.material = sheet->material;
+    system.material = sheet->settings.material;
     system.gravity = gravity;
     return system;
 }
@@ -79,55 +79,55 @@ static void ClearForces(kiriSheetData* sheet)
 
 void kiriMotion_Wake(kiriSheetData* sheet)
 {
-    sheet->asleep = false;
-    sheet->calm = 0.0;
+    sheet->rest.asleep = false;
+    sheet->rest.calm = 0.0;
 }
 
 /* Hosts find contacts anew each tick, where a sheet that hardly moves is seen: a plane that passes the point as near as
    the sheet may have gone meanwhile is the same. */
 static bool IsSameContact(const kiriSheetData* sheet, const kiriContact* a, const kiriContact* b)
 {
-    kiriVec3 seen = kiriVec3_Load(&sheet->pointPositions.data[3 * a->point]);
+    kiriVec3 seen = kiriVec3_Load(&sheet->seen.pointPositions.data[3 * a->point]);
     kiriVec3 tilt = kiriVec3_Sub(kiriVec3_Load(b->normal), kiriVec3_Load(a->normal));
     double rise = (double)b->offset - (double)a->offset - kiriVec3_Dot(tilt, seen);
     return a->point == b->point && a->friction == b->friction && a->stiffness == b->stiffness &&
-           kiriVec3_Length(tilt) <= CALM_SLOPE && fabs(rise) <= CALM_SECONDS * sheet->sleepSpeed;
+           kiriVec3_Length(tilt) <= CALM_SLOPE && fabs(rise) <= CALM_SECONDS * sheet->settings.sleepSpeed;
 }
 
 static bool AreContactsNew(const kiriSheetData* sheet)
 {
-    bool same = sheet->contacts.count == sheet->lastContacts.count;
+    bool same = sheet->contacts.count == sheet->rest.contacts.count;
     for (int32_t i = 0; same && i < sheet->contacts.count; ++i) {
-        same = IsSameContact(sheet, &sheet->lastContacts.data[i], &sheet->contacts.data[i]);
+        same = IsSameContact(sheet, &sheet->rest.contacts.data[i], &sheet->contacts.data[i]);
     }
     return !same;
 }
 
 static bool IsFading(const kiriSheetData* sheet)
 {
-    return sheet->fades.fading.count > 0 || sheet->pointFades.fading.count > 0;
+    return sheet->seen.fades.fading.count > 0 || sheet->seen.pointFades.fading.count > 0;
 }
 
 /* Falls asleep before a tick, not after one, so that what is seen is where it came to rest. */
 static bool Sleeps(kiriSheetData* sheet)
 {
-    if (sheet->calm >= CALM_SECONDS && AreContactsNew(sheet)) {
+    if (sheet->rest.calm >= CALM_SECONDS && AreContactsNew(sheet)) {
         kiriMotion_Wake(sheet);
     }
-    if (sheet->calm >= CALM_SECONDS && !IsFading(sheet) && !sheet->asleep) {
+    if (sheet->rest.calm >= CALM_SECONDS && !IsFading(sheet) && !sheet->rest.asleep) {
         PutToRest(sheet);
-        sheet->asleep = true;
+        sheet->rest.asleep = true;
     }
-    return sheet->asleep;
+    return sheet->rest.asleep;
 }
 
 /* The fastest frame counts, by the root mean square over its material. */
 static bool IsCalm(const kiriSheetData* sheet)
 {
-    double limit = 0.5 * sheet->sleepSpeed * sheet->sleepSpeed;
+    double limit = 0.5 * sheet->settings.sleepSpeed * sheet->settings.sleepSpeed;
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         const kiriFrameData* frame = &sheet->frames.data[i];
-        if (!(kiriFrame_KineticEnergy(frame, &sheet->material) < limit * frame->mass)) {
+        if (!(kiriFrame_KineticEnergy(frame, &sheet->settings.material) < limit * frame->mass)) {
             return false;
         }
     }
@@ -141,22 +141,22 @@ static void EndContacts(kiriSheetData* sheet)
 {
     kiriContact* data = sheet->contacts.data;
     int32_t capacity = sheet->contacts.capacity;
-    sheet->contacts.data = sheet->lastContacts.data;
-    sheet->contacts.capacity = sheet->lastContacts.capacity;
-    sheet->lastContacts.data = data;
-    sheet->lastContacts.capacity = capacity;
-    sheet->lastContacts.count = sheet->contacts.count;
+    sheet->contacts.data = sheet->rest.contacts.data;
+    sheet->contacts.capacity = sheet->rest.contacts.capacity;
+    sheet->rest.contacts.data = data;
+    sheet->rest.contacts.capacity = capacity;
+    sheet->rest.contacts.count = sheet->contacts.count;
     sheet->contacts.count = 0;
 }
 
 /* Fewer and longer substeps where the quota asks for it, and one system at least for each. */
-static kiriProgress TakeSteps(kiriSheetData* sheet, const kiriSystem* system, double dt, int32_t substeps,
-                              kiriQuota* systems)
+static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system, double dt, int32_t substeps,
+                                 kiriQuota* systems)
 {
     substeps = systems->left < substeps ? (int32_t)systems->left : substeps;
     for (int32_t i = 0; i < substeps; ++i) {
         int64_t most = systems->left - (substeps - 1 - i);
-        int32_t solved = kiriSolver_Step(sheet->solver, system, dt / substeps, sheet->iterations,
+        int32_t solved = kiriSolver_Step(sheet->solver, system, dt / substeps, sheet->settings.iterations,
                                          most < INT32_MAX ? (int32_t)most : INT32_MAX);
         if (solved < 0) {
             return KIRI_FAILED;
@@ -166,18 +166,18 @@ static kiriProgress TakeSteps(kiriSheetData* sheet, const kiriSystem* system, do
     return substeps > 0 ? KIRI_DONE : KIRI_MORE;
 }
 
-static kiriProgress Move(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
+static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
     WritePinRows(sheet);
     WriteContactRows(sheet);
     kiriSystem system = MakeSystem(sheet, gravity);
-    kiriProgress progress = TakeSteps(sheet, &system, dt, substeps, systems);
+    kiriProgress progress = TakeSubsteps(sheet, &system, dt, substeps, systems);
     if (progress == KIRI_FAILED) {
         PutToRest(sheet);
         kiriMotion_Wake(sheet);
     } else if (progress == KIRI_DONE) {
-        kiriStrainOffsets_Advance(&sheet->strainOffsets, dt, sheet->fades.time);
-        sheet->calm = IsCalm(sheet) ? sheet->calm + dt : 0.0;
+        kiriStrainOffsets_Advance(&sheet->strainOffsets, dt, sheet->seen.fades.time);
+        sheet->rest.calm = IsCalm(sheet) ? sheet->rest.calm + dt : 0.0;
     }
     return progress;
 }
@@ -188,7 +188,7 @@ kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt,
         sheet->contacts.count = 0;
         return KIRI_DONE;
     }
-    kiriProgress progress = Move(sheet, gravity, dt, substeps, systems);
+    kiriProgress progress = MoveFrames(sheet, gravity, dt, substeps, systems);
     EndContacts(sheet);
     ClearForces(sheet);
     return progress;
@@ -211,10 +211,10 @@ kiriTotals kiriMotion_Sum(const kiriSheetData* sheet, const int32_t* indices, in
         kiriVec3 p = kiriVec3_Scale(frame->mass, frame->velocity);
         totals.area += frame->area;
         totals.mass += frame->mass;
-        totals.kineticEnergy += kiriFrame_KineticEnergy(frame, &sheet->material);
+        totals.kineticEnergy += kiriFrame_KineticEnergy(frame, &sheet->settings.material);
         center = kiriVec3_AddScaled(center, frame->mass, frame->x);
         momentum = kiriVec3_Add(momentum, p);
-        angular = kiriVec3_Add(angular, kiriFrame_AngularMomentum(frame, &sheet->material));
+        angular = kiriVec3_Add(angular, kiriFrame_AngularMomentum(frame, &sheet->settings.material));
         angular = kiriVec3_Add(angular, kiriVec3_Cross(frame->x, p));
     }
     StoreDoubles(totals.center, kiriVec3_Scale(1.0 / totals.mass, center));

@@ -4,6 +4,10 @@
 
 #include "kiri_sheet.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* What makes a sheet move that rests calls this: it is awake, for half a second at least. */
 void kiriMotion_Wake(kiriSheetData* sheet);
 
@@ -16,5 +20,9 @@ kiriTotals kiriMotion_Totals(const kiriSheetData* sheet);
 
 /* The same of some frames (null: of the first ones), without the elastic energy. */
 kiriTotals kiriMotion_Sum(const kiriSheetData* sheet, const int32_t* frames, int32_t count);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

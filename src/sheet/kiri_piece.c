@@ -6,7 +6,7 @@
 
 /* ---- Coming off ---- */
 
-static int32_t Find(int32_t* parent, int32_t i)
+static int32_t FindPiece(int32_t* parent, int32_t i)
 {
     while (parent[i] != i) {
         parent[i] = parent[parent[i]];
@@ -18,16 +18,16 @@ static int32_t Find(int32_t* parent, int32_t i)
 /* Regions that links join are one piece, and others are not. */
 static bool JoinFrames(kiriSheetData* sheet)
 {
-    kiriUpdate* u = &sheet->update;
-    if (!kiriArray_Resize(sheet->memory, &u->parent, u->sites.count)) {
+    kiriUpdate* u = sheet->update;
+    if (!kiriArray_Resize(sheet->memory, &u->parent, u->placing.sites.count)) {
         return false;
     }
-    for (int32_t i = 0; i < u->sites.count; ++i) {
+    for (int32_t i = 0; i < u->placing.sites.count; ++i) {
         u->parent.data[i] = i;
     }
     for (int32_t k = 0; k < sheet->links.next.count; ++k) {
         const kiriLink* link = &sheet->links.next.data[k];
-        int32_t i = Find(u->parent.data, link->i), j = Find(u->parent.data, link->j);
+        int32_t i = FindPiece(u->parent.data, link->i), j = FindPiece(u->parent.data, link->j);
         u->parent.data[i < j ? j : i] = i < j ? i : j;
     }
     return true;
@@ -49,15 +49,15 @@ static int32_t OriginOf(const kiriSheetData* sheet, int32_t frame)
     if (sheet->frames.count == 0) {
         return KIRI_NONE;
     }
-    int32_t triangle = sheet->grid.cells.data[sheet->update.sites.data[frame].cell].triangle;
+    int32_t triangle = sheet->grid.cells.data[sheet->update->placing.sites.data[frame].cell].triangle;
     return kiriPiece_OfVertex(sheet, sheet->mesh.triangles.data[triangle].vertex[0]);
 }
 
 /* Of the parts of one old piece the largest goes on, and the others came off. */
 static void MarkCameOff(kiriSheetData* sheet)
 {
-    kiriLayout* next = &sheet->update.next;
-    int32_t* largest = sheet->update.parent.data; /* of each origin; there are no more of them than frames */
+    kiriLayout* next = &sheet->update->next;
+    int32_t* largest = sheet->update->parent.data; /* of each origin; there are no more of them than frames */
     for (int32_t o = 0; o < sheet->layout.pieces.count; ++o) {
         largest[o] = KIRI_NONE;
     }
@@ -76,14 +76,14 @@ static void MarkCameOff(kiriSheetData* sheet)
 
 bool kiriPieces_Stage(kiriSheetData* sheet)
 {
-    kiriUpdate* u = &sheet->update;
+    kiriUpdate* u = sheet->update;
     kiriLayout* next = &u->next;
     next->pieces.count = 0;
-    if (!JoinFrames(sheet) || !kiriArray_Resize(sheet->memory, &next->framePiece, u->sites.count)) {
+    if (!JoinFrames(sheet) || !kiriArray_Resize(sheet->memory, &next->framePiece, u->placing.sites.count)) {
         return false;
     }
-    for (int32_t i = 0; i < u->sites.count; ++i) {
-        int32_t root = Find(u->parent.data, i);
+    for (int32_t i = 0; i < u->placing.sites.count; ++i) {
+        int32_t root = FindPiece(u->parent.data, i);
         if (root == i) {
             kiriPiece piece = { 0.0, i, OriginOf(sheet, i), false };
             next->framePiece.data[i] = next->pieces.count;
@@ -116,8 +116,8 @@ static int32_t OfTriangle(const kiriSheetData* sheet, int32_t triangle)
 }
 
 /* Sorts 0 to count - 1 by piece; what is of one piece stays in its order. */
-static bool Sort(kiriSheetData* sheet, kiriPieceList* list, int32_t count,
-                 int32_t (*pieceOf)(const kiriSheetData* sheet, int32_t item))
+static bool SortByPiece(kiriSheetData* sheet, kiriPieceList* list, int32_t count,
+                        int32_t (*pieceOf)(const kiriSheetData* sheet, int32_t item))
 {
     int32_t pieces = sheet->layout.pieces.count;
     if (!kiriArray_Resize(&sheet->shown, &list->first, pieces + 2) ||
@@ -161,10 +161,10 @@ bool kiriPieces_List(kiriSheetData* sheet)
 {
     kiriPieceLists* lists = &sheet->lists;
     lists->isFresh =
-        lists->isFresh || (Sort(sheet, &lists->frames, sheet->frames.count, OfFrame) &&
-                           Sort(sheet, &lists->vertices, sheet->mesh.vertices.count, kiriPiece_OfVertex) &&
-                           Sort(sheet, &lists->triangles, sheet->mesh.triangles.count, OfTriangle) &&
-                           Sort(sheet, &lists->points, sheet->points.count, OfPoint) && FillHostArrays(sheet));
+        lists->isFresh || (SortByPiece(sheet, &lists->frames, sheet->frames.count, OfFrame) &&
+                           SortByPiece(sheet, &lists->vertices, sheet->mesh.vertices.count, kiriPiece_OfVertex) &&
+                           SortByPiece(sheet, &lists->triangles, sheet->mesh.triangles.count, OfTriangle) &&
+                           SortByPiece(sheet, &lists->points, sheet->points.count, OfPoint) && FillHostArrays(sheet));
     return lists->isFresh;
 }
 
@@ -180,7 +180,7 @@ kiriSpan kiriPiece_Span(const kiriPieceList* list, int32_t piece)
 static void Bound(const kiriSheetData* sheet, kiriSpan span, float lower[3], float upper[3])
 {
     for (int32_t i = span.first; i < span.first + span.count; ++i) {
-        const float* x = &sheet->surface.positions.data[3 * (size_t)sheet->lists.vertices.items.data[i]];
+        const float* x = &sheet->seen.surface.positions.data[3 * (size_t)sheet->lists.vertices.items.data[i]];
         for (int k = 0; k < 3; ++k) {
             lower[k] = i == span.first || x[k] < lower[k] ? x[k] : lower[k];
             upper[k] = i == span.first || x[k] > upper[k] ? x[k] : upper[k];
@@ -204,7 +204,7 @@ kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece)
     state.frames = frames.count;
     state.vertices = vertices.count;
     state.triangles = kiriPiece_Span(&lists->triangles, piece).count;
-    state.crumb = sheet->layout.pieces.data[piece].area < sheet->crumbArea;
+    state.crumb = sheet->layout.pieces.data[piece].area < sheet->settings.crumbArea;
     state.collisionPoints = kiriPiece_Span(&lists->points, piece).count;
     return state;
 }

@@ -2,7 +2,11 @@
 #ifndef KIRI_PIECE_H
 #define KIRI_PIECE_H
 
-#include "kiri_sheet.h"
+#include "kiri_update.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* Stages the pieces that come in force with the next commit, from the links that are staged. False for memory. */
 bool kiriPieces_Stage(kiriSheetData* sheet);
@@ -18,5 +22,9 @@ kiriSpan kiriPiece_Span(const kiriPieceList* list, int32_t piece);
 
 /* What the host asks about a piece; the lists are up to date. */
 kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,8 +1,12 @@
-/* What the host sees of a sheet: the skinned mesh, and rays and blades that meet it in world space. */
+/* What the host sees of a sheet: the skinned mesh and the collision points. */
 #ifndef KIRI_VIEW_H
 #define KIRI_VIEW_H
 
-#include "kiri_sheet.h"
+#include "kiri_update.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* Room for the mesh as it is, for so many frames and collision points; after it writing never fails. */
 bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount);
@@ -18,13 +22,8 @@ void kiriView_Fade(kiriSheetData* sheet, double dt);
 /* Positions and normals from the frames (section 4.1 of the paper). */
 void kiriView_WritePositions(kiriSheetData* sheet);
 
-/* The first triangle that the ray meets, up to maxDistance (m) along its direction, a unit vector. hit->triangle is -1
-   when there is none. */
-void kiriView_Raycast(const kiriSheetData* sheet, kiriVec3 origin, kiriVec3 direction, double maxDistance,
-                      kiriHit* hit);
-
-/* The rest segments in which the quadrilateral meets the mesh: pairs of local points. False for memory. */
-typedef KIRI_ARRAY(kiriVec2) kiriRestPoints;
-bool kiriView_Slice(const kiriSheetData* sheet, const kiriVec3 quad[4], kiriRestPoints* segments);
+#ifdef __cplusplus
+}
+#endif
 
 #endif

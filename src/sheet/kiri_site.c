@@ -4,28 +4,28 @@
 
 /* ---- Sites that were there ---- */
 
-static bool Move(kiriSheetData* sheet, int32_t frame, int32_t was)
+static bool RecordMove(kiriSheetData* sheet, int32_t frame, int32_t was)
 {
     kiriSiteMove move = { frame, was };
-    return kiriArray_Push(sheet->memory, &sheet->update.moves, move);
+    return kiriArray_Push(sheet->memory, &sheet->update->placing.moves, move);
 }
 
 static bool AddSite(kiriSheetData* sheet, kiriSite site)
 {
-    return kiriArray_Push(sheet->memory, &sheet->update.sites, site) &&
-           Move(sheet, sheet->update.sites.count - 1, KIRI_NONE);
+    return kiriArray_Push(sheet->memory, &sheet->update->placing.sites, site) &&
+           RecordMove(sheet, sheet->update->placing.sites.count - 1, KIRI_NONE);
 }
 
 /* Flags of squares, or of cells: all are down between uses, so that a use costs what it raises. */
 static bool MakeFlags(kiriSheetData* sheet)
 {
-    kiriUpdate* u = &sheet->update;
-    int32_t old = u->flags.count, squares = sheet->mesh.squares.columns * sheet->mesh.squares.rows;
+    kiriUpdate* u = sheet->update;
+    int32_t old = u->placing.flags.count, squares = sheet->mesh.squares.columns * sheet->mesh.squares.rows;
     int32_t most = sheet->grid.cells.count > squares ? sheet->grid.cells.count : squares;
-    if (most > old && !kiriArray_Resize(sheet->memory, &u->flags, most)) {
+    if (most > old && !kiriArray_Resize(sheet->memory, &u->placing.flags, most)) {
         return false;
     }
-    memset(u->flags.data + old, 0, (size_t)(u->flags.count - old));
+    memset(u->placing.flags.data + old, 0, (size_t)(u->placing.flags.count - old));
     return true;
 }
 
@@ -33,16 +33,16 @@ static bool MakeFlags(kiriSheetData* sheet)
    where rounding says otherwise, the later site takes a free cell of its square. Cells that are taken are flagged. */
 static void Relocate(kiriSheetData* sheet, int32_t frame)
 {
-    kiriUpdate* u = &sheet->update;
+    kiriUpdate* u = sheet->update;
     int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, sheet->frames.data[frame].anchor);
-    if (u->flags.data[cell]) {
+    if (u->placing.flags.data[cell]) {
         cell = sheet->grid.squareCell.data[sheet->grid.cells.data[cell].square];
-        while (u->flags.data[cell] && sheet->grid.cells.data[cell].next != KIRI_NONE) {
+        while (u->placing.flags.data[cell] && sheet->grid.cells.data[cell].next != KIRI_NONE) {
             cell = sheet->grid.cells.data[cell].next;
         }
     }
-    u->flags.data[cell] = 1;
-    u->sites.data[frame].cell = cell;
+    u->placing.flags.data[cell] = 1;
+    u->placing.sites.data[frame].cell = cell;
 }
 
 /* The square of the site that was in a cell, or KIRI_NONE. */
@@ -64,7 +64,7 @@ static bool FlagSquares(kiriSheetData* sheet, uint8_t flag)
                                              : i < restepped ? changes->restepped.data[i - gone]
                                                              : changes->remade.data[i - restepped].cell);
         if (square != KIRI_NONE) {
-            sheet->update.flags.data[square] = flag;
+            sheet->update->placing.flags.data[square] = flag;
             any = true;
         }
     }
@@ -74,13 +74,13 @@ static bool FlagSquares(kiriSheetData* sheet, uint8_t flag)
 /* The frames whose sites may have to be found again: all of them when regions are made from scratch. */
 static bool CollectMoves(kiriSheetData* sheet)
 {
-    kiriUpdate* u = &sheet->update;
+    kiriUpdate* u = sheet->update;
     bool any = u->isScratch || FlagSquares(sheet, 1), ok = true;
     for (int32_t f = 0; ok && any && f < sheet->frames.count; ++f) {
         if (u->isScratch) {
-            ok = Move(sheet, f, KIRI_NONE);
-        } else if (u->flags.data[kiriSquares_At(&sheet->mesh.squares, sheet->frames.data[f].anchor)]) {
-            ok = Move(sheet, f, u->sites.data[f].cell);
+            ok = RecordMove(sheet, f, KIRI_NONE);
+        } else if (u->placing.flags.data[kiriSquares_At(&sheet->mesh.squares, sheet->frames.data[f].anchor)]) {
+            ok = RecordMove(sheet, f, u->placing.sites.data[f].cell);
         }
     }
     if (!u->isScratch) {
@@ -89,25 +89,38 @@ static bool CollectMoves(kiriSheetData* sheet)
     return ok;
 }
 
+/* A sheet that has no frames yet: whoever makes it may have given it sites. */
+static bool MoveGiven(kiriSheetData* sheet)
+{
+    bool ok = true;
+    for (int32_t i = 0; ok && i < sheet->update->placing.sites.count; ++i) {
+        ok = RecordMove(sheet, i, KIRI_NONE);
+    }
+    return ok;
+}
+
 bool kiriSites_Relocate(kiriSheetData* sheet)
 {
-    kiriUpdate* u = &sheet->update;
-    u->moves.count = u->movesSeen = 0;
+    kiriUpdate* u = sheet->update;
+    u->placing.moves.count = u->placing.movesSeen = 0;
+    if (sheet->frames.count == 0) {
+        return MoveGiven(sheet);
+    }
     if (!MakeFlags(sheet) || !CollectMoves(sheet)) {
         return false;
     }
     int32_t kept = 0;
-    for (int32_t m = 0; m < u->moves.count; ++m) {
-        Relocate(sheet, u->moves.data[m].frame);
+    for (int32_t m = 0; m < u->placing.moves.count; ++m) {
+        Relocate(sheet, u->placing.moves.data[m].frame);
     }
-    for (int32_t m = 0; m < u->moves.count; ++m) {
-        kiriSiteMove move = u->moves.data[m];
-        u->flags.data[u->sites.data[move.frame].cell] = 0;
-        if (u->sites.data[move.frame].cell != move.was) {
-            u->moves.data[kept++] = move;
+    for (int32_t m = 0; m < u->placing.moves.count; ++m) {
+        kiriSiteMove move = u->placing.moves.data[m];
+        u->placing.flags.data[u->placing.sites.data[move.frame].cell] = 0;
+        if (u->placing.sites.data[move.frame].cell != move.was) {
+            u->placing.moves.data[kept++] = move;
         }
     }
-    u->moves.count = kept;
+    u->placing.moves.count = kept;
     return true;
 }
 
@@ -116,7 +129,7 @@ bool kiriSites_Relocate(kiriSheetData* sheet)
 /* Of the piece in the placer. */
 static double TakenArea(const kiriSheetData* sheet)
 {
-    const kiriPlacer* placer = &sheet->update.placer;
+    const kiriPlacer* placer = &sheet->update->placing.placer;
     double area = 0.0;
     for (int32_t i = 0; i < placer->cells.count; ++i) {
         area += sheet->grid.cells.data[placer->cells.data[i]].material.area;
@@ -126,7 +139,7 @@ static double TakenArea(const kiriSheetData* sheet)
 
 static bool IsCrumbTaken(const kiriSheetData* sheet)
 {
-    return sheet->crumbArea > 0.0 && TakenArea(sheet) < sheet->crumbArea;
+    return sheet->settings.crumbArea > 0.0 && TakenArea(sheet) < sheet->settings.crumbArea;
 }
 
 /* How many of `count` things spread over the sheet fall to the piece in the placer. */
@@ -135,7 +148,7 @@ int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count)
     if (count == 0.0) {
         return 1;
     }
-    int32_t whole = (int32_t)(count * (TakenArea(sheet) / sheet->update.whole) + 0.5);
+    int32_t whole = (int32_t)(count * (TakenArea(sheet) / sheet->update->placing.whole) + 0.5);
     return whole > 1 ? whole : 1;
 }
 
@@ -145,48 +158,48 @@ static int32_t FramesFor(const kiriSheetData* sheet)
     if (IsCrumbTaken(sheet)) {
         return 1;
     }
-    if (sheet->frameLength == 0.0) {
-        return kiriSites_ShareOf(sheet, sheet->update.spread);
+    if (sheet->settings.frameLength == 0.0) {
+        return kiriSites_ShareOf(sheet, sheet->update->placing.spread);
     }
-    double count = TakenArea(sheet) / (sheet->frameLength * sheet->frameLength) + 0.5;
-    int32_t most = sheet->maxFrames - sheet->update.sites.count;
+    double count = TakenArea(sheet) / (sheet->settings.frameLength * sheet->settings.frameLength) + 0.5;
+    int32_t most = sheet->settings.maxFrames - sheet->update->placing.sites.count;
     return count < 1.0 || most < 1 ? 1 : count < most ? (int32_t)count : most;
 }
 
 /* Starts placing frames in the piece of an orphan, and marks its cells as seen to. */
 static bool StartOrphan(kiriSheetData* sheet, int32_t cell)
 {
-    kiriUpdate* u = &sheet->update;
-    u->placer.sites.count = 0;
-    if (!kiriPlacer_TakePiece(&u->placer, sheet->memory, &sheet->grid, cell)) {
+    kiriUpdate* u = sheet->update;
+    u->placing.placer.sites.count = 0;
+    if (!kiriPlacer_TakePiece(&u->placing.placer, sheet->memory, &sheet->grid, cell)) {
         return false;
     }
-    for (int32_t i = 0; i < u->placer.cells.count; ++i) {
-        u->marks.data[u->placer.cells.data[i]] = 1;
+    for (int32_t i = 0; i < u->placing.placer.cells.count; ++i) {
+        u->placing.marks.data[u->placing.placer.cells.data[i]] = 1;
     }
-    return kiriPlacer_Start(&u->placer, sheet->memory, &sheet->grid, &sheet->mesh, NULL, FramesFor(sheet));
+    return kiriPlacer_Start(&u->placing.placer, sheet->memory, &sheet->grid, &sheet->mesh, NULL, FramesFor(sheet));
 }
 
 /* Frames for the pieces that have none, at least one each (section 5 of the paper). */
 kiriProgress kiriSites_PlaceInOrphans(kiriSheetData* sheet, kiriQuota* cells)
 {
-    kiriUpdate* u = &sheet->update;
-    for (; u->at < sheet->regions.orphans.count; ++u->at) {
-        int32_t cell = sheet->regions.orphans.data[u->at];
-        if (!u->isPlacing && u->marks.data[cell]) {
+    kiriUpdate* u = sheet->update;
+    for (; u->placing.at < sheet->regions.orphans.count; ++u->placing.at) {
+        int32_t cell = sheet->regions.orphans.data[u->placing.at];
+        if (!u->placing.isPlacing && u->placing.marks.data[cell]) {
             continue;
         }
-        if (!u->isPlacing && !StartOrphan(sheet, cell)) {
+        if (!u->placing.isPlacing && !StartOrphan(sheet, cell)) {
             return KIRI_FAILED;
         }
-        u->isPlacing = true;
-        kiriProgress progress = kiriPlacer_Run(&u->placer, sheet->memory, &sheet->grid, &sheet->mesh, cells);
+        u->placing.isPlacing = true;
+        kiriProgress progress = kiriPlacer_Run(&u->placing.placer, sheet->memory, &sheet->grid, &sheet->mesh, cells);
         if (progress != KIRI_DONE) {
             return progress;
         }
-        u->isPlacing = false;
-        for (int32_t i = 0; i < u->placer.sites.count; ++i) {
-            if (!AddSite(sheet, u->placer.sites.data[i])) {
+        u->placing.isPlacing = false;
+        for (int32_t i = 0; i < u->placing.placer.sites.count; ++i) {
+            if (!AddSite(sheet, u->placing.placer.sites.data[i])) {
                 return KIRI_FAILED;
             }
         }
@@ -196,13 +209,13 @@ kiriProgress kiriSites_PlaceInOrphans(kiriSheetData* sheet, kiriQuota* cells)
 
 bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count)
 {
-    kiriUpdate* u = &sheet->update;
-    u->at = 0;
-    if (!kiriArray_Resize(sheet->memory, &u->marks, count)) {
+    kiriUpdate* u = sheet->update;
+    u->placing.at = 0;
+    if (!kiriArray_Resize(sheet->memory, &u->placing.marks, count)) {
         return false;
     }
     if (count > 0) {
-        memset(u->marks.data, 0, (size_t)count);
+        memset(u->placing.marks.data, 0, (size_t)count);
     }
     return true;
 }
@@ -210,26 +223,26 @@ bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count)
 /* ---- Re-sampling ---- */
 
 /* Marks of frames, while pieces with rigid ones are seen to. */
-enum { SEEN = 1, OWN = 2 /* of the piece at hand */, MOST_SORTED = 64 };
+enum { DONE_WITH = 1, OF_PIECE_AT_HAND = 2 /* of the piece at hand */, MOST_SORTED = 64 };
 
 /* Has the frame a weight above rigidWeight over more than rigidArea? */
 static bool IsRigid(const kiriSheetData* sheet, int32_t frame)
 {
     double square = sheet->grid.side * sheet->grid.side / 1099511627776.0; /* 2^40, see kiriShape.rigid */
-    return (double)sheet->shape.rigid.data[frame] * square > sheet->rigidArea;
+    return (double)sheet->shape.rigid.data[frame] * square > sheet->settings.rigidArea;
 }
 
 /* Is the region of the frame too large to be one? By its radius of gyration, so that long ones count as large; a square
    is as large as its side. */
 static bool IsLarge(const kiriSheetData* sheet, int32_t frame)
 {
-    if (sheet->frameLength == 0.0) {
+    if (sheet->settings.frameLength == 0.0) {
         return false;
     }
-    kiriMoments m = kiriTally_Moments(&sheet->regions.material.data[frame], 536870912.0 * sheet->mesh.step);
+    kiriMoments m = kiriTally_Moments(&sheet->regions.material.data[frame], kiriSheet_Extent(sheet));
     kiriMoments about = kiriMoments_About(&m, kiriMoments_Center(&m));
     /* A quarter more than the length that frames are placed at: their regions differ. */
-    return 6.0 * (about.uu + about.vv) > 1.5625 * sheet->frameLength * sheet->frameLength * m.area;
+    return 6.0 * (about.uu + about.vv) > 1.5625 * sheet->settings.frameLength * sheet->settings.frameLength * m.area;
 }
 
 static bool NeedsAnother(const kiriSheetData* sheet, int32_t frame)
@@ -241,21 +254,21 @@ static bool NeedsAnother(const kiriSheetData* sheet, int32_t frame)
    large. */
 static bool MarkRigidCells(kiriSheetData* sheet)
 {
-    kiriUpdate* u = &sheet->update;
-    if (!kiriArray_Resize(sheet->memory, &u->allowed, sheet->grid.cells.count)) {
+    kiriUpdate* u = sheet->update;
+    if (!kiriArray_Resize(sheet->memory, &u->placing.allowed, sheet->grid.cells.count)) {
         return false;
     }
     int32_t last = KIRI_NONE; /* cells come region by region, more or less */
     bool isLarge = false;
-    for (int32_t i = 0; i < u->placer.cells.count; ++i) {
-        int32_t cell = u->placer.cells.data[i], owner = sheet->regions.field.owner.data[cell];
+    for (int32_t i = 0; i < u->placing.placer.cells.count; ++i) {
+        int32_t cell = u->placing.placer.cells.data[i], owner = sheet->regions.field.owner.data[cell];
         kiriSpan span = sheet->shape.spans.data[cell];
         isLarge = owner == last ? isLarge : IsLarge(sheet, owner);
         last = owner;
-        u->allowed.data[cell] = isLarge;
+        u->placing.allowed.data[cell] = isLarge;
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
             const kiriCellWeight* weight = &sheet->shape.weights.data[k];
-            u->allowed.data[cell] |= weight->value > sheet->shape.rigidWeight && IsRigid(sheet, weight->frame);
+            u->placing.allowed.data[cell] |= weight->value > sheet->shape.rigidWeight && IsRigid(sheet, weight->frame);
         }
     }
     return true;
@@ -264,17 +277,17 @@ static bool MarkRigidCells(kiriSheetData* sheet)
 /* Brings `own` in order. A few are sorted; many are found by looking at all. */
 static void SortOwn(kiriUpdate* u)
 {
-    int32_t* own = u->own.data;
-    if (u->own.count > MOST_SORTED) {
+    int32_t* own = u->placing.own.data;
+    if (u->placing.own.count > MOST_SORTED) {
         int32_t count = 0;
-        for (int32_t f = 0; count < u->own.count; ++f) {
-            if (u->marks.data[f] == OWN) {
+        for (int32_t f = 0; count < u->placing.own.count; ++f) {
+            if (u->placing.marks.data[f] == OF_PIECE_AT_HAND) {
                 own[count++] = f;
             }
         }
         return;
     }
-    for (int32_t i = 1; i < u->own.count; ++i) {
+    for (int32_t i = 1; i < u->placing.own.count; ++i) {
         int32_t frame = own[i], j = i;
         for (; j > 0 && own[j - 1] > frame; --j) {
             own[j] = own[j - 1];
@@ -284,25 +297,25 @@ static void SortOwn(kiriUpdate* u)
 }
 
 /* The frames of the piece in the placer, and its sites; *old says whether one of them was there before this update. */
-static bool TakeSites(kiriSheetData* sheet, bool* old)
+static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
 {
-    kiriUpdate* u = &sheet->update;
-    u->placer.sites.count = u->own.count = 0;
+    kiriUpdate* u = sheet->update;
+    u->placing.placer.sites.count = u->placing.own.count = 0;
     *old = false;
-    for (int32_t i = 0; i < u->placer.cells.count; ++i) {
-        int32_t frame = sheet->regions.siteAt.data[u->placer.cells.data[i]];
+    for (int32_t i = 0; i < u->placing.placer.cells.count; ++i) {
+        int32_t frame = sheet->regions.siteAt.data[u->placing.placer.cells.data[i]];
         if (frame != KIRI_NONE) {
-            u->marks.data[frame] = OWN;
+            u->placing.marks.data[frame] = OF_PIECE_AT_HAND;
             *old = *old || frame < sheet->frames.count;
-            if (!kiriArray_Push(sheet->memory, &u->own, frame)) {
+            if (!kiriArray_Push(sheet->memory, &u->placing.own, frame)) {
                 return false;
             }
         }
     }
     SortOwn(u);
     bool ok = true;
-    for (int32_t i = 0; ok && i < u->own.count; ++i) {
-        ok = kiriArray_Push(sheet->memory, &u->placer.sites, u->sites.data[u->own.data[i]]);
+    for (int32_t i = 0; ok && i < u->placing.own.count; ++i) {
+        ok = kiriArray_Push(sheet->memory, &u->placing.placer.sites, u->placing.sites.data[u->placing.own.data[i]]);
     }
     return ok;
 }
@@ -311,39 +324,44 @@ static bool TakeSites(kiriSheetData* sheet, bool* old)
    again, to lie evenly. A crumb gets none. */
 static bool StartResample(kiriSheetData* sheet, int32_t frame)
 {
-    kiriUpdate* u = &sheet->update;
+    kiriUpdate* u = sheet->update;
     bool old;
     int32_t count = 1;
-    if (!kiriPlacer_TakePiece(&u->placer, sheet->memory, &sheet->grid, u->sites.data[frame].cell) ||
-        !MarkRigidCells(sheet) || !TakeSites(sheet, &old)) {
+    if (!kiriPlacer_TakePiece(&u->placing.placer, sheet->memory, &sheet->grid, u->placing.sites.data[frame].cell) ||
+        !MarkRigidCells(sheet) || !TakeSitesOfPiece(sheet, &old)) {
         return false;
     }
     if (IsCrumbTaken(sheet)) {
         count = 0;
     } else if (!old) {
-        count += u->placer.sites.count;
-        u->placer.sites.count = 0;
+        count += u->placing.placer.sites.count;
+        u->placing.placer.sites.count = 0;
     }
-    u->placer.known = old ? &sheet->regions.field : NULL;
-    return kiriPlacer_Start(&u->placer, sheet->memory, &sheet->grid, &sheet->mesh, old ? u->allowed.data : NULL, count);
+    u->placing.placer.known = old ? &sheet->regions.field : NULL;
+    return kiriPlacer_Start(&u->placing.placer, sheet->memory, &sheet->grid, &sheet->mesh,
+                            old ? u->placing.allowed.data : NULL, count);
 }
 
-/* New sites take the indices of those of the piece that were placed again, then new ones. */
+/* New sites take the indices of those of the piece that were placed again, then new ones. A piece that has no cell for
+   one more stays as it is. */
 static bool GiveSites(kiriSheetData* sheet)
 {
-    kiriUpdate* u = &sheet->update;
-    int32_t next = u->placer.oldCount;
-    bool again = next == 0, ok = true;
-    for (int32_t i = 0; ok && i < u->own.count; ++i) {
-        int32_t f = u->own.data[i];
-        u->marks.data[f] = SEEN;
-        if (again && next < u->placer.sites.count) {
-            ok = Move(sheet, f, u->sites.data[f].cell);
-            u->sites.data[f] = u->placer.sites.data[next++];
+    kiriUpdate* u = sheet->update;
+    int32_t next = u->placing.placer.oldCount;
+    bool ok = true, again = next == 0 && u->placing.placer.sites.count > u->placing.own.count;
+    if (next == 0 && !again) {
+        next = u->placing.placer.sites.count;
+    }
+    for (int32_t i = 0; ok && i < u->placing.own.count; ++i) {
+        int32_t f = u->placing.own.data[i];
+        u->placing.marks.data[f] = DONE_WITH;
+        if (again && next < u->placing.placer.sites.count) {
+            ok = RecordMove(sheet, f, u->placing.sites.data[f].cell);
+            u->placing.sites.data[f] = u->placing.placer.sites.data[next++];
         }
     }
-    while (ok && next < u->placer.sites.count) {
-        ok = AddSite(sheet, u->placer.sites.data[next++]);
+    while (ok && next < u->placing.placer.sites.count) {
+        ok = AddSite(sheet, u->placing.placer.sites.data[next++]);
     }
     return ok;
 }
@@ -352,26 +370,28 @@ static bool GiveSites(kiriSheetData* sheet)
 static bool IsOfCrumb(const kiriSheetData* sheet, int32_t frame)
 {
     return frame < sheet->frames.count &&
-           sheet->layout.pieces.data[sheet->layout.framePiece.data[frame]].area < sheet->crumbArea;
+           sheet->layout.pieces.data[sheet->layout.framePiece.data[frame]].area < sheet->settings.crumbArea;
 }
 
 /* One more frame for each piece with a rigid one. */
 kiriProgress kiriSites_Resample(kiriSheetData* sheet, kiriQuota* cells)
 {
-    kiriUpdate* u = &sheet->update;
-    for (; u->at < u->marks.count && u->sites.count < sheet->maxFrames; ++u->at) {
-        if (!u->isPlacing && (u->marks.data[u->at] || !NeedsAnother(sheet, u->at) || IsOfCrumb(sheet, u->at))) {
+    kiriUpdate* u = sheet->update;
+    for (; u->placing.at < u->placing.marks.count && u->placing.sites.count < sheet->settings.maxFrames;
+         ++u->placing.at) {
+        if (!u->placing.isPlacing && (u->placing.marks.data[u->placing.at] || !NeedsAnother(sheet, u->placing.at) ||
+                                      IsOfCrumb(sheet, u->placing.at))) {
             continue;
         }
-        if (!u->isPlacing && !StartResample(sheet, u->at)) {
+        if (!u->placing.isPlacing && !StartResample(sheet, u->placing.at)) {
             return KIRI_FAILED;
         }
-        u->isPlacing = true;
-        kiriProgress progress = kiriPlacer_Run(&u->placer, sheet->memory, &sheet->grid, &sheet->mesh, cells);
+        u->placing.isPlacing = true;
+        kiriProgress progress = kiriPlacer_Run(&u->placing.placer, sheet->memory, &sheet->grid, &sheet->mesh, cells);
         if (progress != KIRI_DONE) {
             return progress;
         }
-        u->isPlacing = false;
+        u->placing.isPlacing = false;
         if (!GiveSites(sheet)) {
             return KIRI_FAILED;
         }

@@ -4,7 +4,11 @@
 #ifndef KIRI_SITE_H
 #define KIRI_SITE_H
 
-#include "kiri_sheet.h"
+#include "kiri_update.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* The cells of the sites that were there, in the grid as it is; a move for each that is in another cell. False for
    memory. */
@@ -22,5 +26,9 @@ bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count);
 
 /* How many of `count` things spread over the sheet fall to the piece in the placer: one at least. */
 int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

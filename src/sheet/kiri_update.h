@@ -1,32 +1,86 @@
-/* What a cut sets off in a sheet, stage by stage; world.c runs the stages, and says what they cost. Each goes on where
-   the last tick's quota ended, and costs what the cut touched. */
+/* The work that a cut sets off in a sheet, as far as it has come. It takes all points given before one tick together,
+   however many ticks the budget makes of it; so what comes of a cut does not depend on the budget. Each stage owns its
+   part; kiri_pipeline.h runs them. */
 #ifndef KIRI_UPDATE_H
 #define KIRI_UPDATE_H
 
 #include "kiri_sheet.h"
 
-/* Takes the points that were given before one tick from the queue, when nothing is at hand; false where none wait. */
-bool kiriUpdate_Start(kiriSheetData* sheet);
+#ifdef __cplusplus
+extern "C" {
+#endif
 
-/* The stages in their order. KIRI_FAILED is for memory: then kiriUpdate_Abort. */
-kiriProgress kiriUpdate_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles);
-kiriProgress kiriUpdate_Grid(kiriSheetData* sheet, kiriQuota* cells);
-kiriProgress kiriUpdate_Regions(kiriSheetData* sheet, kiriQuota* cells);
-kiriProgress kiriUpdate_Shape(kiriSheetData* sheet, kiriQuota* cells);
-kiriProgress kiriUpdate_Samples(kiriSheetData* sheet, kiriQuota* samples);
-kiriProgress kiriUpdate_Constants(kiriSheetData* sheet, kiriQuota* none);
+/* The cut stage: queued points at the head of the queue, given before the same tick. */
+typedef struct kiriCutWork {
+    int64_t stamp; /* that tick */
+    int32_t count, taken;
+    bool meshChanged;
+} kiriCutWork;
 
-/* What this tick did to the mesh becomes final. Never fails. */
-void kiriUpdate_CommitMesh(kiriSheetData* sheet);
+/* Sites of frames, and whatever else is placed piece by piece; kiri_site.c. */
+typedef struct kiriPlacingWork {
+    kiriSites sites; /* of the frames that are there, then of new ones */
+    KIRI_ARRAY(kiriSiteMove) moves;
+    int32_t movesSeen; /* by the regions */
+    int32_t spread;    /* frames to spread over the sheet, at its start */
+    kiriPlacer placer;
+    bool isPlacing;
+    double whole;                /* m^2 of the sheet; while things are spread over it */
+    int32_t at;                  /* orphan, frame or piece that is being seen to */
+    KIRI_ARRAY(uint8_t) marks;   /* of cells, frames or pieces */
+    KIRI_ARRAY(uint8_t) allowed; /* of cells */
+    KIRI_ARRAY(uint8_t) flags;   /* of squares or cells */
+    KIRI_ARRAY(int32_t) own;     /* frames of the piece in the placer */
+} kiriPlacingWork;
 
-/* After the last stage: what is staged comes in force. New frames take their motion from the surface as it was (section
-   5 of the paper). Never fails. */
-void kiriUpdate_Commit(kiriSheetData* sheet);
+typedef struct kiriSampleWork {
+    int32_t oldVertices; /* at the last commit: those from there on have the weights that they were born with */
+    kiriRefresh refresh;
+    KIRI_ARRAY(kiriSample) newPoints;
+    KIRI_ARRAY(kiriSample) movedPoints; /* `frame` is the index of a point, `cell` where it is now */
+} kiriSampleWork;
 
-/* After a commit, or when the strokes changed nothing: they leave the queue. */
-void kiriUpdate_Finish(kiriSheetData* sheet);
+/* What a commit has changed, for the profile. */
+typedef struct kiriCommitCounts {
+    int32_t cells, weights, vertices, points, links;
+} kiriCommitCounts;
 
-/* Takes back what this tick has done, as far as anyone can see. What grid, regions and shape have learned is lost. */
-void kiriUpdate_Abort(kiriSheetData* sheet);
+typedef struct kiriUpdate {
+    int32_t stage;     /* KIRI_STAGE_..., the next to run; KIRI_READY: they are done; KIRI_NONE: nothing is at hand */
+    int32_t step;      /* within the stage, see there */
+    int64_t spent;     /* items of the budget: with stage and step it says how far the work has come */
+    bool needsRebuild; /* grid, regions and shape are of no use: to be made from scratch */
+    bool isScratch;    /* as they are now */
+
+    /* As this tick found it. */
+    bool isBegun;
+    int32_t startStage, startTaken;
+    bool startMeshChanged;
+
+    kiriCutWork cut;
+    kiriPlacingWork placing;
+    KIRI_ARRAY(kiriMoments) material; /* of each frame's region */
+    kiriSampleWork samples;
+    kiriRefit refit;
+    kiriIntegrationWork integration;
+
+    /* Staged for the commit, beside links and weights. */
+    kiriLayout next;
+    KIRI_ARRAY(int32_t) parent; /* of frames: union-find */
+    kiriCommitCounts counts;
+} kiriUpdate;
+
+enum { KIRI_READY = KIRI_STAGE_SOLVE };
+
+/* Do grid, regions and shape belong to the mesh as it is? */
+static inline bool kiriUpdate_IsFieldCurrent(const kiriUpdate* update)
+{
+    bool isUntouched = update->stage == KIRI_NONE || (update->stage == KIRI_STAGE_CUT && !update->cut.meshChanged);
+    return isUntouched && !update->needsRebuild;
+}
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

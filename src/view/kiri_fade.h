@@ -6,6 +6,10 @@
 #include "../core/kiri_array.h"
 #include "../core/kiri_vec.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct kiriFading {
     int32_t sample;
     double left; /* s until it is gone */
@@ -36,5 +40,9 @@ void kiriFades_Take(kiriFades* fades, const kiriVec3* now, int32_t sampleCount);
 
 /* Time goes on. */
 void kiriFades_Advance(kiriFades* fades, double dt);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

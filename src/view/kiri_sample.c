@@ -4,19 +4,19 @@
 
 /* ---- Weights ---------------------------------------------------------------------------------------------------- */
 
-static bool ResizeSpan(kiriSkin* skin, kiriMemory* memory, kiriSpan* span, int32_t count)
+static bool ResizeWeights(kiriSkin* skin, kiriMemory* memory, kiriSpan* span, int32_t count)
 {
     return kiriSpan_Resize(span, &skin->room, memory, &skin->weights, sizeof(*skin->weights.data), count);
 }
 
 /* Gives room back, which needs no memory. */
-static void Drop(kiriSkin* skin, kiriSpan* span)
+static void DropSpan(kiriSkin* skin, kiriSpan* span)
 {
-    ResizeSpan(skin, NULL, span, 0);
+    ResizeWeights(skin, NULL, span, 0);
 }
 
 /* Stages what the stencil has weighed. Makes room for the commit, too. */
-static bool Stage(kiriSkin* skin, kiriMemory* memory, const kiriStencil* stencil, int32_t sample)
+static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* stencil, int32_t sample)
 {
     kiriReweighed staged = { sample, { 0, 0 } };
     int32_t count = 0;
@@ -25,7 +25,7 @@ static bool Stage(kiriSkin* skin, kiriMemory* memory, const kiriStencil* stencil
     }
     if (!kiriArray_Reserve(memory, &skin->spans, (int64_t)sample + 1) ||
         !kiriArray_Reserve(memory, &skin->staged, (int64_t)skin->staged.count + 1) ||
-        !ResizeSpan(skin, memory, &staged.span, count)) {
+        !ResizeWeights(skin, memory, &staged.span, count)) {
         return false;
     }
     kiriWeight* weight = skin->weights.data + staged.span.first;
@@ -46,7 +46,7 @@ bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, 
     bool ok = kiriStencil_Gather(&stencil, &scratch, shape, grid, mesh, cell);
     if (ok) {
         kiriStencil_Weigh(&stencil, at);
-        ok = Stage(skin, memory, &stencil, sample);
+        ok = StageWeights(skin, memory, &stencil, sample);
     }
     kiriMemory_FreeAll(&scratch);
     return ok;
@@ -57,7 +57,7 @@ void kiriSkin_Commit(kiriSkin* skin)
     for (int32_t k = 0; k < skin->staged.count; ++k) {
         kiriReweighed staged = skin->staged.data[k];
         if (staged.sample < skin->spans.count) {
-            Drop(skin, &skin->spans.data[staged.sample]);
+            DropSpan(skin, &skin->spans.data[staged.sample]);
             skin->spans.data[staged.sample] = staged.span;
         } else {
             skin->spans.data[skin->spans.count++] = staged.span;
@@ -69,7 +69,7 @@ void kiriSkin_Commit(kiriSkin* skin)
 void kiriSkin_Drop(kiriSkin* skin)
 {
     for (int32_t k = 0; k < skin->staged.count; ++k) {
-        Drop(skin, &skin->staged.data[k].span);
+        DropSpan(skin, &skin->staged.data[k].span);
     }
     skin->staged.count = 0;
 }
@@ -98,7 +98,7 @@ static bool InheritOne(kiriSkin* skin, kiriMemory* memory, const kiriBirth* birt
         most += skin->spans.data[birth->parent[k]].count;
     }
     if (!kiriArray_Reserve(memory, &skin->spans, (int64_t)skin->spans.count + 1) ||
-        !ResizeSpan(skin, memory, &span, most)) {
+        !ResizeWeights(skin, memory, &span, most)) {
         return false;
     }
     kiriSpan sum = { span.first, 0 };
@@ -109,7 +109,7 @@ static bool InheritOne(kiriSkin* skin, kiriMemory* memory, const kiriBirth* birt
             Blend(skin, &sum, weight.frame, birth->share[k] * weight.value);
         }
     }
-    ResizeSpan(skin, memory, &span, sum.count);
+    ResizeWeights(skin, memory, &span, sum.count);
     skin->spans.data[skin->spans.count++] = span;
     return true;
 }
@@ -127,7 +127,7 @@ bool kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* me
 void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount)
 {
     while (skin->spans.count > sampleCount) {
-        Drop(skin, &skin->spans.data[--skin->spans.count]);
+        DropSpan(skin, &skin->spans.data[--skin->spans.count]);
     }
 }
 
@@ -237,7 +237,7 @@ static int32_t NextOf(const Samples* samples, int32_t sample)
     return samples->places == NULL ? samples->mesh->vertices.data[sample].next : samples->places->next.data[sample];
 }
 
-static int32_t CellOf(const Samples* samples, int32_t square, int32_t sample)
+static int32_t CellOfSample(const Samples* samples, int32_t square, int32_t sample)
 {
     int32_t first = samples->grid->squareCell.data[square];
     if (samples->grid->cells.data[first].next == KIRI_NONE) {
@@ -252,7 +252,7 @@ static int32_t CellOf(const Samples* samples, int32_t square, int32_t sample)
 static bool RefreshOne(kiriRefresh* refresh, const Samples* samples, int32_t square, int32_t sample)
 {
     kiriStencil* stencil = &refresh->stencil;
-    int32_t cell = CellOf(samples, square, sample);
+    int32_t cell = CellOfSample(samples, square, sample);
     kiriLatticePoint at =
         samples->places == NULL ? samples->mesh->vertices.data[sample].at : samples->points->data[sample].at;
     if (stencil->cell != cell &&
@@ -260,7 +260,7 @@ static bool RefreshOne(kiriRefresh* refresh, const Samples* samples, int32_t squ
         return false;
     }
     kiriStencil_Weigh(stencil, kiriMesh_Local(samples->mesh, at));
-    return Stage(samples->skin, samples->memory, stencil, sample);
+    return StageWeights(samples->skin, samples->memory, stencil, sample);
 }
 
 static kiriProgress Refresh(kiriRefresh* refresh, const Samples* samples, kiriQuota* quota)

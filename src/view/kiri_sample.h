@@ -5,6 +5,10 @@
 #include "../field/kiri_shape.h"
 #include "../motion/kiri_frame.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* A sample that shall have other weights. */
 typedef struct kiriReweighed {
     int32_t sample;
@@ -81,5 +85,9 @@ kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrame
 /* The motion at a lattice point of a triangle, from the weights of its corners. */
 kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* frames, const kiriMeshData* mesh,
                            int32_t triangle, kiriLatticePoint at);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -114,6 +114,7 @@ void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
     change.to = mesh->revision;
     change.oldVertexCount = surface->vertexCount;
     change.oldTriangleCount = surface->triangleCount;
+    surface->origin = mesh->origin;
     surface->revision = mesh->revision;
     surface->vertexCount = mesh->vertices.count;
     surface->triangleCount = mesh->triangles.count;
@@ -228,7 +229,7 @@ static double AngleOverSine(double cosine)
 }
 
 /* How the director of `other` leans, seen from a frame, where it is s away. */
-static void AddLean(kiriBend* bend, const kiriCarrier* carrier, kiriVec3 other, kiriVec2 s, double weight)
+static void AddDirectorTurn(kiriBend* bend, const kiriCarrier* carrier, kiriVec3 other, kiriVec2 s, double weight)
 {
     double k = -weight * AngleOverSine(kiriVec3_Dot(carrier->d, other));
     double tu = k * kiriVec3_Dot(carrier->u, other), tv = k * kiriVec3_Dot(carrier->v, other);
@@ -259,7 +260,7 @@ static void Curve(kiriCarrier* carrier, const kiriBend* bend)
 }
 
 /* From center to center along the link. */
-static kiriVec2 Way(const kiriFrameData* frames, const kiriLink* link)
+static kiriVec2 CentreToCentre(const kiriFrameData* frames, const kiriLink* link)
 {
     kiriVec2 start = kiriVec2_Sub(frames[link->i].site.at, frames[link->i].center);
     kiriVec2 end = kiriVec2_Sub(frames[link->j].center, frames[link->j].site.at);
@@ -273,9 +274,9 @@ static void BendCarriers(kiriSurface* surface, const kiriFrameData* frames, int3
     for (int32_t k = 0; k < linkCount; ++k) {
         const kiriLink* link = &links[k];
         kiriCarrier *i = &surface->carriers.data[link->i], *j = &surface->carriers.data[link->j];
-        kiriVec2 way = Way(frames, link);
-        AddLean(&surface->bends.data[link->i], i, j->d, way, link->width);
-        AddLean(&surface->bends.data[link->j], j, i->d, kiriVec2_Scale(-1.0, way), link->width);
+        kiriVec2 way = CentreToCentre(frames, link);
+        AddDirectorTurn(&surface->bends.data[link->i], i, j->d, way, link->width);
+        AddDirectorTurn(&surface->bends.data[link->j], j, i->d, kiriVec2_Scale(-1.0, way), link->width);
     }
     for (int32_t i = 0; i < frameCount; ++i) {
         Curve(&surface->carriers.data[i], &surface->bends.data[i]);
@@ -358,7 +359,7 @@ static void BlendAll(kiriSurface* surface, const kiriSkin* skin, bool isBent)
 
 /* ---- Normals ---- */
 
-static void Add(kiriVec3* sum, kiriVec3 a)
+static void AddInPlace(kiriVec3* sum, kiriVec3 a)
 {
     sum->x += a.x;
     sum->y += a.y;
@@ -376,27 +377,27 @@ static void SumSlopes(kiriSurface* surface)
         const int32_t* v = &surface->corners.data[3 * (size_t)t];
         kiriVec3 ab = kiriVec3_Sub(x[v[1]], x[v[0]]), ac = kiriVec3_Sub(x[v[2]], x[v[0]]);
         kiriVec3 first = kiriVec3_Cross(ab, ac);
-        Add(&sums[v[1]], first);
+        AddInPlace(&sums[v[1]], first);
         if (v[0] == v[3] && v[2] == v[4]) {
             kiriVec3 second = kiriVec3_Cross(ac, kiriVec3_Sub(x[v[5]], x[v[0]])), both = kiriVec3_Add(first, second);
-            Add(&sums[v[5]], second);
-            Add(&sums[v[0]], both);
-            Add(&sums[v[2]], both);
+            AddInPlace(&sums[v[5]], second);
+            AddInPlace(&sums[v[0]], both);
+            AddInPlace(&sums[v[2]], both);
         } else {
             kiriVec3 de = kiriVec3_Sub(x[v[4]], x[v[3]]), df = kiriVec3_Sub(x[v[5]], x[v[3]]);
             kiriVec3 second = kiriVec3_Cross(de, df);
-            Add(&sums[v[0]], first);
-            Add(&sums[v[2]], first);
-            Add(&sums[v[3]], second);
-            Add(&sums[v[4]], second);
-            Add(&sums[v[5]], second);
+            AddInPlace(&sums[v[0]], first);
+            AddInPlace(&sums[v[2]], first);
+            AddInPlace(&sums[v[3]], second);
+            AddInPlace(&sums[v[4]], second);
+            AddInPlace(&sums[v[5]], second);
         }
     }
 }
 
 /* In floats where the squared length has a place there: twice as fast. A length that fits a float may have a square
    that does not. */
-static void Normalize(kiriSurface* surface)
+static void NormalizeNormals(kiriSurface* surface)
 {
     for (int32_t v = 0; v < surface->vertexCount; ++v) {
         kiriVec3 slope = surface->slopes.data[v];
@@ -439,5 +440,5 @@ void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades)
 void kiriSurface_WriteNormals(kiriSurface* surface)
 {
     SumSlopes(surface);
-    Normalize(surface);
+    NormalizeNormals(surface);
 }

@@ -1,6 +1,8 @@
 #include "kiri_state_hash.h"
 
-static void Bytes(uint64_t* hash, const void* data, size_t bytes)
+#include "../sheet/kiri_update.h"
+
+static void HashBytes(uint64_t* hash, const void* data, size_t bytes)
 {
     const unsigned char* byte = data;
     for (size_t i = 0; i < bytes; ++i) {
@@ -8,254 +10,270 @@ static void Bytes(uint64_t* hash, const void* data, size_t bytes)
     }
 }
 
-static void Int(uint64_t* hash, int32_t value)
+static void HashInt(uint64_t* hash, int32_t value)
 {
-    Bytes(hash, &value, sizeof(value));
+    HashBytes(hash, &value, sizeof(value));
 }
-static void Real(uint64_t* hash, double value)
+static void HashLong(uint64_t* hash, int64_t value)
 {
-    Bytes(hash, &value, sizeof(value));
+    HashBytes(hash, &value, sizeof(value));
 }
-
-static void Vec2(uint64_t* hash, kiriVec2 a)
+static void HashReal(uint64_t* hash, double value)
 {
-    Real(hash, a.x);
-    Real(hash, a.y);
+    HashBytes(hash, &value, sizeof(value));
 }
 
-static void Vec3(uint64_t* hash, kiriVec3 a)
+static void HashVec2(uint64_t* hash, kiriVec2 a)
 {
-    Real(hash, a.x);
-    Real(hash, a.y);
-    Real(hash, a.z);
+    HashReal(hash, a.x);
+    HashReal(hash, a.y);
 }
 
-static void Point(uint64_t* hash, kiriLatticePoint p)
+static void HashVec3(uint64_t* hash, kiriVec3 a)
 {
-    Int(hash, p.x);
-    Int(hash, p.y);
+    HashReal(hash, a.x);
+    HashReal(hash, a.y);
+    HashReal(hash, a.z);
 }
 
-static void Mesh(uint64_t* hash, const kiriMeshData* mesh)
+static void HashPoint(uint64_t* hash, kiriLatticePoint p)
 {
-    Vec2(hash, mesh->origin);
-    Real(hash, mesh->step);
+    HashInt(hash, p.x);
+    HashInt(hash, p.y);
+}
+
+static void HashMesh(uint64_t* hash, const kiriMeshData* mesh)
+{
+    HashVec2(hash, mesh->origin);
+    HashReal(hash, mesh->step);
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         const kiriTriangle* triangle = &mesh->triangles.data[t];
-        Bytes(hash, triangle->vertex, sizeof(triangle->vertex));
-        Bytes(hash, triangle->twin, sizeof(triangle->twin));
-        Int(hash, triangle->open);
+        HashBytes(hash, triangle->vertex, sizeof(triangle->vertex));
+        HashBytes(hash, triangle->twin, sizeof(triangle->twin));
+        HashInt(hash, triangle->open);
     }
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
-        Point(hash, mesh->vertices.data[v].at);
+        HashPoint(hash, mesh->vertices.data[v].at);
     }
 }
 
-static void Moments(uint64_t* hash, const kiriMoments* m)
+static void HashMoments(uint64_t* hash, const kiriMoments* m)
 {
-    Real(hash, m->area);
-    Vec2(hash, kiriVec2_Make(m->u, m->v));
-    Vec3(hash, kiriVec3_Make(m->uu, m->uv, m->vv));
+    HashReal(hash, m->area);
+    HashVec2(hash, kiriVec2_Make(m->u, m->v));
+    HashVec3(hash, kiriVec3_Make(m->uu, m->uv, m->vv));
 }
 
-static void Skin(uint64_t* hash, const kiriSkin* skin)
+static void HashSkin(uint64_t* hash, const kiriSkin* skin)
 {
     for (int32_t i = 0; i < skin->spans.count; ++i) {
         kiriSpan span = skin->spans.data[i];
-        Int(hash, span.count);
+        HashInt(hash, span.count);
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
-            Int(hash, skin->weights.data[k].frame);
-            Real(hash, skin->weights.data[k].value);
+            HashInt(hash, skin->weights.data[k].frame);
+            HashReal(hash, skin->weights.data[k].value);
         }
     }
 }
 
-static void Link(uint64_t* hash, const kiriLink* link)
+static void HashLink(uint64_t* hash, const kiriLink* link)
 {
-    Int(hash, link->i);
-    Int(hash, link->j);
-    Vec3(hash, kiriVec3_Make(link->width, link->length, link->moment));
-    Real(hash, link->braced);
-    Vec2(hash, link->span);
-    Vec2(hash, link->normal);
-    Vec2(hash, link->tangent);
-    Vec2(hash, link->centroid);
-    Vec2(hash, link->crossing);
-    Vec2(hash, link->spread[0]);
-    Vec2(hash, link->spread[1]);
+    HashInt(hash, link->i);
+    HashInt(hash, link->j);
+    HashVec3(hash, kiriVec3_Make(link->width, link->length, link->moment));
+    HashReal(hash, link->braced);
+    HashVec2(hash, link->span);
+    HashVec2(hash, link->normal);
+    HashVec2(hash, link->tangent);
+    HashVec2(hash, link->centroid);
+    HashVec2(hash, link->crossing);
+    HashVec2(hash, link->spread[0]);
+    HashVec2(hash, link->spread[1]);
 }
 
-static void Patches(uint64_t* hash, const kiriPatches* patches)
+static void HashPatches(uint64_t* hash, const kiriPatches* patches)
 {
     for (int32_t i = 0; i < patches->patches.count; ++i) {
-        Real(hash, patches->patches.data[i].area);
-        Int(hash, patches->patches.data[i].count);
+        HashReal(hash, patches->patches.data[i].area);
+        HashInt(hash, patches->patches.data[i].count);
     }
     for (int32_t i = 0; i < patches->shares.count; ++i) {
         const kiriShare* share = &patches->shares.data[i];
-        Int(hash, share->frame);
-        Real(hash, share->weight);
-        Vec2(hash, share->slope);
-        Vec2(hash, share->move);
-        Vec2(hash, share->u);
-        Vec2(hash, share->v);
+        HashInt(hash, share->frame);
+        HashReal(hash, share->weight);
+        HashVec2(hash, share->slope);
+        HashVec2(hash, share->move);
+        HashVec2(hash, share->u);
+        HashVec2(hash, share->v);
     }
 }
 
-static void Layout(uint64_t* hash, const kiriSheetData* sheet)
+static void HashLayout(uint64_t* hash, const kiriSheetData* sheet)
 {
     const kiriLayout* layout = &sheet->layout;
     for (int32_t i = 0; i < sheet->links.links.count; ++i) {
-        Link(hash, &sheet->links.links.data[i]);
+        HashLink(hash, &sheet->links.links.data[i]);
     }
-    Patches(hash, &layout->patches);
+    HashPatches(hash, &layout->patches);
     for (int32_t i = 0; i < sheet->points.count; ++i) {
-        Point(hash, sheet->points.data[i].at);
-        Int(hash, sheet->points.data[i].frame);
+        HashPoint(hash, sheet->points.data[i].at);
+        HashInt(hash, sheet->points.data[i].frame);
     }
-    Skin(hash, &sheet->vertexSkin);
-    Skin(hash, &sheet->pointSkin);
+    HashSkin(hash, &sheet->vertexSkin);
+    HashSkin(hash, &sheet->pointSkin);
     for (int32_t i = 0; i < layout->framePiece.count; ++i) {
-        Int(hash, layout->framePiece.data[i]);
+        HashInt(hash, layout->framePiece.data[i]);
     }
     for (int32_t i = 0; i < layout->pinFrame.count; ++i) {
-        Int(hash, layout->pinFrame.data[i]);
+        HashInt(hash, layout->pinFrame.data[i]);
     }
 }
 
-static void Frame(uint64_t* hash, const kiriFrameData* frame)
+static void HashFrame(uint64_t* hash, const kiriFrameData* frame)
 {
-    Vec2(hash, frame->site.at);
-    Vec2(hash, frame->center);
-    Real(hash, frame->mass);
-    Vec3(hash, kiriVec3_Make(frame->inertia[0], frame->inertia[1], frame->inertia[2]));
-    Vec3(hash, frame->x);
-    Vec3(hash, frame->A.u);
-    Vec3(hash, frame->A.v);
-    Vec3(hash, frame->A.d);
-    Vec3(hash, frame->velocity);
-    Vec3(hash, frame->spin);
-    Vec3(hash, frame->rate.u);
-    Vec3(hash, frame->rate.v);
-    Vec3(hash, frame->rate.d);
-    Vec3(hash, frame->force);
-    Vec3(hash, frame->torque);
-    Point(hash, frame->anchor);
-    Int(hash, frame->held);
+    HashVec2(hash, frame->site.at);
+    HashVec2(hash, frame->center);
+    HashReal(hash, frame->mass);
+    HashVec3(hash, kiriVec3_Make(frame->inertia[0], frame->inertia[1], frame->inertia[2]));
+    HashVec3(hash, frame->x);
+    HashVec3(hash, frame->A.u);
+    HashVec3(hash, frame->A.v);
+    HashVec3(hash, frame->A.d);
+    HashVec3(hash, frame->velocity);
+    HashVec3(hash, frame->spin);
+    HashVec3(hash, frame->rate.u);
+    HashVec3(hash, frame->rate.v);
+    HashVec3(hash, frame->rate.d);
+    HashVec3(hash, frame->force);
+    HashVec3(hash, frame->torque);
+    HashPoint(hash, frame->anchor);
+    HashInt(hash, frame->held);
     if (frame->held) {
-        Vec3(hash, frame->heldPosition);
-        Vec3(hash, frame->heldRotation.u);
-        Vec3(hash, frame->heldRotation.v);
-        Vec3(hash, frame->heldRotation.d);
+        HashVec3(hash, frame->heldPosition);
+        HashVec3(hash, frame->heldRotation.u);
+        HashVec3(hash, frame->heldRotation.v);
+        HashVec3(hash, frame->heldRotation.d);
     }
 }
 
-static void Parameters(uint64_t* hash, const kiriSheetData* sheet)
+static void HashSettings(uint64_t* hash, const kiriSheetData* sheet)
 {
-    const kiriMaterial* m = &sheet->material;
-    Vec3(hash, kiriVec3_Make(m->youngsModulus, m->poissonsRatio, m->thickness));
-    Vec3(hash, kiriVec3_Make(m->density, m->airDamping, m->flexDamping));
-    Vec3(hash, kiriVec3_Make(sheet->snap, sheet->shape.rigidWeight, sheet->rigidArea));
-    Real(hash, sheet->crumbArea);
-    Real(hash, sheet->frameLength);
-    Int(hash, sheet->mechanics.model);
-    Int(hash, sheet->mechanics.planar);
-    Real(hash, sheet->integrationPoints);
-    Int(hash, sheet->integrationOrder);
-    Int(hash, sheet->maxFrames);
-    Int(hash, sheet->iterations);
-    Real(hash, sheet->pointCount);
-    Int(hash, sheet->popping);
+    const kiriMaterial* m = &sheet->settings.material;
+    HashVec3(hash, kiriVec3_Make(m->youngsModulus, m->poissonsRatio, m->thickness));
+    HashVec3(hash, kiriVec3_Make(m->density, m->airDamping, m->flexDamping));
+    HashVec3(hash, kiriVec3_Make(sheet->settings.snap, sheet->shape.rigidWeight, sheet->settings.rigidArea));
+    HashReal(hash, sheet->settings.crumbArea);
+    HashReal(hash, sheet->settings.frameLength);
+    HashInt(hash, sheet->settings.mechanics.model);
+    HashInt(hash, sheet->settings.mechanics.planar);
+    HashReal(hash, sheet->settings.integrationPoints);
+    HashInt(hash, sheet->settings.integrationOrder);
+    HashInt(hash, sheet->settings.maxFrames);
+    HashInt(hash, sheet->settings.iterations);
+    HashReal(hash, sheet->settings.collisionPoints);
+    HashInt(hash, sheet->settings.popping);
 }
 
-static int32_t IndexOf(const kiriSheetData* sheet, const kiriCutData* cut)
+static void HashContacts(uint64_t* hash, const kiriContact* contacts, int32_t count)
 {
-    int32_t index = 0;
-    while (sheet->cuts.data[index] != cut) {
-        ++index;
-    }
-    return index;
-}
-
-static void Contacts(uint64_t* hash, const kiriContact* contacts, int32_t count)
-{
-    Int(hash, count);
+    HashInt(hash, count);
     for (int32_t i = 0; i < count; ++i) {
-        Int(hash, contacts[i].point);
-        Vec3(hash, kiriVec3_Load(contacts[i].normal));
-        Vec3(hash, kiriVec3_Make(contacts[i].offset, contacts[i].friction, contacts[i].stiffness));
+        HashInt(hash, contacts[i].point);
+        HashVec3(hash, kiriVec3_Load(contacts[i].normal));
+        HashVec3(hash, kiriVec3_Make(contacts[i].offset, contacts[i].friction, contacts[i].stiffness));
     }
 }
 
-static void Waiting(uint64_t* hash, const kiriSheetData* sheet)
+/* How far the work on a cut has come. Which items of it are done follows from how many, for their order does. What is
+   made again after a refused allocation counts where it can change when a cut takes effect. */
+static void HashWork(uint64_t* hash, const kiriWorld* world, const kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    bool isLimited = world->budget.cells > 0 || world->budget.samples > 0;
+    HashInt(hash, isLimited && sheet->settings.fromScratch);
+    HashInt(hash, (isLimited || u->stage != KIRI_NONE) && (u->needsRebuild || u->isScratch));
+    HashInt(hash, u->stage);
+    if (u->stage != KIRI_NONE) {
+        HashInt(hash, u->step);
+        HashLong(hash, u->spent);
+        HashLong(hash, world->ticks - u->cut.stamp);
+        HashInt(hash, u->cut.count);
+        HashInt(hash, u->cut.taken);
+        HashInt(hash, u->cut.meshChanged);
+    }
+}
+
+static void HashWaiting(uint64_t* hash, const kiriWorld* world, const kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->queue.count; ++i) {
-        Vec2(hash, sheet->queue.data[i].to);
-        Int(hash, sheet->queue.data[i].jump);
-        Int(hash, i > 0 && sheet->queue.data[i].stamp != sheet->queue.data[i - 1].stamp);
-        Int(hash, IndexOf(sheet, sheet->queue.data[i].cut));
+        const kiriQueuedPoint* point = &sheet->queue.data[i];
+        HashVec2(hash, point->to);
+        HashInt(hash, point->jump);
+        HashLong(hash, world->ticks - point->stamp);
+        HashInt(hash, point->cut->index);
     }
     for (int32_t i = 0; i < sheet->cuts.count; ++i) {
-        Vec2(hash, sheet->cuts.data[i]->tip.last);
-        Point(hash, sheet->cuts.data[i]->tip.blade.at);
-        Int(hash, sheet->cuts.data[i]->tip.blade.vertex);
-        Int(hash, sheet->cuts.data[i]->ended);
+        HashVec2(hash, sheet->cuts.data[i]->tip.last);
+        HashPoint(hash, sheet->cuts.data[i]->tip.blade.at);
+        HashInt(hash, sheet->cuts.data[i]->tip.blade.vertex);
+        HashInt(hash, sheet->cuts.data[i]->ended);
     }
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        Point(hash, sheet->pins.data[i].at);
-        Vec3(hash, sheet->pins.data[i].target);
-        Real(hash, sheet->pins.data[i].stiffness);
+        HashPoint(hash, sheet->pins.data[i].at);
+        HashVec3(hash, sheet->pins.data[i].target);
+        HashReal(hash, sheet->pins.data[i].stiffness);
     }
-    Contacts(hash, sheet->contacts.data, sheet->contacts.count);
+    HashContacts(hash, sheet->contacts.data, sheet->contacts.count);
 }
 
-static void Eases(uint64_t* hash, const kiriStrainOffsets* strainOffsets)
+static void HashStrainOffsets(uint64_t* hash, const kiriStrainOffsets* strainOffsets)
 {
     for (int32_t k = 0; k < strainOffsets->strainOffsets.count; ++k) {
         for (int e = 0; e < KIRI_STRAINS; ++e) {
-            Real(hash, strainOffsets->strainOffsets.data[k].strain[e]);
+            HashReal(hash, strainOffsets->strainOffsets.data[k].strain[e]);
         }
     }
 }
 
-static void Fades(uint64_t* hash, const kiriFades* fades)
+static void HashFades(uint64_t* hash, const kiriFades* fades)
 {
-    Real(hash, fades->time);
+    HashReal(hash, fades->time);
     for (int32_t k = 0; k < fades->fading.count; ++k) {
-        Int(hash, fades->fading.data[k].sample);
-        Real(hash, fades->fading.data[k].left);
-        Vec3(hash, fades->fading.data[k].offset);
+        HashInt(hash, fades->fading.data[k].sample);
+        HashReal(hash, fades->fading.data[k].left);
+        HashVec3(hash, fades->fading.data[k].offset);
     }
 }
 
-static void Sleep(uint64_t* hash, const kiriSheetData* sheet)
+static void HashRest(uint64_t* hash, const kiriSheetData* sheet)
 {
-    Real(hash, sheet->sleepSpeed);
-    Real(hash, sheet->calm);
-    Int(hash, sheet->asleep);
-    Contacts(hash, sheet->lastContacts.data, sheet->lastContacts.count);
+    HashReal(hash, sheet->settings.sleepSpeed);
+    HashReal(hash, sheet->rest.calm);
+    HashInt(hash, sheet->rest.asleep);
+    HashContacts(hash, sheet->rest.contacts.data, sheet->rest.contacts.count);
 }
 
-uint64_t kiriSnapshot_Hash(const kiriWorld* world)
+uint64_t kiriStateHash_Of(const kiriWorld* world)
 {
     uint64_t hash = 14695981039346656037u;
-    Vec3(&hash, world->gravity);
-    Bytes(&hash, &world->budget, sizeof(world->budget));
-    Int(&hash, world->turn);
+    HashVec3(&hash, world->gravity);
+    HashBytes(&hash, &world->budget, sizeof(world->budget));
+    HashInt(&hash, world->turn);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         const kiriSheetData* sheet = world->sheets.data[i];
-        Parameters(&hash, sheet);
-        Mesh(&hash, &sheet->mesh);
-        Layout(&hash, sheet);
+        HashSettings(&hash, sheet);
+        HashMesh(&hash, &sheet->mesh);
+        HashLayout(&hash, sheet);
         uint64_t pattern = kiriSolver_Hash(sheet->solver);
-        Bytes(&hash, &pattern, sizeof(pattern));
-        Waiting(&hash, sheet);
-        Sleep(&hash, sheet);
-        Eases(&hash, &sheet->strainOffsets);
-        Fades(&hash, &sheet->fades);
-        Fades(&hash, &sheet->pointFades);
+        HashBytes(&hash, &pattern, sizeof(pattern));
+        HashWork(&hash, world, sheet);
+        HashWaiting(&hash, world, sheet);
+        HashRest(&hash, sheet);
+        HashStrainOffsets(&hash, &sheet->strainOffsets);
+        HashFades(&hash, &sheet->seen.fades);
+        HashFades(&hash, &sheet->seen.pointFades);
         for (int32_t f = 0; f < sheet->frames.count; ++f) {
-            Frame(&hash, &sheet->frames.data[f]);
+            HashFrame(&hash, &sheet->frames.data[f]);
         }
     }
     return hash;
@@ -263,76 +281,76 @@ uint64_t kiriSnapshot_Hash(const kiriWorld* world)
 
 /* ---- Grid, regions and shape, by what does not depend on indices ---- */
 
-static void Place(uint64_t* hash, const kiriGrid* grid, int32_t cell)
+static void HashPlace(uint64_t* hash, const kiriGrid* grid, int32_t cell)
 {
-    Int(hash, cell == KIRI_NONE ? KIRI_NONE : grid->cells.data[cell].square);
-    Int(hash, cell == KIRI_NONE ? KIRI_NONE : grid->cells.data[cell].triangle);
+    HashInt(hash, cell == KIRI_NONE ? KIRI_NONE : grid->cells.data[cell].square);
+    HashInt(hash, cell == KIRI_NONE ? KIRI_NONE : grid->cells.data[cell].triangle);
 }
 
-static void Steps(uint64_t* hash, const kiriGrid* grid, int32_t cell)
+static void HashSteps(uint64_t* hash, const kiriGrid* grid, int32_t cell)
 {
     kiriStepRun run = grid->runs.data[cell];
     for (int32_t s = run.first; s < run.end[KIRI_STEP_LENGTHS - 1]; ++s) {
         kiriStep step = grid->steps.data[s];
-        Place(hash, grid, step.cell);
-        Int(hash, step.length);
+        HashPlace(hash, grid, step.cell);
+        HashInt(hash, step.length);
     }
 }
 
 /* A sum, for a cell's faces come in no order. */
-static uint64_t Faces(const kiriGrid* grid, int32_t cell)
+static uint64_t HashFaces(const kiriGrid* grid, int32_t cell)
 {
     uint64_t sum = 0;
     for (int32_t f = grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
         const kiriFace* face = &grid->faces.data[f];
         uint64_t hash = 14695981039346656037u;
-        Place(&hash, grid, face->cell[0]);
-        Place(&hash, grid, face->cell[1]);
-        Int(&hash, face->axis);
-        Vec3(&hash, kiriVec3_Make(face->width, face->moment, 0.0));
-        Vec2(&hash, face->middle);
+        HashPlace(&hash, grid, face->cell[0]);
+        HashPlace(&hash, grid, face->cell[1]);
+        HashInt(&hash, face->axis);
+        HashVec3(&hash, kiriVec3_Make(face->width, face->moment, 0.0));
+        HashVec2(&hash, face->middle);
         sum += hash;
         f = face->next[face->cell[1] == cell];
     }
     return sum;
 }
 
-static void CellWeights(uint64_t* hash, const kiriShape* shape, int32_t cell)
+static void HashCellWeights(uint64_t* hash, const kiriShape* shape, int32_t cell)
 {
     kiriSpan span = shape->spans.data[cell];
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
-        Int(hash, shape->weights.data[k].frame);
-        Real(hash, shape->weights.data[k].value);
+        HashInt(hash, shape->weights.data[k].frame);
+        HashReal(hash, shape->weights.data[k].value);
     }
 }
 
-static void Cell(uint64_t* hash, const kiriSheetData* sheet, int32_t cell)
+static void HashCell(uint64_t* hash, const kiriSheetData* sheet, int32_t cell)
 {
-    uint64_t faces = Faces(&sheet->grid, cell);
-    Place(hash, &sheet->grid, cell);
-    Moments(hash, &sheet->grid.cells.data[cell].material);
-    Steps(hash, &sheet->grid, cell);
-    Bytes(hash, &faces, sizeof(faces));
-    Int(hash, sheet->regions.field.owner.data[cell]);
-    Int(hash, sheet->regions.field.distance.data[cell]);
-    Int(hash, sheet->regions.onBorder.data[cell]);
-    CellWeights(hash, &sheet->shape, cell);
+    uint64_t faces = HashFaces(&sheet->grid, cell);
+    HashPlace(hash, &sheet->grid, cell);
+    HashMoments(hash, &sheet->grid.cells.data[cell].material);
+    HashSteps(hash, &sheet->grid, cell);
+    HashBytes(hash, &faces, sizeof(faces));
+    HashInt(hash, sheet->regions.field.owner.data[cell]);
+    HashInt(hash, sheet->regions.field.distance.data[cell]);
+    HashInt(hash, sheet->regions.onBorder.data[cell]);
+    HashCellWeights(hash, &sheet->shape, cell);
 }
 
-uint64_t kiriSnapshot_HashLayout(const kiriSheetData* sheet)
+uint64_t kiriStateHash_OfLayout(const kiriSheetData* sheet)
 {
     uint64_t hash = 14695981039346656037u;
-    Mesh(&hash, &sheet->mesh);
-    Layout(&hash, sheet);
+    HashMesh(&hash, &sheet->mesh);
+    HashLayout(&hash, sheet);
     for (int32_t s = 0; s < sheet->grid.squareCell.count; ++s) {
         for (int32_t c = sheet->grid.squareCell.data[s]; c != KIRI_NONE; c = sheet->grid.cells.data[c].next) {
-            Cell(&hash, sheet, c);
+            HashCell(&hash, sheet, c);
         }
     }
     for (int32_t f = 0; f < sheet->frames.count; ++f) {
-        Bytes(&hash, &sheet->regions.material.data[f], sizeof(kiriTally));
-        Bytes(&hash, &sheet->shape.rigid.data[f], sizeof(int64_t));
-        Place(&hash, &sheet->grid, sheet->frames.data[f].site.cell);
+        HashBytes(&hash, &sheet->regions.material.data[f], sizeof(kiriTally));
+        HashBytes(&hash, &sheet->shape.rigid.data[f], sizeof(int64_t));
+        HashPlace(&hash, &sheet->grid, sheet->frames.data[f].site.cell);
     }
     return hash;
 }

@@ -1,15 +1,12 @@
-/* The world: sheets, ids, events, and the tick. */
+/* The world: its sheets, and their ids and events. */
 #ifndef KIRI_WORLD_H
 #define KIRI_WORLD_H
 
-#include "../sheet/kiri_motion.h"
-#include "../core/kiri_pool.h"
 #include "../sheet/kiri_sheet.h"
-#include "../sheet/kiri_seen.h"
 
-typedef struct kiriError {
-    char line[256];
-} kiriError;
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 struct kiriWorld {
     kiriMemory memory;
@@ -27,23 +24,24 @@ struct kiriWorld {
     kiriProfile profile;
     int32_t stage; /* running now, or KIRI_NONE */
     double stageStart;
-    kiriError error;
+    char errorLine[256]; /* of the last function that changes the world */
 };
 
-/* One tick: KIRI_OK, KIRI_PENDING (work waits), KIRI_ERROR_MEMORY (nothing moved), or KIRI_DIVERGED. */
-kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps);
-
-/* Makes a sheet of the def, which has been checked, and gives it and its frames their ids. */
+/* Makes a sheet of the def, which has been checked, and gives it and its frames their ids. *why says what is wrong, or is
+   null where the result says it all. */
 kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, const char** why);
 void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet);
 
-/* A piece that is not the only one gets a sheet of its own, or is taken away; so are all pieces below an area but the
-   largest. No update is at hand in the sheet. False for memory: nothing has changed. */
-bool kiriWorld_DetachPiece(kiriWorld* world, kiriSheetData* sheet, int32_t piece, kiriSheet* id);
-bool kiriWorld_DropPiece(kiriWorld* world, kiriSheetData* sheet, int32_t piece);
-bool kiriWorld_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, int32_t* count);
+/* A cut with no points yet, and room for so many in the queue. */
+kiriResult kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet, int64_t points, kiriCutData** made);
+void kiriWorld_RemoveCut(kiriWorld* world, kiriCutData* cut);
 
-/* A cut with no points yet; null for memory. */
-kiriCutData* kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet);
+/* Room for one more sheet and its id; for so many ids of a kind. KIRI_ERROR_MEMORY or KIRI_ERROR_LIMIT. */
+kiriResult kiriWorld_ReserveSheet(kiriWorld* world);
+kiriResult kiriWorld_ReserveIds(kiriWorld* world, kiriPool* pool, int64_t count);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,0 +1,194 @@
+#include "kiri_build.h"
+
+#include "kiri_pipeline.h"
+#include "kiri_seen.h"
+#include "kiri_site.h"
+#include "kiri_stages.h"
+
+#include <string.h>
+
+/* ---- Settings ---- */
+
+static kiriMat3 AxesOf(const kiriSheetDef* def)
+{
+    kiriMat3 axes;
+    axes.u = kiriVec3_Normalize(kiriVec3_Load(def->axisU));
+    axes.d = kiriVec3_Normalize(kiriVec3_Cross(axes.u, kiriVec3_Load(def->axisV)));
+    axes.v = kiriVec3_Cross(axes.d, axes.u);
+    return axes;
+}
+
+/* Newton's iteration from above. */
+static double CubeRoot(double a)
+{
+    double x = a > 1.0 ? a : 1.0;
+    for (int i = 0; i < 200; ++i) {
+        x = (2.0 * x + a / (x * x)) / 3.0;
+    }
+    return x;
+}
+
+/* Over which the material bends under its own weight: stiffness and weight of an area balance. */
+static double BendingLength(const kiriMaterial* m)
+{
+    double h = m->thickness, nu = m->poissonsRatio;
+    double stiffness = m->youngsModulus * h * h * h / (12.0 * (1.0 - nu * nu));
+    return CubeRoot(stiffness / (m->density * h * 9.81));
+}
+
+static void SetFrames(kiriSettings* settings, const kiriMeshData* mesh, const kiriSheetDef* def)
+{
+    double area = kiriMesh_Area(mesh);
+    double share = area / (def->frameCount > 0 ? def->frameCount : 1), points = 4.0 * def->frameCount;
+    settings->maxFrames = def->maxFrames > def->frameCount ? def->maxFrames : def->frameCount;
+    if (def->frameCount == 0) {
+        double least = 3.0 * mesh->step * mesh->squares.side;
+        double length = def->frameLength > 0.0f ? def->frameLength : BendingLength(&def->material);
+        settings->frameLength = length > least ? length : least;
+        share = settings->frameLength * settings->frameLength;
+        points = 4.0 * area / share < 1e6 ? 4.0 * area / share : 1e6;
+    }
+    settings->integrationPoints = points;
+    settings->rigidWeight = def->rigidWeight;
+    settings->rigidArea = def->rigidArea > 0.0f ? def->rigidArea : 0.25 * share;
+}
+
+static void SetPaper(kiriSettings* settings, const kiriPaperDef* def)
+{
+    settings->integrationOrder = def->integrationOrder;
+    settings->fromScratch = def->fromScratch != 0;
+    settings->popping = def->popping != 0;
+    if (def->integrationPoints > 0) {
+        settings->integrationPoints = def->integrationPoints;
+    }
+    if (settings->popping) {
+        settings->fadeTime = 0.0;
+    }
+}
+
+static void SetAll(kiriSettings* settings, const kiriMeshData* mesh, const kiriSheetDef* def)
+{
+    double longer = KIRI_LATTICE;
+    SetFrames(settings, mesh, def);
+    settings->material = def->material;
+    settings->snap = def->snapDistance > 0.0f ? def->snapDistance / mesh->step : 1e-4 * longer;
+    settings->crumbArea = def->crumbArea;
+    settings->iterations = def->iterations;
+    settings->skinning = def->skinning;
+    settings->collisionPoints = def->collisionPoints;
+    settings->mechanics.model = def->model;
+    settings->mechanics.planar = def->planar != 0;
+    settings->mechanics.axes = AxesOf(def);
+    settings->integrationOrder = 1;
+    settings->sleepSpeed = def->sleepSpeed;
+    settings->fadeTime = def->fadeTime;
+    settings->leastFade = 1e-7 * longer * mesh->step; /* of the longer side */
+    if (def->paper != NULL) {
+        SetPaper(settings, def->paper);
+    }
+}
+
+/* ---- Frames ---- */
+
+/* The sites that the caller gave, when the grid is there. */
+static kiriResult TakeFramePoints(kiriSheetData* sheet, const kiriSheetDef* def, const char** why)
+{
+    kiriPlacingWork* placing = &sheet->update->placing;
+    if (!kiriSites_ClearMarks(sheet, sheet->grid.cells.count) ||
+        !kiriArray_Reserve(sheet->memory, &placing->sites, def->frameCount)) {
+        return KIRI_ERROR_MEMORY;
+    }
+    for (int32_t i = 0; i < def->frameCount; ++i) {
+        kiriLatticePoint at;
+        kiriSite site = { kiriSheet_ToLocal(sheet, &def->framePoints[2 * i]), KIRI_NONE };
+        if (kiriSheet_ToLattice(sheet, &def->framePoints[2 * i], &at)) {
+            site.cell = kiriGrid_CellAt(&sheet->grid, &sheet->mesh, at);
+        }
+        if (site.cell == KIRI_NONE) {
+            *why = "a frame point lies outside the material";
+            return KIRI_ERROR_ARGUMENT;
+        }
+        if (placing->marks.data[site.cell]) {
+            *why = "two frame points lie in one grid cell; a finer grid tells them apart";
+            return KIRI_ERROR_ARGUMENT;
+        }
+        placing->marks.data[site.cell] = 1;
+        placing->sites.data[placing->sites.count++] = site;
+    }
+    return KIRI_OK;
+}
+
+static void StartFrame(kiriSheetData* sheet, const kiriSheetDef* def, int32_t index)
+{
+    kiriSite site = sheet->update->placing.sites.data[index];
+    kiriFrameData* frame = &sheet->frames.data[index];
+    memset(frame, 0, sizeof(*frame));
+    frame->anchor = def->framePoints != NULL && index < def->frameCount
+                        ? kiriMesh_Snap(&sheet->mesh, site.at)
+                        : kiriGrid_Anchor(&sheet->grid, &sheet->mesh, site.cell);
+    frame->center = site.at;
+    frame->A = sheet->settings.mechanics.axes;
+    kiriVec2 rest = kiriVec2_Add(sheet->mesh.origin, site.at);
+    frame->x =
+        kiriVec3_AddScaled(kiriVec3_AddScaled(kiriVec3_Load(def->position), rest.x, frame->A.u), rest.y, frame->A.v);
+    frame->velocity = kiriVec3_Load(def->velocity);
+    if (sheet->settings.mechanics.planar) {
+        double across = kiriVec3_Dot(frame->velocity, frame->A.d);
+        frame->velocity = kiriVec3_AddScaled(frame->velocity, -across, frame->A.d);
+    }
+}
+
+static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, const char** why)
+{
+    kiriResult result = kiriPipeline_Make(sheet, KIRI_STAGE_REGIONS) ? KIRI_OK : KIRI_ERROR_MEMORY;
+    if (result == KIRI_OK && def->framePoints != NULL) {
+        result = TakeFramePoints(sheet, def, why);
+    }
+    if (result != KIRI_OK) {
+        return result;
+    }
+    sheet->update->placing.whole = kiriMesh_Area(&sheet->mesh);
+    sheet->update->placing.spread = def->framePoints != NULL ? 0 : def->frameCount;
+    if (!kiriPipeline_Make(sheet, KIRI_READY)) {
+        return KIRI_ERROR_MEMORY;
+    }
+    sheet->frames.count = sheet->update->placing.sites.count;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        StartFrame(sheet, def, i);
+    }
+    kiriBuild_Commit(sheet);
+    return KIRI_OK;
+}
+
+void kiriBuild_ApplySettings(kiriSheetData* sheet)
+{
+    const kiriSettings* settings = &sheet->settings;
+    sheet->shape.rigidWeight = settings->rigidWeight;
+    sheet->seen.surface.skinning = settings->skinning;
+    sheet->seen.fades.time = sheet->seen.pointFades.time = settings->fadeTime;
+    sheet->seen.fades.least = sheet->seen.pointFades.least = settings->leastFade;
+}
+
+void kiriBuild_Commit(kiriSheetData* sheet)
+{
+    kiriStage_Commit(sheet);
+    kiriView_WriteTopology(sheet);
+    kiriMesh_Commit(&sheet->mesh);
+    sheet->update->stage = KIRI_NONE;
+    sheet->update->placing.spread = 0;
+}
+
+kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, const char** why)
+{
+    kiriResult result = kiriMesh_Init(&sheet->mesh, sheet->memory, def->restPositions, def->vertexCount, def->indices,
+                                      def->triangleCount, def->gridResolution, why);
+    if (result != KIRI_OK) {
+        return result;
+    }
+    *why = "out of memory";
+    SetAll(&sheet->settings, &sheet->mesh, def);
+    kiriBuild_ApplySettings(sheet);
+    kiriMesh_Begin(&sheet->mesh);
+    sheet->solver = kiriSolver_Create(sheet->memory, &sheet->settings.mechanics);
+    return sheet->solver != NULL ? BuildFromMesh(sheet, def, why) : KIRI_ERROR_MEMORY;
+}

@@ -1,0 +1,24 @@
+/* A sheet from its def. */
+#ifndef KIRI_BUILD_H
+#define KIRI_BUILD_H
+
+#include "kiri_sheet.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Makes a new sheet what the def says, which has been checked. On failure *why says what is wrong, and the sheet is to
+   be deleted. Ids of sheet and frames are given by the world. */
+kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, const char** why);
+
+/* For whoever makes a sheet otherwise: hands the settings to the parts that keep their own; and, after all stages, puts
+   the first layout in force. */
+void kiriBuild_ApplySettings(kiriSheetData* sheet);
+void kiriBuild_Commit(kiriSheetData* sheet);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

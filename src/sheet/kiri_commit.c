@@ -1,0 +1,134 @@
+#include "kiri_stages.h"
+
+#include <string.h>
+
+/* A frame that appears takes its motion from the surface: position, velocity, and the rotation nearest to its slope; an
+   affine frame the slope itself. */
+static kiriFrameData NewFrame(const kiriSheetData* sheet, kiriSite site)
+{
+    kiriFrameData frame;
+    memset(&frame, 0, sizeof(frame));
+    frame.anchor = kiriGrid_Anchor(&sheet->grid, &sheet->mesh, site.cell);
+    frame.center = kiriMesh_Local(&sheet->mesh, frame.anchor);
+    int32_t triangle = kiriMesh_Locate(&sheet->mesh, frame.anchor);
+    triangle = triangle == KIRI_NONE ? sheet->grid.cells.data[site.cell].triangle : triangle;
+    kiriMotion motion = kiriSkin_Motion(&sheet->vertexSkin, sheet->frames.data, &sheet->mesh, triangle, frame.anchor);
+    frame.x = motion.x;
+    frame.velocity = motion.velocity;
+    if (sheet->settings.mechanics.model == KIRI_MODEL_LINKS) {
+        frame.A = kiriMat3_Rotation(motion.A);
+        frame.spin = motion.spin;
+    } else {
+        frame.A = motion.A;
+        frame.spin = kiriMat3_Spin(&motion.A, &motion.rate);
+        frame.rate = kiriMat3_Beside(&motion.A, &motion.rate, frame.spin);
+    }
+    return frame;
+}
+
+/* What the frames with new material do, all from the motion before: see refit.h. */
+static void FitFrames(kiriSheetData* sheet, int32_t oldCount)
+{
+    kiriUpdate* u = sheet->update;
+    if (!sheet->settings.popping) {
+        kiriRefit_Solve(&u->refit, sheet->frames.data, oldCount, &sheet->mesh, &sheet->regions, u->material.data,
+                        &sheet->settings.material, sheet->settings.mechanics.model == KIRI_MODEL_LINKS);
+    }
+}
+
+static void TakeFits(kiriSheetData* sheet)
+{
+    kiriRefit* refit = &sheet->update->refit;
+    for (int32_t k = 0; k < refit->fits.count; ++k) {
+        const kiriFrameData* state = &refit->fits.data[k].state;
+        kiriFrameData* frame = &sheet->frames.data[refit->fits.data[k].frame];
+        frame->x = state->x;
+        frame->A = state->A;
+        frame->velocity = state->velocity;
+        frame->spin = state->spin;
+        frame->rate = state->rate;
+    }
+    const kiriLayout* next = &sheet->update->next;
+    kiriRefit_Brake(refit, sheet->frames.data, sheet->frames.count, next->framePiece.data, next->pieces.count,
+                    &sheet->settings.material);
+    kiriRefit_Commit(refit, &sheet->mesh);
+}
+
+static void CommitFrames(kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    double densityPerArea = (double)sheet->settings.material.density * sheet->settings.material.thickness;
+    for (int32_t i = sheet->frames.count; i < u->placing.sites.count; ++i) {
+        sheet->frames.data[i] = NewFrame(sheet, u->placing.sites.data[i]);
+    }
+    FitFrames(sheet, sheet->frames.count);
+    sheet->frames.count = u->placing.sites.count;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        sheet->frames.data[i].site = u->placing.sites.data[i];
+        if (sheet->regions.dirty.data[i]) {
+            kiriFrame_Recenter(&sheet->frames.data[i], &u->material.data[i], densityPerArea);
+            sheet->regions.dirty.data[i] = 0;
+        }
+    }
+    TakeFits(sheet);
+}
+
+static void CommitPoints(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    for (int32_t i = 0; i < u->samples.movedPoints.count; ++i) {
+        sheet->points.data[u->samples.movedPoints.data[i].frame].cell = u->samples.movedPoints.data[i].cell;
+    }
+    for (int32_t i = 0; i < u->samples.newPoints.count; ++i) {
+        sheet->points.data[sheet->points.count++] = u->samples.newPoints.data[i];
+        kiriPlaces_Add(&sheet->pointPlaces, sheet->memory, &sheet->mesh, u->samples.newPoints.data[i].at);
+    }
+    for (int32_t i = 0; i < sheet->points.count; ++i) {
+        sheet->points.data[i].frame = sheet->regions.field.owner.data[sheet->points.data[i].cell];
+    }
+    u->samples.newPoints.count = u->samples.movedPoints.count = 0;
+}
+
+void kiriStage_Commit(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    u->counts.weights = (int32_t)sheet->shape.recomputed;
+    u->counts.vertices = sheet->vertexSkin.staged.count;
+    u->counts.points = sheet->pointSkin.staged.count;
+    u->counts.links = sheet->links.changed;
+    sheet->lists.isFresh = false;
+    int32_t oldLinks = sheet->links.links.count;
+    bool keepsStrains = kiriSheet_KeepsStrains(sheet);
+    if (keepsStrains) {
+        kiriStrainOffsets_Remember(&sheet->strainOffsets, sheet->frames.data, sheet->frames.count);
+    }
+    CommitFrames(sheet);
+    CommitPoints(sheet);
+    kiriSkin_Commit(&sheet->vertexSkin);
+    kiriSkin_Commit(&sheet->pointSkin);
+    kiriLinks_Commit(&sheet->links);
+    if (keepsStrains) {
+        kiriStrainOffsets_Take(&sheet->strainOffsets, sheet->links.next.data, oldLinks, sheet->links.links.data,
+                               sheet->links.links.count, sheet->frames.data);
+    }
+    kiriSolver_Commit(sheet->solver);
+    kiriLayout layout = sheet->layout;
+    sheet->layout = u->next;
+    u->next = layout;
+    kiriShape_ClearChanges(&sheet->shape);
+    u->isScratch = false;
+    sheet->seen.isElsewhere = true;
+    u->samples.oldVertices = sheet->mesh.vertices.count;
+}
+
+void kiriStage_Drop(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    kiriSkin_Drop(&sheet->vertexSkin);
+    kiriSkin_Drop(&sheet->pointSkin);
+    u->samples.newPoints.count = u->samples.movedPoints.count = 0;
+    u->placing.sites.count = sheet->frames.count;
+    u->placing.moves.count = u->placing.movesSeen = 0;
+    u->placing.isPlacing = false;
+    kiriRefit_Drop(&u->refit);
+}

@@ -1,0 +1,138 @@
+#include "kiri_pipeline.h"
+
+#include "kiri_stages.h"
+
+#include <string.h>
+
+typedef struct PipelineStage {
+    int quota;
+    kiriProgress (*run)(kiriSheetData* sheet, kiriQuota* quota);
+} PipelineStage;
+
+/* What a cut sets off, in the order of KIRI_STAGE. Any stage may spend its quota, or run out of memory; nothing is in
+   force before the commit. */
+static const PipelineStage pipeline[KIRI_READY] = {
+    { KIRI_QUOTA_TRIANGLES, kiriStage_SplitMesh }, /* appendix A, algorithm 4 */
+    { KIRI_QUOTA_CELLS, kiriStage_Grid },          /* section 4.2, algorithm 3 */
+    { KIRI_QUOTA_CELLS, kiriStage_Regions },       /* section 5: frames for pieces that have none */
+    { KIRI_QUOTA_CELLS, kiriStage_Shape },         /* section 4.1, algorithm 2; re-sampling of section 5 */
+    { KIRI_QUOTA_SAMPLES, kiriStage_Samples },     /* section 6 */
+    { KIRI_QUOTA_NONE, kiriStage_Constants },      /* mass, links, the pattern of the matrix */
+};
+
+static kiriProgress RunUpTo(kiriSheetData* sheet, int32_t end, kiriQuotas* quotas, const kiriWatch* watch)
+{
+    kiriUpdate* u = sheet->update;
+    kiriProgress progress = KIRI_DONE;
+    while (progress == KIRI_DONE && u->stage < end) {
+        KIRI_ASSERT(u->stage >= KIRI_STAGE_CUT && u->stage < KIRI_READY);
+        kiriQuota* quota = &quotas->of[pipeline[u->stage].quota];
+        int64_t used = quota->used;
+        if (watch != NULL) {
+            watch->enter(watch->context, u->stage);
+        }
+        progress = pipeline[u->stage].run(sheet, quota);
+        u->spent += quota->used - used;
+        if (progress == KIRI_DONE) {
+            /* A blade may move outside the sheet, or along edges that are open already. */
+            bool isOver = u->stage == KIRI_STAGE_CUT && !u->cut.meshChanged;
+            u->stage = isOver ? KIRI_READY : u->stage + 1;
+            u->step = 0;
+        }
+    }
+    return progress;
+}
+
+/* Weights for all vertices, none yet. */
+static bool StartSkin(kiriSheetData* sheet)
+{
+    kiriSkin* skin = &sheet->vertexSkin;
+    if (!kiriArray_Resize(sheet->memory, &skin->spans, sheet->mesh.vertices.count)) {
+        return false;
+    }
+    memset(skin->spans.data, 0, sizeof(kiriSpan) * (size_t)skin->spans.count);
+    return true;
+}
+
+bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end)
+{
+    kiriQuotas unlimited;
+    for (int i = 0; i < KIRI_QUOTA_COUNT; ++i) {
+        unlimited.of[i] = (kiriQuota){ INT64_MAX, 0 };
+    }
+    if (sheet->update == NULL) {
+        sheet->update = kiriMemory_AllocZeroed(sheet->memory, sizeof(kiriUpdate));
+        if (sheet->update == NULL || !StartSkin(sheet)) {
+            return false;
+        }
+        sheet->update->stage = KIRI_STAGE_GRID;
+        sheet->update->isScratch = true;
+    }
+    return RunUpTo(sheet, end, &unlimited, NULL) == KIRI_DONE;
+}
+
+void kiriPipeline_Start(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    if (u->stage == KIRI_NONE && sheet->queue.count > 0) {
+        kiriCutWork none = { sheet->queue.data[0].stamp, 0, 0, false };
+        u->cut = none;
+        u->stage = KIRI_STAGE_CUT;
+        u->step = 0;
+        u->spent = 0;
+        while (u->cut.count < sheet->queue.count && sheet->queue.data[u->cut.count].stamp == u->cut.stamp) {
+            u->cut.count += 1;
+        }
+    }
+    u->isBegun = false;
+    sheet->seen.fades.jump = sheet->seen.fades.move = 0.0;
+}
+
+kiriProgress kiriPipeline_Run(kiriSheetData* sheet, kiriQuotas* quotas, const kiriWatch* watch)
+{
+    kiriUpdate* u = sheet->update;
+    KIRI_ASSERT(u->stage != KIRI_NONE && !u->isBegun);
+    u->isBegun = true;
+    u->startStage = u->stage;
+    u->startTaken = u->cut.taken;
+    u->startMeshChanged = u->cut.meshChanged;
+    return RunUpTo(sheet, KIRI_READY, quotas, watch);
+}
+
+void kiriPipeline_Finish(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    KIRI_ASSERT(u->stage == KIRI_READY && u->cut.taken == u->cut.count && u->cut.count <= sheet->queue.count);
+    for (int32_t i = 0; i < sheet->queue.count; ++i) {
+        if (i < u->cut.count) {
+            sheet->queue.data[i].cut->waiting -= 1;
+        } else {
+            sheet->queue.data[i - u->cut.count] = sheet->queue.data[i];
+        }
+    }
+    sheet->queue.count -= u->cut.count;
+    u->stage = KIRI_NONE;
+}
+
+void kiriPipeline_Abort(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    if (!u->isBegun) {
+        return;
+    }
+    kiriMesh_Rollback(&sheet->mesh);
+    kiriSkin_Truncate(&sheet->vertexSkin, sheet->mesh.vertices.count);
+    for (int32_t i = 0; i < sheet->cuts.count; ++i) {
+        sheet->cuts.data[i]->tip = sheet->cuts.data[i]->committed;
+    }
+    u->cut.meshChanged = u->startMeshChanged;
+    u->cut.taken = u->startTaken;
+    if (u->stage > KIRI_STAGE_CUT) {
+        kiriStage_Drop(sheet);
+        u->needsRebuild = true;
+    }
+    bool isFresh = u->startStage == KIRI_STAGE_CUT && u->startTaken == 0 && !u->startMeshChanged;
+    u->stage = u->startStage > KIRI_STAGE_CUT ? KIRI_STAGE_GRID : isFresh ? KIRI_NONE : KIRI_STAGE_CUT;
+    u->step = 0;
+    u->isBegun = false;
+}

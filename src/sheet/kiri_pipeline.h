@@ -1,0 +1,51 @@
+/* The one table of stages: a tick, a new sheet and the part of a sheet all run it. */
+#ifndef KIRI_PIPELINE_H
+#define KIRI_PIPELINE_H
+
+#include "kiri_update.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    KIRI_QUOTA_TRIANGLES,
+    KIRI_QUOTA_CELLS,
+    KIRI_QUOTA_SAMPLES,
+    KIRI_QUOTA_ITERATIONS,
+    KIRI_QUOTA_NONE, /* of a stage that does not count its items */
+    KIRI_QUOTA_COUNT
+};
+
+/* What is left of the budget in this tick. */
+typedef struct kiriQuotas {
+    kiriQuota of[KIRI_QUOTA_COUNT];
+} kiriQuotas;
+
+/* Is told which stage begins, for the profile. */
+typedef struct kiriWatch {
+    void (*enter)(void* context, int32_t stage);
+    void* context;
+} kiriWatch;
+
+/* For a sheet that has its mesh, and nothing else: runs the stages from the grid up to the stage `end`, without a limit.
+   Again for the next ones. False for memory. */
+bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end);
+
+/* At the start of a tick: takes the points that were given before one tick from the queue, when nothing is at hand. */
+void kiriPipeline_Start(kiriSheetData* sheet);
+
+/* Carries the work at hand on as far as the quotas go. KIRI_DONE: it is ready to commit. KIRI_FAILED: abort it. */
+kiriProgress kiriPipeline_Run(kiriSheetData* sheet, kiriQuotas* quotas, const kiriWatch* watch);
+
+/* After a commit, or when the points changed nothing: they leave the queue. */
+void kiriPipeline_Finish(kiriSheetData* sheet);
+
+/* Takes back what this tick has done, as far as anyone can see. Grid, regions and shape are made from scratch then. */
+void kiriPipeline_Abort(kiriSheetData* sheet);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

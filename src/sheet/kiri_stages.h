@@ -1,0 +1,33 @@
+/* The stages of the work on a cut, in their order, and what its commit does. Each stage goes on where the quota of the
+   last tick ended, and costs what the cut touched. KIRI_FAILED is for memory. kiri_pipeline.h runs them. */
+#ifndef KIRI_STAGES_H
+#define KIRI_STAGES_H
+
+#include "kiri_update.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+kiriProgress kiriStage_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles);
+kiriProgress kiriStage_Grid(kiriSheetData* sheet, kiriQuota* cells);
+kiriProgress kiriStage_Regions(kiriSheetData* sheet, kiriQuota* cells);
+kiriProgress kiriStage_Shape(kiriSheetData* sheet, kiriQuota* cells);
+kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples);
+kiriProgress kiriStage_Constants(kiriSheetData* sheet, kiriQuota* none);
+
+/* What this tick did to the mesh becomes final. Never fails. */
+void kiriStage_CommitMesh(kiriSheetData* sheet);
+
+/* After the last stage: what is staged comes in force. New frames take their motion from the surface as it was (section
+   5 of the paper). Never fails. */
+void kiriStage_Commit(kiriSheetData* sheet);
+
+/* Forgets what is staged. */
+void kiriStage_Drop(kiriSheetData* sheet);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

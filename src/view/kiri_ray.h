@@ -1,0 +1,25 @@
+/* Rays and blades that meet the surface in world space. */
+#ifndef KIRI_RAY_H
+#define KIRI_RAY_H
+
+#include "kiri_surface.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The first triangle that the ray meets, up to maxDistance (m) along its direction, a unit vector. hit->triangle is -1
+   when there is none. */
+void kiriSurface_Raycast(const kiriSurface* surface, kiriVec3 origin, kiriVec3 direction, double maxDistance,
+                         kiriHit* hit);
+
+/* The rest segments in which the quadrilateral meets the mesh: pairs of local points. False for memory. */
+typedef KIRI_ARRAY(kiriVec2) kiriRestPoints;
+bool kiriSurface_Slice(const kiriSurface* surface, kiriMemory* memory, const kiriVec3 quad[4],
+                       kiriRestPoints* segments);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

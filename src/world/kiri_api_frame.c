@@ -1,0 +1,101 @@
+#include "kiri_call.h"
+#include "../sheet/kiri_motion.h"
+
+static kiriFrameData* FindFrame(const kiriWorld* world, kiriFrame frame)
+{
+    const kiriSlot* slot = kiriPool_Find(&world->frameIds, frame);
+    return slot != NULL ? &((kiriSheetData*)slot->owner)->frames.data[slot->index] : NULL;
+}
+
+kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFrame* frames, int32_t capacity,
+                               int32_t* count)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(count != NULL && (capacity == 0 || (capacity > 0 && frames != NULL)), "count is null, or frames is");
+    KIRI_FIND_SHEET(data, sheet);
+    for (int32_t i = 0; i < data->frames.count && i < capacity; ++i) {
+        frames[i] = data->frames.data[i].id;
+    }
+    *count = data->frames.count;
+    return KIRI_OK;
+}
+
+kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(state != NULL, "state is null");
+    const kiriFrameData* data = FindFrame(world, frame);
+    if (data == NULL) {
+        return KIRI_FAIL(KIRI_ERROR_ID, "there is no frame with this id");
+    }
+    const kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frame)->owner;
+    kiriVec2 rest = kiriVec2_Add(sheet->mesh.origin, data->site.at);
+    kiriVec3 x = kiriFrame_Carry(data, data->site.at);
+    state->restPoint[0] = (float)rest.x;
+    state->restPoint[1] = (float)rest.y;
+    kiriVec3_Store(state->position, x);
+    kiriVec3_Store(&state->rotation[0], data->A.u);
+    kiriVec3_Store(&state->rotation[3], data->A.v);
+    kiriVec3_Store(&state->rotation[6], data->A.d);
+    kiriVec3_Store(state->velocity, kiriFrame_VelocityAt(data, data->site.at));
+    kiriVec3_Store(state->angularVelocity, data->spin);
+    state->area = (float)data->area;
+    state->mass = (float)data->mass;
+    state->held = data->held;
+    return KIRI_OK;
+}
+
+kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9])
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK((position == NULL) == (rotation == NULL), "only one of position and rotation is null");
+    kiriFrameData* data = FindFrame(world, frame);
+    if (data == NULL) {
+        return KIRI_FAIL(KIRI_ERROR_ID, "there is no frame with this id");
+    }
+    kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frame)->owner;
+    if (position == NULL) {
+        if (data->held) {
+            kiriMotion_Wake(sheet);
+        }
+        data->held = 0;
+        return KIRI_OK;
+    }
+    KIRI_CHECK(kiriCall_AreFinite(position, 3), "position is not finite");
+    KIRI_CHECK(kiriCall_AreOrthonormal(&rotation[0], &rotation[3]) &&
+                   kiriCall_AreOrthonormal(&rotation[3], &rotation[6]) &&
+                   kiriCall_AreOrthonormal(&rotation[6], &rotation[0]),
+               "rotation is not orthonormal");
+    kiriMat3 m = { kiriVec3_Load(&rotation[0]), kiriVec3_Load(&rotation[3]), kiriVec3_Load(&rotation[6]) };
+    KIRI_CHECK(kiriVec3_Dot(kiriVec3_Cross(m.u, m.v), m.d) > 0.0, "rotation mirrors");
+    KIRI_CHECK(!sheet->settings.mechanics.planar || kiriVec3_Dot(m.d, sheet->settings.mechanics.axes.d) > 0.999999,
+               "rotation turns a planar sheet out of its plane");
+    kiriFrameData before = *data;
+    data->held = 1;
+    data->heldPosition = kiriVec3_Load(position);
+    data->heldRotation = kiriMat3_Rotation(m);
+    if (!before.held || !kiriVec3_Equal(before.heldPosition, data->heldPosition) ||
+        !kiriVec3_Equal(before.heldRotation.u, data->heldRotation.u) ||
+        !kiriVec3_Equal(before.heldRotation.v, data->heldRotation.v)) {
+        kiriMotion_Wake(sheet);
+    }
+    return KIRI_OK;
+}
+
+kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3], const float torque[3])
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(force != NULL && torque != NULL && kiriCall_AreFinite(force, 3) && kiriCall_AreFinite(torque, 3),
+               "force or torque is null or not finite");
+    kiriFrameData* data = FindFrame(world, frame);
+    if (data == NULL) {
+        return KIRI_FAIL(KIRI_ERROR_ID, "there is no frame with this id");
+    }
+    kiriVec3 none = { 0.0, 0.0, 0.0 };
+    data->force = kiriVec3_Add(data->force, kiriVec3_Load(force));
+    data->torque = kiriVec3_Add(data->torque, kiriVec3_Load(torque));
+    if (!kiriVec3_Equal(kiriVec3_Load(force), none) || !kiriVec3_Equal(kiriVec3_Load(torque), none)) {
+        kiriMotion_Wake(kiriPool_Find(&world->frameIds, frame)->owner);
+    }
+    return KIRI_OK;
+}

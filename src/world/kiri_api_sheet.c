@@ -1,0 +1,166 @@
+#include "kiri_call.h"
+
+#include <string.h>
+
+void kiriDefaultSheetDef(kiriSheetDef* def)
+{
+    if (def == NULL) {
+        return;
+    }
+    memset(def, 0, sizeof(*def));
+    def->cookie = KIRI_COOKIE(kiriSheetDef);
+    def->axisU[0] = 1.0f;
+    def->axisV[1] = 1.0f;
+    kiriGetMaterial(KIRI_MATERIAL_COTTON, &def->material);
+    def->gridResolution = 32;
+    def->frameCount = 5;
+    def->maxFrames = 256;
+    def->rigidWeight = 0.95f;
+    def->iterations = 2;
+    def->sleepSpeed = 0.001f;
+    def->fadeTime = 0.2f;
+}
+
+void kiriDefaultPaperDef(kiriPaperDef* def)
+{
+    if (def != NULL) {
+        memset(def, 0, sizeof(*def));
+        def->cookie = KIRI_COOKIE(kiriPaperDef);
+        def->integrationOrder = 1;
+    }
+}
+
+static const char* FaultOfMaterial(const kiriMaterial* m)
+{
+    if (!kiriCall_IsAbove(m->youngsModulus, 0.0f) || !kiriCall_IsAbove(m->thickness, 0.0f) ||
+        !kiriCall_IsAbove(m->density, 0.0f)) {
+        return "Young's modulus, thickness or density is not above 0";
+    }
+    if (!kiriCall_IsAtLeast(m->poissonsRatio, 0.0f) || m->poissonsRatio >= 0.5f) {
+        return "Poisson's ratio is not within 0 and 0.5";
+    }
+    return kiriCall_IsAtLeast(m->airDamping, 0.0f) && kiriCall_IsAtLeast(m->flexDamping, 0.0f) ? NULL
+                                                                                               : "a damping is below 0";
+}
+
+static const char* FaultOfPlacement(const kiriSheetDef* def)
+{
+    if (!kiriCall_AreFinite(def->position, 3) || !kiriCall_AreFinite(def->velocity, 3)) {
+        return "position or velocity is not finite";
+    }
+    return kiriCall_AreOrthonormal(def->axisU, def->axisV) ? NULL : "axisU and axisV are not orthonormal";
+}
+
+static const char* FaultOfFrames(const kiriSheetDef* def)
+{
+    if (!kiriCall_IsWithin(def->frameCount, 0, 65536) || def->maxFrames < 1) {
+        return "frameCount is not within 0 and 65536, or maxFrames below 1";
+    }
+    if (!kiriCall_IsAtLeast(def->frameLength, 0.0f) || (def->frameCount == 0 && def->framePoints != NULL)) {
+        return "frameLength is below 0, or there are framePoints and no frameCount";
+    }
+    if (def->framePoints != NULL && !kiriCall_AreFinite(def->framePoints, 2 * def->frameCount)) {
+        return "a frame point is not finite";
+    }
+    if (!kiriCall_IsAbove(def->rigidWeight, 0.0f) || !kiriCall_IsAtLeast(def->rigidArea, 0.0f) ||
+        !kiriCall_IsAtLeast(def->crumbArea, 0.0f)) {
+        return "rigidWeight is not above 0, or rigidArea or crumbArea below 0";
+    }
+    return NULL;
+}
+
+static const char* FaultOfModel(const kiriSheetDef* def)
+{
+    if (!kiriCall_IsWithin(def->model, KIRI_MODEL_LINKS, KIRI_MODEL_POINTS) ||
+        !kiriCall_IsWithin(def->skinning, KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH)) {
+        return "model is not one of KIRI_MODEL, or skinning not one of KIRI_SKINNING";
+    }
+    return kiriCall_IsWithin(def->planar, 0, 1) ? NULL : "planar is not 0 or 1";
+}
+
+static const char* FaultOfPaper(const kiriPaperDef* def)
+{
+    if (def == NULL) {
+        return NULL;
+    }
+    if (!kiriCall_IsWithin(def->fromScratch, 0, 1) || !kiriCall_IsWithin(def->popping, 0, 1)) {
+        return "fromScratch or popping is not 0 or 1";
+    }
+    return kiriCall_IsWithin(def->integrationPoints, 0, 1 << 20) && kiriCall_IsWithin(def->integrationOrder, 1, 2)
+               ? NULL
+               : "integrationPoints is not within 0 and 1048576, or integrationOrder not 1 or 2";
+}
+
+static const char* FaultOfSheet(const kiriSheetDef* def)
+{
+    const char* faults[] = { FaultOfMaterial(&def->material), FaultOfPlacement(def), FaultOfFrames(def),
+                             FaultOfModel(def), FaultOfPaper(def->paper) };
+    for (int i = 0; i < 5; ++i) {
+        if (faults[i] != NULL) {
+            return faults[i];
+        }
+    }
+    if (!kiriCall_IsWithin(def->gridResolution, 1, 4096)) {
+        return "gridResolution is not within 1 and 4096";
+    }
+    if (!kiriCall_IsAtLeast(def->snapDistance, 0.0f)) {
+        return "snapDistance is below 0";
+    }
+    if (!kiriCall_IsAtLeast(def->sleepSpeed, 0.0f) || !kiriCall_IsAtLeast(def->fadeTime, 0.0f)) {
+        return "sleepSpeed or fadeTime is below 0";
+    }
+    if (!kiriCall_IsWithin(def->collisionPoints, 0, 1 << 20) || !kiriCall_IsWithin(def->iterations, 1, 64)) {
+        return "collisionPoints is not within 0 and 1048576, or iterations not within 1 and 64";
+    }
+    return NULL;
+}
+
+kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet)
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(def != NULL && sheet != NULL, "def or sheet is null");
+    *sheet = 0;
+    if (def->cookie != KIRI_COOKIE(kiriSheetDef)) {
+        return KIRI_FAIL(KIRI_ERROR_DEF, "the def was not filled by kiriDefaultSheetDef");
+    }
+    if (def->paper != NULL && def->paper->cookie != KIRI_COOKIE(kiriPaperDef)) {
+        return KIRI_FAIL(KIRI_ERROR_DEF, "the paper def was not filled by kiriDefaultPaperDef");
+    }
+    const char* why = FaultOfSheet(def);
+    KIRI_CHECK(why == NULL, why);
+    kiriResult result = kiriWorld_AddSheet(world, def, sheet, &why);
+    return result == KIRI_OK ? result : KIRI_FAIL(result, why);
+}
+
+kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet)
+{
+    KIRI_CHANGES(world);
+    KIRI_FIND_SHEET(data, sheet);
+    kiriWorld_RemoveSheet(world, data);
+    return KIRI_OK;
+}
+
+kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions,
+                             int32_t* indices)
+{
+    if (!kiriCall_IsAbove(width, 0.0f) || !kiriCall_IsAbove(height, 0.0f) || !kiriCall_IsWithin(columns, 1, 4096) ||
+        !kiriCall_IsWithin(rows, 1, 4096) || restPositions == NULL || indices == NULL) {
+        return KIRI_ERROR_ARGUMENT;
+    }
+    for (int32_t j = 0; j <= rows; ++j) {
+        for (int32_t i = 0; i <= columns; ++i) {
+            *restPositions++ = (float)((double)width * i / columns);
+            *restPositions++ = (float)((double)height * j / rows);
+        }
+    }
+    for (int32_t j = 0; j < rows; ++j) {
+        for (int32_t i = 0; i < columns; ++i) {
+            /* Diagonals alternate, so that the mesh has no grain. */
+            int32_t a = j * (columns + 1) + i, b = a + 1, c = a + columns + 2, d = a + columns + 1;
+            int32_t even[6] = { a, b, c, a, c, d }, odd[6] = { a, b, d, b, c, d };
+            memcpy(indices, (i + j) % 2 == 0 ? even : odd, sizeof(even));
+            indices += 6;
+        }
+    }
+    return KIRI_OK;
+}

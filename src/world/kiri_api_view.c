@@ -1,0 +1,164 @@
+#include "kiri_call.h"
+#include "../sheet/kiri_motion.h"
+#include "../sheet/kiri_update.h"
+#include "../view/kiri_ray.h"
+
+kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* mesh)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(mesh != NULL, "mesh is null");
+    KIRI_FIND_SHEET(data, sheet);
+    const kiriSurface* surface = &data->seen.surface;
+    mesh->positions = surface->positions.data;
+    mesh->normals = surface->normals.data;
+    mesh->restPositions = surface->restPositions.data;
+    mesh->indices = surface->indices.data;
+    mesh->sourceTriangles = surface->sourceTriangles.data;
+    mesh->sourceWeights = surface->sourceWeights.data;
+    mesh->vertexCount = surface->vertexCount;
+    mesh->triangleCount = surface->triangleCount;
+    mesh->revision = surface->revision;
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t sinceRevision, kiriDirty* dirty)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(dirty != NULL, "dirty is null");
+    KIRI_FIND_SHEET(data, sheet);
+    kiriSurface_GetDirty(&data->seen.surface, sinceRevision, dirty);
+    return KIRI_OK;
+}
+
+static bool IsRange(int32_t first, int32_t count, int32_t all)
+{
+    return first >= 0 && count >= 0 && first <= all && count <= all - first;
+}
+
+kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count,
+                                  void* positions, int32_t positionStride, void* normals, int32_t normalStride)
+{
+    KIRI_READS(world);
+    KIRI_CHECK((positions == NULL || positionStride >= 12) && (normals == NULL || normalStride >= 12),
+               "a stride is below 12 bytes");
+    KIRI_FIND_SHEET(data, sheet);
+    KIRI_CHECK(IsRange(first, count, data->seen.surface.vertexCount), "the sheet has no such vertices");
+    kiriSurface_CopyVertices(&data->seen.surface, first, count, positions, positionStride, normals, normalStride);
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count,
+                                   uint16_t* indices)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(count == 0 || indices != NULL, "indices is null");
+    KIRI_FIND_SHEET(data, sheet);
+    KIRI_CHECK(IsRange(firstTriangle, count, data->seen.surface.triangleCount), "the sheet has no such triangles");
+    if (!kiriSurface_CopyIndices16(&data->seen.surface, firstTriangle, count, indices)) {
+        return KIRI_FAIL(KIRI_ERROR_STATE, "16 bits are not enough for so many vertices");
+    }
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet, const float** positions,
+                                        int32_t* count)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(positions != NULL && count != NULL, "positions or count is null");
+    KIRI_FIND_SHEET(data, sheet);
+    *positions = data->seen.pointPositions.data;
+    *count = data->points.count;
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCounts* counts)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(counts != NULL, "counts is null");
+    KIRI_FIND_SHEET(data, sheet);
+    counts->vertices = data->mesh.vertices.count;
+    counts->triangles = data->mesh.triangles.count;
+    counts->cells = data->grid.cellCount;
+    counts->frames = data->frames.count;
+    counts->links = data->links.links.count;
+    counts->pieces = data->layout.pieces.count;
+    counts->collisionPoints = data->points.count;
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet, kiriTotals* totals)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(totals != NULL, "totals is null");
+    KIRI_FIND_SHEET(data, sheet);
+    *totals = kiriMotion_Totals(data);
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, int32_t* awake)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(awake != NULL, "awake is null");
+    KIRI_FIND_SHEET(data, sheet);
+    *awake = !data->rest.asleep;
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet)
+{
+    KIRI_CHANGES(world);
+    KIRI_FIND_SHEET(data, sheet);
+    kiriMotion_Wake(data);
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, const float origin[3], const float direction[3],
+                             float maxDistance, kiriHit* hit)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(origin != NULL && direction != NULL && hit != NULL, "origin, direction or hit is null");
+    KIRI_CHECK(kiriCall_AreFinite(origin, 3) && kiriCall_AreFinite(direction, 3) &&
+                   kiriCall_IsAtLeast(maxDistance, 0.0f),
+               "origin, direction or maxDistance is not finite, or maxDistance below 0");
+    KIRI_CHECK(direction[0] != 0.0f || direction[1] != 0.0f || direction[2] != 0.0f, "direction is zero");
+    KIRI_FIND_SHEET(data, sheet);
+    kiriSurface_Raycast(&data->seen.surface, kiriVec3_Load(origin), kiriVec3_Normalize(kiriVec3_Load(direction)),
+                        maxDistance, hit);
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriFrame* frames,
+                                float* weights, float* gradients, int32_t capacity, int32_t* count)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(restPoint != NULL && kiriCall_AreFinite(restPoint, 2) && count != NULL,
+               "restPoint or count is null, or not finite");
+    KIRI_CHECK(capacity == 0 || (capacity > 0 && frames != NULL && weights != NULL),
+               "capacity without frames and weights");
+    KIRI_FIND_SHEET(data, sheet);
+    if (!kiriUpdate_IsFieldCurrent(data->update)) {
+        return KIRI_FAIL(KIRI_ERROR_STATE, "a cut is being worked on; ask again when its work is done");
+    }
+    kiriLatticePoint at;
+    bool inRange = kiriSheet_ToLattice(data, restPoint, &at);
+    int32_t cell = inRange ? kiriGrid_CellAt(&data->grid, &data->mesh, at) : KIRI_NONE;
+    KIRI_CHECK(cell != KIRI_NONE, "restPoint lies outside the material");
+    kiriPointWeights found = { NULL, 0, 0 };
+    kiriMemory scratch = kiriMemory_Like(&world->memory);
+    if (!kiriShape_At(&data->shape, &scratch, &data->grid, &data->mesh, cell, kiriMesh_Local(&data->mesh, at),
+                      &found)) {
+        kiriMemory_FreeAll(&scratch);
+        return KIRI_FAIL(KIRI_ERROR_MEMORY, "out of memory");
+    }
+    for (int32_t i = 0; i < found.count && i < capacity; ++i) {
+        frames[i] = data->frames.data[found.data[i].frame].id;
+        weights[i] = (float)found.data[i].value;
+        if (gradients != NULL) {
+            gradients[2 * i] = (float)found.data[i].gradient.x;
+            gradients[2 * i + 1] = (float)found.data[i].gradient.y;
+        }
+    }
+    *count = found.count;
+    kiriMemory_FreeAll(&scratch);
+    return KIRI_OK;
+}

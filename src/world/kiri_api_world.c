@@ -1,0 +1,212 @@
+#include "kiri_call.h"
+#include "kiri_state_hash.h"
+#include "kiri_tick.h"
+#include "../sheet/kiri_motion.h"
+
+#include <string.h>
+
+int32_t kiriGetVersion(void)
+{
+    return KIRI_VERSION;
+}
+
+const char* kiriGetResultName(kiriResult result)
+{
+    switch (result) {
+    case KIRI_OK:
+        return "KIRI_OK";
+    case KIRI_PENDING:
+        return "KIRI_PENDING";
+    case KIRI_ERROR_ARGUMENT:
+        return "KIRI_ERROR_ARGUMENT";
+    case KIRI_ERROR_DEF:
+        return "KIRI_ERROR_DEF";
+    case KIRI_ERROR_ID:
+        return "KIRI_ERROR_ID";
+    case KIRI_ERROR_MESH:
+        return "KIRI_ERROR_MESH";
+    case KIRI_ERROR_STATE:
+        return "KIRI_ERROR_STATE";
+    case KIRI_ERROR_MEMORY:
+        return "KIRI_ERROR_MEMORY";
+    case KIRI_DIVERGED:
+        return "KIRI_DIVERGED";
+    case KIRI_ERROR_LIMIT:
+        return "KIRI_ERROR_LIMIT";
+    default:
+        return "unknown";
+    }
+}
+
+const char* kiriGetStageName(int32_t stage)
+{
+    static const char* const names[KIRI_STAGE_COUNT] = { "cut",     "grid",      "regions", "shape",
+                                                         "samples", "constants", "solve",   "skin" };
+    return kiriCall_IsWithin(stage, 0, KIRI_STAGE_COUNT - 1) ? names[stage] : "";
+}
+
+void kiriDefaultWorldDef(kiriWorldDef* def)
+{
+    if (def != NULL) {
+        memset(def, 0, sizeof(*def));
+        def->cookie = KIRI_COOKIE(kiriWorldDef);
+        def->gravity[2] = -9.81f;
+    }
+}
+
+static bool IsBudget(const kiriBudget* budget)
+{
+    return (budget->triangles == 0 || budget->triangles >= KIRI_LEAST_TRIANGLES) && budget->cells >= 0 &&
+           budget->samples >= 0 && budget->iterations >= 0;
+}
+
+/* There is no world yet to keep a line. */
+static kiriResult RefuseWorld(const kiriWorldDef* def, kiriResult result, const char* why)
+{
+    if (def->log != NULL) {
+        def->log(def->user, why);
+    }
+    return result;
+}
+
+kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
+{
+    if (def == NULL || world == NULL) {
+        return KIRI_ERROR_ARGUMENT;
+    }
+    *world = NULL;
+    if (def->cookie != KIRI_COOKIE(kiriWorldDef)) {
+        return KIRI_ERROR_DEF;
+    }
+    if ((def->alloc == NULL) != (def->free == NULL) || !IsBudget(&def->budget) ||
+        !kiriCall_AreFinite(def->gravity, 3)) {
+        return RefuseWorld(def, KIRI_ERROR_ARGUMENT,
+                           "kiriCreateWorld: only one of alloc and free is null, budget is out of range, or gravity is "
+                           "not finite (KIRI_ERROR_ARGUMENT)");
+    }
+    kiriMemory memory = kiriMemory_Make(def->alloc, def->free, def->user);
+    kiriWorld* made = memory.alloc(memory.user, sizeof(*made)); /* owns itself: no block of its memory */
+    if (made == NULL) {
+        return RefuseWorld(def, KIRI_ERROR_MEMORY, "kiriCreateWorld: out of memory (KIRI_ERROR_MEMORY)");
+    }
+    memset(made, 0, sizeof(*made));
+    made->memory = kiriMemory_Like(&memory);
+    made->retired = kiriMemory_Like(&memory);
+    made->log = def->log;
+    made->clock = def->clock;
+    made->user = def->user;
+    made->gravity = kiriVec3_Load(def->gravity);
+    made->budget = def->budget;
+    made->stage = KIRI_NONE;
+    kiriPool_Init(&made->sheetIds, KIRI_KIND_SHEET);
+    kiriPool_Init(&made->cutIds, KIRI_KIND_CUT);
+    kiriPool_Init(&made->frameIds, KIRI_KIND_FRAME);
+    kiriPool_Init(&made->pinIds, KIRI_KIND_PIN);
+    *world = made;
+    return KIRI_OK;
+}
+
+void kiriDestroyWorld(kiriWorld* world)
+{
+    if (world == NULL) {
+        return;
+    }
+    while (world->sheets.count > 0) {
+        kiriWorld_RemoveSheet(world, world->sheets.data[world->sheets.count - 1]);
+    }
+    kiriMemory_FreeAll(&world->retired);
+    kiriMemory_FreeAll(&world->memory);
+    world->memory.free(world->memory.user, world);
+}
+
+kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps)
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(kiriCall_IsAtLeast(dt, 1e-6f) && dt <= 10.0f, "dt is not within 1e-6 and 10 s");
+    KIRI_CHECK(kiriCall_IsWithin(substeps, 1, 64), "substeps is not within 1 and 64");
+    kiriResult result = kiriWorld_Advance(world, dt, substeps);
+    if (result == KIRI_ERROR_MEMORY) {
+        return KIRI_FAIL(result, "out of memory; nothing moved, and cuts still wait");
+    }
+    KIRI_RETURN(result);
+}
+
+const char* kiriWorld_GetLastError(const kiriWorld* world)
+{
+    return world != NULL ? world->errorLine : "";
+}
+
+kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3])
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(gravity != NULL && kiriCall_AreFinite(gravity, 3), "gravity is null or not finite");
+    kiriVec3 before = world->gravity;
+    world->gravity = kiriVec3_Load(gravity);
+    for (int32_t i = 0; i < world->sheets.count && !kiriVec3_Equal(before, world->gravity); ++i) {
+        kiriMotion_Wake(world->sheets.data[i]);
+    }
+    return KIRI_OK;
+}
+
+kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget)
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(budget != NULL && IsBudget(budget),
+               "budget is null, or below 0, or its triangles below KIRI_LEAST_TRIANGLES");
+    world->budget = *budget;
+    return KIRI_OK;
+}
+
+kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(hash != NULL, "hash is null");
+    *hash = kiriStateHash_Of(world);
+    return KIRI_OK;
+}
+
+kiriResult kiriWorld_GetEvents(const kiriWorld* world, const kiriEvent** events, int32_t* count)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(events != NULL && count != NULL, "events or count is null");
+    *events = world->events.data;
+    *count = world->events.count;
+    return KIRI_OK;
+}
+
+kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(profile != NULL, "profile is null");
+    *profile = world->profile;
+    return KIRI_OK;
+}
+
+/* So many times the items that took `seconds`. */
+static int32_t ScaleItems(int32_t items, double times, int32_t least, int32_t was)
+{
+    double scaled = items * times;
+    return items <= 0 ? was : scaled < least ? least : scaled < INT32_MAX ? (int32_t)scaled : INT32_MAX;
+}
+
+kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget)
+{
+    if (profile == NULL || budget == NULL || !kiriCall_IsAbove(microseconds, 0.0f) || !IsBudget(budget)) {
+        return KIRI_ERROR_ARGUMENT;
+    }
+    double seconds = 0.0;
+    for (int i = 0; i < KIRI_STAGE_COUNT; ++i) {
+        if (!(profile->seconds[i] >= 0.0)) {
+            return KIRI_ERROR_ARGUMENT;
+        }
+        seconds += profile->seconds[i];
+    }
+    if (seconds > 0.0) {
+        double times = 1e-6 * microseconds / seconds;
+        budget->triangles = ScaleItems(profile->trianglesSplit, times, KIRI_LEAST_TRIANGLES, budget->triangles);
+        budget->cells = ScaleItems(profile->cellsSettled, times, 1, budget->cells);
+        budget->samples = ScaleItems(profile->samplesRefreshed, times, 1, budget->samples);
+        budget->iterations = ScaleItems(profile->solverIterations, times, 1, budget->iterations);
+    }
+    return KIRI_OK;
+}

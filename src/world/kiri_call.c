@@ -1,0 +1,69 @@
+#include "kiri_call.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const char* ReasonOf(kiriResult result)
+{
+    switch (result) {
+    case KIRI_ERROR_MEMORY:
+        return "out of memory; nothing has changed";
+    case KIRI_ERROR_LIMIT:
+        return "there are no ids left; nothing has changed";
+    case KIRI_DIVERGED:
+        return "a sheet could not be moved on and rests; see the events";
+    default:
+        return "not possible";
+    }
+}
+
+kiriResult kiriCall_Fail(const kiriWorld* world, char* line, kiriResult result, const char* function, const char* why)
+{
+    snprintf(line, KIRI_LINE_BYTES, "%s: %s (%s)", function, why != NULL ? why : ReasonOf(result),
+             kiriGetResultName(result));
+    if (world->log != NULL) {
+        world->log(world->user, line);
+    }
+    return result;
+}
+
+void* kiriCall_Owner(const kiriPool* pool, uint32_t id)
+{
+    const kiriSlot* slot = kiriPool_Find(pool, id);
+    return slot != NULL ? slot->owner : NULL;
+}
+
+bool kiriCall_AreFinite(const float* values, int64_t count)
+{
+    for (int64_t i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool kiriCall_IsAbove(float value, float low)
+{
+    return isfinite(value) && value > low;
+}
+
+bool kiriCall_IsAtLeast(float value, float low)
+{
+    return isfinite(value) && value >= low;
+}
+
+bool kiriCall_IsWithin(int32_t value, int32_t low, int32_t high)
+{
+    return value >= low && value <= high;
+}
+
+bool kiriCall_AreOrthonormal(const float a[3], const float b[3])
+{
+    if (!kiriCall_AreFinite(a, 3) || !kiriCall_AreFinite(b, 3)) {
+        return false;
+    }
+    kiriVec3 u = kiriVec3_Load(a), v = kiriVec3_Load(b);
+    return fabs(kiriVec3_Dot(u, u) - 1.0) < 1e-3 && fabs(kiriVec3_Dot(v, v) - 1.0) < 1e-3 &&
+           fabs(kiriVec3_Dot(u, v)) < 1e-3;
+}

@@ -1,0 +1,76 @@
+/* What every public function does first: it looks at its arguments, turns ids into pointers, and says in one line what is
+   wrong. */
+#ifndef KIRI_CALL_H
+#define KIRI_CALL_H
+
+#include "kiri_world.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { KIRI_LINE_BYTES = sizeof(((kiriWorld*)NULL)->errorLine) };
+
+/* The defs are stamped with their size, so that a def of another version, or a forgotten default, is found out. */
+#define KIRI_COOKIE(Type) (0x4b000000u | (uint32_t)sizeof(Type))
+
+/* A function that changes the world keeps its line there; one that only reads gives it to the log alone, so that several
+   threads may read. Without a world there is only the code. */
+#define KIRI_CHANGES(world)                                                                                            \
+    if ((world) == NULL) {                                                                                             \
+        return KIRI_ERROR_ARGUMENT;                                                                                    \
+    }                                                                                                                  \
+    char* line = (world)->errorLine;                                                                                   \
+    line[0] = '\0'
+
+#define KIRI_READS(world)                                                                                              \
+    if ((world) == NULL) {                                                                                             \
+        return KIRI_ERROR_ARGUMENT;                                                                                    \
+    }                                                                                                                  \
+    char line[KIRI_LINE_BYTES]
+
+/* Every function returns through here or with a result that is no error. `why` null: the result says it all. */
+#define KIRI_FAIL(result, why) kiriCall_Fail(world, line, result, __func__, why)
+#define KIRI_RETURN(result)                                                                                            \
+    do {                                                                                                               \
+        kiriResult outcome = (result);                                                                                 \
+        return outcome < 0 ? KIRI_FAIL(outcome, NULL) : outcome;                                                       \
+    } while (0)
+
+#define KIRI_CHECK(condition, why)                                                                                     \
+    do {                                                                                                               \
+        if (!(condition)) {                                                                                            \
+            return KIRI_FAIL(KIRI_ERROR_ARGUMENT, why);                                                                \
+        }                                                                                                              \
+    } while (0)
+
+/* Declares `pointer`, what owns the id. */
+#define KIRI_FIND(Type, pointer, pool, id, kind)                                                                       \
+    Type* pointer = (Type*)kiriCall_Owner(&world->pool, id);                                                           \
+    do {                                                                                                               \
+        if (pointer == NULL) {                                                                                         \
+            return KIRI_FAIL(KIRI_ERROR_ID, "there is no " kind " with this id");                                      \
+        }                                                                                                              \
+    } while (0)
+
+#define KIRI_FIND_SHEET(pointer, id) KIRI_FIND(kiriSheetData, pointer, sheetIds, id, "sheet")
+#define KIRI_FIND_FRAME_SHEET(pointer, id) KIRI_FIND(kiriSheetData, pointer, frameIds, id, "frame")
+#define KIRI_FIND_PIN_SHEET(pointer, id) KIRI_FIND(kiriSheetData, pointer, pinIds, id, "pin")
+#define KIRI_FIND_CUT(pointer, id) KIRI_FIND(kiriCutData, pointer, cutIds, id, "cut")
+
+kiriResult kiriCall_Fail(const kiriWorld* world, char* line, kiriResult result, const char* function, const char* why);
+
+/* Null for an id that names nothing in the pool. */
+void* kiriCall_Owner(const kiriPool* pool, uint32_t id);
+
+bool kiriCall_AreFinite(const float* values, int64_t count);
+bool kiriCall_IsAbove(float value, float low);
+bool kiriCall_IsAtLeast(float value, float low);
+bool kiriCall_IsWithin(int32_t value, int32_t low, int32_t high);
+bool kiriCall_AreOrthonormal(const float a[3], const float b[3]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,276 @@
+#include "kiri_tick.h"
+
+#include "../sheet/kiri_motion.h"
+#include "../sheet/kiri_pipeline.h"
+#include "../sheet/kiri_seen.h"
+#include "../sheet/kiri_stages.h"
+
+#include <string.h>
+
+static void EnterStage(void* context, int32_t stage)
+{
+    kiriWorld* world = context;
+    double now = world->clock != NULL ? world->clock(world->user) : 0.0;
+    if (world->stage != KIRI_NONE) {
+        world->profile.seconds[world->stage] += now - world->stageStart;
+    }
+    world->stage = stage;
+    world->stageStart = now;
+}
+
+static kiriQuota Limit(int32_t items)
+{
+    return (kiriQuota){ items > 0 ? items : INT64_MAX, 0 };
+}
+
+static kiriQuotas ShareOut(const kiriBudget* budget)
+{
+    kiriQuotas quotas = { { { 0, 0 } } };
+    quotas.of[KIRI_QUOTA_TRIANGLES] = Limit(budget->triangles);
+    quotas.of[KIRI_QUOTA_CELLS] = Limit(budget->cells);
+    quotas.of[KIRI_QUOTA_SAMPLES] = Limit(budget->samples);
+    quotas.of[KIRI_QUOTA_ITERATIONS] = Limit(budget->iterations);
+    return quotas;
+}
+
+static bool IsReady(const kiriSheetData* sheet)
+{
+    return sheet->update->stage == KIRI_READY;
+}
+
+/* ---- Updates ---- */
+
+/* The earliest tick, from this one on, before which points were given that are at hand now; -1 when there is none. */
+static int64_t NextStamp(const kiriWorld* world, int64_t from)
+{
+    int64_t next = -1;
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        const kiriUpdate* u = world->sheets.data[i]->update;
+        if (u->stage != KIRI_NONE && u->cut.stamp >= from && (next < 0 || u->cut.stamp < next)) {
+            next = u->cut.stamp;
+        }
+    }
+    return next;
+}
+
+/* First come, first served; of those that came together, in the order of sheets. False for memory. */
+static bool UpdateAll(kiriWorld* world, kiriQuotas* quotas)
+{
+    const kiriWatch watch = { EnterStage, world };
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriPipeline_Start(world->sheets.data[i]);
+    }
+    for (int64_t stamp = NextStamp(world, 0); stamp >= 0; stamp = NextStamp(world, stamp + 1)) {
+        for (int32_t i = 0; i < world->sheets.count; ++i) {
+            kiriSheetData* sheet = world->sheets.data[i];
+            if (sheet->update->stage != KIRI_NONE && sheet->update->cut.stamp == stamp &&
+                kiriPipeline_Run(sheet, quotas, &watch) == KIRI_FAILED) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static void AbortAll(kiriWorld* world)
+{
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriPipeline_Abort(world->sheets.data[i]);
+    }
+}
+
+/* ---- Commits ---- */
+
+/* Room for the ids and events of the tick. */
+static kiriResult ReserveRoom(kiriWorld* world)
+{
+    int64_t frames = 0, events = 2 * (int64_t)world->sheets.count;
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        const kiriSheetData* sheet = world->sheets.data[i];
+        events += sheet->cuts.count;
+        if (IsReady(sheet) && sheet->update->cut.meshChanged) {
+            frames += sheet->update->placing.sites.count - sheet->frames.count;
+            events += sheet->update->next.pieces.count;
+        }
+    }
+    return kiriArray_Reserve(&world->memory, &world->events, events + frames)
+               ? kiriWorld_ReserveIds(world, &world->frameIds, frames)
+               : KIRI_ERROR_MEMORY;
+}
+
+static kiriEvent* AddEvent(kiriWorld* world, int32_t type, const kiriSheetData* sheet)
+{
+    kiriEvent* event = &world->events.data[world->events.count++];
+    memset(event, 0, sizeof(*event));
+    event->type = type;
+    event->sheet = sheet->id;
+    event->stage = KIRI_NONE;
+    return event;
+}
+
+static void CountWork(kiriProfile* profile, const kiriSheetData* sheet)
+{
+    const kiriCommitCounts* counts = &sheet->update->counts;
+    profile->cellsChanged += counts->cells;
+    profile->weightsChanged += counts->weights;
+    profile->verticesChanged += counts->vertices;
+    profile->pointsChanged += counts->points;
+    profile->linksChanged += counts->links;
+    profile->commits += 1;
+}
+
+static void CommitUpdate(kiriWorld* world, kiriSheetData* sheet)
+{
+    int32_t oldFrames = sheet->frames.count;
+    kiriStage_Commit(sheet);
+    CountWork(&world->profile, sheet);
+    for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
+        sheet->frames.data[i].id = kiriPool_Add(&world->frameIds, &world->memory, sheet, i);
+    }
+    for (int32_t piece = 0; piece < sheet->layout.pieces.count; ++piece) {
+        if (sheet->layout.pieces.data[piece].cameOff) {
+            kiriEvent* event = AddEvent(world, KIRI_EVENT_PIECE_OFF, sheet);
+            event->frame = sheet->frames.data[sheet->layout.pieces.data[piece].frame].id;
+            event->crumb = sheet->layout.pieces.data[piece].area < sheet->settings.crumbArea;
+            event->area = (float)sheet->layout.pieces.data[piece].area;
+        }
+    }
+    for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
+        AddEvent(world, KIRI_EVENT_FRAME_ADDED, sheet)->frame = sheet->frames.data[i].id;
+    }
+}
+
+static void FinishCuts(kiriWorld* world, kiriSheetData* sheet)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < sheet->cuts.count; ++i) {
+        kiriCutData* cut = sheet->cuts.data[i];
+        if (cut->ended && cut->waiting == 0) {
+            AddEvent(world, KIRI_EVENT_CUT_FINISHED, sheet)->cut = cut->id;
+            kiriWorld_RemoveCut(world, cut);
+        } else {
+            cut->index = kept;
+            sheet->cuts.data[kept++] = cut;
+        }
+    }
+    sheet->cuts.count = kept;
+}
+
+static void FinishUpdate(kiriWorld* world, kiriSheetData* sheet)
+{
+    for (int32_t i = 0; i < sheet->update->cut.count; ++i) {
+        world->profile.cutSegments += !sheet->queue.data[i].jump;
+    }
+    if (sheet->update->cut.meshChanged) {
+        CommitUpdate(world, sheet);
+    }
+    kiriPipeline_Finish(sheet);
+}
+
+static void CommitAll(kiriWorld* world)
+{
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriSheetData* sheet = world->sheets.data[i];
+        if (sheet->update->isBegun) {
+            kiriStage_CommitMesh(sheet);
+            kiriMotion_Wake(sheet);
+        }
+        if (IsReady(sheet)) {
+            FinishUpdate(world, sheet);
+        }
+        FinishCuts(world, sheet);
+    }
+    EnterStage(world, KIRI_STAGE_SKIN);
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriView_TakeJump(world->sheets.data[i]);
+    }
+}
+
+/* Says which sheets have work left, and where it stands. */
+static bool ReportDeferred(kiriWorld* world)
+{
+    bool any = false;
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        const kiriSheetData* sheet = world->sheets.data[i];
+        if (sheet->queue.count > 0) {
+            kiriEvent* event = AddEvent(world, KIRI_EVENT_DEFERRED, sheet);
+            event->stage = sheet->update->stage == KIRI_NONE ? KIRI_STAGE_CUT : sheet->update->stage;
+            event->waiting = sheet->queue.count;
+            any = true;
+        }
+    }
+    return any;
+}
+
+/* Moves the sheets, first the one that came too late in the last tick. */
+static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps, kiriQuota* iterations)
+{
+    kiriResult result = ReportDeferred(world) ? KIRI_PENDING : KIRI_OK;
+    bool isLate = false;
+    int32_t count = world->sheets.count, first = count > 0 ? world->turn % count : 0;
+    EnterStage(world, KIRI_STAGE_SOLVE);
+    world->turn = 0;
+    for (int32_t k = 0; k < count; ++k) {
+        int32_t i = (first + k) % count;
+        kiriProgress progress = kiriMotion_Solve(world->sheets.data[i], world->gravity, dt, substeps, iterations);
+        if (progress == KIRI_FAILED) {
+            AddEvent(world, KIRI_EVENT_DIVERGED, world->sheets.data[i]);
+            result = KIRI_DIVERGED;
+        } else if (progress == KIRI_MORE) {
+            world->turn = isLate ? world->turn : i;
+            result = result == KIRI_OK ? KIRI_PENDING : result;
+            isLate = true;
+        }
+    }
+    return result;
+}
+
+static void CountJumps(kiriProfile* profile, const kiriSheetData* sheet)
+{
+    const kiriFades* fades = &sheet->seen.fades;
+    profile->largestJump = fades->jump > profile->largestJump ? fades->jump : profile->largestJump;
+    profile->largestFade = fades->move > profile->largestFade ? fades->move : profile->largestFade;
+}
+
+static void SkinAll(kiriWorld* world, double dt)
+{
+    EnterStage(world, KIRI_STAGE_SKIN);
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriSheetData* sheet = world->sheets.data[i];
+        if (!sheet->rest.asleep) {
+            kiriView_Fade(sheet, dt);
+            kiriView_WritePositions(sheet);
+        }
+        CountJumps(&world->profile, sheet);
+    }
+}
+
+static void CountSpent(kiriProfile* profile, const kiriQuotas* quotas)
+{
+    profile->trianglesSplit = (int32_t)quotas->of[KIRI_QUOTA_TRIANGLES].used;
+    profile->cellsSettled = (int32_t)quotas->of[KIRI_QUOTA_CELLS].used;
+    profile->samplesRefreshed = (int32_t)quotas->of[KIRI_QUOTA_SAMPLES].used;
+    profile->solverIterations = (int32_t)quotas->of[KIRI_QUOTA_ITERATIONS].used;
+}
+
+/* Algorithm 1 of the paper: the work on cuts (see kiri_pipeline.c for its stages), its commit, the motion of frames, and
+   what is seen. */
+kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
+{
+    kiriQuotas quotas = ShareOut(&world->budget);
+    kiriMemory_FreeAll(&world->retired);
+    memset(&world->profile, 0, sizeof(world->profile));
+    world->events.count = 0;
+    kiriResult result = UpdateAll(world, &quotas) ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
+    if (result == KIRI_OK) {
+        CommitAll(world);
+        result = SolveAll(world, dt, substeps, &quotas.of[KIRI_QUOTA_ITERATIONS]);
+        SkinAll(world, dt);
+        world->ticks += 1;
+    } else {
+        AbortAll(world);
+    }
+    CountSpent(&world->profile, &quotas);
+    EnterStage(world, KIRI_NONE);
+    return result;
+}
