@@ -711,13 +711,13 @@ static const char* CorruptIds(kiriWorld* world, kiriSheetData* s, int way)
         return "index 0 of 1";
     case 3:
         kiriPool_Find(&world->pinIds, s->pins.data[0].id)->owner = world;
-        return "kind 4 finds";
+        return "finds something";
     case 4:
         (void)kiriPool_Add(&world->frameIds, &world->memory, s, 0);
-        return "ids of kind 3";
+        return "ids of kind";
     case 5:
         kiriPool_Remove(&world->cutIds, s->cuts.data[0]->id);
-        return "kind 2 finds nothing";
+        return "finds nothing";
     case 6:
         world->sheetIds.freeSlot = 0;
         return "is free";
@@ -839,6 +839,34 @@ static void ResamplingComesToAnEnd(void** state)
     Host_Stop(&host);
 }
 
+/* A tick that has no memory for one sheet leaves the next one as it was: its update is not at hand, and takes the points
+   that still come before the next tick together with the others. Known to fail: kiriUpdate_Start has begun it, and
+   kiriUpdate_Abort passes over a sheet that was not worked on. */
+static void PointsAfterATickWithoutMemory(void** state)
+{
+    (void)state;
+#if !defined(KNOWN_FAULTS)
+    skip();
+#endif
+    const float line[6] = { 0.1f, 0.4f, 0.5f, 0.5f, 0.9f, 0.45f };
+    Host host;
+    kiriCut cut;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheet first = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriSheet second = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    Host_Cut(&host, first, line, 3);
+    OK(kiriBeginCut(host.world, second, line, &cut));
+    OK(kiriCut_Extend(host.world, cut, line + 2, 1));
+    host.failAt = host.calls;
+    assert_int_equal(kiriWorld_Tick(host.world, 0.01f, 1), KIRI_ERROR_MEMORY);
+    host.failAt = -1;
+    OK(kiriCut_Extend(host.world, cut, line + 4, 1));
+    Host_Validate(&host);
+    OK(Host_Tick(&host, 0.01f, 1)); /* nothing waits */
+    Host_Stop(&host);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -852,6 +880,7 @@ int main(void)
         cmocka_unit_test(PinsWhileTheMeshIsCut),
         cmocka_unit_test(PinsAfterATickWithoutMemory),
         cmocka_unit_test(ResamplingComesToAnEnd),
+        cmocka_unit_test(PointsAfterATickWithoutMemory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
