@@ -56,8 +56,7 @@ static void CheckWays(CorruptFn* corrupt, int32_t model)
         } else if (line == NULL || strstr(line, words) == NULL) {
             fail_msg("way %d: \"%s\" expected, and it says \"%s\"", way, words, line == NULL ? "nothing" : line);
         }
-        kiriDestroyWorld(host.world); /* not Host_Stop, which validates */
-        assert_int_equal(host.live, 0);
+        Host_Destroy(&host);
     }
 }
 
@@ -200,7 +199,7 @@ static void SeesThatTwinsAreMissing(void** state)
     mesh->triangles.data[h / 3].twin[h % 3] = mesh->triangles.data[twin / 3].twin[twin % 3] = KIRI_NONE;
     assert_null(Validate_Mesh(mesh, false));
     assert_non_null(strstr(Validate_Mesh(mesh, true), "are not twins"));
-    kiriDestroyWorld(host.world);
+    Host_Destroy(&host);
 }
 
 /* ---- Grid ---- */
