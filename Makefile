@@ -44,6 +44,8 @@ LIBRARY_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard src/*/*.c src/*/*.cpp))
 SAMPLE_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard samples/*.c samples/*.cpp))
 # What tests and benchmarks take from the samples: the scenes.
 SCENE_OBJECTS := $(filter %/scene.c.o %/outline.c.o,$(SAMPLE_OBJECTS))
+# Checks of a whole world, for all tests.
+VALIDATE_OBJECTS := $(patsubst %,$(BUILD)/tests/%.c.o,validate validate_mesh validate_field)
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench*.c))
 RUN := $(BUILD)/samples/kiri-run
@@ -211,7 +213,7 @@ $(BUILD)/tests/test_extremes: $(BUILD)/tests/extremes.c.o
 
 $(BUILD)/tests/test_quality: $(BUILD)/tests/sweep.c.o
 
-$(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(SCENE_OBJECTS) $(BUILD)/libkiri.a
+$(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(VALIDATE_OBJECTS) $(SCENE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lcmocka -lm
 

@@ -5,6 +5,7 @@
 
 #include "mesh/kiri_mesh.h"
 #include "support.h"
+#include "validate.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -142,57 +143,6 @@ static inline bool SameEnds(const SortedEdge* a, const SortedEdge* b)
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
 
-/* Half-edges at the same two places are twins, at most two, in opposite directions, and agree about being open. */
-static inline void CheckTwins(const kiriMeshData* mesh)
-{
-    int32_t count = 3 * mesh->triangles.count;
-    SortedEdge* edges = SortEdges(mesh, true);
-    for (int32_t i = 0; i < count; ++i) {
-        int32_t h = edges[i].h, twin = kiriMesh_Twin(mesh, h);
-        bool before = i > 0 && SameEnds(&edges[i - 1], &edges[i]);
-        bool after = i + 1 < count && SameEnds(&edges[i + 1], &edges[i]);
-        assert_false(before && after);
-        assert_int_equal(twin, before ? edges[i - 1].h : after ? edges[i + 1].h : KIRI_NONE);
-        if (before) {
-            assert_int_not_equal(edges[i].forward, edges[i - 1].forward);
-            assert_int_equal(kiriMesh_IsOpen(mesh, h), kiriMesh_IsOpen(mesh, twin));
-        }
-        assert_true(twin != KIRI_NONE || !kiriMesh_IsOpen(mesh, h));
-    }
-    free(edges);
-}
-
-/* Corners joined over closed edges are a fan: each has exactly one vertex, and each vertex exactly one fan. */
-static inline void CheckFans(const kiriMeshData* mesh)
-{
-    int32_t count = 3 * mesh->triangles.count;
-    int32_t* fan = Unions_Make(count);
-    int32_t* rootOf = malloc((size_t)mesh->vertices.count * sizeof(int32_t));
-    memset(rootOf, 0xff, (size_t)mesh->vertices.count * sizeof(int32_t));
-    for (int32_t h = 0; h < count; ++h) {
-        int32_t twin = kiriMesh_Twin(mesh, h);
-        if (twin != KIRI_NONE && !kiriMesh_IsOpen(mesh, h)) {
-            Unions_Join(fan, h, kiriEdge_Next(twin));
-        }
-    }
-    for (int32_t h = 0; h < count; ++h) {
-        int32_t vertex = kiriMesh_Tail(mesh, h), root = Unions_Root(fan, h);
-        assert_in_range(vertex, 0, mesh->vertices.count - 1);
-        rootOf[vertex] = rootOf[vertex] == KIRI_NONE ? root : rootOf[vertex];
-        assert_int_equal(rootOf[vertex], root);
-    }
-    int32_t fans = 0;
-    for (int32_t h = 0; h < count; ++h) {
-        fans += fan[h] == h ? 1 : 0;
-    }
-    assert_int_equal(fans, mesh->vertices.count);
-    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
-        assert_int_equal(kiriMesh_Tail(mesh, mesh->vertices.data[v].edge), v);
-    }
-    free(rootOf);
-    free(fan);
-}
-
 /* Pieces against a flood over edges with the same two vertices. */
 static inline int32_t CheckPieces(const kiriMeshData* mesh)
 {
@@ -219,120 +169,6 @@ static inline int32_t CheckPieces(const kiriMeshData* mesh)
     free(piece);
     free(flood);
     return pieces;
-}
-
-/* Each square lists exactly the triangles that overlap it; the other nodes are free. */
-static inline void CheckSquares(const kiriMeshData* mesh)
-{
-    const kiriSquares* squares = &mesh->squares;
-    int32_t listed = 0, expected = 0, freeNodes = 0;
-    int32_t* seen = malloc((size_t)mesh->triangles.count * sizeof(int32_t));
-    memset(seen, 0xff, (size_t)mesh->triangles.count * sizeof(int32_t));
-    for (int32_t s = 0; s < squares->columns * squares->rows; ++s) {
-        for (int32_t i = squares->head[s]; i != KIRI_NONE; i = squares->nodes.data[i].next) {
-            int32_t t = squares->nodes.data[i].triangle;
-            kiriLatticePoint corners[3];
-            assert_in_range(t, 0, mesh->triangles.count - 1);
-            kiriMesh_Corners(mesh, t, corners);
-            assert_true(seen[t] != s && kiriSquares_Overlap(squares, s, corners));
-            seen[t] = s;
-            ++listed;
-        }
-    }
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        kiriLatticePoint c[3];
-        kiriMesh_Corners(mesh, t, c);
-        int32_t low[2] = { INT32_MAX, INT32_MAX }, high[2] = { INT32_MIN, INT32_MIN };
-        for (int i = 0; i < 3; ++i) {
-            int32_t xy[2] = { (c[i].x + 1) / squares->side, (c[i].y + 1) / squares->side };
-            for (int axis = 0; axis < 2; ++axis) {
-                low[axis] = xy[axis] < low[axis] ? xy[axis] : low[axis];
-                high[axis] = xy[axis] > high[axis] ? xy[axis] : high[axis];
-            }
-        }
-        for (int32_t row = low[1]; row <= high[1]; ++row) {
-            for (int32_t column = low[0]; column <= high[0]; ++column) {
-                expected += kiriSquares_Overlap(squares, row * squares->columns + column, c) ? 1 : 0;
-            }
-        }
-    }
-    for (int32_t i = squares->freeNode; i != KIRI_NONE; i = squares->nodes.data[i].next) {
-        assert_int_equal(squares->nodes.data[i].triangle, KIRI_NONE);
-        ++freeNodes;
-    }
-    assert_int_equal(listed, expected);
-    assert_int_equal(listed + freeNodes, squares->nodes.count);
-    free(seen);
-}
-
-/* Each vertex is in the list of its square, and the touched squares are marked, each once. */
-static inline void CheckLists(const kiriMeshData* mesh)
-{
-    const kiriSquares* squares = &mesh->squares;
-    int32_t listed = 0, marked = 0;
-    for (int32_t s = 0; s < squares->columns * squares->rows; ++s) {
-        int32_t last = INT32_MAX;
-        for (int32_t v = squares->vertexHead[s]; v != KIRI_NONE; v = mesh->vertices.data[v].next) {
-            assert_in_range(v, 0, mesh->vertices.count - 1);
-            assert_true(v < last);
-            assert_int_equal(kiriSquares_At(squares, mesh->vertices.data[v].at), s);
-            last = v;
-            ++listed;
-        }
-        marked += squares->isDirty[s] ? 1 : 0;
-    }
-    for (int32_t i = 0; i < squares->dirty.count; ++i) {
-        assert_true(squares->isDirty[squares->dirty.data[i]]);
-    }
-    assert_int_equal(listed, mesh->vertices.count);
-    assert_int_equal(marked, squares->dirty.count);
-}
-
-/* The fan of a vertex has a part of the vertex's source triangle: a torn vertex takes nothing from the other lip. */
-static inline void CheckSources(const kiriMeshData* mesh)
-{
-    char* found = calloc((size_t)mesh->vertices.count, 1);
-    for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
-        int32_t v = kiriMesh_Tail(mesh, h);
-        found[v] |= mesh->vertices.data[v].source == mesh->triangles.data[h / 3].source;
-    }
-    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
-        assert_true(found[v]);
-    }
-    free(found);
-}
-
-/* Source and share give the vertex's place back; so do its parents, for those born since Begin. */
-static inline void CheckProvenance(const kiriMeshData* mesh)
-{
-    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
-        const kiriVertex* vertex = &mesh->vertices.data[v];
-        double x = 0.0, y = 0.0, sum = 0.0, size = 536870912.0;
-        for (int i = 0; i < 3; ++i) {
-            kiriLatticePoint c = mesh->sourceCorners.data[3 * (vertex->source - mesh->firstSource) + i];
-            assert_true(vertex->share[i] >= 0.0f);
-            x += (double)vertex->share[i] * c.x;
-            y += (double)vertex->share[i] * c.y;
-            sum += (double)vertex->share[i];
-        }
-        assert_true(fabs(sum - 1.0) < 2e-7);
-        assert_true(fabs(x - vertex->at.x) < 3e-7 * size && fabs(y - vertex->at.y) < 3e-7 * size);
-    }
-    CheckSources(mesh);
-    assert_int_equal(mesh->births.count, mesh->vertices.count - mesh->oldVertexCount);
-    for (int32_t i = 0; i < mesh->births.count; ++i) {
-        const kiriBirth* birth = &mesh->births.data[i];
-        kiriLatticePoint at = mesh->vertices.data[mesh->oldVertexCount + i].at;
-        double x = 0.0, y = 0.0;
-        for (int k = 0; k < 3; ++k) {
-            assert_true(birth->parent[k] < mesh->oldVertexCount + i);
-            if (birth->parent[k] != KIRI_NONE) {
-                x += birth->share[k] * mesh->vertices.data[birth->parent[k]].at.x;
-                y += birth->share[k] * mesh->vertices.data[birth->parent[k]].at.y;
-            }
-        }
-        assert_true(fabs(x - at.x) < 3.0 && fabs(y - at.y) < 3.0);
-    }
 }
 
 /* Memory that fails at one chosen allocation, and counts what is not freed. */
@@ -391,20 +227,20 @@ static inline void Copy_Free(Copy* copy)
     free(copy->vertices);
 }
 
+/* All but the pieces. Where corners of a part lie in the middle of another part's side, edges that come to lie on each
+   other by later splits have no twins: then the mesh does not conform. */
+static inline void CheckConnections(const kiriMeshData* mesh, bool isConforming)
+{
+    const char* wrong = Validate_Mesh(mesh, isConforming);
+    if (wrong != NULL) {
+        fail_msg("%s", wrong);
+    }
+}
+
 /* All of it. Returns the number of pieces. */
 static inline int32_t CheckMesh(const kiriMeshData* mesh)
 {
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        kiriLatticePoint c[3];
-        kiriMesh_Corners(mesh, t, c);
-        assert_true(kiriOrient(c[0], c[1], c[2]) > 0);
-        assert_true(((c[0].x | c[0].y | c[1].x | c[1].y | c[2].x | c[2].y) & 1) == 0);
-    }
-    CheckTwins(mesh);
-    CheckFans(mesh);
-    CheckSquares(mesh);
-    CheckLists(mesh);
-    CheckProvenance(mesh);
+    CheckConnections(mesh, true);
     return CheckPieces(mesh);
 }
 

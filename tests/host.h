@@ -5,6 +5,7 @@
 
 #include "kiri/kiri.h"
 #include "support.h"
+#include "validate.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -17,6 +18,8 @@ typedef struct Host {
     int64_t calls;  /* of the allocator */
     int64_t failAt; /* the call that gets null; negative: none */
     bool failOnce;  /* or all calls from there on */
+    int32_t ticks;  /* through Host_Tick */
+    int32_t every;  /* so many ticks the world is validated; 0: every one */
     int32_t lines;  /* logged */
     char line[512]; /* the last of them */
 } Host;
@@ -68,10 +71,36 @@ static inline void Host_Start(Host* host)
     assert_int_equal(kiriCreateWorld(&def, &host->world), KIRI_OK);
 }
 
-static inline void Host_Stop(Host* host)
+/* Fails the test where anything in the world contradicts itself. */
+static inline void Host_Validate(const Host* host)
+{
+    const char* wrong = Validate_World(host->world);
+    if (wrong != NULL) {
+        fail_msg("%s", wrong);
+    }
+}
+
+/* A tick, after which the world must be sound whatever came of it. */
+static inline kiriResult Host_Tick(Host* host, float dt, int32_t substeps)
+{
+    kiriResult result = kiriWorld_Tick(host->world, dt, substeps);
+    if (host->every == 0 || host->ticks++ % host->every == 0) {
+        Host_Validate(host);
+    }
+    return result;
+}
+
+/* For worlds that a test has made unsound. */
+static inline void Host_Destroy(Host* host)
 {
     kiriDestroyWorld(host->world);
     assert_int_equal(host->live, 0);
+}
+
+static inline void Host_Stop(Host* host)
+{
+    Host_Validate(host);
+    Host_Destroy(host);
 }
 
 static inline uint64_t Host_Hash(const Host* host)
@@ -114,6 +143,7 @@ static inline kiriResult Host_TryRectangle(Host* host, kiriSheetDef* def, float 
     Rectangle r = Rectangle_Make(def, width, height, columns, rows);
     kiriResult result = kiriCreateSheet(host->world, def, sheet);
     Rectangle_Free(&r);
+    Host_Validate(host);
     return result;
 }
 

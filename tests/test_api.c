@@ -77,7 +77,7 @@ static void Setup(Fixture* f)
     OK(kiriCreatePin(host->world, f->sheet, &pinDef, &f->pin));
     OK(kiriBeginCut(host->world, f->sheet, start, &f->cut));
     OK(kiriSheet_GetFrames(host->world, f->sheet, &f->frame, 1, &frames));
-    OK(kiriWorld_Tick(host->world, 0.01f, 1));
+    OK(Host_Tick(host, 0.01f, 1));
 }
 
 static void NullWorld(void** state)
@@ -453,7 +453,7 @@ static Dead MakeDead(Fixture* f)
     OK(kiriSheet_GetFrames(host->world, dead.sheet, &dead.frame, 1, &frames));
     OK(kiriDestroySheet(host->world, dead.sheet));
     dead.cut = Host_Cut(host, f->sheet, line, 2);
-    OK(kiriWorld_Tick(host->world, 0.01f, 1));
+    OK(Host_Tick(host, 0.01f, 1));
     kiriDefaultPinDef(&pinDef);
     pinDef.restPoint[0] = 0.5f;
     OK(kiriCreatePin(host->world, f->sheet, &pinDef, &dead.pin));
@@ -738,7 +738,7 @@ static void HarmlessCuts(void** state)
             OK(kiriCut_Extend(host->world, cut, cuts[i].points + 2, cuts[i].count - 1));
         }
         OK(kiriCut_End(host->world, cut));
-        OK(kiriWorld_Tick(host->world, 0.01f, 1));
+        OK(Host_Tick(host, 0.01f, 1));
         assert_int_equal(Host_Events(host, KIRI_EVENT_CUT_FINISHED, &event), 1);
         assert_true(event.cut == cut && event.sheet == f.sheet && event.frame == 0);
         assert_int_equal(
@@ -803,7 +803,7 @@ static void HugeValues(void** state)
             assert_int_equal(hit.triangle, -1);
         }
         for (int tick = 0; tick < 3; ++tick) {
-            kiriResult result = kiriWorld_Tick(w, 0.01f, 2);
+            kiriResult result = Host_Tick(host, 0.01f, 2);
             assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
             kiriMesh mesh = Host_Mesh(host, f.sheet);
             if (!AllFinite(mesh.positions, 3 * mesh.vertexCount) || !AllFinite(mesh.normals, 3 * mesh.vertexCount)) {
@@ -860,7 +860,7 @@ static void Copies(void** state)
         point[0] = (float)RandomBetween(&seed, 0.0, 1.0);
         point[1] = (float)RandomBetween(&seed, 0.0, 1.0);
         OK(kiriCut_Extend(host->world, cut, point, 1));
-        OK(kiriWorld_Tick(host->world, 0.01f, 1));
+        OK(Host_Tick(host, 0.01f, 1));
     }
     Host_Stop(host);
 }
@@ -879,7 +879,7 @@ static void HugeSheets(void** state)
         float line[4] = { 0.5f * sizes[i], -sizes[i], 0.5f * sizes[i], 2.0f * sizes[i] };
         kiriSheet sheet = Host_AddRectangle(host, &def, sizes[i], 0.5f * sizes[i], 4, 2);
         Host_Cut(host, sheet, line, 2);
-        kiriResult result = kiriWorld_Tick(host->world, 0.01f, 1);
+        kiriResult result = Host_Tick(host, 0.01f, 1);
         assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
         assert_int_equal(Host_Counts(host, sheet).pieces, 2);
         double area = 0.5 * (double)sizes[i] * sizes[i];

@@ -86,7 +86,7 @@ static void Push(Host* host, kiriSheet sheet, float force)
 static void AssertDiverged(Host* host, kiriSheet bad)
 {
     kiriEvent event;
-    assert_int_equal(kiriWorld_Tick(host->world, 1.0f / 60.0f, 1), KIRI_DIVERGED);
+    assert_int_equal(Host_Tick(host, 1.0f / 60.0f, 1), KIRI_DIVERGED);
     assert_non_null(strstr(kiriWorld_GetLastError(host->world), "rests"));
     assert_int_equal(Host_Events(host, KIRI_EVENT_DIVERGED, &event), 1);
     assert_int_equal(event.sheet, bad);
@@ -114,14 +114,14 @@ static void TestOneDiverges(void** state)
     kiriSheet twins[2] = { AddSheet(&other, 0.0f), AddSheet(&other, 9.0f) };
     for (int tick = 0; tick < 10; ++tick) {
         State before = Read(&host, bad), now;
-        OK(kiriWorld_Tick(other.world, 1.0f / 60.0f, 1));
+        OK(Host_Tick(&other, 1.0f / 60.0f, 1));
         if (tick == 4) {
             Push(&host, bad, 3e38f);
             AssertDiverged(&host, bad);
             now = Read(&host, bad);
             AssertAtRest(&now, &before);
         } else {
-            OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
+            OK(Host_Tick(&host, 1.0f / 60.0f, 1));
             assert_int_equal(Host_Events(&host, KIRI_EVENT_DIVERGED, NULL), 0);
         }
         if (tick > 4) {
@@ -156,7 +156,7 @@ static void TestForcesUpTo(void** state)
         if (tick % 40 < 39) {
             Push(&host, sheet, tick < 80 ? force : -force);
         }
-        kiriResult result = kiriWorld_Tick(host.world, tick < 40 ? 1e-6f : tick < 80 ? 1.0f / 60.0f : 10.0f, 1);
+        kiriResult result = Host_Tick(&host, tick < 40 ? 1e-6f : tick < 80 ? 1.0f / 60.0f : 10.0f, 1);
         assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
         diverged += result == KIRI_DIVERGED;
         State now = Read(&host, sheet);
@@ -186,7 +186,7 @@ static void TestHeldOutOfReach(void** state)
         AssertAtRest(&now, &before);
     }
     OK(kiriFrame_Hold(host.world, FirstFrame(&host, sheet), NULL, NULL));
-    OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
+    OK(Host_Tick(&host, 1.0f / 60.0f, 1));
     assert_true(Host_Totals(&host, sheet).momentum[2] < 0.0);
     Host_Stop(&host);
 }
@@ -204,7 +204,7 @@ static void TestNormalsFarAway(void** state)
     def.axisU[0] = 0.6f;
     def.axisU[2] = 0.8f;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 40, 40);
-    OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
+    OK(Host_Tick(&host, 1.0f / 60.0f, 1));
     kiriMesh mesh = Host_Mesh(&host, sheet);
     for (int32_t v = 0; v < mesh.vertexCount; ++v) {
         assert_true(fabs(mesh.normals[3 * v] + 0.8) < 1e-5 && fabs(mesh.normals[3 * v + 2] - 0.6) < 1e-5);

@@ -39,7 +39,7 @@ static kiriSheetDef AnyDef(uint32_t* seed)
 static void Tick(Host* host, int32_t count)
 {
     for (int32_t i = 0; i < count; ++i) {
-        assert_true(kiriWorld_Tick(host->world, 1.0f / 60.0f, 2) >= 0);
+        assert_true(Host_Tick(host, 1.0f / 60.0f, 2) >= 0);
     }
 }
 
@@ -228,7 +228,7 @@ static void TestListsWhileWorkWaits(void** state)
     OK(kiriWorld_SetBudget(host.world, &budget));
     Shred(&host, sheet, 4, &seed);
     int32_t waits = 0;
-    while (kiriWorld_Tick(host.world, 1.0f / 60.0f, 1) == KIRI_PENDING) {
+    while (Host_Tick(&host, 1.0f / 60.0f, 1) == KIRI_PENDING) {
         kiriCounts counts = Host_Counts(&host, sheet);
         kiriPieceState whole = StateOf(&host, sheet, 0);
         assert_int_equal(counts.pieces, 1);
@@ -946,11 +946,11 @@ static void TestPartsAreRefused(void** state)
     OK(kiriWorld_SetBudget(host.world, &budget));
     static const float way[4] = { 0.3f, -0.1f, 0.3f, 1.1f };
     Host_Cut(&host, sheet, way, 2);
-    assert_int_equal(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1), KIRI_PENDING);
+    assert_int_equal(Host_Tick(&host, 1.0f / 60.0f, 1), KIRI_PENDING);
     assert_int_equal(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 0), &detached), KIRI_ERROR_STATE);
     assert_int_equal(kiriFrame_DestroyPiece(host.world, Host_FrameOf(&host, sheet, 0)), KIRI_ERROR_STATE);
     assert_int_equal(kiriSheet_DropCrumbs(host.world, sheet, 1.0f, &count), KIRI_ERROR_STATE);
-    while (kiriWorld_Tick(host.world, 1.0f / 60.0f, 1) == KIRI_PENDING) {
+    while (Host_Tick(&host, 1.0f / 60.0f, 1) == KIRI_PENDING) {
     }
     assert_int_equal(Host_Counts(&host, sheet).pieces, 4);
     OK(kiriSheet_DropCrumbs(host.world, sheet, 10.0f, &count));
@@ -1054,7 +1054,7 @@ static void TestCrumbsAreNotSampled(void** state)
             float u = 0.13f + 0.2f * (float)i, up[4] = { u, -0.1f, u, 0.21f };
             Host_Cut(&host, sheet, way, 2);
             Host_Cut(&host, sheet, up, 2);
-            OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
+            OK(Host_Tick(&host, 1.0f / 60.0f, 1));
             const kiriEvent* events;
             int32_t count;
             OK(kiriWorld_GetEvents(host.world, &events, &count));

@@ -159,6 +159,7 @@ static uint64_t Run(uint32_t seed, bool check)
 {
     Host host;
     Host_Start(&host);
+    host.every = check ? 3 : CUTS; /* to save time */
     kiriSheetDef def;
     uint32_t checkSeed = seed ^ 0x5bd1e995u;
     kiriDefaultSheetDef(&def);
@@ -174,7 +175,7 @@ static uint64_t Run(uint32_t seed, bool check)
         for (; cut < end; ++cut) {
             RandomCut(&host, sheet, &seed);
         }
-        OK(kiriWorld_Tick(host.world, 0.01f, 1));
+        OK(Host_Tick(&host, 0.01f, 1));
         if (check) {
             CheckSheet(&host, sheet, &first, &checkSeed);
         }

@@ -251,7 +251,7 @@ static void TestFarFramesKeepTheirState(void** state)
     kiriPipeline_Finish(sheet);
     sheet->update->isBegun = false;
     kiriView_TakeJump(sheet);
-    Host_Stop(&probe.host);
+    Host_Destroy(&probe.host); /* the new frames have no ids: no world made them */
 }
 
 /* ---- What is seen ---- */

@@ -1,5 +1,6 @@
 /* The scenes of the samples are what the paper's table 1 says, and what they say of themselves. */
 #include "../samples/scene.h"
+#include "validate.h"
 
 #include <float.h>
 #include <math.h>
@@ -10,6 +11,17 @@
 #include <string.h>
 
 #include <cmocka.h>
+
+/* A tick of a scene. Its world is validated after every seventh, to save time. */
+static kiriResult TickScene(Scene* scene)
+{
+    kiriResult result = Scene_Tick(scene);
+    const char* wrong = scene->tick % 7 == 0 ? Validate_World(scene->world) : NULL;
+    if (wrong != NULL) {
+        fail_msg("tick %d: %s", (int)scene->tick, wrong);
+    }
+    return result;
+}
 
 typedef struct Row {
     const char* name;
@@ -96,7 +108,7 @@ static uint64_t HashAt(float pace)
     uint64_t hash;
     StartAt(&scene, "bunny", pace);
     for (int32_t i = 0; i < 60; i++) {
-        assert_true(Scene_Tick(&scene) >= 0);
+        assert_true(TickScene(&scene) >= 0);
     }
     assert_int_equal(kiriWorld_GetStateHash(scene.world, &hash), KIRI_OK);
     Scene_Stop(&scene);
@@ -157,7 +169,7 @@ static void TestSlowBlade(void** state)
     assert_true(most < 0.5f * LongestSide(way));
     while (scene.tick <= stroke->lastTick) {
         bool cuts = scene.tick > stroke->firstTick;
-        assert_true(Scene_Tick(&scene) >= 0);
+        assert_true(TickScene(&scene) >= 0);
         if (cuts) {
             assert_int_equal(Scene_GetBlades(&scene, tip, 1), 1);
             float step = hypotf(tip[0][0] - before[0], tip[0][1] - before[1]);
@@ -183,7 +195,7 @@ static void RunWhole(const Row* row, Scene* scene)
     kiriSheet_GetTotals(scene->world, scene->sheet, &before);
     for (int32_t tick = 0; tick < scene->type->ticks; tick++) {
         kiriProfile profile;
-        assert_true(Scene_Tick(scene) >= 0);
+        assert_true(TickScene(scene) >= 0);
         kiriWorld_GetProfile(scene->world, &profile);
         if (tick < scene->type->firstCut || tick > scene->type->lastCut) {
             assert_int_equal(profile.cutSegments, 0);
@@ -251,7 +263,7 @@ static void TestSpiralIsNotThrown(void** state)
     double most = 0.0, fall = 0.0;
     for (int32_t tick = 0; tick < scene.type->ticks; ++tick) {
         kiriTotals totals;
-        Scene_Tick(&scene);
+        TickScene(&scene);
         assert_int_equal(kiriSheet_GetTotals(scene.world, scene.sheet, &totals), KIRI_OK);
         most = fmax(most, totals.kineticEnergy);
         fall = 9.81 * totals.mass * (double)scene.type->size;

@@ -14,7 +14,7 @@ static bool IsAwake(const Host* host, kiriSheet sheet)
 
 static void Tick(Host* host)
 {
-    OK(kiriWorld_Tick(host->world, dt, 2));
+    OK(Host_Tick(host, dt, 2));
 }
 
 /* Ticks until it sleeps: how many. */

@@ -5,7 +5,7 @@ static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.
 
 static void Tick(Host* host, float dt, int32_t substeps)
 {
-    OK(kiriWorld_Tick(host->world, dt, substeps));
+    OK(Host_Tick(host, dt, substeps));
 }
 
 static kiriPin AddPin(Host* host, kiriSheet sheet, float u, float v, float x, float y, float z)
@@ -72,19 +72,19 @@ static kiriResult Perform(Host* host, Scenario* s, int step)
     case 3:
         return kiriSheet_GetWeights(host->world, s->sheet, at, frames, weights, gradients, 16, &count);
     case 4:
-        return kiriWorld_Tick(host->world, 0.01f, 2);
+        return Host_Tick(host, 0.01f, 2);
     case 5:
         return kiriBeginCut(host->world, s->sheet, s->line, &s->cut);
     case 6:
         return kiriCut_Extend(host->world, s->cut, s->line, 3);
     case 7:
-        return kiriWorld_Tick(host->world, 0.01f, 1);
+        return Host_Tick(host, 0.01f, 1);
     case 8:
         return kiriCut_Extend(host->world, s->cut, s->loop, 5);
     case 9:
         return kiriSheet_Slice(host->world, s->sheet, blade, &s->slice);
     default:
-        return kiriWorld_Tick(host->world, 0.01f, 2);
+        return Host_Tick(host, 0.01f, 2);
     }
 }
 
@@ -537,7 +537,7 @@ static void StepExtremes(void** state)
         AddPin(&host, sheet, 0.95f, 0.95f, 0.95f, 0.95f, 0.0f);
         Host_Cut(&host, sheet, line, 2);
         for (int tick = 0; tick < 30; ++tick) {
-            kiriResult result = kiriWorld_Tick(host.world, steps[i], tick % 2 == 0 ? 1 : 64);
+            kiriResult result = Host_Tick(&host, steps[i], tick % 2 == 0 ? 1 : 64);
             assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
             assert_true((result == KIRI_DIVERGED) == (Host_Events(&host, KIRI_EVENT_DIVERGED, NULL) == 1));
             kiriMesh mesh = Host_Mesh(&host, sheet);

@@ -1,0 +1,885 @@
+/* The checks of validate.h see what they are for: a sound world, made wrong in memory in one way at a time. */
+#include "host.h"
+#include "sheet/kiri_piece.h"
+#include "sheet/kiri_update.h"
+#include "world/kiri_world.h"
+
+#include <math.h>
+
+/* Makes the world wrong in the way of this number, and returns words of the line that it expects; null: no such way. */
+typedef const char* CorruptFn(kiriWorld* world, kiriSheetData* s, int way);
+
+/* Two pieces, of which one came off inside the other; a pin, contacts, a blade that is still in the sheet, and a point
+   that waits. */
+static kiriSheetData* Start(Host* host, int32_t model)
+{
+    enum { COUNT = 25 };
+    float circle[2 * COUNT];
+    const float slit[4] = { 0.1f, 0.1f, 0.9f, 0.17f }, next[2] = { 0.95f, 0.3f };
+    kiriCut cut;
+    kiriPinDef pinDef;
+    kiriPin pin;
+    Host_Start(host);
+    kiriSheetDef def = Host_SmallDef();
+    def.model = model;
+    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 7, 7);
+    kiriDefaultPinDef(&pinDef);
+    pinDef.restPoint[0] = pinDef.restPoint[1] = 0.93f;
+    OK(kiriCreatePin(host->world, sheet, &pinDef, &pin));
+    for (int i = 0; i < COUNT; ++i) {
+        circle[2 * i] = 0.5f + 0.2f * (float)cos(i % (COUNT - 1) * 0.2617993878);
+        circle[2 * i + 1] = 0.5f + 0.2f * (float)sin(i % (COUNT - 1) * 0.2617993878);
+    }
+    Host_Cut(host, sheet, circle, COUNT);
+    OK(Host_Tick(host, 0.01f, 1));
+    OK(kiriBeginCut(host->world, sheet, slit, &cut));
+    OK(kiriCut_Extend(host->world, cut, slit + 2, 1));
+    OK(Host_Tick(host, 0.01f, 1));
+    OK(kiriCut_Extend(host->world, cut, next, 1));
+    const kiriContact contact = { 0, { 0.0f, 0.0f, 1.0f }, -1.0f, 0.0f, 1.0f };
+    OK(kiriSheet_SetContacts(host->world, sheet, &contact, 1));
+    assert_int_equal(Host_Counts(host, sheet).pieces, 2);
+    return host->world->sheets.data[0];
+}
+
+static void CheckWays(CorruptFn* corrupt, int32_t model)
+{
+    const char* words = "";
+    for (int way = 0; words != NULL; ++way) {
+        Host host;
+        kiriSheetData* sheet = Start(&host, model);
+        assert_null(Validate_World(host.world));
+        words = corrupt(host.world, sheet, way);
+        const char* line = Validate_World(host.world);
+        if (words == NULL) {
+            assert_null(line);
+        } else if (line == NULL || strstr(line, words) == NULL) {
+            fail_msg("way %d: \"%s\" expected, and it says \"%s\"", way, words, line == NULL ? "nothing" : line);
+        }
+        Host_Destroy(&host);
+    }
+}
+
+/* ---- Mesh ---- */
+
+/* A half-edge inside the sheet that is open, or not. */
+static int32_t InnerEdge(const kiriMeshData* mesh, bool isOpen)
+{
+    int32_t h = 0;
+    while (kiriMesh_Twin(mesh, h) == KIRI_NONE || kiriMesh_IsOpen(mesh, h) != isOpen) {
+        ++h;
+    }
+    return h;
+}
+
+static int32_t OutlineEdge(const kiriMeshData* mesh)
+{
+    int32_t h = 0;
+    while (kiriMesh_Twin(mesh, h) != KIRI_NONE) {
+        ++h;
+    }
+    return h;
+}
+
+static void Toggle(kiriMeshData* mesh, int32_t h)
+{
+    mesh->triangles.data[h / 3].open ^= 1 << h % 3;
+}
+
+static const char* CorruptMesh(kiriWorld* world, kiriSheetData* s, int way)
+{
+    kiriMeshData* mesh = &s->mesh;
+    kiriTriangle* triangles = mesh->triangles.data;
+    int32_t h = InnerEdge(mesh, false), open = InnerEdge(mesh, true);
+    (void)world;
+    switch (way) {
+    case 0:
+        triangles[h / 3].vertex[h % 3] = mesh->vertices.count;
+        return "mesh: triangle";
+    case 1:
+        mesh->vertices.data[triangles[0].vertex[0]].at = mesh->vertices.data[triangles[0].vertex[1]].at;
+        return "turned over";
+    case 2:
+        triangles[h / 3].twin[h % 3] = kiriEdge_Next(kiriMesh_Twin(mesh, h));
+        return "which has";
+    case 3:
+        Toggle(mesh, open);
+        return "only one of twins";
+    case 4:
+        Toggle(mesh, OutlineEdge(mesh));
+        return "outline is marked open";
+    case 5:
+        Toggle(mesh, open);
+        Toggle(mesh, kiriMesh_Twin(mesh, open));
+        return "fans,";
+    case 6:
+        Toggle(mesh, h);
+        Toggle(mesh, kiriMesh_Twin(mesh, h));
+        return "is in two fans";
+    case 7:
+        mesh->vertices.data[0].edge = mesh->vertices.data[1].edge;
+        return "has half-edge";
+    case 8:
+        triangles[0].source = mesh->firstSource - 1;
+        return "is of source";
+    case 9:
+        mesh->vertices.data[3].source += mesh->vertices.data[3].source > mesh->firstSource ? -1 : 40;
+        return "from elsewhere";
+    case 10:
+        mesh->vertices.data[3].share[0] += 0.01f;
+        return "shares of vertex 3";
+    case 11:
+        mesh->oldVertexCount -= 1;
+        return "births";
+    case 12:
+        triangles[mesh->triangles.count - 1].parent = mesh->triangles.count;
+        s->update->refit.triangleCount = mesh->triangles.count - 1;
+        return "is split from";
+    default:
+        return NULL;
+    }
+}
+
+static const char* CorruptSquares(kiriWorld* world, kiriSheetData* s, int way)
+{
+    kiriSquares* squares = &s->mesh.squares;
+    int32_t node = squares->head[0], last = squares->columns * squares->rows - 1;
+    (void)world;
+    switch (way) {
+    case 0:
+        squares->head[0] = squares->nodes.data[node].next;
+        return "squares list";
+    case 1:
+        squares->nodes.data[node].triangle = squares->nodes.data[squares->nodes.data[node].next].triangle;
+        return "twice";
+    case 2:
+        squares->nodes.data[node].triangle = squares->nodes.data[squares->head[last]].triangle;
+        return "which is elsewhere";
+    case 3:
+        assert_true(squares->nodes.capacity > squares->nodes.count);
+        squares->nodes.data[squares->nodes.count++] = (kiriSquareNode){ KIRI_NONE, KIRI_NONE };
+        return "nodes are used";
+    case 4:
+        squares->freeNode = node;
+        return "has a triangle";
+    case 5:
+        squares->vertexHead[last] = squares->vertexHead[0];
+        return "lists vertex";
+    case 6:
+        squares->vertexHead[last] = KIRI_NONE;
+        return "vertices of";
+    case 7:
+        squares->isDirty[3] = 1;
+        return "are marked";
+    case 8:
+        squares->dirty.data[squares->dirty.count++] = 3;
+        return "is not marked";
+    default:
+        return NULL;
+    }
+}
+
+static void SeesMeshes(void** state)
+{
+    (void)state;
+    CheckWays(CorruptMesh, KIRI_MODEL_LINKS);
+    CheckWays(CorruptSquares, KIRI_MODEL_LINKS);
+}
+
+/* Edges that lie on each other and are not twins are as in a mesh that does not conform. */
+static void SeesThatTwinsAreMissing(void** state)
+{
+    (void)state;
+    Host host;
+    kiriMeshData* mesh = &Start(&host, KIRI_MODEL_LINKS)->mesh;
+    int32_t h = InnerEdge(mesh, true), twin = kiriMesh_Twin(mesh, h);
+    assert_null(Validate_Mesh(mesh, true));
+    Toggle(mesh, h);
+    Toggle(mesh, twin);
+    mesh->triangles.data[h / 3].twin[h % 3] = mesh->triangles.data[twin / 3].twin[twin % 3] = KIRI_NONE;
+    assert_null(Validate_Mesh(mesh, false));
+    assert_non_null(strstr(Validate_Mesh(mesh, true), "are not twins"));
+    Host_Destroy(&host);
+}
+
+/* ---- Grid ---- */
+
+/* A cell of a square that has two. */
+static int32_t DividedCell(const kiriGrid* grid)
+{
+    int32_t s = 0;
+    while (grid->squareCell.data[s] == KIRI_NONE || grid->cells.data[grid->squareCell.data[s]].next == KIRI_NONE) {
+        ++s;
+    }
+    return grid->squareCell.data[s];
+}
+
+static const char* CorruptCells(kiriWorld* world, kiriSheetData* s, int way)
+{
+    kiriGrid* grid = &s->grid;
+    int32_t c = DividedCell(grid), other = grid->cells.data[c].next, square = grid->cells.data[c].square;
+    int32_t node = s->mesh.squares.head[square];
+    (void)world;
+    switch (way) {
+    case 0:
+        grid->nodeCell.data[node] = grid->nodeCell.data[node] == c ? other : c;
+        return "grid: ";
+    case 1:
+        grid->nodeCell.data[node] = grid->squareCell.data[square > 0 ? 0 : 1];
+        return "is of cell";
+    case 2:
+        grid->cells.data[other].triangle += 1;
+        return "grid: cell";
+    case 3:
+        grid->cells.data[c].material.area *= 1.0 + 1e-4;
+        return "the mesh";
+    case 4:
+        grid->cells.data[c].next = KIRI_NONE;
+        return "counted";
+    case 5:
+        grid->cellCount += 1;
+        return "counted";
+    case 6:
+        grid->freeCell = c;
+        return "free cell";
+    case 7:
+        grid->cells.data[c].square += 1;
+        return "says it is of";
+    case 8:
+        grid->whole.data[square] = 1;
+        return "is whole";
+    case 9:
+        grid->nodeCell.count -= 1;
+        return "nodeCell";
+    default:
+        return NULL;
+    }
+}
+
+static const char* CorruptFaces(kiriWorld* world, kiriSheetData* s, int way)
+{
+    kiriGrid* grid = &s->grid;
+    kiriStep* steps = grid->steps.data;
+    int32_t c = DividedCell(grid), f = grid->cells.data[c].firstFace;
+    kiriStepRun* run = &grid->runs.data[c];
+    (void)world;
+    switch (way) {
+    case 0:
+        grid->faces.data[f].width = 0.0;
+        return "wide";
+    case 1:
+        grid->faces.data[f].middle.x += grid->side;
+        grid->faces.data[f].middle.y += grid->side;
+        return "on its side";
+    case 2:
+        grid->faces.data[f].axis ^= 1;
+        return "between squares";
+    case 3:
+        grid->cells.data[c].firstFace = grid->faces.data[f].next[grid->faces.data[f].cell[1] == c];
+        return "cells list";
+    case 4:
+        grid->freeFace = f;
+        return "free face";
+    case 5: {
+        kiriFace* face = &grid->faces.data[f]; /* as if it had never been made */
+        for (int end = 0; end < 2; ++end) {
+            int32_t* link = &grid->cells.data[face->cell[end]].firstFace;
+            while (*link != f) {
+                link = &grid->faces.data[*link].next[grid->faces.data[*link].cell[1] == face->cell[end]];
+            }
+            *link = face->next[end];
+        }
+        face->cell[0] = KIRI_NONE;
+        face->next[0] = grid->freeFace;
+        grid->freeFace = f;
+        return "no face between";
+    }
+    case 6:
+        steps[run->first].length += 1;
+        return "grid: the step";
+    case 7:
+        steps[run->first].cell = steps[run->first + 1].cell;
+        return "the step from cell";
+    case 8:
+        steps[run->end[0] - 1].u = (int8_t)-steps[run->end[0] - 1].u;
+        steps[run->end[0] - 1].v = (int8_t)-steps[run->end[0] - 1].v;
+        return "squares [";
+    case 9:
+        run->end[1] = run->end[0] - 1;
+        return "has steps";
+    case 10:
+        for (run = grid->runs.data; run->end[2] == run->end[1];) {
+            ++run;
+        }
+        run->end[2] -= 1; /* a knight of it */
+        return "no way back";
+    case 11:
+        run->first += 1;
+        return "grid: ";
+    case 12:
+        grid->stepRoom.freeHead[4] = run->first + 1;
+        return "grid: ";
+    case 13:
+        grid->steps.count += 1;
+        return "is in no span";
+    default:
+        return NULL;
+    }
+}
+
+static void SeesGrids(void** state)
+{
+    (void)state;
+    CheckWays(CorruptCells, KIRI_MODEL_LINKS);
+    CheckWays(CorruptFaces, KIRI_MODEL_LINKS);
+}
+
+/* ---- Regions and shape functions ---- */
+
+static const char* CorruptRegions(kiriWorld* world, kiriSheetData* s, int way)
+{
+    kiriRegions* r = &s->regions;
+    int32_t c = 0, site = s->frames.data[0].site.cell;
+    (void)world;
+    while (!r->onBorder.data[c] || r->siteAt.data[c] != KIRI_NONE) {
+        ++c;
+    }
+    switch (way) {
+    case 0:
+        r->field.distance.data[c] -= 1;
+        return "there is a way of";
+    case 1:
+        r->field.owner.data[c] = (r->field.owner.data[c] + 1) % s->frames.count;
+        return "regions: cell";
+    case 2:
+        r->field.owner.data[c] = KIRI_NONE;
+        return "is owned by";
+    case 3:
+        r->siteAt.data[site] = KIRI_NONE;
+        return "has its site";
+    case 4:
+        r->siteAt.data[c] = 0;
+        return "cells have sites";
+    case 5:
+        r->onBorder.data[c] = 0;
+        return "the border";
+    case 6:
+        r->material.data[1].uv.low ^= 1;
+        return "tally";
+    case 7:
+        r->dirty.data[0] = 1;
+        return "dirty";
+    case 8:
+        r->orphans.count = 1;
+        return "orphans";
+    case 9:
+        s->frames.data[1].center.x += 1e-4;
+        return "middle of its region";
+    case 10:
+        s->update->refit.tenures.data[s->grid.cells.data[site].square].owner = 1;
+        return "handed over";
+    case 11:
+        s->update->refit.owned
+            .data[s->update->refit.tenures.data[s->grid.cells.data[DividedCell(&s->grid)].square].parts.first]
+            .owner ^= 1;
+        return "handed over";
+    default:
+        return NULL;
+    }
+}
+
+static const char* CorruptShape(kiriWorld* world, kiriSheetData* s, int way)
+{
+    kiriShape* shape = &s->shape;
+    int32_t c = 0;
+    (void)world;
+    while (shape->spans.data[c].count < 2) {
+        ++c;
+    }
+    kiriCellWeight* weight = &shape->weights.data[shape->spans.data[c].first];
+    switch (way) {
+    case 0:
+        weight->value *= 0.5;
+        return "sum to";
+    case 1:
+        weight->value = -weight->value;
+        return "shape functions: cell";
+    case 2:
+        weight[1].frame = weight[0].frame;
+        return "after";
+    case 3:
+        shape->spans.data[c] = shape->spans.data[c == 0 ? 1 : 0];
+        return "is in two rooms";
+    case 4:
+        shape->spans.data[c].first = shape->weights.count - 1;
+        return "shape functions: ";
+    case 5:
+        weight->raw *= 0.999;
+        return "its weight is";
+    case 6:
+        shape->rigid.data[0] += 1;
+        return "rigidly";
+    case 7:
+        for (int32_t k = shape->reaches.data[0].count - 1; k >= 0; --k) {
+            if (s->regions.field.owner.data[shape->reaches.data[0].data[k].cell] == 0) {
+                shape->reaches.data[0].data[k] = shape->reaches.data[0].data[--shape->reaches.data[0].count];
+                break;
+            }
+        }
+        return "distances give";
+    case 8:
+        shape->reaches.data[0].data[0] = shape->reaches.data[0].data[1];
+        return "twice";
+    case 9:
+        shape->reaches.data[0].data[0].fromSite += 100;
+        return "its weight is";
+    case 10:
+        shape->changes.count = 1;
+        return "changed since";
+    default:
+        return NULL;
+    }
+}
+
+static void SeesFields(void** state)
+{
+    (void)state;
+    CheckWays(CorruptRegions, KIRI_MODEL_LINKS);
+    CheckWays(CorruptShape, KIRI_MODEL_LINKS);
+}
+
+/* ---- What is in force ---- */
+
+static const char* CorruptFrames(kiriWorld* world, kiriSheetData* s, int way)
+{
+    kiriFrameData* f = &s->frames.data[1];
+    (void)world;
+    switch (way) {
+    case 0:
+        f->x.y = (double)NAN;
+        return "is not finite";
+    case 1:
+        f->spin.z = (double)INFINITY;
+        return "is not finite";
+    case 2:
+        f->A.u = kiriVec3_Scale(1.0 + 1e-6, f->A.u);
+        return "rotation";
+    case 3:
+        f->A.d = kiriVec3_Scale(-1.0, f->A.d);
+        return "rotation";
+    case 4:
+        f->mass *= 1.01;
+        return "and mass";
+    case 5:
+        f->mass *= 1.01;
+        f->area *= 1.01;
+        return "the sheet";
+    case 6:
+        f->inertia[1] = f->inertia[0] + f->inertia[2];
+        return "inertia";
+    default:
+        return NULL;
+    }
+}
+
+static const char* CorruptLayout(kiriWorld* world, kiriSheetData* s, int way)
+{
+    kiriLayout* layout = &s->layout;
+    kiriLink* links = s->links.links.data;
+    int32_t last = s->frames.count - 1, inner = s->mesh.vertices.count; /* a vertex of the piece that came off */
+    (void)world;
+    switch (way) {
+    case 0:
+        links[0].j = links[0].i;
+        return "joins frames";
+    case 1:
+        links[1] = links[s->links.links.count - 1];
+        return "comes too late";
+    case 2:
+        links[0].width = 0.0;
+        return "has width";
+    case 3:
+        links[0].normal.x += 1e-3;
+        return "normal";
+    case 4:
+        links[0].j = last;      /* joins the two pieces */
+        return "links: link 1"; /* out of order, too */
+    case 5:
+        s->links.links.count = 0;
+        s->strainOffsets.strainOffsets.count = 0;
+        return "pieces: ";
+    case 6:
+        s->strainOffsets.strainOffsets.count = 1;
+        return "strain offsets";
+    case 7:
+        layout->framePiece.data[last] = 0;
+        return "pieces: frame";
+    case 8:
+        layout->pieces.data[1].frame = 0;
+        return "pieces: frame";
+    case 9:
+        layout->pieces.data[1].area *= 1.1;
+        return "piece 1 has area";
+    case 10:
+        layout->pinFrame.data[0] = layout->pinFrame.data[0] == 0;
+        return "in the region of";
+    case 11:
+        layout->pinFrame.count = 0;
+        return "pins: ";
+    case 12:
+        while (kiriPiece_OfVertex(s, --inner) == 0) {
+        }
+        for (int32_t k = 0; k < s->vertexSkin.spans.data[inner].count; ++k) {
+            assert_int_equal(s->layout.framePiece.data[k], 0);
+            s->vertexSkin.weights.data[s->vertexSkin.spans.data[inner].first + k].frame = k;
+        }
+        return "of another piece";
+    default:
+        return NULL;
+    }
+}
+
+static const char* CorruptPatches(kiriWorld* world, kiriSheetData* s, int way)
+{
+    kiriPatches* patches = &s->layout.patches;
+    (void)world;
+    assert_true(patches->patches.count > 1);
+    switch (way) {
+    case 0:
+        patches->patches.data[1].first += 1;
+        return "shares from";
+    case 1:
+        patches->patches.data[0].area = 0.0;
+        return "has area";
+    case 2:
+        patches->shares.count -= 1;
+        return "shares of";
+    case 3:
+        patches->shares.data[0].frame = s->frames.count;
+        return "is of frame";
+    default:
+        return NULL;
+    }
+}
+
+static const char* CorruptSamples(kiriWorld* world, kiriSheetData* s, int way)
+{
+    kiriSkin *skin = &s->vertexSkin, *points = &s->pointSkin;
+    int32_t v = 0;
+    (void)world;
+    while (skin->spans.data[v].count < 2) {
+        ++v;
+    }
+    kiriWeight* weight = &skin->weights.data[skin->spans.data[v].first];
+    switch (way) {
+    case 0:
+        weight->value += 1e-6;
+        return "weights of vertices: the weights";
+    case 1:
+        weight[1].frame = weight[0].frame;
+        return "after";
+    case 2:
+        weight[skin->spans.data[v].count - 1].frame = s->frames.count - 1;
+        return "is of pieces";
+    case 3:
+        skin->spans.data[v].first = 0x7ffffff0;
+        return "outside an array";
+    case 4:
+        skin->spans.data[v] = (kiriSpan){ 0, 0 };
+        return "has no weights";
+    case 5:
+        skin->spans.data[v].count += 40;
+        return "weights of vertices: ";
+    case 6:
+        points->spans.count -= 1;
+        return "weights of collision points: ";
+    case 7:
+        points->weights.data[points->spans.data[0].first].value = -1.0;
+        return "weights of collision points: sample 0";
+    case 8:
+        s->points.data[0].frame = (s->points.data[0].frame + 1) % s->frames.count;
+        return "its cell of";
+    case 9:
+        s->points.data[0].cell += 1;
+        return "is in cell";
+    case 10:
+        s->pointPlaces.head.data[kiriSquares_At(&s->mesh.squares, s->points.data[0].at)] = KIRI_NONE;
+        return "points of";
+    case 11:
+        s->contacts.data[0].point = s->points.count;
+        return "contacts: ";
+    default:
+        return NULL;
+    }
+}
+
+static const char* CorruptSurface(kiriWorld* world, kiriSheetData* s, int way)
+{
+    kiriSurface* surface = &s->seen.surface;
+    (void)world;
+    switch (way) {
+    case 0:
+        surface->vertexCount -= 1;
+        return "vertices of";
+    case 1:
+        surface->indices.data[4] = 0;
+        return "other corners";
+    case 2:
+        surface->rest.data[2].x += 1e-9;
+        return "rests elsewhere";
+    case 3:
+        surface->normals.data[3] = 2.0f;
+        return "has normal";
+    case 4:
+        surface->positions.data[7] = NAN;
+        return "is at";
+    case 5:
+        surface->revision += 1;
+        return "revision";
+    case 6:
+        surface->sourceWeights.data[5] += 0.5f;
+        return "another source";
+    case 7:
+        assert_true(s->seen.fades.fading.count > 1);
+        s->seen.fades.fading.data[1].sample = s->seen.fades.fading.data[0].sample;
+        return "fades: sample";
+    case 8:
+        s->seen.fades.fading.data[0].left = 2.0 * s->seen.fades.time;
+        return "fades for";
+    default:
+        return NULL;
+    }
+}
+
+static void SeesWhatIsInForce(void** state)
+{
+    (void)state;
+    CheckWays(CorruptFrames, KIRI_MODEL_LINKS);
+    CheckWays(CorruptLayout, KIRI_MODEL_LINKS);
+    CheckWays(CorruptPatches, KIRI_MODEL_AFFINE);
+    CheckWays(CorruptPatches, KIRI_MODEL_POINTS);
+    CheckWays(CorruptSamples, KIRI_MODEL_LINKS);
+    CheckWays(CorruptSurface, KIRI_MODEL_LINKS);
+}
+
+/* ---- Queue, ids, memory ---- */
+
+static const char* CorruptQueue(kiriWorld* world, kiriSheetData* s, int way)
+{
+    kiriCutData* cut = s->cuts.data[0];
+    (void)world;
+    assert_true(s->queue.count == 1 && cut->tip.blade.vertex != KIRI_NONE);
+    switch (way) {
+    case 0:
+        cut->waiting += 1;
+        return "counted";
+    case 1:
+        s->queue.data[0].cut = NULL;
+        return "no more";
+    case 2:
+        cut->tip.blade.vertex = cut->committed.blade.vertex = s->mesh.vertices.count;
+        return "is at vertex";
+    case 3:
+        cut->tip.blade.vertex = cut->committed.blade.vertex = 0;
+        return "not at its vertex";
+    case 4:
+        cut->tip.last.x += 0.1;
+        return "last tick left it";
+    case 5:
+        s->queue.data[0].to.y = (double)NAN;
+        return "is nowhere";
+    case 6:
+        cut->sheet = NULL;
+        return "another sheet";
+    default:
+        return NULL;
+    }
+}
+
+static const char* CorruptIds(kiriWorld* world, kiriSheetData* s, int way)
+{
+    switch (way) {
+    case 0:
+        s->frames.data[1].id = s->frames.data[0].id;
+        return "finds";
+    case 1:
+        s->frames.data[1].id ^= 1u << 20;
+        return "finds nothing";
+    case 2:
+        kiriPool_Find(&world->frameIds, s->frames.data[1].id)->index = 0;
+        return "index 0 of 1";
+    case 3:
+        kiriPool_Find(&world->pinIds, s->pins.data[0].id)->owner = world;
+        return "finds something";
+    case 4:
+        (void)kiriPool_Add(&world->frameIds, &world->memory, s, 0);
+        return "ids of kind";
+    case 5:
+        kiriPool_Remove(&world->cutIds, s->cuts.data[0]->id);
+        return "finds nothing";
+    case 6:
+        world->sheetIds.freeSlot = 0;
+        return "is free";
+    default:
+        return NULL;
+    }
+}
+
+static void SeesQueuesAndIds(void** state)
+{
+    (void)state;
+    CheckWays(CorruptQueue, KIRI_MODEL_LINKS);
+    CheckWays(CorruptIds, KIRI_MODEL_LINKS);
+}
+
+static void SeesLostBlocks(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetData* sheet = Start(&host, KIRI_MODEL_LINKS);
+    kiriBlock** link = sheet->own.blocks->next->link;
+    sheet->own.blocks->next->link = &sheet->own.blocks;
+    assert_non_null(strstr(Validate_World(host.world), "another list"));
+    sheet->own.blocks->next->link = link;
+    Host_Stop(&host);
+}
+
+/* ---- Faults that it found, or that were found with it ---- */
+
+/* The frames that pins hold, tried all over the sheet. */
+static void HoldAllOver(Host* host, kiriSheet sheet, int32_t* frames)
+{
+    kiriSheetData* data = host->world->sheets.data[0];
+    for (int i = 0; i < 400; ++i) {
+        kiriPinDef def;
+        kiriPin pin;
+        kiriDefaultPinDef(&def);
+        def.restPoint[0] = 0.03f + 0.05f * (float)(i % 20);
+        def.restPoint[1] = 0.021f + 0.05f * (float)(i / 20);
+        OK(kiriCreatePin(host->world, sheet, &def, &pin));
+        frames[i] = data->layout.pinFrame.data[data->pins.count - 1];
+        assert_in_range(frames[i], 0, data->frames.count - 1);
+        OK(kiriDestroyPin(host->world, pin));
+    }
+}
+
+/* While a budget interrupts the cutting of the mesh, grid->nodeCell does not know the new nodes of mesh->squares: a pin must
+   not ask it. */
+static void PinsWhileTheMeshIsCut(void** state)
+{
+    (void)state;
+    const float line[4] = { 0.05f, 0.47f, 0.95f, 0.53f };
+    const kiriBudget budget = { KIRI_LEAST_TRIANGLES, 0, 0, 0 };
+    Host host;
+    int32_t frames[400];
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
+    OK(kiriWorld_SetBudget(host.world, &budget));
+    Host_Cut(&host, sheet, line, 2);
+    while (Host_Tick(&host, 0.01f, 1) == KIRI_PENDING) {
+        HoldAllOver(&host, sheet, frames);
+    }
+    Host_Stop(&host);
+}
+
+/* Nor after a tick that had no memory and took back what it did to the mesh, where the nodes of mesh->squares are not those
+   that grid->nodeCell knows. Known to fail; build with -DKNOWN_FAULTS to see it. */
+static void PinsAfterATickWithoutMemory(void** state)
+{
+    (void)state;
+#if !defined(KNOWN_FAULTS)
+    skip();
+#endif
+    const float line[4] = { 0.05f, 0.47f, 0.95f, 0.53f };
+    Host host;
+    int32_t before[400], after[400];
+    kiriResult result = KIRI_ERROR_MEMORY;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
+    HoldAllOver(&host, sheet, before);
+    Host_Cut(&host, sheet, line, 2);
+    for (int calls = 0; result == KIRI_ERROR_MEMORY; ++calls) {
+        host.failAt = host.calls + calls;
+        result = Host_Tick(&host, 0.01f, 1);
+        host.failAt = -1;
+        if (result == KIRI_ERROR_MEMORY) {
+            HoldAllOver(&host, sheet, after);
+            assert_memory_equal(before, after, sizeof(before));
+        }
+    }
+    Host_Stop(&host);
+}
+
+/* A rigid piece with a site in each of its cells, all new: there is no room for one more, and to place them again would be
+   a move, after which all is measured again, without end. A budget keeps the ticks short. */
+static void ResamplingComesToAnEnd(void** state)
+{
+    (void)state;
+    const float line[4] = { 0.625f, -0.1f, 0.625f, 1.1f };
+    const kiriBudget budget = { 0, 2000, 0, 0 };
+    Host host;
+    kiriResult result = KIRI_PENDING;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    def.gridResolution = 4;
+    def.framePoints = NULL;
+    def.frameCount = def.maxFrames = 1;
+    def.rigidArea = 0.01f;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.25f, 4, 1);
+    host.world->sheets.data[0]->settings.maxFrames = 256;
+    OK(kiriWorld_SetBudget(host.world, &budget));
+    Host_Cut(&host, sheet, line, 2);
+    for (int tick = 0; tick < 200 && result == KIRI_PENDING; ++tick) {
+        result = Host_Tick(&host, 0.01f, 1);
+    }
+    assert_int_equal(result, KIRI_OK);
+    Host_Stop(&host);
+}
+
+/* A tick that has no memory for one sheet leaves the next one as it was: its update is not at hand, and takes the points
+   that still come before the next tick together with the others. Known to fail: kiriUpdate_Start has begun it, and
+   kiriUpdate_Abort passes over a sheet that was not worked on. */
+static void PointsAfterATickWithoutMemory(void** state)
+{
+    (void)state;
+#if !defined(KNOWN_FAULTS)
+    skip();
+#endif
+    const float line[6] = { 0.1f, 0.4f, 0.5f, 0.5f, 0.9f, 0.45f };
+    Host host;
+    kiriCut cut;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheet first = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriSheet second = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    Host_Cut(&host, first, line, 3);
+    OK(kiriBeginCut(host.world, second, line, &cut));
+    OK(kiriCut_Extend(host.world, cut, line + 2, 1));
+    host.failAt = host.calls;
+    assert_int_equal(kiriWorld_Tick(host.world, 0.01f, 1), KIRI_ERROR_MEMORY);
+    host.failAt = -1;
+    OK(kiriCut_Extend(host.world, cut, line + 4, 1));
+    Host_Validate(&host);
+    OK(Host_Tick(&host, 0.01f, 1)); /* nothing waits */
+    Host_Stop(&host);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(SeesMeshes),
+        cmocka_unit_test(SeesThatTwinsAreMissing),
+        cmocka_unit_test(SeesGrids),
+        cmocka_unit_test(SeesFields),
+        cmocka_unit_test(SeesWhatIsInForce),
+        cmocka_unit_test(SeesQueuesAndIds),
+        cmocka_unit_test(SeesLostBlocks),
+        cmocka_unit_test(PinsWhileTheMeshIsCut),
+        cmocka_unit_test(PinsAfterATickWithoutMemory),
+        cmocka_unit_test(ResamplingComesToAnEnd),
+        cmocka_unit_test(PointsAfterATickWithoutMemory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,536 @@
+#include "validate.h"
+
+#include "validate_check.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- A check ---- */
+
+bool Check_Fail(Check* check, const char* condition, const char* format, ...)
+{
+    va_list list;
+    int used = snprintf(check->line, LINE_BYTES, "sheet %d, %s: ", check->sheet, check->part);
+    va_start(list, format);
+    used += vsnprintf(check->line + used, (size_t)(LINE_BYTES - used), format, list);
+    va_end(list);
+    if (used < LINE_BYTES) {
+        snprintf(check->line + used, (size_t)(LINE_BYTES - used), " [%s]", condition);
+    }
+    return false;
+}
+
+static void* Check_Alloc(Check* check, int64_t bytes, int byte)
+{
+    void* pointer = kiriMemory_Alloc(&check->memory, bytes + 8);
+    if (pointer == NULL) {
+        abort();
+    }
+    return memset(pointer, byte, (size_t)bytes + 8);
+}
+
+int32_t* Check_Ints(Check* check, int64_t count, int32_t value)
+{
+    return Check_Alloc(check, count * (int64_t)sizeof(int32_t), value == KIRI_NONE ? 0xff : 0);
+}
+
+uint8_t* Check_Bytes(Check* check, int64_t count)
+{
+    return Check_Alloc(check, count, 0);
+}
+
+int32_t* Check_Unions(Check* check, int32_t count)
+{
+    int32_t* parent = Check_Ints(check, count, 0);
+    for (int32_t i = 0; i < count; ++i) {
+        parent[i] = i;
+    }
+    return parent;
+}
+
+/* ---- Memory ---- */
+
+/* The blocks of an owner are a list that holds together. */
+static bool Check_Blocks(Check* check, const kiriMemory* memory, const char* name)
+{
+    check->part = "memory";
+    for (const kiriBlock* block = memory->blocks; block != NULL; block = block->next) {
+        REQUIRE(*block->link == block, "a block of %s is in another list", name);
+    }
+    return true;
+}
+
+/* ---- Frames ---- */
+
+static bool Check_Frame(Check* check, const kiriSheetData* sheet, int32_t i)
+{
+    const kiriFrameData* f = &sheet->frames.data[i];
+    double density = (double)sheet->settings.material.density * sheet->settings.material.thickness;
+    REQUIRE(AreFinite3(f->x) && AreFinite3(f->velocity) && AreFinite3(f->spin), "frame %d is not finite", i);
+    REQUIRE(AreFinite3(f->A.u) && AreFinite3(f->A.v) && AreFinite3(f->A.d), "frame %d has no axes", i);
+    REQUIRE(AreFinite3(f->rate.u) && AreFinite3(f->rate.v) && AreFinite3(f->rate.d), "frame %d has no rate", i);
+    REQUIRE(AreFinite3(f->force) && AreFinite3(f->torque), "frame %d has no force", i);
+    REQUIRE(f->area > 0.0 && IsNear(f->mass, density * f->area, 1e-9 * f->mass), "frame %d has area %g and mass %g", i,
+            f->area, f->mass);
+    REQUIRE(f->inertia[0] > 0.0 && f->inertia[2] > 0.0 &&
+                f->inertia[1] * f->inertia[1] <= f->inertia[0] * f->inertia[2] * (1.0 + 1e-6),
+            "frame %d has inertia %g, %g, %g", i, f->inertia[0], f->inertia[1], f->inertia[2]);
+    if (sheet->settings.mechanics.model == KIRI_MODEL_LINKS) {
+        kiriVec3 d = kiriVec3_Cross(f->A.u, f->A.v);
+        REQUIRE(IsNear(kiriVec3_Length(f->A.u), 1.0, 1e-9) && IsNear(kiriVec3_Length(f->A.v), 1.0, 1e-9) &&
+                    IsNear(kiriVec3_Dot(f->A.u, f->A.v), 0.0, 1e-9) && kiriVec3_Length(kiriVec3_Sub(d, f->A.d)) <= 1e-9,
+                "frame %d is not a rotation", i);
+    }
+    return true;
+}
+
+static bool Check_Frames(Check* check, const kiriSheetData* sheet)
+{
+    double mass = 0.0, area = kiriMesh_Area(&sheet->mesh);
+    double whole = area * (double)sheet->settings.material.density * sheet->settings.material.thickness;
+    check->part = "frames";
+    REQUIRE(sheet->frames.count > 0, "none");
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        if (!Check_Frame(check, sheet, i)) {
+            return false;
+        }
+        mass += sheet->frames.data[i].mass;
+    }
+    REQUIRE(IsNear(mass, whole, 1e-7 * whole), "frames weigh %.12g, the sheet %.12g", mass, whole);
+    return true;
+}
+
+/* ---- Layout ---- */
+
+static bool Check_Links(Check* check, const kiriSheetData* sheet)
+{
+    check->part = "links";
+    for (int32_t k = 0; k < sheet->links.links.count; ++k) {
+        const kiriLink* link = &sheet->links.links.data[k];
+        const kiriLink* last = k > 0 ? link - 1 : NULL;
+        REQUIRE(link->i >= 0 && link->i < link->j && link->j < sheet->frames.count, "link %d joins frames %d and %d", k,
+                link->i, link->j);
+        REQUIRE(last == NULL || last->i < link->i || (last->i == link->i && last->j <= link->j),
+                "link %d of frames %d and %d comes too late", k, link->i, link->j);
+        REQUIRE(link->width > 0.0 && link->length > 0.0 && link->moment >= 0.0 && IsFinite(link->width) &&
+                    IsFinite(link->length) && IsFinite(link->moment),
+                "link %d has width %g, length %g, moment %g", k, link->width, link->length, link->moment);
+        REQUIRE(link->braced >= -1e-12 && link->braced <= 1.0 + 1e-12, "link %d is braced by %g", k, link->braced);
+        REQUIRE(IsNear(kiriVec2_Length(link->normal), 1.0, 1e-9) && IsNear(link->tangent.x, -link->normal.y, 1e-12) &&
+                    IsNear(link->tangent.y, link->normal.x, 1e-12),
+                "link %d has normal (%g, %g)", k, link->normal.x, link->normal.y);
+    }
+    int32_t offsets = sheet->strainOffsets.strainOffsets.count;
+    REQUIRE(offsets == 0 || offsets == sheet->links.links.count, "%d strain offsets, %d links", offsets,
+            sheet->links.links.count);
+    return true;
+}
+
+/* Pieces are what links join, by their lowest frame. */
+static bool Check_Pieces(Check* check, const kiriSheetData* sheet)
+{
+    const kiriLayout* layout = &sheet->layout;
+    int32_t frames = sheet->frames.count, sets = frames, pieces = 0;
+    int32_t* parent = Check_Unions(check, frames);
+    check->part = "pieces";
+    REQUIRE_COUNT(layout->framePiece, frames);
+    for (int32_t k = 0; k < sheet->links.links.count; ++k) {
+        sets = Union_Join(parent, sheet->links.links.data[k].i, sheet->links.links.data[k].j, sets);
+    }
+    REQUIRE_COUNT(layout->pieces, sets);
+    double* area = Check_Alloc(check, (int64_t)sizeof(double) * sets, 0);
+    for (int32_t i = 0; i < frames; ++i) {
+        int32_t root = Union_Root(parent, i), piece = layout->framePiece.data[i];
+        if (root == i) {
+            REQUIRE(piece == pieces && layout->pieces.data[piece].frame == i, "frame %d is of piece %d, not %d", i,
+                    piece, pieces);
+            ++pieces;
+        }
+        REQUIRE(piece == layout->framePiece.data[root], "frame %d is of piece %d, %d of %d", i, piece, root,
+                layout->framePiece.data[root]);
+        area[piece] += sheet->frames.data[i].area;
+    }
+    for (int32_t p = 0; p < pieces; ++p) {
+        REQUIRE(IsNear(area[p], layout->pieces.data[p].area, 1e-9 * area[p]), "piece %d has area %g, its frames %g", p,
+                layout->pieces.data[p].area, area[p]);
+    }
+    return true;
+}
+
+/* Pieces of the mesh are those of the frames. */
+static bool Check_PiecesOfMesh(Check* check, const kiriSheetData* sheet)
+{
+    const kiriMeshData* mesh = &sheet->mesh;
+    int32_t pieces = mesh->triangles.count, *parent = Check_Unions(check, pieces);
+    check->part = "pieces";
+    for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
+        int32_t twin = kiriMesh_Twin(mesh, h);
+        if (twin != KIRI_NONE && !kiriMesh_IsOpen(mesh, h)) {
+            pieces = Union_Join(parent, h / 3, twin / 3, pieces);
+        }
+    }
+    REQUIRE(pieces == sheet->layout.pieces.count, "the mesh has %d pieces, the layout %d", pieces,
+            sheet->layout.pieces.count);
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        const int32_t* vertex = mesh->triangles.data[Union_Root(parent, t)].vertex;
+        int32_t first = kiriPiece_OfVertex(sheet, vertex[0]);
+        REQUIRE(kiriPiece_OfVertex(sheet, mesh->triangles.data[t].vertex[0]) == first,
+                "triangle %d is of another piece", t);
+    }
+    return true;
+}
+
+static bool Check_Patches(Check* check, const kiriSheetData* sheet)
+{
+    const kiriPatches* patches = &sheet->layout.patches;
+    int32_t next = 0;
+    check->part = "patches";
+    for (int32_t k = 0; k < patches->patches.count; ++k) {
+        const kiriPatch* patch = &patches->patches.data[k];
+        REQUIRE(patch->first == next && patch->count >= 0, "patch %d has %d shares from %d, not %d", k, patch->count,
+                patch->first, next);
+        REQUIRE(patch->area > 0.0 && patch->firstRow >= 0 && patch->firstRow < patch->lastRow &&
+                    patch->lastRow <= KIRI_PATCH_STRAINS,
+                "patch %d has area %g, strains %d to %d", k, patch->area, patch->firstRow, patch->lastRow);
+        next += patch->count;
+    }
+    REQUIRE(next == patches->shares.count, "patches have %d shares of %d", next, patches->shares.count);
+    for (int32_t k = 0; k < next; ++k) {
+        REQUIRE(IsIndex(patches->shares.data[k].frame, sheet->frames.count), "share %d is of frame %d", k,
+                patches->shares.data[k].frame);
+    }
+    return true;
+}
+
+/* Of pins and collision points. What holds a point is the frame whose region it is in. */
+static bool Check_Pins(Check* check, const kiriSheetData* sheet)
+{
+    check->part = "pins";
+    REQUIRE_COUNT(sheet->layout.pinFrame, sheet->pins.count);
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        const kiriPinData* pin = &sheet->pins.data[i];
+        int32_t frame = sheet->layout.pinFrame.data[i];
+        REQUIRE(IsIndex(frame, sheet->frames.count), "pin %d holds frame %d", i, frame);
+        REQUIRE(AreFinite3(pin->target) && pin->stiffness > 0.0, "pin %d has stiffness %g", i, pin->stiffness);
+        if (IsSettled(sheet)) {
+            int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, pin->at);
+            int32_t owner = cell == KIRI_NONE ? KIRI_NONE : sheet->regions.field.owner.data[cell];
+            REQUIRE(frame == owner, "pin %d holds frame %d and is in the region of %d", i, frame, owner);
+        }
+    }
+    REQUIRE(sheet->pinRows.capacity >= sheet->pins.count, "room for %d pins of %d", sheet->pinRows.capacity,
+            sheet->pins.count);
+    return true;
+}
+
+static bool Check_ContactsOf(Check* check, const kiriSheetData* sheet, const kiriContact* contacts, int32_t count)
+{
+    for (int32_t k = 0; k < count; ++k) {
+        REQUIRE(IsIndex(contacts[k].point, sheet->points.count), "contact %d is of point %d", k, contacts[k].point);
+    }
+    REQUIRE(sheet->contactRows.capacity >= count, "room for %d contacts of %d", sheet->contactRows.capacity, count);
+    return true;
+}
+
+static bool Check_Points(Check* check, const kiriSheetData* sheet)
+{
+    int32_t listed = 0;
+    check->part = "collision points";
+    REQUIRE_COUNT(sheet->pointPlaces.next, sheet->points.count);
+    for (int32_t s = 0; s < sheet->pointPlaces.head.count; ++s) {
+        for (int32_t i = sheet->pointPlaces.head.data[s]; i != KIRI_NONE; i = sheet->pointPlaces.next.data[i]) {
+            REQUIRE(IsIndex(i, sheet->points.count) && listed < sheet->points.count, "square %d lists point %d", s, i);
+            REQUIRE(kiriSquares_At(&sheet->mesh.squares, sheet->points.data[i].at) == s, "square %d lists point %d", s,
+                    i);
+            ++listed;
+        }
+    }
+    REQUIRE(listed == sheet->points.count, "squares list %d points of %d", listed, sheet->points.count);
+    for (int32_t i = 0; i < sheet->points.count; ++i) {
+        const kiriSample* point = &sheet->points.data[i];
+        REQUIRE(IsIndex(point->frame, sheet->frames.count), "point %d is of frame %d", i, point->frame);
+        if (IsSettled(sheet)) {
+            int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, point->at);
+            REQUIRE(cell == point->cell, "point %d is in cell %d, not %d", i, cell, point->cell);
+            REQUIRE(sheet->regions.field.owner.data[cell] == point->frame, "point %d is of frame %d, its cell of %d", i,
+                    point->frame, sheet->regions.field.owner.data[cell]);
+        }
+    }
+    check->part = "contacts";
+    return Check_ContactsOf(check, sheet, sheet->contacts.data, sheet->contacts.count) &&
+           Check_ContactsOf(check, sheet, sheet->rest.contacts.data, sheet->rest.contacts.count);
+}
+
+/* ---- Weights of samples ---- */
+
+static bool Check_SampleWeights(Check* check, const kiriSheetData* sheet, const kiriSkin* skin, int32_t sample)
+{
+    kiriSpan span = skin->spans.data[sample];
+    int32_t last = KIRI_NONE, piece = KIRI_NONE;
+    double sum = 0.0;
+    REQUIRE(span.count > 0, "sample %d has no weights", sample);
+    for (int32_t k = span.first; k < span.first + span.count; ++k) {
+        kiriWeight weight = skin->weights.data[k];
+        REQUIRE(weight.frame > last && weight.frame < sheet->frames.count, "sample %d: weight of frame %d after %d",
+                sample, weight.frame, last);
+        REQUIRE(weight.value >= 0.0, "sample %d: weight %g of frame %d", sample, weight.value, weight.frame);
+        int32_t other = sheet->layout.framePiece.data[weight.frame];
+        REQUIRE(piece == KIRI_NONE || other == piece, "sample %d is of pieces %d and %d", sample, piece, other);
+        last = weight.frame;
+        piece = other;
+        sum += weight.value;
+    }
+    REQUIRE(IsNear(sum, 1.0, 1e-9), "the weights of sample %d sum to %.17g", sample, sum);
+    return true;
+}
+
+static bool Check_Skin(Check* check, const kiriSheetData* sheet, const kiriSkin* skin, int32_t count)
+{
+    Rooms rooms;
+    REQUIRE_COUNT(skin->spans, count);
+    REQUIRE(HasUpdate(sheet) || skin->staged.count == 0, "%d samples are staged", skin->staged.count);
+    if (!Rooms_Start(check, &rooms, skin->weights.data, sizeof(kiriWeight), skin->weights.count, &skin->room)) {
+        return false;
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        if (!Rooms_Take(check, &rooms, skin->spans.data[i], i) || !Check_SampleWeights(check, sheet, skin, i)) {
+            return false;
+        }
+    }
+    for (int32_t k = 0; k < skin->staged.count; ++k) {
+        if (!Rooms_Take(check, &rooms, skin->staged.data[k].span, skin->staged.data[k].sample)) {
+            return false;
+        }
+    }
+    return Rooms_End(check, &rooms);
+}
+
+static bool Check_Skins(Check* check, const kiriSheetData* sheet)
+{
+    check->part = "weights of vertices";
+    if (!Check_Skin(check, sheet, &sheet->vertexSkin, sheet->mesh.vertices.count)) {
+        return false;
+    }
+    check->part = "weights of collision points";
+    return Check_Skin(check, sheet, &sheet->pointSkin, sheet->points.count);
+}
+
+/* Triangles that are newer than the last commit know which older ones they were split from. */
+static bool Check_Parents(Check* check, const kiriSheetData* sheet)
+{
+    check->part = "mesh";
+    for (int32_t t = UpdateOf(sheet)->refit.triangleCount; t < sheet->mesh.triangles.count; ++t) {
+        int32_t parent = sheet->mesh.triangles.data[t].parent;
+        REQUIRE(IsIndex(parent, t), "triangle %d is split from %d", t, parent);
+    }
+    return true;
+}
+
+/* ---- What is seen ---- */
+
+static bool Check_Topology(Check* check, const kiriSheetData* sheet)
+{
+    const kiriSurface* surface = &sheet->seen.surface;
+    const kiriMeshData* mesh = &sheet->mesh;
+    REQUIRE(surface->vertexCount == mesh->vertices.count && surface->triangleCount == mesh->triangles.count,
+            "%d vertices of %d, %d triangles of %d", surface->vertexCount, mesh->vertices.count, surface->triangleCount,
+            mesh->triangles.count);
+    REQUIRE(surface->revision == mesh->revision, "revision %u of %u", surface->revision, mesh->revision);
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        REQUIRE(memcmp(&surface->indices.data[3 * (size_t)t], mesh->triangles.data[t].vertex, 3 * sizeof(int32_t)) == 0,
+                "triangle %d has other corners", t);
+    }
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        kiriVec2 rest = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
+        REQUIRE(surface->rest.data[v].x == rest.x && surface->rest.data[v].y == rest.y, "vertex %d rests elsewhere", v);
+        REQUIRE(surface->sourceTriangles.data[v] == mesh->vertices.data[v].source &&
+                    memcmp(&surface->sourceWeights.data[3 * (size_t)v], mesh->vertices.data[v].share,
+                           3 * sizeof(float)) == 0,
+                "vertex %d has another source", v);
+    }
+    return true;
+}
+
+static bool Check_Surface(Check* check, const kiriSheetData* sheet)
+{
+    const kiriSurface* surface = &sheet->seen.surface;
+    check->part = "surface";
+    if (!Check_Topology(check, sheet)) {
+        return false;
+    }
+    for (int32_t v = 0; v < surface->vertexCount; ++v) {
+        kiriVec3 normal = kiriVec3_Load(&surface->normals.data[3 * (size_t)v]);
+        kiriVec3 position = kiriVec3_Load(&surface->positions.data[3 * (size_t)v]);
+        REQUIRE(fabs(position.x) < 1e38 && fabs(position.y) < 1e38 && fabs(position.z) < 1e38,
+                "vertex %d is at %g %g %g", v, position.x, position.y, position.z);
+        REQUIRE(IsNear(kiriVec3_Length(normal), 1.0, 1e-5), "vertex %d has normal %g %g %g", v, normal.x, normal.y,
+                normal.z);
+    }
+    for (int32_t i = 0; i < sheet->points.count; ++i) {
+        REQUIRE(AreFinite3(kiriVec3_Load(&sheet->seen.pointPositions.data[3 * i])), "point %d is nowhere", i);
+    }
+    REQUIRE(sheet->seen.pointCount == sheet->points.count, "%d points are seen, of %d", sheet->seen.pointCount,
+            sheet->points.count);
+    return true;
+}
+
+static bool Check_Fades(Check* check, const kiriFades* fades, int32_t sampleCount)
+{
+    check->part = "fades";
+    for (int32_t k = 0; k < fades->fading.count; ++k) {
+        const kiriFading* fading = &fades->fading.data[k];
+        REQUIRE(IsIndex(fading->sample, sampleCount) && (k == 0 || fading[-1].sample < fading->sample),
+                "sample %d of %d fades", fading->sample, sampleCount);
+        REQUIRE(AreFinite3(fading->offset) && fading->left > 0.0 && fading->left <= fades->time * (1.0 + 1e-9),
+                "sample %d fades for %g s", fading->sample, fading->left);
+    }
+    return true;
+}
+
+/* ---- Queue and cuts ---- */
+
+static bool Check_Blade(Check* check, const kiriSheetData* sheet, const kiriBlade* blade)
+{
+    if (blade->vertex != KIRI_NONE) {
+        REQUIRE(IsIndex(blade->vertex, sheet->mesh.vertices.count), "a blade is at vertex %d", blade->vertex);
+        kiriLatticePoint at = sheet->mesh.vertices.data[blade->vertex].at;
+        REQUIRE(at.x == blade->at.x && at.y == blade->at.y, "a blade is not at its vertex %d", blade->vertex);
+    }
+    return true;
+}
+
+static bool Check_Queue(Check* check, const kiriSheetData* sheet)
+{
+    const kiriUpdate* u = UpdateOf(sheet);
+    check->part = "queue";
+    REQUIRE(!HasUpdate(sheet) ||
+                (u->cut.taken >= 0 && u->cut.taken <= u->cut.count && u->cut.count <= sheet->queue.count),
+            "%d points taken of %d, %d wait", u->cut.taken, u->cut.count, sheet->queue.count);
+    for (int32_t i = 0; i < sheet->queue.count; ++i) {
+        const kiriQueuedPoint* point = &sheet->queue.data[i];
+        bool isKnown = false;
+        for (int32_t k = 0; k < sheet->cuts.count; ++k) {
+            isKnown = isKnown || sheet->cuts.data[k] == point->cut;
+        }
+        REQUIRE(isKnown, "point %d is of a cut that is no more", i);
+        REQUIRE(i == 0 || point[-1].stamp <= point->stamp, "point %d was given before the one before it", i);
+        REQUIRE(IsFinite(point->to.x) && IsFinite(point->to.y), "point %d is nowhere", i);
+        REQUIRE(!HasUpdate(sheet) || (point->stamp == u->cut.stamp) == (i < u->cut.count), "point %d and the update",
+                i);
+    }
+    for (int32_t k = 0; k < sheet->cuts.count; ++k) {
+        const kiriCutData* cut = sheet->cuts.data[k];
+        int32_t waiting = 0;
+        for (int32_t i = 0; i < sheet->queue.count; ++i) {
+            waiting += sheet->queue.data[i].cut == cut;
+        }
+        REQUIRE(cut->sheet == sheet && cut->index == k, "cut %d is of another sheet, or number %d", k, cut->index);
+        REQUIRE(waiting == cut->waiting, "%d points of cut %d wait, counted %d", waiting, k, cut->waiting);
+        REQUIRE(memcmp(&cut->tip.last, &cut->committed.last, sizeof(kiriVec2)) == 0 &&
+                    cut->tip.blade.vertex == cut->committed.blade.vertex,
+                "cut %d is not where its last tick left it", k);
+        if (!Check_Blade(check, sheet, &cut->tip.blade) || !Check_Blade(check, sheet, &cut->committed.blade)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* ---- Ids ---- */
+
+/* Ids of a kind: each finds its owner and index, and there are no others. */
+static bool Check_Id(Check* check, const kiriPool* pool, uint32_t id, const void* owner, int32_t index)
+{
+    const kiriSlot* slot = kiriPool_Find(pool, id);
+    REQUIRE(slot != NULL && slot->owner == owner && slot->index == index, "id %u of kind %u finds %s, index %d of %d",
+            id, pool->kind, slot == NULL ? "nothing" : "something", slot == NULL ? KIRI_NONE : slot->index, index);
+    return true;
+}
+
+static bool Check_Pool(Check* check, const kiriPool* pool, int32_t things)
+{
+    int32_t live = 0, unused = 0;
+    for (int32_t k = 0; k < pool->slots.count; ++k) {
+        live += pool->slots.data[k].owner != NULL;
+    }
+    REQUIRE(live == things, "%d ids of kind %u, %d things", live, pool->kind, things);
+    for (int32_t slot = pool->freeSlot; slot != KIRI_NONE; slot = pool->slots.data[slot].index) {
+        REQUIRE(IsIndex(slot, pool->slots.count) && unused < pool->slots.count && pool->slots.data[slot].owner == NULL,
+                "slot %d of kind %u is free", slot, pool->kind);
+        ++unused;
+    }
+    return true;
+}
+
+static bool Check_Ids(Check* check, const kiriWorld* world)
+{
+    int32_t frames = 0, pins = 0, cuts = 0;
+    check->part = "ids";
+    for (int32_t s = 0; s < world->sheets.count; ++s) {
+        const kiriSheetData* sheet = world->sheets.data[s];
+        bool ok = Check_Id(check, &world->sheetIds, sheet->id, sheet, 0);
+        for (int32_t i = 0; ok && i < sheet->frames.count; ++i) {
+            ok = Check_Id(check, &world->frameIds, sheet->frames.data[i].id, sheet, i);
+        }
+        for (int32_t i = 0; ok && i < sheet->pins.count; ++i) {
+            ok = Check_Id(check, &world->pinIds, sheet->pins.data[i].id, sheet, i);
+        }
+        for (int32_t i = 0; ok && i < sheet->cuts.count; ++i) {
+            ok = Check_Id(check, &world->cutIds, sheet->cuts.data[i]->id, sheet->cuts.data[i], 0);
+        }
+        if (!ok) {
+            return false;
+        }
+        frames += sheet->frames.count;
+        pins += sheet->pins.count;
+        cuts += sheet->cuts.count;
+    }
+    return Check_Pool(check, &world->sheetIds, world->sheets.count) && Check_Pool(check, &world->frameIds, frames) &&
+           Check_Pool(check, &world->pinIds, pins) && Check_Pool(check, &world->cutIds, cuts);
+}
+
+/* ---- All of it ---- */
+
+static bool Check_Derived(Check* check, const kiriSheetData* sheet)
+{
+    return Check_Grid(check, sheet) && Check_Regions(check, sheet) && Check_Shape(check, sheet) &&
+           Check_PiecesOfMesh(check, sheet);
+}
+
+/* In an order in which nothing is read that was not checked before. */
+static bool Check_Sheet(Check* check, const kiriSheetData* sheet)
+{
+    return Check_Blocks(check, &sheet->own, "the sheet") && Check_Blocks(check, &sheet->shown, "the host's arrays") &&
+           Check_Mesh(check, &sheet->mesh, false) && Check_Parents(check, sheet) && Check_Frames(check, sheet) &&
+           Check_Links(check, sheet) && Check_Pieces(check, sheet) && Check_Patches(check, sheet) &&
+           Check_Skins(check, sheet) && (!IsSettled(sheet) || Check_Derived(check, sheet)) &&
+           Check_Pins(check, sheet) && Check_Points(check, sheet) && Check_Surface(check, sheet) &&
+           Check_Fades(check, &sheet->seen.fades, sheet->mesh.vertices.count) &&
+           Check_Fades(check, &sheet->seen.pointFades, sheet->points.count) && Check_Queue(check, sheet);
+}
+
+const char* Validate_World(const kiriWorld* world)
+{
+    static char line[LINE_BYTES];
+    Check check = { kiriMemory_Make(NULL, NULL, NULL), KIRI_NONE, "", line };
+    bool ok = Check_Blocks(&check, &world->memory, "the world") &&
+              Check_Blocks(&check, &world->retired, "what is retired") && Check_Ids(&check, world);
+    for (int32_t s = 0; ok && s < world->sheets.count; ++s) {
+        check.sheet = s;
+        ok = Check_Sheet(&check, world->sheets.data[s]);
+        kiriMemory_FreeAll(&check.memory);
+    }
+    kiriMemory_FreeAll(&check.memory);
+    return ok ? NULL : line;
+}
+
+const char* Validate_Mesh(const kiriMeshData* mesh, bool isConforming)
+{
+    static char line[LINE_BYTES];
+    Check check = { kiriMemory_Make(NULL, NULL, NULL), KIRI_NONE, "", line };
+    bool ok = Check_Mesh(&check, mesh, isConforming);
+    kiriMemory_FreeAll(&check.memory);
+    return ok ? NULL : line;
+}
