@@ -1,6 +1,8 @@
 /* A tick without a cut allocates nothing: neither from the host nor behind its back; and few with one do. */
 #include "host.h"
 
+#include "world/kiri_state_hash.h"
+
 /* malloc of the whole program, counted, where the C library lets us stand in front of it. */
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
@@ -139,8 +141,88 @@ static void TestCuttingTicks(void** state)
     Host_Stop(&host);
 }
 
+/* ---- Memory that is refused ---- */
+
+static kiriSheet AddForCut(Host* host, int32_t columns)
+{
+    static const float way[12] = { -0.1f, 0.4f, 0.3f, 0.6f, 0.5f, 0.2f, 0.7f, 0.7f, 1.1f, 0.4f, 0.9f, 0.3f };
+    kiriSheetDef def = Host_SmallDef();
+    def.gridResolution = columns;
+    def.collisionPoints = 40;
+    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, columns, columns);
+    OK(kiriWorld_Tick(host->world, 1.0f / 60.0f, 1));
+    Host_Cut(host, sheet, way, 6);
+    return sheet;
+}
+
+static uint64_t LayoutOf(const Host* host)
+{
+    return kiriSnapshot_HashLayout(host->world->sheets.data[0]);
+}
+
+/* What a cut leaves when nothing fails. */
+static uint64_t LayoutWithoutFailure(int32_t columns)
+{
+    Host host;
+    Host_Start(&host);
+    AddForCut(&host, columns);
+    OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
+    uint64_t layout = LayoutOf(&host);
+    Host_Stop(&host);
+    return layout;
+}
+
+/* The triangles that are there, all of vertices that are there. */
+static void CheckIndices(const Host* host, kiriSheet sheet, kiriCounts counts)
+{
+    kiriMesh mesh = Host_Mesh(host, sheet);
+    assert_int_equal(mesh.triangleCount, counts.triangles);
+    assert_int_equal(mesh.vertexCount, counts.vertices);
+    for (int32_t i = 0; i < 3 * mesh.triangleCount; ++i) {
+        assert_in_range(mesh.indices[i], 0, counts.vertices - 1);
+    }
+}
+
+/* A budget spreads the update over ticks, and one of them gets no memory: what earlier ones committed stays. */
+static void TestRefusedInALaterTick(void** state)
+{
+    (void)state;
+    const kiriBudget budget = { 0, 10, 10, 0 }, none = { 0, 0, 0, 0 };
+    uint64_t layout = LayoutWithoutFailure(16);
+    for (int32_t pause = 1; pause < 30; pause += 3) {
+        Host host;
+        Host_Start(&host);
+        kiriSheet sheet = AddForCut(&host, 16);
+        OK(kiriWorld_SetBudget(host.world, &budget));
+        kiriResult result = KIRI_PENDING;
+        for (int32_t tick = 0; tick < pause; ++tick) {
+            result = kiriWorld_Tick(host.world, 1.0f / 60.0f, 1);
+            assert_int_equal(result, KIRI_PENDING);
+        }
+        kiriCounts counts = Host_Counts(&host, sheet);
+        host.failAt = host.calls;
+        while (result == KIRI_PENDING) {
+            counts = Host_Counts(&host, sheet);
+            result = kiriWorld_Tick(host.world, 1.0f / 60.0f, 1);
+        }
+        assert_int_equal(result, KIRI_ERROR_MEMORY);
+        kiriCounts after = Host_Counts(&host, sheet);
+        assert_true(after.triangles == counts.triangles && after.vertices == counts.vertices);
+        CheckIndices(&host, sheet, after);
+        host.failAt = -1;
+        OK(kiriWorld_SetBudget(host.world, &none));
+        OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
+        assert_true(LayoutOf(&host) == layout);
+        Host_Stop(&host);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(TestPlainTicks), cmocka_unit_test(TestCuttingTicks) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestPlainTicks),
+        cmocka_unit_test(TestCuttingTicks),
+        cmocka_unit_test(TestRefusedInALaterTick),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -543,6 +543,31 @@ static void ScramblesAndRollsBack(void** state)
     kiriMemory_FreeAll(mesh.memory);
 }
 
+/* A rollback after a commit changes nothing, however often, and so does one of an empty journal. */
+static void CommitsAreForGood(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 4, 4, 1.0f, 1.0f, 8);
+    for (uint32_t round = 1; round <= 10; ++round) {
+        kiriMesh_Begin(&mesh);
+        assert_true(Scramble(&mesh, 55 * round, 20));
+        kiriMesh_Commit(&mesh);
+        Whole whole = Whole_Make(&mesh);
+        kiriMesh_Rollback(&mesh);
+        assert_true(Whole_Equals(&whole, &mesh));
+        kiriMesh_Commit(&mesh);
+        kiriMesh_Rollback(&mesh);
+        assert_true(Whole_Equals(&whole, &mesh));
+        kiriMesh_Begin(&mesh);
+        kiriMesh_Rollback(&mesh);
+        assert_true(Whole_Equals(&whole, &mesh));
+        CheckMesh(&mesh);
+        Whole_Free(&whole);
+    }
+    kiriMemory_FreeAll(mesh.memory);
+}
+
 /* A view that is written where the journal says is as good as one that is written anew. */
 static void JournalTellsWhatChanged(void** state)
 {
@@ -627,6 +652,7 @@ int main(void)
         cmocka_unit_test(Locates),
         cmocka_unit_test(Snaps),
         cmocka_unit_test(ScramblesAndRollsBack),
+        cmocka_unit_test(CommitsAreForGood),
         cmocka_unit_test(JournalTellsWhatChanged),
         cmocka_unit_test(RollsBackWithoutMemory),
     };

@@ -54,20 +54,27 @@ static bool SaveVertex(kiriMeshData* mesh, int32_t vertex)
     return true;
 }
 
+static void EmptyJournal(kiriMeshData* mesh)
+{
+    mesh->savedTriangles.count = 0;
+    mesh->savedVertices.count = 0;
+}
+
 void kiriMesh_Begin(kiriMeshData* mesh)
 {
+    EmptyJournal(mesh);
+    mesh->isOpen = true;
     ++mesh->stamp;
     mesh->oldTriangleCount = mesh->triangles.count;
     mesh->oldVertexCount = mesh->vertices.count;
     mesh->oldRevision = mesh->revision;
     mesh->births.count = 0;
-    kiriMesh_Commit(mesh);
 }
 
 void kiriMesh_Commit(kiriMeshData* mesh)
 {
-    mesh->savedTriangles.count = 0;
-    mesh->savedVertices.count = 0;
+    EmptyJournal(mesh);
+    mesh->isOpen = false;
 }
 
 static bool InsertSquares(kiriMeshData* mesh, int32_t triangle)
@@ -86,6 +93,9 @@ static void RemoveSquares(kiriMeshData* mesh, int32_t triangle)
 
 void kiriMesh_Rollback(kiriMeshData* mesh)
 {
+    if (!mesh->isOpen) {
+        return;
+    }
     for (int32_t t = mesh->oldTriangleCount; t < mesh->triangles.count; ++t) {
         RemoveSquares(mesh, t);
     }
@@ -110,7 +120,7 @@ void kiriMesh_Rollback(kiriMeshData* mesh)
         /* Cannot fail: the nodes that held the old mesh are all still there. */
         (void)InsertSquares(mesh, mesh->savedTriangles.data[i].index);
     }
-    kiriMesh_Commit(mesh);
+    EmptyJournal(mesh);
 }
 
 /* A vertex never moves, so it stays in the list of its square, which begins with the latest. */
