@@ -265,7 +265,7 @@ static inline void CheckSquares(const kiriMeshData* mesh)
     free(seen);
 }
 
-/* Each vertex is in the list of its square, and the touched squares are marked, each once. */
+/* Each vertex is in the list of its square, and the dirty squares are marked, each once. */
 static inline void CheckLists(const kiriMeshData* mesh)
 {
     const kiriSquares* squares = &mesh->squares;

@@ -77,9 +77,9 @@ kiriResult kiriMesh_Init(kiriMeshData* mesh, kiriMemory* memory, const float* po
 bool kiriMesh_InitPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const int32_t* triangleTo,
                        const int32_t* vertexTo);
 
-/* Changes between Begin and Commit can be taken back as a whole: Rollback leaves the mesh as it was at Begin (order
-   within a square's list of triangles aside), and the journal open. After Commit it changes nothing. Begin also empties
-   the births. */
+/* Changes between Begin and Commit can be taken back as a whole: Rollback leaves the mesh and its squares as they
+   were at Begin (see kiriSquares_Rollback), and the journal open. After Commit it changes nothing. Begin also empties the
+   births. */
 void kiriMesh_Begin(kiriMeshData* mesh);
 void kiriMesh_Commit(kiriMeshData* mesh);
 void kiriMesh_Rollback(kiriMeshData* mesh);
