@@ -3,7 +3,8 @@
 #ifndef KIRI_TEST_CHECK_MESH_H
 #define KIRI_TEST_CHECK_MESH_H
 
-#include "mesh/kiri_mesh.h"
+#include "mesh/kiri_mesh_edit.h"
+#include "mesh_pieces.h"
 #include "support.h"
 #include "validate.h"
 
@@ -146,7 +147,7 @@ static inline bool SameEnds(const SortedEdge* a, const SortedEdge* b)
 /* Pieces against a flood over edges with the same two vertices. */
 static inline int32_t CheckPieces(const kiriMeshData* mesh)
 {
-    int32_t count = mesh->triangles.count, pieces = 0, next = 0;
+    int32_t count = mesh->triangles.count, next = 0;
     int32_t* flood = Unions_Make(count);
     int32_t* piece = malloc((size_t)count * sizeof(int32_t));
     int32_t* number = malloc((size_t)count * sizeof(int32_t));
@@ -156,7 +157,7 @@ static inline int32_t CheckPieces(const kiriMeshData* mesh)
             Unions_Join(flood, edges[i - 1].h / 3, edges[i].h / 3);
         }
     }
-    kiriMesh_Pieces(mesh, piece, &pieces);
+    int32_t pieces = NumberPieces(mesh, piece);
     memset(number, 0xff, (size_t)count * sizeof(int32_t));
     for (int32_t t = 0; t < count; ++t) {
         int32_t root = Unions_Root(flood, t);
@@ -225,6 +226,53 @@ static inline void Copy_Free(Copy* copy)
 {
     free(copy->triangles);
     free(copy->vertices);
+}
+
+/* The mesh and its squares, slot for slot. */
+typedef struct Whole {
+    Copy mesh;
+    kiriSquares squares; /* its arrays are copies */
+} Whole;
+
+static inline void* CopyOf(const void* data, size_t bytes)
+{
+    void* copy = malloc(bytes + 1);
+    return bytes > 0 ? memcpy(copy, data, bytes) : copy;
+}
+
+static inline Whole Whole_Make(const kiriMeshData* mesh)
+{
+    Whole whole = { Copy_Make(mesh), mesh->squares };
+    kiriSquares* s = &whole.squares;
+    size_t count = (size_t)s->columns * (size_t)s->rows;
+    s->head = CopyOf(s->head, count * sizeof(int32_t));
+    s->vertexHead = CopyOf(s->vertexHead, count * sizeof(int32_t));
+    s->isDirty = CopyOf(s->isDirty, count);
+    s->nodes.data = CopyOf(s->nodes.data, (size_t)s->nodes.count * sizeof(kiriSquareNode));
+    s->dirty.data = CopyOf(s->dirty.data, (size_t)s->dirty.count * sizeof(int32_t));
+    return whole;
+}
+
+static inline bool Whole_Equals(const Whole* whole, const kiriMeshData* mesh)
+{
+    const kiriSquares *a = &whole->squares, *b = &mesh->squares;
+    size_t count = (size_t)a->columns * (size_t)a->rows;
+    return Copy_Equals(&whole->mesh, mesh) && memcmp(a->head, b->head, count * sizeof(int32_t)) == 0 &&
+           memcmp(a->vertexHead, b->vertexHead, count * sizeof(int32_t)) == 0 &&
+           memcmp(a->isDirty, b->isDirty, count) == 0 && a->freeNode == b->freeNode &&
+           a->nodes.count == b->nodes.count && a->dirty.count == b->dirty.count &&
+           memcmp(a->nodes.data, b->nodes.data, (size_t)a->nodes.count * sizeof(kiriSquareNode)) == 0 &&
+           memcmp(a->dirty.data, b->dirty.data, (size_t)a->dirty.count * sizeof(int32_t)) == 0;
+}
+
+static inline void Whole_Free(Whole* whole)
+{
+    Copy_Free(&whole->mesh);
+    free(whole->squares.head);
+    free(whole->squares.vertexHead);
+    free(whole->squares.isDirty);
+    free(whole->squares.nodes.data);
+    free(whole->squares.dirty.data);
 }
 
 /* All but the pieces. Where corners of a part lie in the middle of another part's side, edges that come to lie on each
