@@ -56,7 +56,7 @@ static Difference GapAt(const kiriFrameData* const frames[2], const kiriPose* co
 }
 
 /* The derivative of a strain by the ends of a difference and by its mean director's turn. */
-static void WriteRow(const Difference* g, const Mean* mean, kiriVec3 byValue, kiriVec3 byMean, kiriAffineRow row[2])
+static void WriteRow(const Difference* g, const Mean* mean, kiriVec3 byValue, kiriVec3 byMean, kiriFrameRow row[2])
 {
     for (int k = 0; k < 2; ++k) {
         kiriVec3 by = kiriVec3_Scale(k == 0 ? -1.0 : 1.0, byValue);
@@ -68,7 +68,7 @@ static void WriteRow(const Difference* g, const Mean* mean, kiriVec3 byValue, ki
 }
 
 /* The part in the plane, one row an axis of space: P g = g - d (d . g). */
-static void MeasureInPlane(const Difference* g, const Mean* mean, double* strain, kiriAffineRow rows[][2])
+static void MeasureInPlane(const Difference* g, const Mean* mean, double* strain, kiriFrameRow rows[][2])
 {
     const kiriVec3 axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
     double along = kiriVec3_Dot(g->value, mean->d);
@@ -82,14 +82,14 @@ static void MeasureInPlane(const Difference* g, const Mean* mean, double* strain
     }
 }
 
-static void MeasureBending(const kiriPose* const poses[2], double* strain, kiriAffineRow rows[][2])
+static void MeasureBending(const kiriPose* const poses[2], double* strain, kiriFrameRow rows[][2])
 {
     const kiriVec3 axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } }, zero = { 0.0, 0.0, 0.0 };
     for (int a = 0; a < 3; ++a) {
         strain[a] = kiriVec3_Dot(axes[a], kiriVec3_Sub(poses[1]->A.d, poses[0]->A.d));
         if (rows != NULL) {
-            kiriAffineRow first = { { zero, zero, zero, kiriVec3_Scale(-1.0, axes[a]) } };
-            kiriAffineRow second = { { zero, zero, zero, axes[a] } };
+            kiriFrameRow first = { { zero, zero, zero, kiriVec3_Scale(-1.0, axes[a]) } };
+            kiriFrameRow second = { { zero, zero, zero, axes[a] } };
             rows[a][0] = first;
             rows[a][1] = second;
         }
@@ -97,7 +97,7 @@ static void MeasureBending(const kiriPose* const poses[2], double* strain, kiriA
 }
 
 static void MeasureNormal(const kiriLink* link, const Difference* g, const Mean* mean, double* strain,
-                          kiriAffineRow rows[][2])
+                          kiriFrameRow rows[][2])
 {
     kiriVec3 zero = { 0.0, 0.0, 0.0 };
     double gap = kiriVec3_Dot(g->value, mean->d), over = fabs(gap) - NORMAL_STOP_SHARE * link->length;
@@ -110,7 +110,7 @@ static void MeasureNormal(const kiriLink* link, const Difference* g, const Mean*
 }
 
 void kiriAffine_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
-                        double strain[KIRI_AFFINE_STRAINS], kiriAffineRow rows[][2])
+                        double strain[KIRI_AFFINE_STRAINS], kiriFrameRow rows[][2])
 {
     Mean mean = MeanDirector(poses);
     Difference b = GapAt(frames, poses, link->centroid), m = GapAt(frames, poses, link->crossing);
@@ -138,30 +138,30 @@ void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, do
 
 /* ---- Regions ---------------------------------------------------------------------------------------------------- */
 
-/* The share of a frame in the patch that is being made, in order of frames; links come so. */
-static kiriShare* ShareOf(kiriPatches* patches, kiriMemory* memory, kiriPatch* patch, int32_t frame)
+/* The share of a frame in the element that is being made, in order of frames; links come so. */
+static kiriFrameShare* ShareOf(kiriAreaElements* elements, kiriMemory* memory, kiriAreaElement* element, int32_t frame)
 {
-    int32_t k = patch->first + patch->count;
-    while (k > patch->first && patches->shares.data[k - 1].frame > frame) {
+    int32_t k = element->first + element->count;
+    while (k > element->first && elements->shares.data[k - 1].frame > frame) {
         --k;
     }
-    if (k > patch->first && patches->shares.data[k - 1].frame == frame) {
-        return &patches->shares.data[k - 1];
+    if (k > element->first && elements->shares.data[k - 1].frame == frame) {
+        return &elements->shares.data[k - 1];
     }
-    kiriShare fresh = { frame, { 0.0, 0.0 }, { 0.0, 0.0 }, { 0.0, 0.0 }, 0.0, { 0.0, 0.0 } };
-    if (!kiriArray_Push(memory, &patches->shares, fresh)) {
+    kiriFrameShare fresh = { frame, { 0.0, 0.0 }, { 0.0, 0.0 }, { 0.0, 0.0 }, 0.0, { 0.0, 0.0 } };
+    if (!kiriArray_Push(memory, &elements->shares, fresh)) {
         return NULL;
     }
-    for (int32_t n = patches->shares.count - 1; n > k; --n) {
-        patches->shares.data[n] = patches->shares.data[n - 1];
+    for (int32_t n = elements->shares.count - 1; n > k; --n) {
+        elements->shares.data[n] = elements->shares.data[n - 1];
     }
-    patches->shares.data[k] = fresh;
-    ++patch->count;
-    return &patches->shares.data[k];
+    elements->shares.data[k] = fresh;
+    ++element->count;
+    return &elements->shares.data[k];
 }
 
 /* What the frame at one end of a border brings to the integral of gap (x) n, times `scale`. */
-static void AddEnd(kiriShare* share, const kiriLink* link, kiriVec2 center, double scale)
+static void AddEnd(kiriFrameShare* share, const kiriLink* link, kiriVec2 center, double scale)
 {
     kiriVec2 normal = kiriVec2_Scale(scale * link->width, link->normal), arm = kiriVec2_Sub(link->centroid, center);
     share->move = kiriVec2_Add(share->move, normal);
@@ -179,46 +179,46 @@ typedef struct Ring {
     KIRI_ARRAY(const kiriLink*) links;
 } Ring;
 
-static bool AddBorder(kiriPatches* patches, const Ring* ring, kiriPatch* patch, const kiriLink* link)
+static bool AddBorder(kiriAreaElements* elements, const Ring* ring, kiriAreaElement* element, const kiriLink* link)
 {
     for (int end = 0; end < 2; ++end) {
         int32_t frame = end == 0 ? link->i : link->j;
-        kiriShare* share = ShareOf(patches, ring->memory, patch, frame);
+        kiriFrameShare* share = ShareOf(elements, ring->memory, element, frame);
         if (share == NULL) {
             return false;
         }
-        double half = 0.5 / patch->area;
+        double half = 0.5 / element->area;
         AddEnd(share, link, kiriMoments_Center(&ring->material[frame]), end == 0 ? -half : half);
     }
     return true;
 }
 
-/* A patch with the frame's own A. */
-static bool Begin(kiriPatches* patches, kiriMemory* memory, kiriPatch* patch, int32_t frame)
+/* A element with the frame's own A. */
+static bool Begin(kiriAreaElements* elements, kiriMemory* memory, kiriAreaElement* element, int32_t frame)
 {
-    kiriShare* share = ShareOf(patches, memory, patch, frame);
+    kiriFrameShare* share = ShareOf(elements, memory, element, frame);
     if (share != NULL) {
         share->u.x = share->v.y = share->weight = 1.0;
     }
     return share != NULL;
 }
 
-static bool AddMembrane(kiriPatches* patches, const Ring* ring, int32_t frame)
+static bool AddMembrane(kiriAreaElements* elements, const Ring* ring, int32_t frame)
 {
     double area = ring->material[frame].area;
-    kiriPatch patch = { area, LEAN, patches->shares.count, 0, KIRI_PATCH_AREA, KIRI_PATCH_SHEAR + 1 };
-    bool ok = Begin(patches, ring->memory, &patch, frame);
+    kiriAreaElement element = { area, LEAN, elements->shares.count, 0, KIRI_AREA_DILATION, KIRI_AREA_SHEAR + 1 };
+    bool ok = Begin(elements, ring->memory, &element, frame);
     for (int32_t k = ring->start.data[frame]; ok && k < ring->start.data[frame + 1]; ++k) {
-        ok = AddBorder(patches, ring, &patch, ring->links.data[k]);
+        ok = AddBorder(elements, ring, &element, ring->links.data[k]);
     }
-    return ok && kiriArray_Push(ring->memory, &patches->patches, patch);
+    return ok && kiriArray_Push(ring->memory, &elements->elements, element);
 }
 
-static bool AddDirector(kiriPatches* patches, const Ring* ring, int32_t frame)
+static bool AddDirector(kiriAreaElements* elements, const Ring* ring, int32_t frame)
 {
     double area = ring->material[frame].area;
-    kiriPatch patch = { area, 0.0, patches->shares.count, 0, KIRI_PATCH_LEAN_U, KIRI_PATCH_STRAINS };
-    return Begin(patches, ring->memory, &patch, frame) && kiriArray_Push(ring->memory, &patches->patches, patch);
+    kiriAreaElement element = { area, 0.0, elements->shares.count, 0, KIRI_AREA_LEAN_U, KIRI_AREA_STRAINS };
+    return Begin(elements, ring->memory, &element, frame) && kiriArray_Push(ring->memory, &elements->elements, element);
 }
 
 static bool Collect(Ring* ring, const kiriLink* links, int32_t linkCount, int32_t frameCount)
@@ -245,14 +245,14 @@ static bool Collect(Ring* ring, const kiriLink* links, int32_t linkCount, int32_
     return true;
 }
 
-bool kiriAffine_Build(kiriPatches* patches, kiriMemory* memory, const kiriLink* links, int32_t linkCount,
+bool kiriAffine_Build(kiriAreaElements* elements, kiriMemory* memory, const kiriLink* links, int32_t linkCount,
                       const kiriMoments* material, int32_t frameCount, bool planar)
 {
     Ring ring = { memory, material, { 0 }, { 0 } };
-    patches->patches.count = patches->shares.count = 0;
+    elements->elements.count = elements->shares.count = 0;
     bool ok = Collect(&ring, links, linkCount, frameCount);
     for (int32_t i = 0; ok && i < frameCount; ++i) {
-        ok = AddMembrane(patches, &ring, i) && (planar || AddDirector(patches, &ring, i));
+        ok = AddMembrane(elements, &ring, i) && (planar || AddDirector(elements, &ring, i));
     }
     kiriArray_Release(memory, &ring.start);
     kiriArray_Release(memory, &ring.links);

@@ -7,7 +7,7 @@ typedef struct Builder {
     const kiriShape* shape;
     const kiriMoments* material; /* of each frame's region */
     kiriIntegrationWork* work;
-    kiriPatches* patches;
+    kiriAreaElements* elements;
     double perArea; /* points, 1/m^2 */
     int32_t order;
     int32_t lastRow;
@@ -15,31 +15,31 @@ typedef struct Builder {
 
 static const kiriMoments none = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* ---- Patches ---------------------------------------------------------------------------------------------------- */
+/* ---- Elements ---------------------------------------------------------------------------------------------------- */
 
 /* Linear-blend skinning, x(p) = sum of w_i(p) (x_i + A_i (p - c_i)), at a place `off` the point, with the weights
    linear around it. */
-static bool AddPatch(Builder* b, kiriVec2 point, kiriVec2 off, double area)
+static bool AddAreaElement(Builder* b, kiriVec2 point, kiriVec2 off, double area)
 {
     const kiriPointWeights* weights = &b->work->weights;
-    kiriPatch patch = { area, 0.0, b->patches->shares.count, weights->count, 0, b->lastRow };
+    kiriAreaElement element = { area, 0.0, b->elements->shares.count, weights->count, 0, b->lastRow };
     kiriVec2 at = kiriVec2_Add(point, off);
     for (int32_t k = 0; k < weights->count; ++k) {
         kiriPointWeight w = weights->data[k];
         kiriVec2 arm = kiriVec2_Sub(at, kiriMoments_Center(&b->material[w.frame]));
-        kiriShare share = { w.frame,
-                            w.gradient,
-                            kiriVec2_Scale(arm.x, w.gradient),
-                            kiriVec2_Scale(arm.y, w.gradient),
-                            w.value + kiriVec2_Dot(w.gradient, off),
-                            w.gradient };
+        kiriFrameShare share = { w.frame,
+                                 w.gradient,
+                                 kiriVec2_Scale(arm.x, w.gradient),
+                                 kiriVec2_Scale(arm.y, w.gradient),
+                                 w.value + kiriVec2_Dot(w.gradient, off),
+                                 w.gradient };
         share.u.x += share.weight;
         share.v.y += share.weight;
-        if (!kiriArray_Push(b->memory, &b->patches->shares, share)) {
+        if (!kiriArray_Push(b->memory, &b->elements->shares, share)) {
             return false;
         }
     }
-    return kiriArray_Push(b->memory, &b->patches->patches, patch);
+    return kiriArray_Push(b->memory, &b->elements->elements, element);
 }
 
 /* Two pairs of places on either side of the point, that together have the region's second moments: the columns of
@@ -54,7 +54,7 @@ static bool AddFour(Builder* b, kiriVec2 point, const kiriMoments* material)
     };
     bool ok = true;
     for (int k = 0; ok && k < 4; ++k) {
-        ok = AddPatch(b, point, off[k], 0.25 * about.area);
+        ok = AddAreaElement(b, point, off[k], 0.25 * about.area);
     }
     return ok;
 }
@@ -63,7 +63,7 @@ static bool AddPoint(Builder* b, const kiriSite* point, const kiriMoments* mater
 {
     const kiriVec2 here = { 0.0, 0.0 };
     return kiriShape_At(b->shape, b->memory, b->grid, b->mesh, point->cell, point->at, &b->work->weights) &&
-           (b->order == 1 ? AddPatch(b, point->at, here, material->area) : AddFour(b, point->at, material));
+           (b->order == 1 ? AddAreaElement(b, point->at, here, material->area) : AddFour(b, point->at, material));
 }
 
 /* ---- Points of a piece ------------------------------------------------------------------------------------------ */
@@ -172,14 +172,14 @@ static double TotalArea(const kiriGrid* grid)
     return total;
 }
 
-bool kiriIntegration_Build(kiriPatches* patches, kiriIntegrationWork* work, kiriMemory* memory, const kiriGrid* grid,
-                           const kiriMeshData* mesh, const kiriShape* shape, const kiriMoments* material, double count,
-                           int32_t order, bool planar)
+bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work, kiriMemory* memory,
+                           const kiriGrid* grid, const kiriMeshData* mesh, const kiriShape* shape,
+                           const kiriMoments* material, double count, int32_t order, bool planar)
 {
-    Builder b = { memory, grid, mesh, shape, material, work, patches, 0.0, order, KIRI_PATCH_STRAINS };
+    Builder b = { memory, grid, mesh, shape, material, work, elements, 0.0, order, KIRI_AREA_STRAINS };
     b.perArea = count / TotalArea(grid);
-    b.lastRow = planar ? KIRI_PATCH_SHEAR + 1 : KIRI_PATCH_STRAINS;
-    patches->patches.count = patches->shares.count = 0;
+    b.lastRow = planar ? KIRI_AREA_SHEAR + 1 : KIRI_AREA_STRAINS;
+    elements->elements.count = elements->shares.count = 0;
     bool ok = ClearSeen(&b);
     for (int32_t s = 0; ok && s < grid->squareCell.count; ++s) {
         for (int32_t c = grid->squareCell.data[s]; ok && c != KIRI_NONE; c = grid->cells.data[c].next) {

@@ -2,7 +2,7 @@
 #ifndef KIRI_POINT_H
 #define KIRI_POINT_H
 
-#include "kiri_patch.h"
+#include "kiri_area_element.h"
 #include "../field/kiri_place.h"
 #include "../field/kiri_shape.h"
 
@@ -20,8 +20,8 @@ typedef struct kiriIntegrationWork {
    of the grid. With order 1 the strain at the point holds for all of it; with order 2 the strain is linear in it (after
    the elastons of Martin et al. 2010): it is taken at four places that have the region's second moments, which costs
    four times as much. `material` is that of each frame's region. */
-bool kiriIntegration_Build(kiriPatches* patches, kiriIntegrationWork* work, kiriMemory* memory, const kiriGrid* grid,
-                           const kiriMeshData* mesh, const kiriShape* shape, const kiriMoments* material, double count,
-                           int32_t order, bool planar);
+bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work, kiriMemory* memory,
+                           const kiriGrid* grid, const kiriMeshData* mesh, const kiriShape* shape,
+                           const kiriMoments* material, double count, int32_t order, bool planar);
 
 #endif

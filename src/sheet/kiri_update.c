@@ -446,7 +446,7 @@ kiriProgress kiriUpdate_Constants(kiriSheetData* sheet, kiriQuota* none)
               kiriRefit_Stage(&u->refit, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, u->isScratch) &&
               kiriArray_Reserve(sheet->memory, &sheet->frames, u->sites.count) &&
               kiriSolver_Stage(sheet->solver, u->sites.count, sheet->links.next.data, sheet->links.next.count,
-                               &u->next.patches);
+                               &u->next.patches, u->next.framePiece.data, u->next.pieces.count);
     return ok ? KIRI_DONE : KIRI_FAILED;
 }
 

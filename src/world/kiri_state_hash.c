@@ -85,14 +85,14 @@ static void Link(uint64_t* hash, const kiriLink* link)
     Vec2(hash, link->spread[1]);
 }
 
-static void Patches(uint64_t* hash, const kiriPatches* patches)
+static void Patches(uint64_t* hash, const kiriAreaElements* patches)
 {
-    for (int32_t i = 0; i < patches->patches.count; ++i) {
-        Real(hash, patches->patches.data[i].area);
-        Int(hash, patches->patches.data[i].count);
+    for (int32_t i = 0; i < patches->elements.count; ++i) {
+        Real(hash, patches->elements.data[i].area);
+        Int(hash, patches->elements.data[i].count);
     }
     for (int32_t i = 0; i < patches->shares.count; ++i) {
-        const kiriShare* share = &patches->shares.data[i];
+        const kiriFrameShare* share = &patches->shares.data[i];
         Int(hash, share->frame);
         Real(hash, share->weight);
         Vec2(hash, share->slope);
