@@ -276,7 +276,7 @@ static void BeginStep(kiriSolver* solver, const kiriSystem* system, double dt)
         solver->start.data[f] = kiriPose_Of(&system->frames[f]);
         solver->before.data[f] = FlattenFrame(&system->mechanics, &system->frames[f]);
         solver->predictions.data[f] = PredictFrame(system, &solver->before.data[f], dt);
-        solver->poses.data[f] = solver->predictions.data[f].coast;
+        solver->poses.data[f] = solver->predictions.data[f].forceless;
     }
     for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
         BeginElement(solver, system, k);

@@ -156,7 +156,7 @@ kiriProgress kiriUpdate_Grid(kiriSheetData* sheet, kiriQuota* cells)
     kiriProgress progress = kiriGrid_Update(&sheet->grid, &sheet->mesh, cells);
     if (progress == KIRI_DONE) {
         const kiriGridChanges* changes = &sheet->grid.changes;
-        if (!kiriRefit_NoteDirty(&u->refit, sheet->memory, &sheet->mesh)) {
+        if (!kiriOwnership_NoteDirty(&u->refit.ownership, sheet->memory, &sheet->mesh)) {
             return KIRI_FAILED;
         }
         kiriSquares_ClearDirty(&sheet->mesh.squares);
@@ -212,7 +212,8 @@ static kiriProgress Weigh(kiriSheetData* sheet, kiriQuota* cells)
     kiriProgress progress = kiriShape_Update(&sheet->shape, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions,
                                              u->sites.data, u->sites.count, u->moves.data, u->moves.count, cells);
     if (progress == KIRI_DONE) {
-        if (!kiriRefit_NoteChanges(&u->refit, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions)) {
+        if (!kiriOwnership_NoteChanges(&u->refit.ownership, sheet->memory, &sheet->grid, &sheet->mesh,
+                                       &sheet->regions)) {
             return KIRI_FAILED;
         }
         kiriGrid_ClearChanges(&sheet->grid);
@@ -499,8 +500,8 @@ static void TakeFits(kiriSheetData* sheet)
         frame->rate = state->rate;
     }
     const kiriLayout* next = &sheet->update.next;
-    kiriRefit_Brake(refit, sheet->frames.data, sheet->frames.count, next->framePiece.data, next->pieces.count,
-                    &sheet->material);
+    kiriRefit_LimitEnergy(refit, sheet->frames.data, sheet->frames.count, next->framePiece.data, next->pieces.count,
+                          &sheet->material);
     kiriRefit_Commit(refit, &sheet->mesh);
 }
 
