@@ -1,37 +1,37 @@
 #include "kiri_area_element.h"
 
 /* F_u, F_v, D_u, D_v, D: or what a strain changes by with each. */
-typedef struct Shape {
+typedef struct SurfaceState {
     kiriVec3 u, v, du, dv, d;
-} Shape;
+} SurfaceState;
 
-static void Add(kiriVec3* sum, double a, kiriVec3 b)
+static void AddVector(kiriVec3* sum, double a, kiriVec3 b)
 {
     *sum = kiriVec3_AddScaled(*sum, a, b);
 }
 
-static Shape ShapeOf(const kiriAreaElement* element, const kiriFrameShare* shares, const kiriFrameData* frames,
-                     const kiriPose* poses)
+static SurfaceState SurfaceStateOf(const kiriAreaElement* element, const kiriFrameShare* shares,
+                                   const kiriFrameData* frames, const kiriPose* poses)
 {
     kiriVec3 zero = { 0.0, 0.0, 0.0 };
-    Shape s = { zero, zero, zero, zero, zero };
+    SurfaceState s = { zero, zero, zero, zero, zero };
     for (int32_t k = 0; k < element->count; ++k) {
         const kiriFrameShare* share = &shares[element->first + k];
         kiriPose pose = poses != NULL ? poses[share->frame] : kiriPose_Of(&frames[share->frame]);
-        Add(&s.u, share->move.x, pose.x);
-        Add(&s.u, share->u.x, pose.A.u);
-        Add(&s.u, share->v.x, pose.A.v);
-        Add(&s.v, share->move.y, pose.x);
-        Add(&s.v, share->u.y, pose.A.u);
-        Add(&s.v, share->v.y, pose.A.v);
-        Add(&s.d, share->weight, pose.A.d);
-        Add(&s.du, share->slope.x, pose.A.d);
-        Add(&s.dv, share->slope.y, pose.A.d);
+        AddVector(&s.u, share->move.x, pose.x);
+        AddVector(&s.u, share->u.x, pose.A.u);
+        AddVector(&s.u, share->v.x, pose.A.v);
+        AddVector(&s.v, share->move.y, pose.x);
+        AddVector(&s.v, share->u.y, pose.A.u);
+        AddVector(&s.v, share->v.y, pose.A.v);
+        AddVector(&s.d, share->weight, pose.A.d);
+        AddVector(&s.du, share->slope.x, pose.A.d);
+        AddVector(&s.dv, share->slope.y, pose.A.d);
     }
     return s;
 }
 
-static void StrainsOf(const Shape* s, double lean, double strain[KIRI_AREA_STRAINS])
+static void StrainsOf(const SurfaceState* s, double lean, double strain[KIRI_AREA_STRAINS])
 {
     double uu = kiriVec3_Dot(s->u, s->u), vv = kiriVec3_Dot(s->v, s->v);
     double leanU = kiriVec3_Dot(s->u, s->d), leanV = kiriVec3_Dot(s->v, s->d);
@@ -48,13 +48,13 @@ static void StrainsOf(const Shape* s, double lean, double strain[KIRI_AREA_STRAI
 }
 
 /* The derivative of each strain by the shape. */
-static void SlopesOf(const Shape* s, double lean, Shape slope[KIRI_AREA_STRAINS])
+static void SlopesOf(const SurfaceState* s, double lean, SurfaceState slope[KIRI_AREA_STRAINS])
 {
     kiriVec3 zero = { 0.0, 0.0, 0.0 }, minusV = kiriVec3_Scale(-1.0, s->v), minusDv = kiriVec3_Scale(-1.0, s->dv);
     double leanU = lean * kiriVec3_Dot(s->u, s->d), leanV = lean * kiriVec3_Dot(s->v, s->d);
     kiriVec3 u = kiriVec3_AddScaled(s->u, leanU, s->d), v = kiriVec3_AddScaled(s->v, leanV, s->d);
     kiriVec3 byU = kiriVec3_Scale(leanU, s->u), byV = kiriVec3_Scale(leanV, s->v);
-    const Shape slopes[KIRI_AREA_STRAINS] = {
+    const SurfaceState slopes[KIRI_AREA_STRAINS] = {
         { u, v, zero, zero, kiriVec3_Add(byU, byV) },
         { u, kiriVec3_Scale(-1.0, v), zero, zero, kiriVec3_Sub(byU, byV) },
         { v, u, zero, zero, kiriVec3_AddScaled(kiriVec3_Scale(leanU, s->v), leanV, s->u) },
@@ -70,23 +70,23 @@ static void SlopesOf(const Shape* s, double lean, Shape slope[KIRI_AREA_STRAINS]
     }
 }
 
-static kiriVec3 Along(const Shape* slope, kiriVec2 a)
+static kiriVec3 AlongColumns(const SurfaceState* slope, kiriVec2 a)
 {
     return kiriVec3_AddScaled(kiriVec3_Scale(a.x, slope->u), a.y, slope->v);
 }
 
-static kiriFrameRow RowOf(const Shape* slope, const kiriFrameShare* share)
+static kiriFrameRow FrameRowOf(const SurfaceState* slope, const kiriFrameShare* share)
 {
     kiriVec3 bend = kiriVec3_AddScaled(kiriVec3_Scale(share->slope.x, slope->du), share->slope.y, slope->dv);
-    kiriFrameRow row = { { Along(slope, share->move), Along(slope, share->u), Along(slope, share->v),
-                           kiriVec3_AddScaled(bend, share->weight, slope->d) } };
+    kiriFrameRow row = { { AlongColumns(slope, share->move), AlongColumns(slope, share->u),
+                           AlongColumns(slope, share->v), kiriVec3_AddScaled(bend, share->weight, slope->d) } };
     return row;
 }
 
 void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShare* shares, const kiriFrameData* frames,
                              const kiriPose* poses, double* strain, kiriFrameRow* rows)
 {
-    Shape shape = ShapeOf(element, shares, frames, poses), slope[KIRI_AREA_STRAINS];
+    SurfaceState shape = SurfaceStateOf(element, shares, frames, poses), slope[KIRI_AREA_STRAINS];
     double all[KIRI_AREA_STRAINS];
     StrainsOf(&shape, element->lean, all);
     for (int e = element->firstRow; e < element->lastRow; ++e) {
@@ -96,7 +96,7 @@ void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShar
         SlopesOf(&shape, element->lean, slope);
         for (int e = element->firstRow; e < element->lastRow; ++e) {
             for (int32_t k = 0; k < element->count; ++k) {
-                *rows++ = RowOf(&slope[e], &shares[element->first + k]);
+                *rows++ = FrameRowOf(&slope[e], &shares[element->first + k]);
             }
         }
     }

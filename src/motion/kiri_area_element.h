@@ -1,10 +1,14 @@
-/* Elements of material that several affine frames deform together: the strains at a point of the mid-surface, to which
-   the models of affine.h and point.h bring their own deformation gradients. */
+/* Area elements: pieces of the mid-surface that several affine frames deform together. Their strains are those at a
+   point; kiri_affine.h and kiri_integration.h make them, each with its own deformation gradient. */
 #ifndef KIRI_AREA_ELEMENT_H
 #define KIRI_AREA_ELEMENT_H
 
 #include "kiri_prediction.h"
 #include "../field/kiri_link.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* With F = [F_u F_v] the deformation gradient of the mid-surface, D the director, D_u and D_v its slopes; Green
    strains, plane stress. Every energy is 1/2 stiffness strain^2; G = E / (2 (1 + nu)), K = E / (2 (1 - nu)), a the area. With a
@@ -32,7 +36,7 @@ enum {
     KIRI_AREA_STRAINS
 };
 
-/* What one frame brings to a element. */
+/* What one frame adds to the deformation gradient of an element. */
 typedef struct kiriFrameShare {
     int32_t frame;
     kiriVec2 move, u, v; /* F = sum of x (x) move + A_u (x) u + A_v (x) v */
@@ -57,10 +61,14 @@ typedef struct kiriFrameRow {
     kiriVec3 by[4];
 } kiriFrameRow;
 
-/* The element's strains from firstRow to lastRow and, unless `rows` is null, their derivatives: `count` a strain. Poses
+/* The strains of an element from firstRow to lastRow and, unless `rows` is null, their derivatives: `count` a strain. Poses
    are those of all frames; null: as the frames are. */
 void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShare* shares, const kiriFrameData* frames,
                              const kiriPose* poses, double* strain, kiriFrameRow* rows);
 void kiriAreaElement_Stiffness(const kiriAreaElement* element, const kiriMaterial* material, double* stiffness);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

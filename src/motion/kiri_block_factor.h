@@ -1,7 +1,7 @@
 /* A symmetric positive definite matrix of square blocks, one row and column of blocks a frame, and its factorisation.
    Nothing is allocated but by Shape, and nothing is thrown across this header. */
-#ifndef KIRI_MATRIX_H
-#define KIRI_MATRIX_H
+#ifndef KIRI_BLOCK_FACTOR_H
+#define KIRI_BLOCK_FACTOR_H
 
 #include "../core/kiri_base.h"
 

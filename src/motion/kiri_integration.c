@@ -1,6 +1,6 @@
 #include "kiri_integration.h"
 
-typedef struct Builder {
+typedef struct PointBuilder {
     kiriMemory* memory;
     const kiriGrid* grid;
     const kiriMeshData* mesh;
@@ -11,15 +11,15 @@ typedef struct Builder {
     double perArea; /* points, 1/m^2 */
     int32_t order;
     int32_t lastRow;
-} Builder;
+} PointBuilder;
 
-static const kiriMoments none = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const kiriMoments NoMaterial = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* ---- Elements ---------------------------------------------------------------------------------------------------- */
 
 /* Linear-blend skinning, x(p) = sum of w_i(p) (x_i + A_i (p - c_i)), at a place `off` the point, with the weights
    linear around it. */
-static bool AddAreaElement(Builder* b, kiriVec2 point, kiriVec2 off, double area)
+static bool AddAreaElement(PointBuilder* b, kiriVec2 point, kiriVec2 off, double area)
 {
     const kiriPointWeights* weights = &b->work->weights;
     kiriAreaElement element = { area, 0.0, b->elements->shares.count, weights->count, 0, b->lastRow };
@@ -44,7 +44,7 @@ static bool AddAreaElement(Builder* b, kiriVec2 point, kiriVec2 off, double area
 
 /* Two pairs of places on either side of the point, that together have the region's second moments: the columns of
    their Cholesky factor. */
-static bool AddFour(Builder* b, kiriVec2 point, const kiriMoments* material)
+static bool AddFour(PointBuilder* b, kiriVec2 point, const kiriMoments* material)
 {
     kiriMoments about = kiriMoments_About(material, point);
     double perArea = 2.0 / about.area, u = sqrt(perArea * about.uu), v = u > 0.0 ? perArea * about.uv / u : 0.0;
@@ -59,7 +59,7 @@ static bool AddFour(Builder* b, kiriVec2 point, const kiriMoments* material)
     return ok;
 }
 
-static bool AddPoint(Builder* b, const kiriSite* point, const kiriMoments* material)
+static bool AddIntegrationPoint(PointBuilder* b, const kiriSite* point, const kiriMoments* material)
 {
     const kiriVec2 here = { 0.0, 0.0 };
     return kiriShape_At(b->shape, b->memory, b->grid, b->mesh, point->cell, point->at, &b->work->weights) &&
@@ -68,16 +68,16 @@ static bool AddPoint(Builder* b, const kiriSite* point, const kiriMoments* mater
 
 /* ---- Points of a piece ------------------------------------------------------------------------------------------ */
 
-static kiriMoments MaterialOfPiece(const Builder* b)
+static kiriMoments MaterialOfPiece(const PointBuilder* b)
 {
-    kiriMoments sum = none;
+    kiriMoments sum = NoMaterial;
     for (int32_t k = 0; k < b->work->placer.cells.count; ++k) {
         kiriMoments_Add(&sum, &b->grid->cells.data[b->work->placer.cells.data[k]].material);
     }
     return sum;
 }
 
-static bool PlacePoints(Builder* b, double area)
+static bool PlaceIntegrationPoints(PointBuilder* b, double area)
 {
     kiriPlacer* placer = &b->work->placer;
     kiriQuota endless = { INT64_MAX, 0 };
@@ -88,7 +88,7 @@ static bool PlacePoints(Builder* b, double area)
            kiriPlacer_Run(placer, b->memory, b->grid, b->mesh, &endless) == KIRI_DONE;
 }
 
-static bool FloodFromPoints(Builder* b)
+static bool FloodFromPoints(PointBuilder* b)
 {
     kiriIntegrationWork* work = b->work;
     const kiriSites* points = &work->placer.sites;
@@ -107,7 +107,7 @@ static bool FloodFromPoints(Builder* b)
 }
 
 /* The regions of points, as placing defines them: a point's own cell is its own. */
-static bool DividePiece(Builder* b)
+static bool DividePiece(PointBuilder* b)
 {
     kiriIntegrationWork* work = b->work;
     const kiriSites* points = &work->placer.sites;
@@ -116,7 +116,7 @@ static bool DividePiece(Builder* b)
     }
     for (int32_t i = 0; i < points->count; ++i) {
         work->field.owner.data[points->data[i].cell] = i;
-        work->material.data[i] = none;
+        work->material.data[i] = NoMaterial;
     }
     for (int32_t k = 0; k < work->placer.cells.count; ++k) {
         int32_t cell = work->placer.cells.data[k];
@@ -125,7 +125,7 @@ static bool DividePiece(Builder* b)
     return true;
 }
 
-static bool AddPiece(Builder* b, int32_t cell)
+static bool AddPiecePoints(PointBuilder* b, int32_t cell)
 {
     kiriIntegrationWork* work = b->work;
     if (!kiriPlacer_TakePiece(&work->placer, b->memory, b->grid, cell)) {
@@ -136,20 +136,20 @@ static bool AddPiece(Builder* b, int32_t cell)
     }
     kiriMoments material = MaterialOfPiece(b);
     const kiriSites* points = &work->placer.sites;
-    bool ok = PlacePoints(b, material.area);
+    bool ok = PlaceIntegrationPoints(b, material.area);
     if (ok && points->count == 1) { /* without a flood: confetti comes in thousands */
-        return AddPoint(b, &points->data[0], &material);
+        return AddIntegrationPoint(b, &points->data[0], &material);
     }
     ok = ok && DividePiece(b);
     for (int32_t i = 0; ok && i < points->count; ++i) {
-        ok = AddPoint(b, &points->data[i], &work->material.data[i]);
+        ok = AddIntegrationPoint(b, &points->data[i], &work->material.data[i]);
     }
     return ok;
 }
 
 /* ---- All ------------------------------------------------------------------------------------------------------ */
 
-static bool ClearSeen(Builder* b)
+static bool ClearSeen(PointBuilder* b)
 {
     if (!kiriArray_Resize(b->memory, &b->work->seen, b->grid->cells.count)) {
         return false;
@@ -176,14 +176,14 @@ bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work
                            const kiriGrid* grid, const kiriMeshData* mesh, const kiriShape* shape,
                            const kiriMoments* material, double count, int32_t order, bool planar)
 {
-    Builder b = { memory, grid, mesh, shape, material, work, elements, 0.0, order, KIRI_AREA_STRAINS };
+    PointBuilder b = { memory, grid, mesh, shape, material, work, elements, 0.0, order, KIRI_AREA_STRAINS };
     b.perArea = count / TotalArea(grid);
     b.lastRow = planar ? KIRI_AREA_SHEAR + 1 : KIRI_AREA_STRAINS;
     elements->elements.count = elements->shares.count = 0;
     bool ok = ClearSeen(&b);
     for (int32_t s = 0; ok && s < grid->squareCell.count; ++s) {
         for (int32_t c = grid->squareCell.data[s]; ok && c != KIRI_NONE; c = grid->cells.data[c].next) {
-            ok = work->seen.data[c] || AddPiece(&b, c);
+            ok = work->seen.data[c] || AddPiecePoints(&b, c);
         }
     }
     return ok;

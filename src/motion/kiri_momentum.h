@@ -4,11 +4,11 @@
 #ifndef KIRI_MOMENTUM_H
 #define KIRI_MOMENTUM_H
 
+#include "kiri_prediction.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-#include "kiri_prediction.h"
 
 /* Of one piece, about its centre of mass; sums while they are gathered. */
 typedef struct kiriPieceMomentum {

@@ -3,11 +3,11 @@
 #ifndef KIRI_PREDICTION_H
 #define KIRI_PREDICTION_H
 
+#include "kiri_frame.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-#include "kiri_frame.h"
 
 typedef struct kiriPose {
     kiriVec3 x;
