@@ -1226,6 +1226,7 @@ static void TestStagingPoorly(void** state)
         assert_memory_equal(scene.frames, twin.frames, 20 * sizeof(kiriFrameData));
     }
     assert_true(refused >= 3); /* what it got, it keeps for the next call */
+    kiriMemory_FreeAll(&memory);
     Drop2();
 }
 

@@ -131,7 +131,9 @@ static bool KeepPairs(kiriSolver* solver, int32_t frameCount)
     if (!kiriArray_Resize(solver->memory, &solver->pairs, (int64_t)own + old)) {
         return false;
     }
-    kiriMatrix_GetPairs(solver->matrix, solver->pairs.data + own);
+    if (old > 0) {
+        kiriMatrix_GetPairs(solver->matrix, &solver->pairs.data[own]);
+    }
     return true;
 }
 
