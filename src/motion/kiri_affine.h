@@ -41,7 +41,7 @@ void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, do
    mid-surface; a planar sheet has none.
 
    Frames that lean all one way, in steps, make a free end longer: its F_i takes only a part of its slope from the
-   border, a quarter at least. Under tension that would lay the sheet in steps (see strain.h). Leaning, d_i . F_i,
+   border, a quarter at least. Under tension that would lay the sheet in steps (see kiri_strain.h). Leaning, d_i . F_i,
    therefore counts four times in the membrane strains; it vanishes where frames follow the sheet. */
 bool kiriAffine_Build(kiriAreaElements* elements, kiriMemory* memory, const kiriLink* links, int32_t linkCount,
                       const kiriMoments* material, int32_t frameCount, bool planar);
