@@ -1,4 +1,4 @@
-/* A sheet with frames for the tests of the mechanical models: regions and patches from the grid, moved by the
+/* A sheet with frames for the tests of the mechanical models: regions and area elements from the grid, moved by the
    solver. */
 #ifndef KIRI_TEST_BODY_H
 #define KIRI_TEST_BODY_H
@@ -7,6 +7,7 @@
 #include "motion/kiri_integration.h"
 #include "scene.h"
 #include "motion/kiri_solver.h"
+#include "pieces.h"
 
 enum { BODY_FRAMES = 64 };
 
@@ -18,7 +19,7 @@ typedef struct Body {
     kiriLinks links;
     KIRI_ARRAY(kiriMoments) material; /* of each region */
     kiriIntegrationWork points;
-    kiriPatches patches;
+    kiriAreaElements elements;
     kiriFrameData frames[BODY_FRAMES];
     kiriPinRow pins[4];
     kiriContactRow contacts[4];
@@ -103,8 +104,10 @@ static inline void Body_MakeSolver(Body* body)
 {
     body->solver = kiriSolver_Create(&body->scene.memory, &body->system.mechanics);
     assert_non_null(body->solver);
+    int32_t framePiece[BODY_FRAMES];
+    int32_t pieceCount = FindPieces(body->system.links, body->system.linkCount, body->system.frameCount, framePiece);
     assert_true(kiriSolver_Stage(body->solver, body->system.frameCount, body->system.links, body->system.linkCount,
-                                 &body->patches));
+                                 &body->elements, framePiece, pieceCount));
     kiriSolver_Commit(body->solver);
 }
 
@@ -142,10 +145,10 @@ static inline void Body_End(Body* body, const BodyDef* def)
     Body_Divide(body);
     bool built = true;
     if (def->model == KIRI_MODEL_AFFINE) {
-        built = kiriAffine_Build(&body->patches, &s->memory, body->links.links.data, body->links.links.count,
+        built = kiriAffine_Build(&body->elements, &s->memory, body->links.links.data, body->links.links.count,
                                  body->material.data, body->sites.count, def->planar != 0);
     } else if (def->model == KIRI_MODEL_POINTS) {
-        built = kiriIntegration_Build(&body->patches, &body->points, &s->memory, &s->grid, &s->mesh, &body->shape,
+        built = kiriIntegration_Build(&body->elements, &body->points, &s->memory, &s->grid, &s->mesh, &body->shape,
                                       body->material.data, def->points, def->order, def->planar != 0);
     }
     assert_true(built);
@@ -156,7 +159,7 @@ static inline void Body_End(Body* body, const BodyDef* def)
     body->system.frameCount = body->sites.count;
     body->system.links = body->links.links.data;
     body->system.linkCount = body->links.links.count;
-    body->system.patches = &body->patches;
+    body->system.areaElements = &body->elements;
     body->system.pins = body->pins;
     body->system.contacts = body->contacts;
     Body_MakeSolver(body);

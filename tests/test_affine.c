@@ -46,7 +46,7 @@ static kiriVec3* ColumnOf(kiriPose* pose, int column)
     return columns[column];
 }
 
-static double Slope(const kiriAffineRow* row, int column, kiriVec3 way)
+static double Slope(const kiriFrameRow* row, int column, kiriVec3 way)
 {
     return kiriVec3_Dot(row->by[column], way);
 }
@@ -56,7 +56,7 @@ static void CheckLink(const Body* b, const kiriLink* link, uint32_t* seed, int* 
     const kiriFrameData* const frames[2] = { &b->frames[link->i], &b->frames[link->j] };
     const double eps = 1e-6;
     double strain[KIRI_AFFINE_STRAINS], ahead[KIRI_AFFINE_STRAINS], behind[KIRI_AFFINE_STRAINS];
-    kiriAffineRow rows[KIRI_AFFINE_STRAINS][2];
+    kiriFrameRow rows[KIRI_AFFINE_STRAINS][2];
     for (int n = 0; n < 8; ++n) {
         kiriPose poses[2] = { kiriPose_Of(frames[0]), kiriPose_Of(frames[1]) };
         const kiriPose* const ends[2] = { &poses[0], &poses[1] };
@@ -90,30 +90,30 @@ static void TestLinkDerivatives(void** state)
     assert_true(stopped > 20);
 }
 
-static void CheckPatch(const Body* b, const kiriPatch* patch, kiriPose* poses, uint32_t* seed)
+static void CheckAreaElement(const Body* b, const kiriAreaElement* element, kiriPose* poses, uint32_t* seed)
 {
     const double eps = 1e-6;
-    const kiriShare* shares = b->patches.shares.data;
-    double strain[KIRI_PATCH_STRAINS], ahead[KIRI_PATCH_STRAINS], behind[KIRI_PATCH_STRAINS];
-    kiriAffineRow rows[KIRI_PATCH_STRAINS * BODY_FRAMES];
-    kiriPatch_Measure(patch, shares, b->frames, NULL, strain, rows);
-    for (int n = 0; n < 4 * patch->count; ++n) {
+    const kiriFrameShare* shares = b->elements.shares.data;
+    double strain[KIRI_AREA_STRAINS], ahead[KIRI_AREA_STRAINS], behind[KIRI_AREA_STRAINS];
+    kiriFrameRow rows[KIRI_AREA_STRAINS * BODY_FRAMES];
+    kiriAreaElement_Measure(element, shares, b->frames, NULL, strain, rows);
+    for (int n = 0; n < 4 * element->count; ++n) {
         kiriVec3 way = RandomVec3(seed, 1.0);
-        kiriVec3 *column = ColumnOf(&poses[shares[patch->first + n / 4].frame], n % 4), at = *column;
+        kiriVec3 *column = ColumnOf(&poses[shares[element->first + n / 4].frame], n % 4), at = *column;
         double size = n % 4 == 0 ? 0.01 * eps : eps;
         *column = kiriVec3_AddScaled(at, size, way);
-        kiriPatch_Measure(patch, shares, b->frames, poses, ahead, NULL);
+        kiriAreaElement_Measure(element, shares, b->frames, poses, ahead, NULL);
         *column = kiriVec3_AddScaled(at, -size, way);
-        kiriPatch_Measure(patch, shares, b->frames, poses, behind, NULL);
+        kiriAreaElement_Measure(element, shares, b->frames, poses, behind, NULL);
         *column = at;
-        for (int e = 0; e < patch->lastRow - patch->firstRow; ++e) {
-            double slope = Slope(&rows[e * patch->count + n / 4], n % 4, way);
+        for (int e = 0; e < element->lastRow - element->firstRow; ++e) {
+            double slope = Slope(&rows[e * element->count + n / 4], n % 4, way);
             AssertNear((ahead[e] - behind[e]) / (2.0 * size), slope, 1e-5 * (1.0 + fabs(slope)));
         }
     }
 }
 
-static void TestPatchDerivatives(void** state)
+static void TestAreaElementDerivatives(void** state)
 {
     uint32_t seed = 5;
     kiriPose poses[BODY_FRAMES];
@@ -125,8 +125,8 @@ static void TestPatchDerivatives(void** state)
         for (int32_t f = 0; f < body.system.frameCount; ++f) {
             poses[f] = kiriPose_Of(&body.frames[f]);
         }
-        for (int32_t k = 0; k < body.patches.patches.count; ++k) {
-            CheckPatch(&body, &body.patches.patches.data[k], poses, &seed);
+        for (int32_t k = 0; k < body.elements.elements.count; ++k) {
+            CheckAreaElement(&body, &body.elements.elements.data[k], poses, &seed);
         }
         Body_Drop(&body);
     }
@@ -172,21 +172,21 @@ static void FindInner(const Body* b, bool* inner)
     }
 }
 
-/* Forces on the frames, from the patches: links have none, and must. */
-static void SumForces(const Body* b, kiriAffineRow* forces)
+/* Forces on the frames, from the elements: links have none, and must. */
+static void SumForces(const Body* b, kiriFrameRow* forces)
 {
     memset(forces, 0, sizeof(*forces) * BODY_FRAMES);
-    for (int32_t n = 0; n < b->patches.patches.count; ++n) {
-        const kiriPatch* patch = &b->patches.patches.data[n];
-        double strain[KIRI_PATCH_STRAINS], stiffness[KIRI_PATCH_STRAINS];
-        kiriAffineRow rows[KIRI_PATCH_STRAINS * BODY_FRAMES];
-        kiriPatch_Measure(patch, b->patches.shares.data, b->frames, NULL, strain, rows);
-        kiriPatch_Stiffness(patch, &b->system.material, stiffness);
-        for (int e = 0; e < patch->lastRow - patch->firstRow; ++e) {
-            for (int k = 0; k < 4 * patch->count; ++k) {
-                int32_t frame = b->patches.shares.data[patch->first + k / 4].frame;
+    for (int32_t n = 0; n < b->elements.elements.count; ++n) {
+        const kiriAreaElement* element = &b->elements.elements.data[n];
+        double strain[KIRI_AREA_STRAINS], stiffness[KIRI_AREA_STRAINS];
+        kiriFrameRow rows[KIRI_AREA_STRAINS * BODY_FRAMES];
+        kiriAreaElement_Measure(element, b->elements.shares.data, b->frames, NULL, strain, rows);
+        kiriAreaElement_Stiffness(element, &b->system.material, stiffness);
+        for (int e = 0; e < element->lastRow - element->firstRow; ++e) {
+            for (int k = 0; k < 4 * element->count; ++k) {
+                int32_t frame = b->elements.shares.data[element->first + k / 4].frame;
                 kiriVec3* sum = &forces[frame].by[k % 4];
-                *sum = kiriVec3_AddScaled(*sum, stiffness[e] * strain[e], rows[e * patch->count + k / 4].by[k % 4]);
+                *sum = kiriVec3_AddScaled(*sum, stiffness[e] * strain[e], rows[e * element->count + k / 4].by[k % 4]);
             }
         }
     }
@@ -200,7 +200,7 @@ static void TestEvenStretch(void** state)
     for (int trial = 0; trial < 30; ++trial) {
         BodyDef def = DefOf(0.2, 0.2, KIRI_MODEL_AFFINE, trial % 2, Rubber);
         bool inner[BODY_FRAMES];
-        kiriAffineRow forces[BODY_FRAMES];
+        kiriFrameRow forces[BODY_FRAMES];
         Make(&body, &def, 6, 6, 0.45, 100u + (uint32_t)trial);
         kiriMat3 F = EvenStretch(&seed);
         Body_Deform(&body, &F, RandomVec3(&seed, 1.0));
@@ -615,7 +615,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestLinkDerivatives),
-        cmocka_unit_test(TestPatchDerivatives),
+        cmocka_unit_test(TestAreaElementDerivatives),
         cmocka_unit_test(TestEvenStretch),
         cmocka_unit_test(TestRigidMotionCostsNothing),
         cmocka_unit_test(TestFreeFall),

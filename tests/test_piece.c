@@ -367,8 +367,8 @@ static Before Remember(Host* host, kiriSheet sheet)
     COPY(data->regions.onBorder);
     COPY(data->shape.spans);
     COPY(data->shape.weights);
-    COPY(data->layout.patches.patches);
-    COPY(data->layout.patches.shares);
+    COPY(data->layout.areaElements.elements);
+    COPY(data->layout.areaElements.shares);
     COPY(data->layout.pinFrame);
     COPY(data->layout.framePiece);
     COPY(data->seen.surface.positions);
@@ -396,8 +396,8 @@ static void Forget(Before* before)
                        data->regions.onBorder.data,
                        data->shape.spans.data,
                        data->shape.weights.data,
-                       data->layout.patches.patches.data,
-                       data->layout.patches.shares.data,
+                       data->layout.areaElements.elements.data,
+                       data->layout.areaElements.shares.data,
                        data->layout.pinFrame.data,
                        data->layout.framePiece.data,
                        data->seen.surface.positions.data,
@@ -561,22 +561,22 @@ static void CheckLinks(const kiriSheetData* was, const kiriSheetData* is, const 
     }
     assert_int_equal(n, is->links.links.count);
     n = 0;
-    for (int32_t k = 0; k < was->layout.patches.patches.count; ++k) {
-        const kiriPatch* patch = &was->layout.patches.patches.data[k];
-        const kiriShare* share = &was->layout.patches.shares.data[patch->first];
+    for (int32_t k = 0; k < was->layout.areaElements.elements.count; ++k) {
+        const kiriAreaElement* patch = &was->layout.areaElements.elements.data[k];
+        const kiriFrameShare* share = &was->layout.areaElements.shares.data[patch->first];
         if (maps->frameTo[share->frame] == KIRI_NONE) {
             continue;
         }
-        const kiriPatch* other = &is->layout.patches.patches.data[n++];
+        const kiriAreaElement* other = &is->layout.areaElements.elements.data[n++];
         assert_true(patch->area == other->area && patch->lean == other->lean);
         assert_int_equal(patch->count, other->count);
         for (int32_t m = 0; m < patch->count; ++m) {
-            kiriShare x = share[m], y = is->layout.patches.shares.data[other->first + m];
+            kiriFrameShare x = share[m], y = is->layout.areaElements.shares.data[other->first + m];
             assert_int_equal(maps->frameTo[x.frame], y.frame);
             assert_true(x.weight == y.weight && x.slope.x == y.slope.x && x.move.y == y.move.y && x.u.x == y.u.x);
         }
     }
-    assert_int_equal(n, is->layout.patches.patches.count);
+    assert_int_equal(n, is->layout.areaElements.elements.count);
 }
 
 static void CheckFrames(Host* host, kiriSheet sheet, const kiriSheetData* was, const kiriSheetData* is,
@@ -1121,8 +1121,8 @@ static void TestConfettiHasAll(void** state)
             CheckPieces(&host, sheet); /* frames and collision points */
             const kiriLayout* layout = &DataOf(&host, sheet)->layout;
             uint8_t* has = calloc((size_t)layout->pieces.count, 1);
-            for (int32_t k = 0; k < layout->patches.patches.count; ++k) {
-                int32_t frame = layout->patches.shares.data[layout->patches.patches.data[k].first].frame;
+            for (int32_t k = 0; k < layout->areaElements.elements.count; ++k) {
+                int32_t frame = layout->areaElements.shares.data[layout->areaElements.elements.data[k].first].frame;
                 has[layout->framePiece.data[frame]] = 1;
             }
             for (int32_t p = 0; p < layout->pieces.count; ++p) {

@@ -23,14 +23,14 @@ static void Make(Body* b, const BodyDef* def, int nu, int nv, double jitter, uin
     Body_End(b, def);
 }
 
-/* Where a patch lies: linear-blend skinning of the rest shape is the identity, so F is too, and this gives its
+/* Where a element lies: linear-blend skinning of the rest shape is the identity, so F is too, and this gives its
    place. */
-static kiriVec2 PlaceOf(const Body* b, const kiriPatch* patch)
+static kiriVec2 PlaceOf(const Body* b, const kiriAreaElement* element)
 {
     /* u is the sum of (arm slope + weight e_u), arm from the frame's centre: solve for the arm of any frame with a
        slope */
-    const kiriShare* shares = &b->patches.shares.data[patch->first];
-    for (int32_t k = 0; k < patch->count; ++k) {
+    const kiriFrameShare* shares = &b->elements.shares.data[element->first];
+    for (int32_t k = 0; k < element->count; ++k) {
         if (kiriVec2_Length(shares[k].slope) > 1.0) {
             double slope = kiriVec2_Dot(shares[k].slope, shares[k].slope);
             kiriVec2 u = kiriVec2_Sub(shares[k].u, kiriVec2_Make(shares[k].weight, 0.0));
@@ -51,14 +51,14 @@ static void TestMoments(void** state)
         BodyDef def = DefOf(0.2, 0.1, 30, order, Rubber);
         double area = 0.0, uu = 0.0, vv = 0.0, uv = 0.0;
         Make(&body, &def, 4, 2, 0.2, 3);
-        assert_true(body.patches.patches.count >= 25 * (order == 1 ? 1 : 4));
-        for (int32_t k = 0; k < body.patches.patches.count; ++k) {
-            const kiriPatch* patch = &body.patches.patches.data[k];
-            kiriVec2 at = kiriVec2_Sub(PlaceOf(&body, patch), kiriVec2_Make(0.1, 0.05));
-            area += patch->area;
-            uu += patch->area * at.x * at.x;
-            uv += patch->area * at.x * at.y;
-            vv += patch->area * at.y * at.y;
+        assert_true(body.elements.elements.count >= 25 * (order == 1 ? 1 : 4));
+        for (int32_t k = 0; k < body.elements.elements.count; ++k) {
+            const kiriAreaElement* element = &body.elements.elements.data[k];
+            kiriVec2 at = kiriVec2_Sub(PlaceOf(&body, element), kiriVec2_Make(0.1, 0.05));
+            area += element->area;
+            uu += element->area * at.x * at.x;
+            uv += element->area * at.x * at.y;
+            vv += element->area * at.y * at.y;
         }
         AssertNear(area / 0.02, 1.0, 1e-6);
         /* points lie at middles of cells, not at centroids: the first moments that order 2 leaves out */
@@ -88,17 +88,17 @@ static void TestPieces(void** state)
     int32_t* piece;
     assert_int_equal(Scene_Pieces(&body.scene, &piece), 3);
     free(piece);
-    for (int32_t k = 0; k < body.patches.shares.count; ++k) {
-        reached[body.patches.shares.data[k].frame] = true;
+    for (int32_t k = 0; k < body.elements.shares.count; ++k) {
+        reached[body.elements.shares.data[k].frame] = true;
     }
     assert_true(reached[0] && reached[1] && reached[2]);
     Body_Drop(&body);
 }
 
-static bool Rebuild(kiriPatches* patches, kiriIntegrationWork* work, const BodyDef* def)
+static bool Rebuild(kiriAreaElements* elements, kiriIntegrationWork* work, const BodyDef* def)
 {
     Scene* s = &body.scene;
-    return kiriIntegration_Build(patches, work, &s->memory, &s->grid, &s->mesh, &body.shape, body.material.data,
+    return kiriIntegration_Build(elements, work, &s->memory, &s->grid, &s->mesh, &body.shape, body.material.data,
                                  def->points, def->order, false);
 }
 
@@ -108,29 +108,29 @@ static void TestBuildingAgain(void** state)
     (void)state;
     for (int order = 1; order <= 2; ++order) {
         BodyDef def = DefOf(0.2, 0.1, 40, order, Rubber);
-        kiriPatches patches = { { 0 }, { 0 } };
+        kiriAreaElements elements = { { 0 }, { 0 } };
         kiriIntegrationWork work;
         int64_t fewest = 0;
         memset(&work, 0, sizeof(work));
         Make(&body, &def, 5, 3, 0.2, 6);
-        kiriPatches first = body.patches;
-        memset(&body.patches, 0, sizeof(body.patches));
+        kiriAreaElements first = body.elements;
+        memset(&body.elements, 0, sizeof(body.elements));
         for (bool built = false; !built; ++fewest) {
             memset(&work, 0, sizeof(work));
             body.scene.purse.budget = fewest;
-            built = Rebuild(&patches, &work, &def);
+            built = Rebuild(&elements, &work, &def);
             assert_true(fewest < 1000);
         }
         assert_true(fewest > 10);
         body.scene.purse.budget = -1;
-        assert_true(Rebuild(&patches, &work, &def));
-        assert_int_equal(patches.patches.count, first.patches.count);
-        assert_int_equal(patches.shares.count, first.shares.count);
-        for (int32_t k = 0; k < patches.patches.count; ++k) {
-            assert_true(patches.patches.data[k].area == first.patches.data[k].area);
+        assert_true(Rebuild(&elements, &work, &def));
+        assert_int_equal(elements.elements.count, first.elements.count);
+        assert_int_equal(elements.shares.count, first.shares.count);
+        for (int32_t k = 0; k < elements.elements.count; ++k) {
+            assert_true(elements.elements.data[k].area == first.elements.data[k].area);
         }
-        for (int32_t k = 0; k < patches.shares.count; ++k) {
-            const kiriShare *a = &patches.shares.data[k], *b = &first.shares.data[k];
+        for (int32_t k = 0; k < elements.shares.count; ++k) {
+            const kiriFrameShare *a = &elements.shares.data[k], *b = &first.shares.data[k];
             assert_true(a->frame == b->frame && a->weight == b->weight);
             assert_true(a->slope.x == b->slope.x && a->slope.y == b->slope.y && a->u.x == b->u.x && a->v.y == b->v.y);
         }

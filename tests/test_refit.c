@@ -1,11 +1,13 @@
 /* A cut that takes effect changes how the sheet is divided, and not how it moves. */
 #include "probe.h"
 
+#include "motion/kiri_element.h"
 #include "sheet/kiri_pipeline.h"
 #include "sheet/kiri_stages.h"
 #include "sheet/kiri_seen.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 static void Probe_Start(Probe* probe)
 {
@@ -100,9 +102,103 @@ static void FlyAndCut(Probe* probe, const Case* c, void record(Probe* probe), ui
     }
 }
 
+/* ---- Owners ---- */
+
+typedef struct Purse {
+    int32_t left;
+} Purse;
+
+static void* PurseAlloc(void* user, int64_t bytes)
+{
+    Purse* purse = user;
+    return purse->left-- > 0 ? malloc((size_t)bytes) : NULL;
+}
+
+static void PurseFree(void* user, void* pointer)
+{
+    (void)user;
+    free(pointer);
+}
+
+/* Refused at any of its allocations, the list of dirty squares has all of them after the next attempt. */
+static void TestDirtyWithoutMemory(void** state)
+{
+    (void)state;
+    for (int32_t affordable = 0; affordable < 4; ++affordable) {
+        Purse purse = { affordable };
+        kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
+        kiriOwnership ownership;
+        kiriMeshData mesh;
+        int32_t dirty[] = { 2, 0 };
+        memset(&ownership, 0, sizeof(ownership));
+        memset(&mesh, 0, sizeof(mesh));
+        mesh.squares.columns = mesh.squares.rows = 2;
+        mesh.squares.dirty.data = dirty;
+        mesh.squares.dirty.count = 2;
+        assert_true(kiriOwnership_NoteDirty(&ownership, &memory, &mesh) == (affordable == 3));
+        purse.left = INT32_MAX;
+        assert_true(kiriOwnership_NoteDirty(&ownership, &memory, &mesh));
+        assert_int_equal(ownership.dirty.count, 2);
+        assert_int_equal(ownership.dirty.data[0], 2);
+        assert_int_equal(ownership.dirty.data[1], 0);
+        kiriMemory_FreeAll(&memory);
+    }
+}
+
+/* ---- Pieces ---- */
+
+enum { MOST_FRAMES = 64 };
+
+/* The pieces come from the links. Elements join no two of them; and they join all of each, but for frames that no
+   integration point reaches. */
+static void CheckPieces(Probe* probe)
+{
+    const kiriSheetData* sheet = DataOf(probe);
+    const int32_t* piece = sheet->layout.framePiece.data;
+    int32_t joined[MOST_FRAMES], members[MOST_FRAMES], count = 0;
+    kiriSystem system;
+    memset(&system, 0, sizeof(system));
+    system.mechanics = sheet->settings.mechanics;
+    system.frameCount = sheet->frames.count;
+    system.links = sheet->links.links.data;
+    system.linkCount = sheet->links.links.count;
+    system.areaElements = &sheet->layout.areaElements;
+    assert_true(sheet->frames.count <= MOST_FRAMES);
+    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+        joined[f] = f;
+    }
+    for (int32_t k = 0; k < kiriElement_Count(&system); ++k) {
+        int32_t memberCount = kiriElement_Members(&system, k, members);
+        for (int32_t m = 1; m < memberCount; ++m) {
+            int32_t from = joined[members[m]], to = joined[members[0]];
+            assert_int_equal(piece[members[m]], piece[members[0]]);
+            for (int32_t f = 0; f < sheet->frames.count; ++f) {
+                joined[f] = joined[f] == from ? to : joined[f];
+            }
+        }
+    }
+    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+        count += joined[f] == f;
+    }
+    assert_true(sheet->settings.mechanics.model == KIRI_MODEL_POINTS ? count >= sheet->layout.pieces.count
+                                                            : count == sheet->layout.pieces.count);
+}
+
+static void TestPiecesAreWhatElementsJoin(void** state)
+{
+    (void)state;
+    for (int32_t number = 0; number < 9; ++number) {
+        Probe probe;
+        Case c = { number % 3, number % 4 == 3, 12, 9, 0.0, 2.0 };
+        FlyAndCut(&probe, &c, CheckPieces, 5u + (uint32_t)number);
+        assert_true(probe.commits > 20 && Host_Counts(&probe.host, probe.sheet).pieces > 3);
+        Host_Stop(&probe.host);
+    }
+}
+
 /* ---- Momentum and energy ---- */
 
-static int32_t braked; /* commits in which angular momentum gave way to energy */
+static int32_t limited; /* commits in which angular momentum gave way to energy */
 
 /* Do the frames of the piece move as one rigid body? */
 static bool IsOneBody(const kiriSheetData* sheet, int32_t piece)
@@ -133,7 +229,7 @@ static void CheckTurned(Probe* probe)
         }
         assert_true(any);
         assert_true(probe->turned < 1e-3);
-        ++braked;
+        ++limited;
     }
 }
 
@@ -142,7 +238,7 @@ static void TestMomentumIsKept(void** state)
     (void)state;
     double momentum = 0.0, energy = -1.0;
     int32_t commits = 0;
-    braked = 0;
+    limited = 0;
     for (int32_t number = 0; number < 36; ++number) {
         Probe probe;
         uint32_t seed = 77u + (uint32_t)number;
@@ -156,9 +252,9 @@ static void TestMomentumIsKept(void** state)
         commits += probe.commits;
         Host_Stop(&probe.host);
     }
-    printf("%d commits: momentum jumps by up to %.1e, energy rises by up to %.1e; %d commits braked\n", commits,
-           momentum, energy, braked);
-    assert_true(commits > 2000 && braked < commits / 20);
+    printf("%d commits: momentum jumps by up to %.1e, energy rises by up to %.1e; %d commits limited\n", commits,
+           momentum, energy, limited);
+    assert_true(commits > 2000 && limited < commits / 20);
     assert_true(momentum < 1e-9 && energy < 1e-9);
 }
 
@@ -441,6 +537,8 @@ static void TestDefsThatAreNone(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestDirtyWithoutMemory),
+        cmocka_unit_test(TestPiecesAreWhatElementsJoin),
         cmocka_unit_test(TestMomentumIsKept),
         cmocka_unit_test(TestRigidMotionGoesOn),
         cmocka_unit_test(TestFarFramesKeepTheirState),

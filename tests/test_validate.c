@@ -133,7 +133,7 @@ static const char* CorruptMesh(kiriWorld* world, kiriSheetData* s, int way)
         return "births";
     case 12:
         triangles[mesh->triangles.count - 1].parent = mesh->triangles.count;
-        s->update->refit.triangleCount = mesh->triangles.count - 1;
+        s->update->refit.ownership.triangleCount = mesh->triangles.count - 1;
         return "is split from";
     default:
         return NULL;
@@ -376,11 +376,11 @@ static const char* CorruptRegions(kiriWorld* world, kiriSheetData* s, int way)
         s->frames.data[1].center.x += 1e-4;
         return "middle of its region";
     case 10:
-        s->update->refit.tenures.data[s->grid.cells.data[site].square].owner = 1;
+        s->update->refit.ownership.squares.data[s->grid.cells.data[site].square].owner = 1;
         return "handed over";
     case 11:
-        s->update->refit.owned
-            .data[s->update->refit.tenures.data[s->grid.cells.data[DividedCell(&s->grid)].square].parts.first]
+        s->update->refit.ownership.triangleOwners
+            .data[s->update->refit.ownership.squares.data[s->grid.cells.data[DividedCell(&s->grid)].square].parts.first]
             .owner ^= 1;
         return "handed over";
     default:
@@ -541,15 +541,15 @@ static const char* CorruptLayout(kiriWorld* world, kiriSheetData* s, int way)
 
 static const char* CorruptPatches(kiriWorld* world, kiriSheetData* s, int way)
 {
-    kiriPatches* patches = &s->layout.patches;
+    kiriAreaElements* patches = &s->layout.areaElements;
     (void)world;
-    assert_true(patches->patches.count > 1);
+    assert_true(patches->elements.count > 1);
     switch (way) {
     case 0:
-        patches->patches.data[1].first += 1;
+        patches->elements.data[1].first += 1;
         return "shares from";
     case 1:
-        patches->patches.data[0].area = 0.0;
+        patches->elements.data[0].area = 0.0;
         return "has area";
     case 2:
         patches->shares.count -= 1;

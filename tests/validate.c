@@ -184,15 +184,15 @@ static bool Check_PiecesOfMesh(Check* check, const kiriSheetData* sheet)
 
 static bool Check_Patches(Check* check, const kiriSheetData* sheet)
 {
-    const kiriPatches* patches = &sheet->layout.patches;
+    const kiriAreaElements* patches = &sheet->layout.areaElements;
     int32_t next = 0;
     check->part = "patches";
-    for (int32_t k = 0; k < patches->patches.count; ++k) {
-        const kiriPatch* patch = &patches->patches.data[k];
+    for (int32_t k = 0; k < patches->elements.count; ++k) {
+        const kiriAreaElement* patch = &patches->elements.data[k];
         REQUIRE(patch->first == next && patch->count >= 0, "patch %d has %d shares from %d, not %d", k, patch->count,
                 patch->first, next);
         REQUIRE(patch->area > 0.0 && patch->firstRow >= 0 && patch->firstRow < patch->lastRow &&
-                    patch->lastRow <= KIRI_PATCH_STRAINS,
+                    patch->lastRow <= KIRI_AREA_STRAINS,
                 "patch %d has area %g, strains %d to %d", k, patch->area, patch->firstRow, patch->lastRow);
         next += patch->count;
     }
@@ -321,7 +321,7 @@ static bool Check_Skins(Check* check, const kiriSheetData* sheet)
 static bool Check_Parents(Check* check, const kiriSheetData* sheet)
 {
     check->part = "mesh";
-    for (int32_t t = UpdateOf(sheet)->refit.triangleCount; t < sheet->mesh.triangles.count; ++t) {
+    for (int32_t t = UpdateOf(sheet)->refit.ownership.triangleCount; t < sheet->mesh.triangles.count; ++t) {
         int32_t parent = sheet->mesh.triangles.data[t].parent;
         REQUIRE(IsIndex(parent, t), "triangle %d is split from %d", t, parent);
     }

@@ -445,28 +445,30 @@ static bool Check_Tallies(Check* check, const kiriSheetData* sheet)
 }
 
 /* Who owned what of each square when material was last handed over is who owns it now. */
-static bool Check_Tenures(Check* check, const kiriSheetData* sheet)
+static bool Check_Owners(Check* check, const kiriSheetData* sheet)
 {
-    const kiriRefit* refit = &UpdateOf(sheet)->refit;
+    const kiriOwnership* ownership = &UpdateOf(sheet)->refit.ownership;
     const kiriSquares* squares = &sheet->mesh.squares;
     Rooms rooms;
-    REQUIRE(refit->staged.count == 0 && refit->squares.count == 0, "%d squares are staged, %d noted",
-            refit->staged.count, refit->squares.count);
-    REQUIRE_COUNT(refit->tenures, sheet->grid.squareCell.count);
-    if (!Rooms_Start(check, &rooms, refit->owned.data, sizeof(kiriOwned), refit->owned.count, &refit->room)) {
+    REQUIRE(ownership->staged.count == 0 && ownership->dirty.count == 0, "%d squares are staged, %d noted",
+            ownership->staged.count, ownership->dirty.count);
+    REQUIRE_COUNT(ownership->squares, sheet->grid.squareCell.count);
+    if (!Rooms_Start(check, &rooms, ownership->triangleOwners.data, sizeof(kiriTriangleOwner),
+                     ownership->triangleOwners.count, &ownership->spans)) {
         return false;
     }
-    for (int32_t s = 0; s < refit->tenures.count; ++s) {
-        kiriSpan parts = refit->tenures.data[s].parts;
+    for (int32_t s = 0; s < ownership->squares.count; ++s) {
+        kiriSpan parts = ownership->squares.data[s].parts;
         if (!Rooms_Take(check, &rooms, parts, s)) {
             return false;
         }
         for (int32_t n = squares->head[s]; n != KIRI_NONE; n = squares->nodes.data[n].next) {
             int32_t triangle = squares->nodes.data[n].triangle, k = 0;
-            while (k < parts.count && refit->owned.data[parts.first + k].triangle != triangle) {
+            while (k < parts.count && ownership->triangleOwners.data[parts.first + k].triangle != triangle) {
                 ++k;
             }
-            int32_t owner = k < parts.count ? refit->owned.data[parts.first + k].owner : refit->tenures.data[s].owner;
+            int32_t owner = k < parts.count ? ownership->triangleOwners.data[parts.first + k].owner
+                                            : ownership->squares.data[s].owner;
             int32_t is = sheet->regions.field.owner.data[sheet->grid.nodeCell.data[n]];
             REQUIRE((k < parts.count) == (parts.count > 0) && owner == is,
                     "triangle %d of square %d was handed over to frame %d, and is of %d", triangle, s, owner, is);
@@ -488,7 +490,7 @@ bool Check_Regions(Check* check, const kiriSheetData* sheet)
     REQUIRE(regions->orphans.count == 0 && regions->changes.count == 0 && !regions->running, "%d orphans, %d changes",
             regions->orphans.count, regions->changes.count);
     return Check_Sites(check, sheet) && Check_Distances(check, sheet) && Check_Tallies(check, sheet) &&
-           Check_Tenures(check, sheet);
+           Check_Owners(check, sheet);
 }
 
 /* ---- Shape functions ---- */

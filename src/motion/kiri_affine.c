@@ -1,74 +1,74 @@
 #include "kiri_affine.h"
+#include "kiri_strain.h"
 
-#define IN_PLANE 0.3
-#define LEAN 3.0
-/* As those of strain.c. */
-#define NORMAL_GAP_BETA 12.0
-#define NORMAL_STOP_SHARE 0.5
+#define GAP_SHARE 0.3    /* of the membrane stiffness, against gaps in the plane */
+#define LEAN_PENALTY 3.0 /* see kiri_affine.h: leaning counts 1 + 3 times */
 
 /* ---- Links ------------------------------------------------------------------------------------------------------ */
 
-/* The mean director; by its ends' directors it turns as by `by` times their part across it. */
-typedef struct Mean {
+/* The mean director of two frames. It changes with the director of end k by by[k] times the part of that change across
+   the mean. */
+typedef struct MeanDirector {
     kiriVec3 d;
     double by[2];
-} Mean;
+} MeanDirector;
 
 /* Where the sheet is folded flat on itself there is no mean: the first frame's director serves. */
-static Mean MeanDirector(const kiriPose* const poses[2])
+static MeanDirector FindMeanDirector(const kiriPose* const poses[2])
 {
     kiriVec3 sum = kiriVec3_Add(poses[0]->A.d, poses[1]->A.d);
     double length = kiriVec3_Length(sum), first = kiriVec3_Length(poses[0]->A.d);
     if (length > 1e-6) {
-        Mean mean = { kiriVec3_Scale(1.0 / length, sum), { 1.0 / length, 1.0 / length } };
+        MeanDirector mean = { kiriVec3_Scale(1.0 / length, sum), { 1.0 / length, 1.0 / length } };
         return mean;
     }
-    Mean mean = { kiriVec3_Scale(first > 1e-6 ? 1.0 / first : 0.0, poses[0]->A.d),
-                  { first > 1e-6 ? 1.0 / first : 0.0, 0.0 } };
+    MeanDirector mean = { kiriVec3_Scale(first > 1e-6 ? 1.0 / first : 0.0, poses[0]->A.d),
+                          { first > 1e-6 ? 1.0 / first : 0.0, 0.0 } };
     return mean;
 }
 
-static kiriVec3 Across(const Mean* mean, kiriVec3 a)
+static kiriVec3 AcrossDirector(const MeanDirector* mean, kiriVec3 a)
 {
     return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, mean->d), mean->d);
 }
 
-/* A difference of the two frames, sum over the ends of +-(x move + A_u at.x + A_v at.y): the gap at a point, or what
-   grows along a direction. */
-typedef struct Difference {
+/* A difference of the two frames, sum over the ends of +-(x move + A_u at.x + A_v at.y): the gap at a point, or, with
+   move 0, the difference of the slopes along a direction. */
+typedef struct FrameDifference {
     double move;
     kiriVec2 at[2];
     kiriVec3 value;
-} Difference;
+} FrameDifference;
 
-static Difference Differ(double move, kiriVec2 first, kiriVec2 second, const kiriPose* const poses[2])
+static FrameDifference TakeDifference(double move, kiriVec2 first, kiriVec2 second, const kiriPose* const poses[2])
 {
-    Difference g = { move, { first, second }, { 0.0, 0.0, 0.0 } };
+    FrameDifference g = { move, { first, second }, { 0.0, 0.0, 0.0 } };
     g.value = kiriVec3_Scale(move, kiriVec3_Sub(poses[1]->x, poses[0]->x));
     kiriVec3 along = kiriVec3_Sub(kiriPose_Along(poses[1], second), kiriPose_Along(poses[0], first));
     g.value = kiriVec3_Add(g.value, along);
     return g;
 }
 
-static Difference GapAt(const kiriFrameData* const frames[2], const kiriPose* const poses[2], kiriVec2 at)
+static FrameDifference GapAt(const kiriFrameData* const frames[2], const kiriPose* const poses[2], kiriVec2 at)
 {
-    return Differ(1.0, kiriVec2_Sub(at, frames[0]->center), kiriVec2_Sub(at, frames[1]->center), poses);
+    return TakeDifference(1.0, kiriVec2_Sub(at, frames[0]->center), kiriVec2_Sub(at, frames[1]->center), poses);
 }
 
 /* The derivative of a strain by the ends of a difference and by its mean director's turn. */
-static void WriteRow(const Difference* g, const Mean* mean, kiriVec3 byValue, kiriVec3 byMean, kiriAffineRow row[2])
+static void WriteRow(const FrameDifference* g, const MeanDirector* mean, kiriVec3 byValue, kiriVec3 byMean,
+                     kiriFrameRow row[2])
 {
     for (int k = 0; k < 2; ++k) {
         kiriVec3 by = kiriVec3_Scale(k == 0 ? -1.0 : 1.0, byValue);
         row[k].by[0] = kiriVec3_Scale(g->move, by);
         row[k].by[1] = kiriVec3_Scale(g->at[k].x, by);
         row[k].by[2] = kiriVec3_Scale(g->at[k].y, by);
-        row[k].by[3] = kiriVec3_Scale(mean->by[k], Across(mean, byMean));
+        row[k].by[3] = kiriVec3_Scale(mean->by[k], AcrossDirector(mean, byMean));
     }
 }
 
 /* The part in the plane, one row an axis of space: P g = g - d (d . g). */
-static void MeasureInPlane(const Difference* g, const Mean* mean, double* strain, kiriAffineRow rows[][2])
+static void MeasureInPlane(const FrameDifference* g, const MeanDirector* mean, double* strain, kiriFrameRow rows[][2])
 {
     const kiriVec3 axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
     double along = kiriVec3_Dot(g->value, mean->d);
@@ -77,30 +77,30 @@ static void MeasureInPlane(const Difference* g, const Mean* mean, double* strain
         strain[a] = kiriVec3_Dot(axes[a], g->value) - along * lean;
         if (rows != NULL) {
             kiriVec3 byMean = kiriVec3_Scale(-1.0, kiriVec3_AddScaled(kiriVec3_Scale(along, axes[a]), lean, g->value));
-            WriteRow(g, mean, Across(mean, axes[a]), byMean, rows[a]);
+            WriteRow(g, mean, AcrossDirector(mean, axes[a]), byMean, rows[a]);
         }
     }
 }
 
-static void MeasureBending(const kiriPose* const poses[2], double* strain, kiriAffineRow rows[][2])
+static void MeasureBending(const kiriPose* const poses[2], double* strain, kiriFrameRow rows[][2])
 {
     const kiriVec3 axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } }, zero = { 0.0, 0.0, 0.0 };
     for (int a = 0; a < 3; ++a) {
         strain[a] = kiriVec3_Dot(axes[a], kiriVec3_Sub(poses[1]->A.d, poses[0]->A.d));
         if (rows != NULL) {
-            kiriAffineRow first = { { zero, zero, zero, kiriVec3_Scale(-1.0, axes[a]) } };
-            kiriAffineRow second = { { zero, zero, zero, axes[a] } };
+            kiriFrameRow first = { { zero, zero, zero, kiriVec3_Scale(-1.0, axes[a]) } };
+            kiriFrameRow second = { { zero, zero, zero, axes[a] } };
             rows[a][0] = first;
             rows[a][1] = second;
         }
     }
 }
 
-static void MeasureNormal(const kiriLink* link, const Difference* g, const Mean* mean, double* strain,
-                          kiriAffineRow rows[][2])
+static void MeasureNormalGap(const kiriLink* link, const FrameDifference* g, const MeanDirector* mean, double* strain,
+                             kiriFrameRow rows[][2])
 {
     kiriVec3 zero = { 0.0, 0.0, 0.0 };
-    double gap = kiriVec3_Dot(g->value, mean->d), over = fabs(gap) - NORMAL_STOP_SHARE * link->length;
+    double gap = kiriVec3_Dot(g->value, mean->d), over = fabs(gap) - KIRI_NORMAL_STOP_SHARE * link->length;
     strain[0] = gap;
     strain[1] = over <= 0.0 ? 0.0 : gap > 0.0 ? over : -over;
     if (rows != NULL) {
@@ -110,17 +110,17 @@ static void MeasureNormal(const kiriLink* link, const Difference* g, const Mean*
 }
 
 void kiriAffine_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
-                        double strain[KIRI_AFFINE_STRAINS], kiriAffineRow rows[][2])
+                        double strain[KIRI_AFFINE_STRAINS], kiriFrameRow rows[][2])
 {
-    Mean mean = MeanDirector(poses);
-    Difference b = GapAt(frames, poses, link->centroid), m = GapAt(frames, poses, link->crossing);
-    Difference side = Differ(0.0, link->tangent, link->tangent, poses);
+    MeanDirector mean = FindMeanDirector(poses);
+    FrameDifference b = GapAt(frames, poses, link->centroid), m = GapAt(frames, poses, link->crossing);
+    FrameDifference side = TakeDifference(0.0, link->tangent, link->tangent, poses);
     MeasureInPlane(&b, &mean, strain + KIRI_AFFINE_GAP, rows);
     MeasureInPlane(&side, &mean, strain + KIRI_AFFINE_PLANE_BENDING,
                    rows != NULL ? rows + KIRI_AFFINE_PLANE_BENDING : NULL);
     MeasureBending(poses, strain + KIRI_AFFINE_BENDING, rows != NULL ? rows + KIRI_AFFINE_BENDING : NULL);
-    MeasureNormal(link, &m, &mean, strain + KIRI_AFFINE_NORMAL_GAP,
-                  rows != NULL ? rows + KIRI_AFFINE_NORMAL_GAP : NULL);
+    MeasureNormalGap(link, &m, &mean, strain + KIRI_AFFINE_NORMAL_GAP,
+                     rows != NULL ? rows + KIRI_AFFINE_NORMAL_GAP : NULL);
 }
 
 void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_AFFINE_STRAINS])
@@ -128,40 +128,41 @@ void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, do
     double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = link->length;
     double membrane = (double)material->youngsModulus * h / l, bending = membrane * h * h / (12.0 * (1.0 - nu * nu));
     for (int a = 0; a < 3; ++a) {
-        stiffness[KIRI_AFFINE_GAP + a] = IN_PLANE * membrane * link->width;
+        stiffness[KIRI_AFFINE_GAP + a] = GAP_SHARE * membrane * link->width;
         stiffness[KIRI_AFFINE_PLANE_BENDING + a] = membrane * link->moment;
         stiffness[KIRI_AFFINE_BENDING + a] = bending * link->width;
     }
-    stiffness[KIRI_AFFINE_NORMAL_GAP] = NORMAL_GAP_BETA * bending * link->width / (l * l);
+    stiffness[KIRI_AFFINE_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * link->width / (l * l);
     stiffness[KIRI_AFFINE_NORMAL_STOP] = membrane * link->width;
 }
 
 /* ---- Regions ---------------------------------------------------------------------------------------------------- */
 
-/* The share of a frame in the patch that is being made, in order of frames; links come so. */
-static kiriShare* ShareOf(kiriPatches* patches, kiriMemory* memory, kiriPatch* patch, int32_t frame)
+/* The share of a frame in the element that is being made; shares are kept in the order of frames. */
+static kiriFrameShare* FrameShareOf(kiriAreaElements* elements, kiriMemory* memory, kiriAreaElement* element,
+                                    int32_t frame)
 {
-    int32_t k = patch->first + patch->count;
-    while (k > patch->first && patches->shares.data[k - 1].frame > frame) {
+    int32_t k = element->first + element->count;
+    while (k > element->first && elements->shares.data[k - 1].frame > frame) {
         --k;
     }
-    if (k > patch->first && patches->shares.data[k - 1].frame == frame) {
-        return &patches->shares.data[k - 1];
+    if (k > element->first && elements->shares.data[k - 1].frame == frame) {
+        return &elements->shares.data[k - 1];
     }
-    kiriShare fresh = { frame, { 0.0, 0.0 }, { 0.0, 0.0 }, { 0.0, 0.0 }, 0.0, { 0.0, 0.0 } };
-    if (!kiriArray_Push(memory, &patches->shares, fresh)) {
+    kiriFrameShare fresh = { frame, { 0.0, 0.0 }, { 0.0, 0.0 }, { 0.0, 0.0 }, 0.0, { 0.0, 0.0 } };
+    if (!kiriArray_Push(memory, &elements->shares, fresh)) {
         return NULL;
     }
-    for (int32_t n = patches->shares.count - 1; n > k; --n) {
-        patches->shares.data[n] = patches->shares.data[n - 1];
+    for (int32_t n = elements->shares.count - 1; n > k; --n) {
+        elements->shares.data[n] = elements->shares.data[n - 1];
     }
-    patches->shares.data[k] = fresh;
-    ++patch->count;
-    return &patches->shares.data[k];
+    elements->shares.data[k] = fresh;
+    ++element->count;
+    return &elements->shares.data[k];
 }
 
 /* What the frame at one end of a border brings to the integral of gap (x) n, times `scale`. */
-static void AddEnd(kiriShare* share, const kiriLink* link, kiriVec2 center, double scale)
+static void AddEnd(kiriFrameShare* share, const kiriLink* link, kiriVec2 center, double scale)
 {
     kiriVec2 normal = kiriVec2_Scale(scale * link->width, link->normal), arm = kiriVec2_Sub(link->centroid, center);
     share->move = kiriVec2_Add(share->move, normal);
@@ -171,63 +172,67 @@ static void AddEnd(kiriShare* share, const kiriLink* link, kiriVec2 center, doub
         kiriVec2_Add(share->v, kiriVec2_Add(kiriVec2_Scale(arm.y, normal), kiriVec2_Scale(scale, link->spread[1])));
 }
 
-/* What the regions are built from: the links of region i are links[start[i]] to links[start[i + 1]]. */
-typedef struct Ring {
+/* What the elements of regions are made from: the links of region i are links[start[i]] to links[start[i + 1]]. */
+typedef struct RegionLinks {
     kiriMemory* memory;
     const kiriMoments* material; /* of each region */
     KIRI_ARRAY(int32_t) start;
     KIRI_ARRAY(const kiriLink*) links;
-} Ring;
+} RegionLinks;
 
-static bool AddBorder(kiriPatches* patches, const Ring* ring, kiriPatch* patch, const kiriLink* link)
+static bool AddBorder(kiriAreaElements* elements, const RegionLinks* regions, kiriAreaElement* element,
+                      const kiriLink* link)
 {
     for (int end = 0; end < 2; ++end) {
         int32_t frame = end == 0 ? link->i : link->j;
-        kiriShare* share = ShareOf(patches, ring->memory, patch, frame);
+        kiriFrameShare* share = FrameShareOf(elements, regions->memory, element, frame);
         if (share == NULL) {
             return false;
         }
-        double half = 0.5 / patch->area;
-        AddEnd(share, link, kiriMoments_Center(&ring->material[frame]), end == 0 ? -half : half);
+        double half = 0.5 / element->area;
+        AddEnd(share, link, kiriMoments_Center(&regions->material[frame]), end == 0 ? -half : half);
     }
     return true;
 }
 
-/* A patch with the frame's own A. */
-static bool Begin(kiriPatches* patches, kiriMemory* memory, kiriPatch* patch, int32_t frame)
+/* An element with the frame's own A. */
+static bool BeginAreaElement(kiriAreaElements* elements, kiriMemory* memory, kiriAreaElement* element, int32_t frame)
 {
-    kiriShare* share = ShareOf(patches, memory, patch, frame);
+    kiriFrameShare* share = FrameShareOf(elements, memory, element, frame);
     if (share != NULL) {
         share->u.x = share->v.y = share->weight = 1.0;
     }
     return share != NULL;
 }
 
-static bool AddMembrane(kiriPatches* patches, const Ring* ring, int32_t frame)
+static bool AddMembrane(kiriAreaElements* elements, const RegionLinks* regions, int32_t frame)
 {
-    double area = ring->material[frame].area;
-    kiriPatch patch = { area, LEAN, patches->shares.count, 0, KIRI_PATCH_AREA, KIRI_PATCH_SHEAR + 1 };
-    bool ok = Begin(patches, ring->memory, &patch, frame);
-    for (int32_t k = ring->start.data[frame]; ok && k < ring->start.data[frame + 1]; ++k) {
-        ok = AddBorder(patches, ring, &patch, ring->links.data[k]);
+    double area = regions->material[frame].area;
+    kiriAreaElement element = {
+        area, LEAN_PENALTY, elements->shares.count, 0, KIRI_AREA_DILATION, KIRI_AREA_SHEAR + 1
+    };
+    bool ok = BeginAreaElement(elements, regions->memory, &element, frame);
+    for (int32_t k = regions->start.data[frame]; ok && k < regions->start.data[frame + 1]; ++k) {
+        ok = AddBorder(elements, regions, &element, regions->links.data[k]);
     }
-    return ok && kiriArray_Push(ring->memory, &patches->patches, patch);
+    return ok && kiriArray_Push(regions->memory, &elements->elements, element);
 }
 
-static bool AddDirector(kiriPatches* patches, const Ring* ring, int32_t frame)
+static bool AddDirector(kiriAreaElements* elements, const RegionLinks* regions, int32_t frame)
 {
-    double area = ring->material[frame].area;
-    kiriPatch patch = { area, 0.0, patches->shares.count, 0, KIRI_PATCH_LEAN_U, KIRI_PATCH_STRAINS };
-    return Begin(patches, ring->memory, &patch, frame) && kiriArray_Push(ring->memory, &patches->patches, patch);
+    double area = regions->material[frame].area;
+    kiriAreaElement element = { area, 0.0, elements->shares.count, 0, KIRI_AREA_LEAN_U, KIRI_AREA_STRAINS };
+    return BeginAreaElement(elements, regions->memory, &element, frame) &&
+           kiriArray_Push(regions->memory, &elements->elements, element);
 }
 
-static bool Collect(Ring* ring, const kiriLink* links, int32_t linkCount, int32_t frameCount)
+static bool CollectLinksByRegion(RegionLinks* regions, const kiriLink* links, int32_t linkCount, int32_t frameCount)
 {
-    if (!kiriArray_Resize(ring->memory, &ring->start, (int64_t)frameCount + 1) ||
-        !kiriArray_Resize(ring->memory, &ring->links, 2 * (int64_t)linkCount)) {
+    if (!kiriArray_Resize(regions->memory, &regions->start, (int64_t)frameCount + 1) ||
+        !kiriArray_Resize(regions->memory, &regions->links, 2 * (int64_t)linkCount)) {
         return false;
     }
-    int32_t* start = ring->start.data;
+    int32_t* start = regions->start.data;
     for (int32_t i = 0; i <= frameCount; ++i) {
         start[i] = 0;
     }
@@ -239,22 +244,22 @@ static bool Collect(Ring* ring, const kiriLink* links, int32_t linkCount, int32_
         start[i + 1] += start[i];
     }
     for (int32_t k = linkCount - 1; k >= 0; --k) {
-        ring->links.data[--start[links[k].i]] = &links[k];
-        ring->links.data[--start[links[k].j]] = &links[k];
+        regions->links.data[--start[links[k].i]] = &links[k];
+        regions->links.data[--start[links[k].j]] = &links[k];
     }
     return true;
 }
 
-bool kiriAffine_Build(kiriPatches* patches, kiriMemory* memory, const kiriLink* links, int32_t linkCount,
+bool kiriAffine_Build(kiriAreaElements* elements, kiriMemory* memory, const kiriLink* links, int32_t linkCount,
                       const kiriMoments* material, int32_t frameCount, bool planar)
 {
-    Ring ring = { memory, material, { 0 }, { 0 } };
-    patches->patches.count = patches->shares.count = 0;
-    bool ok = Collect(&ring, links, linkCount, frameCount);
+    RegionLinks regions = { memory, material, { 0 }, { 0 } };
+    elements->elements.count = elements->shares.count = 0;
+    bool ok = CollectLinksByRegion(&regions, links, linkCount, frameCount);
     for (int32_t i = 0; ok && i < frameCount; ++i) {
-        ok = AddMembrane(patches, &ring, i) && (planar || AddDirector(patches, &ring, i));
+        ok = AddMembrane(elements, &regions, i) && (planar || AddDirector(elements, &regions, i));
     }
-    kiriArray_Release(memory, &ring.start);
-    kiriArray_Release(memory, &ring.links);
+    kiriArray_Release(memory, &regions.start);
+    kiriArray_Release(memory, &regions.links);
     return ok;
 }

@@ -2,7 +2,11 @@
 #ifndef KIRI_AFFINE_H
 #define KIRI_AFFINE_H
 
-#include "kiri_patch.h"
+#include "kiri_area_element.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* The strains of a link. With gap(p) = x_j(p) - x_i(p) and the part in the plane what is left of a vector without its
    part along the mean director:
@@ -28,18 +32,22 @@ enum {
 
 /* As kiriStrain_Measure; two rows, of i and j, a strain. */
 void kiriAffine_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
-                        double strain[KIRI_AFFINE_STRAINS], kiriAffineRow rows[][2]);
+                        double strain[KIRI_AFFINE_STRAINS], kiriFrameRow rows[][2]);
 void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_AFFINE_STRAINS]);
 
-/* Two patches a region, whose material is given. One has the membrane energy of F_i = A_i + 1/(2 a_i) times the
+/* Makes two area elements for each region, whose material is given. One has the membrane energy of F_i = A_i + 1/(2 a_i) times the
    integral of gap (x) n over its border, which is the mean of the gradient when each border gap is shared by both
-   sides: exact for an even stretch in any layout, inner forces included. The other keeps the director normal. A planar
-   sheet needs no such.
+   sides: exact for an even stretch in any layout, inner forces included. The other keeps the director normal to the
+   mid-surface; a planar sheet has none.
 
    Frames that lean all one way, in steps, make a free end longer: its F_i takes only a part of its slope from the
-   border, a quarter at least. Under tension that would lay the sheet in steps (see strain.h). Leaning, d_i . F_i,
+   border, a quarter at least. Under tension that would lay the sheet in steps (see kiri_strain.h). Leaning, d_i . F_i,
    therefore counts four times in the membrane strains; it vanishes where frames follow the sheet. */
-bool kiriAffine_Build(kiriPatches* patches, kiriMemory* memory, const kiriLink* links, int32_t linkCount,
+bool kiriAffine_Build(kiriAreaElements* elements, kiriMemory* memory, const kiriLink* links, int32_t linkCount,
                       const kiriMoments* material, int32_t frameCount, bool planar);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -63,6 +63,7 @@ void PlaceFrames(kiriMatrix* matrix, const kiriPair* pairs, int64_t pairCount)
         entries.push_back(Eigen::Triplet<double>(f, f, 1.0));
     }
     for (int64_t k = 0; k < pairCount; ++k) {
+        KIRI_ASSERT(pairs[k].a >= 0 && pairs[k].a < count && pairs[k].b >= 0 && pairs[k].b < count);
         entries.push_back(Eigen::Triplet<double>(pairs[k].a, pairs[k].b, 1.0));
         entries.push_back(Eigen::Triplet<double>(pairs[k].b, pairs[k].a, 1.0));
     }
@@ -222,7 +223,7 @@ template <int size> using Column = Eigen::Matrix<double, size, 1>;
 template <int size> using In = Eigen::Map<const Column<size>>;
 template <int size> using Out = Eigen::Map<Column<size>>;
 
-/* One element: its derivatives, and the springs between them. */
+/* What one element adds, J^T k J: rows of J, `stride` apart, and the stiffness k of each. */
 struct Squares {
     const double* J;
     const double* k;
@@ -262,16 +263,17 @@ template <int size> void AddBlocks(kiriMatrix* matrix, const Squares& squares, c
         for (int32_t a = 0; a < count; ++a) {
             int32_t row = matrix->place.data[frames[a]], column = matrix->place.data[frames[b]];
             if (row >= column) {
-                AddBlock<size>(&matrix->values.data[(int64_t)size * size * BlockAt(matrix, row, column)], squares, a,
-                               b);
+                int32_t block = BlockAt(matrix, row, column);
+                KIRI_ASSERT(block != KIRI_NONE);
+                AddBlock<size>(&matrix->values.data[(int64_t)size * size * block], squares, a, b);
             }
         }
     }
 }
 
-/* Where springs are stiffer than inertia by more than doubles tell apart, elimination cancels what the inertia put on
-   the diagonal, and rounding decides the sign. An addition of the size of what is rounded off makes the matrix
-   positive; so light a sheet then falls too slowly. */
+/* Where springs are stiffer than inertia by more than the digits of a double, elimination cancels what the inertia put
+   on the diagonal, and rounding decides the sign. An addition of the size of what is rounded off makes the matrix
+   positive; such a light sheet then falls too slowly. */
 void ShiftDiagonal(kiriMatrix* matrix)
 {
     int32_t size = matrix->size;
@@ -513,6 +515,7 @@ extern "C" void kiriMatrix_GetPairs(kiriMatrix* matrix, kiriPair* pairs)
 
 extern "C" bool kiriMatrix_Covers(const kiriMatrix* matrix, kiriPair pair)
 {
+    KIRI_ASSERT(pair.a >= 0 && pair.a < matrix->count && pair.b >= 0 && pair.b < matrix->count);
     int32_t a = matrix->place.data[pair.a], b = matrix->place.data[pair.b];
     return BlockAt(matrix, std::max(a, b), std::min(a, b)) != KIRI_NONE;
 }
@@ -536,6 +539,7 @@ extern "C" void kiriMatrix_Clear(kiriMatrix* matrix)
 
 extern "C" void kiriMatrix_AddOwn(kiriMatrix* matrix, int32_t frame, const double* block)
 {
+    KIRI_ASSERT(frame >= 0 && frame < matrix->count);
     int32_t area = matrix->size * matrix->size;
     double* out = &matrix->values.data[(int64_t)area * matrix->own.start.data[matrix->place.data[frame]]];
     for (int32_t n = 0; n < area; ++n) {

@@ -1,7 +1,7 @@
 /* A symmetric positive definite matrix of square blocks, one row and column of blocks a frame, and its factorisation.
    Nothing is allocated but by Shape, and nothing is thrown across this header. */
-#ifndef KIRI_MATRIX_H
-#define KIRI_MATRIX_H
+#ifndef KIRI_BLOCK_FACTOR_H
+#define KIRI_BLOCK_FACTOR_H
 
 #include "../core/kiri_base.h"
 
@@ -22,8 +22,9 @@ typedef struct kiriPair {
 kiriMatrix* kiriMatrix_Create(kiriMemory* memory, int32_t size);
 
 /* Gives it a pattern, and the symbolic factorisation of it; pairs may come more than once. Memory is kept from one
-   pattern to the next; the order of unknowns takes some from malloc while it is sought. False for memory: the matrix is
-   then good for nothing but another call. */
+   pattern to the next; Eigen's search for an order of the frames takes its own from malloc, frees it before it returns,
+   and no exception leaves this call. False for memory, of either: the matrix is then good for nothing but another
+   call. */
 bool kiriMatrix_Shape(kiriMatrix* matrix, int32_t frameCount, const kiriPair* pairs, int64_t pairCount);
 
 int32_t kiriMatrix_FrameCount(const kiriMatrix* matrix);

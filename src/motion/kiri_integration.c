@@ -1,50 +1,50 @@
 #include "kiri_integration.h"
 
-typedef struct Builder {
+typedef struct PointBuilder {
     kiriMemory* memory;
     const kiriGrid* grid;
     const kiriMeshData* mesh;
     const kiriShape* shape;
     const kiriMoments* material; /* of each frame's region */
     kiriIntegrationWork* work;
-    kiriPatches* patches;
+    kiriAreaElements* elements;
     double perArea; /* points, 1/m^2 */
     int32_t order;
     int32_t lastRow;
-} Builder;
+} PointBuilder;
 
-static const kiriMoments none = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const kiriMoments NoMaterial = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* ---- Patches ---------------------------------------------------------------------------------------------------- */
+/* ---- Elements ---------------------------------------------------------------------------------------------------- */
 
 /* Linear-blend skinning, x(p) = sum of w_i(p) (x_i + A_i (p - c_i)), at a place `off` the point, with the weights
    linear around it. */
-static bool AddPatch(Builder* b, kiriVec2 point, kiriVec2 off, double area)
+static bool AddAreaElement(PointBuilder* b, kiriVec2 point, kiriVec2 off, double area)
 {
     const kiriPointWeights* weights = &b->work->weights;
-    kiriPatch patch = { area, 0.0, b->patches->shares.count, weights->count, 0, b->lastRow };
+    kiriAreaElement element = { area, 0.0, b->elements->shares.count, weights->count, 0, b->lastRow };
     kiriVec2 at = kiriVec2_Add(point, off);
     for (int32_t k = 0; k < weights->count; ++k) {
         kiriPointWeight w = weights->data[k];
         kiriVec2 arm = kiriVec2_Sub(at, kiriMoments_Center(&b->material[w.frame]));
-        kiriShare share = { w.frame,
-                            w.gradient,
-                            kiriVec2_Scale(arm.x, w.gradient),
-                            kiriVec2_Scale(arm.y, w.gradient),
-                            w.value + kiriVec2_Dot(w.gradient, off),
-                            w.gradient };
+        kiriFrameShare share = { w.frame,
+                                 w.gradient,
+                                 kiriVec2_Scale(arm.x, w.gradient),
+                                 kiriVec2_Scale(arm.y, w.gradient),
+                                 w.value + kiriVec2_Dot(w.gradient, off),
+                                 w.gradient };
         share.u.x += share.weight;
         share.v.y += share.weight;
-        if (!kiriArray_Push(b->memory, &b->patches->shares, share)) {
+        if (!kiriArray_Push(b->memory, &b->elements->shares, share)) {
             return false;
         }
     }
-    return kiriArray_Push(b->memory, &b->patches->patches, patch);
+    return kiriArray_Push(b->memory, &b->elements->elements, element);
 }
 
 /* Two pairs of places on either side of the point, that together have the region's second moments: the columns of
    their Cholesky factor. */
-static bool AddFour(Builder* b, kiriVec2 point, const kiriMoments* material)
+static bool AddFour(PointBuilder* b, kiriVec2 point, const kiriMoments* material)
 {
     kiriMoments about = kiriMoments_About(material, point);
     double perArea = 2.0 / about.area, u = sqrt(perArea * about.uu), v = u > 0.0 ? perArea * about.uv / u : 0.0;
@@ -54,30 +54,30 @@ static bool AddFour(Builder* b, kiriVec2 point, const kiriMoments* material)
     };
     bool ok = true;
     for (int k = 0; ok && k < 4; ++k) {
-        ok = AddPatch(b, point, off[k], 0.25 * about.area);
+        ok = AddAreaElement(b, point, off[k], 0.25 * about.area);
     }
     return ok;
 }
 
-static bool AddPoint(Builder* b, const kiriSite* point, const kiriMoments* material)
+static bool AddIntegrationPoint(PointBuilder* b, const kiriSite* point, const kiriMoments* material)
 {
     const kiriVec2 here = { 0.0, 0.0 };
     return kiriShape_At(b->shape, b->memory, b->grid, b->mesh, point->cell, point->at, &b->work->weights) &&
-           (b->order == 1 ? AddPatch(b, point->at, here, material->area) : AddFour(b, point->at, material));
+           (b->order == 1 ? AddAreaElement(b, point->at, here, material->area) : AddFour(b, point->at, material));
 }
 
 /* ---- Points of a piece ------------------------------------------------------------------------------------------ */
 
-static kiriMoments MaterialOfPiece(const Builder* b)
+static kiriMoments MaterialOfPiece(const PointBuilder* b)
 {
-    kiriMoments sum = none;
+    kiriMoments sum = NoMaterial;
     for (int32_t k = 0; k < b->work->placer.cells.count; ++k) {
         kiriMoments_Add(&sum, &b->grid->cells.data[b->work->placer.cells.data[k]].material);
     }
     return sum;
 }
 
-static bool PlacePoints(Builder* b, double area)
+static bool PlaceIntegrationPoints(PointBuilder* b, double area)
 {
     kiriPlacer* placer = &b->work->placer;
     kiriQuota endless = { INT64_MAX, 0 };
@@ -88,7 +88,7 @@ static bool PlacePoints(Builder* b, double area)
            kiriPlacer_Run(placer, b->memory, b->grid, b->mesh, &endless) == KIRI_DONE;
 }
 
-static bool FloodFromPoints(Builder* b)
+static bool FloodFromPoints(PointBuilder* b)
 {
     kiriIntegrationWork* work = b->work;
     const kiriSites* points = &work->placer.sites;
@@ -107,7 +107,7 @@ static bool FloodFromPoints(Builder* b)
 }
 
 /* The regions of points, as placing defines them: a point's own cell is its own. */
-static bool DividePiece(Builder* b)
+static bool DividePiece(PointBuilder* b)
 {
     kiriIntegrationWork* work = b->work;
     const kiriSites* points = &work->placer.sites;
@@ -116,7 +116,7 @@ static bool DividePiece(Builder* b)
     }
     for (int32_t i = 0; i < points->count; ++i) {
         work->field.owner.data[points->data[i].cell] = i;
-        work->material.data[i] = none;
+        work->material.data[i] = NoMaterial;
     }
     for (int32_t k = 0; k < work->placer.cells.count; ++k) {
         int32_t cell = work->placer.cells.data[k];
@@ -125,7 +125,7 @@ static bool DividePiece(Builder* b)
     return true;
 }
 
-static bool AddPiece(Builder* b, int32_t cell)
+static bool AddPiecePoints(PointBuilder* b, int32_t cell)
 {
     kiriIntegrationWork* work = b->work;
     if (!kiriPlacer_TakePiece(&work->placer, b->memory, b->grid, cell)) {
@@ -136,20 +136,20 @@ static bool AddPiece(Builder* b, int32_t cell)
     }
     kiriMoments material = MaterialOfPiece(b);
     const kiriSites* points = &work->placer.sites;
-    bool ok = PlacePoints(b, material.area);
+    bool ok = PlaceIntegrationPoints(b, material.area);
     if (ok && points->count == 1) { /* without a flood: confetti comes in thousands */
-        return AddPoint(b, &points->data[0], &material);
+        return AddIntegrationPoint(b, &points->data[0], &material);
     }
     ok = ok && DividePiece(b);
     for (int32_t i = 0; ok && i < points->count; ++i) {
-        ok = AddPoint(b, &points->data[i], &work->material.data[i]);
+        ok = AddIntegrationPoint(b, &points->data[i], &work->material.data[i]);
     }
     return ok;
 }
 
 /* ---- All ------------------------------------------------------------------------------------------------------ */
 
-static bool ClearSeen(Builder* b)
+static bool ClearSeen(PointBuilder* b)
 {
     if (!kiriArray_Resize(b->memory, &b->work->seen, b->grid->cells.count)) {
         return false;
@@ -172,18 +172,18 @@ static double TotalArea(const kiriGrid* grid)
     return total;
 }
 
-bool kiriIntegration_Build(kiriPatches* patches, kiriIntegrationWork* work, kiriMemory* memory, const kiriGrid* grid,
-                           const kiriMeshData* mesh, const kiriShape* shape, const kiriMoments* material, double count,
-                           int32_t order, bool planar)
+bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work, kiriMemory* memory,
+                           const kiriGrid* grid, const kiriMeshData* mesh, const kiriShape* shape,
+                           const kiriMoments* material, double count, int32_t order, bool planar)
 {
-    Builder b = { memory, grid, mesh, shape, material, work, patches, 0.0, order, KIRI_PATCH_STRAINS };
+    PointBuilder b = { memory, grid, mesh, shape, material, work, elements, 0.0, order, KIRI_AREA_STRAINS };
     b.perArea = count / TotalArea(grid);
-    b.lastRow = planar ? KIRI_PATCH_SHEAR + 1 : KIRI_PATCH_STRAINS;
-    patches->patches.count = patches->shares.count = 0;
+    b.lastRow = planar ? KIRI_AREA_SHEAR + 1 : KIRI_AREA_STRAINS;
+    elements->elements.count = elements->shares.count = 0;
     bool ok = ClearSeen(&b);
     for (int32_t s = 0; ok && s < grid->squareCell.count; ++s) {
         for (int32_t c = grid->squareCell.data[s]; ok && c != KIRI_NONE; c = grid->cells.data[c].next) {
-            ok = work->seen.data[c] || AddPiece(&b, c);
+            ok = work->seen.data[c] || AddPiecePoints(&b, c);
         }
     }
     return ok;

@@ -1,12 +1,17 @@
-/* The integration points of section 5 and 6 of the paper: material that linear-blend skinning deforms. */
-#ifndef KIRI_POINT_H
-#define KIRI_POINT_H
+/* The integration points of sections 5 and 6 of the paper: places where the strain is taken, of material that
+   linear-blend skinning deforms. */
+#ifndef KIRI_INTEGRATION_H
+#define KIRI_INTEGRATION_H
 
-#include "kiri_patch.h"
+#include "kiri_area_element.h"
 #include "../field/kiri_place.h"
 #include "../field/kiri_stencil.h"
 
-/* What building works in, kept so that building again finds its room there. A zeroed one is empty. */
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Scratch, kept from one update to the next for the room that it has. A zeroed one is empty. */
 typedef struct kiriIntegrationWork {
     kiriPlacer placer; /* for the piece at hand */
     kiriField field;   /* from its points */
@@ -20,8 +25,12 @@ typedef struct kiriIntegrationWork {
    of the grid. With order 1 the strain at the point holds for all of it; with order 2 the strain is linear in it (after
    the elastons of Martin et al. 2010): it is taken at four places that have the region's second moments, which costs
    four times as much. `material` is that of each frame's region. */
-bool kiriIntegration_Build(kiriPatches* patches, kiriIntegrationWork* work, kiriMemory* memory, const kiriGrid* grid,
-                           const kiriMeshData* mesh, const kiriShape* shape, const kiriMoments* material, double count,
-                           int32_t order, bool planar);
+bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work, kiriMemory* memory,
+                           const kiriGrid* grid, const kiriMeshData* mesh, const kiriShape* shape,
+                           const kiriMoments* material, double count, int32_t order, bool planar);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,10 +1,5 @@
 #include "kiri_momentum.h"
 
-static kiriVec3 Zero(void)
-{
-    return kiriVec3_Make(0.0, 0.0, 0.0);
-}
-
 static void GatherCenters(const kiriFrameData* before, const kiriFrameData* after, int32_t frameCount,
                           const int32_t* piece, kiriPieceMomentum* pieces, int32_t pieceCount)
 {
@@ -26,25 +21,9 @@ static void GatherCenters(const kiriFrameData* before, const kiriFrameData* afte
     }
 }
 
-/* m (r^2 - r r^T), the inertia of a mass at r. */
-static kiriMat3 PointInertia(double m, kiriVec3 r)
-{
-    double rr = m * kiriVec3_Dot(r, r);
-    kiriMat3 j = { kiriVec3_AddScaled(kiriVec3_Make(rr, 0.0, 0.0), -m * r.x, r),
-                   kiriVec3_AddScaled(kiriVec3_Make(0.0, rr, 0.0), -m * r.y, r),
-                   kiriVec3_AddScaled(kiriVec3_Make(0.0, 0.0, rr), -m * r.z, r) };
-    return j;
-}
-
-static void AddInertia(kiriMat3* sum, const kiriMat3* part)
-{
-    sum->u = kiriVec3_Add(sum->u, part->u);
-    sum->v = kiriVec3_Add(sum->v, part->v);
-    sum->d = kiriVec3_Add(sum->d, part->d);
-}
-
 /* What a frame adds, about a centre that moves. The true rate of A counts, by which affine frames also stretch. */
-static kiriVec3 Angular(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 center, kiriVec3 velocity)
+static kiriVec3 AngularAbout(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 center,
+                             kiriVec3 velocity)
 {
     kiriVec3 r = kiriVec3_Sub(frame->x, center), v = kiriVec3_Sub(frame->velocity, velocity);
     return kiriVec3_AddScaled(kiriFrame_AngularMomentum(frame, material), frame->mass, kiriVec3_Cross(r, v));
@@ -60,22 +39,22 @@ static void GatherTurning(const kiriFrameData* before, const kiriFrameData* afte
         kiriVec3 arm = kiriVec3_Sub(frame->x, p->centerBefore);
         kiriVec3 torque = kiriVec3_Add(frame->torque, kiriVec3_Cross(arm, frame->force));
         kiriMat3 own = kiriFrame_Inertia(&after[f], material);
-        kiriMat3 point = PointInertia(frame->mass, kiriVec3_Sub(after[f].x, p->centerAfter));
-        p->due = kiriVec3_AddScaled(p->due, fade, Angular(frame, material, p->centerBefore, p->velocityBefore));
+        kiriMat3 point = kiriMat3_PointInertia(frame->mass, kiriVec3_Sub(after[f].x, p->centerAfter));
+        p->due = kiriVec3_AddScaled(p->due, fade, AngularAbout(frame, material, p->centerBefore, p->velocityBefore));
         p->due = kiriVec3_AddScaled(p->due, dt, torque);
-        p->angular = kiriVec3_Add(p->angular, Angular(&after[f], material, p->centerAfter, p->velocityAfter));
-        AddInertia(&p->inertia, &own);
-        AddInertia(&p->inertia, &point);
+        p->angular = kiriVec3_Add(p->angular, AngularAbout(&after[f], material, p->centerAfter, p->velocityAfter));
+        p->inertia = kiriMat3_AddScaled(&p->inertia, 1.0, &own);
+        p->inertia = kiriMat3_AddScaled(&p->inertia, 1.0, &point);
     }
 }
 
 /* The turns that are missing, as far as the energy goes. */
-static void FindTurns(kiriPieceMomentum* pieces, int32_t pieceCount)
+static void FindMissingTurns(kiriPieceMomentum* pieces, int32_t pieceCount)
 {
     for (int32_t i = 0; i < pieceCount; ++i) {
         kiriPieceMomentum* p = &pieces[i];
         kiriVec3 missing = kiriVec3_Sub(p->due, p->angular);
-        p->turn = p->isHeld ? Zero() : kiriMat3_Solve(&p->inertia, missing);
+        p->turn = p->isHeld ? kiriVec3_Make(0.0, 0.0, 0.0) : kiriMat3_Solve(&p->inertia, missing);
         double energy = kiriVec3_Dot(p->turn, kiriVec3_AddScaled(p->angular, 0.5, missing));
         p->turn = kiriVec3_Scale(energy > p->lost ? p->lost / energy : 1.0, p->turn);
     }
@@ -85,15 +64,11 @@ void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int
                           kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, double dt)
 {
     for (int32_t i = 0; i < pieceCount; ++i) {
-        int32_t isHeld = pieces[i].isHeld;
-        kiriMat3 none = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
-        kiriPieceMomentum p = { isHeld, pieces[i].lost, 0.0,    Zero(), Zero(), Zero(),
-                                Zero(), Zero(),         Zero(), none,   Zero() };
-        pieces[i] = p;
+        pieces[i] = (kiriPieceMomentum){ .isHeld = pieces[i].isHeld, .lost = pieces[i].lost };
     }
     GatherCenters(before, after, frameCount, piece, pieces, pieceCount);
     GatherTurning(before, after, frameCount, piece, pieces, material, dt);
-    FindTurns(pieces, pieceCount);
+    FindMissingTurns(pieces, pieceCount);
     for (int32_t f = 0; f < frameCount; ++f) {
         const kiriPieceMomentum* p = &pieces[piece[f]];
         kiriVec3 arm = kiriVec3_Sub(after[f].x, p->centerAfter);

@@ -1,14 +1,14 @@
 /* The angular momentum of pieces that nothing holds. Backward Euler keeps the linear one exactly, but bleeds the
-   angular: a frame that goes round flies off along the tangent and is pulled back to where the step ends, not to where
-   it is. */
+   angular: a frame that goes round is predicted along the tangent, and is pulled back by forces that act where the step
+   ends, not where it starts. */
 #ifndef KIRI_MOMENTUM_H
 #define KIRI_MOMENTUM_H
+
+#include "kiri_prediction.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-#include "kiri_prediction.h"
 
 /* Of one piece, about its centre of mass; sums while they are gathered. */
 typedef struct kiriPieceMomentum {

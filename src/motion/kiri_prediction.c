@@ -1,11 +1,9 @@
 #include "kiri_prediction.h"
 
-/* One part of a step turns by at most this much: a Cayley vector. */
-#define LONGEST_TURN 1.0
-#define MOST_PARTS 8
+#define LONGEST_PART_TURN 1.0 /* of one part of a step: a Cayley vector */
+#define MOST_PARTS 8          /* of a step */
 
-static const kiriMat3 Identity = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
-static const kiriMat3 None = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+static const kiriMat3 IdentityAxes = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
 
 static kiriVec3 MulTransposed(const kiriMat3* m, kiriVec3 a)
 {
@@ -18,9 +16,31 @@ kiriVec3 kiriMat3_Solve(const kiriMat3* m, kiriVec3 a)
     return kiriVec3_Scale(1.0 / kiriVec3_Dot(m->u, cofactors.u), MulTransposed(&cofactors, a));
 }
 
-/* The thickness keeps the moments of a sliver above zero. */
-static kiriMassMoments MomentsOf(const kiriFrameData* frame, double thickness)
+kiriMat3 kiriMat3_AddScaled(const kiriMat3* A, double s, const kiriMat3* B)
 {
+    kiriMat3 r = { kiriVec3_AddScaled(A->u, s, B->u), kiriVec3_AddScaled(A->v, s, B->v),
+                   kiriVec3_AddScaled(A->d, s, B->d) };
+    return r;
+}
+
+kiriMat3 kiriMat3_Scale(double s, const kiriMat3* A)
+{
+    kiriMat3 r = { kiriVec3_Scale(s, A->u), kiriVec3_Scale(s, A->v), kiriVec3_Scale(s, A->d) };
+    return r;
+}
+
+kiriMat3 kiriMat3_PointInertia(double m, kiriVec3 r)
+{
+    double rr = m * kiriVec3_Dot(r, r);
+    kiriMat3 j = { kiriVec3_AddScaled(kiriVec3_Make(rr, 0.0, 0.0), -m * r.x, r),
+                   kiriVec3_AddScaled(kiriVec3_Make(0.0, rr, 0.0), -m * r.y, r),
+                   kiriVec3_AddScaled(kiriVec3_Make(0.0, 0.0, rr), -m * r.z, r) };
+    return j;
+}
+
+kiriMassMoments kiriFrame_MassMoments(const kiriFrameData* frame, const kiriMaterial* material)
+{
+    double thickness = (double)material->thickness;
     double least = frame->mass * thickness * thickness / 12.0;
     kiriMassMoments m = { frame->inertia[0] + least, frame->inertia[1], frame->inertia[2] + least, least };
     return m;
@@ -34,7 +54,7 @@ static kiriMat3 Weighted(const kiriMassMoments* m, const kiriMat3* A)
     return r;
 }
 
-static kiriMat3 Inertia(const kiriMassMoments* m, const kiriMat3* A)
+static kiriMat3 RigidInertia(const kiriMassMoments* m, const kiriMat3* A)
 {
     /* trace(M) - A M A^T, M the moments */
     double trace = m->uu + m->vv + m->dd;
@@ -45,7 +65,7 @@ static kiriMat3 Inertia(const kiriMassMoments* m, const kiriMat3* A)
     return r;
 }
 
-static kiriMat3 Difference(const kiriMat3* A, const kiriMat3* B)
+static kiriMat3 MatrixDifference(const kiriMat3* A, const kiriMat3* B)
 {
     kiriMat3 off = { kiriVec3_Sub(A->u, B->u), kiriVec3_Sub(A->v, B->v), kiriVec3_Sub(A->d, B->d) };
     return off;
@@ -64,32 +84,32 @@ static kiriVec3 SumCross(const kiriMat3* A, const kiriMat3* B)
 
 kiriMat3 kiriPrediction_Gradient(const kiriPrediction* prediction, const kiriMat3* A)
 {
-    kiriMat3 off = Difference(A, &prediction->pose.A);
+    kiriMat3 off = MatrixDifference(A, &prediction->pose.A);
     return Weighted(&prediction->moments, &off);
 }
 
 kiriMat3 kiriPrediction_Inertia(const kiriPrediction* prediction, const kiriMat3* A)
 {
-    return Inertia(&prediction->moments, A);
+    return RigidInertia(&prediction->moments, A);
 }
 
 kiriVec3 kiriFrame_AngularMomentum(const kiriFrameData* frame, const kiriMaterial* material)
 {
-    kiriMassMoments moments = MomentsOf(frame, (double)material->thickness);
+    kiriMassMoments moments = kiriFrame_MassMoments(frame, material);
     kiriMat3 weighted = Weighted(&moments, &frame->A), rate = kiriFrame_Rate(frame);
     return SumCross(&weighted, &rate);
 }
 
 double kiriFrame_KineticEnergy(const kiriFrameData* frame, const kiriMaterial* material)
 {
-    kiriMassMoments moments = MomentsOf(frame, (double)material->thickness);
+    kiriMassMoments moments = kiriFrame_MassMoments(frame, material);
     kiriMat3 rate = kiriFrame_Rate(frame), weighted = Weighted(&moments, &rate);
     return 0.5 * frame->mass * kiriVec3_Dot(frame->velocity, frame->velocity) + 0.5 * SumDot(&weighted, &rate);
 }
 
 double kiriPrediction_TurnSquared(const kiriPrediction* prediction, const kiriMat3* A)
 {
-    kiriMat3 off = Difference(A, &prediction->pose.A);
+    kiriMat3 off = MatrixDifference(A, &prediction->pose.A);
     kiriMat3 w = Weighted(&prediction->moments, &off);
     return SumDot(&w, &off);
 }
@@ -106,15 +126,15 @@ static kiriVec3 CayleyVector(kiriVec3 w)
     double ww = kiriVec3_Dot(w, w);
     kiriVec3 r = kiriVec3_Scale(1.0 + ww * (1.0 / 12.0 + ww / 120.0), w);
     double length = kiriVec3_Length(r);
-    return length > LONGEST_TURN ? kiriVec3_Scale(LONGEST_TURN / length, r) : r;
+    return length > LONGEST_PART_TURN ? kiriVec3_Scale(LONGEST_PART_TURN / length, r) : r;
 }
 
 /* Free rotation over h with the angular momentum L: the implicit midpoint rule for L in the body's axes. Its map is a
    Cayley rotation, and it keeps L and the energy whatever the length of the Cayley vector. */
-static kiriMat3 Turn(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec3 L, double h)
+static kiriMat3 TurnPart(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec3 L, double h)
 {
     kiriVec3 start = MulTransposed(A, L), end = start;
-    kiriMat3 turn = Identity;
+    kiriMat3 turn = IdentityAxes;
     for (int iteration = 0; iteration < 30; ++iteration) {
         kiriVec3 middle = kiriVec3_Scale(0.5 * h, kiriVec3_Add(start, end));
         turn = kiriMat3_Cayley(CayleyVector(kiriMat3_Solve(bodyInertia, middle)));
@@ -133,12 +153,12 @@ static kiriMat3 Turn(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec3 L,
 static void TurnFreely(kiriPrediction* prediction, kiriVec3 L, double dt)
 {
     kiriMat3* A = &prediction->pose.A;
-    kiriMat3 body = kiriPrediction_Inertia(prediction, &Identity), inertia = kiriPrediction_Inertia(prediction, A);
+    kiriMat3 body = kiriPrediction_Inertia(prediction, &IdentityAxes), inertia = kiriPrediction_Inertia(prediction, A);
     kiriVec3 spin = kiriMat3_Solve(&inertia, L);
     double angle = dt * kiriVec3_Length(spin), before = kiriVec3_Dot(L, spin);
     int parts = angle < 2.0 ? 1 + (int)(4.0 * angle) : MOST_PARTS;
     for (int part = 0; part < parts; ++part) {
-        *A = Turn(A, &body, L, dt / parts);
+        *A = TurnPart(A, &body, L, dt / parts);
     }
     inertia = kiriPrediction_Inertia(prediction, A);
     prediction->spin = kiriMat3_Solve(&inertia, L);
@@ -151,35 +171,28 @@ static void TurnFreely(kiriPrediction* prediction, kiriVec3 L, double dt)
 kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
                                    double dt)
 {
-    kiriPrediction prediction = { MomentsOf(frame, (double)material->thickness),
+    kiriPrediction prediction = { kiriFrame_MassMoments(frame, material),
                                   kiriPose_Of(frame),
                                   frame->velocity,
                                   frame->spin,
-                                  None,
+                                  { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } },
                                   kiriPose_Of(frame) };
     double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
-    kiriVec3 coasting = kiriVec3_Scale(fade, frame->velocity);
+    kiriVec3 carried = kiriVec3_Scale(fade, frame->velocity);
     kiriVec3 push = kiriVec3_AddScaled(gravity, 1.0 / frame->mass, frame->force);
-    prediction.velocity = kiriVec3_AddScaled(coasting, dt, push);
+    prediction.velocity = kiriVec3_AddScaled(carried, dt, push);
     prediction.pose.x = kiriVec3_AddScaled(frame->x, dt, prediction.velocity);
     kiriMat3 inertia = kiriPrediction_Inertia(&prediction, &frame->A);
     kiriVec3 L = kiriVec3_Scale(fade, kiriMat3_Mul(inertia, frame->spin));
     TurnFreely(&prediction, kiriVec3_AddScaled(L, dt, frame->torque), dt);
-    prediction.coast.x = kiriVec3_AddScaled(frame->x, dt, coasting);
-    prediction.coast.A = prediction.pose.A;
+    prediction.forceless.x = kiriVec3_AddScaled(frame->x, dt, carried);
+    prediction.forceless.A = prediction.pose.A;
     return prediction;
 }
 
 /* ---- Affine frames ---- */
 
-static kiriMat3 AddScaled(const kiriMat3* A, double s, const kiriMat3* B)
-{
-    kiriMat3 r = { kiriVec3_AddScaled(A->u, s, B->u), kiriVec3_AddScaled(A->v, s, B->v),
-                   kiriVec3_AddScaled(A->d, s, B->d) };
-    return r;
-}
-
-static kiriMat3 Cross(kiriVec3 w, const kiriMat3* A)
+static kiriMat3 CrossColumns(kiriVec3 w, const kiriMat3* A)
 {
     kiriMat3 r = { kiriVec3_Cross(w, A->u), kiriVec3_Cross(w, A->v), kiriVec3_Cross(w, A->d) };
     return r;
@@ -199,7 +212,7 @@ static kiriMat3 AffineInertia(const kiriMassMoments* m, const kiriMat3* A)
 
 kiriMat3 kiriFrame_Inertia(const kiriFrameData* frame, const kiriMaterial* material)
 {
-    kiriMassMoments moments = MomentsOf(frame, (double)material->thickness);
+    kiriMassMoments moments = kiriFrame_MassMoments(frame, material);
     return AffineInertia(&moments, &frame->A);
 }
 
@@ -212,18 +225,18 @@ kiriVec3 kiriMat3_Spin(const kiriMat3* A, const kiriMat3* rate)
 
 kiriMat3 kiriMat3_Beside(const kiriMat3* A, const kiriMat3* rate, kiriVec3 spin)
 {
-    kiriMat3 turning = Cross(spin, A);
-    return AddScaled(rate, -1.0, &turning);
+    kiriMat3 turning = CrossColumns(spin, A);
+    return kiriMat3_AddScaled(rate, -1.0, &turning);
 }
 
 kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change)
 {
     kiriVec3 w = kiriMat3_Spin(A, change);
     double length = kiriVec3_Length(w);
-    if (length > LONGEST_TURN) {
-        w = kiriVec3_Scale(LONGEST_TURN / length, w);
+    if (length > LONGEST_PART_TURN) {
+        w = kiriVec3_Scale(LONGEST_PART_TURN / length, w);
     }
-    kiriMat3 rest = kiriMat3_Beside(A, change, w), grown = AddScaled(A, 1.0, &rest);
+    kiriMat3 rest = kiriMat3_Beside(A, change, w), grown = kiriMat3_AddScaled(A, 1.0, &rest);
     return kiriMat3_MulMat(kiriMat3_Cayley(w), grown);
 }
 
@@ -234,21 +247,21 @@ kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMater
 {
     kiriPrediction prediction = kiriPrediction_Free(frame, material, gravity, dt);
     double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
-    kiriMat3 inertia = AffineInertia(&prediction.moments, &frame->A), turn = Identity;
+    kiriMat3 inertia = AffineInertia(&prediction.moments, &frame->A), turn = IdentityAxes;
     kiriVec3 L = kiriVec3_AddScaled(kiriVec3_Scale(dt, frame->torque), fade, kiriMat3_Mul(inertia, frame->spin));
     kiriVec3 spin = kiriMat3_Solve(&inertia, L);
     double angle = dt * kiriVec3_Length(spin), before = kiriVec3_Dot(L, spin);
     int parts = angle < 2.0 ? 1 + (int)(4.0 * angle) : MOST_PARTS;
     for (int part = 0; part < parts; ++part) {
-        turn = Turn(&turn, &inertia, L, dt / parts);
+        turn = TurnPart(&turn, &inertia, L, dt / parts);
     }
-    kiriMat3 grown = AddScaled(&frame->A, dt * fade, &frame->rate), rate = kiriMat3_MulMat(turn, frame->rate);
-    prediction.pose.A = prediction.coast.A = kiriMat3_MulMat(turn, grown);
+    kiriMat3 grown = kiriMat3_AddScaled(&frame->A, dt * fade, &frame->rate), rate = kiriMat3_MulMat(turn, frame->rate);
+    prediction.pose.A = prediction.forceless.A = kiriMat3_MulMat(turn, grown);
     spin = kiriMat3_Mul(turn, kiriMat3_Solve(&inertia, MulTransposed(&turn, L)));
     double after = kiriVec3_Dot(L, spin);
     prediction.spin = after > before ? kiriVec3_Scale(sqrt(before / after), spin) : spin;
-    prediction.rate = Cross(prediction.spin, &prediction.pose.A);
-    prediction.rate = AddScaled(&prediction.rate, fade, &rate);
+    prediction.rate = CrossColumns(prediction.spin, &prediction.pose.A);
+    prediction.rate = kiriMat3_AddScaled(&prediction.rate, fade, &rate);
     return prediction;
 }
 
@@ -267,16 +280,16 @@ static kiriVec3 AngleBetween(const kiriMat3* a, const kiriMat3* b)
 
 kiriPrediction kiriPrediction_Held(const kiriFrameData* frame, const kiriMaterial* material, double dt)
 {
-    kiriPrediction prediction = { MomentsOf(frame, (double)material->thickness),
+    kiriPrediction prediction = { kiriFrame_MassMoments(frame, material),
                                   { frame->heldPosition, frame->heldRotation },
                                   frame->velocity,
                                   frame->spin,
-                                  None,
+                                  { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } },
                                   kiriPose_Of(frame) };
     kiriVec3 arm = kiriPose_Along(&prediction.pose, kiriVec2_Sub(frame->site.at, frame->center));
     prediction.pose.x = kiriVec3_Sub(frame->heldPosition, arm);
     prediction.velocity = kiriVec3_Scale(1.0 / dt, kiriVec3_Sub(prediction.pose.x, frame->x));
     prediction.spin = kiriVec3_Scale(1.0 / dt, AngleBetween(&frame->A, &prediction.pose.A));
-    prediction.coast = prediction.pose;
+    prediction.forceless = prediction.pose;
     return prediction;
 }

@@ -1,12 +1,13 @@
-/* A frame by itself: its mass, and how it flies over a step when no link, pin or contact acts on it. */
-#ifndef KIRI_FLIGHT_H
-#define KIRI_FLIGHT_H
+/* A frame by itself: its mass, and the free prediction: how it moves over a step when no element, pin or contact acts on
+   it. */
+#ifndef KIRI_PREDICTION_H
+#define KIRI_PREDICTION_H
+
+#include "kiri_frame.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-#include "kiri_frame.h"
 
 typedef struct kiriPose {
     kiriVec3 x;
@@ -22,8 +23,8 @@ typedef struct kiriPrediction {
     kiriMassMoments moments;
     kiriPose pose; /* at the end of the step */
     kiriVec3 velocity, spin;
-    kiriMat3 rate;  /* of A, all of it; of affine frames only */
-    kiriPose coast; /* the same without forces */
+    kiriMat3 rate;      /* of A, all of it; of affine frames only */
+    kiriPose forceless; /* at the end of the step, if no force acted */
 } kiriPrediction;
 
 static inline kiriPose kiriPose_Of(const kiriFrameData* frame)
@@ -46,15 +47,18 @@ kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMateria
 kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
                                      double dt);
 
-/* A (1 + ..) turned: where A gets by a change of `change`, whose turning part turns it and leaves its lengths. */
+/* A after a change of `change`: the part of it that turns A does so as a rotation, and leaves lengths as they are. */
 kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change);
 
-/* The spin that comes nearest to the rate at which A changes, and what the rate has beside it. */
+/* The spin that comes nearest to the rate at which A changes, and what is left of the rate without it. */
 kiriVec3 kiriMat3_Spin(const kiriMat3* A, const kiriMat3* rate);
 kiriMat3 kiriMat3_Beside(const kiriMat3* A, const kiriMat3* rate, kiriVec3 spin);
 
-/* The way of a frame that the host moves. */
+/* The prediction of a frame that the host moves: its motion is known. */
 kiriPrediction kiriPrediction_Held(const kiriFrameData* frame, const kiriMaterial* material, double dt);
+
+/* Second moments of mass. The thickness keeps those of a sliver above zero. */
+kiriMassMoments kiriFrame_MassMoments(const kiriFrameData* frame, const kiriMaterial* material);
 
 /* Kinetic energy, J, and angular momentum about the centre of mass, rigid or not; and by how much the latter grows with
    the spin, symmetric, in space. */
@@ -74,8 +78,11 @@ kiriMat3 kiriPrediction_Gradient(const kiriPrediction* prediction, const kiriMat
 /* Half its gradient by turning A: a turning impulse, times the step. */
 kiriVec3 kiriPrediction_TurnGradient(const kiriPrediction* prediction, const kiriMat3* A);
 
-/* m^-1 a, for an m that has an inverse. */
+/* m^-1 a, for an m that has an inverse; A + s B; s A; and m (r^2 - r r^T), the inertia of a mass at r. */
 kiriVec3 kiriMat3_Solve(const kiriMat3* m, kiriVec3 a);
+kiriMat3 kiriMat3_AddScaled(const kiriMat3* A, double s, const kiriMat3* B);
+kiriMat3 kiriMat3_Scale(double s, const kiriMat3* A);
+kiriMat3 kiriMat3_PointInertia(double m, kiriVec3 r);
 
 #ifdef __cplusplus
 }

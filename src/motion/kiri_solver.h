@@ -3,7 +3,11 @@
 #define KIRI_SOLVER_H
 
 #include "kiri_strain_offset.h"
-#include "kiri_patch.h"
+#include "kiri_area_element.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 typedef struct kiriSolver kiriSolver;
 
@@ -23,7 +27,7 @@ typedef struct kiriContactRow {
     double offset, friction, stiffness;
 } kiriContactRow;
 
-/* What moves, and how. */
+/* How frames move, and what joins them. */
 typedef struct kiriMechanics {
     int32_t model; /* KIRI_MODEL_... */
     bool planar;   /* frames stay in the plane of axes.u and axes.v */
@@ -36,8 +40,8 @@ typedef struct kiriSystem {
     int32_t frameCount;
     const kiriLink* links;
     int32_t linkCount;
-    const kiriStrainOffset* strainOffsets; /* one a link between rigid frames, or null: what strains count less */
-    const kiriPatches* patches;            /* of affine frames; may be null where there are none */
+    const kiriStrainOffset* strainOffsets; /* one a link between rigid frames, or null */
+    const kiriAreaElements* areaElements;  /* of affine frames; may be null where there are none */
     const kiriPinRow* pins;
     int32_t pinCount;
     const kiriContactRow* contacts;
@@ -49,31 +53,31 @@ typedef struct kiriSystem {
 /* A solver for no frames yet. Null for memory. */
 kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics);
 
-/* Prepares for these frames, links and patches; replaces what was staged before. Steps go on with the current ones. The
-   pattern of the matrix is renewed only where it does not cover the pairs of frames that they couple, or where
-   frameCount differs: links that vanish leave zero blocks, also in a new pattern, until these are more than twice as
-   many as the others. Otherwise nothing is allocated but room that grows. False for memory: nothing is staged then. */
+/* Prepares for these frames, links and area elements; replaces what was staged before. Steps go on with the current
+   ones. framePiece[f] is the piece of frame f: no element joins frames of two pieces. The matrix gets a new pattern only
+   where the current one does not cover the pairs of frames that elements couple, or where frameCount differs: links
+   that vanish leave zero blocks, also in a new pattern, until these are more than twice as many as the others.
+   Otherwise nothing is allocated but room that grows. False for memory: nothing is staged then. */
 bool kiriSolver_Stage(kiriSolver* solver, int32_t frameCount, const kiriLink* links, int32_t linkCount,
-                      const kiriPatches* patches);
+                      const kiriAreaElements* areaElements, const int32_t* framePiece, int32_t pieceCount);
 
 /* What is staged, if anything, becomes current. */
 void kiriSolver_Commit(kiriSolver* solver);
 
-/* Of the pattern, which depends on what was staged before: steps depend on it in their last bits. And how often it was
-   renewed, the first included. */
+/* Of the pattern, which depends on what was staged before: the last bits of steps depend on it. */
 uint64_t kiriSolver_Hash(const kiriSolver* solver);
-int64_t kiriSolver_Renewals(const kiriSolver* solver);
 
-/* How often a piece had to start its step anew. */
-int64_t kiriSolver_Restarts(const kiriSolver* solver);
-
-/* Moves the frames by dt. Links and patches are those that were committed; normals of contacts are unit, heldRotation
-   is a rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the motion asks for
-   them, but at most `most` (1 or more). Or -1 when it cannot be continued (not finite); the frames are then as before
-   the call. Allocates nothing. Forces on frames are used, not cleared. */
+/* Moves the frames by dt. Links and area elements are those that were committed; normals of contacts are unit,
+   heldRotation is a rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the
+   motion asks for them, but at most `most` (1 or more). Or -1 when it cannot be continued (not finite); the frames are
+   then as before the call. Allocates nothing. Forces on frames are used, not cleared. */
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations, int32_t most);
 
-/* Elastic energy of links and patches, J. */
+/* Elastic energy of links and area elements, J. */
 double kiriSolver_ElasticEnergy(const kiriSystem* system);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -2,11 +2,9 @@
 
 #include <string.h>
 
-/* Clamped at both ends, a strip of length l resists an offset of its ends with 12 D W / l^3. */
-#define NORMAL_GAP_BETA 12.0
-/* and the offset g makes it longer by 3/5 g^2 / l, where a straight line has 1/2. */
-#define ARC 1.2
-#define NORMAL_STOP_SHARE 0.5
+/* An offset g of the ends of a strip that is clamped there makes it longer by 3/5 g^2 / l, where a straight line has
+   1/2. */
+#define ARC_SHARE 1.2
 /* Square of the angle at which the arc between two sites is taken for a half. */
 #define ARC_FOLD 2.5
 /* Links along both directions share a shear when frames turn; a strip one region wide has those of one direction only,
@@ -24,17 +22,16 @@
 
 /* The mean axes of two frames. When the frames turn by w_0 and w_1, the axes turn by the sum over k of
    n (nBy[k] . w_k) + tau (tauBy[k] . w_k) + d (dBy[k] . w_k). */
-typedef struct Axes {
+typedef struct MeanAxes {
     kiriVec3 n, tau, d;
     kiriVec3 nBy[2], tauBy[2], dBy[2];
-    double
-        open; /* the cosine of half the angle between the directors: 1 where the sheet is flat, 0 where it is folded */
+    double open; /* cosine of half the angle between the directors: 1 where the sheet is flat, 0 where it is folded */
     kiriVec3 openBy[2];
-} Axes;
+} MeanAxes;
 
 /* How the mean axes turn, from what they were made of. */
-static void FindTurns(Axes* axes, const kiriVec3 normals[2], const kiriPose* const poses[2], double lean,
-                      double lengthN, double lengthD)
+static void FindAxisTurns(MeanAxes* axes, const kiriVec3 normals[2], const kiriPose* const poses[2], double lean,
+                          double lengthN, double lengthD)
 {
     double perN = 1.0 / lengthN, perD = 1.0 / lengthD;
     for (int k = 0; k < 2; ++k) {
@@ -45,25 +42,25 @@ static void FindTurns(Axes* axes, const kiriVec3 normals[2], const kiriPose* con
     }
 }
 
-static kiriVec3 Beside(kiriVec3 a, kiriVec3 d)
+static kiriVec3 WithoutPart(kiriVec3 a, kiriVec3 d)
 {
     return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, d), d);
 }
 
 /* Where the normals have no mean those of the first frame serve, or its director where these lie along d; and all turns
    with that frame. */
-static void TakeFirstAxes(Axes* axes, const kiriLink* link, const kiriPose* first)
+static void TakeFirstAxes(MeanAxes* axes, const kiriLink* link, const kiriPose* first)
 {
-    kiriVec3 n = Beside(kiriPose_Along(first, link->normal), axes->d);
+    kiriVec3 n = WithoutPart(kiriPose_Along(first, link->normal), axes->d);
     memset(axes->nBy, 0, sizeof(axes->nBy));
     memset(axes->tauBy, 0, sizeof(axes->tauBy));
     memset(axes->dBy, 0, sizeof(axes->dBy));
-    axes->n = axes->nBy[0] = kiriVec3_Normalize(kiriVec3_Length(n) > 0.5 ? n : Beside(first->A.d, axes->d));
+    axes->n = axes->nBy[0] = kiriVec3_Normalize(kiriVec3_Length(n) > 0.5 ? n : WithoutPart(first->A.d, axes->d));
     axes->tau = axes->tauBy[0] = kiriVec3_Cross(axes->d, axes->n);
     axes->dBy[0] = axes->d;
 }
 
-static void TakeMeanAxes(Axes* axes, const kiriLink* link, const kiriPose* const poses[2], bool turns)
+static void TakeMeanAxes(MeanAxes* axes, const kiriLink* link, const kiriPose* const poses[2], bool turns)
 {
     const kiriVec3 normals[2] = { kiriPose_Along(poses[0], link->normal), kiriPose_Along(poses[1], link->normal) };
     kiriVec3 d = kiriVec3_Add(poses[0]->A.d, poses[1]->A.d), n = kiriVec3_Add(normals[0], normals[1]);
@@ -80,7 +77,7 @@ static void TakeMeanAxes(Axes* axes, const kiriLink* link, const kiriPose* const
         axes->n = kiriVec3_Scale(1.0 / lengthN, n);
         axes->tau = kiriVec3_Cross(axes->d, axes->n);
         if (turns) {
-            FindTurns(axes, normals, poses, lean, lengthN, lengthD);
+            FindAxisTurns(axes, normals, poses, lean, lengthN, lengthD);
         }
     }
     for (int k = 0; turns && k < 2; ++k) {
@@ -90,26 +87,26 @@ static void TakeMeanAxes(Axes* axes, const kiriLink* link, const kiriPose* const
 
 /* A vector of each frame, and their difference, as a link sees them; for a point the arms from the frames' x, and the
    gap. */
-typedef struct Pair {
+typedef struct EndVectors {
     kiriVec3 ends[2], gap;
-} Pair;
+} EndVectors;
 
-static Pair Directions(kiriVec3 first, kiriVec3 second)
+static EndVectors DirectionVectors(kiriVec3 first, kiriVec3 second)
 {
-    Pair pair = { { first, second }, kiriVec3_Sub(second, first) };
+    EndVectors pair = { { first, second }, kiriVec3_Sub(second, first) };
     return pair;
 }
 
-static Pair Points(const kiriFrameData* const frames[2], const kiriPose* const poses[2], kiriVec2 at)
+static EndVectors PointVectors(const kiriFrameData* const frames[2], const kiriPose* const poses[2], kiriVec2 at)
 {
-    Pair pair = Directions(kiriPose_Along(poses[0], kiriVec2_Sub(at, frames[0]->center)),
-                           kiriPose_Along(poses[1], kiriVec2_Sub(at, frames[1]->center)));
+    EndVectors pair = DirectionVectors(kiriPose_Along(poses[0], kiriVec2_Sub(at, frames[0]->center)),
+                                       kiriPose_Along(poses[1], kiriVec2_Sub(at, frames[1]->center)));
     pair.gap = kiriVec3_Add(pair.gap, kiriVec3_Sub(poses[1]->x, poses[0]->x));
     return pair;
 }
 
 /* The derivative of gap . axis: the ends turn with their frames, and the axis with both. */
-static void WriteTurns(const Axes* axes, kiriVec3 axis, const Pair* pair, kiriStrainRow* row)
+static void WriteTurns(const MeanAxes* axes, kiriVec3 axis, const EndVectors* pair, kiriStrainRow* row)
 {
     kiriVec3 g = kiriVec3_Cross(axis, pair->gap), zero = { 0.0, 0.0, 0.0 };
     double gn = kiriVec3_Dot(g, axes->n), gtau = kiriVec3_Dot(g, axes->tau), gd = kiriVec3_Dot(g, axes->d);
@@ -122,14 +119,14 @@ static void WriteTurns(const Axes* axes, kiriVec3 axis, const Pair* pair, kiriSt
     }
 }
 
-static void WriteGap(const Axes* axes, kiriVec3 axis, const Pair* points, kiriStrainRow* row)
+static void WriteGap(const MeanAxes* axes, kiriVec3 axis, const EndVectors* points, kiriStrainRow* row)
 {
     WriteTurns(axes, axis, points, row);
     row->end[0].move = kiriVec3_Scale(-1.0, axis);
     row->end[1].move = axis;
 }
 
-static void Scale(kiriStrainRow* row, double a)
+static void ScaleRow(kiriStrainRow* row, double a)
 {
     for (int k = 0; k < 2; ++k) {
         row->end[k].move = kiriVec3_Scale(a, row->end[k].move);
@@ -137,7 +134,7 @@ static void Scale(kiriStrainRow* row, double a)
     }
 }
 
-static void Add(kiriStrainRow* row, double a, const kiriStrainRow* other)
+static void AddRow(kiriStrainRow* row, double a, const kiriStrainRow* other)
 {
     for (int k = 0; k < 2; ++k) {
         row->end[k].move = kiriVec3_AddScaled(row->end[k].move, a, other->end[k].move);
@@ -161,33 +158,33 @@ static double LeverOf(const kiriLink* link, const kiriFrameData* const frames[2]
 
 /* The strain is signed along n: the length alone would be at rest again where the frames have passed through each
    other, and a sheet that was crushed would stay inside out. */
-static void MeasureStretch(double lever, const Axes* axes, const Pair* b, double* strain, kiriStrainRow* row)
+static void MeasureStretch(double lever, const MeanAxes* axes, const EndVectors* b, double* strain, kiriStrainRow* row)
 {
     double ahead = lever + kiriVec3_Dot(b->gap, axes->n), aside = kiriVec3_Dot(b->gap, axes->d);
     double per = ahead < 0.0 ? 0.0 : ahead < lever ? ahead / lever : 1.0; /* base by ahead */
     double base = ahead > lever ? ahead : 0.5 * lever * (1.0 + per * per);
-    double line = sqrt(base * base + ARC * aside * aside);
+    double line = sqrt(base * base + ARC_SHARE * aside * aside);
     *strain = ahead - lever + (line - base);
     if (row != NULL) {
         kiriStrainRow d;
         WriteGap(axes, axes->d, b, &d);
         WriteGap(axes, axes->n, b, row);
-        Scale(row, 1.0 - per * (1.0 - base / line));
-        Add(row, ARC * aside / line, &d);
+        ScaleRow(row, 1.0 - per * (1.0 - base / line));
+        AddRow(row, ARC_SHARE * aside / line, &d);
     }
 }
 
 /* How much of a strain along the mean axes counts, and how that changes with `open`. Where the directors are nearly
    opposite, a small turn swings the mean axes round: gaps of no energy along one would have all that of stretch along
    the next, and no motion would find a way past. */
-typedef struct Fade {
+typedef struct AxisFade {
     double keep, slope;
-} Fade;
+} AxisFade;
 
-static Fade FadeOf(const Axes* axes)
+static AxisFade FadeOf(const MeanAxes* axes)
 {
     double share = axes->open * axes->open / FADING;
-    Fade fade = { 1.0, 0.0 };
+    AxisFade fade = { 1.0, 0.0 };
     if (share < 1.0) {
         fade.keep = share * (2.0 - share);
         fade.slope = 4.0 * (1.0 - share) * axes->open / FADING;
@@ -195,26 +192,26 @@ static Fade FadeOf(const Axes* axes)
     return fade;
 }
 
-static void AddOpening(const Axes* axes, double a, kiriStrainRow* row)
+static void AddOpening(const MeanAxes* axes, double a, kiriStrainRow* row)
 {
     for (int k = 0; k < 2; ++k) {
         row->end[k].turn = kiriVec3_AddScaled(row->end[k].turn, a, axes->openBy[k]);
     }
 }
 
-static void FadeStrain(const Axes* axes, Fade fade, double* strain, kiriStrainRow* row)
+static void FadeStrain(const MeanAxes* axes, AxisFade fade, double* strain, kiriStrainRow* row)
 {
     if (row != NULL) {
-        Scale(row, fade.keep);
+        ScaleRow(row, fade.keep);
         AddOpening(axes, fade.slope * *strain, row);
     }
     *strain *= fade.keep;
 }
 
 /* What the length of the gap has above `most`; only its part along the mean normal where that is known. */
-static void MeasureStop(double most, const Axes* axes, const Pair* m, double* strain, kiriStrainRow* row)
+static void MeasureStop(double most, const MeanAxes* axes, const EndVectors* m, double* strain, kiriStrainRow* row)
 {
-    Fade fade = FadeOf(axes);
+    AxisFade fade = FadeOf(axes);
     double normal = kiriVec3_Dot(m->gap, axes->d), lost = 1.0 - fade.keep;
     double aside = kiriVec3_Dot(m->gap, m->gap) - normal * normal;
     double length = sqrt(normal * normal + lost * lost * aside);
@@ -226,34 +223,35 @@ static void MeasureStop(double most, const Axes* axes, const Pair* m, double* st
         kiriStrainRow whole;
         double per = 1.0 / length;
         WriteGap(axes, axes->d, m, row);
-        Scale(row, per * (1.0 - lost * lost) * normal);
+        ScaleRow(row, per * (1.0 - lost * lost) * normal);
         WriteGap(axes, m->gap, m, &whole);
-        Add(row, per * lost * lost, &whole);
+        AddRow(row, per * lost * lost, &whole);
         AddOpening(axes, -per * lost * aside * fade.slope, row);
     }
 }
 
-static void MeasureNormal(const kiriLink* link, const Axes* axes, const Pair* m, double* strain, kiriStrainRow* rows)
+static void MeasureNormal(const kiriLink* link, const MeanAxes* axes, const EndVectors* m, double* strain,
+                          kiriStrainRow* rows)
 {
     strain[KIRI_NORMAL_GAP] = kiriVec3_Dot(m->gap, axes->d);
     if (rows != NULL) {
         WriteGap(axes, axes->d, m, &rows[KIRI_NORMAL_GAP]);
     }
-    MeasureStop(NORMAL_STOP_SHARE * link->length, axes, m, &strain[KIRI_NORMAL_STOP],
+    MeasureStop(KIRI_NORMAL_STOP_SHARE * link->length, axes, m, &strain[KIRI_NORMAL_STOP],
                 rows != NULL ? &rows[KIRI_NORMAL_STOP] : NULL);
 }
 
 /* The difference of the directors is the chord of the angle between them, 2 sin(a / 2), and with e = 1 - cos(a / 2) its
    arc to the third order is longer by 1 + (2 e - e^2) / 6. The last term is what that lacks of half a turn, where the
    angle, unlike the chord, has a slope: no fold stays because it is complete. */
-static void TakeAngle(const Axes* axes, double* strain, kiriStrainRow* rows)
+static void TakeAngle(const MeanAxes* axes, double* strain, kiriStrainRow* rows)
 {
     const double lacking = 0.5 * HALF_TURN - 7.0 / 6.0;
     double e = axes->open < 1.0 ? 1.0 - axes->open : 0.0, e3 = e * e * e;
     double longer = 1.0 + (2.0 * e - e * e) / 6.0 + lacking * e3 * e, slope = (1.0 - e) / 3.0 + 4.0 * lacking * e3;
     for (int s = KIRI_BENDING; s <= KIRI_TWIST; ++s) {
         if (rows != NULL) {
-            Scale(&rows[s], longer);
+            ScaleRow(&rows[s], longer);
             AddOpening(axes, -slope * strain[s], &rows[s]);
         }
         strain[s] *= longer;
@@ -291,17 +289,17 @@ static void TakeArc(const kiriLink* link, const kiriFrameData* const frames[2], 
     if (rows != NULL) {
         double fade = 4.0 * keep * keep * fold * perFold * turn;
         double byBending = keep * n - fade * bending, byTwist = keep * tau - fade * twist;
-        Add(&rows[KIRI_STRETCH], -(keep * turn + bending * byBending), &rows[KIRI_BENDING]);
-        Add(&rows[KIRI_STRETCH], -bending * byTwist, &rows[KIRI_TWIST]);
-        Add(&rows[KIRI_SHEAR], -twist * byBending, &rows[KIRI_BENDING]);
-        Add(&rows[KIRI_SHEAR], -(keep * turn + twist * byTwist), &rows[KIRI_TWIST]);
+        AddRow(&rows[KIRI_STRETCH], -(keep * turn + bending * byBending), &rows[KIRI_BENDING]);
+        AddRow(&rows[KIRI_STRETCH], -bending * byTwist, &rows[KIRI_TWIST]);
+        AddRow(&rows[KIRI_SHEAR], -twist * byBending, &rows[KIRI_BENDING]);
+        AddRow(&rows[KIRI_SHEAR], -(keep * turn + twist * byTwist), &rows[KIRI_TWIST]);
     }
 }
 
-static void FadeStrains(const Axes* axes, double* strain, kiriStrainRow* rows)
+static void FadeStrains(const MeanAxes* axes, double* strain, kiriStrainRow* rows)
 {
     const int fading[] = { KIRI_STRETCH, KIRI_SHEAR, KIRI_PLANE_BENDING, KIRI_NORMAL_GAP };
-    Fade fade = FadeOf(axes);
+    AxisFade fade = FadeOf(axes);
     for (int k = 0; fade.keep < 1.0 && k < (int)(sizeof(fading) / sizeof(fading[0])); ++k) {
         FadeStrain(axes, fade, &strain[fading[k]], rows != NULL ? &rows[fading[k]] : NULL);
     }
@@ -310,11 +308,12 @@ static void FadeStrains(const Axes* axes, double* strain, kiriStrainRow* rows)
 void kiriStrain_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
                         double strain[KIRI_STRAINS], kiriStrainRow* rows)
 {
-    Axes axes;
+    MeanAxes axes;
     TakeMeanAxes(&axes, link, poses, rows != NULL);
-    Pair b = Points(frames, poses, link->centroid), m = Points(frames, poses, link->crossing);
-    Pair directors = Directions(poses[0]->A.d, poses[1]->A.d);
-    Pair tangents = Directions(kiriPose_Along(poses[0], link->tangent), kiriPose_Along(poses[1], link->tangent));
+    EndVectors b = PointVectors(frames, poses, link->centroid), m = PointVectors(frames, poses, link->crossing);
+    EndVectors directors = DirectionVectors(poses[0]->A.d, poses[1]->A.d);
+    EndVectors tangents =
+        DirectionVectors(kiriPose_Along(poses[0], link->tangent), kiriPose_Along(poses[1], link->tangent));
     MeasureStretch(LeverOf(link, frames), &axes, &b, &strain[KIRI_STRETCH], rows != NULL ? &rows[KIRI_STRETCH] : NULL);
     MeasureNormal(link, &axes, &m, strain, rows);
     strain[KIRI_SHEAR] = kiriVec3_Dot(b.gap, axes.tau);
@@ -348,6 +347,6 @@ void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, do
     stiffness[KIRI_PLANE_BENDING] = membrane * link->moment;
     stiffness[KIRI_BENDING] = bending * link->width;
     stiffness[KIRI_TWIST] = bending * link->width;
-    stiffness[KIRI_NORMAL_GAP] = NORMAL_GAP_BETA * bending * link->width / (l * l);
+    stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * link->width / (l * l);
     stiffness[KIRI_NORMAL_STOP] = membrane * link->width;
 }

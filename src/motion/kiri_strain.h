@@ -1,13 +1,14 @@
-/* The strains of a link: how two rigid frames stand to each other where their regions meet (README, "Mechanics"). */
+/* The generalised strains of a link: how two rigid frames stand to each other where their regions meet (README,
+   "Mechanics"). Those of gaps are in metres, those of bending and twist in radians. */
 #ifndef KIRI_STRAIN_H
 #define KIRI_STRAIN_H
+
+#include "kiri_prediction.h"
+#include "../field/kiri_link.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-#include "kiri_prediction.h"
-#include "../field/kiri_link.h"
 
 /* With gap(p) = x_j(p) - x_i(p); n, tau, d the mean axes of the two frames, orthonormal; D = E h^3 / (12 (1 - nu^2)).
    Every energy is 1/2 stiffness strain^2.
@@ -38,6 +39,9 @@ extern "C" {
    everywhere, and it has no kink for a motion to be caught in.
 
    The stop catches sheets that bend within less than l, whose normal gap nothing would bound. */
+#define KIRI_NORMAL_GAP_BETA 12.0 /* of a strip that is clamped at both ends */
+#define KIRI_NORMAL_STOP_SHARE 0.5
+
 enum {
     KIRI_STRETCH,
     KIRI_SHEAR,

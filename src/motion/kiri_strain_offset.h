@@ -1,18 +1,22 @@
 /* Strains that links take over when a cut changes them. Frames stand to each other as they did, but the new borders of
    their regions see more or less of a gap between them, which in a bent stiff sheet is energy out of nowhere. So a
-   link goes on with the strain that it had, and the difference strainOffsets off. */
-#ifndef KIRI_EASE_H
-#define KIRI_EASE_H
+   link goes on with the strain that it had: the difference is its offset, which fades with time. */
+#ifndef KIRI_STRAIN_OFFSET_H
+#define KIRI_STRAIN_OFFSET_H
 
 #include "kiri_strain.h"
 
-/* What a link's strains count less. */
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What is taken off the strains of a link before they pull. */
 typedef struct kiriStrainOffset {
     double strain[KIRI_STRAINS];
 } kiriStrainOffset;
 
 typedef struct kiriStrainOffsets {
-    KIRI_ARRAY(kiriStrainOffset) strainOffsets, older; /* one a link; none where nothing is eased */
+    KIRI_ARRAY(kiriStrainOffset) strainOffsets, older; /* one a link; none where no cut has changed links */
     KIRI_ARRAY(kiriFrameData) frames;                  /* as they were before the commit */
 } kiriStrainOffsets;
 
@@ -27,7 +31,11 @@ void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFram
 void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* old, int32_t oldCount,
                             const kiriLink* links, int32_t linkCount, const kiriFrameData* frames);
 
-/* Time goes on: what is eased falls to 1 / e within `time` (s). */
+/* Offsets fade to 1 / e within `time` (s). */
 void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, double dt, double time);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -49,8 +49,8 @@ static void TakeFits(kiriSheetData* sheet)
         frame->rate = state->rate;
     }
     const kiriLayout* next = &sheet->update->next;
-    kiriRefit_Brake(refit, sheet->frames.data, sheet->frames.count, next->framePiece.data, next->pieces.count,
-                    &sheet->settings.material);
+    kiriRefit_LimitEnergy(refit, sheet->frames.data, sheet->frames.count, next->framePiece.data, next->pieces.count,
+                          &sheet->settings.material);
     kiriRefit_Commit(refit, &sheet->mesh);
 }
 

@@ -49,7 +49,7 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     system.contacts = sheet->contactRows.data;
     system.contactCount = sheet->contactRows.count;
     system.mechanics = sheet->settings.mechanics;
-    system.patches = &sheet->layout.patches;
+    system.areaElements = &sheet->layout.areaElements;
     system.material = sheet->settings.material;
     system.gravity = gravity;
     return system;

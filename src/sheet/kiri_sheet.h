@@ -28,7 +28,7 @@ typedef struct kiriLayout {
     KIRI_ARRAY(kiriPiece) pieces;
     KIRI_ARRAY(int32_t) framePiece; /* of each frame */
     KIRI_ARRAY(int32_t) pinFrame;   /* the frame that each pin holds */
-    kiriPatches patches;            /* of affine frames */
+    kiriAreaElements areaElements;  /* of affine frames */
 } kiriLayout;
 
 /* What is in each piece, by index: first the items of piece 0, and so on. */

@@ -4,16 +4,16 @@
 #include "../motion/kiri_affine.h"
 
 /* What affine frames need beside links. */
-static bool BuildPatches(kiriSheetData* sheet)
+static bool BuildAreaElements(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
     bool planar = sheet->settings.mechanics.planar;
     switch (sheet->settings.mechanics.model) {
     case KIRI_MODEL_AFFINE:
-        return kiriAffine_Build(&u->next.patches, sheet->memory, sheet->links.next.data, sheet->links.next.count,
+        return kiriAffine_Build(&u->next.areaElements, sheet->memory, sheet->links.next.data, sheet->links.next.count,
                                 u->material.data, u->placing.sites.count, planar);
     case KIRI_MODEL_POINTS:
-        return kiriIntegration_Build(&u->next.patches, &u->integration, sheet->memory, &sheet->grid, &sheet->mesh,
+        return kiriIntegration_Build(&u->next.areaElements, &u->integration, sheet->memory, &sheet->grid, &sheet->mesh,
                                      &sheet->shape, u->material.data, sheet->settings.integrationPoints,
                                      sheet->settings.integrationOrder, planar);
     default:
@@ -56,10 +56,10 @@ kiriProgress kiriStage_Constants(kiriSheetData* sheet, kiriQuota* none)
                kiriStrainOffsets_Reserve(&sheet->strainOffsets, sheet->memory,
                                          Larger(sheet->links.next.count, sheet->links.links.count),
                                          u->placing.sites.count)) &&
-              BuildPatches(sheet) && FindPinFrames(sheet) && ReservePoints(sheet) &&
+              BuildAreaElements(sheet) && FindPinFrames(sheet) && ReservePoints(sheet) &&
               kiriRefit_Stage(&u->refit, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, u->isScratch) &&
               kiriArray_Reserve(sheet->memory, &sheet->frames, u->placing.sites.count) &&
               kiriSolver_Stage(sheet->solver, u->placing.sites.count, sheet->links.next.data, sheet->links.next.count,
-                               &u->next.patches);
+                               &u->next.areaElements, u->next.framePiece.data, u->next.pieces.count);
     return ok ? KIRI_DONE : KIRI_FAILED;
 }

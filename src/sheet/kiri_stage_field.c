@@ -19,7 +19,7 @@ kiriProgress kiriStage_Grid(kiriSheetData* sheet, kiriQuota* cells)
     kiriProgress progress = kiriGrid_Update(&sheet->grid, &sheet->mesh, cells);
     if (progress == KIRI_DONE) {
         const kiriGridChanges* changes = &sheet->grid.changes;
-        if (!kiriRefit_NoteDirty(&u->refit, sheet->memory, &sheet->mesh)) {
+        if (!kiriOwnership_NoteDirty(&u->refit.ownership, sheet->memory, &sheet->mesh)) {
             return KIRI_FAILED;
         }
         kiriSquares_ClearDirty(&sheet->mesh.squares);
@@ -76,7 +76,8 @@ static kiriProgress WeighCells(kiriSheetData* sheet, kiriQuota* cells)
                                              u->placing.sites.data, u->placing.sites.count, u->placing.moves.data,
                                              u->placing.moves.count, cells);
     if (progress == KIRI_DONE) {
-        if (!kiriRefit_NoteChanges(&u->refit, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions)) {
+        if (!kiriOwnership_NoteChanges(&u->refit.ownership, sheet->memory, &sheet->grid, &sheet->mesh,
+                                       &sheet->regions)) {
             return KIRI_FAILED;
         }
         kiriGrid_ClearChanges(&sheet->grid);

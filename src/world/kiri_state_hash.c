@@ -91,14 +91,14 @@ static void HashLink(uint64_t* hash, const kiriLink* link)
     HashVec2(hash, link->spread[1]);
 }
 
-static void HashPatches(uint64_t* hash, const kiriPatches* patches)
+static void HashAreaElements(uint64_t* hash, const kiriAreaElements* elements)
 {
-    for (int32_t i = 0; i < patches->patches.count; ++i) {
-        HashReal(hash, patches->patches.data[i].area);
-        HashInt(hash, patches->patches.data[i].count);
+    for (int32_t i = 0; i < elements->elements.count; ++i) {
+        HashReal(hash, elements->elements.data[i].area);
+        HashInt(hash, elements->elements.data[i].count);
     }
-    for (int32_t i = 0; i < patches->shares.count; ++i) {
-        const kiriShare* share = &patches->shares.data[i];
+    for (int32_t i = 0; i < elements->shares.count; ++i) {
+        const kiriFrameShare* share = &elements->shares.data[i];
         HashInt(hash, share->frame);
         HashReal(hash, share->weight);
         HashVec2(hash, share->slope);
@@ -114,7 +114,7 @@ static void HashLayout(uint64_t* hash, const kiriSheetData* sheet)
     for (int32_t i = 0; i < sheet->links.links.count; ++i) {
         HashLink(hash, &sheet->links.links.data[i]);
     }
-    HashPatches(hash, &layout->patches);
+    HashAreaElements(hash, &layout->areaElements);
     for (int32_t i = 0; i < sheet->points.count; ++i) {
         HashPoint(hash, sheet->points.data[i].at);
         HashInt(hash, sheet->points.data[i].frame);

@@ -1,0 +1,74 @@
+/* Area elements: pieces of the mid-surface that several affine frames deform together. Their strains are those at a
+   point; kiri_affine.h and kiri_integration.h make them, each with its own deformation gradient. */
+#ifndef KIRI_AREA_ELEMENT_H
+#define KIRI_AREA_ELEMENT_H
+
+#include "kiri_prediction.h"
+#include "../field/kiri_link.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* With F = [F_u F_v] the deformation gradient of the mid-surface, D the director, D_u and D_v its slopes; Green
+   strains, plane stress. Every energy is 1/2 stiffness strain^2; G = E / (2 (1 + nu)), K = E / (2 (1 - nu)), a the area. With a
+   element's `lean` above zero the products of F_u and F_v in the first three count their parts along D 1 + lean times.
+
+   strain     what                                   stiffness
+   area       (F_u . F_u + F_v . F_v) / 2 - 1        K h a
+   stretch    (F_u . F_u - F_v . F_v) / 2            G h a
+   shear      F_u . F_v                              G h a
+   dome       F_u . D_u + F_v . D_v                  K h^3 a / 12
+   saddle     F_u . D_u - F_v . D_v                  G h^3 a / 12
+   twist      F_u . D_v + F_v . D_u                  G h^3 a / 12
+   lean u, v  F_u . D, F_v . D                       G h a
+   thickness  (D . D - 1) / 2                        E h a */
+enum {
+    KIRI_AREA_DILATION,
+    KIRI_AREA_STRETCH,
+    KIRI_AREA_SHEAR,
+    KIRI_AREA_DOME,
+    KIRI_AREA_SADDLE,
+    KIRI_AREA_TWIST,
+    KIRI_AREA_LEAN_U,
+    KIRI_AREA_LEAN_V,
+    KIRI_AREA_THICKNESS,
+    KIRI_AREA_STRAINS
+};
+
+/* What one frame adds to the deformation gradient of an element. */
+typedef struct kiriFrameShare {
+    int32_t frame;
+    kiriVec2 move, u, v; /* F = sum of x (x) move + A_u (x) u + A_v (x) v */
+    double weight;       /* D = sum of weight d */
+    kiriVec2 slope;      /* its gradient */
+} kiriFrameShare;
+
+typedef struct kiriAreaElement {
+    double area; /* m^2 */
+    double lean;
+    int32_t first, count;      /* shares, by frame */
+    int32_t firstRow, lastRow; /* the strains that count */
+} kiriAreaElement;
+
+typedef struct kiriAreaElements {
+    KIRI_ARRAY(kiriAreaElement) elements;
+    KIRI_ARRAY(kiriFrameShare) shares;
+} kiriAreaElements;
+
+/* How a strain changes with the columns of a frame: x, A_u, A_v, d. */
+typedef struct kiriFrameRow {
+    kiriVec3 by[4];
+} kiriFrameRow;
+
+/* The strains of an element from firstRow to lastRow and, unless `rows` is null, their derivatives: `count` a strain. Poses
+   are those of all frames; null: as the frames are. */
+void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShare* shares, const kiriFrameData* frames,
+                             const kiriPose* poses, double* strain, kiriFrameRow* rows);
+void kiriAreaElement_Stiffness(const kiriAreaElement* element, const kiriMaterial* material, double* stiffness);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,206 @@
+#include "kiri_solver_work.h"
+
+#define LONGEST_ITERATION_TURN 1.0 /* of a frame in one Gauss-Newton step: a Cayley vector */
+#define HALVINGS 12                /* of a step that does not lower the objective */
+#define SECOND_CHANCES 4           /* more iterations where energy is gained or the last step was cut short, */
+#define FRESH_STARTS 2             /* and iterations from the start of the step should they fail */
+#define WORTHWHILE 1e-6            /* of the objective, where a longer step would lower it by more */
+#define MOST_TAKEN 0.5             /* of the kinetic energy, where a piece need not start anew */
+
+/* ---- One Gauss-Newton step ---- */
+
+/* The line search begins with the whole of the Gauss-Newton step, or as much of it as turns no frame too far. */
+static void StartSearch(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        piece->now = piece->isSearching ? piece->sum : piece->now;
+        piece->enough = piece->now.objective * (1.0 + KIRI_ROUNDING) + piece->noise;
+        piece->scale = LONGEST_ITERATION_TURN;
+        piece->promise = 0.0;
+    }
+    for (int32_t n = 0; n < solver->size * system->frameCount; ++n) {
+        kiriSolver_PieceOf(solver, n / solver->size)->promise += 0.5 * solver->force.data[n] * solver->move.data[n];
+    }
+    for (int32_t f = 0; !kiriMechanics_IsAffine(&system->mechanics) && f < system->frameCount; ++f) {
+        kiriFrameRow change = kiriSolver_Expand(solver, 1.0, &solver->move.data[solver->size * f]);
+        double turn = kiriVec3_Length(change.by[1]);
+        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+        piece->scale = turn > piece->scale ? turn : piece->scale;
+    }
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        solver->pieces.data[i].scale = LONGEST_ITERATION_TURN / solver->pieces.data[i].scale;
+    }
+}
+
+static void TryStep(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+        const kiriPose* pose = &solver->poses.data[f];
+        if (!piece->isSearching) {
+            continue;
+        }
+        kiriFrameRow change = kiriSolver_Expand(solver, piece->scale, &solver->move.data[solver->size * f]);
+        kiriMat3 columns = { change.by[1], change.by[2], change.by[3] };
+        solver->trial.data[f].x = kiriVec3_Add(pose->x, change.by[0]);
+        solver->trial.data[f].A = kiriMechanics_IsAffine(&system->mechanics)
+                                      ? kiriMat3_Advance(&pose->A, &columns)
+                                      : kiriMat3_MulMat(kiriMat3_Cayley(change.by[1]), pose->A);
+    }
+    kiriObjective_Evaluate(solver, system, solver->trial.data);
+}
+
+/* Pieces whose step is good enough take it. Returns whether there are others. */
+static bool TakeTrial(kiriSolver* solver, const kiriSystem* system)
+{
+    bool isLeft = false;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+        if (piece->isSearching && piece->sum.objective <= piece->enough) {
+            solver->poses.data[f] = solver->trial.data[f];
+        }
+    }
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        if (piece->isSearching && piece->sum.objective <= piece->enough) {
+            piece->now = piece->sum;
+            piece->isSearching = false;
+        }
+        isLeft |= piece->isSearching;
+    }
+    return isLeft;
+}
+
+/* Pieces that still search may end where the objective is that of the free prediction without friction. */
+static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        solver->trial.data[f] = solver->predictions.data[f].pose;
+    }
+    bool hasFriction = solver->hasFriction;
+    solver->hasFriction = false;
+    kiriObjective_Evaluate(solver, system, solver->trial.data);
+    solver->hasFriction = hasFriction;
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        double allowed = piece->sum.objective * (1.0 + KIRI_ROUNDING) + piece->noise;
+        piece->enough = piece->isSearching && allowed > piece->enough ? allowed : piece->enough;
+    }
+}
+
+/* One Gauss-Newton step, halved until the objective falls; the first one may also raise it to that of the free
+   prediction. False when the matrix has no factor. */
+static bool IterateOnce(kiriSolver* solver, const kiriSystem* system, bool isFirst)
+{
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        solver->pieces.data[i].isSearching = solver->pieces.data[i].isIterated;
+    }
+    kiriSolver_Assemble(solver, system);
+    if (!kiriMatrix_Factor(solver->matrix)) {
+        return false;
+    }
+    kiriMatrix_Solve(solver->matrix, solver->force.data, solver->move.data);
+    StartSearch(solver, system);
+    TryStep(solver, system);
+    bool isLeft = TakeTrial(solver, system);
+    if (isLeft && isFirst) {
+        AllowPrediction(solver, system);
+        TryStep(solver, system);
+        isLeft = TakeTrial(solver, system);
+    }
+    for (int halving = 0; isLeft && halving < HALVINGS; ++halving) {
+        for (int32_t i = 0; i < solver->pieceCount; ++i) {
+            solver->pieces.data[i].scale *= 0.5;
+        }
+        TryStep(solver, system);
+        isLeft = TakeTrial(solver, system);
+    }
+    return true;
+}
+
+/* ---- The iteration as a whole ---- */
+
+/* Pieces go on that gained energy, or whose steps were cut short. Returns whether there are any. */
+static bool ChooseUnfinished(kiriSolver* solver)
+{
+    bool any = false;
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        bool isShort = piece->scale < KIRI_SHORT_STEP && piece->promise > WORTHWHILE * piece->now.objective;
+        piece->isIterated = piece->isIterated && (!(piece->gain <= 0.0) || isShort);
+        any |= piece->isIterated;
+    }
+    return any;
+}
+
+/* Of these, only those go on from which the energy limit would take too much of their motion; they start anew, from
+   where they stood before the step. Returns whether there are any. */
+static bool RestartPieces(kiriSolver* solver, const kiriSystem* system)
+{
+    bool any = false;
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        bool isOver = !(piece->now.objective <= piece->start.objective * (1.0 + KIRI_ROUNDING) + piece->noise);
+        double most = (isOver ? MOST_TAKEN : 1.0) * kiriPieceStep_MostTaken(piece);
+        piece->isIterated = piece->isIterated && !(piece->gain <= most);
+        piece->now = piece->isIterated ? piece->start : piece->now;
+        any |= piece->isIterated;
+    }
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (kiriSolver_PieceOf(solver, f)->isIterated) {
+            solver->poses.data[f] = solver->start.data[f];
+        }
+    }
+    return any;
+}
+
+static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        solver->pieces.data[i].isIterated = solver->pieces.data[i].isSearching = true;
+    }
+    kiriObjective_Evaluate(solver, system, solver->start.data);
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        solver->pieces.data[i].start = solver->pieces.data[i].sum;
+    }
+}
+
+/* The iteration starts from free motion without forces: a strip that swings is then nearly at the minimum, and one at
+   rest is there. The first Gauss-Newton step may raise the objective up to that of the free prediction: it has to turn
+   stiff frames, which stretches links until the next step relaxes them, and a line search would not let it turn them.
+
+   Pieces that have gained energy, or took only a part of their last step, are iterated on. What a piece has gained even
+   then is taken out of its velocities. Where that would all but stop it, it starts anew from its pose before the step,
+   and its objective only falls from there. Then, with v the velocities before and w those after the step,
+
+   potential after + 1/2 m (w - v)^2  <=  potential before + 1/2 m v^2 + work,
+
+   which bounds w by 2 v. At the minimum it holds with w^2 in place of (w - v)^2, but for parts of the energy that are
+   not convex. So velocities stay bounded however long the step. */
+int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations, int32_t most)
+{
+    int32_t done = 0, last = iterations + SECOND_CHANCES;
+    bool isLeft = true, isFresh = false;
+    EvaluateStart(solver, system);
+    while (isLeft && done < most && done < last) {
+        /* Where the iteration starts, a contact is as deep as free motion goes: friction by that push would be far too
+           strong at an impact. */
+        solver->hasFriction = done > 0 || iterations == 1;
+        if (!IterateOnce(solver, system, done == 0)) {
+            return -1;
+        }
+        ++done;
+        if (done >= iterations) {
+            kiriSolver_FindGains(solver, system);
+            isLeft = ChooseUnfinished(solver);
+        }
+        if (isLeft && !isFresh && (done == last || done == most)) {
+            isLeft = RestartPieces(solver, system);
+            kiriSolver_FindGains(solver, system);
+            isFresh = true;
+            last += FRESH_STARTS;
+        }
+    }
+    return done;
+}

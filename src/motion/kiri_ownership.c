@@ -1,0 +1,215 @@
+#include "kiri_ownership.h"
+
+/* ---- Owners in force ----
+
+   A triangle is convex, so what it has in a square lies in one cell; and cells only ever fall apart, so what the parts
+   of the triangle have there later has lain in that cell. */
+
+static bool NoteSquare(kiriOwnership* ownership, kiriMemory* memory, int32_t square)
+{
+    KIRI_ASSERT(square >= 0 && square < ownership->isDirty.count);
+    if (!ownership->isDirty.data[square] && !kiriArray_Push(memory, &ownership->dirty, square)) {
+        return false;
+    }
+    ownership->isDirty.data[square] = 1;
+    return true;
+}
+
+static bool ReserveOwners(kiriOwnership* ownership, kiriMemory* memory, const kiriMeshData* mesh)
+{
+    int32_t count = mesh->squares.columns * mesh->squares.rows;
+    const kiriSquareOwners none = { KIRI_NONE, { 0, 0 } };
+    if (!kiriArray_Reserve(memory, &ownership->squares, count) ||
+        !kiriArray_Reserve(memory, &ownership->isDirty, count)) {
+        return false;
+    }
+    while (ownership->squares.count < count) {
+        ownership->squares.data[ownership->squares.count++] = none;
+        ownership->isDirty.data[ownership->isDirty.count++] = 0;
+    }
+    return true;
+}
+
+bool kiriOwnership_NoteDirty(kiriOwnership* ownership, kiriMemory* memory, const kiriMeshData* mesh)
+{
+    bool ok = ReserveOwners(ownership, memory, mesh);
+    for (int32_t k = 0; ok && k < mesh->squares.dirty.count; ++k) {
+        ok = NoteSquare(ownership, memory, mesh->squares.dirty.data[k]);
+    }
+    return ok;
+}
+
+bool kiriOwnership_NoteChanges(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid,
+                               const kiriMeshData* mesh, const kiriRegions* regions)
+{
+    bool ok = ReserveOwners(ownership, memory, mesh);
+    for (int32_t k = 0; ok && k < regions->changes.count; ++k) {
+        int32_t cell = regions->changes.data[k].cell;
+        ok = !kiriGrid_IsCell(grid, cell) || NoteSquare(ownership, memory, grid->cells.data[cell].square);
+    }
+    return ok;
+}
+
+/* A part that rounding brought into a square where its triangle was not goes to the lowest owner there. */
+static int32_t OwnerBefore(const kiriOwnership* ownership, const kiriMeshData* mesh, int32_t square, int32_t triangle)
+{
+    const kiriSquareOwners* owners = &ownership->squares.data[square];
+    if (owners->parts.count == 0) {
+        return owners->owner;
+    }
+    while (triangle >= ownership->triangleCount) {
+        triangle = mesh->triangles.data[triangle].parent;
+    }
+    const kiriTriangleOwner* owned = &ownership->triangleOwners.data[owners->parts.first];
+    int32_t lowest = owned[0].owner;
+    for (int32_t k = 0; k < owners->parts.count; ++k) {
+        if (owned[k].triangle == triangle) {
+            return owned[k].owner;
+        }
+        lowest = owned[k].owner < lowest ? owned[k].owner : lowest;
+    }
+    return lowest;
+}
+
+/* ---- Staging ---- */
+
+/* The transfer between two frames, an empty one where there was none. */
+static kiriTransfer* FindTransfer(kiriOwnership* ownership, kiriMemory* memory, int32_t to, int32_t from)
+{
+    KIRI_ASSERT(to >= 0 && to < ownership->first.count && from >= 0 && from < ownership->first.count);
+    int32_t before = KIRI_NONE, at = ownership->first.data[to];
+    while (at != KIRI_NONE && ownership->transfers.data[at].from < from) {
+        before = at;
+        at = ownership->transfers.data[at].next;
+    }
+    if (at != KIRI_NONE && ownership->transfers.data[at].from == from) {
+        return &ownership->transfers.data[at];
+    }
+    kiriTransfer transfer = { from, at, { { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 } } };
+    if (!kiriArray_Push(memory, &ownership->transfers, transfer)) {
+        return NULL;
+    }
+    int32_t index = ownership->transfers.count - 1;
+    *(before == KIRI_NONE ? &ownership->first.data[to] : &ownership->transfers.data[before].next) = index;
+    return &ownership->transfers.data[index];
+}
+
+static bool StageTransfers(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                           const kiriRegions* regions, int32_t square)
+{
+    double extent = kiriOwnership_Extent(mesh);
+    for (int32_t c = grid->squareCell.data[square]; c != KIRI_NONE; c = grid->cells.data[c].next) {
+        int32_t to = regions->field.owner.data[c];
+        int32_t from = OwnerBefore(ownership, mesh, square, grid->cells.data[c].triangle);
+        if (from != KIRI_NONE && from != to) {
+            kiriTransfer* transfer = FindTransfer(ownership, memory, to, from);
+            if (transfer == NULL) {
+                return false;
+            }
+            kiriTally_Add(&transfer->material, &grid->cells.data[c].material, 1, extent);
+        }
+    }
+    return true;
+}
+
+static int32_t CountNodes(const kiriMeshData* mesh, int32_t square)
+{
+    int32_t count = 0;
+    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
+        ++count;
+    }
+    return count;
+}
+
+/* A square without material has no cells to own. */
+static bool StageOwners(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                        const kiriRegions* regions, int32_t square)
+{
+    int32_t cell = grid->squareCell.data[square];
+    if (cell == KIRI_NONE) {
+        return true;
+    }
+    kiriStagedOwners staged = { square, { regions->field.owner.data[cell], { 0, 0 } } };
+    bool isDivided = grid->cells.data[cell].next != KIRI_NONE;
+    int32_t count = isDivided ? CountNodes(mesh, square) : 0;
+    if (!kiriArray_Reserve(memory, &ownership->staged, (int64_t)ownership->staged.count + 1) ||
+        !kiriSpan_Resize(&staged.owners.parts, &ownership->spans, memory, &ownership->triangleOwners,
+                         sizeof(kiriTriangleOwner), count)) {
+        return false;
+    }
+    int32_t n = mesh->squares.head[square];
+    for (int32_t k = 0; k < count; ++k, n = mesh->squares.nodes.data[n].next) {
+        kiriTriangleOwner owned = { mesh->squares.nodes.data[n].triangle,
+                                    regions->field.owner.data[grid->nodeCell.data[n]] };
+        ownership->triangleOwners.data[staged.owners.parts.first + k] = owned;
+    }
+    ownership->staged.data[ownership->staged.count++] = staged;
+    return true;
+}
+
+static void FreeParts(kiriOwnership* ownership, kiriSpan* parts)
+{
+    /* To give back never fails. */
+    kiriSpan_Resize(parts, &ownership->spans, NULL, &ownership->triangleOwners, sizeof(kiriTriangleOwner), 0);
+}
+
+static void DropStagedOwners(kiriOwnership* ownership)
+{
+    for (int32_t k = 0; k < ownership->staged.count; ++k) {
+        FreeParts(ownership, &ownership->staged.data[k].owners.parts);
+    }
+    ownership->staged.count = ownership->transfers.count = 0;
+}
+
+static bool ClearTransfers(kiriOwnership* ownership, kiriMemory* memory, int32_t frameCount)
+{
+    DropStagedOwners(ownership);
+    if (!kiriArray_Resize(memory, &ownership->first, frameCount)) {
+        return false;
+    }
+    for (int32_t f = 0; f < frameCount; ++f) {
+        ownership->first.data[f] = KIRI_NONE;
+    }
+    return true;
+}
+
+bool kiriOwnership_Stage(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                         const kiriRegions* regions, bool isScratch)
+{
+    bool ok = ReserveOwners(ownership, memory, mesh) && ClearTransfers(ownership, memory, regions->material.count);
+    for (int32_t s = 0; ok && isScratch && s < ownership->isDirty.count; ++s) {
+        ok = NoteSquare(ownership, memory, s);
+    }
+    for (int32_t k = 0; ok && k < ownership->dirty.count; ++k) {
+        int32_t square = ownership->dirty.data[k];
+        ok = StageTransfers(ownership, memory, grid, mesh, regions, square) &&
+             StageOwners(ownership, memory, grid, mesh, regions, square);
+    }
+    return ok;
+}
+
+static void ClearDirtySquares(kiriOwnership* ownership)
+{
+    for (int32_t k = 0; k < ownership->dirty.count; ++k) {
+        ownership->isDirty.data[ownership->dirty.data[k]] = 0;
+    }
+    ownership->dirty.count = 0;
+}
+
+void kiriOwnership_Drop(kiriOwnership* ownership)
+{
+    DropStagedOwners(ownership);
+    ClearDirtySquares(ownership);
+}
+
+void kiriOwnership_Commit(kiriOwnership* ownership, const kiriMeshData* mesh)
+{
+    for (int32_t k = 0; k < ownership->staged.count; ++k) {
+        kiriSquareOwners* owners = &ownership->squares.data[ownership->staged.data[k].square];
+        FreeParts(ownership, &owners->parts);
+        *owners = ownership->staged.data[k].owners;
+    }
+    ownership->staged.count = ownership->transfers.count = 0;
+    ownership->triangleCount = mesh->triangles.count;
+    ClearDirtySquares(ownership);
+}

@@ -1,0 +1,168 @@
+/* What the files of the solver share: kiri_solver.c (unknowns, pattern, begin and end of a step), kiri_objective.c,
+   kiri_assembly.c, kiri_newton.c and kiri_energy_limit.c. No other file of the library includes it.
+
+   The step is a minimisation over the poses of the frames at its end. The objective is
+
+       1/2 sum over mass points of m |x - x*|^2 / dt^2,  x* where the free prediction ends
+     + energies of elements (kiri_element.h), pins and contacts
+     + flex damping: 1/2 k (flexDamping / dt) (strain - strain at the start of the step)^2 for each strain.
+
+   All are squares, so a Gauss-Newton step solves with J^T k J + mass: positive definite by itself, with a pattern that
+   only the elements decide. The order of summation is fixed. */
+#ifndef KIRI_SOLVER_WORK_H
+#define KIRI_SOLVER_WORK_H
+
+#include "kiri_block_factor.h"
+#include "kiri_element.h"
+#include "kiri_momentum.h"
+
+#include <float.h>
+#include <string.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define KIRI_ROUNDING 1e-12                /* of an objective, relative */
+#define KIRI_LAST_BITS (8.0 * DBL_EPSILON) /* of a length: what a few operations round off */
+#define KIRI_SHORT_STEP 0.3                /* a Gauss-Newton step of which no more than this is taken was cut short */
+
+/* One of a frame's unknowns: the part along an axis of one of its vectors, see kiriFrameRow. */
+typedef struct kiriUnknown {
+    int vector, number; /* of the axis */
+    kiriVec3 axis;
+} kiriUnknown;
+
+/* The objective, and what of it is energy that the sheet has: the rest is lost, or the inertia's. */
+typedef struct kiriStepEnergy {
+    double objective, potential;
+} kiriStepEnergy;
+
+/* The step of one piece. No element joins two, so each has a line search and an energy limit of its own. */
+typedef struct kiriPieceStep {
+    kiriStepEnergy sum;        /* what was evaluated last */
+    kiriStepEnergy start, now; /* where the step starts, and where the iteration is */
+    double noise;              /* J: what rounding leaves unknown of the objective */
+    double kinetic;            /* J: after the step, beside that of the mean velocity */
+    double gain;               /* J: what the energy grows by in the step beyond work */
+    double scale;              /* the part of the Gauss-Newton step that is tried, */
+    double enough;             /* the objective that it has to reach, */
+    double promise;            /* J: and by how much all of it would lower the objective, were that quadratic */
+    double keep, keepMean;     /* what the energy limit leaves of velocities: beside the mean, and of the mean */
+    kiriVec3 mean;             /* by mass, over its frames: of velocities, or of offsets */
+    double mass;
+    bool isFree;      /* do only gravity and forces act on it? */
+    bool isIterated;  /* does the iteration go on? */
+    bool isSearching; /* is a step sought that lowers the objective? */
+} kiriPieceStep;
+
+typedef KIRI_ARRAY(int32_t) kiriIndices;
+
+struct kiriSolver {
+    kiriMemory* memory;
+    kiriMechanics mechanics;
+    double dt, damping; /* of this step; flexDamping / dt */
+    bool hasFriction;   /* does friction of contacts act in this iteration? */
+    bool isHeld;        /* does the host move a frame? */
+    int32_t size;       /* unknowns a frame */
+    kiriUnknown unknowns[KIRI_MOST_UNKNOWNS];
+    kiriMatrix *matrix, *nextMatrix;        /* the current one, and one with room for the next pattern */
+    kiriIndices framePiece, nextFramePiece; /* of each frame */
+    int32_t pieceCount, nextPieceCount;
+    int32_t frameCount, nextFrameCount;
+    int32_t elementCount, nextElementCount;
+    bool isStaged, isNextMatrix; /* is there a next configuration, and has it a pattern of its own? */
+    KIRI_ARRAY(kiriPair) pairs;  /* scratch: of the next configuration */
+    /* Room for the larger of the two configurations. */
+    KIRI_ARRAY(kiriPieceStep) pieces;
+    KIRI_ARRAY(kiriPieceMomentum) momenta;    /* of pieces */
+    KIRI_ARRAY(kiriFrameData) before, after;  /* the step, flattened where the sheet is planar */
+    KIRI_ARRAY(kiriPrediction) predictions;   /* one a frame, as are the poses */
+    KIRI_ARRAY(kiriPose) start, poses, trial; /* at the start of the step, now, and where a step would lead */
+    /* KIRI_MOST_STRAINS an element: stiffness, damping, and strains at the start of the step. */
+    KIRI_ARRAY(double) stiffness, loss, startStrain;
+    KIRI_ARRAY(double) force, move; /* the right side: minus the gradient; and the solution */
+    KIRI_ARRAY(uint8_t) stopping;   /* would a step have brought this element to its stop? */
+    /* Scratch for one element. */
+    kiriIndices members;
+    KIRI_ARRAY(kiriFrameRow) rows;
+    KIRI_ARRAY(double) J;
+};
+
+static inline kiriPieceStep* kiriSolver_PieceOf(const kiriSolver* solver, int32_t frame)
+{
+    KIRI_ASSERT(frame >= 0 && frame < solver->frameCount);
+    return &solver->pieces.data[solver->framePiece.data[frame]];
+}
+
+static inline kiriPieceStep* kiriSolver_PieceOfElement(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    return kiriSolver_PieceOf(solver, kiriElement_FirstMember(system, k));
+}
+
+/* ---- Unknowns (kiri_solver.c) ---- */
+
+/* The derivative by the unknowns from that by the vectors of a frame; and the vectors that unknowns stand for, times
+   `scale`. */
+void kiriSolver_Reduce(const kiriSolver* solver, const kiriFrameRow* row, double* values);
+kiriFrameRow kiriSolver_Expand(const kiriSolver* solver, double scale, const double* values);
+
+/* In a planar sheet: what is left of a vector in its plane. */
+kiriVec3 kiriMechanics_InPlane(const kiriMechanics* mechanics, kiriVec3 a);
+kiriVec3 kiriSystem_Gravity(const kiriSystem* system);
+
+/* ---- Objective ---- */
+
+/* A material point as seen from its frame's x, and in space. */
+kiriVec3 kiriSystem_Arm(const kiriSystem* system, int32_t frame, kiriVec2 at, const kiriPose* pose);
+kiriVec3 kiriSystem_Point(const kiriSystem* system, int32_t frame, kiriVec2 at, const kiriPose* poses);
+
+/* Of a contact: how deep its point is below the plane (0 above), how far it has slid along it since the start of the
+   step, and the spring against sliding, N/m. */
+double kiriContact_Depth(const kiriContactRow* contact, kiriVec3 point);
+kiriVec3 kiriContact_Slide(const kiriSystem* system, const kiriContactRow* contact, kiriVec3 point);
+double kiriContact_Friction(const kiriSolver* solver, const kiriSystem* system, const kiriContactRow* contact);
+
+/* Adds the energy of element k, whose strains these are; `pulling` without their offsets. */
+void kiriObjective_AddElement(const kiriSolver* solver, const kiriSystem* system, int32_t k, const double* strain,
+                              const double* pulling, kiriStepEnergy* sum);
+
+/* Starts the sums of the pieces that search with what the inertia has; adds what pins and contacts have. */
+void kiriObjective_AddInertia(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
+void kiriObjective_AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
+
+/* The sums of the pieces that search, at these poses. */
+void kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
+
+/* What rounding leaves unknown of the objective of each piece. */
+void kiriObjective_FindNoise(kiriSolver* solver, const kiriSystem* system);
+
+/* ---- Assembly ---- */
+
+/* The linear system of a Gauss-Newton step from the poses, and the sums there, as kiriObjective_Evaluate has them. */
+void kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system);
+
+/* ---- Newton iteration ---- */
+
+/* Returns the number of linear systems solved, or -1 where one has no solution. */
+int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations, int32_t most);
+
+/* ---- Limit of energy ---- */
+
+/* The frames after the step, if it ended at the poses, and what energy each piece gained. Free pieces get their centre
+   of mass where the prediction has it. */
+void kiriSolver_FindGains(kiriSolver* solver, const kiriSystem* system);
+
+/* The most that the energy limit can take out of the velocities of a piece, J. */
+double kiriPieceStep_MostTaken(const kiriPieceStep* piece);
+
+/* Takes what pieces gained out of their velocities; then gives back the angular momentum that free pieces lost, as far
+   as the energy that they lost goes. */
+void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system);
+void kiriSolver_RestoreMomentum(kiriSolver* solver, const kiriSystem* system);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
