@@ -29,11 +29,10 @@ except ImportError:
     numpy = None
 
 _repository = pathlib.Path(__file__).resolve().parents[3]
-_header = pathlib.Path(os.environ.get("KIRI_HEADER", _repository / "include/kiri/kiri.h"))
+_header = pathlib.Path(os.environ.get("KIRI_HEADER", _repository / "include/kiri/kiri.h")).read_text()
 
 
-def _read_declarations(path):
-    text = path.read_text()
+def _read_declarations(text):
     text = re.sub(r"^#ifdef __cplusplus$.*?^#endif$", "", text, flags=re.MULTILINE | re.DOTALL)
     text = re.sub(r"^#.*$", "", text, flags=re.MULTILINE)
     return re.sub(r"\bKIRI_API\b", "", text)
@@ -41,14 +40,12 @@ def _read_declarations(path):
 
 ffi = cffi.FFI()
 ffi.cdef(_read_declarations(_header))
+for _tag in re.findall(r"^enum (\w+)", _header, re.MULTILINE):
+    globals().update(ffi.typeof("enum " + _tag).relements)
+KIRI_VERSION_MAJOR, KIRI_VERSION_MINOR, KIRI_VERSION_PATCH = (
+    int(re.search(rf"#define KIRI_VERSION_{part} (\d+)", _header)[1]) for part in ("MAJOR", "MINOR", "PATCH"))
+KIRI_VERSION = 10000 * KIRI_VERSION_MAJOR + 100 * KIRI_VERSION_MINOR + KIRI_VERSION_PATCH
 
-
-def _add_constants(names):
-    constants = ffi.dlopen(None)  # enumerators need no library, only some handle
-    names.update((name, getattr(constants, name)) for name in dir(constants) if name.startswith("KIRI_"))
-
-
-_add_constants(globals())
 _libraries = {}
 
 
@@ -56,7 +53,10 @@ def load(path=None):
     """The C functions, by their C names."""
     path = os.path.abspath(path or os.environ.get("KIRI_LIBRARY") or _repository / "build/release/libkiri.so")
     if path not in _libraries:
-        _libraries[path] = ffi.dlopen(path)
+        library = ffi.dlopen(path)
+        if library.kiriGetVersion() != KIRI_VERSION:
+            raise ImportError(f"{path} has version {library.kiriGetVersion()}, the header {KIRI_VERSION}")
+        _libraries[path] = library
     return _libraries[path]
 
 
@@ -301,13 +301,6 @@ class Sheet(_Handle):
         self.world.call("kiriSheet_GetPieceFrames", self.id, piece, frames, count)
         return [Frame(self.world, frames[0][i]) for i in range(count[0])]
 
-    def detach_piece(self, piece):
-        """The piece as a sheet of its own."""
-        return Sheet(self.world, self.world.get("kiriSheet_DetachPiece", "kiriSheet", self.id, piece))
-
-    def destroy_piece(self, piece):
-        self.world.call("kiriSheet_DestroyPiece", self.id, piece)
-
     def drop_crumbs(self, area):
         """Destroys the pieces below an area; how many there were."""
         return self.world.get("kiriSheet_DropCrumbs", "int32_t", self.id, area)
@@ -341,8 +334,15 @@ class Frame(_Handle):
         return _record(self.world.get("kiriFrame_GetState", "kiriFrameState", self.id))
 
     def piece(self):
-        """The number of its piece."""
+        """The index that its piece has now."""
         return self.world.get("kiriFrame_GetPiece", "int32_t", self.id)
+
+    def detach_piece(self):
+        """Its piece as a sheet of its own."""
+        return Sheet(self.world, self.world.get("kiriFrame_DetachPiece", "kiriSheet", self.id))
+
+    def destroy_piece(self):
+        self.world.call("kiriFrame_DestroyPiece", self.id)
 
     def hold(self, position, rotation):
         """Rotation: 9 numbers, column after column."""
