@@ -7,7 +7,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
-import weakref
+import threading
 
 repository = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(repository / "bindings/python"))
@@ -26,9 +26,57 @@ def raises(error, function, *arguments, **fields):
     raise AssertionError(f"{function.__name__} did not raise {error.__name__}")
 
 
+class Blocks:
+    """An allocator; `left` has the blocks that were not freed."""
+
+    def __init__(self):
+        self.left = {}
+
+    def alloc(self, _, size):
+        block = kiri.ffi.new("char[]", size + 16)
+        address = int(kiri.ffi.cast("uintptr_t", block)) + 15 & ~15
+        self.left[address] = block
+        return kiri.ffi.cast("void*", address)
+
+    def free(self, _, pointer):
+        del self.left[int(kiri.ffi.cast("uintptr_t", pointer))]
+
+
+def run_python(*arguments):
+    """In a process of its own, for what might kill it."""
+    folders = (repository / "tests", repository / "bindings/python")
+    environment = dict(os.environ, KIRI_LIBRARY=library, PYTHONDONTWRITEBYTECODE="1",
+                       PYTHONPATH=os.pathsep.join(map(str, folders)))
+    done = subprocess.run([sys.executable, *arguments], env=environment, capture_output=True, text=True, timeout=100)
+    assert done.returncode == 0, f"exit code {done.returncode}\n{done.stderr}"
+    return done
+
+
+def run_script(text):
+    return run_python("-c", "from test_python import *\n" + text)
+
+
+def in_thread(function, *arguments):
+    """The thread; its `outcome` is what the function returned, or the error that it raised."""
+    def run():
+        try:
+            thread.outcome = function(*arguments)
+        except Exception as error:
+            thread.outcome = error
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    return thread
+
+
+def outcomes(threads):
+    for thread in threads:
+        thread.join(60)
+    return [thread.outcome for thread in threads]
+
+
 def make_scene(**fields):
     """The same as in python_twin.c."""
-    world = kiri.World(gravity=(1.0, 0.0, -9.81), **fields)
+    world = kiri.World(**{"gravity": (1.0, 0.0, -9.81), **fields})
     sheet = world.create_rectangle(1.0, 0.75, 16, 12, position=(0, 0, 1), material={"youngsModulus": 1e7}, frameCount=6)
     sheet.create_pin((0.0, 0.0), (0.0, 0.0, 1.0))
     sheet.create_pin((1.0, 0.0), (1.0, 0.0, 1.0))
@@ -58,7 +106,7 @@ def run_twin():
 def test_same_hash_and_sizes_as_c():
     twin = run_twin()
     assert f"{run_scene()[0].state_hash():016x}" == twin.pop("hash")
-    assert len(twin) == 14
+    assert len(twin) == 15
     for name, size in twin.items():
         assert kiri.ffi.sizeof(name) == int(size), name
 
@@ -93,41 +141,73 @@ def test_slice():
     assert sheet.counts().pieces == 2
 
 
-def test_views():
+def flat(values):
+    return memoryview(values).tobytes()
+
+
+def test_arrays():
     world, sheet, _ = run_scene()
     mesh = sheet.mesh()
     assert mesh.positions.shape == (mesh.vertexCount, 3) and mesh.indices.shape == (mesh.triangleCount, 3)
     assert mesh.sourceTriangles.shape == (mesh.vertexCount,)
     pointer = world.get("kiriSheet_GetMesh", "kiriMesh", sheet.id).positions
-    for view in (mesh.positions, mesh.normals, mesh.indices):
-        raises((TypeError, ValueError), view.__setitem__, (0, 0), 1)
+    for values in (mesh.positions, mesh.normals, mesh.indices):
+        raises((TypeError, ValueError), values.__setitem__, (0, 0), 1)
     assert [mesh.positions[7, i] for i in range(3)] == [pointer[21 + i] for i in range(3)]
-    address = kiri.ffi.cast("uintptr_t", kiri.ffi.from_buffer(mesh.positions))
-    assert int(address) == int(kiri.ffi.cast("uintptr_t", pointer))
     for i in range(mesh.vertexCount):
         assert abs(sum(mesh.normals[i, k] ** 2 for k in range(3)) - 1.0) < 1e-5
         assert abs(sum(mesh.sourceWeights[i, k] for k in range(3)) - 1.0) < 1e-5
+    some = sheet.mesh("normals", "indices")
+    assert flat(some.normals) == flat(mesh.normals) and some.vertexCount == mesh.vertexCount
+    assert not hasattr(some, "positions")
+    raises(TypeError, sheet.mesh, "vertexCount")
+    assert len(sheet.collision_points()) == 0
 
 
-def test_views_without_numpy():
+def test_arrays_stay_as_they_are():
+    world, sheet, _ = make_scene(gravity=(0.0, 3.0, 1.0))
+    mesh = sheet.mesh()
+    names = ("positions", "normals", "restPositions", "indices", "sourceTriangles", "sourceWeights")
+    before = [flat(getattr(mesh, name)) for name in names]
+    for _ in range(5):
+        world.tick(1 / 60)
+    assert [flat(getattr(mesh, name)) for name in names] == before
+    assert flat(sheet.mesh().positions) != before[0] and sheet.mesh().vertexCount > mesh.vertexCount
+    piece, piece_before = sheet.piece_mesh(1), flat(sheet.piece_mesh(1).indices)
+    world.close()
+    assert [flat(getattr(mesh, name)) for name in names] == before and flat(piece.indices) == piece_before
+
+
+def test_arrays_of_c_live_until_the_tick():
+    def bytes_of(world, sheet):
+        mesh = world.get("kiriSheet_GetMesh", "kiriMesh", sheet.id)
+        part = world.get("kiriSheet_GetPieceMesh", "kiriPieceMesh", sheet.id, 1)
+        buffers = [kiri.ffi.buffer(mesh.positions, 12 * mesh.vertexCount),
+                   kiri.ffi.buffer(mesh.indices, 12 * mesh.triangleCount),
+                   kiri.ffi.buffer(part.indices, 12 * part.triangleCount)]
+        return buffers, [bytes(buffer) for buffer in buffers]
+
+    def detach(sheet):
+        sheet.piece_frames(1)[0].detach_piece()
+
+    def destroy(sheet):
+        sheet.piece_frames(1)[0].destroy_piece()
+
+    for change in (detach, destroy, kiri.Sheet.destroy, lambda sheet: sheet.drop_crumbs(10.0)):
+        world, sheet, _ = run_scene()
+        buffers, before = bytes_of(world, sheet)
+        change(sheet)
+        assert [bytes(buffer) for buffer in buffers] == before
+
+
+def test_arrays_without_numpy():
     numpy, kiri.numpy = kiri.numpy, None
     try:
         assert isinstance(run_scene()[1].mesh().positions, memoryview)
-        test_views()
-        assert len(run_scene()[1].collision_points()) == 0
+        test_arrays()
+        test_arrays_stay_as_they_are()
     finally:
         kiri.numpy = numpy
-
-
-def test_view_keeps_world():
-    world, sheet, _ = make_scene()
-    alive, positions = weakref.ref(world), sheet.mesh().positions
-    del world, sheet, _
-    gc.collect()
-    assert alive() is not None and all(abs(positions[i, 0]) < 2.0 for i in range(len(positions)))
-    del positions
-    gc.collect()
-    assert alive() is None
 
 
 def test_buffers_are_taken():
@@ -181,7 +261,9 @@ def test_pieces():
         cut.end()
     world.tick(1 / 60)
     off = [event for event in world.events() if event.type == kiri.KIRI_EVENT_PIECE_OFF]
-    assert len(off) == 2 and all(kiri.Frame(world, event.frame).piece() == event.piece for event in off)
+    assert len(off) == 2 and not hasattr(off[0], "piece")
+    numbers = [kiri.Frame(world, event.frame).piece() for event in off]
+    assert [round(sheet.piece(i).area, 6) for i in numbers] == [round(event.area, 6) for event in off]
     pieces = [sheet.piece(i) for i in range(sheet.counts().pieces)]
     assert sorted(round(piece.area, 5) for piece in pieces) == [0.2, 0.3, 0.5]
     for i, piece in enumerate(pieces):
@@ -192,10 +274,17 @@ def test_pieces():
         assert [frame.piece() for frame in sheet.piece_frames(i)] == [i] * piece.frames
     middle, = (i for i, piece in enumerate(pieces) if abs(piece.area - 0.3) < 1e-5)
     frames = sheet.piece_frames(middle)
-    strip = sheet.detach_piece(middle)
+    strip = frames[-1].detach_piece()
     assert strip.frames() == frames and abs(strip.totals().area - 0.3) < 1e-5
-    assert raises(kiri.KiriError, strip.destroy_piece, 0).result == kiri.KIRI_ERROR_STATE
+    assert raises(kiri.KiriError, frames[0].destroy_piece).result == kiri.KIRI_ERROR_STATE
     assert sheet.drop_crumbs(0.25) == 1 and sheet.counts().pieces == 1
+    world.tick(1 / 60)
+    half = strip.begin_cut((0.5, 0.1))
+    half.extend([(0.5, 0.6)])
+    half.end()
+    world.tick(1 / 60)
+    strip.piece_frames(0)[0].destroy_piece()
+    assert strip.counts().pieces == 1 and abs(strip.totals().area - 0.15) < 1e-5
     world.tick(1 / 60)
 
 
@@ -217,6 +306,7 @@ def test_errors():
     assert raises(kiri.KiriError, sheet.mesh).result == kiri.KIRI_ERROR_ID
     world.close()
     assert raises(kiri.KiriError, world.tick, 1 / 60).result == kiri.KIRI_ERROR_ARGUMENT
+    world.close()
 
 
 def test_log():
@@ -224,6 +314,219 @@ def test_log():
     world, _, _ = make_scene(log=lambda user, line: lines.append(kiri.ffi.string(line).decode()))
     raises(kiri.KiriError, world.tick, float("nan"))
     assert len(lines) == 1 and lines[0]
+
+
+def test_error_has_the_line_of_its_call():
+    world, sheet, cut = make_scene()
+    assert "kiriWorld_Tick" in str(raises(kiri.KiriError, world.tick, -1.0))
+    assert "kiriSheet_Raycast" in str(raises(kiri.KiriError, sheet.raycast, (0, 0, 0), (0, 0, 0), 1.0))
+    assert "kiriCut_End" in str(raises(kiri.KiriError, cut.end))
+    assert str(raises(kiri.KiriError, world.create_rectangle, -1.0, 1.0, 1, 1)) == "KIRI_ERROR_ARGUMENT"
+    assert "kiriCreateWorld" in str(raises(kiri.KiriError, kiri.World, gravity=(0, 0, float("nan"))))
+    assert "closed" in str(raises(kiri.KiriError, (world.close(), world.tick)[1], 1 / 60))
+
+
+def test_error_has_the_line_of_its_thread():
+    others = []
+
+    def log(_, line):
+        if b"Raycast" in kiri.ffi.string(line):
+            others.extend(outcomes([in_thread(kiri.Frame(world, 1).state)]))
+
+    world, sheet, _ = make_scene(log=log)
+    assert "kiriSheet_Raycast" in str(raises(kiri.KiriError, sheet.raycast, (0, 0, 0), (0, 0, 0), 1.0))
+    assert "kiriFrame_GetState" in str(others[0])
+
+
+def test_lengths_are_checked():
+    world, sheet, cut = make_scene()
+    square, triangles = [(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1, 2), (0, 2, 3)]
+    world.create_sheet(square, triangles, frameCount=2, framePoints=[(0.2, 0.5), (0.8, 0.5)])
+    for points in ([], [(0.2, 0.5)], [0.2, 0.5, 0.8], [(0.2, 0.5)] * 3):
+        raises(ValueError, world.create_sheet, square, triangles, frameCount=2, framePoints=points)
+    raises(ValueError, world.create_sheet, [0, 0, 1, 0, 1, 1, 0], triangles)
+    raises(ValueError, world.create_sheet, square, [0, 1, 2, 0])
+    raises(ValueError, world.create, "Sheet", restPositions=square, vertexCount=5, indices=triangles, triangleCount=2)
+    raises(ValueError, world.create, "Sheet", restPositions=square, vertexCount=4, indices=triangles, triangleCount=3)
+    raises(TypeError, world.create_sheet, kiri.ffi.cast("float*", kiri.ffi.new("float[8]")), triangles)
+    raises(ValueError, cut.extend, [0.1, 0.2, 0.3])
+    raises(ValueError, world.set_gravity, (0, 1))
+    raises(ValueError, sheet.frames()[0].hold, (0, 0, 0), (1, 0, 0, 0, 1, 0, 0, 0))
+    raises(ValueError, sheet.slice, [(0, 0, 0)] * 3)
+    raises(ValueError, sheet.create_pin, (0, 0), (1, 2))
+
+
+def test_paper():
+    world = kiri.World()
+    world.create_rectangle(1.0, 1.0, 8, 8, paper={"fromScratch": 1}, model=kiri.KIRI_MODEL_POINTS)
+    world.tick(1 / 60)
+    error = raises(kiri.KiriError, world.create_rectangle, 1, 1, 2, 2, paper={"integrationOrder": 3})
+    assert error.result == kiri.KIRI_ERROR_ARGUMENT and "integrationOrder" in str(error)
+    world.create_rectangle(1, 1, 2, 2, paper=None)
+
+
+def test_version():
+    assert kiri.KIRI_VERSION == kiri.load().kiriGetVersion() == run_scene()[0].lib.kiriGetVersion()
+    with tempfile.TemporaryDirectory() as folder:
+        header = pathlib.Path(folder) / "kiri.h"
+        text = (repository / "include/kiri/kiri.h").read_text()
+        header.write_text(text.replace("KIRI_VERSION_PATCH 0", "KIRI_VERSION_PATCH 77"))
+        script = f"import os; os.environ['KIRI_HEADER'] = {str(header)!r}; import kiri; kiri.World()"
+        assert "version" in str(raises(AssertionError, run_python, "-c", script))
+
+
+def test_example():
+    for block in ((), ("-c", "import sys, runpy; sys.modules['numpy'] = None; sys.argv.pop(0);"
+                       "runpy.run_path(sys.argv[0], run_name='__main__')")):
+        lines = run_python(*block, str(repository / "bindings/python/example.py")).stdout.splitlines()
+        assert "came off" in lines[0] and "state hash" in lines[-1]
+
+
+def test_world_with_callbacks_is_collected():
+    run_script("""
+blocks = Blocks()
+world, sheet, cut = make_scene(alloc=blocks.alloc, free=blocks.free, clock=lambda _: 0.0)
+world.tick(1 / 60)
+assert blocks.left
+del world, sheet, cut
+gc.collect()
+assert not blocks.left
+""")
+
+
+def test_world_in_a_cycle_is_collected():
+    run_script("""
+blocks = Blocks()
+def in_cycle():
+    lines = []
+    lines.append(make_scene(alloc=blocks.alloc, free=lambda _, pointer, kept=lines: blocks.free(_, pointer)))
+    lines[0][0].tick(1 / 60)
+for _ in range(3):
+    in_cycle()
+gc.collect()
+assert not blocks.left
+""")
+
+
+def test_world_with_callbacks_at_exit():
+    assert run_python("-c", """
+import atexit
+atexit.register(lambda: print("left", len(blocks.left)))
+from test_python import *
+blocks = Blocks()
+world, sheet, cut = make_scene(alloc=blocks.alloc, free=blocks.free, log=lambda user, line: None)
+world.tick(1 / 60)
+""").stdout == "left 0\n"
+
+
+def test_threads_take_turns():
+    run_script("""
+world, alone = make_scene()[0], make_scene()[0]
+for _ in range(60):
+    alone.tick(1 / 60)
+def tick():
+    for _ in range(20):
+        world.tick(1 / 60)
+assert outcomes([in_thread(tick) for _ in range(3)]) == [None] * 3
+assert world.state_hash() == alone.state_hash()
+""")
+
+
+def test_threads_read_while_others_change():
+    run_script("""
+world, sheet, _ = make_scene()
+at_once = []
+def read():
+    for _ in range(100):
+        mesh, frames = sheet.mesh(), sheet.frames()
+        assert len(mesh.positions) == mesh.vertexCount and len(frames) == len(set(frames))
+        assert all(abs(mesh.normals[i, 0]) <= 1.001 for i in range(0, mesh.vertexCount, 7))
+        assert abs(sum(sheet.weights((0.4, 0.3)).values()) - 1) < 1e-6
+        world.events(), sheet.collision_points(), sheet.piece_mesh(0), sheet.piece_frames(0)
+def tick():
+    for i in range(100):
+        cut = sheet.begin_cut((0.01 * i, -0.1))
+        cut.extend([(0.01 * i, 0.05)])
+        cut.end()
+        world.tick(1 / 60)
+    world.close()
+threads = [in_thread(tick)] + [in_thread(read) for _ in range(2)]
+first, *others = outcomes(threads)
+assert first is None, first
+assert all(other is None or getattr(other, "result", 0) == kiri.KIRI_ERROR_ARGUMENT for other in others), others
+""")
+
+
+def test_threads_read_side_by_side():
+    blocks, both = Blocks(), None
+
+    def alloc(user, size):
+        if both:
+            both.wait(20)  # goes on when two threads are here
+        return blocks.alloc(user, size)
+
+    world, sheet, _ = make_scene(alloc=alloc, free=blocks.free)
+    alone = sheet.weights((0.4, 0.3))
+    both = threading.Barrier(2)
+    assert outcomes([in_thread(sheet.weights, (0.4, 0.3)) for _ in range(2)]) == [alone] * 2
+    both = None
+
+
+def test_a_change_is_alone():
+    """While a callback waits inside of one call, the other call must not go on."""
+    def tick(world, _):
+        world.tick(1 / 60)
+
+    def read(_, sheet):
+        sheet.weights((0.4, 0.3))
+
+    def wait_for_other(*_):
+        if other and not threads:
+            threads.append(in_thread(other, world, sheet))
+            threads[0].join(0.2)
+            waited.append(not hasattr(threads[0], "outcome"))
+
+    def alloc(user, size):
+        wait_for_other()
+        return blocks.alloc(user, size)
+
+    for call, next_call in ((tick, tick), (tick, read), (read, tick), (tick, lambda world, _: world.close())):
+        blocks, threads, waited, other = Blocks(), [], [], None
+        world, sheet, _ = make_scene(alloc=alloc, free=blocks.free)
+        other = next_call
+        call(world, sheet)
+        assert waited == [True] and outcomes(threads) == [None]
+
+
+def test_callback_calls_its_world():
+    stderr = run_script("""
+import random
+blocks, errors, world = Blocks(), [], None
+def calls(function):
+    def callback(*arguments):
+        for call in (lambda: world.close(), lambda: world.tick(1 / 60), lambda: sheet.counts(), lambda: sheet.mesh(),
+                     lambda: world.set_gravity((0, 0, 0)), lambda: world.__del__()):
+            if world:
+                try:
+                    call()
+                except kiri.KiriError as error:
+                    errors.append(error.result)
+        return function(*arguments)
+    return callback
+made = make_scene(alloc=calls(blocks.alloc), free=calls(blocks.free), log=calls(lambda user, line: None),
+                  clock=calls(lambda user: 0.0))
+world, sheet, cut = made
+world.tick(1 / 60)
+raises(kiri.KiriError, world.tick, -1.0)
+raises(kiri.KiriError, sheet.raycast, (0, 0, 0), (0, 0, 0), 1.0)
+assert sheet.counts().pieces == 2
+world.close()
+assert set(errors) == {kiri.KIRI_ERROR_STATE} and not blocks.left
+world = kiri.World(log=lambda user, line: world.close())
+raises(kiri.KiriError, world.tick, -1.0)
+world.tick(1 / 60)
+""").stderr
+    assert "KIRI_ERROR_STATE" in stderr and stderr.count("Traceback") == 1
 
 
 def main():

@@ -21,7 +21,8 @@ def main():
                 print(f"tick {tick}: a piece of {event.area:.3f} m^2 came off")
 
     counts = sheet.counts()
-    lowest = min(position[2] for position in sheet.mesh().positions)
+    mesh = sheet.mesh("positions")
+    lowest = min(mesh.positions[i, 2] for i in range(mesh.vertexCount))
     print(f"{counts.vertices} vertices, {counts.triangles} triangles, {counts.frames} frames, {counts.pieces} pieces")
     print(f"lowest vertex at {lowest:.2f} m, state hash {world.state_hash():016x}")
 

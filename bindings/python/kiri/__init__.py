@@ -1,7 +1,7 @@
 """Kiri for Python: cuts thin sheets while they move.
 
 A thin layer by cffi over the C library. The declarations come from kiri.h itself, so names of fields, units and ranges
-are those of the header; this file only turns ids into objects, results into exceptions, and arrays into views.
+are those of the header; this file only turns ids into objects, results into exceptions, and copies arrays.
 
     import kiri
     world = kiri.World()
@@ -12,14 +12,21 @@ are those of the header; this file only turns ids into objects, results into exc
     world.tick(1 / 60)
     sheet.mesh().positions
 
+Arrays that come back are copies: they outlive ticks, pieces, sheets and the world. Threads may share a world: a call
+that changes it waits until no other runs, calls that only read run side by side. The functions given to World (alloc,
+free, log, clock) run inside of such a call, and what they call on their own world fails with KIRI_ERROR_STATE.
+
 The header is $KIRI_HEADER or include/kiri/kiri.h of this repository, the library is the argument of World,
 $KIRI_LIBRARY, or build/release/libkiri.so.
 """
 
+import atexit
 import os
 import pathlib
 import re
+import threading
 import types
+import weakref
 
 import cffi
 
@@ -29,11 +36,10 @@ except ImportError:
     numpy = None
 
 _repository = pathlib.Path(__file__).resolve().parents[3]
-_header = pathlib.Path(os.environ.get("KIRI_HEADER", _repository / "include/kiri/kiri.h"))
+_header = pathlib.Path(os.environ.get("KIRI_HEADER", _repository / "include/kiri/kiri.h")).read_text()
 
 
-def _read_declarations(path):
-    text = path.read_text()
+def _read_declarations(text):
     text = re.sub(r"^#ifdef __cplusplus$.*?^#endif$", "", text, flags=re.MULTILINE | re.DOTALL)
     text = re.sub(r"^#.*$", "", text, flags=re.MULTILINE)
     return re.sub(r"\bKIRI_API\b", "", text)
@@ -41,14 +47,26 @@ def _read_declarations(path):
 
 ffi = cffi.FFI()
 ffi.cdef(_read_declarations(_header))
+for _tag in re.findall(r"^enum (\w+)", _header, re.MULTILINE):
+    globals().update(ffi.typeof("enum " + _tag).relements)
+KIRI_VERSION_MAJOR, KIRI_VERSION_MINOR, KIRI_VERSION_PATCH = (
+    int(re.search(rf"#define KIRI_VERSION_{part} (\d+)", _header)[1]) for part in ("MAJOR", "MINOR", "PATCH"))
+KIRI_VERSION = 10000 * KIRI_VERSION_MAJOR + 100 * KIRI_VERSION_MINOR + KIRI_VERSION_PATCH
 
+# Functions that only read the world.
+_reading = set(re.findall(r"(\w+)\(const kiriWorld\*", _header))
 
-def _add_constants(names):
-    constants = ffi.dlopen(None)  # enumerators need no library, only some handle
-    names.update((name, getattr(constants, name)) for name in dir(constants) if name.startswith("KIRI_"))
-
-
-_add_constants(globals())
+# How long the arrays are that a struct points to: a field that counts the rows, numbers in a row.
+_arrays = {
+    "kiriSheetDef": {"restPositions": ("vertexCount", 2), "indices": ("triangleCount", 3),
+                     "framePoints": ("frameCount", 2)},
+    "kiriMesh": {"positions": ("vertexCount", 3), "normals": ("vertexCount", 3), "restPositions": ("vertexCount", 2),
+                 "indices": ("triangleCount", 3), "sourceTriangles": ("vertexCount", 1),
+                 "sourceWeights": ("vertexCount", 3)},
+    "kiriPieceMesh": {"vertices": ("vertexCount", 1), "triangles": ("triangleCount", 1),
+                      "indices": ("triangleCount", 3), "collisionPoints": ("collisionPointCount", 1)},
+}
+_formats = {"float": "f", "int32_t": "i"}
 _libraries = {}
 
 
@@ -56,7 +74,10 @@ def load(path=None):
     """The C functions, by their C names."""
     path = os.path.abspath(path or os.environ.get("KIRI_LIBRARY") or _repository / "build/release/libkiri.so")
     if path not in _libraries:
-        _libraries[path] = ffi.dlopen(path)
+        library = ffi.dlopen(path)
+        if library.kiriGetVersion() != KIRI_VERSION:
+            raise ImportError(f"{path} has version {library.kiriGetVersion()}, the header {KIRI_VERSION}")
+        _libraries[path] = library
     return _libraries[path]
 
 
@@ -80,43 +101,77 @@ def _flatten(values):
 
 
 def _array(item, values):
-    """A C array of values, nested or flat: shared if it is a buffer of such items already, else copied."""
+    """A C array of values, nested or flat. A copy, which nobody changes while C reads it."""
     if isinstance(values, ffi.CData):
         return values
     try:
         view = memoryview(values)
-        if view.c_contiguous and view.format == {"float": "f", "int32_t": "i"}[item]:
-            return ffi.from_buffer(item + "[]", values)
     except TypeError:
-        pass
+        view = None
+    if view is not None and view.c_contiguous and view.format == _formats.get(item):
+        copy = ffi.new(item + "[]", view.nbytes // view.itemsize)
+        ffi.memmove(copy, view, view.nbytes)
+        return copy
     return ffi.new(item + "[]", list(_flatten(values)))
 
 
+def _check_length(values, length):
+    """C reads as far as it was told, so a shorter array must not reach it."""
+    if len(values) != length:
+        raise ValueError(f"{length} numbers wanted, not {len(values)}")
+    return values
+
+
 def _vector(values, length):
-    """C reads `length` floats whatever it is given, so a shorter vector must not reach it."""
-    vector = _array("float", values)
-    if len(vector) != length:
-        raise ValueError(f"{length} numbers wanted, not {len(vector)}")
-    return vector
+    return _check_length(_array("float", values), length)
 
 
-def _fill(struct, values, kept):
+def _rows(item, values, width):
+    """An array and its number of rows."""
+    array = _array(item, values)
+    count = len(array) // width
+    return _check_length(array, count * width), count
+
+
+def _fill(lib, struct, values, kept):
     """Sets fields by name. What the struct only points to goes to `kept`."""
     kind = ffi.typeof(struct)
-    fields = dict(kind.fields if kind.kind == "struct" else kind.item.fields)
+    kind = kind if kind.kind == "struct" else kind.item
+    fields, arrays = dict(kind.fields), _arrays.get(kind.cname, {})
+    given = {}
     for name, value in values.items():
         if name not in fields:
             raise TypeError(f"{kind.cname} has no field {name}")
         field = fields[name].type
-        if isinstance(value, dict):
-            _fill(getattr(struct, name), value, kept)
+        if isinstance(value, dict) and field.kind == "struct":
+            _fill(lib, getattr(struct, name), value, kept)
             continue
-        if field.kind in ("pointer", "function"):
-            kept.append(ffi.callback(field, value) if field.kind == "function" else _array(field.item.cname, value))
-            value = kept[-1]
+        if value is None:
+            value = ffi.NULL
         elif field.kind == "array":
             value = list(_vector(value, field.length))
+        elif field.kind in ("pointer", "function"):
+            if isinstance(value, dict):
+                value = _definition(lib, field.item.cname, value, kept)
+            elif field.kind == "function":
+                value = value if isinstance(value, ffi.CData) else ffi.callback(field, value)
+            else:
+                value = _array(field.item.cname, value)
+            kept.append(value)
+            if name in arrays:
+                given[name] = value
         setattr(struct, name, value)
+    for name, array in given.items():
+        count, width = arrays[name]
+        _check_length(array, width * getattr(struct, count))
+
+
+def _definition(lib, kind, values, kept):
+    """A def by its kiriDefault function, with these fields."""
+    definition = ffi.new(kind + "*")
+    getattr(lib, kind.replace("kiri", "kiriDefault", 1))(definition)
+    _fill(lib, definition, values, kept)
+    return definition
 
 
 def _record(struct):
@@ -127,25 +182,109 @@ def _record(struct):
         **{name: tuple(value) if isinstance(value, ffi.CData) else value for name, value in zip(names, values)})
 
 
+def _copy(pointer, count, width):
+    """Rows of numbers, read-only: a numpy array, or a memoryview where numpy is missing."""
+    item, shape = _formats[ffi.typeof(pointer).item.cname], (count, width) if width > 1 else (count,)
+    if count == 0:
+        return numpy.empty(shape, item) if numpy else memoryview(b"").cast(item)
+    memory = memoryview(bytes(ffi.buffer(pointer, 4 * count * width))).cast(item, shape)
+    return numpy.asarray(memory) if numpy else memory
+
+
+def _copies(struct, names):
+    """A record of a C struct with copies of the arrays that it points to: of those with these names, or of all."""
+    kind = ffi.typeof(struct).item
+    arrays = _arrays[kind.cname]
+    record = {name: getattr(struct, name) for name, _ in kind.fields if name not in arrays}
+    for name in names or arrays:
+        if name not in arrays:
+            raise TypeError(f"{kind.cname} has no array {name}")
+        count, width = arrays[name]
+        record[name] = _copy(getattr(struct, name), getattr(struct, count), width)
+    return types.SimpleNamespace(**record)
+
+
+class _Turns:
+    """Who may call C: one thread that changes the world, or any number that read it."""
+
+    def __init__(self):
+        self._left = threading.Condition()
+        self._changing = False
+        self._waiting = 0  # threads that want to change it: they go before new ones that read
+        self.inside = set()
+
+    def enter(self, changes):
+        thread = threading.get_ident()
+        with self._left:
+            if thread in self.inside:
+                raise KiriError(KIRI_ERROR_STATE, "KIRI_ERROR_STATE", "a callback must not call the world it serves")
+            self._waiting += changes
+            try:
+                while self.inside if changes else self._changing or self._waiting:
+                    self._left.wait()
+            finally:
+                self._waiting -= changes
+            self.inside.add(thread)
+            self._changing = changes
+
+    def leave(self):
+        with self._left:
+            self.inside.remove(threading.get_ident())
+            self._changing = False
+            self._left.notify_all()
+
+
+_worlds = weakref.WeakSet()
+
+
+@atexit.register
+def _close_all():
+    """While callbacks still work. A world that some daemon thread is busy with is left alone."""
+    for world in list(_worlds):
+        if not world._turns.inside:
+            world.close()
+
+
+class _Said(threading.local):
+    line = ""  # the last that C has logged in this thread, until it is in an exception
+
+
 class World:
-    """Fields of kiriWorldDef by name. Views of arrays are valid until the next tick, and keep the world alive."""
+    """Fields of kiriWorldDef by name."""
+
+    _world = ffi.NULL
 
     def __init__(self, library=None, **fields):
-        self.lib = load(library)
+        self._turns = _Turns()
+        self._said = _Said()
         self._kept = []
-        definition = ffi.new("kiriWorldDef*")
-        self.lib.kiriDefaultWorldDef(definition)
-        _fill(definition, fields, self._kept)
-        self._world = ffi.NULL
+        self.lib = load(library)
+        fields["log"] = self._make_log(self._said, fields.get("log"))
         world = ffi.new("kiriWorld**")
-        self._check(self.lib.kiriCreateWorld(definition, world))
-        self._world = ffi.gc(world[0], self.lib.kiriDestroyWorld)
+        self._check(self.lib.kiriCreateWorld(_definition(self.lib, "kiriWorldDef", fields, self._kept), world))
+        self._world = world[0]
+        _worlds.add(self)
+
+    @staticmethod
+    def _make_log(said, forward):
+        def log(user, line):
+            said.line = ffi.string(line).decode()
+            if forward:
+                forward(user, line)
+        return log
 
     def close(self):
-        """Frees the world and all that is in it, arrays that are still viewed too."""
+        """Frees the world and all that is in it."""
+        self._turns.enter(True)
+        try:
+            world, self._world = self._world, ffi.NULL
+            self.lib.kiriDestroyWorld(world)
+        finally:
+            self._turns.leave()
+
+    def __del__(self):
         if self._world != ffi.NULL:
-            ffi.release(self._world)
-            self._world = ffi.NULL
+            self.close()
 
     def __enter__(self):
         return self
@@ -156,13 +295,21 @@ class World:
     def _check(self, result):
         if result < 0:
             name = ffi.string(self.lib.kiriGetResultName(result)).decode()
-            line = self.lib.kiriWorld_GetLastError(self._world) if self._world != ffi.NULL else ffi.NULL
-            raise KiriError(result, name, ffi.string(line).decode() if line != ffi.NULL else "")
+            line, self._said.line = self._said.line, ""
+            raise KiriError(result, name, line)
         return result
 
-    def call(self, name, *arguments):
-        """Any C function that takes the world first and returns a kiriResult."""
-        return self._check(getattr(self.lib, name)(self._world, *arguments))
+    def call(self, name, *arguments, take=None):
+        """Any C function that takes the world first and returns a kiriResult. What it hands out lives until the next
+        tick, which may be another thread's: `take` runs before that, and its result is returned."""
+        self._turns.enter(name not in _reading)
+        try:
+            if self._world == ffi.NULL:
+                raise KiriError(KIRI_ERROR_ARGUMENT, "KIRI_ERROR_ARGUMENT", "the world is closed")
+            result = self._check(getattr(self.lib, name)(self._world, *arguments))
+            return take() if take else result
+        finally:
+            self._turns.leave()
 
     def get(self, name, kind, *arguments):
         """A C function whose last argument is where the answer goes."""
@@ -170,22 +317,21 @@ class World:
         self.call(name, *arguments, answer)
         return answer[0]
 
+    def get_array(self, take, name, kind, *arguments):
+        """take(array, count) of a C function whose last arguments are where an array and its length go."""
+        array, count = ffi.new(f"const {kind}**"), ffi.new("int32_t*")
+        return self.call(name, *arguments, array, count, take=lambda: take(array[0], count[0]))
+
+    def get_copies(self, names, name, kind, *arguments):
+        """The counts of a C struct with copies of the arrays that it points to: those with these names, or all."""
+        struct = ffi.new(kind + "*")
+        return self.call(name, *arguments, struct, take=lambda: _copies(struct, names))
+
     def create(self, kind, *before, **fields):
         """The id of a new thing, from its def with these fields."""
-        definition, kept = ffi.new(f"kiri{kind}Def*"), []
-        getattr(self.lib, f"kiriDefault{kind}Def")(definition)
-        _fill(definition, fields, kept)
+        kept = []  # until C has read it
+        definition = _definition(self.lib, f"kiri{kind}Def", fields, kept)
         return self.get(f"kiriCreate{kind}", "kiri" + kind, *before, definition)
-
-    def view(self, pointer, item, count, width):
-        """A read-only view of count rows of width numbers: a numpy array, or a memoryview where numpy is missing."""
-        shape = (count, width) if width > 1 else (count,)
-        if count == 0:
-            return numpy.empty(shape, item) if numpy else memoryview(b"").cast(item)
-        # A collector that does nothing but hold on to the world.
-        pointer = ffi.gc(pointer, lambda _, world=self: None)
-        memory = memoryview(ffi.buffer(pointer, 4 * count * width)).cast("B").cast(item, shape).toreadonly()
-        return numpy.asarray(memory) if numpy else memory
 
     def tick(self, dt, substeps=1):
         return self.call("kiriWorld_Tick", dt, substeps)
@@ -200,15 +346,16 @@ class World:
         return _record(self.get("kiriWorld_GetProfile", "kiriProfile"))
 
     def events(self):
-        events, count = ffi.new("const kiriEvent**"), ffi.new("int32_t*")
-        self.call("kiriWorld_GetEvents", events, count)
-        return [_record(events[0][i]) for i in range(count[0])]
+        return self.get_array(lambda events, count: [_record(events[i]) for i in range(count)], "kiriWorld_GetEvents",
+                              "kiriEvent")
 
     def create_sheet(self, positions, triangles, **fields):
-        """Rest positions and triangles, flat or in rows; other fields of kiriSheetDef by name, material as a dict."""
-        positions, triangles = _array("float", positions), _array("int32_t", triangles)
-        return Sheet(self, self.create("Sheet", restPositions=positions, vertexCount=len(positions) // 2,
-                                       indices=triangles, triangleCount=len(triangles) // 3, **fields))
+        """Rest positions and triangles, flat or in rows; other fields of kiriSheetDef by name, material and paper as
+        dicts."""
+        positions, vertex_count = _rows("float", positions, 2)
+        triangles, triangle_count = _rows("int32_t", triangles, 3)
+        return Sheet(self, self.create("Sheet", restPositions=positions, vertexCount=vertex_count, indices=triangles,
+                                       triangleCount=triangle_count, **fields))
 
     def create_rectangle(self, width, height, columns, rows, **fields):
         positions = ffi.new("float[]", 2 * (columns + 1) * (rows + 1))
@@ -238,23 +385,13 @@ class Sheet(_Handle):
     def destroy(self):
         self.world.call("kiriDestroySheet", self.id)
 
-    def mesh(self):
-        """Views of the arrays of kiriMesh, with its counts and revision."""
-        mesh = self.world.get("kiriSheet_GetMesh", "kiriMesh", self.id)
-        vertices, view = mesh.vertexCount, self.world.view
-        return types.SimpleNamespace(
-            positions=view(mesh.positions, "f", vertices, 3),
-            normals=view(mesh.normals, "f", vertices, 3),
-            restPositions=view(mesh.restPositions, "f", vertices, 2),
-            indices=view(mesh.indices, "i", mesh.triangleCount, 3),
-            sourceTriangles=view(mesh.sourceTriangles, "i", vertices, 1),
-            sourceWeights=view(mesh.sourceWeights, "f", vertices, 3),
-            vertexCount=vertices, triangleCount=mesh.triangleCount, revision=mesh.revision)
+    def mesh(self, *names):
+        """Counts and revision of kiriMesh with copies of its arrays: of those named, or of all."""
+        return self.world.get_copies(names, "kiriSheet_GetMesh", "kiriMesh", self.id)
 
     def collision_points(self):
-        positions, count = ffi.new("const float**"), ffi.new("int32_t*")
-        self.world.call("kiriSheet_GetCollisionPoints", self.id, positions, count)
-        return self.world.view(positions[0], "f", count[0], 3)
+        return self.world.get_array(lambda positions, count: _copy(positions, count, 3), "kiriSheet_GetCollisionPoints",
+                                    "float", self.id)
 
     def counts(self):
         return _record(self.world.get("kiriSheet_GetCounts", "kiriCounts", self.id))
@@ -268,45 +405,37 @@ class Sheet(_Handle):
                              max_distance)
         return _record(hit) if hit.triangle >= 0 else None
 
+    def _lists(self, name, kinds, *arguments, null=()):
+        """What a C function writes to arrays of some capacity."""
+        capacity, count = 16, ffi.new("int32_t*")
+        while True:
+            arrays = [ffi.new(kind + "[]", capacity) for kind in kinds]
+            self.world.call(name, self.id, *arguments, *arrays, *null, capacity, count)
+            if count[0] <= capacity:
+                return [ffi.unpack(array, count[0]) for array in arrays]
+            capacity = count[0]
+
     def weights(self, rest_point):
         """The weight of each frame that counts at a rest point."""
-        count, capacity = ffi.new("int32_t*"), self.counts().frames
-        frames, weights = ffi.new("kiriFrame[]", capacity), ffi.new("float[]", capacity)
-        self.world.call("kiriSheet_GetWeights", self.id, _vector(rest_point, 2), frames, weights, ffi.NULL,
-                        capacity, count)
-        return {Frame(self.world, frames[i]): weights[i] for i in range(count[0])}
+        frames, weights = self._lists("kiriSheet_GetWeights", ("kiriFrame", "float"), _vector(rest_point, 2),
+                                      null=(ffi.NULL,))
+        return {Frame(self.world, frame): weight for frame, weight in zip(frames, weights)}
 
     def frames(self):
-        count, capacity = ffi.new("int32_t*"), self.counts().frames
-        frames = ffi.new("kiriFrame[]", capacity)
-        self.world.call("kiriSheet_GetFrames", self.id, frames, capacity, count)
+        frames, = self._lists("kiriSheet_GetFrames", ("kiriFrame",))
         return [Frame(self.world, frame) for frame in frames]
 
     def piece(self, piece):
         """A kiriPieceState."""
         return _record(self.world.get("kiriSheet_GetPiece", "kiriPieceState", self.id, piece))
 
-    def piece_mesh(self, piece):
-        """Views of the arrays of kiriPieceMesh."""
-        mesh = self.world.get("kiriSheet_GetPieceMesh", "kiriPieceMesh", self.id, piece)
-        view = self.world.view
-        return types.SimpleNamespace(
-            vertices=view(mesh.vertices, "i", mesh.vertexCount, 1),
-            triangles=view(mesh.triangles, "i", mesh.triangleCount, 1),
-            indices=view(mesh.indices, "i", mesh.triangleCount, 3),
-            collisionPoints=view(mesh.collisionPoints, "i", mesh.collisionPointCount, 1))
+    def piece_mesh(self, piece, *names):
+        """Counts of kiriPieceMesh with copies of its arrays: of those named, or of all."""
+        return self.world.get_copies(names, "kiriSheet_GetPieceMesh", "kiriPieceMesh", self.id, piece)
 
     def piece_frames(self, piece):
-        frames, count = ffi.new("const kiriFrame**"), ffi.new("int32_t*")
-        self.world.call("kiriSheet_GetPieceFrames", self.id, piece, frames, count)
-        return [Frame(self.world, frames[0][i]) for i in range(count[0])]
-
-    def detach_piece(self, piece):
-        """The piece as a sheet of its own."""
-        return Sheet(self.world, self.world.get("kiriSheet_DetachPiece", "kiriSheet", self.id, piece))
-
-    def destroy_piece(self, piece):
-        self.world.call("kiriSheet_DestroyPiece", self.id, piece)
+        frames = self.world.get_array(ffi.unpack, "kiriSheet_GetPieceFrames", "kiriFrame", self.id, piece)
+        return [Frame(self.world, frame) for frame in frames]
 
     def drop_crumbs(self, area):
         """Destroys the pieces below an area; how many there were."""
@@ -329,8 +458,7 @@ class Sheet(_Handle):
 
 class Cut(_Handle):
     def extend(self, rest_points):
-        points = _array("float", rest_points)
-        self.world.call("kiriCut_Extend", self.id, points, len(points) // 2)
+        self.world.call("kiriCut_Extend", self.id, *_rows("float", rest_points, 2))
 
     def end(self):
         self.world.call("kiriCut_End", self.id)
@@ -341,8 +469,15 @@ class Frame(_Handle):
         return _record(self.world.get("kiriFrame_GetState", "kiriFrameState", self.id))
 
     def piece(self):
-        """The number of its piece."""
+        """The index that its piece has now."""
         return self.world.get("kiriFrame_GetPiece", "int32_t", self.id)
+
+    def detach_piece(self):
+        """Its piece as a sheet of its own."""
+        return Sheet(self.world, self.world.get("kiriFrame_DetachPiece", "kiriSheet", self.id))
+
+    def destroy_piece(self):
+        self.world.call("kiriFrame_DestroyPiece", self.id)
 
     def hold(self, position, rotation):
         """Rotation: 9 numbers, column after column."""
