@@ -42,7 +42,7 @@ LINK = $(CXX) $(FLAGS_$(config)) $(LDFLAGS)
 LIBRARY_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard src/*/*.c src/*/*.cpp))
 SAMPLE_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard samples/*.c samples/*.cpp))
 # What tests and benchmarks take from the samples: the scenes.
-SCENE_OBJECTS := $(filter %/scene.c.o %/outline.c.o,$(SAMPLE_OBJECTS))
+SCENE_OBJECTS := $(filter $(BUILD)/samples/scene% %/outline.c.o,$(SAMPLE_OBJECTS))
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench*.c))
 RUN := $(BUILD)/samples/kiri-run
