@@ -80,7 +80,7 @@ accuracy extremes: %: deps
 	$(BUILD)/tests/$@ $(if $(filter accuracy,$@),tests/data build/accuracy)
 
 # Scenes in the README; and the shape functions of one, as in figure 2 of the paper.
-GALLERY := bunny spiral kirigami patchwork vortex fallingguy
+GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat
 
 gallery: accuracy
 	@$(MAKE) --no-print-directory $(RUN) $(BOX2D)

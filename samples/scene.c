@@ -10,7 +10,8 @@
 /* ---- Which there are -------------------------------------------------------------------------------------------- */
 
 static const SceneType* const types[] = {
-    &bunnyScene, &spiralScene, &kirigamiScene, &patchworkScene, &vortexScene, &fallingGuyScene,
+    &bunnyScene,  &spiralScene,     &kirigamiScene, &patchworkScene,
+    &vortexScene, &fallingGuyScene, &rubberScene,   &flatScene,
 };
 
 const SceneType* Scene_GetType(int32_t index)

@@ -40,6 +40,10 @@ bool Scene_MakeSheet(Scene* scene, kiriSheetDef* def, const SceneOptions* option
             ScaleToSize(scene, scaled, numbers);
             def->framePoints = scaled;
         }
+        if (options->plain) {
+            def->model = KIRI_MODEL_LINKS;
+            def->planar = 0;
+        }
         def->gridResolution = options->gridResolution > 0 ? options->gridResolution : def->gridResolution;
         def->fromScratch = options->fromScratch;
         scene->gridResolution = def->gridResolution;

@@ -6,5 +6,7 @@
 
 extern const SceneType bunnyScene, patchworkScene;                               /* scene_cloth.c */
 extern const SceneType spiralScene, kirigamiScene, vortexScene, fallingGuyScene; /* scene_paper.c */
+extern const SceneType rubberScene;                                              /* scene_rubber.c */
+extern const SceneType flatScene;                                                /* scene_flat.c */
 
 #endif
