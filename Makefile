@@ -43,7 +43,7 @@ LINK = $(CXX) $(FLAGS_$(config)) $(LDFLAGS)
 LIBRARY_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard src/*/*.c src/*/*.cpp))
 SAMPLE_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard samples/*.c samples/*.cpp))
 # What tests and benchmarks take from the samples: the scenes.
-SCENE_OBJECTS := $(filter %/scene.c.o %/outline.c.o,$(SAMPLE_OBJECTS))
+SCENE_OBJECTS := $(filter $(BUILD)/samples/scene% %/outline.c.o,$(SAMPLE_OBJECTS))
 # Checks of a whole world, for all tests.
 VALIDATE_OBJECTS := $(patsubst %,$(BUILD)/tests/%.c.o,validate validate_mesh validate_field)
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
@@ -83,7 +83,7 @@ accuracy extremes: %: deps
 	$(BUILD)/tests/$@ $(if $(filter accuracy,$@),tests/data build/accuracy)
 
 # Scenes in the README; and the shape functions of one, as in figure 2 of the paper.
-GALLERY := bunny spiral kirigami patchwork vortex fallingguy
+GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat
 
 gallery: accuracy
 	@$(MAKE) --no-print-directory $(RUN) $(BOX2D)

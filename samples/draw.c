@@ -446,8 +446,24 @@ static void DrawBlade(const float tip[3], float zoom)
     glPopMatrix();
 }
 
+/* A round peg from the wall behind the sheet to before it. */
+static void DrawPegs(const float* pins, int32_t count, float zoom)
+{
+    glEnable(GL_LIGHTING);
+    SetMaterial(GL_FRONT_AND_BACK, 0.24f, 0.25f, 0.29f);
+    for (int32_t i = 0; i < count; i++) {
+        glPushMatrix();
+        glTranslatef(zoom * pins[3 * i], zoom * pins[3 * i + 1], zoom * pins[3 * i + 2]);
+        glRotatef(90.0f, 1.0f, 0.0f, 0.0f);
+        DrawBar(-0.01f, 0.03f, 0.014f, 0.014f);
+        DrawBar(0.03f, 0.0301f, 0.014f, 0.0f);
+        glPopMatrix();
+    }
+    glDisable(GL_LIGHTING);
+}
+
 /* A thread from the ceiling, and a knot. */
-static void DrawPins(const float* pins, int32_t count, float zoom)
+static void DrawThreads(const float* pins, int32_t count, float zoom)
 {
     glLineWidth(0.8f * OVERSAMPLING);
     glPointSize(4.5f * OVERSAMPLING);
@@ -528,11 +544,16 @@ bool Painter_Paint(Painter* painter, const View* view, Image* image)
     glScalef(zoom, zoom, zoom);
     DrawSheet(painter, view, zoom);
     DrawOpenEdges(painter, &view->mesh, view->look.lip);
-    DrawPins(view->pins, view->pinCount, zoom);
+    if (!view->pegs) {
+        DrawThreads(view->pins, view->pinCount, zoom);
+    }
     DrawPoints(view->points, view->pointCount);
     DrawLines(view->lines, view->lineCount);
     DrawAxes(view->axes, view->axesCount, 0.05f / zoom);
     glPopMatrix();
+    if (view->pegs) {
+        DrawPegs(view->pins, view->pinCount, zoom);
+    }
     for (int32_t i = 0; i < view->bladeCount; i++) {
         DrawBlade(view->blades + 3 * i, zoom);
     }

@@ -13,6 +13,7 @@ typedef struct View {
     const float* colors; /* 9 a triangle: red, green, blue at its corners; null: as it looks */
     const float* pins;   /* 3 a pin: the sheet hangs from threads here */
     int32_t pinCount;
+    bool pegs;             /* or it is on pegs in a wall */
     const uint8_t* raster; /* rasterSize x rasterSize colours over the rest plane instead of the look; or null */
     int32_t rasterSize;
     float rasterOrigin[2], rasterWidth; /* m */

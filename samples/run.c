@@ -24,7 +24,7 @@ typedef struct Options {
     const char* data;
     DebugOptions debug;
     int32_t ticks, every, width, height, grid, controlFrames, budget;
-    bool axes, quiet, help;
+    bool axes, plain, quiet, help;
 } Options;
 
 static void PrintHelp(void)
@@ -39,6 +39,7 @@ static void PrintHelp(void)
            "  --grid N              grid squares along the sheet (the scene's own)\n"
            "  --control-frames N    control frames at the start (the scene's own)\n"
            "  --budget N            blade points taken in one tick; 0: no limit (0)\n"
+           "  --plain               rigid frames, free in space, in scenes that have others\n"
            "  --frames-axes         show the control frames\n"
            "  --weights all|N       colour the sheet by the shape functions of all frames, or of frame N\n"
            "  --regions             show where each frame has the largest weight\n"
@@ -72,10 +73,10 @@ static bool ReadFlag(const char* name, Options* options)
     const struct {
         const char* name;
         bool* flag;
-    } flags[] = { { "--help", &options->help },          { "--quiet", &options->quiet },
-                  { "--frames-axes", &options->axes },   { "--regions", &options->debug.regions },
-                  { "--links", &options->debug.links },  { "--cells", &options->debug.cells },
-                  { "--points", &options->debug.points } };
+    } flags[] = { { "--help", &options->help },           { "--quiet", &options->quiet },
+                  { "--frames-axes", &options->axes },    { "--regions", &options->debug.regions },
+                  { "--links", &options->debug.links },   { "--cells", &options->debug.cells },
+                  { "--points", &options->debug.points }, { "--plain", &options->plain } };
     for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
         if (strcmp(name, flags[i].name) == 0) {
             *flags[i].flag = true;
@@ -247,7 +248,8 @@ static bool Film_Shoot(Film* film, const Scene* scene, const Options* options)
                   .size = scene->type->size,
                   .look = scene->type->look,
                   .pins = scene->targets[0],
-                  .pinCount = scene->pinCount };
+                  .pinCount = scene->pinCount,
+                  .pegs = scene->type->pegs };
     float restPoints[MAX_BLADES][2], blades[MAX_BLADES][3];
     kiriSheet_GetMesh(scene->world, scene->sheet, &view.mesh);
     if (Debug_IsWanted(&options->debug) && !ShowDebug(&view, film, scene, options)) {
@@ -461,7 +463,8 @@ int main(int count, char** words)
     def.budget.cells = options.budget;
     SceneOptions sceneOptions = { .dataFolder = options.data,
                                   .gridResolution = options.grid,
-                                  .frameCount = options.controlFrames };
+                                  .frameCount = options.controlFrames,
+                                  .plain = options.plain };
     Scene scene;
     if (!Scene_Start(&scene, Scene_FindType(options.scene), &def, &sceneOptions)) {
         return 1;

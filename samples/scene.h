@@ -20,11 +20,13 @@ typedef struct Look {
 } Look;
 
 typedef struct SceneOptions {
-    const char* dataFolder; /* null: samples/data */
-    int32_t gridResolution; /* 0: the scene's own */
-    int32_t frameCount;     /* 0: the scene's own */
-    bool fromScratch;       /* of the sheet def */
-    float pace;             /* of blades and pins; 0.2: they take five times as many ticks; 0 or 1: the scene's own */
+    const char* dataFolder;    /* null: samples/data */
+    int32_t gridResolution;    /* 0: the scene's own */
+    int32_t frameCount;        /* 0: the scene's own */
+    const kiriPaperDef* paper; /* of the sheet def */
+    bool unfaded;              /* fadeTime 0 */
+    bool plain;                /* rigid frames that move in space, to compare with: KIRI_MODEL_LINKS, not planar */
+    float pace; /* of blades and pins; 0.2: they take five times as many ticks; 0 or 1: the scene's own */
 } SceneOptions;
 
 /* The way of a blade, point by point from one tick to another. */
@@ -48,6 +50,7 @@ typedef struct SceneType {
     int32_t moments[8];        /* ticks worth a picture, rising */
     Camera camera;
     Look look;
+    bool pegs; /* pins are pegs in a wall behind the sheet; else knots of threads from above */
     bool (*start)(Scene* scene, const SceneOptions* options); /* makes the sheet, its pins, and the strokes */
     void (*push)(Scene* scene);                               /* forces and contacts of a tick; may be null */
 } SceneType;

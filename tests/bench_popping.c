@@ -27,18 +27,10 @@ static void Record(Probe* probe)
     jumps->sum += jump;
 }
 
-static void Choose(kiriSheetData* sheet, int way)
-{
-    sheet->popping = way == PAPER;
-    if (way != FADED) {
-        sheet->seen.fades.time = sheet->seen.pointFades.time = 0.0;
-    }
-}
-
 /* Where vertices are; with room for as many as a tick may add. */
 static void Remember(Jumps* jumps)
 {
-    const kiriSurface* surface = &SheetOf(jumps)->surface;
+    const kiriSurface* surface = &SheetOf(jumps)->seen.surface;
     if (jumps->room < surface->vertexCount + 10000) {
         jumps->room = 2 * surface->vertexCount + 20000;
         free(jumps->at);
@@ -52,7 +44,10 @@ static void Measure(Jumps* jumps, const SceneType* type, int way)
     static Scene scene;
     memset(jumps, 0, sizeof(*jumps));
     kiriWorldDef def = Probe_Def(&jumps->probe, type->size);
-    const SceneOptions options = { .dataFolder = NULL };
+    kiriPaperDef paper;
+    kiriDefaultPaperDef(&paper);
+    paper.popping = way == PAPER;
+    const SceneOptions options = { .paper = &paper, .unfaded = way != FADED };
     if (!Scene_Start(&scene, type, &def, &options)) {
         exit(1);
     }
@@ -60,7 +55,6 @@ static void Measure(Jumps* jumps, const SceneType* type, int way)
     jumps->probe.sheet = scene.sheet;
     jumps->probe.record = Record;
     jumps->cell = SheetOf(jumps)->grid.side;
-    Choose(SheetOf(jumps), way);
     for (int32_t tick = 0; tick < type->ticks; ++tick) {
         kiriProfile profile;
         Remember(jumps);

@@ -25,16 +25,21 @@ static kiriResult TickScene(Scene* scene)
 
 typedef struct Row {
     const char* name;
-    int32_t grid, vertices, strokes, firstFrames, lastFrames;
+    int32_t grid, vertices, strokes, firstFrames, lastFrames, pieces;
 } Row;
 
-/* Table 1: grid along the longer side, vertices before the cut, frames before and after. */
-static const Row table[] = {
-    { "spiral", 40, 81, 1, 5, 5 },   { "kirigami", 68, 4225, 48, 47, 47 },  { "patchwork", 50, 4225, 4, 5, 12 },
-    { "vortex", 68, 4225, 2, 5, 5 }, { "fallingguy", 100, 289, 1, 10, 10 },
-};
+enum { SPIRAL, KIRIGAMI, PATCHWORK, VORTEX, FALLING_GUY, RUBBER, FLAT, ROWS };
 
-enum { ROWS = sizeof table / sizeof table[0] };
+/* Table 1: grid along the longer side, vertices before the cut, frames before and after. And scenes of our own. */
+static const Row table[ROWS] = {
+    [SPIRAL] = { "spiral", 40, 81, 1, 5, 5, 1 },
+    [KIRIGAMI] = { "kirigami", 68, 4225, 48, 47, 47, 1 },
+    [PATCHWORK] = { "patchwork", 50, 4225, 4, 5, 12, 5 },
+    [VORTEX] = { "vortex", 68, 4225, 2, 5, 5, 1 },
+    [FALLING_GUY] = { "fallingguy", 100, 289, 1, 10, 10, 1 },
+    [RUBBER] = { "rubber", 50, 1353, 5, 39, 39, 3 },
+    [FLAT] = { "flat", 64, 297, 5, 44, 48, 6 },
+};
 
 static void StartAt(Scene* scene, const char* name, float pace)
 {
@@ -186,8 +191,40 @@ static void TestSlowBlade(void** state)
     Scene_Stop(&scene);
 }
 
+/* What is seen of a scene in the course of its ticks. */
+typedef struct Watch {
+    int32_t still;       /* from this tick on the host moves nothing */
+    double energy, most; /* J: in the tick `still`, and at most since then */
+    double elastic;      /* J: in the tick `still` */
+    double offPlane;     /* m: how far a vertex ever was from the plane y = 0 */
+} Watch;
+
+/* Kinetic, elastic, and in the field of gravity. */
+static double EnergyOf(const Scene* scene, double* elastic)
+{
+    kiriTotals totals;
+    assert_int_equal(kiriSheet_GetTotals(scene->world, scene->sheet, &totals), KIRI_OK);
+    *elastic = totals.elasticEnergy;
+    return totals.kineticEnergy + totals.elasticEnergy + 9.81 * totals.mass * totals.center[2];
+}
+
+static void WatchTick(Watch* watch, const Scene* scene)
+{
+    kiriMesh mesh;
+    double elastic, energy = EnergyOf(scene, &elastic);
+    if (scene->tick == watch->still) {
+        watch->energy = watch->most = energy;
+        watch->elastic = elastic;
+    }
+    watch->most = fmax(watch->most, energy);
+    assert_int_equal(kiriSheet_GetMesh(scene->world, scene->sheet, &mesh), KIRI_OK);
+    for (int32_t i = 0; i < mesh.vertexCount; i++) {
+        watch->offPlane = fmax(watch->offPlane, fabs((double)mesh.positions[3 * i + 1]));
+    }
+}
+
 /* Cuts only in the ticks that the type names; frames and pieces as in the table; nothing gets lost on the way. */
-static void RunWhole(const Row* row, Scene* scene)
+static void RunWhole(const Row* row, Scene* scene, Watch* watch)
 {
     kiriCounts counts;
     kiriTotals before, after;
@@ -200,11 +237,14 @@ static void RunWhole(const Row* row, Scene* scene)
         if (tick < scene->type->firstCut || tick > scene->type->lastCut) {
             assert_int_equal(profile.cutSegments, 0);
         }
+        if (watch != NULL) {
+            WatchTick(watch, scene);
+        }
     }
     kiriSheet_GetCounts(scene->world, scene->sheet, &counts);
     kiriSheet_GetTotals(scene->world, scene->sheet, &after);
     assert_int_equal(counts.frames, row->lastFrames);
-    assert_int_equal(counts.pieces, strcmp(row->name, "patchwork") == 0 ? 5 : 1);
+    assert_int_equal(counts.pieces, row->pieces);
     assert_true(fabs(after.mass - before.mass) < 1e-9 * before.mass);
     int32_t corners = 0;
     for (int32_t i = 0; i < scene->strokeCount; i++) {
@@ -218,7 +258,7 @@ static void TestSpiralScene(void** state)
 {
     (void)state;
     Scene scene;
-    RunWhole(&table[0], &scene);
+    RunWhole(&table[SPIRAL], &scene, NULL);
     Scene_Stop(&scene);
 }
 
@@ -245,14 +285,104 @@ static void TestPatchworkScene(void** state)
 {
     (void)state;
     Scene scene;
-    RunWhole(&table[2], &scene);
+    RunWhole(&table[PATCHWORK], &scene, NULL);
     for (int32_t i = 0; i < scene.strokeCount; i++) {
         assert_true(HeightOf(&scene, &scene.strokes[i]) < 0.06f); /* each lies on the floor, at most folded */
     }
     Scene_Stop(&scene);
 }
 
-/* A spiral of equal steps, whose radius is linear in the angle; lengths as by calculus. */
+/* The mean stretch along u of frames, in themselves. */
+static double StretchOfFrames(const Scene* scene)
+{
+    kiriFrame frames[256];
+    int32_t count = 0;
+    double sum = 0.0;
+    kiriSheet_GetFrames(scene->world, scene->sheet, frames, 256, &count);
+    for (int32_t i = 0; i < count; i++) {
+        kiriFrameState state;
+        assert_int_equal(kiriFrame_GetState(scene->world, frames[i], &state), KIRI_OK);
+        const float* u = state.rotation;
+        sum += sqrt((double)u[0] * u[0] + (double)u[1] * u[1] + (double)u[2] * u[2]);
+    }
+    return sum / count;
+}
+
+/* How high the sheet is where u is 0.5, by what it is there at rest. */
+static double HeightOfMiddle(const Scene* scene)
+{
+    kiriMesh mesh;
+    float low[2] = { FLT_MAX, FLT_MAX }, high[2] = { -FLT_MAX, -FLT_MAX };
+    assert_int_equal(kiriSheet_GetMesh(scene->world, scene->sheet, &mesh), KIRI_OK);
+    for (int32_t i = 0; i < mesh.vertexCount; i++) {
+        const float now = mesh.positions[3 * i + 2], rest = mesh.restPositions[2 * i + 1];
+        if (fabsf(mesh.restPositions[2 * i] - 0.5f * scene->type->size) < 1e-4f) {
+            low[0] = fminf(low[0], now);
+            high[0] = fmaxf(high[0], now);
+            low[1] = fminf(low[1], rest);
+            high[1] = fmaxf(high[1], rest);
+        }
+    }
+    return (double)(high[0] - low[0]) / (double)(high[1] - low[1]);
+}
+
+/* Why the scene has affine frames: under the pull they stretch, and the sheet gets narrower. Rigid ones only move
+   apart. */
+static void TestRubberStretches(void** state)
+{
+    (void)state;
+    for (int plain = 0; plain < 2; plain++) {
+        Scene scene;
+        kiriWorldDef def;
+        kiriDefaultWorldDef(&def);
+        assert_true(Scene_Start(&scene, Scene_FindType("rubber"), &def, &(SceneOptions){ .plain = plain != 0 }));
+        while (scene.tick < scene.type->firstCut) {
+            assert_int_equal(Scene_Tick(&scene), KIRI_OK);
+        }
+        double stretch = StretchOfFrames(&scene), height = HeightOfMiddle(&scene);
+        assert_true(plain ? fabs(stretch - 1.0) < 1e-6 : stretch > 1.3);
+        assert_true(plain ? height > 0.98 : height < 0.8);
+        Scene_Stop(&scene);
+    }
+}
+
+/* Cuts let go of nearly all elastic energy, and bring none. */
+static void TestRubberScene(void** state)
+{
+    (void)state;
+    Scene scene;
+    double elastic;
+    Watch watch = { .still = Scene_FindType("rubber")->firstCut };
+    RunWhole(&table[RUBBER], &scene, &watch);
+    EnergyOf(&scene, &elastic);
+    assert_true(watch.most <= (1.0 + 1e-6) * watch.energy);
+    assert_true(watch.elastic > 1.0 && elastic < 1e-3 * watch.elastic);
+    assert_true(fabs(StretchOfFrames(&scene) - 1.0) < 0.01);
+    Scene_Stop(&scene);
+}
+
+/* Nothing leaves the plane or brings energy; in the end the halves of the disc lie on the floor, apart. */
+static void TestFlatScene(void** state)
+{
+    (void)state;
+    Scene scene;
+    Watch watch = { .still = 1 };
+    RunWhole(&table[FLAT], &scene, &watch);
+    assert_true(watch.offPlane == 0.0 && watch.most <= (1.0 + 1e-6) * watch.energy);
+    kiriPieceState halves[2], piece;
+    int32_t found = 0;
+    for (int32_t i = 0; i < table[FLAT].pieces; i++) {
+        assert_int_equal(kiriSheet_GetPiece(scene.world, scene.sheet, i, &piece), KIRI_OK);
+        if (piece.area > 0.1) {
+            assert_true(found < 2 && fabsf(piece.lower[2]) < 0.01f && piece.upper[2] < 0.45f);
+            halves[found++] = piece;
+        }
+    }
+    assert_int_equal(found, 2);
+    assert_true(halves[0].upper[0] < halves[1].lower[0] || halves[1].upper[0] < halves[0].lower[0]);
+    Scene_Stop(&scene);
+}
+
 /* Cuts set the spiral free, and do not throw it: it never moves faster than a fall by its own size would make it, though each
    commit changes the borders of bent regions. */
 static void TestSpiralIsNotThrown(void** state)
@@ -272,6 +402,7 @@ static void TestSpiralIsNotThrown(void** state)
     Scene_Stop(&scene);
 }
 
+/* A spiral of equal steps, whose radius is linear in the angle; lengths as by calculus. */
 static void TestSpiral(void** state)
 {
     (void)state;
@@ -318,6 +449,9 @@ int main(void)
         cmocka_unit_test(TestSpiralIsNotThrown),
         cmocka_unit_test(TestSpiralScene),
         cmocka_unit_test(TestPatchworkScene),
+        cmocka_unit_test(TestRubberStretches),
+        cmocka_unit_test(TestRubberScene),
+        cmocka_unit_test(TestFlatScene),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
