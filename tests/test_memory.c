@@ -1,7 +1,7 @@
 /* A tick without a cut allocates nothing: neither from the host nor behind its back; and few with one do. */
 #include "host.h"
 
-#include "world/kiri_state_hash.h"
+#include "layout_hash.h"
 
 /* malloc of the whole program, counted, where the C library lets us stand in front of it. */
 #if defined(__has_feature)
@@ -169,7 +169,7 @@ static kiriSheet AddForCut(Host* host, int32_t columns)
 
 static uint64_t LayoutOf(const Host* host)
 {
-    return kiriStateHash_OfLayout(host->world->sheets.data[0]);
+    return HashLayout(host->world->sheets.data[0]);
 }
 
 /* What a cut leaves when nothing fails. */

@@ -1,7 +1,7 @@
 /* A cut costs what it touches, and no tick costs more than its budget; both without changing what comes of it. */
 #include "host.h"
 
-#include "world/kiri_state_hash.h"
+#include "layout_hash.h"
 
 #include <stdio.h>
 
@@ -12,7 +12,7 @@ static const kiriSheetData* SheetOf(const Host* host, int32_t index)
 
 static uint64_t Layout(const Host* host, int32_t index)
 {
-    return kiriStateHash_OfLayout(SheetOf(host, index));
+    return HashLayout(SheetOf(host, index));
 }
 
 /* ---- Blades that wander at random ---- */

@@ -1,5 +1,7 @@
 #include "kiri_grid_work.h"
 
+#include "../core/kiri_sort.h"
+
 #include <string.h>
 
 /* ---- What an update changes -------------------------------------------------------------------------------------- */
@@ -220,22 +222,14 @@ void kiriGrid_Reset(kiriGrid* grid)
 
 /* ---- Questions --------------------------------------------------------------------------------------------------- */
 
-/* Shell 1959: what is sorted already, as after an update from scratch, costs next to nothing. */
+static bool IsCellBefore(const void* grid, int32_t a, int32_t b)
+{
+    return kiriGrid_IsBefore(grid, a, b);
+}
+
 void kiriGrid_SortCells(const kiriGrid* grid, int32_t* cells, int32_t count)
 {
-    int32_t gap = 1;
-    while (gap < count / 3) {
-        gap = 3 * gap + 1;
-    }
-    for (; gap > 0; gap /= 3) {
-        for (int32_t i = gap; i < count; ++i) {
-            int32_t moving = cells[i], j = i;
-            for (; j >= gap && kiriGrid_IsBefore(grid, moving, cells[j - gap]); j -= gap) {
-                cells[j] = cells[j - gap];
-            }
-            cells[j] = moving;
-        }
-    }
+    kiriSort(cells, count, IsCellBefore, grid);
 }
 
 int32_t kiriGrid_CellOf(const kiriGrid* grid, const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)

@@ -1,5 +1,8 @@
 #include "kiri_grid_work.h"
 
+#include "../core/kiri_sort.h"
+#include "../core/kiri_union_find.h"
+
 #include <string.h>
 
 /* SetMaterial compares bytes. */
@@ -38,22 +41,10 @@ static bool IsWhole(const kiriMeshData* mesh, int32_t square)
 
 /* ---- Triangles of a square --------------------------------------------------------------------------------------- */
 
-/* By triangle (Shell 1959): the order of a square's list does not matter. */
-static void SortNodes(const kiriSquareNode* nodes, int32_t* node, int32_t count)
+/* By triangle: the order of a square's list does not matter. */
+static bool IsNodeBefore(const void* nodes, int32_t a, int32_t b)
 {
-    int32_t gap = 1;
-    while (gap < count / 3) {
-        gap = 3 * gap + 1;
-    }
-    for (; gap > 0; gap /= 3) {
-        for (int32_t i = gap; i < count; ++i) {
-            int32_t moving = node[i], j = i;
-            for (; j >= gap && nodes[node[j - gap]].triangle > nodes[moving].triangle; j -= gap) {
-                node[j] = node[j - gap];
-            }
-            node[j] = moving;
-        }
-    }
+    return ((const kiriSquareNode*)nodes)[a].triangle < ((const kiriSquareNode*)nodes)[b].triangle;
 }
 
 bool kiriGridWork_Collect(kiriGridWork* work, const kiriMeshData* mesh, int32_t square)
@@ -69,7 +60,7 @@ bool kiriGridWork_Collect(kiriGridWork* work, const kiriMeshData* mesh, int32_t 
             return false;
         }
     }
-    SortNodes(squares->nodes.data, work->node.data + first, work->node.count - first);
+    kiriSort(work->node.data + first, work->node.count - first, IsNodeBefore, squares->nodes.data);
     kiriNodeRange range = { first, work->node.count };
     work->ranges.data[square] = range;
     return kiriGridWork_Flag(work, mesh->memory, square, KIRI_SQUARE_COLLECTED);
@@ -91,27 +82,6 @@ static int32_t FindTriangleEntry(const kiriGridWork* work, const kiriMeshData* m
     return from < end && kiriGridWork_TriangleAt(work, mesh, from) == triangle ? from : KIRI_NONE;
 }
 
-/* Union-find; the lowest index stands for all. */
-static int32_t FindTriangleRoot(int32_t* parent, int32_t i)
-{
-    while (parent[i] != i) {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    return i;
-}
-
-static void JoinRoots(int32_t* parent, int32_t i, int32_t j)
-{
-    i = FindTriangleRoot(parent, i);
-    j = FindTriangleRoot(parent, j);
-    if (i < j) {
-        parent[j] = i;
-    } else {
-        parent[i] = j;
-    }
-}
-
 /* Joins the triangles of a square over the closed edges that run through it (algorithm 3). */
 static void JoinTriangles(kiriGridWork* work, const kiriMeshData* mesh, int32_t square)
 {
@@ -127,7 +97,7 @@ static void JoinTriangles(kiriGridWork* work, const kiriMeshData* mesh, int32_t 
             if (j != KIRI_NONE &&
                 kiriSquares_RunsThrough(&mesh->squares, square, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
                                         mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at)) {
-                JoinRoots(work->parent.data, i, j);
+                kiriUnion_Join(work->parent.data, i, j);
             }
         }
     }
@@ -316,7 +286,7 @@ static bool FindCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
     }
     JoinTriangles(work, mesh, square);
     for (int32_t i = work->ranges.data[square].first; i < work->ranges.data[square].end; ++i) {
-        int32_t root = FindTriangleRoot(work->parent.data, i), node = work->node.data[i],
+        int32_t root = kiriUnion_Root(work->parent.data, i), node = work->node.data[i],
                 triangle = kiriGridWork_TriangleAt(work, mesh, i);
         const kiriNewCell none = { triangle, KIRI_NONE, { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 } };
         if (root == i && !kiriArray_Push(mesh->memory, &work->newCells, none)) {

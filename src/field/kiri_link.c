@@ -1,5 +1,7 @@
 #include "kiri_link.h"
 
+#include "../core/kiri_sort.h"
+
 #include <string.h>
 
 /* CountChanged compares bytes. */
@@ -30,8 +32,7 @@ struct kiriLinkWork {
     KIRI_ARRAY(int32_t) whole;   /* a connected stretch of them, in order, */
     KIRI_ARRAY(int32_t) stretch; /* and the faces of the link at hand, in order */
     KIRI_ARRAY(NewLink) made;
-    KIRI_ARRAY(int32_t) order; /* of what was made */
-    KIRI_ARRAY(int32_t) scratch;
+    KIRI_ARRAY(int32_t) order;        /* of what was made */
     KIRI_ARRAY(RegionSpread) spreads; /* of each region */
     KIRI_ARRAY(uint8_t) dirty;        /* of each region: its material or one of its links changed */
 };
@@ -75,8 +76,9 @@ static bool IsRegionDirty(const Border* border, int32_t region)
 /* ---- Order ------------------------------------------------------------------------------------------------------ */
 
 /* By square, axis, and the lowest triangles of the two cells: not by indices. No two faces share all of it. */
-static bool IsFaceBefore(const Border* border, int32_t a, int32_t b)
+static bool IsFaceBefore(const void* context, int32_t a, int32_t b)
 {
+    const Border* border = context;
     const kiriCell* cells = border->grid->cells.data;
     const kiriFace *f = &border->grid->faces.data[a], *g = &border->grid->faces.data[b];
     const kiriCell *fHigh = &cells[f->cell[1]], *gHigh = &cells[g->cell[1]];
@@ -90,36 +92,14 @@ static bool IsFaceBefore(const Border* border, int32_t a, int32_t b)
     return fLow != gLow ? fLow < gLow : fHigh->triangle < gHigh->triangle;
 }
 
-static bool IsMadeBefore(const Border* border, int32_t a, int32_t b)
+static bool IsMadeBefore(const void* context, int32_t a, int32_t b)
 {
+    const Border* border = context;
     const NewLink *x = &border->work->made.data[a], *y = &border->work->made.data[b];
     if (x->link.i != y->link.i) {
         return x->link.i < y->link.i;
     }
     return x->link.j != y->link.j ? x->link.j < y->link.j : IsFaceBefore(border, x->face, y->face);
-}
-
-typedef bool IsBorderItemBefore(const Border* border, int32_t a, int32_t b);
-
-/* Merge sort, by runs of doubling length. */
-static bool SortBorderItems(const Border* border, IsBorderItemBefore* before, int32_t* items, int32_t count)
-{
-    if (!kiriArray_Resize(border->memory, &border->work->scratch, count)) {
-        return false;
-    }
-    int32_t* other = border->work->scratch.data;
-    for (int64_t run = 1; run < count; run *= 2) {
-        for (int64_t first = 0; first < count; first += 2 * run) {
-            int64_t middle = first + run < count ? first + run : count;
-            int64_t end = middle + run < count ? middle + run : count, a = first, b = middle;
-            for (int64_t k = first; k < end; ++k) {
-                bool low = b == end || (a < middle && !before(border, items[b], items[a]));
-                other[k] = items[low ? a++ : b++];
-            }
-        }
-        memcpy(items, other, (size_t)count * sizeof(*items));
-    }
-    return true;
 }
 
 /* ---- Stretches -------------------------------------------------------------------------------------------------- */
@@ -175,7 +155,8 @@ static bool GatherStretch(const Border* border, int32_t face, FaceMark next)
             ok = GatherFacesAt(border, &side, grid->steps.data[s].cell, mark, next);
         }
     }
-    return ok && SortBorderItems(border, IsFaceBefore, work->stretch.data, work->stretch.count);
+    kiriSort(work->stretch.data, work->stretch.count, IsFaceBefore, border);
+    return ok;
 }
 
 /* The vector sum of the faces, as normals from i to j; *sum is the sum of their widths. */
@@ -392,7 +373,8 @@ static bool MakeLinks(const Border* border)
     for (int32_t k = 0; k < work->order.count; ++k) {
         work->order.data[k] = k;
     }
-    return SortBorderItems(border, IsMadeBefore, work->order.data, work->order.count);
+    kiriSort(work->order.data, work->order.count, IsMadeBefore, border);
+    return true;
 }
 
 /* ---- The whole -------------------------------------------------------------------------------------------------- */

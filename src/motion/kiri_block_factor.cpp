@@ -13,6 +13,7 @@
 #include "kiri_block_factor.h"
 extern "C" {
 #include "../core/kiri_array.h"
+#include "../core/kiri_hash.h"
 }
 
 namespace
@@ -522,12 +523,12 @@ extern "C" bool kiriMatrix_Covers(const kiriMatrix* matrix, kiriPair pair)
 
 extern "C" uint64_t kiriMatrix_Hash(const kiriMatrix* matrix)
 {
-    uint64_t hash = 14695981039346656037u;
+    uint64_t hash = KIRI_HASH_START;
     for (int32_t f = 0; f < matrix->count; ++f) {
-        hash = (hash ^ (uint64_t)matrix->place.data[f]) * 1099511628211u;
+        kiriHash_Word(&hash, (uint64_t)matrix->place.data[f]);
     }
     for (int32_t b = 0; matrix->count > 0 && b < matrix->own.row.count; ++b) {
-        hash = (hash ^ (uint64_t)matrix->own.row.data[b]) * 1099511628211u;
+        kiriHash_Word(&hash, (uint64_t)matrix->own.row.data[b]);
     }
     return hash;
 }

@@ -1,19 +1,11 @@
 #include "kiri_piece.h"
 
+#include "../core/kiri_union_find.h"
 #include "kiri_motion.h"
 
 #include <string.h>
 
 /* ---- Coming off ---- */
-
-static int32_t FindPiece(int32_t* parent, int32_t i)
-{
-    while (parent[i] != i) {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    return i;
-}
 
 /* Regions that links join are one piece, and others are not. */
 static bool JoinFrames(kiriSheetData* sheet)
@@ -22,13 +14,9 @@ static bool JoinFrames(kiriSheetData* sheet)
     if (!kiriArray_Resize(sheet->memory, &u->parent, u->placing.sites.count)) {
         return false;
     }
-    for (int32_t i = 0; i < u->placing.sites.count; ++i) {
-        u->parent.data[i] = i;
-    }
+    kiriUnion_Init(u->parent.data, u->placing.sites.count);
     for (int32_t k = 0; k < sheet->links.next.count; ++k) {
-        const kiriLink* link = &sheet->links.next.data[k];
-        int32_t i = FindPiece(u->parent.data, link->i), j = FindPiece(u->parent.data, link->j);
-        u->parent.data[i < j ? j : i] = i < j ? i : j;
+        kiriUnion_Join(u->parent.data, sheet->links.next.data[k].i, sheet->links.next.data[k].j);
     }
     return true;
 }
@@ -83,7 +71,7 @@ bool kiriPieces_Stage(kiriSheetData* sheet)
         return false;
     }
     for (int32_t i = 0; i < u->placing.sites.count; ++i) {
-        int32_t root = FindPiece(u->parent.data, i);
+        int32_t root = kiriUnion_Root(u->parent.data, i);
         if (root == i) {
             kiriPiece piece = { 0.0, i, OriginOf(sheet, i), false };
             next->framePiece.data[i] = next->pieces.count;

@@ -1,5 +1,7 @@
 #include "kiri_site.h"
 
+#include "../core/kiri_sort.h"
+
 #include <string.h>
 
 /* ---- Sites that were there ---- */
@@ -223,7 +225,7 @@ bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count)
 /* ---- Re-sampling ---- */
 
 /* Marks of frames, while pieces with rigid ones are seen to. */
-enum { DONE_WITH = 1, OF_PIECE_AT_HAND = 2 /* of the piece at hand */, MOST_SORTED = 64 };
+enum { DONE_WITH = 1, OF_PIECE_AT_HAND = 2 /* of the piece at hand */ };
 
 /* Has the frame a weight above rigidWeight over more than rigidArea? */
 static bool IsRigid(const kiriSheetData* sheet, int32_t frame)
@@ -274,28 +276,6 @@ static bool MarkRigidCells(kiriSheetData* sheet)
     return true;
 }
 
-/* Brings `own` in order. A few are sorted; many are found by looking at all. */
-static void SortOwn(kiriUpdate* u)
-{
-    int32_t* own = u->placing.own.data;
-    if (u->placing.own.count > MOST_SORTED) {
-        int32_t count = 0;
-        for (int32_t f = 0; count < u->placing.own.count; ++f) {
-            if (u->placing.marks.data[f] == OF_PIECE_AT_HAND) {
-                own[count++] = f;
-            }
-        }
-        return;
-    }
-    for (int32_t i = 1; i < u->placing.own.count; ++i) {
-        int32_t frame = own[i], j = i;
-        for (; j > 0 && own[j - 1] > frame; --j) {
-            own[j] = own[j - 1];
-        }
-        own[j] = frame;
-    }
-}
-
 /* The frames of the piece in the placer, and its sites; *old says whether one of them was there before this update. */
 static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
 {
@@ -312,7 +292,7 @@ static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
             }
         }
     }
-    SortOwn(u);
+    kiriSort(u->placing.own.data, u->placing.own.count, NULL, NULL);
     bool ok = true;
     for (int32_t i = 0; ok && i < u->placing.own.count; ++i) {
         ok = kiriArray_Push(sheet->memory, &u->placing.placer.sites, u->placing.sites.data[u->placing.own.data[i]]);

@@ -12,10 +12,8 @@ extern "C" {
    never counts. */
 uint64_t kiriStateHash_Of(const kiriWorld* world);
 
-/* A hash of all that a sheet is but for its motion: mesh, grid, regions, shape functions, links, weights of samples. It
-   does not depend on the indices of cells, which tell in what order they were made. Meant for tests. No update may be
-   at hand. */
-uint64_t kiriStateHash_OfLayout(const kiriSheetData* sheet);
+/* Its part for what is in force in a sheet but for its motion: mesh, links, weights of samples, pieces. */
+void kiriStateHash_AddLayout(uint64_t* hash, const kiriSheetData* sheet);
 
 #ifdef __cplusplus
 }

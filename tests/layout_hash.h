@@ -1,0 +1,84 @@
+/* A hash of all that a sheet is but for its motion: mesh, grid, regions, shape functions, links, weights of samples. It
+   does not depend on the indices of cells, which tell in what order they were made. No update may be at hand. */
+#ifndef KIRI_TEST_LAYOUT_HASH_H
+#define KIRI_TEST_LAYOUT_HASH_H
+
+#include "core/kiri_hash.h"
+#include "world/kiri_state_hash.h"
+
+static inline void HashPlace(uint64_t* hash, const kiriGrid* grid, int32_t cell)
+{
+    kiriHash_Int32(hash, cell == KIRI_NONE ? KIRI_NONE : grid->cells.data[cell].square);
+    kiriHash_Int32(hash, cell == KIRI_NONE ? KIRI_NONE : grid->cells.data[cell].triangle);
+}
+
+static inline void HashSteps(uint64_t* hash, const kiriGrid* grid, int32_t cell)
+{
+    kiriStepRun run = grid->runs.data[cell];
+    for (int32_t s = run.first; s < run.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        kiriStep step = grid->steps.data[s];
+        HashPlace(hash, grid, step.cell);
+        kiriHash_Int32(hash, step.length);
+    }
+}
+
+/* A sum, for a cell's faces come in no order. */
+static inline uint64_t HashFaces(const kiriGrid* grid, int32_t cell)
+{
+    uint64_t sum = 0;
+    for (int32_t f = grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
+        const kiriFace* face = &grid->faces.data[f];
+        uint64_t hash = KIRI_HASH_START;
+        HashPlace(&hash, grid, face->cell[0]);
+        HashPlace(&hash, grid, face->cell[1]);
+        kiriHash_Int32(&hash, face->axis);
+        kiriHash_Double(&hash, face->width);
+        kiriHash_Double(&hash, face->moment);
+        kiriHash_Double(&hash, face->middle.x);
+        kiriHash_Double(&hash, face->middle.y);
+        sum += hash;
+        f = face->next[face->cell[1] == cell];
+    }
+    return sum;
+}
+
+static inline void HashCellWeights(uint64_t* hash, const kiriShape* shape, int32_t cell)
+{
+    kiriSpan span = shape->spans.data[cell];
+    for (int32_t k = span.first; k < span.first + span.count; ++k) {
+        kiriHash_Int32(hash, shape->weights.data[k].frame);
+        kiriHash_Double(hash, shape->weights.data[k].value);
+    }
+}
+
+static inline void HashCell(uint64_t* hash, const kiriSheetData* sheet, int32_t cell)
+{
+    uint64_t faces = HashFaces(&sheet->grid, cell);
+    HashPlace(hash, &sheet->grid, cell);
+    kiriHash_Bytes(hash, &sheet->grid.cells.data[cell].material, sizeof(kiriMoments));
+    HashSteps(hash, &sheet->grid, cell);
+    kiriHash_Bytes(hash, &faces, sizeof(faces));
+    kiriHash_Int32(hash, sheet->regions.field.owner.data[cell]);
+    kiriHash_Int32(hash, sheet->regions.field.distance.data[cell]);
+    kiriHash_Int32(hash, sheet->regions.onBorder.data[cell]);
+    HashCellWeights(hash, &sheet->shape, cell);
+}
+
+static inline uint64_t HashLayout(const kiriSheetData* sheet)
+{
+    uint64_t hash = KIRI_HASH_START;
+    kiriStateHash_AddLayout(&hash, sheet);
+    for (int32_t s = 0; s < sheet->grid.squareCell.count; ++s) {
+        for (int32_t c = sheet->grid.squareCell.data[s]; c != KIRI_NONE; c = sheet->grid.cells.data[c].next) {
+            HashCell(&hash, sheet, c);
+        }
+    }
+    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+        kiriHash_Bytes(&hash, &sheet->regions.material.data[f], sizeof(kiriTally));
+        kiriHash_Bytes(&hash, &sheet->shape.rigid.data[f], sizeof(int64_t));
+        HashPlace(&hash, &sheet->grid, sheet->frames.data[f].site.cell);
+    }
+    return hash;
+}
+
+#endif
