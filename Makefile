@@ -97,7 +97,7 @@ gallery: accuracy
 	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
 	cp build/accuracy/trade.png samples/pictures/trade.png
 
-check: $(TESTS) $(RUN) $(BOX2D) floors headers exports $(PYTHON_CHECK)
+check: $(TESTS) $(RUN) $(BOX2D) floors headers exports example $(PYTHON_CHECK)
 	@failed=; for test in $(TESTS); do echo "== $$test"; $$test || failed="$$failed $$test"; done; \
 	if [ -n "$$failed" ]; then echo "FAILED:$$failed"; exit 1; fi; echo "all tests passed ($(config))"
 

@@ -15,7 +15,11 @@ static inline int32_t NumberPieces(const kiriMeshData* mesh, int32_t* piece)
             kiriUnion_Join(piece, h / 3, twin / 3);
         }
     }
-    return kiriUnion_Number(piece, mesh->triangles.count);
+    int32_t sets = 0;
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        piece[t] = piece[t] == t ? sets++ : piece[piece[t]];
+    }
+    return sets;
 }
 
 #endif

@@ -5,9 +5,7 @@
 
 #include "kiri_base.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 #define KIRI_ARRAY(T)                                                                                                  \
     struct {                                                                                                           \
@@ -27,6 +25,8 @@ typedef struct kiriArrayHeader {
 kiriArrayHeader kiriArray_GetHeader(const void* array);
 void kiriArray_SetHeader(void* array, kiriArrayHeader header);
 
+typedef KIRI_ARRAY(int32_t) kiriIndices;
+
 /* Makes room for `need` items in all. `array` points to a KIRI_ARRAY whose items have itemBytes. */
 bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
 
@@ -44,8 +44,6 @@ void kiriArray_Release(kiriMemory* memory, void* array);
     (kiriArray_Reserve(memory, array, (int64_t)(array)->count + 1) ? ((array)->data[(array)->count++] = (item), true)  \
                                                                    : false)
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

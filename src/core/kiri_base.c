@@ -104,14 +104,6 @@ void kiriMemory_FreeAll(kiriMemory* memory)
     }
 }
 
-void kiriMemory_Adopt(kiriMemory* memory, void* pointer)
-{
-    if (pointer != NULL) {
-        UnlinkBlock(BlockOf(pointer));
-        LinkBlock(memory, BlockOf(pointer));
-    }
-}
-
 void kiriMemory_AdoptAll(kiriMemory* memory, kiriMemory* from)
 {
     while (from->blocks != NULL) {

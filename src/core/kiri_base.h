@@ -8,9 +8,16 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Around the declarations of a header, so that C++ may include it. */
 #ifdef __cplusplus
-extern "C" {
+#define KIRI_C_BEGIN extern "C" {
+#define KIRI_C_END }
+#else
+#define KIRI_C_BEGIN
+#define KIRI_C_END
 #endif
+
+KIRI_C_BEGIN
 
 enum { KIRI_NONE = -1 };
 
@@ -63,8 +70,7 @@ void* kiriMemory_AllocZeroed(kiriMemory* memory, int64_t bytes);
 void kiriMemory_Free(kiriMemory* memory, void* pointer);
 void kiriMemory_FreeAll(kiriMemory* memory);
 
-/* The block, or all blocks of another owner with the same hooks, get this owner. Never fails. */
-void kiriMemory_Adopt(kiriMemory* memory, void* pointer);
+/* All blocks of another owner with the same hooks get this owner. Never fails. */
 void kiriMemory_AdoptAll(kiriMemory* memory, kiriMemory* from);
 
 /* ---- Budget ---- */
@@ -94,8 +100,6 @@ static inline bool kiriQuota_Take(kiriQuota* quota, int64_t items)
     return true;
 }
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -5,9 +5,7 @@
 
 #include "kiri_base.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 #define KIRI_HASH_START UINT64_C(14695981039346656037)
 
@@ -22,8 +20,6 @@ static inline void kiriHash_Word(uint64_t* hash, uint64_t value)
     *hash = (*hash ^ value) * UINT64_C(1099511628211);
 }
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -6,9 +6,7 @@
 
 #include "kiri_array.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 enum { KIRI_KIND_SHEET = 0, KIRI_KIND_CUT = 1, KIRI_KIND_FRAME = 2, KIRI_KIND_PIN = 3 };
 
@@ -39,8 +37,6 @@ uint32_t kiriPool_Add(kiriPool* pool, kiriMemory* memory, void* owner, int32_t i
 kiriSlot* kiriPool_Find(const kiriPool* pool, uint32_t id);
 void kiriPool_Remove(kiriPool* pool, uint32_t id);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -4,9 +4,7 @@
 
 #include "kiri_base.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* Does item a come before item b? A strict order: of two different items one comes before the other, so that the result
    does not depend on the order before. */
@@ -15,8 +13,6 @@ typedef bool kiriBeforeFn(const void* context, int32_t a, int32_t b);
 /* `before` null: by the items themselves. */
 void kiriSort(int32_t* items, int32_t count, kiriBeforeFn* before, const void* context);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

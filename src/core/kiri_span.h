@@ -5,9 +5,7 @@
 
 #include "kiri_array.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 typedef struct kiriSpan {
     int32_t first, count;
@@ -26,8 +24,6 @@ typedef struct kiriSpans {
 bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes,
                      int32_t count);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -5,9 +5,7 @@
 
 #include "kiri_vec.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* A share of a scale: high * 2^-60 + low * 2^-122, with 0 <= low < 2^62. So each number has one form only, and a
    sliver of 1e-14 of a square of a grid of 4096 squares keeps the digits of its double. */
@@ -24,8 +22,6 @@ typedef struct kiriTally {
 void kiriTally_Add(kiriTally* tally, const kiriMoments* moments, int sign, double extent);
 kiriMoments kiriTally_Moments(const kiriTally* tally, double extent);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

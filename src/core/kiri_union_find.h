@@ -5,9 +5,7 @@
 
 #include "kiri_base.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* Each item a set of its own. */
 static inline void kiriUnion_Init(int32_t* parent, int32_t count)
@@ -34,18 +32,6 @@ static inline void kiriUnion_Join(int32_t* parent, int32_t i, int32_t j)
     parent[a < b ? b : a] = a < b ? a : b;
 }
 
-/* Turns parents into numbers of sets, by their lowest items; returns how many sets there are. */
-static inline int32_t kiriUnion_Number(int32_t* parent, int32_t count)
-{
-    int32_t sets = 0;
-    for (int32_t i = 0; i < count; ++i) {
-        parent[i] = parent[i] == i ? sets++ : parent[parent[i]];
-    }
-    return sets;
-}
-
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -6,9 +6,7 @@
 
 #include <math.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 typedef struct kiriVec2 {
     double x, y;
@@ -163,8 +161,6 @@ kiriVec2 kiriMoments_Center(const kiriMoments* m);
 /* The same patch about another origin. */
 kiriMoments kiriMoments_About(const kiriMoments* m, kiriVec2 origin);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

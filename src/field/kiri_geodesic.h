@@ -7,9 +7,7 @@
 
 #include "kiri_grid.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 typedef struct kiriSeed {
     int32_t cell;
@@ -81,8 +79,6 @@ void kiriField_Forget(kiriField* field, int32_t cell);
    helps. */
 kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

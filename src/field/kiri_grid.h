@@ -6,9 +6,7 @@
 #include "../mesh/kiri_mesh.h"
 #include "../core/kiri_span.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* Lengths on the grid are whole numbers, so that sums are exact and a distance does not depend on the order of work. */
 enum {
@@ -144,8 +142,6 @@ int32_t kiriGrid_CellAt(const kiriGrid* grid, const kiriMeshData* mesh, kiriLatt
    move the outline past it by a rounding of the lattice. KIRI_NONE in a square without material. */
 int32_t kiriGrid_CellAround(const kiriGrid* grid, const kiriMeshData* mesh, kiriLatticePoint at);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

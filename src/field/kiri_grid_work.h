@@ -4,17 +4,13 @@
 
 #include "kiri_grid.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* The least share of a square's area, or of its side, that a cell or a face is given. Whether they exist is decided
    exactly; their size is not, and may round to nothing where others divide by it. */
 static const double kiriLeastShare = 1e-14;
 
 enum { KIRI_OPEN_STEPS = 16 }; /* steps of a cell amid whole squares */
-
-typedef KIRI_ARRAY(int32_t) kiriIndices;
 
 /* Of a square in the update at hand. */
 enum {
@@ -115,8 +111,6 @@ bool kiriGrid_RemoveFace(kiriGrid* grid, kiriMemory* memory, int32_t face);
 /* Gives back the room of a cell's steps. */
 void kiriGrid_RemoveSteps(kiriGrid* grid, kiriMemory* memory, int32_t cell);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

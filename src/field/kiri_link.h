@@ -5,9 +5,7 @@
 
 #include "kiri_shape.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* One connected stretch of border between regions i < j. */
 typedef struct kiriLink {
@@ -41,8 +39,6 @@ bool kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid
                       const kiriRegions* regions, const kiriShape* shape, const kiriSite* sites, int32_t siteCount);
 void kiriLinks_Commit(kiriLinks* links);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

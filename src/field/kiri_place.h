@@ -4,9 +4,7 @@
 
 #include "kiri_region.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 typedef struct kiriPlacerWork kiriPlacerWork; /* private to kiri_place.c */
 
@@ -40,8 +38,6 @@ kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGr
 /* The site that a frame takes in a cell. */
 kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

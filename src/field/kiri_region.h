@@ -5,9 +5,7 @@
 #include "kiri_geodesic.h"
 #include "../core/kiri_tally.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* A frame's place in the rest plane. */
 typedef struct kiriSite {
@@ -73,8 +71,6 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
 void kiriRegions_ClearChanges(kiriRegions* regions);
 void kiriRegions_Reset(kiriRegions* regions);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -5,9 +5,7 @@
 
 #include "kiri_region.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 typedef struct kiriWeight {
     int32_t frame; /* index of the site */
@@ -57,8 +55,6 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
 void kiriShape_ClearChanges(kiriShape* shape);
 void kiriShape_Reset(kiriShape* shape);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -4,9 +4,7 @@
 
 #include "kiri_shape.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* Of a cell. */
 enum {
@@ -86,8 +84,6 @@ bool kiriShapeJob_IsFrameDirty(const kiriShapeJob* job);
    job->work->rawWeights. An item of the quota: see kiriField_Flood and kiriField_Repair. */
 kiriProgress kiriShapeJob_MeasureFrame(kiriShapeJob* job, kiriQuota* quota);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

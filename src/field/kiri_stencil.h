@@ -5,9 +5,7 @@
 
 #include "kiri_shape.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* A weight at a point, with its gradient (1/m). */
 typedef struct kiriPointWeight {
@@ -46,8 +44,6 @@ void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at);
 bool kiriShape_At(const kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                   int32_t cell, kiriVec2 at, kiriPointWeights* out);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -5,9 +5,7 @@
 
 #include "kiri_mesh_edit.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* Where the blade is. */
 typedef struct kiriBlade {
@@ -37,8 +35,6 @@ kiriBlade kiriCut_Place(const kiriMeshData* mesh, kiriVec2 local);
    nothing is left. Coordinates are local, finite, and of any size. */
 bool kiriCut_Clip(const kiriMeshData* mesh, kiriVec2* from, kiriVec2* to);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

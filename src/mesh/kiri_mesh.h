@@ -7,9 +7,7 @@
 
 #include "kiri_square.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 enum {
     KIRI_LATTICE = 1 << 29,       /* steps along the longer side of the sheet's box */
@@ -175,8 +173,6 @@ void kiriMesh_ListVertex(kiriMeshData* mesh, int32_t vertex);
 /* Inserts all triangles into squares. False for memory. */
 bool kiriMesh_FillSquares(const kiriMeshData* mesh, kiriSquares* squares, kiriMemory* memory);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -4,9 +4,7 @@
 
 #include "kiri_mesh.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* Begin opens the journal, Commit closes it; the mesh may change in between only. Rollback leaves the mesh and its squares
    as they were at Begin (see kiriSquares_Rollback), and the journal open; where it is closed it changes nothing. Begin
@@ -31,8 +29,6 @@ bool kiriMesh_Open(kiriMeshData* mesh, int32_t h);
 bool kiriMesh_CanSplitEdge(const kiriMeshData* mesh, int32_t h, kiriLatticePoint at);
 bool kiriMesh_CanSplitTriangle(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -7,9 +7,7 @@
 #include "../core/kiri_array.h"
 #include "../core/kiri_vec.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* One triangle in one square. */
 typedef struct kiriSquareNode {
@@ -75,8 +73,6 @@ kiriLatticePoint kiriSquares_Corner(const kiriSquares* squares, int32_t square);
 /* Do the interiors overlap? Exact. */
 bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriLatticePoint corners[3]);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

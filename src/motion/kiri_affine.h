@@ -4,9 +4,7 @@
 
 #include "kiri_area_element.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* The strains of a link. With gap(p) = x_j(p) - x_i(p) and the part in the plane what is left of a vector without its
    part along the mean director:
@@ -46,8 +44,6 @@ void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, do
 bool kiriAffine_Build(kiriAreaElements* elements, kiriMemory* memory, const kiriLink* links, int32_t linkCount,
                       const kiriMoments* material, int32_t frameCount, bool planar);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

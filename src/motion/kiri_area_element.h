@@ -6,9 +6,7 @@
 #include "kiri_prediction.h"
 #include "../field/kiri_link.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* With F = [F_u F_v] the deformation gradient of the mid-surface, D the director, D_u and D_v its slopes; Green
    strains, plane stress. Every energy is 1/2 stiffness strain^2; G = E / (2 (1 + nu)), K = E / (2 (1 - nu)), a the area. With a
@@ -67,8 +65,6 @@ void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShar
                              const kiriPose* poses, double* strain, kiriFrameRow* rows);
 void kiriAreaElement_Stiffness(const kiriAreaElement* element, const kiriMaterial* material, double* stiffness);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -5,9 +5,7 @@
 
 #include "../core/kiri_base.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 enum { KIRI_MOST_UNKNOWNS = 12 }; /* of a frame */
 
@@ -54,8 +52,6 @@ void kiriMatrix_AddSquares(kiriMatrix* matrix, const int32_t* frames, int32_t fr
 bool kiriMatrix_Factor(kiriMatrix* matrix);
 void kiriMatrix_Solve(kiriMatrix* matrix, const double* right, double* solution);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

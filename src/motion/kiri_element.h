@@ -7,9 +7,7 @@
 #include "kiri_affine.h"
 #include "kiri_solver.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* An element has at most so many strains. */
 enum {
@@ -64,8 +62,6 @@ void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* po
 /* The strains without their offsets: those that pull. */
 void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* strain, double* pulling);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

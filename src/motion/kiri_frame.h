@@ -4,9 +4,7 @@
 
 #include "../field/kiri_region.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* A frame carries the rest point p to x + A (p - center). The center is the centroid of its region, so x is its
    centre of mass. */
@@ -56,8 +54,6 @@ static inline kiriVec3 kiriFrame_VelocityAt(const kiriFrameData* frame, kiriVec2
 /* Gives the frame the mass and centre of its region; the motion of the material does not change. */
 void kiriFrame_Recenter(kiriFrameData* frame, const kiriMoments* material, double densityPerArea);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -7,9 +7,7 @@
 #include "../field/kiri_place.h"
 #include "../field/kiri_stencil.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* Scratch, kept from one update to the next for the room that it has. A zeroed one is empty. */
 typedef struct kiriIntegrationWork {
@@ -29,8 +27,6 @@ bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work
                            const kiriGrid* grid, const kiriMeshData* mesh, const kiriShape* shape,
                            const kiriMoments* material, double count, int32_t order, bool planar);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -6,9 +6,7 @@
 
 #include "kiri_prediction.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* Of one piece, about its centre of mass; sums while they are gathered. */
 typedef struct kiriPieceMomentum {
@@ -28,8 +26,6 @@ typedef struct kiriPieceMomentum {
 void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t frameCount, const int32_t* piece,
                           kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, double dt);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -4,9 +4,7 @@
 
 #include "../field/kiri_region.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* The owner of what a triangle has in a square. */
 typedef struct kiriTriangleOwner {
@@ -70,8 +68,6 @@ void kiriOwnership_Drop(kiriOwnership* ownership);
 /* What is staged comes in force. Never fails. */
 void kiriOwnership_Commit(kiriOwnership* ownership, const kiriMeshData* mesh);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

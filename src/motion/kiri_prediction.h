@@ -5,9 +5,7 @@
 
 #include "kiri_frame.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 typedef struct kiriPose {
     kiriVec3 x;
@@ -84,8 +82,6 @@ kiriMat3 kiriMat3_AddScaled(const kiriMat3* A, double s, const kiriMat3* B);
 kiriMat3 kiriMat3_Scale(double s, const kiriMat3* A);
 kiriMat3 kiriMat3_PointInertia(double m, kiriVec3 r);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -8,9 +8,7 @@
 #include "kiri_ownership.h"
 #include "kiri_prediction.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* What a frame becomes. */
 typedef struct kiriFit {
@@ -47,8 +45,6 @@ void kiriRefit_LimitEnergy(const kiriRefit* refit, kiriFrameData* frames, int32_
 /* The regions come in force. Never fails. */
 void kiriRefit_Commit(kiriRefit* refit, const kiriMeshData* mesh);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

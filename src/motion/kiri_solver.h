@@ -5,9 +5,7 @@
 #include "kiri_strain_offset.h"
 #include "kiri_area_element.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 typedef struct kiriSolver kiriSolver;
 
@@ -76,8 +74,6 @@ int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt,
 /* Elastic energy of links and area elements, J. */
 double kiriSolver_ElasticEnergy(const kiriSystem* system);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -19,9 +19,7 @@
 #include <float.h>
 #include <string.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 #define KIRI_ROUNDING 1e-12                /* of an objective, relative */
 #define KIRI_LAST_BITS (8.0 * DBL_EPSILON) /* of a length: what a few operations round off */
@@ -55,8 +53,6 @@ typedef struct kiriPieceStep {
     bool isIterated;  /* does the iteration go on? */
     bool isSearching; /* is a step sought that lowers the objective? */
 } kiriPieceStep;
-
-typedef KIRI_ARRAY(int32_t) kiriIndices;
 
 struct kiriSolver {
     kiriMemory* memory;
@@ -161,8 +157,6 @@ double kiriPieceStep_MostTaken(const kiriPieceStep* piece);
 void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system);
 void kiriSolver_RestoreMomentum(kiriSolver* solver, const kiriSystem* system);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -6,9 +6,7 @@
 #include "kiri_prediction.h"
 #include "../field/kiri_link.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* With gap(p) = x_j(p) - x_i(p); n, tau, d the mean axes of the two frames, orthonormal; D = E h^3 / (12 (1 - nu^2)).
    Every energy is 1/2 stiffness strain^2.
@@ -71,8 +69,6 @@ double kiriStrain_Damping(const double strain[KIRI_STRAINS]);
 
 void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS]);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -6,9 +6,7 @@
 
 #include "kiri_strain.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* What is taken off the strains of a link before they pull. */
 typedef struct kiriStrainOffset {
@@ -34,8 +32,6 @@ void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* ol
 /* Offsets fade to 1 / e within `time` (s). */
 void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, double dt, double time);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

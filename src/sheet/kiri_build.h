@@ -4,9 +4,7 @@
 
 #include "kiri_sheet.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* Makes a new sheet what the def says, which has been checked. On failure *why says what is wrong, and the sheet is to
    be deleted. Ids of sheet and frames are given by the world. */
@@ -17,8 +15,6 @@ kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, cons
 void kiriBuild_ApplySettings(kiriSheetData* sheet);
 void kiriBuild_Commit(kiriSheetData* sheet);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

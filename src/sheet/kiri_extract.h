@@ -4,9 +4,7 @@
 
 #include "kiri_sheet.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* Which pieces are kept, and the index that everything of theirs gets in the part, or KIRI_NONE; orders are kept. */
 typedef struct kiriExtract {
@@ -28,8 +26,6 @@ bool kiriExtract_Build(kiriExtract* extract, kiriSheetData* to);
    material that is left cuts nothing until it comes back. Never fails. */
 void kiriExtract_MoveCuts(const kiriExtract* extract, kiriSheetData* sheet, kiriSheetData* rest);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

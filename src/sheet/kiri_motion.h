@@ -4,9 +4,7 @@
 
 #include "kiri_sheet.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* What makes a sheet move that rests calls this: it is awake, for half a second at least. */
 void kiriMotion_Wake(kiriSheetData* sheet);
@@ -21,8 +19,6 @@ kiriTotals kiriMotion_Totals(const kiriSheetData* sheet);
 /* The same of some frames (null: of the first ones), without the elastic energy. */
 kiriTotals kiriMotion_Sum(const kiriSheetData* sheet, const int32_t* frames, int32_t count);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -4,9 +4,7 @@
 
 #include "kiri_update.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* Stages the pieces that come in force with the next commit, from the links that are staged. False for memory. */
 bool kiriPieces_Stage(kiriSheetData* sheet);
@@ -23,8 +21,6 @@ kiriSpan kiriPiece_Span(const kiriPieceList* list, int32_t piece);
 /* What the host asks about a piece; the lists are up to date. */
 kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

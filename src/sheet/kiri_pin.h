@@ -4,9 +4,7 @@
 
 #include "kiri_update.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* The index of the frame that holds a point of the material; KIRI_NONE outside. */
 int32_t kiriPins_FrameAt(const kiriSheetData* sheet, kiriLatticePoint at);
@@ -17,8 +15,6 @@ bool kiriPins_Add(kiriSheetData* sheet, const kiriPinData* pin, int32_t frame);
 /* The last pin takes its index. */
 void kiriPins_Remove(kiriSheetData* sheet, int32_t index);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

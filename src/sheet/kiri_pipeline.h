@@ -4,9 +4,7 @@
 
 #include "kiri_update.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 enum {
     KIRI_QUOTA_TRIANGLES,
@@ -44,8 +42,6 @@ void kiriPipeline_Finish(kiriSheetData* sheet);
 /* Takes back what this tick has done, as far as anyone can see. Grid, regions and shape are made from scratch then. */
 void kiriPipeline_Abort(kiriSheetData* sheet);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

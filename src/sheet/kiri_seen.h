@@ -4,9 +4,7 @@
 
 #include "kiri_update.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* Room for the mesh as it is, for so many frames and collision points; after it writing never fails. */
 bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount);
@@ -22,8 +20,6 @@ void kiriView_Fade(kiriSheetData* sheet, double dt);
 /* Positions and normals from the frames (section 4.1 of the paper). */
 void kiriView_WritePositions(kiriSheetData* sheet);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

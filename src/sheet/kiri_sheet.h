@@ -12,9 +12,7 @@
 #include "../motion/kiri_solver.h"
 #include "../view/kiri_surface.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 typedef struct kiriPiece {
     double area;    /* m^2 */
@@ -176,8 +174,6 @@ static inline double kiriSheet_Extent(const kiriSheetData* sheet)
 /* The lattice point of a rest position; false where it is too far out to have one. */
 bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriLatticePoint* at);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -6,9 +6,7 @@
 
 #include "kiri_update.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* The cells of the sites that were there, in the grid as it is; a move for each that is in another cell. False for
    memory. */
@@ -27,8 +25,6 @@ bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count);
 /* How many of `count` things spread over the sheet fall to the piece in the placer: one at least. */
 int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -5,9 +5,7 @@
 
 #include "kiri_update.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 kiriProgress kiriStage_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles);
 kiriProgress kiriStage_Grid(kiriSheetData* sheet, kiriQuota* cells);
@@ -26,8 +24,6 @@ void kiriStage_Commit(kiriSheetData* sheet);
 /* Forgets what is staged. */
 void kiriStage_Drop(kiriSheetData* sheet);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

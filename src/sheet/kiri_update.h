@@ -6,9 +6,7 @@
 
 #include "kiri_sheet.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* The cut stage: queued points at the head of the queue, given before the same tick. */
 typedef struct kiriCutWork {
@@ -84,8 +82,6 @@ static inline bool kiriUpdate_IsFieldCurrent(const kiriUpdate* update)
     return isUntouched && !update->needsRebuild;
 }
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -6,9 +6,7 @@
 #include "../core/kiri_array.h"
 #include "../core/kiri_vec.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 typedef struct kiriFading {
     int32_t sample;
@@ -41,8 +39,6 @@ void kiriFades_Take(kiriFades* fades, const kiriVec3* now, int32_t sampleCount);
 /* Time goes on. */
 void kiriFades_Advance(kiriFades* fades, double dt);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -4,9 +4,7 @@
 
 #include "kiri_surface.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* The first triangle that the ray meets, up to maxDistance (m) along its direction, a unit vector. hit->triangle is -1
    when there is none. */
@@ -18,8 +16,6 @@ typedef KIRI_ARRAY(kiriVec2) kiriRestPoints;
 bool kiriSurface_Slice(const kiriSurface* surface, kiriMemory* memory, const kiriVec3 quad[4],
                        kiriRestPoints* segments);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -4,7 +4,7 @@
 
 /* ---- Weights ---------------------------------------------------------------------------------------------------- */
 
-static bool ResizeWeights(kiriSkin* skin, kiriMemory* memory, kiriSpan* span, int32_t count)
+static bool ResizeSampleWeights(kiriSkin* skin, kiriMemory* memory, kiriSpan* span, int32_t count)
 {
     return kiriSpan_Resize(span, &skin->room, memory, &skin->weights, sizeof(*skin->weights.data), count);
 }
@@ -12,7 +12,7 @@ static bool ResizeWeights(kiriSkin* skin, kiriMemory* memory, kiriSpan* span, in
 /* Gives room back, which needs no memory. */
 static void DropSpan(kiriSkin* skin, kiriSpan* span)
 {
-    ResizeWeights(skin, NULL, span, 0);
+    ResizeSampleWeights(skin, NULL, span, 0);
 }
 
 /* Stages what the stencil has weighed. Makes room for the commit, too. */
@@ -25,7 +25,7 @@ static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* 
     }
     if (!kiriArray_Reserve(memory, &skin->spans, (int64_t)sample + 1) ||
         !kiriArray_Reserve(memory, &skin->staged, (int64_t)skin->staged.count + 1) ||
-        !ResizeWeights(skin, memory, &staged.span, count)) {
+        !ResizeSampleWeights(skin, memory, &staged.span, count)) {
         return false;
     }
     kiriWeight* weight = skin->weights.data + staged.span.first;
@@ -98,7 +98,7 @@ static bool InheritOne(kiriSkin* skin, kiriMemory* memory, const kiriBirth* birt
         most += skin->spans.data[birth->parent[k]].count;
     }
     if (!kiriArray_Reserve(memory, &skin->spans, (int64_t)skin->spans.count + 1) ||
-        !ResizeWeights(skin, memory, &span, most)) {
+        !ResizeSampleWeights(skin, memory, &span, most)) {
         return false;
     }
     kiriSpan sum = { span.first, 0 };
@@ -109,7 +109,7 @@ static bool InheritOne(kiriSkin* skin, kiriMemory* memory, const kiriBirth* birt
             Blend(skin, &sum, weight.frame, birth->share[k] * weight.value);
         }
     }
-    ResizeWeights(skin, memory, &span, sum.count);
+    ResizeSampleWeights(skin, memory, &span, sum.count);
     skin->spans.data[skin->spans.count++] = span;
     return true;
 }
@@ -166,16 +166,6 @@ bool kiriPlaces_Add(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* 
 }
 
 /* The latest sample of a square is the first in its list. */
-void kiriPlaces_Truncate(kiriPlaces* places, const kiriMeshData* mesh, int32_t sampleCount, const kiriLatticePoint* at)
-{
-    while (places->next.count > sampleCount) {
-        int32_t sample = --places->next.count, square = kiriSquares_At(&mesh->squares, at[sample]);
-        if (square != KIRI_NONE) {
-            places->head.data[square] = places->next.data[sample];
-        }
-    }
-}
-
 /* ---- Refreshing ------------------------------------------------------------------------------------------------- */
 
 /* There is room for every square. */

@@ -5,9 +5,7 @@
 #include "../field/kiri_stencil.h"
 #include "../motion/kiri_frame.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* A sample that shall have other weights. */
 typedef struct kiriReweighed {
@@ -55,7 +53,6 @@ typedef struct kiriPlaces {
 /* After it Add does not fail until there are so many samples. */
 bool kiriPlaces_Reserve(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount);
 bool kiriPlaces_Add(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint at);
-void kiriPlaces_Truncate(kiriPlaces* places, const kiriMeshData* mesh, int32_t sampleCount, const kiriLatticePoint* at);
 
 /* Stages, of all samples that follow the shape functions, those whose weights may have changed: each in a cell of
    shape->changes, or one straight or diagonal step from one. An item of the quota is a sample staged. */
@@ -86,8 +83,6 @@ kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrame
 kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* frames, const kiriMeshData* mesh,
                            int32_t triangle, kiriLatticePoint at);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

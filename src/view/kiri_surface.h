@@ -7,9 +7,7 @@
 #include "../field/kiri_link.h"
 #include "kiri_sample.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* A frame as skinning reads it: the rest point p goes to x + a u + b v + c d. In a flat patch (a, b) is q = p - center
    and c is 0; a bent one follows the arc that its curvature gives, see surface.c. */
@@ -84,8 +82,6 @@ void kiriSurface_CopyVertices(const kiriSurface* surface, int32_t first, int32_t
 /* False where the vertices are too many for 16 bits (65535 restarts primitives, and is no vertex). */
 bool kiriSurface_CopyIndices16(const kiriSurface* surface, int32_t firstTriangle, int32_t count, uint16_t* indices);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -5,9 +5,7 @@
 
 #include "kiri_world.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 enum { KIRI_LINE_BYTES = sizeof(((kiriWorld*)NULL)->errorLine) };
 
@@ -69,8 +67,6 @@ bool kiriCall_IsAtLeast(float value, float low);
 bool kiriCall_IsWithin(int32_t value, int32_t low, int32_t high);
 bool kiriCall_AreOrthonormal(const float a[3], const float b[3]);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -4,9 +4,7 @@
 
 #include "kiri_world.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* For a sheet without work at hand, and a piece that is not the only one. On failure (memory, or ids) nothing has
    changed. The sheet's data moves: pointers to it are stale. */
@@ -16,8 +14,6 @@ kiriResult kiriWorld_DestroyPiece(kiriWorld* world, kiriSheetData* sheet, int32_
 /* Takes away all pieces below an area (m^2) but the largest. */
 kiriResult kiriWorld_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, int32_t* count);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

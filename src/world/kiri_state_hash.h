@@ -4,9 +4,7 @@
 
 #include "kiri_world.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 /* 64-bit FNV-1a over everything that the coming ticks depend on, derived data included. Field by field, so that padding
    never counts. */
@@ -15,8 +13,6 @@ uint64_t kiriStateHash_Of(const kiriWorld* world);
 /* Its part for what is in force in a sheet but for its motion: mesh, links, weights of samples, pieces. */
 void kiriStateHash_AddLayout(uint64_t* hash, const kiriSheetData* sheet);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif

@@ -4,9 +4,7 @@
 
 #include "../sheet/kiri_sheet.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+KIRI_C_BEGIN
 
 struct kiriWorld {
     kiriMemory memory;
@@ -40,8 +38,6 @@ void kiriWorld_RemoveCut(kiriWorld* world, kiriCutData* cut);
 kiriResult kiriWorld_ReserveSheet(kiriWorld* world);
 kiriResult kiriWorld_ReserveIds(kiriWorld* world, kiriPool* pool, int64_t count);
 
-#ifdef __cplusplus
-}
-#endif
+KIRI_C_END
 
 #endif
