@@ -265,7 +265,7 @@ static inline void CheckSquares(const kiriMeshData* mesh)
     free(seen);
 }
 
-/* Each vertex is in the list of its square, and the touched squares are marked, each once. */
+/* Each vertex is in the list of its square, and the dirty squares are marked, each once. */
 static inline void CheckLists(const kiriMeshData* mesh)
 {
     const kiriSquares* squares = &mesh->squares;
@@ -389,6 +389,53 @@ static inline void Copy_Free(Copy* copy)
 {
     free(copy->triangles);
     free(copy->vertices);
+}
+
+/* The mesh and its squares, slot for slot. */
+typedef struct Whole {
+    Copy mesh;
+    kiriSquares squares; /* its arrays are copies */
+} Whole;
+
+static inline void* CopyOf(const void* data, size_t bytes)
+{
+    void* copy = malloc(bytes + 1);
+    return bytes > 0 ? memcpy(copy, data, bytes) : copy;
+}
+
+static inline Whole Whole_Make(const kiriMeshData* mesh)
+{
+    Whole whole = { Copy_Make(mesh), mesh->squares };
+    kiriSquares* s = &whole.squares;
+    size_t count = (size_t)s->columns * (size_t)s->rows;
+    s->head = CopyOf(s->head, count * sizeof(int32_t));
+    s->vertexHead = CopyOf(s->vertexHead, count * sizeof(int32_t));
+    s->isDirty = CopyOf(s->isDirty, count);
+    s->nodes.data = CopyOf(s->nodes.data, (size_t)s->nodes.count * sizeof(kiriSquareNode));
+    s->dirty.data = CopyOf(s->dirty.data, (size_t)s->dirty.count * sizeof(int32_t));
+    return whole;
+}
+
+static inline bool Whole_Equals(const Whole* whole, const kiriMeshData* mesh)
+{
+    const kiriSquares *a = &whole->squares, *b = &mesh->squares;
+    size_t count = (size_t)a->columns * (size_t)a->rows;
+    return Copy_Equals(&whole->mesh, mesh) && memcmp(a->head, b->head, count * sizeof(int32_t)) == 0 &&
+           memcmp(a->vertexHead, b->vertexHead, count * sizeof(int32_t)) == 0 &&
+           memcmp(a->isDirty, b->isDirty, count) == 0 && a->freeNode == b->freeNode &&
+           a->nodes.count == b->nodes.count && a->dirty.count == b->dirty.count &&
+           memcmp(a->nodes.data, b->nodes.data, (size_t)a->nodes.count * sizeof(kiriSquareNode)) == 0 &&
+           memcmp(a->dirty.data, b->dirty.data, (size_t)a->dirty.count * sizeof(int32_t)) == 0;
+}
+
+static inline void Whole_Free(Whole* whole)
+{
+    Copy_Free(&whole->mesh);
+    free(whole->squares.head);
+    free(whole->squares.vertexHead);
+    free(whole->squares.isDirty);
+    free(whole->squares.nodes.data);
+    free(whole->squares.dirty.data);
 }
 
 /* All of it. Returns the number of pieces. */

@@ -711,6 +711,28 @@ static void CutsAtRandomOnARing(void** state)
     }
 }
 
+/* Rolls a scramble of cuts back, and says whether it got to its end; `squares` and all are as they were. */
+static bool CutAndRollBack(kiriMeshData* mesh, Meter* meter, int32_t untilFailure, uint32_t seed, int count)
+{
+    Pool pool = { { { 0, 0 } }, 0 };
+    bool done = true;
+    kiriMesh_Begin(mesh);
+    Whole whole = Whole_Make(mesh);
+    meter->untilFailure = untilFailure;
+    for (int i = 0; i < count && done; ++i) {
+        Polyline line = RandomPolyline(&seed, &pool, 0.4);
+        done = CutPolyline(mesh, &line, 1e-4 * LatticeSize);
+    }
+    assert_true(done || meter->untilFailure == 0);
+    meter->untilFailure = 0;
+    kiriMesh_Rollback(mesh);
+    assert_true(Whole_Equals(&whole, mesh));
+    meter->untilFailure = -1;
+    Whole_Free(&whole);
+    return done;
+}
+
+/* Refused at every allocation, on a new sheet. */
 static void RollsBackWithoutMemory(void** state)
 {
     (void)state;
@@ -721,27 +743,47 @@ static void RollsBackWithoutMemory(void** state)
         kiriMemory memory = kiriMemory_Make(MeterAlloc, MeterFree, &meter);
         kiriMeshData mesh;
         const char* why = NULL;
-        uint32_t seed = 4;
-        Pool pool = { { { 0, 0 } }, 0 };
         assert_int_equal(kiriMesh_Init(&mesh, &memory, r.positions, r.vertexCount, r.indices, r.triangleCount, 8, &why),
                          0);
-        kiriMesh_Begin(&mesh);
-        Copy copy = Copy_Make(&mesh);
-        meter.untilFailure = n;
-        done = true;
-        for (int i = 0; i < 6 && done; ++i) {
-            Polyline line = RandomPolyline(&seed, &pool, 0.4);
-            done = CutPolyline(&mesh, &line, 1e-4 * LatticeSize);
+        if (n % 2 == 0) {
+            kiriSquares_ClearDirty(&mesh.squares);
         }
-        assert_true(done || meter.untilFailure == 0);
-        meter.untilFailure = 0;
-        kiriMesh_Rollback(&mesh);
-        assert_true(Copy_Equals(&copy, &mesh));
+        done = CutAndRollBack(&mesh, &meter, n, 4, 6);
         CheckMesh(&mesh);
-        Copy_Free(&copy);
         kiriMemory_FreeAll(mesh.memory);
         assert_int_equal(meter.live, 0);
         assert_true(!done || n > 8);
+    }
+    Rectangle_Free(&r);
+}
+
+/* One sheet that is cut again and again: taken back, refused somewhere, or committed, with its dirty squares read or
+   not. */
+static void RollsBackAtRandom(void** state)
+{
+    (void)state;
+    Rectangle r = Rectangle_Make(8, 8, 1.0f, 1.0f);
+    for (uint32_t round = 1; round <= 10; ++round) {
+        Meter meter = { -1, 0 };
+        kiriMemory memory = kiriMemory_Make(MeterAlloc, MeterFree, &meter);
+        kiriMeshData mesh;
+        const char* why = NULL;
+        uint32_t seed = 9 * round;
+        Pool pool = { { { 0, 0 } }, 0 };
+        assert_int_equal(
+            kiriMesh_Init(&mesh, &memory, r.positions, r.vertexCount, r.indices, r.triangleCount, 20, &why), 0);
+        for (int i = 0; i < 20; ++i) {
+            if (Random(&seed) % 3 == 0) {
+                kiriSquares_ClearDirty(&mesh.squares);
+            }
+            CutAndRollBack(&mesh, &meter, (int32_t)(Random(&seed) % 3) - 1, Random(&seed), 1 + i % 3);
+            kiriMesh_Begin(&mesh);
+            Polyline line = RandomPolyline(&seed, &pool, 0.3);
+            assert_true(CutPolyline(&mesh, &line, 1e-4 * LatticeSize));
+            kiriMesh_Commit(&mesh);
+        }
+        CheckMesh(&mesh);
+        kiriMemory_FreeAll(mesh.memory);
     }
     Rectangle_Free(&r);
 }
@@ -757,16 +799,18 @@ static void RepeatsAfterRollback(void** state)
     InitRectangle(&twice, 16, 16, 1.0f, 1.0f, 32);
     for (int i = 0; i < 30; ++i) {
         Polyline other = RandomPolyline(&seed, &pool, 0.3), line = RandomPolyline(&seed, &pool, 0.3);
+        kiriSquares_ClearDirty(&once.squares);
         kiriMesh_Begin(&once);
         assert_true(CutPolyline(&once, &line, 1e-4 * LatticeSize));
+        kiriSquares_ClearDirty(&twice.squares);
         kiriMesh_Begin(&twice);
         assert_true(CutPolyline(&twice, &other, 1e-4 * LatticeSize));
         kiriMesh_Rollback(&twice);
         assert_true(CutPolyline(&twice, &line, 1e-4 * LatticeSize));
     }
-    Copy copy = Copy_Make(&once);
-    assert_true(Copy_Equals(&copy, &twice));
-    Copy_Free(&copy);
+    Whole whole = Whole_Make(&once);
+    assert_true(Whole_Equals(&whole, &twice));
+    Whole_Free(&whole);
     kiriMemory_FreeAll(once.memory);
     kiriMemory_FreeAll(twice.memory);
 }
@@ -878,7 +922,7 @@ static void SmallQuotasWait(void** state)
     kiriMemory_FreeAll(mesh.memory);
 }
 
-/* ---- Touched squares --------------------------------------------------------------------------------------------- */
+/* ---- Dirty squares ----------------------------------------------------------------------------------------------- */
 
 static uint64_t Mix(uint64_t hash, int64_t value)
 {
@@ -920,8 +964,8 @@ static void TakeFingerprints(const kiriMeshData* mesh, uint64_t* prints)
     }
 }
 
-/* What has changed is touched. Returns how many squares are touched and have not changed. */
-static int32_t CheckTouched(const kiriMeshData* mesh, uint64_t* prints)
+/* What has changed is dirty. Returns how many squares are dirty and have not changed. */
+static int32_t CheckDirty(const kiriMeshData* mesh, uint64_t* prints)
 {
     int32_t needless = 0;
     for (int32_t s = 0; s < mesh->squares.columns * mesh->squares.rows; ++s) {
@@ -933,7 +977,7 @@ static int32_t CheckTouched(const kiriMeshData* mesh, uint64_t* prints)
     return needless;
 }
 
-static void TouchesWhatChanges(void** state)
+static void DirtiesWhatChanges(void** state)
 {
     (void)state;
     static uint64_t prints[32 * 32];
@@ -950,12 +994,12 @@ static void TouchesWhatChanges(void** state)
             kiriSquares_ClearDirty(&mesh.squares);
             kiriMesh_Begin(&mesh);
             assert_true(CutPolyline(&mesh, &line, 1e-4 * LatticeSize));
-            assert_int_equal(CheckTouched(&mesh, prints), 0);
+            assert_int_equal(CheckDirty(&mesh, prints), 0);
             changed += mesh.squares.dirty.count;
-            if (i % 3 == 0) { /* taking it back changes the same squares again */
+            if (i % 3 == 0) { /* who has read them learns of a rollback */
                 kiriSquares_ClearDirty(&mesh.squares);
                 kiriMesh_Rollback(&mesh);
-                CheckTouched(&mesh, prints);
+                CheckDirty(&mesh, prints);
             }
         }
         CheckMesh(&mesh);
@@ -992,10 +1036,11 @@ int main(void)
         cmocka_unit_test(CutsAtRandomFarAndWide),
         cmocka_unit_test(CutsAtRandomOnARing),
         cmocka_unit_test(RollsBackWithoutMemory),
+        cmocka_unit_test(RollsBackAtRandom),
         cmocka_unit_test(RepeatsAfterRollback),
         cmocka_unit_test(InterruptedMovesGoOn),
         cmocka_unit_test(SmallQuotasWait),
-        cmocka_unit_test(TouchesWhatChanges),
+        cmocka_unit_test(DirtiesWhatChanges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

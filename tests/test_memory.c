@@ -1,6 +1,8 @@
 /* A tick without a cut allocates nothing: neither from the host nor behind its back; and few with one do. */
 #include "host.h"
 
+#include "world/kiri_state_hash.h"
+
 /* malloc of the whole program, counted, where the C library lets us stand in front of it. */
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
@@ -141,8 +143,141 @@ static void TestCuttingTicks(void** state)
     Host_Stop(&host);
 }
 
+/* ---- Memory that is refused ---- */
+
+static kiriSheet AddForCut(Host* host, int32_t columns)
+{
+    static const float way[12] = { -0.1f, 0.4f, 0.3f, 0.6f, 0.5f, 0.2f, 0.7f, 0.7f, 1.1f, 0.4f, 0.9f, 0.3f };
+    kiriSheetDef def = Host_SmallDef();
+    def.gridResolution = columns;
+    def.collisionPoints = 40;
+    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, columns, columns);
+    OK(kiriWorld_Tick(host->world, 1.0f / 60.0f, 1));
+    Host_Cut(host, sheet, way, 6);
+    return sheet;
+}
+
+static uint64_t LayoutOf(const Host* host)
+{
+    return kiriSnapshot_HashLayout(host->world->sheets.data[0]);
+}
+
+/* What a cut leaves when nothing fails. */
+static uint64_t LayoutWithoutFailure(int32_t columns)
+{
+    Host host;
+    Host_Start(&host);
+    AddForCut(&host, columns);
+    OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
+    uint64_t layout = LayoutOf(&host);
+    Host_Stop(&host);
+    return layout;
+}
+
+/* The triangles that are there, all of vertices that are there. */
+static void CheckIndices(const Host* host, kiriSheet sheet, kiriCounts counts)
+{
+    kiriMesh mesh = Host_Mesh(host, sheet);
+    assert_int_equal(mesh.triangleCount, counts.triangles);
+    assert_int_equal(mesh.vertexCount, counts.vertices);
+    for (int32_t i = 0; i < 3 * mesh.triangleCount; ++i) {
+        assert_in_range(mesh.indices[i], 0, counts.vertices - 1);
+    }
+}
+
+/* A budget spreads the update over ticks, and one of them gets no memory: what earlier ones committed stays. */
+static void TestRefusedInALaterTick(void** state)
+{
+    (void)state;
+    const kiriBudget budget = { 0, 10, 10, 0 }, none = { 0, 0, 0, 0 };
+    uint64_t layout = LayoutWithoutFailure(16);
+    for (int32_t pause = 1; pause < 30; pause += 3) {
+        Host host;
+        Host_Start(&host);
+        kiriSheet sheet = AddForCut(&host, 16);
+        OK(kiriWorld_SetBudget(host.world, &budget));
+        kiriResult result = KIRI_PENDING;
+        for (int32_t tick = 0; tick < pause; ++tick) {
+            result = kiriWorld_Tick(host.world, 1.0f / 60.0f, 1);
+            assert_int_equal(result, KIRI_PENDING);
+        }
+        kiriCounts counts = Host_Counts(&host, sheet);
+        host.failAt = host.calls;
+        while (result == KIRI_PENDING) {
+            counts = Host_Counts(&host, sheet);
+            result = kiriWorld_Tick(host.world, 1.0f / 60.0f, 1);
+        }
+        assert_int_equal(result, KIRI_ERROR_MEMORY);
+        kiriCounts after = Host_Counts(&host, sheet);
+        assert_true(after.triangles == counts.triangles && after.vertices == counts.vertices);
+        CheckIndices(&host, sheet, after);
+        host.failAt = -1;
+        OK(kiriWorld_SetBudget(host.world, &none));
+        OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
+        assert_true(LayoutOf(&host) == layout);
+        Host_Stop(&host);
+    }
+}
+
+enum { POINTS = 256, MOST_WEIGHTS = 64 };
+
+typedef struct Weights {
+    kiriFrame frames[POINTS][MOST_WEIGHTS];
+    float weights[POINTS][MOST_WEIGHTS];
+    int32_t count[POINTS];
+} Weights;
+
+/* False where the tick was refused in a later stage than the cut's: then the host must wait for the next tick. */
+static bool TakeWeights(const Host* host, kiriSheet sheet, Weights* w)
+{
+    kiriResult result = KIRI_OK;
+    memset(w, 0, sizeof(*w));
+    for (int i = 0; i < POINTS && result == KIRI_OK; ++i) {
+        const float at[2] = { ((float)(i % 16) + 0.43f) / 16.0f, ((float)(i / 16) + 0.57f) / 16.0f };
+        result =
+            kiriSheet_GetWeights(host->world, sheet, at, w->frames[i], w->weights[i], NULL, MOST_WEIGHTS, &w->count[i]);
+    }
+    return result == KIRI_OK;
+}
+
+/* The tick of the cut gets no memory from some call on: the sheet, and what is read off it, is as before. */
+static void TestRefusedInTheTickOfACut(void** state)
+{
+    (void)state;
+    static Weights before, after;
+    uint64_t layout = LayoutWithoutFailure(8);
+    int32_t refused = 0, compared = 0;
+    for (kiriResult result = KIRI_ERROR_MEMORY; result != KIRI_OK; ++refused) {
+        Host host;
+        Host_Start(&host);
+        kiriSheet sheet = AddForCut(&host, 8);
+        uint64_t hash = Host_Hash(&host);
+        assert_true(TakeWeights(&host, sheet, &before));
+        host.failAt = host.calls + refused;
+        result = kiriWorld_Tick(host.world, 1.0f / 60.0f, 1);
+        host.failAt = -1;
+        if (result != KIRI_OK) {
+            assert_int_equal(result, KIRI_ERROR_MEMORY);
+            assert_true(Host_Hash(&host) == hash);
+            if (TakeWeights(&host, sheet, &after)) {
+                assert_memory_equal(&before, &after, sizeof(before));
+                ++compared;
+            }
+            OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
+        }
+        assert_true(LayoutOf(&host) == layout);
+        Host_Stop(&host);
+    }
+    assert_true(compared > 3 && refused > 20);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(TestPlainTicks), cmocka_unit_test(TestCuttingTicks) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestPlainTicks),
+        cmocka_unit_test(TestCuttingTicks),
+        cmocka_unit_test(TestRefusedInALaterTick),
+        cmocka_unit_test(TestRefusedInTheTickOfACut),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

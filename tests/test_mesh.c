@@ -114,7 +114,7 @@ static void SquaresListWhatTheyOverlap(void** state)
             assert_int_equal(kiriSquares_Overlap(&squares, s, c), overlaps);
             assert_int_equal(squares.head[s] != KIRI_NONE, overlaps);
         }
-        kiriSquares_Remove(&squares, round, c);
+        assert_true(kiriSquares_Remove(&squares, Heap(), round, c));
     }
     assert_true(squares.nodes.count <= 28);
     kiriMemory_FreeAll(Heap());
@@ -176,7 +176,7 @@ static void SquaresAroundPoints(void** state)
     kiriMemory_FreeAll(Heap());
 }
 
-/* An insertion that runs out of memory leaves nothing behind, and after a removal there is room without memory. */
+/* Changes that run out of memory are taken back without memory, as far as they came. */
 static void SquaresWithoutMemory(void** state)
 {
     (void)state;
@@ -187,16 +187,25 @@ static void SquaresWithoutMemory(void** state)
     kiriSquares squares;
     assert_true(kiriSquares_Init(&squares, &memory, extent, 7));
     assert_true(kiriSquares_Insert(&squares, &memory, 0, small));
-    meter.untilFailure = 0;
-    assert_false(kiriSquares_Insert(&squares, &memory, 1, big));
-    for (int32_t s = 0; s < 28; ++s) {
-        assert_int_equal(squares.head[s] != KIRI_NONE, s == 0);
+    kiriSquares_ClearDirty(&squares);
+    bool done = false;
+    int32_t failures = 0;
+    for (; !done; ++failures) {
+        kiriSquares_Begin(&squares);
+        meter.untilFailure = failures;
+        done = kiriSquares_Remove(&squares, &memory, 0, small) && kiriSquares_Insert(&squares, &memory, 1, big) &&
+               kiriSquares_Insert(&squares, &memory, 2, small);
+        meter.untilFailure = 0;
+        kiriSquares_Rollback(&squares);
+        for (int32_t s = 0; s < 28; ++s) {
+            assert_int_equal(squares.head[s] != KIRI_NONE, s == 0);
+        }
+        assert_true(squares.nodes.count == 1 && squares.nodes.data[0].triangle == 0 && squares.freeNode == KIRI_NONE);
+        assert_int_equal(squares.dirty.count, 0);
+        meter.untilFailure = -1;
+        kiriSquares_Commit(&squares);
     }
-    meter.untilFailure = -1;
-    assert_true(kiriSquares_Insert(&squares, &memory, 1, big));
-    kiriSquares_Remove(&squares, 1, big);
-    meter.untilFailure = 0;
-    assert_true(kiriSquares_Insert(&squares, &memory, 1, big));
+    assert_true(failures > 2);
     kiriMemory_FreeAll(&memory);
     assert_int_equal(meter.live, 0);
 }
@@ -526,19 +535,47 @@ static void ScramblesAndRollsBack(void** state)
     kiriMeshData mesh;
     InitRectangle(&mesh, 4, 4, 1.0f, 1.0f, 8);
     for (uint32_t round = 1; round <= 30; ++round) {
+        if (round % 3 == 0) {
+            kiriSquares_ClearDirty(&mesh.squares);
+        }
         kiriMesh_Begin(&mesh);
-        Copy copy = Copy_Make(&mesh);
+        Whole whole = Whole_Make(&mesh);
         assert_true(Scramble(&mesh, 77 * round, 60));
         CheckMesh(&mesh);
-        assert_false(Copy_Equals(&copy, &mesh));
+        assert_false(Whole_Equals(&whole, &mesh));
         kiriMesh_Rollback(&mesh);
-        assert_true(Copy_Equals(&copy, &mesh));
+        assert_true(Whole_Equals(&whole, &mesh));
         CheckMesh(&mesh);
-        Copy_Free(&copy);
+        Whole_Free(&whole);
         kiriMesh_Begin(&mesh);
         assert_true(Scramble(&mesh, 99 * round, 20));
         CheckMesh(&mesh);
         kiriMesh_Commit(&mesh);
+    }
+    kiriMemory_FreeAll(mesh.memory);
+}
+
+/* A rollback after a commit changes nothing, however often, and so does one of an empty journal. */
+static void CommitsAreForGood(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 4, 4, 1.0f, 1.0f, 8);
+    for (uint32_t round = 1; round <= 10; ++round) {
+        kiriMesh_Begin(&mesh);
+        assert_true(Scramble(&mesh, 55 * round, 20));
+        kiriMesh_Commit(&mesh);
+        Whole whole = Whole_Make(&mesh);
+        kiriMesh_Rollback(&mesh);
+        assert_true(Whole_Equals(&whole, &mesh));
+        kiriMesh_Commit(&mesh);
+        kiriMesh_Rollback(&mesh);
+        assert_true(Whole_Equals(&whole, &mesh));
+        kiriMesh_Begin(&mesh);
+        kiriMesh_Rollback(&mesh);
+        assert_true(Whole_Equals(&whole, &mesh));
+        CheckMesh(&mesh);
+        Whole_Free(&whole);
     }
     kiriMemory_FreeAll(mesh.memory);
 }
@@ -588,16 +625,19 @@ static void RollsBackWithoutMemory(void** state)
         const char* why = NULL;
         assert_int_equal(kiriMesh_Init(&mesh, &memory, r.positions, r.vertexCount, r.indices, r.triangleCount, 8, &why),
                          0);
+        if (n % 2 == 0) {
+            kiriSquares_ClearDirty(&mesh.squares);
+        }
         kiriMesh_Begin(&mesh);
-        Copy copy = Copy_Make(&mesh);
+        Whole whole = Whole_Make(&mesh);
         meter.untilFailure = n;
         done = Scramble(&mesh, 5, 150);
         assert_true(done || meter.untilFailure == 0);
         meter.untilFailure = 0;
         kiriMesh_Rollback(&mesh);
-        assert_true(Copy_Equals(&copy, &mesh));
+        assert_true(Whole_Equals(&whole, &mesh));
         CheckMesh(&mesh);
-        Copy_Free(&copy);
+        Whole_Free(&whole);
         kiriMemory_FreeAll(mesh.memory);
         assert_int_equal(meter.live, 0);
         assert_true(!done || n > 8);
@@ -627,6 +667,7 @@ int main(void)
         cmocka_unit_test(Locates),
         cmocka_unit_test(Snaps),
         cmocka_unit_test(ScramblesAndRollsBack),
+        cmocka_unit_test(CommitsAreForGood),
         cmocka_unit_test(JournalTellsWhatChanged),
         cmocka_unit_test(RollsBackWithoutMemory),
     };

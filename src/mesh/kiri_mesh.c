@@ -54,20 +54,29 @@ static bool SaveVertex(kiriMeshData* mesh, int32_t vertex)
     return true;
 }
 
+static void EmptyJournal(kiriMeshData* mesh)
+{
+    mesh->savedTriangles.count = 0;
+    mesh->savedVertices.count = 0;
+}
+
 void kiriMesh_Begin(kiriMeshData* mesh)
 {
+    EmptyJournal(mesh);
+    kiriSquares_Begin(&mesh->squares);
+    mesh->isOpen = true;
     ++mesh->stamp;
     mesh->oldTriangleCount = mesh->triangles.count;
     mesh->oldVertexCount = mesh->vertices.count;
     mesh->oldRevision = mesh->revision;
     mesh->births.count = 0;
-    kiriMesh_Commit(mesh);
 }
 
 void kiriMesh_Commit(kiriMeshData* mesh)
 {
-    mesh->savedTriangles.count = 0;
-    mesh->savedVertices.count = 0;
+    EmptyJournal(mesh);
+    kiriSquares_Commit(&mesh->squares);
+    mesh->isOpen = false;
 }
 
 static bool InsertSquares(kiriMeshData* mesh, int32_t triangle)
@@ -77,21 +86,19 @@ static bool InsertSquares(kiriMeshData* mesh, int32_t triangle)
     return kiriSquares_Insert(&mesh->squares, mesh->memory, triangle, corners);
 }
 
-static void RemoveSquares(kiriMeshData* mesh, int32_t triangle)
+static bool RemoveSquares(kiriMeshData* mesh, int32_t triangle)
 {
     kiriLatticePoint corners[3];
     kiriMesh_Corners(mesh, triangle, corners);
-    kiriSquares_Remove(&mesh->squares, triangle, corners);
+    return kiriSquares_Remove(&mesh->squares, mesh->memory, triangle, corners);
 }
 
 void kiriMesh_Rollback(kiriMeshData* mesh)
 {
-    for (int32_t t = mesh->oldTriangleCount; t < mesh->triangles.count; ++t) {
-        RemoveSquares(mesh, t);
+    if (!mesh->isOpen) {
+        return;
     }
-    for (int32_t i = 0; i < mesh->savedTriangles.count; ++i) {
-        RemoveSquares(mesh, mesh->savedTriangles.data[i].index);
-    }
+    kiriSquares_Rollback(&mesh->squares);
     for (int32_t i = 0; i < mesh->savedVertices.count; ++i) {
         mesh->vertices.data[mesh->savedVertices.data[i].index] = mesh->savedVertices.data[i].was;
     }
@@ -106,11 +113,7 @@ void kiriMesh_Rollback(kiriMeshData* mesh)
     mesh->vertices.count = mesh->oldVertexCount;
     mesh->revision = mesh->oldRevision;
     mesh->births.count = 0;
-    for (int32_t i = 0; i < mesh->savedTriangles.count; ++i) {
-        /* Cannot fail: the nodes that held the old mesh are all still there. */
-        (void)InsertSquares(mesh, mesh->savedTriangles.data[i].index);
-    }
-    kiriMesh_Commit(mesh);
+    EmptyJournal(mesh);
 }
 
 /* A vertex never moves, so it stays in the list of its square, which begins with the latest. */
@@ -233,17 +236,17 @@ int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
 {
     int32_t g = kiriMesh_Twin(mesh, h);
     if (!ReserveSplit(mesh) || !SaveTriangle(mesh, h / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(h)) ||
-        (g != KIRI_NONE && (!SaveTriangle(mesh, g / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(g))))) {
+        !RemoveSquares(mesh, h / 3) ||
+        (g != KIRI_NONE &&
+         (!SaveTriangle(mesh, g / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(g)) || !RemoveSquares(mesh, g / 3)))) {
         return KIRI_NONE;
     }
     ++mesh->revision;
     int32_t p = AddOnEdge(mesh, h, at);
-    RemoveSquares(mesh, h / 3);
     int32_t added = SplitSide(mesh, h, p);
     if (g == KIRI_NONE) {
         return InsertSquares(mesh, h / 3) && InsertSquares(mesh, added / 3) ? p : KIRI_NONE;
     }
-    RemoveSquares(mesh, g / 3);
     int32_t q = kiriMesh_IsOpen(mesh, g) ? AddOnEdge(mesh, g, at) : p;
     int32_t addedBeyond = SplitSide(mesh, g, q);
     Link(mesh, h, addedBeyond);
@@ -271,11 +274,10 @@ int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLattice
 {
     int32_t h = 3 * triangle;
     if (!ReserveSplit(mesh) || !SaveTriangle(mesh, triangle) || !SaveHalfEdge(mesh, h + 1) ||
-        !SaveHalfEdge(mesh, h + 2)) {
+        !SaveHalfEdge(mesh, h + 2) || !RemoveSquares(mesh, triangle)) {
         return KIRI_NONE;
     }
     ++mesh->revision;
-    RemoveSquares(mesh, triangle);
     kiriTriangle was = mesh->triangles.data[triangle];
     kiriBirth birth = BirthInside(mesh, triangle, at);
     int32_t p = AddVertex(mesh, at, was.source, &birth);

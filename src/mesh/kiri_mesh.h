@@ -61,6 +61,7 @@ typedef struct kiriMeshData {
     /* The journal: what changed since kiriMesh_Begin. Until Commit these are all that can have changed: the triangles
        of savedTriangles and those from oldTriangleCount on; the vertices of savedVertices (their source and share,
        never their place) and those from oldVertexCount on. So a view of the mesh needs to write no others. */
+    bool isOpen; /* between Begin and Commit: only then can the mesh change, or be rolled back */
     uint32_t stamp;
     int32_t oldTriangleCount, oldVertexCount;
     uint32_t oldRevision;
@@ -78,8 +79,9 @@ kiriResult kiriMesh_Init(kiriMeshData* mesh, kiriMemory* memory, const float* po
 bool kiriMesh_InitPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const int32_t* triangleTo,
                        const int32_t* vertexTo);
 
-/* Changes between Begin and Commit can be taken back as a whole: Rollback leaves the mesh as it was at Begin (order
-   within a square's list of triangles aside). Begin also empties the births. */
+/* Changes between Begin and Commit can be taken back as a whole: Rollback leaves the mesh and its squares as they
+   were at Begin (see kiriSquares_Rollback), and the journal open. After Commit it changes nothing. Begin also empties the
+   births. */
 void kiriMesh_Begin(kiriMeshData* mesh);
 void kiriMesh_Commit(kiriMeshData* mesh);
 void kiriMesh_Rollback(kiriMeshData* mesh);

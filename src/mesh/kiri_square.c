@@ -127,6 +127,7 @@ static void MarkDirty(kiriSquares* squares, int32_t square)
 
 void kiriSquares_ClearDirty(kiriSquares* squares)
 {
+    squares->oldDirtyCount = KIRI_NONE;
     for (int32_t i = 0; i < squares->dirty.count; ++i) {
         squares->isDirty[squares->dirty.data[i]] = 0;
     }
@@ -162,49 +163,145 @@ void kiriSquares_MarkEdgeDirty(kiriSquares* squares, kiriLatticePoint a, kiriLat
     }
 }
 
+/* ---- What Rollback restores -------------------------------------------------------------------------------------- */
+
+void kiriSquares_Begin(kiriSquares* squares)
+{
+    squares->isOpen = true;
+    squares->undo.count = 0;
+    squares->oldNodeCount = squares->nodes.count;
+    squares->oldFreeNode = squares->freeNode;
+    squares->oldDirtyCount = squares->dirty.count;
+}
+
+void kiriSquares_Commit(kiriSquares* squares)
+{
+    squares->isOpen = false;
+    squares->undo.count = 0;
+}
+
+static bool ReserveUndo(kiriSquares* squares, kiriMemory* memory)
+{
+    return !squares->isOpen || kiriArray_Reserve(memory, &squares->undo, (int64_t)squares->undo.count + 2);
+}
+
+/* Room for it is reserved. */
+static void PushUndo(kiriSquares* squares, int32_t place, kiriSquareNode was)
+{
+    kiriSquareUndo undo = { place, was };
+    squares->undo.data[squares->undo.count++] = undo;
+}
+
+static void SetHead(kiriSquares* squares, int32_t square, int32_t slot)
+{
+    if (squares->isOpen) {
+        kiriSquareNode was = { KIRI_NONE, squares->head[square] };
+        PushUndo(squares, ~square, was);
+    }
+    squares->head[square] = slot;
+}
+
+/* Slots that are newer than Begin go altogether. */
+static void SetNode(kiriSquares* squares, int32_t slot, int32_t triangle, int32_t next)
+{
+    kiriSquareNode node = { triangle, next };
+    if (squares->isOpen && slot < squares->oldNodeCount) {
+        PushUndo(squares, slot, squares->nodes.data[slot]);
+    }
+    squares->nodes.data[slot] = node;
+}
+
+static void RestoreDirty(kiriSquares* squares)
+{
+    if (squares->oldDirtyCount == KIRI_NONE) {
+        for (int32_t square = 0; square < squares->columns * squares->rows; ++square) {
+            MarkDirty(squares, square);
+        }
+        squares->oldDirtyCount = squares->dirty.count;
+    }
+    while (squares->dirty.count > squares->oldDirtyCount) {
+        squares->isDirty[squares->dirty.data[--squares->dirty.count]] = 0;
+    }
+}
+
+void kiriSquares_Rollback(kiriSquares* squares)
+{
+    while (squares->undo.count > 0) {
+        kiriSquareUndo undo = squares->undo.data[--squares->undo.count];
+        if (undo.place < 0) {
+            squares->head[~undo.place] = undo.was.next;
+        } else {
+            squares->nodes.data[undo.place] = undo.was;
+        }
+    }
+    squares->nodes.count = squares->oldNodeCount;
+    squares->freeNode = squares->oldFreeNode;
+    RestoreDirty(squares);
+}
+
+/* ---- Triangles --------------------------------------------------------------------------------------------------- */
+
 static bool AddNode(kiriSquares* squares, kiriMemory* memory, int32_t square, int32_t triangle)
 {
-    kiriSquareNode node = { triangle, squares->head[square] };
     int32_t slot = squares->freeNode;
+    if (!ReserveUndo(squares, memory)) {
+        return false;
+    }
     if (slot != KIRI_NONE) {
         squares->freeNode = squares->nodes.data[slot].next;
-        squares->nodes.data[slot] = node;
     } else {
         slot = squares->nodes.count;
-        if (!kiriArray_Push(memory, &squares->nodes, node)) {
+        if (!kiriArray_Resize(memory, &squares->nodes, (int64_t)slot + 1)) {
             return false;
         }
     }
-    squares->head[square] = slot;
+    SetNode(squares, slot, triangle, squares->head[square]);
+    SetHead(squares, square, slot);
     MarkDirty(squares, square);
     return true;
 }
 
-/* A triangle that is not there is fine: taking back half an insertion meets that. */
-static void RemoveNode(kiriSquares* squares, int32_t square, int32_t triangle)
+/* The node of a triangle in a square, which is there; *before is the one that leads to it, or KIRI_NONE. */
+static int32_t FindNode(const kiriSquares* squares, int32_t square, int32_t triangle, int32_t* before)
 {
-    kiriSquareNode* nodes = squares->nodes.data;
-    for (int32_t* link = &squares->head[square]; *link != KIRI_NONE; link = &nodes[*link].next) {
-        int32_t slot = *link;
-        if (nodes[slot].triangle == triangle) {
-            *link = nodes[slot].next;
-            nodes[slot].triangle = KIRI_NONE;
-            nodes[slot].next = squares->freeNode;
-            squares->freeNode = slot;
-            MarkDirty(squares, square);
-            return;
-        }
+    int32_t slot = squares->head[square];
+    *before = KIRI_NONE;
+    while (squares->nodes.data[slot].triangle != triangle) {
+        *before = slot;
+        slot = squares->nodes.data[slot].next;
+        KIRI_ASSERT(slot >= 0 && slot < squares->nodes.count);
     }
+    return slot;
 }
 
-bool kiriSquares_Insert(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3])
+static bool RemoveNode(kiriSquares* squares, kiriMemory* memory, int32_t square, int32_t triangle)
+{
+    if (!ReserveUndo(squares, memory)) {
+        return false;
+    }
+    int32_t before, slot = FindNode(squares, square, triangle, &before), next = squares->nodes.data[slot].next;
+    if (before == KIRI_NONE) {
+        SetHead(squares, square, next);
+    } else {
+        SetNode(squares, before, squares->nodes.data[before].triangle, next);
+    }
+    SetNode(squares, slot, KIRI_NONE, squares->freeNode);
+    squares->freeNode = slot;
+    MarkDirty(squares, square);
+    return true;
+}
+
+typedef bool NodeChange(kiriSquares* squares, kiriMemory* memory, int32_t square, int32_t triangle);
+
+/* Adds or removes the triangle in all squares that it overlaps. */
+static bool ChangeNodes(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3],
+                        NodeChange* change)
 {
     Range r = BoxOf(squares, corners);
     for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
         for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
-            int32_t square = row * squares->columns + column;
-            if (OverlapsInBox(squares, r, column, row, corners) && !AddNode(squares, memory, square, triangle)) {
-                kiriSquares_Remove(squares, triangle, corners);
+            if (OverlapsInBox(squares, r, column, row, corners) &&
+                !change(squares, memory, row * squares->columns + column, triangle)) {
                 return false;
             }
         }
@@ -212,16 +309,14 @@ bool kiriSquares_Insert(kiriSquares* squares, kiriMemory* memory, int32_t triang
     return true;
 }
 
-void kiriSquares_Remove(kiriSquares* squares, int32_t triangle, const kiriLatticePoint corners[3])
+bool kiriSquares_Insert(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3])
 {
-    Range r = BoxOf(squares, corners);
-    for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
-        for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
-            if (OverlapsInBox(squares, r, column, row, corners)) {
-                RemoveNode(squares, row * squares->columns + column, triangle);
-            }
-        }
-    }
+    return ChangeNodes(squares, memory, triangle, corners, AddNode);
+}
+
+bool kiriSquares_Remove(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3])
+{
+    return ChangeNodes(squares, memory, triangle, corners, RemoveNode);
 }
 
 int32_t kiriSquares_At(const kiriSquares* squares, kiriLatticePoint p)

@@ -13,6 +13,12 @@ typedef struct kiriSquareNode {
     int32_t next; /* in the same square, or KIRI_NONE */
 } kiriSquareNode;
 
+/* What a node or a head was before a change. */
+typedef struct kiriSquareUndo {
+    int32_t place; /* the node's slot; or ~square, whose head was `was.next` */
+    kiriSquareNode was;
+} kiriSquareUndo;
+
 typedef struct kiriSquares {
     int32_t columns, rows;
     int32_t side;   /* lattice steps, even; grid line k lies at k * side - 1 */
@@ -21,8 +27,14 @@ typedef struct kiriSquares {
     KIRI_ARRAY(kiriSquareNode) nodes;
     int32_t freeNode;
     int32_t* vertexHead;       /* a square's first vertex, or KIRI_NONE: see kiriVertex */
-    KIRI_ARRAY(int32_t) dirty; /* squares that have changed since ClearTouched, each once; it never grows */
+    KIRI_ARRAY(int32_t) dirty; /* squares that have changed since ClearDirty, each once; there is room for all */
     uint8_t* isDirty;          /* of each square: is it in `dirty`? */
+
+    /* For Rollback: the changes since Begin in their order, and what was then. */
+    bool isOpen;
+    KIRI_ARRAY(kiriSquareUndo) undo;
+    int32_t oldNodeCount, oldFreeNode;
+    int32_t oldDirtyCount; /* KIRI_NONE: ClearDirty has been called since */
 } kiriSquares;
 
 /* `resolution` squares along the longer of the two extents (lattice steps, from 0). */
@@ -31,12 +43,19 @@ bool kiriSquares_Init(kiriSquares* squares, kiriMemory* memory, kiriLatticePoint
 /* The same squares, without triangles and vertices. */
 bool kiriSquares_InitLike(kiriSquares* squares, kiriMemory* memory, const kiriSquares* like);
 
-/* The triangle's corners are counter-clockwise. Insert fails only for memory, and then changes nothing. After a Remove,
-   inserting as many nodes as it took never fails. Both touch the squares that they change. */
+/* The triangle's corners are counter-clockwise. Both make the squares dirty that they change, and fail only for memory:
+   then some squares have changed and some have not, and the caller rolls back or gives up the squares. */
 bool kiriSquares_Insert(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3]);
-void kiriSquares_Remove(kiriSquares* squares, int32_t triangle, const kiriLatticePoint corners[3]);
+bool kiriSquares_Remove(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3]);
 
-/* Touches the squares whose open interior the edge between two vertices runs through. */
+/* Rollback restores what was at Begin, slot for slot, vertices aside: others (the grid) keep arrays by node. Squares that
+   became dirty since are clean again; where ClearDirty has been called since, all are dirty, for somebody has read what
+   is now taken back. It needs no memory. After it changes are noted again, until Commit. */
+void kiriSquares_Begin(kiriSquares* squares);
+void kiriSquares_Commit(kiriSquares* squares);
+void kiriSquares_Rollback(kiriSquares* squares);
+
+/* Makes the squares dirty whose open interior the edge between two vertices runs through. */
 void kiriSquares_MarkEdgeDirty(kiriSquares* squares, kiriLatticePoint a, kiriLatticePoint b);
 void kiriSquares_ClearDirty(kiriSquares* squares);
 
