@@ -3,7 +3,8 @@
 #ifndef KIRI_TEST_CHECK_MESH_H
 #define KIRI_TEST_CHECK_MESH_H
 
-#include "mesh/kiri_mesh.h"
+#include "mesh/kiri_mesh_edit.h"
+#include "mesh_pieces.h"
 #include "support.h"
 
 #include <stdlib.h>
@@ -196,7 +197,7 @@ static inline void CheckFans(const kiriMeshData* mesh)
 /* Pieces against a flood over edges with the same two vertices. */
 static inline int32_t CheckPieces(const kiriMeshData* mesh)
 {
-    int32_t count = mesh->triangles.count, pieces = 0, next = 0;
+    int32_t count = mesh->triangles.count, next = 0;
     int32_t* flood = Unions_Make(count);
     int32_t* piece = malloc((size_t)count * sizeof(int32_t));
     int32_t* number = malloc((size_t)count * sizeof(int32_t));
@@ -206,7 +207,7 @@ static inline int32_t CheckPieces(const kiriMeshData* mesh)
             Unions_Join(flood, edges[i - 1].h / 3, edges[i].h / 3);
         }
     }
-    kiriMesh_Pieces(mesh, piece, &pieces);
+    int32_t pieces = NumberPieces(mesh, piece);
     memset(number, 0xff, (size_t)count * sizeof(int32_t));
     for (int32_t t = 0; t < count; ++t) {
         int32_t root = Unions_Root(flood, t);

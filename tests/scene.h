@@ -4,6 +4,7 @@
 
 #include "field/kiri_place.h"
 #include "field/kiri_shape.h"
+#include "mesh/kiri_mesh_edit.h"
 #include "motion/kiri_frame.h"
 #include "support.h"
 

@@ -1,5 +1,9 @@
-/* Arrays, ids, rotations, moments: the ground floor, against independent computations. */
+/* Arrays, spans, ids, sets, hashes, sorting, rotations, moments: the ground floor, against independent computations. */
+#include "core/kiri_hash.h"
 #include "core/kiri_pool.h"
+#include "core/kiri_sort.h"
+#include "core/kiri_span.h"
+#include "core/kiri_union_find.h"
 #include "scene.h"
 #include "core/kiri_vec.h"
 
@@ -116,7 +120,7 @@ static void PoolsNeverRepeat(void** state)
         assert_non_null(kiriPool_Find(&pool, ids[i]));
         kiriPool_Remove(&pool, ids[i]);
     }
-    assert_int_equal(pool.slots.count, 3); /* 2047 generations each: generation 0 is never given */
+    assert_int_equal(pool.slots.count, 20); /* 255 generations each: generation 0 is never given */
     qsort(ids, COUNT, sizeof(ids[0]), CompareIds);
     for (int i = 1; i < COUNT; ++i) {
         assert_true(ids[i] != ids[i - 1] && ids[i] != 0);
@@ -124,30 +128,74 @@ static void PoolsNeverRepeat(void** state)
     kiriMemory_FreeAll(&memory);
 }
 
+/* Far more at a time than a world of many small sheets needs, all different, and of one kind. */
+static void PoolsHoldManyIds(void** state)
+{
+    (void)state;
+    enum { COUNT = 1 << 19 };
+    kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
+    kiriPool pool;
+    int owner = 0;
+    uint32_t* ids = malloc(COUNT * sizeof(uint32_t));
+    kiriPool_Init(&pool, KIRI_KIND_FRAME);
+    for (int32_t i = 0; i < COUNT; ++i) {
+        ids[i] = kiriPool_Add(&pool, &memory, &owner, i);
+    }
+    for (int32_t i = 0; i < COUNT; ++i) {
+        kiriSlot* slot = kiriPool_Find(&pool, ids[i]);
+        assert_true(slot != NULL && slot->index == i);
+        for (uint32_t kind = 1; kind < 4; ++kind) {
+            assert_null(kiriPool_Find(&pool, ids[i] ^ kind << 30));
+        }
+        if (i % 2 == 0) {
+            kiriPool_Remove(&pool, ids[i]);
+        }
+    }
+    qsort(ids, COUNT, sizeof(ids[0]), CompareIds);
+    for (int i = 1; i < COUNT; ++i) {
+        assert_true(ids[i] != ids[i - 1] && ids[i] != 0);
+    }
+    assert_true(kiriPool_HasRoom(&pool, (1 << 22) - COUNT / 2));
+    assert_false(kiriPool_HasRoom(&pool, (1 << 22) - COUNT / 2 + 1));
+    free(ids);
+    kiriMemory_FreeAll(&memory);
+}
+
 /* All slots given: no more, until one comes back. */
 static void PoolsFillUp(void** state)
 {
     (void)state;
-    enum { MOST = 1 << 18 };
+    enum { MOST = 1 << 22 };
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
     kiriPool pool;
     int owner = 0;
     uint32_t id = 0;
     kiriPool_Init(&pool, KIRI_KIND_FRAME);
+    assert_true(kiriPool_HasRoom(&pool, MOST));
+    assert_false(kiriPool_HasRoom(&pool, (int64_t)1 << 40));
     assert_false(kiriPool_Reserve(&pool, &memory, MOST + 1));
     assert_true(kiriPool_Reserve(&pool, &memory, MOST));
     for (int32_t i = 0; i < MOST; ++i) {
         id = kiriPool_Add(&pool, &memory, &owner, i);
     }
     assert_int_equal(kiriPool_Find(&pool, id)->index, MOST - 1);
-    assert_int_equal(kiriPool_Add(&pool, &memory, &owner, 0), 0);
-    assert_false(kiriPool_Reserve(&pool, &memory, 1));
-    kiriPool_Remove(&pool, id);
-    assert_true(kiriPool_Reserve(&pool, &memory, 1));
-    assert_int_not_equal(kiriPool_Add(&pool, &memory, &owner, 0), 0);
+    assert_true(kiriPool_HasRoom(&pool, 0));
+    for (int generation = 1; generation < 255; ++generation) {
+        assert_false(kiriPool_HasRoom(&pool, 1));
+        assert_int_equal(kiriPool_Add(&pool, &memory, &owner, 0), 0);
+        assert_false(kiriPool_Reserve(&pool, &memory, 1));
+        kiriPool_Remove(&pool, id);
+        assert_true(kiriPool_HasRoom(&pool, 1));
+        assert_true(kiriPool_Reserve(&pool, &memory, 1));
+        id = kiriPool_Add(&pool, &memory, &owner, 0);
+        assert_int_not_equal(id, 0);
+    }
+    kiriPool_Remove(&pool, id); /* its last generation: the slot is used up */
+    assert_false(kiriPool_HasRoom(&pool, 1));
     kiriMemory_FreeAll(&memory);
 }
 
+/* Room or not is not the same as memory or not. */
 static void PoolsFail(void** state)
 {
     (void)state;
@@ -157,6 +205,8 @@ static void PoolsFail(void** state)
     int owner = 0;
     kiriPool_Init(&pool, KIRI_KIND_PIN);
     assert_int_equal(kiriPool_Add(&pool, &memory, &owner, 0), 0);
+    assert_false(kiriPool_Reserve(&pool, &memory, 1));
+    assert_true(kiriPool_HasRoom(&pool, 1));
     purse.budget = 1;
     assert_true(kiriPool_Reserve(&pool, &memory, 50));
     for (int i = 0; i < 50; ++i) {
@@ -164,6 +214,231 @@ static void PoolsFail(void** state)
     }
     kiriMemory_FreeAll(&memory);
     assert_int_equal(purse.out, 0);
+}
+
+/* ---- Spans ---- */
+
+typedef struct Item {
+    int32_t owner, number;
+    double value;
+} Item;
+
+/* Spans that grow and shrink at random keep their items, overlap nowhere, and use room again. */
+static void SpansKeepTheirItems(void** state)
+{
+    (void)state;
+    enum { SPANS = 40, MOST = 50 };
+    Purse purse = { -1, 0 };
+    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
+    KIRI_ARRAY(Item) items = { NULL, 0, 0 };
+    kiriSpans spans;
+    kiriSpan of[SPANS];
+    uint32_t seed = 5;
+    int32_t refused = 0;
+    memset(&spans, 0, sizeof(spans));
+    memset(of, 0, sizeof(of));
+    for (int round = 0; round < 20000; ++round) {
+        int32_t s = (int32_t)(Random(&seed) % SPANS), count = (int32_t)(Random(&seed) % MOST), was = of[s].count;
+        purse.budget = Random(&seed) % 4 == 0 ? 0 : -1;
+        bool done = kiriSpan_Resize(&of[s], &spans, &memory, &items, sizeof(Item), count);
+        assert_true(done || (purse.budget == 0 && count > was));
+        refused += !done;
+        assert_int_equal(of[s].count, done ? count : was);
+        for (int32_t i = 0; i < of[s].count; ++i) {
+            Item* item = &items.data[of[s].first + i];
+            Item fresh = { s, i, 0.5 * s };
+            assert_true(i >= was || (item->owner == s && item->number == i && item->value == 0.5 * s));
+            *item = fresh;
+        }
+    }
+    assert_true(refused > 0);
+    assert_in_range(items.count, 1, 4 * SPANS * 64);
+    for (int32_t s = 0; s < SPANS; ++s) {
+        for (int32_t i = 0; i < of[s].count; ++i) {
+            assert_int_equal(items.data[of[s].first + i].owner, s);
+        }
+    }
+    kiriMemory_FreeAll(&memory);
+}
+
+/* ---- Union-find ---- */
+
+/* Against colours that are painted over. */
+static void UnionsFollowColours(void** state)
+{
+    (void)state;
+    enum { COUNT = 200 };
+    uint32_t seed = 17;
+    for (int round = 0; round < 50; ++round) {
+        int32_t parent[COUNT], colour[COUNT], sets = COUNT;
+        kiriUnion_Init(parent, COUNT);
+        for (int32_t i = 0; i < COUNT; ++i) {
+            colour[i] = i;
+        }
+        for (int k = 0; k < 4 * round; ++k) {
+            int32_t i = (int32_t)(Random(&seed) % COUNT), j = (int32_t)(Random(&seed) % COUNT);
+            int32_t from = colour[i] > colour[j] ? colour[i] : colour[j];
+            int32_t to = colour[i] > colour[j] ? colour[j] : colour[i];
+            kiriUnion_Join(parent, i, j);
+            sets -= from != to;
+            for (int32_t m = 0; m < COUNT; ++m) {
+                colour[m] = colour[m] == from ? to : colour[m];
+            }
+        }
+        for (int32_t i = 0; i < COUNT; ++i) {
+            assert_int_equal(kiriUnion_Root(parent, i), colour[i]); /* the lowest */
+        }
+        assert_int_equal(kiriUnion_Number(parent, COUNT), sets);
+        for (int32_t i = 0, next = 0; i < COUNT; ++i) {
+            assert_int_equal(parent[i], colour[i] == i ? next : parent[colour[i]]);
+            next += colour[i] == i;
+        }
+    }
+}
+
+/* ---- Hashes ---- */
+
+static uint64_t HashOf(const char* text)
+{
+    uint64_t hash = KIRI_HASH_START;
+    kiriHash_Bytes(&hash, text, strlen(text));
+    return hash;
+}
+
+/* The published values of FNV-1a, and numbers as the bytes of them that a little-endian machine has. */
+static void HashesAreFnv(void** state)
+{
+    (void)state;
+    assert_true(HashOf("") == UINT64_C(0xcbf29ce484222325));
+    assert_true(HashOf("a") == UINT64_C(0xaf63dc4c8601ec8c));
+    assert_true(HashOf("foobar") == UINT64_C(0x85944171f73967e8));
+    uint64_t hash = KIRI_HASH_START, same = KIRI_HASH_START;
+    kiriHash_Int32(&hash, 0x64636261);
+    assert_true(hash == HashOf("abcd"));
+    hash = KIRI_HASH_START;
+    kiriHash_Int64(&hash, INT64_C(0x6867666564636261));
+    assert_true(hash == HashOf("abcdefgh"));
+    hash = KIRI_HASH_START;
+    kiriHash_Double(&hash, 1.0);
+    kiriHash_Bytes(&same, "\0\0\0\0\0\0\xf0\x3f", 8);
+    assert_true(hash == same);
+    hash = KIRI_HASH_START;
+    kiriHash_Int32(&hash, -2);
+    same = KIRI_HASH_START;
+    kiriHash_Bytes(&same, "\xfe\xff\xff\xff", 4);
+    assert_true(hash == same);
+    kiriHash_Word(&same, 300);
+    assert_true(same == (hash ^ 300) * UINT64_C(0x100000001b3));
+}
+
+/* ---- Sorting ---- */
+
+typedef struct Keys {
+    int32_t* key;
+    int64_t calls;
+} Keys;
+
+/* By descending key, then by index. */
+static bool HasHigherKey(const void* context, int32_t a, int32_t b)
+{
+    Keys* keys = (Keys*)context;
+    ++keys->calls;
+    return keys->key[a] != keys->key[b] ? keys->key[a] > keys->key[b] : a < b;
+}
+
+/* Keys in the patterns that sorts dislike. */
+static int32_t KeyOf(int pattern, int32_t i, int32_t count, uint32_t* seed)
+{
+    switch (pattern) {
+    case 0:
+        return (int32_t)(Random(seed) % 1000000);
+    case 1:
+        return i;
+    case 2:
+        return -i;
+    case 3:
+        return (int32_t)(Random(seed) % 3);
+    case 4:
+        return i < count / 2 ? i : count - i;
+    case 5:
+        return i % 2 == 0 ? i : -i;
+    case 6:
+        return i == count / 2 ? 0 : i;
+    default:
+        return 7;
+    }
+}
+
+static void SortsAnything(void** state)
+{
+    (void)state;
+    const int32_t counts[] = { 0, 1, 2, 3, 10, 24, 25, 26, 100, 1000, 30000 };
+    uint32_t seed = 23;
+    for (size_t c = 0; c < sizeof(counts) / sizeof(counts[0]); ++c) {
+        int32_t count = counts[c], *items = malloc(sizeof(int32_t) * (size_t)(count + 1));
+        Keys keys = { malloc(sizeof(int32_t) * (size_t)(count + 1)), 0 };
+        for (int pattern = 0; pattern < 8; ++pattern) {
+            for (int32_t i = 0; i < count; ++i) {
+                keys.key[i] = KeyOf(pattern, i, count, &seed);
+                items[i] = i;
+            }
+            keys.calls = 0;
+            kiriSort(items, count, HasHigherKey, &keys);
+            assert_true((double)keys.calls <= 200.0 + 8.0 * count * log2(count + 1.0));
+            for (int32_t i = 1; i < count; ++i) { /* strictly: so each comes once */
+                assert_true(HasHigherKey(&keys, items[i - 1], items[i]));
+            }
+            kiriSort(items, count, NULL, NULL);
+            for (int32_t i = 0; i < count; ++i) {
+                assert_int_equal(items[i], i);
+            }
+        }
+        free(items);
+        free(keys.key);
+    }
+}
+
+/* An adversary that decides late what is less (McIlroy 1999): quicksort alone needs a number of comparisons that is
+   quadratic. */
+typedef struct Adversary {
+    int32_t key[4000];
+    int32_t solid, candidate;
+    int64_t calls;
+} Adversary;
+
+static bool Oppose(const void* context, int32_t a, int32_t b)
+{
+    Adversary* adversary = (Adversary*)context;
+    int32_t* key = adversary->key;
+    const int32_t gas = INT32_MAX;
+    ++adversary->calls;
+    if (key[a] == gas && key[b] == gas && a != b) {
+        key[a == adversary->candidate ? a : b] = adversary->solid++;
+    }
+    if (key[a] == gas) {
+        adversary->candidate = a;
+    } else if (key[b] == gas) {
+        adversary->candidate = b;
+    }
+    return key[a] < key[b];
+}
+
+static void SortsAgainstAnAdversary(void** state)
+{
+    (void)state;
+    enum { COUNT = 4000 };
+    static Adversary adversary;
+    static int32_t items[COUNT];
+    memset(&adversary, 0, sizeof(adversary));
+    for (int32_t i = 0; i < COUNT; ++i) {
+        adversary.key[i] = INT32_MAX;
+        items[i] = i;
+    }
+    kiriSort(items, COUNT, Oppose, &adversary);
+    assert_true((double)adversary.calls < 10.0 * COUNT * log2(COUNT));
+    for (int32_t i = 1; i < COUNT; ++i) {
+        assert_true(adversary.key[items[i - 1]] < adversary.key[items[i]]);
+    }
 }
 
 /* ---- Rotations ---- */
@@ -366,8 +641,14 @@ int main(void)
         cmocka_unit_test(MemoryByDefault),
         cmocka_unit_test(PoolsFindWhatIsThere),
         cmocka_unit_test(PoolsNeverRepeat),
+        cmocka_unit_test(PoolsHoldManyIds),
         cmocka_unit_test(PoolsFillUp),
         cmocka_unit_test(PoolsFail),
+        cmocka_unit_test(SpansKeepTheirItems),
+        cmocka_unit_test(UnionsFollowColours),
+        cmocka_unit_test(HashesAreFnv),
+        cmocka_unit_test(SortsAnything),
+        cmocka_unit_test(SortsAgainstAnAdversary),
         cmocka_unit_test(CayleyRotates),
         cmocka_unit_test(RotationIsPolarFactor),
         cmocka_unit_test(RotationOfSingular),

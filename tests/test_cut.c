@@ -57,9 +57,9 @@ static int32_t OpenEdges(const kiriMeshData* mesh)
 static double AreaAt(const kiriMeshData* mesh, double x, double y)
 {
     int32_t* piece = malloc((size_t)mesh->triangles.count * sizeof(int32_t));
-    int32_t count = 0, here = kiriMesh_Locate(mesh, kiriMesh_Snap(mesh, kiriVec2_Make(x, y)));
+    int32_t here = kiriMesh_Locate(mesh, kiriMesh_Snap(mesh, kiriVec2_Make(x, y)));
     int64_t area = 0;
-    kiriMesh_Pieces(mesh, piece, &count);
+    NumberPieces(mesh, piece);
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, t, c);

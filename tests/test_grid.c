@@ -1,6 +1,7 @@
 /* The non-manifold grid: against shapes whose cells are known, and against slow independent ways to find them. */
 #include "field/kiri_grid.h"
 #include "mesh/kiri_cut.h"
+#include "mesh_pieces.h"
 #include "support.h"
 
 #include <stdlib.h>
@@ -271,11 +272,11 @@ static int32_t CountPieces(const kiriGrid* grid)
 /* A piece of the mesh is a piece of the grid, and the other way round. */
 static void CheckPieces(const Sheet* sheet)
 {
-    int32_t triangles = sheet->mesh.triangles.count, count;
+    int32_t triangles = sheet->mesh.triangles.count;
     int32_t* piece = malloc(sizeof(int32_t) * (size_t)triangles);
     int32_t* match = malloc(sizeof(int32_t) * (size_t)triangles);
     int32_t* ofCell = malloc(sizeof(int32_t) * (size_t)sheet->grid.cells.count);
-    kiriMesh_Pieces(&sheet->mesh, piece, &count);
+    int32_t count = NumberPieces(&sheet->mesh, piece);
     assert_int_equal(count, PiecesOf(&sheet->grid, ofCell));
     for (int32_t i = 0; i < count; ++i) {
         match[i] = KIRI_NONE;

@@ -2,21 +2,26 @@
 
 #include <string.h>
 
-/* What every KIRI_ARRAY looks like. Read and written with memcpy, for the type of `data` differs. */
-typedef struct Header {
-    void* data;
-    int32_t count;
-    int32_t capacity;
-} Header;
+kiriArrayHeader kiriArray_GetHeader(const void* array)
+{
+    kiriArrayHeader header;
+    memcpy(&header, array, sizeof(header));
+    KIRI_ASSERT(header.count >= 0 && header.count <= header.capacity);
+    return header;
+}
+
+void kiriArray_SetHeader(void* array, kiriArrayHeader header)
+{
+    memcpy(array, &header, sizeof(header));
+}
 
 bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBytes)
 {
-    Header header;
-    memcpy(&header, array, sizeof(header));
+    kiriArrayHeader header = kiriArray_GetHeader(array);
     if (need <= header.capacity) {
         return true;
     }
-    /* An eighth more even at first: what was made at once is not copied by the first cut. */
+    /* An eighth more even at first, so that the first cut does not copy the whole sheet. */
     int64_t capacity = 2 * (int64_t)header.capacity, least = need + need / 8;
     capacity = capacity < least ? least : capacity;
     capacity = capacity < 8 ? 8 : capacity;
@@ -34,14 +39,14 @@ bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBy
     kiriMemory_Free(memory, header.data);
     header.data = data;
     header.capacity = (int32_t)capacity;
-    memcpy(array, &header, sizeof(header));
+    kiriArray_SetHeader(array, header);
     return true;
 }
 
 void kiriArray_Release(kiriMemory* memory, void* array)
 {
-    Header header;
-    memcpy(&header, array, sizeof(header));
+    kiriArrayHeader header = kiriArray_GetHeader(array);
+    const kiriArrayHeader empty = { NULL, 0, 0 };
     kiriMemory_Free(memory, header.data);
-    memset(array, 0, sizeof(header));
+    kiriArray_SetHeader(array, empty);
 }

@@ -51,7 +51,7 @@ static kiriBlock* BlockOf(void* pointer)
     return (kiriBlock*)((char*)pointer - HEADER_BYTES);
 }
 
-static void Link(kiriMemory* memory, kiriBlock* block)
+static void LinkBlock(kiriMemory* memory, kiriBlock* block)
 {
     block->next = memory->blocks;
     block->link = &memory->blocks;
@@ -61,8 +61,9 @@ static void Link(kiriMemory* memory, kiriBlock* block)
     memory->blocks = block;
 }
 
-static void Unlink(kiriBlock* block)
+static void UnlinkBlock(kiriBlock* block)
 {
+    KIRI_ASSERT(*block->link == block);
     *block->link = block->next;
     if (block->next != NULL) {
         block->next->link = block->link;
@@ -76,7 +77,7 @@ void* kiriMemory_Alloc(kiriMemory* memory, int64_t bytes)
     if (block == NULL) {
         return NULL;
     }
-    Link(memory, block);
+    LinkBlock(memory, block);
     return (char*)block + HEADER_BYTES;
 }
 
@@ -89,7 +90,7 @@ void* kiriMemory_AllocZeroed(kiriMemory* memory, int64_t bytes)
 void kiriMemory_Free(kiriMemory* memory, void* pointer)
 {
     if (pointer != NULL) {
-        Unlink(BlockOf(pointer));
+        UnlinkBlock(BlockOf(pointer));
         memory->free(memory->user, BlockOf(pointer));
     }
 }
@@ -106,8 +107,8 @@ void kiriMemory_FreeAll(kiriMemory* memory)
 void kiriMemory_Adopt(kiriMemory* memory, void* pointer)
 {
     if (pointer != NULL) {
-        Unlink(BlockOf(pointer));
-        Link(memory, BlockOf(pointer));
+        UnlinkBlock(BlockOf(pointer));
+        LinkBlock(memory, BlockOf(pointer));
     }
 }
 
@@ -115,7 +116,7 @@ void kiriMemory_AdoptAll(kiriMemory* memory, kiriMemory* from)
 {
     while (from->blocks != NULL) {
         kiriBlock* block = from->blocks;
-        Unlink(block);
-        Link(memory, block);
+        UnlinkBlock(block);
+        LinkBlock(memory, block);
     }
 }

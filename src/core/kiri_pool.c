@@ -1,31 +1,39 @@
 #include "kiri_pool.h"
 
-enum { SLOT_BITS = 18, GENERATION_BITS = 11, KIND_SHIFT = SLOT_BITS + GENERATION_BITS };
-
-static const uint32_t slotMask = (1u << SLOT_BITS) - 1u;
-static const uint32_t generationMask = (1u << GENERATION_BITS) - 1u;
+enum {
+    ID_SLOT_BITS = 22,
+    ID_GENERATION_BITS = 8,
+    ID_KIND_SHIFT = ID_SLOT_BITS + ID_GENERATION_BITS,
+    MOST_SLOTS = 1 << ID_SLOT_BITS,
+    LAST_GENERATION = (1 << ID_GENERATION_BITS) - 1
+};
 
 void kiriPool_Init(kiriPool* pool, uint32_t kind)
 {
-    kiriPool empty = { kind, KIRI_NONE, { NULL, 0, 0 } };
+    KIRI_ASSERT(kind >> (32 - ID_KIND_SHIFT) == 0);
+    kiriPool empty = { kind, KIRI_NONE, 0, { NULL, 0, 0 } };
     *pool = empty;
+}
+
+bool kiriPool_HasRoom(const kiriPool* pool, int64_t count)
+{
+    return count <= (int64_t)pool->freeCount + MOST_SLOTS - pool->slots.count;
 }
 
 bool kiriPool_Reserve(kiriPool* pool, kiriMemory* memory, int32_t count)
 {
-    int64_t need = (int64_t)pool->slots.count + count;
-    for (int32_t slot = pool->freeSlot; slot != KIRI_NONE && count > 0; slot = pool->slots.data[slot].index) {
-        need -= 1;
-        count -= 1;
-    }
-    return need <= (int64_t)slotMask + 1 && kiriArray_Reserve(memory, &pool->slots, need);
+    KIRI_ASSERT(count >= 0);
+    int64_t fresh = count > pool->freeCount ? (int64_t)count - pool->freeCount : 0;
+    return kiriPool_HasRoom(pool, count) && kiriArray_Reserve(memory, &pool->slots, pool->slots.count + fresh);
 }
 
 uint32_t kiriPool_Add(kiriPool* pool, kiriMemory* memory, void* owner, int32_t index)
 {
+    KIRI_ASSERT(owner != NULL);
     int32_t slot = pool->freeSlot;
     if (slot != KIRI_NONE) {
         pool->freeSlot = pool->slots.data[slot].index;
+        pool->freeCount -= 1;
     } else {
         kiriSlot fresh = { NULL, 0, 1u };
         if (!kiriPool_Reserve(pool, memory, 1)) {
@@ -35,19 +43,20 @@ uint32_t kiriPool_Add(kiriPool* pool, kiriMemory* memory, void* owner, int32_t i
         pool->slots.data[slot] = fresh;
     }
     kiriSlot* s = &pool->slots.data[slot];
+    KIRI_ASSERT(s->owner == NULL);
     s->owner = owner;
     s->index = index;
-    return pool->kind << KIND_SHIFT | s->generation << SLOT_BITS | (uint32_t)slot;
+    return pool->kind << ID_KIND_SHIFT | s->generation << ID_SLOT_BITS | (uint32_t)slot;
 }
 
 kiriSlot* kiriPool_Find(const kiriPool* pool, uint32_t id)
 {
-    uint32_t slot = id & slotMask;
-    if (id >> KIND_SHIFT != pool->kind || slot >= (uint32_t)pool->slots.count) {
+    uint32_t slot = id & (MOST_SLOTS - 1), generation = id >> ID_SLOT_BITS & LAST_GENERATION;
+    if (id >> ID_KIND_SHIFT != pool->kind || slot >= (uint32_t)pool->slots.count) {
         return NULL;
     }
     kiriSlot* s = &pool->slots.data[slot];
-    return s->owner != NULL && s->generation == (id >> SLOT_BITS & generationMask) ? s : NULL;
+    return s->owner != NULL && s->generation == generation ? s : NULL;
 }
 
 void kiriPool_Remove(kiriPool* pool, uint32_t id)
@@ -57,9 +66,10 @@ void kiriPool_Remove(kiriPool* pool, uint32_t id)
         return;
     }
     s->owner = NULL;
-    if (s->generation < generationMask) {
+    if (s->generation < LAST_GENERATION) {
         s->generation += 1;
         s->index = pool->freeSlot;
-        pool->freeSlot = (int32_t)(id & slotMask);
+        pool->freeSlot = (int32_t)(id & (MOST_SLOTS - 1));
+        pool->freeCount += 1;
     }
 }

@@ -1,11 +1,16 @@
-/* Ids: kind in 3 bits, generation in 11, slot in 18. An id of another kind, or of something that is gone, finds
-   nothing. A slot whose generations are used up is never used again, so no id ever comes twice. */
+/* Ids: kind in 2 bits, generation in 8, slot in 22. An id of another kind, or of something that is gone, finds nothing.
+   Generations start at 1, so no id is 0. A slot whose generations are used up is never used again, so no id comes
+   twice. */
 #ifndef KIRI_POOL_H
 #define KIRI_POOL_H
 
 #include "kiri_array.h"
 
-enum { KIRI_KIND_SHEET = 1, KIRI_KIND_CUT = 2, KIRI_KIND_FRAME = 3, KIRI_KIND_PIN = 4 };
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { KIRI_KIND_SHEET = 0, KIRI_KIND_CUT = 1, KIRI_KIND_FRAME = 2, KIRI_KIND_PIN = 3 };
 
 typedef struct kiriSlot {
     void* owner;   /* null: free */
@@ -15,20 +20,27 @@ typedef struct kiriSlot {
 
 typedef struct kiriPool {
     uint32_t kind;
-    int32_t freeSlot;
+    int32_t freeSlot, freeCount;
     KIRI_ARRAY(kiriSlot) slots;
 } kiriPool;
 
 void kiriPool_Init(kiriPool* pool, uint32_t kind);
 
-/* After it, `count` calls of Add cannot fail. */
+/* Are there so many ids left? */
+bool kiriPool_HasRoom(const kiriPool* pool, int64_t count);
+
+/* After it, `count` calls of Add cannot fail. False where there are not so many ids left, or no memory. */
 bool kiriPool_Reserve(kiriPool* pool, kiriMemory* memory, int32_t count);
 
-/* 0 when there is no room. */
+/* 0 where there is no id left, or no memory. */
 uint32_t kiriPool_Add(kiriPool* pool, kiriMemory* memory, void* owner, int32_t index);
 
 /* Null for an id that names nothing here. */
 kiriSlot* kiriPool_Find(const kiriPool* pool, uint32_t id);
 void kiriPool_Remove(kiriPool* pool, uint32_t id);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -5,6 +5,10 @@
 
 #include "kiri_array.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct kiriSpan {
     int32_t first, count;
 } kiriSpan;
@@ -17,9 +21,13 @@ typedef struct kiriSpans {
 } kiriSpans;
 
 /* Gives the span room for `count` items and sets its count; the first items stay what they are, new ones are not
-   initialised. `array` points to the KIRI_ARRAY that holds the items of all spans; an item has itemBytes, at least 4.
+   initialised. It may move the items, also where it shrinks. `array` points to the KIRI_ARRAY that holds the items of all spans; an item has itemBytes, at least 4.
    False for memory, and then nothing has changed. To shrink, or to count 0, never fails. */
 bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes,
                      int32_t count);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -17,13 +17,14 @@ static void AddShare(kiriExact* sum, double share, int sign)
     sum->low -= carry * lowRange;
 }
 
-static double ShareOf(kiriExact sum)
+static double ToShare(kiriExact sum)
 {
     return ((double)sum.high + (double)sum.low / lowUnits) / highUnits;
 }
 
 void kiriTally_Add(kiriTally* tally, const kiriMoments* moments, int sign, double extent)
 {
+    KIRI_ASSERT((sign == 1 || sign == -1) && extent > 0.0);
     double one = 1.0 / extent, two = one * one, three = two * one, four = two * two;
     AddShare(&tally->area, two * moments->area, sign);
     AddShare(&tally->u, three * moments->u, sign);
@@ -36,7 +37,7 @@ void kiriTally_Add(kiriTally* tally, const kiriMoments* moments, int sign, doubl
 kiriMoments kiriTally_Moments(const kiriTally* tally, double extent)
 {
     double two = extent * extent, three = two * extent, four = two * two;
-    kiriMoments moments = { two * ShareOf(tally->area), three * ShareOf(tally->u), three * ShareOf(tally->v),
-                            four * ShareOf(tally->uu),  four * ShareOf(tally->uv), four * ShareOf(tally->vv) };
+    kiriMoments moments = { two * ToShare(tally->area), three * ToShare(tally->u), three * ToShare(tally->v),
+                            four * ToShare(tally->uu),  four * ToShare(tally->uv), four * ToShare(tally->vv) };
     return moments;
 }

@@ -5,6 +5,10 @@
 
 #include "kiri_vec.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* A share of a scale: high * 2^-60 + low * 2^-122, with 0 <= low < 2^62. So each number has one form only, and a
    sliver of 1e-14 of a square of a grid of 4096 squares keeps the digits of its double. */
 typedef struct kiriExact {
@@ -19,5 +23,9 @@ typedef struct kiriTally {
 /* The area in a tally, of however many parts, is at most 7 extent^2 at a time. `sign` is 1 or -1. */
 void kiriTally_Add(kiriTally* tally, const kiriMoments* moments, int sign, double extent);
 kiriMoments kiriTally_Moments(const kiriTally* tally, double extent);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -6,6 +6,10 @@
 
 #include <math.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct kiriVec2 {
     double x, y;
 } kiriVec2;
@@ -158,5 +162,9 @@ kiriVec2 kiriMoments_Center(const kiriMoments* m);
 
 /* The same patch about another origin. */
 kiriMoments kiriMoments_About(const kiriMoments* m, kiriVec2 origin);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

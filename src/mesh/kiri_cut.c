@@ -1,11 +1,11 @@
 #include "kiri_cut.h"
 
 /* The range of the lattice: the box of the sheet and half its longer side around it. */
-static const double LowestCoordinate = -268435456.0, HighestCoordinate = 805306368.0;
+static const double LowestCoordinate = -0.5 * KIRI_LATTICE, HighestCoordinate = 1.5 * KIRI_LATTICE;
 
 /* One straight move of a blade. The mesh is walked as the plane triangulation that it is, whether edges are open or
    not; only the outline stops the walk. So older cuts are nothing special. */
-typedef struct Walk {
+typedef struct BladeWalk {
     kiriMeshData* mesh;
     kiriLatticePoint from, to;
     double snap;
@@ -13,55 +13,56 @@ typedef struct Walk {
     int32_t vertex;      /* and a vertex there; KIRI_NONE outside the sheet */
     int32_t splits;      /* triangles made or reshaped */
     bool failed;         /* no memory */
-} Walk;
+} BladeWalk;
 
-static bool SamePlace(kiriLatticePoint a, kiriLatticePoint b)
+static bool IsSamePoint(kiriLatticePoint a, kiriLatticePoint b)
 {
     return a.x == b.x && a.y == b.y;
 }
 
-static kiriLatticePoint PlaceOf(const Walk* walk, int32_t vertex)
+static kiriLatticePoint VertexPoint(const BladeWalk* walk, int32_t vertex)
 {
+    KIRI_ASSERT(vertex >= 0 && vertex < walk->mesh->vertices.count);
     return walk->mesh->vertices.data[vertex].at;
 }
 
-static int64_t Dot(kiriLatticePoint o, kiriLatticePoint a, kiriLatticePoint b)
+static int64_t LatticeDot(kiriLatticePoint o, kiriLatticePoint a, kiriLatticePoint b)
 {
     return ((int64_t)a.x - o.x) * ((int64_t)b.x - o.x) + ((int64_t)a.y - o.y) * ((int64_t)b.y - o.y);
 }
 
 /* Every step must bring the blade nearer to its target: so the walk ends, whatever rounding and snapping do. */
-static bool IsNearer(const Walk* walk, kiriLatticePoint p)
+static bool IsNearerTarget(const BladeWalk* walk, kiriLatticePoint p)
 {
     return kiriDistanceSquared(p, walk->to) < kiriDistanceSquared(walk->at, walk->to);
 }
 
-/* Where an edge of the outline passes through the place of a vertex of another part, splitting it is no step, but the
+/* Where an edge of the outline passes through a vertex of another part, splitting it is no step, but the
    next step goes on from there. */
-static bool IsAsNear(const Walk* walk, kiriLatticePoint p)
+static bool IsNearerOrHere(const BladeWalk* walk, kiriLatticePoint p)
 {
-    return IsNearer(walk, p) || SamePlace(walk->at, p);
+    return IsNearerTarget(walk, p) || IsSamePoint(walk->at, p);
 }
 
-static bool IsWithin(kiriLatticePoint a, kiriLatticePoint b, double distance)
+static bool IsWithinDistance(kiriLatticePoint a, kiriLatticePoint b, double distance)
 {
     return (double)kiriDistanceSquared(a, b) <= distance * distance;
 }
 
-/* How near a place is to the line that the blade was told to follow. Measured from where the move began, not from where
+/* Is a point so near to the line that the blade was told to follow? Measured from where the move began, not from where
    the last snap has led: small errors must not add up to a detour. */
-static bool IsOnLine(const Walk* walk, kiriLatticePoint p, double distance)
+static bool IsOnLine(const BladeWalk* walk, kiriLatticePoint p, double distance)
 {
     double length = sqrt((double)kiriDistanceSquared(walk->from, walk->to));
     return fabs((double)kiriOrient(walk->from, walk->to, p)) <= distance * length;
 }
 
-static kiriLatticePoint Between(kiriLatticePoint a, kiriLatticePoint b, double share)
+static kiriLatticePoint LatticeBetween(kiriLatticePoint a, kiriLatticePoint b, double share)
 {
     return kiriMesh_Round(kiriVec2_Make(a.x + share * ((double)b.x - a.x), a.y + share * ((double)b.y - a.y)));
 }
 
-static int32_t SplitEdge(Walk* walk, int32_t h, kiriLatticePoint at)
+static int32_t SplitEdge(BladeWalk* walk, int32_t h, kiriLatticePoint at)
 {
     walk->splits += kiriMesh_Twin(walk->mesh, h) == KIRI_NONE ? 2 : 4;
     int32_t vertex = kiriMesh_SplitEdge(walk->mesh, h, at);
@@ -69,7 +70,7 @@ static int32_t SplitEdge(Walk* walk, int32_t h, kiriLatticePoint at)
     return vertex;
 }
 
-static int32_t SplitTriangle(Walk* walk, int32_t triangle, kiriLatticePoint at)
+static int32_t SplitTriangle(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
 {
     walk->splits += 3;
     int32_t vertex = kiriMesh_SplitTriangle(walk->mesh, triangle, at);
@@ -77,9 +78,9 @@ static int32_t SplitTriangle(Walk* walk, int32_t triangle, kiriLatticePoint at)
     return vertex;
 }
 
-/* ---- Around a place ---------------------------------------------------------------------------------------------- */
+/* ---- Around a vertex --------------------------------------------------------------------------------------------- */
 
-/* Half-edges that leave the place of a vertex, counter-clockwise, over open edges too: from the outline on, or all
+/* Half-edges that leave the point of a vertex, counter-clockwise, over open edges too: from the outline on, or all
    around. */
 static int32_t FirstAround(const kiriMeshData* mesh, int32_t vertex)
 {
@@ -101,17 +102,17 @@ static int32_t NextAround(const kiriMeshData* mesh, int32_t h, int32_t first)
 }
 
 /* Does the way to the target start in the wedge left of h, from h (with it) to the previous half-edge (without it)? */
-static bool WedgeHolds(const Walk* walk, int32_t h)
+static bool WedgeHolds(const BladeWalk* walk, int32_t h)
 {
     const kiriMeshData* mesh = walk->mesh;
-    int64_t right = kiriOrient(walk->at, PlaceOf(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h))), walk->to);
-    int64_t left = kiriOrient(walk->at, PlaceOf(walk, kiriMesh_Tail(mesh, kiriEdge_Previous(h))), walk->to);
+    int64_t right = kiriOrient(walk->at, VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h))), walk->to);
+    int64_t left = kiriOrient(walk->at, VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Previous(h))), walk->to);
     return right >= 0 && left < 0;
 }
 
 /* The half-edge whose wedge holds the way to the target, or KIRI_NONE: the blade leaves the sheet. Where corners of the
    outline touch, twins do not lead from one to the other, but their triangles are in the same square. */
-static int32_t FindWedge(const Walk* walk)
+static int32_t FindWedge(const BladeWalk* walk)
 {
     const kiriMeshData* mesh = walk->mesh;
     int32_t first = FirstAround(mesh, walk->vertex), found = KIRI_NONE;
@@ -124,7 +125,7 @@ static int32_t FindWedge(const Walk* walk)
     for (; slot != KIRI_NONE; slot = mesh->squares.nodes.data[slot].next) {
         int32_t h = 3 * mesh->squares.nodes.data[slot].triangle;
         for (int32_t end = h + 3; h < end; ++h) {
-            bool isHere = SamePlace(PlaceOf(walk, kiriMesh_Tail(mesh, h)), walk->at);
+            bool isHere = IsSamePoint(VertexPoint(walk, kiriMesh_Tail(mesh, h)), walk->at);
             if (isHere && (found == KIRI_NONE || h < found) && WedgeHolds(walk, h)) {
                 found = h;
             }
@@ -133,15 +134,15 @@ static int32_t FindWedge(const Walk* walk)
     return found;
 }
 
-/* Opens the edge between two neighbouring places. */
-static bool OpenBetween(Walk* walk, int32_t vertex, kiriLatticePoint other)
+/* Opens the edge from a vertex to a neighbouring point. */
+static bool OpenBetween(BladeWalk* walk, int32_t vertex, kiriLatticePoint other)
 {
     const kiriMeshData* mesh = walk->mesh;
     int32_t first = FirstAround(mesh, vertex);
     for (int32_t h = first; h != KIRI_NONE; h = NextAround(mesh, h, first)) {
         int32_t previous = kiriEdge_Previous(h);
-        bool leaves = SamePlace(PlaceOf(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h))), other);
-        if (leaves || SamePlace(PlaceOf(walk, kiriMesh_Tail(mesh, previous)), other)) {
+        bool leaves = IsSamePoint(VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h))), other);
+        if (leaves || IsSamePoint(VertexPoint(walk, kiriMesh_Tail(mesh, previous)), other)) {
             walk->failed = !kiriMesh_Open(walk->mesh, leaves ? h : previous);
             return !walk->failed;
         }
@@ -151,28 +152,28 @@ static bool OpenBetween(Walk* walk, int32_t vertex, kiriLatticePoint other)
 
 /* ---- Vertices for the blade -------------------------------------------------------------------------------------- */
 
-static int32_t NearestCorner(const Walk* walk, int32_t triangle, kiriLatticePoint at)
+static int32_t NearestCorner(const BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
 {
     const int32_t* v = walk->mesh->triangles.data[triangle].vertex;
     int32_t nearest = v[0];
     for (int i = 1; i < 3; ++i) {
-        if (kiriDistanceSquared(PlaceOf(walk, v[i]), at) < kiriDistanceSquared(PlaceOf(walk, nearest), at)) {
+        if (kiriDistanceSquared(VertexPoint(walk, v[i]), at) < kiriDistanceSquared(VertexPoint(walk, nearest), at)) {
             nearest = v[i];
         }
     }
     return nearest;
 }
 
-/* The half-edge of the triangle that is nearest to a place in it, and its foot there. */
-static int32_t NearestEdge(const Walk* walk, int32_t triangle, kiriLatticePoint at, kiriLatticePoint* foot)
+/* The half-edge of the triangle that is nearest to a point in it, and the foot of the point on it. */
+static int32_t NearestEdge(const BladeWalk* walk, int32_t triangle, kiriLatticePoint at, kiriLatticePoint* foot)
 {
     kiriLatticePoint c[3];
     kiriMesh_Corners(walk->mesh, triangle, c);
     int32_t nearest = KIRI_NONE;
     for (int i = 0; i < 3; ++i) {
         kiriLatticePoint a = c[i], b = c[(i + 1) % 3];
-        double share = (double)Dot(a, b, at) / (double)kiriDistanceSquared(a, b);
-        kiriLatticePoint p = Between(a, b, share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share);
+        double share = (double)LatticeDot(a, b, at) / (double)kiriDistanceSquared(a, b);
+        kiriLatticePoint p = LatticeBetween(a, b, share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share);
         if (nearest == KIRI_NONE || kiriDistanceSquared(p, at) < kiriDistanceSquared(*foot, at)) {
             nearest = 3 * triangle + i;
             *foot = p;
@@ -181,16 +182,16 @@ static int32_t NearestEdge(const Walk* walk, int32_t triangle, kiriLatticePoint 
     return nearest;
 }
 
-/* A vertex for a place in the triangle: a corner or a point of an edge where they are near, or a new one inside. */
-static int32_t VertexIn(Walk* walk, int32_t triangle, kiriLatticePoint at)
+/* A vertex for a point in the triangle: a corner or a point of an edge where they are near, or a new one inside. */
+static int32_t VertexIn(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
 {
     int32_t corner = NearestCorner(walk, triangle, at);
-    if (IsWithin(PlaceOf(walk, corner), at, walk->snap)) {
+    if (IsWithinDistance(VertexPoint(walk, corner), at, walk->snap)) {
         return corner;
     }
     kiriLatticePoint foot;
     int32_t h = NearestEdge(walk, triangle, at, &foot);
-    if (IsWithin(foot, at, walk->snap) && kiriMesh_CanSplitEdge(walk->mesh, h, foot)) {
+    if (IsWithinDistance(foot, at, walk->snap) && kiriMesh_CanSplitEdge(walk->mesh, h, foot)) {
         return SplitEdge(walk, h, foot);
     }
     return kiriMesh_CanSplitTriangle(walk->mesh, triangle, at) ? SplitTriangle(walk, triangle, at) : corner;
@@ -198,48 +199,48 @@ static int32_t VertexIn(Walk* walk, int32_t triangle, kiriLatticePoint at)
 
 /* A vertex where the way to the target crosses half-edge h: one of its ends where that is near, or a new one, or an end
    for want of a better. KIRI_NONE: there is none that brings the blade nearer. */
-static int32_t VertexOn(Walk* walk, int32_t h)
+static int32_t VertexOn(BladeWalk* walk, int32_t h)
 {
     int32_t a = kiriMesh_Tail(walk->mesh, h), b = kiriMesh_Tail(walk->mesh, kiriEdge_Next(h));
-    kiriLatticePoint pa = PlaceOf(walk, a), pb = PlaceOf(walk, b);
+    kiriLatticePoint pa = VertexPoint(walk, a), pb = VertexPoint(walk, b);
     double toA = (double)kiriOrient(walk->at, walk->to, pa), toB = (double)kiriOrient(walk->at, walk->to, pb);
     double share = toA / (toA - toB);
-    kiriLatticePoint crossing = Between(pa, pb, share);
+    kiriLatticePoint crossing = LatticeBetween(pa, pb, share);
     int32_t near = share < 0.5 ? a : b, far = share < 0.5 ? b : a;
-    bool canTake = IsNearer(walk, PlaceOf(walk, near));
-    if (canTake && IsWithin(PlaceOf(walk, near), crossing, walk->snap) &&
-        IsOnLine(walk, PlaceOf(walk, near), 2.0 * walk->snap)) {
+    bool canTake = IsNearerTarget(walk, VertexPoint(walk, near));
+    if (canTake && IsWithinDistance(VertexPoint(walk, near), crossing, walk->snap) &&
+        IsOnLine(walk, VertexPoint(walk, near), 2.0 * walk->snap)) {
         return near;
     }
-    if (IsAsNear(walk, crossing) && kiriMesh_CanSplitEdge(walk->mesh, h, crossing)) {
+    if (IsNearerOrHere(walk, crossing) && kiriMesh_CanSplitEdge(walk->mesh, h, crossing)) {
         return SplitEdge(walk, h, crossing);
     }
-    return canTake ? near : IsNearer(walk, PlaceOf(walk, far)) ? far : KIRI_NONE;
+    return canTake ? near : IsNearerTarget(walk, VertexPoint(walk, far)) ? far : KIRI_NONE;
 }
 
 /* ---- Into the sheet ---------------------------------------------------------------------------------------------- */
 
-/* The first place, as a share of the way, where the way comes in over half-edge h; 2 where it does not. Both ends count
+/* The first point, as a share of the way, where the way comes in over half-edge h; 2 where it does not. Both ends count
    as part of the edge: a corner that the way only touches is taken, and left again at once. */
-static double EntryOver(const Walk* walk, int32_t h)
+static double EntryOver(const BladeWalk* walk, int32_t h)
 {
     const kiriMeshData* mesh = walk->mesh;
-    kiriLatticePoint a = PlaceOf(walk, kiriMesh_Tail(mesh, h)),
-                     b = PlaceOf(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h)));
+    kiriLatticePoint a = VertexPoint(walk, kiriMesh_Tail(mesh, h)),
+                     b = VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h)));
     int64_t here = kiriOrient(a, b, walk->at), there = kiriOrient(a, b, walk->to);
-    if (kiriMesh_Twin(mesh, h) != KIRI_NONE || here > 0 || there <= 0 || SamePlace(a, walk->at) ||
-        SamePlace(b, walk->at) || kiriOrient(walk->at, walk->to, a) < 0 || kiriOrient(walk->at, walk->to, b) > 0) {
+    if (kiriMesh_Twin(mesh, h) != KIRI_NONE || here > 0 || there <= 0 || IsSamePoint(a, walk->at) ||
+        IsSamePoint(b, walk->at) || kiriOrient(walk->at, walk->to, a) < 0 || kiriOrient(walk->at, walk->to, b) > 0) {
         return 2.0;
     }
     return (double)-here / ((double)there - (double)here);
 }
 
-typedef struct Entry {
+typedef struct SheetEntry {
     int32_t edge;
     double share;
-} Entry;
+} SheetEntry;
 
-static void FindEntryInSquare(const Walk* walk, int32_t square, Entry* entry)
+static void FindEntryInSquare(const BladeWalk* walk, int32_t square, SheetEntry* entry)
 {
     const kiriMeshData* mesh = walk->mesh;
     for (int32_t i = mesh->squares.head[square]; i != KIRI_NONE; i = mesh->squares.nodes.data[i].next) {
@@ -264,12 +265,12 @@ static void SquaresBetween(int32_t side, int32_t count, double a, double b, int3
 }
 
 /* Where the way to the target comes into the sheet first. Only squares along the way are looked at, row by row. */
-static int32_t FindEntry(const Walk* walk)
+static int32_t FindSheetEntry(const BladeWalk* walk)
 {
     const kiriSquares* squares = &walk->mesh->squares;
     double dx = (double)walk->to.x - walk->at.x, dy = (double)walk->to.y - walk->at.y;
     int32_t firstRow, lastRow, first, last;
-    Entry entry = { KIRI_NONE, 2.0 };
+    SheetEntry entry = { KIRI_NONE, 2.0 };
     SquaresBetween(squares->side, squares->rows, walk->at.y, walk->to.y, &firstRow, &lastRow);
     for (int32_t row = firstRow; row <= lastRow; ++row) {
         double low = ((double)row * squares->side - 3.0 - walk->at.y) / (dy != 0.0 ? dy : 1.0);
@@ -286,74 +287,78 @@ static int32_t FindEntry(const Walk* walk)
     return entry.edge;
 }
 
-/* From outside, or from the outline outwards: to the next place of the sheet, or all the way to the target. */
-static bool Enter(Walk* walk)
+/* From outside, or from the outline outwards: to the next point of the sheet, or all the way to the target. */
+static bool EnterSheet(BladeWalk* walk)
 {
-    int32_t h = FindEntry(walk);
+    int32_t h = FindSheetEntry(walk);
     walk->vertex = h == KIRI_NONE ? KIRI_NONE : VertexOn(walk, h);
-    walk->at = walk->vertex == KIRI_NONE ? walk->to : PlaceOf(walk, walk->vertex);
+    walk->at = walk->vertex == KIRI_NONE ? walk->to : VertexPoint(walk, walk->vertex);
     return !walk->failed;
 }
 
 /* ---- Through the sheet ------------------------------------------------------------------------------------------- */
 
 /* Can the blade go along the edge to this end of it? It must not go past the target. */
-static bool CanFollow(const Walk* walk, int32_t vertex)
+static bool CanFollow(const BladeWalk* walk, int32_t vertex)
 {
-    kiriLatticePoint p = PlaceOf(walk, vertex);
-    return IsNearer(walk, p) && Dot(walk->to, p, walk->at) > 0 && IsOnLine(walk, p, walk->snap);
+    kiriLatticePoint p = VertexPoint(walk, vertex);
+    return IsNearerTarget(walk, p) && LatticeDot(walk->to, p, walk->at) > 0 && IsOnLine(walk, p, walk->snap);
 }
 
 /* The next vertex in the triangle left of h, whose wedge holds the way to the target. KIRI_NONE: the blade stops. */
-static int32_t NextVertex(Walk* walk, int32_t h)
+static int32_t NextVertex(BladeWalk* walk, int32_t h)
 {
     int32_t opposite = kiriEdge_Next(h);
     int32_t a = kiriMesh_Tail(walk->mesh, opposite), b = kiriMesh_Tail(walk->mesh, kiriEdge_Next(opposite));
     if (CanFollow(walk, a) || CanFollow(walk, b)) {
         return CanFollow(walk, a) ? a : b;
     }
-    if (kiriOrient(PlaceOf(walk, a), PlaceOf(walk, b), walk->to) < 0) {
+    if (kiriOrient(VertexPoint(walk, a), VertexPoint(walk, b), walk->to) < 0) {
         return VertexOn(walk, opposite);
     }
     int32_t vertex = VertexIn(walk, h / 3, walk->to);
-    return vertex != KIRI_NONE && IsNearer(walk, PlaceOf(walk, vertex)) ? vertex : KIRI_NONE;
+    return vertex != KIRI_NONE && IsNearerTarget(walk, VertexPoint(walk, vertex)) ? vertex : KIRI_NONE;
 }
 
 /* The blade starts amid a triangle: it needs a vertex there. */
-static void Land(Walk* walk, int32_t triangle)
+static void StartInTriangle(BladeWalk* walk, int32_t triangle)
 {
     walk->vertex = VertexIn(walk, triangle, walk->at);
-    walk->at = walk->failed ? walk->at : PlaceOf(walk, walk->vertex);
+    walk->at = walk->failed ? walk->at : VertexPoint(walk, walk->vertex);
 }
 
 /* One step of the walk. False: the blade is where it can get, or there is no memory. */
-static bool Step(Walk* walk)
+static bool StepBlade(BladeWalk* walk)
 {
     int32_t triangle = walk->vertex == KIRI_NONE ? kiriMesh_Locate(walk->mesh, walk->at) : KIRI_NONE;
     if (triangle != KIRI_NONE) {
-        Land(walk, triangle);
+        StartInTriangle(walk, triangle);
         return !walk->failed;
     }
     int32_t h = walk->vertex == KIRI_NONE ? KIRI_NONE : FindWedge(walk);
     if (h == KIRI_NONE) {
-        return Enter(walk);
+        return EnterSheet(walk);
     }
     int32_t here = kiriMesh_Tail(walk->mesh, h), next = NextVertex(walk, h);
-    if (next == KIRI_NONE || !OpenBetween(walk, here, PlaceOf(walk, next))) {
+    if (next == KIRI_NONE || !OpenBetween(walk, here, VertexPoint(walk, next))) {
         return false;
     }
     walk->vertex = next;
-    walk->at = PlaceOf(walk, next);
+    walk->at = VertexPoint(walk, next);
     return true;
 }
 
 kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBlade* blade, kiriLatticePoint to, double snap, kiriQuota* quota)
 {
-    Walk walk = { mesh, blade->isOnItsWay ? blade->from : blade->at, to, snap, blade->at, blade->vertex, 0, false };
-    bool isOnItsWay = !SamePlace(walk.from, to);
+    BladeWalk walk = {
+        mesh, blade->isOnItsWay ? blade->from : blade->at, to, snap, blade->at, blade->vertex, 0, false
+    };
+    bool isOnItsWay = !IsSamePoint(walk.from, to);
+    KIRI_ASSERT(mesh->isOpen && quota->left >= 0 && snap >= 0.0);
+    KIRI_ASSERT(blade->vertex == KIRI_NONE || IsSamePoint(VertexPoint(&walk, blade->vertex), blade->at));
     while (isOnItsWay && quota->left >= KIRI_MOST_SPLITS) {
         walk.splits = 0;
-        isOnItsWay = Step(&walk) && !SamePlace(walk.at, to);
+        isOnItsWay = StepBlade(&walk) && !IsSamePoint(walk.at, to);
         kiriQuota_Take(quota, walk.splits > 0 ? walk.splits : 1);
     }
     if (walk.failed) {
@@ -366,7 +371,7 @@ kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBlade* blade, kiriLatticePoint
     return isOnItsWay ? KIRI_MORE : KIRI_DONE;
 }
 
-static double Clamp(double x, double low, double high)
+static double ClampCoordinate(double x, double low, double high)
 {
     return x < low ? low : x > high ? high : x;
 }
@@ -374,8 +379,9 @@ static double Clamp(double x, double low, double high)
 kiriBlade kiriCut_Place(const kiriMeshData* mesh, kiriVec2 local)
 {
     kiriBlade blade;
-    blade.at = kiriMesh_Round(kiriVec2_Make(Clamp(local.x / mesh->step, LowestCoordinate, HighestCoordinate),
-                                            Clamp(local.y / mesh->step, LowestCoordinate, HighestCoordinate)));
+    blade.at =
+        kiriMesh_Round(kiriVec2_Make(ClampCoordinate(local.x / mesh->step, LowestCoordinate, HighestCoordinate),
+                                     ClampCoordinate(local.y / mesh->step, LowestCoordinate, HighestCoordinate)));
     blade.vertex = KIRI_NONE;
     blade.isOnItsWay = false;
     blade.from = blade.at;

@@ -3,12 +3,16 @@
 #ifndef KIRI_CUT_H
 #define KIRI_CUT_H
 
-#include "kiri_mesh.h"
+#include "kiri_mesh_edit.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* Where the blade is. */
 typedef struct kiriBlade {
     kiriLatticePoint at;
-    int32_t vertex;        /* a vertex at that place, or KIRI_NONE: not in the sheet, or not yet moved */
+    int32_t vertex;        /* a vertex at that point, or KIRI_NONE: not in the sheet, or not yet moved */
     bool isOnItsWay;       /* the last move was interrupted, */
     kiriLatticePoint from; /* and began here */
 } kiriBlade;
@@ -25,12 +29,16 @@ enum { KIRI_MOST_SPLITS = 4 };
    is then where it was before the call. */
 kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBlade* blade, kiriLatticePoint to, double snap, kiriQuota* quota);
 
-/* The blade at a place of the local rest plane, for kiriCut_Move. Positions far outside are pulled in to the edge of
+/* The blade at a rest point (local), for kiriCut_Move. Positions far outside are pulled in to the edge of
    the lattice's range; pass segments through kiriCut_Clip first where that matters. */
 kiriBlade kiriCut_Place(const kiriMeshData* mesh, kiriVec2 local);
 
 /* Cuts the segment down to the range of the lattice (the sheet's box and half its size around it), in place. False when
    nothing is left. Coordinates are local, finite, and of any size. */
 bool kiriCut_Clip(const kiriMeshData* mesh, kiriVec2* from, kiriVec2* to);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-typedef struct Range {
+typedef struct SquareBox {
     int32_t firstColumn, lastColumn, firstRow, lastRow;
-} Range;
+} SquareBox;
 
 static int64_t CeilDivide(int64_t a, int64_t b)
 {
@@ -24,7 +24,7 @@ static int32_t Max3(int32_t a, int32_t b, int32_t c)
 }
 
 /* Empty squares, whose number and side are set. */
-static bool MakeRoom(kiriSquares* squares, kiriMemory* memory)
+static bool AllocateSquares(kiriSquares* squares, kiriMemory* memory)
 {
     squares->perStep = 1.0 / squares->side;
     squares->freeNode = KIRI_NONE;
@@ -50,7 +50,7 @@ bool kiriSquares_Init(kiriSquares* squares, kiriMemory* memory, kiriLatticePoint
     squares->side = (int32_t)(2 * CeilDivide(longer + 2, 2 * (int64_t)resolution));
     squares->columns = (int32_t)CeilDivide((int64_t)extent.x + 2, squares->side);
     squares->rows = (int32_t)CeilDivide((int64_t)extent.y + 2, squares->side);
-    return MakeRoom(squares, memory);
+    return AllocateSquares(squares, memory);
 }
 
 bool kiriSquares_InitLike(kiriSquares* squares, kiriMemory* memory, const kiriSquares* like)
@@ -59,7 +59,7 @@ bool kiriSquares_InitLike(kiriSquares* squares, kiriMemory* memory, const kiriSq
     squares->side = like->side;
     squares->columns = like->columns;
     squares->rows = like->rows;
-    return MakeRoom(squares, memory);
+    return AllocateSquares(squares, memory);
 }
 
 /* The column or row of an even coordinate, not negative. The quotient is at least 1 / side from a whole number: so its
@@ -70,18 +70,21 @@ static int32_t LineOf(const kiriSquares* squares, int32_t coordinate)
 }
 
 /* The squares that the box of the corners overlaps. Corners are even and grid lines odd, so no corner is on a line. */
-static Range BoxOf(const kiriSquares* squares, const kiriLatticePoint c[3])
+static SquareBox BoxOf(const kiriSquares* squares, const kiriLatticePoint c[3])
 {
-    Range range;
+    SquareBox range;
     range.firstColumn = LineOf(squares, Min3(c[0].x, c[1].x, c[2].x));
     range.lastColumn = LineOf(squares, Max3(c[0].x, c[1].x, c[2].x));
     range.firstRow = LineOf(squares, Min3(c[0].y, c[1].y, c[2].y));
     range.lastRow = LineOf(squares, Max3(c[0].y, c[1].y, c[2].y));
+    KIRI_ASSERT(range.firstColumn >= 0 && range.lastColumn < squares->columns);
+    KIRI_ASSERT(range.firstRow >= 0 && range.lastRow < squares->rows);
     return range;
 }
 
-static kiriLatticePoint CornerOf(const kiriSquares* squares, int32_t column, int32_t row)
+static kiriLatticePoint CornerAt(const kiriSquares* squares, int32_t column, int32_t row)
 {
+    KIRI_ASSERT(column >= 0 && column < squares->columns && row >= 0 && row < squares->rows);
     kiriLatticePoint corner = { column * squares->side - 1, row * squares->side - 1 };
     return corner;
 }
@@ -102,24 +105,26 @@ static bool EdgesOverlap(kiriLatticePoint low, int32_t side, const kiriLatticePo
 }
 
 /* Does the triangle overlap this square of its box? In a box of one row or column it goes through all squares. */
-static bool OverlapsInBox(const kiriSquares* squares, Range box, int32_t column, int32_t row,
+static bool OverlapsInBox(const kiriSquares* squares, SquareBox box, int32_t column, int32_t row,
                           const kiriLatticePoint c[3])
 {
     return box.firstColumn == box.lastColumn || box.firstRow == box.lastRow ||
-           EdgesOverlap(CornerOf(squares, column, row), squares->side, c);
+           EdgesOverlap(CornerAt(squares, column, row), squares->side, c);
 }
 
 bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriLatticePoint corners[3])
 {
-    Range r = BoxOf(squares, corners);
+    SquareBox r = BoxOf(squares, corners);
     int32_t column = square % squares->columns, row = square / squares->columns;
     return column >= r.firstColumn && column <= r.lastColumn && row >= r.firstRow && row <= r.lastRow &&
            OverlapsInBox(squares, r, column, row, corners);
 }
 
-static void MarkDirty(kiriSquares* squares, int32_t square)
+static void MarkSquareDirty(kiriSquares* squares, int32_t square)
 {
+    KIRI_ASSERT(square >= 0 && square < squares->columns * squares->rows);
     if (!squares->isDirty[square]) {
+        KIRI_ASSERT(squares->dirty.count < squares->dirty.capacity);
         squares->isDirty[square] = 1;
         squares->dirty.data[squares->dirty.count++] = square;
     }
@@ -152,12 +157,12 @@ bool kiriSquares_RunsThrough(const kiriSquares* squares, int32_t square, kiriLat
 void kiriSquares_MarkEdgeDirty(kiriSquares* squares, kiriLatticePoint a, kiriLatticePoint b)
 {
     const kiriLatticePoint ends[3] = { a, b, b };
-    Range r = BoxOf(squares, ends);
+    SquareBox r = BoxOf(squares, ends);
     for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
         for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
             int32_t square = row * squares->columns + column;
             if (kiriSquares_RunsThrough(squares, square, a, b)) {
-                MarkDirty(squares, square);
+                MarkSquareDirty(squares, square);
             }
         }
     }
@@ -186,9 +191,10 @@ static bool ReserveUndo(kiriSquares* squares, kiriMemory* memory)
 }
 
 /* Room for it is reserved. */
-static void PushUndo(kiriSquares* squares, int32_t place, kiriSquareNode was)
+static void PushUndo(kiriSquares* squares, int32_t index, kiriSquareNode was)
 {
-    kiriSquareUndo undo = { place, was };
+    KIRI_ASSERT(squares->undo.count < squares->undo.capacity);
+    kiriSquareUndo undo = { index, was };
     squares->undo.data[squares->undo.count++] = undo;
 }
 
@@ -215,7 +221,7 @@ static void RestoreDirty(kiriSquares* squares)
 {
     if (squares->oldDirtyCount == KIRI_NONE) {
         for (int32_t square = 0; square < squares->columns * squares->rows; ++square) {
-            MarkDirty(squares, square);
+            MarkSquareDirty(squares, square);
         }
         squares->oldDirtyCount = squares->dirty.count;
     }
@@ -226,12 +232,13 @@ static void RestoreDirty(kiriSquares* squares)
 
 void kiriSquares_Rollback(kiriSquares* squares)
 {
+    KIRI_ASSERT(squares->isOpen && squares->nodes.count >= squares->oldNodeCount);
     while (squares->undo.count > 0) {
         kiriSquareUndo undo = squares->undo.data[--squares->undo.count];
-        if (undo.place < 0) {
-            squares->head[~undo.place] = undo.was.next;
+        if (undo.index < 0) {
+            squares->head[~undo.index] = undo.was.next;
         } else {
-            squares->nodes.data[undo.place] = undo.was;
+            squares->nodes.data[undo.index] = undo.was;
         }
     }
     squares->nodes.count = squares->oldNodeCount;
@@ -257,7 +264,7 @@ static bool AddNode(kiriSquares* squares, kiriMemory* memory, int32_t square, in
     }
     SetNode(squares, slot, triangle, squares->head[square]);
     SetHead(squares, square, slot);
-    MarkDirty(squares, square);
+    MarkSquareDirty(squares, square);
     return true;
 }
 
@@ -287,7 +294,7 @@ static bool RemoveNode(kiriSquares* squares, kiriMemory* memory, int32_t square,
     }
     SetNode(squares, slot, KIRI_NONE, squares->freeNode);
     squares->freeNode = slot;
-    MarkDirty(squares, square);
+    MarkSquareDirty(squares, square);
     return true;
 }
 
@@ -297,7 +304,8 @@ typedef bool NodeChange(kiriSquares* squares, kiriMemory* memory, int32_t square
 static bool ChangeNodes(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3],
                         NodeChange* change)
 {
-    Range r = BoxOf(squares, corners);
+    KIRI_ASSERT(triangle >= 0 && kiriOrient(corners[0], corners[1], corners[2]) > 0);
+    SquareBox r = BoxOf(squares, corners);
     for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
         for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
             if (OverlapsInBox(squares, r, column, row, corners) &&
@@ -330,5 +338,5 @@ int32_t kiriSquares_At(const kiriSquares* squares, kiriLatticePoint p)
 
 kiriLatticePoint kiriSquares_Corner(const kiriSquares* squares, int32_t square)
 {
-    return CornerOf(squares, square % squares->columns, square / squares->columns);
+    return CornerAt(squares, square % squares->columns, square / squares->columns);
 }

@@ -7,6 +7,10 @@
 #include "../core/kiri_array.h"
 #include "../core/kiri_vec.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* One triangle in one square. */
 typedef struct kiriSquareNode {
     int32_t triangle;
@@ -15,7 +19,7 @@ typedef struct kiriSquareNode {
 
 /* What a node or a head was before a change. */
 typedef struct kiriSquareUndo {
-    int32_t place; /* the node's slot; or ~square, whose head was `was.next` */
+    int32_t index; /* the node's slot; or ~square, whose head was `was.next` */
     kiriSquareNode was;
 } kiriSquareUndo;
 
@@ -70,5 +74,9 @@ kiriLatticePoint kiriSquares_Corner(const kiriSquares* squares, int32_t square);
 
 /* Do the interiors overlap? Exact. */
 bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriLatticePoint corners[3]);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,0 +1,22 @@
+/* Sorting of indices in place: no allocation, O(n log n) whatever the input (quicksort, with heapsort behind it). */
+#ifndef KIRI_SORT_H
+#define KIRI_SORT_H
+
+#include "kiri_base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Does item a come before item b? A strict order: of two different items one comes before the other, so that the result
+   does not depend on the order before. */
+typedef bool kiriBeforeFn(const void* context, int32_t a, int32_t b);
+
+/* `before` null: by the items themselves. */
+void kiriSort(int32_t* items, int32_t count, kiriBeforeFn* before, const void* context);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
