@@ -173,6 +173,9 @@ static void Parameters(uint64_t* hash, const kiriSheetData* sheet)
     Real(hash, sheet->settings.collisionPoints);
     Int(hash, sheet->settings.popping);
     Int(hash, sheet->settings.fromScratch);
+    if (sheet->settings.skinning != KIRI_SKINNING_LINEAR) {
+        Int(hash, sheet->settings.skinning); /* what fades is what is seen to jump */
+    }
 }
 
 static void Contacts(uint64_t* hash, const kiriContact* contacts, int32_t count)

@@ -3,8 +3,6 @@
 #include "../sheet/kiri_build.h"
 #include "../sheet/kiri_seen.h"
 
-#define kiriPool_HasRoom(pool, count) true
-
 kiriResult kiriWorld_ReserveIds(kiriWorld* world, kiriPool* pool, int64_t count)
 {
     if (!kiriPool_HasRoom(pool, count)) {
