@@ -182,6 +182,9 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(SCENE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lcmocka -lm
 
+# Reads a world from two threads.
+$(BUILD)/tests/test_readers: LDFLAGS += -pthread
+
 # Tests that compare with the heavy elastica.
 $(BUILD)/tests/test_affine $(BUILD)/tests/test_point: $(BUILD)/tests/reference.c.o
 
