@@ -159,7 +159,7 @@ static kiriSheet AddForCut(Host* host, int32_t columns)
 
 static uint64_t LayoutOf(const Host* host)
 {
-    return kiriSnapshot_HashLayout(host->world->sheets.data[0]);
+    return kiriStateHash_OfLayout(host->world->sheets.data[0]);
 }
 
 /* What a cut leaves when nothing fails. */
