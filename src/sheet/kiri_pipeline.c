@@ -74,9 +74,10 @@ bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end)
 void kiriPipeline_Start(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
+    u->start = (kiriUpdateStart){ u->stage, u->cut.taken, u->cut.meshChanged, u->spent };
+    u->isBegun = false;
     if (u->stage == KIRI_NONE && sheet->queue.count > 0) {
-        kiriCutWork none = { sheet->queue.data[0].stamp, 0, 0, false };
-        u->cut = none;
+        u->cut = (kiriCutWork){ sheet->queue.data[0].stamp, 0, 0, false };
         u->stage = KIRI_STAGE_CUT;
         u->step = 0;
         u->spent = 0;
@@ -84,18 +85,13 @@ void kiriPipeline_Start(kiriSheetData* sheet)
             u->cut.count += 1;
         }
     }
-    u->isBegun = false;
     sheet->seen.fades.jump = sheet->seen.fades.move = 0.0;
 }
 
 kiriProgress kiriPipeline_Run(kiriSheetData* sheet, kiriQuotas* quotas, const kiriWatch* watch)
 {
-    kiriUpdate* u = sheet->update;
-    KIRI_ASSERT(u->stage != KIRI_NONE && !u->isBegun);
-    u->isBegun = true;
-    u->startStage = u->stage;
-    u->startTaken = u->cut.taken;
-    u->startMeshChanged = u->cut.meshChanged;
+    KIRI_ASSERT(sheet->update->stage != KIRI_NONE && !sheet->update->isBegun);
+    sheet->update->isBegun = true;
     return RunUpTo(sheet, KIRI_READY, quotas, watch);
 }
 
@@ -114,25 +110,32 @@ void kiriPipeline_Finish(kiriSheetData* sheet)
     u->stage = KIRI_NONE;
 }
 
-void kiriPipeline_Abort(kiriSheetData* sheet)
+/* The mesh, and the blades in it, as the tick found them. */
+static void RollBackMesh(kiriSheetData* sheet)
 {
-    kiriUpdate* u = sheet->update;
-    if (!u->isBegun) {
-        return;
-    }
     kiriMesh_Rollback(&sheet->mesh);
     kiriSkin_Truncate(&sheet->vertexSkin, sheet->mesh.vertices.count);
     for (int32_t i = 0; i < sheet->cuts.count; ++i) {
         sheet->cuts.data[i]->tip = sheet->cuts.data[i]->committed;
     }
-    u->cut.meshChanged = u->startMeshChanged;
-    u->cut.taken = u->startTaken;
-    if (u->stage > KIRI_STAGE_CUT) {
-        kiriStage_Drop(sheet);
-        u->needsRebuild = true;
+}
+
+void kiriPipeline_Abort(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    if (u->isBegun) {
+        RollBackMesh(sheet);
+        if (u->stage > KIRI_STAGE_CUT) {
+            kiriStage_Drop(sheet);
+            u->needsRebuild = true;
+        }
+        u->step = 0;
+        u->isBegun = false;
+        u->spent = u->start.stage == KIRI_STAGE_CUT ? u->start.spent : 0;
+        u->stage = u->start.stage > KIRI_STAGE_CUT ? KIRI_STAGE_GRID : u->start.stage;
+    } else {
+        u->stage = u->start.stage; /* it may have been started in this tick */
     }
-    bool isFresh = u->startStage == KIRI_STAGE_CUT && u->startTaken == 0 && !u->startMeshChanged;
-    u->stage = u->startStage > KIRI_STAGE_CUT ? KIRI_STAGE_GRID : isFresh ? KIRI_NONE : KIRI_STAGE_CUT;
-    u->step = 0;
-    u->isBegun = false;
+    u->cut.taken = u->start.taken;
+    u->cut.meshChanged = u->start.meshChanged;
 }

@@ -41,6 +41,13 @@ typedef struct kiriCommitCounts {
     int32_t cells, weights, vertices, points, links;
 } kiriCommitCounts;
 
+/* What a tick that fails goes back to. */
+typedef struct kiriUpdateStart {
+    int32_t stage, taken;
+    bool meshChanged;
+    int64_t spent;
+} kiriUpdateStart;
+
 typedef struct kiriUpdate {
     int32_t stage;     /* KIRI_STAGE_..., the next to run; KIRI_READY: they are done; KIRI_NONE: nothing is at hand */
     int32_t step;      /* within the stage, see there */
@@ -48,10 +55,8 @@ typedef struct kiriUpdate {
     bool needsRebuild; /* grid, regions and shape are of no use: to be made from scratch */
     bool isScratch;    /* as they are now */
 
-    /* As this tick found it. */
-    bool isBegun;
-    int32_t startStage, startTaken;
-    bool startMeshChanged;
+    kiriUpdateStart start;
+    bool isBegun; /* in this tick */
 
     kiriCutWork cut;
     kiriPlacingWork placing;
