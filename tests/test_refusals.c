@@ -478,6 +478,50 @@ static void TestRefusedAtRandom(void** state)
     }
 }
 
+/* Three sheets, each with a blade whose last point is given after a tick that may be refused. Returns the hash in the end; *refused says whether the n-th allocation of the tick was refused at all. */
+static uint64_t GivePointsAround(int64_t n, bool once, bool* refused)
+{
+    static const float way[6] = { 0.5f, -0.1f, 0.45f, 0.4f, 0.55f, 1.1f };
+    Stand s;
+    kiriSheet sheets[3];
+    kiriCut cuts[3];
+    Stand_Start(&s, NO_WORK);
+    for (int i = 0; i < 3; ++i) {
+        sheets[i] = s.sheet;
+        if (i > 0) {
+            OK(kiriCreateSheet(s.host.world, &s.def, &sheets[i]));
+        }
+        OK(kiriBeginCut(s.host.world, sheets[i], way, &cuts[i]));
+        OK(kiriCut_Extend(s.host.world, cuts[i], way + 2, 1));
+    }
+    *refused = n >= 0 && CallPoorly(&s, &calls[0], n, once) == KIRI_ERROR_MEMORY;
+    for (int i = 0; i < 3; ++i) {
+        OK(kiriCut_Extend(s.host.world, cuts[i], way + 4, 1));
+    }
+    OK(CallTick(&s));
+    uint64_t hash = Host_Hash(&s.host);
+    Stand_Stop(&s);
+    return hash;
+}
+
+/* A refused tick was none: points given after it take effect together with those given before it. */
+static void TestPointsAfterRefusal(void** state)
+{
+    (void)state;
+    bool refused;
+    uint64_t hash = GivePointsAround(-1, true, &refused);
+    for (int once = 0; once < 2; ++once) {
+        int64_t n = 0;
+        for (uint64_t poor = GivePointsAround(0, once != 0, &refused); refused;
+             poor = GivePointsAround(++n, once != 0, &refused)) {
+            if (poor != hash) {
+                fail_msg("points given after the refusal of allocation %d are taken apart", (int)n);
+            }
+        }
+        assert_true(n > 20);
+    }
+}
+
 /* ---- Weights after a refused tick ---- */
 
 enum { PLACES = 256 };
@@ -528,7 +572,7 @@ static void TestWeightsAfterRefusal(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(TestCallsRefused), cmocka_unit_test(TestTicksRefused),
-                                        cmocka_unit_test(TestRefusedAtRandom),
+                                        cmocka_unit_test(TestRefusedAtRandom), cmocka_unit_test(TestPointsAfterRefusal),
                                         cmocka_unit_test(TestWeightsAfterRefusal) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
