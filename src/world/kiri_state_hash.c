@@ -172,7 +172,6 @@ static void Parameters(uint64_t* hash, const kiriSheetData* sheet)
     Int(hash, sheet->settings.iterations);
     Real(hash, sheet->settings.collisionPoints);
     Int(hash, sheet->settings.popping);
-    Int(hash, sheet->settings.fromScratch);
     if (sheet->settings.skinning != KIRI_SKINNING_LINEAR) {
         Int(hash, sheet->settings.skinning); /* what fades is what is seen to jump */
     }
@@ -193,8 +192,9 @@ static void Contacts(uint64_t* hash, const kiriContact* contacts, int32_t count)
 static void Work(uint64_t* hash, const kiriWorld* world, const kiriSheetData* sheet)
 {
     const kiriUpdate* u = sheet->update;
-    bool isLimited = world->budget.cells > 0 || world->budget.samples > 0 || u->stage != KIRI_NONE;
-    Int(hash, isLimited && (u->needsRebuild || u->isScratch));
+    bool isLimited = world->budget.cells > 0 || world->budget.samples > 0;
+    Int(hash, isLimited && sheet->settings.fromScratch);
+    Int(hash, (isLimited || u->stage != KIRI_NONE) && (u->needsRebuild || u->isScratch));
     Int(hash, u->stage);
     if (u->stage != KIRI_NONE) {
         Int(hash, u->step);
