@@ -217,6 +217,9 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(VALIDATE_OBJECTS) $(SCENE_OBJECTS) $(BU
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lcmocka -lm
 
+# Reads a world from two threads.
+$(BUILD)/tests/test_readers: LDFLAGS += -pthread
+
 # Tests that compare with the heavy elastica.
 $(BUILD)/tests/test_affine $(BUILD)/tests/test_point: $(BUILD)/tests/reference.c.o
 

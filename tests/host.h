@@ -21,8 +21,13 @@ typedef struct Host {
     int32_t ticks;  /* through Host_Tick */
     int32_t every;  /* so many ticks the world is validated; 0: every one */
     int32_t lines;  /* logged */
-    char line[512]; /* the last of them */
+    char line[256]; /* the last of them */
 } Host;
+
+/* Comes before each block. 16 bytes, so that the block is aligned. */
+typedef struct HostBlock {
+    int64_t bytes, unused;
+} HostBlock;
 
 /* Poisoned, so that whoever reads what was not written gets nonsense. */
 static inline void* Host_Alloc(void* user, int64_t bytes)
@@ -32,23 +37,40 @@ static inline void* Host_Alloc(void* user, int64_t bytes)
     if (host->failAt >= 0 && (host->failOnce ? call == host->failAt : call >= host->failAt)) {
         return NULL;
     }
-    void* block = malloc((size_t)bytes);
+    HostBlock* block = malloc(sizeof(HostBlock) + (size_t)bytes);
     assert_non_null(block);
+    block->bytes = bytes;
     ++host->live;
-    return memset(block, 0xcd, (size_t)bytes);
+    return memset(block + 1, 0xcd, (size_t)bytes);
 }
 
+/* Poisoned again, for whoever still reads it. The compiler would leave the poison out before a plain call of free. */
 static inline void Host_Free(void* user, void* pointer)
 {
+    static void (*volatile const release)(void*) = free;
+    HostBlock* block = pointer;
     --((Host*)user)->live;
-    free(pointer);
+    if (block != NULL) {
+        --block;
+        memset(block, 0xdd, sizeof(HostBlock) + (size_t)block->bytes);
+        release(block);
+    }
+}
+
+/* What the header says of a line: one line, of at most 255 characters, in the words of the header. */
+static inline void Host_CheckLine(const char* line)
+{
+    if (strncmp(line, "kiri", 4) != 0 || strchr(line, '\n') != NULL || strlen(line) > 255 ||
+        strstr(line, "Data") != NULL || strstr(line, ": ") == NULL || strstr(line, " (KIRI_") == NULL) {
+        fail_msg("a line for the host: \"%s\"", line);
+    }
 }
 
 static inline void Host_Log(void* user, const char* line)
 {
     Host* host = user;
     ++host->lines;
-    assert_true(strlen(line) < sizeof(host->line));
+    Host_CheckLine(line);
     strcpy(host->line, line);
 }
 

@@ -783,14 +783,11 @@ static void PinsWhileTheMeshIsCut(void** state)
     Host_Stop(&host);
 }
 
-/* Nor after a tick that had no memory and took back what it did to the mesh, where the nodes of mesh->squares are not those
-   that grid->nodeCell knows. Known to fail; build with -DKNOWN_FAULTS to see it. */
+/* Nor after a tick that had no memory and took back what it did to the mesh, for the nodes of
+   mesh->squares are again those that grid->nodeCell knows. */
 static void PinsAfterATickWithoutMemory(void** state)
 {
     (void)state;
-#if !defined(KNOWN_FAULTS)
-    skip();
-#endif
     const float line[4] = { 0.05f, 0.47f, 0.95f, 0.53f };
     Host host;
     int32_t before[400], after[400];
@@ -839,14 +836,10 @@ static void ResamplingComesToAnEnd(void** state)
 }
 
 /* A tick that has no memory for one sheet leaves the next one as it was: its update is not at hand, and takes the points
-   that still come before the next tick together with the others. Known to fail: kiriUpdate_Start has begun it, and
-   kiriUpdate_Abort passes over a sheet that was not worked on. */
+   that still come before the next tick together with the others. */
 static void PointsAfterATickWithoutMemory(void** state)
 {
     (void)state;
-#if !defined(KNOWN_FAULTS)
-    skip();
-#endif
     const float line[6] = { 0.1f, 0.4f, 0.5f, 0.5f, 0.9f, 0.45f };
     Host host;
     kiriCut cut;

@@ -148,6 +148,9 @@ static void HashSettings(uint64_t* hash, const kiriSheetData* sheet)
     kiriHash_Int32(hash, sheet->settings.iterations);
     kiriHash_Double(hash, sheet->settings.collisionPoints);
     kiriHash_Int32(hash, sheet->settings.popping);
+    if (sheet->settings.skinning != KIRI_SKINNING_LINEAR) {
+        kiriHash_Int32(hash, sheet->settings.skinning); /* what fades is what is seen to jump */
+    }
 }
 
 static void HashContacts(uint64_t* hash, const kiriContact* contacts, int32_t count)

@@ -258,19 +258,22 @@ static void CountSpent(kiriProfile* profile, const kiriQuotas* quotas)
 kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
 {
     kiriQuotas quotas = ShareOut(&world->budget);
+    kiriProfile last = world->profile;
     kiriMemory_FreeAll(&world->retired);
     memset(&world->profile, 0, sizeof(world->profile));
-    world->events.count = 0;
     kiriResult result = UpdateAll(world, &quotas) ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
     if (result == KIRI_OK) {
+        world->events.count = 0;
         CommitAll(world);
         result = SolveAll(world, dt, substeps, &quotas.of[KIRI_QUOTA_ITERATIONS]);
         SkinAll(world, dt);
+        CountSpent(&world->profile, &quotas);
+        EnterStage(world, KIRI_NONE);
         world->ticks += 1;
     } else {
         AbortAll(world);
+        world->profile = last;
+        world->stage = KIRI_NONE;
     }
-    CountSpent(&world->profile, &quotas);
-    EnterStage(world, KIRI_NONE);
     return result;
 }

@@ -1,0 +1,86 @@
+/* All that a host sees of a world through the functions that only read, as one number: two looks tell whether a call
+   changed any of it. */
+#ifndef KIRI_TEST_LOOK_H
+#define KIRI_TEST_LOOK_H
+
+#include "host.h"
+
+#include "world/kiri_world.h"
+
+static inline uint64_t Look_Bytes(uint64_t hash, const void* data, size_t bytes)
+{
+    for (size_t i = 0; i < bytes; ++i) {
+        hash = (hash ^ ((const unsigned char*)data)[i]) * 1099511628211u;
+    }
+    return hash;
+}
+
+static inline uint64_t Look_Mesh(uint64_t hash, const kiriMesh* mesh)
+{
+    size_t vertices = (size_t)mesh->vertexCount, triangles = (size_t)mesh->triangleCount;
+    hash = Look_Bytes(hash, mesh->positions, 12 * vertices);
+    hash = Look_Bytes(hash, mesh->normals, 12 * vertices);
+    hash = Look_Bytes(hash, mesh->restPositions, 8 * vertices);
+    hash = Look_Bytes(hash, mesh->indices, 12 * triangles);
+    hash = Look_Bytes(hash, mesh->sourceTriangles, 4 * vertices);
+    hash = Look_Bytes(hash, mesh->sourceWeights, 12 * vertices);
+    return Look_Bytes(hash, &mesh->revision, sizeof(mesh->revision));
+}
+
+static inline uint64_t Look_Frames(uint64_t hash, const kiriWorld* world, kiriSheet sheet)
+{
+    kiriFrame frames[512];
+    int32_t count;
+    OK(kiriSheet_GetFrames(world, sheet, frames, 512, &count));
+    assert_in_range(count, 1, 512);
+    for (int32_t i = 0; i < count; ++i) {
+        kiriFrameState state;
+        int32_t piece;
+        OK(kiriFrame_GetState(world, frames[i], &state));
+        OK(kiriFrame_GetPiece(world, frames[i], &piece));
+        hash = Look_Bytes(Look_Bytes(hash, &state, sizeof(state)), &piece, sizeof(piece));
+    }
+    return Look_Bytes(hash, frames, sizeof(kiriFrame) * (size_t)count);
+}
+
+static inline uint64_t Look_Sheet(uint64_t hash, const kiriWorld* world, kiriSheet sheet)
+{
+    kiriMesh mesh;
+    kiriCounts counts;
+    kiriTotals totals;
+    const float* points;
+    int32_t count, awake;
+    OK(kiriSheet_GetMesh(world, sheet, &mesh));
+    OK(kiriSheet_GetCollisionPoints(world, sheet, &points, &count));
+    OK(kiriSheet_GetTotals(world, sheet, &totals));
+    OK(kiriSheet_IsAwake(world, sheet, &awake));
+    OK(kiriSheet_GetCounts(world, sheet, &counts));
+    hash = Look_Bytes(Look_Mesh(hash, &mesh), points, 12 * (size_t)count);
+    hash = Look_Bytes(Look_Bytes(hash, &totals, sizeof(totals)), &awake, sizeof(awake));
+    counts.cells = 0; /* of the grid as far as the work on a cut has come */
+    return Look_Frames(Look_Bytes(hash, &counts, sizeof(counts)), world, sheet);
+}
+
+/* All sheets, and the events. */
+static inline uint64_t Look_World(const kiriWorld* world)
+{
+    uint64_t hash = 14695981039346656037u;
+    const kiriEvent* events;
+    int32_t count;
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        hash = Look_Sheet(hash, world, world->sheets.data[i]->id);
+    }
+    OK(kiriWorld_GetEvents(world, &events, &count));
+    return Look_Bytes(hash, events, sizeof(kiriEvent) * (size_t)count);
+}
+
+/* But for its times. */
+static inline uint64_t Look_Profile(uint64_t hash, const kiriWorld* world)
+{
+    kiriProfile profile;
+    OK(kiriWorld_GetProfile(world, &profile));
+    memset(profile.seconds, 0, sizeof(profile.seconds));
+    return Look_Bytes(hash, &profile, sizeof(profile));
+}
+
+#endif

@@ -1,0 +1,460 @@
+/* Every number of a def over its documented range, one by one and together: what lies outside is refused, and what lies
+   inside comes to an end. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "host.h"
+
+#include <float.h>
+#include <signal.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define IS_SANITIZED 1
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(IS_SANITIZED)
+enum { IS_SLOW = 1 };
+#else
+enum { IS_SLOW = 0 };
+#endif
+
+/* ---- A guard against endless loops ---- */
+
+enum { GUARD_SECONDS = 60, GUARD_BYTES = 512 };
+
+/* What is being tried, for the guard. */
+static char trial[GUARD_BYTES];
+
+static void OnAlarm(int number)
+{
+    static const char what[] = "\nendless: ";
+    (void)number;
+    ssize_t written = write(STDERR_FILENO, what, sizeof(what) - 1);
+    written += write(STDERR_FILENO, trial, strlen(trial));
+    _exit(written > 0 ? 1 : 2);
+}
+
+static void Name(const char* what)
+{
+    snprintf(trial, sizeof(trial), "%s", what);
+}
+
+static void NameMore(const char* name, double value)
+{
+    size_t used = strlen(trial);
+    snprintf(trial + used, sizeof(trial) - used, " %s %g", name, value);
+}
+
+/* From here on a minute is too much. */
+static void Guard(void)
+{
+    alarm(GUARD_SECONDS);
+}
+
+/* ---- Fields ---- */
+
+enum { MOST_GOOD = 7, MOST_BAD = 4 };
+
+typedef struct Field {
+    const char* name;
+    size_t offset;
+    bool isWhole;                          /* int32_t; else float */
+    double good[MOST_GOOD], bad[MOST_BAD]; /* ended by END */
+} Field;
+
+#define END 1.25e-37
+#define REAL(Type, field) #field, offsetof(Type, field), false
+#define WHOLE(Type, field) #field, offsetof(Type, field), true
+#define NO_NUMBER NAN, INFINITY
+
+/* The material's numbers overflow at the far ends, and then sheets are put to rest; they must end all the same. */
+static const Field sheetFields[] = {
+    { REAL(kiriSheetDef, position[0]), { -1e6, 0.0, FLT_MAX, END }, { NO_NUMBER, END } },
+    { REAL(kiriSheetDef, position[2]), { -FLT_MAX, 1e3, END }, { NO_NUMBER, END } },
+    { REAL(kiriSheetDef, axisU[0]), { 0.9999, 1.0001, END }, { 0.0, 1.1, NO_NUMBER } },
+    { REAL(kiriSheetDef, axisV[0]), { 0.0, 1e-4, END }, { 0.1, NO_NUMBER, END } },
+    { REAL(kiriSheetDef, velocity[2]), { -FLT_MAX, -1.0, 1e4, END }, { NO_NUMBER, END } },
+    { REAL(kiriSheetDef, material.youngsModulus), { FLT_MIN, 1.0, 1e6, 1e12, FLT_MAX, END }, { 0.0, -1.0, NO_NUMBER } },
+    { REAL(kiriSheetDef, material.poissonsRatio), { 0.0, 0.3, 0.4999, END }, { -1e-6, 0.5, NO_NUMBER } },
+    { REAL(kiriSheetDef, material.thickness), { FLT_MIN, 1e-6, 0.1, FLT_MAX, END }, { 0.0, -1e-3, NO_NUMBER } },
+    { REAL(kiriSheetDef, material.density), { FLT_MIN, 1.0, 2e4, FLT_MAX, END }, { 0.0, -1.0, NO_NUMBER } },
+    { REAL(kiriSheetDef, material.airDamping), { 0.0, 1.0, 1e4, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
+    { REAL(kiriSheetDef, material.flexDamping), { 0.0, 0.01, 1e4, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
+    { WHOLE(kiriSheetDef, gridResolution), { 1, 2, 3, 7, 24, 64, END }, { 0, 4097, -1, END } },
+    { REAL(kiriSheetDef, snapDistance), { 0.0, FLT_MIN, 1e-3, 0.1, 2.0, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
+    { WHOLE(kiriSheetDef, frameCount), { 0, 1, 2, 24, 500, 65536, END }, { -1, 65537, END } },
+    { REAL(kiriSheetDef, frameLength), { 0.0, FLT_MIN, 0.01, 1.0, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
+    { WHOLE(kiriSheetDef, maxFrames), { 1, 2, 20, 256, INT32_MAX, END }, { 0, -1, END } },
+    { REAL(kiriSheetDef, rigidWeight), { FLT_MIN, 0.1, 0.5, 1.0, FLT_MAX, END }, { 0.0, -1.0, NO_NUMBER } },
+    { REAL(kiriSheetDef, rigidArea), { 0.0, FLT_MIN, 1e-4, 1e-3, 0.005, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
+    { REAL(kiriSheetDef, crumbArea), { 0.0, FLT_MIN, 0.01, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
+    { WHOLE(kiriSheetDef, collisionPoints), { 0, 1, 10, 1000, 1048576, END }, { -1, 1048577, END } },
+    { WHOLE(kiriSheetDef, iterations), { 1, 5, 64, END }, { 0, 65, END } },
+    { REAL(kiriSheetDef, sleepSpeed), { 0.0, FLT_MIN, 1.0, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
+    { WHOLE(kiriSheetDef, model), { 0, 1, 2, END }, { -1, 3, END } },
+    { WHOLE(kiriSheetDef, skinning), { 0, 1, END }, { -1, 2, END } },
+    { WHOLE(kiriSheetDef, planar), { 0, 1, END }, { -1, 2, END } },
+    { REAL(kiriSheetDef, fadeTime), { 0.0, FLT_MIN, 1.0, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
+};
+
+static const Field paperFields[] = {
+    { WHOLE(kiriPaperDef, fromScratch), { 0, 1, END }, { -1, 2, END } },
+    { WHOLE(kiriPaperDef, popping), { 0, 1, END }, { -1, 2, END } },
+    { WHOLE(kiriPaperDef, integrationPoints), { 0, 1, 7, 300, 1048576, END }, { -1, 1048577, END } },
+    { WHOLE(kiriPaperDef, integrationOrder), { 1, 2, END }, { 0, 3, END } },
+};
+
+static const Field pinFields[] = {
+    { REAL(kiriPinDef, restPoint[0]), { 0.0, 0.31, 1.0, END }, { -0.01, 1.01, NO_NUMBER } },
+    { REAL(kiriPinDef, target[1]), { -FLT_MAX, 0.0, 1e3, FLT_MAX, END }, { NO_NUMBER, END } },
+    { REAL(kiriPinDef, stiffness), { 0.0, FLT_MIN, 1e4, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
+};
+
+static const Field contactFields[] = {
+    { WHOLE(kiriContact, point), { 0, 1, END }, { -1, 1048577, END } },
+    { REAL(kiriContact, normal[2]), { 0.9995, 1.0, 1.0005, END }, { 0.0, 2.0, NO_NUMBER } },
+    { REAL(kiriContact, offset), { -FLT_MAX, 0.0, 0.1, FLT_MAX, END }, { NO_NUMBER, END } },
+    { REAL(kiriContact, friction), { 0.0, 0.5, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
+    { REAL(kiriContact, stiffness), { FLT_MIN, 10.0, FLT_MAX, END }, { 0.0, -1.0, NO_NUMBER } },
+};
+
+static const Field worldFields[] = {
+    { REAL(kiriWorldDef, gravity[0]), { -FLT_MAX, 0.0, 9.81, FLT_MAX, END }, { NO_NUMBER, END } },
+    { WHOLE(kiriWorldDef, budget.triangles), { 0, 16, 17, INT32_MAX, END }, { -1, 1, 15, END } },
+    { WHOLE(kiriWorldDef, budget.cells), { 0, 1, 50, INT32_MAX, END }, { -1, END } },
+    { WHOLE(kiriWorldDef, budget.samples), { 0, 1, 50, INT32_MAX, END }, { -1, END } },
+    { WHOLE(kiriWorldDef, budget.iterations), { 0, 1, 3, INT32_MAX, END }, { -1, END } },
+};
+
+typedef struct TickDef {
+    float dt;
+    int32_t substeps;
+} TickDef;
+
+static const Field tickFields[] = {
+    { REAL(TickDef, dt), { 1e-6, 0.001, 1.0 / 60.0, 1.0, 10.0, END }, { 0.9e-6, 10.001, 0.0, NAN } },
+    { WHOLE(TickDef, substeps), { 1, 2, 64, END }, { 0, 65, END } },
+};
+
+static void Set(void* def, const Field* field, double value)
+{
+    char* at = (char*)def + field->offset;
+    int32_t whole = field->isWhole ? (int32_t)value : 0;
+    float real = (float)value;
+    memcpy(at, field->isWhole ? (const void*)&whole : (const void*)&real, 4);
+}
+
+static int32_t CountOf(const double* values, int32_t most)
+{
+    int32_t count = 0;
+    while (count < most && values[count] != END) {
+        ++count;
+    }
+    return count;
+}
+
+/* ---- A session: a world, a sheet, a pin, contacts, cuts, ticks ---- */
+
+typedef struct Session {
+    kiriWorldDef world;
+    kiriSheetDef sheet;
+    kiriPaperDef paper;
+    kiriPinDef pin;
+    kiriContact contact;
+    TickDef tick;
+} Session;
+
+/* What holds fields, and how many. */
+enum { PARTS = 6 };
+
+typedef struct Part {
+    const Field* fields;
+    int32_t count;
+    void* def;
+} Part;
+
+#define FIELDS(fields) fields, (int32_t)(sizeof(fields) / sizeof(fields[0]))
+
+static void ListParts(Session* session, Part parts[PARTS])
+{
+    const Part all[PARTS] = { { FIELDS(sheetFields), &session->sheet }, { FIELDS(paperFields), &session->paper },
+                              { FIELDS(pinFields), &session->pin },     { FIELDS(contactFields), &session->contact },
+                              { FIELDS(worldFields), &session->world }, { FIELDS(tickFields), &session->tick } };
+    memcpy(parts, all, sizeof(all));
+}
+
+static void Session_Init(Session* session, Host* host)
+{
+    static const kiriContact contact = { 0, { 0.0f, 0.0f, 1.0f }, 0.01f, 0.3f, 50.0f };
+    memset(host, 0, sizeof(*host));
+    host->failAt = -1;
+    session->world = Host_Def(host);
+    kiriDefaultSheetDef(&session->sheet);
+    kiriDefaultPaperDef(&session->paper);
+    kiriDefaultPinDef(&session->pin);
+    session->sheet.gridResolution = 8;
+    session->sheet.collisionPoints = 5;
+    session->sheet.paper = &session->paper;
+    session->contact = contact;
+    session->tick.dt = 1.0f / 60.0f;
+    session->tick.substeps = 1;
+}
+
+static void GiveCuts(Host* host, kiriSheet sheet, float height)
+{
+    float line[8] = { -0.1f, 0.4f * height, 0.4f, 0.6f * height, 0.7f, 0.3f * height, 1.1f, 0.5f * height };
+    float loop[10] = { 0.55f,         0.6f * height, 0.8f,          0.6f * height, 0.8f,
+                       0.9f * height, 0.55f,         0.9f * height, 0.55f,         0.6f * height };
+    Host_Cut(host, sheet, line, 4);
+    Host_Cut(host, sheet, loop, 5);
+}
+
+/* Ticks, at most so many, until no cut waits. */
+static void TickOn(Host* host, const TickDef* tick, int most)
+{
+    kiriResult result = KIRI_PENDING;
+    for (int i = 0; i < most && (i < 2 || result == KIRI_PENDING); ++i) {
+        Guard();
+        result = kiriWorld_Tick(host->world, tick->dt, tick->substeps);
+        if (result < 0 && result != KIRI_DIVERGED) {
+            fail_msg("%s: a tick gives %s", trial, kiriGetResultName(result));
+        }
+    }
+}
+
+/* Returns the first result that is a failure. */
+static kiriResult Session_Use(Session* session, Host* host, kiriSheet sheet)
+{
+    float height = session->sheet.restPositions[2 * session->sheet.vertexCount - 1];
+    kiriPin pin;
+    Guard();
+    kiriResult result = kiriCreatePin(host->world, sheet, &session->pin, &pin);
+    if (result >= 0 && Host_Counts(host, sheet).collisionPoints > 1) {
+        result = kiriSheet_SetContacts(host->world, sheet, &session->contact, 1);
+    }
+    if (result < 0) {
+        return result;
+    }
+    result = kiriWorld_Tick(host->world, session->tick.dt, session->tick.substeps);
+    if (result < 0 && result != KIRI_DIVERGED) {
+        return result;
+    }
+    GiveCuts(host, sheet, height);
+    TickOn(host, &session->tick, 40);
+    GiveCuts(host, sheet, 0.3f * height);
+    TickOn(host, &session->tick, 4);
+    return KIRI_OK;
+}
+
+static kiriResult Session_Run(Session* session, Host* host)
+{
+    kiriSheet sheet;
+    Guard();
+    kiriResult result = kiriCreateWorld(&session->world, &host->world);
+    if (result == KIRI_OK) {
+        result = kiriCreateSheet(host->world, &session->sheet, &sheet);
+        result = result == KIRI_OK ? Session_Use(session, host, sheet) : result;
+        Guard();
+        Host_Stop(host);
+    }
+    alarm(0);
+    return result;
+}
+
+/* A square, or a strip that few squares of the grid cover. */
+static Rectangle MeshFor(kiriSheetDef* def, bool isStrip)
+{
+    return isStrip ? Rectangle_Make(def, 1.0f, 0.01f, 100, 1) : Rectangle_Make(def, 1.0f, 1.0f, 4, 4);
+}
+
+/* ---- Tests ---- */
+
+/* All else as it is by default. */
+static void TryField(int32_t part, int32_t index, bool isStrip)
+{
+    Session session;
+    Host host;
+    Part parts[PARTS];
+    ListParts(&session, parts);
+    const Field* field = &parts[part].fields[index];
+    int32_t good = CountOf(field->good, MOST_GOOD), all = good + CountOf(field->bad, MOST_BAD);
+    for (int32_t k = 0; k < all; ++k) {
+        double value = k < good ? field->good[k] : field->bad[k - good];
+        Session_Init(&session, &host);
+        Rectangle mesh = MeshFor(&session.sheet, isStrip);
+        Set(parts[part].def, field, value);
+        Name(isStrip ? "strip:" : "square:");
+        NameMore(field->name, value);
+        kiriResult result = Session_Run(&session, &host);
+        if (result != (k < good ? KIRI_OK : KIRI_ERROR_ARGUMENT)) {
+            fail_msg("%s gives %s", trial, kiriGetResultName(result));
+        }
+        Rectangle_Free(&mesh);
+    }
+}
+
+static void TestOneByOne(void** state)
+{
+    (void)state;
+    Session session;
+    Part parts[PARTS];
+    ListParts(&session, parts);
+    for (int32_t part = 0; part < PARTS; ++part) {
+        for (int32_t i = 0; i < parts[part].count; ++i) {
+            TryField(part, i, false);
+            if (!IS_SLOW) {
+                TryField(part, i, true);
+            }
+        }
+    }
+}
+
+/* Some of the fields, each at one of its values. */
+static void SetAtRandom(Part parts[PARTS], uint32_t* seed)
+{
+    uint32_t odds = 3 + Random(seed) % 8;
+    for (int32_t part = 0; part < PARTS; ++part) {
+        for (int32_t i = 0; i < parts[part].count; ++i) {
+            const Field* field = &parts[part].fields[i];
+            if (Random(seed) % odds == 0) {
+                double value = field->good[Random(seed) % (uint32_t)CountOf(field->good, MOST_GOOD)];
+                Set(parts[part].def, field, value);
+                NameMore(field->name, value);
+            }
+        }
+    }
+}
+
+/* The most expensive combinations have nothing to do with one another. */
+static void Restrain(Session* session)
+{
+    kiriSheetDef* def = &session->sheet;
+    if (def->gridResolution > 24) {
+        def->maxFrames = def->maxFrames < 40 ? def->maxFrames : 40;
+        def->frameCount = def->frameCount < 40 ? def->frameCount : 40;
+        session->paper.integrationPoints =
+            session->paper.integrationPoints < 300 ? session->paper.integrationPoints : 300;
+    }
+    if (session->tick.substeps * def->iterations > 64) {
+        def->iterations = 1;
+    }
+}
+
+static void TestAtRandom(void** state)
+{
+    (void)state;
+    int32_t accepted = 0, runs = IS_SLOW ? 60 : 250;
+    for (int32_t run = 1; run <= runs; ++run) {
+        uint32_t seed = 2654435761u * (uint32_t)run;
+        Session session;
+        Host host;
+        Part parts[PARTS];
+        Session_Init(&session, &host);
+        ListParts(&session, parts);
+        Rectangle mesh = MeshFor(&session.sheet, run % 3 == 0);
+        Name("at random:");
+        SetAtRandom(parts, &seed);
+        session.pin.restPoint[1] = 0.0f;
+        Restrain(&session);
+        kiriResult result = Session_Run(&session, &host);
+        if (result != KIRI_OK && result != KIRI_ERROR_ARGUMENT) {
+            fail_msg("%s gives %s", trial, kiriGetResultName(result));
+        }
+        accepted += result == KIRI_OK;
+        Rectangle_Free(&mesh);
+    }
+    print_message("%d of %d combinations accepted\n", accepted, runs);
+    assert_true(accepted > runs / 2);
+}
+
+/* More frames are wanted than there are cells. */
+static void TestMoreFramesThanCells(void** state)
+{
+    (void)state;
+    static const struct {
+        int32_t grid, frames, most;
+        float rigidArea;
+        bool isStrip;
+    } cases[] = {
+        { 1, 5, 256, 0.0f, false },  { 2, 5, 256, 0.0f, false },   { 8, 5, 256, 1e-4f, false },
+        { 4, 5, 20, 1e-3f, false },  { 96, 24, 256, 0.0f, true },  { 1, 65536, 65536, 1e-6f, false },
+        { 8, 65536, 256, 0, false }, { 8, 0, INT32_MAX, 0, true },
+    };
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); ++i) {
+        Session session;
+        Host host;
+        Session_Init(&session, &host);
+        Rectangle mesh = MeshFor(&session.sheet, cases[i].isStrip);
+        session.sheet.gridResolution = cases[i].grid;
+        session.sheet.frameCount = cases[i].frames;
+        session.sheet.maxFrames = cases[i].most;
+        session.sheet.rigidArea = cases[i].rigidArea;
+        Name("more frames than cells:");
+        NameMore("case", (double)i);
+        OK(Session_Run(&session, &host));
+        Rectangle_Free(&mesh);
+    }
+}
+
+/* In a tick: a strip is cut off and destroyed, then a single cell is cut out. */
+static void TestSingleCellCutOut(void** state)
+{
+    (void)state;
+    static const float strip[4] = { 0.3f, -0.1f, 0.3f, 1.1f };
+    static const float cell[10] = { 0.626f, 0.626f, 0.749f, 0.626f, 0.749f, 0.749f, 0.626f, 0.749f, 0.626f, 0.626f };
+    Session session;
+    Host host;
+    kiriEvent event = { .type = 0 };
+    Session_Init(&session, &host);
+    Name("a single cell cut out");
+    Guard();
+    OK(kiriCreateWorld(&session.world, &host.world));
+    session.sheet.maxFrames = 30;
+    session.sheet.rigidArea = 0.005f;
+    kiriSheet sheet = Host_AddRectangle(&host, &session.sheet, 1.0f, 1.0f, 8, 8);
+    Host_Cut(&host, sheet, strip, 2);
+    OK(kiriWorld_Tick(host.world, 0.01f, 1));
+    assert_int_equal(Host_Events(&host, KIRI_EVENT_PIECE_OFF, &event), 1);
+    OK(kiriFrame_DestroyPiece(host.world, event.frame));
+    Host_Cut(&host, sheet, cell, 5);
+    OK(kiriWorld_Tick(host.world, 0.01f, 1));
+    assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
+    Host_Stop(&host);
+    alarm(0);
+}
+
+/* The finest grid, the most frames and points, each on a sheet that they do not make large. */
+static void TestTheMost(void** state)
+{
+    (void)state;
+    for (int what = 0; what < (IS_SLOW ? 1 : 4); ++what) {
+        Session session;
+        Host host;
+        Session_Init(&session, &host);
+        Rectangle mesh = MeshFor(&session.sheet, what == 0);
+        session.sheet.gridResolution = what == 0 ? 4096 : 64;
+        session.sheet.frameCount = what == 1 ? 65536 : 4;
+        session.sheet.collisionPoints = what == 2 ? 1048576 : 0;
+        session.sheet.model = what == 3 ? KIRI_MODEL_POINTS : KIRI_MODEL_LINKS;
+        session.paper.integrationPoints = what == 3 ? 1048576 : 0;
+        Name("the most:");
+        NameMore("case", (double)what);
+        OK(Session_Run(&session, &host));
+        Rectangle_Free(&mesh);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestOneByOne),
+        cmocka_unit_test(TestAtRandom),
+        cmocka_unit_test(TestMoreFramesThanCells),
+        cmocka_unit_test(TestSingleCellCutOut),
+        cmocka_unit_test(TestTheMost),
+    };
+    signal(SIGALRM, OnAlarm);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

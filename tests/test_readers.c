@@ -1,0 +1,353 @@
+/* Reading a world changes nothing: neither its bytes nor its last error, whether the call goes through or fails; so any
+   number of threads may read at the same time. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "look.h"
+
+#include <pthread.h>
+
+/* ---- A host that several threads may call ---- */
+
+typedef struct Hall {
+    pthread_mutex_t lock;
+    Host host; /* its world has the hooks below */
+} Hall;
+
+static void* LockedAlloc(void* user, int64_t bytes)
+{
+    Hall* hall = user;
+    pthread_mutex_lock(&hall->lock);
+    void* block = Host_Alloc(&hall->host, bytes);
+    pthread_mutex_unlock(&hall->lock);
+    return block;
+}
+
+static void LockedFree(void* user, void* pointer)
+{
+    Hall* hall = user;
+    pthread_mutex_lock(&hall->lock);
+    Host_Free(&hall->host, pointer);
+    pthread_mutex_unlock(&hall->lock);
+}
+
+static void LockedLog(void* user, const char* line)
+{
+    Hall* hall = user;
+    pthread_mutex_lock(&hall->lock);
+    Host_Log(&hall->host, line);
+    pthread_mutex_unlock(&hall->lock);
+}
+
+typedef struct Scene {
+    Hall hall;
+    kiriSheet sheet;
+    kiriFrame frame;
+} Scene;
+
+static const kiriWorld* WorldOf(const Scene* scene)
+{
+    return scene->hall.host.world;
+}
+
+/* Two pieces; and on a limit work that waits. */
+static void Scene_Start(Scene* scene, bool isWaiting)
+{
+    static const float line[4] = { -0.1f, 0.3f, 1.1f, 0.35f }, other[4] = { -0.1f, 0.7f, 1.1f, 0.6f };
+    static const kiriBudget budget = { 0, 20, 0, 0 };
+    memset(scene, 0, sizeof(*scene));
+    Host* host = &scene->hall.host;
+    pthread_mutex_init(&scene->hall.lock, NULL);
+    host->failAt = -1;
+    kiriWorldDef worldDef = Host_Def(host);
+    worldDef.alloc = LockedAlloc;
+    worldDef.free = LockedFree;
+    worldDef.log = LockedLog;
+    worldDef.user = &scene->hall;
+    OK(kiriCreateWorld(&worldDef, &host->world));
+    kiriSheetDef def = Host_SmallDef();
+    scene->sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 6, 6);
+    Host_Cut(host, scene->sheet, line, 2);
+    OK(kiriWorld_Tick(host->world, 0.01f, 1));
+    scene->frame = Host_FrameOf(host, scene->sheet, 1);
+    Host_Cut(host, scene->sheet, other, 2);
+    if (isWaiting) {
+        OK(kiriWorld_SetBudget(host->world, &budget));
+    }
+    assert_int_equal(kiriWorld_Tick(host->world, 0.01f, 1), isWaiting ? KIRI_PENDING : KIRI_OK);
+    assert_int_equal(kiriWorld_Tick(host->world, 0.0f, 1), KIRI_ERROR_ARGUMENT); /* a last error to keep */
+}
+
+static void Scene_Stop(Scene* scene)
+{
+    Host_Stop(&scene->hall.host);
+    pthread_mutex_destroy(&scene->hall.lock);
+}
+
+/* ---- All functions that only read ---- */
+
+/* The call with what it wants, or with something that it refuses. */
+typedef kiriResult ReadFn(const Scene* scene, bool well);
+
+static kiriSheet SheetOf(const Scene* scene, bool well)
+{
+    return well ? scene->sheet : scene->frame;
+}
+
+static kiriResult ReadHash(const Scene* scene, bool well)
+{
+    uint64_t hash;
+    return kiriWorld_GetStateHash(WorldOf(scene), well ? &hash : NULL);
+}
+
+static kiriResult ReadEvents(const Scene* scene, bool well)
+{
+    const kiriEvent* events;
+    int32_t count;
+    return kiriWorld_GetEvents(WorldOf(scene), &events, well ? &count : NULL);
+}
+
+static kiriResult ReadProfile(const Scene* scene, bool well)
+{
+    kiriProfile profile;
+    return kiriWorld_GetProfile(WorldOf(scene), well ? &profile : NULL);
+}
+
+static kiriResult ReadMesh(const Scene* scene, bool well)
+{
+    kiriMesh mesh;
+    return kiriSheet_GetMesh(WorldOf(scene), SheetOf(scene, well), &mesh);
+}
+
+static kiriResult ReadDirty(const Scene* scene, bool well)
+{
+    kiriDirty dirty;
+    return kiriSheet_GetDirty(WorldOf(scene), SheetOf(scene, well), 1, &dirty);
+}
+
+static kiriResult ReadVertices(const Scene* scene, bool well)
+{
+    float positions[30], normals[30];
+    return kiriSheet_CopyVertices(WorldOf(scene), scene->sheet, well ? 3 : -1, 10, positions, 12, normals, 12);
+}
+
+static kiriResult ReadIndices(const Scene* scene, bool well)
+{
+    uint16_t indices[30];
+    return kiriSheet_CopyIndices16(WorldOf(scene), scene->sheet, 2, well ? 10 : INT32_MAX, indices);
+}
+
+static kiriResult ReadPoints(const Scene* scene, bool well)
+{
+    const float* positions;
+    int32_t count;
+    return kiriSheet_GetCollisionPoints(WorldOf(scene), SheetOf(scene, well), &positions, &count);
+}
+
+static kiriResult ReadCounts(const Scene* scene, bool well)
+{
+    kiriCounts counts;
+    return kiriSheet_GetCounts(WorldOf(scene), SheetOf(scene, well), &counts);
+}
+
+static kiriResult ReadTotals(const Scene* scene, bool well)
+{
+    kiriTotals totals;
+    return kiriSheet_GetTotals(WorldOf(scene), SheetOf(scene, well), &totals);
+}
+
+static kiriResult ReadAwake(const Scene* scene, bool well)
+{
+    int32_t awake;
+    return kiriSheet_IsAwake(WorldOf(scene), SheetOf(scene, well), &awake);
+}
+
+static kiriResult ReadRay(const Scene* scene, bool well)
+{
+    const float origin[3] = { 0.4f, 0.5f, 1.0f }, down[3] = { 0.0f, 0.0f, well ? -1.0f : 0.0f };
+    kiriHit hit;
+    return kiriSheet_Raycast(WorldOf(scene), scene->sheet, origin, down, 3.0f, &hit);
+}
+
+static kiriResult ReadWeights(const Scene* scene, bool well)
+{
+    const float at[2] = { well ? 0.41f : 7.0f, 0.53f };
+    kiriFrame frames[16];
+    float weights[16], gradients[32];
+    int32_t count;
+    return kiriSheet_GetWeights(WorldOf(scene), scene->sheet, at, frames, weights, gradients, 16, &count);
+}
+
+static kiriResult ReadFramePiece(const Scene* scene, bool well)
+{
+    int32_t piece;
+    return kiriFrame_GetPiece(WorldOf(scene), well ? scene->frame : scene->sheet, &piece);
+}
+
+static kiriResult ReadFrames(const Scene* scene, bool well)
+{
+    kiriFrame frames[4];
+    int32_t count;
+    return kiriSheet_GetFrames(WorldOf(scene), scene->sheet, frames, well ? 4 : -1, &count);
+}
+
+static kiriResult ReadState(const Scene* scene, bool well)
+{
+    kiriFrameState state;
+    return kiriFrame_GetState(WorldOf(scene), well ? scene->frame : 0, &state);
+}
+
+typedef struct Reader {
+    const char* name;
+    ReadFn* read;
+} Reader;
+
+static const Reader readers[] = {
+    { "kiriWorld_GetStateHash", ReadHash },     { "kiriWorld_GetEvents", ReadEvents },
+    { "kiriWorld_GetProfile", ReadProfile },    { "kiriSheet_GetMesh", ReadMesh },
+    { "kiriSheet_GetDirty", ReadDirty },        { "kiriSheet_CopyVertices", ReadVertices },
+    { "kiriSheet_CopyIndices16", ReadIndices }, { "kiriSheet_GetCollisionPoints", ReadPoints },
+    { "kiriSheet_GetCounts", ReadCounts },      { "kiriSheet_GetTotals", ReadTotals },
+    { "kiriSheet_IsAwake", ReadAwake },         { "kiriSheet_Raycast", ReadRay },
+    { "kiriSheet_GetWeights", ReadWeights },    { "kiriFrame_GetPiece", ReadFramePiece },
+    { "kiriSheet_GetFrames", ReadFrames },      { "kiriFrame_GetState", ReadState },
+};
+
+enum { READERS = sizeof(readers) / sizeof(readers[0]) };
+
+/* ---- Tests ---- */
+
+/* All that a reader must leave alone. */
+typedef struct Bytes {
+    kiriWorld world;
+    kiriSheetData sheet;
+    uint64_t hash, look;
+    char lastError[256];
+} Bytes;
+
+static void TakeBytes(const Scene* scene, Bytes* bytes)
+{
+    const kiriWorld* world = WorldOf(scene);
+    memset(bytes, 0, sizeof(*bytes));
+    memcpy(&bytes->world, world, sizeof(bytes->world));
+    memcpy(&bytes->sheet, world->sheets.data[0], sizeof(bytes->sheet));
+    bytes->hash = Host_Hash(&scene->hall.host);
+    bytes->look = Look_World(world);
+    strcpy(bytes->lastError, kiriWorld_GetLastError(world));
+}
+
+static void CheckReader(Scene* scene, const Reader* reader, bool isWaiting)
+{
+    Host* host = &scene->hall.host;
+    Bytes before, after;
+    TakeBytes(scene, &before);
+    int64_t live = host->live;
+    int32_t lines = host->lines;
+    bool refuses = isWaiting && reader->read == ReadWeights;
+    assert_int_equal(reader->read(scene, true), refuses ? KIRI_ERROR_STATE : KIRI_OK);
+    assert_int_equal(host->lines, lines + refuses);
+    lines = host->lines;
+    assert_true(reader->read(scene, false) < 0);
+    assert_int_equal(host->lines, lines + 1);
+    if (strncmp(host->line, reader->name, strlen(reader->name)) != 0) {
+        fail_msg("%s says \"%s\"", reader->name, host->line);
+    }
+    TakeBytes(scene, &after);
+    if (memcmp(&before, &after, sizeof(before)) != 0) {
+        fail_msg("%s changes the world", reader->name);
+    }
+    assert_int_equal(host->live, live);
+}
+
+static void TestNothingChanges(void** state)
+{
+    (void)state;
+    for (int isWaiting = 0; isWaiting < 2; ++isWaiting) {
+        Scene scene;
+        Scene_Start(&scene, isWaiting != 0);
+        assert_int_equal(strncmp(kiriWorld_GetLastError(WorldOf(&scene)), "kiriWorld_Tick:", 15), 0);
+        for (int i = 0; i < READERS; ++i) {
+            CheckReader(&scene, &readers[i], isWaiting != 0);
+        }
+        Scene_Stop(&scene);
+    }
+}
+
+/* Weights take memory; refused, they say so, and nothing is left behind. */
+static void TestWeightsWithoutMemory(void** state)
+{
+    (void)state;
+    Scene scene;
+    Bytes before, after;
+    Scene_Start(&scene, false);
+    Host* host = &scene.hall.host;
+    int64_t live = host->live, refused = 0;
+    kiriResult result;
+    TakeBytes(&scene, &before);
+    do {
+        host->failAt = host->calls + refused;
+        result = ReadWeights(&scene, true);
+        host->failAt = -1;
+        TakeBytes(&scene, &after);
+        assert_true(memcmp(&before, &after, sizeof(before)) == 0);
+        assert_int_equal(host->live, live);
+        refused += result == KIRI_ERROR_MEMORY;
+    } while (result == KIRI_ERROR_MEMORY);
+    assert_int_equal(result, KIRI_OK);
+    assert_true(refused > 0);
+    Scene_Stop(&scene);
+}
+
+enum { ROUNDS = 60 };
+
+typedef struct Thread {
+    const Scene* scene;
+    int32_t first;
+    uint64_t looks; /* sum over all rounds */
+    int32_t failures;
+} Thread;
+
+/* Failures are counted and asserted by the main thread. */
+static void* ReadAll(void* argument)
+{
+    Thread* thread = argument;
+    for (int32_t round = 0; round < ROUNDS; ++round) {
+        for (int32_t i = 0; i < READERS; ++i) {
+            const Reader* reader = &readers[(i + thread->first) % READERS];
+            thread->failures += reader->read(thread->scene, true) < 0;
+            thread->failures += reader->read(thread->scene, false) < 0;
+        }
+        thread->looks += Look_World(WorldOf(thread->scene));
+    }
+    return NULL;
+}
+
+static void TestTwoThreads(void** state)
+{
+    (void)state;
+    for (int isWaiting = 0; isWaiting < 2; ++isWaiting) {
+        Scene scene;
+        Bytes before, after;
+        pthread_t ids[2];
+        Scene_Start(&scene, isWaiting != 0);
+        TakeBytes(&scene, &before);
+        Thread threads[2] = { { &scene, 0, 0, 0 }, { &scene, READERS / 2, 0, 0 } };
+        for (int i = 0; i < 2; ++i) {
+            assert_int_equal(pthread_create(&ids[i], NULL, ReadAll, &threads[i]), 0);
+        }
+        for (int i = 0; i < 2; ++i) {
+            assert_int_equal(pthread_join(ids[i], NULL), 0);
+            assert_true(threads[i].looks == ROUNDS * before.look);
+            assert_int_equal(threads[i].failures, ROUNDS * (READERS + isWaiting));
+        }
+        TakeBytes(&scene, &after);
+        assert_true(memcmp(&before, &after, sizeof(before)) == 0);
+        Scene_Stop(&scene);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(TestNothingChanges),
+                                        cmocka_unit_test(TestWeightsWithoutMemory), cmocka_unit_test(TestTwoThreads) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,578 @@
+/* What a refused allocation leaves behind: for each call that changes a world, with work on a cut waiting at each stage,
+   each allocation is refused once, and all from there on. */
+#include "look.h"
+
+#include "sheet/kiri_update.h"
+#include "layout_hash.h"
+
+static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+
+/* ---- A world with something to do for every call ---- */
+
+/* Where the work on a cut waits. */
+enum { NO_WORK = KIRI_STAGE_CONSTANTS /* and no limit */, NOT_BEGUN /* with a limit */, STATES };
+
+/* So many pins and cuts fill the arrays: one more allocates. */
+enum { FULL = 8 };
+
+typedef struct Stand {
+    Host host;
+    kiriSheet sheet, made;
+    kiriFrame frame; /* of the smaller piece */
+    kiriPin pin, madePin;
+    kiriCut cut, madeCut; /* not ended */
+    Rectangle mesh;
+    kiriSheetDef def;
+} Stand;
+
+static int32_t WaitingStage(const Host* host)
+{
+    kiriEvent event = { .stage = KIRI_NONE };
+    Host_Events(host, KIRI_EVENT_DEFERRED, &event);
+    return event.stage;
+}
+
+static kiriPinDef PinAt(float u, float v)
+{
+    kiriPinDef def;
+    kiriDefaultPinDef(&def);
+    def.restPoint[0] = def.target[0] = u;
+    def.restPoint[1] = def.target[1] = v;
+    return def;
+}
+
+/* A way in and out, and a loop whose piece needs frames and collision points of its own. */
+static void GiveCuts(Stand* s)
+{
+    static const float line[10] = { -0.1f, 0.55f, 0.3f, 0.62f, 0.42f, 0.41f, 0.7f, 0.58f, 1.1f, 0.52f };
+    static const float loop[10] = { 0.62f, 0.72f, 0.85f, 0.7f, 0.81f, 0.88f, 0.6f, 0.9f, 0.62f, 0.72f };
+    Host_Cut(&s->host, s->sheet, line, 5);
+    Host_Cut(&s->host, s->sheet, loop, 5);
+    OK(kiriCut_Extend(s->host.world, s->cut, line + 4, 2));
+    while (s->host.world->sheets.data[0]->cuts.count < FULL) {
+        kiriCut idle;
+        OK(kiriBeginCut(s->host.world, s->sheet, line, &idle));
+    }
+}
+
+/* A frame of the last piece, without the lists of pieces: a call is to make them. */
+static kiriFrame FrameOfLastPiece(const Stand* s)
+{
+    kiriFrame frames[64];
+    int32_t count, piece, last = Host_Counts(&s->host, s->sheet).pieces - 1;
+    assert_int_equal(last, 1);
+    OK(kiriSheet_GetFrames(s->host.world, s->sheet, frames, 64, &count));
+    for (int32_t i = 0; i < count; ++i) {
+        OK(kiriFrame_GetPiece(s->host.world, frames[i], &piece));
+        if (piece == last) {
+            return frames[i];
+        }
+    }
+    return 0;
+}
+
+static void Stand_Start(Stand* s, int32_t work)
+{
+    static const float strip[4] = { -0.1f, 0.22f, 1.1f, 0.25f }, start[4] = { 0.3f, 0.8f, 0.4f, 0.7f };
+    static const kiriBudget budget = { KIRI_LEAST_TRIANGLES, 25, 5, 0 };
+    memset(s, 0, sizeof(*s));
+    Host_Start(&s->host);
+    kiriPinDef pin = PinAt(0.1f, 0.9f);
+    s->def = Host_SmallDef();
+    s->def.framePoints = NULL;
+    s->def.collisionPoints = 12;
+    s->mesh = Rectangle_Make(&s->def, 1.0f, 1.0f, 4, 4);
+    OK(kiriCreateSheet(s->host.world, &s->def, &s->sheet));
+    for (int i = 0; i < FULL; ++i) {
+        OK(kiriCreatePin(s->host.world, s->sheet, &pin, &s->pin));
+    }
+    Host_Cut(&s->host, s->sheet, strip, 2);
+    OK(kiriBeginCut(s->host.world, s->sheet, start, &s->cut));
+    OK(kiriCut_Extend(s->host.world, s->cut, start + 2, 1));
+    OK(kiriWorld_Tick(s->host.world, 0.01f, 2));
+    s->frame = FrameOfLastPiece(s);
+    GiveCuts(s);
+    if (work != NO_WORK) {
+        OK(kiriWorld_SetBudget(s->host.world, &budget));
+    }
+    for (int tick = 0; work < NO_WORK && WaitingStage(&s->host) != work; ++tick) {
+        assert_true(tick < 2000);
+        assert_int_equal(kiriWorld_Tick(s->host.world, 0.01f, 1), KIRI_PENDING);
+    }
+}
+
+static void Stand_Stop(Stand* s)
+{
+    Rectangle_Free(&s->mesh);
+    Host_Stop(&s->host);
+}
+
+/* ---- The calls ---- */
+
+static kiriResult CallTick(Stand* s)
+{
+    return kiriWorld_Tick(s->host.world, 0.01f, 2);
+}
+
+static kiriResult CallSetGravity(Stand* s)
+{
+    return kiriWorld_SetGravity(s->host.world, eye);
+}
+
+static kiriResult CallSetBudget(Stand* s)
+{
+    kiriBudget budget = { 0, 30, 0, 0 };
+    return kiriWorld_SetBudget(s->host.world, &budget);
+}
+
+static kiriResult CallCreateSheet(Stand* s)
+{
+    return kiriCreateSheet(s->host.world, &s->def, &s->made);
+}
+
+static kiriResult CallDestroySheet(Stand* s)
+{
+    return kiriDestroySheet(s->host.world, s->sheet);
+}
+
+static kiriResult CallWake(Stand* s)
+{
+    return kiriSheet_Wake(s->host.world, s->sheet);
+}
+
+static kiriResult CallGetPiece(Stand* s)
+{
+    kiriPieceState state;
+    return kiriSheet_GetPiece(s->host.world, s->sheet, 0, &state);
+}
+
+static kiriResult CallGetPieceMesh(Stand* s)
+{
+    kiriPieceMesh mesh;
+    return kiriSheet_GetPieceMesh(s->host.world, s->sheet, 0, &mesh);
+}
+
+static kiriResult CallGetPieceFrames(Stand* s)
+{
+    const kiriFrame* frames;
+    int32_t count;
+    return kiriSheet_GetPieceFrames(s->host.world, s->sheet, 0, &frames, &count);
+}
+
+static kiriResult CallDetachPiece(Stand* s)
+{
+    return kiriFrame_DetachPiece(s->host.world, s->frame, &s->made);
+}
+
+static kiriResult CallDestroyPiece(Stand* s)
+{
+    return kiriFrame_DestroyPiece(s->host.world, s->frame);
+}
+
+static kiriResult CallDropCrumbs(Stand* s)
+{
+    int32_t count;
+    return kiriSheet_DropCrumbs(s->host.world, s->sheet, 0.5f, &count);
+}
+
+static kiriResult CallBeginCut(Stand* s)
+{
+    return kiriBeginCut(s->host.world, s->sheet, eye, &s->madeCut);
+}
+
+static kiriResult CallExtend(Stand* s)
+{
+    float points[400];
+    for (int i = 0; i < 400; ++i) {
+        points[i] = 0.2f + 0.0015f * (float)((i * 37) % 400);
+    }
+    return kiriCut_Extend(s->host.world, s->cut, points, 200);
+}
+
+static kiriResult CallEnd(Stand* s)
+{
+    return kiriCut_End(s->host.world, s->cut);
+}
+
+static kiriResult CallSlice(Stand* s)
+{
+    static const float blade[12] = { 0.6f, -1.0f, -1.0f, 0.6f, -1.0f, 1.0f, 0.6f, 2.0f, 1.0f, 0.6f, 2.0f, -1.0f };
+    return kiriSheet_Slice(s->host.world, s->sheet, blade, &s->madeCut);
+}
+
+static kiriResult CallHold(Stand* s)
+{
+    return kiriFrame_Hold(s->host.world, s->frame, eye + 1, eye);
+}
+
+static kiriResult CallApplyForce(Stand* s)
+{
+    return kiriFrame_ApplyForce(s->host.world, s->frame, eye, eye);
+}
+
+static kiriResult CallCreatePin(Stand* s)
+{
+    kiriPinDef def = PinAt(0.9f, 0.1f);
+    return kiriCreatePin(s->host.world, s->sheet, &def, &s->madePin);
+}
+
+static kiriResult CallSetTarget(Stand* s)
+{
+    return kiriPin_SetTarget(s->host.world, s->pin, eye);
+}
+
+static kiriResult CallDestroyPin(Stand* s)
+{
+    return kiriDestroyPin(s->host.world, s->pin);
+}
+
+static kiriResult CallSetContacts(Stand* s)
+{
+    kiriContact contacts[12];
+    for (int i = 0; i < 12; ++i) {
+        kiriContact contact = { i, { 0.0f, 0.0f, 1.0f }, 0.001f, 0.3f, 50.0f };
+        contacts[i] = contact;
+    }
+    return kiriSheet_SetContacts(s->host.world, s->sheet, contacts, 12);
+}
+
+typedef struct Call {
+    const char* name;
+    kiriResult (*make)(Stand* s);
+    bool allocates; /* where it does its work */
+} Call;
+
+static const Call calls[] = {
+    { "kiriWorld_Tick", CallTick, true },
+    { "kiriWorld_SetGravity", CallSetGravity, false },
+    { "kiriWorld_SetBudget", CallSetBudget, false },
+    { "kiriCreateSheet", CallCreateSheet, true },
+    { "kiriDestroySheet", CallDestroySheet, false },
+    { "kiriSheet_Wake", CallWake, false },
+    { "kiriSheet_GetPiece", CallGetPiece, true },
+    { "kiriSheet_GetPieceMesh", CallGetPieceMesh, true },
+    { "kiriSheet_GetPieceFrames", CallGetPieceFrames, true },
+    { "kiriFrame_DetachPiece", CallDetachPiece, true },
+    { "kiriFrame_DestroyPiece", CallDestroyPiece, true },
+    { "kiriSheet_DropCrumbs", CallDropCrumbs, true },
+    { "kiriBeginCut", CallBeginCut, true },
+    { "kiriCut_Extend", CallExtend, true },
+    { "kiriCut_End", CallEnd, false },
+    { "kiriSheet_Slice", CallSlice, true },
+    { "kiriFrame_Hold", CallHold, false },
+    { "kiriFrame_ApplyForce", CallApplyForce, false },
+    { "kiriCreatePin", CallCreatePin, true },
+    { "kiriPin_SetTarget", CallSetTarget, false },
+    { "kiriDestroyPin", CallDestroyPin, false },
+    { "kiriSheet_SetContacts", CallSetContacts, true },
+};
+
+enum { CALLS = sizeof(calls) / sizeof(calls[0]) };
+
+/* The call with its n-th allocation refused, or all from there on. Its line names it. */
+static kiriResult CallPoorly(Stand* s, const Call* call, int64_t n, bool once)
+{
+    int32_t lines = s->host.lines;
+    s->host.failAt = s->host.calls + n;
+    s->host.failOnce = once;
+    kiriResult result = call->make(s);
+    s->host.failAt = -1;
+    const char* line = kiriWorld_GetLastError(s->host.world);
+    if (result < 0) {
+        assert_int_equal(s->host.lines, lines + 1);
+        assert_string_equal(line, s->host.line);
+        if (strncmp(line, call->name, strlen(call->name)) != 0 || line[strlen(call->name)] != ':') {
+            fail_msg("%s says \"%s\"", call->name, line);
+        }
+    } else {
+        assert_string_equal(line, "");
+    }
+    return result;
+}
+
+/* ---- What comes of it ---- */
+
+static void LiftLimits(Stand* s)
+{
+    static const kiriBudget none = { 0, 0, 0, 0 };
+    OK(kiriWorld_SetBudget(s->host.world, &none));
+}
+
+/* Does all work that waits: in each tick what was given before the same one. */
+static void Finish(Stand* s)
+{
+    LiftLimits(s);
+    for (int tick = 0; tick < 4; ++tick) {
+        kiriResult result = kiriWorld_Tick(s->host.world, 0.01f, 1);
+        assert_true(result == KIRI_OK || (result == KIRI_PENDING && tick < 2));
+    }
+}
+
+static uint64_t LayoutOf(const Stand* s)
+{
+    uint64_t hash = 0;
+    for (int32_t i = 0; i < s->host.world->sheets.count; ++i) {
+        hash = 31 * hash + HashLayout(s->host.world->sheets.data[i]);
+    }
+    return hash;
+}
+
+typedef struct Outcome {
+    kiriResult result;
+    uint64_t hash, look, end, layout;
+    int64_t live, liveAtEnd;
+} Outcome;
+
+static void After(Stand* s, Outcome* outcome)
+{
+    outcome->hash = Host_Hash(&s->host);
+    outcome->look = Look_World(s->host.world);
+    outcome->live = s->host.live;
+    Finish(s);
+    outcome->end = Host_Hash(&s->host);
+    outcome->layout = LayoutOf(s);
+    outcome->liveAtEnd = s->host.live;
+}
+
+static Outcome OutcomeOf(const Call* call, int32_t work)
+{
+    Stand s;
+    Outcome outcome;
+    Stand_Start(&s, work);
+    outcome.result = CallPoorly(&s, call, INT32_MAX, true);
+    assert_true(outcome.result != KIRI_ERROR_MEMORY);
+    After(&s, &outcome);
+    Stand_Stop(&s);
+    return outcome;
+}
+
+static uint64_t LookWithProfile(const Stand* s)
+{
+    return Look_Profile(Look_World(s->host.world), s->host.world);
+}
+
+/* Refused again and again, until it goes through, the call leaves the world as it was; then all goes on as if it had
+   gone through at once. Returns how often it was refused. */
+static int32_t CheckCall(const Call* call, int32_t work, bool once)
+{
+    Outcome rich = OutcomeOf(call, work), poor;
+    Stand s;
+    int32_t refused = 0;
+    Stand_Start(&s, work);
+    uint64_t hash = Host_Hash(&s.host), look = LookWithProfile(&s);
+    while ((poor.result = CallPoorly(&s, call, refused, once)) == KIRI_ERROR_MEMORY) {
+        if (Host_Hash(&s.host) != hash || LookWithProfile(&s) != look) {
+            fail_msg("%s, work %d, allocation %d: %s", call->name, work, refused,
+                     Host_Hash(&s.host) != hash ? "another hash" : "another look");
+        }
+        ++refused;
+    }
+    After(&s, &poor);
+    if (poor.result != rich.result || poor.hash != rich.hash || poor.look != rich.look || poor.end != rich.end ||
+        poor.layout != rich.layout) {
+        fail_msg("%s, work %d, after %d refusals: result %d and %d, hash %d, look %d, end %d, layout %d", call->name,
+                 work, refused, poor.result, rich.result, poor.hash == rich.hash, poor.look == rich.look,
+                 poor.end == rich.end, poor.layout == rich.layout);
+    }
+    assert_int_equal(poor.live, rich.live);
+    assert_int_equal(poor.liveAtEnd, rich.liveAtEnd);
+    Stand_Stop(&s);
+    return refused;
+}
+
+/* Calls that change a world, but for ticks; and ticks where there is no limit. */
+static void TestCallsRefused(void** state)
+{
+    (void)state;
+    int32_t all = 0;
+    for (int32_t work = 0; work < STATES; ++work) {
+        for (int32_t k = 0; k < CALLS; ++k) {
+            int32_t refused = 0;
+            for (int once = 0; once < 2 && (k > 0 || work == NO_WORK); ++once) {
+                refused += CheckCall(&calls[k], work, once != 0);
+            }
+            assert_true(refused == 0 || calls[k].allocates);
+            if (refused == 0 && calls[k].allocates && work == NO_WORK) {
+                fail_msg("%s allocates nothing", calls[k].name);
+            }
+            all += refused;
+        }
+    }
+    print_message("%d allocations refused\n", all);
+    assert_true(all > 2000);
+}
+
+/* A tick with work at hand, or with limited cells: refused, it moves nothing, and shows what the last one showed; in the
+   end the layout is the same. Where the limits are lifted the tick does all of the work that waits. */
+static int32_t CheckTick(int32_t work, bool isLifted, bool once, const Outcome* rich)
+{
+    for (int32_t refused = 0;; ++refused) {
+        Stand s;
+        Outcome poor;
+        Stand_Start(&s, work);
+        if (isLifted) {
+            LiftLimits(&s);
+        }
+        uint64_t look = LookWithProfile(&s);
+        poor.result = CallPoorly(&s, &calls[0], refused, once);
+        bool isThrough = poor.result != KIRI_ERROR_MEMORY;
+        if (!isThrough && LookWithProfile(&s) != look) {
+            fail_msg("a tick, work %d, allocation %d: another look", work, refused);
+        }
+        After(&s, &poor);
+        if (poor.layout != rich->layout) {
+            fail_msg("a tick, work %d, allocation %d: another end", work, refused);
+        }
+        Stand_Stop(&s);
+        if (isThrough) {
+            return refused;
+        }
+    }
+}
+
+static void TestTicksRefused(void** state)
+{
+    (void)state;
+    for (int32_t work = 0; work < STATES; ++work) {
+        Outcome rich = OutcomeOf(&calls[0], work);
+        for (int isLifted = 0; isLifted < 2 && work != NO_WORK; ++isLifted) {
+            int32_t refused =
+                CheckTick(work, isLifted != 0, true, &rich) + CheckTick(work, isLifted != 0, false, &rich);
+            print_message("work %d: %d allocations of a tick refused\n", work, refused);
+            assert_true(refused > 4 || !isLifted);
+        }
+    }
+}
+
+/* Refused at random, again and again, under random budgets. */
+static void TestRefusedAtRandom(void** state)
+{
+    (void)state;
+    uint64_t layout = OutcomeOf(&calls[0], NO_WORK).layout;
+    int32_t refused[KIRI_READY + 1] = { 0 };
+    for (uint32_t run = 1; run <= 60; ++run) {
+        uint32_t seed = 7919u * run;
+        Stand s;
+        Stand_Start(&s, NO_WORK);
+        kiriResult result = KIRI_PENDING;
+        for (int tick = 0; result != KIRI_OK; ++tick) {
+            kiriBudget budget = { (int32_t)(16 + Random(&seed) % 30), (int32_t)(20 + Random(&seed) % 200),
+                                  (int32_t)(10 + Random(&seed) % 40), 0 };
+            OK(kiriWorld_SetBudget(s.host.world, &budget));
+            uint64_t look = LookWithProfile(&s);
+            int32_t stage = s.host.world->sheets.data[0]->update->stage;
+            bool poorly = tick < 500 && Random(&seed) % 3 == 0;
+            result = CallPoorly(&s, &calls[0], poorly ? (int64_t)(Random(&seed) % 3) : INT32_MAX, run % 2 == 0);
+            if (result < 0) {
+                assert_int_equal(result, KIRI_ERROR_MEMORY);
+                assert_true(LookWithProfile(&s) == look);
+                refused[stage == KIRI_NONE ? KIRI_READY : stage] += 1;
+            }
+        }
+        assert_true(LayoutOf(&s) == layout);
+        Stand_Stop(&s);
+    }
+    for (int32_t stage = KIRI_STAGE_CUT; stage <= KIRI_STAGE_SAMPLES; ++stage) {
+        print_message("%d ticks refused at stage %s\n", refused[stage], kiriGetStageName(stage));
+        assert_true(refused[stage] > 0);
+    }
+}
+
+/* Three sheets, each with a blade whose last point is given after a tick that may be refused. Returns the hash in the end; *refused says whether the n-th allocation of the tick was refused at all. */
+static uint64_t GivePointsAround(int64_t n, bool once, bool* refused)
+{
+    static const float way[6] = { 0.5f, -0.1f, 0.45f, 0.4f, 0.55f, 1.1f };
+    Stand s;
+    kiriSheet sheets[3];
+    kiriCut cuts[3];
+    Stand_Start(&s, NO_WORK);
+    for (int i = 0; i < 3; ++i) {
+        sheets[i] = s.sheet;
+        if (i > 0) {
+            OK(kiriCreateSheet(s.host.world, &s.def, &sheets[i]));
+        }
+        OK(kiriBeginCut(s.host.world, sheets[i], way, &cuts[i]));
+        OK(kiriCut_Extend(s.host.world, cuts[i], way + 2, 1));
+    }
+    *refused = n >= 0 && CallPoorly(&s, &calls[0], n, once) == KIRI_ERROR_MEMORY;
+    for (int i = 0; i < 3; ++i) {
+        OK(kiriCut_Extend(s.host.world, cuts[i], way + 4, 1));
+    }
+    OK(CallTick(&s));
+    uint64_t hash = Host_Hash(&s.host);
+    Stand_Stop(&s);
+    return hash;
+}
+
+/* A refused tick was none: points given after it take effect together with those given before it. */
+static void TestPointsAfterRefusal(void** state)
+{
+    (void)state;
+    bool refused;
+    uint64_t hash = GivePointsAround(-1, true, &refused);
+    for (int once = 0; once < 2; ++once) {
+        int64_t n = 0;
+        for (uint64_t poor = GivePointsAround(0, once != 0, &refused); refused;
+             poor = GivePointsAround(++n, once != 0, &refused)) {
+            if (poor != hash) {
+                fail_msg("points given after the refusal of allocation %d are taken apart", (int)n);
+            }
+        }
+        assert_true(n > 20);
+    }
+}
+
+/* ---- Weights after a refused tick ---- */
+
+enum { PLACES = 256 };
+
+typedef struct Weighed {
+    int32_t count;
+    kiriFrame frames[16];
+    float weights[16];
+} Weighed;
+
+static void WeighAll(const Stand* s, Weighed* all)
+{
+    memset(all, 0, sizeof(Weighed) * PLACES);
+    for (int i = 0; i < PLACES; ++i) {
+        const float at[2] = { ((float)(i % 16) + 0.43f) / 16.0f, ((float)(i / 16) + 0.57f) / 16.0f };
+        OK(kiriSheet_GetWeights(s->host.world, s->sheet, at, all[i].frames, all[i].weights, NULL, 16, &all[i].count));
+        assert_in_range(all[i].count, 1, 16);
+    }
+}
+
+/* Refused in the cut stage: the mesh went back, and so did the lists of triangles that weights are looked up in. */
+static void TestWeightsAfterRefusal(void** state)
+{
+    (void)state;
+    static const float way[14] = { -0.1f, 0.31f, 0.62f, 0.63f, 0.2f, 0.9f,  0.5f,
+                                   0.1f,  0.8f,  0.8f,  0.1f,  0.2f, 0.95f, 0.4f };
+    static Weighed before[PLACES], after[PLACES];
+    int32_t refused = 0;
+    kiriResult result;
+    Stand s;
+    Stand_Start(&s, NO_WORK);
+    Host_Cut(&s.host, s.sheet, way, 7);
+    WeighAll(&s, before);
+    while ((result = CallPoorly(&s, &calls[0], refused, true)) == KIRI_ERROR_MEMORY) {
+        if (s.host.world->sheets.data[0]->update->needsRebuild) {
+            break; /* it got past the cut stage: then there are no weights until the next tick */
+        }
+        WeighAll(&s, after);
+        if (memcmp(before, after, sizeof(before)) != 0) {
+            fail_msg("after refusal of allocation %d weights are others", refused);
+        }
+        ++refused;
+    }
+    assert_true(refused > 3);
+    Stand_Stop(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(TestCallsRefused), cmocka_unit_test(TestTicksRefused),
+                                        cmocka_unit_test(TestRefusedAtRandom), cmocka_unit_test(TestPointsAfterRefusal),
+                                        cmocka_unit_test(TestWeightsAfterRefusal) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
