@@ -20,12 +20,12 @@ typedef struct Look {
 } Look;
 
 typedef struct SceneOptions {
-    const char* dataFolder;    /* null: samples/data */
-    int32_t gridResolution;    /* 0: the scene's own */
-    int32_t frameCount;        /* 0: the scene's own */
-    const kiriPaperDef* paper; /* of the sheet def */
-    bool unfaded;              /* fadeTime 0 */
-    bool plain;                /* rigid frames that move in space, to compare with: KIRI_MODEL_LINKS, not planar */
+    const char* dataFolder;       /* null: samples/data */
+    int32_t gridResolution;       /* 0: the scene's own */
+    int32_t frameCount;           /* 0: the scene's own */
+    int32_t fromScratch, popping; /* of kiriPaperOptions */
+    bool unfaded;                 /* fadeTime 0 */
+    bool plain;                   /* rigid frames that move in space, to compare with: KIRI_MODEL_LINKS, not planar */
     float pace; /* of blades and pins; 0.2: they take five times as many ticks; 0 or 1: the scene's own */
 } SceneOptions;
 

@@ -45,7 +45,8 @@ bool Scene_MakeSheet(Scene* scene, kiriSheetDef* def, const SceneOptions* option
             def->planar = 0;
         }
         def->gridResolution = options->gridResolution > 0 ? options->gridResolution : def->gridResolution;
-        def->paper = options->paper;
+        def->paper.fromScratch = options->fromScratch;
+        def->paper.popping = options->popping;
         def->fadeTime = options->unfaded ? 0.0f : def->fadeTime;
         scene->gridResolution = def->gridResolution;
         result = kiriCreateSheet(scene->world, def, &scene->sheet);

@@ -75,10 +75,7 @@ static bool RunSize(int32_t grid, int32_t places, bool fromScratch, CommitTimes*
     def.frameCount = def.maxFrames = grid * grid / CELLS_A_FRAME;
     def.iterations = 1;
     def.collisionPoints = 4 * def.frameCount;
-    kiriPaperDef paper;
-    kiriDefaultPaperDef(&paper);
-    paper.fromScratch = fromScratch;
-    def.paper = &paper;
+    def.paper.fromScratch = fromScratch;
     bool fine = kiriCreateWorld(&worldDef, &world) == KIRI_OK && Bench_AddSheet(world, &def, grid, &sheet);
     for (int32_t place = 0; fine && place < places; place++) {
         fine = CutShort(world, sheet, grid, place, times);

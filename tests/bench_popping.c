@@ -44,10 +44,7 @@ static void Measure(Jumps* jumps, const SceneType* type, int way)
     static Scene scene;
     memset(jumps, 0, sizeof(*jumps));
     kiriWorldDef def = Probe_Def(&jumps->probe, type->size);
-    kiriPaperDef paper;
-    kiriDefaultPaperDef(&paper);
-    paper.popping = way == PAPER;
-    const SceneOptions options = { .paper = &paper, .unfaded = way != FADED };
+    const SceneOptions options = { .popping = way == PAPER, .unfaded = way != FADED };
     if (!Scene_Start(&scene, type, &def, &options)) {
         exit(1);
     }

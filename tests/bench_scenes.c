@@ -116,10 +116,7 @@ static void Note(Recording* recording, int mode, int run, int32_t tick, double s
 static bool Record(Recording* recording, int mode, int run)
 {
     const SceneType* type = recording->type;
-    kiriPaperDef paper;
-    kiriDefaultPaperDef(&paper);
-    paper.fromScratch = mode == SCRATCH;
-    const SceneOptions options = { .paper = &paper, .plain = mode == PLAIN };
+    const SceneOptions options = { .fromScratch = mode == SCRATCH, .plain = mode == PLAIN };
     Usage usage = { .calls = 0 };
     kiriWorldDef def = Bench_WorldDef();
     def.alloc = CountAlloc;

@@ -190,13 +190,6 @@ static inline kiriSheetDef Host_SmallDef(void)
     return def;
 }
 
-static inline kiriPaperDef Host_PaperDef(void)
-{
-    kiriPaperDef def;
-    kiriDefaultPaperDef(&def);
-    return def;
-}
-
 /* A whole cut, waiting for the next tick. */
 static inline kiriCut Host_Cut(Host* host, kiriSheet sheet, const float* points, int32_t count)
 {

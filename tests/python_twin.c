@@ -67,7 +67,7 @@ int main(void)
     PRINT_SIZE(kiriEvent);
     PRINT_SIZE(kiriProfile);
     PRINT_SIZE(kiriMaterial);
-    PRINT_SIZE(kiriPaperDef);
+    PRINT_SIZE(kiriPaperOptions);
     PRINT_SIZE(kiriSheetDef);
     PRINT_SIZE(kiriMesh);
     PRINT_SIZE(kiriCounts);

@@ -79,9 +79,7 @@ static kiriSheet AddSheet(Host* host, const Setting* setting)
     def.frameCount = 9;
     def.model = setting->model;
     def.planar = setting->planar;
-    kiriPaperDef paper = Host_PaperDef();
-    paper.integrationOrder = setting->order;
-    def.paper = &paper;
+    def.paper.integrationOrder = setting->order;
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 6, 6);
     kiriPinDef pin;
     kiriPin id;

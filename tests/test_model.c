@@ -17,11 +17,8 @@ static kiriSheetDef DefOf(const Choice* choice)
     kiriSheetDef def = Host_SmallDef();
     def.model = choice->model;
     def.planar = choice->planar;
-    static kiriPaperDef paper;
-    paper = Host_PaperDef();
-    paper.integrationPoints = choice->points;
-    paper.integrationOrder = choice->order;
-    def.paper = &paper;
+    def.paper.integrationPoints = choice->points;
+    def.paper.integrationOrder = choice->order;
     def.material.youngsModulus = 2e4f;
     return def;
 }

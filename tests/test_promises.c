@@ -308,7 +308,6 @@ static void TestHashTellsSettings(void** state)
         Host_Start(&host);
         OK(kiriWorld_SetBudget(host.world, &limit)); /* for fromScratch */
         kiriSheetDef def = Host_SmallDef();
-        kiriPaperDef paper = Host_PaperDef();
         def.skinning = what == 1;
         def.fadeTime += what == 2 ? 0.1f : 0.0f;
         def.sleepSpeed += what == 3 ? 0.1f : 0.0f;
@@ -318,9 +317,8 @@ static void TestHashTellsSettings(void** state)
         def.iterations += what == 7;
         def.planar = what == 8;
         def.snapDistance = what == 9 ? 0.01f : 0.0f;
-        paper.popping = what == 10;
-        paper.fromScratch = what == 11;
-        def.paper = what >= 10 ? &paper : NULL;
+        def.paper.popping = what == 10;
+        def.paper.fromScratch = what == 11;
         Host_AddRectangle(&host, &def, 1.0f, 1.0f, 3, 3);
         hashes[what] = Host_Hash(&host);
         for (int other = 0; other < what; ++other) {

@@ -362,7 +362,6 @@ def test_paper():
     world.tick(1 / 60)
     error = raises(kiri.KiriError, world.create_rectangle, 1, 1, 2, 2, paper={"integrationOrder": 3})
     assert error.result == kiri.KIRI_ERROR_ARGUMENT and "integrationOrder" in str(error)
-    world.create_rectangle(1, 1, 2, 2, paper=None)
 
 
 def test_version():

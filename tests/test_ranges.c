@@ -100,10 +100,10 @@ static const Field sheetFields[] = {
 };
 
 static const Field paperFields[] = {
-    { WHOLE(kiriPaperDef, fromScratch), { 0, 1, END }, { -1, 2, END } },
-    { WHOLE(kiriPaperDef, popping), { 0, 1, END }, { -1, 2, END } },
-    { WHOLE(kiriPaperDef, integrationPoints), { 0, 1, 7, 300, 1048576, END }, { -1, 1048577, END } },
-    { WHOLE(kiriPaperDef, integrationOrder), { 1, 2, END }, { 0, 3, END } },
+    { WHOLE(kiriPaperOptions, fromScratch), { 0, 1, END }, { -1, 2, END } },
+    { WHOLE(kiriPaperOptions, popping), { 0, 1, END }, { -1, 2, END } },
+    { WHOLE(kiriPaperOptions, integrationPoints), { 0, 1, 7, 300, 1048576, END }, { -1, 1048577, END } },
+    { WHOLE(kiriPaperOptions, integrationOrder), { 1, 2, END }, { 0, 3, END } },
 };
 
 static const Field pinFields[] = {
@@ -160,7 +160,6 @@ static int32_t CountOf(const double* values, int32_t most)
 typedef struct Session {
     kiriWorldDef world;
     kiriSheetDef sheet;
-    kiriPaperDef paper;
     kiriPinDef pin;
     kiriContact contact;
     TickDef tick;
@@ -179,7 +178,7 @@ typedef struct Part {
 
 static void ListParts(Session* session, Part parts[PARTS])
 {
-    const Part all[PARTS] = { { FIELDS(sheetFields), &session->sheet }, { FIELDS(paperFields), &session->paper },
+    const Part all[PARTS] = { { FIELDS(sheetFields), &session->sheet }, { FIELDS(paperFields), &session->sheet.paper },
                               { FIELDS(pinFields), &session->pin },     { FIELDS(contactFields), &session->contact },
                               { FIELDS(worldFields), &session->world }, { FIELDS(tickFields), &session->tick } };
     memcpy(parts, all, sizeof(all));
@@ -192,11 +191,9 @@ static void Session_Init(Session* session, Host* host)
     host->failAt = -1;
     session->world = Host_Def(host);
     kiriDefaultSheetDef(&session->sheet);
-    kiriDefaultPaperDef(&session->paper);
     kiriDefaultPinDef(&session->pin);
     session->sheet.gridResolution = 8;
     session->sheet.collisionPoints = 5;
-    session->sheet.paper = &session->paper;
     session->contact = contact;
     session->tick.dt = 1.0f / 60.0f;
     session->tick.substeps = 1;
@@ -334,8 +331,8 @@ static void Restrain(Session* session)
     if (def->gridResolution > 24) {
         def->maxFrames = def->maxFrames < 40 ? def->maxFrames : 40;
         def->frameCount = def->frameCount < 40 ? def->frameCount : 40;
-        session->paper.integrationPoints =
-            session->paper.integrationPoints < 300 ? session->paper.integrationPoints : 300;
+        session->sheet.paper.integrationPoints =
+            session->sheet.paper.integrationPoints < 300 ? session->sheet.paper.integrationPoints : 300;
     }
     if (session->tick.substeps * def->iterations > 64) {
         def->iterations = 1;
@@ -438,7 +435,7 @@ static void TestTheMost(void** state)
         session.sheet.frameCount = what == 1 ? 65536 : 4;
         session.sheet.collisionPoints = what == 2 ? 1048576 : 0;
         session.sheet.model = what == 3 ? KIRI_MODEL_POINTS : KIRI_MODEL_LINKS;
-        session.paper.integrationPoints = what == 3 ? 1048576 : 0;
+        session.sheet.paper.integrationPoints = what == 3 ? 1048576 : 0;
         Name("the most:");
         NameMore("case", (double)what);
         OK(Session_Run(&session, &host));

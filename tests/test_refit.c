@@ -181,7 +181,7 @@ static void CheckPieces(Probe* probe)
         count += joined[f] == f;
     }
     assert_true(sheet->settings.mechanics.model == KIRI_MODEL_POINTS ? count >= sheet->layout.pieces.count
-                                                            : count == sheet->layout.pieces.count);
+                                                                     : count == sheet->layout.pieces.count);
 }
 
 static void TestPiecesAreWhatElementsJoin(void** state)
@@ -427,9 +427,7 @@ static void TestNothingSeenJumps(void** state)
     Host_Stop(&seen->probe.host);
 
     def.fadeTime = 0.2f;
-    kiriPaperDef paper = Host_PaperDef();
-    paper.popping = 1;
-    def.paper = &paper;
+    def.paper.popping = 1;
     CutWhatSwings(seen, &def);
     printf("without: %.1e m; as in the paper: %.1e m, momentum by %.1e\n", fitted, seen->jump, seen->probe.momentum);
     assert_true(seen->longest == 0.0 && seen->probe.momentum > 1e-4); /* the probe sees what it should */
@@ -526,9 +524,7 @@ static void TestDefsThatAreNone(void** state)
         kiriSheetDef def;
         kiriDefaultSheetDef(&def);
         def.fadeTime = wrong[k].fadeTime;
-        kiriPaperDef paper = Host_PaperDef();
-        paper.popping = wrong[k].popping;
-        def.paper = &paper;
+        def.paper.popping = wrong[k].popping;
         assert_int_equal(Host_TryRectangle(&host, &def, 1.0f, 1.0f, 4, 4, &sheet), KIRI_ERROR_ARGUMENT);
     }
     Host_Stop(&host);

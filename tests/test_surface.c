@@ -118,8 +118,8 @@ static void Write(Cloth* cloth)
 
 static void Pose(Cloth* cloth)
 {
-    kiriSurface_Blend(&cloth->surface, &cloth->skin, cloth->frames.data, cloth->frames.count,
-                               cloth->links.data, cloth->links.count);
+    kiriSurface_Blend(&cloth->surface, &cloth->skin, cloth->frames.data, cloth->frames.count, cloth->links.data,
+                      cloth->links.count);
     kiriSurface_WriteArrays(&cloth->surface);
 }
 

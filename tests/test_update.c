@@ -112,9 +112,7 @@ static void WanderBothWays(const Case* c, int32_t number, uint32_t seed)
     memset(wanderers, 0, sizeof(wanderers));
     for (int k = 0; k < 2; ++k) {
         kiriSheetDef def = DefOf(c);
-        kiriPaperDef paper = Host_PaperDef();
-        paper.fromScratch = k;
-        def.paper = &paper;
+        def.paper.fromScratch = k;
         Host_Start(&hosts[k]);
         hosts[k].every = 4; /* to save time, as in all of this file */
         sheets[k] = Host_AddRectangle(&hosts[k], &def, 1.0f, 1.0f, c->mesh, c->mesh);

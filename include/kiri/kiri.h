@@ -258,10 +258,8 @@ enum kiriSkinning {
     KIRI_SKINNING_SMOOTH = 1  /* each carries a patch that bends towards its neighbours: no bumps at the frames */
 };
 
-/* The paper's own ways, to compare with. */
-typedef struct kiriPaperDef {
-    uint32_t cookie;
-
+/* The paper's own ways, to compare with; part of the sheet def. */
+typedef struct kiriPaperOptions {
     /* 1: every cut rebuilds grid, regions and shape functions from scratch; the outcome is the same bit for bit. Default
        0. */
     int32_t fromScratch;
@@ -275,9 +273,7 @@ typedef struct kiriPaperDef {
        around it, order 2 a strain linear in it, at four times the work a point. */
     int32_t integrationPoints; /* 0 to 1048576 */
     int32_t integrationOrder;  /* 1 or 2 */
-} kiriPaperDef;
-
-KIRI_API void kiriDefaultPaperDef(kiriPaperDef* def);
+} kiriPaperOptions;
 
 typedef struct kiriSheetDef {
     uint32_t cookie;
@@ -342,7 +338,7 @@ typedef struct kiriSheetDef {
        strains as fast. Default 0.2; 0: at once. */
     float fadeTime;
 
-    const kiriPaperDef* paper; /* null: none of the paper's own ways */
+    kiriPaperOptions paper; /* default: none of the paper's own ways */
 } kiriSheetDef;
 
 KIRI_API void kiriDefaultSheetDef(kiriSheetDef* def);

@@ -1,4 +1,4 @@
-/* Sorting of indices in place: no allocation, O(n log n) whatever the input (quicksort, with heapsort behind it). */
+/* Sorting of indices in place, without memory. */
 #ifndef KIRI_SORT_H
 #define KIRI_SORT_H
 

@@ -53,13 +53,13 @@ static void SetFrames(kiriSettings* settings, const kiriMeshData* mesh, const ki
     settings->rigidArea = def->rigidArea > 0.0f ? def->rigidArea : 0.25 * share;
 }
 
-static void SetPaper(kiriSettings* settings, const kiriPaperDef* def)
+static void SetPaper(kiriSettings* settings, const kiriPaperOptions* paper)
 {
-    settings->integrationOrder = def->integrationOrder;
-    settings->fromScratch = def->fromScratch != 0;
-    settings->popping = def->popping != 0;
-    if (def->integrationPoints > 0) {
-        settings->integrationPoints = def->integrationPoints;
+    settings->integrationOrder = paper->integrationOrder;
+    settings->fromScratch = paper->fromScratch != 0;
+    settings->popping = paper->popping != 0;
+    if (paper->integrationPoints > 0) {
+        settings->integrationPoints = paper->integrationPoints;
     }
     if (settings->popping) {
         settings->fadeTime = 0.0;
@@ -79,13 +79,10 @@ static void SetAll(kiriSettings* settings, const kiriMeshData* mesh, const kiriS
     settings->mechanics.model = def->model;
     settings->mechanics.planar = def->planar != 0;
     settings->mechanics.axes = AxesOf(def);
-    settings->integrationOrder = 1;
     settings->sleepSpeed = def->sleepSpeed;
     settings->fadeTime = def->fadeTime;
     settings->leastFade = 1e-7 * longer * mesh->step; /* of the longer side */
-    if (def->paper != NULL) {
-        SetPaper(settings, def->paper);
-    }
+    SetPaper(settings, &def->paper);
 }
 
 /* ---- Frames ---- */

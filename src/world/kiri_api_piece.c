@@ -1,5 +1,4 @@
 #include "kiri_call.h"
-#include "kiri_parting.h"
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_update.h"
 

@@ -19,15 +19,7 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     def->iterations = 2;
     def->sleepSpeed = 0.001f;
     def->fadeTime = 0.2f;
-}
-
-void kiriDefaultPaperDef(kiriPaperDef* def)
-{
-    if (def != NULL) {
-        memset(def, 0, sizeof(*def));
-        def->cookie = KIRI_COOKIE(kiriPaperDef);
-        def->integrationOrder = 1;
-    }
+    def->paper.integrationOrder = 1;
 }
 
 static const char* FaultOfMaterial(const kiriMaterial* m)
@@ -78,15 +70,12 @@ static const char* FaultOfModel(const kiriSheetDef* def)
     return kiriCall_IsWithin(def->planar, 0, 1) ? NULL : "planar is not 0 or 1";
 }
 
-static const char* FaultOfPaper(const kiriPaperDef* def)
+static const char* FaultOfPaper(const kiriPaperOptions* paper)
 {
-    if (def == NULL) {
-        return NULL;
-    }
-    if (!kiriCall_IsWithin(def->fromScratch, 0, 1) || !kiriCall_IsWithin(def->popping, 0, 1)) {
+    if (!kiriCall_IsWithin(paper->fromScratch, 0, 1) || !kiriCall_IsWithin(paper->popping, 0, 1)) {
         return "fromScratch or popping is not 0 or 1";
     }
-    return kiriCall_IsWithin(def->integrationPoints, 0, 1 << 20) && kiriCall_IsWithin(def->integrationOrder, 1, 2)
+    return kiriCall_IsWithin(paper->integrationPoints, 0, 1 << 20) && kiriCall_IsWithin(paper->integrationOrder, 1, 2)
                ? NULL
                : "integrationPoints is not within 0 and 1048576, or integrationOrder not 1 or 2";
 }
@@ -94,7 +83,7 @@ static const char* FaultOfPaper(const kiriPaperDef* def)
 static const char* FaultOfSheet(const kiriSheetDef* def)
 {
     const char* faults[] = { FaultOfMaterial(&def->material), FaultOfPlacement(def), FaultOfFrames(def),
-                             FaultOfModel(def), FaultOfPaper(def->paper) };
+                             FaultOfModel(def), FaultOfPaper(&def->paper) };
     for (int i = 0; i < 5; ++i) {
         if (faults[i] != NULL) {
             return faults[i];
@@ -122,9 +111,6 @@ kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet*
     *sheet = 0;
     if (def->cookie != KIRI_COOKIE(kiriSheetDef)) {
         return KIRI_FAIL(KIRI_ERROR_DEF, "the def was not filled by kiriDefaultSheetDef");
-    }
-    if (def->paper != NULL && def->paper->cookie != KIRI_COOKIE(kiriPaperDef)) {
-        return KIRI_FAIL(KIRI_ERROR_DEF, "the paper def was not filled by kiriDefaultPaperDef");
     }
     const char* why = FaultOfSheet(def);
     KIRI_CHECK(why == NULL, why);

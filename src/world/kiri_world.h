@@ -38,6 +38,14 @@ void kiriWorld_RemoveCut(kiriWorld* world, kiriCutData* cut);
 kiriResult kiriWorld_ReserveSheet(kiriWorld* world);
 kiriResult kiriWorld_ReserveIds(kiriWorld* world, kiriPool* pool, int64_t count);
 
+/* For a sheet without work at hand, and a piece that is not the only one. On failure (memory, or ids) nothing has
+   changed. The sheet's data moves: pointers to it are stale. */
+kiriResult kiriWorld_DetachPiece(kiriWorld* world, kiriSheetData* sheet, int32_t piece, kiriSheet* id);
+kiriResult kiriWorld_DestroyPiece(kiriWorld* world, kiriSheetData* sheet, int32_t piece);
+
+/* Takes away all pieces below an area (m^2) but the largest. */
+kiriResult kiriWorld_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, int32_t* count);
+
 KIRI_C_END
 
 #endif

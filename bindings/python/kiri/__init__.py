@@ -151,9 +151,7 @@ def _fill(lib, struct, values, kept):
         elif field.kind == "array":
             value = list(_vector(value, field.length))
         elif field.kind in ("pointer", "function"):
-            if isinstance(value, dict):
-                value = _definition(lib, field.item.cname, value, kept)
-            elif field.kind == "function":
+            if field.kind == "function":
                 value = value if isinstance(value, ffi.CData) else ffi.callback(field, value)
             else:
                 value = _array(field.item.cname, value)
