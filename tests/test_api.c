@@ -665,6 +665,45 @@ static void PinArguments(void** state)
     Host_Stop(host);
 }
 
+/* A pin that is destroyed gives its place to the last one, which keeps its id. */
+static void PinsKeepTheirIds(void** state)
+{
+    (void)state;
+    static const float target[3] = { 1.0f, 2.0f, 3.0f };
+    Fixture f;
+    Setup(&f);
+    kiriPinDef def;
+    kiriPin pins[3];
+    kiriDefaultPinDef(&def);
+    for (int i = 0; i < 3; ++i) {
+        def.restPoint[0] = def.restPoint[1] = 0.2f + 0.2f * (float)i;
+        OK(kiriCreatePin(f.host.world, f.sheet, &def, &pins[i]));
+    }
+    OK(kiriDestroyPin(f.host.world, pins[0]));
+    OK(kiriPin_SetTarget(f.host.world, pins[2], target));
+    OK(kiriPin_SetTarget(f.host.world, pins[1], target));
+    assert_int_equal(kiriPin_SetTarget(f.host.world, pins[0], target), KIRI_ERROR_ID);
+    Host_Validate(&f.host);
+    OK(kiriDestroyPin(f.host.world, pins[2]));
+    OK(kiriDestroyPin(f.host.world, pins[1]));
+    Host_Stop(&f.host);
+}
+
+static void ShortIndicesNeedFewVertices(void** state)
+{
+    (void)state;
+    enum { SIDE = 256 };
+    uint16_t indices[3];
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheet many = Host_AddRectangle(&host, &def, 1.0f, 1.0f, SIDE, SIDE - 1);
+    assert_int_equal(kiriSheet_CopyIndices16(host.world, many, 0, 1, indices), KIRI_ERROR_STATE);
+    kiriSheet few = Host_AddRectangle(&host, &def, 1.0f, 1.0f, SIDE - 2, SIDE - 1);
+    OK(kiriSheet_CopyIndices16(host.world, few, 0, 1, indices));
+    Host_Stop(&host);
+}
+
 static void ContactArguments(void** state)
 {
     (void)state;
@@ -900,6 +939,7 @@ int main(void)
         cmocka_unit_test(FillRectangle),    cmocka_unit_test(Ids),
         cmocka_unit_test(SheetArguments),   cmocka_unit_test(CutArguments),
         cmocka_unit_test(FrameArguments),   cmocka_unit_test(PinArguments),
+        cmocka_unit_test(PinsKeepTheirIds), cmocka_unit_test(ShortIndicesNeedFewVertices),
         cmocka_unit_test(ContactArguments), cmocka_unit_test(HarmlessCuts),
         cmocka_unit_test(HugeValues),       cmocka_unit_test(HugeSheets),
         cmocka_unit_test(Copies),

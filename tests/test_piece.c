@@ -688,6 +688,36 @@ static void TestPartsAreWhatTheyWere(void** state)
     }
 }
 
+/* What still fades when a piece is detached goes on to fade, in both parts. */
+static void TestPartsGoOnFading(void** state)
+{
+    (void)state;
+    static const float cuts[2][10] = { { 0.35f, 0.3f, 0.65f, 0.3f, 0.65f, 0.6f, 0.35f, 0.6f, 0.35f, 0.3f },
+                                       { 0.1f, 0.1f, 0.2f, 0.8f, 0.5f, 0.75f, 0.8f, 0.8f, 0.9f, 0.2f } };
+    uint32_t seed = 5;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheet sheet = Furnish(&host, &def, 0, &seed), detached;
+    Tick(&host, 15);
+    Host_Cut(&host, sheet, cuts[0], 5);
+    Host_Cut(&host, sheet, cuts[1], 5);
+    Tick(&host, 1);
+    assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
+    int32_t fading = DataOf(&host, sheet)->seen.fades.fading.count;
+    assert_true(fading > 0);
+    Before before = Remember(&host, sheet);
+    OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 1), &detached));
+    assert_int_equal(DataOf(&host, sheet)->seen.fades.fading.count + DataOf(&host, detached)->seen.fades.fading.count,
+                     fading);
+    CheckPart(&host, detached, &before, 1, false);
+    CheckPart(&host, sheet, &before, 1, true);
+    Forget(&before);
+    Tick(&host, 30);
+    assert_int_equal(DataOf(&host, sheet)->seen.fades.fading.count, 0);
+    Host_Stop(&host);
+}
+
 /* The farthest that a vertex of the part is from where it is in the sheet that was not taken apart. */
 static double Gap(const kiriSheetData* whole, const kiriSheetData* part, const int32_t* vertex)
 {
@@ -926,6 +956,15 @@ static void TestContactsMoveAlong(void** state)
     Tick(&host, 1);
     assert_true(Host_Totals(&host, detached).momentum[2] > 1e-3);
     assert_true(fabs(Host_Totals(&host, sheet).momentum[2]) < 1e-12);
+
+    /* Those of the last tick are what sleep is compared with. */
+    contact.point = MeshOf(&host, sheet, 0).collisionPoints[0];
+    OK(kiriSheet_SetContacts(host.world, sheet, &contact, 1));
+    static const float line[4] = { 0.5f, -0.1f, 0.5f, 1.1f };
+    Host_Cut(&host, sheet, line, 2);
+    Tick(&host, 1);
+    OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 1), &detached));
+    assert_int_equal(DataOf(&host, sheet)->rest.contacts.count + DataOf(&host, detached)->rest.contacts.count, 1);
     Host_Stop(&host);
 }
 
@@ -1138,15 +1177,15 @@ static void TestConfettiHasAll(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestListsOfConfetti),      cmocka_unit_test(TestListsWhileWorkWaits),
-        cmocka_unit_test(TestListsAreLazy),         cmocka_unit_test(TestPieceErrors),
-        cmocka_unit_test(TestEventNamesFrame),      cmocka_unit_test(TestPartsAreWhatTheyWere),
-        cmocka_unit_test(TestMotionGoesOn),         cmocka_unit_test(TestCutsStayWithTheRest),
-        cmocka_unit_test(TestBladeOfTheRestGoesOn), cmocka_unit_test(TestIdsMoveAlong),
-        cmocka_unit_test(TestContactsMoveAlong),    cmocka_unit_test(TestPartsAreRefused),
-        cmocka_unit_test(TestPartsWithoutMemory),   cmocka_unit_test(TestDropCrumbs),
-        cmocka_unit_test(TestCrumbsAreNotSampled),  cmocka_unit_test(TestCrumbsOfDef),
-        cmocka_unit_test(TestConfettiHasAll),
+        cmocka_unit_test(TestListsOfConfetti),     cmocka_unit_test(TestListsWhileWorkWaits),
+        cmocka_unit_test(TestListsAreLazy),        cmocka_unit_test(TestPieceErrors),
+        cmocka_unit_test(TestEventNamesFrame),     cmocka_unit_test(TestPartsAreWhatTheyWere),
+        cmocka_unit_test(TestPartsGoOnFading),     cmocka_unit_test(TestMotionGoesOn),
+        cmocka_unit_test(TestCutsStayWithTheRest), cmocka_unit_test(TestBladeOfTheRestGoesOn),
+        cmocka_unit_test(TestIdsMoveAlong),        cmocka_unit_test(TestContactsMoveAlong),
+        cmocka_unit_test(TestPartsAreRefused),     cmocka_unit_test(TestPartsWithoutMemory),
+        cmocka_unit_test(TestDropCrumbs),          cmocka_unit_test(TestCrumbsAreNotSampled),
+        cmocka_unit_test(TestCrumbsOfDef),         cmocka_unit_test(TestConfettiHasAll),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
