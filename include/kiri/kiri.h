@@ -115,8 +115,9 @@ KIRI_API void kiriDestroyWorld(kiriWorld* world);
 
 /* One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut points,
    then moves every sheet. KIRI_PENDING: the budget is spent, and more work waits; the events say where.
-   KIRI_ERROR_MEMORY: nothing moved and the cut points still wait, call again. What the refused work had prepared is
-   made again: with a budget, a cut may then take effect some ticks later than it would have.
+   KIRI_ERROR_MEMORY: nothing moved and cuts still wait, call again. What the refused work had prepared is made again:
+   until then kiriSheet_GetWeights gives KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than
+   it would have.
    KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed.
    KIRI_DIVERGED: the sheets named by the events were put to rest, the others moved. */
 KIRI_API kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
@@ -242,8 +243,8 @@ enum kiriModel {
     KIRI_MODEL_LINKS = 0,
 
     /* Affine frames joined by links: cloth and rubber, whose stretch inside a region is seen. 12 unknowns a frame,
-       which neighbours of neighbours couple: some ten times the work of KIRI_MODEL_LINKS. From 1e8 Pa or so on it wants
-       more `iterations`, 8 say. */
+       which neighbours of neighbours couple: a tick takes five to seven times as long as with KIRI_MODEL_LINKS. From
+       1e8 Pa or so on it needs more `iterations`, 8 say. */
     KIRI_MODEL_AFFINE = 1,
 
     /* Affine frames, strains at integration points: the scheme of the paper, to compare with. Much too stiff in bending
@@ -329,13 +330,13 @@ typedef struct kiriSheetDef {
     int32_t skinning; /* KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
 
     /* 1: the sheet stays in the plane where it starts, without bending; what velocities, forces and held positions
-       have across the plane is dropped. 3 unknowns a rigid frame, 6 an affine one: half of the work, or a fifth.
-       Default 0. */
+       have across the plane is dropped. 3 unknowns a rigid frame, 6 an affine one: two thirds of the solver's work, or
+       about a third. Default 0. */
     int32_t planar;
 
-    /* When a cut takes effect, weights change, and what is seen between the frames would jump. It goes over to where it
-       belongs within this time (s), and links of KIRI_MODEL_LINKS, whose borders lie elsewhere then, ease into their new
-       strains as fast. Default 0.2; 0: at once. */
+    /* When a cut takes effect, weights change, and what is seen between the frames would jump. The difference fades
+       within this time (s). So does the difference of strain in links of KIRI_MODEL_LINKS whose borders have moved.
+       Default 0.2; 0: at once. */
     float fadeTime;
 
     kiriPaperOptions paper; /* default: none of the paper's own ways */
@@ -495,7 +496,7 @@ KIRI_API kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, floa
    until the next tick. The end of a cut that lies inside the sheet stays closed until the blade moves on. */
 KIRI_API kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriCut* cut);
 
-/* restPoints: 2 floats a point, count is 1 or more. */
+/* restPoints: 2 floats a point; count is 1 to 2^24. */
 KIRI_API kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints, int32_t count);
 
 /* No more points come. After the tick in which the last of them takes effect the id is stale, and
