@@ -195,15 +195,15 @@ $(BUILD)/tests/%.c.o: tests/%.c
 
 $(RUN): $(filter %.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lOSMesa -lpng -lm
+	@$(LINK) -o $@ $^ -lOSMesa -lpng -lz -lm
 
 $(BOX2D): $(filter %/box2d.cpp.o %/draw.c.o %/image.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lbox2d -lOSMesa -lpng -lm
+	@$(LINK) -o $@ $^ -lbox2d -lOSMesa -lpng -lz -lm
 
 $(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy tests/trade tests/sweep tests/reference tests/plot samples/image) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lpng -lm
+	@$(LINK) -o $@ $^ -lpng -lz -lm
 
 $(BUILD)/tests/extremes: $(BUILD)/tests/extremes_main.c.o $(BUILD)/tests/extremes.c.o $(BUILD)/libkiri.a
 	@echo "  $@"
@@ -215,7 +215,10 @@ $(BUILD)/tests/test_quality: $(BUILD)/tests/sweep.c.o
 
 $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(VALIDATE_OBJECTS) $(SCENE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lcmocka -lm
+	@$(LINK) -o $@ $^ -lcmocka $(TEST_LIBRARIES) -lm
+
+$(BUILD)/tests/test_image: $(BUILD)/samples/image.c.o
+$(BUILD)/tests/test_image: TEST_LIBRARIES := -lpng -lz
 
 # Reads a world from two threads.
 $(BUILD)/tests/test_readers: LDFLAGS += -pthread
