@@ -8,7 +8,7 @@
 #   make bench    runs the benchmarks
 #   make accuracy compares with references from outside, and plots error against cost
 #   make extremes runs what nobody should do to a sheet, and says what became of it
-#   make gallery  renders the pictures of the README
+#   make gallery  renders the pictures of the README, and the film that it begins with
 #   make deps     installs what is missing (Debian and its relatives)
 #   make format   clang-format over all sources
 #   make clean    removes build/
@@ -84,6 +84,9 @@ accuracy extremes: %: deps
 
 # Scenes in the README; and the shape functions of one, as in figure 2 of the paper.
 GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat
+# The film film.png: a man is cut out of a sheet that moves, 15 pictures a second, in the time of the scene. It ends where
+# he swings to the front.
+FILM := --scene fallingguy --ticks 390 --every 4 --size 480x360
 
 gallery: accuracy
 	@$(MAKE) --no-print-directory $(RUN) $(BOX2D)
@@ -93,6 +96,7 @@ gallery: accuracy
 	    cp build/gallery/$$scene/contact_sheet.png samples/pictures/$$scene.png; done
 	$(RUN) --scene fallingguy --weights all --size 800x600 --every 1000 --output build/gallery/weights
 	cp build/gallery/weights/contact_sheet.png samples/pictures/weights.png
+	$(RUN) $(FILM) --output build/gallery/film --film samples/pictures/film.png
 	$(BOX2D) --output build/gallery/box2d
 	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
 	cp build/accuracy/trade.png samples/pictures/trade.png
@@ -195,15 +199,15 @@ $(BUILD)/tests/%.c.o: tests/%.c
 
 $(RUN): $(filter %.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lOSMesa -lpng -lm
+	@$(LINK) -o $@ $^ -lOSMesa -lpng -lz -lm
 
 $(BOX2D): $(filter %/box2d.cpp.o %/draw.c.o %/image.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lbox2d -lOSMesa -lpng -lm
+	@$(LINK) -o $@ $^ -lbox2d -lOSMesa -lpng -lz -lm
 
 $(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy tests/trade tests/sweep tests/reference tests/plot samples/image) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lpng -lm
+	@$(LINK) -o $@ $^ -lpng -lz -lm
 
 $(BUILD)/tests/extremes: $(BUILD)/tests/extremes_main.c.o $(BUILD)/tests/extremes.c.o $(BUILD)/libkiri.a
 	@echo "  $@"
@@ -215,7 +219,10 @@ $(BUILD)/tests/test_quality: $(BUILD)/tests/sweep.c.o
 
 $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(VALIDATE_OBJECTS) $(SCENE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lcmocka -lm
+	@$(LINK) -o $@ $^ -lcmocka $(TEST_LIBRARIES) -lm
+
+$(BUILD)/tests/test_image: $(BUILD)/samples/image.c.o
+$(BUILD)/tests/test_image: TEST_LIBRARIES := -lpng -lz
 
 # Reads a world from two threads.
 $(BUILD)/tests/test_readers: LDFLAGS += -pthread

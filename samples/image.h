@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 
 typedef struct Image {
     int32_t width, height;
@@ -20,5 +21,26 @@ void Image_Shrink(Image* image, const uint8_t* source, int32_t sourceWidth, int3
 void Image_Paste(Image* image, const Image* part, int32_t left, int32_t top);
 
 bool Image_WritePng(const Image* image, const char* path);
+
+/* A moving picture on its way into a file: animated PNG. It goes round without end; a program that knows only PNG shows
+   its first frame. */
+typedef struct Apng {
+    FILE* file;
+    int32_t frameCount; /* all that are to come */
+    int32_t added;
+    uint32_t sequence; /* the number of the next fcTL or fdAT chunk */
+    Image shown;       /* what a viewer sees after the frames so far */
+    uint8_t* rgba;     /* the next frame: transparent where it shows what was there before */
+} Apng;
+
+/* False, with nothing to close, without memory or when the file cannot be written. */
+bool Apng_Open(Apng* apng, const char* path, int32_t width, int32_t height, int32_t frameCount);
+
+/* The image has the size given before, and stays for `delay` sixtieths of a second. A pixel may be seen off by 2 in 255:
+   one that changes by so little is not stored. */
+bool Apng_Add(Apng* apng, const Image* image, int32_t delay);
+
+/* False when frames are missing, or when anything could not be written. Closes in any case; again, it does nothing. */
+bool Apng_Close(Apng* apng);
 
 #endif

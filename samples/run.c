@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 #include <time.h>
 
-enum { SHEET_COLUMNS = 4, SHEET_ROWS = 2, SHEET_GAP = 4, MAX_BLADES = 4 };
+enum { SHEET_COLUMNS = 4, SHEET_ROWS = 2, SHEET_GAP = 4, MAX_BLADES = 4, LAST_DELAY = 60 };
 
 /* ---- Options ---------------------------------------------------------------------------------------------------- */
 
@@ -22,6 +22,7 @@ typedef struct Options {
     const char* scene;
     const char* output;
     const char* data;
+    const char* film;
     DebugOptions debug;
     int32_t ticks, every, width, height, grid, controlFrames, budget;
     bool axes, plain, quiet, help;
@@ -32,6 +33,7 @@ static void PrintHelp(void)
     printf("kiri-run: runs a scene and writes its pictures\n\n"
            "  --scene NAME          which scene\n"
            "  --output FOLDER       where the pictures go (build/pictures)\n"
+           "  --film FILE           a moving picture of them too, an animated PNG\n"
            "  --data FOLDER         where the outlines are (samples/data)\n"
            "  --ticks N             sixtieths of a second to run (the scene's own)\n"
            "  --size WxH            of a picture, in pixels, 100x100 or more (640x480)\n"
@@ -103,6 +105,9 @@ static bool ReadValue(const char* name, const char* value, Options* options)
     } else if (strcmp(name, "--output") == 0) {
         options->output = value;
         return true;
+    } else if (strcmp(name, "--film") == 0) {
+        options->film = value;
+        return true;
     } else if (strcmp(name, "--data") == 0) {
         options->data = value;
         return true;
@@ -137,6 +142,10 @@ static bool ReadOptions(int count, char** words, Options* options)
             return false;
         }
     }
+    if (options->film != NULL && options->every == 0) {
+        fprintf(stderr, "kiri-run: --film without pictures: --every 0\n");
+        return false;
+    }
     return true;
 }
 
@@ -165,6 +174,7 @@ static bool MakeFolders(const char* path)
 typedef struct Film {
     Painter* painter;
     Image picture, tile, contactSheet;
+    Apng moving; /* if options say so */
     Debug debug;
     int32_t pictures, moments;
 } Film;
@@ -177,10 +187,21 @@ static void Film_Destroy(Film* film)
     Image_Free(&film->picture);
     Image_Free(&film->tile);
     Image_Free(&film->contactSheet);
+    Apng_Close(&film->moving);
     Debug_Destroy(&film->debug);
 }
 
-static bool Film_Create(Film* film, const Options* options)
+static bool OpenMoving(Film* film, const Options* options, int32_t ticks)
+{
+    int32_t frames = (ticks + options->every - 1) / options->every;
+    if (options->film == NULL || Apng_Open(&film->moving, options->film, options->width, options->height, frames)) {
+        return true;
+    }
+    fprintf(stderr, "cannot write %s\n", options->film);
+    return false;
+}
+
+static bool Film_Create(Film* film, const Options* options, int32_t ticks)
 {
     *film = (Film){ .painter = NULL };
     if (options->every == 0) {
@@ -195,6 +216,9 @@ static bool Film_Create(Film* film, const Options* options)
                              SHEET_ROWS * height + (SHEET_ROWS - 1) * SHEET_GAP);
     if (!fine) {
         fprintf(stderr, "no memory for pictures\n");
+    }
+    fine = fine && OpenMoving(film, options, ticks);
+    if (!fine) {
         Film_Destroy(film);
     }
     return fine;
@@ -274,7 +298,22 @@ static bool WritePicture(Film* film, const Options* options)
 {
     char path[1100];
     snprintf(path, sizeof path, "%s/frame_%04d.png", options->output, film->pictures++);
-    return Image_WritePng(&film->picture, path);
+    if (!Image_WritePng(&film->picture, path)) {
+        fprintf(stderr, "cannot write %s\n", path);
+        return false;
+    }
+    return true;
+}
+
+/* As fast as the scene goes; the last picture stays longer. */
+static bool AddToMoving(Film* film, const Options* options)
+{
+    bool last = film->moving.added == film->moving.frameCount - 1;
+    if (!Apng_Add(&film->moving, &film->picture, options->every + (last ? LAST_DELAY : 0))) {
+        fprintf(stderr, "cannot write %s\n", options->film);
+        return false;
+    }
+    return true;
 }
 
 static void AddMoment(Film* film)
@@ -300,9 +339,11 @@ static bool Film_Tick(Film* film, const Scene* scene, const Options* options, in
     if (!picture && !moment) {
         return true;
     }
-    bool fine = Film_Shoot(film, scene, options) && (!picture || WritePicture(film, options));
-    if (!fine) {
-        fprintf(stderr, "cannot write a picture to %s\n", options->output);
+    if (!Film_Shoot(film, scene, options)) {
+        fprintf(stderr, "no memory for a picture\n");
+        return false;
+    }
+    if (picture && (!WritePicture(film, options) || (options->film != NULL && !AddToMoving(film, options)))) {
         return false;
     }
     while (IsMoment(film, scene, ticks)) {
@@ -419,12 +460,28 @@ static bool RunTicks(Scene* scene, Film* film, Record* record, const Options* op
     return true;
 }
 
+static bool FinishPictures(Film* film, const Options* options)
+{
+    char path[1100];
+    snprintf(path, sizeof path, "%s/contact_sheet.png", options->output);
+    if (!Image_WritePng(&film->contactSheet, path)) {
+        fprintf(stderr, "cannot write %s\n", path);
+        return false;
+    }
+    printf("  %d pictures and contact_sheet.png in %s\n", film->pictures, options->output);
+    if (options->film != NULL && !Apng_Close(&film->moving)) {
+        fprintf(stderr, "cannot write %s\n", options->film);
+        return false;
+    }
+    return true;
+}
+
 static bool RunScene(Scene* scene, const Options* options)
 {
     Film film;
     Record record;
     int32_t ticks = options->ticks > 0 ? options->ticks : scene->type->ticks;
-    if ((options->every > 0 && !MakeFolders(options->output)) || !Film_Create(&film, options)) {
+    if ((options->every > 0 && !MakeFolders(options->output)) || !Film_Create(&film, options, ticks)) {
         return false;
     }
     bool fine = Record_Create(&record, ticks);
@@ -434,12 +491,7 @@ static bool RunScene(Scene* scene, const Options* options)
         kiriSheet_GetCounts(scene->world, scene->sheet, &record.after);
         Record_Print(&record, scene);
     }
-    if (fine && options->every > 0) {
-        char path[1100];
-        snprintf(path, sizeof path, "%s/contact_sheet.png", options->output);
-        fine = Image_WritePng(&film.contactSheet, path);
-        printf("  %d pictures and contact_sheet.png in %s\n", film.pictures, options->output);
-    }
+    fine = fine && (options->every == 0 || FinishPictures(&film, options));
     free(record.seconds[0]);
     Film_Destroy(&film);
     return fine;
