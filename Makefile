@@ -108,7 +108,6 @@ guide: deps
 	$(call MOMENT,cells,120,--scene bunny --grid 24 --cells --size 600x600)
 	$(call MOMENT,regions,120,--scene bunny --regions --links --size 600x600)
 	$(call MOMENT,weights,120,--scene bunny --weights 4 --size 600x600)
-	$(call MOMENT,points,150,--scene bunny --weights all --points --size 600x600)
 	$(call MOMENT,pieces,262,--scene flat --regions --links)
 
 check: $(TESTS) $(RUN) $(BOX2D) floors headers exports example $(PYTHON_CHECK)
