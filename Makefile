@@ -9,6 +9,7 @@
 #   make accuracy compares with references from outside, and plots error against cost
 #   make extremes runs what nobody should do to a sheet, and says what became of it
 #   make gallery  renders the pictures of the README, and the film that it begins with
+#   make guide    renders the pictures of src/README.md
 #   make deps     installs what is missing (Debian and its relatives)
 #   make format   clang-format over all sources
 #   make clean    removes build/
@@ -55,7 +56,7 @@ BOX2D := $(BUILD)/samples/kiri-box2d
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 PYTHON_CHECK := $(if $(filter sanitize,$(config)),,python)
 
-.PHONY: all run box2d python test check floors headers single example lib bench accuracy extremes gallery deps format clean header exports
+.PHONY: all run box2d python test check floors headers single example lib bench accuracy extremes gallery guide deps format clean header exports
 .DEFAULT_GOAL := all
 .SECONDARY:
 
@@ -100,6 +101,18 @@ gallery: accuracy
 	$(BOX2D) --output build/gallery/box2d
 	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
 	cp build/accuracy/trade.png samples/pictures/trade.png
+
+# One tick of a scene, for the guide: what the picture is called, the tick, and options of kiri-run.
+MOMENT = $(RUN) --quiet --ticks $(2) --every $$(($(2) - 1)) --output build/guide/$(1) $(3) && \
+    cp build/guide/$(1)/frame_0001.png samples/pictures/guide_$(1).png
+
+guide: deps
+	@$(MAKE) --no-print-directory $(RUN)
+	@mkdir -p samples/pictures
+	$(call MOMENT,cells,120,--scene bunny --grid 24 --cells --size 600x600)
+	$(call MOMENT,regions,120,--scene bunny --regions --links --size 600x600)
+	$(call MOMENT,weights,120,--scene bunny --weights 4 --size 600x600)
+	$(call MOMENT,pieces,262,--scene flat --regions --links)
 
 check: $(TESTS) $(RUN) $(BOX2D) floors headers exports example $(PYTHON_CHECK)
 	@failed=; for test in $(TESTS); do echo "== $$test"; $$test || failed="$$failed $$test"; done; \

@@ -114,7 +114,8 @@ KIRI_API kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 KIRI_API void kiriDestroyWorld(kiriWorld* world);
 
 /* One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut points,
-   then moves every sheet. KIRI_PENDING: the budget is spent, and more work waits; the events say where.
+   then moves every sheet. KIRI_PENDING: the budget is spent and more work waits: the events say which cuts; a sheet may
+   also have stood still for want of iterations.
    KIRI_ERROR_MEMORY: nothing moved and cuts still wait, call again. What the refused work had prepared is made again:
    until then kiriSheet_GetWeights gives KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than
    it would have.
@@ -211,7 +212,7 @@ typedef struct kiriMaterial {
     float flexDamping;   /* s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
 } kiriMaterial;
 
-/* Materials to start from; material.c says where their numbers come from. */
+/* Materials to start from; src/world/kiri_preset.c says where their numbers come from. */
 enum kiriMaterialPreset {
     KIRI_MATERIAL_PAPER,  /* printing paper, 0.11 mm */
     KIRI_MATERIAL_COTTON, /* cloth, 0.5 mm; the default of a sheet def */
@@ -300,7 +301,7 @@ typedef struct kiriSheetDef {
 
     /* Control frames. framePoints: 2 floats a frame, in the material; null: frameCount frames are spread evenly.
        frameCount 0: as many as the sheet needs: a region is split while its size, 2.45 times its radius of gyration,
-       exceeds frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0: the length
+       exceeds 1.25 frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0: the length
        over which the material bends under its own weight, (D / (density thickness 9.81))^(1/3) with D its bending
        stiffness (6 cm for printing paper), but three squares of the grid at least. */
     int32_t frameCount; /* 0, or 1 and more; default 5 */

@@ -455,7 +455,7 @@ static void AddSpread(RegionSpread* spread, const kiriLink* link)
 static double BracedIn(const Border* border, int32_t region, kiriVec2 t)
 {
     RegionSpread spread = border->work->spreads.data[region];
-    double extent = 536870912.0 * border->mesh->step; /* 2^29 lattice steps, see mesh.h */
+    double extent = KIRI_LATTICE * border->mesh->step;
     double area = kiriTally_Moments(&border->regions->material.data[region], extent).area;
     double sum = t.x * t.x * spread.xx + 2.0 * t.x * t.y * spread.xy + t.y * t.y * spread.yy;
     return sum < area ? sum / area : 1.0;

@@ -398,7 +398,7 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
                                 const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
                                 const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota)
 {
-    RegionUpdate u = { regions, memory, grid, mesh, sites, siteCount, moves, moveCount, mesh->step * 536870912.0 };
+    RegionUpdate u = { regions, memory, grid, mesh, sites, siteCount, moves, moveCount, mesh->step * KIRI_LATTICE };
     KIRI_ASSERT(siteCount >= regions->material.count && grid->cells.count >= regions->siteAt.count);
     if (!regions->running && !BeginRegions(&u)) {
         return KIRI_FAILED;

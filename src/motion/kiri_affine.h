@@ -1,4 +1,4 @@
-/* Affine frames joined by links: sheets that stretch visibly (README, "Mechanics"). */
+/* Affine frames joined by links: sheets that stretch visibly. */
 #ifndef KIRI_AFFINE_H
 #define KIRI_AFFINE_H
 

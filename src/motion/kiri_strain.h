@@ -1,5 +1,5 @@
-/* The generalised strains of a link: how two rigid frames stand to each other where their regions meet (README,
-   "Mechanics"). Those of gaps are in metres, those of bending and twist in radians. */
+/* The generalised strains of a link: how two rigid frames stand to each other where their regions meet. Those of
+   gaps are in metres, those of bending and twist in radians. */
 #ifndef KIRI_STRAIN_H
 #define KIRI_STRAIN_H
 

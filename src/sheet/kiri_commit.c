@@ -26,7 +26,7 @@ static kiriFrameData NewFrame(const kiriSheetData* sheet, kiriSite site)
     return frame;
 }
 
-/* What the frames with new material do, all from the motion before: see refit.h. */
+/* What the frames with new material do, all from the motion before: see kiri_refit.h. */
 static void FitFrames(kiriSheetData* sheet, int32_t oldCount)
 {
     kiriUpdate* u = sheet->update;

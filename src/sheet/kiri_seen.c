@@ -38,7 +38,7 @@ static void BlendVertices(kiriSheetData* sheet)
                       sheet->links.links.data, sheet->links.links.count);
 }
 
-/* Linear whatever is seen: here contacts push (see motion.c). */
+/* Linear whatever is seen: here contacts push (see kiri_motion.c). */
 static void BlendPoints(kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->points.count; ++i) {

@@ -165,7 +165,6 @@ bool kiriPlaces_Add(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* 
     return true;
 }
 
-/* The latest sample of a square is the first in its list. */
 /* ---- Refreshing ------------------------------------------------------------------------------------------------- */
 
 /* There is room for every square. */

@@ -10,7 +10,7 @@
 KIRI_C_BEGIN
 
 /* A frame as skinning reads it: the rest point p goes to x + a u + b v + c d. In a flat patch (a, b) is q = p - center
-   and c is 0; a bent one follows the arc that its curvature gives, see surface.c. */
+   and c is 0; a bent one follows the arc that its curvature gives, see kiri_surface.c. */
 typedef struct kiriCarrier {
     kiriVec3 origin; /* where the flat patch has the local origin */
     kiriVec3 u, v, d, x;
