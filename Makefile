@@ -72,7 +72,7 @@ box2d: deps
 	$(BOX2D) $(ARGS)
 
 test: deps
-	@$(MAKE) --no-print-directory check
+	@$(MAKE) --no-print-directory -k check
 
 bench: deps
 	@$(MAKE) --no-print-directory $(BENCHES)
@@ -114,9 +114,17 @@ guide: deps
 	$(call MOMENT,weights,120,--scene bunny --weights 4 --size 600x600)
 	$(call MOMENT,pieces,262,--scene flat --regions --links)
 
-check: $(TESTS) $(RUN) $(BOX2D) floors headers exports example $(PYTHON_CHECK)
-	@failed=; for test in $(TESTS); do echo "== $$test"; $$test || failed="$$failed $$test"; done; \
-	if [ -n "$$failed" ]; then echo "FAILED:$$failed"; exit 1; fi; echo "all tests passed ($(config))"
+# Each test program by itself, so that -j runs several at a time. What it printed is beside it, and shown when it fails.
+TEST_RUNS := $(patsubst $(BUILD)/tests/%,run-%,$(TESTS))
+
+.PHONY: $(TEST_RUNS)
+
+$(TEST_RUNS): run-%: $(BUILD)/tests/%
+	@if $< > $<.log 2>&1; then echo "== $<"; grep '^\[  PASSED' $<.log; \
+	else echo "== $< FAILED"; cat $<.log; exit 1; fi
+
+check: $(TEST_RUNS) $(RUN) $(BOX2D) floors headers exports example $(PYTHON_CHECK)
+	@echo "all tests passed ($(config))"
 
 python: $(BUILD)/libkiri.so
 	@if ! $(PYTHON) -c 'import cffi' 2>/dev/null; then echo "python: no cffi, binding not tested"; exit 0; fi; \
