@@ -155,15 +155,15 @@ static int32_t CountOf(const double* values, int32_t most)
     return count;
 }
 
-/* ---- A session: a world, a sheet, a pin, contacts, cuts, ticks ---- */
+/* ---- A play: a world, a sheet, a pin, contacts, cuts, ticks ---- */
 
-typedef struct Session {
+typedef struct Play {
     kiriWorldDef world;
     kiriSheetDef sheet;
     kiriPinDef pin;
     kiriContact contact;
     TickDef tick;
-} Session;
+} Play;
 
 /* What holds fields, and how many. */
 enum { PARTS = 6 };
@@ -176,27 +176,27 @@ typedef struct Part {
 
 #define FIELDS(fields) fields, (int32_t)(sizeof(fields) / sizeof(fields[0]))
 
-static void ListParts(Session* session, Part parts[PARTS])
+static void ListParts(Play* play, Part parts[PARTS])
 {
-    const Part all[PARTS] = { { FIELDS(sheetFields), &session->sheet }, { FIELDS(paperFields), &session->sheet.paper },
-                              { FIELDS(pinFields), &session->pin },     { FIELDS(contactFields), &session->contact },
-                              { FIELDS(worldFields), &session->world }, { FIELDS(tickFields), &session->tick } };
+    const Part all[PARTS] = { { FIELDS(sheetFields), &play->sheet }, { FIELDS(paperFields), &play->sheet.paper },
+                              { FIELDS(pinFields), &play->pin },     { FIELDS(contactFields), &play->contact },
+                              { FIELDS(worldFields), &play->world }, { FIELDS(tickFields), &play->tick } };
     memcpy(parts, all, sizeof(all));
 }
 
-static void Session_Init(Session* session, Host* host)
+static void Play_Init(Play* play, Host* host)
 {
     static const kiriContact contact = { 0, { 0.0f, 0.0f, 1.0f }, 0.01f, 0.3f, 50.0f };
     memset(host, 0, sizeof(*host));
     host->failAt = -1;
-    session->world = Host_Def(host);
-    kiriDefaultSheetDef(&session->sheet);
-    kiriDefaultPinDef(&session->pin);
-    session->sheet.gridResolution = 8;
-    session->sheet.collisionPoints = 5;
-    session->contact = contact;
-    session->tick.dt = 1.0f / 60.0f;
-    session->tick.substeps = 1;
+    play->world = Host_Def(host);
+    kiriDefaultSheetDef(&play->sheet);
+    kiriDefaultPinDef(&play->pin);
+    play->sheet.gridResolution = 8;
+    play->sheet.collisionPoints = 5;
+    play->contact = contact;
+    play->tick.dt = 1.0f / 60.0f;
+    play->tick.substeps = 1;
 }
 
 static void GiveCuts(Host* host, kiriSheet sheet, float height)
@@ -222,37 +222,37 @@ static void TickOn(Host* host, const TickDef* tick, int most)
 }
 
 /* Returns the first result that is a failure. */
-static kiriResult Session_Use(Session* session, Host* host, kiriSheet sheet)
+static kiriResult Play_Use(Play* play, Host* host, kiriSheet sheet)
 {
-    float height = session->sheet.restPositions[2 * session->sheet.vertexCount - 1];
+    float height = play->sheet.restPositions[2 * play->sheet.vertexCount - 1];
     kiriPin pin;
     Guard();
-    kiriResult result = kiriCreatePin(host->world, sheet, &session->pin, &pin);
+    kiriResult result = kiriCreatePin(host->world, sheet, &play->pin, &pin);
     if (result >= 0 && Host_Counts(host, sheet).collisionPoints > 1) {
-        result = kiriSheet_SetContacts(host->world, sheet, &session->contact, 1);
+        result = kiriSheet_SetContacts(host->world, sheet, &play->contact, 1);
     }
     if (result < 0) {
         return result;
     }
-    result = kiriWorld_Tick(host->world, session->tick.dt, session->tick.substeps);
+    result = kiriWorld_Tick(host->world, play->tick.dt, play->tick.substeps);
     if (result < 0 && result != KIRI_DIVERGED) {
         return result;
     }
     GiveCuts(host, sheet, height);
-    TickOn(host, &session->tick, 40);
+    TickOn(host, &play->tick, 40);
     GiveCuts(host, sheet, 0.3f * height);
-    TickOn(host, &session->tick, 4);
+    TickOn(host, &play->tick, 4);
     return KIRI_OK;
 }
 
-static kiriResult Session_Run(Session* session, Host* host)
+static kiriResult Play_Run(Play* play, Host* host)
 {
     kiriSheet sheet;
     Guard();
-    kiriResult result = kiriCreateWorld(&session->world, &host->world);
+    kiriResult result = kiriCreateWorld(&play->world, &host->world);
     if (result == KIRI_OK) {
-        result = kiriCreateSheet(host->world, &session->sheet, &sheet);
-        result = result == KIRI_OK ? Session_Use(session, host, sheet) : result;
+        result = kiriCreateSheet(host->world, &play->sheet, &sheet);
+        result = result == KIRI_OK ? Play_Use(play, host, sheet) : result;
         Guard();
         Host_Stop(host);
     }
@@ -271,20 +271,20 @@ static Rectangle MeshFor(kiriSheetDef* def, bool isStrip)
 /* All else as it is by default. */
 static void TryField(int32_t part, int32_t index, bool isStrip)
 {
-    Session session;
+    Play play;
     Host host;
     Part parts[PARTS];
-    ListParts(&session, parts);
+    ListParts(&play, parts);
     const Field* field = &parts[part].fields[index];
     int32_t good = CountOf(field->good, MOST_GOOD), all = good + CountOf(field->bad, MOST_BAD);
     for (int32_t k = 0; k < all; ++k) {
         double value = k < good ? field->good[k] : field->bad[k - good];
-        Session_Init(&session, &host);
-        Rectangle mesh = MeshFor(&session.sheet, isStrip);
+        Play_Init(&play, &host);
+        Rectangle mesh = MeshFor(&play.sheet, isStrip);
         Set(parts[part].def, field, value);
         Name(isStrip ? "strip:" : "square:");
         NameMore(field->name, value);
-        kiriResult result = Session_Run(&session, &host);
+        kiriResult result = Play_Run(&play, &host);
         if (result != (k < good ? KIRI_OK : KIRI_ERROR_ARGUMENT)) {
             fail_msg("%s gives %s", trial, kiriGetResultName(result));
         }
@@ -295,9 +295,9 @@ static void TryField(int32_t part, int32_t index, bool isStrip)
 static void TestOneByOne(void** state)
 {
     (void)state;
-    Session session;
+    Play play;
     Part parts[PARTS];
-    ListParts(&session, parts);
+    ListParts(&play, parts);
     for (int32_t part = 0; part < PARTS; ++part) {
         for (int32_t i = 0; i < parts[part].count; ++i) {
             TryField(part, i, false);
@@ -325,16 +325,16 @@ static void SetAtRandom(Part parts[PARTS], uint32_t* seed)
 }
 
 /* The most expensive combinations have nothing to do with one another. */
-static void Restrain(Session* session)
+static void Restrain(Play* play)
 {
-    kiriSheetDef* def = &session->sheet;
+    kiriSheetDef* def = &play->sheet;
     if (def->gridResolution > 24) {
         def->maxFrames = def->maxFrames < 40 ? def->maxFrames : 40;
         def->frameCount = def->frameCount < 40 ? def->frameCount : 40;
-        session->sheet.paper.integrationPoints =
-            session->sheet.paper.integrationPoints < 300 ? session->sheet.paper.integrationPoints : 300;
+        play->sheet.paper.integrationPoints =
+            play->sheet.paper.integrationPoints < 300 ? play->sheet.paper.integrationPoints : 300;
     }
-    if (session->tick.substeps * def->iterations > 64) {
+    if (play->tick.substeps * def->iterations > 64) {
         def->iterations = 1;
     }
 }
@@ -345,17 +345,17 @@ static void TestAtRandom(void** state)
     int32_t accepted = 0, runs = IS_SLOW ? 60 : 250;
     for (int32_t run = 1; run <= runs; ++run) {
         uint32_t seed = 2654435761u * (uint32_t)run;
-        Session session;
+        Play play;
         Host host;
         Part parts[PARTS];
-        Session_Init(&session, &host);
-        ListParts(&session, parts);
-        Rectangle mesh = MeshFor(&session.sheet, run % 3 == 0);
+        Play_Init(&play, &host);
+        ListParts(&play, parts);
+        Rectangle mesh = MeshFor(&play.sheet, run % 3 == 0);
         Name("at random:");
         SetAtRandom(parts, &seed);
-        session.pin.restPoint[1] = 0.0f;
-        Restrain(&session);
-        kiriResult result = Session_Run(&session, &host);
+        play.pin.restPoint[1] = 0.0f;
+        Restrain(&play);
+        kiriResult result = Play_Run(&play, &host);
         if (result != KIRI_OK && result != KIRI_ERROR_ARGUMENT) {
             fail_msg("%s gives %s", trial, kiriGetResultName(result));
         }
@@ -380,17 +380,17 @@ static void TestMoreFramesThanCells(void** state)
         { 8, 65536, 256, 0, false }, { 8, 0, INT32_MAX, 0, true },
     };
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); ++i) {
-        Session session;
+        Play play;
         Host host;
-        Session_Init(&session, &host);
-        Rectangle mesh = MeshFor(&session.sheet, cases[i].isStrip);
-        session.sheet.gridResolution = cases[i].grid;
-        session.sheet.frameCount = cases[i].frames;
-        session.sheet.maxFrames = cases[i].most;
-        session.sheet.rigidArea = cases[i].rigidArea;
+        Play_Init(&play, &host);
+        Rectangle mesh = MeshFor(&play.sheet, cases[i].isStrip);
+        play.sheet.gridResolution = cases[i].grid;
+        play.sheet.frameCount = cases[i].frames;
+        play.sheet.maxFrames = cases[i].most;
+        play.sheet.rigidArea = cases[i].rigidArea;
         Name("more frames than cells:");
         NameMore("case", (double)i);
-        OK(Session_Run(&session, &host));
+        OK(Play_Run(&play, &host));
         Rectangle_Free(&mesh);
     }
 }
@@ -401,16 +401,16 @@ static void TestSingleCellCutOut(void** state)
     (void)state;
     static const float strip[4] = { 0.3f, -0.1f, 0.3f, 1.1f };
     static const float cell[10] = { 0.626f, 0.626f, 0.749f, 0.626f, 0.749f, 0.749f, 0.626f, 0.749f, 0.626f, 0.626f };
-    Session session;
+    Play play;
     Host host;
     kiriEvent event = { .type = 0 };
-    Session_Init(&session, &host);
+    Play_Init(&play, &host);
     Name("a single cell cut out");
     Guard();
-    OK(kiriCreateWorld(&session.world, &host.world));
-    session.sheet.maxFrames = 30;
-    session.sheet.rigidArea = 0.005f;
-    kiriSheet sheet = Host_AddRectangle(&host, &session.sheet, 1.0f, 1.0f, 8, 8);
+    OK(kiriCreateWorld(&play.world, &host.world));
+    play.sheet.maxFrames = 30;
+    play.sheet.rigidArea = 0.005f;
+    kiriSheet sheet = Host_AddRectangle(&host, &play.sheet, 1.0f, 1.0f, 8, 8);
     Host_Cut(&host, sheet, strip, 2);
     OK(kiriWorld_Tick(host.world, 0.01f, 1));
     assert_int_equal(Host_Events(&host, KIRI_EVENT_PIECE_OFF, &event), 1);
@@ -427,18 +427,18 @@ static void TestTheMost(void** state)
 {
     (void)state;
     for (int what = 0; what < (IS_SLOW ? 1 : 4); ++what) {
-        Session session;
+        Play play;
         Host host;
-        Session_Init(&session, &host);
-        Rectangle mesh = MeshFor(&session.sheet, what == 0);
-        session.sheet.gridResolution = what == 0 ? 4096 : 64;
-        session.sheet.frameCount = what == 1 ? 65536 : 4;
-        session.sheet.collisionPoints = what == 2 ? 1048576 : 0;
-        session.sheet.model = what == 3 ? KIRI_MODEL_POINTS : KIRI_MODEL_LINKS;
-        session.sheet.paper.integrationPoints = what == 3 ? 1048576 : 0;
+        Play_Init(&play, &host);
+        Rectangle mesh = MeshFor(&play.sheet, what == 0);
+        play.sheet.gridResolution = what == 0 ? 4096 : 64;
+        play.sheet.frameCount = what == 1 ? 65536 : 4;
+        play.sheet.collisionPoints = what == 2 ? 1048576 : 0;
+        play.sheet.model = what == 3 ? KIRI_MODEL_POINTS : KIRI_MODEL_LINKS;
+        play.sheet.paper.integrationPoints = what == 3 ? 1048576 : 0;
         Name("the most:");
         NameMore("case", (double)what);
-        OK(Session_Run(&session, &host));
+        OK(Play_Run(&play, &host));
         Rectangle_Free(&mesh);
     }
 }
