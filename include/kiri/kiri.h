@@ -552,7 +552,7 @@ KIRI_API kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float
 KIRI_API kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
 
 /* A collision point that touches something: it is pushed out of the half space below the plane dot(normal, x) = offset
-   with `stiffness` N/m, and its sliding is braked with at most `friction` times the push. */
+   with `stiffness` N/m; against its sliding acts at most `friction` times the push (Coulomb). */
 typedef struct kiriContact {
     int32_t point;   /* index of the collision point */
     float normal[3]; /* unit, out of the obstacle */

@@ -146,7 +146,7 @@ kiriMat3 kiriMat3_Rotation(kiriMat3 m);
 /* The same from a rotation near it: where m says little about a turn, that one stays. */
 kiriMat3 kiriMat3_RotationFrom(kiriMat3 start, kiriMat3 m);
 
-/* Moments of a patch of material about the origin of the rest coordinates: integrals of 1, u, v, u^2, u v, v^2. */
+/* Moments of an area of material about the origin of the rest coordinates: integrals of 1, u, v, u^2, u v, v^2. */
 typedef struct kiriMoments {
     double area, u, v, uu, uv, vv;
 } kiriMoments;
@@ -158,7 +158,7 @@ void kiriMoments_Add(kiriMoments* sum, const kiriMoments* part);
 /* Its centroid; the area must be above zero. */
 kiriVec2 kiriMoments_Center(const kiriMoments* m);
 
-/* The same patch about another origin. */
+/* The same area about another origin. */
 kiriMoments kiriMoments_About(const kiriMoments* m, kiriVec2 origin);
 
 KIRI_C_END
