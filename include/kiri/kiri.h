@@ -133,11 +133,11 @@ KIRI_API kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3
 KIRI_API kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget);
 
 /* A hash of everything that the coming ticks depend on, work that waits for its budget included: two worlds that got
-   the same calls have the same hash, and two with the same hash go on alike. (For how many items are made again after a
-   refused allocation it covers while work is at hand, or cells are limited.) */
+   the same calls have the same hash, and two with the same hash go on alike. After a refused allocation some items are
+   made again: the hash tells that while work waits, or while the budget limits cells or samples. */
 KIRI_API kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash);
 
-/* What happened since the start of the last tick. */
+/* What happened since the start of the last tick that was not refused. */
 enum kiriEventType {
     KIRI_EVENT_CUT_FINISHED = 1, /* cut: all of it is in the mesh; the id is stale from now on */
     KIRI_EVENT_PIECE_OFF = 2,    /* frame (its first, which names it), crumb, area: a connected part came off */

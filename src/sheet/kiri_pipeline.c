@@ -125,7 +125,7 @@ void kiriPipeline_Abort(kiriSheetData* sheet)
     kiriUpdate* u = sheet->update;
     if (u->isBegun) {
         RollBackMesh(sheet);
-        if (u->stage > KIRI_STAGE_CUT) {
+        if (u->stage > KIRI_STAGE_CUT && u->cut.meshChanged) {
             kiriStage_Drop(sheet);
             u->needsRebuild = true;
         }

@@ -144,6 +144,14 @@ static bool IsCrumbTaken(const kiriSheetData* sheet)
     return sheet->settings.crumbArea > 0.0 && TakenArea(sheet) < sheet->settings.crumbArea;
 }
 
+kiriProgress kiriSites_RunPlacer(kiriSheetData* sheet, kiriQuota* quota)
+{
+    kiriPlacingWork* placing = &sheet->update->placing;
+    kiriProgress progress = kiriPlacer_Run(&placing->placer, sheet->memory, &sheet->grid, &sheet->mesh, quota);
+    placing->isPlacing = progress == KIRI_MORE;
+    return progress;
+}
+
 /* How many of `count` things spread over the sheet fall to the piece in the placer. */
 int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count)
 {
@@ -194,12 +202,10 @@ kiriProgress kiriSites_PlaceInOrphans(kiriSheetData* sheet, kiriQuota* cells)
         if (!u->placing.isPlacing && !StartOrphan(sheet, cell)) {
             return KIRI_FAILED;
         }
-        u->placing.isPlacing = true;
-        kiriProgress progress = kiriPlacer_Run(&u->placing.placer, sheet->memory, &sheet->grid, &sheet->mesh, cells);
+        kiriProgress progress = kiriSites_RunPlacer(sheet, cells);
         if (progress != KIRI_DONE) {
             return progress;
         }
-        u->placing.isPlacing = false;
         for (int32_t i = 0; i < u->placing.placer.sites.count; ++i) {
             if (!AddSite(sheet, u->placing.placer.sites.data[i])) {
                 return KIRI_FAILED;
@@ -223,9 +229,6 @@ bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count)
 }
 
 /* ---- Re-sampling ---- */
-
-/* Marks of frames, while pieces with rigid ones are seen to. */
-enum { DONE_WITH = 1, OF_PIECE_AT_HAND = 2 /* of the piece at hand */ };
 
 /* Has the frame a weight above rigidWeight over more than rigidArea? */
 static bool IsRigid(const kiriSheetData* sheet, int32_t frame)
@@ -285,7 +288,7 @@ static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
     for (int32_t i = 0; i < u->placing.placer.cells.count; ++i) {
         int32_t frame = sheet->regions.siteAt.data[u->placing.placer.cells.data[i]];
         if (frame != KIRI_NONE) {
-            u->placing.marks.data[frame] = OF_PIECE_AT_HAND;
+            u->placing.marks.data[frame] = 1;
             *old = *old || frame < sheet->frames.count;
             if (!kiriArray_Push(sheet->memory, &u->placing.own, frame)) {
                 return false;
@@ -328,17 +331,14 @@ static bool GiveSites(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
     int32_t next = u->placing.placer.oldCount;
-    bool ok = true, again = next == 0 && u->placing.placer.sites.count > u->placing.own.count;
-    if (next == 0 && !again) {
-        next = u->placing.placer.sites.count;
+    bool ok = true, isAgain = next == 0;
+    if (isAgain && u->placing.placer.sites.count <= u->placing.own.count) {
+        return true;
     }
-    for (int32_t i = 0; ok && i < u->placing.own.count; ++i) {
+    for (int32_t i = 0; ok && isAgain && i < u->placing.own.count; ++i) {
         int32_t f = u->placing.own.data[i];
-        u->placing.marks.data[f] = DONE_WITH;
-        if (again && next < u->placing.placer.sites.count) {
-            ok = RecordMove(sheet, f, u->placing.sites.data[f].cell);
-            u->placing.sites.data[f] = u->placing.placer.sites.data[next++];
-        }
+        ok = RecordMove(sheet, f, u->placing.sites.data[f].cell);
+        u->placing.sites.data[f] = u->placing.placer.sites.data[next++];
     }
     while (ok && next < u->placing.placer.sites.count) {
         ok = AddSite(sheet, u->placing.placer.sites.data[next++]);
@@ -366,12 +366,10 @@ kiriProgress kiriSites_Resample(kiriSheetData* sheet, kiriQuota* cells)
         if (!u->placing.isPlacing && !StartResample(sheet, u->placing.at)) {
             return KIRI_FAILED;
         }
-        u->placing.isPlacing = true;
-        kiriProgress progress = kiriPlacer_Run(&u->placing.placer, sheet->memory, &sheet->grid, &sheet->mesh, cells);
+        kiriProgress progress = kiriSites_RunPlacer(sheet, cells);
         if (progress != KIRI_DONE) {
             return progress;
         }
-        u->placing.isPlacing = false;
         if (!GiveSites(sheet)) {
             return KIRI_FAILED;
         }

@@ -22,6 +22,9 @@ kiriProgress kiriSites_Resample(kiriSheetData* sheet, kiriQuota* cells);
 /* Makes sheet->update.marks `count` zeros, and starts at the first. False for memory. */
 bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count);
 
+/* Carries on what the placer has started; isPlacing says whether it goes on in the next tick. */
+kiriProgress kiriSites_RunPlacer(kiriSheetData* sheet, kiriQuota* quota);
+
 /* How many of `count` things spread over the sheet fall to the piece in the placer: one at least. */
 int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count);
 

@@ -256,12 +256,10 @@ static kiriProgress PlaceCollisionPoints(kiriSheetData* sheet, kiriQuota* sample
         if (!u->placing.isPlacing && !StartPlacingPoints(sheet, u->placing.at)) {
             return KIRI_FAILED;
         }
-        u->placing.isPlacing = true;
-        kiriProgress progress = kiriPlacer_Run(&u->placing.placer, sheet->memory, &sheet->grid, &sheet->mesh, samples);
+        kiriProgress progress = kiriSites_RunPlacer(sheet, samples);
         if (progress != KIRI_DONE) {
             return progress;
         }
-        u->placing.isPlacing = false;
         if (!AddCollisionPoints(sheet)) {
             return KIRI_FAILED;
         }

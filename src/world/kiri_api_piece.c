@@ -68,12 +68,16 @@ kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* 
 }
 
 /* Why the sheet cannot be taken apart now, or null. */
+static const char* FaultOfWork(const kiriSheetData* sheet)
+{
+    bool isAtRest = sheet->update->stage == KIRI_NONE && !sheet->update->needsRebuild;
+    return isAtRest ? NULL : "a cut is being worked on; ask again when its work is done";
+}
+
 static const char* FaultOfParting(const kiriSheetData* sheet)
 {
-    if (sheet->update->stage != KIRI_NONE || sheet->update->needsRebuild) {
-        return "a cut is being worked on; ask again when its work is done";
-    }
-    return sheet->layout.pieces.count == 1 ? "the piece is all of the sheet" : NULL;
+    bool isWhole = sheet->layout.pieces.count == 1;
+    return isWhole ? "the piece is all of the sheet" : FaultOfWork(sheet);
 }
 
 kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached)
@@ -105,8 +109,8 @@ kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, i
     KIRI_CHANGES(world);
     KIRI_CHECK(count != NULL && kiriCall_IsAtLeast(area, 0.0f), "count is null, or area not finite or below 0");
     KIRI_FIND_SHEET(data, sheet);
-    const char* why = FaultOfParting(data);
-    if (why != NULL && data->layout.pieces.count > 1) {
+    const char* why = FaultOfWork(data);
+    if (why != NULL) {
         return KIRI_FAIL(KIRI_ERROR_STATE, why);
     }
     KIRI_RETURN(kiriWorld_DropCrumbs(world, data, area, count));

@@ -128,6 +128,9 @@ kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps)
     if (result == KIRI_ERROR_MEMORY) {
         return KIRI_FAIL(result, "out of memory; nothing moved, and cuts still wait");
     }
+    if (result == KIRI_ERROR_LIMIT) {
+        return KIRI_FAIL(result, "there are no ids left for new frames; nothing moved, and cuts still wait");
+    }
     KIRI_RETURN(result);
 }
 
