@@ -440,6 +440,10 @@ static inline void Follow_CompareLinks(const Follow* a, const Follow* b)
     for (int32_t k = 0; k < a->links.links.count; ++k) {
         assert_memory_equal(&a->links.links.data[k], &b->links.links.data[k], sizeof(kiriLink));
     }
+    assert_int_equal(a->links.corners.count, b->links.corners.count);
+    for (int32_t k = 0; k < a->links.corners.count; ++k) {
+        assert_memory_equal(&a->links.corners.data[k], &b->links.corners.data[k], sizeof(kiriCorner));
+    }
 }
 
 static inline void Follow_CompareSkins(const kiriSkin* a, const kiriSkin* b)

@@ -59,6 +59,7 @@ static void StripHasStraightLinks(void** state)
     }
     Build(&scene, &links, sites, 5);
     assert_int_equal(links.made.links.count, 4);
+    assert_int_equal(links.made.corners.count, 0);
     for (int k = 0; k < 4; ++k) {
         const kiriLink* link = &links.made.links.data[k];
         assert_int_equal(link->i, k);
@@ -75,13 +76,13 @@ static void StripHasStraightLinks(void** state)
         AssertNear(link->crossing.y, sites[k].at.y, 1e-12);
         AssertNear(link->span.x, 7.0 * scene.grid.side, 1e-12);
         AssertNear(link->span.y, 0.0, 1e-12);
-        AssertNear(link->braced, 0.0, 0.0);
+        AssertNear(link->outer, link->width, 0.0);
     }
     Scene_Release(&scene);
 }
 
-/* Sixteen square regions: a link is braced by what its two regions have on both sides along the tangent. */
-static void NeighboursBrace(void** state)
+/* Sixteen square regions: borders of those at the outline are open at one end. */
+static void OuterEndsAreOpen(void** state)
 {
     (void)state;
     Scene scene;
@@ -97,8 +98,54 @@ static void NeighboursBrace(void** state)
     for (int k = 0; k < 24; ++k) {
         const kiriLink* link = &links.made.links.data[k];
         int line = link->j - link->i == 1 ? link->i / 4 : link->i % 4; /* of regions, that the link lies in */
-        AssertNear(link->braced, line == 0 || line == 3 ? 0.5 : 1.0, 1e-4);
+        AssertNear(link->outer, line == 0 || line == 3 ? 0.125 : 0.0, 1e-7);
     }
+    assert_int_equal(links.made.corners.count, 9);
+    Scene_Release(&scene);
+}
+
+/* What every corner promises: with the links' strains of one curvature (or stretch) K, each K s_k, the weights give
+   its trace. */
+static void CheckCorner(const Links* l, const kiriCorner* corner)
+{
+    double a[4] = { 0.0, 0.0, 0.0, 0.0 };
+    for (int32_t k = 0; k < corner->count; ++k) {
+        const kiriLink* link = &l->made.links.data[corner->link[k]];
+        assert_true(k == 0 || corner->link[k] > corner->link[k - 1]);
+        a[0] += corner->weight[k].x * link->span.x;
+        a[1] += corner->weight[k].x * link->span.y;
+        a[2] += corner->weight[k].y * link->span.x;
+        a[3] += corner->weight[k].y * link->span.y;
+    }
+    AssertNear(a[0], 1.0, 1e-9);
+    AssertNear(a[1], 0.0, 1e-9);
+    AssertNear(a[2], 0.0, 1e-9);
+    AssertNear(a[3], 1.0, 1e-9);
+}
+
+/* Three rows, the middle one shifted by half a region: three regions meet at each corner. */
+static void CornersOfShiftedRows(void** state)
+{
+    (void)state;
+    Scene scene;
+    Links links;
+    kiriSite sites[12];
+    Scene_Init(&scene, 1.0, 0.75, 4, 3, 60);
+    Scene_BuildGrid(&scene);
+    for (int i = 0; i < 12; ++i) {
+        sites[i] = Scene_Site(&scene, (7.5 + 15 * (i % 4) + (i / 4 == 1 ? 6 : 0)) / 60, (7.5 + 15 * (i / 4)) / 60);
+    }
+    Build(&scene, &links, sites, 12);
+    assert_int_equal(links.made.corners.count, 12);
+    double area = 0.0;
+    for (int k = 0; k < 12; ++k) {
+        const kiriCorner* corner = &links.made.corners.data[k];
+        assert_int_equal(corner->count, 3);
+        AssertNear(corner->area, 0.5 * 0.25 * 0.25, 1e-6);
+        CheckCorner(&links, corner);
+        area += corner->area;
+    }
+    AssertNear(area, 12 * 0.5 * 0.25 * 0.25, 1e-6);
     Scene_Release(&scene);
 }
 
@@ -483,7 +530,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(StripHasStraightLinks),
-        cmocka_unit_test(NeighboursBrace),
+        cmocka_unit_test(OuterEndsAreOpen),
+        cmocka_unit_test(CornersOfShiftedRows),
         cmocka_unit_test(NormalPointsToTheHigherIndex),
         cmocka_unit_test(SlitMakesTheLongWay),
         cmocka_unit_test(CompleteCutHasNoLink),

@@ -67,7 +67,6 @@ static void AddLink(Scene* s, int i, int j, kiriVec2 normal, double width, kiriV
     k->width = width;
     k->length = kiriVec2_Length(kiriVec2_Sub(b, a));
     k->moment = width * width * width / 12.0;
-    k->braced = 1.0;
     k->span = kiriVec2_Sub(b, a);
     k->normal = normal;
     k->tangent = kiriVec2_Make(-normal.y, normal.x);
@@ -842,7 +841,7 @@ static void TestInPlane(void** state)
         scene.system.material.airDamping = 100.0f;
         scene.system.gravity = k == 0 ? kiriVec3_Make(0.0, -9.81 * 50.0, 0.0) : kiriVec3_Make(9.81 * 50.0, 0.0, 0.0);
         for (int n = 0; n < scene.system.linkCount; ++n) {
-            scene.links[n].braced = 0.0;
+            scene.links[n].outer = scene.links[n].width;
         }
         Hold(&scene, 0);
         Settle(&scene, 0.05);

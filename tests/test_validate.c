@@ -10,8 +10,8 @@
 typedef const char* CorruptFn(kiriWorld* world, kiriSheetData* s, int way);
 
 /* Two pieces, of which one came off inside the other; a pin, contacts, a blade that is still in the sheet, and a point
-   that waits. */
-static kiriSheetData* Start(Host* host, int32_t model)
+   that waits. `frames` 0: the four of the small sheet. */
+static kiriSheetData* Start(Host* host, int32_t model, int32_t frames)
 {
     enum { COUNT = 25 };
     float circle[2 * COUNT];
@@ -22,6 +22,8 @@ static kiriSheetData* Start(Host* host, int32_t model)
     Host_Start(host);
     kiriSheetDef def = Host_SmallDef();
     def.model = model;
+    def.frameCount = frames > 0 ? frames : def.frameCount;
+    def.framePoints = frames > 0 ? NULL : def.framePoints;
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 7, 7);
     kiriDefaultPinDef(&pinDef);
     pinDef.restPoint[0] = pinDef.restPoint[1] = 0.93f;
@@ -42,12 +44,12 @@ static kiriSheetData* Start(Host* host, int32_t model)
     return host->world->sheets.data[0];
 }
 
-static void CheckWays(CorruptFn* corrupt, int32_t model)
+static void CheckWaysWith(CorruptFn* corrupt, int32_t model, int32_t frames)
 {
     const char* words = "";
     for (int way = 0; words != NULL; ++way) {
         Host host;
-        kiriSheetData* sheet = Start(&host, model);
+        kiriSheetData* sheet = Start(&host, model, frames);
         assert_null(Validate_World(host.world));
         words = corrupt(host.world, sheet, way);
         const char* line = Validate_World(host.world);
@@ -58,6 +60,11 @@ static void CheckWays(CorruptFn* corrupt, int32_t model)
         }
         Host_Destroy(&host);
     }
+}
+
+static void CheckWays(CorruptFn* corrupt, int32_t model)
+{
+    CheckWaysWith(corrupt, model, 0);
 }
 
 /* ---- Mesh ---- */
@@ -191,7 +198,7 @@ static void SeesThatTwinsAreMissing(void** state)
 {
     (void)state;
     Host host;
-    kiriMeshData* mesh = &Start(&host, KIRI_MODEL_LINKS)->mesh;
+    kiriMeshData* mesh = &Start(&host, KIRI_MODEL_LINKS, 0)->mesh;
     int32_t h = InnerEdge(mesh, true), twin = kiriMesh_Twin(mesh, h);
     assert_null(Validate_Mesh(mesh, true));
     Toggle(mesh, h);
@@ -505,7 +512,7 @@ static const char* CorruptLayout(kiriWorld* world, kiriSheetData* s, int way)
         links[0].j = last;      /* joins the two pieces */
         return "links: link 1"; /* out of order, too */
     case 5:
-        s->links.links.count = 0;
+        s->links.links.count = s->links.corners.count = 0;
         s->strainOffsets.strainOffsets.count = 0;
         return "pieces: ";
     case 6:
@@ -534,6 +541,32 @@ static const char* CorruptLayout(kiriWorld* world, kiriSheetData* s, int way)
             s->vertexSkin.weights.data[s->vertexSkin.spans.data[inner].first + k].frame = k;
         }
         return "of another piece";
+    case 13:
+        links[0].outer = -1e-9;
+        return "has outer width";
+    default:
+        return NULL;
+    }
+}
+
+static const char* CorruptCorners(kiriWorld* world, kiriSheetData* s, int way)
+{
+    kiriCorner* corner = s->links.corners.data;
+    (void)world;
+    assert_true(s->links.corners.count > 0);
+    switch (way) {
+    case 0:
+        corner->count = 2;
+        return "has 2 links";
+    case 1:
+        corner->link[2] = s->links.links.count;
+        return "corners: corner 0 has link";
+    case 2:
+        corner->weight[1].x *= 1.001;
+        return "weights of corner 0";
+    case 3:
+        corner->area = 0.0;
+        return "has area 0";
     default:
         return NULL;
     }
@@ -656,6 +689,7 @@ static void SeesWhatIsInForce(void** state)
     (void)state;
     CheckWays(CorruptFrames, KIRI_MODEL_LINKS);
     CheckWays(CorruptLayout, KIRI_MODEL_LINKS);
+    CheckWaysWith(CorruptCorners, KIRI_MODEL_LINKS, 12);
     CheckWays(CorruptPatches, KIRI_MODEL_AFFINE);
     CheckWays(CorruptPatches, KIRI_MODEL_POINTS);
     CheckWays(CorruptSamples, KIRI_MODEL_LINKS);
@@ -736,7 +770,7 @@ static void SeesLostBlocks(void** state)
 {
     (void)state;
     Host host;
-    kiriSheetData* sheet = Start(&host, KIRI_MODEL_LINKS);
+    kiriSheetData* sheet = Start(&host, KIRI_MODEL_LINKS, 0);
     kiriBlock** link = sheet->own.blocks->next->link;
     sheet->own.blocks->next->link = &sheet->own.blocks;
     assert_non_null(strstr(Validate_World(host.world), "another list"));

@@ -118,7 +118,8 @@ static bool Check_Links(Check* check, const kiriSheetData* sheet)
         REQUIRE(link->width > 0.0 && link->length > 0.0 && link->moment >= 0.0 && IsFinite(link->width) &&
                     IsFinite(link->length) && IsFinite(link->moment),
                 "link %d has width %g, length %g, moment %g", k, link->width, link->length, link->moment);
-        REQUIRE(link->braced >= -1e-12 && link->braced <= 1.0 + 1e-12, "link %d is braced by %g", k, link->braced);
+        REQUIRE(link->outer >= 0.0 && link->outer <= link->width, "link %d of width %g has outer width %g", k,
+                link->width, link->outer);
         REQUIRE(IsNear(kiriVec2_Length(link->normal), 1.0, 1e-9) && IsNear(link->tangent.x, -link->normal.y, 1e-12) &&
                     IsNear(link->tangent.y, link->normal.x, 1e-12),
                 "link %d has normal (%g, %g)", k, link->normal.x, link->normal.y);
@@ -126,6 +127,32 @@ static bool Check_Links(Check* check, const kiriSheetData* sheet)
     int32_t offsets = sheet->strainOffsets.strainOffsets.count;
     REQUIRE(offsets == 0 || offsets == sheet->links.links.count, "%d strain offsets, %d links", offsets,
             sheet->links.links.count);
+    return true;
+}
+
+/* The weights of a corner give the trace of what its links see: the sum of weight_k s_k^T is the unit matrix. */
+static bool Check_Corners(Check* check, const kiriSheetData* sheet)
+{
+    check->part = "corners";
+    for (int32_t k = 0; k < sheet->links.corners.count; ++k) {
+        const kiriCorner* corner = &sheet->links.corners.data[k];
+        double a[4] = { 0.0, 0.0, 0.0, 0.0 };
+        REQUIRE(corner->count == 3 || corner->count == 4, "corner %d has %d links", k, corner->count);
+        REQUIRE(corner->area > 0.0 && IsFinite(corner->area), "corner %d has area %g", k, corner->area);
+        for (int32_t c = 0; c < corner->count; ++c) {
+            int32_t last = c > 0 ? corner->link[c - 1] : KIRI_NONE;
+            REQUIRE(corner->link[c] > last && corner->link[c] < sheet->links.links.count, "corner %d has link %d", k,
+                    corner->link[c]);
+            kiriVec2 span = sheet->links.links.data[corner->link[c]].span, weight = corner->weight[c];
+            a[0] += weight.x * span.x;
+            a[1] += weight.x * span.y;
+            a[2] += weight.y * span.x;
+            a[3] += weight.y * span.y;
+        }
+        REQUIRE(IsNear(a[0], 1.0, 1e-9) && IsNear(a[1], 0.0, 1e-9) && IsNear(a[2], 0.0, 1e-9) &&
+                    IsNear(a[3], 1.0, 1e-9),
+                "weights of corner %d give (%g, %g, %g, %g)", k, a[0], a[1], a[2], a[3]);
+    }
     return true;
 }
 
@@ -505,9 +532,10 @@ static bool Check_Sheet(Check* check, const kiriSheetData* sheet)
 {
     return Check_Blocks(check, &sheet->own, "the sheet") && Check_Blocks(check, &sheet->shown, "the host's arrays") &&
            Check_Mesh(check, &sheet->mesh, false) && Check_Parents(check, sheet) && Check_Frames(check, sheet) &&
-           Check_Links(check, sheet) && Check_Pieces(check, sheet) && Check_Patches(check, sheet) &&
-           Check_Skins(check, sheet) && (!IsSettled(sheet) || Check_Derived(check, sheet)) &&
-           Check_Pins(check, sheet) && Check_Points(check, sheet) && Check_Surface(check, sheet) &&
+           Check_Links(check, sheet) && Check_Corners(check, sheet) && Check_Pieces(check, sheet) &&
+           Check_Patches(check, sheet) && Check_Skins(check, sheet) &&
+           (!IsSettled(sheet) || Check_Derived(check, sheet)) && Check_Pins(check, sheet) &&
+           Check_Points(check, sheet) && Check_Surface(check, sheet) &&
            Check_Fades(check, &sheet->seen.fades, sheet->mesh.vertices.count) &&
            Check_Fades(check, &sheet->seen.pointFades, sheet->points.count) && Check_Queue(check, sheet);
 }

@@ -1,4 +1,4 @@
-#include "kiri_link.h"
+#include "kiri_link_work.h"
 
 #include "../core/kiri_sort.h"
 
@@ -7,70 +7,21 @@
 /* CountChanged compares bytes. */
 typedef char LinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 18 * sizeof(double) ? 1 : -1];
 
-/* Of a face. */
-typedef enum FaceMark {
-    FACE_PASSED, /* not between the regions at hand, or already in a link */
-    FACE_FOUND,
-    FACE_GATHERED,
-    FACE_BENT /* the stretch is split where its normal turns */
-} FaceMark;
-
-/* A link that was made anew, and its lowest face. */
-typedef struct NewLink {
-    kiriLink link;
-    int32_t face;
-} NewLink;
-
-/* Sum over the links of a region of half W l n n^T. */
-typedef struct RegionSpread {
-    double xx, xy, yy;
-} RegionSpread;
-
-struct kiriLinkWork {
-    KIRI_ARRAY(uint8_t) marks;   /* a FaceMark a face; all FACE_PASSED between updates */
-    KIRI_ARRAY(int32_t) faces;   /* border faces of regions that are dirty */
-    KIRI_ARRAY(int32_t) whole;   /* a connected stretch of them, in order, */
-    KIRI_ARRAY(int32_t) stretch; /* and the faces of the link at hand, in order */
-    KIRI_ARRAY(NewLink) made;
-    KIRI_ARRAY(int32_t) order;        /* of what was made */
-    KIRI_ARRAY(RegionSpread) spreads; /* of each region */
-    KIRI_ARRAY(uint8_t) dirty;        /* of each region: its material or one of its links changed */
-};
-
-typedef struct Border {
-    kiriMemory* memory;
-    const kiriGrid* grid;
-    const kiriMeshData* mesh;
-    const kiriRegions* regions;
-    const kiriShape* shape;
-    const kiriSite* sites;
-    int32_t siteCount;
-    kiriLinkWork* work;
-} Border;
-
-/* A border face seen from the region with the lower index. */
-typedef struct BorderSide {
-    int32_t x, y; /* its cells in regions i and j, i < j */
-    int32_t i, j;
-    int32_t axis;
-    double sign; /* of the normal from i to j along the axis */
-} BorderSide;
-
-static BorderSide BorderSideOf(const Border* border, int32_t face)
+kiriBorderSide kiriBorder_SideOf(const kiriBorder* border, int32_t face)
 {
     const kiriFace* f = &border->grid->faces.data[face];
     const int32_t* owner = border->regions->field.owner.data;
     int32_t low = owner[f->cell[0]] < owner[f->cell[1]] ? 0 : 1;
     KIRI_ASSERT(f->cell[0] != KIRI_NONE && owner[f->cell[low]] != KIRI_NONE && owner[f->cell[0]] != owner[f->cell[1]]);
-    BorderSide side = { f->cell[low], f->cell[1 - low],     owner[f->cell[low]], owner[f->cell[1 - low]],
-                        f->axis,      low == 0 ? 1.0 : -1.0 };
+    kiriBorderSide side = { f->cell[low], f->cell[1 - low],     owner[f->cell[low]], owner[f->cell[1 - low]],
+                            f->axis,      low == 0 ? 1.0 : -1.0 };
     return side;
 }
 
-static bool IsRegionDirty(const Border* border, int32_t region)
+static bool IsStale(const kiriBorder* border, int32_t region)
 {
     KIRI_ASSERT(region >= 0 && region < border->siteCount);
-    return border->regions->dirty.data[region] != 0;
+    return border->work->stale.data[region] != 0;
 }
 
 /* ---- Order ------------------------------------------------------------------------------------------------------ */
@@ -78,7 +29,7 @@ static bool IsRegionDirty(const Border* border, int32_t region)
 /* By square, axis, and the lowest triangles of the two cells: not by indices. No two faces share all of it. */
 static bool IsFaceBefore(const void* context, int32_t a, int32_t b)
 {
-    const Border* border = context;
+    const kiriBorder* border = context;
     const kiriCell* cells = border->grid->cells.data;
     const kiriFace *f = &border->grid->faces.data[a], *g = &border->grid->faces.data[b];
     const kiriCell *fHigh = &cells[f->cell[1]], *gHigh = &cells[g->cell[1]];
@@ -94,8 +45,8 @@ static bool IsFaceBefore(const void* context, int32_t a, int32_t b)
 
 static bool IsMadeBefore(const void* context, int32_t a, int32_t b)
 {
-    const Border* border = context;
-    const NewLink *x = &border->work->made.data[a], *y = &border->work->made.data[b];
+    const kiriBorder* border = context;
+    const kiriNewLink *x = &border->work->made.data[a], *y = &border->work->made.data[b];
     if (x->link.i != y->link.i) {
         return x->link.i < y->link.i;
     }
@@ -117,15 +68,16 @@ static bool AreCellsNear(const kiriGrid* grid, int32_t a, int32_t b)
 }
 
 /* Adds the faces of `cell` that continue the stretch of `from`. */
-static bool GatherFacesAt(const Border* border, const BorderSide* from, int32_t cell, FaceMark mark, FaceMark next)
+static bool GatherFacesAt(const kiriBorder* border, const kiriBorderSide* from, int32_t cell, kiriFaceMark mark,
+                          kiriFaceMark next)
 {
     const kiriGrid* grid = border->grid;
     for (int32_t f = grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
         const kiriFace* face = &grid->faces.data[f];
         if (border->work->marks.data[f] == mark) {
-            BorderSide side = BorderSideOf(border, f);
+            kiriBorderSide side = kiriBorder_SideOf(border, f);
             bool sameWay = side.axis == from->axis && side.sign == from->sign;
-            if (side.x == cell && side.i == from->i && side.j == from->j && (sameWay || mark != FACE_BENT) &&
+            if (side.x == cell && side.i == from->i && side.j == from->j && (sameWay || mark != KIRI_FACE_BENT) &&
                 AreCellsNear(grid, side.y, from->y)) {
                 border->work->marks.data[f] = (uint8_t)next;
                 if (!kiriArray_Push(border->memory, &border->work->stretch, f)) {
@@ -139,16 +91,16 @@ static bool GatherFacesAt(const Border* border, const BorderSide* from, int32_t 
 }
 
 /* The connected stretch of faces around one that have its mark, in order; their mark becomes `next`. */
-static bool GatherStretch(const Border* border, int32_t face, FaceMark next)
+static bool GatherStretch(const kiriBorder* border, int32_t face, kiriFaceMark next)
 {
     const kiriGrid* grid = border->grid;
     kiriLinkWork* work = border->work;
-    FaceMark mark = (FaceMark)work->marks.data[face];
+    kiriFaceMark mark = (kiriFaceMark)work->marks.data[face];
     work->stretch.count = 0;
     work->marks.data[face] = (uint8_t)next;
     bool ok = kiriArray_Push(border->memory, &work->stretch, face);
     for (int32_t k = 0; ok && k < work->stretch.count; ++k) {
-        BorderSide side = BorderSideOf(border, work->stretch.data[k]);
+        kiriBorderSide side = kiriBorder_SideOf(border, work->stretch.data[k]);
         const kiriStepRun* run = &grid->runs.data[side.x];
         ok = GatherFacesAt(border, &side, side.x, mark, next);
         for (int32_t s = run->first; ok && s < run->end[1]; ++s) {
@@ -160,13 +112,13 @@ static bool GatherStretch(const Border* border, int32_t face, FaceMark next)
 }
 
 /* The vector sum of the faces, as normals from i to j; *sum is the sum of their widths. */
-static kiriVec2 SumNormals(const Border* border, double* sum)
+static kiriVec2 SumNormals(const kiriBorder* border, double* sum)
 {
     double n[2] = { 0.0, 0.0 };
     *sum = 0.0;
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
         double width = border->grid->faces.data[border->work->stretch.data[k]].width;
-        BorderSide side = BorderSideOf(border, border->work->stretch.data[k]);
+        kiriBorderSide side = kiriBorder_SideOf(border, border->work->stretch.data[k]);
         n[side.axis] += side.sign * width;
         *sum += width;
     }
@@ -176,7 +128,7 @@ static kiriVec2 SumNormals(const Border* border, double* sum)
 /* ---- One link --------------------------------------------------------------------------------------------------- */
 
 /* Centroid and second moment along the tangent; a face counts by its width as seen along the normal. */
-static void SetMoments(const Border* border, kiriLink* link)
+static void SetMoments(const kiriBorder* border, kiriLink* link)
 {
     double normal[2] = { link->normal.x, link->normal.y };
     double total = 0.0;
@@ -199,11 +151,11 @@ static void SetMoments(const Border* border, kiriLink* link)
 }
 
 /* The border is a staircase of faces, whose normals differ: what the link's one normal leaves out. */
-static void SetSpread(const Border* border, kiriLink* link)
+static void SetSpread(const kiriBorder* border, kiriLink* link)
 {
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
         const kiriFace* face = &border->grid->faces.data[border->work->stretch.data[k]];
-        BorderSide side = BorderSideOf(border, border->work->stretch.data[k]);
+        kiriBorderSide side = kiriBorder_SideOf(border, border->work->stretch.data[k]);
         kiriVec2 arm = kiriVec2_Sub(face->middle, link->centroid);
         double along = side.sign * face->width;
         kiriVec2 normal = { side.axis == 0 ? along : 0.0, side.axis == 0 ? 0.0 : along };
@@ -219,7 +171,7 @@ typedef struct SitesWay {
 } SitesWay;
 
 /* Ways by the diagonal and knight steps from `cell` over the border into region `to`. */
-static void TryLongSteps(const Border* border, int32_t cell, int32_t to, SitesWay* way)
+static void TryLongSteps(const kiriBorder* border, int32_t cell, int32_t to, SitesWay* way)
 {
     const kiriGrid* grid = border->grid;
     const kiriField* field = &border->regions->field;
@@ -238,13 +190,13 @@ static void TryLongSteps(const Border* border, int32_t cell, int32_t to, SitesWa
     }
 }
 
-static SitesWay ShortestWay(const Border* border)
+static SitesWay ShortestWay(const kiriBorder* border)
 {
     const int32_t* distance = border->regions->field.distance.data;
     SitesWay way = { KIRI_FAR, { 0.0, 0.0 } };
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
         int32_t face = border->work->stretch.data[k];
-        BorderSide side = BorderSideOf(border, face);
+        kiriBorderSide side = kiriBorder_SideOf(border, face);
         int32_t length = distance[side.x] + KIRI_UNIT + distance[side.y];
         if (length < way.length) {
             way.length = length;
@@ -258,7 +210,7 @@ static SitesWay ShortestWay(const Border* border)
 
 /* Lengths on the grid exceed true ones by up to 3 %, and by parts of a side at both ends: a way that is not clearly
    longer than the straight line is one. */
-static void SetLength(const Border* border, kiriLink* link)
+static void SetLength(const kiriBorder* border, kiriLink* link)
 {
     kiriVec2 a = border->sites[link->i].at, b = border->sites[link->j].at;
     double straight = kiriVec2_Length(kiriVec2_Sub(b, a));
@@ -276,13 +228,13 @@ static void SetLength(const Border* border, kiriLink* link)
 }
 
 /* From the stretch at hand. */
-static bool AddLink(const Border* border)
+static bool AddLink(const kiriBorder* border, bool bent)
 {
     int32_t lowest = border->work->stretch.data[0];
-    BorderSide side = BorderSideOf(border, lowest);
+    kiriBorderSide side = kiriBorder_SideOf(border, lowest);
     double sum;
     kiriVec2 normal = SumNormals(border, &sum);
-    NewLink link;
+    kiriNewLink link;
     memset(&link, 0, sizeof(link));
     link.face = lowest;
     link.link.i = side.i;
@@ -293,20 +245,51 @@ static bool AddLink(const Border* border)
     SetMoments(border, &link.link);
     SetSpread(border, &link.link);
     SetLength(border, &link.link);
+    link.ends = kiriBorder_FindEnds(border, &link.link, bent);
+    kiriLink_SetOuter(&link.link, &link.ends);
     return kiriArray_Push(border->memory, &border->work->made, link);
 }
 
-/* ---- All links of regions that are dirty ---------------------------------------------------------------------- */
+/* ---- All links of regions that are stale ---------------------------------------------------------------------- */
+
+/* Marks the regions that a step leads to from this border cell. */
+static void SpreadStale(const kiriBorder* border, int32_t cell)
+{
+    const kiriStepRun* run = &border->grid->runs.data[cell];
+    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        int32_t owner = border->regions->field.owner.data[border->grid->steps.data[s].cell];
+        KIRI_ASSERT(owner != KIRI_NONE);
+        border->work->stale.data[owner] = 1;
+    }
+}
+
+/* Stale are the regions that are dirty, and those beside them: where a link ends depends on what it meets there. */
+static void FindStale(const kiriBorder* border)
+{
+    const kiriRegions* regions = border->regions;
+    for (int32_t i = 0; i < border->siteCount; ++i) {
+        border->work->stale.data[i] = regions->dirty.data[i];
+    }
+    for (int32_t i = 0; i < border->siteCount; ++i) {
+        const kiriReaches* list = &border->shape->reaches.data[i];
+        for (int32_t k = 0; regions->dirty.data[i] && k < list->count; ++k) {
+            int32_t cell = list->data[k].cell;
+            if (regions->onBorder.data[cell] && regions->field.owner.data[cell] == i) {
+                SpreadStale(border, cell);
+            }
+        }
+    }
+}
 
 /* A face between two such regions is found from the lower one. */
-static bool FindFacesOf(const Border* border, int32_t region, int32_t cell)
+static bool FindFacesOf(const kiriBorder* border, int32_t region, int32_t cell)
 {
     const kiriGrid* grid = border->grid;
     for (int32_t f = grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
         const kiriFace* face = &grid->faces.data[f];
         int32_t other = border->regions->field.owner.data[kiriFace_Other(face, cell)];
-        if (other != region && (region < other || !IsRegionDirty(border, other))) {
-            border->work->marks.data[f] = FACE_FOUND;
+        if (other != region && (region < other || !IsStale(border, other))) {
+            border->work->marks.data[f] = KIRI_FACE_FOUND;
             if (!kiriArray_Push(border->memory, &border->work->faces, f)) {
                 return false;
             }
@@ -316,12 +299,12 @@ static bool FindFacesOf(const Border* border, int32_t region, int32_t cell)
     return true;
 }
 
-static bool FindFaces(const Border* border)
+static bool FindFaces(const kiriBorder* border)
 {
     const kiriRegions* regions = border->regions;
     for (int32_t i = 0; i < border->siteCount; ++i) {
         const kiriReaches* list = &border->shape->reaches.data[i];
-        for (int32_t k = 0; IsRegionDirty(border, i) && k < list->count; ++k) {
+        for (int32_t k = 0; IsStale(border, i) && k < list->count; ++k) {
             int32_t cell = list->data[k].cell;
             if (regions->onBorder.data[cell] && regions->field.owner.data[cell] == i && !FindFacesOf(border, i, cell)) {
                 return false;
@@ -333,7 +316,7 @@ static bool FindFaces(const Border* border)
 
 /* A border that turns back on itself, around the tip of a slit for instance, loses its width in the vector sum: it is
    split into stretches of one normal each. */
-static bool SplitStretch(const Border* border)
+static bool SplitStretch(const kiriBorder* border)
 {
     kiriLinkWork* work = border->work;
     if (!kiriArray_Resize(border->memory, &work->whole, work->stretch.count)) {
@@ -341,28 +324,29 @@ static bool SplitStretch(const Border* border)
     }
     for (int32_t k = 0; k < work->stretch.count; ++k) {
         work->whole.data[k] = work->stretch.data[k];
-        work->marks.data[work->whole.data[k]] = FACE_BENT;
+        work->marks.data[work->whole.data[k]] = KIRI_FACE_BENT;
     }
     for (int32_t k = 0; k < work->whole.count; ++k) {
         int32_t face = work->whole.data[k];
-        if (work->marks.data[face] == FACE_BENT && !(GatherStretch(border, face, FACE_PASSED) && AddLink(border))) {
+        if (work->marks.data[face] == KIRI_FACE_BENT &&
+            !(GatherStretch(border, face, KIRI_FACE_PASSED) && AddLink(border, true))) {
             return false;
         }
     }
     return true;
 }
 
-static bool MakeLinks(const Border* border)
+static bool MakeLinks(const kiriBorder* border)
 {
     kiriLinkWork* work = border->work;
     for (int32_t k = 0; k < work->faces.count; ++k) {
-        if (work->marks.data[work->faces.data[k]] == FACE_FOUND) {
+        if (work->marks.data[work->faces.data[k]] == KIRI_FACE_FOUND) {
             double sum;
-            if (!GatherStretch(border, work->faces.data[k], FACE_GATHERED)) {
+            if (!GatherStretch(border, work->faces.data[k], KIRI_FACE_GATHERED)) {
                 return false;
             }
             bool bent = kiriVec2_Length(SumNormals(border, &sum)) < 0.5 * sum;
-            if (!(bent ? SplitStretch(border) : AddLink(border))) {
+            if (!(bent ? SplitStretch(border) : AddLink(border, false))) {
                 return false;
             }
         }
@@ -379,33 +363,20 @@ static bool MakeLinks(const Border* border)
 
 /* ---- The whole -------------------------------------------------------------------------------------------------- */
 
-static bool MakeLinkRoom(const Border* border)
+static bool MakeLinkRoom(const kiriBorder* border)
 {
     kiriLinkWork* work = border->work;
     int32_t old = work->marks.count;
-    if (!kiriArray_Resize(border->memory, &work->spreads, border->siteCount) ||
-        !kiriArray_Resize(border->memory, &work->dirty, border->siteCount) ||
+    if (!kiriArray_Resize(border->memory, &work->stale, border->siteCount) ||
         (old < border->grid->faces.count &&
          !kiriArray_Resize(border->memory, &work->marks, border->grid->faces.count))) {
         return false;
     }
     for (int32_t f = old; f < work->marks.count; ++f) {
-        work->marks.data[f] = FACE_PASSED;
-    }
-    for (int32_t i = 0; i < border->siteCount; ++i) {
-        work->spreads.data[i] = (RegionSpread){ 0.0, 0.0, 0.0 };
-        work->dirty.data[i] = border->regions->dirty.data[i];
+        work->marks.data[f] = KIRI_FACE_PASSED;
     }
     work->faces.count = work->made.count = 0;
     return true;
-}
-
-/* Regions that had a link to one that is dirty, or have one now. */
-static void MarkBothDirty(const Border* border, const kiriLink* link)
-{
-    if (IsRegionDirty(border, link->i) || IsRegionDirty(border, link->j)) {
-        border->work->dirty.data[link->i] = border->work->dirty.data[link->j] = 1;
-    }
 }
 
 static bool IsPairBefore(const kiriLink* a, const kiriLink* b)
@@ -413,69 +384,40 @@ static bool IsPairBefore(const kiriLink* a, const kiriLink* b)
     return a->i != b->i ? a->i < b->i : a->j < b->j;
 }
 
-/* Takes over the links of pairs that are not dirty, between those that were made; no pair has both. */
-static bool MergeLinks(const Border* border, kiriLinks* links)
+static void AddNext(const kiriBorder* border, kiriLinks* links, const kiriLink* link, const kiriLinkEnds* ends)
+{
+    links->next.data[links->next.count++] = *link;
+    border->work->nextEnds.data[border->work->nextEnds.count++] = *ends;
+}
+
+/* Takes over the links of pairs that are not stale, between those that were made; no pair has both. */
+static bool MergeLinks(const kiriBorder* border, kiriLinks* links)
 {
     kiriLinkWork* work = border->work;
     int32_t made = 0;
-    if (!kiriArray_Reserve(border->memory, &links->next, (int64_t)links->links.count + work->made.count)) {
+    int64_t most = (int64_t)links->links.count + work->made.count;
+    if (!kiriArray_Reserve(border->memory, &links->next, most) ||
+        !kiriArray_Reserve(border->memory, &work->nextEnds, most)) {
         return false;
     }
     for (int32_t k = 0; k < links->links.count; ++k) {
         const kiriLink* link = &links->links.data[k];
-        MarkBothDirty(border, link);
-        if (!IsRegionDirty(border, link->i) && !IsRegionDirty(border, link->j)) {
+        if (!IsStale(border, link->i) && !IsStale(border, link->j)) {
             for (; made < work->made.count; ++made) {
-                const kiriLink* first = &work->made.data[work->order.data[made]].link;
-                if (!IsPairBefore(first, link)) {
+                const kiriNewLink* first = &work->made.data[work->order.data[made]];
+                if (!IsPairBefore(&first->link, link)) {
                     break;
                 }
-                links->next.data[links->next.count++] = *first;
+                AddNext(border, links, &first->link, &first->ends);
             }
-            links->next.data[links->next.count++] = *link;
+            AddNext(border, links, link, &work->ends.data[k]);
         }
     }
     for (; made < work->made.count; ++made) {
-        links->next.data[links->next.count++] = work->made.data[work->order.data[made]].link;
-    }
-    for (int32_t k = 0; k < work->made.count; ++k) {
-        MarkBothDirty(border, &work->made.data[k].link);
+        const kiriNewLink* last = &work->made.data[work->order.data[made]];
+        AddNext(border, links, &last->link, &last->ends);
     }
     return true;
-}
-
-static void AddSpread(RegionSpread* spread, const kiriLink* link)
-{
-    double half = 0.5 * link->width * link->length;
-    spread->xx += half * link->normal.x * link->normal.x;
-    spread->xy += half * link->normal.x * link->normal.y;
-    spread->yy += half * link->normal.y * link->normal.y;
-}
-
-static double BracedIn(const Border* border, int32_t region, kiriVec2 t)
-{
-    RegionSpread spread = border->work->spreads.data[region];
-    double extent = KIRI_LATTICE * border->mesh->step;
-    double area = kiriTally_Moments(&border->regions->material.data[region], extent).area;
-    double sum = t.x * t.x * spread.xx + 2.0 * t.x * t.y * spread.xy + t.y * t.y * spread.yy;
-    return sum < area ? sum / area : 1.0;
-}
-
-/* Where nothing has changed `braced` stays bit for bit what it was, for sums run in the order of links. */
-static void SetBraced(const Border* border, kiriLinks* links)
-{
-    kiriLinkWork* work = border->work;
-    for (int32_t k = 0; k < links->next.count; ++k) {
-        const kiriLink* link = &links->next.data[k];
-        AddSpread(&work->spreads.data[link->i], link);
-        AddSpread(&work->spreads.data[link->j], link);
-    }
-    for (int32_t k = 0; k < links->next.count; ++k) {
-        kiriLink* link = &links->next.data[k];
-        if (work->dirty.data[link->i] || work->dirty.data[link->j]) {
-            link->braced = 0.5 * (BracedIn(border, link->i, link->tangent) + BracedIn(border, link->j, link->tangent));
-        }
-    }
 }
 
 static bool IsOfPair(const kiriLink* link, const kiriLink* other)
@@ -510,15 +452,19 @@ bool kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid
         return false;
     }
     KIRI_ASSERT(regions->dirty.count == siteCount && shape->reaches.count >= siteCount && !regions->running);
-    Border border = { memory, grid, mesh, regions, shape, sites, siteCount, links->work };
-    links->next.count = links->changed = 0;
-    bool ok = MakeLinkRoom(&border) && FindFaces(&border) && MakeLinks(&border) && MergeLinks(&border, links);
+    kiriBorder border = { memory, grid, mesh, regions, shape, sites, siteCount, links->work };
+    links->next.count = links->work->nextEnds.count = links->changed = 0;
+    bool ok = MakeLinkRoom(&border);
     if (ok) {
-        SetBraced(&border, links);
+        FindStale(&border);
+    }
+    ok = ok && FindFaces(&border) && MakeLinks(&border) && MergeLinks(&border, links) &&
+         kiriBorder_MakeCorners(&border, links);
+    if (ok) {
         links->changed = CountChanged(links);
     }
     for (int32_t k = 0; k < links->work->faces.count; ++k) {
-        links->work->marks.data[links->work->faces.data[k]] = FACE_PASSED;
+        links->work->marks.data[links->work->faces.data[k]] = KIRI_FACE_PASSED;
     }
     return ok;
 }
@@ -526,7 +472,13 @@ bool kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid
 void kiriLinks_Commit(kiriLinks* links)
 {
     kiriLinks was = *links;
+    kiriLinkWork* work = links->work;
+    kiriLinkWork old = *work;
     memcpy(&links->links, &was.next, sizeof(links->links));
     memcpy(&links->next, &was.links, sizeof(links->next));
-    links->next.count = 0;
+    memcpy(&links->corners, &was.nextCorners, sizeof(links->corners));
+    memcpy(&links->nextCorners, &was.corners, sizeof(links->nextCorners));
+    memcpy(&work->ends, &old.nextEnds, sizeof(work->ends));
+    memcpy(&work->nextEnds, &old.ends, sizeof(work->nextEnds));
+    links->next.count = links->nextCorners.count = work->nextEnds.count = 0;
 }

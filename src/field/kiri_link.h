@@ -1,5 +1,5 @@
-/* Links: the connected stretches of border between regions, where the sheet's elasticity is measured (README,
-   "Mechanics"). */
+/* Links: the connected stretches of border between regions, where the sheet's elasticity is measured; and corners,
+   where borders meet (README, "Mechanics"). */
 #ifndef KIRI_LINK_H
 #define KIRI_LINK_H
 
@@ -11,9 +11,10 @@ KIRI_C_BEGIN
 typedef struct kiriLink {
     int32_t i, j;
     double width;      /* W: length of the vector sum of its faces, m */
+    double outer;      /* the part of W at open ends, m: each end at the outline or at a slit adds the way along the
+                          tangent from the crossing to it; 0 where both ends are corners, to W where both are open */
     double length;     /* l: from site i to site j through it, m */
     double moment;     /* I: second moment of the border along the tangent about the centroid, m^3 */
-    double braced;     /* how far its regions have neighbours along the tangent: 0 in a strip one region wide, to 1 */
     kiriVec2 span;     /* s: from site i to site j; l along the normal where the way between them is not straight */
     kiriVec2 normal;   /* unit, from i to j */
     kiriVec2 tangent;  /* unit, the normal turned left */
@@ -23,18 +24,31 @@ typedef struct kiriLink {
     kiriVec2 spread[2]; /* integrals over the border of (p - b)_u and of (p - b)_v, times its normal, m^2 */
 } kiriLink;
 
-typedef struct kiriLinkWork kiriLinkWork; /* private to kiri_link.c */
+/* Where three or four regions meet. It couples curvatures, and stretches, of different directions: the sum over its
+   links of weight . (strains along normal and tangent) is the trace of the curvature, or of the strain. */
+typedef struct kiriCorner {
+    int32_t count;      /* of its links: 3 or 4 */
+    int32_t link[4];    /* into `links`, ascending; those beyond count are KIRI_NONE */
+    int32_t unused;     /* 0: there is no padding */
+    kiriVec2 weight[4]; /* p_k = N^-1 s_k, N = sum of s_k s_k^T over its links, s_k their spans; 1/m */
+    double area;        /* m^2, of the triangle or quadrangle of its sites */
+} kiriCorner;
+
+typedef struct kiriLinkWork kiriLinkWork; /* private: kiri_link_work.h */
 
 typedef struct kiriLinks {
     /* By (i, j), then by their lowest face: by square, axis, and the lowest triangles of its cells. */
     KIRI_ARRAY(kiriLink) links;
     KIRI_ARRAY(kiriLink) next; /* what kiriLinks_Update made; Commit swaps */
     int32_t changed;           /* of `next`: links that are other than before */
+    /* Of `links`, by their links; where four regions meet, all four pairs of neighbours are linked. */
+    KIRI_ARRAY(kiriCorner) corners;
+    KIRI_ARRAY(kiriCorner) nextCorners; /* of `next` */
     kiriLinkWork* work;
 } kiriLinks;
 
-/* The links of the regions as they are, into `next`: those between regions that are not dirty (regions->dirty) are
-   taken over from `links`, the others made anew. False for memory: `links` is as before. */
+/* The links of the regions as they are, into `next`: those between regions that are neither dirty
+   (regions->dirty) nor beside one that is are taken over from `links`, the others made anew; and their corners. False for memory: `links` is as before. */
 bool kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const kiriRegions* regions, const kiriShape* shape, const kiriSite* sites, int32_t siteCount);
 void kiriLinks_Commit(kiriLinks* links);

@@ -38,6 +38,8 @@ typedef struct kiriSystem {
     int32_t frameCount;
     const kiriLink* links;
     int32_t linkCount;
+    const kiriCorner* corners;
+    int32_t cornerCount;
     const kiriStrainOffset* strainOffsets; /* one a link between rigid frames, or null */
     const kiriAreaElements* areaElements;  /* of affine frames; may be null where there are none */
     const kiriPinRow* pins;

@@ -343,7 +343,7 @@ void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, do
     double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = link->length;
     double membrane = (double)material->youngsModulus * h / l, bending = membrane * h * h / (12.0 * (1.0 - nu * nu));
     stiffness[KIRI_STRETCH] = membrane * link->width;
-    stiffness[KIRI_SHEAR] = membrane * link->width * (SHEAR_BEAM + link->braced * (1.0 - SHEAR_BEAM));
+    stiffness[KIRI_SHEAR] = membrane * (link->width - (1.0 - SHEAR_BEAM) * link->outer);
     stiffness[KIRI_PLANE_BENDING] = membrane * link->moment;
     stiffness[KIRI_BENDING] = bending * link->width;
     stiffness[KIRI_TWIST] = bending * link->width;

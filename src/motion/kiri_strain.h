@@ -13,7 +13,7 @@ KIRI_C_BEGIN
 
    strain         what                                                stiffness
    stretch        |(c + gap(b) . n, sqrt(6/5) gap(b) . d)| - c - a.n  E h W / l
-   shear          gap(b) . tau - a . tau                              E h W / l; 5/12 of it where unbraced
+   shear          gap(b) . tau - a . tau                              E h (W - 7/12 Wo) / l, Wo the outer width
    plane bending  ((A_j - A_i) tau) . n                               E h I / l
    bending        w . n, w along d_j - d_i                            D W / l
    twist          w . tau                                             D W / l

@@ -42,6 +42,8 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     system.frameCount = sheet->frames.count;
     system.links = sheet->links.links.data;
     system.linkCount = sheet->links.links.count;
+    system.corners = sheet->links.corners.data;
+    system.cornerCount = sheet->links.corners.count;
     system.strainOffsets =
         sheet->strainOffsets.strainOffsets.count > 0 ? sheet->strainOffsets.strainOffsets.data : NULL;
     system.pins = sheet->pinRows.data;

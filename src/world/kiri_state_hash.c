@@ -56,7 +56,7 @@ static void HashLink(uint64_t* hash, const kiriLink* link)
     kiriHash_Int32(hash, link->i);
     kiriHash_Int32(hash, link->j);
     HashVec3(hash, kiriVec3_Make(link->width, link->length, link->moment));
-    kiriHash_Double(hash, link->braced);
+    kiriHash_Double(hash, link->outer);
     HashVec2(hash, link->span);
     HashVec2(hash, link->normal);
     HashVec2(hash, link->tangent);
@@ -64,6 +64,16 @@ static void HashLink(uint64_t* hash, const kiriLink* link)
     HashVec2(hash, link->crossing);
     HashVec2(hash, link->spread[0]);
     HashVec2(hash, link->spread[1]);
+}
+
+static void HashCorner(uint64_t* hash, const kiriCorner* corner)
+{
+    kiriHash_Int32(hash, corner->count);
+    for (int32_t k = 0; k < corner->count; ++k) {
+        kiriHash_Int32(hash, corner->link[k]);
+        HashVec2(hash, corner->weight[k]);
+    }
+    kiriHash_Double(hash, corner->area);
 }
 
 static void HashAreaElements(uint64_t* hash, const kiriAreaElements* elements)
@@ -89,6 +99,9 @@ void kiriStateHash_AddLayout(uint64_t* hash, const kiriSheetData* sheet)
     const kiriLayout* layout = &sheet->layout;
     for (int32_t i = 0; i < sheet->links.links.count; ++i) {
         HashLink(hash, &sheet->links.links.data[i]);
+    }
+    for (int32_t i = 0; i < sheet->links.corners.count; ++i) {
+        HashCorner(hash, &sheet->links.corners.data[i]);
     }
     HashAreaElements(hash, &layout->areaElements);
     for (int32_t i = 0; i < sheet->points.count; ++i) {

@@ -1,0 +1,98 @@
+/* What the files of the links share: the update at hand, its faces, rings and ends. Private to kiri_link*.c. */
+#ifndef KIRI_LINK_WORK_H
+#define KIRI_LINK_WORK_H
+
+#include "kiri_link.h"
+
+KIRI_C_BEGIN
+
+/* Of a face. */
+typedef enum kiriFaceMark {
+    KIRI_FACE_PASSED, /* not between the regions at hand, or already in a link */
+    KIRI_FACE_FOUND,
+    KIRI_FACE_GATHERED,
+    KIRI_FACE_BENT /* the stretch is split where its normal turns */
+} kiriFaceMark;
+
+typedef enum kiriEndKind {
+    KIRI_END_OPEN,   /* at the outline, or at a slit */
+    KIRI_END_CORNER, /* other regions meet there */
+    KIRI_END_INNER   /* a border that was split goes on there */
+} kiriEndKind;
+
+enum { KIRI_CORNER_REGIONS = 4 };
+
+/* Where a border ends. Ends of links that meet in a corner are equal. */
+typedef struct kiriLinkEnd {
+    kiriEndKind kind;
+    int32_t region[KIRI_CORNER_REGIONS]; /* that meet there, ascending, then KIRI_NONE; of corners */
+    kiriVec2 at;                         /* local m */
+} kiriLinkEnd;
+
+/* Both ends of a link: the one to its tangent's tail, and to its head. */
+typedef struct kiriLinkEnds {
+    kiriLinkEnd end[2];
+} kiriLinkEnds;
+
+/* A link that was made anew, and its lowest face. */
+typedef struct kiriNewLink {
+    kiriLink link;
+    kiriLinkEnds ends;
+    int32_t face;
+} kiriNewLink;
+
+struct kiriLinkWork {
+    KIRI_ARRAY(uint8_t) marks;   /* a kiriFaceMark a face; all PASSED between updates */
+    KIRI_ARRAY(uint8_t) stale;   /* of each region: its links are made anew */
+    KIRI_ARRAY(int32_t) faces;   /* border faces of regions that are stale */
+    KIRI_ARRAY(int32_t) whole;   /* a connected stretch of them, in order, */
+    KIRI_ARRAY(int32_t) stretch; /* and the faces of the link at hand, in order */
+    KIRI_ARRAY(kiriNewLink) made;
+    KIRI_ARRAY(int32_t) order;         /* of what was made */
+    KIRI_ARRAY(kiriLinkEnds) ends;     /* of kiriLinks.links, */
+    KIRI_ARRAY(kiriLinkEnds) nextEnds; /* and of kiriLinks.next */
+};
+
+typedef struct kiriBorder {
+    kiriMemory* memory;
+    const kiriGrid* grid;
+    const kiriMeshData* mesh;
+    const kiriRegions* regions;
+    const kiriShape* shape;
+    const kiriSite* sites;
+    int32_t siteCount;
+    kiriLinkWork* work;
+} kiriBorder;
+
+/* A border face seen from the region with the lower index. */
+typedef struct kiriBorderSide {
+    int32_t x, y; /* its cells in regions i and j, i < j */
+    int32_t i, j;
+    int32_t axis;
+    double sign; /* of the normal from i to j along the axis */
+} kiriBorderSide;
+
+kiriBorderSide kiriBorder_SideOf(const kiriBorder* border, int32_t face);
+
+/* The four cells around a node of the grid, counter-clockwise from the lower left one, where faces join each to the
+   next: no slit and no outline runs to the node. */
+typedef struct kiriRing {
+    int32_t cell[4];
+    int32_t face[4]; /* between cell k and the next */
+} kiriRing;
+
+/* The ring around the lower or upper end of a face; false where there is none. */
+bool kiriBorder_FindRing(const kiriBorder* border, int32_t face, bool upper, kiriRing* ring);
+
+/* The ends of the stretch at hand, whose link has its tangent. `bent`: it is a part of a border that was split. */
+kiriLinkEnds kiriBorder_FindEnds(const kiriBorder* border, const kiriLink* link, bool bent);
+
+/* Sets `outer`: the link has all else. */
+void kiriLink_SetOuter(kiriLink* link, const kiriLinkEnds* ends);
+
+/* The corners of links->next, from the ends of the links. False for memory. */
+bool kiriBorder_MakeCorners(const kiriBorder* border, kiriLinks* links);
+
+KIRI_C_END
+
+#endif
