@@ -106,8 +106,7 @@ static inline void Body_MakeSolver(Body* body)
     assert_non_null(body->solver);
     int32_t framePiece[BODY_FRAMES];
     int32_t pieceCount = FindPieces(body->system.links, body->system.linkCount, body->system.frameCount, framePiece);
-    assert_true(kiriSolver_Stage(body->solver, body->system.frameCount, body->system.links, body->system.linkCount,
-                                 &body->elements, framePiece, pieceCount));
+    assert_true(kiriSolver_Stage(body->solver, &body->system, framePiece, pieceCount));
     kiriSolver_Commit(body->solver);
 }
 
@@ -159,6 +158,8 @@ static inline void Body_End(Body* body, const BodyDef* def)
     body->system.frameCount = body->sites.count;
     body->system.links = body->links.links.data;
     body->system.linkCount = body->links.links.count;
+    body->system.corners = body->links.corners.data;
+    body->system.cornerCount = body->links.corners.count;
     body->system.areaElements = &body->elements;
     body->system.pins = body->pins;
     body->system.contacts = body->contacts;

@@ -1,11 +1,12 @@
 /* Elements: what joins frames elastically. First the links, unless the model is that of integration points, then the
-   area elements. Element k of a system has strains, each with a stiffness; its energy is the sum of
+   corners of links between rigid frames, unless Poisson's ratio is zero, then the area elements. Element k of a system has strains, each with a stiffness; its energy is the sum of
    1/2 stiffness strain^2. */
 #ifndef KIRI_ELEMENT_H
 #define KIRI_ELEMENT_H
 
 #include "kiri_affine.h"
 #include "kiri_solver.h"
+#include "kiri_trace.h"
 
 KIRI_C_BEGIN
 
@@ -24,16 +25,30 @@ static inline int32_t kiriElement_LinkCount(const kiriSystem* system)
     return system->mechanics.model == KIRI_MODEL_POINTS ? 0 : system->linkCount;
 }
 
-static inline int32_t kiriElement_Count(const kiriSystem* system)
+static inline int32_t kiriElement_CornerCount(const kiriSystem* system)
 {
-    return kiriElement_LinkCount(system) + (system->areaElements != NULL ? system->areaElements->elements.count : 0);
+    bool traces = !kiriMechanics_IsAffine(&system->mechanics) && system->material.poissonsRatio > 0.0f;
+    return traces ? system->cornerCount : 0;
 }
 
-/* Null where the element is an area element. */
+static inline int32_t kiriElement_Count(const kiriSystem* system)
+{
+    return kiriElement_LinkCount(system) + kiriElement_CornerCount(system) +
+           (system->areaElements != NULL ? system->areaElements->elements.count : 0);
+}
+
+/* Null where the element is no link. */
 static inline const kiriLink* kiriElement_Link(const kiriSystem* system, int32_t k)
 {
     KIRI_ASSERT(k >= 0 && k < kiriElement_Count(system));
     return k < kiriElement_LinkCount(system) ? &system->links[k] : NULL;
+}
+
+/* Null where the element is no corner. */
+static inline const kiriCorner* kiriElement_Corner(const kiriSystem* system, int32_t k)
+{
+    int32_t corner = k - kiriElement_LinkCount(system);
+    return corner >= 0 && corner < kiriElement_CornerCount(system) ? &system->corners[corner] : NULL;
 }
 
 /* Is it a link between rigid frames? */
@@ -58,6 +73,9 @@ void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffnes
    null: as the frames are. */
 void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strain,
                          kiriFrameRow* rows);
+
+/* The trace of a corner from strains that are known already, KIRI_MOST_STRAINS of each element. */
+kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* strains);
 
 /* The strains without their offsets: those that pull. */
 void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* strain, double* pulling);

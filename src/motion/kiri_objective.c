@@ -78,6 +78,16 @@ void kiriObjective_AddHost(kiriSolver* solver, const kiriSystem* system, const k
 
 /* ---- Elements and inertia ---- */
 
+void kiriObjective_Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strains)
+{
+    if (kiriElement_Corner(system, k) != NULL) {
+        kiriTrace trace = kiriElement_Trace(system, k, strains);
+        memcpy(&strains[KIRI_MOST_STRAINS * k], trace.strain, sizeof(trace.strain));
+    } else {
+        kiriElement_Measure(system, k, poses, &strains[KIRI_MOST_STRAINS * k], NULL);
+    }
+}
+
 void kiriObjective_AddElement(const kiriSolver* solver, const kiriSystem* system, int32_t k, const double* strain,
                               const double* pulling, kiriStepEnergy* sum)
 {
@@ -121,17 +131,17 @@ void kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* system, const 
     bool isKnown = poses == solver->start.data && !solver->isHeld;
     for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
         kiriPieceStep* piece = kiriSolver_PieceOfElement(solver, system, k);
-        double measured[KIRI_MOST_STRAINS], pulling[KIRI_MOST_STRAINS];
+        double pulling[KIRI_MOST_STRAINS];
         if (!piece->isSearching) {
             continue;
         }
         if (!isKnown) {
-            kiriElement_Measure(system, k, poses, measured, NULL);
+            kiriObjective_Measure(system, k, poses, solver->nowStrain.data);
         }
-        const double* strain = isKnown ? &solver->startStrain.data[KIRI_MOST_STRAINS * k] : measured;
+        const double* strain = &(isKnown ? solver->startStrain.data : solver->nowStrain.data)[KIRI_MOST_STRAINS * k];
         kiriElement_TakeOffsets(system, k, strain, pulling);
         kiriObjective_AddElement(solver, system, k, strain, pulling, &piece->sum);
-        solver->stopping.data[k] |= !isKnown && HasStop(system, k) && measured[KIRI_NORMAL_STOP] != 0.0;
+        solver->stopping.data[k] |= !isKnown && HasStop(system, k) && strain[KIRI_NORMAL_STOP] != 0.0;
     }
     kiriObjective_AddHost(solver, system, poses);
 }
@@ -143,6 +153,20 @@ static double RigidLinkNoise(const kiriSolver* solver, const kiriLink* link, con
     double reach = kiriVec3_Length(solver->start.data[link->i].x) + link->length;
     return reach * reach * (stiffness[KIRI_STRETCH] + stiffness[KIRI_SHEAR] + stiffness[KIRI_NORMAL_GAP]) +
            stiffness[KIRI_PLANE_BENDING] + stiffness[KIRI_BENDING] + stiffness[KIRI_TWIST];
+}
+
+/* Of the sums of strains that traces are. */
+static double CornerNoise(const kiriSolver* solver, const kiriSystem* system, const kiriCorner* corner,
+                          const double* stiffness)
+{
+    double weight = 0.0, reach = 0.0;
+    for (int32_t k = 0; k < corner->count; ++k) {
+        const kiriLink* link = &system->links[corner->link[k]];
+        double size = kiriVec2_Length(corner->weight[k]);
+        weight += size;
+        reach += size * (kiriVec3_Length(solver->start.data[link->i].x) + link->length);
+    }
+    return stiffness[KIRI_TRACE_STRETCH] * reach * reach + stiffness[KIRI_TRACE_CURVATURE] * weight * weight;
 }
 
 /* The columns of A have lengths near 1. */
@@ -175,10 +199,12 @@ void kiriObjective_FindNoise(kiriSolver* solver, const kiriSystem* system)
     }
     for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
         const double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
-        kiriSolver_PieceOfElement(solver, system, k)->noise +=
-            share * (kiriMechanics_IsAffine(&system->mechanics)
-                         ? AffineNoise(solver, system, k, stiffness)
-                         : RigidLinkNoise(solver, kiriElement_Link(system, k), stiffness));
+        const kiriCorner* corner = kiriElement_Corner(system, k);
+        double noise = corner != NULL ? CornerNoise(solver, system, corner, stiffness)
+                       : kiriElement_IsRigidLink(system, k)
+                           ? RigidLinkNoise(solver, kiriElement_Link(system, k), stiffness)
+                           : AffineNoise(solver, system, k, stiffness);
+        kiriSolver_PieceOfElement(solver, system, k)->noise += share * noise;
     }
 }
 
@@ -272,17 +298,58 @@ static int ActiveRows(const kiriSystem* system, int32_t k, const double* strain)
     return hasStop && strain[rows - 1] == 0.0 ? rows - 1 : rows;
 }
 
+/* The rows that corners are made of. */
+static double* TracedRows(const kiriSolver* solver, int32_t link, int traced)
+{
+    return &solver->tracedRows.data[2 * (size_t)solver->size * (KIRI_TRACED * (size_t)link + (size_t)traced)];
+}
+
+static void KeepTracedRows(kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    size_t row = 2 * (size_t)solver->size;
+    for (int s = 0; s < (system->mechanics.planar ? KIRI_TRACED_BENDING : KIRI_TRACED); ++s) {
+        memcpy(TracedRows(solver, k, s), &solver->J.data[row * (size_t)kiriTrace_Source(s)], sizeof(double) * row);
+    }
+}
+
+/* The same as DeriveStrains, from what is kept of the corner's links. */
+static void DeriveTraces(kiriSolver* solver, const kiriSystem* system, int32_t k, int32_t count, double* strain)
+{
+    const kiriCorner* corner = kiriElement_Corner(system, k);
+    kiriTrace trace = kiriElement_Trace(system, k, solver->nowStrain.data);
+    int traces = kiriElement_StrainCount(system, k), size = solver->size;
+    int32_t members[4], ends[4][2];
+    kiriTrace_Members(corner, system->links, members, ends);
+    memcpy(strain, trace.strain, sizeof(double) * (size_t)traces);
+    memset(solver->J.data, 0, sizeof(double) * (size_t)(traces * count * size));
+    for (int32_t n = 0; n < count; ++n) {
+        for (int s = 0; s < 2 * traces; ++s) {
+            const double* row = TracedRows(solver, corner->link[n], s);
+            for (int end = 0; end < 2; ++end, row += size) {
+                double *J = &solver->J.data[size * (count * (s / 2) + ends[n][end])], by = trace.by[n][s];
+                for (int u = 0; u < size; ++u) {
+                    J[u] += by * row[u];
+                }
+            }
+        }
+    }
+}
+
 /* The strains of an element at the poses, and J: their derivatives by the unknowns of its frames, zero for held
    ones. */
 static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t k, int32_t count, double* strain)
 {
     size_t bytes = sizeof(double) * (size_t)solver->size;
     double* J = solver->J.data;
+    if (kiriElement_Corner(system, k) != NULL) {
+        DeriveTraces(solver, system, k, count, strain);
+        return;
+    }
     if (kiriElement_IsRigidLink(system, k) && !system->mechanics.planar) {
         const kiriLink* link = kiriElement_Link(system, k);
         const kiriFrameData* const frames[2] = { &system->frames[link->i], &system->frames[link->j] };
         const kiriPose* const ends[2] = { &solver->poses.data[link->i], &solver->poses.data[link->j] };
-        kiriStrain_Measure(link, frames, ends, strain, (kiriStrainRow*)J); /* rows are J as it is */
+        kiriStrain_Measure(link, &system->material, frames, ends, strain, (kiriStrainRow*)J); /* rows are J as it is */
     } else {
         kiriElement_Measure(system, k, solver->poses.data, strain, solver->rows.data);
         for (int32_t n = 0; n < kiriElement_StrainCount(system, k) * count; ++n) {
@@ -294,6 +361,9 @@ static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t 
             memset(&J[solver->size * (count * e + m)], 0, bytes);
         }
     }
+    if (kiriElement_CornerCount(system) > 0) {
+        KeepTracedRows(solver, system, k);
+    }
 }
 
 static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, kiriStepEnergy* energy)
@@ -302,7 +372,7 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     const double* loss = &solver->loss.data[KIRI_MOST_STRAINS * k];
     const double* start = &solver->startStrain.data[KIRI_MOST_STRAINS * k];
     int32_t count = kiriElement_Members(system, k, solver->members.data);
-    double strain[KIRI_MOST_STRAINS], pulling[KIRI_MOST_STRAINS];
+    double *strain = &solver->nowStrain.data[KIRI_MOST_STRAINS * k], pulling[KIRI_MOST_STRAINS];
     double springs[KIRI_MOST_STRAINS], pulls[KIRI_MOST_STRAINS];
     DeriveStrains(solver, system, k, count, strain);
     kiriElement_TakeOffsets(system, k, strain, pulling);

@@ -68,9 +68,12 @@ kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics
 /* ---- Staging ---------------------------------------------------------------------------------------------------- */
 
 /* Only scratch, so that nothing is lost by growing. */
-static bool ReserveSolver(kiriSolver* solver, int32_t frameCount, int32_t elementCount, int32_t most)
+static bool ReserveSolver(kiriSolver* solver, const kiriSystem* next)
 {
     kiriMemory* memory = solver->memory;
+    int32_t frameCount = next->frameCount, elementCount = kiriElement_Count(next);
+    int32_t most = kiriElement_MostMembers(next);
+    int64_t traced = kiriElement_CornerCount(next) > 0 ? kiriElement_LinkCount(next) : 0;
     int64_t unknowns = (int64_t)solver->size * frameCount, rows = (int64_t)KIRI_MOST_STRAINS * most;
     return kiriArray_Reserve(memory, &solver->nextFramePiece, frameCount) &&
            kiriArray_Reserve(memory, &solver->pieces, frameCount) &&
@@ -84,24 +87,38 @@ static bool ReserveSolver(kiriSolver* solver, int32_t frameCount, int32_t elemen
            kiriArray_Reserve(memory, &solver->stiffness, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
            kiriArray_Reserve(memory, &solver->loss, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
            kiriArray_Reserve(memory, &solver->startStrain, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
+           kiriArray_Reserve(memory, &solver->nowStrain, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
+           kiriArray_Reserve(memory, &solver->tracedRows, traced * KIRI_TRACED * 2 * solver->size) &&
            kiriArray_Reserve(memory, &solver->stopping, elementCount) &&
            kiriArray_Reserve(memory, &solver->force, unknowns) && kiriArray_Reserve(memory, &solver->move, unknowns) &&
            kiriArray_Reserve(memory, &solver->members, most) && kiriArray_Reserve(memory, &solver->rows, rows) &&
            kiriArray_Reserve(memory, &solver->J, rows * solver->size);
 }
 
+/* Is the pair one of a corner that a link of it has already? */
+static bool IsPairOfLink(const kiriSystem* system, int32_t k, kiriPair pair)
+{
+    const kiriCorner* corner = kiriElement_Corner(system, k);
+    bool found = false;
+    for (int32_t n = 0; corner != NULL && n < corner->count; ++n) {
+        const kiriLink* link = &system->links[corner->link[n]];
+        found |= link->i == pair.a && link->j == pair.b;
+    }
+    return found;
+}
+
 /* Of frames that share an element. */
-static bool CollectPairs(kiriSolver* solver, const kiriSystem* system, const int32_t* framePiece)
+static bool CollectPairs(kiriSolver* solver, const kiriSystem* next, const int32_t* framePiece)
 {
     solver->pairs.count = 0;
-    for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
+    for (int32_t k = 0; k < kiriElement_Count(next); ++k) {
         int32_t* members = solver->members.data;
-        int32_t count = kiriElement_Members(system, k, members);
+        int32_t count = kiriElement_Members(next, k, members);
         for (int32_t b = 1; b < count; ++b) {
             KIRI_ASSERT(framePiece[members[b]] == framePiece[members[0]]);
             for (int32_t a = 0; a < b; ++a) {
                 kiriPair pair = { members[a], members[b] };
-                if (!kiriArray_Push(solver->memory, &solver->pairs, pair)) {
+                if (!IsPairOfLink(next, k, pair) && !kiriArray_Push(solver->memory, &solver->pairs, pair)) {
                     return false;
                 }
             }
@@ -137,21 +154,14 @@ static bool KeepPairs(kiriSolver* solver, int32_t frameCount)
     return true;
 }
 
-bool kiriSolver_Stage(kiriSolver* solver, int32_t frameCount, const kiriLink* links, int32_t linkCount,
-                      const kiriAreaElements* areaElements, const int32_t* framePiece, int32_t pieceCount)
+bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t* framePiece, int32_t pieceCount)
 {
-    KIRI_ASSERT(frameCount >= 0 && linkCount >= 0 && pieceCount >= 0 && pieceCount <= frameCount);
-    kiriSystem system;
-    memset(&system, 0, sizeof(system));
-    system.mechanics = solver->mechanics;
-    system.frameCount = frameCount;
-    system.links = links;
-    system.linkCount = linkCount;
-    system.areaElements = areaElements;
+    int32_t frameCount = next->frameCount;
+    KIRI_ASSERT(frameCount >= 0 && next->linkCount >= 0 && pieceCount >= 0 && pieceCount <= frameCount);
+    KIRI_ASSERT(next->mechanics.model == solver->mechanics.model);
     solver->isStaged = false;
-    solver->nextElementCount = kiriElement_Count(&system);
-    if (!ReserveSolver(solver, frameCount, solver->nextElementCount, kiriElement_MostMembers(&system)) ||
-        !CollectPairs(solver, &system, framePiece)) {
+    solver->nextElementCount = kiriElement_Count(next);
+    if (!ReserveSolver(solver, next) || !CollectPairs(solver, next, framePiece)) {
         return false;
     }
     for (int32_t f = 0; f < frameCount; ++f) {
@@ -234,14 +244,28 @@ static kiriPrediction PredictFrame(const kiriSystem* system, const kiriFrameData
                                                       : kiriPrediction_Free(frame, &system->material, gravity, dt);
 }
 
+/* A corner is damped as the link that is damped least. */
+static double DampingShare(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    const kiriCorner* corner = kiriElement_Corner(system, k);
+    double least = 1.0;
+    if (kiriElement_IsRigidLink(system, k)) {
+        least = kiriStrain_Damping(&solver->startStrain.data[KIRI_MOST_STRAINS * k]);
+    }
+    for (int32_t n = 0; corner != NULL && n < corner->count; ++n) {
+        double share = kiriStrain_Damping(&solver->startStrain.data[KIRI_MOST_STRAINS * corner->link[n]]);
+        least = share < least ? share : least;
+    }
+    return least;
+}
+
 static void BeginElement(kiriSolver* solver, const kiriSystem* system, int32_t k)
 {
     double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
-    double* strain = &solver->startStrain.data[KIRI_MOST_STRAINS * k];
     kiriElement_Stiffness(system, k, stiffness);
-    kiriElement_Measure(system, k, solver->start.data, strain, NULL);
+    kiriObjective_Measure(system, k, solver->start.data, solver->startStrain.data);
     solver->stopping.data[k] = 0;
-    double damping = solver->damping * (kiriElement_IsRigidLink(system, k) ? kiriStrain_Damping(strain) : 1.0);
+    double damping = solver->damping * DampingShare(solver, system, k);
     for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
         solver->loss.data[KIRI_MOST_STRAINS * k + e] = damping * stiffness[e];
     }

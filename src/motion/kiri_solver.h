@@ -38,7 +38,7 @@ typedef struct kiriSystem {
     int32_t frameCount;
     const kiriLink* links;
     int32_t linkCount;
-    const kiriCorner* corners;
+    const kiriCorner* corners; /* of these links */
     int32_t cornerCount;
     const kiriStrainOffset* strainOffsets; /* one a link between rigid frames, or null */
     const kiriAreaElements* areaElements;  /* of affine frames; may be null where there are none */
@@ -53,13 +53,13 @@ typedef struct kiriSystem {
 /* A solver for no frames yet. Null for memory. */
 kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics);
 
-/* Prepares for these frames, links and area elements; replaces what was staged before. Steps go on with the current
-   ones. framePiece[f] is the piece of frame f: no element joins frames of two pieces. The matrix gets a new pattern only
-   where the current one does not cover the pairs of frames that elements couple, or where frameCount differs: links
-   that vanish leave zero blocks, also in a new pattern, until these are more than twice as many as the others.
+/* Prepares for this system, of which only frameCount, links, corners, area elements and Poisson's ratio are read;
+   replaces what was staged before. Steps go on with the current ones. framePiece[f] is the piece of frame f: no element
+   joins frames of two pieces. The matrix gets a new pattern only where the current one does not cover the pairs of
+   frames that elements couple, or where frameCount differs: links that vanish leave zero blocks, also in a new pattern,
+   until these are more than twice as many as the others.
    Otherwise nothing is allocated but room that grows. False for memory: nothing is staged then. */
-bool kiriSolver_Stage(kiriSolver* solver, int32_t frameCount, const kiriLink* links, int32_t linkCount,
-                      const kiriAreaElements* areaElements, const int32_t* framePiece, int32_t pieceCount);
+bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t* framePiece, int32_t pieceCount);
 
 /* What is staged, if anything, becomes current. */
 void kiriSolver_Commit(kiriSolver* solver);
@@ -67,13 +67,13 @@ void kiriSolver_Commit(kiriSolver* solver);
 /* Of the pattern, which depends on what was staged before: the last bits of steps depend on it. */
 uint64_t kiriSolver_Hash(const kiriSolver* solver);
 
-/* Moves the frames by dt. Links and area elements are those that were committed; normals of contacts are unit,
+/* Moves the frames by dt. Links, corners and area elements are those that were committed; normals of contacts are unit,
    heldRotation is a rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the
    motion asks for them, but at most `most` (1 or more). Or -1 when it cannot be continued (not finite); the frames are
    then as before the call. Allocates nothing. Forces on frames are used, not cleared. */
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations, int32_t most);
 
-/* Elastic energy of links and area elements, J. */
+/* Elastic energy of all elements, J. */
 double kiriSolver_ElasticEnergy(const kiriSystem* system);
 
 KIRI_C_END

@@ -77,6 +77,9 @@ struct kiriSolver {
     KIRI_ARRAY(kiriPose) start, poses, trial; /* at the start of the step, now, and where a step would lead */
     /* KIRI_MOST_STRAINS an element: stiffness, damping, and strains at the start of the step. */
     KIRI_ARRAY(double) stiffness, loss, startStrain;
+    /* As measured last: corners take strains of their links from there, and their derivatives by the unknowns, both ends
+       of each. */
+    KIRI_ARRAY(double) nowStrain, tracedRows;
     KIRI_ARRAY(double) force, move; /* the right side: minus the gradient; and the solution */
     KIRI_ARRAY(uint8_t) stopping;   /* would a step have brought this element to its stop? */
     /* Scratch for one element. */
@@ -118,6 +121,10 @@ kiriVec3 kiriSystem_Point(const kiriSystem* system, int32_t frame, kiriVec2 at, 
 double kiriContact_Depth(const kiriContactRow* contact, kiriVec3 point);
 kiriVec3 kiriContact_Slide(const kiriSystem* system, const kiriContactRow* contact, kiriVec3 point);
 double kiriContact_Friction(const kiriSolver* solver, const kiriSystem* system, const kiriContactRow* contact);
+
+/* The strains of element k at the poses. `strains` has KIRI_MOST_STRAINS an element; those of a corner's links are there
+   already. */
+void kiriObjective_Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strains);
 
 /* Adds the energy of element k, whose strains these are; `pulling` without their offsets. */
 void kiriObjective_AddElement(const kiriSolver* solver, const kiriSystem* system, int32_t k, const double* strain,

@@ -1,5 +1,7 @@
 #include "kiri_strain.h"
 
+#include "kiri_curl.h"
+
 #include <string.h>
 
 /* An offset g of the ends of a strip that is clamped there makes it longer by 3/5 g^2 / l, where a straight line has
@@ -7,9 +9,13 @@
 #define ARC_SHARE 1.2
 /* Square of the angle at which the arc between two sites is taken for a half. */
 #define ARC_FOLD 2.5
-/* Links along both directions share a shear when frames turn; a strip one region wide has those of one direction only,
-   and Timoshenko's 5/6 G, over E. */
-#define SHEAR_BEAM (5.0 / 12.0)
+/* Timoshenko's 5/6: where no other links share a shear, it is not even over the width. */
+#define SHEAR_BEAM (5.0 / 6.0)
+
+/* A normal gap costs so many times what it does in a strip that is clamped at both ends: between regions that have
+   neighbours on both sides, and at an edge. See DESIGN TODO */
+#define GAP_INNER 1.6
+#define GAP_OUTER 6.0
 
 /* Square of the cosine of half the fold below which the strains that need the mean axes fade. */
 #define FADING 0.1
@@ -17,8 +23,8 @@
 #define LEAST_AXIS 1e-6
 
 #define HALF_TURN 3.14159265358979
-/* Folds up to this angle have all of their damping. */
-#define DAMPED_FOLD 2.5
+/* Folds up to this angle have all of their damping, and axes that can be relied on. */
+#define OPEN_FOLD 2.5
 
 /* The mean axes of two frames. When the frames turn by w_0 and w_1, the axes turn by the sum over k of
    n (nBy[k] . w_k) + tau (tauBy[k] . w_k) + d (dBy[k] . w_k). */
@@ -305,8 +311,57 @@ static void FadeStrains(const MeanAxes* axes, double* strain, kiriStrainRow* row
     }
 }
 
-void kiriStrain_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
-                        double strain[KIRI_STRAINS], kiriStrainRow* rows)
+/* The bending of a strip that curls: see kiri_curl.h. */
+static void TakeCurl(const kiriCurl* curl, double* strain, kiriStrainRow* row)
+{
+    if (curl->gain > 0.0) {
+        double slope, squared = *strain * *strain, factor = kiriCurl_Factor(curl, squared, &slope);
+        if (row != NULL) {
+            ScaleRow(row, factor + 2.0 * slope * squared);
+        }
+        *strain *= factor;
+    }
+}
+
+double kiriStrain_Openness(double bending, double twist, double* slope)
+{
+    const double per = 1.0 / (HALF_TURN * HALF_TURN - OPEN_FOLD * OPEN_FOLD);
+    double share = per * (HALF_TURN * HALF_TURN - bending * bending - twist * twist);
+    share = share < 0.0 ? 0.0 : share < 1.0 ? share : 1.0;
+    *slope = share > 0.0 && share < 1.0 ? -2.0 * per * (1.0 - share) : 0.0;
+    return share * (2.0 - share);
+}
+
+/* Twist is stiffer than bending at open ends. In a fold it becomes as stiff as bending, `least` being the ratio of
+   their stiffnesses. */
+static void TakeTwist(double least, double bending, double* twist, kiriStrainRow* rows)
+{
+    double slope, open = kiriStrain_Openness(bending, *twist, &slope);
+    if (open < 1.0 && least < 1.0) {
+        double factor = sqrt(least + (1.0 - least) * open * open), per = (1.0 - least) * open * slope / factor;
+        if (rows != NULL) {
+            ScaleRow(&rows[KIRI_TWIST], factor + 2.0 * per * *twist * *twist);
+            AddRow(&rows[KIRI_TWIST], 2.0 * per * *twist * bending, &rows[KIRI_BENDING]);
+        }
+        *twist *= factor;
+    }
+}
+
+/* After this bending and twist count as much as their stiffness says. */
+static void TakeWidths(const kiriLink* link, const kiriMaterial* material, double* strain, kiriStrainRow* rows)
+{
+    if (link->outer > 0.0) {
+        double nu = (double)material->poissonsRatio, outer = link->outer, inner = link->width - outer;
+        double bending = (1.0 - nu) * (inner + (1.0 + nu) * outer) + nu * nu * kiriLink_LoneWidth(link);
+        double least = bending / ((1.0 - nu) * (inner + 2.0 * outer));
+        kiriCurl curl = kiriCurl_Of(link, material);
+        TakeTwist(least, strain[KIRI_BENDING], &strain[KIRI_TWIST], rows);
+        TakeCurl(&curl, &strain[KIRI_BENDING], rows != NULL ? &rows[KIRI_BENDING] : NULL);
+    }
+}
+
+void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
+                        const kiriPose* const poses[2], double strain[KIRI_STRAINS], kiriStrainRow* rows)
 {
     MeanAxes axes;
     TakeMeanAxes(&axes, link, poses, rows != NULL);
@@ -329,12 +384,13 @@ void kiriStrain_Measure(const kiriLink* link, const kiriFrameData* const frames[
     TakeAngle(&axes, strain, rows);
     TakeArc(link, frames, strain, rows);
     FadeStrains(&axes, strain, rows);
+    TakeWidths(link, material, strain, rows);
 }
 
 double kiriStrain_Damping(const double strain[KIRI_STRAINS])
 {
     double fold = strain[KIRI_BENDING] * strain[KIRI_BENDING] + strain[KIRI_TWIST] * strain[KIRI_TWIST];
-    double share = (HALF_TURN * HALF_TURN - fold) / (HALF_TURN * HALF_TURN - DAMPED_FOLD * DAMPED_FOLD);
+    double share = (HALF_TURN * HALF_TURN - fold) / (HALF_TURN * HALF_TURN - OPEN_FOLD * OPEN_FOLD);
     return share < 0.0 ? 0.0 : share < 1.0 ? share : 1.0;
 }
 
@@ -342,11 +398,13 @@ void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, do
 {
     double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = link->length;
     double membrane = (double)material->youngsModulus * h / l, bending = membrane * h * h / (12.0 * (1.0 - nu * nu));
-    stiffness[KIRI_STRETCH] = membrane * link->width;
-    stiffness[KIRI_SHEAR] = membrane * (link->width - (1.0 - SHEAR_BEAM) * link->outer);
+    double outer = link->outer, inner = link->width - outer, lone = kiriLink_LoneWidth(link);
+    double gap = GAP_INNER * inner + (1.0 - nu * nu) * (GAP_OUTER * (outer - lone) + lone);
+    stiffness[KIRI_STRETCH] = membrane * (inner / (1.0 + nu) + outer);
+    stiffness[KIRI_SHEAR] = membrane * (inner + 0.5 * SHEAR_BEAM * outer) / (1.0 + nu);
     stiffness[KIRI_PLANE_BENDING] = membrane * link->moment;
-    stiffness[KIRI_BENDING] = bending * link->width;
-    stiffness[KIRI_TWIST] = bending * link->width;
-    stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * link->width / (l * l);
+    stiffness[KIRI_BENDING] = bending * (1.0 - nu) * (inner + (1.0 + nu) * outer);
+    stiffness[KIRI_TWIST] = bending * (1.0 - nu) * (inner + 2.0 * outer);
+    stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * gap / (l * l);
     stiffness[KIRI_NORMAL_STOP] = membrane * link->width;
 }

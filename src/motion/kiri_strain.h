@@ -8,21 +8,33 @@
 
 KIRI_C_BEGIN
 
-/* With gap(p) = x_j(p) - x_i(p); n, tau, d the mean axes of the two frames, orthonormal; D = E h^3 / (12 (1 - nu^2)).
-   Every energy is 1/2 stiffness strain^2.
+/* With gap(p) = x_j(p) - x_i(p); n, tau, d the mean axes of the two frames, orthonormal; D = E h^3 / (12 (1 - nu^2)),
+   M = E h / l, B = D / l; W = Wi + Wo, Wo the part of the width at open ends of the border (kiriLink.outer). Every
+   energy is 1/2 stiffness strain^2.
 
    strain         what                                                stiffness
-   stretch        |(c + gap(b) . n, sqrt(6/5) gap(b) . d)| - c - a.n  E h W / l
-   shear          gap(b) . tau - a . tau                              E h (W - 7/12 Wo) / l, Wo the outer width
-   plane bending  ((A_j - A_i) tau) . n                               E h I / l
-   bending        w . n, w along d_j - d_i                            D W / l
-   twist          w . tau                                             D W / l
-   normal gap     gap(m) . d                                          beta D W / l^3, beta = 12
-   normal stop    what |gap(m) . d| has above l / 2                   E h W / l
+   stretch        |(c + gap(b) . n, sqrt(6/5) gap(b) . d)| - c - a.n  M (Wi / (1 + nu) + Wo)
+   shear          gap(b) . tau - a . tau                              M (Wi + 5/12 Wo) / (1 + nu)
+   plane bending  ((A_j - A_i) tau) . n                               M I
+   bending        w . n, w along d_j - d_i                            B ((1 - nu) Wi + (1 - nu^2) Wo)
+   twist          w . tau                                             B (1 - nu) (Wi + 2 Wo)
+   normal gap     gap(m) . d                                          12 B (..) / l^2, see kiriStrain_Stiffness
+   normal stop    what |gap(m) . d| has above l / 2                   M W
+
+   A plate with the curvatures K has D/2 ((1 - nu) |K|^2 + nu (tr K)^2) an area. Over the links of a Voronoi diagram the
+   sum of W l |K n|^2 is that of the area times |K|^2, for K n = (d_j - d_i) / l: so the links have the first part. The
+   second, like that of the membrane, E h / (1 - nu^2) / 2 ((1 - nu) |eps|^2 + nu (tr eps)^2), needs links of different
+   directions together: corners have it (kiri_trace.h). Beside a free edge there are no corners beyond the last row of
+   sites, and no links but those along the edge. There, moment and tension across the edge vanish, as in a beam: bending
+   has 1 - nu^2, stretch 1; and the links see one of the two halves of the twist.
 
    Bending and twist together are the Laplacian of the director, for d_j - d_i has no part along the mean d; |w| is the
    angle between the two, of which their difference is only the chord. Where the angle nears half a turn the mean axes
-   lose their meaning: strains of a gap and plane bending fade out, and the stop takes all of the gap.
+   lose their meaning: strains of a gap and plane bending fade out, and the stop takes all of the gap; and twist is no
+   longer stiffer than bending, so that the energy does not depend on the axes.
+
+   A strip one region wide curls across while it bends, which is why it has 1 - nu^2. Bent further it cannot, for its
+   edges would stretch: bending grows by a factor (kiri_curl.h), which is 1 for small angles.
 
    a = (s . w) w / 12: between two sites that touch one circular arc, the chord is that much longer than their tangents
    reach, which is no stretch. In a row of frames a only moves them; where frames lie in no row, links of all directions
@@ -60,8 +72,12 @@ typedef struct kiriStrainRow {
 
 /* The strains and, unless `rows` is null, their derivatives, which are exact: so the inner forces and their moments sum
    to zero. Strains do not change when both frames move rigidly. frames and poses are those of i and j. */
-void kiriStrain_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
-                        double strain[KIRI_STRAINS], kiriStrainRow* rows);
+void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
+                        const kiriPose* const poses[2], double strain[KIRI_STRAINS], kiriStrainRow* rows);
+
+/* How much a link's axes can be relied on, by its fold: 1 up to a fold of 2.5 rad, 0 at half a turn, where a small
+   motion swings them round. *slope is the derivative by the square of the angle. */
+double kiriStrain_Openness(double bending, double twist, double* slope);
 
 /* How much of its damping a link has in a step that starts with these strains: none when it is folded by half a turn,
    for there bending and twist change their signs while the sheet hardly moves. */

@@ -23,12 +23,12 @@ void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFram
 typedef char kiriLinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 18 * sizeof(double) ? 1 : -1];
 typedef char kiriPoseHasNoPadding[sizeof(kiriPose) == 12 * sizeof(double) ? 1 : -1];
 
-static void MeasureLink(const kiriLink* link, const kiriFrameData* frames, double* strain)
+static void MeasureLink(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* frames, double* strain)
 {
     const kiriFrameData* const ends[2] = { &frames[link->i], &frames[link->j] };
     const kiriPose now[2] = { kiriPose_Of(ends[0]), kiriPose_Of(ends[1]) };
     const kiriPose* const poses[2] = { &now[0], &now[1] };
-    kiriStrain_Measure(link, ends, poses, strain, NULL);
+    kiriStrain_Measure(link, material, ends, poses, strain, NULL);
 }
 
 static bool IsFrameUnmoved(const kiriStrainOffsets* strainOffsets, const kiriFrameData* frames, int32_t f)
@@ -46,7 +46,8 @@ static bool IsLinkBefore(const kiriLink* a, const kiriLink* b)
 
 /* Of a link with an older one, or none. */
 static kiriStrainOffset StrainOffsetOf(const kiriStrainOffsets* strainOffsets, const kiriLink* link,
-                                       const kiriLink* old, const kiriStrainOffset* older, const kiriFrameData* frames)
+                                       const kiriLink* old, const kiriStrainOffset* older, const kiriFrameData* frames,
+                                       const kiriMaterial* material)
 {
     kiriStrainOffset offset;
     double was[KIRI_STRAINS] = { 0.0 };
@@ -54,9 +55,9 @@ static kiriStrainOffset StrainOffsetOf(const kiriStrainOffsets* strainOffsets, c
         IsFrameUnmoved(strainOffsets, frames, link->j)) {
         return *older;
     }
-    MeasureLink(link, frames, offset.strain);
+    MeasureLink(link, material, frames, offset.strain);
     if (old != NULL) {
-        MeasureLink(old, strainOffsets->frames.data, was);
+        MeasureLink(old, material, strainOffsets->frames.data, was);
     }
     for (int e = 0; e < KIRI_STRAINS; ++e) {
         offset.strain[e] -= old != NULL ? was[e] - older->strain[e] : 0.0;
@@ -65,7 +66,8 @@ static kiriStrainOffset StrainOffsetOf(const kiriStrainOffsets* strainOffsets, c
 }
 
 void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* old, int32_t oldCount,
-                            const kiriLink* links, int32_t linkCount, const kiriFrameData* frames)
+                            const kiriLink* links, int32_t linkCount, const kiriFrameData* frames,
+                            const kiriMaterial* material)
 {
     KIRI_ASSERT(linkCount <= strainOffsets->strainOffsets.capacity);
     const kiriStrainOffset none = { { 0.0 } };
@@ -80,7 +82,7 @@ void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* ol
         bool known = o < oldCount && !IsLinkBefore(&links[k], &old[o]);
         const kiriStrainOffset* older = known && o < had ? &strainOffsets->older.data[o] : &none;
         strainOffsets->strainOffsets.data[k] =
-            StrainOffsetOf(strainOffsets, &links[k], known ? &old[o] : NULL, older, frames);
+            StrainOffsetOf(strainOffsets, &links[k], known ? &old[o] : NULL, older, frames, material);
         o += known;
     }
     strainOffsets->strainOffsets.count = linkCount;

@@ -27,7 +27,8 @@ void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFram
 
 /* After it: links of the same pair, in their order, go on with their strain; links that are new begin without any. */
 void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* old, int32_t oldCount,
-                            const kiriLink* links, int32_t linkCount, const kiriFrameData* frames);
+                            const kiriLink* links, int32_t linkCount, const kiriFrameData* frames,
+                            const kiriMaterial* material);
 
 /* Offsets fade to 1 / e within `time` (s). */
 void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, double dt, double time);

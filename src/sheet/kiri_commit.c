@@ -109,7 +109,7 @@ void kiriStage_Commit(kiriSheetData* sheet)
     kiriLinks_Commit(&sheet->links);
     if (keepsStrains) {
         kiriStrainOffsets_Take(&sheet->strainOffsets, sheet->links.next.data, oldLinks, sheet->links.links.data,
-                               sheet->links.links.count, sheet->frames.data);
+                               sheet->links.links.count, sheet->frames.data, &sheet->settings.material);
     }
     kiriSolver_Commit(sheet->solver);
     kiriLayout layout = sheet->layout;

@@ -5,6 +5,8 @@
 #include "kiri_seen.h"
 #include "kiri_site.h"
 
+#include <string.h>
+
 /* ---- Cut: appendix A --------------------------------------------------------------------------------------------- */
 
 /* Moves the blade of a cut to the next point of its polyline. */
@@ -351,6 +353,22 @@ static int32_t Larger(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
+static bool StageSolver(kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    kiriSystem next;
+    memset(&next, 0, sizeof(next));
+    next.mechanics = sheet->settings.mechanics;
+    next.material = sheet->settings.material;
+    next.frameCount = u->placing.sites.count;
+    next.links = sheet->links.next.data;
+    next.linkCount = sheet->links.next.count;
+    next.corners = sheet->links.nextCorners.data;
+    next.cornerCount = sheet->links.nextCorners.count;
+    next.areaElements = &u->next.areaElements;
+    return kiriSolver_Stage(sheet->solver, &next, u->next.framePiece.data, u->next.pieces.count);
+}
+
 kiriProgress kiriStage_Constants(kiriSheetData* sheet, kiriQuota* none)
 {
     kiriUpdate* u = sheet->update;
@@ -361,8 +379,6 @@ kiriProgress kiriStage_Constants(kiriSheetData* sheet, kiriQuota* none)
                                          u->placing.sites.count)) &&
               BuildAreaElements(sheet) && FindPinFrames(sheet) && ReservePoints(sheet) &&
               kiriRefit_Stage(&u->refit, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, u->isScratch) &&
-              kiriArray_Reserve(sheet->memory, &sheet->frames, u->placing.sites.count) &&
-              kiriSolver_Stage(sheet->solver, u->placing.sites.count, sheet->links.next.data, sheet->links.next.count,
-                               &u->next.areaElements, u->next.framePiece.data, u->next.pieces.count);
+              kiriArray_Reserve(sheet->memory, &sheet->frames, u->placing.sites.count) && StageSolver(sheet);
     return ok ? KIRI_DONE : KIRI_FAILED;
 }
