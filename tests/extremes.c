@@ -442,7 +442,7 @@ const Extreme extremes[] = {
     { .name = "plain", .script = Hang },
     { .name = "h/L 0.1", .script = Hang, .thinness = 0.1 },
     { .name = "h/L 1e-2", .script = Hang, .thinness = 1e-2 },
-    { .name = "h/L 1e-4", .script = Hang, .thinness = 1e-4 },
+    { .name = "h/L 1e-4", .script = Hang, .thinness = 1e-4, .ticks = 900 },
     { .name = "h/L 1e-5", .script = Hang, .thinness = 1e-5, .calm = 2e-2 },
     { .name = "h/L 1e-6", .script = Hang, .thinness = 1e-6, .calm = 2e-2 },
     { .name = "E 1e2", .script = Hang, .modulus = 1e2, .calm = 2e-2 },

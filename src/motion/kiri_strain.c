@@ -14,8 +14,8 @@
 
 /* A normal gap costs so many times what it does in a strip that is clamped at both ends: between regions that have
    neighbours on both sides, and at an edge. See DESIGN TODO */
-#define GAP_INNER 1.6
-#define GAP_OUTER 6.0
+#define GAP_INNER 3.0
+#define GAP_OUTER 12.0
 
 /* Square of the cosine of half the fold below which the strains that need the mean axes fade. */
 #define FADING 0.1

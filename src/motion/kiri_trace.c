@@ -2,14 +2,14 @@
 
 #include <string.h>
 
-static void AddStretch(kiriTrace* trace, int k, double alongNormal, double alongTangent, const double* strain)
+static void TraceStretch(kiriTrace* trace, int k, double alongNormal, double alongTangent, const double* strain)
 {
     trace->by[k][KIRI_TRACED_STRETCH] = alongNormal;
     trace->by[k][KIRI_TRACED_SHEAR] = alongTangent;
     trace->strain[KIRI_TRACE_STRETCH] += alongNormal * strain[KIRI_STRETCH] + alongTangent * strain[KIRI_SHEAR];
 }
 
-static void AddCurvature(kiriTrace* trace, int k, double alongNormal, double alongTangent, const double* strain)
+static void TraceCurvature(kiriTrace* trace, int k, double alongNormal, double alongTangent, const double* strain)
 {
     double bending = strain[KIRI_BENDING], twist = strain[KIRI_TWIST], slope;
     double open = kiriStrain_Openness(bending, twist, &slope);
@@ -28,9 +28,9 @@ kiriTrace kiriTrace_Measure(const kiriCorner* corner, const kiriLink* links, con
         const kiriLink* link = &links[corner->link[k]];
         double alongNormal = kiriVec2_Dot(corner->weight[k], link->normal);
         double alongTangent = kiriVec2_Dot(corner->weight[k], link->tangent);
-        AddStretch(&trace, k, alongNormal, alongTangent, strains[k]);
+        TraceStretch(&trace, k, alongNormal, alongTangent, strains[k]);
         if (!planar) {
-            AddCurvature(&trace, k, alongNormal, alongTangent, strains[k]);
+            TraceCurvature(&trace, k, alongNormal, alongTangent, strains[k]);
         }
     }
     return trace;
