@@ -59,7 +59,8 @@ static void WriteStepEnd(kiriSolver* solver, const kiriSystem* system)
             TakeAffineRate(prediction, perTime, frame);
         } else {
             kiriMat3 inertia = kiriPrediction_Inertia(prediction, &frame->A);
-            kiriVec3 turn = kiriMat3_Solve(&inertia, kiriPrediction_TurnGradient(prediction, &frame->A));
+            kiriVec3 change = kiriPrediction_TurnGradient(prediction, &frame->A, &prediction->pose.A);
+            kiriVec3 turn = kiriMat3_Solve(&inertia, change);
             frame->spin = kiriVec3_AddScaled(prediction->spin, perTime, turn);
         }
     }

@@ -239,7 +239,7 @@ static kiriFrameRow InertiaForce(const kiriSolver* solver, const kiriSystem* sys
         force.by[2] = kiriVec3_Scale(-1.0, gradient.v);
         force.by[3] = kiriVec3_Scale(-1.0, gradient.d);
     } else {
-        force.by[1] = kiriVec3_Scale(-1.0, kiriPrediction_TurnGradient(prediction, &pose->A));
+        force.by[1] = kiriVec3_Scale(-1.0, kiriPrediction_TurnGradient(prediction, &pose->A, &prediction->target));
     }
     return force;
 }

@@ -82,9 +82,15 @@ static kiriVec3 SumCross(const kiriMat3* A, const kiriMat3* B)
                         kiriVec3_Cross(A->d, B->d));
 }
 
+static kiriMat3 CrossColumns(kiriVec3 w, const kiriMat3* A)
+{
+    kiriMat3 r = { kiriVec3_Cross(w, A->u), kiriVec3_Cross(w, A->v), kiriVec3_Cross(w, A->d) };
+    return r;
+}
+
 kiriMat3 kiriPrediction_Gradient(const kiriPrediction* prediction, const kiriMat3* A)
 {
-    kiriMat3 off = MatrixDifference(A, &prediction->pose.A);
+    kiriMat3 off = MatrixDifference(A, &prediction->target);
     return Weighted(&prediction->moments, &off);
 }
 
@@ -109,14 +115,14 @@ double kiriFrame_KineticEnergy(const kiriFrameData* frame, const kiriMaterial* m
 
 double kiriPrediction_TurnSquared(const kiriPrediction* prediction, const kiriMat3* A)
 {
-    kiriMat3 off = MatrixDifference(A, &prediction->pose.A);
+    kiriMat3 off = MatrixDifference(A, &prediction->target);
     kiriMat3 w = Weighted(&prediction->moments, &off);
     return SumDot(&w, &off);
 }
 
-kiriVec3 kiriPrediction_TurnGradient(const kiriPrediction* prediction, const kiriMat3* A)
+kiriVec3 kiriPrediction_TurnGradient(const kiriPrediction* prediction, const kiriMat3* A, const kiriMat3* target)
 {
-    kiriMat3 w = Weighted(&prediction->moments, &prediction->pose.A);
+    kiriMat3 w = Weighted(&prediction->moments, target);
     return SumCross(&w, A);
 }
 
@@ -168,6 +174,13 @@ static void TurnFreely(kiriPrediction* prediction, kiriVec3 L, double dt)
     }
 }
 
+/* In the objective 1/2 m |A p - A* p|^2 / dt^2 the shift adds -torque . turn to first order. */
+static void ShiftTarget(kiriPrediction* prediction, const kiriMat3* inertia, kiriVec3 torque, double dt)
+{
+    kiriMat3 turning = CrossColumns(kiriMat3_Solve(inertia, torque), &prediction->pose.A);
+    prediction->target = kiriMat3_AddScaled(&prediction->pose.A, dt * dt, &turning);
+}
+
 kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
                                    double dt)
 {
@@ -176,6 +189,7 @@ kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMateria
                                   frame->velocity,
                                   frame->spin,
                                   { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } },
+                                  frame->A,
                                   kiriPose_Of(frame) };
     double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
     kiriVec3 carried = kiriVec3_Scale(fade, frame->velocity);
@@ -184,19 +198,15 @@ kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMateria
     prediction.pose.x = kiriVec3_AddScaled(frame->x, dt, prediction.velocity);
     kiriMat3 inertia = kiriPrediction_Inertia(&prediction, &frame->A);
     kiriVec3 L = kiriVec3_Scale(fade, kiriMat3_Mul(inertia, frame->spin));
-    TurnFreely(&prediction, kiriVec3_AddScaled(L, dt, frame->torque), dt);
+    TurnFreely(&prediction, L, dt);
+    inertia = kiriPrediction_Inertia(&prediction, &prediction.pose.A);
+    ShiftTarget(&prediction, &inertia, frame->torque, dt);
     prediction.forceless.x = kiriVec3_AddScaled(frame->x, dt, carried);
     prediction.forceless.A = prediction.pose.A;
     return prediction;
 }
 
 /* ---- Affine frames ---- */
-
-static kiriMat3 CrossColumns(kiriVec3 w, const kiriMat3* A)
-{
-    kiriMat3 r = { kiriVec3_Cross(w, A->u), kiriVec3_Cross(w, A->v), kiriVec3_Cross(w, A->d) };
-    return r;
-}
 
 /* The inertia of an A that is no rotation. It has an inverse even where A has collapsed. */
 static kiriMat3 AffineInertia(const kiriMassMoments* m, const kiriMat3* A)
@@ -248,7 +258,7 @@ kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMater
     kiriPrediction prediction = kiriPrediction_Free(frame, material, gravity, dt);
     double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
     kiriMat3 inertia = AffineInertia(&prediction.moments, &frame->A), turn = IdentityAxes;
-    kiriVec3 L = kiriVec3_AddScaled(kiriVec3_Scale(dt, frame->torque), fade, kiriMat3_Mul(inertia, frame->spin));
+    kiriVec3 L = kiriVec3_Scale(fade, kiriMat3_Mul(inertia, frame->spin));
     kiriVec3 spin = kiriMat3_Solve(&inertia, L);
     double angle = dt * kiriVec3_Length(spin), before = kiriVec3_Dot(L, spin);
     int parts = angle < 2.0 ? 1 + (int)(4.0 * angle) : MOST_PARTS;
@@ -262,6 +272,8 @@ kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMater
     prediction.spin = after > before ? kiriVec3_Scale(sqrt(before / after), spin) : spin;
     prediction.rate = CrossColumns(prediction.spin, &prediction.pose.A);
     prediction.rate = kiriMat3_AddScaled(&prediction.rate, fade, &rate);
+    inertia = AffineInertia(&prediction.moments, &prediction.pose.A);
+    ShiftTarget(&prediction, &inertia, frame->torque, dt);
     return prediction;
 }
 
@@ -285,6 +297,7 @@ kiriPrediction kiriPrediction_Held(const kiriFrameData* frame, const kiriMateria
                                   frame->velocity,
                                   frame->spin,
                                   { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } },
+                                  frame->heldRotation,
                                   kiriPose_Of(frame) };
     kiriVec3 arm = kiriPose_Along(&prediction.pose, kiriVec2_Sub(frame->site.at, frame->center));
     prediction.pose.x = kiriVec3_Sub(frame->heldPosition, arm);

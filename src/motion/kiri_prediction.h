@@ -22,6 +22,7 @@ typedef struct kiriPrediction {
     kiriPose pose; /* at the end of the step */
     kiriVec3 velocity, spin;
     kiriMat3 rate;      /* of A, all of it; of affine frames only */
+    kiriMat3 target;    /* pose.A, shifted by the host's torque: no rotation */
     kiriPose forceless; /* at the end of the step, if no force acted */
 } kiriPrediction;
 
@@ -37,7 +38,9 @@ static inline kiriVec3 kiriPose_Along(const kiriPose* pose, kiriVec2 a)
     return kiriVec3_AddScaled(kiriVec3_Scale(a.x, pose->A.u), a.y, pose->A.v);
 }
 
-/* The prediction of a free frame under gravity and its own force and torque. */
+/* The prediction of a free frame under gravity and its own force. Its torque shifts the target alone, by dt^2 I^-1
+   torque x A: in the objective that is a torque, whatever its size. Were it part of the free turn, the target would go
+   round where dt^2 torque / I exceeds a turn. */
 kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
                                    double dt);
 
@@ -67,14 +70,14 @@ kiriMat3 kiriFrame_Inertia(const kiriFrameData* frame, const kiriMaterial* mater
 /* The inertia tensor of a rigid frame, symmetric, in space. */
 kiriMat3 kiriPrediction_Inertia(const kiriPrediction* prediction, const kiriMat3* A);
 
-/* Sum over the region's mass points p of m |A p - A* p|^2, with A* that the prediction ends with. */
+/* Sum over the region's mass points p of m |A p - A* p|^2, with A* the target. */
 double kiriPrediction_TurnSquared(const kiriPrediction* prediction, const kiriMat3* A);
 
 /* Half its gradient by the columns of A. */
 kiriMat3 kiriPrediction_Gradient(const kiriPrediction* prediction, const kiriMat3* A);
 
-/* Half its gradient by turning A: a turning impulse, times the step. */
-kiriVec3 kiriPrediction_TurnGradient(const kiriPrediction* prediction, const kiriMat3* A);
+/* Half its gradient by turning A: a turning impulse, times the step. With pose.A for A* the torque is part of it. */
+kiriVec3 kiriPrediction_TurnGradient(const kiriPrediction* prediction, const kiriMat3* A, const kiriMat3* target);
 
 /* m^-1 a, for an m that has an inverse; A + s B; s A; and m (r^2 - r r^T), the inertia of a mass at r. */
 kiriVec3 kiriMat3_Solve(const kiriMat3* m, kiriVec3 a);
