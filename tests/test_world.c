@@ -359,8 +359,9 @@ static void FreeFall(void** state)
         Tick(&host, dt, substeps);
         for (int32_t k = 0; k < substeps; ++k) {
             for (int axis = 0; axis < 3; ++axis) {
-                v[axis] += (double)gravity[axis] * dt / substeps;
-                x[axis] += v[axis] * dt / substeps;
+                double h = (double)dt / substeps, before = v[axis];
+                v[axis] += (double)gravity[axis] * h;
+                x[axis] += 0.5 * (before + v[axis]) * h;
             }
         }
         totals = Host_Totals(&host, sheet);

@@ -71,6 +71,10 @@ static bool Check_Frame(Check* check, const kiriSheetData* sheet, int32_t i)
     REQUIRE(AreFinite3(f->x) && AreFinite3(f->velocity) && AreFinite3(f->spin), "frame %d is not finite", i);
     REQUIRE(AreFinite3(f->A.u) && AreFinite3(f->A.v) && AreFinite3(f->A.d), "frame %d has no axes", i);
     REQUIRE(AreFinite3(f->rate.u) && AreFinite3(f->rate.v) && AreFinite3(f->rate.d), "frame %d has no rate", i);
+    REQUIRE(AreFinite3(f->history.gain) && AreFinite3(f->history.lag) && AreFinite3(f->history.pull) &&
+                AreFinite3(f->history.turnGain.u) && AreFinite3(f->history.turnLag.u) &&
+                AreFinite3(f->history.turnPull.u) && f->history.dt >= 0.0,
+            "frame %d has no history", i);
     REQUIRE(AreFinite3(f->force) && AreFinite3(f->torque), "frame %d has no force", i);
     REQUIRE(f->area > 0.0 && IsNear(f->mass, density * f->area, 1e-9 * f->mass), "frame %d has area %g and mass %g", i,
             f->area, f->mass);

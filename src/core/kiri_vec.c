@@ -1,5 +1,18 @@
 #include "kiri_vec.h"
 
+kiriMat3 kiriMat3_AddScaled(const kiriMat3* A, double s, const kiriMat3* B)
+{
+    kiriMat3 r = { kiriVec3_AddScaled(A->u, s, B->u), kiriVec3_AddScaled(A->v, s, B->v),
+                   kiriVec3_AddScaled(A->d, s, B->d) };
+    return r;
+}
+
+kiriMat3 kiriMat3_Scale(double s, const kiriMat3* A)
+{
+    kiriMat3 r = { kiriVec3_Scale(s, A->u), kiriVec3_Scale(s, A->v), kiriVec3_Scale(s, A->d) };
+    return r;
+}
+
 kiriMat3 kiriMat3_Cayley(kiriVec3 w)
 {
     /* (I - K/2)^-1 (I + K/2) with K the cross product with w: I + (K + K K / 2) / (1 + |w|^2 / 4) */

@@ -137,6 +137,10 @@ static inline kiriMat3 kiriMat3_MulMat(kiriMat3 m, kiriMat3 n)
     return r;
 }
 
+/* A + s B, and s A. */
+kiriMat3 kiriMat3_AddScaled(const kiriMat3* A, double s, const kiriMat3* B);
+kiriMat3 kiriMat3_Scale(double s, const kiriMat3* A);
+
 /* The rotation of a rotation vector by the Cayley map: exact rotation, no trigonometry. It turns by 2 atan(|w| / 2). */
 kiriMat3 kiriMat3_Cayley(kiriVec3 w);
 

@@ -6,6 +6,20 @@
 
 KIRI_C_BEGIN
 
+/* What the last step of a frame leaves for the next one, see kiri_stepping.h: how inner forces (of links, pins and
+   contacts) moved it. Turns are in world axes: of a rigid frame in u alone, of an affine one by the columns of A. */
+typedef struct kiriHistory {
+    double dt;         /* s: of that step; 0: there is no history, all is zero */
+    int32_t isHalf;    /* the next step may be the second of a pair */
+    int32_t isHeld;    /* the host moved the frame in it */
+    kiriVec3 gain;     /* q, m/s: the velocity that they gave */
+    kiriVec3 lag;      /* p, m: x after the step, less x before it, less dt times the velocity after it */
+    kiriVec3 pull;     /* a, m/s^2: the acceleration that they gave at its end */
+    kiriMat3 turnGain; /* angular momentum, or rate of the columns, */
+    kiriMat3 turnLag;  /* rotation vector, or columns, */
+    kiriMat3 turnPull; /* torque, or acceleration of the columns */
+} kiriHistory;
+
 /* A frame carries the rest point p to x + A (p - center). The center is the centroid of its region, so x is its
    centre of mass. */
 typedef struct kiriFrameData {
@@ -22,8 +36,9 @@ typedef struct kiriFrameData {
     kiriVec3 spin;           /* angular velocity, world */
     kiriMat3 rate;           /* how A changes beside spin x A, 1/s: not at all, but for affine frames */
     kiriVec3 force, torque;  /* from the host, for one tick */
-    int32_t held;            /* the host moves it: */
-    kiriVec3 heldPosition;   /* of the site, */
+    kiriHistory history;
+    int32_t held;          /* the host moves it: */
+    kiriVec3 heldPosition; /* of the site, */
     kiriMat3 heldRotation;
 } kiriFrameData;
 

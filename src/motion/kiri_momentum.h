@@ -1,6 +1,6 @@
-/* The angular momentum of pieces that nothing holds. Backward Euler keeps the linear one exactly, but bleeds the
-   angular: a frame that goes round is predicted along the tangent, and is pulled back by forces that act where the step
-   ends, not where it starts. */
+/* The angular momentum of pieces that nothing holds. The steps keep the linear one exactly, but not the angular: a frame
+   that goes round is predicted along the tangent, and is pulled back by forces that act where the step ends, not where
+   it starts. */
 #ifndef KIRI_MOMENTUM_H
 #define KIRI_MOMENTUM_H
 
@@ -8,23 +8,24 @@
 
 KIRI_C_BEGIN
 
-/* Of one piece, about its centre of mass; sums while they are gathered. */
+/* Of one piece, over the frames that the host does not hold, about its centre of mass; sums while they are gathered. */
 typedef struct kiriPieceMomentum {
-    int32_t isHeld; /* by pins, contacts or the host: its momentum is not its own */
-    double lost;    /* J: the energy that the step has lost */
+    bool isFree; /* from pins, contacts and the host: its momentum is its own */
     double mass;
     kiriVec3 centerBefore, velocityBefore, centerAfter, velocityAfter;
     kiriVec3 due;     /* the angular momentum that it should have after the step, */
     kiriVec3 angular; /* that it has, */
     kiriMat3 inertia; /* and its inertia then */
     kiriVec3 turn;    /* the angular velocity that makes up for the difference */
+    kiriVec3 spin;    /* of the rigid body that has its momenta */
 } kiriPieceMomentum;
 
-/* Turns the pieces that are not held as rigid bodies until they have the angular momentum that they should have, as far
-   as their `lost` energy goes. Frames are those before and after the step; piece[f] is the piece of frame f; isHeld and
-   lost are set in `pieces`, the rest is scratch. */
+/* Turns free pieces as rigid bodies until they have the angular momentum that they should have. Frames are those before
+   and after the step; piece[f] is the piece of frame f; isFree is set in `pieces`, the rest is written. In a planar
+   sheet `normal` is that of its plane; else null. */
 void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t frameCount, const int32_t* piece,
-                          kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, double dt);
+                          kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, double dt,
+                          const kiriVec3* normal);
 
 KIRI_C_END
 

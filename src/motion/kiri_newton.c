@@ -6,6 +6,8 @@
 #define FRESH_STARTS 2             /* and iterations from the start of the step should they fail */
 #define WORTHWHILE 1e-6            /* of the objective, where a longer step would lower it by more */
 #define MOST_TAKEN 0.5             /* of the kinetic energy, where a piece need not start anew */
+#define TOLERABLE_GAIN 1e-2        /* in a step of second order: of the energy that the limit could take, */
+#define NEGLIGIBLE_GAIN 1e-9       /* and of all */
 
 /* ---- One Gauss-Newton step ---- */
 
@@ -72,7 +74,7 @@ static bool TakeTrial(kiriSolver* solver, const kiriSystem* system)
     return isLeft;
 }
 
-/* Pieces that still search may end where the objective is that of the free prediction without friction. */
+/* Pieces in their first step that still search may end where the objective is that of the free prediction without friction. */
 static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {
@@ -85,16 +87,19 @@ static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         double allowed = piece->sum.objective * (1.0 + KIRI_ROUNDING) + piece->noise;
-        piece->enough = piece->isSearching && allowed > piece->enough ? allowed : piece->enough;
+        bool isAllowed = piece->isSearching && piece->isFirst;
+        piece->enough = isAllowed && allowed > piece->enough ? allowed : piece->enough;
     }
 }
 
 /* One Gauss-Newton step, halved until the objective falls; the first one may also raise it to that of the free
    prediction. False when the matrix has no factor. */
-static bool IterateOnce(kiriSolver* solver, const kiriSystem* system, bool isFirst)
+static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
 {
+    bool isFirst = false;
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         solver->pieces.data[i].isSearching = solver->pieces.data[i].isIterated;
+        isFirst |= solver->pieces.data[i].isIterated && solver->pieces.data[i].isFirst;
     }
     kiriSolver_Assemble(solver, system);
     if (!kiriMatrix_Factor(solver->matrix)) {
@@ -116,26 +121,72 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system, bool isFir
         TryStep(solver, system);
         isLeft = TakeTrial(solver, system);
     }
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        solver->pieces.data[i].isFirst &= !solver->pieces.data[i].isIterated;
+    }
     return true;
 }
 
 /* ---- The iteration as a whole ---- */
 
+/* A step of second order gains a little energy as often as not, which the limit of energy takes out. More than that says
+   that it was no good, and the piece takes it anew by backward Euler. Nothing else may decide that: where a piece rests,
+   rounding would. */
+static bool IsRejected(const kiriPieceStep* piece)
+{
+    double brakeable = kiriPieceStep_MostTaken(piece);
+    double all = piece->kinetic + piece->moving + piece->start.potential + piece->now.potential;
+    return !piece->stepping.isEuler && !(piece->gain <= TOLERABLE_GAIN * brakeable + NEGLIGIBLE_GAIN * all);
+}
+
 /* Pieces go on that gained energy, or whose steps were cut short. Returns whether there are any. */
-static bool ChooseUnfinished(kiriSolver* solver)
+static bool ChooseUnfinished(kiriSolver* solver, int32_t done)
 {
     bool any = false;
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         bool isShort = piece->scale < KIRI_SHORT_STEP && piece->promise > WORTHWHILE * piece->now.objective;
-        piece->isIterated = piece->isIterated && (!(piece->gain <= 0.0) || isShort);
+        bool hasGained = piece->stepping.isEuler && !(piece->gain <= 0.0);
+        piece->isNew = piece->isIterated && IsRejected(piece);
+        piece->isIterated = piece->isIterated && (done < piece->wanted || hasGained || piece->isNew || isShort);
         any |= piece->isIterated;
     }
     return any;
 }
 
-/* Of these, only those go on from which the energy limit would take too much of their motion; they start anew, from
-   where they stood before the step. Returns whether there are any. */
+/* The pieces that are new, at these poses. */
+static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        solver->pieces.data[i].isSearching = solver->pieces.data[i].isNew;
+    }
+    kiriObjective_Evaluate(solver, system, solver->start.data);
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        piece->start = piece->isNew ? piece->sum : piece->start;
+        piece->isFirst |= piece->isNew;
+        piece->isIterated |= piece->isNew;
+        piece->isNew = false;
+    }
+}
+
+/* Pieces whose step was rejected begin it again. */
+static void TakeAnew(kiriSolver* solver, const kiriSystem* system, int32_t wanted)
+{
+    bool any = false;
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        piece->wanted = piece->isNew ? wanted : piece->wanted;
+        any |= piece->isNew;
+    }
+    if (any) {
+        kiriSolver_BecomeEuler(solver, system);
+        EvaluateStart(solver, system);
+    }
+}
+
+/* Of the pieces that are left, those go on from which the energy limit would take too much of their motion: by backward
+   Euler, and from where they stood before the step. Returns whether there are any. */
 static bool RestartPieces(kiriSolver* solver, const kiriSystem* system)
 {
     bool any = false;
@@ -143,9 +194,17 @@ static bool RestartPieces(kiriSolver* solver, const kiriSystem* system)
         kiriPieceStep* piece = &solver->pieces.data[i];
         bool isOver = !(piece->now.objective <= piece->start.objective * (1.0 + KIRI_ROUNDING) + piece->noise);
         double most = (isOver ? MOST_TAKEN : 1.0) * kiriPieceStep_MostTaken(piece);
-        piece->isIterated = piece->isIterated && !(piece->gain <= most);
-        piece->now = piece->isIterated ? piece->start : piece->now;
+        piece->isIterated = piece->isNew = piece->isIterated && !(piece->gain <= most);
         any |= piece->isIterated;
+    }
+    if (any) {
+        kiriSolver_BecomeEuler(solver, system);
+        EvaluateStart(solver, system);
+    }
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        piece->now = piece->isIterated ? piece->start : piece->now;
+        piece->isFirst = false;
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {
         if (kiriSolver_PieceOf(solver, f)->isIterated) {
@@ -155,18 +214,7 @@ static bool RestartPieces(kiriSolver* solver, const kiriSystem* system)
     return any;
 }
 
-static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
-{
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
-        solver->pieces.data[i].isIterated = solver->pieces.data[i].isSearching = true;
-    }
-    kiriObjective_Evaluate(solver, system, solver->start.data);
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
-        solver->pieces.data[i].start = solver->pieces.data[i].sum;
-    }
-}
-
-/* The iteration starts from free motion without forces: a strip that swings is then nearly at the minimum, and one at
+/* The iteration starts from free motion, without forces or with those of the last step: a strip that swings is then nearly at the minimum, and one at
    rest is there. The first Gauss-Newton step may raise the objective up to that of the free prediction: it has to turn
    stiff frames, which stretches links until the next step relaxes them, and a line search would not let it turn them.
 
@@ -182,24 +230,26 @@ int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_
 {
     int32_t done = 0, last = iterations + SECOND_CHANCES;
     bool isLeft = true, isFresh = false;
-    EvaluateStart(solver, system);
+    EvaluateStart(solver, system); /* all pieces are new */
     while (isLeft && done < most && done < last) {
         /* Where the iteration starts, a contact is as deep as free motion goes: friction by that push would be far too
            strong at an impact. */
         solver->hasFriction = done > 0 || iterations == 1;
-        if (!IterateOnce(solver, system, done == 0)) {
+        if (!IterateOnce(solver, system)) {
             return -1;
         }
         ++done;
         if (done >= iterations) {
             kiriSolver_FindGains(solver, system);
-            isLeft = ChooseUnfinished(solver);
+            isLeft = ChooseUnfinished(solver, done);
         }
         if (isLeft && !isFresh && (done == last || done == most)) {
             isLeft = RestartPieces(solver, system);
             kiriSolver_FindGains(solver, system);
             isFresh = true;
             last += FRESH_STARTS;
+        } else if (isLeft && done < most && done < last) {
+            TakeAnew(solver, system, done + iterations);
         }
     }
     return done;

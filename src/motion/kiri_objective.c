@@ -113,7 +113,7 @@ void kiriObjective_AddInertia(kiriSolver* solver, const kiriSystem* system, cons
             kiriVec3 off = kiriVec3_Sub(poses[f].x, prediction->pose.x);
             double moved =
                 system->frames[f].mass * kiriVec3_Dot(off, off) + kiriPrediction_TurnSquared(prediction, &poses[f].A);
-            AddEnergy(&piece->sum, 0.0, 0.5 * moved / (solver->dt * solver->dt));
+            AddEnergy(&piece->sum, 0.0, 0.5 * moved / (piece->stepping.part * piece->stepping.part));
         }
     }
 }
@@ -194,8 +194,9 @@ void kiriObjective_FindNoise(kiriSolver* solver, const kiriSystem* system)
     const double share = KIRI_LAST_BITS * KIRI_LAST_BITS * (1.0 + solver->damping);
     for (int32_t f = 0; f < system->frameCount; ++f) {
         kiriVec3 x = solver->start.data[f].x;
-        kiriSolver_PieceOf(solver, f)->noise +=
-            share * system->frames[f].mass * kiriVec3_Dot(x, x) / (solver->dt * solver->dt);
+        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+        double part = piece->stepping.part;
+        piece->noise += share * system->frames[f].mass * kiriVec3_Dot(x, x) / (part * part);
     }
     for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
         const double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
@@ -225,7 +226,7 @@ static void AddIdentity(kiriSolver* solver, int32_t f)
     kiriMatrix_AddOwn(solver->matrix, f, block);
 }
 
-/* Times dt^2. */
+/* Times h'^2. */
 static kiriFrameRow InertiaForce(const kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
     const kiriPrediction* prediction = &solver->predictions.data[f];
@@ -252,7 +253,8 @@ static void AddFrameInertia(kiriSolver* solver, const kiriSystem* system, int32_
                                    { 0.0, m->uv, m->vv, 0.0 },
                                    { 0.0, 0.0, 0.0, m->dd } };
     kiriMat3 inertia = kiriPrediction_Inertia(&solver->predictions.data[f], &solver->poses.data[f].A);
-    double perTime = 1.0 / (solver->dt * solver->dt), block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS];
+    double part = kiriSolver_PieceOf(solver, f)->stepping.part;
+    double perTime = 1.0 / (part * part), block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS];
     for (int32_t r = 0; r < solver->size; ++r) {
         const kiriUnknown* a = &solver->unknowns[r];
         bool turns = a->vector == 1 && !kiriMechanics_IsAffine(&system->mechanics);

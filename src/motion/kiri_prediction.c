@@ -1,5 +1,7 @@
 #include "kiri_prediction.h"
 
+#include <string.h>
+
 #define LONGEST_PART_TURN 1.0 /* of one part of a step: a Cayley vector */
 #define MOST_PARTS 8          /* of a step */
 
@@ -14,19 +16,6 @@ kiriVec3 kiriMat3_Solve(const kiriMat3* m, kiriVec3 a)
 {
     kiriMat3 cofactors = { kiriVec3_Cross(m->v, m->d), kiriVec3_Cross(m->d, m->u), kiriVec3_Cross(m->u, m->v) };
     return kiriVec3_Scale(1.0 / kiriVec3_Dot(m->u, cofactors.u), MulTransposed(&cofactors, a));
-}
-
-kiriMat3 kiriMat3_AddScaled(const kiriMat3* A, double s, const kiriMat3* B)
-{
-    kiriMat3 r = { kiriVec3_AddScaled(A->u, s, B->u), kiriVec3_AddScaled(A->v, s, B->v),
-                   kiriVec3_AddScaled(A->d, s, B->d) };
-    return r;
-}
-
-kiriMat3 kiriMat3_Scale(double s, const kiriMat3* A)
-{
-    kiriMat3 r = { kiriVec3_Scale(s, A->u), kiriVec3_Scale(s, A->v), kiriVec3_Scale(s, A->d) };
-    return r;
 }
 
 kiriMat3 kiriMat3_PointInertia(double m, kiriVec3 r)
@@ -154,55 +143,105 @@ static kiriMat3 TurnPart(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec
     return kiriMat3_MulMat(*A, turn);
 }
 
+static kiriMat3 TurnParts(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec3 L, double angle, double h)
+{
+    int parts = angle < 2.0 ? 1 + (int)(4.0 * angle) : MOST_PARTS;
+    kiriMat3 turned = *A;
+    for (int part = 0; part < parts; ++part) {
+        turned = TurnPart(&turned, bodyInertia, L, h / parts);
+    }
+    return turned;
+}
+
+static kiriVec3 Shortened(kiriVec3 turn)
+{
+    double length = kiriVec3_Length(turn);
+    return length > LONGEST_PART_TURN ? kiriVec3_Scale(LONGEST_PART_TURN / length, turn) : turn;
+}
+
 /* Turns of more than two radians a step are followed only roughly; then a slender region might gain energy, which is
    therefore capped. */
-static void TurnFreely(kiriPrediction* prediction, kiriVec3 L, double dt)
+static void SetAngular(kiriPrediction* prediction, const kiriMat3* inertiaBefore, const kiriMat3* inertia, kiriVec3 L)
 {
-    kiriMat3* A = &prediction->pose.A;
-    kiriMat3 body = kiriPrediction_Inertia(prediction, &IdentityAxes), inertia = kiriPrediction_Inertia(prediction, A);
-    kiriVec3 spin = kiriMat3_Solve(&inertia, L);
-    double angle = dt * kiriVec3_Length(spin), before = kiriVec3_Dot(L, spin);
-    int parts = angle < 2.0 ? 1 + (int)(4.0 * angle) : MOST_PARTS;
-    for (int part = 0; part < parts; ++part) {
-        *A = TurnPart(A, &body, L, dt / parts);
-    }
-    inertia = kiriPrediction_Inertia(prediction, A);
-    prediction->spin = kiriMat3_Solve(&inertia, L);
-    double after = kiriVec3_Dot(L, prediction->spin);
-    if (after > before) {
-        prediction->spin = kiriVec3_Scale(sqrt(before / after), prediction->spin);
+    double before = kiriVec3_Dot(L, kiriMat3_Solve(inertiaBefore, L));
+    double after = kiriVec3_Dot(L, kiriMat3_Solve(inertia, L));
+    prediction->angular = after > before ? kiriVec3_Scale(sqrt(before / after), L) : L;
+    prediction->spin = kiriMat3_Solve(inertia, prediction->angular);
+}
+
+/* In the objective 1/2 m |A p - A* p|^2 / h'^2 the shift adds -(h / h') torque . turn to first order. */
+static void ShiftTarget(kiriPrediction* prediction, const kiriMat3* inertia, kiriVec3 torque,
+                        const kiriStepping* stepping)
+{
+    kiriMat3 turning = CrossColumns(kiriMat3_Solve(inertia, torque), &prediction->pose.A);
+    prediction->target = kiriMat3_AddScaled(&prediction->pose.A, stepping->part * stepping->h, &turning);
+}
+
+/* What fades with the air in a step. */
+static double Fade(const kiriMaterial* material, const kiriStepping* stepping)
+{
+    return 1.0 / (1.0 + stepping->h * (double)material->airDamping);
+}
+
+/* Where the iteration starts: without forces, or by those of the last step. */
+static kiriVec3 GuessPlace(const kiriFrameData* frame, double fade, const kiriStepping* s)
+{
+    kiriVec3 x = kiriVec3_AddScaled(frame->x, s->isEuler ? fade * s->h : s->h, frame->velocity);
+    return kiriVec3_AddScaled(x, -s->ahead, frame->history.lag);
+}
+
+static void PredictPlace(const kiriFrameData* frame, double fade, kiriVec3 gravity, const kiriStepping* s,
+                         kiriPrediction* prediction)
+{
+    kiriVec3 push = kiriVec3_AddScaled(gravity, 1.0 / frame->mass, frame->force);
+    kiriVec3 velocity = kiriVec3_AddScaled(kiriVec3_Scale(fade, frame->velocity), s->h, push);
+    prediction->velocity = kiriVec3_Add(velocity, kiriStepping_Inner(s, &frame->history));
+    kiriVec3 x = kiriVec3_AddScaled(frame->x, s->h - s->part, frame->velocity);
+    x = kiriVec3_AddScaled(x, s->part, prediction->velocity);
+    prediction->pose.x = kiriVec3_AddScaled(x, s->d, frame->history.lag);
+    prediction->guess.x = GuessPlace(frame, fade, s);
+}
+
+/* The frame turns freely by the mean of the momenta before and, in its share, after the step; then by what the last
+   step went otherwise. The guess goes back to the turn by the momentum before, to the first order of the difference. */
+static void PredictTurn(const kiriFrameData* frame, double fade, const kiriStepping* s, kiriPrediction* prediction)
+{
+    kiriMat3 body = kiriPrediction_Inertia(prediction, &IdentityAxes);
+    kiriMat3 inertia = kiriPrediction_Inertia(prediction, &frame->A);
+    kiriVec3 before = kiriMat3_Mul(inertia, frame->spin), inner = kiriStepping_InnerTurn(s, &frame->history).u;
+    kiriVec3 L = kiriVec3_AddScaled(inner, fade, before), lag = frame->history.turnLag.u;
+    double share = s->part / s->h;
+    kiriVec3 mean = kiriVec3_AddScaled(kiriVec3_Scale(1.0 - share, before), share, L);
+    double angle = s->h * kiriVec3_Length(kiriMat3_Solve(&inertia, mean));
+    kiriMat3 turned = TurnParts(&frame->A, &body, mean, angle, s->h);
+    prediction->pose.A = kiriMat3_MulMat(kiriMat3_Cayley(Shortened(kiriVec3_Scale(s->d, lag))), turned);
+    kiriMat3 inertiaAfter = kiriPrediction_Inertia(prediction, &prediction->pose.A);
+    SetAngular(prediction, &inertia, &inertiaAfter, L);
+    ShiftTarget(prediction, &inertiaAfter, frame->torque, s);
+    prediction->guess.A = prediction->pose.A;
+    if (!s->isEuler) {
+        kiriVec3 more = kiriMat3_Solve(&inertiaAfter, kiriVec3_AddScaled(L, -1.0, before));
+        kiriVec3 back = kiriVec3_AddScaled(kiriVec3_Scale(-s->part, more), -s->ahead - s->d, lag);
+        prediction->guess.A = kiriMat3_MulMat(kiriMat3_Cayley(Shortened(back)), prediction->pose.A);
     }
 }
 
-/* In the objective 1/2 m |A p - A* p|^2 / dt^2 the shift adds -torque . turn to first order. */
-static void ShiftTarget(kiriPrediction* prediction, const kiriMat3* inertia, kiriVec3 torque, double dt)
+static kiriPrediction Standing(const kiriFrameData* frame, const kiriMaterial* material)
 {
-    kiriMat3 turning = CrossColumns(kiriMat3_Solve(inertia, torque), &prediction->pose.A);
-    prediction->target = kiriMat3_AddScaled(&prediction->pose.A, dt * dt, &turning);
+    kiriPrediction prediction;
+    memset(&prediction, 0, sizeof(prediction));
+    prediction.moments = kiriFrame_MassMoments(frame, material);
+    prediction.pose = prediction.guess = kiriPose_Of(frame);
+    return prediction;
 }
 
 kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
-                                   double dt)
+                                   const kiriStepping* stepping)
 {
-    kiriPrediction prediction = { kiriFrame_MassMoments(frame, material),
-                                  kiriPose_Of(frame),
-                                  frame->velocity,
-                                  frame->spin,
-                                  { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } },
-                                  frame->A,
-                                  kiriPose_Of(frame) };
-    double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
-    kiriVec3 carried = kiriVec3_Scale(fade, frame->velocity);
-    kiriVec3 push = kiriVec3_AddScaled(gravity, 1.0 / frame->mass, frame->force);
-    prediction.velocity = kiriVec3_AddScaled(carried, dt, push);
-    prediction.pose.x = kiriVec3_AddScaled(frame->x, dt, prediction.velocity);
-    kiriMat3 inertia = kiriPrediction_Inertia(&prediction, &frame->A);
-    kiriVec3 L = kiriVec3_Scale(fade, kiriMat3_Mul(inertia, frame->spin));
-    TurnFreely(&prediction, L, dt);
-    inertia = kiriPrediction_Inertia(&prediction, &prediction.pose.A);
-    ShiftTarget(&prediction, &inertia, frame->torque, dt);
-    prediction.forceless.x = kiriVec3_AddScaled(frame->x, dt, carried);
-    prediction.forceless.A = prediction.pose.A;
+    kiriPrediction prediction = Standing(frame, material);
+    double fade = prediction.fade = Fade(material, stepping);
+    PredictPlace(frame, fade, gravity, stepping, &prediction);
+    PredictTurn(frame, fade, stepping, &prediction);
     return prediction;
 }
 
@@ -250,30 +289,40 @@ kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change)
     return kiriMat3_MulMat(kiriMat3_Cayley(w), grown);
 }
 
-/* A turns, by the angular momentum it has or gets, as a rigid one would; what its rate has beside the spin turns with
-   it, and stretches it on. */
-kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
-                                     double dt)
+/* A turns, by the angular momentum it has, as a rigid one would; what its rate has beside the spin turns with it, and
+   stretches it on. What the scheme takes from the history is added to the columns. */
+static void PredictColumns(const kiriFrameData* frame, double fade, const kiriStepping* s, kiriPrediction* prediction)
 {
-    kiriPrediction prediction = kiriPrediction_Free(frame, material, gravity, dt);
-    double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
-    kiriMat3 inertia = AffineInertia(&prediction.moments, &frame->A), turn = IdentityAxes;
-    kiriVec3 L = kiriVec3_Scale(fade, kiriMat3_Mul(inertia, frame->spin));
-    kiriVec3 spin = kiriMat3_Solve(&inertia, L);
-    double angle = dt * kiriVec3_Length(spin), before = kiriVec3_Dot(L, spin);
-    int parts = angle < 2.0 ? 1 + (int)(4.0 * angle) : MOST_PARTS;
-    for (int part = 0; part < parts; ++part) {
-        turn = TurnPart(&turn, &inertia, L, dt / parts);
-    }
-    kiriMat3 grown = kiriMat3_AddScaled(&frame->A, dt * fade, &frame->rate), rate = kiriMat3_MulMat(turn, frame->rate);
-    prediction.pose.A = prediction.forceless.A = kiriMat3_MulMat(turn, grown);
-    spin = kiriMat3_Mul(turn, kiriMat3_Solve(&inertia, MulTransposed(&turn, L)));
-    double after = kiriVec3_Dot(L, spin);
-    prediction.spin = after > before ? kiriVec3_Scale(sqrt(before / after), spin) : spin;
-    prediction.rate = CrossColumns(prediction.spin, &prediction.pose.A);
-    prediction.rate = kiriMat3_AddScaled(&prediction.rate, fade, &rate);
-    inertia = AffineInertia(&prediction.moments, &prediction.pose.A);
-    ShiftTarget(&prediction, &inertia, frame->torque, dt);
+    kiriMat3 inertia = AffineInertia(&prediction->moments, &frame->A);
+    kiriMat3 inner = kiriStepping_InnerTurn(s, &frame->history);
+    double share = s->part / s->h, mean = 1.0 - share + share * fade;
+    kiriVec3 whole = kiriMat3_Mul(inertia, frame->spin), L = kiriVec3_Scale(fade, whole);
+    kiriVec3 passing = kiriVec3_Scale(mean, whole);
+    double angle = s->h * kiriVec3_Length(kiriMat3_Solve(&inertia, passing));
+    kiriMat3 turn = TurnParts(&IdentityAxes, &inertia, passing, angle, s->h);
+    kiriMat3 grown = kiriMat3_AddScaled(&frame->A, s->h * mean, &frame->rate);
+    kiriMat3 free = kiriMat3_MulMat(turn, grown), rate = kiriMat3_MulMat(turn, frame->rate);
+    kiriVec3 spin = kiriMat3_Mul(turn, kiriMat3_Solve(&inertia, MulTransposed(&turn, L)));
+    double before = kiriVec3_Dot(L, kiriMat3_Solve(&inertia, L)), after = kiriVec3_Dot(L, spin);
+    prediction->spin = after > before ? kiriVec3_Scale(sqrt(before / after), spin) : spin;
+    kiriMat3 turning = CrossColumns(prediction->spin, &free);
+    prediction->carried = kiriMat3_AddScaled(&turning, fade, &rate);
+    prediction->rate = kiriMat3_AddScaled(&prediction->carried, 1.0, &inner);
+    prediction->pose.A = kiriMat3_AddScaled(&free, s->part, &inner);
+    prediction->pose.A = kiriMat3_AddScaled(&prediction->pose.A, s->d, &frame->history.turnLag);
+    kiriMat3 ahead = kiriMat3_Scale(-s->ahead, &frame->history.turnLag);
+    prediction->guess.A = s->isEuler ? free : kiriMat3_Advance(&free, &ahead);
+    inertia = AffineInertia(&prediction->moments, &prediction->pose.A);
+    ShiftTarget(prediction, &inertia, frame->torque, s);
+}
+
+kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
+                                     const kiriStepping* stepping)
+{
+    kiriPrediction prediction = Standing(frame, material);
+    double fade = prediction.fade = Fade(material, stepping);
+    PredictPlace(frame, fade, gravity, stepping, &prediction);
+    PredictColumns(frame, fade, stepping, &prediction);
     return prediction;
 }
 
@@ -292,18 +341,14 @@ static kiriVec3 AngleBetween(const kiriMat3* a, const kiriMat3* b)
 
 kiriPrediction kiriPrediction_Held(const kiriFrameData* frame, const kiriMaterial* material, double dt)
 {
-    kiriPrediction prediction = { kiriFrame_MassMoments(frame, material),
-                                  { frame->heldPosition, frame->heldRotation },
-                                  frame->velocity,
-                                  frame->spin,
-                                  { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } },
-                                  frame->heldRotation,
-                                  kiriPose_Of(frame) };
+    kiriPrediction prediction = Standing(frame, material);
+    prediction.pose = (kiriPose){ frame->heldPosition, frame->heldRotation };
     kiriVec3 arm = kiriPose_Along(&prediction.pose, kiriVec2_Sub(frame->site.at, frame->center));
     prediction.pose.x = kiriVec3_Sub(frame->heldPosition, arm);
     prediction.velocity = kiriVec3_Scale(1.0 / dt, kiriVec3_Sub(prediction.pose.x, frame->x));
     prediction.spin = kiriVec3_Scale(1.0 / dt, AngleBetween(&frame->A, &prediction.pose.A));
-    prediction.forceless = prediction.pose;
+    prediction.target = prediction.pose.A;
+    prediction.guess = prediction.pose;
     return prediction;
 }
 

@@ -3,7 +3,7 @@
 #ifndef KIRI_PREDICTION_H
 #define KIRI_PREDICTION_H
 
-#include "kiri_frame.h"
+#include "kiri_stepping.h"
 
 KIRI_C_BEGIN
 
@@ -19,11 +19,15 @@ typedef struct kiriMassMoments {
 
 typedef struct kiriPrediction {
     kiriMassMoments moments;
-    kiriPose pose; /* at the end of the step */
+    kiriPose pose; /* at the end of the step: x*, A* */
     kiriVec3 velocity, spin;
-    kiriMat3 rate;      /* of A, all of it; of affine frames only */
-    kiriMat3 target;    /* pose.A, shifted by the host's torque: no rotation */
-    kiriPose forceless; /* at the end of the step, if no force acted */
+    kiriVec3 angular; /* momentum of a rigid frame about x */
+    kiriMat3 rate;    /* of A, all of it; of affine frames only */
+    kiriMat3 carried; /* the rate without what the scheme takes from the history */
+    double fade;      /* what the air leaves of velocities */
+    kiriVec3 shift;   /* of pose.x for the sake of the centre of mass of a free piece */
+    kiriMat3 target;  /* pose.A, shifted by the host's torque: no rotation */
+    kiriPose guess;   /* where the iteration starts */
 } kiriPrediction;
 
 static inline kiriPose kiriPose_Of(const kiriFrameData* frame)
@@ -38,15 +42,16 @@ static inline kiriVec3 kiriPose_Along(const kiriPose* pose, kiriVec2 a)
     return kiriVec3_AddScaled(kiriVec3_Scale(a.x, pose->A.u), a.y, pose->A.v);
 }
 
-/* The prediction of a free frame under gravity and its own force. Its torque shifts the target alone, by dt^2 I^-1
-   torque x A: in the objective that is a torque, whatever its size. Were it part of the free turn, the target would go
-   round where dt^2 torque / I exceeds a turn. */
+/* The prediction of a free frame under gravity, its own force, and what the scheme takes from its history. The iteration
+   starts without forces, or with those of the last step. The host's torque shifts the target alone, by
+   h' h I^-1 torque x A: in the objective that is a torque, whatever its size. Were it part of the free turn, the target
+   would go round where h^2 torque / I exceeds a turn. */
 kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
-                                   double dt);
+                                   const kiriStepping* stepping);
 
 /* The same of an affine frame, which turns by its spin and goes on stretching. */
 kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
-                                     double dt);
+                                     const kiriStepping* stepping);
 
 /* A after a change of `change`: the part of it that turns A does so as a rotation, and leaves lengths as they are. */
 kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change);
@@ -76,13 +81,11 @@ double kiriPrediction_TurnSquared(const kiriPrediction* prediction, const kiriMa
 /* Half its gradient by the columns of A. */
 kiriMat3 kiriPrediction_Gradient(const kiriPrediction* prediction, const kiriMat3* A);
 
-/* Half its gradient by turning A: a turning impulse, times the step. With pose.A for A* the torque is part of it. */
+/* Half its gradient by turning A: a turning impulse, times h'. With pose.A for A* the torque is part of it. */
 kiriVec3 kiriPrediction_TurnGradient(const kiriPrediction* prediction, const kiriMat3* A, const kiriMat3* target);
 
-/* m^-1 a, for an m that has an inverse; A + s B; s A; and m (r^2 - r r^T), the inertia of a mass at r. */
+/* m^-1 a, for an m that has an inverse; and m (r^2 - r r^T), the inertia of a mass at r. */
 kiriVec3 kiriMat3_Solve(const kiriMat3* m, kiriVec3 a);
-kiriMat3 kiriMat3_AddScaled(const kiriMat3* A, double s, const kiriMat3* B);
-kiriMat3 kiriMat3_Scale(double s, const kiriMat3* A);
 kiriMat3 kiriMat3_PointInertia(double m, kiriVec3 r);
 
 KIRI_C_END

@@ -202,120 +202,6 @@ uint64_t kiriSolver_Hash(const kiriSolver* solver)
     return kiriMatrix_Hash(solver->matrix);
 }
 
-/* ---- Begin of a step ---- */
-
-kiriVec3 kiriMechanics_InPlane(const kiriMechanics* mechanics, kiriVec3 a)
-{
-    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, mechanics->axes.d), mechanics->axes.d);
-}
-
-static kiriVec3 AlongNormal(const kiriMechanics* mechanics, kiriVec3 a)
-{
-    return kiriVec3_Scale(kiriVec3_Dot(a, mechanics->axes.d), mechanics->axes.d);
-}
-
-/* In a planar sheet, a frame with only what moves it in the plane. */
-static kiriFrameData FlattenFrame(const kiriMechanics* mechanics, const kiriFrameData* from)
-{
-    kiriFrameData frame = *from;
-    if (mechanics->planar) {
-        kiriVec3 off = kiriVec3_Sub(frame.heldPosition, frame.x);
-        frame.velocity = kiriMechanics_InPlane(mechanics, frame.velocity);
-        frame.spin = AlongNormal(mechanics, frame.spin);
-        frame.force = kiriMechanics_InPlane(mechanics, frame.force);
-        frame.torque = AlongNormal(mechanics, frame.torque);
-        frame.heldPosition = kiriVec3_Sub(frame.heldPosition, AlongNormal(mechanics, off));
-    }
-    return frame;
-}
-
-kiriVec3 kiriSystem_Gravity(const kiriSystem* system)
-{
-    return system->mechanics.planar ? kiriMechanics_InPlane(&system->mechanics, system->gravity) : system->gravity;
-}
-
-static kiriPrediction PredictFrame(const kiriSystem* system, const kiriFrameData* frame, double dt)
-{
-    if (frame->held) {
-        return kiriPrediction_Held(frame, &system->material, dt);
-    }
-    kiriVec3 gravity = kiriSystem_Gravity(system);
-    return kiriMechanics_IsAffine(&system->mechanics) ? kiriPrediction_Affine(frame, &system->material, gravity, dt)
-                                                      : kiriPrediction_Free(frame, &system->material, gravity, dt);
-}
-
-/* A corner is damped as the link that is damped least. */
-static double DampingShare(const kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    const kiriCorner* corner = kiriElement_Corner(system, k);
-    double least = 1.0;
-    if (kiriElement_IsRigidLink(system, k)) {
-        least = kiriStrain_Damping(&solver->startStrain.data[KIRI_MOST_STRAINS * k]);
-    }
-    for (int32_t n = 0; corner != NULL && n < corner->count; ++n) {
-        double share = kiriStrain_Damping(&solver->startStrain.data[KIRI_MOST_STRAINS * corner->link[n]]);
-        least = share < least ? share : least;
-    }
-    return least;
-}
-
-static void BeginElement(kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
-    kiriElement_Stiffness(system, k, stiffness);
-    kiriObjective_Measure(system, k, solver->start.data, solver->startStrain.data);
-    solver->stopping.data[k] = 0;
-    double damping = solver->damping * DampingShare(solver, system, k);
-    for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
-        solver->loss.data[KIRI_MOST_STRAINS * k + e] = damping * stiffness[e];
-    }
-}
-
-/* Finds which pieces are free, and clears the rest. */
-static void BeginPieces(kiriSolver* solver, const kiriSystem* system)
-{
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
-        memset(&solver->pieces.data[i], 0, sizeof(kiriPieceStep));
-        solver->pieces.data[i].isFree = true;
-        solver->pieces.data[i].scale = 1.0;
-    }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
-        kiriSolver_PieceOf(solver, f)->isFree &= !system->frames[f].held;
-    }
-    for (int32_t k = 0; k < system->pinCount; ++k) {
-        kiriSolver_PieceOf(solver, system->pins[k].frame)->isFree = false;
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriSolver_PieceOf(solver, system->contacts[k].frame)->isFree = false;
-    }
-}
-
-static void BeginStep(kiriSolver* solver, const kiriSystem* system, double dt)
-{
-    KIRI_ASSERT(dt > 0.0 && system->frameCount == solver->frameCount);
-    KIRI_ASSERT(kiriElement_Count(system) == solver->elementCount);
-    solver->dt = dt;
-    solver->damping = (double)system->material.flexDamping / dt;
-    solver->hasFriction = solver->isHeld = false;
-    for (int32_t f = 0; f < system->frameCount; ++f) {
-        solver->isHeld |= system->frames[f].held != 0;
-        solver->start.data[f] = kiriPose_Of(&system->frames[f]);
-        solver->before.data[f] = FlattenFrame(&system->mechanics, &system->frames[f]);
-        solver->predictions.data[f] = PredictFrame(system, &solver->before.data[f], dt);
-        solver->poses.data[f] = solver->predictions.data[f].forceless;
-    }
-    for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
-        BeginElement(solver, system, k);
-    }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
-        if (system->frames[f].held) {
-            solver->start.data[f] = solver->predictions.data[f].pose;
-        }
-    }
-    BeginPieces(solver, system);
-    kiriObjective_FindNoise(solver, system);
-}
-
 /* ---- End of a step ---- */
 
 /* The host reads floats. An eighth leaves room for the sums and blends that they are made of. NaN does not fit. */
@@ -351,19 +237,32 @@ static void WriteFrames(const kiriSolver* solver, const kiriSystem* system)
         frame->velocity = end->velocity;
         frame->spin = end->spin;
         frame->rate = end->rate;
+        frame->history = end->history;
+    }
+}
+
+/* What a contact or a moving hold gave in this step says nothing of the next one. */
+static void ForgetHistories(kiriSolver* solver, const kiriSystem* system)
+{
+    bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;
+    kiriSolver_FindTouched(solver, system, solver->poses.data);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (isEuler || kiriSolver_PieceOf(solver, f)->isTouched) {
+            memset(&solver->after.data[f].history, 0, sizeof(kiriHistory));
+        }
     }
 }
 
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations, int32_t most)
 {
     KIRI_ASSERT(most >= 1);
-    BeginStep(solver, system, dt);
+    kiriSolver_Begin(solver, system, dt);
     int32_t done = kiriSolver_Minimise(solver, system, iterations < most ? iterations : most, most);
     if (done < 0) {
         return -1;
     }
     kiriSolver_LimitEnergy(solver, system);
-    kiriSolver_RestoreMomentum(solver, system);
+    ForgetHistories(solver, system);
     if (!IsReadable(solver, system->frameCount)) {
         return -1;
     }

@@ -1,4 +1,4 @@
-/* The motion of frames: backward Euler as a minimisation, solved by Gauss-Newton steps. */
+/* The motion of frames: implicit steps as minimisations, solved by Gauss-Newton steps. */
 #ifndef KIRI_SOLVER_H
 #define KIRI_SOLVER_H
 
@@ -27,9 +27,10 @@ typedef struct kiriContactRow {
 
 /* How frames move, and what joins them. */
 typedef struct kiriMechanics {
-    int32_t model; /* KIRI_MODEL_... */
-    bool planar;   /* frames stay in the plane of axes.u and axes.v */
-    kiriMat3 axes; /* orthonormal; only used then */
+    int32_t model;        /* KIRI_MODEL_... */
+    bool planar;          /* frames stay in the plane of axes.u and axes.v */
+    kiriMat3 axes;        /* orthonormal; only used then */
+    int32_t timeStepping; /* KIRI_TIME_STEPPING_... */
 } kiriMechanics;
 
 typedef struct kiriSystem {

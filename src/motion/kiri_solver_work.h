@@ -1,9 +1,9 @@
-/* What the files of the solver share: kiri_solver.c (unknowns, pattern, begin and end of a step), kiri_objective.c,
+/* What the files of the solver share: kiri_solver.c (unknowns, pattern, a step), kiri_step_begin.c, kiri_objective.c,
    kiri_assembly.c, kiri_newton.c and kiri_energy_limit.c. No other file of the library includes it.
 
    The step is a minimisation over the poses of the frames at its end. The objective is
 
-       1/2 sum over mass points of m |x - x*|^2 / dt^2,  x* where the free prediction ends
+       1/2 sum over mass points of m |x - x*|^2 / h'^2,  x* and h' by the scheme (kiri_stepping.h)
      + energies of elements (kiri_element.h), pins and contacts
      + flex damping: 1/2 k (flexDamping / dt) (strain - strain at the start of the step)^2 for each strain.
 
@@ -41,15 +41,23 @@ typedef struct kiriPieceStep {
     kiriStepEnergy sum;        /* what was evaluated last */
     kiriStepEnergy start, now; /* where the step starts, and where the iteration is */
     double noise;              /* J: what rounding leaves unknown of the objective */
-    double kinetic;            /* J: after the step, beside that of the mean velocity */
+    kiriStepping stepping;     /* the scheme of this step */
+    double kinetic;            /* J: after the step, beside that of the mean velocity; */
+    double turning;            /* of it, that of turning as one body; */
+    double moving;             /* J: and that of the mean velocity */
     double gain;               /* J: what the energy grows by in the step beyond work */
     double scale;              /* the part of the Gauss-Newton step that is tried, */
     double enough;             /* the objective that it has to reach, */
     double promise;            /* J: and by how much all of it would lower the objective, were that quadratic */
-    double keep, keepMean;     /* what the energy limit leaves of velocities: beside the mean, and of the mean */
-    kiriVec3 mean;             /* by mass, over its frames: of velocities, or of offsets */
+    /* What the energy limit leaves of velocities: of the mean, of turning as one body, of the rest. */
+    double keepMean, keepTurning, keepRest;
+    kiriVec3 mean; /* by mass, over its frames: of offsets, or of what is carried on from the last step */
     double mass;
+    int32_t wanted;   /* systems that are solved for it at least */
     bool isFree;      /* do only gravity and forces act on it? */
+    bool isTouched;   /* by a contact in this step, or carried about by a hold */
+    bool isNew;       /* does it start (anew, by backward Euler)? */
+    bool isFirst;     /* is its next Gauss-Newton step the first? */
     bool isIterated;  /* does the iteration go on? */
     bool isSearching; /* is a step sought that lowers the objective? */
 } kiriPieceStep;
@@ -57,7 +65,7 @@ typedef struct kiriPieceStep {
 struct kiriSolver {
     kiriMemory* memory;
     kiriMechanics mechanics;
-    double dt, damping; /* of this step; flexDamping / dt */
+    double dt, damping; /* h of this step; flexDamping / dt */
     bool hasFriction;   /* does friction of contacts act in this iteration? */
     bool isHeld;        /* does the host move a frame? */
     int32_t size;       /* unknowns a frame */
@@ -110,6 +118,17 @@ kiriFrameRow kiriSolver_Expand(const kiriSolver* solver, double scale, const dou
 kiriVec3 kiriMechanics_InPlane(const kiriMechanics* mechanics, kiriVec3 a);
 kiriVec3 kiriSystem_Gravity(const kiriSystem* system);
 
+/* ---- Begin of a step (kiri_step_begin.c) ---- */
+
+/* Chooses the scheme of each piece, predicts, and clears the rest. */
+void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt);
+
+/* The pieces that are new take this step by backward Euler; their poses are where that starts. */
+void kiriSolver_BecomeEuler(kiriSolver* solver, const kiriSystem* system);
+
+/* Marks the pieces of which contacts touch a point at these poses. */
+void kiriSolver_FindTouched(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
+
 /* ---- Objective ---- */
 
 /* A material point as seen from its frame's x, and in space. */
@@ -152,17 +171,18 @@ int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_
 
 /* ---- Limit of energy ---- */
 
+/* `mean` and `mass` of all pieces. */
+void kiriSolver_ClearMeans(kiriSolver* solver);
+
 /* The frames after the step, if it ended at the poses, and what energy each piece gained. Free pieces get their centre
-   of mass where the prediction has it. */
+   of mass where the prediction has it, and the angular momentum that is due. */
 void kiriSolver_FindGains(kiriSolver* solver, const kiriSystem* system);
 
 /* The most that the energy limit can take out of the velocities of a piece, J. */
 double kiriPieceStep_MostTaken(const kiriPieceStep* piece);
 
-/* Takes what pieces gained out of their velocities; then gives back the angular momentum that free pieces lost, as far
-   as the energy that they lost goes. */
+/* Takes what pieces gained out of their velocities. */
 void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system);
-void kiriSolver_RestoreMomentum(kiriSolver* solver, const kiriSystem* system);
 
 KIRI_C_END
 

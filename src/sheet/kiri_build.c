@@ -79,6 +79,7 @@ static void SetAll(kiriSettings* settings, const kiriMeshData* mesh, const kiriS
     settings->mechanics.model = def->model;
     settings->mechanics.planar = def->planar != 0;
     settings->mechanics.axes = AxesOf(def);
+    settings->mechanics.timeStepping = def->timeStepping;
     settings->sleepSpeed = def->sleepSpeed;
     settings->fadeTime = def->fadeTime;
     settings->leastFade = 1e-7 * longer * mesh->step; /* of the longer side */

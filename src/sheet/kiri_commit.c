@@ -54,6 +54,18 @@ static void TakeFits(kiriSheetData* sheet)
     kiriRefit_Commit(refit, &sheet->mesh);
 }
 
+/* Accelerations stay; torque and angular momentum of a rigid frame go with its mass. */
+static void RecenterFrame(const kiriSheetData* sheet, kiriFrameData* frame, const kiriMoments* material,
+                          double densityPerArea)
+{
+    double before = frame->mass;
+    kiriFrame_Recenter(frame, material, densityPerArea);
+    if (before > 0.0 && sheet->settings.mechanics.model == KIRI_MODEL_LINKS) {
+        frame->history.turnGain = kiriMat3_Scale(frame->mass / before, &frame->history.turnGain);
+        frame->history.turnPull = kiriMat3_Scale(frame->mass / before, &frame->history.turnPull);
+    }
+}
+
 static void CommitFrames(kiriSheetData* sheet)
 {
     const kiriUpdate* u = sheet->update;
@@ -66,7 +78,7 @@ static void CommitFrames(kiriSheetData* sheet)
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         sheet->frames.data[i].site = u->placing.sites.data[i];
         if (sheet->regions.dirty.data[i]) {
-            kiriFrame_Recenter(&sheet->frames.data[i], &u->material.data[i], densityPerArea);
+            RecenterFrame(sheet, &sheet->frames.data[i], &u->material.data[i], densityPerArea);
             sheet->regions.dirty.data[i] = 0;
         }
     }

@@ -63,6 +63,7 @@ static void PutToRest(kiriSheetData* sheet)
         memset(&sheet->frames.data[i].velocity, 0, sizeof(kiriVec3));
         memset(&sheet->frames.data[i].spin, 0, sizeof(kiriVec3));
         memset(&sheet->frames.data[i].rate, 0, sizeof(kiriMat3));
+        memset(&sheet->frames.data[i].history, 0, sizeof(kiriHistory));
     }
 }
 
@@ -83,6 +84,11 @@ void kiriMotion_Wake(kiriSheetData* sheet)
 {
     sheet->rest.asleep = false;
     sheet->rest.calm = 0.0;
+}
+
+void kiriMotion_ForgetHistory(kiriSheetData* sheet, int32_t frame)
+{
+    memset(&sheet->frames.data[frame].history, 0, sizeof(kiriHistory));
 }
 
 /* Hosts find contacts anew each tick, where a sheet that hardly moves is seen: a plane that passes the point as near as

@@ -43,6 +43,7 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
     }
     *pin = kiriPool_Add(&world->pinIds, &world->memory, data, data->pins.count - 1);
     data->pins.data[data->pins.count - 1].id = *pin;
+    kiriMotion_ForgetHistory(data, frame);
     kiriMotion_Wake(data);
     return KIRI_OK;
 }
@@ -55,6 +56,7 @@ kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3
     kiriPinData* data = &sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index];
     if (!kiriVec3_Equal(data->target, kiriVec3_Load(target))) {
         data->target = kiriVec3_Load(target);
+        kiriMotion_ForgetHistory(sheet, sheet->layout.pinFrame.data[data - sheet->pins.data]);
         kiriMotion_Wake(sheet);
     }
     return KIRI_OK;
@@ -65,6 +67,7 @@ kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin)
     KIRI_CHANGES(world);
     KIRI_FIND_PIN_SHEET(sheet, pin);
     int32_t index = kiriPool_Find(&world->pinIds, pin)->index;
+    kiriMotion_ForgetHistory(sheet, sheet->layout.pinFrame.data[index]);
     kiriPins_Remove(sheet, index);
     kiriMotion_Wake(sheet);
     if (index < sheet->pins.count) {

@@ -18,6 +18,7 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     def->rigidWeight = 0.95f;
     def->iterations = 2;
     def->sleepSpeed = 0.001f;
+    def->timeStepping = KIRI_TIME_STEPPING_SECOND_ORDER;
     def->fadeTime = 0.2f;
     def->paper.integrationOrder = 1;
 }
@@ -66,6 +67,9 @@ static const char* FaultOfModel(const kiriSheetDef* def)
     if (!kiriCall_IsWithin(def->model, KIRI_MODEL_LINKS, KIRI_MODEL_POINTS) ||
         !kiriCall_IsWithin(def->skinning, KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH)) {
         return "model is not one of KIRI_MODEL, or skinning not one of KIRI_SKINNING";
+    }
+    if (!kiriCall_IsWithin(def->timeStepping, KIRI_TIME_STEPPING_SECOND_ORDER, KIRI_TIME_STEPPING_EULER)) {
+        return "timeStepping is not one of KIRI_TIME_STEPPING";
     }
     return kiriCall_IsWithin(def->planar, 0, 1) ? NULL : "planar is not 0 or 1";
 }

@@ -118,6 +118,26 @@ void kiriStateHash_AddLayout(uint64_t* hash, const kiriSheetData* sheet)
     }
 }
 
+static void HashMat3(uint64_t* hash, const kiriMat3* m)
+{
+    HashVec3(hash, m->u);
+    HashVec3(hash, m->v);
+    HashVec3(hash, m->d);
+}
+
+static void HashHistory(uint64_t* hash, const kiriHistory* history)
+{
+    kiriHash_Double(hash, history->dt);
+    kiriHash_Int32(hash, history->isHalf);
+    kiriHash_Int32(hash, history->isHeld);
+    HashVec3(hash, history->gain);
+    HashVec3(hash, history->lag);
+    HashVec3(hash, history->pull);
+    HashMat3(hash, &history->turnGain);
+    HashMat3(hash, &history->turnLag);
+    HashMat3(hash, &history->turnPull);
+}
+
 static void HashFrame(uint64_t* hash, const kiriFrameData* frame)
 {
     HashVec2(hash, frame->site.at);
@@ -133,6 +153,7 @@ static void HashFrame(uint64_t* hash, const kiriFrameData* frame)
     HashVec3(hash, frame->rate.u);
     HashVec3(hash, frame->rate.v);
     HashVec3(hash, frame->rate.d);
+    HashHistory(hash, &frame->history);
     HashVec3(hash, frame->force);
     HashVec3(hash, frame->torque);
     HashPoint(hash, frame->anchor);
@@ -155,6 +176,7 @@ static void HashSettings(uint64_t* hash, const kiriSheetData* sheet)
     kiriHash_Double(hash, sheet->settings.frameLength);
     kiriHash_Int32(hash, sheet->settings.mechanics.model);
     kiriHash_Int32(hash, sheet->settings.mechanics.planar);
+    kiriHash_Int32(hash, sheet->settings.mechanics.timeStepping);
     kiriHash_Double(hash, sheet->settings.integrationPoints);
     kiriHash_Int32(hash, sheet->settings.integrationOrder);
     kiriHash_Int32(hash, sheet->settings.maxFrames);

@@ -1,0 +1,47 @@
+/* Schemes of time stepping. Each step solves for the poses of the frames at its end,
+
+       minimise  1/2 m |x - x*|^2 / h'^2 + V(x),
+
+   and the schemes differ in four numbers only. With v, x before the step, h its length, e = gravity + force / m, and the
+   history that the last step left (kiriHistory: q the velocity that inner forces gave in it, p = x+ - x - h v+, and a the
+   inner acceleration at its end):
+
+       v* = fade v + h e + c q + l a              D  = (x - x*) / h'
+       x* = x + h v + d p + h' (v* - v)           v+ = v* + D
+                                                  q+ = c q + l a + D,  p+ = d p - (h - h') (v+ - v),  a+ = D / h'
+
+       backward Euler   h' = h                    c = 0                  l = 0       d = 0
+       trapezoid        h' = h / 2                c = 0                  l = h / 2   d = 0
+       BDF2             h' = h (1 + r)/(1 + 2 r)  c = r^2 / (1 + 2 r)    l = 0       d = c      r = h / h of the last step
+
+   Second order in time: trapezoid and BDF2 by turns, so a pair is a step of TR-BDF2 (Bank et al. 1985; Hosea and
+   Shampine 1996) whose halves are of one length. Backward Euler starts it, and takes its place where the past says
+   nothing of the step: see kiriSolver_Step. The same for the turns of frames, by angular momentum or by the columns of A. */
+#ifndef KIRI_STEPPING_H
+#define KIRI_STEPPING_H
+
+#include "kiri_frame.h"
+
+KIRI_C_BEGIN
+
+typedef struct kiriStepping {
+    double h;       /* s: the step */
+    double part;    /* h': that of it over which inner forces act on the end */
+    double c, l, d; /* shares of q, a (s) and p */
+    double ahead;   /* r^2: of p, for where the iteration starts */
+    bool isEuler;
+    bool isHalf; /* the next may be the second of a pair */
+} kiriStepping;
+
+kiriStepping kiriStepping_Euler(double h);
+
+/* The step that comes after this history, of frames that have one. */
+kiriStepping kiriStepping_After(const kiriHistory* history, double h);
+
+/* c q + l a, and the same of the turn. */
+kiriVec3 kiriStepping_Inner(const kiriStepping* stepping, const kiriHistory* history);
+kiriMat3 kiriStepping_InnerTurn(const kiriStepping* stepping, const kiriHistory* history);
+
+KIRI_C_END
+
+#endif
