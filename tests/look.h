@@ -27,6 +27,11 @@ static inline uint64_t Look_Mesh(uint64_t hash, const kiriMesh* mesh)
     return Look_Bytes(hash, &mesh->revision, sizeof(mesh->revision));
 }
 
+static inline uint64_t Look_Reaction(uint64_t hash, const double force[3], const double torque[3])
+{
+    return Look_Bytes(Look_Bytes(hash, force, 3 * sizeof(double)), torque, 3 * sizeof(double));
+}
+
 static inline uint64_t Look_Frames(uint64_t hash, const kiriWorld* world, kiriSheet sheet)
 {
     kiriFrame frames[512];
@@ -36,11 +41,30 @@ static inline uint64_t Look_Frames(uint64_t hash, const kiriWorld* world, kiriSh
     for (int32_t i = 0; i < count; ++i) {
         kiriFrameState state;
         int32_t piece;
+        double force[3], torque[3];
         OK(kiriFrame_GetState(world, frames[i], &state));
         OK(kiriFrame_GetPiece(world, frames[i], &piece));
+        OK(kiriFrame_GetReaction(world, frames[i], force, torque));
         hash = Look_Bytes(Look_Bytes(hash, &state, sizeof(state)), &piece, sizeof(piece));
+        hash = Look_Reaction(hash, force, torque);
     }
     return Look_Bytes(hash, frames, sizeof(kiriFrame) * (size_t)count);
+}
+
+static inline uint64_t Look_Pins(uint64_t hash, const kiriWorld* world, kiriSheet sheet)
+{
+    kiriPin pins[64];
+    int32_t count;
+    double force[3], torque[3];
+    OK(kiriSheet_GetPins(world, sheet, pins, 64, &count));
+    assert_in_range(count, 0, 64);
+    for (int32_t i = 0; i < count; ++i) {
+        kiriPinState state;
+        OK(kiriPin_GetState(world, pins[i], &state));
+        OK(kiriPin_GetReaction(world, pins[i], force, torque));
+        hash = Look_Reaction(Look_Bytes(hash, &state, sizeof(state)), force, torque);
+    }
+    return Look_Bytes(hash, pins, sizeof(kiriPin) * (size_t)count);
 }
 
 static inline uint64_t Look_Sheet(uint64_t hash, const kiriWorld* world, kiriSheet sheet)
@@ -58,7 +82,8 @@ static inline uint64_t Look_Sheet(uint64_t hash, const kiriWorld* world, kiriShe
     hash = Look_Bytes(Look_Mesh(hash, &mesh), points, 12 * (size_t)count);
     hash = Look_Bytes(Look_Bytes(hash, &totals, sizeof(totals)), &awake, sizeof(awake));
     counts.cells = 0; /* of the grid as far as the work on a cut has come */
-    return Look_Frames(Look_Bytes(hash, &counts, sizeof(counts)), world, sheet);
+    hash = Look_Pins(Look_Bytes(hash, &counts, sizeof(counts)), world, sheet);
+    return Look_Frames(hash, world, sheet);
 }
 
 /* All sheets, and the events. */

@@ -98,6 +98,8 @@ static void NullWorld(void** state)
     kiriDirty dirty;
     uint16_t indices[3];
     kiriBudget budget = { 0, 0, 0, 0 };
+    kiriPinState pinState;
+    double d[3];
     kiriCounts counts;
     kiriTotals totals;
     kiriHit hit;
@@ -136,7 +138,17 @@ static void NullWorld(void** state)
         kiriSheet_GetFrames(NULL, 1, &id, 1, &count),
         kiriFrame_GetState(NULL, 1, &frame),
         kiriFrame_Hold(NULL, 1, NULL, NULL),
+        kiriFrame_GetReaction(NULL, 1, d, d),
         kiriFrame_ApplyForce(NULL, 1, v, v),
+        kiriSheet_ApplyForce(NULL, 1, v, v, v),
+        kiriSheet_ApplyLineLoad(NULL, 1, v, v + 1, v),
+        kiriSheet_ApplyPressure(NULL, 1, 1.0f),
+        kiriSheet_ClampLine(NULL, 1, v, v + 1, &id),
+        kiriSheet_HingeLine(NULL, 1, v, v + 1, &id),
+        kiriPin_SetPose(NULL, 1, v, v),
+        kiriPin_GetState(NULL, 1, &pinState),
+        kiriPin_GetReaction(NULL, 1, d, d),
+        kiriSheet_GetPins(NULL, 1, &id, 1, &count),
         kiriCreatePin(NULL, 1, &pinDef, &id),
         kiriPin_SetTarget(NULL, 1, v),
         kiriDestroyPin(NULL, 1),
@@ -479,6 +491,8 @@ static void Ids(void** state)
     kiriHit hit;
     kiriFrameState frame;
     kiriPinDef pinDef;
+    kiriPinState pinState;
+    double d[3];
     static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     kiriContact contact = { 0, { 0.0f, 0.0f, 1.0f }, 0.0f, 0.0f, 1.0f };
     kiriDefaultPinDef(&pinDef);
@@ -494,6 +508,12 @@ static void Ids(void** state)
         REFUSED(KIRI_ERROR_ID, kiriSheet_Slice(w, ids[i], v, &made));
         REFUSED(KIRI_ERROR_ID, kiriSheet_GetFrames(w, ids[i], &made, 1, &count));
         REFUSED(KIRI_ERROR_ID, kiriCreatePin(w, ids[i], &pinDef, &made));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_ClampLine(w, ids[i], v, v + 1, &made));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_HingeLine(w, ids[i], v, v + 1, &made));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_GetPins(w, ids[i], &made, 1, &count));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_ApplyForce(w, ids[i], v, v, v));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_ApplyLineLoad(w, ids[i], v, v + 1, v));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_ApplyPressure(w, ids[i], 1.0f));
         REFUSED(KIRI_ERROR_ID, kiriSheet_SetContacts(w, ids[i], &contact, 1));
     }
     for (int32_t i = WrongIds(&f, f.cut, dead.cut, ids); i-- > 0;) {
@@ -502,6 +522,9 @@ static void Ids(void** state)
     }
     for (int32_t i = WrongIds(&f, f.pin, dead.pin, ids); i-- > 0;) {
         REFUSED(KIRI_ERROR_ID, kiriPin_SetTarget(w, ids[i], v));
+        REFUSED(KIRI_ERROR_ID, kiriPin_SetPose(w, ids[i], v, eye));
+        REFUSED(KIRI_ERROR_ID, kiriPin_GetState(w, ids[i], &pinState));
+        REFUSED(KIRI_ERROR_ID, kiriPin_GetReaction(w, ids[i], d, d));
         REFUSED(KIRI_ERROR_ID, kiriDestroyPin(w, ids[i]));
     }
     /* The sheet's other frames are right. */
@@ -511,6 +534,7 @@ static void Ids(void** state)
             REFUSED(KIRI_ERROR_ID, kiriFrame_Hold(w, ids[i], v, eye));
             REFUSED(KIRI_ERROR_ID, kiriFrame_Hold(w, ids[i], NULL, NULL));
             REFUSED(KIRI_ERROR_ID, kiriFrame_ApplyForce(w, ids[i], v, v));
+            REFUSED(KIRI_ERROR_ID, kiriFrame_GetReaction(w, ids[i], d, d));
         }
     }
     OK(kiriDestroySheet(w, f.sheet)); /* takes what is on it along */
@@ -662,6 +686,102 @@ static void PinArguments(void** state)
     REFUSED(KIRI_ERROR_DEF, kiriCreatePin(w, f.sheet, &def, &pin));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetTarget(w, f.pin, NULL));
     REFUSED_FLOATS(target, 3, kiriPin_SetTarget(w, f.pin, target));
+    double d[3];
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_GetState(w, f.pin, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_GetReaction(w, f.pin, NULL, d));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_GetReaction(w, f.pin, d, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_GetReaction(w, f.frame, NULL, d));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_GetReaction(w, f.frame, d, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetPins(w, f.sheet, &pin, 1, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetPins(w, f.sheet, &pin, -1, &(int32_t){ 0 }));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetPins(w, f.sheet, NULL, 1, &(int32_t){ 0 }));
+    Host_Stop(host);
+}
+
+/* Lines that are none, or meet nothing, whoever asks for them. */
+static void LineArguments(void** state)
+{
+    (void)state;
+    Fixture f;
+    Setup(&f);
+    Host* host = &f.host;
+    kiriWorld* w = host->world;
+    kiriPin pin;
+    float a[2] = { 0.2f, 0.3f }, b[2] = { 0.7f, 0.9f }, q[3] = { 1.0f, 2.0f, 3.0f };
+    static const float beside[3][4] = { { -0.1f, 0.0f, -0.1f, 1.0f },
+                                        { 1.2f, 0.1f, 1.3f, 0.5f },
+                                        { -0.2f, 0.1f, 0.1f, -0.2f } };
+    static const float far[2] = { 1e30f, 0.0f };
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ClampLine(w, f.sheet, a, b, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_HingeLine(w, f.sheet, a, b, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ApplyLineLoad(w, f.sheet, a, b, NULL));
+    REFUSED_FLOATS(q, 3, kiriSheet_ApplyLineLoad(w, f.sheet, a, b, q));
+#define REFUSED_LINE(from, to)                                                                                         \
+    do {                                                                                                               \
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ClampLine(w, f.sheet, from, to, &pin));                                 \
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_HingeLine(w, f.sheet, from, to, &pin));                                 \
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ApplyLineLoad(w, f.sheet, from, to, q));                                \
+    } while (0)
+    REFUSED_LINE(NULL, b);
+    REFUSED_LINE(a, NULL);
+    REFUSED_LINE(a, a);
+    REFUSED_LINE(far, b);
+    REFUSED_LINE(a, far);
+    for (int i = 0; i < 3; ++i) {
+        REFUSED_LINE(beside[i], beside[i] + 2);
+    }
+    REFUSED_FLOATS(a, 2, kiriSheet_ClampLine(w, f.sheet, a, b, &pin));
+    REFUSED_FLOATS(b, 2, kiriSheet_HingeLine(w, f.sheet, a, b, &pin));
+    REFUSED_FLOATS(b, 2, kiriSheet_ApplyLineLoad(w, f.sheet, a, b, q));
+    Host_Stop(host);
+}
+
+static void PoseArguments(void** state)
+{
+    (void)state;
+    Fixture f;
+    Setup(&f);
+    Host* host = &f.host;
+    kiriWorld* w = host->world;
+    kiriPin pin;
+    float x[3] = { 0.0f, 0.0f, 0.0f }, r[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+    static const float a[2] = { 0.0f, 0.0f }, b[2] = { 0.0f, 1.0f };
+    OK(kiriSheet_ClampLine(w, f.sheet, a, b, &pin));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetPose(w, f.pin, x, r)); /* it holds a point */
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetPose(w, pin, NULL, r));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetPose(w, pin, x, NULL));
+    REFUSED_FLOATS(x, 3, kiriPin_SetPose(w, pin, x, r));
+    REFUSED_FLOATS(r, 9, kiriPin_SetPose(w, pin, x, r));
+    r[8] = -1.0f; /* a mirror */
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetPose(w, pin, x, r));
+    r[4] = -1.0f;
+    OK(kiriPin_SetPose(w, pin, x, r));
+    r[1] = 0.1f;
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetPose(w, pin, x, r));
+    Host_Stop(host);
+}
+
+static void LoadArguments(void** state)
+{
+    (void)state;
+    Fixture f;
+    Setup(&f);
+    Host* host = &f.host;
+    kiriWorld* w = host->world;
+    float at[2] = { 0.4f, 0.6f }, v[3] = { 1.0f, 2.0f, 3.0f }, u[3] = { 0.0f, 0.0f, 0.0f }, p = 1.0f;
+    static const float out[5] = { -0.01f, 1.01f, 1e30f, -1e30f, 16.5f };
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ApplyForce(w, f.sheet, NULL, v, v));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ApplyForce(w, f.sheet, at, NULL, v));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ApplyForce(w, f.sheet, at, v, NULL));
+    REFUSED_FLOATS(at, 2, kiriSheet_ApplyForce(w, f.sheet, at, u, v));
+    REFUSED_FLOATS(u, 3, kiriSheet_ApplyForce(w, f.sheet, at, u, v));
+    REFUSED_FLOATS(v, 3, kiriSheet_ApplyForce(w, f.sheet, at, u, v));
+    for (int i = 0; i < 10; ++i) {
+        at[i % 2] = out[i / 2];
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ApplyForce(w, f.sheet, at, u, v));
+        at[i % 2] = 0.5f;
+    }
+    REFUSED_FLOATS(&p, 1, kiriSheet_ApplyPressure(w, f.sheet, p));
     Host_Stop(host);
 }
 
@@ -932,16 +1052,29 @@ static void HugeSheets(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(NullWorld),        cmocka_unit_test(Names),
-        cmocka_unit_test(WorldDefs),        cmocka_unit_test(Materials),
-        cmocka_unit_test(WorldArguments),   cmocka_unit_test(SheetDefFloats),
-        cmocka_unit_test(SheetDefInts),     cmocka_unit_test(Meshes),
-        cmocka_unit_test(FillRectangle),    cmocka_unit_test(Ids),
-        cmocka_unit_test(SheetArguments),   cmocka_unit_test(CutArguments),
-        cmocka_unit_test(FrameArguments),   cmocka_unit_test(PinArguments),
-        cmocka_unit_test(PinsKeepTheirIds), cmocka_unit_test(ShortIndicesNeedFewVertices),
-        cmocka_unit_test(ContactArguments), cmocka_unit_test(HarmlessCuts),
-        cmocka_unit_test(HugeValues),       cmocka_unit_test(HugeSheets),
+        cmocka_unit_test(NullWorld),
+        cmocka_unit_test(Names),
+        cmocka_unit_test(WorldDefs),
+        cmocka_unit_test(Materials),
+        cmocka_unit_test(WorldArguments),
+        cmocka_unit_test(SheetDefFloats),
+        cmocka_unit_test(SheetDefInts),
+        cmocka_unit_test(Meshes),
+        cmocka_unit_test(FillRectangle),
+        cmocka_unit_test(Ids),
+        cmocka_unit_test(SheetArguments),
+        cmocka_unit_test(CutArguments),
+        cmocka_unit_test(FrameArguments),
+        cmocka_unit_test(PinArguments),
+        cmocka_unit_test(LineArguments),
+        cmocka_unit_test(PoseArguments),
+        cmocka_unit_test(LoadArguments),
+        cmocka_unit_test(PinsKeepTheirIds),
+        cmocka_unit_test(ShortIndicesNeedFewVertices),
+        cmocka_unit_test(ContactArguments),
+        cmocka_unit_test(HarmlessCuts),
+        cmocka_unit_test(HugeValues),
+        cmocka_unit_test(HugeSheets),
         cmocka_unit_test(Copies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

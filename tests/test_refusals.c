@@ -19,7 +19,7 @@ typedef struct Stand {
     Host host;
     kiriSheet sheet, made;
     kiriFrame frame; /* of the smaller piece */
-    kiriPin pin, madePin;
+    kiriPin pin, clamp, madePin;
     kiriCut cut, madeCut; /* not ended */
     Rectangle mesh;
     kiriSheetDef def;
@@ -73,7 +73,8 @@ static kiriFrame FrameOfLastPiece(const Stand* s)
 
 static void Stand_Start(Stand* s, int32_t work)
 {
-    static const float strip[4] = { -0.1f, 0.22f, 1.1f, 0.25f }, start[4] = { 0.3f, 0.8f, 0.4f, 0.7f };
+    static const float strip[4] = { -0.1f, 0.22f, 1.1f, 0.25f }, edge[4] = { 0.0f, 0.0f, 0.0f, 1.0f },
+                       start[4] = { 0.3f, 0.8f, 0.4f, 0.7f };
     static const kiriBudget budget = { KIRI_LEAST_TRIANGLES, 25, 5, 0 };
     memset(s, 0, sizeof(*s));
     Host_Start(&s->host);
@@ -83,9 +84,10 @@ static void Stand_Start(Stand* s, int32_t work)
     s->def.collisionPoints = 12;
     s->mesh = Rectangle_Make(&s->def, 1.0f, 1.0f, 4, 4);
     OK(kiriCreateSheet(s->host.world, &s->def, &s->sheet));
-    for (int i = 0; i < FULL; ++i) {
+    for (int i = 0; i < FULL - 1; ++i) {
         OK(kiriCreatePin(s->host.world, s->sheet, &pin, &s->pin));
     }
+    OK(kiriSheet_ClampLine(s->host.world, s->sheet, edge, edge + 2, &s->clamp)); /* over both pieces */
     Host_Cut(&s->host, s->sheet, strip, 2);
     OK(kiriBeginCut(s->host.world, s->sheet, start, &s->cut));
     OK(kiriCut_Extend(s->host.world, s->cut, start + 2, 1));
@@ -216,6 +218,40 @@ static kiriResult CallCreatePin(Stand* s)
     return kiriCreatePin(s->host.world, s->sheet, &def, &s->madePin);
 }
 
+/* Lines over more frames than there is room for. */
+static kiriResult CallClampLine(Stand* s)
+{
+    static const float from[2] = { 0.02f, 0.0f }, to[2] = { 1.0f, 0.98f };
+    return kiriSheet_ClampLine(s->host.world, s->sheet, from, to, &s->madePin);
+}
+
+static kiriResult CallHingeLine(Stand* s)
+{
+    static const float from[2] = { 0.0f, 0.97f }, to[2] = { 0.99f, 0.01f };
+    return kiriSheet_HingeLine(s->host.world, s->sheet, from, to, &s->madePin);
+}
+
+static kiriResult CallSetPose(Stand* s)
+{
+    return kiriPin_SetPose(s->host.world, s->clamp, eye, eye);
+}
+
+static kiriResult CallApplyForceAt(Stand* s)
+{
+    return kiriSheet_ApplyForce(s->host.world, s->sheet, eye, eye, eye);
+}
+
+static kiriResult CallApplyLineLoad(Stand* s)
+{
+    static const float from[2] = { -0.1f, 0.03f }, to[2] = { 1.1f, 0.96f };
+    return kiriSheet_ApplyLineLoad(s->host.world, s->sheet, from, to, eye);
+}
+
+static kiriResult CallApplyPressure(Stand* s)
+{
+    return kiriSheet_ApplyPressure(s->host.world, s->sheet, 2.0f);
+}
+
 static kiriResult CallSetTarget(Stand* s)
 {
     return kiriPin_SetTarget(s->host.world, s->pin, eye);
@@ -261,7 +297,13 @@ static const Call calls[] = {
     { "kiriSheet_Slice", CallSlice, true },
     { "kiriFrame_Hold", CallHold, false },
     { "kiriFrame_ApplyForce", CallApplyForce, false },
+    { "kiriSheet_ApplyForce", CallApplyForceAt, false },
+    { "kiriSheet_ApplyLineLoad", CallApplyLineLoad, true },
+    { "kiriSheet_ApplyPressure", CallApplyPressure, false },
     { "kiriCreatePin", CallCreatePin, true },
+    { "kiriSheet_ClampLine", CallClampLine, true },
+    { "kiriSheet_HingeLine", CallHingeLine, true },
+    { "kiriPin_SetPose", CallSetPose, false },
     { "kiriPin_SetTarget", CallSetTarget, false },
     { "kiriDestroyPin", CallDestroyPin, false },
     { "kiriSheet_SetContacts", CallSetContacts, true },

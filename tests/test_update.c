@@ -104,6 +104,15 @@ static void Compare(const Host hosts[2], int32_t number, int32_t tick)
     }
 }
 
+/* An edge is clamped, and a line through the sheet hinged. */
+static void HoldLines(Host* host, kiriSheet sheet)
+{
+    static const float edge[4] = { 0.0f, 0.0f, 0.0f, 1.0f }, through[4] = { 0.3f, 0.93f, 0.97f, 0.52f };
+    kiriPin pin;
+    OK(kiriSheet_ClampLine(host->world, sheet, edge, edge + 2, &pin));
+    OK(kiriSheet_HingeLine(host->world, sheet, through, through + 2, &pin));
+}
+
 static void WanderBothWays(const Case* c, int32_t number, uint32_t seed)
 {
     Host hosts[2];
@@ -118,6 +127,9 @@ static void WanderBothWays(const Case* c, int32_t number, uint32_t seed)
         sheets[k] = Host_AddRectangle(&hosts[k], &def, 1.0f, 1.0f, c->mesh, c->mesh);
     }
     int32_t blades = 1 + (int32_t)(Random(&seed) % 3);
+    for (int k = 0; k < 2 && number % 2 == 1; ++k) {
+        HoldLines(&hosts[k], sheets[k]);
+    }
     for (int32_t tick = 0; tick < c->ticks; ++tick) {
         for (int32_t i = 0; i < blades; ++i) {
             Advance(hosts, sheets, &wanderers[i], c->step, &seed);

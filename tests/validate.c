@@ -236,6 +236,30 @@ static bool Check_Patches(Check* check, const kiriSheetData* sheet)
     return true;
 }
 
+/* Of pins along lines. */
+static bool Check_PinShares(Check* check, const kiriSheetData* sheet)
+{
+    const kiriPinShares* shares = &sheet->layout.pinShares;
+    for (int32_t k = 0; k < shares->count; ++k) {
+        const kiriPinShare* pinned = &shares->data[k];
+        const kiriLineShare* share = &pinned->share;
+        REQUIRE(IsIndex(pinned->pin, sheet->pins.count) && (k == 0 || shares->data[k - 1].pin <= pinned->pin) &&
+                    sheet->pins.data[pinned->pin].type != KIRI_PIN_POINT,
+                "share %d is of pin %d", k, pinned->pin);
+        REQUIRE(IsIndex(share->frame, sheet->frames.count), "share %d is of frame %d", k, share->frame);
+        REQUIRE(share->length > 0.0 && share->length <= 1.0 + 1e-12 && share->load > 0.0 &&
+                    share->load <= share->length + 1e-12 && share->ends[0] >= 0.0 && share->ends[1] <= 1.0 &&
+                    share->ends[1] - share->ends[0] >= share->length - 1e-12,
+                "share %d has length %g, load %g, from %g to %g", k, share->length, share->load, share->ends[0],
+                share->ends[1]);
+    }
+    REQUIRE(sheet->pinRows.capacity >= sheet->pins.count && sheet->clampRows.capacity >= shares->count &&
+                sheet->frameReactions.capacity >= sheet->frames.count,
+            "room for %d pins of %d, %d clamps of %d, %d frames", sheet->pinRows.capacity, sheet->pins.count,
+            sheet->clampRows.capacity, shares->count, sheet->frameReactions.capacity);
+    return true;
+}
+
 /* Of pins and collision points. What holds a point is the frame whose region it is in. */
 static bool Check_Pins(Check* check, const kiriSheetData* sheet)
 {
@@ -245,16 +269,15 @@ static bool Check_Pins(Check* check, const kiriSheetData* sheet)
         const kiriPinData* pin = &sheet->pins.data[i];
         int32_t frame = sheet->layout.pinFrame.data[i];
         REQUIRE(IsIndex(frame, sheet->frames.count), "pin %d holds frame %d", i, frame);
-        REQUIRE(AreFinite3(pin->target) && pin->stiffness > 0.0, "pin %d has stiffness %g", i, pin->stiffness);
-        if (IsSettled(sheet)) {
+        REQUIRE(AreFinite3(pin->target) && (pin->stiffness > 0.0) == (pin->type == KIRI_PIN_POINT),
+                "pin %d has stiffness %g", i, pin->stiffness);
+        if (IsSettled(sheet) && pin->type == KIRI_PIN_POINT) {
             int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, pin->at);
             int32_t owner = cell == KIRI_NONE ? KIRI_NONE : sheet->regions.field.owner.data[cell];
             REQUIRE(frame == owner, "pin %d holds frame %d and is in the region of %d", i, frame, owner);
         }
     }
-    REQUIRE(sheet->pinRows.capacity >= sheet->pins.count, "room for %d pins of %d", sheet->pinRows.capacity,
-            sheet->pins.count);
-    return true;
+    return Check_PinShares(check, sheet);
 }
 
 static bool Check_ContactsOf(Check* check, const kiriSheetData* sheet, const kiriContact* contacts, int32_t count)

@@ -490,7 +490,8 @@ KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, 
 
 /* Makes a sheet of the piece with this frame. Its frames, pins and collision points move along, in their order; they
    keep their ids and states, and what waits for the next tick: the motion goes on as if nothing had happened, but for the
-   solver's guard over energy and step length, which is one for each sheet. Both sheets have all settings (of
+   solver's guard over energy and step length, which is one for each sheet. A clamp or hinge that holds both becomes two:
+   the rest keeps the id, the new sheet's has one of its own (kiriSheet_GetPins). Both sheets have all settings (of
    collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself, and sleep each
    for itself. Cuts stay with the rest: a blade in the piece cuts nothing until it is back. Indices of vertices, triangles
    and collision points of the rest change (its revision grows). Both keep the grid of the whole sheet, which takes about
@@ -546,12 +547,37 @@ KIRI_API kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, 
    rotation is about its normal. Null, null: it is free again. */
 KIRI_API kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9]);
 
-/* A force (N, world) on the frame's centre of mass and a torque (N m), for the next tick only. */
+/* With what the host's hold acted on the sheet: force (N, world) and torque (N m) about the frame's rest point; means
+   over the last tick, impulses divided by its dt. They carry the frame's own weight and change its momentum, too. Zero
+   for a frame that was free. A sheet that sleeps keeps those that it fell asleep with. */
+KIRI_API kiriResult kiriFrame_GetReaction(const kiriWorld* world, kiriFrame frame, double force[3], double torque[3]);
+
+/* ---- Load ------------------------------------------------------------------------------------------------------- */
+
+/* Loads act throughout the next tick, all of its substeps, and are gone then. They add up. They act on the frames that
+   hold the material when they are given, from where the sheet is then: turn and place of a load do not follow the sheet
+   within the tick. A tick that is refused (KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT) uses none of them up. */
+
+/* A force (N, world) on the frame's centre of mass and a torque (N m). */
 KIRI_API kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3],
                                          const float torque[3]);
 
+/* A force (N, world) on a point of the material and a torque (N m). */
+KIRI_API kiriResult kiriSheet_ApplyForce(kiriWorld* world, kiriSheet sheet, const float restPoint[2],
+                                         const float force[3], const float torque[3]);
+
+/* A force (N, world) on each metre of a straight line of the rest plane, as far as it lies in the material, edges
+   included. Where it runs along a cut, each lip gets half. The ends differ; a line that meets no material:
+   KIRI_ERROR_ARGUMENT. */
+KIRI_API kiriResult kiriSheet_ApplyLineLoad(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
+                                            const float forcePerLength[3]);
+
+/* A pressure (Pa) that pushes the whole sheet along its normal, or against it where below 0. */
+KIRI_API kiriResult kiriSheet_ApplyPressure(kiriWorld* world, kiriSheet sheet, float pressure);
+
 /* ---- Pin and contact -------------------------------------------------------------------------------------------- */
 
+/* A pin holds a point of the material at its target, by a spring. */
 typedef struct kiriPinDef {
     uint32_t cookie;
     float restPoint[2]; /* in the material */
@@ -561,7 +587,50 @@ typedef struct kiriPinDef {
 
 KIRI_API void kiriDefaultPinDef(kiriPinDef* def);
 KIRI_API kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* def, kiriPin* pin);
+
+/* Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp holds place and direction of
+   the material there, as a vice does; a hinge its place only, so that the sheet may turn about the line. Both begin
+   where the material is now; the line stays straight, and as long as it is at rest.
+
+   They hold what the line meets, edges included, with the stiffness that the material has between the line and the
+   frames that it meets. So a clamp along an edge is where the drawing has it, whatever the number of frames, where
+   kiriFrame_Hold clamps at a frame's site. A line that runs along a cut holds both lips; one beside it, by a 64th of a
+   square of the grid or more, holds one. The ends differ; a line that meets no material: KIRI_ERROR_ARGUMENT. */
+KIRI_API kiriResult kiriSheet_ClampLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
+                                        kiriPin* clamp);
+KIRI_API kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
+                                        kiriPin* hinge);
+
+/* Where the pin holds its point, or the middle of its line (m, world): in the next tick, and until the next call. */
 KIRI_API kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3]);
+
+/* The same with the rotation of the line's material: columns are the directions of u and v and the normal. On a planar
+   sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT for a pin that holds a point. */
+KIRI_API kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float target[3], const float rotation[9]);
+
+/* What a pin is, and what it did in the last tick. */
+enum kiriPinType { KIRI_PIN_POINT, KIRI_PIN_HINGE, KIRI_PIN_CLAMP };
+
+typedef struct kiriPinState {
+    int32_t type; /* KIRI_PIN_... */
+    kiriSheet sheet;
+    float from[2], to[2]; /* rest position: of a point, twice, or of the ends of the line */
+    float target[3];
+    float rotation[9]; /* of a line; of a point the identity */
+} kiriPinState;
+
+KIRI_API kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* state);
+
+/* With what the pin acted on the sheet: force (N, world) and torque (N m) about its target; means over the last tick,
+   impulses divided by its dt. So the reactions of all pins and held frames are the weight of a sheet at rest, and in
+   motion what changes its momentum (as far as `iterations` have the tick solved). Zero before the first tick. A sheet that
+   sleeps keeps those that it fell asleep with. */
+KIRI_API kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, double force[3], double torque[3]);
+
+/* Writes up to `capacity` ids of the sheet's pins, of all types; *count is how many there are. */
+KIRI_API kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* pins, int32_t capacity,
+                                      int32_t* count);
+
 KIRI_API kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
 
 /* A collision point that touches something: it is pushed out of the half space below the plane dot(normal, x) = offset

@@ -84,6 +84,13 @@ static inline void kiriVec3_Store(float* f, kiriVec3 a)
     f[2] = (float)a.z;
 }
 
+static inline void kiriVec3_StoreDoubles(double* to, kiriVec3 a)
+{
+    to[0] = a.x;
+    to[1] = a.y;
+    to[2] = a.z;
+}
+
 static inline kiriVec3 kiriVec3_Add(kiriVec3 a, kiriVec3 b)
 {
     return kiriVec3_Make(a.x + b.x, a.y + b.y, a.z + b.z);

@@ -8,7 +8,7 @@ static void AddEnergy(kiriStepEnergy* sum, double stored, double lost)
     sum->objective += stored + lost;
 }
 
-/* ---- Pins and contacts ---- */
+/* ---- Pins, clamps and contacts ---- */
 
 kiriVec3 kiriSystem_Arm(const kiriSystem* system, int32_t frame, kiriVec2 at, const kiriPose* pose)
 {
@@ -59,8 +59,26 @@ static void AddContactEnergy(const kiriSystem* system, const kiriContactRow* con
     AddEnergy(sum, 0.5 * contact->stiffness * depth * depth, 0.5 * friction * kiriVec3_Dot(slide, slide));
 }
 
+static void AddClampEnergy(const kiriSystem* system, kiriClampRow* row, const kiriPose* poses, kiriStepEnergy* sum)
+{
+    double strain[KIRI_CLAMP_STRAINS], pulling[KIRI_CLAMP_STRAINS];
+    kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, &poses[row->frame], strain, NULL);
+    kiriClamp_TakeOffsets(row, strain, pulling);
+    for (int e = 0; e < row->strainCount; ++e) {
+        double change = strain[e] - row->startStrain[e];
+        AddEnergy(sum, 0.5 * row->stiffness[e] * pulling[e] * pulling[e], 0.5 * row->loss[e] * change * change);
+    }
+    row->stopping |= kiriClamp_IsStopped(row, strain);
+}
+
 void kiriObjective_AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
+    for (int32_t k = 0; k < system->clampCount; ++k) {
+        kiriPieceStep* piece = kiriSolver_PieceOf(solver, system->clamps[k].frame);
+        if (piece->isSearching) {
+            AddClampEnergy(system, &system->clamps[k], poses, &piece->sum);
+        }
+    }
     for (int32_t k = 0; k < system->pinCount; ++k) {
         kiriPieceStep* piece = kiriSolver_PieceOf(solver, system->pins[k].frame);
         if (piece->isSearching) {
@@ -206,6 +224,11 @@ void kiriObjective_FindNoise(kiriSolver* solver, const kiriSystem* system)
                            ? RigidLinkNoise(solver, kiriElement_Link(system, k), stiffness)
                            : AffineNoise(solver, system, k, stiffness);
         kiriSolver_PieceOfElement(solver, system, k)->noise += share * noise;
+    }
+    for (int32_t k = 0; k < system->clampCount; ++k) {
+        const kiriClampRow* row = &system->clamps[k];
+        kiriSolver_PieceOf(solver, row->frame)->noise +=
+            share * kiriClamp_Noise(row, &solver->start.data[row->frame]);
     }
 }
 
@@ -415,6 +438,26 @@ static void AddPin(kiriSolver* solver, const kiriSystem* system, const kiriPinRo
     AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(0.0, 0.0, 1.0), off.z, pin->stiffness);
 }
 
+/* As AddElement, of one frame. */
+static void AddClamp(kiriSolver* solver, const kiriSystem* system, const kiriClampRow* row)
+{
+    kiriFrameRow rows[KIRI_CLAMP_STRAINS];
+    double strain[KIRI_CLAMP_STRAINS], pulling[KIRI_CLAMP_STRAINS], J[KIRI_CLAMP_STRAINS * KIRI_MOST_UNKNOWNS];
+    double springs[KIRI_CLAMP_STRAINS], pulls[KIRI_CLAMP_STRAINS];
+    kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, &solver->poses.data[row->frame], strain, rows);
+    kiriClamp_TakeOffsets(row, strain, pulling);
+    for (int e = 0; e < row->strainCount; ++e) {
+        springs[e] = row->stiffness[e] + row->loss[e];
+        pulls[e] = -row->stiffness[e] * pulling[e] - row->loss[e] * (strain[e] - row->startStrain[e]);
+        kiriSolver_Reduce(solver, &rows[e], &J[solver->size * e]);
+    }
+    bool wasShort = kiriSolver_PieceOf(solver, row->frame)->scale < KIRI_SHORT_STEP;
+    if (wasShort && row->stopping && !row->isAffine && !kiriClamp_IsStopped(row, strain)) {
+        springs[KIRI_NORMAL_GAP] += row->stiffness[KIRI_NORMAL_STOP];
+    }
+    AddSquares(solver, &row->frame, 1, J, springs, pulls, row->strainCount);
+}
+
 static void AddContact(kiriSolver* solver, const kiriSystem* system, const kiriContactRow* contact)
 {
     kiriVec3 n = contact->normal, point = kiriSystem_Point(system, contact->frame, contact->at, solver->poses.data);
@@ -452,6 +495,11 @@ void kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
     for (int32_t k = 0; k < system->pinCount; ++k) {
         if (!IsStill(solver, system, system->pins[k].frame)) {
             AddPin(solver, system, &system->pins[k]);
+        }
+    }
+    for (int32_t k = 0; k < system->clampCount; ++k) {
+        if (!IsStill(solver, system, system->clamps[k].frame)) {
+            AddClamp(solver, system, &system->clamps[k]);
         }
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {

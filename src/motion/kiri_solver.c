@@ -266,6 +266,10 @@ int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt,
     if (!IsReadable(solver, system->frameCount)) {
         return -1;
     }
+    kiriSolver_AddReactions(solver, system);
     WriteFrames(solver, system);
+    for (int32_t k = 0; k < system->clampCount; ++k) {
+        system->clamps[k].start = system->clamps[k].pose;
+    }
     return done;
 }

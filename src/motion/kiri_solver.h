@@ -4,6 +4,8 @@
 
 #include "kiri_strain_offset.h"
 #include "kiri_area_element.h"
+#include "kiri_clamp.h"
+#include "kiri_reaction.h"
 
 KIRI_C_BEGIN
 
@@ -45,8 +47,11 @@ typedef struct kiriSystem {
     const kiriAreaElements* areaElements;  /* of affine frames; may be null where there are none */
     const kiriPinRow* pins;
     int32_t pinCount;
+    kiriClampRow* clamps; /* a step writes what is of that step, and `start` at its end */
+    int32_t clampCount;
     const kiriContactRow* contacts;
     int32_t contactCount;
+    kiriReactions reactions; /* what a step adds to; null where nobody asks */
     kiriMaterial material;
     kiriVec3 gravity;
 } kiriSystem;
@@ -71,7 +76,7 @@ uint64_t kiriSolver_Hash(const kiriSolver* solver);
 /* Moves the frames by dt. Links, corners and area elements are those that were committed; normals of contacts are unit,
    heldRotation is a rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the
    motion asks for them, but at most `most` (1 or more). Or -1 when it cannot be continued (not finite); the frames are
-   then as before the call. Allocates nothing. Forces on frames are used, not cleared. */
+   then as before the call. Allocates nothing. Forces on frames are used, not cleared; reactions are added to. */
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations, int32_t most);
 
 /* Elastic energy of all elements, J. */

@@ -1,10 +1,10 @@
 /* What the files of the solver share: kiri_solver.c (unknowns, pattern, a step), kiri_step_begin.c, kiri_objective.c,
-   kiri_assembly.c, kiri_newton.c and kiri_energy_limit.c. No other file of the library includes it.
+   kiri_assembly.c, kiri_newton.c, kiri_energy_limit.c and kiri_step_reaction.c. No other file of the library includes it.
 
    The step is a minimisation over the poses of the frames at its end. The objective is
 
        1/2 sum over mass points of m |x - x*|^2 / h'^2,  x* and h' by the scheme (kiri_stepping.h)
-     + energies of elements (kiri_element.h), pins and contacts
+     + energies of elements (kiri_element.h), pins, clamps and contacts
      + flex damping: 1/2 k (flexDamping / dt) (strain - strain at the start of the step)^2 for each strain.
 
    All are squares, so a Gauss-Newton step solves with J^T k J + mass: positive definite by itself, with a pattern that
@@ -149,7 +149,7 @@ void kiriObjective_Measure(const kiriSystem* system, int32_t k, const kiriPose* 
 void kiriObjective_AddElement(const kiriSolver* solver, const kiriSystem* system, int32_t k, const double* strain,
                               const double* pulling, kiriStepEnergy* sum);
 
-/* Starts the sums of the pieces that search with what the inertia has; adds what pins and contacts have. */
+/* Starts the sums of the pieces that search with what the inertia has; adds what pins, clamps and contacts have. */
 void kiriObjective_AddInertia(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
 void kiriObjective_AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
 
@@ -183,6 +183,11 @@ double kiriPieceStep_MostTaken(const kiriPieceStep* piece);
 
 /* Takes what pieces gained out of their velocities. */
 void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system);
+
+/* ---- Reactions (kiri_step_reaction.c) ---- */
+
+/* Adds what pins, clamps and holds did in the step: by the gradient of the objective at its end. */
+void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system);
 
 KIRI_C_END
 

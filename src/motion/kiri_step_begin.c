@@ -215,6 +215,13 @@ static void BeginElement(kiriSolver* solver, const kiriSystem* system, int32_t k
     }
 }
 
+static void BeginClamp(const kiriSolver* solver, const kiriSystem* system, kiriClampRow* row)
+{
+    KIRI_ASSERT(row->isAffine == kiriMechanics_IsAffine(&system->mechanics));
+    kiriClamp_Begin(row, system->mechanics.planar, &system->material, solver->damping, &system->frames[row->frame],
+                    &solver->start.data[row->frame]);
+}
+
 /* Finds which pieces are free, and clears the rest. */
 static void BeginPieces(kiriSolver* solver, const kiriSystem* system)
 {
@@ -228,6 +235,9 @@ static void BeginPieces(kiriSolver* solver, const kiriSystem* system)
     }
     for (int32_t k = 0; k < system->pinCount; ++k) {
         kiriSolver_PieceOf(solver, system->pins[k].frame)->isFree = false;
+    }
+    for (int32_t k = 0; k < system->clampCount; ++k) {
+        kiriSolver_PieceOf(solver, system->clamps[k].frame)->isFree = false;
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
         kiriSolver_PieceOf(solver, system->contacts[k].frame)->isFree = false;
@@ -286,6 +296,9 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     StepTouchedByEuler(solver, system);
     for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
         BeginElement(solver, system, k);
+    }
+    for (int32_t k = 0; k < system->clampCount; ++k) {
+        BeginClamp(solver, system, &system->clamps[k]);
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {
         if (system->frames[f].held) {

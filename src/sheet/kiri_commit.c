@@ -1,5 +1,7 @@
 #include "kiri_stages.h"
 
+#include "kiri_pin.h"
+
 #include <string.h>
 
 /* A frame that appears takes its motion from the surface: position, velocity, and the rotation nearest to its slope; an
@@ -127,6 +129,9 @@ void kiriStage_Commit(kiriSheetData* sheet)
     kiriLayout layout = sheet->layout;
     sheet->layout = u->next;
     u->next = layout;
+    if (keepsStrains) {
+        kiriPins_KeepStrains(sheet, &u->next.pinShares, sheet->strainOffsets.frames.data);
+    }
     kiriShape_ClearChanges(&sheet->shape);
     u->isScratch = false;
     sheet->seen.isElsewhere = true;

@@ -27,6 +27,22 @@ static bool IsFrameKept(const kiriExtract* extract, int32_t frame)
     return extract->keep.data[extract->from->layout.framePiece.data[frame]] != 0;
 }
 
+/* One of the kept frames that a pin holds: a line may hold more pieces than one. */
+static int32_t KeptFrameOfPin(const kiriExtract* extract, int32_t pin)
+{
+    const kiriLayout* layout = &extract->from->layout;
+    if (IsFrameKept(extract, layout->pinFrame.data[pin])) {
+        return layout->pinFrame.data[pin];
+    }
+    for (int32_t k = 0; k < layout->pinShares.count; ++k) {
+        const kiriPinShare* pinned = &layout->pinShares.data[k];
+        if (pinned->pin == pin && IsFrameKept(extract, pinned->share.frame)) {
+            return pinned->share.frame;
+        }
+    }
+    return KIRI_NONE;
+}
+
 static bool MapMesh(kiriExtract* extract)
 {
     const kiriSheetData* from = extract->from;
@@ -63,7 +79,7 @@ static bool MapRest(kiriExtract* extract)
         extract->pointTo.data[i] = IsFrameKept(extract, from->points.data[i].frame) ? points++ : KIRI_NONE;
     }
     for (int32_t i = 0; i < from->pins.count; ++i) {
-        extract->pinTo.data[i] = IsFrameKept(extract, from->layout.pinFrame.data[i]) ? pins++ : KIRI_NONE;
+        extract->pinTo.data[i] = KeptFrameOfPin(extract, i) != KIRI_NONE ? pins++ : KIRI_NONE;
     }
     return true;
 }
@@ -129,8 +145,7 @@ static bool CopyPins(const kiriExtract* extract, kiriSheetData* to)
     bool ok = true;
     for (int32_t i = 0; ok && i < from->pins.count; ++i) {
         if (extract->pinTo.data[i] != KIRI_NONE) {
-            int32_t frame = extract->frameTo.data[from->layout.pinFrame.data[i]];
-            ok = kiriPins_Add(to, &from->pins.data[i], frame);
+            ok = kiriPins_Add(to, &from->pins.data[i], extract->frameTo.data[KeptFrameOfPin(extract, i)]);
         }
     }
     return ok;
@@ -225,6 +240,18 @@ static void CopyStrainOffsets(const kiriExtract* extract, kiriSheetData* to)
     }
 }
 
+/* Shares come in the order that they had. */
+static void CopyPinOffsets(const kiriExtract* extract, kiriSheetData* to)
+{
+    const kiriPinShares* shares = &extract->from->layout.pinShares;
+    int32_t count = 0;
+    for (int32_t k = 0; k < shares->count && count < to->layout.pinShares.count; ++k) {
+        if (extract->frameTo.data[shares->data[k].share.frame] != KIRI_NONE) {
+            memcpy(to->layout.pinShares.data[count++].offset, shares->data[k].offset, sizeof(shares->data[k].offset));
+        }
+    }
+}
+
 static bool BuildPart(const kiriExtract* extract, kiriSheetData* to)
 {
     to->solver = kiriSolver_Create(to->memory, &to->settings.mechanics);
@@ -235,6 +262,7 @@ static bool BuildPart(const kiriExtract* extract, kiriSheetData* to)
     kiriBuild_Commit(to);
     CopyFrames(extract, to);
     CopyStrainOffsets(extract, to);
+    CopyPinOffsets(extract, to);
     kiriView_WritePositions(to);
     return true;
 }

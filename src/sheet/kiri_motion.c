@@ -1,19 +1,9 @@
 #include "kiri_motion.h"
 
 #include "../motion/kiri_prediction.h"
+#include "kiri_pin.h"
 
 #include <string.h>
-
-static void WritePinRows(kiriSheetData* sheet)
-{
-    sheet->pinRows.count = sheet->pins.count;
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        const kiriPinData* pin = &sheet->pins.data[i];
-        kiriPinRow row = { sheet->layout.pinFrame.data[i], kiriMesh_Local(&sheet->mesh, pin->at), pin->target,
-                           pin->stiffness };
-        sheet->pinRows.data[i] = row;
-    }
-}
 
 /* A contact acts on the frame whose region holds the point. The host has measured where the point is seen, between
    frames; the plane moves by as much as the frame's own point is off. */
@@ -48,6 +38,11 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
         sheet->strainOffsets.strainOffsets.count > 0 ? sheet->strainOffsets.strainOffsets.data : NULL;
     system.pins = sheet->pinRows.data;
     system.pinCount = sheet->pinRows.count;
+    system.clamps = sheet->clampRows.data;
+    system.clampCount = sheet->clampRows.count;
+    system.reactions.pins = sheet->pinReactions.data;
+    system.reactions.clamps = sheet->clampReactions.data;
+    system.reactions.frames = sheet->frameReactions.data;
     system.contacts = sheet->contactRows.data;
     system.contactCount = sheet->contactRows.count;
     system.mechanics = sheet->settings.mechanics;
@@ -84,11 +79,6 @@ void kiriMotion_Wake(kiriSheetData* sheet)
 {
     sheet->rest.asleep = false;
     sheet->rest.calm = 0.0;
-}
-
-void kiriMotion_ForgetHistory(kiriSheetData* sheet, int32_t frame)
-{
-    memset(&sheet->frames.data[frame].history, 0, sizeof(kiriHistory));
 }
 
 /* Hosts find contacts anew each tick, where a sheet that hardly moves is seen: a plane that passes the point as near as
@@ -176,15 +166,18 @@ static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system,
 
 static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
-    WritePinRows(sheet);
+    kiriPins_WriteRows(sheet);
     WriteContactRows(sheet);
     kiriSystem system = MakeSystem(sheet, gravity);
     kiriProgress progress = TakeSubsteps(sheet, &system, dt, substeps, systems);
     if (progress == KIRI_FAILED) {
         PutToRest(sheet);
         kiriMotion_Wake(sheet);
+        kiriPins_ClearReactions(sheet);
     } else if (progress == KIRI_DONE) {
+        kiriPins_TakeReactions(sheet, dt);
         kiriStrainOffsets_Advance(&sheet->strainOffsets, dt, sheet->seen.fades.time);
+        kiriPins_FadeOffsets(sheet, dt, sheet->seen.fades.time);
         sheet->rest.calm = IsCalm(sheet) ? sheet->rest.calm + dt : 0.0;
     }
     return progress;
@@ -200,13 +193,6 @@ kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt,
     EndContacts(sheet);
     ClearForces(sheet);
     return progress;
-}
-
-static void StoreDoubles(double* to, kiriVec3 a)
-{
-    to[0] = a.x;
-    to[1] = a.y;
-    to[2] = a.z;
 }
 
 kiriTotals kiriMotion_Sum(const kiriSheetData* sheet, const int32_t* indices, int32_t count)
@@ -225,9 +211,9 @@ kiriTotals kiriMotion_Sum(const kiriSheetData* sheet, const int32_t* indices, in
         angular = kiriVec3_Add(angular, kiriFrame_AngularMomentum(frame, &sheet->settings.material));
         angular = kiriVec3_Add(angular, kiriVec3_Cross(frame->x, p));
     }
-    StoreDoubles(totals.center, kiriVec3_Scale(1.0 / totals.mass, center));
-    StoreDoubles(totals.momentum, momentum);
-    StoreDoubles(totals.angularMomentum, angular);
+    kiriVec3_StoreDoubles(totals.center, kiriVec3_Scale(1.0 / totals.mass, center));
+    kiriVec3_StoreDoubles(totals.momentum, momentum);
+    kiriVec3_StoreDoubles(totals.angularMomentum, angular);
     return totals;
 }
 

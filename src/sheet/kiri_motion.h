@@ -9,9 +9,6 @@ KIRI_C_BEGIN
 /* What makes a sheet move that rests calls this: it is awake, for half a second at least. */
 void kiriMotion_Wake(kiriSheetData* sheet);
 
-/* What pulls at a frame has changed: the next step of its piece is by backward Euler. */
-void kiriMotion_ForgetHistory(kiriSheetData* sheet, int32_t frame);
-
 /* Moves the frames by dt in equal substeps, unless the sheet sleeps or falls asleep. An item of the quota is a linear
    system solved. KIRI_MORE: there was none left, and the frames are where they were. KIRI_FAILED: the motion could not
    be continued, the frames rest where they were. Forces and contacts are used up. */

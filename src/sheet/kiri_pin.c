@@ -1,45 +1,176 @@
 #include "kiri_pin.h"
 
-/* While an update is at hand regions may be half done: then the frame that weighs most at the corners. */
-static int32_t HeaviestAt(const kiriSheetData* sheet, int32_t triangle)
+#include "../motion/kiri_element.h"
+
+#include <string.h>
+
+/* ---- Geometry of lines -------------------------------------------------------------------------------------------- */
+
+/* A line of the rest plane, local m. */
+typedef struct RestLine {
+    kiriVec2 from, along; /* unit */
+    double length;
+} RestLine;
+
+static RestLine LineOf(const kiriSheetData* sheet, const kiriPinData* pin)
 {
-    const kiriSkin* skin = &sheet->vertexSkin;
-    kiriWeight heaviest = { KIRI_NONE, 0.0 };
-    for (int corner = 0; corner < 3; ++corner) {
-        kiriSpan span = skin->spans.data[sheet->mesh.triangles.data[triangle].vertex[corner]];
-        for (int32_t k = span.first; k < span.first + span.count; ++k) {
-            if (skin->weights.data[k].value > heaviest.value) {
-                heaviest = skin->weights.data[k];
-            }
-        }
-    }
-    return heaviest.frame;
+    kiriVec2 from = kiriMesh_Local(&sheet->mesh, pin->at);
+    kiriVec2 way = kiriVec2_Sub(kiriMesh_Local(&sheet->mesh, pin->to), from);
+    double length = kiriVec2_Length(way);
+    RestLine line = { from, kiriVec2_Scale(1.0 / length, way), length };
+    return line;
 }
 
-int32_t kiriPins_FrameAt(const kiriSheetData* sheet, kiriLatticePoint at)
+static kiriVec2 PointOn(const RestLine* line, double t)
 {
-    int32_t triangle = kiriMesh_Locate(&sheet->mesh, at);
-    if (triangle == KIRI_NONE) {
-        return KIRI_NONE;
+    return kiriVec2_Add(line->from, kiriVec2_Scale(t * line->length, line->along));
+}
+
+/* Of a share, about its centroid, m^3. */
+static double MomentOf(const RestLine* line, const kiriLineShare* share)
+{
+    double about = share->second - share->first * share->first / share->length;
+    return line->length * line->length * line->length * (about > 0.0 ? about : 0.0);
+}
+
+/* How much of the width is at free ends: see kiriLink. `foot` is where the way from the site meets the line. */
+static double OuterOf(const RestLine* line, const kiriLineShare* share, double foot)
+{
+    double before = share->open[0] ? foot - share->ends[0] : 0.0, behind = share->open[1] ? share->ends[1] - foot : 0.0;
+    double outer = (before > 0.0 ? before : 0.0) + (behind > 0.0 ? behind : 0.0);
+    return line->length * (outer < share->length ? outer : share->length);
+}
+
+/* What a share has of a line, for the site of its frame. */
+static kiriClampShape ShapeOf(const kiriSheetData* sheet, const RestLine* line, const kiriLineShare* share,
+                              kiriVec2 site)
+{
+    double foot = kiriVec2_Dot(kiriVec2_Sub(site, line->from), line->along);
+    kiriClampShape shape = { line->from,
+                             line->along,
+                             PointOn(line, share->first / share->length),
+                             line->length * share->length,
+                             MomentOf(line, share),
+                             OuterOf(line, share, foot / line->length),
+                             &sheet->settings.material,
+                             0.1 * sheet->grid.side,
+                             kiriMechanics_IsAffine(&sheet->settings.mechanics) };
+    return shape;
+}
+
+/* Where the host has a point of the line. */
+static kiriVec3 HeldPoint(const RestLine* line, kiriVec3 target, const kiriMat3* rotation, kiriVec2 point)
+{
+    kiriVec2 off = kiriVec2_Sub(point, PointOn(line, 0.5));
+    return kiriVec3_AddScaled(kiriVec3_AddScaled(target, off.x, rotation->u), off.y, rotation->v);
+}
+
+/* The mean of the frames' motion, by length. */
+void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin)
+{
+    RestLine line = LineOf(sheet, pin);
+    kiriVec2 middle = { 0.0, 0.0 };
+    kiriVec3 x = { 0.0, 0.0, 0.0 };
+    kiriMat3 A = { x, x, x };
+    double sum = 0.0;
+    for (int32_t k = 0; k < sheet->lineShares.count; ++k) {
+        const kiriLineShare* share = &sheet->lineShares.data[k];
+        const kiriFrameData* frame = &sheet->frames.data[share->frame];
+        kiriVec2 point = PointOn(&line, share->first / share->length);
+        middle = kiriVec2_Add(middle, kiriVec2_Scale(share->length, point));
+        x = kiriVec3_AddScaled(x, share->length, kiriFrame_Carry(frame, point));
+        A = kiriMat3_AddScaled(&A, share->length, &frame->A);
+        sum += share->length;
     }
-    if (!kiriUpdate_IsFieldCurrent(sheet->update)) {
-        return HeaviestAt(sheet, triangle);
+    pin->rotation = kiriMat3_Rotation(A);
+    kiriVec2 off = kiriVec2_Sub(PointOn(&line, 0.5), kiriVec2_Scale(1.0 / sum, middle));
+    kiriVec3 way = kiriVec3_AddScaled(kiriVec3_Scale(off.x, pin->rotation.u), off.y, pin->rotation.v);
+    pin->target = kiriVec3_AddScaled(way, 1.0 / sum, x);
+}
+
+/* ---- Pins come and go --------------------------------------------------------------------------------------------- */
+
+/* So many rows, and what they react with. */
+static bool ReserveRows(kiriSheetData* sheet, int64_t pins, int64_t shares, int64_t frames)
+{
+    return kiriArray_Reserve(sheet->memory, &sheet->pinRows, pins + 2 * shares) &&
+           kiriArray_Reserve(sheet->memory, &sheet->clampRows, shares) &&
+           kiriArray_Reserve(sheet->memory, &sheet->pinReactions, pins + 2 * shares) &&
+           kiriArray_Reserve(sheet->memory, &sheet->clampReactions, shares) &&
+           kiriArray_Reserve(sheet->memory, &sheet->frameReactions, frames);
+}
+
+/* Appends the shares of a line; there is room. Returns the frame that it holds most of, or `none` where there are no
+   shares. */
+static int32_t AppendShares(const kiriSheetData* sheet, int32_t pin, kiriPinShares* shares, int32_t none)
+{
+    const kiriLineShare* longest = NULL;
+    for (int32_t k = 0; k < sheet->lineShares.count; ++k) {
+        kiriPinShare share;
+        memset(&share, 0, sizeof(share));
+        share.pin = pin;
+        share.share = sheet->lineShares.data[k];
+        if (longest == NULL || share.share.length > longest->length) {
+            longest = &sheet->lineShares.data[k];
+        }
+        shares->data[shares->count++] = share;
     }
-    int32_t cell = kiriGrid_CellOf(&sheet->grid, &sheet->mesh, triangle, at);
-    return cell == KIRI_NONE ? HeaviestAt(sheet, triangle) : sheet->regions.field.owner.data[cell];
+    return longest != NULL ? longest->frame : none;
 }
 
 bool kiriPins_Add(kiriSheetData* sheet, const kiriPinData* pin, int32_t frame)
 {
-    int64_t need = (int64_t)sheet->pins.count + 1;
+    int64_t need = (int64_t)sheet->pins.count + 1, shares = sheet->layout.pinShares.count;
+    shares += pin->type == KIRI_PIN_POINT ? 0 : sheet->lineShares.count;
     if (!kiriArray_Reserve(sheet->memory, &sheet->pins, need) ||
-        !kiriArray_Reserve(sheet->memory, &sheet->pinRows, need) ||
-        !kiriArray_Reserve(sheet->memory, &sheet->layout.pinFrame, need)) {
+        !kiriArray_Reserve(sheet->memory, &sheet->layout.pinFrame, need) ||
+        !kiriArray_Reserve(sheet->memory, &sheet->layout.pinShares, shares) ||
+        !ReserveRows(sheet, need, shares, sheet->frames.count)) {
         return false;
     }
-    sheet->pins.data[sheet->pins.count++] = *pin;
+    int32_t index = sheet->pins.count++;
+    sheet->pins.data[index] = *pin;
+    if (pin->type != KIRI_PIN_POINT) {
+        frame = AppendShares(sheet, index, &sheet->layout.pinShares, frame);
+    }
     sheet->layout.pinFrame.data[sheet->layout.pinFrame.count++] = frame;
     return true;
+}
+
+static void ForgetHistory(kiriFrameData* frame)
+{
+    memset(&frame->history, 0, sizeof(frame->history));
+}
+
+void kiriPins_ForgetHistory(kiriSheetData* sheet, int32_t index)
+{
+    const kiriPinShares* shares = &sheet->layout.pinShares;
+    ForgetHistory(&sheet->frames.data[sheet->layout.pinFrame.data[index]]);
+    for (int32_t k = 0; k < shares->count; ++k) {
+        if (shares->data[k].pin == index) {
+            ForgetHistory(&sheet->frames.data[shares->data[k].share.frame]);
+        }
+    }
+}
+
+/* Those of the last pin, which are last, take the place of those of the one that goes. */
+static void RemoveShares(kiriPinShares* shares, int32_t index, int32_t last)
+{
+    int32_t kept = 0, moved;
+    for (int32_t k = 0; k < shares->count; ++k) {
+        if (shares->data[k].pin != index) {
+            shares->data[kept++] = shares->data[k];
+        }
+    }
+    shares->count = kept;
+    for (int32_t k = 0; k < kept; ++k) {
+        kiriPinShare share = shares->data[k];
+        share.pin = share.pin == last ? index : share.pin;
+        for (moved = k; moved > 0 && shares->data[moved - 1].pin > share.pin; --moved) {
+            shares->data[moved] = shares->data[moved - 1];
+        }
+        shares->data[moved] = share;
+    }
 }
 
 void kiriPins_Remove(kiriSheetData* sheet, int32_t index)
@@ -49,4 +180,232 @@ void kiriPins_Remove(kiriSheetData* sheet, int32_t index)
     sheet->layout.pinFrame.count = last;
     sheet->pins.data[index] = sheet->pins.data[last];
     sheet->layout.pinFrame.data[index] = sheet->layout.pinFrame.data[last];
+    RemoveShares(&sheet->layout.pinShares, index, last);
+}
+
+/* ---- Staging ------------------------------------------------------------------------------------------------------ */
+
+bool kiriPins_Stage(kiriSheetData* sheet)
+{
+    kiriLayout* next = &sheet->update->next;
+    int32_t frames = sheet->update->placing.sites.count;
+    next->pinShares.count = 0;
+    bool ok = kiriArray_Resize(sheet->memory, &next->pinFrame, sheet->pins.count);
+    for (int32_t i = 0; ok && i < sheet->pins.count; ++i) {
+        const kiriPinData* pin = &sheet->pins.data[i];
+        if (pin->type == KIRI_PIN_POINT) {
+            int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, pin->at);
+            next->pinFrame.data[i] = sheet->regions.field.owner.data[cell];
+            continue;
+        }
+        ok = kiriOwner_FindShares(sheet, pin->at, pin->to, true) &&
+             kiriArray_Reserve(sheet->memory, &next->pinShares,
+                               (int64_t)next->pinShares.count + sheet->lineShares.count);
+        if (ok) {
+            next->pinFrame.data[i] = AppendShares(sheet, i, &next->pinShares, sheet->layout.pinFrame.data[i]);
+        }
+    }
+    return ok && ReserveRows(sheet, sheet->pins.count, next->pinShares.count, frames);
+}
+
+/* ---- Rows --------------------------------------------------------------------------------------------------------- */
+
+static void WritePoint(kiriSheetData* sheet, int32_t pin)
+{
+    const kiriPinData* data = &sheet->pins.data[pin];
+    kiriPinRow row = { sheet->layout.pinFrame.data[pin], kiriMesh_Local(&sheet->mesh, data->at), data->target,
+                       data->stiffness };
+    sheet->pinRows.data[sheet->pinRows.count++] = row;
+}
+
+/* A hinge holds a line by springs all along it, as stiff as the material up to the site. Two springs, where two equal
+   masses have the line's length, centroid and moment, are the same. */
+static void WriteHinge(kiriSheetData* sheet, const kiriPinShare* pinned)
+{
+    const kiriMaterial* material = &sheet->settings.material;
+    const kiriPinData* pin = &sheet->pins.data[pinned->pin];
+    kiriVec2 site = sheet->frames.data[pinned->share.frame].site.at;
+    RestLine line = LineOf(sheet, pin);
+    kiriClampShape shape = ShapeOf(sheet, &line, &pinned->share, site);
+    double away = fabs(kiriVec2_Dot(kiriVec2_Sub(site, line.from), kiriVec2_Make(-line.along.y, line.along.x)));
+    double length = away > shape.least ? away : shape.least;
+    double stiffness = (double)material->youngsModulus * material->thickness * shape.width / length;
+    kiriVec2 arm = kiriVec2_Scale(sqrt(shape.moment / shape.width), line.along);
+    const kiriVec2 at[2] = { kiriVec2_Sub(shape.centroid, arm), kiriVec2_Add(shape.centroid, arm) };
+    for (int k = 0; k < 2; ++k) {
+        kiriVec3 target = HeldPoint(&line, pin->target, &pin->rotation, at[k]);
+        kiriPinRow spring = { pinned->share.frame, at[k], target, 0.5 * stiffness };
+        sheet->pinRows.data[sheet->pinRows.count++] = spring;
+    }
+}
+
+/* In a planar sheet, what is across the plane is dropped. */
+static kiriVec3 IntoPlane(const kiriSheetData* sheet, const kiriFrameData* frame, kiriVec3 x)
+{
+    const kiriMechanics* mechanics = &sheet->settings.mechanics;
+    kiriVec3 off = kiriVec3_Sub(x, frame->x);
+    return mechanics->planar ? kiriVec3_AddScaled(x, -kiriVec3_Dot(off, mechanics->axes.d), mechanics->axes.d) : x;
+}
+
+/* What a clamp holds of a frame. */
+static kiriClampRow ClampRowOf(const kiriSheetData* sheet, const kiriPinShare* pinned, const kiriFrameData* frame)
+{
+    const kiriPinData* pin = &sheet->pins.data[pinned->pin];
+    RestLine line = LineOf(sheet, pin);
+    kiriClampShape shape = ShapeOf(sheet, &line, &pinned->share, frame->site.at);
+    kiriClampRow row;
+    memset(&row, 0, sizeof(row));
+    row.frame = pinned->share.frame;
+    kiriClamp_Shape(&row, &shape, frame->site.at);
+    row.pose.x = IntoPlane(sheet, frame, HeldPoint(&line, pin->target, &pin->rotation, row.foot));
+    row.pose.A = pin->rotation;
+    row.start.x = IntoPlane(sheet, frame, HeldPoint(&line, pin->lastTarget, &pin->lastRotation, row.foot));
+    row.start.A = pin->lastRotation;
+    memcpy(row.offset, pinned->offset, sizeof(row.offset));
+    return row;
+}
+
+static void ClearReactions(kiriSheetData* sheet)
+{
+    sheet->pinReactions.count = sheet->pinRows.count;
+    sheet->clampReactions.count = sheet->clampRows.count;
+    sheet->frameReactions.count = sheet->frames.count;
+    KIRI_ASSERT(sheet->frameReactions.capacity >= sheet->frames.count);
+    const kiriReaction none = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+    for (int32_t k = 0; k < sheet->pinReactions.count; ++k) {
+        sheet->pinReactions.data[k] = none;
+    }
+    for (int32_t k = 0; k < sheet->clampReactions.count; ++k) {
+        sheet->clampReactions.data[k] = none;
+    }
+    for (int32_t k = 0; k < sheet->frameReactions.count; ++k) {
+        sheet->frameReactions.data[k] = none;
+    }
+}
+
+void kiriPins_WriteRows(kiriSheetData* sheet)
+{
+    const kiriPinShares* shares = &sheet->layout.pinShares;
+    sheet->pinRows.count = sheet->clampRows.count = 0;
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        if (sheet->pins.data[i].type == KIRI_PIN_POINT) {
+            WritePoint(sheet, i);
+        }
+    }
+    for (int32_t k = 0; k < shares->count; ++k) {
+        const kiriPinShare* pinned = &shares->data[k];
+        if (sheet->pins.data[pinned->pin].type == KIRI_PIN_HINGE) {
+            WriteHinge(sheet, pinned);
+        } else {
+            const kiriFrameData* frame = &sheet->frames.data[pinned->share.frame];
+            sheet->clampRows.data[sheet->clampRows.count++] = ClampRowOf(sheet, pinned, frame);
+        }
+    }
+    ClearReactions(sheet);
+}
+
+/* ---- Strains that clamps keep ------------------------------------------------------------------------------------- */
+
+static void MeasureClamp(const kiriSheetData* sheet, const kiriPinShare* pinned, const kiriFrameData* frame,
+                         double* strain)
+{
+    kiriClampRow row = ClampRowOf(sheet, pinned, frame);
+    kiriPose pose = kiriPose_Of(frame);
+    kiriClamp_Measure(&row, frame, &row.pose, &pose, strain, NULL);
+}
+
+static const kiriPinShare* FindPinned(const kiriPinShares* shares, int32_t pin, int32_t frame)
+{
+    for (int32_t k = 0; k < shares->count; ++k) {
+        if (shares->data[k].pin == pin && shares->data[k].share.frame == frame) {
+            return &shares->data[k];
+        }
+    }
+    return NULL;
+}
+
+void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old, const kiriFrameData* frames)
+{
+    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+        kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+        int32_t frame = pinned->share.frame;
+        if (sheet->pins.data[pinned->pin].type != KIRI_PIN_CLAMP) {
+            continue;
+        }
+        const kiriPinShare* older = FindPinned(old, pinned->pin, frame);
+        double was[KIRI_CLAMP_STRAINS] = { 0.0 };
+        MeasureClamp(sheet, pinned, &sheet->frames.data[frame], pinned->offset);
+        if (older != NULL) {
+            MeasureClamp(sheet, older, &frames[frame], was);
+        }
+        for (int e = 0; e < KIRI_STRAINS; ++e) {
+            pinned->offset[e] -= older != NULL ? was[e] - older->offset[e] : 0.0;
+        }
+    }
+}
+
+void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time)
+{
+    double keep = time / (time + dt);
+    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+        for (int e = 0; e < KIRI_CLAMP_STRAINS; ++e) {
+            double* offset = &sheet->layout.pinShares.data[k].offset[e];
+            *offset = fabs(*offset) > 1e-12 ? keep * *offset : 0.0;
+        }
+    }
+}
+
+/* ---- Reactions ---------------------------------------------------------------------------------------------------- */
+
+/* Adds one that was taken about `at`. */
+static void AddReaction(kiriPinData* pin, const kiriReaction* reaction, kiriVec3 at, double perTime)
+{
+    kiriVec3 arm = kiriVec3_Sub(at, pin->target);
+    kiriVec3 moment = kiriVec3_Add(reaction->moment, kiriVec3_Cross(arm, reaction->impulse));
+    pin->force = kiriVec3_AddScaled(pin->force, perTime, reaction->impulse);
+    pin->torque = kiriVec3_AddScaled(pin->torque, perTime, moment);
+}
+
+static void TakePinReactions(kiriSheetData* sheet, double perTime)
+{
+    int32_t row = 0, clamp = 0;
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        kiriPinData* pin = &sheet->pins.data[i];
+        pin->force = pin->torque = kiriVec3_Make(0.0, 0.0, 0.0);
+        if (pin->type == KIRI_PIN_POINT) {
+            AddReaction(pin, &sheet->pinReactions.data[row], sheet->pinRows.data[row].target, perTime);
+            ++row;
+        }
+    }
+    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+        kiriPinData* pin = &sheet->pins.data[sheet->layout.pinShares.data[k].pin];
+        if (pin->type == KIRI_PIN_CLAMP) {
+            AddReaction(pin, &sheet->clampReactions.data[clamp], sheet->clampRows.data[clamp].pose.x, perTime);
+            ++clamp;
+            continue;
+        }
+        for (int end = 0; end < 2; ++end, ++row) {
+            AddReaction(pin, &sheet->pinReactions.data[row], sheet->pinRows.data[row].target, perTime);
+        }
+    }
+}
+
+void kiriPins_TakeReactions(kiriSheetData* sheet, double dt)
+{
+    TakePinReactions(sheet, 1.0 / dt);
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        kiriFrameData* frame = &sheet->frames.data[i];
+        frame->reaction = kiriVec3_Scale(1.0 / dt, sheet->frameReactions.data[i].impulse);
+        frame->reactionTorque = kiriVec3_Scale(1.0 / dt, sheet->frameReactions.data[i].moment);
+    }
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        sheet->pins.data[i].lastTarget = sheet->pins.data[i].target;
+        sheet->pins.data[i].lastRotation = sheet->pins.data[i].rotation;
+    }
+}
+
+void kiriPins_ClearReactions(kiriSheetData* sheet)
+{
+    ClearReactions(sheet);
+    kiriPins_TakeReactions(sheet, 1.0);
 }

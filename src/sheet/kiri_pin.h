@@ -1,19 +1,40 @@
-/* Pins: points of the material that the host holds. */
+/* Pins: points and lines of the material that the host holds. */
 #ifndef KIRI_PIN_H
 #define KIRI_PIN_H
 
-#include "kiri_update.h"
+#include "kiri_owner.h"
 
 KIRI_C_BEGIN
 
-/* The index of the frame that holds a point of the material; KIRI_NONE outside. */
-int32_t kiriPins_FrameAt(const kiriSheetData* sheet, kiriLatticePoint at);
-
-/* Adds a pin and all the room that it needs; false for memory. */
+/* Adds a pin and all the room that it needs. A point is held by `frame`; a line by the frames of sheet->lineShares. False
+   for memory. */
 bool kiriPins_Add(kiriSheetData* sheet, const kiriPinData* pin, int32_t frame);
+
+/* What the pin holds goes on with a step of backward Euler: it was made, or will be moved or removed. */
+void kiriPins_ForgetHistory(kiriSheetData* sheet, int32_t index);
 
 /* The last pin takes its index. */
 void kiriPins_Remove(kiriSheetData* sheet, int32_t index);
+
+/* Stages which frames the pins hold after the next commit, with all the room that they need. False for memory. */
+bool kiriPins_Stage(kiriSheetData* sheet);
+
+/* After the commit, where links keep their strains (kiri_strain_offset.h): clamps go on with the strains that they had
+   when frames and shares were `frames` and `old`; on a frame that they did not hold they begin without any. */
+void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old, const kiriFrameData* frames);
+
+/* The offsets that this leaves fade to 1/e within `time` (s). */
+void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time);
+
+/* The pose of a line where its material is now. */
+void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin);
+
+/* Writes what the solver reads; then, after the tick, what pins and held frames had to bear in it. */
+void kiriPins_WriteRows(kiriSheetData* sheet);
+void kiriPins_TakeReactions(kiriSheetData* sheet, double dt);
+
+/* Where the motion could not be continued: pins and holds had nothing to bear. */
+void kiriPins_ClearReactions(kiriSheetData* sheet);
 
 KIRI_C_END
 

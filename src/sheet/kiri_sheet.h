@@ -6,6 +6,7 @@
 
 #include "../field/kiri_place.h"
 #include "../mesh/kiri_cut.h"
+#include "../mesh/kiri_line.h"
 #include "../motion/kiri_integration.h"
 #include "../core/kiri_pool.h"
 #include "../motion/kiri_refit.h"
@@ -21,11 +22,30 @@ typedef struct kiriPiece {
     bool cameOff;   /* it is not the largest part of its origin: that goes on, the others came off */
 } kiriPiece;
 
+/* What of a line belongs to one frame. Places on the line and lengths go from 0 to 1. */
+typedef struct kiriLineShare {
+    int32_t frame;
+    double length, first, second; /* integrals of 1, t, t^2 over what has material of the frame on one side at least */
+    double load, firstLoad;       /* of 1 and t, where what has another frame on its other side counts half */
+    double ends[2];               /* its lowest and its highest t */
+    int32_t open[2];              /* is no frame that it is linked with beyond them? */
+} kiriLineShare;
+
+/* What a pin along a line holds of one frame. */
+typedef struct kiriPinShare {
+    int32_t pin; /* its index */
+    kiriLineShare share;
+    double offset[KIRI_CLAMP_STRAINS]; /* of a clamp's strains, see kiri_strain_offset.h */
+} kiriPinShare;
+
+typedef KIRI_ARRAY(kiriPinShare) kiriPinShares;
+
 /* What moves the sheet, and what of it is staged for the next commit. Pieces are numbered by their lowest frame. */
 typedef struct kiriLayout {
     KIRI_ARRAY(kiriPiece) pieces;
     KIRI_ARRAY(int32_t) framePiece; /* of each frame */
-    KIRI_ARRAY(int32_t) pinFrame;   /* the frame that each pin holds */
+    KIRI_ARRAY(int32_t) pinFrame;   /* the frame that each pin holds; of a line, the one it holds most of */
+    kiriPinShares pinShares;        /* of pins along lines, in the order of pins, then along the line */
     kiriAreaElements areaElements;  /* of affine frames */
 } kiriLayout;
 
@@ -45,9 +65,14 @@ typedef struct kiriPieceLists {
 
 typedef struct kiriPinData {
     kiriPin id;
-    kiriLatticePoint at; /* in the material */
-    kiriVec3 target;
-    double stiffness;
+    int32_t type;            /* KIRI_PIN_... */
+    kiriLatticePoint at, to; /* in the material: a point, twice; or the ends of a line */
+    kiriVec3 target;         /* of the point, or of the middle of the line */
+    kiriMat3 rotation;       /* of a line */
+    kiriVec3 lastTarget;     /* in the last tick */
+    kiriMat3 lastRotation;
+    double stiffness;       /* of a point */
+    kiriVec3 force, torque; /* on the sheet, about the target: mean of the last tick that moved it */
 } kiriPinData;
 
 /* How far a cut has come. */
@@ -140,8 +165,12 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriContact) contacts; /* of the next tick */
 
     /* Room reserved by whoever makes it needed, so that a tick without a cut allocates nothing. */
-    KIRI_ARRAY(kiriPinRow) pinRows;
+    KIRI_ARRAY(kiriPinRow) pinRows;     /* points, then two for each share of a hinge */
+    KIRI_ARRAY(kiriClampRow) clampRows; /* one for each share of a clamp */
     KIRI_ARRAY(kiriContactRow) contactRows;
+    KIRI_ARRAY(kiriReaction) pinReactions, clampReactions, frameReactions; /* of rows, and of frames */
+    kiriLine line;                        /* what was asked last, */
+    KIRI_ARRAY(kiriLineShare) lineShares; /* and what of it belongs to each frame */
 
     kiriRest rest;
     kiriSeen seen;

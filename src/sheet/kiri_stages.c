@@ -2,6 +2,7 @@
 
 #include "../motion/kiri_affine.h"
 #include "kiri_piece.h"
+#include "kiri_pin.h"
 #include "kiri_seen.h"
 #include "kiri_site.h"
 
@@ -326,19 +327,6 @@ static bool BuildAreaElements(kiriSheetData* sheet)
     }
 }
 
-static bool FindPinFrames(kiriSheetData* sheet)
-{
-    kiriLayout* next = &sheet->update->next;
-    if (!kiriArray_Resize(sheet->memory, &next->pinFrame, sheet->pins.count)) {
-        return false;
-    }
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, sheet->pins.data[i].at);
-        next->pinFrame.data[i] = sheet->regions.field.owner.data[cell];
-    }
-    return true;
-}
-
 static bool ReservePoints(kiriSheetData* sheet)
 {
     const kiriUpdate* u = sheet->update;
@@ -377,7 +365,7 @@ kiriProgress kiriStage_Constants(kiriSheetData* sheet, kiriQuota* none)
                kiriStrainOffsets_Reserve(&sheet->strainOffsets, sheet->memory,
                                          Larger(sheet->links.next.count, sheet->links.links.count),
                                          u->placing.sites.count)) &&
-              BuildAreaElements(sheet) && FindPinFrames(sheet) && ReservePoints(sheet) &&
+              BuildAreaElements(sheet) && kiriPins_Stage(sheet) && ReservePoints(sheet) &&
               kiriRefit_Stage(&u->refit, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, u->isScratch) &&
               kiriArray_Reserve(sheet->memory, &sheet->frames, u->placing.sites.count) && StageSolver(sheet);
     return ok ? KIRI_DONE : KIRI_FAILED;

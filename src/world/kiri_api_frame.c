@@ -62,14 +62,9 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
         return KIRI_OK;
     }
     KIRI_CHECK(kiriCall_AreFinite(position, 3), "position is not finite");
-    KIRI_CHECK(kiriCall_AreOrthonormal(&rotation[0], &rotation[3]) &&
-                   kiriCall_AreOrthonormal(&rotation[3], &rotation[6]) &&
-                   kiriCall_AreOrthonormal(&rotation[6], &rotation[0]),
-               "rotation is not orthonormal");
+    const char* why = kiriCall_FaultOfRotation(sheet, rotation);
+    KIRI_CHECK(why == NULL, why);
     kiriMat3 m = { kiriVec3_Load(&rotation[0]), kiriVec3_Load(&rotation[3]), kiriVec3_Load(&rotation[6]) };
-    KIRI_CHECK(kiriVec3_Dot(kiriVec3_Cross(m.u, m.v), m.d) > 0.0, "rotation mirrors");
-    KIRI_CHECK(!sheet->settings.mechanics.planar || kiriVec3_Dot(m.d, sheet->settings.mechanics.axes.d) > 0.999999,
-               "rotation turns a planar sheet out of its plane");
     kiriFrameData before = *data;
     data->held = 1;
     data->heldPosition = kiriVec3_Load(position);
@@ -82,20 +77,15 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
     return KIRI_OK;
 }
 
-kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3], const float torque[3])
+kiriResult kiriFrame_GetReaction(const kiriWorld* world, kiriFrame frame, double force[3], double torque[3])
 {
-    KIRI_CHANGES(world);
-    KIRI_CHECK(force != NULL && torque != NULL && kiriCall_AreFinite(force, 3) && kiriCall_AreFinite(torque, 3),
-               "force or torque is null or not finite");
-    kiriFrameData* data = FindFrame(world, frame);
+    KIRI_READS(world);
+    KIRI_CHECK(force != NULL && torque != NULL, "force or torque is null");
+    const kiriFrameData* data = FindFrame(world, frame);
     if (data == NULL) {
         return KIRI_FAIL(KIRI_ERROR_ID, "there is no frame with this id");
     }
-    kiriVec3 none = { 0.0, 0.0, 0.0 };
-    data->force = kiriVec3_Add(data->force, kiriVec3_Load(force));
-    data->torque = kiriVec3_Add(data->torque, kiriVec3_Load(torque));
-    if (!kiriVec3_Equal(kiriVec3_Load(force), none) || !kiriVec3_Equal(kiriVec3_Load(torque), none)) {
-        kiriMotion_Wake(kiriPool_Find(&world->frameIds, frame)->owner);
-    }
+    kiriVec3_StoreDoubles(force, data->reaction);
+    kiriVec3_StoreDoubles(torque, data->reactionTorque);
     return KIRI_OK;
 }

@@ -13,6 +13,31 @@ void kiriDefaultPinDef(kiriPinDef* def)
     }
 }
 
+static kiriPinData MakePin(int32_t type)
+{
+    kiriPinData pin;
+    memset(&pin, 0, sizeof(pin));
+    pin.type = type;
+    pin.rotation.u.x = pin.rotation.v.y = pin.rotation.d.z = 1.0;
+    pin.lastRotation = pin.rotation;
+    return pin;
+}
+
+static kiriResult AddPin(kiriWorld* world, kiriSheetData* data, const kiriPinData* made, int32_t frame, kiriPin* pin)
+{
+    kiriResult result = kiriWorld_ReserveIds(world, &world->pinIds, 1);
+    if (result == KIRI_OK && !kiriPins_Add(data, made, frame)) {
+        result = KIRI_ERROR_MEMORY;
+    }
+    if (result == KIRI_OK) {
+        *pin = kiriPool_Add(&world->pinIds, &world->memory, data, data->pins.count - 1);
+        data->pins.data[data->pins.count - 1].id = *pin;
+        kiriPins_ForgetHistory(data, data->pins.count - 1);
+        kiriMotion_Wake(data);
+    }
+    return result;
+}
+
 kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* def, kiriPin* pin)
 {
     KIRI_CHANGES(world);
@@ -25,28 +50,74 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
                    kiriCall_IsAtLeast(def->stiffness, 0.0f),
                "restPoint, target or stiffness is not finite, or stiffness below 0");
     KIRI_FIND_SHEET(data, sheet);
-    kiriPinData made;
-    memset(&made, 0, sizeof(made));
+    kiriPinData made = MakePin(KIRI_PIN_POINT);
     bool inRange = kiriSheet_ToLattice(data, def->restPoint, &made.at);
-    int32_t frame = inRange ? kiriPins_FrameAt(data, made.at) : KIRI_NONE;
+    int32_t frame = inRange ? kiriOwner_At(data, made.at) : KIRI_NONE;
     KIRI_CHECK(frame != KIRI_NONE, "restPoint lies outside the material");
-    made.target = kiriVec3_Load(def->target);
+    made.to = made.at;
+    made.target = made.lastTarget = kiriVec3_Load(def->target);
     made.stiffness = def->stiffness > 0.0f
                          ? def->stiffness
                          : 10.0 * data->settings.material.youngsModulus * data->settings.material.thickness;
-    kiriResult result = kiriWorld_ReserveIds(world, &world->pinIds, 1);
-    if (result == KIRI_OK && !kiriPins_Add(data, &made, frame)) {
-        result = KIRI_ERROR_MEMORY;
-    }
-    if (result != KIRI_OK) {
-        return KIRI_FAIL(result, NULL);
-    }
-    *pin = kiriPool_Add(&world->pinIds, &world->memory, data, data->pins.count - 1);
-    data->pins.data[data->pins.count - 1].id = *pin;
-    kiriMotion_ForgetHistory(data, frame);
-    kiriMotion_Wake(data);
-    return KIRI_OK;
+    kiriResult result = AddPin(world, data, &made, frame, pin);
+    return result == KIRI_OK ? KIRI_OK : KIRI_FAIL(result, NULL);
 }
+
+/* ---- Lines -------------------------------------------------------------------------------------------------------- */
+
+static kiriResult AddLine(kiriWorld* world, kiriSheetData* data, int32_t type, const kiriLatticePoint ends[2],
+                          kiriPin* pin)
+{
+    kiriPinData made = MakePin(type);
+    made.at = ends[0];
+    made.to = ends[1];
+    kiriPin_TakePose(data, &made);
+    made.lastTarget = made.target;
+    made.lastRotation = made.rotation;
+    return AddPin(world, data, &made, KIRI_NONE, pin);
+}
+
+/* Finds what the line meets. *why says what is wrong, or is null where the result says it all. */
+static kiriResult FindLine(kiriSheetData* data, const float from[2], const float to[2], kiriLatticePoint ends[2],
+                           const char** why)
+{
+    *why = kiriCall_FaultOfLine(data, from, to, ends);
+    if (*why == NULL && !kiriOwner_FindShares(data, ends[0], ends[1], false)) {
+        return KIRI_ERROR_MEMORY;
+    }
+    *why = *why == NULL && data->lineShares.count == 0 ? "the line meets no material" : *why;
+    return *why == NULL ? KIRI_OK : KIRI_ERROR_ARGUMENT;
+}
+
+kiriResult kiriSheet_ClampLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
+                               kiriPin* clamp)
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(clamp != NULL, "clamp is null");
+    *clamp = 0;
+    KIRI_FIND_SHEET(data, sheet);
+    kiriLatticePoint ends[2];
+    const char* why = NULL;
+    kiriResult result = FindLine(data, from, to, ends, &why);
+    result = result == KIRI_OK ? AddLine(world, data, KIRI_PIN_CLAMP, ends, clamp) : result;
+    return result == KIRI_OK ? KIRI_OK : KIRI_FAIL(result, why);
+}
+
+kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
+                               kiriPin* hinge)
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(hinge != NULL, "hinge is null");
+    *hinge = 0;
+    KIRI_FIND_SHEET(data, sheet);
+    kiriLatticePoint ends[2];
+    const char* why = NULL;
+    kiriResult result = FindLine(data, from, to, ends, &why);
+    result = result == KIRI_OK ? AddLine(world, data, KIRI_PIN_HINGE, ends, hinge) : result;
+    return result == KIRI_OK ? KIRI_OK : KIRI_FAIL(result, why);
+}
+
+/* ---- All pins ----------------------------------------------------------------------------------------------------- */
 
 kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3])
 {
@@ -56,9 +127,78 @@ kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3
     kiriPinData* data = &sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index];
     if (!kiriVec3_Equal(data->target, kiriVec3_Load(target))) {
         data->target = kiriVec3_Load(target);
-        kiriMotion_ForgetHistory(sheet, sheet->layout.pinFrame.data[data - sheet->pins.data]);
+        kiriPins_ForgetHistory(sheet, (int32_t)(data - sheet->pins.data));
         kiriMotion_Wake(sheet);
     }
+    return KIRI_OK;
+}
+
+kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float target[3], const float rotation[9])
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(target != NULL && kiriCall_AreFinite(target, 3), "target is null or not finite");
+    KIRI_CHECK(rotation != NULL && kiriCall_AreFinite(rotation, 9), "rotation is null or not finite");
+    KIRI_FIND_PIN_SHEET(sheet, pin);
+    kiriPinData* data = &sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index];
+    KIRI_CHECK(data->type != KIRI_PIN_POINT, "the pin holds a point, which has no rotation");
+    const char* why = kiriCall_FaultOfRotation(sheet, rotation);
+    KIRI_CHECK(why == NULL, why);
+    const kiriPinData before = *data;
+    kiriMat3 m = { kiriVec3_Load(&rotation[0]), kiriVec3_Load(&rotation[3]), kiriVec3_Load(&rotation[6]) };
+    data->target = kiriVec3_Load(target);
+    data->rotation = kiriMat3_Rotation(m);
+    if (!kiriVec3_Equal(before.target, data->target) || !kiriVec3_Equal(before.rotation.u, data->rotation.u) ||
+        !kiriVec3_Equal(before.rotation.v, data->rotation.v)) {
+        kiriPins_ForgetHistory(sheet, (int32_t)(data - sheet->pins.data));
+        kiriMotion_Wake(sheet);
+    }
+    return KIRI_OK;
+}
+
+static void StoreRest(const kiriSheetData* sheet, kiriLatticePoint at, float rest[2])
+{
+    kiriVec2 point = kiriVec2_Add(sheet->mesh.origin, kiriMesh_Local(&sheet->mesh, at));
+    rest[0] = (float)point.x;
+    rest[1] = (float)point.y;
+}
+
+kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* state)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(state != NULL, "state is null");
+    KIRI_FIND_PIN_SHEET(sheet, pin);
+    const kiriPinData* data = &sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index];
+    state->type = data->type;
+    state->sheet = sheet->id;
+    StoreRest(sheet, data->at, state->from);
+    StoreRest(sheet, data->to, state->to);
+    kiriVec3_Store(state->target, data->target);
+    kiriVec3_Store(&state->rotation[0], data->rotation.u);
+    kiriVec3_Store(&state->rotation[3], data->rotation.v);
+    kiriVec3_Store(&state->rotation[6], data->rotation.d);
+    return KIRI_OK;
+}
+
+kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, double force[3], double torque[3])
+{
+    KIRI_READS(world);
+    KIRI_CHECK(force != NULL && torque != NULL, "force or torque is null");
+    KIRI_FIND_PIN_SHEET(sheet, pin);
+    const kiriPinData* data = &sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index];
+    kiriVec3_StoreDoubles(force, data->force);
+    kiriVec3_StoreDoubles(torque, data->torque);
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* pins, int32_t capacity, int32_t* count)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(count != NULL && (capacity == 0 || (capacity > 0 && pins != NULL)), "count is null, or pins is");
+    KIRI_FIND_SHEET(data, sheet);
+    for (int32_t i = 0; i < data->pins.count && i < capacity; ++i) {
+        pins[i] = data->pins.data[i].id;
+    }
+    *count = data->pins.count;
     return KIRI_OK;
 }
 
@@ -67,7 +207,7 @@ kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin)
     KIRI_CHANGES(world);
     KIRI_FIND_PIN_SHEET(sheet, pin);
     int32_t index = kiriPool_Find(&world->pinIds, pin)->index;
-    kiriMotion_ForgetHistory(sheet, sheet->layout.pinFrame.data[index]);
+    kiriPins_ForgetHistory(sheet, index);
     kiriPins_Remove(sheet, index);
     kiriMotion_Wake(sheet);
     if (index < sheet->pins.count) {

@@ -67,6 +67,13 @@ bool kiriCall_IsAtLeast(float value, float low);
 bool kiriCall_IsWithin(int32_t value, int32_t low, int32_t high);
 bool kiriCall_AreOrthonormal(const float a[3], const float b[3]);
 
+/* What is wrong with the rotation of a part of the sheet, or null. */
+const char* kiriCall_FaultOfRotation(const kiriSheetData* sheet, const float rotation[9]);
+
+/* What is wrong with a line of the rest plane, or null and its ends. */
+const char* kiriCall_FaultOfLine(const kiriSheetData* sheet, const float from[2], const float to[2],
+                                 kiriLatticePoint ends[2]);
+
 KIRI_C_END
 
 #endif

@@ -93,6 +93,18 @@ static void HashAreaElements(uint64_t* hash, const kiriAreaElements* elements)
     }
 }
 
+static void HashPinShare(uint64_t* hash, const kiriPinShare* pinned)
+{
+    const kiriLineShare* share = &pinned->share;
+    kiriHash_Int32(hash, pinned->pin);
+    kiriHash_Int32(hash, share->frame);
+    HashVec3(hash, kiriVec3_Make(share->length, share->first, share->second));
+    for (int end = 0; end < 2; ++end) {
+        kiriHash_Double(hash, share->ends[end]);
+        kiriHash_Int32(hash, share->open[end]);
+    }
+}
+
 void kiriStateHash_AddLayout(uint64_t* hash, const kiriSheetData* sheet)
 {
     HashMesh(hash, &sheet->mesh);
@@ -115,6 +127,9 @@ void kiriStateHash_AddLayout(uint64_t* hash, const kiriSheetData* sheet)
     }
     for (int32_t i = 0; i < layout->pinFrame.count; ++i) {
         kiriHash_Int32(hash, layout->pinFrame.data[i]);
+    }
+    for (int32_t k = 0; k < layout->pinShares.count; ++k) {
+        HashPinShare(hash, &layout->pinShares.data[k]);
     }
 }
 
@@ -163,6 +178,8 @@ static void HashFrame(uint64_t* hash, const kiriFrameData* frame)
         HashVec3(hash, frame->heldRotation.u);
         HashVec3(hash, frame->heldRotation.v);
         HashVec3(hash, frame->heldRotation.d);
+        HashVec3(hash, frame->reaction);
+        HashVec3(hash, frame->reactionTorque);
     }
 }
 
@@ -217,6 +234,25 @@ static void HashWork(uint64_t* hash, const kiriWorld* world, const kiriSheetData
     }
 }
 
+static void HashPin(uint64_t* hash, const kiriPinData* pin)
+{
+    HashPoint(hash, pin->at);
+    HashVec3(hash, pin->target);
+    kiriHash_Double(hash, pin->stiffness);
+    HashVec3(hash, pin->force);
+    if (pin->type == KIRI_PIN_POINT) {
+        return;
+    }
+    kiriHash_Int32(hash, pin->type);
+    HashPoint(hash, pin->to);
+    HashVec3(hash, pin->rotation.u);
+    HashVec3(hash, pin->rotation.v);
+    HashVec3(hash, pin->lastTarget);
+    HashVec3(hash, pin->lastRotation.u);
+    HashVec3(hash, pin->lastRotation.v);
+    HashVec3(hash, pin->torque);
+}
+
 static void HashWaiting(uint64_t* hash, const kiriWorld* world, const kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->queue.count; ++i) {
@@ -233,9 +269,7 @@ static void HashWaiting(uint64_t* hash, const kiriWorld* world, const kiriSheetD
         kiriHash_Int32(hash, sheet->cuts.data[i]->ended);
     }
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        HashPoint(hash, sheet->pins.data[i].at);
-        HashVec3(hash, sheet->pins.data[i].target);
-        kiriHash_Double(hash, sheet->pins.data[i].stiffness);
+        HashPin(hash, &sheet->pins.data[i]);
     }
     HashContacts(hash, sheet->contacts.data, sheet->contacts.count);
 }
@@ -245,6 +279,15 @@ static void HashStrainOffsets(uint64_t* hash, const kiriStrainOffsets* strainOff
     for (int32_t k = 0; k < strainOffsets->strainOffsets.count; ++k) {
         for (int e = 0; e < KIRI_STRAINS; ++e) {
             kiriHash_Double(hash, strainOffsets->strainOffsets.data[k].strain[e]);
+        }
+    }
+}
+
+static void HashPinOffsets(uint64_t* hash, const kiriPinShares* shares)
+{
+    for (int32_t k = 0; k < shares->count; ++k) {
+        for (int e = 0; e < KIRI_CLAMP_STRAINS; ++e) {
+            kiriHash_Double(hash, shares->data[k].offset[e]);
         }
     }
 }
@@ -286,6 +329,7 @@ uint64_t kiriStateHash_Of(const kiriWorld* world)
         HashWaiting(&hash, world, sheet);
         HashRest(&hash, sheet);
         HashStrainOffsets(&hash, &sheet->strainOffsets);
+        HashPinOffsets(&hash, &sheet->layout.pinShares);
         HashFades(&hash, &sheet->seen.fades);
         HashFades(&hash, &sheet->seen.pointFades);
         for (int32_t f = 0; f < sheet->frames.count; ++f) {

@@ -111,6 +111,16 @@ static void PointIds(kiriWorld* world, kiriSheetData* sheet)
     }
 }
 
+/* A line may hold both parts: then the rest, which has its ids already, keeps the pin's, and the part gets another. */
+static void NamePins(kiriWorld* world, const kiriSheetData* rest, kiriSheetData* part)
+{
+    for (int32_t i = 0; i < part->pins.count; ++i) {
+        if (kiriPool_Find(&world->pinIds, part->pins.data[i].id)->owner == rest) {
+            part->pins.data[i].id = kiriPool_Add(&world->pinIds, &world->memory, part, i);
+        }
+    }
+}
+
 /* A sheet of the pieces that are kept, without ids; null for memory. */
 static kiriSheetData* MakePart(kiriWorld* world, kiriExtract* extract)
 {
@@ -149,13 +159,19 @@ static kiriResult DetachKept(kiriWorld* world, kiriSheetData* sheet, kiriExtract
     kiriSheetData* part = result == KIRI_OK ? MakePart(world, extract) : NULL;
     KeepOthers(extract);
     kiriSheetData* rest = part != NULL ? MakePart(world, extract) : NULL;
-    if (rest == NULL) {
+    if (rest != NULL) {
+        int64_t inBoth = (int64_t)part->pins.count + rest->pins.count - sheet->pins.count;
+        result = kiriWorld_ReserveIds(world, &world->pinIds, inBoth);
+    }
+    if (rest == NULL || result != KIRI_OK) {
         kiriSheet_Delete(part, &world->memory);
+        kiriSheet_Delete(rest, &world->memory);
         return result != KIRI_OK ? result : KIRI_ERROR_MEMORY;
     }
     ReplaceByRest(world, extract, sheet, rest);
     world->sheets.data[world->sheets.count++] = part;
     part->id = *id = kiriPool_Add(&world->sheetIds, &world->memory, part, 0);
+    NamePins(world, rest, part);
     PointIds(world, part);
     return KIRI_OK;
 }

@@ -1,0 +1,144 @@
+#include "kiri_solver_work.h"
+
+/* A force on a frame, and its torque about the frame's x. */
+typedef struct Wrench {
+    kiriVec3 force, torque;
+} Wrench;
+
+/* What a strain that pulls with -`pull` does to a frame, by its derivative. */
+static void AddRow(const kiriSolver* solver, const kiriFrameRow* row, double pull, const kiriMat3* A, Wrench* sum)
+{
+    kiriVec3 torque = row->by[1];
+    if (kiriMechanics_IsAffine(&solver->mechanics)) {
+        torque = kiriVec3_Add(kiriVec3_Cross(A->u, row->by[1]), kiriVec3_Cross(A->v, row->by[2]));
+        torque = kiriVec3_Add(torque, kiriVec3_Cross(A->d, row->by[3]));
+    }
+    sum->force = kiriVec3_AddScaled(sum->force, pull, row->by[0]);
+    sum->torque = kiriVec3_AddScaled(sum->torque, pull, torque);
+}
+
+static Wrench ForceAt(const kiriSolver* solver, int32_t frame, kiriVec3 point, kiriVec3 force)
+{
+    Wrench wrench = { force, kiriVec3_Cross(kiriVec3_Sub(point, solver->poses.data[frame].x), force) };
+    return wrench;
+}
+
+/* Whatever acts on the frame beside its own forces and the host's hold: the hold takes it up. `about` is where it
+   holds. */
+static void TakeFromHold(const kiriSolver* solver, const kiriSystem* system, int32_t frame, Wrench wrench)
+{
+    if (system->reactions.frames != NULL && system->frames[frame].held) {
+        kiriVec3 arm = kiriVec3_Sub(solver->poses.data[frame].x, solver->before.data[frame].heldPosition);
+        kiriVec3 moment = kiriVec3_Add(wrench.torque, kiriVec3_Cross(arm, wrench.force));
+        kiriReaction_Add(&system->reactions.frames[frame], -solver->dt, wrench.force, moment);
+    }
+}
+
+static void AddPins(const kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t k = 0; k < system->pinCount; ++k) {
+        const kiriPinRow* pin = &system->pins[k];
+        kiriVec3 point = kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data);
+        kiriVec3 force = kiriVec3_Scale(-pin->stiffness, kiriVec3_Sub(point, pin->target));
+        if (system->reactions.pins != NULL) {
+            kiriReaction_Add(&system->reactions.pins[k], solver->dt, force, kiriVec3_Make(0.0, 0.0, 0.0));
+        }
+        TakeFromHold(solver, system, pin->frame, ForceAt(solver, pin->frame, point, force));
+    }
+}
+
+static void AddClamps(const kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t k = 0; k < system->clampCount; ++k) {
+        const kiriClampRow* row = &system->clamps[k];
+        const kiriPose* pose = &solver->poses.data[row->frame];
+        double strain[KIRI_CLAMP_STRAINS], pulling[KIRI_CLAMP_STRAINS];
+        kiriFrameRow rows[KIRI_CLAMP_STRAINS];
+        Wrench wrench = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+        kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, pose, strain, rows);
+        kiriClamp_TakeOffsets(row, strain, pulling);
+        for (int e = 0; e < row->strainCount; ++e) {
+            double pull = -row->stiffness[e] * pulling[e] - row->loss[e] * (strain[e] - row->startStrain[e]);
+            AddRow(solver, &rows[e], pull, &pose->A, &wrench);
+        }
+        if (system->reactions.clamps != NULL) {
+            kiriVec3 arm = kiriVec3_Sub(pose->x, row->pose.x);
+            kiriVec3 moment = kiriVec3_Add(wrench.torque, kiriVec3_Cross(arm, wrench.force));
+            kiriReaction_Add(&system->reactions.clamps[k], solver->dt, wrench.force, moment);
+        }
+        TakeFromHold(solver, system, row->frame, wrench);
+    }
+}
+
+static void AddContacts(const kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        const kiriContactRow* contact = &system->contacts[k];
+        kiriVec3 point = kiriSystem_Point(system, contact->frame, contact->at, solver->poses.data);
+        kiriVec3 force = kiriVec3_Scale(contact->stiffness * kiriContact_Depth(contact, point), contact->normal);
+        force = kiriVec3_AddScaled(force, -kiriContact_Friction(solver, system, contact),
+                                   kiriContact_Slide(system, contact, point));
+        TakeFromHold(solver, system, contact->frame, ForceAt(solver, contact->frame, point, force));
+    }
+}
+
+static bool HasHeldMember(const kiriSolver* solver, const kiriSystem* system, int32_t count)
+{
+    bool any = false;
+    for (int32_t m = 0; m < count; ++m) {
+        any |= system->frames[solver->members.data[m]].held != 0;
+    }
+    return any;
+}
+
+/* What element k does to the frames that are held. */
+static void AddElement(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    int32_t count = kiriElement_Members(system, k, solver->members.data);
+    double strain[KIRI_MOST_STRAINS], pulling[KIRI_MOST_STRAINS];
+    if (!HasHeldMember(solver, system, count)) {
+        return;
+    }
+    kiriElement_Measure(system, k, solver->poses.data, strain, solver->rows.data);
+    kiriElement_TakeOffsets(system, k, strain, pulling);
+    for (int32_t m = 0; m < count; ++m) {
+        int32_t frame = solver->members.data[m];
+        Wrench wrench = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+        for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
+            int32_t n = KIRI_MOST_STRAINS * k + e;
+            double change = strain[e] - solver->startStrain.data[n];
+            double pull = -solver->stiffness.data[n] * pulling[e] - solver->loss.data[n] * change;
+            AddRow(solver, &solver->rows.data[count * e + m], pull, &solver->poses.data[frame].A, &wrench);
+        }
+        TakeFromHold(solver, system, frame, wrench);
+    }
+}
+
+/* What changes the momentum of a held frame, beside gravity and the host's forces on it. */
+static void AddMomentum(const kiriSolver* solver, const kiriSystem* system, int32_t f)
+{
+    const kiriFrameData *before = &solver->before.data[f], *after = &solver->after.data[f];
+    double perTime = 1.0 / solver->dt;
+    kiriVec3 gravity = kiriVec3_Scale(before->mass, kiriSystem_Gravity(system));
+    kiriVec3 gained = kiriVec3_Scale(before->mass, kiriVec3_Sub(after->velocity, before->velocity));
+    kiriVec3 turned = kiriVec3_Sub(kiriFrame_AngularMomentum(after, &system->material),
+                                   kiriFrame_AngularMomentum(before, &system->material));
+    Wrench wrench = { kiriVec3_AddScaled(kiriVec3_Add(gravity, before->force), -perTime, gained),
+                      kiriVec3_AddScaled(before->torque, -perTime, turned) };
+    TakeFromHold(solver, system, f, wrench);
+}
+
+void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
+{
+    AddPins(solver, system);
+    AddClamps(solver, system);
+    if (solver->isHeld && system->reactions.frames != NULL) {
+        AddContacts(solver, system);
+        for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
+            AddElement(solver, system, k);
+        }
+        for (int32_t f = 0; f < system->frameCount; ++f) {
+            AddMomentum(solver, system, f);
+        }
+    }
+}

@@ -1,0 +1,71 @@
+#include "kiri_call.h"
+#include "../sheet/kiri_load.h"
+#include "../sheet/kiri_motion.h"
+
+/* A load of nothing wakes nobody. */
+static void WakeFor(kiriSheetData* sheet, const float load[3])
+{
+    if (load[0] != 0.0f || load[1] != 0.0f || load[2] != 0.0f) {
+        kiriMotion_Wake(sheet);
+    }
+}
+
+kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3], const float torque[3])
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(force != NULL && torque != NULL && kiriCall_AreFinite(force, 3) && kiriCall_AreFinite(torque, 3),
+               "force or torque is null or not finite");
+    KIRI_FIND_FRAME_SHEET(sheet, frame);
+    kiriFrameData* data = &sheet->frames.data[kiriPool_Find(&world->frameIds, frame)->index];
+    data->force = kiriVec3_Add(data->force, kiriVec3_Load(force));
+    data->torque = kiriVec3_Add(data->torque, kiriVec3_Load(torque));
+    WakeFor(sheet, force);
+    WakeFor(sheet, torque);
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_ApplyForce(kiriWorld* world, kiriSheet sheet, const float restPoint[2], const float force[3],
+                                const float torque[3])
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(restPoint != NULL && kiriCall_AreFinite(restPoint, 2), "restPoint is null or not finite");
+    KIRI_CHECK(force != NULL && torque != NULL && kiriCall_AreFinite(force, 3) && kiriCall_AreFinite(torque, 3),
+               "force or torque is null or not finite");
+    KIRI_FIND_SHEET(data, sheet);
+    kiriLatticePoint at;
+    int32_t frame = kiriSheet_ToLattice(data, restPoint, &at) ? kiriOwner_At(data, at) : KIRI_NONE;
+    KIRI_CHECK(frame != KIRI_NONE, "restPoint lies outside the material");
+    kiriLoad_AtPoint(data, frame, kiriMesh_Local(&data->mesh, at), kiriVec3_Load(force), kiriVec3_Load(torque));
+    WakeFor(data, force);
+    WakeFor(data, torque);
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_ApplyLineLoad(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
+                                   const float forcePerLength[3])
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(forcePerLength != NULL && kiriCall_AreFinite(forcePerLength, 3), "forcePerLength is null or not finite");
+    KIRI_FIND_SHEET(data, sheet);
+    kiriLatticePoint ends[2];
+    const char* why = kiriCall_FaultOfLine(data, from, to, ends);
+    KIRI_CHECK(why == NULL, why);
+    if (!kiriOwner_FindShares(data, ends[0], ends[1], false)) {
+        return KIRI_FAIL(KIRI_ERROR_MEMORY, NULL);
+    }
+    KIRI_CHECK(data->lineShares.count > 0, "the line meets no material");
+    kiriLoad_AlongLine(data, ends[0], ends[1], kiriVec3_Load(forcePerLength));
+    WakeFor(data, forcePerLength);
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_ApplyPressure(kiriWorld* world, kiriSheet sheet, float pressure)
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(kiriCall_AreFinite(&pressure, 1), "pressure is not finite");
+    KIRI_FIND_SHEET(data, sheet);
+    const float load[3] = { pressure, 0.0f, 0.0f };
+    kiriLoad_OnSurface(data, pressure);
+    WakeFor(data, load);
+    return KIRI_OK;
+}
