@@ -310,7 +310,9 @@ typedef struct kiriSheetDef {
     int32_t gridResolution; /* grid squares along the longer side, 1 to 4096; default 32 */
     float snapDistance;     /* m: a blade this near to a vertex or an edge takes it; 0: 1e-4 of the longer side */
 
-    /* Control frames. framePoints: 2 floats a frame, in the material; null: frameCount frames are spread evenly.
+    /* Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
+       frames are spread evenly, some of them in pairs at both sides of slit ends. The grid carries one frame for every
+       two squares of material at most: more are refused (KIRI_ERROR_ARGUMENT), and re-sampling stops there.
        frameCount 0: as many as the sheet needs: a region is split while its size, 2.45 times its radius of gyration,
        exceeds 1.25 frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0: the length
        over which the material bends under its own weight, (D / (density thickness 9.81))^(1/3) with D its bending

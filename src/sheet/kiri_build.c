@@ -88,30 +88,43 @@ static void SetAll(kiriSettings* settings, const kiriMeshData* mesh, const kiriS
 
 /* ---- Frames ---- */
 
+/* One point, in a cell of its own; `holder` has the site in each cell. */
+static const char* TakeFramePoint(kiriSheetData* sheet, const float* point, int32_t* holder)
+{
+    kiriSites* sites = &sheet->update->placing.sites;
+    kiriLatticePoint at;
+    kiriSite site = { kiriSheet_ToLocal(sheet, point), KIRI_NONE };
+    if (kiriSheet_ToLattice(sheet, point, &at)) {
+        site.cell = kiriGrid_CellAt(&sheet->grid, &sheet->mesh, at);
+    }
+    if (site.cell == KIRI_NONE) {
+        return "a frame point lies outside the material";
+    }
+    if (holder[site.cell] != KIRI_NONE || kiriSites_IsCrowded(&sheet->grid, sites, &site, holder)) {
+        return "two frame points are less than a grid square apart; a finer grid (gridResolution) tells them apart";
+    }
+    holder[site.cell] = sites->count;
+    sites->data[sites->count++] = site;
+    return NULL;
+}
+
 /* The sites that the caller gave, when the grid is there. */
 static kiriResult TakeFramePoints(kiriSheetData* sheet, const kiriSheetDef* def, const char** why)
 {
     kiriPlacingWork* placing = &sheet->update->placing;
-    if (!kiriSites_ClearMarks(sheet, sheet->grid.cells.count) ||
+    if (!kiriArray_Resize(sheet->memory, &placing->own, sheet->grid.cells.count) ||
         !kiriArray_Reserve(sheet->memory, &placing->sites, def->frameCount)) {
         return KIRI_ERROR_MEMORY;
     }
+    for (int32_t c = 0; c < placing->own.count; ++c) {
+        placing->own.data[c] = KIRI_NONE;
+    }
     for (int32_t i = 0; i < def->frameCount; ++i) {
-        kiriLatticePoint at;
-        kiriSite site = { kiriSheet_ToLocal(sheet, &def->framePoints[2 * i]), KIRI_NONE };
-        if (kiriSheet_ToLattice(sheet, &def->framePoints[2 * i], &at)) {
-            site.cell = kiriGrid_CellAt(&sheet->grid, &sheet->mesh, at);
-        }
-        if (site.cell == KIRI_NONE) {
-            *why = "a frame point lies outside the material";
+        const char* fault = TakeFramePoint(sheet, &def->framePoints[2 * i], placing->own.data);
+        if (fault != NULL) {
+            *why = fault;
             return KIRI_ERROR_ARGUMENT;
         }
-        if (placing->marks.data[site.cell]) {
-            *why = "two frame points lie in one grid cell; a finer grid tells them apart";
-            return KIRI_ERROR_ARGUMENT;
-        }
-        placing->marks.data[site.cell] = 1;
-        placing->sites.data[placing->sites.count++] = site;
     }
     return KIRI_OK;
 }
@@ -141,6 +154,9 @@ static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, c
     kiriResult result = kiriPipeline_Make(sheet, KIRI_STAGE_REGIONS) ? KIRI_OK : KIRI_ERROR_MEMORY;
     if (result == KIRI_OK && def->framePoints != NULL) {
         result = TakeFramePoints(sheet, def, why);
+    } else if (result == KIRI_OK && def->frameCount > kiriSites_MostIn(sheet->grid.cellCount)) {
+        *why = "the grid carries one frame for every two cells at most; a finer one (gridResolution) carries more";
+        result = KIRI_ERROR_ARGUMENT;
     }
     if (result != KIRI_OK) {
         return result;

@@ -1,7 +1,9 @@
 #include "kiri_site.h"
 
 #include "../core/kiri_sort.h"
+#include "../field/kiri_slit.h"
 
+#include <math.h>
 #include <string.h>
 
 /* ---- Sites that were there ---- */
@@ -126,6 +128,29 @@ bool kiriSites_Relocate(kiriSheetData* sheet)
     return true;
 }
 
+/* ---- What the grid carries ---- */
+
+int32_t kiriSites_MostIn(int32_t cells)
+{
+    return cells > 2 ? cells / 2 : 1;
+}
+
+bool kiriSites_IsCrowded(const kiriGrid* grid, const kiriSites* sites, const kiriSite* site, const int32_t* holder)
+{
+    double least = 0.999 * grid->side; /* points of the caller are floats */
+    const kiriStepRun* run = &grid->runs.data[site->cell];
+    for (int32_t s = run->first; s < run->end[1]; ++s) {
+        int32_t other = holder[grid->steps.data[s].cell];
+        if (other != KIRI_NONE) {
+            kiriVec2 off = kiriVec2_Sub(sites->data[other].at, site->at);
+            if (kiriVec2_Dot(off, off) < least * least) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 /* ---- Pieces without a frame ---- */
 
 /* Of the piece in the placer. */
@@ -168,26 +193,40 @@ static int32_t FramesFor(const kiriSheetData* sheet)
     if (IsCrumbTaken(sheet)) {
         return 1;
     }
+    int32_t most = kiriSites_MostIn(sheet->update->placing.placer.cells.count);
     if (sheet->settings.frameLength == 0.0) {
-        return kiriSites_ShareOf(sheet, sheet->update->placing.spread);
+        int32_t share = kiriSites_ShareOf(sheet, sheet->update->placing.spread);
+        return share < most ? share : most;
     }
     double count = TakenArea(sheet) / (sheet->settings.frameLength * sheet->settings.frameLength) + 0.5;
-    int32_t most = sheet->settings.maxFrames - sheet->update->placing.sites.count;
+    int32_t left = sheet->settings.maxFrames - sheet->update->placing.sites.count;
+    most = left < most ? left : most;
     return count < 1.0 || most < 1 ? 1 : count < most ? (int32_t)count : most;
+}
+
+/* Starts placing `count` frames in the piece in the placer, which has none that stay: in pairs at slit ends, and then
+   evenly. Half of them at most go to slit ends. */
+static bool StartPlacing(kiriSheetData* sheet, int32_t count)
+{
+    kiriPlacer* placer = &sheet->update->placing.placer;
+    placer->sites.count = 0;
+    double spacing = sqrt(TakenArea(sheet) / (count > 0 ? count : 1));
+    return kiriSlits_AddPairs(&placer->sites, sheet->memory, &sheet->grid, &sheet->mesh, placer->cells.data,
+                              placer->cells.count, spacing, count / 2) &&
+           kiriPlacer_Start(placer, sheet->memory, &sheet->grid, &sheet->mesh, NULL, count - placer->sites.count);
 }
 
 /* Starts placing frames in the piece of an orphan, and marks its cells as seen to. */
 static bool StartOrphan(kiriSheetData* sheet, int32_t cell)
 {
     kiriUpdate* u = sheet->update;
-    u->placing.placer.sites.count = 0;
     if (!kiriPlacer_TakePiece(&u->placing.placer, sheet->memory, &sheet->grid, cell)) {
         return false;
     }
     for (int32_t i = 0; i < u->placing.placer.cells.count; ++i) {
         u->placing.marks.data[u->placing.placer.cells.data[i]] = 1;
     }
-    return kiriPlacer_Start(&u->placing.placer, sheet->memory, &sheet->grid, &sheet->mesh, NULL, FramesFor(sheet));
+    return StartPlacing(sheet, FramesFor(sheet));
 }
 
 /* Frames for the pieces that have none, at least one each (section 5 of the paper). */
@@ -303,26 +342,31 @@ static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
     return ok;
 }
 
+/* A crumb gets no more, nor a piece with as many as the grid carries. */
+static bool MayGetMore(const kiriSheetData* sheet)
+{
+    const kiriPlacingWork* placing = &sheet->update->placing;
+    return !IsCrumbTaken(sheet) && placing->own.count < kiriSites_MostIn(placing->placer.cells.count);
+}
+
 /* One more site in the piece of the frame, in a rigid cell. In a piece all of whose sites are new they are all placed
-   again, to lie evenly. A crumb gets none. */
+   again, to lie evenly. */
 static bool StartResample(kiriSheetData* sheet, int32_t frame)
 {
     kiriUpdate* u = sheet->update;
     bool old;
-    int32_t count = 1;
     if (!kiriPlacer_TakePiece(&u->placing.placer, sheet->memory, &sheet->grid, u->placing.sites.data[frame].cell) ||
         !MarkRigidCells(sheet) || !TakeSitesOfPiece(sheet, &old)) {
         return false;
     }
-    if (IsCrumbTaken(sheet)) {
-        count = 0;
-    } else if (!old) {
-        count += u->placing.placer.sites.count;
-        u->placing.placer.sites.count = 0;
+    bool more = MayGetMore(sheet);
+    u->placing.isAgain = !old && more;
+    if (u->placing.isAgain) {
+        return StartPlacing(sheet, u->placing.own.count + 1);
     }
     u->placing.placer.known = old ? &sheet->regions.field : NULL;
-    return kiriPlacer_Start(&u->placing.placer, sheet->memory, &sheet->grid, &sheet->mesh,
-                            old ? u->placing.allowed.data : NULL, count);
+    return kiriPlacer_Start(&u->placing.placer, sheet->memory, &sheet->grid, &sheet->mesh, u->placing.allowed.data,
+                            more ? 1 : 0);
 }
 
 /* New sites take the indices of those of the piece that were placed again, then new ones. A piece that has no cell for
@@ -330,8 +374,8 @@ static bool StartResample(kiriSheetData* sheet, int32_t frame)
 static bool GiveSites(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
-    int32_t next = u->placing.placer.oldCount;
-    bool ok = true, isAgain = next == 0;
+    bool ok = true, isAgain = u->placing.isAgain;
+    int32_t next = isAgain ? 0 : u->placing.placer.oldCount;
     if (isAgain && u->placing.placer.sites.count <= u->placing.own.count) {
         return true;
     }

@@ -23,6 +23,7 @@ typedef struct kiriPlacingWork {
     int32_t spread;    /* frames to spread over the sheet, at its start */
     kiriPlacer placer;
     bool isPlacing;
+    bool isAgain;                /* all sites of the piece in the placer are placed again */
     double whole;                /* m^2 of the sheet; while things are spread over it */
     int32_t at;                  /* orphan, frame or piece that is being seen to */
     KIRI_ARRAY(uint8_t) marks;   /* of cells, frames or pieces */

@@ -1,0 +1,228 @@
+/* Where frames go: at slit ends, and not closer than the grid tells apart. */
+#include "host.h"
+#include "scene.h"
+
+#include "field/kiri_slit.h"
+#include "sheet/kiri_site.h"
+
+/* ---- Pairs at slit ends ---- */
+
+static void AddPairs(Scene* scene, kiriSites* sites, double spacing, int32_t most)
+{
+    kiriPlacer placer = { 0 };
+    Scene_BuildGrid(scene);
+    assert_true(kiriPlacer_TakePiece(&placer, &scene->memory, &scene->grid, Scene_Cell(scene, 0.01, 0.01)));
+    assert_true(kiriSlits_AddPairs(sites, &scene->memory, &scene->grid, &scene->mesh, placer.cells.data,
+                                   placer.cells.count, spacing, most));
+}
+
+static void AssertSite(const kiriSites* sites, int32_t index, double u, double v)
+{
+    assert_in_range(index, 0, sites->count - 1);
+    AssertNear(sites->data[index].at.x, u, 1e-6);
+    AssertNear(sites->data[index].at.y, v, 1e-6);
+}
+
+/* A slit from the outline has one end, one inside the sheet two; their sites mirror each other. */
+static void BothSidesOfEachEnd(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriSites sites = { 0 };
+    Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
+    Scene_Slit(&scene, 0.3, 0.0, 0.3, 0.4);
+    Scene_Slit(&scene, 0.6, 0.7, 0.8, 0.7);
+    AddPairs(&scene, &sites, 0.1, 100);
+    assert_int_equal(sites.count, 6);
+    AssertSite(&sites, 0, 0.25, 0.4);
+    AssertSite(&sites, 1, 0.35, 0.4);
+    AssertSite(&sites, 2, 0.6, 0.65);
+    AssertSite(&sites, 3, 0.6, 0.75);
+    AssertSite(&sites, 4, 0.8, 0.75);
+    AssertSite(&sites, 5, 0.8, 0.65);
+    for (int32_t i = 0; i < sites.count; ++i) {
+        assert_int_equal(sites.data[i].cell, Scene_Cell(&scene, sites.data[i].at.x, sites.data[i].at.y));
+    }
+    Scene_Release(&scene);
+}
+
+static void NoMoreThanAskedFor(void** state)
+{
+    (void)state;
+    for (int32_t most = 0; most < 6; ++most) {
+        Scene scene;
+        kiriSites sites = { 0 };
+        Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
+        Scene_Slit(&scene, 0.6, 0.7, 0.8, 0.7);
+        AddPairs(&scene, &sites, 0.1, most);
+        assert_int_equal(sites.count, most < 4 ? most / 2 * 2 : 4);
+        Scene_Release(&scene);
+    }
+}
+
+/* Where another slit is in the way the pair is closer; in a neck of the width of two squares there is none. */
+static void AsCloseAsThereIsRoom(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriSites sites = { 0 };
+    Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
+    Scene_Slit(&scene, 0.3, 0.0, 0.3, 0.4);
+    Scene_Slit(&scene, 0.4, 0.0, 0.4, 1.0);
+    AddPairs(&scene, &sites, 0.3, 100);
+    assert_int_equal(sites.count, 2);
+    AssertSite(&sites, 0, 0.225, 0.4);
+    AssertSite(&sites, 1, 0.375, 0.4);
+    Scene_Release(&scene);
+
+    memset(&sites, 0, sizeof(sites));
+    Scene_Init(&scene, 1.0, 1.0, 20, 20, 10);
+    Scene_Slit(&scene, 0.3, 0.0, 0.3, 0.4);
+    Scene_Slit(&scene, 0.4, 0.0, 0.4, 1.0);
+    AddPairs(&scene, &sites, 0.3, 100);
+    assert_int_equal(sites.count, 0);
+    Scene_Release(&scene);
+}
+
+/* Corners of cuts, crossings, ends on the outline and on another cut are no slit ends. */
+static void OnlyEnds(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriSites sites = { 0 };
+    Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
+    Scene_Slit(&scene, 0.3, 0.0, 0.3, 1.0);
+    Scene_Slit(&scene, 0.0, 0.5, 0.3, 0.5);
+    Scene_Slit(&scene, 0.1, 0.6, 0.2, 0.6);
+    Scene_Slit(&scene, 0.2, 0.6, 0.2, 0.8);
+    Scene_Slit(&scene, 0.2, 0.8, 0.1, 0.8);
+    Scene_Slit(&scene, 0.1, 0.8, 0.1, 0.6);
+    AddPairs(&scene, &sites, 0.1, 100);
+    assert_int_equal(sites.count, 0);
+    Scene_Release(&scene);
+}
+
+static void PairsFailCleanly(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriSites sites = { 0 };
+    kiriPlacer placer = { 0 };
+    Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
+    Scene_Slit(&scene, 0.3, 0.0, 0.3, 0.4);
+    Scene_BuildGrid(&scene);
+    assert_true(kiriPlacer_TakePiece(&placer, &scene.memory, &scene.grid, 0));
+    scene.purse.budget = 0;
+    assert_false(kiriSlits_AddPairs(&sites, &scene.memory, &scene.grid, &scene.mesh, placer.cells.data,
+                                    placer.cells.count, 0.1, 8));
+    assert_int_equal(sites.count, 0);
+    Scene_Release(&scene);
+}
+
+/* ---- What the grid carries ---- */
+
+/* The longest line of a refusal that says what to do. */
+static void AssertRefused(Host* host, kiriSheetDef* def, const char* part)
+{
+    kiriSheet sheet = 0;
+    assert_int_equal(Host_TryRectangle(host, def, 1.0f, 0.5f, 8, 4, &sheet), KIRI_ERROR_ARGUMENT);
+    assert_non_null(strstr(kiriWorld_GetLastError(host->world), part));
+}
+
+static void CloseFramePointsAreRefused(void** state)
+{
+    (void)state;
+    for (int32_t k = 1; k < 20; ++k) {
+        float points[4] = { 0.51f, 0.26f, 0.51f + 0.01f * (float)k, 0.26f };
+        kiriSheetDef def;
+        Host host;
+        Host_Start(&host);
+        kiriDefaultSheetDef(&def);
+        def.gridResolution = 10;
+        def.frameCount = 2;
+        def.framePoints = points;
+        if (k < 10) {
+            AssertRefused(&host, &def, "gridResolution");
+        } else {
+            Host_AddRectangle(&host, &def, 1.0f, 0.5f, 8, 4);
+        }
+        Host_Stop(&host);
+    }
+}
+
+/* Half a square apart, but on the two lips of a slit, with a long way from the one to the other. */
+static void LipsAreNotClose(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriSites sites = { 0 };
+    Scene_Init(&scene, 1.0, 1.0, 20, 20, 10);
+    Scene_Slit(&scene, 0.35, 0.0, 0.35, 0.8);
+    Scene_BuildGrid(&scene);
+    int32_t* holder = malloc(sizeof(int32_t) * (size_t)scene.grid.cells.count);
+    for (int32_t c = 0; c < scene.grid.cells.count; ++c) {
+        holder[c] = KIRI_NONE;
+    }
+    kiriSite left = { { 0.32, 0.25 }, Scene_Cell(&scene, 0.32, 0.25) };
+    kiriSite right = { { 0.37, 0.25 }, Scene_Cell(&scene, 0.37, 0.25) };
+    kiriSite below = { { 0.32, 0.17 }, Scene_Cell(&scene, 0.32, 0.17) };
+    assert_true(kiriArray_Push(&scene.memory, &sites, left));
+    holder[left.cell] = 0;
+    assert_int_not_equal(left.cell, right.cell);
+    assert_false(kiriSites_IsCrowded(&scene.grid, &sites, &right, holder));
+    assert_true(kiriSites_IsCrowded(&scene.grid, &sites, &below, holder));
+    free(holder);
+    Scene_Release(&scene);
+}
+
+static void ManyFramesAreRefused(void** state)
+{
+    (void)state;
+    kiriSheetDef def;
+    Host host;
+    Host_Start(&host);
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = 10;
+    def.maxFrames = 1;
+    def.frameCount = 26;
+    AssertRefused(&host, &def, "gridResolution");
+    def.frameCount = 25;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.5f, 8, 4);
+    assert_int_equal(Host_Counts(&host, sheet).frames, 25);
+    Host_Stop(&host);
+}
+
+/* Re-sampling stops there, after cuts too. */
+static void ResamplingStops(void** state)
+{
+    (void)state;
+    static const float across[4] = { 0.31f, -0.1f, 0.31f, 0.6f }, along[4] = { 0.5f, 0.26f, 1.1f, 0.26f };
+    kiriSheetDef def;
+    Host host;
+    Host_Start(&host);
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = 10;
+    def.frameCount = 2;
+    def.rigidArea = 1e-9f;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.5f, 8, 4);
+    assert_in_range(Host_Counts(&host, sheet).frames, 3, 25);
+    Host_Cut(&host, sheet, across, 2);
+    Host_Cut(&host, sheet, along, 2);
+    OK(Host_Tick(&host, 0.01f, 1));
+    kiriCounts counts = Host_Counts(&host, sheet);
+    assert_int_equal(counts.pieces, 2);
+    assert_in_range(counts.frames, 3, counts.cells / 2);
+    Host_Stop(&host);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(BothSidesOfEachEnd),   cmocka_unit_test(NoMoreThanAskedFor),
+        cmocka_unit_test(AsCloseAsThereIsRoom), cmocka_unit_test(OnlyEnds),
+        cmocka_unit_test(PairsFailCleanly),     cmocka_unit_test(CloseFramePointsAreRefused),
+        cmocka_unit_test(LipsAreNotClose),      cmocka_unit_test(ManyFramesAreRefused),
+        cmocka_unit_test(ResamplingStops),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
