@@ -25,7 +25,8 @@ typedef struct Options {
     const char* film;
     DebugOptions debug;
     int32_t ticks, every, width, height, grid, controlFrames, budget;
-    bool axes, plain, quiet, help;
+    float closeUp[3]; /* rest point, m, and factor; factor 0: as the scene has it */
+    bool axes, plain, smooth, quiet, help;
 } Options;
 
 static void PrintHelp(void)
@@ -41,6 +42,8 @@ static void PrintHelp(void)
            "  --grid N              grid squares along the sheet (the scene's own)\n"
            "  --control-frames N    control frames at the start (the scene's own)\n"
            "  --budget N            blade points taken in one tick; 0: no limit (0)\n"
+           "  --zoom U,V,FACTOR     a close-up of the rest point, in sizes of the scene\n"
+           "  --smooth              smooth skinning\n"
            "  --plain               rigid frames, free in space, in scenes that have others\n"
            "  --frames-axes         show the control frames\n"
            "  --weights all|N       colour the sheet by the shape functions of all frames, or of frame N\n"
@@ -70,6 +73,13 @@ static bool ReadSize(const char* text, Options* options)
            options->height >= 100 && options->width <= 4096 && options->height <= 4096;
 }
 
+static bool ReadCloseUp(const char* text, Options* options)
+{
+    char rest;
+    float* at = options->closeUp;
+    return sscanf(text, "%f,%f,%f%c", &at[0], &at[1], &at[2], &rest) == 3 && at[2] >= 1.0f && at[2] <= 100.0f;
+}
+
 static bool ReadFlag(const char* name, Options* options)
 {
     const struct {
@@ -78,7 +88,8 @@ static bool ReadFlag(const char* name, Options* options)
     } flags[] = { { "--help", &options->help },           { "--quiet", &options->quiet },
                   { "--frames-axes", &options->axes },    { "--regions", &options->debug.regions },
                   { "--links", &options->debug.links },   { "--cells", &options->debug.cells },
-                  { "--points", &options->debug.points }, { "--plain", &options->plain } };
+                  { "--points", &options->debug.points }, { "--plain", &options->plain },
+                  { "--smooth", &options->smooth } };
     for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
         if (strcmp(name, flags[i].name) == 0) {
             *flags[i].flag = true;
@@ -115,6 +126,8 @@ static bool ReadValue(const char* name, const char* value, Options* options)
         return ReadWeights(value, options);
     } else if (strcmp(name, "--size") == 0) {
         return ReadSize(value, options);
+    } else if (strcmp(name, "--zoom") == 0) {
+        return ReadCloseUp(value, options);
     } else if (strcmp(name, "--ticks") == 0) {
         return ReadNumber(value, 1, 100000, &options->ticks);
     } else if (strcmp(name, "--every") == 0) {
@@ -250,6 +263,17 @@ static const float* FindVertex(const kiriMesh* mesh, const float restPoint[2])
     return mesh->positions + 3 * best;
 }
 
+/* The camera stays where it is, looks at a rest point, and sees less. */
+static void MoveCloser(View* view, const float closeUp[3])
+{
+    const float rest[2] = { view->size * closeUp[0], view->size * closeUp[1] };
+    const float* at = FindVertex(&view->mesh, rest);
+    for (int i = 0; i < 3; i++) {
+        view->camera.target[i] = at[i] / view->size;
+    }
+    view->camera.fieldOfView /= closeUp[2];
+}
+
 static bool ShowDebug(View* view, Film* film, const Scene* scene, const Options* options)
 {
     const Raster* raster = &film->debug.raster;
@@ -276,6 +300,9 @@ static bool Film_Shoot(Film* film, const Scene* scene, const Options* options)
                   .pegs = scene->type->pegs };
     float restPoints[MAX_BLADES][2], blades[MAX_BLADES][3];
     kiriSheet_GetMesh(scene->world, scene->sheet, &view.mesh);
+    if (options->closeUp[2] > 0.0f) {
+        MoveCloser(&view, options->closeUp);
+    }
     if (Debug_IsWanted(&options->debug) && !ShowDebug(&view, film, scene, options)) {
         return false;
     }
@@ -516,7 +543,8 @@ int main(int count, char** words)
     SceneOptions sceneOptions = { .dataFolder = options.data,
                                   .gridResolution = options.grid,
                                   .frameCount = options.controlFrames,
-                                  .plain = options.plain };
+                                  .plain = options.plain,
+                                  .smooth = options.smooth };
     Scene scene;
     if (!Scene_Start(&scene, Scene_FindType(options.scene), &def, &sceneOptions)) {
         return 1;

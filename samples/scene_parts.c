@@ -44,6 +44,7 @@ bool Scene_MakeSheet(Scene* scene, kiriSheetDef* def, const SceneOptions* option
             def->model = KIRI_MODEL_LINKS;
             def->planar = 0;
         }
+        def->skinning = options->smooth ? KIRI_SKINNING_SMOOTH : def->skinning;
         def->gridResolution = options->gridResolution > 0 ? options->gridResolution : def->gridResolution;
         def->paper.fromScratch = options->fromScratch;
         def->paper.popping = options->popping;
