@@ -302,8 +302,8 @@ static void TestHashTellsSettings(void** state)
 {
     (void)state;
     static const kiriBudget limit = { 0, 100, 0, 0 };
-    uint64_t hashes[12];
-    for (int what = 0; what < 12; ++what) {
+    uint64_t hashes[13];
+    for (int what = 0; what < 13; ++what) {
         Host host;
         Host_Start(&host);
         OK(kiriWorld_SetBudget(host.world, &limit)); /* for fromScratch */
@@ -319,6 +319,7 @@ static void TestHashTellsSettings(void** state)
         def.snapDistance = what == 9 ? 0.01f : 0.0f;
         def.paper.popping = what == 10;
         def.paper.fromScratch = what == 11;
+        def.paper.linearWeights = what == 12;
         Host_AddRectangle(&host, &def, 1.0f, 1.0f, 3, 3);
         hashes[what] = Host_Hash(&host);
         for (int other = 0; other < what; ++other) {

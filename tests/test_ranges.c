@@ -103,6 +103,7 @@ static const Field sheetFields[] = {
 static const Field paperFields[] = {
     { WHOLE(kiriPaperOptions, fromScratch), { 0, 1, END }, { -1, 2, END } },
     { WHOLE(kiriPaperOptions, popping), { 0, 1, END }, { -1, 2, END } },
+    { WHOLE(kiriPaperOptions, linearWeights), { 0, 1, END }, { -1, 2, END } },
     { WHOLE(kiriPaperOptions, integrationPoints), { 0, 1, 7, 300, 1048576, END }, { -1, 1048577, END } },
     { WHOLE(kiriPaperOptions, integrationOrder), { 1, 2, END }, { 0, 3, END } },
 };

@@ -489,6 +489,66 @@ static void GradientBetweenTwoFrames(void** state)
     Scene_Release(&scene);
 }
 
+/* Where linear weights w go to when each changes by h along its gradient, in the direction of u or v: eased, sum 1. */
+static double EasedAt(const kiriPointWeights* linear, int32_t which, double h, int axis)
+{
+    double sum = 0.0, value = 0.0;
+    for (int32_t i = 0; i < linear->count; ++i) {
+        kiriPointWeight w = linear->data[i];
+        double moved = w.value + h * (axis == 0 ? w.gradient.x : w.gradient.y);
+        double eased = moved * moved * (3.0 - 2.0 * moved);
+        sum += eased;
+        value = i == which ? eased : value;
+    }
+    return value / sum;
+}
+
+static void CheckEased(const kiriPointWeights* linear, const kiriPointWeights* eased, double side)
+{
+    const double h = 1e-5 * side;
+    assert_int_equal(eased->count, linear->count);
+    for (int32_t i = 0; i < eased->count; ++i) {
+        kiriPointWeight w = eased->data[i];
+        double u = EasedAt(linear, i, h, 0) - EasedAt(linear, i, -h, 0);
+        double v = EasedAt(linear, i, h, 1) - EasedAt(linear, i, -h, 1);
+        assert_int_equal(w.frame, linear->data[i].frame);
+        AssertNear(w.value, EasedAt(linear, i, 0.0, 0), 1e-14);
+        AssertNear(side * w.gradient.x, side * u / (2.0 * h), 1e-8);
+        AssertNear(side * w.gradient.y, side * v / (2.0 * h), 1e-8);
+    }
+}
+
+/* Eased weights and their gradients follow from the linear ones; a frame's own is flat where it stands. */
+static void EasedWeightsFollowLinearOnes(void** state)
+{
+    (void)state;
+    uint32_t seed = 41;
+    double apart = 0.0;
+    for (int round = 0; round < 20; ++round) {
+        Scene scene;
+        kiriSites sites;
+        Weights w;
+        kiriPointWeights linear = { 0 }, eased = { 0 };
+        Scene_InitRandom(&scene, &sites, 1 + (int32_t)(Random(&seed) % 20), &seed);
+        Build(&scene, &w, sites.data, sites.count);
+        for (int k = 0; k < 100; ++k) {
+            kiriVec2 at;
+            int32_t cell = RandomCell(&scene, &seed, &at);
+            w.shape.eased = false;
+            CheckPoint(&scene, &w, cell, at, &linear);
+            w.shape.eased = true;
+            CheckPoint(&scene, &w, cell, at, &eased);
+            CheckEased(&linear, &eased, scene.grid.side);
+            apart = fmax(apart, fabs(eased.data[0].value - linear.data[0].value));
+        }
+        kiriArray_Release(&scene.memory, &linear);
+        kiriArray_Release(&scene.memory, &eased);
+        kiriArray_Release(&scene.memory, &sites);
+        Scene_Release(&scene);
+    }
+    assert_true(apart > 0.09); /* 3 w^2 - 2 w^3 is up to 0.096 off the line */
+}
+
 /* From cell to cell the fit hardly jumps where their material is shared. */
 static void FitIsContinuousOverFaces(void** state)
 {
@@ -721,6 +781,7 @@ static void StencilsEqualPoints(void** state)
     for (int k = 0; k < 1000; ++k) {
         kiriVec2 at;
         int32_t cell = RandomCell(&scene, &seed, &at);
+        w.shape.eased = k % 2 == 1;
         CheckPoint(&scene, &w, cell, at, &out);
         assert_true(kiriStencil_Gather(&stencil, &scene.memory, &w.shape, &scene.grid, &scene.mesh, cell));
         kiriStencil_Weigh(&stencil, at);
@@ -850,6 +911,7 @@ int main(void)
         cmocka_unit_test(FitDropsWhatIsNotSpanned),
         cmocka_unit_test(SingleCellHasNoSlope),
         cmocka_unit_test(GradientBetweenTwoFrames),
+        cmocka_unit_test(EasedWeightsFollowLinearOnes),
         cmocka_unit_test(FitIsContinuousOverFaces),
         cmocka_unit_test(WeightsAreThoseOfThePaper),
         cmocka_unit_test(CutSheetsEqualThoseFromScratch),

@@ -281,6 +281,10 @@ typedef struct kiriPaperOptions {
        is not kept. Default 0. */
     int32_t popping;
 
+    /* 1: the weights of frames are linear on the way from frame to frame, so the surface that is seen has a kink at each
+       frame. Always so with KIRI_MODEL_POINTS. Default 0: their slope is zero at the frames. */
+    int32_t linearWeights;
+
     /* KIRI_MODEL_POINTS only. Work grows with the points: spread evenly over the sheet, at least one in every piece;
        default 0: four for each of frameCount. Order 1 (default) takes the strain at a point for all of the material
        around it, order 2 a strain linear in it, at four times the work a point. */

@@ -37,6 +37,7 @@ typedef struct kiriShape {
        a whole number, so that it does not depend on the order of adding. */
     KIRI_ARRAY(int64_t) rigid;
     double rigidWeight; /* set before the first update */
+    bool eased; /* weights of points have no kinks at sites, see kiri_stencil.c; those of cells are linear in between */
 
     /* Since kiriShape_ClearChanges: live cells, each once, whose weights or steps changed, and new ones. */
     KIRI_ARRAY(int32_t) changes;

@@ -90,12 +90,23 @@ static void SetShares(kiriStencil* stencil, kiriVec2 at)
     }
 }
 
+static void MakeSumOne(double* values, int32_t count)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < count; ++i) {
+        sum += values[i];
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        values[i] /= sum;
+    }
+}
+
 /* The fit may undershoot: no value below zero, sum 1. */
-void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at)
+static void WeighLinear(kiriStencil* stencil, kiriVec2 at)
 {
     KIRI_ASSERT(stencil->cell != KIRI_NONE);
     int32_t count = stencil->frames.count;
-    double *values = stencil->values.data, sum = 0.0;
+    double* values = stencil->values.data;
     SetShares(stencil, at);
     for (int32_t i = 0; i < count; ++i) {
         values[i] = 0.0;
@@ -109,10 +120,26 @@ void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at)
     }
     for (int32_t i = 0; i < count; ++i) {
         values[i] = values[i] > 0.0 ? values[i] : 0.0;
-        sum += values[i];
     }
-    for (int32_t i = 0; i < count; ++i) {
-        values[i] /= sum;
+    MakeSumOne(values, count);
+}
+
+/* A linear weight has kinks at its site and where it becomes zero, and linear blending then makes a kink as large as the
+   angle between two frames. Both go where the slope is zero there. Of two frames the sum stays 1. */
+static double Ease(double w)
+{
+    return w * w * (3.0 - 2.0 * w);
+}
+
+void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at)
+{
+    int32_t count = stencil->frames.count;
+    WeighLinear(stencil, at);
+    if (stencil->eased) {
+        for (int32_t i = 0; i < count; ++i) {
+            stencil->values.data[i] = Ease(stencil->values.data[i]);
+        }
+        MakeSumOne(stencil->values.data, count);
     }
 }
 
@@ -200,15 +227,14 @@ bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShap
     stencil->cell = ok ? cell : KIRI_NONE;
     stencil->middle = kiriGrid_Middle(grid, mesh, cell);
     stencil->side = grid->side;
+    stencil->eased = shape->eased;
     return ok;
 }
 
-/* The gradients sum to 0: what rounding leaves of them is taken from that of the largest weight. */
+/* Of the linear weights. */
 static void SetGradients(kiriStencil* stencil, kiriVec2 at, kiriPointWeights* out)
 {
     PointFit fit = FitAround(stencil, at);
-    kiriVec2 rest = { 0.0, 0.0 };
-    int32_t largest = 0;
     for (int32_t k = 0; k < stencil->steps.count; ++k) {
         kiriVec2 slope = FitSlope(&fit, stencil->steps.data[k], stencil->shares.data[k]);
         const double* weights = stencil->weights.data + (size_t)k * (size_t)out->count;
@@ -217,6 +243,34 @@ static void SetGradients(kiriStencil* stencil, kiriVec2 at, kiriPointWeights* ou
             weight->gradient = kiriVec2_Add(weight->gradient, kiriVec2_Scale(weights[i] / stencil->side, slope));
         }
     }
+}
+
+/* From linear weights w to v = ease(w) / s, s being the sum: grad v = (ease'(w) grad w - v grad s) / s. */
+static void EaseGradients(kiriPointWeights* out)
+{
+    double sum = 0.0;
+    kiriVec2 slope = { 0.0, 0.0 };
+    for (int32_t i = 0; i < out->count; ++i) {
+        kiriPointWeight* weight = &out->data[i];
+        double w = weight->value;
+        weight->gradient = kiriVec2_Scale(6.0 * w * (1.0 - w), weight->gradient);
+        weight->value = Ease(w);
+        sum += weight->value;
+        slope = kiriVec2_Add(slope, weight->gradient);
+    }
+    for (int32_t i = 0; i < out->count; ++i) {
+        kiriPointWeight* weight = &out->data[i];
+        weight->value /= sum;
+        kiriVec2 rest = kiriVec2_Sub(weight->gradient, kiriVec2_Scale(weight->value, slope));
+        weight->gradient = kiriVec2_Scale(1.0 / sum, rest);
+    }
+}
+
+/* The gradients sum to 0: what rounding leaves of them is taken from that of the largest weight. */
+static void BalanceGradients(kiriPointWeights* out)
+{
+    kiriVec2 rest = { 0.0, 0.0 };
+    int32_t largest = 0;
     for (int32_t i = 0; i < out->count; ++i) {
         rest = kiriVec2_Add(rest, out->data[i].gradient);
         largest = out->data[i].value > out->data[largest].value ? i : largest;
@@ -234,11 +288,15 @@ bool kiriShape_At(const kiriShape* shape, kiriMemory* memory, const kiriGrid* gr
     bool ok = kiriStencil_Gather(&stencil, &scratch, shape, grid, mesh, cell) &&
               kiriArray_Resize(memory, out, stencil.frames.count);
     if (ok) {
-        kiriStencil_Weigh(&stencil, at);
+        WeighLinear(&stencil, at);
         for (int32_t i = 0; i < out->count; ++i) {
             out->data[i] = (kiriPointWeight){ stencil.frames.data[i], stencil.values.data[i], { 0.0, 0.0 } };
         }
         SetGradients(&stencil, at, out);
+        if (stencil.eased) {
+            EaseGradients(out);
+        }
+        BalanceGradients(out);
     }
     kiriMemory_FreeAll(&scratch);
     return ok;

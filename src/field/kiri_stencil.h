@@ -20,6 +20,7 @@ typedef KIRI_ARRAY(kiriPointWeight) kiriPointWeights;
 typedef struct kiriStencil {
     int32_t cell; /* or KIRI_NONE */
     bool full;    /* all nine squares around have one cell each */
+    bool eased;   /* see kiriShape */
     kiriVec2 middle;
     double side;
     KIRI_ARRAY(kiriStep) steps;  /* to these cells, first to the cell itself */
@@ -38,7 +39,7 @@ bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShap
 void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at);
 
 /* Weights at a local point of the cell, by frame: moving least squares, first order, over the cell and those a
-   straight or diagonal step away; never negative, sum 1 (the gradients sum to 0). Replaces what is in `out`. False
+   straight or diagonal step away, then eased; never negative, sum 1 (the gradients sum to 0). Replaces what is in `out`. False
    for memory. Many points of a cell are quicker with a stencil. Writes nothing but `out` and blocks of `memory`: threads
    may ask at the same time, each with memory of its own. */
 bool kiriShape_At(const kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,

@@ -58,6 +58,7 @@ static void SetPaper(kiriSettings* settings, const kiriPaperOptions* paper)
     settings->integrationOrder = paper->integrationOrder;
     settings->fromScratch = paper->fromScratch != 0;
     settings->popping = paper->popping != 0;
+    settings->eased = paper->linearWeights == 0 && settings->mechanics.model != KIRI_MODEL_POINTS;
     if (paper->integrationPoints > 0) {
         settings->integrationPoints = paper->integrationPoints;
     }
@@ -178,6 +179,7 @@ void kiriBuild_ApplySettings(kiriSheetData* sheet)
 {
     const kiriSettings* settings = &sheet->settings;
     sheet->shape.rigidWeight = settings->rigidWeight;
+    sheet->shape.eased = settings->eased;
     sheet->seen.surface.skinning = settings->skinning;
     sheet->seen.fades.time = sheet->seen.pointFades.time = settings->fadeTime;
     sheet->seen.fades.least = sheet->seen.pointFades.least = settings->leastFade;

@@ -113,6 +113,7 @@ typedef struct kiriSettings {
     int32_t integrationOrder;
     bool fromScratch; /* every cut makes grid, regions and shape anew */
     bool popping;     /* frames are not fitted at a commit */
+    bool eased;       /* weights of points have no kinks at sites */
 } kiriSettings;
 
 /* A sheet that hardly moves falls asleep. */

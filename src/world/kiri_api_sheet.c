@@ -76,8 +76,9 @@ static const char* FaultOfModel(const kiriSheetDef* def)
 
 static const char* FaultOfPaper(const kiriPaperOptions* paper)
 {
-    if (!kiriCall_IsWithin(paper->fromScratch, 0, 1) || !kiriCall_IsWithin(paper->popping, 0, 1)) {
-        return "fromScratch or popping is not 0 or 1";
+    if (!kiriCall_IsWithin(paper->fromScratch, 0, 1) || !kiriCall_IsWithin(paper->popping, 0, 1) ||
+        !kiriCall_IsWithin(paper->linearWeights, 0, 1)) {
+        return "fromScratch, popping or linearWeights is not 0 or 1";
     }
     return kiriCall_IsWithin(paper->integrationPoints, 0, 1 << 20) && kiriCall_IsWithin(paper->integrationOrder, 1, 2)
                ? NULL

@@ -200,6 +200,7 @@ static void HashSettings(uint64_t* hash, const kiriSheetData* sheet)
     kiriHash_Int32(hash, sheet->settings.iterations);
     kiriHash_Double(hash, sheet->settings.collisionPoints);
     kiriHash_Int32(hash, sheet->settings.popping);
+    kiriHash_Int32(hash, sheet->settings.eased);
     if (sheet->settings.skinning != KIRI_SKINNING_LINEAR) {
         kiriHash_Int32(hash, sheet->settings.skinning); /* what fades is what is seen to jump */
     }
