@@ -6,7 +6,7 @@
 #   make lib      build/<config>/libkiri.a and libkiri.so
 #   make single   build/single: the library as kiri.h, kiri.c and kiri.cpp, to add to any build
 #   make bench    runs the benchmarks
-#   make accuracy compares with references from outside, and plots error against cost
+#   make accuracy compares with references from outside, and plots error against cost; CASE=torsion: that one only
 #   make extremes runs what nobody should do to a sheet, and says what became of it
 #   make gallery  renders the pictures of the README, and the film that it begins with
 #   make guide    renders the pictures of src/README.md
@@ -20,6 +20,7 @@
 config ?= release
 SCENE ?= bunny
 ARGS ?=
+CASE ?=
 
 DEBIAN_PACKAGES := gcc g++ make libeigen3-dev libosmesa6-dev libpng-dev libcmocka-dev libbox2d-dev \
                    python3-cffi
@@ -48,6 +49,9 @@ SCENE_OBJECTS := $(filter $(BUILD)/samples/scene% %/outline.c.o,$(SAMPLE_OBJECTS
 # Checks of a whole world, for all tests.
 VALIDATE_OBJECTS := $(patsubst %,$(BUILD)/tests/%.c.o,validate validate_mesh validate_field)
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
+# What `make accuracy` is made of beside its driver.
+ACCURACY_PARTS := $(addprefix tests/,accuracy_beam accuracy_plate accuracy_cut accuracy_motion specimen frame_layout results \
+                  reference trade sweep plot)
 BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench*.c))
 RUN := $(BUILD)/samples/kiri-run
 BOX2D := $(BUILD)/samples/kiri-box2d
@@ -81,7 +85,7 @@ bench: deps
 accuracy extremes: %: deps
 	@$(MAKE) --no-print-directory $(BUILD)/tests/$@
 	@mkdir -p build/$@
-	$(BUILD)/tests/$@ $(if $(filter accuracy,$@),tests/data build/accuracy)
+	$(BUILD)/tests/$@ $(if $(filter accuracy,$@),tests/data build/accuracy "$(CASE)")
 
 # Scenes in the README; and the shape functions of one, as in figure 2 of the paper.
 GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat
@@ -226,7 +230,7 @@ $(BOX2D): $(filter %/box2d.cpp.o %/draw.c.o %/image.c.o,$(SAMPLE_OBJECTS)) $(BUI
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lbox2d -lOSMesa -lpng -lz -lm
 
-$(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy tests/trade tests/sweep tests/reference tests/plot samples/image) $(BUILD)/libkiri.a
+$(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy $(ACCURACY_PARTS) samples/image) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lpng -lz -lm
 

@@ -1,0 +1,13 @@
+/* The families of `make accuracy`: each case prints its rows through results.h. */
+#ifndef KIRI_TEST_ACCURACY_H
+#define KIRI_TEST_ACCURACY_H
+
+typedef struct Case {
+    const char* name;
+    void (*run)(const char* data); /* folder of the reference data */
+} Case;
+
+/* Each ends with a name of null. */
+extern const Case beamCases[], plateCases[], cutCases[], motionCases[];
+
+#endif

@@ -1,0 +1,359 @@
+/* Strips that bend in one direction: theory and the heavy elastica. One row of frames unless said otherwise. */
+#include "accuracy.h"
+#include "reference.h"
+#include "results.h"
+#include "specimen.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define COUNT(array) ((int)(sizeof(array) / sizeof((array)[0])))
+
+static const double G = 9.81, PI = 3.14159265358979323846, NOWHERE[3] = { 0.0, 0.0, 0.0 };
+
+/* rho g h L^3 / D of a strip with nu = 0. */
+static double Gamma(const SpecimenDef* def)
+{
+    double h = (double)def->material.thickness, E = (double)def->material.youngsModulus;
+    return 12.0 * (double)def->material.density * G * def->length * def->length * def->length / (E * h * h);
+}
+
+/* rms distance of the frames from the elastica, by the rms way that they go. */
+static double ElasticaError(const Specimen* specimen, const SpecimenDef* def)
+{
+    static Elastica elastica;
+    static double solved;
+    double error = 0.0, way = 0.0, gamma = Gamma(def);
+    if (solved != gamma) {
+        Elastica_Solve(&elastica, gamma);
+        solved = gamma;
+    }
+    for (int i = 0; i < specimen->count; ++i) {
+        const kiriFrameState* s = &specimen->states[i];
+        double x, drop, u = (double)s->restPoint[0] / def->length;
+        Elastica_At(&elastica, u, &x, &drop);
+        double off[2] = { (double)s->position[0] - def->length * x, (double)s->position[2] + def->length * drop };
+        error += off[0] * off[0] + off[1] * off[1];
+        way += def->length * def->length * ((u - x) * (u - x) + drop * drop);
+    }
+    return sqrt(error / way);
+}
+
+/* Clamped along u = 0 by held frames, under gravity. */
+static Row Hang(const SpecimenDef* def, const char* name, const char* setting)
+{
+    Row row = { name, "", "rows", def->layout.count, def->grid, 0, 0.0, 0.0, NULL, 0.0, 1e-4, 0.0, 0.0 };
+    snprintf(row.setting, sizeof row.setting, "%s", setting);
+    Specimen* specimen = Specimen_Create(def);
+    if (specimen == NULL) {
+        row.error = NAN;
+        return row;
+    }
+    Specimen_HoldLine(specimen, 0.0, NOWHERE);
+    Specimen_Settle(specimen);
+    row.error = ElasticaError(specimen, def);
+    row.milliseconds = specimen->milliseconds;
+    Specimen_Destroy(specimen);
+    return row;
+}
+
+static SpecimenDef Hanging(double young, double thickness, int frames, int grid)
+{
+    SpecimenDef def = Specimen_Strip(young, 0.0, thickness);
+    def.gravity[2] = -G;
+    def.grid = grid;
+    Layout_Make(&def.layout, LAYOUT_ROWS, def.length, def.width, frames, 1);
+    return def;
+}
+
+static void Cantilever(const char* data)
+{
+    static const int frames[] = { 3, 5, 9, 17, 33 }, grids[] = { 40, 80, 160 };
+    static const double targets[] = { 0.03, 0.01, 0.005, 0.0025, 0.0025 };
+    (void)data;
+    for (int g = 0; g < COUNT(grids); ++g) {
+        for (int k = 0; k < COUNT(frames); ++k) {
+            SpecimenDef def = Hanging(5e8, 5e-4, frames[k], grids[g]);
+            Row row = Hang(&def, "cantilever", "nu 0");
+            row.target = targets[k];
+            Results_Add(&row);
+        }
+    }
+}
+
+/* More frames than the grid can carry must not go wrong silently. */
+static void Crowded(const char* data)
+{
+    static const int frames[] = { 17, 25, 29, 33, 37 }, grids[] = { 40, 80 };
+    (void)data;
+    for (int g = 0; g < COUNT(grids); ++g) {
+        for (int k = 0; k < COUNT(frames); ++k) {
+            SpecimenDef def = Hanging(5e8, 5e-4, frames[k], grids[g]);
+            Row row = Hang(&def, "crowded row", "nu 0");
+            row.target = 0.0025;
+            Results_Add(&row);
+        }
+    }
+}
+
+static void Models(const char* data)
+{
+    static const int frames[] = { 5, 9, 17 }, grids[] = { 40, 80 };
+    (void)data;
+    for (int g = 0; g < COUNT(grids); ++g) {
+        for (int k = 0; k < COUNT(frames); ++k) {
+            SpecimenDef def = Hanging(5e8, 5e-4, frames[k], grids[g]);
+            def.model = KIRI_MODEL_AFFINE;
+            def.iterations = 8;
+            Row row = Hang(&def, "affine cantilever", "nu 0");
+            row.target = k == 1 ? 0.01 : 0.0;
+            Results_Add(&row);
+        }
+    }
+}
+
+/* The same curve whatever the thickness: Young's modulus goes with it. */
+static SpecimenDef HangingThin(double thin, int frames)
+{
+    double h = thin * 0.2;
+    return Hanging(12.0 * 1000.0 * G * 0.2 * 0.2 * 0.2 / (7.5 * h * h), h, frames, 80);
+}
+
+static void Thinness(const char* data)
+{
+    static const double thin[] = { 10.0, 50.0, 200.0, 400.0, 1000.0, 4000.0 };
+    static const int frames[] = { 5, 9, 17 };
+    (void)data;
+    for (int t = 0; t < COUNT(thin); ++t) {
+        for (int k = 0; k < COUNT(frames); ++k) {
+            char setting[SETTING_LENGTH];
+            SpecimenDef def = HangingThin(1.0 / thin[t], frames[k]);
+            snprintf(setting, sizeof setting, "h/L 1/%g", thin[t]);
+            Row row = Hang(&def, "thin cantilever", setting);
+            row.target = k == 1 ? 0.005 : 0.0;
+            Results_Add(&row);
+        }
+    }
+}
+
+/* The paper's scheme. */
+static void Points(const char* data)
+{
+    static const double thin[] = { 10.0, 20.0, 50.0, 100.0, 200.0, 400.0 };
+    (void)data;
+    for (int t = 0; t < COUNT(thin); ++t) {
+        char setting[SETTING_LENGTH];
+        SpecimenDef def = HangingThin(1.0 / thin[t], 9);
+        def.model = KIRI_MODEL_POINTS;
+        def.iterations = 8;
+        snprintf(setting, sizeof setting, "h/L 1/%g", thin[t]);
+        Row row = Hang(&def, "points cantilever", setting);
+        Results_Add(&row);
+    }
+}
+
+/* ---- Heavy elastica --------------------------------------------------------------------------------------------- */
+
+static double TipMove(const Specimen* specimen, const SpecimenDef* def, int axis)
+{
+    double sum = 0.0;
+    int tips = 0;
+    for (int i = 0; i < specimen->count; ++i) {
+        const kiriFrameState* s = &specimen->states[i];
+        if ((double)s->restPoint[0] > def->length - 1e-6) {
+            sum += (double)s->position[axis] - (axis < 2 ? (double)s->restPoint[axis] : 0.0);
+            ++tips;
+        }
+    }
+    return sum / tips;
+}
+
+static void AddTip(const SpecimenDef* def, const char* name, const char* setting, int axis, double theory,
+                   double target)
+{
+    Row row = { name, "", "rows", def->layout.count, def->grid, 0, 0.0, 0.0, NULL, 0.0, 1e-4, target, 0.0 };
+    snprintf(row.setting, sizeof row.setting, "%s", setting);
+    Specimen* specimen = Specimen_Create(def);
+    if (specimen == NULL) {
+        return;
+    }
+    Specimen_HoldLine(specimen, 0.0, NOWHERE);
+    Specimen_Settle(specimen);
+    row.milliseconds = specimen->milliseconds;
+    Results_AddValue(row, TipMove(specimen, def, axis), theory, "m");
+    Specimen_Destroy(specimen);
+}
+
+/* The thickness makes gamma. */
+static void MasterCurve(const char* data)
+{
+    static Elastica elastica;
+    char path[512], line[256], setting[SETTING_LENGTH];
+    snprintf(path, sizeof path, "%s/cantilever_master_curve.csv", data);
+    FILE* file = fopen(path, "r");
+    Require(file != NULL, "no cantilever_master_curve.csv");
+    while (fgets(line, sizeof line, file) != NULL) {
+        double gamma, x, drop;
+        if (sscanf(line, "%lf,%lf,%lf", &gamma, &x, &drop) == 3) {
+            Elastica_Solve(&elastica, gamma);
+            Require(fabs(elastica.drop[ELASTICA_STEPS] - drop) < 1e-8 && fabs(elastica.x[ELASTICA_STEPS] - x) < 1e-8,
+                    "the elastica is wrong");
+            SpecimenDef def = Hanging(1e9, sqrt(12.0 * 1000.0 * G * 0.2 * 0.2 * 0.2 / (1e9 * gamma)), 17, 80);
+            snprintf(setting, sizeof setting, "gamma %.3g", gamma);
+            AddTip(&def, "heavy elastica", setting, 2, -0.2 * drop, gamma <= 100.0 ? 0.01 : 0.03);
+        }
+    }
+    fclose(file);
+}
+
+/* ---- In the plane ----------------------------------------------------------------------------------------------- */
+
+/* Thick, so that it does not buckle out of its plane. Timoshenko's beam. */
+static void PlaneBending(const char* data)
+{
+    static const int rows[] = { 1, 2, 4 }, columns[] = { 9, 9, 17 };
+    double E = 5e8, h = 5e-3, L = 0.2, W = 0.05, load = 1000.0 * h * W * G;
+    double theory = load * L * L * L * L / (8.0 * E * h * W * W * W / 12.0);
+    theory += load * L * L / (2.0 * 5.0 / 6.0 * E / 2.0 * h * W);
+    (void)data;
+    for (int k = 0; k < COUNT(rows); ++k) {
+        char setting[SETTING_LENGTH];
+        SpecimenDef def = Specimen_Strip(E, 0.0, h);
+        def.gravity[1] = -G;
+        Layout_Make(&def.layout, LAYOUT_ROWS, L, W, columns[k], rows[k]);
+        snprintf(setting, sizeof setting, "nu 0, %d row%s", rows[k], rows[k] > 1 ? "s" : "");
+        AddTip(&def, "plane bending", setting, 1, -theory, 0.03);
+    }
+}
+
+static void Tension(const char* data)
+{
+    static const int rows[] = { 1, 2, 4 }, columns[] = { 9, 9, 17 };
+    (void)data;
+    for (int n = 0; n < 2; ++n) {
+        for (int k = 0; k < COUNT(rows); ++k) {
+            char setting[SETTING_LENGTH];
+            SpecimenDef def = Specimen_Strip(1e6, n == 0 ? 0.0 : 0.3, 5e-4);
+            def.gravity[0] = G;
+            def.planar = 1;
+            Layout_Make(&def.layout, LAYOUT_ROWS, def.length, def.width, columns[k], rows[k]);
+            snprintf(setting, sizeof setting, "nu %g, %d row%s", n == 0 ? 0.0 : 0.3, rows[k], rows[k] > 1 ? "s" : "");
+            AddTip(&def, "tension", setting, 0, 1000.0 * G * 0.2 * 0.2 / (2.0 * 1e6), 0.01);
+        }
+    }
+}
+
+/* ---- End loads -------------------------------------------------------------------------------------------------- */
+
+/* The strip of Sze, Liu, Lo, Popular benchmark problems for geometric nonlinear analysis of shells, 2004. The moves are
+   those of the elastica (Mattiasson, Numerical results from large deflection beam and frame problems analysed by means
+   of elliptic integrals, 1981); shells have 1.604, 4.933 and 3.286, 6.698. */
+
+static SpecimenDef SzeStrip(double length, int frames, int grid)
+{
+    SpecimenDef def = Specimen_Strip(1.2e6, 0.0, 0.1);
+    def.length = length;
+    def.width = 1.0;
+    def.grid = grid;
+    def.columns = 80;
+    def.material.density = 1.0f;
+    def.material.airDamping = 4.0f;
+    Layout_Make(&def.layout, LAYOUT_ROWS, def.length, def.width, frames, 1);
+    return def;
+}
+
+static void EndLoad(const char* data)
+{
+    static const int frames[] = { 5, 9, 17, 33 }, grids[] = { 40, 80, 160 };
+    static const double loads[] = { 2.0, 4.0 }, moves[][2] = { { 1.6064, 4.9346 }, { 3.2894, 6.6996 } };
+    (void)data;
+    for (int p = 0; p < 2; ++p) {
+        for (int g = 0; g < COUNT(grids); ++g) {
+            for (int k = 0; k < COUNT(frames); ++k) {
+                SpecimenDef def = SzeStrip(10.0, frames[k], grids[g]);
+                Specimen* specimen = Specimen_Create(&def);
+                if (specimen == NULL) {
+                    continue;
+                }
+                const double force[3] = { 0.0, 0.0, loads[p] };
+                double tip[3];
+                Specimen_HoldLine(specimen, 0.0, NOWHERE);
+                Specimen_Pull(specimen, 10.0, 0.5, force);
+                Specimen_Settle(specimen);
+                Specimen_At(specimen, 10.0, 0.5, tip);
+                Row row = { "end load",
+                            "",
+                            "rows",
+                            frames[k],
+                            grids[g],
+                            0,
+                            0.0,
+                            0.0,
+                            NULL,
+                            0.0,
+                            2e-4,
+                            0.0,
+                            specimen->milliseconds };
+                snprintf(row.setting, sizeof row.setting, "P %g, deflection", loads[p]);
+                Results_AddValue(row, tip[2], moves[p][1], "m");
+                snprintf(row.setting, sizeof row.setting, "P %g, shortening", loads[p]);
+                Results_AddValue(row, 10.0 - tip[0], moves[p][0], "m");
+                Specimen_Destroy(specimen);
+            }
+        }
+    }
+}
+
+/* ---- Vibration -------------------------------------------------------------------------------------------------- */
+
+/* The first mode of a cantilever of length *data. */
+static void FirstShape(const void* data, double u, double v, double w[3])
+{
+    double L = *(const double*)data, k = 1.8751040687 / L, x = k * u;
+    double s = (cosh(1.8751040687) + cos(1.8751040687)) / (sinh(1.8751040687) + sin(1.8751040687));
+    (void)v;
+    w[0] = cosh(x) - cos(x) - s * (sinh(x) - sin(x));
+    w[1] = k * (sinh(x) + sin(x) - s * (cosh(x) - cos(x)));
+    w[2] = 0.0;
+}
+
+static void FirstFrequency(const char* data)
+{
+    static const int frames[] = { 5, 9, 17 }, grids[] = { 40, 80, 160 };
+    (void)data;
+    for (int g = 0; g < COUNT(grids); ++g) {
+        for (int k = 0; k < COUNT(frames); ++k) {
+            double E = 5e8, h = 5e-4, L = 0.2;
+            double theory = 1.8751041 * 1.8751041 * sqrt(E * h * h / (12.0 * 1000.0 * L * L * L * L));
+            SpecimenDef def = Specimen_Strip(E, 0.0, h);
+            def.grid = grids[g];
+            def.material.airDamping = 0.0f;
+            Layout_Make(&def.layout, LAYOUT_ROWS, L, def.width, frames[k], 1);
+            Specimen* specimen = Specimen_Create(&def);
+            if (specimen == NULL) {
+                continue;
+            }
+            Specimen_HoldLine(specimen, 0.0, NOWHERE);
+            double found = Specimen_Frequency(specimen, FirstShape, &L, 1e-3, theory);
+            Row row = { "first frequency",     "nu 0", "rows", frames[k], grids[g], 0, 0.0, 0.0, NULL, 0.0, 1e-3, 0.02,
+                        specimen->milliseconds };
+            Results_AddValue(row, found / (2.0 * PI), theory / (2.0 * PI), "Hz");
+            Specimen_Destroy(specimen);
+        }
+    }
+}
+
+const Case beamCases[] = {
+    { "cantilever", Cantilever },
+    { "crowded row", Crowded },
+    { "heavy elastica", MasterCurve },
+    { "thin cantilever", Thinness },
+    { "affine cantilever", Models },
+    { "points cantilever", Points },
+    { "plane bending", PlaneBending },
+    { "tension", Tension },
+    { "end load", EndLoad },
+    { "first frequency", FirstFrequency },
+    { NULL, NULL },
+};

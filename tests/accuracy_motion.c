@@ -1,0 +1,103 @@
+/* What moves: how much of a swing is left. How far presets are from much finer runs is in trade.c. */
+#include "accuracy.h"
+#include "results.h"
+#include "specimen.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define COUNT(array) ((int)(sizeof(array) / sizeof((array)[0])))
+
+static const double G = 9.81;
+
+/* J: of motion, bending and weight. */
+static double Energy(const Specimen* specimen)
+{
+    kiriTotals t;
+    kiriSheet_GetTotals(specimen->world, specimen->sheet, &t);
+    return t.kineticEnergy + t.elasticEnergy + t.mass * G * t.center[2];
+}
+
+static void PinCorner(Specimen* specimen, double u, double v)
+{
+    kiriPinDef def;
+    kiriPin pin;
+    kiriDefaultPinDef(&def);
+    def.restPoint[0] = (float)u;
+    def.restPoint[1] = (float)v;
+    def.target[1] = (float)v;
+    def.target[2] = -(float)u;
+    Require(kiriCreatePin(specimen->world, specimen->sheet, &def, &pin) == KIRI_OK, "no pin");
+}
+
+/* It hangs down from two pinned corners, from where 0.3 m/s across its plane make it swing: the world has the sheet
+   level, so its frames are held upright for a tick and let go. */
+static Specimen* MakePendulum(int frames)
+{
+    static const float upright[9] = { 0.0f, 0.0f, -1.0f, 0.0f, 1.0f, 0.0f, 1.0f, 0.0f, 0.0f };
+    const double gravity[3] = { 0.0, 0.0, -G };
+    SpecimenDef def = Specimen_Strip(5e8, 0.3, 5e-4);
+    def.material.airDamping = 0.0f;
+    def.iterations = 1;
+    Layout_Make(&def.layout, LAYOUT_ROWS, def.length, def.width, frames, 1);
+    Specimen* specimen = Specimen_Create(&def);
+    Require(specimen != NULL, "a pendulum is refused");
+    for (int k = 1; k >= 0; --k) { /* the last step of the way makes the velocity */
+        for (int i = 0; i < specimen->count; ++i) {
+            const float* r = specimen->states[i].restPoint;
+            const float to[3] = { -(float)k * 0.3f / 60.0f, r[1], -r[0] };
+            kiriFrame_Hold(specimen->world, specimen->ids[i], to, upright);
+        }
+        Require(kiriWorld_Tick(specimen->world, 1.0f / 60.0f, 1) == KIRI_OK, "no tick");
+    }
+    for (int i = 0; i < specimen->count; ++i) {
+        kiriFrame_Hold(specimen->world, specimen->ids[i], NULL, NULL);
+    }
+    PinCorner(specimen, 0.0, 0.0);
+    PinCorner(specimen, 0.0, def.width);
+    Specimen_SetGravity(specimen, gravity);
+    return specimen;
+}
+
+static void AddSwing(int frames, int substeps)
+{
+    Specimen* specimen = MakePendulum(frames);
+    kiriTotals totals;
+    kiriSheet_GetTotals(specimen->world, specimen->sheet, &totals);
+    double first = Energy(specimen), given = totals.kineticEnergy, start = ProcessorTime(NULL);
+    for (int tick = 0; tick < 600; ++tick) {
+        Require(kiriWorld_Tick(specimen->world, 1.0f / 60.0f, substeps) == KIRI_OK, "no tick");
+    }
+    Row row = { "energy of a swing",
+                "Euler, after 10 s",
+                "rows",
+                frames,
+                80,
+                substeps,
+                0.0,
+                0.0,
+                NULL,
+                0.0,
+                1e-3,
+                0.05,
+                1e3 * (ProcessorTime(NULL) - start) / 600 };
+    Results_AddValue(row, (given + Energy(specimen) - first) / given, 1.0, "1");
+    Specimen_Destroy(specimen);
+}
+
+static void Swing(const char* data)
+{
+    static const int frames[] = { 5, 9 }, substeps[] = { 1, 2, 4, 8, 64 };
+    (void)data;
+    for (int f = 0; f < COUNT(frames); ++f) {
+        for (int s = 0; s < COUNT(substeps); ++s) {
+            AddSwing(frames[f], substeps[s]);
+        }
+    }
+}
+
+const Case motionCases[] = {
+    { "energy of a swing", Swing },
+    { NULL, NULL },
+};
