@@ -6,7 +6,7 @@ typedef struct Wrench {
 } Wrench;
 
 /* What a strain that pulls with -`pull` does to a frame, by its derivative. */
-static void AddRow(const kiriSolver* solver, const kiriFrameRow* row, double pull, const kiriMat3* A, Wrench* sum)
+static void AddPull(const kiriSolver* solver, const kiriFrameRow* row, double pull, const kiriMat3* A, Wrench* sum)
 {
     kiriVec3 torque = row->by[1];
     if (kiriMechanics_IsAffine(&solver->mechanics)) {
@@ -34,7 +34,7 @@ static void TakeFromHold(const kiriSolver* solver, const kiriSystem* system, int
     }
 }
 
-static void AddPins(const kiriSolver* solver, const kiriSystem* system)
+static void AddPinPulls(const kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t k = 0; k < system->pinCount; ++k) {
         const kiriPinRow* pin = &system->pins[k];
@@ -59,7 +59,7 @@ static void AddClamps(const kiriSolver* solver, const kiriSystem* system)
         kiriClamp_TakeOffsets(row, strain, pulling);
         for (int e = 0; e < row->strainCount; ++e) {
             double pull = -row->stiffness[e] * pulling[e] - row->loss[e] * (strain[e] - row->startStrain[e]);
-            AddRow(solver, &rows[e], pull, &pose->A, &wrench);
+            AddPull(solver, &rows[e], pull, &pose->A, &wrench);
         }
         if (system->reactions.clamps != NULL) {
             kiriVec3 arm = kiriVec3_Sub(pose->x, row->pose.x);
@@ -92,7 +92,7 @@ static bool HasHeldMember(const kiriSolver* solver, const kiriSystem* system, in
 }
 
 /* What element k does to the frames that are held. */
-static void AddElement(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+static void AddHeldElement(const kiriSolver* solver, const kiriSystem* system, int32_t k)
 {
     int32_t count = kiriElement_Members(system, k, solver->members.data);
     double strain[KIRI_MOST_STRAINS], pulling[KIRI_MOST_STRAINS];
@@ -108,7 +108,7 @@ static void AddElement(const kiriSolver* solver, const kiriSystem* system, int32
             int32_t n = KIRI_MOST_STRAINS * k + e;
             double change = strain[e] - solver->startStrain.data[n];
             double pull = -solver->stiffness.data[n] * pulling[e] - solver->loss.data[n] * change;
-            AddRow(solver, &solver->rows.data[count * e + m], pull, &solver->poses.data[frame].A, &wrench);
+            AddPull(solver, &solver->rows.data[count * e + m], pull, &solver->poses.data[frame].A, &wrench);
         }
         TakeFromHold(solver, system, frame, wrench);
     }
@@ -130,12 +130,12 @@ static void AddMomentum(const kiriSolver* solver, const kiriSystem* system, int3
 
 void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
 {
-    AddPins(solver, system);
+    AddPinPulls(solver, system);
     AddClamps(solver, system);
     if (solver->isHeld && system->reactions.frames != NULL) {
         AddContacts(solver, system);
         for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
-            AddElement(solver, system, k);
+            AddHeldElement(solver, system, k);
         }
         for (int32_t f = 0; f < system->frameCount; ++f) {
             AddMomentum(solver, system, f);

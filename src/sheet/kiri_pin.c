@@ -12,7 +12,7 @@ typedef struct RestLine {
     double length;
 } RestLine;
 
-static RestLine LineOf(const kiriSheetData* sheet, const kiriPinData* pin)
+static RestLine RestLineOf(const kiriSheetData* sheet, const kiriPinData* pin)
 {
     kiriVec2 from = kiriMesh_Local(&sheet->mesh, pin->at);
     kiriVec2 way = kiriVec2_Sub(kiriMesh_Local(&sheet->mesh, pin->to), from);
@@ -68,7 +68,7 @@ static kiriVec3 HeldPoint(const RestLine* line, kiriVec3 target, const kiriMat3*
 /* The mean of the frames' motion, by length. */
 void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin)
 {
-    RestLine line = LineOf(sheet, pin);
+    RestLine line = RestLineOf(sheet, pin);
     kiriVec2 middle = { 0.0, 0.0 };
     kiriVec3 x = { 0.0, 0.0, 0.0 };
     kiriMat3 A = { x, x, x };
@@ -225,7 +225,7 @@ static void WriteHinge(kiriSheetData* sheet, const kiriPinShare* pinned)
     const kiriMaterial* material = &sheet->settings.material;
     const kiriPinData* pin = &sheet->pins.data[pinned->pin];
     kiriVec2 site = sheet->frames.data[pinned->share.frame].site.at;
-    RestLine line = LineOf(sheet, pin);
+    RestLine line = RestLineOf(sheet, pin);
     kiriClampShape shape = ShapeOf(sheet, &line, &pinned->share, site);
     double away = fabs(kiriVec2_Dot(kiriVec2_Sub(site, line.from), kiriVec2_Make(-line.along.y, line.along.x)));
     double length = away > shape.least ? away : shape.least;
@@ -251,7 +251,7 @@ static kiriVec3 IntoPlane(const kiriSheetData* sheet, const kiriFrameData* frame
 static kiriClampRow ClampRowOf(const kiriSheetData* sheet, const kiriPinShare* pinned, const kiriFrameData* frame)
 {
     const kiriPinData* pin = &sheet->pins.data[pinned->pin];
-    RestLine line = LineOf(sheet, pin);
+    RestLine line = RestLineOf(sheet, pin);
     kiriClampShape shape = ShapeOf(sheet, &line, &pinned->share, frame->site.at);
     kiriClampRow row;
     memset(&row, 0, sizeof(row));

@@ -23,7 +23,7 @@ static kiriPinData MakePin(int32_t type)
     return pin;
 }
 
-static kiriResult AddPin(kiriWorld* world, kiriSheetData* data, const kiriPinData* made, int32_t frame, kiriPin* pin)
+static kiriResult AddNewPin(kiriWorld* world, kiriSheetData* data, const kiriPinData* made, int32_t frame, kiriPin* pin)
 {
     kiriResult result = kiriWorld_ReserveIds(world, &world->pinIds, 1);
     if (result == KIRI_OK && !kiriPins_Add(data, made, frame)) {
@@ -59,7 +59,7 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
     made.stiffness = def->stiffness > 0.0f
                          ? def->stiffness
                          : 10.0 * data->settings.material.youngsModulus * data->settings.material.thickness;
-    kiriResult result = AddPin(world, data, &made, frame, pin);
+    kiriResult result = AddNewPin(world, data, &made, frame, pin);
     return result == KIRI_OK ? KIRI_OK : KIRI_FAIL(result, NULL);
 }
 
@@ -74,7 +74,7 @@ static kiriResult AddLine(kiriWorld* world, kiriSheetData* data, int32_t type, c
     kiriPin_TakePose(data, &made);
     made.lastTarget = made.target;
     made.lastRotation = made.rotation;
-    return AddPin(world, data, &made, KIRI_NONE, pin);
+    return AddNewPin(world, data, &made, KIRI_NONE, pin);
 }
 
 /* Finds what the line meets. *why says what is wrong, or is null where the result says it all. */
