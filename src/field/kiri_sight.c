@@ -1,0 +1,160 @@
+#include "kiri_sight.h"
+
+/* ---- Edges of the material --------------------------------------------------------------------------------------- */
+
+kiriLatticePoint kiriSight_HeadOf(const kiriMeshData* mesh, int32_t h)
+{
+    return mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at;
+}
+
+int32_t kiriSight_EdgeAfter(const kiriMeshData* mesh, int32_t h)
+{
+    int32_t next = kiriEdge_Next(h);
+    while (!kiriSight_IsEdge(mesh, next)) {
+        next = kiriEdge_Next(kiriMesh_Twin(mesh, next));
+    }
+    return next;
+}
+
+/* ---- What is met ------------------------------------------------------------------------------------------------- */
+
+/* A segment on its way through the squares. */
+typedef struct SightRay {
+    kiriVec2 from, way;
+    double length;
+    double least;         /* m: what is as near to the way, or to its ends, only touches */
+    kiriSightHit nearest; /* share above 1: none */
+} SightRay;
+
+static double Cross(kiriVec2 a, kiriVec2 b)
+{
+    return a.x * b.y - a.y * b.x;
+}
+
+/* On which side of the way a point is: left 1, right -1, or on it 0. */
+static int SideOf(const SightRay* ray, kiriVec2 p)
+{
+    double off = Cross(ray->way, kiriVec2_Sub(p, ray->from)), least = ray->least * ray->length;
+    return off > least ? 1 : off < -least ? -1 : 0;
+}
+
+static bool IsEdgeBefore(const kiriVec2 a[2], const kiriVec2 b[2])
+{
+    int k = a[0].x == b[0].x && a[0].y == b[0].y;
+    return a[k].x != b[k].x ? a[k].x < b[k].x : a[k].y < b[k].y;
+}
+
+static void Meet(SightRay* ray, double share, kiriVec2 low, kiriVec2 high)
+{
+    const kiriVec2 ends[2] = { low, high };
+    kiriSightHit* nearest = &ray->nearest;
+    if (share * ray->length > ray->least && (1.0 - share) * ray->length > ray->least &&
+        (share < nearest->share || (share == nearest->share && IsEdgeBefore(ends, nearest->edge)))) {
+        nearest->share = share;
+        nearest->edge[0] = low;
+        nearest->edge[1] = high;
+    }
+}
+
+/* An edge of the material stops the way where the way crosses it, or passes its head from the edge's side to that of
+   the edge after it: a way may touch what it runs along. Both lips of a slit are met at the same bits. */
+static void MeetEdge(SightRay* ray, const kiriMeshData* mesh, int32_t h)
+{
+    kiriLatticePoint a = mesh->vertices.data[kiriMesh_Tail(mesh, h)].at, b = kiriSight_HeadOf(mesh, h);
+    kiriVec2 tail = kiriMesh_Local(mesh, a), head = kiriMesh_Local(mesh, b);
+    bool swap = b.x < a.x || (b.x == a.x && b.y < a.y);
+    kiriVec2 low = swap ? head : tail, high = swap ? tail : head;
+    int sides = SideOf(ray, tail) * SideOf(ray, head);
+    if (sides < 0) {
+        kiriVec2 edge = kiriVec2_Sub(high, low);
+        Meet(ray, Cross(kiriVec2_Sub(low, ray->from), edge) / Cross(ray->way, edge), low, high);
+    } else if (sides == 0 && SideOf(ray, head) == 0) {
+        kiriVec2 after = kiriMesh_Local(mesh, kiriSight_HeadOf(mesh, kiriSight_EdgeAfter(mesh, h)));
+        if (SideOf(ray, tail) * SideOf(ray, after) < 0) {
+            double share = kiriVec2_Dot(kiriVec2_Sub(head, ray->from), ray->way) / (ray->length * ray->length);
+            Meet(ray, share, low, high);
+        }
+    }
+}
+
+static void MeetEdgesOf(SightRay* ray, const kiriMeshData* mesh, int32_t square)
+{
+    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
+        int32_t triangle = mesh->squares.nodes.data[n].triangle;
+        for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
+            if (kiriSight_IsEdge(mesh, h)) {
+                MeetEdge(ray, mesh, h);
+            }
+        }
+    }
+}
+
+/* ---- The way through the squares --------------------------------------------------------------------------------- */
+
+bool kiriSight_MayLookIn(const kiriSight* sight, int32_t cell)
+{
+    for (int32_t k = 0; k < sight->regionCount; ++k) {
+        if (sight->owner[cell] == sight->regions[k]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool kiriSight_MayLookAt(const kiriSight* sight, int32_t square)
+{
+    for (int32_t c = sight->grid->squareCell.data[square]; c != KIRI_NONE; c = sight->grid->cells.data[c].next) {
+        if (kiriSight_MayLookIn(sight, c)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Along one axis: the column (or row) that the way is in, and the share of the way at which it comes to the next. */
+typedef struct SightAxis {
+    int32_t at, step;
+    double next, each;
+} SightAxis;
+
+static SightAxis StartAxis(double from, double way, const kiriGrid* grid, const kiriMeshData* mesh)
+{
+    double x = (from + mesh->step) / grid->side;
+    int32_t at = (int32_t)(x + 1.0) - 1; /* rounded down: never below -1 */
+    SightAxis axis = { at, way > 0.0 ? 1 : -1, 2.0, 2.0 };
+    if (way != 0.0) {
+        axis.each = grid->side / fabs(way);
+        axis.next = (way > 0.0 ? at + 1 - x : x - at) * axis.each;
+    }
+    return axis;
+}
+
+kiriSightEnd kiriSight_Cast(const kiriSight* sight, kiriVec2 p, kiriVec2 q, kiriSightHit* hit)
+{
+    const kiriSquares* squares = &sight->mesh->squares;
+    kiriVec2 way = kiriVec2_Sub(q, p);
+    double least = 1e-6 * sight->grid->side;
+    SightRay ray = { p, way, kiriVec2_Length(way), least, { 2.0, { p, p } } };
+    SightAxis u = StartAxis(p.x, way.x, sight->grid, sight->mesh), v = StartAxis(p.y, way.y, sight->grid, sight->mesh);
+    for (double entry = 0.0; entry < 1.0;) {
+        int32_t square = v.at * squares->columns + u.at;
+        bool isInside = u.at >= 0 && u.at < squares->columns && v.at >= 0 && v.at < squares->rows;
+        hit->share = entry;
+        if (!isInside || !kiriSight_MayLookAt(sight, square)) {
+            return (1.0 - entry) * ray.length <= least ? KIRI_SIGHT_CLEAR : KIRI_SIGHT_LOST;
+        }
+        if (!sight->grid->whole.data[square]) {
+            MeetEdgesOf(&ray, sight->mesh, square);
+        }
+        SightAxis* axis = u.next < v.next ? &u : &v;
+        entry = axis->next;
+        if (ray.nearest.share <= 1.0 && ray.nearest.share <= entry) {
+            *hit = ray.nearest;
+            return KIRI_SIGHT_EDGE;
+        }
+        axis->at += axis->step;
+        axis->next += axis->each;
+    }
+    hit->share = 1.0;
+    return KIRI_SIGHT_CLEAR;
+}
