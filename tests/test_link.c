@@ -33,19 +33,6 @@ static int32_t OwnerOf(const Links* l, int32_t cell)
     return l->regions.field.owner.data[cell];
 }
 
-/* The distance on the grid from one site to another, by a flood of its own. */
-static double GridDistance(Scene* scene, int32_t from, int32_t to)
-{
-    kiriSeed seed = { from, 0, 0 };
-    kiriQuota quota = { INT64_MAX, 0 };
-    kiriRule rule = { &scene->grid, KIRI_FAR - 1, NULL, NULL, NULL };
-    assert_true(kiriField_Start(&scene->field, &scene->memory, &seed, 1));
-    assert_int_equal(kiriField_Flood(&scene->field, &rule, &quota), KIRI_DONE);
-    double distance = scene->field.distance.data[to] * scene->grid.side / KIRI_UNIT;
-    kiriField_Reset(&scene->field);
-    return distance;
-}
-
 static void StripHasStraightLinks(void** state)
 {
     (void)state;
@@ -180,11 +167,11 @@ static void SlitMakesTheLongWay(void** state)
     const kiriLink* link = &links.made.links.data[0];
     double across = 0.5 * (sites[1].at.x - sites[0].at.x), up = 0.8 - sites[0].at.y;
     double way = 2.0 * sqrt(across * across + up * up);
-    AssertNear(link->length, GridDistance(&scene, sites[0].cell, sites[1].cell), 1e-12);
-    AssertNear(link->length / way, 1.04, 0.06);
-    AssertNear(link->crossing.x, 0.5, 0.03);
-    AssertNear(link->crossing.y, 0.8, 0.04);
-    AssertNear(link->width, 0.2, 0.05); /* the border may cross the slit's last square on either side */
+    AssertNear(link->length, way, 1e-6);
+    AssertNear(link->crossing.x, 0.5, 1e-6);
+    AssertNear(link->crossing.y, 0.8, 1e-6);
+    AssertNear(link->width, 0.2, 2e-6);
+    AssertNear(link->outer, link->width, 0.0);
     Scene_Release(&scene);
 }
 
@@ -243,12 +230,12 @@ static void DiagonalBorderHasItsTrueLength(void** state)
     Build(&scene, &links, sites, 2);
     assert_int_equal(links.made.links.count, 1);
     const kiriLink* link = &links.made.links.data[0];
-    double width = sqrt(2.0) * 40.0 / 41.0; /* ties go to frame 0; the last row and column have no square beyond them */
+    double width = sqrt(2.0);
     AssertNear(link->width, width, 1e-6);
-    AssertNear(link->normal.x, sqrt(0.5), 0.02);
-    AssertNear(link->normal.y, sqrt(0.5), 0.02);
-    AssertNear(link->centroid.x, 0.5, 0.02);
-    AssertNear(link->centroid.y, 0.5, 0.02);
+    AssertNear(link->normal.x, sqrt(0.5), 1e-9);
+    AssertNear(link->normal.y, sqrt(0.5), 1e-9);
+    AssertNear(link->centroid.x, 0.5, 1e-6);
+    AssertNear(link->centroid.y, 0.5, 1e-6);
     AssertNear(link->moment, width * width * width / 12.0, 1e-6);
     AssertNear(link->length, 20.0 * sqrt(2.0) * scene.grid.side, 1e-12);
     AssertNear(link->crossing.x, 20.5 * scene.grid.side, 1e-6);
@@ -320,13 +307,67 @@ static void PartialFacesCount(void** state)
     Scene_Release(&scene);
 }
 
-/* On randomly cut sheets: the regions share out the sheet; the links are in order, no shorter than the straight
-   line, and add up to the vector sum of the border, pair by pair. */
+static int32_t RootOf(const int32_t* parent, int32_t i)
+{
+    while (parent[i] != i) {
+        i = parent[i];
+    }
+    return i;
+}
+
+/* Links join the regions that faces join, and no others. */
+static void CheckPieces(const Scene* scene, const Links* l, int32_t n)
+{
+    int32_t* parent[2];
+    for (int k = 0; k < 2; ++k) {
+        parent[k] = malloc(sizeof(int32_t) * (size_t)n);
+        for (int32_t i = 0; i < n; ++i) {
+            parent[k][i] = i;
+        }
+    }
+    for (int32_t k = 0; k < l->made.links.count; ++k) {
+        parent[0][RootOf(parent[0], l->made.links.data[k].i)] = RootOf(parent[0], l->made.links.data[k].j);
+    }
+    for (int32_t f = 0; f < scene->grid.faces.count; ++f) {
+        const kiriFace* face = &scene->grid.faces.data[f];
+        parent[1][RootOf(parent[1], OwnerOf(l, face->cell[0]))] = RootOf(parent[1], OwnerOf(l, face->cell[1]));
+    }
+    for (int32_t i = 0; i < n; ++i) {
+        for (int32_t j = 0; j < i; ++j) {
+            assert_int_equal(RootOf(parent[0], i) == RootOf(parent[0], j),
+                             RootOf(parent[1], i) == RootOf(parent[1], j));
+        }
+    }
+    free(parent[0]);
+    free(parent[1]);
+}
+
+/* What holds for every link: the order, axes, sizes that make sense. */
+static void CheckLink(const Links* l, const kiriSite* sites, double side, int32_t k)
+{
+    const kiriLink* link = &l->made.links.data[k];
+    const kiriLink* before = k > 0 ? link - 1 : NULL;
+    kiriVec2 straight = kiriVec2_Sub(sites[link->j].at, sites[link->i].at);
+    assert_true(link->i < link->j);
+    assert_true(before == NULL || before->i < link->i || (before->i == link->i && before->j <= link->j));
+    assert_true(link->width > 0.0);
+    assert_true(link->outer >= 0.0 && link->outer <= link->width);
+    assert_true(link->moment >= 0.0);
+    assert_true(link->length >= kiriVec2_Length(straight) - 1e-12);
+    assert_true(link->length < 3.0); /* of a sheet of length 1 */
+    assert_true(link->length >= 0.1 * side - 1e-12);
+    AssertNear(kiriVec2_Length(link->normal), 1.0, 1e-12);
+    AssertNear(link->tangent.x, -link->normal.y, 1e-14);
+    AssertNear(link->tangent.y, link->normal.x, 1e-14);
+}
+
+/* On randomly cut sheets: links are in order, no shorter than the straight line, and join what hangs together; and
+   their borders are those of the grid, pair by pair, but for some squares at each end. */
 static void RandomSheetsAddUp(void** state)
 {
     (void)state;
     uint32_t seed = 3;
-    int32_t found = 0;
+    int32_t found = 0, corners = 0;
     for (int round = 0; round < 150; ++round) {
         Scene scene;
         kiriSites sites;
@@ -335,6 +376,7 @@ static void RandomSheetsAddUp(void** state)
         int32_t n = sites.count;
         Build(&scene, &links, sites.data, n);
         kiriVec2* sums = calloc((size_t)(n * n), sizeof(kiriVec2));
+        int32_t* counts = calloc((size_t)(n * n), sizeof(int32_t));
         for (int32_t i = 0; i < n; ++i) {
             assert_int_equal(OwnerOf(&links, sites.data[i].cell), i);
         }
@@ -350,28 +392,27 @@ static void RandomSheetsAddUp(void** state)
         }
         for (int32_t k = 0; k < links.made.links.count; ++k) {
             const kiriLink* link = &links.made.links.data[k];
-            const kiriLink* before = k > 0 ? link - 1 : NULL;
-            kiriVec2 straight = kiriVec2_Sub(sites.data[link->j].at, sites.data[link->i].at);
-            assert_true(link->i < link->j);
-            assert_true(before == NULL || before->i < link->i || (before->i == link->i && before->j <= link->j));
-            assert_true(link->width > 0.0);
-            assert_true(link->moment >= 0.0);
-            assert_true(link->length >= kiriVec2_Length(straight));
-            AssertNear(kiriVec2_Length(link->normal), 1.0, 1e-14);
-            AssertNear(link->tangent.x, -link->normal.y, 0.0);
-            AssertNear(link->tangent.y, link->normal.x, 0.0);
+            CheckLink(&links, sites.data, scene.grid.side, k);
             kiriVec2* sum = &sums[link->i * n + link->j];
             *sum = kiriVec2_Sub(*sum, kiriVec2_Scale(link->width, link->normal));
+            counts[link->i * n + link->j] += 1;
         }
         for (int32_t k = 0; k < n * n; ++k) {
-            AssertNear(kiriVec2_Length(sums[k]), 0.0, 1e-12);
+            AssertNear(kiriVec2_Length(sums[k]), 0.0, 4.0 * counts[k] * scene.grid.side);
         }
+        for (int32_t k = 0; k < links.made.corners.count; ++k) {
+            CheckCorner(&links, &links.made.corners.data[k]);
+        }
+        CheckPieces(&scene, &links, n);
         found += links.made.links.count;
+        corners += links.made.corners.count;
         free(sums);
+        free(counts);
         kiriArray_Release(&scene.memory, &sites);
         Scene_Release(&scene);
     }
     assert_true(found > 1000);
+    assert_true(corners > 200);
 }
 
 /* A slit that ends at the border parts the border, though the squares before it are whole. */
@@ -393,43 +434,277 @@ static void SlitAcrossTheBorderPartsIt(void** state)
     Scene_Release(&scene);
 }
 
-/* Centroid and second moment of a border that is no straight line, against the integral over its projection: points
-   spread evenly over every face, each with the share that the face shows to the normal. */
-static void MomentsOfASlantedBorder(void** state)
+/* ---- Against the Euclidean Voronoi diagram -------------------------------------------------------------------------- */
+
+/* The part of a rectangle that is nearest to one site, by clipping it at all others: an edge a neighbour. */
+typedef struct Polygon {
+    kiriVec2 at[40];
+    int32_t beyond[40]; /* the edge from this corner to the next: what is beyond, or KIRI_NONE at the outline */
+    int32_t count;
+} Polygon;
+
+static void ClipAt(Polygon* polygon, kiriVec2 middle, kiriVec2 normal, int32_t beyond)
 {
-    (void)state;
-    Scene scene;
-    Links links;
-    Scene_Init(&scene, 1.0, 0.7, 4, 4, 23);
-    Scene_BuildGrid(&scene);
-    kiriSite sites[2] = { Scene_Site(&scene, 0.3, 0.2), Scene_Site(&scene, 0.6, 0.6) };
-    Build(&scene, &links, sites, 2);
-    assert_int_equal(links.made.links.count, 1);
-    const kiriLink* link = &links.made.links.data[0];
-    double weight = 0.0, first = 0.0, second = 0.0, across = 0.0;
-    for (int32_t f = 0; f < scene.grid.faces.count; ++f) {
-        const kiriFace* face = &scene.grid.faces.data[f];
-        if (OwnerOf(&links, face->cell[0]) != OwnerOf(&links, face->cell[1])) {
-            double share = fabs(face->axis == 0 ? link->normal.x : link->normal.y);
-            for (int k = 0; k < 1000; ++k) {
-                double t = face->width * ((k + 0.5) / 1000 - 0.5), part = share * face->width / 1000;
-                kiriVec2 p =
-                    kiriVec2_Add(face->middle, kiriVec2_Make(face->axis == 0 ? 0.0 : t, face->axis == 0 ? t : 0.0));
-                double s = kiriVec2_Dot(p, link->tangent);
-                weight += part;
-                first += part * s;
-                second += part * s * s;
-                across += part * kiriVec2_Dot(p, link->normal);
+    Polygon was = *polygon;
+    polygon->count = 0;
+    for (int32_t i = 0; i < was.count; ++i) {
+        kiriVec2 p = was.at[i], q = was.at[(i + 1) % was.count];
+        double a = kiriVec2_Dot(kiriVec2_Sub(p, middle), normal), b = kiriVec2_Dot(kiriVec2_Sub(q, middle), normal);
+        if (a <= 0.0) {
+            polygon->at[polygon->count] = p;
+            polygon->beyond[polygon->count++] = was.beyond[i];
+        }
+        if ((a <= 0.0) != (b <= 0.0)) {
+            polygon->at[polygon->count] = kiriVec2_Add(p, kiriVec2_Scale(a / (a - b), kiriVec2_Sub(q, p)));
+            polygon->beyond[polygon->count++] = a <= 0.0 ? beyond : was.beyond[i];
+        }
+        assert_true(polygon->count < 38);
+    }
+}
+
+static Polygon NearestTo(const kiriSite* sites, int32_t count, int32_t i, double width, double height)
+{
+    Polygon polygon = { { { 0.0, 0.0 }, { width, 0.0 }, { width, height }, { 0.0, height } },
+                        { KIRI_NONE, KIRI_NONE, KIRI_NONE, KIRI_NONE },
+                        4 };
+    for (int32_t k = 0; k < count; ++k) {
+        if (k != i) {
+            kiriVec2 way = kiriVec2_Sub(sites[k].at, sites[i].at);
+            ClipAt(&polygon, kiriVec2_Scale(0.5, kiriVec2_Add(sites[k].at, sites[i].at)), way, k);
+        }
+    }
+    return polygon;
+}
+
+static const kiriLink* LinkOf(const Links* l, int32_t i, int32_t j)
+{
+    for (int32_t k = 0; k < l->made.links.count; ++k) {
+        const kiriLink* link = &l->made.links.data[k];
+        if (link->i == (i < j ? i : j) && link->j == (i < j ? j : i)) {
+            return link;
+        }
+    }
+    return NULL;
+}
+
+static bool IsOnOutline(kiriVec2 p, double width, double height)
+{
+    return fabs(p.x) < 1e-9 || fabs(p.y) < 1e-9 || fabs(p.x - width) < 1e-9 || fabs(p.y - height) < 1e-9;
+}
+
+/* Of the way from the crossing to an end at the outline. */
+static double OuterPart(const kiriLink* link, kiriVec2 end)
+{
+    double way = fabs(kiriVec2_Dot(kiriVec2_Sub(end, link->crossing), link->tangent));
+    bool ahead = kiriVec2_Dot(kiriVec2_Sub(end, link->centroid), kiriVec2_Sub(end, link->crossing)) > 0.0;
+    return ahead ? way : 0.0;
+}
+
+/* Every edge of the diagram that is not next to nothing is a link, and every link an edge. Returns the sum of the
+   lengths of all edges between regions. */
+static double CheckVoronoi(const Links* l, const kiriSite* sites, int32_t count, double width, double height)
+{
+    double sum = 0.0, found = 0.0;
+    for (int32_t i = 0; i < count; ++i) {
+        Polygon polygon = NearestTo(sites, count, i, width, height);
+        for (int32_t e = 0; e < polygon.count; ++e) {
+            kiriVec2 a = polygon.at[e], b = polygon.at[(e + 1) % polygon.count];
+            int32_t j = polygon.beyond[e];
+            double length = kiriVec2_Length(kiriVec2_Sub(b, a));
+            if (j < i || length < 1e-6) {
+                continue; /* the outline, seen already, or four regions that meet in a point */
+            }
+            const kiriLink* link = LinkOf(l, i, j);
+            assert_non_null(link);
+            AssertNear(link->width, length, 1e-9);
+            AssertNear(kiriVec2_Length(kiriVec2_Sub(link->centroid, kiriVec2_Scale(0.5, kiriVec2_Add(a, b)))), 0.0,
+                       1e-9);
+            AssertNear(link->moment, length * length * length / 12.0, 1e-9);
+            AssertNear(link->length, kiriVec2_Length(kiriVec2_Sub(sites[j].at, sites[i].at)), 1e-12);
+            double outer = (IsOnOutline(a, width, height) ? OuterPart(link, a) : 0.0) +
+                           (IsOnOutline(b, width, height) ? OuterPart(link, b) : 0.0);
+            AssertNear(link->outer, outer, 1e-9);
+            sum += length;
+        }
+    }
+    for (int32_t k = 0; k < l->made.links.count; ++k) {
+        found += l->made.links.data[k].width;
+    }
+    AssertNear(found, sum, 1e-5);
+    return sum;
+}
+
+/* The sum over links of W l n n^T, and over stretches of the outline of their length times n (middle - site)^T, is the
+   area times the unit matrix: the divergence of (p - site), region by region. So a sheet of such links bends alike in
+   all directions. */
+static void CheckIsotropy(const Links* l, const kiriSite* sites, int32_t count, double width, double height)
+{
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    for (int32_t k = 0; k < l->made.links.count; ++k) {
+        const kiriLink* link = &l->made.links.data[k];
+        double area = link->width * link->length;
+        xx += area * link->normal.x * link->normal.x;
+        xy += area * link->normal.x * link->normal.y;
+        yy += area * link->normal.y * link->normal.y;
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        Polygon polygon = NearestTo(sites, count, i, width, height);
+        for (int32_t e = 0; e < polygon.count; ++e) {
+            kiriVec2 a = polygon.at[e], b = polygon.at[(e + 1) % polygon.count];
+            if (polygon.beyond[e] == KIRI_NONE) {
+                kiriVec2 out = kiriVec2_Make(b.y - a.y, a.x - b.x);
+                kiriVec2 arm = kiriVec2_Sub(kiriVec2_Scale(0.5, kiriVec2_Add(a, b)), sites[i].at);
+                xx += out.x * arm.x;
+                xy += out.x * arm.y;
+                yy += out.y * arm.y;
             }
         }
     }
-    double mean = first / weight;
-    AssertNear(kiriVec2_Dot(link->centroid, link->tangent), mean, 1e-9);
-    AssertNear(kiriVec2_Dot(link->centroid, link->normal), across / weight, 1e-9);
-    AssertNear(link->moment, second - weight * mean * mean, 1e-6 * link->moment);
-    assert_true(fabs(link->normal.x) > 0.3 && fabs(link->normal.x) < 0.65);
-    AssertNear(weight, link->width, 1e-9);
-    Scene_Release(&scene);
+    double area = width * height;
+    AssertNear(xx, area, 1e-5 * area);
+    AssertNear(xy, 0.0, 1e-5 * area);
+    AssertNear(yy, area, 1e-5 * area);
+}
+
+/* Sites in rows: 0: regular; 1: every second row shifted by half; 2: a slanted net, whose links along the long diagonal
+   are shorter than a cell; 3: anywhere near a regular net. */
+enum { NETS = 4 };
+static kiriVec2 NetSite(int net, int i, int j, int n, uint32_t* seed)
+{
+    kiriVec2 p = { (i + 0.5) / n, (j + 0.5) / n };
+    if (net == 1) {
+        p.x += (j % 2 == 0 ? 0.25 : -0.25) / n;
+    } else if (net == 2) {
+        p.x += 0.03 * (j - 0.5 * n) / n;
+    } else if (net == 3) {
+        p = kiriVec2_Add(p, RandomVec2(seed, -0.3 / n, 0.3 / n));
+    }
+    return p;
+}
+
+static int32_t PlaceNet(const Scene* scene, int net, int n, uint32_t* seed, kiriSite* sites)
+{
+    for (int k = 0; k < n * n; ++k) {
+        sites[k].at = NetSite(net, k % n, k / n, n, seed);
+        sites[k].cell = Scene_Cell(scene, sites[k].at.x, sites[k].at.y);
+    }
+    return n * n;
+}
+
+/* On nets of 4, 6, 8 and 12 cells a spacing, wherever in its cell a site is. */
+static void BordersAreThoseOfVoronoi(void** state)
+{
+    (void)state;
+    const int perSpacing[4] = { 4, 6, 8, 12 };
+    uint32_t seed = 11;
+    for (int net = 0; net < NETS; ++net) {
+        double sum[4];
+        uint32_t first = seed;
+        for (int r = 0; r < 4; ++r) {
+            enum { ROWS = 6 };
+            Scene scene;
+            Links links;
+            kiriSite sites[ROWS * ROWS];
+            seed = first;
+            Scene_Init(&scene, 1.0, 1.0, 5, 5, ROWS * perSpacing[r]);
+            Scene_BuildGrid(&scene);
+            int32_t count = PlaceNet(&scene, net, ROWS, &seed, sites);
+            Build(&scene, &links, sites, count);
+            sum[r] = CheckVoronoi(&links, sites, count, 1.0, 1.0);
+            CheckIsotropy(&links, sites, count, 1.0, 1.0);
+            int32_t expected = net == 0 ? (ROWS - 1) * (ROWS - 1) : 2 * (ROWS - 1) * (ROWS - 1);
+            assert_int_equal(links.made.corners.count, expected);
+            for (int32_t k = 0; k < links.made.corners.count; ++k) {
+                CheckCorner(&links, &links.made.corners.data[k]);
+            }
+            AssertNear(sum[r], sum[0], 1e-5);
+            Scene_Release(&scene);
+        }
+    }
+}
+
+/* One row of frames hardly farther apart than the cells of the grid. */
+static void RowOnACoarseGrid(void** state)
+{
+    (void)state;
+    for (int32_t n = 25; n <= 37; n += 4) {
+        Scene scene;
+        Links links;
+        kiriSite sites[37];
+        Scene_Init(&scene, 1.0, 0.1, 40, 4, 40);
+        Scene_BuildGrid(&scene);
+        for (int32_t i = 0; i < n; ++i) {
+            double u = (double)i / (n - 1);
+            sites[i].at = kiriVec2_Make(i == 0 ? 1e-4 : i == n - 1 ? 1.0 - 1e-4 : u, 0.05);
+            sites[i].cell = Scene_Cell(&scene, sites[i].at.x, sites[i].at.y);
+        }
+        Build(&scene, &links, sites, n);
+        assert_int_equal(links.made.links.count, n - 1);
+        for (int32_t k = 0; k < n - 1; ++k) {
+            const kiriLink* link = &links.made.links.data[k];
+            AssertNear(link->width, 0.1, 1e-8);
+            AssertNear(link->outer, 0.1, 1e-8);
+            AssertNear(link->length, sites[k + 1].at.x - sites[k].at.x, 1e-12);
+            AssertNear(link->normal.x, 1.0, 1e-12);
+            AssertNear(link->moment, 1e-3 / 12.0, 1e-9);
+        }
+        Scene_Release(&scene);
+    }
+}
+
+/* What changes when one site moves through a cell, in steps of a fiftieth of it: the sizes of all links, between all
+   pairs. The largest step is no jump: not much more than the mean of them. */
+static void CheckContinuous(Scene* scene, kiriSite* sites, int32_t count, int32_t which, double most)
+{
+    enum { STEPS = 75, SIZES = 4 };
+    double* was = calloc((size_t)(count * count * SIZES), sizeof(double));
+    double* is = calloc((size_t)(count * count * SIZES), sizeof(double));
+    double sum = 0.0, largest = 0.0;
+    for (int step = 0; step <= STEPS; ++step) {
+        Links links;
+        double change = 0.0;
+        sites[which].at = kiriVec2_Add(sites[which].at, kiriVec2_Make(scene->grid.side / 50, scene->grid.side / 83));
+        sites[which].cell = Scene_Cell(scene, sites[which].at.x, sites[which].at.y);
+        Build(scene, &links, sites, count);
+        memset(is, 0, sizeof(double) * (size_t)(count * count * SIZES));
+        for (int32_t k = 0; k < links.made.links.count; ++k) {
+            const kiriLink* link = &links.made.links.data[k];
+            double* size = &is[SIZES * (link->i * count + link->j)];
+            size[0] += link->width;
+            size[1] += link->outer;
+            size[2] += link->width * link->length;
+            size[3] += link->moment / (scene->grid.side * scene->grid.side);
+        }
+        for (int32_t k = 0; k < count * count * SIZES; ++k) {
+            change += fabs(is[k] - was[k]);
+            was[k] = is[k];
+        }
+        largest = step > 0 && change > largest ? change : largest;
+        sum += step > 0 ? change : 0.0;
+    }
+    free(was);
+    free(is);
+    assert_true(sum > 0.0);
+    if (largest > most * sum / STEPS) {
+        fail_msg("site %d: the largest step is %g times the mean", which, largest * STEPS / sum);
+    }
+}
+
+static void LinksAreContinuous(void** state)
+{
+    (void)state;
+    for (int net = 0; net < NETS; ++net) {
+        enum { ROWS = 4 };
+        uint32_t seed = 5;
+        Scene scene;
+        kiriSite sites[ROWS * ROWS];
+        Scene_Init(&scene, 1.0, 1.0, 5, 5, 5 * ROWS);
+        Scene_BuildGrid(&scene);
+        int32_t count = PlaceNet(&scene, net, ROWS, &seed, sites);
+        CheckContinuous(&scene, sites, count, 5, 4.0);
+        CheckContinuous(&scene, sites, count, 1, 4.0);
+        Scene_Release(&scene);
+    }
 }
 
 /* ---- Following cuts ---------------------------------------------------------------------------------------------- */
@@ -542,7 +817,9 @@ int main(void)
         cmocka_unit_test(PartialFacesCount),
         cmocka_unit_test(RandomSheetsAddUp),
         cmocka_unit_test(SlitAcrossTheBorderPartsIt),
-        cmocka_unit_test(MomentsOfASlantedBorder),
+        cmocka_unit_test(BordersAreThoseOfVoronoi),
+        cmocka_unit_test(RowOnACoarseGrid),
+        cmocka_unit_test(LinksAreContinuous),
         cmocka_unit_test(CutSheetsEqualThoseFromScratch),
         cmocka_unit_test(FailingAllocatorLeaksNothing),
     };

@@ -49,10 +49,14 @@ static void FreeCell(kiriGrid* grid, int32_t c)
 static void ForgetGone(kiriGrid* grid)
 {
     kiriGridChanges* changes = &grid->changes;
-    int32_t steps = 0, material = 0, made = 0;
+    int32_t steps = 0, material = 0, made = 0, edges = 0;
     for (int32_t i = 0; i < changes->steps.count; ++i) {
         changes->steps.data[steps] = changes->steps.data[i];
         steps += kiriGrid_IsCell(grid, changes->steps.data[i]);
+    }
+    for (int32_t i = 0; i < changes->edges.count; ++i) {
+        changes->edges.data[edges] = changes->edges.data[i];
+        edges += kiriGrid_IsCell(grid, changes->edges.data[i]);
     }
     for (int32_t i = 0; i < changes->material.count; ++i) {
         kiriMaterialChange change = changes->material.data[i];
@@ -73,6 +77,7 @@ static void ForgetGone(kiriGrid* grid)
         }
     }
     changes->steps.count = steps;
+    changes->edges.count = edges;
     changes->material.count = material;
     changes->made.count = made;
 }
@@ -204,7 +209,11 @@ void kiriGrid_ClearChanges(kiriGrid* grid)
     for (int32_t i = 0; i < changes->material.count; ++i) {
         grid->work->cellFlags.data[changes->material.data[i].cell] = 0;
     }
+    for (int32_t i = 0; i < changes->edges.count; ++i) {
+        grid->work->cellFlags.data[changes->edges.data[i]] = 0;
+    }
     changes->made.count = changes->gone.count = changes->steps.count = changes->material.count = 0;
+    changes->edges.count = 0;
 }
 
 void kiriGrid_Reset(kiriGrid* grid)
@@ -213,6 +222,7 @@ void kiriGrid_Reset(kiriGrid* grid)
     grid->cells.count = grid->runs.count = grid->steps.count = grid->faces.count = grid->squareCell.count = 0;
     grid->nodeCell.count = grid->whole.count = grid->cellCount = 0;
     changes->made.count = changes->gone.count = changes->steps.count = changes->material.count = 0;
+    changes->edges.count = 0;
     memset(&grid->stepRoom, 0, sizeof(grid->stepRoom));
     if (grid->work != NULL) {
         grid->work->cellFlags.count = grid->work->mark.count = 0;

@@ -62,6 +62,7 @@ typedef struct kiriGridChanges {
     KIRI_ARRAY(int32_t) gone;                /* that are no more; their `material` is what it was at ClearChanges */
     KIRI_ARRAY(int32_t) steps;               /* whose steps changed, or whose faces did in anything; with new ones */
     KIRI_ARRAY(kiriMaterialChange) material; /* whose material changed; without new ones */
+    KIRI_ARRAY(int32_t) edges;               /* in whose square edges of the material may have changed; with new ones */
 } kiriGridChanges;
 
 typedef struct kiriGridWork kiriGridWork; /* the update at hand: kiri_grid_work.h */

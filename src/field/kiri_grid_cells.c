@@ -347,6 +347,18 @@ static void FillCells(kiriGrid* grid, int32_t square)
     }
 }
 
+/* An edge in the square may have changed that changes neither material nor faces: a slit that ends there, by its tip. */
+static bool RecordEdges(kiriGrid* grid, kiriMemory* memory, int32_t square)
+{
+    bool ok = true;
+    for (int32_t c = grid->squareCell.data[square]; ok && c != KIRI_NONE; c = grid->cells.data[c].next) {
+        uint8_t* flags = &grid->work->cellFlags.data[c];
+        ok = (*flags & KIRI_CELL_EDGES) != 0 || kiriArray_Push(memory, &grid->changes.edges, c);
+        *flags |= KIRI_CELL_EDGES;
+    }
+    return ok;
+}
+
 bool kiriGrid_MakeCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
     kiriGridWork* work = grid->work;
@@ -363,10 +375,10 @@ bool kiriGrid_MakeCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
     }
     if (isWhole) {
         FillWholeCell(grid, mesh, square);
-    } else {
-        FillCells(grid, square);
+        return true;
     }
-    return true;
+    FillCells(grid, square);
+    return RecordEdges(grid, mesh->memory, square);
 }
 
 kiriLatticePoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)

@@ -21,7 +21,7 @@ enum {
 };
 
 /* Which lists of changes a cell is in. */
-enum { KIRI_CELL_MADE = 1, KIRI_CELL_MATERIAL = 2, KIRI_CELL_STEPS = 4 };
+enum { KIRI_CELL_MADE = 1, KIRI_CELL_MATERIAL = 2, KIRI_CELL_STEPS = 4, KIRI_CELL_EDGES = 8 };
 
 /* Where a square's triangles are in `node`. */
 typedef struct kiriNodeRange {

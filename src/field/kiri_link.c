@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* CountChanged compares bytes. */
-typedef char LinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 18 * sizeof(double) ? 1 : -1];
+typedef char LinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 20 * sizeof(double) ? 1 : -1];
 
 kiriBorderSide kiriBorder_SideOf(const kiriBorder* border, int32_t face)
 {
@@ -150,7 +150,7 @@ static void SetMoments(const kiriBorder* border, kiriLink* link)
     }
 }
 
-/* The border is a staircase of faces, whose normals differ: what the link's one normal leaves out. */
+/* About the centroid of the link. */
 static void SetSpread(const kiriBorder* border, kiriLink* link)
 {
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
@@ -168,6 +168,9 @@ static void SetSpread(const kiriBorder* border, kiriLink* link)
 typedef struct SitesWay {
     int32_t length;
     kiriVec2 crossing;
+    int32_t overFaces; /* the shortest over a face: its length, */
+    int32_t cell[2];   /* the cells beside the face, of regions i and j, */
+    kiriVec2 over;     /* and its middle */
 } SitesWay;
 
 /* Ways by the diagonal and knight steps from `cell` over the border into region `to`. */
@@ -193,36 +196,55 @@ static void TryLongSteps(const kiriBorder* border, int32_t cell, int32_t to, Sit
 static SitesWay ShortestWay(const kiriBorder* border)
 {
     const int32_t* distance = border->regions->field.distance.data;
-    SitesWay way = { KIRI_FAR, { 0.0, 0.0 } };
+    SitesWay way = { KIRI_FAR, { 0.0, 0.0 }, KIRI_FAR, { KIRI_NONE, KIRI_NONE }, { 0.0, 0.0 } };
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
         int32_t face = border->work->stretch.data[k];
         kiriBorderSide side = kiriBorder_SideOf(border, face);
         int32_t length = distance[side.x] + KIRI_UNIT + distance[side.y];
-        if (length < way.length) {
-            way.length = length;
-            way.crossing = border->grid->faces.data[face].middle;
+        if (length < way.overFaces) {
+            way.overFaces = length;
+            way.cell[0] = side.x;
+            way.cell[1] = side.y;
+            way.over = border->grid->faces.data[face].middle;
         }
         TryLongSteps(border, side.x, side.j, &way);
         TryLongSteps(border, side.y, side.i, &way);
     }
+    if (way.overFaces <= way.length) {
+        way.length = way.overFaces;
+        way.crossing = way.over;
+    }
     return way;
 }
 
-/* Lengths on the grid exceed true ones by up to 3 %, and by parts of a side at both ends: a way that is not clearly
-   longer than the straight line is one. */
-static void SetLength(const kiriBorder* border, kiriLink* link)
+/* Lengths on the grid exceed true ones by up to 3 %, and by parts of a side at both ends: only where the true way cannot
+   be told they are taken, and where they are not clearly longer the way is straight. */
+static kiriWay GridWay(const kiriBorder* border, const kiriLink* link, const SitesWay* sites)
 {
     kiriVec2 a = border->sites[link->i].at, b = border->sites[link->j].at;
     double straight = kiriVec2_Length(kiriVec2_Sub(b, a));
-    SitesWay way = ShortestWay(border);
-    link->length = way.length * (border->grid->side / KIRI_UNIT);
-    link->crossing = way.crossing;
-    link->span = kiriVec2_Scale(link->length, link->normal);
-    if (link->length < 1.08 * straight + 0.5 * border->grid->side) {
-        link->length = straight;
-        link->span = kiriVec2_Sub(b, a);
-        link->crossing = kiriVec2_Scale(0.5, kiriVec2_Add(a, b));
+    kiriWay way;
+    way.length = sites->length * (border->grid->side / KIRI_UNIT);
+    way.turnCount = 1;
+    way.turn[0] = sites->crossing;
+    if (way.length < 1.08 * straight + 0.5 * border->grid->side) {
+        way.length = straight;
+        way.turnCount = 0;
     }
+    return way;
+}
+
+/* The crossing is half-way: there both sites are as far. */
+static void SetLength(const kiriBorder* border, kiriLink* link, const kiriLinkEnds* ends)
+{
+    kiriVec2 a = border->sites[link->i].at, b = border->sites[link->j].at;
+    SitesWay sites = ShortestWay(border);
+    kiriWay way;
+    bool found = kiriBorder_FindWay(border, link, ends, sites.cell, sites.over, &way);
+    way = found ? way : GridWay(border, link, &sites);
+    link->length = way.length;
+    link->crossing = found || way.turnCount == 0 ? kiriWay_At(&way, a, b, 0.5 * way.length) : way.turn[0];
+    link->span = way.turnCount == 0 ? kiriVec2_Sub(b, a) : kiriVec2_Scale(link->length, link->normal);
     double least = 0.1 * border->grid->side;
     link->length = link->length > least ? link->length : least;
 }
@@ -242,10 +264,14 @@ static bool AddLink(const kiriBorder* border, bool bent)
     link.link.width = kiriVec2_Length(normal);
     link.link.normal = kiriVec2_Scale(1.0 / link.link.width, normal);
     link.link.tangent = kiriVec2_Make(-link.link.normal.y, link.link.normal.x);
+    link.link.sum = normal;
     SetMoments(border, &link.link);
-    SetSpread(border, &link.link);
-    SetLength(border, &link.link);
     link.ends = kiriBorder_FindEnds(border, &link.link, bent);
+    if (!bent) {
+        kiriBorder_MakeExact(border, &link.link, &link.ends);
+    }
+    SetSpread(border, &link.link);
+    SetLength(border, &link.link, &link.ends);
     kiriLink_SetOuter(&link.link, &link.ends);
     return kiriArray_Push(border->memory, &border->work->made, link);
 }
@@ -336,6 +362,77 @@ static bool SplitStretch(const kiriBorder* border)
     return true;
 }
 
+static bool SortMade(const kiriBorder* border)
+{
+    kiriLinkWork* work = border->work;
+    if (!kiriArray_Resize(border->memory, &work->order, work->made.count)) {
+        return false;
+    }
+    for (int32_t k = 0; k < work->order.count; ++k) {
+        work->order.data[k] = k;
+    }
+    kiriSort(work->order.data, work->order.count, IsMadeBefore, border);
+    return true;
+}
+
+/* Is there a link of two regions among those that were made: the sorted ones, or what was added to them? */
+static bool IsMade(const kiriBorder* border, int32_t i, int32_t j)
+{
+    const kiriLinkWork* work = border->work;
+    int32_t low = 0, high = work->order.count;
+    while (low < high) {
+        int32_t middle = low + (high - low) / 2;
+        const kiriLink* link = &work->made.data[work->order.data[middle]].link;
+        if (link->i == i && link->j == j) {
+            return true;
+        }
+        if (link->i < i || (link->i == i && link->j < j)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    for (int32_t k = work->order.count; k < work->made.count; ++k) {
+        if (work->made.data[k].link.i == i && work->made.data[k].link.j == j) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool AddShortLinksAt(const kiriBorder* border, const kiriLinkEnd* end, int which)
+{
+    const int32_t* owner = border->regions->field.owner.data;
+    int32_t at = 0, cells[2], last = KIRI_NONE;
+    while (kiriBorder_FindBeside(border, end, which, &at, cells)) {
+        kiriNewLink made;
+        if (owner[cells[1]] != last && !IsMade(border, owner[cells[0]], owner[cells[1]]) &&
+            kiriBorder_MakeShort(border, end, cells, &made) &&
+            !kiriArray_Push(border->memory, &border->work->made, made)) {
+            return false;
+        }
+        last = owner[cells[1]];
+    }
+    return true;
+}
+
+/* Borders that the grid misses are found where other borders of their lower region end, which is stale. */
+static bool AddShortLinks(const kiriBorder* border)
+{
+    kiriLinkWork* work = border->work;
+    bool ok = true;
+    for (int32_t k = 0; ok && k < work->order.count; ++k) {
+        for (int e = 0; ok && e < 4; ++e) {
+            const kiriNewLink* made = &work->made.data[work->order.data[k]];
+            kiriLinkEnd end = made->ends.end[e / 2];
+            if (IsStale(border, e % 2 == 0 ? made->link.i : made->link.j)) {
+                ok = AddShortLinksAt(border, &end, e % 2);
+            }
+        }
+    }
+    return ok;
+}
+
 static bool MakeLinks(const kiriBorder* border)
 {
     kiriLinkWork* work = border->work;
@@ -351,14 +448,7 @@ static bool MakeLinks(const kiriBorder* border)
             }
         }
     }
-    if (!kiriArray_Resize(border->memory, &work->order, work->made.count)) {
-        return false;
-    }
-    for (int32_t k = 0; k < work->order.count; ++k) {
-        work->order.data[k] = k;
-    }
-    kiriSort(work->order.data, work->order.count, IsMadeBefore, border);
-    return true;
+    return SortMade(border) && AddShortLinks(border) && SortMade(border);
 }
 
 /* ---- The whole -------------------------------------------------------------------------------------------------- */
@@ -402,7 +492,8 @@ static bool MergeLinks(const kiriBorder* border, kiriLinks* links)
     }
     for (int32_t k = 0; k < links->links.count; ++k) {
         const kiriLink* link = &links->links.data[k];
-        if (!IsStale(border, link->i) && !IsStale(border, link->j)) {
+        bool isShort = work->ends.data[k].isShort;
+        if (!IsStale(border, link->i) && (isShort || !IsStale(border, link->j))) {
             for (; made < work->made.count; ++made) {
                 const kiriNewLink* first = &work->made.data[work->order.data[made]];
                 if (!IsPairBefore(&first->link, link)) {

@@ -10,7 +10,7 @@ KIRI_C_BEGIN
 /* One connected stretch of border between regions i < j. */
 typedef struct kiriLink {
     int32_t i, j;
-    double width;      /* W: length of the vector sum of its faces, m */
+    double width;      /* W: of the border, from end to end, m */
     double outer;      /* the part of W at open ends, m: each end at the outline or at a slit adds the way along the
                           tangent from the crossing to it; 0 where both ends are corners, to W where both are open */
     double length;     /* l: from site i to site j through it, m */
@@ -21,7 +21,9 @@ typedef struct kiriLink {
     kiriVec2 centroid; /* b: of the border, local m */
     kiriVec2
         crossing; /* m: where the way from i to j crosses it; the midpoint of the sites where that way is straight */
-    kiriVec2 spread[2]; /* integrals over the border of (p - b)_u and of (p - b)_v, times its normal, m^2 */
+    /* Of the border as a staircase of cells, which is what regions are made of: the sum of its faces' widths, each times
+       its normal, m; and the sum of (p - b)_u, and of (p - b)_v, times the same, m^2. */
+    kiriVec2 sum, spread[2];
 } kiriLink;
 
 /* Where three or four regions meet. It couples curvatures, and stretches, of different directions: the sum over its

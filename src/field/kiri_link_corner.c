@@ -122,11 +122,15 @@ static kiriVec2 FaceEnd(const kiriFace* face, bool upper)
 static bool FindEnd(const kiriBorder* border, int32_t face, bool upper, bool bent, kiriLinkEnd* end)
 {
     kiriRing ring;
+    kiriBorderSide side = kiriBorder_SideOf(border, face);
     memset(end, 0, sizeof(*end));
+    end->cell[0] = side.x;
+    end->cell[1] = side.y;
     end->kind = KIRI_END_OPEN;
     end->at = FaceEnd(&border->grid->faces.data[face], upper);
+    end->look =
+        kiriVec2_Add(end->at, kiriVec2_Scale(1e-3, kiriVec2_Sub(border->grid->faces.data[face].middle, end->at)));
     if (kiriBorder_FindRing(border, face, upper, &ring)) {
-        kiriBorderSide side = kiriBorder_SideOf(border, face);
         bool last = CountBetween(border, &ring, side.i, side.j) == 1;
         end->kind = last ? KIRI_END_CORNER : KIRI_END_INNER;
         int32_t upperRight = border->grid->cells.data[ring.cell[2]].square;
@@ -145,7 +149,12 @@ kiriLinkEnds kiriBorder_FindEnds(const kiriBorder* border, const kiriLink* link,
     double low = 0.0, high = 0.0;
     bool any = false;
     memset(&ends, 0, sizeof(ends));
-    ends.end[0].kind = ends.end[1].kind = KIRI_END_INNER; /* a border that closes on itself */
+    kiriBorderSide first = kiriBorder_SideOf(border, border->work->stretch.data[0]);
+    for (int k = 0; k < 2; ++k) { /* a border that closes on itself */
+        ends.end[k].kind = KIRI_END_INNER;
+        ends.end[k].cell[0] = first.x;
+        ends.end[k].cell[1] = first.y;
+    }
     ends.end[0].at = ends.end[1].at = link->centroid;
     for (int32_t k = 0; k < 2 * border->work->stretch.count; ++k) {
         kiriLinkEnd end;
@@ -184,10 +193,12 @@ void kiriLink_SetOuter(kiriLink* link, const kiriLinkEnds* ends)
 /* Below this determinant of N, of its trace squared, the links of a corner have one direction. */
 static const double kiriFlatCorner = 1e-3;
 
-static bool AreEndsOne(const kiriLinkEnd* a, const kiriLinkEnd* b, double near)
+/* An end that is as the grid has it may be off by two squares. */
+static bool AreEndsOne(const kiriLinkEnd* a, const kiriLinkEnd* b, double side)
 {
     return a->kind == KIRI_END_CORNER && b->kind == KIRI_END_CORNER &&
-           memcmp(a->region, b->region, sizeof(a->region)) == 0 && kiriVec2_Length(kiriVec2_Sub(a->at, b->at)) <= near;
+           memcmp(a->region, b->region, sizeof(a->region)) == 0 &&
+           kiriVec2_Length(kiriVec2_Sub(a->at, b->at)) <= (a->isExact && b->isExact ? 1e-6 : 2.0) * side;
 }
 
 /* The first link of a pair of regions, or of a later pair. */
@@ -216,8 +227,8 @@ static int32_t ListLinksAt(const kiriBorder* border, const kiriLinks* links, con
             for (int32_t k = FirstOfPair(links, i, j);
                  k < links->next.count && links->next.data[k].i == i && links->next.data[k].j == j; ++k) {
                 const kiriLinkEnds* ends = &border->work->nextEnds.data[k];
-                double near = 1e-6 * border->grid->side;
-                if (AreEndsOne(&ends->end[0], end, near) || AreEndsOne(&ends->end[1], end, near)) {
+                double side = border->grid->side;
+                if (AreEndsOne(&ends->end[0], end, side) || AreEndsOne(&ends->end[1], end, side)) {
                     if (count == 4) {
                         return 5;
                     }

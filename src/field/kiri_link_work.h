@@ -3,6 +3,7 @@
 #define KIRI_LINK_WORK_H
 
 #include "kiri_link.h"
+#include "kiri_way.h"
 
 KIRI_C_BEGIN
 
@@ -26,19 +27,23 @@ enum { KIRI_CORNER_REGIONS = 4 };
 typedef struct kiriLinkEnd {
     kiriEndKind kind;
     int32_t region[KIRI_CORNER_REGIONS]; /* that meet there, ascending, then KIRI_NONE; of corners */
+    int32_t cell[2];                     /* of regions i and j, beside the border's last face */
     kiriVec2 at;                         /* local m */
+    kiriVec2 look;                       /* in the material, a little before the end that the grid has */
+    bool isExact;                        /* the end is where it is in the Euclidean metric */
 } kiriLinkEnd;
 
 /* Both ends of a link: the one to its tangent's tail, and to its head. */
 typedef struct kiriLinkEnds {
     kiriLinkEnd end[2];
+    bool isShort; /* the grid does not have this border: see kiriBorder_MakeShort */
 } kiriLinkEnds;
 
 /* A link that was made anew, and its lowest face. */
 typedef struct kiriNewLink {
     kiriLink link;
     kiriLinkEnds ends;
-    int32_t face;
+    int32_t face; /* KIRI_NONE where it is short */
 } kiriNewLink;
 
 struct kiriLinkWork {
@@ -86,6 +91,22 @@ bool kiriBorder_FindRing(const kiriBorder* border, int32_t face, bool upper, kir
 
 /* The ends of the stretch at hand, whose link has its tangent. `bent`: it is a part of a border that was split. */
 kiriLinkEnds kiriBorder_FindEnds(const kiriBorder* border, const kiriLink* link, bool bent);
+
+/* Puts the ends where they are in the Euclidean metric, and with them the border, where the sites see it. */
+void kiriBorder_MakeExact(const kiriBorder* border, kiriLink* link, kiriLinkEnds* ends);
+
+/* Makes the link of the regions of two cells, i < j, where their border is so short that the grid has none; near: an end
+   of a link of region i, in its first cell. False where there is no such border, or it is not seen. Depends on nothing
+   but regions one step from the first cell. */
+bool kiriBorder_MakeShort(const kiriBorder* border, const kiriLinkEnd* near, const int32_t cells[2], kiriNewLink* made);
+
+/* The next step from the end's cell `which` to a region of higher index: from *at on, which starts at 0. */
+bool kiriBorder_FindBeside(const kiriBorder* border, const kiriLinkEnd* end, int which, int32_t* at, int32_t cells[2]);
+
+/* The shortest way from site i to site j over this border; over: a point of it on the grid's shortest way, between these
+   cells. False where it cannot be told. */
+bool kiriBorder_FindWay(const kiriBorder* border, const kiriLink* link, const kiriLinkEnds* ends,
+                        const int32_t cells[2], kiriVec2 over, kiriWay* way);
 
 /* Sets `outer`: the link has all else. */
 void kiriLink_SetOuter(kiriLink* link, const kiriLinkEnds* ends);

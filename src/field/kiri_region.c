@@ -203,6 +203,9 @@ static void FollowGrid(const RegionUpdate* u)
         MarkRegionDirty(r, r->field.owner.data[cell]);
         kiriField_MarkDirty(&r->field, cell);
     }
+    for (int32_t k = r->seen.edges; k < changes->edges.count; ++k) {
+        MarkRegionDirty(r, r->field.owner.data[changes->edges.data[k]]);
+    }
 }
 
 static void MarkDirtyCells(const RegionUpdate* u)
@@ -377,8 +380,8 @@ static bool FinishFlood(const RegionUpdate* u)
 static void MarkSeen(const RegionUpdate* u)
 {
     const kiriGridChanges* changes = &u->grid->changes;
-    u->regions->seen =
-        (kiriSeenChanges){ changes->made.count, changes->gone.count, changes->steps.count, changes->material.count };
+    u->regions->seen = (kiriSeenChanges){ changes->made.count, changes->gone.count, changes->steps.count,
+                                          changes->material.count, changes->edges.count };
 }
 
 static bool BeginRegions(const RegionUpdate* u)
@@ -423,7 +426,7 @@ void kiriRegions_ClearChanges(kiriRegions* regions)
         regions->isChanged.data[regions->changes.data[k].cell] = 0;
     }
     regions->changes.count = 0;
-    regions->seen = (kiriSeenChanges){ 0, 0, 0, 0 };
+    regions->seen = (kiriSeenChanges){ 0, 0, 0, 0, 0 };
 }
 
 void kiriRegions_Reset(kiriRegions* regions)
@@ -432,6 +435,6 @@ void kiriRegions_Reset(kiriRegions* regions)
     regions->siteAt.count = regions->onBorder.count = regions->isChanged.count = 0;
     regions->material.count = regions->dirty.count = 0;
     regions->changes.count = regions->orphans.count = 0;
-    regions->seen = (kiriSeenChanges){ 0, 0, 0, 0 };
+    regions->seen = (kiriSeenChanges){ 0, 0, 0, 0, 0 };
     regions->running = false;
 }

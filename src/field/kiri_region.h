@@ -27,7 +27,7 @@ kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* gr
 
 /* How much of each list of the grid's changes an update has followed already. */
 typedef struct kiriSeenChanges {
-    int32_t made, gone, steps, material;
+    int32_t made, gone, steps, material, edges;
 } kiriSeenChanges;
 
 typedef struct kiriRegions {
@@ -39,7 +39,7 @@ typedef struct kiriRegions {
 
     /* Of each frame: */
     KIRI_ARRAY(kiriTally) material; /* of its region, exact */
-    KIRI_ARRAY(uint8_t) dirty;      /* its region, distances in it, or its cells' steps or material changed */
+    KIRI_ARRAY(uint8_t) dirty;      /* its region, distances in it, or its cells' steps, material or edges changed */
 
     /* Since kiriRegions_ClearChanges: cells that live whose owner or distance changed, and what they were. */
     KIRI_ARRAY(kiriSeed) changes;

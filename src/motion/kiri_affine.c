@@ -164,7 +164,7 @@ static kiriFrameShare* FrameShareOf(kiriAreaElements* elements, kiriMemory* memo
 /* What the frame at one end of a border brings to the integral of gap (x) n, times `scale`. */
 static void AddEnd(kiriFrameShare* share, const kiriLink* link, kiriVec2 center, double scale)
 {
-    kiriVec2 normal = kiriVec2_Scale(scale * link->width, link->normal), arm = kiriVec2_Sub(link->centroid, center);
+    kiriVec2 normal = kiriVec2_Scale(scale, link->sum), arm = kiriVec2_Sub(link->centroid, center);
     share->move = kiriVec2_Add(share->move, normal);
     share->u =
         kiriVec2_Add(share->u, kiriVec2_Add(kiriVec2_Scale(arm.x, normal), kiriVec2_Scale(scale, link->spread[0])));

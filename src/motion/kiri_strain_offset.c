@@ -20,7 +20,7 @@ void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFram
 }
 
 /* Links and frames are compared byte by byte, so they must have no padding. */
-typedef char kiriLinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 18 * sizeof(double) ? 1 : -1];
+typedef char kiriLinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 20 * sizeof(double) ? 1 : -1];
 typedef char kiriPoseHasNoPadding[sizeof(kiriPose) == 12 * sizeof(double) ? 1 : -1];
 
 static void MeasureLink(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* frames, double* strain)

@@ -62,6 +62,7 @@ static void HashLink(uint64_t* hash, const kiriLink* link)
     HashVec2(hash, link->tangent);
     HashVec2(hash, link->centroid);
     HashVec2(hash, link->crossing);
+    HashVec2(hash, link->sum);
     HashVec2(hash, link->spread[0]);
     HashVec2(hash, link->spread[1]);
 }

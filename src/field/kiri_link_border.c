@@ -1,0 +1,584 @@
+/* Exact borders. The grid says which stretches of border there are and what they end at; here a link gets the geometry
+   of the Euclidean Voronoi diagram instead of that of a staircase of cells. */
+#include "kiri_link_work.h"
+
+#include <string.h>
+
+/* ---- Regions near an end ----------------------------------------------------------------------------------------- */
+
+enum { NEAR_REGIONS = 24 }; /* more than meet within two squares of a point, but in theory */
+
+/* The distance to a region's site, near an end: from the last turn of the way, or the site itself, and what is behind
+   it. */
+typedef struct Reach {
+    kiriVec2 from; /* local m */
+    double behind; /* m */
+    bool isKnown;
+} Reach;
+
+/* The regions near an end: the two of the link, and those one step from its cells there. */
+typedef struct NearRegions {
+    int32_t region[NEAR_REGIONS], cell[NEAR_REGIONS];
+    Reach reach[NEAR_REGIONS];
+    int32_t count;
+} NearRegions;
+
+static void AddRegion(const kiriBorder* border, NearRegions* near, int32_t cell)
+{
+    int32_t region = border->regions->field.owner.data[cell];
+    for (int32_t k = 0; k < near->count; ++k) {
+        if (near->region[k] == region) {
+            return;
+        }
+    }
+    if (near->count < NEAR_REGIONS) {
+        near->region[near->count] = region;
+        near->cell[near->count] = cell;
+        near->reach[near->count++].isKnown = false;
+    }
+}
+
+static void AddRegionsAround(const kiriBorder* border, NearRegions* near, int32_t cell)
+{
+    const kiriStepRun* run = &border->grid->runs.data[cell];
+    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        AddRegion(border, near, border->grid->steps.data[s].cell);
+    }
+}
+
+/* Of region i first, then of region j. */
+static void AddNearRegions(const kiriBorder* border, const kiriLinkEnd* end, NearRegions* near)
+{
+    AddRegion(border, near, end->cell[0]);
+    AddRegion(border, near, end->cell[1]);
+    AddRegionsAround(border, near, end->cell[0]);
+    AddRegionsAround(border, near, end->cell[1]);
+}
+
+static kiriSight SightOf(const kiriBorder* border, const NearRegions* near)
+{
+    return (kiriSight){ border->grid, border->mesh, border->regions->field.owner.data, near->region, near->count };
+}
+
+/* ---- Ways that turn ---------------------------------------------------------------------------------------------- */
+
+/* The cell before this one on the shortest way from the site, or KIRI_NONE where the site's seed is nearer. */
+static int32_t CellBefore(const kiriBorder* border, int32_t cell)
+{
+    const kiriField* field = &border->regions->field;
+    int32_t region = field->owner.data[cell], distance = field->distance.data[cell];
+    const kiriStepRun* run = &border->grid->runs.data[cell];
+    if (kiriSite_SeedAt(&border->sites[region], region, border->grid, border->mesh, cell).distance == distance) {
+        return KIRI_NONE;
+    }
+    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        kiriStep step = border->grid->steps.data[s];
+        if (field->owner.data[step.cell] == region && field->distance.data[step.cell] + step.length == distance) {
+            return step.cell;
+        }
+    }
+    return KIRI_NONE;
+}
+
+/* Adds the corners along the shortest way on the grid from a cell to its site. */
+static void AddTurnsAlong(const kiriBorder* border, const kiriSight* sight, int32_t cell, kiriTurns* turns)
+{
+    for (; cell != KIRI_NONE && !turns->isFull; cell = CellBefore(border, cell)) {
+        kiriTurns_AddAround(turns, sight, cell);
+    }
+}
+
+static kiriVec2 SiteAt(const kiriBorder* border, int32_t region)
+{
+    return border->sites[region].at;
+}
+
+/* Does the site lie in the material of its cell? In a square that is divided it may lie in that of another, or beyond
+   the outline: from there nothing is seen. */
+static bool IsSiteInside(const kiriBorder* border, int32_t region)
+{
+    const kiriSite* site = &border->sites[region];
+    return border->grid->whole.data[border->grid->cells.data[site->cell].square] ||
+           kiriGrid_CellAt(border->grid, border->mesh, kiriMesh_Snap(border->mesh, site->at)) == site->cell;
+}
+
+/* Finds a region's reach near a point; `turns`: also where the way turns. */
+static bool FindReach(const kiriBorder* border, const kiriSight* sight, NearRegions* near, int32_t k, kiriVec2 at,
+                      bool turns)
+{
+    kiriVec2 site = SiteAt(border, near->region[k]);
+    bool isInside = IsSiteInside(border, near->region[k]);
+    Reach reach = { site, 0.0, isInside && kiriSight_IsClear(sight, site, at) };
+    if (!reach.isKnown && isInside && turns) {
+        kiriTurns corners;
+        kiriWay way;
+        corners.count = corners.scannedCount = 0;
+        corners.isFull = false;
+        AddTurnsAlong(border, sight, near->cell[k], &corners);
+        reach.isKnown = kiriWay_Find(&corners, sight, site, at, &way);
+        if (reach.isKnown && way.turnCount > 0) {
+            reach.from = way.turn[way.turnCount - 1];
+            reach.behind = way.length - kiriVec2_Length(kiriVec2_Sub(at, reach.from));
+        }
+    }
+    near->reach[k] = reach;
+    return reach.isKnown;
+}
+
+/* ---- Ends of a border -------------------------------------------------------------------------------------------- */
+
+/* The points that are as far from one site as from the other: through their midpoint, along the tangent. */
+typedef struct BorderLine {
+    kiriVec2 middle, normal, tangent;
+} BorderLine;
+
+static BorderLine LineBetween(kiriVec2 a, kiriVec2 b)
+{
+    kiriVec2 way = kiriVec2_Sub(b, a);
+    BorderLine line;
+    line.middle = kiriVec2_Scale(0.5, kiriVec2_Add(a, b));
+    double apart = kiriVec2_Length(way); /* 0: sites of two cells of one square; no line is needed then */
+    line.normal = apart > 0.0 ? kiriVec2_Scale(1.0 / apart, way) : kiriVec2_Make(1.0, 0.0);
+    line.tangent = kiriVec2_Make(-line.normal.y, line.normal.x);
+    return line;
+}
+
+static kiriVec2 PointOn(const BorderLine* line, double along)
+{
+    return kiriVec2_Add(line->middle, kiriVec2_Scale(along, line->tangent));
+}
+
+static double AlongLine(const BorderLine* line, kiriVec2 p)
+{
+    return kiriVec2_Dot(kiriVec2_Sub(p, line->middle), line->tangent);
+}
+
+/* An end that is being found. `ahead` is 1 towards the tangent's head, -1 towards its tail; ways along the line are
+   counted ahead. */
+typedef struct EndSearch {
+    const kiriBorder* border;
+    const kiriLinkEnd* grid; /* as the grid has it */
+    NearRegions near;
+    kiriSight sight;
+    BorderLine line;
+    double ahead;
+    double least; /* m: what is as near is one point */
+} EndSearch;
+
+static const double kiriFarAhead = 1e30;
+
+/* Does a region that the grid has at this end take part in it? */
+static bool IsAtEnd(const kiriLinkEnd* end, int32_t region)
+{
+    for (int k = 0; k < KIRI_CORNER_REGIONS && end->kind == KIRI_END_CORNER; ++k) {
+        if (end->region[k] == region) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Finds how far all regions are. One that is hidden counts where the grid has it at this end, and must be known. */
+static bool FindReaches(EndSearch* s)
+{
+    for (int32_t k = 0; k < s->near.count; ++k) {
+        bool must = k < 2 || IsAtEnd(s->grid, s->near.region[k]);
+        if (!FindReach(s->border, &s->sight, &s->near, k, s->grid->look, must) && must) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* A point of the stretch about a square's side before the end. */
+static kiriVec2 PointBefore(const EndSearch* s)
+{
+    const kiriBorder* border = s->border;
+    kiriVec2 best = { 0.0, 0.0 };
+    double least = kiriFarAhead;
+    for (int32_t k = 0; k < border->work->stretch.count; ++k) {
+        kiriVec2 middle = border->grid->faces.data[border->work->stretch.data[k]].middle;
+        double off = fabs(kiriVec2_Length(kiriVec2_Sub(middle, s->grid->at)) - border->grid->side);
+        if (off < least) {
+            least = off;
+            best = middle;
+        }
+    }
+    return best;
+}
+
+static void SetOpenEnd(kiriLinkEnd* end, kiriVec2 at)
+{
+    memset(end->region, 0, sizeof(end->region));
+    end->kind = KIRI_END_OPEN;
+    end->at = at;
+}
+
+/* ---- Ends that the sites see -------------------------------------------------------------------------------------- */
+
+/* How far ahead the site of a region is as near as the two: beyond it is nearer. FAR where it never is. */
+static double LimitBy(const EndSearch* s, int32_t k)
+{
+    kiriVec2 a = s->near.reach[0].from, b = s->near.reach[k].from, way = kiriVec2_Sub(b, a);
+    kiriVec2 half = kiriVec2_Sub(kiriVec2_Scale(0.5, kiriVec2_Add(a, b)), s->line.middle);
+    double pace = s->ahead * kiriVec2_Dot(way, s->line.tangent);
+    return s->near.reach[k].isKnown && pace > 1e-9 * kiriVec2_Length(way) ? kiriVec2_Dot(half, way) / pace
+                                                                          : kiriFarAhead;
+}
+
+/* Puts the end where the first other region is as near, and lists the regions that meet there. */
+static void SetCornerAt(const EndSearch* s, double limit, kiriLinkEnd* end)
+{
+    int32_t count = 0;
+    end->kind = KIRI_END_CORNER;
+    end->at = PointOn(&s->line, s->ahead * limit);
+    for (int32_t k = 0; k < s->near.count && count < KIRI_CORNER_REGIONS; ++k) {
+        int32_t at = count;
+        if (k < 2 || LimitBy(s, k) <= limit + s->least) {
+            for (; at > 0 && end->region[at - 1] > s->near.region[k]; --at) {
+                end->region[at] = end->region[at - 1];
+            }
+            end->region[at] = s->near.region[k];
+            ++count;
+        }
+    }
+    for (; count < KIRI_CORNER_REGIONS; ++count) {
+        end->region[count] = KIRI_NONE;
+    }
+}
+
+/* Where ahead the first other region is as near. */
+static double FindLimit(const EndSearch* s)
+{
+    double limit = kiriFarAhead;
+    for (int32_t k = 2; k < s->near.count; ++k) {
+        double by = LimitBy(s, k);
+        limit = by < limit ? by : limit;
+    }
+    return limit;
+}
+
+/* Do both sites see the end, a little before it? */
+static bool IsEndSeen(const EndSearch* s, const kiriLinkEnd* end)
+{
+    double back = -1e-3 * s->border->grid->side * s->ahead;
+    kiriVec2 at = kiriVec2_Add(end->at, kiriVec2_Scale(back, s->line.tangent));
+    return kiriSight_IsClear(&s->sight, s->near.reach[0].from, at) &&
+           kiriSight_IsClear(&s->sight, s->near.reach[1].from, at);
+}
+
+/* Along the line, from a point of it, to where the first other region is nearer, or to an edge before that; the sites
+   see it. Another region may be nearer from the start: where both ends of a border say so, there is none. */
+static bool FindSeenEnd(const EndSearch* s, kiriVec2 from, kiriLinkEnd* end)
+{
+    double start = s->ahead * AlongLine(&s->line, from), extent = s->border->mesh->step * KIRI_LATTICE;
+    double limit = FindLimit(s), goal = limit < start + 2.0 * extent ? limit : start + 2.0 * extent;
+    SetCornerAt(s, limit, end);
+    if (goal <= start) {
+        return true;
+    }
+    kiriSightHit hit;
+    kiriSightEnd what = kiriSight_Cast(&s->sight, from, PointOn(&s->line, s->ahead * goal), &hit);
+    if (what == KIRI_SIGHT_EDGE) {
+        SetOpenEnd(end, PointOn(&s->line, s->ahead * (start + hit.share * (goal - start))));
+    }
+    return (what == KIRI_SIGHT_EDGE || (what == KIRI_SIGHT_CLEAR && goal == limit)) && IsEndSeen(s, end);
+}
+
+/* From beside the stretch. */
+static bool FindSeenEndOf(const EndSearch* s, kiriLinkEnd* end)
+{
+    kiriVec2 before = PointBefore(s), from = PointOn(&s->line, AlongLine(&s->line, before));
+    return kiriSight_IsClear(&s->sight, before, from) && FindSeenEnd(s, from, end);
+}
+
+/* ---- Ends behind turns -------------------------------------------------------------------------------------------- */
+
+/* How much farther one reach is than another; *slope: how that grows with the place. */
+static double Farther(const Reach* a, const Reach* b, kiriVec2 at, kiriVec2* slope)
+{
+    kiriVec2 x = kiriVec2_Sub(at, a->from), y = kiriVec2_Sub(at, b->from);
+    double p = kiriVec2_Length(x), q = kiriVec2_Length(y);
+    *slope = kiriVec2_Sub(kiriVec2_Scale(p > 0.0 ? 1.0 / p : 0.0, x), kiriVec2_Scale(q > 0.0 ? 1.0 / q : 0.0, y));
+    return a->behind + p - b->behind - q;
+}
+
+static kiriVec2 Shortened(kiriVec2 step, double most)
+{
+    double size = kiriVec2_Length(step);
+    return size > most ? kiriVec2_Scale(most / size, step) : step;
+}
+
+/* The corner of three regions, by Newton's method from where the grid has it. The
+   reaches come in the order of regions, so that all links of the corner find the same. */
+static bool FindTurnedCorner(const EndSearch* s, kiriLinkEnd* end)
+{
+    const Reach* reach[3] = { NULL, NULL, NULL };
+    double side = s->border->grid->side, off[2] = { 0.0, 0.0 };
+    for (int32_t k = 0; k < s->near.count; ++k) {
+        for (int r = 0; r < 3; ++r) {
+            reach[r] = s->grid->region[r] == s->near.region[k] ? &s->near.reach[k] : reach[r];
+        }
+    }
+    if (s->grid->region[3] != KIRI_NONE || reach[0] == NULL || reach[1] == NULL || reach[2] == NULL) {
+        return false;
+    }
+    for (int round = 0; round < 12; ++round) {
+        kiriVec2 slope[2];
+        off[0] = Farther(reach[0], reach[1], end->at, &slope[0]);
+        off[1] = Farther(reach[0], reach[2], end->at, &slope[1]);
+        double det = slope[0].x * slope[1].y - slope[0].y * slope[1].x;
+        if (!(fabs(det) > 1e-6)) {
+            return false;
+        }
+        kiriVec2 step = { (slope[1].y * off[0] - slope[0].y * off[1]) / det,
+                          (slope[0].x * off[1] - slope[1].x * off[0]) / det };
+        end->at = kiriVec2_Sub(end->at, Shortened(step, 0.5 * side));
+    }
+    return fabs(off[0]) + fabs(off[1]) < s->least;
+}
+
+/* Slides a point of an edge to where both reaches are as long; it stays where that is beyond the edge. */
+static kiriVec2 SlideOn(const EndSearch* s, const kiriVec2 edge[2], kiriVec2 at)
+{
+    kiriVec2 way = kiriVec2_Sub(edge[1], edge[0]), slope;
+    double size = kiriVec2_Dot(way, way), first = kiriVec2_Dot(kiriVec2_Sub(at, edge[0]), way) / size, share = first;
+    double most = 0.5 * s->border->grid->side / sqrt(size);
+    for (int round = 0; round < 8; ++round) {
+        kiriVec2 p = kiriVec2_Add(edge[0], kiriVec2_Scale(share, way));
+        double off = Farther(&s->near.reach[0], &s->near.reach[1], p, &slope), pace = kiriVec2_Dot(slope, way);
+        double step = fabs(pace) > 1e-3 * sqrt(size) ? off / pace : 0.0;
+        share -= step > most ? most : step < -most ? -most : step;
+    }
+    bool isBeside = share >= 0.0 && share <= 1.0 && fabs(share - first) <= 2.0 * most;
+    return isBeside ? kiriVec2_Add(edge[0], kiriVec2_Scale(share, way)) : at;
+}
+
+/* Where the border comes to an edge: from beside the stretch along its tangent there, then along the edge. */
+static bool FindTurnedOpenEnd(const EndSearch* s, kiriLinkEnd* end)
+{
+    double side = s->border->grid->side, size = 0.0;
+    kiriVec2 before = PointBefore(s), from = before, slope = { 0.0, 0.0 };
+    for (int round = 0; round < 8; ++round) {
+        double off = Farther(&s->near.reach[0], &s->near.reach[1], from, &slope);
+        size = kiriVec2_Length(slope);
+        if (!(size > 1e-3)) {
+            return false;
+        }
+        from = kiriVec2_Sub(from, Shortened(kiriVec2_Scale(off / (size * size), slope), 0.5 * side));
+    }
+    kiriVec2 tangent = kiriVec2_Scale(s->ahead / size, kiriVec2_Make(-slope.y, slope.x));
+    kiriVec2 goal = kiriVec2_Add(from, kiriVec2_Scale(4.0 * side, tangent));
+    kiriSightHit hit;
+    if (kiriVec2_Length(kiriVec2_Sub(from, before)) > 2.0 * side || !kiriSight_IsClear(&s->sight, before, from) ||
+        kiriSight_Cast(&s->sight, from, goal, &hit) != KIRI_SIGHT_EDGE) {
+        return false;
+    }
+    SetOpenEnd(end, SlideOn(s, hit.edge, kiriVec2_Add(from, kiriVec2_Scale(hit.share, kiriVec2_Sub(goal, from)))));
+    return true;
+}
+
+/* ---- The link ---------------------------------------------------------------------------------------------------- */
+
+/* Two points as near as this, of a square's side, are one; a border as short is none. */
+static const double kiriBorderLeast = 1e-6;
+
+/* Can the border be a straight line: are all sites seen, and the two of them apart? */
+static bool IsStraightReach(const EndSearch* s)
+{
+    if (kiriVec2_Length(kiriVec2_Sub(s->near.reach[0].from, s->near.reach[1].from)) <= s->least) {
+        return false;
+    }
+    for (int32_t k = 0; k < s->near.count; ++k) {
+        if (s->near.reach[k].isKnown && s->near.reach[k].behind > 0.0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The end of a border, at its tangent's tail (0) or head (1). False: it stays as the grid has it. */
+static bool FindExactEnd(const kiriBorder* border, const kiriLink* link, int which, kiriLinkEnd* end)
+{
+    EndSearch s;
+    kiriLinkEnd found = *end;
+    s.border = border;
+    s.grid = end;
+    s.ahead = which == 0 ? -1.0 : 1.0;
+    s.least = kiriBorderLeast * border->grid->side;
+    s.near.count = 0;
+    AddNearRegions(border, end, &s.near);
+    s.sight = SightOf(border, &s.near);
+    s.line = LineBetween(SiteAt(border, link->i), SiteAt(border, link->j));
+    if (end->kind == KIRI_END_INNER || !FindReaches(&s)) {
+        return false;
+    }
+    if (IsStraightReach(&s)) {
+        found.isExact = FindSeenEndOf(&s, &found);
+    } else {
+        found.isExact = end->kind == KIRI_END_CORNER ? FindTurnedCorner(&s, &found) : FindTurnedOpenEnd(&s, &found);
+    }
+    /* Farther from where the grid has it the border would be one that the grid does not know. */
+    found.isExact = found.isExact && kiriVec2_Length(kiriVec2_Sub(found.at, end->at)) < 3.0 * border->grid->side;
+    if (found.isExact) {
+        *end = found;
+    }
+    return found.isExact;
+}
+
+/* A straight border from end to end. */
+static void SetStraight(kiriLink* link, const kiriLinkEnds* ends)
+{
+    kiriVec2 way = kiriVec2_Sub(ends->end[1].at, ends->end[0].at);
+    link->width = kiriVec2_Length(way);
+    link->tangent = kiriVec2_Scale(1.0 / link->width, way);
+    link->normal = kiriVec2_Make(link->tangent.y, -link->tangent.x);
+    link->centroid = kiriVec2_Scale(0.5, kiriVec2_Add(ends->end[0].at, ends->end[1].at));
+    link->moment = link->width * link->width * link->width / 12.0;
+}
+
+/* What the grid takes for a border and is none. Its regions stay joined, by next to nothing: what hangs together on the
+   grid is one piece. */
+static void SetSpurious(const kiriBorder* border, kiriLink* link, kiriLinkEnds* ends)
+{
+    BorderLine line = LineBetween(SiteAt(border, link->i), SiteAt(border, link->j));
+    double along = 0.5 * (AlongLine(&line, ends->end[0].at) + AlongLine(&line, ends->end[1].at));
+    double half = 0.5 * kiriBorderLeast * border->grid->side;
+    for (int k = 0; k < 2; ++k) {
+        ends->end[k].kind = KIRI_END_INNER;
+        ends->end[k].at = PointOn(&line, k == 0 ? along - half : along + half);
+    }
+    SetStraight(link, ends);
+}
+
+void kiriBorder_MakeExact(const kiriBorder* border, kiriLink* link, kiriLinkEnds* ends)
+{
+    kiriLinkEnds grid = *ends;
+    bool tail = FindExactEnd(border, link, 0, &ends->end[0]), head = FindExactEnd(border, link, 1, &ends->end[1]);
+    double width = kiriVec2_Dot(kiriVec2_Sub(ends->end[1].at, ends->end[0].at), link->tangent);
+    if (!tail && !head) {
+        return;
+    }
+    if (width > kiriBorderLeast * border->grid->side) {
+        SetStraight(link, ends);
+    } else if (tail && head) {
+        SetSpurious(border, link, ends);
+    } else {
+        *ends = grid;
+    }
+}
+
+/* ---- Borders that the grid misses ---------------------------------------------------------------------------------- */
+
+/* A point between the limits of a line, or beside the one that there is; false where there is none. */
+static bool FindBetween(EndSearch* s, kiriVec2* at)
+{
+    double limit[2];
+    for (int k = 0; k < 2; ++k) {
+        s->ahead = k == 0 ? -1.0 : 1.0;
+        limit[k] = FindLimit(s);
+    }
+    double inside = 0.25 * s->border->grid->side, low = -limit[0], high = limit[1];
+    if (limit[0] == kiriFarAhead && limit[1] == kiriFarAhead) {
+        return false;
+    }
+    low = limit[0] == kiriFarAhead ? high - 2.0 * inside : low;
+    high = limit[1] == kiriFarAhead ? low + 2.0 * inside : high;
+    *at = PointOn(&s->line, 0.5 * (low + high));
+    return high - low > s->least;
+}
+
+static void StartShort(const kiriBorder* border, const kiriLinkEnd* near, const int32_t cells[2], EndSearch* s)
+{
+    s->border = border;
+    s->grid = near;
+    s->least = kiriBorderLeast * border->grid->side;
+    s->near.count = 0;
+    AddRegion(border, &s->near, cells[0]);
+    AddRegion(border, &s->near, cells[1]);
+    AddRegionsAround(border, &s->near, cells[0]);
+    s->sight = SightOf(border, &s->near);
+    s->line = LineBetween(SiteAt(border, s->near.region[0]), SiteAt(border, s->near.region[1]));
+    for (int32_t k = 0; k < s->near.count; ++k) {
+        FindReach(border, &s->sight, &s->near, k, near->look, false);
+    }
+}
+
+bool kiriBorder_MakeShort(const kiriBorder* border, const kiriLinkEnd* near, const int32_t cells[2], kiriNewLink* made)
+{
+    EndSearch s;
+    kiriVec2 at;
+    double most = 4.0 * border->grid->side;
+    StartShort(border, near, cells, &s);
+    memset(made, 0, sizeof(*made));
+    made->ends.isShort = true;
+    made->face = KIRI_NONE;
+    made->link.i = s.near.region[0];
+    made->link.j = s.near.region[1];
+    if (!s.near.reach[0].isKnown || !s.near.reach[1].isKnown || !FindBetween(&s, &at) ||
+        kiriVec2_Length(kiriVec2_Sub(at, near->look)) > most || !kiriSight_IsClear(&s.sight, near->look, at)) {
+        return false;
+    }
+    for (int k = 0; k < 2; ++k) {
+        kiriLinkEnd* end = &made->ends.end[k];
+        s.ahead = k == 0 ? -1.0 : 1.0;
+        memcpy(end->cell, cells, sizeof(end->cell));
+        end->isExact = true;
+        if (!FindSeenEnd(&s, at, end)) {
+            return false;
+        }
+    }
+    SetStraight(&made->link, &made->ends);
+    made->link.span = kiriVec2_Sub(SiteAt(border, made->link.j), SiteAt(border, made->link.i));
+    made->link.length = kiriVec2_Length(made->link.span);
+    made->link.crossing = s.line.middle;
+    kiriLink_SetOuter(&made->link, &made->ends);
+    return made->link.width < 0.5 * most;
+}
+
+bool kiriBorder_FindBeside(const kiriBorder* border, const kiriLinkEnd* end, int which, int32_t* at, int32_t cells[2])
+{
+    const kiriStepRun* run = &border->grid->runs.data[end->cell[which]];
+    const int32_t* owner = border->regions->field.owner.data;
+    cells[0] = end->cell[which];
+    for (int32_t s = run->first + *at; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        cells[1] = border->grid->steps.data[s].cell;
+        if (owner[cells[1]] > owner[cells[0]]) {
+            *at = s + 1 - run->first;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- The way from site to site ------------------------------------------------------------------------------------ */
+
+/* Does a site see the other, and both the border? */
+static bool IsWaySeen(const kiriSight* sight, kiriVec2 a, kiriVec2 b, kiriVec2 over)
+{
+    return kiriSight_IsClear(sight, a, b) && kiriSight_IsClear(sight, a, over) && kiriSight_IsClear(sight, b, over);
+}
+
+bool kiriBorder_FindWay(const kiriBorder* border, const kiriLink* link, const kiriLinkEnds* ends,
+                        const int32_t cells[2], kiriVec2 over, kiriWay* way)
+{
+    NearRegions near;
+    kiriTurns turns;
+    kiriVec2 a = SiteAt(border, link->i), b = SiteAt(border, link->j);
+    near.count = turns.count = turns.scannedCount = 0;
+    turns.isFull = false;
+    AddNearRegions(border, &ends->end[0], &near);
+    AddNearRegions(border, &ends->end[1], &near);
+    kiriSight sight = SightOf(border, &near);
+    if (!IsSiteInside(border, link->i) || !IsSiteInside(border, link->j)) {
+        return false;
+    }
+    if (IsWaySeen(&sight, a, b, over)) {
+        way->turnCount = 0;
+        way->length = kiriVec2_Length(kiriVec2_Sub(b, a));
+        return true;
+    }
+    AddTurnsAlong(border, &sight, cells[0], &turns);
+    AddTurnsAlong(border, &sight, cells[1], &turns);
+    return kiriWay_Find(&turns, &sight, a, b, way);
+}
