@@ -1,6 +1,5 @@
 /* Soft rubber between pegs that move apart. Slits gape, a disc comes off smaller than its hole, and what is cut through
-   snaps back. Frames are affine, so that the sheet stretches inside a region, and gets narrower as it does; rigid ones
-   can only move apart. */
+   snaps back. Frames are affine, so that the sheet stretches inside a region; rigid ones can only move apart. */
 #include "scene_parts.h"
 #include "scene_types.h"
 

@@ -160,7 +160,8 @@ static Tensor KindOf(int kind, double angle, double nu)
     return Along(angle, 1.0, across[kind]);
 }
 
-static void AssertRatio(double energy, double plate, double tolerance, const char* what, int layout, int kind, double angle)
+static void AssertRatio(double energy, double plate, double tolerance, const char* what, int layout, int kind,
+                        double angle)
 {
     if (!(fabs(energy / plate - 1.0) <= tolerance)) {
         fail_msg("%s, %s layout, kind %d, %g degrees: %.9f of the plate", what, layoutNames[layout], kind,
@@ -198,10 +199,95 @@ static void EvenStatesAreExact(void** state)
     }
 }
 
+/* ---- Derivatives ------------------------------------------------------------------------------------------------- */
+
+/* A strip of one row and a plate; both have links with one open end and with two. */
+static void MakePlate(Voronoi* v, int columns, int rows, int model, kiriMaterial material)
+{
+    uint32_t seed = 3;
+    Voronoi_Begin(v, columns, rows == 1 ? 0.8 : rows, material);
+    v->system.mechanics.model = model;
+    for (int n = 0; n < columns * rows; ++n) {
+        double x = n % columns + 0.5 + 0.3 * RandomBetween(&seed, -1.0, 1.0);
+        Voronoi_AddSite(v, x, v->width * (n / columns + 0.5 + 0.3 * RandomBetween(&seed, -1.0, 1.0)) / rows);
+    }
+    Voronoi_Build(v);
+}
+
+static kiriVec3 RandomVector(uint32_t* seed, double size)
+{
+    double x = RandomBetween(seed, -size, size), y = RandomBetween(seed, -size, size);
+    return kiriVec3_Make(x, y, RandomBetween(seed, -size, size));
+}
+
+static void Crumple(const Voronoi* v, double size, uint32_t* seed, kiriPose* poses)
+{
+    for (int32_t f = 0; f < v->system.frameCount; ++f) {
+        poses[f].x = kiriVec3_Add(v->frames[f].x, RandomVector(seed, 0.3 * size));
+        poses[f].A = kiriMat3_Cayley(RandomVector(seed, size));
+    }
+}
+
+/* The pose with one of its vectors moved by `way`; rigid frames have a move and a turn. */
+static kiriPose MovedPose(kiriPose pose, int vector, kiriVec3 way, bool isAffine)
+{
+    kiriVec3* const columns[4] = { &pose.x, &pose.A.u, &pose.A.v, &pose.A.d };
+    if (vector == 1 && !isAffine) {
+        pose.A = kiriMat3_MulMat(kiriMat3_Cayley(way), pose.A);
+    } else {
+        *columns[vector] = kiriVec3_Add(*columns[vector], way);
+    }
+    return pose;
+}
+
+static void CheckElement(const Voronoi* v, int32_t k, kiriPose* poses, uint32_t* seed)
+{
+    const double eps = 1e-5;
+    bool isAffine = kiriMechanics_IsAffine(&v->system.mechanics);
+    double strain[KIRI_MOST_STRAINS], ahead[KIRI_MOST_STRAINS], behind[KIRI_MOST_STRAINS];
+    kiriFrameRow rows[4 * KIRI_MOST_STRAINS];
+    int32_t members[4], count = kiriElement_Members(&v->system, k, members);
+    kiriElement_Measure(&v->system, k, poses, strain, rows);
+    for (int n = 0; n < count * (isAffine ? 4 : 2); ++n) {
+        int32_t m = n % count, vector = n / count;
+        kiriVec3 way = RandomVector(seed, 1.0);
+        kiriPose at = poses[members[m]];
+        poses[members[m]] = MovedPose(at, vector, kiriVec3_Scale(eps, way), isAffine);
+        kiriElement_Measure(&v->system, k, poses, ahead, NULL);
+        poses[members[m]] = MovedPose(at, vector, kiriVec3_Scale(-eps, way), isAffine);
+        kiriElement_Measure(&v->system, k, poses, behind, NULL);
+        poses[members[m]] = at;
+        for (int e = 0; e < kiriElement_StrainCount(&v->system, k); ++e) {
+            double found = (ahead[e] - behind[e]) / (2.0 * eps),
+                   slope = kiriVec3_Dot(rows[count * e + m].by[vector], way);
+            if (!(fabs(found - slope) <= 2e-5 * (1.0 + fabs(slope)))) {
+                fail_msg("element %d of %d, strain %d: %.9g, not %.9g", k, kiriElement_Count(&v->system), e, slope,
+                         found);
+            }
+        }
+    }
+}
+
+/* Of links with open ends and of corners, also in folds, where bending and twist fade, and in strips that curl. */
+static void DerivativesAreExact(void** state)
+{
+    uint32_t seed = 29;
+    static kiriPose poses[VORONOI_SITES];
+    (void)state;
+    for (int trial = 0; trial < 40; ++trial) {
+        MakePlate(&sheet, 4, trial % 2 == 0 ? 1 : 3, trial / 2 % 2, MaterialOf(0.4, 0.02));
+        Crumple(&sheet, trial % 3 == 0 ? 3.0 : 0.4, &seed, poses);
+        for (int32_t k = 0; k < kiriElement_Count(&sheet.system); ++k) {
+            CheckElement(&sheet, k, poses, &seed);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(EvenStatesAreExact),
+        cmocka_unit_test(DerivativesAreExact),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,8 @@
 #include "kiri_affine.h"
+#include "kiri_curl.h"
 #include "kiri_strain.h"
+
+#include <string.h>
 
 #define GAP_SHARE 0.3    /* of the membrane stiffness, against gaps in the plane */
 #define LEAN_PENALTY 3.0 /* see kiri_affine.h: leaning counts 1 + 3 times */
@@ -82,17 +85,47 @@ static void MeasureInPlane(const FrameDifference* g, const MeanDirector* mean, d
     }
 }
 
-static void MeasureBending(const kiriPose* const poses[2], double* strain, kiriFrameRow rows[][2])
+/* The difference of the directors, of which a strip that curls has more: see kiri_curl.h. */
+static void MeasureBending(const kiriCurl* curl, const kiriPose* const poses[2], double* strain, kiriFrameRow rows[][2])
 {
     const kiriVec3 axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } }, zero = { 0.0, 0.0, 0.0 };
+    kiriVec3 bent = kiriVec3_Sub(poses[1]->A.d, poses[0]->A.d);
+    double slope, factor = kiriCurl_Factor(curl, kiriVec3_Dot(bent, bent), &slope);
     for (int a = 0; a < 3; ++a) {
-        strain[a] = kiriVec3_Dot(axes[a], kiriVec3_Sub(poses[1]->A.d, poses[0]->A.d));
+        double part = kiriVec3_Dot(axes[a], bent);
+        strain[a] = factor * part;
         if (rows != NULL) {
-            kiriFrameRow first = { { zero, zero, zero, kiriVec3_Scale(-1.0, axes[a]) } };
-            kiriFrameRow second = { { zero, zero, zero, axes[a] } };
+            kiriVec3 by = kiriVec3_AddScaled(kiriVec3_Scale(factor, axes[a]), 2.0 * slope * part, bent);
+            kiriFrameRow first = { { zero, zero, zero, kiriVec3_Scale(-1.0, by) } };
+            kiriFrameRow second = { { zero, zero, zero, by } };
             rows[a][0] = first;
             rows[a][1] = second;
         }
+    }
+}
+
+void kiriAffine_AddTrace(kiriVec2 p, const kiriPose* const poses[2], double* strain, kiriFrameRow* const rows[2])
+{
+    kiriVec3 bent = kiriVec3_Sub(poses[1]->A.d, poses[0]->A.d);
+    kiriVec3 along = kiriVec3_Add(kiriPose_Along(poses[0], p), kiriPose_Along(poses[1], p));
+    *strain += 0.5 * kiriVec3_Dot(bent, along);
+    for (int k = 0; rows != NULL && k < 2; ++k) {
+        kiriVec3* by = rows[k]->by;
+        by[1] = kiriVec3_AddScaled(by[1], 0.5 * p.x, bent);
+        by[2] = kiriVec3_AddScaled(by[2], 0.5 * p.y, bent);
+        by[3] = kiriVec3_AddScaled(by[3], k == 0 ? -0.5 : 0.5, along);
+    }
+}
+
+static void MeasureTwist(const kiriLink* link, const kiriPose* const poses[2], double* strain, kiriFrameRow row[2])
+{
+    *strain = 0.0;
+    if (row == NULL) {
+        kiriAffine_AddTrace(link->tangent, poses, strain, NULL);
+    } else {
+        kiriFrameRow* const rows[2] = { &row[0], &row[1] };
+        memset(row, 0, 2 * sizeof(*row));
+        kiriAffine_AddTrace(link->tangent, poses, strain, rows);
     }
 }
 
@@ -109,16 +142,18 @@ static void MeasureNormalGap(const kiriLink* link, const FrameDifference* g, con
     }
 }
 
-void kiriAffine_Measure(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
-                        double strain[KIRI_AFFINE_STRAINS], kiriFrameRow rows[][2])
+void kiriAffine_Measure(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
+                        const kiriPose* const poses[2], double strain[KIRI_AFFINE_STRAINS], kiriFrameRow rows[][2])
 {
+    kiriCurl curl = kiriCurl_Of(link, material);
     MeanDirector mean = FindMeanDirector(poses);
     FrameDifference b = GapAt(frames, poses, link->centroid), m = GapAt(frames, poses, link->crossing);
     FrameDifference side = TakeDifference(0.0, link->tangent, link->tangent, poses);
     MeasureInPlane(&b, &mean, strain + KIRI_AFFINE_GAP, rows);
     MeasureInPlane(&side, &mean, strain + KIRI_AFFINE_PLANE_BENDING,
                    rows != NULL ? rows + KIRI_AFFINE_PLANE_BENDING : NULL);
-    MeasureBending(poses, strain + KIRI_AFFINE_BENDING, rows != NULL ? rows + KIRI_AFFINE_BENDING : NULL);
+    MeasureBending(&curl, poses, strain + KIRI_AFFINE_BENDING, rows != NULL ? rows + KIRI_AFFINE_BENDING : NULL);
+    MeasureTwist(link, poses, strain + KIRI_AFFINE_TWIST, rows != NULL ? rows[KIRI_AFFINE_TWIST] : NULL);
     MeasureNormalGap(link, &m, &mean, strain + KIRI_AFFINE_NORMAL_GAP,
                      rows != NULL ? rows + KIRI_AFFINE_NORMAL_GAP : NULL);
 }
@@ -130,9 +165,10 @@ void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, do
     for (int a = 0; a < 3; ++a) {
         stiffness[KIRI_AFFINE_GAP + a] = GAP_SHARE * membrane * link->width;
         stiffness[KIRI_AFFINE_PLANE_BENDING + a] = membrane * link->moment;
-        stiffness[KIRI_AFFINE_BENDING + a] = bending * link->width;
+        stiffness[KIRI_AFFINE_BENDING + a] = bending * (1.0 - nu) * (link->width + nu * link->outer);
     }
-    stiffness[KIRI_AFFINE_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * link->width / (l * l);
+    stiffness[KIRI_AFFINE_TWIST] = bending * (1.0 - nu) * (1.0 - nu) * link->outer;
+    stiffness[KIRI_AFFINE_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * kiriStrain_NormalGapWidth(link, nu) / (l * l);
     stiffness[KIRI_AFFINE_NORMAL_STOP] = membrane * link->width;
 }
 

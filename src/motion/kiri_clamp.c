@@ -43,7 +43,7 @@ void kiriClamp_Measure(const kiriClampRow* row, const kiriFrameData* frame, cons
     const kiriPose* const poses[2] = { line, pose };
     if (row->isAffine) {
         kiriFrameRow both[KIRI_AFFINE_STRAINS][2];
-        kiriAffine_Measure(&row->link, frames, poses, strain, rows != NULL ? both : NULL);
+        kiriAffine_Measure(&row->link, row->material, frames, poses, strain, rows != NULL ? both : NULL);
         for (int e = 0; rows != NULL && e < KIRI_AFFINE_STRAINS; ++e) {
             rows[e] = both[e][1];
         }
@@ -78,17 +78,19 @@ static void SetRigidStiffness(kiriClampRow* row, const kiriMaterial* material)
     row->stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * row->link.width / (l * l);
 }
 
-static void SetStiffness(kiriClampRow* row, const kiriMaterial* material)
+/* The same of an affine frame, whose rows of bending see twist too. */
+static void SetAffineStiffness(kiriClampRow* row, const kiriMaterial* material)
 {
-    if (!row->isAffine) {
-        SetRigidStiffness(row, material);
-        return;
-    }
-    double membrane = (double)material->youngsModulus * material->thickness * row->link.width / row->link.length;
+    double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = row->link.length;
+    double W = row->link.width, membrane = (double)material->youngsModulus * h / l;
+    double bending = membrane * h * h / (12.0 * (1.0 - nu * nu)), twisted = (1.0 - nu) * (W + row->outer) - W;
     kiriAffine_Stiffness(&row->link, material, row->stiffness);
     for (int a = 0; a < 3; ++a) {
-        row->stiffness[KIRI_AFFINE_GAP + a] = KIRI_CLAMP_AFFINE_GAP * membrane;
+        row->stiffness[KIRI_AFFINE_GAP + a] = KIRI_CLAMP_AFFINE_GAP * membrane * W;
+        row->stiffness[KIRI_AFFINE_BENDING + a] = bending * W;
     }
+    row->stiffness[KIRI_AFFINE_TWIST] = twisted > 0.0 ? bending * twisted : 0.0;
+    row->stiffness[KIRI_AFFINE_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * W / (l * l);
 }
 
 void kiriClamp_Begin(kiriClampRow* row, bool isPlanar, const kiriMaterial* material, double damping,
@@ -96,7 +98,7 @@ void kiriClamp_Begin(kiriClampRow* row, bool isPlanar, const kiriMaterial* mater
 {
     row->strainCount = StrainCount(row->isAffine, isPlanar);
     row->stopping = false;
-    SetStiffness(row, material);
+    row->isAffine ? SetAffineStiffness(row, material) : SetRigidStiffness(row, material);
     kiriClamp_Measure(row, frame, &row->start, start, row->startStrain, NULL);
     double share = damping * (row->isAffine ? 1.0 : kiriStrain_Damping(row->startStrain));
     for (int e = 0; e < row->strainCount; ++e) {

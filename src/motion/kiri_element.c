@@ -11,7 +11,7 @@ int kiriElement_StrainCount(const kiriSystem* system, int32_t k)
 {
     bool planar = system->mechanics.planar;
     if (kiriElement_Corner(system, k) != NULL) {
-        return planar ? KIRI_TRACE_STRETCH + 1 : KIRI_TRACES;
+        return planar || kiriMechanics_IsAffine(&system->mechanics) ? 1 : KIRI_TRACES;
     }
     if (kiriElement_Link(system, k) == NULL) {
         return AreaElementOf(system, k)->lastRow - AreaElementOf(system, k)->firstRow;
@@ -67,7 +67,11 @@ void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffnes
 {
     const kiriLink* link = kiriElement_Link(system, k);
     if (kiriElement_Corner(system, k) != NULL) {
-        kiriTrace_Stiffness(kiriElement_Corner(system, k), &system->material, stiffness);
+        double all[KIRI_TRACES];
+        kiriTrace_Stiffness(kiriElement_Corner(system, k), &system->material, all);
+        bool isAffine = kiriMechanics_IsAffine(&system->mechanics);
+        stiffness[0] = all[isAffine ? KIRI_TRACE_CURVATURE : KIRI_TRACE_STRETCH];
+        stiffness[1] = all[KIRI_TRACE_CURVATURE]; /* counts where it has two strains */
     } else if (link == NULL) {
         kiriAreaElement_Stiffness(AreaElementOf(system, k), &system->material, stiffness);
     } else if (kiriMechanics_IsAffine(&system->mechanics)) {
@@ -149,10 +153,32 @@ static void MeasureCorner(const kiriSystem* system, const kiriCorner* corner, co
     }
 }
 
+static void MeasureAffineCorner(const kiriSystem* system, const kiriCorner* corner, const kiriPose* poses,
+                                double* strain, kiriFrameRow* rows)
+{
+    int32_t members[4], ends[4][2];
+    kiriTrace_Members(corner, system->links, members, ends);
+    *strain = 0.0;
+    if (rows != NULL) {
+        memset(rows, 0, sizeof(*rows) * (size_t)corner->count);
+    }
+    for (int32_t k = 0; k < corner->count; ++k) {
+        LinkEnds link = LinkEndsOf(system, &system->links[corner->link[k]], poses);
+        const kiriPose* const endPoses[2] = { &link.poses[0], &link.poses[1] };
+        kiriFrameRow* own[2] = { NULL, NULL };
+        for (int end = 0; rows != NULL && end < 2; ++end) {
+            own[end] = &rows[ends[k][end]];
+        }
+        kiriAffine_AddTrace(corner->weight[k], endPoses, strain, rows != NULL ? own : NULL);
+    }
+}
+
 void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strain, kiriFrameRow* rows)
 {
     const kiriLink* link = kiriElement_Link(system, k);
-    if (kiriElement_Corner(system, k) != NULL) {
+    if (kiriElement_Corner(system, k) != NULL && kiriMechanics_IsAffine(&system->mechanics)) {
+        MeasureAffineCorner(system, kiriElement_Corner(system, k), poses, strain, rows);
+    } else if (kiriElement_Corner(system, k) != NULL) {
         MeasureCorner(system, kiriElement_Corner(system, k), poses, strain, rows);
     } else if (link == NULL) {
         kiriAreaElement_Measure(AreaElementOf(system, k), system->areaElements->shares.data, system->frames, poses,
@@ -160,7 +186,7 @@ void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* po
     } else if (kiriMechanics_IsAffine(&system->mechanics)) {
         LinkEnds ends = LinkEndsOf(system, link, poses);
         const kiriPose* const endPoses[2] = { &ends.poses[0], &ends.poses[1] };
-        kiriAffine_Measure(link, ends.frames, endPoses, strain, (kiriFrameRow(*)[2])rows);
+        kiriAffine_Measure(link, &system->material, ends.frames, endPoses, strain, (kiriFrameRow(*)[2])rows);
     } else {
         MeasureRigidRows(system, link, poses, strain, rows);
     }
@@ -193,7 +219,7 @@ static void TakeCornerOffsets(const kiriSystem* system, int32_t k, const double*
 void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* strain, double* pulling)
 {
     int count = kiriElement_StrainCount(system, k);
-    if (system->strainOffsets != NULL && kiriElement_Corner(system, k) != NULL) {
+    if (system->strainOffsets != NULL && kiriElement_IsRigidCorner(system, k)) {
         TakeCornerOffsets(system, k, strain, pulling);
         return;
     }

@@ -1,5 +1,5 @@
 /* Elements: what joins frames elastically. First the links, unless the model is that of integration points, then the
-   corners of links between rigid frames, unless Poisson's ratio is zero, then the area elements. Element k of a system has strains, each with a stiffness; its energy is the sum of
+   corners of these links, unless Poisson's ratio is zero, then the area elements. Element k of a system has strains, each with a stiffness; its energy is the sum of
    1/2 stiffness strain^2. */
 #ifndef KIRI_ELEMENT_H
 #define KIRI_ELEMENT_H
@@ -27,8 +27,10 @@ static inline int32_t kiriElement_LinkCount(const kiriSystem* system)
 
 static inline int32_t kiriElement_CornerCount(const kiriSystem* system)
 {
-    bool traces = !kiriMechanics_IsAffine(&system->mechanics) && system->material.poissonsRatio > 0.0f;
-    return traces ? system->cornerCount : 0;
+    bool isLinked = kiriElement_LinkCount(system) > 0 && system->material.poissonsRatio > 0.0f;
+    /* Area elements have the membrane of affine frames. */
+    bool isFlat = kiriMechanics_IsAffine(&system->mechanics) && system->mechanics.planar;
+    return isLinked && !isFlat ? system->cornerCount : 0;
 }
 
 static inline int32_t kiriElement_Count(const kiriSystem* system)
@@ -57,6 +59,12 @@ static inline bool kiriElement_IsRigidLink(const kiriSystem* system, int32_t k)
     return !kiriMechanics_IsAffine(&system->mechanics) && kiriElement_Link(system, k) != NULL;
 }
 
+/* Is it a corner between rigid frames? */
+static inline bool kiriElement_IsRigidCorner(const kiriSystem* system, int32_t k)
+{
+    return !kiriMechanics_IsAffine(&system->mechanics) && kiriElement_Corner(system, k) != NULL;
+}
+
 /* Writes the frames of an element, and returns how many there are; all of them are of the piece of the first. */
 int32_t kiriElement_Members(const kiriSystem* system, int32_t k, int32_t* members);
 int32_t kiriElement_FirstMember(const kiriSystem* system, int32_t k);
@@ -74,7 +82,7 @@ void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffnes
 void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strain,
                          kiriFrameRow* rows);
 
-/* The trace of a corner from strains that are known already, KIRI_MOST_STRAINS of each element. */
+/* The trace of a corner between rigid frames from strains that are known already, KIRI_MOST_STRAINS of each element. */
 kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* strains);
 
 /* The strains without their offsets: those that pull. */

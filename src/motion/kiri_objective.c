@@ -98,7 +98,7 @@ void kiriObjective_AddHost(kiriSolver* solver, const kiriSystem* system, const k
 
 void kiriObjective_Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strains)
 {
-    if (kiriElement_Corner(system, k) != NULL) {
+    if (kiriElement_IsRigidCorner(system, k)) {
         kiriTrace trace = kiriElement_Trace(system, k, strains);
         memcpy(&strains[KIRI_MOST_STRAINS * k], trace.strain, sizeof(trace.strain));
     } else {
@@ -219,7 +219,7 @@ void kiriObjective_FindNoise(kiriSolver* solver, const kiriSystem* system)
     for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
         const double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
         const kiriCorner* corner = kiriElement_Corner(system, k);
-        double noise = corner != NULL ? CornerNoise(solver, system, corner, stiffness)
+        double noise = kiriElement_IsRigidCorner(system, k) ? CornerNoise(solver, system, corner, stiffness)
                        : kiriElement_IsRigidLink(system, k)
                            ? RigidLinkNoise(solver, kiriElement_Link(system, k), stiffness)
                            : AffineNoise(solver, system, k, stiffness);
@@ -366,7 +366,7 @@ static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t 
 {
     size_t bytes = sizeof(double) * (size_t)solver->size;
     double* J = solver->J.data;
-    if (kiriElement_Corner(system, k) != NULL) {
+    if (kiriElement_IsRigidCorner(system, k)) {
         DeriveTraces(solver, system, k, count, strain);
         return;
     }
@@ -386,7 +386,7 @@ static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t 
             memset(&J[solver->size * (count * e + m)], 0, bytes);
         }
     }
-    if (kiriElement_CornerCount(system) > 0) {
+    if (kiriElement_CornerCount(system) > 0 && kiriElement_IsRigidLink(system, k)) {
         KeepTracedRows(solver, system, k);
     }
 }

@@ -73,7 +73,8 @@ static bool ReserveSolver(kiriSolver* solver, const kiriSystem* next)
     kiriMemory* memory = solver->memory;
     int32_t frameCount = next->frameCount, elementCount = kiriElement_Count(next);
     int32_t most = kiriElement_MostMembers(next);
-    int64_t traced = kiriElement_CornerCount(next) > 0 ? kiriElement_LinkCount(next) : 0;
+    bool hasTraces = kiriElement_CornerCount(next) > 0 && !kiriMechanics_IsAffine(&next->mechanics);
+    int64_t traced = hasTraces ? kiriElement_LinkCount(next) : 0;
     int64_t unknowns = (int64_t)solver->size * frameCount, rows = (int64_t)KIRI_MOST_STRAINS * most;
     return kiriArray_Reserve(memory, &solver->nextFramePiece, frameCount) &&
            kiriArray_Reserve(memory, &solver->pieces, frameCount) &&

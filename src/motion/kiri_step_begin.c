@@ -191,7 +191,7 @@ static void StepTouchedByEuler(kiriSolver* solver, const kiriSystem* system)
 /* A corner is damped as the link that is damped least. */
 static double DampingShare(const kiriSolver* solver, const kiriSystem* system, int32_t k)
 {
-    const kiriCorner* corner = kiriElement_Corner(system, k);
+    const kiriCorner* corner = kiriElement_IsRigidCorner(system, k) ? kiriElement_Corner(system, k) : NULL;
     double least = 1.0;
     if (kiriElement_IsRigidLink(system, k)) {
         least = kiriStrain_Damping(&solver->startStrain.data[KIRI_MOST_STRAINS * k]);

@@ -83,6 +83,9 @@ double kiriStrain_Openness(double bending, double twist, double* slope);
    for there bending and twist change their signs while the sheet hardly moves. */
 double kiriStrain_Damping(const double strain[KIRI_STRAINS]);
 
+/* The width of a strip that is clamped at both ends and as stiff against a normal gap. */
+double kiriStrain_NormalGapWidth(const kiriLink* link, double poissonsRatio);
+
 void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS]);
 
 KIRI_C_END
