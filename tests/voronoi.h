@@ -20,8 +20,9 @@ typedef struct Voronoi {
     kiriFrameData frames[VORONOI_SITES];
     kiriLink links[VORONOI_LINKS];
     kiriCorner corners[VORONOI_LINKS];
+    kiriAreaElements elements;
     kiriSystem system;
-    kiriMemory memory; /* of the solver */
+    kiriMemory memory; /* of the solver and the area elements */
     kiriSolver* solver;
 } Voronoi;
 
@@ -241,6 +242,23 @@ static inline void Voronoi_Begin(Voronoi* v, double length, double width, kiriMa
     v->length = length;
     v->width = width;
     v->system.material = material;
+}
+
+/* Of affine frames; Voronoi_Drop frees them. */
+static inline void Voronoi_AddAreaElements(Voronoi* v)
+{
+    static kiriMoments material[VORONOI_SITES];
+    v->memory = kiriMemory_Make(NULL, NULL, NULL);
+    for (int32_t f = 0; f < v->system.frameCount; ++f) {
+        double area = v->frames[f].area;
+        kiriVec2 c = v->frames[f].center;
+        material[f] = (kiriMoments){ area, area * c.x, area * c.y, 0.0, 0.0, 0.0 };
+    }
+    if (v->system.mechanics.model == KIRI_MODEL_AFFINE) {
+        assert_true(kiriAffine_Build(&v->elements, &v->memory, v->links, v->system.linkCount, material,
+                                     v->system.frameCount, false));
+        v->system.areaElements = &v->elements;
+    }
 }
 
 static inline void Voronoi_MakeSolver(Voronoi* v)

@@ -15,10 +15,10 @@ KIRI_C_BEGIN
    strain         what                                                stiffness
    stretch        |(c + gap(b) . n, sqrt(6/5) gap(b) . d)| - c - a.n  M (Wi / (1 + nu) + Wo)
    shear          gap(b) . tau - a . tau                              M (Wi + 5/12 Wo) / (1 + nu)
-   plane bending  ((A_j - A_i) tau) . n                               M I
+   plane bending  ((A_j - A_i) tau) . n                               M I (1 + 3/2 nu / (1 + nu) Wi / W)
    bending        w . n, w along d_j - d_i                            B ((1 - nu) Wi + (1 - nu^2) Wo)
    twist          w . tau                                             B (1 - nu) (Wi + 2 Wo)
-   normal gap     gap(m) . d                                          12 B (..) / l^2, see kiriStrain_Stiffness
+   normal gap     gap(m) . d                                          12 B W' / l^2, W' of kiriStrain_NormalGapWidth
    normal stop    what |gap(m) . d| has above l / 2                   M W
 
    A plate with the curvatures K has D/2 ((1 - nu) |K|^2 + nu (tr K)^2) an area. Over the links of a Voronoi diagram the
