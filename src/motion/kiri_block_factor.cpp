@@ -258,6 +258,16 @@ template <int size> void AddBlock(double* block, const Squares& s, int32_t a, in
     }
 }
 
+/* The same for two rows, which stay in registers. */
+template <int size> void AddBlockOfTwo(double* block, const Squares& s, int32_t a, int32_t b)
+{
+    const double *first = s.J + size * b, *second = first + s.stride;
+    const Column<size> downFirst = In<size>(s.J + size * a), downSecond = In<size>(s.J + size * a + s.stride);
+    for (int32_t c = 0; c < size; ++c) {
+        Out<size>(block + size * c) += (s.k[0] * first[c]) * downFirst + (s.k[1] * second[c]) * downSecond;
+    }
+}
+
 template <int size> void AddBlocks(kiriMatrix* matrix, const Squares& squares, const int32_t* frames, int32_t count)
 {
     for (int32_t b = 0; b < count; ++b) {
@@ -266,7 +276,8 @@ template <int size> void AddBlocks(kiriMatrix* matrix, const Squares& squares, c
             if (row >= column) {
                 int32_t block = BlockAt(matrix, row, column);
                 KIRI_ASSERT(block != KIRI_NONE);
-                AddBlock<size>(&matrix->values.data[(int64_t)size * size * block], squares, a, b);
+                double* values = &matrix->values.data[(int64_t)size * size * block];
+                squares.rows == 2 ? AddBlockOfTwo<size>(values, squares, a, b) : AddBlock<size>(values, squares, a, b);
             }
         }
     }

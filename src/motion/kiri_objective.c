@@ -348,12 +348,12 @@ static void DeriveTraces(kiriSolver* solver, const kiriSystem* system, int32_t k
     memcpy(strain, trace.strain, sizeof(double) * (size_t)traces);
     memset(solver->J.data, 0, sizeof(double) * (size_t)(traces * count * size));
     for (int32_t n = 0; n < count; ++n) {
-        for (int s = 0; s < 2 * traces; ++s) {
-            const double* row = TracedRows(solver, corner->link[n], s);
-            for (int end = 0; end < 2; ++end, row += size) {
-                double *J = &solver->J.data[size * (count * (s / 2) + ends[n][end])], by = trace.by[n][s];
-                for (int u = 0; u < size; ++u) {
-                    J[u] += by * row[u];
+        for (int t = 0; t < traces; ++t) {
+            const double *along = TracedRows(solver, corner->link[n], 2 * t), *across = along + 2 * size;
+            for (int end = 0; end < 2; ++end, along += size, across += size) {
+                double* J = &solver->J.data[size * (count * t + ends[n][end])];
+                for (int u = t == KIRI_TRACE_STRETCH ? 0 : 3; u < size; ++u) { /* directors only turn */
+                    J[u] += trace.by[n][2 * t] * along[u] + trace.by[n][2 * t + 1] * across[u];
                 }
             }
         }

@@ -1,7 +1,5 @@
 #include "kiri_trace.h"
 
-#include <string.h>
-
 static void TraceStretch(kiriTrace* trace, int k, double alongNormal, double alongTangent, const double* strain)
 {
     trace->by[k][KIRI_TRACED_STRETCH] = alongNormal;
@@ -23,7 +21,7 @@ kiriTrace kiriTrace_Measure(const kiriCorner* corner, const kiriLink* links, con
                             bool planar)
 {
     kiriTrace trace;
-    memset(&trace, 0, sizeof(trace));
+    trace.strain[KIRI_TRACE_STRETCH] = trace.strain[KIRI_TRACE_CURVATURE] = 0.0;
     for (int k = 0; k < corner->count; ++k) {
         const kiriLink* link = &links[corner->link[k]];
         double alongNormal = kiriVec2_Dot(corner->weight[k], link->normal);
