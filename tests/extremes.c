@@ -12,6 +12,8 @@
 struct Trial {
     const Extreme* extreme;
     double size, dt;
+    int substeps;
+    uint32_t seed; /* of what a script varies */
     int tick;
     kiriWorld* world;
     kiriSheet sheet;
@@ -379,6 +381,34 @@ static void Spin(Trial* trial)
     }
 }
 
+/* Pinned at a corner; torques a thousand times as large as would turn a free frame by one radian in a tick. */
+static void Twist(Trial* trial)
+{
+    for (int i = 0; Works(trial) && i < trial->frameCount; ++i) {
+        const kiriFrameState* f = &trial->now[i];
+        double size = 1e3 * (double)f->mass * (double)f->area / 6.0 / (trial->dt * trial->dt);
+        float none[3] = { 0.0f, 0.0f, 0.0f }, torque[3];
+        kiriVec3_Store(torque, kiriVec3_Scale(size, kiriVec3_Make(i % 3 - 1, i % 2, (i + 1) % 3 - 1)));
+        CALL(kiriFrame_ApplyForce(trial->world, trial->frames[i], none, torque));
+        trial->moved = true;
+    }
+    if (Begins(trial)) {
+        PinFrame(trial, Nearest(trial, 0.0, 1.0));
+    }
+    if (Ends(trial)) {
+        RemovePins(trial);
+    }
+}
+
+/* It hangs, and every tick is of another length, up to 8 times, with 1 to 4 substeps. */
+static void HangUnevenly(Trial* trial)
+{
+    double dt = Or(trial->extreme->dt, 1.0 / 60.0) * pow(8.0, Share(&trial->seed) - 0.5);
+    trial->dt = fmin(fmax(dt, 1e-6), 10.0);
+    trial->substeps = 1 + (int)(4.0 * Share(&trial->seed));
+    Hang(trial);
+}
+
 static void ThenHang(Trial* trial)
 {
     --trial->tick;
@@ -460,19 +490,26 @@ const Extreme extremes[] = {
     { .name = "dt 0.1", .script = Hang, .dt = 0.1 },
     { .name = "dt 1", .script = Hang, .dt = 1.0 },
     { .name = "dt 10", .script = Hang, .dt = 10.0 },
+    { .name = "dt varies", .script = HangUnevenly, .ticks = 900 },
+    { .name = "dt varies by 0.1", .script = HangUnevenly, .dt = 0.1 },
+    { .name = "dt varies, E 1e5", .script = HangUnevenly, .modulus = 1e5, .ticks = 900 },
     { .name = "gravity 1e2", .script = Hang, .gravity = 1e2 },
     { .name = "gravity 1e3", .script = Hang, .gravity = 1e3 },
     { .name = "gravity 1e5", .script = Hang, .gravity = 1e5 },
     { .name = "prediction at 1e5 g", .script = Fly, .gravity = 1e5, .ticks = 60, .calm = 1.0 },
     { .name = "size 1e-4", .script = Hang, .size = 1e-4 },
-    { .name = "size 1e4", .script = Hang, .size = 1e4, .dt = 0.5, .calm = 5e-2 },
+    { .name = "size 1e4", .script = Hang, .size = 1e4, .dt = 0.5, .ticks = 900, .calm = 5e-2 },
     { .name = "rest at 1e5", .script = Hang, .rest = 1e5 },
     { .name = "world at 1e5", .script = Hang, .place = 1e5 },
     { .name = "both at 1e5", .script = Hang, .rest = 1e5, .place = 1e5 },
     { .name = "speed 1e4", .script = Hang, .speed = 1e4 },
     { .name = "prediction at 1e4", .script = Nothing, .speed = 1e4, .calm = 1.0 },
-    { .name = "spin 1e4", .script = Spin, .cause = 1 },
-    { .name = "spin 1e4, E 1e13", .script = Spin, .cause = 1, .modulus = 1e13 },
+    { .name = "spin 1e4", .script = Spin, .cause = 1, .ticks = 900 },
+    { .name = "spin 1e4, E 1e13", .script = Spin, .cause = 1, .ticks = 900, .modulus = 1e13 },
+    { .name = "torques 1e3", .script = Twist },
+    { .name = "torques 1e3, E 1e13", .script = Twist, .modulus = 1e13 },
+    { .name = "torques 1e3, dt 1e-4", .script = Twist, .dt = 1e-4, .ticks = 300, .calm = 1.0 },
+    { .name = "torques, one frame", .script = Twist, .frames = 1 },
     { .name = "stretched x 10", .script = Stretch, .cause = 3 },
     { .name = "crushed: line", .script = Line, .cause = 3 },
     { .name = "crushed: point", .script = Point, .cause = 3 },
@@ -496,7 +533,7 @@ const Extreme extremes[] = {
       .ticks = 40,
       .calm = 1.0,
       .full = true },
-    { .name = "a frame a cell", .script = Hang, .frames = 256, .full = true },
+    { .name = "a frame a cell", .script = Hang, .frames = 256, .ticks = 1200, .full = true },
     { .name = "a frame a cell, point", .script = Point, .frames = 64, .grid = 8, .cause = 3, .full = true },
     { .name = "all held", .script = HoldAll },
     { .name = "all pinned", .script = PinAll },
@@ -504,7 +541,7 @@ const Extreme extremes[] = {
     { .name = "contacts 1e9", .script = Floor },
     { .name = "slivers 1e-6", .script = Slivers, .resample = true },
     { .name = "neck 1e-6", .script = Neck, .resample = true, .ticks = 1200 },
-    { .name = "three necks", .script = Thread, .resample = true },
+    { .name = "three necks", .script = Thread, .resample = true, .ticks = 1200 },
     { .name = "32 cuts, one point", .script = Star, .grid = 32 },
     { .name = "506 confetti", .script = Confetti, .grid = 64, .ticks = 60, .full = true },
 };
@@ -548,6 +585,8 @@ static void Start(Trial* trial, const Extreme* e, bool damped)
     trial->extreme = e;
     trial->size = Or(e->size, 1.0);
     trial->dt = Or(e->dt, 1.0 / 60.0);
+    trial->substeps = e->substeps > 0 ? e->substeps : 1;
+    trial->seed = 19650218u;
     trial->outcome.finite = true;
     trial->outcome.recovered = -1;
     kiriWorldDef worldDef;
@@ -672,14 +711,13 @@ static double RoundingEnergy(const Trial* trial, const kiriTotals* t)
 
 static void TickAndCompare(Trial* trial, kiriTotals* after, double* peak)
 {
-    const Extreme* e = trial->extreme;
     Outcome* outcome = &trial->outcome;
     kiriTotals before;
     double unknown = 0.0;
     CALL(kiriSheet_GetTotals(trial->world, trial->sheet, &before));
     double had = before.kineticEnergy + before.elasticEnergy + PinEnergy(trial, &unknown) + trial->contactEnergy;
     *peak = fmax(*peak, had);
-    CALL(kiriWorld_Tick(trial->world, (float)trial->dt, e->substeps > 0 ? e->substeps : 1));
+    CALL(kiriWorld_Tick(trial->world, (float)trial->dt, trial->substeps));
     CALL(kiriSheet_GetTotals(trial->world, trial->sheet, after));
     ReadFrames(trial);
     double has = after->kineticEnergy + after->elasticEnergy + PinEnergy(trial, &unknown);

@@ -14,7 +14,7 @@ void kiriSolver_ClearMeans(kiriSolver* solver)
 
 /* No inner force moves the centre of mass of a free piece: it is where the prediction ends, however far the iteration
    came. */
-static void CenterFreePieces(kiriSolver* solver, const kiriSystem* system)
+void kiriSolver_CenterFreePieces(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSolver_ClearMeans(solver);
     for (int32_t f = 0; f < system->frameCount; ++f) {
@@ -127,7 +127,7 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
 
 void kiriSolver_FindGains(kiriSolver* solver, const kiriSystem* system)
 {
-    CenterFreePieces(solver, system);
+    kiriSolver_CenterFreePieces(solver, system);
     WriteStepEnd(solver, system);
     RestoreMomentum(solver, system);
     SumGains(solver, system);

@@ -36,12 +36,11 @@ static kiriVec3 AngularAbout(const kiriFrameData* frame, const kiriMaterial* mat
 static void AddFrameTurning(kiriPieceMomentum* p, const kiriFrameData* before, const kiriFrameData* after,
                             const kiriMaterial* material, double dt)
 {
-    double fade = 1.0 / (1.0 + dt * (double)material->airDamping);
     kiriVec3 arm = kiriVec3_Sub(after->x, p->centerAfter);
     kiriVec3 arms = kiriVec3_Add(kiriVec3_Sub(before->x, p->centerBefore), arm);
     kiriVec3 torque = kiriVec3_AddScaled(before->torque, 0.5, kiriVec3_Cross(arms, before->force));
     kiriMat3 own = kiriFrame_Inertia(after, material), point = kiriMat3_PointInertia(before->mass, arm);
-    p->due = kiriVec3_AddScaled(p->due, fade, AngularAbout(before, material, p->centerBefore, p->velocityBefore));
+    p->due = kiriVec3_Add(p->due, AngularAbout(before, material, p->centerBefore, p->velocityBefore));
     p->due = kiriVec3_AddScaled(p->due, dt, torque);
     p->angular = kiriVec3_Add(p->angular, AngularAbout(after, material, p->centerAfter, p->velocityAfter));
     p->inertia = kiriMat3_AddScaled(&p->inertia, 1.0, &own);

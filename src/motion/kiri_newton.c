@@ -129,10 +129,10 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- The iteration as a whole ---- */
 
-/* A step of second order gains a little energy as often as not, which the limit of energy takes out. More than that says
-   that it was no good, and the piece takes it anew by backward Euler. Nothing else may decide that: where a piece rests,
-   rounding would. */
-static bool IsRejected(const kiriPieceStep* piece)
+/* A step of second order gains a little energy as often as not, which the limit of energy takes out. Where it is more
+   than that the iteration goes on, and if that does not help, the piece takes the step anew by backward Euler. Nothing
+   else may decide that: where a piece rests, rounding would. */
+static bool IsSuspect(const kiriPieceStep* piece)
 {
     double brakeable = kiriPieceStep_MostTaken(piece);
     double all = piece->kinetic + piece->moving + piece->start.potential + piece->now.potential;
@@ -147,8 +147,10 @@ static bool ChooseUnfinished(kiriSolver* solver, int32_t done)
         kiriPieceStep* piece = &solver->pieces.data[i];
         bool isShort = piece->scale < KIRI_SHORT_STEP && piece->promise > WORTHWHILE * piece->now.objective;
         bool hasGained = piece->stepping.isEuler && !(piece->gain <= 0.0);
-        piece->isNew = piece->isIterated && IsRejected(piece);
-        piece->isIterated = piece->isIterated && (done < piece->wanted || hasGained || piece->isNew || isShort);
+        bool isSuspect = piece->isIterated && IsSuspect(piece);
+        piece->isNew = isSuspect && piece->suspect > 1;
+        piece->suspect = isSuspect ? piece->suspect + 1 : 0;
+        piece->isIterated = piece->isIterated && (done < piece->wanted || hasGained || isSuspect || isShort);
         any |= piece->isIterated;
     }
     return any;
@@ -170,7 +172,7 @@ static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* Pieces whose step was rejected begin it again. */
+/* Pieces whose step was no good begin it again. */
 static void TakeAnew(kiriSolver* solver, const kiriSystem* system, int32_t wanted)
 {
     bool any = false;

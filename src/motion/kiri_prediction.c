@@ -177,39 +177,33 @@ static void ShiftTarget(kiriPrediction* prediction, const kiriMat3* inertia, kir
     prediction->target = kiriMat3_AddScaled(&prediction->pose.A, stepping->part * stepping->h, &turning);
 }
 
-/* What fades with the air in a step. */
-static double Fade(const kiriMaterial* material, const kiriStepping* stepping)
-{
-    return 1.0 / (1.0 + stepping->h * (double)material->airDamping);
-}
-
 /* Where the iteration starts: without forces, or by those of the last step. */
-static kiriVec3 GuessPlace(const kiriFrameData* frame, double fade, const kiriStepping* s)
+static kiriVec3 GuessPlace(const kiriFrameData* frame, const kiriStepping* s)
 {
-    kiriVec3 x = kiriVec3_AddScaled(frame->x, s->isEuler ? fade * s->h : s->h, frame->velocity);
+    kiriVec3 x = kiriVec3_AddScaled(frame->x, s->h, frame->velocity);
     return kiriVec3_AddScaled(x, -s->ahead, frame->history.lag);
 }
 
-static void PredictPlace(const kiriFrameData* frame, double fade, kiriVec3 gravity, const kiriStepping* s,
+static void PredictPlace(const kiriFrameData* frame, kiriVec3 gravity, const kiriStepping* s,
                          kiriPrediction* prediction)
 {
     kiriVec3 push = kiriVec3_AddScaled(gravity, 1.0 / frame->mass, frame->force);
-    kiriVec3 velocity = kiriVec3_AddScaled(kiriVec3_Scale(fade, frame->velocity), s->h, push);
+    kiriVec3 velocity = kiriVec3_AddScaled(frame->velocity, s->h, push);
     prediction->velocity = kiriVec3_Add(velocity, kiriStepping_Inner(s, &frame->history));
     kiriVec3 x = kiriVec3_AddScaled(frame->x, s->h - s->part, frame->velocity);
     x = kiriVec3_AddScaled(x, s->part, prediction->velocity);
     prediction->pose.x = kiriVec3_AddScaled(x, s->d, frame->history.lag);
-    prediction->guess.x = GuessPlace(frame, fade, s);
+    prediction->guess.x = GuessPlace(frame, s);
 }
 
 /* The frame turns freely by the mean of the momenta before and, in its share, after the step; then by what the last
    step went otherwise. The guess goes back to the turn by the momentum before, to the first order of the difference. */
-static void PredictTurn(const kiriFrameData* frame, double fade, const kiriStepping* s, kiriPrediction* prediction)
+static void PredictTurn(const kiriFrameData* frame, const kiriStepping* s, kiriPrediction* prediction)
 {
     kiriMat3 body = kiriPrediction_Inertia(prediction, &IdentityAxes);
     kiriMat3 inertia = kiriPrediction_Inertia(prediction, &frame->A);
     kiriVec3 before = kiriMat3_Mul(inertia, frame->spin), inner = kiriStepping_InnerTurn(s, &frame->history).u;
-    kiriVec3 L = kiriVec3_AddScaled(inner, fade, before), lag = frame->history.turnLag.u;
+    kiriVec3 L = kiriVec3_Add(before, inner), lag = frame->history.turnLag.u;
     double share = s->part / s->h;
     kiriVec3 mean = kiriVec3_AddScaled(kiriVec3_Scale(1.0 - share, before), share, L);
     double angle = s->h * kiriVec3_Length(kiriMat3_Solve(&inertia, mean));
@@ -239,9 +233,8 @@ kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMateria
                                    const kiriStepping* stepping)
 {
     kiriPrediction prediction = Standing(frame, material);
-    double fade = prediction.fade = Fade(material, stepping);
-    PredictPlace(frame, fade, gravity, stepping, &prediction);
-    PredictTurn(frame, fade, stepping, &prediction);
+    PredictPlace(frame, gravity, stepping, &prediction);
+    PredictTurn(frame, stepping, &prediction);
     return prediction;
 }
 
@@ -291,22 +284,19 @@ kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change)
 
 /* A turns, by the angular momentum it has, as a rigid one would; what its rate has beside the spin turns with it, and
    stretches it on. What the scheme takes from the history is added to the columns. */
-static void PredictColumns(const kiriFrameData* frame, double fade, const kiriStepping* s, kiriPrediction* prediction)
+static void PredictColumns(const kiriFrameData* frame, const kiriStepping* s, kiriPrediction* prediction)
 {
     kiriMat3 inertia = AffineInertia(&prediction->moments, &frame->A);
     kiriMat3 inner = kiriStepping_InnerTurn(s, &frame->history);
-    double share = s->part / s->h, mean = 1.0 - share + share * fade;
-    kiriVec3 whole = kiriMat3_Mul(inertia, frame->spin), L = kiriVec3_Scale(fade, whole);
-    kiriVec3 passing = kiriVec3_Scale(mean, whole);
-    double angle = s->h * kiriVec3_Length(kiriMat3_Solve(&inertia, passing));
-    kiriMat3 turn = TurnParts(&IdentityAxes, &inertia, passing, angle, s->h);
-    kiriMat3 grown = kiriMat3_AddScaled(&frame->A, s->h * mean, &frame->rate);
+    kiriVec3 L = kiriMat3_Mul(inertia, frame->spin);
+    kiriMat3 turn = TurnParts(&IdentityAxes, &inertia, L, s->h * kiriVec3_Length(frame->spin), s->h);
+    kiriMat3 grown = kiriMat3_AddScaled(&frame->A, s->h, &frame->rate);
     kiriMat3 free = kiriMat3_MulMat(turn, grown), rate = kiriMat3_MulMat(turn, frame->rate);
     kiriVec3 spin = kiriMat3_Mul(turn, kiriMat3_Solve(&inertia, MulTransposed(&turn, L)));
     double before = kiriVec3_Dot(L, kiriMat3_Solve(&inertia, L)), after = kiriVec3_Dot(L, spin);
     prediction->spin = after > before ? kiriVec3_Scale(sqrt(before / after), spin) : spin;
     kiriMat3 turning = CrossColumns(prediction->spin, &free);
-    prediction->carried = kiriMat3_AddScaled(&turning, fade, &rate);
+    prediction->carried = kiriMat3_AddScaled(&turning, 1.0, &rate);
     prediction->rate = kiriMat3_AddScaled(&prediction->carried, 1.0, &inner);
     prediction->pose.A = kiriMat3_AddScaled(&free, s->part, &inner);
     prediction->pose.A = kiriMat3_AddScaled(&prediction->pose.A, s->d, &frame->history.turnLag);
@@ -320,9 +310,8 @@ kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMater
                                      const kiriStepping* stepping)
 {
     kiriPrediction prediction = Standing(frame, material);
-    double fade = prediction.fade = Fade(material, stepping);
-    PredictPlace(frame, fade, gravity, stepping, &prediction);
-    PredictColumns(frame, fade, stepping, &prediction);
+    PredictPlace(frame, gravity, stepping, &prediction);
+    PredictColumns(frame, stepping, &prediction);
     return prediction;
 }
 

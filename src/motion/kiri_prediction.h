@@ -24,7 +24,6 @@ typedef struct kiriPrediction {
     kiriVec3 angular; /* momentum of a rigid frame about x */
     kiriMat3 rate;    /* of A, all of it; of affine frames only */
     kiriMat3 carried; /* the rate without what the scheme takes from the history */
-    double fade;      /* what the air leaves of velocities */
     kiriVec3 shift;   /* of pose.x for the sake of the centre of mass of a free piece */
     kiriMat3 target;  /* pose.A, shifted by the host's torque: no rotation */
     kiriPose guess;   /* where the iteration starts */

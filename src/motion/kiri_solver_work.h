@@ -57,6 +57,7 @@ typedef struct kiriPieceStep {
     bool isFree;      /* do only gravity and forces act on it? */
     bool isTouched;   /* by a contact in this step, or carried about by a hold */
     bool isNew;       /* does it start (anew, by backward Euler)? */
+    int suspect;      /* after so many Gauss-Newton steps it had gained too much energy, one after another */
     bool isFirst;     /* is its next Gauss-Newton step the first? */
     bool isIterated;  /* does the iteration go on? */
     bool isSearching; /* is a step sought that lowers the objective? */
@@ -79,8 +80,9 @@ struct kiriSolver {
     KIRI_ARRAY(kiriPair) pairs;  /* scratch: of the next configuration */
     /* Room for the larger of the two configurations. */
     KIRI_ARRAY(kiriPieceStep) pieces;
-    KIRI_ARRAY(kiriPieceMomentum) momenta;    /* of pieces */
-    KIRI_ARRAY(kiriFrameData) before, after;  /* the step, flattened where the sheet is planar */
+    KIRI_ARRAY(kiriPieceMomentum) momenta; /* of pieces */
+    /* The step; flattened where the sheet is planar, and with velocities that the air has slowed. */
+    KIRI_ARRAY(kiriFrameData) before, after;
     KIRI_ARRAY(kiriPrediction) predictions;   /* one a frame, as are the poses */
     KIRI_ARRAY(kiriPose) start, poses, trial; /* at the start of the step, now, and where a step would lead */
     /* KIRI_MOST_STRAINS an element: stiffness, damping, and strains at the start of the step. */
@@ -174,8 +176,11 @@ int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_
 /* `mean` and `mass` of all pieces. */
 void kiriSolver_ClearMeans(kiriSolver* solver);
 
-/* The frames after the step, if it ended at the poses, and what energy each piece gained. Free pieces get their centre
-   of mass where the prediction has it, and the angular momentum that is due. */
+/* Moves free pieces to where the prediction has their centre of mass. */
+void kiriSolver_CenterFreePieces(kiriSolver* solver, const kiriSystem* system);
+
+/* The frames after the step, if it ended at the poses, and what energy each piece gained. Free pieces are
+   centered, and get the angular momentum that is due. */
 void kiriSolver_FindGains(kiriSolver* solver, const kiriSystem* system);
 
 /* The most that the energy limit can take out of the velocities of a piece, J. */

@@ -1,5 +1,7 @@
 #include "kiri_solver_work.h"
 
+#define LONGEST_TURN 1.0 /* of a frame in a step of second order */
+
 /* ---- Planar sheets ---- */
 
 kiriVec3 kiriMechanics_InPlane(const kiriMechanics* mechanics, kiriVec3 a)
@@ -54,6 +56,18 @@ static kiriFrameData FlattenFrame(const kiriMechanics* mechanics, const kiriFram
         FlattenHistory(mechanics, &frame.history);
     }
     return frame;
+}
+
+/* The air acts first, so that it only takes energy, whatever gravity does to the velocity. Of second order, exp(-z) is
+   1 / (1 + z + z^2 / 2) to the third power of z. */
+static void FadeVelocities(const kiriSystem* system, double dt, kiriFrameData* frame)
+{
+    double z = dt * (double)system->material.airDamping;
+    bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;
+    double fade = 1.0 / (1.0 + z + (isEuler ? 0.0 : 0.5 * z * z));
+    frame->velocity = kiriVec3_Scale(fade, frame->velocity);
+    frame->spin = kiriVec3_Scale(fade, frame->spin);
+    frame->rate = kiriMat3_Scale(fade, &frame->rate);
 }
 
 kiriVec3 kiriSystem_Gravity(const kiriSystem* system)
@@ -120,18 +134,24 @@ static void Predict(kiriSolver* solver, const kiriSystem* system)
    A piece takes a step of second order where all of its frames have the history of one step. History is taken by the
    piece and never by the frame: else action and reaction would differ. */
 
+/* Did the last step of this frame say nothing of the next one? It was held, or is; or it turns so far in a step that
+   directions have no past. */
+static bool IsBroken(const kiriFrameData* frame, double dt)
+{
+    return !(frame->history.dt > 0.0) || frame->history.isHeld != frame->held ||
+           !(dt * kiriVec3_Length(frame->spin) <= LONGEST_TURN);
+}
+
 static void ChooseSteppings(kiriSolver* solver, const kiriSystem* system)
 {
+    bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;
     for (int32_t f = 0; f < system->frameCount; ++f) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        const kiriHistory* history = &system->frames[f].history;
-        kiriStepping stepping = history->dt > 0.0 ? kiriStepping_After(history, solver->dt) : piece->stepping;
-        bool isFirst = piece->stepping.h == 0.0, isBroken = history->isHeld != system->frames[f].held;
-        if (system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER || !(history->dt > 0.0) || isBroken ||
-            (!isFirst && (stepping.part != piece->stepping.part || stepping.ahead != piece->stepping.ahead))) {
-            stepping = kiriStepping_Euler(solver->dt);
-        }
-        piece->stepping = isFirst || !piece->stepping.isEuler ? stepping : piece->stepping;
+        const kiriFrameData* frame = &system->frames[f];
+        kiriStepping* chosen = &kiriSolver_PieceOf(solver, f)->stepping;
+        kiriStepping own = isEuler || IsBroken(frame, solver->dt) ? kiriStepping_Euler(solver->dt)
+                                                                  : kiriStepping_After(&frame->history, solver->dt);
+        bool isFirst = chosen->h == 0.0, isSame = chosen->part == own.part && chosen->ahead == own.ahead;
+        *chosen = isFirst ? own : isSame ? *chosen : kiriStepping_Euler(solver->dt);
     }
 }
 
@@ -158,6 +178,7 @@ void kiriSolver_BecomeEuler(kiriSolver* solver, const kiriSystem* system)
         }
     }
     Predict(solver, system);
+    kiriSolver_CenterFreePieces(solver, system);
 }
 
 /* The host moves a held frame to its place at once. */
@@ -288,6 +309,7 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
         solver->isHeld |= system->frames[f].held != 0;
         solver->start.data[f] = kiriPose_Of(&system->frames[f]);
         solver->before.data[f] = FlattenFrame(&system->mechanics, &system->frames[f]);
+        FadeVelocities(system, dt, &solver->before.data[f]);
     }
     SetNew(solver);
     ChooseSteppings(solver, system);
@@ -307,4 +329,5 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     }
     SetNew(solver);
     kiriObjective_FindNoise(solver, system);
+    kiriSolver_CenterFreePieces(solver, system);
 }

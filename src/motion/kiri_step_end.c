@@ -49,7 +49,7 @@ void kiriStepEnd_Affine(const kiriPrediction* prediction, const kiriStepping* s,
     kiriMat3 off = kiriMat3_AddScaled(&after->A, -1.0, &prediction->pose.A);
     kiriMat3 inner = kiriMat3_AddScaled(&after->A, -1.0, &prediction->target);
     kiriMat3 rate = kiriMat3_AddScaled(&prediction->rate, 1.0 / s->part, &off);
-    kiriMat3 change = kiriMat3_AddScaled(&rate, -1.0 / prediction->fade, &prediction->carried);
+    kiriMat3 change = kiriMat3_AddScaled(&rate, -1.0, &prediction->carried);
     kiriMat3 lag = kiriMat3_Scale(s->d, &before->history.turnLag);
     kiriMat3 gain = kiriStepping_InnerTurn(s, &before->history);
     after->spin = kiriMat3_Spin(&after->A, &rate);

@@ -6,7 +6,7 @@
    history that the last step left (kiriHistory: q the velocity that inner forces gave in it, p = x+ - x - h v+, and a the
    inner acceleration at its end):
 
-       v* = fade v + h e + c q + l a              D  = (x - x*) / h'
+       v* = v + h e + c q + l a                   D  = (x - x*) / h'
        x* = x + h v + d p + h' (v* - v)           v+ = v* + D
                                                   q+ = c q + l a + D,  p+ = d p - (h - h') (v+ - v),  a+ = D / h'
 
