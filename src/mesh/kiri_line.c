@@ -3,7 +3,7 @@
 #include "../core/kiri_sort.h"
 #include "../core/kiri_span.h"
 
-#define BESIDE (1.0 / 128.0) /* of the side of a square: how far beside the line the material is sought */
+#define BESIDE (1.0 / 1024.0) /* of the side of a square: how far beside the line the material is sought */
 
 /* A line beside the line at hand: its ends are odd, so no vertex is on one of them, and it runs along no edge that is
    parallel to an axis. */

@@ -28,7 +28,7 @@ typedef struct kiriLine {
 } kiriLine;
 
 /* The parts of the line that have material on one side at least, in order, without overlap. Material counts that lies
-   a 128th of a square beside the line: so a line along the outline finds what is inside although points are rounded
+   a 1024th of a square beside the line: so a line along the outline finds what is inside although points are rounded
    to the lattice, and one along a cut finds both lips. The ends differ. False for memory. */
 bool kiriLine_Trace(kiriLine* line, kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint from,
                     kiriLatticePoint to);
