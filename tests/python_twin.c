@@ -77,6 +77,7 @@ int main(void)
     PRINT_SIZE(kiriHit);
     PRINT_SIZE(kiriFrameState);
     PRINT_SIZE(kiriPinDef);
+    PRINT_SIZE(kiriPinState);
     PRINT_SIZE(kiriContact);
     return 0;
 }

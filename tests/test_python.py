@@ -106,7 +106,7 @@ def run_twin():
 def test_same_hash_and_sizes_as_c():
     twin = run_twin()
     assert f"{run_scene()[0].state_hash():016x}" == twin.pop("hash")
-    assert len(twin) == 15
+    assert len(twin) == 16
     for name, size in twin.items():
         assert kiri.ffi.sizeof(name) == int(size), name
 
@@ -354,6 +354,31 @@ def test_lengths_are_checked():
     raises(ValueError, sheet.frames()[0].hold, (0, 0, 0), (1, 0, 0, 0, 1, 0, 0, 0))
     raises(ValueError, sheet.slice, [(0, 0, 0)] * 3)
     raises(ValueError, sheet.create_pin, (0, 0), (1, 2))
+
+
+def test_lines_and_loads():
+    world = kiri.World(gravity=(0, 0, 0))
+    sheet = world.create_rectangle(1.0, 1.0, 8, 8, frameCount=4, iterations=8, material={"youngsModulus": 1e8})
+    clamp, hinge = sheet.clamp_line((0, 0), (0, 1)), sheet.hinge_line((1, 0), (1, 1))
+    assert sheet.pins() == [clamp, hinge]
+    assert clamp.state().type == kiri.KIRI_PIN_CLAMP and hinge.state().type == kiri.KIRI_PIN_HINGE
+    assert list(clamp.state().target) == [0.0, 0.5, 0.0]
+    for _ in range(200):
+        sheet.apply_force((0.5, 0.5), (0, 1, 0))
+        sheet.apply_line_load((0.5, 0), (0.5, 1), (0, 0, 1e-3))
+        sheet.apply_pressure(-1e-3)
+        world.tick(1 / 30)
+    forces = [pin.reaction()[0] for pin in sheet.pins()]
+    assert all(abs(sum(force[axis] for force in forces) - (0, -1, 0)[axis]) < 1e-3 for axis in range(3))
+    clamp.set_pose((0.1, 0.5, 0.0), (1, 0, 0, 0, 1, 0, 0, 0, 1))
+    assert abs(clamp.state().target[0] - 0.1) < 1e-7
+    frame = sheet.frames()[0]
+    frame.hold(frame.state().position, (1, 0, 0, 0, 1, 0, 0, 0, 1))
+    world.tick(1 / 30)
+    assert any(frame.reaction()[0])
+    assert raises(kiri.KiriError, sheet.clamp_line, (2, 0), (2, 1)).result == kiri.KIRI_ERROR_ARGUMENT
+    clamp.destroy()
+    assert sheet.pins() == [hinge]
 
 
 def test_paper():

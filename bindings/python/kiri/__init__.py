@@ -325,6 +325,11 @@ class World:
         struct = ffi.new(kind + "*")
         return self.call(name, *arguments, struct, take=lambda: _copies(struct, names))
 
+    def reaction(self, name, number):
+        force, torque = ffi.new("double[3]"), ffi.new("double[3]")
+        self.call(name, number, force, torque)
+        return ffi.unpack(force, 3), ffi.unpack(torque, 3)
+
     def create(self, kind, *before, **fields):
         """The id of a new thing, from its def with these fields."""
         kept = []  # until C has read it
@@ -449,6 +454,30 @@ class Sheet(_Handle):
     def create_pin(self, rest_point, target, **fields):
         return Pin(self.world, self.world.create("Pin", self.id, restPoint=rest_point, target=target, **fields))
 
+    def clamp_line(self, start, end):
+        """Holds place and direction of the material along a line of the rest plane, where it is now."""
+        return Pin(self.world, self.world.get("kiriSheet_ClampLine", "kiriPin", self.id, _vector(start, 2),
+                                              _vector(end, 2)))
+
+    def hinge_line(self, start, end):
+        """The same, but free to turn about the line."""
+        return Pin(self.world, self.world.get("kiriSheet_HingeLine", "kiriPin", self.id, _vector(start, 2),
+                                              _vector(end, 2)))
+
+    def pins(self):
+        pins, = self._lists("kiriSheet_GetPins", ("kiriPin",))
+        return [Pin(self.world, pin) for pin in pins]
+
+    def apply_force(self, rest_point, force, torque=(0.0, 0.0, 0.0)):
+        self.world.call("kiriSheet_ApplyForce", self.id, _vector(rest_point, 2), _vector(force, 3), _vector(torque, 3))
+
+    def apply_line_load(self, start, end, force_per_length):
+        self.world.call("kiriSheet_ApplyLineLoad", self.id, _vector(start, 2), _vector(end, 2),
+                        _vector(force_per_length, 3))
+
+    def apply_pressure(self, pressure):
+        self.world.call("kiriSheet_ApplyPressure", self.id, pressure)
+
     def set_contacts(self, contacts):
         """Dicts with the fields of kiriContact."""
         self.world.call("kiriSheet_SetContacts", self.id, ffi.new("kiriContact[]", contacts), len(contacts))
@@ -487,10 +516,25 @@ class Frame(_Handle):
     def apply_force(self, force, torque=(0.0, 0.0, 0.0)):
         self.world.call("kiriFrame_ApplyForce", self.id, _vector(force, 3), _vector(torque, 3))
 
+    def reaction(self):
+        """Force and torque of its hold in the last tick."""
+        return self.world.reaction("kiriFrame_GetReaction", self.id)
+
 
 class Pin(_Handle):
+    def state(self):
+        return _record(self.world.get("kiriPin_GetState", "kiriPinState", self.id))
+
     def set_target(self, target):
         self.world.call("kiriPin_SetTarget", self.id, _vector(target, 3))
+
+    def set_pose(self, target, rotation):
+        """Of a line. Rotation: 9 numbers, column after column."""
+        self.world.call("kiriPin_SetPose", self.id, _vector(target, 3), _vector(rotation, 9))
+
+    def reaction(self):
+        """Force and torque of the last tick."""
+        return self.world.reaction("kiriPin_GetReaction", self.id)
 
     def destroy(self):
         self.world.call("kiriDestroyPin", self.id)
