@@ -394,7 +394,8 @@ static void TestReactionsAtRest(void** state)
         const double expected[3] = { 0.0, 0.0, weight };
         const double moment[3] = { totals.center[1] * weight, -totals.center[0] * weight, 0.0 };
         for (int a = 0; a < 3; ++a) {
-            assert_float_equal(force[a], expected[a], 1e-6 * weight);
+            /* affine frames come to rest as near as their noise lets them (AffineNoise) */
+            assert_float_equal(force[a], expected[a], (k < HOLDS ? 1e-6 : 1e-5) * weight);
             assert_float_equal(torque[a], moment[a], 1e-5 * weight);
         }
         Host_Stop(&host);
@@ -491,6 +492,10 @@ static void TestPressureBetweenSupports(void** state)
         }
         double w = FrameStateOf(&beam, 4).position[2];
         assert_float_equal(w, sag, 0.005 * sag);
+        /* what is stored is half of the work of a load that grows slowly; a strip bent by p: p^2 L^5 W / (240 D) between
+           hinges, a sixth of that between clamps */
+        double stored = pow(pressure, 2.0) * pow(strip.length, 5.0) * strip.width / ((k == 0 ? 240.0 : 1440.0) * D);
+        assert_true(fabs(Host_Totals(&beam.host, beam.sheet).elasticEnergy / stored - 1.0) < 0.02);
         OK(kiriPin_GetReaction(beam.host.world, beam.ends[0], force, torque));
         double half = 0.5 * pressure * strip.length * strip.width;
         assert_float_equal(force[2], -half, 1e-3 * half);

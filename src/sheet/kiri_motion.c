@@ -221,6 +221,6 @@ kiriTotals kiriMotion_Totals(const kiriSheetData* sheet)
 {
     kiriTotals totals = kiriMotion_Sum(sheet, NULL, sheet->frames.count);
     kiriSystem system = MakeSystem((kiriSheetData*)sheet, kiriVec3_Make(0.0, 0.0, 0.0));
-    totals.elasticEnergy = kiriSolver_ElasticEnergy(&system);
+    totals.elasticEnergy = kiriSolver_ElasticEnergy(&system) + kiriPins_ElasticEnergy(sheet);
     return totals;
 }

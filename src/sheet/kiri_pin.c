@@ -355,6 +355,26 @@ void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time)
     }
 }
 
+double kiriPins_ElasticEnergy(const kiriSheetData* sheet)
+{
+    double sum = 0.0;
+    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+        const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+        const kiriFrameData* frame = &sheet->frames.data[pinned->share.frame];
+        if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
+            double pulling[KIRI_CLAMP_STRAINS];
+            kiriClampRow row = ClampRowOf(sheet, pinned, frame);
+            kiriPose pose = kiriPose_Of(frame);
+            kiriClamp_Begin(&row, sheet->settings.mechanics.planar, &sheet->settings.material, 0.0, frame, &pose);
+            kiriClamp_TakeOffsets(&row, row.startStrain, pulling);
+            for (int e = 0; e < row.strainCount; ++e) {
+                sum += 0.5 * row.stiffness[e] * pulling[e] * pulling[e];
+            }
+        }
+    }
+    return sum;
+}
+
 /* ---- Reactions ---------------------------------------------------------------------------------------------------- */
 
 /* Adds one that was taken about `at`. */

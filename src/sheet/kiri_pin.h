@@ -29,6 +29,9 @@ void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time);
 /* The pose of a line where its material is now. */
 void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin);
 
+/* Elastic energy between clamps and the sites of the frames that they hold, J. */
+double kiriPins_ElasticEnergy(const kiriSheetData* sheet);
+
 /* Writes what the solver reads; then, after the tick, what pins and held frames had to bear in it. */
 void kiriPins_WriteRows(kiriSheetData* sheet);
 void kiriPins_TakeReactions(kiriSheetData* sheet, double dt);
