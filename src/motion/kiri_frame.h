@@ -3,6 +3,7 @@
 #define KIRI_FRAME_H
 
 #include "../field/kiri_region.h"
+#include "kiri_reaction.h"
 
 KIRI_C_BEGIN
 
@@ -40,8 +41,8 @@ typedef struct kiriFrameData {
     int32_t held;          /* the host moves it: */
     kiriVec3 heldPosition; /* of the site, */
     kiriMat3 heldRotation;
-    kiriVec3 reaction, reactionTorque; /* of the hold on the sheet, about the held site: mean of the last tick that
-                                          moved the sheet; zero where it is free */
+    kiriReaction reaction; /* of the hold on the sheet, about the held site */
+    kiriWrench bore;       /* its mean in the last tick that moved the sheet; zero where it was free */
 } kiriFrameData;
 
 static inline kiriVec3 kiriFrame_Carry(const kiriFrameData* frame, kiriVec2 p)

@@ -6,10 +6,17 @@
 
 KIRI_C_BEGIN
 
-/* The impulse that a pin, a clamp or a held frame has given to the sheet, N s, and its moment about where it holds the
-   sheet, N m s. */
+/* A force, N, with its moment about a point, N m; or an impulse, N s, with its own, N m s. */
+typedef struct kiriWrench {
+    kiriVec3 force, moment;
+} kiriWrench;
+
+/* With what a pin, a clamp or a held frame acts on the sheet, about where it holds it. */
 typedef struct kiriReaction {
-    kiriVec3 impulse, moment;
+    kiriWrench impulse; /* since the start of the tick */
+    kiriWrench gain;    /* impulse of the last step, */
+    kiriWrench pull;    /* and force at its end: the history of kiri_stepping.h, for forces one by one */
+    kiriWrench now;     /* force at the end of the step at hand */
 } kiriReaction;
 
 /* One for each pin row, clamp row and frame of a system; each may be null. Those of free frames stay zero. */
@@ -17,10 +24,10 @@ typedef struct kiriReactions {
     kiriReaction *pins, *clamps, *frames;
 } kiriReactions;
 
-static inline void kiriReaction_Add(kiriReaction* reaction, double scale, kiriVec3 force, kiriVec3 moment)
+static inline void kiriWrench_Add(kiriWrench* sum, double scale, const kiriWrench* wrench)
 {
-    reaction->impulse = kiriVec3_AddScaled(reaction->impulse, scale, force);
-    reaction->moment = kiriVec3_AddScaled(reaction->moment, scale, moment);
+    sum->force = kiriVec3_AddScaled(sum->force, scale, wrench->force);
+    sum->moment = kiriVec3_AddScaled(sum->moment, scale, wrench->moment);
 }
 
 KIRI_C_END

@@ -181,15 +181,25 @@ void kiriSolver_BecomeEuler(kiriSolver* solver, const kiriSystem* system)
     kiriSolver_CenterFreePieces(solver, system);
 }
 
-/* The host moves a held frame to its place at once. */
+static bool IsSamePose(const kiriPose* a, const kiriPose* b)
+{
+    return kiriVec3_Equal(a->x, b->x) && kiriVec3_Equal(a->A.u, b->A.u) && kiriVec3_Equal(a->A.v, b->A.v) &&
+           kiriVec3_Equal(a->A.d, b->A.d);
+}
+
+/* The host moves a held frame, or a clamp, to its place at once. */
 static void FindCarried(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriPose *from = &solver->start.data[f], *to = &solver->predictions.data[f].pose;
-        bool isSame = kiriVec3_Equal(from->x, to->x) && kiriVec3_Equal(from->A.u, to->A.u) &&
-                      kiriVec3_Equal(from->A.v, to->A.v) && kiriVec3_Equal(from->A.d, to->A.d);
-        if (system->frames[f].held && !isSame) {
+        if (system->frames[f].held && !IsSamePose(from, to)) {
             kiriSolver_PieceOf(solver, f)->isTouched = true;
+        }
+    }
+    for (int32_t k = 0; k < system->clampCount; ++k) {
+        const kiriClampRow* row = &system->clamps[k];
+        if (!IsSamePose(&row->start, &row->pose)) {
+            kiriSolver_PieceOf(solver, row->frame)->isTouched = true;
         }
     }
 }

@@ -1,12 +1,7 @@
 #include "kiri_solver_work.h"
 
-/* A force on a frame, and its torque about the frame's x. */
-typedef struct Wrench {
-    kiriVec3 force, torque;
-} Wrench;
-
 /* What a strain that pulls with -`pull` does to a frame, by its derivative. */
-static void AddPull(const kiriSolver* solver, const kiriFrameRow* row, double pull, const kiriMat3* A, Wrench* sum)
+static void AddPull(const kiriSolver* solver, const kiriFrameRow* row, double pull, const kiriMat3* A, kiriWrench* sum)
 {
     kiriVec3 torque = row->by[1];
     if (kiriMechanics_IsAffine(&solver->mechanics)) {
@@ -14,23 +9,30 @@ static void AddPull(const kiriSolver* solver, const kiriFrameRow* row, double pu
         torque = kiriVec3_Add(torque, kiriVec3_Cross(A->d, row->by[3]));
     }
     sum->force = kiriVec3_AddScaled(sum->force, pull, row->by[0]);
-    sum->torque = kiriVec3_AddScaled(sum->torque, pull, torque);
+    sum->moment = kiriVec3_AddScaled(sum->moment, pull, torque);
 }
 
-static Wrench ForceAt(const kiriSolver* solver, int32_t frame, kiriVec3 point, kiriVec3 force)
+static kiriWrench ForceAt(const kiriSolver* solver, int32_t frame, kiriVec3 point, kiriVec3 force)
 {
-    Wrench wrench = { force, kiriVec3_Cross(kiriVec3_Sub(point, solver->poses.data[frame].x), force) };
+    kiriWrench wrench = { force, kiriVec3_Cross(kiriVec3_Sub(point, solver->poses.data[frame].x), force) };
     return wrench;
 }
 
-/* Whatever acts on the frame beside its own forces and the host's hold: the hold takes it up. `about` is where it
-   holds. */
-static void TakeFromHold(const kiriSolver* solver, const kiriSystem* system, int32_t frame, Wrench wrench)
+/* A wrench about a frame's x, about another point. */
+static kiriWrench AboutPoint(const kiriWrench* wrench, kiriVec3 x, kiriVec3 point)
+{
+    kiriVec3 arm = kiriVec3_Sub(x, point);
+    kiriWrench moved = { wrench->force, kiriVec3_Add(wrench->moment, kiriVec3_Cross(arm, wrench->force)) };
+    return moved;
+}
+
+/* Whatever acts on the frame beside its own forces and the host's hold: the hold takes it up. */
+static void TakeFromHold(const kiriSolver* solver, const kiriSystem* system, int32_t frame, kiriWrench wrench)
 {
     if (system->reactions.frames != NULL && system->frames[frame].held) {
-        kiriVec3 arm = kiriVec3_Sub(solver->poses.data[frame].x, solver->before.data[frame].heldPosition);
-        kiriVec3 moment = kiriVec3_Add(wrench.torque, kiriVec3_Cross(arm, wrench.force));
-        kiriReaction_Add(&system->reactions.frames[frame], -solver->dt, wrench.force, moment);
+        kiriVec3 held = solver->before.data[frame].heldPosition;
+        wrench = AboutPoint(&wrench, solver->poses.data[frame].x, held);
+        kiriWrench_Add(&system->reactions.frames[frame].now, -1.0, &wrench);
     }
 }
 
@@ -41,7 +43,7 @@ static void AddPinPulls(const kiriSolver* solver, const kiriSystem* system)
         kiriVec3 point = kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data);
         kiriVec3 force = kiriVec3_Scale(-pin->stiffness, kiriVec3_Sub(point, pin->target));
         if (system->reactions.pins != NULL) {
-            kiriReaction_Add(&system->reactions.pins[k], solver->dt, force, kiriVec3_Make(0.0, 0.0, 0.0));
+            system->reactions.pins[k].now.force = force;
         }
         TakeFromHold(solver, system, pin->frame, ForceAt(solver, pin->frame, point, force));
     }
@@ -54,7 +56,7 @@ static void AddClamps(const kiriSolver* solver, const kiriSystem* system)
         const kiriPose* pose = &solver->poses.data[row->frame];
         double strain[KIRI_CLAMP_STRAINS], pulling[KIRI_CLAMP_STRAINS];
         kiriFrameRow rows[KIRI_CLAMP_STRAINS];
-        Wrench wrench = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+        kiriWrench wrench = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
         kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, pose, strain, rows);
         kiriClamp_TakeOffsets(row, strain, pulling);
         for (int e = 0; e < row->strainCount; ++e) {
@@ -62,9 +64,7 @@ static void AddClamps(const kiriSolver* solver, const kiriSystem* system)
             AddPull(solver, &rows[e], pull, &pose->A, &wrench);
         }
         if (system->reactions.clamps != NULL) {
-            kiriVec3 arm = kiriVec3_Sub(pose->x, row->pose.x);
-            kiriVec3 moment = kiriVec3_Add(wrench.torque, kiriVec3_Cross(arm, wrench.force));
-            kiriReaction_Add(&system->reactions.clamps[k], solver->dt, wrench.force, moment);
+            system->reactions.clamps[k].now = AboutPoint(&wrench, pose->x, row->pose.x);
         }
         TakeFromHold(solver, system, row->frame, wrench);
     }
@@ -103,7 +103,7 @@ static void AddHeldElement(const kiriSolver* solver, const kiriSystem* system, i
     kiriElement_TakeOffsets(system, k, strain, pulling);
     for (int32_t m = 0; m < count; ++m) {
         int32_t frame = solver->members.data[m];
-        Wrench wrench = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+        kiriWrench wrench = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
         for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
             int32_t n = KIRI_MOST_STRAINS * k + e;
             double change = strain[e] - solver->startStrain.data[n];
@@ -114,18 +114,49 @@ static void AddHeldElement(const kiriSolver* solver, const kiriSystem* system, i
     }
 }
 
-/* What changes the momentum of a held frame, beside gravity and the host's forces on it. */
+/* What changes the momentum of a held frame in the step, beside gravity and the host's forces on it. */
 static void AddMomentum(const kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
     const kiriFrameData *before = &solver->before.data[f], *after = &solver->after.data[f];
-    double perTime = 1.0 / solver->dt;
     kiriVec3 gravity = kiriVec3_Scale(before->mass, kiriSystem_Gravity(system));
     kiriVec3 gained = kiriVec3_Scale(before->mass, kiriVec3_Sub(after->velocity, before->velocity));
     kiriVec3 turned = kiriVec3_Sub(kiriFrame_AngularMomentum(after, &system->material),
                                    kiriFrame_AngularMomentum(before, &system->material));
-    Wrench wrench = { kiriVec3_AddScaled(kiriVec3_Add(gravity, before->force), -perTime, gained),
-                      kiriVec3_AddScaled(before->torque, -perTime, turned) };
-    TakeFromHold(solver, system, f, wrench);
+    kiriWrench wrench = { kiriVec3_AddScaled(gained, -solver->dt, kiriVec3_Add(gravity, before->force)),
+                          kiriVec3_AddScaled(turned, -solver->dt, before->torque) };
+    wrench = AboutPoint(&wrench, solver->poses.data[f].x, before->heldPosition);
+    kiriWrench_Add(&system->reactions.frames[f].impulse, 1.0, &wrench);
+}
+
+/* What was found at the end of the step gives an impulse as inner forces do by the step's scheme (kiri_stepping.h):
+   so impulses add up to the momentum that frames have got. */
+static void EndReaction(const kiriStepping* stepping, kiriReaction* reaction)
+{
+    kiriWrench gain = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } }, none = gain;
+    kiriWrench_Add(&gain, stepping->c, &reaction->gain);
+    kiriWrench_Add(&gain, stepping->l, &reaction->pull);
+    kiriWrench_Add(&gain, stepping->part, &reaction->now);
+    kiriWrench_Add(&reaction->impulse, 1.0, &gain);
+    reaction->gain = gain;
+    reaction->pull = reaction->now;
+    reaction->now = none;
+}
+
+static void EndReactions(const kiriSolver* solver, const kiriSystem* system)
+{
+    const kiriReactions* reactions = &system->reactions;
+    for (int32_t k = 0; reactions->pins != NULL && k < system->pinCount; ++k) {
+        EndReaction(&kiriSolver_PieceOf(solver, system->pins[k].frame)->stepping, &reactions->pins[k]);
+    }
+    for (int32_t k = 0; reactions->clamps != NULL && k < system->clampCount; ++k) {
+        EndReaction(&kiriSolver_PieceOf(solver, system->clamps[k].frame)->stepping, &reactions->clamps[k]);
+    }
+    for (int32_t f = 0; reactions->frames != NULL && f < system->frameCount; ++f) {
+        if (system->frames[f].held) {
+            EndReaction(&kiriSolver_PieceOf(solver, f)->stepping, &reactions->frames[f]);
+            AddMomentum(solver, system, f);
+        }
+    }
 }
 
 void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
@@ -137,8 +168,6 @@ void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
         for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
             AddHeldElement(solver, system, k);
         }
-        for (int32_t f = 0; f < system->frameCount; ++f) {
-            AddMomentum(solver, system, f);
-        }
     }
+    EndReactions(solver, system);
 }

@@ -241,13 +241,15 @@ static void CopyStrainOffsets(const kiriExtract* extract, kiriSheetData* to)
 }
 
 /* Shares come in the order that they had. */
-static void CopyPinOffsets(const kiriExtract* extract, kiriSheetData* to)
+static void CopyPinHistory(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriPinShares* shares = &extract->from->layout.pinShares;
     int32_t count = 0;
     for (int32_t k = 0; k < shares->count && count < to->layout.pinShares.count; ++k) {
         if (extract->frameTo.data[shares->data[k].share.frame] != KIRI_NONE) {
-            memcpy(to->layout.pinShares.data[count++].offset, shares->data[k].offset, sizeof(shares->data[k].offset));
+            kiriPinShare* share = &to->layout.pinShares.data[count++];
+            memcpy(share->offset, shares->data[k].offset, sizeof(share->offset));
+            memcpy(share->reactions, shares->data[k].reactions, sizeof(share->reactions));
         }
     }
 }
@@ -262,7 +264,7 @@ static bool BuildPart(const kiriExtract* extract, kiriSheetData* to)
     kiriBuild_Commit(to);
     CopyFrames(extract, to);
     CopyStrainOffsets(extract, to);
-    CopyPinOffsets(extract, to);
+    CopyPinHistory(extract, to);
     kiriView_WritePositions(to);
     return true;
 }

@@ -265,22 +265,39 @@ static kiriClampRow ClampRowOf(const kiriSheetData* sheet, const kiriPinShare* p
     return row;
 }
 
-static void ClearReactions(kiriSheetData* sheet)
+/* A reaction at the start of a tick: only its history is left. */
+static kiriReaction BeginReaction(const kiriReaction* last)
 {
-    sheet->pinReactions.count = sheet->pinRows.count;
-    sheet->clampReactions.count = sheet->clampRows.count;
-    sheet->frameReactions.count = sheet->frames.count;
+    const kiriWrench none = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+    kiriReaction reaction = { none, last->gain, last->pull, none };
+    return reaction;
+}
+
+/* In the order of rows. */
+static void BeginReactions(kiriSheetData* sheet)
+{
     KIRI_ASSERT(sheet->frameReactions.capacity >= sheet->frames.count);
-    const kiriReaction none = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
-    for (int32_t k = 0; k < sheet->pinReactions.count; ++k) {
-        sheet->pinReactions.data[k] = none;
+    sheet->pinReactions.count = sheet->clampReactions.count = 0;
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        if (sheet->pins.data[i].type == KIRI_PIN_POINT) {
+            sheet->pinReactions.data[sheet->pinReactions.count++] = BeginReaction(&sheet->pins.data[i].reaction);
+        }
     }
-    for (int32_t k = 0; k < sheet->clampReactions.count; ++k) {
-        sheet->clampReactions.data[k] = none;
+    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+        const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+        if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
+            sheet->clampReactions.data[sheet->clampReactions.count++] = BeginReaction(&pinned->reactions[0]);
+        } else {
+            sheet->pinReactions.data[sheet->pinReactions.count++] = BeginReaction(&pinned->reactions[0]);
+            sheet->pinReactions.data[sheet->pinReactions.count++] = BeginReaction(&pinned->reactions[1]);
+        }
     }
-    for (int32_t k = 0; k < sheet->frameReactions.count; ++k) {
-        sheet->frameReactions.data[k] = none;
+    sheet->frameReactions.count = sheet->frames.count;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        sheet->frameReactions.data[i] = BeginReaction(&sheet->frames.data[i].reaction);
     }
+    KIRI_ASSERT(sheet->pinReactions.count == sheet->pinRows.count &&
+                sheet->clampReactions.count == sheet->clampRows.count);
 }
 
 void kiriPins_WriteRows(kiriSheetData* sheet)
@@ -301,7 +318,7 @@ void kiriPins_WriteRows(kiriSheetData* sheet)
             sheet->clampRows.data[sheet->clampRows.count++] = ClampRowOf(sheet, pinned, frame);
         }
     }
-    ClearReactions(sheet);
+    BeginReactions(sheet);
 }
 
 /* ---- Strains that clamps keep ------------------------------------------------------------------------------------- */
@@ -322,6 +339,17 @@ static const kiriPinShare* FindPinned(const kiriPinShares* shares, int32_t pin, 
         }
     }
     return NULL;
+}
+
+void kiriPins_KeepReactions(kiriSheetData* sheet, const kiriPinShares* old)
+{
+    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+        kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+        const kiriPinShare* older = FindPinned(old, pinned->pin, pinned->share.frame);
+        if (older != NULL) {
+            memcpy(pinned->reactions, older->reactions, sizeof(pinned->reactions));
+        }
+    }
 }
 
 void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old, const kiriFrameData* frames)
@@ -377,13 +405,13 @@ double kiriPins_ElasticEnergy(const kiriSheetData* sheet)
 
 /* ---- Reactions ---------------------------------------------------------------------------------------------------- */
 
-/* Adds one that was taken about `at`. */
-static void AddReaction(kiriPinData* pin, const kiriReaction* reaction, kiriVec3 at, double perTime)
+/* Adds what a row bore about `at`. */
+static void AddBorne(kiriPinData* pin, const kiriReaction* reaction, kiriVec3 at, double perTime)
 {
     kiriVec3 arm = kiriVec3_Sub(at, pin->target);
-    kiriVec3 moment = kiriVec3_Add(reaction->moment, kiriVec3_Cross(arm, reaction->impulse));
-    pin->force = kiriVec3_AddScaled(pin->force, perTime, reaction->impulse);
-    pin->torque = kiriVec3_AddScaled(pin->torque, perTime, moment);
+    kiriWrench borne = reaction->impulse;
+    borne.moment = kiriVec3_Add(borne.moment, kiriVec3_Cross(arm, borne.force));
+    kiriWrench_Add(&pin->bore, perTime, &borne);
 }
 
 static void TakePinReactions(kiriSheetData* sheet, double perTime)
@@ -391,21 +419,23 @@ static void TakePinReactions(kiriSheetData* sheet, double perTime)
     int32_t row = 0, clamp = 0;
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
         kiriPinData* pin = &sheet->pins.data[i];
-        pin->force = pin->torque = kiriVec3_Make(0.0, 0.0, 0.0);
+        memset(&pin->bore, 0, sizeof(pin->bore));
         if (pin->type == KIRI_PIN_POINT) {
-            AddReaction(pin, &sheet->pinReactions.data[row], sheet->pinRows.data[row].target, perTime);
-            ++row;
+            pin->reaction = sheet->pinReactions.data[row++];
+            AddBorne(pin, &pin->reaction, pin->target, perTime);
         }
     }
     for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-        kiriPinData* pin = &sheet->pins.data[sheet->layout.pinShares.data[k].pin];
+        kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+        kiriPinData* pin = &sheet->pins.data[pinned->pin];
         if (pin->type == KIRI_PIN_CLAMP) {
-            AddReaction(pin, &sheet->clampReactions.data[clamp], sheet->clampRows.data[clamp].pose.x, perTime);
-            ++clamp;
+            pinned->reactions[0] = sheet->clampReactions.data[clamp];
+            AddBorne(pin, &pinned->reactions[0], sheet->clampRows.data[clamp++].pose.x, perTime);
             continue;
         }
-        for (int end = 0; end < 2; ++end, ++row) {
-            AddReaction(pin, &sheet->pinReactions.data[row], sheet->pinRows.data[row].target, perTime);
+        for (int spring = 0; spring < 2; ++spring) {
+            pinned->reactions[spring] = sheet->pinReactions.data[row];
+            AddBorne(pin, &pinned->reactions[spring], sheet->pinRows.data[row++].target, perTime);
         }
     }
 }
@@ -415,8 +445,9 @@ void kiriPins_TakeReactions(kiriSheetData* sheet, double dt)
     TakePinReactions(sheet, 1.0 / dt);
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         kiriFrameData* frame = &sheet->frames.data[i];
-        frame->reaction = kiriVec3_Scale(1.0 / dt, sheet->frameReactions.data[i].impulse);
-        frame->reactionTorque = kiriVec3_Scale(1.0 / dt, sheet->frameReactions.data[i].moment);
+        frame->reaction = sheet->frameReactions.data[i];
+        memset(&frame->bore, 0, sizeof(frame->bore));
+        kiriWrench_Add(&frame->bore, 1.0 / dt, &frame->reaction.impulse);
     }
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
         sheet->pins.data[i].lastTarget = sheet->pins.data[i].target;
@@ -426,6 +457,6 @@ void kiriPins_TakeReactions(kiriSheetData* sheet, double dt)
 
 void kiriPins_ClearReactions(kiriSheetData* sheet)
 {
-    ClearReactions(sheet);
+    BeginReactions(sheet);
     kiriPins_TakeReactions(sheet, 1.0);
 }

@@ -19,6 +19,9 @@ void kiriPins_Remove(kiriSheetData* sheet, int32_t index);
 /* Stages which frames the pins hold after the next commit, with all the room that they need. False for memory. */
 bool kiriPins_Stage(kiriSheetData* sheet);
 
+/* After the commit: reactions on a frame that was held before go on with their history. */
+void kiriPins_KeepReactions(kiriSheetData* sheet, const kiriPinShares* old);
+
 /* After the commit, where links keep their strains (kiri_strain_offset.h): clamps go on with the strains that they had
    when frames and shares were `frames` and `old`; on a frame that they did not hold they begin without any. */
 void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old, const kiriFrameData* frames);

@@ -36,6 +36,7 @@ typedef struct kiriPinShare {
     int32_t pin; /* its index */
     kiriLineShare share;
     double offset[KIRI_CLAMP_STRAINS]; /* of a clamp's strains, see kiri_strain_offset.h */
+    kiriReaction reactions[2];         /* of a clamp one, of a hinge those of its two springs */
 } kiriPinShare;
 
 typedef KIRI_ARRAY(kiriPinShare) kiriPinShares;
@@ -71,8 +72,9 @@ typedef struct kiriPinData {
     kiriMat3 rotation;       /* of a line */
     kiriVec3 lastTarget;     /* in the last tick */
     kiriMat3 lastRotation;
-    double stiffness;       /* of a point */
-    kiriVec3 force, torque; /* on the sheet, about the target: mean of the last tick that moved it */
+    double stiffness;      /* of a point */
+    kiriReaction reaction; /* of a point */
+    kiriWrench bore;       /* about the target: mean of the last tick that moved the sheet */
 } kiriPinData;
 
 /* How far a cut has come. */
@@ -170,8 +172,8 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriClampRow) clampRows; /* one for each share of a clamp */
     KIRI_ARRAY(kiriContactRow) contactRows;
     KIRI_ARRAY(kiriReaction) pinReactions, clampReactions, frameReactions; /* of rows, and of frames */
-    kiriLine line;                        /* what was asked last, */
-    KIRI_ARRAY(kiriLineShare) lineShares; /* and what of it belongs to each frame */
+    kiriLine line;                                                         /* what was asked last, */
+    KIRI_ARRAY(kiriLineShare) lineShares;                                  /* and what of it belongs to each frame */
 
     kiriRest rest;
     kiriSeen seen;

@@ -85,7 +85,7 @@ kiriResult kiriFrame_GetReaction(const kiriWorld* world, kiriFrame frame, double
     if (data == NULL) {
         return KIRI_FAIL(KIRI_ERROR_ID, "there is no frame with this id");
     }
-    kiriVec3_StoreDoubles(force, data->reaction);
-    kiriVec3_StoreDoubles(torque, data->reactionTorque);
+    kiriVec3_StoreDoubles(force, data->bore.force);
+    kiriVec3_StoreDoubles(torque, data->bore.moment);
     return KIRI_OK;
 }

@@ -185,8 +185,8 @@ kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, double force
     KIRI_CHECK(force != NULL && torque != NULL, "force or torque is null");
     KIRI_FIND_PIN_SHEET(sheet, pin);
     const kiriPinData* data = &sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index];
-    kiriVec3_StoreDoubles(force, data->force);
-    kiriVec3_StoreDoubles(torque, data->torque);
+    kiriVec3_StoreDoubles(force, data->bore.force);
+    kiriVec3_StoreDoubles(torque, data->bore.moment);
     return KIRI_OK;
 }
 

@@ -154,6 +154,19 @@ static void HashHistory(uint64_t* hash, const kiriHistory* history)
     HashMat3(hash, &history->turnPull);
 }
 
+static void HashWrench(uint64_t* hash, const kiriWrench* wrench)
+{
+    HashVec3(hash, wrench->force);
+    HashVec3(hash, wrench->moment);
+}
+
+static void HashReaction(uint64_t* hash, const kiriReaction* reaction, const kiriWrench* bore)
+{
+    HashWrench(hash, &reaction->gain);
+    HashWrench(hash, &reaction->pull);
+    HashWrench(hash, bore);
+}
+
 static void HashFrame(uint64_t* hash, const kiriFrameData* frame)
 {
     HashVec2(hash, frame->site.at);
@@ -179,8 +192,7 @@ static void HashFrame(uint64_t* hash, const kiriFrameData* frame)
         HashVec3(hash, frame->heldRotation.u);
         HashVec3(hash, frame->heldRotation.v);
         HashVec3(hash, frame->heldRotation.d);
-        HashVec3(hash, frame->reaction);
-        HashVec3(hash, frame->reactionTorque);
+        HashReaction(hash, &frame->reaction, &frame->bore);
     }
 }
 
@@ -241,7 +253,7 @@ static void HashPin(uint64_t* hash, const kiriPinData* pin)
     HashPoint(hash, pin->at);
     HashVec3(hash, pin->target);
     kiriHash_Double(hash, pin->stiffness);
-    HashVec3(hash, pin->force);
+    HashReaction(hash, &pin->reaction, &pin->bore);
     if (pin->type == KIRI_PIN_POINT) {
         return;
     }
@@ -252,7 +264,6 @@ static void HashPin(uint64_t* hash, const kiriPinData* pin)
     HashVec3(hash, pin->lastTarget);
     HashVec3(hash, pin->lastRotation.u);
     HashVec3(hash, pin->lastRotation.v);
-    HashVec3(hash, pin->torque);
 }
 
 static void HashWaiting(uint64_t* hash, const kiriWorld* world, const kiriSheetData* sheet)
@@ -285,11 +296,15 @@ static void HashStrainOffsets(uint64_t* hash, const kiriStrainOffsets* strainOff
     }
 }
 
-static void HashPinOffsets(uint64_t* hash, const kiriPinShares* shares)
+static void HashPinHistory(uint64_t* hash, const kiriPinShares* shares)
 {
     for (int32_t k = 0; k < shares->count; ++k) {
         for (int e = 0; e < KIRI_CLAMP_STRAINS; ++e) {
             kiriHash_Double(hash, shares->data[k].offset[e]);
+        }
+        for (int spring = 0; spring < 2; ++spring) {
+            HashWrench(hash, &shares->data[k].reactions[spring].gain);
+            HashWrench(hash, &shares->data[k].reactions[spring].pull);
         }
     }
 }
@@ -331,7 +346,7 @@ uint64_t kiriStateHash_Of(const kiriWorld* world)
         HashWaiting(&hash, world, sheet);
         HashRest(&hash, sheet);
         HashStrainOffsets(&hash, &sheet->strainOffsets);
-        HashPinOffsets(&hash, &sheet->layout.pinShares);
+        HashPinHistory(&hash, &sheet->layout.pinShares);
         HashFades(&hash, &sheet->seen.fades);
         HashFades(&hash, &sheet->seen.pointFades);
         for (int32_t f = 0; f < sheet->frames.count; ++f) {
