@@ -2,9 +2,11 @@
 
    strain    in-plane principal strains of the triangles against their rest shape, larger of the two; stiff sheets have
              next to none of their own. Shares are of the area.
-   lip       turn of the tangent from edge to edge of a lip, beyond that of the blade's path; weighed by length
-   normals   angle between the normals of two triangles that share an edge, no lip, beyond what the sheet bends there: the
-             curvature that the directors of linked frames tell, over the way from triangle to triangle; weighed by area
+   lip       turn of the tangent from edge to edge of a lip, beyond that of the blade's path, and beyond what the sheet
+             bends there; weighed by length
+   normals   angle between the normals of two triangles that share an edge, no lip, beyond the same; weighed by area
+
+   What the sheet bends is the curvature that the directors of linked frames tell, times the way.
 
    Each just after the last cut and at rest, with flat and with bent patches of the same frames. */
 #define _POSIX_C_SOURCE 199309L
@@ -279,6 +281,8 @@ static void AddLipTurn(Seen* seen, int32_t from)
     kiriVec3 n = NormalAt(seen, from, to);
     kiriVec3 turned = kiriVec3_AddScaled(kiriVec3_Scale(cosine, x), sine, kiriVec3_Cross(n, x));
     turned = kiriVec3_AddScaled(turned, (1.0 - cosine) * kiriVec3_Dot(n, x), n);
+    kiriVec3 own = OwnTurn(seen, v[1], kiriVec2_Scale(0.5, kiriVec2_Add(a, b)));
+    turned = kiriVec3_AddScaled(turned, -kiriVec3_Dot(turned, own), n);
     Samples_Add(&seen->lip, AngleBetween(turned, y), 0.5 * (la + lb));
 }
 

@@ -191,9 +191,9 @@ static inline bool Follow_Links(Follow* f)
 
 static inline kiriProgress Follow_Samples(Follow* f)
 {
-    kiriProgress progress = kiriRefresh_Start(&f->refresh, f->memory, &f->shape, &f->grid, f->mesh, f->oldVertices)
-                                ? KIRI_MORE
-                                : KIRI_FAILED;
+    bool started = kiriRefresh_NoteDirty(&f->refresh, f->memory, f->mesh) &&
+                   kiriRefresh_Start(&f->refresh, f->memory, &f->shape, &f->grid, f->mesh, f->oldVertices);
+    kiriProgress progress = started ? KIRI_MORE : KIRI_FAILED;
     while (progress == KIRI_MORE) {
         kiriQuota quota = Follow_Quota(f);
         progress = kiriRefresh_Vertices(&f->refresh, &f->vertexSkin, f->memory, &f->shape, &f->grid, f->mesh, &quota);

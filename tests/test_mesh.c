@@ -460,6 +460,51 @@ static void OpensEdges(void** state)
     kiriMemory_FreeAll(mesh.memory);
 }
 
+/* Vertices at a place, each with its lean, in the order of their index. */
+static int32_t LeansAt(const kiriMeshData* mesh, double x, double y, kiriVec2 leans[4])
+{
+    kiriLatticePoint at = kiriMesh_Snap(mesh, kiriVec2_Make(x, y));
+    int32_t count = 0;
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        if (mesh->vertices.data[v].at.x == at.x && mesh->vertices.data[v].at.y == at.y) {
+            assert_true(count < 4);
+            leans[count++] = kiriMesh_Lean(mesh, v);
+        }
+    }
+    return count;
+}
+
+static void AssertLean(kiriVec2 lean, double x, double y)
+{
+    if (!(fabs(lean.x - x) < 1e-6 && fabs(lean.y - y) < 1e-6)) {
+        fail_msg("(%g, %g) is not (%g, %g)", lean.x, lean.y, x, y);
+    }
+}
+
+/* On the outline, on lips, at both ends of a slit, and inside. */
+static void LeansIntoTheMaterial(void** state)
+{
+    (void)state;
+    Rectangle r = Rectangle_Make(4, 4, 1.0f, 1.0f);
+    kiriMeshData mesh;
+    kiriVec2 leans[4];
+    assert_int_equal(Init(&mesh, r.positions, r.vertexCount, r.indices, r.triangleCount), KIRI_OK);
+    for (int k = 0; k < 2; ++k) {
+        assert_true(kiriMesh_Open(&mesh, Find(&mesh, 0.25 * k + 0.25, 0.5, 0.25 * k + 0.5, 0.5)));
+    }
+    static const double whole[][4] = { { 0.0, 0.0, 0.125, 0.125 }, { 0.5, 0.0, 0.0, 0.25 }, { 1.0, 0.5, -0.25, 0.0 },
+                                       { 0.25, 0.5, 0.0, 0.0 },    { 0.75, 0.5, 0.0, 0.0 }, { 0.5, 0.25, 0.0, 0.0 } };
+    for (size_t k = 0; k < sizeof(whole) / sizeof(whole[0]); ++k) {
+        assert_int_equal(LeansAt(&mesh, whole[k][0], whole[k][1], leans), 1);
+        AssertLean(leans[0], whole[k][2], whole[k][3]);
+    }
+    assert_int_equal(LeansAt(&mesh, 0.5, 0.5, leans), 2);
+    AssertLean(leans[0], 0.0, leans[0].y > 0.0 ? 0.25 : -0.25);
+    AssertLean(leans[1], 0.0, -leans[0].y);
+    kiriMemory_FreeAll(mesh.memory);
+    Rectangle_Free(&r);
+}
+
 static void Snaps(void** state)
 {
     (void)state;
@@ -664,6 +709,7 @@ int main(void)
         cmocka_unit_test(SplitsOpenEdges),
         cmocka_unit_test(SplitsTriangles),
         cmocka_unit_test(OpensEdges),
+        cmocka_unit_test(LeansIntoTheMaterial),
         cmocka_unit_test(Locates),
         cmocka_unit_test(Snaps),
         cmocka_unit_test(ScramblesAndRollsBack),

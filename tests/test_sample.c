@@ -37,7 +37,7 @@ static void CutSheetsEqualThoseFromScratch(void** state)
     assert_true(2 * staged < all);
 }
 
-/* Skinned by what kiriShape_At says. */
+/* Skinned by what kiriShape_At says; at lips where squares are split, by what their own side says. */
 static void WeightsAreThoseOfTheShape(void** state)
 {
     (void)state;
@@ -45,14 +45,25 @@ static void WeightsAreThoseOfTheShape(void** state)
     Scene scene;
     Follow f;
     kiriPointWeights out = { 0 };
-    Scene_InitMesh(&scene, 1.0, 0.8, 9, 7, 14, 0.2, seed);
-    Scene_CutAtRandom(&scene, 6, 9, &seed);
+    kiriStencil stencil = { 0 };
+    int32_t leaning = 0;
+    Scene_InitMesh(&scene, 1.0, 0.8, 36, 28, 14, 0.2, seed);
+    Scene_CutAtRandom(&scene, 12, 14, &seed);
     kiriMesh_Commit(&scene.mesh);
     Follow_Start(&f, &scene, 9, 0, &seed);
     for (int32_t v = 0; v < f.mesh->vertices.count; ++v) {
         int32_t cell = kiriGrid_CellOfVertex(&f.grid, f.mesh, v), k = 0;
         kiriVec2 at = kiriMesh_Local(f.mesh, f.mesh->vertices.data[v].at);
+        kiriVec2 lean = kiriMesh_Lean(f.mesh, v);
         assert_true(kiriShape_At(&f.shape, f.memory, &f.grid, f.mesh, cell, at, &out));
+        assert_true(kiriStencil_Gather(&stencil, f.memory, &f.shape, &f.grid, f.mesh, cell));
+        if (stencil.split && kiriVec2_Length(lean) > 0.0) {
+            kiriStencil_Weigh(&stencil, at, lean);
+            for (int32_t i = 0; i < out.count; ++i) {
+                leaning += out.data[i].value != stencil.values.data[i];
+                out.data[i].value = stencil.values.data[i];
+            }
+        }
         for (int32_t i = 0; i < out.count; ++i) {
             if (out.data[i].value > 0.0) {
                 kiriWeight weight = f.vertexSkin.weights.data[f.vertexSkin.spans.data[v].first + k++];
@@ -62,6 +73,7 @@ static void WeightsAreThoseOfTheShape(void** state)
         }
         assert_int_equal(k, f.vertexSkin.spans.data[v].count);
     }
+    assert_true(leaning > 10);
     kiriArray_Release(f.memory, &out);
     Follow_Release(&f);
     Scene_Release(&scene);

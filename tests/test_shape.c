@@ -784,7 +784,7 @@ static void StencilsEqualPoints(void** state)
         w.shape.eased = k % 2 == 1;
         CheckPoint(&scene, &w, cell, at, &out);
         assert_true(kiriStencil_Gather(&stencil, &scene.memory, &w.shape, &scene.grid, &scene.mesh, cell));
-        kiriStencil_Weigh(&stencil, at);
+        kiriStencil_Weigh(&stencil, at, (kiriVec2){ 0.0, 0.0 });
         assert_int_equal(stencil.frames.count, out.count);
         for (int32_t i = 0; i < out.count; ++i) {
             assert_int_equal(stencil.frames.data[i], out.data[i].frame);

@@ -16,9 +16,61 @@ typedef struct PointFit {
     double xx, xy, yy; /* (pseudo-)inverse of their second moments about the mean */
 } PointFit;
 
-static kiriVec2 SetKernel(kiriStencil* stencil, kiriVec2 at)
+static kiriVec2 OffsetOf(const kiriStencil* stencil, kiriVec2 at)
 {
-    kiriVec2 off = kiriVec2_Scale(1.0 / stencil->side, kiriVec2_Sub(at, stencil->middle));
+    return kiriVec2_Scale(1.0 / stencil->side, kiriVec2_Sub(at, stencil->middle));
+}
+
+/* Beside a cell in which a cut ends, a square has cells on both sides of the cut. How far a place is on the side of one
+   of two: 1 from an eighth of a square on, 0 as far on the other side. */
+static double SideOf(kiriVec2 from, kiriVec2 mine, kiriVec2 other)
+{
+    kiriVec2 way = kiriVec2_Sub(mine, other), middle = kiriVec2_Scale(0.5, kiriVec2_Add(mine, other));
+    double length = kiriVec2_Length(way);
+    double side = length > 0.0 ? 0.5 + 4.0 * kiriVec2_Dot(kiriVec2_Sub(from, middle), way) / length : 0.5;
+    return side > 1.0 ? 1.0 : side > 0.0 ? side : 0.0;
+}
+
+/* Cells of one square share its kernel, by the side that each is on. They follow each other in the steps. */
+static void ShareSquare(kiriStencil* stencil, int32_t first, int32_t count, kiriVec2 from)
+{
+    double sum = 0.0, kernel = stencil->shares.data[first];
+    for (int32_t a = first; a < first + count; ++a) {
+        double side = 1.0;
+        for (int32_t b = first; b < first + count; ++b) {
+            side *= a == b ? 1.0 : SideOf(from, stencil->centers.data[a], stencil->centers.data[b]);
+        }
+        stencil->shares.data[a] = side;
+        sum += side;
+    }
+    for (int32_t a = first; a < first + count; ++a) {
+        stencil->shares.data[a] = kernel * (sum > 0.0 ? stencil->shares.data[a] / sum : 1.0 / count);
+    }
+}
+
+static bool IsSameSquare(kiriStep a, kiriStep b)
+{
+    return a.u == b.u && a.v == b.v;
+}
+
+static void ShareSquares(kiriStencil* stencil, kiriVec2 from)
+{
+    const kiriStep* steps = stencil->steps.data;
+    for (int32_t first = 1; first < stencil->steps.count;) {
+        int32_t end = first + 1;
+        while (end < stencil->steps.count && IsSameSquare(steps[first], steps[end])) {
+            ++end;
+        }
+        if (end - first > 1) {
+            ShareSquare(stencil, first, end - first, from);
+        }
+        first = end;
+    }
+}
+
+static kiriVec2 SetKernel(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
+{
+    kiriVec2 off = OffsetOf(stencil, at);
     double u[3], v[3];
     for (int i = 0; i < 3; ++i) {
         u[i] = QuadraticSpline(i - 1 - off.x);
@@ -26,6 +78,9 @@ static kiriVec2 SetKernel(kiriStencil* stencil, kiriVec2 at)
     }
     for (int32_t k = 0; k < stencil->steps.count; ++k) {
         stencil->shares.data[k] = u[stencil->steps.data[k].u + 1] * v[stencil->steps.data[k].v + 1];
+    }
+    if (stencil->split) {
+        ShareSquares(stencil, kiriVec2_Add(off, lean));
     }
     return off;
 }
@@ -47,9 +102,9 @@ static void InvertMoments(PointFit* fit)
 }
 
 /* Leaves the kernel in the stencil's shares. */
-static PointFit FitAround(kiriStencil* stencil, kiriVec2 at)
+static PointFit FitAround(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
 {
-    PointFit fit = { SetKernel(stencil, at), 0.0, { 0.0, 0.0 }, 0.0, 0.0, 0.0 };
+    PointFit fit = { SetKernel(stencil, at, lean), 0.0, { 0.0, 0.0 }, 0.0, 0.0, 0.0 };
     for (int32_t k = 0; k < stencil->steps.count; ++k) {
         kiriStep to = stencil->steps.data[k];
         double kernel = stencil->shares.data[k];
@@ -76,13 +131,13 @@ static kiriVec2 FitSlope(const PointFit* fit, kiriStep to, double kernel)
 
 /* What the cells count at the point. Where no cell is missing, the splines are the fit: they reproduce linear
    functions. */
-static void SetShares(kiriStencil* stencil, kiriVec2 at)
+static void SetShares(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
 {
     if (stencil->full) {
-        SetKernel(stencil, at);
+        SetKernel(stencil, at, lean);
         return;
     }
-    PointFit fit = FitAround(stencil, at);
+    PointFit fit = FitAround(stencil, at, lean);
     kiriVec2 way = kiriVec2_Sub(fit.at, fit.mean);
     for (int32_t k = 0; k < stencil->steps.count; ++k) {
         double kernel = stencil->shares.data[k];
@@ -102,12 +157,12 @@ static void MakeSumOne(double* values, int32_t count)
 }
 
 /* The fit may undershoot: no value below zero, sum 1. */
-static void WeighLinear(kiriStencil* stencil, kiriVec2 at)
+static void WeighLinear(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
 {
     KIRI_ASSERT(stencil->cell != KIRI_NONE);
     int32_t count = stencil->frames.count;
     double* values = stencil->values.data;
-    SetShares(stencil, at);
+    SetShares(stencil, at, lean);
     for (int32_t i = 0; i < count; ++i) {
         values[i] = 0.0;
     }
@@ -131,10 +186,10 @@ static double Ease(double w)
     return w * w * (3.0 - 2.0 * w);
 }
 
-void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at)
+void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
 {
     int32_t count = stencil->frames.count;
-    WeighLinear(stencil, at);
+    WeighLinear(stencil, at, lean);
     if (stencil->eased) {
         for (int32_t i = 0; i < count; ++i) {
             stencil->values.data[i] = Ease(stencil->values.data[i]);
@@ -143,21 +198,101 @@ void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at)
     }
 }
 
+/* By square, then by the order of cells. */
+static int CompareSteps(const kiriGrid* grid, kiriStep a, kiriStep b)
+{
+    int32_t x = 3 * a.v + a.u, y = 3 * b.v + b.u;
+    return x != y ? (x < y ? -1 : 1) : a.cell == b.cell ? 0 : kiriGrid_IsBefore(grid, a.cell, b.cell) ? -1 : 1;
+}
+
+/* Puts a step in its place after the first, unless it is there. There is room. */
+static void InsertStep(kiriStencil* stencil, const kiriGrid* grid, kiriStep step)
+{
+    int32_t k = stencil->steps.count;
+    kiriStep* steps = stencil->steps.data;
+    while (k > 1 && CompareSteps(grid, steps[k - 1], step) > 0) {
+        --k;
+    }
+    if (k > 1 && steps[k - 1].cell == step.cell) {
+        return;
+    }
+    for (int32_t m = stencil->steps.count++; m > k; --m) {
+        steps[m] = steps[m - 1];
+    }
+    steps[k] = step;
+}
+
+/* Two straight steps around a corner. */
+static bool InsertBeyond(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, kiriStep to)
+{
+    const kiriStepRun* run = &grid->runs.data[to.cell];
+    if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)stencil->steps.count + run->end[0] - run->first)) {
+        return false;
+    }
+    for (int32_t k = run->first; k < run->end[0]; ++k) {
+        kiriStep on = grid->steps.data[k];
+        if ((to.u != 0) != (on.u != 0)) {
+            on.u = (int8_t)(on.u + to.u);
+            on.v = (int8_t)(on.v + to.v);
+            InsertStep(stencil, grid, on);
+        }
+    }
+    return true;
+}
+
+/* Most cells have eight others around them, and no square there is divided: then steps of the grid tell all. */
+static bool IsPlain(const kiriGrid* grid, int32_t cell)
+{
+    const kiriStepRun* run = &grid->runs.data[cell];
+    bool plain = run->end[1] - run->first == 8 && grid->whole.data[grid->cells.data[cell].square];
+    for (int32_t k = run->first; plain && k < run->end[1]; ++k) {
+        plain = grid->whole.data[grid->cells.data[grid->steps.data[k].cell].square];
+    }
+    return plain;
+}
+
+/* The cell itself, and what one straight step leads to, or two around a corner. A diagonal step of the grid asks for both
+   ways around it: beside a cut there is often one, and a fit without these cells is another from cell to cell. */
 static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
     const kiriStepRun* run = &grid->runs.data[cell];
-    int32_t count = run->end[1] - run->first, seen = 0;
-    if (!kiriArray_Resize(memory, &stencil->steps, (int64_t)count + 1) ||
-        !kiriArray_Resize(memory, &stencil->shares, (int64_t)count + 1)) {
+    bool plain = IsPlain(grid, cell);
+    int32_t end = run->end[plain ? 1 : 0];
+    stencil->steps.count = 0;
+    if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)end - run->first + 1)) {
         return false;
     }
-    stencil->steps.data[0] = (kiriStep){ cell, 0, 0, 0 };
-    for (int32_t k = 1; k <= count; ++k) {
-        kiriStep to = grid->steps.data[run->first + k - 1];
-        stencil->steps.data[k] = to;
-        seen |= 1 << (3 * (to.v + 1) + to.u + 1);
+    stencil->steps.data[stencil->steps.count++] = (kiriStep){ cell, 0, 0, 0 };
+    for (int32_t k = run->first; k < end; ++k) {
+        InsertStep(stencil, grid, grid->steps.data[k]);
     }
-    stencil->full = count == 8 && (seen | 1 << 4) == 511;
+    for (int32_t k = run->first; !plain && k < run->end[0]; ++k) {
+        if (!InsertBeyond(stencil, memory, grid, grid->steps.data[k])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Which squares around have a cell, and where the material of cells is that share one. */
+static bool GatherCenters(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid)
+{
+    int32_t count = stencil->steps.count, seen = 0;
+    if (!kiriArray_Resize(memory, &stencil->centers, count) || !kiriArray_Resize(memory, &stencil->shares, count)) {
+        return false;
+    }
+    stencil->split = false;
+    for (int32_t k = 0; k < count; ++k) {
+        kiriStep to = stencil->steps.data[k];
+        int32_t square = 1 << (3 * (to.v + 1) + to.u + 1);
+        stencil->split = stencil->split || (seen & square) != 0;
+        seen |= square;
+    }
+    stencil->full = count == 9 && seen == 511;
+    for (int32_t k = 0; stencil->split && k < count; ++k) {
+        const kiriCell* cell = &grid->cells.data[stencil->steps.data[k].cell];
+        stencil->centers.data[k] = OffsetOf(stencil, kiriMoments_Center(&cell->material));
+    }
     return true;
 }
 
@@ -219,22 +354,22 @@ bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShap
                         const kiriMeshData* mesh, int32_t cell)
 {
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell) && cell < shape->spans.count);
-    bool ok = GatherSteps(stencil, memory, grid, cell) && GatherFrames(stencil, memory, shape) &&
-              GatherWeights(stencil, memory, shape);
+    stencil->middle = kiriGrid_Middle(grid, mesh, cell);
+    stencil->side = grid->side;
+    stencil->eased = shape->eased;
+    bool ok = GatherSteps(stencil, memory, grid, cell) && GatherCenters(stencil, memory, grid) &&
+              GatherFrames(stencil, memory, shape) && GatherWeights(stencil, memory, shape);
     for (int32_t i = 0; i < stencil->frames.count; ++i) {
         stencil->columns.data[stencil->frames.data[i]] = 0;
     }
     stencil->cell = ok ? cell : KIRI_NONE;
-    stencil->middle = kiriGrid_Middle(grid, mesh, cell);
-    stencil->side = grid->side;
-    stencil->eased = shape->eased;
     return ok;
 }
 
 /* Of the linear weights. */
 static void SetGradients(kiriStencil* stencil, kiriVec2 at, kiriPointWeights* out)
 {
-    PointFit fit = FitAround(stencil, at);
+    PointFit fit = FitAround(stencil, at, kiriVec2_Make(0.0, 0.0));
     for (int32_t k = 0; k < stencil->steps.count; ++k) {
         kiriVec2 slope = FitSlope(&fit, stencil->steps.data[k], stencil->shares.data[k]);
         const double* weights = stencil->weights.data + (size_t)k * (size_t)out->count;
@@ -288,7 +423,7 @@ bool kiriShape_At(const kiriShape* shape, kiriMemory* memory, const kiriGrid* gr
     bool ok = kiriStencil_Gather(&stencil, &scratch, shape, grid, mesh, cell) &&
               kiriArray_Resize(memory, out, stencil.frames.count);
     if (ok) {
-        WeighLinear(&stencil, at);
+        WeighLinear(&stencil, at, kiriVec2_Make(0.0, 0.0));
         for (int32_t i = 0; i < out->count; ++i) {
             out->data[i] = (kiriPointWeight){ stencil.frames.data[i], stencil.values.data[i], { 0.0, 0.0 } };
         }

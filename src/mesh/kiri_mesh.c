@@ -103,6 +103,31 @@ double kiriMesh_Area(const kiriMeshData* mesh)
     return 0.5 * (double)kiriMesh_DoubledArea(mesh) * mesh->step * mesh->step;
 }
 
+static kiriVec2 DirectionOf(const kiriMeshData* mesh, int32_t from, int32_t to)
+{
+    kiriLatticePoint a = mesh->vertices.data[from].at, b = mesh->vertices.data[to].at;
+    kiriVec2 way = kiriVec2_Make((double)b.x - a.x, (double)b.y - a.y);
+    return kiriVec2_Scale(1.0 / kiriVec2_Length(way), way);
+}
+
+/* An eighth of the integral of the directions between the first and the last edge of the fan. */
+kiriVec2 kiriMesh_Lean(const kiriMeshData* mesh, int32_t vertex)
+{
+    int32_t start = mesh->vertices.data[vertex].edge, first = start, last = start, h;
+    while ((h = kiriMesh_Clockwise(mesh, first)) != KIRI_NONE && h != start) {
+        first = h;
+    }
+    if (h == start) {
+        return kiriVec2_Make(0.0, 0.0);
+    }
+    while ((h = kiriMesh_CounterClockwise(mesh, last)) != KIRI_NONE) {
+        last = h;
+    }
+    kiriVec2 a = DirectionOf(mesh, vertex, kiriMesh_Tail(mesh, kiriEdge_Next(first)));
+    kiriVec2 b = DirectionOf(mesh, vertex, kiriMesh_Tail(mesh, kiriEdge_Previous(last)));
+    return kiriVec2_Make(0.125 * (b.y - a.y), 0.125 * (a.x - b.x));
+}
+
 static int32_t NearestEven(double x)
 {
     double half = 0.5 * x + 0.5;

@@ -124,6 +124,13 @@ static inline int32_t kiriMesh_CounterClockwise(const kiriMeshData* mesh, int32_
     return kiriMesh_IsOpen(mesh, previous) ? KIRI_NONE : kiriMesh_Twin(mesh, previous);
 }
 
+/* And the one before. */
+static inline int32_t kiriMesh_Clockwise(const kiriMeshData* mesh, int32_t h)
+{
+    int32_t twin = kiriMesh_IsOpen(mesh, h) ? KIRI_NONE : kiriMesh_Twin(mesh, h);
+    return twin == KIRI_NONE ? KIRI_NONE : kiriEdge_Next(twin);
+}
+
 static inline void kiriMesh_Corners(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint corners[3])
 {
     const kiriTriangle* t = kiriMesh_TriangleOf(mesh, 3 * triangle);
@@ -137,6 +144,10 @@ static inline void kiriMesh_Corners(const kiriMeshData* mesh, int32_t triangle, 
 
 /* A triangle whose closure holds the point (the lowest index, so that lips of a cut do not matter), or KIRI_NONE. */
 int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriLatticePoint at);
+
+/* From a vertex on a lip, or on the outline, into its material: a quarter long where the lip is straight, 0 where the fan
+   of the vertex goes all around. */
+kiriVec2 kiriMesh_Lean(const kiriMeshData* mesh, int32_t vertex);
 
 /* Twice the area, in lattice steps squared. Exact: cuts that do not split slanted outline edges never change it. */
 int64_t kiriMesh_DoubledArea(const kiriMeshData* mesh);

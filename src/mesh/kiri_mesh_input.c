@@ -189,19 +189,12 @@ static kiriResult FindTwins(kiriMeshData* mesh, const char** why)
     return result;
 }
 
-/* Half-edge h stands for the corner to its left. The next corner of the same fan, or KIRI_NONE where the fan ends. */
-static int32_t Clockwise(const kiriMeshData* mesh, int32_t h)
-{
-    int32_t twin = kiriMesh_Twin(mesh, h);
-    return twin == KIRI_NONE || kiriMesh_IsOpen(mesh, h) ? KIRI_NONE : kiriEdge_Next(twin);
-}
-
 /* Gives h's fan a vertex of its own when another fan has taken its vertex before. While this runs, the stamps mark the
    vertices that are taken and the corners that are done. */
 static bool ClaimFan(kiriMeshData* mesh, int32_t h)
 {
     int32_t first = h, vertex = kiriMesh_Tail(mesh, h);
-    for (int32_t c = Clockwise(mesh, h); c != KIRI_NONE && c != h; c = Clockwise(mesh, c)) {
+    for (int32_t c = kiriMesh_Clockwise(mesh, h); c != KIRI_NONE && c != h; c = kiriMesh_Clockwise(mesh, c)) {
         first = c;
     }
     if (mesh->vertices.data[vertex].stamp != 0) {

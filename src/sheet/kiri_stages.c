@@ -79,7 +79,8 @@ kiriProgress kiriStage_Grid(kiriSheetData* sheet, kiriQuota* cells)
     kiriProgress progress = kiriGrid_Update(&sheet->grid, &sheet->mesh, cells);
     if (progress == KIRI_DONE) {
         const kiriGridChanges* changes = &sheet->grid.changes;
-        if (!kiriOwnership_NoteDirty(&u->refit.ownership, sheet->memory, &sheet->mesh)) {
+        if (!kiriOwnership_NoteDirty(&u->refit.ownership, sheet->memory, &sheet->mesh) ||
+            !kiriRefresh_NoteDirty(&u->samples.refresh, sheet->memory, &sheet->mesh)) {
             return KIRI_FAILED;
         }
         kiriSquares_ClearDirty(&sheet->mesh.squares);

@@ -45,7 +45,7 @@ bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, 
     kiriStencil stencil = { 0 };
     bool ok = kiriStencil_Gather(&stencil, &scratch, shape, grid, mesh, cell);
     if (ok) {
-        kiriStencil_Weigh(&stencil, at);
+        kiriStencil_Weigh(&stencil, at, kiriVec2_Make(0.0, 0.0));
         ok = StageWeights(skin, memory, &stencil, sample);
     }
     kiriMemory_FreeAll(&scratch);
@@ -176,6 +176,27 @@ static void AddSquare(kiriRefresh* refresh, int32_t square)
     }
 }
 
+/* The square and those beside it: a stencil reaches so far. */
+static void AddSquaresAround(kiriRefresh* refresh, const kiriMeshData* mesh, int32_t square)
+{
+    int32_t columns = mesh->squares.columns, column = square % columns, row = square / columns;
+    for (int32_t v = row > 0 ? row - 1 : 0; v <= row + 1 && v < mesh->squares.rows; ++v) {
+        for (int32_t u = column > 0 ? column - 1 : 0; u <= column + 1 && u < columns; ++u) {
+            AddSquare(refresh, v * columns + u);
+        }
+    }
+}
+
+bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriMeshData* mesh)
+{
+    int32_t count = mesh->squares.dirty.count;
+    if (!kiriArray_Resize(memory, &refresh->noted, count)) {
+        return false;
+    }
+    memcpy(refresh->noted.data, mesh->squares.dirty.data, sizeof(int32_t) * (size_t)count);
+    return true;
+}
+
 bool kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                        const kiriMeshData* mesh, int32_t firstVertex)
 {
@@ -190,12 +211,12 @@ bool kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape
         refresh->marks.data[s] = 0;
     }
     for (int32_t k = 0; k < shape->changes.count; ++k) {
-        int32_t cell = shape->changes.data[k];
-        AddSquare(refresh, grid->cells.data[cell].square);
-        for (int32_t s = grid->runs.data[cell].first; s < grid->runs.data[cell].end[1]; ++s) {
-            AddSquare(refresh, grid->cells.data[grid->steps.data[s].cell].square);
-        }
+        AddSquaresAround(refresh, mesh, grid->cells.data[shape->changes.data[k]].square);
     }
+    for (int32_t k = 0; k < refresh->noted.count; ++k) {
+        AddSquaresAround(refresh, mesh, refresh->noted.data[k]);
+    }
+    refresh->noted.count = 0;
     for (int32_t v = firstVertex; v < mesh->vertices.count; ++v) {
         AddSquare(refresh, kiriSquares_At(&mesh->squares, mesh->vertices.data[v].at));
     }
@@ -248,7 +269,9 @@ static bool RefreshOne(kiriRefresh* refresh, const Samples* samples, int32_t squ
         !kiriStencil_Gather(stencil, samples->memory, samples->shape, samples->grid, samples->mesh, cell)) {
         return false;
     }
-    kiriStencil_Weigh(stencil, kiriMesh_Local(samples->mesh, at));
+    bool leans = stencil->split && samples->places == NULL;
+    kiriVec2 lean = leans ? kiriMesh_Lean(samples->mesh, sample) : kiriVec2_Make(0.0, 0.0);
+    kiriStencil_Weigh(stencil, kiriMesh_Local(samples->mesh, at), lean);
     return StageWeights(samples->skin, samples->memory, stencil, sample);
 }
 

@@ -54,14 +54,19 @@ typedef struct kiriPlaces {
 bool kiriPlaces_Reserve(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount);
 bool kiriPlaces_Add(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint at);
 
-/* Stages, of all samples that follow the shape functions, those whose weights may have changed: each in a cell of
-   shape->changes, or one straight or diagonal step from one. An item of the quota is a sample staged. */
+/* Stages, of all samples that follow the shape functions, those whose weights may have changed: each in the square of a
+   cell of shape->changes, in a square that was noted, or beside one of these. An item of the quota is a sample staged. */
 typedef struct kiriRefresh {
-    KIRI_ARRAY(int32_t) squares; /* with such cells */
+    KIRI_ARRAY(int32_t) noted;   /* squares in which the mesh changed, until Start */
+    KIRI_ARRAY(int32_t) squares; /* with such samples */
     KIRI_ARRAY(uint8_t) marks;   /* of each square */
     int32_t square, sample;      /* where the work goes on */
     kiriStencil stencil;         /* of the cell at hand */
 } kiriRefresh;
+
+/* Notes the dirty squares of the mesh, which are cleared before Start is called: cells there may have the same weights, but
+   material elsewhere, and vertices there may have come to a lip. False for memory. */
+bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriMeshData* mesh);
 
 /* Vertices from `firstVertex` on are new, and are staged all. */
 bool kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
