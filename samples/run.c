@@ -26,7 +26,7 @@ typedef struct Options {
     DebugOptions debug;
     int32_t ticks, every, width, height, grid, controlFrames, budget;
     float closeUp[3]; /* rest point, m, and factor; factor 0: as the scene has it */
-    bool axes, plain, smooth, quiet, help;
+    bool axes, plain, asPaper, smooth, quiet, help;
 } Options;
 
 static void PrintHelp(void)
@@ -43,6 +43,7 @@ static void PrintHelp(void)
            "  --control-frames N    control frames at the start (the scene's own)\n"
            "  --budget N            blade points taken in one tick; 0: no limit (0)\n"
            "  --zoom U,V,FACTOR     a close-up of the rest point, in sizes of the scene\n"
+           "  --paper               mesh, grid and frames of the paper's table 1\n"
            "  --smooth              smooth skinning\n"
            "  --plain               rigid frames, free in space, in scenes that have others\n"
            "  --frames-axes         show the control frames\n"
@@ -89,7 +90,7 @@ static bool ReadFlag(const char* name, Options* options)
                   { "--frames-axes", &options->axes },    { "--regions", &options->debug.regions },
                   { "--links", &options->debug.links },   { "--cells", &options->debug.cells },
                   { "--points", &options->debug.points }, { "--plain", &options->plain },
-                  { "--smooth", &options->smooth } };
+                  { "--smooth", &options->smooth },       { "--paper", &options->asPaper } };
     for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
         if (strcmp(name, flags[i].name) == 0) {
             *flags[i].flag = true;
@@ -544,6 +545,7 @@ int main(int count, char** words)
                                   .gridResolution = options.grid,
                                   .frameCount = options.controlFrames,
                                   .plain = options.plain,
+                                  .asPaper = options.asPaper,
                                   .smooth = options.smooth };
     Scene scene;
     if (!Scene_Start(&scene, Scene_FindType(options.scene), &def, &sceneOptions)) {

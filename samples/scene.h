@@ -25,6 +25,7 @@ typedef struct SceneOptions {
     int32_t frameCount;           /* 0: the scene's own */
     int32_t fromScratch, popping; /* of kiriPaperOptions */
     bool unfaded;                 /* fadeTime 0 */
+    bool asPaper;                 /* mesh, grid and frames of the table 1 of the paper */
     bool smooth;                  /* KIRI_SKINNING_SMOOTH */
     bool plain;                   /* rigid frames that move in space, to compare with: KIRI_MODEL_LINKS, not planar */
     float pace; /* of blades and pins; 0.2: they take five times as many ticks; 0 or 1: the scene's own */

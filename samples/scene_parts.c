@@ -30,7 +30,7 @@ static void ScaleToSize(const Scene* scene, float* numbers, size_t count)
 bool Scene_MakeSheet(Scene* scene, kiriSheetDef* def, const SceneOptions* options, const float* frames)
 {
     size_t numbers = 2 * (size_t)def->frameCount;
-    float* scaled = malloc(numbers * sizeof(float));
+    float* scaled = malloc((numbers + 1) * sizeof(float)); /* +1: frameCount may be 0 */
     kiriResult result = KIRI_ERROR_MEMORY;
     if (scaled != NULL) {
         if (options->frameCount > 0) {

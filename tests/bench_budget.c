@@ -42,7 +42,7 @@ static bool IsBehind(const kiriWorld* world)
 /* To the end of the scene, and on until nothing waits. */
 static bool RunOnce(Course* course, const SceneType* type, const kiriBudget* budget, int run)
 {
-    const SceneOptions options = { .dataFolder = NULL };
+    const SceneOptions options = { .asPaper = true };
     kiriWorldDef def = Bench_WorldDef();
     def.budget = *budget;
     Scene scene;

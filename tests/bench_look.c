@@ -343,12 +343,12 @@ static void LookBothWays(Table* table, const Scene* scene, const char* moment)
     sheet->seen.surface.skinning = own;
 }
 
-static void RunScene(Table* table, const char* name)
+static void RunScene(Table* table, const char* name, bool asPaper)
 {
     static Scene scene;
     const SceneType* type = Scene_FindType(name);
     kiriWorldDef def = Bench_WorldDef();
-    const SceneOptions options = { .dataFolder = NULL };
+    const SceneOptions options = { .asPaper = asPaper };
     if (!Scene_Start(&scene, type, &def, &options)) {
         exit(1);
     }
@@ -362,7 +362,7 @@ static void RunScene(Table* table, const char* name)
     Scene_Stop(&scene);
 }
 
-/* The arguments are scenes; none: all six. */
+/* The arguments are scenes; none: all six. With --paper first: with the paper's frames. */
 int main(int count, char** arguments)
 {
     static const char* const columns[] = { "scene",  "moment",  "skinning", "frames",  "over 5 %", "over 15 %",
@@ -374,11 +374,12 @@ int main(int count, char** arguments)
                      columns)) {
         return 1;
     }
-    for (int i = 1; i < count; i++) {
-        RunScene(&table, arguments[i]);
+    int first = count > 1 && strcmp(arguments[1], "--paper") == 0 ? 2 : 1;
+    for (int i = first; i < count; i++) {
+        RunScene(&table, arguments[i], first == 2);
     }
-    for (size_t i = 0; count < 2 && i < sizeof names / sizeof names[0]; i++) {
-        RunScene(&table, names[i]);
+    for (size_t i = 0; first == count && i < sizeof names / sizeof names[0]; i++) {
+        RunScene(&table, names[i], first == 2);
     }
     return Table_Stop(&table) ? 0 : 1;
 }

@@ -44,7 +44,7 @@ static void Measure(Jumps* jumps, const SceneType* type, int way)
     static Scene scene;
     memset(jumps, 0, sizeof(*jumps));
     kiriWorldDef def = Probe_Def(&jumps->probe, type->size);
-    const SceneOptions options = { .popping = way == PAPER, .unfaded = way != FADED };
+    const SceneOptions options = { .asPaper = true, .popping = way == PAPER, .unfaded = way != FADED };
     if (!Scene_Start(&scene, type, &def, &options)) {
         exit(1);
     }

@@ -116,7 +116,7 @@ static void Note(Recording* recording, int mode, int run, int32_t tick, double s
 static bool Record(Recording* recording, int mode, int run)
 {
     const SceneType* type = recording->type;
-    const SceneOptions options = { .fromScratch = mode == SCRATCH, .plain = mode == PLAIN };
+    const SceneOptions options = { .asPaper = true, .fromScratch = mode == SCRATCH, .plain = mode == PLAIN };
     Usage usage = { .calls = 0 };
     kiriWorldDef def = Bench_WorldDef();
     def.alloc = CountAlloc;
@@ -158,7 +158,7 @@ static double ShareOf(const Facts* facts, int share)
 /* What the blade changes at the paper's pace, in the mean over all ticks until it is through. */
 static bool RecordPaced(Recording* recording)
 {
-    const SceneOptions options = { .pace = recording->paper->pace };
+    const SceneOptions options = { .asPaper = true, .pace = recording->paper->pace };
     kiriWorldDef def = Bench_WorldDef();
     Scene scene;
     Series series[SHARES] = { { .number = NULL } };

@@ -41,12 +41,23 @@ static const Row table[ROWS] = {
     [FLAT] = { "flat", 64, 297, 5, 44, 48, 6 },
 };
 
-static void StartAt(Scene* scene, const char* name, float pace)
+static void StartWith(Scene* scene, const char* name, const SceneOptions* options)
 {
     kiriWorldDef def;
     kiriDefaultWorldDef(&def);
     assert_non_null(Scene_FindType(name));
-    assert_true(Scene_Start(scene, Scene_FindType(name), &def, &(SceneOptions){ .pace = pace }));
+    assert_true(Scene_Start(scene, Scene_FindType(name), &def, options));
+}
+
+static void StartAt(Scene* scene, const char* name, float pace)
+{
+    StartWith(scene, name, &(SceneOptions){ .pace = pace });
+}
+
+/* With what the paper's table has. */
+static void StartAsPaper(Scene* scene, const char* name)
+{
+    StartWith(scene, name, &(SceneOptions){ .asPaper = true });
 }
 
 static void Start(Scene* scene, const char* name)
@@ -60,13 +71,33 @@ static void TestTable(void** state)
     for (int i = 0; i < ROWS; i++) {
         Scene scene;
         kiriCounts counts;
-        Start(&scene, table[i].name);
+        StartAsPaper(&scene, table[i].name);
         kiriSheet_GetCounts(scene.world, scene.sheet, &counts);
         assert_int_equal(scene.gridResolution, table[i].grid);
         assert_int_equal(counts.vertices, table[i].vertices);
         assert_int_equal(counts.frames, table[i].firstFrames);
         assert_int_equal(counts.pieces, 1);
         assert_int_equal(scene.strokeCount, table[i].strokes);
+        Scene_Stop(&scene);
+    }
+}
+
+/* The scenes' own frames: more, so that what is seen is not strained, in the same pieces. */
+static void TestOwnFrames(void** state)
+{
+    (void)state;
+    static const int rows[] = { SPIRAL, KIRIGAMI, VORTEX, FALLING_GUY };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const Row* row = &table[rows[i]];
+        Scene scene;
+        kiriCounts counts;
+        Start(&scene, row->name);
+        while (scene.tick < scene.type->lastCut + 30) {
+            assert_true(TickScene(&scene) >= 0);
+        }
+        kiriSheet_GetCounts(scene.world, scene.sheet, &counts);
+        assert_in_range(counts.frames, 3 * row->lastFrames, 200);
+        assert_int_equal(counts.pieces, row->pieces);
         Scene_Stop(&scene);
     }
 }
@@ -228,7 +259,7 @@ static void RunWhole(const Row* row, Scene* scene, Watch* watch)
 {
     kiriCounts counts;
     kiriTotals before, after;
-    Start(scene, row->name);
+    StartAsPaper(scene, row->name);
     kiriSheet_GetTotals(scene->world, scene->sheet, &before);
     for (int32_t tick = 0; tick < scene->type->ticks; tick++) {
         kiriProfile profile;
@@ -440,17 +471,12 @@ static void TestCircle(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestTable),
-        cmocka_unit_test(TestTimes),
-        cmocka_unit_test(TestPaceOfOne),
-        cmocka_unit_test(TestSlowBlade),
-        cmocka_unit_test(TestSpiral),
-        cmocka_unit_test(TestCircle),
-        cmocka_unit_test(TestSpiralIsNotThrown),
-        cmocka_unit_test(TestSpiralScene),
-        cmocka_unit_test(TestPatchworkScene),
-        cmocka_unit_test(TestRubberStretches),
-        cmocka_unit_test(TestRubberScene),
+        cmocka_unit_test(TestTable),           cmocka_unit_test(TestOwnFrames),
+        cmocka_unit_test(TestTimes),           cmocka_unit_test(TestPaceOfOne),
+        cmocka_unit_test(TestSlowBlade),       cmocka_unit_test(TestSpiral),
+        cmocka_unit_test(TestCircle),          cmocka_unit_test(TestSpiralIsNotThrown),
+        cmocka_unit_test(TestSpiralScene),     cmocka_unit_test(TestPatchworkScene),
+        cmocka_unit_test(TestRubberStretches), cmocka_unit_test(TestRubberScene),
         cmocka_unit_test(TestFlatScene),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
