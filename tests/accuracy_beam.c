@@ -10,7 +10,7 @@
 
 #define COUNT(array) ((int)(sizeof(array) / sizeof((array)[0])))
 
-static const double G = 9.81, PI = 3.14159265358979323846, NOWHERE[3] = { 0.0, 0.0, 0.0 };
+static const double G = 9.81, PI = 3.14159265358979323846;
 
 /* rho g h L^3 / D of a strip with nu = 0. */
 static double Gamma(const SpecimenDef* def)
@@ -40,7 +40,7 @@ static double ElasticaError(const Specimen* specimen, const SpecimenDef* def)
     return sqrt(error / way);
 }
 
-/* Clamped along u = 0 by held frames, under gravity. */
+/* Clamped along u = 0, under gravity. */
 static Row Hang(const SpecimenDef* def, const char* name, const char* setting)
 {
     Row row = { name, "", "rows", def->layout.count, def->grid, 0, 0.0, 0.0, NULL, 0.0, 1e-4, 0.0, 0.0 };
@@ -50,7 +50,7 @@ static Row Hang(const SpecimenDef* def, const char* name, const char* setting)
         row.error = NAN;
         return row;
     }
-    Specimen_HoldLine(specimen, 0.0, NOWHERE);
+    Specimen_ClampEnd(specimen, def, 0.0);
     Specimen_Settle(specimen);
     row.error = ElasticaError(specimen, def);
     row.milliseconds = specimen->milliseconds;
@@ -78,6 +78,31 @@ static void Cantilever(const char* data)
             Row row = Hang(&def, "cantilever", "nu 0");
             row.target = targets[k];
             Results_Add(&row);
+        }
+    }
+}
+
+/* Clamped by holding the frames on the edge: a held frame clamps at its site, and its region moves with it. */
+static void HeldFrames(const char* data)
+{
+    static const int frames[] = { 3, 5, 9, 17 };
+    (void)data;
+    for (int ends = 0; ends < 2; ++ends) {
+        for (int k = 0; k < COUNT(frames); ++k) {
+            SpecimenDef def = Hanging(5e8, 5e-4, frames[k], 80);
+            if (ends) {
+                Layout_MakeToEnds(&def.layout, LAYOUT_ROWS, def.length, def.width, frames[k], 1);
+            }
+            Specimen* specimen = Specimen_Create(&def);
+            Require(specimen != NULL, "a strip is refused");
+            Row row = { "held frames", "", "rows", frames[k], def.grid, 0, 0.0, 0.0, NULL, 0.0, 1e-4, 0.0, 0.0 };
+            snprintf(row.setting, sizeof row.setting, "nu 0, %s", ends ? "site on the edge" : "site in its region");
+            Specimen_HoldLine(specimen, (double)def.layout.points[0]);
+            Specimen_Settle(specimen);
+            row.error = ElasticaError(specimen, &def);
+            row.milliseconds = specimen->milliseconds;
+            Results_Add(&row);
+            Specimen_Destroy(specimen);
         }
     }
 }
@@ -155,18 +180,12 @@ static void Points(const char* data)
 
 /* ---- Heavy elastica --------------------------------------------------------------------------------------------- */
 
-static double TipMove(const Specimen* specimen, const SpecimenDef* def, int axis)
+/* Of the middle of the edge u = length, as seen. */
+static double TipMove(Specimen* specimen, const SpecimenDef* def, int axis)
 {
-    double sum = 0.0;
-    int tips = 0;
-    for (int i = 0; i < specimen->count; ++i) {
-        const kiriFrameState* s = &specimen->states[i];
-        if ((double)s->restPoint[0] > def->length - 1e-6) {
-            sum += (double)s->position[axis] - (axis < 2 ? (double)s->restPoint[axis] : 0.0);
-            ++tips;
-        }
-    }
-    return sum / tips;
+    double at[3], rest[3] = { def->length, 0.5 * def->width, 0.0 };
+    Specimen_At(specimen, rest[0], rest[1], at);
+    return at[axis] - rest[axis];
 }
 
 static void AddTip(const SpecimenDef* def, const char* name, const char* setting, int axis, double theory,
@@ -178,7 +197,7 @@ static void AddTip(const SpecimenDef* def, const char* name, const char* setting
     if (specimen == NULL) {
         return;
     }
-    Specimen_HoldLine(specimen, 0.0, NOWHERE);
+    Specimen_ClampEnd(specimen, def, 0.0);
     Specimen_Settle(specimen);
     row.milliseconds = specimen->milliseconds;
     Results_AddValue(row, TipMove(specimen, def, axis), theory, "m");
@@ -276,10 +295,10 @@ static void EndLoad(const char* data)
                 if (specimen == NULL) {
                     continue;
                 }
-                const double force[3] = { 0.0, 0.0, loads[p] };
                 double tip[3];
-                Specimen_HoldLine(specimen, 0.0, NOWHERE);
-                Specimen_Pull(specimen, 10.0, 0.5, force);
+                Specimen_ClampEnd(specimen, &def, 0.0);
+                specimen->load = (Load){ { 10.0f, 0.5f }, { 10.0f, 0.5f }, { 0.0f, 0.0f, (float)loads[p] }, { 0.0f } };
+                specimen->loaded = true;
                 Specimen_Settle(specimen);
                 Specimen_At(specimen, 10.0, 0.5, tip);
                 Row row = { "end load",
@@ -299,6 +318,51 @@ static void EndLoad(const char* data)
                 Results_AddValue(row, tip[2], moves[p][1], "m");
                 snprintf(row.setting, sizeof row.setting, "P %g, shortening", loads[p]);
                 Results_AddValue(row, 10.0 - tip[0], moves[p][0], "m");
+                Specimen_Destroy(specimen);
+            }
+        }
+    }
+}
+
+/* A moment M at the end makes it an arc; M = 2 pi E I / L, a circle. It turns by M L / (E I) about -v. */
+static void RollUp(const char* data)
+{
+    static const int frames[] = { 9, 17, 33 }, grids[] = { 40, 80, 160 };
+    (void)data;
+    for (int half = 1; half <= 2; ++half) {
+        for (int g = 0; g < COUNT(grids); ++g) {
+            for (int k = 0; k < COUNT(frames); ++k) {
+                SpecimenDef def = SzeStrip(12.0, frames[k], grids[g]);
+                Specimen* specimen = Specimen_Create(&def);
+                if (specimen == NULL) {
+                    continue;
+                }
+                double turn = PI * half, tip[3], way[2] = { sin(turn) / turn - 1.0, (1.0 - cos(turn)) / turn };
+                Specimen_ClampEnd(specimen, &def, 0.0);
+                specimen->loaded = true;
+                specimen->load = (Load){ { 12.0f, 0.5f }, { 12.0f, 0.5f }, { 0.0f }, { 0.0f } };
+                for (int part = 1; part <= 8; ++part) { /* the moment grows, or it coils the other way */
+                    specimen->load.torque[1] = (float)(-turn * part / 8.0 * 1.2e6 * 1e-3 / 12.0 / 12.0);
+                    Specimen_Settle(specimen);
+                }
+                Specimen_At(specimen, 12.0, 0.5, tip);
+                double off[2] = { tip[0] - 12.0 - 12.0 * way[0], tip[2] - 12.0 * way[1] };
+                Row row = { "roll-up",
+                            "",
+                            "rows",
+                            frames[k],
+                            grids[g],
+                            0,
+                            0.0,
+                            0.0,
+                            NULL,
+                            0.0,
+                            2e-4,
+                            0.02,
+                            specimen->milliseconds };
+                row.error = sqrt((off[0] * off[0] + off[1] * off[1]) / (way[0] * way[0] + way[1] * way[1])) / 12.0;
+                snprintf(row.setting, sizeof row.setting, "nu 0, turn %d pi", half);
+                Results_Add(&row);
                 Specimen_Destroy(specimen);
             }
         }
@@ -334,7 +398,7 @@ static void FirstFrequency(const char* data)
             if (specimen == NULL) {
                 continue;
             }
-            Specimen_HoldLine(specimen, 0.0, NOWHERE);
+            Specimen_ClampEnd(specimen, &def, 0.0);
             double found = Specimen_Frequency(specimen, FirstShape, &L, 1e-3, theory);
             Row row = { "first frequency",     "nu 0", "rows", frames[k], grids[g], 0, 0.0, 0.0, NULL, 0.0, 1e-3, 0.02,
                         specimen->milliseconds };
@@ -346,6 +410,7 @@ static void FirstFrequency(const char* data)
 
 const Case beamCases[] = {
     { "cantilever", Cantilever },
+    { "held frames", HeldFrames },
     { "crowded row", Crowded },
     { "heavy elastica", MasterCurve },
     { "thin cantilever", Thinness },
@@ -354,6 +419,7 @@ const Case beamCases[] = {
     { "plane bending", PlaneBending },
     { "tension", Tension },
     { "end load", EndLoad },
+    { "roll-up", RollUp },
     { "first frequency", FirstFrequency },
     { NULL, NULL },
 };

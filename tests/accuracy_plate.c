@@ -11,7 +11,7 @@
 
 #define COUNT(array) ((int)(sizeof(array) / sizeof((array)[0])))
 
-static const double G = 9.81, PI = 3.14159265358979323846, NOWHERE[3] = { 0.0, 0.0, 0.0 };
+static const double G = 9.81, PI = 3.14159265358979323846;
 static const double POISSON[] = { 0.0, 0.3 };
 static const int GRIDS[] = { 40, 80, 160 };
 
@@ -75,7 +75,7 @@ static void AddMode(const char* name, const PlateMode* mode, bool twist, int kin
     if (specimen == NULL) {
         return;
     }
-    Specimen_HoldLine(specimen, 0.0, NOWHERE);
+    Specimen_ClampEnd(specimen, &def, 0.0);
     double found = Specimen_Frequency(specimen, twist ? TwistShape : BendShape, size, twist ? 0.02 : 1e-3, theory);
     Row row = { name, "",   layoutNames[kind],     specimen->count, grid, 0, 0.0, 0.0, NULL, 0.0,
                 2e-3, 0.05, specimen->milliseconds };
@@ -207,7 +207,7 @@ static double SidewaysFrequency(const SpecimenDef* def, double gamma, double gue
     loaded.gravity[1] = -gamma * Rigidity(m) / ((double)m->density * L * L * L);
     Specimen* specimen = Specimen_Create(&loaded);
     Require(specimen != NULL, "a strip on edge is refused");
-    Specimen_HoldLine(specimen, 0.0, NOWHERE);
+    Specimen_ClampEnd(specimen, def, 0.0);
     double found = Specimen_Frequency(specimen, BendShape, &L, 2e-4, guess);
     *milliseconds = specimen->milliseconds;
     Specimen_Destroy(specimen);
@@ -293,14 +293,14 @@ static void AddShell(SpecimenDef* def, const char* name, const Shell* shell, int
     int rows = (int)(sqrt(frames * def->width / def->length) + 0.5);
     if (layout < LAYOUT_KINDS) {
         Layout_Make(&def->layout, layout, def->length, def->width, frames / rows, rows);
-    } else if (!Specimen_Spread(def, frames, false)) {
-        return;
+    } else {
+        def->frames = frames;
     }
     Specimen* specimen = Specimen_Create(def);
     if (specimen == NULL) {
         return;
     }
-    Specimen_HoldLine(specimen, 0.0, NOWHERE);
+    Specimen_ClampEnd(specimen, def, 0.0);
     Specimen_Settle(specimen);
     Row row = { name,
                 "",
@@ -395,25 +395,12 @@ static void MakeAnnulus(SpecimenMesh* mesh)
     *mesh = (SpecimenMesh){ rest, indices, (AROUND + 1) * (ACROSS + 1), 2 * AROUND * ACROSS };
 }
 
-/* Frames in rings, the first and last of each next to the slit. */
-static void PlaceInRings(Layout* layout, int rings, int around, double margin)
+static void PlaceInRings(Layout* layout, int rings, int around)
 {
     layout->count = 0;
     for (int i = 0; i < rings * around; ++i) {
-        double r = INNER + (OUTER - INNER) * (i % rings + 0.5) / rings, share = (double)(i / rings) / (around - 1);
-        PolarPoint(r, margin / r + (2.0 * PI - 2.0 * margin / r) * share, &layout->points[2 * layout->count++]);
-    }
-}
-
-static void HoldLip(Specimen* specimen, double margin)
-{
-    static const float flat[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
-    for (int i = 0; i < specimen->count; ++i) {
-        const kiriFrameState* s = &specimen->states[i];
-        double v = (double)s->restPoint[1] - OUTER;
-        if ((double)s->restPoint[0] > OUTER && v > 0.0 && v < 1.5 * margin) {
-            kiriFrame_Hold(specimen->world, specimen->ids[i], s->position, flat);
-        }
+        double r = INNER + (OUTER - INNER) * (i % rings + 0.5) / rings, share = ((double)(i / rings) + 0.5) / around;
+        PolarPoint(r, 2.0 * PI * share, &layout->points[2 * layout->count++]);
     }
 }
 
@@ -425,27 +412,29 @@ static double LiftOf(const Specimen* specimen, int ring)
     return (double)mesh.positions[3 * (AROUND * (ACROSS + 1) + ring) + 2];
 }
 
+/* Clamp and load are a hair beside the slit, each on its lip. */
 static void AddAnnulus(int rings, int around, int grid)
 {
     SpecimenMesh mesh;
     MakeAnnulus(&mesh);
     SpecimenDef def = Specimen_Strip(21e6, 0.0, 0.03);
-    double margin = 0.5 * 20.0 / grid;
+    double beside = 20.0 / grid / 32.0;
     def.length = def.width = 20.0;
     def.grid = grid;
     def.mesh = &mesh;
     def.material.density = 1.0f;
     def.material.airDamping = 2.0f;
-    PlaceInRings(&def.layout, rings, around, margin);
+    PlaceInRings(&def.layout, rings, around);
     Specimen* specimen = Specimen_Create(&def);
     if (specimen == NULL) {
         return;
     }
-    HoldLip(specimen, margin);
-    const double force[3] = { 0.0, 0.0, 0.8 * (OUTER - INNER) / 8.0 };
-    for (int k = 0; k < 8; ++k) {
-        Specimen_Pull(specimen, OUTER + INNER + (OUTER - INNER) * (k + 0.5) / 8.0, OUTER - 0.01, force);
-    }
+    Specimen_Clamp(specimen, OUTER + INNER, OUTER + beside, 2.0 * OUTER, OUTER + beside);
+    specimen->loaded = true;
+    specimen->load = (Load){ { (float)(OUTER + INNER), (float)(OUTER - beside) },
+                             { (float)(2.0 * OUTER), (float)(OUTER - beside) },
+                             { 0.0f, 0.0f, 0.8f },
+                             { 0.0f } };
     Specimen_Settle(specimen);
     Row row = { "slit annulus",        "", "rings", specimen->count, grid, 0, 0.0, 0.0, NULL, 0.0, 2e-3, 0.03,
                 specimen->milliseconds };
@@ -509,13 +498,13 @@ static void AddNarrowing(int n, int kind, int rows, int model)
     def.width = 0.04;
     def.planar = 1;
     def.model = model;
-    Layout_Make(&def.layout, kind, def.length, def.width, 4 * rows + 1, rows);
+    Layout_Make(&def.layout, kind, def.length, def.width, 4 * rows, rows);
     Specimen* specimen = Specimen_Create(&def);
     if (specimen == NULL) {
         return;
     }
-    Specimen_HoldLine(specimen, 0.0, NOWHERE);
-    Specimen_HoldLine(specimen, def.length, shift);
+    Specimen_ClampEnd(specimen, &def, 0.0);
+    Specimen_MoveClamp(specimen, Specimen_ClampEnd(specimen, &def, def.length), shift);
     Specimen_Settle(specimen);
     double sums[4] = { 0.0, 0.0, 0.0, 0.0 };
     for (int i = 0; i < specimen->count; ++i) {

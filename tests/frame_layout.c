@@ -11,7 +11,7 @@ enum { LLOYD_TURNS = 60, LLOYD_SAMPLES = 160 }; /* along the longer side */
 
 typedef struct Box {
     double length, width;
-    bool framed; /* frames on the edges v = 0 and v = width stay, too */
+    bool ends, sides; /* are there frames on the edges u = 0 and length, v = 0 and width, which stay there? */
 } Box;
 
 static void Add(Layout* layout, double u, double v)
@@ -22,17 +22,22 @@ static void Add(Layout* layout, double u, double v)
     }
 }
 
+/* Of `count` places from 0 to size, the k-th; k may be a half. */
+static double PlaceAt(double size, double k, int count, bool toEdges)
+{
+    return size * (toEdges ? k / (count - 1) : (k + 0.5) / count);
+}
+
 static void AddRows(Layout* layout, const Box* box, int kind, int columns, int rows)
 {
     for (int i = 0; i < columns; ++i) {
+        double u = PlaceAt(box->length, i, columns, box->ends);
         bool shifted = kind == LAYOUT_HEXAGONS && i % 2 == 1;
-        for (int edge = 0; shifted && box->framed && edge < 2; ++edge) {
-            Add(layout, box->length * i / (columns - 1), box->width * edge);
+        for (int edge = 0; shifted && box->sides && edge < 2; ++edge) {
+            Add(layout, u, box->width * edge);
         }
         for (int j = 0; j < rows - (shifted ? 1 : 0); ++j) {
-            double row = j + (shifted ? 0.5 : 0.0);
-            double v = box->framed ? row / (rows - 1) : (row + 0.5) / rows;
-            Add(layout, box->length * i / (columns - 1), box->width * v);
+            Add(layout, u, PlaceAt(box->width, j + (shifted ? 0.5 : 0.0), rows, box->sides));
         }
     }
 }
@@ -40,8 +45,8 @@ static void AddRows(Layout* layout, const Box* box, int kind, int columns, int r
 static bool Stays(const Box* box, const float* point)
 {
     double u = (double)point[0], v = (double)point[1], near = 1e-6 * box->length;
-    bool onEnd = u < near || u > box->length - near;
-    return onEnd || (box->framed && (v < near || v > box->width - near));
+    bool onEnd = u < near || u > box->length - near, onSide = v < near || v > box->width - near;
+    return (box->ends && onEnd) || (box->sides && onSide);
 }
 
 /* -1 to 1; Numerical Recipes' "quick and dirty" generator. */
@@ -54,7 +59,7 @@ static double Random(uint32_t* seed)
 static void Jitter(Layout* layout, const Box* box, int columns, int rows)
 {
     uint32_t seed = 12345u;
-    double step[2] = { box->length / (columns - 1), box->framed ? box->width / (rows - 1) : box->width / rows };
+    double step[2] = { box->length / (box->ends ? columns - 1 : columns), box->width / (box->sides ? rows - 1 : rows) };
     for (int i = 0; i < layout->count; ++i) {
         for (int k = 0; k < 2 && !Stays(box, &layout->points[2 * i]); ++k) {
             double size = k == 0 ? box->length : box->width;
@@ -113,12 +118,18 @@ static void Make(Layout* layout, const Box* box, int kind, int columns, int rows
 
 void Layout_Make(Layout* layout, int kind, double length, double width, int columns, int rows)
 {
-    Box box = { length, width, false };
+    Box box = { length, width, false, false };
+    Make(layout, &box, kind, columns, rows);
+}
+
+void Layout_MakeToEnds(Layout* layout, int kind, double length, double width, int columns, int rows)
+{
+    Box box = { length, width, true, false };
     Make(layout, &box, kind, columns, rows);
 }
 
 void Layout_MakeFramed(Layout* layout, int kind, double length, double width, int columns, int rows)
 {
-    Box box = { length, width, true };
+    Box box = { length, width, true, true };
     Make(layout, &box, kind, columns, rows);
 }

@@ -187,17 +187,48 @@ void Specimen_Look(Specimen* specimen)
     specimen->count = count;
 }
 
-void Specimen_HoldLine(Specimen* specimen, double u, const double shift[3])
+void Specimen_HoldLine(Specimen* specimen, double u)
 {
-    static const float flat[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     Specimen_Look(specimen);
     for (int i = 0; i < specimen->count; ++i) {
-        const float* rest = specimen->states[i].restPoint;
-        if (fabs((double)rest[0] - u) < 1e-6 * specimen->size) {
-            float to[3] = { (float)((double)rest[0] + shift[0]), (float)((double)rest[1] + shift[1]), (float)shift[2] };
-            kiriFrame_Hold(specimen->world, specimen->ids[i], to, flat);
+        const kiriFrameState* s = &specimen->states[i];
+        if (fabs((double)s->restPoint[0] - u) < 1e-6 * specimen->size) {
+            kiriFrame_Hold(specimen->world, specimen->ids[i], s->position, s->rotation);
         }
     }
+}
+
+kiriPin Specimen_Clamp(Specimen* specimen, double fromU, double fromV, double toU, double toV)
+{
+    const float from[2] = { (float)fromU, (float)fromV }, to[2] = { (float)toU, (float)toV };
+    kiriPin clamp = 0;
+    Require(kiriSheet_ClampLine(specimen->world, specimen->sheet, from, to, &clamp) == KIRI_OK,
+            kiriWorld_GetLastError(specimen->world));
+    return clamp;
+}
+
+kiriPin Specimen_ClampEnd(Specimen* specimen, const SpecimenDef* def, double u)
+{
+    return Specimen_Clamp(specimen, u, 0.0, u, def->width);
+}
+
+/* From where it was made: the sheet was level then. */
+void Specimen_MoveClamp(Specimen* specimen, kiriPin clamp, const double shift[3])
+{
+    kiriPinState state;
+    float target[3];
+    Require(kiriPin_GetState(specimen->world, clamp, &state) == KIRI_OK, "no clamp");
+    for (int k = 0; k < 3; ++k) {
+        double rest = k < 2 ? 0.5 * ((double)state.from[k] + (double)state.to[k]) : 0.0;
+        target[k] = (float)(rest + shift[k]);
+    }
+    kiriPin_SetTarget(specimen->world, clamp, target);
+}
+
+void Specimen_Reaction(const Specimen* specimen, kiriPin clamp, double force[3])
+{
+    double torque[3];
+    Require(kiriPin_GetReaction(specimen->world, clamp, force, torque) == KIRI_OK, "no reaction");
 }
 
 void Specimen_SetGravity(Specimen* specimen, const double gravity[3])
@@ -228,41 +259,15 @@ void Specimen_At(Specimen* specimen, double u, double v, double position[3])
     }
 }
 
-/* A weak spring whose far end moves along: it pulls with the force where the point was when AimPulls looked. */
-static const double PULL_REACH = 20.0; /* sizes */
-
-void Specimen_Pull(Specimen* specimen, double u, double v, const double force[3])
+static void ApplyLoad(Specimen* specimen)
 {
-    Require(specimen->pullCount < MAX_PULLS, "too many pulls");
-    Pull* pull = &specimen->pulls[specimen->pullCount++];
-    kiriPinDef def;
-    kiriDefaultPinDef(&def);
-    double size = 0.0, at[3];
-    Specimen_At(specimen, u, v, at);
-    for (int k = 0; k < 3; ++k) {
-        pull->force[k] = force[k];
-        size += force[k] * force[k];
-        def.target[k] = (float)at[k];
-    }
-    pull->restPoint[0] = def.restPoint[0] = (float)u;
-    pull->restPoint[1] = def.restPoint[1] = (float)v;
-    def.stiffness = (float)(sqrt(size) / (PULL_REACH * specimen->size));
-    Require(kiriCreatePin(specimen->world, specimen->sheet, &def, &pull->pin) == KIRI_OK,
-            kiriWorld_GetLastError(specimen->world));
-}
-
-static void AimPulls(Specimen* specimen)
-{
-    for (int i = 0; i < specimen->pullCount; ++i) {
-        const Pull* pull = &specimen->pulls[i];
-        const double* f = pull->force;
-        double at[3], scale = PULL_REACH * specimen->size / sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
-        float target[3];
-        Specimen_At(specimen, (double)pull->restPoint[0], (double)pull->restPoint[1], at);
-        for (int k = 0; k < 3; ++k) {
-            target[k] = (float)(at[k] + scale * f[k]);
-        }
-        kiriPin_SetTarget(specimen->world, pull->pin, target);
+    const Load* load = &specimen->load;
+    bool isPoint = load->from[0] == load->to[0] && load->from[1] == load->to[1];
+    if (specimen->loaded) {
+        kiriResult result =
+            isPoint ? kiriSheet_ApplyForce(specimen->world, specimen->sheet, load->from, load->force, load->torque)
+                    : kiriSheet_ApplyLineLoad(specimen->world, specimen->sheet, load->from, load->to, load->force);
+        Require(result == KIRI_OK, kiriWorld_GetLastError(specimen->world));
     }
 }
 
@@ -274,7 +279,7 @@ enum { MAX_TICKS = 6000 };
 static double Tick(Specimen* specimen, double dt)
 {
     double largest = 0.0;
-    AimPulls(specimen);
+    ApplyLoad(specimen);
     Require(kiriWorld_Tick(specimen->world, (float)dt, 1) == KIRI_OK, kiriWorld_GetLastError(specimen->world));
     for (int i = 0; i < specimen->count; ++i) {
         kiriFrameState now;
@@ -427,62 +432,4 @@ double Specimen_Frequency(Specimen* specimen, ShapeFunction* shape, const void* 
     LetGo(specimen, moves);
     Purify(specimen, period);
     return 2.0 * PI / MeasurePeriod(specimen, shape, data, period / 200.0);
-}
-
-/* ---- Spread frames ---------------------------------------------------------------------------------------------- */
-
-static void AddFrame(Layout* layout, double u, double v)
-{
-    Require(layout->count < MAX_FRAMES, "too many frames");
-    layout->points[2 * layout->count] = (float)u;
-    layout->points[2 * layout->count++ + 1] = (float)v;
-}
-
-/* The sheet from u = `margin` on, and up to length - margin, its slits moved along, with frames that the library
-   spreads. */
-static Specimen* MakeRemainder(const SpecimenDef* def, double margin, bool bothEnds, int frames)
-{
-    static float points[MAX_SLITS][32];
-    SpecimenDef rest = *def;
-    rest.length -= bothEnds ? 2.0 * margin : margin;
-    rest.grid = (int)(def->grid * fmax(rest.length, rest.width) / fmax(def->length, def->width) + 0.5);
-    rest.columns = rest.grid;
-    rest.layout.count = 0;
-    rest.frames = frames;
-    for (int k = 0; k < def->slitCount; ++k) {
-        Require(def->slits[k].count <= 16, "a long slit");
-        for (int i = 0; i < 2 * def->slits[k].count; ++i) {
-            points[k][i] = def->slits[k].points[i] - (i % 2 == 0 ? (float)margin : 0.0f);
-        }
-        rest.slits[k].points = points[k];
-    }
-    return Specimen_Create(&rest);
-}
-
-static void AddEnd(SpecimenDef* def, double u, int count)
-{
-    for (int i = 0; i < count; ++i) {
-        AddFrame(&def->layout, u, def->width * (i + 0.5) / count);
-    }
-}
-
-/* The held frames answer for half a spacing. */
-bool Specimen_Spread(SpecimenDef* def, int frames, bool bothEnds)
-{
-    double spacing = sqrt(def->length * def->width / frames), side = fmax(def->length, def->width) / def->grid;
-    double margin = side * (double)(int)(0.5 * spacing / side + 0.5);
-    int held = (int)(def->width / spacing + 0.5), ends = bothEnds ? 2 * held : held;
-    Specimen* rest = MakeRemainder(def, margin, bothEnds, frames - ends);
-    if (rest == NULL) {
-        return false;
-    }
-    def->layout.count = 0;
-    AddEnd(def, 0.0, held);
-    AddEnd(def, def->length, bothEnds ? held : 0);
-    Require(ends + rest->count == frames, "frames are missing");
-    for (int i = 0; i < rest->count; ++i) {
-        AddFrame(&def->layout, (double)rest->states[i].restPoint[0] + margin, (double)rest->states[i].restPoint[1]);
-    }
-    Specimen_Destroy(rest);
-    return true;
 }

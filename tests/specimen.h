@@ -9,7 +9,7 @@
 
 #include <stdbool.h>
 
-enum { MAX_SLITS = 24, MAX_PULLS = 16 };
+enum { MAX_SLITS = 24 };
 
 typedef struct Slit {
     const float* points; /* 2 floats a point; the blade enters 1 cm below the first,  */
@@ -37,12 +37,11 @@ typedef struct SpecimenDef {
     int model, iterations, planar;
 } SpecimenDef;
 
-/* A load that stays: a force (N) on a rest point. */
-typedef struct Pull {
-    kiriPin pin;
-    float restPoint[2];
-    double force[3];
-} Pull;
+/* A load that stays: force (N) and torque (N m) on a rest point, or force by length (N/m) along a line. */
+typedef struct Load {
+    float from[2], to[2]; /* the same: a point */
+    float force[3], torque[3];
+} Load;
 
 typedef struct Specimen {
     kiriWorld* world;
@@ -51,9 +50,9 @@ typedef struct Specimen {
     kiriFrame ids[MAX_FRAMES];
     kiriFrameState states[MAX_FRAMES]; /* as of the last Specimen_Look */
     int count;
-    Pull pulls[MAX_PULLS];
-    int pullCount;
-    double milliseconds; /* of processor a tick, of the last Settle or Swing */
+    Load load;
+    bool loaded;
+    double milliseconds; /* of processor a tick, of the last Settle or Frequency */
 } Specimen;
 
 void Require(bool ok, const char* what);
@@ -69,11 +68,19 @@ void Specimen_Destroy(Specimen* specimen);
 /* Reads the states of the frames. */
 void Specimen_Look(Specimen* specimen);
 
-/* Holds the frames on the line u (m) where they are, but for a shift. */
-void Specimen_HoldLine(Specimen* specimen, double u, const double shift[3]);
+/* Holds the frames on the line u (m) where they are. */
+void Specimen_HoldLine(Specimen* specimen, double u);
+
+/* Clamps the material along a line; gives the clamp. */
+kiriPin Specimen_Clamp(Specimen* specimen, double fromU, double fromV, double toU, double toV);
+kiriPin Specimen_ClampEnd(Specimen* specimen, const SpecimenDef* def, double u);
+void Specimen_MoveClamp(Specimen* specimen, kiriPin clamp, const double shift[3]);
+
+/* N, with which the clamp acts on the sheet. */
+void Specimen_Reaction(const Specimen* specimen, kiriPin clamp, double force[3]);
+
 void Specimen_SetGravity(Specimen* specimen, const double gravity[3]);
 void Specimen_Cut(Specimen* specimen, const Slit* slit);
-void Specimen_Pull(Specimen* specimen, double u, double v, const double force[3]);
 
 /* Where a rest point is now, as seen. */
 void Specimen_At(Specimen* specimen, double u, double v, double position[3]);
@@ -88,9 +95,5 @@ typedef void ShapeFunction(const void* data, double u, double v, double w[3]);
 /* Radians a second: puts the frames that are not held into the shape, lets them go, and watches how they swing in it.
    `guess`, within a factor of three, decides the steps. */
 double Specimen_Frequency(Specimen* specimen, ShapeFunction* shape, const void* data, double amplitude, double guess);
-
-/* Frames along u = 0, and along u = length where both ends are to be held; the others spread over the rest by the
-   library, which knows the slits. False where it refuses so many. */
-bool Specimen_Spread(SpecimenDef* def, int frames, bool bothEnds);
 
 #endif
