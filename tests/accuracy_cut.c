@@ -114,7 +114,7 @@ static void AddKirigami(int layout, int frames, int grid)
     Row row = { "kirigami strip",
                 "nu 0.3",
                 layout < LAYOUT_KINDS ? layoutNames[layout] : "spread",
-                def.layout.count,
+                def.frames > 0 ? def.frames : def.layout.count,
                 grid,
                 0,
                 0.0,
