@@ -5,6 +5,7 @@
 
 #include "results.h"
 #include "specimen.h"
+#include "sweep.h"
 #include "trade.h"
 
 #include <stdio.h>
@@ -38,9 +39,13 @@ int main(int argc, char** argv)
     Results_PrintHead();
     int ran = RunCases(data, wanted);
     Require(Results_Write(output), "cannot write the results");
-    if (wanted == NULL || strcmp(wanted, "trade") == 0) {
-        Require(Trade_Write(output), "cannot measure the trade of speed for accuracy");
-        ++ran;
+    for (int32_t scene = 0; scene < SWEEP_SCENES; ++scene) {
+        char name[32];
+        snprintf(name, sizeof name, "trade, %s", sweepNames[scene]);
+        if (wanted == NULL || strncmp(name, wanted, strlen(wanted)) == 0) {
+            Require(Trade_Write(output, scene), "cannot measure the trade of speed for accuracy");
+            ++ran;
+        }
     }
     Require(ran > 0, "no such case");
     return 0;

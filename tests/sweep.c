@@ -6,22 +6,43 @@
 
 #define COUNT(array) ((int)(sizeof(array) / sizeof((array)[0])))
 
-enum {
-    COLUMNS = 80,
-    ROWS = 20,
-    VERTICES = (COLUMNS + 1) * (ROWS + 1),
-    TRIANGLES = 2 * COLUMNS * ROWS,
-    MAX_FRAMES = 512
+enum { MAX_VERTICES = 2048, MAX_TRIANGLES = 4096, MAX_FRAMES = 512, CUT_TICK = 6 };
+
+const char* const sweepNames[SWEEP_SCENES] = { "strip", "square", "tongue" };
+
+/* The rest shape, its mesh, and Young's modulus. */
+typedef struct Shape {
+    float length, width;
+    int32_t columns, rows;
+    float young;
+} Shape;
+
+static const Shape shapes[SWEEP_SCENES] = {
+    { 0.2f, 0.05f, 80, 20, 5e8f },
+    { 0.2f, 0.2f, 40, 40, 1e8f },
+    { 0.1f, 0.1f, 40, 40, 5e8f },
 };
 
-static const float LENGTH = 0.2f, WIDTH = 0.05f;
+const Setting sweepReferences[SWEEP_SCENES] = {
+    { SWEEP_STRIP, 33, 1, 160, 2, 64, 8, KIRI_MODEL_LINKS },
+    { SWEEP_SQUARE, 17, 17, 160, 2, 64, 1, KIRI_MODEL_LINKS },
+    { SWEEP_TONGUE, 17, 17, 160, 2, 64, 1, KIRI_MODEL_LINKS },
+};
 
-/* Backward Euler is of first order: it takes steps much shorter than any setting's to know where the strip is. */
-const Setting sweepReference = { 33, 1, 160, 2, 64, 8, KIRI_MODEL_LINKS };
+/* What was seen after a tick. */
+typedef struct Picture {
+    int32_t vertexCount;
+    float positions[3 * MAX_VERTICES];
+} Picture;
 
-static float reference[SWEEP_TICKS][3 * VERTICES];
+static Picture references[SWEEP_SCENES][SWEEP_TICKS];
 
 /* ---- Settings --------------------------------------------------------------------------------------------------- */
+
+static int32_t RowsFor(int32_t scene, int32_t columns)
+{
+    return scene == SWEEP_STRIP ? 1 : columns;
+}
 
 /* Affine frames want more iterations than rigid ones in stiff paper. */
 static int AddModel(Setting* settings, int32_t model)
@@ -30,40 +51,48 @@ static int AddModel(Setting* settings, int32_t model)
     int count = 0;
     for (int c = 0; c < COUNT(columns); ++c) {
         for (int s = 0; s < COUNT(substeps); ++s) {
-            Setting setting = { columns[c], 1, 40, 8, substeps[s], 1, model };
+            Setting setting = { SWEEP_STRIP, columns[c], 1, 40, 8, substeps[s], 1, model };
             settings[count++] = setting;
         }
     }
     return count;
 }
 
-int Sweep_Settings(Setting settings[SWEEP_SETTINGS], bool thin)
+int Sweep_Settings(int32_t scene, Setting settings[SWEEP_SETTINGS], bool thin)
 {
-    static const int32_t columns[] = { 3, 5, 9, 17 }, grids[] = { 20, 40, 80 }, powers[] = { 1, 2, 4, 8, 16 };
+    static const int32_t columns[SWEEP_SCENES][5] = { { 3, 5, 9, 17, 0 }, { 3, 5, 7, 9, 12 }, { 3, 5, 7, 9, 12 } };
+    static const int32_t grids[] = { 20, 40, 80 }, powers[] = { 1, 2, 4, 8, 16 };
     int count = 0;
-    for (int c = 0; c < COUNT(columns); ++c) {
+    for (int c = 0; c < 5 && columns[scene][c] > 0; ++c) {
         for (int g = 0; g < COUNT(grids); ++g) {
-            for (int i = 0; i < 4; ++i) {
+            for (int i = 0; i < (scene == SWEEP_STRIP && !thin ? 4 : 2); ++i) {
                 for (int s = 0; s < COUNT(powers); ++s) {
-                    bool keep = !thin || i < 2;
-                    Setting setting = { columns[c], 1, grids[g], powers[i], powers[s], 1, KIRI_MODEL_LINKS };
-                    settings[count] = setting;
-                    count += keep ? 1 : 0;
+                    int32_t n = columns[scene][c];
+                    Setting setting = {
+                        scene, n, RowsFor(scene, n), grids[g], powers[i], powers[s], 1, KIRI_MODEL_LINKS
+                    };
+                    settings[count++] = setting;
                 }
             }
         }
     }
-    if (!thin) {
+    if (scene == SWEEP_STRIP && !thin) {
         count += AddModel(&settings[count], KIRI_MODEL_AFFINE);
         count += AddModel(&settings[count], KIRI_MODEL_POINTS);
     }
     return count;
 }
 
-Setting Sweep_FromQuality(const kiriQuality* quality)
+Setting Sweep_FromQuality(int32_t scene, const kiriQuality* quality)
 {
-    Setting setting = { quality->framesAlong, 1, quality->gridResolution, quality->iterations,
-                        quality->substeps,    1, KIRI_MODEL_LINKS };
+    Setting setting = { scene,
+                        quality->framesAlong,
+                        RowsFor(scene, quality->framesAlong),
+                        quality->gridResolution,
+                        quality->iterations,
+                        quality->substeps,
+                        1,
+                        KIRI_MODEL_LINKS };
     return setting;
 }
 
@@ -71,8 +100,8 @@ int Sweep_Dominating(const Setting* settings, const Outcome* outcomes, int count
                      const Outcome* outcome)
 {
     for (int i = 0; i < count; ++i) {
-        if (outcomes[i].error < outcome->error && outcomes[i].cost <= outcome->cost &&
-            settings[i].gridResolution <= setting->gridResolution) {
+        if (settings[i].scene == setting->scene && outcomes[i].error < outcome->error &&
+            outcomes[i].cost <= outcome->cost && settings[i].gridResolution <= setting->gridResolution) {
             return i;
         }
     }
@@ -86,23 +115,24 @@ typedef struct Scene {
     kiriSheet sheet;
 } Scene;
 
-static bool AddStrip(Scene* scene, const Setting* setting)
+static bool AddSheet(Scene* scene, const Setting* setting)
 {
-    static float rest[2 * VERTICES], points[2 * MAX_FRAMES];
-    static int32_t indices[3 * TRIANGLES];
+    static float rest[2 * MAX_VERTICES], points[2 * MAX_FRAMES];
+    static int32_t indices[3 * MAX_TRIANGLES];
+    const Shape* shape = &shapes[setting->scene];
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
     def.sleepSpeed = 0.0f;
-    kiriFillRectangle(LENGTH, WIDTH, COLUMNS, ROWS, rest, indices);
+    kiriFillRectangle(shape->length, shape->width, shape->columns, shape->rows, rest, indices);
     for (int i = 0; i < setting->columns * setting->rows; ++i) {
-        points[2 * i] = LENGTH * (float)(i / setting->rows) / (float)(setting->columns - 1);
-        points[2 * i + 1] = WIDTH * ((float)(i % setting->rows) + 0.5f) / (float)setting->rows;
+        points[2 * i] = shape->length * ((float)(i / setting->rows) + 0.5f) / (float)setting->columns;
+        points[2 * i + 1] = shape->width * ((float)(i % setting->rows) + 0.5f) / (float)setting->rows;
     }
     def.restPositions = rest;
-    def.vertexCount = VERTICES;
+    def.vertexCount = (shape->columns + 1) * (shape->rows + 1);
     def.indices = indices;
-    def.triangleCount = TRIANGLES;
-    def.material = (kiriMaterial){ 5e8f, 0.3f, 5e-4f, 1000.0f, 0.5f, 0.0f };
+    def.triangleCount = 2 * shape->columns * shape->rows;
+    def.material = (kiriMaterial){ shape->young, 0.3f, 5e-4f, 1000.0f, 0.5f, 0.0f };
     def.framePoints = points;
     def.frameCount = def.maxFrames = setting->columns * setting->rows; /* nothing is added */
     def.rigidWeight = 2.0f;
@@ -112,19 +142,31 @@ static bool AddStrip(Scene* scene, const Setting* setting)
     return kiriCreateSheet(scene->world, &def, &scene->sheet) == KIRI_OK;
 }
 
-static bool HoldFirst(const Scene* scene, const Setting* setting)
+static bool PinCorner(const Scene* scene, float v)
 {
-    static const float flat[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
-    kiriFrame ids[MAX_FRAMES];
-    int32_t count, held = 0;
-    kiriSheet_GetFrames(scene->world, scene->sheet, ids, MAX_FRAMES, &count);
-    for (int i = 0; i < count; ++i) {
-        kiriFrameState state;
-        if (kiriFrame_GetState(scene->world, ids[i], &state) == KIRI_OK && state.restPoint[0] < 1e-6f) {
-            held += kiriFrame_Hold(scene->world, ids[i], state.position, flat) == KIRI_OK ? 1 : 0;
-        }
+    kiriPinDef def;
+    kiriPin pin;
+    kiriDefaultPinDef(&def);
+    def.restPoint[1] = def.target[1] = v;
+    return kiriCreatePin(scene->world, scene->sheet, &def, &pin) == KIRI_OK;
+}
+
+static bool Fasten(const Scene* scene, const Setting* setting)
+{
+    const float from[2] = { 0.0f, 0.0f }, to[2] = { 0.0f, shapes[setting->scene].width };
+    kiriPin clamp;
+    if (setting->scene == SWEEP_SQUARE) {
+        return PinCorner(scene, from[1]) && PinCorner(scene, to[1]);
     }
-    return count == setting->columns * setting->rows && held == setting->rows;
+    return kiriSheet_ClampLine(scene->world, scene->sheet, from, to, &clamp) == KIRI_OK;
+}
+
+static bool CutTongue(const Scene* scene)
+{
+    static const float outside[2] = { 0.05f, -0.01f }, way[4] = { 0.05f, 0.07f, 0.08f, 0.07f };
+    kiriCut cut;
+    return kiriBeginCut(scene->world, scene->sheet, outside, &cut) == KIRI_OK &&
+           kiriCut_Extend(scene->world, cut, way, 2) == KIRI_OK && kiriCut_End(scene->world, cut) == KIRI_OK;
 }
 
 static bool MakeScene(Scene* scene, const Setting* setting, kiriClockFn* clock, Outcome* outcome)
@@ -132,52 +174,72 @@ static bool MakeScene(Scene* scene, const Setting* setting, kiriClockFn* clock, 
     kiriWorldDef def;
     kiriDefaultWorldDef(&def);
     def.clock = clock;
-    if (setting->columns < 2 || setting->columns * setting->rows > MAX_FRAMES ||
+    if (setting->columns < 1 || setting->columns * setting->rows > MAX_FRAMES ||
         kiriCreateWorld(&def, &scene->world) != KIRI_OK) {
         return false;
     }
     double start = clock != NULL ? clock(NULL) : 0.0;
-    bool added = AddStrip(scene, setting);
+    bool added = AddSheet(scene, setting);
     outcome->create = clock != NULL ? clock(NULL) - start : 0.0;
-    if (!added || !HoldFirst(scene, setting)) {
+    if (!added || !Fasten(scene, setting)) {
         kiriDestroyWorld(scene->world);
         return false;
     }
     return true;
 }
 
-/* A sixtieth of a second. */
-static bool Tick(const Scene* scene, const Setting* setting, Outcome* outcome)
+static void AddProfile(const Scene* scene, const Setting* setting, Outcome* outcome, double* all)
 {
+    kiriProfile profile;
+    kiriWorld_GetProfile(scene->world, &profile);
+    double frames = setting->columns * setting->rows * (setting->model == KIRI_MODEL_LINKS ? 1.0 : 8.0);
+    outcome->cost += profile.solverIterations * frames;
+    outcome->seconds += profile.seconds[KIRI_STAGE_SOLVE] + profile.seconds[KIRI_STAGE_SKIN];
+    for (int stage = 0; stage < KIRI_STAGE_COUNT; ++stage) {
+        *all += profile.seconds[stage];
+    }
+}
+
+/* A sixtieth of a second. */
+static bool Tick(const Scene* scene, const Setting* setting, int tick, Outcome* outcome)
+{
+    double all = 0.0;
+    if (setting->scene == SWEEP_TONGUE && tick == CUT_TICK && !CutTongue(scene)) {
+        return false;
+    }
     for (int k = 0; k < setting->parts; ++k) {
-        kiriProfile profile;
         if (kiriWorld_Tick(scene->world, 1.0f / 60.0f / (float)setting->parts, setting->substeps) != KIRI_OK) {
             return false;
         }
-        kiriWorld_GetProfile(scene->world, &profile);
-        double frames = setting->columns * setting->rows * (setting->model == KIRI_MODEL_LINKS ? 1.0 : 8.0);
-        outcome->cost += profile.solverIterations * frames;
-        outcome->seconds += profile.seconds[KIRI_STAGE_SOLVE] + profile.seconds[KIRI_STAGE_SKIN];
+        AddProfile(scene, setting, outcome, &all);
     }
+    outcome->worst = fmax(outcome->worst, all);
     return true;
 }
 
 /* ---- Comparison ------------------------------------------------------------------------------------------------- */
 
+static bool Look(const Scene* scene, kiriMesh* mesh)
+{
+    return kiriSheet_GetMesh(scene->world, scene->sheet, mesh) == KIRI_OK && mesh->vertexCount <= MAX_VERTICES;
+}
+
 bool Sweep_Prepare(const Setting* setting)
 {
     Scene scene;
-    Outcome ignored = { 0.0, 0.0, 0.0, 0.0 };
+    Outcome ignored;
+    memset(&ignored, 0, sizeof ignored);
     bool ok = MakeScene(&scene, setting, NULL, &ignored);
     if (!ok) {
         return false;
     }
     for (int t = 0; t < SWEEP_TICKS && ok; ++t) {
         kiriMesh mesh;
-        ok = Tick(&scene, setting, &ignored) && kiriSheet_GetMesh(scene.world, scene.sheet, &mesh) == KIRI_OK &&
-             mesh.vertexCount == VERTICES;
+        Picture* picture = &references[setting->scene][t];
+        ok = Tick(&scene, setting, t, &ignored) && Look(&scene, &mesh);
         if (ok) {
-            memcpy(reference[t], mesh.positions, sizeof reference[t]);
+            picture->vertexCount = mesh.vertexCount;
+            memcpy(picture->positions, mesh.positions, 3 * sizeof(float) * (size_t)mesh.vertexCount);
         }
     }
     kiriDestroyWorld(scene.world);
@@ -186,7 +248,7 @@ bool Sweep_Prepare(const Setting* setting)
 
 static void AddSquares(const kiriMesh* mesh, const float* expected, double* error, double* way)
 {
-    for (int i = 0; i < 3 * VERTICES; ++i) {
+    for (int i = 0; i < 3 * mesh->vertexCount; ++i) {
         double rest = i % 3 < 2 ? (double)mesh->restPositions[i / 3 * 2 + i % 3] : 0.0;
         double off = (double)mesh->positions[i] - (double)expected[i], moved = (double)expected[i] - rest;
         *error += off * off;
@@ -205,10 +267,10 @@ bool Sweep_Run(const Setting* setting, kiriClockFn* clock, Outcome* outcome)
     }
     for (int t = 0; t < SWEEP_TICKS && ok; ++t) {
         kiriMesh mesh;
-        ok = Tick(&scene, setting, outcome) && kiriSheet_GetMesh(scene.world, scene.sheet, &mesh) == KIRI_OK &&
-             mesh.vertexCount == VERTICES;
+        const Picture* picture = &references[setting->scene][t];
+        ok = Tick(&scene, setting, t, outcome) && Look(&scene, &mesh) && mesh.vertexCount == picture->vertexCount;
         if (ok) {
-            AddSquares(&mesh, reference[t], &error, &way);
+            AddSquares(&mesh, picture->positions, &error, &way);
         }
     }
     kiriDestroyWorld(scene.world);

@@ -1,7 +1,9 @@
-/* Speed for accuracy: one scene that moves, at many settings, each compared with the same scene computed much finer.
+/* Speed for accuracy: scenes that move, at many settings, each compared with the same scene computed much finer.
 
-   A strip of stiff paper, 0.2 m x 0.05 m, held along u = 0 by its first frames and level at first, is let go: it falls
-   and swings for 0.4 s at 60 ticks a second. */
+   All are of stiff paper, level at first, and let go: they fall and swing for 0.4 s at 60 ticks a second. The strip is
+   0.2 m x 0.05 m, clamped along u = 0, with one row of frames. The square has sides of 0.2 m, bends five times as
+   easily, hangs by two corners, and has as many rows as columns. The tongue is a square of 0.1 m, clamped along u = 0,
+   into which an L is cut while it falls. */
 #ifndef KIRI_TEST_SWEEP_H
 #define KIRI_TEST_SWEEP_H
 
@@ -11,8 +13,11 @@
 
 enum { SWEEP_TICKS = 24, SWEEP_SETTINGS = 320 };
 
+enum SweepScene { SWEEP_STRIP, SWEEP_SQUARE, SWEEP_TONGUE, SWEEP_SCENES };
+
 typedef struct Setting {
-    int32_t columns, rows; /* of frames, along and across the strip */
+    int32_t scene;         /* SWEEP_... */
+    int32_t columns, rows; /* of frames, along u and v */
     int32_t gridResolution, iterations, substeps;
     int32_t parts; /* calls of kiriWorld_Tick a sixtieth of a second; 1 but for the reference */
     int32_t model; /* KIRI_MODEL_... */
@@ -26,22 +31,25 @@ typedef struct Outcome {
     double cost;
     double seconds; /* solve and skin, a tick; 0 without a clock */
     double create;  /* seconds of kiriCreateSheet: all of grid, regions and weights; 0 without a clock */
+    double worst;   /* seconds of the longest tick, all of it; 0 without a clock */
 } Outcome;
 
-/* Settings for a table; `thin`: the quicker half, of the default model, for a test. Returns how many. */
-int Sweep_Settings(Setting settings[SWEEP_SETTINGS], bool thin);
+extern const char* const sweepNames[SWEEP_SCENES];
 
-/* A preset in this scene. */
-Setting Sweep_FromQuality(const kiriQuality* quality);
+/* Settings of a scene for a table; `thin`: fewer, of the default model, for a test. Returns how many. */
+int Sweep_Settings(int32_t scene, Setting settings[SWEEP_SETTINGS], bool thin);
 
-/* What all later runs are compared with. */
-extern const Setting sweepReference;
+/* A preset in a scene: framesAlong is the number of columns. */
+Setting Sweep_FromQuality(int32_t scene, const kiriQuality* quality);
+
+/* What all later runs of a scene are compared with. */
+extern const Setting sweepReferences[SWEEP_SCENES];
 bool Sweep_Prepare(const Setting* setting);
 
 bool Sweep_Run(const Setting* setting, kiriClockFn* clock, Outcome* outcome);
 
-/* Another setting with a smaller error at no more cost, and a grid as coarse; or -1. The grid costs nothing in this
-   scene but at every cut, so a finer grid is not for free. */
+/* Another setting of the same scene with a smaller error at no more cost, and a grid as coarse; or -1. The grid costs
+   little but at cuts, so a finer one is not for free. */
 int Sweep_Dominating(const Setting* settings, const Outcome* outcomes, int count, const Setting* setting,
                      const Outcome* outcome);
 

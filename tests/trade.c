@@ -1,61 +1,54 @@
-#define _POSIX_C_SOURCE 199309L /* clock_gettime */
-
 #include "trade.h"
 
 #include "plot.h"
+#include "specimen.h"
 #include "sweep.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <time.h>
+#include <string.h>
 
-enum { REPEATS = 5, MAX_CURVES = 16 };
+enum { MAX_CURVES = 16 };
 
 static Setting settings[SWEEP_SETTINGS];
 static Outcome outcomes[SWEEP_SETTINGS];
 static int count;
 
-static double Now(void* user)
+/* The shortest times of a few: others use the machine too. Settings that the library refuses are left out. */
+static void Measure(int32_t scene)
 {
-    struct timespec now;
-    (void)user;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-/* The shortest time of a few: others use the machine too. */
-static bool Measure(void)
-{
-    count = Sweep_Settings(settings, false);
-    for (int k = 0; k < REPEATS; ++k) {
-        for (int i = 0; i < count; ++i) {
-            Outcome now;
-            if (!Sweep_Run(&settings[i], Now, &now)) {
-                return false;
-            }
-            if (k > 0) {
-                now.seconds = fmin(now.seconds, outcomes[i].seconds);
-                now.create = fmin(now.create, outcomes[i].create);
-            }
-            outcomes[i] = now;
+    static Setting all[SWEEP_SETTINGS];
+    int wanted = Sweep_Settings(scene, all, false), repeats = scene == SWEEP_STRIP ? 3 : 2;
+    count = 0;
+    for (int i = 0; i < wanted; ++i) {
+        Outcome best, now;
+        bool ran = Sweep_Run(&all[i], ProcessorTime, &best);
+        for (int k = 1; k < repeats && ran; ++k) {
+            ran = Sweep_Run(&all[i], ProcessorTime, &now);
+            best.seconds = fmin(best.seconds, now.seconds);
+            best.create = fmin(best.create, now.create);
+            best.worst = fmin(best.worst, now.worst);
+        }
+        if (ran) {
+            settings[count] = all[i];
+            outcomes[count++] = best;
         }
     }
-    return true;
 }
 
 /* How much the reference changes when one of its numbers is halved. */
-static bool PrintReference(void)
+static bool PrintReference(int32_t scene)
 {
-    Setting halves[4];
     const char* names[] = { "half the substeps", "half the iterations", "half the grid", "half the frames" };
     for (int k = 0; k < 4; ++k) {
         Outcome outcome;
-        halves[k] = sweepReference;
-        halves[k].substeps /= k == 0 ? 2 : 1;
-        halves[k].iterations /= k == 1 ? 2 : 1;
-        halves[k].gridResolution /= k == 2 ? 2 : 1;
-        halves[k].columns = k == 3 ? sweepReference.columns / 2 + 1 : sweepReference.columns;
-        if (!Sweep_Run(&halves[k], NULL, &outcome)) {
+        Setting half = sweepReferences[scene];
+        half.substeps /= k == 0 ? 2 : 1;
+        half.iterations /= k == 1 ? 2 : 1;
+        half.gridResolution /= k == 2 ? 2 : 1;
+        half.columns = k == 3 ? half.columns / 2 + 1 : half.columns;
+        half.rows = k == 3 ? half.rows / 2 + 1 : half.rows;
+        if (!Sweep_Run(&half, NULL, &outcome)) {
             return false;
         }
         printf("reference, %-20s %8.4f %%\n", names[k], 100.0 * outcome.error);
@@ -69,9 +62,8 @@ static const char* PresetName(const Setting* setting)
     for (int32_t p = 0; p < KIRI_QUALITY_COUNT; ++p) {
         kiriQuality q;
         kiriGetQuality(p, &q);
-        if (q.framesAlong == setting->columns && q.gridResolution == setting->gridResolution &&
-            q.iterations == setting->iterations && q.substeps == setting->substeps &&
-            setting->model == KIRI_MODEL_LINKS) {
+        Setting preset = Sweep_FromQuality(setting->scene, &q);
+        if (memcmp(&preset, setting, sizeof preset) == 0) {
             return names[p];
         }
     }
@@ -83,54 +75,64 @@ static bool OnFront(int i)
     return Sweep_Dominating(settings, outcomes, count, &settings[i], &outcomes[i]) < 0;
 }
 
+/* The front, and the presets wherever they are. */
 static void PrintFront(void)
 {
-    printf("\n%6s %5s %10s %9s %11s %8s %10s %10s  preset\n", "frames", "grid", "iterations", "substeps", "error",
-           "cost", "ms a tick", "ms create");
+    printf("\n%6s %5s %10s %9s %11s %8s %10s %10s %10s  preset\n", "frames", "grid", "iterations", "substeps", "error",
+           "cost", "ms a tick", "worst", "ms create");
     for (int i = 0; i < count; ++i) {
         const Setting* s = &settings[i];
         const Outcome* o = &outcomes[i];
-        if (OnFront(i)) {
-            printf("%6d %5d %10d %9d %9.3f %% %8.1f %10.4f %10.2f  %s\n", s->columns * s->rows, s->gridResolution,
-                   s->iterations, s->substeps, 100.0 * o->error, o->cost, 1e3 * o->seconds, 1e3 * o->create,
-                   PresetName(s));
+        const char* preset = PresetName(s);
+        if (OnFront(i) || preset[0] != '\0') {
+            printf("%6d %5d %10d %9d %9.3f %% %8.1f %10.4f %10.4f %10.2f  %s%s\n", s->columns * s->rows,
+                   s->gridResolution, s->iterations, s->substeps, 100.0 * o->error, o->cost, 1e3 * o->seconds,
+                   1e3 * o->worst, 1e3 * o->create, preset, OnFront(i) ? "" : ", dominated");
         }
     }
 }
 
-static bool WriteRows(const char* folder)
+static bool WriteRows(const char* folder, int32_t scene)
 {
+    static const char* const models[] = { "links", "affine", "points" };
     char path[512];
-    snprintf(path, sizeof path, "%s/trade.csv", folder);
+    snprintf(path, sizeof path, "%s/trade_%s.csv", folder, sweepNames[scene]);
     FILE* file = fopen(path, "w");
     if (file == NULL) {
         return false;
     }
-    fprintf(file,
-            "model,frames,grid,iterations,substeps,error,systems x frames a tick,ms a tick,ms create,front,preset\n");
+    fprintf(file, "model,frames,grid,iterations,substeps,error,systems x frames a tick,ms a tick,ms worst tick,"
+                  "ms create,front,preset\n");
     for (int i = 0; i < count; ++i) {
         const Setting* s = &settings[i];
         const Outcome* o = &outcomes[i];
-        static const char* const models[] = { "links", "affine", "points" };
-        fprintf(file, "%s,%d,%d,%d,%d,%.6g,%.6g,%.6g,%.6g,%d,%s\n", models[s->model], s->columns * s->rows,
-                s->gridResolution, s->iterations, s->substeps, o->error, o->cost, 1e3 * o->seconds, 1e3 * o->create,
-                OnFront(i) ? 1 : 0, PresetName(s));
+        fprintf(file, "%s,%d,%d,%d,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%d,%s\n", models[s->model], s->columns * s->rows,
+                s->gridResolution, s->iterations, s->substeps, o->error, o->cost, 1e3 * o->seconds, 1e3 * o->worst,
+                1e3 * o->create, OnFront(i) ? 1 : 0, PresetName(s));
     }
     return fclose(file) == 0;
 }
 
 /* ---- Plot ------------------------------------------------------------------------------------------------------- */
 
-/* The settings of the pattern's model that agree with `pattern` where it is above 0. */
-static Curve MakeCurve(const char* name, Setting pattern)
+typedef struct Pattern {
+    const char* name;
+    Setting setting; /* 0: any */
+} Pattern;
+
+static bool Agrees(int32_t pattern, int32_t value)
 {
-    Curve curve = { name, { 0.0 }, { 0.0 }, 0 };
+    return pattern == 0 || pattern == value;
+}
+
+static Curve MakeCurve(const Pattern* pattern)
+{
+    Curve curve = { pattern->name, { 0.0 }, { 0.0 }, 0 };
+    const Setting* p = &pattern->setting;
     for (int i = 0; i < count && curve.count < CURVE_POINTS; ++i) {
         const Setting* s = &settings[i];
-        if (s->model == pattern.model && (pattern.columns == 0 || s->columns == pattern.columns) &&
-            (pattern.gridResolution == 0 || s->gridResolution == pattern.gridResolution) &&
-            (pattern.iterations == 0 || s->iterations == pattern.iterations) &&
-            (pattern.substeps == 0 || s->substeps == pattern.substeps)) {
+        if (s->model == p->model && Agrees(p->columns, s->columns) && Agrees(p->gridResolution, s->gridResolution) &&
+            Agrees(p->iterations, s->iterations) && Agrees(p->substeps, s->substeps)) {
             curve.x[curve.count] = 1e3 * outcomes[i].seconds;
             curve.y[curve.count++] = 100.0 * outcomes[i].error;
         }
@@ -138,40 +140,58 @@ static Curve MakeCurve(const char* name, Setting pattern)
     return curve;
 }
 
-static bool WritePicture(const char* folder)
+static const Pattern stripPatterns[] = {
+    { "3 frames, substeps 1 to 16", { SWEEP_STRIP, 3, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
+    { "5 frames, substeps 1 to 16", { SWEEP_STRIP, 5, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
+    { "9 frames, substeps 1 to 16", { SWEEP_STRIP, 9, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
+    { "17 frames, substeps 1 to 16", { SWEEP_STRIP, 17, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
+    { "9 frames, 2 substeps, iterations 1 to 8", { SWEEP_STRIP, 9, 1, 40, 0, 2, 1, KIRI_MODEL_LINKS } },
+    { "17 frames, 8 substeps, grid 20 to 80", { SWEEP_STRIP, 17, 1, 0, 1, 8, 1, KIRI_MODEL_LINKS } },
+    { "affine, 9 frames, 8 iterations", { SWEEP_STRIP, 9, 1, 40, 8, 0, 1, KIRI_MODEL_AFFINE } },
+    { "points, 9 frames, 8 iterations", { SWEEP_STRIP, 9, 1, 40, 8, 0, 1, KIRI_MODEL_POINTS } },
+    { NULL, { 0 } },
+};
+
+static const Pattern squarePatterns[] = {
+    { "9 frames, substeps 1 to 16", { SWEEP_SQUARE, 3, 3, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
+    { "25 frames, substeps 1 to 16", { SWEEP_SQUARE, 5, 5, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
+    { "49 frames, substeps 1 to 16", { SWEEP_SQUARE, 7, 7, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
+    { "81 frames, substeps 1 to 16", { SWEEP_SQUARE, 9, 9, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
+    { "144 frames, substeps 1 to 16", { SWEEP_SQUARE, 12, 12, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
+    { "25 frames, 2 iterations", { SWEEP_SQUARE, 5, 5, 40, 2, 0, 1, KIRI_MODEL_LINKS } },
+    { "81 frames, 4 substeps, grid 20 to 80", { SWEEP_SQUARE, 9, 9, 0, 1, 4, 1, KIRI_MODEL_LINKS } },
+    { NULL, { 0 } },
+};
+
+static bool WritePicture(const char* folder, int32_t scene)
 {
     static const char* const presets[KIRI_QUALITY_COUNT] = { "preset fast", "preset balanced", "preset accurate" };
-    char path[512];
+    const Pattern* patterns = scene == SWEEP_STRIP ? stripPatterns : squarePatterns;
+    char path[512], title[128];
     Curve curves[MAX_CURVES];
     int drawn = 0;
-    curves[drawn++] = MakeCurve("3 frames, substeps 1 to 16", (Setting){ 3, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS });
-    curves[drawn++] = MakeCurve("5 frames, substeps 1 to 16", (Setting){ 5, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS });
-    curves[drawn++] = MakeCurve("9 frames, substeps 1 to 16", (Setting){ 9, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS });
-    curves[drawn++] = MakeCurve("17 frames, substeps 1 to 16", (Setting){ 17, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS });
-    curves[drawn++] =
-        MakeCurve("5 frames, 2 substeps, iterations 1 to 8", (Setting){ 5, 1, 40, 0, 2, 1, KIRI_MODEL_LINKS });
-    curves[drawn++] =
-        MakeCurve("9 frames, 8 substeps, iterations 1 to 8", (Setting){ 9, 1, 40, 0, 8, 1, KIRI_MODEL_LINKS });
-    curves[drawn++] =
-        MakeCurve("17 frames, 16 substeps, grid 20 to 80", (Setting){ 17, 1, 0, 1, 16, 1, KIRI_MODEL_LINKS });
-    curves[drawn++] = MakeCurve("affine, 9 frames, 8 iterations", (Setting){ 9, 1, 40, 8, 0, 1, KIRI_MODEL_AFFINE });
-    curves[drawn++] = MakeCurve("points, 9 frames, 8 iterations", (Setting){ 9, 1, 40, 8, 0, 1, KIRI_MODEL_POINTS });
+    for (int k = 0; patterns[k].name != NULL; ++k) {
+        curves[drawn++] = MakeCurve(&patterns[k]);
+    }
     for (int32_t p = 0; p < KIRI_QUALITY_COUNT; ++p) {
         kiriQuality quality;
         kiriGetQuality(p, &quality);
-        curves[drawn++] = MakeCurve(presets[p], Sweep_FromQuality(&quality));
+        Pattern pattern = { presets[p], Sweep_FromQuality(scene, &quality) };
+        curves[drawn++] = MakeCurve(&pattern);
     }
-    snprintf(path, sizeof path, "%s/trade.png", folder);
-    return Plot_Write(path, "ms a tick of 1/60 s, solve and skin",
-                      "error, % of the way. grid 40, 1 iteration where the legend says no other", curves, drawn);
+    snprintf(path, sizeof path, "%s/trade_%s.png", folder, sweepNames[scene]);
+    snprintf(title, sizeof title, "%s. error, %% of the way. grid 40, 1 iteration where the legend says no other",
+             sweepNames[scene]);
+    return Plot_Write(path, "ms a tick of 1/60 s, solve and skin", title, curves, drawn);
 }
 
-bool Trade_Write(const char* folder)
+bool Trade_Write(const char* folder, int32_t scene)
 {
-    printf("\nA strip that falls and swings, see tests/sweep.h\n");
-    if (!Sweep_Prepare(&sweepReference) || !PrintReference() || !Measure()) {
+    printf("\nThe %s that falls and swings, see tests/sweep.h\n", sweepNames[scene]);
+    if (!Sweep_Prepare(&sweepReferences[scene]) || !PrintReference(scene)) {
         return false;
     }
+    Measure(scene);
     PrintFront();
-    return WriteRows(folder) && WritePicture(folder);
+    return WriteRows(folder, scene) && WritePicture(folder, scene);
 }

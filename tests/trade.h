@@ -1,10 +1,12 @@
-/* What accuracy costs: table, CSV and plot of the sweep. */
+/* What accuracy costs: table, CSV and plot of the sweep in each scene. */
 #ifndef KIRI_TEST_TRADE_H
 #define KIRI_TEST_TRADE_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
-/* Prints the settings that none other dominates; writes trade.csv, all of them, and trade.png. */
-bool Trade_Write(const char* folder);
+/* Prints the settings of a scene (sweep.h) that none other dominates; writes trade_<scene>.csv, all of them, and
+   trade_<scene>.png. */
+bool Trade_Write(const char* folder, int32_t scene);
 
 #endif
