@@ -303,7 +303,7 @@ static double Farther(const Reach* a, const Reach* b, kiriVec2 at, kiriVec2* slo
     return a->behind + p - b->behind - q;
 }
 
-static kiriVec2 Shortened(kiriVec2 step, double most)
+static kiriVec2 AtMost(kiriVec2 step, double most)
 {
     double size = kiriVec2_Length(step);
     return size > most ? kiriVec2_Scale(most / size, step) : step;
@@ -333,7 +333,7 @@ static bool FindTurnedCorner(const EndSearch* s, kiriLinkEnd* end)
         }
         kiriVec2 step = { (slope[1].y * off[0] - slope[0].y * off[1]) / det,
                           (slope[0].x * off[1] - slope[1].x * off[0]) / det };
-        end->at = kiriVec2_Sub(end->at, Shortened(step, 0.5 * side));
+        end->at = kiriVec2_Sub(end->at, AtMost(step, 0.5 * side));
     }
     return fabs(off[0]) + fabs(off[1]) < s->least;
 }
@@ -365,7 +365,7 @@ static bool FindTurnedOpenEnd(const EndSearch* s, kiriLinkEnd* end)
         if (!(size > 1e-3)) {
             return false;
         }
-        from = kiriVec2_Sub(from, Shortened(kiriVec2_Scale(off / (size * size), slope), 0.5 * side));
+        from = kiriVec2_Sub(from, AtMost(kiriVec2_Scale(off / (size * size), slope), 0.5 * side));
     }
     kiriVec2 tangent = kiriVec2_Scale(s->ahead / size, kiriVec2_Make(-slope.y, slope.x));
     kiriVec2 goal = kiriVec2_Add(from, kiriVec2_Scale(4.0 * side, tangent));

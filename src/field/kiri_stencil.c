@@ -23,7 +23,7 @@ static kiriVec2 OffsetOf(const kiriStencil* stencil, kiriVec2 at)
 
 /* Beside a cell in which a cut ends, a square has cells on both sides of the cut. How far a place is on the side of one
    of two: 1 from an eighth of a square on, 0 as far on the other side. */
-static double SideOf(kiriVec2 from, kiriVec2 mine, kiriVec2 other)
+static double SideFrom(kiriVec2 from, kiriVec2 mine, kiriVec2 other)
 {
     kiriVec2 way = kiriVec2_Sub(mine, other), middle = kiriVec2_Scale(0.5, kiriVec2_Add(mine, other));
     double length = kiriVec2_Length(way);
@@ -38,7 +38,7 @@ static void ShareSquare(kiriStencil* stencil, int32_t first, int32_t count, kiri
     for (int32_t a = first; a < first + count; ++a) {
         double side = 1.0;
         for (int32_t b = first; b < first + count; ++b) {
-            side *= a == b ? 1.0 : SideOf(from, stencil->centers.data[a], stencil->centers.data[b]);
+            side *= a == b ? 1.0 : SideFrom(from, stencil->centers.data[a], stencil->centers.data[b]);
         }
         stencil->shares.data[a] = side;
         sum += side;
@@ -275,7 +275,7 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
 }
 
 /* Which squares around have a cell, and where the material of cells is that share one. */
-static bool GatherCenters(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid)
+static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid)
 {
     int32_t count = stencil->steps.count, seen = 0;
     if (!kiriArray_Resize(memory, &stencil->centers, count) || !kiriArray_Resize(memory, &stencil->shares, count)) {
@@ -357,7 +357,7 @@ bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShap
     stencil->middle = kiriGrid_Middle(grid, mesh, cell);
     stencil->side = grid->side;
     stencil->eased = shape->eased;
-    bool ok = GatherSteps(stencil, memory, grid, cell) && GatherCenters(stencil, memory, grid) &&
+    bool ok = GatherSteps(stencil, memory, grid, cell) && GatherMiddles(stencil, memory, grid) &&
               GatherFrames(stencil, memory, shape) && GatherWeights(stencil, memory, shape);
     for (int32_t i = 0; i < stencil->frames.count; ++i) {
         stencil->columns.data[stencil->frames.data[i]] = 0;

@@ -21,7 +21,7 @@ static RestLine RestLineOf(const kiriSheetData* sheet, const kiriPinData* pin)
     return line;
 }
 
-static kiriVec2 PointOn(const RestLine* line, double t)
+static kiriVec2 PointAlong(const RestLine* line, double t)
 {
     return kiriVec2_Add(line->from, kiriVec2_Scale(t * line->length, line->along));
 }
@@ -48,7 +48,7 @@ static kiriClampShape ShapeOf(const kiriSheetData* sheet, const RestLine* line, 
     double foot = kiriVec2_Dot(kiriVec2_Sub(site, line->from), line->along);
     kiriClampShape shape = { line->from,
                              line->along,
-                             PointOn(line, share->first / share->length),
+                             PointAlong(line, share->first / share->length),
                              line->length * share->length,
                              MomentOf(line, share),
                              OuterOf(line, share, foot / line->length),
@@ -61,7 +61,7 @@ static kiriClampShape ShapeOf(const kiriSheetData* sheet, const RestLine* line, 
 /* Where the host has a point of the line. */
 static kiriVec3 HeldPoint(const RestLine* line, kiriVec3 target, const kiriMat3* rotation, kiriVec2 point)
 {
-    kiriVec2 off = kiriVec2_Sub(point, PointOn(line, 0.5));
+    kiriVec2 off = kiriVec2_Sub(point, PointAlong(line, 0.5));
     return kiriVec3_AddScaled(kiriVec3_AddScaled(target, off.x, rotation->u), off.y, rotation->v);
 }
 
@@ -76,14 +76,14 @@ void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin)
     for (int32_t k = 0; k < sheet->lineShares.count; ++k) {
         const kiriLineShare* share = &sheet->lineShares.data[k];
         const kiriFrameData* frame = &sheet->frames.data[share->frame];
-        kiriVec2 point = PointOn(&line, share->first / share->length);
+        kiriVec2 point = PointAlong(&line, share->first / share->length);
         middle = kiriVec2_Add(middle, kiriVec2_Scale(share->length, point));
         x = kiriVec3_AddScaled(x, share->length, kiriFrame_Carry(frame, point));
         A = kiriMat3_AddScaled(&A, share->length, &frame->A);
         sum += share->length;
     }
     pin->rotation = kiriMat3_Rotation(A);
-    kiriVec2 off = kiriVec2_Sub(PointOn(&line, 0.5), kiriVec2_Scale(1.0 / sum, middle));
+    kiriVec2 off = kiriVec2_Sub(PointAlong(&line, 0.5), kiriVec2_Scale(1.0 / sum, middle));
     kiriVec3 way = kiriVec3_AddScaled(kiriVec3_Scale(off.x, pin->rotation.u), off.y, pin->rotation.v);
     pin->target = kiriVec3_AddScaled(way, 1.0 / sum, x);
 }
