@@ -13,7 +13,7 @@ enum { NEAR_REGIONS = 24 }; /* more than meet within two squares of a point, but
 typedef struct Reach {
     kiriVec2 from; /* local m */
     double behind; /* m */
-    bool isKnown;
+    bool isKnown, isHidden;
 } Reach;
 
 /* The regions near an end: the two of the link, and those one step from its cells there. */
@@ -34,7 +34,8 @@ static void AddRegion(const kiriBorder* border, NearRegions* near, int32_t cell)
     if (near->count < NEAR_REGIONS) {
         near->region[near->count] = region;
         near->cell[near->count] = cell;
-        near->reach[near->count++].isKnown = false;
+        near->reach[near->count].isKnown = near->reach[near->count].isHidden = false;
+        ++near->count;
     }
 }
 
@@ -108,7 +109,7 @@ static bool FindReach(const kiriBorder* border, const kiriSight* sight, NearRegi
 {
     kiriVec2 site = SiteAt(border, near->region[k]);
     bool isInside = IsSiteInside(border, near->region[k]);
-    Reach reach = { site, 0.0, isInside && kiriSight_IsClear(sight, site, at) };
+    Reach reach = { site, 0.0, isInside && kiriSight_IsClear(sight, site, at), false };
     if (!reach.isKnown && isInside && turns) {
         kiriTurns corners;
         kiriWay way;
@@ -121,6 +122,7 @@ static bool FindReach(const kiriBorder* border, const kiriSight* sight, NearRegi
             reach.behind = way.length - kiriVec2_Length(kiriVec2_Sub(at, reach.from));
         }
     }
+    reach.isHidden = !reach.isKnown;
     near->reach[k] = reach;
     return reach.isKnown;
 }
@@ -178,16 +180,16 @@ static bool IsAtEnd(const kiriLinkEnd* end, int32_t region)
     return false;
 }
 
-/* Finds how far all regions are. One that is hidden counts where the grid has it at this end, and must be known. */
+/* Finds how far the sites of the border are, and of others that the grid has at this end: they must be known. */
 static bool FindReaches(EndSearch* s)
 {
-    for (int32_t k = 0; k < s->near.count; ++k) {
-        bool must = k < 2 || IsAtEnd(s->grid, s->near.region[k]);
-        if (!FindReach(s->border, &s->sight, &s->near, k, s->grid->look, must) && must) {
-            return false;
+    bool ok = true;
+    for (int32_t k = 0; ok && k < s->near.count; ++k) {
+        if (k < 2 || IsAtEnd(s->grid, s->near.region[k])) {
+            ok = FindReach(s->border, &s->sight, &s->near, k, s->grid->look, true);
         }
     }
-    return true;
+    return ok;
 }
 
 /* A point of the stretch about a square's side before the end. */
@@ -216,25 +218,53 @@ static void SetOpenEnd(kiriLinkEnd* end, kiriVec2 at)
 
 /* ---- Ends that the sites see -------------------------------------------------------------------------------------- */
 
-/* How far ahead the site of a region is as near as the two: beyond it is nearer. FAR where it never is. */
+/* How far ahead the site of a region is as near as the two, if it is seen: beyond it is nearer. FAR where it never
+   is. */
 static double LimitBy(const EndSearch* s, int32_t k)
 {
-    kiriVec2 a = s->near.reach[0].from, b = s->near.reach[k].from, way = kiriVec2_Sub(b, a);
-    kiriVec2 half = kiriVec2_Sub(kiriVec2_Scale(0.5, kiriVec2_Add(a, b)), s->line.middle);
+    kiriVec2 a = SiteAt(s->border, s->near.region[0]), b = SiteAt(s->border, s->near.region[k]);
+    kiriVec2 way = kiriVec2_Sub(b, a), half = kiriVec2_Sub(kiriVec2_Scale(0.5, kiriVec2_Add(a, b)), s->line.middle);
     double pace = s->ahead * kiriVec2_Dot(way, s->line.tangent);
-    return s->near.reach[k].isKnown && pace > 1e-9 * kiriVec2_Length(way) ? kiriVec2_Dot(half, way) / pace
-                                                                          : kiriFarAhead;
+    return !s->near.reach[k].isHidden && pace > 1e-9 * kiriVec2_Length(way) ? kiriVec2_Dot(half, way) / pace
+                                                                            : kiriFarAhead;
+}
+
+/* Looks for the site of a region, unless that was done. */
+static bool IsSiteSeen(EndSearch* s, int32_t k)
+{
+    Reach* reach = &s->near.reach[k];
+    if (!reach->isKnown && !reach->isHidden) {
+        FindReach(s->border, &s->sight, &s->near, k, s->grid->look, false);
+    }
+    return reach->isKnown;
+}
+
+/* Where ahead the first other region is as near, of those that are seen. */
+static double FindLimit(EndSearch* s)
+{
+    for (;;) {
+        double limit = kiriFarAhead;
+        int32_t first = KIRI_NONE;
+        for (int32_t k = 2; k < s->near.count; ++k) {
+            double by = LimitBy(s, k);
+            first = by < limit ? k : first;
+            limit = by < limit ? by : limit;
+        }
+        if (first == KIRI_NONE || IsSiteSeen(s, first)) {
+            return limit;
+        }
+    }
 }
 
 /* Puts the end where the first other region is as near, and lists the regions that meet there. */
-static void SetCornerAt(const EndSearch* s, double limit, kiriLinkEnd* end)
+static void SetCornerAt(EndSearch* s, double limit, kiriLinkEnd* end)
 {
     int32_t count = 0;
     end->kind = KIRI_END_CORNER;
     end->at = PointOn(&s->line, s->ahead * limit);
     for (int32_t k = 0; k < s->near.count && count < KIRI_CORNER_REGIONS; ++k) {
         int32_t at = count;
-        if (k < 2 || LimitBy(s, k) <= limit + s->least) {
+        if (k < 2 || (LimitBy(s, k) <= limit + s->least && IsSiteSeen(s, k))) {
             for (; at > 0 && end->region[at - 1] > s->near.region[k]; --at) {
                 end->region[at] = end->region[at - 1];
             }
@@ -247,18 +277,7 @@ static void SetCornerAt(const EndSearch* s, double limit, kiriLinkEnd* end)
     }
 }
 
-/* Where ahead the first other region is as near. */
-static double FindLimit(const EndSearch* s)
-{
-    double limit = kiriFarAhead;
-    for (int32_t k = 2; k < s->near.count; ++k) {
-        double by = LimitBy(s, k);
-        limit = by < limit ? by : limit;
-    }
-    return limit;
-}
-
-/* Do both sites see the end, a little before it? */
+/* Do both sites see the end, a little before it? They see the one that the grid has: an edge is another. */
 static bool IsEndSeen(const EndSearch* s, const kiriLinkEnd* end)
 {
     double back = -1e-3 * s->border->grid->side * s->ahead;
@@ -269,7 +288,7 @@ static bool IsEndSeen(const EndSearch* s, const kiriLinkEnd* end)
 
 /* Along the line, from a point of it, to where the first other region is nearer, or to an edge before that; the sites
    see it. Another region may be nearer from the start: where both ends of a border say so, there is none. */
-static bool FindSeenEnd(const EndSearch* s, kiriVec2 from, kiriLinkEnd* end)
+static bool FindSeenEnd(EndSearch* s, kiriVec2 from, kiriLinkEnd* end)
 {
     double start = s->ahead * AlongLine(&s->line, from), extent = s->border->mesh->step * KIRI_LATTICE;
     double limit = FindLimit(s), goal = limit < start + 2.0 * extent ? limit : start + 2.0 * extent;
@@ -281,12 +300,13 @@ static bool FindSeenEnd(const EndSearch* s, kiriVec2 from, kiriLinkEnd* end)
     kiriSightEnd what = kiriSight_Cast(&s->sight, from, PointOn(&s->line, s->ahead * goal), &hit);
     if (what == KIRI_SIGHT_EDGE) {
         SetOpenEnd(end, PointOn(&s->line, s->ahead * (start + hit.share * (goal - start))));
+        return IsEndSeen(s, end);
     }
-    return (what == KIRI_SIGHT_EDGE || (what == KIRI_SIGHT_CLEAR && goal == limit)) && IsEndSeen(s, end);
+    return what == KIRI_SIGHT_CLEAR && goal == limit;
 }
 
 /* From beside the stretch. */
-static bool FindSeenEndOf(const EndSearch* s, kiriLinkEnd* end)
+static bool FindSeenEndOf(EndSearch* s, kiriLinkEnd* end)
 {
     kiriVec2 before = PointBefore(s), from = PointOn(&s->line, AlongLine(&s->line, before));
     return kiriSight_IsClear(&s->sight, before, from) && FindSeenEnd(s, from, end);
@@ -414,7 +434,7 @@ static bool FindExactEnd(const kiriBorder* border, const kiriLink* link, int whi
         return false;
     }
     if (IsStraightReach(&s)) {
-        found.isExact = FindSeenEndOf(&s, &found);
+        found.isExact = found.isSeen = FindSeenEndOf(&s, &found);
     } else {
         found.isExact = end->kind == KIRI_END_CORNER ? FindTurnedCorner(&s, &found) : FindTurnedOpenEnd(&s, &found);
     }
@@ -499,9 +519,6 @@ static void StartShort(const kiriBorder* border, const kiriLinkEnd* near, const 
     AddRegionsAround(border, &s->near, cells[0]);
     s->sight = SightOf(border, &s->near);
     s->line = LineBetween(SiteAt(border, s->near.region[0]), SiteAt(border, s->near.region[1]));
-    for (int32_t k = 0; k < s->near.count; ++k) {
-        FindReach(border, &s->sight, &s->near, k, near->look, false);
-    }
 }
 
 bool kiriBorder_MakeShort(const kiriBorder* border, const kiriLinkEnd* near, const int32_t cells[2], kiriNewLink* made)
@@ -515,8 +532,8 @@ bool kiriBorder_MakeShort(const kiriBorder* border, const kiriLinkEnd* near, con
     made->face = KIRI_NONE;
     made->link.i = s.near.region[0];
     made->link.j = s.near.region[1];
-    if (!s.near.reach[0].isKnown || !s.near.reach[1].isKnown || !FindBetween(&s, &at) ||
-        kiriVec2_Length(kiriVec2_Sub(at, near->look)) > most || !kiriSight_IsClear(&s.sight, near->look, at)) {
+    if (!FindBetween(&s, &at) || kiriVec2_Length(kiriVec2_Sub(at, near->look)) > most ||
+        !kiriSight_IsClear(&s.sight, near->look, at) || !IsSiteSeen(&s, 0) || !IsSiteSeen(&s, 1)) {
         return false;
     }
     for (int k = 0; k < 2; ++k) {
@@ -554,9 +571,11 @@ bool kiriBorder_FindBeside(const kiriBorder* border, const kiriLinkEnd* end, int
 /* ---- The way from site to site ------------------------------------------------------------------------------------ */
 
 /* Does a site see the other, and both the border? */
-static bool IsWaySeen(const kiriSight* sight, kiriVec2 a, kiriVec2 b, kiriVec2 over)
+static bool IsWaySeen(const kiriSight* sight, const kiriLinkEnds* ends, kiriVec2 a, kiriVec2 b, kiriVec2 over)
 {
-    return kiriSight_IsClear(sight, a, b) && kiriSight_IsClear(sight, a, over) && kiriSight_IsClear(sight, b, over);
+    bool isSeen = ends->end[0].isSeen && ends->end[1].isSeen;
+    return kiriSight_IsClear(sight, a, b) &&
+           (isSeen || (kiriSight_IsClear(sight, a, over) && kiriSight_IsClear(sight, b, over)));
 }
 
 bool kiriBorder_FindWay(const kiriBorder* border, const kiriLink* link, const kiriLinkEnds* ends,
@@ -573,7 +592,7 @@ bool kiriBorder_FindWay(const kiriBorder* border, const kiriLink* link, const ki
     if (!IsSiteInside(border, link->i) || !IsSiteInside(border, link->j)) {
         return false;
     }
-    if (IsWaySeen(&sight, a, b, over)) {
+    if (IsWaySeen(&sight, ends, a, b, over)) {
         way->turnCount = 0;
         way->length = kiriVec2_Length(kiriVec2_Sub(b, a));
         return true;

@@ -30,7 +30,8 @@ typedef struct kiriLinkEnd {
     int32_t cell[2];                     /* of regions i and j, beside the border's last face */
     kiriVec2 at;                         /* local m */
     kiriVec2 look;                       /* in the material, a little before the end that the grid has */
-    bool isExact;                        /* the end is where it is in the Euclidean metric */
+    bool isExact;                        /* the end is where it is in the Euclidean metric, */
+    bool isSeen;                         /* and both sites see it */
 } kiriLinkEnd;
 
 /* Both ends of a link: the one to its tangent's tail, and to its head. */

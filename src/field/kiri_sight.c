@@ -81,7 +81,7 @@ static void MeetEdgesOf(SightRay* ray, const kiriMeshData* mesh, int32_t square)
 {
     for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
         int32_t triangle = mesh->squares.nodes.data[n].triangle;
-        for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
+        for (int32_t h = 3 * triangle; kiriSight_HasEdge(mesh, triangle) && h < 3 * triangle + 3; ++h) {
             if (kiriSight_IsEdge(mesh, h)) {
                 MeetEdge(ray, mesh, h);
             }

@@ -37,6 +37,11 @@ static inline bool kiriSight_IsEdge(const kiriMeshData* mesh, int32_t h)
 {
     return kiriMesh_Twin(mesh, h) == KIRI_NONE || kiriMesh_IsOpen(mesh, h);
 }
+static inline bool kiriSight_HasEdge(const kiriMeshData* mesh, int32_t triangle)
+{
+    const kiriTriangle* t = &mesh->triangles.data[triangle];
+    return t->open != 0 || (t->twin[0] | t->twin[1] | t->twin[2]) < 0; /* KIRI_NONE has the sign bit */
+}
 kiriLatticePoint kiriSight_HeadOf(const kiriMeshData* mesh, int32_t h);
 
 /* The next edge of the material after one, around its head. */

@@ -65,7 +65,7 @@ static void ScanSquare(kiriTurns* turns, const kiriSight* sight, int32_t square)
     turns->scanned[turns->scannedCount++] = square;
     for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
         int32_t triangle = mesh->squares.nodes.data[n].triangle;
-        bool isOwn = kiriSight_MayLookIn(sight, sight->grid->nodeCell.data[n]);
+        bool isOwn = kiriSight_HasEdge(mesh, triangle) && kiriSight_MayLookIn(sight, sight->grid->nodeCell.data[n]);
         for (int32_t h = 3 * triangle; isOwn && h < 3 * triangle + 3; ++h) {
             if (kiriSight_IsEdge(mesh, h)) {
                 AddTurnAt(turns, mesh, square, h);
