@@ -7,6 +7,7 @@ typedef struct Plain {
     Scene scene;
     int32_t* owner;
     int32_t region;
+    kiriSightEdges edges;
     kiriSight sight;
 } Plain;
 
@@ -20,7 +21,9 @@ static void Look(Plain* p)
 {
     Scene_BuildGrid(&p->scene);
     p->owner = calloc((size_t)p->scene.grid.cells.count, sizeof(int32_t));
-    p->sight = (kiriSight){ &p->scene.grid, &p->scene.mesh, p->owner, &p->region, 1 };
+    p->sight = (kiriSight){ &p->scene.grid, &p->scene.mesh, p->owner, &p->region, 1, &p->edges };
+    p->edges.memory = &p->scene.memory;
+    assert_true(kiriSightEdges_Start(&p->edges, &p->scene.mesh));
 }
 
 static void Stop(Plain* p)

@@ -457,7 +457,9 @@ static bool MakeLinkRoom(const kiriBorder* border)
 {
     kiriLinkWork* work = border->work;
     int32_t old = work->marks.count;
-    if (!kiriArray_Resize(border->memory, &work->stale, border->siteCount) ||
+    work->edges.memory = border->memory;
+    if (!kiriSightEdges_Start(&work->edges, border->mesh) ||
+        !kiriArray_Resize(border->memory, &work->stale, border->siteCount) ||
         (old < border->grid->faces.count &&
          !kiriArray_Resize(border->memory, &work->marks, border->grid->faces.count))) {
         return false;
@@ -549,7 +551,7 @@ bool kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid
     if (ok) {
         FindStale(&border);
     }
-    ok = ok && FindFaces(&border) && MakeLinks(&border) && MergeLinks(&border, links) &&
+    ok = ok && FindFaces(&border) && MakeLinks(&border) && !links->work->edges.failed && MergeLinks(&border, links) &&
          kiriBorder_MakeCorners(&border, links);
     if (ok) {
         links->changed = CountChanged(links);

@@ -58,7 +58,8 @@ static void AddNearRegions(const kiriBorder* border, const kiriLinkEnd* end, Nea
 
 static kiriSight SightOf(const kiriBorder* border, const NearRegions* near)
 {
-    return (kiriSight){ border->grid, border->mesh, border->regions->field.owner.data, near->region, near->count };
+    return (kiriSight){ border->grid, border->mesh, border->regions->field.owner.data,
+                        near->region, near->count,  &border->work->edges };
 }
 
 /* ---- Ways that turn ---------------------------------------------------------------------------------------------- */

@@ -57,6 +57,7 @@ struct kiriLinkWork {
     KIRI_ARRAY(int32_t) order;         /* of what was made */
     KIRI_ARRAY(kiriLinkEnds) ends;     /* of kiriLinks.links, */
     KIRI_ARRAY(kiriLinkEnds) nextEnds; /* and of kiriLinks.next */
+    kiriSightEdges edges;              /* near the links that are made */
 };
 
 typedef struct kiriBorder {

@@ -7,13 +7,83 @@ kiriLatticePoint kiriSight_HeadOf(const kiriMeshData* mesh, int32_t h)
     return mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at;
 }
 
+static bool IsMaterialEdge(const kiriMeshData* mesh, int32_t h)
+{
+    return kiriMesh_Twin(mesh, h) == KIRI_NONE || kiriMesh_IsOpen(mesh, h);
+}
+
 int32_t kiriSight_EdgeAfter(const kiriMeshData* mesh, int32_t h)
 {
     int32_t next = kiriEdge_Next(h);
-    while (!kiriSight_IsEdge(mesh, next)) {
+    while (!IsMaterialEdge(mesh, next)) {
         next = kiriEdge_Next(kiriMesh_Twin(mesh, next));
     }
     return next;
+}
+
+bool kiriSightEdges_Start(kiriSightEdges* edges, const kiriMeshData* mesh)
+{
+    int32_t squares = mesh->squares.columns * mesh->squares.rows, old = edges->spans.count;
+    if (!kiriArray_Resize(edges->memory, &edges->spans, squares)) {
+        return false;
+    }
+    for (int32_t s = old; s < squares; ++s) {
+        edges->spans.data[s].count = KIRI_NONE;
+    }
+    for (int32_t k = 0; k < edges->squares.count; ++k) {
+        edges->spans.data[edges->squares.data[k]].count = KIRI_NONE;
+    }
+    edges->squares.count = edges->edges.count = 0;
+    edges->failed = false;
+    return true;
+}
+
+/* At the end of a slit the way turns back: from the edge to its other side. */
+static bool IsTurn(kiriLatticePoint tail, kiriLatticePoint head, kiriLatticePoint after)
+{
+    return kiriOrient(tail, head, after) < 0 || (tail.x == after.x && tail.y == after.y);
+}
+
+static bool AddSightEdge(const kiriSight* sight, int32_t square, int32_t h, int32_t cell)
+{
+    const kiriMeshData* mesh = sight->mesh;
+    kiriLatticePoint tail = mesh->vertices.data[kiriMesh_Tail(mesh, h)].at, head = kiriSight_HeadOf(mesh, h);
+    kiriLatticePoint after = kiriSight_HeadOf(mesh, kiriSight_EdgeAfter(mesh, h));
+    kiriSightEdge edge;
+    edge.tail = kiriMesh_Local(mesh, tail);
+    edge.head = kiriMesh_Local(mesh, head);
+    edge.after = kiriMesh_Local(mesh, after);
+    edge.edge = h;
+    edge.cell = cell;
+    edge.isTurn = kiriSquares_At(&mesh->squares, head) == square && IsTurn(tail, head, after);
+    return kiriArray_Push(sight->edges->memory, &sight->edges->edges, edge);
+}
+
+static bool CollectEdges(const kiriSight* sight, int32_t square)
+{
+    const kiriMeshData* mesh = sight->mesh;
+    bool ok = kiriArray_Push(sight->edges->memory, &sight->edges->squares, square);
+    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
+        int32_t triangle = mesh->squares.nodes.data[n].triangle;
+        for (int32_t h = 3 * triangle; ok && h < 3 * triangle + 3; ++h) {
+            ok = !IsMaterialEdge(mesh, h) || AddSightEdge(sight, square, h, sight->grid->nodeCell.data[n]);
+        }
+    }
+    return ok;
+}
+
+const kiriSightEdge* kiriSight_EdgesOf(const kiriSight* sight, int32_t square, int32_t* count)
+{
+    kiriSightEdges* edges = sight->edges;
+    KIRI_ASSERT(square >= 0 && square < edges->spans.count);
+    kiriSpan* span = &edges->spans.data[square];
+    if (span->count == KIRI_NONE && !edges->failed) {
+        int32_t first = edges->edges.count;
+        edges->failed = !CollectEdges(sight, square);
+        *span = (kiriSpan){ first, edges->failed ? KIRI_NONE : edges->edges.count - first };
+    }
+    *count = edges->failed ? 0 : span->count;
+    return edges->failed ? NULL : edges->edges.data + span->first;
 }
 
 /* ---- What is met ------------------------------------------------------------------------------------------------- */
@@ -58,34 +128,25 @@ static void Meet(SightRay* ray, double share, kiriVec2 low, kiriVec2 high)
 
 /* An edge of the material stops the way where the way crosses it, or passes its head from the edge's side to that of
    the edge after it: a way may touch what it runs along. Both lips of a slit are met at the same bits. */
-static void MeetEdge(SightRay* ray, const kiriMeshData* mesh, int32_t h)
+static void MeetEdge(SightRay* ray, const kiriSightEdge* e)
 {
-    kiriLatticePoint a = mesh->vertices.data[kiriMesh_Tail(mesh, h)].at, b = kiriSight_HeadOf(mesh, h);
-    kiriVec2 tail = kiriMesh_Local(mesh, a), head = kiriMesh_Local(mesh, b);
-    bool swap = b.x < a.x || (b.x == a.x && b.y < a.y);
-    kiriVec2 low = swap ? head : tail, high = swap ? tail : head;
-    int sides = SideOf(ray, tail) * SideOf(ray, head);
-    if (sides < 0) {
+    int tail = SideOf(ray, e->tail), head = SideOf(ray, e->head);
+    bool swap = e->head.x < e->tail.x || (e->head.x == e->tail.x && e->head.y < e->tail.y);
+    kiriVec2 low = swap ? e->head : e->tail, high = swap ? e->tail : e->head;
+    if (tail * head < 0) {
         kiriVec2 edge = kiriVec2_Sub(high, low);
         Meet(ray, Cross(kiriVec2_Sub(low, ray->from), edge) / Cross(ray->way, edge), low, high);
-    } else if (sides == 0 && SideOf(ray, head) == 0) {
-        kiriVec2 after = kiriMesh_Local(mesh, kiriSight_HeadOf(mesh, kiriSight_EdgeAfter(mesh, h)));
-        if (SideOf(ray, tail) * SideOf(ray, after) < 0) {
-            double share = kiriVec2_Dot(kiriVec2_Sub(head, ray->from), ray->way) / (ray->length * ray->length);
-            Meet(ray, share, low, high);
-        }
+    } else if (head == 0 && tail * SideOf(ray, e->after) < 0) {
+        Meet(ray, kiriVec2_Dot(kiriVec2_Sub(e->head, ray->from), ray->way) / (ray->length * ray->length), low, high);
     }
 }
 
-static void MeetEdgesOf(SightRay* ray, const kiriMeshData* mesh, int32_t square)
+static void MeetEdgesOf(SightRay* ray, const kiriSight* sight, int32_t square)
 {
-    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
-        int32_t triangle = mesh->squares.nodes.data[n].triangle;
-        for (int32_t h = 3 * triangle; kiriSight_HasEdge(mesh, triangle) && h < 3 * triangle + 3; ++h) {
-            if (kiriSight_IsEdge(mesh, h)) {
-                MeetEdge(ray, mesh, h);
-            }
-        }
+    int32_t count;
+    const kiriSightEdge* edges = kiriSight_EdgesOf(sight, square, &count);
+    for (int32_t k = 0; k < count; ++k) {
+        MeetEdge(ray, &edges[k]);
     }
 }
 
@@ -144,7 +205,7 @@ kiriSightEnd kiriSight_Cast(const kiriSight* sight, kiriVec2 p, kiriVec2 q, kiri
             return (1.0 - entry) * ray.length <= least ? KIRI_SIGHT_CLEAR : KIRI_SIGHT_LOST;
         }
         if (!sight->grid->whole.data[square]) {
-            MeetEdgesOf(&ray, sight->mesh, square);
+            MeetEdgesOf(&ray, sight, square);
         }
         SightAxis* axis = u.next < v.next ? &u : &v;
         entry = axis->next;

@@ -6,6 +6,27 @@
 
 KIRI_C_BEGIN
 
+/* An edge of the material in a square. */
+typedef struct kiriSightEdge {
+    kiriVec2 tail, head, after; /* local m; after: the head of the next edge */
+    int32_t edge;               /* half-edge */
+    int32_t cell;
+    bool isTurn; /* the material has a corner of more than half a turn at the head, in this square */
+} kiriSightEdge;
+
+/* The edges of squares that were looked at, kept while mesh and grid do not change. A zeroed one with its memory is
+   empty. */
+typedef struct kiriSightEdges {
+    kiriMemory* memory;
+    KIRI_ARRAY(kiriSightEdge) edges;
+    KIRI_ARRAY(kiriSpan) spans;  /* of each square; count KIRI_NONE: not looked at yet */
+    KIRI_ARRAY(int32_t) squares; /* that were */
+    bool failed;                 /* for memory: what was seen since is of no use */
+} kiriSightEdges;
+
+/* Readies it for the squares of a mesh, and forgets all edges. False for memory. */
+bool kiriSightEdges_Start(kiriSightEdges* edges, const kiriMeshData* mesh);
+
 /* What may be looked at: squares that hold a cell of one of these regions. So what is seen depends on nothing that does
    not make one of them dirty. */
 typedef struct kiriSight {
@@ -14,6 +35,7 @@ typedef struct kiriSight {
     const int32_t* owner; /* of each cell: its region */
     const int32_t* regions;
     int32_t regionCount;
+    kiriSightEdges* edges;
 } kiriSight;
 
 typedef enum kiriSightEnd {
@@ -32,16 +54,10 @@ typedef struct kiriSightHit {
    of q or of the way only touches it: both may lie on edges, and the way may run along one. */
 kiriSightEnd kiriSight_Cast(const kiriSight* sight, kiriVec2 p, kiriVec2 q, kiriSightHit* hit);
 
-/* The edges of the material: the outline, and both lips of slits. Each keeps the material to its left. */
-static inline bool kiriSight_IsEdge(const kiriMeshData* mesh, int32_t h)
-{
-    return kiriMesh_Twin(mesh, h) == KIRI_NONE || kiriMesh_IsOpen(mesh, h);
-}
-static inline bool kiriSight_HasEdge(const kiriMeshData* mesh, int32_t triangle)
-{
-    const kiriTriangle* t = &mesh->triangles.data[triangle];
-    return t->open != 0 || (t->twin[0] | t->twin[1] | t->twin[2]) < 0; /* KIRI_NONE has the sign bit */
-}
+/* The edges of the material in a square, in no particular order: the outline, and both lips of slits. Each keeps the
+   material to its left. They stay where they are until the next call. */
+const kiriSightEdge* kiriSight_EdgesOf(const kiriSight* sight, int32_t square, int32_t* count);
+
 kiriLatticePoint kiriSight_HeadOf(const kiriMeshData* mesh, int32_t h);
 
 /* The next edge of the material after one, around its head. */

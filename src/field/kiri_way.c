@@ -38,18 +38,6 @@ static void AddTurn(kiriTurns* turns, const kiriTurn* turn)
     }
 }
 
-/* Adds the corner at the head of an edge of the material, if it lies in the square and is one. */
-static void AddTurnAt(kiriTurns* turns, const kiriMeshData* mesh, int32_t square, int32_t h)
-{
-    kiriTurn turn = { kiriSight_HeadOf(mesh, h), mesh->vertices.data[kiriMesh_Tail(mesh, h)].at, { 0, 0 } };
-    if (kiriSquares_At(&mesh->squares, turn.at) == square) {
-        turn.after = kiriSight_HeadOf(mesh, kiriSight_EdgeAfter(mesh, h));
-        if (kiriOrient(turn.before, turn.at, turn.after) < 0 || IsOnePlace(turn.before, turn.after)) {
-            AddTurn(turns, &turn);
-        }
-    }
-}
-
 static void ScanSquare(kiriTurns* turns, const kiriSight* sight, int32_t square)
 {
     const kiriMeshData* mesh = sight->mesh;
@@ -63,13 +51,14 @@ static void ScanSquare(kiriTurns* turns, const kiriSight* sight, int32_t square)
         return;
     }
     turns->scanned[turns->scannedCount++] = square;
-    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
-        int32_t triangle = mesh->squares.nodes.data[n].triangle;
-        bool isOwn = kiriSight_HasEdge(mesh, triangle) && kiriSight_MayLookIn(sight, sight->grid->nodeCell.data[n]);
-        for (int32_t h = 3 * triangle; isOwn && h < 3 * triangle + 3; ++h) {
-            if (kiriSight_IsEdge(mesh, h)) {
-                AddTurnAt(turns, mesh, square, h);
-            }
+    int32_t count;
+    const kiriSightEdge* edges = kiriSight_EdgesOf(sight, square, &count);
+    for (int32_t k = 0; k < count; ++k) {
+        if (edges[k].isTurn && kiriSight_MayLookIn(sight, edges[k].cell)) {
+            int32_t h = edges[k].edge;
+            kiriTurn turn = { kiriSight_HeadOf(mesh, h), mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
+                              kiriSight_HeadOf(mesh, kiriSight_EdgeAfter(mesh, h)) };
+            AddTurn(turns, &turn);
         }
     }
 }
@@ -91,16 +80,22 @@ void kiriTurns_AddAround(kiriTurns* turns, const kiriSight* sight, int32_t cell)
 
 /* ---- The way ------------------------------------------------------------------------------------------------------- */
 
-/* Dijkstra's search over the corners, from the start; the goal is the last node. */
+/* A search over the corners, from the start to the goal, which is the last node: A*, by the straight line to the goal
+   (Hart, Nilsson and Raphael 1968). Whether one can go from a node to another is looked at only when that would be the
+   next step. */
 typedef struct WaySearch {
     const kiriSight* sight;
     const kiriTurns* turns;
     kiriVec2 at[KIRI_MOST_TURNS + 2];
-    double length[KIRI_MOST_TURNS + 2]; /* of the shortest way known */
-    int32_t from[KIRI_MOST_TURNS + 2];
+    double rest[KIRI_MOST_TURNS + 2];      /* straight to the goal */
+    double length[KIRI_MOST_TURNS + 2];    /* of the shortest way that may be */
+    int32_t from[KIRI_MOST_TURNS + 2];     /* the node before */
+    uint64_t blocked[KIRI_MOST_TURNS + 2]; /* bit k: there is no straight way from node k */
     bool isDone[KIRI_MOST_TURNS + 2];
     int32_t count;
 } WaySearch;
+
+typedef char NodesFitBits[KIRI_MOST_TURNS + 2 <= 64 ? 1 : -1];
 
 static const double kiriNoWay = 1e300;
 
@@ -122,27 +117,43 @@ static bool CanGo(const WaySearch* s, int32_t a, int32_t b)
            kiriSight_IsClear(s->sight, s->at[a], s->at[b]);
 }
 
-/* The open node with the shortest way, or KIRI_NONE. */
+/* The open node on the way that may be the shortest, or KIRI_NONE. */
 static int32_t NextNode(const WaySearch* s)
 {
     int32_t best = KIRI_NONE;
     for (int32_t k = 0; k < s->count; ++k) {
-        if (!s->isDone[k] && s->length[k] < (best == KIRI_NONE ? kiriNoWay : s->length[best])) {
+        if (!s->isDone[k] && s->length[k] < kiriNoWay &&
+            (best == KIRI_NONE || s->length[k] + s->rest[k] < s->length[best] + s->rest[best])) {
             best = k;
         }
     }
     return best;
 }
 
-static void GoOnFrom(WaySearch* s, int32_t node)
+static void TryWay(WaySearch* s, int32_t from, int32_t node)
 {
-    s->isDone[node] = true;
-    for (int32_t k = s->count - 1; k > 0; --k) { /* the goal first: it may rule out others */
-        double length = s->length[node] + kiriVec2_Length(kiriVec2_Sub(s->at[k], s->at[node]));
-        double rest = kiriVec2_Length(kiriVec2_Sub(s->at[s->count - 1], s->at[k]));
-        if (!s->isDone[k] && length < s->length[k] && length + rest <= s->length[s->count - 1] && CanGo(s, node, k)) {
-            s->length[k] = length;
-            s->from[k] = node;
+    double length = s->length[from] + kiriVec2_Length(kiriVec2_Sub(s->at[node], s->at[from]));
+    if (!s->isDone[node] && (s->blocked[node] >> from & 1) == 0 && length < s->length[node]) {
+        s->length[node] = length;
+        s->from[node] = from;
+    }
+}
+
+/* Takes the next step to a node if one can go there; else the way over another node may be the shortest. */
+static void Step(WaySearch* s, int32_t node)
+{
+    if (node == 0 || CanGo(s, s->from[node], node)) {
+        s->isDone[node] = true;
+        for (int32_t k = 0; k < s->count; ++k) {
+            TryWay(s, node, k);
+        }
+        return;
+    }
+    s->blocked[node] |= (uint64_t)1 << s->from[node];
+    s->length[node] = kiriNoWay;
+    for (int32_t k = 0; k < s->count; ++k) {
+        if (s->isDone[k]) {
+            TryWay(s, k, node);
         }
     }
 }
@@ -172,14 +183,18 @@ bool kiriWay_Find(kiriTurns* turns, const kiriSight* sight, kiriVec2 from, kiriV
     s.count = turns->count + 2;
     for (int32_t k = 0; k < s.count; ++k) {
         s.at[k] = k == 0 ? from : k == s.count - 1 ? to : kiriMesh_Local(sight->mesh, turns->turn[k - 1].at);
+        s.rest[k] = kiriVec2_Length(kiriVec2_Sub(to, s.at[k]));
         s.length[k] = k == 0 ? 0.0 : kiriNoWay;
         s.from[k] = 0;
+        s.blocked[k] = 0;
         s.isDone[k] = false;
     }
-    for (int32_t node = 0; node != KIRI_NONE && node != s.count - 1; node = NextNode(&s)) {
-        GoOnFrom(&s, node);
+    int32_t node = 0;
+    while (node != KIRI_NONE && !s.isDone[s.count - 1]) {
+        Step(&s, node);
+        node = NextNode(&s);
     }
-    return s.length[s.count - 1] < kiriNoWay && TakeWay(&s, way);
+    return s.isDone[s.count - 1] && TakeWay(&s, way);
 }
 
 kiriVec2 kiriWay_At(const kiriWay* way, kiriVec2 from, kiriVec2 to, double length)
