@@ -1,5 +1,6 @@
 /* Time stepping through the public header: torques that arrive, and motion that lasts. */
 #include "host.h"
+#include "world/kiri_world.h"
 
 /* A strip of paper, 0.2 m by 0.05 m along u, clamped at the first of its frames. */
 typedef struct Strip {
@@ -39,10 +40,11 @@ static void Hold(Strip* s, int32_t frame)
     OK(kiriFrame_Hold(s->host.world, s->frames[frame], state.position, state.rotation));
 }
 
-static void Strip_Start(Strip* s, const StripDef* d, const float gravity[3])
+static void Strip_StartWith(Strip* s, const StripDef* d, const float gravity[3], int timeStepping)
 {
     float sites[2 * 64];
     kiriSheetDef def = DefOfStrip(d);
+    def.timeStepping = timeStepping;
     Host_Start(&s->host);
     s->host.every = 100;
     OK(kiriWorld_SetGravity(s->host.world, gravity));
@@ -55,6 +57,11 @@ static void Strip_Start(Strip* s, const StripDef* d, const float gravity[3])
     OK(kiriSheet_GetFrames(s->host.world, s->sheet, s->frames, 64, &s->frameCount));
     assert_int_equal(s->frameCount, d->frames);
     Hold(s, 0);
+}
+
+static void Strip_Start(Strip* s, const StripDef* d, const float gravity[3])
+{
+    Strip_StartWith(s, d, gravity, KIRI_TIME_STEPPING_SECOND_ORDER);
 }
 
 /* ---- Torques ----------------------------------------------------------------------------------------------------- */
@@ -124,11 +131,250 @@ static void TestTorqueArrivesInOtherSheets(void** state)
     }
 }
 
+/* ---- Motion that lasts ------------------------------------------------------------------------------------------- */
+
+/* A strip that hangs from pins at its upper corners, set swinging by a spin about the line of the pins. */
+typedef struct Pendulum {
+    Strip strip;
+    kiriPin pins[2];
+} Pendulum;
+
+typedef struct Swing {
+    int timeStepping, substeps, iterations;
+    bool uneven; /* ticks of other lengths, up to 8 times, and other numbers of substeps */
+    double spin; /* rad/s */
+} Swing;
+
+static void PinTop(Pendulum* p, int k)
+{
+    kiriPinDef def;
+    kiriDefaultPinDef(&def);
+    def.restPoint[0] = 0.001f;
+    def.restPoint[1] = def.target[1] = k == 0 ? 0.001f : Width - 0.001f;
+    def.target[2] = -def.restPoint[0];
+    OK(kiriCreatePin(p->strip.host.world, p->strip.sheet, &def, &p->pins[k]));
+}
+
+static void Kick(Pendulum* p, double spin)
+{
+    const float dt = 1e-4f;
+    kiriWorld* world = p->strip.host.world;
+    for (int32_t i = 0; i < p->strip.frameCount; ++i) {
+        kiriFrameState state;
+        OK(kiriFrame_GetState(world, p->strip.frames[i], &state));
+        double size = (double)Length / p->strip.frameCount, inertia = (double)state.mass * size * size / 12.0;
+        float force[3] = { -state.mass * (float)spin * state.position[2] / dt, 0.0f, 0.0f };
+        float torque[3] = { 0.0f, (float)(-inertia * spin) / dt, 0.0f };
+        OK(kiriFrame_ApplyForce(world, p->strip.frames[i], force, torque));
+    }
+    OK(Host_Tick(&p->strip.host, dt, 1));
+}
+
+static void Pendulum_Start(Pendulum* p, const Swing* swing)
+{
+    const StripDef d = { .frames = 9 };
+    kiriSheetDef def = DefOfStrip(&d);
+    float sites[18];
+    Host_Start(&p->strip.host);
+    p->strip.host.every = 100;
+    def.material.airDamping = def.material.flexDamping = 0.0f;
+    def.axisU[0] = 0.0f;
+    def.axisU[2] = -1.0f;
+    def.gridResolution = 40;
+    def.iterations = swing->iterations;
+    def.timeStepping = swing->timeStepping;
+    for (int i = 0; i < 9; ++i) {
+        sites[2 * i] = Length * ((float)i + 0.5f) / 9.0f;
+        sites[2 * i + 1] = 0.5f * Width;
+    }
+    def.framePoints = sites;
+    p->strip.sheet = Host_AddRectangle(&p->strip.host, &def, Length, Width, 40, 10);
+    OK(kiriSheet_GetFrames(p->strip.host.world, p->strip.sheet, p->strip.frames, 64, &p->strip.frameCount));
+    PinTop(p, 0);
+    PinTop(p, 1);
+    Kick(p, swing->spin);
+}
+
+/* Above where it hangs straight, J. */
+static double Energy(const Pendulum* p)
+{
+    kiriTotals t = Host_Totals(&p->strip.host, p->strip.sheet);
+    return t.kineticEnergy + t.elasticEnergy + t.mass * 9.81 * (t.center[2] + 0.5 * (double)Length);
+}
+
+/* Ticks for so long; returns the share of the energy after the first second that is left. */
+static double EnergyLeft(const Swing* swing, double seconds)
+{
+    Pendulum p;
+    uint32_t seed = 1234567u;
+    double first = 0.0, time = 0.0;
+    Pendulum_Start(&p, swing);
+    while (time < seconds) {
+        double dt = 1.0 / 60.0;
+        int32_t substeps = swing->substeps;
+        if (swing->uneven) {
+            dt *= pow(8.0, RandomBetween(&seed, -0.5, 0.5));
+            substeps = 1 + (int32_t)(Random(&seed) % 4);
+        }
+        OK(Host_Tick(&p.strip.host, (float)dt, substeps));
+        time += dt;
+        first = first == 0.0 && time >= 1.0 ? Energy(&p) : first;
+    }
+    double left = Energy(&p) / first;
+    Host_Stop(&p.strip.host);
+    print_message("%s, %d substeps%s, %d iterations: %.2f %% of the energy left after %g s\n",
+                  swing->timeStepping == KIRI_TIME_STEPPING_EULER ? "backward Euler" : "second order", swing->substeps,
+                  swing->uneven ? ", uneven" : "", swing->iterations, 100.0 * left, seconds);
+    return left;
+}
+
+static void TestSwingLasts(void** state)
+{
+    const Swing two = { 0, 2, 1, false, 1.5 }, four = { 0, 4, 1, false, 1.5 }, euler = { 1, 2, 1, false, 1.5 };
+    const Swing uneven = { 0, 0, 1, true, 1.5 }, more = { 0, 0, 2, true, 1.5 };
+    (void)state;
+    double left = EnergyLeft(&two, 10.0), finer = EnergyLeft(&four, 10.0);
+    assert_true(left > 0.95 && left < 1.0 && finer > 0.99 && finer < 1.0);
+    assert_true(EnergyLeft(&euler, 10.0) < 0.05);
+    double rough = EnergyLeft(&uneven, 10.0), iterated = EnergyLeft(&more, 10.0);
+    assert_true(rough > 0.7 && rough < 1.0 && iterated > 0.7 && iterated < 1.0);
+}
+
+/* ---- Order ------------------------------------------------------------------------------------------------------- */
+
+/* The tip of a cantilever that was let go 0.4 s ago, as seen by the tip's frame. */
+static void Sag(int timeStepping, int substeps, double tip[3])
+{
+    Strip s;
+    const StripDef d = { .frames = 5, .youngsModulus = 2e9f };
+    const float down[3] = { 0.0f, 0.0f, -9.81f };
+    kiriFrameState state;
+    Strip_StartWith(&s, &d, down, timeStepping);
+    for (int tick = 0; tick < 24; ++tick) {
+        OK(Host_Tick(&s.host, 1.0f / 60.0f, substeps));
+    }
+    OK(kiriFrame_GetState(s.host.world, s.frames[4], &state));
+    for (int k = 0; k < 3; ++k) {
+        tip[k] = (double)state.position[k];
+    }
+    Host_Stop(&s.host);
+}
+
+static double SagError(int timeStepping, int substeps, const double exact[3])
+{
+    double tip[3];
+    Sag(timeStepping, substeps, tip);
+    double error = sqrt((tip[0] - exact[0]) * (tip[0] - exact[0]) + (tip[2] - exact[2]) * (tip[2] - exact[2]));
+    print_message("%s, %3d substeps: the tip is off by %.2e m\n",
+                  timeStepping == KIRI_TIME_STEPPING_EULER ? "backward Euler" : "second order", substeps, error);
+    return error;
+}
+
+static void TestOrder(void** state)
+{
+    double exact[3];
+    (void)state;
+    Sag(KIRI_TIME_STEPPING_SECOND_ORDER, 64, exact);
+    double coarse = SagError(KIRI_TIME_STEPPING_SECOND_ORDER, 2, exact);
+    double fine = SagError(KIRI_TIME_STEPPING_SECOND_ORDER, 4, exact);
+    double euler = SagError(KIRI_TIME_STEPPING_EULER, 4, exact);
+    assert_true(fine < 0.35 * coarse && fine < 0.1 * euler);
+}
+
+/* ---- A slit that grows ------------------------------------------------------------------------------------------- */
+
+/* While a blade moves up a swinging strip each tick commits new weights; energy stays. */
+static double EnergyLeftBesideSlit(int timeStepping)
+{
+    const Swing swing = { timeStepping, 2, 2, false, 1.5 };
+    Pendulum p;
+    kiriCut cut = 0;
+    double first = 0.0;
+    const float start[2] = { 1.05f * Length, 0.5f * Width };
+    Pendulum_Start(&p, &swing);
+    OK(kiriBeginCut(p.strip.host.world, p.strip.sheet, start, &cut));
+    for (int tick = 0; tick < 300; ++tick) {
+        const float to[2] = { Length * (1.0f - 0.8f * (float)(tick - 60) / 240.0f), 0.5f * Width };
+        if (tick >= 60) {
+            OK(kiriCut_Extend(p.strip.host.world, cut, to, 1));
+        }
+        OK(Host_Tick(&p.strip.host, 1.0f / 60.0f, 2));
+        first = tick == 59 ? Energy(&p) : first;
+    }
+    double left = Energy(&p) / first;
+    Host_Stop(&p.strip.host);
+    print_message("%s, a slit grows: %.1f %% of the energy left\n",
+                  timeStepping == KIRI_TIME_STEPPING_EULER ? "backward Euler" : "second order", 100.0 * left);
+    return left;
+}
+
+static void TestSlitGrows(void** state)
+{
+    (void)state;
+    double left = EnergyLeftBesideSlit(KIRI_TIME_STEPPING_SECOND_ORDER);
+    assert_true(left > 0.8 && left < 1.02);
+    assert_true(EnergyLeftBesideSlit(KIRI_TIME_STEPPING_EULER) < 0.5);
+}
+
+/* ---- History ----------------------------------------------------------------------------------------------------- */
+
+/* Two worlds that differ in the history of a frame alone are two. */
+static void TestHistoryIsHashed(void** state)
+{
+    const Swing swing = { 0, 2, 1, false, 1.5 };
+    Pendulum p;
+    (void)state;
+    Pendulum_Start(&p, &swing);
+    OK(Host_Tick(&p.strip.host, 1.0f / 60.0f, 2));
+    kiriHistory* history = &p.strip.host.world->sheets.data[0]->frames.data[4].history;
+    assert_true(history->dt > 0.0);
+    double* numbers[7] = { &history->dt,           &history->gain.x,      &history->lag.z,       &history->pull.x,
+                           &history->turnGain.u.y, &history->turnLag.u.y, &history->turnPull.u.y };
+    for (int k = 0; k < 7; ++k) {
+        uint64_t before = Host_Hash(&p.strip.host);
+        double was = *numbers[k];
+        *numbers[k] = was + 1.0;
+        assert_true(Host_Hash(&p.strip.host) != before);
+        *numbers[k] = was;
+        assert_true(Host_Hash(&p.strip.host) == before);
+    }
+    Host_Stop(&p.strip.host);
+}
+
+/* A pin that moves ends the history of the frame that it holds, and one that is set to where it is does not. By choice
+   there is none at all. */
+static void TestPinsEndHistory(void** state)
+{
+    const Swing swing = { 0, 2, 1, false, 1.5 }, euler = { 1, 2, 1, false, 1.5 };
+    float target[3] = { 0.0f, 0.001f, -0.001f };
+    Pendulum p;
+    (void)state;
+    Pendulum_Start(&p, &swing);
+    OK(Host_Tick(&p.strip.host, 1.0f / 60.0f, 2));
+    const kiriSheetData* sheet = p.strip.host.world->sheets.data[0];
+    OK(kiriPin_SetTarget(p.strip.host.world, p.pins[0], target));
+    assert_true(sheet->frames.data[0].history.dt > 0.0);
+    target[0] = 0.01f;
+    OK(kiriPin_SetTarget(p.strip.host.world, p.pins[0], target));
+    assert_true(sheet->frames.data[0].history.dt == 0.0 && sheet->frames.data[1].history.dt > 0.0);
+    OK(Host_Tick(&p.strip.host, 1.0f / 60.0f, 2));
+    assert_true(sheet->frames.data[0].history.dt > 0.0);
+    OK(kiriDestroyPin(p.strip.host.world, p.pins[1]));
+    assert_true(sheet->frames.data[0].history.dt == 0.0);
+    Host_Stop(&p.strip.host);
+    Pendulum_Start(&p, &euler);
+    OK(Host_Tick(&p.strip.host, 1.0f / 60.0f, 2));
+    assert_true(p.strip.host.world->sheets.data[0]->frames.data[4].history.dt == 0.0);
+    Host_Stop(&p.strip.host);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestTorqueArrives),
-        cmocka_unit_test(TestTorqueArrivesInOtherSheets),
+        cmocka_unit_test(TestTorqueArrives),  cmocka_unit_test(TestTorqueArrivesInOtherSheets),
+        cmocka_unit_test(TestSwingLasts),     cmocka_unit_test(TestOrder),
+        cmocka_unit_test(TestSlitGrows),      cmocka_unit_test(TestHistoryIsHashed),
+        cmocka_unit_test(TestPinsEndHistory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

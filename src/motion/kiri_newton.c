@@ -5,6 +5,7 @@
 #define SECOND_CHANCES 4           /* more iterations where energy is gained or the last step was cut short, */
 #define FRESH_STARTS 2             /* and iterations from the start of the step should they fail */
 #define WORTHWHILE 1e-6            /* of the objective, where a longer step would lower it by more */
+#define MOST_RISE 100.0            /* of the objective in the first step of a piece */
 #define MOST_TAKEN 0.5             /* of the kinetic energy, where a piece need not start anew */
 #define TOLERABLE_GAIN 1e-2        /* in a step of second order: of the energy that the limit could take, */
 #define NEGLIGIBLE_GAIN 1e-9       /* and of all */
@@ -74,7 +75,8 @@ static bool TakeTrial(kiriSolver* solver, const kiriSystem* system)
     return isLeft;
 }
 
-/* Pieces in their first step that still search may end where the objective is that of the free prediction without friction. */
+/* Pieces in their first step that still search may end where the objective is that of the free prediction without
+   friction, or some times as large as where they start. */
 static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {
@@ -86,7 +88,8 @@ static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
     solver->hasFriction = hasFriction;
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         kiriPieceStep* piece = &solver->pieces.data[i];
-        double allowed = piece->sum.objective * (1.0 + KIRI_ROUNDING) + piece->noise;
+        double rise = MOST_RISE * piece->now.objective, predicted = piece->sum.objective;
+        double allowed = (predicted > rise ? predicted : rise) * (1.0 + KIRI_ROUNDING) + piece->noise;
         bool isAllowed = piece->isSearching && piece->isFirst;
         piece->enough = isAllowed && allowed > piece->enough ? allowed : piece->enough;
     }
@@ -216,8 +219,8 @@ static bool RestartPieces(kiriSolver* solver, const kiriSystem* system)
     return any;
 }
 
-/* The iteration starts from free motion, without forces or with those of the last step: a strip that swings is then nearly at the minimum, and one at
-   rest is there. The first Gauss-Newton step may raise the objective up to that of the free prediction: it has to turn
+/* The iteration starts from free motion, without forces or with those of the last step: a strip that swings is then
+   nearly at the minimum, and one at rest is there. The first Gauss-Newton step may raise the objective: it has to turn
    stiff frames, which stretches links until the next step relaxes them, and a line search would not let it turn them.
 
    Pieces that have gained energy, or took only a part of their last step, are iterated on. What a piece has gained even
