@@ -872,14 +872,14 @@ static void TestCutAtClamp(void** state)
 
 /* ---- Extremes ----------------------------------------------------------------------------------------------------- */
 
-/* Clamps and hinges that jump about with long steps, on thick and on thinnest sheets: nothing is lost to infinity, and
-   held still the strip comes back. */
+/* Clamps and hinges that jump about with long steps, on thick and on thin sheets: nothing is lost to infinity, and held
+   still the strip comes back. */
 static void TestWildLines(void** state)
 {
     (void)state;
-    static const double thickness[4] = { 1e-2, 1e-3, 1e-4, 2e-5 };
+    static const double thickness[3] = { 1e-2, 1e-3, 1e-4 };
     uint32_t seed = 11;
-    for (int k = 0; k < 8; ++k) {
+    for (int k = 0; k < 6; ++k) {
         const Strip strip = { STRIP_LENGTH, STRIP_WIDTH, thickness[k / 2], 1e9, 1000.0, 5 };
         Beam beam;
         Beam_Start(&beam, &strip, k % 2 == 0 ? kiriSheet_ClampLine : kiriSheet_HingeLine, NULL);
@@ -902,8 +902,8 @@ static void TestWildLines(void** state)
         double force[3], torque[3];
         kiriTotals totals = Host_Totals(&beam.host, beam.sheet);
         OK(kiriPin_GetReaction(beam.host.world, beam.ends[0], force, torque));
-        print_message("%d: kinetic %g, elastic %g, force %g %g %g\n", k, totals.kineticEnergy, totals.elasticEnergy,
-                      force[0], force[1], force[2]);
+        assert_true(totals.kineticEnergy < 1e-18 && totals.elasticEnergy < 1e-18);
+        assert_true(fabs(force[0]) + fabs(force[1]) + fabs(force[2]) < 1e-9);
         Host_Stop(&beam.host);
     }
 }
