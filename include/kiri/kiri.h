@@ -436,6 +436,13 @@ typedef struct kiriTotals {
 
 KIRI_API kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet, kiriTotals* totals);
 
+/* An estimate of the error of the sheet's shape as it is now, where it rests or moves slowly: rms distance from where a
+   sheet of very many frames would be under the same loads, over the rms way that it has gone from its flat shape; 0 to
+   1. It compares the strains of neighbouring links (KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE) and knows nothing of
+   the grid's own error, of time stepping, nor of loads and slits that no frame feels. 1: too few frames to tell. Takes
+   about as long as a hundredth of a substep, and only when called. */
+KIRI_API kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sheet, double* relative);
+
 /* *awake is 0 for a sheet that sleeps, see sleepSpeed. */
 KIRI_API kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, int32_t* awake);
 KIRI_API kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet);

@@ -1,4 +1,5 @@
 #include "kiri_call.h"
+#include "../motion/kiri_estimate.h"
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_update.h"
 #include "../view/kiri_ray.h"
@@ -125,6 +126,20 @@ kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, const floa
     kiriSurface_Raycast(&data->seen.surface, kiriVec3_Load(origin), kiriVec3_Normalize(kiriVec3_Load(direction)),
                         maxDistance, hit);
     return KIRI_OK;
+}
+
+kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sheet, double* relative)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(relative != NULL, "relative is null");
+    KIRI_FIND_SHEET(data, sheet);
+    if (data->settings.mechanics.model != KIRI_MODEL_LINKS) {
+        return KIRI_FAIL(KIRI_ERROR_STATE, "only sheets of KIRI_MODEL_LINKS have an estimate");
+    }
+    kiriMemory scratch = kiriMemory_Like(&world->memory);
+    bool ok = kiriEstimate_Error(&scratch, data->frames.data, data->frames.count, data->links.links.data,
+                                 data->links.links.count, &data->settings.material, relative);
+    return ok ? KIRI_OK : KIRI_FAIL(KIRI_ERROR_MEMORY, "out of memory");
 }
 
 kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriFrame* frames,
