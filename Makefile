@@ -253,7 +253,7 @@ $(BUILD)/tests/test_image: TEST_LIBRARIES := -lpng -lz
 $(BUILD)/tests/test_readers: LDFLAGS += -pthread
 
 # Tests that compare with the heavy elastica.
-$(BUILD)/tests/test_affine $(BUILD)/tests/test_point: $(BUILD)/tests/reference.c.o
+$(BUILD)/tests/test_affine $(BUILD)/tests/test_estimate $(BUILD)/tests/test_point: $(BUILD)/tests/reference.c.o
 
 deps:
 	@if ! command -v apt-get >/dev/null; then echo "needed, as Debian names it: $(DEBIAN_PACKAGES)"; exit 0; fi; \

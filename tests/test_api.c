@@ -129,6 +129,7 @@ static void NullWorld(void** state)
         kiriSheet_GetCollisionPoints(NULL, 1, &positions, &count),
         kiriSheet_GetCounts(NULL, 1, &counts),
         kiriSheet_GetTotals(NULL, 1, &totals),
+        kiriSheet_EstimateError(NULL, 1, &totals.mass),
         kiriSheet_Raycast(NULL, 1, v, v, 1.0f, &hit),
         kiriSheet_GetWeights(NULL, 1, v, &id, v, NULL, 1, &count),
         kiriBeginCut(NULL, 1, v, &id),
@@ -502,6 +503,7 @@ static void Ids(void** state)
         REFUSED(KIRI_ERROR_ID, kiriSheet_GetCollisionPoints(w, ids[i], &positions, &count));
         REFUSED(KIRI_ERROR_ID, kiriSheet_GetCounts(w, ids[i], &counts));
         REFUSED(KIRI_ERROR_ID, kiriSheet_GetTotals(w, ids[i], &totals));
+        REFUSED(KIRI_ERROR_ID, kiriSheet_EstimateError(w, ids[i], &totals.mass));
         REFUSED(KIRI_ERROR_ID, kiriSheet_Raycast(w, ids[i], v, v, 1.0f, &hit));
         REFUSED(KIRI_ERROR_ID, kiriSheet_GetWeights(w, ids[i], v, &made, v, NULL, 1, &count));
         REFUSED(KIRI_ERROR_ID, kiriBeginCut(w, ids[i], v, &made));
@@ -567,6 +569,7 @@ static void SheetArguments(void** state)
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetCollisionPoints(w, s, &positions, NULL));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetCounts(w, s, NULL));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetTotals(w, s, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_EstimateError(w, s, NULL));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetFrames(w, s, &frame, 1, NULL));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetFrames(w, s, NULL, 1, &count));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetFrames(w, s, &frame, -1, &count));

@@ -2,7 +2,7 @@
 
 /* ---- What placing must come to, computed plainly ------------------------------------------------------------- */
 
-enum { AWAY = 1 << 28, MOST = 100 };
+enum { AWAY = 1 << 28, MOST = 100, MOST_ENDS = 3 };
 
 typedef struct Plain {
     const kiriGrid* grid;
@@ -13,6 +13,10 @@ typedef struct Plain {
     int64_t* distance;    /* of each site and cell */
     kiriSite sites[MOST]; /* old ones first */
     int32_t siteCount, oldCount;
+    kiriSlitEnd ends[MOST_ENDS];
+    int32_t endCount;
+    double reach, closeness; /* around them; reach 0: none */
+    int64_t* closer;         /* of each cell, in 16ths */
 } Plain;
 
 static int64_t* DistanceOf(const Plain* p, int32_t site, int32_t cell)
@@ -55,6 +59,36 @@ static void Measure(Plain* p, int32_t site, int32_t minded)
     }
 }
 
+/* How much closer sites are: by Bellman and Ford's distances from the slit ends. */
+static void MeasureCloseness(Plain* p)
+{
+    int64_t* distance = p->closer;
+    for (int32_t k = 0; k < p->count; ++k) {
+        distance[p->cells[k]] = AWAY;
+    }
+    for (int32_t k = 0; k < p->endCount; ++k) {
+        distance[p->ends[k].cell] = 0;
+    }
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (int32_t k = 0; k < p->count; ++k) {
+            const kiriStepRun* run = &p->grid->runs.data[p->cells[k]];
+            for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+                kiriStep step = p->grid->steps.data[s];
+                bool nearer = distance[p->cells[k]] + step.length < distance[step.cell];
+                distance[step.cell] = nearer ? distance[p->cells[k]] + step.length : distance[step.cell];
+                changed = changed || nearer;
+            }
+        }
+    }
+    int64_t reach = p->endCount > 0 ? (int64_t)(16 * 256 * (p->reach / p->grid->side)) : 0;
+    int64_t most = reach > 0 ? (int64_t)(16.0 * p->closeness + 0.5) : 16;
+    for (int32_t k = 0; k < p->count; ++k) {
+        int64_t d = distance[p->cells[k]], closer = reach > 0 && d == 0 ? most : reach > 0 ? reach / d : 16;
+        p->closer[p->cells[k]] = closer < 16 ? 16 : closer < most ? closer : most;
+    }
+}
+
 static bool IsMostly(const Plain* p, int32_t cell)
 {
     return p->grid->cells.data[cell].material.area > 0.5 * p->grid->side * p->grid->side;
@@ -73,6 +107,7 @@ static int32_t PlainFarthest(const Plain* p, const uint8_t* allowed)
             isFree = isFree && p->sites[i].cell != c;
             distance = *DistanceOf(p, i, c) < distance ? *DistanceOf(p, i, c) : distance;
         }
+        distance *= p->closer[c];
         if (isFree && (distance > bestDistance || (distance == bestDistance && IsMostly(p, c) && !IsMostly(p, best)))) {
             best = c;
             bestDistance = distance;
@@ -102,7 +137,8 @@ static int32_t PlainTarget(const Plain* p, int32_t site, const uint8_t* allowed,
         if (site == KIRI_NONE || PlainOwner(p, p->cells[k]) == site) {
             kiriMoments m = p->grid->cells.data[p->cells[k]].material;
             int64_t share = (int64_t)(16777216.0 * (m.area / (side * side)) + 0.5);
-            share = share > 0 ? share : 1;
+            int64_t closer = site == KIRI_NONE ? 16 : p->closer[p->cells[k]];
+            share = (share > 0 ? share : 1) * (closer * closer * closer * closer / 65536);
             area += share;
             u += (int64_t)((double)share / (m.area * side) * m.u + 0.5);
             v += (int64_t)((double)share / (m.area * side) * m.v + 0.5);
@@ -161,6 +197,7 @@ static void PlainPlace(Plain* p, const uint8_t* allowed, int32_t count)
         }
         return;
     }
+    MeasureCloseness(p);
     for (int32_t i = 0; i < p->oldCount; ++i) {
         Measure(p, i, p->oldCount);
     }
@@ -458,6 +495,7 @@ static void InitPlain(Plain* p, const Scene* scene, const int32_t* piece, int32_
     p->mesh = &scene->mesh;
     p->cells = malloc(sizeof(int32_t) * (size_t)grid->cells.count);
     p->distance = malloc(sizeof(int64_t) * MOST * (size_t)grid->cells.count);
+    p->closer = malloc(sizeof(int64_t) * (size_t)grid->cells.count);
     for (int32_t c = 0; c < grid->cells.count; ++c) {
         if (kiriGrid_IsCell(grid, c) && piece[c] == which) {
             int32_t k = p->count++;
@@ -473,6 +511,7 @@ static void FreePlain(Plain* p)
 {
     free(p->cells);
     free(p->distance);
+    free(p->closer);
 }
 
 /* Some sites in cells of their own, as frames take them, or at sides and corners of the square; many next to the
@@ -509,6 +548,24 @@ static void GiveOldSites(const Plain* p, kiriMemory* memory, kiriPlacer* placer)
     for (int32_t i = 0; i < p->oldCount; ++i) {
         assert_true(kiriArray_Push(memory, &placer->sites, p->sites[i]));
     }
+    placer->ends.count = 0;
+    for (int32_t k = 0; k < p->endCount; ++k) {
+        assert_true(kiriArray_Push(memory, &placer->ends, p->ends[k]));
+    }
+    placer->reach = p->reach;
+    placer->closeness = p->closeness;
+}
+
+/* Places around which sites are closer; anywhere: the placer does not ask whether a slit ends there. */
+static void AddEnds(Plain* p, uint32_t* seed)
+{
+    p->endCount = (int32_t)(Random(seed) % (MOST_ENDS + 1));
+    for (int32_t k = 0; k < p->endCount; ++k) {
+        memset(&p->ends[k], 0, sizeof(p->ends[k]));
+        p->ends[k].cell = p->cells[Random(seed) % (uint32_t)p->count];
+    }
+    p->reach = RandomBetween(seed, 0.0, 0.4);
+    p->closeness = RandomBetween(seed, 1.0, 4.0);
 }
 
 /* Runs the job with quotas below `most`, or all at once for 0. */
@@ -566,6 +623,9 @@ static void CheckPiece(Scene* scene, kiriPlacer* placer, kiriRegions* regions, P
     uint8_t* allowed = NULL;
     int32_t most = Random(seed) % 8 == 0 ? 50 : 7, count = (int32_t)(Random(seed) % (uint32_t)most);
     AddOldSites(p, Random(seed) % 3 == 0 ? 0 : (int32_t)(Random(seed) % 6), seed);
+    if (Random(seed) % 2 == 0) {
+        AddEnds(p, seed);
+    }
     if (Random(seed) % 3 == 0) {
         allowed = malloc((size_t)scene->grid.cells.count);
         for (int32_t c = 0; c < scene->grid.cells.count; ++c) {

@@ -12,8 +12,10 @@ static void AddPairs(Scene* scene, kiriSites* sites, double spacing, int32_t mos
     kiriPlacer placer = { 0 };
     Scene_BuildGrid(scene);
     assert_true(kiriPlacer_TakePiece(&placer, &scene->memory, &scene->grid, Scene_Cell(scene, 0.01, 0.01)));
-    assert_true(kiriSlits_AddPairs(sites, &scene->memory, &scene->grid, &scene->mesh, placer.cells.data,
-                                   placer.cells.count, spacing, most));
+    kiriSlitEnds ends = { 0 };
+    assert_true(
+        kiriSlits_FindEnds(&ends, &scene->memory, &scene->grid, &scene->mesh, placer.cells.data, placer.cells.count));
+    assert_true(kiriSlits_AddPairs(sites, &scene->memory, &scene->grid, &scene->mesh, &ends, spacing, most));
 }
 
 static void AssertSite(const kiriSites* sites, int32_t index, double u, double v)
@@ -107,21 +109,28 @@ static void PairsFailCleanly(void** state)
     (void)state;
     Scene scene;
     kiriSites sites = { 0 };
+    kiriSlitEnds ends = { 0 };
     kiriPlacer placer = { 0 };
     Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
     Scene_Slit(&scene, 0.3, 0.0, 0.3, 0.4);
     Scene_BuildGrid(&scene);
     assert_true(kiriPlacer_TakePiece(&placer, &scene.memory, &scene.grid, 0));
+    for (int k = 0; k < 2; ++k) {
+        scene.purse.budget = k == 0 ? 0 : -1;
+        bool ok =
+            kiriSlits_FindEnds(&ends, &scene.memory, &scene.grid, &scene.mesh, placer.cells.data, placer.cells.count);
+        assert_int_equal(ok, k);
+    }
+    assert_int_equal(ends.count, 1);
     scene.purse.budget = 0;
-    assert_false(kiriSlits_AddPairs(&sites, &scene.memory, &scene.grid, &scene.mesh, placer.cells.data,
-                                    placer.cells.count, 0.1, 8));
+    assert_false(kiriSlits_AddPairs(&sites, &scene.memory, &scene.grid, &scene.mesh, &ends, 0.1, 8));
     assert_int_equal(sites.count, 0);
     Scene_Release(&scene);
 }
 
 /* ---- What the grid carries ---- */
 
-/* The longest line of a refusal that says what to do. */
+/* With a line that says what to do. */
 static void AssertRefused(Host* host, kiriSheetDef* def, const char* part)
 {
     kiriSheet sheet = 0;

@@ -129,6 +129,7 @@ def test_cut():
     assert any(event.type == kiri.KIRI_EVENT_PIECE_OFF for event in world.events())
     assert sheet.counts().vertices > before.vertices and sheet.counts().pieces == before.pieces + 1
     assert abs(sheet.totals().area - 0.75) < 1e-6
+    assert 0 <= sheet.estimate_error() <= 1
     assert world.profile().trianglesSplit > 0
     assert raises(kiri.KiriError, cut.end).result == kiri.KIRI_ERROR_ID
 

@@ -86,6 +86,7 @@ static const Field sheetFields[] = {
     { REAL(kiriSheetDef, snapDistance), { 0.0, FLT_MIN, 1e-3, 0.1, 2.0, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
     { WHOLE(kiriSheetDef, frameCount), { 0, 1, 2, 24, 500, 65536, END }, { -1, 65537, END } },
     { REAL(kiriSheetDef, frameLength), { 0.0, FLT_MIN, 0.01, 1.0, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
+    { REAL(kiriSheetDef, accuracy), { 1e-4f, 0.01, 1.0, END }, { 0.0, 0.99e-4, 1.01 } },
     { WHOLE(kiriSheetDef, maxFrames), { 1, 2, 20, 256, INT32_MAX, END }, { 0, -1, END } },
     { REAL(kiriSheetDef, rigidWeight), { FLT_MIN, 0.1, 0.5, 1.0, FLT_MAX, END }, { 0.0, -1.0, NO_NUMBER } },
     { REAL(kiriSheetDef, rigidArea), { 0.0, FLT_MIN, 1e-4, 1e-3, 0.005, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },

@@ -155,6 +155,12 @@ static kiriResult ReadTotals(const Scene* scene, bool well)
     return kiriSheet_GetTotals(WorldOf(scene), SheetOf(scene, well), &totals);
 }
 
+static kiriResult ReadEstimate(const Scene* scene, bool well)
+{
+    double relative;
+    return kiriSheet_EstimateError(WorldOf(scene), SheetOf(scene, well), &relative);
+}
+
 static kiriResult ReadAwake(const Scene* scene, bool well)
 {
     int32_t awake;
@@ -202,14 +208,23 @@ typedef struct Reader {
 } Reader;
 
 static const Reader readers[] = {
-    { "kiriWorld_GetStateHash", ReadHash },     { "kiriWorld_GetEvents", ReadEvents },
-    { "kiriWorld_GetProfile", ReadProfile },    { "kiriSheet_GetMesh", ReadMesh },
-    { "kiriSheet_GetDirty", ReadDirty },        { "kiriSheet_CopyVertices", ReadVertices },
-    { "kiriSheet_CopyIndices16", ReadIndices }, { "kiriSheet_GetCollisionPoints", ReadPoints },
-    { "kiriSheet_GetCounts", ReadCounts },      { "kiriSheet_GetTotals", ReadTotals },
-    { "kiriSheet_IsAwake", ReadAwake },         { "kiriSheet_Raycast", ReadRay },
-    { "kiriSheet_GetWeights", ReadWeights },    { "kiriFrame_GetPiece", ReadFramePiece },
-    { "kiriSheet_GetFrames", ReadFrames },      { "kiriFrame_GetState", ReadState },
+    { "kiriWorld_GetStateHash", ReadHash },
+    { "kiriWorld_GetEvents", ReadEvents },
+    { "kiriWorld_GetProfile", ReadProfile },
+    { "kiriSheet_GetMesh", ReadMesh },
+    { "kiriSheet_GetDirty", ReadDirty },
+    { "kiriSheet_CopyVertices", ReadVertices },
+    { "kiriSheet_CopyIndices16", ReadIndices },
+    { "kiriSheet_GetCollisionPoints", ReadPoints },
+    { "kiriSheet_GetCounts", ReadCounts },
+    { "kiriSheet_GetTotals", ReadTotals },
+    { "kiriSheet_EstimateError", ReadEstimate },
+    { "kiriSheet_IsAwake", ReadAwake },
+    { "kiriSheet_Raycast", ReadRay },
+    { "kiriSheet_GetWeights", ReadWeights },
+    { "kiriFrame_GetPiece", ReadFramePiece },
+    { "kiriSheet_GetFrames", ReadFrames },
+    { "kiriFrame_GetState", ReadState },
 };
 
 enum { READERS = sizeof(readers) / sizeof(readers[0]) };

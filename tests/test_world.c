@@ -1122,6 +1122,7 @@ static void FramesByThemselves(void** state)
     Host_Start(&host);
     kiriDefaultSheetDef(&def);
     def.frameCount = 0;
+    def.accuracy = 0.25f; /* the bending length is then how far frames are apart */
     def.gridResolution = 50;
     OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
     kiriSheet sheet = Host_AddRectangle(&host, &def, 0.3f, 0.3f, 12, 12);

@@ -318,11 +318,12 @@ typedef struct kiriSheetDef {
        frames are spread evenly, some of them in pairs at both sides of slit ends. The grid carries one frame for every
        two squares of material at most: more are refused (KIRI_ERROR_ARGUMENT), and re-sampling stops there.
        frameCount 0: as many as the sheet needs: a region is split while its size, 2.45 times its radius of gyration,
-       exceeds 1.25 frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0: the length
-       over which the material bends under its own weight, (D / (density thickness 9.81))^(1/3) with D its bending
-       stiffness (6 cm for printing paper), but three squares of the grid at least. */
+       exceeds 1.25 frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0: it
+       follows from `accuracy`, the relative error of the shape under the sheet's own weight that is good enough, but is
+       three squares of the grid at least. kiriSheet_EstimateError says what came of it. */
     int32_t frameCount; /* 0, or 1 and more; default 5 */
-    float frameLength;  /* m; used where frameCount is 0 */
+    float frameLength;  /* m; used where frameCount is 0; default 0 */
+    float accuracy;     /* 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02 */
     const float* framePoints;
     int32_t maxFrames; /* re-sampling stops here; default 256 */
 

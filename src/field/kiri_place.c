@@ -17,10 +17,11 @@
    What is the same from round to round is kept: distances to the old sites are flooded once, those to the new sites
    only as far as these are nearer. */
 
-enum { MOST_ROUNDS = 20, CELL_FREE = KIRI_NONE, CELL_BARRED = -2, AREA_UNITS = 1 << 24 };
+enum { MOST_ROUNDS = 20, CELL_FREE = KIRI_NONE, CELL_BARRED = -2, AREA_UNITS = 1 << 24, CLOSENESS = 16 };
 
 typedef enum PlacerStage {
     PLACER_RESTS,
+    FLOOD_ENDS,    /* distances to the slit ends */
     FLOOD_OLD,     /* distances to the old sites */
     SAMPLE,        /* for the farthest cell */
     FLOOD_NEW,     /* distances to the site just sampled, where it is the nearest */
@@ -47,6 +48,9 @@ static const SiteTarget noTarget = { 0, 0, 0, { 0.0, 0.0 }, KIRI_NONE, 0.0 };
 struct kiriPlacerWork {
     const kiriField* old; /* from the old sites: `flooded`, or the caller's */
     kiriField flooded;
+    kiriField ends;                 /* from the slit ends */
+    int64_t reach;                  /* of these, on the grid, times CLOSENESS; 0: sites are as close everywhere */
+    int32_t closest;                /* closeness at the ends, times CLOSENESS */
     kiriField fresh;                /* from the site just sampled, or from all new ones */
     KIRI_ARRAY(int32_t) sampled;    /* of each cell: distance to the nearest new site while sampling */
     KIRI_ARRAY(int32_t) holds;      /* of each cell: the site in it, or CELL_FREE, or CELL_BARRED to sampling */
@@ -173,17 +177,44 @@ static kiriProgress GoOnTo(PlacerJob* job, kiriProgress progress, PlacerStage ne
     return progress;
 }
 
+/* ---- Closeness */
+
+static kiriProgress FloodEnds(PlacerJob* job)
+{
+    bool isAsked = job->work->reach > 0;
+    return GoOnTo(job, isAsked ? FloodPart(job, &job->work->ends, NULL) : KIRI_DONE, FLOOD_OLD);
+}
+
+/* How much closer sites shall be at a cell, times CLOSENESS. */
+static int64_t ClosenessAt(const kiriPlacerWork* work, int32_t cell)
+{
+    if (work->reach == 0) {
+        return CLOSENESS;
+    }
+    int64_t distance = work->ends.distance.data[cell], most = work->closest;
+    int64_t closeness = distance > 0 ? work->reach / distance : most;
+    return closeness < CLOSENESS ? CLOSENESS : closeness < most ? closeness : most;
+}
+
+/* What makes a centroidal Voronoi diagram as much closer: the fourth power, as a density (Du, Faber, Gunzburger 1999). */
+static int64_t DensityAt(const kiriPlacerWork* work, int32_t cell)
+{
+    int64_t squared = ClosenessAt(work, cell) * ClosenessAt(work, cell);
+    return squared * squared / ((int64_t)CLOSENESS * CLOSENESS * CLOSENESS * CLOSENESS);
+}
+
 /* ---- Sampling */
 
 static kiriProgress FloodOld(PlacerJob* job)
 {
-    return GoOnTo(job, FloodPart(job, &job->work->flooded, NULL), SAMPLE);
+    bool isKnown = job->work->old != &job->work->flooded;
+    return GoOnTo(job, isKnown ? KIRI_DONE : FloodPart(job, &job->work->flooded, NULL), SAMPLE);
 }
 
-static int32_t SampledDistance(const kiriPlacerWork* work, int32_t cell)
+static int64_t SampledDistance(const kiriPlacerWork* work, int32_t cell)
 {
-    int32_t old = work->old->distance.data[cell], sampled = work->sampled.data[cell];
-    return old < sampled ? old : sampled;
+    int64_t old = work->old->distance.data[cell], sampled = work->sampled.data[cell];
+    return (old < sampled ? old : sampled) * ClosenessAt(work, cell);
 }
 
 /* In a part without a site all cells are equally far, and the first one is taken: relaxation moves the site on. */
@@ -193,8 +224,9 @@ static void FindFarthest(PlacerJob* job, int32_t cell)
     if (work->holds.data[cell] != CELL_FREE) {
         return;
     }
-    int32_t best = work->farthest, distance = SampledDistance(work, cell);
-    int32_t farthest = best == KIRI_NONE ? KIRI_NONE : SampledDistance(work, best);
+    int32_t best = work->farthest;
+    int64_t distance = SampledDistance(work, cell);
+    int64_t farthest = best == KIRI_NONE ? KIRI_NONE : SampledDistance(work, best);
     if (distance > farthest ||
         (distance == farthest && MostlyCovered(job->grid, cell) && !MostlyCovered(job->grid, best))) {
         work->farthest = cell;
@@ -278,6 +310,7 @@ static void AddMaterial(const PlacerJob* job, SiteTarget* target, int32_t cell)
     double side = job->grid->side;
     int64_t area = (int64_t)(AREA_UNITS * (material->area / (side * side)) + 0.5);
     area = area > 0 ? area : 1;
+    area *= DensityAt(job->work, cell);
     double scale = (double)area / (material->area * side);
     target->area += area;
     target->u += (int64_t)(scale * material->u + 0.5);
@@ -427,7 +460,8 @@ static kiriProgress AimPart(PlacerJob* job)
 /* ---- The job */
 
 static kiriProgress (*const placerStages[PLACER_STAGES])(PlacerJob* job) = {
-    NULL, FloodOld, SampleFarthest, FloodNew, LowerDistances, FloodAllNew, SumRegions, AimAtCenters, SumPart, AimPart,
+    NULL,        FloodEnds,  FloodOld,     SampleFarthest, FloodNew, LowerDistances,
+    FloodAllNew, SumRegions, AimAtCenters, SumPart,        AimPart,
 };
 
 kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
@@ -482,10 +516,33 @@ static PlacerStage FirstStage(const kiriPlacer* placer)
     if (work->left == 0) {
         return PLACER_RESTS;
     }
-    if (work->left == 1 && placer->oldCount == 0) {
-        return SUM_PART;
+    return work->left == 1 && placer->oldCount == 0 ? SUM_PART : FLOOD_ENDS;
+}
+
+/* A field from the slit ends, where sites are to be closer there. */
+static bool StartEnds(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid)
+{
+    kiriPlacerWork* work = placer->work;
+    double reach = placer->reach / grid->side, most = 4.0 * (grid->cells.count + 1.0);
+    placer->reach = 0.0;
+    work->reach = 0;
+    if (!(reach > 0.0) || placer->ends.count == 0 || FirstStage(placer) == SUM_PART) {
+        return true;
     }
-    return work->old == &work->flooded ? FLOOD_OLD : SAMPLE;
+    work->reach = (int64_t)(CLOSENESS * KIRI_UNIT * (reach < most ? reach : most));
+    work->closest = (int32_t)(CLOSENESS * placer->closeness + 0.5);
+    work->seeds.count = 0;
+    for (int32_t k = 0; k < placer->ends.count; ++k) {
+        kiriSeed seed = { placer->ends.data[k].cell, 0, 0 };
+        if (!kiriArray_Push(memory, &work->seeds, seed)) {
+            return false;
+        }
+    }
+    if (!kiriField_Resize(&work->ends, memory, grid->cells.count)) {
+        return false;
+    }
+    kiriField_Reset(&work->ends);
+    return kiriField_Start(&work->ends, memory, work->seeds.data, work->seeds.count);
 }
 
 bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
@@ -514,6 +571,9 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     work->left = count;
     work->farthest = KIRI_NONE;
     work->targets.data[0] = noTarget;
+    if (!StartEnds(placer, memory, grid)) {
+        return false;
+    }
     work->stage = FirstStage(placer);
     return true;
 }

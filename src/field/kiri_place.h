@@ -2,7 +2,7 @@
 #ifndef KIRI_PLACE_H
 #define KIRI_PLACE_H
 
-#include "kiri_region.h"
+#include "kiri_slit.h"
 
 KIRI_C_BEGIN
 
@@ -17,6 +17,10 @@ typedef struct kiriPlacer {
     /* Distances to the sites that are there, as kiriRegions has them, where the caller knows them; they must stay
        until the job is done. Null: they are flooded. Start takes it, and makes it null. */
     const kiriField* known;
+    /* Around slit ends sites are closer than elsewhere: `closeness` times (1 to 4) at an end, then less, in proportion to
+       1 / distance, and as elsewhere from `reach` (m) on. 0: they are as close everywhere. Start makes it 0. */
+    kiriSlitEnds ends;
+    double reach, closeness;
     kiriPlacerWork* work;
 } kiriPlacer;
 

@@ -2,12 +2,6 @@
 
 /* ---- Slit ends ---- */
 
-typedef struct SlitEnd {
-    kiriVec2 at;    /* local m */
-    kiriVec2 along; /* unit: the way on from the slit */
-    int32_t cell;
-} SlitEnd;
-
 /* The next corner of the fan clockwise, or KIRI_NONE where the fan begins. */
 static int32_t ClockwiseOf(const kiriMeshData* mesh, int32_t h)
 {
@@ -34,7 +28,7 @@ static int32_t LipAt(const kiriMeshData* mesh, int32_t vertex)
 }
 
 /* The first one of the cell. */
-static bool FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, SlitEnd* end)
+static bool FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriSlitEnd* end)
 {
     int32_t square = grid->cells.data[cell].square;
     int32_t v = grid->whole.data[square] ? KIRI_NONE : mesh->squares.vertexHead[square];
@@ -52,6 +46,18 @@ static bool FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t ce
     return false;
 }
 
+bool kiriSlits_FindEnds(kiriSlitEnds* ends, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                        const int32_t* cells, int32_t cellCount)
+{
+    bool ok = true;
+    ends->count = 0;
+    for (int32_t i = 0; ok && i < cellCount; ++i) {
+        kiriSlitEnd end;
+        ok = !FindEndIn(grid, mesh, cells[i], &end) || kiriArray_Push(memory, ends, end);
+    }
+    return ok;
+}
+
 /* ---- Pairs ---- */
 
 /* The same cell, or a straight or diagonal step apart. */
@@ -67,7 +73,7 @@ static bool AreStepApart(const kiriGrid* grid, int32_t a, int32_t b)
 }
 
 /* The cell to which the straight way through the material leads, or KIRI_NONE where a cut or the outline is in it. */
-static int32_t CellAlong(const kiriGrid* grid, const kiriMeshData* mesh, const SlitEnd* end, kiriVec2 way)
+static int32_t CellAlong(const kiriGrid* grid, const kiriMeshData* mesh, const kiriSlitEnd* end, kiriVec2 way)
 {
     int32_t cell = end->cell, parts = (int32_t)(2.0 * kiriVec2_Length(way) / grid->side) + 1;
     for (int32_t k = 1; k <= parts && cell != KIRI_NONE; ++k) {
@@ -90,7 +96,7 @@ static bool HasRoom(const kiriSites* sites, const kiriSite* site, double distanc
 }
 
 /* Half the spacing to both sides, or less. The sites have room for two more. */
-static void AddPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* mesh, const SlitEnd* end,
+static void AddPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* mesh, const kiriSlitEnd* end,
                     double spacing)
 {
     for (double reach = 0.5 * spacing; reach >= grid->side; reach *= 0.5) {
@@ -108,16 +114,13 @@ static void AddPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* 
 }
 
 bool kiriSlits_AddPairs(kiriSites* sites, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                        const int32_t* cells, int32_t cellCount, double spacing, int32_t most)
+                        const kiriSlitEnds* ends, double spacing, int32_t most)
 {
     if (!kiriArray_Reserve(memory, sites, most)) {
         return false;
     }
-    for (int32_t i = 0; i < cellCount && sites->count + 2 <= most; ++i) {
-        SlitEnd end;
-        if (FindEndIn(grid, mesh, cells[i], &end)) {
-            AddPair(sites, grid, mesh, &end, spacing);
-        }
+    for (int32_t i = 0; i < ends->count && sites->count + 2 <= most; ++i) {
+        AddPair(sites, grid, mesh, &ends->data[i], spacing);
     }
     return true;
 }

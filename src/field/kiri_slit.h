@@ -7,12 +7,24 @@
 
 KIRI_C_BEGIN
 
-/* Adds a pair of sites at the slit ends in these cells, with a way of `spacing` from the one to the other over the end:
-   so the line on which the slit would go on is a border between their regions. An end gets a closer pair where there is
-   no room, but not closer than two squares, and none where other sites are too near. In the order of the cells, until
-   there are `most` sites. Each is in a cell of its own. False for memory. */
+typedef struct kiriSlitEnd {
+    kiriVec2 at;    /* local m */
+    kiriVec2 along; /* unit: the way on from the slit */
+    int32_t cell;   /* that holds it */
+} kiriSlitEnd;
+
+typedef KIRI_ARRAY(kiriSlitEnd) kiriSlitEnds;
+
+/* The slit ends in these cells, one a cell at most, in the order of the cells. False for memory. */
+bool kiriSlits_FindEnds(kiriSlitEnds* ends, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                        const int32_t* cells, int32_t cellCount);
+
+/* Adds a pair of sites at each slit end, with a way of `spacing` from the one to the other over the end: so the line on
+   which the slit would go on is a border between their regions. An end gets a closer pair where there is no room, but
+   not closer than two squares, and none where other sites are too near. In the order of the ends, until there are
+   `most` sites. Each is in a cell of its own. False for memory. */
 bool kiriSlits_AddPairs(kiriSites* sites, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                        const int32_t* cells, int32_t cellCount, double spacing, int32_t most);
+                        const kiriSlitEnds* ends, double spacing, int32_t most);
 
 KIRI_C_END
 

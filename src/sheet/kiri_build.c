@@ -5,6 +5,7 @@
 #include "kiri_site.h"
 #include "kiri_stages.h"
 
+#include <math.h>
 #include <string.h>
 
 /* ---- Settings ---- */
@@ -36,6 +37,14 @@ static double BendingLength(const kiriMaterial* m)
     return CubeRoot(stiffness / (m->density * h * 9.81));
 }
 
+/* The error of a shape falls with the square of the spacing, by the length over which it bends: that is the bending
+   length, or the sheet where this is shorter. Measured: tests/test_estimate.c. */
+static double SpacingFor(const kiriSheetDef* def, double longer)
+{
+    double bent = def->planar ? longer : 2.0 * BendingLength(&def->material);
+    return sqrt((double)def->accuracy) * (bent < longer ? bent : longer);
+}
+
 static void SetFrames(kiriSettings* settings, const kiriMeshData* mesh, const kiriSheetDef* def)
 {
     double area = kiriMesh_Area(mesh);
@@ -43,7 +52,7 @@ static void SetFrames(kiriSettings* settings, const kiriMeshData* mesh, const ki
     settings->maxFrames = def->maxFrames > def->frameCount ? def->maxFrames : def->frameCount;
     if (def->frameCount == 0) {
         double least = 3.0 * mesh->step * mesh->squares.side;
-        double length = def->frameLength > 0.0f ? def->frameLength : BendingLength(&def->material);
+        double length = def->frameLength > 0.0f ? def->frameLength : SpacingFor(def, KIRI_LATTICE * mesh->step);
         settings->frameLength = length > least ? length : least;
         share = settings->frameLength * settings->frameLength;
         points = 4.0 * area / share < 1e6 ? 4.0 * area / share : 1e6;

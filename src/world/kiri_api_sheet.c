@@ -14,6 +14,7 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     kiriGetMaterial(KIRI_MATERIAL_COTTON, &def->material);
     def->gridResolution = 32;
     def->frameCount = 5;
+    def->accuracy = 0.02f;
     def->maxFrames = 256;
     def->rigidWeight = 0.95f;
     def->iterations = 2;
@@ -51,6 +52,9 @@ static const char* FaultOfFrames(const kiriSheetDef* def)
     }
     if (!kiriCall_IsAtLeast(def->frameLength, 0.0f) || (def->frameCount == 0 && def->framePoints != NULL)) {
         return "frameLength is below 0, or there are framePoints and no frameCount";
+    }
+    if (!kiriCall_IsAtLeast(def->accuracy, 1e-4f) || def->accuracy > 1.0f) {
+        return "accuracy is not within 1e-4 and 1";
     }
     if (def->framePoints != NULL && !kiriCall_AreFinite(def->framePoints, 2 * def->frameCount)) {
         return "a frame point is not finite";

@@ -402,6 +402,10 @@ class Sheet(_Handle):
     def totals(self):
         return _record(self.world.get("kiriSheet_GetTotals", "kiriTotals", self.id))
 
+    def estimate_error(self):
+        """Of the shape: the relative error by the number of frames."""
+        return self.world.get("kiriSheet_EstimateError", "double", self.id)
+
     def raycast(self, origin, direction, max_distance):
         """A kiriHit, or None."""
         hit = self.world.get("kiriSheet_Raycast", "kiriHit", self.id, _vector(origin, 3), _vector(direction, 3),

@@ -1,0 +1,532 @@
+/* How good the shape of a sheet is: around slits wherever frames land, by what the estimate says of it, and with as many
+   frames as an accuracy asks for. References: the elastica, and shells of CalculiX (tests/data/README.md). */
+#include "host.h"
+
+#include "reference.h"
+
+#include <stdio.h>
+
+enum { MOST_FRAMES = 512, MOST_TICKS = 2000 };
+
+static const float FLAT[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+
+/* A sheet of 0.5 mm, its edge u = 0 held, with cuts that are there from the start: 4 floats each, from outside. */
+typedef struct Sheet {
+    float length, width, square; /* m; of mesh and grid */
+    float poissonsRatio;
+    const float* cuts;
+    int32_t cutPoints[3], cutCount;
+    int32_t planar;
+    bool isHeldTwice; /* the edge u = length too */
+    float points[2 * MOST_FRAMES];
+    int32_t frames, held;
+} Sheet;
+
+static Sheet MakeSheet(float length, float width, float square, float poissonsRatio)
+{
+    Sheet s;
+    memset(&s, 0, sizeof(s));
+    s.length = length;
+    s.width = width;
+    s.square = square;
+    s.poissonsRatio = poissonsRatio;
+    return s;
+}
+
+static kiriSheetDef DefOf(const Sheet* s)
+{
+    kiriMaterial material = { 7.438285638990287e8f, s->poissonsRatio, 5e-4f, 1000.0f, 20.0f, 0.0f };
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.material = material;
+    def.gridResolution = (int32_t)((s->length > s->width ? s->length : s->width) / s->square + 0.5f);
+    def.rigidWeight = 2.0f;
+    def.iterations = 4;
+    def.sleepSpeed = 0.0f;
+    def.planar = s->planar;
+    return def;
+}
+
+static Rectangle MeshOf(kiriSheetDef* def, const Sheet* s)
+{
+    return Rectangle_Make(def, s->length, s->width, (int32_t)(s->length / s->square + 0.5f),
+                          (int32_t)(s->width / s->square + 0.5f));
+}
+
+static void Cut(Host* host, kiriSheet sheet, const Sheet* s, float margin)
+{
+    const float* from = s->cuts;
+    for (int32_t k = 0; k < s->cutCount; from += 2 * s->cutPoints[k++]) {
+        float points[8];
+        assert_in_range(s->cutPoints[k], 2, 4);
+        for (int32_t i = 0; i < 2 * s->cutPoints[k]; ++i) {
+            points[i] = from[i] - (i % 2 == 0 ? margin : 0.0f);
+        }
+        Host_Cut(host, sheet, points, s->cutPoints[k]);
+    }
+    OK(kiriWorld_Tick(host->world, 1e-3f, 1));
+}
+
+static void StartHost(Host* host)
+{
+    const float none[3] = { 0.0f, 0.0f, 0.0f };
+    Host_Start(host);
+    OK(kiriWorld_SetGravity(host->world, none));
+}
+
+static int32_t GetFrames(const Host* host, kiriSheet sheet, kiriFrame* ids, kiriFrameState* states)
+{
+    int32_t count;
+    OK(kiriSheet_GetFrames(host->world, sheet, ids, MOST_FRAMES, &count));
+    assert_in_range(count, 1, MOST_FRAMES);
+    for (int32_t i = 0; i < count; ++i) {
+        OK(kiriFrame_GetState(host->world, ids[i], &states[i]));
+    }
+    return count;
+}
+
+/* The library spreads frames over the sheet but for a margin at the edges that are held, with the cuts there: so many,
+   or as many as the accuracy asks for. They are added to s->points. */
+static void Spread(Sheet* s, float margin, int32_t count, float accuracy)
+{
+    static kiriFrame ids[MOST_FRAMES];
+    static kiriFrameState states[MOST_FRAMES];
+    Sheet rest = *s;
+    kiriMesh mesh;
+    kiriSheet sheet;
+    Host cut, host;
+    StartHost(&cut);
+    StartHost(&host);
+    rest.length -= s->isHeldTwice ? 2.0f * margin : margin;
+    kiriSheetDef def = DefOf(&rest);
+    Rectangle whole = MeshOf(&def, &rest);
+    OK(kiriCreateSheet(cut.world, &def, &sheet));
+    Rectangle_Free(&whole);
+    Cut(&cut, sheet, s, margin);
+    OK(kiriSheet_GetMesh(cut.world, sheet, &mesh));
+    def.restPositions = mesh.restPositions;
+    def.vertexCount = mesh.vertexCount;
+    def.indices = mesh.indices;
+    def.triangleCount = mesh.triangleCount;
+    def.frameCount = count;
+    def.maxFrames = MOST_FRAMES - s->held;
+    def.accuracy = accuracy;
+    OK(kiriCreateSheet(host.world, &def, &sheet));
+    int32_t found = GetFrames(&host, sheet, ids, states);
+    for (int32_t i = 0; i < found; ++i) {
+        s->points[2 * s->frames] = states[i].restPoint[0] + margin;
+        s->points[2 * s->frames++ + 1] = states[i].restPoint[1];
+    }
+    kiriDestroyWorld(cut.world);
+    kiriDestroyWorld(host.world);
+}
+
+static void HoldRow(Sheet* s, float u, int32_t count)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        s->points[2 * s->frames] = u;
+        s->points[2 * s->frames++ + 1] = s->width * ((float)i + 0.5f) / (float)count;
+    }
+    s->held += count;
+}
+
+/* How many frames the library would take for the whole sheet. */
+static int32_t CountFor(const Sheet* s, float accuracy)
+{
+    Sheet all = *s;
+    all.frames = all.held = 0;
+    Spread(&all, 0.0f, 0, accuracy);
+    return all.frames;
+}
+
+/* Rows of frames as dense as the others on the edges that are held, each for half a spacing of the sheet. */
+static void Place(Sheet* s, int32_t count, float accuracy)
+{
+    count = count > 0 ? count : CountFor(s, accuracy);
+    float spacing = sqrtf(s->length * s->width / (float)count);
+    float margin = s->square * (float)(int32_t)(0.5f * spacing / s->square + 0.5f);
+    int32_t row = (int32_t)(s->width / spacing + 0.5f), rows = s->isHeldTwice ? 2 : 1;
+    row = row > 0 ? row : 1;
+    s->frames = s->held = 0;
+    HoldRow(s, 0.0f, row);
+    if (s->isHeldTwice) {
+        HoldRow(s, s->length, row);
+    }
+    Spread(s, margin, accuracy > 0.0f ? 0 : count - rows * row, accuracy > 0.0f ? accuracy : 0.02f);
+}
+
+/* The sheet with these frames, before it moves. */
+static kiriSheet Make(Host* host, const Sheet* s)
+{
+    static kiriFrame ids[MOST_FRAMES];
+    static kiriFrameState states[MOST_FRAMES];
+    kiriSheet sheet;
+    kiriSheetDef def = DefOf(s);
+    Rectangle whole = MeshOf(&def, s);
+    def.framePoints = s->points;
+    def.frameCount = def.maxFrames = s->frames;
+    OK(kiriCreateSheet(host->world, &def, &sheet));
+    Rectangle_Free(&whole);
+    Cut(host, sheet, s, 0.0f);
+    GetFrames(host, sheet, ids, states);
+    for (int32_t i = 0; i < s->held; ++i) {
+        OK(kiriFrame_Hold(host->world, ids[i], states[i].position, FLAT));
+    }
+    return sheet;
+}
+
+static void Settle(Host* host, kiriSheet sheet, const Sheet* s)
+{
+    const float weight[3] = { 0.0f, 0.0f, -9.81f };
+    OK(kiriWorld_SetGravity(host->world, weight));
+    for (int32_t tick = 0, calm = 0; calm < 3; ++tick) {
+        kiriTotals totals;
+        assert_true(tick < MOST_TICKS);
+        OK(kiriWorld_Tick(host->world, 0.05f, 1));
+        OK(kiriSheet_GetTotals(host->world, sheet, &totals));
+        double way = 0.05 * sqrt(2.0 * totals.kineticEnergy / totals.mass);
+        calm = way < 1e-5 * (double)s->length ? calm + 1 : 0;
+    }
+}
+
+/* ---- Slits ---- */
+
+/* How far the edge u = length comes down. */
+static double Drop(Sheet* s, int32_t count)
+{
+    kiriMesh mesh;
+    double sum = 0.0;
+    int32_t found = 0;
+    Place(s, count, 0.0f);
+    Host host;
+    StartHost(&host);
+    kiriSheet sheet = Make(&host, s);
+    Settle(&host, sheet, s);
+    OK(kiriSheet_GetMesh(host.world, sheet, &mesh));
+    for (int32_t i = 0; i < mesh.vertexCount; ++i) {
+        if (mesh.restPositions[2 * i] > s->length - 1e-6f) {
+            sum -= (double)mesh.positions[3 * i + 2];
+            ++found;
+        }
+    }
+    Host_Stop(&host);
+    return sum / found;
+}
+
+/* Slits over half and four fifths of a strip add 7.9 and 22.5 mm to its drop. */
+static void SlitsBendAsFarAsTheyShould(void** state)
+{
+    (void)state;
+    static const float half[4] = { 0.05f, -0.01f, 0.05f, 0.025f }, most[4] = { 0.05f, -0.01f, 0.05f, 0.04f };
+    static const int32_t counts[6] = { 24, 27, 48, 52, 96, 150 };
+    for (int k = 0; k < 6; ++k) {
+        Sheet s = MakeSheet(0.2f, 0.05f, 0.00125f, 0.3f);
+        double plain = Drop(&s, counts[k]);
+        s.cutCount = 1;
+        s.cutPoints[0] = 2;
+        s.cuts = half;
+        double byHalf = (Drop(&s, counts[k]) - plain) / 7.9e-3;
+        s.cuts = most;
+        double byMost = (Drop(&s, counts[k]) - plain) / 22.5e-3;
+        print_message("%d frames: %.2f and %.2f of the reference\n", counts[k], byHalf, byMost);
+        assert_true(byHalf > 0.8 && byHalf < 1.2);
+        assert_true(byMost > 0.85 && byMost < 1.15);
+    }
+}
+
+/* A strip with three slits from both sides is pulled in its plane: 7.05 kN/m with 80 x 20 shell elements, 6.90 with
+   160 x 40. */
+static void LigamentsStretchAsTheyShould(void** state)
+{
+    (void)state;
+    static const float slits[12] = { 0.08f, -0.01f, 0.08f, 0.035f, 0.12f, -0.01f,
+                                     0.12f, 0.035f, 0.1f,  0.06f,  0.1f,  0.015f };
+    static const int32_t counts[4] = { 24, 30, 48, 96 };
+    const double pull = 1e-5;
+    for (int k = 0; k < 4; ++k) {
+        static kiriFrame ids[MOST_FRAMES];
+        static kiriFrameState states[MOST_FRAMES];
+        Sheet s = MakeSheet(0.2f, 0.05f, 0.00125f, 0.3f);
+        kiriTotals totals = { .elasticEnergy = 0.0 };
+        s.cuts = slits;
+        s.cutCount = 3;
+        s.cutPoints[0] = s.cutPoints[1] = s.cutPoints[2] = 2;
+        s.planar = 1;
+        s.isHeldTwice = true;
+        Place(&s, counts[k], 0.0f);
+        Host host;
+        StartHost(&host);
+        kiriSheet sheet = Make(&host, &s);
+        GetFrames(&host, sheet, ids, states);
+        for (int32_t i = s.held / 2; i < s.held; ++i) {
+            states[i].position[0] += (float)pull;
+            OK(kiriFrame_Hold(host.world, ids[i], states[i].position, FLAT));
+        }
+        for (double before = -1.0; fabs(totals.elasticEnergy - before) > 1e-6 * totals.elasticEnergy;) {
+            before = totals.elasticEnergy;
+            for (int tick = 0; tick < 10; ++tick) {
+                OK(kiriWorld_Tick(host.world, 0.5f, 1));
+            }
+            OK(kiriSheet_GetTotals(host.world, sheet, &totals));
+        }
+        double stiffness = 2.0 * totals.elasticEnergy / (pull * pull) / 6.95e3;
+        print_message("%d frames: %.2f of the reference\n", counts[k], stiffness);
+        assert_true(stiffness > 0.9 && stiffness < 1.25);
+        Host_Stop(&host);
+    }
+}
+
+/* ---- Errors ---- */
+
+typedef struct Reference {
+    const Elastica* elastica;
+    const Shell* shell;
+} Reference;
+
+/* Rms distance of the vertices from where they should be, by the rms way that they should go. */
+static double ErrorOf(const Host* host, kiriSheet sheet, const Sheet* s, const Reference* reference)
+{
+    kiriMesh mesh;
+    double error = 0.0, way = 0.0;
+    OK(kiriSheet_GetMesh(host->world, sheet, &mesh));
+    double* sides = calloc(3 * (size_t)mesh.vertexCount, sizeof(double));
+    for (int32_t i = 0; i < 9 * mesh.triangleCount; ++i) {
+        const int32_t* corners = &mesh.indices[i / 9 * 3];
+        sides[3 * corners[i % 3]] += (double)mesh.restPositions[2 * corners[i / 3 % 3]];
+        sides[3 * corners[i % 3] + 1] += (double)mesh.restPositions[2 * corners[i / 3 % 3] + 1];
+        sides[3 * corners[i % 3] + 2] += 1.0;
+    }
+    for (int32_t i = 0; i < mesh.vertexCount; ++i) {
+        double rest[3] = { (double)mesh.restPositions[2 * i], (double)mesh.restPositions[2 * i + 1], 0.0 };
+        double side[2] = { sides[3 * i] / sides[3 * i + 2], sides[3 * i + 1] / sides[3 * i + 2] };
+        double at[3] = { 0.0, rest[1], 0.0 };
+        if (reference->shell != NULL) {
+            Shell_At(reference->shell, rest, side, at);
+        } else {
+            Elastica_At(reference->elastica, rest[0] / (double)s->length, &at[0], &at[2]);
+            at[0] *= (double)s->length;
+            at[2] *= -(double)s->length;
+        }
+        for (int k = 0; k < 3; ++k) {
+            double off = (double)mesh.positions[3 * i + k] - at[k], gone = at[k] - rest[k];
+            error += off * off;
+            way += gone * gone;
+        }
+    }
+    free(sides);
+    return sqrt(error / way);
+}
+
+typedef struct Outcome {
+    double error, estimate;
+    int32_t frames;
+} Outcome;
+
+/* With so many frames, or as many as the accuracy asks for; or with s->points. */
+static Outcome Try(Sheet* s, const Reference* reference, int32_t count, float accuracy)
+{
+    Outcome o;
+    if (count > 0 || accuracy > 0.0f) {
+        Place(s, count, accuracy);
+    }
+    Host host;
+    StartHost(&host);
+    kiriSheet sheet = Make(&host, s);
+    Settle(&host, sheet, s);
+    o.error = ErrorOf(&host, sheet, s, reference);
+    OK(kiriSheet_EstimateError(host.world, sheet, &o.estimate));
+    o.frames = Host_Counts(&host, sheet).frames;
+    Host_Stop(&host);
+    return o;
+}
+
+static const float tongueSlit[8] = { 0.05f, -0.01f, 0.05f, 0.0f, 0.05f, 0.07f, 0.08f, 0.07f };
+
+static Sheet MakeTongue(Shell* shell)
+{
+    Sheet s = MakeSheet(0.1f, 0.1f, 0.00125f, 0.3f);
+    s.cuts = tongueSlit;
+    s.cutCount = 1;
+    s.cutPoints[0] = 4;
+    assert_true(Shell_Read(shell, "tests/data/tongue.csv", tongueSlit + 2, 3));
+    return s;
+}
+
+static Sheet MakeWide(Shell* shell)
+{
+    assert_true(Shell_Read(shell, "tests/data/cantilever_nu03.csv", NULL, 0));
+    return MakeSheet(0.2f, 0.05f, 0.00125f, 0.3f);
+}
+
+/* One row of frames, narrow. */
+static Sheet MakeStrip(Elastica* elastica)
+{
+    Sheet s = MakeSheet(0.2f, 0.02f, 0.00125f, 0.0f);
+    Elastica_Solve(elastica, 12.0 * 1000.0 * 9.81 * 0.2 * 0.2 * 0.2 / (7.438285638990287e8 * 5e-4 * 5e-4));
+    return s;
+}
+
+/* ---- The estimate ---- */
+
+static void AssertTold(const char* name, Outcome o)
+{
+    print_message("%s, %d frames: error %.2f %%, estimate %.2f %%\n", name, o.frames, 100.0 * o.error,
+                  100.0 * o.estimate);
+    assert_true(o.estimate > o.error / 3.0 && o.estimate < 3.0 * o.error);
+}
+
+static void EstimateOfARow(void** state)
+{
+    (void)state;
+    static Elastica elastica;
+    static const int32_t counts[4] = { 4, 6, 9, 17 };
+    Reference reference = { &elastica, NULL };
+    for (int k = 0; k < 4; ++k) {
+        Sheet s = MakeStrip(&elastica);
+        for (int32_t i = 0; i < counts[k]; ++i) {
+            s.points[2 * i] = s.length * (float)i / (float)(counts[k] - 1);
+            s.points[2 * i + 1] = 0.5f * s.width;
+        }
+        s.frames = counts[k];
+        s.held = 1;
+        AssertTold("strip", Try(&s, &reference, 0, 0.0f));
+    }
+}
+
+static void EstimateOfWideSheets(void** state)
+{
+    (void)state;
+    static Shell shell;
+    static const int32_t counts[4] = { 6, 12, 24, 48 };
+    Reference reference = { NULL, &shell };
+    for (int k = 0; k < 4; ++k) {
+        Sheet s = MakeWide(&shell);
+        AssertTold("wide cantilever", Try(&s, &reference, counts[k], 0.0f));
+    }
+}
+
+static void EstimateAroundASlit(void** state)
+{
+    (void)state;
+    static Shell shell;
+    static const int32_t counts[5] = { 6, 12, 24, 48, 96 };
+    Reference reference = { NULL, &shell };
+    for (int k = 0; k < 5; ++k) {
+        Sheet s = MakeTongue(&shell);
+        AssertTold("tongue", Try(&s, &reference, counts[k], 0.0f));
+    }
+}
+
+/* Nothing bends: no error. One frame, or two: nothing to tell from. Other models have no links to ask. */
+static void EstimateAtTheEnds(void** state)
+{
+    (void)state;
+    for (int32_t frames = 1; frames < 4; ++frames) {
+        double estimate = -1.0;
+        Host host;
+        StartHost(&host);
+        kiriSheetDef def;
+        kiriDefaultSheetDef(&def);
+        def.frameCount = def.maxFrames = frames;
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.3f, 10, 3);
+        OK(kiriSheet_EstimateError(host.world, sheet, &estimate));
+        assert_true(estimate == (frames < 3 ? 1.0 : 0.0));
+        def.model = KIRI_MODEL_AFFINE;
+        sheet = Host_AddRectangle(&host, &def, 1.0f, 0.3f, 10, 3);
+        assert_int_equal(kiriSheet_EstimateError(host.world, sheet, &estimate), KIRI_ERROR_STATE);
+        Host_Stop(&host);
+    }
+}
+
+static void EstimateNeedsLittle(void** state)
+{
+    (void)state;
+    double estimate = -1.0;
+    Host host;
+    StartHost(&host);
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    int64_t calls = host.calls, live = host.live;
+    uint64_t hash = Host_Hash(&host);
+    OK(kiriSheet_EstimateError(host.world, sheet, &estimate));
+    assert_int_equal(host.calls, calls + 1);
+    assert_int_equal(host.live, live);
+    assert_true(Host_Hash(&host) == hash);
+    host.failAt = host.calls;
+    assert_int_equal(kiriSheet_EstimateError(host.world, sheet, &estimate), KIRI_ERROR_MEMORY);
+    host.failAt = -1;
+    assert_int_equal(host.live, live);
+    Host_Stop(&host);
+}
+
+/* ---- Accuracy ---- */
+
+static void AssertReached(const char* name, Sheet* s, const Reference* reference)
+{
+    static const float accuracies[3] = { 0.05f, 0.02f, 0.01f };
+    int32_t frames = 0;
+    for (int k = 0; k < 3; ++k) {
+        Outcome o = Try(s, reference, 0, accuracies[k]);
+        print_message("%s, accuracy %g %%: %d frames, error %.2f %%\n", name, 100.0 * (double)accuracies[k], o.frames,
+                      100.0 * o.error);
+        assert_true(o.error < 2.0 * (double)accuracies[k]);
+        assert_true(o.frames > frames);
+        frames = o.frames;
+    }
+}
+
+static void AccuracyIsReached(void** state)
+{
+    (void)state;
+    static Elastica elastica;
+    static Shell wide, tongue;
+    Reference references[3] = { { &elastica, NULL }, { NULL, &wide }, { NULL, &tongue } };
+    Sheet sheets[3] = { MakeStrip(&elastica), MakeWide(&wide), MakeTongue(&tongue) };
+    AssertReached("strip", &sheets[0], &references[0]);
+    AssertReached("wide cantilever", &sheets[1], &references[1]);
+    AssertReached("tongue", &sheets[2], &references[2]);
+}
+
+/* No more than the grid carries, and not fewer than it takes to bend. */
+static void AccuracyHasLimits(void** state)
+{
+    (void)state;
+    static const struct {
+        float young, accuracy;
+        int32_t least, most;
+    } cases[4] = {
+        { 1e12f, 1.0f, 1, 2 },     /* too stiff to bend */
+        { 1e12f, 0.02f, 40, 60 },  /* a seventh of a side */
+        { 1.0f, 0.02f, 100, 150 }, /* as soft as water: three squares of the grid */
+        { 1.0f, 1e-4f, 100, 150 },
+    };
+    for (int k = 0; k < 4; ++k) {
+        Host host;
+        StartHost(&host);
+        kiriSheetDef def;
+        kiriDefaultSheetDef(&def);
+        def.frameCount = 0;
+        def.accuracy = cases[k].accuracy;
+        def.material.youngsModulus = cases[k].young;
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 10, 10);
+        int32_t frames = Host_Counts(&host, sheet).frames;
+        assert_in_range(frames, cases[k].least, cases[k].most);
+        Host_Stop(&host);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(SlitsBendAsFarAsTheyShould),
+        cmocka_unit_test(LigamentsStretchAsTheyShould),
+        cmocka_unit_test(EstimateOfARow),
+        cmocka_unit_test(EstimateOfWideSheets),
+        cmocka_unit_test(EstimateAroundASlit),
+        cmocka_unit_test(EstimateAtTheEnds),
+        cmocka_unit_test(EstimateNeedsLittle),
+        cmocka_unit_test(AccuracyIsReached),
+        cmocka_unit_test(AccuracyHasLimits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
