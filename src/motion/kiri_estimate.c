@@ -18,27 +18,27 @@ typedef struct Fit {
 } Fit;
 
 /* What one link says. */
-typedef struct Saying {
+typedef struct LinkStrains {
     kiriVec2 bending; /* K s */
     kiriVec2 strain;  /* strain times s, m */
     double turn;      /* in the plane, rad */
-} Saying;
+} LinkStrains;
 
 static kiriVec2 InPlane(const kiriLink* link, double along, double across)
 {
     return kiriVec2_Add(kiriVec2_Scale(along, link->normal), kiriVec2_Scale(across, link->tangent));
 }
 
-static Saying SayingOf(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* frames)
+static LinkStrains StrainsOf(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* frames)
 {
     const kiriFrameData* const ends[2] = { &frames[link->i], &frames[link->j] };
     kiriPose own[2] = { kiriPose_Of(ends[0]), kiriPose_Of(ends[1]) };
     const kiriPose* const poses[2] = { &own[0], &own[1] };
     double strain[KIRI_STRAINS];
     kiriStrain_Measure(link, material, ends, poses, strain, NULL);
-    Saying saying = { InPlane(link, strain[KIRI_BENDING], strain[KIRI_TWIST]),
-                      InPlane(link, strain[KIRI_STRETCH], strain[KIRI_SHEAR]), strain[KIRI_PLANE_BENDING] };
-    return saying;
+    LinkStrains strains = { InPlane(link, strain[KIRI_BENDING], strain[KIRI_TWIST]),
+                            InPlane(link, strain[KIRI_STRETCH], strain[KIRI_SHEAR]), strain[KIRI_PLANE_BENDING] };
+    return strains;
 }
 
 /* ---- Recovery ---- */
@@ -49,16 +49,16 @@ static void AddOuter(kiriVec2 rows[2], double w, kiriVec2 s, kiriVec2 value)
     rows[1] = kiriVec2_Add(rows[1], kiriVec2_Scale(w * value.y, s));
 }
 
-static void AddSaying(Fit* fit, const kiriLink* link, const Saying* saying)
+static void AddToFit(Fit* fit, const kiriLink* link, const LinkStrains* strains)
 {
     kiriVec2 s = link->span;
     double w = link->width / link->length, weight = w * kiriVec2_Dot(s, s);
     fit->matrix.uu += w * s.x * s.x;
     fit->matrix.uv += w * s.x * s.y;
     fit->matrix.vv += w * s.y * s.y;
-    AddOuter(fit->bendingBy, w, s, saying->bending);
-    AddOuter(fit->strainBy, w, s, saying->strain);
-    fit->turnBy = kiriVec2_Add(fit->turnBy, kiriVec2_Scale(w * saying->turn, s));
+    AddOuter(fit->bendingBy, w, s, strains->bending);
+    AddOuter(fit->strainBy, w, s, strains->strain);
+    fit->turnBy = kiriVec2_Add(fit->turnBy, kiriVec2_Scale(w * strains->turn, s));
     fit->weight += weight;
     fit->at = kiriVec2_Add(fit->at, kiriVec2_Scale(weight, link->crossing));
 }
@@ -109,12 +109,12 @@ static Rigidity RigidityOf(const kiriMaterial* material)
     return rigidity;
 }
 
-static double EnergyOf(const kiriLink* link, const Saying* saying, Rigidity rigidity)
+static double EnergyOf(const kiriLink* link, const LinkStrains* strains, Rigidity rigidity)
 {
     double w = link->width / link->length;
-    return rigidity.bending * w * kiriVec2_Dot(saying->bending, saying->bending) +
-           rigidity.strain * w * kiriVec2_Dot(saying->strain, saying->strain) +
-           rigidity.turn * link->moment / link->length * saying->turn * saying->turn;
+    return rigidity.bending * w * kiriVec2_Dot(strains->bending, strains->bending) +
+           rigidity.strain * w * kiriVec2_Dot(strains->strain, strains->strain) +
+           rigidity.turn * link->moment / link->length * strains->turn * strains->turn;
 }
 
 static double SquaredChange(Tensor a, Tensor b)
@@ -142,9 +142,9 @@ static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLi
     Rigidity rigidity = RigidityOf(material);
     double missing = 0.0, held = 0.0;
     for (int32_t k = 0; k < linkCount; ++k) {
-        Saying saying = SayingOf(&links[k], material, frames);
+        LinkStrains strains = StrainsOf(&links[k], material, frames);
         missing += MissingIn(&links[k], &fits[links[k].i], &fits[links[k].j], rigidity);
-        held += EnergyOf(&links[k], &saying, rigidity);
+        held += EnergyOf(&links[k], &strains, rigidity);
     }
     return held > 0.0 ? missing / held : 0.0;
 }
@@ -157,9 +157,9 @@ bool kiriEstimate_Error(kiriMemory* memory, const kiriFrameData* frames, int32_t
         return false;
     }
     for (int32_t k = 0; k < linkCount; ++k) {
-        Saying saying = SayingOf(&links[k], material, frames);
-        AddSaying(&fits[links[k].i], &links[k], &saying);
-        AddSaying(&fits[links[k].j], &links[k], &saying);
+        LinkStrains strains = StrainsOf(&links[k], material, frames);
+        AddToFit(&fits[links[k].i], &links[k], &strains);
+        AddToFit(&fits[links[k].j], &links[k], &strains);
     }
     for (int32_t i = 0; i < frameCount; ++i) {
         if (fits[i].weight > 0.0) {
