@@ -590,6 +590,36 @@ static void ArcsAreRound(void** state)
     }
 }
 
+/* The rms of the angle by which a patch turns over a square region of that side. */
+static double TurnOf(const kiriCarrier* c, double side)
+{
+    double square = c->uu * c->uu + 2.0 * c->uv * c->uv + c->vv * c->vv;
+    return sqrt(square * side * side / 12.0 * 6.0 / c->six);
+}
+
+/* Frames every 14 degrees: patches bend as they tell. Every 72 or 140: no more than 0.2 rad. */
+static void StrongBendsAreLimited(void** state)
+{
+    (void)state;
+    static const double radii[] = { 1.0, 0.2, 0.1 };
+    for (int k = 0; k < 6; ++k) {
+        Roll roll = { radii[k / 2], k % 2 == 0 ? 1.0 : 1.3, 0.0 };
+        Cloth cloth;
+        InitRolled(&cloth, &roll, 3);
+        for (int32_t i = 0; i < cloth.frames.count; ++i) {
+            cloth.frames.data[i].mass = 1.0;
+            cloth.frames.data[i].inertia[0] = cloth.frames.data[i].inertia[2] = 0.0625 / 12.0;
+        }
+        cloth.surface.skinning = KIRI_SKINNING_SMOOTH;
+        Pose(&cloth);
+        for (int32_t i = 0; i < cloth.frames.count; ++i) {
+            double turn = TurnOf(&cloth.surface.carriers.data[i], 0.25);
+            AssertNear(turn, k < 2 ? 0.25 / sqrt(12.0) : 0.2, k < 2 ? 1e-3 : 1e-12);
+        }
+        Cloth_Release(&cloth);
+    }
+}
+
 /* Flat, in whatever place and stretched however, smooth is linear. */
 static void FlatStaysFlat(void** state)
 {
@@ -687,11 +717,12 @@ static void WildFramesStayBounded(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(SurfaceIsTheBlend), cmocka_unit_test(NormalsKnowNoSize),
-        cmocka_unit_test(HostsKeepUp),       cmocka_unit_test(RangesAreSmall),
-        cmocka_unit_test(RoomMayBeRefused),  cmocka_unit_test(CopiesAreTheSame),
-        cmocka_unit_test(ArcsAreRound),      cmocka_unit_test(FlatStaysFlat),
-        cmocka_unit_test(RowsBendAlong),     cmocka_unit_test(WildFramesStayBounded),
+        cmocka_unit_test(SurfaceIsTheBlend),     cmocka_unit_test(NormalsKnowNoSize),
+        cmocka_unit_test(HostsKeepUp),           cmocka_unit_test(RangesAreSmall),
+        cmocka_unit_test(RoomMayBeRefused),      cmocka_unit_test(CopiesAreTheSame),
+        cmocka_unit_test(ArcsAreRound),          cmocka_unit_test(StrongBendsAreLimited),
+        cmocka_unit_test(FlatStaysFlat),         cmocka_unit_test(RowsBendAlong),
+        cmocka_unit_test(WildFramesStayBounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

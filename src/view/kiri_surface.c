@@ -259,6 +259,24 @@ static void Curve(kiriCarrier* carrier, const kiriBend* bend)
     carrier->vv = scale * (m * m * bend->ruu - a * m * bend->ruv + (a * b - m * m) * bend->rvv);
 }
 
+/* rad: rms of the angle by which a patch may turn over its region. On an arc that is 40 degrees from frame to frame. */
+static const double mostTurn = 0.2;
+
+/* Where neighbours turn farther, they do not tell how the region bends: there are creases, narrow bridges, and neighbours
+   on both sides of a slit that bend apart. A patch that is less bent is strained less there. */
+static void LimitCurve(kiriCarrier* carrier, const kiriFrameData* frame)
+{
+    double uu = carrier->uu, uv = carrier->uv, vv = carrier->vv;
+    const double* m = frame->inertia;
+    double square = (uu * uu + uv * uv) * m[0] + 2.0 * uv * (uu + vv) * m[1] + (uv * uv + vv * vv) * m[2];
+    double turn = frame->mass > 0.0 && square > 0.0 ? sqrt(6.0 * square / (carrier->six * frame->mass)) : 0.0;
+    if (turn > mostTurn) {
+        carrier->uu *= mostTurn / turn;
+        carrier->uv *= mostTurn / turn;
+        carrier->vv *= mostTurn / turn;
+    }
+}
+
 /* From center to center along the link. */
 static kiriVec2 CentreToCentre(const kiriFrameData* frames, const kiriLink* link)
 {
@@ -280,6 +298,7 @@ static void BendCarriers(kiriSurface* surface, const kiriFrameData* frames, int3
     }
     for (int32_t i = 0; i < frameCount; ++i) {
         Curve(&surface->carriers.data[i], &surface->bends.data[i]);
+        LimitCurve(&surface->carriers.data[i], &frames[i]);
     }
 }
 
