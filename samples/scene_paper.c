@@ -172,11 +172,11 @@ static double BridgeTurn(int32_t ring, int32_t bridge)
     return (bridge + 0.5 * (ring % 2)) / SLITS;
 }
 
-static bool AddSlit(Scene* scene, int32_t ring, int32_t slit)
+static bool AddSlit(Scene* scene, int32_t ring, int32_t slit, double step)
 {
     const double bridge = 0.035; /* m */
     double radius = RadiusOf(ring), gap = bridge / (6.283185307 * radius);
-    const Spiral arc = { { 0.5, 0.5 }, radius, radius, BridgeTurn(ring, slit) + 0.5 * gap, 1.0 / SLITS - gap, 0.02 };
+    const Spiral arc = { { 0.5, 0.5 }, radius, radius, BridgeTurn(ring, slit) + 0.5 * gap, 1.0 / SLITS - gap, step };
     return Outline_AddSpiral(Scene_AddStroke(scene), &arc);
 }
 
@@ -230,8 +230,9 @@ static bool StartKirigami(Scene* scene, const SceneOptions* options)
     kiriSheetDef def = LevelPaper(scene, floorGap);
     Outline frames = { .points = NULL };
     bool fine = PlaceFrames(&frames, options->asPaper);
-    const Rectangle rectangle = { 1.0f, 1.0f, 64, 64, frames.points };
-    def.gridResolution = 68;
+    const int32_t squares = options->asPaper ? 64 : 96;
+    const Rectangle rectangle = { 1.0f, 1.0f, squares, squares, frames.points };
+    def.gridResolution = options->asPaper ? 68 : 100;
     def.frameCount = def.maxFrames = frames.count;
     def.collisionPoints = 600;
     def.iterations = 1;
@@ -239,7 +240,7 @@ static bool StartKirigami(Scene* scene, const SceneOptions* options)
     Outline_Free(&frames);
     fine = fine && HoldFrames(scene, IsInCorner);
     for (int32_t i = 0; fine && i < RINGS * SLITS; i++) {
-        fine = AddSlit(scene, i / SLITS, i % SLITS);
+        fine = AddSlit(scene, i / SLITS, i % SLITS, options->asPaper ? 0.02 : 0.008);
     }
     return fine;
 }
