@@ -38,6 +38,7 @@ SpecimenDef Specimen_Strip(double young, double poisson, double thickness)
     def.material = (kiriMaterial){ (float)young, (float)poisson, (float)thickness, 1000.0f, 20.0f, 0.0f };
     def.model = KIRI_MODEL_LINKS;
     def.iterations = 4;
+    def.timeStepping = KIRI_TIME_STEPPING_EULER;
     return def;
 }
 
@@ -79,6 +80,7 @@ static kiriSheetDef SheetDef(const SpecimenDef* from)
     def.iterations = from->iterations;
     def.model = from->model;
     def.planar = from->planar;
+    def.timeStepping = from->timeStepping;
     return def;
 }
 

@@ -34,7 +34,7 @@ typedef struct SpecimenDef {
     const SpecimenMesh* mesh; /* instead of a rectangle */
     Layout layout;
     int frames; /* without a layout: the library spreads so many */
-    int model, iterations, planar;
+    int model, iterations, planar, timeStepping;
 } SpecimenDef;
 
 /* A load that stays: force (N) and torque (N m) on a rest point, or force by length (N/m) along a line. */
@@ -58,7 +58,8 @@ typedef struct Specimen {
 void Require(bool ok, const char* what);
 double ProcessorTime(void* user); /* s */
 
-/* 0.2 m x 0.05 m, 80 squares, 1000 kg/m^3, no gravity, air that damps strongly. */
+/* 0.2 m x 0.05 m, 80 squares, 1000 kg/m^3, no gravity, air that damps strongly, steps of backward Euler: what settles, or
+   swings in one mode, is to lose all else soon. */
 SpecimenDef Specimen_Strip(double young, double poisson, double thickness);
 
 /* Null where the library refuses the frames, too many or too near for the grid: then it has said so. */
