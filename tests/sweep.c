@@ -24,9 +24,9 @@ static const Shape shapes[SWEEP_SCENES] = {
 };
 
 const Setting sweepReferences[SWEEP_SCENES] = {
-    { SWEEP_STRIP, 33, 1, 160, 2, 64, 8, KIRI_MODEL_LINKS },
-    { SWEEP_SQUARE, 17, 17, 160, 2, 64, 1, KIRI_MODEL_LINKS },
-    { SWEEP_TONGUE, 17, 17, 160, 2, 64, 1, KIRI_MODEL_LINKS },
+    { SWEEP_STRIP, 33, 1, 160, 2, 64, 8, KIRI_MODEL_LINKS, 0 },
+    { SWEEP_SQUARE, 17, 17, 160, 2, 64, 1, KIRI_MODEL_LINKS, 0 },
+    { SWEEP_TONGUE, 17, 17, 160, 2, 64, 1, KIRI_MODEL_LINKS, 0 },
 };
 
 /* What was seen after a tick. */
@@ -51,7 +51,7 @@ static int AddModel(Setting* settings, int32_t model)
     int count = 0;
     for (int c = 0; c < COUNT(columns); ++c) {
         for (int s = 0; s < COUNT(substeps); ++s) {
-            Setting setting = { SWEEP_STRIP, columns[c], 1, 40, 8, substeps[s], 1, model };
+            Setting setting = { SWEEP_STRIP, columns[c], 1, 40, 8, substeps[s], 1, model, 0 };
             settings[count++] = setting;
         }
     }
@@ -68,9 +68,8 @@ int Sweep_Settings(int32_t scene, Setting settings[SWEEP_SETTINGS], bool thin)
             for (int i = 0; i < (scene == SWEEP_STRIP && !thin ? 4 : 2); ++i) {
                 for (int s = 0; s < COUNT(powers); ++s) {
                     int32_t n = columns[scene][c];
-                    Setting setting = {
-                        scene, n, RowsFor(scene, n), grids[g], powers[i], powers[s], 1, KIRI_MODEL_LINKS
-                    };
+                    Setting setting = { scene,     n, RowsFor(scene, n), grids[g], powers[i],
+                                        powers[s], 1, KIRI_MODEL_LINKS,  0 };
                     settings[count++] = setting;
                 }
             }
@@ -85,14 +84,16 @@ int Sweep_Settings(int32_t scene, Setting settings[SWEEP_SETTINGS], bool thin)
 
 Setting Sweep_FromQuality(int32_t scene, const kiriQuality* quality)
 {
+    int32_t columns = scene == SWEEP_STRIP ? quality->framesAlong : (quality->framesAlong + 1) / 2;
     Setting setting = { scene,
-                        quality->framesAlong,
-                        RowsFor(scene, quality->framesAlong),
+                        columns,
+                        RowsFor(scene, columns),
                         quality->gridResolution,
                         quality->iterations,
                         quality->substeps,
                         1,
-                        KIRI_MODEL_LINKS };
+                        KIRI_MODEL_LINKS,
+                        0 };
     return setting;
 }
 
@@ -115,6 +116,28 @@ typedef struct Scene {
     kiriSheet sheet;
 } Scene;
 
+/* -1/4 to 1/4; Numerical Recipes' "quick and dirty" generator. */
+static float Shift(uint32_t* seed)
+{
+    *seed = 1664525u * *seed + 1013904223u;
+    return 0.5f * ((float)(*seed >> 8) / (float)(1u << 24) - 0.5f);
+}
+
+static void PlaceFrames(const Setting* setting, float* points)
+{
+    const Shape* shape = &shapes[setting->scene];
+    uint32_t seed = (uint32_t)setting->seed;
+    for (int i = 0; i < setting->columns * setting->rows; ++i) {
+        float u = (float)(i / setting->rows) + 0.5f, v = (float)(i % setting->rows) + 0.5f;
+        if (setting->seed != 0) {
+            u += Shift(&seed);
+            v += Shift(&seed);
+        }
+        points[2 * i] = shape->length * u / (float)setting->columns;
+        points[2 * i + 1] = shape->width * v / (float)setting->rows;
+    }
+}
+
 static bool AddSheet(Scene* scene, const Setting* setting)
 {
     static float rest[2 * MAX_VERTICES], points[2 * MAX_FRAMES];
@@ -124,10 +147,7 @@ static bool AddSheet(Scene* scene, const Setting* setting)
     kiriDefaultSheetDef(&def);
     def.sleepSpeed = 0.0f;
     kiriFillRectangle(shape->length, shape->width, shape->columns, shape->rows, rest, indices);
-    for (int i = 0; i < setting->columns * setting->rows; ++i) {
-        points[2 * i] = shape->length * ((float)(i / setting->rows) + 0.5f) / (float)setting->columns;
-        points[2 * i + 1] = shape->width * ((float)(i % setting->rows) + 0.5f) / (float)setting->rows;
-    }
+    PlaceFrames(setting, points);
     def.restPositions = rest;
     def.vertexCount = (shape->columns + 1) * (shape->rows + 1);
     def.indices = indices;
@@ -278,4 +298,23 @@ bool Sweep_Run(const Setting* setting, kiriClockFn* clock, Outcome* outcome)
     outcome->cost /= SWEEP_TICKS;
     outcome->seconds /= SWEEP_TICKS;
     return ok;
+}
+
+bool Sweep_Range(const Setting* setting, double error[2])
+{
+    static const int32_t grids[] = { 16, 18, 20, 23, 25 }; /* of 20 */
+    error[0] = 1e30;
+    error[1] = 0.0;
+    for (int32_t k = 0; k < 3 * COUNT(grids); ++k) {
+        Setting other = *setting;
+        Outcome outcome;
+        other.gridResolution = setting->gridResolution * grids[k / 3] / 20;
+        other.seed = k % 3;
+        if (!Sweep_Run(&other, NULL, &outcome)) {
+            return false;
+        }
+        error[0] = fmin(error[0], outcome.error);
+        error[1] = fmax(error[1], outcome.error);
+    }
+    return true;
 }

@@ -21,6 +21,7 @@ typedef struct Setting {
     int32_t gridResolution, iterations, substeps;
     int32_t parts; /* calls of kiriWorld_Tick a sixtieth of a second; 1 but for the reference */
     int32_t model; /* KIRI_MODEL_... */
+    int32_t seed;  /* of random moves of the frames by up to a quarter of their spacing; 0: regular rows */
 } Setting;
 
 typedef struct Outcome {
@@ -39,7 +40,7 @@ extern const char* const sweepNames[SWEEP_SCENES];
 /* Settings of a scene for a table; `thin`: fewer, of the default model, for a test. Returns how many. */
 int Sweep_Settings(int32_t scene, Setting settings[SWEEP_SETTINGS], bool thin);
 
-/* A preset in a scene: framesAlong is the number of columns. */
+/* A preset in a scene: a strip has framesAlong frames, a square half as many, rounded up, in either direction. */
 Setting Sweep_FromQuality(int32_t scene, const kiriQuality* quality);
 
 /* What all later runs of a scene are compared with. */
@@ -52,5 +53,9 @@ bool Sweep_Run(const Setting* setting, kiriClockFn* clock, Outcome* outcome);
    little but at cuts, so a finer one is not for free. */
 int Sweep_Dominating(const Setting* settings, const Outcome* outcomes, int count, const Setting* setting,
                      const Outcome* outcome);
+
+/* The least and the most error of a setting on grids from 4/5 to 5/4 as fine and with frames moved at random: no figure
+   is that of one lucky grid. False where one of them is refused. */
+bool Sweep_Range(const Setting* setting, double error[2]);
 
 #endif

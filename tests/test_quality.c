@@ -2,7 +2,7 @@
 #include "sweep.h"
 
 /* Not as fine as the one of `make accuracy`: a thousandth off is near enough here. */
-static const Setting referenceSetting = { 33, 1, 80, 2, 64, 4, KIRI_MODEL_LINKS };
+static const Setting referenceSetting = { SWEEP_STRIP, 33, 1, 80, 2, 64, 1, KIRI_MODEL_LINKS, 0 };
 
 static Setting settings[SWEEP_SETTINGS];
 static Outcome outcomes[SWEEP_SETTINGS];
@@ -11,7 +11,7 @@ static int count;
 static int RunSweep(void** state)
 {
     (void)state;
-    count = Sweep_Settings(settings, true);
+    count = Sweep_Settings(SWEEP_STRIP, settings, true);
     bool ok = Sweep_Prepare(&referenceSetting);
     for (int i = 0; i < count && ok; ++i) {
         ok = Sweep_Run(&settings[i], NULL, &outcomes[i]);
@@ -24,7 +24,7 @@ static Outcome RunPreset(int32_t preset, Setting* setting)
     kiriQuality quality;
     Outcome outcome;
     assert_int_equal(kiriGetQuality(preset, &quality), KIRI_OK);
-    *setting = Sweep_FromQuality(&quality);
+    *setting = Sweep_FromQuality(SWEEP_STRIP, &quality);
     assert_true(Sweep_Run(setting, NULL, &outcome));
     return outcome;
 }

@@ -92,6 +92,24 @@ static void PrintFront(void)
     }
 }
 
+static void PrintRanges(int32_t scene)
+{
+    static const char* const names[KIRI_QUALITY_COUNT] = { "fast", "balanced", "accurate" };
+    printf("\npresets on other grids, and with frames moved at random\n");
+    for (int32_t p = 0; p < KIRI_QUALITY_COUNT; ++p) {
+        kiriQuality q;
+        double error[2];
+        kiriGetQuality(p, &q);
+        Setting setting = Sweep_FromQuality(scene, &q);
+        if (Sweep_Range(&setting, error)) {
+            printf("%-9s %4d frames, %3d squares, %2d substeps: %7.3f to %7.3f %%\n", names[p],
+                   setting.columns * setting.rows, q.gridResolution, q.substeps, 100.0 * error[0], 100.0 * error[1]);
+        } else {
+            printf("%-9s refused\n", names[p]);
+        }
+    }
+}
+
 static bool WriteRows(const char* folder, int32_t scene)
 {
     static const char* const models[] = { "links", "affine", "points" };
@@ -141,25 +159,25 @@ static Curve MakeCurve(const Pattern* pattern)
 }
 
 static const Pattern stripPatterns[] = {
-    { "3 frames, substeps 1 to 16", { SWEEP_STRIP, 3, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
-    { "5 frames, substeps 1 to 16", { SWEEP_STRIP, 5, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
-    { "9 frames, substeps 1 to 16", { SWEEP_STRIP, 9, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
-    { "17 frames, substeps 1 to 16", { SWEEP_STRIP, 17, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
-    { "9 frames, 2 substeps, iterations 1 to 8", { SWEEP_STRIP, 9, 1, 40, 0, 2, 1, KIRI_MODEL_LINKS } },
-    { "17 frames, 8 substeps, grid 20 to 80", { SWEEP_STRIP, 17, 1, 0, 1, 8, 1, KIRI_MODEL_LINKS } },
-    { "affine, 9 frames, 8 iterations", { SWEEP_STRIP, 9, 1, 40, 8, 0, 1, KIRI_MODEL_AFFINE } },
-    { "points, 9 frames, 8 iterations", { SWEEP_STRIP, 9, 1, 40, 8, 0, 1, KIRI_MODEL_POINTS } },
+    { "3 frames, substeps 1 to 16", { SWEEP_STRIP, 3, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
+    { "5 frames, substeps 1 to 16", { SWEEP_STRIP, 5, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
+    { "9 frames, substeps 1 to 16", { SWEEP_STRIP, 9, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
+    { "17 frames, substeps 1 to 16", { SWEEP_STRIP, 17, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
+    { "9 frames, 2 substeps, iterations 1 to 8", { SWEEP_STRIP, 9, 1, 40, 0, 2, 1, KIRI_MODEL_LINKS, 0 } },
+    { "17 frames, 8 substeps, grid 20 to 80", { SWEEP_STRIP, 17, 1, 0, 1, 8, 1, KIRI_MODEL_LINKS, 0 } },
+    { "affine, 9 frames, 8 iterations", { SWEEP_STRIP, 9, 1, 40, 8, 0, 1, KIRI_MODEL_AFFINE, 0 } },
+    { "points, 9 frames, 8 iterations", { SWEEP_STRIP, 9, 1, 40, 8, 0, 1, KIRI_MODEL_POINTS, 0 } },
     { NULL, { 0 } },
 };
 
 static const Pattern squarePatterns[] = {
-    { "9 frames, substeps 1 to 16", { SWEEP_SQUARE, 3, 3, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
-    { "25 frames, substeps 1 to 16", { SWEEP_SQUARE, 5, 5, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
-    { "49 frames, substeps 1 to 16", { SWEEP_SQUARE, 7, 7, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
-    { "81 frames, substeps 1 to 16", { SWEEP_SQUARE, 9, 9, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
-    { "144 frames, substeps 1 to 16", { SWEEP_SQUARE, 12, 12, 40, 1, 0, 1, KIRI_MODEL_LINKS } },
-    { "25 frames, 2 iterations", { SWEEP_SQUARE, 5, 5, 40, 2, 0, 1, KIRI_MODEL_LINKS } },
-    { "81 frames, 4 substeps, grid 20 to 80", { SWEEP_SQUARE, 9, 9, 0, 1, 4, 1, KIRI_MODEL_LINKS } },
+    { "9 frames, substeps 1 to 16", { SWEEP_SQUARE, 3, 3, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
+    { "25 frames, substeps 1 to 16", { SWEEP_SQUARE, 5, 5, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
+    { "49 frames, substeps 1 to 16", { SWEEP_SQUARE, 7, 7, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
+    { "81 frames, substeps 1 to 16", { SWEEP_SQUARE, 9, 9, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
+    { "144 frames, substeps 1 to 16", { SWEEP_SQUARE, 12, 12, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
+    { "25 frames, 2 iterations", { SWEEP_SQUARE, 5, 5, 40, 2, 0, 1, KIRI_MODEL_LINKS, 0 } },
+    { "81 frames, 4 substeps, grid 20 to 80", { SWEEP_SQUARE, 9, 9, 0, 1, 4, 1, KIRI_MODEL_LINKS, 0 } },
     { NULL, { 0 } },
 };
 
@@ -193,5 +211,6 @@ bool Trade_Write(const char* folder, int32_t scene)
     }
     Measure(scene);
     PrintFront();
+    PrintRanges(scene);
     return WriteRows(folder, scene) && WritePicture(folder, scene);
 }
