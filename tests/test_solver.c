@@ -572,6 +572,59 @@ static void TestEnergies(void** state)
     CheckEnergies(0.1);
 }
 
+static double EnergyWith(Scene* s, int f, kiriVec3 move, kiriVec3 turn)
+{
+    kiriFrameData rest = s->frames[f];
+    s->frames[f].x = kiriVec3_Add(rest.x, move);
+    s->frames[f].A = kiriMat3_MulMat(kiriMat3_Cayley(turn), rest.A);
+    double energy = kiriSolver_ElasticEnergy(&s->system);
+    s->frames[f] = rest;
+    return energy;
+}
+
+/* What the solver assembles, from rows of links that it keeps for the corners, against the energy of each element by
+   itself; with strains that are taken off. */
+static void TestForcesAreTheSlopeOfTheEnergy(void** state)
+{
+    static kiriStrainOffset offsets[2 * MOST_FRAMES];
+    const double eps = 1e-6;
+    uint32_t seed = 37;
+    (void)state;
+    MakeSheet(&scene, 4, 3, 0.2, 0.15, (kiriMaterial){ 1e6f, 0.4f, 0.01f, 1000.0f, 0.0f, 0.0f });
+    for (int k = 0; k < scene.system.linkCount; ++k) {
+        for (int e = 0; e < KIRI_NORMAL_STOP; ++e) {
+            offsets[k].strain[e] = RandomBetween(&seed, -0.01, 0.01);
+        }
+    }
+    scene.system.strainOffsets = offsets;
+    scene.system.gravity = kiriVec3_Make(0.0, 0.0, 0.0);
+    for (int f = 0; f < 12; ++f) {
+        scene.frames[f].x = kiriVec3_Add(scene.frames[f].x, RandomVector(&seed, 0.01));
+        scene.frames[f].A = kiriMat3_Cayley(RandomVector(&seed, 0.2));
+    }
+    kiriSolver_Begin(scene.solver, &scene.system, 1e6); /* so that inertia does not count */
+    scene.solver->pieces.data[0].isSearching = true;
+    for (int f = 0; f < 12; ++f) {
+        scene.solver->poses.data[f] = kiriPose_Of(&scene.frames[f]);
+    }
+    assert_int_equal(scene.system.cornerCount, 6);
+    kiriSolver_Assemble(scene.solver, &scene.system);
+    double energy = kiriSolver_ElasticEnergy(&scene.system);
+    AssertNear(scene.solver->pieces.data[0].sum.potential / energy, 1.0, 1e-12);
+    kiriObjective_Evaluate(scene.solver, &scene.system, scene.solver->poses.data);
+    AssertNear(scene.solver->pieces.data[0].sum.potential / energy, 1.0, 1e-12);
+    for (int n = 0; n < 72; ++n) {
+        double way[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+        way[n % 6] = eps;
+        kiriVec3 move = { way[0], way[1], way[2] }, turn = { way[3], way[4], way[5] };
+        double ahead = EnergyWith(&scene, n / 6, move, turn);
+        double behind = EnergyWith(&scene, n / 6, kiriVec3_Scale(-1.0, move), kiriVec3_Scale(-1.0, turn));
+        double slope = (ahead - behind) / (2.0 * eps);
+        AssertNear(scene.solver->force.data[n], -slope, 1e-6 * (1.0 + fabs(slope)));
+    }
+    Drop(&scene);
+}
+
 static void TestRigidMotionCostsNothing(void** state)
 {
     uint32_t seed = 3;
@@ -1365,6 +1418,7 @@ int main(void)
         cmocka_unit_test(TestHalfTurnHasNoWall),
         cmocka_unit_test(TestFoldOpens),
         cmocka_unit_test(TestEnergies),
+        cmocka_unit_test(TestForcesAreTheSlopeOfTheEnergy),
         cmocka_unit_test(TestRigidMotionCostsNothing),
         cmocka_unit_test(TestFreeFall),
         cmocka_unit_test(TestPiecesFallByThemselves),
