@@ -29,7 +29,7 @@ static kiriVec2 InPlane(const kiriLink* link, double along, double across)
     return kiriVec2_Add(kiriVec2_Scale(along, link->normal), kiriVec2_Scale(across, link->tangent));
 }
 
-static LinkStrains StrainsOf(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* frames)
+static LinkStrains StrainsOfLink(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* frames)
 {
     const kiriFrameData* const ends[2] = { &frames[link->i], &frames[link->j] };
     kiriPose own[2] = { kiriPose_Of(ends[0]), kiriPose_Of(ends[1]) };
@@ -142,7 +142,7 @@ static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLi
     Rigidity rigidity = RigidityOf(material);
     double missing = 0.0, held = 0.0;
     for (int32_t k = 0; k < linkCount; ++k) {
-        LinkStrains strains = StrainsOf(&links[k], material, frames);
+        LinkStrains strains = StrainsOfLink(&links[k], material, frames);
         missing += MissingIn(&links[k], &fits[links[k].i], &fits[links[k].j], rigidity);
         held += EnergyOf(&links[k], &strains, rigidity);
     }
@@ -157,7 +157,7 @@ bool kiriEstimate_Error(kiriMemory* memory, const kiriFrameData* frames, int32_t
         return false;
     }
     for (int32_t k = 0; k < linkCount; ++k) {
-        LinkStrains strains = StrainsOf(&links[k], material, frames);
+        LinkStrains strains = StrainsOfLink(&links[k], material, frames);
         AddToFit(&fits[links[k].i], &links[k], &strains);
         AddToFit(&fits[links[k].j], &links[k], &strains);
     }
