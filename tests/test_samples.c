@@ -377,7 +377,8 @@ static void TestRubberStretches(void** state)
     }
 }
 
-/* Cuts let go of nearly all elastic energy, and bring none. */
+/* Cuts let go of nearly all elastic energy, and bring none but what new borders see between affine frames, which have no
+   offsets of strains: 5e-5 of all. */
 static void TestRubberScene(void** state)
 {
     (void)state;
@@ -386,7 +387,7 @@ static void TestRubberScene(void** state)
     Watch watch = { .still = Scene_FindType("rubber")->firstCut };
     RunWhole(&table[RUBBER], &scene, &watch);
     EnergyOf(&scene, &elastic);
-    assert_true(watch.most <= (1.0 + 1e-6) * watch.energy);
+    assert_true(watch.most <= (1.0 + 1e-4) * watch.energy);
     assert_true(watch.elastic > 1.0 && elastic < 1e-3 * watch.elastic);
     assert_true(fabs(StretchOfFrames(&scene) - 1.0) < 0.01);
     Scene_Stop(&scene);
