@@ -43,6 +43,11 @@ static bool IsFaceBefore(const void* context, int32_t a, int32_t b)
     return fLow != gLow ? fLow < gLow : fHigh->triangle < gHigh->triangle;
 }
 
+static bool IsPairBefore(const kiriLink* a, const kiriLink* b)
+{
+    return a->i != b->i ? a->i < b->i : a->j < b->j;
+}
+
 static bool IsMadeBefore(const void* context, int32_t a, int32_t b)
 {
     const kiriBorder* border = context;
@@ -267,6 +272,10 @@ static bool AddLink(const kiriBorder* border, bool bent)
     link.link.sum = normal;
     SetMoments(border, &link.link);
     link.ends = kiriBorder_FindEnds(border, &link.link, bent);
+    link.isOld = kiriBorder_IsUntouched(border, &link.ends);
+    if (link.isOld) {
+        return kiriArray_Push(border->memory, &border->work->made, link);
+    }
     if (!bent) {
         kiriBorder_MakeExact(border, &link.link, &link.ends);
     }
@@ -433,7 +442,28 @@ static bool AddShortLinks(const kiriBorder* border)
     return ok;
 }
 
-static bool MakeLinks(const kiriBorder* border)
+/* Neither region of an old link is dirty: so it is the link of its pair that has the same rank. */
+static void TakeOldLinks(const kiriBorder* border, const kiriLinks* links)
+{
+    const kiriLinkWork* work = border->work;
+    int32_t old = 0;
+    for (int32_t k = 0; k < work->order.count; ++k) {
+        kiriNewLink* made = &work->made.data[work->order.data[k]];
+        while (old < links->links.count &&
+               (IsPairBefore(&links->links.data[old], &made->link) || work->ends.data[old].isShort)) {
+            ++old;
+        }
+        bool isOfPair = old < links->links.count && !IsPairBefore(&made->link, &links->links.data[old]);
+        KIRI_ASSERT(isOfPair || !made->isOld);
+        if (made->isOld) {
+            made->link = links->links.data[old];
+            made->ends = work->ends.data[old];
+        }
+        old += isOfPair;
+    }
+}
+
+static bool MakeLinks(const kiriBorder* border, const kiriLinks* links)
 {
     kiriLinkWork* work = border->work;
     for (int32_t k = 0; k < work->faces.count; ++k) {
@@ -448,7 +478,11 @@ static bool MakeLinks(const kiriBorder* border)
             }
         }
     }
-    return SortMade(border) && AddShortLinks(border) && SortMade(border);
+    if (!SortMade(border)) {
+        return false;
+    }
+    TakeOldLinks(border, links);
+    return AddShortLinks(border) && SortMade(border);
 }
 
 /* ---- The whole -------------------------------------------------------------------------------------------------- */
@@ -469,11 +503,6 @@ static bool MakeLinkRoom(const kiriBorder* border)
     }
     work->faces.count = work->made.count = 0;
     return true;
-}
-
-static bool IsPairBefore(const kiriLink* a, const kiriLink* b)
-{
-    return a->i != b->i ? a->i < b->i : a->j < b->j;
 }
 
 static void AddNext(const kiriBorder* border, kiriLinks* links, const kiriLink* link, const kiriLinkEnds* ends)
@@ -551,8 +580,8 @@ bool kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid
     if (ok) {
         FindStale(&border);
     }
-    ok = ok && FindFaces(&border) && MakeLinks(&border) && !links->work->edges.failed && MergeLinks(&border, links) &&
-         kiriBorder_MakeCorners(&border, links);
+    ok = ok && FindFaces(&border) && MakeLinks(&border, links) && !links->work->edges.failed &&
+         MergeLinks(&border, links) && kiriBorder_MakeCorners(&border, links);
     if (ok) {
         links->changed = CountChanged(links);
     }

@@ -56,6 +56,20 @@ static void AddNearRegions(const kiriBorder* border, const kiriLinkEnd* end, Nea
     AddRegionsAround(border, near, end->cell[1]);
 }
 
+bool kiriBorder_IsUntouched(const kiriBorder* border, const kiriLinkEnds* ends)
+{
+    NearRegions near;
+    near.count = 0;
+    AddNearRegions(border, &ends->end[0], &near);
+    AddNearRegions(border, &ends->end[1], &near);
+    for (int32_t k = 0; k < near.count; ++k) {
+        if (border->regions->dirty.data[near.region[k]]) {
+            return false;
+        }
+    }
+    return near.count < NEAR_REGIONS;
+}
+
 static kiriSight SightOf(const kiriBorder* border, const NearRegions* near)
 {
     return (kiriSight){ border->grid, border->mesh, border->regions->field.owner.data,
@@ -104,6 +118,13 @@ static bool IsSiteInside(const kiriBorder* border, int32_t region)
            kiriGrid_CellAt(border->grid, border->mesh, kiriMesh_Snap(border->mesh, site->at)) == site->cell;
 }
 
+/* No less than the true length of a way that is so long on the grid: that may cut a slit's end by a square, and starts
+   and ends at the middles of cells. */
+static double MostOf(const kiriBorder* border, int32_t length)
+{
+    return border->grid->side * (1.05 * length / KIRI_UNIT + 2.0);
+}
+
 /* Finds a region's reach near a point; `turns`: also where the way turns. */
 static bool FindReach(const kiriBorder* border, const kiriSight* sight, NearRegions* near, int32_t k, kiriVec2 at,
                       bool turns)
@@ -114,10 +135,9 @@ static bool FindReach(const kiriBorder* border, const kiriSight* sight, NearRegi
     if (!reach.isKnown && isInside && turns) {
         kiriTurns corners;
         kiriWay way;
-        corners.count = corners.scannedCount = 0;
-        corners.isFull = false;
+        kiriTurns_Start(&corners, site, at, MostOf(border, border->regions->field.distance.data[near->cell[k]]));
         AddTurnsAlong(border, sight, near->cell[k], &corners);
-        reach.isKnown = kiriWay_Find(&corners, sight, site, at, &way);
+        reach.isKnown = kiriWay_Find(&corners, sight, &way);
         if (reach.isKnown && way.turnCount > 0) {
             reach.from = way.turn[way.turnCount - 1];
             reach.behind = way.length - kiriVec2_Length(kiriVec2_Sub(at, reach.from));
@@ -585,8 +605,9 @@ bool kiriBorder_FindWay(const kiriBorder* border, const kiriLink* link, const ki
     NearRegions near;
     kiriTurns turns;
     kiriVec2 a = SiteAt(border, link->i), b = SiteAt(border, link->j);
-    near.count = turns.count = turns.scannedCount = 0;
-    turns.isFull = false;
+    const int32_t* distance = border->regions->field.distance.data;
+    near.count = 0;
+    kiriTurns_Start(&turns, a, b, MostOf(border, distance[cells[0]] + KIRI_UNIT + distance[cells[1]]));
     AddNearRegions(border, &ends->end[0], &near);
     AddNearRegions(border, &ends->end[1], &near);
     kiriSight sight = SightOf(border, &near);
@@ -600,5 +621,5 @@ bool kiriBorder_FindWay(const kiriBorder* border, const kiriLink* link, const ki
     }
     AddTurnsAlong(border, &sight, cells[0], &turns);
     AddTurnsAlong(border, &sight, cells[1], &turns);
-    return kiriWay_Find(&turns, &sight, a, b, way);
+    return kiriWay_Find(&turns, &sight, way);
 }

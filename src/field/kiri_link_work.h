@@ -45,6 +45,7 @@ typedef struct kiriNewLink {
     kiriLink link;
     kiriLinkEnds ends;
     int32_t face; /* KIRI_NONE where it is short */
+    bool isOld;   /* it is what it was: see kiriBorder_IsUntouched */
 } kiriNewLink;
 
 struct kiriLinkWork {
@@ -93,6 +94,9 @@ bool kiriBorder_FindRing(const kiriBorder* border, int32_t face, bool upper, kir
 
 /* The ends of the stretch at hand, whose link has its tangent. `bent`: it is a part of a border that was split. */
 kiriLinkEnds kiriBorder_FindEnds(const kiriBorder* border, const kiriLink* link, bool bent);
+
+/* Is no region dirty on which a link with these ends depends? They are as the grid has them. */
+bool kiriBorder_IsUntouched(const kiriBorder* border, const kiriLinkEnds* ends);
 
 /* Puts the ends where they are in the Euclidean metric, and with them the border, where the sites see it. */
 void kiriBorder_MakeExact(const kiriBorder* border, kiriLink* link, kiriLinkEnds* ends);

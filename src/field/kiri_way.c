@@ -38,6 +38,11 @@ static void AddTurn(kiriTurns* turns, const kiriTurn* turn)
     }
 }
 
+static bool IsOnTheWay(const kiriTurns* turns, kiriVec2 at)
+{
+    return kiriVec2_Length(kiriVec2_Sub(at, turns->from)) + kiriVec2_Length(kiriVec2_Sub(at, turns->to)) <= turns->most;
+}
+
 static void ScanSquare(kiriTurns* turns, const kiriSight* sight, int32_t square)
 {
     const kiriMeshData* mesh = sight->mesh;
@@ -54,13 +59,22 @@ static void ScanSquare(kiriTurns* turns, const kiriSight* sight, int32_t square)
     int32_t count;
     const kiriSightEdge* edges = kiriSight_EdgesOf(sight, square, &count);
     for (int32_t k = 0; k < count; ++k) {
-        if (edges[k].isTurn && kiriSight_MayLookIn(sight, edges[k].cell)) {
+        if (edges[k].isTurn && IsOnTheWay(turns, edges[k].head) && kiriSight_MayLookIn(sight, edges[k].cell)) {
             int32_t h = edges[k].edge;
             kiriTurn turn = { kiriSight_HeadOf(mesh, h), mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
                               kiriSight_HeadOf(mesh, kiriSight_EdgeAfter(mesh, h)) };
             AddTurn(turns, &turn);
         }
     }
+}
+
+void kiriTurns_Start(kiriTurns* turns, kiriVec2 from, kiriVec2 to, double most)
+{
+    turns->from = from;
+    turns->to = to;
+    turns->most = most;
+    turns->count = turns->scannedCount = 0;
+    turns->isFull = false;
 }
 
 void kiriTurns_AddAround(kiriTurns* turns, const kiriSight* sight, int32_t cell)
@@ -99,21 +113,24 @@ typedef char NodesFitBits[KIRI_MOST_TURNS + 2 <= 64 ? 1 : -1];
 
 static const double kiriNoWay = 1e300;
 
-/* May a way leave the corner in this direction, or come from it? Not into what is no material. */
-static bool IsFree(const kiriMeshData* mesh, const kiriTurn* turn, kiriVec2 direction)
+/* May a shortest way leave the corner in this direction, or come from it? Only where both edges are on one side: else it
+   would lead into what is no material, or could be cut short. */
+static bool IsTangent(const kiriSight* sight, const kiriTurn* turn, kiriVec2 direction)
 {
+    const kiriMeshData* mesh = sight->mesh;
+    double least = 1e-6 * sight->grid->side * kiriVec2_Length(direction);
     kiriVec2 at = kiriMesh_Local(mesh, turn->at);
     kiriVec2 before = kiriVec2_Sub(kiriMesh_Local(mesh, turn->before), at);
     kiriVec2 after = kiriVec2_Sub(kiriMesh_Local(mesh, turn->after), at);
-    return !(before.x * direction.y - before.y * direction.x > 0.0 &&
-             direction.x * after.y - direction.y * after.x > 0.0);
+    double a = direction.x * before.y - direction.y * before.x, b = direction.x * after.y - direction.y * after.x;
+    return !(a > least && b < -least) && !(a < -least && b > least);
 }
 
 static bool CanGo(const WaySearch* s, int32_t a, int32_t b)
 {
     kiriVec2 way = kiriVec2_Sub(s->at[b], s->at[a]);
-    return (a == 0 || IsFree(s->sight->mesh, &s->turns->turn[a - 1], way)) &&
-           (b == s->count - 1 || IsFree(s->sight->mesh, &s->turns->turn[b - 1], kiriVec2_Scale(-1.0, way))) &&
+    return (a == 0 || IsTangent(s->sight, &s->turns->turn[a - 1], way)) &&
+           (b == s->count - 1 || IsTangent(s->sight, &s->turns->turn[b - 1], kiriVec2_Scale(-1.0, way))) &&
            kiriSight_IsClear(s->sight, s->at[a], s->at[b]);
 }
 
@@ -172,7 +189,7 @@ static bool TakeWay(const WaySearch* s, kiriWay* way)
     return way->turnCount <= KIRI_WAY_TURNS;
 }
 
-bool kiriWay_Find(kiriTurns* turns, const kiriSight* sight, kiriVec2 from, kiriVec2 to, kiriWay* way)
+bool kiriWay_Find(const kiriTurns* turns, const kiriSight* sight, kiriWay* way)
 {
     WaySearch s;
     if (turns->isFull) {
@@ -182,8 +199,10 @@ bool kiriWay_Find(kiriTurns* turns, const kiriSight* sight, kiriVec2 from, kiriV
     s.turns = turns;
     s.count = turns->count + 2;
     for (int32_t k = 0; k < s.count; ++k) {
-        s.at[k] = k == 0 ? from : k == s.count - 1 ? to : kiriMesh_Local(sight->mesh, turns->turn[k - 1].at);
-        s.rest[k] = kiriVec2_Length(kiriVec2_Sub(to, s.at[k]));
+        s.at[k] = k == 0             ? turns->from
+                  : k == s.count - 1 ? turns->to
+                                     : kiriMesh_Local(sight->mesh, turns->turn[k - 1].at);
+        s.rest[k] = kiriVec2_Length(kiriVec2_Sub(turns->to, s.at[k]));
         s.length[k] = k == 0 ? 0.0 : kiriNoWay;
         s.from[k] = 0;
         s.blocked[k] = 0;

@@ -7,7 +7,7 @@
 
 KIRI_C_BEGIN
 
-enum { KIRI_MOST_TURNS = 48, KIRI_MOST_SCANNED = 192, KIRI_WAY_TURNS = 12 };
+enum { KIRI_MOST_TURNS = 62, KIRI_MOST_SCANNED = 256, KIRI_WAY_TURNS = 24 };
 
 /* A corner of the material of more than half a turn: where a way may turn. The edges before and after it keep the
    material to their left; at the end of a slit they are its two sides. */
@@ -15,8 +15,10 @@ typedef struct kiriTurn {
     kiriLatticePoint at, before, after;
 } kiriTurn;
 
-/* The corners in some squares. */
+/* The corners in some squares, for ways between two points that are no longer than `most`. */
 typedef struct kiriTurns {
+    kiriVec2 from, to;
+    double most; /* m */
     kiriTurn turn[KIRI_MOST_TURNS];
     int32_t count;
     int32_t scanned[KIRI_MOST_SCANNED]; /* squares */
@@ -30,11 +32,13 @@ typedef struct kiriWay {
     double length; /* m */
 } kiriWay;
 
+void kiriTurns_Start(kiriTurns* turns, kiriVec2 from, kiriVec2 to, double most);
+
 /* Adds the corners in the square of a cell and in those around it, of those that may be looked at. */
 void kiriTurns_AddAround(kiriTurns* turns, const kiriSight* sight, int32_t cell);
 
 /* The shortest way over these corners; false where there is none. */
-bool kiriWay_Find(kiriTurns* turns, const kiriSight* sight, kiriVec2 from, kiriVec2 to, kiriWay* way);
+bool kiriWay_Find(const kiriTurns* turns, const kiriSight* sight, kiriWay* way);
 
 /* The point of a way at so much of its length. */
 kiriVec2 kiriWay_At(const kiriWay* way, kiriVec2 from, kiriVec2 to, double length);
