@@ -99,7 +99,7 @@ gallery: accuracy
 	set -e; for scene in $(GALLERY); do \
 	    $(RUN) --scene $$scene --size 800x600 --every 1000 --output build/gallery/$$scene; \
 	    cp build/gallery/$$scene/contact_sheet.png samples/pictures/$$scene.png; done
-	$(RUN) --scene fallingguy --weights all --size 800x600 --every 1000 --output build/gallery/weights
+	$(RUN) --scene fallingguy --paper --weights all --size 800x600 --every 1000 --output build/gallery/weights
 	cp build/gallery/weights/contact_sheet.png samples/pictures/weights.png
 	$(RUN) $(FILM) --output build/gallery/film --film samples/pictures/film.png
 	$(BOX2D) --output build/gallery/box2d

@@ -135,6 +135,8 @@ static bool StartVortex(Scene* scene, const SceneOptions* options)
     def.maxFrames = options->asPaper ? 5 : MOST_FRAMES;
     def.frameLength = armFrameLength * scene->type->size;
     def.collisionPoints = 200;
+    /* Its frames are held, and nothing is pinned: a smooth surface is where it should be. */
+    def.skinning = options->asPaper ? KIRI_SKINNING_LINEAR : KIRI_SKINNING_SMOOTH;
     const Spiral first = { { 0.5, 0.5 }, 0.0, 0.38, 0.0, 1.6, 0.014 };
     const Spiral second = { { 0.5, 0.5 }, 0.0, 0.38, 0.5, 1.6, 0.014 };
     return Scene_MakeRectangle(scene, &def, options, &rectangle) && HoldBorder(scene, &def) &&
@@ -290,7 +292,7 @@ static bool StartFallingGuy(Scene* scene, const SceneOptions* options)
     /* Left and right, below and above; forearm, head, chest, elbow, both legs. */
     const float few[] = { 0.06f, 0.17f, 1.93f, 0.5f,  1.0f,  0.04f, 1.0f,  0.96f, 0.42f, 0.17f,
                           0.56f, 0.39f, 0.83f, 0.38f, 0.86f, 0.70f, 1.48f, 0.27f, 1.48f, 0.56f };
-    const Rectangle rectangle = { 2.0f, 1.0f, options->asPaper ? 16 : 64, options->asPaper ? 16 : 32,
+    const Rectangle rectangle = { 2.0f, 1.0f, options->asPaper ? 16 : 128, options->asPaper ? 16 : 64,
                                   options->asPaper ? few : guyFrames };
     const Figure guy = { "fallingguy", 1.6f, 1.0f, 0.5f };
     def.gridResolution = 100;
