@@ -116,22 +116,22 @@ typedef struct Scene {
     kiriSheet sheet;
 } Scene;
 
-/* -1/4 to 1/4; Numerical Recipes' "quick and dirty" generator. */
+/* -0.1 to 0.1; Numerical Recipes' "quick and dirty" generator. */
 static float Shift(uint32_t* seed)
 {
     *seed = 1664525u * *seed + 1013904223u;
-    return 0.5f * ((float)(*seed >> 8) / (float)(1u << 24) - 0.5f);
+    return 0.2f * ((float)(*seed >> 8) / (float)(1u << 24) - 0.5f);
 }
 
 static void PlaceFrames(const Setting* setting, float* points)
 {
     const Shape* shape = &shapes[setting->scene];
-    uint32_t seed = (uint32_t)setting->seed;
+    uint32_t seed = (uint32_t)setting->spread;
     for (int i = 0; i < setting->columns * setting->rows; ++i) {
         float u = (float)(i / setting->rows) + 0.5f, v = (float)(i % setting->rows) + 0.5f;
-        if (setting->seed != 0) {
+        if (setting->spread > 1) {
             u += Shift(&seed);
-            v += Shift(&seed);
+            v += setting->rows > 1 ? Shift(&seed) : 0.0f;
         }
         points[2 * i] = shape->length * u / (float)setting->columns;
         points[2 * i + 1] = shape->width * v / (float)setting->rows;
@@ -153,7 +153,7 @@ static bool AddSheet(Scene* scene, const Setting* setting)
     def.indices = indices;
     def.triangleCount = 2 * shape->columns * shape->rows;
     def.material = (kiriMaterial){ shape->young, 0.3f, 5e-4f, 1000.0f, 0.5f, 0.0f };
-    def.framePoints = points;
+    def.framePoints = setting->spread == 1 ? NULL : points;
     def.frameCount = def.maxFrames = setting->columns * setting->rows; /* nothing is added */
     def.rigidWeight = 2.0f;
     def.gridResolution = setting->gridResolution;
@@ -300,16 +300,18 @@ bool Sweep_Run(const Setting* setting, kiriClockFn* clock, Outcome* outcome)
     return ok;
 }
 
-bool Sweep_Range(const Setting* setting, double error[2])
+bool Sweep_Range(const Setting* setting, bool spread, double error[2])
 {
     static const int32_t grids[] = { 16, 18, 20, 23, 25 }; /* of 20 */
+    static const int32_t inRows[] = { 0, 2, 3 }, byLibrary[] = { 1 };
+    int32_t places = spread ? COUNT(byLibrary) : COUNT(inRows);
     error[0] = 1e30;
     error[1] = 0.0;
-    for (int32_t k = 0; k < 3 * COUNT(grids); ++k) {
+    for (int32_t k = 0; k < places * COUNT(grids); ++k) {
         Setting other = *setting;
         Outcome outcome;
-        other.gridResolution = setting->gridResolution * grids[k / 3] / 20;
-        other.seed = k % 3;
+        other.gridResolution = setting->gridResolution * grids[k / places] / 20;
+        other.spread = spread ? byLibrary[k % places] : inRows[k % places];
         if (!Sweep_Run(&other, NULL, &outcome)) {
             return false;
         }

@@ -19,9 +19,10 @@ typedef struct Setting {
     int32_t scene;         /* SWEEP_... */
     int32_t columns, rows; /* of frames, along u and v */
     int32_t gridResolution, iterations, substeps;
-    int32_t parts; /* calls of kiriWorld_Tick a sixtieth of a second; 1 but for the reference */
-    int32_t model; /* KIRI_MODEL_... */
-    int32_t seed;  /* of random moves of the frames by up to a quarter of their spacing; 0: regular rows */
+    int32_t parts;  /* calls of kiriWorld_Tick a sixtieth of a second; 1 but for the reference */
+    int32_t model;  /* KIRI_MODEL_... */
+    int32_t spread; /* 0: frames in regular rows; 1: where the library puts as many; more: rows, moved at random by up
+                       to a tenth of the spacing (a single row only along itself), from this seed */
 } Setting;
 
 typedef struct Outcome {
@@ -54,8 +55,8 @@ bool Sweep_Run(const Setting* setting, kiriClockFn* clock, Outcome* outcome);
 int Sweep_Dominating(const Setting* settings, const Outcome* outcomes, int count, const Setting* setting,
                      const Outcome* outcome);
 
-/* The least and the most error of a setting on grids from 4/5 to 5/4 as fine and with frames moved at random: no figure
-   is that of one lucky grid. False where one of them is refused. */
-bool Sweep_Range(const Setting* setting, double error[2]);
+/* The least and the most error of a setting on grids from 4/5 to 5/4 as fine, frames where the library spreads them, or in
+   rows, regular and moved at random: no figure is that of one lucky grid. False where one of them is refused. */
+bool Sweep_Range(const Setting* setting, bool spread, double error[2]);
 
 #endif
