@@ -287,55 +287,90 @@ static double ShellError(const Specimen* specimen, const Shell* shell)
     return sqrt(error / way);
 }
 
-/* `layout`: of LAYOUT_KINDS, or LAYOUT_KINDS: spread by the library. */
-static void AddShell(SpecimenDef* def, const char* name, const Shell* shell, int frames, int layout, double target)
+/* Clamped along u = 0, under its weight, with its frames as the def has them. */
+static void AddShell(const SpecimenDef* def, const char* name, const char* layout, const Shell* shell, double target)
 {
-    int rows = (int)(sqrt(frames * def->width / def->length) + 0.5);
-    if (layout < LAYOUT_KINDS) {
-        Layout_Make(&def->layout, layout, def->length, def->width, frames / rows, rows);
-    } else {
-        def->frames = frames;
-    }
     Specimen* specimen = Specimen_Create(def);
     if (specimen == NULL) {
         return;
     }
+    Row row = { name, "", layout, specimen->count, def->grid, 0, 0.0, 0.0, "est.", 0.0, 2e-3, target, 0.0 };
     Specimen_ClampEnd(specimen, def, 0.0);
     Specimen_Settle(specimen);
-    Row row = { name,
-                "",
-                layout < LAYOUT_KINDS ? layoutNames[layout] : "spread",
-                specimen->count,
-                def->grid,
-                0,
-                0.0,
-                0.0,
-                NULL,
-                ShellError(specimen, shell),
-                2e-3,
-                target,
-                specimen->milliseconds };
+    Require(kiriSheet_EstimateError(specimen->world, specimen->sheet, &row.value) == KIRI_OK, "no estimate");
+    row.error = row.reference = ShellError(specimen, shell);
+    row.milliseconds = specimen->milliseconds;
     snprintf(row.setting, sizeof row.setting, "nu %g", (double)def->material.poissonsRatio);
+    if (def->accuracy > 0.0) {
+        snprintf(row.setting, sizeof row.setting, "nu %g, wanted %g %%", (double)def->material.poissonsRatio,
+                 100.0 * def->accuracy);
+    }
     Results_Add(&row);
     Specimen_Destroy(specimen);
+}
+
+/* The sheet of the shell data, its frames still to be chosen. */
+static SpecimenDef ShellSheet(double poisson, double length, double width, int grid)
+{
+    SpecimenDef def = Specimen_Strip(7.438285638990287e8, poisson, 5e-4);
+    def.gravity[2] = -G;
+    def.length = length;
+    def.width = width;
+    def.grid = grid;
+    return def;
+}
+
+static const float tongueSlit[] = { 0.05f, 0.0f, 0.05f, 0.07f, 0.08f, 0.07f };
+
+static SpecimenDef TongueSheet(double poisson, int grid)
+{
+    SpecimenDef def = ShellSheet(poisson, 0.1, 0.1, grid);
+    def.slits[def.slitCount++] = (Slit){ tongueSlit, 3 };
+    return def;
+}
+
+static const Shell* ReadWide(const char* data, int n)
+{
+    static Shell shell;
+    char path[512];
+    snprintf(path, sizeof path, "%s/cantilever_nu0%s.csv", data, n == 0 ? "" : "3");
+    Require(Shell_Read(&shell, path, NULL, 0), "no data of the wide cantilever");
+    return &shell;
+}
+
+static const Shell* ReadTongue(const char* data, int n)
+{
+    static Shell shell;
+    char path[512];
+    snprintf(path, sizeof path, "%s/tongue%s.csv", data, n == 0 ? "_nu0" : "");
+    Require(Shell_Read(&shell, path, tongueSlit, 3), "no data of the tongue");
+    return &shell;
+}
+
+/* Frames that the library spreads, or in a layout with about as many. */
+static void ChooseFrames(SpecimenDef* def, int kind, int frames)
+{
+    int rows = (int)(sqrt(frames * def->width / def->length) + 0.5);
+    if (kind < LAYOUT_KINDS) {
+        Layout_Make(&def->layout, kind, def->length, def->width, frames / rows, rows);
+    } else {
+        def->frames = frames;
+    }
 }
 
 static void WideCantilever(const char* data)
 {
     static const int frames[] = { 12, 24, 48, 96, 192 };
+    static const int kinds[] = { LAYOUT_ROWS, LAYOUT_JITTERED, LAYOUT_LLOYD, LAYOUT_KINDS };
     static const double targets[] = { 0.04, 0.02, 0.01, 0.005, 0.005 };
-    static Shell shell;
     for (int n = 0; n < COUNT(POISSON); ++n) {
-        char path[512];
-        snprintf(path, sizeof path, "%s/cantilever_nu0%s.csv", data, n == 0 ? "" : "3");
-        Require(Shell_Read(&shell, path, NULL, 0), "no data of the wide cantilever");
-        for (int layout = LAYOUT_ROWS; layout <= LAYOUT_KINDS; layout += layout == LAYOUT_ROWS ? 2 : 1) {
+        const Shell* shell = ReadWide(data, n);
+        for (int l = 0; l < COUNT(kinds); ++l) {
             for (int g = 0; g < COUNT(GRIDS); ++g) {
                 for (int k = 0; k < COUNT(frames); ++k) {
-                    SpecimenDef def = Specimen_Strip(7.438285638990287e8, POISSON[n], 5e-4);
-                    def.gravity[2] = -G;
-                    def.grid = GRIDS[g];
-                    AddShell(&def, "wide cantilever", &shell, frames[k], layout, targets[k]);
+                    SpecimenDef def = ShellSheet(POISSON[n], 0.2, 0.05, GRIDS[g]);
+                    ChooseFrames(&def, kinds[l], frames[k]);
+                    AddShell(&def, "wide cantilever", l < 3 ? layoutNames[kinds[l]] : "spread", shell, targets[k]);
                 }
             }
         }
@@ -344,22 +379,32 @@ static void WideCantilever(const char* data)
 
 static void Tongue(const char* data)
 {
-    static const float slit[] = { 0.05f, 0.0f, 0.05f, 0.07f, 0.08f, 0.07f };
-    static const int frames[] = { 24, 48, 96, 192 }, grids[] = { 40, 80, 160 };
+    static const int frames[] = { 24, 48, 96, 192 };
     static const double targets[] = { 0.08, 0.04, 0.02, 0.01 };
-    static Shell shell;
     for (int n = 0; n < COUNT(POISSON); ++n) {
-        char path[512];
-        snprintf(path, sizeof path, "%s/tongue%s.csv", data, n == 0 ? "_nu0" : "");
-        Require(Shell_Read(&shell, path, slit, 3), "no data of the tongue");
-        for (int g = 0; g < COUNT(grids); ++g) {
+        const Shell* shell = ReadTongue(data, n);
+        for (int g = 0; g < COUNT(GRIDS); ++g) {
             for (int k = 0; k < COUNT(frames); ++k) {
-                SpecimenDef def = Specimen_Strip(7.438285638990287e8, POISSON[n], 5e-4);
-                def.gravity[2] = -G;
-                def.length = def.width = 0.1;
-                def.grid = grids[g];
-                def.slits[def.slitCount++] = (Slit){ slit, 3 };
-                AddShell(&def, "tongue", &shell, frames[k], LAYOUT_KINDS, targets[k]);
+                SpecimenDef def = TongueSheet(POISSON[n], GRIDS[g]);
+                ChooseFrames(&def, LAYOUT_KINDS, frames[k]);
+                AddShell(&def, "tongue", "spread", shell, targets[k]);
+            }
+        }
+    }
+}
+
+/* As many frames as the library takes for an accuracy that is wanted: within a factor of two. */
+static void WantedAccuracy(const char* data)
+{
+    static const double wanted[] = { 0.1, 0.05, 0.02, 0.01 };
+    for (int n = 0; n < COUNT(POISSON); ++n) {
+        for (int g = 0; g < COUNT(GRIDS); ++g) {
+            for (int k = 0; k < COUNT(wanted); ++k) {
+                SpecimenDef wide = ShellSheet(POISSON[n], 0.2, 0.05, GRIDS[g]),
+                            tongue = TongueSheet(POISSON[n], GRIDS[g]);
+                wide.accuracy = tongue.accuracy = wanted[k];
+                AddShell(&wide, "wanted, cantilever", "automatic", ReadWide(data, n), 2.0 * wanted[k]);
+                AddShell(&tongue, "wanted, tongue", "automatic", ReadTongue(data, n), 2.0 * wanted[k]);
             }
         }
     }
@@ -561,6 +606,7 @@ const Case plateCases[] = {
     { "buckling", Buckling },
     { "wide cantilever", WideCantilever },
     { "tongue", Tongue },
+    { "wanted accuracy", WantedAccuracy },
     { "slit annulus", Annulus },
     { "membrane", Membrane },
     { "narrowing", Narrowing },

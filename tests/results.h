@@ -12,7 +12,8 @@ typedef struct Row {
     const char* layout;           /* of the frames: rows, jittered, Lloyd, spread, ... */
     int frames, grid;             /* grid: squares along the longer side */
     int substeps;                 /* a sixtieth of a second; 0: not of interest, for the sheet is at rest */
-    double value, reference;      /* in `unit`; a unit of null: only the error has a meaning */
+    double value, reference;      /* in `unit`; a unit of null: only the error has a meaning; "est.": the library's own
+                                     estimate of the error, and the error */
     const char* unit;
     double error;        /* of the reference */
     double noise;        /* what the reference is uncertain by: changes of the error below it say nothing */

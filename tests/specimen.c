@@ -75,7 +75,8 @@ static kiriSheetDef SheetDef(const SpecimenDef* from)
     def.gridResolution = from->grid;
     def.frameCount = from->layout.count > 0 ? from->layout.count : from->frames;
     def.framePoints = from->layout.count > 0 ? from->layout.points : NULL;
-    def.maxFrames = def.frameCount; /* nothing is added */
+    def.maxFrames = def.frameCount > 0 ? def.frameCount : MAX_FRAMES; /* nothing is added later */
+    def.accuracy = from->accuracy > 0.0 ? (float)from->accuracy : def.accuracy;
     def.rigidWeight = 2.0f;
     def.iterations = from->iterations;
     def.model = from->model;

@@ -33,7 +33,8 @@ typedef struct SpecimenDef {
     int slitCount;
     const SpecimenMesh* mesh; /* instead of a rectangle */
     Layout layout;
-    int frames; /* without a layout: the library spreads so many */
+    int frames;      /* without a layout: the library spreads so many; 0: as many as it takes for `accuracy` */
+    double accuracy; /* 0: not of interest */
     int model, iterations, planar, timeStepping;
 } SpecimenDef;
 
