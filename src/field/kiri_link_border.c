@@ -376,7 +376,7 @@ static bool FindTurnedCorner(const EndSearch* s, kiriLinkEnd* end)
                           (slope[0].x * off[1] - slope[1].x * off[0]) / det };
         end->at = kiriVec2_Sub(end->at, AtMost(step, 0.5 * side));
     }
-    return fabs(off[0]) + fabs(off[1]) < s->least;
+    return fabs(off[0]) + fabs(off[1]) < s->least && kiriSight_IsClear(&s->sight, s->grid->look, end->at);
 }
 
 /* Slides a point of an edge to where both reaches are as long; it stays where that is beyond the edge. */
@@ -457,7 +457,8 @@ static bool FindExactEnd(const kiriBorder* border, const kiriLink* link, int whi
     if (IsStraightReach(&s)) {
         found.isExact = found.isSeen = FindSeenEndOf(&s, &found);
     } else {
-        found.isExact = end->kind == KIRI_END_CORNER ? FindTurnedCorner(&s, &found) : FindTurnedOpenEnd(&s, &found);
+        found.isExact = end->kind == KIRI_END_CORNER && FindTurnedCorner(&s, &found);
+        found.isExact = found.isExact || FindTurnedOpenEnd(&s, &found);
     }
     /* Farther from where the grid has it the border would be one that the grid does not know. */
     found.isExact = found.isExact && kiriVec2_Length(kiriVec2_Sub(found.at, end->at)) < 3.0 * border->grid->side;

@@ -55,6 +55,14 @@ static void SetRing(kiriRing* ring, const kiriFace* face, bool upper, const int3
     }
 }
 
+/* Cells with less of a square, and faces with less of a side, are slivers beside an edge. */
+static const double kiriSliver = 1e-3;
+
+static bool IsSliver(const kiriGrid* grid, int32_t cell)
+{
+    return grid->cells.data[cell].material.area < kiriSliver * grid->side * grid->side;
+}
+
 bool kiriBorder_FindRing(const kiriBorder* border, int32_t face, bool upper, kiriRing* ring)
 {
     const kiriGrid* grid = border->grid;
@@ -69,13 +77,14 @@ bool kiriBorder_FindRing(const kiriBorder* border, int32_t face, bool upper, kir
             int32_t far[2] = { kiriFace_Other(&grid->faces.data[g], f->cell[0]),
                                kiriFace_Other(&grid->faces.data[h], f->cell[1]) };
             int32_t faces[4] = { face, g, h, FaceAlong(grid, far[0], far[1], f->axis) };
-            if (faces[3] != KIRI_NONE && (best[0] == KIRI_NONE || IsRingBefore(grid, far, best))) {
+            bool isNone = faces[3] == KIRI_NONE || IsSliver(grid, far[0]) || IsSliver(grid, far[1]);
+            if (!isNone && (best[0] == KIRI_NONE || IsRingBefore(grid, far, best))) {
                 SetRing(ring, f, upper, far, faces);
                 memcpy(best, far, sizeof(best));
             }
         }
     }
-    return best[0] != KIRI_NONE;
+    return best[0] != KIRI_NONE && !IsSliver(grid, f->cell[0]) && !IsSliver(grid, f->cell[1]);
 }
 
 /* How many faces of the ring are between two regions. */
@@ -143,11 +152,28 @@ static bool FindEnd(const kiriBorder* border, int32_t face, bool upper, bool ben
     return true;
 }
 
+static bool IsSliverFace(const kiriGrid* grid, int32_t face)
+{
+    const kiriFace* f = &grid->faces.data[face];
+    return f->width < kiriSliver * grid->side || IsSliver(grid, f->cell[0]) || IsSliver(grid, f->cell[1]);
+}
+
+/* Slivers do not say where a border ends, unless it has nothing else. */
+static bool HasOnlySlivers(const kiriBorder* border)
+{
+    for (int32_t k = 0; k < border->work->stretch.count; ++k) {
+        if (!IsSliverFace(border->grid, border->work->stretch.data[k])) {
+            return false;
+        }
+    }
+    return true;
+}
+
 kiriLinkEnds kiriBorder_FindEnds(const kiriBorder* border, const kiriLink* link, bool bent)
 {
     kiriLinkEnds ends;
     double low = 0.0, high = 0.0;
-    bool any = false;
+    bool any = false, takesAll = HasOnlySlivers(border);
     memset(&ends, 0, sizeof(ends));
     kiriBorderSide first = kiriBorder_SideOf(border, border->work->stretch.data[0]);
     for (int k = 0; k < 2; ++k) { /* a border that closes on itself */
@@ -158,7 +184,8 @@ kiriLinkEnds kiriBorder_FindEnds(const kiriBorder* border, const kiriLink* link,
     ends.end[0].at = ends.end[1].at = link->centroid;
     for (int32_t k = 0; k < 2 * border->work->stretch.count; ++k) {
         kiriLinkEnd end;
-        if (FindEnd(border, border->work->stretch.data[k / 2], k % 2 != 0, bent, &end)) {
+        int32_t face = border->work->stretch.data[k / 2];
+        if ((takesAll || !IsSliverFace(border->grid, face)) && FindEnd(border, face, k % 2 != 0, bent, &end)) {
             double along = kiriVec2_Dot(kiriVec2_Sub(end.at, link->centroid), link->tangent);
             if (!any || along < low) {
                 ends.end[0] = end;

@@ -83,7 +83,7 @@ typedef struct kiriBorderSide {
 kiriBorderSide kiriBorder_SideOf(const kiriBorder* border, int32_t face);
 
 /* The four cells around a node of the grid, counter-clockwise from the lower left one, where faces join each to the
-   next: no slit and no outline runs to the node. */
+   next, and none is a sliver: no slit and no outline runs to the node. */
 typedef struct kiriRing {
     int32_t cell[4];
     int32_t face[4]; /* between cell k and the next */
