@@ -379,44 +379,129 @@ static bool FindTurnedCorner(const EndSearch* s, kiriLinkEnd* end)
     return fabs(off[0]) + fabs(off[1]) < s->least && kiriSight_IsClear(&s->sight, s->grid->look, end->at);
 }
 
-/* Slides a point of an edge to where both reaches are as long; it stays where that is beyond the edge. */
-static kiriVec2 SlideOn(const EndSearch* s, const kiriVec2 edge[2], kiriVec2 at)
+/* How much farther the site of region i is than that of region j. */
+static double FartherAt(const EndSearch* s, kiriVec2 at)
 {
-    kiriVec2 way = kiriVec2_Sub(edge[1], edge[0]), slope;
-    double size = kiriVec2_Dot(way, way), first = kiriVec2_Dot(kiriVec2_Sub(at, edge[0]), way) / size, share = first;
-    double most = 0.5 * s->border->grid->side / sqrt(size);
-    for (int round = 0; round < 8; ++round) {
-        kiriVec2 p = kiriVec2_Add(edge[0], kiriVec2_Scale(share, way));
-        double off = Farther(&s->near.reach[0], &s->near.reach[1], p, &slope), pace = kiriVec2_Dot(slope, way);
-        double step = fabs(pace) > 1e-3 * sqrt(size) ? off / pace : 0.0;
-        share -= step > most ? most : step < -most ? -most : step;
-    }
-    bool isBeside = share >= 0.0 && share <= 1.0 && fabs(share - first) <= 2.0 * most;
-    return isBeside ? kiriVec2_Add(edge[0], kiriVec2_Scale(share, way)) : at;
+    kiriVec2 slope;
+    return Farther(&s->near.reach[0], &s->near.reach[1], at, &slope);
 }
 
-/* Where the border comes to an edge: from beside the stretch along its tangent there, then along the edge. */
-static bool FindTurnedOpenEnd(const EndSearch* s, kiriLinkEnd* end)
+/* Where both are as far, between two points where one is and where the other is farther: by the rule of Illinois. */
+static kiriVec2 FindBetweenOnEdge(const EndSearch* s, kiriVec2 a, double farA, kiriVec2 b, double farB)
+{
+    kiriVec2 way = kiriVec2_Sub(b, a);
+    double low = 0.0, high = 1.0;
+    for (int round = 0; round < 24 && farB != farA; ++round) {
+        double at = high - farB * (high - low) / (farB - farA);
+        double far = FartherAt(s, kiriVec2_Add(a, kiriVec2_Scale(at, way)));
+        if ((far > 0.0) != (farB > 0.0)) {
+            low = high;
+            farA = farB;
+        } else {
+            farA *= 0.5;
+        }
+        high = at;
+        farB = far;
+    }
+    return kiriVec2_Add(a, kiriVec2_Scale(high, way));
+}
+
+/* Do both reaches see a point of an edge, a little to its left? Those that do not are found anew for there. */
+static bool IsLipSeen(EndSearch* s, kiriVec2 at, kiriVec2 way)
+{
+    double size = kiriVec2_Length(way), off = size > 0.0 ? 1e-3 * s->border->grid->side / size : 0.0;
+    kiriVec2 beside = kiriVec2_Add(at, kiriVec2_Make(-off * way.y, off * way.x));
+    bool seen = true;
+    for (int32_t k = 0; k < 2; ++k) {
+        if (!kiriSight_IsClear(&s->sight, s->near.reach[k].from, beside)) {
+            seen = false;
+            FindReach(s->border, &s->sight, &s->near, k, beside, true);
+        }
+    }
+    return seen;
+}
+
+/* From a point of an edge along the edges of the material, the way on which the difference of distances falls, to where
+   there is none; up to three squares' sides. */
+static bool WalkToEnd(const EndSearch* s, int32_t* on, kiriVec2 at, kiriLinkEnd* end)
+{
+    const kiriMeshData* mesh = s->border->mesh;
+    int32_t edge = *on;
+    kiriVec2 slope, tail = kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, edge)].at);
+    kiriVec2 head = kiriMesh_Local(mesh, kiriSight_HeadOf(mesh, edge));
+    double far = Farther(&s->near.reach[0], &s->near.reach[1], at, &slope), left = 3.0 * s->border->grid->side;
+    bool ahead = far * kiriVec2_Dot(slope, kiriVec2_Sub(head, tail)) < 0.0;
+    for (int steps = 0; steps < 32 && left > 0.0; ++steps) {
+        kiriVec2 goal = ahead ? head : tail;
+        double goalFar = FartherAt(s, goal);
+        if (far == 0.0 || (far > 0.0) != (goalFar > 0.0)) {
+            SetOpenEnd(end, far == 0.0 ? at : FindBetweenOnEdge(s, at, far, goal, goalFar));
+            *on = edge;
+            return true;
+        }
+        left -= kiriVec2_Length(kiriVec2_Sub(goal, at));
+        at = goal;
+        far = goalFar;
+        edge = ahead ? kiriSight_EdgeAfter(mesh, edge) : kiriSight_EdgeBefore(mesh, edge);
+        tail = kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, edge)].at);
+        head = kiriMesh_Local(mesh, kiriSight_HeadOf(mesh, edge));
+    }
+    return false;
+}
+
+/* The same, with reaches that see the end: where those of the start do not, once more with those of the end. */
+static bool FindEndOnEdge(EndSearch* s, int32_t edge, kiriVec2 at, kiriLinkEnd* end)
+{
+    const kiriMeshData* mesh = s->border->mesh;
+    for (int round = 0; round < 2; ++round) {
+        if (!WalkToEnd(s, &edge, at, end)) {
+            return false;
+        }
+        kiriVec2 tail = kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, edge)].at);
+        if (IsLipSeen(s, end->at, kiriVec2_Sub(kiriMesh_Local(mesh, kiriSight_HeadOf(mesh, edge)), tail))) {
+            return true;
+        }
+        if (!s->near.reach[0].isKnown || !s->near.reach[1].isKnown) {
+            return false;
+        }
+        at = end->at;
+    }
+    return WalkToEnd(s, &edge, at, end);
+}
+
+/* A point of the border beside the stretch, and the border's direction ahead there. */
+static bool FindBorderBefore(const EndSearch* s, kiriVec2* at, kiriVec2* ahead)
 {
     double side = s->border->grid->side, size = 0.0;
-    kiriVec2 before = PointBefore(s), from = before, slope = { 0.0, 0.0 };
+    kiriVec2 before = PointBefore(s), slope = { 0.0, 0.0 };
+    *at = before;
     for (int round = 0; round < 8; ++round) {
-        double off = Farther(&s->near.reach[0], &s->near.reach[1], from, &slope);
+        double far = Farther(&s->near.reach[0], &s->near.reach[1], *at, &slope);
         size = kiriVec2_Length(slope);
         if (!(size > 1e-3)) {
             return false;
         }
-        from = kiriVec2_Sub(from, AtMost(kiriVec2_Scale(off / (size * size), slope), 0.5 * side));
+        *at = kiriVec2_Sub(*at, AtMost(kiriVec2_Scale(far / (size * size), slope), 0.5 * side));
     }
-    kiriVec2 tangent = kiriVec2_Scale(s->ahead / size, kiriVec2_Make(-slope.y, slope.x));
-    kiriVec2 goal = kiriVec2_Add(from, kiriVec2_Scale(4.0 * side, tangent));
+    *ahead = kiriVec2_Scale(s->ahead / size, kiriVec2_Make(-slope.y, slope.x));
+    return kiriVec2_Length(kiriVec2_Sub(*at, before)) < 2.0 * side && kiriSight_IsClear(&s->sight, before, *at);
+}
+
+/* Where the border comes to an edge: it starts from the edge where the grid has the end, or from the one that the border
+   leads to beyond a corner that is none. */
+static bool FindTurnedOpenEnd(EndSearch* s, kiriLinkEnd* end)
+{
+    kiriVec2 from = s->grid->look, ahead = kiriVec2_Sub(s->grid->at, s->grid->look), goal;
     kiriSightHit hit;
-    if (kiriVec2_Length(kiriVec2_Sub(from, before)) > 2.0 * side || !kiriSight_IsClear(&s->sight, before, from) ||
-        kiriSight_Cast(&s->sight, from, goal, &hit) != KIRI_SIGHT_EDGE) {
-        return false;
+    goal = kiriVec2_Add(s->grid->at, ahead);
+    if (s->grid->kind != KIRI_END_OPEN) {
+        if (!FindBorderBefore(s, &from, &ahead)) {
+            return false;
+        }
+        goal = kiriVec2_Add(from, kiriVec2_Scale(4.0 * s->border->grid->side, ahead));
     }
-    SetOpenEnd(end, SlideOn(s, hit.edge, kiriVec2_Add(from, kiriVec2_Scale(hit.share, kiriVec2_Sub(goal, from)))));
-    return true;
+    return kiriSight_Cast(&s->sight, from, goal, &hit) == KIRI_SIGHT_EDGE &&
+           FindEndOnEdge(s, hit.edge, kiriVec2_Add(from, kiriVec2_Scale(hit.share, kiriVec2_Sub(goal, from))), end);
 }
 
 /* ---- The link ---------------------------------------------------------------------------------------------------- */

@@ -21,6 +21,15 @@ int32_t kiriSight_EdgeAfter(const kiriMeshData* mesh, int32_t h)
     return next;
 }
 
+int32_t kiriSight_EdgeBefore(const kiriMeshData* mesh, int32_t h)
+{
+    int32_t before = kiriEdge_Previous(h);
+    while (!IsMaterialEdge(mesh, before)) {
+        before = kiriEdge_Previous(kiriMesh_Twin(mesh, before));
+    }
+    return before;
+}
+
 bool kiriSightEdges_Start(kiriSightEdges* edges, const kiriMeshData* mesh)
 {
     int32_t squares = mesh->squares.columns * mesh->squares.rows, old = edges->spans.count;
@@ -94,6 +103,7 @@ typedef struct SightRay {
     double length;
     double least;         /* m: what is as near to the way, or to its ends, only touches */
     kiriSightHit nearest; /* share above 1: none */
+    kiriVec2 head;        /* of its edge */
 } SightRay;
 
 static double Cross(kiriVec2 a, kiriVec2 b)
@@ -108,36 +118,30 @@ static int SideOf(const SightRay* ray, kiriVec2 p)
     return off > least ? 1 : off < -least ? -1 : 0;
 }
 
-static bool IsEdgeBefore(const kiriVec2 a[2], const kiriVec2 b[2])
+/* Of two edges that are met at the same place the one with the lower head counts. */
+static void Meet(SightRay* ray, double share, const kiriSightEdge* e)
 {
-    int k = a[0].x == b[0].x && a[0].y == b[0].y;
-    return a[k].x != b[k].x ? a[k].x < b[k].x : a[k].y < b[k].y;
-}
-
-static void Meet(SightRay* ray, double share, kiriVec2 low, kiriVec2 high)
-{
-    const kiriVec2 ends[2] = { low, high };
     kiriSightHit* nearest = &ray->nearest;
+    bool isLower =
+        share == nearest->share && (e->head.x != ray->head.x ? e->head.x < ray->head.x : e->head.y < ray->head.y);
     if (share * ray->length > ray->least && (1.0 - share) * ray->length > ray->least &&
-        (share < nearest->share || (share == nearest->share && IsEdgeBefore(ends, nearest->edge)))) {
+        (share < nearest->share || isLower)) {
         nearest->share = share;
-        nearest->edge[0] = low;
-        nearest->edge[1] = high;
+        nearest->edge = e->edge;
+        ray->head = e->head;
     }
 }
 
-/* An edge of the material stops the way where the way crosses it, or passes its head from the edge's side to that of
-   the edge after it: a way may touch what it runs along. Both lips of a slit are met at the same bits. */
+/* An edge of the material stops the way where the way crosses it, coming from the material to its left, or passes its
+   head from the edge's side to that of the edge after it: a way may touch what it runs along. */
 static void MeetEdge(SightRay* ray, const kiriSightEdge* e)
 {
     int tail = SideOf(ray, e->tail), head = SideOf(ray, e->head);
-    bool swap = e->head.x < e->tail.x || (e->head.x == e->tail.x && e->head.y < e->tail.y);
-    kiriVec2 low = swap ? e->head : e->tail, high = swap ? e->tail : e->head;
-    if (tail * head < 0) {
-        kiriVec2 edge = kiriVec2_Sub(high, low);
-        Meet(ray, Cross(kiriVec2_Sub(low, ray->from), edge) / Cross(ray->way, edge), low, high);
-    } else if (head == 0 && tail * SideOf(ray, e->after) < 0) {
-        Meet(ray, kiriVec2_Dot(kiriVec2_Sub(e->head, ray->from), ray->way) / (ray->length * ray->length), low, high);
+    if (tail < 0 && head > 0) {
+        kiriVec2 edge = kiriVec2_Sub(e->head, e->tail);
+        Meet(ray, Cross(kiriVec2_Sub(e->tail, ray->from), edge) / Cross(ray->way, edge), e);
+    } else if (head == 0 && tail < 0 && SideOf(ray, e->after) > 0) {
+        Meet(ray, kiriVec2_Dot(kiriVec2_Sub(e->head, ray->from), ray->way) / (ray->length * ray->length), e);
     }
 }
 
@@ -195,7 +199,7 @@ kiriSightEnd kiriSight_Cast(const kiriSight* sight, kiriVec2 p, kiriVec2 q, kiri
     const kiriSquares* squares = &sight->mesh->squares;
     kiriVec2 way = kiriVec2_Sub(q, p);
     double least = 1e-6 * sight->grid->side;
-    SightRay ray = { p, way, kiriVec2_Length(way), least, { 2.0, { p, p } } };
+    SightRay ray = { p, way, kiriVec2_Length(way), least, { 2.0, KIRI_NONE }, p };
     SightAxis u = StartAxis(p.x, way.x, sight->grid, sight->mesh), v = StartAxis(p.y, way.y, sight->grid, sight->mesh);
     for (double entry = 0.0; entry < 1.0;) {
         int32_t square = v.at * squares->columns + u.at;

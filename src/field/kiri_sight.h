@@ -46,8 +46,8 @@ typedef enum kiriSightEnd {
 
 /* What was met: */
 typedef struct kiriSightHit {
-    double share;     /* how far one sees, of the way */
-    kiriVec2 edge[2]; /* EDGE: its ends, local m */
+    double share; /* how far one sees, of the way */
+    int32_t edge; /* EDGE: its half-edge, which has the start of the way to its left */
 } kiriSightHit;
 
 /* Looks from p to q, local m, both in the material or on its edges. What is within a millionth of a square's side of p,
@@ -60,8 +60,9 @@ const kiriSightEdge* kiriSight_EdgesOf(const kiriSight* sight, int32_t square, i
 
 kiriLatticePoint kiriSight_HeadOf(const kiriMeshData* mesh, int32_t h);
 
-/* The next edge of the material after one, around its head. */
+/* The next edge of the material after one, around its head, and the one before it. */
 int32_t kiriSight_EdgeAfter(const kiriMeshData* mesh, int32_t h);
+int32_t kiriSight_EdgeBefore(const kiriMeshData* mesh, int32_t h);
 
 /* Is a cell of one of the regions? Has a square such a cell? */
 bool kiriSight_MayLookIn(const kiriSight* sight, int32_t cell);
