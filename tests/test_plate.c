@@ -417,17 +417,23 @@ static void StripsStiffenAsTheirCurlIsHeldBack(void** state)
         memset(&link, 0, sizeof(link));
         link.width = link.outer = W;
         link.length = l;
-        kiriCurl curl = kiriCurl_Of(&link, &material);
+        kiriCurl curl = kiriCurl_Of(&link, &material, link.outer);
         for (double theta = 0.05; theta < 40.0; theta *= 1.2) {
             double slope, k = theta * theta * h / (W * W * sqrt(3.0 * (1.0 - nu * nu))), angle = k * l;
             double factor = kiriCurl_Factor(&curl, angle * angle, &slope);
             double exact = (1.0 - nu * nu * ExactCurl(theta)) / (1.0 - nu * nu);
             assert_true(fabs(factor * factor / exact - 1.0) < 0.01 * nu * nu / (1.0 - nu * nu));
         }
-        link.outer = 0.5 * W; /* of two rows each curls with the other */
-        curl = kiriCurl_Of(&link, &material);
-        double slope;
-        assert_true(kiriCurl_Factor(&curl, 1.0, &slope) == 1.0 && slope == 0.0);
+        /* The outer width of one of several rows, which has the other half beside it: that part stiffens as much. */
+        link.outer = 0.5 * W;
+        double slope, inner = (1.0 - nu) * link.outer, outer = (1.0 - nu * nu) * link.outer;
+        kiriCurl half = kiriCurl_Of(&link, &material, link.outer);
+        assert_true(fabs(half.perSquare / curl.perSquare - 1.0) < 1e-12);
+        double factor = kiriCurl_Factor(&half, 1.0, &slope), lone = kiriCurl_Factor(&curl, 1.0, &slope);
+        assert_true(fabs(factor * factor * (inner + outer) - inner - lone * lone * outer) < 1e-12);
+        link.outer = 0.0;
+        half = kiriCurl_Of(&link, &material, link.outer);
+        assert_true(kiriCurl_Factor(&half, 1.0, &slope) == 1.0 && slope == 0.0);
     }
 }
 

@@ -122,6 +122,7 @@ static inline void Voronoi_AddLink(Voronoi* v, int32_t i, int32_t j, kiriVec2 p,
     k->moment = k->width * k->width * k->width / 12.0;
     k->normal = kiriVec2_Scale(1.0 / k->length, k->span);
     k->tangent = kiriVec2_Make(-k->normal.y, k->normal.x);
+    k->sum = kiriVec2_Scale(k->width, k->normal);
     k->centroid = kiriVec2_Scale(0.5, kiriVec2_Add(p, q));
     k->crossing = kiriVec2_Scale(0.5, kiriVec2_Add(v->sites[i], v->sites[j]));
     double fromP = kiriVec2_Dot(kiriVec2_Sub(k->crossing, p), k->tangent);

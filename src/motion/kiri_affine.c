@@ -145,7 +145,8 @@ static void MeasureNormalGap(const kiriLink* link, const FrameDifference* g, con
 void kiriAffine_Measure(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
                         const kiriPose* const poses[2], double strain[KIRI_AFFINE_STRAINS], kiriFrameRow rows[][2])
 {
-    kiriCurl curl = kiriCurl_Of(link, material);
+    /* Rows of bending see twist too, which does not stiffen: only of strips one region wide, where it is little. */
+    kiriCurl curl = kiriCurl_Of(link, material, kiriLink_LoneWidth(link));
     MeanDirector mean = FindMeanDirector(poses);
     FrameDifference b = GapAt(frames, poses, link->centroid), m = GapAt(frames, poses, link->crossing);
     FrameDifference side = TakeDifference(0.0, link->tangent, link->tangent, poses);

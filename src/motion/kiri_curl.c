@@ -1,11 +1,12 @@
 #include "kiri_curl.h"
 
-kiriCurl kiriCurl_Of(const kiriLink* link, const kiriMaterial* material)
+kiriCurl kiriCurl_Of(const kiriLink* link, const kiriMaterial* material, double curling)
 {
-    double nu = (double)material->poissonsRatio, h = (double)material->thickness, W = link->width;
-    double inner = (1.0 - nu) * (W - link->outer), outer = (1.0 - nu * nu) * link->outer;
+    double nu = (double)material->poissonsRatio, h = (double)material->thickness;
+    double W = 2.0 * link->outer - kiriLink_LoneWidth(link); /* of the strip */
+    double inner = (1.0 - nu) * (link->width - link->outer), outer = (1.0 - nu * nu) * link->outer;
     double ratio = W * W / (link->length * h);
-    kiriCurl curl = { nu * nu * kiriLink_LoneWidth(link) / (inner + outer), 3.0 * (1.0 - nu * nu) * ratio * ratio };
+    kiriCurl curl = { nu * nu * curling / (inner + outer), 3.0 * (1.0 - nu * nu) * ratio * ratio };
     return curl;
 }
 

@@ -1,11 +1,15 @@
-/* How a strip one region wide stiffens as it bends. Bent to the curvature k, a strip curls across to -nu k and has the
+/* How the free edges of a strip stiffen as it bends. Bent to the curvature k, a strip curls across to -nu k and has the
    bending stiffness D (1 - nu^2) W. But the curl moves the edges away from the axis of bending, which stretches them.
    So a wide thin strip curls at its edges only, and between them bends as a cylinder, with D W (Lamb, Proc. London
    Math. Soc. 21, 1891; Ashwell, J. Roy. Aero. Soc. 54, 1950). The section is a beam on an elastic foundation,
    D w'''' + E h k^2 w = 0 with w'' = -nu k and w''' = 0 at both edges. With its solution the energy of a length is
 
        1/2 D W (1 - nu^2 F) k^2,   F = (2 / theta) (cosh theta - cos theta) / (sinh theta + sin theta),
-       theta^4 = 3 (1 - nu^2) W^4 k^2 / h^2. */
+       theta^4 = 3 (1 - nu^2) W^4 k^2 / h^2.
+
+   Regions are straight across. So that is the stiffness of a link where W is the width of a strip one region wide; where
+   a border is open at one end only, the outer width is half of such a strip. Further in, regions curl by turning against
+   each other, and their bending in the plane holds the curl back. */
 #ifndef KIRI_CURL_H
 #define KIRI_CURL_H
 
@@ -18,15 +22,15 @@ typedef struct kiriCurl {
     double gain, perSquare;
 } kiriCurl;
 
-/* The part of a link's width that is open at both of its ends, m; both of the others have regions beside them that
-   curl by themselves. */
+/* The part of a link's width that is open at both of its ends, m. */
 static inline double kiriLink_LoneWidth(const kiriLink* link)
 {
     double lone = 2.0 * link->outer - link->width;
     return lone > 0.0 ? lone : 0.0;
 }
 
-kiriCurl kiriCurl_Of(const kiriLink* link, const kiriMaterial* material);
+/* Where `curling` of the outer width stiffens. */
+kiriCurl kiriCurl_Of(const kiriLink* link, const kiriMaterial* material, double curling);
 
 /* By how much an angle counts more than at small angles: the square root of that factor; *slope is its derivative by
    the square of the angle. */

@@ -360,9 +360,9 @@ static void TakeWidths(const kiriLink* link, const kiriMaterial* material, doubl
 {
     if (link->outer > 0.0) {
         double nu = (double)material->poissonsRatio, outer = link->outer, inner = link->width - outer;
-        double bending = (1.0 - nu) * (inner + (1.0 + nu) * outer) + nu * nu * kiriLink_LoneWidth(link);
+        double bending = (1.0 - nu) * (inner + (1.0 + nu) * outer) + nu * nu * outer;
         double least = bending / ((1.0 - nu) * (inner + 2.0 * outer));
-        kiriCurl curl = kiriCurl_Of(link, material);
+        kiriCurl curl = kiriCurl_Of(link, material, outer);
         TakeTwist(least, strain[KIRI_BENDING], &strain[KIRI_TWIST], rows);
         TakeCurl(&curl, &strain[KIRI_BENDING], rows != NULL ? &rows[KIRI_BENDING] : NULL);
     }

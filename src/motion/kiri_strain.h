@@ -33,8 +33,9 @@ KIRI_C_BEGIN
    lose their meaning: strains of a gap and plane bending fade out, and the stop takes all of the gap; and twist is no
    longer stiffer than bending, so that the energy does not depend on the axes.
 
-   A strip one region wide curls across while it bends, which is why it has 1 - nu^2. Bent further it cannot, for its
-   edges would stretch: bending grows by a factor (kiri_curl.h), which is 1 for small angles.
+   Open ends curl across while they bend, which is why they have 1 - nu^2. Bent further they cannot, for the edge would
+   stretch: bending grows by a factor (kiri_curl.h), which is 1 for small angles. The trace sees it too, by up to 3 % of
+   the bending of links at edges: too little for a strain of its own.
 
    a = (s . w) w / 12: between two sites that touch one circular arc, the chord is that much longer than their tangents
    reach, which is no stretch. In a row of frames a only moves them; where frames lie in no row, links of all directions
