@@ -131,6 +131,26 @@ static void TestTorqueArrivesInOtherSheets(void** state)
     }
 }
 
+/* At rest under a steady torque the links give as much as the torque takes: no step is taken anew. */
+static void TestTorqueAtRest(void** state)
+{
+    (void)state;
+    for (int frames = 5; frames <= 17; frames += 6) {
+        const StripDef d = { frames, KIRI_MODEL_LINKS, 0, 0.0f };
+        const float torque[3] = { 0.0f, (float)(-0.5 * BendingStiffness(&d)), 0.0f };
+        Strip s;
+        Strip_Start(&s, &d, None);
+        for (int tick = 0; tick < 720; ++tick) {
+            kiriProfile profile;
+            OK(kiriFrame_ApplyForce(s.host.world, s.frames[frames - 1], None, torque));
+            OK(Host_Tick(&s.host, 1.0f / 60.0f, 1));
+            OK(kiriWorld_GetProfile(s.host.world, &profile));
+            assert_true(tick < 600 || profile.solverIterations == 2);
+        }
+        Host_Stop(&s.host);
+    }
+}
+
 /* ---- Motion that lasts ------------------------------------------------------------------------------------------- */
 
 /* A strip that hangs from pins at its upper corners, set swinging by a spin about the line of the pins. */
@@ -371,10 +391,10 @@ static void TestPinsEndHistory(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestTorqueArrives),  cmocka_unit_test(TestTorqueArrivesInOtherSheets),
-        cmocka_unit_test(TestSwingLasts),     cmocka_unit_test(TestOrder),
-        cmocka_unit_test(TestSlitGrows),      cmocka_unit_test(TestHistoryIsHashed),
-        cmocka_unit_test(TestPinsEndHistory),
+        cmocka_unit_test(TestTorqueArrives),   cmocka_unit_test(TestTorqueArrivesInOtherSheets),
+        cmocka_unit_test(TestTorqueAtRest),    cmocka_unit_test(TestSwingLasts),
+        cmocka_unit_test(TestOrder),           cmocka_unit_test(TestSlitGrows),
+        cmocka_unit_test(TestHistoryIsHashed), cmocka_unit_test(TestPinsEndHistory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

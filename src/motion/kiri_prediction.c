@@ -169,12 +169,12 @@ static void SetAngular(kiriPrediction* prediction, const kiriMat3* inertiaBefore
     prediction->spin = kiriMat3_Solve(inertia, prediction->angular);
 }
 
-/* In the objective 1/2 m |A p - A* p|^2 / h'^2 the shift adds -(h / h') torque . turn to first order. */
-static void ShiftTarget(kiriPrediction* prediction, const kiriMat3* inertia, kiriVec3 torque,
-                        const kiriStepping* stepping)
+/* In the objective 1/2 m |A p - A* p|^2 / h'^2 a shift by h' I^-1 impulse x A* adds -(impulse / h') . turn to first
+   order. `turned` is where the free turn ends. */
+static kiriMat3 ShiftBy(kiriVec3 impulse, const kiriMat3* inertia, const kiriMat3* turned, double part)
 {
-    kiriMat3 turning = CrossColumns(kiriMat3_Solve(inertia, torque), &prediction->pose.A);
-    prediction->target = kiriMat3_AddScaled(&prediction->pose.A, stepping->part * stepping->h, &turning);
+    kiriMat3 turning = CrossColumns(kiriMat3_Solve(inertia, impulse), turned);
+    return kiriMat3_Scale(part, &turning);
 }
 
 /* Where the iteration starts: without forces, or by those of the last step. */
@@ -196,28 +196,21 @@ static void PredictPlace(const kiriFrameData* frame, kiriVec3 gravity, const kir
     prediction->guess.x = GuessPlace(frame, s);
 }
 
-/* The frame turns freely by the mean of the momenta before and, in its share, after the step; then by what the last
-   step went otherwise. The guess goes back to the turn by the momentum before, to the first order of the difference. */
+/* The frame turns freely by the momentum that it has; then by what the last step went otherwise. What the scheme takes
+   from the history shifts the target, as the host's torque does: both may be large, and balance each other. */
 static void PredictTurn(const kiriFrameData* frame, const kiriStepping* s, kiriPrediction* prediction)
 {
     kiriMat3 body = kiriPrediction_Inertia(prediction, &IdentityAxes);
     kiriMat3 inertia = kiriPrediction_Inertia(prediction, &frame->A);
-    kiriVec3 before = kiriMat3_Mul(inertia, frame->spin), inner = kiriStepping_InnerTurn(s, &frame->history).u;
-    kiriVec3 L = kiriVec3_Add(before, inner), lag = frame->history.turnLag.u;
-    double share = s->part / s->h;
-    kiriVec3 mean = kiriVec3_AddScaled(kiriVec3_Scale(1.0 - share, before), share, L);
-    double angle = s->h * kiriVec3_Length(kiriMat3_Solve(&inertia, mean));
-    kiriMat3 turned = TurnParts(&frame->A, &body, mean, angle, s->h);
+    kiriVec3 L = kiriMat3_Mul(inertia, frame->spin), lag = frame->history.turnLag.u;
+    kiriMat3 turned = TurnParts(&frame->A, &body, L, s->h * kiriVec3_Length(frame->spin), s->h);
     prediction->pose.A = kiriMat3_MulMat(kiriMat3_Cayley(Shortened(kiriVec3_Scale(s->d, lag))), turned);
+    prediction->guess.A = kiriMat3_MulMat(kiriMat3_Cayley(Shortened(kiriVec3_Scale(-s->ahead, lag))), turned);
     kiriMat3 inertiaAfter = kiriPrediction_Inertia(prediction, &prediction->pose.A);
     SetAngular(prediction, &inertia, &inertiaAfter, L);
-    ShiftTarget(prediction, &inertiaAfter, frame->torque, s);
-    prediction->guess.A = prediction->pose.A;
-    if (!s->isEuler) {
-        kiriVec3 more = kiriMat3_Solve(&inertiaAfter, kiriVec3_AddScaled(L, -1.0, before));
-        kiriVec3 back = kiriVec3_AddScaled(kiriVec3_Scale(-s->part, more), -s->ahead - s->d, lag);
-        prediction->guess.A = kiriMat3_MulMat(kiriMat3_Cayley(Shortened(back)), prediction->pose.A);
-    }
+    kiriVec3 impulse = kiriVec3_AddScaled(kiriStepping_InnerTurn(s, &frame->history).u, s->h, frame->torque);
+    kiriMat3 shift = ShiftBy(impulse, &inertiaAfter, &prediction->pose.A, s->part);
+    prediction->target = kiriMat3_AddScaled(&prediction->pose.A, 1.0, &shift);
 }
 
 static kiriPrediction Standing(const kiriFrameData* frame, const kiriMaterial* material)
@@ -302,8 +295,9 @@ static void PredictColumns(const kiriFrameData* frame, const kiriStepping* s, ki
     prediction->pose.A = kiriMat3_AddScaled(&prediction->pose.A, s->d, &frame->history.turnLag);
     kiriMat3 ahead = kiriMat3_Scale(-s->ahead, &frame->history.turnLag);
     prediction->guess.A = s->isEuler ? free : kiriMat3_Advance(&free, &ahead);
-    inertia = AffineInertia(&prediction->moments, &prediction->pose.A);
-    ShiftTarget(prediction, &inertia, frame->torque, s);
+    inertia = AffineInertia(&prediction->moments, &free);
+    kiriMat3 shift = ShiftBy(kiriVec3_Scale(s->h, frame->torque), &inertia, &free, s->part);
+    prediction->target = kiriMat3_AddScaled(&prediction->pose.A, 1.0, &shift);
 }
 
 kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
