@@ -73,21 +73,21 @@ static void SetAffine(kiriSheetDef* def)
 {
     def->model = KIRI_MODEL_AFFINE;
 }
+static void SetEuler(kiriSheetDef* def)
+{
+    def->timeStepping = KIRI_TIME_STEPPING_EULER;
+}
 static void SetPaperPoints(kiriSheetDef* def)
 {
     def->model = KIRI_MODEL_POINTS;
 }
 
 static const Feature features[] = {
-    { "nothing (once more)", SetNothing },
-    { "collision points, 400", SetPoints },
-    { "smooth skinning", SetSmooth },
-    { "without fading", SetNoFade },
-    { "automatic frames", SetAutomatic },
-    { "asleep", SetAsleep },
-    { "planar", SetPlanar },
-    { "affine frames", SetAffine },
-    { "integration points", SetPaperPoints },
+    { "nothing (once more)", SetNothing }, { "collision points, 400", SetPoints },
+    { "smooth skinning", SetSmooth },      { "without fading", SetNoFade },
+    { "automatic frames", SetAutomatic },  { "asleep", SetAsleep },
+    { "backward Euler", SetEuler },        { "planar", SetPlanar },
+    { "affine frames", SetAffine },        { "integration points", SetPaperPoints },
 };
 enum { FEATURES = sizeof(features) / sizeof(features[0]) };
 

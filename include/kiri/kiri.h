@@ -262,12 +262,14 @@ enum kiriSkinning {
 
 /* How time is stepped. Both solve one linear system an iteration. */
 enum kiriTimeStepping {
-    /* TR-BDF2: trapezoid and BDF2 by turns, of second order. Motion lasts: of the energy of a pendulum of 9 frames 97 %
-       are left after 10 s of 2 substeps a 60th, where the other has lost all. Falls back to the other for the steps in
-       which the host touches a piece: contacts, and pins and holds that are made, moved or removed. */
+    /* TR-BDF2: trapezoid and BDF2 by turns, of second order. Motion lasts: of the energy of a swinging strip of 9 frames
+       96 to 98 % is left after 10 s with 2 substeps a 60th of a second and 1 iteration, 99.7 % with 4. Backward Euler
+       takes its place in the steps in which a contact touches a piece, a pin or hold is made, moved or removed, or a
+       frame is new or turns by more than a radian. */
     KIRI_TIME_STEPPING_SECOND_ORDER = 0,
 
-    /* Backward Euler, of first order: takes energy out of all that swings, the more the longer the step. */
+    /* Backward Euler, of first order: takes energy out of all that swings, the more the longer the step. Of that strip's
+       0.4 % is left. */
     KIRI_TIME_STEPPING_EULER = 1
 };
 

@@ -16,7 +16,14 @@
 
    Second order in time: trapezoid and BDF2 by turns, so a pair is a step of TR-BDF2 (Bank et al. 1985; Hosea and
    Shampine 1996) whose halves are of one length. Backward Euler starts it, and takes its place where the past says
-   nothing of the step: see kiriSolver_Step. The same for the turns of frames, by angular momentum or by the columns of A. */
+   nothing of the step: see ChooseSteppings in kiri_step_begin.c. Its next step may be the second of a pair.
+
+   Turns, with Q, P and T for q, p and a. Affine frames: the same, by the columns of A, beside their free turn. Rigid
+   frames: Q is angular momentum, T torque, P a rotation vector, in world axes; I is the inertia at the end, w the spin.
+
+       A* = Cayley(d P) (free turn of A over h with L)       A' = A* + h' I^-1 (c Q + l T + h torque) x A*
+       minimise  1/2 m |A r - A' r|^2 / h'^2 + V             G, G' = sum of m (A* r, A' r) x (A r) / h'
+       L+ = L + G,  w+ = I^-1 L+,  Q+ = c Q + l T + G',  P+ = d P - (h - h') I^-1 (L+ - L),  T+ = G' / h' */
 #ifndef KIRI_STEPPING_H
 #define KIRI_STEPPING_H
 
