@@ -203,7 +203,7 @@ static bool PlaceFramesInBeams(Outline* frames, int32_t ring)
     return fine;
 }
 
-/* In the middle, at every bridge but the innermost, in the beams, and in the corners. */
+/* In the middle, at every bridge but the innermost, in the beams of all bands but the innermost, and in the corners. */
 static bool PlaceFrames(Outline* frames, bool asPaper)
 {
     bool fine = Outline_Add(frames, 0.5f, 0.5f);
@@ -212,7 +212,7 @@ static bool PlaceFrames(Outline* frames, bool asPaper)
             fine = AddFrame(frames, RadiusOf(ring), BridgeTurn(ring, bridge));
         }
     }
-    for (int32_t ring = 0; fine && !asPaper && ring + 1 < RINGS; ring++) {
+    for (int32_t ring = 1; fine && !asPaper && ring + 1 < RINGS; ring++) {
         fine = PlaceFramesInBeams(frames, ring);
     }
     for (int32_t i = 0; fine && i < 4; i++) {
