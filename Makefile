@@ -104,7 +104,7 @@ gallery: accuracy
 	$(RUN) $(FILM) --output build/gallery/film --film samples/pictures/film.png
 	$(BOX2D) --output build/gallery/box2d
 	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
-	cp build/accuracy/trade.png samples/pictures/trade.png
+	for scene in strip square tongue; do cp build/accuracy/trade_$$scene.png samples/pictures/; done
 
 # One tick of a scene, for the guide: what the picture is called, the tick, and options of kiri-run.
 MOMENT = $(RUN) --quiet --ticks $(2) --every $$(($(2) - 1)) --output build/guide/$(1) $(3) && \

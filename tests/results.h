@@ -30,10 +30,8 @@ void Results_Add(const Row* row);
 /* error = value / reference - 1. */
 void Results_AddValue(Row row, double value, double reference, const char* unit);
 
-int Results_Count(void);
-const Row* Results_Get(int index);
-
-/* results.csv; and statics.png, error against milliseconds for some series. False where a file cannot be written. */
+/* accuracy.csv, all rows; and statics.png, error against milliseconds for some series. False where a file cannot be
+   written. */
 bool Results_Write(const char* folder);
 
 #endif
