@@ -469,7 +469,7 @@ static void Confetti(Trial* trial)
 /* ---- The table --------------------------------------------------------------------------------------------------- */
 
 const Extreme extremes[] = {
-    { .name = "plain", .script = Hang },
+    { .name = "plain", .script = Hang, .ticks = 900 },
     { .name = "h/L 0.1", .script = Hang, .thinness = 0.1 },
     { .name = "h/L 1e-2", .script = Hang, .thinness = 1e-2 },
     { .name = "h/L 1e-4", .script = Hang, .thinness = 1e-4, .ticks = 900 },
@@ -486,7 +486,7 @@ const Extreme extremes[] = {
     { .name = "density 1e6", .script = Hang, .density = 1e6, .calm = 2e-2 },
     { .name = "E 1e13, density 1e-6", .script = Hang, .size = 0.05, .modulus = 1e13, .density = 1e-6 },
     { .name = "dt 1e-6", .script = Hang, .dt = 1e-6, .cause = 300, .calm = 1.0 },
-    { .name = "dt 1e-4", .script = Hang, .dt = 1e-4, .cause = 3000, .ticks = 40000, .calm = 2e-2, .full = true },
+    { .name = "dt 1e-4", .script = Hang, .dt = 1e-4, .cause = 3000, .ticks = 60000, .calm = 2e-2, .full = true },
     { .name = "dt 0.1", .script = Hang, .dt = 0.1 },
     { .name = "dt 1", .script = Hang, .dt = 1.0 },
     { .name = "dt 10", .script = Hang, .dt = 10.0 },
@@ -498,10 +498,10 @@ const Extreme extremes[] = {
     { .name = "gravity 1e5", .script = Hang, .gravity = 1e5 },
     { .name = "prediction at 1e5 g", .script = Fly, .gravity = 1e5, .ticks = 60, .calm = 1.0 },
     { .name = "size 1e-4", .script = Hang, .size = 1e-4 },
-    { .name = "size 1e4", .script = Hang, .size = 1e4, .dt = 0.5, .ticks = 900, .calm = 5e-2 },
-    { .name = "rest at 1e5", .script = Hang, .rest = 1e5 },
-    { .name = "world at 1e5", .script = Hang, .place = 1e5 },
-    { .name = "both at 1e5", .script = Hang, .rest = 1e5, .place = 1e5 },
+    { .name = "size 1e4", .script = Hang, .size = 1e4, .dt = 0.5, .ticks = 1200, .calm = 5e-2 },
+    { .name = "rest at 1e5", .script = Hang, .rest = 1e5, .ticks = 900 },
+    { .name = "world at 1e5", .script = Hang, .place = 1e5, .ticks = 900 },
+    { .name = "both at 1e5", .script = Hang, .rest = 1e5, .place = 1e5, .ticks = 900 },
     { .name = "speed 1e4", .script = Hang, .speed = 1e4 },
     { .name = "prediction at 1e4", .script = Nothing, .speed = 1e4, .calm = 1.0 },
     { .name = "spin 1e4", .script = Spin, .cause = 1, .ticks = 900 },
