@@ -4,6 +4,7 @@
 
 #include "field/kiri_slit.h"
 #include "sheet/kiri_site.h"
+#include "world/kiri_world.h"
 
 /* ---- Pairs at slit ends ---- */
 
@@ -128,6 +129,35 @@ static void PairsFailCleanly(void** state)
     Scene_Release(&scene);
 }
 
+/* The border between a pair goes from the slit's end to the outline, wherever in their squares slit and end lie: on a
+   grid line, or across the middle. */
+static void BordersBeginAtSlitEnds(void** state)
+{
+    (void)state;
+    for (int32_t resolution = 30; resolution < 70; ++resolution) {
+        for (int k = 0; k < 6; ++k) {
+            const float end = 0.35f + 0.05f * (float)(k % 3), tilt = k < 3 ? 0.0f : 0.01f;
+            const float slit[4] = { 0.5f, -0.1f, 0.5f, end };
+            const float points[4] = { 0.42f, end + tilt, 0.58f, end - tilt };
+            kiriSheetDef def;
+            Host host;
+            Host_Start(&host);
+            kiriDefaultSheetDef(&def);
+            def.gridResolution = resolution;
+            def.frameCount = def.maxFrames = 2;
+            def.framePoints = points;
+            kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 20, 20);
+            Host_Cut(&host, sheet, slit, 2);
+            OK(Host_Tick(&host, 0.001f, 1));
+            const kiriLinks* links = &host.world->sheets.data[0]->links;
+            assert_int_equal(links->links.count, 1);
+            double tangent = fabs(links->links.data[0].tangent.y), width = links->links.data[0].width;
+            AssertNear(width * tangent, 1.0 - (double)end, 0.02 / resolution);
+            Host_Stop(&host);
+        }
+    }
+}
+
 /* ---- What the grid carries ---- */
 
 /* With a line that says what to do. */
@@ -227,11 +257,11 @@ static void ResamplingStops(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(BothSidesOfEachEnd),   cmocka_unit_test(NoMoreThanAskedFor),
-        cmocka_unit_test(AsCloseAsThereIsRoom), cmocka_unit_test(OnlyEnds),
-        cmocka_unit_test(PairsFailCleanly),     cmocka_unit_test(CloseFramePointsAreRefused),
-        cmocka_unit_test(LipsAreNotClose),      cmocka_unit_test(ManyFramesAreRefused),
-        cmocka_unit_test(ResamplingStops),
+        cmocka_unit_test(BothSidesOfEachEnd),         cmocka_unit_test(NoMoreThanAskedFor),
+        cmocka_unit_test(AsCloseAsThereIsRoom),       cmocka_unit_test(OnlyEnds),
+        cmocka_unit_test(PairsFailCleanly),           cmocka_unit_test(BordersBeginAtSlitEnds),
+        cmocka_unit_test(CloseFramePointsAreRefused), cmocka_unit_test(LipsAreNotClose),
+        cmocka_unit_test(ManyFramesAreRefused),       cmocka_unit_test(ResamplingStops),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

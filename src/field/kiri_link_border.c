@@ -1,6 +1,7 @@
 /* Exact borders. The grid says which stretches of border there are and what they end at; here a link gets the geometry
    of the Euclidean Voronoi diagram instead of that of a staircase of cells. */
 #include "kiri_link_work.h"
+#include "kiri_slit.h"
 
 #include <string.h>
 
@@ -333,6 +334,41 @@ static bool FindSeenEndOf(EndSearch* s, kiriLinkEnd* end)
     return kiriSight_IsClear(&s->sight, before, from) && FindSeenEnd(s, from, end);
 }
 
+/* ---- Slit ends --------------------------------------------------------------------------------------------------- */
+
+/* Does the border run straight into the end of this slit, as if it were the slit's way on, and do both sites see it?
+   Elsewhere on such a slit both are as near as well: it is no edge for the border to end at. */
+static bool IsSlitAhead(const EndSearch* s, const kiriSlitEnd* slit)
+{
+    double side = s->border->grid->side;
+    double aside = kiriVec2_Dot(kiriVec2_Sub(slit->at, s->line.middle), s->line.normal);
+    double back = s->ahead * kiriVec2_Dot(slit->along, s->line.tangent);
+    kiriVec2 before = kiriVec2_Add(slit->at, kiriVec2_Scale(1e-3 * side, slit->along));
+    return fabs(aside) < 0.02 * side && back < -0.9 &&
+           kiriSight_IsClear(&s->sight, SiteAt(s->border, s->near.region[0]), before) &&
+           kiriSight_IsClear(&s->sight, SiteAt(s->border, s->near.region[1]), before);
+}
+
+/* Such a slit end in a cell beside the stretch, up to three squares from the end that the grid has. */
+static bool FindSlitEnd(const EndSearch* s, kiriLinkEnd* end)
+{
+    const kiriBorder* border = s->border;
+    for (int32_t k = 0; k < border->work->stretch.count; ++k) {
+        int32_t face = border->work->stretch.data[k];
+        kiriVec2 off = kiriVec2_Sub(border->grid->faces.data[face].middle, s->grid->at);
+        bool isNear = kiriVec2_Length(off) < 3.0 * border->grid->side;
+        for (int side = 0; isNear && side < 2; ++side) {
+            kiriSlitEnd slit;
+            if (kiriSlits_FindEndIn(border->grid, border->mesh, border->grid->faces.data[face].cell[side], &slit) &&
+                IsSlitAhead(s, &slit)) {
+                SetOpenEnd(end, PointOn(&s->line, AlongLine(&s->line, slit.at)));
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 /* ---- Ends behind turns -------------------------------------------------------------------------------------------- */
 
 /* How much farther one reach is than another; *slope: how that grows with the place. */
@@ -536,10 +572,14 @@ static bool FindExactEnd(const kiriBorder* border, const kiriLink* link, int whi
     AddNearRegions(border, end, &s.near);
     s.sight = SightOf(border, &s.near);
     s.line = LineBetween(SiteAt(border, link->i), SiteAt(border, link->j));
-    if (end->kind == KIRI_END_INNER || !FindReaches(&s)) {
+    if (end->kind == KIRI_END_INNER) {
         return false;
     }
-    if (IsStraightReach(&s)) {
+    if (FindSlitEnd(&s, &found)) {
+        found.isExact = found.isSeen = true;
+    } else if (!FindReaches(&s)) {
+        return false;
+    } else if (IsStraightReach(&s)) {
         found.isExact = found.isSeen = FindSeenEndOf(&s, &found);
     } else {
         found.isExact = end->kind == KIRI_END_CORNER && FindTurnedCorner(&s, &found);

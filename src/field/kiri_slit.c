@@ -27,8 +27,7 @@ static int32_t LipAt(const kiriMeshData* mesh, int32_t vertex)
     return isEnd ? first : KIRI_NONE;
 }
 
-/* The first one of the cell. */
-static bool FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriSlitEnd* end)
+bool kiriSlits_FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriSlitEnd* end)
 {
     int32_t square = grid->cells.data[cell].square;
     int32_t v = grid->whole.data[square] ? KIRI_NONE : mesh->squares.vertexHead[square];
@@ -53,7 +52,7 @@ bool kiriSlits_FindEnds(kiriSlitEnds* ends, kiriMemory* memory, const kiriGrid* 
     ends->count = 0;
     for (int32_t i = 0; ok && i < cellCount; ++i) {
         kiriSlitEnd end;
-        ok = !FindEndIn(grid, mesh, cells[i], &end) || kiriArray_Push(memory, ends, end);
+        ok = !kiriSlits_FindEndIn(grid, mesh, cells[i], &end) || kiriArray_Push(memory, ends, end);
     }
     return ok;
 }

@@ -15,6 +15,9 @@ typedef struct kiriSlitEnd {
 
 typedef KIRI_ARRAY(kiriSlitEnd) kiriSlitEnds;
 
+/* The first slit end in a cell; false where there is none. */
+bool kiriSlits_FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriSlitEnd* end);
+
 /* The slit ends in these cells, one a cell at most, in the order of the cells. False for memory. */
 bool kiriSlits_FindEnds(kiriSlitEnds* ends, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                         const int32_t* cells, int32_t cellCount);

@@ -191,7 +191,7 @@ int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count)
    spacings away. A given number of frames is spread with some care for what is left elsewhere. Where the number is open,
    the spacings s = max(d / c, d r / reach), r away from an end, take 2 pi (reach / d)^2 ln c frames more, where there is
    room for all. Measured with slit strips and a tongue: tests/test_estimate.c. */
-#define GIVEN_CLOSENESS 1.5
+#define GIVEN_CLOSENESS 2.5
 #define GIVEN_REACH 2.0
 #define OPEN_CLOSENESS 3.0
 #define OPEN_REACH 1.5
