@@ -104,13 +104,15 @@ static void Compare(const Host hosts[2], int32_t number, int32_t tick)
     }
 }
 
-/* An edge is clamped, and a line through the sheet hinged. */
+/* An edge is clamped; of two lines through the sheet one is hinged, one clamped. */
 static void HoldLines(Host* host, kiriSheet sheet)
 {
     static const float edge[4] = { 0.0f, 0.0f, 0.0f, 1.0f }, through[4] = { 0.3f, 0.93f, 0.97f, 0.52f };
+    static const float across[4] = { 0.23f, 0.1f, 0.81f, 0.24f };
     kiriPin pin;
     OK(kiriSheet_ClampLine(host->world, sheet, edge, edge + 2, &pin));
     OK(kiriSheet_HingeLine(host->world, sheet, through, through + 2, &pin));
+    OK(kiriSheet_ClampLine(host->world, sheet, across, across + 2, &pin));
 }
 
 static void WanderBothWays(const Case* c, int32_t number, uint32_t seed)

@@ -247,12 +247,21 @@ static bool Check_PinShares(Check* check, const kiriSheetData* sheet)
                     sheet->pins.data[pinned->pin].type != KIRI_PIN_POINT,
                 "share %d is of pin %d", k, pinned->pin);
         REQUIRE(IsIndex(share->frame, sheet->frames.count), "share %d is of frame %d", k, share->frame);
-        REQUIRE(share->length > 0.0 && share->length <= 1.0 + 1e-12 && share->load > 0.0 &&
+        REQUIRE(share->length > 0.0 && share->length <= 2.0 + 1e-12 && share->load > 0.0 &&
                     share->load <= share->length + 1e-12 && share->ends[0] >= 0.0 && share->ends[1] <= 1.0 &&
-                    share->ends[1] - share->ends[0] >= share->length - 1e-12,
+                    share->ends[1] > share->ends[0],
                 "share %d has length %g, load %g, from %g to %g", k, share->length, share->load, share->ends[0],
                 share->ends[1]);
     }
+    for (int32_t k = 0; k < sheet->layout.severed.count; ++k) {
+        const kiriSeveredLink* severed = &sheet->layout.severed.data[k];
+        REQUIRE(IsIndex(severed->pin, sheet->pins.count) && sheet->pins.data[severed->pin].type == KIRI_PIN_CLAMP &&
+                    IsIndex(severed->link, sheet->links.links.count) && severed->part > 0.0,
+                "pin %d severs %g of link %d", severed->pin, severed->part, severed->link);
+    }
+    REQUIRE(sheet->linkParts.count == (sheet->layout.severed.count > 0 ? sheet->links.links.count : 0),
+            "parts of %d links of %d, %d severed", sheet->linkParts.count, sheet->links.links.count,
+            sheet->layout.severed.count);
     REQUIRE(sheet->pinRows.capacity >= sheet->pins.count && sheet->clampRows.capacity >= shares->count &&
                 sheet->frameReactions.capacity >= sheet->frames.count,
             "room for %d pins of %d, %d clamps of %d, %d frames", sheet->pinRows.capacity, sheet->pins.count,

@@ -612,8 +612,8 @@ KIRI_API kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriP
 
    They hold what the line meets, edges included, with the stiffness that the material has between the line and the
    frames that it meets. So a clamp along an edge is where the drawing has it, whatever the number of frames, where
-   kiriFrame_Hold clamps at a frame's site. A line through the sheet holds each frame that it meets as one, on both of its
-   sides: there a clamp may be off by a part of the frames' spacing. A line that runs along a cut holds both lips; one beside it, by a 512th of a
+   kiriFrame_Hold clamps at a frame's site. A clamp through the sheet parts what is on its two sides, so that neither bends
+   the other. A line that runs along a cut holds both lips; one beside it, by a 512th of a
    square of the grid or more, holds one. The ends differ; a line that meets no material: KIRI_ERROR_ARGUMENT. */
 KIRI_API kiriResult kiriSheet_ClampLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
                                         kiriPin* clamp);

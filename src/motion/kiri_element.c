@@ -63,6 +63,18 @@ int32_t kiriElement_MostMembers(const kiriSystem* system)
     return most;
 }
 
+/* What counts of an element: of a corner as much as of the link that counts least. */
+static double PartOf(const kiriSystem* system, int32_t k)
+{
+    const kiriCorner* corner = kiriElement_Corner(system, k);
+    double part = kiriElement_Link(system, k) != NULL ? system->linkParts[k] : 1.0;
+    for (int32_t n = 0; corner != NULL && n < corner->count; ++n) {
+        double other = system->linkParts[corner->link[n]];
+        part = other < part ? other : part;
+    }
+    return part;
+}
+
 void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffness)
 {
     const kiriLink* link = kiriElement_Link(system, k);
@@ -78,6 +90,10 @@ void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffnes
         kiriAffine_Stiffness(link, &system->material, stiffness);
     } else {
         kiriStrain_Stiffness(link, &system->material, stiffness);
+    }
+    double part = system->linkParts != NULL ? PartOf(system, k) : 1.0;
+    for (int e = 0; part < 1.0 && e < kiriElement_StrainCount(system, k); ++e) {
+        stiffness[e] *= part;
     }
 }
 

@@ -41,6 +41,7 @@ typedef struct kiriSystem {
     int32_t frameCount;
     const kiriLink* links;
     int32_t linkCount;
+    const double* linkParts;   /* what counts of each link, 0 to 1; null: all */
     const kiriCorner* corners; /* of these links */
     int32_t cornerCount;
     const kiriStrainOffset* strainOffsets; /* one a link between rigid frames, or null */

@@ -129,6 +129,7 @@ void kiriStage_Commit(kiriSheetData* sheet)
     kiriLayout layout = sheet->layout;
     sheet->layout = u->next;
     u->next = layout;
+    kiriPins_WriteLinkParts(sheet);
     kiriPins_KeepReactions(sheet, &u->next.pinShares);
     if (keepsStrains) {
         kiriPins_KeepStrains(sheet, &u->next.pinShares, sheet->strainOffsets.frames.data);

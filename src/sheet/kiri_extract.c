@@ -250,6 +250,7 @@ static void CopyPinHistory(const kiriExtract* extract, kiriSheetData* to)
             kiriPinShare* share = &to->layout.pinShares.data[count++];
             memcpy(share->offset, shares->data[k].offset, sizeof(share->offset));
             memcpy(share->reactions, shares->data[k].reactions, sizeof(share->reactions));
+            share->bore = shares->data[k].bore;
         }
     }
 }
@@ -265,6 +266,7 @@ static bool BuildPart(const kiriExtract* extract, kiriSheetData* to)
     CopyFrames(extract, to);
     CopyStrainOffsets(extract, to);
     CopyPinHistory(extract, to);
+    kiriPins_SumShares(to);
     kiriView_WritePositions(to);
     return true;
 }

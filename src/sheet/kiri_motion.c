@@ -38,6 +38,7 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
         sheet->strainOffsets.strainOffsets.count > 0 ? sheet->strainOffsets.strainOffsets.data : NULL;
     system.pins = sheet->pinRows.data;
     system.pinCount = sheet->pinRows.count;
+    system.linkParts = sheet->linkParts.count > 0 ? sheet->linkParts.data : NULL;
     system.clamps = sheet->clampRows.data;
     system.clampCount = sheet->clampRows.count;
     system.reactions.pins = sheet->pinReactions.data;

@@ -29,23 +29,22 @@ int32_t kiriOwner_At(const kiriSheetData* sheet, kiriLatticePoint at)
     return cell == KIRI_NONE ? HeaviestAt(sheet, triangle) : sheet->regions.field.owner.data[cell];
 }
 
+int32_t kiriOwner_OfNode(const kiriSheetData* sheet, int32_t node, bool isStaged)
+{
+    if (node == KIRI_NONE) {
+        return KIRI_NONE;
+    }
+    return isStaged || kiriUpdate_IsFieldCurrent(sheet->update)
+               ? sheet->regions.field.owner.data[sheet->grid.nodeCell.data[node]]
+               : HeaviestAt(sheet, sheet->mesh.squares.nodes.data[node].triangle);
+}
+
 /* ---- Lines -------------------------------------------------------------------------------------------------------- */
 
 typedef struct LineWork {
     kiriSheetData* sheet;
     bool isStaged;
 } LineWork;
-
-static int32_t OwnerOfNode(const LineWork* work, int32_t node)
-{
-    const kiriSheetData* sheet = work->sheet;
-    if (node == KIRI_NONE) {
-        return KIRI_NONE;
-    }
-    return work->isStaged || kiriUpdate_IsFieldCurrent(sheet->update)
-               ? sheet->regions.field.owner.data[sheet->grid.nodeCell.data[node]]
-               : HeaviestAt(sheet, sheet->mesh.squares.nodes.data[node].triangle);
-}
 
 static bool AreLinked(const LineWork* work, int32_t a, int32_t b)
 {
@@ -85,14 +84,16 @@ static kiriLineShare* FindShare(const LineWork* work, int32_t frame)
     return NULL;
 }
 
-/* `loaded` is the part of a load along the line that falls to the frame. */
-static bool AddPart(const LineWork* work, int32_t frame, const kiriLinePart* part, double loaded)
+/* `other` is the frame on the other side, which takes half of a load, or KIRI_NONE, or the same. */
+static bool AddPart(const LineWork* work, int32_t frame, int32_t other, const kiriLinePart* part)
 {
     double a = part->from, b = part->to, length = b - a;
+    bool isShared = other != KIRI_NONE && other != frame, isAlone = !isShared || !AreLinked(work, frame, other);
+    double loaded = isShared ? 0.5 : 1.0;
     kiriLineShare* share = FindShare(work, frame);
     if (share == NULL || share->ends[1] != a) {
         bool isOpen = !CloseEnds(work, frame, a);
-        kiriLineShare none = { frame, 0.0, 0.0, 0.0, 0.0, 0.0, { a, b }, { isOpen, true } };
+        kiriLineShare none = { frame, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, { a, b }, { isOpen, true } };
         if (share == NULL && !kiriArray_Push(work->sheet->memory, &work->sheet->lineShares, none)) {
             return false;
         }
@@ -101,6 +102,7 @@ static bool AddPart(const LineWork* work, int32_t frame, const kiriLinePart* par
     share->length += length;
     share->first += 0.5 * length * (a + b);
     share->second += length * (a * a + a * b + b * b) / 3.0;
+    share->alone += isAlone ? length : 0.0;
     share->load += loaded * length;
     share->firstLoad += loaded * 0.5 * length * (a + b);
     share->ends[1] = b;
@@ -115,13 +117,13 @@ bool kiriOwner_FindShares(kiriSheetData* sheet, kiriLatticePoint from, kiriLatti
     bool ok = kiriLine_Trace(&sheet->line, sheet->memory, &sheet->mesh, from, to);
     for (int32_t k = 0; ok && k < sheet->line.parts.count; ++k) {
         const kiriLinePart* part = &sheet->line.parts.data[k];
-        int32_t left = OwnerOfNode(&work, part->node[0]), right = OwnerOfNode(&work, part->node[1]);
-        bool hasTwo = left != KIRI_NONE && right != KIRI_NONE && left != right;
+        int32_t left = kiriOwner_OfNode(sheet, part->node[0], isStaged);
+        int32_t right = kiriOwner_OfNode(sheet, part->node[1], isStaged);
         if (left != KIRI_NONE) {
-            ok = AddPart(&work, left, part, hasTwo ? 0.5 : 1.0);
+            ok = AddPart(&work, left, right, part);
         }
         if (ok && right != KIRI_NONE && right != left) {
-            ok = AddPart(&work, right, part, hasTwo ? 0.5 : 1.0);
+            ok = AddPart(&work, right, left, part);
         }
     }
     return ok;

@@ -1,5 +1,7 @@
 #include "kiri_pin.h"
 
+#include "kiri_sever.h"
+
 #include "../motion/kiri_element.h"
 
 #include <string.h>
@@ -91,13 +93,14 @@ void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin)
 /* ---- Pins come and go --------------------------------------------------------------------------------------------- */
 
 /* So many rows, and what they react with. */
-static bool ReserveRows(kiriSheetData* sheet, int64_t pins, int64_t shares, int64_t frames)
+static bool ReserveRows(kiriSheetData* sheet, int64_t pins, int64_t shares, int64_t frames, int64_t links)
 {
     return kiriArray_Reserve(sheet->memory, &sheet->pinRows, pins + 2 * shares) &&
            kiriArray_Reserve(sheet->memory, &sheet->clampRows, shares) &&
            kiriArray_Reserve(sheet->memory, &sheet->pinReactions, pins + 2 * shares) &&
            kiriArray_Reserve(sheet->memory, &sheet->clampReactions, shares) &&
-           kiriArray_Reserve(sheet->memory, &sheet->frameReactions, frames);
+           kiriArray_Reserve(sheet->memory, &sheet->frameReactions, frames) &&
+           (shares == 0 || kiriArray_Reserve(sheet->memory, &sheet->linkParts, links));
 }
 
 /* Appends the shares of a line; there is room. Returns the frame that it holds most of, or `none` where there are no
@@ -118,14 +121,34 @@ static int32_t AppendShares(const kiriSheetData* sheet, int32_t pin, kiriPinShar
     return longest != NULL ? longest->frame : none;
 }
 
+void kiriPins_WriteLinkParts(kiriSheetData* sheet)
+{
+    const kiriSevered* severed = &sheet->layout.severed;
+    sheet->linkParts.count = severed->count > 0 ? sheet->links.links.count : 0;
+    for (int32_t k = 0; k < sheet->linkParts.count; ++k) {
+        sheet->linkParts.data[k] = 1.0;
+    }
+    for (int32_t k = 0; k < severed->count; ++k) {
+        double* part = &sheet->linkParts.data[severed->data[k].link];
+        *part = *part > severed->data[k].part ? *part - severed->data[k].part : 0.0;
+    }
+}
+
 bool kiriPins_Add(kiriSheetData* sheet, const kiriPinData* pin, int32_t frame)
 {
+    int32_t severed = sheet->layout.severed.count;
+    if (pin->type == KIRI_PIN_CLAMP && frame == KIRI_NONE &&
+        !kiriSever_Across(sheet, pin->at, pin->to, sheet->pins.count, false, &sheet->layout.severed)) {
+        sheet->layout.severed.count = severed;
+        return false;
+    }
     int64_t need = (int64_t)sheet->pins.count + 1, shares = sheet->layout.pinShares.count;
     shares += pin->type == KIRI_PIN_POINT ? 0 : sheet->lineShares.count;
     if (!kiriArray_Reserve(sheet->memory, &sheet->pins, need) ||
         !kiriArray_Reserve(sheet->memory, &sheet->layout.pinFrame, need) ||
         !kiriArray_Reserve(sheet->memory, &sheet->layout.pinShares, shares) ||
-        !ReserveRows(sheet, need, shares, sheet->frames.count)) {
+        !ReserveRows(sheet, need, shares, sheet->frames.count, sheet->links.links.count)) {
+        sheet->layout.severed.count = severed;
         return false;
     }
     int32_t index = sheet->pins.count++;
@@ -134,6 +157,7 @@ bool kiriPins_Add(kiriSheetData* sheet, const kiriPinData* pin, int32_t frame)
         frame = AppendShares(sheet, index, &sheet->layout.pinShares, frame);
     }
     sheet->layout.pinFrame.data[sheet->layout.pinFrame.count++] = frame;
+    kiriPins_WriteLinkParts(sheet);
     return true;
 }
 
@@ -173,6 +197,25 @@ static void RemoveShares(kiriPinShares* shares, int32_t index, int32_t last)
     }
 }
 
+static void RemoveSevered(kiriSevered* severed, int32_t index, int32_t last)
+{
+    int32_t kept = 0, moved;
+    for (int32_t k = 0; k < severed->count; ++k) {
+        if (severed->data[k].pin != index) {
+            severed->data[kept++] = severed->data[k];
+        }
+    }
+    severed->count = kept;
+    for (int32_t k = 0; k < kept; ++k) {
+        kiriSeveredLink link = severed->data[k];
+        link.pin = link.pin == last ? index : link.pin;
+        for (moved = k; moved > 0 && severed->data[moved - 1].pin > link.pin; --moved) {
+            severed->data[moved] = severed->data[moved - 1];
+        }
+        severed->data[moved] = link;
+    }
+}
+
 void kiriPins_Remove(kiriSheetData* sheet, int32_t index)
 {
     KIRI_ASSERT(index >= 0 && index < sheet->pins.count && sheet->layout.pinFrame.count == sheet->pins.count);
@@ -181,6 +224,8 @@ void kiriPins_Remove(kiriSheetData* sheet, int32_t index)
     sheet->pins.data[index] = sheet->pins.data[last];
     sheet->layout.pinFrame.data[index] = sheet->layout.pinFrame.data[last];
     RemoveShares(&sheet->layout.pinShares, index, last);
+    RemoveSevered(&sheet->layout.severed, index, last);
+    kiriPins_WriteLinkParts(sheet);
 }
 
 /* ---- Staging ------------------------------------------------------------------------------------------------------ */
@@ -189,7 +234,7 @@ bool kiriPins_Stage(kiriSheetData* sheet)
 {
     kiriLayout* next = &sheet->update->next;
     int32_t frames = sheet->update->placing.sites.count;
-    next->pinShares.count = 0;
+    next->pinShares.count = next->severed.count = 0;
     bool ok = kiriArray_Resize(sheet->memory, &next->pinFrame, sheet->pins.count);
     for (int32_t i = 0; ok && i < sheet->pins.count; ++i) {
         const kiriPinData* pin = &sheet->pins.data[i];
@@ -199,13 +244,14 @@ bool kiriPins_Stage(kiriSheetData* sheet)
             continue;
         }
         ok = kiriOwner_FindShares(sheet, pin->at, pin->to, true) &&
+             (pin->type == KIRI_PIN_HINGE || kiriSever_Across(sheet, pin->at, pin->to, i, true, &next->severed)) &&
              kiriArray_Reserve(sheet->memory, &next->pinShares,
                                (int64_t)next->pinShares.count + sheet->lineShares.count);
         if (ok) {
             next->pinFrame.data[i] = AppendShares(sheet, i, &next->pinShares, sheet->layout.pinFrame.data[i]);
         }
     }
-    return ok && ReserveRows(sheet, sheet->pins.count, next->pinShares.count, frames);
+    return ok && ReserveRows(sheet, sheet->pins.count, next->pinShares.count, frames, sheet->links.next.count);
 }
 
 /* ---- Rows --------------------------------------------------------------------------------------------------------- */
@@ -348,6 +394,7 @@ void kiriPins_KeepReactions(kiriSheetData* sheet, const kiriPinShares* old)
         const kiriPinShare* older = FindPinned(old, pinned->pin, pinned->share.frame);
         if (older != NULL) {
             memcpy(pinned->reactions, older->reactions, sizeof(pinned->reactions));
+            pinned->bore = older->bore;
         }
     }
 }
@@ -405,13 +452,13 @@ double kiriPins_ElasticEnergy(const kiriSheetData* sheet)
 
 /* ---- Reactions ---------------------------------------------------------------------------------------------------- */
 
-/* Adds what a row bore about `at`. */
-static void AddBorne(kiriPinData* pin, const kiriReaction* reaction, kiriVec3 at, double perTime)
+/* Adds what a row bore about `at`, to be about the pin's target. */
+static void AddBorne(const kiriPinData* pin, const kiriReaction* reaction, kiriVec3 at, double perTime, kiriWrench* sum)
 {
     kiriVec3 arm = kiriVec3_Sub(at, pin->target);
     kiriWrench borne = reaction->impulse;
     borne.moment = kiriVec3_Add(borne.moment, kiriVec3_Cross(arm, borne.force));
-    kiriWrench_Add(&pin->bore, perTime, &borne);
+    kiriWrench_Add(sum, perTime, &borne);
 }
 
 static void TakePinReactions(kiriSheetData* sheet, double perTime)
@@ -422,21 +469,38 @@ static void TakePinReactions(kiriSheetData* sheet, double perTime)
         memset(&pin->bore, 0, sizeof(pin->bore));
         if (pin->type == KIRI_PIN_POINT) {
             pin->reaction = sheet->pinReactions.data[row++];
-            AddBorne(pin, &pin->reaction, pin->target, perTime);
+            AddBorne(pin, &pin->reaction, pin->target, perTime, &pin->bore);
         }
     }
     for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
         kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
-        kiriPinData* pin = &sheet->pins.data[pinned->pin];
+        const kiriPinData* pin = &sheet->pins.data[pinned->pin];
+        memset(&pinned->bore, 0, sizeof(pinned->bore));
         if (pin->type == KIRI_PIN_CLAMP) {
-            pinned->reactions[0] = sheet->clampReactions.data[clamp];
-            AddBorne(pin, &pinned->reactions[0], sheet->clampRows.data[clamp++].pose.x, perTime);
+            kiriVec3 at = sheet->clampRows.data[clamp].pose.x;
+            pinned->reactions[0] = sheet->clampReactions.data[clamp++];
+            AddBorne(pin, &pinned->reactions[0], at, perTime, &pinned->bore);
             continue;
         }
         for (int spring = 0; spring < 2; ++spring) {
-            pinned->reactions[spring] = sheet->pinReactions.data[row];
-            AddBorne(pin, &pinned->reactions[spring], sheet->pinRows.data[row++].target, perTime);
+            kiriVec3 at = sheet->pinRows.data[row].target;
+            pinned->reactions[spring] = sheet->pinReactions.data[row++];
+            AddBorne(pin, &pinned->reactions[spring], at, perTime, &pinned->bore);
         }
+    }
+    kiriPins_SumShares(sheet);
+}
+
+void kiriPins_SumShares(kiriSheetData* sheet)
+{
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        if (sheet->pins.data[i].type != KIRI_PIN_POINT) {
+            memset(&sheet->pins.data[i].bore, 0, sizeof(kiriWrench));
+        }
+    }
+    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+        const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+        kiriWrench_Add(&sheet->pins.data[pinned->pin].bore, 1.0, &pinned->bore);
     }
 }
 

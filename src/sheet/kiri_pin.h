@@ -19,6 +19,9 @@ void kiriPins_Remove(kiriSheetData* sheet, int32_t index);
 /* Stages which frames the pins hold after the next commit, with all the room that they need. False for memory. */
 bool kiriPins_Stage(kiriSheetData* sheet);
 
+/* Writes what clamps leave of the links: whenever links or clamps have changed. There is room. */
+void kiriPins_WriteLinkParts(kiriSheetData* sheet);
+
 /* After the commit: reactions on a frame that was held before go on with their history. */
 void kiriPins_KeepReactions(kiriSheetData* sheet, const kiriPinShares* old);
 
@@ -38,6 +41,9 @@ double kiriPins_ElasticEnergy(const kiriSheetData* sheet);
 /* Writes what the solver reads; then, after the tick, what pins and held frames had to bear in it. */
 void kiriPins_WriteRows(kiriSheetData* sheet);
 void kiriPins_TakeReactions(kiriSheetData* sheet, double dt);
+
+/* What a line bore is the sum of what its shares did. */
+void kiriPins_SumShares(kiriSheetData* sheet);
 
 /* Where the motion could not be continued: pins and holds had nothing to bear. */
 void kiriPins_ClearReactions(kiriSheetData* sheet);

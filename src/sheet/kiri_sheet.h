@@ -26,6 +26,7 @@ typedef struct kiriPiece {
 typedef struct kiriLineShare {
     int32_t frame;
     double length, first, second; /* integrals of 1, t, t^2 over what has material of the frame on one side at least */
+    double alone;                 /* of 1 where no frame that it is linked with has the other side */
     double load, firstLoad;       /* of 1 and t, where what has another frame on its other side counts half */
     double ends[2];               /* its lowest and its highest t */
     int32_t open[2];              /* is no frame that it is linked with beyond them? */
@@ -37,15 +38,25 @@ typedef struct kiriPinShare {
     kiriLineShare share;
     double offset[KIRI_CLAMP_STRAINS]; /* of a clamp's strains, see kiri_strain_offset.h */
     kiriReaction reactions[2];         /* of a clamp one, of a hinge those of its two springs */
+    kiriWrench bore;                   /* its part of the pin's */
 } kiriPinShare;
 
 typedef KIRI_ARRAY(kiriPinShare) kiriPinShares;
+
+/* A part, 0 to 1, of a link that a clamp is in place of. */
+typedef struct kiriSeveredLink {
+    int32_t pin, link; /* indices */
+    double part;
+} kiriSeveredLink;
+
+typedef KIRI_ARRAY(kiriSeveredLink) kiriSevered;
 
 /* What moves the sheet, and what of it is staged for the next commit. Pieces are numbered by their lowest frame. */
 typedef struct kiriLayout {
     KIRI_ARRAY(kiriPiece) pieces;
     KIRI_ARRAY(int32_t) framePiece; /* of each frame */
     KIRI_ARRAY(int32_t) pinFrame;   /* the frame that each pin holds; of a line, the one it holds most of */
+    kiriSevered severed;            /* by clamps, in the order of pins */
     kiriPinShares pinShares;        /* of pins along lines, in the order of pins, then along the line */
     kiriAreaElements areaElements;  /* of affine frames */
 } kiriLayout;
@@ -171,6 +182,7 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriPinRow) pinRows;     /* points, then two for each share of a hinge */
     KIRI_ARRAY(kiriClampRow) clampRows; /* one for each share of a clamp */
     KIRI_ARRAY(kiriContactRow) contactRows;
+    KIRI_ARRAY(double) linkParts; /* what clamps leave of each link; empty where they leave all */
     KIRI_ARRAY(kiriReaction) pinReactions, clampReactions, frameReactions; /* of rows, and of frames */
     kiriLine line;                                                         /* what was asked last, */
     KIRI_ARRAY(kiriLineShare) lineShares;                                  /* and what of it belongs to each frame */

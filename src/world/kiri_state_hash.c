@@ -129,6 +129,11 @@ void kiriStateHash_AddLayout(uint64_t* hash, const kiriSheetData* sheet)
     for (int32_t i = 0; i < layout->pinFrame.count; ++i) {
         kiriHash_Int32(hash, layout->pinFrame.data[i]);
     }
+    for (int32_t k = 0; k < layout->severed.count; ++k) {
+        kiriHash_Int32(hash, layout->severed.data[k].pin);
+        kiriHash_Int32(hash, layout->severed.data[k].link);
+        kiriHash_Double(hash, layout->severed.data[k].part);
+    }
     for (int32_t k = 0; k < layout->pinShares.count; ++k) {
         HashPinShare(hash, &layout->pinShares.data[k]);
     }
@@ -306,6 +311,7 @@ static void HashPinHistory(uint64_t* hash, const kiriPinShares* shares)
             HashWrench(hash, &shares->data[k].reactions[spring].gain);
             HashWrench(hash, &shares->data[k].reactions[spring].pull);
         }
+        HashWrench(hash, &shares->data[k].bore);
     }
 }
 
