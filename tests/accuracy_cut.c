@@ -90,9 +90,8 @@ static double Stiffness(const SpecimenDef* def, double move, double* millisecond
     return force[0] / move;
 }
 
-/* Three slits in a strip. CalculiX, S8R in the plane: 7.054, 6.901 and 6.826 kN/m with 80, 160 and 320 elements along;
-   so 6.75 in the limit, for the differences halve. */
-static void AddKirigami(int layout, int frames, int grid)
+/* Three slits in a strip. */
+static SpecimenDef KirigamiDef(int grid)
 {
     static const float slits[3][4] = {
         { 0.08f, 0.0f, 0.08f, 0.035f },
@@ -105,38 +104,41 @@ static void AddKirigami(int layout, int frames, int grid)
     for (int k = 0; k < 3; ++k) {
         def.slits[def.slitCount++] = (Slit){ slits[k], 2 };
     }
-    int rows = (int)(sqrt(frames * def.width / def.length) + 0.5);
-    if (layout < LAYOUT_KINDS) {
-        Layout_Make(&def.layout, layout, def.length, def.width, frames / rows, rows);
-    } else {
-        def.frames = frames;
-    }
-    Row row = { "kirigami strip",
-                "nu 0.3",
-                layout < LAYOUT_KINDS ? layoutNames[layout] : "spread",
-                def.frames > 0 ? def.frames : def.layout.count,
-                grid,
-                0,
-                0.0,
-                0.0,
-                NULL,
-                0.0,
-                0.02,
-                0.1,
-                0.0 };
-    double found = Stiffness(&def, 1e-4, &row.milliseconds);
+    return def;
+}
+
+/* CalculiX, S8R in the plane: 7.054, 6.901 and 6.826 kN/m with 80, 160 and 320 elements along; so 6.75 in the limit, for
+   the differences halve. */
+static void AddKirigami(const SpecimenDef* def, const char* setting, const char* layout)
+{
+    int frames = def->frames > 0 ? def->frames : def->layout.count;
+    Row row = { "kirigami strip", "", layout, frames, def->grid, 0, 0.0, 0.0, NULL, 0.0, 0.02, 0.1, 0.0 };
+    snprintf(row.setting, sizeof row.setting, "nu 0.3%s", setting);
+    double found = Stiffness(def, 1e-4, &row.milliseconds);
     Results_AddValue(row, found, 6750.0, "N/m");
 }
 
+/* As they come; and with a border between regions on each line on which a slit would go on. */
 static void Kirigami(const char* data)
 {
-    static const int frames[] = { 24, 48, 96, 192 }, layouts[] = { LAYOUT_ROWS, LAYOUT_JITTERED, LAYOUT_KINDS };
+    static const int frames[] = { 24, 48, 96, 192 }, grids[] = { 40, 80, 160, 320 };
     (void)data;
-    for (int l = 0; l < COUNT(layouts); ++l) {
-        for (int g = 0; g < COUNT(GRIDS); ++g) {
-            for (int k = 0; k < COUNT(frames); ++k) {
-                AddKirigami(layouts[l], frames[k], GRIDS[g]);
-            }
+    for (int g = 0; g < COUNT(grids); ++g) {
+        for (int k = 0; k < COUNT(frames); ++k) {
+            SpecimenDef def = KirigamiDef(grids[g]);
+            int rows = (int)(sqrt(frames[k] * def.width / def.length) + 0.5);
+            Layout_Make(&def.layout, LAYOUT_ROWS, def.length, def.width, frames[k] / rows, rows);
+            AddKirigami(&def, "", "rows");
+            Layout_Make(&def.layout, LAYOUT_JITTERED, def.length, def.width, frames[k] / rows, rows);
+            AddKirigami(&def, "", "jittered");
+            def.layout.count = 0;
+            def.frames = frames[k];
+            AddKirigami(&def, "", "spread");
+        }
+        for (int columns = 20; columns <= 40; columns += 20) {
+            SpecimenDef def = KirigamiDef(grids[g]);
+            Layout_Make(&def.layout, LAYOUT_ROWS, def.length, def.width, columns, 10);
+            AddKirigami(&def, ", borders at slit ends", "rows");
         }
     }
 }

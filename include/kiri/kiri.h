@@ -223,12 +223,15 @@ enum kiriMaterialPreset {
 
 KIRI_API kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
 
-/* How much work for how much accuracy. The presets are measured: a strip of stiff paper, 0.2 m x 0.05 m, one row of
-   frames, clamped at one end, is let go and swings for 0.4 s at 60 ticks a second; tests/sweep.h. Error: rms distance
-   of the vertices from where 33 frames and 512 substeps a tick bring them, by the rms way that they go. Cost: linear
-   systems a tick, times frames. FAST: 7.4 %, cost 10. BALANCED: 2.3 %, cost 72. ACCURATE: 1.0 %, cost 272. */
+/* How much work for how much accuracy. The presets are measured (`make accuracy`; tests/sweep.h has the scenes) on a strip
+   of stiff paper, 0.2 m x 0.05 m, clamped at one end, with one row of frames, and on a square of 0.2 m that bends five
+   times as easily, hangs by two corners, and has half as many rows and columns, rounded up. Let go, they swing for 0.4 s
+   at 60 ticks a second. Error: rms distance of the vertices from where a much finer run brings them, by the rms way that
+   they go; at most, over grids from 4/5 to 5/4 as fine and with frames in regular rows or moved a little. FAST: 2 %.
+   BALANCED: 0.8 %. ACCURATE: 0.4 %. What a cut leaves narrow wants more frames: see `accuracy` in the sheet def. */
 typedef struct kiriQuality {
-    int32_t framesAlong;    /* control frames along the longer side; as many in all do for a strip */
+    int32_t framesAlong;    /* control frames in a row along a strip; a square does with half as many in either
+                               direction, rounded up: 3 x 3, 5 x 5, 9 x 9 */
     int32_t gridResolution; /* for the sheet def */
     int32_t iterations;     /* for the sheet def */
     int32_t substeps;       /* for kiriWorld_Tick */
@@ -248,8 +251,9 @@ enum kiriModel {
        1e8 Pa or so on it needs more `iterations`, 8 say. */
     KIRI_MODEL_AFFINE = 1,
 
-    /* Affine frames, strains at integration points: the scheme of the paper, to compare with. Much too stiff in bending
-       where the sheet is thin, however many points there are. 12 unknowns a frame. */
+    /* Affine frames, strains at integration points: the scheme of the paper, to compare with. Weights that vary across a
+       strip cannot bend it as a cylinder, however many points there are: a clamped strip on 9 frames goes 3, 20, 51 and
+       70 % too short a way down where it is a 10th, 20th, 50th and 400th of its length thick. 12 unknowns a frame. */
     KIRI_MODEL_POINTS = 2
 };
 
