@@ -801,6 +801,28 @@ static void FailingAllocatorLeaksNothing(void** state)
     assert_true(failures > 4);
 }
 
+/* Beside slits: ways turn at their ends, and borders come to their sides. */
+static void LinksAreContinuousBesideSlits(void** state)
+{
+    (void)state;
+    enum { ROWS = 4 };
+    const int32_t moved[] = { 5, 6, 9, 13 };
+    uint32_t seed = 5;
+    Scene scene;
+    kiriSite sites[ROWS * ROWS];
+    Scene_Init(&scene, 1.0, 1.0, 20, 20, 6 * ROWS);
+    Scene_Slit(&scene, 0.5, 0.0, 0.5, 0.65);
+    Scene_Slit(&scene, 0.1, 0.75, 0.4, 0.75);
+    Scene_BuildGrid(&scene);
+    int32_t count = PlaceNet(&scene, 3, ROWS, &seed, sites);
+    for (size_t k = 0; k < sizeof(moved) / sizeof(moved[0]); ++k) {
+        kiriSite was = sites[moved[k]];
+        CheckContinuous(&scene, sites, count, moved[k], 4.0);
+        sites[moved[k]] = was;
+    }
+    Scene_Release(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -820,6 +842,7 @@ int main(void)
         cmocka_unit_test(BordersAreThoseOfVoronoi),
         cmocka_unit_test(RowOnACoarseGrid),
         cmocka_unit_test(LinksAreContinuous),
+        cmocka_unit_test(LinksAreContinuousBesideSlits),
         cmocka_unit_test(CutSheetsEqualThoseFromScratch),
         cmocka_unit_test(FailingAllocatorLeaksNothing),
     };

@@ -544,6 +544,9 @@ static const char* CorruptLayout(kiriWorld* world, kiriSheetData* s, int way)
     case 13:
         links[0].outer = -1e-9;
         return "has outer width";
+    case 14:
+        links[0].length *= 0.9;
+        return "its sites are";
     default:
         return NULL;
     }

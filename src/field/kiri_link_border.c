@@ -621,6 +621,10 @@ static void SetSpurious(const kiriBorder* border, kiriLink* link, kiriLinkEnds* 
 void kiriBorder_MakeExact(const kiriBorder* border, kiriLink* link, kiriLinkEnds* ends)
 {
     kiriLinkEnds grid = *ends;
+    if (kiriBorder_IsSliver(border)) {
+        SetSpurious(border, link, ends);
+        return;
+    }
     bool tail = FindExactEnd(border, link, 0, &ends->end[0]), head = FindExactEnd(border, link, 1, &ends->end[1]);
     double width = kiriVec2_Dot(kiriVec2_Sub(ends->end[1].at, ends->end[0].at), link->tangent);
     if (!tail && !head) {

@@ -169,6 +169,17 @@ static bool HasOnlySlivers(const kiriBorder* border)
     return true;
 }
 
+bool kiriBorder_IsSliver(const kiriBorder* border)
+{
+    double widest = 0.0;
+    for (int32_t k = 0; k < border->work->stretch.count; ++k) {
+        double width = border->grid->faces.data[border->work->stretch.data[k]].width;
+        widest = width > widest ? width : widest;
+    }
+    bool isAlong = widest >= kiriSliver * border->grid->side, isNothing = widest < 1e-6 * border->grid->side;
+    return (isAlong || isNothing) && HasOnlySlivers(border);
+}
+
 kiriLinkEnds kiriBorder_FindEnds(const kiriBorder* border, const kiriLink* link, bool bent)
 {
     kiriLinkEnds ends;

@@ -95,6 +95,10 @@ bool kiriBorder_FindRing(const kiriBorder* border, int32_t face, bool upper, kir
 /* The ends of the stretch at hand, whose link has its tangent. `bent`: it is a part of a border that was split. */
 kiriLinkEnds kiriBorder_FindEnds(const kiriBorder* border, const kiriLink* link, bool bent);
 
+/* Does the stretch at hand run along slivers of cells beside a slit, or across the end of such ones? Their middles are
+   off by half a square, and so is what region they are in: there is no such border. Across a narrow strip there is. */
+bool kiriBorder_IsSliver(const kiriBorder* border);
+
 /* Is no region dirty on which a link with these ends depends? They are as the grid has them. */
 bool kiriBorder_IsUntouched(const kiriBorder* border, const kiriLinkEnds* ends);
 
