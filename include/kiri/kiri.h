@@ -616,9 +616,9 @@ KIRI_API kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriP
 
    They hold what the line meets, edges included, with the stiffness that the material has between the line and the
    frames that it meets. So a clamp along an edge is where the drawing has it, whatever the number of frames, where
-   kiriFrame_Hold clamps at a frame's site. A clamp through the sheet parts what is on its two sides, so that neither bends
-   the other. A line that runs along a cut holds both lips; one beside it, by a 512th of a
-   square of the grid or more, holds one. The ends differ; a line that meets no material: KIRI_ERROR_ARGUMENT. */
+   kiriFrame_Hold clamps at a frame's site. A clamp through the sheet parts what is on its two sides, so that neither
+   bends the other. A line that runs along a cut holds both lips; one beside it, by a 512th of a square of the grid or
+   more, holds one. The ends differ; a line that meets no material: KIRI_ERROR_ARGUMENT. */
 KIRI_API kiriResult kiriSheet_ClampLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
                                         kiriPin* clamp);
 KIRI_API kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],

@@ -64,7 +64,7 @@ int32_t kiriElement_MostMembers(const kiriSystem* system)
 }
 
 /* What counts of an element: of a corner as much as of the link that counts least. */
-static double LinkPartOf(const kiriSystem* system, int32_t k)
+static double CountedPart(const kiriSystem* system, int32_t k)
 {
     const kiriCorner* corner = kiriElement_Corner(system, k);
     double part = kiriElement_Link(system, k) != NULL ? system->linkParts[k] : 1.0;
@@ -91,7 +91,7 @@ void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffnes
     } else {
         kiriStrain_Stiffness(link, &system->material, stiffness);
     }
-    double part = system->linkParts != NULL ? LinkPartOf(system, k) : 1.0;
+    double part = system->linkParts != NULL ? CountedPart(system, k) : 1.0;
     for (int e = 0; part < 1.0 && e < kiriElement_StrainCount(system, k); ++e) {
         stiffness[e] *= part;
     }
