@@ -340,18 +340,19 @@ double kiriStrain_Openness(double bending, double twist, double* slope)
     return share * (2.0 - share);
 }
 
-/* Twist is stiffer than bending at open ends. In a fold it becomes as stiff as bending, `least` being the ratio of
-   their stiffnesses. */
-static void TakeTwist(double least, double bending, double* twist, kiriStrainRow* rows)
+/* Twist is stiffer than bending at open ends. In a fold bending becomes as stiff as twist, `most` being the ratio of
+   their stiffnesses: at half a turn there is no telling one from the other. Were twist to become as weak as bending, its
+   energy would fall before half a turn, and folds would stay there. */
+static void TakeFold(double most, double twist, double* bending, kiriStrainRow* rows)
 {
-    double slope, open = kiriStrain_Openness(bending, *twist, &slope);
-    if (open < 1.0 && least < 1.0) {
-        double factor = sqrt(least + (1.0 - least) * open * open), per = (1.0 - least) * open * slope / factor;
+    double slope, open = kiriStrain_Openness(*bending, twist, &slope);
+    if (open < 1.0) {
+        double factor = sqrt(most + (1.0 - most) * open * open), per = (1.0 - most) * open * slope / factor;
         if (rows != NULL) {
-            ScaleRow(&rows[KIRI_TWIST], factor + 2.0 * per * *twist * *twist);
-            AddRow(&rows[KIRI_TWIST], 2.0 * per * *twist * bending, &rows[KIRI_BENDING]);
+            ScaleRow(&rows[KIRI_BENDING], factor + 2.0 * per * *bending * *bending);
+            AddRow(&rows[KIRI_BENDING], 2.0 * per * *bending * twist, &rows[KIRI_TWIST]);
         }
-        *twist *= factor;
+        *bending *= factor;
     }
 }
 
@@ -361,9 +362,9 @@ static void TakeWidths(const kiriLink* link, const kiriMaterial* material, doubl
     if (link->outer > 0.0) {
         double nu = (double)material->poissonsRatio, outer = link->outer, inner = link->width - outer;
         double bending = (1.0 - nu) * (inner + (1.0 + nu) * outer) + nu * nu * outer;
-        double least = bending / ((1.0 - nu) * (inner + 2.0 * outer));
+        double most = (1.0 - nu) * (inner + 2.0 * outer) / bending;
         kiriCurl curl = kiriCurl_Of(link, material, outer);
-        TakeTwist(least, strain[KIRI_BENDING], &strain[KIRI_TWIST], rows);
+        TakeFold(most, strain[KIRI_TWIST], &strain[KIRI_BENDING], rows);
         TakeCurl(&curl, &strain[KIRI_BENDING], rows != NULL ? &rows[KIRI_BENDING] : NULL);
     }
 }
