@@ -12,13 +12,26 @@ kiriCurl kiriCurl_Of(const kiriLink* link, const kiriMaterial* material, double 
 
 /* F to 0.01, without functions other than the square root: with q = theta^4 it is 1 - q / 180 where theta is small,
    2 / theta where it is large. */
+#define CURL_FIT 0.0054
+#define CURL_FIRST (CURL_FIT + 1.0 / 45.0)
+#define CURL_SECOND (CURL_FIT / 16.0)
+
 static double CurledShare(double q, double* slope)
 {
-    const double c = 0.0054, first = c + 1.0 / 45.0, second = c / 16.0;
-    double above = 1.0 + c * q, below = 1.0 + (first + second * q) * q;
+    double above = 1.0 + CURL_FIT * q, below = 1.0 + (CURL_FIRST + CURL_SECOND * q) * q;
     double share = sqrt(sqrt(above / below));
-    *slope = 0.25 * share * (c / above - (first + 2.0 * second * q) / below);
+    *slope = 0.25 * share * (CURL_FIT / above - (CURL_FIRST + 2.0 * CURL_SECOND * q) / below);
     return share;
+}
+
+/* 1 - F is 1 - F^4 by 1 + F + F^2 + F^3. */
+double kiriCurl_Held(double q, double* slope)
+{
+    double byQ, share = CurledShare(q, &byQ), below = 1.0 + (CURL_FIRST + CURL_SECOND * q) * q;
+    double sum = (1.0 + share) * (1.0 + share * share), bySum = byQ * (1.0 + (2.0 + 3.0 * share) * share);
+    double held = (1.0 / 45.0 + CURL_SECOND * q) / (below * sum);
+    *slope = CURL_SECOND / (below * sum) - held * ((CURL_FIRST + 2.0 * CURL_SECOND * q) / below + bySum / sum);
+    return held;
 }
 
 double kiriCurl_Factor(const kiriCurl* curl, double squaredAngle, double* slope)

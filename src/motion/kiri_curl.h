@@ -7,6 +7,14 @@
        1/2 D W (1 - nu^2 F) k^2,   F = (2 / theta) (cosh theta - cos theta) / (sinh theta + sin theta),
        theta^4 = 3 (1 - nu^2) W^4 k^2 / h^2.
 
+   Twisted by tau at the same time, its fibres stretch by k w + tau^2 y^2 / 2 beyond the mean. With w + tau^2 y^2 / (2 k)
+   for w the equation is the same, and the energy is
+
+       1/2 D W ((1 - nu^2) k^2 + 2 (1 - nu) tau^2 + (tau^2 - nu k^2)^2 (1 - F) / k^2),
+
+   where (1 - F) / k^2 stays finite for small k: E h W^5 tau^4 / 1440 is what the edges of a helix stretch. A ribbon that
+   bends is easier to twist, for the two can make a surface that does not stretch.
+
    Regions are straight across. So that is the stiffness of a link where W is the width of a strip one region wide; where
    a border is open at one end only, the outer width is half of such a strip. Further in, regions curl by turning against
    each other, and their bending in the plane holds the curl back. */
@@ -35,6 +43,9 @@ kiriCurl kiriCurl_Of(const kiriLink* link, const kiriMaterial* material, double 
 /* By how much an angle counts more than at small angles: the square root of that factor; *slope is its derivative by
    the square of the angle. */
 double kiriCurl_Factor(const kiriCurl* curl, double squaredAngle, double* slope);
+
+/* (1 - F) / theta^4, which is 1 / 180 where theta is small; *slope is its derivative by theta^4. */
+double kiriCurl_Held(double q, double* slope);
 
 KIRI_C_END
 

@@ -356,6 +356,30 @@ static void TakeFold(double most, double twist, double* bending, kiriStrainRow* 
     }
 }
 
+/* Twisted by t, a strip one region wide shortens by W^2 t^2 / (24 l), for its edges are helices; what these stretch
+   beyond the mean is that of the curl, with t^2 - nu b^2 for -nu b^2: see kiri_curl.h. In folds both fade. */
+static void TakeRibbon(const kiriLink* link, double poissonsRatio, const kiriCurl* curl, double* strain,
+                       kiriStrainRow* rows)
+{
+    double lone = kiriLink_LoneWidth(link), nu = poissonsRatio, bySquare, byQ;
+    double b = strain[KIRI_BENDING], t = strain[KIRI_TWIST], open = kiriStrain_Openness(b, t, &bySquare);
+    double held = kiriCurl_Held(curl->perSquare * b * b, &byQ);
+    double stiff = curl->perSquare * lone / ((1.0 - nu) * (link->width + link->outer));
+    double sum = t * t - 2.0 * nu * b * b, part = stiff * open * held * sum, factor = sqrt(1.0 + part);
+    double shorter = lone * link->width / (24.0 * link->length);
+    strain[KIRI_STRETCH] += shorter * open * t * t;
+    strain[KIRI_TWIST] *= factor;
+    if (rows != NULL) {
+        /* Half of the derivative of `part` by t and by b. */
+        double byT = stiff * held * t * (open + bySquare * sum);
+        double byB = stiff * b * (open * (curl->perSquare * byQ * sum - 2.0 * nu * held) + bySquare * held * sum);
+        AddRow(&rows[KIRI_STRETCH], 2.0 * shorter * t * (open + bySquare * t * t), &rows[KIRI_TWIST]);
+        AddRow(&rows[KIRI_STRETCH], 2.0 * shorter * t * t * bySquare * b, &rows[KIRI_BENDING]);
+        ScaleRow(&rows[KIRI_TWIST], factor + t * byT / factor);
+        AddRow(&rows[KIRI_TWIST], t * byB / factor, &rows[KIRI_BENDING]);
+    }
+}
+
 /* After this bending and twist count as much as their stiffness says. */
 static void TakeWidths(const kiriLink* link, const kiriMaterial* material, double* strain, kiriStrainRow* rows)
 {
@@ -365,6 +389,9 @@ static void TakeWidths(const kiriLink* link, const kiriMaterial* material, doubl
         double most = (1.0 - nu) * (inner + 2.0 * outer) / bending;
         kiriCurl curl = kiriCurl_Of(link, material, outer);
         TakeFold(most, strain[KIRI_TWIST], &strain[KIRI_BENDING], rows);
+        if (kiriLink_LoneWidth(link) > 0.0 && (strain[KIRI_TWIST] != 0.0 || rows != NULL)) {
+            TakeRibbon(link, nu, &curl, strain, rows);
+        }
         TakeCurl(&curl, &strain[KIRI_BENDING], rows != NULL ? &rows[KIRI_BENDING] : NULL);
     }
 }
