@@ -33,6 +33,8 @@
 #define HALF_TURN 3.14159265358979
 /* Folds up to this angle have all of their damping, and axes that can be relied on. */
 #define OPEN_FOLD 2.5
+/* Of the square of an angle, below that of half a turn. */
+#define LEAST_ROOM 1e-6
 
 /* The mean axes of two frames. When the frames turn by w_0 and w_1, the axes turn by the sum over k of
    n (nBy[k] . w_k) + tau (tauBy[k] . w_k) + d (dBy[k] . w_k). */
@@ -357,26 +359,30 @@ static void TakeFold(double most, double twist, double* bending, kiriStrainRow* 
 }
 
 /* Twisted by t, a strip one region wide shortens by W^2 t^2 / (24 l), for its edges are helices; what these stretch
-   beyond the mean is that of the curl, with t^2 - nu b^2 for -nu b^2: see kiri_curl.h. In folds both fade. */
+   beyond the mean is that of the curl, with t^2 - nu b^2 for -nu b^2: see kiri_curl.h. That counts as a larger twist, but
+   as none beyond half a turn: with z for what it adds to t^2 and R = pi^2 - t^2 - b^2 it adds z R / sqrt(z^2 + R^2), which
+   is z where the angle is small, and never lets the energy fall as it grows. */
 static void TakeRibbon(const kiriLink* link, double poissonsRatio, const kiriCurl* curl, double* strain,
                        kiriStrainRow* rows)
 {
     double lone = kiriLink_LoneWidth(link), nu = poissonsRatio, bySquare, byQ;
     double b = strain[KIRI_BENDING], t = strain[KIRI_TWIST], open = kiriStrain_Openness(b, t, &bySquare);
-    double held = kiriCurl_Held(curl->perSquare * b * b, &byQ);
-    double stiff = curl->perSquare * lone / ((1.0 - nu) * (link->width + link->outer));
-    double sum = t * t - 2.0 * nu * b * b, part = stiff * open * held * sum, factor = sqrt(1.0 + part);
-    double shorter = lone * link->width / (24.0 * link->length);
+    double held = kiriCurl_Held(curl->perSquare * b * b, &byQ), sum = t * t - 2.0 * nu * b * b;
+    double stiff = curl->perSquare * lone / ((1.0 - nu) * (link->width + link->outer)), part = stiff * held * sum;
+    double z = t * t * part, room = HALF_TURN * HALF_TURN - t * t - b * b;
+    double R = room > LEAST_ROOM ? room : LEAST_ROOM, per = 1.0 / sqrt(z * z + R * R);
+    double factor = sqrt(1.0 + part * R * per), shorter = lone * link->width / (24.0 * link->length);
     strain[KIRI_STRETCH] += shorter * open * t * t;
     strain[KIRI_TWIST] *= factor;
     if (rows != NULL) {
-        /* Half of the derivative of `part` by t and by b. */
-        double byT = stiff * held * t * (open + bySquare * sum);
-        double byB = stiff * b * (open * (curl->perSquare * byQ * sum - 2.0 * nu * held) + bySquare * held * sum);
+        double byPart = per * per * per * R * R * R, byTwist = -per * per * per * part * part * part * R * t * t;
+        double byRoom = room > LEAST_ROOM ? -per * per * per * part * z * z : 0.0;
+        double byT = byPart * stiff * held + byTwist + byRoom;
+        double byB = byPart * stiff * (curl->perSquare * byQ * sum - 2.0 * nu * held) + byRoom;
         AddRow(&rows[KIRI_STRETCH], 2.0 * shorter * t * (open + bySquare * t * t), &rows[KIRI_TWIST]);
         AddRow(&rows[KIRI_STRETCH], 2.0 * shorter * t * t * bySquare * b, &rows[KIRI_BENDING]);
-        ScaleRow(&rows[KIRI_TWIST], factor + t * byT / factor);
-        AddRow(&rows[KIRI_TWIST], t * byB / factor, &rows[KIRI_BENDING]);
+        ScaleRow(&rows[KIRI_TWIST], factor + t * t * byT / factor);
+        AddRow(&rows[KIRI_TWIST], t * b * byB / factor, &rows[KIRI_BENDING]);
     }
 }
 
@@ -389,7 +395,7 @@ static void TakeWidths(const kiriLink* link, const kiriMaterial* material, doubl
         double most = (1.0 - nu) * (inner + 2.0 * outer) / bending;
         kiriCurl curl = kiriCurl_Of(link, material, outer);
         TakeFold(most, strain[KIRI_TWIST], &strain[KIRI_BENDING], rows);
-        if (kiriLink_LoneWidth(link) > 0.0 && (strain[KIRI_TWIST] != 0.0 || rows != NULL)) {
+        if (kiriLink_LoneWidth(link) > 0.0) {
             TakeRibbon(link, nu, &curl, strain, rows);
         }
         TakeCurl(&curl, &strain[KIRI_BENDING], rows != NULL ? &rows[KIRI_BENDING] : NULL);
