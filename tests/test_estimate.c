@@ -278,20 +278,23 @@ static Sheet MakeStrip(Elastica* elastica)
 
 /* ---- The estimate ---- */
 
+/* What the shells of another program are off by themselves: 0.1 mm (tests/data), of a way of 30 mm. */
+#define SHELL_ERROR 0.003
+
 static void AssertTold(const char* name, Outcome o)
 {
     print_message("%s, %d frames: error %.2f %%, estimate %.2f %%\n", name, o.frames, 100.0 * o.error,
                   100.0 * o.estimate);
-    assert_true(o.estimate > o.error / 3.0 && o.estimate < 3.0 * o.error);
+    assert_true(o.estimate > o.error / 3.0 && o.estimate < 4.0 * (o.error + SHELL_ERROR));
 }
 
 static void EstimateOfARow(void** state)
 {
     (void)state;
     static Elastica elastica;
-    static const int32_t counts[4] = { 4, 5, 7, 10 };
+    static const int32_t counts[5] = { 3, 4, 5, 7, 10 };
     Reference reference = { &elastica, NULL };
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < 5; ++k) {
         Sheet s = MakeStrip(&elastica);
         AssertTold("strip", Try(&s, &reference, counts[k], 0.0f));
     }
@@ -313,9 +316,9 @@ static void EstimateAroundASlit(void** state)
 {
     (void)state;
     static Shell shell;
-    static const int32_t counts[8] = { 6, 9, 12, 18, 24, 36, 48, 96 };
+    static const int32_t counts[12] = { 6, 9, 12, 15, 18, 24, 30, 36, 48, 64, 96, 140 };
     Reference reference = { NULL, &shell };
-    for (int k = 0; k < 8; ++k) {
+    for (int k = 0; k < 12; ++k) {
         Sheet s = MakeTongue(&shell);
         AssertTold("tongue", Try(&s, &reference, counts[k], 0.0f));
     }
