@@ -50,8 +50,8 @@ SCENE_OBJECTS := $(filter $(BUILD)/samples/scene% %/outline.c.o,$(SAMPLE_OBJECTS
 VALIDATE_OBJECTS := $(patsubst %,$(BUILD)/tests/%.c.o,validate validate_mesh validate_field)
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
 # What `make accuracy` is made of beside its driver.
-ACCURACY_PARTS := $(addprefix tests/,accuracy_beam accuracy_plate accuracy_cut accuracy_motion specimen frame_layout results \
-                  reference trade sweep plot)
+ACCURACY_PARTS := $(addprefix tests/,accuracy_beam accuracy_plate accuracy_shell accuracy_cut accuracy_motion specimen \
+                  frame_layout results reference trade sweep plot)
 BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench*.c))
 RUN := $(BUILD)/samples/kiri-run
 BOX2D := $(BUILD)/samples/kiri-box2d

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const Case* const families[] = { beamCases, plateCases, cutCases, motionCases };
+static const Case* const families[] = { beamCases, plateCases, shellCases, cutCases, motionCases };
 
 /* How many cases ran. `wanted`: the beginning of their names; null: all. */
 static int RunCases(const char* data, const char* wanted)

@@ -8,6 +8,6 @@ typedef struct Case {
 } Case;
 
 /* Each ends with a name of null. */
-extern const Case beamCases[], plateCases[], cutCases[], motionCases[];
+extern const Case beamCases[], plateCases[], shellCases[], cutCases[], motionCases[];
 
 #endif

@@ -43,7 +43,7 @@ static double ElasticaError(const Specimen* specimen, const SpecimenDef* def)
 /* Clamped along u = 0, under gravity. */
 static Row Hang(const SpecimenDef* def, const char* name, const char* setting)
 {
-    Row row = { name, "", "rows", def->layout.count, def->grid, 0, 0.0, 0.0, NULL, 0.0, 1e-4, 0.0, 0.0 };
+    Row row = Row_Make(name, "rows", def->layout.count, def->grid, 1e-4, 0.0);
     snprintf(row.setting, sizeof row.setting, "%s", setting);
     Specimen* specimen = Specimen_Create(def);
     if (specimen == NULL) {
@@ -95,7 +95,7 @@ static void HeldFrames(const char* data)
             }
             Specimen* specimen = Specimen_Create(&def);
             Require(specimen != NULL, "a strip is refused");
-            Row row = { "held frames", "", "rows", frames[k], def.grid, 0, 0.0, 0.0, NULL, 0.0, 1e-4, 0.0, 0.0 };
+            Row row = Row_Make("held frames", "rows", frames[k], def.grid, 1e-4, 0.0);
             snprintf(row.setting, sizeof row.setting, "nu 0, %s", ends ? "site on the edge" : "site in its region");
             Specimen_HoldLine(specimen, (double)def.layout.points[0]);
             Specimen_Settle(specimen);
@@ -191,7 +191,7 @@ static double TipMove(Specimen* specimen, const SpecimenDef* def, int axis)
 static void AddTip(const SpecimenDef* def, const char* name, const char* setting, int axis, double theory,
                    double target)
 {
-    Row row = { name, "", "rows", def->layout.count, def->grid, 0, 0.0, 0.0, NULL, 0.0, 1e-4, target, 0.0 };
+    Row row = Row_Make(name, "rows", def->layout.count, def->grid, 1e-4, target);
     snprintf(row.setting, sizeof row.setting, "%s", setting);
     Specimen* specimen = Specimen_Create(def);
     if (specimen == NULL) {
@@ -283,6 +283,28 @@ static SpecimenDef SzeStrip(double length, int frames, int grid)
     return def;
 }
 
+static void AddEndLoad(double P, const double moves[2], int frames, int grid)
+{
+    SpecimenDef def = SzeStrip(10.0, frames, grid);
+    Specimen* specimen = Specimen_Create(&def);
+    if (specimen == NULL) {
+        return;
+    }
+    double tip[3];
+    Row row = Row_Make("end load", "rows", frames, grid, 2e-4, 0.005);
+    Specimen_ClampEnd(specimen, &def, 0.0);
+    specimen->load = (Load){ { 10.0f, 0.5f }, { 10.0f, 0.5f }, { 0.0f, 0.0f, (float)P }, { 0.0f } };
+    specimen->loaded = true;
+    Specimen_Settle(specimen);
+    Specimen_At(specimen, 10.0, 0.5, tip);
+    row.milliseconds = specimen->milliseconds;
+    snprintf(row.setting, sizeof row.setting, "P %g, deflection", P);
+    Results_AddValue(row, tip[2], moves[1], "m");
+    snprintf(row.setting, sizeof row.setting, "P %g, shortening", P);
+    Results_AddValue(row, 10.0 - tip[0], moves[0], "m");
+    Specimen_Destroy(specimen);
+}
+
 static void EndLoad(const char* data)
 {
     static const int frames[] = { 5, 9, 17, 33 }, grids[] = { 40, 80, 160 };
@@ -291,41 +313,38 @@ static void EndLoad(const char* data)
     for (int p = 0; p < 2; ++p) {
         for (int g = 0; g < COUNT(grids); ++g) {
             for (int k = 0; k < COUNT(frames); ++k) {
-                SpecimenDef def = SzeStrip(10.0, frames[k], grids[g]);
-                Specimen* specimen = Specimen_Create(&def);
-                if (specimen == NULL) {
-                    continue;
-                }
-                double tip[3];
-                Specimen_ClampEnd(specimen, &def, 0.0);
-                specimen->load = (Load){ { 10.0f, 0.5f }, { 10.0f, 0.5f }, { 0.0f, 0.0f, (float)loads[p] }, { 0.0f } };
-                specimen->loaded = true;
-                Specimen_Settle(specimen);
-                Specimen_At(specimen, 10.0, 0.5, tip);
-                Row row = { "end load",
-                            "",
-                            "rows",
-                            frames[k],
-                            grids[g],
-                            0,
-                            0.0,
-                            0.0,
-                            NULL,
-                            0.0,
-                            2e-4,
-                            0.0,
-                            specimen->milliseconds };
-                snprintf(row.setting, sizeof row.setting, "P %g, deflection", loads[p]);
-                Results_AddValue(row, tip[2], moves[p][1], "m");
-                snprintf(row.setting, sizeof row.setting, "P %g, shortening", loads[p]);
-                Results_AddValue(row, 10.0 - tip[0], moves[p][0], "m");
-                Specimen_Destroy(specimen);
+                AddEndLoad(loads[p], moves[p], frames[k], grids[g]);
             }
         }
     }
 }
 
-/* A moment M at the end makes it an arc; M = 2 pi E I / L, a circle. It turns by M L / (E I) about -v. */
+/* A moment M at the end makes it an arc that turns by M L / (E I) about -v. */
+static void AddRollUp(int halfTurns, int frames, int grid)
+{
+    SpecimenDef def = SzeStrip(12.0, frames, grid);
+    Specimen* specimen = Specimen_Create(&def);
+    if (specimen == NULL) {
+        return;
+    }
+    double turn = PI * halfTurns, tip[3], way[2] = { sin(turn) / turn - 1.0, (1.0 - cos(turn)) / turn };
+    Row row = Row_Make("roll-up", "rows", frames, grid, 2e-4, 0.02);
+    Specimen_ClampEnd(specimen, &def, 0.0);
+    specimen->loaded = true;
+    specimen->load = (Load){ { 12.0f, 0.5f }, { 12.0f, 0.5f }, { 0.0f }, { 0.0f } };
+    for (int part = 1; part <= 8; ++part) { /* the moment grows, or it coils the other way */
+        specimen->load.torque[1] = (float)(-turn * part / 8.0 * 1.2e6 * 1e-3 / 12.0 / 12.0);
+        Specimen_Settle(specimen);
+    }
+    Specimen_At(specimen, 12.0, 0.5, tip);
+    double off[2] = { tip[0] / 12.0 - 1.0 - way[0], tip[2] / 12.0 - way[1] };
+    row.error = sqrt((off[0] * off[0] + off[1] * off[1]) / (way[0] * way[0] + way[1] * way[1]));
+    row.milliseconds = specimen->milliseconds;
+    snprintf(row.setting, sizeof row.setting, "nu 0, turn %d pi", halfTurns);
+    Results_Add(&row);
+    Specimen_Destroy(specimen);
+}
+
 static void RollUp(const char* data)
 {
     static const int frames[] = { 9, 17, 33 }, grids[] = { 40, 80, 160 };
@@ -333,38 +352,7 @@ static void RollUp(const char* data)
     for (int half = 1; half <= 2; ++half) {
         for (int g = 0; g < COUNT(grids); ++g) {
             for (int k = 0; k < COUNT(frames); ++k) {
-                SpecimenDef def = SzeStrip(12.0, frames[k], grids[g]);
-                Specimen* specimen = Specimen_Create(&def);
-                if (specimen == NULL) {
-                    continue;
-                }
-                double turn = PI * half, tip[3], way[2] = { sin(turn) / turn - 1.0, (1.0 - cos(turn)) / turn };
-                Specimen_ClampEnd(specimen, &def, 0.0);
-                specimen->loaded = true;
-                specimen->load = (Load){ { 12.0f, 0.5f }, { 12.0f, 0.5f }, { 0.0f }, { 0.0f } };
-                for (int part = 1; part <= 8; ++part) { /* the moment grows, or it coils the other way */
-                    specimen->load.torque[1] = (float)(-turn * part / 8.0 * 1.2e6 * 1e-3 / 12.0 / 12.0);
-                    Specimen_Settle(specimen);
-                }
-                Specimen_At(specimen, 12.0, 0.5, tip);
-                double off[2] = { tip[0] - 12.0 - 12.0 * way[0], tip[2] - 12.0 * way[1] };
-                Row row = { "roll-up",
-                            "",
-                            "rows",
-                            frames[k],
-                            grids[g],
-                            0,
-                            0.0,
-                            0.0,
-                            NULL,
-                            0.0,
-                            2e-4,
-                            0.02,
-                            specimen->milliseconds };
-                row.error = sqrt((off[0] * off[0] + off[1] * off[1]) / (way[0] * way[0] + way[1] * way[1])) / 12.0;
-                snprintf(row.setting, sizeof row.setting, "nu 0, turn %d pi", half);
-                Results_Add(&row);
-                Specimen_Destroy(specimen);
+                AddRollUp(half, frames[k], grids[g]);
             }
         }
     }
@@ -401,8 +389,9 @@ static void FirstFrequency(const char* data)
             }
             Specimen_ClampEnd(specimen, &def, 0.0);
             double found = Specimen_Frequency(specimen, FirstShape, &L, 1e-3, theory);
-            Row row = { "first frequency",     "nu 0", "rows", frames[k], grids[g], 0, 0.0, 0.0, NULL, 0.0, 1e-3, 0.02,
-                        specimen->milliseconds };
+            Row row = Row_Make("first frequency", "rows", frames[k], grids[g], 1e-3, 0.02);
+            snprintf(row.setting, sizeof row.setting, "%s", "nu 0");
+            row.milliseconds = specimen->milliseconds;
             Results_AddValue(row, found / (2.0 * PI), theory / (2.0 * PI), "Hz");
             Specimen_Destroy(specimen);
         }

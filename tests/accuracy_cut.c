@@ -48,7 +48,7 @@ static void AddSlit(double end, double added, int frames, int grid)
     whole.frames = frames;
     cut = whole;
     cut.slits[cut.slitCount++] = (Slit){ slit, 2 };
-    Row row = { "slit across", "", "spread", frames, grid, 0, 0.0, 0.0, NULL, 0.0, 0.03, 0.05, 0.0 };
+    Row row = Row_Make("slit across", "spread", frames, grid, 0.03, 0.05);
     snprintf(row.setting, sizeof row.setting, "nu 0.3, %g of the width", end / 0.05);
     double drop = EdgeDrop(&cut, &row.milliseconds);
     Results_AddValue(row, drop - EdgeDrop(&whole, &row.milliseconds), added, "m");
@@ -112,7 +112,7 @@ static SpecimenDef KirigamiDef(int grid)
 static void AddKirigami(const SpecimenDef* def, const char* setting, const char* layout)
 {
     int frames = def->frames > 0 ? def->frames : def->layout.count;
-    Row row = { "kirigami strip", "", layout, frames, def->grid, 0, 0.0, 0.0, NULL, 0.0, 0.02, 0.1, 0.0 };
+    Row row = Row_Make("kirigami strip", layout, frames, def->grid, 0.02, 0.1);
     snprintf(row.setting, sizeof row.setting, "nu 0.3%s", setting);
     double found = Stiffness(def, 1e-4, &row.milliseconds);
     Results_AddValue(row, found, 6750.0, "N/m");
@@ -213,7 +213,7 @@ typedef double MeasureStiffness(const Accordion* a, double* milliseconds);
 static void AddExponent(const char* setting, const Accordion* a, const Accordion* b, double ratio, double expected,
                         MeasureStiffness* measure)
 {
-    Row row = { "kirigami scaling", "", "rows", b->strips * b->along, 0, 0, 0.0, 0.0, NULL, 0.0, 0.05, 0.2, 0.0 };
+    Row row = Row_Make("kirigami scaling", "rows", b->strips * b->along, 0, 0.05, 0.2);
     double first = measure(a, &row.milliseconds), second = measure(b, &row.milliseconds);
     row.grid = AccordionDef(b).grid;
     snprintf(row.setting, sizeof row.setting, "%s", setting);
@@ -303,8 +303,9 @@ static void Order(const char* data)
             SpreadFrames(&def, frames[k]);
             def.slitCount = 0;
             Specimen *a = HangTongue(&def, &slit, false), *b = HangTongue(&def, &slit, true);
-            Row row = { "load, then cut", "",   "spread", frames[k],      def.grid, 0, 0.0, 0.0, NULL,
-                        Difference(a, b), 1e-4, 5e-4,     b->milliseconds };
+            Row row = Row_Make("load, then cut", "spread", frames[k], def.grid, 1e-4, 5e-4);
+            row.error = Difference(a, b);
+            row.milliseconds = b->milliseconds;
             snprintf(row.setting, sizeof row.setting, "nu %g, tongue", n == 0 ? 0.0 : 0.3);
             Results_Add(&row);
             Specimen_Destroy(a);

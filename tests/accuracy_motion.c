@@ -75,19 +75,9 @@ static void AddSwing(int timeStepping, int frames, int substeps)
     for (int tick = 0; tick < 600; ++tick) {
         Require(kiriWorld_Tick(specimen->world, 1.0f / 60.0f, substeps) == KIRI_OK, "no tick");
     }
-    Row row = { "energy of a swing",
-                "",
-                "rows",
-                frames,
-                80,
-                substeps,
-                0.0,
-                0.0,
-                NULL,
-                0.0,
-                1e-3,
-                0.05,
-                1e3 * (ProcessorTime(NULL) - start) / 600 };
+    Row row = Row_Make("energy of a swing", "rows", frames, 80, 1e-3, 0.05);
+    row.substeps = substeps;
+    row.milliseconds = 1e3 * (ProcessorTime(NULL) - start) / 600;
     snprintf(row.setting, sizeof row.setting, "%s, after 10 s",
              timeStepping == KIRI_TIME_STEPPING_EULER ? "Euler" : "second order");
     Results_AddValue(row, (given + Energy(specimen) - first) / given, 1.0, "1");

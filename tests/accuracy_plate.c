@@ -1,6 +1,5 @@
 /* Plates: what bends, twists and stretches in two directions. */
 #include "accuracy.h"
-#include "reference.h"
 #include "results.h"
 #include "specimen.h"
 
@@ -11,7 +10,7 @@
 
 #define COUNT(array) ((int)(sizeof(array) / sizeof((array)[0])))
 
-static const double G = 9.81, PI = 3.14159265358979323846;
+static const double PI = 3.14159265358979323846;
 static const double POISSON[] = { 0.0, 0.3 };
 static const int GRIDS[] = { 40, 80, 160 };
 
@@ -85,8 +84,8 @@ static void AddMode(const char* name, const PlateMode* mode, bool twist, int kin
     }
     Specimen_ClampEnd(specimen, &def, 0.0);
     double found = Specimen_Frequency(specimen, twist ? TwistShape : BendShape, size, amplitude, theory);
-    Row row = { name, "",   layoutNames[kind],     specimen->count, grid, 0, 0.0, 0.0, NULL, 0.0,
-                2e-3, 0.05, specimen->milliseconds };
+    Row row = Row_Make(name, layoutNames[kind], specimen->count, grid, 2e-3, 0.05);
+    row.milliseconds = specimen->milliseconds;
     snprintf(row.setting, sizeof row.setting, "W/L %g, nu %g, %d row%s", mode->width, mode->poisson, rows,
              rows > 1 ? "s" : "");
     Results_AddValue(row, found / (2.0 * PI), theory / (2.0 * PI), "Hz");
@@ -179,8 +178,8 @@ static void AddFreeMode(const FreeMode* mode, int n, int along, int kind)
         return;
     }
     double found = Specimen_Frequency(specimen, mode->shape, &def.length, 0.02, theory);
-    Row row = { "free plate", "",   layoutNames[kind],     specimen->count, def.grid, 0, 0.0, 0.0, NULL, 0.0,
-                2e-3,         0.03, specimen->milliseconds };
+    Row row = Row_Make("free plate", layoutNames[kind], specimen->count, def.grid, 2e-3, 0.03);
+    row.milliseconds = specimen->milliseconds;
     snprintf(row.setting, sizeof row.setting, "nu %g, %s", POISSON[n], mode->name);
     Results_AddValue(row, found / (2.0 * PI), theory / (2.0 * PI), "Hz");
     Specimen_Destroy(specimen);
@@ -248,7 +247,7 @@ static void AddBuckling(const BucklingSetup* setup, int kind, int columns, int r
     def.material.airDamping = 0.0f;
     def.iterations = 2;
     Layout_Make(&def.layout, kind, def.length, def.width, columns, rows);
-    Row row = { "buckling", "", layoutNames[kind], def.layout.count, grid, 0, 0.0, 0.0, NULL, 0.0, 5e-3, 0.05, 0.0 };
+    Row row = Row_Make("buckling", layoutNames[kind], def.layout.count, grid, 5e-3, 0.05);
     double found = BucklingLoad(&def, setup->load, &row.milliseconds);
     snprintf(row.setting, sizeof row.setting, "W/L %g, nu %g, %d row%s", setup->width, setup->poisson, rows,
              rows > 1 ? "s" : "");
@@ -277,239 +276,6 @@ static void Buckling(const char* data)
     fclose(file);
 }
 
-/* ---- Against shells --------------------------------------------------------------------------------------------- */
-
-static double ShellError(const Specimen* specimen, const Shell* shell)
-{
-    double error = 0.0, way = 0.0;
-    for (int i = 0; i < specimen->count; ++i) {
-        const kiriFrameState* s = &specimen->states[i];
-        double at[3] = { (double)s->restPoint[0], (double)s->restPoint[1], 0.0 }, expected[3];
-        Shell_At(shell, at, at, expected);
-        for (int k = 0; k < 3; ++k) {
-            double off = (double)s->position[k] - expected[k], moved = expected[k] - at[k];
-            error += off * off;
-            way += moved * moved;
-        }
-    }
-    return sqrt(error / way);
-}
-
-/* Clamped along u = 0, under its weight, with its frames as the def has them. */
-static void AddShell(const SpecimenDef* def, const char* name, const char* layout, const Shell* shell, double target)
-{
-    Specimen* specimen = Specimen_Create(def);
-    if (specimen == NULL) {
-        return;
-    }
-    Row row = { name, "", layout, specimen->count, def->grid, 0, 0.0, 0.0, "est.", 0.0, 2e-3, target, 0.0 };
-    Specimen_ClampEnd(specimen, def, 0.0);
-    Specimen_Settle(specimen);
-    Require(kiriSheet_EstimateError(specimen->world, specimen->sheet, &row.value) == KIRI_OK, "no estimate");
-    row.error = row.reference = ShellError(specimen, shell);
-    row.milliseconds = specimen->milliseconds;
-    snprintf(row.setting, sizeof row.setting, "nu %g", (double)def->material.poissonsRatio);
-    if (def->accuracy > 0.0) {
-        snprintf(row.setting, sizeof row.setting, "nu %g, wanted %g %%", (double)def->material.poissonsRatio,
-                 100.0 * def->accuracy);
-    }
-    Results_Add(&row);
-    Specimen_Destroy(specimen);
-}
-
-/* The sheet of the shell data, its frames still to be chosen. */
-static SpecimenDef ShellSheet(double poisson, double length, double width, int grid)
-{
-    SpecimenDef def = Specimen_Strip(7.438285638990287e8, poisson, 5e-4);
-    def.gravity[2] = -G;
-    def.length = length;
-    def.width = width;
-    def.grid = grid;
-    return def;
-}
-
-static const float tongueSlit[] = { 0.05f, 0.0f, 0.05f, 0.07f, 0.08f, 0.07f };
-
-static SpecimenDef TongueSheet(double poisson, int grid)
-{
-    SpecimenDef def = ShellSheet(poisson, 0.1, 0.1, grid);
-    def.slits[def.slitCount++] = (Slit){ tongueSlit, 3 };
-    return def;
-}
-
-static const Shell* ReadWide(const char* data, int n)
-{
-    static Shell shell;
-    char path[512];
-    snprintf(path, sizeof path, "%s/cantilever_nu0%s.csv", data, n == 0 ? "" : "3");
-    Require(Shell_Read(&shell, path, NULL, 0), "no data of the wide cantilever");
-    return &shell;
-}
-
-static const Shell* ReadTongue(const char* data, int n)
-{
-    static Shell shell;
-    char path[512];
-    snprintf(path, sizeof path, "%s/tongue%s.csv", data, n == 0 ? "_nu0" : "");
-    Require(Shell_Read(&shell, path, tongueSlit, 3), "no data of the tongue");
-    return &shell;
-}
-
-/* Frames that the library spreads, or in a layout with about as many. */
-static void ChooseFrames(SpecimenDef* def, int kind, int frames)
-{
-    int rows = (int)(sqrt(frames * def->width / def->length) + 0.5);
-    if (kind < LAYOUT_KINDS) {
-        Layout_Make(&def->layout, kind, def->length, def->width, frames / rows, rows);
-    } else {
-        def->frames = frames;
-    }
-}
-
-static void WideCantilever(const char* data)
-{
-    static const int frames[] = { 12, 24, 48, 96, 192 };
-    static const int kinds[] = { LAYOUT_ROWS, LAYOUT_JITTERED, LAYOUT_LLOYD, LAYOUT_KINDS };
-    static const double targets[] = { 0.04, 0.02, 0.01, 0.005, 0.005 };
-    for (int n = 0; n < COUNT(POISSON); ++n) {
-        const Shell* shell = ReadWide(data, n);
-        for (int l = 0; l < COUNT(kinds); ++l) {
-            for (int g = 0; g < COUNT(GRIDS); ++g) {
-                for (int k = 0; k < COUNT(frames); ++k) {
-                    SpecimenDef def = ShellSheet(POISSON[n], 0.2, 0.05, GRIDS[g]);
-                    ChooseFrames(&def, kinds[l], frames[k]);
-                    AddShell(&def, "wide cantilever", l < 3 ? layoutNames[kinds[l]] : "spread", shell, targets[k]);
-                }
-            }
-        }
-    }
-}
-
-static void Tongue(const char* data)
-{
-    static const int frames[] = { 24, 48, 96, 192 };
-    static const double targets[] = { 0.08, 0.04, 0.02, 0.01 };
-    for (int n = 0; n < COUNT(POISSON); ++n) {
-        const Shell* shell = ReadTongue(data, n);
-        for (int g = 0; g < COUNT(GRIDS); ++g) {
-            for (int k = 0; k < COUNT(frames); ++k) {
-                SpecimenDef def = TongueSheet(POISSON[n], GRIDS[g]);
-                ChooseFrames(&def, LAYOUT_KINDS, frames[k]);
-                AddShell(&def, "tongue", "spread", shell, targets[k]);
-            }
-        }
-    }
-}
-
-/* As many frames as the library takes for an accuracy that is wanted: within a factor of two. */
-static void WantedAccuracy(const char* data)
-{
-    static const double wanted[] = { 0.1, 0.05, 0.02, 0.01 };
-    for (int n = 0; n < COUNT(POISSON); ++n) {
-        for (int g = 0; g < COUNT(GRIDS); ++g) {
-            for (int k = 0; k < COUNT(wanted); ++k) {
-                SpecimenDef wide = ShellSheet(POISSON[n], 0.2, 0.05, GRIDS[g]),
-                            tongue = TongueSheet(POISSON[n], GRIDS[g]);
-                wide.accuracy = tongue.accuracy = wanted[k];
-                AddShell(&wide, "wanted, cantilever", "automatic", ReadWide(data, n), 2.0 * wanted[k]);
-                AddShell(&tongue, "wanted, tongue", "automatic", ReadTongue(data, n), 2.0 * wanted[k]);
-            }
-        }
-    }
-}
-
-/* ---- Slit annular plate ----------------------------------------------------------------------------------------- */
-
-enum { AROUND = 120, ACROSS = 12 }; /* triangles of the mesh, in pairs */
-
-static const double INNER = 6.0, OUTER = 10.0;
-
-/* In a box of 20 x 20. */
-static void PolarPoint(double r, double angle, float point[2])
-{
-    point[0] = (float)(OUTER + r * cos(angle));
-    point[1] = (float)(OUTER + r * sin(angle));
-}
-
-/* The lips at angle 0 are two rows of vertices. */
-static void MakeAnnulus(SpecimenMesh* mesh)
-{
-    static float rest[2 * (AROUND + 1) * (ACROSS + 1)];
-    static int32_t indices[6 * AROUND * ACROSS];
-    for (int i = 0; i < (AROUND + 1) * (ACROSS + 1); ++i) {
-        int step = i / (ACROSS + 1), ring = i % (ACROSS + 1);
-        PolarPoint(INNER + (OUTER - INNER) * ring / ACROSS, 2.0 * PI * (step % AROUND) / AROUND, &rest[2 * i]);
-    }
-    for (int k = 0; k < AROUND * ACROSS; ++k) {
-        int32_t a = k / ACROSS * (ACROSS + 1) + k % ACROSS, b = a + ACROSS + 1;
-        const int32_t corners[6] = { a, a + 1, b, b, a + 1, b + 1 };
-        memcpy(&indices[6 * k], corners, sizeof corners);
-    }
-    *mesh = (SpecimenMesh){ rest, indices, (AROUND + 1) * (ACROSS + 1), 2 * AROUND * ACROSS };
-}
-
-static void PlaceInRings(Layout* layout, int rings, int around)
-{
-    layout->count = 0;
-    for (int i = 0; i < rings * around; ++i) {
-        double r = INNER + (OUTER - INNER) * (i % rings + 0.5) / rings, share = ((double)(i / rings) + 0.5) / around;
-        PolarPoint(r, 2.0 * PI * share, &layout->points[2 * layout->count++]);
-    }
-}
-
-/* Where the vertex of the second lip at radius r is. */
-static double LiftOf(const Specimen* specimen, int ring)
-{
-    kiriMesh mesh;
-    kiriSheet_GetMesh(specimen->world, specimen->sheet, &mesh);
-    return (double)mesh.positions[3 * (AROUND * (ACROSS + 1) + ring) + 2];
-}
-
-/* Clamp and load are a hair beside the slit, each on its lip. */
-static void AddAnnulus(int rings, int around, int grid)
-{
-    SpecimenMesh mesh;
-    MakeAnnulus(&mesh);
-    SpecimenDef def = Specimen_Strip(21e6, 0.0, 0.03);
-    double beside = 20.0 / grid / 32.0;
-    def.length = def.width = 20.0;
-    def.grid = grid;
-    def.mesh = &mesh;
-    def.material.density = 1.0f;
-    def.material.airDamping = 2.0f;
-    PlaceInRings(&def.layout, rings, around);
-    Specimen* specimen = Specimen_Create(&def);
-    if (specimen == NULL) {
-        return;
-    }
-    Specimen_Clamp(specimen, OUTER + INNER, OUTER + beside, 2.0 * OUTER, OUTER + beside);
-    specimen->loaded = true;
-    specimen->load = (Load){ { (float)(OUTER + INNER), (float)(OUTER - beside) },
-                             { (float)(2.0 * OUTER), (float)(OUTER - beside) },
-                             { 0.0f, 0.0f, 0.8f },
-                             { 0.0f } };
-    Specimen_Settle(specimen);
-    Row row = { "slit annulus",        "", "rings", specimen->count, grid, 0, 0.0, 0.0, NULL, 0.0, 2e-3, 0.03,
-                specimen->milliseconds };
-    snprintf(row.setting, sizeof row.setting, "nu 0, inner corner");
-    Results_AddValue(row, LiftOf(specimen, 0), 13.891, "m");
-    snprintf(row.setting, sizeof row.setting, "nu 0, outer corner");
-    Results_AddValue(row, LiftOf(specimen, ACROSS), 17.528, "m");
-    Specimen_Destroy(specimen);
-}
-
-static void Annulus(const char* data)
-{
-    static const int around[] = { 16, 25, 38, 50, 76 }, grids[] = { 80, 160 };
-    static const int rings[] = { 1, 2, 3, 4, 6 };
-    (void)data;
-    for (int g = 0; g < COUNT(grids); ++g) {
-        for (int k = 0; k < COUNT(rings); ++k) {
-            AddAnnulus(rings[k], around[k], grids[g]);
-        }
-    }
-}
-
 /* ---- Membrane --------------------------------------------------------------------------------------------------- */
 
 /* All frames of a square are put where a plane state of strain has them; energy by that of the state. */
@@ -536,7 +302,7 @@ static void AddState(const char* name, const double strain[3], int n, int kind, 
     Require(kiriWorld_Tick(specimen->world, 0.01f, 1) == KIRI_OK, "no tick");
     kiriSheet_GetTotals(specimen->world, specimen->sheet, &totals);
     double theory = 0.5 * E * (e[0] * e[0] + e[1] * e[1] + 2.0 * nu * e[0] * e[1] + 2.0 * (1.0 - nu) * e[2] * e[2]);
-    Row row = { "membrane", "", layoutNames[kind], specimen->count, grid, 0, 0.0, 0.0, NULL, 0.0, 2e-3, 0.01, 0.0 };
+    Row row = Row_Make("membrane", layoutNames[kind], specimen->count, grid, 2e-3, 0.01);
     snprintf(row.setting, sizeof row.setting, "nu %g, %s", nu, name);
     Results_AddValue(row, totals.elasticEnergy, theory * 0.01, "J");
     Specimen_Destroy(specimen);
@@ -572,8 +338,8 @@ static void AddNarrowing(int n, int kind, int rows, int model)
             sums[3] += u * u;
         }
     }
-    Row row = { "narrowing", "",  layoutNames[kind],     specimen->count, def.grid, 0, 0.0, 0.0, NULL, 0.0,
-                1e-2,        0.1, specimen->milliseconds };
+    Row row = Row_Make("narrowing", layoutNames[kind], specimen->count, def.grid, 1e-2, 0.1);
+    row.milliseconds = specimen->milliseconds;
     snprintf(row.setting, sizeof row.setting, "nu %g, %s", POISSON[n], model == KIRI_MODEL_LINKS ? "links" : "affine");
     Results_AddValue(row, -sums[0] / sums[1] / (sums[2] / sums[3]), POISSON[n], "1");
     Specimen_Destroy(specimen);
@@ -612,10 +378,6 @@ const Case plateCases[] = {
     { "plate frequencies", PlateFrequencies },
     { "free plate", FreePlate },
     { "buckling", Buckling },
-    { "wide cantilever", WideCantilever },
-    { "tongue", Tongue },
-    { "wanted accuracy", WantedAccuracy },
-    { "slit annulus", Annulus },
     { "membrane", Membrane },
     { "narrowing", Narrowing },
     { NULL, NULL },

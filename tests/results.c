@@ -43,6 +43,19 @@ static const char* NotMonotone(const Row* row)
 
 /* ---- Table ------------------------------------------------------------------------------------------------------ */
 
+Row Row_Make(const char* name, const char* layout, int frames, int grid, double noise, double target)
+{
+    Row row;
+    memset(&row, 0, sizeof row);
+    row.name = name;
+    row.layout = layout;
+    row.frames = frames;
+    row.grid = grid;
+    row.noise = noise;
+    row.target = target;
+    return row;
+}
+
 void Results_PrintHead(void)
 {
     printf("%-22s %-27s %-9s %6s %5s %8s %11s %11s %-6s %10s %9s %10s\n", "case", "setting", "layout", "frames", "grid",
@@ -102,9 +115,9 @@ static bool WriteRows(const char* folder)
     for (rowCount = 0; rowCount < all; ++rowCount) { /* as when it was added, only those before count */
         const Row* r = &rows[rowCount];
         const char* what = NotMonotone(r);
-        fprintf(file, "%s,\"%s\",%s,%d,%d,%d,%.7g,%.7g,%s,%.5g,%.5g,%.4g,%s\n", r->name, r->setting, r->layout, r->frames,
-                r->grid, r->substeps, r->value, r->reference, r->unit != NULL ? r->unit : "", r->error, r->target,
-                r->milliseconds, what != NULL ? what : "");
+        fprintf(file, "%s,\"%s\",%s,%d,%d,%d,%.7g,%.7g,%s,%.5g,%.5g,%.4g,%s\n", r->name, r->setting, r->layout,
+                r->frames, r->grid, r->substeps, r->value, r->reference, r->unit != NULL ? r->unit : "", r->error,
+                r->target, r->milliseconds, what != NULL ? what : "");
     }
     return fclose(file) == 0;
 }

@@ -21,6 +21,9 @@ typedef struct Row {
     double milliseconds; /* of processor a tick */
 } Row;
 
+/* Without setting, value, error and time. */
+Row Row_Make(const char* name, const char* layout, int frames, int grid, double noise, double target);
+
 void Results_PrintHead(void);
 
 /* Copies, prints and keeps the row, unless its error is no number (nothing was measured). Says "not monotone" where its error is more than 20 % above that of a row of the
