@@ -103,6 +103,18 @@ static inline bool kiriGrid_IsCell(const kiriGrid* grid, int32_t cell)
     return grid->cells.data[cell].square != KIRI_NONE;
 }
 
+/* The same cell, or a straight or diagonal step apart. */
+static inline bool kiriGrid_AreNear(const kiriGrid* grid, int32_t a, int32_t b)
+{
+    const kiriStepRun* run = &grid->runs.data[a];
+    for (int32_t s = run->first; a != b && s < run->end[1]; ++s) {
+        if (grid->steps.data[s].cell == b) {
+            return true;
+        }
+    }
+    return a == b;
+}
+
 /* A face seen from one of its cells: the cell beyond, and the next face of that one. */
 static inline int32_t kiriFace_Other(const kiriFace* face, int32_t cell)
 {

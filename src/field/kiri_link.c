@@ -60,18 +60,6 @@ static bool IsMadeBefore(const void* context, int32_t a, int32_t b)
 
 /* ---- Stretches -------------------------------------------------------------------------------------------------- */
 
-/* The same cell, or a straight or diagonal step apart. */
-static bool AreCellsNear(const kiriGrid* grid, int32_t a, int32_t b)
-{
-    const kiriStepRun* run = &grid->runs.data[a];
-    for (int32_t s = run->first; a != b && s < run->end[1]; ++s) {
-        if (grid->steps.data[s].cell == b) {
-            return true;
-        }
-    }
-    return a == b;
-}
-
 /* Adds the faces of `cell` that continue the stretch of `from`. */
 static bool GatherFacesAt(const kiriBorder* border, const kiriBorderSide* from, int32_t cell, kiriFaceMark mark,
                           kiriFaceMark next)
@@ -83,7 +71,7 @@ static bool GatherFacesAt(const kiriBorder* border, const kiriBorderSide* from, 
             kiriBorderSide side = kiriBorder_SideOf(border, f);
             bool sameWay = side.axis == from->axis && side.sign == from->sign;
             if (side.x == cell && side.i == from->i && side.j == from->j && (sameWay || mark != KIRI_FACE_BENT) &&
-                AreCellsNear(grid, side.y, from->y)) {
+                kiriGrid_AreNear(grid, side.y, from->y)) {
                 border->work->marks.data[f] = (uint8_t)next;
                 if (!kiriArray_Push(border->memory, &border->work->stretch, f)) {
                     return false;

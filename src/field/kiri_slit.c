@@ -59,18 +59,6 @@ bool kiriSlits_FindEnds(kiriSlitEnds* ends, kiriMemory* memory, const kiriGrid* 
 
 /* ---- Pairs ---- */
 
-/* The same cell, or a straight or diagonal step apart. */
-static bool AreStepApart(const kiriGrid* grid, int32_t a, int32_t b)
-{
-    const kiriStepRun* run = &grid->runs.data[a];
-    for (int32_t s = run->first; a != b && s < run->end[1]; ++s) {
-        if (grid->steps.data[s].cell == b) {
-            return true;
-        }
-    }
-    return a == b;
-}
-
 /* The cell to which the straight way through the material leads, or KIRI_NONE where a cut or the outline is in it. */
 static int32_t CellAlong(const kiriGrid* grid, const kiriMeshData* mesh, const kiriSlitEnd* end, kiriVec2 way)
 {
@@ -78,7 +66,7 @@ static int32_t CellAlong(const kiriGrid* grid, const kiriMeshData* mesh, const k
     for (int32_t k = 1; k <= parts && cell != KIRI_NONE; ++k) {
         kiriVec2 at = kiriVec2_Add(end->at, kiriVec2_Scale((double)k / parts, way));
         int32_t next = kiriGrid_CellAt(grid, mesh, kiriMesh_Snap(mesh, at));
-        cell = next != KIRI_NONE && AreStepApart(grid, cell, next) ? next : KIRI_NONE;
+        cell = next != KIRI_NONE && kiriGrid_AreNear(grid, cell, next) ? next : KIRI_NONE;
     }
     return cell;
 }

@@ -65,8 +65,7 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
 
 /* ---- Lines -------------------------------------------------------------------------------------------------------- */
 
-static kiriResult AddLine(kiriWorld* world, kiriSheetData* data, int32_t type, const kiriLatticePoint ends[2],
-                          kiriPin* pin)
+static kiriPinData MakeLine(kiriSheetData* data, int32_t type, const kiriLatticePoint ends[2])
 {
     kiriPinData made = MakePin(type);
     made.at = ends[0];
@@ -74,19 +73,24 @@ static kiriResult AddLine(kiriWorld* world, kiriSheetData* data, int32_t type, c
     kiriPin_TakePose(data, &made);
     made.lastTarget = made.target;
     made.lastRotation = made.rotation;
-    return AddNewPin(world, data, &made, KIRI_NONE, pin);
+    return made;
 }
 
-/* Finds what the line meets. *why says what is wrong, or is null where the result says it all. */
-static kiriResult FindLine(kiriSheetData* data, const float from[2], const float to[2], kiriLatticePoint ends[2],
-                           const char** why)
+/* *why says what is wrong, or is null where the result says it all. */
+static kiriResult HoldLine(kiriWorld* world, kiriSheetData* data, int32_t type, const float from[2], const float to[2],
+                           kiriPin* pin, const char** why)
 {
+    kiriLatticePoint ends[2];
     *why = kiriCall_FaultOfLine(data, from, to, ends);
     if (*why == NULL && !kiriOwner_FindShares(data, ends[0], ends[1], false)) {
         return KIRI_ERROR_MEMORY;
     }
     *why = *why == NULL && data->lineShares.count == 0 ? "the line meets no material" : *why;
-    return *why == NULL ? KIRI_OK : KIRI_ERROR_ARGUMENT;
+    if (*why != NULL) {
+        return KIRI_ERROR_ARGUMENT;
+    }
+    kiriPinData made = MakeLine(data, type, ends);
+    return AddNewPin(world, data, &made, KIRI_NONE, pin);
 }
 
 kiriResult kiriSheet_ClampLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
@@ -96,10 +100,8 @@ kiriResult kiriSheet_ClampLine(kiriWorld* world, kiriSheet sheet, const float fr
     KIRI_CHECK(clamp != NULL, "clamp is null");
     *clamp = 0;
     KIRI_FIND_SHEET(data, sheet);
-    kiriLatticePoint ends[2];
-    const char* why = NULL;
-    kiriResult result = FindLine(data, from, to, ends, &why);
-    result = result == KIRI_OK ? AddLine(world, data, KIRI_PIN_CLAMP, ends, clamp) : result;
+    const char* why;
+    kiriResult result = HoldLine(world, data, KIRI_PIN_CLAMP, from, to, clamp, &why);
     return result == KIRI_OK ? KIRI_OK : KIRI_FAIL(result, why);
 }
 
@@ -110,10 +112,8 @@ kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const float fr
     KIRI_CHECK(hinge != NULL, "hinge is null");
     *hinge = 0;
     KIRI_FIND_SHEET(data, sheet);
-    kiriLatticePoint ends[2];
-    const char* why = NULL;
-    kiriResult result = FindLine(data, from, to, ends, &why);
-    result = result == KIRI_OK ? AddLine(world, data, KIRI_PIN_HINGE, ends, hinge) : result;
+    const char* why;
+    kiriResult result = HoldLine(world, data, KIRI_PIN_HINGE, from, to, hinge, &why);
     return result == KIRI_OK ? KIRI_OK : KIRI_FAIL(result, why);
 }
 
