@@ -71,9 +71,9 @@ KIRI_API const char* kiriGetResultName(kiriResult result);
 
 /* ---- World ------------------------------------------------------------------------------------------------------ */
 
-/* The host's functions. A thread that reads may call `log`, and in kiriSheet_GetWeights `alloc` and `free`. All memory
-   of a world comes from `alloc`, but for what Eigen takes while it orders the unknowns, when a cut couples frames that
-   were not coupled before. */
+/* The host's functions. A thread that reads may call `log`, and in kiriSheet_GetWeights and kiriSheet_EstimateError
+   `alloc` and `free`. All memory of a world comes from `alloc`, but for what Eigen takes while it orders the unknowns,
+   when a cut couples frames that were not coupled before. */
 typedef void* kiriAllocFn(void* user, int64_t bytes); /* at least 16-byte aligned, or null */
 typedef void kiriFreeFn(void* user, void* pointer);
 typedef void kiriLogFn(void* user, const char* line);
