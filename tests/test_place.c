@@ -158,6 +158,65 @@ static void BordersBeginAtSlitEnds(void** state)
     }
 }
 
+/* Sites around a slit's end, in squares from it, as a pair there and the placer leave them. */
+static const float aroundEnd[8][2] = { { 1.0f, 0.0f },  { -1.0f, 0.0f }, { 0.5f, 2.5f },   { -0.5f, 3.5f },
+                                       { 0.5f, -2.5f }, { -2.5f, 2.5f }, { -3.5f, -0.5f }, { 3.5f, -0.5f } };
+
+/* A region beside a slit has no border with one on the other side, be it ever so near. The slit is on a grid line: so
+   slivers of cells lie along it. */
+static void BordersStayBesideSlits(void** state)
+{
+    (void)state;
+    const float slit[4] = { 0.5f, 1.1f, 0.5f, 0.3f };
+    for (int32_t resolution = 20; resolution <= 80; resolution += 10) {
+        float points[8][2];
+        for (int k = 0; k < 8; ++k) {
+            points[k][0] = slit[2] + aroundEnd[k][0] / (float)resolution;
+            points[k][1] = slit[3] + aroundEnd[k][1] / (float)resolution;
+        }
+        kiriSheetDef def;
+        Host host;
+        Host_Start(&host);
+        kiriDefaultSheetDef(&def);
+        def.gridResolution = resolution;
+        def.frameCount = def.maxFrames = 8;
+        def.framePoints = points[0];
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 20, 20);
+        Host_Cut(&host, sheet, slit, 2);
+        OK(Host_Tick(&host, 0.001f, 1));
+        const kiriLinks* links = &host.world->sheets.data[0]->links;
+        assert_true(links->links.count > 8);
+        for (int32_t k = 0; k < links->links.count; ++k) {
+            const float *a = points[links->links.data[k].i], *b = points[links->links.data[k].j];
+            double at = a[1] + (0.5 - a[0]) / (b[0] - a[0]) * (b[1] - a[1]); /* where the line meets the slit's */
+            bool isAcross = (a[0] - 0.5f) * (b[0] - 0.5f) < 0.0f && at > 0.3 + 0.1 / resolution;
+            assert_true(!isAcross || links->links.data[k].length > 1.001 * hypot(b[0] - a[0], b[1] - a[1]));
+        }
+        Host_Stop(&host);
+    }
+}
+
+/* An end gets a pair also where that is two squares apart, as close as pairs are, and where sites shall be closer. */
+static void PairsTwoSquaresApart(void** state)
+{
+    (void)state;
+    for (int32_t resolution = 20; resolution < 60; ++resolution) {
+        for (int k = 1; k <= 2; ++k) {
+            Scene scene;
+            kiriSites sites = { 0 };
+            Scene_Init(&scene, 1.0, 1.0, 20, 20, resolution);
+            Scene_Slit(&scene, 0.3, 0.0, 0.3, 0.4);
+            Scene_BuildGrid(&scene);
+            double side = scene.grid.side;
+            AddPairs(&scene, &sites, k * side, 100);
+            assert_int_equal(sites.count, 2);
+            AssertSite(&sites, 0, 0.3 - side, 0.4);
+            AssertSite(&sites, 1, 0.3 + side, 0.4);
+            Scene_Release(&scene);
+        }
+    }
+}
+
 /* ---- What the grid carries ---- */
 
 /* With a line that says what to do. */
@@ -262,6 +321,7 @@ int main(void)
         cmocka_unit_test(PairsFailCleanly),           cmocka_unit_test(BordersBeginAtSlitEnds),
         cmocka_unit_test(CloseFramePointsAreRefused), cmocka_unit_test(LipsAreNotClose),
         cmocka_unit_test(ManyFramesAreRefused),       cmocka_unit_test(ResamplingStops),
+        cmocka_unit_test(BordersStayBesideSlits),     cmocka_unit_test(PairsTwoSquaresApart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

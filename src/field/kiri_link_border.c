@@ -692,7 +692,7 @@ bool kiriBorder_MakeShort(const kiriBorder* border, const kiriLinkEnd* near, con
         s.ahead = k == 0 ? -1.0 : 1.0;
         memcpy(end->cell, cells, sizeof(end->cell));
         end->isExact = true;
-        if (!FindSeenEnd(&s, at, end)) {
+        if (!FindSeenEnd(&s, at, end) || !IsEndSeen(&s, end)) {
             return false;
         }
     }

@@ -82,21 +82,30 @@ static bool HasRoom(const kiriSites* sites, const kiriSite* site, double distanc
     return true;
 }
 
-/* Half the spacing to both sides, or less. The sites have room for two more. */
+/* So far to both sides; false where there is no room. The sites have room for two more. */
+static bool TryPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* mesh, const kiriSlitEnd* end,
+                    double reach)
+{
+    kiriVec2 left = kiriVec2_Make(-reach * end->along.y, reach * end->along.x);
+    kiriVec2 right = kiriVec2_Scale(-1.0, left);
+    kiriSite a = { kiriVec2_Add(end->at, left), CellAlong(grid, mesh, end, left) };
+    kiriSite b = { kiriVec2_Add(end->at, right), CellAlong(grid, mesh, end, right) };
+    if (a.cell == KIRI_NONE || b.cell == KIRI_NONE || a.cell == b.cell || !HasRoom(sites, &a, reach) ||
+        !HasRoom(sites, &b, reach)) {
+        return false;
+    }
+    sites->data[sites->count++] = a;
+    sites->data[sites->count++] = b;
+    return true;
+}
+
+/* Half the spacing to both sides, or less, but no less than a square. */
 static void AddPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* mesh, const kiriSlitEnd* end,
                     double spacing)
 {
-    for (double reach = 0.5 * spacing; reach >= grid->side; reach *= 0.5) {
-        kiriVec2 left = kiriVec2_Make(-reach * end->along.y, reach * end->along.x);
-        kiriVec2 right = kiriVec2_Scale(-1.0, left);
-        kiriSite a = { kiriVec2_Add(end->at, left), CellAlong(grid, mesh, end, left) };
-        kiriSite b = { kiriVec2_Add(end->at, right), CellAlong(grid, mesh, end, right) };
-        if (a.cell != KIRI_NONE && b.cell != KIRI_NONE && a.cell != b.cell && HasRoom(sites, &a, reach) &&
-            HasRoom(sites, &b, reach)) {
-            sites->data[sites->count++] = a;
-            sites->data[sites->count++] = b;
-            return;
-        }
+    double reach = 0.5 * spacing > grid->side ? 0.5 * spacing : grid->side;
+    while (!TryPair(sites, grid, mesh, end, reach) && reach > grid->side) {
+        reach = 0.5 * reach > grid->side ? 0.5 * reach : grid->side;
     }
 }
 
