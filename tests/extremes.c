@@ -820,6 +820,8 @@ Extreme Extreme_Random(uint32_t* seed)
     Vary(seed, 0.5, -4.0, 4.0, &e.size);
     Vary(seed, 0.3, 0.0, 4.0, &e.speed);
     Vary(seed, 0.2, 0.0, 5.0, &e.place);
+    /* Farther out floats would not tell the ends of the sheet apart. */
+    e.place = fmin(e.place, Or(e.size, 1.0) / (double)FLT_EPSILON);
     e.frames = e.frames > 0 ? e.frames : 1 + (int)(30.0 * Share(seed));
     e.iterations = 1 + (int)(4.0 * Share(seed));
     e.substeps = 1 + (int)(2.0 * Share(seed));
