@@ -193,7 +193,9 @@ bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriM
     if (!kiriArray_Resize(memory, &refresh->noted, count)) {
         return false;
     }
-    memcpy(refresh->noted.data, mesh->squares.dirty.data, sizeof(int32_t) * (size_t)count);
+    if (count > 0) {
+        memcpy(refresh->noted.data, mesh->squares.dirty.data, sizeof(int32_t) * (size_t)count);
+    }
     return true;
 }
 
