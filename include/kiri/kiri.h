@@ -445,11 +445,12 @@ KIRI_API kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet,
 
 /* An estimate of the error of the sheet's shape as it is now, where it rests or moves slowly: rms distance from where a
    sheet of very many frames would be under the same loads, over the rms way that it has gone from its flat shape; 0 to
-   1, and 1 where there are too few frames to tell. It compares the strains of neighbouring links (KIRI_MODEL_LINKS only;
-   else KIRI_ERROR_STATE). Measured on cantilevers and on a sheet with a slit, of 3 to 96 frames, it is not below a third
-   of the error, and not above four times the error. Where a sheet also turned as a whole, as by hanging from two corners,
-   it says up to ten times too much. It knows nothing of errors of the grid, of time stepping, and of loads that are
-   finer than frames. It takes memory and time for one pass over the links, when it is called. */
+   1, and 1 where there are too few frames to tell. It compares the strains of neighbouring links (KIRI_MODEL_LINKS
+   only; else KIRI_ERROR_STATE). Measured on cantilevers and on a sheet with a slit, of 3 to 140 frames, it is not below
+   a third of the error, and not above four times the error or, where that is below 0.5 %, 1.5 %. Where a sheet also
+   turned as a whole, as by hanging from two corners, it says up to ten times too much. It knows nothing of errors of
+   the grid, of time stepping, and of loads that are finer than frames. It takes memory and time for one pass over the
+   links, when it is called. */
 KIRI_API kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sheet, double* relative);
 
 /* *awake is 0 for a sheet that sleeps, see sleepSpeed. */
