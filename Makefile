@@ -7,6 +7,7 @@
 #   make single   build/single: the library as kiri.h, kiri.c and kiri.cpp, to add to any build
 #   make bench    runs the benchmarks
 #   make accuracy compares with references from outside, and plots error against cost; CASE=torsion: that one only
+#   make contact  measures contact against laws and peers; CASE=laws: that group only
 #   make extremes runs what nobody should do to a sheet, and says what became of it
 #   make gallery  renders the pictures of the README, and the film that it begins with
 #   make guide    renders the pictures of src/README.md
@@ -52,6 +53,8 @@ TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
 # What `make accuracy` is made of beside its driver.
 ACCURACY_PARTS := $(addprefix tests/,accuracy_beam accuracy_plate accuracy_shell accuracy_cut accuracy_motion specimen \
                   frame_layout results reference trade sweep plot)
+# What `make contact` is made of beside its driver.
+CONTACT_PARTS := $(addprefix tests/,contact_laws contact_obstacles contact_sheets)
 BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench*.c))
 RUN := $(BUILD)/samples/kiri-run
 BOX2D := $(BUILD)/samples/kiri-box2d
@@ -60,7 +63,7 @@ BOX2D := $(BUILD)/samples/kiri-box2d
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 PYTHON_CHECK := $(if $(filter sanitize,$(config)),,python)
 
-.PHONY: all run box2d python test check floors headers single example lib bench accuracy extremes gallery guide deps format clean header exports
+.PHONY: all run box2d python test check floors headers single example lib bench accuracy contact extremes gallery guide deps format clean header exports
 .DEFAULT_GOAL := all
 .SECONDARY:
 
@@ -86,6 +89,10 @@ accuracy extremes: %: deps
 	@$(MAKE) --no-print-directory $(BUILD)/tests/$@
 	@mkdir -p build/$@
 	$(BUILD)/tests/$@ $(if $(filter accuracy,$@),tests/data build/accuracy "$(CASE)")
+
+contact: deps
+	@$(MAKE) --no-print-directory $(BUILD)/tests/contact
+	$(BUILD)/tests/contact "$(CASE)"
 
 # Scenes in the README; and the shape functions of one, as in figure 2 of the paper.
 GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat
@@ -233,6 +240,10 @@ $(BOX2D): $(filter %/box2d.cpp.o %/draw.c.o %/image.c.o,$(SAMPLE_OBJECTS)) $(BUI
 $(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy $(ACCURACY_PARTS) samples/image) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lpng -lz -lm
+
+$(BUILD)/tests/contact: $(patsubst %,$(BUILD)/%.c.o,tests/contact $(CONTACT_PARTS)) $(SCENE_OBJECTS) $(BUILD)/libkiri.a
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lm
 
 $(BUILD)/tests/extremes: $(BUILD)/tests/extremes_main.c.o $(BUILD)/tests/extremes.c.o $(BUILD)/libkiri.a
 	@echo "  $@"

@@ -9,7 +9,7 @@
    - The rest plane holds the flat, undeformed sheet. A rest position is (u, v) in metres.
    - A function that can fail returns a kiriResult: negative is failure, and then the world is as before the call.
      kiriWorld_GetLastError says in one line what went wrong.
-   - Sheets, cuts, frames and pins are 32-bit ids; 0 is no id. An id of another kind, or of something that is gone,
+   - Sheets, cuts, frames, pins, obstacles and blades are 32-bit ids; 0 is no id. An id of another kind, or of something that is gone,
      gives KIRI_ERROR_ID.
    - Arrays that a call hands out belong to the library, and stay as they are until the next kiriWorld_Tick or
      kiriDestroyWorld, whatever is called in between.
@@ -23,7 +23,7 @@
 
 /* Of this header; kiriGetVersion has that of the library. */
 #define KIRI_VERSION_MAJOR 0
-#define KIRI_VERSION_MINOR 3
+#define KIRI_VERSION_MINOR 4
 #define KIRI_VERSION_PATCH 0
 #define KIRI_VERSION (10000 * KIRI_VERSION_MAJOR + 100 * KIRI_VERSION_MINOR + KIRI_VERSION_PATCH)
 
@@ -48,6 +48,8 @@ typedef uint32_t kiriSheet;
 typedef uint32_t kiriCut;
 typedef uint32_t kiriFrame;
 typedef uint32_t kiriPin;
+typedef uint32_t kiriObstacle;
+typedef uint32_t kiriBlade;
 
 typedef int32_t kiriResult;
 enum kiriResultCode {
@@ -60,7 +62,7 @@ enum kiriResultCode {
     KIRI_ERROR_STATE = -5,    /* the call comes in the wrong order */
     KIRI_ERROR_MEMORY = -6,   /* the allocator returned null */
     KIRI_DIVERGED = -7,       /* the motion of a sheet could not be continued; it was put to rest where it was */
-    KIRI_ERROR_LIMIT = -8     /* all ids of a kind are used up: 4 194 304 at a time, 2^30 over the life of a world */
+    KIRI_ERROR_LIMIT = -8     /* all ids of a kind are used up: 4 194 304 at a time, 2^29 over the life of a world */
 };
 
 /* The library's version, as KIRI_VERSION. */
@@ -143,7 +145,8 @@ enum kiriEventType {
     KIRI_EVENT_PIECE_OFF = 2,    /* frame (its first, which names it), crumb, area: a connected part came off */
     KIRI_EVENT_FRAME_ADDED = 3,  /* frame */
     KIRI_EVENT_DIVERGED = 4,     /* the sheet was put to rest */
-    KIRI_EVENT_DEFERRED = 5      /* stage, waiting: the budget ended in this stage of the sheet's work */
+    KIRI_EVENT_DEFERRED = 5,     /* stage, waiting: the budget ended in this stage of the sheet's work */
+    KIRI_EVENT_PIN_BROKE = 6     /* pin: its force passed breakForce; the id is stale from now on */
 };
 
 typedef struct kiriEvent {
@@ -151,6 +154,7 @@ typedef struct kiriEvent {
     kiriSheet sheet;
     kiriCut cut;     /* or 0 */
     kiriFrame frame; /* or 0 */
+    kiriPin pin;     /* or 0 */
     int32_t crumb;   /* 1: the piece is a crumb, see kiriSheetDef */
     float area;      /* m^2 of the piece, or 0 */
     int32_t stage;   /* KIRI_STAGE_..., or -1 */
@@ -168,6 +172,7 @@ enum kiriStage {
     KIRI_STAGE_SHAPE,     /* shape functions */
     KIRI_STAGE_SAMPLES,   /* weights of vertices and collision points */
     KIRI_STAGE_CONSTANTS, /* mass, and the pattern of the solver's matrix */
+    KIRI_STAGE_CONTACT,   /* what touches obstacles, other sheets and other pieces */
     KIRI_STAGE_SOLVE,     /* the motion of the frames */
     KIRI_STAGE_SKIN,      /* positions and normals of the mesh */
     KIRI_STAGE_COUNT
@@ -184,6 +189,9 @@ typedef struct kiriProfile {
        with other weights, links that are other than before. Of how many: kiriSheet_GetCounts. */
     int32_t cellsChanged, weightsChanged, verticesChanged, pointsChanged, linksChanged;
     int32_t commits; /* sheets in which a cut took effect */
+
+    int32_t contacts;   /* planes given to the solver: the host's, those of obstacles, and those between sheets */
+    int32_t sheetPairs; /* pairs of sheets or pieces, near each other and not both asleep */
 
     /* The farthest that a vertex would have jumped, m, when a cut took effect, without fadeTime; and that one went by a
        fade. */
@@ -343,6 +351,15 @@ typedef struct kiriSheetDef {
        0. */
     float crumbArea;
 
+    /* Contact, see below. */
+    float friction; /* of the sheet, 0 or more; with that of an obstacle or of another sheet counts the geometric
+                               mean. Default 0.5 */
+    float contactThickness; /* m, 0 or more: sheets and pieces stay so far apart, and half as far from obstacles. 0: the
+                               material's thickness, a 20th of a grid square at least. Default 0 */
+    uint32_t groups;        /* obstacles and sheets touch where a bit is set in the groups of both. Default: all */
+    int32_t touchesSheets;  /* 1: its pieces touch each other, and other sheets that have it set. Default 0 */
+    int32_t touchesSelf;    /* 1: and a piece that folds touches itself. Default 0 */
+
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
     int32_t iterations;      /* Newton steps a substep, 1 to 64; default 2 */
 
@@ -469,6 +486,21 @@ typedef struct kiriHit {
 KIRI_API kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, const float origin[3],
                                       const float direction[3], float maxDistance, kiriHit* hit);
 
+/* The first sheet that a ray meets; *sheet is 0 where there is none. */
+KIRI_API kiriResult kiriWorld_Raycast(const kiriWorld* world, const float origin[3], const float direction[3],
+                                      float maxDistance, kiriSheet* sheet, kiriHit* hit);
+
+/* A point of the material, as it is seen. */
+typedef struct kiriPointState {
+    float position[3], normal[3]; /* m, world; unit */
+    float velocity[3];            /* m/s */
+    kiriFrame frame;              /* in whose region it is; it names the piece, too */
+} kiriPointState;
+
+/* Outside the sheet: KIRI_ERROR_ARGUMENT. On a cut, the lip that holds the point; either where both do. */
+KIRI_API kiriResult kiriSheet_GetPoint(const kiriWorld* world, kiriSheet sheet, const float restPoint[2],
+                                       kiriPointState* state);
+
 /* The shape functions at a rest point: up to `capacity` frames with their weights (sum 1) and, unless null, gradients
    (2 floats a frame, 1/m). *count is how many there are, however many fit. Outside the sheet: KIRI_ERROR_ARGUMENT;
    while work on a cut waits for its budget: KIRI_ERROR_STATE. */
@@ -545,6 +577,27 @@ KIRI_API kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
    quadrilateral meets the sheet as it is now. The cut is ended already. */
 KIRI_API kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[12], kiriCut* cut);
 
+/* ---- Blade ------------------------------------------------------------------------------------------------------ */
+
+/* A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers, in the material of
+   each layer that it meets, where it was, and cuts on from there, whatever the sheet did in between. Where it passes a
+   border of the material the cut goes on past it. What it has met in a tick is cut with that tick or, by the budget, a
+   later one. */
+
+/* sheet 0: it cuts all sheets. */
+KIRI_API kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade);
+
+/* The blade is now the straight edge between two points (m, world). From where it was it got there straight, each end
+   along a line. The first call only says where it begins. */
+KIRI_API kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const float from[3], const float to[3]);
+
+/* The same for a ray that a camera casts: an edge `length` m long. */
+KIRI_API kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float origin[3],
+                                      const float direction[3], float length);
+
+/* It is gone, its id stale; what it has cut stays. */
+KIRI_API kiriResult kiriBlade_End(kiriWorld* world, kiriBlade blade);
+
 /* ---- Frame ------------------------------------------------------------------------------------------------------ */
 
 typedef struct kiriFrameState {
@@ -598,14 +651,32 @@ KIRI_API kiriResult kiriSheet_ApplyLineLoad(kiriWorld* world, kiriSheet sheet, c
 /* A pressure (Pa) that pushes the whole sheet along its normal, or against it where below 0. */
 KIRI_API kiriResult kiriSheet_ApplyPressure(kiriWorld* world, kiriSheet sheet, float pressure);
 
-/* ---- Pin and contact -------------------------------------------------------------------------------------------- */
+/* An impulse (N s, world) on a point of the material, at the start of the next tick. */
+KIRI_API kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float restPoint[2],
+                                           const float impulse[3]);
+
+/* Air that moves past the sheet, in every tick until the next call. On each square metre act, with v the velocity of the
+   air less that of the material, and n the normal: density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). Zero
+   velocity with drag and lift above zero: still air, which resists. All zero: none. */
+typedef struct kiriWind {
+    float velocity[3]; /* m/s */
+    float density;     /* kg/m^3, 0 or more; 1.2 of air */
+    float drag, lift;  /* 0 or more: coefficients of pressure and of the force along the sheet */
+} kiriWind;
+
+KIRI_API kiriResult kiriSheet_SetWind(kiriWorld* world, kiriSheet sheet, const kiriWind* wind);
+
+/* ---- Pin -------------------------------------------------------------------------------------------------------- */
 
 /* A pin holds a point of the material at its target, by a spring. */
 typedef struct kiriPinDef {
     uint32_t cookie;
-    float restPoint[2]; /* in the material */
-    float target[3];    /* m, world: where it is held */
-    float stiffness;    /* N/m; 0: ten times Young's modulus times thickness */
+    float restPoint[2];    /* in the material */
+    float target[3];       /* m, world: where it is held */
+    float stiffness;       /* N/m; 0: ten times Young's modulus times thickness */
+    float breakForce;      /* N: it breaks (KIRI_EVENT_PIN_BROKE) in a tick in which it held with more; 0: never */
+    kiriObstacle obstacle; /* or 0. The target goes with this obstacle from where it is when the pin is made, and the
+                              obstacle feels the pin: kiriObstacle_GetImpulse */
 } kiriPinDef;
 
 KIRI_API void kiriDefaultPinDef(kiriPinDef* def);
@@ -670,6 +741,76 @@ typedef struct kiriContact {
 /* The contacts of the next tick; they replace those of an earlier call, and are gone after the tick. */
 KIRI_API kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriContact* contacts,
                                           int32_t count);
+
+/* ---- Obstacle --------------------------------------------------------------------------------------------------- */
+
+/* A body that sheets touch: a floor, a ball, a crate of another engine. Kiri moves no obstacle by forces. An obstacle
+   goes on with its velocities; a host that moves bodies by an engine of its own sets pose and velocities before each
+   tick, and gives the impulse that GetImpulse tells to that engine after it. Contacts follow its motion within the
+   tick, and push no harder than its mass resists. */
+enum kiriObstacleType {
+    KIRI_OBSTACLE_PLANE,    /* all below the plane through its position; the third column of its rotation points out */
+    KIRI_OBSTACLE_SPHERE,   /* radius */
+    KIRI_OBSTACLE_CAPSULE,  /* radius, height: of its axis, the third column, between the middles of its round ends */
+    KIRI_OBSTACLE_BOX,      /* size: lengths of its edges along the columns of its rotation */
+    KIRI_OBSTACLE_CYLINDER, /* radius, height: along the third column */
+    KIRI_OBSTACLE_PRISM     /* outline: a convex polygon in the plane of the first two columns; height: along the third,
+                               0: without end */
+};
+
+typedef struct kiriObstacleDef {
+    uint32_t cookie;
+    int32_t type;             /* KIRI_OBSTACLE_... */
+    float size[3];            /* m */
+    float radius, height;     /* m */
+    const float* outline;     /* 2 floats a corner, m, counter-clockwise; copied */
+    int32_t outlineCount;     /* 3 to 64 */
+    float rounding;           /* m, 0 or more: prisms and boxes are that much larger, with round edges. Default 0 */
+    float position[3];        /* m, world */
+    float rotation[9];        /* columns; default: the axes of the world */
+    float velocity[3];        /* m/s, of its position */
+    float angularVelocity[3]; /* rad/s */
+    float surfaceVelocity[3]; /* m/s, world: of its surface beside that, as of a conveyor */
+    float friction;           /* 0 or more; default 0.5 */
+    float mass;               /* kg; 0 (default): nothing moves it */
+    float inertia[6]; /* kg m^2, about its centre of mass, world axes: xx yy zz xy xz yz; zeros: it does not turn */
+    float centerOfMass[3]; /* m, from its position in its own axes */
+    uint32_t body;         /* obstacles of the same number, but 0, are parts of one body, whose mass each of them has */
+    float pushSpeed;       /* m/s, above 0: what is inside is pushed out no faster. Default 1 */
+    uint32_t groups;       /* see the sheet def. Default: all */
+} kiriObstacleDef;
+
+KIRI_API void kiriDefaultObstacleDef(kiriObstacleDef* def);
+KIRI_API kiriResult kiriCreateObstacle(kiriWorld* world, const kiriObstacleDef* def, kiriObstacle* obstacle);
+KIRI_API kiriResult kiriDestroyObstacle(kiriWorld* world, kiriObstacle obstacle);
+
+/* Where it is when the next tick starts. It did not move there: velocities alone say what sheets feel. */
+KIRI_API kiriResult kiriObstacle_SetPose(kiriWorld* world, kiriObstacle obstacle, const float position[3],
+                                         const float rotation[9]);
+
+/* With what it moves in the next tick and from then on. */
+KIRI_API kiriResult kiriObstacle_SetVelocity(kiriWorld* world, kiriObstacle obstacle, const float velocity[3],
+                                             const float angularVelocity[3]);
+KIRI_API kiriResult kiriObstacle_SetSurfaceVelocity(kiriWorld* world, kiriObstacle obstacle, const float velocity[3]);
+
+/* As in the def. */
+KIRI_API kiriResult kiriObstacle_SetMass(kiriWorld* world, kiriObstacle obstacle, float mass, const float inertia[6],
+                                         const float centerOfMass[3]);
+
+typedef struct kiriObstacleState {
+    float position[3], rotation[9], velocity[3], angularVelocity[3];
+    double impulse[3], angularImpulse[3]; /* N s, N m s about its centre of mass: what sheets and pins gave it in the
+                                             last tick */
+    int32_t contacts;                     /* of the last tick */
+} kiriObstacleState;
+
+KIRI_API kiriResult kiriObstacle_GetState(const kiriWorld* world, kiriObstacle obstacle, kiriObstacleState* state);
+
+/* The box (m, world) that holds all that the sheet may touch in a tick of dt: a host needs no obstacles or contacts
+   outside. It reaches as far as the points of the sheet go by their velocities and gravity, twice, and the contact
+   thickness. */
+KIRI_API kiriResult kiriSheet_GetReach(const kiriWorld* world, kiriSheet sheet, float dt, float lower[3],
+                                       float upper[3]);
 
 #ifdef __cplusplus
 }

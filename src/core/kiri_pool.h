@@ -1,4 +1,4 @@
-/* Ids: kind in 2 bits, generation in 8, slot in 22. An id of another kind, or of something that is gone, finds nothing.
+/* Ids: kind in 3 bits, generation in 7, slot in 22. An id of another kind, or of something that is gone, finds nothing.
    Generations start at 1, so no id is 0. A slot whose generations are used up is never used again, so no id comes
    twice. */
 #ifndef KIRI_POOL_H
@@ -8,7 +8,14 @@
 
 KIRI_C_BEGIN
 
-enum { KIRI_KIND_SHEET = 0, KIRI_KIND_CUT = 1, KIRI_KIND_FRAME = 2, KIRI_KIND_PIN = 3 };
+enum {
+    KIRI_KIND_SHEET = 0,
+    KIRI_KIND_CUT = 1,
+    KIRI_KIND_FRAME = 2,
+    KIRI_KIND_PIN = 3,
+    KIRI_KIND_OBSTACLE = 4,
+    KIRI_KIND_BLADE = 5
+};
 
 typedef struct kiriSlot {
     void* owner;   /* null: free */

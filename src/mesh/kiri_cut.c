@@ -348,7 +348,7 @@ static bool StepBlade(BladeWalk* walk)
     return true;
 }
 
-kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBlade* blade, kiriLatticePoint to, double snap, kiriQuota* quota)
+kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePoint to, double snap, kiriQuota* quota)
 {
     BladeWalk walk = {
         mesh, blade->isOnItsWay ? blade->from : blade->at, to, snap, blade->at, blade->vertex, 0, false
@@ -376,9 +376,9 @@ static double ClampCoordinate(double x, double low, double high)
     return x < low ? low : x > high ? high : x;
 }
 
-kiriBlade kiriCut_Place(const kiriMeshData* mesh, kiriVec2 local)
+kiriBladeTip kiriCut_Place(const kiriMeshData* mesh, kiriVec2 local)
 {
-    kiriBlade blade;
+    kiriBladeTip blade;
     blade.at =
         kiriMesh_Round(kiriVec2_Make(ClampCoordinate(local.x / mesh->step, LowestCoordinate, HighestCoordinate),
                                      ClampCoordinate(local.y / mesh->step, LowestCoordinate, HighestCoordinate)));

@@ -8,12 +8,12 @@
 KIRI_C_BEGIN
 
 /* Where the blade is. */
-typedef struct kiriBlade {
+typedef struct kiriBladeTip {
     kiriLatticePoint at;
     int32_t vertex;        /* a vertex at that point, or KIRI_NONE: not in the sheet, or not yet moved */
     bool isOnItsWay;       /* the last move was interrupted, */
     kiriLatticePoint from; /* and began here */
-} kiriBlade;
+} kiriBladeTip;
 
 /* A step of the blade, from vertex to vertex, splits an edge or a triangle at most: so many triangles are made or
    reshaped. Less in a quota takes the blade nowhere. */
@@ -25,11 +25,11 @@ enum { KIRI_MOST_SPLITS = 4 };
    without. KIRI_MORE: less than KIRI_MOST_SPLITS is left, and the blade is on its way; a call with the same `to` goes
    on, and in the end the mesh is what one call had made of it, bit for bit. KIRI_FAILED: roll the mesh back; the blade
    is then where it was before the call. */
-kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBlade* blade, kiriLatticePoint to, double snap, kiriQuota* quota);
+kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePoint to, double snap, kiriQuota* quota);
 
 /* The blade at a rest point (local), for kiriCut_Move. Positions far outside are pulled in to the edge of
    the lattice's range; pass segments through kiriCut_Clip first where that matters. */
-kiriBlade kiriCut_Place(const kiriMeshData* mesh, kiriVec2 local);
+kiriBladeTip kiriCut_Place(const kiriMeshData* mesh, kiriVec2 local);
 
 /* Cuts the segment down to the range of the lattice (the sheet's box and half its size around it), in place. False when
    nothing is left. Coordinates are local, finite, and of any size. */

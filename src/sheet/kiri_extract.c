@@ -284,7 +284,7 @@ bool kiriExtract_Build(kiriExtract* extract, kiriSheetData* to)
 
 /* ---- The rest ---- */
 
-static void MoveBlade(const kiriExtract* extract, kiriBlade* blade)
+static void MoveBlade(const kiriExtract* extract, kiriBladeTip* blade)
 {
     if (blade->vertex != KIRI_NONE) {
         blade->vertex = extract->vertexTo.data[blade->vertex];

@@ -91,7 +91,7 @@ typedef struct kiriPinData {
 /* How far a cut has come. */
 typedef struct kiriTip {
     kiriVec2 last; /* local: the last point taken */
-    kiriBlade blade;
+    kiriBladeTip blade;
 } kiriTip;
 
 typedef struct kiriCutData {

@@ -74,7 +74,7 @@ typedef struct kiriUpdate {
     kiriCommitCounts counts;
 } kiriUpdate;
 
-enum { KIRI_READY = KIRI_STAGE_SOLVE };
+enum { KIRI_READY = KIRI_STAGE_CONTACT };
 
 /* Do grid, regions and shape belong to the mesh as it is? */
 static inline bool kiriUpdate_IsFieldCurrent(const kiriUpdate* update)

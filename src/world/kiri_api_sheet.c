@@ -17,6 +17,8 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     def->accuracy = 0.02f;
     def->maxFrames = 256;
     def->rigidWeight = 0.95f;
+    def->friction = 0.5f;
+    def->groups = UINT32_MAX;
     def->iterations = 2;
     def->sleepSpeed = 0.001f;
     def->timeStepping = KIRI_TIME_STEPPING_SECOND_ORDER;

@@ -40,8 +40,8 @@ const char* kiriGetResultName(kiriResult result)
 
 const char* kiriGetStageName(int32_t stage)
 {
-    static const char* const names[KIRI_STAGE_COUNT] = { "cut",     "grid",      "regions", "shape",
-                                                         "samples", "constants", "solve",   "skin" };
+    static const char* const names[KIRI_STAGE_COUNT] = { "cut",       "grid",    "regions", "shape", "samples",
+                                                         "constants", "contact", "solve",   "skin" };
     return kiriCall_IsWithin(stage, 0, KIRI_STAGE_COUNT - 1) ? names[stage] : "";
 }
 

@@ -1,0 +1,20 @@
+/* What `make contact` measures: each case says what came out, what law or peer it is held against, and how far it may be
+   off. A file of cases has one function that runs them. */
+#ifndef CONTACT_H
+#define CONTACT_H
+
+/* One line of the table. `law` is what should come out; the line is marked where |value - law| > tolerance. */
+void Contact_Line(const char* name, const char* variant, double value, double law, double tolerance, const char* unit);
+
+/* Where there is no law, only a limit: marked where value > limit. */
+void Contact_Limit(const char* name, const char* variant, double value, double limit, const char* unit);
+
+/* Is this group of cases asked for? All are, where none is named. */
+int Contact_IsAsked(const char* group);
+
+/* Files of cases. */
+void Contact_MeasureLaws(void);      /* contact_laws.c: friction, stopping, momentum, energy, conveyor, push, speed */
+void Contact_MeasureObstacles(void); /* contact_obstacles.c: depth at rest and worst, over obstacles */
+void Contact_MeasureSheets(void);    /* contact_sheets.c: piles, folds, pieces; costs of pairs */
+
+#endif

@@ -1,0 +1,5 @@
+#include "contact.h"
+
+void Contact_MeasureLaws(void)
+{
+}
