@@ -459,7 +459,7 @@ static bool Check_Fades(Check* check, const kiriFades* fades, int32_t sampleCoun
 
 /* ---- Queue and cuts ---- */
 
-static bool Check_Blade(Check* check, const kiriSheetData* sheet, const kiriBlade* blade)
+static bool Check_Blade(Check* check, const kiriSheetData* sheet, const kiriBladeTip* blade)
 {
     if (blade->vertex != KIRI_NONE) {
         REQUIRE(IsIndex(blade->vertex, sheet->mesh.vertices.count), "a blade is at vertex %d", blade->vertex);
