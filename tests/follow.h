@@ -330,7 +330,7 @@ static inline void Follow_Start(Follow* f, const Scene* scene, int32_t siteCount
 /* ---- A wandering blade ---- */
 
 typedef struct Wander {
-    kiriBlade blade;
+    kiriBladeTip blade;
     kiriVec2 at, heading;
     int32_t left;
 } Wander;

@@ -131,6 +131,7 @@ static void NullWorld(void** state)
         kiriSheet_GetTotals(NULL, 1, &totals),
         kiriSheet_EstimateError(NULL, 1, &totals.mass),
         kiriSheet_Raycast(NULL, 1, v, v, 1.0f, &hit),
+        kiriWorld_Raycast(NULL, v, v, 1.0f, &id, &hit),
         kiriSheet_GetWeights(NULL, 1, v, &id, v, NULL, 1, &count),
         kiriBeginCut(NULL, 1, v, &id),
         kiriCut_Extend(NULL, 1, v, 1),
@@ -561,6 +562,7 @@ static void SheetArguments(void** state)
     const float* positions;
     int32_t count;
     kiriFrame frame;
+    kiriSheet id;
     kiriHit hit;
     float weight;
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetMesh(w, s, NULL));
@@ -573,6 +575,13 @@ static void SheetArguments(void** state)
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetFrames(w, s, &frame, 1, NULL));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetFrames(w, s, NULL, 1, &count));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetFrames(w, s, &frame, -1, &count));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_Raycast(w, NULL, b, 1.0f, &id, &hit));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_Raycast(w, a, NULL, 1.0f, &id, &hit));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_Raycast(w, a, b, 1.0f, NULL, &hit));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_Raycast(w, a, b, 1.0f, &id, NULL));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_Raycast(w, a, b, -0.1f, &id, &hit));
+    REFUSED_FLOATS(a, 3, kiriWorld_Raycast(w, a, b, 1.0f, &id, &hit));
+    REFUSED_FLOATS(b, 3, kiriWorld_Raycast(w, a, b, 1.0f, &id, &hit));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s, NULL, b, 1.0f, &hit));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s, a, NULL, 1.0f, &hit));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s, a, b, 1.0f, NULL));

@@ -12,15 +12,15 @@ static void InitSheet(kiriMeshData* mesh)
 }
 
 /* All the way. */
-static kiriProgress Move(kiriMeshData* mesh, kiriBlade* blade, kiriLatticePoint to, double snap)
+static kiriProgress Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePoint to, double snap)
 {
     kiriQuota all = { INT64_MAX, 0 };
     return kiriCut_Move(mesh, blade, to, snap, &all);
 }
 
-static kiriBlade Cut(kiriMeshData* mesh, const double* xy, int count, double snap)
+static kiriBladeTip Cut(kiriMeshData* mesh, const double* xy, int count, double snap)
 {
-    kiriBlade blade = kiriCut_Place(mesh, kiriVec2_Make(xy[0], xy[1]));
+    kiriBladeTip blade = kiriCut_Place(mesh, kiriVec2_Make(xy[0], xy[1]));
     for (int i = 1; i < count; ++i) {
         assert_int_equal(Move(mesh, &blade, kiriMesh_Snap(mesh, kiriVec2_Make(xy[2 * i], xy[2 * i + 1])), snap),
                          KIRI_DONE);
@@ -120,7 +120,7 @@ static void BladeGoesOn(void** state)
     (void)state;
     kiriMeshData mesh;
     InitSheet(&mesh);
-    kiriBlade blade = kiriCut_Place(&mesh, kiriVec2_Make(1.3, -1.0));
+    kiriBladeTip blade = kiriCut_Place(&mesh, kiriVec2_Make(1.3, -1.0));
     assert_int_equal(blade.vertex, KIRI_NONE);
     for (int i = 0; i <= 12; ++i) {
         kiriLatticePoint to = kiriMesh_Snap(&mesh, kiriVec2_Make(1.3, -0.75 + 0.5 * i));
@@ -177,7 +177,7 @@ static void SnapsToVerticesAndEdges(void** state)
     /* a start and an end beside an edge */
     const double xy[] = { 1.0002, 0.5, 1.0002, 1.5 };
     InitSheet(&mesh);
-    kiriBlade blade = Cut(&mesh, xy, 2, 1e-4 * LatticeSize);
+    kiriBladeTip blade = Cut(&mesh, xy, 2, 1e-4 * LatticeSize);
     assert_int_equal(blade.at.x, 1 << 27);
     Expect(&mesh, 1, 27 + 1, 36, 2);
     /* too far for a smaller snap */
@@ -282,7 +282,7 @@ static void LeavesAndComesBack(void** state)
     const double twice[] = { 0.5, -0.5, 0.5, 0.75, -0.5, 0.75, -0.5, 3.3, 1.5, 3.3, 1.5, 5.0 };
     kiriMeshData mesh;
     InitSheet(&mesh);
-    kiriBlade blade = Cut(&mesh, corner, 3, 1e-4 * LatticeSize);
+    kiriBladeTip blade = Cut(&mesh, corner, 3, 1e-4 * LatticeSize);
     assert_int_equal(blade.vertex, KIRI_NONE);
     ASSERT_NEAR(AreaAt(&mesh, 0.1, 0.1), 0.25, 1e-7);
     assert_int_equal(CheckMesh(&mesh), 2);
@@ -505,7 +505,7 @@ static void PlacesWithinRange(void** state)
     (void)state;
     kiriMeshData mesh;
     InitRectangle(&mesh, 2, 2, 1.0f, 1.0f, 4);
-    kiriBlade blade = kiriCut_Place(&mesh, kiriVec2_Make(-1e300, 1e300));
+    kiriBladeTip blade = kiriCut_Place(&mesh, kiriVec2_Make(-1e300, 1e300));
     assert_int_equal(blade.at.x, -(1 << 28));
     assert_int_equal(blade.at.y, 3 << 28);
     blade = kiriCut_Place(&mesh, kiriVec2_Make(0.25, 0.5));
@@ -516,7 +516,7 @@ static void PlacesWithinRange(void** state)
     kiriMesh_Begin(&mesh);
     const double xy[] = { -9.0, -9.0, 9.0, 9.0 };
     blade = kiriCut_Place(&mesh, kiriVec2_Make(xy[0], xy[1]));
-    kiriBlade end = kiriCut_Place(&mesh, kiriVec2_Make(xy[2], xy[3]));
+    kiriBladeTip end = kiriCut_Place(&mesh, kiriVec2_Make(xy[2], xy[3]));
     assert_int_equal(Move(&mesh, &blade, end.at, 1.0), KIRI_DONE);
     assert_int_equal(CheckMesh(&mesh), 2);
     kiriMemory_FreeAll(mesh.memory);
@@ -576,7 +576,7 @@ static Polyline RandomPolyline(uint32_t* seed, Pool* pool, double reach)
 
 static bool CutPolyline(kiriMeshData* mesh, const Polyline* line, double snap)
 {
-    kiriBlade blade = { line->points[0], KIRI_NONE, false, { 0, 0 } };
+    kiriBladeTip blade = { line->points[0], KIRI_NONE, false, { 0, 0 } };
     for (int i = 1; i < line->count; ++i) {
         if (Move(mesh, &blade, line->points[i], snap) != KIRI_DONE) {
             return false;
@@ -848,7 +848,7 @@ static bool SameMesh(const kiriMeshData* a, const kiriMeshData* b)
 static int64_t CutInParts(kiriMeshData* mesh, const Polyline* line, double snap, uint32_t* seed, uint32_t most,
                           bool count)
 {
-    kiriBlade blade = { line->points[0], KIRI_NONE, false, { 0, 0 } };
+    kiriBladeTip blade = { line->points[0], KIRI_NONE, false, { 0, 0 } };
     int64_t used = 0;
     for (int i = 1; i < line->count; ++i) {
         kiriProgress progress = KIRI_MORE;
@@ -907,7 +907,7 @@ static void SmallQuotasWait(void** state)
     (void)state;
     kiriMeshData mesh;
     InitSheet(&mesh);
-    kiriBlade blade = kiriCut_Place(&mesh, kiriVec2_Make(0.3, 0.2));
+    kiriBladeTip blade = kiriCut_Place(&mesh, kiriVec2_Make(0.3, 0.2));
     kiriLatticePoint to = kiriMesh_Snap(&mesh, kiriVec2_Make(3.7, 2.9));
     Copy copy = Copy_Make(&mesh);
     kiriQuota quota = { KIRI_MOST_SPLITS - 1, 0 };

@@ -787,7 +787,7 @@ static void FailingAllocatorLeaksNothing(void** state)
             for (int cut = 0; cut < 9; ++cut) {
                 kiriMesh_Begin(f.mesh);
                 kiriQuota quota = { INT64_MAX, 0 };
-                kiriBlade blade = kiriCut_Place(f.mesh, kiriVec2_Make(0.1 * cut, 0.2));
+                kiriBladeTip blade = kiriCut_Place(f.mesh, kiriVec2_Make(0.1 * cut, 0.2));
                 kiriLatticePoint to = kiriMesh_Snap(f.mesh, kiriVec2_Make(0.1 * cut + 0.05, 0.5));
                 assert_int_equal(kiriCut_Move(f.mesh, &blade, to, 16.0, &quota), KIRI_DONE);
                 kiriMesh_Commit(f.mesh);

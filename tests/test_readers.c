@@ -174,6 +174,14 @@ static kiriResult ReadRay(const Scene* scene, bool well)
     return kiriSheet_Raycast(WorldOf(scene), scene->sheet, origin, down, 3.0f, &hit);
 }
 
+static kiriResult ReadRayOfAll(const Scene* scene, bool well)
+{
+    const float origin[3] = { 0.4f, 0.5f, 1.0f }, down[3] = { 0.0f, 0.0f, well ? -1.0f : 0.0f };
+    kiriSheet sheet;
+    kiriHit hit;
+    return kiriWorld_Raycast(WorldOf(scene), origin, down, 3.0f, &sheet, &hit);
+}
+
 static kiriResult ReadWeights(const Scene* scene, bool well)
 {
     const float at[2] = { well ? 0.41f : 7.0f, 0.53f };
@@ -221,6 +229,7 @@ static const Reader readers[] = {
     { "kiriSheet_EstimateError", ReadEstimate },
     { "kiriSheet_IsAwake", ReadAwake },
     { "kiriSheet_Raycast", ReadRay },
+    { "kiriWorld_Raycast", ReadRayOfAll },
     { "kiriSheet_GetWeights", ReadWeights },
     { "kiriFrame_GetPiece", ReadFramePiece },
     { "kiriSheet_GetFrames", ReadFrames },

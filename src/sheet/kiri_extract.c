@@ -279,6 +279,7 @@ bool kiriExtract_Build(kiriExtract* extract, kiriSheetData* to)
         return false;
     }
     CopySettings(to, from);
+    to->seen.bounds->patience = from->seen.bounds->patience;
     return BuildPart(extract, to);
 }
 

@@ -7,6 +7,11 @@ kiriSheetData* kiriSheet_New(kiriMemory* memory)
         sheet->own = kiriMemory_Like(memory);
         sheet->shown = kiriMemory_Like(memory);
         sheet->memory = &sheet->own;
+        sheet->seen.bounds = kiriMemory_AllocZeroed(sheet->memory, sizeof(kiriBounds));
+    }
+    if (sheet != NULL && sheet->seen.bounds == NULL) {
+        kiriSheet_Delete(sheet, memory);
+        sheet = NULL;
     }
     return sheet;
 }

@@ -11,7 +11,7 @@
 #include "../core/kiri_pool.h"
 #include "../motion/kiri_refit.h"
 #include "../motion/kiri_solver.h"
-#include "../view/kiri_surface.h"
+#include "../view/kiri_bounds.h"
 
 KIRI_C_BEGIN
 
@@ -139,6 +139,7 @@ typedef struct kiriRest {
 /* What the host sees, see kiri_seen.h. */
 typedef struct kiriSeen {
     kiriSurface surface;
+    kiriBounds* bounds;               /* of the surface; readers may leave word in it */
     kiriFades fades, pointFades;      /* of vertices, and of collision points */
     KIRI_ARRAY(kiriVec3) exactPoints; /* where the collision points are seen, */
     int32_t pointCount;               /* so many */

@@ -52,19 +52,51 @@ static void WriteHit(const kiriSurface* surface, int32_t triangle, const kiriVec
     hit->triangle = triangle;
 }
 
-void kiriSurface_Raycast(const kiriSurface* surface, kiriVec3 origin, kiriVec3 direction, double maxDistance,
-                         kiriHit* hit)
+typedef struct RaySearch {
+    const kiriSurface* surface;
+    kiriVec3 origin, direction;
+    int32_t triangle; /* the first so far, or KIRI_NONE */
+    Barycentric at;
+} RaySearch;
+
+/* The order in which triangles are tried makes no difference. */
+static void TryTriangle(RaySearch* search, int32_t triangle, double* distance)
 {
+    kiriVec3 corner[3];
+    Barycentric at;
+    WorldCorners(search->surface, triangle, corner);
+    if (MeetTriangle(corner, search->origin, search->direction, &at) && at.distance >= 0.0 &&
+        (at.distance < *distance || (at.distance == *distance && triangle > search->triangle))) {
+        *distance = at.distance;
+        search->triangle = triangle;
+        search->at = at;
+    }
+}
+
+static void TryTriangles(void* context, const int32_t* triangles, int32_t count, double* distance)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        TryTriangle(context, triangles[i], distance);
+    }
+}
+
+void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, kiriVec3 origin, kiriVec3 direction,
+                         double maxDistance, kiriHit* hit)
+{
+    RaySearch search = { surface, origin, direction, KIRI_NONE, { 0.0, 0.0, 0.0 } };
     memset(hit, 0, sizeof(*hit));
     hit->triangle = KIRI_NONE;
-    for (int32_t t = 0; t < surface->triangleCount; ++t) {
-        kiriVec3 corner[3];
-        Barycentric at;
-        WorldCorners(surface, t, corner);
-        if (MeetTriangle(corner, origin, direction, &at) && at.distance >= 0.0 && at.distance <= maxDistance) {
-            maxDistance = at.distance;
-            WriteHit(surface, t, corner, at, hit);
+    if (bounds != NULL && kiriBounds_IsFresh(bounds, surface)) {
+        kiriBounds_Ray(bounds, origin, direction, maxDistance, TryTriangles, &search);
+    } else {
+        for (int32_t t = 0; t < surface->triangleCount; ++t) {
+            TryTriangle(&search, t, &maxDistance);
         }
+    }
+    if (search.triangle != KIRI_NONE) {
+        kiriVec3 corner[3];
+        WorldCorners(surface, search.triangle, corner);
+        WriteHit(surface, search.triangle, corner, search.at, hit);
     }
 }
 

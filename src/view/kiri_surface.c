@@ -115,6 +115,7 @@ void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
     change.oldVertexCount = surface->vertexCount;
     change.oldTriangleCount = surface->triangleCount;
     surface->origin = mesh->origin;
+    surface->pose += 1;
     surface->revision = mesh->revision;
     surface->vertexCount = mesh->vertices.count;
     surface->triangleCount = mesh->triangles.count;
@@ -448,6 +449,7 @@ void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades)
 
 void kiriSurface_WriteArrays(kiriSurface* surface)
 {
+    surface->pose += 1;
     SumSlopes(surface);
     StoreAll(surface);
 }

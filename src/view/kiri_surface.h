@@ -47,6 +47,7 @@ typedef struct kiriSurface {
     KIRI_ARRAY(int32_t) corners; /* 6 for two triangles: turned to a, b, c and a, c, d where they share an edge */
     KIRI_ARRAY(kiriVec3) exact;  /* positions: floats far from the origin tell corners no more apart */
     KIRI_ARRAY(kiriVec3) slopes; /* sums for the normals */
+    int64_t pose;                /* grows whenever positions or corners may have changed */
     KIRI_ARRAY(kiriCarrier) carriers;
     KIRI_ARRAY(kiriBend) bends;
 

@@ -4,6 +4,8 @@
 #include "../sheet/kiri_update.h"
 #include "../view/kiri_ray.h"
 
+#include <string.h>
+
 kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* mesh)
 {
     KIRI_READS(world);
@@ -113,18 +115,59 @@ kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet)
     return KIRI_OK;
 }
 
+/* ---- Rays ---- */
+
+static const char* FaultOfRay(const float origin[3], const float direction[3], float maxDistance, const kiriHit* hit)
+{
+    if (origin == NULL || direction == NULL || hit == NULL) {
+        return "origin, direction or hit is null";
+    }
+    if (!kiriCall_AreFinite(origin, 3) || !kiriCall_AreFinite(direction, 3) || !kiriCall_IsAtLeast(maxDistance, 0.0f)) {
+        return "origin, direction or maxDistance is not finite, or maxDistance below 0";
+    }
+    bool isZero = direction[0] == 0.0f && direction[1] == 0.0f && direction[2] == 0.0f;
+    return isZero ? "direction is zero" : NULL;
+}
+
+static void CastRay(const kiriSheetData* sheet, const float origin[3], const float direction[3], float maxDistance,
+                    kiriHit* hit)
+{
+    kiriBounds_Ask(sheet->seen.bounds);
+    kiriSurface_Raycast(&sheet->seen.surface, sheet->seen.bounds, kiriVec3_Load(origin),
+                        kiriVec3_Normalize(kiriVec3_Load(direction)), maxDistance, hit);
+}
+
 kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, const float origin[3], const float direction[3],
                              float maxDistance, kiriHit* hit)
 {
     KIRI_READS(world);
-    KIRI_CHECK(origin != NULL && direction != NULL && hit != NULL, "origin, direction or hit is null");
-    KIRI_CHECK(kiriCall_AreFinite(origin, 3) && kiriCall_AreFinite(direction, 3) &&
-                   kiriCall_IsAtLeast(maxDistance, 0.0f),
-               "origin, direction or maxDistance is not finite, or maxDistance below 0");
-    KIRI_CHECK(direction[0] != 0.0f || direction[1] != 0.0f || direction[2] != 0.0f, "direction is zero");
+    const char* fault = FaultOfRay(origin, direction, maxDistance, hit);
+    KIRI_CHECK(fault == NULL, fault);
     KIRI_FIND_SHEET(data, sheet);
-    kiriSurface_Raycast(&data->seen.surface, kiriVec3_Load(origin), kiriVec3_Normalize(kiriVec3_Load(direction)),
-                        maxDistance, hit);
+    CastRay(data, origin, direction, maxDistance, hit);
+    return KIRI_OK;
+}
+
+/* At the same distance the sheet that was made first. */
+kiriResult kiriWorld_Raycast(const kiriWorld* world, const float origin[3], const float direction[3], float maxDistance,
+                             kiriSheet* sheet, kiriHit* hit)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(sheet != NULL, "sheet is null");
+    const char* fault = FaultOfRay(origin, direction, maxDistance, hit);
+    KIRI_CHECK(fault == NULL, fault);
+    *sheet = 0;
+    memset(hit, 0, sizeof(*hit));
+    hit->triangle = KIRI_NONE;
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriHit next;
+        CastRay(world->sheets.data[i], origin, direction, maxDistance, &next);
+        if (next.triangle != KIRI_NONE && (*sheet == 0 || next.distance < hit->distance)) {
+            *sheet = world->sheets.data[i]->id;
+            *hit = next;
+            maxDistance = next.distance;
+        }
+    }
     return KIRI_OK;
 }
 

@@ -86,11 +86,14 @@ static kiriResult ReserveRoom(kiriWorld* world)
 {
     int64_t frames = 0, events = 2 * (int64_t)world->sheets.count;
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        const kiriSheetData* sheet = world->sheets.data[i];
+        kiriSheetData* sheet = world->sheets.data[i];
         events += sheet->cuts.count;
         if (IsReady(sheet) && sheet->update->cut.meshChanged) {
             frames += sheet->update->placing.sites.count - sheet->frames.count;
             events += sheet->update->next.pieces.count;
+        }
+        if (!kiriBounds_Reserve(sheet->seen.bounds, sheet->memory, sheet->mesh.triangles.count)) {
+            return KIRI_ERROR_MEMORY;
         }
     }
     return kiriArray_Reserve(&world->memory, &world->events, events + frames)
@@ -241,6 +244,7 @@ static void SkinAll(kiriWorld* world, double dt)
             kiriView_Fade(sheet, dt);
             kiriView_WritePositions(sheet);
         }
+        kiriBounds_Keep(sheet->seen.bounds, &sheet->seen.surface);
         CountJumps(&world->profile, sheet);
     }
 }

@@ -1,0 +1,388 @@
+#include "kiri_bounds.h"
+
+#include "../core/kiri_sort.h"
+
+#include <string.h>
+
+enum { LEAF = 8, FAN = 4 }; /* triangles of a leaf, children of a node */
+
+/* ---- Boxes ---- */
+
+static kiriVec3 Least(kiriVec3 a, kiriVec3 b)
+{
+    return kiriVec3_Make(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z);
+}
+
+static kiriVec3 Most(kiriVec3 a, kiriVec3 b)
+{
+    return kiriVec3_Make(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
+}
+
+static inline void AddTriangle(kiriBox* box, const kiriVec3* at, const int32_t* corner)
+{
+    for (int k = 0; k < 3; ++k) {
+        box->lower = Least(at[corner[k]], box->lower);
+        box->upper = Most(at[corner[k]], box->upper);
+    }
+}
+
+kiriBox kiriBox_OfTriangle(const kiriSurface* surface, int32_t triangle)
+{
+    const int32_t* corner = &surface->indices.data[3 * (size_t)triangle];
+    kiriBox box = { surface->exact.data[corner[0]], surface->exact.data[corner[0]] };
+    AddTriangle(&box, surface->exact.data, corner);
+    return box;
+}
+
+/* ---- The shape of the tree ---- */
+
+/* Every second bit of the result. */
+static uint32_t Spread(uint32_t bits)
+{
+    bits = (bits | (bits << 8)) & 0x00ff00ffu;
+    bits = (bits | (bits << 4)) & 0x0f0f0f0fu;
+    bits = (bits | (bits << 2)) & 0x33333333u;
+    return (bits | (bits << 1)) & 0x55555555u;
+}
+
+/* Where the middle of a triangle lies on a Z curve through the rest plane (Morton 1966), 2^16 places by 2^16. */
+static uint32_t CodeOf(const kiriSurface* surface, int32_t triangle, kiriVec2 lower, double scale)
+{
+    const int32_t* v = &surface->indices.data[3 * (size_t)triangle];
+    const kiriVec2* rest = surface->rest.data;
+    kiriVec2 sum = kiriVec2_Add(kiriVec2_Add(rest[v[0]], rest[v[1]]), rest[v[2]]);
+    uint32_t x = (uint32_t)(scale * (sum.x / 3.0 - lower.x)), y = (uint32_t)(scale * (sum.y / 3.0 - lower.y));
+    return Spread(x) | (Spread(y) << 1);
+}
+
+static void WriteCodes(kiriBounds* bounds, const kiriSurface* surface)
+{
+    kiriVec2 lower = surface->rest.data[0], upper = lower;
+    for (int32_t v = 0; v < surface->vertexCount; ++v) {
+        kiriVec2 p = surface->rest.data[v];
+        lower = kiriVec2_Make(p.x < lower.x ? p.x : lower.x, p.y < lower.y ? p.y : lower.y);
+        upper = kiriVec2_Make(p.x > upper.x ? p.x : upper.x, p.y > upper.y ? p.y : upper.y);
+    }
+    double width = upper.x - lower.x, height = upper.y - lower.y;
+    double scale = 65535.0 / (width > height ? width : height);
+    for (int32_t t = 0; t < surface->triangleCount; ++t) {
+        bounds->codes.data[t] = CodeOf(surface, t, lower, scale);
+        bounds->order.data[t] = t;
+    }
+}
+
+/* One pass of a radix sort: by the bits from `shift` on, else as they were. */
+static void SortByBits(const uint32_t* codes, int shift, const int32_t* from, int32_t* to, int32_t count)
+{
+    enum { BITS = 11 };
+    int32_t starts[1 << BITS];
+    uint32_t mask = (1u << BITS) - 1u;
+    memset(starts, 0, sizeof(starts));
+    for (int32_t i = 0; i < count; ++i) {
+        ++starts[(codes[from[i]] >> shift) & mask];
+    }
+    int32_t first = 0;
+    for (int32_t k = 0; k < 1 << BITS; ++k) {
+        int32_t items = starts[k];
+        starts[k] = first;
+        first += items;
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        to[starts[(codes[from[i]] >> shift) & mask]++] = from[i];
+    }
+}
+
+static void SortTriangles(kiriBounds* bounds, const kiriSurface* surface)
+{
+    int32_t count = surface->triangleCount, *a = bounds->order.data, *b = bounds->other.data;
+    WriteCodes(bounds, surface);
+    SortByBits(bounds->codes.data, 0, a, b, count);
+    SortByBits(bounds->codes.data, 11, b, a, count);
+    SortByBits(bounds->codes.data, 22, a, b, count);
+    memcpy(a, b, sizeof(int32_t) * (size_t)count);
+    bounds->sorted = count;
+}
+
+/* Where levels begin, and how many nodes there are in all. */
+static int32_t LayLevels(int32_t triangleCount, int32_t firsts[KIRI_BOUNDS_LEVELS], int32_t* levelCount)
+{
+    int32_t nodes = 0, wide = triangleCount / LEAF + (triangleCount % LEAF != 0);
+    *levelCount = 0;
+    for (;;) {
+        KIRI_ASSERT(*levelCount < KIRI_BOUNDS_LEVELS);
+        firsts[(*levelCount)++] = nodes;
+        nodes += wide;
+        if (wide <= 1) {
+            return nodes;
+        }
+        wide = wide / FAN + (wide % FAN != 0);
+    }
+}
+
+static bool NeedsSorting(const kiriBounds* bounds, int32_t triangleCount)
+{
+    return bounds->levelCount == 0 || triangleCount / 2 > bounds->sorted || triangleCount < bounds->sorted;
+}
+
+static bool ReserveAll(kiriBounds* bounds, kiriMemory* memory, int32_t triangleCount)
+{
+    int32_t firsts[KIRI_BOUNDS_LEVELS], levelCount, nodes = LayLevels(triangleCount, firsts, &levelCount);
+    bool sorts = NeedsSorting(bounds, triangleCount);
+    if (!sorts) {
+        kiriArray_Release(memory, &bounds->codes);
+        kiriArray_Release(memory, &bounds->other);
+    }
+    return kiriArray_Reserve(memory, &bounds->order, triangleCount) &&
+           kiriArray_Reserve(memory, &bounds->nodes, nodes) &&
+           (!sorts || (kiriArray_Reserve(memory, &bounds->codes, triangleCount) &&
+                       kiriArray_Reserve(memory, &bounds->other, triangleCount)));
+}
+
+/* ---- Fitting ---- */
+
+static void FitLeaves(kiriBounds* bounds, const kiriSurface* surface)
+{
+    const kiriVec3* at = surface->exact.data;
+    const int32_t *indices = surface->indices.data, *order = bounds->order.data;
+    for (int32_t i = 0, leaf = 0; i < surface->triangleCount; ++leaf) {
+        int32_t end = surface->triangleCount - i < LEAF ? surface->triangleCount : i + LEAF;
+        kiriVec3 first = at[indices[3 * (size_t)order[i]]];
+        kiriBox box = { first, first };
+        for (; i < end; ++i) {
+            AddTriangle(&box, at, &indices[3 * (size_t)order[i]]);
+        }
+        bounds->nodes.data[leaf] = box;
+    }
+}
+
+static void FitNodes(kiriBounds* bounds)
+{
+    kiriBox* nodes = bounds->nodes.data;
+    for (int32_t level = 1; level < bounds->levelCount; ++level) {
+        int32_t child = bounds->firsts[level - 1], end = bounds->firsts[level];
+        for (int32_t node = end; child < end; ++node) {
+            kiriBox box = nodes[child];
+            for (int k = 0; k < FAN && child < end; ++k, ++child) {
+                box.lower = Least(nodes[child].lower, box.lower);
+                box.upper = Most(nodes[child].upper, box.upper);
+            }
+            nodes[node] = box;
+        }
+    }
+}
+
+static void Fit(kiriBounds* bounds, const kiriSurface* surface)
+{
+    int32_t count = surface->triangleCount, known = bounds->order.count;
+    bool sorts = NeedsSorting(bounds, count);
+    bounds->nodes.count = LayLevels(count, bounds->firsts, &bounds->levelCount);
+    KIRI_ASSERT(bounds->order.capacity >= count && bounds->nodes.capacity >= bounds->nodes.count);
+    for (int32_t t = known; !sorts && t < count; ++t) {
+        bounds->order.data[t] = t;
+    }
+    bounds->order.count = count;
+    if (sorts) {
+        SortTriangles(bounds, surface);
+    }
+    FitLeaves(bounds, surface);
+    FitNodes(bounds);
+    bounds->pose = surface->pose;
+}
+
+bool kiriBounds_IsFresh(const kiriBounds* bounds, const kiriSurface* surface)
+{
+    return bounds->levelCount > 0 && bounds->pose == surface->pose;
+}
+
+bool kiriBounds_Update(kiriBounds* bounds, kiriMemory* memory, const kiriSurface* surface)
+{
+    bounds->patience = KIRI_BOUNDS_PATIENCE;
+    if (kiriBounds_IsFresh(bounds, surface)) {
+        return true;
+    }
+    if (!ReserveAll(bounds, memory, surface->triangleCount)) {
+        return false;
+    }
+    Fit(bounds, surface);
+    return true;
+}
+
+/* ---- For who reads ---- */
+
+/* Several threads may write the same 1. */
+void kiriBounds_Ask(const kiriBounds* bounds)
+{
+    int32_t* asked = &((kiriBounds*)bounds)->asked;
+#if defined(__GNUC__)
+    if (__atomic_load_n(asked, __ATOMIC_RELAXED) == 0) {
+        __atomic_store_n(asked, 1, __ATOMIC_RELAXED);
+    }
+#else
+    *(volatile int32_t*)asked = 1;
+#endif
+}
+
+bool kiriBounds_Reserve(kiriBounds* bounds, kiriMemory* memory, int32_t triangleCount)
+{
+    if (bounds->asked) {
+        bounds->patience = KIRI_BOUNDS_PATIENCE;
+        bounds->asked = 0;
+    }
+    if (bounds->patience > 0) {
+        return ReserveAll(bounds, memory, triangleCount);
+    }
+    kiriArray_Release(memory, &bounds->order);
+    kiriArray_Release(memory, &bounds->nodes);
+    bounds->levelCount = 0;
+    return true;
+}
+
+void kiriBounds_Keep(kiriBounds* bounds, const kiriSurface* surface)
+{
+    if (bounds->patience > 0) {
+        bounds->patience -= 1;
+        if (!kiriBounds_IsFresh(bounds, surface)) {
+            Fit(bounds, surface);
+        }
+    }
+}
+
+/* ---- Queries ---- */
+
+kiriBox kiriBounds_All(const kiriBounds* bounds)
+{
+    return bounds->nodes.data[bounds->nodes.count - 1];
+}
+
+/* The children of a node, or the triangles of a leaf: the items from *first up to the end that it returns. */
+static int32_t ItemsOf(const kiriBounds* bounds, int32_t level, int32_t node, int32_t* first)
+{
+    int32_t fan = level == 0 ? LEAF : FAN, start = level == 0 ? 0 : bounds->firsts[level - 1];
+    int32_t end = level == 0 ? bounds->order.count : bounds->firsts[level];
+    *first = start + fan * (node - bounds->firsts[level]);
+    return end - *first < fan ? end : *first + fan;
+}
+
+typedef struct Finder {
+    const kiriBounds* bounds;
+    const kiriSurface* surface;
+    kiriMeetsFn* meets;
+    const void* context;
+    kiriMemory* memory;
+    kiriIndices* found;
+} Finder;
+
+static bool FindIn(const Finder* finder, int32_t level, int32_t node)
+{
+    int32_t first, end = ItemsOf(finder->bounds, level, node, &first);
+    bool ok = true;
+    for (int32_t i = first; ok && i < end; ++i) {
+        if (level > 0) {
+            ok = !finder->meets(finder->context, &finder->bounds->nodes.data[i]) || FindIn(finder, level - 1, i);
+            continue;
+        }
+        int32_t triangle = finder->bounds->order.data[i];
+        kiriBox box = kiriBox_OfTriangle(finder->surface, triangle);
+        ok = !finder->meets(finder->context, &box) || kiriArray_Push(finder->memory, finder->found, triangle);
+    }
+    return ok;
+}
+
+bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets, const void* context,
+                     kiriMemory* memory, kiriIndices* found)
+{
+    const Finder finder = { bounds, surface, meets, context, memory, found };
+    int32_t before = found->count, root = bounds->nodes.count - 1;
+    KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
+    if (root < 0 || !meets(context, &bounds->nodes.data[root])) {
+        return true;
+    }
+    if (!FindIn(&finder, bounds->levelCount - 1, root)) {
+        return false;
+    }
+    kiriSort(found->data + before, found->count - before, NULL, NULL);
+    return true;
+}
+
+static bool MeetsBox(const void* context, const kiriBox* box)
+{
+    return kiriBox_Meet(context, box);
+}
+
+bool kiriBounds_Box(const kiriBounds* bounds, const kiriSurface* surface, const kiriBox* box, kiriMemory* memory,
+                    kiriIndices* found)
+{
+    return kiriBounds_Find(bounds, surface, MeetsBox, box, memory, found);
+}
+
+/* ---- Rays ---- */
+
+typedef struct RayWalk {
+    const kiriBounds* bounds;
+    double origin[3], direction[3], slack;
+    double distance;
+    kiriVisitFn* visit;
+    void* context;
+} RayWalk;
+
+/* Cuts the stretch of the ray down to what is between two planes; false where nothing is left. */
+static bool Clip(double origin, double direction, double low, double high, double* from, double* to)
+{
+    if (direction == 0.0) {
+        return origin >= low && origin <= high;
+    }
+    double a = (low - origin) / direction, b = (high - origin) / direction;
+    double enter = a < b ? a : b, leave = a < b ? b : a;
+    *from = enter > *from ? enter : *from;
+    *to = leave < *to ? leave : *to;
+    return *from <= *to;
+}
+
+/* Boxes a little larger, for what meets a triangle is rounded, too. */
+static bool MeetsRay(const RayWalk* walk, const kiriBox* box)
+{
+    double from = -walk->slack, to = walk->distance + walk->slack, s = walk->slack;
+    return Clip(walk->origin[0], walk->direction[0], box->lower.x - s, box->upper.x + s, &from, &to) &&
+           Clip(walk->origin[1], walk->direction[1], box->lower.y - s, box->upper.y + s, &from, &to) &&
+           Clip(walk->origin[2], walk->direction[2], box->lower.z - s, box->upper.z + s, &from, &to);
+}
+
+static void WalkRay(RayWalk* walk, int32_t level, int32_t node)
+{
+    int32_t first, end = ItemsOf(walk->bounds, level, node, &first);
+    if (level == 0) {
+        walk->visit(walk->context, &walk->bounds->order.data[first], end - first, &walk->distance);
+        return;
+    }
+    for (int32_t i = first; i < end; ++i) {
+        if (MeetsRay(walk, &walk->bounds->nodes.data[i])) {
+            WalkRay(walk, level - 1, i);
+        }
+    }
+}
+
+/* Of all coordinates that the ray and the surface have the largest. */
+static double LargestOf(const kiriBox* box, kiriVec3 origin)
+{
+    kiriVec3 o = kiriVec3_Make(0.0, 0.0, 0.0);
+    kiriVec3 low = Least(Least(box->lower, origin), o), high = Most(Most(box->upper, origin), o);
+    kiriVec3 most = Most(high, kiriVec3_Scale(-1.0, low));
+    return most.x > most.y ? (most.x > most.z ? most.x : most.z) : (most.y > most.z ? most.y : most.z);
+}
+
+void kiriBounds_Ray(const kiriBounds* bounds, kiriVec3 origin, kiriVec3 direction, double distance, kiriVisitFn* visit,
+                    void* context)
+{
+    int32_t root = bounds->nodes.count - 1;
+    if (root < 0) {
+        return;
+    }
+    RayWalk walk = {
+        bounds, { origin.x, origin.y, origin.z }, { direction.x, direction.y, direction.z }, 0.0, distance, visit,
+        context
+    };
+    walk.slack = 1e-9 * LargestOf(&bounds->nodes.data[root], origin);
+    if (MeetsRay(&walk, &bounds->nodes.data[root])) {
+        WalkRay(&walk, bounds->levelCount - 1, root);
+    }
+}

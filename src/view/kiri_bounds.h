@@ -1,0 +1,85 @@
+/* Boxes over the triangles of a surface, in a tree, to find those near a point, a ray or a plane.
+
+   The shape of the tree follows the rest plane: triangles that lie near each other there share a leaf, and neighbouring
+   leaves a node. So it is made once and holds however the sheet moves; only boxes are fitted anew, all of them, in one
+   pass over the triangles. Triangles that a cut makes come in leaves of their own at the end, in the order in which the
+   blade made them; the tree is made anew when their number has doubled. What a query finds does not depend on any of
+   this: it is in the order of triangles. So bounds are no part of the state.
+
+   Who pays: a surface nobody asks about has no tree. Whoever may change the world calls kiriBounds_Update when he needs
+   it. Whoever only reads cannot make one: he leaves word (kiriBounds_Ask), looks at all triangles this once, and from the
+   end of the next tick on (kiriBounds_Reserve, kiriBounds_Keep) there are boxes, until KIRI_BOUNDS_PATIENCE ticks have
+   passed in which nobody asked. */
+#ifndef KIRI_BOUNDS_H
+#define KIRI_BOUNDS_H
+
+#include "kiri_surface.h"
+
+KIRI_C_BEGIN
+
+typedef struct kiriBox {
+    kiriVec3 lower, upper;
+} kiriBox;
+
+enum { KIRI_BOUNDS_PATIENCE = 120, KIRI_BOUNDS_LEVELS = 20 };
+
+typedef struct kiriBounds {
+    int32_t asked;    /* by readers, from any thread: written without tearing, and read by the tick alone */
+    int32_t patience; /* ticks for which boxes are still kept */
+
+    KIRI_ARRAY(int32_t) order;          /* of triangles, leaf by leaf */
+    KIRI_ARRAY(kiriBox) nodes;          /* leaves first, then each level above them; the last is the root */
+    KIRI_ARRAY(uint32_t) codes;         /* room to sort */
+    KIRI_ARRAY(int32_t) other;          /* the same */
+    int32_t firsts[KIRI_BOUNDS_LEVELS]; /* of each level: its first node; */
+    int32_t levelCount;                 /* so many levels, 0: there is no tree */
+    int32_t sorted;                     /* triangles there were when the tree was made */
+    int64_t pose;                       /* surface->pose that the boxes fit */
+} kiriBounds;
+
+static inline bool kiriBox_Meet(const kiriBox* a, const kiriBox* b)
+{
+    return a->lower.x <= b->upper.x && b->lower.x <= a->upper.x && a->lower.y <= b->upper.y &&
+           b->lower.y <= a->upper.y && a->lower.z <= b->upper.z && b->lower.z <= a->upper.z;
+}
+
+/* The least box around a triangle as it is seen. */
+kiriBox kiriBox_OfTriangle(const kiriSurface* surface, int32_t triangle);
+
+/* Do the boxes fit what is seen? All queries below ask for that. */
+bool kiriBounds_IsFresh(const kiriBounds* bounds, const kiriSurface* surface);
+
+/* Boxes that fit, and that are kept for the coming ticks. Costs nothing where they fit already. False for memory. */
+bool kiriBounds_Update(kiriBounds* bounds, kiriMemory* memory, const kiriSurface* surface);
+
+/* Word from somebody who reads. Any number of threads may call it at the same time. */
+void kiriBounds_Ask(const kiriBounds* bounds);
+
+/* For the tick. Room for so many triangles, where boxes are wanted; then, when positions are written, the boxes. */
+bool kiriBounds_Reserve(kiriBounds* bounds, kiriMemory* memory, int32_t triangleCount);
+void kiriBounds_Keep(kiriBounds* bounds, const kiriSurface* surface);
+
+/* The box of the whole surface; the surface must have a triangle. */
+kiriBox kiriBounds_All(const kiriBounds* bounds);
+
+/* Does a box meet what is looked for? It may say so of a box that does not, never the other way round, and must say so
+   of a box that holds one it says so of. */
+typedef bool kiriMeetsFn(const void* context, const kiriBox* box);
+
+/* Appends the triangles whose own box meets it, by index. False for memory. */
+bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets, const void* context,
+                     kiriMemory* memory, kiriIndices* found);
+
+/* The same for those whose box meets a box. */
+bool kiriBounds_Box(const kiriBounds* bounds, const kiriSurface* surface, const kiriBox* box, kiriMemory* memory,
+                    kiriIndices* found);
+
+/* Calls `visit` for the triangles of each leaf that the ray meets before *distance (in units of its direction), which
+   `visit` may shorten. Leaves come in a fixed order, which is not that of the ray. */
+typedef void kiriVisitFn(void* context, const int32_t* triangles, int32_t count, double* distance);
+void kiriBounds_Ray(const kiriBounds* bounds, kiriVec3 origin, kiriVec3 direction, double distance, kiriVisitFn* visit,
+                    void* context);
+
+KIRI_C_END
+
+#endif
