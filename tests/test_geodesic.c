@@ -58,7 +58,7 @@ static void CloseSheet(Sheet* sheet)
 static void CutLine(Sheet* sheet, double x0, double y0, double x1, double y1)
 {
     kiriMesh_Begin(&sheet->mesh);
-    kiriBlade blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(x0, y0));
+    kiriBladeTip blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(x0, y0));
     kiriLatticePoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x1, y1));
     kiriQuota all = { INT64_MAX, 0 };
     assert_int_equal(kiriCut_Move(&sheet->mesh, &blade, to, 16.0, &all), KIRI_DONE);

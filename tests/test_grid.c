@@ -106,7 +106,7 @@ static void OpenRing(Sheet* sheet, int32_t resolution)
 /* Cuts along a polyline given as pairs of local coordinates, within what is begun. */
 static void CutWithin(Sheet* sheet, const double* points, int32_t count)
 {
-    kiriBlade blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(points[0], points[1]));
+    kiriBladeTip blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(points[0], points[1]));
     for (int32_t i = 1; i < count; ++i) {
         kiriLatticePoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(points[2 * i], points[2 * i + 1]));
         kiriQuota all = { INT64_MAX, 0 };

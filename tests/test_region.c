@@ -99,7 +99,7 @@ static void CutLine(Sheet* sheet, double x0, double y0, double x1, double y1)
 {
     kiriQuota all = { INT64_MAX, 0 };
     kiriMesh_Begin(&sheet->mesh);
-    kiriBlade blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(x0, y0));
+    kiriBladeTip blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(x0, y0));
     assert_int_equal(kiriCut_Move(&sheet->mesh, &blade, kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x1, y1)), 16.0, &all),
                      KIRI_DONE);
     kiriMesh_Commit(&sheet->mesh);
@@ -111,7 +111,7 @@ static void MoveBlade(Sheet* sheet, uint32_t* seed, double length)
     double x = RandomBetween(seed, -0.1, 1.1), y = RandomBetween(seed, -0.1, 1.1);
     double u = RandomBetween(seed, -length, length), v = RandomBetween(seed, -length, length);
     kiriQuota all = { INT64_MAX, 0 };
-    kiriBlade blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(x, y));
+    kiriBladeTip blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(x, y));
     kiriLatticePoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x + u, y + v));
     assert_int_equal(kiriCut_Move(&sheet->mesh, &blade, to, 16.0, &all), KIRI_DONE);
 }

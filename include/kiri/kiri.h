@@ -391,6 +391,28 @@ KIRI_API void kiriDefaultSheetDef(kiriSheetDef* def);
 KIRI_API kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet);
 KIRI_API kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
 
+/* What of the def may be changed while the sheet lives, as there. kiriSheet_GetSettings stamps it. */
+typedef struct kiriSheetSettings {
+    uint32_t cookie;
+    kiriMaterial material;
+    int32_t maxFrames;
+    float crumbArea;
+    float friction, contactThickness;
+    uint32_t groups;
+    int32_t touchesSheets, touchesSelf;
+    int32_t iterations;
+    float sleepSpeed;
+    int32_t skinning, timeStepping;
+    float fadeTime; /* stays 0 with paper.popping */
+} kiriSheetSettings;
+
+KIRI_API kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet sheet, kiriSheetSettings* settings);
+
+/* Checked as the def is: all or nothing. KIRI_ERROR_DEF: they did not come from GetSettings. The sheet wakes where one is
+   other than before. Places and velocities stay: with another mass so momentum changes. Stiffnesses that pins have, and
+   the lengths that frames were spread by, stay as they are. */
+KIRI_API kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSheetSettings* settings);
+
 /* A rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1) floats and
    6 * columns * rows indices. columns and rows are 1 to 4096. */
 KIRI_API kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions,

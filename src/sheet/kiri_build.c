@@ -2,6 +2,7 @@
 
 #include "kiri_pipeline.h"
 #include "kiri_seen.h"
+#include "kiri_settings.h"
 #include "kiri_site.h"
 #include "kiri_stages.h"
 
@@ -49,7 +50,6 @@ static void SetFrames(kiriSettings* settings, const kiriMeshData* mesh, const ki
 {
     double area = kiriMesh_Area(mesh);
     double share = area / (def->frameCount > 0 ? def->frameCount : 1), points = 4.0 * def->frameCount;
-    settings->maxFrames = def->maxFrames > def->frameCount ? def->maxFrames : def->frameCount;
     if (def->frameCount == 0) {
         double least = 3.0 * mesh->step * mesh->squares.side;
         double length = def->frameLength > 0.0f ? def->frameLength : SpacingFor(def, KIRI_LATTICE * mesh->step);
@@ -71,29 +71,21 @@ static void SetPaper(kiriSettings* settings, const kiriPaperOptions* paper)
     if (paper->integrationPoints > 0) {
         settings->integrationPoints = paper->integrationPoints;
     }
-    if (settings->popping) {
-        settings->fadeTime = 0.0;
-    }
 }
 
 static void SetAll(kiriSettings* settings, const kiriMeshData* mesh, const kiriSheetDef* def)
 {
     double longer = KIRI_LATTICE;
     SetFrames(settings, mesh, def);
-    settings->material = def->material;
     settings->snap = def->snapDistance > 0.0f ? def->snapDistance / mesh->step : 1e-4 * longer;
-    settings->crumbArea = def->crumbArea;
-    settings->iterations = def->iterations;
-    settings->skinning = def->skinning;
     settings->collisionPoints = def->collisionPoints;
     settings->mechanics.model = def->model;
     settings->mechanics.planar = def->planar != 0;
     settings->mechanics.axes = AxesOf(def);
-    settings->mechanics.timeStepping = def->timeStepping;
-    settings->sleepSpeed = def->sleepSpeed;
-    settings->fadeTime = def->fadeTime;
     settings->leastFade = 1e-7 * longer * mesh->step; /* of the longer side */
     SetPaper(settings, &def->paper);
+    kiriSheetSettings given = kiriSettings_Of(def);
+    kiriSettings_Take(settings, &given, mesh->step * mesh->squares.side);
 }
 
 /* ---- Frames ---- */
@@ -184,16 +176,6 @@ static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, c
     return KIRI_OK;
 }
 
-void kiriBuild_ApplySettings(kiriSheetData* sheet)
-{
-    const kiriSettings* settings = &sheet->settings;
-    sheet->shape.rigidWeight = settings->rigidWeight;
-    sheet->shape.eased = settings->eased;
-    sheet->seen.surface.skinning = settings->skinning;
-    sheet->seen.fades.time = sheet->seen.pointFades.time = settings->fadeTime;
-    sheet->seen.fades.least = sheet->seen.pointFades.least = settings->leastFade;
-}
-
 void kiriBuild_Commit(kiriSheetData* sheet)
 {
     kiriStage_Commit(sheet);
@@ -212,7 +194,7 @@ kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, cons
     }
     *why = "out of memory";
     SetAll(&sheet->settings, &sheet->mesh, def);
-    kiriBuild_ApplySettings(sheet);
+    kiriSettings_Apply(sheet);
     kiriMesh_Begin(&sheet->mesh);
     sheet->solver = kiriSolver_Create(sheet->memory, &sheet->settings.mechanics);
     return sheet->solver != NULL ? BuildFromMesh(sheet, def, why) : KIRI_ERROR_MEMORY;

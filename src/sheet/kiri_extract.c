@@ -5,6 +5,7 @@
 #include "kiri_pin.h"
 #include "kiri_pipeline.h"
 #include "kiri_seen.h"
+#include "kiri_settings.h"
 
 #include <string.h>
 
@@ -95,7 +96,7 @@ static void CopySettings(kiriSheetData* to, const kiriSheetData* from)
     to->settings.integrationPoints = share * from->settings.integrationPoints;
     to->rest.calm = from->rest.calm;
     to->rest.asleep = from->rest.asleep;
-    kiriBuild_ApplySettings(to);
+    kiriSettings_Apply(to);
 }
 
 /* The cell of the part with the material of one of the sheet. */

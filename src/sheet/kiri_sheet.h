@@ -115,14 +115,19 @@ typedef struct kiriQueuedPoint {
 typedef struct kiriSettings {
     kiriMaterial material;
     kiriMechanics mechanics;
-    double snap; /* lattice steps */
+    kiriSheetSettings given; /* what the host may change, as it gave it */
+    double snap;             /* lattice steps */
     double rigidWeight, rigidArea, crumbArea;
     double frameLength; /* m: the size above which a region is split; 0: none is */
     int32_t maxFrames, iterations, skinning;
     double fadeTime, leastFade; /* s; m: shorter offsets are not seen */
     double sleepSpeed;          /* m/s; 0: never sleeps */
-    double collisionPoints;     /* so many over the sheet; of a part of a sheet its share of them */
-    double integrationPoints;   /* the same */
+    double friction;            /* of the sheet alone */
+    double contactThickness;    /* m, above 0: between sheets; from obstacles half of it */
+    uint32_t groups;
+    bool touchesSheets, touchesSelf;
+    double collisionPoints;   /* so many over the sheet; of a part of a sheet its share of them */
+    double integrationPoints; /* the same */
     int32_t integrationOrder;
     bool fromScratch; /* every cut makes grid, regions and shape anew */
     bool popping;     /* frames are not fitted at a commit */

@@ -1,4 +1,5 @@
 #include "kiri_call.h"
+#include "../sheet/kiri_settings.h"
 
 #include <string.h>
 
@@ -26,19 +27,6 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     def->paper.integrationOrder = 1;
 }
 
-static const char* FaultOfMaterial(const kiriMaterial* m)
-{
-    if (!kiriCall_IsAbove(m->youngsModulus, 0.0f) || !kiriCall_IsAbove(m->thickness, 0.0f) ||
-        !kiriCall_IsAbove(m->density, 0.0f)) {
-        return "Young's modulus, thickness or density is not above 0";
-    }
-    if (!kiriCall_IsAtLeast(m->poissonsRatio, 0.0f) || m->poissonsRatio >= 0.5f) {
-        return "Poisson's ratio is not within 0 and 0.5";
-    }
-    return kiriCall_IsAtLeast(m->airDamping, 0.0f) && kiriCall_IsAtLeast(m->flexDamping, 0.0f) ? NULL
-                                                                                               : "a damping is below 0";
-}
-
 static const char* FaultOfPlacement(const kiriSheetDef* def)
 {
     if (!kiriCall_AreFinite(def->position, 3) || !kiriCall_AreFinite(def->velocity, 3)) {
@@ -49,8 +37,8 @@ static const char* FaultOfPlacement(const kiriSheetDef* def)
 
 static const char* FaultOfFrames(const kiriSheetDef* def)
 {
-    if (!kiriCall_IsWithin(def->frameCount, 0, 65536) || def->maxFrames < 1) {
-        return "frameCount is not within 0 and 65536, or maxFrames below 1";
+    if (!kiriCall_IsWithin(def->frameCount, 0, 65536)) {
+        return "frameCount is not within 0 and 65536";
     }
     if (!kiriCall_IsAtLeast(def->frameLength, 0.0f) || (def->frameCount == 0 && def->framePoints != NULL)) {
         return "frameLength is below 0, or there are framePoints and no frameCount";
@@ -61,21 +49,15 @@ static const char* FaultOfFrames(const kiriSheetDef* def)
     if (def->framePoints != NULL && !kiriCall_AreFinite(def->framePoints, 2 * def->frameCount)) {
         return "a frame point is not finite";
     }
-    if (!kiriCall_IsAbove(def->rigidWeight, 0.0f) || !kiriCall_IsAtLeast(def->rigidArea, 0.0f) ||
-        !kiriCall_IsAtLeast(def->crumbArea, 0.0f)) {
-        return "rigidWeight is not above 0, or rigidArea or crumbArea below 0";
-    }
-    return NULL;
+    return kiriCall_IsAbove(def->rigidWeight, 0.0f) && kiriCall_IsAtLeast(def->rigidArea, 0.0f)
+               ? NULL
+               : "rigidWeight is not above 0, or rigidArea below 0";
 }
 
 static const char* FaultOfModel(const kiriSheetDef* def)
 {
-    if (!kiriCall_IsWithin(def->model, KIRI_MODEL_LINKS, KIRI_MODEL_POINTS) ||
-        !kiriCall_IsWithin(def->skinning, KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH)) {
-        return "model is not one of KIRI_MODEL, or skinning not one of KIRI_SKINNING";
-    }
-    if (!kiriCall_IsWithin(def->timeStepping, KIRI_TIME_STEPPING_SECOND_ORDER, KIRI_TIME_STEPPING_EULER)) {
-        return "timeStepping is not one of KIRI_TIME_STEPPING";
+    if (!kiriCall_IsWithin(def->model, KIRI_MODEL_LINKS, KIRI_MODEL_POINTS)) {
+        return "model is not one of KIRI_MODEL";
     }
     return kiriCall_IsWithin(def->planar, 0, 1) ? NULL : "planar is not 0 or 1";
 }
@@ -93,7 +75,8 @@ static const char* FaultOfPaper(const kiriPaperOptions* paper)
 
 static const char* FaultOfSheet(const kiriSheetDef* def)
 {
-    const char* faults[] = { FaultOfMaterial(&def->material), FaultOfPlacement(def), FaultOfFrames(def),
+    const kiriSheetSettings settings = kiriSettings_Of(def);
+    const char* faults[] = { kiriCall_FaultOfSettings(&settings), FaultOfPlacement(def), FaultOfFrames(def),
                              FaultOfModel(def), FaultOfPaper(&def->paper) };
     for (int i = 0; i < 5; ++i) {
         if (faults[i] != NULL) {
@@ -106,13 +89,7 @@ static const char* FaultOfSheet(const kiriSheetDef* def)
     if (!kiriCall_IsAtLeast(def->snapDistance, 0.0f)) {
         return "snapDistance is below 0";
     }
-    if (!kiriCall_IsAtLeast(def->sleepSpeed, 0.0f) || !kiriCall_IsAtLeast(def->fadeTime, 0.0f)) {
-        return "sleepSpeed or fadeTime is below 0";
-    }
-    if (!kiriCall_IsWithin(def->collisionPoints, 0, 1 << 20) || !kiriCall_IsWithin(def->iterations, 1, 64)) {
-        return "collisionPoints is not within 0 and 1048576, or iterations not within 1 and 64";
-    }
-    return NULL;
+    return kiriCall_IsWithin(def->collisionPoints, 0, 1 << 20) ? NULL : "collisionPoints is not within 0 and 1048576";
 }
 
 kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet)

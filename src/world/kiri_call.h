@@ -67,6 +67,9 @@ bool kiriCall_IsAtLeast(float value, float low);
 bool kiriCall_IsWithin(int32_t value, int32_t low, int32_t high);
 bool kiriCall_AreOrthonormal(const float a[3], const float b[3]);
 
+/* What is wrong with the settings of a sheet, or null. Their cookie is not looked at. */
+const char* kiriCall_FaultOfSettings(const kiriSheetSettings* settings);
+
 /* What is wrong with the rotation of a part of the sheet, or null. */
 const char* kiriCall_FaultOfRotation(const kiriSheetData* sheet, const float rotation[9]);
 

@@ -219,6 +219,11 @@ static void HashSettings(uint64_t* hash, const kiriSheetData* sheet)
     kiriHash_Double(hash, sheet->settings.collisionPoints);
     kiriHash_Int32(hash, sheet->settings.popping);
     kiriHash_Int32(hash, sheet->settings.eased);
+    kiriHash_Double(hash, sheet->settings.friction);
+    kiriHash_Double(hash, sheet->settings.contactThickness);
+    kiriHash_Int32(hash, (int32_t)sheet->settings.groups);
+    kiriHash_Int32(hash, sheet->settings.touchesSheets);
+    kiriHash_Int32(hash, sheet->settings.touchesSelf);
     if (sheet->settings.skinning != KIRI_SKINNING_LINEAR) {
         kiriHash_Int32(hash, sheet->settings.skinning); /* what fades is what is seen to jump */
     }

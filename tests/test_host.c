@@ -1,0 +1,168 @@
+/* What a host expects beside cuts and contact: settings, points, impulses, wind, pins, velocities, data, and solids to
+   draw. */
+#include "host.h"
+
+#define DT (1.0f / 60.0f)
+
+/* ---- Settings ----------------------------------------------------------------------------------------------------- */
+
+static kiriSheet Hang(Host* host, kiriSheetDef* def)
+{
+    kiriSheet sheet = Host_AddRectangle(host, def, 1.0f, 1.0f, 4, 4);
+    kiriPinDef pinDef;
+    kiriPin pin;
+    kiriDefaultPinDef(&pinDef);
+    pinDef.restPoint[1] = pinDef.target[1] = 1.0f;
+    OK(kiriCreatePin(host->world, sheet, &pinDef, &pin));
+    return sheet;
+}
+
+static void TestSettingsAreThoseOfTheDef(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheetSettings settings;
+    Host_Start(&host);
+    def.friction = 0.25f;
+    def.contactThickness = 0.003f;
+    def.groups = 6;
+    def.touchesSheets = 1;
+    def.iterations = 3;
+    def.maxFrames = 2; /* four are there at once */
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    OK(kiriSheet_GetSettings(host.world, sheet, &settings));
+    assert_memory_equal(&settings.material, &def.material, sizeof(def.material));
+    assert_true(settings.friction == 0.25f && settings.contactThickness == 0.003f && settings.groups == 6);
+    assert_true(settings.touchesSheets == 1 && settings.touchesSelf == 0 && settings.iterations == 3);
+    assert_true(settings.maxFrames == 4 && settings.sleepSpeed == def.sleepSpeed && settings.fadeTime == def.fadeTime);
+    uint64_t hash = Host_Hash(&host);
+    OK(kiriSheet_SetSettings(host.world, sheet, &settings));
+    assert_true(Host_Hash(&host) == hash);
+    Host_Stop(&host);
+}
+
+/* Each of them as a def would have it, before the first tick: then the runs are the same. */
+static void TestSettingsAreADefs(void** state)
+{
+    (void)state;
+    uint64_t hash[2];
+    for (int way = 0; way < 2; ++way) {
+        Host host;
+        kiriSheetDef def = Host_SmallDef(), other = def;
+        kiriSheetSettings settings;
+        const float line[4] = { -0.1f, 0.43f, 0.7f, 0.51f };
+        Host_Start(&host);
+        OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &other.material)); /* with Poisson's ratio, which cotton has not */
+        other.timeStepping = KIRI_TIME_STEPPING_EULER;
+        other.skinning = KIRI_SKINNING_SMOOTH;
+        other.iterations = 4;
+        other.fadeTime = 0.0f;
+        other.sleepSpeed = 0.0f;
+        other.friction = 0.1f;
+        other.groups = 1;
+        other.touchesSelf = 1;
+        other.crumbArea = 0.01f;
+        other.maxFrames = 7;
+        kiriSheet sheet = Host_AddRectangle(&host, way == 0 ? &other : &def, 1.0f, 1.0f, 4, 4);
+        OK(kiriSheet_GetSettings(host.world, sheet, &settings));
+        settings.material = other.material;
+        settings.timeStepping = other.timeStepping;
+        settings.skinning = other.skinning;
+        settings.iterations = other.iterations;
+        settings.fadeTime = other.fadeTime;
+        settings.sleepSpeed = other.sleepSpeed;
+        settings.friction = other.friction;
+        settings.groups = other.groups;
+        settings.touchesSelf = other.touchesSelf;
+        settings.crumbArea = other.crumbArea;
+        settings.maxFrames = other.maxFrames;
+        OK(kiriSheet_SetSettings(host.world, sheet, &settings));
+        Host_Cut(&host, sheet, line, 2); /* which touches all regions, so that masses are exact in both */
+        for (int i = 0; i < 20; ++i) {
+            assert_true(Host_Tick(&host, DT, 2) >= 0);
+        }
+        hash[way] = Host_Hash(&host);
+        Host_Stop(&host);
+    }
+    assert_true(hash[0] == hash[1]);
+}
+
+static void TestSettingsChangeWhileItMoves(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheetSettings settings;
+    Host_Start(&host);
+    kiriSheet sheet = Hang(&host, &def);
+    for (int i = 0; i < 20; ++i) {
+        OK(Host_Tick(&host, DT, 2));
+    }
+    kiriTotals before = Host_Totals(&host, sheet);
+    OK(kiriSheet_GetSettings(host.world, sheet, &settings));
+    settings.material.density *= 2.0f;
+    settings.material.poissonsRatio = 0.3f;
+    settings.skinning = KIRI_SKINNING_SMOOTH;
+    OK(kiriSheet_SetSettings(host.world, sheet, &settings));
+    kiriTotals after = Host_Totals(&host, sheet);
+    for (int k = 0; k < 3; ++k) {
+        assert_true(fabs(after.center[k] - before.center[k]) < 1e-12);
+        assert_true(fabs(after.momentum[k] - 2.0 * before.momentum[k]) < 1e-6 * before.mass);
+    }
+    assert_true(fabs(after.mass - 2.0 * before.mass) < 1e-6 * before.mass);
+    const float line[4] = { -0.1f, 0.5f, 0.7f, 0.5f };
+    Host_Cut(&host, sheet, line, 2);
+    for (int i = 0; i < 20; ++i) {
+        OK(Host_Tick(&host, DT, 2));
+    }
+    settings.fadeTime = 0.0f; /* while strains of links fade */
+    OK(kiriSheet_SetSettings(host.world, sheet, &settings));
+    const float more[4] = { 0.5f, -0.1f, 0.55f, 0.4f };
+    Host_Cut(&host, sheet, more, 2);
+    OK(Host_Tick(&host, DT, 2));
+    Host_Stop(&host);
+}
+
+static void TestSettingsAreChecked(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheetSettings good, bad;
+    Host_Start(&host);
+    kiriSheet sheet = Hang(&host, &def);
+    OK(kiriSheet_GetSettings(host.world, sheet, &good));
+    uint64_t hash = Host_Hash(&host);
+#define REFUSED_SETTING(field, value, code)                                                                            \
+    bad = good;                                                                                                        \
+    bad.field = value;                                                                                                 \
+    assert_int_equal(kiriSheet_SetSettings(host.world, sheet, &bad), code);                                            \
+    assert_true(Host_Hash(&host) == hash)
+    REFUSED_SETTING(cookie, 0, KIRI_ERROR_DEF);
+    REFUSED_SETTING(material.density, 0.0f, KIRI_ERROR_ARGUMENT);
+    REFUSED_SETTING(material.poissonsRatio, 0.5f, KIRI_ERROR_ARGUMENT);
+    REFUSED_SETTING(maxFrames, 0, KIRI_ERROR_ARGUMENT);
+    REFUSED_SETTING(crumbArea, -1.0f, KIRI_ERROR_ARGUMENT);
+    REFUSED_SETTING(friction, -1.0f, KIRI_ERROR_ARGUMENT);
+    REFUSED_SETTING(contactThickness, NAN, KIRI_ERROR_ARGUMENT);
+    REFUSED_SETTING(touchesSheets, 2, KIRI_ERROR_ARGUMENT);
+    REFUSED_SETTING(touchesSelf, -1, KIRI_ERROR_ARGUMENT);
+    REFUSED_SETTING(iterations, 65, KIRI_ERROR_ARGUMENT);
+    REFUSED_SETTING(sleepSpeed, NAN, KIRI_ERROR_ARGUMENT);
+    REFUSED_SETTING(skinning, 2, KIRI_ERROR_ARGUMENT);
+    REFUSED_SETTING(timeStepping, 2, KIRI_ERROR_ARGUMENT);
+    REFUSED_SETTING(fadeTime, -1.0f, KIRI_ERROR_ARGUMENT);
+    Host_Stop(&host);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestSettingsAreThoseOfTheDef),
+        cmocka_unit_test(TestSettingsAreADefs),
+        cmocka_unit_test(TestSettingsChangeWhileItMoves),
+        cmocka_unit_test(TestSettingsAreChecked),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
