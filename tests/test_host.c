@@ -156,13 +156,152 @@ static void TestSettingsAreChecked(void** state)
     Host_Stop(&host);
 }
 
+/* ---- Points and impulses ------------------------------------------------------------------------------------------ */
+
+static kiriPointState PointAt(const Host* host, kiriSheet sheet, float u, float v)
+{
+    const float rest[2] = { u, v };
+    kiriPointState state;
+    OK(kiriSheet_GetPoint(host->world, sheet, rest, &state));
+    return state;
+}
+
+static double Apart(const float* a, const float* b)
+{
+    double x = (double)a[0] - b[0], y = (double)a[1] - b[1], z = (double)a[2] - b[2];
+    return sqrt(x * x + y * y + z * z);
+}
+
+/* At vertices it is what the mesh shows; its velocity is that by which it goes on. */
+static void TestPointIsWhatIsSeen(void** state)
+{
+    (void)state;
+    for (int32_t skinning = 0; skinning < 2; ++skinning) {
+        Host host;
+        kiriSheetDef def = Host_SmallDef();
+        const float line[4] = { -0.1f, 0.4f, 0.6f, 0.55f };
+        Host_Start(&host);
+        def.skinning = skinning;
+        kiriSheet sheet = Hang(&host, &def);
+        Host_Cut(&host, sheet, line, 2);
+        for (int i = 0; i < 30; ++i) {
+            OK(Host_Tick(&host, DT, 2));
+        }
+        kiriMesh mesh = Host_Mesh(&host, sheet);
+        for (int32_t t = 0; t < mesh.triangleCount; ++t) {
+            float rest[2] = { 0.0f, 0.0f }, x[3] = { 0.0f, 0.0f, 0.0f };
+            for (int k = 0; k < 3; ++k) {
+                for (int e = 0; e < 2; ++e) {
+                    rest[e] += mesh.restPositions[2 * mesh.indices[3 * t + k] + e] / 3.0f;
+                }
+                for (int e = 0; e < 3; ++e) {
+                    x[e] += mesh.positions[3 * mesh.indices[3 * t + k] + e] / 3.0f;
+                }
+            }
+            kiriPointState point = PointAt(&host, sheet, rest[0], rest[1]);
+            assert_true(Apart(point.position, x) < 1e-5);
+            float none[3] = { 0.0f, 0.0f, 0.0f };
+            assert_true(fabs(Apart(point.normal, none) - 1.0) < 1e-5);
+        }
+        kiriPointState before = PointAt(&host, sheet, 0.7f, 0.3f);
+        OK(Host_Tick(&host, 1e-4f, 1));
+        kiriPointState after = PointAt(&host, sheet, 0.7f, 0.3f);
+        double way = 0.0, size = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            double v = ((double)after.position[k] - before.position[k]) / 1e-4;
+            double mean = 0.5 * ((double)before.velocity[k] + after.velocity[k]);
+            way += (v - mean) * (v - mean);
+            size += v * v;
+        }
+        /* The normal that a smooth patch leaves by turns a little beside its weights. */
+        assert_true(size > 0.01 && way < (skinning == 0 ? 1e-3 : 0.05) * size);
+        Host_Stop(&host);
+    }
+}
+
+static void TestPointNamesItsPiece(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetDef def = Host_SmallDef();
+    const float line[4] = { 0.5f, -0.1f, 0.5f, 1.1f }, outside[2] = { 1.5f, 0.5f };
+    int32_t pieces[2];
+    kiriPointState point;
+    Host_Start(&host);
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    Host_Cut(&host, sheet, line, 2);
+    OK(Host_Tick(&host, DT, 1));
+    for (int k = 0; k < 2; ++k) {
+        point = PointAt(&host, sheet, k == 0 ? 0.49f : 0.51f, 0.5f);
+        OK(kiriFrame_GetPiece(host.world, point.frame, &pieces[k]));
+    }
+    assert_int_not_equal(pieces[0], pieces[1]);
+    assert_int_equal(kiriSheet_GetPoint(host.world, sheet, outside, &point), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_GetPoint(host.world, sheet, outside, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_GetPoint(host.world, 77, outside, &point), KIRI_ERROR_ID);
+    Host_Stop(&host);
+}
+
+/* Of models and skinnings, with fades on the way. */
+static void TestImpulseIsMomentum(void** state)
+{
+    (void)state;
+    for (int32_t way = 0; way < 4; ++way) {
+        Host host;
+        kiriSheetDef def = Host_SmallDef();
+        const float line[4] = { -0.1f, 0.4f, 0.6f, 0.55f }, at[2] = { 0.9f, 0.2f }, outside[2] = { -0.1f, 0.0f };
+        const float impulse[3] = { 0.01f, -0.02f, 0.05f };
+        Host_Start(&host);
+        def.skinning = way % 2;
+        def.model = way < 2 ? KIRI_MODEL_LINKS : KIRI_MODEL_AFFINE;
+        kiriSheet sheet = Hang(&host, &def);
+        for (int i = 0; i < 20; ++i) {
+            OK(Host_Tick(&host, DT, 2));
+        }
+        Host_Cut(&host, sheet, line, 2);
+        OK(Host_Tick(&host, DT, 2));
+        kiriTotals before = Host_Totals(&host, sheet);
+        kiriPointState point = PointAt(&host, sheet, at[0], at[1]);
+        OK(kiriSheet_ApplyImpulse(host.world, sheet, at, impulse));
+        kiriTotals after = Host_Totals(&host, sheet);
+        for (int k = 0; k < 3; ++k) {
+            int i = (k + 1) % 3, j = (k + 2) % 3;
+            double moment = (double)point.position[i] * impulse[j] - (double)point.position[j] * impulse[i];
+            assert_true(fabs(after.momentum[k] - before.momentum[k] - impulse[k]) < 1e-14);
+            assert_true(fabs(after.angularMomentum[k] - before.angularMomentum[k] - moment) < 1e-8);
+        }
+        assert_int_equal(kiriSheet_ApplyImpulse(host.world, sheet, outside, impulse), KIRI_ERROR_ARGUMENT);
+        assert_int_equal(kiriSheet_ApplyImpulse(host.world, sheet, at, NULL), KIRI_ERROR_ARGUMENT);
+        OK(Host_Tick(&host, DT, 2));
+        Host_Stop(&host);
+    }
+}
+
+/* One that is planar takes what is in its plane. */
+static void TestImpulseInPlane(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetDef def = Host_SmallDef();
+    const float at[2] = { 0.9f, 0.2f }, impulse[3] = { 0.01f, -0.02f, 0.05f };
+    Host_Start(&host);
+    def.planar = 1;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    OK(kiriSheet_ApplyImpulse(host.world, sheet, at, impulse));
+    kiriTotals totals = Host_Totals(&host, sheet);
+    assert_true(fabs(totals.momentum[0] - 0.01) < 1e-9 && fabs(totals.momentum[1] + 0.02) < 1e-9);
+    assert_true(totals.momentum[2] == 0.0);
+    assert_true(fabs(totals.angularMomentum[2] - (0.9 * -0.02 - 0.2 * 0.01)) < 1e-8);
+    Host_Stop(&host);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSettingsAreThoseOfTheDef),
-        cmocka_unit_test(TestSettingsAreADefs),
-        cmocka_unit_test(TestSettingsChangeWhileItMoves),
-        cmocka_unit_test(TestSettingsAreChecked),
+        cmocka_unit_test(TestSettingsAreThoseOfTheDef),   cmocka_unit_test(TestSettingsAreADefs),
+        cmocka_unit_test(TestSettingsChangeWhileItMoves), cmocka_unit_test(TestSettingsAreChecked),
+        cmocka_unit_test(TestPointIsWhatIsSeen),          cmocka_unit_test(TestPointNamesItsPiece),
+        cmocka_unit_test(TestImpulseIsMomentum),          cmocka_unit_test(TestImpulseInPlane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -517,7 +517,7 @@ KIRI_API kiriResult kiriWorld_Raycast(const kiriWorld* world, const float origin
 /* A point of the material, as it is seen. */
 typedef struct kiriPointState {
     float position[3], normal[3]; /* m, world; unit */
-    float velocity[3];            /* m/s */
+    float velocity[3];            /* m/s, by the weights of the point */
     kiriFrame frame;              /* in whose region it is; it names the piece, too */
 } kiriPointState;
 
@@ -654,9 +654,10 @@ KIRI_API kiriResult kiriFrame_GetReaction(const kiriWorld* world, kiriFrame fram
 
 /* ---- Load ------------------------------------------------------------------------------------------------------- */
 
-/* Loads act throughout the next tick, all of its substeps, and are gone then. They add up. They act on the frames that
-   hold the material when they are given, from where the sheet is then: turn and place of a load do not follow the sheet
-   within the tick. A tick that is refused (KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT) uses none of them up. */
+/* Forces, torques, line loads and pressures act throughout the next tick, all of its substeps, and are gone then. They
+   add up. They act on the frames that hold the material when they are given, from where the sheet is then: turn and place
+   of a load do not follow the sheet within the tick. A tick that is refused (KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT) uses
+   none of them up. */
 
 /* A force (N, world) on the frame's centre of mass and a torque (N m). */
 KIRI_API kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3],
@@ -675,7 +676,8 @@ KIRI_API kiriResult kiriSheet_ApplyLineLoad(kiriWorld* world, kiriSheet sheet, c
 /* A pressure (Pa) that pushes the whole sheet along its normal, or against it where below 0. */
 KIRI_API kiriResult kiriSheet_ApplyPressure(kiriWorld* world, kiriSheet sheet, float pressure);
 
-/* An impulse (N s, world) on a point of the material, at the start of the next tick. */
+/* An impulse (N s, world) on a point of the material, where it is seen now. Velocities change at once, by as much as the
+   frames that carry the point resist; a held frame's part is lost. Outside the sheet: KIRI_ERROR_ARGUMENT. */
 KIRI_API kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float restPoint[2],
                                            const float impulse[3]);
 

@@ -1,5 +1,7 @@
 #include "kiri_load.h"
 
+#include "../motion/kiri_prediction.h"
+
 void kiriLoad_AtPoint(kiriSheetData* sheet, int32_t frame, kiriVec2 at, kiriVec3 force, kiriVec3 torque)
 {
     KIRI_ASSERT(frame >= 0 && frame < sheet->frames.count);
@@ -29,5 +31,42 @@ void kiriLoad_OnSurface(kiriSheetData* sheet, double pressure)
         kiriFrameData* frame = &sheet->frames.data[i];
         kiriVec3 across = kiriVec3_Cross(frame->A.u, frame->A.v);
         frame->force = kiriVec3_AddScaled(frame->force, pressure * frame->area, across);
+    }
+}
+
+/* ---- Impulses ----------------------------------------------------------------------------------------------------- */
+
+/* What acts across the plane of a planar sheet is dropped. */
+static void Push(const kiriSheetData* sheet, kiriFrameData* frame, kiriVec3 impulse, kiriVec3 moment)
+{
+    const kiriMechanics* mechanics = &sheet->settings.mechanics;
+    kiriVec3 d = mechanics->axes.d;
+    kiriMat3 inertia = kiriFrame_Inertia(frame, &sheet->settings.material);
+    if (mechanics->planar) {
+        impulse = kiriVec3_AddScaled(impulse, -kiriVec3_Dot(impulse, d), d);
+        double about = kiriVec3_Dot(d, kiriMat3_Mul(inertia, d));
+        frame->spin = kiriVec3_AddScaled(frame->spin, kiriVec3_Dot(moment, d) / about, d);
+    } else {
+        frame->spin = kiriVec3_Add(frame->spin, kiriMat3_Solve(&inertia, moment));
+    }
+    frame->velocity = kiriVec3_AddScaled(frame->velocity, 1.0 / frame->mass, impulse);
+}
+
+/* What is seen lies off where the weights have the point, where it fades or its patches are bent: each share of the
+   impulse acts as if that much beside its frame's own point, so that the sum acts where the point is seen. */
+void kiriLoad_Impulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 impulse)
+{
+    const int32_t* corners = sheet->mesh.triangles.data[place->triangle].vertex;
+    kiriVec3 off = kiriVec3_Sub(kiriPoint_Position(sheet, place), kiriPoint_Blend(sheet, place).x);
+    for (int k = 0; k < 3; ++k) {
+        kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[corners[k]].at);
+        kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
+        for (int32_t i = span.first; i < span.first + span.count; ++i) {
+            kiriWeight weight = sheet->vertexSkin.weights.data[i];
+            kiriFrameData* frame = &sheet->frames.data[weight.frame];
+            kiriVec3 arm = kiriVec3_Add(kiriVec3_Sub(kiriFrame_Carry(frame, local), frame->x), off);
+            kiriVec3 part = kiriVec3_Scale(place->shares[k] * weight.value, impulse);
+            Push(sheet, frame, part, kiriVec3_Cross(arm, part));
+        }
     }
 }

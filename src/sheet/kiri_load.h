@@ -2,7 +2,7 @@
 #ifndef KIRI_LOAD_H
 #define KIRI_LOAD_H
 
-#include "kiri_owner.h"
+#include "kiri_point.h"
 
 KIRI_C_BEGIN
 
@@ -14,6 +14,10 @@ void kiriLoad_AlongLine(kiriSheetData* sheet, kiriLatticePoint from, kiriLattice
 
 /* A pressure (Pa) on the side that the normal leaves: it pushes along the normal of each frame as it is now. */
 void kiriLoad_OnSurface(kiriSheetData* sheet, double pressure);
+
+/* An impulse (N s) on a point as it is seen, at once: each frame that carries the point gets its share. The sheet gets the
+   impulse, and its moment about where the point is seen. */
+void kiriLoad_Impulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 impulse);
 
 KIRI_C_END
 

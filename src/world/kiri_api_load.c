@@ -69,3 +69,18 @@ kiriResult kiriSheet_ApplyPressure(kiriWorld* world, kiriSheet sheet, float pres
     WakeFor(data, load);
     return KIRI_OK;
 }
+
+kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float restPoint[2], const float impulse[3])
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(restPoint != NULL && kiriCall_AreFinite(restPoint, 2), "restPoint is null or not finite");
+    KIRI_CHECK(impulse != NULL && kiriCall_AreFinite(impulse, 3), "impulse is null or not finite");
+    KIRI_FIND_SHEET(data, sheet);
+    kiriLatticePoint at;
+    kiriPointPlace place;
+    KIRI_CHECK(kiriSheet_ToLattice(data, restPoint, &at) && kiriPoint_Find(data, at, &place),
+               "restPoint lies outside the material");
+    kiriLoad_Impulse(data, &place, kiriVec3_Load(impulse));
+    WakeFor(data, impulse);
+    return KIRI_OK;
+}

@@ -1,6 +1,7 @@
 #include "kiri_call.h"
 #include "../motion/kiri_estimate.h"
 #include "../sheet/kiri_motion.h"
+#include "../sheet/kiri_point.h"
 #include "../sheet/kiri_update.h"
 #include "../view/kiri_ray.h"
 
@@ -183,6 +184,23 @@ kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sheet, doub
     bool ok = kiriEstimate_Error(&scratch, data->frames.data, data->frames.count, data->links.links.data,
                                  data->links.links.count, &data->settings.material, relative);
     return ok ? KIRI_OK : KIRI_FAIL(KIRI_ERROR_MEMORY, "out of memory");
+}
+
+kiriResult kiriSheet_GetPoint(const kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriPointState* state)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(restPoint != NULL && kiriCall_AreFinite(restPoint, 2), "restPoint is null or not finite");
+    KIRI_CHECK(state != NULL, "state is null");
+    KIRI_FIND_SHEET(data, sheet);
+    kiriLatticePoint at;
+    kiriPointPlace place;
+    KIRI_CHECK(kiriSheet_ToLattice(data, restPoint, &at) && kiriPoint_Find(data, at, &place),
+               "restPoint lies outside the material");
+    kiriVec3_Store(state->position, kiriPoint_Position(data, &place));
+    kiriVec3_Store(state->normal, kiriPoint_Normal(data, &place));
+    kiriVec3_Store(state->velocity, kiriPoint_Blend(data, &place).velocity);
+    state->frame = data->frames.data[kiriOwner_At(data, at)].id;
+    return KIRI_OK;
 }
 
 kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriFrame* frames,

@@ -1,0 +1,69 @@
+#include "kiri_point.h"
+
+#include <string.h>
+
+bool kiriPoint_Find(const kiriSheetData* sheet, kiriLatticePoint at, kiriPointPlace* place)
+{
+    place->at = at;
+    place->triangle = kiriMesh_Locate(&sheet->mesh, at);
+    if (place->triangle == KIRI_NONE) {
+        return false;
+    }
+    kiriLatticePoint corners[3];
+    kiriMesh_Corners(&sheet->mesh, place->triangle, corners);
+    double area = (double)kiriOrient(corners[0], corners[1], corners[2]);
+    for (int k = 0; k < 3; ++k) {
+        place->shares[k] = (double)kiriOrient(corners[(k + 1) % 3], corners[(k + 2) % 3], at) / area;
+    }
+    return true;
+}
+
+static const int32_t* CornersOf(const kiriSheetData* sheet, const kiriPointPlace* place)
+{
+    return sheet->mesh.triangles.data[place->triangle].vertex;
+}
+
+kiriVec3 kiriPoint_Position(const kiriSheetData* sheet, const kiriPointPlace* place)
+{
+    kiriVec3 x = { 0.0, 0.0, 0.0 };
+    for (int k = 0; k < 3; ++k) {
+        x = kiriVec3_AddScaled(x, place->shares[k], sheet->seen.surface.exact.data[CornersOf(sheet, place)[k]]);
+    }
+    return x;
+}
+
+/* Where the normals of the corners cancel out, that of the triangle. */
+kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* place)
+{
+    const int32_t* corners = CornersOf(sheet, place);
+    const kiriVec3* x = sheet->seen.surface.exact.data;
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    for (int k = 0; k < 3; ++k) {
+        kiriVec3 normal = kiriVec3_Load(&sheet->seen.surface.normals.data[3 * corners[k]]);
+        sum = kiriVec3_AddScaled(sum, place->shares[k], normal);
+    }
+    if (kiriVec3_Length(sum) < 1e-3) {
+        sum = kiriVec3_Cross(kiriVec3_Sub(x[corners[1]], x[corners[0]]), kiriVec3_Sub(x[corners[2]], x[corners[0]]));
+    }
+    return kiriVec3_Normalize(sum);
+}
+
+/* As the mesh has it: at the corners the frames are blended, between them the corners. */
+kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* place)
+{
+    kiriMotion motion;
+    memset(&motion, 0, sizeof(motion));
+    for (int k = 0; k < 3; ++k) {
+        int32_t corner = CornersOf(sheet, place)[k];
+        kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[corner].at);
+        kiriSpan span = sheet->vertexSkin.spans.data[corner];
+        for (int32_t i = span.first; i < span.first + span.count; ++i) {
+            kiriWeight weight = sheet->vertexSkin.weights.data[i];
+            const kiriFrameData* frame = &sheet->frames.data[weight.frame];
+            double share = place->shares[k] * weight.value;
+            motion.x = kiriVec3_AddScaled(motion.x, share, kiriFrame_Carry(frame, local));
+            motion.velocity = kiriVec3_AddScaled(motion.velocity, share, kiriFrame_VelocityAt(frame, local));
+        }
+    }
+    return motion;
+}
