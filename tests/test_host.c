@@ -295,13 +295,146 @@ static void TestImpulseInPlane(void** state)
     Host_Stop(&host);
 }
 
+/* ---- Wind --------------------------------------------------------------------------------------------------------- */
+
+static kiriWind Wind(float x, float y, float z, float drag, float lift)
+{
+    const kiriWind wind = { { x, y, z }, 1.2f, drag, lift };
+    return wind;
+}
+
+/* m g = density / 2 drag area v^2, flat, in still air; and edge on, by the force along the sheet. */
+static void TestTerminalVelocity(void** state)
+{
+    (void)state;
+    for (int way = 0; way < 6; ++way) {
+        Host host;
+        kiriSheetDef def = Host_SmallDef();
+        kiriWind wind = way % 2 == 0 ? Wind(0.0f, 0.0f, 0.0f, 1.2f, 0.02f) : Wind(0.0f, 0.0f, 0.0f, 1.2f, 1.2f);
+        Host_Start(&host);
+        OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
+        def.material.airDamping = 0.0f;
+        def.model = way < 4 ? KIRI_MODEL_LINKS : KIRI_MODEL_AFFINE;
+        if (way % 2 == 1) {
+            def.axisV[1] = 0.0f;
+            def.axisV[2] = 1.0f;
+        }
+        def.timeStepping = way / 2 % 2;
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+        OK(kiriSheet_SetWind(host.world, sheet, &wind));
+        for (int i = 0; i < 240; ++i) {
+            OK(Host_Tick(&host, DT, 2));
+        }
+        kiriTotals totals = Host_Totals(&host, sheet);
+        double law = sqrt(totals.mass * 9.81 / (0.5 * 1.2 * 1.2 * totals.area));
+        assert_true(fabs(-totals.momentum[2] / totals.mass / law - 1.0) < 0.001);
+        assert_true(totals.angularMomentum[0] * 0.0 == 0.0);
+        Host_Stop(&host);
+    }
+}
+
+/* However strong: it carries the sheet along, and never faster than itself. */
+static void TestWindIsNotOvertaken(void** state)
+{
+    (void)state;
+    for (int way = 0; way < 4; ++way) {
+        Host host;
+        kiriSheetDef def = Host_SmallDef();
+        kiriWind wind = Wind(0.0f, 0.0f, 200.0f, 1.5f, 0.1f);
+        Host_Start(&host);
+        OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
+        const float none[3] = { 0.0f, 0.0f, 0.0f };
+        OK(kiriWorld_SetGravity(host.world, none));
+        def.material.airDamping = 0.0f;
+        def.timeStepping = way % 2;
+        def.model = way / 2;
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+        OK(kiriSheet_SetWind(host.world, sheet, &wind));
+        for (int i = 0; i < 60; ++i) {
+            OK(Host_Tick(&host, DT, 1));
+            kiriTotals totals = Host_Totals(&host, sheet);
+            double speed = totals.momentum[2] / totals.mass;
+            assert_true(speed > (i < 10 ? 100.0 : 199.0) && speed < 200.0);
+            assert_true(totals.kineticEnergy < 0.5001 * totals.mass * 200.0 * 200.0);
+        }
+        Host_Stop(&host);
+    }
+}
+
+/* A flag of cotton in 8 m/s: it rises, and goes on beating; its pole bears what the wind takes. Returns how far its free
+   edge beats, m. */
+static double Beat(Host* host, kiriSheet sheet, int ticks)
+{
+    double low = 1e9, high = -1e9;
+    for (int i = 0; i < ticks; ++i) {
+        OK(Host_Tick(host, DT, 2));
+        kiriPointState point = PointAt(host, sheet, 1.0f, 0.3f);
+        low = point.position[1] < low ? point.position[1] : low;
+        high = point.position[1] > high ? point.position[1] : high;
+    }
+    return high - low;
+}
+
+static void TestFlagFlutters(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetDef def;
+    const float from[2] = { 0.0f, 0.0f }, to[2] = { 0.0f, 0.6f };
+    kiriPin pole;
+    kiriDefaultSheetDef(&def);
+    Host_Start(&host);
+    host.every = 30;
+    def.frameCount = 24;
+    def.axisV[1] = 0.0f;
+    def.axisV[2] = 1.0f;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.6f, 20, 12);
+    OK(kiriSheet_HingeLine(host.world, sheet, from, to, &pole));
+    kiriWind wind = Wind(8.0f, 0.3f, 0.0f, 1.2f, 0.05f);
+    OK(kiriSheet_SetWind(host.world, sheet, &wind));
+    Beat(&host, sheet, 180);
+    double beat = Beat(&host, sheet, 120), later = Beat(&host, sheet, 120);
+    print_message("a flag of 1 m in 8 m/s beats by %.2f m, then by %.2f m\n", beat, later);
+    assert_true(beat > 0.05 && later > 0.5 * beat && later < 1.5);
+    wind = Wind(0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
+    OK(kiriSheet_SetWind(host.world, sheet, &wind));
+    Host_Stop(&host);
+}
+
+static void TestWindIsChecked(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetDef def = Host_SmallDef();
+    Host_Start(&host);
+    kiriSheet sheet = Hang(&host, &def);
+    uint64_t hash = Host_Hash(&host);
+    kiriWind bad[4] = { Wind(NAN, 0.0f, 0.0f, 1.0f, 0.0f), Wind(0.0f, 0.0f, 0.0f, -1.0f, 0.0f),
+                        Wind(0.0f, 0.0f, 0.0f, 1.0f, -1.0f), Wind(0.0f, 0.0f, 0.0f, 1.0f, 0.0f) };
+    bad[3].density = -1.0f;
+    for (int i = 0; i < 4; ++i) {
+        assert_int_equal(kiriSheet_SetWind(host.world, sheet, &bad[i]), KIRI_ERROR_ARGUMENT);
+    }
+    assert_int_equal(kiriSheet_SetWind(host.world, sheet, NULL), KIRI_ERROR_ARGUMENT);
+    assert_true(Host_Hash(&host) == hash);
+    Host_Stop(&host);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSettingsAreThoseOfTheDef),   cmocka_unit_test(TestSettingsAreADefs),
-        cmocka_unit_test(TestSettingsChangeWhileItMoves), cmocka_unit_test(TestSettingsAreChecked),
-        cmocka_unit_test(TestPointIsWhatIsSeen),          cmocka_unit_test(TestPointNamesItsPiece),
-        cmocka_unit_test(TestImpulseIsMomentum),          cmocka_unit_test(TestImpulseInPlane),
+        cmocka_unit_test(TestSettingsAreThoseOfTheDef),
+        cmocka_unit_test(TestSettingsAreADefs),
+        cmocka_unit_test(TestSettingsChangeWhileItMoves),
+        cmocka_unit_test(TestSettingsAreChecked),
+        cmocka_unit_test(TestPointIsWhatIsSeen),
+        cmocka_unit_test(TestPointNamesItsPiece),
+        cmocka_unit_test(TestImpulseIsMomentum),
+        cmocka_unit_test(TestImpulseInPlane),
+        cmocka_unit_test(TestTerminalVelocity),
+        cmocka_unit_test(TestWindIsNotOvertaken),
+        cmocka_unit_test(TestFlagFlutters),
+        cmocka_unit_test(TestWindIsChecked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

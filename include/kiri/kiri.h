@@ -683,11 +683,14 @@ KIRI_API kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, co
 
 /* Air that moves past the sheet, in every tick until the next call. On each square metre act, with v the velocity of the
    air less that of the material, and n the normal: density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). Zero
-   velocity with drag and lift above zero: still air, which resists. All zero: none. */
+   velocity with drag and lift above zero: still air, which resists. All zero: none. It acts at four points of the region
+   of each frame, and follows its motion within the tick: sheets flutter, and no wind is too strong. Gusts are a call a
+   tick. Wind that stays as it is lets a sheet sleep. */
 typedef struct kiriWind {
     float velocity[3]; /* m/s */
     float density;     /* kg/m^3, 0 or more; 1.2 of air */
-    float drag, lift;  /* 0 or more: coefficients of pressure and of the force along the sheet */
+    float drag, lift;  /* 0 or more: coefficients of pressure, 2 of a long plate, 1.2 of a square, and of the force along
+                          the sheet, 0.01 or so of a smooth one */
 } kiriWind;
 
 KIRI_API kiriResult kiriSheet_SetWind(kiriWorld* world, kiriSheet sheet, const kiriWind* wind);

@@ -117,7 +117,8 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
             double before = kiriFrame_KineticEnergy(start, &system->material);
             double after = kiriFrame_KineticEnergy(end, &system->material);
             double work = start->mass * kiriVec3_Dot(gravity, way) + kiriVec3_Dot(start->force, way) +
-                          WorkOfTorque(system, start, end, solver->dt);
+                          WorkOfTorque(system, start, end, solver->dt) +
+                          (kiriSystem_HasWind(system) ? kiriWind_Work(solver, system, f) : 0.0);
             kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
             piece->kinetic += OwnKinetic(solver, system, f);
             piece->gain += after - before - work - KIRI_ROUNDING * (before + after + fabs(work));

@@ -92,6 +92,9 @@ void kiriObjective_AddHost(kiriSolver* solver, const kiriSystem* system, const k
             AddContactEnergy(system, contact, kiriContact_Friction(solver, system, contact), poses, &piece->sum);
         }
     }
+    if (kiriSystem_HasWind(system)) {
+        kiriWind_AddEnergy(solver, system, poses);
+    }
 }
 
 /* ---- Elements and inertia ---- */
@@ -227,8 +230,7 @@ void kiriObjective_FindNoise(kiriSolver* solver, const kiriSystem* system)
     }
     for (int32_t k = 0; k < system->clampCount; ++k) {
         const kiriClampRow* row = &system->clamps[k];
-        kiriSolver_PieceOf(solver, row->frame)->noise +=
-            share * kiriClamp_Noise(row, &solver->start.data[row->frame]);
+        kiriSolver_PieceOf(solver, row->frame)->noise += share * kiriClamp_Noise(row, &solver->start.data[row->frame]);
     }
 }
 
@@ -416,9 +418,8 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     AddSquares(solver, solver->members.data, count, solver->J.data, springs, pulls, rows);
 }
 
-/* A spring on a point of a frame, stretched by `length` along the unit vector `axis`. */
-static void AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t f, kiriVec2 at, kiriVec3 axis,
-                      double length, double stiffness)
+void kiriSolver_AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t f, kiriVec2 at, kiriVec3 axis,
+                          double length, double stiffness)
 {
     kiriVec2 local = kiriVec2_Sub(at, system->frames[f].center);
     double J[KIRI_MOST_UNKNOWNS], pull = -stiffness * length;
@@ -433,9 +434,9 @@ static void AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t f, k
 static void AddPin(kiriSolver* solver, const kiriSystem* system, const kiriPinRow* pin)
 {
     kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data), pin->target);
-    AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(1.0, 0.0, 0.0), off.x, pin->stiffness);
-    AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(0.0, 1.0, 0.0), off.y, pin->stiffness);
-    AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(0.0, 0.0, 1.0), off.z, pin->stiffness);
+    kiriSolver_AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(1.0, 0.0, 0.0), off.x, pin->stiffness);
+    kiriSolver_AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(0.0, 1.0, 0.0), off.y, pin->stiffness);
+    kiriSolver_AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(0.0, 0.0, 1.0), off.z, pin->stiffness);
 }
 
 /* As AddElement, of one frame. */
@@ -463,14 +464,14 @@ static void AddContact(kiriSolver* solver, const kiriSystem* system, const kiriC
     kiriVec3 n = contact->normal, point = kiriSystem_Point(system, contact->frame, contact->at, solver->poses.data);
     double depth = kiriContact_Depth(contact, point), friction = kiriContact_Friction(solver, system, contact);
     if (depth > 0.0) {
-        AddSpring(solver, system, contact->frame, contact->at, n, -depth, contact->stiffness);
+        kiriSolver_AddSpring(solver, system, contact->frame, contact->at, n, -depth, contact->stiffness);
     }
     if (friction > 0.0) {
         kiriVec3 axis = fabs(n.x) < 0.7 ? kiriVec3_Make(1.0, 0.0, 0.0) : kiriVec3_Make(0.0, 1.0, 0.0);
         kiriVec3 side = kiriVec3_Normalize(kiriVec3_Cross(n, axis)), ahead = kiriVec3_Cross(side, n);
         kiriVec3 slide = kiriContact_Slide(system, contact, point);
-        AddSpring(solver, system, contact->frame, contact->at, side, kiriVec3_Dot(slide, side), friction);
-        AddSpring(solver, system, contact->frame, contact->at, ahead, kiriVec3_Dot(slide, ahead), friction);
+        kiriSolver_AddSpring(solver, system, contact->frame, contact->at, side, kiriVec3_Dot(slide, side), friction);
+        kiriSolver_AddSpring(solver, system, contact->frame, contact->at, ahead, kiriVec3_Dot(slide, ahead), friction);
     }
 }
 
@@ -506,6 +507,9 @@ void kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
         if (!IsStill(solver, system, system->contacts[k].frame)) {
             AddContact(solver, system, &system->contacts[k]);
         }
+    }
+    if (kiriSystem_HasWind(system)) {
+        kiriWind_Assemble(solver, system);
     }
     kiriObjective_AddHost(solver, system, solver->poses.data);
 }

@@ -35,6 +35,12 @@ typedef struct kiriMechanics {
     int32_t timeStepping; /* KIRI_TIME_STEPPING_... */
 } kiriMechanics;
 
+/* Air that moves past the sheet: see kiriWind in kiri.h. */
+typedef struct kiriAir {
+    kiriVec3 velocity;          /* m/s */
+    double density, drag, lift; /* kg/m^3; coefficients */
+} kiriAir;
+
 typedef struct kiriSystem {
     kiriMechanics mechanics;
     kiriFrameData* frames;
@@ -55,6 +61,7 @@ typedef struct kiriSystem {
     kiriReactions reactions; /* what a step adds to; null where nobody asks */
     kiriMaterial material;
     kiriVec3 gravity;
+    const kiriAir* air; /* null: none */
 } kiriSystem;
 
 /* A solver for no frames yet. Null for memory. */

@@ -166,6 +166,22 @@ void kiriObjective_FindNoise(kiriSolver* solver, const kiriSystem* system);
 /* The linear system of a Gauss-Newton step from the poses, and the sums there, as kiriObjective_Evaluate has them. */
 void kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system);
 
+/* A spring on a point of a frame, stretched by `length` along the unit vector `axis`. */
+void kiriSolver_AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t f, kiriVec2 at, kiriVec3 axis,
+                          double length, double stiffness);
+
+/* ---- Wind (kiri_step_wind.c) ---- */
+
+bool kiriSystem_HasWind(const kiriSystem* system);
+
+/* Where there is: its part of the objective of the pieces that search, and of their linear system. */
+void kiriWind_AddEnergy(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
+void kiriWind_Assemble(kiriSolver* solver, const kiriSystem* system);
+
+/* Its work on a frame in the step, J, when solver->after is known; and with what it acts at the poses, about x. */
+double kiriWind_Work(const kiriSolver* solver, const kiriSystem* system, int32_t f);
+kiriWrench kiriWind_OnFrame(const kiriSolver* solver, const kiriSystem* system, int32_t f);
+
 /* ---- Newton iteration ---- */
 
 /* Returns the number of linear systems solved, or -1 where one has no solution. */

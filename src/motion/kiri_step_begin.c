@@ -258,7 +258,7 @@ static void BeginPieces(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         memset(&solver->pieces.data[i], 0, sizeof(kiriPieceStep));
-        solver->pieces.data[i].isFree = true;
+        solver->pieces.data[i].isFree = !kiriSystem_HasWind(system);
         solver->pieces.data[i].scale = 1.0;
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {

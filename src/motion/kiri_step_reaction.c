@@ -82,6 +82,15 @@ static void AddContacts(const kiriSolver* solver, const kiriSystem* system)
     }
 }
 
+static void AddWind(const kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t f = 0; kiriSystem_HasWind(system) && f < system->frameCount; ++f) {
+        if (system->frames[f].held) {
+            TakeFromHold(solver, system, f, kiriWind_OnFrame(solver, system, f));
+        }
+    }
+}
+
 static bool HasHeldMember(const kiriSolver* solver, const kiriSystem* system, int32_t count)
 {
     bool any = false;
@@ -165,6 +174,7 @@ void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
     AddClamps(solver, system);
     if (solver->isHeld && system->reactions.frames != NULL) {
         AddContacts(solver, system);
+        AddWind(solver, system);
         for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
             AddHeldElement(solver, system, k);
         }

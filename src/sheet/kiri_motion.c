@@ -50,6 +50,7 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     system.areaElements = &sheet->layout.areaElements;
     system.material = sheet->settings.material;
     system.gravity = gravity;
+    system.air = &sheet->settings.air;
     return system;
 }
 

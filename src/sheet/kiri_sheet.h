@@ -126,6 +126,7 @@ typedef struct kiriSettings {
     double contactThickness;    /* m, above 0: between sheets; from obstacles half of it */
     uint32_t groups;
     bool touchesSheets, touchesSelf;
+    kiriAir air;
     double collisionPoints;   /* so many over the sheet; of a part of a sheet its share of them */
     double integrationPoints; /* the same */
     int32_t integrationOrder;

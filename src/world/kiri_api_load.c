@@ -84,3 +84,31 @@ kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float
     WakeFor(data, impulse);
     return KIRI_OK;
 }
+
+static const char* FaultOfWind(const kiriWind* wind)
+{
+    if (!kiriCall_AreFinite(wind->velocity, 3)) {
+        return "velocity is not finite";
+    }
+    return kiriCall_IsAtLeast(wind->density, 0.0f) && kiriCall_IsAtLeast(wind->drag, 0.0f) &&
+                   kiriCall_IsAtLeast(wind->lift, 0.0f)
+               ? NULL
+               : "density, drag or lift is below 0";
+}
+
+kiriResult kiriSheet_SetWind(kiriWorld* world, kiriSheet sheet, const kiriWind* wind)
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(wind != NULL, "wind is null");
+    const char* why = FaultOfWind(wind);
+    KIRI_CHECK(why == NULL, why);
+    KIRI_FIND_SHEET(data, sheet);
+    const kiriAir air = { kiriVec3_Load(wind->velocity), wind->density, wind->drag, wind->lift };
+    const kiriAir* was = &data->settings.air;
+    if (!kiriVec3_Equal(air.velocity, was->velocity) || air.density != was->density || air.drag != was->drag ||
+        air.lift != was->lift) {
+        data->settings.air = air;
+        kiriMotion_Wake(data);
+    }
+    return KIRI_OK;
+}
