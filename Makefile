@@ -2,6 +2,7 @@
 #
 #   make run      builds the library, cuts a bunny out of a hanging cloth, writes pictures to build/pictures
 #   make box2d    cuts a strip that lies on bodies of Box2D
+#   make play     plays a game in a window; GAME=curtain or net, ARGS=--help
 #   make test     builds and runs all tests
 #   make lib      build/<config>/libkiri.a and libkiri.so
 #   make single   build/single: the library as kiri.h, kiri.c and kiri.cpp, to add to any build
@@ -20,10 +21,11 @@
 
 config ?= release
 SCENE ?= bunny
+GAME ?= curtain
 ARGS ?=
 CASE ?=
 
-DEBIAN_PACKAGES := gcc g++ make libeigen3-dev libosmesa6-dev libpng-dev libcmocka-dev libbox2d-dev \
+DEBIAN_PACKAGES := gcc g++ make libeigen3-dev libosmesa6-dev libpng-dev libcmocka-dev libbox2d-dev libsdl2-dev \
                    python3-cffi
 
 BUILD := build/$(config)
@@ -45,6 +47,9 @@ LINK = $(CXX) $(FLAGS_$(config)) $(LDFLAGS)
 
 LIBRARY_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard src/*/*.c src/*/*.cpp))
 SAMPLE_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard samples/*.c samples/*.cpp))
+GAME_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard samples/games/*.c samples/games/*.cpp))
+# What games and their tests share with the samples.
+PICTURE_OBJECTS := $(patsubst %,$(BUILD)/samples/%.c.o,image edges)
 # What tests and benchmarks take from the samples: the scenes.
 SCENE_OBJECTS := $(filter $(BUILD)/samples/scene% %/outline.c.o,$(SAMPLE_OBJECTS))
 # Checks of a whole world, for all tests.
@@ -58,12 +63,13 @@ CONTACT_PARTS := $(addprefix tests/,contact_laws contact_obstacles contact_sheet
 BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench*.c))
 RUN := $(BUILD)/samples/kiri-run
 BOX2D := $(BUILD)/samples/kiri-box2d
+PLAY := $(BUILD)/samples/kiri-play
 # The Python binding is tested where Python has cffi; a sanitized library cannot be loaded by a plain Python.
 # Debian's own python has Debian's python3-cffi.
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 PYTHON_CHECK := $(if $(filter sanitize,$(config)),,python)
 
-.PHONY: all run box2d python test check floors headers single example lib bench accuracy contact extremes gallery guide deps format clean header exports
+.PHONY: all run box2d play python test check floors headers single example lib bench accuracy contact extremes gallery guide deps format clean header exports
 .DEFAULT_GOAL := all
 .SECONDARY:
 
@@ -77,6 +83,10 @@ run: deps
 box2d: deps
 	@$(MAKE) --no-print-directory $(BOX2D)
 	$(BOX2D) $(ARGS)
+
+play: deps
+	@$(MAKE) --no-print-directory $(PLAY)
+	$(PLAY) --game $(GAME) $(ARGS)
 
 test: deps
 	@$(MAKE) --no-print-directory -k check
@@ -134,7 +144,7 @@ $(TEST_RUNS): run-%: $(BUILD)/tests/%
 	@if $< > $<.log 2>&1; then echo "== $<"; grep '^\[  PASSED' $<.log; \
 	else echo "== $< FAILED"; cat $<.log; exit 1; fi
 
-check: $(TEST_RUNS) $(RUN) $(BOX2D) floors headers exports example $(PYTHON_CHECK)
+check: $(TEST_RUNS) $(RUN) $(BOX2D) $(PLAY) floors headers exports example $(PYTHON_CHECK)
 	@echo "all tests passed ($(config))"
 
 python: $(BUILD)/libkiri.so
@@ -233,9 +243,13 @@ $(RUN): $(filter %.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lOSMesa -lpng -lz -lm
 
-$(BOX2D): $(filter %/box2d.cpp.o %/draw.c.o %/image.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
+$(BOX2D): $(filter %/box2d.cpp.o %/draw.c.o %/edges.c.o %/image.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lbox2d -lOSMesa -lpng -lz -lm
+
+$(PLAY): $(GAME_OBJECTS) $(PICTURE_OBJECTS) $(BUILD)/libkiri.a
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lSDL2 -lbox2d -lOSMesa -lpng -lz -lm
 
 $(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy $(ACCURACY_PARTS) samples/image) $(BUILD)/libkiri.a
 	@echo "  $@"
@@ -277,7 +291,7 @@ deps:
 	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get -y --no-install-recommends install $$missing
 
 format:
-	clang-format -i $(wildcard include/kiri/*.h src/*/*.h src/*/*.c src/*/*.cpp samples/*.h samples/*.c samples/*.cpp tests/*.h tests/*.c)
+	clang-format -i $(wildcard include/kiri/*.h src/*/*.h src/*/*.c src/*/*.cpp samples/*.h samples/*.c samples/*.cpp samples/*/*.h samples/*/*.c samples/*/*.cpp tests/*.h tests/*.c)
 
 clean:
 	rm -rf build

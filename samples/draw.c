@@ -1,4 +1,5 @@
 #include "draw.h"
+#include "edges.h"
 
 #include <GL/osmesa.h>
 #include <GL/glext.h>
@@ -11,12 +12,6 @@ enum { OVERSAMPLING = 3, SHADOW_SIZE = 256, CLOTH_SIZE = 64 };
 static const float shadowReach = 1.6f; /* half the side of the square of floor that the shadow texture covers */
 static const float toLight[3] = { -0.35f, -0.45f, 1.0f };
 static const float edgeColor[3] = { 0.13f, 0.16f, 0.24f };
-
-typedef struct Edge {
-    int32_t a, b;
-    const float* low; /* rest positions of its ends, in lexicographic order */
-    const float* high;
-} Edge;
 
 struct Painter {
     OSMesaContext context;
@@ -282,69 +277,14 @@ static void DrawSheet(const Painter* painter, const View* view, float zoom)
 
 /* ---- Open edges ------------------------------------------------------------------------------------------------- */
 
-static int CompareEnds(const void* left, const void* right)
-{
-    const Edge* l = left;
-    const Edge* r = right;
-    return l->a != r->a ? (l->a > r->a) - (l->a < r->a) : (l->b > r->b) - (l->b < r->b);
-}
-
-static int CompareRestPoints(const float* l, const float* r)
-{
-    return l[0] != r[0] ? (l[0] > r[0]) - (l[0] < r[0]) : (l[1] > r[1]) - (l[1] < r[1]);
-}
-
-static int ComparePlaces(const void* left, const void* right)
-{
-    const Edge* l = left;
-    const Edge* r = right;
-    int low = CompareRestPoints(l->low, r->low);
-    return low != 0 ? low : CompareRestPoints(l->high, r->high);
-}
-
-/* All edges, those of two triangles twice. */
-static int32_t ListEdges(Edge* edges, const kiriMesh* mesh)
-{
-    for (int32_t i = 0; i < 3 * mesh->triangleCount; i++) {
-        int32_t p = mesh->indices[i], q = mesh->indices[i % 3 == 2 ? i - 2 : i + 1];
-        Edge edge = { p < q ? p : q, p < q ? q : p, mesh->restPositions + 2 * p, mesh->restPositions + 2 * q };
-        if (CompareRestPoints(edge.low, edge.high) > 0) {
-            const float* low = edge.high;
-            edge.high = edge.low;
-            edge.low = low;
-        }
-        edges[i] = edge;
-    }
-    return 3 * mesh->triangleCount;
-}
-
-/* Keeps the edges of one triangle only. */
-static int32_t KeepOpenEdges(Edge* edges, int32_t count)
-{
-    qsort(edges, (size_t)count, sizeof(Edge), CompareEnds);
-    int32_t kept = 0;
-    for (int32_t i = 0; i < count; i++) {
-        if (i + 1 < count && CompareEnds(&edges[i], &edges[i + 1]) == 0) {
-            i++;
-        } else {
-            edges[kept++] = edges[i];
-        }
-    }
-    return kept;
-}
-
-/* A lip of a cut has its twin at the same place of the rest plane; an edge of the outline has none. */
 static void DrawOpenEdges(Painter* painter, const kiriMesh* mesh, const float cutColor[3])
 {
     Edge* edges = painter->edges;
-    int32_t count = KeepOpenEdges(edges, ListEdges(edges, mesh));
-    qsort(edges, (size_t)count, sizeof(Edge), ComparePlaces);
+    int32_t count = Edges_FindOpen(edges, mesh);
     glLineWidth(1.3f * OVERSAMPLING);
     glBegin(GL_LINES);
     for (int32_t i = 0; i < count; i++) {
-        bool cut = (i > 0 && ComparePlaces(&edges[i - 1], &edges[i]) == 0) ||
-                   (i + 1 < count && ComparePlaces(&edges[i], &edges[i + 1]) == 0);
-        glColor3fv(cut ? cutColor : edgeColor);
+        glColor3fv(edges[i].cut ? cutColor : edgeColor);
         glVertex3fv(mesh->positions + 3 * edges[i].a);
         glVertex3fv(mesh->positions + 3 * edges[i].b);
     }

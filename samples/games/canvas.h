@@ -1,0 +1,103 @@
+/* A picture of a game, by OpenGL in software (OSMesa), as ../draw.h makes those of the scenes. A game adds what there is
+   to see, in any order; then all is drawn at once, with shadows. What is added by a pointer stays as it is until then. */
+#ifndef CANVAS_H
+#define CANVAS_H
+
+#include "../image.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct Color {
+    float red, green, blue, alpha;
+} Color;
+
+/* Looks from eye to target; up is +z. */
+typedef struct GameCamera {
+    float eye[3], target[3]; /* m */
+    float fieldOfView;       /* degrees, from bottom to top; 0: parallel rays, and */
+    float height;            /* m: what the picture shows from bottom to top at the target */
+} GameCamera;
+
+/* A point that moves over the picture looks along this ray; x, y as in game.h, direction a unit vector. */
+void GameCamera_GetRay(const GameCamera* camera, float x, float y, float origin[3], float direction[3]);
+
+/* Where a point (m) is seen; false behind the camera. */
+bool GameCamera_Project(const GameCamera* camera, const float point[3], float* x, float* y);
+
+/* Pixels over the rest plane, from (0, 0) to width x height metres, the first row at v = 0. */
+typedef struct CanvasTexture {
+    const uint8_t* rgb;
+    int32_t columns, rows; /* powers of two */
+    float width, height;   /* m */
+    uint32_t revision;     /* another number when the pixels have changed */
+} CanvasTexture;
+
+typedef struct CanvasSheet {
+    const float* positions;     /* 3 a vertex, m */
+    const float* normals;       /* 3 a vertex */
+    const float* restPositions; /* 2 a vertex, m */
+    const int32_t* indices;     /* 3 a triangle */
+    int32_t triangleCount;
+    const int32_t* lips; /* 2 a line: vertices at the ends of edges that a cut has laid open */
+    int32_t lipCount;
+    const int32_t* rims; /* and of those of the outline */
+    int32_t rimCount;
+    const CanvasTexture* texture; /* or null: plain */
+    Color front, back, lip, rim;  /* with a texture `front` and `back` tint it */
+    float lineWidth;              /* of lips and rims, in units of the game's picture; 0: 1.5 */
+} CanvasSheet;
+
+/* As kiriObstacleType has them. */
+enum CanvasShape { CANVAS_PLANE, CANVAS_SPHERE, CANVAS_CAPSULE, CANVAS_BOX, CANVAS_CYLINDER, CANVAS_PRISM };
+
+typedef struct CanvasBody {
+    int32_t shape;
+    float size[3], radius, height; /* of a plane: size[0] x size[1] is drawn */
+    const float* outline;          /* of a prism: convex, counter-clockwise, 2 floats a corner */
+    int32_t outlineCount;
+    float position[3], rotation[9]; /* columns */
+    Color color;
+    bool shadowless; /* throws none */
+} CanvasBody;
+
+typedef struct Canvas Canvas;
+
+/* The picture has width x height pixels, each the mean of oversampling^2 (1 to 4). Null without memory, or when OSMesa
+   cannot do this size. One canvas at a time. */
+Canvas* Canvas_Create(int32_t width, int32_t height, int32_t oversampling);
+void Canvas_Destroy(Canvas* canvas);
+
+/* Begins a picture: nothing to see but a background that goes from top to bottom. */
+void Canvas_Begin(Canvas* canvas, const GameCamera* camera, Color top, Color bottom);
+
+/* Shadows fall on the floor z = height, or on a wall y = depth behind all. Without these there are none. */
+void Canvas_SetFloor(Canvas* canvas, float height, Color color);
+void Canvas_SetWall(Canvas* canvas, float depth, Color color);
+
+void Canvas_AddSheet(Canvas* canvas, const CanvasSheet* sheet);
+void Canvas_AddBody(Canvas* canvas, const CanvasBody* body);
+
+/* In the world; width in units of the game's picture. */
+void Canvas_AddLine(Canvas* canvas, const float from[3], const float to[3], float width, Color color);
+
+/* Over all else, in units of the game's picture; y grows downwards. A later one covers an earlier one. */
+void Canvas_AddRectangle(Canvas* canvas, float left, float top, float width, float height, Color color);
+void Canvas_AddStroke(Canvas* canvas, const float* points, int32_t count, float width, Color color);
+void Canvas_AddDisc(Canvas* canvas, float x, float y, float radius, Color color);
+
+/* Capitals are `size` units high; the text is copied. Align 0: it begins at x, 0.5: x is its middle, 1: its end. */
+void Canvas_AddText(Canvas* canvas, float x, float y, float size, float align, Color color, const char* text);
+
+/* Draws all that was added into the image, which has the canvas's size. False without memory. */
+bool Canvas_Finish(Canvas* canvas, Image* image);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,32 @@
+/* What the files of the canvas share. */
+#ifndef CANVAS_PARTS_H
+#define CANVAS_PARTS_H
+
+#include "canvas.h"
+
+/* A growing array of flat shapes in units of the game's picture: triangles. */
+typedef struct OverlayCorner {
+    float x, y;
+    Color color;
+} OverlayCorner;
+
+typedef struct Overlay {
+    OverlayCorner* corners;
+    int32_t count, capacity;
+    bool failed; /* for want of memory */
+} Overlay;
+
+void Overlay_AddQuad(Overlay* overlay, const float corners[8], Color color);
+void Overlay_AddDisc(Overlay* overlay, float x, float y, float radius, Color color);
+void Overlay_AddText(Overlay* overlay, float x, float y, float size, float align, Color color, const char* text);
+
+/* To the right, up, and towards the eye: unit vectors. Returns how far the eye is from the target. */
+float GameCamera_GetAxes(const GameCamera* camera, float right[3], float up[3], float back[3]);
+
+/* Half of what the picture shows from bottom to top, m, so far from the eye. */
+float GameCamera_GetHalfHeight(const GameCamera* camera, float away);
+
+/* Draws the body with the current matrix, colour and light. */
+void CanvasBody_Draw(const CanvasBody* body);
+
+#endif

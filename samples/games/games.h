@@ -1,0 +1,17 @@
+/* The games. */
+#ifndef GAMES_H
+#define GAMES_H
+
+#include "game.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+extern const GameType curtainGame; /* curtain.c */
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

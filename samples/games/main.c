@@ -1,0 +1,10 @@
+#include "games.h"
+#include "shell.h"
+
+#include <stddef.h>
+
+int main(int count, char** words)
+{
+    const GameType* const games[] = { &curtainGame, NULL };
+    return Shell_Run(count, words, games);
+}
