@@ -170,13 +170,7 @@ void Canvas_AddDisc(Canvas* canvas, float x, float y, float radius, Color color)
 void Canvas_AddStroke(Canvas* canvas, const float* points, int32_t count, float width, Color color)
 {
     for (int32_t i = 0; i + 1 < count; i++) {
-        const float *a = points + 2 * i, *b = a + 2;
-        float dx = b[0] - a[0], dy = b[1] - a[1], length = sqrtf(dx * dx + dy * dy);
-        if (length > 0.0f) {
-            float x = -0.5f * width * dy / length, y = 0.5f * width * dx / length;
-            const float corners[8] = { a[0] + x, a[1] + y, b[0] + x, b[1] + y, b[0] - x, b[1] - y, a[0] - x, a[1] - y };
-            Overlay_AddQuad(&canvas->overlay, corners, color);
-        }
+        Overlay_AddStroke(&canvas->overlay, points + 2 * i, points + 2 * i + 2, width, color);
     }
 }
 

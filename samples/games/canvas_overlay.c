@@ -6,6 +6,8 @@
 
 enum { FIRST_GLYPH = ' ', GLYPH_COUNT = 95, GLYPH_COLUMNS = 5, GLYPH_ROWS = 7, GLYPH_STEP = 6, DISC_SIDES = 24 };
 
+#define PEN 1.15f /* how wide the lines of letters are, in dots */
+
 /* A byte a column, the lowest bit at the top; row 7 is below the line that letters stand on. */
 static const uint8_t glyphs[GLYPH_COUNT][GLYPH_COLUMNS] = {
     { 0x00, 0x00, 0x00, 0x00, 0x00 }, { 0x00, 0x00, 0x5f, 0x00, 0x00 }, { 0x00, 0x07, 0x00, 0x07, 0x00 }, /*   ! " */
@@ -67,30 +69,56 @@ void Overlay_AddQuad(Overlay* overlay, const float corners[8], Color color)
     }
 }
 
-void Overlay_AddDisc(Overlay* overlay, float x, float y, float radius, Color color)
+static void AddDisc(Overlay* overlay, float x, float y, float radius, int32_t sides, Color color)
 {
-    OverlayCorner* corner = Reserve(overlay, 3 * DISC_SIDES);
-    for (int i = 0; corner != NULL && i < DISC_SIDES; i++) {
-        float from = (float)i * 6.2831853f / DISC_SIDES, to = (float)(i + 1) * 6.2831853f / DISC_SIDES;
+    OverlayCorner* corner = Reserve(overlay, 3 * sides);
+    for (int32_t i = 0; corner != NULL && i < sides; i++) {
+        float from = (float)i * 6.2831853f / (float)sides, to = (float)(i + 1) * 6.2831853f / (float)sides;
         corner[3 * i] = (OverlayCorner){ x, y, color };
         corner[3 * i + 1] = (OverlayCorner){ x + radius * cosf(from), y + radius * sinf(from), color };
         corner[3 * i + 2] = (OverlayCorner){ x + radius * cosf(to), y + radius * sinf(to), color };
     }
 }
 
-/* Each column as runs of lit dots from top to bottom. */
+void Overlay_AddDisc(Overlay* overlay, float x, float y, float radius, Color color)
+{
+    AddDisc(overlay, x, y, radius, DISC_SIDES, color);
+}
+
+void Overlay_AddStroke(Overlay* overlay, const float from[2], const float to[2], float width, Color color)
+{
+    float dx = to[0] - from[0], dy = to[1] - from[1], length = sqrtf(dx * dx + dy * dy);
+    if (length > 0.0f) {
+        float x = -0.5f * width * dy / length, y = 0.5f * width * dx / length;
+        const float corners[8] = { from[0] + x, from[1] + y, to[0] + x,   to[1] + y,
+                                   to[0] - x,   to[1] - y,   from[0] - x, from[1] - y };
+        Overlay_AddQuad(overlay, corners, color);
+    }
+}
+
+static bool IsLit(const uint8_t* columns, int column, int row)
+{
+    return column >= 0 && column < GLYPH_COLUMNS && row >= 0 && row < 8 && (columns[column] >> row & 1) != 0;
+}
+
+/* A pen goes from each lit dot to its neighbours: to the right, down, and aslant where that is the only way. */
 static void AddGlyph(Overlay* overlay, const uint8_t* columns, float x, float y, float dot, Color color)
 {
-    for (int i = 0; i < GLYPH_COLUMNS; i++) {
-        for (int row = 0; row < 8; row++) {
-            int first = row;
-            while (row < 8 && (columns[i] >> row & 1) != 0) {
-                row++;
-            }
-            if (row > first) {
-                float left = x + dot * (float)i, top = y + dot * (float)first, bottom = y + dot * (float)row;
-                const float corners[8] = { left, top, left + dot, top, left + dot, bottom, left, bottom };
-                Overlay_AddQuad(overlay, corners, color);
+    static const int steps[4][2] = { { 1, 0 }, { 0, 1 }, { 1, 1 }, { -1, 1 } };
+    for (int i = 0; i < 8 * GLYPH_COLUMNS; i++) {
+        int column = i / 8, row = i % 8;
+        float from[2] = { x + dot * ((float)column + 0.5f), y + dot * ((float)row + 0.5f) };
+        if (!IsLit(columns, column, row)) {
+            continue;
+        }
+        AddDisc(overlay, from[0], from[1], 0.5f * PEN * dot, 8, color);
+        for (int s = 0; s < 4; s++) {
+            int right = steps[s][0], down = steps[s][1];
+            bool aslant = right != 0 && down != 0;
+            if (IsLit(columns, column + right, row + down) &&
+                !(aslant && (IsLit(columns, column + right, row) || IsLit(columns, column, row + down)))) {
+                float to[2] = { from[0] + dot * (float)right, from[1] + dot * (float)down };
+                Overlay_AddStroke(overlay, from, to, PEN * dot, color);
             }
         }
     }

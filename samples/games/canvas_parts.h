@@ -18,6 +18,7 @@ typedef struct Overlay {
 
 void Overlay_AddQuad(Overlay* overlay, const float corners[8], Color color);
 void Overlay_AddDisc(Overlay* overlay, float x, float y, float radius, Color color);
+void Overlay_AddStroke(Overlay* overlay, const float from[2], const float to[2], float width, Color color);
 void Overlay_AddText(Overlay* overlay, float x, float y, float size, float align, Color color, const char* text);
 
 /* To the right, up, and towards the eye: unit vectors. Returns how far the eye is from the target. */

@@ -66,6 +66,9 @@ typedef struct GameType {
     void (*draw)(void* game, Canvas* canvas, float alpha);
 
     void (*getStatus)(void* game, GameStatus* status);
+
+    /* May be null. The game plays itself: writes up to `capacity` events for the next tick, and returns how many. */
+    int32_t (*demo)(void* game, GameEvent* events, int32_t capacity);
 } GameType;
 
 #endif

@@ -20,7 +20,7 @@ typedef struct Options {
     const char *game, *script, *record, *pictures, *film;
     int32_t level, ticks, every, width, height, oversampling;
     int32_t slowFrom, slowTo; /* ticks that are shown in slow motion */
-    bool headless, hash, report, mute, help;
+    bool headless, demo, hash, report, mute, help;
 } Options;
 
 typedef struct Shell {
@@ -50,6 +50,7 @@ static void PrintHelp(const GameType* const* games)
     printf("  --level N\n"
            "  --script FILE     plays recorded events (a script names its game and level)\n"
            "  --record FILE     writes one\n"
+           "  --demo            the game plays itself, where it can\n"
            "  --headless        no window\n"
            "  --ticks N         stops then; without a window: at the end of the script, or after %d\n"
            "  --pictures DIR    frame_0000.png and so on\n"
@@ -78,11 +79,8 @@ static bool ReadFlag(const char* name, Options* options)
     const struct {
         const char* name;
         bool* flag;
-    } flags[] = { { "--headless", &options->headless },
-                  { "--hash", &options->hash },
-                  { "--report", &options->report },
-                  { "--mute", &options->mute },
-                  { "--help", &options->help } };
+    } flags[] = { { "--headless", &options->headless }, { "--demo", &options->demo }, { "--hash", &options->hash },
+                  { "--report", &options->report },     { "--mute", &options->mute }, { "--help", &options->help } };
     for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
         if (strcmp(name, flags[i].name) == 0) {
             *flags[i].flag = true;
@@ -186,15 +184,31 @@ static void Report(Shell* shell)
     fflush(stdout);
 }
 
-static bool RunTick(Shell* shell)
+/* What script and demo have for the next tick. */
+static bool SendEvents(Shell* shell)
 {
     const GameEvent* event;
-    while ((event = Script_Take(&shell->script, shell->play.tick)) != NULL) {
+    bool fine = true;
+    while (fine && (event = Script_Take(&shell->script, shell->play.tick)) != NULL) {
         GameEvent now = *event;
         now.tick = shell->play.tick;
-        if (!Send(shell, &now)) {
-            return false;
+        fine = Send(shell, &now);
+    }
+    if (shell->options.demo && shell->play.type->demo != NULL) {
+        GameEvent events[8];
+        int32_t count = shell->play.type->demo(shell->play.game, events, 8);
+        for (int32_t i = 0; fine && i < count; i++) {
+            events[i].tick = shell->play.tick;
+            fine = Send(shell, &events[i]);
         }
+    }
+    return fine;
+}
+
+static bool RunTick(Shell* shell)
+{
+    if (!SendEvents(shell)) {
+        return false;
     }
     double start = GetSeconds();
     bool fine = Play_Tick(&shell->play);
