@@ -1,24 +1,23 @@
 /* A strip of felt falls on a crate that Box2D moves, is cut in two where it lies, and its halves slide off.
 
-   Shows how a sheet touches the bodies of another engine, here a flat one: its x and y are our x and z. Each tick, a
-   plane for every collision point that is near a fixture goes to the sheet, and what the plane pushed goes back to the
-   body as a force. Writes pictures; reads no clock. */
+   Shows kiri_box2d.h at work: a sheet over a flat world that is extruded along its depth. Its x and y are our x and z.
+   Writes pictures; reads no clock. */
 
-#include <box2d/box2d.h>
+#include "kiri_box2d.h"
 
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <sys/stat.h>
 
 extern "C" {
-#include "draw.h"
-#include "image.h"
+#include "../draw.h"
+#include "../image.h"
 }
 
 namespace
@@ -32,10 +31,7 @@ const float LENGTH = 1.0f, WIDTH = 0.3f; /* m, of the strip */
 const int FRAMES = 22;
 const int CUT_START = 110, CUT_TICKS = 24;
 
-const float REACH = 0.06f;      /* m: farther than a point moves in a tick */
-const float CLEARANCE = 0.008f; /* m between the strip and what it lies on, for the mesh bends between points */
-const float STIFFNESS = 100.0f; /* N/m a point */
-const float FRICTION = 0.15f;   /* of the strip; mixed with that of the fixture, as Box2D does */
+const float FRICTION = 0.15f; /* of the strip; mixed with that of the fixture, as Box2D does */
 
 const float DEPTH = 0.36f; /* m: how deep the flat bodies are drawn */
 
@@ -51,21 +47,15 @@ struct Color {
 const Color CARDBOARD = { 0.72f, 0.56f, 0.38f }, GREEN = { 0.45f, 0.62f, 0.42f };
 const Color BLUE = { 0.30f, 0.55f, 0.80f }, LIGHT_BLUE = { 0.42f, 0.66f, 0.88f };
 
-/* A contact, and who feels it. */
-struct Touch {
-    kiriContact contact;
-    b2Body* body;
-};
-
 struct Simulation {
     b2World bodies{ b2Vec2(0.0f, -9.81f * UNITS) };
     kiriWorld* world = nullptr;
+    std::unique_ptr<KiriBox2d> touching;
     kiriSheet sheet = 0;
     kiriCut cut = 0;
     float cutAt = 0.0f; /* u of the cut */
     std::array<float, 3> blade{};
     bool cutting = false;
-    std::vector<Touch> touches;
 };
 
 /* ---- What there is ----------------------------------------------------------------------------------------------- */
@@ -131,106 +121,8 @@ kiriResult AddStrip(Simulation& simulation)
     def.gridResolution = 80;
     def.frameCount = FRAMES;
     def.framePoints = frames.data();
-    def.collisionPoints = 600;
+    def.friction = FRICTION;
     return kiriCreateSheet(simulation.world, &def, &simulation.sheet);
-}
-
-/* ---- Contact ----------------------------------------------------------------------------------------------------- */
-
-class Near : public b2QueryCallback
-{
-  public:
-    bool ReportFixture(b2Fixture* fixture) override
-    {
-        fixtures.push_back(fixture);
-        return true;
-    }
-    std::vector<b2Fixture*> fixtures;
-};
-
-/* The plane that keeps the point out of the fixture; false when it is out of reach. A manifold rather than a distance,
-   for it also knows the way out from inside. */
-bool FindPlane(const b2Fixture* fixture, const b2Vec2& point, kiriContact* contact)
-{
-    b2CircleShape probe;
-    probe.m_radius = REACH * UNITS;
-    b2Transform place;
-    place.Set(point, 0.0f);
-    const b2Transform& at = fixture->GetBody()->GetTransform();
-    const b2Shape* shape = fixture->GetShape();
-    b2Manifold manifold;
-    manifold.pointCount = 0;
-    float radius = 0.0f;
-    if (shape->GetType() == b2Shape::e_polygon) {
-        b2CollidePolygonAndCircle(&manifold, static_cast<const b2PolygonShape*>(shape), at, &probe, place);
-    } else if (shape->GetType() == b2Shape::e_circle) {
-        radius = shape->m_radius;
-        b2CollideCircles(&manifold, static_cast<const b2CircleShape*>(shape), at, &probe, place);
-    }
-    if (manifold.pointCount == 0) {
-        return false;
-    }
-    b2WorldManifold found;
-    found.Initialize(&manifold, at, radius, place, 0.0f);
-    contact->normal[0] = found.normal.x;
-    contact->normal[1] = 0.0f;
-    contact->normal[2] = found.normal.y;
-    contact->offset = (b2Dot(found.normal, point) - found.separations[0]) / UNITS + CLEARANCE;
-    return true;
-}
-
-void FindTouches(Simulation& simulation)
-{
-    const float* points = nullptr;
-    int32_t count = 0;
-    kiriSheet_GetCollisionPoints(simulation.world, simulation.sheet, &points, &count);
-    simulation.touches.clear();
-    const b2Vec2 reach(REACH * UNITS, REACH * UNITS);
-    for (int32_t i = 0; i < count; ++i) {
-        b2Vec2 point(points[3 * i] * UNITS, points[3 * i + 2] * UNITS);
-        b2AABB around;
-        around.lowerBound = point - reach;
-        around.upperBound = point + reach;
-        Near near;
-        simulation.bodies.QueryAABB(&near, around);
-        for (b2Fixture* fixture : near.fixtures) {
-            Touch touch = { kiriContact(), fixture->GetBody() };
-            touch.contact.point = i;
-            touch.contact.friction = b2MixFriction(FRICTION, fixture->GetFriction());
-            touch.contact.stiffness = STIFFNESS;
-            if (FindPlane(fixture, point, &touch.contact)) {
-                simulation.touches.push_back(touch);
-            }
-        }
-    }
-}
-
-kiriResult SetContacts(Simulation& simulation)
-{
-    std::vector<kiriContact> contacts;
-    for (const Touch& touch : simulation.touches) {
-        contacts.push_back(touch.contact);
-    }
-    return kiriSheet_SetContacts(simulation.world, simulation.sheet, contacts.data(),
-                                 static_cast<int32_t>(contacts.size()));
-}
-
-/* The push of each contact as it is after the tick, turned round. */
-void React(Simulation& simulation)
-{
-    const float* points = nullptr;
-    int32_t count = 0;
-    kiriSheet_GetCollisionPoints(simulation.world, simulation.sheet, &points, &count);
-    for (const Touch& touch : simulation.touches) {
-        const kiriContact& contact = touch.contact;
-        const float* p = points + 3 * contact.point;
-        float depth = contact.offset - contact.normal[0] * p[0] - contact.normal[2] * p[2];
-        if (depth > 0.0f) {
-            float push = -contact.stiffness * depth * UNITS;
-            touch.body->ApplyForce(b2Vec2(push * contact.normal[0], push * contact.normal[2]),
-                                   b2Vec2(p[0] * UNITS, p[2] * UNITS), false);
-        }
-    }
 }
 
 /* ---- The tick ---------------------------------------------------------------------------------------------------- */
@@ -273,14 +165,15 @@ kiriResult MoveBlade(Simulation& simulation, int tick)
 kiriResult Tick(Simulation& simulation, int tick)
 {
     kiriResult result = MoveBlade(simulation, tick);
-    FindTouches(simulation);
     if (result == KIRI_OK) {
-        result = SetContacts(simulation);
+        result = simulation.touching->Mirror(&simulation.sheet, 1, DT);
     }
     if (result == KIRI_OK) {
         result = kiriWorld_Tick(simulation.world, DT, SUBSTEPS);
     }
-    React(simulation);
+    if (result == KIRI_OK) {
+        result = simulation.touching->GiveBack();
+    }
     simulation.bodies.Step(DT, 8, 3);
     return result;
 }
@@ -513,6 +406,9 @@ int main(int count, char** words)
         good = false;
     } else {
         AddBodies(simulation);
+        KiriBox2dDef how;
+        how.unitsPerMetre = UNITS;
+        simulation.touching.reset(new KiriBox2d(simulation.world, &simulation.bodies, how));
         good = Run(simulation, options, painter, &pictures);
     }
     uint64_t hash = 0;
@@ -526,6 +422,7 @@ int main(int count, char** words)
     if (painter != nullptr) {
         Painter_Destroy(painter);
     }
+    simulation.touching.reset();
     kiriDestroyWorld(simulation.world);
     return good ? 0 : 1;
 }

@@ -1,0 +1,92 @@
+/* Lets the sheets of a kiriWorld touch the bodies of a b2World, and bodies feel the sheets. A sample: copy these two
+   files into your game. Each tick:
+
+     bodies.Mirror(sheets, count, dt);         fixtures near the sheets become obstacles
+     kiriWorld_Tick(world, dt, substeps);
+     bodies.GiveBack();                        what the obstacles felt goes to the bodies
+     box2d.Step(dt, 8, 3);
+
+   Either a planar sheet (kiriSheetDef.planar) lies in the plane of the b2World, and all is flat. Or any sheet meets that
+   world extruded along its depth: crates are beams, and a banner is seen edge-on. */
+#ifndef KIRI_BOX2D_H
+#define KIRI_BOX2D_H
+
+#include <box2d/box2d.h>
+#include <kiri/kiri.h>
+
+#include <unordered_map>
+#include <vector>
+
+struct KiriBox2dDef {
+    float unitsPerMetre = 1.0f; /* lengths in the b2World of a metre */
+    int up = 2;                 /* the axis of Kiri's world along which its y points: 1 or 2. Its x is Kiri's. */
+    float depth = 10.0f;        /* m: of the extruded bodies, half of it to either side of the plane */
+    float ground = 0.05f;       /* m: one-sided edges, as of chains, are solid so far below */
+
+    /* The groups of a fixture, as in kiriSheetDef; 0: no sheet touches it. Null: all. Sensors are never touched. */
+    uint32_t (*groups)(const b2Fixture& fixture, void* user) = nullptr;
+
+    /* How the surface of a fixture moves beside its body, as a conveyor: m/s, in the body's axes. Null: it does not. */
+    b2Vec2 (*surfaceVelocity)(const b2Fixture& fixture, void* user) = nullptr;
+
+    void* user = nullptr; /* handed to these functions */
+};
+
+class KiriBox2d
+{
+  public:
+    KiriBox2d(kiriWorld* world, b2World* box2d, const KiriBox2dDef& def);
+    ~KiriBox2d(); /* before the kiriWorld */
+    KiriBox2d(const KiriBox2d&) = delete;
+    KiriBox2d& operator=(const KiriBox2d&) = delete;
+
+    kiriResult Mirror(const kiriSheet* sheets, int count, float dt);
+    kiriResult GiveBack();
+
+    /* The obstacle of a fixture (its first child), for pins (kiriPinDef.obstacle): there until Forget. 0: it failed. */
+    kiriObstacle Hold(b2Fixture* fixture);
+
+    /* Call it before a fixture is destroyed, with its body or alone, and before its shape changes. */
+    void Forget(const b2Fixture* fixture);
+
+  private:
+    /* A child of a fixture. */
+    struct Part {
+        b2Fixture* fixture;
+        int child;
+        kiriObstacle obstacle;
+        b2Vec2 place; /* of the obstacle in the body */
+        bool isNear, isHeld;
+    };
+
+    /* What is known of a body, in units of Box2D. */
+    struct Memory {
+        uint32_t number = 0;                              /* 0: nothing yet */
+        b2Vec2 felt = b2Vec2_zero, impulse = b2Vec2_zero; /* in this tick; in the last, or when it fell asleep */
+        float feltTurn = 0.0f, turn = 0.0f;
+        b2Vec2 velocity = b2Vec2_zero; /* with which the last step of Box2D began */
+        float spin = 0.0f;
+        bool isKnown = false, isCarried = false; /* since the last tick; it sleeps under what touches it */
+    };
+
+    void Find(kiriSheet sheet, float dt);
+    Part* FindPart(const b2Fixture* fixture, int child);
+    void AddPart(b2Fixture* fixture, int child);
+    void DropFar();
+    void Predict(b2Body* body, float dt, b2Vec2* velocity, float* spin);
+    void SetMotion(const Part& part, float dt);
+    void SetMass(const Part& part);
+    void ToKiri(const b2Vec2& vector, float scale, float out[3]) const;
+    void Check(kiriResult result);
+
+    kiriWorld* kiri;
+    b2World* bodies;
+    const KiriBox2dDef def;
+    const float metres, axis; /* of a unit of Box2D; 1 or -1: what turns left in Box2D turns about this in Kiri */
+    kiriResult failure = KIRI_OK;
+    std::vector<Part> parts; /* in the order in which they were found: the same in every run */
+    std::unordered_map<b2Body*, Memory> memories;
+    uint32_t numbers = 0;
+};
+
+#endif
