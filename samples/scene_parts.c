@@ -185,7 +185,7 @@ void Scene_TouchFloorWithin(Scene* scene, float reach)
     for (int32_t i = 0; i < pointCount && count < MAX_CONTACTS; i++) {
         if (points[3 * i + 2] < size * reach) {
             contacts[count++] = (kiriContact){
-                .point = i, .normal = { 0.0f, 0.0f, 1.0f }, .offset = gap, .friction = 0.6f, .stiffness = 40.0f
+                .point = i, .normal = { 0.0f, 0.0f, 1.0f }, .offset = gap, .friction = 0.6f
             };
         }
     }

@@ -79,5 +79,6 @@ int main(void)
     PRINT_SIZE(kiriPinDef);
     PRINT_SIZE(kiriPinState);
     PRINT_SIZE(kiriContact);
+    PRINT_SIZE(kiriContactForce);
     return 0;
 }

@@ -489,7 +489,17 @@ static void Wave(Body* b, int model)
     Make(b, &def, 5, 4, 0.25, 6);
     Body_Hold(b, 0);
     kiriPinRow pin = { 16, b->frames[16].site.at, Body_SitePosition(b, 16), 1e4 };
-    kiriContactRow row = { 9, b->frames[9].center, { 0.0, 0.0, 1.0 }, -0.03, 0.4, 500.0 };
+    kiriContactRow row;
+    memset(&row, 0, sizeof(row));
+    row.weights[0] = (kiriWeight){ 9, 1.0 };
+    row.weightCount = 1;
+    row.yield = KIRI_NONE;
+    row.at = b->frames[9].center;
+    row.normal = Vec3(0.0, 0.0, 1.0);
+    row.offset = -0.03;
+    row.friction = 0.4;
+    row.pushSpeed = 1.0;
+    assert_true(kiriSolver_ReserveContacts(b->solver, 4));
     b->pins[b->system.pinCount++] = pin;
     b->contacts[b->system.contactCount++] = row;
     for (int n = 0; n < 60; ++n) {

@@ -104,7 +104,7 @@ static void NullWorld(void** state)
     kiriTotals totals;
     kiriHit hit;
     kiriFrameState frame;
-    kiriContact contact = { 0, { 0.0f, 0.0f, 1.0f }, 0.0f, 0.0f, 1.0f };
+    kiriContact contact = { .point = 0, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 0.0f, .friction = 0.0f };
     kiriDefaultPinDef(&pinDef);
     kiriDefaultWorldDef(&worldDef);
     kiriDefaultWorldDef(NULL);
@@ -496,7 +496,7 @@ static void Ids(void** state)
     kiriPinState pinState;
     double d[3];
     static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
-    kiriContact contact = { 0, { 0.0f, 0.0f, 1.0f }, 0.0f, 0.0f, 1.0f };
+    kiriContact contact = { .point = 0, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 0.0f, .friction = 0.0f };
     kiriDefaultPinDef(&pinDef);
     for (int32_t i = WrongIds(&f, f.sheet, dead.sheet, ids); i-- > 0;) {
         REFUSED(KIRI_ERROR_ID, kiriDestroySheet(w, ids[i]));
@@ -844,16 +844,17 @@ static void ContactArguments(void** state)
     Host* host = &f.host;
     kiriWorld* w = host->world;
     int32_t points = Host_Counts(host, f.sheet).collisionPoints;
-    kiriContact c[2] = { { 0, { 0.0f, 0.6f, 0.8f }, 0.0f, 0.5f, 100.0f },
-                         { 1, { 1.0f, 0.0f, 0.0f }, 0.0f, 0.5f, 100.0f } };
+    kiriContact c[2] = { { .point = 0, .normal = { 0.0f, 0.6f, 0.8f }, .friction = 0.5f },
+                         { .point = 1, .normal = { 1.0f, 0.0f, 0.0f }, .inverseMass = 2.0f, .pushSpeed = 0.5f } };
     const struct {
         float* field;
         int count;
-    } floats[] = { { c[1].normal, 3 }, { &c[1].offset, 1 }, { &c[1].friction, 1 }, { &c[1].stiffness, 1 } };
-    for (int i = 0; i < 4; ++i) {
+    } floats[] = { { c[1].normal, 3 },    { &c[1].offset, 1 },      { c[1].velocity, 3 },
+                   { &c[1].friction, 1 }, { &c[1].inverseMass, 1 }, { &c[1].pushSpeed, 1 } };
+    for (int i = 0; i < 6; ++i) {
         REFUSED_FLOATS(floats[i].field, floats[i].count, kiriSheet_SetContacts(w, f.sheet, c, 2));
     }
-    const int32_t wrongPoints[] = { -1, points, INT32_MIN, INT32_MAX };
+    const int32_t wrongPoints[] = { -2, points, INT32_MIN, INT32_MAX };
     for (int i = 0; i < 4; ++i) {
         c[1].point = wrongPoints[i];
         REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, f.sheet, c, 2));
@@ -863,8 +864,8 @@ static void ContactArguments(void** state)
         float* field;
         float value;
     } ranges[] = { { &c[1].normal[0], 0.0f },  { &c[1].normal[0], 1.1f }, { &c[1].normal[1], 0.5f },
-                   { &c[1].normal[2], 1e30f }, { &c[1].friction, -0.1f }, { &c[1].stiffness, 0.0f },
-                   { &c[1].stiffness, -1.0f } };
+                   { &c[1].normal[2], 1e30f }, { &c[1].friction, -0.1f }, { &c[1].inverseMass, -1.0f },
+                   { &c[1].pushSpeed, -1.0f } };
     for (int i = 0; i < 7; ++i) {
         float kept = *ranges[i].field;
         *ranges[i].field = ranges[i].value;
@@ -937,7 +938,7 @@ static void HugeValues(void** state)
         static const float blade[12] = { -1e30f, -1e30f, 0.0f, 1e30f,  -1e30f, 0.0f,
                                          1e30f,  1e30f,  0.0f, -1e30f, 1e30f,  1e30f };
         float inside[2] = { 0.5f, 0.5f };
-        kiriContact contact = { 0, { 0.0f, 0.0f, 1.0f }, 1e30f, 1e30f, 1e30f };
+        kiriContact contact = { .point = 0, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 1e30f, .friction = 1e30f };
         kiriPinDef pin;
         kiriPin made;
         kiriCut cut;

@@ -186,7 +186,9 @@ static void SetContacts(Desk* desk, uint32_t random)
     int32_t points = Host_Counts(&desk->host, desk->sheet).collisionPoints;
     int32_t count = points > 0 ? (int32_t)(random % 100) : 0;
     for (int32_t i = 0; i < count; ++i) {
-        kiriContact contact = { i % points, { 0.0f, 0.0f, 1.0f }, -0.1f, 0.3f, 50.0f };
+        kiriContact contact = {
+            .point = i % points, .normal = { 0.0f, 0.0f, 1.0f }, .offset = -0.1f, .friction = 0.3f
+        };
         contacts[i] = contact;
     }
     OK(kiriSheet_SetContacts(desk->host.world, desk->sheet, contacts, count));

@@ -61,7 +61,7 @@ static void Act(Host* host, kiriSheet sheet, int tick)
     float place[3] = { 0.1f, 0.1f + 0.001f * (float)tick, 0.0f };
     kiriContact contacts[4];
     for (int i = 0; i < 4; ++i) {
-        kiriContact contact = { i, { 0.0f, 0.0f, 1.0f }, 0.001f, 0.3f, 50.0f };
+        kiriContact contact = { .point = i, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 0.001f, .friction = 0.3f };
         contacts[i] = contact;
     }
     OK(kiriSheet_GetFrames(host->world, sheet, frames, 64, &count));

@@ -950,7 +950,9 @@ static void TestContactsMoveAlong(void** state)
     OK(kiriWorld_SetGravity(host.world, none));
     kiriSheet sheet = Strips(&host, 2), detached;
     int32_t piece = PieceAt(&host, sheet, 0.8);
-    kiriContact contact = { MeshOf(&host, sheet, piece).collisionPoints[0], { 0.0f, 0.0f, 1.0f }, 0.1f, 0.0f, 50.0f };
+    kiriContact contact = { .point = MeshOf(&host, sheet, piece).collisionPoints[0],
+                            .normal = { 0.0f, 0.0f, 1.0f },
+                            .offset = 0.1f };
     OK(kiriSheet_SetContacts(host.world, sheet, &contact, 1));
     OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, piece), &detached));
     Tick(&host, 1);
@@ -964,7 +966,7 @@ static void TestContactsMoveAlong(void** state)
     Host_Cut(&host, sheet, line, 2);
     Tick(&host, 1);
     OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 1), &detached));
-    assert_int_equal(DataOf(&host, sheet)->rest.contacts.count + DataOf(&host, detached)->rest.contacts.count, 1);
+    assert_int_equal(DataOf(&host, sheet)->touches.last.count + DataOf(&host, detached)->touches.last.count, 1);
     Host_Stop(&host);
 }
 

@@ -247,10 +247,14 @@ def test_force_and_contacts():
     assert abs(sheet.totals().momentum[2] - 0.03) < 1e-6
     points = sheet.collision_points()
     height = sheet.totals().center[2]
-    contact = {"normal": (0, 0, 1), "offset": 1.0, "stiffness": 10.0}
+    contact = {"normal": (0, 0, 1), "offset": 1.0}
+    before = sheet.totals().momentum[2]
     sheet.set_contacts([{"point": i, **contact} for i in range(len(points))])
     world.tick(0.01)
-    assert sheet.totals().momentum[2] > 0.04 and sheet.totals().center[2] > height
+    momentum = sheet.totals().momentum[2]
+    assert momentum > 0.04 and sheet.totals().center[2] > height
+    forces = sheet.contact_forces()
+    assert len(forces) == len(points) and abs(sum(f.impulse[2] for f in forces) - momentum + before) < 1e-9
 
 
 def test_pieces():

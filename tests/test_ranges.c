@@ -121,11 +121,14 @@ static const Field pinFields[] = {
 };
 
 static const Field contactFields[] = {
-    { WHOLE(kiriContact, point), { 0, 1, END }, { -1, 1048577, END } },
+    { WHOLE(kiriContact, point), { -1, 0, 1, END }, { -2, 1048577, END } },
+    { REAL(kiriContact, velocity[0]), { -100.0, 0.0, 100.0, END }, { NO_NUMBER, END } },
     { REAL(kiriContact, normal[2]), { 0.9995, 1.0, 1.0005, END }, { 0.0, 2.0, NO_NUMBER } },
     { REAL(kiriContact, offset), { -FLT_MAX, 0.0, 0.1, FLT_MAX, END }, { NO_NUMBER, END } },
     { REAL(kiriContact, friction), { 0.0, 0.5, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
-    { REAL(kiriContact, stiffness), { FLT_MIN, 10.0, FLT_MAX, END }, { 0.0, -1.0, NO_NUMBER } },
+    { REAL(kiriContact, inverseMass), { 0.0, FLT_MIN, 10.0, FLT_MAX }, { -1.0, NO_NUMBER, END } },
+    { REAL(kiriContact, pushSpeed), { 0.0, FLT_MIN, 10.0, FLT_MAX }, { -1.0, NO_NUMBER, END } },
+    { WHOLE(kiriContact, obstacle), { INT32_MIN, 0, INT32_MAX }, { END } },
 };
 
 static const Field worldFields[] = {
@@ -194,7 +197,9 @@ static void ListParts(Play* play, Part parts[PARTS])
 
 static void Play_Init(Play* play, Host* host)
 {
-    static const kiriContact contact = { 0, { 0.0f, 0.0f, 1.0f }, 0.01f, 0.3f, 50.0f };
+    static const kiriContact contact = {
+        .point = 0, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 0.01f, .friction = 0.3f
+    };
     memset(host, 0, sizeof(*host));
     host->failAt = -1;
     play->world = Host_Def(host);

@@ -266,7 +266,7 @@ static kiriResult CallSetContacts(Stand* s)
 {
     kiriContact contacts[12];
     for (int i = 0; i < 12; ++i) {
-        kiriContact contact = { i, { 0.0f, 0.0f, 1.0f }, 0.001f, 0.3f, 50.0f };
+        kiriContact contact = { .point = i, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 0.001f, .friction = 0.3f };
         contacts[i] = contact;
     }
     return kiriSheet_SetContacts(s->host.world, s->sheet, contacts, 12);

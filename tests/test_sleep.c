@@ -133,7 +133,7 @@ static void Perform(Host* host, kiriSheet sheet, const kiriPin pins[2], Call cal
     static const float none[3] = { 0.0f, 0.0f, 0.0f }, some[3] = { 0.0f, 1e-3f, 0.0f };
     static const float gravity[3] = { 0.0f, 0.0f, -9.81f }, lighter[3] = { 0.0f, 0.0f, -9.8f };
     static const float target[3] = { 0.0f, 1.0f, 0.0f }, farther[3] = { 0.0f, 1.001f, 0.0f };
-    kiriContact contact = { 0, { 0.0f, 0.0f, 1.0f }, -5.0f, 0.0f, 1.0f };
+    kiriContact contact = { .point = 0, .normal = { 0.0f, 0.0f, 1.0f }, .offset = -5.0f, .friction = 0.0f };
     kiriFrame frames[8];
     int32_t count;
     OK(kiriSheet_GetFrames(host->world, sheet, frames, 8, &count));
@@ -239,7 +239,9 @@ static void Touch(Host* host, kiriSheet sheet, float floor, float sway)
     OK(kiriSheet_GetCollisionPoints(host->world, sheet, &points, &count));
     for (int32_t i = 0; i < count && i < 16; ++i) {
         if (points[3 * i + 2] < floor + 0.02f) {
-            kiriContact contact = { i, { sway, 0.0f, 1.0f }, floor + sway * points[3 * i], 0.5f, 50.0f };
+            kiriContact contact = {
+                .point = i, .normal = { sway, 0.0f, 1.0f }, .offset = floor + sway * points[3 * i], .friction = 0.5f
+            };
             contacts[found++] = contact;
         }
     }

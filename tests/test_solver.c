@@ -1131,15 +1131,32 @@ static void TestAllHeld(void** state)
     Drop(&scene);
 }
 
+/* A point of a frame above a level plane. */
+static kiriContactRow TouchingPlane(int32_t frame, kiriVec2 at, double height, double friction)
+{
+    kiriContactRow row;
+    memset(&row, 0, sizeof(row));
+    row.weights[0].frame = frame;
+    row.weights[0].value = 1.0;
+    row.weightCount = 1;
+    row.yield = KIRI_NONE;
+    row.at = at;
+    row.normal = kiriVec3_Make(0.0, 0.0, 1.0);
+    row.offset = height;
+    row.friction = friction;
+    row.pushSpeed = 1.0;
+    return row;
+}
+
 static void LayOnFloor(Scene* s, double friction)
 {
     const kiriVec2 corners[4] = { { 0.0, 0.0 }, { 0.1, 0.0 }, { 0.1, 0.1 }, { 0.0, 0.1 } };
     MakeSquare(s, 0.1, Paper);
     for (int k = 0; k < 4; ++k) {
-        kiriContactRow row = { 0, corners[k], { 0.0, 0.0, 1.0 }, 0.0, friction, 100.0 };
-        s->contacts[k] = row;
+        s->contacts[k] = TouchingPlane(0, corners[k], 0.0, friction);
     }
     s->system.contactCount = 4;
+    assert_true(kiriSolver_ReserveContacts(s->solver, 4));
 }
 
 static void TestContactHolds(void** state)
@@ -1152,7 +1169,7 @@ static void TestContactHolds(void** state)
         Steps(&scene, 1, 1.0 / 60.0, 2);
         assert_true(scene.frames[0].x.z > -0.005);
     }
-    AssertNear(scene.frames[0].x.z, -scene.frames[0].mass * 9.81 / 400.0, 1e-8);
+    assert_true(scene.frames[0].x.z <= 0.0 && scene.frames[0].x.z > -1e-6);
     AssertNear(kiriVec3_Length(scene.frames[0].velocity), 0.0, 1e-6);
     Drop(&scene);
 }
@@ -1163,7 +1180,6 @@ static void TestFriction(void** state)
     (void)state;
     for (int k = 0; k < 2; ++k) {
         LayOnFloor(&scene, k == 0 ? 0.5 : 0.0);
-        scene.frames[0].x.z = -scene.frames[0].mass * 9.81 / 400.0;
         scene.frames[0].velocity.x = 1.0;
         Steps(&scene, 400, 1e-3, 2);
         double way = scene.frames[0].x.x - 0.05;
@@ -1178,8 +1194,8 @@ static void Wave(Scene* s)
     MakeSheet(s, 6, 5, 0.2, 0.2, Paper);
     Hold(s, 0);
     Pin(s, 5, 1e4);
-    kiriContactRow row = { 12, { 0.05, 0.09 }, { 0.0, 0.0, 1.0 }, -0.03, 0.4, 500.0 };
-    s->contacts[s->system.contactCount++] = row;
+    s->contacts[s->system.contactCount++] = TouchingPlane(12, kiriVec2_Make(0.05, 0.09), -0.03, 0.4);
+    assert_true(kiriSolver_ReserveContacts(s->solver, 4));
     Steps(s, 60, 1.0 / 60.0, 2);
     Drop(s);
 }

@@ -38,7 +38,7 @@ static kiriSheetData* Start(Host* host, int32_t model, int32_t frames)
     OK(kiriCut_Extend(host->world, cut, slit + 2, 1));
     OK(Host_Tick(host, 0.01f, 1));
     OK(kiriCut_Extend(host->world, cut, next, 1));
-    const kiriContact contact = { 0, { 0.0f, 0.0f, 1.0f }, -1.0f, 0.0f, 1.0f };
+    const kiriContact contact = { .point = 0, .normal = { 0.0f, 0.0f, 1.0f }, .offset = -1.0f, .friction = 0.0f };
     OK(kiriSheet_SetContacts(host->world, sheet, &contact, 1));
     assert_int_equal(Host_Counts(host, sheet).pieces, 2);
     return host->world->sheets.data[0];
@@ -642,7 +642,7 @@ static const char* CorruptSamples(kiriWorld* world, kiriSheetData* s, int way)
         s->pointPlaces.head.data[kiriSquares_At(&s->mesh.squares, s->points.data[0].at)] = KIRI_NONE;
         return "points of";
     case 11:
-        s->contacts.data[0].point = s->points.count;
+        s->contacts.data[0].contact.point = s->points.count;
         return "contacts: ";
     default:
         return NULL;

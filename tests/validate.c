@@ -293,12 +293,27 @@ static bool Check_Pins(Check* check, const kiriSheetData* sheet)
     return Check_PinShares(check, sheet);
 }
 
-static bool Check_ContactsOf(Check* check, const kiriSheetData* sheet, const kiriContact* contacts, int32_t count)
+static bool Check_Contacts(Check* check, const kiriSheetData* sheet)
 {
-    for (int32_t k = 0; k < count; ++k) {
-        REQUIRE(IsIndex(contacts[k].point, sheet->points.count), "contact %d is of point %d", k, contacts[k].point);
+    const kiriTouches* touches = &sheet->touches;
+    for (int32_t k = 0; k < sheet->contacts.count; ++k) {
+        const kiriGivenContact* given = &sheet->contacts.data[k];
+        REQUIRE(given->contact.point == -1 || IsIndex(given->contact.point, sheet->points.count),
+                "contact %d is of point %d", k, given->contact.point);
+        for (int n = 0; n < 3 && given->contact.point == -1; ++n) {
+            REQUIRE(IsIndex(given->vertex[n], sheet->mesh.vertices.count), "contact %d has vertex %d", k,
+                    given->vertex[n]);
+        }
     }
-    REQUIRE(sheet->contactRows.capacity >= count, "room for %d contacts of %d", sheet->contactRows.capacity, count);
+    REQUIRE(touches->nextTold.capacity >= sheet->contacts.count && touches->found.capacity >= sheet->contacts.count,
+            "room for %d contacts of %d", touches->found.capacity, sheet->contacts.count);
+    for (int32_t k = 0; k < touches->last.count; ++k) {
+        int32_t point = touches->last.data[k].point;
+        REQUIRE(point == KIRI_NONE || IsIndex(point, sheet->points.count), "touch %d is of point %d", k, point);
+    }
+    for (int32_t k = 1; k < touches->forces.count; ++k) {
+        REQUIRE(touches->forces.data[k - 1].key <= touches->forces.data[k].key, "force %d is out of order", k);
+    }
     return true;
 }
 
@@ -327,8 +342,7 @@ static bool Check_Points(Check* check, const kiriSheetData* sheet)
         }
     }
     check->part = "contacts";
-    return Check_ContactsOf(check, sheet, sheet->contacts.data, sheet->contacts.count) &&
-           Check_ContactsOf(check, sheet, sheet->rest.contacts.data, sheet->rest.contacts.count);
+    return Check_Contacts(check, sheet);
 }
 
 /* ---- Weights of samples ---- */

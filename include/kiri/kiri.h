@@ -689,7 +689,7 @@ KIRI_API kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, co
 typedef struct kiriWind {
     float velocity[3]; /* m/s */
     float density;     /* kg/m^3, 0 or more; 1.2 of air */
-    float drag, lift;  /* 0 or more: coefficients of pressure, 2 of a long plate, 1.2 of a square, and of the force along
+    float drag, lift; /* 0 or more: coefficients of pressure, 2 of a long plate, 1.2 of a square, and of the force along
                           the sheet, 0.01 or so of a smooth one */
 } kiriWind;
 
@@ -757,19 +757,42 @@ KIRI_API kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, k
 
 KIRI_API kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
 
-/* A collision point that touches something: it is pushed out of the half space below the plane dot(normal, x) = offset
-   with `stiffness` N/m; against its sliding acts at most `friction` times the push (Coulomb). */
+/* A point of the material that touches something: the plane dot(normal, x) = offset keeps it on its upper side, with as
+   much force as that takes, and Coulomb friction acts along the plane. The plane is that of an obstacle of the host, who
+   finds it anew for each tick from where the sheet is seen. A contact may lie in the path of the point, above or below
+   it: one that does not reach its plane in the tick costs little and does nothing. */
 typedef struct kiriContact {
-    int32_t point;   /* index of the collision point */
-    float normal[3]; /* unit, out of the obstacle */
-    float offset;    /* m */
-    float friction;  /* 0 or more */
-    float stiffness; /* N/m, above 0 */
+    int32_t point;      /* index of the collision point; -1: restPoint says which point of the material */
+    float restPoint[2]; /* in the material; only read where point is -1 */
+    float normal[3];    /* unit, out of the obstacle */
+    float offset;       /* m: of the obstacle's surface at the start of the tick */
+    float velocity[3]; /* m/s: of the obstacle there. The plane moves with it within the tick, and friction acts against
+                           the sliding that is left */
+    float friction;    /* 0 or more: of both sides together */
+    float inverseMass; /* 1/kg, 0 or more: of the obstacle as felt along the normal there, 1/m + (r x n) . I^-1 (r x n);
+                           0: it does not yield */
+    float pushSpeed;   /* m/s, 0 or more: a point that starts below the plane is pushed out no faster. 0: 1 m/s */
+    int32_t obstacle;  /* the host's number. Contacts of one number press on one obstacle, and share its mass */
 } kiriContact;
 
-/* The contacts of the next tick; they replace those of an earlier call, and are gone after the tick. */
+/* The contacts of the next tick; they replace those of an earlier call, and are gone after the tick. A contact is known
+   again by its point, or its rest point, and its obstacle: what it pushed with is where the next tick starts. */
 KIRI_API kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriContact* contacts,
                                           int32_t count);
+
+/* What a contact did in the last tick. */
+typedef struct kiriContactForce {
+    double impulse[3];       /* N s, on the sheet: the sum over the tick. The obstacle gets the opposite */
+    double position[3];      /* m, world: where it acted, the point of the sheet at the end of the tick */
+    double depth;            /* m: how deep the point is below the plane at the end of the tick; below 0: above it */
+    int32_t point, obstacle; /* as in the contact */
+} kiriContactForce;
+
+/* One for each contact that was set before the last tick, in the order given. The sum of the impulses, with those of
+   gravity, loads and obstacles, is the change of momentum of a piece that nothing holds. A sheet that sleeps goes on to
+   press with what it fell asleep with. */
+KIRI_API kiriResult kiriSheet_GetContactForces(const kiriWorld* world, kiriSheet sheet, const kiriContactForce** forces,
+                                               int32_t* count);
 
 /* ---- Obstacle --------------------------------------------------------------------------------------------------- */
 

@@ -8,13 +8,14 @@
 
 KIRI_C_BEGIN
 
-/* The other side of contacts where it can yield: a body of a host, or another piece. */
+/* The other side of contacts where it can yield: a body of a host, an obstacle, or another piece. */
 typedef struct kiriYieldRow {
+    int64_t number;          /* whose it is, as its finder likes */
     double inverseMass;      /* 1/kg; 0: it does not move */
-    kiriMat3 inverseInertia; /* 1/(kg m^2), world; zero: it does not turn */
+    kiriMat3 inverseInertia; /* 1/(kg m^2), world, about the centre; zero: it does not turn */
     kiriVec3 center;         /* m: its centre of mass at the start of the tick */
     kiriWrench impulse;      /* N s, N m s about the centre: what sheets gave it in this tick; a step adds to it */
-    int32_t pressed;         /* contacts that press on it in the step at hand: each has its share of the mass */
+    int32_t pressed;         /* scratch: contacts that press on it in the step at hand, and share its mass */
 } kiriYieldRow;
 
 enum { KIRI_CONTACT_WEIGHTS = 16 }; /* of a row: the largest, made to sum to 1 */
@@ -23,9 +24,10 @@ enum { KIRI_CONTACT_WEIGHTS = 16 }; /* of a row: the largest, made to sum to 1 *
    the tick, and move with `velocity` and with what their yield row gets. */
 typedef struct kiriContactRow {
     uint64_t key; /* the same contact has it in the next tick, and no other: so it is remembered */
-    kiriWeight weights[KIRI_CONTACT_WEIGHTS];
-    int32_t weightCount;
-    int32_t yield;     /* index of a yield row; KIRI_NONE: the plane does not yield */
+    kiriWeight weights[KIRI_CONTACT_WEIGHTS]; /* largest first; all frames are of one piece */
+    int32_t weightCount;                      /* 1 or more */
+    int32_t yield;                            /* index of a yield row; KIRI_NONE: the plane does not yield */
+    double felt;       /* 1/kg: of the yield row as felt there in any direction; below 0: as its mass and inertia say */
     kiriVec2 at;       /* local rest, m */
     kiriVec3 normal;   /* unit, to the side of the sheet */
     double offset;     /* m: dot(normal, x) of the plane, for x as the frames blend it: the seen point may be off that,
@@ -33,8 +35,9 @@ typedef struct kiriContactRow {
     kiriVec3 velocity; /* m/s: of the plane's material at the point */
     double friction;   /* both sides together */
     double pushSpeed;  /* m/s: how fast it is pushed out at most, where it starts below the plane */
+    kiriVec3 way;      /* m: of the plane's material since the start of the tick; a step adds to it */
     kiriVec3 force;    /* N, on the sheet: remembered from the last tick, or zero; then as the last step left it */
-    kiriVec3 impulse;  /* N s, on the sheet, since the start of the tick */
+    kiriVec3 impulse;  /* N s, on the sheet, since the start of the tick; a step adds to it */
 } kiriContactRow;
 
 KIRI_C_END

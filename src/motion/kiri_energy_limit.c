@@ -54,14 +54,33 @@ static void WriteStepEnd(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
+/* What contacts gave to each piece, about the origin. */
+static void SumContacts(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        int32_t i = solver->framePiece.data[system->contacts[k].weights[0].frame];
+        kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data);
+        kiriVec3 impulse = kiriVec3_Scale(solver->pieces.data[i].stepping.part, kiriContact_Force(solver, system, k));
+        if (system->mechanics.planar) {
+            impulse = kiriMechanics_InPlane(&system->mechanics, impulse);
+        }
+        kiriWrench given = { impulse, kiriVec3_Cross(point, impulse) };
+        kiriWrench_Add(&solver->momenta.data[i].pushed, 1.0, &given);
+    }
+}
+
 static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
 {
     const kiriVec3* normal = system->mechanics.planar ? &system->mechanics.axes.d : NULL;
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
-        solver->momenta.data[i].isFree = solver->pieces.data[i].isFree;
+        kiriPieceMomentum start = { .isFree = solver->pieces.data[i].isFree,
+                                    .isPushed = solver->pieces.data[i].isPushed };
+        solver->momenta.data[i] = start;
     }
+    SumContacts(solver, system);
     kiriMomentum_Restore(solver->before.data, solver->after.data, system->frameCount, solver->framePiece.data,
-                         solver->momenta.data, solver->pieceCount, &system->material, solver->dt, normal);
+                         solver->momenta.data, solver->pieceCount, &system->material, kiriSystem_Gravity(system),
+                         solver->dt, normal);
 }
 
 /* ---- Gains ---- */
@@ -90,10 +109,10 @@ static double WorkOfTorque(const kiriSystem* system, const kiriFrameData* start,
     return kiriVec3_Dot(start->torque, kiriVec3_AddScaled(lag, h, end->spin));
 }
 
-/* The velocity of the centre of mass of a free piece stays. */
+/* The velocity of the centre of mass of a piece stays that is free, or on which contacts alone act. */
 double kiriPieceStep_MostTaken(const kiriPieceStep* piece)
 {
-    return piece->kinetic + (piece->isFree ? 0.0 : piece->moving);
+    return piece->kinetic + (piece->isFree || piece->isPushed ? 0.0 : piece->moving);
 }
 
 /* By how much kinetic and potential energy grow in the step beyond the work of gravity and of the host's forces; what
@@ -123,6 +142,9 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
             piece->kinetic += OwnKinetic(solver, system, f);
             piece->gain += after - before - work - KIRI_ROUNDING * (before + after + fabs(work));
         }
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame)->gain -= kiriContact_Work(solver, system, k);
     }
 }
 
@@ -166,7 +188,7 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
         double energy = piece->gain > 0.0 ? piece->gain : 0.0, rest = piece->kinetic - piece->turning;
         piece->keepRest = TakeEnergy(rest > 0.0 ? rest : 0.0, &energy);
         piece->keepTurning = TakeEnergy(piece->turning, &energy);
-        piece->keepMean = piece->isFree ? 1.0 : TakeEnergy(piece->moving, &energy);
+        piece->keepMean = piece->isFree || piece->isPushed ? 1.0 : TakeEnergy(piece->moving, &energy);
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {
         int32_t i = solver->framePiece.data[f];

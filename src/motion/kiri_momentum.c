@@ -34,7 +34,7 @@ static kiriVec3 AngularAbout(const kiriFrameData* frame, const kiriMaterial* mat
 
 /* Forces act on arms as they are on the mean over the step. */
 static void AddFrameTurning(kiriPieceMomentum* p, const kiriFrameData* before, const kiriFrameData* after,
-                            const kiriMaterial* material, double dt)
+                            const kiriMaterial* material, kiriVec3 gravity, double dt)
 {
     kiriVec3 arm = kiriVec3_Sub(after->x, p->centerAfter);
     kiriVec3 arms = kiriVec3_Add(kiriVec3_Sub(before->x, p->centerBefore), arm);
@@ -42,9 +42,21 @@ static void AddFrameTurning(kiriPieceMomentum* p, const kiriFrameData* before, c
     kiriMat3 own = kiriFrame_Inertia(after, material), point = kiriMat3_PointInertia(before->mass, arm);
     p->due = kiriVec3_Add(p->due, AngularAbout(before, material, p->centerBefore, p->velocityBefore));
     p->due = kiriVec3_AddScaled(p->due, dt, torque);
+    kiriVec3 push = kiriVec3_AddScaled(before->force, before->mass, gravity);
+    p->dueLinear = kiriVec3_AddScaled(p->dueLinear, before->mass, before->velocity);
+    p->dueLinear = kiriVec3_AddScaled(p->dueLinear, dt, push);
     p->angular = kiriVec3_Add(p->angular, AngularAbout(after, material, p->centerAfter, p->velocityAfter));
     p->inertia = kiriMat3_AddScaled(&p->inertia, 1.0, &own);
     p->inertia = kiriMat3_AddScaled(&p->inertia, 1.0, &point);
+}
+
+/* The steps keep the linear momentum exactly but for what is left of the iteration, and for pushes that were cut to what
+   contacts can do. */
+static void MoveTogether(kiriPieceMomentum* p)
+{
+    kiriVec3 velocity = kiriVec3_Scale(1.0 / p->mass, p->dueLinear);
+    p->move = kiriVec3_Sub(velocity, p->velocityAfter);
+    p->velocityAfter = velocity;
 }
 
 static void FindTurns(kiriPieceMomentum* pieces, int32_t pieceCount, const kiriVec3* normal)
@@ -52,36 +64,40 @@ static void FindTurns(kiriPieceMomentum* pieces, int32_t pieceCount, const kiriV
     for (int32_t i = 0; i < pieceCount; ++i) {
         kiriPieceMomentum* p = &pieces[i];
         if (p->mass > 0.0) {
+            bool isOwn = p->isFree || p->isPushed;
+            kiriVec3 arm = kiriVec3_Scale(-1.0, p->centerAfter);
+            p->due = kiriVec3_Add(p->due, kiriVec3_Add(p->pushed.moment, kiriVec3_Cross(arm, p->pushed.force)));
+            if (p->isPushed) {
+                p->dueLinear = kiriVec3_Add(p->dueLinear, p->pushed.force);
+                MoveTogether(p);
+            }
             kiriVec3 missing = kiriVec3_Sub(p->due, p->angular);
             if (normal != NULL) {
                 missing = kiriVec3_Scale(kiriVec3_Dot(missing, *normal), *normal);
             }
-            p->angular = p->isFree ? kiriVec3_Add(p->angular, missing) : p->angular;
-            p->turn = p->isFree ? kiriMat3_Solve(&p->inertia, missing) : p->turn;
+            p->angular = isOwn ? kiriVec3_Add(p->angular, missing) : p->angular;
+            p->turn = isOwn ? kiriMat3_Solve(&p->inertia, missing) : p->turn;
             p->spin = kiriMat3_Solve(&p->inertia, p->angular);
         }
     }
 }
 
 void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t frameCount, const int32_t* piece,
-                          kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, double dt,
-                          const kiriVec3* normal)
+                          kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, kiriVec3 gravity,
+                          double dt, const kiriVec3* normal)
 {
-    for (int32_t i = 0; i < pieceCount; ++i) {
-        pieces[i] = (kiriPieceMomentum){ .isFree = pieces[i].isFree };
-    }
     GatherCenters(before, after, frameCount, piece, pieces, pieceCount);
     for (int32_t f = 0; f < frameCount; ++f) {
         if (!before[f].held) {
-            AddFrameTurning(&pieces[piece[f]], &before[f], &after[f], material, dt);
+            AddFrameTurning(&pieces[piece[f]], &before[f], &after[f], material, gravity, dt);
         }
     }
     FindTurns(pieces, pieceCount, normal);
     for (int32_t f = 0; f < frameCount; ++f) {
         const kiriPieceMomentum* p = &pieces[piece[f]];
-        if (p->isFree) {
+        if (p->isFree || p->isPushed) {
             kiriVec3 arm = kiriVec3_Sub(after[f].x, p->centerAfter);
-            after[f].velocity = kiriVec3_Add(after[f].velocity, kiriVec3_Cross(p->turn, arm));
+            after[f].velocity = kiriVec3_Add(after[f].velocity, kiriVec3_Add(p->move, kiriVec3_Cross(p->turn, arm)));
             after[f].spin = kiriVec3_Add(after[f].spin, p->turn);
         }
     }

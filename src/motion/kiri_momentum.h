@@ -10,22 +10,28 @@ KIRI_C_BEGIN
 
 /* Of one piece, over the frames that the host does not hold, about its centre of mass; sums while they are gathered. */
 typedef struct kiriPieceMomentum {
-    bool isFree; /* from pins, contacts and the host: its momentum is its own */
+    bool isFree;       /* from pins, contacts and the host: its momentum is its own */
+    bool isPushed;     /* but for contacts, */
+    kiriWrench pushed; /* N s: what these gave to it in the step, about the origin */
     double mass;
     kiriVec3 centerBefore, velocityBefore, centerAfter, velocityAfter;
-    kiriVec3 due;     /* the angular momentum that it should have after the step, */
-    kiriVec3 angular; /* that it has, */
-    kiriMat3 inertia; /* and its inertia then */
-    kiriVec3 turn;    /* the angular velocity that makes up for the difference */
-    kiriVec3 spin;    /* of the rigid body that has its momenta */
+    kiriVec3 due;       /* the angular momentum that it should have after the step, */
+    kiriVec3 angular;   /* that it has, */
+    kiriMat3 inertia;   /* and its inertia then */
+    kiriVec3 dueLinear; /* and the linear one */
+    kiriVec3 move;      /* the velocity that makes up for the difference of that, */
+    kiriVec3 turn;      /* and the angular velocity that makes up for the difference */
+    kiriVec3 spin;      /* of the rigid body that has its momenta */
 } kiriPieceMomentum;
 
-/* Turns free pieces as rigid bodies until they have the angular momentum that they should have. Frames are those before
-   and after the step; piece[f] is the piece of frame f; isFree is set in `pieces`, the rest is written. In a planar
+/* Turns free pieces as rigid bodies until they have the angular momentum that they should have; pieces on which contacts
+   alone act get the whole momentum that these gave. Frames are those before
+   and after the step; piece[f] is the piece of frame f; isFree, isPushed and pushed are set in `pieces`, the
+   rest is zero, and written. In a planar
    sheet `normal` is that of its plane; else null. */
 void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t frameCount, const int32_t* piece,
-                          kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, double dt,
-                          const kiriVec3* normal);
+                          kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, kiriVec3 gravity,
+                          double dt, const kiriVec3* normal);
 
 KIRI_C_END
 

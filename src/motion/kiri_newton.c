@@ -51,7 +51,9 @@ static void TryStep(kiriSolver* solver, const kiriSystem* system)
                                       ? kiriMat3_Advance(&pose->A, &columns)
                                       : kiriMat3_MulMat(kiriMat3_Cayley(change.by[1]), pose->A);
     }
+    solver->isAlong = true;
     kiriObjective_Evaluate(solver, system, solver->trial.data);
+    solver->isAlong = false;
 }
 
 /* Pieces whose step is good enough take it. Returns whether there are others. */
@@ -75,17 +77,13 @@ static bool TakeTrial(kiriSolver* solver, const kiriSystem* system)
     return isLeft;
 }
 
-/* Pieces in their first step that still search may end where the objective is that of the free prediction without
-   friction, or some times as large as where they start. */
+/* Pieces in their first step that still search may end where the objective is that of the free prediction, or some times as large as where they start. */
 static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {
         solver->trial.data[f] = solver->predictions.data[f].pose;
     }
-    bool hasFriction = solver->hasFriction;
-    solver->hasFriction = false;
     kiriObjective_Evaluate(solver, system, solver->trial.data);
-    solver->hasFriction = hasFriction;
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         double rise = MOST_RISE * piece->now.objective, predicted = piece->sum.objective;
@@ -109,6 +107,7 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
         return false;
     }
     kiriMatrix_Solve(solver->matrix, solver->force.data, solver->move.data);
+    kiriSolver_MoveContacts(solver, system);
     StartSearch(solver, system);
     TryStep(solver, system);
     bool isLeft = TakeTrial(solver, system);
@@ -124,6 +123,7 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
         TryStep(solver, system);
         isLeft = TakeTrial(solver, system);
     }
+    kiriSolver_ReviewContacts(solver, system);
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         solver->pieces.data[i].isFirst &= !solver->pieces.data[i].isIterated;
     }
@@ -153,7 +153,8 @@ static bool ChooseUnfinished(kiriSolver* solver, int32_t done)
         bool isSuspect = piece->isIterated && IsSuspect(piece);
         piece->isNew = isSuspect && piece->suspect > 1;
         piece->suspect = isSuspect ? piece->suspect + 1 : 0;
-        piece->isIterated = piece->isIterated && (done < piece->wanted || hasGained || isSuspect || isShort);
+        piece->isIterated =
+            piece->isIterated && (done < piece->wanted || hasGained || isSuspect || isShort || piece->isUnsettled);
         any |= piece->isIterated;
     }
     return any;
@@ -165,6 +166,7 @@ static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         solver->pieces.data[i].isSearching = solver->pieces.data[i].isNew;
     }
+    kiriSolver_GuessContacts(solver, system);
     kiriObjective_Evaluate(solver, system, solver->start.data);
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         kiriPieceStep* piece = &solver->pieces.data[i];
@@ -237,9 +239,6 @@ int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_
     bool isLeft = true, isFresh = false;
     EvaluateStart(solver, system); /* all pieces are new */
     while (isLeft && done < most && done < last) {
-        /* Where the iteration starts, a contact is as deep as free motion goes: friction by that push would be far too
-           strong at an impact. */
-        solver->hasFriction = done > 0 || iterations == 1;
         if (!IterateOnce(solver, system)) {
             return -1;
         }

@@ -1,7 +1,5 @@
 #include "kiri_solver_work.h"
 
-#define SLIDE_FLOOR 1e-9 /* m: a shorter way is no slide */
-
 static void AddEnergy(kiriStepEnergy* sum, double stored, double lost)
 {
     sum->potential += stored;
@@ -21,42 +19,10 @@ kiriVec3 kiriSystem_Point(const kiriSystem* system, int32_t frame, kiriVec2 at, 
     return kiriVec3_Add(poses[frame].x, kiriSystem_Arm(system, frame, at, &poses[frame]));
 }
 
-kiriVec3 kiriContact_Slide(const kiriSystem* system, const kiriContactRow* contact, kiriVec3 point)
-{
-    kiriVec3 way = kiriVec3_Sub(point, kiriFrame_Carry(&system->frames[contact->frame], contact->at));
-    return kiriVec3_AddScaled(way, -kiriVec3_Dot(way, contact->normal), contact->normal);
-}
-
-double kiriContact_Depth(const kiriContactRow* contact, kiriVec3 point)
-{
-    double depth = contact->offset - kiriVec3_Dot(contact->normal, point);
-    return depth > 0.0 ? depth : 0.0;
-}
-
-/* Friction is at most `friction` times the push. Both are those before the iteration, so that the objective is a sum of
-   squares during the line search. */
-double kiriContact_Friction(const kiriSolver* solver, const kiriSystem* system, const kiriContactRow* contact)
-{
-    kiriVec3 point = kiriSystem_Point(system, contact->frame, contact->at, solver->poses.data);
-    double push = contact->stiffness * kiriContact_Depth(contact, point);
-    double slide = kiriVec3_Length(kiriContact_Slide(system, contact, point));
-    double friction = contact->friction * push / (slide > SLIDE_FLOOR ? slide : SLIDE_FLOOR);
-    return !solver->hasFriction ? 0.0 : friction < contact->stiffness ? friction : contact->stiffness;
-}
-
 static void AddPinEnergy(const kiriSystem* system, const kiriPinRow* pin, const kiriPose* poses, kiriStepEnergy* sum)
 {
     kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, poses), pin->target);
     AddEnergy(sum, 0.5 * pin->stiffness * kiriVec3_Dot(off, off), 0.0);
-}
-
-static void AddContactEnergy(const kiriSystem* system, const kiriContactRow* contact, double friction,
-                             const kiriPose* poses, kiriStepEnergy* sum)
-{
-    kiriVec3 point = kiriSystem_Point(system, contact->frame, contact->at, poses);
-    kiriVec3 slide = kiriContact_Slide(system, contact, point);
-    double depth = kiriContact_Depth(contact, point);
-    AddEnergy(sum, 0.5 * contact->stiffness * depth * depth, 0.5 * friction * kiriVec3_Dot(slide, slide));
 }
 
 static void AddClampEnergy(const kiriSystem* system, kiriClampRow* row, const kiriPose* poses, kiriStepEnergy* sum)
@@ -86,10 +52,9 @@ void kiriObjective_AddHost(kiriSolver* solver, const kiriSystem* system, const k
         }
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
-        const kiriContactRow* contact = &system->contacts[k];
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, contact->frame);
+        kiriPieceStep* piece = kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
         if (piece->isSearching) {
-            AddContactEnergy(system, contact, kiriContact_Friction(solver, system, contact), poses, &piece->sum);
+            AddEnergy(&piece->sum, 0.0, kiriContact_Energy(solver, system, k, poses));
         }
     }
     if (kiriSystem_HasWind(system)) {
@@ -232,6 +197,11 @@ void kiriObjective_FindNoise(kiriSolver* solver, const kiriSystem* system)
         const kiriClampRow* row = &system->clamps[k];
         kiriSolver_PieceOf(solver, row->frame)->noise += share * kiriClamp_Noise(row, &solver->start.data[row->frame]);
     }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriVec3 x = solver->contacts.data[k].start;
+        kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame)->noise +=
+            share * solver->contacts.data[k].stiffness * kiriVec3_Dot(x, x);
+    }
 }
 
 /* ---- Matrix and forces ------------------------------------------------------------------------------------------- */
@@ -300,9 +270,8 @@ static void AddFrameInertia(kiriSolver* solver, const kiriSystem* system, int32_
     }
 }
 
-/* Adds the squares of `rows` strains: J has their derivatives by the unknowns of the frames, each frame's together. */
-static void AddSquares(kiriSolver* solver, const int32_t* frames, int32_t frameCount, const double* J,
-                       const double* springs, const double* pulls, int rows)
+void kiriSolver_AddSquares(kiriSolver* solver, const int32_t* frames, int32_t frameCount, const double* J,
+                           const double* springs, const double* pulls, int rows)
 {
     int32_t size = solver->size;
     for (int e = 0; e < rows; ++e) {
@@ -415,7 +384,7 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     if (wasShort && solver->stopping.data[k] && rows == KIRI_NORMAL_STOP) {
         springs[KIRI_NORMAL_GAP] += stiffness[KIRI_NORMAL_STOP];
     }
-    AddSquares(solver, solver->members.data, count, solver->J.data, springs, pulls, rows);
+    kiriSolver_AddSquares(solver, solver->members.data, count, solver->J.data, springs, pulls, rows);
 }
 
 void kiriSolver_AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t f, kiriVec2 at, kiriVec3 axis,
@@ -428,7 +397,7 @@ void kiriSolver_AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t 
         row.by[1] = kiriVec3_Cross(kiriSystem_Arm(system, f, at, &solver->poses.data[f]), axis);
     }
     kiriSolver_Reduce(solver, &row, J);
-    AddSquares(solver, &f, 1, J, &stiffness, &pull, 1);
+    kiriSolver_AddSquares(solver, &f, 1, J, &stiffness, &pull, 1);
 }
 
 static void AddPin(kiriSolver* solver, const kiriSystem* system, const kiriPinRow* pin)
@@ -456,29 +425,14 @@ static void AddClamp(kiriSolver* solver, const kiriSystem* system, const kiriCla
     if (wasShort && row->stopping && !row->isAffine && !kiriClamp_IsStopped(row, strain)) {
         springs[KIRI_NORMAL_GAP] += row->stiffness[KIRI_NORMAL_STOP];
     }
-    AddSquares(solver, &row->frame, 1, J, springs, pulls, row->strainCount);
-}
-
-static void AddContact(kiriSolver* solver, const kiriSystem* system, const kiriContactRow* contact)
-{
-    kiriVec3 n = contact->normal, point = kiriSystem_Point(system, contact->frame, contact->at, solver->poses.data);
-    double depth = kiriContact_Depth(contact, point), friction = kiriContact_Friction(solver, system, contact);
-    if (depth > 0.0) {
-        kiriSolver_AddSpring(solver, system, contact->frame, contact->at, n, -depth, contact->stiffness);
-    }
-    if (friction > 0.0) {
-        kiriVec3 axis = fabs(n.x) < 0.7 ? kiriVec3_Make(1.0, 0.0, 0.0) : kiriVec3_Make(0.0, 1.0, 0.0);
-        kiriVec3 side = kiriVec3_Normalize(kiriVec3_Cross(n, axis)), ahead = kiriVec3_Cross(side, n);
-        kiriVec3 slide = kiriContact_Slide(system, contact, point);
-        kiriSolver_AddSpring(solver, system, contact->frame, contact->at, side, kiriVec3_Dot(slide, side), friction);
-        kiriSolver_AddSpring(solver, system, contact->frame, contact->at, ahead, kiriVec3_Dot(slide, ahead), friction);
-    }
+    kiriSolver_AddSquares(solver, &row->frame, 1, J, springs, pulls, row->strainCount);
 }
 
 void kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
 {
     kiriMatrix_Clear(solver->matrix);
     memset(solver->force.data, 0, sizeof(double) * (size_t)(solver->size * system->frameCount));
+    kiriSolver_LinearizeContacts(solver, system);
     for (int32_t f = 0; f < system->frameCount; ++f) {
         if (IsStill(solver, system, f)) {
             AddIdentity(solver, f);
@@ -504,8 +458,8 @@ void kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
         }
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
-        if (!IsStill(solver, system, system->contacts[k].frame)) {
-            AddContact(solver, system, &system->contacts[k]);
+        if (kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame)->isSearching) {
+            kiriContact_Assemble(solver, system, k);
         }
     }
     if (kiriSystem_HasWind(system)) {

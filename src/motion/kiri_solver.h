@@ -5,6 +5,7 @@
 #include "kiri_strain_offset.h"
 #include "kiri_area_element.h"
 #include "kiri_clamp.h"
+#include "kiri_contact.h"
 #include "kiri_reaction.h"
 
 KIRI_C_BEGIN
@@ -18,14 +19,6 @@ typedef struct kiriPinRow {
     kiriVec3 target;
     double stiffness; /* N/m */
 } kiriPinRow;
-
-/* A material point of a frame kept above a plane. */
-typedef struct kiriContactRow {
-    int32_t frame;
-    kiriVec2 at;
-    kiriVec3 normal;
-    double offset, friction, stiffness;
-} kiriContactRow;
 
 /* How frames move, and what joins them. */
 typedef struct kiriMechanics {
@@ -56,8 +49,10 @@ typedef struct kiriSystem {
     int32_t pinCount;
     kiriClampRow* clamps; /* a step writes what is of that step, and `start` at its end */
     int32_t clampCount;
-    const kiriContactRow* contacts;
+    kiriContactRow* contacts; /* a step writes what they did; so it does with what yields */
     int32_t contactCount;
+    kiriYieldRow* yields;
+    int32_t yieldCount;
     kiriReactions reactions; /* what a step adds to; null where nobody asks */
     kiriMaterial material;
     kiriVec3 gravity;
@@ -80,6 +75,9 @@ void kiriSolver_Commit(kiriSolver* solver);
 
 /* Of the pattern, which depends on what was staged before: the last bits of steps depend on it. */
 uint64_t kiriSolver_Hash(const kiriSolver* solver);
+
+/* Room for so many contacts: steps have no more. False for memory. */
+bool kiriSolver_ReserveContacts(kiriSolver* solver, int32_t count);
 
 /* Moves the frames by dt. Links, corners and area elements are those that were committed; normals of contacts are unit,
    heldRotation is a rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the

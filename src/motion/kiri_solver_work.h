@@ -1,5 +1,6 @@
 /* What the files of the solver share: kiri_solver.c (unknowns, pattern, a step), kiri_step_begin.c, kiri_objective.c,
-   kiri_assembly.c, kiri_newton.c, kiri_energy_limit.c and kiri_step_reaction.c. No other file of the library includes it.
+   kiri_assembly.c, kiri_newton.c, kiri_step_contact.c, kiri_energy_limit.c and
+   kiri_step_reaction.c. No other file of the library includes it.
 
    The step is a minimisation over the poses of the frames at its end. The objective is
 
@@ -36,6 +37,33 @@ typedef struct kiriStepEnergy {
     double objective, potential;
 } kiriStepEnergy;
 
+enum { KIRI_CONTACT_MEMBERS = 8 };
+
+/* A contact in one step. While a linear system is solved, and along the step that it leads to, it is a spring on the
+   depth, whether that is above zero or not, and either a spring on the slide or a force of a given size. After each
+   system contacts are chosen anew (kiriSolver_ReviewContacts): those that would pull let go, those that came below their
+   plane push; those that held with more than friction can slip, and those whose slide turned round stick. */
+typedef struct kiriContactStep {
+    kiriWeight members[KIRI_CONTACT_MEMBERS]; /* the frames that it acts on */
+    int32_t memberCount;
+    double mass;      /* kg: of the frames, by their weights */
+    kiriVec3 start;   /* m: its point at the start of the step */
+    kiriVec3 carried; /* m: how far the obstacle goes in the step */
+    double plane;     /* m: offset at the end of the step, as far up as the point may be pushed: */
+    double lowered;   /* so much below the obstacle's surface */
+    double lift;      /* m: how far the plane lifts the point at most */
+    kiriVec3 held;    /* N: friction of the last step: so what sticks does not creep */
+    bool isActive, sticks;
+    double limit;           /* N: of friction where it slips */
+    kiriVec3 direction;     /* of the slide: unit or zero */
+    double known;           /* N: the largest push that is known of */
+    double stiffness, grip; /* N/m: of the springs on depth and slide */
+    double depth, sinks;    /* m: where the system was assembled, and how it changes by the whole solution */
+    kiriVec3 slide, slides; /* m: the same */
+    double push;            /* N: by the systems solved so far, */
+    kiriVec3 drag;          /* N: and friction */
+} kiriContactStep;
+
 /* The step of one piece. No element joins two, so each has a line search and an energy limit of its own. */
 typedef struct kiriPieceStep {
     kiriStepEnergy sum;        /* what was evaluated last */
@@ -55,6 +83,9 @@ typedef struct kiriPieceStep {
     double mass;
     int32_t wanted;   /* systems that are solved for it at least */
     bool isFree;      /* do only gravity and forces act on it? */
+    bool isPushed;    /* is it free but for contacts? */
+    bool isUnsettled; /* do contacts want another system? */
+    double mostPush;  /* N: the largest */
     bool isTouched;   /* by a contact in this step, or carried about by a hold */
     bool isNew;       /* does it start (anew, by backward Euler)? */
     int suspect;      /* after so many Gauss-Newton steps it had gained too much energy, one after another */
@@ -67,7 +98,7 @@ struct kiriSolver {
     kiriMemory* memory;
     kiriMechanics mechanics;
     double dt, damping; /* h of this step; flexDamping / dt */
-    bool hasFriction;   /* does friction of contacts act in this iteration? */
+    bool isAlong;       /* are poses those along the step that was solved for? */
     bool isHeld;        /* does the host move a frame? */
     int32_t size;       /* unknowns a frame */
     kiriUnknown unknowns[KIRI_MOST_UNKNOWNS];
@@ -81,6 +112,7 @@ struct kiriSolver {
     /* Room for the larger of the two configurations. */
     KIRI_ARRAY(kiriPieceStep) pieces;
     KIRI_ARRAY(kiriPieceMomentum) momenta; /* of pieces */
+    KIRI_ARRAY(kiriContactStep) contacts;
     /* The step; flattened where the sheet is planar, and with velocities that the air has slowed. */
     KIRI_ARRAY(kiriFrameData) before, after;
     KIRI_ARRAY(kiriPrediction) predictions;   /* one a frame, as are the poses */
@@ -137,12 +169,6 @@ void kiriSolver_FindTouched(kiriSolver* solver, const kiriSystem* system, const 
 kiriVec3 kiriSystem_Arm(const kiriSystem* system, int32_t frame, kiriVec2 at, const kiriPose* pose);
 kiriVec3 kiriSystem_Point(const kiriSystem* system, int32_t frame, kiriVec2 at, const kiriPose* poses);
 
-/* Of a contact: how deep its point is below the plane (0 above), how far it has slid along it since the start of the
-   step, and the spring against sliding, N/m. */
-double kiriContact_Depth(const kiriContactRow* contact, kiriVec3 point);
-kiriVec3 kiriContact_Slide(const kiriSystem* system, const kiriContactRow* contact, kiriVec3 point);
-double kiriContact_Friction(const kiriSolver* solver, const kiriSystem* system, const kiriContactRow* contact);
-
 /* The strains of element k at the poses. `strains` has KIRI_MOST_STRAINS an element; those of a corner's links are there
    already. */
 void kiriObjective_Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strains);
@@ -162,6 +188,10 @@ void kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* system, const 
 void kiriObjective_FindNoise(kiriSolver* solver, const kiriSystem* system);
 
 /* ---- Assembly ---- */
+
+/* Adds the squares of `rows` strains: J has their derivatives by the unknowns of the frames, each frame's together. */
+void kiriSolver_AddSquares(kiriSolver* solver, const int32_t* frames, int32_t frameCount, const double* J,
+                           const double* springs, const double* pulls, int rows);
 
 /* The linear system of a Gauss-Newton step from the poses, and the sums there, as kiriObjective_Evaluate has them. */
 void kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system);
@@ -204,6 +234,34 @@ double kiriPieceStep_MostTaken(const kiriPieceStep* piece);
 
 /* Takes what pieces gained out of their velocities. */
 void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system);
+
+/* ---- Contacts (kiri_step_contact.c) ---- */
+
+/* Places planes and points for a step; then, once a piece has its scheme and its prediction, guesses what its contacts do. */
+void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system);
+void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system);
+
+/* Where the members have the point. */
+kiriVec3 kiriContact_Point(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses);
+double kiriContact_Depth(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses);
+
+/* Before a system is assembled: springs, depths and slides there. After it is solved: how they change. */
+void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system);
+void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, int32_t k);
+void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system);
+
+/* What the contact adds to the objective, by its linear model after a part of the step. */
+double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses);
+
+/* After a step: its forces, and what contacts do in the next system. */
+void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system);
+
+/* The force on the sheet, N, within the cone of friction; and how much work the obstacle may have done with it, J. */
+kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriSystem* system, int32_t k);
+double kiriContact_Work(const kiriSolver* solver, const kiriSystem* system, int32_t k);
+
+/* Writes what the step did to rows, contacts' and those of what yields. */
+void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system);
 
 /* ---- Reactions (kiri_step_reaction.c) ---- */
 

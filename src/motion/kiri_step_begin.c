@@ -155,16 +155,20 @@ static void ChooseSteppings(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-static bool Touches(const kiriSystem* system, const kiriContactRow* contact, const kiriPose* poses)
-{
-    return kiriContact_Depth(contact, kiriSystem_Point(system, contact->frame, contact->at, poses)) > 0.0;
-}
-
 void kiriSolver_FindTouched(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
     for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, system->contacts[k].frame);
-        piece->isTouched = piece->isTouched || Touches(system, &system->contacts[k], poses);
+        kiriPieceStep* piece = kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
+        piece->isTouched = piece->isTouched || kiriContact_Depth(solver, system, k, poses) > 0.0;
+    }
+}
+
+/* What pushed in the last step goes on as a rule. */
+static void FindPushed(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        const kiriContactRow* row = &system->contacts[k];
+        kiriSolver_PieceOf(solver, row->weights[0].frame)->isTouched |= kiriVec3_Dot(row->force, row->normal) > 0.0;
     }
 }
 
@@ -208,6 +212,7 @@ static void FindCarried(kiriSolver* solver, const kiriSystem* system)
 static void StepTouchedByEuler(kiriSolver* solver, const kiriSystem* system)
 {
     FindCarried(solver, system);
+    FindPushed(solver, system);
     kiriSolver_FindTouched(solver, system, solver->start.data);
     kiriSolver_FindTouched(solver, system, solver->poses.data);
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
@@ -271,7 +276,9 @@ static void BeginPieces(kiriSolver* solver, const kiriSystem* system)
         kiriSolver_PieceOf(solver, system->clamps[k].frame)->isFree = false;
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriSolver_PieceOf(solver, system->contacts[k].frame)->isFree = false;
+        kiriPieceStep* piece = kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
+        piece->isPushed |= piece->isFree;
+        piece->isFree = false;
     }
 }
 
@@ -313,7 +320,7 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     KIRI_ASSERT(kiriElement_Count(system) == solver->elementCount);
     solver->dt = dt;
     solver->damping = (double)system->material.flexDamping / dt;
-    solver->hasFriction = solver->isHeld = false;
+    solver->isAlong = solver->isHeld = false;
     BeginPieces(solver, system);
     for (int32_t f = 0; f < system->frameCount; ++f) {
         solver->isHeld |= system->frames[f].held != 0;
@@ -321,6 +328,7 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
         solver->before.data[f] = FlattenFrame(&system->mechanics, &system->frames[f]);
         FadeVelocities(system, dt, &solver->before.data[f]);
     }
+    kiriSolver_BeginContacts(solver, system);
     SetNew(solver);
     ChooseSteppings(solver, system);
     CenterHistories(solver, system);

@@ -73,12 +73,14 @@ static void AddClamps(const kiriSolver* solver, const kiriSystem* system)
 static void AddContacts(const kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t k = 0; k < system->contactCount; ++k) {
-        const kiriContactRow* contact = &system->contacts[k];
-        kiriVec3 point = kiriSystem_Point(system, contact->frame, contact->at, solver->poses.data);
-        kiriVec3 force = kiriVec3_Scale(contact->stiffness * kiriContact_Depth(contact, point), contact->normal);
-        force = kiriVec3_AddScaled(force, -kiriContact_Friction(solver, system, contact),
-                                   kiriContact_Slide(system, contact, point));
-        TakeFromHold(solver, system, contact->frame, ForceAt(solver, contact->frame, point, force));
+        const kiriContactStep* step = &solver->contacts.data[k];
+        kiriVec3 force = kiriContact_Force(solver, system, k);
+        for (int32_t m = 0; m < step->memberCount; ++m) {
+            int32_t frame = step->members[m].frame;
+            kiriVec3 point = kiriSystem_Point(system, frame, system->contacts[k].at, solver->poses.data);
+            kiriVec3 part = kiriVec3_Scale(step->members[m].value, force);
+            TakeFromHold(solver, system, frame, ForceAt(solver, frame, point, part));
+        }
     }
 }
 

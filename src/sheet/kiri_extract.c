@@ -6,6 +6,7 @@
 #include "kiri_pipeline.h"
 #include "kiri_seen.h"
 #include "kiri_settings.h"
+#include "kiri_touch.h"
 
 #include <string.h>
 
@@ -152,26 +153,53 @@ static bool CopyPins(const kiriExtract* extract, kiriSheetData* to)
     return ok;
 }
 
+static void CopyGivenContacts(const kiriExtract* extract, kiriSheetData* to)
+{
+    const kiriSheetData* from = extract->from;
+    for (int32_t i = 0; i < from->contacts.count; ++i) {
+        kiriGivenContact given = from->contacts.data[i];
+        bool isKept = true;
+        if (given.contact.point >= 0) {
+            given.contact.point = extract->pointTo.data[given.contact.point];
+            isKept = given.contact.point != KIRI_NONE;
+        }
+        for (int n = 0; n < 3 && given.vertex[n] != KIRI_NONE; ++n) {
+            given.vertex[n] = extract->vertexTo.data[given.vertex[n]];
+            isKept = isKept && given.vertex[n] != KIRI_NONE;
+        }
+        if (isKept) {
+            to->contacts.data[to->contacts.count++] = given;
+        }
+    }
+}
+
+static void CopyTouches(const kiriExtract* extract, kiriSheetData* to)
+{
+    const kiriTouches* from = &extract->from->touches;
+    kiriTouches* touches = &to->touches;
+    for (int32_t i = 0; i < from->last.count; ++i) {
+        kiriTouch touch = from->last.data[i];
+        if (kiriTouch_Follow(&touch, extract->pointTo.data, extract->vertexTo.data)) {
+            touches->last.data[touches->last.count++] = touch;
+            kiriVec3 force = kiriTouches_ForceOf(extract->from, from->last.data[i].key);
+            if (kiriVec3_Dot(force, force) > 0.0) {
+                kiriTouches_Remember(to, touch.key, force);
+            }
+        }
+    }
+}
+
 /* Room for contacts is what SetContacts reserves, so that none is needed later. */
 static bool CopyContacts(const kiriExtract* extract, kiriSheetData* to)
 {
     const kiriSheetData* from = extract->from;
-    int32_t most = from->contacts.count > from->rest.contacts.count ? from->contacts.count : from->rest.contacts.count;
+    int32_t most = from->contacts.count > from->touches.last.count ? from->contacts.count : from->touches.last.count;
     if (!kiriArray_Reserve(to->memory, &to->contacts, most) ||
-        !kiriArray_Reserve(to->memory, &to->rest.contacts, most) ||
-        !kiriArray_Reserve(to->memory, &to->contactRows, most)) {
+        !kiriArray_Reserve(&to->shown, &to->touches.nextTold, most) || !kiriTouches_Room(to, most)) {
         return false;
     }
-    for (int32_t i = 0; i < from->contacts.count + from->rest.contacts.count; ++i) {
-        bool isLast = i >= from->contacts.count;
-        kiriContact contact = isLast ? from->rest.contacts.data[i - from->contacts.count] : from->contacts.data[i];
-        contact.point = extract->pointTo.data[contact.point];
-        if (contact.point != KIRI_NONE && isLast) {
-            to->rest.contacts.data[to->rest.contacts.count++] = contact;
-        } else if (contact.point != KIRI_NONE) {
-            to->contacts.data[to->contacts.count++] = contact;
-        }
-    }
+    CopyGivenContacts(extract, to);
+    CopyTouches(extract, to);
     return true;
 }
 

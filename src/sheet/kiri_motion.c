@@ -2,28 +2,9 @@
 
 #include "../motion/kiri_prediction.h"
 #include "kiri_pin.h"
+#include "kiri_touch.h"
 
 #include <string.h>
-
-/* A contact acts on the frame whose region holds the point. The host has measured where the point is seen, between
-   frames; the plane moves by as much as the frame's own point is off. */
-static void WriteContactRows(kiriSheetData* sheet)
-{
-    sheet->contactRows.count = sheet->contacts.count;
-    for (int32_t i = 0; i < sheet->contacts.count; ++i) {
-        const kiriContact* contact = &sheet->contacts.data[i];
-        const kiriSample* point = &sheet->points.data[contact->point];
-        int32_t frame = point->frame;
-        kiriVec2 at = kiriMesh_Local(&sheet->mesh, point->at);
-        kiriVec3 normal = kiriVec3_Load(contact->normal);
-        kiriVec3 seen = sheet->seen.exactPoints.data[contact->point];
-        kiriVec3 off = kiriVec3_Sub(kiriFrame_Carry(&sheet->frames.data[frame], at), seen);
-        kiriContactRow row = {
-            frame, at, normal, contact->offset + kiriVec3_Dot(normal, off), contact->friction, contact->stiffness
-        };
-        sheet->contactRows.data[i] = row;
-    }
-}
 
 static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
 {
@@ -44,8 +25,10 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     system.reactions.pins = sheet->pinReactions.data;
     system.reactions.clamps = sheet->clampReactions.data;
     system.reactions.frames = sheet->frameReactions.data;
-    system.contacts = sheet->contactRows.data;
-    system.contactCount = sheet->contactRows.count;
+    system.contacts = sheet->touches.rows.data;
+    system.contactCount = sheet->touches.rows.count;
+    system.yields = sheet->touches.yields.data;
+    system.yieldCount = sheet->touches.yields.count;
     system.mechanics = sheet->settings.mechanics;
     system.areaElements = &sheet->layout.areaElements;
     system.material = sheet->settings.material;
@@ -75,7 +58,6 @@ static void ClearForces(kiriSheetData* sheet)
 /* ---- Sleep ---- */
 
 #define CALM_SECONDS 0.5
-#define CALM_SLOPE 1e-3 /* by how much the normal of a contact may change meanwhile */
 
 void kiriMotion_Wake(kiriSheetData* sheet)
 {
@@ -83,35 +65,16 @@ void kiriMotion_Wake(kiriSheetData* sheet)
     sheet->rest.calm = 0.0;
 }
 
-/* Hosts find contacts anew each tick, where a sheet that hardly moves is seen: a plane that passes the point as near as
-   the sheet may have gone meanwhile is the same. */
-static bool IsSameContact(const kiriSheetData* sheet, const kiriContact* a, const kiriContact* b)
-{
-    kiriVec3 seen = kiriVec3_Load(&sheet->seen.pointPositions.data[3 * a->point]);
-    kiriVec3 tilt = kiriVec3_Sub(kiriVec3_Load(b->normal), kiriVec3_Load(a->normal));
-    double rise = (double)b->offset - (double)a->offset - kiriVec3_Dot(tilt, seen);
-    return a->point == b->point && a->friction == b->friction && a->stiffness == b->stiffness &&
-           kiriVec3_Length(tilt) <= CALM_SLOPE && fabs(rise) <= CALM_SECONDS * sheet->settings.sleepSpeed;
-}
-
-static bool AreContactsNew(const kiriSheetData* sheet)
-{
-    bool same = sheet->contacts.count == sheet->rest.contacts.count;
-    for (int32_t i = 0; same && i < sheet->contacts.count; ++i) {
-        same = IsSameContact(sheet, &sheet->rest.contacts.data[i], &sheet->contacts.data[i]);
-    }
-    return !same;
-}
-
 static bool IsFading(const kiriSheetData* sheet)
 {
     return sheet->seen.fades.fading.count > 0 || sheet->seen.pointFades.fading.count > 0;
 }
 
-/* Falls asleep before a tick, not after one, so that what is seen is where it came to rest. */
+/* Falls asleep before a tick, not after one, so that what is seen is where it came to rest. For a sheet that sleeps
+   nobody finds touches but the host: who moves other things wakes it. */
 static bool Sleeps(kiriSheetData* sheet)
 {
-    if (sheet->rest.calm >= CALM_SECONDS && AreContactsNew(sheet)) {
+    if (sheet->rest.calm >= CALM_SECONDS && kiriTouches_AreNew(sheet, sheet->rest.asleep ? KIRI_TOUCH_HOST : 0)) {
         kiriMotion_Wake(sheet);
     }
     if (sheet->rest.calm >= CALM_SECONDS && !IsFading(sheet) && !sheet->rest.asleep) {
@@ -136,19 +99,6 @@ static bool IsCalm(const kiriSheetData* sheet)
 
 /* ---- Tick ---- */
 
-/* Contacts are gone after the tick; those that moved the sheet last are what its sleep is compared with. */
-static void EndContacts(kiriSheetData* sheet)
-{
-    kiriContact* data = sheet->contacts.data;
-    int32_t capacity = sheet->contacts.capacity;
-    sheet->contacts.data = sheet->rest.contacts.data;
-    sheet->contacts.capacity = sheet->rest.contacts.capacity;
-    sheet->rest.contacts.data = data;
-    sheet->rest.contacts.capacity = capacity;
-    sheet->rest.contacts.count = sheet->contacts.count;
-    sheet->contacts.count = 0;
-}
-
 /* Fewer and longer substeps where the quota asks for it, and one system at least for each. */
 static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system, double dt, int32_t substeps,
                                  kiriQuota* systems)
@@ -169,15 +119,17 @@ static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system,
 static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
     kiriPins_WriteRows(sheet);
-    WriteContactRows(sheet);
+    kiriTouches_WriteRows(sheet);
     kiriSystem system = MakeSystem(sheet, gravity);
     kiriProgress progress = TakeSubsteps(sheet, &system, dt, substeps, systems);
     if (progress == KIRI_FAILED) {
         PutToRest(sheet);
         kiriMotion_Wake(sheet);
         kiriPins_ClearReactions(sheet);
+        kiriTouches_Clear(sheet);
     } else if (progress == KIRI_DONE) {
         kiriPins_TakeReactions(sheet, dt);
+        kiriTouches_End(sheet);
         kiriStrainOffsets_Advance(&sheet->strainOffsets, dt, sheet->seen.fades.time);
         kiriPins_FadeOffsets(sheet, dt, sheet->seen.fades.time);
         sheet->rest.calm = IsCalm(sheet) ? sheet->rest.calm + dt : 0.0;
@@ -188,11 +140,11 @@ static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt
 kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
     if (Sleeps(sheet)) {
-        sheet->contacts.count = 0;
+        kiriTouches_Tell(sheet, dt);
         return KIRI_DONE;
     }
     kiriProgress progress = MoveFrames(sheet, gravity, dt, substeps, systems);
-    EndContacts(sheet);
+    kiriTouches_Tell(sheet, dt);
     ClearForces(sheet);
     return progress;
 }

@@ -137,10 +137,53 @@ typedef struct kiriSettings {
 
 /* A sheet that hardly moves falls asleep. */
 typedef struct kiriRest {
-    double calm;                      /* s for which it has been slower than sleepSpeed */
-    bool asleep;                      /* it was not moved by the last tick, and rests */
-    KIRI_ARRAY(kiriContact) contacts; /* of the last tick that moved the sheet */
+    double calm; /* s for which it has been slower than sleepSpeed */
+    bool asleep; /* it was not moved by the last tick, and rests */
 } kiriRest;
+
+/* Who finds touches: the highest four bits of their keys. */
+enum kiriTouchKind { KIRI_TOUCH_HOST = 1, KIRI_TOUCH_OBSTACLE = 2, KIRI_TOUCH_PAIR = 3 };
+
+/* Where a point of the material may touch something in the tick at hand, found before cuts take effect. */
+typedef struct kiriTouch {
+    uint64_t key;  /* kind in the highest four bits; in the sheet no other touch has it, and the same one has it in the
+                          next tick */
+    int32_t point; /* a collision point; KIRI_NONE: a blend of vertices of the mesh */
+    int32_t vertex[3]; /* KIRI_NONE where there are fewer: those come last */
+    double share[3];   /* sum 1 */
+    kiriVec3 seen;     /* where the point is seen: kiriTouches_Add writes it */
+    kiriVec3 normal;   /* the rest as in a contact row, but that the plane is where it is seen */
+    double offset;
+    kiriVec3 velocity;
+    double friction, pushSpeed;
+    int32_t yield;
+    double felt;
+} kiriTouch;
+
+/* With what a contact pushed when the sheet was moved last. */
+typedef struct kiriTouchForce {
+    uint64_t key;
+    kiriVec3 force; /* N, on the sheet */
+} kiriTouchForce;
+
+/* See kiri_touch.h. */
+typedef struct kiriTouches {
+    KIRI_ARRAY(kiriTouch) found; /* in the tick at hand, */
+    KIRI_ARRAY(kiriYieldRow) yields;
+    KIRI_ARRAY(kiriContactRow) rows;       /* and the row of each */
+    KIRI_ARRAY(kiriTouch) last;            /* those of the last tick that moved the sheet, */
+    KIRI_ARRAY(kiriTouchForce) forces;     /* and what of them pushed, by key */
+    KIRI_ARRAY(int32_t) order;             /* scratch */
+    KIRI_ARRAY(kiriContactForce) told;     /* what the host reads, of the contacts that it gave; */
+    KIRI_ARRAY(kiriContactForce) nextTold; /* room for those of the next tick */
+} kiriTouches;
+
+/* A contact that the host gave. */
+typedef struct kiriGivenContact {
+    kiriContact contact;
+    int32_t vertex[3]; /* of the triangle with its rest point, where it names no collision point */
+    double share[3];
+} kiriGivenContact;
 
 /* What the host sees, see kiri_seen.h. */
 typedef struct kiriSeen {
@@ -183,17 +226,17 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriQueuedPoint) queue;
     KIRI_ARRAY(kiriCutData*) cuts;
     KIRI_ARRAY(kiriPinData) pins;
-    KIRI_ARRAY(kiriContact) contacts; /* of the next tick */
+    KIRI_ARRAY(kiriGivenContact) contacts; /* of the next tick */
 
     /* Room reserved by whoever makes it needed, so that a tick without a cut allocates nothing. */
     KIRI_ARRAY(kiriPinRow) pinRows;     /* points, then two for each share of a hinge */
     KIRI_ARRAY(kiriClampRow) clampRows; /* one for each share of a clamp */
-    KIRI_ARRAY(kiriContactRow) contactRows;
-    KIRI_ARRAY(double) linkParts; /* what clamps leave of each link; empty where they leave all */
+    KIRI_ARRAY(double) linkParts;       /* what clamps leave of each link; empty where they leave all */
     KIRI_ARRAY(kiriReaction) pinReactions, clampReactions, frameReactions; /* of rows, and of frames */
     kiriLine line;                                                         /* what was asked last, */
     KIRI_ARRAY(kiriLineShare) lineShares;                                  /* and what of it belongs to each frame */
 
+    kiriTouches touches;
     kiriRest rest;
     kiriSeen seen;
     kiriPieceLists lists;

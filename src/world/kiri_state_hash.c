@@ -231,13 +231,39 @@ static void HashSettings(uint64_t* hash, const kiriSheetData* sheet)
     }
 }
 
-static void HashContacts(uint64_t* hash, const kiriContact* contacts, int32_t count)
+static void HashContacts(uint64_t* hash, const kiriSheetData* sheet)
 {
-    kiriHash_Int32(hash, count);
-    for (int32_t i = 0; i < count; ++i) {
-        kiriHash_Int32(hash, contacts[i].point);
-        HashVec3(hash, kiriVec3_Load(contacts[i].normal));
-        HashVec3(hash, kiriVec3_Make(contacts[i].offset, contacts[i].friction, contacts[i].stiffness));
+    kiriHash_Int32(hash, sheet->contacts.count);
+    for (int32_t i = 0; i < sheet->contacts.count; ++i) {
+        const kiriContact* contact = &sheet->contacts.data[i].contact;
+        kiriHash_Int32(hash, contact->point);
+        if (contact->point < 0) {
+            HashVec2(hash, kiriVec2_Make(contact->restPoint[0], contact->restPoint[1]));
+        }
+        HashVec3(hash, kiriVec3_Load(contact->normal));
+        HashVec3(hash, kiriVec3_Load(contact->velocity));
+        HashVec3(hash, kiriVec3_Make(contact->offset, contact->friction, contact->inverseMass));
+        kiriHash_Double(hash, contact->pushSpeed);
+        kiriHash_Int32(hash, contact->obstacle);
+    }
+}
+
+/* Of the last tick that moved the sheet. */
+static void HashTouches(uint64_t* hash, const kiriTouches* touches)
+{
+    kiriHash_Int32(hash, touches->last.count);
+    for (int32_t i = 0; i < touches->last.count; ++i) {
+        const kiriTouch* touch = &touches->last.data[i];
+        kiriHash_Word(hash, touch->key);
+        HashVec3(hash, touch->normal);
+        HashVec3(hash, touch->velocity);
+        kiriHash_Double(hash, touch->offset);
+        kiriHash_Double(hash, touch->friction);
+    }
+    kiriHash_Int32(hash, touches->forces.count);
+    for (int32_t i = 0; i < touches->forces.count; ++i) {
+        kiriHash_Word(hash, touches->forces.data[i].key);
+        HashVec3(hash, touches->forces.data[i].force);
     }
 }
 
@@ -296,7 +322,7 @@ static void HashWaiting(uint64_t* hash, const kiriWorld* world, const kiriSheetD
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
         HashPin(hash, &sheet->pins.data[i]);
     }
-    HashContacts(hash, sheet->contacts.data, sheet->contacts.count);
+    HashContacts(hash, sheet);
 }
 
 static void HashStrainOffsets(uint64_t* hash, const kiriStrainOffsets* strainOffsets)
@@ -337,7 +363,7 @@ static void HashRest(uint64_t* hash, const kiriSheetData* sheet)
     kiriHash_Double(hash, sheet->settings.sleepSpeed);
     kiriHash_Double(hash, sheet->rest.calm);
     kiriHash_Int32(hash, sheet->rest.asleep);
-    HashContacts(hash, sheet->rest.contacts.data, sheet->rest.contacts.count);
+    HashTouches(hash, &sheet->touches);
 }
 
 uint64_t kiriStateHash_Of(const kiriWorld* world)

@@ -4,6 +4,7 @@
 #include "../sheet/kiri_pipeline.h"
 #include "../sheet/kiri_seen.h"
 #include "../sheet/kiri_stages.h"
+#include "../sheet/kiri_touch.h"
 
 #include <string.h>
 
@@ -77,6 +78,24 @@ static void AbortAll(kiriWorld* world)
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         kiriPipeline_Abort(world->sheets.data[i]);
     }
+}
+
+/* ---- Contact ---- */
+
+/* Before anything is committed, so that a tick that is refused leaves all as it was: touches are found where the sheets
+   are seen. A sheet that sleeps asks nobody but the host. False for memory. */
+static bool FindTouches(kiriWorld* world)
+{
+    bool ok = true;
+    EnterStage(world, KIRI_STAGE_CONTACT);
+    for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
+        ok = kiriTouches_Begin(world->sheets.data[i]);
+    }
+    for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
+        ok = kiriTouches_Reserve(world->sheets.data[i]);
+        world->profile.contacts += world->sheets.data[i]->touches.found.count;
+    }
+    return ok;
 }
 
 /* ---- Commits ---- */
@@ -265,7 +284,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     kiriProfile last = world->profile;
     kiriMemory_FreeAll(&world->retired);
     memset(&world->profile, 0, sizeof(world->profile));
-    kiriResult result = UpdateAll(world, &quotas) ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
+    kiriResult result = UpdateAll(world, &quotas) && FindTouches(world) ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
     if (result == KIRI_OK) {
         world->events.count = 0;
         CommitAll(world);

@@ -486,6 +486,11 @@ class Sheet(_Handle):
         """Dicts with the fields of kiriContact."""
         self.world.call("kiriSheet_SetContacts", self.id, ffi.new("kiriContact[]", contacts), len(contacts))
 
+    def contact_forces(self):
+        """What the contacts did that were set before the last tick, in their order."""
+        return self.world.get_array(lambda forces, count: [_record(forces[i]) for i in range(count)],
+                                    "kiriSheet_GetContactForces", "kiriContactForce", self.id)
+
 
 class Cut(_Handle):
     def extend(self, rest_points):

@@ -1,0 +1,512 @@
+#include "kiri_solver_work.h"
+
+#define STIFFNESS 1e4       /* of a contact: so many times the mass of its frames over h'^2, */
+#define SINKING 1e-4        /* m: and so much that it sinks in no deeper by what it is known to push with */
+#define MOST_SPRING 1e9     /* but no more times the mass over h'^2 than that */
+#define SLIDE_FLOOR 1e-9    /* m: a shorter way is no slide */
+#define PUSH_TOLERANCE 1e-3 /* of the largest push of the piece: forces that are off by less need no other iteration */
+#define SINK_TOLERANCE 1e-5 /* m: nor do points that came below a plane by less */
+
+/* ---- Points ------------------------------------------------------------------------------------------------------- */
+
+static kiriVec3 PointOf(const kiriSystem* system, const kiriWeight* weights, int32_t count, kiriVec2 at,
+                        const kiriPose* poses)
+{
+    kiriVec3 x = { 0.0, 0.0, 0.0 };
+    for (int32_t m = 0; m < count; ++m) {
+        x = kiriVec3_AddScaled(x, weights[m].value, kiriSystem_Point(system, weights[m].frame, at, poses));
+    }
+    return x;
+}
+
+kiriVec3 kiriContact_Point(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses)
+{
+    const kiriContactStep* step = &solver->contacts.data[k];
+    return PointOf(system, step->members, step->memberCount, system->contacts[k].at, poses);
+}
+
+static kiriPieceStep* PieceOf(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    return kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
+}
+
+static kiriVec3 AlongPlane(kiriVec3 a, kiriVec3 normal)
+{
+    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, normal), normal);
+}
+
+double kiriContact_Depth(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses)
+{
+    return solver->contacts.data[k].plane -
+           kiriVec3_Dot(system->contacts[k].normal, kiriContact_Point(solver, system, k, poses));
+}
+
+static kiriVec3 SlideAt(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses)
+{
+    const kiriContactStep* step = &solver->contacts.data[k];
+    kiriVec3 way = kiriVec3_Sub(kiriContact_Point(solver, system, k, poses), step->start);
+    return AlongPlane(kiriVec3_Sub(way, step->carried), system->contacts[k].normal);
+}
+
+/* ---- Obstacles that yield ----------------------------------------------------------------------------------------- */
+
+static const kiriYieldRow* YieldOf(const kiriSystem* system, int32_t k)
+{
+    return system->contacts[k].yield != KIRI_NONE ? &system->yields[system->contacts[k].yield] : NULL;
+}
+
+/* The velocity that an obstacle has at a point by what sheets gave it in this tick. */
+static kiriVec3 Recoil(const kiriSystem* system, int32_t k, kiriVec3 point)
+{
+    const kiriYieldRow* yield = YieldOf(system, k);
+    if (yield == NULL) {
+        return kiriVec3_Make(0.0, 0.0, 0.0);
+    }
+    if (system->contacts[k].felt >= 0.0) {
+        return kiriVec3_Scale(system->contacts[k].felt, yield->impulse.force);
+    }
+    kiriVec3 spin = kiriMat3_Mul(yield->inverseInertia, yield->impulse.moment);
+    kiriVec3 round = kiriVec3_Cross(spin, kiriVec3_Sub(point, yield->center));
+    return kiriVec3_AddScaled(round, yield->inverseMass, yield->impulse.force);
+}
+
+/* 1/kg: of the obstacle at a point, along a direction. */
+static double InverseMass(const kiriSystem* system, int32_t k, kiriVec3 point, kiriVec3 along)
+{
+    const kiriYieldRow* yield = YieldOf(system, k);
+    if (yield == NULL || system->contacts[k].felt >= 0.0) {
+        return yield == NULL ? 0.0 : system->contacts[k].felt;
+    }
+    kiriVec3 arm = kiriVec3_Cross(kiriVec3_Sub(point, yield->center), along);
+    return yield->inverseMass + kiriVec3_Dot(arm, kiriMat3_Mul(yield->inverseInertia, arm));
+}
+
+/* ---- Begin of a step ---------------------------------------------------------------------------------------------- */
+
+bool kiriSolver_ReserveContacts(kiriSolver* solver, int32_t count)
+{
+    return kiriArray_Reserve(solver->memory, &solver->contacts, count);
+}
+
+/* The row acts on its largest frames that all have a block of the matrix in common: so that what it couples is solved
+   for exactly. */
+static void ChooseMembers(const kiriSolver* solver, const kiriContactRow* row, kiriContactStep* step)
+{
+    double sum = 0.0;
+    step->memberCount = 0;
+    for (int32_t n = 0; n < row->weightCount && step->memberCount < KIRI_CONTACT_MEMBERS; ++n) {
+        bool isCoupled = true;
+        for (int32_t m = 0; isCoupled && m < step->memberCount; ++m) {
+            kiriPair pair = { step->members[m].frame, row->weights[n].frame };
+            isCoupled = kiriMatrix_Covers(solver->matrix, pair);
+        }
+        if (isCoupled) {
+            step->members[step->memberCount++] = row->weights[n];
+            sum += row->weights[n].value;
+        }
+    }
+    for (int32_t m = 0; m < step->memberCount; ++m) {
+        step->members[m].value /= sum;
+    }
+}
+
+/* Where the plane is at the end of the step, and how far the obstacle goes. A point that starts below the plane ends no
+   higher than `pushSpeed` lets it. */
+static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    const kiriContactRow* row = &system->contacts[k];
+    kiriContactStep* step = &solver->contacts.data[k];
+    const kiriPose* poses = solver->start.data;
+    step->start = kiriContact_Point(solver, system, k, poses);
+    kiriVec3 off = kiriVec3_Sub(step->start, PointOf(system, row->weights, row->weightCount, row->at, poses));
+    kiriVec3 velocity = kiriVec3_Add(row->velocity, Recoil(system, k, step->start));
+    step->carried = kiriVec3_Scale(solver->dt, velocity);
+    double now = row->offset + kiriVec3_Dot(row->normal, kiriVec3_Add(row->way, off));
+    double depth = now - kiriVec3_Dot(row->normal, step->start), pushed = row->pushSpeed * solver->dt;
+    step->lowered = depth > pushed ? depth - pushed : 0.0;
+    step->lift = kiriVec3_Dot(row->normal, step->carried) + (depth > 0.0 ? depth - step->lowered : 0.0);
+    step->plane = now + kiriVec3_Dot(row->normal, step->carried) - step->lowered;
+}
+
+static double MassOf(const kiriSystem* system, const kiriContactStep* step)
+{
+    double mass = 0.0;
+    for (int32_t m = 0; m < step->memberCount; ++m) {
+        mass += step->members[m].value * system->frames[step->members[m].frame].mass;
+    }
+    return mass;
+}
+
+void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
+{
+    KIRI_ASSERT(solver->contacts.capacity >= system->contactCount);
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriContactStep* step = &solver->contacts.data[k];
+        memset(step, 0, sizeof(*step));
+        ChooseMembers(solver, &system->contacts[k], step);
+        step->mass = MassOf(system, step);
+        PlacePlane(solver, system, k);
+    }
+    for (int32_t k = 0; k < system->yieldCount; ++k) {
+        system->yields[k].pressed = 0;
+    }
+}
+
+/* N/m: of what resists a point by its inertia alone. */
+static double Inertia(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    double part = PieceOf(solver, system, k)->stepping.part;
+    return solver->contacts.data[k].mass / (part * part);
+}
+
+/* The first guess: what free motion runs into pushes with what stops it, and what pushed in the last step goes on, unless
+   free motion leaves it. It sticks where friction can stop its slide. */
+static void GuessState(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    const kiriContactRow* row = &system->contacts[k];
+    kiriContactStep* step = &solver->contacts.data[k];
+    double inertia = Inertia(solver, system, k), was = kiriVec3_Dot(row->normal, row->force);
+    kiriVec3 predicted = { 0.0, 0.0, 0.0 };
+    for (int32_t m = 0; m < step->memberCount; ++m) {
+        const kiriPose* pose = &solver->predictions.data[step->members[m].frame].pose;
+        kiriVec3 x = kiriVec3_Add(pose->x, kiriSystem_Arm(system, step->members[m].frame, row->at, pose));
+        predicted = kiriVec3_AddScaled(predicted, step->members[m].value, x);
+    }
+    double stop = inertia * (step->plane - kiriVec3_Dot(row->normal, predicted));
+    kiriVec3 slide = kiriVec3_Sub(kiriVec3_Sub(predicted, step->start), step->carried);
+    slide = AlongPlane(slide, row->normal);
+    step->held = AlongPlane(row->force, row->normal);
+    step->isActive = was + stop > 0.0;
+    step->push = 0.0;
+    step->drag = kiriVec3_Make(0.0, 0.0, 0.0);
+    step->limit = step->isActive ? row->friction * (was > 0.0 ? was : stop) : 0.0;
+    double length = kiriVec3_Length(slide);
+    step->sticks = inertia * length <= step->limit || kiriVec3_Length(step->held) < 0.999 * row->friction * was;
+    step->direction = kiriVec3_Scale(length > SLIDE_FLOOR ? 1.0 / length : 0.0, slide);
+    step->known = was > stop ? was : stop;
+}
+
+/* Of the pieces that are new. */
+void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        if (PieceOf(solver, system, k)->isNew) {
+            GuessState(solver, system, k);
+        }
+    }
+}
+
+/* ---- One linear system -------------------------------------------------------------------------------------------- */
+
+static void CountPressed(const kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t k = 0; k < system->yieldCount; ++k) {
+        system->yields[k].pressed = 0;
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        if (solver->contacts.data[k].isActive && system->contacts[k].yield != KIRI_NONE) {
+            system->yields[system->contacts[k].yield].pressed += 1;
+        }
+    }
+}
+
+/* The spring of the contact is so stiff that nobody sees it, in series with the inertia of the obstacle. Contacts that
+   press on one obstacle each have the same share of its mass: then none of them can give it more than is there, and
+   together they give all (mass splitting; Tonge, Benevolenski, Voroshilov 2012). */
+static void SetSprings(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    kiriContactStep* step = &solver->contacts.data[k];
+    const kiriContactRow* row = &system->contacts[k];
+    const kiriYieldRow* yield = YieldOf(system, k);
+    double inertia = Inertia(solver, system, k), part = PieceOf(solver, system, k)->stepping.part;
+    double asked = step->known / SINKING, most = MOST_SPRING * inertia;
+    double spring = asked > STIFFNESS * inertia ? asked : STIFFNESS * inertia;
+    spring = spring < most ? spring : most;
+    double share = yield != NULL && yield->pressed > 1 ? yield->pressed : 1.0;
+    double soft = part * part * share;
+    kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data);
+    kiriVec3 along = kiriVec3_Length(step->direction) > 0.5 ? step->direction : row->normal;
+    step->stiffness = 1.0 / (1.0 / spring + soft * InverseMass(system, k, point, row->normal));
+    step->grip = 1.0 / (1.0 / spring + soft * InverseMass(system, k, point, along));
+}
+
+void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
+{
+    CountPressed(solver, system);
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriContactStep* step = &solver->contacts.data[k];
+        if (PieceOf(solver, system, k)->isSearching) {
+            SetSprings(solver, system, k);
+            step->depth = kiriContact_Depth(solver, system, k, solver->poses.data);
+            step->slide = SlideAt(solver, system, k, solver->poses.data);
+            step->sinks = 0.0;
+            step->slides = kiriVec3_Make(0.0, 0.0, 0.0);
+        }
+    }
+}
+
+/* N/m: what turns the direction of a slide. */
+static double TurnSpring(const kiriContactStep* step)
+{
+    double length = kiriVec3_Length(step->slide), spring = length > SLIDE_FLOOR ? step->limit / length : step->grip;
+    return spring < step->grip ? spring : step->grip;
+}
+
+static kiriVec3 Beside(kiriVec3 a, kiriVec3 direction)
+{
+    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, direction), direction);
+}
+
+static double EnergyAfter(const kiriContactStep* step, double part)
+{
+    double depth = step->depth + part * step->sinks;
+    kiriVec3 slide = kiriVec3_AddScaled(step->slide, part, step->slides);
+    double energy = 0.5 * step->stiffness * depth * depth;
+    if (step->sticks) {
+        return energy - kiriVec3_Dot(step->held, slide) + 0.5 * step->grip * kiriVec3_Dot(slide, slide);
+    }
+    kiriVec3 beside = Beside(slide, step->direction);
+    return energy + step->limit * kiriVec3_Dot(step->direction, slide) +
+           0.5 * TurnSpring(step) * kiriVec3_Dot(beside, beside);
+}
+
+double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses)
+{
+    kiriContactStep step = solver->contacts.data[k];
+    if (!step.isActive) {
+        return 0.0;
+    }
+    if (solver->isAlong) {
+        return EnergyAfter(&step, PieceOf(solver, system, k)->scale);
+    }
+    step.depth = kiriContact_Depth(solver, system, k, poses);
+    step.slide = SlideAt(solver, system, k, poses);
+    return EnergyAfter(&step, 0.0);
+}
+
+/* The friction of the linear model, on the sheet. */
+static kiriVec3 Drag(const kiriContactStep* step, double part)
+{
+    kiriVec3 slide = kiriVec3_AddScaled(step->slide, part, step->slides);
+    return step->sticks ? kiriVec3_AddScaled(step->held, -step->grip, slide)
+                        : kiriVec3_AddScaled(kiriVec3_Scale(-step->limit, step->direction), -TurnSpring(step),
+                                             Beside(slide, step->direction));
+}
+
+/* The derivatives of a move of the point along an axis by the unknowns of a member. */
+static void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiriWeight member, kiriVec2 at,
+                        kiriVec3 axis, double* J)
+{
+    kiriVec2 local = kiriVec2_Sub(at, system->frames[member.frame].center);
+    kiriVec3 along = kiriVec3_Scale(member.value, axis);
+    kiriFrameRow row = { { along, kiriVec3_Scale(local.x, along), kiriVec3_Scale(local.y, along), { 0.0, 0.0, 0.0 } } };
+    if (!kiriMechanics_IsAffine(&system->mechanics)) {
+        row.by[1] = kiriVec3_Cross(kiriSystem_Arm(system, member.frame, at, &solver->poses.data[member.frame]), along);
+    }
+    if (system->frames[member.frame].held) {
+        memset(J, 0, sizeof(double) * (size_t)solver->size);
+    } else {
+        kiriSolver_Reduce(solver, &row, J);
+    }
+}
+
+static void DeriveRow(const kiriSolver* solver, const kiriSystem* system, int32_t k, kiriVec3 axis, double* J)
+{
+    const kiriContactStep* step = &solver->contacts.data[k];
+    for (int32_t m = 0; m < step->memberCount; ++m) {
+        DerivePoint(solver, system, step->members[m], system->contacts[k].at, axis, &J[solver->size * m]);
+    }
+}
+
+/* Two axes of the plane; the first along the slide where it slips. */
+static void FindAxes(const kiriContactStep* step, kiriVec3 normal, kiriVec3 axes[2])
+{
+    kiriVec3 other = fabs(normal.x) < 0.7 ? kiriVec3_Make(1.0, 0.0, 0.0) : kiriVec3_Make(0.0, 1.0, 0.0);
+    bool slips = !step->sticks && kiriVec3_Length(step->direction) > 0.5;
+    axes[1] = kiriVec3_Normalize(kiriVec3_Cross(normal, slips ? step->direction : other));
+    axes[0] = kiriVec3_Cross(axes[1], normal);
+}
+
+void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    enum { ROWS = 3 };
+    const kiriContactStep* step = &solver->contacts.data[k];
+    double J[ROWS * KIRI_CONTACT_MEMBERS * KIRI_MOST_UNKNOWNS];
+    int32_t frames[KIRI_CONTACT_MEMBERS];
+    kiriVec3 axes[2], drag = Drag(step, 0.0);
+    if (!step->isActive) {
+        return;
+    }
+    FindAxes(step, system->contacts[k].normal, axes);
+    for (int32_t m = 0; m < step->memberCount; ++m) {
+        frames[m] = step->members[m].frame;
+    }
+    size_t row = (size_t)(step->memberCount * solver->size);
+    DeriveRow(solver, system, k, system->contacts[k].normal, J);
+    DeriveRow(solver, system, k, axes[0], &J[row]);
+    DeriveRow(solver, system, k, axes[1], &J[2 * row]);
+    const double springs[ROWS] = { step->stiffness, step->sticks ? step->grip : 0.0,
+                                   step->sticks ? step->grip : TurnSpring(step) };
+    const double pulls[ROWS] = { step->stiffness * step->depth, kiriVec3_Dot(drag, axes[0]),
+                                 kiriVec3_Dot(drag, axes[1]) };
+    kiriSolver_AddSquares(solver, frames, step->memberCount, J, springs, pulls, ROWS);
+}
+
+static double Times(const kiriSolver* solver, const kiriContactStep* step, const double* J)
+{
+    double sum = 0.0;
+    for (int32_t m = 0; m < step->memberCount; ++m, J += solver->size) {
+        const double* move = &solver->move.data[solver->size * step->members[m].frame];
+        for (int32_t n = 0; n < solver->size; ++n) {
+            sum += J[n] * move[n];
+        }
+    }
+    return sum;
+}
+
+void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
+{
+    double J[KIRI_CONTACT_MEMBERS * KIRI_MOST_UNKNOWNS];
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriContactStep* step = &solver->contacts.data[k];
+        kiriVec3 axes[2], normal = system->contacts[k].normal;
+        if (PieceOf(solver, system, k)->isSearching && step->isActive) {
+            FindAxes(step, normal, axes);
+            DeriveRow(solver, system, k, normal, J);
+            step->sinks = -Times(solver, step, J);
+            DeriveRow(solver, system, k, axes[0], J);
+            step->slides = kiriVec3_Scale(Times(solver, step, J), axes[0]);
+            DeriveRow(solver, system, k, axes[1], J);
+            step->slides = kiriVec3_AddScaled(step->slides, Times(solver, step, J), axes[1]);
+        }
+    }
+}
+
+/* ---- Which contacts push, and how --------------------------------------------------------------------------------- */
+
+/* The forces after a step of which `part` was taken: those of the linear model, for their sum is what frames get, however
+   far turned frames leave their tangents. */
+static void TakeForces(kiriContactStep* step, double part)
+{
+    double push = step->isActive ? step->stiffness * (step->depth + step->sinks) : 0.0;
+    kiriVec3 drag = step->isActive ? Drag(step, 1.0) : kiriVec3_Make(0.0, 0.0, 0.0);
+    step->push = (1.0 - part) * step->push + part * push;
+    step->drag = kiriVec3_AddScaled(kiriVec3_Scale(1.0 - part, step->drag), part, drag);
+}
+
+static void Activate(kiriContactStep* step, double friction, double inertia, double depth, kiriVec3 slide)
+{
+    double length = kiriVec3_Length(slide);
+    step->isActive = true;
+    step->limit = friction * inertia * depth;
+    step->known = inertia * depth > step->known ? inertia * depth : step->known;
+    step->sticks = inertia * length <= step->limit;
+    step->direction = kiriVec3_Scale(length > SLIDE_FLOOR ? 1.0 / length : 0.0, slide);
+}
+
+/* Returns whether it changed. */
+static bool ReviewFriction(kiriContactStep* step, double limit, kiriVec3 slide, double tolerance)
+{
+    double length = kiriVec3_Length(slide), drag = kiriVec3_Length(step->drag);
+    bool isOver = step->sticks && drag > limit, turned = !step->sticks && kiriVec3_Dot(slide, step->direction) < 0.0;
+    bool isChanged =
+        (isOver && drag > limit + tolerance) || turned || (!step->sticks && fabs(limit - step->limit) > tolerance);
+    if (isOver) {
+        step->sticks = false;
+        step->direction = kiriVec3_Scale(-1.0 / drag, step->drag);
+    } else if (turned) {
+        step->sticks = true;
+    } else if (!step->sticks && length > SLIDE_FLOOR) {
+        step->direction = kiriVec3_Scale(1.0 / length, slide);
+    }
+    step->limit = limit;
+    return isChanged;
+}
+
+/* Chooses what the contact does in the next system, and returns whether that is other than in the last one. */
+static bool Review(const kiriSolver* solver, const kiriSystem* system, int32_t k, double tolerance)
+{
+    kiriContactStep* step = &solver->contacts.data[k];
+    const kiriContactRow* row = &system->contacts[k];
+    double inertia = Inertia(solver, system, k), depth = kiriContact_Depth(solver, system, k, solver->poses.data);
+    kiriVec3 slide = SlideAt(solver, system, k, solver->poses.data);
+    if (!step->isActive) {
+        if (depth > 0.0) {
+            Activate(step, row->friction, inertia, depth, slide);
+        }
+        return depth > SINK_TOLERANCE;
+    }
+    double beyond = depth - step->push / step->stiffness;
+    step->known = step->push > step->known ? step->push : step->known;
+    if (!(step->push + inertia * beyond > 0.0)) {
+        step->isActive = false;
+        return step->push < -tolerance;
+    }
+    return ReviewFriction(step, row->friction * (step->push > 0.0 ? step->push : 0.0), slide,
+                          row->friction * tolerance);
+}
+
+void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        solver->pieces.data[i].mostPush = 0.0;
+        solver->pieces.data[i].isUnsettled = false;
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriPieceStep* piece = PieceOf(solver, system, k);
+        if (piece->isIterated) {
+            kiriContactStep* step = &solver->contacts.data[k];
+            TakeForces(step, piece->scale);
+            piece->mostPush = step->push > piece->mostPush ? step->push : piece->mostPush;
+        }
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriPieceStep* piece = PieceOf(solver, system, k);
+        if (piece->isIterated) {
+            piece->isUnsettled |= Review(solver, system, k, PUSH_TOLERANCE * piece->mostPush);
+        }
+    }
+}
+
+/* ---- What came of it ---------------------------------------------------------------------------------------------- */
+
+kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    const kiriContactStep* step = &solver->contacts.data[k];
+    if (!(step->push > 0.0)) {
+        return kiriVec3_Make(0.0, 0.0, 0.0);
+    }
+    double most = system->contacts[k].friction * step->push, drag = kiriVec3_Length(step->drag);
+    kiriVec3 held = drag > most ? kiriVec3_Scale(most / drag, step->drag) : step->drag;
+    return kiriVec3_AddScaled(held, step->push, system->contacts[k].normal);
+}
+
+double kiriContact_Work(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    const kiriContactStep* step = &solver->contacts.data[k];
+    kiriVec3 force = kiriContact_Force(solver, system, k), normal = system->contacts[k].normal;
+    return kiriVec3_Dot(force, normal) * step->lift + kiriVec3_Dot(force, AlongPlane(step->carried, normal));
+}
+
+/* Impulses of the step, then where it leaves the planes. */
+void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriContactRow* row = &system->contacts[k];
+        row->force = kiriContact_Force(solver, system, k);
+        kiriVec3 impulse = kiriVec3_Scale(PieceOf(solver, system, k)->stepping.part, row->force);
+        row->impulse = kiriVec3_Add(row->impulse, impulse);
+        if (row->yield != KIRI_NONE) {
+            kiriYieldRow* yield = &system->yields[row->yield];
+            kiriVec3 arm = kiriVec3_Sub(kiriContact_Point(solver, system, k, solver->poses.data), yield->center);
+            kiriWrench given = { impulse, kiriVec3_Cross(arm, impulse) };
+            kiriWrench_Add(&yield->impulse, -1.0, &given);
+        }
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriContactRow* row = &system->contacts[k];
+        kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data);
+        kiriVec3 velocity = kiriVec3_Add(row->velocity, Recoil(system, k, point));
+        row->way = kiriVec3_AddScaled(row->way, solver->dt, velocity);
+    }
+}

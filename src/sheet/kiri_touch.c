@@ -1,0 +1,408 @@
+#include "kiri_touch.h"
+
+#include "../core/kiri_sort.h"
+
+#include <string.h>
+
+#define CALM_SLOPE 1e-3  /* by how much the normal of a contact may change while a sheet falls asleep */
+#define CALM_SECONDS 0.5 /* for which a sheet may go at its sleep speed meanwhile */
+#define DEFAULT_PUSH 1.0 /* m/s */
+
+/* ---- What is found ------------------------------------------------------------------------------------------------- */
+
+static kiriVec3 WhereSeen(const kiriSheetData* sheet, const kiriTouch* touch)
+{
+    if (touch->point != KIRI_NONE) {
+        return sheet->seen.exactPoints.data[touch->point];
+    }
+    kiriVec3 at = { 0.0, 0.0, 0.0 };
+    for (int n = 0; n < 3 && touch->vertex[n] != KIRI_NONE; ++n) {
+        at = kiriVec3_AddScaled(at, touch->share[n], sheet->seen.surface.exact.data[touch->vertex[n]]);
+    }
+    return at;
+}
+
+bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch)
+{
+    kiriTouch found = *touch;
+    KIRI_ASSERT(touch->yield == KIRI_NONE || touch->yield < sheet->touches.yields.count);
+    KIRI_ASSERT(touch->point != KIRI_NONE || touch->vertex[0] < sheet->seen.surface.vertexCount);
+    found.seen = WhereSeen(sheet, touch);
+    return kiriArray_Push(sheet->memory, &sheet->touches.found, found);
+}
+
+int32_t kiriTouches_AddYield(kiriSheetData* sheet, const kiriYieldRow* yield)
+{
+    return kiriArray_Push(sheet->memory, &sheet->touches.yields, *yield) ? sheet->touches.yields.count - 1 : KIRI_NONE;
+}
+
+int32_t kiriTouches_FindYield(const kiriSheetData* sheet, int64_t number)
+{
+    for (int32_t k = sheet->touches.yields.count - 1; k >= 0; --k) {
+        if (sheet->touches.yields.data[k].number == number) {
+            return k;
+        }
+    }
+    return KIRI_NONE;
+}
+
+/* ---- What the host gave -------------------------------------------------------------------------------------------- */
+
+#define OF_PLACE (UINT64_C(1) << 59) /* in a key: of a rest point, not of a collision point */
+
+/* By point and obstacle. */
+static uint64_t KeyOf(const kiriSheetData* sheet, const kiriContact* contact)
+{
+    uint64_t kind = (uint64_t)KIRI_TOUCH_HOST << 60, obstacle = (uint64_t)(uint32_t)contact->obstacle & 0x1fffffu;
+    if (contact->point >= 0) {
+        return kind | obstacle << 32 | (uint32_t)contact->point;
+    }
+    kiriLatticePoint at;
+    kiriSheet_ToLattice(sheet, contact->restPoint, &at);
+    uint64_t place = ((uint64_t)(uint32_t)at.x * UINT64_C(0x9e3779b97f4a7c15)) ^
+                     ((uint64_t)(uint32_t)at.y * UINT64_C(0xc2b2ae3d27d4eb4f));
+    return kind | OF_PLACE | (obstacle << 32 ^ (place & UINT64_C(0x07ffffffffffffff)));
+}
+
+/* The contacts of one number share a yield row. Each says itself how it feels the mass. */
+static bool FindYieldOf(kiriSheetData* sheet, const kiriContact* contact, int32_t* yield)
+{
+    int64_t number = -1 - (int64_t)(uint32_t)contact->obstacle;
+    *yield = contact->inverseMass > 0.0f ? kiriTouches_FindYield(sheet, number) : KIRI_NONE;
+    if (contact->inverseMass > 0.0f && *yield == KIRI_NONE) {
+        kiriYieldRow row;
+        memset(&row, 0, sizeof(row));
+        row.number = number;
+        row.inverseMass = contact->inverseMass;
+        *yield = kiriTouches_AddYield(sheet, &row);
+        return *yield != KIRI_NONE;
+    }
+    return true;
+}
+
+static bool AddGiven(kiriSheetData* sheet, const kiriGivenContact* given)
+{
+    const kiriContact* contact = &given->contact;
+    kiriTouch touch;
+    memset(&touch, 0, sizeof(touch));
+    touch.key = KeyOf(sheet, contact);
+    touch.point = contact->point >= 0 ? contact->point : KIRI_NONE;
+    memcpy(touch.vertex, given->vertex, sizeof(touch.vertex));
+    memcpy(touch.share, given->share, sizeof(touch.share));
+    touch.normal = kiriVec3_Normalize(kiriVec3_Load(contact->normal));
+    touch.offset = contact->offset;
+    touch.velocity = kiriVec3_Load(contact->velocity);
+    touch.friction = contact->friction;
+    touch.pushSpeed = contact->pushSpeed > 0.0f ? (double)contact->pushSpeed : DEFAULT_PUSH;
+    touch.felt = contact->inverseMass;
+    return FindYieldOf(sheet, contact, &touch.yield) && kiriTouches_Add(sheet, &touch);
+}
+
+bool kiriTouches_Begin(kiriSheetData* sheet)
+{
+    bool ok = true;
+    sheet->touches.found.count = sheet->touches.yields.count = sheet->touches.rows.count = 0;
+    for (int32_t i = 0; ok && i < sheet->contacts.count; ++i) {
+        ok = AddGiven(sheet, &sheet->contacts.data[i]);
+    }
+    return ok;
+}
+
+bool kiriTouches_Room(kiriSheetData* sheet, int64_t count)
+{
+    kiriTouches* touches = &sheet->touches;
+    return kiriArray_Reserve(sheet->memory, &touches->found, count) &&
+           kiriArray_Reserve(sheet->memory, &touches->yields, count) &&
+           kiriArray_Reserve(sheet->memory, &touches->rows, count) &&
+           kiriArray_Reserve(sheet->memory, &touches->last, count) &&
+           kiriArray_Reserve(sheet->memory, &touches->forces, count) &&
+           kiriArray_Reserve(sheet->memory, &touches->order, count) &&
+           kiriSolver_ReserveContacts(sheet->solver, (int32_t)count);
+}
+
+bool kiriTouches_Reserve(kiriSheetData* sheet)
+{
+    return sheet->touches.found.count == 0 || kiriTouches_Room(sheet, sheet->touches.found.capacity);
+}
+
+/* ---- Rows ---------------------------------------------------------------------------------------------------------- */
+
+enum { MOST_BLENDED = 96 }; /* frames of three vertices */
+
+typedef struct Blend {
+    kiriWeight weights[MOST_BLENDED];
+    int32_t count;
+    kiriVec2 at;
+} Blend;
+
+static void AddWeights(Blend* blend, const kiriSkin* skin, int32_t sample, double share)
+{
+    kiriSpan span = skin->spans.data[sample];
+    for (int32_t k = span.first; k < span.first + span.count; ++k) {
+        kiriWeight weight = skin->weights.data[k];
+        int32_t n = 0;
+        while (n < blend->count && blend->weights[n].frame != weight.frame) {
+            ++n;
+        }
+        if (n < blend->count) {
+            blend->weights[n].value += share * weight.value;
+        } else if (n < MOST_BLENDED) {
+            blend->weights[n].frame = weight.frame;
+            blend->weights[n].value = share * weight.value;
+            blend->count += 1;
+        }
+    }
+}
+
+static Blend BlendOf(const kiriSheetData* sheet, const kiriTouch* touch)
+{
+    Blend blend;
+    blend.count = 0;
+    if (touch->point != KIRI_NONE) {
+        blend.at = kiriMesh_Local(&sheet->mesh, sheet->points.data[touch->point].at);
+        AddWeights(&blend, &sheet->pointSkin, touch->point, 1.0);
+        return blend;
+    }
+    blend.at = kiriVec2_Make(0.0, 0.0);
+    for (int n = 0; n < 3 && touch->vertex[n] != KIRI_NONE; ++n) {
+        kiriVec2 corner = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[touch->vertex[n]].at);
+        blend.at = kiriVec2_Add(blend.at, kiriVec2_Scale(touch->share[n], corner));
+        AddWeights(&blend, &sheet->vertexSkin, touch->vertex[n], touch->share[n]);
+    }
+    return blend;
+}
+
+/* The largest first; of equal ones the lower frame. */
+static void TakeLargest(Blend* blend, int32_t n)
+{
+    int32_t best = n;
+    for (int32_t k = n + 1; k < blend->count; ++k) {
+        const kiriWeight *a = &blend->weights[k], *b = &blend->weights[best];
+        best = a->value > b->value || (a->value == b->value && a->frame < b->frame) ? k : best;
+    }
+    kiriWeight largest = blend->weights[best];
+    blend->weights[best] = blend->weights[n];
+    blend->weights[n] = largest;
+}
+
+/* A cut may have come between the vertices of a touch: then the piece with the largest weight has the contact. */
+static void WriteWeights(const kiriSheetData* sheet, Blend* blend, kiriContactRow* row)
+{
+    double sum = 0.0;
+    row->weightCount = 0;
+    for (int32_t n = 0; n < blend->count && row->weightCount < KIRI_CONTACT_WEIGHTS; ++n) {
+        TakeLargest(blend, n);
+        const int32_t* piece = sheet->layout.framePiece.data;
+        kiriWeight weight = blend->weights[n];
+        if (weight.value > 0.0 && (n == 0 || piece[weight.frame] == piece[row->weights[0].frame])) {
+            row->weights[row->weightCount++] = weight;
+            sum += weight.value;
+        }
+    }
+    KIRI_ASSERT(row->weightCount > 0);
+    for (int32_t n = 0; n < row->weightCount; ++n) {
+        row->weights[n].value /= sum;
+    }
+}
+
+static void WriteRow(const kiriSheetData* sheet, const kiriTouch* touch, kiriContactRow* row)
+{
+    Blend blend = BlendOf(sheet, touch);
+    memset(row, 0, sizeof(*row));
+    row->key = touch->key;
+    row->at = blend.at;
+    row->normal = touch->normal;
+    row->velocity = touch->velocity;
+    row->friction = touch->friction;
+    row->pushSpeed = touch->pushSpeed;
+    row->yield = touch->yield;
+    row->felt = touch->felt;
+    row->force = kiriTouches_ForceOf(sheet, touch->key);
+    WriteWeights(sheet, &blend, row);
+    kiriVec3 at = { 0.0, 0.0, 0.0 };
+    for (int32_t n = 0; n < row->weightCount; ++n) {
+        const kiriFrameData* frame = &sheet->frames.data[row->weights[n].frame];
+        at = kiriVec3_AddScaled(at, row->weights[n].value, kiriFrame_Carry(frame, row->at));
+    }
+    row->offset = touch->offset + kiriVec3_Dot(row->normal, kiriVec3_Sub(at, touch->seen));
+}
+
+void kiriTouches_WriteRows(kiriSheetData* sheet)
+{
+    kiriTouches* touches = &sheet->touches;
+    KIRI_ASSERT(touches->rows.capacity >= touches->found.count);
+    touches->rows.count = touches->found.count;
+    for (int32_t i = 0; i < touches->found.count; ++i) {
+        WriteRow(sheet, &touches->found.data[i], &touches->rows.data[i]);
+    }
+}
+
+/* ---- What is remembered -------------------------------------------------------------------------------------------- */
+
+static int32_t FindForce(const kiriSheetData* sheet, uint64_t key)
+{
+    int32_t low = 0, high = sheet->touches.forces.count;
+    while (low < high) {
+        int32_t middle = low + (high - low) / 2;
+        if (sheet->touches.forces.data[middle].key < key) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low < sheet->touches.forces.count && sheet->touches.forces.data[low].key == key ? low : KIRI_NONE;
+}
+
+kiriVec3 kiriTouches_ForceOf(const kiriSheetData* sheet, uint64_t key)
+{
+    int32_t found = FindForce(sheet, key);
+    return found != KIRI_NONE ? sheet->touches.forces.data[found].force : kiriVec3_Make(0.0, 0.0, 0.0);
+}
+
+void kiriTouches_Remember(kiriSheetData* sheet, uint64_t key, kiriVec3 force)
+{
+    kiriTouches* touches = &sheet->touches;
+    int32_t at = touches->forces.count++;
+    KIRI_ASSERT(at < touches->forces.capacity);
+    for (; at > 0 && touches->forces.data[at - 1].key > key; --at) {
+        touches->forces.data[at] = touches->forces.data[at - 1];
+    }
+    touches->forces.data[at].key = key;
+    touches->forces.data[at].force = force;
+}
+
+static bool IsRowBefore(const void* context, int32_t a, int32_t b)
+{
+    const kiriTouches* touches = context;
+    uint64_t first = touches->rows.data[a].key, second = touches->rows.data[b].key;
+    return first < second || (first == second && a < b);
+}
+
+static void SortForces(kiriTouches* touches)
+{
+    touches->order.count = touches->forces.count = 0;
+    for (int32_t i = 0; i < touches->rows.count; ++i) {
+        if (kiriVec3_Dot(touches->rows.data[i].force, touches->rows.data[i].normal) > 0.0) {
+            touches->order.data[touches->order.count++] = i;
+        }
+    }
+    kiriSort(touches->order.data, touches->order.count, IsRowBefore, touches);
+    for (int32_t k = 0; k < touches->order.count; ++k) {
+        const kiriContactRow* row = &touches->rows.data[touches->order.data[k]];
+        kiriTouchForce force = { row->key, row->force };
+        touches->forces.data[touches->forces.count++] = force;
+    }
+}
+
+void kiriTouches_End(kiriSheetData* sheet)
+{
+    kiriTouches* touches = &sheet->touches;
+    SortForces(touches);
+    if (touches->found.count > 0) {
+        memcpy(touches->last.data, touches->found.data, sizeof(kiriTouch) * (size_t)touches->found.count);
+    }
+    touches->last.count = touches->found.count;
+}
+
+void kiriTouches_Clear(kiriSheetData* sheet)
+{
+    sheet->touches.forces.count = sheet->touches.last.count = sheet->touches.rows.count = 0;
+}
+
+/* Touches are found anew each tick, where a sheet that hardly moves is seen: a plane that passes the point as near as
+   the sheet may have gone meanwhile is the same. */
+static bool IsSame(const kiriSheetData* sheet, const kiriTouch* a, const kiriTouch* b)
+{
+    kiriVec3 tilt = kiriVec3_Sub(b->normal, a->normal), faster = kiriVec3_Sub(b->velocity, a->velocity);
+    double rise = b->offset - a->offset - kiriVec3_Dot(tilt, b->seen);
+    return a->key == b->key && a->friction == b->friction && kiriVec3_Length(tilt) <= CALM_SLOPE &&
+           fabs(rise) <= CALM_SECONDS * sheet->settings.sleepSpeed &&
+           kiriVec3_Length(faster) <= sheet->settings.sleepSpeed;
+}
+
+static bool IsOfKind(const kiriTouch* touch, int32_t kind)
+{
+    return kind == 0 || touch->key >> 60 == (uint64_t)kind;
+}
+
+bool kiriTouches_AreNew(const kiriSheetData* sheet, int32_t kind)
+{
+    const kiriTouches* touches = &sheet->touches;
+    int32_t k = 0;
+    for (int32_t i = 0; i < touches->found.count; ++i) {
+        if (IsOfKind(&touches->found.data[i], kind)) {
+            while (k < touches->last.count && !IsOfKind(&touches->last.data[k], kind)) {
+                ++k;
+            }
+            if (k >= touches->last.count || !IsSame(sheet, &touches->last.data[k++], &touches->found.data[i])) {
+                return true;
+            }
+        }
+    }
+    while (k < touches->last.count && !IsOfKind(&touches->last.data[k], kind)) {
+        ++k;
+    }
+    return k < touches->last.count;
+}
+
+/* The key of a collision point has its index. */
+bool kiriTouch_Follow(kiriTouch* touch, const int32_t* pointTo, const int32_t* vertexTo)
+{
+    if (!IsOfKind(touch, KIRI_TOUCH_HOST)) {
+        return false;
+    }
+    if (touch->point != KIRI_NONE) {
+        touch->point = pointTo[touch->point];
+        touch->key = (touch->key & ~UINT64_C(0xffffffff)) | (uint32_t)touch->point;
+        return touch->point != KIRI_NONE;
+    }
+    for (int n = 0; n < 3; ++n) {
+        touch->vertex[n] = vertexTo[touch->vertex[n]];
+        if (touch->vertex[n] == KIRI_NONE) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* ---- What the host is told ----------------------------------------------------------------------------------------- */
+
+/* The host's contacts come first among the touches. */
+static void TellOne(const kiriSheetData* sheet, int32_t i, double dt, kiriContactForce* told)
+{
+    const kiriTouch* touch = &sheet->touches.found.data[i];
+    const kiriContact* contact = &sheet->contacts.data[i].contact;
+    kiriVec3 at = touch->seen, impulse = kiriVec3_Scale(dt, kiriTouches_ForceOf(sheet, touch->key));
+    kiriVec3 way = kiriVec3_Make(0.0, 0.0, 0.0);
+    if (i < sheet->touches.rows.count) {
+        const kiriContactRow* row = &sheet->touches.rows.data[i];
+        kiriVec3 now = { 0.0, 0.0, 0.0 };
+        for (int32_t n = 0; n < row->weightCount; ++n) {
+            kiriVec3 x = kiriFrame_Carry(&sheet->frames.data[row->weights[n].frame], row->at);
+            now = kiriVec3_AddScaled(now, row->weights[n].value, x);
+        }
+        /* The seen point is off the frames' blend by as much as the plane was moved. */
+        at = kiriVec3_AddScaled(now, touch->offset - row->offset, row->normal);
+        impulse = row->impulse;
+        way = row->way;
+    }
+    kiriVec3_StoreDoubles(told->impulse, impulse);
+    kiriVec3_StoreDoubles(told->position, at);
+    told->depth = touch->offset + kiriVec3_Dot(touch->normal, way) - kiriVec3_Dot(touch->normal, at);
+    told->point = contact->point;
+    told->obstacle = contact->obstacle;
+}
+
+void kiriTouches_Tell(kiriSheetData* sheet, double dt)
+{
+    kiriTouches* touches = &sheet->touches;
+    KIRI_ASSERT(touches->nextTold.capacity >= sheet->contacts.count);
+    touches->nextTold.count = sheet->contacts.count;
+    for (int32_t i = 0; i < sheet->contacts.count; ++i) {
+        TellOne(sheet, i, dt, &touches->nextTold.data[i]);
+    }
+    kiriArrayHeader told = kiriArray_GetHeader(&touches->told);
+    kiriArray_SetHeader(&touches->told, kiriArray_GetHeader(&touches->nextTold));
+    kiriArray_SetHeader(&touches->nextTold, told);
+    sheet->contacts.count = 0;
+}
