@@ -52,7 +52,7 @@ enum { STEPS = 11 };
    before. */
 static kiriResult Perform(Host* host, Scenario* s, int step)
 {
-    static const float blade[12] = { 0.59f, -1.0f, -1.0f, 0.59f, -1.0f, 1.0f, 0.59f, 2.0f, 1.0f, 0.59f, 2.0f, -1.0f };
+    static const float blade[12] = { 0.6f, -1.0f, -1.0f, 0.6f, -1.0f, 1.0f, 0.6f, 2.0f, 1.0f, 0.6f, 2.0f, -1.0f };
     kiriPinDef pin;
     float weights[16], gradients[32], at[2] = { 0.31f, 0.47f };
     kiriFrame frames[16];

@@ -26,6 +26,12 @@ static inline void AddTriangle(kiriBox* box, const kiriVec3* at, const int32_t* 
     }
 }
 
+void kiriBox_Add(kiriBox* box, kiriVec3 at)
+{
+    box->lower = Least(at, box->lower);
+    box->upper = Most(at, box->upper);
+}
+
 kiriBox kiriBox_OfTriangle(const kiriSurface* surface, int32_t triangle)
 {
     const int32_t* corner = &surface->indices.data[3 * (size_t)triangle];

@@ -43,6 +43,17 @@ static inline bool kiriBox_Meet(const kiriBox* a, const kiriBox* b)
            b->lower.y <= a->upper.y && a->lower.z <= b->upper.z && b->lower.z <= a->upper.z;
 }
 
+/* The same for boxes that are so far apart at most, along each axis. */
+static inline bool kiriBox_MeetWithin(const kiriBox* a, const kiriBox* b, double distance)
+{
+    const kiriVec3 d = { distance, distance, distance };
+    const kiriBox wider = { kiriVec3_Sub(a->lower, d), kiriVec3_Add(a->upper, d) };
+    return kiriBox_Meet(&wider, b);
+}
+
+/* The box grows to hold a point. */
+void kiriBox_Add(kiriBox* box, kiriVec3 at);
+
 /* The least box around a triangle as it is seen. */
 kiriBox kiriBox_OfTriangle(const kiriSurface* surface, int32_t triangle);
 

@@ -1,4 +1,4 @@
-/* Rays and blades that meet the surface in world space. */
+/* Rays that meet the surface in world space. */
 #ifndef KIRI_RAY_H
 #define KIRI_RAY_H
 
@@ -11,11 +11,6 @@ KIRI_C_BEGIN
    surface, or are null, it looks at every triangle, and finds the same. */
 void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, kiriVec3 origin, kiriVec3 direction,
                          double maxDistance, kiriHit* hit);
-
-/* The rest segments in which the quadrilateral meets the mesh: pairs of local points. False for memory. */
-typedef KIRI_ARRAY(kiriVec2) kiriRestPoints;
-bool kiriSurface_Slice(const kiriSurface* surface, kiriMemory* memory, const kiriVec3 quad[4],
-                       kiriRestPoints* segments);
 
 KIRI_C_END
 

@@ -1,5 +1,5 @@
 #include "kiri_call.h"
-#include "../view/kiri_ray.h"
+#include "../view/kiri_section.h"
 
 static void Queue(const kiriWorld* world, kiriCutData* cut, kiriVec2 to, bool jump)
 {
@@ -57,6 +57,45 @@ kiriResult kiriCut_End(kiriWorld* world, kiriCut cut)
     return KIRI_OK;
 }
 
+/* The ways of a cut along all lines of a section, and where each of them starts. */
+static bool FindWays(const kiriSheetData* sheet, const kiriSection* section, kiriMemory* scratch, kiriRestPoints* ways,
+                     kiriIndices* starts)
+{
+    double snap = sheet->settings.snap * sheet->mesh.step;
+    bool ok = true;
+    for (int32_t i = 0; ok && i < section->lines.count; ++i) {
+        ok = kiriArray_Push(scratch, starts, ways->count) &&
+             kiriSection_Path(section, &section->lines.data[i], false, 0.5 * snap, 0.25 * snap, scratch, ways);
+    }
+    return ok;
+}
+
+static kiriResult QueueSlice(kiriWorld* world, kiriSheetData* sheet, const kiriVec3 quad[4], kiriMemory* scratch,
+                             kiriCut* cut)
+{
+    kiriSection section = { { NULL, 0, 0 }, { NULL, 0, 0 } };
+    kiriRestPoints ways = { NULL, 0, 0 };
+    kiriIndices starts = { NULL, 0, 0 };
+    if (!kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) ||
+        !kiriSection_Sweep(&section, scratch, &sheet->seen.surface, sheet->seen.bounds, quad) ||
+        !FindWays(sheet, &section, scratch, &ways, &starts)) {
+        return KIRI_ERROR_MEMORY;
+    }
+    kiriCutData* made;
+    kiriResult result = kiriWorld_AddCut(world, sheet, ways.count, &made);
+    if (result != KIRI_OK) {
+        return result;
+    }
+    for (int32_t i = 0, k = 0; i < ways.count; ++i) {
+        bool isStart = k < starts.count && starts.data[k] == i;
+        Queue(world, made, ways.data[i], isStart);
+        k += isStart;
+    }
+    made->ended = true;
+    *cut = made->id;
+    return KIRI_OK;
+}
+
 kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[12], kiriCut* cut)
 {
     KIRI_CHANGES(world);
@@ -66,18 +105,7 @@ kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[
     const kiriVec3 quad[4] = { kiriVec3_Load(&blade[0]), kiriVec3_Load(&blade[3]), kiriVec3_Load(&blade[6]),
                                kiriVec3_Load(&blade[9]) };
     kiriMemory scratch = kiriMemory_Like(&world->memory);
-    kiriRestPoints segments = { NULL, 0, 0 };
-    kiriCutData* made = NULL;
-    kiriResult result = kiriSurface_Slice(&data->seen.surface, &scratch, quad, &segments)
-                            ? kiriWorld_AddCut(world, data, segments.count, &made)
-                            : KIRI_ERROR_MEMORY;
-    for (int32_t i = 0; made != NULL && i < segments.count; ++i) {
-        Queue(world, made, segments.data[i], i % 2 == 0);
-    }
+    kiriResult result = QueueSlice(world, data, quad, &scratch, cut);
     kiriMemory_FreeAll(&scratch);
-    if (result == KIRI_OK) {
-        made->ended = true;
-        *cut = made->id;
-    }
     KIRI_RETURN(result);
 }
