@@ -50,6 +50,8 @@ SAMPLE_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard samples/*.c))
 GAME_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard samples/games/*.c samples/games/*.cpp))
 # Sheets that touch bodies of Box2D: for its sample, the game Net, and their tests.
 ADAPTER_OBJECTS := $(BUILD)/samples/box2d/kiri_box2d.cpp.o
+# Without window and main: for tests.
+GAME_PARTS := $(filter-out %/main.c.o %/shell.c.o %/window.c.o,$(GAME_OBJECTS))
 # What games and their tests share with the samples.
 PICTURE_OBJECTS := $(patsubst %,$(BUILD)/samples/%.c.o,image edges)
 # What tests and benchmarks take from the samples: the scenes.
@@ -275,6 +277,9 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(VALIDATE_OBJECTS) $(SCENE_OBJECTS) $(BU
 
 $(BUILD)/tests/test_image: $(BUILD)/samples/image.c.o
 $(BUILD)/tests/test_image: TEST_LIBRARIES := -lpng -lz
+
+$(BUILD)/tests/test_games: $(GAME_PARTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS)
+$(BUILD)/tests/test_games: TEST_LIBRARIES = $(BUILD)/libkiri.a -lbox2d -lOSMesa -lpng -lz
 
 # Reads a world from two threads.
 $(BUILD)/tests/test_readers: LDFLAGS += -pthread

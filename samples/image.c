@@ -21,8 +21,25 @@ void Image_Free(Image* image)
     *image = (Image){ 0, 0, NULL };
 }
 
+static void CopyPixels(Image* image, const uint8_t* source, int32_t sourceWidth, int32_t channels)
+{
+    uint8_t* to = image->rgb;
+    for (int32_t y = 0; y < image->height; y++) {
+        const uint8_t* from = source + (size_t)y * (size_t)sourceWidth * (size_t)channels;
+        for (int32_t x = 0; x < image->width; x++, to += 3, from += channels) {
+            to[0] = from[0];
+            to[1] = from[1];
+            to[2] = from[2];
+        }
+    }
+}
+
 void Image_Shrink(Image* image, const uint8_t* source, int32_t sourceWidth, int32_t channels, int32_t factor)
 {
+    if (factor == 1) {
+        CopyPixels(image, source, sourceWidth, channels);
+        return;
+    }
     for (int32_t i = 0; i < image->width * image->height; i++) {
         int32_t x = i % image->width * factor, y = i / image->width * factor;
         for (int32_t c = 0; c < 3; c++) {

@@ -3,7 +3,10 @@
 #include <GL/osmesa.h>
 #include <math.h>
 
-enum { SIDES = 40, RINGS = 20 };
+/* Corners of the circles of a body: small ones look round with fewer. */
+enum { SIDES = 40, SMALL_SIDES = 12 };
+
+static const float smallRadius = 0.03f; /* m */
 
 static const float pi = 3.14159265f;
 
@@ -30,12 +33,13 @@ static void DrawBox(const float size[3])
 /* Of a ball: the part between two heights of its axis, from -1 to 1, moved up by `lift`. */
 static void DrawCap(float radius, float from, float to, float lift)
 {
-    float first = asinf(from), last = asinf(to);
-    for (int i = 0; i < RINGS; i++) {
-        float low = first + (last - first) * (float)i / RINGS, high = first + (last - first) * (float)(i + 1) / RINGS;
+    int sides = radius < smallRadius ? SMALL_SIDES : SIDES, rings = sides / 2;
+    float first = asinf(from), last = asinf(to), step = (last - first) / (float)rings;
+    for (int i = 0; i < rings; i++) {
+        float low = first + step * (float)i, high = first + step * (float)(i + 1);
         glBegin(GL_QUAD_STRIP);
-        for (int k = 0; k <= SIDES; k++) {
-            float angle = 2.0f * pi * (float)k / SIDES, x = cosf(angle), y = sinf(angle);
+        for (int k = 0; k <= sides; k++) {
+            float angle = 2.0f * pi * (float)k / (float)sides, x = cosf(angle), y = sinf(angle);
             glNormal3f(x * cosf(high), y * cosf(high), sinf(high));
             glVertex3f(radius * x * cosf(high), radius * y * cosf(high), lift + radius * sinf(high));
             glNormal3f(x * cosf(low), y * cosf(low), sinf(low));

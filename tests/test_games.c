@@ -1,0 +1,203 @@
+/* What games share (scripts, camera, sounds, memory), and Curtain: it goes on as its script says, and can be won. */
+#include "../samples/games/games.h"
+#include "../samples/games/play.h"
+#include "../samples/games/script.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static char filePath[1024]; /* beside the program */
+
+/* ---- Scripts ---------------------------------------------------------------------------------------------------- */
+
+static void WriteText(const char* text)
+{
+    FILE* file = fopen(filePath, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void TestScriptKeepsEvents(void** state)
+{
+    (void)state;
+    const GameEvent events[] = { { 3, GAME_DOWN, 0, GAME_LEFT, 480, 360, 0 },
+                                 { 3, GAME_MOVE, 0, 0, -5, 719, 0 },
+                                 { 4, GAME_KEY_PRESSED, 0, 0, 0, 0, GAME_KEY_SPACE },
+                                 { 9, GAME_KEY_RELEASED, 0, 0, 0, 0, GAME_KEY_DOWN },
+                                 { 9, GAME_KEY_PRESSED, 0, 0, 0, 0, 'r' },
+                                 { 70, GAME_UP, 2, GAME_RIGHT, 1, 2, 0 } };
+    enum { COUNT = sizeof events / sizeof events[0] };
+    FILE* file = fopen(filePath, "w");
+    assert_non_null(file);
+    Script_WriteStart(file, "curtain", 4);
+    for (int i = 0; i < COUNT; i++) {
+        Script_WriteEvent(file, &events[i]);
+    }
+    Script_WriteEnd(file, 100);
+    assert_int_equal(fclose(file), 0);
+
+    Script script;
+    assert_true(Script_Read(&script, filePath));
+    assert_string_equal(script.game, "curtain");
+    assert_int_equal(script.level, 4);
+    assert_int_equal(script.end, 100);
+    assert_null(Script_Take(&script, 2));
+    for (int i = 0; i < COUNT; i++) {
+        const GameEvent* event = Script_Take(&script, 70);
+        assert_non_null(event);
+        assert_memory_equal(event, &events[i], sizeof events[i]);
+    }
+    assert_null(Script_Take(&script, 1000));
+    Script_Free(&script);
+}
+
+static void TestScriptRefusesNonsense(void** state)
+{
+    (void)state;
+    static const char* const texts[] = { "3 jump 0 1\n", "down 0 1 2 3\n", "3 down 0 1 2\n", "3 keydown enter\n",
+                                         "5 move 0 1 2\n4 move 0 1 2\n" };
+    Script script;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        WriteText(texts[i]);
+        assert_false(Script_Read(&script, filePath));
+    }
+    WriteText("# a comment\n\ngame net\n3 keydown up\n");
+    assert_true(Script_Read(&script, filePath));
+    assert_int_equal(script.count, 1);
+    assert_int_equal(script.end, 4);
+    Script_Free(&script);
+}
+
+/* ---- Camera and sounds ------------------------------------------------------------------------------------------ */
+
+static void TestRaysMeetWhatIsSeenThere(void** state)
+{
+    (void)state;
+    const GameCamera cameras[2] = { { { 0.3f, -3.0f, 1.5f }, { 0.0f, 0.2f, 0.8f }, 34.0f, 0.0f },
+                                    { { 0.0f, -5.0f, 1.0f }, { 0.5f, 0.0f, 1.2f }, 0.0f, 2.5f } };
+    const float point[3] = { 0.4f, 0.3f, 1.1f };
+    for (int i = 0; i < 2; i++) {
+        float x, y, origin[3], direction[3], along = 0.0f, off = 0.0f;
+        assert_true(GameCamera_Project(&cameras[i], point, &x, &y));
+        GameCamera_GetRay(&cameras[i], x, y, origin, direction);
+        for (int k = 0; k < 3; k++) {
+            along += (point[k] - origin[k]) * direction[k];
+        }
+        for (int k = 0; k < 3; k++) {
+            off += fabsf(origin[k] + along * direction[k] - point[k]);
+        }
+        assert_true(along > 0.0f && off < 1e-5f);
+        assert_true(GameCamera_Project(&cameras[i], cameras[i].target, &x, &y));
+        assert_true(fabsf(x - 0.5f * GAME_WIDTH) < 1e-3f && fabsf(y - 0.5f * GAME_HEIGHT) < 1e-3f);
+    }
+}
+
+static void TestSoundsAreHeardAndEnd(void** state)
+{
+    (void)state;
+    static float samples[2 * SOUND_RATE];
+    Sounds sounds;
+    for (int32_t type = 0; type < SOUND_COUNT; type++) {
+        double loud = 0.0;
+        Sounds_Init(&sounds);
+        Sounds_Play(&sounds, type, 1.0f);
+        Sounds_Mix(&sounds, samples, 2 * SOUND_RATE);
+        for (int i = 0; i < 2 * SOUND_RATE; i++) {
+            assert_true(fabsf(samples[i]) <= 1.0f);
+            loud += i < SOUND_RATE / 10 ? fabsf(samples[i]) : 0.0;
+        }
+        assert_true(loud / (SOUND_RATE / 10) > 1e-3);
+        assert_true(samples[2 * SOUND_RATE - 1] == 0.0f);
+    }
+}
+
+/* ---- Curtain ---------------------------------------------------------------------------------------------------- */
+
+enum { RECORD_TICKS = 420, MAX_RECORD = 1000 };
+
+typedef struct Recorded {
+    GameEvent events[MAX_RECORD];
+    int32_t count;
+    GameStatus end;
+} Recorded;
+
+/* The game plays itself; what it did is kept. */
+static void PlayDemo(const GameType* type, int32_t level, int32_t ticks, Recorded* recorded)
+{
+    static Play play;
+    recorded->count = 0;
+    assert_true(Play_Start(&play, type, level));
+    for (int32_t i = 0; i < ticks; i++) {
+        int32_t count = type->demo(play.game, recorded->events + recorded->count, MAX_RECORD - recorded->count);
+        for (int32_t k = 0; k < count; k++) {
+            recorded->events[recorded->count].tick = i;
+            assert_true(Play_Send(&play, &recorded->events[recorded->count++]));
+        }
+        assert_true(Play_Tick(&play));
+    }
+    type->getStatus(play.game, &recorded->end);
+    Play_Stop(&play);
+    assert_int_equal(play.bytes, 0);
+}
+
+static uint64_t PlayEvents(Play* play, const Recorded* recorded, int32_t firstTick)
+{
+    int32_t next = 0;
+    for (int32_t i = 0; i < RECORD_TICKS; i++) {
+        for (; next < recorded->count && recorded->events[next].tick == i; next++) {
+            GameEvent event = recorded->events[next];
+            event.tick += firstTick;
+            assert_true(Play_Send(play, &event));
+        }
+        assert_true(Play_Tick(play));
+    }
+    GameStatus status;
+    play->type->getStatus(play->game, &status);
+    return status.hash;
+}
+
+/* What was recorded gives the same again, after a restart, too. */
+static void TestCurtainIsReplayed(void** state)
+{
+    (void)state;
+    static Recorded recorded;
+    static Play play;
+    const GameEvent restart = { RECORD_TICKS, GAME_KEY_PRESSED, 0, 0, 0, 0, 'r' };
+    PlayDemo(&curtainGame, 2, RECORD_TICKS, &recorded);
+    assert_true(recorded.count > 100);
+    assert_true(Play_Start(&play, &curtainGame, 2));
+    assert_true(PlayEvents(&play, &recorded, 0) == recorded.end.hash);
+    assert_true(Play_Send(&play, &restart));
+    assert_true(PlayEvents(&play, &recorded, RECORD_TICKS) == recorded.end.hash);
+    Play_Stop(&play);
+}
+
+static void TestCurtainIsWon(void** state)
+{
+    (void)state;
+    static Recorded recorded;
+    PlayDemo(&curtainGame, 1, 12 * GAME_RATE, &recorded);
+    assert_int_equal(recorded.end.state, GAME_WON);
+    assert_true(recorded.end.score > 90);
+}
+
+int main(int count, char** words)
+{
+    (void)count;
+    snprintf(filePath, sizeof filePath, "%s.script", words[0]);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestScriptKeepsEvents),       cmocka_unit_test(TestScriptRefusesNonsense),
+        cmocka_unit_test(TestRaysMeetWhatIsSeenThere), cmocka_unit_test(TestSoundsAreHeardAndEnd),
+        cmocka_unit_test(TestCurtainIsReplayed),       cmocka_unit_test(TestCurtainIsWon),
+    };
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    remove(filePath);
+    return failed;
+}
