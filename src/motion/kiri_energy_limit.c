@@ -151,6 +151,7 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
 void kiriSolver_FindGains(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSolver_CenterFreePieces(solver, system);
+    kiriSolver_BalanceContacts(solver, system);
     WriteStepEnd(solver, system);
     RestoreMomentum(solver, system);
     SumGains(solver, system);

@@ -34,6 +34,7 @@ static void StartSearch(kiriSolver* solver, const kiriSystem* system)
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         solver->pieces.data[i].scale = LONGEST_ITERATION_TURN / solver->pieces.data[i].scale;
     }
+    kiriSolver_LimitByFriction(solver, system);
 }
 
 static void TryStep(kiriSolver* solver, const kiriSystem* system)
@@ -172,6 +173,7 @@ static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
         kiriPieceStep* piece = &solver->pieces.data[i];
         piece->start = piece->isNew ? piece->sum : piece->start;
         piece->isFirst |= piece->isNew;
+        piece->solved = piece->isNew ? 0 : piece->solved;
         piece->isIterated |= piece->isNew;
         piece->isNew = false;
     }

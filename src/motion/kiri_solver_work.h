@@ -81,17 +81,22 @@ typedef struct kiriPieceStep {
     double keepMean, keepTurning, keepRest;
     kiriVec3 mean; /* by mass, over its frames: of offsets, or of what is carried on from the last step */
     double mass;
-    int32_t wanted;   /* systems that are solved for it at least */
-    bool isFree;      /* do only gravity and forces act on it? */
-    bool isPushed;    /* is it free but for contacts? */
-    bool isUnsettled; /* do contacts want another system? */
-    double mostPush;  /* N: the largest */
-    bool isTouched;   /* by a contact in this step, or carried about by a hold */
-    bool isNew;       /* does it start (anew, by backward Euler)? */
-    int suspect;      /* after so many Gauss-Newton steps it had gained too much energy, one after another */
-    bool isFirst;     /* is its next Gauss-Newton step the first? */
-    bool isIterated;  /* does the iteration go on? */
-    bool isSearching; /* is a step sought that lowers the objective? */
+    int32_t wanted;          /* systems that are solved for it at least */
+    bool isFree;             /* do only gravity and forces act on it? */
+    bool isPushed;           /* is it free but for contacts? */
+    bool isUnsettled;        /* do contacts want another system? */
+    double mostPush;         /* N: the largest */
+    kiriVec3 asked, given;   /* N: the sum of what contacts should do, and of what they can; */
+    double keepForces;       /* and what is left of each force */
+    int32_t solved;          /* systems, since it began */
+    bool isCrossing;         /* does friction end the step before all of it is taken? */
+    double slope, low, high; /* J: of the objective by the part that is taken; parts between which it is zero */
+    bool isTouched;          /* by a contact in this step, or carried about by a hold */
+    bool isNew;              /* does it start (anew, by backward Euler)? */
+    int suspect;             /* after so many Gauss-Newton steps it had gained too much energy, one after another */
+    bool isFirst;            /* is its next Gauss-Newton step the first? */
+    bool isIterated;         /* does the iteration go on? */
+    bool isSearching;        /* is a step sought that lowers the objective? */
 } kiriPieceStep;
 
 struct kiriSolver {
@@ -250,11 +255,18 @@ void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system);
 void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, int32_t k);
 void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system);
 
+/* Shortens the step of a piece to where friction, which slips instead of sticking or the other way, ends it: where the
+   derivative of the objective along it is zero. */
+void kiriSolver_LimitByFriction(kiriSolver* solver, const kiriSystem* system);
+
 /* What the contact adds to the objective, by its linear model after a part of the step. */
 double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses);
 
 /* After a step: its forces, and what contacts do in the next system. */
 void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system);
+
+/* Before the forces are asked for: fits them to where pieces ended. */
+void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system);
 
 /* The force on the sheet, N, within the cone of friction; and how much work the obstacle may have done with it, J. */
 kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriSystem* system, int32_t k);

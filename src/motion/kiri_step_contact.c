@@ -1,10 +1,14 @@
 #include "kiri_solver_work.h"
 
 #define STIFFNESS 1e4       /* of a contact: so many times the mass of its frames over h'^2, */
+#define GRIP 30.0           /* and so many times for the slide of what sticks */
 #define SINKING 1e-4        /* m: and so much that it sinks in no deeper by what it is known to push with */
 #define MOST_SPRING 1e9     /* but no more times the mass over h'^2 than that */
 #define SLIDE_FLOOR 1e-9    /* m: a shorter way is no slide */
-#define PUSH_TOLERANCE 1e-3 /* of the largest push of the piece: forces that are off by less need no other iteration */
+#define HALVINGS 8          /* of the step, where friction ends it */
+#define SLOPE 0.1           /* of what the step promises: less is no crossing */
+#define EARLY 2             /* systems */
+#define PUSH_TOLERANCE 0.02 /* of the largest push of the piece: forces that are off by less need no other iteration */
 #define SINK_TOLERANCE 1e-5 /* m: nor do points that came below a plane by less */
 
 /* ---- Points ------------------------------------------------------------------------------------------------------- */
@@ -166,17 +170,20 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, int32
     const kiriContactRow* row = &system->contacts[k];
     kiriContactStep* step = &solver->contacts.data[k];
     double inertia = Inertia(solver, system, k), was = kiriVec3_Dot(row->normal, row->force);
-    kiriVec3 predicted = { 0.0, 0.0, 0.0 };
+    kiriVec3 predicted = { 0.0, 0.0, 0.0 }, free = predicted;
     for (int32_t m = 0; m < step->memberCount; ++m) {
-        const kiriPose* pose = &solver->predictions.data[step->members[m].frame].pose;
-        kiriVec3 x = kiriVec3_Add(pose->x, kiriSystem_Arm(system, step->members[m].frame, row->at, pose));
-        predicted = kiriVec3_AddScaled(predicted, step->members[m].value, x);
+        const kiriPrediction* prediction = &solver->predictions.data[step->members[m].frame];
+        kiriVec3 arm = kiriSystem_Arm(system, step->members[m].frame, row->at, &prediction->pose);
+        predicted = kiriVec3_AddScaled(predicted, step->members[m].value, kiriVec3_Add(prediction->pose.x, arm));
+        arm = kiriSystem_Arm(system, step->members[m].frame, row->at, &prediction->guess);
+        free = kiriVec3_AddScaled(free, step->members[m].value, kiriVec3_Add(prediction->guess.x, arm));
     }
     double stop = inertia * (step->plane - kiriVec3_Dot(row->normal, predicted));
+    double gap = kiriVec3_Dot(row->normal, free) - step->plane;
     kiriVec3 slide = kiriVec3_Sub(kiriVec3_Sub(predicted, step->start), step->carried);
     slide = AlongPlane(slide, row->normal);
     step->held = AlongPlane(row->force, row->normal);
-    step->isActive = was + stop > 0.0;
+    step->isActive = was > 0.0 ? was + stop > 0.0 : gap < 0.0;
     step->push = 0.0;
     step->drag = kiriVec3_Make(0.0, 0.0, 0.0);
     step->limit = step->isActive ? row->friction * (was > 0.0 ? was : stop) : 0.0;
@@ -227,7 +234,7 @@ static void SetSprings(const kiriSolver* solver, const kiriSystem* system, int32
     kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data);
     kiriVec3 along = kiriVec3_Length(step->direction) > 0.5 ? step->direction : row->normal;
     step->stiffness = 1.0 / (1.0 / spring + soft * InverseMass(system, k, point, row->normal));
-    step->grip = 1.0 / (1.0 / spring + soft * InverseMass(system, k, point, along));
+    step->grip = 1.0 / (1.0 / (GRIP * inertia) + soft * InverseMass(system, k, point, along));
 }
 
 void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
@@ -245,11 +252,17 @@ void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
+/* N: what friction would be if it stuck. */
+static kiriVec3 Trial(const kiriContactStep* step, kiriVec3 slide)
+{
+    return kiriVec3_AddScaled(step->held, -step->grip, slide);
+}
+
 /* N/m: what turns the direction of a slide. */
 static double TurnSpring(const kiriContactStep* step)
 {
-    double length = kiriVec3_Length(step->slide), spring = length > SLIDE_FLOOR ? step->limit / length : step->grip;
-    return spring < step->grip ? spring : step->grip;
+    double trial = kiriVec3_Length(Trial(step, step->slide));
+    return trial > step->limit ? step->grip * step->limit / trial : step->grip;
 }
 
 static kiriVec3 Beside(kiriVec3 a, kiriVec3 direction)
@@ -382,6 +395,58 @@ void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
+/* ---- How far to go --------------------------------------------------------------------------------------------------- */
+
+/* J: how the energy of friction differs, along the step after a part of it, from that of the linear model: the
+   derivative. */
+static double FrictionSlope(const kiriContactStep* step, double part)
+{
+    kiriVec3 trial = Trial(step, kiriVec3_AddScaled(step->slide, part, step->slides));
+    double size = kiriVec3_Length(trial);
+    kiriVec3 drag = size > step->limit ? kiriVec3_Scale(step->limit / size, trial) : trial;
+    return kiriVec3_Dot(kiriVec3_Sub(Drag(step, part), drag), step->slides);
+}
+
+static void SumSlopes(const kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        piece->slope = -2.0 * piece->promise * (1.0 - piece->scale);
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriPieceStep* piece = PieceOf(solver, system, k);
+        const kiriContactStep* step = &solver->contacts.data[k];
+        if (piece->isSearching && step->isActive && piece->solved >= EARLY) {
+            piece->slope += FrictionSlope(step, piece->scale);
+        }
+    }
+}
+
+void kiriSolver_LimitByFriction(kiriSolver* solver, const kiriSystem* system)
+{
+    bool any = false;
+    SumSlopes(solver, system);
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        piece->isCrossing = piece->isSearching && piece->solved >= EARLY && piece->slope > SLOPE * piece->promise;
+        piece->low = 0.0;
+        piece->high = piece->scale;
+        any |= piece->isCrossing;
+    }
+    for (int halving = 0; any && halving < HALVINGS; ++halving) {
+        for (int32_t i = 0; i < solver->pieceCount; ++i) {
+            kiriPieceStep* piece = &solver->pieces.data[i];
+            piece->scale = piece->isCrossing ? 0.5 * (piece->low + piece->high) : piece->scale;
+        }
+        SumSlopes(solver, system);
+        for (int32_t i = 0; i < solver->pieceCount; ++i) {
+            kiriPieceStep* piece = &solver->pieces.data[i];
+            piece->low = piece->slope > 0.0 ? piece->low : piece->scale;
+            piece->high = piece->slope > 0.0 ? piece->scale : piece->high;
+        }
+    }
+}
+
 /* ---- Which contacts push, and how --------------------------------------------------------------------------------- */
 
 /* The forces after a step of which `part` was taken: those of the linear model, for their sum is what frames get, however
@@ -404,23 +469,23 @@ static void Activate(kiriContactStep* step, double friction, double inertia, dou
     step->direction = kiriVec3_Scale(length > SLIDE_FLOOR ? 1.0 / length : 0.0, slide);
 }
 
-/* Returns whether it changed. */
-static bool ReviewFriction(kiriContactStep* step, double limit, kiriVec3 slide, double tolerance)
+/* Slides that turned round stick: in the first systems, for later ones do not go so far (LimitByFriction). */
+static bool WillStick(const kiriContactStep* step, double limit, kiriVec3 slide, bool isEarly)
 {
-    double length = kiriVec3_Length(slide), drag = kiriVec3_Length(step->drag);
-    bool isOver = step->sticks && drag > limit, turned = !step->sticks && kiriVec3_Dot(slide, step->direction) < 0.0;
-    bool isChanged =
-        (isOver && drag > limit + tolerance) || turned || (!step->sticks && fabs(limit - step->limit) > tolerance);
-    if (isOver) {
-        step->sticks = false;
-        step->direction = kiriVec3_Scale(-1.0 / drag, step->drag);
-    } else if (turned) {
-        step->sticks = true;
-    } else if (!step->sticks && length > SLIDE_FLOOR) {
-        step->direction = kiriVec3_Scale(1.0 / length, slide);
-    }
+    bool turned = !step->sticks && isEarly && kiriVec3_Dot(slide, step->direction) < 0.0;
+    return turned || kiriVec3_Length(Trial(step, slide)) <= limit;
+}
+
+/* Returns whether friction is other than in the last system. */
+static bool ReviewFriction(kiriContactStep* step, double limit, kiriVec3 slide, bool isEarly, double tolerance)
+{
+    kiriVec3 trial = Trial(step, slide), drag = step->drag;
+    double size = kiriVec3_Length(trial);
+    step->sticks = WillStick(step, limit, slide, isEarly);
+    step->direction = kiriVec3_Scale(size > 0.0 ? -1.0 / size : 0.0, trial);
     step->limit = limit;
-    return isChanged;
+    kiriVec3 next = size > limit ? kiriVec3_Scale(limit / size, trial) : trial;
+    return kiriVec3_Length(kiriVec3_Sub(next, drag)) > tolerance;
 }
 
 /* Chooses what the contact does in the next system, and returns whether that is other than in the last one. */
@@ -443,7 +508,7 @@ static bool Review(const kiriSolver* solver, const kiriSystem* system, int32_t k
         return step->push < -tolerance;
     }
     return ReviewFriction(step, row->friction * (step->push > 0.0 ? step->push : 0.0), slide,
-                          row->friction * tolerance);
+                          PieceOf(solver, system, k)->solved <= EARLY, tolerance);
 }
 
 void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
@@ -451,6 +516,7 @@ void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         solver->pieces.data[i].mostPush = 0.0;
         solver->pieces.data[i].isUnsettled = false;
+        solver->pieces.data[i].solved += solver->pieces.data[i].isIterated;
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
         kiriPieceStep* piece = PieceOf(solver, system, k);
@@ -470,15 +536,42 @@ void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- What came of it ---------------------------------------------------------------------------------------------- */
 
-kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+/* What the contact can do of what the systems asked of it: it does not pull, nor hold by more than friction. */
+static kiriVec3 WithinCone(const kiriContactStep* step, const kiriContactRow* row)
 {
-    const kiriContactStep* step = &solver->contacts.data[k];
     if (!(step->push > 0.0)) {
         return kiriVec3_Make(0.0, 0.0, 0.0);
     }
-    double most = system->contacts[k].friction * step->push, drag = kiriVec3_Length(step->drag);
+    double most = row->friction * step->push, drag = kiriVec3_Length(step->drag);
     kiriVec3 held = drag > most ? kiriVec3_Scale(most / drag, step->drag) : step->drag;
-    return kiriVec3_AddScaled(held, step->push, system->contacts[k].normal);
+    return kiriVec3_AddScaled(held, step->push, row->normal);
+}
+
+kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    kiriVec3 force = WithinCone(&solver->contacts.data[k], &system->contacts[k]);
+    return kiriVec3_Scale(PieceOf(solver, system, k)->keepForces, force);
+}
+
+/* Pulls that are left out would make the others throw the piece up: where it ended, the sum of all is what moved it. So
+   all are as much less as makes their sum fit that. */
+void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        solver->pieces.data[i].asked = solver->pieces.data[i].given = kiriVec3_Make(0.0, 0.0, 0.0);
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        const kiriContactStep* step = &solver->contacts.data[k];
+        kiriPieceStep* piece = PieceOf(solver, system, k);
+        piece->asked = kiriVec3_Add(piece->asked, step->drag);
+        piece->asked = kiriVec3_AddScaled(piece->asked, step->push, system->contacts[k].normal);
+        piece->given = kiriVec3_Add(piece->given, WithinCone(step, &system->contacts[k]));
+    }
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        double fit = kiriVec3_Dot(piece->asked, piece->given), size = kiriVec3_Dot(piece->given, piece->given);
+        piece->keepForces = fit >= size ? 1.0 : fit > 0.0 ? fit / size : 0.0;
+    }
 }
 
 double kiriContact_Work(const kiriSolver* solver, const kiriSystem* system, int32_t k)
