@@ -2,6 +2,7 @@
 
 #include "outline.h"
 #include "scene_parts.h"
+#include "scene_parts.h"
 #include "scene_types.h"
 
 #include <stdio.h>
@@ -85,7 +86,7 @@ bool Scene_Start(Scene* scene, const SceneType* type, const kiriWorldDef* def, c
         fprintf(stderr, "no world: %s\n", kiriGetResultName(result));
         return false;
     }
-    bool fine = type->start(scene, &filled);
+    bool fine = Scene_AddFloor(scene) && type->start(scene, &filled);
     FinishStrokes(scene);
     if (!fine) {
         fprintf(stderr, "scene %s does not start: %s\n", type->name, kiriWorld_GetLastError(scene->world));

@@ -65,6 +65,7 @@ struct Scene {
     float pace; /* 1: as the type has it */
     kiriWorld* world;
     kiriSheet sheet;
+    kiriObstacle floor;
     int32_t gridResolution;
     int32_t tick; /* ticks done */
     Stroke strokes[SCENE_MAX_STROKES];

@@ -37,7 +37,6 @@ static bool StartBunny(Scene* scene, const SceneOptions* options)
 {
     kiriSheetDef def = Scene_PlaceSheet(scene, (float[]){ -0.5f, 0.0f, 0.4f }, (float[]){ 0.0f, 0.0f, 1.0f }, Felt());
     def.gridResolution = 50;
-    def.collisionPoints = 200;
     def.frameCount = 9;
     def.rigidArea = 0.022f;
     const Rectangle rectangle = { 1.0f, 1.0f, 64, 64, NULL };
@@ -49,7 +48,6 @@ static bool StartBunny(Scene* scene, const SceneOptions* options)
 
 static void PushBunny(Scene* scene)
 {
-    Scene_TouchFloor(scene);
     PushFigure(scene, &scene->strokes[0], 0.45f, 1.0f);
 }
 
@@ -83,7 +81,6 @@ static bool StartPatchwork(Scene* scene, const SceneOptions* options)
     const float frames[] = { 0.06f, 0.92f, 0.94f, 0.92f, 0.5f, 0.5f, 0.06f, 0.06f, 0.94f, 0.06f };
     const Rectangle rectangle = { 1.0f, 1.0f, 64, 64, frames };
     def.gridResolution = 50;
-    def.collisionPoints = 200;
     def.frameCount = 5;
     def.maxFrames = 12;
     def.rigidArea = 0.035f;
@@ -99,7 +96,6 @@ static bool StartPatchwork(Scene* scene, const SceneOptions* options)
 
 static void PushPatches(Scene* scene)
 {
-    Scene_TouchFloor(scene);
     for (int32_t i = 0; i < PATCHES; i++) {
         PushFigure(scene, &scene->strokes[i], patches[i].v - 0.05f, 1.5f);
     }

@@ -129,7 +129,6 @@ static bool StartFlat(Scene* scene, const SceneOptions* options)
     def.gridResolution = 64;
     def.frameCount = 36;
     def.maxFrames = 48;
-    def.collisionPoints = 1000;
     bool fine = Scene_MakeSheet(scene, &def, options, NULL);
     for (int32_t i = 0; fine && i < ROPES; i++) {
         fine = Scene_PinHere(scene, &def, ropes[i].end[0], ropes[i].end[1]);
@@ -137,11 +136,6 @@ static bool StartFlat(Scene* scene, const SceneOptions* options)
     return fine && CutRope(scene, &mesh, &ropes[0]) && CutRope(scene, &mesh, &ropes[1]) &&
            Scene_AddLine(scene, 0.12f, 0.33f, -0.12f, -0.33f) && CutRope(scene, &mesh, &ropes[2]) &&
            CutRope(scene, &mesh, &ropes[3]);
-}
-
-static void PushFlat(Scene* scene)
-{
-    Scene_TouchFloorWithin(scene, 0.1f);
 }
 
 const SceneType flatScene = {
@@ -157,5 +151,4 @@ const SceneType flatScene = {
     .look = { { 0.62f, 0.42f, 0.80f }, { 0.96f, 0.80f, 0.55f }, { 0.93f, 0.30f, 0.12f }, 10.0f },
     .pegs = true,
     .start = StartFlat,
-    .push = PushFlat,
 };

@@ -87,7 +87,6 @@ static bool StartSpiral(Scene* scene, const SceneOptions* options)
     def.frameCount = options->asPaper ? 5 : 0;
     def.maxFrames = options->asPaper ? 5 : MOST_FRAMES;
     def.frameLength = armFrameLength * scene->type->size;
-    def.collisionPoints = 200;
     return Scene_MakeRectangle(scene, &def, options, &rectangle) && PinMiddle(scene, &def) &&
            AddSpiralBlade(Scene_AddStroke(scene), options->asPaper);
 }
@@ -104,7 +103,6 @@ const SceneType spiralScene = {
     .camera = { { 1.2f, -3.2f, 1.7f }, { 0.0f, 0.0f, 0.72f }, 32.0f },
     .look = PAPER_LOOK(0.85f, 0.25f, 0.20f),
     .start = StartSpiral,
-    .push = Scene_TouchFloor,
 };
 
 /* ---- Vortex: two spirals meet in the middle, and two arms hang down ---------------------------------------------- */
@@ -134,7 +132,6 @@ static bool StartVortex(Scene* scene, const SceneOptions* options)
     def.frameCount = options->asPaper ? 5 : 0;
     def.maxFrames = options->asPaper ? 5 : MOST_FRAMES;
     def.frameLength = armFrameLength * scene->type->size;
-    def.collisionPoints = 200;
     /* Its frames are held, and nothing is pinned: a smooth surface is where it should be. */
     def.skinning = options->asPaper ? KIRI_SKINNING_LINEAR : KIRI_SKINNING_SMOOTH;
     const Spiral first = { { 0.5, 0.5 }, 0.0, 0.38, 0.0, 1.6, 0.014 };
@@ -156,7 +153,6 @@ const SceneType vortexScene = {
     .camera = { { 1.1f, -2.5f, 1.45f }, { 0.0f, 0.0f, 0.5f }, 28.0f },
     .look = PAPER_LOOK(0.20f, 0.35f, 0.70f),
     .start = StartVortex,
-    .push = Scene_TouchFloor,
 };
 
 /* ---- Kirigami: 8 rings of 6 slits, and the middle is pulled up --------------------------------------------------- */
@@ -236,7 +232,6 @@ static bool StartKirigami(Scene* scene, const SceneOptions* options)
     const Rectangle rectangle = { 1.0f, 1.0f, squares, squares, frames.points };
     def.gridResolution = options->asPaper ? 68 : 100;
     def.frameCount = def.maxFrames = frames.count;
-    def.collisionPoints = 600;
     def.iterations = 1;
     fine = fine && Scene_MakeRectangle(scene, &def, options, &rectangle) && PinMiddle(scene, &def);
     Outline_Free(&frames);
@@ -249,7 +244,6 @@ static bool StartKirigami(Scene* scene, const SceneOptions* options)
 
 static void PullKirigami(Scene* scene)
 {
-    Scene_TouchFloor(scene);
     int32_t first = scene->type->lastCut + Scene_Slow(PULL_PAUSE, scene->pace),
             last = first + Scene_Slow(PULL_TICKS, scene->pace);
     for (int32_t i = 0; i < MIDDLE_PINS; i++) {
@@ -297,7 +291,6 @@ static bool StartFallingGuy(Scene* scene, const SceneOptions* options)
     const Figure guy = { "fallingguy", 1.6f, 1.0f, 0.5f };
     def.gridResolution = 100;
     def.frameCount = def.maxFrames = options->asPaper ? 10 : (int32_t)(sizeof guyFrames / sizeof guyFrames[0] / 2);
-    def.collisionPoints = 500;
     def.iterations = 2; /* large turns at each tick while he swings */
     bool fine = Scene_MakeRectangle(scene, &def, options, &rectangle) && PinBorder(scene, &def, 2.0f, 1.0f) &&
                 Scene_AddFigure(scene, options, &guy);
@@ -319,5 +312,4 @@ const SceneType fallingGuyScene = {
     .camera = { { 1.0f, -4.7f, 2.2f }, { -0.25f, 0.0f, 1.0f }, 31.0f },
     .look = PAPER_LOOK(0.90f, 0.60f, 0.15f),
     .start = StartFallingGuy,
-    .push = Scene_TouchFloor,
 };

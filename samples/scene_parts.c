@@ -49,6 +49,7 @@ bool Scene_MakeSheet(Scene* scene, kiriSheetDef* def, const SceneOptions* option
         def->paper.fromScratch = options->fromScratch;
         def->paper.popping = options->popping;
         def->fadeTime = options->unfaded ? 0.0f : def->fadeTime;
+        def->contactThickness = 2.0f * scene->type->size * floorGap;
         scene->gridResolution = def->gridResolution;
         result = kiriCreateSheet(scene->world, def, &scene->sheet);
     }
@@ -172,29 +173,13 @@ int32_t Scene_GetEnclosedFrames(const Scene* scene, const Stroke* stroke, kiriFr
 
 /* ---- Floor ------------------------------------------------------------------------------------------------------ */
 
-void Scene_TouchFloorWithin(Scene* scene, float reach)
+bool Scene_AddFloor(Scene* scene)
 {
-    const float size = scene->type->size, gap = size * floorGap;
-    enum { MAX_CONTACTS = 1024 };
-    kiriContact contacts[MAX_CONTACTS];
-    const float* points;
-    int32_t pointCount, count = 0;
-    if (kiriSheet_GetCollisionPoints(scene->world, scene->sheet, &points, &pointCount) != KIRI_OK) {
-        return;
-    }
-    for (int32_t i = 0; i < pointCount && count < MAX_CONTACTS; i++) {
-        if (points[3 * i + 2] < size * reach) {
-            contacts[count++] = (kiriContact){
-                .point = i, .normal = { 0.0f, 0.0f, 1.0f }, .offset = gap, .friction = 0.6f
-            };
-        }
-    }
-    kiriSheet_SetContacts(scene->world, scene->sheet, contacts, count);
-}
-
-void Scene_TouchFloor(Scene* scene)
-{
-    Scene_TouchFloorWithin(scene, 2.5f * floorGap);
+    kiriObstacleDef def;
+    kiriDefaultObstacleDef(&def);
+    def.type = KIRI_OBSTACLE_PLANE;
+    def.friction = 0.72f; /* 0.6 with that of the sheet */
+    return kiriCreateObstacle(scene->world, &def, &scene->floor) == KIRI_OK;
 }
 
 /* ---- Time ------------------------------------------------------------------------------------------------------- */

@@ -52,15 +52,8 @@ bool Scene_AddFigure(Scene* scene, const SceneOptions* options, const Figure* fi
 /* Writes the frames, up to `capacity`, whose rest points the way of a blade encloses; returns how many. */
 int32_t Scene_GetEnclosedFrames(const Scene* scene, const Stroke* stroke, kiriFrame* frames, int32_t capacity);
 
-/* Makes contacts with the floor for all collision points less than `reach` above it. New scenes use this one. `reach`
-   must be more than a point falls in one tick: 0.1 is enough for a fall from a height of 1 in a scene of 1 m. With less,
-   points are in the floor before they have a contact, and the contact throws them out. */
-void Scene_TouchFloorWithin(Scene* scene, float reach);
-
-/* The same with a reach of 0.01, which is too little for anything that falls freely. Only for the six scenes that have it
-   already: bunny, patchwork, spiral, vortex, kirigami and fallingguy. They keep it because their motion is compared with
-   earlier runs. */
-void Scene_TouchFloor(Scene* scene);
+/* The floor z = 0, for all sheets. */
+bool Scene_AddFloor(Scene* scene);
 
 /* 0 to 1 from one tick to another, without a jerk. */
 float Scene_Ease(int32_t tick, int32_t first, int32_t last);

@@ -61,7 +61,6 @@ static bool StartRubber(Scene* scene, const SceneOptions* options)
     def.model = KIRI_MODEL_AFFINE;
     def.gridResolution = 50;
     def.frameCount = def.maxFrames = frames.count;
-    def.collisionPoints = 200;
     fine = fine && Scene_MakeRectangle(scene, &def, options, &rectangle);
     Outline_Free(&frames);
     for (int32_t i = 0; fine && i < 2 * PEGS_A_SIDE; i++) {
@@ -96,7 +95,6 @@ static void PullRubber(Scene* scene)
         float side = i < PEGS_A_SIDE ? -1.0f : 1.0f;
         Scene_MovePin(scene, i, 0, side * (0.5f - margin + way));
     }
-    Scene_TouchFloorWithin(scene, 0.2f);
     TurnDisc(scene);
 }
 

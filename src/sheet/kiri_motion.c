@@ -74,7 +74,7 @@ static bool IsFading(const kiriSheetData* sheet)
    nobody finds touches but the host: who moves other things wakes it. */
 static bool Sleeps(kiriSheetData* sheet)
 {
-    if (sheet->rest.calm >= CALM_SECONDS && kiriTouches_AreNew(sheet, sheet->rest.asleep ? KIRI_TOUCH_HOST : 0)) {
+    if (sheet->rest.calm >= CALM_SECONDS && kiriTouches_AreNew(sheet, KIRI_TOUCH_HOST)) {
         kiriMotion_Wake(sheet);
     }
     if (sheet->rest.calm >= CALM_SECONDS && !IsFading(sheet) && !sheet->rest.asleep) {

@@ -137,8 +137,9 @@ typedef struct kiriSettings {
 
 /* A sheet that hardly moves falls asleep. */
 typedef struct kiriRest {
-    double calm; /* s for which it has been slower than sleepSpeed */
-    bool asleep; /* it was not moved by the last tick, and rests */
+    double calm;    /* s for which it has been slower than sleepSpeed */
+    bool asleep;    /* it was not moved by the last tick, and rests */
+    bool isStirred; /* in the tick at hand something that moves comes near: it shall wake */
 } kiriRest;
 
 /* Who finds touches: the highest four bits of their keys. */

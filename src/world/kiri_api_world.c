@@ -102,6 +102,7 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     kiriPool_Init(&made->cutIds, KIRI_KIND_CUT);
     kiriPool_Init(&made->frameIds, KIRI_KIND_FRAME);
     kiriPool_Init(&made->pinIds, KIRI_KIND_PIN);
+    kiriPool_Init(&made->obstacleIds, KIRI_KIND_OBSTACLE);
     *world = made;
     return KIRI_OK;
 }

@@ -366,6 +366,28 @@ static void HashRest(uint64_t* hash, const kiriSheetData* sheet)
     HashTouches(hash, &sheet->touches);
 }
 
+/* What it gave sheets and took from them in the last tick does not matter for the coming ones. */
+static void HashObstacle(uint64_t* hash, const kiriObstacleData* obstacle)
+{
+    const kiriObstacleShape* shape = &obstacle->shape;
+    kiriHash_Int32(hash, shape->type);
+    HashVec3(hash, kiriVec3_Make(shape->radius, shape->half, shape->rounding));
+    for (int32_t i = 0; i < shape->count; ++i) {
+        HashVec2(hash, shape->outline[i]);
+    }
+    HashVec3(hash, obstacle->position);
+    HashMat3(hash, &obstacle->rotation);
+    HashVec3(hash, obstacle->velocity);
+    HashVec3(hash, obstacle->spin);
+    HashVec3(hash, obstacle->surface);
+    HashVec3(hash, kiriVec3_Make(obstacle->friction, obstacle->mass, obstacle->pushSpeed));
+    HashMat3(hash, &obstacle->inverseInertia);
+    HashVec3(hash, obstacle->center);
+    kiriHash_Int32(hash, (int32_t)obstacle->body);
+    kiriHash_Int32(hash, (int32_t)obstacle->groups);
+    kiriHash_Double(hash, obstacle->drift);
+}
+
 uint64_t kiriStateHash_Of(const kiriWorld* world)
 {
     uint64_t hash = KIRI_HASH_START;
@@ -391,6 +413,9 @@ uint64_t kiriStateHash_Of(const kiriWorld* world)
         for (int32_t f = 0; f < sheet->frames.count; ++f) {
             HashFrame(&hash, &sheet->frames.data[f]);
         }
+    }
+    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+        HashObstacle(&hash, world->obstacles.data[i]);
     }
     return hash;
 }

@@ -5,6 +5,7 @@
 #include "../sheet/kiri_seen.h"
 #include "../sheet/kiri_stages.h"
 #include "../sheet/kiri_touch.h"
+#include "kiri_obstacle_step.h"
 
 #include <string.h>
 
@@ -84,13 +85,14 @@ static void AbortAll(kiriWorld* world)
 
 /* Before anything is committed, so that a tick that is refused leaves all as it was: touches are found where the sheets
    are seen. A sheet that sleeps asks nobody but the host. False for memory. */
-static bool FindTouches(kiriWorld* world)
+static bool FindTouches(kiriWorld* world, double dt)
 {
     bool ok = true;
     EnterStage(world, KIRI_STAGE_CONTACT);
     for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
         ok = kiriTouches_Begin(world->sheets.data[i]);
     }
+    ok = ok && kiriObstacles_FindTouches(world, dt);
     for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
         ok = kiriTouches_Reserve(world->sheets.data[i]);
         world->profile.contacts += world->sheets.data[i]->touches.found.count;
@@ -234,7 +236,9 @@ static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps, kiriQu
     world->turn = 0;
     for (int32_t k = 0; k < count; ++k) {
         int32_t i = (first + k) % count;
+        kiriObstacles_LoadYields(world, world->sheets.data[i]);
         kiriProgress progress = kiriMotion_Solve(world->sheets.data[i], world->gravity, dt, substeps, iterations);
+        kiriObstacles_TakeImpulses(world, world->sheets.data[i], dt);
         if (progress == KIRI_FAILED) {
             AddEvent(world, KIRI_EVENT_DIVERGED, world->sheets.data[i]);
             result = KIRI_DIVERGED;
@@ -284,11 +288,13 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     kiriProfile last = world->profile;
     kiriMemory_FreeAll(&world->retired);
     memset(&world->profile, 0, sizeof(world->profile));
-    kiriResult result = UpdateAll(world, &quotas) && FindTouches(world) ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
+    kiriResult result = UpdateAll(world, &quotas) && FindTouches(world, dt) ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
     if (result == KIRI_OK) {
         world->events.count = 0;
         CommitAll(world);
+        kiriObstacles_Begin(world);
         result = SolveAll(world, dt, substeps, &quotas.of[KIRI_QUOTA_ITERATIONS]);
+        kiriObstacles_End(world, dt);
         SkinAll(world, dt);
         CountSpent(&world->profile, &quotas);
         EnterStage(world, KIRI_NONE);

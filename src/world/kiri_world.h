@@ -2,6 +2,7 @@
 #ifndef KIRI_WORLD_H
 #define KIRI_WORLD_H
 
+#include "../sheet/kiri_obstacle_touch.h"
 #include "../sheet/kiri_sheet.h"
 
 KIRI_C_BEGIN
@@ -16,8 +17,11 @@ struct kiriWorld {
     kiriBudget budget;
     int64_t ticks;
     int32_t turn; /* the sheet that is moved first: the one for which the last tick had no iterations left */
-    kiriPool sheetIds, cutIds, frameIds, pinIds;
-    KIRI_ARRAY(kiriSheetData*) sheets; /* in the order of their making */
+    kiriPool sheetIds, cutIds, frameIds, pinIds, obstacleIds;
+    KIRI_ARRAY(kiriSheetData*) sheets;       /* in the order of their making */
+    KIRI_ARRAY(kiriObstacleData*) obstacles; /* the same */
+    kiriIndices obstacleOrder;               /* by where they begin along x */
+    kiriObstacleSearch obstacleSearch;
     KIRI_ARRAY(kiriEvent) events;
     kiriProfile profile;
     int32_t stage; /* running now, or KIRI_NONE */

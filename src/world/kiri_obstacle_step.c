@@ -1,0 +1,299 @@
+#include "kiri_obstacle_step.h"
+
+#include "../sheet/kiri_motion.h"
+#include "../core/kiri_sort.h"
+#include "../sheet/kiri_obstacle_touch.h"
+#include "../sheet/kiri_touch.h"
+#include "../sheet/kiri_update.h"
+
+#include <string.h>
+
+/* ---- The list ----------------------------------------------------------------------------------------------------- */
+
+kiriResult kiriObstacles_Reserve(kiriWorld* world)
+{
+    return kiriArray_Reserve(&world->memory, &world->obstacles, (int64_t)world->obstacles.count + 1)
+               ? kiriWorld_ReserveIds(world, &world->obstacleIds, 1)
+               : KIRI_ERROR_MEMORY;
+}
+
+void kiriObstacles_Add(kiriWorld* world, kiriObstacleData* obstacle)
+{
+    world->obstacles.data[world->obstacles.count++] = obstacle;
+    obstacle->id = kiriPool_Add(&world->obstacleIds, &world->memory, obstacle, 0);
+}
+
+/* ---- What rests near them ----------------------------------------------------------------------------------------- */
+
+#define CALM_SECONDS 0.5 /* as in kiri_motion.c */
+
+/* m: an obstacle that goes no farther wakes nobody. */
+static double LeastDrift(const kiriWorld* world)
+{
+    double least = KIRI_ENDLESS;
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        double far = CALM_SECONDS * world->sheets.data[i]->settings.sleepSpeed;
+        least = far > 0.0 && far < least ? far : least;
+    }
+    return least;
+}
+
+static bool IsTouching(const kiriObstacleData* obstacle, const kiriSheetData* sheet)
+{
+    kiriBox box = kiriSheet_Box(sheet);
+    return (obstacle->groups & sheet->settings.groups) != 0 &&
+           kiriObstacle_IsNear(obstacle, box.lower, box.upper, sheet->settings.contactThickness);
+}
+
+static void WakeAround(kiriWorld* world, kiriObstacleData* obstacle)
+{
+    kiriObstacle_Bound(obstacle, 0.0);
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        if (IsTouching(obstacle, world->sheets.data[i])) {
+            kiriMotion_Wake(world->sheets.data[i]);
+        }
+    }
+}
+
+void kiriObstacles_Remove(kiriWorld* world, kiriObstacleData* obstacle)
+{
+    int32_t kept = 0;
+    WakeAround(world, obstacle);
+    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+        if (world->obstacles.data[i] != obstacle) {
+            world->obstacles.data[kept++] = world->obstacles.data[i];
+        }
+    }
+    world->obstacles.count = kept;
+    kiriPool_Remove(&world->obstacleIds, obstacle->id);
+    kiriMemory_Free(&world->memory, obstacle);
+}
+
+/* m: how far its farthest point goes to another pose. */
+static double WayTo(const kiriObstacleData* obstacle, kiriVec3 position, kiriMat3 rotation)
+{
+    kiriObstacleData turning = *obstacle;
+    const kiriMat3* r = &obstacle->rotation;
+    double turn = kiriVec3_Length(kiriVec3_Sub(rotation.u, r->u)) + kiriVec3_Length(kiriVec3_Sub(rotation.v, r->v));
+    if (turn > 0.1) {
+        return KIRI_ENDLESS;
+    }
+    turning.spin = kiriVec3_Scale(
+        0.5, kiriVec3_Add(kiriVec3_Cross(r->u, rotation.u),
+                          kiriVec3_Add(kiriVec3_Cross(r->v, rotation.v), kiriVec3_Cross(r->d, rotation.d))));
+    return kiriVec3_Length(kiriVec3_Sub(position, obstacle->position)) + kiriObstacle_TurnSpeed(&turning);
+}
+
+void kiriObstacles_Put(kiriWorld* world, kiriObstacleData* obstacle, kiriVec3 position, kiriMat3 rotation)
+{
+    double way = WayTo(obstacle, position, rotation);
+    if (way > LeastDrift(world)) {
+        WakeAround(world, obstacle);
+    }
+    obstacle->drift += way;
+    obstacle->position = position;
+    obstacle->rotation = rotation;
+}
+
+/* ---- Touches ------------------------------------------------------------------------------------------------------ */
+
+static bool IsMoving(const kiriObstacleData* obstacle, double dt, double least)
+{
+    double speed = kiriVec3_Length(obstacle->velocity) + kiriObstacle_TurnSpeed(obstacle);
+    return obstacle->drift + dt * speed > least;
+}
+
+/* Bodies have their number, obstacles on their own one below zero. */
+static int64_t NumberOf(const kiriObstacleData* obstacle)
+{
+    return obstacle->body != 0 ? (int64_t)obstacle->body << 32 : (int64_t)obstacle->id << 32 | 1;
+}
+
+/* The row of its body, once for each sheet. */
+static int32_t YieldOf(kiriSheetData* sheet, const kiriObstacleData* obstacle)
+{
+    int32_t index = kiriTouches_FindYield(sheet, NumberOf(obstacle));
+    if (index == KIRI_NONE) {
+        kiriYieldRow row = kiriObstacle_YieldRow(obstacle);
+        row.number = NumberOf(obstacle);
+        index = kiriTouches_AddYield(sheet, &row);
+    }
+    return index;
+}
+
+static bool ComesFirst(const void* context, int32_t a, int32_t b)
+{
+    const kiriWorld* world = context;
+    double x = world->obstacles.data[a]->lower.x, y = world->obstacles.data[b]->lower.x;
+    return x < y || (x == y && a < b);
+}
+
+/* By where they begin along x, with the way that they go, twice. False for memory. */
+static bool SortObstacles(kiriWorld* world, double dt)
+{
+    kiriIndices* order = &world->obstacleOrder;
+    if (!kiriArray_Resize(&world->memory, order, world->obstacles.count)) {
+        return false;
+    }
+    for (int32_t i = 0; i < order->count; ++i) {
+        kiriObstacle_Bound(world->obstacles.data[i], 2.0 * dt);
+        order->data[i] = i;
+    }
+    kiriSort(order->data, order->count, ComesFirst, world);
+    return true;
+}
+
+/* What a sheet may touch. */
+typedef struct Around {
+    kiriBox box;
+    double speed, reach;
+} Around;
+
+static Around MakeAround(const kiriWorld* world, const kiriSheetData* sheet, double dt)
+{
+    Around around;
+    around.box = kiriSheet_Box(sheet);
+    around.speed = kiriSheet_SpeedLimit(sheet, &around.box);
+    around.reach = kiriReach_Of(around.speed, world->gravity, dt) + sheet->settings.contactThickness;
+    return around;
+}
+
+/* The next obstacle in their order that the sheet may touch, from *at on; null where there is none. */
+static kiriObstacleData* NextNear(const kiriWorld* world, const kiriSheetData* sheet, const Around* around, int32_t* at)
+{
+    while (*at < world->obstacleOrder.count) {
+        kiriObstacleData* obstacle = world->obstacles.data[world->obstacleOrder.data[(*at)++]];
+        if (obstacle->lower.x > around->box.upper.x + around->reach) {
+            return NULL;
+        }
+        if ((obstacle->groups & sheet->settings.groups) != 0 &&
+            kiriObstacle_IsNear(obstacle, around->box.lower, around->box.upper, around->reach)) {
+            return obstacle;
+        }
+    }
+    return NULL;
+}
+
+/* Something that moves comes near: a sheet that sleeps shall wake. */
+static bool IsStirred(const kiriWorld* world, const kiriSheetData* sheet, const Around* around, double dt, double least)
+{
+    int32_t at = 0;
+    for (kiriObstacleData* obstacle; (obstacle = NextNear(world, sheet, around, &at)) != NULL;) {
+        if (IsMoving(obstacle, dt, least)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool TouchAll(kiriWorld* world, kiriSheetData* sheet, const Around* around)
+{
+    kiriObstacleSearch* search = &world->obstacleSearch;
+    int32_t at = 0;
+    bool ok = true;
+    for (kiriObstacleData* obstacle; ok && (obstacle = NextNear(world, sheet, around, &at)) != NULL;) {
+        int32_t yield = YieldOf(sheet, obstacle);
+        ok = yield != KIRI_NONE && kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) &&
+             kiriObstacleSearch_Reserve(search, sheet) &&
+             kiriObstacleSearch_Run(search, sheet, obstacle, around->speed, yield);
+    }
+    return ok;
+}
+
+bool kiriObstacles_FindTouches(kiriWorld* world, double dt)
+{
+    double least = LeastDrift(world);
+    bool ok = world->obstacles.count == 0 || SortObstacles(world, dt);
+    world->obstacleSearch.memory = &world->memory;
+    world->obstacleSearch.dt = dt;
+    world->obstacleSearch.gravity = world->gravity;
+    for (int32_t i = 0; ok && world->obstacles.count > 0 && i < world->sheets.count; ++i) {
+        kiriSheetData* sheet = world->sheets.data[i];
+        bool sleeps = sheet->rest.asleep && !sheet->update->isBegun;
+        Around around = MakeAround(world, sheet, dt);
+        sheet->rest.isStirred = sleeps && IsStirred(world, sheet, &around, dt, least);
+        ok = (sleeps && !sheet->rest.isStirred) || TouchAll(world, sheet, &around);
+    }
+    return ok;
+}
+
+/* ---- What comes of them ------------------------------------------------------------------------------------------- */
+
+void kiriObstacles_Begin(kiriWorld* world)
+{
+    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+        memset(&world->obstacles.data[i]->impulse, 0, sizeof(kiriWrench));
+        world->obstacles.data[i]->contacts = 0;
+    }
+    for (int32_t i = 0; world->obstacles.count > 0 && i < world->sheets.count; ++i) {
+        if (world->sheets.data[i]->rest.isStirred) {
+            kiriMotion_Wake(world->sheets.data[i]);
+            world->sheets.data[i]->rest.isStirred = false;
+        }
+    }
+}
+
+/* What other sheets gave the body in this tick. */
+static void LoadYield(const kiriWorld* world, kiriYieldRow* row)
+{
+    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+        const kiriObstacleData* obstacle = world->obstacles.data[i];
+        if (NumberOf(obstacle) == row->number) {
+            kiriVec3 arm = kiriVec3_Sub(kiriObstacle_CenterOfMass(obstacle), row->center);
+            kiriWrench_Add(&row->impulse, 1.0, &obstacle->impulse);
+            row->impulse.moment = kiriVec3_Add(row->impulse.moment, kiriVec3_Cross(arm, obstacle->impulse.force));
+        }
+    }
+}
+
+void kiriObstacles_LoadYields(const kiriWorld* world, kiriSheetData* sheet)
+{
+    for (int32_t k = 0; k < sheet->touches.yields.count; ++k) {
+        kiriYieldRow* row = &sheet->touches.yields.data[k];
+        if (row->number > 0 && row->inverseMass > 0.0) {
+            LoadYield(world, row);
+        }
+    }
+}
+
+/* Null for what is no touch of an obstacle. */
+static kiriObstacleData* OwnerOf(const kiriWorld* world, uint64_t key)
+{
+    int32_t slot = kiriObstacle_SlotOfKey(key);
+    return key >> 60 == KIRI_TOUCH_OBSTACLE && slot < world->obstacleIds.slots.count
+               ? world->obstacleIds.slots.data[slot].owner
+               : NULL;
+}
+
+static void Give(kiriWorld* world, uint64_t key, kiriVec3 normal, kiriVec3 impulse, kiriVec3 at)
+{
+    kiriObstacleData* obstacle = OwnerOf(world, key);
+    if (obstacle != NULL && kiriVec3_Dot(impulse, normal) > 0.0) {
+        kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-1.0, impulse), at);
+        obstacle->contacts += 1;
+    }
+}
+
+void kiriObstacles_TakeImpulses(kiriWorld* world, const kiriSheetData* sheet, double dt)
+{
+    const kiriTouches* touches = &sheet->touches;
+    for (int32_t i = 0; sheet->rest.asleep && i < touches->last.count; ++i) {
+        const kiriTouch* touch = &touches->last.data[i];
+        kiriVec3 force = kiriTouches_ForceOf(sheet, touch->key);
+        Give(world, touch->key, touch->normal, kiriVec3_Scale(dt, force), touch->seen);
+    }
+    for (int32_t i = 0; !sheet->rest.asleep && i < touches->rows.count; ++i) {
+        const kiriContactRow* row = &touches->rows.data[i];
+        Give(world, row->key, row->normal, row->impulse, touches->found.data[i].seen);
+    }
+}
+
+void kiriObstacles_End(kiriWorld* world, double dt)
+{
+    double least = LeastDrift(world);
+    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+        kiriObstacleData* obstacle = world->obstacles.data[i];
+        kiriObstacle_Advance(obstacle, dt);
+        obstacle->drift = obstacle->drift > least ? 0.0 : obstacle->drift;
+    }
+}

@@ -1,0 +1,716 @@
+/* Obstacles: their shapes against sums made another way, their place in a world, and what touches them. */
+#include "sheet/kiri_obstacle_shape.h"
+#include "host.h"
+
+/* ---- Shapes ------------------------------------------------------------------------------------------------------- */
+
+static const kiriVec3 noPlane = { 0.0, 0.0, 0.0 };
+
+typedef struct Solid {
+    kiriObstacleShape shape;
+    kiriVec2 corners[64], normals[64];
+} Solid;
+
+static void MakePolygon(Solid* solid, int32_t count, const kiriVec2* corners)
+{
+    solid->shape.outline = solid->corners;
+    solid->shape.normals = solid->normals;
+    solid->shape.count = count;
+    for (int32_t i = 0; i < count; ++i) {
+        solid->corners[i] = corners[i];
+        kiriVec2 along = kiriVec2_Sub(corners[(i + 1) % count], corners[i]);
+        solid->normals[i] = kiriVec2_Scale(1.0 / kiriVec2_Length(along), kiriVec2_Make(along.y, -along.x));
+    }
+}
+
+enum { SOLIDS = 7 };
+
+static void MakeSolid(Solid* solid, int which)
+{
+    static const kiriVec2 box[4] = { { -0.3, -0.2 }, { 0.3, -0.2 }, { 0.3, 0.2 }, { -0.3, 0.2 } };
+    static const kiriVec2 wedge[5] = { { -0.4, -0.2 }, { 0.5, -0.3 }, { 0.6, 0.1 }, { 0.1, 0.4 }, { -0.3, 0.2 } };
+    static const int32_t types[SOLIDS] = { KIRI_OBSTACLE_PLANE, KIRI_OBSTACLE_SPHERE,   KIRI_OBSTACLE_CAPSULE,
+                                           KIRI_OBSTACLE_PRISM, KIRI_OBSTACLE_CYLINDER, KIRI_OBSTACLE_PRISM,
+                                           KIRI_OBSTACLE_PRISM };
+    memset(solid, 0, sizeof(*solid));
+    solid->shape.type = types[which];
+    solid->shape.radius = 0.3;
+    solid->shape.half = which == 1 ? 0.0 : which == 6 ? KIRI_ENDLESS : 0.25;
+    solid->shape.rounding = which == 5 ? 0.07 : 0.0;
+    if (which == 3) {
+        MakePolygon(solid, 4, box);
+    } else if (which >= 5) {
+        MakePolygon(solid, 5, wedge);
+    }
+}
+
+/* The farthest that a solid reaches along a direction tells all of a convex one: the distance of a point outside is the
+   largest of dot(n, p) - reach(n), and that of a point inside as well, over all directions. */
+static double DistanceBySupport(const kiriObstacleShape* shape, kiriVec3 p, kiriVec3 start)
+{
+    kiriVec3 n = start;
+    double best = kiriVec3_Dot(n, p) - kiriObstacleShape_Reach(shape, n), step = 0.5;
+    uint32_t seed = 7;
+    for (int i = 0; i < 4000; ++i) {
+        kiriVec3 other = kiriVec3_Make(n.x + RandomBetween(&seed, -step, step), n.y + RandomBetween(&seed, -step, step),
+                                       shape->half < KIRI_ENDLESS ? n.z + RandomBetween(&seed, -step, step) : 0.0);
+        other = kiriVec3_Normalize(other);
+        double value = kiriVec3_Dot(other, p) - kiriObstacleShape_Reach(shape, other);
+        if (value > best) {
+            best = value;
+            n = other;
+        } else {
+            step = step > 1e-6 ? 0.995 * step : step;
+        }
+    }
+    return best;
+}
+
+/* Random points around each shape: the distance is that of the supporting plane, and the normal is that plane's. */
+static void DistanceIsThatOfTheSupportingPlane(void** state)
+{
+    (void)state;
+    uint32_t seed = 1;
+    for (int which = 1; which < SOLIDS; ++which) {
+        Solid solid;
+        MakeSolid(&solid, which);
+        for (int i = 0; i < 40; ++i) {
+            kiriVec3 p = kiriVec3_Make(RandomBetween(&seed, -0.9, 0.9), RandomBetween(&seed, -0.7, 0.7),
+                                       RandomBetween(&seed, -0.6, 0.6));
+            kiriNearest nearest = kiriObstacleShape_Nearest(&solid.shape, p, noPlane);
+            double plane = kiriVec3_Dot(nearest.normal, p) - kiriObstacleShape_Reach(&solid.shape, nearest.normal);
+            assert_true(fabs(kiriVec3_Length(nearest.normal) - 1.0) < 1e-12);
+            assert_true(fabs(plane - nearest.distance) < 1e-12);
+            assert_true(DistanceBySupport(&solid.shape, p, nearest.normal) < nearest.distance + 1e-9);
+            double other = DistanceBySupport(&solid.shape, p, kiriVec3_Normalize(kiriVec3_Make(p.x, p.y, 0.0)));
+            assert_true(nearest.distance > 0.0 ? fabs(other - nearest.distance) < 2e-3
+                                               : other < nearest.distance + 1e-9);
+        }
+    }
+}
+
+/* Inside a polygon a planar sheet goes out sideways, however near the cap is. */
+static void PlanarSheetsGoOutSideways(void** state)
+{
+    (void)state;
+    Solid solid;
+    MakeSolid(&solid, 3);
+    kiriVec3 p = { 0.05, 0.1, 0.2499 }, up = { 0.0, 0.0, 1.0 };
+    kiriNearest space = kiriObstacleShape_Nearest(&solid.shape, p, noPlane);
+    kiriNearest flat = kiriObstacleShape_Nearest(&solid.shape, p, up);
+    assert_true(space.normal.z == 1.0 && fabs(space.distance + 1e-4) < 1e-12);
+    assert_true(flat.normal.y == 1.0 && fabs(flat.distance + 0.1) < 1e-12);
+}
+
+/* Moving points stop where a walk in small steps first comes within the gap. */
+static void EntersWhereAWalkDoes(void** state)
+{
+    (void)state;
+    enum { STEPS = 20000 };
+    const double gap = 0.01;
+    uint32_t seed = 3;
+    int met = 0;
+    for (int i = 0; i < 200; ++i) {
+        Solid solid;
+        MakeSolid(&solid, i % SOLIDS);
+        kiriVec3 from = kiriVec3_Make(RandomBetween(&seed, -1.5, 1.5), RandomBetween(&seed, -1.5, 1.5),
+                                      RandomBetween(&seed, 0.4, 1.0));
+        kiriVec3 to = kiriVec3_Make(RandomBetween(&seed, -0.5, 0.5), RandomBetween(&seed, -0.5, 0.5),
+                                    RandomBetween(&seed, -1.0, 0.6));
+        kiriVec3 move = kiriVec3_Sub(to, from);
+        kiriNearest nearest;
+        double share = kiriObstacleShape_Enter(&solid.shape, from, move, gap, noPlane, &nearest), walked = 1.0;
+        for (int k = 0; k <= STEPS && walked >= 1.0; ++k) {
+            kiriVec3 at = kiriVec3_AddScaled(from, (double)k / STEPS, move);
+            walked =
+                kiriObstacleShape_Nearest(&solid.shape, at, noPlane).distance < 1.01 * gap ? (double)k / STEPS : 1.0;
+        }
+        assert_true(fabs(share - walked) < 2e-3 || (share >= 1.0 && walked >= 1.0));
+        met += share < 1.0;
+    }
+    assert_in_range(met, 60, 190);
+}
+
+/* A point at 100 m/s does not pass a wall of 1 cm: its way of 1.7 m in a tick goes right through. */
+static void FastPointsMeetThinWalls(void** state)
+{
+    (void)state;
+    Solid solid;
+    MakeSolid(&solid, 3);
+    for (int32_t i = 0; i < 4; ++i) {
+        solid.corners[i].x *= 0.005 / 0.3;
+    }
+    MakePolygon(&solid, 4, (kiriVec2[4]){ solid.corners[0], solid.corners[1], solid.corners[2], solid.corners[3] });
+    kiriNearest nearest;
+    double share = kiriObstacleShape_Enter(&solid.shape, kiriVec3_Make(-0.5, 0.0, 0.0),
+                                           kiriVec3_Make(100.0 / 60.0, 0.0, 0.0), 0.001, noPlane, &nearest);
+    assert_true(fabs(share * 100.0 / 60.0 - 0.494) < 1e-5);
+    assert_true(nearest.normal.x == -1.0);
+}
+
+static void CirclePointsAreEven(void** state)
+{
+    (void)state;
+    for (int32_t i = 0; i < 64; ++i) {
+        kiriVec2 p = kiriCircle_At(i, 64);
+        double angle = 2.0 * 3.14159265358979323846 * i / 64.0;
+        assert_true(fabs(p.x - cos(angle)) < 1e-14 && fabs(p.y - sin(angle)) < 1e-14);
+    }
+}
+
+/* ---- In a world --------------------------------------------------------------------------------------------------- */
+
+static const float dt = 1.0f / 60.0f;
+
+static kiriObstacleDef DefOf(int32_t type)
+{
+    static const float outline[8] = { -0.3f, -0.2f, 0.3f, -0.2f, 0.3f, 0.2f, -0.3f, 0.2f };
+    kiriObstacleDef def;
+    kiriDefaultObstacleDef(&def);
+    def.type = type;
+    def.radius = 0.2f;
+    def.height = 0.4f;
+    def.size[0] = def.size[1] = def.size[2] = 0.4f;
+    def.outline = outline;
+    def.outlineCount = 4;
+    return def;
+}
+
+static kiriObstacle Add(Host* host, const kiriObstacleDef* def)
+{
+    kiriObstacle obstacle = 0;
+    OK(kiriCreateObstacle(host->world, def, &obstacle));
+    return obstacle;
+}
+
+/* A stiff plate of one frame, 0.2 m wide, that lies at a height, its middle over a place. */
+static kiriSheet AddPlate(Host* host, float x, float z, float thickness)
+{
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = 8;
+    def.frameCount = def.maxFrames = 1;
+    def.contactThickness = 0.01f;
+    def.material.thickness = thickness;
+    def.position[0] = x - 0.1f;
+    def.position[1] = -0.1f;
+    def.position[2] = z;
+    return Host_AddRectangle(host, &def, 0.2f, 0.2f, 8, 8);
+}
+
+static void Ticks(Host* host, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        OK(Host_Tick(host, dt, 2));
+    }
+}
+
+static bool IsAwake(const Host* host, kiriSheet sheet)
+{
+    int32_t awake = -1;
+    OK(kiriSheet_IsAwake(host->world, sheet, &awake));
+    return awake != 0;
+}
+
+static kiriTotals TotalsOf(const Host* host, kiriSheet sheet)
+{
+    kiriTotals totals;
+    OK(kiriSheet_GetTotals(host->world, sheet, &totals));
+    return totals;
+}
+
+static kiriObstacleState StateOf(const Host* host, kiriObstacle obstacle)
+{
+    kiriObstacleState state;
+    OK(kiriObstacle_GetState(host->world, obstacle, &state));
+    return state;
+}
+
+#define REFUSED(result, call)                                                                                          \
+    do {                                                                                                               \
+        uint64_t hashBefore = Host_Hash(&host);                                                                        \
+        assert_int_equal(call, result);                                                                                \
+        assert_true(kiriWorld_GetLastError(host.world)[0] != '\0' && Host_Hash(&host) == hashBefore);                  \
+    } while (0)
+
+static void BadDefsAreRefused(void** state)
+{
+    (void)state;
+    static const float concave[8] = { -0.3f, -0.2f, 0.3f, -0.2f, 0.0f, -0.1f, -0.3f, 0.2f };
+    static const float clockwise[6] = { 0.0f, 0.0f, 0.0f, 1.0f, 1.0f, 0.0f },
+                       flat[6] = { 0.0f, 0.0f, 1.0f, 0.0f, 2.0f, 0.0f };
+    static const float star[10] = { 0.0f, 1.0f, -0.588f, -0.809f, 0.951f, 0.309f, -0.951f, 0.309f, 0.588f, -0.809f };
+    static const float* const outlines[] = { concave, clockwise, flat, star, NULL };
+    static const int32_t counts[] = { 4, 3, 3, 5, 4 };
+    Host host;
+    Host_Start(&host);
+    kiriObstacle none = 1;
+    for (int32_t type = KIRI_OBSTACLE_PLANE; type <= KIRI_OBSTACLE_PRISM; ++type) {
+        kiriObstacleDef def = DefOf(type);
+        struct {
+            float* field;
+            float value;
+        } bad[] = { { &def.position[1], NAN },        { &def.rotation[0], 2.0f },
+                    { &def.rotation[8], -1.0f },      { &def.velocity[2], NAN },
+                    { &def.friction, -0.1f },         { &def.mass, -1.0f },
+                    { &def.pushSpeed, 0.0f },         { &def.pushSpeed, INFINITY },
+                    { &def.rounding, -1.0f },         { &def.inertia[0], -1.0f },
+                    { &def.inertia[3], 0.1f },        { &def.angularVelocity[0], INFINITY },
+                    { &def.surfaceVelocity[0], NAN }, { &def.centerOfMass[0], NAN } };
+        for (size_t i = 0; i < sizeof(bad) / sizeof(bad[0]); ++i) {
+            float kept = *bad[i].field;
+            *bad[i].field = bad[i].value;
+            REFUSED(KIRI_ERROR_ARGUMENT, kiriCreateObstacle(host.world, &def, &none));
+            assert_int_equal(none, 0);
+            *bad[i].field = kept;
+        }
+        float* sizes[] = { &def.radius, &def.height, &def.size[1] };
+        for (int i = 0; i < 3; ++i) {
+            float kept = *sizes[i];
+            *sizes[i] = -0.1f;
+            bool isUsed =
+                i == 0 ? type == KIRI_OBSTACLE_SPHERE || type == KIRI_OBSTACLE_CAPSULE || type == KIRI_OBSTACLE_CYLINDER
+                : i == 1 ? type >= KIRI_OBSTACLE_CYLINDER || type == KIRI_OBSTACLE_CAPSULE
+                         : type == KIRI_OBSTACLE_BOX;
+            if (isUsed) {
+                REFUSED(KIRI_ERROR_ARGUMENT, kiriCreateObstacle(host.world, &def, &none));
+            }
+            *sizes[i] = kept;
+        }
+    }
+    kiriObstacleDef prism = DefOf(KIRI_OBSTACLE_PRISM);
+    for (int i = 0; i < 5; ++i) {
+        prism.outline = outlines[i];
+        prism.outlineCount = counts[i];
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriCreateObstacle(host.world, &prism, &none));
+    }
+    prism = DefOf(7);
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriCreateObstacle(host.world, &prism, &none));
+    prism.cookie = 1;
+    REFUSED(KIRI_ERROR_DEF, kiriCreateObstacle(host.world, &prism, &none));
+    Host_Stop(&host);
+}
+
+static void StaleIdsAreRefused(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
+    kiriObstacle gone = Add(&host, &def), other = Add(&host, &def);
+    kiriSheet sheet = AddPlate(&host, 0.0f, 2.0f, 0.001f);
+    OK(kiriDestroyObstacle(host.world, gone));
+    const uint32_t ids[] = { 0, gone, sheet, other ^ 1u << 25 };
+    const float zero[6] = { 0 };
+    for (int i = 0; i < 4; ++i) {
+        kiriObstacleState was;
+        REFUSED(KIRI_ERROR_ID, kiriDestroyObstacle(host.world, ids[i]));
+        REFUSED(KIRI_ERROR_ID, kiriObstacle_SetPose(host.world, ids[i], zero, def.rotation));
+        REFUSED(KIRI_ERROR_ID, kiriObstacle_SetVelocity(host.world, ids[i], zero, zero));
+        REFUSED(KIRI_ERROR_ID, kiriObstacle_SetSurfaceVelocity(host.world, ids[i], zero));
+        REFUSED(KIRI_ERROR_ID, kiriObstacle_SetMass(host.world, ids[i], 1.0f, zero, zero));
+        assert_int_equal(kiriObstacle_GetState(host.world, ids[i], &was), KIRI_ERROR_ID);
+    }
+    Host_Stop(&host);
+}
+
+/* Half the contact thickness above the floor it comes to rest, and sleeps. The floor bears its weight all the time. */
+static void PlateRestsOnAFloor(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriObstacleDef def = DefOf(KIRI_OBSTACLE_PLANE);
+    kiriObstacle floor = Add(&host, &def);
+    kiriSheet sheet = AddPlate(&host, 0.0f, 0.1f, 0.001f);
+    int ticks = 0;
+    for (; IsAwake(&host, sheet) && ticks < 300; ++ticks) {
+        OK(Host_Tick(&host, dt, 2));
+    }
+    assert_in_range(ticks, 30, 120);
+    kiriTotals totals = TotalsOf(&host, sheet);
+    double weight = -9.81 * totals.mass * (double)dt;
+    assert_true(fabs(totals.center[2] - 0.005) < 1e-4);
+    assert_true(fabs(StateOf(&host, floor).impulse[2] / weight - 1.0) < 1e-3);
+    Ticks(&host, 10);
+    assert_false(IsAwake(&host, sheet));
+    assert_true(fabs(StateOf(&host, floor).impulse[2] / weight - 1.0) < 1e-3);
+    assert_true(fabs(StateOf(&host, floor).angularImpulse[0] / weight) < 1e-3);
+    assert_true(StateOf(&host, floor).contacts >= 3);
+    Host_Stop(&host);
+}
+
+static kiriSheet RestOn(Host* host, kiriObstacle obstacle)
+{
+    (void)obstacle;
+    kiriSheet sheet = AddPlate(host, 0.0f, 0.2051f, 0.001f);
+    for (int i = 0; i < 120 && IsAwake(host, sheet); ++i) {
+        OK(Host_Tick(host, dt, 2));
+    }
+    assert_false(IsAwake(host, sheet));
+    return sheet;
+}
+
+/* Whatever takes a box from below a plate that sleeps on it wakes the plate; what happens far away does not. */
+static void SleepersWake(void** state)
+{
+    (void)state;
+    enum { DESTROY, PUT, MOVE, MAKE, CHURN, CASES };
+    const float away[3] = { 3.0f, 0.0f, 0.0f }, up[3] = { 0.0f, 0.0f, 0.1f }, none[3] = { 0 };
+    for (int which = 0; which < CASES; ++which) {
+        for (int isFar = 0; isFar < 2; ++isFar) {
+            Host host;
+            Host_Start(&host);
+            kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
+            kiriObstacle box = Add(&host, &def), touched = box;
+            kiriSheet sheet = RestOn(&host, box);
+            def.position[0] = isFar ? 2.0f : 0.3f;
+            if (isFar || which == MAKE) {
+                touched = Add(&host, &def);
+            }
+            if (which == DESTROY) {
+                OK(kiriDestroyObstacle(host.world, touched));
+            } else if (which == PUT) {
+                OK(kiriObstacle_SetPose(host.world, touched, away, def.rotation));
+            } else if (which == MOVE) {
+                OK(kiriObstacle_SetVelocity(host.world, touched, up, none));
+            } else if (which == CHURN) {
+                OK(kiriObstacle_SetSurfaceVelocity(host.world, touched, up));
+            }
+            OK(Host_Tick(&host, dt, 2));
+            assert_int_equal(IsAwake(&host, sheet), !isFar);
+            Host_Stop(&host);
+        }
+    }
+}
+
+/* Too slow to see, an obstacle still carries along what sleeps on it. */
+static void SlowLiftsCarry(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
+    kiriObstacle box = Add(&host, &def);
+    kiriSheet sheet = RestOn(&host, box);
+    const float up[3] = { 0.0f, 0.0f, 0.0008f }, none[3] = { 0 };
+    OK(kiriObstacle_SetVelocity(host.world, box, up, none));
+    for (int i = 0; i < 600; ++i) {
+        OK(Host_Tick(&host, dt, 2));
+    }
+    double height = TotalsOf(&host, sheet).center[2] - (double)StateOf(&host, box).position[2];
+    assert_true(fabs(StateOf(&host, box).position[2] - 0.008) < 1e-5);
+    assert_true(fabs(height - 0.205) < 8e-4);
+    Host_Stop(&host);
+}
+
+static void LiftsAndConveyorsCarry(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriObstacleDef def = DefOf(KIRI_OBSTACLE_PLANE);
+    def.velocity[2] = 0.5f;
+    def.surfaceVelocity[0] = 0.3f;
+    kiriObstacle lift = Add(&host, &def);
+    kiriSheet sheet = AddPlate(&host, 0.0f, 0.006f, 0.001f);
+    Ticks(&host, 60);
+    kiriTotals totals = TotalsOf(&host, sheet);
+    assert_true(fabs(totals.momentum[2] / totals.mass - 0.5) < 1e-3);
+    assert_true(fabs(totals.momentum[0] / totals.mass - 0.3) < 1e-3);
+    assert_true(fabs(totals.center[2] - StateOf(&host, lift).position[2] - 0.005) < 2e-4);
+    Host_Stop(&host);
+}
+
+/* What two plates lose, the crate that they fall on gets; and it is not more than its mass can take. */
+static void SheetsShareAnObstacle(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    const float noGravity[3] = { 0 };
+    OK(kiriWorld_SetGravity(host.world, noGravity));
+    kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
+    def.mass = 0.02f;
+    def.friction = 0.0f;
+    kiriObstacle crate = Add(&host, &def);
+    const float down[3] = { 0.0f, 0.0f, -1.0f };
+    kiriSheetDef plate;
+    kiriDefaultSheetDef(&plate);
+    plate.gridResolution = 8;
+    plate.frameCount = plate.maxFrames = 1;
+    plate.contactThickness = 0.01f;
+    plate.material.airDamping = 0.0f;
+    memcpy(plate.velocity, down, sizeof(down));
+    double before = 0.0, after = 0.0, given = 0.0;
+    kiriSheet plates[2];
+    for (int i = 0; i < 2; ++i) {
+        plate.position[0] = i == 0 ? -0.2f : 0.02f;
+        plate.position[1] = -0.1f;
+        plate.position[2] = 0.215f;
+        plates[i] = Host_AddRectangle(&host, &plate, 0.18f, 0.2f, 8, 8);
+        before += TotalsOf(&host, plates[i]).momentum[2];
+    }
+    OK(Host_Tick(&host, dt, 2));
+    given = StateOf(&host, crate).impulse[2];
+    for (int i = 0; i < 2; ++i) {
+        after += TotalsOf(&host, plates[i]).momentum[2];
+    }
+    assert_true(given < 0.0 && fabs(before - after - given) < 1e-9 * fabs(before) + 1e-12);
+    /* No faster than all of them together can be: nobody was pushed out by more than came in. */
+    double slowest = before / (0.02 + 2.0 * TotalsOf(&host, plates[0]).mass);
+    assert_true(given / 0.02 > 2.0 * slowest && after > before);
+    Host_Stop(&host);
+}
+
+/* Edge-on at 100 m/s against a wall of 1 cm. */
+static void FastSheetsDoNotPass(void** state)
+{
+    (void)state;
+    for (int substeps = 1; substeps <= 4; substeps += 3) {
+        Host host;
+        Host_Start(&host);
+        kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
+        def.size[0] = def.size[1] = 4.0f;
+        def.size[2] = 0.01f;
+        Add(&host, &def);
+        kiriSheetDef plate;
+        kiriDefaultSheetDef(&plate);
+        plate.gridResolution = 8;
+        plate.frameCount = plate.maxFrames = 1;
+        plate.axisV[1] = 0.0f;
+        plate.axisV[2] = 1.0f;
+        plate.position[2] = 1.2f;
+        plate.velocity[2] = -100.0f;
+        kiriSheet sheet = Host_AddRectangle(&host, &plate, 0.2f, 0.2f, 8, 8);
+        for (int i = 0; i < 20; ++i) {
+            OK(Host_Tick(&host, dt, substeps));
+            kiriMesh mesh;
+            OK(kiriSheet_GetMesh(host.world, sheet, &mesh));
+            for (int32_t v = 0; v < mesh.vertexCount; ++v) {
+                assert_true(mesh.positions[3 * v + 2] > 0.0f);
+            }
+        }
+        Host_Stop(&host);
+    }
+}
+
+static void GroupsTellWhoTouches(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriObstacleDef def = DefOf(KIRI_OBSTACLE_PLANE);
+    def.groups = 2;
+    Add(&host, &def);
+    kiriSheetDef plate;
+    kiriDefaultSheetDef(&plate);
+    plate.gridResolution = 4;
+    plate.frameCount = plate.maxFrames = 1;
+    plate.position[2] = 0.05f;
+    plate.groups = 3;
+    kiriSheet holds = Host_AddRectangle(&host, &plate, 0.2f, 0.2f, 4, 4);
+    plate.groups = 5;
+    kiriSheet passes = Host_AddRectangle(&host, &plate, 0.2f, 0.2f, 4, 4);
+    Ticks(&host, 40);
+    assert_true(TotalsOf(&host, holds).center[2] > 0.0);
+    assert_true(TotalsOf(&host, passes).center[2] < -1.0);
+    Host_Stop(&host);
+}
+
+/* A planar sheet comes to rest on a prism without end along its normal, and within a box's height. */
+static void PlanarSheetsRestOnPolygons(void** state)
+{
+    (void)state;
+    for (int which = 0; which < 3; ++which) {
+        Host host;
+        Host_Start(&host);
+        kiriObstacleDef def = DefOf(which == 0 ? KIRI_OBSTACLE_PRISM : KIRI_OBSTACLE_BOX);
+        const float turned[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, -1.0f, 0.0f };
+        memcpy(def.rotation, turned, sizeof(turned));
+        def.height = 0.0f;
+        def.size[which == 1 ? 2 : 0] = which == 1 ? 0.001f : 0.6f; /* thin along the normal of the sheet: no matter */
+        Add(&host, &def);
+        kiriSheetDef plate;
+        kiriDefaultSheetDef(&plate);
+        plate.planar = 1;
+        plate.gridResolution = 8;
+        plate.frameCount = plate.maxFrames = 1;
+        plate.contactThickness = 0.01f;
+        plate.axisV[1] = 0.0f;
+        plate.axisV[2] = 1.0f;
+        plate.position[0] = -0.1f;
+        plate.position[2] = 0.25f;
+        kiriSheet sheet = Host_AddRectangle(&host, &plate, 0.2f, 0.1f, 8, 4);
+        Ticks(&host, 60);
+        assert_true(fabs(TotalsOf(&host, sheet).center[2] - 0.2 - 0.005 - 0.05) < 1e-3);
+        assert_true(fabs(TotalsOf(&host, sheet).center[0]) < 1e-2);
+        Host_Stop(&host);
+    }
+}
+
+/* An obstacle goes on by its velocities: turned about its axis in the end, and where it should be. */
+static void ObstaclesAdvance(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriObstacleDef def = DefOf(KIRI_OBSTACLE_CAPSULE);
+    def.velocity[0] = 2.0f;
+    def.angularVelocity[2] = 3.0f;
+    kiriObstacle obstacle = Add(&host, &def);
+    Ticks(&host, 60);
+    kiriObstacleState is = StateOf(&host, obstacle);
+    assert_true(fabs(is.position[0] - 2.0) < 1e-5);
+    assert_true(fabs(is.rotation[0] - cos(3.0)) < 1e-6 && fabs(is.rotation[1] - sin(3.0)) < 1e-6);
+    Host_Stop(&host);
+}
+
+/* A world of everything, to be driven twice and with refusals. */
+static void FillWorld(Host* host, kiriSheet sheets[2])
+{
+    for (int32_t type = KIRI_OBSTACLE_PLANE; type <= KIRI_OBSTACLE_PRISM; ++type) {
+        kiriObstacleDef def = DefOf(type);
+        def.position[0] = type == KIRI_OBSTACLE_PLANE ? 0.0f : 0.3f * ((float)type - 3.0f);
+        def.position[2] = type == KIRI_OBSTACLE_PLANE ? -0.2f : 0.0f;
+        def.velocity[1] = type == KIRI_OBSTACLE_BOX ? 0.1f : 0.0f;
+        Add(host, &def);
+    }
+    for (int i = 0; i < 2; ++i) {
+        kiriSheetDef def;
+        kiriDefaultSheetDef(&def);
+        def.gridResolution = 8;
+        def.frameCount = def.maxFrames = 4;
+        def.position[0] = -0.8f + 0.7f * (float)i;
+        def.position[1] = -0.4f;
+        def.position[2] = 0.25f;
+        sheets[i] = Host_AddRectangle(host, &def, 0.8f, 0.8f, 12, 12);
+    }
+}
+
+static void SameCallsSameBits(void** state)
+{
+    (void)state;
+    uint64_t hashes[2];
+    for (int run = 0; run < 2; ++run) {
+        Host host;
+        kiriSheet sheets[2];
+        Host_Start(&host);
+        host.every = 10;
+        FillWorld(&host, sheets);
+        Ticks(&host, 40);
+        hashes[run] = Host_Hash(&host);
+        Host_Stop(&host);
+    }
+    assert_true(hashes[0] == hashes[1]);
+}
+
+/* What was refused has not happened. */
+static void RefusedTicksChangeNothing(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheet sheets[2];
+    Host_Start(&host);
+    host.every = 10;
+    FillWorld(&host, sheets);
+    for (int i = 0; i < 40; ++i) {
+        uint64_t before = Host_Hash(&host);
+        for (int n = 0; n < 100; ++n) {
+            host.failAt = host.calls + n;
+            kiriResult result = kiriWorld_Tick(host.world, dt, 2);
+            bool isReached = host.calls > host.failAt;
+            host.failAt = -1;
+            if (!isReached) {
+                assert_int_equal(result, KIRI_OK);
+                break;
+            }
+            assert_int_equal(result, KIRI_ERROR_MEMORY);
+            assert_true(Host_Hash(&host) == before);
+        }
+    }
+    uint64_t refused = Host_Hash(&host);
+    Host_Stop(&host);
+    Host_Start(&host);
+    host.every = 10;
+    FillWorld(&host, sheets);
+    Ticks(&host, 40);
+    assert_true(Host_Hash(&host) == refused);
+    Host_Stop(&host);
+}
+
+static void CreationMayBeRefused(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriObstacleDef def = DefOf(KIRI_OBSTACLE_PRISM);
+    kiriObstacle obstacle = 1;
+    uint64_t before = Host_Hash(&host);
+    int n = 0;
+    for (;; ++n) {
+        host.failAt = host.calls + n;
+        kiriResult result = kiriCreateObstacle(host.world, &def, &obstacle);
+        host.failAt = -1;
+        if (result == KIRI_OK) {
+            break;
+        }
+        assert_int_equal(result, KIRI_ERROR_MEMORY);
+        assert_true(obstacle == 0 && Host_Hash(&host) == before);
+    }
+    assert_in_range(n, 1, 5);
+    Host_Stop(&host);
+}
+
+/* Nobody is farther after a tick than was said before it. */
+static void ReachHoldsTheTick(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheet sheets[2];
+    Host_Start(&host);
+    host.every = 10;
+    FillWorld(&host, sheets);
+    for (int i = 0; i < 40; ++i) {
+        float lower[2][3], upper[2][3];
+        for (int k = 0; k < 2; ++k) {
+            OK(kiriSheet_GetReach(host.world, sheets[k], dt, lower[k], upper[k]));
+        }
+        OK(Host_Tick(&host, dt, 2));
+        for (int k = 0; k < 2; ++k) {
+            kiriMesh mesh;
+            OK(kiriSheet_GetMesh(host.world, sheets[k], &mesh));
+            for (int32_t n = 0; n < 3 * mesh.vertexCount; ++n) {
+                assert_true(mesh.positions[n] >= lower[k][n % 3] && mesh.positions[n] <= upper[k][n % 3]);
+            }
+        }
+    }
+    Host_Stop(&host);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(DistanceIsThatOfTheSupportingPlane),
+        cmocka_unit_test(PlanarSheetsGoOutSideways),
+        cmocka_unit_test(EntersWhereAWalkDoes),
+        cmocka_unit_test(FastPointsMeetThinWalls),
+        cmocka_unit_test(CirclePointsAreEven),
+        cmocka_unit_test(BadDefsAreRefused),
+        cmocka_unit_test(StaleIdsAreRefused),
+        cmocka_unit_test(PlateRestsOnAFloor),
+        cmocka_unit_test(SleepersWake),
+        cmocka_unit_test(SlowLiftsCarry),
+        cmocka_unit_test(LiftsAndConveyorsCarry),
+        cmocka_unit_test(SheetsShareAnObstacle),
+        cmocka_unit_test(FastSheetsDoNotPass),
+        cmocka_unit_test(GroupsTellWhoTouches),
+        cmocka_unit_test(PlanarSheetsRestOnPolygons),
+        cmocka_unit_test(ObstaclesAdvance),
+        cmocka_unit_test(SameCallsSameBits),
+        cmocka_unit_test(RefusedTicksChangeNothing),
+        cmocka_unit_test(CreationMayBeRefused),
+        cmocka_unit_test(ReachHoldsTheTick),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
