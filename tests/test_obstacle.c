@@ -549,6 +549,77 @@ static void PlanarSheetsRestOnPolygons(void** state)
     }
 }
 
+/* Two corners that point up hold a plate of two triangles between its vertices. */
+static void PlanarBordersRestOnCorners(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    for (int i = 0; i < 2; ++i) {
+        kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
+        const float diamond[9] = { 0.70710678f, 0.0f, 0.70710678f, -0.70710678f, 0.0f, 0.70710678f, 0.0f, -1.0f, 0.0f };
+        memcpy(def.rotation, diamond, sizeof(diamond));
+        def.size[0] = def.size[1] = 0.1f;
+        def.position[0] = i == 0 ? -0.06f : 0.05f;
+        def.position[2] = -0.070710678f;
+        Add(&host, &def);
+    }
+    kiriSheetDef plate;
+    kiriDefaultSheetDef(&plate);
+    plate.planar = 1;
+    plate.gridResolution = 8;
+    plate.frameCount = plate.maxFrames = 1;
+    plate.contactThickness = 0.004f;
+    plate.axisV[1] = 0.0f;
+    plate.axisV[2] = 1.0f;
+    plate.position[0] = -0.1f;
+    plate.position[2] = 0.05f;
+    kiriSheet sheet = Host_AddRectangle(&host, &plate, 0.2f, 0.1f, 1, 1);
+    Ticks(&host, 60);
+    assert_true(fabs(TotalsOf(&host, sheet).center[2] - 0.002 - 0.05) < 1e-3);
+    assert_true(fabs(TotalsOf(&host, sheet).center[0]) < 1e-2);
+    Host_Stop(&host);
+}
+
+/* Two triangles, 0.2 m wide, bridge balls of 2 cm and rods: flat, and as the border of a planar sheet. */
+static void RoundObstaclesHoldBetweenVertices(void** state)
+{
+    (void)state;
+    static const float places[4][2] = { { -0.06f, -0.05f }, { 0.07f, -0.06f }, { 0.05f, 0.06f }, { -0.05f, 0.07f } };
+    static const int32_t types[3] = { KIRI_OBSTACLE_SPHERE, KIRI_OBSTACLE_CAPSULE, KIRI_OBSTACLE_CYLINDER };
+    for (int which = 0; which < 6; ++which) {
+        bool planar = which >= 3;
+        Host host;
+        Host_Start(&host);
+        for (int i = 0; i < 4; ++i) {
+            kiriObstacleDef def = DefOf(types[which % 3]);
+            const float lying[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, -1.0f, 0.0f };
+            memcpy(def.rotation, lying, sizeof(lying));
+            def.radius = 0.01f;
+            def.height = 0.02f;
+            def.position[0] = places[i][0];
+            def.position[1] = planar ? 0.0f : places[i][1];
+            def.position[2] = -0.01f;
+            Add(&host, &def);
+        }
+        kiriSheetDef plate;
+        kiriDefaultSheetDef(&plate);
+        plate.planar = planar;
+        plate.gridResolution = 8;
+        plate.frameCount = plate.maxFrames = 1;
+        plate.contactThickness = 0.004f;
+        plate.axisV[1] = planar ? 0.0f : 1.0f;
+        plate.axisV[2] = planar ? 1.0f : 0.0f;
+        plate.position[0] = -0.1f;
+        plate.position[1] = planar ? 0.0f : -0.1f;
+        plate.position[2] = 0.02f;
+        kiriSheet sheet = Host_AddRectangle(&host, &plate, 0.2f, 0.2f, 1, 1);
+        Ticks(&host, 90);
+        assert_true(fabs(TotalsOf(&host, sheet).center[2] - (planar ? 0.102 : 0.002)) < 1e-3);
+        Host_Stop(&host);
+    }
+}
+
 /* An obstacle goes on by its velocities: turned about its axis in the end, and where it should be. */
 static void ObstaclesAdvance(void** state)
 {
@@ -706,6 +777,8 @@ int main(void)
         cmocka_unit_test(FastSheetsDoNotPass),
         cmocka_unit_test(GroupsTellWhoTouches),
         cmocka_unit_test(PlanarSheetsRestOnPolygons),
+        cmocka_unit_test(PlanarBordersRestOnCorners),
+        cmocka_unit_test(RoundObstaclesHoldBetweenVertices),
         cmocka_unit_test(ObstaclesAdvance),
         cmocka_unit_test(SameCallsSameBits),
         cmocka_unit_test(RefusedTicksChangeNothing),

@@ -1,0 +1,274 @@
+#include "kiri_obstacle_work.h"
+
+/* A point on an edge, in the world. */
+typedef struct EdgePoint {
+    kiriVec3 at, out; /* out: unit, half-way between the faces */
+    kiriVec3 faces[2];
+    double below, above; /* m: how far material may be along `out` */
+    uint32_t item;
+} EdgePoint;
+
+/* Where the line of the point meets the triangle; false where it passes by. */
+static bool CrossTriangle(const kiriVec3 x[3], const EdgePoint* point, double* height, double share[3])
+{
+    kiriVec3 ab = kiriVec3_Sub(x[1], x[0]), ac = kiriVec3_Sub(x[2], x[0]), to = kiriVec3_Sub(point->at, x[0]);
+    kiriVec3 across = kiriVec3_Cross(point->out, ac), other = kiriVec3_Cross(to, ab);
+    double det = kiriVec3_Dot(ab, across);
+    if (!(fabs(det) > 0.0)) {
+        return false;
+    }
+    share[1] = kiriVec3_Dot(to, across) / det;
+    share[2] = kiriVec3_Dot(point->out, other) / det;
+    share[0] = 1.0 - share[1] - share[2];
+    *height = kiriVec3_Dot(ac, other) / det;
+    return share[0] >= 0.0 && share[1] >= 0.0 && share[2] >= 0.0 && *height > -point->below && *height < point->above;
+}
+
+/* The triangle lies over the edge as a tangent plane may: towards none of its faces. */
+static bool IsTangentTo(const EdgePoint* point, kiriVec3 normal)
+{
+    return kiriVec3_Dot(normal, point->faces[0]) > -0.2 && kiriVec3_Dot(normal, point->faces[1]) > -0.2;
+}
+
+static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, int32_t triangle, kiriTouch* touch)
+{
+    const kiriSheetData* sheet = meeting->sheet;
+    const int32_t* v = &sheet->seen.surface.indices.data[3 * (int64_t)triangle];
+    kiriVec3 x[3] = { sheet->seen.surface.exact.data[v[0]], sheet->seen.surface.exact.data[v[1]],
+                      sheet->seen.surface.exact.data[v[2]] };
+    kiriVec3 normal = kiriVec3_Normalize(kiriVec3_Cross(kiriVec3_Sub(x[1], x[0]), kiriVec3_Sub(x[2], x[0])));
+    double height, share[3], gap = meeting->gap + meeting->obstacle->shape.rounding;
+    if (!CrossTriangle(x, point, &height, share)) {
+        return false;
+    }
+    normal = kiriVec3_Dot(normal, point->out) < 0.0 ? kiriVec3_Scale(-1.0, normal) : normal;
+    kiriVec3 velocity = { 0.0, 0.0, 0.0 }, at = kiriVec3_AddScaled(point->at, height, point->out);
+    for (int k = 0; k < 3; ++k) {
+        velocity = kiriVec3_AddScaled(velocity, share[k], kiriMeeting_VertexVelocity(sheet, v[k]));
+    }
+    double above = height * kiriVec3_Dot(normal, point->out) - gap;
+    double rise = kiriVec3_Dot(normal, kiriMeeting_Way(meeting, at, velocity));
+    if (above + rise > KIRI_NEARBY * gap || !IsTangentTo(point, normal) ||
+        !kiriMeeting_MakePlane(meeting, normal, point->at, gap, touch)) {
+        return false;
+    }
+    kiriMeeting_SetPlace(touch, v, share, 3);
+    return true;
+}
+
+static kiriBox BoxAround(const EdgePoint* point)
+{
+    kiriVec3 a = kiriVec3_AddScaled(point->at, point->above, point->out);
+    kiriVec3 b = kiriVec3_AddScaled(point->at, -point->below, point->out);
+    kiriBox box = { { a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z },
+                    { a.x < b.x ? b.x : a.x, a.y < b.y ? b.y : a.y, a.z < b.z ? b.z : a.z } };
+    return box;
+}
+
+/* Several layers may lie over a point: each has a touch, up to a number. */
+static bool TouchPoint(const kiriMeeting* meeting, const EdgePoint* point)
+{
+    enum { MOST_LAYERS = 4 };
+    kiriSheetData* sheet = meeting->sheet;
+    kiriObstacleSearch* search = meeting->search;
+    kiriBox box = BoxAround(point);
+    search->crossed.count = 0;
+    bool ok = kiriBounds_Box(sheet->seen.bounds, &sheet->seen.surface, &box, search->memory, &search->crossed);
+    uint32_t layers = 0;
+    for (int32_t i = 0; ok && i < search->crossed.count && layers < MOST_LAYERS; ++i) {
+        kiriTouch touch;
+        if (TouchTriangle(meeting, point, search->crossed.data[i], &touch)) {
+            touch.key = kiriMeeting_Key(meeting, true, point->item * MOST_LAYERS + layers++);
+            ok = kiriTouches_Add(sheet, &touch);
+        }
+    }
+    return ok;
+}
+
+/* A point of the edge (local), with the faces beside it. */
+static EdgePoint MakePoint(const kiriMeeting* meeting, const kiriObstacleEdge* edge, kiriVec3 at, kiriVec3 side,
+                           uint32_t item)
+{
+    const kiriObstacleData* obstacle = meeting->obstacle;
+    double rounding = obstacle->shape.rounding;
+    EdgePoint point;
+    point.at = kiriObstacle_PointToWorld(obstacle, at);
+    point.faces[0] = kiriObstacle_ToWorld(obstacle, edge->faces[0]);
+    point.faces[1] = kiriObstacle_ToWorld(obstacle, side);
+    point.out = kiriVec3_Normalize(kiriVec3_Add(point.faces[0], point.faces[1]));
+    point.below = edge->thinnest < meeting->patch ? edge->thinnest : meeting->patch;
+    point.above = rounding + meeting->gap + meeting->reach;
+    point.item = item;
+    return point;
+}
+
+static bool TouchRim(const kiriMeeting* meeting, const kiriObstacleEdge* edge, int32_t index)
+{
+    int32_t count = 8;
+    while (count < 1024 && count * meeting->patch < 6.3 * edge->radius) {
+        count *= 2;
+    }
+    bool ok = true;
+    for (int32_t i = 0; ok && i < count; ++i) {
+        kiriVec2 circle = kiriCircle_At(i, count);
+        kiriVec3 side = kiriVec3_Make(circle.x, circle.y, 0.0);
+        EdgePoint point = MakePoint(meeting, edge, kiriVec3_AddScaled(edge->from, edge->radius, side), side,
+                                    (uint32_t)(index * 1024 + i));
+        ok = TouchPoint(meeting, &point);
+    }
+    return ok;
+}
+
+/* The part of an edge, counted in steps, that is in the sheet's box. */
+static void ClipEdge(const kiriMeeting* meeting, kiriVec3 from, kiriVec3 step, int32_t* first, int32_t* last)
+{
+    kiriBox box = kiriBounds_All(meeting->sheet->seen.bounds);
+    const double lower[3] = { box.lower.x, box.lower.y, box.lower.z },
+                 upper[3] = { box.upper.x, box.upper.y, box.upper.z };
+    const double a[3] = { from.x, from.y, from.z }, d[3] = { step.x, step.y, step.z };
+    double start = *first, end = *last, margin = meeting->reach + meeting->gap + meeting->patch;
+    for (int k = 0; k < 3; ++k) {
+        double enter = lower[k] - margin - a[k], leave = upper[k] + margin - a[k];
+        if (fabs(d[k]) * (end - start + 1.0) < 1e-9) {
+            end = enter > 0.0 || leave < 0.0 ? start - 1.0 : end;
+            continue;
+        }
+        double s = d[k] > 0.0 ? enter / d[k] : leave / d[k], t = d[k] > 0.0 ? leave / d[k] : enter / d[k];
+        start = s > start ? s : start;
+        end = t < end ? t : end;
+    }
+    *first = start <= end ? (int32_t)start : 0;
+    *last = start <= end ? (int32_t)end : -1;
+}
+
+/* An edge without end has points as far as anybody may look. */
+static bool TouchStraight(const kiriMeeting* meeting, const kiriObstacleEdge* edge, int32_t index)
+{
+    enum { MOST_POINTS = 1 << 18 };
+    kiriVec3 from = edge->from, way = kiriVec3_Sub(edge->to, edge->from);
+    if (meeting->obstacle->shape.half >= KIRI_ENDLESS) {
+        way = kiriVec3_Make(0.0, 0.0, MOST_POINTS * meeting->patch);
+        from.z = -0.5 * way.z;
+    }
+    double length = kiriVec3_Length(way), wanted = length / meeting->patch;
+    int32_t count = wanted < 1.0 ? 1 : wanted < MOST_POINTS ? (int32_t)wanted + 1 : MOST_POINTS;
+    int32_t first = 0, last = count;
+    kiriVec3 step = kiriVec3_Scale(1.0 / count, way);
+    ClipEdge(meeting, kiriObstacle_PointToWorld(meeting->obstacle, from), kiriObstacle_ToWorld(meeting->obstacle, step),
+             &first, &last);
+    bool ok = true;
+    for (int32_t i = first; ok && i <= last && i <= count; ++i) {
+        EdgePoint point = MakePoint(meeting, edge, kiriVec3_AddScaled(from, i, step), edge->faces[1],
+                                    (uint32_t)(index * (MOST_POINTS + 1) + i));
+        ok = TouchPoint(meeting, &point);
+    }
+    return ok;
+}
+
+bool kiriMeeting_TouchEdges(const kiriMeeting* meeting)
+{
+    const kiriObstacleShape* shape = &meeting->obstacle->shape;
+    bool ok = true;
+    for (int32_t i = 0; ok && i < kiriObstacleShape_EdgeCount(shape); ++i) {
+        kiriObstacleEdge edge;
+        if (kiriObstacleShape_EdgeAt(shape, i, &edge)) {
+            ok = edge.radius > 0.0 ? TouchRim(meeting, &edge, i) : TouchStraight(meeting, &edge, i);
+        }
+    }
+    return ok;
+}
+
+/* ---- Corners against the borders of planar sheets ----------------------------------------------------------------- */
+
+/* Where an edge of the obstacle goes through the sheet's plane there is a corner of what the plane cuts out of it. False
+   where it does not, or lies along it. */
+static bool CutEdge(const kiriMeeting* meeting, const kiriObstacleEdge* edge, int32_t index, EdgePoint* point)
+{
+    kiriVec3 d = meeting->sheet->settings.mechanics.axes.d, onPlane = meeting->sheet->frames.data[0].x;
+    kiriVec3 from = kiriObstacle_PointToWorld(meeting->obstacle, edge->from);
+    kiriVec3 way = kiriObstacle_ToWorld(meeting->obstacle, kiriVec3_Sub(edge->to, edge->from));
+    double rise = kiriVec3_Dot(way, d), below = kiriVec3_Dot(kiriVec3_Sub(onPlane, from), d);
+    if (edge->radius > 0.0 || !(fabs(rise) > 0.1 * kiriVec3_Length(way)) || below / rise < 0.0 || below / rise > 1.0) {
+        return false;
+    }
+    *point = MakePoint(meeting, edge, edge->from, edge->faces[1], (uint32_t)index);
+    point->at = kiriVec3_AddScaled(from, below / rise, way);
+    for (int k = 0; k < 2; ++k) {
+        kiriVec3 face = point->faces[k];
+        point->faces[k] = kiriVec3_Normalize(kiriVec3_AddScaled(face, -kiriVec3_Dot(face, d), d));
+    }
+    point->out = kiriVec3_Normalize(kiriVec3_Add(point->faces[0], point->faces[1]));
+    return true;
+}
+
+/* Where the line of the point crosses a side, in the plane; false where it passes by. */
+static bool MeetSide(kiriVec3 a, kiriVec3 b, kiriVec3 d, const EdgePoint* point, double* height, double* share)
+{
+    kiriVec3 along = kiriVec3_Sub(b, a), to = kiriVec3_Sub(point->at, a);
+    double det = kiriVec3_Dot(d, kiriVec3_Cross(point->out, along));
+    if (!(fabs(det) > 0.0)) {
+        return false;
+    }
+    *share = kiriVec3_Dot(d, kiriVec3_Cross(point->out, to)) / det;
+    *height = kiriVec3_Dot(d, kiriVec3_Cross(along, to)) / det;
+    return *share >= 0.0 && *share <= 1.0 && *height > -point->below && *height < point->above;
+}
+
+static bool TouchSide(const kiriMeeting* meeting, const EdgePoint* point, int32_t a, int32_t b, kiriTouch* touch)
+{
+    const kiriSheetData* sheet = meeting->sheet;
+    kiriVec3 d = sheet->settings.mechanics.axes.d;
+    kiriVec3 from = sheet->seen.surface.exact.data[a], to = sheet->seen.surface.exact.data[b];
+    double height, share, gap = meeting->gap + meeting->obstacle->shape.rounding;
+    if (!MeetSide(from, to, d, point, &height, &share) ||
+        !kiriMeeting_IsBorder(&sheet->seen.surface, &meeting->search->crossed, a, b)) {
+        return false;
+    }
+    /* The material is on the left of its border: inwards is away from the obstacle. */
+    kiriVec3 normal = kiriVec3_Normalize(kiriVec3_Cross(d, kiriVec3_Sub(to, from)));
+    kiriVec3 velocity = kiriVec3_AddScaled(kiriVec3_Scale(1.0 - share, kiriMeeting_VertexVelocity(sheet, a)), share,
+                                           kiriMeeting_VertexVelocity(sheet, b));
+    double above = height * kiriVec3_Dot(normal, point->out) - gap;
+    double rise =
+        kiriVec3_Dot(normal, kiriMeeting_Way(meeting, kiriVec3_AddScaled(point->at, height, point->out), velocity));
+    if (above + rise > KIRI_NEARBY * gap || !IsTangentTo(point, normal) ||
+        !kiriMeeting_MakePlane(meeting, normal, point->at, gap, touch)) {
+        return false;
+    }
+    kiriMeeting_SetPlace(touch, (const int32_t[2]){ a, b }, (const double[2]){ 1.0 - share, share }, 2);
+    return true;
+}
+
+static bool TouchCorner(const kiriMeeting* meeting, const EdgePoint* point)
+{
+    enum { MOST_SIDES = 4 };
+    kiriSheetData* sheet = meeting->sheet;
+    kiriObstacleSearch* search = meeting->search;
+    kiriBox box = BoxAround(point);
+    uint32_t sides = 0;
+    search->crossed.count = 0;
+    bool ok = kiriBounds_Box(sheet->seen.bounds, &sheet->seen.surface, &box, search->memory, &search->crossed);
+    for (int32_t i = 0; ok && i < 3 * search->crossed.count && sides < MOST_SIDES; ++i) {
+        const int32_t* v = &sheet->seen.surface.indices.data[3 * (int64_t)search->crossed.data[i / 3]];
+        kiriTouch touch;
+        if (TouchSide(meeting, point, v[i % 3], v[(i + 1) % 3], &touch)) {
+            touch.key = kiriMeeting_Key(meeting, true, point->item * MOST_SIDES + sides++);
+            ok = kiriTouches_Add(sheet, &touch);
+        }
+    }
+    return ok;
+}
+
+bool kiriMeeting_TouchCorners(const kiriMeeting* meeting)
+{
+    const kiriObstacleShape* shape = &meeting->obstacle->shape;
+    bool ok = true;
+    for (int32_t i = 0; ok && i < kiriObstacleShape_EdgeCount(shape); ++i) {
+        kiriObstacleEdge edge;
+        EdgePoint point;
+        if (kiriObstacleShape_EdgeAt(shape, i, &edge) && CutEdge(meeting, &edge, i, &point)) {
+            ok = TouchCorner(meeting, &point);
+        }
+    }
+    return ok;
+}
