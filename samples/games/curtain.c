@@ -192,6 +192,7 @@ static void* Curtain_Start(int32_t number, const GameHost* host)
     }
     curtain->host = *host;
     curtain->level = &levels[number - 1];
+    curtain->demo.mark = -1;
     bool fine = AddObstacles(curtain);
     for (int32_t i = 0; fine && i < curtain->level->curtains; i++) {
         fine = AddCloth(curtain, &curtain->cloths[i], i);
@@ -517,7 +518,11 @@ static void LookAtScraps(Curtain* curtain)
 static void AddScrap(Curtain* curtain, const kiriEvent* event)
 {
     int32_t cloth = FindCloth(curtain, event->sheet);
-    if (cloth >= 0 && event->crumb == 0 && curtain->scrapCount < MAX_SCRAPS) {
+    if (cloth >= 0 && event->crumb == 0) {
+        if (curtain->scrapCount == MAX_SCRAPS) {
+            kiriFrame_DestroyPiece(curtain->world, curtain->scraps[0].frame);
+            memmove(curtain->scraps, curtain->scraps + 1, sizeof(Scrap) * (size_t)--curtain->scrapCount);
+        }
         curtain->scraps[curtain->scrapCount++] = (Scrap){ event->frame, cloth, curtain->tick, 0 };
     }
 }
@@ -680,11 +685,24 @@ static bool Curtain_Tick(void* game)
     return curtain->level->wanted > 0 || ChangeCloths(curtain);
 }
 
+/* FNV-1a. */
+static uint64_t AddToHash(uint64_t hash, const void* data, size_t bytes)
+{
+    const uint8_t* byte = data;
+    for (size_t i = 0; i < bytes; i++) {
+        hash = (hash ^ byte[i]) * 1099511628211u;
+    }
+    return hash;
+}
+
 static void Curtain_GetStatus(void* game, GameStatus* status)
 {
     Curtain* curtain = game;
     *status = (GameStatus){ .state = curtain->state, .score = curtain->score };
     kiriWorld_GetStateHash(curtain->world, &status->hash);
+    status->hash = AddToHash(status->hash, &curtain->basketX, sizeof curtain->basketX);
+    status->hash = AddToHash(status->hash, curtain->scraps, sizeof(Scrap) * (size_t)curtain->scrapCount);
+    status->hash = AddToHash(status->hash, &curtain->score, sizeof curtain->score);
 }
 
 const GameType curtainGame = { .name = "curtain",

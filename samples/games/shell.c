@@ -416,7 +416,9 @@ static bool OpenWindow(Shell* shell)
 {
     const Options* options = &shell->options;
     if (!options->headless) {
-        shell->window = Window_Open("Kiri", options->width, options->height, options->mute);
+        char title[64];
+        snprintf(title, sizeof title, "Kiri: %s", shell->play.type->name);
+        shell->window = Window_Open(title, options->width, options->height, options->mute);
     }
     return options->headless || shell->window != NULL;
 }
