@@ -81,19 +81,20 @@ static void DrawHand(Canvas* canvas, const Hand* hand)
     if (hand->pin == 0) {
         return;
     }
-    const float axis[3] = { 0.32f, -0.86f, 0.40f };
-    float rotation[9] = { 0.93f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, axis[0], axis[1], axis[2] }, place[3];
+    const float axis[3] = { 0.46f, -0.76f, -0.46f };
+    float rotation[9] = { 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, axis[0], axis[1], axis[2] }, place[3], palm[3];
     float length = sqrtf(axis[1] * axis[1] + axis[2] * axis[2]); /* first two columns: across the axis */
     memcpy(rotation, (float[3]){ 0.0f, -axis[2] / length, axis[1] / length }, sizeof axis);
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         rotation[3 + i] = axis[j] * rotation[k] - axis[k] * rotation[j];
-        place[i] = hand->target[i] + 0.14f * axis[i];
+        palm[i] = hand->target[i] + 0.025f * axis[i];
+        place[i] = hand->target[i] + 0.21f * axis[i];
     }
-    DrawBall(canvas, hand->target, 0.034f, skin);
+    DrawBall(canvas, palm, 0.042f, skin);
     CanvasBody arm = MakeBody(CANVAS_CAPSULE, place, rotation, sleeve);
-    arm.radius = 0.026f;
-    arm.height = 0.16f;
+    arm.radius = 0.032f;
+    arm.height = 0.28f;
     Canvas_AddBody(canvas, &arm);
 }
 
