@@ -256,7 +256,7 @@ static void Grab(Curtain* curtain, int32_t pointer, const float origin[3], const
     if (kiriCreatePin(curtain->world, sheet, &def, &hand->pin) == KIRI_OK) {
         hand->cloth = FindCloth(curtain, sheet);
         hand->pointer = pointer;
-        hand->away = hit.distance;
+        hand->away = hit.distance - 0.08f; /* a little towards the player */
         memcpy(hand->target, hit.position, sizeof hand->target);
     }
 }
