@@ -43,8 +43,6 @@ static bool Check(const Curtain* curtain, kiriResult result, const char* what)
     return result >= 0;
 }
 
-/* Rings a little nearer to each other than in the flat cloth, and by turns before and behind the rail: it falls in
-   folds. */
 static bool AddRings(Curtain* curtain, Cloth* cloth, float depth)
 {
     const Level* level = curtain->level;
@@ -55,11 +53,11 @@ static bool AddRings(Curtain* curtain, Cloth* cloth, float depth)
         kiriDefaultPinDef(&def);
         def.restPoint[0] = level->width * (float)i / (float)(level->rings - 1);
         def.restPoint[1] = level->height;
-        def.target[0] = level->gather * (def.restPoint[0] - 0.5f * level->width);
-        def.target[1] = depth + (i % 2 == 0 ? 0.03f : -0.03f);
+        def.target[0] = def.restPoint[0] - 0.5f * level->width;
+        def.target[1] = depth;
         def.target[2] = curtainRail - 0.06f;
         def.breakForce = level->breakForce;
-        memcpy(ring->restPoint, def.restPoint, sizeof ring->restPoint);
+        memcpy(ring->start, def.target, sizeof ring->start);
         memcpy(ring->target, def.target, sizeof ring->target);
         if (!Check(curtain, kiriCreatePin(curtain->world, cloth->sheet, &def, &ring->pin), "ring")) {
             return false;
@@ -396,6 +394,22 @@ static bool BlowWind(Curtain* curtain)
     return true;
 }
 
+/* A new curtain is flat. Its rings go by turns before and behind the rail, and a little nearer to each other: it falls in
+   folds. */
+static void GatherCloth(Curtain* curtain, Cloth* cloth)
+{
+    int32_t age = curtain->tick - cloth->madeAt;
+    float share = fminf(1.0f, (float)age / GATHER_TICKS), aside = share < 0.3f ? share / 0.3f : 1.0f;
+    for (int32_t i = 0; i < cloth->ringCount && age <= GATHER_TICKS; i++) {
+        Ring* ring = &cloth->rings[i];
+        ring->target[0] = ring->start[0] * (1.0f + share * (curtain->level->gather - 1.0f));
+        ring->target[1] = ring->start[1] + aside * (i % 2 == 0 ? 0.03f : -0.03f);
+        if (ring->pin != 0) {
+            kiriPin_SetTarget(curtain->world, ring->pin, ring->target);
+        }
+    }
+}
+
 static bool MoveBasket(Curtain* curtain)
 {
     float x = curtain->basketX + curtain->basketSpeed * GAME_DT;
@@ -669,6 +683,7 @@ static bool Curtain_Tick(void* game)
     Curtain* curtain = game;
     bool fine = BlowWind(curtain) && MoveBasket(curtain);
     for (int32_t i = 0; fine && i < MAX_CLOTHS; i++) {
+        GatherCloth(curtain, &curtain->cloths[i]);
         fine = curtain->cloths[i].sheet == 0 || Track_BeforeTick(&curtain->cloths[i].track, curtain->world);
     }
     kiriResult result = fine ? kiriWorld_Tick(curtain->world, GAME_DT, SUBSTEPS) : KIRI_ERROR_MEMORY;

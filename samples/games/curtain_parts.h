@@ -57,7 +57,7 @@ void Level_Paint(const Level* level, int32_t curtain, uint8_t* rgb);
 
 typedef struct Ring {
     kiriPin pin; /* 0: broken */
-    float restPoint[2], target[3];
+    float start[3], target[3];
 } Ring;
 
 /* A curtain, with all that is cut from it. */
