@@ -420,6 +420,208 @@ static void TestWindIsChecked(void** state)
     Host_Stop(&host);
 }
 
+/* ---- Pins --------------------------------------------------------------------------------------------------------- */
+
+static kiriPin PinAt(Host* host, kiriSheet sheet, float u, float v, float breakForce)
+{
+    kiriPinDef def;
+    kiriPin pin;
+    kiriPointState point = PointAt(host, sheet, u, v);
+    kiriDefaultPinDef(&def);
+    def.restPoint[0] = u;
+    def.restPoint[1] = v;
+    def.breakForce = breakForce;
+    memcpy(def.target, point.position, sizeof(def.target));
+    OK(kiriCreatePin(host->world, sheet, &def, &pin));
+    return pin;
+}
+
+static double ForceOn(const Host* host, kiriPin pin)
+{
+    double force[3], torque[3];
+    OK(kiriPin_GetReaction(host->world, pin, force, torque));
+    return sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
+}
+
+/* Three hold; each breaks in the tick in which it bears more than it can, and no sooner. */
+static void TestPinsBreak(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetDef def = Host_SmallDef();
+    const float from[2] = { 0.0f, 1.0f }, to[2] = { 1.0f, 1.0f };
+    kiriEvent event;
+    kiriPin pins[4];
+    kiriPinState pinState;
+    int32_t count;
+    Host_Start(&host);
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    OK(kiriSheet_ClampLine(host.world, sheet, from, to, &pins[0]));
+    pins[1] = PinAt(&host, sheet, 0.1f, 0.1f, 0.0f);
+    double weight = 9.81 * Host_Totals(&host, sheet).mass;
+    OK(kiriPin_SetBreakForce(host.world, pins[0], (float)(3.0 * weight)));
+    OK(kiriPin_SetBreakForce(host.world, pins[1], (float)(0.05 * weight)));
+    assert_int_equal(kiriPin_SetBreakForce(host.world, pins[1], -1.0f), KIRI_ERROR_ARGUMENT);
+    OK(kiriPin_GetState(host.world, pins[1], &pinState));
+    assert_true(pinState.breakForce == (float)(0.05 * weight));
+    double most = 0.0;
+    int32_t broken = 0;
+    for (int i = 0; i < 60 && broken == 0; ++i) {
+        double before = ForceOn(&host, pins[1]);
+        OK(Host_Tick(&host, DT, 2));
+        broken = Host_Events(&host, KIRI_EVENT_PIN_BROKE, &event);
+        most = before > most ? before : most;
+    }
+    assert_int_equal(broken, 1);
+    assert_true(event.pin == pins[1] && event.sheet == sheet && most < 0.0501 * weight);
+    assert_int_equal(kiriPin_GetState(host.world, pins[1], &pinState), KIRI_ERROR_ID);
+    OK(kiriSheet_GetPins(host.world, sheet, pins, 4, &count));
+    assert_int_equal(count, 1);
+    const float pull[3] = { 0.0f, 0.0f, (float)(-10.0 * weight) }, none[3] = { 0.0f, 0.0f, 0.0f };
+    const float at[2] = { 0.5f, 0.5f };
+    for (int i = 0; i < 20 && count > 0; ++i) {
+        OK(kiriSheet_ApplyForce(host.world, sheet, at, pull, none));
+        OK(Host_Tick(&host, DT, 2));
+        OK(kiriSheet_GetPins(host.world, sheet, pins, 4, &count));
+    }
+    assert_int_equal(count, 0);
+    assert_int_equal(Host_Events(&host, KIRI_EVENT_PIN_BROKE, &event), 1);
+    OK(Host_Tick(&host, DT, 2));
+    assert_int_equal(Host_Events(&host, KIRI_EVENT_PIN_BROKE, &event), 0);
+    Host_Stop(&host);
+}
+
+/* All at once, and ids go on. */
+static void TestManyPinsBreak(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetDef def = Host_SmallDef();
+    kiriPin pins[6], left[6];
+    int32_t count;
+    Host_Start(&host);
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    for (int i = 0; i < 6; ++i) {
+        pins[i] = PinAt(&host, sheet, 0.1f + 0.15f * (float)i, 0.9f, i % 2 == 0 ? 1e-6f : 0.0f);
+    }
+    OK(Host_Tick(&host, DT, 2));
+    OK(Host_Tick(&host, DT, 2));
+    OK(kiriSheet_GetPins(host.world, sheet, left, 6, &count));
+    assert_int_equal(count, 3);
+    for (int i = 1; i < 6; i += 2) {
+        double force[3], torque[3];
+        OK(kiriPin_GetReaction(host.world, pins[i], force, torque));
+    }
+    Host_Stop(&host);
+}
+
+/* A sheet that is drawn along by a corner, without gravity: what more substeps find must not differ by much. Returns the
+   rms force of the pin. */
+static double Draw(int32_t substeps)
+{
+    Host host;
+    kiriSheetDef def;
+    const float none[3] = { 0.0f, 0.0f, 0.0f };
+    double squares = 0.0;
+    kiriDefaultSheetDef(&def);
+    Host_Start(&host);
+    host.every = 60;
+    OK(kiriWorld_SetGravity(host.world, none));
+    def.frameCount = 25;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 16, 16);
+    kiriPin pin = PinAt(&host, sheet, 0.0f, 1.0f, 0.0f);
+    for (int i = 0; i < 240; ++i) {
+        const float target[3] = { 3.0f * (float)(i + 1) * DT, 1.0f, 0.0f };
+        OK(kiriPin_SetTarget(host.world, pin, target));
+        OK(Host_Tick(&host, DT, substeps));
+        squares += i >= 120 ? ForceOn(&host, pin) * ForceOn(&host, pin) / 120.0 : 0.0;
+    }
+    Host_Stop(&host);
+    return sqrt(squares);
+}
+
+static void TestDrawnPinDoesNotJerk(void** state)
+{
+    (void)state;
+    double one = Draw(1), four = Draw(4);
+    print_message("a cloth drawn by its corner: %.3f N rms with 1 substep, %.3f N with 4\n", one, four);
+    assert_true(four < 2.0 * one);
+}
+
+static void TestHeldFrameMovesEvenly(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetDef def = Host_SmallDef();
+    kiriFrame frames[8];
+    kiriFrameState frame;
+    int32_t count;
+    const float rotation[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+    Host_Start(&host);
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    OK(kiriSheet_GetFrames(host.world, sheet, frames, 8, &count));
+    OK(kiriFrame_GetState(host.world, frames[0], &frame));
+    float position[3] = { frame.position[0], frame.position[1], frame.position[2] };
+    for (int i = 0; i < 10; ++i) {
+        position[0] += 0.01f;
+        OK(kiriFrame_Hold(host.world, frames[0], position, rotation));
+        OK(Host_Tick(&host, DT, 4));
+        OK(kiriFrame_GetState(host.world, frames[0], &frame));
+        assert_true(Apart(frame.position, position) < 1e-6 && fabs(frame.velocity[0] - 0.6) < 1e-4);
+    }
+    Host_Stop(&host);
+}
+
+/* Hung up with a smooth surface: what is seen is where it is held, and it falls asleep. */
+static void TestSeenIsHeld(void** state)
+{
+    (void)state;
+    for (int kind = 0; kind < 3; ++kind) {
+        Host host;
+        kiriSheetDef def;
+        const float from[2] = { 0.0f, 1.0f }, to[2] = { 1.0f, 1.0f };
+        kiriPin pin;
+        kiriFrame frames[9];
+        kiriFrameState held;
+        int32_t count, awake = 1;
+        Host_Start(&host);
+        host.every = 60;
+        kiriDefaultSheetDef(&def);
+        OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
+        def.frameCount = 9;
+        def.skinning = KIRI_SKINNING_SMOOTH;
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 20, 20);
+        if (kind == 0) {
+            const float nearer[3] = { 0.8f, 1.0f, 0.0f };
+            PinAt(&host, sheet, 0.0f, 1.0f, 0.0f);
+            OK(kiriPin_SetTarget(host.world, PinAt(&host, sheet, 1.0f, 1.0f, 0.0f), nearer));
+        } else if (kind == 1) {
+            OK(kiriSheet_ClampLine(host.world, sheet, from, to, &pin));
+        } else {
+            OK(kiriSheet_GetFrames(host.world, sheet, frames, 9, &count));
+            OK(kiriFrame_GetState(host.world, frames[8], &held));
+            OK(kiriFrame_Hold(host.world, frames[8], held.position, held.rotation));
+        }
+        for (int i = 0; i < 1800 && awake; ++i) {
+            OK(Host_Tick(&host, DT, 2));
+            OK(kiriSheet_IsAwake(host.world, sheet, &awake));
+        }
+        assert_false(awake);
+        const float left[3] = { 0.0f, 1.0f, 0.0f }, right[3] = { 0.8f, 1.0f, 0.0f }, middle[3] = { 0.5f, 1.0f, 0.0f };
+        double off = kind == 0 ? fmax(Apart(PointAt(&host, sheet, 0.0f, 1.0f).position, left),
+                                      Apart(PointAt(&host, sheet, 1.0f, 1.0f).position, right))
+                     : kind == 1
+                         ? Apart(PointAt(&host, sheet, 0.5f, 1.0f).position, middle)
+                         : Apart(PointAt(&host, sheet, held.restPoint[0], held.restPoint[1]).position, held.position);
+        print_message("seen %.2f mm off %s\n", 1e3 * off,
+                      kind == 0   ? "its pins"
+                      : kind == 1 ? "its clamp"
+                                  : "its hold");
+        assert_true(off < (kind == 1 ? 1e-3 : 1e-4));
+        Host_Stop(&host);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -435,6 +637,11 @@ int main(void)
         cmocka_unit_test(TestWindIsNotOvertaken),
         cmocka_unit_test(TestFlagFlutters),
         cmocka_unit_test(TestWindIsChecked),
+        cmocka_unit_test(TestPinsBreak),
+        cmocka_unit_test(TestManyPinsBreak),
+        cmocka_unit_test(TestDrawnPinDoesNotJerk),
+        cmocka_unit_test(TestHeldFrameMovesEvenly),
+        cmocka_unit_test(TestSeenIsHeld),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -118,6 +118,7 @@ static const Field pinFields[] = {
     { REAL(kiriPinDef, restPoint[0]), { 0.0, 0.31, 1.0, END }, { -0.01, 1.01, NO_NUMBER } },
     { REAL(kiriPinDef, target[1]), { -FLT_MAX, 0.0, 1e3, FLT_MAX, END }, { NO_NUMBER, END } },
     { REAL(kiriPinDef, stiffness), { 0.0, FLT_MIN, 1e4, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
+    { REAL(kiriPinDef, breakForce), { 0.0, FLT_MIN, 1e4, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
 };
 
 static const Field contactFields[] = {

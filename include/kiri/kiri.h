@@ -642,8 +642,8 @@ KIRI_API kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet,
 
 KIRI_API kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state);
 
-/* The host moves the frame: its rest point goes to `position` with `rotation` (a rotation matrix, columns as above) in
-   the next tick, and stays there until the next call. An affine frame is not stretched then. On a planar sheet the
+/* The host moves the frame: its rest point, as it is seen, goes to `position` with `rotation` (a rotation matrix, columns
+   as above) in the next tick, evenly, and stays there until the next call. An affine frame is not stretched then. On a planar sheet the
    rotation is about its normal. Null, null: it is free again. */
 KIRI_API kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9]);
 
@@ -725,12 +725,16 @@ KIRI_API kiriResult kiriSheet_ClampLine(kiriWorld* world, kiriSheet sheet, const
 KIRI_API kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
                                         kiriPin* hinge);
 
-/* Where the pin holds its point, or the middle of its line (m, world): in the next tick, and until the next call. */
+/* Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until the next
+   call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen there. */
 KIRI_API kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3]);
 
 /* The same with the rotation of the line's material: columns are the directions of u and v and the normal. On a planar
    sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT for a pin that holds a point. */
 KIRI_API kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float target[3], const float rotation[9]);
+
+/* As in the def, for pins of all types; N, 0: it never breaks. */
+KIRI_API kiriResult kiriPin_SetBreakForce(kiriWorld* world, kiriPin pin, float breakForce);
 
 /* What a pin is, and what it did in the last tick. */
 enum kiriPinType { KIRI_PIN_POINT, KIRI_PIN_HINGE, KIRI_PIN_CLAMP };
@@ -741,6 +745,7 @@ typedef struct kiriPinState {
     float from[2], to[2]; /* rest position: of a point, twice, or of the ends of the line */
     float target[3];
     float rotation[9]; /* of a line; of a point the identity */
+    float breakForce;  /* N, or 0 */
 } kiriPinState;
 
 KIRI_API kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* state);

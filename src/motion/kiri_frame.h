@@ -39,8 +39,12 @@ typedef struct kiriFrameData {
     kiriVec3 force, torque;  /* from the host, for one tick */
     kiriHistory history;
     int32_t held;          /* the host moves it: */
-    kiriVec3 heldPosition; /* of the site, */
+    kiriVec3 heldPosition; /* of the site at the end of the step, */
     kiriMat3 heldRotation;
+    kiriVec3 goalPosition; /* and where the host has it at the end of the tick */
+    kiriMat3 goalRotation;
+    kiriVec3 heldOff; /* m: see sheet/kiri_follow.h; */
+    bool isOffKnown;
     kiriReaction reaction; /* of the hold on the sheet, about the held site */
     kiriWrench bore;       /* its mean in the last tick that moved the sheet; zero where it was free */
 } kiriFrameData;

@@ -280,6 +280,7 @@ static void CopyPinHistory(const kiriExtract* extract, kiriSheetData* to)
             memcpy(share->offset, shares->data[k].offset, sizeof(share->offset));
             memcpy(share->reactions, shares->data[k].reactions, sizeof(share->reactions));
             share->bore = shares->data[k].bore;
+            share->off = shares->data[k].off;
         }
     }
 }

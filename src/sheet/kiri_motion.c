@@ -1,7 +1,7 @@
 #include "kiri_motion.h"
 
 #include "../motion/kiri_prediction.h"
-#include "kiri_pin.h"
+#include "kiri_follow.h"
 #include "kiri_touch.h"
 
 #include <string.h>
@@ -105,6 +105,7 @@ static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system,
 {
     substeps = systems->left < substeps ? (int32_t)systems->left : substeps;
     for (int32_t i = 0; i < substeps; ++i) {
+        kiriFollow_Step(sheet, i, substeps);
         int64_t most = systems->left - (substeps - 1 - i);
         int32_t solved = kiriSolver_Step(sheet->solver, system, dt / substeps, sheet->settings.iterations,
                                          most < INT32_MAX ? (int32_t)most : INT32_MAX);
@@ -118,7 +119,9 @@ static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system,
 
 static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
-    kiriPins_WriteRows(sheet);
+    kiriFollow_Begin(sheet, dt);
+    kiriPins_WriteRows(sheet, 0.0, 1.0);
+    kiriPins_BeginReactions(sheet);
     kiriTouches_WriteRows(sheet);
     kiriSystem system = MakeSystem(sheet, gravity);
     kiriProgress progress = TakeSubsteps(sheet, &system, dt, substeps, systems);

@@ -256,17 +256,39 @@ bool kiriPins_Stage(kiriSheetData* sheet)
 
 /* ---- Rows --------------------------------------------------------------------------------------------------------- */
 
-static void WritePoint(kiriSheetData* sheet, int32_t pin)
+static kiriVec3 Between(kiriVec3 a, kiriVec3 b, double part)
+{
+    return part >= 1.0 ? b : kiriVec3_AddScaled(a, part, kiriVec3_Sub(b, a));
+}
+
+/* Where the pin is after a part of the tick, 0 to 1. */
+static kiriVec3 TargetAfter(const kiriPinData* pin, double part)
+{
+    return Between(pin->lastTarget, pin->target, part);
+}
+
+static kiriMat3 RotationAfter(const kiriPinData* pin, double part)
+{
+    const kiriMat3 *a = &pin->lastRotation, *b = &pin->rotation;
+    bool isSame = kiriVec3_Equal(a->u, b->u) && kiriVec3_Equal(a->v, b->v) && kiriVec3_Equal(a->d, b->d);
+    if (isSame || part <= 0.0 || part >= 1.0) {
+        return part >= 1.0 ? *b : *a;
+    }
+    kiriMat3 mean = { Between(a->u, b->u, part), Between(a->v, b->v, part), Between(a->d, b->d, part) };
+    return kiriMat3_RotationFrom(*a, mean);
+}
+
+static void WritePoint(kiriSheetData* sheet, int32_t pin, double to)
 {
     const kiriPinData* data = &sheet->pins.data[pin];
-    kiriPinRow row = { sheet->layout.pinFrame.data[pin], kiriMesh_Local(&sheet->mesh, data->at), data->target,
-                       data->stiffness };
+    kiriPinRow row = { sheet->layout.pinFrame.data[pin], kiriMesh_Local(&sheet->mesh, data->at),
+                       kiriVec3_Add(TargetAfter(data, to), data->off), data->stiffness };
     sheet->pinRows.data[sheet->pinRows.count++] = row;
 }
 
 /* A hinge holds a line by springs all along it, as stiff as the material up to the site. Two springs, where two equal
    masses have the line's length, centroid and moment, are the same. */
-static void WriteHinge(kiriSheetData* sheet, const kiriPinShare* pinned)
+static void WriteHinge(kiriSheetData* sheet, const kiriPinShare* pinned, double to)
 {
     const kiriMaterial* material = &sheet->settings.material;
     const kiriPinData* pin = &sheet->pins.data[pinned->pin];
@@ -276,13 +298,26 @@ static void WriteHinge(kiriSheetData* sheet, const kiriPinShare* pinned)
     double away = fabs(kiriVec2_Dot(kiriVec2_Sub(site, line.from), kiriVec2_Make(-line.along.y, line.along.x)));
     double length = away > shape.least ? away : shape.least;
     double stiffness = (double)material->youngsModulus * material->thickness * shape.width / length;
+    kiriMat3 rotation = RotationAfter(pin, to);
     kiriVec2 arm = kiriVec2_Scale(sqrt(shape.moment / shape.width), line.along);
     const kiriVec2 at[2] = { kiriVec2_Sub(shape.centroid, arm), kiriVec2_Add(shape.centroid, arm) };
     for (int k = 0; k < 2; ++k) {
-        kiriVec3 target = HeldPoint(&line, pin->target, &pin->rotation, at[k]);
+        kiriVec3 target = HeldPoint(&line, TargetAfter(pin, to), &rotation, at[k]);
         kiriPinRow spring = { pinned->share.frame, at[k], target, 0.5 * stiffness };
         sheet->pinRows.data[sheet->pinRows.count++] = spring;
     }
+}
+
+kiriVec2 kiriPin_Centroid(const kiriSheetData* sheet, const kiriPinShare* pinned)
+{
+    RestLine line = RestLineOf(sheet, &sheet->pins.data[pinned->pin]);
+    return PointAlong(&line, pinned->share.first / pinned->share.length);
+}
+
+kiriVec3 kiriPin_PlaceOf(const kiriSheetData* sheet, const kiriPinData* pin, kiriVec2 point)
+{
+    RestLine line = RestLineOf(sheet, pin);
+    return HeldPoint(&line, pin->target, &pin->rotation, point);
 }
 
 /* In a planar sheet, what is across the plane is dropped. */
@@ -293,8 +328,9 @@ static kiriVec3 IntoPlane(const kiriSheetData* sheet, const kiriFrameData* frame
     return mechanics->planar ? kiriVec3_AddScaled(x, -kiriVec3_Dot(off, mechanics->axes.d), mechanics->axes.d) : x;
 }
 
-/* What a clamp holds of a frame. */
-static kiriClampRow ClampRowOf(const kiriSheetData* sheet, const kiriPinShare* pinned, const kiriFrameData* frame)
+/* What a clamp holds of a frame in a step from one part of the tick to another. */
+static kiriClampRow ClampRowOf(const kiriSheetData* sheet, const kiriPinShare* pinned, const kiriFrameData* frame,
+                               double from, double to)
 {
     const kiriPinData* pin = &sheet->pins.data[pinned->pin];
     RestLine line = RestLineOf(sheet, pin);
@@ -303,10 +339,12 @@ static kiriClampRow ClampRowOf(const kiriSheetData* sheet, const kiriPinShare* p
     memset(&row, 0, sizeof(row));
     row.frame = pinned->share.frame;
     kiriClamp_Shape(&row, &shape, frame->site.at);
-    row.pose.x = IntoPlane(sheet, frame, HeldPoint(&line, pin->target, &pin->rotation, row.foot));
-    row.pose.A = pin->rotation;
-    row.start.x = IntoPlane(sheet, frame, HeldPoint(&line, pin->lastTarget, &pin->lastRotation, row.foot));
-    row.start.A = pin->lastRotation;
+    row.pose.A = RotationAfter(pin, to);
+    row.start.A = RotationAfter(pin, from);
+    kiriVec3 end = HeldPoint(&line, TargetAfter(pin, to), &row.pose.A, row.foot);
+    kiriVec3 start = HeldPoint(&line, TargetAfter(pin, from), &row.start.A, row.foot);
+    row.pose.x = IntoPlane(sheet, frame, kiriVec3_Add(end, pinned->off));
+    row.start.x = IntoPlane(sheet, frame, kiriVec3_Add(start, pinned->off));
     memcpy(row.offset, pinned->offset, sizeof(row.offset));
     return row;
 }
@@ -320,7 +358,7 @@ static kiriReaction BeginReaction(const kiriReaction* last)
 }
 
 /* In the order of rows. */
-static void BeginReactions(kiriSheetData* sheet)
+void kiriPins_BeginReactions(kiriSheetData* sheet)
 {
     KIRI_ASSERT(sheet->frameReactions.capacity >= sheet->frames.count);
     sheet->pinReactions.count = sheet->clampReactions.count = 0;
@@ -346,25 +384,24 @@ static void BeginReactions(kiriSheetData* sheet)
                 sheet->clampReactions.count == sheet->clampRows.count);
 }
 
-void kiriPins_WriteRows(kiriSheetData* sheet)
+void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
 {
     const kiriPinShares* shares = &sheet->layout.pinShares;
     sheet->pinRows.count = sheet->clampRows.count = 0;
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
         if (sheet->pins.data[i].type == KIRI_PIN_POINT) {
-            WritePoint(sheet, i);
+            WritePoint(sheet, i, to);
         }
     }
     for (int32_t k = 0; k < shares->count; ++k) {
         const kiriPinShare* pinned = &shares->data[k];
         if (sheet->pins.data[pinned->pin].type == KIRI_PIN_HINGE) {
-            WriteHinge(sheet, pinned);
+            WriteHinge(sheet, pinned, to);
         } else {
             const kiriFrameData* frame = &sheet->frames.data[pinned->share.frame];
-            sheet->clampRows.data[sheet->clampRows.count++] = ClampRowOf(sheet, pinned, frame);
+            sheet->clampRows.data[sheet->clampRows.count++] = ClampRowOf(sheet, pinned, frame, from, to);
         }
     }
-    BeginReactions(sheet);
 }
 
 /* ---- Strains that clamps keep ------------------------------------------------------------------------------------- */
@@ -372,7 +409,7 @@ void kiriPins_WriteRows(kiriSheetData* sheet)
 static void MeasureClamp(const kiriSheetData* sheet, const kiriPinShare* pinned, const kiriFrameData* frame,
                          double* strain)
 {
-    kiriClampRow row = ClampRowOf(sheet, pinned, frame);
+    kiriClampRow row = ClampRowOf(sheet, pinned, frame, 0.0, 1.0);
     kiriPose pose = kiriPose_Of(frame);
     kiriClamp_Measure(&row, frame, &row.pose, &pose, strain, NULL);
 }
@@ -395,6 +432,7 @@ void kiriPins_KeepReactions(kiriSheetData* sheet, const kiriPinShares* old)
         if (older != NULL) {
             memcpy(pinned->reactions, older->reactions, sizeof(pinned->reactions));
             pinned->bore = older->bore;
+            pinned->off = older->off;
         }
     }
 }
@@ -438,7 +476,7 @@ double kiriPins_ElasticEnergy(const kiriSheetData* sheet)
         const kiriFrameData* frame = &sheet->frames.data[pinned->share.frame];
         if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
             double pulling[KIRI_CLAMP_STRAINS];
-            kiriClampRow row = ClampRowOf(sheet, pinned, frame);
+            kiriClampRow row = ClampRowOf(sheet, pinned, frame, 0.0, 1.0);
             kiriPose pose = kiriPose_Of(frame);
             kiriClamp_Begin(&row, sheet->settings.mechanics.planar, &sheet->settings.material, 0.0, frame, &pose);
             kiriClamp_TakeOffsets(&row, row.startStrain, pulling);
@@ -521,6 +559,6 @@ void kiriPins_TakeReactions(kiriSheetData* sheet, double dt)
 
 void kiriPins_ClearReactions(kiriSheetData* sheet)
 {
-    BeginReactions(sheet);
+    kiriPins_BeginReactions(sheet);
     kiriPins_TakeReactions(sheet, 1.0);
 }

@@ -32,14 +32,20 @@ void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old, const 
 /* The offsets that this leaves fade to 1/e within `time` (s). */
 void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time);
 
+/* The middle (local m) of what a share has of its line; and where the pin has such a point. */
+kiriVec2 kiriPin_Centroid(const kiriSheetData* sheet, const kiriPinShare* pinned);
+kiriVec3 kiriPin_PlaceOf(const kiriSheetData* sheet, const kiriPinData* pin, kiriVec2 point);
+
 /* The pose of a line where its material is now. */
 void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin);
 
 /* Elastic energy between clamps and the sites of the frames that they hold, J. */
 double kiriPins_ElasticEnergy(const kiriSheetData* sheet);
 
-/* Writes what the solver reads; then, after the tick, what pins and held frames had to bear in it. */
-void kiriPins_WriteRows(kiriSheetData* sheet);
+/* Writes what the solver reads. Pins that the host moves go on evenly within a tick: rows are those of a step from one part
+   of it, 0 to 1, to another. Reactions begin with a tick; after it they are what pins and held frames had to bear. */
+void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to);
+void kiriPins_BeginReactions(kiriSheetData* sheet);
 void kiriPins_TakeReactions(kiriSheetData* sheet, double dt);
 
 /* What a line bore is the sum of what its shares did. */

@@ -38,6 +38,7 @@ typedef struct kiriPinShare {
     kiriLineShare share;
     double offset[KIRI_CLAMP_STRAINS]; /* of a clamp's strains, see kiri_strain_offset.h */
     kiriReaction reactions[2];         /* of a clamp one, of a hinge those of its two springs */
+    kiriVec3 off;                      /* m, of a clamp: see kiri_follow.h */
     kiriWrench bore;                   /* its part of the pin's */
 } kiriPinShare;
 
@@ -83,6 +84,9 @@ typedef struct kiriPinData {
     kiriMat3 rotation;       /* of a line */
     kiriVec3 lastTarget;     /* in the last tick */
     kiriMat3 lastRotation;
+    double breakForce;     /* N; 0: never */
+    kiriVec3 off;          /* m, of a point: see kiri_follow.h; */
+    kiriFrame offFrame;    /* of the frame that held it then */
     double stiffness;      /* of a point */
     kiriReaction reaction; /* of a point */
     kiriWrench bore;       /* about the target: mean of the last tick that moved the sheet */

@@ -66,12 +66,17 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
     KIRI_CHECK(why == NULL, why);
     kiriMat3 m = { kiriVec3_Load(&rotation[0]), kiriVec3_Load(&rotation[3]), kiriVec3_Load(&rotation[6]) };
     kiriFrameData before = *data;
-    data->held = 1;
-    data->heldPosition = kiriVec3_Load(position);
-    data->heldRotation = kiriMat3_Rotation(m);
-    if (!before.held || !kiriVec3_Equal(before.heldPosition, data->heldPosition) ||
-        !kiriVec3_Equal(before.heldRotation.u, data->heldRotation.u) ||
-        !kiriVec3_Equal(before.heldRotation.v, data->heldRotation.v)) {
+    data->goalPosition = kiriVec3_Load(position);
+    data->goalRotation = kiriMat3_Rotation(m);
+    if (!before.held) {
+        data->held = 1;
+        data->heldPosition = kiriFrame_Carry(data, data->site.at);
+        data->heldRotation = kiriMat3_Rotation(data->A);
+        data->isOffKnown = false;
+    }
+    if (!before.held || !kiriVec3_Equal(before.goalPosition, data->goalPosition) ||
+        !kiriVec3_Equal(before.goalRotation.u, data->goalRotation.u) ||
+        !kiriVec3_Equal(before.goalRotation.v, data->goalRotation.v)) {
         kiriMotion_Wake(sheet);
     }
     return KIRI_OK;

@@ -47,8 +47,8 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
         return KIRI_FAIL(KIRI_ERROR_DEF, "the def was not filled by kiriDefaultPinDef");
     }
     KIRI_CHECK(kiriCall_AreFinite(def->restPoint, 2) && kiriCall_AreFinite(def->target, 3) &&
-                   kiriCall_IsAtLeast(def->stiffness, 0.0f),
-               "restPoint, target or stiffness is not finite, or stiffness below 0");
+                   kiriCall_IsAtLeast(def->stiffness, 0.0f) && kiriCall_IsAtLeast(def->breakForce, 0.0f),
+               "restPoint, target, stiffness or breakForce is not finite, or one of the latter below 0");
     KIRI_FIND_SHEET(data, sheet);
     kiriPinData made = MakePin(KIRI_PIN_POINT);
     bool inRange = kiriSheet_ToLattice(data, def->restPoint, &made.at);
@@ -56,6 +56,7 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
     KIRI_CHECK(frame != KIRI_NONE, "restPoint lies outside the material");
     made.to = made.at;
     made.target = made.lastTarget = kiriVec3_Load(def->target);
+    made.breakForce = def->breakForce;
     made.stiffness = def->stiffness > 0.0f
                          ? def->stiffness
                          : 10.0 * data->settings.material.youngsModulus * data->settings.material.thickness;
@@ -155,6 +156,19 @@ kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float target[3],
     return KIRI_OK;
 }
 
+kiriResult kiriPin_SetBreakForce(kiriWorld* world, kiriPin pin, float breakForce)
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(kiriCall_IsAtLeast(breakForce, 0.0f), "breakForce is not finite, or below 0");
+    KIRI_FIND_PIN_SHEET(sheet, pin);
+    kiriPinData* data = &sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index];
+    if (data->breakForce != (double)breakForce) {
+        data->breakForce = breakForce;
+        kiriMotion_Wake(sheet);
+    }
+    return KIRI_OK;
+}
+
 static void StoreRest(const kiriSheetData* sheet, kiriLatticePoint at, float rest[2])
 {
     kiriVec2 point = kiriVec2_Add(sheet->mesh.origin, kiriMesh_Local(&sheet->mesh, at));
@@ -172,6 +186,7 @@ kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* s
     state->sheet = sheet->id;
     StoreRest(sheet, data->at, state->from);
     StoreRest(sheet, data->to, state->to);
+    state->breakForce = (float)data->breakForce;
     kiriVec3_Store(state->target, data->target);
     kiriVec3_Store(&state->rotation[0], data->rotation.u);
     kiriVec3_Store(&state->rotation[3], data->rotation.v);
@@ -206,13 +221,6 @@ kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin)
 {
     KIRI_CHANGES(world);
     KIRI_FIND_PIN_SHEET(sheet, pin);
-    int32_t index = kiriPool_Find(&world->pinIds, pin)->index;
-    kiriPins_ForgetHistory(sheet, index);
-    kiriPins_Remove(sheet, index);
-    kiriMotion_Wake(sheet);
-    if (index < sheet->pins.count) {
-        kiriPool_Find(&world->pinIds, sheet->pins.data[index].id)->index = index;
-    }
-    kiriPool_Remove(&world->pinIds, pin);
+    kiriWorld_RemovePin(world, sheet, kiriPool_Find(&world->pinIds, pin)->index);
     return KIRI_OK;
 }

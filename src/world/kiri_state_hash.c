@@ -194,9 +194,11 @@ static void HashFrame(uint64_t* hash, const kiriFrameData* frame)
     kiriHash_Int32(hash, frame->held);
     if (frame->held) {
         HashVec3(hash, frame->heldPosition);
-        HashVec3(hash, frame->heldRotation.u);
-        HashVec3(hash, frame->heldRotation.v);
-        HashVec3(hash, frame->heldRotation.d);
+        HashMat3(hash, &frame->heldRotation);
+        HashVec3(hash, frame->goalPosition);
+        HashMat3(hash, &frame->goalRotation);
+        HashVec3(hash, frame->heldOff);
+        kiriHash_Int32(hash, frame->isOffKnown);
         HashReaction(hash, &frame->reaction, &frame->bore);
     }
 }
@@ -290,6 +292,10 @@ static void HashPin(uint64_t* hash, const kiriPinData* pin)
 {
     HashPoint(hash, pin->at);
     HashVec3(hash, pin->target);
+    HashVec3(hash, pin->lastTarget);
+    HashVec3(hash, pin->off);
+    kiriHash_Int32(hash, pin->offFrame != 0);
+    kiriHash_Double(hash, pin->breakForce);
     kiriHash_Double(hash, pin->stiffness);
     HashReaction(hash, &pin->reaction, &pin->bore);
     if (pin->type == KIRI_PIN_POINT) {
@@ -299,7 +305,6 @@ static void HashPin(uint64_t* hash, const kiriPinData* pin)
     HashPoint(hash, pin->to);
     HashVec3(hash, pin->rotation.u);
     HashVec3(hash, pin->rotation.v);
-    HashVec3(hash, pin->lastTarget);
     HashVec3(hash, pin->lastRotation.u);
     HashVec3(hash, pin->lastRotation.v);
 }
@@ -345,6 +350,7 @@ static void HashPinHistory(uint64_t* hash, const kiriPinShares* shares)
             HashWrench(hash, &shares->data[k].reactions[spring].pull);
         }
         HashWrench(hash, &shares->data[k].bore);
+        HashVec3(hash, shares->data[k].off);
     }
 }
 

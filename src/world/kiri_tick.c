@@ -108,7 +108,7 @@ static kiriResult ReserveRoom(kiriWorld* world)
     int64_t frames = 0, events = 2 * (int64_t)world->sheets.count;
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         kiriSheetData* sheet = world->sheets.data[i];
-        events += sheet->cuts.count;
+        events += sheet->cuts.count + sheet->pins.count;
         if (IsReady(sheet) && sheet->update->cut.meshChanged) {
             frames += sheet->update->placing.sites.count - sheet->frames.count;
             events += sheet->update->next.pieces.count;
@@ -251,6 +251,26 @@ static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps, kiriQu
     return result;
 }
 
+static bool IsOverloaded(const kiriPinData* pin)
+{
+    return pin->breakForce > 0.0 && kiriVec3_Length(pin->bore.force) > pin->breakForce;
+}
+
+/* The last pin takes the index of one that goes: so they go from the last on. */
+static void BreakPins(kiriWorld* world, kiriSheetData* sheet)
+{
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        if (IsOverloaded(&sheet->pins.data[i])) {
+            AddEvent(world, KIRI_EVENT_PIN_BROKE, sheet)->pin = sheet->pins.data[i].id;
+        }
+    }
+    for (int32_t i = sheet->pins.count - 1; i >= 0; --i) {
+        if (IsOverloaded(&sheet->pins.data[i])) {
+            kiriWorld_RemovePin(world, sheet, i);
+        }
+    }
+}
+
 static void CountJumps(kiriProfile* profile, const kiriSheetData* sheet)
 {
     const kiriFades* fades = &sheet->seen.fades;
@@ -295,6 +315,9 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
         kiriObstacles_Begin(world);
         result = SolveAll(world, dt, substeps, &quotas.of[KIRI_QUOTA_ITERATIONS]);
         kiriObstacles_End(world, dt);
+        for (int32_t i = 0; i < world->sheets.count; ++i) {
+            BreakPins(world, world->sheets.data[i]);
+        }
         SkinAll(world, dt);
         CountSpent(&world->profile, &quotas);
         EnterStage(world, KIRI_NONE);

@@ -2,6 +2,8 @@
 
 #include "../sheet/kiri_build.h"
 #include "../sheet/kiri_extract.h"
+#include "../sheet/kiri_motion.h"
+#include "../sheet/kiri_pin.h"
 #include "../sheet/kiri_seen.h"
 
 kiriResult kiriWorld_ReserveIds(kiriWorld* world, kiriPool* pool, int64_t count)
@@ -13,6 +15,18 @@ kiriResult kiriWorld_ReserveIds(kiriWorld* world, kiriPool* pool, int64_t count)
 }
 
 /* Room in the list of sheets, and an id for one more. */
+void kiriWorld_RemovePin(kiriWorld* world, kiriSheetData* sheet, int32_t index)
+{
+    kiriPin pin = sheet->pins.data[index].id;
+    kiriPins_ForgetHistory(sheet, index);
+    kiriPins_Remove(sheet, index);
+    kiriMotion_Wake(sheet);
+    if (index < sheet->pins.count) {
+        kiriPool_Find(&world->pinIds, sheet->pins.data[index].id)->index = index;
+    }
+    kiriPool_Remove(&world->pinIds, pin);
+}
+
 kiriResult kiriWorld_ReserveSheet(kiriWorld* world)
 {
     return kiriArray_Reserve(&world->memory, &world->sheets, (int64_t)world->sheets.count + 1)

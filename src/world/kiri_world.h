@@ -38,6 +38,9 @@ void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet);
 kiriResult kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet, int64_t points, kiriCutData** made);
 void kiriWorld_RemoveCut(kiriWorld* world, kiriCutData* cut);
 
+/* Its id is stale then; the last pin of the sheet takes its index. */
+void kiriWorld_RemovePin(kiriWorld* world, kiriSheetData* sheet, int32_t index);
+
 /* Room for one more sheet and its id; for so many ids of a kind. KIRI_ERROR_MEMORY or KIRI_ERROR_LIMIT. */
 kiriResult kiriWorld_ReserveSheet(kiriWorld* world);
 kiriResult kiriWorld_ReserveIds(kiriWorld* world, kiriPool* pool, int64_t count);

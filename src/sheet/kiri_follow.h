@@ -1,0 +1,26 @@
+/* Where pins and held frames hold the sheet in the steps of a tick.
+
+   What the host moves goes on evenly: each step takes its part of the way.
+
+   What is seen is what is held: a smooth surface (KIRI_SKINNING_SMOOTH) lies off where a frame by itself has a point. A
+   pin holds that point of its frame, so its target is moved by as much as the frame's own point is off what was seen
+   last; so is a held frame. A clamp's own point is its line: its pose is moved by what is seen off the line, more and more
+   until nothing is. That takes some ticks; when it changes no more the sheet may sleep. Hinges turn freely, so the surface
+   does not bend at them, and is seen on the line anyway. */
+#ifndef KIRI_FOLLOW_H
+#define KIRI_FOLLOW_H
+
+#include "kiri_pin.h"
+#include "kiri_point.h"
+
+KIRI_C_BEGIN
+
+/* At the start of a tick of dt. */
+void kiriFollow_Begin(kiriSheetData* sheet, double dt);
+
+/* Before step i of n. */
+void kiriFollow_Step(kiriSheetData* sheet, int32_t i, int32_t n);
+
+KIRI_C_END
+
+#endif
