@@ -622,6 +622,154 @@ static void TestSeenIsHeld(void** state)
     }
 }
 
+/* ---- Place, velocity, data ---------------------------------------------------------------------------------------- */
+
+/* A sheet that is carried to another place in free fall goes on as it would have there: rotated gravity, rotated start. */
+static void TestTransformMovesAll(void** state)
+{
+    (void)state;
+    const float quarter[9] = { 0.0f, 1.0f, 0.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f }, away[3] = { 3.0f, -2.0f, 5.0f };
+    const float line[4] = { -0.1f, 0.4f, 0.6f, 0.55f }, at[2] = { 0.9f, 0.2f }, impulse[3] = { 0.01f, -0.02f, 0.05f };
+    for (int32_t way = 0; way < 3; ++way) {
+        Host host;
+        kiriSheetDef def = Host_SmallDef();
+        kiriSheet sheets[2];
+        Host_Start(&host);
+        def.model = way < 2 ? KIRI_MODEL_LINKS : KIRI_MODEL_AFFINE;
+        def.skinning = way % 2;
+        for (int i = 0; i < 2; ++i) {
+            sheets[i] = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+            OK(kiriSheet_ApplyImpulse(host.world, sheets[i], at, impulse));
+            Host_Cut(&host, sheets[i], line, 2);
+        }
+        for (int i = 0; i < 10; ++i) {
+            OK(Host_Tick(&host, DT, 2));
+        }
+        kiriMesh held = Host_Mesh(&host, sheets[1]);
+        float first[3] = { held.positions[0], held.positions[1], held.positions[2] };
+        OK(kiriSheet_Transform(host.world, sheets[1], quarter, away));
+        assert_memory_equal(first, held.positions, sizeof(first)); /* as it was until the next tick */
+        for (int i = 0; i < 10; ++i) {
+            kiriMesh a = Host_Mesh(&host, sheets[0]), b = Host_Mesh(&host, sheets[1]);
+            for (int32_t v = 0; v < a.vertexCount; ++v) {
+                const float *x = &a.positions[3 * v], *n = &a.normals[3 * v];
+                const float there[3] = { -x[1] + away[0], x[0] + away[1], x[2] + away[2] };
+                const float normal[3] = { -n[1], n[0], n[2] };
+                assert_true(Apart(there, &b.positions[3 * v]) < 1e-5 && Apart(normal, &b.normals[3 * v]) < 1e-3);
+            }
+            OK(Host_Tick(&host, DT, 2));
+        }
+        Host_Stop(&host);
+    }
+}
+
+static void TestTransformIsChecked(void** state)
+{
+    (void)state;
+    const float quarter[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, -1.0f, 0.0f }, away[3] = { 3.0f, -2.0f, 5.0f };
+    const float mirror[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, -1.0f }, bad[3] = { 0.0f, NAN, 0.0f };
+    Host host;
+    kiriSheetDef def = Host_SmallDef();
+    Host_Start(&host);
+    def.planar = 1;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    uint64_t hash = Host_Hash(&host);
+    assert_int_equal(kiriSheet_Transform(host.world, sheet, quarter, away), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_Transform(host.world, sheet, mirror, away), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_Transform(host.world, sheet, NULL, away), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_SetVelocity(host.world, sheet, bad, away), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_SetVelocity(host.world, sheet, away, bad), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriFrame_SetPieceVelocity(host.world, 7, away, away), KIRI_ERROR_ID);
+    host.failAt = host.calls;
+    const float none[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+    assert_int_equal(kiriSheet_Transform(host.world, sheet, none, away), KIRI_ERROR_MEMORY);
+    host.failAt = -1;
+    assert_true(Host_Hash(&host) == hash);
+    Host_Stop(&host);
+}
+
+static void TestVelocityIsRigid(void** state)
+{
+    (void)state;
+    const float velocity[3] = { 1.0f, 2.0f, -0.5f }, spin[3] = { 0.3f, -0.2f, 2.0f }, none[3] = { 0.0f, 0.0f, 0.0f };
+    const float line[4] = { 0.5f, -0.1f, 0.5f, 1.1f };
+    for (int32_t model = 0; model < 2; ++model) {
+        Host host;
+        kiriSheetDef def = Host_SmallDef();
+        kiriPieceState piece;
+        Host_Start(&host);
+        def.model = model;
+        kiriSheet sheet = Hang(&host, &def);
+        for (int i = 0; i < 10; ++i) {
+            OK(Host_Tick(&host, DT, 2));
+        }
+        OK(kiriSheet_SetVelocity(host.world, sheet, velocity, spin));
+        kiriTotals totals = Host_Totals(&host, sheet);
+        for (int k = 0; k < 3; ++k) {
+            assert_true(fabs(totals.momentum[k] - (double)velocity[k] * totals.mass) < 1e-12);
+        }
+        kiriPointState a = PointAt(&host, sheet, 0.1f, 0.2f), b = PointAt(&host, sheet, 0.8f, 0.7f);
+        double grows = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            grows += ((double)a.velocity[k] - b.velocity[k]) * ((double)a.position[k] - b.position[k]);
+        }
+        assert_true(fabs(grows) < 1e-6);
+        Host_Cut(&host, sheet, line, 2);
+        OK(Host_Tick(&host, DT, 2));
+        OK(kiriSheet_SetVelocity(host.world, sheet, none, none));
+        OK(kiriFrame_SetPieceVelocity(host.world, Host_FrameOf(&host, sheet, 1), velocity, none));
+        OK(kiriSheet_GetPiece(host.world, sheet, 0, &piece));
+        assert_true(piece.momentum[0] == 0.0);
+        OK(kiriSheet_GetPiece(host.world, sheet, 1, &piece));
+        assert_true(fabs(piece.momentum[0] - piece.mass) < 1e-12);
+        Host_Stop(&host);
+    }
+}
+
+static uint64_t PieceData(const Host* host, kiriSheet sheet, int32_t piece)
+{
+    uint64_t data;
+    OK(kiriFrame_GetPieceUserData(host->world, Host_FrameOf(host, sheet, piece), &data));
+    return data;
+}
+
+static void TestUserDataStays(void** state)
+{
+    (void)state;
+    const float line[4] = { 0.5f, -0.1f, 0.5f, 1.1f }, across[4] = { 0.4f, 0.4f, 1.1f, 0.4f };
+    Host host;
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheet detached;
+    uint64_t data;
+    Host_Start(&host);
+    kiriSheet sheet = Hang(&host, &def);
+    kiriPin pin = PinAt(&host, sheet, 0.8f, 0.2f, 0.0f);
+    uint64_t hash = Host_Hash(&host);
+    OK(kiriSheet_SetUserData(host.world, sheet, UINT64_MAX));
+    OK(kiriPin_SetUserData(host.world, pin, 1234567890123ull));
+    OK(kiriFrame_SetPieceUserData(host.world, Host_FrameOf(&host, sheet, 0), 5));
+    assert_true(Host_Hash(&host) == hash);
+    Host_Cut(&host, sheet, line, 2);
+    OK(Host_Tick(&host, DT, 2));
+    assert_true(PieceData(&host, sheet, 0) == 5 && PieceData(&host, sheet, 1) == 5);
+    OK(kiriFrame_SetPieceUserData(host.world, Host_FrameOf(&host, sheet, 1), 6));
+    Host_Cut(&host, sheet, across, 2); /* one of the parts gets a new frame, perhaps */
+    OK(Host_Tick(&host, DT, 2));
+    assert_int_equal(Host_Counts(&host, sheet).pieces, 3);
+    assert_true(PieceData(&host, sheet, 0) == 5 && PieceData(&host, sheet, 1) == 6 && PieceData(&host, sheet, 2) == 6);
+    kiriPointState point = PointAt(&host, sheet, 0.8f, 0.2f);
+    OK(kiriFrame_DetachPiece(host.world, point.frame, &detached));
+    OK(kiriFrame_GetPieceUserData(host.world, point.frame, &data));
+    assert_true(data == 6);
+    OK(kiriPin_GetUserData(host.world, pin, &data));
+    assert_true(data == 1234567890123ull);
+    OK(kiriSheet_GetUserData(host.world, detached, &data));
+    assert_true(data == UINT64_MAX);
+    assert_int_equal(kiriSheet_GetUserData(host.world, 99, &data), KIRI_ERROR_ID);
+    assert_int_equal(kiriPin_GetUserData(host.world, pin, NULL), KIRI_ERROR_ARGUMENT);
+    Host_Stop(&host);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -642,6 +790,10 @@ int main(void)
         cmocka_unit_test(TestDrawnPinDoesNotJerk),
         cmocka_unit_test(TestHeldFrameMovesEvenly),
         cmocka_unit_test(TestSeenIsHeld),
+        cmocka_unit_test(TestTransformMovesAll),
+        cmocka_unit_test(TestTransformIsChecked),
+        cmocka_unit_test(TestVelocityIsRigid),
+        cmocka_unit_test(TestUserDataStays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -496,6 +496,30 @@ KIRI_API kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sh
 KIRI_API kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, int32_t* awake);
 KIRI_API kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet);
 
+/* Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities turn. The columns of
+   `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. Targets of pins, holds,
+   loads and contacts stay where they are: destroy or move them first, or the sheet is drawn back. It wakes. */
+KIRI_API kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float rotation[9],
+                                        const float translation[3]);
+
+/* From now on it moves as a rigid body, until forces change that: `velocity` (m/s) of its centre of mass, and
+   `angularVelocity` (rad/s) about it. What a planar sheet has across its plane is dropped; held frames follow their
+   hold. kiriFrame_SetPieceVelocity: of the piece with that frame alone. */
+KIRI_API kiriResult kiriSheet_SetVelocity(kiriWorld* world, kiriSheet sheet, const float velocity[3],
+                                          const float angularVelocity[3]);
+KIRI_API kiriResult kiriFrame_SetPieceVelocity(kiriWorld* world, kiriFrame frame, const float velocity[3],
+                                               const float angularVelocity[3]);
+
+/* A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that kiriFrame_DetachPiece
+   makes has that of the sheet it came from. A piece has one, named by any of its frames: the parts of a piece that is cut
+   have that of the piece, as does a sheet that is made of it. */
+KIRI_API kiriResult kiriSheet_SetUserData(kiriWorld* world, kiriSheet sheet, uint64_t data);
+KIRI_API kiriResult kiriSheet_GetUserData(const kiriWorld* world, kiriSheet sheet, uint64_t* data);
+KIRI_API kiriResult kiriPin_SetUserData(kiriWorld* world, kiriPin pin, uint64_t data);
+KIRI_API kiriResult kiriPin_GetUserData(const kiriWorld* world, kiriPin pin, uint64_t* data);
+KIRI_API kiriResult kiriFrame_SetPieceUserData(kiriWorld* world, kiriFrame frame, uint64_t data);
+KIRI_API kiriResult kiriFrame_GetPieceUserData(const kiriWorld* world, kiriFrame frame, uint64_t* data);
+
 /* Where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: nowhere. The first ray looks at
    every triangle; the next tick makes boxes over them, and as long as somebody asks every now and then (in 120 ticks)
    they follow the sheet, which costs each tick a fifth of what skinning costs, and a ray takes some microseconds. */

@@ -104,6 +104,12 @@ void kiriMemory_FreeAll(kiriMemory* memory)
     }
 }
 
+void kiriMemory_Adopt(kiriMemory* memory, void* pointer)
+{
+    UnlinkBlock(BlockOf(pointer));
+    LinkBlock(memory, BlockOf(pointer));
+}
+
 void kiriMemory_AdoptAll(kiriMemory* memory, kiriMemory* from)
 {
     while (from->blocks != NULL) {

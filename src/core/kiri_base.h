@@ -70,7 +70,8 @@ void* kiriMemory_AllocZeroed(kiriMemory* memory, int64_t bytes);
 void kiriMemory_Free(kiriMemory* memory, void* pointer);
 void kiriMemory_FreeAll(kiriMemory* memory);
 
-/* All blocks of another owner with the same hooks get this owner. Never fails. */
+/* A block, or all blocks, of another owner with the same hooks get this owner. Never fails. */
+void kiriMemory_Adopt(kiriMemory* memory, void* pointer);
 void kiriMemory_AdoptAll(kiriMemory* memory, kiriMemory* from);
 
 /* ---- Budget ---- */

@@ -25,6 +25,7 @@ typedef struct kiriHistory {
    centre of mass. */
 typedef struct kiriFrameData {
     kiriFrame id;
+    uint64_t pieceData; /* the host's own, the same in all frames of a piece */
     kiriSite site;
     kiriLatticePoint anchor; /* a point of the material in the site's cell: finds the cell again after a cut */
     kiriVec2 center;         /* local m */

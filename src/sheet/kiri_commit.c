@@ -4,6 +4,13 @@
 
 #include <string.h>
 
+/* Before the commit all frames that carry a vertex are of one piece. A sheet that is being made has none yet. */
+static uint64_t PieceDataAt(const kiriSheetData* sheet, int32_t triangle)
+{
+    kiriSpan span = sheet->vertexSkin.spans.data[sheet->mesh.triangles.data[triangle].vertex[0]];
+    return span.count > 0 ? sheet->frames.data[sheet->vertexSkin.weights.data[span.first].frame].pieceData : 0;
+}
+
 /* A frame that appears takes its motion from the surface: position, velocity, and the rotation nearest to its slope; an
    affine frame the slope itself. */
 static kiriFrameData NewFrame(const kiriSheetData* sheet, kiriSite site)
@@ -15,6 +22,7 @@ static kiriFrameData NewFrame(const kiriSheetData* sheet, kiriSite site)
     int32_t triangle = kiriMesh_Locate(&sheet->mesh, frame.anchor);
     triangle = triangle == KIRI_NONE ? sheet->grid.cells.data[site.cell].triangle : triangle;
     kiriMotion motion = kiriSkin_Motion(&sheet->vertexSkin, sheet->frames.data, &sheet->mesh, triangle, frame.anchor);
+    frame.pieceData = PieceDataAt(sheet, triangle);
     frame.x = motion.x;
     frame.velocity = motion.velocity;
     if (sheet->settings.mechanics.model == KIRI_MODEL_LINKS) {

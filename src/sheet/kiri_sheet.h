@@ -78,6 +78,7 @@ typedef struct kiriPieceLists {
 
 typedef struct kiriPinData {
     kiriPin id;
+    uint64_t userData;       /* the host's own */
     int32_t type;            /* KIRI_PIN_... */
     kiriLatticePoint at, to; /* in the material: a point, twice; or the ends of a line */
     kiriVec3 target;         /* of the point, or of the middle of the line */
@@ -131,6 +132,7 @@ typedef struct kiriSettings {
     uint32_t groups;
     bool touchesSheets, touchesSelf;
     kiriAir air;
+    uint64_t userData;        /* the host's own */
     double collisionPoints;   /* so many over the sheet; of a part of a sheet its share of them */
     double integrationPoints; /* the same */
     int32_t integrationOrder;

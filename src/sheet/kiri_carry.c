@@ -1,0 +1,137 @@
+#include "kiri_carry.h"
+
+#include "kiri_motion.h"
+#include "kiri_seen.h"
+
+#include <string.h>
+
+/* ---- Place -------------------------------------------------------------------------------------------------------- */
+
+static void Turn(const kiriMat3* R, kiriVec3* a)
+{
+    *a = kiriMat3_Mul(*R, *a);
+}
+
+static void TurnColumns(const kiriMat3* R, kiriMat3* A)
+{
+    *A = kiriMat3_MulMat(*R, *A);
+}
+
+static void CarryFrame(kiriFrameData* frame, const kiriMat3* R, kiriVec3 t, bool isRigid)
+{
+    frame->x = kiriVec3_Add(kiriMat3_Mul(*R, frame->x), t);
+    TurnColumns(R, &frame->A);
+    frame->A = isRigid ? kiriMat3_Rotation(frame->A) : frame->A;
+    Turn(R, &frame->velocity);
+    Turn(R, &frame->spin);
+    TurnColumns(R, &frame->rate);
+    Turn(R, &frame->history.gain);
+    Turn(R, &frame->history.lag);
+    Turn(R, &frame->history.pull);
+    TurnColumns(R, &frame->history.turnGain);
+    TurnColumns(R, &frame->history.turnLag);
+    TurnColumns(R, &frame->history.turnPull);
+    Turn(R, &frame->heldOff);
+}
+
+static void TurnFades(kiriFades* fades, const kiriMat3* R)
+{
+    for (int32_t k = 0; k < fades->fading.count; ++k) {
+        Turn(R, &fades->fading.data[k].offset);
+    }
+}
+
+/* Another block for an array of which all is written anew. */
+static float* Renewed(kiriMemory* memory, int32_t capacity)
+{
+    return kiriMemory_Alloc(memory, (int64_t)sizeof(float) * (capacity > 0 ? capacity : 1));
+}
+
+static void Retire(kiriMemory* retired, float** array, float* renewed)
+{
+    if (*array != NULL) {
+        kiriMemory_Adopt(retired, *array);
+    }
+    *array = renewed;
+}
+
+/* What the host holds stays as it is until the next tick. */
+static bool RenewShown(kiriSheetData* sheet, kiriMemory* retired)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    float* positions = Renewed(&sheet->shown, surface->positions.capacity);
+    float* normals = Renewed(&sheet->shown, surface->normals.capacity);
+    float* points = Renewed(&sheet->shown, sheet->seen.pointPositions.capacity);
+    if (positions == NULL || normals == NULL || points == NULL) {
+        kiriMemory_Free(&sheet->shown, positions);
+        kiriMemory_Free(&sheet->shown, normals);
+        kiriMemory_Free(&sheet->shown, points);
+        return false;
+    }
+    Retire(retired, &surface->positions.data, positions);
+    Retire(retired, &surface->normals.data, normals);
+    Retire(retired, &sheet->seen.pointPositions.data, points);
+    return true;
+}
+
+bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMemory* retired)
+{
+    if (!RenewShown(sheet, retired)) {
+        return false;
+    }
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        CarryFrame(&sheet->frames.data[i], R, t, sheet->settings.mechanics.model == KIRI_MODEL_LINKS);
+    }
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        Turn(R, &sheet->pins.data[i].off);
+    }
+    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+        Turn(R, &sheet->layout.pinShares.data[k].off);
+    }
+    TurnFades(&sheet->seen.fades, R);
+    TurnFades(&sheet->seen.pointFades, R);
+    kiriView_WritePositions(sheet);
+    kiriMotion_Wake(sheet);
+    return true;
+}
+
+/* ---- Velocity ----------------------------------------------------------------------------------------------------- */
+
+static bool IsOf(const kiriSheetData* sheet, int32_t frame, int32_t piece)
+{
+    return piece == KIRI_NONE || sheet->layout.framePiece.data[frame] == piece;
+}
+
+static kiriVec3 CenterOf(const kiriSheetData* sheet, int32_t piece)
+{
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    double mass = 0.0;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        if (IsOf(sheet, i, piece)) {
+            sum = kiriVec3_AddScaled(sum, sheet->frames.data[i].mass, sheet->frames.data[i].x);
+            mass += sheet->frames.data[i].mass;
+        }
+    }
+    return kiriVec3_Scale(1.0 / mass, sum);
+}
+
+/* In a planar sheet, what is across the plane is dropped. */
+void kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocity, kiriVec3 spin)
+{
+    const kiriMechanics* mechanics = &sheet->settings.mechanics;
+    kiriVec3 d = mechanics->axes.d, center = CenterOf(sheet, piece);
+    if (mechanics->planar) {
+        velocity = kiriVec3_AddScaled(velocity, -kiriVec3_Dot(velocity, d), d);
+        spin = kiriVec3_Scale(kiriVec3_Dot(spin, d), d);
+    }
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        kiriFrameData* frame = &sheet->frames.data[i];
+        if (IsOf(sheet, i, piece)) {
+            frame->velocity = kiriVec3_Add(velocity, kiriVec3_Cross(spin, kiriVec3_Sub(frame->x, center)));
+            frame->spin = spin;
+            memset(&frame->rate, 0, sizeof(frame->rate));
+            memset(&frame->history, 0, sizeof(frame->history));
+        }
+    }
+    kiriMotion_Wake(sheet);
+}

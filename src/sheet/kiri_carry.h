@@ -1,0 +1,18 @@
+/* A sheet, or a piece of it, that the host puts elsewhere or gives another velocity, all at once. */
+#ifndef KIRI_CARRY_H
+#define KIRI_CARRY_H
+
+#include "kiri_sheet.h"
+
+KIRI_C_BEGIN
+
+/* Each point x of the sheet goes to R x + t, with its velocity and history; what holds it stays. The arrays that the host
+   may hold go to `retired`, and others are written. False for memory: nothing has changed. */
+bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMemory* retired);
+
+/* The frames of a piece, or of all (KIRI_NONE), move as one rigid body: `spin` about their centre of mass. */
+void kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocity, kiriVec3 spin);
+
+KIRI_C_END
+
+#endif

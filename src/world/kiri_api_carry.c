@@ -1,0 +1,60 @@
+#include "kiri_call.h"
+#include "../sheet/kiri_carry.h"
+
+/* What is wrong with a rotation of the whole space, or null. */
+static const char* FaultOfTurn(const kiriSheetData* sheet, const float rotation[9])
+{
+    const kiriMechanics* mechanics = &sheet->settings.mechanics;
+    kiriVec3 u = kiriVec3_Load(&rotation[0]), v = kiriVec3_Load(&rotation[3]), w = kiriVec3_Load(&rotation[6]);
+    if (!kiriCall_AreOrthonormal(&rotation[0], &rotation[3]) || !kiriCall_AreOrthonormal(&rotation[3], &rotation[6]) ||
+        !kiriCall_AreOrthonormal(&rotation[6], &rotation[0])) {
+        return "rotation is not orthonormal";
+    }
+    if (!(kiriVec3_Dot(kiriVec3_Cross(u, v), w) > 0.0)) {
+        return "rotation mirrors";
+    }
+    const kiriMat3 R = { u, v, w };
+    kiriVec3 d = mechanics->axes.d;
+    return mechanics->planar && !(kiriVec3_Dot(kiriMat3_Mul(R, d), d) > 0.999999)
+               ? "rotation turns a planar sheet out of its plane"
+               : NULL;
+}
+
+kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float rotation[9], const float translation[3])
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(rotation != NULL && kiriCall_AreFinite(rotation, 9), "rotation is null or not finite");
+    KIRI_CHECK(translation != NULL && kiriCall_AreFinite(translation, 3), "translation is null or not finite");
+    KIRI_FIND_SHEET(data, sheet);
+    const char* why = FaultOfTurn(data, rotation);
+    KIRI_CHECK(why == NULL, why);
+    kiriMat3 given = { kiriVec3_Load(&rotation[0]), kiriVec3_Load(&rotation[3]), kiriVec3_Load(&rotation[6]) };
+    kiriMat3 R = kiriMat3_Rotation(given);
+    return kiriCarry_Sheet(data, &R, kiriVec3_Load(translation), &world->retired) ? KIRI_OK
+                                                                                  : KIRI_FAIL(KIRI_ERROR_MEMORY, NULL);
+}
+
+kiriResult kiriSheet_SetVelocity(kiriWorld* world, kiriSheet sheet, const float velocity[3],
+                                 const float angularVelocity[3])
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(velocity != NULL && kiriCall_AreFinite(velocity, 3), "velocity is null or not finite");
+    KIRI_CHECK(angularVelocity != NULL && kiriCall_AreFinite(angularVelocity, 3),
+               "angularVelocity is null or not finite");
+    KIRI_FIND_SHEET(data, sheet);
+    kiriCarry_SetVelocity(data, KIRI_NONE, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity));
+    return KIRI_OK;
+}
+
+kiriResult kiriFrame_SetPieceVelocity(kiriWorld* world, kiriFrame frame, const float velocity[3],
+                                      const float angularVelocity[3])
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(velocity != NULL && kiriCall_AreFinite(velocity, 3), "velocity is null or not finite");
+    KIRI_CHECK(angularVelocity != NULL && kiriCall_AreFinite(angularVelocity, 3),
+               "angularVelocity is null or not finite");
+    KIRI_FIND_FRAME_SHEET(sheet, frame);
+    int32_t piece = sheet->layout.framePiece.data[kiriPool_Find(&world->frameIds, frame)->index];
+    kiriCarry_SetVelocity(sheet, piece, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity));
+    return KIRI_OK;
+}
