@@ -186,11 +186,12 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, int32
     step->isActive = was > 0.0 ? was + stop > 0.0 : gap < 0.0;
     step->push = 0.0;
     step->drag = kiriVec3_Make(0.0, 0.0, 0.0);
-    step->limit = step->isActive ? row->friction * (was > 0.0 ? was : stop) : 0.0;
+    double pressing = was > 0.0 ? was : stop > 0.0 ? stop : 0.0;
+    step->limit = step->isActive ? row->friction * pressing : 0.0;
     double length = kiriVec3_Length(slide);
     step->sticks = inertia * length <= step->limit || kiriVec3_Length(step->held) < 0.999 * row->friction * was;
     step->direction = kiriVec3_Scale(length > SLIDE_FLOOR ? 1.0 / length : 0.0, slide);
-    step->known = was > stop ? was : stop;
+    step->known = pressing > stop ? pressing : stop;
 }
 
 /* Of the pieces that are new. */
