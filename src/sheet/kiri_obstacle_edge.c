@@ -1,9 +1,10 @@
 #include "kiri_obstacle_work.h"
 
-/* A point on an edge, in the world. */
+/* A point on an edge or a corner, in the world. */
 typedef struct EdgePoint {
     kiriVec3 at, out; /* out: unit, half-way between the faces */
-    kiriVec3 faces[2];
+    kiriVec3 faces[3];
+    int32_t faceCount;
     double below, above; /* m: how far material may be along `out` */
     uint32_t item;
 } EdgePoint;
@@ -27,7 +28,22 @@ static bool CrossTriangle(const kiriVec3 x[3], const EdgePoint* point, double* h
 /* The triangle lies over the edge as a tangent plane may: towards none of its faces. */
 static bool IsTangentTo(const EdgePoint* point, kiriVec3 normal)
 {
-    return kiriVec3_Dot(normal, point->faces[0]) > -0.2 && kiriVec3_Dot(normal, point->faces[1]) > -0.2;
+    for (int32_t k = 0; k < point->faceCount; ++k) {
+        if (kiriVec3_Dot(normal, point->faces[k]) < -0.2) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The normal that is seen at the point, smooth over the sides of triangles, towards the outside of the obstacle. */
+static kiriVec3 SeenNormal(const kiriSurface* surface, const int32_t* v, const double share[3], kiriVec3 out)
+{
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    for (int k = 0; k < 3; ++k) {
+        sum = kiriVec3_AddScaled(sum, share[k], kiriVec3_Load(&surface->normals.data[3 * (int64_t)v[k]]));
+    }
+    return kiriVec3_Scale(kiriVec3_Dot(sum, out) < 0.0 ? -1.0 : 1.0, kiriVec3_Normalize(sum));
 }
 
 static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, int32_t triangle, kiriTouch* touch)
@@ -36,12 +52,11 @@ static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, in
     const int32_t* v = &sheet->seen.surface.indices.data[3 * (int64_t)triangle];
     kiriVec3 x[3] = { sheet->seen.surface.exact.data[v[0]], sheet->seen.surface.exact.data[v[1]],
                       sheet->seen.surface.exact.data[v[2]] };
-    kiriVec3 normal = kiriVec3_Normalize(kiriVec3_Cross(kiriVec3_Sub(x[1], x[0]), kiriVec3_Sub(x[2], x[0])));
     double height, share[3], gap = meeting->gap + meeting->obstacle->shape.rounding;
     if (!CrossTriangle(x, point, &height, share)) {
         return false;
     }
-    normal = kiriVec3_Dot(normal, point->out) < 0.0 ? kiriVec3_Scale(-1.0, normal) : normal;
+    kiriVec3 normal = SeenNormal(&sheet->seen.surface, v, share, point->out);
     kiriVec3 velocity = { 0.0, 0.0, 0.0 }, at = kiriVec3_AddScaled(point->at, height, point->out);
     for (int k = 0; k < 3; ++k) {
         velocity = kiriVec3_AddScaled(velocity, share[k], kiriMeeting_VertexVelocity(sheet, v[k]));
@@ -85,20 +100,23 @@ static bool TouchPoint(const kiriMeeting* meeting, const EdgePoint* point)
     return ok;
 }
 
-/* A point of the edge (local), with the faces beside it. */
-static EdgePoint MakePoint(const kiriMeeting* meeting, const kiriObstacleEdge* edge, kiriVec3 at, kiriVec3 side,
-                           uint32_t item)
+/* Local to the obstacle. */
+static EdgePoint MakePoint(const kiriMeeting* meeting, kiriVec3 at, const kiriVec3* faces, int32_t faceCount,
+                           double thinnest)
 {
     const kiriObstacleData* obstacle = meeting->obstacle;
-    double rounding = obstacle->shape.rounding;
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
     EdgePoint point;
     point.at = kiriObstacle_PointToWorld(obstacle, at);
-    point.faces[0] = kiriObstacle_ToWorld(obstacle, edge->faces[0]);
-    point.faces[1] = kiriObstacle_ToWorld(obstacle, side);
-    point.out = kiriVec3_Normalize(kiriVec3_Add(point.faces[0], point.faces[1]));
-    point.below = edge->thinnest < meeting->patch ? edge->thinnest : meeting->patch;
-    point.above = rounding + meeting->gap + meeting->reach;
-    point.item = item;
+    point.faceCount = faceCount;
+    for (int32_t k = 0; k < faceCount; ++k) {
+        point.faces[k] = kiriObstacle_ToWorld(obstacle, faces[k]);
+        sum = kiriVec3_Add(sum, point.faces[k]);
+    }
+    point.out = kiriVec3_Normalize(sum);
+    point.below = thinnest < meeting->patch ? thinnest : meeting->patch;
+    point.above = obstacle->shape.rounding + meeting->gap + meeting->reach;
+    point.item = 0;
     return point;
 }
 
@@ -111,9 +129,10 @@ static bool TouchRim(const kiriMeeting* meeting, const kiriObstacleEdge* edge, i
     bool ok = true;
     for (int32_t i = 0; ok && i < count; ++i) {
         kiriVec2 circle = kiriCircle_At(i, count);
-        kiriVec3 side = kiriVec3_Make(circle.x, circle.y, 0.0);
-        EdgePoint point = MakePoint(meeting, edge, kiriVec3_AddScaled(edge->from, edge->radius, side), side,
-                                    (uint32_t)(index * 1024 + i));
+        kiriVec3 faces[2] = { edge->faces[0], { circle.x, circle.y, 0.0 } };
+        EdgePoint point =
+            MakePoint(meeting, kiriVec3_AddScaled(edge->from, edge->radius, faces[1]), faces, 2, edge->thinnest);
+        point.item = (uint32_t)(index * 1024 + i);
         ok = TouchPoint(meeting, &point);
     }
     return ok;
@@ -141,7 +160,8 @@ static void ClipEdge(const kiriMeeting* meeting, kiriVec3 from, kiriVec3 step, i
     *last = start <= end ? (int32_t)end : -1;
 }
 
-/* An edge without end has points as far as anybody may look. */
+/* As many steps along an edge as patches, each with a point in its middle: at the ends are corners. An edge without end
+   has points as far as anybody may look. */
 static bool TouchStraight(const kiriMeeting* meeting, const kiriObstacleEdge* edge, int32_t index)
 {
     enum { MOST_POINTS = 1 << 18 };
@@ -150,17 +170,33 @@ static bool TouchStraight(const kiriMeeting* meeting, const kiriObstacleEdge* ed
         way = kiriVec3_Make(0.0, 0.0, MOST_POINTS * meeting->patch);
         from.z = -0.5 * way.z;
     }
-    double length = kiriVec3_Length(way), wanted = length / meeting->patch;
-    int32_t count = wanted < 1.0 ? 1 : wanted < MOST_POINTS ? (int32_t)wanted + 1 : MOST_POINTS;
-    int32_t first = 0, last = count;
+    double wanted = kiriVec3_Length(way) / meeting->patch;
+    int32_t count = wanted < MOST_POINTS - 1 ? (int32_t)wanted + 1 : MOST_POINTS, first = 0, last = count - 1;
     kiriVec3 step = kiriVec3_Scale(1.0 / count, way);
+    from = kiriVec3_AddScaled(from, 0.5, step);
     ClipEdge(meeting, kiriObstacle_PointToWorld(meeting->obstacle, from), kiriObstacle_ToWorld(meeting->obstacle, step),
              &first, &last);
     bool ok = true;
-    for (int32_t i = first; ok && i <= last && i <= count; ++i) {
-        EdgePoint point = MakePoint(meeting, edge, kiriVec3_AddScaled(from, i, step), edge->faces[1],
-                                    (uint32_t)(index * (MOST_POINTS + 1) + i));
+    for (int32_t i = first; ok && i <= last; ++i) {
+        EdgePoint point = MakePoint(meeting, kiriVec3_AddScaled(from, i, step), edge->faces, 2, edge->thinnest);
+        point.item = (uint32_t)index * MOST_POINTS + (uint32_t)i;
         ok = TouchPoint(meeting, &point);
+    }
+    return ok;
+}
+
+static bool TouchTips(const kiriMeeting* meeting)
+{
+    const kiriObstacleShape* shape = &meeting->obstacle->shape;
+    const uint32_t tips = UINT32_C(1) << 28; /* beyond all points of edges */
+    bool ok = true;
+    for (int32_t i = 0; ok && i < kiriObstacleShape_CornerCount(shape); ++i) {
+        kiriObstacleCorner corner;
+        if (kiriObstacleShape_CornerAt(shape, i, &corner)) {
+            EdgePoint point = MakePoint(meeting, corner.at, corner.faces, 3, corner.thinnest);
+            point.item = tips + (uint32_t)i;
+            ok = TouchPoint(meeting, &point);
+        }
     }
     return ok;
 }
@@ -168,7 +204,7 @@ static bool TouchStraight(const kiriMeeting* meeting, const kiriObstacleEdge* ed
 bool kiriMeeting_TouchEdges(const kiriMeeting* meeting)
 {
     const kiriObstacleShape* shape = &meeting->obstacle->shape;
-    bool ok = true;
+    bool ok = TouchTips(meeting);
     for (int32_t i = 0; ok && i < kiriObstacleShape_EdgeCount(shape); ++i) {
         kiriObstacleEdge edge;
         if (kiriObstacleShape_EdgeAt(shape, i, &edge)) {
@@ -191,7 +227,8 @@ static bool CutEdge(const kiriMeeting* meeting, const kiriObstacleEdge* edge, in
     if (edge->radius > 0.0 || !(fabs(rise) > 0.1 * kiriVec3_Length(way)) || below / rise < 0.0 || below / rise > 1.0) {
         return false;
     }
-    *point = MakePoint(meeting, edge, edge->from, edge->faces[1], (uint32_t)index);
+    *point = MakePoint(meeting, edge->from, edge->faces, 2, edge->thinnest);
+    point->item = (uint32_t)index;
     point->at = kiriVec3_AddScaled(from, below / rise, way);
     for (int k = 0; k < 2; ++k) {
         kiriVec3 face = point->faces[k];

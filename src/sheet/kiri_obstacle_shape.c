@@ -259,6 +259,23 @@ bool kiriObstacleShape_EdgeAt(const kiriObstacleShape* shape, int32_t index, kir
     return shape->type == KIRI_OBSTACLE_CYLINDER ? RimAt(shape, index, edge) : PrismEdgeAt(shape, index, edge);
 }
 
+int32_t kiriObstacleShape_CornerCount(const kiriObstacleShape* shape)
+{
+    return shape->type == KIRI_OBSTACLE_PRISM && shape->half < KIRI_ENDLESS ? 2 * shape->count : 0;
+}
+
+bool kiriObstacleShape_CornerAt(const kiriObstacleShape* shape, int32_t index, kiriObstacleCorner* corner)
+{
+    kiriObstacleEdge edge;
+    bool isSharp = kiriObstacleShape_EdgeAt(shape, index % shape->count, &edge);
+    corner->at = index < shape->count ? edge.from : edge.to;
+    corner->faces[0] = edge.faces[0];
+    corner->faces[1] = edge.faces[1];
+    corner->faces[2] = kiriVec3_Make(0.0, 0.0, index < shape->count ? -1.0 : 1.0);
+    corner->thinnest = edge.thinnest;
+    return isSharp;
+}
+
 /* Halves the quarter that holds the point again and again: no sine is needed. */
 kiriVec2 kiriCircle_At(int32_t i, int32_t count)
 {

@@ -53,6 +53,16 @@ int32_t kiriObstacleShape_EdgeCount(const kiriObstacleShape* shape);
 /* False for an edge that is left out: faces beside it turn by less than 20 degrees. */
 bool kiriObstacleShape_EdgeAt(const kiriObstacleShape* shape, int32_t index, kiriObstacleEdge* edge);
 
+/* A corner of a prism that ends: three faces meet there. False for one that is nearly even along the outline: the edges
+   beside it tell enough. */
+typedef struct kiriObstacleCorner {
+    kiriVec3 at, faces[3];
+    double thinnest; /* as of an edge */
+} kiriObstacleCorner;
+
+int32_t kiriObstacleShape_CornerCount(const kiriObstacleShape* shape);
+bool kiriObstacleShape_CornerAt(const kiriObstacleShape* shape, int32_t index, kiriObstacleCorner* corner);
+
 /* Point i of `count` (4 times a power of 2) on a circle of radius 1. */
 kiriVec2 kiriCircle_At(int32_t i, int32_t count);
 

@@ -3,6 +3,9 @@
 /* So many patches a frame, about: its six unknowns need no more points, but for what bends within its reach. */
 #define PATCHES_A_FRAME 8.0
 
+/* Of the distance that is kept: by so much another vertex must be deeper to take the place of one that pushed. */
+#define PREFERRED 0.5
+
 /* Normals that differ by less are of one face: the cosine of 25 degrees. */
 #define SAME_FACE 0.9
 
@@ -202,12 +205,23 @@ static void Choose(kiriObstacleSearch* search, kiriNearVertex near)
     search->chosen.data[search->chosen.count++] = near;
 }
 
+/* m: one that pushed counts as that much deeper, so that others, about as deep, do not take its place in turns. */
+static double Preference(const kiriMeeting* meeting, int32_t vertex, double height)
+{
+    if (height > 2.0 * meeting->gap) {
+        return 0.0;
+    }
+    kiriVec3 force = kiriTouches_ForceOf(meeting->sheet, kiriMeeting_Key(meeting, false, (uint32_t)vertex));
+    return kiriVec3_Dot(force, force) > 0.0 ? PREFERRED * meeting->gap : 0.0;
+}
+
 static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
 {
     kiriVec3 x = meeting->sheet->seen.surface.exact.data[vertex];
     kiriNearest nearest = kiriObstacleShape_Nearest(&meeting->obstacle->shape,
                                                     kiriObstacle_PointToLocal(meeting->obstacle, x), meeting->across);
     if (nearest.distance < meeting->reach) {
+        nearest.distance -= Preference(meeting, vertex, nearest.distance);
         kiriNearVertex near = { vertex,    PatchOf(meeting, vertex), LeadingFrame(&meeting->sheet->vertexSkin, vertex),
                                 KIRI_NONE, nearest.distance,         nearest.normal };
         Choose(meeting->search, near);
