@@ -654,7 +654,7 @@ static void FillWorld(Host* host, kiriSheet sheets[2])
         def.frameCount = def.maxFrames = 4;
         def.position[0] = -0.8f + 0.7f * (float)i;
         def.position[1] = -0.4f;
-        def.position[2] = 0.25f;
+        def.position[2] = 0.41f;
         sheets[i] = Host_AddRectangle(host, &def, 0.8f, 0.8f, 12, 12);
     }
 }
