@@ -1,6 +1,7 @@
 #include "validate.h"
 
 #include "validate_check.h"
+#include "world/kiri_blade.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -569,8 +570,14 @@ static bool Check_Ids(Check* check, const kiriWorld* world)
         pins += sheet->pins.count;
         cuts += sheet->cuts.count;
     }
+    for (int32_t i = 0; i < world->blades.count; ++i) {
+        if (!Check_Id(check, &world->bladeIds, world->blades.data[i]->id, world->blades.data[i], 0)) {
+            return false;
+        }
+    }
     return Check_Pool(check, &world->sheetIds, world->sheets.count) && Check_Pool(check, &world->frameIds, frames) &&
-           Check_Pool(check, &world->pinIds, pins) && Check_Pool(check, &world->cutIds, cuts);
+           Check_Pool(check, &world->bladeIds, world->blades.count) && Check_Pool(check, &world->pinIds, pins) &&
+           Check_Pool(check, &world->cutIds, cuts);
 }
 
 /* ---- All of it ---- */

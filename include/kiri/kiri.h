@@ -622,28 +622,33 @@ KIRI_API kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* r
 KIRI_API kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
 
 /* A blade (a straight edge) that moves in world space from blade[0]-blade[1] to blade[3]-blade[2] cuts where the swept
-   quadrilateral meets the sheet as it is now. The cut is ended already. */
+   quadrilateral meets the sheet as it is now, past borders, so that it parts what it crosses. The cut is ended already.
+   Slices of a sheet that moves do not join from tick to tick: for that take a blade. */
 KIRI_API kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[12], kiriCut* cut);
 
 /* ---- Blade ------------------------------------------------------------------------------------------------------ */
 
 /* A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers, in the material of
-   each layer that it meets, where it was, and cuts on from there, whatever the sheet did in between. Where it passes a
-   border of the material the cut goes on past it. What it has met in a tick is cut with that tick or, by the budget, a
-   later one. */
+   each layer that it is in, where it was, and cuts on from there: along the way of its edge relative to that material,
+   whatever the sheet did in between. Where it passes a border of the material, the outline or a lip, the cut goes on past
+   it, so that it parts. Move it at least once a tick while it is in a sheet; as often as you like before a tick. What it
+   has met is cut with the next tick or, by the budget, a later one. It has a cut for each layer, which begins and ends as
+   the blade comes in and goes out; KIRI_EVENT_CUT_FINISHED tells of them, too. */
 
-/* sheet 0: it cuts all sheets. */
+/* sheet 0: it cuts all sheets, also those that are made later and pieces that get a sheet of their own. A blade for one
+   sheet whose sheet is gone cuts nothing. */
 KIRI_API kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade);
 
 /* The blade is now the straight edge between two points (m, world). From where it was it got there straight, each end
-   along a line. The first call only says where it begins. */
+   along a line. The first call only says where it begins. Where an end of the edge lies inside of what it sweeps of the
+   sheet, it cuts only what it sweeps. An edge without length cuts nothing. */
 KIRI_API kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const float from[3], const float to[3]);
 
 /* The same for a ray that a camera casts: an edge `length` m long. */
 KIRI_API kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float origin[3],
                                       const float direction[3], float length);
 
-/* It is gone, its id stale; what it has cut stays. */
+/* It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends. */
 KIRI_API kiriResult kiriBlade_End(kiriWorld* world, kiriBlade blade);
 
 /* ---- Frame ------------------------------------------------------------------------------------------------------ */

@@ -66,6 +66,9 @@ static inline double kiriVec2_Length(kiriVec2 a)
     return sqrt(kiriVec2_Dot(a, a));
 }
 
+/* From the segment between a and b. */
+double kiriVec2_DistanceToWay(kiriVec2 p, kiriVec2 a, kiriVec2 b);
+
 static inline kiriVec3 kiriVec3_Make(double x, double y, double z)
 {
     kiriVec3 r = { x, y, z };

@@ -8,8 +8,8 @@ typedef struct Barycentric {
     double distance, b, c; /* along the ray; shares of the second and third corner */
 } Barycentric;
 
-/* Where a ray meets a triangle (Moeller and Trumbore 1997). */
-static bool MeetTriangle(const kiriVec3 corner[3], kiriVec3 origin, kiriVec3 direction, Barycentric* at)
+/* Where a ray meets a triangle (Moeller and Trumbore 1997), or the rim around it: shares down to -rim count, too. */
+static bool MeetTriangle(const kiriVec3 corner[3], kiriVec3 origin, kiriVec3 direction, double rim, Barycentric* at)
 {
     kiriVec3 ab = kiriVec3_Sub(corner[1], corner[0]), ac = kiriVec3_Sub(corner[2], corner[0]);
     kiriVec3 p = kiriVec3_Cross(direction, ac);
@@ -21,7 +21,7 @@ static bool MeetTriangle(const kiriVec3 corner[3], kiriVec3 origin, kiriVec3 dir
     at->b = kiriVec3_Dot(s, p) / determinant;
     at->c = kiriVec3_Dot(direction, q) / determinant;
     at->distance = kiriVec3_Dot(ac, q) / determinant;
-    return at->b >= 0.0 && at->c >= 0.0 && at->b + at->c <= 1.0;
+    return at->b >= -rim && at->c >= -rim && at->b + at->c <= 1.0 + rim;
 }
 
 static void WorldCorners(const kiriSurface* surface, int32_t triangle, kiriVec3 corner[3])
@@ -65,7 +65,7 @@ static void TryTriangle(RaySearch* search, int32_t triangle, double* distance)
     kiriVec3 corner[3];
     Barycentric at;
     WorldCorners(search->surface, triangle, corner);
-    if (MeetTriangle(corner, search->origin, search->direction, &at) && at.distance >= 0.0 &&
+    if (MeetTriangle(corner, search->origin, search->direction, 0.0, &at) && at.distance >= 0.0 &&
         (at.distance < *distance || (at.distance == *distance && triangle > search->triangle))) {
         *distance = at.distance;
         search->triangle = triangle;
@@ -98,4 +98,72 @@ void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, k
         WorldCorners(surface, search.triangle, corner);
         WriteHit(surface, search.triangle, corner, search.at, hit);
     }
+}
+
+/* ---- Edges ---- */
+
+typedef struct EdgeSearch {
+    const kiriSurface* surface;
+    kiriVec3 from, way;
+    kiriMemory* memory;
+    kiriCrossings* crossings;
+    int32_t first; /* of those that were found for this edge */
+    bool failed;
+} EdgeSearch;
+
+/* In the order of triangles, for that in which they are tried depends on how the bounds came about. */
+static void AddCrossing(EdgeSearch* search, const kiriCrossing* crossing)
+{
+    kiriCrossings* all = search->crossings;
+    if (!kiriArray_Push(search->memory, all, *crossing)) {
+        search->failed = true;
+        return;
+    }
+    int32_t i = all->count - 1;
+    for (; i > search->first && all->data[i - 1].triangle > crossing->triangle; --i) {
+        all->data[i] = all->data[i - 1];
+    }
+    all->data[i] = *crossing;
+}
+
+/* With a rim, or an edge may slip through between two triangles, by rounding. */
+static void CrossTriangles(void* context, const int32_t* triangles, int32_t count, double* distance)
+{
+    EdgeSearch* search = context;
+    (void)distance;
+    for (int32_t i = 0; i < count; ++i) {
+        kiriVec3 corner[3];
+        Barycentric at;
+        WorldCorners(search->surface, triangles[i], corner);
+        if (MeetTriangle(corner, search->from, search->way, 1e-9, &at) && at.distance >= 0.0 && at.distance <= 1.0) {
+            const kiriCrossing crossing = { RestPoint(search->surface, triangles[i], at.b, at.c),
+                                            kiriVec3_AddScaled(search->from, at.distance, search->way), at.distance,
+                                            triangles[i] };
+            AddCrossing(search, &crossing);
+        }
+    }
+}
+
+static bool IsKnown(const EdgeSearch* search, int32_t count, kiriVec2 rest, double apart)
+{
+    bool isKnown = false;
+    for (int32_t i = search->first; !isKnown && i < count; ++i) {
+        isKnown = kiriVec2_Length(kiriVec2_Sub(search->crossings->data[i].rest, rest)) < apart;
+    }
+    return isKnown;
+}
+
+bool kiriSurface_Cross(const kiriSurface* surface, const kiriBounds* bounds, kiriVec3 from, kiriVec3 to, double apart,
+                       kiriMemory* memory, kiriCrossings* crossings)
+{
+    EdgeSearch search = { surface, from, kiriVec3_Sub(to, from), memory, crossings, crossings->count, false };
+    int32_t kept = crossings->count;
+    kiriBounds_Ray(bounds, from, search.way, 1.0, CrossTriangles, &search);
+    for (int32_t i = search.first; i < crossings->count; ++i) {
+        if (!IsKnown(&search, kept, crossings->data[i].rest, apart)) {
+            crossings->data[kept++] = crossings->data[i];
+        }
+    }
+    crossings->count = kept;
+    return !search.failed;
 }

@@ -14,6 +14,27 @@ static void SetSide(kiriWindow* window, int side, kiriVec3 a, kiriVec3 b, kiriVe
     window->level[side] = isTurned ? -level : level;
 }
 
+static bool IsOutside(const kiriWindow* window, int side, kiriVec3 at)
+{
+    double level = window->level[side], depth = kiriVec3_Dot(window->inward[side], at) - level;
+    return depth < -1e-9 * (fabs(level) + fabs(depth + level));
+}
+
+/* The side that an end of the edge goes along. Where the corners are no convex quadrilateral (a ray from an eye that
+   hardly moves, say), that line would cut off some of the edge: then the side is where the end is farthest out. */
+static void SetEndSide(kiriWindow* window, int side, const kiriVec3 corner[4], kiriVec3 inside)
+{
+    const kiriVec3 a = corner[side], b = corner[(side + 1) % 4];
+    SetSide(window, side, a, b, inside);
+    if (IsOutside(window, side, corner[(side + 2) % 4]) || IsOutside(window, side, corner[(side + 3) % 4])) {
+        kiriVec3 along = kiriVec3_Add(kiriVec3_Sub(corner[0], corner[1]), kiriVec3_Sub(corner[3], corner[2]));
+        kiriVec3 inward = side == KIRI_SIDE_SECOND ? along : kiriVec3_Scale(-1.0, along);
+        double atA = kiriVec3_Dot(inward, a), atB = kiriVec3_Dot(inward, b);
+        window->inward[side] = inward;
+        window->level[side] = atA < atB ? atA : atB;
+    }
+}
+
 bool kiriWindow_Make(kiriWindow* window, const kiriVec3 corner[4], kiriVec3 from, kiriVec3 to)
 {
     kiriVec3 along = kiriVec3_Sub(corner[1], corner[0]), middle = kiriVec3_Scale(0.5, kiriVec3_Add(from, to));
@@ -26,9 +47,11 @@ bool kiriWindow_Make(kiriWindow* window, const kiriVec3 corner[4], kiriVec3 from
     window->normal = kiriVec3_Normalize(normal);
     window->offset = kiriVec3_Dot(window->normal, to);
     window->box = (kiriBox){ corner[0], corner[0] };
+    SetSide(window, KIRI_SIDE_FROM, corner[0], corner[1], to);
+    SetSide(window, KIRI_SIDE_TO, corner[2], corner[3], from);
+    SetEndSide(window, KIRI_SIDE_SECOND, corner, middle);
+    SetEndSide(window, KIRI_SIDE_FIRST, corner, middle);
     for (int i = 0; i < 4; ++i) {
-        kiriVec3 inside = i == KIRI_SIDE_FROM ? to : i == KIRI_SIDE_TO ? from : middle;
-        SetSide(window, i, corner[i], corner[(i + 1) % 4], inside);
         kiriBox_Add(&window->box, corner[i]);
     }
     return true;
@@ -379,14 +402,6 @@ bool kiriSection_Sweep(kiriSection* section, kiriMemory* memory, const kiriSurfa
 
 /* ---- Paths ---- */
 
-static double DistanceToWay(kiriVec2 p, kiriVec2 a, kiriVec2 b)
-{
-    kiriVec2 way = kiriVec2_Sub(b, a), to = kiriVec2_Sub(p, a);
-    double square = kiriVec2_Dot(way, way), t = square > 0.0 ? kiriVec2_Dot(to, way) / square : 0.0;
-    t = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
-    return kiriVec2_Length(kiriVec2_Sub(to, kiriVec2_Scale(t, way)));
-}
-
 static kiriVec2 RestAt(const kiriSection* section, const kiriSectionLine* line, bool fromLast, int32_t i)
 {
     return section->points.data[line->first + (fromLast ? line->count - 1 - i : i)].rest;
@@ -402,7 +417,7 @@ static int32_t JumpFrom(const kiriSection* section, const kiriSectionLine* line,
     for (bool fits = true; fits && jump < MOST && i + jump + 1 < line->count;) {
         kiriVec2 to = RestAt(section, line, fromLast, i + jump + 1);
         for (int32_t k = 1; fits && k <= jump; ++k) {
-            fits = DistanceToWay(RestAt(section, line, fromLast, i + k), from, to) <= tolerance;
+            fits = kiriVec2_DistanceToWay(RestAt(section, line, fromLast, i + k), from, to) <= tolerance;
         }
         jump += fits;
     }

@@ -1,14 +1,6 @@
 #include "kiri_call.h"
 #include "../view/kiri_section.h"
 
-static void Queue(const kiriWorld* world, kiriCutData* cut, kiriVec2 to, bool jump)
-{
-    kiriSheetData* sheet = cut->sheet;
-    kiriQueuedPoint point = { cut, to, world->ticks, jump };
-    cut->waiting += 1;
-    sheet->queue.data[sheet->queue.count++] = point;
-}
-
 kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriCut* cut)
 {
     KIRI_CHANGES(world);
@@ -21,7 +13,7 @@ kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint
     if (result != KIRI_OK) {
         return KIRI_FAIL(result, NULL);
     }
-    Queue(world, made, kiriSheet_ToLocal(data, restPoint), true);
+    kiriWorld_QueuePoint(world, made, kiriSheet_ToLocal(data, restPoint), true);
     *cut = made->id;
     return KIRI_OK;
 }
@@ -41,7 +33,7 @@ kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints
         return KIRI_FAIL(KIRI_ERROR_MEMORY, NULL);
     }
     for (int32_t i = 0; i < count; ++i) {
-        Queue(world, data, kiriSheet_ToLocal(sheet, &restPoints[2 * i]), false);
+        kiriWorld_QueuePoint(world, data, kiriSheet_ToLocal(sheet, &restPoints[2 * i]), false);
     }
     return KIRI_OK;
 }
@@ -88,7 +80,7 @@ static kiriResult QueueSlice(kiriWorld* world, kiriSheetData* sheet, const kiriV
     }
     for (int32_t i = 0, k = 0; i < ways.count; ++i) {
         bool isStart = k < starts.count && starts.data[k] == i;
-        Queue(world, made, ways.data[i], isStart);
+        kiriWorld_QueuePoint(world, made, ways.data[i], isStart);
         k += isStart;
     }
     made->ended = true;

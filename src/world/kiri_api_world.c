@@ -103,6 +103,7 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     kiriPool_Init(&made->frameIds, KIRI_KIND_FRAME);
     kiriPool_Init(&made->pinIds, KIRI_KIND_PIN);
     kiriPool_Init(&made->obstacleIds, KIRI_KIND_OBSTACLE);
+    kiriPool_Init(&made->bladeIds, KIRI_KIND_BLADE);
     *world = made;
     return KIRI_OK;
 }

@@ -56,6 +56,7 @@ enum { KIRI_LINE_BYTES = sizeof(((kiriWorld*)NULL)->errorLine) };
 #define KIRI_FIND_PIN_SHEET(pointer, id) KIRI_FIND(kiriSheetData, pointer, pinIds, id, "pin")
 #define KIRI_FIND_OBSTACLE(pointer, id) KIRI_FIND(kiriObstacleData, pointer, obstacleIds, id, "obstacle")
 #define KIRI_FIND_CUT(pointer, id) KIRI_FIND(kiriCutData, pointer, cutIds, id, "cut")
+#define KIRI_FIND_BLADE(pointer, id) KIRI_FIND(kiriBladeData, pointer, bladeIds, id, "blade")
 
 kiriResult kiriCall_Fail(const kiriWorld* world, char* line, kiriResult result, const char* function, const char* why);
 

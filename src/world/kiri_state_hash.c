@@ -2,6 +2,7 @@
 
 #include "../core/kiri_hash.h"
 #include "../sheet/kiri_update.h"
+#include "kiri_blade.h"
 
 static void HashVec2(uint64_t* hash, kiriVec2 a)
 {
@@ -394,6 +395,36 @@ static void HashObstacle(uint64_t* hash, const kiriObstacleData* obstacle)
     kiriHash_Double(hash, obstacle->drift);
 }
 
+/* Which sheet it is, and which of its cuts: ids are no part of the state. */
+static void HashLayer(uint64_t* hash, const kiriWorld* world, const kiriLayer* layer)
+{
+    const kiriSlot *sheet = kiriPool_Find(&world->sheetIds, layer->sheet),
+                   *cut = kiriPool_Find(&world->cutIds, layer->cut);
+    int32_t index = KIRI_NONE;
+    for (int32_t i = 0; sheet != NULL && i < world->sheets.count; ++i) {
+        index = world->sheets.data[i] == sheet->owner ? i : index;
+    }
+    kiriHash_Int32(hash, index);
+    kiriHash_Int32(hash, cut != NULL ? ((const kiriCutData*)cut->owner)->index : KIRI_NONE);
+    HashVec2(hash, layer->rest);
+    HashVec3(hash, layer->at);
+    kiriHash_Double(hash, layer->share);
+}
+
+static void HashBlade(uint64_t* hash, const kiriWorld* world, const kiriBladeData* blade)
+{
+    const kiriSlot* sheet = kiriPool_Find(&world->sheetIds, blade->sheet);
+    kiriHash_Int32(hash, blade->sheet == 0 ? 0 : sheet == NULL ? 1 : 2);
+    kiriHash_Int32(hash, blade->isPlaced);
+    HashVec3(hash, blade->edge[0]);
+    HashVec3(hash, blade->edge[1]);
+    kiriHash_Double(hash, blade->elapsed);
+    kiriHash_Int32(hash, blade->layers.count);
+    for (int32_t i = 0; i < blade->layers.count; ++i) {
+        HashLayer(hash, world, &blade->layers.data[i]);
+    }
+}
+
 uint64_t kiriStateHash_Of(const kiriWorld* world)
 {
     uint64_t hash = KIRI_HASH_START;
@@ -403,6 +434,9 @@ uint64_t kiriStateHash_Of(const kiriWorld* world)
     kiriHash_Int32(&hash, world->budget.samples);
     kiriHash_Int32(&hash, world->budget.iterations);
     kiriHash_Int32(&hash, world->turn);
+    for (int32_t i = 0; i < world->blades.count; ++i) {
+        HashBlade(&hash, world, world->blades.data[i]);
+    }
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         const kiriSheetData* sheet = world->sheets.data[i];
         HashSettings(&hash, sheet);

@@ -5,6 +5,7 @@
 #include "../sheet/kiri_seen.h"
 #include "../sheet/kiri_stages.h"
 #include "../sheet/kiri_touch.h"
+#include "kiri_blade.h"
 #include "kiri_obstacle_step.h"
 
 #include <string.h>
@@ -321,6 +322,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
         SkinAll(world, dt);
         CountSpent(&world->profile, &quotas);
         EnterStage(world, KIRI_NONE);
+        kiriWorld_AdvanceBlades(world, dt);
         world->ticks += 1;
     } else {
         AbortAll(world);

@@ -93,13 +93,28 @@ kiriResult kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet, int64_t poin
     if (cut == NULL) {
         return result != KIRI_OK ? result : KIRI_ERROR_MEMORY;
     }
+    kiriWorld_EnlistCut(world, sheet, cut);
+    *made = cut;
+    return KIRI_OK;
+}
+
+void kiriWorld_EnlistCut(kiriWorld* world, kiriSheetData* sheet, kiriCutData* cut)
+{
+    KIRI_ASSERT(sheet->cuts.count < sheet->cuts.capacity);
     cut->sheet = sheet;
     cut->tip.blade.vertex = cut->committed.blade.vertex = KIRI_NONE;
     cut->id = kiriPool_Add(&world->cutIds, &world->memory, cut, 0);
     cut->index = sheet->cuts.count;
     sheet->cuts.data[sheet->cuts.count++] = cut;
-    *made = cut;
-    return KIRI_OK;
+}
+
+void kiriWorld_QueuePoint(const kiriWorld* world, kiriCutData* cut, kiriVec2 to, bool jump)
+{
+    kiriSheetData* sheet = cut->sheet;
+    const kiriQueuedPoint point = { cut, to, world->ticks, jump };
+    KIRI_ASSERT(sheet->queue.count < sheet->queue.capacity);
+    cut->waiting += 1;
+    sheet->queue.data[sheet->queue.count++] = point;
 }
 
 void kiriWorld_RemoveCut(kiriWorld* world, kiriCutData* cut)

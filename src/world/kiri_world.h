@@ -17,10 +17,11 @@ struct kiriWorld {
     kiriBudget budget;
     int64_t ticks;
     int32_t turn; /* the sheet that is moved first: the one for which the last tick had no iterations left */
-    kiriPool sheetIds, cutIds, frameIds, pinIds, obstacleIds;
+    kiriPool sheetIds, cutIds, frameIds, pinIds, obstacleIds, bladeIds;
     KIRI_ARRAY(kiriSheetData*) sheets;       /* in the order of their making */
     KIRI_ARRAY(kiriObstacleData*) obstacles; /* the same */
-    kiriIndices obstacleOrder;               /* by where they begin along x */
+    KIRI_ARRAY(struct kiriBladeData*) blades;
+    kiriIndices obstacleOrder; /* by where they begin along x */
     kiriObstacleSearch obstacleSearch;
     KIRI_ARRAY(kiriEvent) events;
     kiriProfile profile;
@@ -37,6 +38,12 @@ void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet);
 /* A cut with no points yet, and room for so many in the queue. */
 kiriResult kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet, int64_t points, kiriCutData** made);
 void kiriWorld_RemoveCut(kiriWorld* world, kiriCutData* cut);
+
+/* The same with a zeroed block of the world's memory, where there is room in the list of cuts and for the id. */
+void kiriWorld_EnlistCut(kiriWorld* world, kiriSheetData* sheet, kiriCutData* cut);
+
+/* A point for a cut, in the room of the queue. */
+void kiriWorld_QueuePoint(const kiriWorld* world, kiriCutData* cut, kiriVec2 to, bool jump);
 
 /* Its id is stale then; the last pin of the sheet takes its index. */
 void kiriWorld_RemovePin(kiriWorld* world, kiriSheetData* sheet, int32_t index);

@@ -1,0 +1,441 @@
+#include "kiri_blade_work.h"
+
+#include "../sheet/kiri_seen.h"
+
+/* Measured in snap distances: nearer in the rest plane than SAME two places are one, and than STILL a layer is not led
+   on; past a border a cut goes on by REACH, which is less than what a blade snaps to, so that it cuts no notch into what
+   is beyond. */
+static const double Same = 2.0, Still = 2.0, Reach = 0.5, Straight = 0.25, Degenerate = 0.25;
+
+static double RestDistance(kiriVec2 a, kiriVec2 b)
+{
+    return kiriVec2_Length(kiriVec2_Sub(a, b));
+}
+
+static kiriVec3 EdgeAt(const kiriVec3* edge, double share)
+{
+    return kiriVec3_AddScaled(edge[0], share, kiriVec3_Sub(edge[1], edge[0]));
+}
+
+/* ---- Places in the material ---- */
+
+/* Where a place in the material is seen; false where the sheet has none there. */
+static bool Seen(const kiriSheetData* sheet, kiriVec2 rest, kiriVec3* at)
+{
+    kiriLatticePoint p = kiriMesh_Snap(&sheet->mesh, rest), c[3];
+    int32_t triangle = kiriMesh_Locate(&sheet->mesh, p);
+    if (triangle == KIRI_NONE) {
+        return false;
+    }
+    kiriMesh_Corners(&sheet->mesh, triangle, c);
+    const int32_t* v = sheet->mesh.triangles.data[triangle].vertex;
+    double whole = (double)kiriOrient(c[0], c[1], c[2]);
+    *at = kiriVec3_Make(0.0, 0.0, 0.0);
+    for (int k = 0; k < 3; ++k) {
+        double share = (double)kiriOrient(c[(k + 1) % 3], c[(k + 2) % 3], p) / whole;
+        *at = kiriVec3_AddScaled(*at, share, sheet->seen.surface.exact.data[v[k]]);
+    }
+    return true;
+}
+
+/* How the frames move a vertex. */
+static kiriVec3 VelocityOf(const kiriSheetData* sheet, int32_t vertex)
+{
+    kiriSpan span = sheet->vertexSkin.spans.data[vertex];
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    for (int32_t i = 0; i < span.count; ++i) {
+        kiriWeight w = sheet->vertexSkin.weights.data[span.first + i];
+        kiriVec2 rest = sheet->seen.surface.rest.data[vertex];
+        sum = kiriVec3_AddScaled(sum, w.value, kiriFrame_VelocityAt(&sheet->frames.data[w.frame], rest));
+    }
+    return sum;
+}
+
+/* How far the material at a crossing has gone since the edge was where it was. */
+static kiriVec3 DriftAt(const kiriBladeWork* work, const kiriCrossing* crossing)
+{
+    const int32_t* v = work->sheet->mesh.triangles.data[crossing->triangle].vertex;
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    for (int k = 0; k < 3; ++k) {
+        sum = kiriVec3_AddScaled(sum, work->elapsed / 3.0, VelocityOf(work->sheet, v[k]));
+    }
+    return sum;
+}
+
+/* ---- Strokes ---- */
+
+/* The stroke of a track, which begins where the track is when its cut is new. KIRI_NONE for memory. */
+static int32_t StrokeOf(kiriBladeWork* work, kiriTrack* track)
+{
+    if (track->stroke == KIRI_NONE) {
+        const kiriStroke stroke = { track->sheet, track->cut, false };
+        const kiriStrokePoint start = { work->strokes.count, track->rest, track->rest, true };
+        if (!kiriArray_Push(&work->memory, &work->strokes, stroke) ||
+            (track->cut == NULL && !kiriArray_Push(&work->memory, &work->points, start))) {
+            return KIRI_NONE;
+        }
+        track->stroke = work->strokes.count - 1;
+    }
+    return track->stroke;
+}
+
+static bool Lead(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest)
+{
+    const kiriStrokePoint point = { StrokeOf(work, track), track->rest, rest, false };
+    track->rest = rest;
+    return point.stroke != KIRI_NONE && kiriArray_Push(&work->memory, &work->points, point);
+}
+
+/* Along work->path, without the points at its beginning where the track is already. */
+static bool LeadAlong(kiriBladeWork* work, kiriTrack* track)
+{
+    bool ok = true;
+    kiriVec2 start = track->rest;
+    for (int32_t i = 0; ok && i < work->path.count; ++i) {
+        bool isHere = i + 1 < work->path.count && RestDistance(work->path.data[i], start) < Same * work->snap;
+        start = isHere ? start : kiriVec2_Make(1e300, 1e300);
+        ok = isHere || Lead(work, track, work->path.data[i]);
+    }
+    return ok;
+}
+
+/* The blade is out of the layer. */
+static bool End(kiriBladeWork* work, kiriTrack* track)
+{
+    bool isIdle = track->cut == NULL && track->stroke == KIRI_NONE, ok = true;
+    track->isDone = track->isOver = true;
+    if (!isIdle) {
+        int32_t stroke = StrokeOf(work, track);
+        ok = stroke != KIRI_NONE;
+        if (ok) {
+            work->strokes.data[stroke].isOver = true;
+        }
+    }
+    return ok;
+}
+
+/* ---- Crossings ---- */
+
+enum { TAKEN = -1 }; /* the triangle of a crossing that belongs to a track */
+
+/* The nearest crossing that is free, up to a distance in the rest plane; null: there is none. */
+static kiriCrossing* NearestCrossing(const kiriBladeWork* work, kiriVec2 rest, double distance)
+{
+    kiriCrossing* nearest = NULL;
+    for (int32_t i = 0; i < work->crossings.count; ++i) {
+        kiriCrossing* crossing = &work->crossings.data[i];
+        double d = RestDistance(crossing->rest, rest);
+        if (crossing->triangle != TAKEN && d <= distance) {
+            distance = d;
+            nearest = crossing;
+        }
+    }
+    return nearest;
+}
+
+/* The track is in the layer at this crossing, and is led there, unless that is no way. */
+static bool GoOn(kiriBladeWork* work, kiriTrack* track, kiriCrossing* crossing)
+{
+    bool isStill = RestDistance(track->rest, crossing->rest) < Still * work->snap;
+    bool ok = isStill || Lead(work, track, crossing->rest);
+    track->at = crossing->at;
+    track->share = crossing->share;
+    track->isDone = true;
+    crossing->triangle = TAKEN;
+    return ok;
+}
+
+/* ---- Lines of the section ---- */
+
+/* The line with an end at a place, the longest where there are several; *fromLast says which end. Null: none. */
+static const kiriSectionLine* LineFrom(const kiriBladeWork* work, kiriVec2 rest, bool* fromLast)
+{
+    const kiriSection* section = &work->section;
+    const kiriSectionLine* found = NULL;
+    double longest = -1.0;
+    for (int32_t i = 0; i < section->lines.count; ++i) {
+        const kiriSectionLine* line = &section->lines.data[i];
+        const kiriSectionPoint* points = &section->points.data[line->first];
+        double d[2] = { RestDistance(points[0].rest, rest), RestDistance(points[line->count - 1].rest, rest) };
+        int end = d[0] <= d[1] ? 0 : 1;
+        if (d[end] < Same * work->snap && d[1 - end] > longest) {
+            longest = d[1 - end];
+            found = line;
+            *fromLast = end == 1;
+        }
+    }
+    return found;
+}
+
+static const kiriSectionPoint* EndOf(const kiriBladeWork* work, const kiriSectionLine* line, bool last)
+{
+    return &work->section.points.data[line->first + (last ? line->count - 1 : 0)];
+}
+
+static bool FindPath(kiriBladeWork* work, const kiriSectionLine* line, bool fromLast)
+{
+    work->path.count = 0;
+    return kiriSection_Path(&work->section, line, fromLast, Reach * work->snap, Straight * work->snap, &work->memory,
+                            &work->path);
+}
+
+/* The section with what the edge sweeps in a plane. `from` and `to` are on its way. False for memory. */
+static bool CutPlane(kiriBladeWork* work, const kiriVec3* was, const kiriVec3* is, kiriVec3 from, kiriVec3 to)
+{
+    const kiriVec3 corner[4] = { was[0], was[1], is[1], is[0] };
+    const kiriSurface* surface = &work->sheet->seen.surface;
+    kiriWindow window;
+    work->section.points.count = work->section.lines.count = 0;
+    return !kiriWindow_Make(&window, corner, from, to) ||
+           kiriSection_Add(&work->section, &work->memory, surface, work->sheet->seen.bounds, &window);
+}
+
+/* The ends of an edge, brought into the plane through the other edge and x. False where x lies on the other edge: there
+   is no way from one to the other. */
+static bool Flatten(const kiriBladeWork* work, const kiriVec3* other, kiriVec3 x, const kiriVec3* edge, kiriVec3* flat)
+{
+    kiriVec3 along = kiriVec3_Normalize(kiriVec3_Sub(other[1], other[0]));
+    kiriVec3 normal = kiriVec3_Cross(along, kiriVec3_Sub(x, other[0]));
+    double distance = kiriVec3_Length(normal);
+    if (!(distance > Degenerate * work->snap)) {
+        return false;
+    }
+    normal = kiriVec3_Scale(1.0 / distance, normal);
+    for (int k = 0; k < 2; ++k) {
+        flat[k] = kiriVec3_AddScaled(edge[k], -kiriVec3_Dot(normal, kiriVec3_Sub(edge[k], other[0])), normal);
+    }
+    return true;
+}
+
+/* ---- Layers that the blade was in ---- */
+
+/* Another track of the sheet that was at a place, and is not seen to. */
+static kiriTrack* OtherTrack(kiriBladeWork* work, const kiriTrack* track, kiriVec2 rest)
+{
+    for (int32_t i = 0; i < work->oldCount; ++i) {
+        kiriTrack* other = &work->tracks.data[i];
+        if (other != track && other->sheet == work->sheet && !other->isDone &&
+            RestDistance(other->rest, rest) < Same * work->snap) {
+            return other;
+        }
+    }
+    return NULL;
+}
+
+/* Where the line that a track follows ends: at the edge as it is now, and the track goes on from there; beyond a border;
+   where the blade ended; or, over a fold, at another layer that the blade was in. */
+static bool FollowLine(kiriBladeWork* work, kiriTrack* track, const kiriSectionLine* line, bool fromLast)
+{
+    const kiriSectionPoint* end = EndOf(work, line, !fromLast);
+    int32_t type = line->end[fromLast ? 0 : 1];
+    kiriCrossing* crossing = type == KIRI_SIDE_TO ? NearestCrossing(work, end->rest, Same * work->snap) : NULL;
+    bool isStill = crossing != NULL && RestDistance(track->rest, crossing->rest) < Still * work->snap;
+    bool ok = isStill || (FindPath(work, line, fromLast) && LeadAlong(work, track));
+    if (!ok || crossing != NULL) {
+        return ok && GoOn(work, track, crossing);
+    }
+    kiriTrack* other = type == KIRI_SIDE_FROM ? OtherTrack(work, track, end->rest) : NULL;
+    if (other != NULL) {
+        ok = Lead(work, track, other->rest) && End(work, other);
+    }
+    return ok && End(work, track);
+}
+
+/* From where the edge would be now, had it gone on with the material, to where it is. */
+static bool FollowTrack(kiriBladeWork* work, kiriTrack* track)
+{
+    kiriVec3 x, to = EdgeAt(work->is, track->share);
+    if (!Seen(work->sheet, track->rest, &x)) {
+        return true;
+    }
+    work->drift = kiriVec3_Sub(x, track->at);
+    const kiriVec3 was[2] = { kiriVec3_Add(work->was[0], work->drift), kiriVec3_Add(work->was[1], work->drift) };
+    kiriVec3 flat[2];
+    bool fromLast;
+    if (Flatten(work, work->is, x, was, flat)) {
+        if (!CutPlane(work, flat, work->is, x, to)) {
+            return false;
+        }
+        const kiriSectionLine* line = LineFrom(work, track->rest, &fromLast);
+        if (line != NULL) {
+            return FollowLine(work, track, line, fromLast);
+        }
+    }
+    /* Hardly any way, or along the surface: then the layer is where it is nearest in the material. */
+    double way = kiriVec3_Length(kiriVec3_Sub(to, x));
+    kiriCrossing* crossing = NearestCrossing(work, track->rest, 2.0 * way + Same * work->snap);
+    return crossing == NULL || GoOn(work, track, crossing);
+}
+
+/* ---- Layers that it has come into ---- */
+
+/* A track that was not found again, in whatever sheet its material is now, near where a line begins. */
+static const kiriTrack* LostTrack(const kiriBladeWork* work, kiriVec2 rest, double distance)
+{
+    const kiriTrack* nearest = NULL;
+    for (int32_t i = 0; i < work->oldCount; ++i) {
+        const kiriTrack* track = &work->tracks.data[i];
+        double d = RestDistance(track->rest, rest);
+        if (track->isLost && d <= distance) {
+            distance = d;
+            nearest = track;
+        }
+    }
+    return nearest;
+}
+
+static bool AddTrack(kiriBladeWork* work, const kiriCrossing* crossing, kiriVec2 rest)
+{
+    const kiriTrack track = { work->sheet, NULL, KIRI_NONE, rest, crossing->at, crossing->share, true, false, false };
+    return kiriArray_Push(&work->memory, &work->tracks, track);
+}
+
+/* From the beginning of the line to the crossing at its other end. */
+static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSectionLine* line, bool fromLast,
+                       double near)
+{
+    const kiriSectionPoint* start = EndOf(work, line, fromLast);
+    int32_t type = line->end[fromLast ? 1 : 0];
+    kiriCrossing* other = type == KIRI_SIDE_TO ? NearestCrossing(work, start->rest, Same * work->snap) : NULL;
+    const kiriTrack* lost = type == KIRI_SIDE_FROM ? LostTrack(work, start->rest, near) : NULL;
+    if (!FindPath(work, line, fromLast)) {
+        return false;
+    }
+    kiriVec2 from = lost != NULL ? lost->rest : work->path.data[0];
+    if (other != NULL && other != crossing) {
+        other->triangle = TAKEN;
+        if (!AddTrack(work, other, other->rest)) {
+            return false;
+        }
+    }
+    if (!AddTrack(work, crossing, from)) {
+        return false;
+    }
+    kiriTrack* track = &work->tracks.data[work->tracks.count - 1];
+    return LeadAlong(work, track) && GoOn(work, track, crossing);
+}
+
+/* The line that leads to the crossing from where the edge was; from farther back where a border is near, for where the
+   material was then is known only nearly. */
+static bool FindLineTo(kiriBladeWork* work, const kiriCrossing* crossing, const kiriVec3* was, const kiriVec3* flat,
+                       const kiriSectionLine** line, bool* fromLast)
+{
+    kiriVec3 from = EdgeAt(was, crossing->share), back = kiriVec3_Sub(from, crossing->at);
+    double length = kiriVec3_Length(back);
+    back = kiriVec3_Scale(0.5 + 4.0 * work->snap / length, back);
+    const kiriVec3 farther[2] = { kiriVec3_Add(was[0], back), kiriVec3_Add(was[1], back) };
+    *line = NULL;
+    if (!CutPlane(work, farther, flat, kiriVec3_Add(from, back), crossing->at)) {
+        return false;
+    }
+    *line = LineFrom(work, crossing->rest, fromLast);
+    if (*line != NULL && (*line)->end[*fromLast ? 0 : 1] == KIRI_SIDE_FROM) {
+        if (!CutPlane(work, was, flat, from, crossing->at)) {
+            return false;
+        }
+        *line = LineFrom(work, crossing->rest, fromLast);
+    }
+    return true;
+}
+
+static bool EnterLayer(kiriBladeWork* work, kiriCrossing* crossing)
+{
+    kiriVec3 drift = DriftAt(work, crossing), flat[2];
+    const kiriVec3 was[2] = { kiriVec3_Add(work->was[0], drift), kiriVec3_Add(work->was[1], drift) };
+    const kiriSectionLine* line = NULL;
+    bool fromLast = false;
+    work->drift = drift;
+    if (Flatten(work, was, crossing->at, work->is, flat) && !FindLineTo(work, crossing, was, flat, &line, &fromLast)) {
+        return false;
+    }
+    if (line != NULL) {
+        double near = kiriVec3_Length(kiriVec3_Sub(EdgeAt(was, crossing->share), crossing->at));
+        return EnterAlong(work, crossing, line, !fromLast, 2.0 * near + Same * work->snap);
+    }
+    bool ok = AddTrack(work, crossing, crossing->rest);
+    crossing->triangle = TAKEN;
+    return ok;
+}
+
+/* ---- Layers that it has passed through ---- */
+
+/* Has the step led a cut through the middle of the line already? */
+static bool IsLed(const kiriBladeWork* work, const kiriSectionLine* line)
+{
+    const kiriSectionPoint* middle = &work->section.points.data[line->first + line->count / 2];
+    kiriVec2 rest = kiriVec2_Scale(0.5, kiriVec2_Add(middle[-1].rest, middle->rest));
+    double near = 2.0 * Same * work->snap + kiriVec3_Length(work->drift);
+    bool isLed = false;
+    for (int32_t i = work->firstPoint; !isLed && i < work->points.count; ++i) {
+        const kiriStrokePoint* point = &work->points.data[i];
+        isLed = work->strokes.data[point->stroke].sheet == work->sheet &&
+                kiriVec2_DistanceToWay(rest, point->from, point->rest) < near;
+    }
+    return isLed;
+}
+
+/* Lines from a layer that the blade is in, or was in, are those of tracks; but for a track that was lost. */
+static bool PassAlong(kiriBladeWork* work, const kiriSectionLine* line)
+{
+    double near = 2.0 * kiriVec3_Length(work->drift) + Same * work->snap;
+    int inner = line->end[0] == KIRI_SIDE_FROM ? 0 : line->end[1] == KIRI_SIDE_FROM ? 1 : KIRI_NONE;
+    const kiriSectionPoint *first = EndOf(work, line, false), *last = EndOf(work, line, true);
+    if (line->end[0] == KIRI_SIDE_TO || line->end[1] == KIRI_SIDE_TO || IsLed(work, line)) {
+        return true;
+    }
+    const kiriTrack* lost = inner != KIRI_NONE ? LostTrack(work, inner == 0 ? first->rest : last->rest, near) : NULL;
+    if (inner != KIRI_NONE && (lost == NULL || line->end[1 - inner] == KIRI_SIDE_FROM)) {
+        return true;
+    }
+    if (!FindPath(work, line, inner == 1)) {
+        return false;
+    }
+    kiriTrack track = { work->sheet, NULL,  KIRI_NONE, lost != NULL ? lost->rest : work->path.data[0], work->is[0], 0.0,
+                        false,       false, false };
+    return LeadAlong(work, &track) && End(work, &track);
+}
+
+static bool PassThrough(kiriBladeWork* work)
+{
+    const kiriSheetData* sheet = work->sheet;
+    const kiriVec3 edge[4] = { kiriVec3_Add(work->was[0], work->drift), kiriVec3_Add(work->was[1], work->drift),
+                               work->is[1], work->is[0] };
+    bool ok = kiriSection_Sweep(&work->section, &work->memory, &sheet->seen.surface, sheet->seen.bounds, edge);
+    for (int32_t i = 0; ok && i < work->section.lines.count; ++i) {
+        ok = PassAlong(work, &work->section.lines.data[i]);
+    }
+    return ok;
+}
+
+/* ---- One step ---- */
+
+bool kiriBlade_Step(kiriBladeWork* work)
+{
+    kiriSheetData* sheet = work->sheet;
+    bool ok = true;
+    work->snap = sheet->settings.snap * sheet->mesh.step;
+    work->firstPoint = work->points.count;
+    work->crossings.count = 0;
+    work->drift = kiriVec3_Make(0.0, 0.0, 0.0);
+    ok = kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) &&
+         kiriSurface_Cross(&sheet->seen.surface, sheet->seen.bounds, work->is[0], work->is[1], Degenerate * work->snap,
+                           &work->memory, &work->crossings);
+    for (int32_t i = 0; ok && i < work->oldCount; ++i) {
+        kiriTrack* track = &work->tracks.data[i];
+        if (track->sheet == sheet && !track->isDone) {
+            ok = FollowTrack(work, track);
+            track->isLost = !track->isDone;
+        }
+    }
+    for (int32_t i = 0; ok && i < work->crossings.count; ++i) {
+        if (work->crossings.data[i].triangle != TAKEN) {
+            ok = EnterLayer(work, &work->crossings.data[i]);
+        }
+    }
+    ok = ok && PassThrough(work);
+    for (int32_t i = 0; ok && i < work->oldCount; ++i) {
+        kiriTrack* track = &work->tracks.data[i];
+        ok = track->sheet != sheet || !track->isLost || track->isOver || End(work, track);
+    }
+    return ok;
+}

@@ -1,0 +1,62 @@
+/* A move of a blade while it is worked out, private to the files of kiri_blade: nothing in the world changes before all
+   of it is known, and there is room for it. */
+#ifndef KIRI_BLADE_WORK_H
+#define KIRI_BLADE_WORK_H
+
+#include "../view/kiri_ray.h"
+#include "../view/kiri_section.h"
+#include "kiri_blade.h"
+
+KIRI_C_BEGIN
+
+/* What one cut gets. */
+typedef struct kiriStroke {
+    kiriSheetData* sheet;
+    kiriCutData* cut; /* null: a new one */
+    bool isOver;      /* nothing comes after it */
+} kiriStroke;
+
+typedef struct kiriStrokePoint {
+    int32_t stroke;
+    kiriVec2 from, rest; /* the cut is at `from` before */
+    bool isStart;
+} kiriStrokePoint;
+
+/* A layer on its way. */
+typedef struct kiriTrack {
+    kiriSheetData* sheet;
+    kiriCutData* cut; /* or null */
+    int32_t stroke;   /* or KIRI_NONE: it gets nothing yet */
+    kiriVec2 rest;
+    kiriVec3 at;
+    double share;
+    bool isDone; /* it is seen to, in this step */
+    bool isOver; /* the blade is out of the layer */
+    bool isLost; /* its layer was not found again; somebody may go on from where it was */
+} kiriTrack;
+
+typedef struct kiriBladeWork {
+    kiriMemory memory;
+    KIRI_ARRAY(kiriTrack) tracks;
+    KIRI_ARRAY(kiriStroke) strokes;
+    KIRI_ARRAY(kiriStrokePoint) points;
+
+    /* One step for one sheet. */
+    kiriVec3 was[2], is[2]; /* the edge */
+    double elapsed;         /* s in which the sheet went on since the edge was there */
+    kiriSheetData* sheet;
+    double snap;      /* m */
+    int32_t oldCount; /* tracks before the step */
+    kiriVec3 drift;   /* how the material went on, of the last layer that was looked at */
+    int32_t firstPoint;
+    kiriCrossings crossings; /* of the edge as it is; those without share are seen to */
+    kiriSection section;
+    kiriRestPoints path;
+} kiriBladeWork;
+
+/* Steps of the edge through one sheet. False for memory. */
+bool kiriBlade_Step(kiriBladeWork* work);
+
+KIRI_C_END
+
+#endif

@@ -1,0 +1,702 @@
+/* A blade that goes on: whatever the sheet does between its moves, it parts what it goes through, and nothing else. */
+#include "host.h"
+
+typedef struct Stage {
+    Host host;
+    kiriSheet sheet;
+    kiriBlade blade;
+} Stage;
+
+/* ---- Sheets ---- */
+
+static const float stillAir[3] = { 0.0f, 0.0f, 0.0f };
+
+static kiriSheetDef Def(int32_t grid, int32_t frames)
+{
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = grid;
+    def.frameCount = frames;
+    def.collisionPoints = 0;
+    return def;
+}
+
+/* A sheet of 1 m in the plane of x and y, that nothing pulls at. */
+static void Stage_StartFlat(Stage* stage, int32_t grid, int32_t frames)
+{
+    kiriSheetDef def = Def(grid, frames);
+    Host_Start(&stage->host);
+    stage->host.every = 20;
+    OK(kiriWorld_SetGravity(stage->host.world, stillAir));
+    stage->sheet = Host_AddRectangle(&stage->host, &def, 1.0f, 1.0f, grid, grid);
+}
+
+/* A curtain in the plane of x and z, pinned at its upper corners. */
+static void Stage_StartCurtain(Stage* stage, int32_t grid, int32_t ticks)
+{
+    kiriSheetDef def = Def(grid, 9);
+    def.axisV[1] = 0.0f;
+    def.axisV[2] = 1.0f;
+    Host_Start(&stage->host);
+    stage->host.every = 40;
+    stage->sheet = Host_AddRectangle(&stage->host, &def, 1.0f, 1.0f, grid, grid);
+    for (int k = 0; k < 2; ++k) {
+        kiriPinDef pinDef;
+        kiriPin pin;
+        kiriDefaultPinDef(&pinDef);
+        pinDef.restPoint[0] = pinDef.target[0] = (float)k;
+        pinDef.restPoint[1] = pinDef.target[2] = 1.0f;
+        OK(kiriCreatePin(stage->host.world, stage->sheet, &pinDef, &pin));
+    }
+    for (int32_t i = 0; i < ticks; ++i) {
+        OK(Host_Tick(&stage->host, 1.0f / 60.0f, 2));
+    }
+}
+
+static int32_t Pieces(const Stage* stage)
+{
+    return Host_Counts(&stage->host, stage->sheet).pieces;
+}
+
+static double LeastArea(Stage* stage)
+{
+    double least = 1e9;
+    for (int32_t i = 0; i < Pieces(stage); ++i) {
+        kiriPieceState piece;
+        OK(kiriSheet_GetPiece(stage->host.world, stage->sheet, i, &piece));
+        least = piece.area < least ? piece.area : least;
+    }
+    return least;
+}
+
+/* ---- Moves ---- */
+
+/* An edge along z over a place. */
+static void MoveTo(Stage* stage, double x, double y)
+{
+    const float from[3] = { (float)x, (float)y, -1.0f }, to[3] = { (float)x, (float)y, 1.0f };
+    OK(kiriBlade_MoveEdge(stage->host.world, stage->blade, from, to));
+}
+
+static void Tick(Stage* stage)
+{
+    OK(Host_Tick(&stage->host, 1.0f / 60.0f, 1));
+}
+
+/* From one place to another, a tick after each step. */
+static void Draw(Stage* stage, double x0, double y0, double x1, double y1, int32_t steps)
+{
+    for (int32_t i = 0; i <= steps; ++i) {
+        MoveTo(stage, x0 + (x1 - x0) * i / steps, y0 + (y1 - y0) * i / steps);
+        Tick(stage);
+    }
+}
+
+static void Begin(Stage* stage)
+{
+    OK(kiriBeginBlade(stage->host.world, stage->sheet, &stage->blade));
+}
+
+static void EndAndTick(Stage* stage)
+{
+    OK(kiriBlade_End(stage->host.world, stage->blade));
+    Tick(stage);
+    Tick(stage);
+}
+
+/* ---- Swipes ---- */
+
+enum { AT_REST, IN_WIND, SLOW_MOTION, MOTIONS };
+
+typedef struct Swipe {
+    int32_t grid, steps, motion, budget; /* budget 0: none */
+    double height, wave;
+} Swipe;
+
+/* Gusts push it to and fro, and lips apart. */
+static void Blow(const Stage* stage, int32_t step)
+{
+    const float force[3] = { 0.0f, step / 3 % 2 == 0 ? -1.5f : 1.5f, 0.3f }, none[3] = { 0.0f, 0.0f, 0.0f };
+    kiriFrame frames[64];
+    int32_t count;
+    OK(kiriSheet_GetFrames(stage->host.world, stage->sheet, frames, 64, &count));
+    OK(kiriFrame_ApplyForce(stage->host.world, frames[count / 2], force, none));
+    OK(kiriFrame_ApplyForce(stage->host.world, frames[0], force, none));
+}
+
+/* The ray of a mouse, seen from 2 m in front of the curtain. */
+static void MoveMouse(const Stage* stage, const Swipe* swipe, double share)
+{
+    static const float eye[3] = { 0.5f, -2.0f, 0.5f };
+    double turn = 3.0 * share, bow = turn - floor(turn); /* three arches */
+    const float way[3] = { (float)(-0.65 + 1.3 * share), 2.0f,
+                           (float)(swipe->height + swipe->wave * 4.0 * bow * (1.0 - bow)) };
+    OK(kiriBlade_MoveRay(stage->host.world, stage->blade, eye, way, 20.0f));
+}
+
+static void Finish(Stage* stage)
+{
+    int32_t ticks = 0;
+    kiriResult result = KIRI_PENDING;
+    for (; result == KIRI_PENDING || ticks < 5; ++ticks) {
+        result = Host_Tick(&stage->host, 1.0f / 60.0f, 1);
+        assert_true(result >= 0 && ticks < 5000);
+    }
+}
+
+static void CheckSwipe(const Swipe* swipe)
+{
+    Stage stage;
+    const kiriBudget budget = { 4 * swipe->budget, 40 * swipe->budget, 40 * swipe->budget, 0 };
+    Stage_StartCurtain(&stage, swipe->grid, swipe->motion == AT_REST ? 100 : 20);
+    OK(kiriWorld_SetBudget(stage.host.world, &budget));
+    Begin(&stage);
+    for (int32_t i = 0; i <= swipe->steps; ++i) {
+        MoveMouse(&stage, swipe, (double)i / swipe->steps);
+        if (swipe->motion == IN_WIND) {
+            Blow(&stage, i);
+        }
+        assert_true(Host_Tick(&stage.host, swipe->motion == SLOW_MOTION ? 1.0f / 600.0f : 1.0f / 60.0f, 2) >= 0);
+    }
+    OK(kiriBlade_End(stage.host.world, stage.blade));
+    Finish(&stage);
+    if (Pieces(&stage) != 2 || LeastArea(&stage) < 0.1) {
+        fail_msg("grid %d, %d steps, motion %d, budget %d, height %g, wave %g: %d pieces, the least %g",
+                 (int)swipe->grid, (int)swipe->steps, (int)swipe->motion, (int)swipe->budget, swipe->height,
+                 swipe->wave, (int)Pieces(&stage), LeastArea(&stage));
+    }
+    Host_Stop(&stage.host);
+}
+
+/* Once across, in one step or many, part it, each time. */
+static void TestSwipesPart(void** state)
+{
+    (void)state;
+    static const int32_t steps[4] = { 1, 3, 20, 90 };
+    for (int32_t motion = 0; motion < MOTIONS; ++motion) {
+        for (int k = 0; k < 16; ++k) {
+            const Swipe swipe = { 32, steps[k % 4], motion, k % 8 < 4 ? 0 : 10, 0.0, k < 8 ? 0.0 : 0.1 };
+            CheckSwipe(&swipe);
+        }
+    }
+}
+
+/* 20 of 20. */
+static void TestTwentySwipes(void** state)
+{
+    (void)state;
+    uint32_t seed = 20;
+    for (int k = 0; k < 20; ++k) {
+        double height = RandomBetween(&seed, -0.3, 0.3), wave = RandomBetween(&seed, -0.1, 0.1);
+        const Swipe swipe = { 32, 20, IN_WIND, 0, height, wave };
+        CheckSwipe(&swipe);
+    }
+    const Swipe fine[2] = { { 128, 20, AT_REST, 0, 0.1, 0.0 }, { 128, 20, IN_WIND, 0, -0.1, 0.1 } };
+    CheckSwipe(&fine[0]);
+    CheckSwipe(&fine[1]);
+}
+
+/* ---- Paths ---- */
+
+/* In and out again along the same line: a slit, and nothing comes off. */
+static void TestBackAndForth(void** state)
+{
+    (void)state;
+    Stage stage;
+    Stage_StartFlat(&stage, 16, 8);
+    Begin(&stage);
+    Draw(&stage, -0.2, 0.52, 0.6, 0.53, 20);
+    int32_t vertices = Host_Counts(&stage.host, stage.sheet).vertices;
+    Draw(&stage, 0.6, 0.53, -0.2, 0.52, 17);
+    Draw(&stage, -0.2, 0.52, 0.55, 0.529375, 9);
+    EndAndTick(&stage);
+    assert_int_equal(Pieces(&stage), 1);
+    assert_true(vertices > 17 * 17 + 10);
+    kiriMesh mesh = Host_Mesh(&stage.host, stage.sheet);
+    for (int32_t v = vertices; v < mesh.vertexCount; ++v) {
+        const float* rest = &mesh.restPositions[2 * (size_t)v];
+        assert_float_equal(rest[1], 0.5225f + 0.0125f * rest[0], 2e-4f);
+    }
+    Host_Stop(&stage.host);
+}
+
+/* Around once and a little more: a disc comes out. Faster and slower, one way and the other. */
+static void TestLoops(void** state)
+{
+    (void)state;
+    for (int k = 0; k < 6; ++k) {
+        Stage stage;
+        int32_t corners = 8 + 7 * k, extra = 1 + k / 2;
+        Stage_StartFlat(&stage, 16, 8);
+        Begin(&stage);
+        for (int32_t i = 0; i <= corners + extra; ++i) {
+            double turn = (k % 2 == 0 ? 6.283185307179586 : -6.283185307179586) * i / corners;
+            double radius = i <= corners ? 0.2 - 0.01 * i / corners : 0.23;
+            MoveTo(&stage, 0.5 + radius * cos(turn), 0.5 + radius * sin(turn));
+            Tick(&stage);
+        }
+        EndAndTick(&stage);
+        if (Pieces(&stage) != 2 || LeastArea(&stage) < 0.05) {
+            fail_msg("loop %d: %d pieces, the least %g", k, (int)Pieces(&stage), LeastArea(&stage));
+        }
+        Host_Stop(&stage.host);
+    }
+}
+
+/* A loop that ends where it began, to the bit, is closed. */
+static void TestClosedLoop(void** state)
+{
+    (void)state;
+    static const double corners[5][2] = { { 0.3, 0.3 }, { 0.7, 0.32 }, { 0.68, 0.7 }, { 0.31, 0.69 }, { 0.3, 0.3 } };
+    Stage stage;
+    Stage_StartFlat(&stage, 16, 8);
+    Begin(&stage);
+    for (int k = 0; k < 5; ++k) {
+        MoveTo(&stage, corners[k][0], corners[k][1]);
+        Tick(&stage);
+    }
+    EndAndTick(&stage);
+    assert_int_equal(Pieces(&stage), 2);
+    assert_true(LeastArea(&stage) > 0.1);
+    Host_Stop(&stage.host);
+}
+
+/* A blade that stands in a sheet at rest does nothing. */
+static void TestStandsStill(void** state)
+{
+    (void)state;
+    Stage stage;
+    Stage_StartFlat(&stage, 16, 8);
+    Begin(&stage);
+    uint32_t revision = Host_Mesh(&stage.host, stage.sheet).revision;
+    for (int k = 0; k < 30; ++k) {
+        MoveTo(&stage, 0.4, 0.6);
+        Tick(&stage);
+    }
+    assert_int_equal(Host_Mesh(&stage.host, stage.sheet).revision, revision);
+    Draw(&stage, 0.4, 0.6, 1.2, 0.6, 3);
+    revision = Host_Mesh(&stage.host, stage.sheet).revision;
+    Draw(&stage, 1.3, 0.6, 1.3, 0.2, 3); /* outside */
+    EndAndTick(&stage);
+    assert_int_equal(Host_Mesh(&stage.host, stage.sheet).revision, revision);
+    assert_int_equal(Pieces(&stage), 1);
+    Host_Stop(&stage.host);
+}
+
+/* Out over a border, back in, and out again: each time it parts. */
+static void TestLeavesAndComesBack(void** state)
+{
+    (void)state;
+    Stage stage;
+    Stage_StartFlat(&stage, 16, 8);
+    Begin(&stage);
+    Draw(&stage, -0.1, 0.25, 1.1, 0.31, 11);
+    assert_int_equal(Pieces(&stage), 2);
+    Draw(&stage, 1.1, 0.31, 1.1, 0.72, 3);
+    Draw(&stage, 1.1, 0.72, -0.1, 0.68, 7);
+    assert_int_equal(Pieces(&stage), 3);
+    Draw(&stage, -0.1, 0.68, 0.5, -0.1, 1);
+    Draw(&stage, 0.5, -0.1, 0.51, 1.1, 40); /* across its own cuts */
+    EndAndTick(&stage);
+    assert_int_equal(Pieces(&stage), 8);
+    assert_true(LeastArea(&stage) > 0.01);
+    Host_Stop(&stage.host);
+}
+
+/* An edge that ends above the sheet for half of its way cuts the other half. */
+static void TestShortEdge(void** state)
+{
+    (void)state;
+    Stage stage;
+    double longest = 0.0;
+    Stage_StartFlat(&stage, 16, 8);
+    Begin(&stage);
+    for (int k = 0; k <= 24; ++k) {
+        const float x = -0.1f + 1.2f * (float)k / 24.0f, to[3] = { x, 0.55f, 1.0f }, from[3] = { x, 0.55f, x - 0.503f };
+        OK(kiriBlade_MoveEdge(stage.host.world, stage.blade, from, to));
+        Tick(&stage);
+    }
+    EndAndTick(&stage);
+    assert_int_equal(Pieces(&stage), 1);
+    kiriMesh mesh = Host_Mesh(&stage.host, stage.sheet);
+    for (int32_t v = 17 * 17; v < mesh.vertexCount; ++v) {
+        const float* rest = &mesh.restPositions[2 * (size_t)v];
+        assert_float_equal(rest[1], 0.55f, 1e-4f);
+        longest = rest[0] > longest ? rest[0] : longest;
+    }
+    assert_float_equal(longest, 0.503f, 1e-4f);
+    Host_Stop(&stage.host);
+}
+
+/* An edge that turns while it moves, fast. */
+static void TestTurningEdge(void** state)
+{
+    (void)state;
+    for (int steps = 1; steps < 12; steps += 5) {
+        Stage stage;
+        Stage_StartFlat(&stage, 16, 8);
+        Begin(&stage);
+        for (int k = 0; k <= steps; ++k) {
+            double x = -0.3 + 1.6 * k / steps, tilt = -0.6 + 1.2 * k / steps;
+            const float from[3] = { (float)x, (float)(0.45 - tilt), -1.0f },
+                        to[3] = { (float)x, (float)(0.45 + tilt), 1.2f };
+            OK(kiriBlade_MoveEdge(stage.host.world, stage.blade, from, to));
+            Tick(&stage);
+        }
+        EndAndTick(&stage);
+        assert_int_equal(Pieces(&stage), 2);
+        assert_true(LeastArea(&stage) > 0.2);
+        Host_Stop(&stage.host);
+    }
+}
+
+/* ---- Layers ---- */
+
+/* Folded in half over x = 0.5, the upper layer 0.1 m above the lower. */
+static void StartFolded(Stage* stage)
+{
+    static const float flat[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+    static const float turned[9] = { -1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, -1.0f };
+    float points[16];
+    kiriFrame frames[8];
+    int32_t count;
+    for (int k = 0; k < 8; ++k) {
+        points[2 * k] = 0.125f + 0.25f * (float)(k / 2);
+        points[2 * k + 1] = 0.25f + 0.5f * (float)(k % 2);
+    }
+    kiriSheetDef def = Def(16, 8);
+    def.framePoints = points;
+    Host_Start(&stage->host);
+    OK(kiriWorld_SetGravity(stage->host.world, stillAir));
+    stage->sheet = Host_AddRectangle(&stage->host, &def, 1.0f, 1.0f, 16, 16);
+    OK(kiriSheet_GetFrames(stage->host.world, stage->sheet, frames, 8, &count));
+    assert_int_equal(count, 8);
+    for (int k = 0; k < 8; ++k) {
+        const float u = points[2 * k], at[3] = { u < 0.5f ? u : 1.0f - u, points[2 * k + 1], u < 0.5f ? 0.0f : 0.1f };
+        OK(kiriFrame_Hold(stage->host.world, frames[k], at, u < 0.5f ? flat : turned));
+    }
+    Tick(stage);
+}
+
+/* Through both layers beside each other; and over the fold, from the open side or from the fold's. */
+static void TestFold(void** state)
+{
+    (void)state;
+    static const double ways[3][4] = { { 0.2, -0.2, 0.23, 1.2 }, { -0.2, 0.5, 0.8, 0.52 }, { 0.8, 0.5, -0.2, 0.53 } };
+    for (int k = 0; k < 9; ++k) {
+        static const int32_t steps[3] = { 1, 20, 111 };
+        const double* way = ways[k / 3];
+        Stage stage;
+        StartFolded(&stage);
+        Begin(&stage);
+        Draw(&stage, way[0], way[1], way[2], way[3], steps[k % 3]);
+        EndAndTick(&stage);
+        if (Pieces(&stage) != (k < 3 ? 3 : 2) || LeastArea(&stage) < 0.15) {
+            fail_msg("way %d, %d steps: %d pieces, the least %g", k / 3, (int)steps[k % 3], (int)Pieces(&stage),
+                     LeastArea(&stage));
+        }
+        Host_Stop(&stage.host);
+    }
+}
+
+/* Every frame of a piece gets the same push. */
+static void Push(const Stage* stage, int32_t piece, float y, float z)
+{
+    const float push[3] = { 0.0f, y, z }, none[3] = { 0.0f, 0.0f, 0.0f };
+    const kiriFrame* frames;
+    int32_t count;
+    OK(kiriSheet_GetPieceFrames(stage->host.world, stage->sheet, piece, &frames, &count));
+    for (int32_t i = 0; i < count; ++i) {
+        OK(kiriFrame_ApplyForce(stage->host.world, frames[i], push, none));
+    }
+}
+
+/* Three strips that drift apart while the blade goes through them. */
+static void TestSeveralPieces(void** state)
+{
+    (void)state;
+    for (int steps = 1; steps <= 40; steps += 13) {
+        static const float lines[2][4] = { { 0.35f, -0.1f, 0.35f, 1.1f }, { 0.7f, -0.1f, 0.7f, 1.1f } };
+        Stage stage;
+        Stage_StartFlat(&stage, 16, 12);
+        Host_Cut(&stage.host, stage.sheet, lines[0], 2);
+        Host_Cut(&stage.host, stage.sheet, lines[1], 2);
+        Tick(&stage);
+        for (int32_t piece = 0; piece < 3; ++piece) {
+            Push(&stage, piece, 0.5f * (float)(piece - 1), 0.5f * (float)piece);
+        }
+        Begin(&stage);
+        Draw(&stage, -0.2, 0.5, 1.2, 0.52, steps);
+        EndAndTick(&stage);
+        if (Pieces(&stage) != 6 || LeastArea(&stage) < 0.02) {
+            fail_msg("%d steps: %d pieces, the least %g", steps, (int)Pieces(&stage), LeastArea(&stage));
+        }
+        Host_Stop(&stage.host);
+    }
+}
+
+/* One blade for all sheets. */
+static void TestAllSheets(void** state)
+{
+    (void)state;
+    Stage stage;
+    kiriSheet others[2];
+    Stage_StartFlat(&stage, 16, 8);
+    kiriSheetDef def = Def(12, 6);
+    for (int k = 0; k < 2; ++k) {
+        def.position[2] = 0.2f * (float)(k + 1);
+        def.position[0] = 0.1f * (float)k;
+        others[k] = Host_AddRectangle(&stage.host, &def, 1.0f, 1.0f, 12, 12);
+    }
+    OK(kiriBeginBlade(stage.host.world, 0, &stage.blade));
+    Draw(&stage, -0.2, 0.5, 1.3, 0.52, 13);
+    EndAndTick(&stage);
+    assert_int_equal(Pieces(&stage), 2);
+    assert_int_equal(Host_Counts(&stage.host, others[0]).pieces, 2);
+    assert_int_equal(Host_Counts(&stage.host, others[1]).pieces, 2);
+    Host_Stop(&stage.host);
+}
+
+/* ---- Sheets that move ---- */
+
+/* A sheet that falls past a blade that stands. */
+static void TestFallsPast(void** state)
+{
+    (void)state;
+    for (int side = 0; side < 2; ++side) {
+        Stage stage;
+        kiriSheetDef def = Def(16, 8);
+        def.axisV[1] = 0.0f;
+        def.axisV[2] = 1.0f;
+        def.position[2] = 0.1f;
+        Host_Start(&stage.host);
+        stage.sheet = Host_AddRectangle(&stage.host, &def, 1.0f, 1.0f, 16, 16);
+        Begin(&stage);
+        for (int k = 0; k < 50; ++k) {
+            const float from[3] = { 0.43f, -1.0f, 0.0f }, to[3] = { 0.43f, 1.0f, 0.0f };
+            OK(side == 0 ? kiriBlade_MoveEdge(stage.host.world, stage.blade, from, to)
+                         : kiriBlade_MoveEdge(stage.host.world, stage.blade, to, from));
+            Tick(&stage);
+        }
+        assert_int_equal(Pieces(&stage), 2);
+        assert_true(LeastArea(&stage) > 0.4);
+        Host_Stop(&stage.host);
+    }
+}
+
+/* A blade that falls with the sheet and crosses it meanwhile leaves one straight line, without hairs at its steps. */
+static void TestFallsAlong(void** state)
+{
+    (void)state;
+    Stage stage;
+    kiriSheetDef def = Def(16, 8);
+    def.axisV[1] = 0.0f;
+    def.axisV[2] = 1.0f;
+    Host_Start(&stage.host);
+    stage.sheet = Host_AddRectangle(&stage.host, &def, 1.0f, 1.0f, 16, 16);
+    Begin(&stage);
+    double fallen = 0.0, speed = 0.0;
+    for (int k = 0; k <= 30; ++k) {
+        const float x = -0.1f + 1.2f * (float)k / 30.0f, z = (float)(0.53 - fallen);
+        const float from[3] = { x, -1.0f, z }, to[3] = { x, 1.0f, z };
+        OK(kiriBlade_MoveEdge(stage.host.world, stage.blade, from, to));
+        Tick(&stage);
+        kiriTotals totals = Host_Totals(&stage.host, stage.sheet);
+        fallen = 0.5 - totals.center[2];
+        speed = totals.momentum[2] / totals.mass;
+    }
+    EndAndTick(&stage);
+    assert_true(speed < -4.0);
+    assert_int_equal(Pieces(&stage), 2);
+    kiriMesh mesh = Host_Mesh(&stage.host, stage.sheet);
+    for (int32_t v = 17 * 17; v < mesh.vertexCount; ++v) {
+        assert_float_equal(mesh.restPositions[2 * (size_t)v + 1], 0.53f, 2e-3f);
+    }
+    Host_Stop(&stage.host);
+}
+
+/* A piece gets a sheet of its own while the blade is in it: a blade for all goes on in it. */
+static void TestDetached(void** state)
+{
+    (void)state;
+    static const float line[4] = { -0.1f, 0.3f, 1.1f, 0.3f };
+    for (int lower = 0; lower < 2; ++lower) {
+        Stage stage;
+        kiriSheet detached;
+        Stage_StartFlat(&stage, 16, 8);
+        Host_Cut(&stage.host, stage.sheet, line, 2);
+        Tick(&stage);
+        OK(kiriBeginBlade(stage.host.world, 0, &stage.blade));
+        double y = lower ? 0.15 : 0.6;
+        Draw(&stage, -0.1, y, 0.5, y, 5);
+        kiriFrame frame = 0;
+        for (int32_t piece = 0; piece < 2; ++piece) {
+            kiriPieceState at;
+            OK(kiriSheet_GetPiece(stage.host.world, stage.sheet, piece, &at));
+            frame = at.center[1] > 0.3 ? frame : Host_FrameOf(&stage.host, stage.sheet, piece);
+        }
+        OK(kiriFrame_DetachPiece(stage.host.world, frame, &detached));
+        Draw(&stage, 0.6, y, 1.1, y, 5);
+        EndAndTick(&stage);
+        assert_int_equal(Pieces(&stage), lower ? 1 : 2);
+        assert_int_equal(Host_Counts(&stage.host, detached).pieces, lower ? 2 : 1);
+        Host_Stop(&stage.host);
+    }
+}
+
+/* ---- Calls ---- */
+
+/* What is refused, and that it changes nothing. */
+static void TestRefusals(void** state)
+{
+    (void)state;
+    Stage stage;
+    kiriBlade blade = 0;
+    float a[3] = { 0.0f, 0.5f, -1.0f }, b[3] = { 0.0f, 0.5f, 1.0f }, zero[3] = { 0.0f, 0.0f, 0.0f };
+    Stage_StartFlat(&stage, 8, 4);
+    kiriWorld* w = stage.host.world;
+    uint64_t hash = Host_Hash(&stage.host);
+    assert_int_equal(kiriBeginBlade(NULL, 0, &blade), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriBeginBlade(w, 0, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriBeginBlade(w, 12345, &blade), KIRI_ERROR_ID);
+    assert_int_equal(blade, 0);
+    assert_int_equal(kiriBlade_MoveEdge(w, 0, a, b), KIRI_ERROR_ID);
+    assert_int_equal(kiriBlade_MoveRay(w, stage.sheet, a, b, 1.0f), KIRI_ERROR_ID);
+    assert_int_equal(kiriBlade_End(w, stage.sheet), KIRI_ERROR_ID);
+    assert_true(Host_Hash(&stage.host) == hash);
+    Begin(&stage);
+    assert_true(Host_Hash(&stage.host) != hash);
+    hash = Host_Hash(&stage.host);
+    assert_int_equal(kiriBlade_MoveEdge(NULL, stage.blade, a, b), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriBlade_MoveEdge(w, stage.blade, NULL, b), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriBlade_MoveEdge(w, stage.blade, a, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriBlade_MoveRay(w, stage.blade, a, zero, 1.0f), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriBlade_MoveRay(w, stage.blade, a, b, 0.0f), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriBlade_MoveRay(w, stage.blade, a, b, NAN), KIRI_ERROR_ARGUMENT);
+    a[1] = INFINITY;
+    assert_int_equal(kiriBlade_MoveEdge(w, stage.blade, a, b), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriBlade_MoveRay(w, stage.blade, b, a, 1.0f), KIRI_ERROR_ARGUMENT);
+    assert_true(Host_Hash(&stage.host) == hash);
+    OK(kiriBlade_End(w, stage.blade));
+    assert_int_equal(kiriBlade_End(w, stage.blade), KIRI_ERROR_ID);
+    assert_int_equal(kiriBlade_MoveEdge(w, stage.blade, b, b), KIRI_ERROR_ID);
+    Host_Stop(&stage.host);
+}
+
+/* Edges of any size, and of none. */
+static void TestExtremeEdges(void** state)
+{
+    (void)state;
+    static const float edges[8][6] = {
+        { 0.5f, -1.0f, 0.0f, 0.5f, 2.0f, 0.0f },   { 3e38f, -3e38f, 3e38f, -3e38f, 3e38f, -3e38f },
+        { 0.5f, 0.5f, -1e30f, 0.5f, 0.5f, 1e30f }, { 0.6f, 0.6f, 0.0f, 0.6f, 0.6f, 0.0f },
+        { -1.0f, 0.4f, 0.0f, 2.0f, 0.4f, 0.0f },   { 0.3f, 0.3f, -1e-30f, 0.3f, 0.3f, 1e-30f },
+        { 0.2f, 0.2f, -1.0f, 0.8f, 0.8f, 1.0f },   { 0.8f, 0.8f, 1.0f, 0.2f, 0.2f, -1.0f }
+    };
+    Stage stage;
+    Stage_StartFlat(&stage, 8, 4);
+    Begin(&stage);
+    for (int k = 0; k < 64; ++k) {
+        const float* edge = edges[(3 * k + k / 8) % 8];
+        OK(kiriBlade_MoveEdge(stage.host.world, stage.blade, edge, edge + 3));
+        OK(Host_Tick(&stage.host, 1e-3f, 1));
+    }
+    OK(kiriBlade_End(stage.host.world, stage.blade));
+    Host_Stop(&stage.host);
+}
+
+enum { CALLS = 24 };
+
+/* A swipe, call by call. */
+static kiriResult Call(Stage* stage, int k)
+{
+    kiriWorld* w = stage->host.world;
+    const float x = -0.2f + 0.07f * (float)k, y = 0.4f + (float)(k % 5) * 0.03f;
+    const float from[3] = { x, y, -1.0f }, to[3] = { x, y + 0.02f, 1.0f };
+    return k == 0           ? kiriBeginBlade(w, 0, &stage->blade)
+           : k == CALLS - 2 ? kiriBlade_End(w, stage->blade)
+           : k % 3 == 0     ? Host_Tick(&stage->host, 0.01f, 1)
+           : k == CALLS - 1 ? Host_Tick(&stage->host, 0.01f, 1)
+                            : kiriBlade_MoveEdge(w, stage->blade, from, to);
+}
+
+/* Memory is refused at each place in turn: the call says so and changes nothing, and in the end all is as if it had not
+   been. */
+static void TestWithoutMemory(void** state)
+{
+    (void)state;
+    uint64_t hashes[CALLS];
+    Stage stage;
+    Stage_StartFlat(&stage, 8, 4);
+    for (int k = 0; k < CALLS; ++k) {
+        OK(Call(&stage, k));
+        hashes[k] = Host_Hash(&stage.host);
+    }
+    assert_true(Pieces(&stage) >= 2);
+    Host_Stop(&stage.host);
+    Stage_StartFlat(&stage, 8, 4);
+    int32_t refused = 0;
+    for (int k = 0; k < CALLS; ++k) {
+        uint64_t before = Host_Hash(&stage.host);
+        kiriResult result = KIRI_ERROR_MEMORY;
+        for (int64_t more = 0; result == KIRI_ERROR_MEMORY; ++more) {
+            assert_true(Host_Hash(&stage.host) == before);
+            stage.host.failAt = stage.host.calls + more;
+            result = Call(&stage, k);
+            refused += result == KIRI_ERROR_MEMORY;
+        }
+        stage.host.failAt = -1;
+        OK(result);
+        assert_true(Host_Hash(&stage.host) == hashes[k]);
+    }
+    assert_true(refused > 50);
+    Host_Stop(&stage.host);
+}
+
+/* Rays that somebody casts in between make no difference, though they make boxes. */
+static void TestRaysMakeNoDifference(void** state)
+{
+    (void)state;
+    uint64_t hashes[2];
+    for (int asks = 0; asks < 2; ++asks) {
+        Stage stage;
+        Stage_StartFlat(&stage, 16, 8);
+        for (int k = 0; k < CALLS; ++k) {
+            const float origin[3] = { 0.3f, 0.4f, 2.0f }, down[3] = { 0.0f, 0.0f, -1.0f };
+            kiriHit hit;
+            OK(Call(&stage, k));
+            if (asks) {
+                OK(kiriSheet_Raycast(stage.host.world, stage.sheet, origin, down, 9.0f, &hit));
+            }
+        }
+        hashes[asks] = Host_Hash(&stage.host);
+        Host_Stop(&stage.host);
+    }
+    assert_true(hashes[0] == hashes[1]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestSwipesPart),
+        cmocka_unit_test(TestTwentySwipes),
+        cmocka_unit_test(TestBackAndForth),
+        cmocka_unit_test(TestLoops),
+        cmocka_unit_test(TestClosedLoop),
+        cmocka_unit_test(TestStandsStill),
+        cmocka_unit_test(TestLeavesAndComesBack),
+        cmocka_unit_test(TestShortEdge),
+        cmocka_unit_test(TestTurningEdge),
+        cmocka_unit_test(TestFold),
+        cmocka_unit_test(TestSeveralPieces),
+        cmocka_unit_test(TestAllSheets),
+        cmocka_unit_test(TestFallsPast),
+        cmocka_unit_test(TestFallsAlong),
+        cmocka_unit_test(TestDetached),
+        cmocka_unit_test(TestRefusals),
+        cmocka_unit_test(TestExtremeEdges),
+        cmocka_unit_test(TestWithoutMemory),
+        cmocka_unit_test(TestRaysMakeNoDifference),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
