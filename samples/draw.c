@@ -483,7 +483,9 @@ bool Painter_Paint(Painter* painter, const View* view, Image* image)
     glPushMatrix();
     glScalef(zoom, zoom, zoom);
     DrawSheet(painter, view, zoom);
-    DrawOpenEdges(painter, &view->mesh, view->look.lip);
+    if (!view->isSolid) {
+        DrawOpenEdges(painter, &view->mesh, view->look.lip);
+    }
     if (!view->pegs) {
         DrawThreads(view->pins, view->pinCount, zoom);
     }

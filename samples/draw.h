@@ -9,6 +9,7 @@ typedef struct View {
     Camera camera;
     float size; /* m: one of the camera's lengths; 0: 1 */
     kiriMesh mesh;
+    bool isSolid; /* it has rims: no lines along its edges */
     Look look;
     const float* colors; /* 9 a triangle: red, green, blue at its corners; null: as it looks */
     const float* pins;   /* 3 a pin: the sheet hangs from threads here */

@@ -25,6 +25,7 @@ typedef struct Options {
     const char* film;
     DebugOptions debug;
     int32_t ticks, every, width, height, grid, controlFrames, budget;
+    int32_t solid;    /* mm; 0: the surface alone */
     float closeUp[3]; /* rest point, m, and factor; factor 0: as the scene has it */
     bool axes, plain, asPaper, smooth, quiet, help;
 } Options;
@@ -45,6 +46,7 @@ static void PrintHelp(void)
            "  --zoom U,V,FACTOR     a close-up of the rest point, in sizes of the scene\n"
            "  --paper               mesh, grid and frames of the paper's table 1\n"
            "  --smooth              smooth skinning\n"
+           "  --solid N             show the sheet N mm thick, with its rims\n"
            "  --plain               rigid frames, free in space, in scenes that have others\n"
            "  --frames-axes         show the control frames\n"
            "  --weights all|N       colour the sheet by the shape functions of all frames, or of frame N\n"
@@ -137,6 +139,9 @@ static bool ReadValue(const char* name, const char* value, Options* options)
         return ReadNumber(value, 1, 4096, &options->grid);
     } else if (strcmp(name, "--control-frames") == 0) {
         return ReadNumber(value, 1, DEBUG_MAX_FRAMES, &options->controlFrames);
+    }
+    if (strcmp(name, "--solid") == 0) {
+        return ReadNumber(value, 1, 1000, &options->solid);
     }
     if (strcmp(name, "--budget") == 0) {
         return ReadNumber(value, 0, 1 << 24, &options->budget);
@@ -290,6 +295,23 @@ static bool ShowDebug(View* view, Film* film, const Scene* scene, const Options*
     return true;
 }
 
+/* To draw it is a mesh like another. */
+static bool TakeSolid(View* view, const Scene* scene, float thickness)
+{
+    kiriSolid solid;
+    if (kiriSheet_GetSolid(scene->world, scene->sheet, thickness, &solid) != KIRI_OK) {
+        return false;
+    }
+    view->isSolid = true;
+    view->mesh.positions = solid.positions;
+    view->mesh.normals = solid.normals;
+    view->mesh.restPositions = solid.restPositions;
+    view->mesh.indices = solid.indices;
+    view->mesh.vertexCount = solid.vertexCount;
+    view->mesh.triangleCount = solid.triangleCount;
+    return true;
+}
+
 static bool Film_Shoot(Film* film, const Scene* scene, const Options* options)
 {
     static kiriFrameState axes[DEBUG_MAX_FRAMES];
@@ -301,6 +323,9 @@ static bool Film_Shoot(Film* film, const Scene* scene, const Options* options)
                   .pegs = scene->type->pegs };
     float restPoints[MAX_BLADES][2], blades[MAX_BLADES][3];
     kiriSheet_GetMesh(scene->world, scene->sheet, &view.mesh);
+    if (options->solid > 0 && !TakeSolid(&view, scene, 1e-3f * (float)options->solid)) {
+        return false;
+    }
     if (options->closeUp[2] > 0.0f) {
         MoveCloser(&view, options->closeUp);
     }

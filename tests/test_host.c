@@ -770,6 +770,118 @@ static void TestUserDataStays(void** state)
     Host_Stop(&host);
 }
 
+/* ---- Solids ------------------------------------------------------------------------------------------------------- */
+
+/* Rims have vertices of their own: here a vertex is one of the sheet on one of its sides. */
+static int64_t Welded(const kiriSolid* solid, int32_t seen, int32_t vertex)
+{
+    int32_t side = vertex < 2 * seen ? vertex / seen : (vertex - 2 * seen) % 4 / 2;
+    return 2 * (int64_t)solid->sources[vertex] + side;
+}
+
+static int CompareEdges(const void* a, const void* b)
+{
+    const int64_t *x = a, *y = b;
+    return x[0] != y[0] ? (x[0] > y[0]) - (x[0] < y[0]) : (x[1] > y[1]) - (x[1] < y[1]);
+}
+
+/* Each edge is there once in either direction. */
+static void CheckClosed(const kiriSolid* solid, int32_t seen)
+{
+    int32_t count = 3 * solid->triangleCount;
+    int64_t* edges = malloc(2 * sizeof(int64_t) * (size_t)count);
+    for (int32_t n = 0; n < count; ++n) {
+        int32_t next = n % 3 == 2 ? n - 2 : n + 1;
+        edges[2 * n] = Welded(solid, seen, solid->indices[n]);
+        edges[2 * n + 1] = Welded(solid, seen, solid->indices[next]);
+    }
+    qsort(edges, (size_t)count, 2 * sizeof(int64_t), CompareEdges);
+    for (int32_t n = 0; n < count; ++n) {
+        const int64_t back[2] = { edges[2 * n + 1], edges[2 * n] };
+        assert_true(n == 0 || CompareEdges(&edges[2 * n - 2], &edges[2 * n]) != 0);
+        assert_non_null(bsearch(back, edges, (size_t)count, 2 * sizeof(int64_t), CompareEdges));
+    }
+    free(edges);
+}
+
+static double VolumeOf(const kiriSolid* solid)
+{
+    double sum = 0.0;
+    for (int32_t t = 0; t < solid->triangleCount; ++t) {
+        const float *a = &solid->positions[3 * solid->indices[3 * t]],
+                    *b = &solid->positions[3 * solid->indices[3 * t + 1]],
+                    *c = &solid->positions[3 * solid->indices[3 * t + 2]];
+        sum += (double)a[0] * ((double)b[1] * c[2] - (double)b[2] * c[1]) +
+               (double)a[1] * ((double)b[2] * c[0] - (double)b[0] * c[2]) +
+               (double)a[2] * ((double)b[0] * c[1] - (double)b[1] * c[0]);
+    }
+    return sum / 6.0;
+}
+
+/* A rim looks away from the material: its triangles turn as its normals say. */
+static void CheckRims(const kiriSolid* solid)
+{
+    for (int32_t t = solid->rimTriangle; t < solid->triangleCount; ++t) {
+        const int32_t* corners = &solid->indices[3 * t];
+        double e[2][3], n[3], dot = 0.0;
+        for (int k = 0; k < 6; ++k) {
+            e[k / 3][k % 3] =
+                (double)solid->positions[3 * corners[1 + k / 3] + k % 3] - solid->positions[3 * corners[0] + k % 3];
+        }
+        for (int k = 0; k < 3; ++k) {
+            n[k] = e[0][(k + 1) % 3] * e[1][(k + 2) % 3] - e[0][(k + 2) % 3] * e[1][(k + 1) % 3];
+            dot += n[k] * solid->normals[3 * corners[0] + k];
+        }
+        assert_true(dot > 0.9 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]));
+    }
+}
+
+static void TestSolidIsClosed(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetDef def = Host_SmallDef();
+    kiriSolid solid, again;
+    const float cuts[5][4] = { { -0.1f, 0.4f, 0.6f, 0.55f },
+                               { 0.3f, 0.2f, 0.31f, 0.7f },
+                               { 0.25f, 0.0f, 0.25f, 0.25f }, /* one edge of the mesh, */
+                               { 0.75f, 0.25f, 0.75f, 0.5f }, /* and one with both ends inside */
+                               { 0.6f, -0.1f, 0.9f, 1.1f } };
+    Host_Start(&host);
+    kiriSheet sheet = Hang(&host, &def);
+    for (int i = -1; i < 5; ++i) {
+        if (i >= 0) {
+            Host_Cut(&host, sheet, cuts[i], 2);
+            OK(Host_Tick(&host, 1e-6f, 1));
+        }
+        kiriMesh mesh = Host_Mesh(&host, sheet);
+        OK(kiriSheet_GetSolid(host.world, sheet, 0.01f, &solid));
+        CheckClosed(&solid, mesh.vertexCount);
+        CheckRims(&solid);
+        assert_true(fabs(VolumeOf(&solid) - 0.01 * Host_Totals(&host, sheet).area) < 1e-8);
+        assert_int_equal(solid.rimTriangle, 2 * mesh.triangleCount);
+    }
+    for (int i = 0; i < 30; ++i) {
+        OK(Host_Tick(&host, DT, 2));
+    }
+    OK(kiriSheet_GetSolid(host.world, sheet, 0.01f, &solid));
+    float x = solid.positions[0];
+    OK(kiriSheet_GetSolid(host.world, sheet, 0.0f, &again));
+    CheckClosed(&solid, Host_Mesh(&host, sheet).vertexCount);
+    assert_true(solid.positions[0] == x && VolumeOf(&solid) / 0.01 > 0.8 && VolumeOf(&solid) / 0.01 < 1.0);
+    assert_true(fabs(VolumeOf(&again) / (double)def.material.thickness - VolumeOf(&solid) / 0.01) < 1e-3);
+    assert_int_equal(kiriSheet_GetSolid(host.world, sheet, -1.0f, &solid), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_GetSolid(host.world, sheet, 1.0f, NULL), KIRI_ERROR_ARGUMENT);
+    for (int64_t fail = 0; fail < 5; ++fail) {
+        int64_t live = host.live;
+        host.failAt = host.calls + fail;
+        assert_int_equal(kiriSheet_GetSolid(host.world, sheet, 0.01f, &solid), KIRI_ERROR_MEMORY);
+        host.failAt = -1;
+        assert_true(host.live == live);
+    }
+    Host_Stop(&host);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -794,6 +906,7 @@ int main(void)
         cmocka_unit_test(TestTransformIsChecked),
         cmocka_unit_test(TestVelocityIsRigid),
         cmocka_unit_test(TestUserDataStays),
+        cmocka_unit_test(TestSolidIsClosed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -463,6 +463,23 @@ KIRI_API kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet she
 KIRI_API kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,
                                             int32_t count, uint16_t* indices);
 
+/* The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and the lips of cuts. First come
+   the vertices of kiriMesh on the side that the normal leaves, then the same on the other side, then four for each edge of
+   the border, so that rims are flat and their edges sharp. */
+typedef struct kiriSolid {
+    const float* positions;     /* 3 a vertex, m, world */
+    const float* normals;       /* 3 a vertex, unit, outwards */
+    const float* restPositions; /* 2 a vertex, m */
+    const int32_t* indices;     /* 3 a triangle, counter-clockwise from outside */
+    const int32_t* sources;     /* 1 a vertex: that of kiriMesh which it stands on */
+    int32_t vertexCount;
+    int32_t triangleCount;
+    int32_t rimTriangle; /* from this one on triangles are rims */
+} kiriSolid;
+
+/* thickness: m, 0: that of the material. Made when it is asked for. */
+KIRI_API kiriResult kiriSheet_GetSolid(kiriWorld* world, kiriSheet sheet, float thickness, kiriSolid* solid);
+
 /* Collision points: 3 floats of position (m, world) a point. */
 KIRI_API kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet, const float** positions,
                                                  int32_t* count);

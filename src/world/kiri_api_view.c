@@ -4,6 +4,7 @@
 #include "../sheet/kiri_point.h"
 #include "../sheet/kiri_update.h"
 #include "../view/kiri_ray.h"
+#include "../view/kiri_solid.h"
 
 #include <string.h>
 
@@ -32,6 +33,19 @@ kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t 
     KIRI_FIND_SHEET(data, sheet);
     kiriSurface_GetDirty(&data->seen.surface, sinceRevision, dirty);
     return KIRI_OK;
+}
+
+/* The arrays are gone with the next tick. */
+kiriResult kiriSheet_GetSolid(kiriWorld* world, kiriSheet sheet, float thickness, kiriSolid* solid)
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(solid != NULL, "solid is null");
+    KIRI_CHECK(kiriCall_IsAtLeast(thickness, 0.0f), "thickness is not finite, or below 0");
+    KIRI_FIND_SHEET(data, sheet);
+    double thick = thickness > 0.0f ? thickness : data->settings.material.thickness;
+    return kiriSolid_Build(solid, &world->retired, &data->seen.surface, &data->mesh, thick)
+               ? KIRI_OK
+               : KIRI_FAIL(KIRI_ERROR_MEMORY, NULL);
 }
 
 static bool IsRange(int32_t first, int32_t count, int32_t all)
