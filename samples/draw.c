@@ -259,8 +259,10 @@ static void DrawColored(const kiriMesh* mesh, const float* colors)
 static void DrawSheet(const Painter* painter, const View* view, float zoom)
 {
     glEnable(GL_LIGHTING);
-    glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(1.0f, 4.0f);
+    if (!view->isSolid) { /* lines along its edges lie before it */
+        glEnable(GL_POLYGON_OFFSET_FILL);
+        glPolygonOffset(1.0f, 4.0f);
+    }
     if (view->colors != NULL) {
         DrawColored(&view->mesh, view->colors);
     } else {
