@@ -114,8 +114,12 @@ GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat
 # he swings to the front.
 FILM := --scene fallingguy --ticks 390 --every 4 --size 480x360
 
+# Films of the games; the first one plays itself.
+PLAY_FILM := --headless --size 400x300 --oversampling 3 --every 4
+CURTAIN_FILM := --game curtain --level 4 --demo --ticks 420
+
 gallery: accuracy
-	@$(MAKE) --no-print-directory $(RUN) $(BOX2D)
+	@$(MAKE) --no-print-directory $(RUN) $(BOX2D) $(PLAY)
 	@mkdir -p samples/pictures
 	set -e; for scene in $(GALLERY); do \
 	    $(RUN) --scene $$scene --size 800x600 --every 1000 --output build/gallery/$$scene; \
@@ -123,6 +127,7 @@ gallery: accuracy
 	$(RUN) --scene fallingguy --paper --weights all --size 800x600 --every 1000 --output build/gallery/weights
 	cp build/gallery/weights/contact_sheet.png samples/pictures/weights.png
 	$(RUN) $(FILM) --output build/gallery/film --film samples/pictures/film.png
+	$(PLAY) $(CURTAIN_FILM) $(PLAY_FILM) --film samples/pictures/curtain.png
 	$(BOX2D) --output build/gallery/box2d
 	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
 	for scene in strip square tongue; do cp build/accuracy/trade_$$scene.png samples/pictures/; done

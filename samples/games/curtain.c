@@ -380,10 +380,10 @@ static float GetGust(uint32_t seed, int32_t tick, float period)
 static bool BlowWind(Curtain* curtain)
 {
     const Level* level = curtain->level;
-    float gust = level->gusts * (0.7f * GetGust(1, curtain->tick, 1.4f) + 0.3f * GetGust(2, curtain->tick, 0.45f));
-    curtain->wind[0] = 0.6f * level->gusts * GetGust(3, curtain->tick, 2.3f);
-    curtain->wind[1] = -(level->wind + gust);
-    curtain->wind[2] = 0.2f * gust;
+    float gust = 0.7f * GetGust(1, curtain->tick, 1.4f) + 0.3f * GetGust(2, curtain->tick, 0.45f);
+    curtain->wind[0] = level->wind * GetGust(3, curtain->tick, 4.0f) + level->gusts * gust;
+    curtain->wind[1] = 0.4f * level->gusts * GetGust(4, curtain->tick, 0.8f);
+    curtain->wind[2] = 0.1f * level->gusts * gust;
     kiriWind wind = { .density = 1.2f, .drag = 1.2f, .lift = 0.1f };
     memcpy(wind.velocity, curtain->wind, sizeof wind.velocity);
     for (int32_t i = 0; i < MAX_CLOTHS; i++) {
@@ -558,16 +558,20 @@ static void BreakRing(Curtain* curtain, kiriPin pin)
 
 /* ---- Curtains come and go --------------------------------------------------------------------------------------- */
 
+bool Curtain_HasMark(const Curtain* curtain, const Cloth* cloth, int32_t mark)
+{
+    kiriPointState point;
+    int32_t piece;
+    return cloth->sheet != 0 && cloth->leftAt == 0 && !cloth->collected[mark] &&
+           kiriSheet_GetPoint(curtain->world, cloth->sheet, curtain->level->mark[mark].middle, &point) == KIRI_OK &&
+           kiriFrame_GetPiece(curtain->world, point.frame, &piece) == KIRI_OK && IsHeld(curtain, cloth, piece);
+}
+
 static bool IsUsedUp(const Curtain* curtain, const Cloth* cloth)
 {
-    int32_t left = 0, rings = 0, piece;
+    int32_t left = 0, rings = 0;
     for (int32_t m = 0; m < curtain->level->marks; m++) {
-        kiriPointState point;
-        if (!cloth->collected[m] &&
-            kiriSheet_GetPoint(curtain->world, cloth->sheet, curtain->level->mark[m].middle, &point) == KIRI_OK &&
-            kiriFrame_GetPiece(curtain->world, point.frame, &piece) == KIRI_OK && IsHeld(curtain, cloth, piece)) {
-            left++;
-        }
+        left += Curtain_HasMark(curtain, cloth, m);
     }
     for (int32_t i = 0; i < cloth->ringCount; i++) {
         rings += cloth->rings[i].pin != 0;

@@ -37,7 +37,7 @@ typedef struct Level {
     float gather;        /* share of its width that its rings take on the rail */
     int32_t rings;
     float breakForce;  /* N, of a ring; 0: they hold */
-    float wind, gusts; /* m/s towards the player: always, and at most in gusts beside that */
+    float wind, gusts; /* m/s across: of what changes slowly, and of gusts */
     int32_t marks;     /* how many on each curtain */
     Mark mark[MAX_MARKS];
     int32_t wanted;  /* marks in the basket, to win; 0: the game has no end */
@@ -121,7 +121,9 @@ typedef struct Curtain {
     int32_t state, score, collected;
     int32_t landed; /* contacts of the basket in the last tick, to hear when something lands */
     struct Demo {
-        int32_t cloth, mark, step, wait;
+        int32_t jobs; /* begun so far */
+        int32_t job, cloth, mark, step, wait;
+        int32_t x, y; /* where it began */
     } demo;
 } Curtain;
 
@@ -133,6 +135,9 @@ extern const float tableSize[3], tablePlace[3]; /* m: a box, and its middle */
 
 /* The place of a part of the basket: bottom and four walls. */
 void Basket_GetPart(const Curtain* curtain, int32_t part, float x, float size[3], float position[3]);
+
+/* Whether nobody has cut the mark out of a curtain that hangs. */
+bool Curtain_HasMark(const Curtain* curtain, const Cloth* cloth, int32_t mark);
 
 void Curtain_Draw(void* game, Canvas* canvas, float alpha);            /* curtain_draw.c */
 int32_t Curtain_Demo(void* game, GameEvent* events, int32_t capacity); /* curtain_demo.c */
