@@ -32,6 +32,7 @@ static const float basketReach = 0.38f;   /* m: how far it goes to either side *
 static const float basketPace = 0.7f;     /* m/s */
 static const float crumbArea = 0.0012f;   /* m^2 */
 static const float handStiffness = 60.0f; /* N/m */
+static const float handForce = 7.0f;      /* N: with more it slips out of the fingers */
 
 /* ---- Making what there is --------------------------------------------------------------------------------------- */
 
@@ -252,6 +253,7 @@ static void Grab(Curtain* curtain, int32_t pointer, const float origin[3], const
     memcpy(def.restPoint, hit.restPoint, sizeof def.restPoint);
     memcpy(def.target, hit.position, sizeof def.target);
     def.stiffness = handStiffness;
+    def.breakForce = handForce;
     if (kiriCreatePin(curtain->world, sheet, &def, &hand->pin) == KIRI_OK) {
         hand->cloth = FindCloth(curtain, sheet);
         hand->pointer = pointer;
@@ -428,8 +430,14 @@ static bool MoveBasket(Curtain* curtain)
 
 /* ---- Scraps ----------------------------------------------------------------------------------------------------- */
 
+/* Of the same in one tick the first one is enough. */
 static void AddNote(Curtain* curtain, const float place[3], const char* text)
 {
+    for (int32_t i = 0; i < MAX_NOTES; i++) {
+        if (curtain->notes[i].since == curtain->tick && strcmp(curtain->notes[i].text, text) == 0) {
+            return;
+        }
+    }
     Note* note = &curtain->notes[curtain->noteCount++ % MAX_NOTES];
     snprintf(note->text, sizeof note->text, "%s", text);
     memcpy(note->place, place, sizeof note->place);
@@ -542,16 +550,18 @@ static void AddScrap(Curtain* curtain, const kiriEvent* event)
     }
 }
 
-static void BreakRing(Curtain* curtain, kiriPin pin)
+/* A ring or a hand. */
+static void BreakPin(Curtain* curtain, kiriPin pin)
 {
-    for (int32_t i = 0; i < MAX_CLOTHS; i++) {
-        for (int32_t k = 0; k < curtain->cloths[i].ringCount; k++) {
-            Ring* ring = &curtain->cloths[i].rings[k];
-            if (ring->pin == pin) {
-                ring->pin = 0;
-                AddNote(curtain, ring->target, "snap");
-                Sounds_Play(curtain->host.sounds, SOUND_SNAP, 0.8f);
-            }
+    for (int32_t i = 0; i < MAX_HANDS; i++) {
+        curtain->hands[i].pin = curtain->hands[i].pin == pin ? 0 : curtain->hands[i].pin;
+    }
+    for (int32_t i = 0; i < MAX_CLOTHS * MAX_RINGS; i++) {
+        Ring* ring = &curtain->cloths[i / MAX_RINGS].rings[i % MAX_RINGS];
+        if (ring->pin == pin) {
+            ring->pin = 0;
+            AddNote(curtain, ring->target, "snap");
+            Sounds_Play(curtain->host.sounds, SOUND_SNAP, 0.8f);
         }
     }
 }
@@ -631,7 +641,7 @@ static void TakeEvents(Curtain* curtain)
         if (events[i].type == KIRI_EVENT_PIECE_OFF) {
             AddScrap(curtain, &events[i]);
         } else if (events[i].type == KIRI_EVENT_PIN_BROKE) {
-            BreakRing(curtain, events[i].pin);
+            BreakPin(curtain, events[i].pin);
         }
     }
 }

@@ -135,7 +135,7 @@ static void DrawNotes(Canvas* canvas, const Curtain* curtain)
         if (note->since > 0 && age < 1.6f && GameCamera_Project(&curtainCamera, note->place, &x, &y)) {
             Color color = ink;
             color.alpha = fminf(1.0f, 3.2f - 2.0f * age);
-            Canvas_AddText(canvas, x, y - 60.0f - 30.0f * age, 28.0f, 0.5f, color, note->text);
+            Canvas_AddText(canvas, x, fmaxf(y - 20.0f, 150.0f) - 30.0f * age, 28.0f, 0.5f, color, note->text);
         }
     }
 }
