@@ -13,6 +13,7 @@ typedef struct Probe {
     double size;                         /* m */
     void (*record)(struct Probe* probe); /* or null */
     kiriTotals last, now;                /* before and after the commit */
+    bool isStaged;                       /* a commit comes next */
     bool isNew;                          /* and not recorded yet */
 
     int32_t commits;
@@ -55,7 +56,8 @@ static inline double Probe_Clock(void* user)
     } else {
         probe->last = probe->now;
         probe->now = Host_Totals(&probe->host, probe->sheet);
-        probe->isNew = stage == KIRI_STAGE_CONSTANTS;
+        probe->isNew = stage == KIRI_STAGE_CONTACT && probe->isStaged;
+        probe->isStaged = stage == KIRI_STAGE_CONSTANTS;
     }
     return 0.0;
 }
