@@ -107,9 +107,9 @@ static kiriSheet MakeCloth(kiriWorld* world, float height, int32_t skinning, int
     def.position[2] = height;
     def.gridResolution = SQUARES;
     def.frameCount = def.maxFrames = FRAMES;
+    def.material.airDamping = 3.0f; /* else it swings for a quarter of a minute */
     def.skinning = skinning;
     def.model = model;
-    def.material.airDamping = 0.5f;
     kiriCreateSheet(world, &def, &sheet);
     return sheet;
 }
