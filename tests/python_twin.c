@@ -80,5 +80,11 @@ int main(void)
     PRINT_SIZE(kiriPinState);
     PRINT_SIZE(kiriContact);
     PRINT_SIZE(kiriContactForce);
+    PRINT_SIZE(kiriSheetSettings);
+    PRINT_SIZE(kiriPointState);
+    PRINT_SIZE(kiriWind);
+    PRINT_SIZE(kiriSolid);
+    PRINT_SIZE(kiriObstacleDef);
+    PRINT_SIZE(kiriObstacleState);
     return 0;
 }

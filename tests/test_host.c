@@ -882,6 +882,55 @@ static void TestSolidIsClosed(void** state)
     Host_Stop(&host);
 }
 
+/* ---- Axes --------------------------------------------------------------------------------------------------------- */
+
+/* With y up, (x, y, z) is what (x, -z, y) is with z up. */
+static void ToZUp(const float* y, float z[3])
+{
+    z[0] = y[0];
+    z[1] = -y[2];
+    z[2] = y[1];
+}
+
+static kiriSheet HangIn(Host* host, bool isYUp)
+{
+    const float down[2][3] = { { 0.0f, 0.0f, -9.81f }, { 0.0f, -9.81f, 0.0f } };
+    const float line[4] = { -0.1f, 0.4f, 0.6f, 0.55f };
+    kiriSheetDef def = Host_SmallDef();
+    Host_Start(host);
+    OK(kiriWorld_SetGravity(host->world, down[isYUp]));
+    def.axisV[1] = isYUp ? 1.0f : 0.0f;
+    def.axisV[2] = isYUp ? 0.0f : 1.0f;
+    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
+    PinAt(host, sheet, 0.0f, 1.0f, 0.0f);
+    kiriWind wind = isYUp ? Wind(1.0f, 0.0f, -3.0f, 1.2f, 0.05f) : Wind(1.0f, 3.0f, 0.0f, 1.2f, 0.05f);
+    OK(kiriSheet_SetWind(host->world, sheet, &wind));
+    Host_Cut(host, sheet, line, 2);
+    return sheet;
+}
+
+static void TestNoAxisIsUp(void** state)
+{
+    (void)state;
+    Host hosts[2];
+    kiriSheet sheets[2] = { HangIn(&hosts[0], false), HangIn(&hosts[1], true) };
+    double moved = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        OK(Host_Tick(&hosts[0], DT, 2));
+        OK(Host_Tick(&hosts[1], DT, 2));
+        kiriMesh z = Host_Mesh(&hosts[0], sheets[0]), y = Host_Mesh(&hosts[1], sheets[1]);
+        for (int32_t v = 0; v < z.vertexCount; ++v) {
+            float there[3];
+            ToZUp(&y.positions[3 * v], there);
+            assert_true(Apart(there, &z.positions[3 * v]) < 1e-5);
+            moved = fmax(moved, fabs((double)there[1]));
+        }
+    }
+    assert_true(moved > 0.1);
+    Host_Stop(&hosts[0]);
+    Host_Stop(&hosts[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -907,6 +956,7 @@ int main(void)
         cmocka_unit_test(TestVelocityIsRigid),
         cmocka_unit_test(TestUserDataStays),
         cmocka_unit_test(TestSolidIsClosed),
+        cmocka_unit_test(TestNoAxisIsUp),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -106,7 +106,7 @@ def run_twin():
 def test_same_hash_and_sizes_as_c():
     twin = run_twin()
     assert f"{run_scene()[0].state_hash():016x}" == twin.pop("hash")
-    assert len(twin) == 16
+    assert len(twin) == 23
     for name, size in twin.items():
         assert kiri.ffi.sizeof(name) == int(size), name
 
@@ -556,6 +556,79 @@ raises(kiri.KiriError, world.tick, -1.0)
 world.tick(1 / 60)
 """).stderr
     assert "KIRI_ERROR_STATE" in stderr and stderr.count("Traceback") == 1
+
+
+def test_settings():
+    world = kiri.World()
+    sheet = world.create_rectangle(1.0, 1.0, 8, 8, friction=0.25)
+    settings = sheet.settings()
+    assert settings.friction == 0.25 and settings.material.thickness > 0
+    sheet.set_settings(iterations=5, material={"density": 2 * settings.material.density})
+    after = sheet.settings()
+    assert after.iterations == 5 and after.friction == 0.25
+    assert after.material.density == 2 * settings.material.density
+    assert after.material.thickness == settings.material.thickness
+    assert raises(kiri.KiriError, sheet.set_settings, iterations=0).result == kiri.KIRI_ERROR_ARGUMENT
+    raises(TypeError, sheet.set_settings, colour=1)
+
+
+def test_points_impulses_and_wind():
+    world = kiri.World(gravity=(0, 0, 0))
+    sheet = world.create_rectangle(1.0, 1.0, 8, 8, material={"airDamping": 0})
+    point = sheet.point((0.25, 0.5))
+    assert max(abs(a - b) for a, b in zip(point.position, (0.25, 0.5, 0))) < 1e-6
+    assert abs(point.normal[2] - 1) < 1e-6 and point.frame in sheet.frames()
+    sheet.apply_impulse((0.25, 0.5), (0, 0, 0.1))
+    assert abs(sheet.totals().momentum[2] - 0.1) < 1e-6
+    sheet.set_velocity((0, 0, 1), (0, 0, 2))
+    assert abs(sheet.point((0.5, 0.5)).velocity[2] - 1) < 1e-5
+    sheet.set_wind(velocity=(0, 0, 5), density=1.2, drag=1.2)
+    for _ in range(120):
+        world.tick(1 / 60)
+    assert 4 < sheet.totals().momentum[2] / sheet.totals().mass < 5
+    sheet.set_wind()
+    sheet.transform((0, 1, 0, -1, 0, 0, 0, 0, 1), (10, 0, 0))
+    assert 9 < sheet.point((0.5, 0.5)).position[0] < 11
+    assert raises(kiri.KiriError, sheet.point, (2, 2)).result == kiri.KIRI_ERROR_ARGUMENT
+    assert sheet.is_awake()
+    sheet.wake()
+
+
+def test_pins_break():
+    world = kiri.World()
+    sheet = world.create_rectangle(1.0, 1.0, 8, 8)
+    pin = sheet.create_pin((0, 0), (0, 0, 0), breakForce=1e-3)
+    assert pin.state().breakForce > 0
+    pin.set_break_force(0)
+    world.tick(1 / 60)
+    pin.set_break_force(1e-3)
+    for _ in range(5):
+        world.tick(1 / 60)
+        if broken := [event.pin for event in world.events() if event.type == kiri.KIRI_EVENT_PIN_BROKE]:
+            break
+    assert broken == [pin.id] and sheet.pins() == []
+
+
+def test_user_data():
+    world, sheet, _ = make_scene()
+    sheet.set_user_data(2 ** 64 - 1)
+    pin = sheet.pins()[0]
+    pin.set_user_data(7)
+    sheet.frames()[0].set_piece_user_data(9)
+    world.tick(1 / 60)
+    part = sheet.piece_frames(1)[0].detach_piece()
+    assert part.user_data() == sheet.user_data() == 2 ** 64 - 1 and pin.user_data() == 7
+    assert part.frames()[0].piece_user_data() == 9
+    part.frames()[0].set_piece_velocity((1, 0, 0))
+    assert abs(part.totals().momentum[0] / part.totals().mass - 1) < 1e-6
+
+
+def test_solid():
+    _, sheet, _ = make_scene()
+    solid = sheet.solid(thickness=0.01)
+    assert solid.triangleCount == len(solid.indices) > solid.rimTriangle == 2 * sheet.counts().triangles
+    assert len(solid.positions) == len(solid.sources) == solid.vertexCount
+    assert max(row[2] for row in solid.positions.tolist()) - 1 > 0.0049
 
 
 def main():

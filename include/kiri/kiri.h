@@ -6,6 +6,10 @@
 
    Conventions, everywhere in this header:
    - SI units: metres, kilograms, seconds, newtons, pascals, radians.
+   - World coordinates are right-handed. No axis is up: gravity says where down is. A host with y up gives gravity
+     (0, -9.81, 0) to the world def and, for a sheet that hangs, axisU (1, 0, 0) and axisV (0, 1, 0) to the sheet def; all
+     else is then in its own axes. A left-handed host negates one axis of all that goes in and comes out, and swaps two
+     corners of each triangle when it draws.
    - The rest plane holds the flat, undeformed sheet. A rest position is (u, v) in metres.
    - A function that can fail returns a kiriResult: negative is failure, and then the world is as before the call.
      kiriWorld_GetLastError says in one line what went wrong.

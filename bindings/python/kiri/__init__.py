@@ -63,6 +63,8 @@ _arrays = {
     "kiriMesh": {"positions": ("vertexCount", 3), "normals": ("vertexCount", 3), "restPositions": ("vertexCount", 2),
                  "indices": ("triangleCount", 3), "sourceTriangles": ("vertexCount", 1),
                  "sourceWeights": ("vertexCount", 3)},
+    "kiriSolid": {"positions": ("vertexCount", 3), "normals": ("vertexCount", 3), "restPositions": ("vertexCount", 2),
+                  "indices": ("triangleCount", 3), "sources": ("vertexCount", 1)},
     "kiriPieceMesh": {"vertices": ("vertexCount", 1), "triangles": ("triangleCount", 1),
                       "indices": ("triangleCount", 3), "collisionPoints": ("collisionPointCount", 1)},
 }
@@ -172,12 +174,15 @@ def _definition(lib, kind, values, kept):
     return definition
 
 
+def _value(value):
+    if not isinstance(value, ffi.CData):
+        return value
+    return tuple(value) if ffi.typeof(value).kind == "array" else _record(value)
+
+
 def _record(struct):
-    """A copy of a C struct of numbers and arrays of numbers."""
-    names = [name for name, _ in ffi.typeof(struct).fields]
-    values = [getattr(struct, name) for name in names]
-    return types.SimpleNamespace(
-        **{name: tuple(value) if isinstance(value, ffi.CData) else value for name, value in zip(names, values)})
+    """A copy of a C struct of numbers, arrays of numbers, and such structs."""
+    return types.SimpleNamespace(**{name: _value(getattr(struct, name)) for name, _ in ffi.typeof(struct).fields})
 
 
 def _copy(pointer, count, width):
@@ -392,6 +397,10 @@ class Sheet(_Handle):
         """Counts and revision of kiriMesh with copies of its arrays: of those named, or of all."""
         return self.world.get_copies(names, "kiriSheet_GetMesh", "kiriMesh", self.id)
 
+    def solid(self, *names, thickness=0.0):
+        """The sheet with a thickness: counts of kiriSolid with copies of its arrays, of those named, or of all."""
+        return self.world.get_copies(names, "kiriSheet_GetSolid", "kiriSolid", self.id, thickness)
+
     def collision_points(self):
         return self.world.get_array(lambda positions, count: _copy(positions, count, 3), "kiriSheet_GetCollisionPoints",
                                     "float", self.id)
@@ -405,6 +414,42 @@ class Sheet(_Handle):
     def estimate_error(self):
         """Of the shape: the relative error by the number of frames."""
         return self.world.get("kiriSheet_EstimateError", "double", self.id)
+
+    def settings(self):
+        """What of the def may be changed."""
+        return _record(self.world.get("kiriSheet_GetSettings", "kiriSheetSettings", self.id))
+
+    def set_settings(self, **fields):
+        """Fields of kiriSheetSettings by name, material as a dict; others stay."""
+        settings, kept = ffi.new("kiriSheetSettings*"), []
+        self.world.call("kiriSheet_GetSettings", self.id, settings)
+        _fill(self.world.lib, settings, fields, kept)
+        self.world.call("kiriSheet_SetSettings", self.id, settings)
+
+    def user_data(self):
+        return self.world.get("kiriSheet_GetUserData", "uint64_t", self.id)
+
+    def set_user_data(self, data):
+        self.world.call("kiriSheet_SetUserData", self.id, data)
+
+    def is_awake(self):
+        return self.world.get("kiriSheet_IsAwake", "int32_t", self.id) != 0
+
+    def wake(self):
+        self.world.call("kiriSheet_Wake", self.id)
+
+    def transform(self, rotation, translation):
+        """Rotation: 9 numbers, column after column."""
+        self.world.call("kiriSheet_Transform", self.id, _vector(rotation, 9), _vector(translation, 3))
+
+    def set_velocity(self, velocity, angular_velocity=(0.0, 0.0, 0.0)):
+        self.world.call("kiriSheet_SetVelocity", self.id, _vector(velocity, 3), _vector(angular_velocity, 3))
+
+    def point(self, rest_point):
+        """A kiriPointState, with a Frame."""
+        point = _record(self.world.get("kiriSheet_GetPoint", "kiriPointState", self.id, _vector(rest_point, 2)))
+        point.frame = Frame(self.world, point.frame)
+        return point
 
     def raycast(self, origin, direction, max_distance):
         """A kiriHit, or None."""
@@ -482,6 +527,15 @@ class Sheet(_Handle):
     def apply_pressure(self, pressure):
         self.world.call("kiriSheet_ApplyPressure", self.id, pressure)
 
+    def apply_impulse(self, rest_point, impulse):
+        self.world.call("kiriSheet_ApplyImpulse", self.id, _vector(rest_point, 2), _vector(impulse, 3))
+
+    def set_wind(self, **fields):
+        """Fields of kiriWind by name; none: no wind."""
+        wind = ffi.new("kiriWind*")
+        _fill(self.world.lib, wind, fields, [])
+        self.world.call("kiriSheet_SetWind", self.id, wind)
+
     def set_contacts(self, contacts):
         """Dicts with the fields of kiriContact."""
         self.world.call("kiriSheet_SetContacts", self.id, ffi.new("kiriContact[]", contacts), len(contacts))
@@ -515,6 +569,15 @@ class Frame(_Handle):
     def destroy_piece(self):
         self.world.call("kiriFrame_DestroyPiece", self.id)
 
+    def piece_user_data(self):
+        return self.world.get("kiriFrame_GetPieceUserData", "uint64_t", self.id)
+
+    def set_piece_user_data(self, data):
+        self.world.call("kiriFrame_SetPieceUserData", self.id, data)
+
+    def set_piece_velocity(self, velocity, angular_velocity=(0.0, 0.0, 0.0)):
+        self.world.call("kiriFrame_SetPieceVelocity", self.id, _vector(velocity, 3), _vector(angular_velocity, 3))
+
     def hold(self, position, rotation):
         """Rotation: 9 numbers, column after column."""
         self.world.call("kiriFrame_Hold", self.id, _vector(position, 3), _vector(rotation, 9))
@@ -544,6 +607,16 @@ class Pin(_Handle):
     def reaction(self):
         """Force and torque of the last tick."""
         return self.world.reaction("kiriPin_GetReaction", self.id)
+
+    def set_break_force(self, force):
+        """N; 0: it never breaks."""
+        self.world.call("kiriPin_SetBreakForce", self.id, force)
+
+    def user_data(self):
+        return self.world.get("kiriPin_GetUserData", "uint64_t", self.id)
+
+    def set_user_data(self, data):
+        self.world.call("kiriPin_SetUserData", self.id, data)
 
     def destroy(self):
         self.world.call("kiriDestroyPin", self.id)
