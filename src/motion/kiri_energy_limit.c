@@ -69,12 +69,19 @@ static void SumContacts(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
+/* Do contacts give all of the momentum? Where the systems did not settle which of them push, and how, their forces are those
+   of a guess, and a piece that got its momentum from them would be thrown. */
+static bool IsPushed(const kiriPieceStep* piece)
+{
+    return piece->isPushed && !piece->isUnsettled;
+}
+
 static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
 {
     const kiriVec3* normal = system->mechanics.planar ? &system->mechanics.axes.d : NULL;
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         kiriPieceMomentum start = { .isFree = solver->pieces.data[i].isFree,
-                                    .isPushed = solver->pieces.data[i].isPushed };
+                                    .isPushed = IsPushed(&solver->pieces.data[i]) };
         solver->momenta.data[i] = start;
     }
     SumContacts(solver, system);
@@ -112,7 +119,7 @@ static double WorkOfTorque(const kiriSystem* system, const kiriFrameData* start,
 /* The velocity of the centre of mass of a piece stays that is free, or on which contacts alone act. */
 double kiriPieceStep_MostTaken(const kiriPieceStep* piece)
 {
-    return piece->kinetic + (piece->isFree || piece->isPushed ? 0.0 : piece->moving);
+    return piece->kinetic + (piece->isFree || IsPushed(piece) ? 0.0 : piece->moving);
 }
 
 /* By how much kinetic and potential energy grow in the step beyond the work of gravity and of the host's forces; what
@@ -189,7 +196,7 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
         double energy = piece->gain > 0.0 ? piece->gain : 0.0, rest = piece->kinetic - piece->turning;
         piece->keepRest = TakeEnergy(rest > 0.0 ? rest : 0.0, &energy);
         piece->keepTurning = TakeEnergy(piece->turning, &energy);
-        piece->keepMean = piece->isFree || piece->isPushed ? 1.0 : TakeEnergy(piece->moving, &energy);
+        piece->keepMean = piece->isFree || IsPushed(piece) ? 1.0 : TakeEnergy(piece->moving, &energy);
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {
         int32_t i = solver->framePiece.data[f];
