@@ -171,6 +171,16 @@ static kiriResult CallDestroyPiece(Stand* s)
     return kiriFrame_DestroyPiece(s->host.world, s->frame);
 }
 
+static kiriResult CallDetachPieces(Stand* s)
+{
+    return kiriWorld_DetachPieces(s->host.world, &s->frame, 1, &s->made);
+}
+
+static kiriResult CallDestroyPieces(Stand* s)
+{
+    return kiriWorld_DestroyPieces(s->host.world, &s->frame, 1);
+}
+
 static kiriResult CallDropCrumbs(Stand* s)
 {
     int32_t count;
@@ -290,6 +300,8 @@ static const Call calls[] = {
     { "kiriSheet_GetPieceFrames", CallGetPieceFrames, true },
     { "kiriFrame_DetachPiece", CallDetachPiece, true },
     { "kiriFrame_DestroyPiece", CallDestroyPiece, true },
+    { "kiriWorld_DetachPieces", CallDetachPieces, true },
+    { "kiriWorld_DestroyPieces", CallDestroyPieces, true },
     { "kiriSheet_DropCrumbs", CallDropCrumbs, true },
     { "kiriBeginCut", CallBeginCut, true },
     { "kiriCut_Extend", CallExtend, true },

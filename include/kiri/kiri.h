@@ -150,7 +150,8 @@ enum kiriEventType {
     KIRI_EVENT_FRAME_ADDED = 3,  /* frame */
     KIRI_EVENT_DIVERGED = 4,     /* the sheet was put to rest */
     KIRI_EVENT_DEFERRED = 5,     /* stage, waiting: the budget ended in this stage of the sheet's work */
-    KIRI_EVENT_PIN_BROKE = 6     /* pin: its force passed breakForce; the id is stale from now on */
+    KIRI_EVENT_PIN_BROKE = 6,    /* pin: its force passed breakForce; the id is stale from now on */
+    KIRI_EVENT_PIECE_DETACHED = 7 /* sheet (the new one), frame, area: what kiriFrame_DetachPiece left waiting is done */
 };
 
 typedef struct kiriEvent {
@@ -619,12 +620,24 @@ KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, 
    collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself, and sleep each
    for itself. Cuts stay with the rest: a blade in the piece cuts nothing until it is back. Indices of vertices, triangles
    and collision points of the rest change (its revision grows). Both keep the grid of the whole sheet, which takes about
-   40 bytes a square: crumbs are better dropped. KIRI_ERROR_STATE: it is the only piece, or work on a cut waits for its
-   budget. */
+   40 bytes a square: crumbs are better dropped. Costs a pass over the sheet's arrays, and what the piece alone takes to
+   make.
+   KIRI_PENDING: work on a cut is at hand in the sheet; *detached is 0. When it is done, what is the piece of this frame
+   then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. KIRI_ERROR_STATE: nothing would be left of the sheet. */
 KIRI_API kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached);
 
-/* The same without keeping the piece: ids of its frames and pins are stale. */
+/* The same without keeping the piece: ids of its frames and pins are stale. Costs a pass over the sheet's arrays.
+   KIRI_PENDING: work on a cut is at hand. The piece is gone all the same: its triangles are in kiriMesh, with three equal
+   corners; it touches nothing; no point of it is found. When the work is done its vertices go, too; until then kiriCounts
+   still counts it, and its kiriPieceState is all zeros. */
 KIRI_API kiriResult kiriFrame_DestroyPiece(kiriWorld* world, kiriFrame frame);
+
+/* The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames of one piece count once.
+   Where one is refused, none goes. KIRI_PENDING: some wait. detached[i] is the sheet that the piece of frames[i] has
+   become, 0 where it waits. */
+KIRI_API kiriResult kiriWorld_DetachPieces(kiriWorld* world, const kiriFrame* frames, int32_t count,
+                                           kiriSheet* detached);
+KIRI_API kiriResult kiriWorld_DestroyPieces(kiriWorld* world, const kiriFrame* frames, int32_t count);
 
 /* Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is how many. */
 KIRI_API kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count);

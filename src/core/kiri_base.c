@@ -106,8 +106,10 @@ void kiriMemory_FreeAll(kiriMemory* memory)
 
 void kiriMemory_Adopt(kiriMemory* memory, void* pointer)
 {
-    UnlinkBlock(BlockOf(pointer));
-    LinkBlock(memory, BlockOf(pointer));
+    if (pointer != NULL) {
+        UnlinkBlock(BlockOf(pointer));
+        LinkBlock(memory, BlockOf(pointer));
+    }
 }
 
 void kiriMemory_AdoptAll(kiriMemory* memory, kiriMemory* from)

@@ -70,8 +70,10 @@ void* kiriMemory_AllocZeroed(kiriMemory* memory, int64_t bytes);
 void kiriMemory_Free(kiriMemory* memory, void* pointer);
 void kiriMemory_FreeAll(kiriMemory* memory);
 
-/* A block, or all blocks, of another owner with the same hooks get this owner. Never fails. */
+/* The block gets this owner, which has the same hooks. Null is allowed. Never fails. */
 void kiriMemory_Adopt(kiriMemory* memory, void* pointer);
+
+/* The same of all blocks of another owner. */
 void kiriMemory_AdoptAll(kiriMemory* memory, kiriMemory* from);
 
 /* ---- Budget ---- */

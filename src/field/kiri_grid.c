@@ -230,6 +230,41 @@ void kiriGrid_Reset(kiriGrid* grid)
     }
 }
 
+/* ---- What is left ------------------------------------------------------------------------------------------------ */
+
+static void TakeCellAway(kiriGrid* grid, kiriMemory* memory, int32_t c)
+{
+    KIRI_ASSERT(kiriGrid_IsCell(grid, c));
+    kiriCell* cell = &grid->cells.data[c];
+    int32_t* link = &grid->squareCell.data[cell->square];
+    while (*link != c) {
+        link = &grid->cells.data[*link].next;
+    }
+    *link = cell->next;
+    while (cell->firstFace != KIRI_NONE) {
+        kiriGrid_FreeFace(grid, cell->firstFace);
+    }
+    kiriGrid_RemoveSteps(grid, memory, c);
+    grid->whole.data[cell->square] = 0; /* a square with another cell was not whole either */
+    cell->square = KIRI_NONE;
+    --grid->cellCount;
+    FreeCell(grid, c);
+}
+
+void kiriGrid_Keep(kiriGrid* grid, kiriMemory* memory, const kiriKeep* triangles, const int32_t* gone,
+                   int32_t goneCount)
+{
+    KIRI_ASSERT(!grid->work->running && grid->changes.steps.count == 0 && grid->changes.gone.count == 0);
+    for (int32_t k = 0; k < goneCount; ++k) {
+        TakeCellAway(grid, memory, gone[k]);
+    }
+    for (int32_t c = 0; c < grid->cells.count && kiriKeep_Moves(triangles); ++c) {
+        if (kiriGrid_IsCell(grid, c)) {
+            grid->cells.data[c].triangle = kiriKeep_To(triangles, grid->cells.data[c].triangle);
+        }
+    }
+}
+
 /* ---- Questions --------------------------------------------------------------------------------------------------- */
 
 static bool IsCellBefore(const void* grid, int32_t a, int32_t b)

@@ -97,6 +97,11 @@ void kiriGrid_ClearChanges(kiriGrid* grid);
 /* Forgets everything but its memory: the next update is from scratch. */
 void kiriGrid_Reset(kiriGrid* grid);
 
+/* The cells go that are listed, with all that they hang together with, and the triangles of others get their new index.
+   No change is noted: of what is left nothing else changes. Not during an update, nor before its changes are cleared. */
+void kiriGrid_Keep(kiriGrid* grid, kiriMemory* memory, const kiriKeep* triangles, const int32_t* gone,
+                   int32_t goneCount);
+
 static inline bool kiriGrid_IsCell(const kiriGrid* grid, int32_t cell)
 {
     KIRI_ASSERT(cell >= 0 && cell < grid->cells.count);

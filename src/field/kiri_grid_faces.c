@@ -31,16 +31,21 @@ static void UnlinkFace(kiriGrid* grid, int32_t f, int32_t cell)
     *link = kiriFace_Next(&grid->faces.data[f], cell);
 }
 
-bool kiriGrid_RemoveFace(kiriGrid* grid, kiriMemory* memory, int32_t f)
+void kiriGrid_FreeFace(kiriGrid* grid, int32_t f)
 {
     KIRI_ASSERT(f >= 0 && f < grid->faces.count && grid->faces.data[f].cell[0] != KIRI_NONE);
     kiriFace* face = &grid->faces.data[f];
-    bool ok = kiriGrid_RecordLink(grid, memory, face->cell[0], face->cell[1]);
     UnlinkFace(grid, f, face->cell[0]);
     UnlinkFace(grid, f, face->cell[1]);
     face->cell[0] = KIRI_NONE;
     face->next[0] = grid->freeFace;
     grid->freeFace = f;
+}
+
+bool kiriGrid_RemoveFace(kiriGrid* grid, kiriMemory* memory, int32_t f)
+{
+    bool ok = kiriGrid_RecordLink(grid, memory, grid->faces.data[f].cell[0], grid->faces.data[f].cell[1]);
+    kiriGrid_FreeFace(grid, f);
     return ok;
 }
 

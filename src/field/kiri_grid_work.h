@@ -106,6 +106,7 @@ bool kiriGrid_RecordSteps(kiriGrid* grid, kiriMemory* memory, int32_t cell);
 /* The face between two cells comes or goes. */
 bool kiriGrid_RecordLink(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b);
 
+void kiriGrid_FreeFace(kiriGrid* grid, int32_t face);
 bool kiriGrid_RemoveFace(kiriGrid* grid, kiriMemory* memory, int32_t face);
 
 /* Gives back the room of a cell's steps. */

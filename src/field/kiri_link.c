@@ -579,6 +579,49 @@ bool kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid
     return ok;
 }
 
+/* ---- What is left ---- */
+
+static kiriLinkEnds EndsTo(const kiriKeep* frames, kiriLinkEnds ends)
+{
+    for (int k = 0; k < 2 * KIRI_CORNER_REGIONS; ++k) {
+        int32_t* region = &ends.end[k / KIRI_CORNER_REGIONS].region[k % KIRI_CORNER_REGIONS];
+        *region = kiriKeep_To(frames, *region);
+    }
+    return ends;
+}
+
+static bool KeepCorners(kiriLinks* links, kiriMemory* memory, const kiriKeep* kept)
+{
+    bool ok = true;
+    for (int32_t c = 0; ok && c < links->corners.count; ++c) {
+        kiriCorner corner = links->corners.data[c];
+        if (kiriKeep_Has(kept, corner.link[0])) {
+            for (int32_t k = 0; k < corner.count; ++k) {
+                corner.link[k] = kiriKeep_To(kept, corner.link[k]);
+            }
+            ok = kiriArray_Push(memory, &links->nextCorners, corner);
+        }
+    }
+    return ok;
+}
+
+bool kiriLinks_Keep(kiriLinks* links, kiriMemory* memory, const kiriKeep* kept, const kiriKeep* frames)
+{
+    kiriLinkWork* work = links->work;
+    bool ok = true;
+    links->next.count = links->nextCorners.count = work->nextEnds.count = links->changed = 0;
+    for (int32_t k = 0; ok && k < links->links.count; ++k) {
+        kiriLink link = links->links.data[k];
+        if (kiriKeep_Has(kept, k)) {
+            link.i = kiriKeep_To(frames, link.i);
+            link.j = kiriKeep_To(frames, link.j);
+            ok = kiriArray_Push(memory, &links->next, link) &&
+                 kiriArray_Push(memory, &work->nextEnds, EndsTo(frames, work->ends.data[k]));
+        }
+    }
+    return ok && KeepCorners(links, memory, kept);
+}
+
 void kiriLinks_Commit(kiriLinks* links)
 {
     kiriLinks was = *links;

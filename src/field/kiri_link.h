@@ -53,6 +53,10 @@ typedef struct kiriLinks {
    (regions->dirty) nor beside one that is are taken over from `links`, the others made anew; and their corners. False for memory: `links` is as before. */
 bool kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const kiriRegions* regions, const kiriShape* shape, const kiriSite* sites, int32_t siteCount);
+
+/* The same of what is left when links and frames are taken away: what is kept stays as it is. No link that is kept joins
+   a frame that is not. */
+bool kiriLinks_Keep(kiriLinks* links, kiriMemory* memory, const kiriKeep* kept, const kiriKeep* frames);
 void kiriLinks_Commit(kiriLinks* links);
 
 KIRI_C_END

@@ -420,6 +420,22 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
     return KIRI_DONE;
 }
 
+void kiriRegions_Keep(kiriRegions* regions, const kiriKeep* frames, const int32_t* gone, int32_t goneCount)
+{
+    KIRI_ASSERT(!regions->running && regions->changes.count == 0 && regions->orphans.count == 0);
+    for (int32_t k = 0; k < goneCount; ++k) {
+        kiriField_Forget(&regions->field, gone[k]);
+        regions->siteAt.data[gone[k]] = KIRI_NONE;
+        regions->onBorder.data[gone[k]] = 0;
+    }
+    for (int32_t c = 0; c < regions->siteAt.count && kiriKeep_Moves(frames); ++c) {
+        regions->siteAt.data[c] = kiriKeep_To(frames, regions->siteAt.data[c]);
+        regions->field.owner.data[c] = kiriKeep_To(frames, regions->field.owner.data[c]);
+    }
+    kiriKeep_Compact(frames, &regions->material, 1, sizeof(kiriTally));
+    kiriKeep_Compact(frames, &regions->dirty, 1, sizeof(uint8_t));
+}
+
 void kiriRegions_ClearChanges(kiriRegions* regions)
 {
     for (int32_t k = 0; k < regions->changes.count; ++k) {

@@ -67,6 +67,10 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
                                 const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
                                 const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
 
+/* The cells go that are listed, which are all of the regions of the frames that are not kept; others get their new index.
+   Not during an update, nor before its changes are cleared. Never fails. */
+void kiriRegions_Keep(kiriRegions* regions, const kiriKeep* frames, const int32_t* gone, int32_t goneCount);
+
 /* All who follow the regions have seen `changes`; `dirty` stays until the sheet's commit clears it. */
 void kiriRegions_ClearChanges(kiriRegions* regions);
 void kiriRegions_Reset(kiriRegions* regions);

@@ -367,6 +367,38 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
     return progress;
 }
 
+static void RenumberWeights(kiriShape* shape, const kiriKeep* frames)
+{
+    for (int32_t c = 0; c < shape->spans.count; ++c) {
+        kiriSpan span = shape->spans.data[c];
+        for (int32_t k = span.first; k < span.first + span.count; ++k) {
+            shape->weights.data[k].frame = kiriKeep_To(frames, shape->weights.data[k].frame);
+        }
+    }
+}
+
+void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames, const int32_t* gone,
+                    int32_t goneCount)
+{
+    KIRI_ASSERT(shape->work->stage == KIRI_SHAPE_REST && shape->changes.count == 0);
+    for (int32_t k = 0; k < goneCount; ++k) {
+        kiriSpan_Resize(&shape->spans.data[gone[k]], &shape->room, memory, &shape->weights,
+                        sizeof(*shape->weights.data), 0);
+        shape->work->rigidShares.data[gone[k]] = 0;
+    }
+    if (kiriKeep_Moves(frames)) {
+        RenumberWeights(shape, frames);
+    }
+    for (int32_t f = frames->first; f < frames->to.count; ++f) {
+        if (!kiriKeep_Has(frames, f)) {
+            kiriArray_Release(memory, &shape->reaches.data[f]);
+        }
+    }
+    kiriKeep_Compact(frames, &shape->reaches, 1, sizeof(kiriReaches));
+    kiriKeep_Compact(frames, &shape->rigid, 1, sizeof(int64_t));
+    kiriKeep_Compact(frames, &shape->work->frames, 1, sizeof(kiriShapeFrame));
+}
+
 void kiriShape_ClearChanges(kiriShape* shape)
 {
     KIRI_ASSERT(shape->work == NULL || shape->work->stage == KIRI_SHAPE_REST);

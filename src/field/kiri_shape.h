@@ -53,6 +53,11 @@ typedef struct kiriShape {
 kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                               const kiriRegions* regions, const kiriSite* sites, int32_t siteCount,
                               const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
+
+/* The cells go that are listed, which are all that the frames reach that are not kept; others get their new index. Not
+   during an update, nor before its changes are cleared. Never fails. */
+void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames, const int32_t* gone,
+                    int32_t goneCount);
 void kiriShape_ClearChanges(kiriShape* shape);
 void kiriShape_Reset(kiriShape* shape);
 

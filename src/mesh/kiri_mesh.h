@@ -79,11 +79,15 @@ typedef struct kiriMeshData {
 kiriResult kiriMesh_Init(kiriMeshData* mesh, kiriMemory* memory, const float* positions, int32_t vertexCount,
                          const int32_t* indices, int32_t triangleCount, int32_t resolution, const char** why);
 
-/* A part of another mesh, on the same lattice and squares. The maps give the new index of each triangle and vertex of
-   `from`, ascending, or KIRI_NONE; a vertex is kept with its whole fan. False for memory. The journal is open after
-   it. */
-bool kiriMesh_InitPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const int32_t* triangleTo,
-                       const int32_t* vertexTo);
+/* A part of another mesh, on the same lattice and squares: the triangles and vertices that are kept, a vertex with its
+   whole fan. False for memory. The journal is open after it. */
+bool kiriMesh_InitPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const kiriKeep* triangles,
+                       const kiriKeep* vertices);
+
+/* Takes away the triangles and vertices that are not kept; a vertex goes with its whole fan. `squares`: all squares that
+   these triangles are in. Not while the journal is open. Never fails. */
+void kiriMesh_Keep(kiriMeshData* mesh, const kiriKeep* triangles, const kiriKeep* vertices, const int32_t* squares,
+                   int32_t squareCount);
 
 /* ---- Half-edges ---- */
 

@@ -327,6 +327,34 @@ bool kiriSquares_Remove(kiriSquares* squares, kiriMemory* memory, int32_t triang
     return ChangeNodes(squares, memory, triangle, corners, RemoveNode);
 }
 
+/* The nodes of the triangles that are not kept become free. */
+static void FreeNodes(kiriSquares* squares, const kiriKeep* triangles, int32_t square)
+{
+    kiriSquareNode* nodes = squares->nodes.data;
+    int32_t* link = &squares->head[square];
+    while (*link != KIRI_NONE) {
+        int32_t slot = *link;
+        if (kiriKeep_Has(triangles, nodes[slot].triangle)) {
+            link = &nodes[slot].next;
+            continue;
+        }
+        *link = nodes[slot].next;
+        nodes[slot] = (kiriSquareNode){ KIRI_NONE, squares->freeNode };
+        squares->freeNode = slot;
+    }
+}
+
+void kiriSquares_Keep(kiriSquares* squares, const kiriKeep* triangles, const int32_t* of, int32_t count)
+{
+    KIRI_ASSERT(!squares->isOpen);
+    for (int32_t k = 0; k < count; ++k) {
+        FreeNodes(squares, triangles, of[k]);
+    }
+    for (int32_t n = 0; n < squares->nodes.count && kiriKeep_Moves(triangles); ++n) {
+        squares->nodes.data[n].triangle = kiriKeep_To(triangles, squares->nodes.data[n].triangle);
+    }
+}
+
 int32_t kiriSquares_At(const kiriSquares* squares, kiriLatticePoint p)
 {
     int32_t column = LineOf(squares, p.x), row = LineOf(squares, p.y);

@@ -4,7 +4,7 @@
 #ifndef KIRI_SQUARE_H
 #define KIRI_SQUARE_H
 
-#include "../core/kiri_array.h"
+#include "../core/kiri_keep.h"
 #include "../core/kiri_vec.h"
 
 KIRI_C_BEGIN
@@ -56,6 +56,10 @@ bool kiriSquares_Remove(kiriSquares* squares, kiriMemory* memory, int32_t triang
 void kiriSquares_Begin(kiriSquares* squares);
 void kiriSquares_Commit(kiriSquares* squares);
 void kiriSquares_Rollback(kiriSquares* squares);
+
+/* Triangles are taken away that are all in these squares, and the others get their new index. No square becomes dirty.
+   Not between Begin and Commit. */
+void kiriSquares_Keep(kiriSquares* squares, const kiriKeep* triangles, const int32_t* of, int32_t count);
 
 /* Makes the squares dirty whose open interior the edge between two vertices runs through. */
 void kiriSquares_MarkEdgeDirty(kiriSquares* squares, kiriLatticePoint a, kiriLatticePoint b);

@@ -112,3 +112,23 @@ void kiriAreaElement_Stiffness(const kiriAreaElement* element, const kiriMateria
         stiffness[e - element->firstRow] = all[e];
     }
 }
+
+bool kiriAreaElements_Keep(kiriAreaElements* elements, kiriMemory* memory, const kiriAreaElements* from,
+                           const kiriKeep* frames)
+{
+    bool ok = true;
+    for (int32_t k = 0; ok && k < from->elements.count; ++k) {
+        kiriAreaElement element = from->elements.data[k];
+        const kiriFrameShare* shares = &from->shares.data[element.first];
+        if (kiriKeep_Has(frames, shares[0].frame)) {
+            element.first = elements->shares.count;
+            ok = kiriArray_Push(memory, &elements->elements, element);
+            for (int32_t n = 0; ok && n < element.count; ++n) {
+                kiriFrameShare share = shares[n];
+                share.frame = kiriKeep_To(frames, share.frame);
+                ok = kiriArray_Push(memory, &elements->shares, share);
+            }
+        }
+    }
+    return ok;
+}

@@ -63,6 +63,10 @@ typedef struct kiriFrameRow {
    are those of all frames; null: as the frames are. */
 void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShare* shares, const kiriFrameData* frames,
                              const kiriPose* poses, double* strain, kiriFrameRow* rows);
+
+/* Adds those of `from` whose frames are kept, which are all or none of an element's. False for memory. */
+bool kiriAreaElements_Keep(kiriAreaElements* elements, kiriMemory* memory, const kiriAreaElements* from,
+                           const kiriKeep* frames);
 void kiriAreaElement_Stiffness(const kiriAreaElement* element, const kiriMaterial* material, double* stiffness);
 
 KIRI_C_END

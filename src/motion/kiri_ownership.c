@@ -213,3 +213,51 @@ void kiriOwnership_Commit(kiriOwnership* ownership, const kiriMeshData* mesh)
     ownership->triangleCount = mesh->triangles.count;
     ClearDirtySquares(ownership);
 }
+
+/* ---- What is left ---- */
+
+/* Triangles of what is gone leave the parts of the square. */
+static void DropParts(kiriOwnership* ownership, const kiriKeep* triangles, kiriSpan* parts)
+{
+    kiriTriangleOwner* owned = ownership->triangleOwners.data + parts->first;
+    int32_t kept = 0;
+    for (int32_t k = 0; k < parts->count; ++k) {
+        if (kiriKeep_Has(triangles, owned[k].triangle)) {
+            owned[kept++] = owned[k];
+        }
+    }
+    /* To shrink never fails. */
+    kiriSpan_Resize(parts, &ownership->spans, NULL, &ownership->triangleOwners, sizeof(kiriTriangleOwner), kept);
+}
+
+static void RenumberOwners(kiriOwnership* ownership, const kiriKeep* triangles, const kiriKeep* frames)
+{
+    for (int32_t s = 0; s < ownership->squares.count; ++s) {
+        kiriSquareOwners* owners = &ownership->squares.data[s];
+        owners->owner = kiriKeep_To(frames, owners->owner);
+        for (int32_t k = owners->parts.first; k < owners->parts.first + owners->parts.count; ++k) {
+            kiriTriangleOwner* owned = &ownership->triangleOwners.data[k];
+            owned->triangle = kiriKeep_To(triangles, owned->triangle);
+            owned->owner = kiriKeep_To(frames, owned->owner);
+        }
+    }
+}
+
+void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const kiriMeshData* mesh,
+                        const kiriRegions* regions, const kiriKeep* triangles, const kiriKeep* frames,
+                        const int32_t* of, int32_t count)
+{
+    KIRI_ASSERT(ownership->dirty.count == 0 && ownership->staged.count == 0);
+    for (int32_t k = 0; k < count; ++k) {
+        kiriSquareOwners* owners = &ownership->squares.data[of[k]];
+        int32_t cell = grid->squareCell.data[of[k]];
+        bool isDivided = cell != KIRI_NONE && grid->cells.data[cell].next != KIRI_NONE;
+        isDivided ? DropParts(ownership, triangles, &owners->parts) : FreeParts(ownership, &owners->parts);
+    }
+    RenumberOwners(ownership, triangles, frames);
+    for (int32_t k = 0; k < count; ++k) {
+        int32_t cell = grid->squareCell.data[of[k]];
+        ownership->squares.data[of[k]].owner = cell == KIRI_NONE ? KIRI_NONE : regions->field.owner.data[cell];
+    }
+    ownership->triangleCount = mesh->triangles.count;
+}

@@ -57,6 +57,12 @@ bool kiriOwnership_NoteDirty(kiriOwnership* ownership, kiriMemory* memory, const
 bool kiriOwnership_NoteChanges(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid,
                                const kiriMeshData* mesh, const kiriRegions* regions);
 
+/* Cells and frames have been taken away, and triangles have been renumbered: `of` are the squares where cells went. With
+   regions and mesh as they are. Nothing is dirty or staged. Never fails. */
+void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const kiriMeshData* mesh,
+                        const kiriRegions* regions, const kiriKeep* triangles, const kiriKeep* frames,
+                        const int32_t* of, int32_t count);
+
 /* Finds what changes owner when the regions come in force: in dirty squares, or in all where `isScratch`. False for
    memory. */
 bool kiriOwnership_Stage(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,

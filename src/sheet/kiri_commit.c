@@ -1,5 +1,6 @@
 #include "kiri_stages.h"
 
+#include "kiri_piece.h"
 #include "kiri_pin.h"
 
 #include <string.h>
@@ -137,6 +138,7 @@ void kiriStage_Commit(kiriSheetData* sheet)
     kiriLayout layout = sheet->layout;
     sheet->layout = u->next;
     u->next = layout;
+    kiriPieces_KeepGone(sheet, &u->next);
     kiriPins_WriteLinkParts(sheet);
     kiriPins_KeepReactions(sheet, &u->next.pinShares);
     if (keepsStrains) {

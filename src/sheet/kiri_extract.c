@@ -10,88 +10,11 @@
 
 #include <string.h>
 
-/* ---- What is kept ---- */
-
-bool kiriExtract_Init(kiriExtract* extract, const kiriSheetData* from)
-{
-    memset(extract, 0, sizeof(*extract));
-    extract->from = from;
-    extract->memory = kiriMemory_Like(from->memory);
-    if (!kiriArray_Resize(&extract->memory, &extract->keep, from->layout.pieces.count)) {
-        return false;
-    }
-    memset(extract->keep.data, 0, (size_t)extract->keep.count);
-    return true;
-}
-
-static bool IsFrameKept(const kiriExtract* extract, int32_t frame)
-{
-    return extract->keep.data[extract->from->layout.framePiece.data[frame]] != 0;
-}
-
-/* One of the kept frames that a pin holds: a line may hold more pieces than one. */
-static int32_t KeptFrameOfPin(const kiriExtract* extract, int32_t pin)
-{
-    const kiriLayout* layout = &extract->from->layout;
-    if (IsFrameKept(extract, layout->pinFrame.data[pin])) {
-        return layout->pinFrame.data[pin];
-    }
-    for (int32_t k = 0; k < layout->pinShares.count; ++k) {
-        const kiriPinShare* pinned = &layout->pinShares.data[k];
-        if (pinned->pin == pin && IsFrameKept(extract, pinned->share.frame)) {
-            return pinned->share.frame;
-        }
-    }
-    return KIRI_NONE;
-}
-
-static bool MapMesh(kiriExtract* extract)
-{
-    const kiriSheetData* from = extract->from;
-    const kiriMeshData* mesh = &from->mesh;
-    int32_t triangles = 0, vertices = 0;
-    if (!kiriArray_Resize(&extract->memory, &extract->triangleTo, mesh->triangles.count) ||
-        !kiriArray_Resize(&extract->memory, &extract->vertexTo, mesh->vertices.count)) {
-        return false;
-    }
-    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
-        bool kept = extract->keep.data[kiriPiece_OfVertex(from, v)] != 0;
-        extract->vertexTo.data[v] = kept ? vertices++ : KIRI_NONE;
-    }
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        bool kept = extract->vertexTo.data[mesh->triangles.data[t].vertex[0]] != KIRI_NONE;
-        extract->triangleTo.data[t] = kept ? triangles++ : KIRI_NONE;
-    }
-    return true;
-}
-
-static bool MapRest(kiriExtract* extract)
-{
-    const kiriSheetData* from = extract->from;
-    int32_t frames = 0, points = 0, pins = 0;
-    if (!kiriArray_Resize(&extract->memory, &extract->frameTo, from->frames.count) ||
-        !kiriArray_Resize(&extract->memory, &extract->pointTo, from->points.count) ||
-        !kiriArray_Resize(&extract->memory, &extract->pinTo, from->pins.count)) {
-        return false;
-    }
-    for (int32_t i = 0; i < from->frames.count; ++i) {
-        extract->frameTo.data[i] = IsFrameKept(extract, i) ? frames++ : KIRI_NONE;
-    }
-    for (int32_t i = 0; i < from->points.count; ++i) {
-        extract->pointTo.data[i] = IsFrameKept(extract, from->points.data[i].frame) ? points++ : KIRI_NONE;
-    }
-    for (int32_t i = 0; i < from->pins.count; ++i) {
-        extract->pinTo.data[i] = KeptFrameOfPin(extract, i) != KIRI_NONE ? pins++ : KIRI_NONE;
-    }
-    return true;
-}
-
-/* ---- The part ---- */
-
 /* What is spread over the sheet falls to its parts by area. */
-static void CopySettings(kiriSheetData* to, const kiriSheetData* from)
+static void CopySettings(const kiriKept* kept, kiriSheetData* to)
 {
-    double share = kiriMesh_Area(&to->mesh) / kiriMesh_Area(&from->mesh);
+    const kiriSheetData* from = kept->from;
+    double share = kiriKept_Share(kept);
     to->settings = from->settings;
     to->settings.collisionPoints = share * from->settings.collisionPoints;
     to->settings.integrationPoints = share * from->settings.integrationPoints;
@@ -101,36 +24,36 @@ static void CopySettings(kiriSheetData* to, const kiriSheetData* from)
 }
 
 /* The cell of the part with the material of one of the sheet. */
-static int32_t CellInPart(const kiriExtract* extract, const kiriSheetData* to, int32_t cell)
+static int32_t CellInPart(const kiriKept* kept, const kiriSheetData* to, int32_t cell)
 {
-    const kiriCell* was = &extract->from->grid.cells.data[cell];
+    const kiriCell* was = &kept->from->grid.cells.data[cell];
     int32_t found = to->grid.squareCell.data[was->square];
-    while (to->grid.cells.data[found].triangle != extract->triangleTo.data[was->triangle]) {
+    while (to->grid.cells.data[found].triangle != kiriKeep_To(&kept->triangles, was->triangle)) {
         found = to->grid.cells.data[found].next;
     }
     return found;
 }
 
-static bool CopySites(const kiriExtract* extract, kiriSheetData* to)
+static bool CopySites(const kiriKept* kept, kiriSheetData* to)
 {
-    const kiriSheetData* from = extract->from;
+    const kiriSheetData* from = kept->from;
     bool ok = true;
     for (int32_t i = 0; ok && i < from->frames.count; ++i) {
-        if (extract->frameTo.data[i] != KIRI_NONE) {
+        if (kiriKeep_To(&kept->frames, i) != KIRI_NONE) {
             kiriSite site = from->frames.data[i].site;
-            site.cell = CellInPart(extract, to, site.cell);
+            site.cell = CellInPart(kept, to, site.cell);
             ok = kiriArray_Push(to->memory, &to->update->placing.sites, site);
         }
     }
     return ok;
 }
 
-static bool CopyPoints(const kiriExtract* extract, kiriSheetData* to)
+static bool CopyPoints(const kiriKept* kept, kiriSheetData* to)
 {
-    const kiriSheetData* from = extract->from;
+    const kiriSheetData* from = kept->from;
     bool ok = true;
     for (int32_t i = 0; ok && i < from->points.count; ++i) {
-        if (extract->pointTo.data[i] != KIRI_NONE) {
+        if (kiriKeep_To(&kept->points, i) != KIRI_NONE) {
             kiriSample point = { from->points.data[i].at, KIRI_NONE, KIRI_NONE };
             kiriSpan none = { 0, 0 };
             ok = kiriArray_Push(to->memory, &to->points, point) &&
@@ -141,47 +64,27 @@ static bool CopyPoints(const kiriExtract* extract, kiriSheetData* to)
     return ok;
 }
 
-static bool CopyPins(const kiriExtract* extract, kiriSheetData* to)
+static bool CopyPins(const kiriKept* kept, kiriSheetData* to)
 {
-    const kiriSheetData* from = extract->from;
+    const kiriSheetData* from = kept->from;
     bool ok = true;
     for (int32_t i = 0; ok && i < from->pins.count; ++i) {
-        if (extract->pinTo.data[i] != KIRI_NONE) {
-            ok = kiriPins_Add(to, &from->pins.data[i], extract->frameTo.data[KeptFrameOfPin(extract, i)]);
+        if (kiriKeep_To(&kept->pins, i) != KIRI_NONE) {
+            ok = kiriPins_Add(to, &from->pins.data[i], kiriKeep_To(&kept->frames, kiriKept_FrameOfPin(kept, i)));
         }
     }
     return ok;
 }
 
-static void CopyGivenContacts(const kiriExtract* extract, kiriSheetData* to)
+/* What pushed in the last tick, with the force. */
+static void CopyTouches(const kiriKept* kept, kiriSheetData* to)
 {
-    const kiriSheetData* from = extract->from;
-    for (int32_t i = 0; i < from->contacts.count; ++i) {
-        kiriGivenContact given = from->contacts.data[i];
-        bool isKept = true;
-        if (given.contact.point >= 0) {
-            given.contact.point = extract->pointTo.data[given.contact.point];
-            isKept = given.contact.point != KIRI_NONE;
-        }
-        for (int n = 0; n < 3 && given.vertex[n] != KIRI_NONE; ++n) {
-            given.vertex[n] = extract->vertexTo.data[given.vertex[n]];
-            isKept = isKept && given.vertex[n] != KIRI_NONE;
-        }
-        if (isKept) {
-            to->contacts.data[to->contacts.count++] = given;
-        }
-    }
-}
-
-static void CopyTouches(const kiriExtract* extract, kiriSheetData* to)
-{
-    const kiriTouches* from = &extract->from->touches;
-    kiriTouches* touches = &to->touches;
+    const kiriTouches* from = &kept->from->touches;
     for (int32_t i = 0; i < from->last.count; ++i) {
         kiriTouch touch = from->last.data[i];
-        if (kiriTouch_Follow(&touch, extract->pointTo.data, extract->vertexTo.data)) {
-            touches->last.data[touches->last.count++] = touch;
-            kiriVec3 force = kiriTouches_ForceOf(extract->from, from->last.data[i].key);
+        if (kiriKept_FollowTouch(kept, &touch)) {
+            to->touches.last.data[to->touches.last.count++] = touch;
+            kiriVec3 force = kiriTouches_ForceOf(kept->from, from->last.data[i].key);
             if (kiriVec3_Dot(force, force) > 0.0) {
                 kiriTouches_Remember(to, touch.key, force);
             }
@@ -190,58 +93,62 @@ static void CopyTouches(const kiriExtract* extract, kiriSheetData* to)
 }
 
 /* Room for contacts is what SetContacts reserves, so that none is needed later. */
-static bool CopyContacts(const kiriExtract* extract, kiriSheetData* to)
+static bool CopyContacts(const kiriKept* kept, kiriSheetData* to)
 {
-    const kiriSheetData* from = extract->from;
+    const kiriSheetData* from = kept->from;
     int32_t most = from->contacts.count > from->touches.last.count ? from->contacts.count : from->touches.last.count;
     if (!kiriArray_Reserve(to->memory, &to->contacts, most) ||
         !kiriArray_Reserve(&to->shown, &to->touches.nextTold, most) || !kiriTouches_Room(to, most)) {
         return false;
     }
-    CopyGivenContacts(extract, to);
-    CopyTouches(extract, to);
+    for (int32_t i = 0; i < from->contacts.count; ++i) {
+        kiriGivenContact given = from->contacts.data[i];
+        if (kiriKept_FollowContact(kept, &given)) {
+            to->contacts.data[to->contacts.count++] = given;
+        }
+    }
+    CopyTouches(kept, to);
     return true;
 }
 
 /* No frame is added: whoever wants one has asked before, or asks with the next cut. */
-static bool RunStages(const kiriExtract* extract, kiriSheetData* to)
+static bool RunStages(const kiriKept* kept, kiriSheetData* to)
 {
-    if (!kiriPipeline_Make(to, KIRI_STAGE_REGIONS) || !CopySites(extract, to) || !CopyPoints(extract, to) ||
-        !CopyPins(extract, to) || !CopyContacts(extract, to)) {
+    if (!kiriPipeline_Make(to, KIRI_STAGE_REGIONS) || !CopySites(kept, to) || !CopyPoints(kept, to) ||
+        !CopyPins(kept, to) || !CopyContacts(kept, to)) {
         return false;
     }
     to->settings.maxFrames = 0;
     bool ok = kiriPipeline_Make(to, KIRI_READY);
-    to->settings.maxFrames = extract->from->settings.maxFrames;
+    to->settings.maxFrames = kept->from->settings.maxFrames;
     return ok;
 }
 
 /* Frames as they are to the last bit, whatever a commit does to new ones. */
-static void CopyFrames(const kiriExtract* extract, kiriSheetData* to)
+static void CopyFrames(const kiriKept* kept, kiriSheetData* to)
 {
     to->frames.count = to->update->placing.sites.count;
-    for (int32_t i = 0; i < extract->from->frames.count; ++i) {
-        if (extract->frameTo.data[i] != KIRI_NONE) {
-            kiriFrameData* frame = &to->frames.data[extract->frameTo.data[i]];
-            *frame = extract->from->frames.data[i];
-            frame->site = to->update->placing.sites.data[extract->frameTo.data[i]];
+    for (int32_t i = 0; i < kept->from->frames.count; ++i) {
+        if (kiriKeep_To(&kept->frames, i) != KIRI_NONE) {
+            kiriFrameData* frame = &to->frames.data[kiriKeep_To(&kept->frames, i)];
+            *frame = kept->from->frames.data[i];
+            frame->site = to->update->placing.sites.data[kiriKeep_To(&kept->frames, i)];
         }
     }
 }
 
 /* What is still seen elsewhere goes on to fade. Samples keep their order. */
-static bool CopyFades(kiriFades* to, kiriMemory* memory, const kiriFades* from, const int32_t* sampleTo,
-                      int32_t sampleCount)
+static bool CopyFades(kiriFades* to, kiriMemory* memory, const kiriFades* from, const kiriKeep* samples)
 {
     if (from->fading.count == 0) {
         return true;
     }
-    if (!kiriFades_Reserve(to, memory, sampleCount)) {
+    if (!kiriFades_Reserve(to, memory, samples->count)) {
         return false;
     }
     for (int32_t k = 0; k < from->fading.count; ++k) {
         kiriFading fading = from->fading.data[k];
-        fading.sample = sampleTo[fading.sample];
+        fading.sample = kiriKeep_To(samples, fading.sample);
         if (fading.sample != KIRI_NONE) {
             to->fading.data[to->fading.count++] = fading;
         }
@@ -249,33 +156,33 @@ static bool CopyFades(kiriFades* to, kiriMemory* memory, const kiriFades* from, 
     return true;
 }
 
-static bool CopyAllFades(const kiriExtract* extract, kiriSheetData* to)
+static bool CopyAllFades(const kiriKept* kept, kiriSheetData* to)
 {
-    const kiriSheetData* from = extract->from;
-    return CopyFades(&to->seen.fades, to->memory, &from->seen.fades, extract->vertexTo.data, to->mesh.vertices.count) &&
-           CopyFades(&to->seen.pointFades, to->memory, &from->seen.pointFades, extract->pointTo.data, to->points.count);
+    const kiriSheetData* from = kept->from;
+    return CopyFades(&to->seen.fades, to->memory, &from->seen.fades, &kept->vertices) &&
+           CopyFades(&to->seen.pointFades, to->memory, &from->seen.pointFades, &kept->points);
 }
 
 /* Links come in the order that they had. */
-static void CopyStrainOffsets(const kiriExtract* extract, kiriSheetData* to)
+static void CopyStrainOffsets(const kiriKept* kept, kiriSheetData* to)
 {
-    const kiriSheetData* from = extract->from;
+    const kiriSheetData* from = kept->from;
     int32_t count = 0;
     for (int32_t k = 0; k < from->strainOffsets.strainOffsets.count && count < to->strainOffsets.strainOffsets.count;
          ++k) {
-        if (extract->frameTo.data[from->links.links.data[k].i] != KIRI_NONE) {
+        if (kiriKeep_To(&kept->frames, from->links.links.data[k].i) != KIRI_NONE) {
             to->strainOffsets.strainOffsets.data[count++] = from->strainOffsets.strainOffsets.data[k];
         }
     }
 }
 
 /* Shares come in the order that they had. */
-static void CopyPinHistory(const kiriExtract* extract, kiriSheetData* to)
+static void CopyPinHistory(const kiriKept* kept, kiriSheetData* to)
 {
-    const kiriPinShares* shares = &extract->from->layout.pinShares;
+    const kiriPinShares* shares = &kept->from->layout.pinShares;
     int32_t count = 0;
     for (int32_t k = 0; k < shares->count && count < to->layout.pinShares.count; ++k) {
-        if (extract->frameTo.data[shares->data[k].share.frame] != KIRI_NONE) {
+        if (kiriKeep_To(&kept->frames, shares->data[k].share.frame) != KIRI_NONE) {
             kiriPinShare* share = &to->layout.pinShares.data[count++];
             memcpy(share->offset, shares->data[k].offset, sizeof(share->offset));
             memcpy(share->reactions, shares->data[k].reactions, sizeof(share->reactions));
@@ -285,53 +192,29 @@ static void CopyPinHistory(const kiriExtract* extract, kiriSheetData* to)
     }
 }
 
-static bool BuildPart(const kiriExtract* extract, kiriSheetData* to)
+static bool BuildPart(const kiriKept* kept, kiriSheetData* to)
 {
     to->solver = kiriSolver_Create(to->memory, &to->settings.mechanics);
-    if (to->solver == NULL || !RunStages(extract, to) || !CopyAllFades(extract, to)) {
+    if (to->solver == NULL || !RunStages(kept, to) || !CopyAllFades(kept, to)) {
         return false;
     }
-    CopyFrames(extract, to);
+    CopyFrames(kept, to);
     kiriBuild_Commit(to);
-    CopyFrames(extract, to);
-    CopyStrainOffsets(extract, to);
-    CopyPinHistory(extract, to);
+    CopyFrames(kept, to);
+    CopyStrainOffsets(kept, to);
+    CopyPinHistory(kept, to);
     kiriPins_SumShares(to);
     kiriView_WritePositions(to);
     return true;
 }
 
-bool kiriExtract_Build(kiriExtract* extract, kiriSheetData* to)
+bool kiriExtract_Build(const kiriKept* kept, kiriSheetData* to)
 {
-    const kiriSheetData* from = extract->from;
-    if (!MapMesh(extract) || !MapRest(extract) ||
-        !kiriMesh_InitPart(&to->mesh, to->memory, &from->mesh, extract->triangleTo.data, extract->vertexTo.data)) {
+    const kiriSheetData* from = kept->from;
+    if (!kiriMesh_InitPart(&to->mesh, to->memory, &from->mesh, &kept->triangles, &kept->vertices)) {
         return false;
     }
-    CopySettings(to, from);
+    CopySettings(kept, to);
     to->seen.bounds->patience = from->seen.bounds->patience;
-    return BuildPart(extract, to);
-}
-
-/* ---- The rest ---- */
-
-static void MoveBlade(const kiriExtract* extract, kiriBladeTip* blade)
-{
-    if (blade->vertex != KIRI_NONE) {
-        blade->vertex = extract->vertexTo.data[blade->vertex];
-    }
-}
-
-void kiriExtract_MoveCuts(const kiriExtract* extract, kiriSheetData* sheet, kiriSheetData* rest)
-{
-    rest->id = sheet->id;
-    memcpy(&rest->queue, &sheet->queue, sizeof(sheet->queue));
-    memcpy(&rest->cuts, &sheet->cuts, sizeof(sheet->cuts));
-    memset(&sheet->queue, 0, sizeof(sheet->queue));
-    memset(&sheet->cuts, 0, sizeof(sheet->cuts));
-    for (int32_t i = 0; i < rest->cuts.count; ++i) {
-        rest->cuts.data[i]->sheet = rest;
-        MoveBlade(extract, &rest->cuts.data[i]->tip.blade);
-        MoveBlade(extract, &rest->cuts.data[i]->committed.blade);
-    }
+    return BuildPart(kept, to);
 }

@@ -159,6 +159,9 @@ kiriTotals kiriMotion_Sum(const kiriSheetData* sheet, const int32_t* indices, in
     kiriVec3 center = { 0.0, 0.0, 0.0 }, momentum = center, angular = center;
     for (int32_t i = 0; i < count; ++i) {
         const kiriFrameData* frame = &sheet->frames.data[indices != NULL ? indices[i] : i];
+        if (kiriSheet_IsGone(sheet, indices != NULL ? indices[i] : i)) {
+            continue;
+        }
         kiriVec3 p = kiriVec3_Scale(frame->mass, frame->velocity);
         totals.area += frame->area;
         totals.mass += frame->mass;

@@ -115,13 +115,12 @@ static bool TouchRound(const kiriMeeting* meeting, int32_t triangle, kiriTouch* 
 
 bool kiriMeeting_TouchRounds(const kiriMeeting* meeting)
 {
-    const uint32_t round = UINT32_C(1) << 31; /* no item of an edge */
     const kiriObstacleSearch* search = meeting->search;
     bool ok = true;
     for (int32_t i = 0; ok && meeting->obstacle->shape.radius > 0.0 && i < search->triangles.count; ++i) {
         kiriTouch touch;
         if (TouchRound(meeting, search->triangles.data[i], &touch)) {
-            touch.key = kiriMeeting_Key(meeting, true, round | (uint32_t)search->triangles.data[i]);
+            touch.key = kiriMeeting_Key(meeting, true, KIRI_ROUND_ITEM | (uint32_t)search->triangles.data[i]);
             ok = kiriTouches_Add(meeting->sheet, &touch);
         }
     }

@@ -156,6 +156,18 @@ uint64_t kiriMeeting_Key(const kiriMeeting* meeting, bool isEdge, uint32_t item)
            (uint64_t)(meeting->obstacle->id & (KEY_SLOTS - 1)) << 32 | item;
 }
 
+bool kiriObstacle_FollowKey(uint64_t* key, const kiriKeep* vertices, const kiriKeep* triangles)
+{
+    bool isEdge = (*key >> 59 & 1) != 0, isRound = isEdge && (*key & KIRI_ROUND_ITEM) != 0;
+    int32_t item = (int32_t)(*key & (KIRI_ROUND_ITEM - 1));
+    if (isEdge && !isRound) {
+        return true; /* of a point of the obstacle */
+    }
+    int32_t to = kiriKeep_To(isRound ? triangles : vertices, item);
+    *key = (*key & ~(uint64_t)(KIRI_ROUND_ITEM - 1)) | (uint32_t)to;
+    return to != KIRI_NONE;
+}
+
 int32_t kiriObstacle_SlotOfKey(uint64_t key)
 {
     return (int32_t)(key >> 32 & (KEY_SLOTS - 1));

@@ -32,6 +32,9 @@ typedef struct kiriObstacleSearch {
     KIRI_ARRAY(kiriNearVertex) chosen;
 } kiriObstacleSearch;
 
+/* The key that the touch of an obstacle gets when vertices and triangles are taken away; false where its own is. */
+bool kiriObstacle_FollowKey(uint64_t* key, const kiriKeep* vertices, const kiriKeep* triangles);
+
 /* The slot of the obstacle whose touch has the key. */
 int32_t kiriObstacle_SlotOfKey(uint64_t key);
 

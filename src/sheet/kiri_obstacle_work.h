@@ -13,6 +13,9 @@ KIRI_C_BEGIN
    one that rests does not lose its force whenever it lifts a little. */
 #define KIRI_NEARBY 0.5
 
+/* Marks keys of round sides: their item is a triangle, not a point of an edge. */
+#define KIRI_ROUND_ITEM (UINT32_C(1) << 31)
+
 /* A sheet near an obstacle. */
 typedef struct kiriMeeting {
     kiriObstacleSearch* search;

@@ -16,17 +16,20 @@ static int32_t HeaviestAt(const kiriSheetData* sheet, int32_t triangle)
     return heaviest.frame;
 }
 
-int32_t kiriOwner_At(const kiriSheetData* sheet, kiriLatticePoint at)
+static int32_t FrameAt(const kiriSheetData* sheet, int32_t triangle, kiriLatticePoint at)
 {
-    int32_t triangle = kiriMesh_Locate(&sheet->mesh, at);
-    if (triangle == KIRI_NONE) {
-        return KIRI_NONE;
-    }
     if (!kiriUpdate_IsFieldCurrent(sheet->update)) {
         return HeaviestAt(sheet, triangle);
     }
     int32_t cell = kiriGrid_CellOf(&sheet->grid, &sheet->mesh, triangle, at);
     return cell == KIRI_NONE ? HeaviestAt(sheet, triangle) : sheet->regions.field.owner.data[cell];
+}
+
+int32_t kiriOwner_At(const kiriSheetData* sheet, kiriLatticePoint at)
+{
+    int32_t triangle = kiriMesh_Locate(&sheet->mesh, at);
+    int32_t frame = triangle != KIRI_NONE ? FrameAt(sheet, triangle, at) : KIRI_NONE;
+    return frame != KIRI_NONE && !kiriSheet_IsGone(sheet, frame) ? frame : KIRI_NONE;
 }
 
 int32_t kiriOwner_OfNode(const kiriSheetData* sheet, int32_t node, bool isStaged)

@@ -6,7 +6,7 @@
 
 KIRI_C_BEGIN
 
-/* The index of the frame that holds a point of the material; KIRI_NONE outside. */
+/* The index of the frame that holds a point of the material; KIRI_NONE outside, and in what is gone. */
 int32_t kiriOwner_At(const kiriSheetData* sheet, kiriLatticePoint at);
 
 /* The same of the triangle of a node of mesh.squares, in the node's square; KIRI_NONE for no node. */

@@ -73,7 +73,7 @@ bool kiriPieces_Stage(kiriSheetData* sheet)
     for (int32_t i = 0; i < u->placing.sites.count; ++i) {
         int32_t root = kiriUnion_Root(u->parent.data, i);
         if (root == i) {
-            kiriPiece piece = { 0.0, i, OriginOf(sheet, i), false };
+            kiriPiece piece = { 0.0, i, OriginOf(sheet, i), false, false };
             next->framePiece.data[i] = next->pieces.count;
             if (!kiriArray_Push(sheet->memory, &next->pieces, piece)) {
                 return false;
@@ -84,6 +84,23 @@ bool kiriPieces_Stage(kiriSheetData* sheet)
     }
     MarkCameOff(sheet);
     return true;
+}
+
+bool kiriPieces_AnyGone(const kiriSheetData* sheet)
+{
+    bool any = false;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        any = any || sheet->layout.pieces.data[p].isGone;
+    }
+    return any;
+}
+
+void kiriPieces_KeepGone(kiriSheetData* sheet, const kiriLayout* old)
+{
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        kiriPiece* piece = &sheet->layout.pieces.data[p];
+        piece->isGone = piece->origin != KIRI_NONE && old->pieces.data[piece->origin].isGone;
+    }
 }
 
 /* ---- Lists ---- */
@@ -180,6 +197,9 @@ kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece)
 {
     const kiriPieceLists* lists = &sheet->lists;
     kiriSpan frames = kiriPiece_Span(&lists->frames, piece), vertices = kiriPiece_Span(&lists->vertices, piece);
+    if (sheet->layout.pieces.data[piece].isGone) {
+        return (kiriPieceState){ 0 };
+    }
     kiriTotals totals = kiriMotion_Sum(sheet, lists->frames.items.data + frames.first, frames.count);
     kiriPieceState state;
     memset(&state, 0, sizeof(state));

@@ -12,6 +12,12 @@ bool kiriPieces_Stage(kiriSheetData* sheet);
 /* The piece of the material that a vertex belongs to: its frames are all of one. */
 int32_t kiriPiece_OfVertex(const kiriSheetData* sheet, int32_t vertex);
 
+/* Is any piece gone? */
+bool kiriPieces_AnyGone(const kiriSheetData* sheet);
+
+/* The pieces of the layout that has just come in force are gone where those were that they came of. */
+void kiriPieces_KeepGone(kiriSheetData* sheet, const kiriLayout* old);
+
 /* Brings the lists up to date: costs nothing where neither mesh nor pieces have changed. False for memory. */
 bool kiriPieces_List(kiriSheetData* sheet);
 

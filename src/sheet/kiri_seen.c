@@ -1,5 +1,7 @@
 #include "kiri_seen.h"
 
+#include "kiri_piece.h"
+
 #include <string.h>
 
 bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount)
@@ -23,12 +25,34 @@ static void PlaceNewborn(kiriSheetData* sheet, int32_t vertex)
     sheet->seen.surface.exact.data[vertex] = at;
 }
 
+static void HideTriangles(kiriSheetData* sheet)
+{
+    for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
+        if (sheet->layout.pieces.data[kiriPiece_OfVertex(sheet, sheet->mesh.triangles.data[t].vertex[0])].isGone) {
+            kiriSurface_HideTriangle(&sheet->seen.surface, t);
+        }
+    }
+}
+
+void kiriView_HideGone(kiriSheetData* sheet)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    HideTriangles(sheet);
+    sheet->mesh.revision += 1;
+    surface->revision = sheet->mesh.revision;
+    surface->changeCount = 0;
+    surface->pose += 1;
+}
+
 void kiriView_WriteTopology(kiriSheetData* sheet)
 {
     for (int32_t v = sheet->mesh.oldVertexCount; v < sheet->mesh.oldVertexCount + sheet->mesh.births.count; ++v) {
         PlaceNewborn(sheet, v);
     }
     kiriSurface_WriteTopology(&sheet->seen.surface, &sheet->mesh);
+    if (kiriPieces_AnyGone(sheet)) {
+        HideTriangles(sheet); /* a cut goes on in what is gone */
+    }
     sheet->seen.isElsewhere = true;
 }
 

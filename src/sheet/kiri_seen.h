@@ -12,6 +12,9 @@ bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCoun
 /* What has changed in the mesh; before kiriMesh_Commit. */
 void kiriView_WriteTopology(kiriSheetData* sheet);
 
+/* Pieces that are gone are seen no more; the indices that the host may hold are another array by now. */
+void kiriView_HideGone(kiriSheetData* sheet);
+
 /* After all commits of a tick, and before the sheet moves: what is seen stays where it is, and fades from there to
    where it belongs. Then time goes on. */
 void kiriView_TakeJump(kiriSheetData* sheet);

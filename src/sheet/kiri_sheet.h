@@ -20,6 +20,7 @@ typedef struct kiriPiece {
     int32_t frame;  /* its lowest */
     int32_t origin; /* the piece of the layout before that it was a part of; KIRI_NONE in the first layout */
     bool cameOff;   /* it is not the largest part of its origin: that goes on, the others came off */
+    bool isGone;    /* the host has destroyed it: it is not seen, and goes when the work at hand is done */
 } kiriPiece;
 
 /* What of a line belongs to one frame. Places on the line and lengths go from 0 to 1. */
@@ -234,6 +235,7 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriCutData*) cuts;
     KIRI_ARRAY(kiriPinData) pins;
     KIRI_ARRAY(kiriGivenContact) contacts; /* of the next tick */
+    KIRI_ARRAY(kiriFrame) leaving;         /* their pieces become sheets when the work at hand is done */
 
     /* Room reserved by whoever makes it needed, so that a tick without a cut allocates nothing. */
     KIRI_ARRAY(kiriPinRow) pinRows;     /* points, then two for each share of a hinge */
@@ -258,6 +260,12 @@ void kiriSheet_Delete(kiriSheetData* sheet, kiriMemory* memory);
 static inline kiriVec2 kiriSheet_ToLocal(const kiriSheetData* sheet, const float rest[2])
 {
     return kiriVec2_Make(rest[0] - sheet->mesh.origin.x, rest[1] - sheet->mesh.origin.y);
+}
+
+/* Has the host destroyed the piece of a frame? It stays, unseen, until the work at hand is done. */
+static inline bool kiriSheet_IsGone(const kiriSheetData* sheet, int32_t frame)
+{
+    return sheet->layout.pieces.data[sheet->layout.framePiece.data[frame]].isGone;
 }
 
 /* Do links go on with their strains when a cut changes them? */

@@ -342,14 +342,14 @@ static int32_t Larger(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
-static bool StageSolver(kiriSheetData* sheet)
+bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount)
 {
     const kiriUpdate* u = sheet->update;
     kiriSystem next;
     memset(&next, 0, sizeof(next));
     next.mechanics = sheet->settings.mechanics;
     next.material = sheet->settings.material;
-    next.frameCount = u->placing.sites.count;
+    next.frameCount = frameCount;
     next.links = sheet->links.next.data;
     next.linkCount = sheet->links.next.count;
     next.corners = sheet->links.nextCorners.data;
@@ -368,6 +368,7 @@ kiriProgress kiriStage_Constants(kiriSheetData* sheet, kiriQuota* none)
                                          u->placing.sites.count)) &&
               BuildAreaElements(sheet) && kiriPins_Stage(sheet) && ReservePoints(sheet) &&
               kiriRefit_Stage(&u->refit, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, u->isScratch) &&
-              kiriArray_Reserve(sheet->memory, &sheet->frames, u->placing.sites.count) && StageSolver(sheet);
+              kiriArray_Reserve(sheet->memory, &sheet->frames, u->placing.sites.count) &&
+              kiriStage_Solver(sheet, u->placing.sites.count);
     return ok ? KIRI_DONE : KIRI_FAILED;
 }

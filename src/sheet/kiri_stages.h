@@ -14,6 +14,9 @@ kiriProgress kiriStage_Shape(kiriSheetData* sheet, kiriQuota* cells);
 kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples);
 kiriProgress kiriStage_Constants(kiriSheetData* sheet, kiriQuota* none);
 
+/* Stages the solver for so many frames, with the links and the layout that are staged. False for memory. */
+bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount);
+
 /* What this tick did to the mesh becomes final. Never fails. */
 void kiriStage_CommitMesh(kiriSheetData* sheet);
 

@@ -22,9 +22,24 @@ static kiriVec3 WhereSeen(const kiriSheetData* sheet, const kiriTouch* touch)
     return at;
 }
 
+#define KIRI_FAR_BELOW 1e9 /* m */
+
+/* Is the point in a piece that the host has destroyed? */
+static bool IsGone(const kiriSheetData* sheet, const kiriTouch* touch)
+{
+    if (touch->point != KIRI_NONE) {
+        return kiriSheet_IsGone(sheet, sheet->points.data[touch->point].frame);
+    }
+    int32_t first = sheet->vertexSkin.spans.data[touch->vertex[0]].first;
+    return kiriSheet_IsGone(sheet, sheet->vertexSkin.weights.data[first].frame);
+}
+
 bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch)
 {
     kiriTouch found = *touch;
+    if (IsGone(sheet, touch)) {
+        found.offset -= KIRI_FAR_BELOW; /* the host is told of each of its contacts */
+    }
     KIRI_ASSERT(touch->yield == KIRI_NONE || touch->yield < sheet->touches.yields.count);
     KIRI_ASSERT(touch->point != KIRI_NONE || touch->vertex[0] < sheet->seen.surface.vertexCount);
     found.seen = WhereSeen(sheet, touch);

@@ -195,6 +195,11 @@ static void Fit(kiriBounds* bounds, const kiriSurface* surface)
     bounds->pose = surface->pose;
 }
 
+void kiriBounds_Forget(kiriBounds* bounds)
+{
+    bounds->levelCount = 0;
+}
+
 bool kiriBounds_IsFresh(const kiriBounds* bounds, const kiriSurface* surface)
 {
     return bounds->levelCount > 0 && bounds->pose == surface->pose;

@@ -57,6 +57,9 @@ void kiriBox_Add(kiriBox* box, kiriVec3 at);
 /* The least box around a triangle as it is seen. */
 kiriBox kiriBox_OfTriangle(const kiriSurface* surface, int32_t triangle);
 
+/* Triangles were taken away: the next tree is made anew. */
+void kiriBounds_Forget(kiriBounds* bounds);
+
 /* Do the boxes fit what is seen? All queries below ask for that. */
 bool kiriBounds_IsFresh(const kiriBounds* bounds, const kiriSurface* surface);
 

@@ -21,6 +21,19 @@ void kiriFades_Release(kiriFades* fades, kiriMemory* memory)
     kiriArray_Release(memory, &fades->seen);
 }
 
+void kiriFades_Keep(kiriFades* fades, const kiriKeep* samples)
+{
+    int32_t kept = 0;
+    for (int32_t k = 0; k < fades->fading.count; ++k) {
+        kiriFading fading = fades->fading.data[k];
+        fading.sample = kiriKeep_To(samples, fading.sample);
+        if (fading.sample != KIRI_NONE) {
+            fades->fading.data[kept++] = fading;
+        }
+    }
+    fades->fading.count = kept;
+}
+
 /* Lists swap: what fades is now older. */
 static void MakeOlder(kiriFades* fades)
 {

@@ -3,7 +3,7 @@
 #ifndef KIRI_FADE_H
 #define KIRI_FADE_H
 
-#include "../core/kiri_array.h"
+#include "../core/kiri_keep.h"
 #include "../core/kiri_vec.h"
 
 KIRI_C_BEGIN
@@ -29,6 +29,9 @@ bool kiriFades_Reserve(kiriFades* fades, kiriMemory* memory, int32_t sampleCount
 /* Gives memory back where nothing fades. */
 void kiriFades_Trim(kiriFades* fades, kiriMemory* memory);
 void kiriFades_Release(kiriFades* fades, kiriMemory* memory);
+
+/* Samples are taken away. */
+void kiriFades_Keep(kiriFades* fades, const kiriKeep* samples);
 
 /* Swaps fades->seen with the samples' own array, which had where they are seen. Both have room for all. */
 void kiriFades_Remember(kiriFades* fades, kiriVec3** samples, int32_t* capacity);

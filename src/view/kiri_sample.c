@@ -131,6 +131,23 @@ void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount)
     }
 }
 
+void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* frames)
+{
+    KIRI_ASSERT(skin->staged.count == 0);
+    for (int32_t i = samples->first; i < skin->spans.count; ++i) {
+        if (!kiriKeep_Has(samples, i)) {
+            DropSpan(skin, &skin->spans.data[i]);
+        }
+    }
+    kiriKeep_Compact(samples, &skin->spans, 1, sizeof(kiriSpan));
+    for (int32_t i = 0; i < skin->spans.count && kiriKeep_Moves(frames); ++i) {
+        kiriSpan span = skin->spans.data[i];
+        for (int32_t k = span.first; k < span.first + span.count; ++k) {
+            skin->weights.data[k].frame = kiriKeep_To(frames, skin->weights.data[k].frame);
+        }
+    }
+}
+
 /* ---- Where samples are ------------------------------------------------------------------------------------------ */
 
 static int32_t SquareCount(const kiriMeshData* mesh)
@@ -163,6 +180,14 @@ bool kiriPlaces_Add(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* 
         places->head.data[square] = sample;
     }
     return true;
+}
+
+void kiriPlaces_Keep(kiriPlaces* places, const kiriKeep* samples)
+{
+    if (places->next.count > 0) {
+        kiriKeep_Relink(samples, places->head.data, places->head.count, places->next.data, sizeof(int32_t));
+        kiriKeep_Compact(samples, &places->next, 1, sizeof(int32_t));
+    }
 }
 
 /* ---- Refreshing ------------------------------------------------------------------------------------------------- */

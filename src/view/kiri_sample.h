@@ -82,6 +82,11 @@ kiriProgress kiriRefresh_Points(kiriRefresh* refresh, kiriSkin* skin, const kiri
 bool kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* mesh);
 void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount);
 
+/* Samples and frames are taken away; no sample that is kept has a weight of a frame that is not. Nothing is staged. Never
+   fails. */
+void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* frames);
+void kiriPlaces_Keep(kiriPlaces* places, const kiriKeep* samples);
+
 kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrameData* frames, kiriVec2 local);
 
 /* The motion at a lattice point of a triangle, from the weights of its corners. */

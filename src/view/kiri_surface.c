@@ -181,6 +181,94 @@ void kiriSurface_GetDirty(const kiriSurface* surface, uint32_t sinceRevision, ki
     }
 }
 
+/* ---- What is not seen ---- */
+
+bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired)
+{
+    kiriIndices fresh = { NULL, 0, 0 };
+    kiriArrayHeader was = kiriArray_GetHeader(&surface->indices);
+    if (!kiriArray_Resize(memory, &fresh, was.count)) {
+        return false;
+    }
+    memcpy(fresh.data, was.data, sizeof(int32_t) * (size_t)was.count);
+    kiriArray_SetHeader(&surface->indices, kiriArray_GetHeader(&fresh));
+    kiriMemory_Adopt(retired, was.data);
+    return true;
+}
+
+void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle)
+{
+    int32_t* corners = &surface->indices.data[3 * (size_t)triangle];
+    corners[1] = corners[2] = corners[0];
+    WriteCorners(surface, triangle / 2);
+}
+
+/* ---- What is left ---- */
+
+bool kiriShown_Reserve(kiriShown* shown, kiriMemory* memory, const kiriKeep* triangles, const kiriKeep* vertices)
+{
+    int64_t vertexCount = vertices->count, triangleCount = triangles->count;
+    memset(shown, 0, sizeof(*shown));
+    return kiriArray_Reserve(memory, &shown->positions, 3 * vertexCount) &&
+           kiriArray_Reserve(memory, &shown->normals, 3 * vertexCount) &&
+           kiriArray_Reserve(memory, &shown->restPositions, 2 * vertexCount) &&
+           kiriArray_Reserve(memory, &shown->sourceWeights, 3 * vertexCount) &&
+           kiriArray_Reserve(memory, &shown->sourceTriangles, vertexCount) &&
+           kiriArray_Reserve(memory, &shown->indices, 3 * triangleCount);
+}
+
+void kiriShown_Release(kiriShown* shown, kiriMemory* memory)
+{
+    kiriArray_Release(memory, &shown->positions);
+    kiriArray_Release(memory, &shown->normals);
+    kiriArray_Release(memory, &shown->restPositions);
+    kiriArray_Release(memory, &shown->sourceWeights);
+    kiriArray_Release(memory, &shown->sourceTriangles);
+    kiriArray_Release(memory, &shown->indices);
+}
+
+/* The array, with `each` entries of 4 bytes an item, becomes `fresh` with what is kept. */
+static void TakeKept(const kiriKeep* keep, void* array, const void* fresh, int32_t each, kiriMemory* retired)
+{
+    kiriArrayHeader was = kiriArray_GetHeader(array), is = kiriArray_GetHeader(fresh);
+    kiriKeep_Copy(keep, is.data, was.data, 4 * (size_t)each);
+    is.count = each * keep->count;
+    kiriArray_SetHeader(array, is);
+    kiriMemory_Adopt(retired, was.data);
+}
+
+static void RenumberIndices(kiriSurface* surface, const kiriMeshData* mesh)
+{
+    for (int32_t t = 0; t < surface->triangleCount; ++t) {
+        WriteTriangle(surface, mesh, t);
+    }
+    surface->corners.count = 3 * (surface->triangleCount + surface->triangleCount % 2);
+    for (int32_t pair = 0; 2 * pair < surface->triangleCount; ++pair) {
+        WriteCorners(surface, pair);
+    }
+}
+
+void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* triangles, const kiriKeep* vertices,
+                      const kiriMeshData* mesh, int32_t frameCount, kiriMemory* retired)
+{
+    TakeKept(vertices, &surface->positions, &shown->positions, 3, retired);
+    TakeKept(vertices, &surface->normals, &shown->normals, 3, retired);
+    TakeKept(vertices, &surface->restPositions, &shown->restPositions, 2, retired);
+    TakeKept(vertices, &surface->sourceWeights, &shown->sourceWeights, 3, retired);
+    TakeKept(vertices, &surface->sourceTriangles, &shown->sourceTriangles, 1, retired);
+    TakeKept(triangles, &surface->indices, &shown->indices, 3, retired);
+    kiriKeep_Compact(vertices, &surface->rest, 1, sizeof(kiriVec2));
+    kiriKeep_Compact(vertices, &surface->exact, 1, sizeof(kiriVec3));
+    kiriKeep_Compact(vertices, &surface->slopes, 1, sizeof(kiriVec3));
+    surface->carriers.count = surface->bends.count = frameCount;
+    surface->vertexCount = vertices->count;
+    surface->triangleCount = triangles->count;
+    surface->revision = mesh->revision;
+    surface->changeCount = 0;
+    surface->pose += 1;
+    RenumberIndices(surface, mesh);
+}
+
 /* ---- Copies ---- */
 
 static void CopyStrided(const float* from, int32_t count, void* to, int32_t stride)

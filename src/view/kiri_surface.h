@@ -62,6 +62,27 @@ bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMesh
    all of the mesh. */
 void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh);
 
+/* Arrays for what is left of those that the host reads, which may hold the old ones. */
+typedef struct kiriShown {
+    KIRI_ARRAY(float) positions, normals, restPositions, sourceWeights;
+    KIRI_ARRAY(int32_t) indices, sourceTriangles;
+} kiriShown;
+
+/* Room for what is kept, in the memory of the surface. False for memory: what is there is to be released. */
+bool kiriShown_Reserve(kiriShown* shown, kiriMemory* memory, const kiriKeep* triangles, const kiriKeep* vertices);
+void kiriShown_Release(kiriShown* shown, kiriMemory* memory);
+
+/* Triangles, vertices and frames have been taken away from the mesh: so they are from the surface. What is left is seen
+   where it was. The arrays that the host may hold get the owner `retired`. Never fails. */
+void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* triangles, const kiriKeep* vertices,
+                      const kiriMeshData* mesh, int32_t frameCount, kiriMemory* retired);
+
+/* The indices get a new array, for the host may hold the old one, which gets the owner `retired`. False for memory. */
+bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired);
+
+/* A triangle is seen no more: all its corners are the first. */
+void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);
+
 /* Where the vertices are now, in doubles, from the frames. The links tell a smooth surface how to bend; a linear one does
    not ask. */
 void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriFrameData* frames, int32_t frameCount,

@@ -13,10 +13,14 @@ kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFram
     KIRI_READS(world);
     KIRI_CHECK(count != NULL && (capacity == 0 || (capacity > 0 && frames != NULL)), "count is null, or frames is");
     KIRI_FIND_SHEET(data, sheet);
-    for (int32_t i = 0; i < data->frames.count && i < capacity; ++i) {
-        frames[i] = data->frames.data[i].id;
+    *count = 0;
+    for (int32_t i = 0; i < data->frames.count; ++i) {
+        bool isGone = kiriSheet_IsGone(data, i);
+        if (!isGone && *count < capacity) {
+            frames[*count] = data->frames.data[i].id;
+        }
+        *count += !isGone;
     }
-    *count = data->frames.count;
     return KIRI_OK;
 }
 

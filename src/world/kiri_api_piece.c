@@ -1,6 +1,6 @@
 #include "kiri_call.h"
+#include "kiri_part.h"
 #include "../sheet/kiri_piece.h"
-#include "../sheet/kiri_update.h"
 
 /* Brings the lists of pieces up to date. */
 #define LIST_PIECES(data, piece)                                                                                       \
@@ -30,6 +30,9 @@ kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, int32_t pie
     const kiriPieceLists* lists = &data->lists;
     kiriSpan vertices = kiriPiece_Span(&lists->vertices, piece), triangles = kiriPiece_Span(&lists->triangles, piece);
     kiriSpan points = kiriPiece_Span(&lists->points, piece);
+    if (data->layout.pieces.data[piece].isGone) {
+        vertices.count = triangles.count = points.count = 0;
+    }
     mesh->vertices = lists->vertices.items.data + vertices.first;
     mesh->triangles = lists->triangles.items.data + triangles.first;
     mesh->indices = lists->corners.data + 3 * (int64_t)triangles.first;
@@ -49,7 +52,7 @@ kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, int32_t p
     LIST_PIECES(data, piece);
     kiriSpan span = kiriPiece_Span(&data->lists.frames, piece);
     *frames = data->lists.ids.data + span.first;
-    *count = span.count;
+    *count = data->layout.pieces.data[piece].isGone ? 0 : span.count;
     return KIRI_OK;
 }
 
@@ -67,18 +70,17 @@ kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* 
     return KIRI_OK;
 }
 
-/* Why the sheet cannot be taken apart now, or null. */
-static const char* FaultOfWork(const kiriSheetData* sheet)
+/* The library's line for a result of taking apart. */
+static const char* FaultOfParting(kiriResult result)
 {
-    bool isAtRest = sheet->update->stage == KIRI_NONE && !sheet->update->needsRebuild;
-    return isAtRest ? NULL : "a cut is being worked on; ask again when its work is done";
+    return result == KIRI_ERROR_STATE ? "the piece is all that is left of its sheet" : NULL;
 }
 
-static const char* FaultOfParting(const kiriSheetData* sheet)
-{
-    bool isWhole = sheet->layout.pieces.count == 1;
-    return isWhole ? "the piece is all of the sheet" : FaultOfWork(sheet);
-}
+#define RETURN_PARTING(result)                                                                                         \
+    do {                                                                                                               \
+        kiriResult outcome = (result);                                                                                 \
+        return outcome < 0 ? KIRI_FAIL(outcome, FaultOfParting(outcome)) : outcome;                                    \
+    } while (0)
 
 kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached)
 {
@@ -86,22 +88,51 @@ kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* d
     KIRI_CHECK(detached != NULL, "detached is null");
     *detached = 0;
     KIRI_FIND_FRAME_SHEET(sheet, frame);
-    const char* why = FaultOfParting(sheet);
-    if (why != NULL) {
-        return KIRI_FAIL(KIRI_ERROR_STATE, why);
-    }
-    KIRI_RETURN(kiriWorld_DetachPiece(world, sheet, PieceOf(world, sheet, frame), detached));
+    (void)sheet;
+    RETURN_PARTING(kiriParts_Detach(world, &frame, 1, detached));
 }
 
 kiriResult kiriFrame_DestroyPiece(kiriWorld* world, kiriFrame frame)
 {
     KIRI_CHANGES(world);
     KIRI_FIND_FRAME_SHEET(sheet, frame);
-    const char* why = FaultOfParting(sheet);
-    if (why != NULL) {
-        return KIRI_FAIL(KIRI_ERROR_STATE, why);
+    (void)sheet;
+    RETURN_PARTING(kiriParts_Destroy(world, &frame, 1));
+}
+
+static bool AreFrames(const kiriWorld* world, const kiriFrame* frames, int32_t count)
+{
+    bool all = true;
+    for (int32_t i = 0; i < count; ++i) {
+        all = all && kiriPool_Find(&world->frameIds, frames[i]) != NULL;
     }
-    KIRI_RETURN(kiriWorld_DestroyPiece(world, sheet, PieceOf(world, sheet, frame)));
+    return all;
+}
+
+#define CHECK_FRAMES(frames, count)                                                                                    \
+    do {                                                                                                               \
+        KIRI_CHECK(count == 0 || (count > 0 && frames != NULL), "frames is null, or count below 0");                   \
+        if (!AreFrames(world, frames, count)) {                                                                        \
+            return KIRI_FAIL(KIRI_ERROR_ID, "there is no frame with one of these ids");                                \
+        }                                                                                                              \
+    } while (0)
+
+kiriResult kiriWorld_DetachPieces(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* detached)
+{
+    KIRI_CHANGES(world);
+    KIRI_CHECK(count <= 0 || detached != NULL, "detached is null");
+    for (int32_t i = 0; i < count; ++i) {
+        detached[i] = 0;
+    }
+    CHECK_FRAMES(frames, count);
+    RETURN_PARTING(kiriParts_Detach(world, frames, count, detached));
+}
+
+kiriResult kiriWorld_DestroyPieces(kiriWorld* world, const kiriFrame* frames, int32_t count)
+{
+    KIRI_CHANGES(world);
+    CHECK_FRAMES(frames, count);
+    RETURN_PARTING(kiriParts_Destroy(world, frames, count));
 }
 
 kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count)
@@ -109,9 +140,5 @@ kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, i
     KIRI_CHANGES(world);
     KIRI_CHECK(count != NULL && kiriCall_IsAtLeast(area, 0.0f), "count is null, or area not finite or below 0");
     KIRI_FIND_SHEET(data, sheet);
-    const char* why = FaultOfWork(data);
-    if (why != NULL) {
-        return KIRI_FAIL(KIRI_ERROR_STATE, why);
-    }
-    KIRI_RETURN(kiriWorld_DropCrumbs(world, data, area, count));
+    KIRI_RETURN(kiriParts_DropCrumbs(world, data, area, count));
 }

@@ -310,6 +310,19 @@ static void HashPin(uint64_t* hash, const kiriPinData* pin)
     HashVec3(hash, pin->lastRotation.v);
 }
 
+/* Pieces that go when the work at hand is done. */
+static void HashLeaving(uint64_t* hash, const kiriSheetData* sheet)
+{
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        if (sheet->layout.pieces.data[p].isGone) {
+            kiriHash_Int32(hash, p);
+        }
+    }
+    for (int32_t k = 0; k < sheet->leaving.count; ++k) {
+        kiriHash_Int32(hash, (int32_t)sheet->leaving.data[k]);
+    }
+}
+
 static void HashWaiting(uint64_t* hash, const kiriWorld* world, const kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->queue.count; ++i) {
@@ -329,6 +342,7 @@ static void HashWaiting(uint64_t* hash, const kiriWorld* world, const kiriSheetD
         HashPin(hash, &sheet->pins.data[i]);
     }
     HashContacts(hash, sheet);
+    HashLeaving(hash, sheet);
 }
 
 static void HashStrainOffsets(uint64_t* hash, const kiriStrainOffsets* strainOffsets)

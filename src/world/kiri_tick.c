@@ -1,5 +1,6 @@
 #include "kiri_tick.h"
 
+#include "kiri_part.h"
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_pipeline.h"
 #include "../sheet/kiri_seen.h"
@@ -109,7 +110,7 @@ static kiriResult ReserveRoom(kiriWorld* world)
     int64_t frames = 0, events = 2 * (int64_t)world->sheets.count;
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         kiriSheetData* sheet = world->sheets.data[i];
-        events += sheet->cuts.count + sheet->pins.count;
+        events += (int64_t)sheet->cuts.count + sheet->pins.count + sheet->leaving.count;
         if (IsReady(sheet) && sheet->update->cut.meshChanged) {
             frames += sheet->update->placing.sites.count - sheet->frames.count;
             events += sheet->update->next.pieces.count;
@@ -150,10 +151,11 @@ static void CommitUpdate(kiriWorld* world, kiriSheetData* sheet)
     kiriStage_Commit(sheet);
     CountWork(&world->profile, sheet);
     for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
-        sheet->frames.data[i].id = kiriPool_Add(&world->frameIds, &world->memory, sheet, i);
+        bool isGone = kiriSheet_IsGone(sheet, i);
+        sheet->frames.data[i].id = isGone ? 0 : kiriPool_Add(&world->frameIds, &world->memory, sheet, i);
     }
     for (int32_t piece = 0; piece < sheet->layout.pieces.count; ++piece) {
-        if (sheet->layout.pieces.data[piece].cameOff) {
+        if (sheet->layout.pieces.data[piece].cameOff && !sheet->layout.pieces.data[piece].isGone) {
             kiriEvent* event = AddEvent(world, KIRI_EVENT_PIECE_OFF, sheet);
             event->frame = sheet->frames.data[sheet->layout.pieces.data[piece].frame].id;
             event->crumb = sheet->layout.pieces.data[piece].area < sheet->settings.crumbArea;
@@ -161,7 +163,9 @@ static void CommitUpdate(kiriWorld* world, kiriSheetData* sheet)
         }
     }
     for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
-        AddEvent(world, KIRI_EVENT_FRAME_ADDED, sheet)->frame = sheet->frames.data[i].id;
+        if (!kiriSheet_IsGone(sheet, i)) {
+            AddEvent(world, KIRI_EVENT_FRAME_ADDED, sheet)->frame = sheet->frames.data[i].id;
+        }
     }
 }
 
@@ -293,6 +297,21 @@ static void SkinAll(kiriWorld* world, double dt)
     }
 }
 
+/* Pieces that the host has taken out of a sheet while work was at hand go now that it is done. */
+static void FinishParting(kiriWorld* world)
+{
+    for (int32_t i = 0, count = world->sheets.count; i < count; ++i) {
+        kiriSheetData* sheet = world->sheets.data[i];
+        for (int32_t k = 0, made = kiriParts_Finish(world, sheet); k < made; ++k) {
+            const kiriSheetData* part = kiriPool_Find(&world->frameIds, sheet->leaving.data[k])->owner;
+            kiriEvent* event = AddEvent(world, KIRI_EVENT_PIECE_DETACHED, part);
+            event->frame = sheet->leaving.data[k];
+            event->area = (float)part->layout.pieces.data[0].area;
+            sheet->leaving.count = k + 1 < made ? sheet->leaving.count : 0;
+        }
+    }
+}
+
 static void CountSpent(kiriProfile* profile, const kiriQuotas* quotas)
 {
     profile->trianglesSplit = (int32_t)quotas->of[KIRI_QUOTA_TRIANGLES].used;
@@ -320,6 +339,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
             BreakPins(world, world->sheets.data[i]);
         }
         SkinAll(world, dt);
+        FinishParting(world);
         CountSpent(&world->profile, &quotas);
         EnterStage(world, KIRI_NONE);
         kiriWorld_AdvanceBlades(world, dt);

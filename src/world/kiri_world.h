@@ -48,17 +48,9 @@ void kiriWorld_QueuePoint(const kiriWorld* world, kiriCutData* cut, kiriVec2 to,
 /* Its id is stale then; the last pin of the sheet takes its index. */
 void kiriWorld_RemovePin(kiriWorld* world, kiriSheetData* sheet, int32_t index);
 
-/* Room for one more sheet and its id; for so many ids of a kind. KIRI_ERROR_MEMORY or KIRI_ERROR_LIMIT. */
-kiriResult kiriWorld_ReserveSheet(kiriWorld* world);
+/* Room for so many more sheets and their ids; for so many ids of a kind. KIRI_ERROR_MEMORY or KIRI_ERROR_LIMIT. */
+kiriResult kiriWorld_ReserveSheets(kiriWorld* world, int32_t count);
 kiriResult kiriWorld_ReserveIds(kiriWorld* world, kiriPool* pool, int64_t count);
-
-/* For a sheet without work at hand, and a piece that is not the only one. On failure (memory, or ids) nothing has
-   changed. The sheet's data moves: pointers to it are stale. */
-kiriResult kiriWorld_DetachPiece(kiriWorld* world, kiriSheetData* sheet, int32_t piece, kiriSheet* id);
-kiriResult kiriWorld_DestroyPiece(kiriWorld* world, kiriSheetData* sheet, int32_t piece);
-
-/* Takes away all pieces below an area (m^2) but the largest. */
-kiriResult kiriWorld_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, int32_t* count);
 
 KIRI_C_END
 

@@ -357,6 +357,17 @@ class World:
         return self.get_array(lambda events, count: [_record(events[i]) for i in range(count)], "kiriWorld_GetEvents",
                               "kiriEvent")
 
+    def detach_pieces(self, frames):
+        """The pieces of these frames as sheets, None for those that wait: see Frame.detach_piece. In one pass."""
+        ids = [frame.id for frame in frames]
+        made = ffi.new("kiriSheet[]", max(len(ids), 1))
+        self.call("kiriWorld_DetachPieces", ffi.new("kiriFrame[]", ids), len(ids), made)
+        return [Sheet(self, made[i]) if made[i] else None for i in range(len(ids))]
+
+    def destroy_pieces(self, frames):
+        ids = [frame.id for frame in frames]
+        self.call("kiriWorld_DestroyPieces", ffi.new("kiriFrame[]", ids), len(ids))
+
     def create_sheet(self, positions, triangles, **fields):
         """Rest positions and triangles, flat or in rows; other fields of kiriSheetDef by name, material and paper as
         dicts."""
@@ -563,8 +574,9 @@ class Frame(_Handle):
         return self.world.get("kiriFrame_GetPiece", "int32_t", self.id)
 
     def detach_piece(self):
-        """Its piece as a sheet of its own."""
-        return Sheet(self.world, self.world.get("kiriFrame_DetachPiece", "kiriSheet", self.id))
+        """Its piece as a sheet of its own; None while work on a cut is at hand: an event names it when that is done."""
+        made = self.world.get("kiriFrame_DetachPiece", "kiriSheet", self.id)
+        return Sheet(self.world, made) if made else None
 
     def destroy_piece(self):
         self.world.call("kiriFrame_DestroyPiece", self.id)

@@ -1,0 +1,77 @@
+#include "kiri_keep.h"
+
+#include <string.h>
+
+bool kiriKeep_Init(kiriKeep* keep, kiriMemory* memory, int32_t items)
+{
+    memset(keep, 0, sizeof(*keep));
+    return kiriArray_Reserve(memory, &keep->to, items);
+}
+
+/* The end of the run of items, from `from` on, that are kept all, or none of them. */
+static int32_t EndOfRun(const kiriKeep* keep, int32_t from)
+{
+    const int32_t* to = keep->to.data;
+    int32_t end = from + 1;
+    while (end < keep->to.count && (to[end] == KIRI_NONE) == (to[from] == KIRI_NONE)) {
+        ++end;
+    }
+    return end;
+}
+
+/* Run by run. `to` may be `from`, for nothing moves up. */
+static void MoveRuns(const kiriKeep* keep, unsigned char* to, const unsigned char* from, int32_t first,
+                     size_t itemBytes)
+{
+    for (int32_t i = first, end; i < keep->to.count; i = end) {
+        end = EndOfRun(keep, i);
+        if (keep->to.data[i] != KIRI_NONE) {
+            memmove(to + (size_t)keep->to.data[i] * itemBytes, from + (size_t)i * itemBytes,
+                    (size_t)(end - i) * itemBytes);
+        }
+    }
+}
+
+void kiriKeep_Compact(const kiriKeep* keep, void* array, int32_t each, size_t entryBytes)
+{
+    kiriArrayHeader header = kiriArray_GetHeader(array);
+    if (header.count > 0) {
+        KIRI_ASSERT(header.count == each * keep->to.count);
+        MoveRuns(keep, header.data, header.data, keep->first, (size_t)each * entryBytes);
+        header.count = each * keep->count;
+        kiriArray_SetHeader(array, header);
+    }
+}
+
+void kiriKeep_Copy(const kiriKeep* keep, void* to, const void* from, size_t itemBytes)
+{
+    if (keep->first > 0) {
+        memcpy(to, from, (size_t)keep->first * itemBytes);
+    }
+    MoveRuns(keep, to, from, keep->first, itemBytes);
+}
+
+static int32_t* LinkOf(int32_t* next, size_t strideBytes, int32_t item)
+{
+    return (int32_t*)((char*)next + (size_t)item * strideBytes);
+}
+
+/* What a link becomes that leads to `item`. Older items have their new links already: one that is not kept tells what
+   comes behind it. */
+static int32_t NewLink(const kiriKeep* keep, int32_t* next, size_t strideBytes, int32_t item)
+{
+    bool isPassed = item != KIRI_NONE && !kiriKeep_Has(keep, item);
+    return isPassed ? *LinkOf(next, strideBytes, item) : kiriKeep_To(keep, item);
+}
+
+void kiriKeep_Relink(const kiriKeep* keep, int32_t* heads, int32_t headCount, int32_t* next, size_t strideBytes)
+{
+    for (int32_t i = keep->first; i < keep->to.count; ++i) {
+        int32_t* link = LinkOf(next, strideBytes, i);
+        KIRI_ASSERT(*link < i);
+        *link = NewLink(keep, next, strideBytes, *link);
+    }
+    for (int32_t k = 0; k < headCount; ++k) {
+        heads[k] = NewLink(keep, next, strideBytes, heads[k]);
+    }
+}

@@ -1,0 +1,111 @@
+#include "kiri_mesh_edit.h"
+
+#include <string.h>
+
+/* Half-edges keep their place in their triangle. */
+static int32_t EdgeTo(const kiriKeep* triangles, int32_t h)
+{
+    int32_t triangle = h == KIRI_NONE ? KIRI_NONE : kiriKeep_To(triangles, h / 3);
+    return triangle == KIRI_NONE ? KIRI_NONE : 3 * triangle + h % 3;
+}
+
+/* An open edge whose other side is not kept becomes one of the outline. Who a triangle was split from matters only until
+   the cut is in force: see kiri_ownership.c. */
+static void RenumberTriangle(kiriTriangle* t, const kiriKeep* triangles, const kiriKeep* vertices)
+{
+    for (int i = 0; i < 3; ++i) {
+        t->vertex[i] = kiriKeep_To(vertices, t->vertex[i]);
+        t->twin[i] = EdgeTo(triangles, t->twin[i]);
+        t->open &= t->twin[i] == KIRI_NONE ? ~(1 << i) : ~0;
+    }
+    t->parent = kiriKeep_To(triangles, t->parent);
+}
+
+/* ---- A part as a mesh of its own ---------------------------------------------------------------------------------- */
+
+static bool CopyPart(kiriMeshData* mesh, const kiriMeshData* from, const kiriKeep* triangles, const kiriKeep* vertices)
+{
+    bool ok = true;
+    for (int32_t v = 0; ok && v < from->vertices.count; ++v) {
+        kiriVertex vertex = from->vertices.data[v];
+        if (kiriKeep_Has(vertices, v)) {
+            vertex.edge = EdgeTo(triangles, vertex.edge);
+            KIRI_ASSERT(vertex.edge != KIRI_NONE);
+            vertex.stamp = 0;
+            ok = kiriArray_Push(mesh->memory, &mesh->vertices, vertex);
+        }
+    }
+    for (int32_t t = 0; ok && t < from->triangles.count; ++t) {
+        if (kiriKeep_Has(triangles, t)) {
+            kiriTriangle triangle = from->triangles.data[t];
+            RenumberTriangle(&triangle, triangles, vertices);
+            triangle.stamp = 0;
+            ok = kiriArray_Push(mesh->memory, &mesh->triangles, triangle);
+        }
+    }
+    return ok;
+}
+
+/* Those of the caller's triangles that the part has something of, and those between. */
+static bool CopySources(kiriMeshData* mesh, const kiriMeshData* from)
+{
+    int32_t first = INT32_MAX, last = 0;
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        int32_t source = mesh->triangles.data[t].source;
+        first = source < first ? source : first;
+        last = source > last ? source : last;
+    }
+    int32_t count = 3 * (last - first + 1);
+    mesh->firstSource = first;
+    if (!kiriArray_Resize(mesh->memory, &mesh->sourceCorners, count)) {
+        return false;
+    }
+    memcpy(mesh->sourceCorners.data, &from->sourceCorners.data[3 * (first - from->firstSource)],
+           sizeof(kiriLatticePoint) * (size_t)count);
+    return true;
+}
+
+bool kiriMesh_InitPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const kiriKeep* triangles,
+                       const kiriKeep* vertices)
+{
+    memset(mesh, 0, sizeof(*mesh));
+    mesh->memory = memory;
+    mesh->origin = from->origin;
+    mesh->step = from->step;
+    mesh->revision = from->revision + 1;
+    if (!CopyPart(mesh, from, triangles, vertices) || !CopySources(mesh, from) ||
+        !kiriSquares_InitLike(&mesh->squares, mesh->memory, &from->squares) ||
+        !kiriMesh_FillSquares(mesh, &mesh->squares, mesh->memory)) {
+        return false;
+    }
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        kiriMesh_ListVertex(mesh, v);
+    }
+    kiriMesh_Begin(mesh);
+    return true;
+}
+
+/* ---- What is left ------------------------------------------------------------------------------------------------ */
+
+void kiriMesh_Keep(kiriMeshData* mesh, const kiriKeep* triangles, const kiriKeep* vertices, const int32_t* squares,
+                   int32_t squareCount)
+{
+    KIRI_ASSERT(!mesh->isOpen && mesh->savedTriangles.count == 0);
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        if (kiriKeep_Has(triangles, t)) {
+            RenumberTriangle(&mesh->triangles.data[t], triangles, vertices);
+        }
+    }
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        mesh->vertices.data[v].edge = EdgeTo(triangles, mesh->vertices.data[v].edge);
+    }
+    kiriKeep_Relink(vertices, mesh->squares.vertexHead, mesh->squares.columns * mesh->squares.rows,
+                    &mesh->vertices.data[0].next, sizeof(kiriVertex));
+    kiriSquares_Keep(&mesh->squares, triangles, squares, squareCount);
+    kiriKeep_Compact(triangles, &mesh->triangles, 1, sizeof(kiriTriangle));
+    kiriKeep_Compact(vertices, &mesh->vertices, 1, sizeof(kiriVertex));
+    mesh->births.count = 0;
+    mesh->oldTriangleCount = mesh->triangles.count;
+    mesh->oldVertexCount = mesh->vertices.count;
+    mesh->revision += 1;
+}

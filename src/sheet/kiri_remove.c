@@ -1,0 +1,294 @@
+#include "kiri_remove.h"
+
+#include "kiri_pin.h"
+#include "kiri_stages.h"
+#include "kiri_touch.h"
+
+#include <string.h>
+
+bool kiriRemoval_Init(kiriRemoval* removal, kiriSheetData* sheet)
+{
+    memset(removal, 0, sizeof(*removal));
+    removal->sheet = sheet;
+    return kiriKept_Init(&removal->kept, sheet);
+}
+
+/* ---- Ready ---- */
+
+/* Cells that go, in the order of squares. */
+static bool ListCells(kiriRemoval* removal)
+{
+    const kiriSheetData* sheet = removal->sheet;
+    kiriMemory* memory = &removal->kept.memory;
+    bool ok = true;
+    for (int32_t s = 0; ok && s < sheet->grid.squareCell.count; ++s) {
+        bool isListed = false;
+        for (int32_t c = sheet->grid.squareCell.data[s]; ok && c != KIRI_NONE; c = sheet->grid.cells.data[c].next) {
+            if (!kiriKeep_Has(&removal->kept.frames, sheet->regions.field.owner.data[c])) {
+                ok = kiriArray_Push(memory, &removal->cells, c) &&
+                     (isListed || kiriArray_Push(memory, &removal->squares, s));
+                isListed = true;
+            }
+        }
+    }
+    return ok;
+}
+
+static bool StagePieces(kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    kiriMemory* scratch = &removal->kept.memory;
+    const kiriLayout* layout = &sheet->layout;
+    kiriLayout* next = &sheet->update->next;
+    kiriKeep pieces;
+    next->pieces.count = next->framePiece.count = 0;
+    bool ok = kiriKeep_Init(&pieces, scratch, layout->pieces.count) &&
+              kiriArray_Reserve(sheet->memory, &next->pieces, layout->pieces.count) &&
+              kiriArray_Reserve(sheet->memory, &next->framePiece, layout->framePiece.count);
+    for (int32_t p = 0; ok && p < layout->pieces.count; ++p) {
+        const kiriPiece* was = &layout->pieces.data[p];
+        kiriPiece piece = { was->area, kiriKeep_To(&removal->kept.frames, was->frame), KIRI_NONE, false, false };
+        kiriKeep_Add(&pieces, removal->kept.pieces.data[p] != 0);
+        if (removal->kept.pieces.data[p]) {
+            next->pieces.data[next->pieces.count++] = piece;
+        }
+    }
+    for (int32_t f = 0; ok && f < layout->framePiece.count; ++f) {
+        if (kiriKeep_Has(&removal->kept.frames, f)) {
+            next->framePiece.data[next->framePiece.count++] = kiriKeep_To(&pieces, layout->framePiece.data[f]);
+        }
+    }
+    return ok;
+}
+
+static bool StagePins(kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    const kiriKept* kept = &removal->kept;
+    const kiriLayout* layout = &sheet->layout;
+    kiriLayout* next = &sheet->update->next;
+    bool ok = true;
+    next->pinFrame.count = next->pinShares.count = next->severed.count = 0;
+    for (int32_t i = 0; ok && i < sheet->pins.count; ++i) {
+        int32_t frame = kiriKept_FrameOfPin(kept, i);
+        ok = frame == KIRI_NONE || kiriArray_Push(sheet->memory, &next->pinFrame, kiriKeep_To(&kept->frames, frame));
+    }
+    for (int32_t k = 0; ok && k < layout->pinShares.count; ++k) {
+        kiriPinShare pinned = layout->pinShares.data[k];
+        pinned.pin = kiriKeep_To(&kept->pins, pinned.pin);
+        pinned.share.frame = kiriKeep_To(&kept->frames, pinned.share.frame);
+        ok = pinned.share.frame == KIRI_NONE || kiriArray_Push(sheet->memory, &next->pinShares, pinned);
+    }
+    for (int32_t k = 0; ok && k < layout->severed.count; ++k) {
+        kiriSeveredLink severed = layout->severed.data[k];
+        severed.pin = kiriKeep_To(&kept->pins, severed.pin);
+        severed.link = kiriKeep_To(&kept->links, severed.link);
+        ok = severed.link == KIRI_NONE || kiriArray_Push(sheet->memory, &next->severed, severed);
+    }
+    return ok;
+}
+
+/* What each touch of the last tick pushed with. */
+static bool ListForces(kiriRemoval* removal)
+{
+    const kiriTouches* touches = &removal->sheet->touches;
+    if (!kiriArray_Resize(&removal->kept.memory, &removal->forces, touches->last.count)) {
+        return false;
+    }
+    for (int32_t i = 0; i < touches->last.count; ++i) {
+        removal->forces.data[i] = kiriTouches_ForceOf(removal->sheet, touches->last.data[i].key);
+    }
+    return true;
+}
+
+static bool StageLayout(kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    kiriAreaElements* elements = &sheet->update->next.areaElements;
+    elements->elements.count = elements->shares.count = 0;
+    return StagePieces(removal) && StagePins(removal) &&
+           kiriAreaElements_Keep(elements, sheet->memory, &sheet->layout.areaElements, &removal->kept.frames) &&
+           kiriLinks_Keep(&sheet->links, sheet->memory, &removal->kept.links, &removal->kept.frames);
+}
+
+bool kiriRemoval_Stage(kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
+    return kiriKept_Map(&removal->kept) && ListCells(removal) && ListForces(removal) && StageLayout(removal) &&
+           kiriShown_Reserve(&removal->shown, &sheet->shown, &removal->kept.triangles, &removal->kept.vertices) &&
+           kiriArray_Reserve(&sheet->shown, &removal->points, 3 * (int64_t)removal->kept.points.count) &&
+           kiriStage_Solver(sheet, removal->kept.frames.count);
+}
+
+/* ---- Gone ---- */
+
+static void KeepFields(kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    const kiriKept* kept = &removal->kept;
+    const int32_t *cells = removal->cells.data, *squares = removal->squares.data;
+    int32_t cellCount = removal->cells.count, squareCount = removal->squares.count;
+    kiriMesh_Keep(&sheet->mesh, &kept->triangles, &kept->vertices, squares, squareCount);
+    kiriGrid_Keep(&sheet->grid, sheet->memory, &kept->triangles, cells, cellCount);
+    kiriRegions_Keep(&sheet->regions, &kept->frames, cells, cellCount);
+    kiriShape_Keep(&sheet->shape, sheet->memory, &kept->frames, cells, cellCount);
+    kiriOwnership_Keep(&sheet->update->refit.ownership, &sheet->grid, &sheet->mesh, &sheet->regions, &kept->triangles,
+                       &kept->frames, squares, squareCount);
+}
+
+static void KeepPoints(kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    kiriKeep_Compact(&removal->kept.points, &sheet->points, 1, sizeof(kiriSample));
+    for (int32_t i = 0; i < sheet->points.count; ++i) {
+        sheet->points.data[i].frame = kiriKeep_To(&removal->kept.frames, sheet->points.data[i].frame);
+    }
+    kiriPlaces_Keep(&sheet->pointPlaces, &removal->kept.points);
+    kiriSkin_Keep(&sheet->pointSkin, &removal->kept.points, &removal->kept.frames);
+    kiriSkin_Keep(&sheet->vertexSkin, &removal->kept.vertices, &removal->kept.frames);
+}
+
+static void KeepContacts(const kiriKept* kept, kiriSheetData* sheet)
+{
+    int32_t left = 0;
+    for (int32_t i = 0; i < sheet->contacts.count; ++i) {
+        kiriGivenContact given = sheet->contacts.data[i];
+        if (kiriKept_FollowContact(kept, &given)) {
+            sheet->contacts.data[left++] = given;
+        }
+    }
+    sheet->contacts.count = left;
+}
+
+/* Forces go by keys, and keys by indices: they are remembered anew. */
+static void KeepTouches(kiriRemoval* removal, kiriSheetData* sheet)
+{
+    kiriTouches* touches = &sheet->touches;
+    int32_t left = 0;
+    sheet->touches.forces.count = 0;
+    for (int32_t i = 0; i < touches->last.count; ++i) {
+        kiriTouch touch = touches->last.data[i];
+        if (kiriKept_FollowTouch(&removal->kept, &touch)) {
+            kiriVec3 force = removal->forces.data[i];
+            touches->last.data[left++] = touch;
+            if (kiriVec3_Dot(force, force) > 0.0) {
+                kiriTouches_Remember(sheet, touch.key, force);
+            }
+        }
+    }
+    touches->last.count = left;
+}
+
+/* What the sheet keeps of its pieces from tick to tick, beside fields and what is staged: state that is new belongs
+   here, and into kiri_extract.c. */
+static void KeepState(kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    kiriUpdate* u = sheet->update;
+    const kiriKept* kept = &removal->kept;
+    kiriKeep_Compact(&kept->frames, &sheet->frames, 1, sizeof(kiriFrameData));
+    kiriKeep_Compact(&kept->frames, &u->material, 1, sizeof(kiriMoments));
+    kiriKeep_Compact(&kept->frames, &u->placing.sites, 1, sizeof(kiriSite));
+    kiriKeep_Compact(&kept->pins, &sheet->pins, 1, sizeof(kiriPinData));
+    kiriKeep_Compact(&kept->links, &sheet->strainOffsets.strainOffsets, 1, sizeof(kiriStrainOffset));
+    KeepContacts(kept, sheet);
+    KeepTouches(removal, sheet);
+    kiriFades_Keep(&sheet->seen.fades, &kept->vertices);
+    kiriFades_Keep(&sheet->seen.pointFades, &kept->points);
+    u->samples.oldVertices = sheet->mesh.vertices.count;
+}
+
+static void KeepSettings(kiriRemoval* removal)
+{
+    kiriSettings* settings = &removal->sheet->settings;
+    double share = kiriKept_Share(&removal->kept);
+    settings->collisionPoints *= share;
+    settings->integrationPoints *= share;
+}
+
+static void MoveBlade(const kiriRemoval* removal, kiriBladeTip* blade)
+{
+    blade->vertex = kiriKeep_To(&removal->kept.vertices, blade->vertex);
+}
+
+static void MoveBlades(const kiriRemoval* removal)
+{
+    for (int32_t i = 0; i < removal->sheet->cuts.count; ++i) {
+        kiriCutData* cut = removal->sheet->cuts.data[i];
+        MoveBlade(removal, &cut->tip.blade);
+        MoveBlade(removal, &cut->committed.blade);
+    }
+}
+
+/* What is staged comes in force, as in kiriStage_Commit. */
+static void CommitStaged(kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    kiriLayout layout = sheet->layout;
+    kiriLinks_Commit(&sheet->links);
+    kiriSolver_Commit(sheet->solver);
+    sheet->layout = sheet->update->next;
+    sheet->update->next = layout;
+    kiriPins_WriteLinkParts(sheet);
+    kiriPins_SumShares(sheet);
+}
+
+static void ReplaceFloats(void* array, void* fresh, kiriMemory* retired)
+{
+    kiriArrayHeader was = kiriArray_GetHeader(array);
+    kiriArray_SetHeader(array, kiriArray_GetHeader(fresh));
+    kiriMemory_Adopt(retired, was.data);
+}
+
+static void KeepSeen(kiriRemoval* removal, kiriMemory* retired)
+{
+    kiriSheetData* sheet = removal->sheet;
+    const kiriKept* kept = &removal->kept;
+    kiriSurface_Keep(&sheet->seen.surface, &removal->shown, &kept->triangles, &kept->vertices, &sheet->mesh,
+                     kept->frames.count, retired);
+    kiriBounds_Forget(sheet->seen.bounds);
+    kiriKeep_Compact(&kept->points, &sheet->seen.exactPoints, 1, sizeof(kiriVec3));
+    if (sheet->seen.pointPositions.count > 0) {
+        kiriKeep_Copy(&kept->points, removal->points.data, sheet->seen.pointPositions.data, 3 * sizeof(float));
+        removal->points.count = 3 * kept->points.count;
+    }
+    ReplaceFloats(&sheet->seen.pointPositions, &removal->points, retired);
+    sheet->seen.pointCount = kept->points.count;
+}
+
+/* The host may hold them. */
+static void RetireLists(kiriPieceLists* lists, kiriMemory* retired)
+{
+    kiriPieceList* all[] = { &lists->frames, &lists->vertices, &lists->triangles, &lists->points };
+    for (int i = 0; i < 4; ++i) {
+        kiriMemory_Adopt(retired, all[i]->first.data);
+        kiriMemory_Adopt(retired, all[i]->items.data);
+    }
+    kiriMemory_Adopt(retired, lists->ids.data);
+    kiriMemory_Adopt(retired, lists->corners.data);
+    memset(lists, 0, sizeof(*lists));
+}
+
+void kiriRemoval_Commit(kiriRemoval* removal, kiriMemory* retired)
+{
+    KeepSettings(removal); /* by the layout as it is */
+    KeepFields(removal);
+    KeepPoints(removal);
+    KeepState(removal);
+    CommitStaged(removal);
+    MoveBlades(removal);
+    KeepSeen(removal, retired);
+    RetireLists(&removal->sheet->lists, retired);
+    memset(&removal->shown, 0, sizeof(removal->shown));
+    memset(&removal->points, 0, sizeof(removal->points));
+}
+
+void kiriRemoval_Drop(kiriRemoval* removal)
+{
+    if (removal->sheet != NULL) {
+        kiriShown_Release(&removal->shown, &removal->sheet->shown);
+        kiriArray_Release(&removal->sheet->shown, &removal->points);
+        kiriMemory_FreeAll(&removal->kept.memory);
+    }
+}

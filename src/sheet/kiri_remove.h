@@ -1,0 +1,35 @@
+/* Takes pieces out of a sheet in place. No field is computed anew, for nothing couples two pieces: what is left stays as
+   it is to the last bit, but for its indices. */
+#ifndef KIRI_REMOVE_H
+#define KIRI_REMOVE_H
+
+#include "kiri_kept.h"
+
+KIRI_C_BEGIN
+
+typedef struct kiriRemoval {
+    kiriSheetData* sheet;
+    kiriKept kept;                      /* what is left */
+    KIRI_ARRAY(int32_t) cells, squares; /* that go, and the squares in which they are, each once */
+    KIRI_ARRAY(kiriVec3) forces;        /* of each touch of the last tick */
+    kiriShown shown;
+    KIRI_ARRAY(float) points; /* where collision points that are left are seen */
+} kiriRemoval;
+
+/* Nothing is left yet: the caller marks in `kept` what is. False for memory; Drop is to be called then, too. */
+bool kiriRemoval_Init(kiriRemoval* removal, kiriSheetData* sheet);
+
+/* Makes ready: after it Commit does not fail. Fields belong to the mesh as it is (kiriUpdate_IsFieldCurrent). False for
+   memory; nothing has changed. */
+bool kiriRemoval_Stage(kiriRemoval* removal);
+
+/* Pieces go. Blades that were in their material are in none; other cuts go on. Arrays that the host may hold get the owner
+   `retired`. Ids are left to the caller. Never fails. */
+void kiriRemoval_Commit(kiriRemoval* removal, kiriMemory* retired);
+
+/* Gives back what the removal holds, done or not. */
+void kiriRemoval_Drop(kiriRemoval* removal);
+
+KIRI_C_END
+
+#endif

@@ -1,0 +1,434 @@
+#include "kiri_part.h"
+
+#include "../sheet/kiri_extract.h"
+#include "../sheet/kiri_piece.h"
+#include "../sheet/kiri_pin.h"
+#include "../sheet/kiri_remove.h"
+#include "../sheet/kiri_seen.h"
+#include "../sheet/kiri_update.h"
+
+#include <string.h>
+
+/* A piece that is taken out. */
+typedef struct Part {
+    kiriRemoval* from;
+    kiriFrame frame;      /* that names it */
+    kiriSheetData* sheet; /* that it becomes; null: not made yet */
+    int32_t piece;
+} Part;
+
+/* What one call takes out of sheets. */
+typedef struct Parting {
+    kiriWorld* world;
+    kiriMemory memory;
+    kiriRemoval* removals; /* of each sheet that loses something */
+    int32_t removalCount;
+    KIRI_ARRAY(Part) parts;
+} Parting;
+
+static bool Parting_Start(Parting* parting, kiriWorld* world, int32_t sheets)
+{
+    memset(parting, 0, sizeof(*parting));
+    parting->world = world;
+    parting->memory = kiriMemory_Like(&world->memory);
+    parting->removals = kiriMemory_AllocZeroed(&parting->memory, sheets * (int64_t)sizeof(kiriRemoval));
+    return parting->removals != NULL;
+}
+
+static void Parting_End(Parting* parting)
+{
+    for (int32_t k = 0; k < parting->removalCount; ++k) {
+        kiriRemoval_Drop(&parting->removals[k]);
+    }
+    kiriMemory_FreeAll(&parting->memory);
+}
+
+/* Work on a cut is at hand in the sheet. */
+static bool IsBusy(const kiriSheetData* sheet)
+{
+    return !kiriUpdate_IsFieldCurrent(sheet->update);
+}
+
+/* ---- Which pieces ---- */
+
+/* All of the sheet is left, for now, but for what is gone; null for memory. */
+static kiriRemoval* AddRemoval(Parting* parting, kiriSheetData* sheet)
+{
+    kiriRemoval* removal = &parting->removals[parting->removalCount++];
+    if (!kiriRemoval_Init(removal, sheet)) {
+        return NULL;
+    }
+    for (int32_t p = 0; p < removal->kept.pieces.count; ++p) {
+        removal->kept.pieces.data[p] = !sheet->layout.pieces.data[p].isGone;
+    }
+    return removal;
+}
+
+static kiriRemoval* RemovalFor(Parting* parting, kiriSheetData* sheet)
+{
+    for (int32_t k = 0; k < parting->removalCount; ++k) {
+        if (parting->removals[k].sheet == sheet) {
+            return &parting->removals[k];
+        }
+    }
+    return AddRemoval(parting, sheet);
+}
+
+static int32_t PieceOfFrame(const kiriWorld* world, kiriFrame frame)
+{
+    const kiriSlot* slot = kiriPool_Find(&world->frameIds, frame);
+    return ((const kiriSheetData*)slot->owner)->layout.framePiece.data[slot->index];
+}
+
+/* Marks the pieces of frames to go, and lists each once. False for memory. */
+static bool MarkPieces(Parting* parting, const kiriFrame* frames, int32_t count)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        kiriSheetData* sheet = kiriPool_Find(&parting->world->frameIds, frames[i])->owner;
+        Part part = { RemovalFor(parting, sheet), frames[i], NULL, PieceOfFrame(parting->world, frames[i]) };
+        if (part.from == NULL) {
+            return false;
+        }
+        uint8_t* stays = &part.from->kept.pieces.data[part.piece];
+        if (*stays && !kiriArray_Push(&parting->memory, &parting->parts, part)) {
+            return false;
+        }
+        *stays = 0;
+    }
+    return true;
+}
+
+/* Does the piece wait to become a sheet? */
+static bool IsLeaving(const kiriWorld* world, const kiriSheetData* sheet, int32_t piece)
+{
+    for (int32_t k = 0; k < sheet->leaving.count; ++k) {
+        if (kiriPool_Find(&world->frameIds, sheet->leaving.data[k]) != NULL &&
+            PieceOfFrame(world, sheet->leaving.data[k]) == piece) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Is something left of each sheet? */
+static bool LeavesSome(const Parting* parting)
+{
+    bool all = true;
+    for (int32_t k = 0; k < parting->removalCount; ++k) {
+        const kiriKept* kept = &parting->removals[k].kept;
+        bool some = false;
+        for (int32_t p = 0; p < kept->pieces.count && !some; ++p) {
+            some = kept->pieces.data[p] && !IsLeaving(parting->world, kept->from, p);
+        }
+        all = all && some;
+    }
+    return all;
+}
+
+/* KIRI_PENDING where some of it waits. */
+static kiriResult ResultOf(const Parting* parting)
+{
+    kiriResult result = KIRI_OK;
+    for (int32_t k = 0; k < parting->removalCount; ++k) {
+        result = IsBusy(parting->removals[k].sheet) ? KIRI_PENDING : result;
+    }
+    return result;
+}
+
+/* ---- Out of their sheets ---- */
+
+static bool StageRemovals(Parting* parting)
+{
+    bool ok = true;
+    for (int32_t k = 0; ok && k < parting->removalCount; ++k) {
+        ok = IsBusy(parting->removals[k].sheet) || kiriRemoval_Stage(&parting->removals[k]);
+    }
+    return ok;
+}
+
+/* Ids name what has moved to this sheet, or to another place in it. */
+static void PointIds(kiriWorld* world, kiriSheetData* sheet)
+{
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        kiriSlot* slot = kiriPool_Find(&world->frameIds, sheet->frames.data[i].id);
+        slot->owner = sheet;
+        slot->index = i;
+    }
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        kiriSlot* slot = kiriPool_Find(&world->pinIds, sheet->pins.data[i].id);
+        slot->owner = sheet;
+        slot->index = i;
+    }
+}
+
+static void CommitRemovals(Parting* parting)
+{
+    for (int32_t k = 0; k < parting->removalCount; ++k) {
+        if (!IsBusy(parting->removals[k].sheet)) {
+            kiriRemoval_Commit(&parting->removals[k], &parting->world->retired);
+            PointIds(parting->world, parting->removals[k].sheet);
+        }
+    }
+}
+
+/* ---- Sheets of their own ---- */
+
+static bool MakePart(Parting* parting, Part* part)
+{
+    kiriKept kept;
+    part->sheet = kiriSheet_New(&parting->world->memory);
+    bool ok = kiriKept_Init(&kept, part->from->sheet) && part->sheet != NULL;
+    if (ok) {
+        kept.pieces.data[part->piece] = 1;
+        ok = kiriKept_Map(&kept) && kiriExtract_Build(&kept, part->sheet);
+    }
+    kiriMemory_FreeAll(&kept.memory);
+    return ok;
+}
+
+static bool MakeParts(Parting* parting)
+{
+    bool ok = true;
+    for (int32_t k = 0; ok && k < parting->parts.count; ++k) {
+        Part* part = &parting->parts.data[k];
+        ok = IsBusy(part->from->sheet) || MakePart(parting, part);
+    }
+    return ok;
+}
+
+static void DeleteParts(Parting* parting)
+{
+    for (int32_t k = 0; k < parting->parts.count; ++k) {
+        kiriSheet_Delete(parting->parts.data[k].sheet, &parting->world->memory);
+    }
+}
+
+/* Room for the ids of the parts, and of pins that hold more than one; and in the lists of those that wait. */
+static kiriResult ReserveIdsOfParts(Parting* parting)
+{
+    int64_t pins = 0;
+    int32_t made = 0;
+    for (int32_t k = 0; k < parting->parts.count; ++k) {
+        kiriSheetData *sheet = parting->parts.data[k].sheet, *from = parting->parts.data[k].from->sheet;
+        pins += sheet != NULL ? sheet->pins.count : 0;
+        made += sheet != NULL;
+        if (!kiriArray_Reserve(from->memory, &from->leaving, (int64_t)from->leaving.count + parting->parts.count)) {
+            return KIRI_ERROR_MEMORY;
+        }
+    }
+    kiriResult result = kiriWorld_ReserveSheets(parting->world, made);
+    return result == KIRI_OK ? kiriWorld_ReserveIds(parting->world, &parting->world->pinIds, pins) : result;
+}
+
+/* A line may hold more pieces than one: then what is left keeps the pin's id, or else the first part, and others get
+   another. What is left does not point to its pins yet. */
+static void NamePins(kiriWorld* world, const Part* part)
+{
+    for (int32_t i = 0; i < part->sheet->pins.count; ++i) {
+        kiriPinData* pin = &part->sheet->pins.data[i];
+        const kiriSlot* slot = kiriPool_Find(&world->pinIds, pin->id);
+        if (slot->owner != part->from->sheet || kiriKeep_Has(&part->from->kept.pins, slot->index)) {
+            pin->id = kiriPool_Add(&world->pinIds, &world->memory, part->sheet, i);
+        }
+    }
+}
+
+static void AddPart(kiriWorld* world, const Part* part)
+{
+    kiriSheetData* sheet = part->sheet;
+    world->sheets.data[world->sheets.count++] = sheet;
+    sheet->id = kiriPool_Add(&world->sheetIds, &world->memory, sheet, 0);
+    NamePins(world, part);
+    PointIds(world, sheet);
+}
+
+/* When the work at hand is done, unless it is listed already. */
+static void AddLeaving(kiriWorld* world, const Part* part)
+{
+    kiriSheetData* sheet = part->from->sheet;
+    if (!IsLeaving(world, sheet, part->piece)) {
+        sheet->leaving.data[sheet->leaving.count++] = part->frame;
+    }
+}
+
+static kiriResult Detach(Parting* parting)
+{
+    kiriResult result = MakeParts(parting) && StageRemovals(parting) ? ReserveIdsOfParts(parting) : KIRI_ERROR_MEMORY;
+    if (result != KIRI_OK) {
+        DeleteParts(parting);
+        return result;
+    }
+    for (int32_t k = 0; k < parting->parts.count; ++k) {
+        const Part* part = &parting->parts.data[k];
+        part->sheet != NULL ? AddPart(parting->world, part) : AddLeaving(parting->world, part);
+    }
+    CommitRemovals(parting);
+    return ResultOf(parting);
+}
+
+kiriResult kiriParts_Detach(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* ids)
+{
+    Parting parting;
+    kiriResult result = KIRI_ERROR_MEMORY;
+    if (Parting_Start(&parting, world, world->sheets.count) && MarkPieces(&parting, frames, count)) {
+        result = LeavesSome(&parting) ? Detach(&parting) : KIRI_ERROR_STATE;
+    }
+    for (int32_t i = 0; result >= 0 && i < count; ++i) {
+        const kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frames[i])->owner;
+        ids[i] = IsBusy(sheet) ? 0 : sheet->id;
+    }
+    Parting_End(&parting);
+    return result;
+}
+
+/* ---- Taken away ---- */
+
+static void ForgetIds(kiriWorld* world, const kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        if (!removal->kept.pieces.data[sheet->layout.framePiece.data[i]]) {
+            kiriPool_Remove(&world->frameIds, sheet->frames.data[i].id);
+            sheet->frames.data[i].id = 0;
+        }
+    }
+}
+
+/* Those that hold nothing of what is left. The last one takes the place of each. */
+static void RemovePins(kiriWorld* world, const kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    for (int32_t i = sheet->pins.count - 1; i >= 0; --i) {
+        if (kiriKept_FrameOfPin(&removal->kept, i) == KIRI_NONE) {
+            kiriPool_Remove(&world->pinIds, sheet->pins.data[i].id);
+            kiriPins_Remove(sheet, i);
+        }
+    }
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        kiriPool_Find(&world->pinIds, sheet->pins.data[i].id)->index = i;
+    }
+}
+
+/* Nobody sees or touches the pieces any more, until they can be taken away. */
+static void MarkGone(kiriWorld* world, const kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    ForgetIds(world, removal);
+    RemovePins(world, removal);
+    for (int32_t p = 0; p < removal->kept.pieces.count; ++p) {
+        sheet->layout.pieces.data[p].isGone = !removal->kept.pieces.data[p];
+    }
+    kiriView_HideGone(sheet);
+}
+
+static void ForgetPins(kiriWorld* world, const kiriRemoval* removal)
+{
+    for (int32_t i = 0; i < removal->sheet->pins.count; ++i) {
+        if (!kiriKeep_Has(&removal->kept.pins, i)) {
+            kiriPool_Remove(&world->pinIds, removal->sheet->pins.data[i].id);
+        }
+    }
+}
+
+/* The host may hold the indices. */
+static bool RenewIndices(Parting* parting)
+{
+    bool ok = true;
+    for (int32_t k = 0; ok && k < parting->removalCount; ++k) {
+        kiriSheetData* sheet = parting->removals[k].sheet;
+        ok = !IsBusy(sheet) ||
+             kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired);
+    }
+    return ok;
+}
+
+static kiriResult Destroy(Parting* parting)
+{
+    if (!StageRemovals(parting) || !RenewIndices(parting)) {
+        return KIRI_ERROR_MEMORY;
+    }
+    for (int32_t k = 0; k < parting->removalCount; ++k) {
+        const kiriRemoval* removal = &parting->removals[k];
+        if (IsBusy(removal->sheet)) {
+            MarkGone(parting->world, removal);
+        } else {
+            ForgetIds(parting->world, removal);
+            ForgetPins(parting->world, removal);
+        }
+    }
+    CommitRemovals(parting);
+    return ResultOf(parting);
+}
+
+kiriResult kiriParts_Destroy(kiriWorld* world, const kiriFrame* frames, int32_t count)
+{
+    Parting parting;
+    kiriResult result = KIRI_ERROR_MEMORY;
+    if (Parting_Start(&parting, world, world->sheets.count) && MarkPieces(&parting, frames, count)) {
+        result = LeavesSome(&parting) ? Destroy(&parting) : KIRI_ERROR_STATE;
+    }
+    Parting_End(&parting);
+    return result;
+}
+
+/* ---- Crumbs ---- */
+
+/* Marks what goes, and returns how many pieces these are. */
+static int32_t MarkBelow(kiriKept* kept, double area)
+{
+    const kiriLayout* layout = &kept->from->layout;
+    int32_t largest = KIRI_NONE, dropped = 0;
+    for (int32_t p = 0; p < layout->pieces.count; ++p) {
+        bool isLarger = largest == KIRI_NONE || layout->pieces.data[p].area > layout->pieces.data[largest].area;
+        largest = kept->pieces.data[p] && isLarger ? p : largest;
+    }
+    for (int32_t p = 0; p < layout->pieces.count; ++p) {
+        bool stays = p == largest || layout->pieces.data[p].area >= area;
+        dropped += kept->pieces.data[p] && !stays;
+        kept->pieces.data[p] = kept->pieces.data[p] && stays;
+    }
+    return dropped;
+}
+
+kiriResult kiriParts_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, int32_t* count)
+{
+    Parting parting;
+    kiriRemoval* removal = Parting_Start(&parting, world, 1) ? AddRemoval(&parting, sheet) : NULL;
+    kiriResult result = removal != NULL ? KIRI_OK : KIRI_ERROR_MEMORY;
+    *count = 0;
+    if (result == KIRI_OK) {
+        int32_t dropped = MarkBelow(&removal->kept, area);
+        result = dropped > 0 ? Destroy(&parting) : KIRI_OK;
+        *count = result >= 0 ? dropped : 0;
+    }
+    Parting_End(&parting);
+    return result;
+}
+
+/* ---- What waits ---- */
+
+/* Those that are destroyed meanwhile become nothing. */
+static void ForgetStaleLeaving(kiriWorld* world, kiriSheetData* sheet)
+{
+    int32_t kept = 0;
+    for (int32_t k = 0; k < sheet->leaving.count; ++k) {
+        kiriFrame frame = sheet->leaving.data[k];
+        if (kiriPool_Find(&world->frameIds, frame) != NULL) {
+            sheet->leaving.data[kept++] = frame;
+        }
+    }
+    sheet->leaving.count = kept;
+}
+
+int32_t kiriParts_Finish(kiriWorld* world, kiriSheetData* sheet)
+{
+    Parting parting;
+    if (IsBusy(sheet) || (sheet->leaving.count == 0 && !kiriPieces_AnyGone(sheet))) {
+        return 0;
+    }
+    ForgetStaleLeaving(world, sheet);
+    bool isDone = Parting_Start(&parting, world, 1) && RemovalFor(&parting, sheet) != NULL &&
+                  MarkPieces(&parting, sheet->leaving.data, sheet->leaving.count) && Detach(&parting) == KIRI_OK;
+    Parting_End(&parting);
+    return isDone ? sheet->leaving.count : 0;
+}

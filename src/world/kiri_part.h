@@ -1,0 +1,25 @@
+/* Pieces that get a sheet of their own, or are taken away: at once where no work on a cut is at hand in their sheet, else
+   when it is done. Then pieces that are taken away are gone as far as anybody sees, but for their place in the mesh. */
+#ifndef KIRI_PART_H
+#define KIRI_PART_H
+
+#include "kiri_world.h"
+
+KIRI_C_BEGIN
+
+/* The pieces of these frames, whose ids are known to be right; all in one pass. KIRI_PENDING: some wait. ids[i] becomes the
+   sheet of frames[i], 0 where it waits. KIRI_ERROR_STATE: nothing would be left of a sheet. On failure (also for memory,
+   or ids) nothing has changed. */
+kiriResult kiriParts_Detach(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* ids);
+kiriResult kiriParts_Destroy(kiriWorld* world, const kiriFrame* frames, int32_t count);
+
+/* Takes away all pieces below an area (m^2) but the largest. The same. */
+kiriResult kiriParts_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, int32_t* count);
+
+/* At the end of a tick: what waits, where no work is at hand in the sheet. Returns how many pieces have become sheets:
+   sheet->leaving begins with their frames, and is for the caller to empty. Where memory is refused they wait on. */
+int32_t kiriParts_Finish(kiriWorld* world, kiriSheetData* sheet);
+
+KIRI_C_END
+
+#endif

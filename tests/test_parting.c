@@ -1,0 +1,562 @@
+/* Pieces that are detached and destroyed, many at once, and while cuts are worked on. */
+#include "host.h"
+
+#include "layout_hash.h"
+#include "sheet/kiri_update.h"
+
+enum { MOST_SHEETS = 64, MOST_PIECES = 600 };
+
+/* ---- Scenes ---- */
+
+static void Weightless(Host* host)
+{
+    static const float none[3] = { 0.0f, 0.0f, 0.0f };
+    OK(kiriWorld_SetGravity(host->world, none));
+}
+
+/* A square in so many pieces; blades are a little off the lines of the mesh. */
+static kiriSheet Chop(Host* host, kiriSheetDef* def, int32_t across, int32_t along)
+{
+    kiriSheet sheet = Host_AddRectangle(host, def, 1.0f, 1.0f, 16, 16);
+    for (int32_t i = 1; i < across; ++i) {
+        float at = ((float)i + 0.013f) / (float)across, way[4] = { at, -0.1f, at, 1.1f };
+        Host_Cut(host, sheet, way, 2);
+    }
+    for (int32_t i = 1; i < along; ++i) {
+        float at = ((float)i + 0.017f) / (float)along, way[4] = { -0.1f, at, 1.1f, at };
+        Host_Cut(host, sheet, way, 2);
+    }
+    assert_int_equal(Host_Tick(host, 1.0f / 60.0f, 1), KIRI_OK);
+    assert_int_equal(Host_Counts(host, sheet).pieces, across * along);
+    return sheet;
+}
+
+static kiriSheetDef DefOf(int32_t resolution)
+{
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = resolution;
+    def.frameCount = 6;
+    def.maxFrames = 4096;
+    def.collisionPoints = 40;
+    def.sleepSpeed = 0.0f;
+    return def;
+}
+
+static const kiriSheetData* SheetAt(const Host* host, int32_t index)
+{
+    return host->world->sheets.data[index];
+}
+
+/* The frames of two worlds, their layouts, and what is seen are the same. */
+static void CompareSheets(const Host hosts[2])
+{
+    assert_int_equal(hosts[0].world->sheets.count, hosts[1].world->sheets.count);
+    for (int32_t s = 0; s < hosts[0].world->sheets.count; ++s) {
+        const kiriSheetData *a = SheetAt(&hosts[0], s), *b = SheetAt(&hosts[1], s);
+        assert_int_equal(HashLayout(a), HashLayout(b));
+        assert_int_equal(a->frames.count, b->frames.count);
+        for (int32_t f = 0; f < a->frames.count; ++f) {
+            assert_memory_equal(&a->frames.data[f].x, &b->frames.data[f].x, sizeof(kiriVec3));
+            assert_memory_equal(&a->frames.data[f].velocity, &b->frames.data[f].velocity, sizeof(kiriVec3));
+            assert_memory_equal(&a->frames.data[f].A, &b->frames.data[f].A, sizeof(kiriMat3));
+        }
+        assert_memory_equal(a->seen.surface.positions.data, b->seen.surface.positions.data,
+                            sizeof(float) * (size_t)a->seen.surface.positions.count);
+    }
+}
+
+/* ---- Many at once ---- */
+
+/* The first frames of all pieces but each `stays`-th. */
+static int32_t ListFrames(Host* host, kiriSheet sheet, int32_t stays, kiriFrame* frames)
+{
+    int32_t count = 0;
+    for (int32_t p = 0; p < Host_Counts(host, sheet).pieces; ++p) {
+        if (p % stays != 0) {
+            frames[count++] = Host_FrameOf(host, sheet, p);
+        }
+    }
+    return count;
+}
+
+static void TestManyAreAsOneByOne(void** state)
+{
+    (void)state;
+    static kiriFrame frames[MOST_PIECES];
+    static kiriSheet sheets[2][MOST_PIECES];
+    for (int detach = 0; detach < 2; ++detach) {
+        Host hosts[2];
+        int32_t count = 0;
+        for (int k = 0; k < 2; ++k) {
+            Host_Start(&hosts[k]);
+            kiriSheetDef def = DefOf(detach ? 24 : 64);
+            kiriSheet sheet = detach ? Chop(&hosts[k], &def, 6, 5) : Chop(&hosts[k], &def, 25, 20);
+            count = ListFrames(&hosts[k], sheet, 9, frames);
+        }
+        OK(detach ? kiriWorld_DetachPieces(hosts[0].world, frames, count, sheets[0])
+                  : kiriWorld_DestroyPieces(hosts[0].world, frames, count));
+        for (int32_t i = 0; i < count; ++i) {
+            OK(detach ? kiriFrame_DetachPiece(hosts[1].world, frames[i], &sheets[1][i])
+                      : kiriFrame_DestroyPiece(hosts[1].world, frames[i]));
+            assert_true(!detach || (sheets[0][i] != 0 && sheets[0][i] == sheets[1][i]));
+        }
+        CompareSheets(hosts);
+        for (int k = 0; k < 2; ++k) {
+            assert_int_equal(hosts[k].world->sheets.count, detach ? 1 + count : 1);
+            assert_true(Host_Tick(&hosts[k], 1.0f / 60.0f, 2) >= 0 && Host_Tick(&hosts[k], 1.0f / 60.0f, 2) >= 0);
+        }
+        CompareSheets(hosts);
+        Host_Stop(&hosts[0]);
+        Host_Stop(&hosts[1]);
+    }
+}
+
+/* Of several sheets, and frames of one piece more than once. */
+static void TestOfSeveralSheets(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = DefOf(16);
+    kiriSheet sheets[2] = { Chop(&host, &def, 3, 1), Chop(&host, &def, 1, 4) }, made[4];
+    kiriFrame frames[4] = { Host_FrameOf(&host, sheets[1], 2), Host_FrameOf(&host, sheets[0], 1),
+                            Host_FrameOf(&host, sheets[1], 2), Host_FrameOf(&host, sheets[1], 0) };
+    OK(kiriWorld_DetachPieces(host.world, frames, 4, made));
+    assert_true(made[0] == made[2] && made[0] != made[1] && made[0] != made[3] && made[1] != made[3]);
+    assert_int_equal(Host_Counts(&host, sheets[0]).pieces, 2);
+    assert_int_equal(Host_Counts(&host, sheets[1]).pieces, 2);
+    assert_int_equal(host.world->sheets.count, 5);
+
+    /* One that would leave nothing: none goes. */
+    uint64_t hash = Host_Hash(&host);
+    kiriFrame all[3] = { Host_FrameOf(&host, sheets[0], 0), Host_FrameOf(&host, sheets[1], 0),
+                         Host_FrameOf(&host, sheets[1], 1) };
+    assert_int_equal(kiriWorld_DestroyPieces(host.world, all, 3), KIRI_ERROR_STATE);
+    assert_int_equal(kiriWorld_DetachPieces(host.world, all, 3, made), KIRI_ERROR_STATE);
+    assert_true(made[0] == 0 && made[2] == 0);
+    all[1] = 0;
+    assert_int_equal(kiriWorld_DestroyPieces(host.world, all, 3), KIRI_ERROR_ID);
+    assert_int_equal(kiriWorld_DestroyPieces(host.world, NULL, 3), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_DestroyPieces(host.world, all, -1), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_DetachPieces(host.world, all, 1, NULL), KIRI_ERROR_ARGUMENT);
+    OK(kiriWorld_DestroyPieces(host.world, NULL, 0));
+    assert_int_equal(Host_Hash(&host), hash);
+    all[1] = Host_FrameOf(&host, sheets[1], 0);
+    OK(kiriWorld_DestroyPieces(host.world, all, 2));
+    assert_int_equal(Host_Tick(&host, 1.0f / 60.0f, 1), KIRI_OK);
+    Host_Stop(&host);
+}
+
+/* ---- At random ---- */
+
+static void CutAtRandom(Host* host, kiriSheet sheet, uint32_t* seed)
+{
+    float from = (float)RandomBetween(seed, 0.0, 1.0), to = (float)RandomBetween(seed, 0.0, 1.0);
+    float u = (float)RandomBetween(seed, 0.1, 0.8), v = (float)RandomBetween(seed, 0.1, 0.8);
+    float chord[4] = { from, -0.1f, to, 1.1f }, across[4] = { -0.1f, from, 1.1f, to };
+    float loop[8] = { u, v, u + 0.15f, v, u + 0.1f, v + 0.15f, u, v };
+    switch (Random(seed) % 3) {
+    case 0:
+        Host_Cut(host, sheet, chord, 2);
+        break;
+    case 1:
+        Host_Cut(host, sheet, across, 2);
+        break;
+    default:
+        Host_Cut(host, sheet, loop, 4);
+    }
+}
+
+/* Detaches or destroys up to three pieces of the first sheet. The area that is left is what it was but for theirs. */
+static kiriResult PartAtRandom(Host* host, kiriSheet sheet, uint32_t* seed)
+{
+    kiriFrame frames[3];
+    kiriSheet made[3];
+    int32_t count = 0, pieces = Host_Counts(host, sheet).pieces;
+    double area = Host_Totals(host, sheet).area;
+    for (int32_t first = (int32_t)(Random(seed) % 64), i = 0; i < 3 && i + 1 < pieces; ++i) {
+        kiriPieceState piece;
+        OK(kiriSheet_GetPiece(host->world, sheet, (first + i) % pieces, &piece));
+        if (piece.frames > 0) {
+            frames[count++] = Host_FrameOf(host, sheet, (first + i) % pieces);
+            area -= piece.area;
+        }
+    }
+    bool destroys = Random(seed) % 2 == 0;
+    kiriResult result = destroys ? kiriWorld_DestroyPieces(host->world, frames, count)
+                                 : kiriWorld_DetachPieces(host->world, frames, count, made);
+    if (destroys && result >= 0 && count > 0) {
+        kiriFrameState state;
+        assert_float_equal(Host_Totals(host, sheet).area, area, 1e-9);
+        assert_int_equal(kiriFrame_GetState(host->world, frames[0], &state), KIRI_ERROR_ID);
+    }
+    for (int32_t i = 0; !destroys && result == KIRI_OK && i < count; ++i) {
+        assert_int_equal(Host_Counts(host, made[i]).pieces, 1);
+    }
+    return result;
+}
+
+/* The same calls to a sheet that is made anew after each cut: what is left is what a rebuild would give. */
+static void TestLeftIsAsFromScratch(void** state)
+{
+    (void)state;
+    int32_t parted = 0;
+    for (uint32_t run = 1; run <= 6; ++run) {
+        Host hosts[2];
+        kiriSheet sheets[2];
+        uint32_t seeds[2] = { 677u * run, 677u * run };
+        for (int k = 0; k < 2; ++k) {
+            kiriSheetDef def = DefOf(20);
+            def.model = (int32_t)(run % 3);
+            def.paper.fromScratch = k;
+            Host_Start(&hosts[k]);
+            sheets[k] = Host_AddRectangle(&hosts[k], &def, 1.0f, 1.0f, 10, 10);
+        }
+        for (int tick = 0; tick < 30; ++tick) {
+            for (int k = 0; k < 2; ++k) {
+                CutAtRandom(&hosts[k], sheets[k], &seeds[k]);
+                assert_true(Host_Tick(&hosts[k], 1.0f / 60.0f, 1) >= 0);
+                if (tick % 3 == 2) {
+                    kiriResult result = PartAtRandom(&hosts[k], sheets[k], &seeds[k]);
+                    assert_true(result == KIRI_OK || result == KIRI_ERROR_STATE);
+                    parted += result == KIRI_OK;
+                }
+            }
+            for (int32_t s = 0; s < hosts[0].world->sheets.count; ++s) {
+                assert_int_equal(HashLayout(SheetAt(&hosts[0], s)), HashLayout(SheetAt(&hosts[1], s)));
+            }
+        }
+        Host_Stop(&hosts[0]);
+        Host_Stop(&hosts[1]);
+    }
+    assert_true(parted > 60);
+}
+
+/* In whatever stage the work is. The world is validated after every tick. */
+static void TestUnderBudgets(void** state)
+{
+    (void)state;
+    int32_t waited[KIRI_STAGE_COUNT] = { 0 }, finished = 0;
+    for (uint32_t run = 1; run <= 8; ++run) {
+        const kiriBudget budgets[2] = { { 20, 60, 15, 0 }, { 0, 200, 60, 0 } };
+        uint32_t seed = 911u * run;
+        Host host;
+        Host_Start(&host);
+        kiriSheetDef def = DefOf(16);
+        def.model = (int32_t)(run % 3);
+        kiriSheet sheet = Chop(&host, &def, 4, 3);
+        OK(kiriWorld_SetBudget(host.world, &budgets[run % 2]));
+        for (int tick = 0; tick < 150; ++tick) {
+            if (tick % 12 == 0 && tick < 90) {
+                CutAtRandom(&host, sheet, &seed);
+            }
+            assert_true(Host_Tick(&host, 1.0f / 60.0f, 1) >= 0);
+            finished += Host_Events(&host, KIRI_EVENT_PIECE_DETACHED, NULL);
+            if (Random(&seed) % 6 == 0) {
+                int32_t stage = SheetAt(&host, 0)->update->stage;
+                kiriResult result = PartAtRandom(&host, sheet, &seed);
+                assert_true(result >= 0 || result == KIRI_ERROR_STATE);
+                if (result == KIRI_PENDING) {
+                    waited[stage] += 1;
+                    Host_Validate(&host);
+                }
+            }
+        }
+        while (Host_Tick(&host, 1.0f / 60.0f, 1) == KIRI_PENDING) {
+        }
+        for (int32_t p = 0; p < SheetAt(&host, 0)->layout.pieces.count; ++p) {
+            assert_false(SheetAt(&host, 0)->layout.pieces.data[p].isGone);
+        }
+        assert_int_equal(SheetAt(&host, 0)->leaving.count, 0);
+        Host_Stop(&host);
+    }
+    assert_true(waited[KIRI_STAGE_CUT] + waited[KIRI_STAGE_GRID] > 0 && waited[KIRI_STAGE_SHAPE] > 0 &&
+                waited[KIRI_STAGE_SAMPLES] > 0 && finished > 10);
+}
+
+/* ---- While a cut waits ---- */
+
+/* Four strips, and a cut along piece 3 whose work takes long under a budget. */
+typedef struct Wait {
+    kiriSheet sheet;
+    kiriFrame frames[4];
+    int32_t triangles; /* of what is destroyed */
+} Wait;
+
+/* Where the piece rests, from below to above. */
+static void FindStrip(Host* host, kiriSheet sheet, int32_t piece, float range[2])
+{
+    kiriPieceMesh mesh;
+    OK(kiriSheet_GetPieceMesh(host->world, sheet, piece, &mesh));
+    range[0] = 2.0f;
+    range[1] = -1.0f;
+    for (int32_t i = 0; i < mesh.vertexCount; ++i) {
+        float v = Host_Mesh(host, sheet).restPositions[2 * mesh.vertices[i] + 1];
+        range[0] = fminf(range[0], v);
+        range[1] = fmaxf(range[1], v);
+    }
+}
+
+static Wait StartWait(Host* host, const kiriBudget* budget)
+{
+    Wait wait;
+    Host_Start(host);
+    Weightless(host);
+    kiriSheetDef def = DefOf(16);
+    wait.sheet = Chop(host, &def, 1, 4);
+    for (int32_t p = 0; p < 4; ++p) {
+        wait.frames[p] = Host_FrameOf(host, wait.sheet, p);
+    }
+    OK(kiriWorld_SetBudget(host->world, budget));
+    float strip[2], zigzag[20];
+    FindStrip(host, wait.sheet, 3, strip);
+    for (int32_t i = 0; i < 10; ++i) {
+        zigzag[2 * i] = -0.1f + 1.2f * (float)i / 9.0f;
+        zigzag[2 * i + 1] = strip[0] + (i % 2 == 0 ? 0.3f : 0.7f) * (strip[1] - strip[0]);
+    }
+    Host_Cut(host, wait.sheet, zigzag, 10);
+    kiriPieceMesh mesh;
+    assert_int_equal(Host_Tick(host, 1.0f / 60.0f, 1), budget->cells > 0 ? KIRI_PENDING : KIRI_OK);
+    OK(kiriSheet_GetPieceMesh(host->world, wait.sheet, 0, &mesh));
+    wait.triangles = mesh.triangleCount;
+    return wait;
+}
+
+/* What comes of it is what comes of it without a budget. */
+static void TestWaitingChangesNothing(void** state)
+{
+    (void)state;
+    static const kiriBudget budgets[2] = { { 0, 50, 20, 0 }, { 0, 0, 0, 0 } };
+    Host hosts[2];
+    for (int k = 0; k < 2; ++k) {
+        Wait wait = StartWait(&hosts[k], &budgets[k]);
+        kiriResult expected = k == 0 ? KIRI_PENDING : KIRI_OK, result;
+        kiriSheet detached = 1;
+        kiriEvent event;
+        assert_int_equal(kiriFrame_DestroyPiece(hosts[k].world, wait.frames[0]), expected);
+        assert_int_equal(kiriFrame_DetachPiece(hosts[k].world, wait.frames[1], &detached), expected);
+        assert_true((detached == 0) == (k == 0));
+        int32_t done = 0;
+        do {
+            result = Host_Tick(&hosts[k], 1.0f / 60.0f, 1);
+            done += Host_Events(&hosts[k], KIRI_EVENT_PIECE_DETACHED, &event);
+        } while (result == KIRI_PENDING);
+        assert_int_equal(result, KIRI_OK);
+        assert_int_equal(done, k == 0 ? 1 : 0);
+        if (done > 0) {
+            assert_true(event.frame == wait.frames[1] && event.sheet != wait.sheet && event.sheet != 0);
+            assert_float_equal(event.area, Host_Totals(&hosts[k], event.sheet).area, 1e-6);
+        }
+        assert_int_equal(hosts[k].world->sheets.count, 2);
+    }
+    for (int32_t s = 0; s < 2; ++s) {
+        assert_int_equal(HashLayout(SheetAt(&hosts[0], s)), HashLayout(SheetAt(&hosts[1], s)));
+    }
+    Host_Stop(&hosts[0]);
+    Host_Stop(&hosts[1]);
+}
+
+static int32_t CountHidden(const kiriMesh* mesh)
+{
+    int32_t hidden = 0;
+    for (int32_t t = 0; t < mesh->triangleCount; ++t) {
+        const int32_t* corner = &mesh->indices[3 * t];
+        hidden += corner[0] == corner[1] && corner[1] == corner[2];
+    }
+    return hidden;
+}
+
+static bool IsHit(const Host* host, kiriSheet sheet, float u, float v)
+{
+    const float origin[3] = { u, v, 1.0f }, down[3] = { 0.0f, 0.0f, -1.0f };
+    kiriHit hit;
+    kiriResult result = kiriSheet_Raycast(host->world, sheet, origin, down, 10.0f, &hit);
+    OK(result < 0 ? result : KIRI_OK);
+    return result == KIRI_OK && hit.triangle >= 0;
+}
+
+/* A piece that waits to go is not seen, not hit and not found, and nothing touches it. */
+static void TestGoneIsGone(void** state)
+{
+    (void)state;
+    static const kiriBudget budget = { 0, 30, 20, 0 };
+    Host host;
+    Wait wait = StartWait(&host, &budget);
+    kiriPieceMesh piece;
+    kiriPieceState zero = { 0 }, pieceState;
+    kiriCounts counts = Host_Counts(&host, wait.sheet);
+    OK(kiriSheet_GetPieceMesh(host.world, wait.sheet, 0, &piece));
+    float strip[2], beside[2];
+    FindStrip(&host, wait.sheet, 0, strip);
+    FindStrip(&host, wait.sheet, 1, beside);
+    float at[2] = { 0.5f, 0.5f * (strip[0] + strip[1]) };
+    int32_t point = piece.collisionPoints[0];
+    kiriPinDef pinDef;
+    kiriPin pin, other;
+    kiriDefaultPinDef(&pinDef);
+    memcpy(pinDef.restPoint, at, sizeof(at));
+    OK(kiriCreatePin(host.world, wait.sheet, &pinDef, &pin));
+    pinDef.restPoint[1] = 0.5f * (beside[0] + beside[1]);
+    OK(kiriCreatePin(host.world, wait.sheet, &pinDef, &other));
+    assert_true(IsHit(&host, wait.sheet, at[0], at[1]));
+    kiriMesh before = Host_Mesh(&host, wait.sheet);
+    int32_t* indices = malloc(sizeof(int32_t) * 3 * (size_t)before.triangleCount);
+    memcpy(indices, before.indices, sizeof(int32_t) * 3 * (size_t)before.triangleCount);
+
+    assert_int_equal(kiriFrame_DestroyPiece(host.world, wait.frames[0]), KIRI_PENDING);
+    Host_Validate(&host);
+    assert_memory_equal(indices, before.indices, sizeof(int32_t) * 3 * (size_t)before.triangleCount);
+    free(indices);
+    kiriMesh after = Host_Mesh(&host, wait.sheet);
+    assert_true(after.revision > before.revision && CountHidden(&before) == 0);
+    assert_int_equal(CountHidden(&after), wait.triangles);
+    assert_false(IsHit(&host, wait.sheet, at[0], at[1]));
+    assert_int_equal(Host_Counts(&host, wait.sheet).pieces, counts.pieces);
+    OK(kiriSheet_GetPiece(host.world, wait.sheet, 0, &pieceState));
+    assert_memory_equal(&pieceState, &zero, sizeof(zero));
+    OK(kiriSheet_GetPieceMesh(host.world, wait.sheet, 0, &piece));
+    assert_true(piece.vertexCount == 0 && piece.triangleCount == 0 && piece.collisionPointCount == 0);
+    static const float up[3] = { 0.0f, 0.0f, 1.0f };
+    assert_int_equal(kiriPin_SetTarget(host.world, pin, up), KIRI_ERROR_ID);
+    OK(kiriPin_SetTarget(host.world, other, up));
+    memcpy(pinDef.restPoint, at, sizeof(at));
+    assert_int_equal(kiriCreatePin(host.world, wait.sheet, &pinDef, &pin), KIRI_ERROR_ARGUMENT);
+    OK(kiriDestroyPin(host.world, other));
+    kiriContact contact = { point, { 0.0f, 0.0f, 1.0f }, 0.1f, 0.0f, 50.0f };
+    OK(kiriSheet_SetContacts(host.world, wait.sheet, &contact, 1));
+    assert_int_equal(Host_Tick(&host, 1.0f / 60.0f, 1), KIRI_PENDING);
+    assert_true(fabs(Host_Totals(&host, wait.sheet).momentum[2]) < 1e-12);
+    assert_int_equal(kiriFrame_DestroyPiece(host.world, wait.frames[0]), KIRI_ERROR_ID);
+    while (Host_Tick(&host, 1.0f / 60.0f, 1) == KIRI_PENDING) {
+        after = Host_Mesh(&host, wait.sheet);
+        assert_true(CountHidden(&after) == 0 || CountHidden(&after) == wait.triangles);
+    }
+    after = Host_Mesh(&host, wait.sheet);
+    assert_int_equal(CountHidden(&after), 0);
+    Host_Stop(&host);
+}
+
+/* What waits to be detached may be destroyed, and something has to be left all the time. */
+static void TestAskedTwice(void** state)
+{
+    (void)state;
+    static const kiriBudget budget = { 0, 30, 20, 0 };
+    Host host;
+    Wait wait = StartWait(&host, &budget);
+    kiriSheet detached;
+    int32_t dropped;
+    assert_int_equal(kiriFrame_DetachPiece(host.world, wait.frames[0], &detached), KIRI_PENDING);
+    assert_int_equal(kiriFrame_DetachPiece(host.world, wait.frames[0], &detached), KIRI_PENDING);
+    assert_int_equal(kiriFrame_DetachPiece(host.world, wait.frames[1], &detached), KIRI_PENDING);
+    assert_int_equal(kiriFrame_DestroyPiece(host.world, wait.frames[1]), KIRI_PENDING);
+    assert_int_equal(kiriWorld_DestroyPieces(host.world, &wait.frames[2], 2), KIRI_ERROR_STATE);
+    assert_int_equal(kiriSheet_DropCrumbs(host.world, wait.sheet, 0.001f, &dropped), KIRI_OK);
+    assert_int_equal(dropped, 0);
+    int32_t done = 0;
+    kiriResult result;
+    do {
+        result = Host_Tick(&host, 1.0f / 60.0f, 1);
+        done += Host_Events(&host, KIRI_EVENT_PIECE_DETACHED, NULL);
+    } while (result == KIRI_PENDING);
+    assert_int_equal(done, 1);
+    assert_int_equal(host.world->sheets.count, 2);
+    assert_float_equal(Host_Totals(&host, wait.sheet).area, 0.5, 0.03);
+    Host_Stop(&host);
+}
+
+/* ---- Without memory ---- */
+
+/* Whatever allocation fails of a call while a cut waits, all is as before. */
+static void TestWaitingCallsWithoutMemory(void** state)
+{
+    (void)state;
+    static const kiriBudget budget = { 0, 30, 20, 0 };
+    for (int destroy = 0; destroy < 2; ++destroy) {
+        Host host;
+        Wait wait = StartWait(&host, &budget);
+        uint64_t before = Host_Hash(&host);
+        int32_t failures = 0;
+        kiriSheet detached;
+        kiriResult result;
+        do {
+            host.failAt = host.calls + failures;
+            host.failOnce = true;
+            result = destroy ? kiriFrame_DestroyPiece(host.world, wait.frames[0])
+                             : kiriFrame_DetachPiece(host.world, wait.frames[0], &detached);
+            host.failAt = -1;
+            if (result != KIRI_PENDING) {
+                assert_int_equal(result, KIRI_ERROR_MEMORY);
+                assert_int_equal(Host_Hash(&host), before);
+                Host_Validate(&host);
+                ++failures;
+            }
+        } while (result != KIRI_PENDING);
+        assert_true(failures > 1);
+        assert_true(Host_Tick(&host, 1.0f / 60.0f, 1) >= 0);
+        Host_Stop(&host);
+    }
+}
+
+/* Asks for both, and returns how many ticks it takes until they are done. In the last one memory is refused from an
+   allocation on, unless that is below 0. */
+static int32_t RunWait(Host* host, Wait* wait, int32_t ticks, int32_t refuseFrom, kiriResult* last)
+{
+    static const kiriBudget budget = { 0, 30, 20, 0 };
+    kiriSheet detached;
+    int32_t done = 0;
+    *wait = StartWait(host, &budget);
+    assert_int_equal(kiriFrame_DestroyPiece(host->world, wait->frames[0]), KIRI_PENDING);
+    assert_int_equal(kiriFrame_DetachPiece(host->world, wait->frames[1], &detached), KIRI_PENDING);
+    for (*last = KIRI_PENDING; *last == KIRI_PENDING && done < ticks; ++done) {
+        host->failAt = done + 1 == ticks && refuseFrom >= 0 ? host->calls + refuseFrom : -1;
+        host->failOnce = false;
+        *last = kiriWorld_Tick(host->world, 1.0f / 60.0f, 1);
+        host->failAt = -1;
+        Host_Validate(host);
+    }
+    return done;
+}
+
+/* Memory that is refused in the tick in which pieces go makes them wait on: no more. */
+static void TestWaitingIsPatient(void** state)
+{
+    (void)state;
+    int32_t late = 0, refused = 0, ticks;
+    bool isDone = false;
+    Host host;
+    Wait wait;
+    kiriResult result;
+    ticks = RunWait(&host, &wait, 10000, -1, &result);
+    assert_int_equal(result, KIRI_OK);
+    assert_int_equal(host.world->sheets.count, 2);
+    Host_Stop(&host);
+    for (int32_t at = 0; !isDone; at += 3) {
+        assert_int_equal(RunWait(&host, &wait, ticks, at, &result), ticks);
+        isDone = host.world->sheets.count == 2;
+        late += result == KIRI_OK && !isDone;
+        refused += result == KIRI_ERROR_MEMORY;
+        while (Host_Tick(&host, 1.0f / 60.0f, 1) == KIRI_PENDING) {
+        }
+        assert_int_equal(host.world->sheets.count, 2);
+        assert_int_equal(Host_Counts(&host, wait.sheet).pieces, 3);
+        Host_Stop(&host);
+    }
+    assert_true(late > 10 && refused > 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestManyAreAsOneByOne),
+        cmocka_unit_test(TestOfSeveralSheets),
+        cmocka_unit_test(TestLeftIsAsFromScratch),
+        cmocka_unit_test(TestUnderBudgets),
+        cmocka_unit_test(TestWaitingChangesNothing),
+        cmocka_unit_test(TestGoneIsGone),
+        cmocka_unit_test(TestAskedTwice),
+        cmocka_unit_test(TestWaitingCallsWithoutMemory),
+        cmocka_unit_test(TestWaitingIsPatient),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
