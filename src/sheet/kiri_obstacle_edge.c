@@ -114,7 +114,7 @@ static EdgePoint MakePoint(const kiriMeeting* meeting, kiriVec3 at, const kiriVe
         sum = kiriVec3_Add(sum, point.faces[k]);
     }
     point.out = kiriVec3_Normalize(sum);
-    point.below = thinnest < meeting->patch ? thinnest : meeting->patch;
+    point.below = thinnest < meeting->square ? thinnest : meeting->square;
     point.above = obstacle->shape.rounding + meeting->gap + meeting->reach;
     point.item = 0;
     return point;
@@ -123,7 +123,7 @@ static EdgePoint MakePoint(const kiriMeeting* meeting, kiriVec3 at, const kiriVe
 static bool TouchRim(const kiriMeeting* meeting, const kiriObstacleEdge* edge, int32_t index)
 {
     int32_t count = 8;
-    while (count < 1024 && count * meeting->patch < 6.3 * edge->radius) {
+    while (count < 1024 && count * meeting->square < 6.3 * edge->radius) {
         count *= 2;
     }
     bool ok = true;
@@ -145,7 +145,7 @@ static void ClipEdge(const kiriMeeting* meeting, kiriVec3 from, kiriVec3 step, i
     const double lower[3] = { box.lower.x, box.lower.y, box.lower.z },
                  upper[3] = { box.upper.x, box.upper.y, box.upper.z };
     const double a[3] = { from.x, from.y, from.z }, d[3] = { step.x, step.y, step.z };
-    double start = *first, end = *last, margin = meeting->reach + meeting->gap + meeting->patch;
+    double start = *first, end = *last, margin = meeting->reach + meeting->gap + meeting->square;
     for (int k = 0; k < 3; ++k) {
         double enter = lower[k] - margin - a[k], leave = upper[k] + margin - a[k];
         if (fabs(d[k]) * (end - start + 1.0) < 1e-9) {
@@ -160,17 +160,17 @@ static void ClipEdge(const kiriMeeting* meeting, kiriVec3 from, kiriVec3 step, i
     *last = start <= end ? (int32_t)end : -1;
 }
 
-/* As many steps along an edge as patches, each with a point in its middle: at the ends are corners. An edge without end
+/* As many steps along an edge as squares, each with a point in its middle: at the ends are corners. An edge without end
    has points as far as anybody may look. */
 static bool TouchStraight(const kiriMeeting* meeting, const kiriObstacleEdge* edge, int32_t index)
 {
     enum { MOST_POINTS = 1 << 18 };
     kiriVec3 from = edge->from, way = kiriVec3_Sub(edge->to, edge->from);
     if (meeting->obstacle->shape.half >= KIRI_ENDLESS) {
-        way = kiriVec3_Make(0.0, 0.0, MOST_POINTS * meeting->patch);
+        way = kiriVec3_Make(0.0, 0.0, MOST_POINTS * meeting->square);
         from.z = -0.5 * way.z;
     }
-    double wanted = kiriVec3_Length(way) / meeting->patch;
+    double wanted = kiriVec3_Length(way) / meeting->square;
     int32_t count = wanted < MOST_POINTS - 1 ? (int32_t)wanted + 1 : MOST_POINTS, first = 0, last = count - 1;
     kiriVec3 step = kiriVec3_Scale(1.0 / count, way);
     from = kiriVec3_AddScaled(from, 0.5, step);

@@ -348,7 +348,7 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
     double square = sheet->mesh.step * sheet->mesh.squares.side;
     meeting.squares = PatchSide(sheet, square);
     meeting.columns = (sheet->mesh.squares.columns + meeting.squares - 1) / meeting.squares;
-    meeting.patch = square * meeting.squares;
+    meeting.square = square;
     meeting.reach =
         kiriReach_Of(speed + SpeedOf(obstacle, &box), search->gravity, search->dt) + (1.0 + KIRI_NEARBY) * meeting.gap;
     if (sheet->settings.mechanics.planar) {

@@ -2,7 +2,7 @@
 
    Vertices touch the obstacle's nearest face, or the one that they would enter by. They are thinned: of those in a patch
    of the material, a few squares of the grid, over one face, the deepest stands for all. Between vertices the edges of
-   the obstacle touch triangles, at points along them as far apart as patches are wide. */
+   the obstacle touch triangles, at points along them a square apart. */
 #ifndef KIRI_OBSTACLE_TOUCH_H
 #define KIRI_OBSTACLE_TOUCH_H
 

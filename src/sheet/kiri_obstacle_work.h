@@ -24,7 +24,7 @@ typedef struct kiriMeeting {
     kiriVec3 across;          /* local to the obstacle: normal of the plane of a planar sheet, else zero */
     double gap;               /* m: distance that is kept */
     double reach;             /* m: how far it may be between them and still touch in the tick */
-    double patch;             /* m: how wide a patch is */
+    double square;            /* m: of the grid */
     int32_t squares, columns; /* of the grid along its side; patches in a row */
     double friction;          /* of both */
     int32_t yield;
