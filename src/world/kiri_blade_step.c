@@ -17,6 +17,14 @@ static kiriVec3 EdgeAt(const kiriVec3* edge, double share)
     return kiriVec3_AddScaled(edge[0], share, kiriVec3_Sub(edge[1], edge[0]));
 }
 
+/* The foot of x on the line through the edge, as a share of it. */
+static double ShareOf(const kiriVec3* edge, kiriVec3 x)
+{
+    kiriVec3 way = kiriVec3_Sub(edge[1], edge[0]);
+    double square = kiriVec3_Dot(way, way);
+    return square > 0.0 ? kiriVec3_Dot(kiriVec3_Sub(x, edge[0]), way) / square : 0.0;
+}
+
 /* ---- Places in the material ---- */
 
 /* Where a place in the material is seen; false where the sheet has none there. */
@@ -209,13 +217,18 @@ static bool Flatten(const kiriBladeWork* work, const kiriVec3* other, kiriVec3 x
 
 /* ---- Layers that the blade was in ---- */
 
-/* Another track of the sheet that was at a place, and is not seen to. */
+/* Another track of the sheet that was at a place and is not seen to, or null. Its material has gone another way than
+   that of this track, so it is found only as near as that. */
 static kiriTrack* OtherTrack(kiriBladeWork* work, const kiriTrack* track, kiriVec2 rest)
 {
     for (int32_t i = 0; i < work->oldCount; ++i) {
         kiriTrack* other = &work->tracks.data[i];
-        if (other != track && other->sheet == work->sheet && !other->isDone &&
-            RestDistance(other->rest, rest) < Same * work->snap) {
+        kiriVec3 x;
+        if (other == track || other->sheet != work->sheet || other->isDone || !Seen(work->sheet, other->rest, &x)) {
+            continue;
+        }
+        double apart = kiriVec3_Length(kiriVec3_Sub(kiriVec3_Sub(x, other->at), work->drift));
+        if (RestDistance(other->rest, rest) < 2.0 * apart + Same * work->snap) {
             return other;
         }
     }
@@ -241,6 +254,23 @@ static bool FollowLine(kiriBladeWork* work, kiriTrack* track, const kiriSectionL
     return ok && End(work, track);
 }
 
+/* Is the line more than what is around its beginning? */
+static bool LeadsOn(const kiriBladeWork* work, const kiriSectionLine* line, bool fromLast)
+{
+    double length = RestDistance(EndOf(work, line, false)->rest, EndOf(work, line, true)->rest);
+    return line->end[fromLast ? 0 : 1] == KIRI_SIDE_TO || length > Same * work->snap;
+}
+
+/* To a border that is here, perhaps; but the way may go on elsewhere (PassAlong): the track counts as lost. */
+static bool FollowShort(kiriBladeWork* work, kiriTrack* track, const kiriSectionLine* line, bool fromLast)
+{
+    kiriVec2 rest = track->rest;
+    bool ok =
+        line->end[fromLast ? 0 : 1] != KIRI_END_BORDER || (FindPath(work, line, fromLast) && LeadAlong(work, track));
+    track->rest = rest;
+    return ok;
+}
+
 /* From where the edge would be now, had it gone on with the material, to where it is. */
 static bool FollowTrack(kiriBladeWork* work, kiriTrack* track)
 {
@@ -251,20 +281,22 @@ static bool FollowTrack(kiriBladeWork* work, kiriTrack* track)
     work->drift = kiriVec3_Sub(x, track->at);
     const kiriVec3 was[2] = { kiriVec3_Add(work->was[0], work->drift), kiriVec3_Add(work->was[1], work->drift) };
     kiriVec3 flat[2];
-    bool fromLast;
+    const kiriSectionLine* line = NULL;
+    bool fromLast = false;
     if (Flatten(work, work->is, x, was, flat)) {
         if (!CutPlane(work, flat, work->is, x, to)) {
             return false;
         }
-        const kiriSectionLine* line = LineFrom(work, track->rest, &fromLast);
-        if (line != NULL) {
+        line = LineFrom(work, track->rest, &fromLast);
+        if (line != NULL && LeadsOn(work, line, fromLast)) {
             return FollowLine(work, track, line, fromLast);
         }
     }
-    /* Hardly any way, or along the surface: then the layer is where it is nearest in the material. */
+    /* Hardly any way, or the tip of the cut stands out of the surface: then the layer is where the edge is nearest in the
+       material. */
     double way = kiriVec3_Length(kiriVec3_Sub(to, x));
     kiriCrossing* crossing = NearestCrossing(work, track->rest, 2.0 * way + Same * work->snap);
-    return crossing == NULL || GoOn(work, track, crossing);
+    return crossing != NULL ? GoOn(work, track, crossing) : line == NULL || FollowShort(work, track, line, fromLast);
 }
 
 /* ---- Layers that it has come into ---- */
@@ -304,7 +336,7 @@ static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSe
     kiriVec2 from = lost != NULL ? lost->rest : work->path.data[0];
     if (other != NULL && other != crossing) {
         other->triangle = TAKEN;
-        if (!AddTrack(work, other, other->rest)) {
+        if (!AddTrack(work, other, from)) {
             return false;
         }
     }
@@ -359,11 +391,18 @@ static bool EnterLayer(kiriBladeWork* work, kiriCrossing* crossing)
 
 /* ---- Layers that it has passed through ---- */
 
+static kiriSectionPoint MiddleOf(const kiriSection* section, const kiriSectionLine* line)
+{
+    const kiriSectionPoint* b = &section->points.data[line->first + line->count / 2];
+    kiriSectionPoint middle = { kiriVec2_Scale(0.5, kiriVec2_Add(b[-1].rest, b->rest)),
+                                kiriVec3_Scale(0.5, kiriVec3_Add(b[-1].at, b->at)) };
+    return middle;
+}
+
 /* Has the step led a cut through the middle of the line already? */
 static bool IsLed(const kiriBladeWork* work, const kiriSectionLine* line)
 {
-    const kiriSectionPoint* middle = &work->section.points.data[line->first + line->count / 2];
-    kiriVec2 rest = kiriVec2_Scale(0.5, kiriVec2_Add(middle[-1].rest, middle->rest));
+    kiriVec2 rest = MiddleOf(&work->section, line).rest;
     double near = 2.0 * Same * work->snap + kiriVec3_Length(work->drift);
     bool isLed = false;
     for (int32_t i = work->firstPoint; !isLed && i < work->points.count; ++i) {
@@ -395,14 +434,70 @@ static bool PassAlong(kiriBladeWork* work, const kiriSectionLine* line)
     return LeadAlong(work, &track) && End(work, &track);
 }
 
+static const kiriSectionLine* LineNear(const kiriSection* section, kiriVec2 rest)
+{
+    const kiriSectionLine* nearest = NULL;
+    double least = 1e300;
+    for (int32_t i = 0; i < section->lines.count; ++i) {
+        const kiriSectionLine* line = &section->lines.data[i];
+        for (int32_t k = line->first; k + 1 < line->first + line->count; ++k) {
+            const kiriSectionPoint* at = &section->points.data[k];
+            double distance = kiriVec2_DistanceToWay(rest, at->rest, at[1].rest);
+            nearest = distance < least ? line : nearest;
+            least = distance < least ? distance : least;
+        }
+    }
+    return nearest;
+}
+
+/* The sweep of an edge that turns, near a place on it: in the plane that touches it there. */
+static bool PassNear(kiriBladeWork* work, const kiriVec3 was[2], const kiriSectionPoint* place)
+{
+    kiriVec3 edge[2], from = was[0], way = { 0.0, 0.0, 0.0 }, flat[4];
+    double share = 0.5, time = 0.5;
+    for (int k = 0; k < 3; ++k) {
+        edge[0] = kiriVec3_AddScaled(was[0], time, kiriVec3_Sub(work->is[0], was[0]));
+        edge[1] = kiriVec3_AddScaled(was[1], time, kiriVec3_Sub(work->is[1], was[1]));
+        share = ShareOf(edge, place->at);
+        from = EdgeAt(was, share);
+        way = kiriVec3_Sub(EdgeAt(work->is, share), from);
+        double square = kiriVec3_Dot(way, way);
+        time = square > 0.0 ? kiriVec3_Dot(kiriVec3_Sub(place->at, from), way) / square : 0.0;
+    }
+    kiriVec3 normal = kiriVec3_Normalize(kiriVec3_Cross(kiriVec3_Sub(edge[1], edge[0]), way));
+    const kiriVec3 corner[4] = { was[0], was[1], work->is[0], work->is[1] };
+    for (int k = 0; k < 4; ++k) {
+        flat[k] = kiriVec3_AddScaled(corner[k], -kiriVec3_Dot(normal, kiriVec3_Sub(corner[k], from)), normal);
+    }
+    if (!CutPlane(work, flat, flat + 2, from, kiriVec3_Add(from, way))) {
+        return false;
+    }
+    const kiriSectionLine* line = LineNear(&work->section, place->rest);
+    return line == NULL || PassAlong(work, line);
+}
+
+static bool IsFlat(const kiriBladeWork* work, const kiriVec3 corner[4])
+{
+    kiriVec3 normal =
+        kiriVec3_Normalize(kiriVec3_Cross(kiriVec3_Sub(corner[2], corner[0]), kiriVec3_Sub(corner[3], corner[1])));
+    return fabs(kiriVec3_Dot(normal, kiriVec3_Sub(corner[1], corner[0]))) < Degenerate * work->snap;
+}
+
 static bool PassThrough(kiriBladeWork* work)
 {
     const kiriSheetData* sheet = work->sheet;
-    const kiriVec3 edge[4] = { kiriVec3_Add(work->was[0], work->drift), kiriVec3_Add(work->was[1], work->drift),
-                               work->is[1], work->is[0] };
-    bool ok = kiriSection_Sweep(&work->section, &work->memory, &sheet->seen.surface, sheet->seen.bounds, edge);
+    const kiriVec3 corner[4] = { kiriVec3_Add(work->was[0], work->drift), kiriVec3_Add(work->was[1], work->drift),
+                                 work->is[1], work->is[0] };
+    bool isFlat = IsFlat(work, corner);
+    bool ok = kiriSection_Sweep(&work->section, &work->memory, &sheet->seen.surface, sheet->seen.bounds, corner);
+    work->middles.count = 0;
     for (int32_t i = 0; ok && i < work->section.lines.count; ++i) {
-        ok = PassAlong(work, &work->section.lines.data[i]);
+        const kiriSectionLine* line = &work->section.lines.data[i];
+        ok = isFlat ? PassAlong(work, line)
+                    : kiriArray_Push(&work->memory, &work->middles, MiddleOf(&work->section, line));
+    }
+    for (int32_t i = 0; ok && i < work->middles.count; ++i) {
+        ok = PassNear(work, corner, &work->middles.data[i]);
     }
     return ok;
 }

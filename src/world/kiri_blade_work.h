@@ -51,6 +51,7 @@ typedef struct kiriBladeWork {
     int32_t firstPoint;
     kiriCrossings crossings; /* of the edge as it is; those without share are seen to */
     kiriSection section;
+    KIRI_ARRAY(kiriSectionPoint) middles; /* of lines */
     kiriRestPoints path;
 } kiriBladeWork;
 
