@@ -65,6 +65,16 @@ float InertiaOf(const b2Body& body)
     return std::max(0.0f, body.GetInertia() - body.GetMass() * body.GetLocalCenter().LengthSquared());
 }
 
+b2Vec3 VelocityOf(const b2Body& body)
+{
+    return b2Vec3(body.GetLinearVelocity().x, body.GetLinearVelocity().y, body.GetAngularVelocity());
+}
+
+float Length(const b2Vec3& motion)
+{
+    return b2Vec2(motion.x, motion.y).Length();
+}
+
 } // namespace
 
 KiriBox2d::KiriBox2d(kiriWorld* world, b2World* box2d, const KiriBox2dDef& how)
@@ -74,9 +84,10 @@ KiriBox2d::KiriBox2d(kiriWorld* world, b2World* box2d, const KiriBox2dDef& how)
 
 KiriBox2d::~KiriBox2d()
 {
-    for (const Part& part : parts) {
-        kiriDestroyObstacle(kiri, part.obstacle);
+    for (Part& part : parts) {
+        part.isNear = part.isHeld = false;
     }
+    DropFar();
 }
 
 void KiriBox2d::ToKiri(const b2Vec2& vector, float scale, float out[3]) const
@@ -95,7 +106,7 @@ void KiriBox2d::Check(kiriResult result)
 
 KiriBox2d::Part* KiriBox2d::FindPart(const b2Fixture* fixture, int child)
 {
-    auto is = [&](const Part& part) { return part.fixture == fixture && part.child == child; };
+    auto is = [=](const Part& part) { return part.fixture == fixture && part.child == child; };
     auto found = std::find_if(parts.begin(), parts.end(), is);
     return found == parts.end() ? nullptr : &*found;
 }
@@ -108,6 +119,8 @@ void KiriBox2d::AddPart(b2Fixture* fixture, int child)
     kiriObstacleDef obstacle;
     kiriDefaultObstacleDef(&obstacle);
     obstacle.height = def.depth;
+    obstacle.friction = fixture->GetFriction();
+    obstacle.groups = def.groups != nullptr ? def.groups(*fixture, def.user) : ~0u;
     if (shape.GetType() == b2Shape::e_circle) {
         obstacle.type = KIRI_OBSTACLE_CYLINDER;
         obstacle.radius = shape.m_radius * metres;
@@ -119,8 +132,6 @@ void KiriBox2d::AddPart(b2Fixture* fixture, int child)
         obstacle.outline = &outline[0].x;
         obstacle.outlineCount = static_cast<int32_t>(outline.size());
     }
-    obstacle.friction = fixture->GetFriction();
-    obstacle.groups = def.groups != nullptr ? def.groups(*fixture, def.user) : ~0u;
     Memory& memory = memories[fixture->GetBody()];
     obstacle.body = memory.number = memory.number != 0 ? memory.number : ++numbers;
     Check(kiriCreateObstacle(kiri, &obstacle, &part.obstacle));
@@ -131,17 +142,15 @@ void KiriBox2d::AddPart(b2Fixture* fixture, int child)
 
 kiriObstacle KiriBox2d::Hold(b2Fixture* fixture)
 {
-    failure = KIRI_OK;
     if (FindPart(fixture, 0) == nullptr) {
         AddPart(fixture, 0);
     }
     Part* part = FindPart(fixture, 0);
-    if (part == nullptr) {
-        return 0;
+    if (part != nullptr) {
+        part->isHeld = true;
+        Move(*part, 0.0f);
     }
-    part->isHeld = true;
-    SetMotion(*part, 0.0f);
-    return part->obstacle;
+    return part != nullptr ? part->obstacle : 0;
 }
 
 void KiriBox2d::Forget(const b2Fixture* fixture)
@@ -173,13 +182,9 @@ void KiriBox2d::DropFar()
 
 void KiriBox2d::Find(kiriSheet sheet, float dt)
 {
-    float lower[3], upper[3];
+    float lower[3] = { 0.0f }, upper[3] = { 0.0f };
     Check(kiriSheet_GetReach(kiri, sheet, dt, lower, upper));
-    if (failure != KIRI_OK) {
-        return;
-    }
-    b2AABB box = { b2Vec2(lower[0] / metres, lower[def.up] / metres),
-                   b2Vec2(upper[0] / metres, upper[def.up] / metres) };
+    b2AABB box = { 1.0f / metres * b2Vec2(lower[0], lower[def.up]), 1.0f / metres * b2Vec2(upper[0], upper[def.up]) };
     Near near;
     bodies->QueryAABB(&near, box);
     for (b2Fixture* fixture : near.fixtures) {
@@ -201,63 +206,54 @@ kiriResult KiriBox2d::Mirror(const kiriSheet* sheets, int count, float dt)
     std::for_each(parts.begin(), parts.end(), [](Part& part) { part.isNear = false; });
     std::for_each(sheets, sheets + count, [=](kiriSheet sheet) { Find(sheet, dt); });
     DropFar();
-    for (const Part& part : parts) {
-        SetMotion(part, dt);
-        SetMass(part);
-    }
+    std::for_each(parts.begin(), parts.end(), [=](const Part& part) { Move(part, dt); });
     return failure;
 }
 
-/* How the body will move. What Box2D did to it in the last step beside our impulses, as weight and what carries it, it
-   will do again: else a sheet on a crate would feel it fall in each tick, and one below a crate would not. */
-void KiriBox2d::Predict(b2Body* body, float dt, b2Vec2* velocity, float* spin)
+/* What Box2D did to a body in the last step beside our impulses, as weight and what carries it, it will do again: else a
+   sheet on a crate would feel it fall in each tick, and one below a crate would not. What sleeps under a load stays. */
+b2Vec3 KiriBox2d::Predict(b2Body* body, Memory* memory, float dt) const
 {
-    Memory& memory = memories[body];
+    b2Vec3 velocity = VelocityOf(*body), done = velocity - memory->velocity;
     float mass = MassOf(*body), inertia = InertiaOf(*body);
-    *velocity = body->GetLinearVelocity();
-    *spin = body->GetAngularVelocity();
-    memory.isCarried = memory.isKnown && !body->IsAwake() && memory.impulse.LengthSquared() > 0.0f;
-    if (mass > 0.0f && !memory.isCarried) {
-        b2Vec2 weight = (body->IsAwake() ? dt * body->GetGravityScale() : 0.0f) * bodies->GetGravity();
-        b2Vec2 done = memory.isKnown ? *velocity - memory.velocity : weight;
-        float most = weight.Length() + 2.0f / mass * memory.impulse.Length();
-        *velocity += std::min(1.0f, most / std::max(done.Length(), b2_epsilon)) * done;
-        most = inertia > 0.0f && memory.isKnown ? 2.0f / inertia * b2Abs(memory.turn) : 0.0f;
-        *spin += b2Clamp(*spin - memory.spin, -most, most);
+    memory->isCarried = memory->isKnown && !body->IsAwake() && Length(memory->impulse) > 0.0f;
+    if (mass <= 0.0f || memory->isCarried) {
+        return velocity;
     }
+    b2Vec2 weight = (body->IsAwake() ? dt * body->GetGravityScale() : 0.0f) * bodies->GetGravity();
+    done = memory->isKnown ? done : b2Vec3(weight.x, weight.y, 0.0f);
+    float most = weight.Length() + 2.0f / mass * Length(memory->impulse);
+    float turn = inertia > 0.0f ? 2.0f / inertia * b2Abs(memory->impulse.z) : 0.0f;
+    float share = std::min(1.0f, most / std::max(Length(done), b2_epsilon));
+    return velocity + b2Vec3(share * done.x, share * done.y, b2Clamp(done.z, -turn, turn));
 }
 
-void KiriBox2d::SetMotion(const Part& part, float dt)
+void KiriBox2d::Move(const Part& part, float dt)
 {
     b2Body* body = part.fixture->GetBody();
-    b2Vec2 place = body->GetWorldPoint(part.place), velocity;
-    float spin, position[3], rotation[9] = { 0.0f }, speed[3], turning[3] = { 0.0f }, surface[3];
-    Predict(body, dt, &velocity, &spin);
+    Memory& memory = memories[body];
+    b2Vec2 place = body->GetWorldPoint(part.place), center = metres * (body->GetLocalCenter() - part.place);
+    b2Vec3 motion = Predict(body, &memory, dt);
+    b2Vec2 velocity = b2Vec2(motion.x, motion.y) + b2Cross(motion.z, place - body->GetWorldCenter());
+    b2Vec2 belt = def.surfaceVelocity != nullptr ? def.surfaceVelocity(*part.fixture, def.user) : b2Vec2_zero;
+    float inertia = metres * metres * InertiaOf(*body), mass = memory.isCarried ? 0.0f : MassOf(*body);
+    /* A body turns in its plane: out of it it is a million times as heavy. */
+    float position[3], rotation[9] = { 0.0f }, speed[3], turning[3] = { 0.0f }, surface[3];
+    float tensor[6] = { 1e6f * inertia, 1e6f * inertia, 1e6f * inertia, 0.0f, 0.0f, 0.0f };
+    const int out = 3 - def.up;
     ToKiri(place, metres, position);
     ToKiri(body->GetWorldVector(b2Vec2(1.0f, 0.0f)), 1.0f, rotation);
     ToKiri(body->GetWorldVector(b2Vec2(0.0f, 1.0f)), 1.0f, rotation + 3);
-    rotation[6 + 3 - def.up] = axis;
-    ToKiri(velocity + b2Cross(spin, place - body->GetWorldCenter()), metres, speed);
-    turning[3 - def.up] = axis * spin;
-    b2Vec2 belt = def.surfaceVelocity != nullptr ? def.surfaceVelocity(*part.fixture, def.user) : b2Vec2_zero;
+    ToKiri(velocity, metres, speed);
     ToKiri(body->GetWorldVector(belt), 1.0f, surface);
+    rotation[6 + out] = axis;
+    turning[out] = axis * motion.z;
+    tensor[out] = inertia;
+    const float middle[3] = { center.x, center.y, 0.0f };
     Check(kiriObstacle_SetPose(kiri, part.obstacle, position, rotation));
     Check(kiriObstacle_SetVelocity(kiri, part.obstacle, speed, turning));
     Check(kiriObstacle_SetSurfaceVelocity(kiri, part.obstacle, surface));
-}
-
-/* What sleeps under a load is carried, and does not yield. A body turns in its plane: out of it it is a million times as
-   heavy. */
-void KiriBox2d::SetMass(const Part& part)
-{
-    const b2Body& body = *part.fixture->GetBody();
-    float inertia = InertiaOf(body) * metres * metres;
-    float tensor[6] = { 1e6f * inertia, 1e6f * inertia, 1e6f * inertia, 0.0f, 0.0f, 0.0f };
-    tensor[3 - def.up] = inertia;
-    b2Vec2 center = metres * (body.GetLocalCenter() - part.place);
-    const float place[3] = { center.x, center.y, 0.0f };
-    float mass = memories[part.fixture->GetBody()].isCarried ? 0.0f : MassOf(body);
-    Check(kiriObstacle_SetMass(kiri, part.obstacle, mass, tensor, place));
+    Check(kiriObstacle_SetMass(kiri, part.obstacle, mass, tensor, middle));
 }
 
 /* ---- After the tick ----------------------------------------------------------------------------------------------- */
@@ -268,26 +264,23 @@ kiriResult KiriBox2d::GiveBack()
     for (const Part& part : parts) {
         kiriObstacleState state = kiriObstacleState();
         Check(kiriObstacle_GetState(kiri, part.obstacle, &state));
-        Memory& memory = memories[part.fixture->GetBody()];
-        memory.felt +=
-            1.0f / metres * b2Vec2(static_cast<float>(state.impulse[0]), static_cast<float>(state.impulse[def.up]));
-        memory.feltTurn += axis / (metres * metres) * static_cast<float>(state.angularImpulse[3 - def.up]);
+        b2Vec3& felt = memories[part.fixture->GetBody()].felt;
+        felt.x += static_cast<float>(state.impulse[0]) / metres;
+        felt.y += static_cast<float>(state.impulse[def.up]) / metres;
+        felt.z += axis * static_cast<float>(state.angularImpulse[3 - def.up]) / (metres * metres);
     }
     for (auto& entry : memories) {
         b2Body* body = entry.first;
         Memory& memory = entry.second;
-        /* A sleeping body wakes when the impulse is other than that with which it fell asleep. */
-        if (body->IsAwake() || (memory.felt - memory.impulse).Length() > b2_linearSleepTolerance * body->GetMass()) {
-            bool wakes = memory.felt != memory.impulse;
-            body->ApplyLinearImpulseToCenter(memory.felt, wakes);
-            body->ApplyAngularImpulse(memory.feltTurn, wakes);
+        /* A sleeping body wakes when it feels other than when it fell asleep. */
+        float change = Length(memory.felt - memory.impulse);
+        if (body->IsAwake() || change > b2_linearSleepTolerance * body->GetMass()) {
+            body->ApplyLinearImpulseToCenter(b2Vec2(memory.felt.x, memory.felt.y), change > 0.0f);
+            body->ApplyAngularImpulse(memory.felt.z, change > 0.0f);
             memory.impulse = memory.felt;
-            memory.turn = memory.feltTurn;
         }
-        memory.velocity = body->GetLinearVelocity();
-        memory.spin = body->GetAngularVelocity();
-        memory.felt = b2Vec2_zero;
-        memory.feltTurn = 0.0f;
+        memory.velocity = VelocityOf(*body);
+        memory.felt = b2Vec3(0.0f, 0.0f, 0.0f);
         memory.isKnown = true;
     }
     return failure;

@@ -24,10 +24,10 @@ struct KiriBox2dDef {
     float ground = 0.05f;       /* m: one-sided edges, as of chains, are solid so far below */
 
     /* The groups of a fixture, as in kiriSheetDef; 0: no sheet touches it. Null: all. Sensors are never touched. */
-    uint32_t (*groups)(const b2Fixture& fixture, void* user) = nullptr;
+    uint32_t (*groups)(b2Fixture& fixture, void* user) = nullptr;
 
     /* How the surface of a fixture moves beside its body, as a conveyor: m/s, in the body's axes. Null: it does not. */
-    b2Vec2 (*surfaceVelocity)(const b2Fixture& fixture, void* user) = nullptr;
+    b2Vec2 (*surfaceVelocity)(b2Fixture& fixture, void* user) = nullptr;
 
     void* user = nullptr; /* handed to these functions */
 };
@@ -37,8 +37,6 @@ class KiriBox2d
   public:
     KiriBox2d(kiriWorld* world, b2World* box2d, const KiriBox2dDef& def);
     ~KiriBox2d(); /* before the kiriWorld */
-    KiriBox2d(const KiriBox2d&) = delete;
-    KiriBox2d& operator=(const KiriBox2d&) = delete;
 
     kiriResult Mirror(const kiriSheet* sheets, int count, float dt);
     kiriResult GiveBack();
@@ -59,13 +57,12 @@ class KiriBox2d
         bool isNear, isHeld;
     };
 
-    /* What is known of a body, in units of Box2D. */
+    /* What is known of a body, in units of Box2D; z is about its axis. */
     struct Memory {
-        uint32_t number = 0;                              /* 0: nothing yet */
-        b2Vec2 felt = b2Vec2_zero, impulse = b2Vec2_zero; /* in this tick; in the last, or when it fell asleep */
-        float feltTurn = 0.0f, turn = 0.0f;
-        b2Vec2 velocity = b2Vec2_zero; /* with which the last step of Box2D began */
-        float spin = 0.0f;
+        uint32_t number = 0;                     /* 0: nothing yet */
+        b2Vec3 felt = { 0.0f, 0.0f, 0.0f };      /* in this tick */
+        b2Vec3 impulse = { 0.0f, 0.0f, 0.0f };   /* felt in the last tick, or when it fell asleep */
+        b2Vec3 velocity = { 0.0f, 0.0f, 0.0f };  /* with which the last step of Box2D began */
         bool isKnown = false, isCarried = false; /* since the last tick; it sleeps under what touches it */
     };
 
@@ -73,9 +70,8 @@ class KiriBox2d
     Part* FindPart(const b2Fixture* fixture, int child);
     void AddPart(b2Fixture* fixture, int child);
     void DropFar();
-    void Predict(b2Body* body, float dt, b2Vec2* velocity, float* spin);
-    void SetMotion(const Part& part, float dt);
-    void SetMass(const Part& part);
+    b2Vec3 Predict(b2Body* body, Memory* memory, float dt) const;
+    void Move(const Part& part, float dt);
     void ToKiri(const b2Vec2& vector, float scale, float out[3]) const;
     void Check(kiriResult result);
 
