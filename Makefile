@@ -58,12 +58,14 @@ PICTURE_OBJECTS := $(patsubst %,$(BUILD)/samples/%.c.o,image edges)
 SCENE_OBJECTS := $(filter $(BUILD)/samples/scene% %/outline.c.o,$(SAMPLE_OBJECTS))
 # Checks of a whole world, for all tests.
 VALIDATE_OBJECTS := $(patsubst %,$(BUILD)/tests/%.c.o,validate validate_mesh validate_field)
-TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
+TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c)) $(patsubst %.cpp,$(BUILD)/%,$(wildcard tests/test_*.cpp))
 # What `make accuracy` is made of beside its driver.
 ACCURACY_PARTS := $(addprefix tests/,accuracy_beam accuracy_plate accuracy_shell accuracy_cut accuracy_motion specimen \
                   frame_layout results reference trade sweep plot)
 # What `make contact` is made of beside its driver.
 CONTACT_PARTS := $(addprefix tests/,contact_laws contact_obstacles contact_sheets)
+# What is measured of sheets among bodies of Box2D.
+BOX2D_LAWS := $(BUILD)/tests/box2d_laws.cpp.o $(ADAPTER_OBJECTS)
 BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench*.c))
 RUN := $(BUILD)/samples/kiri-run
 BOX2D := $(BUILD)/samples/kiri-box2d
@@ -248,6 +250,11 @@ $(BUILD)/tests/%.c.o: tests/%.c
 	@echo "  $<"
 	@$(COMPILE_C) -Iinclude -Isrc -Isamples -Itests -c $< -o $@
 
+$(BUILD)/tests/%.cpp.o: tests/%.cpp
+	@mkdir -p $(@D)
+	@echo "  $<"
+	@$(COMPILE_CXX) -Iinclude -Isrc -Isamples -Itests -c $< -o $@
+
 $(RUN): $(filter %.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lOSMesa -lpng -lz -lm
@@ -264,13 +271,22 @@ $(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy $(ACCURACY_P
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lpng -lz -lm
 
-$(BUILD)/tests/contact: $(patsubst %,$(BUILD)/%.c.o,tests/contact $(CONTACT_PARTS)) $(SCENE_OBJECTS) $(BUILD)/libkiri.a
+$(BUILD)/tests/contact: $(patsubst %,$(BUILD)/%.c.o,tests/contact $(CONTACT_PARTS)) $(BUILD)/tests/contact_box2d.cpp.o \
+        $(BOX2D_LAWS) $(SCENE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lm
+	@$(LINK) -o $@ $^ -lbox2d -lm
 
 $(BUILD)/tests/extremes: $(BUILD)/tests/extremes_main.c.o $(BUILD)/tests/extremes.c.o $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lm
+
+$(BUILD)/tests/test_box2d: $(BUILD)/tests/test_box2d.cpp.o $(BOX2D_LAWS) $(BUILD)/libkiri.a
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lcmocka -lbox2d -lm
+
+$(BUILD)/tests/test_net: $(BUILD)/tests/test_net.cpp.o $(GAME_PARTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS) $(BUILD)/libkiri.a
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lcmocka -lbox2d -lOSMesa -lpng -lz -lm
 
 $(BUILD)/tests/test_extremes: $(BUILD)/tests/extremes.c.o
 
@@ -303,7 +319,7 @@ deps:
 	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get -y --no-install-recommends install $$missing
 
 format:
-	clang-format -i $(wildcard include/kiri/*.h src/*/*.h src/*/*.c src/*/*.cpp samples/*.h samples/*.c samples/*.cpp samples/*/*.h samples/*/*.c samples/*/*.cpp tests/*.h tests/*.c)
+	clang-format -i $(wildcard include/kiri/*.h src/*/*.h src/*/*.c src/*/*.cpp samples/*.h samples/*.c samples/*.cpp samples/*/*.h samples/*/*.c samples/*/*.cpp tests/*.h tests/*.c tests/*.cpp)
 
 clean:
 	rm -rf build

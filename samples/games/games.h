@@ -9,6 +9,7 @@ extern "C" {
 #endif
 
 extern const GameType curtainGame; /* curtain.c */
+extern const GameType netGame;     /* net.cpp */
 
 #ifdef __cplusplus
 }

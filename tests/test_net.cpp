@@ -1,0 +1,153 @@
+/* The game Net: its scripts win all levels, and crates and sheets keep the momentum that they have together. */
+#include "../samples/games/games.h"
+#include "../samples/games/net_game.h"
+#include "../samples/games/play.h"
+#include "../samples/games/script.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+extern "C" {
+#include <cmocka.h>
+}
+
+static GameStatus StatusOf(const Play& play)
+{
+    GameStatus status;
+    netGame.getStatus(play.game, &status);
+    return status;
+}
+
+/* Plays the script of a level to its end, or to the tick in which the level is over. */
+static GameStatus PlayScript(int level, int64_t* peak)
+{
+    char path[64];
+    std::snprintf(path, sizeof path, "samples/games/scripts/net_%d.txt", level);
+    Script script;
+    Play play;
+    assert_true(Script_Read(&script, path));
+    assert_int_equal(script.level, level);
+    assert_true(Play_Start(&play, &netGame, level));
+    while (play.tick < script.end && StatusOf(play).state == GAME_PLAYING) {
+        while (const GameEvent* event = Script_Take(&script, play.tick)) {
+            assert_true(Play_Send(&play, event));
+        }
+        assert_true(Play_Tick(&play));
+    }
+    GameStatus status = StatusOf(play);
+    *peak = play.peak;
+    Play_Stop(&play);
+    Script_Free(&script);
+    return status;
+}
+
+static void TestScriptsWin(void**)
+{
+    for (int level = 1; level <= netGame.levels; ++level) {
+        int64_t peak;
+        GameStatus status = PlayScript(level, &peak);
+        assert_int_equal(status.state, GAME_WON);
+        assert_true(status.score >= 800);
+        assert_true(peak < 64 << 20);
+    }
+}
+
+/* Who does nothing wins nothing. */
+static void TestNothingWinsNothing(void**)
+{
+    for (int level = 1; level <= netGame.levels; ++level) {
+        Play play;
+        assert_true(Play_Start(&play, &netGame, level));
+        for (int tick = 0; tick < 300; ++tick) {
+            assert_true(Play_Tick(&play));
+        }
+        assert_int_equal(StatusOf(play).state, GAME_PLAYING);
+        Play_Stop(&play);
+    }
+}
+
+static void TestReplayIsTheSame(void**)
+{
+    int64_t peak;
+    GameStatus first = PlayScript(3, &peak), second = PlayScript(3, &peak);
+    assert_true(first.hash == second.hash);
+    assert_int_equal(first.score, second.score);
+}
+
+/* ---- Momentum ----------------------------------------------------------------------------------------------------- */
+
+static b2Vec2 MomentumOf(const NetGame& game, float* mass)
+{
+    b2Vec2 sum(0.0f, 0.0f);
+    *mass = 0.0f;
+    for (const NetBody& body : game.bodies) {
+        if (body.body != nullptr) {
+            sum += body.body->GetMass() / NET_UNITS * body.body->GetLinearVelocity();
+            *mass += body.body->GetMass();
+        }
+    }
+    for (kiriSheet sheet : game.handles) {
+        kiriTotals totals;
+        assert_int_equal(kiriSheet_GetTotals(game.world, sheet, &totals), KIRI_OK);
+        sum += b2Vec2(static_cast<float>(totals.momentum[0]), static_cast<float>(totals.momentum[2]));
+        *mass += static_cast<float>(totals.mass);
+    }
+    return sum;
+}
+
+/* What pins and the air gave to the sheets in the last tick, N s. The air takes 0.3 of the momentum in a second. */
+static b2Vec2 GivenToSheets(const NetGame& game)
+{
+    b2Vec2 sum(0.0f, 0.0f);
+    for (kiriSheet sheet : game.handles) {
+        kiriPin pins[8];
+        int32_t count = 0;
+        assert_int_equal(kiriSheet_GetPins(game.world, sheet, pins, 8, &count), KIRI_OK);
+        for (int32_t i = 0; i < count; ++i) {
+            double force[3], torque[3];
+            assert_int_equal(kiriPin_GetReaction(game.world, pins[i], force, torque), KIRI_OK);
+            sum += GAME_DT * b2Vec2(static_cast<float>(force[0]), static_cast<float>(force[2]));
+        }
+        kiriTotals totals;
+        assert_int_equal(kiriSheet_GetTotals(game.world, sheet, &totals), KIRI_OK);
+        sum -= 0.3f * GAME_DT * b2Vec2(static_cast<float>(totals.momentum[0]), static_cast<float>(totals.momentum[2]));
+    }
+    return sum;
+}
+
+/* A crate falls on a rope and is caught, in level 1: until somebody cuts, nothing but weight, pins and air acts on both. */
+static void TestMomentumIsKept(void**)
+{
+    Play play;
+    assert_true(Play_Start(&play, &netGame, 1));
+    const NetGame& game = *static_cast<NetGame*>(play.game);
+    float mass, most = 0.0f;
+    b2Vec2 expected = MomentumOf(game, &mass);
+    float fastest = 0.0f, slowest = 1e9f;
+    for (int tick = 0; tick < 60; ++tick) {
+        assert_true(Play_Tick(&play));
+        expected += GivenToSheets(game) + b2Vec2(0.0f, -9.81f * GAME_DT * mass);
+        b2Vec2 momentum = MomentumOf(game, &mass);
+        most = std::fmax(most, (momentum - expected).Length());
+        fastest = std::fmax(fastest, momentum.Length());
+        slowest = tick > 20 ? std::fmin(slowest, momentum.Length()) : slowest;
+    }
+    assert_true(fastest > 0.3f && slowest < 0.1f * fastest); /* it fell, and was caught */
+    assert_true(most < 0.01f * fastest);
+    Play_Stop(&play);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestScriptsWin),
+        cmocka_unit_test(TestNothingWinsNothing),
+        cmocka_unit_test(TestReplayIsTheSame),
+        cmocka_unit_test(TestMomentumIsKept),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
