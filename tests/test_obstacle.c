@@ -36,6 +36,7 @@ static void MakeSolid(Solid* solid, int which)
     solid->shape.type = types[which];
     solid->shape.radius = 0.3;
     solid->shape.half = which == 1 ? 0.0 : which == 6 ? KIRI_ENDLESS : 0.25;
+    solid->shape.flat = 1.0;
     solid->shape.rounding = which == 5 ? 0.07 : 0.0;
     if (which == 3) {
         MakePolygon(solid, 4, box);

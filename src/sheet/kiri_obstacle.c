@@ -11,12 +11,9 @@ double kiriObstacle_TurnSpeed(const kiriObstacleData* obstacle)
 {
     const kiriObstacleShape* shape = &obstacle->shape;
     kiriVec3 spin = kiriObstacle_ToLocal(obstacle, obstacle->spin);
-    double flat = shape->radius + shape->rounding, aslant = sqrt(spin.x * spin.x + spin.y * spin.y);
-    for (int32_t i = 0; i < shape->count; ++i) {
-        double length = kiriVec2_Length(shape->outline[i]) + shape->rounding;
-        flat = length > flat ? length : flat;
-    }
-    bool isLong = shape->type == KIRI_OBSTACLE_PLANE || !(shape->half < LONG_LEVER);
+    double aslant = sqrt(spin.x * spin.x + spin.y * spin.y);
+    bool isPlane = shape->type == KIRI_OBSTACLE_PLANE, isLong = isPlane || !(shape->half < LONG_LEVER);
+    double flat = isPlane ? 0.0 : shape->flat;
     return fabs(spin.z) * flat + aslant * (flat + (isLong ? LONG_LEVER : shape->half));
 }
 

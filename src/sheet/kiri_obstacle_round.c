@@ -1,5 +1,7 @@
 #include "kiri_obstacle_work.h"
 
+#include "../core/kiri_sort.h"
+
 /* The point of a segment, given by its ends. */
 static double ShareOfSegment(kiriVec3 a, kiriVec3 b, kiriVec3 p)
 {
@@ -80,6 +82,16 @@ static bool CountsBetween(const kiriMeeting* meeting, const int32_t* v, const do
                                                      v[(zero + 1) % 3], v[(zero + 2) % 3]);
 }
 
+/* Local to the obstacle. */
+static void GetCorners(const kiriMeeting* meeting, int32_t triangle, kiriVec3 x[3])
+{
+    const kiriSurface* surface = &meeting->sheet->seen.surface;
+    for (int k = 0; k < 3; ++k) {
+        int32_t vertex = surface->indices.data[3 * (int64_t)triangle + k];
+        x[k] = kiriObstacle_PointToLocal(meeting->obstacle, surface->exact.data[vertex]);
+    }
+}
+
 static bool TouchRound(const kiriMeeting* meeting, int32_t triangle, kiriTouch* touch)
 {
     const kiriSheetData* sheet = meeting->sheet;
@@ -87,12 +99,7 @@ static bool TouchRound(const kiriMeeting* meeting, int32_t triangle, kiriTouch* 
     const int32_t* v = &sheet->seen.surface.indices.data[3 * (int64_t)triangle];
     kiriVec3 x[3], velocity = { 0.0, 0.0, 0.0 };
     double share[3];
-    for (int k = 0; k < 3; ++k) {
-        x[k] = kiriObstacle_PointToLocal(obstacle, sheet->seen.surface.exact.data[v[k]]);
-    }
-    if (!IsCoarse(meeting, x)) {
-        return false;
-    }
+    GetCorners(meeting, triangle, x);
     NearestToAxis(obstacle->shape.half, x, share);
     if (!CountsBetween(meeting, v, share)) {
         return false;
@@ -113,14 +120,34 @@ static bool TouchRound(const kiriMeeting* meeting, int32_t triangle, kiriTouch* 
     return true;
 }
 
+/* The triangles near that are coarse, in order. */
+static bool CollectCoarse(const kiriMeeting* meeting)
+{
+    kiriObstacleSearch* search = meeting->search;
+    bool ok = true;
+    search->crossed.count = 0;
+    for (int32_t i = 0; ok && i < search->triangles.count; ++i) {
+        kiriVec3 x[3];
+        GetCorners(meeting, search->triangles.data[i], x);
+        ok = !IsCoarse(meeting, x) || kiriArray_Push(search->memory, &search->crossed, search->triangles.data[i]);
+    }
+    if (search->crossed.count > 0) {
+        kiriSort(search->crossed.data, search->crossed.count, NULL, NULL);
+    }
+    return ok;
+}
+
 bool kiriMeeting_TouchRounds(const kiriMeeting* meeting)
 {
-    const kiriObstacleSearch* search = meeting->search;
-    bool ok = true;
-    for (int32_t i = 0; ok && meeting->obstacle->shape.radius > 0.0 && i < search->triangles.count; ++i) {
+    const kiriIndices* coarse = &meeting->search->crossed;
+    if (!(meeting->obstacle->shape.radius > 0.0)) {
+        return true;
+    }
+    bool ok = CollectCoarse(meeting);
+    for (int32_t i = 0; ok && i < coarse->count; ++i) {
         kiriTouch touch;
-        if (TouchRound(meeting, search->triangles.data[i], &touch)) {
-            touch.key = kiriMeeting_Key(meeting, true, KIRI_ROUND_ITEM | (uint32_t)search->triangles.data[i]);
+        if (TouchRound(meeting, coarse->data[i], &touch)) {
+            touch.key = kiriMeeting_Key(meeting, true, KIRI_ROUND_ITEM | (uint32_t)coarse->data[i]);
             ok = kiriTouches_Add(meeting->sheet, &touch);
         }
     }

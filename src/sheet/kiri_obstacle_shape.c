@@ -25,7 +25,8 @@ static double AboveEdge(const kiriObstacleShape* shape, int32_t edge, kiriVec2 p
 /* The way from the nearest point of an edge. */
 static kiriVec2 FromEdge(const kiriObstacleShape* shape, int32_t edge, kiriVec2 p)
 {
-    kiriVec2 a = shape->outline[edge], along = kiriVec2_Sub(shape->outline[(edge + 1) % shape->count], a);
+    int32_t next = edge + 1 < shape->count ? edge + 1 : 0;
+    kiriVec2 a = shape->outline[edge], along = kiriVec2_Sub(shape->outline[next], a);
     double t = kiriVec2_Dot(kiriVec2_Sub(p, a), along) / kiriVec2_Dot(along, along);
     t = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
     return kiriVec2_Sub(p, kiriVec2_Make(a.x + t * along.x, a.y + t * along.y));
@@ -36,12 +37,14 @@ static Nearest2 NearestOutside(const kiriObstacleShape* shape, kiriVec2 p, Neare
     Nearest2 nearest = highest;
     double least = KIRI_ENDLESS;
     for (int32_t i = 0; i < shape->count; ++i) {
-        kiriVec2 way = FromEdge(shape, i, p);
-        double length = kiriVec2_Length(way);
-        if (AboveEdge(shape, i, p) > 0.0 && length < least) {
-            least = length;
-            nearest.distance = length;
-            nearest.normal = kiriVec2_Scale(1.0 / length, way);
+        if (AboveEdge(shape, i, p) > 0.0) {
+            kiriVec2 way = FromEdge(shape, i, p);
+            double length = kiriVec2_Length(way);
+            if (length < least) {
+                least = length;
+                nearest.distance = length;
+                nearest.normal = kiriVec2_Scale(1.0 / length, way);
+            }
         }
     }
     return nearest;

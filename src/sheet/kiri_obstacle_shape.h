@@ -19,6 +19,7 @@ typedef struct kiriObstacleShape {
     kiriVec2* outline; /* of a prism: corners, counter-clockwise, no two in one place, none on the way between two */
     kiriVec2* normals; /* out of the edge from each corner to the next */
     int32_t count;
+    double flat; /* m: no point of it is farther from the third axis; KIRI_ENDLESS of a plane */
 } kiriObstacleShape;
 
 /* Where a point is: below 0 inside. The normal points out of the obstacle where it is nearest. */
@@ -30,6 +31,17 @@ typedef struct kiriNearest {
 /* `across` is zero; or, for a sheet that stays in a plane, the unit normal of that plane: then a point inside goes the
    shortest way out within the plane. */
 kiriNearest kiriObstacleShape_Nearest(const kiriObstacleShape* shape, kiriVec3 point, kiriVec3 across);
+
+/* Is the point, as far as a cylinder around the shape tells, nearer than `reach`? */
+static inline bool kiriObstacleShape_MayReach(const kiriObstacleShape* shape, kiriVec3 point, double reach)
+{
+    double across = shape->flat + reach, along = shape->half + shape->rounding + reach;
+    if (shape->type == KIRI_OBSTACLE_PLANE) {
+        return point.z < reach;
+    }
+    along += shape->type == KIRI_OBSTACLE_CYLINDER ? 0.0 : shape->radius; /* round ends */
+    return fabs(point.z) < along && point.x * point.x + point.y * point.y < across * across;
+}
 
 /* Where a point that moves straight comes as near as `gap`: the share of its way, 0 where it is so near from the start, 1
    where it does not come so near; and the obstacle there. The point starts at least `gap` off, or share is 0. */

@@ -1,5 +1,7 @@
 #include "kiri_obstacle_work.h"
 
+#include "../core/kiri_sort.h"
+
 /* So many patches a frame, about: its six unknowns need no more points, but for what bends within its reach. */
 #define PATCHES_A_FRAME 8.0
 
@@ -178,11 +180,12 @@ int32_t kiriObstacle_SlotOfKey(uint64_t key)
 static bool IsBoxNear(const void* context, const kiriBox* box)
 {
     const kiriMeeting* meeting = context;
-    kiriVec3 middle = kiriVec3_Scale(0.5, kiriVec3_Add(box->lower, box->upper));
-    double half = 0.5 * kiriVec3_Length(kiriVec3_Sub(box->upper, box->lower));
+    const kiriObstacleShape* shape = &meeting->obstacle->shape;
+    kiriVec3 middle = kiriVec3_Scale(0.5, kiriVec3_Add(box->lower, box->upper)), none = { 0.0, 0.0, 0.0 };
+    double reach = meeting->reach + 0.5 * kiriVec3_Length(kiriVec3_Sub(box->upper, box->lower));
     kiriVec3 local = kiriObstacle_PointToLocal(meeting->obstacle, middle);
-    kiriVec3 none = { 0.0, 0.0, 0.0 };
-    return kiriObstacleShape_Nearest(&meeting->obstacle->shape, local, none).distance < meeting->reach + half;
+    return kiriObstacleShape_MayReach(shape, local, reach) &&
+           kiriObstacleShape_Nearest(shape, local, none).distance < reach;
 }
 
 static int32_t PatchOf(const kiriMeeting* meeting, int32_t vertex)
@@ -229,31 +232,60 @@ static double Preference(const kiriMeeting* meeting, int32_t vertex, double heig
 
 static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
 {
+    const kiriObstacleShape* shape = &meeting->obstacle->shape;
     kiriVec3 x = meeting->sheet->seen.surface.exact.data[vertex];
-    kiriNearest nearest = kiriObstacleShape_Nearest(&meeting->obstacle->shape,
-                                                    kiriObstacle_PointToLocal(meeting->obstacle, x), meeting->across);
+    kiriVec3 local = kiriObstacle_PointToLocal(meeting->obstacle, x);
+    if (!kiriObstacleShape_MayReach(shape, local, meeting->reach)) {
+        return;
+    }
+    kiriNearest nearest = kiriObstacleShape_Nearest(shape, local, meeting->across);
     if (nearest.distance < meeting->reach) {
-        nearest.distance -= Preference(meeting, vertex, nearest.distance);
-        kiriNearVertex near = { vertex,    PatchOf(meeting, vertex), LeadingFrame(&meeting->sheet->vertexSkin, vertex),
-                                KIRI_NONE, nearest.distance,         nearest.normal };
+        double height = nearest.distance - Preference(meeting, vertex, nearest.distance);
+        kiriNearVertex near = { vertex,
+                                PatchOf(meeting, vertex),
+                                LeadingFrame(&meeting->sheet->vertexSkin, vertex),
+                                KIRI_NONE,
+                                height,
+                                nearest.normal };
         Choose(meeting->search, near);
+    }
+}
+
+/* Each vertex of the triangles near once, in their order: so what is chosen does not depend on that of triangles. */
+static void CollectVertices(const kiriMeeting* meeting)
+{
+    kiriObstacleSearch* search = meeting->search;
+    const int32_t* indices = meeting->sheet->seen.surface.indices.data;
+    int32_t low = INT32_MAX, high = -1;
+    search->mark += 1;
+    search->vertices.count = 0;
+    for (int64_t i = 0; i < 3 * (int64_t)search->triangles.count; ++i) {
+        int32_t vertex = indices[3 * (int64_t)search->triangles.data[i / 3] + i % 3];
+        if (search->marks.data[vertex] != search->mark) {
+            search->marks.data[vertex] = search->mark;
+            search->vertices.data[search->vertices.count++] = vertex;
+            low = vertex < low ? vertex : low;
+            high = vertex > high ? vertex : high;
+        }
+    }
+    if (high - low > 16 * (int64_t)search->vertices.count) {
+        kiriSort(search->vertices.data, search->vertices.count, NULL, NULL);
+        return;
+    }
+    search->vertices.count = 0;
+    for (int32_t v = low; v <= high; ++v) {
+        search->vertices.data[search->vertices.count] = v;
+        search->vertices.count += search->marks.data[v] == search->mark;
     }
 }
 
 static void ChooseVertices(const kiriMeeting* meeting)
 {
     kiriObstacleSearch* search = meeting->search;
-    const int32_t* indices = meeting->sheet->seen.surface.indices.data;
     search->chosen.count = 0;
-    search->mark += 1;
-    for (int32_t i = 0; i < search->triangles.count; ++i) {
-        for (int k = 0; k < 3; ++k) {
-            int32_t vertex = indices[3 * (int64_t)search->triangles.data[i] + k];
-            if (search->marks.data[vertex] != search->mark) {
-                search->marks.data[vertex] = search->mark;
-                LookAtVertex(meeting, vertex);
-            }
-        }
+    CollectVertices(meeting);
+    for (int32_t i = 0; i < search->vertices.count; ++i) {
+        LookAtVertex(meeting, search->vertices.data[i]);
     }
     for (int32_t i = 0; i < search->chosen.count; ++i) {
         search->heads.data[search->chosen.data[i].patch] = KIRI_NONE;
@@ -316,6 +348,7 @@ bool kiriObstacleSearch_Reserve(kiriObstacleSearch* search, const kiriSheetData*
     int32_t patches = squares->columns * squares->rows, oldMarks = search->marks.count, oldHeads = search->heads.count;
     if (!kiriArray_Reserve(search->memory, &search->triangles, triangles) ||
         !kiriArray_Reserve(search->memory, &search->crossed, triangles) ||
+        !kiriArray_Reserve(search->memory, &search->vertices, (int64_t)vertices + 1) ||
         !kiriArray_Reserve(search->memory, &search->chosen, vertices) ||
         (oldMarks < vertices && !kiriArray_Resize(search->memory, &search->marks, vertices)) ||
         (oldHeads < patches && !kiriArray_Resize(search->memory, &search->heads, patches))) {
@@ -362,8 +395,8 @@ bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, co
 {
     kiriMeeting meeting = MakeMeeting(search, sheet, obstacle, speed, yield);
     search->triangles.count = 0;
-    if (!kiriBounds_Find(sheet->seen.bounds, &sheet->seen.surface, IsBoxNear, &meeting, search->memory,
-                         &search->triangles)) {
+    if (!kiriBounds_FindLeaves(sheet->seen.bounds, &sheet->seen.surface, IsBoxNear, &meeting, search->memory,
+                               &search->triangles)) {
         return false;
     }
     return search->triangles.count == 0 ||

@@ -24,7 +24,8 @@ typedef struct kiriObstacleSearch {
     kiriMemory* memory;
     double dt;
     kiriVec3 gravity;
-    kiriIndices triangles;      /* near the obstacle */
+    kiriIndices triangles;      /* near the obstacle, in no order */
+    kiriIndices vertices;       /* of these, in order */
     kiriIndices crossed;        /* near a point of an edge */
     KIRI_ARRAY(uint32_t) marks; /* of each vertex: the search that has seen it last */
     uint32_t mark;              /* of this search */

@@ -281,6 +281,7 @@ typedef struct Finder {
     const void* context;
     kiriMemory* memory;
     kiriIndices* found;
+    bool wholeLeaves;
 } Finder;
 
 static bool FindIn(const Finder* finder, int32_t level, int32_t node)
@@ -293,26 +294,44 @@ static bool FindIn(const Finder* finder, int32_t level, int32_t node)
             continue;
         }
         int32_t triangle = finder->bounds->order.data[i];
-        kiriBox box = kiriBox_OfTriangle(finder->surface, triangle);
-        ok = !finder->meets(finder->context, &box) || kiriArray_Push(finder->memory, finder->found, triangle);
+        bool isFound = finder->wholeLeaves;
+        if (!isFound) {
+            kiriBox box = kiriBox_OfTriangle(finder->surface, triangle);
+            isFound = finder->meets(finder->context, &box);
+        }
+        ok = !isFound || kiriArray_Push(finder->memory, finder->found, triangle);
     }
     return ok;
+}
+
+static bool FindFromRoot(const Finder* finder)
+{
+    const kiriBounds* bounds = finder->bounds;
+    int32_t root = bounds->nodes.count - 1;
+    KIRI_ASSERT(kiriBounds_IsFresh(bounds, finder->surface));
+    return root < 0 || !finder->meets(finder->context, &bounds->nodes.data[root]) ||
+           FindIn(finder, bounds->levelCount - 1, root);
 }
 
 bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets, const void* context,
                      kiriMemory* memory, kiriIndices* found)
 {
-    const Finder finder = { bounds, surface, meets, context, memory, found };
-    int32_t before = found->count, root = bounds->nodes.count - 1;
-    KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
-    if (root < 0 || !meets(context, &bounds->nodes.data[root])) {
-        return true;
-    }
-    if (!FindIn(&finder, bounds->levelCount - 1, root)) {
+    const Finder finder = { bounds, surface, meets, context, memory, found, false };
+    int32_t before = found->count;
+    if (!FindFromRoot(&finder)) {
         return false;
     }
-    kiriSort(found->data + before, found->count - before, NULL, NULL);
+    if (found->count > before) {
+        kiriSort(found->data + before, found->count - before, NULL, NULL);
+    }
     return true;
+}
+
+bool kiriBounds_FindLeaves(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets,
+                           const void* context, kiriMemory* memory, kiriIndices* found)
+{
+    const Finder finder = { bounds, surface, meets, context, memory, found, true };
+    return FindFromRoot(&finder);
 }
 
 static bool MeetsBox(const void* context, const kiriBox* box)

@@ -84,6 +84,11 @@ typedef bool kiriMeetsFn(const void* context, const kiriBox* box);
 bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets, const void* context,
                      kiriMemory* memory, kiriIndices* found);
 
+/* All triangles of the leaves whose box meets it: some more than those, in no order. Where each is looked at anyway that
+   is cheaper. */
+bool kiriBounds_FindLeaves(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets,
+                           const void* context, kiriMemory* memory, kiriIndices* found);
+
 /* The same for those whose box meets a box. */
 bool kiriBounds_Box(const kiriBounds* bounds, const kiriSurface* surface, const kiriBox* box, kiriMemory* memory,
                     kiriIndices* found);

@@ -173,6 +173,16 @@ static void FillOutline(kiriObstacleShape* shape, const kiriObstacleDef* def)
     }
 }
 
+static double FarthestFromAxis(const kiriObstacleShape* shape)
+{
+    double farthest = shape->type == KIRI_OBSTACLE_PLANE ? KIRI_ENDLESS : shape->radius;
+    for (int32_t i = 0; i < shape->count; ++i) {
+        double length = kiriVec2_Length(shape->outline[i]);
+        farthest = length > farthest ? length : farthest;
+    }
+    return farthest + shape->rounding;
+}
+
 static void FillShape(kiriObstacleShape* shape, const kiriObstacleDef* def)
 {
     bool isBox = def->type == KIRI_OBSTACLE_BOX, isPrism = def->type == KIRI_OBSTACLE_PRISM;
@@ -188,6 +198,7 @@ static void FillShape(kiriObstacleShape* shape, const kiriObstacleDef* def)
         shape->half = 0.0;
     }
     FillOutline(shape, def);
+    shape->flat = FarthestFromAxis(shape);
 }
 
 static void SetMass(kiriObstacleData* obstacle, float mass, const float inertia[6], const float center[3])
