@@ -1,5 +1,9 @@
 #include "kiri_obstacle_work.h"
 
+#include "../core/kiri_sort.h"
+
+#define LINE_SLACK 1e-9 /* m: what lies in the side of a box is in it */
+
 /* A point on an edge or a corner, in the world. */
 typedef struct EdgePoint {
     kiriVec3 at, out; /* out: unit, half-way between the faces */
@@ -71,30 +75,66 @@ static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, in
     return true;
 }
 
-static kiriBox BoxAround(const EdgePoint* point)
+/* Does the line of the point meet a box? By slabs. */
+static bool MeetsLine(const void* context, const kiriBox* box)
 {
-    kiriVec3 a = kiriVec3_AddScaled(point->at, point->above, point->out);
-    kiriVec3 b = kiriVec3_AddScaled(point->at, -point->below, point->out);
-    kiriBox box = { { a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z },
-                    { a.x < b.x ? b.x : a.x, a.y < b.y ? b.y : a.y, a.z < b.z ? b.z : a.z } };
-    return box;
+    const EdgePoint* point = context;
+    const double at[3] = { point->at.x, point->at.y, point->at.z },
+                 out[3] = { point->out.x, point->out.y, point->out.z };
+    const double lower[3] = { box->lower.x, box->lower.y, box->lower.z };
+    const double upper[3] = { box->upper.x, box->upper.y, box->upper.z };
+    double from = -point->below, to = point->above;
+    for (int k = 0; k < 3; ++k) {
+        double low = lower[k] - at[k] - LINE_SLACK, high = upper[k] - at[k] + LINE_SLACK;
+        if (fabs(out[k]) < 1e-12) {
+            to = low > 0.0 || high < 0.0 ? from - 1.0 : to;
+            continue;
+        }
+        double enter = (out[k] > 0.0 ? low : high) / out[k], leave = (out[k] > 0.0 ? high : low) / out[k];
+        from = enter > from ? enter : from;
+        to = leave < to ? leave : to;
+    }
+    return from <= to;
+}
+
+/* The triangles that the line of the point meets, in order: those beside each other have the same keys in each tick. */
+static bool FindCrossed(const kiriMeeting* meeting, const EdgePoint* point)
+{
+    const kiriSurface* surface = &meeting->sheet->seen.surface;
+    kiriIndices* crossed = &meeting->search->crossed;
+    int32_t kept = 0;
+    crossed->count = 0;
+    if (!kiriBounds_FindLeaves(meeting->sheet->seen.bounds, surface, MeetsLine, point, meeting->search->memory,
+                               crossed)) {
+        return false;
+    }
+    for (int32_t i = 0; i < crossed->count; ++i) {
+        const int32_t* v = &surface->indices.data[3 * (int64_t)crossed->data[i]];
+        kiriVec3 x[3] = { surface->exact.data[v[0]], surface->exact.data[v[1]], surface->exact.data[v[2]] };
+        double height, share[3];
+        if (CrossTriangle(x, point, &height, share)) {
+            crossed->data[kept++] = crossed->data[i];
+        }
+    }
+    crossed->count = kept;
+    if (kept > 1) {
+        kiriSort(crossed->data, kept, NULL, NULL);
+    }
+    return true;
 }
 
 /* Several layers may lie over a point: each has a touch, up to a number. */
 static bool TouchPoint(const kiriMeeting* meeting, const EdgePoint* point)
 {
     enum { MOST_LAYERS = 4 };
-    kiriSheetData* sheet = meeting->sheet;
-    kiriObstacleSearch* search = meeting->search;
-    kiriBox box = BoxAround(point);
-    search->crossed.count = 0;
-    bool ok = kiriBounds_Box(sheet->seen.bounds, &sheet->seen.surface, &box, search->memory, &search->crossed);
+    const kiriIndices* crossed = &meeting->search->crossed;
+    bool ok = FindCrossed(meeting, point);
     uint32_t layers = 0;
-    for (int32_t i = 0; ok && i < search->crossed.count && layers < MOST_LAYERS; ++i) {
+    for (int32_t i = 0; ok && i < crossed->count && layers < MOST_LAYERS; ++i) {
         kiriTouch touch;
-        if (TouchTriangle(meeting, point, search->crossed.data[i], &touch)) {
+        if (TouchTriangle(meeting, point, crossed->data[i], &touch)) {
             touch.key = kiriMeeting_Key(meeting, true, point->item * MOST_LAYERS + layers++);
-            ok = kiriTouches_Add(sheet, &touch);
+            ok = kiriTouches_Add(meeting->sheet, &touch);
         }
     }
     return ok;
@@ -274,6 +314,15 @@ static bool TouchSide(const kiriMeeting* meeting, const EdgePoint* point, int32_
     }
     kiriMeeting_SetPlace(touch, (const int32_t[2]){ a, b }, (const double[2]){ 1.0 - share, share }, 2);
     return true;
+}
+
+static kiriBox BoxAround(const EdgePoint* point)
+{
+    kiriVec3 a = kiriVec3_AddScaled(point->at, point->above, point->out);
+    kiriVec3 b = kiriVec3_AddScaled(point->at, -point->below, point->out);
+    kiriBox box = { { a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z },
+                    { a.x < b.x ? b.x : a.x, a.y < b.y ? b.y : a.y, a.z < b.z ? b.z : a.z } };
+    return box;
 }
 
 static bool TouchCorner(const kiriMeeting* meeting, const EdgePoint* point)
