@@ -3,7 +3,7 @@
 #include "../core/kiri_sort.h"
 
 /* So many patches a frame, about: its six unknowns need no more points, but for what bends within its reach. */
-#define PATCHES_A_FRAME 8.0
+#define PATCHES_A_FRAME 4.0
 
 /* Of the distance that is kept: by so much another vertex must be deeper to take the place of one that pushed. */
 #define PREFERRED 0.5
