@@ -866,8 +866,10 @@ KIRI_API kiriResult kiriSheet_GetContactForces(const kiriWorld* world, kiriSheet
 
 /* A body that sheets touch: a floor, a ball, a crate of another engine. Kiri moves no obstacle by forces. An obstacle
    goes on with its velocities; a host that moves bodies by an engine of its own sets pose and velocities before each
-   tick, and gives the impulse that GetImpulse tells to that engine after it. Contacts follow its motion within the
-   tick, and push no harder than its mass resists. */
+   tick, and gives the impulse that kiriObstacle_GetState tells to that engine after it. Contacts follow its motion
+   within the tick, and push no harder than its mass resists. Sheets stay half their contactThickness away from it; that
+   is what is seen of them, with smooth skinning too. A sheet that rests wakes where an obstacle near it comes, goes, or
+   has moved by half a second of its sleepSpeed. Lengths of shapes are up to 1e6 m. */
 enum kiriObstacleType {
     KIRI_OBSTACLE_PLANE,    /* all below the plane through its position; the third column of its rotation points out */
     KIRI_OBSTACLE_SPHERE,   /* radius */
@@ -893,7 +895,8 @@ typedef struct kiriObstacleDef {
     float surfaceVelocity[3]; /* m/s, world: of its surface beside that, as of a conveyor */
     float friction;           /* 0 or more; default 0.5 */
     float mass;               /* kg; 0 (default): nothing moves it */
-    float inertia[6]; /* kg m^2, about its centre of mass, world axes: xx yy zz xy xz yz; zeros: it does not turn */
+    float inertia[6]; /* kg m^2, about its centre of mass, axes of the world as it stands now: xx yy zz xy xz yz.
+                         Positive definite, but for axes whose numbers are all 0: it does not turn about these */
     float centerOfMass[3]; /* m, from its position in its own axes */
     uint32_t body;         /* obstacles of the same number, but 0, are parts of one body, whose mass each of them has */
     float pushSpeed;       /* m/s, above 0: what is inside is pushed out no faster. Default 1 */
@@ -904,7 +907,8 @@ KIRI_API void kiriDefaultObstacleDef(kiriObstacleDef* def);
 KIRI_API kiriResult kiriCreateObstacle(kiriWorld* world, const kiriObstacleDef* def, kiriObstacle* obstacle);
 KIRI_API kiriResult kiriDestroyObstacle(kiriWorld* world, kiriObstacle obstacle);
 
-/* Where it is when the next tick starts. It did not move there: velocities alone say what sheets feel. */
+/* Where it is when the next tick starts. It did not move there: velocities alone say what sheets feel. rotation: a
+   rotation matrix, columns as in the def. */
 KIRI_API kiriResult kiriObstacle_SetPose(kiriWorld* world, kiriObstacle obstacle, const float position[3],
                                          const float rotation[9]);
 
@@ -921,14 +925,14 @@ typedef struct kiriObstacleState {
     float position[3], rotation[9], velocity[3], angularVelocity[3];
     double impulse[3], angularImpulse[3]; /* N s, N m s about its centre of mass: what sheets and pins gave it in the
                                              last tick */
-    int32_t contacts;                     /* of the last tick */
+    int32_t contacts;                     /* that pushed in the last tick */
 } kiriObstacleState;
 
 KIRI_API kiriResult kiriObstacle_GetState(const kiriWorld* world, kiriObstacle obstacle, kiriObstacleState* state);
 
 /* The box (m, world) that holds all that the sheet may touch in a tick of dt: a host needs no obstacles or contacts
-   outside. It reaches as far as the points of the sheet go by their velocities and gravity, twice, and the contact
-   thickness. */
+   outside. It reaches as far around the sheet as its fastest point can go by its velocity and gravity, twice, and the
+   contact thickness. Obstacles that move themselves come as much nearer. dt as in kiriWorld_Tick. */
 KIRI_API kiriResult kiriSheet_GetReach(const kiriWorld* world, kiriSheet sheet, float dt, float lower[3],
                                        float upper[3]);
 
