@@ -222,10 +222,135 @@ static void MeasureDrape(const Setting* setting, int32_t skinning)
     kiriDestroyWorld(drape.world);
 }
 
+/* ---- A ball that its host moves by what it gets -------------------------------------------------------------------- */
+
+static kiriSheet MakePlate(kiriWorld* world, float velocity)
+{
+    kiriSheetDef def;
+    float positions[2 * 81];
+    int32_t indices[6 * 64];
+    kiriSheet sheet = 0;
+    kiriDefaultSheetDef(&def);
+    kiriFillRectangle(0.4f, 0.4f, 8, 8, positions, indices);
+    def.restPositions = positions;
+    def.vertexCount = 81;
+    def.indices = indices;
+    def.triangleCount = 128;
+    def.gridResolution = 16;
+    def.frameCount = def.maxFrames = 9;
+    def.position[0] = def.position[1] = -0.2f;
+    def.velocity[2] = velocity;
+    def.material.airDamping = 0.0f;
+    kiriCreateSheet(world, &def, &sheet);
+    return sheet;
+}
+
+/* A ball of so many times its mass meets a cloth that flies at it with 1 m/s. */
+static void MeasureBall(float ratio, int32_t substeps)
+{
+    kiriWorldDef worldDef;
+    kiriDefaultWorldDef(&worldDef);
+    worldDef.gravity[2] = 0.0f;
+    kiriWorld* world;
+    kiriCreateWorld(&worldDef, &world);
+    kiriSheet sheet = MakePlate(world, -1.0f);
+    kiriTotals totals;
+    kiriSheet_GetTotals(world, sheet, &totals);
+    kiriObstacleDef def;
+    kiriDefaultObstacleDef(&def);
+    def.type = KIRI_OBSTACLE_SPHERE;
+    def.radius = 0.1f;
+    def.position[2] = -0.11f;
+    def.mass = ratio * (float)totals.mass;
+    def.friction = 0.0f;
+    kiriObstacle ball;
+    kiriCreateObstacle(world, &def, &ball);
+    double start = totals.momentum[2], energy = totals.kineticEnergy, velocity[3] = { 0.0, 0.0, 0.0 }, most = 0.0;
+    for (int tick = 0; tick < 30; ++tick) {
+        const float none[3] = { 0.0f, 0.0f, 0.0f };
+        kiriObstacleState state;
+        kiriWorld_Tick(world, tickSeconds, substeps);
+        kiriObstacle_GetState(world, ball, &state);
+        float next[3];
+        for (int i = 0; i < 3; ++i) {
+            velocity[i] += state.impulse[i] / (double)def.mass;
+            next[i] = (float)velocity[i];
+        }
+        kiriObstacle_SetVelocity(world, ball, next, none);
+        kiriSheet_GetTotals(world, sheet, &totals);
+        double speed2 = velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2];
+        double all = totals.kineticEnergy + totals.elasticEnergy + 0.5 * (double)def.mass * speed2;
+        most = all > most ? all : most;
+    }
+    char variant[64];
+    snprintf(variant, sizeof(variant), "ball of %g masses, %d substeps", (double)ratio, (int)substeps);
+    double end = totals.momentum[2] + (double)def.mass * velocity[2];
+    Contact_Limit("momentum that is lost", variant, 100.0 * fabs(end / start - 1.0), 1.0, "%");
+    Contact_Limit("most energy, to that at start", variant, most / energy, 1.01, "");
+    kiriDestroyWorld(world);
+}
+
+/* ---- Fast --------------------------------------------------------------------------------------------------------- */
+
+/* A cloth at 100 m/s against a wall of 1 cm, flat and edge-on: how many of its vertices get to the other side. */
+static void MeasureFast(int isEdgeOn, int32_t substeps)
+{
+    static float positions[2 * 33 * 33];
+    static int32_t indices[6 * 32 * 32];
+    kiriWorldDef worldDef;
+    kiriDefaultWorldDef(&worldDef);
+    kiriWorld* world;
+    kiriCreateWorld(&worldDef, &world);
+    kiriObstacleDef wall;
+    kiriDefaultObstacleDef(&wall);
+    wall.type = KIRI_OBSTACLE_BOX;
+    wall.size[0] = wall.size[1] = 8.0f;
+    wall.size[2] = 0.01f;
+    kiriObstacle obstacle;
+    kiriCreateObstacle(world, &wall, &obstacle);
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    kiriFillRectangle(1.0f, 1.0f, 32, 32, positions, indices);
+    def.restPositions = positions;
+    def.vertexCount = 33 * 33;
+    def.indices = indices;
+    def.triangleCount = 2 * 32 * 32;
+    def.frameCount = def.maxFrames = 16;
+    def.position[2] = 1.3f;
+    def.axisV[1] = isEdgeOn ? 0.0f : 1.0f;
+    def.axisV[2] = isEdgeOn ? 1.0f : 0.0f;
+    def.velocity[2] = -100.0f;
+    kiriSheet sheet;
+    kiriCreateSheet(world, &def, &sheet);
+    int passed = 0;
+    for (int tick = 0; tick < 30; ++tick) {
+        kiriMesh mesh;
+        int now = 0;
+        kiriWorld_Tick(world, tickSeconds, substeps);
+        kiriSheet_GetMesh(world, sheet, &mesh);
+        for (int32_t v = 0; v < mesh.vertexCount; ++v) {
+            now += mesh.positions[3 * v + 2] < -0.005f;
+        }
+        passed = now > passed ? now : passed;
+    }
+    char variant[64];
+    snprintf(variant, sizeof(variant), "%s, %d substeps", isEdgeOn ? "edge-on" : "flat", (int)substeps);
+    Contact_Limit("100 m/s through 1 cm", variant, passed, 0.0, "vertices");
+    kiriDestroyWorld(world);
+}
+
 void Contact_MeasureObstacles(void)
 {
     for (size_t i = 0; i < sizeof(settings) / sizeof(settings[0]); ++i) {
         MeasureDrape(&settings[i], KIRI_SKINNING_LINEAR);
         MeasureDrape(&settings[i], KIRI_SKINNING_SMOOTH);
+    }
+    for (float ratio = 1e-3f; ratio < 2e3f; ratio *= 10.0f) {
+        MeasureBall(ratio, 2);
+    }
+    MeasureBall(1.0f, 1);
+    MeasureBall(1.0f, 8);
+    for (int i = 0; i < 4; ++i) {
+        MeasureFast(i % 2, i < 2 ? 2 : 8);
     }
 }
