@@ -217,22 +217,22 @@ static bool Flatten(const kiriBladeWork* work, const kiriVec3* other, kiriVec3 x
 
 /* ---- Layers that the blade was in ---- */
 
-/* Another track of the sheet that was at a place and is not seen to, or null. Its material has gone another way than
-   that of this track, so it is found only as near as that. */
+/* The track at the other end of a line over a fold: the nearest one that is not seen to, or null. Its material has gone
+   another way than that of this track, and where the edge only touches the fold that counts for much: so it need not be
+   where the line ends, but nearer to it than this track. */
 static kiriTrack* OtherTrack(kiriBladeWork* work, const kiriTrack* track, kiriVec2 rest)
 {
+    double nearest = RestDistance(track->rest, rest);
+    kiriTrack* found = NULL;
     for (int32_t i = 0; i < work->oldCount; ++i) {
         kiriTrack* other = &work->tracks.data[i];
-        kiriVec3 x;
-        if (other == track || other->sheet != work->sheet || other->isDone || !Seen(work->sheet, other->rest, &x)) {
-            continue;
-        }
-        double apart = kiriVec3_Length(kiriVec3_Sub(kiriVec3_Sub(x, other->at), work->drift));
-        if (RestDistance(other->rest, rest) < 2.0 * apart + Same * work->snap) {
-            return other;
+        double distance = RestDistance(other->rest, rest);
+        if (other != track && other->sheet == work->sheet && !other->isDone && distance < nearest) {
+            nearest = distance;
+            found = other;
         }
     }
-    return NULL;
+    return found;
 }
 
 /* Where the line that a track follows ends: at the edge as it is now, and the track goes on from there; beyond a border;
@@ -243,15 +243,16 @@ static bool FollowLine(kiriBladeWork* work, kiriTrack* track, const kiriSectionL
     int32_t type = line->end[fromLast ? 0 : 1];
     kiriCrossing* crossing = type == KIRI_SIDE_TO ? NearestCrossing(work, end->rest, Same * work->snap) : NULL;
     bool isStill = crossing != NULL && RestDistance(track->rest, crossing->rest) < Still * work->snap;
+    kiriTrack* other = type == KIRI_SIDE_FROM ? OtherTrack(work, track, end->rest) : NULL;
     bool ok = isStill || (FindPath(work, line, fromLast) && LeadAlong(work, track));
     if (!ok || crossing != NULL) {
         return ok && GoOn(work, track, crossing);
     }
-    kiriTrack* other = type == KIRI_SIDE_FROM ? OtherTrack(work, track, end->rest) : NULL;
     if (other != NULL) {
         ok = Lead(work, track, other->rest) && End(work, other);
     }
-    return ok && End(work, track);
+    bool isLost = type == KIRI_SIDE_FROM && other == NULL;
+    return ok && (isLost || End(work, track));
 }
 
 /* Is the line more than what is around its beginning? */
