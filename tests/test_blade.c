@@ -544,6 +544,40 @@ static void TestDetached(void** state)
     }
 }
 
+/* In the tick of the cut the part that falls is apart from the part that is held, by what it falls in it: 3/4 g dt^2 in two
+   steps. */
+static void TestOpensAtOnce(void** state)
+{
+    (void)state;
+    const double dt = 1.0 / 60.0, fallen = 0.75 * 9.81 * dt * dt;
+    Stage stage;
+    Stage_StartCurtain(&stage, 32, 200);
+    static const float from[3] = { -0.2f, -1.0f, 0.5f }, to[3] = { -0.2f, 1.0f, 0.5f };
+    static const float beyond[2][3] = { { 1.2f, -1.0f, 0.5f }, { 1.2f, 1.0f, 0.5f } };
+    Begin(&stage);
+    OK(kiriBlade_MoveEdge(stage.host.world, stage.blade, from, to));
+    OK(kiriBlade_MoveEdge(stage.host.world, stage.blade, beyond[0], beyond[1]));
+    OK(Host_Tick(&stage.host, (float)dt, 2));
+    assert_int_equal(Pieces(&stage), 2);
+    kiriMesh mesh = Host_Mesh(&stage.host, stage.sheet);
+    double gap = 0.0;
+    int32_t lips = 0;
+    for (int32_t a = 33 * 33; a < mesh.vertexCount; ++a) {
+        for (int32_t b = a + 1; b < mesh.vertexCount; ++b) {
+            const float *p = &mesh.restPositions[2 * (size_t)a], *q = &mesh.restPositions[2 * (size_t)b];
+            if (p[0] == q[0] && p[1] == q[1]) {
+                gap += fabs(mesh.positions[3 * (size_t)a + 2] - mesh.positions[3 * (size_t)b + 2]);
+                ++lips;
+            }
+        }
+    }
+    assert_true(lips > 30);
+    if (gap / lips < 0.7 * fallen) {
+        fail_msg("lips are %g m apart, and %g m have been fallen", gap / lips, fallen);
+    }
+    Host_Stop(&stage.host);
+}
+
 /* ---- Calls ---- */
 
 /* What is refused, and that it changes nothing. */
@@ -678,25 +712,16 @@ static void TestRaysMakeNoDifference(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSwipesPart),
-        cmocka_unit_test(TestTwentySwipes),
-        cmocka_unit_test(TestBackAndForth),
-        cmocka_unit_test(TestLoops),
-        cmocka_unit_test(TestClosedLoop),
-        cmocka_unit_test(TestStandsStill),
-        cmocka_unit_test(TestLeavesAndComesBack),
-        cmocka_unit_test(TestShortEdge),
-        cmocka_unit_test(TestTurningEdge),
-        cmocka_unit_test(TestFold),
-        cmocka_unit_test(TestSeveralPieces),
-        cmocka_unit_test(TestAllSheets),
-        cmocka_unit_test(TestFallsPast),
-        cmocka_unit_test(TestFallsAlong),
-        cmocka_unit_test(TestDetached),
-        cmocka_unit_test(TestRefusals),
-        cmocka_unit_test(TestExtremeEdges),
-        cmocka_unit_test(TestWithoutMemory),
-        cmocka_unit_test(TestRaysMakeNoDifference),
+        cmocka_unit_test(TestSwipesPart),         cmocka_unit_test(TestTwentySwipes),
+        cmocka_unit_test(TestBackAndForth),       cmocka_unit_test(TestLoops),
+        cmocka_unit_test(TestClosedLoop),         cmocka_unit_test(TestStandsStill),
+        cmocka_unit_test(TestLeavesAndComesBack), cmocka_unit_test(TestShortEdge),
+        cmocka_unit_test(TestTurningEdge),        cmocka_unit_test(TestFold),
+        cmocka_unit_test(TestSeveralPieces),      cmocka_unit_test(TestAllSheets),
+        cmocka_unit_test(TestFallsPast),          cmocka_unit_test(TestFallsAlong),
+        cmocka_unit_test(TestDetached),           cmocka_unit_test(TestOpensAtOnce),
+        cmocka_unit_test(TestRefusals),           cmocka_unit_test(TestExtremeEdges),
+        cmocka_unit_test(TestWithoutMemory),      cmocka_unit_test(TestRaysMakeNoDifference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
