@@ -3,6 +3,7 @@
 #include "host.h"
 #include "scene.h"
 #include "view/kiri_ray.h"
+#include "view/kiri_section.h"
 #include "world/kiri_world.h"
 
 /* ---- A surface without a sheet ---- */
@@ -199,6 +200,136 @@ static void TestFindsWhatIsThere(void** state)
     assert_true(hits > rays / 2 && hits < rays);
 }
 
+/* ---- Sections ---- */
+
+/* A part of a plane near the cloth, and what is on its two edges. */
+typedef struct Board {
+    kiriVec3 corner[4], from, to;
+    kiriWindow window;
+} Board;
+
+static bool Board_Make(Board* board, const Cloth* cloth, uint32_t* seed)
+{
+    kiriVec3 at = cloth->surface.exact.data[Random(seed) % (uint32_t)cloth->surface.vertexCount];
+    kiriVec3 a = RandomVec3(seed, 0.6), b = RandomVec3(seed, 0.6), half = kiriVec3_Scale(0.5, kiriVec3_Add(a, b));
+    kiriVec3 start = kiriVec3_Sub(kiriVec3_Add(at, RandomVec3(seed, 0.05)), half);
+    board->corner[0] = start;
+    board->corner[1] = kiriVec3_Add(start, a);
+    board->corner[2] = kiriVec3_Add(board->corner[1], b);
+    board->corner[3] = kiriVec3_Add(start, b);
+    board->from = kiriVec3_AddScaled(start, 0.3, a);
+    board->to = kiriVec3_Add(board->from, b);
+    return kiriWindow_Make(&board->window, board->corner, board->from, board->to);
+}
+
+/* How long the stretch is that a triangle has in the window, in the rest plane: found by itself, cut off by bisection. */
+static double StretchIn(const Cloth* cloth, const kiriWindow* window, int32_t triangle)
+{
+    const int32_t* v = &cloth->surface.indices.data[3 * (size_t)triangle];
+    kiriSectionPoint end[2];
+    int count = 0;
+    for (int k = 0; k < 3; ++k) {
+        int32_t a = v[k], b = v[(k + 1) % 3];
+        double ha = kiriVec3_Dot(window->normal, cloth->surface.exact.data[a]) - window->offset;
+        double hb = kiriVec3_Dot(window->normal, cloth->surface.exact.data[b]) - window->offset;
+        if ((ha >= 0.0) != (hb >= 0.0) && count < 2) {
+            double t = ha / (ha - hb);
+            kiriVec2 ra = cloth->surface.rest.data[a], rb = cloth->surface.rest.data[b];
+            kiriVec3 xa = cloth->surface.exact.data[a], xb = cloth->surface.exact.data[b];
+            end[count].rest = kiriVec2_Add(ra, kiriVec2_Scale(t, kiriVec2_Sub(rb, ra)));
+            end[count++].at = kiriVec3_AddScaled(xa, t, kiriVec3_Sub(xb, xa));
+        }
+    }
+    double low = 0.0, high = 1.0;
+    for (int side = 0; count == 2 && side < KIRI_SIDES; ++side) {
+        double d0 = kiriVec3_Dot(window->inward[side], end[0].at) - window->level[side];
+        double d1 = kiriVec3_Dot(window->inward[side], end[1].at) - window->level[side];
+        if (d0 < 0.0 && d1 < 0.0) {
+            return 0.0;
+        }
+        double t = d0 / (d0 - d1);
+        low = d0 < 0.0 && t > low ? t : low;
+        high = d1 < 0.0 && t < high ? t : high;
+    }
+    return count == 2 && high > low ? (high - low) * kiriVec2_Length(kiriVec2_Sub(end[1].rest, end[0].rest)) : 0.0;
+}
+
+/* The lines hold what the triangles hold one by one. */
+static void CheckLengths(const Cloth* cloth, const Board* board, const kiriSection* section)
+{
+    double lines = 0.0, triangles = 0.0;
+    for (int32_t i = 0; i < section->lines.count; ++i) {
+        const kiriSectionLine* line = &section->lines.data[i];
+        assert_true(line->count >= 2 && line->first + line->count <= section->points.count);
+        for (int32_t k = line->first; k + 1 < line->first + line->count; ++k) {
+            lines += kiriVec2_Length(kiriVec2_Sub(section->points.data[k + 1].rest, section->points.data[k].rest));
+        }
+    }
+    for (int32_t t = 0; t < cloth->surface.triangleCount; ++t) {
+        triangles += StretchIn(cloth, &board->window, t);
+    }
+    AssertNear(lines, triangles, 1e-7 * (1.0 + triangles));
+}
+
+/* Lines end on sides of the window, or where the material ends: a little beyond it there is none, or another lip. */
+static void CheckEnds(const Cloth* cloth, const Board* board, const kiriSection* section, int32_t ends[7])
+{
+    for (int32_t i = 0; i < section->lines.count; ++i) {
+        const kiriSectionLine* line = &section->lines.data[i];
+        for (int k = 0; k < 2; ++k) {
+            const kiriSectionPoint* p = &section->points.data[line->first + (k == 0 ? 0 : line->count - 1)];
+            ++ends[line->end[k]];
+            AssertNear(kiriVec3_Dot(board->window.normal, p->at), board->window.offset, 1e-6);
+            if (line->end[k] < KIRI_SIDES) {
+                double length = kiriVec3_Length(board->window.inward[line->end[k]]);
+                AssertNear(kiriVec3_Dot(board->window.inward[line->end[k]], p->at), board->window.level[line->end[k]],
+                           1e-6 * (1.0 + length) + 1e-9 * fabs(board->window.level[line->end[k]]));
+            } else if (line->end[k] == KIRI_END_BORDER) {
+                kiriVec2 beyond = kiriVec2_Add(p->rest, kiriVec2_Scale(1e-4, line->out[k]));
+                kiriVec2 before = kiriVec2_Add(p->rest, kiriVec2_Scale(-1e-7, line->out[k]));
+                bool isIn = kiriMesh_Locate(&cloth->scene.mesh, kiriMesh_Snap(&cloth->scene.mesh, beyond)) != KIRI_NONE;
+                AssertNear(kiriVec2_Length(line->out[k]), 1.0, 1e-12);
+                assert_int_not_equal(kiriMesh_Locate(&cloth->scene.mesh, kiriMesh_Snap(&cloth->scene.mesh, before)),
+                                     KIRI_NONE);
+                ends[6] += isIn; /* a lip */
+            }
+        }
+    }
+}
+
+static void TestSections(void** state)
+{
+    (void)state;
+    uint32_t seed = 29;
+    int32_t ends[7] = { 0 }, lines = 0;
+    for (int round = 0; round < 40; ++round) {
+        Cloth cloth;
+        Cloth_Init(&cloth, &seed);
+        for (int step = 0; step < 4; ++step) {
+            kiriSection section = { { NULL, 0, 0 }, { NULL, 0, 0 } };
+            Board board;
+            MoveAtRandom(&cloth, &seed);
+            for (int k = 0; k < 20; ++k) {
+                section.points.count = section.lines.count = 0;
+                if (Board_Make(&board, &cloth, &seed)) {
+                    assert_true(kiriSection_Add(&section, &cloth.room, &cloth.surface, &cloth.bounds, &board.window));
+                    CheckLengths(&cloth, &board, &section);
+                    CheckEnds(&cloth, &board, &section, ends);
+                    lines += section.lines.count;
+                }
+            }
+            kiriArray_Release(&cloth.room, &section.points);
+            kiriArray_Release(&cloth.room, &section.lines);
+            CutAtRandom(&cloth, &seed);
+        }
+        Cloth_Release(&cloth);
+    }
+    assert_true(lines > 2000);
+    for (int k = 0; k < 7; ++k) {
+        assert_true(k == KIRI_END_LOOP || ends[k] > 100);
+    }
+}
+
 /* An update is refused or done; refused, nothing is found wrong, and a later one goes through. */
 static void TestWithoutMemory(void** state)
 {
@@ -344,8 +475,8 @@ static void TestAllSheets(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestFindsWhatIsThere), cmocka_unit_test(TestWithoutMemory), cmocka_unit_test(TestWhoAsks),
-        cmocka_unit_test(TestWhileItIsCut),     cmocka_unit_test(TestAllSheets),
+        cmocka_unit_test(TestFindsWhatIsThere), cmocka_unit_test(TestSections),     cmocka_unit_test(TestWithoutMemory),
+        cmocka_unit_test(TestWhoAsks),          cmocka_unit_test(TestWhileItIsCut), cmocka_unit_test(TestAllSheets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

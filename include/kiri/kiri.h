@@ -544,7 +544,7 @@ KIRI_API kiriResult kiriFrame_GetPieceUserData(const kiriWorld* world, kiriFrame
 
 /* Where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: nowhere. The first ray looks at
    every triangle; the next tick makes boxes over them, and as long as somebody asks every now and then (in 120 ticks)
-   they follow the sheet, which costs each tick a fifth of what skinning costs, and a ray takes some microseconds. */
+   they follow the sheet: a ray takes some microseconds, and a tick of a large sheet a quarter more. */
 typedef struct kiriHit {
     float restPoint[2]; /* where to cut */
     float position[3];
