@@ -622,6 +622,122 @@ static void TestSeenIsHeld(void** state)
     }
 }
 
+static kiriObstacle AddBall(Host* host, float x, float y, float z, float mass)
+{
+    kiriObstacleDef def;
+    kiriObstacle ball;
+    kiriDefaultObstacleDef(&def);
+    def.type = KIRI_OBSTACLE_SPHERE;
+    def.radius = 0.05f;
+    def.groups = 0; /* the pin alone */
+    def.mass = mass;
+    def.position[0] = x;
+    def.position[1] = y;
+    def.position[2] = z;
+    OK(kiriCreateObstacle(host->world, &def, &ball));
+    return ball;
+}
+
+static kiriPin PinTo(Host* host, kiriSheet sheet, kiriObstacle obstacle, float u, float v)
+{
+    kiriPinDef def;
+    kiriPin pin;
+    kiriPointState point = PointAt(host, sheet, u, v);
+    kiriDefaultPinDef(&def);
+    def.restPoint[0] = u;
+    def.restPoint[1] = v;
+    def.obstacle = obstacle;
+    memcpy(def.target, point.position, sizeof(def.target));
+    OK(kiriCreatePin(host->world, sheet, &def, &pin));
+    return pin;
+}
+
+/* Where it goes the point goes, by velocity and by turning; what the pin bears the obstacle gets. */
+static void TestPinGoesWithObstacle(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetDef def = Host_SmallDef();
+    const float velocity[3] = { 1.0f, 0.0f, 0.5f }, spin[3] = { 0.0f, 0.0f, 2.0f }, none[3] = { 0.0f, 0.0f, 0.0f };
+    kiriObstacleState ball;
+    kiriPinState pinState;
+    kiriPinDef bad;
+    Host_Start(&host);
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriObstacle obstacle = AddBall(&host, 0.1f, 1.0f, 0.0f, 0.0f);
+    kiriPin pin = PinTo(&host, sheet, obstacle, 0.0f, 1.0f), other;
+    OK(kiriObstacle_SetVelocity(host.world, obstacle, velocity, spin));
+    for (int i = 0; i < 60; ++i) {
+        double force[3], torque[3], off = 0.0;
+        OK(Host_Tick(&host, DT, 2));
+        OK(kiriObstacle_GetState(host.world, obstacle, &ball));
+        OK(kiriPin_GetState(host.world, pin, &pinState));
+        OK(kiriPin_GetReaction(host.world, pin, force, torque));
+        for (int k = 0; k < 3; ++k) {
+            double there = (double)ball.position[k] - 0.1 * ball.rotation[k];
+            off = fmax(off, fabs(there - pinState.target[k]));
+            assert_true(fabs(ball.impulse[k] + force[k] / 60.0) < 1e-6);
+        }
+        assert_true(off < 1e-5 && Apart(PointAt(&host, sheet, 0.0f, 1.0f).position, pinState.target) < 0.02);
+        assert_true(pinState.obstacle == obstacle);
+    }
+    assert_true(fabs(ball.rotation[0] - cos(2.0)) < 1e-3 && fabs(ball.position[0] - 1.1) < 1e-4);
+    OK(kiriObstacle_SetVelocity(host.world, obstacle, none, none));
+    OK(kiriDestroyObstacle(host.world, obstacle));
+    float last[3] = { pinState.target[0], pinState.target[1], pinState.target[2] };
+    OK(Host_Tick(&host, DT, 2));
+    OK(kiriPin_GetState(host.world, pin, &pinState));
+    assert_true(pinState.obstacle == 0 && Apart(last, pinState.target) == 0.0);
+    kiriDefaultPinDef(&bad);
+    bad.obstacle = obstacle;
+    assert_int_equal(kiriCreatePin(host.world, sheet, &bad, &other), KIRI_ERROR_ID);
+    Host_Stop(&host);
+}
+
+/* A body of the host hangs at a sheet by a pin, without gravity, and is thrown: together they keep their momentum, and the
+   pin holds, whatever the masses. */
+static void TestBodyAtPinKeepsMomentum(void** state)
+{
+    (void)state;
+    for (int decade = -2; decade <= 3; ++decade) {
+        Host host;
+        kiriSheetDef def = Host_SmallDef();
+        const float none[3] = { 0.0f, 0.0f, 0.0f },
+                    turned[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+        Host_Start(&host);
+        OK(kiriWorld_SetGravity(host.world, none));
+        def.material.airDamping = 0.0f;
+        def.sleepSpeed = 0.0f;
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+        double mass = Host_Totals(&host, sheet).mass * pow(10.0, decade), v[3] = { 0.0, 0.0, 1.0 };
+        double x[3] = { 0.0, 1.0, 0.0 }, worst = 0.0, apart = 0.0;
+        kiriObstacle obstacle = AddBall(&host, 0.0f, 1.0f, 0.0f, (float)mass);
+        PinTo(&host, sheet, obstacle, 0.0f, 1.0f);
+        for (int i = 0; i < 120; ++i) {
+            kiriObstacleState ball;
+            const float velocity[3] = { (float)v[0], (float)v[1], (float)v[2] };
+            const float position[3] = { (float)x[0], (float)x[1], (float)x[2] };
+            OK(kiriObstacle_SetPose(host.world, obstacle, position, turned));
+            OK(kiriObstacle_SetVelocity(host.world, obstacle, velocity, none));
+            OK(Host_Tick(&host, DT, 2));
+            OK(kiriObstacle_GetState(host.world, obstacle, &ball));
+            kiriTotals totals = Host_Totals(&host, sheet);
+            for (int k = 0; k < 3; ++k) {
+                v[k] += ball.impulse[k] / mass;
+                x[k] += v[k] / 60.0;
+                worst = fmax(worst, fabs(totals.momentum[k] + mass * v[k] - (k == 2 ? mass : 0.0)) / mass);
+            }
+            const float there[3] = { (float)x[0], (float)x[1], (float)x[2] };
+            apart = fmax(apart, Apart(PointAt(&host, sheet, 0.0f, 1.0f).position, there));
+        }
+        print_message("a body of 1e%d of the sheet: momentum off by %.1e, pin by %.1f mm, %.2f m/s at the end\n",
+                      decade, worst, 1e3 * apart, sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+        assert_true(worst < 0.01 && apart < 0.03);
+        assert_true(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < 1.3);
+        Host_Stop(&host);
+    }
+}
+
 /* ---- Place, velocity, data ---------------------------------------------------------------------------------------- */
 
 /* A sheet that is carried to another place in free fall goes on as it would have there: rotated gravity, rotated start. */
@@ -951,6 +1067,8 @@ int main(void)
         cmocka_unit_test(TestDrawnPinDoesNotJerk),
         cmocka_unit_test(TestHeldFrameMovesEvenly),
         cmocka_unit_test(TestSeenIsHeld),
+        cmocka_unit_test(TestPinGoesWithObstacle),
+        cmocka_unit_test(TestBodyAtPinKeepsMomentum),
         cmocka_unit_test(TestTransformMovesAll),
         cmocka_unit_test(TestTransformIsChecked),
         cmocka_unit_test(TestVelocityIsRigid),

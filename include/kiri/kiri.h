@@ -767,8 +767,9 @@ typedef struct kiriPinDef {
     float target[3];       /* m, world: where it is held */
     float stiffness;       /* N/m; 0: ten times Young's modulus times thickness */
     float breakForce;      /* N: it breaks (KIRI_EVENT_PIN_BROKE) in a tick in which it held with more; 0: never */
-    kiriObstacle obstacle; /* or 0. The target goes with this obstacle from where it is when the pin is made, and the
-                              obstacle feels the pin: kiriObstacle_GetImpulse */
+    kiriObstacle obstacle; /* or 0. The target goes with this obstacle from where it is when the pin is made, or
+                              kiriPin_SetTarget puts it, and the obstacle feels the pin (kiriObstacle_GetState); one with
+                              mass yields to it within the tick. When it is destroyed the target stays where it was */
 } kiriPinDef;
 
 KIRI_API void kiriDefaultPinDef(kiriPinDef* def);
@@ -809,6 +810,7 @@ typedef struct kiriPinState {
     float target[3];
     float rotation[9]; /* of a line; of a point the identity */
     float breakForce;  /* N, or 0 */
+    kiriObstacle obstacle; /* that it goes with, or 0 */
 } kiriPinState;
 
 KIRI_API kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* state);

@@ -160,10 +160,32 @@ static bool IsAnyPinMoved(const kiriSheetData* sheet)
     return any;
 }
 
-/* Rows of pins that rest are the same in all steps, and are there. */
-void kiriFollow_Step(kiriSheetData* sheet, int32_t i, int32_t n)
+/* By the end of the step, `after` s after the start of the tick. Pins that hold points have the first rows, in their
+   order. */
+static bool Yield(kiriSheetData* sheet, double after, double h)
 {
-    if (IsAnyPinMoved(sheet)) {
+    bool any = false;
+    int32_t row = 0;
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        kiriPinAnchor* anchor = &sheet->pins.data[i].anchor;
+        if (sheet->pins.data[i].type != KIRI_PIN_POINT) {
+            continue;
+        }
+        if (anchor->most > 0.0) {
+            kiriVec3 given = kiriVec3_Scale(-1.0, sheet->pinReactions.data[row].impulse.force);
+            anchor->way = kiriVec3_Scale(after, kiriMat3_Mul(anchor->give, given));
+            anchor->softness = after * h * anchor->most;
+            any = true;
+        }
+        ++row;
+    }
+    return any;
+}
+
+/* Rows of pins that rest are the same in all steps, and are there. */
+void kiriFollow_Step(kiriSheetData* sheet, int32_t i, int32_t n, double h)
+{
+    if (Yield(sheet, (i + 1) * h, h) || IsAnyPinMoved(sheet)) {
         kiriPins_WriteRows(sheet, (double)i / n, i + 1 == n ? 1.0 : (i + 1.0) / n);
     }
     for (int32_t f = 0; f < sheet->frames.count; ++f) {

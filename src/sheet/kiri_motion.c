@@ -105,7 +105,7 @@ static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system,
 {
     substeps = systems->left < substeps ? (int32_t)systems->left : substeps;
     for (int32_t i = 0; i < substeps; ++i) {
-        kiriFollow_Step(sheet, i, substeps);
+        kiriFollow_Step(sheet, i, substeps, dt / substeps);
         int64_t most = systems->left - (substeps - 1 - i);
         int32_t solved = kiriSolver_Step(sheet->solver, system, dt / substeps, sheet->settings.iterations,
                                          most < INT32_MAX ? (int32_t)most : INT32_MAX);

@@ -278,11 +278,13 @@ static kiriMat3 RotationAfter(const kiriPinData* pin, double part)
     return kiriMat3_RotationFrom(*a, mean);
 }
 
+/* An obstacle that yields is another spring in series. */
 static void WritePoint(kiriSheetData* sheet, int32_t pin, double to)
 {
     const kiriPinData* data = &sheet->pins.data[pin];
-    kiriPinRow row = { sheet->layout.pinFrame.data[pin], kiriMesh_Local(&sheet->mesh, data->at),
-                       kiriVec3_Add(TargetAfter(data, to), data->off), data->stiffness };
+    kiriVec3 target = kiriVec3_Add(kiriVec3_Add(TargetAfter(data, to), data->off), data->anchor.way);
+    double stiffness = data->stiffness / (1.0 + data->stiffness * data->anchor.softness);
+    kiriPinRow row = { sheet->layout.pinFrame.data[pin], kiriMesh_Local(&sheet->mesh, data->at), target, stiffness };
     sheet->pinRows.data[sheet->pinRows.count++] = row;
 }
 

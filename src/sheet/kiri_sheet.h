@@ -77,6 +77,16 @@ typedef struct kiriPieceLists {
     KIRI_ARRAY(int32_t) corners; /* of the triangles */
 } kiriPieceLists;
 
+/* An obstacle that a pin goes with. What the pin gives it moves it within the tick: so far only the host will know. */
+typedef struct kiriPinAnchor {
+    kiriObstacle obstacle; /* or 0 */
+    kiriVec3 local;        /* the target, in the axes of the obstacle */
+    kiriMat3 give;         /* 1/kg: velocity of the target by an impulse there; zero: it does not yield */
+    double most;           /* 1/kg: no direction gives more */
+    kiriVec3 way;          /* m: that it has yielded since the start of the tick, */
+    double softness;       /* m/N: and by how much a force moves it in the step at hand */
+} kiriPinAnchor;
+
 typedef struct kiriPinData {
     kiriPin id;
     uint64_t userData;       /* the host's own */
@@ -87,6 +97,7 @@ typedef struct kiriPinData {
     kiriVec3 lastTarget;     /* in the last tick */
     kiriMat3 lastRotation;
     double breakForce;     /* N; 0: never */
+    kiriPinAnchor anchor;  /* of a point */
     kiriVec3 off;          /* m, of a point: see kiri_follow.h; */
     kiriFrame offFrame;    /* of the frame that held it then */
     double stiffness;      /* of a point */

@@ -1,6 +1,7 @@
 #include "kiri_call.h"
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_pin.h"
+#include "kiri_pin_step.h"
 
 #include <math.h>
 #include <string.h>
@@ -50,12 +51,17 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
                    kiriCall_IsAtLeast(def->stiffness, 0.0f) && kiriCall_IsAtLeast(def->breakForce, 0.0f),
                "restPoint, target, stiffness or breakForce is not finite, or one of the latter below 0");
     KIRI_FIND_SHEET(data, sheet);
+    if (def->obstacle != 0 && kiriCall_Owner(&world->obstacleIds, def->obstacle) == NULL) {
+        return KIRI_FAIL(KIRI_ERROR_ID, "there is no obstacle with this id");
+    }
     kiriPinData made = MakePin(KIRI_PIN_POINT);
     bool inRange = kiriSheet_ToLattice(data, def->restPoint, &made.at);
     int32_t frame = inRange ? kiriOwner_At(data, made.at) : KIRI_NONE;
     KIRI_CHECK(frame != KIRI_NONE, "restPoint lies outside the material");
     made.to = made.at;
     made.target = made.lastTarget = kiriVec3_Load(def->target);
+    made.anchor.obstacle = def->obstacle;
+    kiriPinStep_Fasten(world, &made);
     made.breakForce = def->breakForce;
     made.stiffness = def->stiffness > 0.0f
                          ? def->stiffness
@@ -128,6 +134,7 @@ kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3
     kiriPinData* data = &sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index];
     if (!kiriVec3_Equal(data->target, kiriVec3_Load(target))) {
         data->target = kiriVec3_Load(target);
+        kiriPinStep_Fasten(world, data);
         kiriPins_ForgetHistory(sheet, (int32_t)(data - sheet->pins.data));
         kiriMotion_Wake(sheet);
     }
@@ -187,6 +194,7 @@ kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* s
     StoreRest(sheet, data->at, state->from);
     StoreRest(sheet, data->to, state->to);
     state->breakForce = (float)data->breakForce;
+    state->obstacle = kiriPinStep_Obstacle(world, data) != NULL ? data->anchor.obstacle : 0;
     kiriVec3_Store(state->target, data->target);
     kiriVec3_Store(&state->rotation[0], data->rotation.u);
     kiriVec3_Store(&state->rotation[3], data->rotation.v);

@@ -297,6 +297,8 @@ static void HashPin(uint64_t* hash, const kiriPinData* pin)
     HashVec3(hash, pin->off);
     kiriHash_Int32(hash, pin->offFrame != 0);
     kiriHash_Double(hash, pin->breakForce);
+    kiriHash_Int32(hash, pin->anchor.obstacle != 0);
+    HashVec3(hash, pin->anchor.local);
     kiriHash_Double(hash, pin->stiffness);
     HashReaction(hash, &pin->reaction, &pin->bore);
     if (pin->type == KIRI_PIN_POINT) {

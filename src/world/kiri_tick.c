@@ -8,6 +8,7 @@
 #include "../sheet/kiri_touch.h"
 #include "kiri_blade.h"
 #include "kiri_obstacle_step.h"
+#include "kiri_pin_step.h"
 
 #include <string.h>
 
@@ -242,8 +243,12 @@ static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps, kiriQu
     for (int32_t k = 0; k < count; ++k) {
         int32_t i = (first + k) % count;
         kiriObstacles_LoadYields(world, world->sheets.data[i]);
+        kiriPinStep_Begin(world, world->sheets.data[i], dt);
         kiriProgress progress = kiriMotion_Solve(world->sheets.data[i], world->gravity, dt, substeps, iterations);
         kiriObstacles_TakeImpulses(world, world->sheets.data[i], dt);
+        if (progress != KIRI_MORE) {
+            kiriPinStep_End(world, world->sheets.data[i], dt);
+        }
         if (progress == KIRI_FAILED) {
             AddEvent(world, KIRI_EVENT_DIVERGED, world->sheets.data[i]);
             result = KIRI_DIVERGED;
