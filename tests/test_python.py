@@ -609,6 +609,57 @@ def test_pins_break():
     assert broken == [pin.id] and sheet.pins() == []
 
 
+def test_obstacles():
+    world = kiri.World()
+    sheet = world.create_rectangle(0.5, 0.5, 8, 8, position=(-0.25, -0.25, 0.1))
+    floor = world.create_obstacle(kiri.KIRI_OBSTACLE_PLANE, friction=0.3)
+    box = world.create_obstacle(kiri.KIRI_OBSTACLE_BOX, size=(0.2, 0.2, 0.1), mass=1)
+    world.create_obstacle(kiri.KIRI_OBSTACLE_PRISM, outline=[(1, 0), (2, 0), (2, 1)], height=1)
+    lower, upper = sheet.reach(1 / 60)
+    assert lower[0] < -0.25 and upper[2] > 0.1
+    for _ in range(60):
+        world.tick(1 / 60, 2)
+    assert box.state().contacts > 0 and box.state().impulse[2] < 0
+    assert sheet.totals().center[2] > 0 and floor.state().impulse[0] == floor.state().impulse[0]
+    pin = sheet.create_pin((0, 0), sheet.point((0, 0)).position, obstacle=box)
+    assert pin.state().obstacle == box.id
+    box.set_velocity((0, 0, 1))
+    box.set_surface_velocity((0, 1, 0))
+    box.set_mass(2, (1, 1, 1, 0, 0, 0))
+    before = pin.state().target[2]
+    world.tick(1 / 60)
+    assert abs(pin.state().target[2] - before - 1 / 60) < 1e-5
+    box.set_pose((0, 0, 5))
+    assert box.state().position == (0, 0, 5)
+    assert world.raycast((0, 0, 9), (0, 0, -1), 20)[0] == sheet
+    assert world.raycast((9, 0, 9), (0, 0, -1), 20) is None
+    box.destroy()
+    assert raises(kiri.KiriError, box.state).result == kiri.KIRI_ERROR_ID
+
+
+def test_blade_and_pieces():
+    world = kiri.World(gravity=(0, 0, 0))
+    sheet = world.create_rectangle(1.0, 1.0, 8, 8)
+    blade = world.begin_blade(sheet)
+    for step in range(12):
+        y = -0.1 + 0.11 * step
+        blade.move_ray((0.5, y, 1), (0, 0, -1), 2) if step % 2 else blade.move_edge((0.5, y, 1), (0.5, y, -1))
+        world.tick(1 / 60)
+    blade.end()
+    world.tick(1 / 60)
+    assert sheet.counts().pieces == 2
+    frames = [sheet.piece_frames(piece)[0] for piece in range(2)]
+    part, = world.detach_pieces(frames[1:])
+    assert abs(part.totals().area - 0.5) < 0.01 and sheet.counts().pieces == 1
+    line = sheet.begin_cut((-0.1, 0.5))
+    line.extend([(0.6, 0.5)])
+    world.set_budget(cells=10000)
+    world.tick(1 / 60)
+    assert sheet.counts().pieces == 2
+    world.destroy_pieces(sheet.piece_frames(1)[:1])
+    assert sheet.counts().pieces == 1 and abs(sheet.totals().area - 0.25) < 0.01
+
+
 def test_user_data():
     world, sheet, _ = make_scene()
     sheet.set_user_data(2 ** 64 - 1)

@@ -65,6 +65,7 @@ _arrays = {
                  "sourceWeights": ("vertexCount", 3)},
     "kiriSolid": {"positions": ("vertexCount", 3), "normals": ("vertexCount", 3), "restPositions": ("vertexCount", 2),
                   "indices": ("triangleCount", 3), "sources": ("vertexCount", 1)},
+    "kiriObstacleDef": {"outline": ("outlineCount", 2)},
     "kiriPieceMesh": {"vertices": ("vertexCount", 1), "triangles": ("triangleCount", 1),
                       "indices": ("triangleCount", 3), "collisionPoints": ("collisionPointCount", 1)},
 }
@@ -148,6 +149,8 @@ def _fill(lib, struct, values, kept):
         if isinstance(value, dict) and field.kind == "struct":
             _fill(lib, getattr(struct, name), value, kept)
             continue
+        if isinstance(value, _Handle):
+            value = value.id
         if value is None:
             value = ffi.NULL
         elif field.kind == "array":
@@ -368,6 +371,37 @@ class World:
         ids = [frame.id for frame in frames]
         self.call("kiriWorld_DestroyPieces", ffi.new("kiriFrame[]", ids), len(ids))
 
+    def set_budget(self, **fields):
+        """Fields of kiriBudget by name; none: no limit."""
+        budget = ffi.new("kiriBudget*")
+        _fill(self.lib, budget, fields, [])
+        self.call("kiriWorld_SetBudget", budget)
+
+    def raycast(self, origin, direction, max_distance):
+        """The first sheet that a ray meets, and a kiriHit; or None."""
+        sheet, hit = ffi.new("kiriSheet*"), ffi.new("kiriHit*")
+        self.call("kiriWorld_Raycast", _vector(origin, 3), _vector(direction, 3), max_distance, sheet, hit)
+        return (Sheet(self, sheet[0]), _record(hit[0])) if sheet[0] else None
+
+    def create_obstacle(self, type, **fields):
+        """KIRI_OBSTACLE_..., and other fields of kiriObstacleDef by name."""
+        if "outline" in fields:
+            fields["outline"], fields["outlineCount"] = _rows("float", fields["outline"], 2)
+        return Obstacle(self, self.create("Obstacle", type=type, **fields))
+
+    def begin_blade(self, sheet=None):
+        """A blade in world space, for one sheet or for all."""
+        return Blade(self, self.get("kiriBeginBlade", "kiriBlade", sheet.id if sheet else 0))
+
+    def detach_pieces(self, frames):
+        """The pieces with these frames as sheets of their own; frames of one piece have the same."""
+        sheets = ffi.new("kiriSheet[]", max(len(frames), 1))
+        self.call("kiriWorld_DetachPieces", [frame.id for frame in frames], len(frames), sheets)
+        return [Sheet(self, sheets[i]) for i in range(len(frames))]
+
+    def destroy_pieces(self, frames):
+        self.call("kiriWorld_DestroyPieces", [frame.id for frame in frames], len(frames))
+
     def create_sheet(self, positions, triangles, **fields):
         """Rest positions and triangles, flat or in rows; other fields of kiriSheetDef by name, material and paper as
         dicts."""
@@ -415,6 +449,12 @@ class Sheet(_Handle):
     def collision_points(self):
         return self.world.get_array(lambda positions, count: _copy(positions, count, 3), "kiriSheet_GetCollisionPoints",
                                     "float", self.id)
+
+    def reach(self, dt):
+        """The lower and the upper corner of the box that holds all that it may touch in a tick of dt."""
+        lower, upper = ffi.new("float[3]"), ffi.new("float[3]")
+        self.world.call("kiriSheet_GetReach", self.id, dt, lower, upper)
+        return tuple(lower), tuple(upper)
 
     def counts(self):
         return _record(self.world.get("kiriSheet_GetCounts", "kiriCounts", self.id))
@@ -632,3 +672,36 @@ class Pin(_Handle):
 
     def destroy(self):
         self.world.call("kiriDestroyPin", self.id)
+
+
+class Obstacle(_Handle):
+    def state(self):
+        return _record(self.world.get("kiriObstacle_GetState", "kiriObstacleState", self.id))
+
+    def set_pose(self, position, rotation=(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)):
+        """Rotation: 9 numbers, column after column."""
+        self.world.call("kiriObstacle_SetPose", self.id, _vector(position, 3), _vector(rotation, 9))
+
+    def set_velocity(self, velocity, angular_velocity=(0.0, 0.0, 0.0)):
+        self.world.call("kiriObstacle_SetVelocity", self.id, _vector(velocity, 3), _vector(angular_velocity, 3))
+
+    def set_surface_velocity(self, velocity):
+        self.world.call("kiriObstacle_SetSurfaceVelocity", self.id, _vector(velocity, 3))
+
+    def set_mass(self, mass, inertia=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), center_of_mass=(0.0, 0.0, 0.0)):
+        self.world.call("kiriObstacle_SetMass", self.id, mass, _vector(inertia, 6), _vector(center_of_mass, 3))
+
+    def destroy(self):
+        self.world.call("kiriDestroyObstacle", self.id)
+
+
+class Blade(_Handle):
+    def move_edge(self, start, end):
+        """It is now the straight edge between two points of the world."""
+        self.world.call("kiriBlade_MoveEdge", self.id, _vector(start, 3), _vector(end, 3))
+
+    def move_ray(self, origin, direction, length):
+        self.world.call("kiriBlade_MoveRay", self.id, _vector(origin, 3), _vector(direction, 3), length)
+
+    def end(self):
+        self.world.call("kiriBlade_End", self.id)
