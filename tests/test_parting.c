@@ -469,6 +469,59 @@ static void TestAskedTwice(void** state)
     Host_Stop(&host);
 }
 
+/* ---- On a floor ---- */
+
+/* How many contacts of the first sheet are known to have pushed. */
+static int32_t CountForces(const Host* host)
+{
+    return SheetAt(host, 0)->touches.forces.count;
+}
+
+/* Four strips that slide down a slope: what pushes on those that are left is remembered, whatever number their vertices
+   get. In the second world one strip goes. */
+static void TestTouchesGoOn(void** state)
+{
+    (void)state;
+    for (int detach = 0; detach < 2; ++detach) {
+        Host hosts[2];
+        kiriSheet sheets[2], made = 0;
+        for (int k = 0; k < 2; ++k) {
+            Host_Start(&hosts[k]);
+            kiriObstacleDef floor;
+            kiriObstacle id;
+            kiriDefaultObstacleDef(&floor);
+            floor.type = KIRI_OBSTACLE_PLANE;
+            static const float gravity[3] = { 1.0f, 0.0f, -9.7f };
+            OK(kiriWorld_SetGravity(hosts[k].world, gravity));
+            OK(kiriCreateObstacle(hosts[k].world, &floor, &id));
+            kiriSheetDef def = DefOf(16);
+            def.position[2] = 0.02f;
+            sheets[k] = Chop(&hosts[k], &def, 1, 4);
+            for (int i = 0; i < 40; ++i) {
+                assert_true(Host_Tick(&hosts[k], 1.0f / 60.0f, 2) >= 0);
+            }
+        }
+        assert_int_equal(Host_Hash(&hosts[0]), Host_Hash(&hosts[1]));
+        kiriFrame gone = Host_FrameOf(&hosts[1], sheets[1], 1), left = Host_FrameOf(&hosts[1], sheets[1], 2);
+        assert_true(CountForces(&hosts[1]) > 0);
+        OK(detach ? kiriFrame_DetachPiece(hosts[1].world, gone, &made) : kiriFrame_DestroyPiece(hosts[1].world, gone));
+        assert_true(CountForces(&hosts[1]) > 0);
+        for (int i = 0; i < 5; ++i) {
+            kiriFrameState states[2];
+            for (int k = 0; k < 2; ++k) {
+                assert_true(Host_Tick(&hosts[k], 1.0f / 60.0f, 2) >= 0);
+                OK(kiriFrame_GetState(hosts[k].world, detach ? gone : left, &states[k]));
+            }
+            for (int d = 0; d < 3; ++d) {
+                assert_float_equal(states[0].position[d], states[1].position[d], 1e-6);
+                assert_float_equal(states[0].velocity[d], states[1].velocity[d], 1e-4);
+            }
+        }
+        Host_Stop(&hosts[0]);
+        Host_Stop(&hosts[1]);
+    }
+}
+
 /* ---- Without memory ---- */
 
 /* Whatever allocation fails of a call while a cut waits, all is as before. */
@@ -618,6 +671,7 @@ int main(void)
         cmocka_unit_test(TestAskedTwice),
         cmocka_unit_test(TestWaitingCallsWithoutMemory),
         cmocka_unit_test(TestWaitingIsPatient),
+        cmocka_unit_test(TestTouchesGoOn),
         cmocka_unit_test(TestFewCells),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
