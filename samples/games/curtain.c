@@ -10,7 +10,8 @@
 enum {
     COLUMNS = 56,
     ROWS = 40,
-    FRAMES = 56,
+    FRAME_ROWS = 6,
+    MAX_FRAMES = 160,
     SUBSTEPS = 2,
     BASKET_TICKS = 60,             /* a mark is ours when it has been in the basket for so long */
     SCRAP_TICKS = 20 * GAME_RATE,  /* other scraps are swept away after that, */
@@ -23,13 +24,13 @@ enum {
 
 const GameCamera curtainCamera = { { 0.25f, -3.55f, 1.62f }, { 0.0f, 0.0f, 0.86f }, 34.0f, 0.0f };
 const float curtainRail = 1.66f;
-const float basketSize[3] = { 0.52f, 0.44f, 0.20f };
+const float basketSize[3] = { 0.56f, 0.48f, 0.18f };
 const float ballRadius = 0.17f, ballPlace[3] = { 0.86f, -0.18f, 0.17f };
 const float tableSize[3] = { 0.42f, 0.40f, 0.24f }, tablePlace[3] = { -0.86f, -0.12f, 0.12f };
 
-static const float wall = 0.03f;          /* of the basket, m: how thick */
+static const float wall = 0.05f;          /* of the basket, m: how thick */
 static const float basketReach = 0.38f;   /* m: how far it goes to either side */
-static const float basketPace = 0.7f;     /* m/s */
+static const float basketPace = 0.5f;     /* m/s */
 static const float crumbArea = 0.0012f;   /* m^2 */
 static const float handStiffness = 60.0f; /* N/m */
 static const float handForce = 7.0f;      /* N: with more it slips out of the fingers */
@@ -78,8 +79,7 @@ static void FillSheetDef(const Curtain* curtain, float depth, kiriSheetDef* def)
     def->axisV[1] = 0.0f;
     def->axisV[2] = 1.0f;
     def->material.airDamping = 0.4f;
-    def->frameCount = FRAMES;
-    def->maxFrames = 3 * FRAMES;
+    def->maxFrames = MAX_FRAMES;
     def->gridResolution = 64;
     def->crumbArea = crumbArea;
     def->skinning = KIRI_SKINNING_SMOOTH;
@@ -87,10 +87,25 @@ static void FillSheetDef(const Curtain* curtain, float depth, kiriSheetDef* def)
     def->contactThickness = 0.008f;
 }
 
+/* Rows of frames below the rings: where the folds are to be. Frames that do not know of the folds let it buckle in other
+   ways, upwards above the rail for one. */
+static int32_t PlaceFrames(const Level* level, float* points)
+{
+    const float inside = 0.03f; /* m: from the border */
+    for (int32_t i = 0; i < level->rings * FRAME_ROWS; i++) {
+        int32_t ring = i % level->rings, row = i / level->rings;
+        float u = level->width * (float)ring / (float)(level->rings - 1);
+        points[2 * i] = fmaxf(inside, fminf(level->width - inside, u));
+        points[2 * i + 1] = level->height * ((float)row + 0.5f) / FRAME_ROWS;
+    }
+    return level->rings * FRAME_ROWS;
+}
+
 static bool AddCloth(Curtain* curtain, Cloth* cloth, int32_t layer)
 {
     static float rest[2 * (COLUMNS + 1) * (ROWS + 1)];
     static int32_t indices[6 * COLUMNS * ROWS];
+    static float framePoints[2 * MAX_RINGS * FRAME_ROWS];
     const Level* level = curtain->level;
     float depth = 0.14f * (float)layer;
     memset(cloth, 0, sizeof *cloth);
@@ -110,6 +125,8 @@ static bool AddCloth(Curtain* curtain, Cloth* cloth, int32_t layer)
     def.vertexCount = (COLUMNS + 1) * (ROWS + 1);
     def.indices = indices;
     def.triangleCount = 2 * COLUMNS * ROWS;
+    def.framePoints = framePoints;
+    def.frameCount = PlaceFrames(level, framePoints);
     if (!Check(curtain, kiriCreateSheet(curtain->world, &def, &cloth->sheet), "sheet")) {
         return false;
     }
@@ -406,7 +423,7 @@ static void GatherCloth(Curtain* curtain, Cloth* cloth)
     for (int32_t i = 0; i < cloth->ringCount && age <= GATHER_TICKS; i++) {
         Ring* ring = &cloth->rings[i];
         ring->target[0] = ring->start[0] * (1.0f + share * (curtain->level->gather - 1.0f));
-        ring->target[1] = ring->start[1] + aside * (i % 2 == 0 ? 0.03f : -0.03f);
+        ring->target[1] = ring->start[1] + aside * (i % 2 == 0 ? 0.05f : -0.05f);
         if (ring->pin != 0) {
             kiriPin_SetTarget(curtain->world, ring->pin, ring->target);
         }

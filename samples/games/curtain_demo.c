@@ -120,7 +120,7 @@ static int32_t Steer(const Curtain* curtain, float x, GameEvent* event)
     return 1;
 }
 
-/* The basket goes with the mark, also while it falls. */
+/* The basket goes with the mark, also while it falls, and stops when it is near. */
 static int32_t SteerToMark(const Curtain* curtain, GameEvent* event)
 {
     const struct Demo* demo = &curtain->demo;
@@ -129,7 +129,8 @@ static int32_t SteerToMark(const Curtain* curtain, GameEvent* event)
                                              curtain->level->mark[demo->mark].middle, &middle) != KIRI_OK) {
         return 0;
     }
-    return Steer(curtain, middle.position[0], event);
+    bool isLow = middle.position[2] < 1.5f * basketSize[2];
+    return Steer(curtain, isLow ? curtain->basketX : middle.position[0], event);
 }
 
 /* The job goes one step on. */
