@@ -294,7 +294,7 @@ $(BUILD)/tests/test_quality: $(BUILD)/tests/sweep.c.o
 
 $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(VALIDATE_OBJECTS) $(SCENE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lcmocka $(TEST_LIBRARIES) -lm
+	@$(LINK) -o $@ $(filter-out %.a,$^) $(filter %.a,$^) -lcmocka $(TEST_LIBRARIES) -lm
 
 $(BUILD)/tests/test_image: $(BUILD)/samples/image.c.o
 $(BUILD)/tests/test_image: TEST_LIBRARIES := -lpng -lz

@@ -271,10 +271,9 @@ static kiriVec3 Beside(kiriVec3 a, kiriVec3 direction)
     return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, direction), direction);
 }
 
-static double EnergyAfter(const kiriContactStep* step, double part)
+/* J: of the linear model, at a depth and a slide. */
+static double EnergyAt(const kiriContactStep* step, double depth, kiriVec3 slide)
 {
-    double depth = step->depth + part * step->sinks;
-    kiriVec3 slide = kiriVec3_AddScaled(step->slide, part, step->slides);
     double energy = 0.5 * step->stiffness * depth * depth;
     if (step->sticks) {
         return energy - kiriVec3_Dot(step->held, slide) + 0.5 * step->grip * kiriVec3_Dot(slide, slide);
@@ -286,16 +285,15 @@ static double EnergyAfter(const kiriContactStep* step, double part)
 
 double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses)
 {
-    kiriContactStep step = solver->contacts.data[k];
-    if (!step.isActive) {
+    const kiriContactStep* step = &solver->contacts.data[k];
+    if (!step->isActive) {
         return 0.0;
     }
     if (solver->isAlong) {
-        return EnergyAfter(&step, PieceOf(solver, system, k)->scale);
+        double part = PieceOf(solver, system, k)->scale;
+        return EnergyAt(step, step->depth + part * step->sinks, kiriVec3_AddScaled(step->slide, part, step->slides));
     }
-    step.depth = kiriContact_Depth(solver, system, k, poses);
-    step.slide = SlideAt(solver, system, k, poses);
-    return EnergyAfter(&step, 0.0);
+    return EnergyAt(step, kiriContact_Depth(solver, system, k, poses), SlideAt(solver, system, k, poses));
 }
 
 /* The friction of the linear model, on the sheet. */
@@ -307,28 +305,19 @@ static kiriVec3 Drag(const kiriContactStep* step, double part)
                                              Beside(slide, step->direction));
 }
 
-/* The derivatives of a move of the point along an axis by the unknowns of a member. */
-static void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiriWeight member, kiriVec2 at,
-                        kiriVec3 axis, double* J)
+/* The derivatives of a move of the point along an axis by the unknowns of a member, at whose `arm` it is. */
+static void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiriWeight member, kiriVec2 local,
+                        kiriVec3 arm, kiriVec3 axis, double* J)
 {
-    kiriVec2 local = kiriVec2_Sub(at, system->frames[member.frame].center);
     kiriVec3 along = kiriVec3_Scale(member.value, axis);
     kiriFrameRow row = { { along, kiriVec3_Scale(local.x, along), kiriVec3_Scale(local.y, along), { 0.0, 0.0, 0.0 } } };
     if (!kiriMechanics_IsAffine(&system->mechanics)) {
-        row.by[1] = kiriVec3_Cross(kiriSystem_Arm(system, member.frame, at, &solver->poses.data[member.frame]), along);
+        row.by[1] = kiriVec3_Cross(arm, along);
     }
     if (system->frames[member.frame].held) {
         memset(J, 0, sizeof(double) * (size_t)solver->size);
     } else {
         kiriSolver_Reduce(solver, &row, J);
-    }
-}
-
-static void DeriveRow(const kiriSolver* solver, const kiriSystem* system, int32_t k, kiriVec3 axis, double* J)
-{
-    const kiriContactStep* step = &solver->contacts.data[k];
-    for (int32_t m = 0; m < step->memberCount; ++m) {
-        DerivePoint(solver, system, step->members[m], system->contacts[k].at, axis, &J[solver->size * m]);
     }
 }
 
@@ -347,51 +336,53 @@ void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, int32_t 
     const kiriContactStep* step = &solver->contacts.data[k];
     double J[ROWS * KIRI_CONTACT_MEMBERS * KIRI_MOST_UNKNOWNS];
     int32_t frames[KIRI_CONTACT_MEMBERS];
-    kiriVec3 axes[2], drag = Drag(step, 0.0);
+    kiriVec3 axes[ROWS] = { system->contacts[k].normal }, drag = Drag(step, 0.0);
     if (!step->isActive) {
         return;
     }
-    FindAxes(step, system->contacts[k].normal, axes);
+    FindAxes(step, axes[0], &axes[1]);
     for (int32_t m = 0; m < step->memberCount; ++m) {
-        frames[m] = step->members[m].frame;
+        kiriWeight member = step->members[m];
+        kiriVec2 local = kiriVec2_Sub(system->contacts[k].at, system->frames[member.frame].center);
+        kiriVec3 arm = kiriPose_Along(&solver->poses.data[member.frame], local);
+        frames[m] = member.frame;
+        for (int e = 0; e < ROWS; ++e) {
+            DerivePoint(solver, system, member, local, arm, axes[e], &J[solver->size * (step->memberCount * e + m)]);
+        }
     }
-    size_t row = (size_t)(step->memberCount * solver->size);
-    DeriveRow(solver, system, k, system->contacts[k].normal, J);
-    DeriveRow(solver, system, k, axes[0], &J[row]);
-    DeriveRow(solver, system, k, axes[1], &J[2 * row]);
     const double springs[ROWS] = { step->stiffness, step->sticks ? step->grip : 0.0,
                                    step->sticks ? step->grip : TurnSpring(step) };
-    const double pulls[ROWS] = { step->stiffness * step->depth, kiriVec3_Dot(drag, axes[0]),
-                                 kiriVec3_Dot(drag, axes[1]) };
+    const double pulls[ROWS] = { step->stiffness * step->depth, kiriVec3_Dot(drag, axes[1]),
+                                 kiriVec3_Dot(drag, axes[2]) };
     kiriSolver_AddSquares(solver, frames, step->memberCount, J, springs, pulls, ROWS);
 }
 
-static double Times(const kiriSolver* solver, const kiriContactStep* step, const double* J)
+/* How the point moves by the solution, to first order. */
+static kiriVec3 MoveOf(const kiriSolver* solver, const kiriSystem* system, int32_t k)
 {
-    double sum = 0.0;
-    for (int32_t m = 0; m < step->memberCount; ++m, J += solver->size) {
-        const double* move = &solver->move.data[solver->size * step->members[m].frame];
-        for (int32_t n = 0; n < solver->size; ++n) {
-            sum += J[n] * move[n];
+    const kiriContactStep* step = &solver->contacts.data[k];
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    for (int32_t m = 0; m < step->memberCount; ++m) {
+        kiriWeight member = step->members[m];
+        kiriVec2 local = kiriVec2_Sub(system->contacts[k].at, system->frames[member.frame].center);
+        kiriFrameRow by = kiriSolver_Expand(solver, 1.0, &solver->move.data[solver->size * member.frame]);
+        kiriVec3 turn = kiriVec3_AddScaled(kiriVec3_Scale(local.x, by.by[1]), local.y, by.by[2]);
+        if (!kiriMechanics_IsAffine(&system->mechanics)) {
+            turn = kiriVec3_Cross(by.by[1], kiriPose_Along(&solver->poses.data[member.frame], local));
         }
+        sum = kiriVec3_AddScaled(sum, member.value, kiriVec3_Add(by.by[0], turn));
     }
     return sum;
 }
 
 void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    double J[KIRI_CONTACT_MEMBERS * KIRI_MOST_UNKNOWNS];
     for (int32_t k = 0; k < system->contactCount; ++k) {
         kiriContactStep* step = &solver->contacts.data[k];
-        kiriVec3 axes[2], normal = system->contacts[k].normal;
         if (PieceOf(solver, system, k)->isSearching && step->isActive) {
-            FindAxes(step, normal, axes);
-            DeriveRow(solver, system, k, normal, J);
-            step->sinks = -Times(solver, step, J);
-            DeriveRow(solver, system, k, axes[0], J);
-            step->slides = kiriVec3_Scale(Times(solver, step, J), axes[0]);
-            DeriveRow(solver, system, k, axes[1], J);
-            step->slides = kiriVec3_AddScaled(step->slides, Times(solver, step, J), axes[1]);
+            kiriVec3 move = MoveOf(solver, system, k);
+            step->sinks = -kiriVec3_Dot(system->contacts[k].normal, move);
+            step->slides = AlongPlane(move, system->contacts[k].normal);
         }
     }
 }
