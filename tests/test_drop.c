@@ -65,16 +65,23 @@ static double GetEnergy(const kiriWorld* world, kiriSheet sheet)
     return totals.kineticEnergy + totals.elasticEnergy + 9.81 * totals.mass * totals.center[2];
 }
 
+/* The longer of its two diagonals, from corner to corner. */
 static double GetDiagonal(kiriWorld* world, kiriSheet sheet)
 {
-    kiriPieceState piece;
-    double square = 0.0;
-    assert_int_equal(kiriSheet_GetPiece(world, sheet, 0, &piece), KIRI_OK);
-    for (int i = 0; i < 3; i++) {
-        double d = (double)piece.upper[i] - (double)piece.lower[i];
-        square += d * d;
+    enum { ROW = SQUARES + 1 };
+    static const int32_t ends[2][2] = { { 0, ROW * ROW - 1 }, { SQUARES, ROW * SQUARES } };
+    kiriMesh mesh;
+    double longest = 0.0;
+    assert_int_equal(kiriSheet_GetMesh(world, sheet, &mesh), KIRI_OK);
+    for (int k = 0; k < 2; k++) {
+        double square = 0.0;
+        for (int i = 0; i < 3; i++) {
+            double d = (double)mesh.positions[3 * ends[k][0] + i] - (double)mesh.positions[3 * ends[k][1] + i];
+            square += d * d;
+        }
+        longest = fmax(longest, sqrt(square));
     }
-    return sqrt(square);
+    return longest;
 }
 
 static bool TryFall(const Fall* fall)

@@ -69,19 +69,12 @@ static void SumContacts(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* Do contacts give all of the momentum? Where the systems did not settle which of them push, and how, their forces are those
-   of a guess, and a piece that got its momentum from them would be thrown. */
-static bool IsPushed(const kiriPieceStep* piece)
-{
-    return piece->isPushed && !piece->isUnsettled;
-}
-
 static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
 {
     const kiriVec3* normal = system->mechanics.planar ? &system->mechanics.axes.d : NULL;
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         kiriPieceMomentum start = { .isFree = solver->pieces.data[i].isFree,
-                                    .isPushed = IsPushed(&solver->pieces.data[i]) };
+                                    .isPushed = solver->pieces.data[i].isPushed };
         solver->momenta.data[i] = start;
     }
     SumContacts(solver, system);
@@ -119,7 +112,7 @@ static double WorkOfTorque(const kiriSystem* system, const kiriFrameData* start,
 /* The velocity of the centre of mass of a piece stays that is free, or on which contacts alone act. */
 double kiriPieceStep_MostTaken(const kiriPieceStep* piece)
 {
-    return piece->kinetic + (piece->isFree || IsPushed(piece) ? 0.0 : piece->moving);
+    return piece->kinetic + (piece->isFree || piece->isPushed ? 0.0 : piece->moving);
 }
 
 /* By how much kinetic and potential energy grow in the step beyond the work of gravity and of the host's forces; what
@@ -187,16 +180,70 @@ static void ScaleVelocities(const kiriPieceStep* piece, const kiriPieceMomentum*
     frame->rate = kiriMat3_Scale(piece->keepRest, &frame->rate);
 }
 
+#define TRIALS 8
+#define TOLERABLE 0.05 /* of what a piece has to spend, see kiri_step_contact.c: rounding and rest have less */
+
+/* What neither the velocities beside those of a rigid body nor its turning have. */
+static double Excess(const kiriPieceStep* piece)
+{
+    return piece->gain - piece->kinetic;
+}
+
+static bool IsThrown(const kiriPieceStep* piece)
+{
+    return piece->isPushed && Excess(piece) > TOLERABLE * piece->means;
+}
+
+static void TryPushes(kiriSolver* solver, const kiriSystem* system, int trial)
+{
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        double part = trial < TRIALS ? (double)(TRIALS - 1 - trial) / TRIALS : piece->low;
+        piece->keepForces = piece->isThrown ? part * piece->high : piece->keepForces;
+    }
+    WriteStepEnd(solver, system);
+    RestoreMomentum(solver, system);
+    SumGains(solver, system);
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        if (Excess(piece) < piece->slope && piece->slope > 0.0) {
+            piece->slope = Excess(piece);
+            piece->low = (double)(TRIALS - 1 - trial) / TRIALS;
+        }
+    }
+}
+
+/* Contacts in a step that is far from solved may push too hard: the mean velocity of a piece that nothing else holds is
+   theirs. Then they push less, all by the same part: the most that leaves no gain but what can be taken out of other
+   velocities, or else where the gain is least. */
+static void LimitPushes(kiriSolver* solver, const kiriSystem* system)
+{
+    bool any = false;
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        piece->isThrown = IsThrown(piece);
+        piece->low = 1.0;
+        piece->high = piece->keepForces;
+        piece->slope = Excess(piece);
+        any |= piece->isThrown;
+    }
+    for (int trial = 0; any && trial <= TRIALS; ++trial) {
+        TryPushes(solver, system, trial);
+    }
+}
+
 /* First out of what velocities have beside those of a rigid body, which leaves momenta as they are; then out of the
    turning as one body; the rest out of the mean, unless the piece is free. */
 void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
 {
+    LimitPushes(solver, system);
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         double energy = piece->gain > 0.0 ? piece->gain : 0.0, rest = piece->kinetic - piece->turning;
         piece->keepRest = TakeEnergy(rest > 0.0 ? rest : 0.0, &energy);
         piece->keepTurning = TakeEnergy(piece->turning, &energy);
-        piece->keepMean = piece->isFree || IsPushed(piece) ? 1.0 : TakeEnergy(piece->moving, &energy);
+        bool isOwn = piece->isFree || (piece->isPushed && !IsThrown(piece));
+        piece->keepMean = isOwn ? 1.0 : TakeEnergy(piece->moving, &energy);
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {
         int32_t i = solver->framePiece.data[f];

@@ -4,6 +4,7 @@
 #define HALVINGS 12                /* of a step that does not lower the objective */
 #define SECOND_CHANCES 4           /* more iterations where energy is gained or the last step was cut short, */
 #define FRESH_STARTS 2             /* and iterations from the start of the step should they fail */
+#define FREE_SYSTEMS 2             /* of a piece that contacts touch: after them it stores no more than it has */
 #define WORTHWHILE 1e-6            /* of the objective, where a longer step would lower it by more */
 #define MOST_RISE 100.0            /* of the objective in the first step of a piece */
 #define MOST_TAKEN 0.5             /* of the kinetic energy, where a piece need not start anew */
@@ -57,19 +58,33 @@ static void TryStep(kiriSolver* solver, const kiriSystem* system)
     solver->isAlong = false;
 }
 
+/* Contact that a step runs into has far more energy than the piece, and a line search by that alone would let links
+   stretch by as much. The first systems may do so, as they turn frames; later ones only store what the piece has. */
+static bool IsAffordable(const kiriPieceStep* piece)
+{
+    double most = piece->start.potential + piece->means;
+    most = most > piece->now.potential ? most : piece->now.potential;
+    return !piece->isNear || piece->solved < FREE_SYSTEMS || piece->sum.potential <= most;
+}
+
+static bool IsGood(const kiriPieceStep* piece)
+{
+    return piece->isSearching && piece->sum.objective <= piece->enough && IsAffordable(piece);
+}
+
 /* Pieces whose step is good enough take it. Returns whether there are others. */
 static bool TakeTrial(kiriSolver* solver, const kiriSystem* system)
 {
     bool isLeft = false;
     for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        if (piece->isSearching && piece->sum.objective <= piece->enough) {
+        if (IsGood(piece)) {
             solver->poses.data[f] = solver->trial.data[f];
         }
     }
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         kiriPieceStep* piece = &solver->pieces.data[i];
-        if (piece->isSearching && piece->sum.objective <= piece->enough) {
+        if (IsGood(piece)) {
             piece->now = piece->sum;
             piece->isSearching = false;
         }
@@ -213,6 +228,7 @@ static bool RestartPieces(kiriSolver* solver, const kiriSystem* system)
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         piece->now = piece->isIterated ? piece->start : piece->now;
+        piece->solved = piece->isIterated ? FREE_SYSTEMS : piece->solved;
         piece->isFirst = false;
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {

@@ -85,6 +85,10 @@ typedef struct kiriPieceStep {
     bool isFree;             /* do only gravity and forces act on it? */
     bool isPushed;           /* is it free but for contacts? */
     bool isUnsettled;        /* do contacts want another system? */
+    bool isNear;             /* has it contacts? */
+    double obstacleSpeed;    /* m/s: the fastest that an obstacle moves at a contact */
+    double means;            /* J: of a piece with contacts: more than it had, and so much, it cannot store */
+    bool isThrown;           /* did contacts push it too hard? */
     double mostPush;         /* N: the largest */
     kiriVec3 asked, given;   /* N: the sum of what contacts should do, and of what they can; */
     double keepForces;       /* and what is left of each force */

@@ -141,6 +141,30 @@ static double MassOf(const kiriSystem* system, const kiriContactStep* step)
     return mass;
 }
 
+/* J: the energy that a piece has to spend in a step in which contacts touch it: its own, and what gravity, forces and
+   obstacles may add. */
+static void FindMeans(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriPieceStep* piece = PieceOf(solver, system, k);
+        const kiriContactStep* step = &solver->contacts.data[k];
+        double fast = (kiriVec3_Length(step->carried) + fabs(step->lift)) / solver->dt;
+        piece->obstacleSpeed = fast > piece->obstacleSpeed ? fast : piece->obstacleSpeed;
+        piece->isNear = true;
+    }
+    double gravity = kiriVec3_Length(kiriSystem_Gravity(system));
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriFrameData* frame = &solver->before.data[f];
+        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+        if (piece->isNear) {
+            double pull = gravity + kiriVec3_Length(frame->force) / frame->mass;
+            double own = kiriVec3_Length(frame->velocity), speed = own + solver->dt * pull + piece->obstacleSpeed;
+            piece->means +=
+                kiriFrame_KineticEnergy(frame, &system->material) + 0.5 * frame->mass * (speed * speed - own * own);
+        }
+    }
+}
+
 void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
 {
     KIRI_ASSERT(solver->contacts.capacity >= system->contactCount);
@@ -151,9 +175,7 @@ void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
         step->mass = MassOf(system, step);
         PlacePlane(solver, system, k);
     }
-    for (int32_t k = 0; k < system->yieldCount; ++k) {
-        system->yields[k].pressed = 0;
-    }
+    FindMeans(solver, system);
 }
 
 /* N/m: of what resists a point by its inertia alone. */
