@@ -38,13 +38,21 @@ static double FarthestCorner(const kiriBox* box, kiriVec3 from)
                                          fabs(a.z) > fabs(b.z) ? a.z : b.z));
 }
 
+/* m: to the farthest point that the frame has a weight at: six radii of gyration of its region, or the sheet's end. */
+static double Lever(const kiriFrameData* frame, const kiriBox* box)
+{
+    double corner = FarthestCorner(box, frame->x), square = frame->inertia[0] + frame->inertia[2];
+    double radius = frame->mass > 0.0 ? 6.0 * sqrt(square / frame->mass) : corner;
+    return radius < corner ? radius : corner;
+}
+
 double kiriSheet_SpeedLimit(const kiriSheetData* sheet, const kiriBox* box)
 {
     double fastest = 0.0;
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         const kiriFrameData* frame = &sheet->frames.data[i];
         double turn = kiriVec3_Length(frame->spin) + kiriVec3_Length(frame->rate.u) + kiriVec3_Length(frame->rate.v);
-        double speed = kiriVec3_Length(frame->velocity) + turn * FarthestCorner(box, frame->x);
+        double speed = kiriVec3_Length(frame->velocity) + turn * Lever(frame, box);
         fastest = speed > fastest ? speed : fastest;
     }
     return fastest;
