@@ -450,7 +450,7 @@ static void TestPinsBreak(void** state)
     Host host;
     kiriSheetDef def = Host_SmallDef();
     const float from[2] = { 0.0f, 1.0f }, to[2] = { 1.0f, 1.0f };
-    kiriEvent event;
+    kiriEvent event = { 0 };
     kiriPin pins[4];
     kiriPinState pinState;
     int32_t count;

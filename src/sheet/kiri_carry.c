@@ -7,7 +7,7 @@
 
 /* ---- Place -------------------------------------------------------------------------------------------------------- */
 
-static void Turn(const kiriMat3* R, kiriVec3* a)
+static void TurnVector(const kiriMat3* R, kiriVec3* a)
 {
     *a = kiriMat3_Mul(*R, *a);
 }
@@ -22,22 +22,22 @@ static void CarryFrame(kiriFrameData* frame, const kiriMat3* R, kiriVec3 t, bool
     frame->x = kiriVec3_Add(kiriMat3_Mul(*R, frame->x), t);
     TurnColumns(R, &frame->A);
     frame->A = isRigid ? kiriMat3_Rotation(frame->A) : frame->A;
-    Turn(R, &frame->velocity);
-    Turn(R, &frame->spin);
+    TurnVector(R, &frame->velocity);
+    TurnVector(R, &frame->spin);
     TurnColumns(R, &frame->rate);
-    Turn(R, &frame->history.gain);
-    Turn(R, &frame->history.lag);
-    Turn(R, &frame->history.pull);
+    TurnVector(R, &frame->history.gain);
+    TurnVector(R, &frame->history.lag);
+    TurnVector(R, &frame->history.pull);
     TurnColumns(R, &frame->history.turnGain);
     TurnColumns(R, &frame->history.turnLag);
     TurnColumns(R, &frame->history.turnPull);
-    Turn(R, &frame->heldOff);
+    TurnVector(R, &frame->heldOff);
 }
 
 static void TurnFades(kiriFades* fades, const kiriMat3* R)
 {
     for (int32_t k = 0; k < fades->fading.count; ++k) {
-        Turn(R, &fades->fading.data[k].offset);
+        TurnVector(R, &fades->fading.data[k].offset);
     }
 }
 
@@ -83,10 +83,10 @@ bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMe
         CarryFrame(&sheet->frames.data[i], R, t, sheet->settings.mechanics.model == KIRI_MODEL_LINKS);
     }
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        Turn(R, &sheet->pins.data[i].off);
+        TurnVector(R, &sheet->pins.data[i].off);
     }
     for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-        Turn(R, &sheet->layout.pinShares.data[k].off);
+        TurnVector(R, &sheet->layout.pinShares.data[k].off);
     }
     TurnFades(&sheet->seen.fades, R);
     TurnFades(&sheet->seen.pointFades, R);

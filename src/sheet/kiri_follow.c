@@ -7,7 +7,7 @@
 /* ---- What is seen is what is held ---- */
 
 /* The share of a frame in what is seen at a point. */
-static double ShareOf(const kiriSheetData* sheet, const kiriPointPlace* place, int32_t frame)
+static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, int32_t frame)
 {
     double sum = 0.0;
     for (int k = 0; k < 3; ++k) {
@@ -24,7 +24,7 @@ static double ShareOf(const kiriSheetData* sheet, const kiriPointPlace* place, i
 static bool FindSeen(const kiriSheetData* sheet, int32_t frame, kiriLatticePoint at, kiriVec3* seen)
 {
     kiriPointPlace place;
-    if (!kiriPoint_Find(sheet, at, &place) || !(ShareOf(sheet, &place, frame) > 0.0)) {
+    if (!kiriPoint_Find(sheet, at, &place) || !(ShareAt(sheet, &place, frame) > 0.0)) {
         return false;
     }
     *seen = kiriPoint_Position(sheet, &place);

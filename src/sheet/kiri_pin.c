@@ -256,7 +256,7 @@ bool kiriPins_Stage(kiriSheetData* sheet)
 
 /* ---- Rows --------------------------------------------------------------------------------------------------------- */
 
-static kiriVec3 Between(kiriVec3 a, kiriVec3 b, double part)
+static kiriVec3 PartWay(kiriVec3 a, kiriVec3 b, double part)
 {
     return part >= 1.0 ? b : kiriVec3_AddScaled(a, part, kiriVec3_Sub(b, a));
 }
@@ -264,7 +264,7 @@ static kiriVec3 Between(kiriVec3 a, kiriVec3 b, double part)
 /* Where the pin is after a part of the tick, 0 to 1. */
 static kiriVec3 TargetAfter(const kiriPinData* pin, double part)
 {
-    return Between(pin->lastTarget, pin->target, part);
+    return PartWay(pin->lastTarget, pin->target, part);
 }
 
 static kiriMat3 RotationAfter(const kiriPinData* pin, double part)
@@ -274,7 +274,7 @@ static kiriMat3 RotationAfter(const kiriPinData* pin, double part)
     if (isSame || part <= 0.0 || part >= 1.0) {
         return part >= 1.0 ? *b : *a;
     }
-    kiriMat3 mean = { Between(a->u, b->u, part), Between(a->v, b->v, part), Between(a->d, b->d, part) };
+    kiriMat3 mean = { PartWay(a->u, b->u, part), PartWay(a->v, b->v, part), PartWay(a->d, b->d, part) };
     return kiriMat3_RotationFrom(*a, mean);
 }
 

@@ -71,7 +71,7 @@ static bool IsSameMaterial(const kiriMaterial* a, const kiriMaterial* b)
            a->flexDamping == b->flexDamping;
 }
 
-static bool IsSame(const kiriSheetSettings* a, const kiriSheetSettings* b)
+static bool AreSameSettings(const kiriSheetSettings* a, const kiriSheetSettings* b)
 {
     return IsSameMaterial(&a->material, &b->material) && a->maxFrames == b->maxFrames && a->crumbArea == b->crumbArea &&
            a->friction == b->friction && a->contactThickness == b->contactThickness && a->groups == b->groups &&
@@ -132,7 +132,7 @@ static void DropOffsets(kiriSheetData* sheet)
 bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
 {
     kiriSheetSettings before = sheet->settings.given;
-    if (IsSame(&before, given)) {
+    if (AreSameSettings(&before, given)) {
         return true;
     }
     bool looksOther = given->skinning != before.skinning;

@@ -8,7 +8,7 @@ typedef struct SolidArrays {
     int32_t vertexCount, triangleCount;
 } SolidArrays;
 
-static int32_t CornerOf(const kiriMeshData* mesh, int32_t t, int k)
+static int32_t SolidCorner(const kiriMeshData* mesh, int32_t t, int k)
 {
     return mesh->triangles.data[t].vertex[k % 3];
 }
@@ -21,8 +21,8 @@ static bool IsBorder(const kiriMeshData* mesh, int32_t t, int k)
     if (twin == KIRI_NONE || (triangle->open >> k & 1) == 0) {
         return twin == KIRI_NONE;
     }
-    return CornerOf(mesh, twin / 3, twin % 3 + 1) != CornerOf(mesh, t, k) ||
-           CornerOf(mesh, twin / 3, twin % 3) != CornerOf(mesh, t, k + 1);
+    return SolidCorner(mesh, twin / 3, twin % 3 + 1) != SolidCorner(mesh, t, k) ||
+           SolidCorner(mesh, twin / 3, twin % 3) != SolidCorner(mesh, t, k + 1);
 }
 
 static int32_t CountBorders(const kiriMeshData* mesh)
@@ -57,7 +57,7 @@ static bool Allocate(SolidArrays* to, kiriMemory* memory, int64_t vertices, int6
 }
 
 /* `above` m along the normal of the surface. */
-static void AddVertex(SolidArrays* to, const kiriSurface* surface, int32_t vertex, double above, kiriVec3 normal)
+static void AddSolidVertex(SolidArrays* to, const kiriSurface* surface, int32_t vertex, double above, kiriVec3 normal)
 {
     int32_t n = to->vertexCount++;
     kiriVec3 out = kiriVec3_Load(&surface->normals.data[3 * vertex]);
@@ -67,7 +67,7 @@ static void AddVertex(SolidArrays* to, const kiriSurface* surface, int32_t verte
     to->sources[n] = vertex;
 }
 
-static void AddTriangle(SolidArrays* to, int32_t a, int32_t b, int32_t c)
+static void AddSolidTriangle(SolidArrays* to, int32_t a, int32_t b, int32_t c)
 {
     const int32_t corners[3] = { a, b, c };
     memcpy(&to->indices[3 * (int64_t)to->triangleCount++], corners, sizeof(corners));
@@ -78,14 +78,14 @@ static void AddSides(SolidArrays* to, const kiriSurface* surface, double half)
     for (int side = 0; side < 2; ++side) {
         for (int32_t v = 0; v < surface->vertexCount; ++v) {
             kiriVec3 normal = kiriVec3_Load(&surface->normals.data[3 * v]);
-            AddVertex(to, surface, v, side == 0 ? half : -half, kiriVec3_Scale(side == 0 ? 1.0 : -1.0, normal));
+            AddSolidVertex(to, surface, v, side == 0 ? half : -half, kiriVec3_Scale(side == 0 ? 1.0 : -1.0, normal));
         }
     }
     for (int side = 0; side < 2; ++side) {
         int32_t first = side * surface->vertexCount;
         for (int32_t t = 0; t < surface->triangleCount; ++t) {
             const int32_t* corners = &surface->indices.data[3 * (int64_t)t];
-            AddTriangle(to, first + corners[0], first + corners[1 + side], first + corners[2 - side]);
+            AddSolidTriangle(to, first + corners[0], first + corners[1 + side], first + corners[2 - side]);
         }
     }
 }
@@ -98,12 +98,12 @@ static void AddRim(SolidArrays* to, const kiriSurface* surface, int32_t a, int32
         kiriVec3_Add(kiriVec3_Load(&surface->normals.data[3 * a]), kiriVec3_Load(&surface->normals.data[3 * b]));
     kiriVec3 out = kiriVec3_Normalize(kiriVec3_Cross(along, up));
     int32_t first = to->vertexCount;
-    AddVertex(to, surface, a, half, out);
-    AddVertex(to, surface, b, half, out);
-    AddVertex(to, surface, a, -half, out);
-    AddVertex(to, surface, b, -half, out);
-    AddTriangle(to, first + 1, first, first + 2);
-    AddTriangle(to, first + 1, first + 2, first + 3);
+    AddSolidVertex(to, surface, a, half, out);
+    AddSolidVertex(to, surface, b, half, out);
+    AddSolidVertex(to, surface, a, -half, out);
+    AddSolidVertex(to, surface, b, -half, out);
+    AddSolidTriangle(to, first + 1, first, first + 2);
+    AddSolidTriangle(to, first + 1, first + 2, first + 3);
 }
 
 bool kiriSolid_Build(kiriSolid* solid, kiriMemory* memory, const kiriSurface* surface, const kiriMeshData* mesh,
@@ -121,7 +121,7 @@ bool kiriSolid_Build(kiriSolid* solid, kiriMemory* memory, const kiriSurface* su
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         for (int k = 0; k < 3; ++k) {
             if (IsBorder(mesh, t, k)) {
-                AddRim(&to, surface, CornerOf(mesh, t, k), CornerOf(mesh, t, k + 1), 0.5 * thickness);
+                AddRim(&to, surface, SolidCorner(mesh, t, k), SolidCorner(mesh, t, k + 1), 0.5 * thickness);
             }
         }
     }

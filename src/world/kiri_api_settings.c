@@ -14,7 +14,7 @@ static const char* FaultOfMaterial(const kiriMaterial* m)
                                                                                                : "a damping is below 0";
 }
 
-static const char* FaultOfContact(const kiriSheetSettings* s)
+static const char* FaultOfTouching(const kiriSheetSettings* s)
 {
     if (!kiriCall_IsAtLeast(s->friction, 0.0f) || !kiriCall_IsAtLeast(s->contactThickness, 0.0f)) {
         return "friction or contactThickness is below 0";
@@ -40,7 +40,7 @@ static const char* FaultOfMotion(const kiriSheetSettings* s)
 
 const char* kiriCall_FaultOfSettings(const kiriSheetSettings* settings)
 {
-    const char* faults[] = { FaultOfMaterial(&settings->material), FaultOfContact(settings), FaultOfMotion(settings) };
+    const char* faults[] = { FaultOfMaterial(&settings->material), FaultOfTouching(settings), FaultOfMotion(settings) };
     for (int i = 0; i < 3; ++i) {
         if (faults[i] != NULL) {
             return faults[i];

@@ -38,7 +38,7 @@ static int32_t CountPinsOn(const kiriWorld* world, const kiriSheetData* sheet, c
 }
 
 /* What an impulse along an axis gives the point. */
-static kiriVec3 Give(const kiriYieldRow* body, kiriVec3 arm, kiriVec3 axis)
+static kiriVec3 GiveAlong(const kiriYieldRow* body, kiriVec3 arm, kiriVec3 axis)
 {
     kiriVec3 spin = kiriMat3_Mul(body->inverseInertia, kiriVec3_Cross(arm, axis));
     return kiriVec3_AddScaled(kiriVec3_Cross(spin, arm), body->inverseMass, axis);
@@ -49,9 +49,9 @@ static void Soften(kiriPinAnchor* anchor, const kiriObstacleData* obstacle, kiri
 {
     kiriYieldRow body = kiriObstacle_YieldRow(obstacle);
     kiriVec3 arm = kiriVec3_Sub(target, body.center);
-    anchor->give.u = kiriVec3_Scale(pins, Give(&body, arm, kiriVec3_Make(1.0, 0.0, 0.0)));
-    anchor->give.v = kiriVec3_Scale(pins, Give(&body, arm, kiriVec3_Make(0.0, 1.0, 0.0)));
-    anchor->give.d = kiriVec3_Scale(pins, Give(&body, arm, kiriVec3_Make(0.0, 0.0, 1.0)));
+    anchor->give.u = kiriVec3_Scale(pins, GiveAlong(&body, arm, kiriVec3_Make(1.0, 0.0, 0.0)));
+    anchor->give.v = kiriVec3_Scale(pins, GiveAlong(&body, arm, kiriVec3_Make(0.0, 1.0, 0.0)));
+    anchor->give.d = kiriVec3_Scale(pins, GiveAlong(&body, arm, kiriVec3_Make(0.0, 0.0, 1.0)));
     double turning = anchor->give.u.x + anchor->give.v.y + anchor->give.d.z - 3.0 * pins * body.inverseMass;
     anchor->most = pins * body.inverseMass + (turning > 0.0 ? turning : 0.0);
 }
@@ -65,7 +65,7 @@ static void Clear(kiriPinAnchor* anchor)
 }
 
 /* A sheet that sleeps does not mind what moves less than it would itself before it woke. */
-static bool IsStill(const kiriSheetData* sheet, const kiriPinData* pin, kiriVec3 from, kiriVec3 to)
+static bool IsTargetStill(const kiriSheetData* sheet, const kiriPinData* pin, kiriVec3 from, kiriVec3 to)
 {
     double least = CALM_SECONDS * sheet->settings.sleepSpeed;
     return sheet->rest.asleep && kiriVec3_Length(kiriVec3_Sub(from, pin->target)) <= least &&
@@ -83,7 +83,8 @@ static void BeginPin(const kiriWorld* world, kiriSheetData* sheet, int32_t index
     kiriObstacle_Advance(&later, dt);
     kiriVec3 from = kiriObstacle_PointToWorld(obstacle, pin->anchor.local);
     kiriVec3 to = kiriObstacle_PointToWorld(&later, pin->anchor.local);
-    if (!IsStill(sheet, pin, from, to) && (!kiriVec3_Equal(from, pin->target) || !kiriVec3_Equal(to, pin->target))) {
+    if (!IsTargetStill(sheet, pin, from, to) &&
+        (!kiriVec3_Equal(from, pin->target) || !kiriVec3_Equal(to, pin->target))) {
         pin->lastTarget = from;
         pin->target = to;
         kiriPins_ForgetHistory(sheet, index);
