@@ -56,7 +56,7 @@ kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, int32_t p
     return KIRI_OK;
 }
 
-static int32_t PieceOf(const kiriWorld* world, const kiriSheetData* sheet, kiriFrame frame)
+static int32_t PieceThatHas(const kiriWorld* world, const kiriSheetData* sheet, kiriFrame frame)
 {
     return sheet->layout.framePiece.data[kiriPool_Find(&world->frameIds, frame)->index];
 }
@@ -66,7 +66,7 @@ kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* 
     KIRI_READS(world);
     KIRI_CHECK(piece != NULL, "piece is null");
     KIRI_FIND_FRAME_SHEET(sheet, frame);
-    *piece = PieceOf(world, sheet, frame);
+    *piece = PieceThatHas(world, sheet, frame);
     return KIRI_OK;
 }
 

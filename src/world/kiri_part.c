@@ -233,7 +233,7 @@ static void NamePins(kiriWorld* world, const Part* part)
     }
 }
 
-static void AddPart(kiriWorld* world, const Part* part)
+static void AddSheetOfPart(kiriWorld* world, const Part* part)
 {
     kiriSheetData* sheet = part->sheet;
     world->sheets.data[world->sheets.count++] = sheet;
@@ -260,7 +260,7 @@ static kiriResult Detach(Parting* parting)
     }
     for (int32_t k = 0; k < parting->parts.count; ++k) {
         const Part* part = &parting->parts.data[k];
-        part->sheet != NULL ? AddPart(parting->world, part) : AddLeaving(parting->world, part);
+        part->sheet != NULL ? AddSheetOfPart(parting->world, part) : AddLeaving(parting->world, part);
     }
     CommitRemovals(parting);
     return ResultOf(parting);
@@ -336,8 +336,7 @@ static bool RenewIndices(Parting* parting)
     bool ok = true;
     for (int32_t k = 0; ok && k < parting->removalCount; ++k) {
         kiriSheetData* sheet = parting->removals[k].sheet;
-        ok = !IsBusy(sheet) ||
-             kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired);
+        ok = !IsBusy(sheet) || kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired);
     }
     return ok;
 }
