@@ -256,7 +256,7 @@ static void SetSprings(const kiriSolver* solver, const kiriSystem* system, int32
     double soft = part * part * share;
     kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data);
     kiriVec3 along = kiriVec3_Length(step->direction) > 0.5 ? step->direction : row->normal;
-    step->stiffness = 1.0 / (1.0 / spring + soft * InverseMass(system, k, point, row->normal));
+    step->stiffness = 1.0 / (1.0 / spring + soft * (row->cushion + InverseMass(system, k, point, row->normal)));
     step->grip = 1.0 / (1.0 / (GRIP * inertia) + soft * InverseMass(system, k, point, along));
 }
 

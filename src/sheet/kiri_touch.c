@@ -232,6 +232,7 @@ static void WriteRow(const kiriSheetData* sheet, const kiriTouch* touch, kiriCon
     row->pushSpeed = touch->pushSpeed;
     row->yield = touch->yield;
     row->felt = touch->felt;
+    row->cushion = touch->cushion;
     row->force = kiriTouches_ForceOf(sheet, touch->key);
     WriteWeights(sheet, &blend, row);
     kiriVec3 at = { 0.0, 0.0, 0.0 };
@@ -335,9 +336,10 @@ static bool IsSame(const kiriSheetData* sheet, const kiriTouch* a, const kiriTou
            kiriVec3_Length(faster) <= sheet->settings.sleepSpeed;
 }
 
+/* Sheets that touch each other wake each other (kiri_pair.c): what they touch changes with their last bits. */
 static bool IsOfKind(const kiriTouch* touch, int32_t kind)
 {
-    return kind == 0 || touch->key >> 60 == (uint64_t)kind;
+    return kind == 0 ? touch->key >> 60 != KIRI_TOUCH_PAIR : touch->key >> 60 == (uint64_t)kind;
 }
 
 bool kiriTouches_AreNew(const kiriSheetData* sheet, int32_t kind)
