@@ -120,6 +120,7 @@ void kiriStage_Commit(kiriSheetData* sheet)
     u->counts.points = sheet->pointSkin.staged.count;
     u->counts.links = sheet->links.changed;
     sheet->lists.isFresh = false;
+    sheet->probes.isFresh = false;
     int32_t oldLinks = sheet->links.links.count;
     bool keepsStrains = kiriSheet_KeepsStrains(sheet);
     if (keepsStrains) {

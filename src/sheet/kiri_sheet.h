@@ -87,6 +87,19 @@ typedef struct kiriPinAnchor {
     double softness;       /* m/N: and by how much a force moves it in the step at hand */
 } kiriPinAnchor;
 
+/* The vertices by which the sheet feels others, see kiri_probe.h. */
+typedef struct kiriProbes {
+    bool isFresh;                    /* neither mesh nor pieces have changed since */
+    KIRI_ARRAY(int32_t) vertexPiece; /* of each vertex: its piece, */
+    KIRI_ARRAY(uint8_t) isBorder;    /* is it on the outline or a lip? */
+    KIRI_ARRAY(uint8_t) isChosen;    /* is it a probe? */
+    kiriPieceList list;              /* the probes, by piece */
+    KIRI_ARRAY(kiriVec3) velocities; /* of probes, in the order of the list */
+    KIRI_ARRAY(kiriBox) boxes;       /* of pieces, as they are seen */
+    KIRI_ARRAY(int32_t) touch;       /* of each vertex: what it touches in the tick at hand, for kiri_pair_touch.c */
+    KIRI_ARRAY(double) speeds;       /* m/s, of each piece: of its fastest probe */
+} kiriProbes;
+
 typedef struct kiriPinData {
     kiriPin id;
     uint64_t userData;       /* the host's own */
@@ -176,7 +189,7 @@ typedef struct kiriTouch {
     kiriVec3 velocity;
     double friction, pushSpeed;
     int32_t yield;
-    double felt;
+    double felt, cushion;
 } kiriTouch;
 
 /* With what a contact pushed when the sheet was moved last. */
@@ -260,6 +273,7 @@ typedef struct kiriSheetData {
     kiriRest rest;
     kiriSeen seen;
     kiriPieceLists lists;
+    kiriProbes probes;
 } kiriSheetData;
 
 /* An empty sheet, zeroed; null for memory. Itself, its queue and its list of cuts are blocks of `memory`. */

@@ -52,6 +52,7 @@ void kiriStage_CommitMesh(kiriSheetData* sheet)
 {
     if (sheet->mesh.savedTriangles.count > 0) {
         sheet->lists.isFresh = false;
+        sheet->probes.isFresh = false;
         kiriView_WriteTopology(sheet);
     }
     kiriMesh_Commit(&sheet->mesh);

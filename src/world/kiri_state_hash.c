@@ -191,6 +191,8 @@ static void HashFrame(uint64_t* hash, const kiriFrameData* frame)
     HashHistory(hash, &frame->history);
     HashVec3(hash, frame->force);
     HashVec3(hash, frame->torque);
+    HashWrench(hash, &frame->load);
+    HashVec3(hash, frame->support);
     HashPoint(hash, frame->anchor);
     kiriHash_Int32(hash, frame->held);
     if (frame->held) {
@@ -441,6 +443,17 @@ static void HashBlade(uint64_t* hash, const kiriWorld* world, const kiriBladeDat
     }
 }
 
+static void HashPairs(uint64_t* hash, const kiriPairs* pairs)
+{
+    for (int32_t i = 0; i < pairs->pairs.count; ++i) {
+        kiriHash_Int32(hash, pairs->pairs.data[i].side);
+        kiriHash_Int32(hash, pairs->pairs.data[i].touches);
+    }
+    for (int32_t i = 0; i < pairs->felt.count; ++i) {
+        HashVec3(hash, pairs->felt.data[i].force);
+    }
+}
+
 uint64_t kiriStateHash_Of(const kiriWorld* world)
 {
     uint64_t hash = KIRI_HASH_START;
@@ -453,6 +466,7 @@ uint64_t kiriStateHash_Of(const kiriWorld* world)
     for (int32_t i = 0; i < world->blades.count; ++i) {
         HashBlade(&hash, world, world->blades.data[i]);
     }
+    HashPairs(&hash, &world->pairs);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         const kiriSheetData* sheet = world->sheets.data[i];
         HashSettings(&hash, sheet);

@@ -9,6 +9,7 @@
 #include "kiri_blade.h"
 #include "kiri_obstacle_step.h"
 #include "kiri_pin_step.h"
+#include "kiri_pair.h"
 
 #include <string.h>
 
@@ -58,13 +59,24 @@ static int64_t NextStamp(const kiriWorld* world, int64_t from)
     return next;
 }
 
+static void StartAll(kiriWorld* world)
+{
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriPipeline_Start(world->sheets.data[i]);
+    }
+}
+
+/* While the mesh is as it is seen. False for memory. */
+static bool FindPairs(kiriWorld* world, double dt)
+{
+    EnterStage(world, KIRI_STAGE_CONTACT);
+    return kiriPairs_Find(world, dt);
+}
+
 /* First come, first served; of those that came together, in the order of sheets. False for memory. */
 static bool UpdateAll(kiriWorld* world, kiriQuotas* quotas)
 {
     const kiriWatch watch = { EnterStage, world };
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriPipeline_Start(world->sheets.data[i]);
-    }
     for (int64_t stamp = NextStamp(world, 0); stamp >= 0; stamp = NextStamp(world, stamp + 1)) {
         for (int32_t i = 0; i < world->sheets.count; ++i) {
             kiriSheetData* sheet = world->sheets.data[i];
@@ -96,6 +108,7 @@ static bool FindTouches(kiriWorld* world, double dt)
         ok = kiriTouches_Begin(world->sheets.data[i]);
     }
     ok = ok && kiriObstacles_FindTouches(world, dt);
+    ok = ok && kiriPairs_AddTouches(world);
     for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
         ok = kiriTouches_Reserve(world->sheets.data[i]);
         world->profile.contacts += world->sheets.data[i]->touches.found.count;
@@ -240,6 +253,7 @@ static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps, kiriQu
     int32_t count = world->sheets.count, first = count > 0 ? world->turn % count : 0;
     EnterStage(world, KIRI_STAGE_SOLVE);
     world->turn = 0;
+    kiriPairs_ApplyLoads(world, dt);
     for (int32_t k = 0; k < count; ++k) {
         int32_t i = (first + k) % count;
         kiriObstacles_LoadYields(world, world->sheets.data[i]);
@@ -258,6 +272,8 @@ static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps, kiriQu
             isLate = true;
         }
     }
+    kiriPairs_TakeLoads(world, dt);
+    kiriPairs_JoinCalm(world);
     return result;
 }
 
@@ -333,9 +349,12 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     kiriProfile last = world->profile;
     kiriMemory_FreeAll(&world->retired);
     memset(&world->profile, 0, sizeof(world->profile));
-    kiriResult result = UpdateAll(world, &quotas) && FindTouches(world, dt) ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
+    StartAll(world);
+    bool hasRoom = FindPairs(world, dt) && UpdateAll(world, &quotas) && FindTouches(world, dt);
+    kiriResult result = hasRoom ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
     if (result == KIRI_OK) {
         world->events.count = 0;
+        kiriPairs_Commit(world);
         CommitAll(world);
         kiriObstacles_Begin(world);
         result = SolveAll(world, dt, substeps, &quotas.of[KIRI_QUOTA_ITERATIONS]);
@@ -346,6 +365,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
         SkinAll(world, dt);
         FinishParting(world);
         CountSpent(&world->profile, &quotas);
+        world->profile.sheetPairs = kiriPairs_CountAwake(world);
         EnterStage(world, KIRI_NONE);
         kiriWorld_AdvanceBlades(world, dt);
         world->ticks += 1;

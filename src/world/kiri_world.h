@@ -5,6 +5,8 @@
 #include "../sheet/kiri_obstacle_touch.h"
 #include "../sheet/kiri_sheet.h"
 
+#include "kiri_pair_data.h"
+
 KIRI_C_BEGIN
 
 struct kiriWorld {
@@ -23,6 +25,7 @@ struct kiriWorld {
     KIRI_ARRAY(struct kiriBladeData*) blades;
     kiriIndices obstacleOrder; /* by where they begin along x */
     kiriObstacleSearch obstacleSearch;
+    kiriPairs pairs;
     KIRI_ARRAY(kiriEvent) events;
     kiriProfile profile;
     int32_t stage; /* running now, or KIRI_NONE */

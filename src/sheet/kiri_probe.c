@@ -1,0 +1,228 @@
+#include "kiri_probe.h"
+
+#include "kiri_piece.h"
+
+#include <string.h>
+
+/* ---- Choice ---- */
+
+enum { INSIDE = 4, PROBES_A_FRAME = 6 };
+
+/* So many squares of the grid, across and along, that have one probe inside of a piece. */
+typedef struct Block {
+    int32_t size, column, row;
+} Block;
+
+/* The vertex chosen so far for the material of a piece in the block at hand: of its border in a quarter of the block, or
+   of the inside. */
+typedef struct Choice {
+    int32_t piece, quarter, vertex;
+    double rank; /* the lowest is taken */
+} Choice;
+
+typedef KIRI_ARRAY(Choice) Choices;
+
+static bool IsBorder(const kiriMeshData* mesh, int32_t vertex)
+{
+    int32_t first = mesh->vertices.data[vertex].edge, h = first;
+    do {
+        h = kiriMesh_CounterClockwise(mesh, h);
+    } while (h != KIRI_NONE && h != first);
+    return h == KIRI_NONE;
+}
+
+/* The sharper the corner the shorter the way into its material. */
+static double Rank(const kiriSheetData* sheet, int32_t vertex)
+{
+    kiriVec2 lean = kiriMesh_Lean(&sheet->mesh, vertex);
+    return sheet->probes.isBorder.data[vertex] ? kiriVec2_Dot(lean, lean) : 1.0;
+}
+
+static int32_t QuarterOf(const kiriSheetData* sheet, const Block* block, int32_t vertex)
+{
+    const kiriSquares* squares = &sheet->mesh.squares;
+    kiriLatticePoint at = sheet->mesh.vertices.data[vertex].at;
+    int64_t half = (int64_t)block->size * squares->side / 2;
+    kiriLatticePoint corner = kiriSquares_Corner(squares, block->row * squares->columns + block->column);
+    return !sheet->probes.isBorder.data[vertex] ? INSIDE : (at.x - corner.x >= half) + 2 * (at.y - corner.y >= half);
+}
+
+static bool Consider(const kiriSheetData* sheet, kiriMemory* scratch, Choices* choices, const Block* block,
+                     int32_t vertex)
+{
+    Choice choice = { sheet->probes.vertexPiece.data[vertex], QuarterOf(sheet, block, vertex), vertex,
+                      Rank(sheet, vertex) };
+    for (int32_t i = 0; i < choices->count; ++i) {
+        Choice* other = &choices->data[i];
+        if (other->piece == choice.piece && other->quarter == choice.quarter) {
+            bool isBetter = choice.rank < other->rank || (choice.rank == other->rank && vertex < other->vertex);
+            *other = isBetter ? choice : *other;
+            return true;
+        }
+    }
+    return kiriArray_Push(scratch, choices, choice);
+}
+
+/* The inside needs no probe where the border has one. */
+static bool IsNeeded(const Choices* choices, const Choice* choice)
+{
+    bool hasBorder = false;
+    for (int32_t i = 0; i < choices->count; ++i) {
+        hasBorder |= choices->data[i].piece == choice->piece && choices->data[i].quarter != INSIDE;
+    }
+    return choice->quarter != INSIDE || !hasBorder;
+}
+
+static bool ChooseInBlock(kiriSheetData* sheet, kiriMemory* scratch, Choices* choices, const Block* block)
+{
+    const kiriSquares* squares = &sheet->mesh.squares;
+    bool ok = true;
+    choices->count = 0;
+    for (int32_t y = block->row; y < block->row + block->size && y < squares->rows; ++y) {
+        for (int32_t x = block->column; x < block->column + block->size && x < squares->columns; ++x) {
+            int32_t v = squares->vertexHead[y * squares->columns + x];
+            for (; ok && v != KIRI_NONE; v = sheet->mesh.vertices.data[v].next) {
+                ok = Consider(sheet, scratch, choices, block, v);
+            }
+        }
+    }
+    for (int32_t i = 0; ok && i < choices->count; ++i) {
+        sheet->probes.isChosen.data[choices->data[i].vertex] = IsNeeded(choices, &choices->data[i]);
+    }
+    return ok;
+}
+
+/* Frames bend the surface, so that more probes than a dozen for each tell nothing new. */
+static int32_t BlockSize(const kiriSheetData* sheet)
+{
+    double squares = (double)sheet->grid.cellCount / (sheet->frames.count * (double)PROBES_A_FRAME);
+    int32_t size = 1;
+    while ((double)(size + 1) * (size + 1) <= squares) {
+        ++size;
+    }
+    return size;
+}
+
+/* By piece, then by index. */
+static bool ListChosen(kiriSheetData* sheet)
+{
+    kiriProbes* probes = &sheet->probes;
+    int32_t pieces = sheet->layout.pieces.count, count = 0;
+    if (!kiriArray_Resize(sheet->memory, &probes->list.first, pieces + 2)) {
+        return false;
+    }
+    int32_t* first = probes->list.first.data;
+    memset(first, 0, sizeof(int32_t) * (size_t)(pieces + 2));
+    for (int32_t v = 0; v < probes->isChosen.count; ++v) {
+        first[probes->vertexPiece.data[v] + 2] += probes->isChosen.data[v];
+        count += probes->isChosen.data[v];
+    }
+    for (int32_t p = 0; p < pieces; ++p) {
+        first[p + 2] += first[p + 1];
+    }
+    if (!kiriArray_Resize(sheet->memory, &probes->list.items, count) ||
+        !kiriArray_Resize(sheet->memory, &probes->velocities, count)) {
+        return false;
+    }
+    for (int32_t v = 0; v < probes->isChosen.count; ++v) {
+        if (probes->isChosen.data[v]) {
+            probes->list.items.data[first[probes->vertexPiece.data[v] + 1]++] = v;
+        }
+    }
+    return true;
+}
+
+static bool MarkVertices(kiriSheetData* sheet)
+{
+    kiriProbes* probes = &sheet->probes;
+    int32_t vertices = sheet->mesh.vertices.count;
+    if (!kiriArray_Resize(sheet->memory, &probes->vertexPiece, vertices) ||
+        !kiriArray_Resize(sheet->memory, &probes->isBorder, vertices) ||
+        !kiriArray_Resize(sheet->memory, &probes->isChosen, vertices) ||
+        !kiriArray_Resize(sheet->memory, &probes->touch, vertices) ||
+        !kiriArray_Resize(sheet->memory, &probes->boxes, sheet->layout.pieces.count) ||
+        !kiriArray_Resize(sheet->memory, &probes->speeds, sheet->layout.pieces.count)) {
+        return false;
+    }
+    for (int32_t v = 0; v < vertices; ++v) {
+        probes->vertexPiece.data[v] = kiriPiece_OfVertex(sheet, v);
+        probes->isBorder.data[v] = IsBorder(&sheet->mesh, v);
+        probes->isChosen.data[v] = 0;
+    }
+    return true;
+}
+
+static bool Choose(kiriSheetData* sheet)
+{
+    kiriMemory scratch = kiriMemory_Like(sheet->memory);
+    Choices choices = { NULL, 0, 0 };
+    bool ok = MarkVertices(sheet);
+    Block block = { BlockSize(sheet), 0, 0 };
+    for (; ok && block.row < sheet->mesh.squares.rows; block.row += block.size) {
+        for (block.column = 0; ok && block.column < sheet->mesh.squares.columns; block.column += block.size) {
+            ok = ChooseInBlock(sheet, &scratch, &choices, &block);
+        }
+    }
+    kiriMemory_FreeAll(&scratch);
+    return ok && ListChosen(sheet);
+}
+
+/* ---- Where they are ---- */
+
+kiriVec3 kiriProbe_Velocity(const kiriSheetData* sheet, int32_t vertex)
+{
+    kiriSpan span = sheet->vertexSkin.spans.data[vertex];
+    kiriVec2 local = sheet->seen.surface.rest.data[vertex];
+    kiriVec3 velocity = { 0.0, 0.0, 0.0 };
+    for (int32_t i = span.first; i < span.first + span.count; ++i) {
+        kiriWeight weight = sheet->vertexSkin.weights.data[i];
+        velocity =
+            kiriVec3_AddScaled(velocity, weight.value, kiriFrame_VelocityAt(&sheet->frames.data[weight.frame], local));
+    }
+    return velocity;
+}
+
+static void BoundPieces(kiriSheetData* sheet)
+{
+    kiriProbes* probes = &sheet->probes;
+    for (int32_t p = 0; p < probes->boxes.count; ++p) {
+        probes->boxes.data[p].lower = kiriVec3_Make(HUGE_VAL, HUGE_VAL, HUGE_VAL);
+        probes->boxes.data[p].upper = kiriVec3_Make(-HUGE_VAL, -HUGE_VAL, -HUGE_VAL);
+    }
+    for (int32_t v = 0; v < probes->vertexPiece.count; ++v) {
+        kiriBox* box = &probes->boxes.data[probes->vertexPiece.data[v]];
+        kiriVec3 x = sheet->seen.surface.exact.data[v], *a = &box->lower, *b = &box->upper;
+        *a = kiriVec3_Make(x.x < a->x ? x.x : a->x, x.y < a->y ? x.y : a->y, x.z < a->z ? x.z : a->z);
+        *b = kiriVec3_Make(x.x > b->x ? x.x : b->x, x.y > b->y ? x.y : b->y, x.z > b->z ? x.z : b->z);
+    }
+}
+
+static void MeasureVelocities(kiriSheetData* sheet)
+{
+    kiriProbes* probes = &sheet->probes;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        kiriSpan span = kiriPiece_Span(&probes->list, p);
+        double most = 0.0;
+        for (int32_t i = span.first; i < span.first + span.count; ++i) {
+            probes->velocities.data[i] = kiriProbe_Velocity(sheet, probes->list.items.data[i]);
+            double squared = kiriVec3_Dot(probes->velocities.data[i], probes->velocities.data[i]);
+            most = squared > most ? squared : most;
+        }
+        probes->speeds.data[p] = sqrt(most);
+    }
+}
+
+bool kiriProbes_Update(kiriSheetData* sheet)
+{
+    kiriProbes* probes = &sheet->probes;
+    bool isNew = !probes->isFresh;
+    if (isNew && !Choose(sheet)) {
+        return false;
+    }
+    probes->isFresh = true;
+    if (isNew || !sheet->rest.asleep) {
+        BoundPieces(sheet);
+        MeasureVelocities(sheet);
+    }
+    return true;
+}

@@ -1,0 +1,39 @@
+/* Pairs: pieces, of one sheet or of two, that are near each other, and which of them lies on which side of the other.
+
+   A pair keeps its side for as long as the two are near: the upper piece stays on that side of the lower one, whose
+   triangles have a side by their order in the rest plane. A side for each point would never come to rest where pieces
+   have crossed: some points push one way, others the other way. The upper one is that against gravity, so that what lies
+   on a floor is not pushed into it: planes carry it, and what it presses with becomes a load on the lower one. */
+#ifndef KIRI_PAIR_H
+#define KIRI_PAIR_H
+
+#include "kiri_world.h"
+
+KIRI_C_BEGIN
+
+/* Finds the pairs of the coming tick, and what touches, by the surfaces as they are seen. Only sheets that have
+   touchesSheets take part, and no planar ones: these lie in one plane. Nothing that is in force changes. False for
+   memory. */
+bool kiriPairs_Find(kiriWorld* world, double dt);
+
+/* What was found is in force from here on. Sheets that touch something that moves wake. */
+void kiriPairs_Commit(kiriWorld* world);
+
+/* Gives the sheets that are upper ones what they touch. Between kiriTouches_Begin and kiriTouches_Reserve; false for
+   memory. */
+bool kiriPairs_AddTouches(kiriWorld* world);
+
+/* What the upper ones pressed with in the last tick acts on the lower ones in this one; and what they press with now is
+   kept for the next. Before and after all sheets are moved. */
+void kiriPairs_ApplyLoads(kiriWorld* world, double dt);
+void kiriPairs_TakeLoads(kiriWorld* world, double dt);
+
+/* After the sheets are moved: sheets that touch are as calm as the least calm of them, so that they fall asleep together. */
+void kiriPairs_JoinCalm(kiriWorld* world);
+
+/* Pairs that are in force and do not sleep. */
+int32_t kiriPairs_CountAwake(const kiriWorld* world);
+
+KIRI_C_END
+
+#endif

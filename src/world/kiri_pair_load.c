@@ -1,0 +1,157 @@
+#include "kiri_pair_work.h"
+
+#include "../core/kiri_sort.h"
+#include "../motion/kiri_prediction.h"
+#include "../sheet/kiri_touch.h"
+
+#include <string.h>
+
+#define FEELING 0.3  /* s */
+#define CLOSE 0.1    /* of the thickness of contact: what is no farther above its plane lies on it */
+#define SLOW 20.0    /* times sleepSpeed: what lies on something and moves no faster than that */
+#define SETTLED 0.01 /* s: comes to rest within that time */
+
+/* ---- Loads for the lower one ---- */
+
+void kiriPairs_ApplyLoads(kiriWorld* world, double dt)
+{
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriSheetData* sheet = world->sheets.data[i];
+        for (int32_t f = 0; sheet->settings.touchesSheets && !sheet->rest.asleep && f < sheet->frames.count; ++f) {
+            kiriFrameData* frame = &sheet->frames.data[f];
+            frame->force = kiriVec3_AddScaled(frame->force, 1.0 / dt, frame->load.force);
+            frame->torque = kiriVec3_AddScaled(frame->torque, 1.0 / dt, frame->load.moment);
+            memset(&frame->load, 0, sizeof(frame->load));
+        }
+    }
+}
+
+/* An impulse at a vertex goes to the frames that carry it, by their weights. */
+static void LoadVertex(kiriSheetData* sheet, int32_t vertex, kiriVec3 impulse)
+{
+    kiriSpan span = sheet->vertexSkin.spans.data[vertex];
+    kiriVec2 local = sheet->seen.surface.rest.data[vertex];
+    for (int32_t i = span.first; i < span.first + span.count; ++i) {
+        kiriWeight weight = sheet->vertexSkin.weights.data[i];
+        kiriFrameData* frame = &sheet->frames.data[weight.frame];
+        kiriVec3 arm = kiriVec3_Sub(kiriFrame_Carry(frame, local), frame->x),
+                 part = kiriVec3_Scale(weight.value, impulse);
+        kiriWrench load = { part, kiriVec3_Cross(arm, part) };
+        kiriWrench_Add(&frame->load, 1.0, &load);
+    }
+}
+
+static kiriVec3 FeltForce(const kiriPairs* pairs, uint64_t key)
+{
+    int32_t low = 0, high = pairs->felt.count;
+    while (low < high) {
+        int32_t middle = low + (high - low) / 2;
+        if (pairs->felt.data[middle].key < key) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low < pairs->felt.count && pairs->felt.data[low].key == key ? pairs->felt.data[low].force
+                                                                       : kiriVec3_Make(0.0, 0.0, 0.0);
+}
+
+static bool HasLowerKey(const void* context, int32_t a, int32_t b)
+{
+    const kiriPairTouch* touches = context;
+    return touches[a].key < touches[b].key || (touches[a].key == touches[b].key && a < b);
+}
+
+/* What the lower one feels follows what is pushed within FEELING seconds. Felt at once it would still be one tick late,
+   and pieces would throw each other. */
+static kiriVec3 Feel(const kiriPairs* pairs, const kiriPairTouch* touch, double dt)
+{
+    const kiriTouches* touches = &touch->upper.sheet->touches;
+    kiriVec3 was = FeltForce(pairs, touch->key);
+    if (touch->touch >= touches->rows.count) {
+        return was; /* it was not moved */
+    }
+    double part = dt / (dt + FEELING);
+    kiriVec3 push = kiriVec3_Scale(1.0 / dt, touches->rows.data[touch->touch].impulse);
+    return kiriVec3_AddScaled(was, part, kiriVec3_Sub(push, was));
+}
+
+/* In the order of keys. */
+static void FeelAll(kiriWorld* world, double dt)
+{
+    kiriPairs* pairs = &world->pairs;
+    pairs->order.count = pairs->touches.count;
+    for (int32_t i = 0; i < pairs->touches.count; ++i) {
+        pairs->order.data[i] = i;
+    }
+    kiriSort(pairs->order.data, pairs->order.count, HasLowerKey, pairs->touches.data);
+    pairs->nextFelt.count = pairs->touches.count;
+    for (int32_t i = 0; i < pairs->order.count; ++i) {
+        const kiriPairTouch* touch = &pairs->touches.data[pairs->order.data[i]];
+        kiriFeltPush felt = { touch->key, Feel(pairs, touch, dt) };
+        pairs->nextFelt.data[i] = felt;
+        for (int k = 0; k < 3 && touch->lower.vertex[k] != KIRI_NONE; ++k) {
+            LoadVertex(touch->lower.sheet, touch->lower.vertex[k],
+                       kiriVec3_Scale(-dt * touch->lower.share[k], felt.force));
+        }
+    }
+    kiriArrayHeader last = kiriArray_GetHeader(&pairs->felt);
+    kiriArray_SetHeader(&pairs->felt, kiriArray_GetHeader(&pairs->nextFelt));
+    kiriArray_SetHeader(&pairs->nextFelt, last);
+}
+
+/* ---- Rest ---- */
+
+static bool LiesOnPlane(const kiriSheetData* sheet, const kiriContactRow* row)
+{
+    kiriVec3 x = { 0.0, 0.0, 0.0 };
+    for (int32_t m = 0; m < row->weightCount; ++m) {
+        const kiriFrameData* frame = &sheet->frames.data[row->weights[m].frame];
+        x = kiriVec3_AddScaled(x, row->weights[m].value, kiriFrame_Carry(frame, row->at));
+    }
+    double above = kiriVec3_Dot(row->normal, kiriVec3_Sub(x, row->way)) - row->offset;
+    return above < CLOSE * sheet->settings.contactThickness;
+}
+
+static void FindSupport(kiriSheetData* sheet)
+{
+    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+        memset(&sheet->frames.data[f].support, 0, sizeof(kiriVec3));
+    }
+    for (int32_t k = 0; k < sheet->touches.rows.count; ++k) {
+        const kiriContactRow* row = &sheet->touches.rows.data[k];
+        kiriVec3* support = &sheet->frames.data[row->weights[0].frame].support;
+        *support = LiesOnPlane(sheet, row) ? kiriVec3_Add(*support, row->normal) : *support;
+    }
+    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+        sheet->frames.data[f].support = kiriVec3_Normalize(sheet->frames.data[f].support);
+    }
+}
+
+/* Frames that lie on something and hardly move come to rest: else each change of what carries how much would stir all that
+   lies above. */
+static void Settle(kiriSheetData* sheet, double dt)
+{
+    double slow = SLOW * sheet->settings.sleepSpeed, keep = SETTLED / (SETTLED + dt);
+    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+        kiriFrameData* frame = &sheet->frames.data[f];
+        double energy = kiriFrame_KineticEnergy(frame, &sheet->settings.material);
+        bool isCarried = kiriVec3_Dot(frame->support, frame->support) > 0.0;
+        if (isCarried && !frame->held && energy < 0.5 * frame->mass * slow * slow) {
+            frame->velocity = kiriVec3_Scale(keep, frame->velocity);
+            frame->spin = kiriVec3_Scale(keep, frame->spin);
+            frame->rate = kiriMat3_Scale(keep, &frame->rate);
+        }
+    }
+}
+
+void kiriPairs_TakeLoads(kiriWorld* world, double dt)
+{
+    FeelAll(world, dt);
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        if (world->sheets.data[i]->settings.touchesSheets && !world->sheets.data[i]->rest.asleep) {
+            FindSupport(world->sheets.data[i]);
+            Settle(world->sheets.data[i], dt);
+        }
+    }
+}
