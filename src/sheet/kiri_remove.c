@@ -280,6 +280,7 @@ void kiriRemoval_Commit(kiriRemoval* removal, kiriMemory* retired)
     MoveBlades(removal);
     KeepSeen(removal, retired);
     RetireLists(&removal->sheet->lists, retired);
+    removal->sheet->probes.isFresh = false;
     memset(&removal->shown, 0, sizeof(removal->shown));
     memset(&removal->points, 0, sizeof(removal->points));
 }
