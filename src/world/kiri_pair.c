@@ -26,6 +26,7 @@ static void SumFrames(kiriPairs* pairs, const kiriSheetData* sheet, int32_t firs
         const kiriFrameData* frame = &sheet->frames.data[i];
         kiriBody* body = &pairs->bodies.data[firstBody + sheet->layout.framePiece.data[i]];
         body->isHeld |= frame->held != 0;
+        body->isCarried |= kiriVec3_Dot(frame->support, frame->support) > 0.0;
         body->mass += frame->mass;
         body->momentum = kiriVec3_AddScaled(body->momentum, frame->mass, frame->velocity);
     }

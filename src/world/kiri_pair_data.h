@@ -16,7 +16,8 @@ typedef struct kiriBody {
     kiriVec3 momentum; /* N s, */
     double mass;       /* kg */
     bool asleep;
-    bool isHeld; /* by a pin or by the host */
+    bool isCarried; /* does it lie on anything? */
+    bool isHeld;    /* by a pin or by the host */
 } kiriBody;
 
 /* A probe of one body and the nearest place on another. */

@@ -130,6 +130,13 @@ static void ForgetTouches(kiriWorld* world)
     world->pairs.touches.count = 0;
 }
 
+/* How the lower place moves in the tick: what nothing holds and nothing carries falls. */
+static kiriVec3 LowerVelocity(const kiriWorld* world, const kiriBody* lower, const kiriPlace3* place, double dt)
+{
+    kiriVec3 velocity = PlaceVelocity(place);
+    return lower->isHeld || lower->isCarried ? velocity : kiriVec3_AddScaled(velocity, dt, world->gravity);
+}
+
 static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
 {
     kiriPairs* pairs = &world->pairs;
@@ -144,9 +151,9 @@ static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
             !(isUpper ? TouchFromAbove(pairs, pair, near, &touch) : TouchFromBelow(pairs, pair, near, &touch))) {
             continue;
         }
-        touch.velocity = PlaceVelocity(&touch.lower);
-        touch.touch = KIRI_NONE;
         const kiriBody* lower = &pairs->bodies.data[pair->bodies[1]];
+        touch.velocity = LowerVelocity(world, lower, &touch.lower, dt);
+        touch.touch = KIRI_NONE;
         touch.lift = kiriVec3_Dot(lower->momentum, touch.normal) / lower->mass;
         double above = touch.gap - Approach(world, &touch, dt);
         if (above < (1.0 + MARGIN) * distance) {
