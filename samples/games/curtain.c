@@ -538,7 +538,7 @@ static bool LookAtScrap(Curtain* curtain, Scrap* scrap)
     }
     bool tooMany = curtain->scrapCount > MANY_SCRAPS && age > LEAST_SCRAP_TICKS;
     if ((age > SCRAP_TICKS || tooMany) && !IsHeld(curtain, cloth, piece)) {
-        return kiriFrame_DestroyPiece(curtain->world, scrap->frame) == KIRI_OK;
+        return kiriFrame_DestroyPiece(curtain->world, scrap->frame) >= 0; /* also where it waits */
     }
     return false;
 }
