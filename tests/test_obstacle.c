@@ -734,6 +734,33 @@ static void CreationMayBeRefused(void** state)
     Host_Stop(&host);
 }
 
+/* What touched once takes no memory to touch again. */
+static void TouchingAgainAllocatesNothing(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheet sheets[2];
+    Host_Start(&host);
+    host.every = 20;
+    FillWorld(&host, sheets);
+    Ticks(&host, 60);
+    for (int i = 0; i < 2; ++i) {
+        kiriPieceState piece;
+        OK(kiriSheet_GetPiece(host.world, sheets[i], 0, &piece));
+    }
+    int64_t calls = host.calls;
+    int32_t touched = 0;
+    for (int i = 0; i < 10; ++i) {
+        kiriProfile profile;
+        OK(kiriWorld_Tick(host.world, dt, 2));
+        OK(kiriWorld_GetProfile(host.world, &profile));
+        touched += profile.contacts;
+    }
+    assert_int_equal(host.calls, calls);
+    assert_true(touched > 0);
+    Host_Stop(&host);
+}
+
 /* A sheet that swings from a corner is nowhere farther after a tick than was said before it. */
 static void ReachHoldsTheTick(void** state)
 {
@@ -792,6 +819,7 @@ int main(void)
         cmocka_unit_test(SameCallsSameBits),
         cmocka_unit_test(RefusedTicksChangeNothing),
         cmocka_unit_test(CreationMayBeRefused),
+        cmocka_unit_test(TouchingAgainAllocatesNothing),
         cmocka_unit_test(ReachHoldsTheTick),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
