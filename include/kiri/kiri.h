@@ -665,7 +665,9 @@ KIRI_API kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const flo
 /* A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers, in the material of
    each layer that it is in, where it was, and cuts on from there: along the way of its edge relative to that material,
    whatever the sheet did in between. Where it passes a border of the material, the outline or a lip, the cut goes on past
-   it, so that it parts. Move it at least once a tick while it is in a sheet; as often as you like before a tick. What it
+   it, so that it parts. A cut that began amid the material, and comes by its beginning by 1.5 % of its length or nearer,
+   is closed there when it has gone on by a tenth of its length or ends: so a disc comes out of a circle drawn by hand.
+   Move it at least once a tick while it is in a sheet; as often as you like before a tick. What it
    has met is cut with the next tick or, by the budget, a later one. It has a cut for each layer, which begins and ends as
    the blade comes in and goes out; KIRI_EVENT_CUT_FINISHED tells of them, too. */
 

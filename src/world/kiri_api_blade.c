@@ -43,6 +43,5 @@ kiriResult kiriBlade_End(kiriWorld* world, kiriBlade blade)
 {
     KIRI_CHANGES(world);
     KIRI_FIND_BLADE(data, blade);
-    kiriWorld_RemoveBlade(world, data);
-    return KIRI_OK;
+    KIRI_RETURN(kiriWorld_RemoveBlade(world, data));
 }

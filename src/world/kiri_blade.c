@@ -26,15 +26,42 @@ static kiriCutData* CutOf(const kiriWorld* world, const kiriLayer* layer)
     return slot != NULL ? slot->owner : NULL;
 }
 
-void kiriWorld_RemoveBlade(kiriWorld* world, kiriBladeData* blade)
+/* Loops whose ends have nearly met are closed. */
+static void EndCuts(kiriWorld* world, const kiriBladeData* blade)
 {
-    int32_t kept = 0;
     for (int32_t i = 0; i < blade->layers.count; ++i) {
-        kiriCutData* cut = CutOf(world, &blade->layers.data[i]);
+        const kiriLayer* layer = &blade->layers.data[i];
+        kiriCutData* cut = CutOf(world, layer);
+        if (cut != NULL && layer->loop.isPassed) {
+            kiriWorld_QueuePoint(world, cut, layer->loop.near, true);
+        }
+        if (cut != NULL && (layer->loop.isPassed || kiriLoop_IsNear(&layer->loop, layer->rest))) {
+            kiriWorld_QueuePoint(world, cut, layer->loop.start, false);
+        }
         if (cut != NULL) {
             cut->ended = true;
         }
     }
+}
+
+static bool ReserveEnds(kiriWorld* world, const kiriBladeData* blade)
+{
+    bool ok = true;
+    for (int32_t i = 0; ok && i < blade->layers.count; ++i) {
+        const kiriCutData* cut = CutOf(world, &blade->layers.data[i]);
+        int64_t all = cut != NULL ? (int64_t)cut->sheet->queue.count + 2 * (int64_t)blade->layers.count : 0;
+        ok = cut == NULL || kiriArray_Reserve(&world->memory, &cut->sheet->queue, all);
+    }
+    return ok;
+}
+
+kiriResult kiriWorld_RemoveBlade(kiriWorld* world, kiriBladeData* blade)
+{
+    int32_t kept = 0;
+    if (!ReserveEnds(world, blade)) {
+        return KIRI_ERROR_MEMORY;
+    }
+    EndCuts(world, blade);
     for (int32_t i = 0; i < world->blades.count; ++i) {
         if (world->blades.data[i] != blade) {
             world->blades.data[kept++] = world->blades.data[i];
@@ -44,6 +71,7 @@ void kiriWorld_RemoveBlade(kiriWorld* world, kiriBladeData* blade)
     kiriPool_Remove(&world->bladeIds, blade->id);
     kiriArray_Release(&world->memory, &blade->layers);
     kiriMemory_Free(&world->memory, blade);
+    return KIRI_OK;
 }
 
 void kiriWorld_AdvanceBlades(kiriWorld* world, double dt)
@@ -72,9 +100,9 @@ static bool StartTracks(kiriBladeWork* work, const kiriWorld* world, const kiriB
             continue;
         }
         kiriCutData* cut = CutOf(world, layer);
-        const kiriTrack track = { slot->owner, cut,          KIRI_NONE, PlaceOf(layer, slot->owner, cut),
-                                  layer->at,   layer->share, false,     false,
-                                  false };
+        const kiriTrack track = { slot->owner, cut,          KIRI_NONE,   PlaceOf(layer, slot->owner, cut),
+                                  layer->at,   layer->share, layer->loop, false,
+                                  false,       false };
         if (!kiriArray_Push(&work->memory, &work->tracks, track)) {
             return false;
         }
@@ -213,7 +241,8 @@ static void KeepLayers(kiriBladeData* blade, const kiriBladeWork* work)
     for (int32_t i = 0; i < work->tracks.count; ++i) {
         const kiriTrack* track = &work->tracks.data[i];
         const kiriCutData* cut = track->stroke != KIRI_NONE ? work->strokes.data[track->stroke].cut : track->cut;
-        const kiriLayer layer = { track->sheet->id, cut != NULL ? cut->id : 0, track->rest, track->at, track->share };
+        const kiriLayer layer = { track->sheet->id, cut != NULL ? cut->id : 0, track->rest, track->at, track->share,
+                                  track->loop };
         blade->layers.data[blade->layers.count++] = layer;
     }
 }

@@ -8,6 +8,17 @@
 
 KIRI_C_BEGIN
 
+/* A cut that began amid the material, and comes by its beginning, is closed there: by a cut of its own, when it has gone
+   on a little without crossing itself, which closes it as well. */
+typedef struct kiriLoop {
+    bool isOpen;    /* it began there, and has not been closed */
+    bool isPassed;  /* it came by, */
+    kiriVec2 start; /* local */
+    kiriVec2 near;  /* nearest to the start, */
+    double length;  /* m in the rest plane, of the cut so far, */
+    double then;    /* and when it was there */
+} kiriLoop;
+
 /* One layer of a sheet that the blade's edge is in. */
 typedef struct kiriLayer {
     kiriSheet sheet;
@@ -15,6 +26,7 @@ typedef struct kiriLayer {
     kiriVec2 rest; /* local: as far as it was led */
     kiriVec3 at;   /* where the edge met it then */
     double share;  /* how far along the edge, 0 to 1 */
+    kiriLoop loop;
 } kiriLayer;
 
 typedef struct kiriBladeData {
@@ -30,7 +42,7 @@ typedef struct kiriBladeData {
 kiriResult kiriWorld_AddBlade(kiriWorld* world, kiriSheet sheet, kiriBladeData** made);
 
 /* Its cuts end. */
-void kiriWorld_RemoveBlade(kiriWorld* world, kiriBladeData* blade);
+kiriResult kiriWorld_RemoveBlade(kiriWorld* world, kiriBladeData* blade);
 
 /* Moves the edge in a straight line, each end along a line, and queues what it cuts. */
 kiriResult kiriWorld_MoveBlade(kiriWorld* world, kiriBladeData* blade, kiriVec3 from, kiriVec3 to);

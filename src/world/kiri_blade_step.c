@@ -7,6 +7,10 @@
    is beyond. */
 static const double Same = 2.0, Still = 2.0, Reach = 0.5, Straight = 0.25, Degenerate = 0.25;
 
+/* Shares of the length of a loop: as near as Closing it comes by its beginning; it is closed when it has gone on by
+   Overlap. */
+static const double Closing = 0.015, Overlap = 0.1;
+
 static double RestDistance(kiriVec2 a, kiriVec2 b)
 {
     return kiriVec2_Length(kiriVec2_Sub(a, b));
@@ -87,11 +91,54 @@ static int32_t StrokeOf(kiriBladeWork* work, kiriTrack* track)
     return track->stroke;
 }
 
-static bool Lead(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest)
+static bool AddPoint(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest)
 {
     const kiriStrokePoint point = { StrokeOf(work, track), track->rest, rest, false };
+    track->loop.length += RestDistance(track->rest, rest);
     track->rest = rest;
     return point.stroke != KIRI_NONE && kiriArray_Push(&work->memory, &work->points, point);
+}
+
+bool kiriLoop_IsNear(const kiriLoop* loop, kiriVec2 end)
+{
+    return loop->isOpen && RestDistance(loop->start, end) < Closing * loop->length;
+}
+
+/* On the way to a place: it is nearest here, no longer on the way there. */
+static void NotePassing(kiriTrack* track, kiriVec2 to)
+{
+    kiriLoop* loop = &track->loop;
+    kiriVec2 way = kiriVec2_Sub(to, track->rest), left = kiriVec2_Sub(loop->start, track->rest);
+    double square = kiriVec2_Dot(way, way), share = square > 0.0 ? kiriVec2_Dot(left, way) / square : 0.0;
+    kiriVec2 near = kiriVec2_Add(track->rest, kiriVec2_Scale(share > 0.0 ? share : 0.0, way));
+    if (!loop->isPassed && share <= 1.0 && kiriLoop_IsNear(loop, near)) {
+        loop->isPassed = true;
+        loop->near = near;
+        loop->then = loop->length;
+    }
+}
+
+/* From where it came by, and back to where it is. */
+static bool CloseLoop(kiriBladeWork* work, kiriTrack* track)
+{
+    int32_t stroke = StrokeOf(work, track);
+    const kiriStrokePoint points[3] = { { stroke, track->loop.near, track->loop.near, true },
+                                        { stroke, track->loop.near, track->loop.start, false },
+                                        { stroke, track->rest, track->rest, true } };
+    bool ok = stroke != KIRI_NONE;
+    for (int k = 0; ok && k < 3; ++k) {
+        ok = kiriArray_Push(&work->memory, &work->points, points[k]);
+    }
+    track->loop.isOpen = track->loop.isPassed = false;
+    return ok;
+}
+
+static bool Lead(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest)
+{
+    NotePassing(track, rest);
+    bool ok = AddPoint(work, track, rest);
+    bool hasGoneOn = track->loop.isPassed && track->loop.length > (1.0 + Overlap) * track->loop.then;
+    return ok && (!hasGoneOn || CloseLoop(work, track));
 }
 
 /* Along work->path, without the points at its beginning where the track is already. */
@@ -107,14 +154,22 @@ static bool LeadAlong(kiriBladeWork* work, kiriTrack* track)
     return ok;
 }
 
-/* The blade is out of the layer. */
+/* Is there material around the end of a track, though it went over a border? Then it has crossed a cut. */
+static bool IsAtLip(const kiriTrack* track)
+{
+    kiriVec3 x;
+    return Seen(track->sheet, track->rest, &x);
+}
+
+/* The blade is out of the layer. A loop that has crossed a cut is taken for closed. */
 static bool End(kiriBladeWork* work, kiriTrack* track)
 {
-    bool isIdle = track->cut == NULL && track->stroke == KIRI_NONE, ok = true;
+    bool isIdle = track->cut == NULL && track->stroke == KIRI_NONE;
+    bool ok = !track->loop.isPassed || IsAtLip(track) || CloseLoop(work, track);
     track->isDone = track->isOver = true;
     if (!isIdle) {
         int32_t stroke = StrokeOf(work, track);
-        ok = stroke != KIRI_NONE;
+        ok = ok && stroke != KIRI_NONE;
         if (ok) {
             work->strokes.data[stroke].isOver = true;
         }
@@ -317,9 +372,16 @@ static const kiriTrack* LostTrack(const kiriBladeWork* work, kiriVec2 rest, doub
     return nearest;
 }
 
-static bool AddTrack(kiriBladeWork* work, const kiriCrossing* crossing, kiriVec2 rest)
+static kiriLoop LoopFrom(kiriVec2 rest, bool isOpen)
 {
-    const kiriTrack track = { work->sheet, NULL, KIRI_NONE, rest, crossing->at, crossing->share, true, false, false };
+    const kiriLoop loop = { isOpen, false, rest, rest, 0.0, 0.0 };
+    return loop;
+}
+
+static bool AddTrack(kiriBladeWork* work, const kiriCrossing* crossing, kiriVec2 rest, kiriLoop loop)
+{
+    const kiriTrack track = { work->sheet,     NULL, KIRI_NONE, rest,  crossing->at,
+                              crossing->share, loop, true,      false, false };
     return kiriArray_Push(&work->memory, &work->tracks, track);
 }
 
@@ -335,13 +397,14 @@ static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSe
         return false;
     }
     kiriVec2 from = lost != NULL ? lost->rest : work->path.data[0];
+    kiriLoop loop = lost != NULL ? lost->loop : LoopFrom(from, type != KIRI_END_BORDER);
     if (other != NULL && other != crossing) {
         other->triangle = TAKEN;
-        if (!AddTrack(work, other, from)) {
+        if (!AddTrack(work, other, from, LoopFrom(from, true))) {
             return false;
         }
     }
-    if (!AddTrack(work, crossing, from)) {
+    if (!AddTrack(work, crossing, from, loop)) {
         return false;
     }
     kiriTrack* track = &work->tracks.data[work->tracks.count - 1];
@@ -385,7 +448,7 @@ static bool EnterLayer(kiriBladeWork* work, kiriCrossing* crossing)
         double near = kiriVec3_Length(kiriVec3_Sub(EdgeAt(was, crossing->share), crossing->at));
         return EnterAlong(work, crossing, line, !fromLast, 2.0 * near + Same * work->snap);
     }
-    bool ok = AddTrack(work, crossing, crossing->rest);
+    bool ok = AddTrack(work, crossing, crossing->rest, LoopFrom(crossing->rest, true));
     crossing->triangle = TAKEN;
     return ok;
 }
@@ -430,8 +493,10 @@ static bool PassAlong(kiriBladeWork* work, const kiriSectionLine* line)
     if (!FindPath(work, line, inner == 1)) {
         return false;
     }
-    kiriTrack track = { work->sheet, NULL,  KIRI_NONE, lost != NULL ? lost->rest : work->path.data[0], work->is[0], 0.0,
-                        false,       false, false };
+    kiriVec2 from = lost != NULL ? lost->rest : work->path.data[0];
+    kiriTrack track = {
+        work->sheet, NULL, KIRI_NONE, from, work->is[0], 0.0, LoopFrom(from, false), false, false, false
+    };
     return LeadAlong(work, &track) && End(work, &track);
 }
 

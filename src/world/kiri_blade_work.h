@@ -30,6 +30,7 @@ typedef struct kiriTrack {
     kiriVec2 rest;
     kiriVec3 at;
     double share;
+    kiriLoop loop;
     bool isDone; /* it is seen to, in this step */
     bool isOver; /* the blade is out of the layer */
     bool isLost; /* its layer was not found again; somebody may go on from where it was */
@@ -54,6 +55,9 @@ typedef struct kiriBladeWork {
     KIRI_ARRAY(kiriSectionPoint) middles; /* of lines */
     kiriRestPoints path;
 } kiriBladeWork;
+
+/* Is the end of the cut so near to its beginning that it may be closed? */
+bool kiriLoop_IsNear(const kiriLoop* loop, kiriVec2 end);
 
 /* Steps of the edge through one sheet. False for memory. */
 bool kiriBlade_Step(kiriBladeWork* work);

@@ -427,6 +427,12 @@ static void HashLayer(uint64_t* hash, const kiriWorld* world, const kiriLayer* l
     HashVec2(hash, layer->rest);
     HashVec3(hash, layer->at);
     kiriHash_Double(hash, layer->share);
+    kiriHash_Int32(hash, layer->loop.isOpen);
+    kiriHash_Int32(hash, layer->loop.isPassed);
+    HashVec2(hash, layer->loop.start);
+    HashVec2(hash, layer->loop.near);
+    kiriHash_Double(hash, layer->loop.length);
+    kiriHash_Double(hash, layer->loop.then);
 }
 
 static void HashBlade(uint64_t* hash, const kiriWorld* world, const kiriBladeData* blade)
