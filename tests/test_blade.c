@@ -243,6 +243,47 @@ static void TestLoops(void** state)
     }
 }
 
+/* A circle that a hand draws on a curtain in a light wind: it comes round beside where it began, and the curtain is
+   elsewhere by then. Slivers may come off where it overlaps. */
+static void CheckCircle(int k, double radius, double widening)
+{
+    static const float eye[3] = { 0.5f, -2.0f, 0.5f }, none[3] = { 0.0f, 0.0f, 0.0f };
+    Stage stage;
+    int32_t steps = 6 + 7 * k, large = 0, count;
+    Stage_StartCurtain(&stage, 16 + 2 * k, 20);
+    Begin(&stage);
+    for (int32_t i = 0; i <= steps + steps / 10; ++i) {
+        double turn = 6.283185307179586 * i / steps, r = radius * (1.0 + widening * i / steps);
+        const float way[3] = { (float)(r * cos(turn)), 2.0f, (float)(r * sin(turn)) };
+        const float force[3] = { 0.0f, 0.05f * (float)(i / 4 % 2) - 0.025f, 0.0f };
+        kiriFrame frames[64];
+        OK(kiriBlade_MoveRay(stage.host.world, stage.blade, eye, way, 20.0f));
+        OK(kiriSheet_GetFrames(stage.host.world, stage.sheet, frames, 64, &count));
+        OK(kiriFrame_ApplyForce(stage.host.world, frames[i % count], force, none));
+        Tick(&stage);
+    }
+    EndAndTick(&stage);
+    for (int32_t i = 0; i < Pieces(&stage); ++i) {
+        kiriPieceState piece;
+        OK(kiriSheet_GetPiece(stage.host.world, stage.sheet, i, &piece));
+        large += piece.area > 2.0 * radius * radius;
+    }
+    if (large != 2) {
+        fail_msg("circle %d: %d large pieces", k, (int)large);
+    }
+    Host_Stop(&stage.host);
+}
+
+static void TestCirclesByHand(void** state)
+{
+    (void)state;
+    uint32_t seed = 2;
+    for (int k = 0; k < 12; ++k) {
+        double radius = RandomBetween(&seed, 0.06, 0.2);
+        CheckCircle(k, radius, RandomBetween(&seed, -0.02, 0.02));
+    }
+}
+
 /* A loop that ends where it began, to the bit, is closed. */
 static void TestClosedLoop(void** state)
 {
@@ -712,16 +753,27 @@ static void TestRaysMakeNoDifference(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSwipesPart),         cmocka_unit_test(TestTwentySwipes),
-        cmocka_unit_test(TestBackAndForth),       cmocka_unit_test(TestLoops),
-        cmocka_unit_test(TestClosedLoop),         cmocka_unit_test(TestStandsStill),
-        cmocka_unit_test(TestLeavesAndComesBack), cmocka_unit_test(TestShortEdge),
-        cmocka_unit_test(TestTurningEdge),        cmocka_unit_test(TestFold),
-        cmocka_unit_test(TestSeveralPieces),      cmocka_unit_test(TestAllSheets),
-        cmocka_unit_test(TestFallsPast),          cmocka_unit_test(TestFallsAlong),
-        cmocka_unit_test(TestDetached),           cmocka_unit_test(TestOpensAtOnce),
-        cmocka_unit_test(TestRefusals),           cmocka_unit_test(TestExtremeEdges),
-        cmocka_unit_test(TestWithoutMemory),      cmocka_unit_test(TestRaysMakeNoDifference),
+        cmocka_unit_test(TestSwipesPart),
+        cmocka_unit_test(TestTwentySwipes),
+        cmocka_unit_test(TestBackAndForth),
+        cmocka_unit_test(TestLoops),
+        cmocka_unit_test(TestCirclesByHand),
+        cmocka_unit_test(TestClosedLoop),
+        cmocka_unit_test(TestStandsStill),
+        cmocka_unit_test(TestLeavesAndComesBack),
+        cmocka_unit_test(TestShortEdge),
+        cmocka_unit_test(TestTurningEdge),
+        cmocka_unit_test(TestFold),
+        cmocka_unit_test(TestSeveralPieces),
+        cmocka_unit_test(TestAllSheets),
+        cmocka_unit_test(TestFallsPast),
+        cmocka_unit_test(TestFallsAlong),
+        cmocka_unit_test(TestDetached),
+        cmocka_unit_test(TestOpensAtOnce),
+        cmocka_unit_test(TestRefusals),
+        cmocka_unit_test(TestExtremeEdges),
+        cmocka_unit_test(TestWithoutMemory),
+        cmocka_unit_test(TestRaysMakeNoDifference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
