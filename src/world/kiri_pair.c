@@ -40,6 +40,7 @@ static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
 {
     kiriPairs* pairs = &world->pairs;
     int32_t first = pairs->bodies.count, count = sheet->layout.pieces.count;
+    sheet->probes.firstBody = first;
     if (!kiriProbes_Update(sheet) || !kiriArray_Resize(&world->memory, &pairs->bodies, (int64_t)first + count)) {
         return false;
     }

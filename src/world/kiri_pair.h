@@ -21,7 +21,7 @@ void kiriPairs_Commit(kiriWorld* world);
 
 /* Gives the sheets that are upper ones what they touch. Between kiriTouches_Begin and kiriTouches_Reserve; false for
    memory. */
-bool kiriPairs_AddTouches(kiriWorld* world);
+bool kiriPairs_AddTouches(kiriWorld* world, double dt);
 
 /* What the upper ones pressed with in the last tick acts on the lower ones in this one; and what they press with now is
    kept for the next. Before and after all sheets are moved. */

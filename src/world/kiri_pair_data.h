@@ -16,6 +16,7 @@ typedef struct kiriBody {
     kiriVec3 momentum; /* N s, */
     double mass;       /* kg */
     bool asleep;
+    double least;   /* m/s: how fast it rises at least in the tick, for what it will be stopped by */
     bool isCarried; /* does it lie on anything? */
     bool isHeld;    /* by a pin or by the host */
 } kiriBody;
@@ -51,6 +52,7 @@ typedef struct kiriPlace3 {
 /* Where the upper one of a pair touches the lower one, or may in the coming tick. */
 typedef struct kiriPairTouch {
     kiriPlace3 upper, lower;
+    int32_t bodies[2]; /* of these */
     uint64_t key;
     kiriVec3 normal;   /* unit, to the upper one */
     kiriVec3 velocity; /* of the lower place */

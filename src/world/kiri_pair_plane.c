@@ -6,7 +6,9 @@
 
 #define FIRM 0.5       /* of a unit: what is pushed along a normal as much as that is carried against it */
 #define PUSH_SPEED 0.1 /* m/s: pieces that are too near each other part no faster */
-#define CUSHION 100.0  /* times the mass of a frame, see below */
+enum { PASSES = 8 };
+
+#define CUSHION 100.0 /* times the mass of a frame, see below */
 
 static kiriVec3 SeenAt(const kiriPlace3* place)
 {
@@ -38,12 +40,15 @@ static const kiriFrameData* LargestFrame(const kiriPlace3* place)
 /* The plane moves with the material of the lower one, but not as all of that moves. What lies on something goes no farther
    into it: the velocity that an implicit step leaves there is that of its way to it. And a lower one that flaps does not
    throw the upper one, which it does not feel in time: it lifts no faster than it rises as a whole. */
-static kiriVec3 PlaneVelocity(const kiriPairTouch* pair)
+static kiriVec3 PlaneVelocity(const kiriPairs* pairs, const kiriPairTouch* pair)
 {
+    double stopped = pairs->bodies.data[pair->bodies[1]].least;
     const kiriFrameData* frame = LargestFrame(&pair->lower);
     double rises = kiriVec3_Dot(pair->velocity, pair->normal), most = pair->lift > 0.0 ? pair->lift : 0.0;
     bool isCarried = kiriVec3_Dot(frame->support, pair->normal) > FIRM;
-    double least = isCarried ? 0.0 : -HUGE_VAL, taken = rises < least ? least : rises > most ? most : rises;
+    double least = isCarried || stopped > 0.0 ? 0.0 : stopped, taken = rises < least  ? least
+                                                                       : rises > most ? most
+                                                                                      : rises;
     return frame->held ? pair->velocity : kiriVec3_AddScaled(pair->velocity, taken - rises, pair->normal);
 }
 
@@ -68,7 +73,7 @@ static bool FindCushion(const kiriPlace3* place, int32_t* yield)
     return *yield != KIRI_NONE;
 }
 
-static bool AddTouch(kiriPairTouch* pair)
+static bool AddTouch(const kiriPairs* pairs, kiriPairTouch* pair)
 {
     kiriSheetData* sheet = pair->upper.sheet;
     const kiriSettings *a = &sheet->settings, *b = &pair->lower.sheet->settings;
@@ -80,7 +85,7 @@ static bool AddTouch(kiriPairTouch* pair)
     memcpy(touch.share, pair->upper.share, sizeof(touch.share));
     touch.normal = pair->normal;
     touch.offset = kiriVec3_Dot(pair->normal, SeenAt(&pair->lower)) + 0.5 * (a->contactThickness + b->contactThickness);
-    touch.velocity = PlaneVelocity(pair);
+    touch.velocity = PlaneVelocity(pairs, pair);
     touch.friction = sqrt(a->friction * b->friction);
     touch.pushSpeed = PUSH_SPEED;
     touch.felt = -1.0;
@@ -92,12 +97,65 @@ static bool AddTouch(kiriPairTouch* pair)
     return kiriTouches_Add(sheet, &touch);
 }
 
-bool kiriPairs_AddTouches(kiriWorld* world)
+/* ---- What will stop a piece in the tick ---- */
+
+static void Raise(kiriBody* body, const kiriWorld* world, kiriVec3 normal, double least)
 {
+    bool carries = -kiriVec3_Dot(normal, kiriVec3_Normalize(world->gravity)) > FIRM;
+    body->least = carries && least > body->least ? least : body->least;
+}
+
+static void StopAtObstacles(kiriWorld* world, kiriSheetData* sheet, double dt)
+{
+    for (int32_t i = 0; i < sheet->touches.found.count; ++i) {
+        const kiriTouch* touch = &sheet->touches.found.data[i];
+        if (touch->point == KIRI_NONE) {
+            int32_t piece = sheet->probes.vertexPiece.data[touch->vertex[0]];
+            double gap = kiriVec3_Dot(touch->normal, touch->seen) - touch->offset;
+            Raise(&world->pairs.bodies.data[sheet->probes.firstBody + piece], world, touch->normal,
+                  gap / dt + kiriVec3_Dot(touch->normal, touch->velocity));
+        }
+    }
+}
+
+/* From below upwards: a piece that lands stops what follows it. Passes end when nothing changes, or after some. */
+static void StopFalls(kiriWorld* world, double dt)
+{
+    kiriPairs* pairs = &world->pairs;
+    bool isChanged = true;
+    for (int pass = 0; isChanged && pass < PASSES; ++pass) {
+        isChanged = false;
+        for (int32_t i = 0; i < pairs->touches.count; ++i) {
+            const kiriPairTouch* touch = &pairs->touches.data[i];
+            kiriBody *upper = &pairs->bodies.data[touch->bodies[0]], *lower = &pairs->bodies.data[touch->bodies[1]];
+            double rises = kiriVec3_Dot(touch->normal, touch->velocity), before = upper->least;
+            rises = rises > lower->least ? rises : lower->least;
+            Raise(upper, world, touch->normal, (touch->gap - kiriPair_Distance(upper, lower)) / dt + rises);
+            isChanged |= upper->least > before;
+        }
+    }
+}
+
+static void FindStops(kiriWorld* world, double dt)
+{
+    for (int32_t i = 0; i < world->pairs.bodies.count; ++i) {
+        world->pairs.bodies.data[i].least = -HUGE_VAL;
+    }
+    for (int32_t i = 0; i < world->pairs.bodies.count; ++i) {
+        if (world->pairs.bodies.data[i].piece == 0) {
+            StopAtObstacles(world, world->pairs.bodies.data[i].sheet, dt);
+        }
+    }
+    StopFalls(world, dt);
+}
+
+bool kiriPairs_AddTouches(kiriWorld* world, double dt)
+{
+    FindStops(world, dt);
     bool ok = kiriArray_Reserve(&world->memory, &world->pairs.nextFelt, world->pairs.touches.count) &&
               kiriArray_Reserve(&world->memory, &world->pairs.order, world->pairs.touches.count);
     for (int32_t i = 0; ok && i < world->pairs.touches.count; ++i) {
-        ok = AddTouch(&world->pairs.touches.data[i]);
+        ok = AddTouch(&world->pairs, &world->pairs.touches.data[i]);
     }
     return ok;
 }

@@ -108,7 +108,7 @@ static bool FindTouches(kiriWorld* world, double dt)
         ok = kiriTouches_Begin(world->sheets.data[i]);
     }
     ok = ok && kiriObstacles_FindTouches(world, dt);
-    ok = ok && kiriPairs_AddTouches(world);
+    ok = ok && kiriPairs_AddTouches(world, dt);
     for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
         ok = kiriTouches_Reserve(world->sheets.data[i]);
         world->profile.contacts += world->sheets.data[i]->touches.found.count;
