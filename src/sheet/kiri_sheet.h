@@ -90,7 +90,7 @@ typedef struct kiriPinAnchor {
 /* The vertices by which the sheet feels others, see kiri_probe.h. */
 typedef struct kiriProbes {
     bool isFresh;                    /* neither mesh nor pieces have changed since */
-    int32_t firstBody;               /* of its pieces, see kiri_pair.c */
+    int32_t sheet, firstBody;        /* indices of the sheet, and of its pieces among the bodies of kiri_pair.c */
     KIRI_ARRAY(int32_t) vertexPiece; /* of each vertex: its piece, */
     KIRI_ARRAY(uint8_t) isBorder;    /* is it on the outline or a lip? */
     KIRI_ARRAY(uint8_t) isChosen;    /* is it a probe? */

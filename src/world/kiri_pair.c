@@ -64,6 +64,7 @@ static bool ListBodies(kiriWorld* world)
     bool ok = true;
     world->pairs.bodies.count = 0;
     for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
+        world->sheets.data[i]->probes.sheet = i;
         ok = !TakesPart(world->sheets.data[i]) || ListBodiesOf(world, world->sheets.data[i]);
     }
     return ok;
@@ -422,16 +423,6 @@ void kiriPairs_Commit(kiriWorld* world)
     world->pairs.next = old;
 }
 
-static int32_t IndexOf(const kiriWorld* world, kiriFrame id)
-{
-    const kiriSheetData* sheet = SheetOf(world, id);
-    int32_t i = 0;
-    while (i < world->sheets.count && world->sheets.data[i] != sheet) {
-        ++i;
-    }
-    return i < world->sheets.count ? i : KIRI_NONE;
-}
-
 void kiriPairs_JoinCalm(kiriWorld* world)
 {
     kiriPairs* pairs = &world->pairs;
@@ -439,9 +430,10 @@ void kiriPairs_JoinCalm(kiriWorld* world)
     KIRI_ASSERT(pairs->islands.capacity >= world->sheets.count);
     kiriUnion_Init(parent, world->sheets.count);
     for (int32_t i = 0; i < pairs->pairs.count; ++i) {
-        int32_t a = IndexOf(world, pairs->pairs.data[i].upper), b = IndexOf(world, pairs->pairs.data[i].lower);
-        if (pairs->pairs.data[i].touches && a != KIRI_NONE && b != KIRI_NONE) {
-            kiriUnion_Join(parent, a, b);
+        const kiriSheetData* upper = SheetOf(world, pairs->pairs.data[i].upper);
+        const kiriSheetData* lower = SheetOf(world, pairs->pairs.data[i].lower);
+        if (pairs->pairs.data[i].touches && upper != NULL && lower != NULL) {
+            kiriUnion_Join(parent, upper->probes.sheet, lower->probes.sheet);
         }
     }
     for (int32_t i = 0; i < world->sheets.count; ++i) {
