@@ -48,6 +48,9 @@ int main(int argc, char** argv)
     if (Contact_IsAsked("sheets")) {
         Contact_MeasureSheets();
     }
+    if (Contact_IsAsked("box2d")) {
+        Contact_MeasureBox2d();
+    }
     printf("%d of %d lines missed\n", marked, lines);
     return 0;
 }

@@ -272,9 +272,10 @@ kiriResult KiriBox2d::GiveBack()
     for (auto& entry : memories) {
         b2Body* body = entry.first;
         Memory& memory = entry.second;
-        /* A sleeping body wakes when it feels other than when it fell asleep. */
+        /* A sleeping body wakes when it feels other than when it fell asleep, by a tenth. */
         float change = Length(memory.felt - memory.impulse);
-        if (body->IsAwake() || change > b2_linearSleepTolerance * body->GetMass()) {
+        float least = b2_linearSleepTolerance * body->GetMass() + 0.1f * Length(memory.impulse);
+        if (body->IsAwake() || change > least) {
             body->ApplyLinearImpulseToCenter(b2Vec2(memory.felt.x, memory.felt.y), change > 0.0f);
             body->ApplyAngularImpulse(memory.felt.z, change > 0.0f);
             memory.impulse = memory.felt;
