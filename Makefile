@@ -119,6 +119,7 @@ FILM := --scene fallingguy --ticks 390 --every 4 --size 480x360
 # Films of the games; the first one plays itself.
 PLAY_FILM := --headless --size 400x300 --oversampling 3 --every 4
 CURTAIN_FILM := --game curtain --level 4 --demo --ticks 420
+NET_FILM := --script samples/games/scripts/net_6.txt
 
 gallery: accuracy
 	@$(MAKE) --no-print-directory $(RUN) $(BOX2D) $(PLAY)
@@ -130,6 +131,7 @@ gallery: accuracy
 	cp build/gallery/weights/contact_sheet.png samples/pictures/weights.png
 	$(RUN) $(FILM) --output build/gallery/film --film samples/pictures/film.png
 	$(PLAY) $(CURTAIN_FILM) $(PLAY_FILM) --film samples/pictures/curtain.png
+	$(PLAY) $(NET_FILM) $(PLAY_FILM) --film samples/pictures/net.png
 	$(BOX2D) --output build/gallery/box2d
 	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
 	for scene in strip square tongue; do cp build/accuracy/trade_$$scene.png samples/pictures/; done
