@@ -362,8 +362,17 @@ typedef struct kiriSheetDef {
     float contactThickness; /* m, 0 or more: sheets and pieces stay so far apart, and half as far from obstacles. 0: the
                                material's thickness, a 20th of a grid square at least. Default 0 */
     uint32_t groups;        /* obstacles and sheets touch where a bit is set in the groups of both. Default: all */
-    int32_t touchesSheets;  /* 1: its pieces touch each other, and other sheets that have it set. Default 0 */
-    int32_t touchesSelf;    /* 1: and a piece that folds touches itself. Default 0 */
+    int32_t touchesSheets;  /* 1: its pieces touch each other, and other sheets that have it set; not where one of the two
+                               sheets is planar. Default 0.
+                               Of two pieces that are near each other the one that lies above, against gravity, is kept
+                               on its side of the other by planes; side by side the one that nothing holds, or the lighter
+                               one. So piles keep their order. The lower one feels what presses on it within 0.3 s: weight
+                               acts in full, an impact does so only while the upper one stays, and momentum is not
+                               exchanged exactly. Pieces that cross are parted at 0.1 m/s. A sheet feels others by its
+                               vertices, about one a grid square and more along borders: two edges that cross are not
+                               seen. A piece that wraps around the border of another, so that it lies on both sides of it,
+                               has one side all the same. Sheets that touch wake and fall asleep together. */
+    int32_t touchesSelf;    /* 0 or 1. A piece that folds does not touch itself yet: kept for that. Default 0 */
 
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
     int32_t iterations;      /* Newton steps a substep, 1 to 64; default 2 */
