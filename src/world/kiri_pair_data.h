@@ -57,8 +57,9 @@ typedef struct kiriPairTouch {
     kiriVec3 normal;   /* unit, to the upper one */
     kiriVec3 velocity; /* of the lower place */
     double gap;        /* m, of the places along the normal */
-    double lift;       /* m/s: how fast the lower one rises along it as a whole */
-    int32_t touch;     /* index in what touches the upper sheet */
+    double
+        lift; /* m/s: how fast the lower one rises along it as a whole; 0: it lies on something, and only springs up */
+    int32_t touch; /* index in what touches the upper sheet */
 } kiriPairTouch;
 
 /* What of the push of a touch the lower one feels. */

@@ -155,7 +155,7 @@ static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
         touch.velocity = LowerVelocity(world, lower, &touch.lower, dt);
         touch.touch = KIRI_NONE;
         memcpy(touch.bodies, pair->bodies, sizeof(touch.bodies));
-        touch.lift = kiriVec3_Dot(lower->momentum, touch.normal) / lower->mass;
+        touch.lift = lower->isCarried ? 0.0 : kiriVec3_Dot(lower->momentum, touch.normal) / lower->mass;
         double above = touch.gap - Approach(world, &touch, dt);
         if (above < (1.0 + MARGIN) * distance) {
             ok = AddTouch(world, &touch);
