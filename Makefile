@@ -21,7 +21,7 @@
 
 config ?= release
 SCENE ?= bunny
-GAME ?= curtain
+GAME ?=
 ARGS ?=
 CASE ?=
 
@@ -92,7 +92,7 @@ box2d: deps
 
 play: deps
 	@$(MAKE) --no-print-directory $(PLAY)
-	$(PLAY) --game $(GAME) $(ARGS)
+	$(PLAY) $(if $(GAME),--game $(GAME)) $(ARGS)
 
 test: deps
 	@$(MAKE) --no-print-directory -k check
@@ -117,8 +117,8 @@ GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat
 FILM := --scene fallingguy --ticks 390 --every 4 --size 480x360
 
 # Films of the games; the first one plays itself.
-PLAY_FILM := --headless --size 400x300 --oversampling 3 --every 4
-CURTAIN_FILM := --game curtain --level 4 --demo --ticks 420
+PLAY_FILM := --headless --size 320x240 --oversampling 4 --every 6
+CURTAIN_FILM := --game curtain --level 5 --demo --ticks 480
 NET_FILM := --script samples/games/scripts/net_6.txt
 
 gallery: accuracy

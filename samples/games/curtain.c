@@ -18,7 +18,7 @@ enum {
     LEAST_SCRAP_TICKS = GAME_RATE, /* or when there are many: the oldest, but none younger than this */
     MANY_SCRAPS = 10,
     CRUMB_TICKS = 2 * GAME_RATE, /* how often crumbs are swept away */
-    LEAVE_TICKS = 6 * GAME_RATE, /* a curtain that was let go */
+    LEAVE_TICKS = 3 * GAME_RATE, /* a curtain that was let go */
     GATHER_TICKS = GAME_RATE     /* rings move on the rail */
 };
 

@@ -5,6 +5,6 @@
 
 int main(int count, char** words)
 {
-    const GameType* const games[] = { &netGame, &curtainGame, NULL };
+    const GameType* const games[] = { &curtainGame, &netGame, NULL };
     return Shell_Run(count, words, games);
 }
