@@ -368,7 +368,7 @@ typedef struct kiriSheetDef {
                                on its side of the other by planes; side by side the one that nothing holds, or the lighter
                                one. So piles keep their order. The lower one feels what presses on it within 0.3 s: weight
                                acts in full, an impact does so only while the upper one stays, and momentum is not
-                               exchanged exactly. Pieces that cross are parted at 0.05 m/s. A sheet feels others by its
+                               exchanged exactly. Pieces that cross are parted at 0.25 m/s. A sheet feels others by its
                                vertices, about one a grid square and more along borders: two edges that cross are not
                                seen. A piece that wraps around the border of another, so that it lies on both sides of it,
                                has one side all the same. Sheets that touch wake and fall asleep together. */

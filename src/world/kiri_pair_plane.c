@@ -5,7 +5,7 @@
 #include <string.h>
 
 #define FIRM 0.5        /* of a unit: what is pushed along a normal as much as that is carried against it */
-#define PUSH_SPEED 0.05 /* m/s: pieces that are too near each other part no faster */
+#define PUSH_SPEED 0.25 /* m/s: pieces that are too near each other part no faster */
 enum { PASSES = 8 };
 
 #define CUSHION 100.0 /* times the mass of a frame, see below */

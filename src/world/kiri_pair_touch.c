@@ -84,11 +84,12 @@ static bool IsNeeded(const kiriPairs* pairs, const kiriTouchingPair* pair, const
            lower->mesh.step * lower->mesh.squares.side < 0.5 * upper->mesh.step * upper->mesh.squares.side;
 }
 
-/* How much nearer the two come in the tick, at most. */
+/* How much nearer the two come in the tick, at most: the lower one may be stopped by what is below it. */
 static double Approach(const kiriWorld* world, const kiriPairTouch* touch, double dt)
 {
-    kiriVec3 v = kiriVec3_Sub(PlaceVelocity(&touch->upper), touch->velocity);
-    double speed = -kiriVec3_Dot(touch->normal, v) + dt * kiriVec3_Length(world->gravity);
+    double falls = -kiriVec3_Dot(touch->normal, PlaceVelocity(&touch->upper));
+    double rises = kiriVec3_Dot(touch->normal, touch->velocity);
+    double speed = falls + (rises > 0.0 ? rises : 0.0) + dt * kiriVec3_Length(world->gravity);
     return speed > 0.0 ? dt * speed : 0.0;
 }
 
