@@ -4,6 +4,7 @@
 #include "../samples/games/play.h"
 #include "../samples/games/script.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -78,6 +79,29 @@ static void TestReplayIsTheSame(void**)
     assert_int_equal(first.score, second.score);
 }
 
+/* A swipe parts the rope of level 1 whenever it comes, whether the rope swings up or down. */
+static void TestSwipesPart(void**)
+{
+    for (int start = 10; start < 70; ++start) {
+        Play play;
+        assert_true(Play_Start(&play, &netGame, 1));
+        for (int tick = 0; tick < start + 12; ++tick) {
+            int step = tick - start;
+            GameEvent event = { tick, step == 0 ? GAME_DOWN : step == 7 ? GAME_UP : GAME_MOVE, 0, 0, 570, 216, 0 };
+            event.button = event.type == GAME_MOVE ? 0 : GAME_LEFT;
+            event.y += 25 * std::min(step, 6);
+            assert_true(step < 0 || step > 7 || Play_Send(&play, &event));
+            assert_true(Play_Tick(&play));
+        }
+        const NetGame& game = *static_cast<NetGame*>(play.game);
+        kiriCounts counts;
+        assert_int_equal(kiriSheet_GetCounts(game.world, game.handles[0], &counts), KIRI_OK);
+        assert_int_equal(game.cuts, 1);
+        assert_int_equal(counts.pieces, 2);
+        Play_Stop(&play);
+    }
+}
+
 /* ---- Momentum ----------------------------------------------------------------------------------------------------- */
 
 static b2Vec2 MomentumOf(const NetGame& game, float* mass)
@@ -144,9 +168,8 @@ static void TestMomentumIsKept(void**)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestScriptsWin),
-        cmocka_unit_test(TestNothingWinsNothing),
-        cmocka_unit_test(TestReplayIsTheSame),
+        cmocka_unit_test(TestScriptsWin),      cmocka_unit_test(TestNothingWinsNothing),
+        cmocka_unit_test(TestReplayIsTheSame), cmocka_unit_test(TestSwipesPart),
         cmocka_unit_test(TestMomentumIsKept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

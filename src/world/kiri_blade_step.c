@@ -63,10 +63,10 @@ static kiriVec3 VelocityOf(const kiriSheetData* sheet, int32_t vertex)
     return sum;
 }
 
-/* How far the material at a crossing has gone since the edge was where it was. */
-static kiriVec3 DriftAt(const kiriBladeWork* work, const kiriCrossing* crossing)
+/* How far the material of a triangle has gone since the edge was where it was. */
+static kiriVec3 DriftOf(const kiriBladeWork* work, int32_t triangle)
 {
-    const int32_t* v = work->sheet->mesh.triangles.data[crossing->triangle].vertex;
+    const int32_t* v = work->sheet->mesh.triangles.data[triangle].vertex;
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
     for (int k = 0; k < 3; ++k) {
         sum = kiriVec3_AddScaled(sum, work->elapsed / 3.0, VelocityOf(work->sheet, v[k]));
@@ -436,7 +436,7 @@ static bool FindLineTo(kiriBladeWork* work, const kiriCrossing* crossing, const 
 
 static bool EnterLayer(kiriBladeWork* work, kiriCrossing* crossing)
 {
-    kiriVec3 drift = DriftAt(work, crossing), flat[2];
+    kiriVec3 drift = DriftOf(work, crossing->triangle), flat[2];
     const kiriVec3 was[2] = { kiriVec3_Add(work->was[0], drift), kiriVec3_Add(work->was[1], drift) };
     const kiriSectionLine* line = NULL;
     bool fromLast = false;
@@ -549,9 +549,28 @@ static bool IsFlat(const kiriBladeWork* work, const kiriVec3 corner[4])
     return fabs(kiriVec3_Dot(normal, kiriVec3_Sub(corner[1], corner[0]))) < Degenerate * work->snap;
 }
 
+/* Where the edge neither is nor was in a layer, nobody has said how far the material went: it may have come over the edge
+   meanwhile, and then the sweep seems to begin inside it. */
+static bool FindDrift(kiriBladeWork* work)
+{
+    const kiriSheetData* sheet = work->sheet;
+    const kiriVec3 corner[4] = { work->was[0], work->was[1], work->is[1], work->is[0] };
+    bool ok = kiriSection_Sweep(&work->section, &work->memory, &sheet->seen.surface, sheet->seen.bounds, corner);
+    if (ok && work->section.lines.count > 0) {
+        kiriVec2 rest = MiddleOf(&work->section, &work->section.lines.data[0]).rest;
+        int32_t triangle = kiriMesh_Locate(&sheet->mesh, kiriMesh_Snap(&sheet->mesh, rest));
+        work->drift = triangle != KIRI_NONE ? DriftOf(work, triangle) : work->drift;
+    }
+    return ok;
+}
+
 static bool PassThrough(kiriBladeWork* work)
 {
     const kiriSheetData* sheet = work->sheet;
+    bool isKnown = kiriVec3_Dot(work->drift, work->drift) > 0.0;
+    if (!isKnown && !FindDrift(work)) {
+        return false;
+    }
     const kiriVec3 corner[4] = { kiriVec3_Add(work->was[0], work->drift), kiriVec3_Add(work->was[1], work->drift),
                                  work->is[1], work->is[0] };
     bool isFlat = IsFlat(work, corner);
