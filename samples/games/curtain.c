@@ -8,8 +8,8 @@
 #include <string.h>
 
 enum {
-    COLUMNS = 56,
-    ROWS = 40,
+    COLUMNS = 44,
+    ROWS = 32,
     FRAME_ROWS = 6,
     MAX_FRAMES = 160,
     SUBSTEPS = 2,
