@@ -34,7 +34,7 @@ static void TestSettingsAreThoseOfTheDef(void** state)
     OK(kiriSheet_GetSettings(host.world, sheet, &settings));
     assert_memory_equal(&settings.material, &def.material, sizeof(def.material));
     assert_true(settings.friction == 0.25f && settings.contactThickness == 0.003f && settings.groups == 6);
-    assert_true(settings.touchesSheets == 1 && settings.touchesSelf == 0 && settings.iterations == 3);
+    assert_true(settings.touchesSheets == 1 && settings.iterations == 3);
     assert_true(settings.maxFrames == 4 && settings.sleepSpeed == def.sleepSpeed && settings.fadeTime == def.fadeTime);
     uint64_t hash = Host_Hash(&host);
     OK(kiriSheet_SetSettings(host.world, sheet, &settings));
@@ -61,7 +61,6 @@ static void TestSettingsAreADefs(void** state)
         other.sleepSpeed = 0.0f;
         other.friction = 0.1f;
         other.groups = 1;
-        other.touchesSelf = 1;
         other.crumbArea = 0.01f;
         other.maxFrames = 7;
         kiriSheet sheet = Host_AddRectangle(&host, way == 0 ? &other : &def, 1.0f, 1.0f, 4, 4);
@@ -74,7 +73,6 @@ static void TestSettingsAreADefs(void** state)
         settings.sleepSpeed = other.sleepSpeed;
         settings.friction = other.friction;
         settings.groups = other.groups;
-        settings.touchesSelf = other.touchesSelf;
         settings.crumbArea = other.crumbArea;
         settings.maxFrames = other.maxFrames;
         OK(kiriSheet_SetSettings(host.world, sheet, &settings));
@@ -147,7 +145,6 @@ static void TestSettingsAreChecked(void** state)
     REFUSED_SETTING(friction, -1.0f, KIRI_ERROR_ARGUMENT);
     REFUSED_SETTING(contactThickness, NAN, KIRI_ERROR_ARGUMENT);
     REFUSED_SETTING(touchesSheets, 2, KIRI_ERROR_ARGUMENT);
-    REFUSED_SETTING(touchesSelf, -1, KIRI_ERROR_ARGUMENT);
     REFUSED_SETTING(iterations, 65, KIRI_ERROR_ARGUMENT);
     REFUSED_SETTING(sleepSpeed, NAN, KIRI_ERROR_ARGUMENT);
     REFUSED_SETTING(skinning, 2, KIRI_ERROR_ARGUMENT);

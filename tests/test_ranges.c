@@ -95,7 +95,6 @@ static const Field sheetFields[] = {
     { REAL(kiriSheetDef, contactThickness), { 0.0, FLT_MIN, 0.01, 1.0, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
     { WHOLE(kiriSheetDef, groups), { 0, 1, -1, INT32_MIN, END }, { END } },
     { WHOLE(kiriSheetDef, touchesSheets), { 0, 1, END }, { -1, 2, END } },
-    { WHOLE(kiriSheetDef, touchesSelf), { 0, 1, END }, { -1, 2, END } },
     { WHOLE(kiriSheetDef, collisionPoints), { 0, 1, 10, 1000, 1048576, END }, { -1, 1048577, END } },
     { WHOLE(kiriSheetDef, iterations), { 1, 5, 64, END }, { 0, 65, END } },
     { REAL(kiriSheetDef, sleepSpeed), { 0.0, FLT_MIN, 1.0, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },

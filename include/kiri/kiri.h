@@ -151,7 +151,8 @@ enum kiriEventType {
     KIRI_EVENT_DIVERGED = 4,     /* the sheet was put to rest */
     KIRI_EVENT_DEFERRED = 5,     /* stage, waiting: the budget ended in this stage of the sheet's work */
     KIRI_EVENT_PIN_BROKE = 6,    /* pin: its force passed breakForce; the id is stale from now on */
-    KIRI_EVENT_PIECE_DETACHED = 7 /* sheet (the new one), frame, area: what kiriFrame_DetachPiece left waiting is done */
+    KIRI_EVENT_PIECE_DETACHED =
+        7 /* sheet (the new one), frame, area: what kiriFrame_DetachPiece left waiting is done */
 };
 
 typedef struct kiriEvent {
@@ -357,22 +358,21 @@ typedef struct kiriSheetDef {
     float crumbArea;
 
     /* Contact, see below. */
-    float friction; /* of the sheet, 0 or more; with that of an obstacle or of another sheet counts the geometric
-                               mean. Default 0.5 */
+    float friction; /* of the sheet, 0 or more; with that of an obstacle or of another sheet counts the geometric mean.
+                       Default 0.5 */
     float contactThickness; /* m, 0 or more: sheets and pieces stay so far apart, and half as far from obstacles. 0: the
                                material's thickness, a 20th of a grid square at least. Default 0 */
     uint32_t groups;        /* obstacles and sheets touch where a bit is set in the groups of both. Default: all */
-    int32_t touchesSheets;  /* 1: its pieces touch each other, and other sheets that have it set; not where one of the two
-                               sheets is planar. Default 0.
-                               Of two pieces that are near each other the one that lies above, against gravity, is kept
-                               on its side of the other by planes; side by side the one that nothing holds, or the lighter
-                               one. So piles keep their order. The lower one feels what presses on it within 0.3 s: weight
-                               acts in full, an impact does so only while the upper one stays, and momentum is not
-                               exchanged exactly. Pieces that cross are parted at 0.25 m/s. A sheet feels others by its
-                               vertices, about one a grid square and more along borders: two edges that cross are not
-                               seen. A piece that wraps around the border of another, so that it lies on both sides of it,
-                               has one side all the same. Sheets that touch wake and fall asleep together. */
-    int32_t touchesSelf;    /* 0 or 1. A piece that folds does not touch itself yet: kept for that. Default 0 */
+
+    /* 1: its pieces touch each other, and other sheets that have it set; not where one of the two sheets is planar. Of two
+       pieces that are near each other the one that lies above, against gravity, is kept on its side of the other by
+       planes; side by side the one that nothing holds, or the lighter one. So piles keep their order. The lower one feels
+       what presses on it within 0.3 s: weight acts in full, an impact does so only while the upper one stays, and
+       momentum is not exchanged exactly. Pieces that cross are parted at 0.25 m/s. A sheet feels others by its vertices,
+       about one a grid square and more along borders: two edges that cross are not seen. A piece that wraps around the
+       border of another, so that it lies on both sides of it, has one side all the same. Folds of one piece do not touch
+       each other. Sheets that touch wake and fall asleep together. Default 0. */
+    int32_t touchesSheets;
 
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
     int32_t iterations;      /* Newton steps a substep, 1 to 64; default 2 */
@@ -413,7 +413,7 @@ typedef struct kiriSheetSettings {
     float crumbArea;
     float friction, contactThickness;
     uint32_t groups;
-    int32_t touchesSheets, touchesSelf;
+    int32_t touchesSheets;
     int32_t iterations;
     float sleepSpeed;
     int32_t skinning, timeStepping;
@@ -819,8 +819,8 @@ typedef struct kiriPinState {
     kiriSheet sheet;
     float from[2], to[2]; /* rest position: of a point, twice, or of the ends of the line */
     float target[3];
-    float rotation[9]; /* of a line; of a point the identity */
-    float breakForce;  /* N, or 0 */
+    float rotation[9];     /* of a line; of a point the identity */
+    float breakForce;      /* N, or 0 */
     kiriObstacle obstacle; /* that it goes with, or 0 */
 } kiriPinState;
 
@@ -908,7 +908,7 @@ typedef struct kiriObstacleDef {
     float surfaceVelocity[3]; /* m/s, world: of its surface beside that, as of a conveyor */
     float friction;           /* 0 or more; default 0.5 */
     float mass;               /* kg; 0 (default): nothing moves it */
-    float inertia[6]; /* kg m^2, about its centre of mass, axes of the world as it stands now: xx yy zz xy xz yz.
+    float inertia[6];      /* kg m^2, about its centre of mass, axes of the world as it stands now: xx yy zz xy xz yz.
                          Positive definite, but for axes whose numbers are all 0: it does not turn about these */
     float centerOfMass[3]; /* m, from its position in its own axes */
     uint32_t body;         /* obstacles of the same number, but 0, are parts of one body, whose mass each of them has */

@@ -5,7 +5,7 @@
 #define SINKING 1e-4        /* m: and so much that it sinks in no deeper by what it is known to push with */
 #define MOST_SPRING 1e9     /* but no more times the mass over h'^2 than that */
 #define SLIDE_FLOOR 1e-9    /* m: a shorter way is no slide */
-#define HALVINGS 8          /* of the step, where friction ends it */
+#define SLIDE_HALVINGS 8    /* of the step, where friction ends it */
 #define SLOPE 0.1           /* of what the step promises: less is no crossing */
 #define EARLY 2             /* systems */
 #define PUSH_TOLERANCE 0.02 /* of the largest push of the piece: forces that are off by less need no other iteration */
@@ -421,7 +421,7 @@ static double FrictionSlope(const kiriContactStep* step, double part)
     return kiriVec3_Dot(kiriVec3_Sub(Drag(step, part), drag), step->slides);
 }
 
-static void SumSlopes(const kiriSolver* solver, const kiriSystem* system)
+static void SumForceSlopes(const kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         kiriPieceStep* piece = &solver->pieces.data[i];
@@ -439,7 +439,7 @@ static void SumSlopes(const kiriSolver* solver, const kiriSystem* system)
 void kiriSolver_LimitByFriction(kiriSolver* solver, const kiriSystem* system)
 {
     bool any = false;
-    SumSlopes(solver, system);
+    SumForceSlopes(solver, system);
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         piece->isCrossing = piece->isSearching && piece->solved >= EARLY && piece->slope > SLOPE * piece->promise;
@@ -447,12 +447,12 @@ void kiriSolver_LimitByFriction(kiriSolver* solver, const kiriSystem* system)
         piece->high = piece->scale;
         any |= piece->isCrossing;
     }
-    for (int halving = 0; any && halving < HALVINGS; ++halving) {
+    for (int halving = 0; any && halving < SLIDE_HALVINGS; ++halving) {
         for (int32_t i = 0; i < solver->pieceCount; ++i) {
             kiriPieceStep* piece = &solver->pieces.data[i];
             piece->scale = piece->isCrossing ? 0.5 * (piece->low + piece->high) : piece->scale;
         }
-        SumSlopes(solver, system);
+        SumForceSlopes(solver, system);
         for (int32_t i = 0; i < solver->pieceCount; ++i) {
             kiriPieceStep* piece = &solver->pieces.data[i];
             piece->low = piece->slope > 0.0 ? piece->low : piece->scale;

@@ -57,8 +57,6 @@ static void ClearForces(kiriSheetData* sheet)
 
 /* ---- Sleep ---- */
 
-#define CALM_SECONDS 0.5
-
 void kiriMotion_Wake(kiriSheetData* sheet)
 {
     sheet->rest.asleep = false;
@@ -74,10 +72,10 @@ static bool IsFading(const kiriSheetData* sheet)
    nobody finds touches but the host: who moves other things wakes it. */
 static bool Sleeps(kiriSheetData* sheet)
 {
-    if (sheet->rest.calm >= CALM_SECONDS && kiriTouches_AreNew(sheet, KIRI_TOUCH_HOST)) {
+    if (sheet->rest.calm >= KIRI_CALM_SECONDS && kiriTouches_AreNew(sheet, KIRI_TOUCH_HOST)) {
         kiriMotion_Wake(sheet);
     }
-    if (sheet->rest.calm >= CALM_SECONDS && !IsFading(sheet) && !sheet->rest.asleep) {
+    if (sheet->rest.calm >= KIRI_CALM_SECONDS && !IsFading(sheet) && !sheet->rest.asleep) {
         PutToRest(sheet);
         sheet->rest.asleep = true;
     }

@@ -14,7 +14,7 @@ typedef struct EdgePoint {
 } EdgePoint;
 
 /* Where the line of the point meets the triangle; false where it passes by. */
-static bool CrossTriangle(const kiriVec3 x[3], const EdgePoint* point, double* height, double share[3])
+static bool MeetsTriangle(const kiriVec3 x[3], const EdgePoint* point, double* height, double share[3])
 {
     kiriVec3 ab = kiriVec3_Sub(x[1], x[0]), ac = kiriVec3_Sub(x[2], x[0]), to = kiriVec3_Sub(point->at, x[0]);
     kiriVec3 across = kiriVec3_Cross(point->out, ac), other = kiriVec3_Cross(to, ab);
@@ -57,7 +57,7 @@ static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, in
     kiriVec3 x[3] = { sheet->seen.surface.exact.data[v[0]], sheet->seen.surface.exact.data[v[1]],
                       sheet->seen.surface.exact.data[v[2]] };
     double height, share[3], gap = meeting->gap + meeting->obstacle->shape.rounding;
-    if (!CrossTriangle(x, point, &height, share)) {
+    if (!MeetsTriangle(x, point, &height, share)) {
         return false;
     }
     kiriVec3 normal = SeenNormal(&sheet->seen.surface, v, share, point->out);
@@ -112,7 +112,7 @@ static bool FindCrossed(const kiriMeeting* meeting, const EdgePoint* point)
         const int32_t* v = &surface->indices.data[3 * (int64_t)crossed->data[i]];
         kiriVec3 x[3] = { surface->exact.data[v[0]], surface->exact.data[v[1]], surface->exact.data[v[2]] };
         double height, share[3];
-        if (CrossTriangle(x, point, &height, share)) {
+        if (MeetsTriangle(x, point, &height, share)) {
             crossed->data[kept++] = crossed->data[i];
         }
     }

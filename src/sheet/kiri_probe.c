@@ -47,8 +47,8 @@ static int32_t QuarterOf(const kiriSheetData* sheet, const Block* block, int32_t
     return !sheet->probes.isBorder.data[vertex] ? INSIDE : (at.x - corner.x >= half) + 2 * (at.y - corner.y >= half);
 }
 
-static bool Consider(const kiriSheetData* sheet, kiriMemory* scratch, Choices* choices, const Block* block,
-                     int32_t vertex)
+static bool ConsiderVertex(const kiriSheetData* sheet, kiriMemory* scratch, Choices* choices, const Block* block,
+                           int32_t vertex)
 {
     Choice choice = { sheet->probes.vertexPiece.data[vertex], QuarterOf(sheet, block, vertex), vertex,
                       Rank(sheet, vertex) };
@@ -82,7 +82,7 @@ static bool ChooseInBlock(kiriSheetData* sheet, kiriMemory* scratch, Choices* ch
         for (int32_t x = block->column; x < block->column + block->size && x < squares->columns; ++x) {
             int32_t v = squares->vertexHead[y * squares->columns + x];
             for (; ok && v != KIRI_NONE; v = sheet->mesh.vertices.data[v].next) {
-                ok = Consider(sheet, scratch, choices, block, v);
+                ok = ConsiderVertex(sheet, scratch, choices, block, v);
             }
         }
     }
@@ -152,7 +152,7 @@ static bool MarkVertices(kiriSheetData* sheet)
     return true;
 }
 
-static bool Choose(kiriSheetData* sheet)
+static bool ChooseProbes(kiriSheetData* sheet)
 {
     kiriMemory scratch = kiriMemory_Like(sheet->memory);
     Choices choices = { NULL, 0, 0 };
@@ -216,7 +216,7 @@ bool kiriProbes_Update(kiriSheetData* sheet)
 {
     kiriProbes* probes = &sheet->probes;
     bool isNew = !probes->isFresh;
-    if (isNew && !Choose(sheet)) {
+    if (isNew && !ChooseProbes(sheet)) {
         return false;
     }
     probes->isFresh = true;

@@ -18,7 +18,6 @@ kiriSheetSettings kiriSettings_Of(const kiriSheetDef* def)
     given.contactThickness = def->contactThickness;
     given.groups = def->groups;
     given.touchesSheets = def->touchesSheets;
-    given.touchesSelf = def->touchesSelf;
     given.iterations = def->iterations;
     given.sleepSpeed = def->sleepSpeed;
     given.skinning = def->skinning;
@@ -44,7 +43,6 @@ void kiriSettings_Take(kiriSettings* settings, const kiriSheetSettings* given, d
     settings->contactThickness = ContactThickness(given, square);
     settings->groups = given->groups;
     settings->touchesSheets = given->touchesSheets != 0;
-    settings->touchesSelf = given->touchesSelf != 0;
     settings->iterations = given->iterations;
     settings->sleepSpeed = given->sleepSpeed;
     settings->skinning = given->skinning;
@@ -75,9 +73,8 @@ static bool AreSameSettings(const kiriSheetSettings* a, const kiriSheetSettings*
 {
     return IsSameMaterial(&a->material, &b->material) && a->maxFrames == b->maxFrames && a->crumbArea == b->crumbArea &&
            a->friction == b->friction && a->contactThickness == b->contactThickness && a->groups == b->groups &&
-           a->touchesSheets == b->touchesSheets && a->touchesSelf == b->touchesSelf && a->iterations == b->iterations &&
-           a->sleepSpeed == b->sleepSpeed && a->skinning == b->skinning && a->timeStepping == b->timeStepping &&
-           a->fadeTime == b->fadeTime;
+           a->touchesSheets == b->touchesSheets && a->iterations == b->iterations && a->sleepSpeed == b->sleepSpeed &&
+           a->skinning == b->skinning && a->timeStepping == b->timeStepping && a->fadeTime == b->fadeTime;
 }
 
 /* The solver counts corners only where Poisson's ratio is above 0. What it had staged for an update is staged again

@@ -156,7 +156,7 @@ typedef struct kiriSettings {
     double friction;            /* of the sheet alone */
     double contactThickness;    /* m, above 0: between sheets; from obstacles half of it */
     uint32_t groups;
-    bool touchesSheets, touchesSelf;
+    bool touchesSheets;
     kiriAir air;
     uint64_t userData;        /* the host's own */
     double collisionPoints;   /* so many over the sheet; of a part of a sheet its share of them */
@@ -166,6 +166,10 @@ typedef struct kiriSettings {
     bool popping;     /* frames are not fitted at a commit */
     bool eased;       /* weights of points have no kinks at sites */
 } kiriSettings;
+
+/* s: a sheet that is slower than sleepSpeed for so long falls asleep, and what goes no farther meanwhile does not wake
+   it. */
+#define KIRI_CALM_SECONDS 0.5
 
 /* A sheet that hardly moves falls asleep. */
 typedef struct kiriRest {

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #define CALM_SLOPE 1e-3  /* by how much the normal of a contact may change while a sheet falls asleep */
-#define CALM_SECONDS 0.5 /* for which a sheet may go at its sleep speed meanwhile */
 #define DEFAULT_PUSH 1.0 /* m/s */
 
 /* ---- What is found ------------------------------------------------------------------------------------------------- */
@@ -66,7 +65,7 @@ int32_t kiriTouches_FindYield(const kiriSheetData* sheet, int64_t number)
 #define OF_PLACE (UINT64_C(1) << 59) /* in a key: of a rest point, not of a collision point */
 
 /* By point and obstacle. */
-static uint64_t KeyOf(const kiriSheetData* sheet, const kiriContact* contact)
+static uint64_t KeyOfGiven(const kiriSheetData* sheet, const kiriContact* contact)
 {
     uint64_t kind = (uint64_t)KIRI_TOUCH_HOST << 60, obstacle = (uint64_t)(uint32_t)contact->obstacle & 0x1fffffu;
     if (contact->point >= 0) {
@@ -100,7 +99,7 @@ static bool AddGiven(kiriSheetData* sheet, const kiriGivenContact* given)
     const kiriContact* contact = &given->contact;
     kiriTouch touch;
     memset(&touch, 0, sizeof(touch));
-    touch.key = KeyOf(sheet, contact);
+    touch.key = KeyOfGiven(sheet, contact);
     touch.point = contact->point >= 0 ? contact->point : KIRI_NONE;
     memcpy(touch.vertex, given->vertex, sizeof(touch.vertex));
     memcpy(touch.share, given->share, sizeof(touch.share));
@@ -144,13 +143,13 @@ bool kiriTouches_Reserve(kiriSheetData* sheet)
 
 enum { MOST_BLENDED = 96 }; /* frames of three vertices */
 
-typedef struct Blend {
+typedef struct TouchBlend {
     kiriWeight weights[MOST_BLENDED];
     int32_t count;
     kiriVec2 at;
-} Blend;
+} TouchBlend;
 
-static void AddWeights(Blend* blend, const kiriSkin* skin, int32_t sample, double share)
+static void AddWeights(TouchBlend* blend, const kiriSkin* skin, int32_t sample, double share)
 {
     kiriSpan span = skin->spans.data[sample];
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
@@ -169,9 +168,9 @@ static void AddWeights(Blend* blend, const kiriSkin* skin, int32_t sample, doubl
     }
 }
 
-static Blend BlendOf(const kiriSheetData* sheet, const kiriTouch* touch)
+static TouchBlend BlendOf(const kiriSheetData* sheet, const kiriTouch* touch)
 {
-    Blend blend;
+    TouchBlend blend;
     blend.count = 0;
     if (touch->point != KIRI_NONE) {
         blend.at = kiriMesh_Local(&sheet->mesh, sheet->points.data[touch->point].at);
@@ -188,7 +187,7 @@ static Blend BlendOf(const kiriSheetData* sheet, const kiriTouch* touch)
 }
 
 /* The largest first; of equal ones the lower frame. */
-static void TakeLargest(Blend* blend, int32_t n)
+static void TakeLargest(TouchBlend* blend, int32_t n)
 {
     int32_t best = n;
     for (int32_t k = n + 1; k < blend->count; ++k) {
@@ -201,7 +200,7 @@ static void TakeLargest(Blend* blend, int32_t n)
 }
 
 /* A cut may have come between the vertices of a touch: then the piece with the largest weight has the contact. */
-static void WriteWeights(const kiriSheetData* sheet, Blend* blend, kiriContactRow* row)
+static void WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriContactRow* row)
 {
     double sum = 0.0;
     row->weightCount = 0;
@@ -220,9 +219,9 @@ static void WriteWeights(const kiriSheetData* sheet, Blend* blend, kiriContactRo
     }
 }
 
-static void WriteRow(const kiriSheetData* sheet, const kiriTouch* touch, kiriContactRow* row)
+static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, kiriContactRow* row)
 {
-    Blend blend = BlendOf(sheet, touch);
+    TouchBlend blend = BlendOf(sheet, touch);
     memset(row, 0, sizeof(*row));
     row->key = touch->key;
     row->at = blend.at;
@@ -249,7 +248,7 @@ void kiriTouches_WriteRows(kiriSheetData* sheet)
     KIRI_ASSERT(touches->rows.capacity >= touches->found.count);
     touches->rows.count = touches->found.count;
     for (int32_t i = 0; i < touches->found.count; ++i) {
-        WriteRow(sheet, &touches->found.data[i], &touches->rows.data[i]);
+        WriteContactRow(sheet, &touches->found.data[i], &touches->rows.data[i]);
     }
 }
 
@@ -332,7 +331,7 @@ static bool IsSame(const kiriSheetData* sheet, const kiriTouch* a, const kiriTou
     kiriVec3 tilt = kiriVec3_Sub(b->normal, a->normal), faster = kiriVec3_Sub(b->velocity, a->velocity);
     double rise = b->offset - a->offset - kiriVec3_Dot(tilt, b->seen);
     return a->key == b->key && a->friction == b->friction && kiriVec3_Length(tilt) <= CALM_SLOPE &&
-           fabs(rise) <= CALM_SECONDS * sheet->settings.sleepSpeed &&
+           fabs(rise) <= KIRI_CALM_SECONDS * sheet->settings.sleepSpeed &&
            kiriVec3_Length(faster) <= sheet->settings.sleepSpeed;
 }
 

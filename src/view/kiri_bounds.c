@@ -177,7 +177,7 @@ static void FitNodes(kiriBounds* bounds)
     }
 }
 
-static void Fit(kiriBounds* bounds, const kiriSurface* surface)
+static void FitBox(kiriBounds* bounds, const kiriSurface* surface)
 {
     int32_t count = surface->triangleCount, known = bounds->order.count;
     bool sorts = NeedsSorting(bounds, count);
@@ -214,7 +214,7 @@ bool kiriBounds_Update(kiriBounds* bounds, kiriMemory* memory, const kiriSurface
     if (!ReserveAll(bounds, memory, surface->triangleCount)) {
         return false;
     }
-    Fit(bounds, surface);
+    FitBox(bounds, surface);
     return true;
 }
 
@@ -253,7 +253,7 @@ void kiriBounds_Keep(kiriBounds* bounds, const kiriSurface* surface)
     if (bounds->patience > 0) {
         bounds->patience -= 1;
         if (!kiriBounds_IsFresh(bounds, surface)) {
-            Fit(bounds, surface);
+            FitBox(bounds, surface);
         }
     }
 }

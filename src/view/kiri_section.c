@@ -194,7 +194,7 @@ static bool IsEdgeBefore(const void* context, int32_t a, int32_t b)
 }
 
 /* The piece that starts at the edge where this one ends, or KIRI_NONE. */
-static int32_t NextOf(const Pieces* p, const Piece* piece)
+static int32_t NextTriangle(const Pieces* p, const Piece* piece)
 {
     int32_t low = 0, high = p->starts.count;
     while (low < high) {
@@ -215,7 +215,7 @@ static void LinkPieces(Pieces* p)
     kiriSort(p->starts.data, p->starts.count, IsEdgeBefore, p);
     for (int32_t i = 0; i < p->pieces.count; ++i) {
         Piece* piece = &p->pieces.data[i];
-        piece->next = piece->end[1] == OPEN ? NextOf(p, piece) : KIRI_NONE;
+        piece->next = piece->end[1] == OPEN ? NextTriangle(p, piece) : KIRI_NONE;
         if (piece->next != KIRI_NONE) {
             p->pieces.data[piece->next].isReached = true;
         }

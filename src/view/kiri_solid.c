@@ -14,7 +14,7 @@ static int32_t SolidCorner(const kiriMeshData* mesh, int32_t t, int k)
 }
 
 /* Does the surface end at the half-edge? A cut of one edge, both ends of which are closed, has no gap yet. */
-static bool IsBorder(const kiriMeshData* mesh, int32_t t, int k)
+static bool IsBorderEdge(const kiriMeshData* mesh, int32_t t, int k)
 {
     const kiriTriangle* triangle = &mesh->triangles.data[t];
     int32_t twin = triangle->twin[k];
@@ -30,7 +30,7 @@ static int32_t CountBorders(const kiriMeshData* mesh)
     int32_t count = 0;
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         for (int k = 0; k < 3; ++k) {
-            count += IsBorder(mesh, t, k);
+            count += IsBorderEdge(mesh, t, k);
         }
     }
     return count;
@@ -120,7 +120,7 @@ bool kiriSolid_Build(kiriSolid* solid, kiriMemory* memory, const kiriSurface* su
     AddSides(&to, surface, 0.5 * thickness);
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         for (int k = 0; k < 3; ++k) {
-            if (IsBorder(mesh, t, k)) {
+            if (IsBorderEdge(mesh, t, k)) {
                 AddRim(&to, surface, SolidCorner(mesh, t, k), SolidCorner(mesh, t, k + 1), 0.5 * thickness);
             }
         }

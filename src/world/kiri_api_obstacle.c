@@ -32,7 +32,7 @@ static kiriVec2 CornerOf(const kiriObstacleDef* def, int32_t i)
     return kiriVec2_Make(def->outline[2 * i], def->outline[2 * i + 1]);
 }
 
-static double Cross(kiriVec2 a, kiriVec2 b)
+static double CrossOf(kiriVec2 a, kiriVec2 b)
 {
     return a.x * b.y - a.y * b.x;
 }
@@ -45,7 +45,7 @@ static bool IsConvex(const kiriObstacleDef* def)
         double length = kiriVec2_Length(along), farthest = 0.0;
         for (int32_t k = 0; k < def->outlineCount; ++k) {
             kiriVec2 way = kiriVec2_Sub(CornerOf(def, k), a);
-            double left = Cross(along, way);
+            double left = CrossOf(along, way);
             if (left < -1e-5 * length * kiriVec2_Length(way)) {
                 return false;
             }

@@ -19,9 +19,7 @@ static const char* FaultOfTouching(const kiriSheetSettings* s)
     if (!kiriCall_IsAtLeast(s->friction, 0.0f) || !kiriCall_IsAtLeast(s->contactThickness, 0.0f)) {
         return "friction or contactThickness is below 0";
     }
-    return kiriCall_IsWithin(s->touchesSheets, 0, 1) && kiriCall_IsWithin(s->touchesSelf, 0, 1)
-               ? NULL
-               : "touchesSheets or touchesSelf is not 0 or 1";
+    return kiriCall_IsWithin(s->touchesSheets, 0, 1) ? NULL : "touchesSheets is not 0 or 1";
 }
 
 static const char* FaultOfMotion(const kiriSheetSettings* s)

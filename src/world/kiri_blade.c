@@ -84,7 +84,7 @@ void kiriWorld_AdvanceBlades(kiriWorld* world, double dt)
 /* ---- From layers to tracks ---- */
 
 /* A cut that has taken all its points is where its tip is, which may have snapped to a vertex. */
-static kiriVec2 PlaceOf(const kiriLayer* layer, const kiriSheetData* sheet, const kiriCutData* cut)
+static kiriVec2 PlaceOfBlade(const kiriLayer* layer, const kiriSheetData* sheet, const kiriCutData* cut)
 {
     bool isThere = cut != NULL && cut->waiting == 0 && cut->tip.blade.vertex != KIRI_NONE;
     return isThere ? kiriMesh_Local(&sheet->mesh, cut->tip.blade.at) : layer->rest;
@@ -100,7 +100,7 @@ static bool StartTracks(kiriBladeWork* work, const kiriWorld* world, const kiriB
             continue;
         }
         kiriCutData* cut = CutOf(world, layer);
-        const kiriTrack track = { slot->owner, cut,          KIRI_NONE,   PlaceOf(layer, slot->owner, cut),
+        const kiriTrack track = { slot->owner, cut,          KIRI_NONE,   PlaceOfBlade(layer, slot->owner, cut),
                                   layer->at,   layer->share, layer->loop, false,
                                   false,       false };
         if (!kiriArray_Push(&work->memory, &work->tracks, track)) {

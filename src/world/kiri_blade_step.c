@@ -5,11 +5,16 @@
 /* Measured in snap distances: nearer in the rest plane than SAME two places are one, and than STILL a layer is not led
    on; past a border a cut goes on by REACH, which is less than what a blade snaps to, so that it cuts no notch into what
    is beyond. */
-static const double Same = 2.0, Still = 2.0, Reach = 0.5, Straight = 0.25, Degenerate = 0.25;
+#define SAME 2.0
+#define STILL 2.0
+#define REACH 0.5
+#define STRAIGHT 0.25
+#define DEGENERATE 0.25
 
-/* Shares of the length of a loop: as near as Closing it comes by its beginning; it is closed when it has gone on by
-   Overlap. */
-static const double Closing = 0.015, Overlap = 0.1;
+/* Shares of the length of a loop: as near as CLOSING it comes by its beginning; it is closed when it has gone on by
+   OVERLAP. */
+#define CLOSING 0.015
+#define OVERLAP 0.1
 
 static double RestDistance(kiriVec2 a, kiriVec2 b)
 {
@@ -101,7 +106,7 @@ static bool AddPoint(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest)
 
 bool kiriLoop_IsNear(const kiriLoop* loop, kiriVec2 end)
 {
-    return loop->isOpen && RestDistance(loop->start, end) < Closing * loop->length;
+    return loop->isOpen && RestDistance(loop->start, end) < CLOSING * loop->length;
 }
 
 /* On the way to a place: it is nearest here, no longer on the way there. */
@@ -137,7 +142,7 @@ static bool Lead(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest)
 {
     NotePassing(track, rest);
     bool ok = AddPoint(work, track, rest);
-    bool hasGoneOn = track->loop.isPassed && track->loop.length > (1.0 + Overlap) * track->loop.then;
+    bool hasGoneOn = track->loop.isPassed && track->loop.length > (1.0 + OVERLAP) * track->loop.then;
     return ok && (!hasGoneOn || CloseLoop(work, track));
 }
 
@@ -147,7 +152,7 @@ static bool LeadAlong(kiriBladeWork* work, kiriTrack* track)
     bool ok = true;
     kiriVec2 start = track->rest;
     for (int32_t i = 0; ok && i < work->path.count; ++i) {
-        bool isHere = i + 1 < work->path.count && RestDistance(work->path.data[i], start) < Same * work->snap;
+        bool isHere = i + 1 < work->path.count && RestDistance(work->path.data[i], start) < SAME * work->snap;
         start = isHere ? start : kiriVec2_Make(1e300, 1e300);
         ok = isHere || Lead(work, track, work->path.data[i]);
     }
@@ -199,7 +204,7 @@ static kiriCrossing* NearestCrossing(const kiriBladeWork* work, kiriVec2 rest, d
 /* The track is in the layer at this crossing, and is led there, unless that is no way. */
 static bool GoOn(kiriBladeWork* work, kiriTrack* track, kiriCrossing* crossing)
 {
-    bool isStill = RestDistance(track->rest, crossing->rest) < Still * work->snap;
+    bool isStill = RestDistance(track->rest, crossing->rest) < STILL * work->snap;
     bool ok = isStill || Lead(work, track, crossing->rest);
     track->at = crossing->at;
     track->share = crossing->share;
@@ -221,7 +226,7 @@ static const kiriSectionLine* LineFrom(const kiriBladeWork* work, kiriVec2 rest,
         const kiriSectionPoint* points = &section->points.data[line->first];
         double d[2] = { RestDistance(points[0].rest, rest), RestDistance(points[line->count - 1].rest, rest) };
         int end = d[0] <= d[1] ? 0 : 1;
-        if (d[end] < Same * work->snap && d[1 - end] > longest) {
+        if (d[end] < SAME * work->snap && d[1 - end] > longest) {
             longest = d[1 - end];
             found = line;
             *fromLast = end == 1;
@@ -230,7 +235,7 @@ static const kiriSectionLine* LineFrom(const kiriBladeWork* work, kiriVec2 rest,
     return found;
 }
 
-static const kiriSectionPoint* EndOf(const kiriBladeWork* work, const kiriSectionLine* line, bool last)
+static const kiriSectionPoint* EndOfWay(const kiriBladeWork* work, const kiriSectionLine* line, bool last)
 {
     return &work->section.points.data[line->first + (last ? line->count - 1 : 0)];
 }
@@ -238,7 +243,7 @@ static const kiriSectionPoint* EndOf(const kiriBladeWork* work, const kiriSectio
 static bool FindPath(kiriBladeWork* work, const kiriSectionLine* line, bool fromLast)
 {
     work->path.count = 0;
-    return kiriSection_Path(&work->section, line, fromLast, Reach * work->snap, Straight * work->snap, &work->memory,
+    return kiriSection_Path(&work->section, line, fromLast, REACH * work->snap, STRAIGHT * work->snap, &work->memory,
                             &work->path);
 }
 
@@ -260,7 +265,7 @@ static bool Flatten(const kiriBladeWork* work, const kiriVec3* other, kiriVec3 x
     kiriVec3 along = kiriVec3_Normalize(kiriVec3_Sub(other[1], other[0]));
     kiriVec3 normal = kiriVec3_Cross(along, kiriVec3_Sub(x, other[0]));
     double distance = kiriVec3_Length(normal);
-    if (!(distance > Degenerate * work->snap)) {
+    if (!(distance > DEGENERATE * work->snap)) {
         return false;
     }
     normal = kiriVec3_Scale(1.0 / distance, normal);
@@ -294,10 +299,10 @@ static kiriTrack* OtherTrack(kiriBladeWork* work, const kiriTrack* track, kiriVe
    where the blade ended; or, over a fold, at another layer that the blade was in. */
 static bool FollowLine(kiriBladeWork* work, kiriTrack* track, const kiriSectionLine* line, bool fromLast)
 {
-    const kiriSectionPoint* end = EndOf(work, line, !fromLast);
+    const kiriSectionPoint* end = EndOfWay(work, line, !fromLast);
     int32_t type = line->end[fromLast ? 0 : 1];
-    kiriCrossing* crossing = type == KIRI_SIDE_TO ? NearestCrossing(work, end->rest, Same * work->snap) : NULL;
-    bool isStill = crossing != NULL && RestDistance(track->rest, crossing->rest) < Still * work->snap;
+    kiriCrossing* crossing = type == KIRI_SIDE_TO ? NearestCrossing(work, end->rest, SAME * work->snap) : NULL;
+    bool isStill = crossing != NULL && RestDistance(track->rest, crossing->rest) < STILL * work->snap;
     kiriTrack* other = type == KIRI_SIDE_FROM ? OtherTrack(work, track, end->rest) : NULL;
     bool ok = isStill || (FindPath(work, line, fromLast) && LeadAlong(work, track));
     if (!ok || crossing != NULL) {
@@ -313,8 +318,8 @@ static bool FollowLine(kiriBladeWork* work, kiriTrack* track, const kiriSectionL
 /* Is the line more than what is around its beginning? */
 static bool LeadsOn(const kiriBladeWork* work, const kiriSectionLine* line, bool fromLast)
 {
-    double length = RestDistance(EndOf(work, line, false)->rest, EndOf(work, line, true)->rest);
-    return line->end[fromLast ? 0 : 1] == KIRI_SIDE_TO || length > Same * work->snap;
+    double length = RestDistance(EndOfWay(work, line, false)->rest, EndOfWay(work, line, true)->rest);
+    return line->end[fromLast ? 0 : 1] == KIRI_SIDE_TO || length > SAME * work->snap;
 }
 
 /* To a border that is here, perhaps; but the way may go on elsewhere (PassAlong): the track counts as lost. */
@@ -351,7 +356,7 @@ static bool FollowTrack(kiriBladeWork* work, kiriTrack* track)
     /* Hardly any way, or the tip of the cut stands out of the surface: then the layer is where the edge is nearest in the
        material. */
     double way = kiriVec3_Length(kiriVec3_Sub(to, x));
-    kiriCrossing* crossing = NearestCrossing(work, track->rest, 2.0 * way + Same * work->snap);
+    kiriCrossing* crossing = NearestCrossing(work, track->rest, 2.0 * way + SAME * work->snap);
     return crossing != NULL ? GoOn(work, track, crossing) : line == NULL || FollowShort(work, track, line, fromLast);
 }
 
@@ -389,9 +394,9 @@ static bool AddTrack(kiriBladeWork* work, const kiriCrossing* crossing, kiriVec2
 static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSectionLine* line, bool fromLast,
                        double near)
 {
-    const kiriSectionPoint* start = EndOf(work, line, fromLast);
+    const kiriSectionPoint* start = EndOfWay(work, line, fromLast);
     int32_t type = line->end[fromLast ? 1 : 0];
-    kiriCrossing* other = type == KIRI_SIDE_TO ? NearestCrossing(work, start->rest, Same * work->snap) : NULL;
+    kiriCrossing* other = type == KIRI_SIDE_TO ? NearestCrossing(work, start->rest, SAME * work->snap) : NULL;
     const kiriTrack* lost = type == KIRI_SIDE_FROM ? LostTrack(work, start->rest, near) : NULL;
     if (!FindPath(work, line, fromLast)) {
         return false;
@@ -446,7 +451,7 @@ static bool EnterLayer(kiriBladeWork* work, kiriCrossing* crossing)
     }
     if (line != NULL) {
         double near = kiriVec3_Length(kiriVec3_Sub(EdgeAt(was, crossing->share), crossing->at));
-        return EnterAlong(work, crossing, line, !fromLast, 2.0 * near + Same * work->snap);
+        return EnterAlong(work, crossing, line, !fromLast, 2.0 * near + SAME * work->snap);
     }
     bool ok = AddTrack(work, crossing, crossing->rest, LoopFrom(crossing->rest, true));
     crossing->triangle = TAKEN;
@@ -467,7 +472,7 @@ static kiriSectionPoint MiddleOf(const kiriSection* section, const kiriSectionLi
 static bool IsLed(const kiriBladeWork* work, const kiriSectionLine* line)
 {
     kiriVec2 rest = MiddleOf(&work->section, line).rest;
-    double near = 2.0 * Same * work->snap + kiriVec3_Length(work->drift);
+    double near = 2.0 * SAME * work->snap + kiriVec3_Length(work->drift);
     bool isLed = false;
     for (int32_t i = work->firstPoint; !isLed && i < work->points.count; ++i) {
         const kiriStrokePoint* point = &work->points.data[i];
@@ -480,9 +485,9 @@ static bool IsLed(const kiriBladeWork* work, const kiriSectionLine* line)
 /* Lines from a layer that the blade is in, or was in, are those of tracks; but for a track that was lost. */
 static bool PassAlong(kiriBladeWork* work, const kiriSectionLine* line)
 {
-    double near = 2.0 * kiriVec3_Length(work->drift) + Same * work->snap;
+    double near = 2.0 * kiriVec3_Length(work->drift) + SAME * work->snap;
     int inner = line->end[0] == KIRI_SIDE_FROM ? 0 : line->end[1] == KIRI_SIDE_FROM ? 1 : KIRI_NONE;
-    const kiriSectionPoint *first = EndOf(work, line, false), *last = EndOf(work, line, true);
+    const kiriSectionPoint *first = EndOfWay(work, line, false), *last = EndOfWay(work, line, true);
     if (line->end[0] == KIRI_SIDE_TO || line->end[1] == KIRI_SIDE_TO || IsLed(work, line)) {
         return true;
     }
@@ -546,7 +551,7 @@ static bool IsFlat(const kiriBladeWork* work, const kiriVec3 corner[4])
 {
     kiriVec3 normal =
         kiriVec3_Normalize(kiriVec3_Cross(kiriVec3_Sub(corner[2], corner[0]), kiriVec3_Sub(corner[3], corner[1])));
-    return fabs(kiriVec3_Dot(normal, kiriVec3_Sub(corner[1], corner[0]))) < Degenerate * work->snap;
+    return fabs(kiriVec3_Dot(normal, kiriVec3_Sub(corner[1], corner[0]))) < DEGENERATE * work->snap;
 }
 
 /* Where the edge neither is nor was in a layer, nobody has said how far the material went: it may have come over the edge
@@ -598,7 +603,7 @@ bool kiriBlade_Step(kiriBladeWork* work)
     work->crossings.count = 0;
     work->drift = kiriVec3_Make(0.0, 0.0, 0.0);
     ok = kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) &&
-         kiriSurface_Cross(&sheet->seen.surface, sheet->seen.bounds, work->is[0], work->is[1], Degenerate * work->snap,
+         kiriSurface_Cross(&sheet->seen.surface, sheet->seen.bounds, work->is[0], work->is[1], DEGENERATE * work->snap,
                            &work->memory, &work->crossings);
     for (int32_t i = 0; ok && i < work->oldCount; ++i) {
         kiriTrack* track = &work->tracks.data[i];

@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-#define STEEP 0.5  /* beside a border: what is off along the surface, by what is off across it */
-#define FLAT 0.25  /* of the distance that they keep: lower than that, and */
-#define INSIDE 0.5 /* the same: no farther inside of the border than that, lips lie beside each other */
+#define STEEP 0.5           /* beside a border: what is off along the surface, by what is off across it */
+#define FLAT_TRIANGLE 0.25  /* of the distance that they keep: lower than that, and */
+#define INSIDE_TRIANGLE 0.5 /* the same: no farther inside of the border than that, lips lie beside each other */
 
 /* Where on a triangle a place is: inside (KIRI_NONE), on edge 0 to 2, or at corner 0 to 2. */
 typedef struct Place {
@@ -103,7 +103,7 @@ static bool IsBeside(const kiriNear* near, const kiriBody* bodies, double distan
     double across = near->height * near->height, way = WayToBorder(sheet, near);
     bool isLip = bodies[near->body].sheet->probes.isBorder.data[near->vertex];
     return (way <= 0.0 && squared - across >= STEEP * STEEP * across) ||
-           (isLip && way < INSIDE * distance && fabs(near->height) < FLAT * distance);
+           (isLip && way < INSIDE_TRIANGLE * distance && fabs(near->height) < FLAT_TRIANGLE * distance);
 }
 
 bool kiriNearest_Find(kiriNear* near, const kiriBody* bodies, double reach, double distance, const int32_t* triangles,

@@ -25,14 +25,12 @@ void kiriObstacles_Add(kiriWorld* world, kiriObstacleData* obstacle)
 
 /* ---- What rests near them ----------------------------------------------------------------------------------------- */
 
-#define CALM_SECONDS 0.5 /* as in kiri_motion.c */
-
 /* m: an obstacle that goes no farther wakes nobody. */
 static double LeastDrift(const kiriWorld* world)
 {
     double least = KIRI_ENDLESS;
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        double far = CALM_SECONDS * world->sheets.data[i]->settings.sleepSpeed;
+        double far = KIRI_CALM_SECONDS * world->sheets.data[i]->settings.sleepSpeed;
         least = far > 0.0 && far < least ? far : least;
     }
     return least;
@@ -70,7 +68,7 @@ void kiriObstacles_Remove(kiriWorld* world, kiriObstacleData* obstacle)
 }
 
 /* m: how far its farthest point goes to another pose. */
-static double WayTo(const kiriObstacleData* obstacle, kiriVec3 position, kiriMat3 rotation)
+static double WayToObstacle(const kiriObstacleData* obstacle, kiriVec3 position, kiriMat3 rotation)
 {
     kiriObstacleData turning = *obstacle;
     const kiriMat3* r = &obstacle->rotation;
@@ -86,7 +84,7 @@ static double WayTo(const kiriObstacleData* obstacle, kiriVec3 position, kiriMat
 
 void kiriObstacles_Put(kiriWorld* world, kiriObstacleData* obstacle, kiriVec3 position, kiriMat3 rotation)
 {
-    double way = WayTo(obstacle, position, rotation);
+    double way = WayToObstacle(obstacle, position, rotation);
     if (way > LeastDrift(world)) {
         WakeAround(world, obstacle);
     }
@@ -110,7 +108,7 @@ static int64_t NumberOf(const kiriObstacleData* obstacle)
 }
 
 /* The row of its body, once for each sheet. */
-static int32_t YieldOf(kiriSheetData* sheet, const kiriObstacleData* obstacle)
+static int32_t YieldOfObstacle(kiriSheetData* sheet, const kiriObstacleData* obstacle)
 {
     int32_t index = kiriTouches_FindYield(sheet, NumberOf(obstacle));
     if (index == KIRI_NONE) {
@@ -192,7 +190,7 @@ static bool TouchAll(kiriWorld* world, kiriSheetData* sheet, const Around* aroun
     int32_t at = 0;
     bool ok = true;
     for (kiriObstacleData* obstacle; ok && (obstacle = NextNear(world, sheet, around, &at)) != NULL;) {
-        int32_t yield = YieldOf(sheet, obstacle);
+        int32_t yield = YieldOfObstacle(sheet, obstacle);
         ok = yield != KIRI_NONE && kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) &&
              kiriObstacleSearch_Reserve(search, sheet) &&
              kiriObstacleSearch_Run(search, sheet, obstacle, around->speed, yield);

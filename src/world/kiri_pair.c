@@ -79,7 +79,7 @@ double kiriPair_Distance(const kiriBody* a, const kiriBody* b)
 
 /* As far as they may come nearer in the tick, by the velocities of their probes and by gravity, and twice the distance that
    they keep. */
-static double ReachOf(const kiriWorld* world, const kiriBody* a, const kiriBody* b, double dt)
+static double ReachOfPiece(const kiriWorld* world, const kiriBody* a, const kiriBody* b, double dt)
 {
     double falling = dt * kiriVec3_Length(world->gravity);
     return 2.0 * kiriPair_Distance(a, b) + dt * (a->speed + b->speed + falling);
@@ -187,7 +187,7 @@ static kiriVec3 NormalAt(const kiriSheetData* sheet, int32_t vertex)
 }
 
 /* On which side of the lower one's normals the upper one is. */
-static int32_t SideOf(const kiriPairs* pairs, kiriSpan nears, int32_t lower, double dt)
+static int32_t SideOfPair(const kiriPairs* pairs, kiriSpan nears, int32_t lower, double dt)
 {
     const kiriSheetData* sheet = pairs->bodies.data[lower].sheet;
     double sum = 0.0;
@@ -259,7 +259,7 @@ static kiriTouchingPair Decide(const kiriWorld* world, int32_t a, int32_t b, kir
     }
     bool isUpper = old != NULL ? old->upper == one->id : IsUpper(world, one, other, DirectionFrom(pairs, nears, a, dt));
     int32_t upper = isUpper ? a : b, lower = isUpper ? b : a;
-    int32_t side = old != NULL ? old->side : SideOf(pairs, nears, lower, dt);
+    int32_t side = old != NULL ? old->side : SideOfPair(pairs, nears, lower, dt);
     kiriTouchingPair pair = {
         pairs->bodies.data[upper].id, pairs->bodies.data[lower].id, side, 0, { upper, lower }, nears
     };
@@ -272,7 +272,7 @@ static bool LookAtPair(kiriWorld* world, int32_t a, int32_t b, double dt)
 {
     kiriPairs* pairs = &world->pairs;
     const kiriBody *one = &pairs->bodies.data[a], *other = &pairs->bodies.data[b];
-    double reach = ReachOf(world, one, other, dt);
+    double reach = ReachOfPiece(world, one, other, dt);
     kiriBox wide = Widened(&one->box, reach);
     kiriSpan nears = { pairs->nears.count, 0 };
     if ((one->asleep && other->asleep) || !kiriBox_Meet(&wide, &other->box) ||
@@ -332,7 +332,7 @@ static bool LookAtAll(kiriWorld* world, double dt)
 }
 
 /* Is the body there still, and does it sleep? */
-static bool Sleeps(const kiriWorld* world, kiriFrame id)
+static bool IsPairAsleep(const kiriWorld* world, kiriFrame id)
 {
     const kiriSlot* slot = kiriPool_Find(&world->frameIds, id);
     return slot != NULL && ((const kiriSheetData*)slot->owner)->rest.asleep;
@@ -346,7 +346,7 @@ static bool KeepSleeping(kiriWorld* world)
     for (int32_t i = 0; ok && i < pairs->pairs.count; ++i) {
         kiriTouchingPair pair = pairs->pairs.data[i];
         pair.nears.count = 0;
-        ok = !Sleeps(world, pair.upper) || !Sleeps(world, pair.lower) ||
+        ok = !IsPairAsleep(world, pair.upper) || !IsPairAsleep(world, pair.lower) ||
              kiriArray_Push(&world->memory, &pairs->found, pair);
     }
     return ok;

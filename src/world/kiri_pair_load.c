@@ -6,10 +6,10 @@
 
 #include <string.h>
 
-#define FEELING 0.3  /* s */
-#define CLOSE 0.1    /* of the thickness of contact: what is no farther above its plane lies on it */
-#define SLOW 20.0    /* times sleepSpeed: what lies on something and moves no faster than that */
-#define SETTLED 0.01 /* s: comes to rest within that time */
+#define FEELING 0.3    /* s */
+#define CLOSE_LOAD 0.1 /* of the thickness of contact: what is no farther above its plane lies on it */
+#define SLOW 20.0      /* times sleepSpeed: what lies on something and moves no faster than that */
+#define SETTLED 0.01   /* s: comes to rest within that time */
 
 /* ---- Loads for the lower one ---- */
 
@@ -110,7 +110,7 @@ static bool LiesOnPlane(const kiriSheetData* sheet, const kiriContactRow* row)
         x = kiriVec3_AddScaled(x, row->weights[m].value, kiriFrame_Carry(frame, row->at));
     }
     double above = kiriVec3_Dot(row->normal, kiriVec3_Sub(x, row->way)) - row->offset;
-    return above < CLOSE * sheet->settings.contactThickness;
+    return above < CLOSE_LOAD * sheet->settings.contactThickness;
 }
 
 static void FindSupport(kiriSheetData* sheet)
@@ -130,7 +130,7 @@ static void FindSupport(kiriSheetData* sheet)
 
 /* Frames that lie on something and hardly move come to rest: else each change of what carries how much would stir all that
    lies above. */
-static void Settle(kiriSheetData* sheet, double dt)
+static void SettleFrames(kiriSheetData* sheet, double dt)
 {
     double slow = SLOW * sheet->settings.sleepSpeed, keep = SETTLED / (SETTLED + dt);
     for (int32_t f = 0; f < sheet->frames.count; ++f) {
@@ -151,7 +151,7 @@ void kiriPairs_TakeLoads(kiriWorld* world, double dt)
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         if (world->sheets.data[i]->settings.touchesSheets && !world->sheets.data[i]->rest.asleep) {
             FindSupport(world->sheets.data[i]);
-            Settle(world->sheets.data[i], dt);
+            SettleFrames(world->sheets.data[i], dt);
         }
     }
 }

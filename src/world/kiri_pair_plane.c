@@ -73,7 +73,7 @@ static bool FindCushion(const kiriPlace3* place, int32_t* yield)
     return *yield != KIRI_NONE;
 }
 
-static bool AddTouch(const kiriPairs* pairs, kiriPairTouch* pair)
+static bool AddPlaneTouch(const kiriPairs* pairs, kiriPairTouch* pair)
 {
     kiriSheetData* sheet = pair->upper.sheet;
     const kiriSettings *a = &sheet->settings, *b = &pair->lower.sheet->settings;
@@ -99,7 +99,7 @@ static bool AddTouch(const kiriPairs* pairs, kiriPairTouch* pair)
 
 /* ---- What will stop a piece in the tick ---- */
 
-static void Raise(kiriBody* body, const kiriWorld* world, kiriVec3 normal, double least)
+static void RaisePlane(kiriBody* body, const kiriWorld* world, kiriVec3 normal, double least)
 {
     bool carries = -kiriVec3_Dot(normal, kiriVec3_Normalize(world->gravity)) > FIRM;
     body->least = carries && least > body->least ? least : body->least;
@@ -112,8 +112,8 @@ static void StopAtObstacles(kiriWorld* world, kiriSheetData* sheet, double dt)
         if (touch->point == KIRI_NONE) {
             int32_t piece = sheet->probes.vertexPiece.data[touch->vertex[0]];
             double gap = kiriVec3_Dot(touch->normal, touch->seen) - touch->offset;
-            Raise(&world->pairs.bodies.data[sheet->probes.firstBody + piece], world, touch->normal,
-                  gap / dt + kiriVec3_Dot(touch->normal, touch->velocity));
+            RaisePlane(&world->pairs.bodies.data[sheet->probes.firstBody + piece], world, touch->normal,
+                       gap / dt + kiriVec3_Dot(touch->normal, touch->velocity));
         }
     }
 }
@@ -130,7 +130,7 @@ static void StopFalls(kiriWorld* world, double dt)
             kiriBody *upper = &pairs->bodies.data[touch->bodies[0]], *lower = &pairs->bodies.data[touch->bodies[1]];
             double rises = kiriVec3_Dot(touch->normal, touch->velocity), before = upper->least;
             rises = rises > lower->least ? rises : lower->least;
-            Raise(upper, world, touch->normal, (touch->gap - kiriPair_Distance(upper, lower)) / dt + rises);
+            RaisePlane(upper, world, touch->normal, (touch->gap - kiriPair_Distance(upper, lower)) / dt + rises);
             isChanged |= upper->least > before;
         }
     }
@@ -155,7 +155,7 @@ bool kiriPairs_AddTouches(kiriWorld* world, double dt)
     bool ok = kiriArray_Reserve(&world->memory, &world->pairs.nextFelt, world->pairs.touches.count) &&
               kiriArray_Reserve(&world->memory, &world->pairs.order, world->pairs.touches.count);
     for (int32_t i = 0; ok && i < world->pairs.touches.count; ++i) {
-        ok = AddTouch(&world->pairs, &world->pairs.touches.data[i]);
+        ok = AddPlaneTouch(&world->pairs, &world->pairs.touches.data[i]);
     }
     return ok;
 }

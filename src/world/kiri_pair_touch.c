@@ -35,7 +35,7 @@ static kiriVec3 PlaceVelocity(const kiriPlace3* place)
 }
 
 /* Of the pair, the probe, and whose it is: a probe meets a piece once. */
-static uint64_t KeyOf(const kiriTouchingPair* pair, const kiriNear* near)
+static uint64_t KeyOfPair(const kiriTouchingPair* pair, const kiriNear* near)
 {
     const uint64_t kind = UINT64_C(3) << 60;
     uint64_t hash = KIRI_HASH_START;
@@ -53,7 +53,7 @@ static bool TouchFromAbove(const kiriPairs* pairs, const kiriTouchingPair* pair,
     const kiriBody *upper = &pairs->bodies.data[near->body], *lower = &pairs->bodies.data[near->other];
     touch->upper = VertexPlace(upper->sheet, near->vertex);
     touch->lower = TrianglePlace(lower->sheet, near->triangle, near->share);
-    touch->key = KeyOf(pair, near);
+    touch->key = KeyOfPair(pair, near);
     touch->normal = kiriVec3_Scale(pair->side, near->normal);
     touch->gap = pair->side * near->height;
     return true;
@@ -69,14 +69,14 @@ static bool TouchFromBelow(const kiriPairs* pairs, const kiriTouchingPair* pair,
     double sign = along >= 0.0 ? 1.0 : -1.0;
     touch->upper = TrianglePlace(upper->sheet, near->triangle, near->share);
     touch->lower = VertexPlace(lower->sheet, near->vertex);
-    touch->key = KeyOf(pair, near);
+    touch->key = KeyOfPair(pair, near);
     touch->normal = kiriVec3_Scale(sign, near->normal);
     touch->gap = -sign * near->height;
     return fabs(along) > ALONG;
 }
 
 /* Inside of the lower one the probes of the upper one feel it as well, where they are as near to each other. */
-static bool IsNeeded(const kiriPairs* pairs, const kiriTouchingPair* pair, const kiriNear* near)
+static bool IsPairNeeded(const kiriPairs* pairs, const kiriTouchingPair* pair, const kiriNear* near)
 {
     const kiriSheetData* upper = pairs->bodies.data[pair->bodies[0]].sheet;
     const kiriSheetData* lower = pairs->bodies.data[pair->bodies[1]].sheet;
@@ -148,7 +148,7 @@ static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
         const kiriNear* near = &pairs->nears.data[i];
         kiriPairTouch touch;
         bool isUpper = near->body == pair->bodies[0];
-        if (!IsNeeded(pairs, pair, near) ||
+        if (!IsPairNeeded(pairs, pair, near) ||
             !(isUpper ? TouchFromAbove(pairs, pair, near, &touch) : TouchFromBelow(pairs, pair, near, &touch))) {
             continue;
         }

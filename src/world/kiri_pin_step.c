@@ -5,8 +5,6 @@
 
 #include <string.h>
 
-#define CALM_SECONDS 0.5 /* as in kiri_motion.c */
-
 kiriObstacleData* kiriPinStep_Obstacle(const kiriWorld* world, const kiriPinData* pin)
 {
     const kiriSlot* slot = pin->anchor.obstacle != 0 ? kiriPool_Find(&world->obstacleIds, pin->anchor.obstacle) : NULL;
@@ -67,7 +65,7 @@ static void Clear(kiriPinAnchor* anchor)
 /* A sheet that sleeps does not mind what moves less than it would itself before it woke. */
 static bool IsTargetStill(const kiriSheetData* sheet, const kiriPinData* pin, kiriVec3 from, kiriVec3 to)
 {
-    double least = CALM_SECONDS * sheet->settings.sleepSpeed;
+    double least = KIRI_CALM_SECONDS * sheet->settings.sleepSpeed;
     return sheet->rest.asleep && kiriVec3_Length(kiriVec3_Sub(from, pin->target)) <= least &&
            kiriVec3_Length(kiriVec3_Sub(to, pin->target)) <= least;
 }

@@ -228,7 +228,6 @@ static void HashSettings(uint64_t* hash, const kiriSheetData* sheet)
     kiriHash_Double(hash, sheet->settings.contactThickness);
     kiriHash_Int32(hash, (int32_t)sheet->settings.groups);
     kiriHash_Int32(hash, sheet->settings.touchesSheets);
-    kiriHash_Int32(hash, sheet->settings.touchesSelf);
     HashVec3(hash, sheet->settings.air.velocity);
     HashVec3(hash, kiriVec3_Make(sheet->settings.air.density, sheet->settings.air.drag, sheet->settings.air.lift));
     if (sheet->settings.skinning != KIRI_SKINNING_LINEAR) {
