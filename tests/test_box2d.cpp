@@ -34,6 +34,16 @@ static void TestMomentumOfFalls(void**)
     }
 }
 
+/* What is too heavy for the systems of a tick stretches the cloth by more than it should, but does not fall through. */
+static void TestClothHoldsHeavyCrates(void**)
+{
+    for (double ratio : { 1.0, 10.0, 1e2, 1e3 }) {
+        FallOutcome fall = MeasureFall(ratio, false);
+        CHECK(fall.highest < 0.0);
+        CHECK(fall.depth > -0.05 && fall.depth < 0.05);
+    }
+}
+
 static void TestFriction(void**)
 {
     const double law = std::atan(0.5) * 57.29578;
@@ -205,9 +215,16 @@ static void TestSame(void**)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestMomentumOfHits), cmocka_unit_test(TestMomentumOfFalls), cmocka_unit_test(TestFriction),
-        cmocka_unit_test(TestMotors),         cmocka_unit_test(TestShapes),          cmocka_unit_test(TestFilters),
-        cmocka_unit_test(TestLift),           cmocka_unit_test(TestSleep),           cmocka_unit_test(TestForget),
+        cmocka_unit_test(TestMomentumOfHits),
+        cmocka_unit_test(TestMomentumOfFalls),
+        cmocka_unit_test(TestClothHoldsHeavyCrates),
+        cmocka_unit_test(TestFriction),
+        cmocka_unit_test(TestMotors),
+        cmocka_unit_test(TestShapes),
+        cmocka_unit_test(TestFilters),
+        cmocka_unit_test(TestLift),
+        cmocka_unit_test(TestSleep),
+        cmocka_unit_test(TestForget),
         cmocka_unit_test(TestSame),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -86,6 +86,8 @@ typedef struct kiriPieceStep {
     bool isPushed;           /* is it free but for contacts? */
     bool isUnsettled;        /* do contacts want another system? */
     bool isNear;             /* has it contacts? */
+    bool isPinned;           /* is it free but for pins and contacts? */
+    double pressed;          /* N s: sum of what contacts gave, without their directions */
     double obstacleSpeed;    /* m/s: the fastest that an obstacle moves at a contact */
     double means;            /* J: of a piece with contacts: more than it had, and so much, it cannot store */
     bool isThrown;           /* did contacts push it too hard? */
