@@ -104,7 +104,7 @@ static bool IsMoving(const kiriObstacleData* obstacle, double dt, double least)
 /* Bodies have their number, obstacles on their own one below zero. */
 static int64_t NumberOf(const kiriObstacleData* obstacle)
 {
-    return obstacle->body != 0 ? (int64_t)obstacle->body << 32 : (int64_t)obstacle->id << 32 | 1;
+    return (int64_t)(obstacle->body != 0 ? (uint64_t)obstacle->body << 32 : (uint64_t)obstacle->id << 32 | 1u);
 }
 
 /* The row of its body, once for each sheet. */
