@@ -606,6 +606,23 @@ static bool IsUsedUp(const Curtain* curtain, const Cloth* cloth)
     return left == 0 || rings < 3;
 }
 
+/* What goes soon need not touch other sheets: a heap of cloth that does is the dearest of all. */
+static void LetFall(Curtain* curtain, Cloth* cloth)
+{
+    kiriSheetSettings settings;
+    for (int32_t i = 0; i < cloth->ringCount; i++) {
+        if (cloth->rings[i].pin != 0) {
+            kiriDestroyPin(curtain->world, cloth->rings[i].pin);
+        }
+        cloth->rings[i].pin = 0;
+    }
+    if (kiriSheet_GetSettings(curtain->world, cloth->sheet, &settings) == KIRI_OK) {
+        settings.touchesSheets = 0;
+        kiriSheet_SetSettings(curtain->world, cloth->sheet, &settings);
+    }
+    cloth->leftAt = curtain->tick;
+}
+
 /* In a level without end: lets go of a curtain without marks, hangs up a new one, and takes the old one away later. */
 static bool ChangeCloths(Curtain* curtain)
 {
@@ -616,13 +633,7 @@ static bool ChangeCloths(Curtain* curtain)
             continue;
         }
         if (cloth->leftAt == 0 && curtain->tick - cloth->madeAt > SCRAP_TICKS && IsUsedUp(curtain, cloth)) {
-            for (int32_t k = 0; k < cloth->ringCount; k++) {
-                if (cloth->rings[k].pin != 0) {
-                    kiriDestroyPin(curtain->world, cloth->rings[k].pin);
-                }
-                cloth->rings[k].pin = 0;
-            }
-            cloth->leftAt = curtain->tick;
+            LetFall(curtain, cloth);
         } else if (cloth->leftAt != 0 && curtain->tick - cloth->leftAt > LEAVE_TICKS) {
             DropCloth(curtain, cloth);
             continue;
