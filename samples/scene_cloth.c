@@ -84,6 +84,7 @@ static bool StartPatchwork(Scene* scene, const SceneOptions* options)
     def.frameCount = 5;
     def.maxFrames = 12;
     def.rigidArea = 0.035f;
+    def.touchesSheets = 1;
     bool fine = Scene_MakeRectangle(scene, &def, options, &rectangle);
     for (int32_t i = 0; fine && i < 3; i++) {
         fine = Scene_PinHere(scene, &def, 0.5f * (float)i, 1.0f);

@@ -610,7 +610,7 @@ double kiriContact_Work(const kiriSolver* solver, const kiriSystem* system, int3
 /* ---- Pieces that are pinned ---------------------------------------------------------------------------------------- */
 
 /* Pieces on which nothing acts but pins, contacts, gravity and forces. */
-static void FindPinned(kiriSolver* solver, const kiriSystem* system)
+static void ChoosePinned(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t k = 0; k < system->pinCount; ++k) {
         kiriSolver_PieceOf(solver, system->pins[k].frame)->isPinned = !kiriSystem_HasWind(system);
@@ -659,7 +659,7 @@ static void SumPinned(kiriSolver* solver, const kiriSystem* system)
    obstacles feel as much, and are stopped. Contacts that press from two sides say nothing of their sum. */
 static void BalancePinned(kiriSolver* solver, const kiriSystem* system)
 {
-    FindPinned(solver, system);
+    ChoosePinned(solver, system);
     SumPinned(solver, system);
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         kiriPieceStep* piece = &solver->pieces.data[i];
