@@ -191,7 +191,7 @@ static double Excess(const kiriPieceStep* piece)
 
 static bool IsThrown(const kiriPieceStep* piece)
 {
-    return piece->isPushed && Excess(piece) > TOLERABLE * piece->means;
+    return piece->isPushed && Excess(piece) > (piece->isHeldUp ? 0.0 : TOLERABLE * piece->means);
 }
 
 static void TryPushes(kiriSolver* solver, const kiriSystem* system, int trial)

@@ -274,5 +274,6 @@ int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_
             TakeAnew(solver, system, done + iterations);
         }
     }
+    kiriSolver_HoldContacts(solver, system);
     return done;
 }

@@ -1,6 +1,6 @@
 /* What the files of the solver share: kiri_solver.c (unknowns, pattern, a step), kiri_step_begin.c, kiri_objective.c,
-   kiri_assembly.c, kiri_newton.c, kiri_step_contact.c, kiri_energy_limit.c and
-   kiri_step_reaction.c. No other file of the library includes it.
+   kiri_assembly.c, kiri_newton.c, kiri_step_contact.c, kiri_contact_hold.c, kiri_energy_limit.c
+   and kiri_step_reaction.c. No other file of the library includes it.
 
    The step is a minimisation over the poses of the frames at its end. The objective is
 
@@ -58,8 +58,10 @@ typedef struct kiriContactStep {
     kiriVec3 direction;     /* of the slide: unit or zero */
     double known;           /* N: the largest push that is known of */
     double stiffness, grip; /* N/m: of the springs on depth and slide */
+    double give;            /* m/N: how far the obstacle yields in the step, and its cushion */
     double depth, sinks;    /* m: where the system was assembled, and how it changes by the whole solution */
     kiriVec3 slide, slides; /* m: the same */
+    double solved;          /* N: the push that the last system left, before the piece was held up */
     double push;            /* N: by the systems solved so far, */
     kiriVec3 drag;          /* N: and friction */
 } kiriContactStep;
@@ -90,6 +92,7 @@ typedef struct kiriPieceStep {
     double pressed;          /* N s: sum of what contacts gave, without their directions */
     double obstacleSpeed;    /* m/s: the fastest that an obstacle moves at a contact */
     double means;            /* J: of a piece with contacts: more than it had, and so much, it cannot store */
+    bool isHeldUp;           /* were frames moved up to planes after the last system? */
     bool isThrown;           /* did contacts push it too hard? */
     double mostPush;         /* N: the largest */
     kiriVec3 asked, given;   /* N: the sum of what contacts should do, and of what they can; */
@@ -270,6 +273,10 @@ double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, in
 
 /* After a step: its forces, and what contacts do in the next system. */
 void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system);
+
+/* After the last system (kiri_contact_hold.c): moves what still is well below planes back up, frame by frame or, where
+   that would store more energy than the piece has, as a whole, and counts what that takes as pushes. */
+void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system);
 
 /* Before the forces are asked for: fits them to where pieces ended. */
 void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system);

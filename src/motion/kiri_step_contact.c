@@ -268,7 +268,8 @@ static void SetSprings(const kiriSolver* solver, const kiriSystem* system, int32
     double soft = part * part * share;
     kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data);
     kiriVec3 along = kiriVec3_Length(step->direction) > 0.5 ? step->direction : row->normal;
-    step->stiffness = 1.0 / (1.0 / spring + soft * (row->cushion + InverseMass(system, k, point, row->normal)));
+    step->give = soft * (row->cushion + InverseMass(system, k, point, row->normal));
+    step->stiffness = 1.0 / (1.0 / spring + step->give);
     step->grip = 1.0 / (1.0 / (GRIP * inertia) + soft * InverseMass(system, k, point, along));
 }
 
@@ -579,6 +580,24 @@ kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriSystem* system, i
     return kiriVec3_Scale(PieceOf(solver, system, k)->keepForces, force);
 }
 
+/* Where contacts alone act, the sum of their forces is what took the piece from where free motion ends, on whatever path
+   the iteration came there. */
+static void SumWays(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        piece->asked = piece->isHeldUp && piece->isPushed ? kiriVec3_Make(0.0, 0.0, 0.0) : piece->asked;
+    }
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+        double part = piece->stepping.part;
+        if (piece->isHeldUp && piece->isPushed) {
+            kiriVec3 way = kiriVec3_Sub(solver->poses.data[f].x, solver->predictions.data[f].pose.x);
+            piece->asked = kiriVec3_AddScaled(piece->asked, system->frames[f].mass / (part * part), way);
+        }
+    }
+}
+
 /* Pulls that are left out would make the others throw the piece up: where it ended, the sum of all is what moved it. So
    all are as much less as makes their sum fit that. */
 void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
@@ -593,6 +612,7 @@ void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
         piece->asked = kiriVec3_AddScaled(piece->asked, step->push, system->contacts[k].normal);
         piece->given = kiriVec3_Add(piece->given, WithinCone(step, &system->contacts[k]));
     }
+    SumWays(solver, system);
     for (int32_t i = 0; i < solver->pieceCount; ++i) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         double fit = kiriVec3_Dot(piece->asked, piece->given), size = kiriVec3_Dot(piece->given, piece->given);
@@ -604,6 +624,9 @@ double kiriContact_Work(const kiriSolver* solver, const kiriSystem* system, int3
 {
     const kiriContactStep* step = &solver->contacts.data[k];
     kiriVec3 force = kiriContact_Force(solver, system, k), normal = system->contacts[k].normal;
+    if (PieceOf(solver, system, k)->isHeldUp) {
+        return kiriVec3_Dot(force, step->carried); /* it is moved out of obstacles, which throws nothing */
+    }
     return kiriVec3_Dot(force, normal) * step->lift + kiriVec3_Dot(force, AlongPlane(step->carried, normal));
 }
 

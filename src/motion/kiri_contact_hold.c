@@ -1,0 +1,183 @@
+/* What holds where the systems of a step do not settle which contacts push: nothing goes through an obstacle. */
+#include "kiri_solver_work.h"
+
+#define MOST_DEPTH 5e-3      /* m: less is left to the next step, which pushes it out: what rests needs that */
+#define TOLERABLE_DEPTH 1e-3 /* m: what is left where something is held */
+#define MOST_TURN 0.3        /* of a frame, roughly its angle, while it is held */
+#define LEAST_WEIGHT 0.05    /* of a frame that is held */
+#define SWEEPS 12            /* over all contacts */
+
+/* ---- Which are too deep ------------------------------------------------------------------------------------------- */
+
+/* m: how far the obstacle is pushed down. */
+static double Yielded(const kiriContactStep* step)
+{
+    return step->push > 0.0 ? step->push * step->give : 0.0;
+}
+
+static kiriPieceStep* PieceOf(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    return kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
+}
+
+/* Marks the pieces that are too deep in something, and keeps where the systems left them. */
+static bool FindDeep(kiriSolver* solver, const kiriSystem* system)
+{
+    bool any = false;
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        solver->pieces.data[i].isHeldUp = solver->pieces.data[i].isSearching = false;
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriContactStep* step = &solver->contacts.data[k];
+        double depth = kiriContact_Depth(solver, system, k, solver->poses.data) - Yielded(step);
+        step->solved = step->push;
+        if (depth > MOST_DEPTH) {
+            PieceOf(solver, system, k)->isSearching = any = true;
+        }
+    }
+    for (int32_t f = 0; any && f < system->frameCount; ++f) {
+        solver->trial.data[f] = solver->poses.data[f];
+    }
+    return any;
+}
+
+/* ---- Frame by frame ----------------------------------------------------------------------------------------------- */
+
+/* Touches are found for frames as they are turned at the start: else other points of the material are below planes. */
+static void TurnBack(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriMat3 *start = &solver->start.data[f].A, *end = &solver->poses.data[f].A;
+        kiriVec3 u = kiriVec3_Sub(end->u, start->u), v = kiriVec3_Sub(end->v, start->v);
+        double turn = kiriVec3_Dot(u, u) + kiriVec3_Dot(v, v);
+        if (kiriSolver_PieceOf(solver, f)->isSearching && !system->frames[f].held && turn > MOST_TURN * MOST_TURN) {
+            solver->poses.data[f].A = *start;
+        }
+    }
+}
+
+static kiriVec3 Along(const kiriSystem* system, int32_t k)
+{
+    kiriVec3 normal = system->contacts[k].normal;
+    return system->mechanics.planar ? kiriMechanics_InPlane(&system->mechanics, normal) : normal;
+}
+
+/* Pushes a frame so far that it carries the point no further than to the plane. It only moves, and does not turn: so
+   depths change as they should, however far it has turned. That each frame does so, and not their blend alone, keeps
+   frames from passing each other on their way to the plane, and with them what is between the points. */
+static bool HoldMember(kiriSolver* solver, const kiriSystem* system, int32_t k, int32_t f)
+{
+    kiriContactStep* step = &solver->contacts.data[k];
+    kiriVec3 normal = system->contacts[k].normal, along = Along(system, k);
+    kiriVec2 at = system->contacts[k].at;
+    kiriVec3 way = kiriVec3_Sub(kiriSystem_Point(system, f, at, solver->poses.data),
+                                kiriSystem_Point(system, f, at, solver->start.data));
+    double depth = step->plane - kiriVec3_Dot(normal, kiriVec3_Add(step->start, way)) - Yielded(step);
+    double part = kiriSolver_PieceOf(solver, f)->stepping.part, share = kiriVec3_Dot(along, along);
+    if (system->frames[f].held || !(depth > TOLERABLE_DEPTH) || !(share > 0.0)) {
+        return false;
+    }
+    double inertia = system->frames[f].mass / (part * part), push = depth / (share / inertia + step->give);
+    step->push += push;
+    solver->poses.data[f].x = kiriVec3_AddScaled(solver->poses.data[f].x, push / inertia, along);
+    return true;
+}
+
+static bool HoldFrames(kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    const kiriContactStep* step = &solver->contacts.data[k];
+    bool any = false;
+    for (int32_t m = 0; m < step->memberCount; ++m) {
+        any |= step->members[m].value > LEAST_WEIGHT && HoldMember(solver, system, k, step->members[m].frame);
+    }
+    return any;
+}
+
+/* ---- As a whole --------------------------------------------------------------------------------------------------- */
+
+/* Moves all frames of the piece alike, which stores no energy in it. */
+static bool HoldPiece(kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    kiriContactStep* step = &solver->contacts.data[k];
+    const kiriPieceStep* piece = PieceOf(solver, system, k);
+    kiriVec3 along = Along(system, k);
+    double depth = kiriContact_Depth(solver, system, k, solver->poses.data) - Yielded(step);
+    double inertia = piece->mass / (piece->stepping.part * piece->stepping.part), share = kiriVec3_Dot(along, along);
+    if (!(piece->mass > 0.0) || !(depth > TOLERABLE_DEPTH) || !(share > 0.0)) {
+        return false;
+    }
+    double push = depth / (share / inertia + step->give);
+    step->push += push;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (kiriSolver_PieceOf(solver, f) == piece && !system->frames[f].held) {
+            solver->poses.data[f].x = kiriVec3_AddScaled(solver->poses.data[f].x, push / inertia, along);
+        }
+    }
+    return true;
+}
+
+static void SumMasses(kiriSolver* solver, const kiriSystem* system)
+{
+    kiriSolver_ClearMeans(solver);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        kiriSolver_PieceOf(solver, f)->mass += system->frames[f].held ? 0.0 : system->frames[f].mass;
+    }
+}
+
+/* ---- Both --------------------------------------------------------------------------------------------------------- */
+
+static void Sweep(kiriSolver* solver, const kiriSystem* system, bool isWhole)
+{
+    bool isLeft = true;
+    for (int sweep = 0; isLeft && sweep < SWEEPS; ++sweep) {
+        isLeft = false;
+        for (int32_t k = 0; k < system->contactCount; ++k) {
+            if (PieceOf(solver, system, k)->isSearching) {
+                isLeft |= isWhole ? HoldPiece(solver, system, k) : HoldFrames(solver, system, k);
+            }
+        }
+    }
+}
+
+/* Pieces that would store more than they have are put back where the systems left them. Returns whether there are any. */
+static bool TakeHeld(kiriSolver* solver, const kiriSystem* system)
+{
+    bool isLeft = false;
+    kiriObjective_Evaluate(solver, system, solver->poses.data);
+    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        double most = piece->start.potential + piece->means;
+        most = most > piece->now.potential ? most : piece->now.potential;
+        if (piece->isSearching && piece->sum.potential <= most) {
+            piece->now = piece->sum;
+            piece->isHeldUp = true;
+            piece->isSearching = false;
+        }
+        isLeft |= piece->isSearching;
+    }
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (kiriSolver_PieceOf(solver, f)->isSearching) {
+            solver->poses.data[f] = solver->trial.data[f];
+        }
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriContactStep* step = &solver->contacts.data[k];
+        step->push = PieceOf(solver, system, k)->isSearching ? step->solved : step->push;
+    }
+    return isLeft;
+}
+
+void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system)
+{
+    if (!FindDeep(solver, system)) {
+        return;
+    }
+    TurnBack(solver, system);
+    Sweep(solver, system, false);
+    if (TakeHeld(solver, system)) {
+        SumMasses(solver, system);
+        Sweep(solver, system, true);
+        TakeHeld(solver, system);
+    }
+    kiriSolver_FindGains(solver, system);
+}
