@@ -27,9 +27,9 @@ typedef struct kiriContactRow {
     kiriWeight weights[KIRI_CONTACT_WEIGHTS]; /* largest first; all frames are of one piece */
     int32_t weightCount;                      /* 1 or more */
     int32_t yield;                            /* index of a yield row; KIRI_NONE: the plane does not yield */
-    double felt;       /* 1/kg: of the yield row as felt there in any direction; below 0: as its mass and inertia say */
-    double cushion;    /* 1/kg: the contact is soft as if the obstacle had so much more inverse mass, but gets no recoil */
-    kiriVec2 at;       /* local rest, m */
+    double felt;    /* 1/kg: of the yield row as felt there in any direction; below 0: as its mass and inertia say */
+    double cushion; /* 1/kg: the contact is soft as if the obstacle had so much more inverse mass, but gets no recoil */
+    kiriVec2 at;    /* local rest, m */
     kiriVec3 normal;   /* unit, to the side of the sheet */
     double offset;     /* m: dot(normal, x) of the plane, for x as the frames blend it: the seen point may be off that,
                           then the plane is moved by as much */

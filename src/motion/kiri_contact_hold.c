@@ -15,7 +15,7 @@ static double Yielded(const kiriContactStep* step)
     return step->push > 0.0 ? step->push * step->give : 0.0;
 }
 
-static kiriPieceStep* PieceOf(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+static kiriPieceStep* PieceOfRow(const kiriSolver* solver, const kiriSystem* system, int32_t k)
 {
     return kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
 }
@@ -32,7 +32,7 @@ static bool FindDeep(kiriSolver* solver, const kiriSystem* system)
         double depth = kiriContact_Depth(solver, system, k, solver->poses.data) - Yielded(step);
         step->solved = step->push;
         if (depth > MOST_DEPTH) {
-            PieceOf(solver, system, k)->isSearching = any = true;
+            PieceOfRow(solver, system, k)->isSearching = any = true;
         }
     }
     for (int32_t f = 0; any && f < system->frameCount; ++f) {
@@ -99,7 +99,7 @@ static bool HoldFrames(kiriSolver* solver, const kiriSystem* system, int32_t k)
 static bool HoldPiece(kiriSolver* solver, const kiriSystem* system, int32_t k)
 {
     kiriContactStep* step = &solver->contacts.data[k];
-    const kiriPieceStep* piece = PieceOf(solver, system, k);
+    const kiriPieceStep* piece = PieceOfRow(solver, system, k);
     kiriVec3 along = Along(system, k);
     double depth = kiriContact_Depth(solver, system, k, solver->poses.data) - Yielded(step);
     double inertia = piece->mass / (piece->stepping.part * piece->stepping.part), share = kiriVec3_Dot(along, along);
@@ -126,13 +126,13 @@ static void SumMasses(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- Both --------------------------------------------------------------------------------------------------------- */
 
-static void Sweep(kiriSolver* solver, const kiriSystem* system, bool isWhole)
+static void SweepHolds(kiriSolver* solver, const kiriSystem* system, bool isWhole)
 {
     bool isLeft = true;
     for (int sweep = 0; isLeft && sweep < SWEEPS; ++sweep) {
         isLeft = false;
         for (int32_t k = 0; k < system->contactCount; ++k) {
-            if (PieceOf(solver, system, k)->isSearching) {
+            if (PieceOfRow(solver, system, k)->isSearching) {
                 isLeft |= isWhole ? HoldPiece(solver, system, k) : HoldFrames(solver, system, k);
             }
         }
@@ -162,7 +162,7 @@ static bool TakeHeld(kiriSolver* solver, const kiriSystem* system)
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
         kiriContactStep* step = &solver->contacts.data[k];
-        step->push = PieceOf(solver, system, k)->isSearching ? step->solved : step->push;
+        step->push = PieceOfRow(solver, system, k)->isSearching ? step->solved : step->push;
     }
     return isLeft;
 }
@@ -173,10 +173,10 @@ void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system)
         return;
     }
     TurnBack(solver, system);
-    Sweep(solver, system, false);
+    SweepHolds(solver, system, false);
     if (TakeHeld(solver, system)) {
         SumMasses(solver, system);
-        Sweep(solver, system, true);
+        SweepHolds(solver, system, true);
         TakeHeld(solver, system);
     }
     kiriSolver_FindGains(solver, system);
