@@ -271,8 +271,9 @@ enum kiriModel {
     KIRI_MODEL_POINTS = 2
 };
 
-/* What is seen between the frames, and met by rays and blades. It does not change how the sheet moves: collision points
-   stay on the linear surface, where contacts push. */
+/* What is seen between the frames, and met by rays, blades, obstacles, other sheets, and contacts of rest points; pins,
+   clamps and holds hold it. Where nothing touches or holds the sheet it does not change how that moves. Collision points
+   stay on the linear surface. */
 enum kiriSkinning {
     KIRI_SKINNING_LINEAR = 0, /* each frame carries a flat patch; the weights blend them (equation 1 of the paper) */
     KIRI_SKINNING_SMOOTH = 1  /* each carries a patch that bends towards its neighbours: no bumps at the frames */
