@@ -285,6 +285,10 @@ void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system);
 kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriSystem* system, int32_t k);
 double kiriContact_Work(const kiriSolver* solver, const kiriSystem* system, int32_t k);
 
+/* Scales what contacts say they did to a pinned piece to what its momentum and its pins say
+   (kiri_contact_pinned.c). */
+void kiriSolver_BalancePinned(kiriSolver* solver, const kiriSystem* system);
+
 /* Writes what the step did to rows, contacts' and those of what yields. */
 void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system);
 
