@@ -555,6 +555,22 @@ static void GroupsTellWhoTouches(void** state)
     Host_Stop(&host);
 }
 
+/* Of a rigid planar plate that stands on its edge at a height. */
+static kiriSheetDef UprightPlate(float contactThickness, float height)
+{
+    kiriSheetDef plate;
+    kiriDefaultSheetDef(&plate);
+    plate.planar = 1;
+    plate.gridResolution = 8;
+    plate.frameCount = plate.maxFrames = 1;
+    plate.contactThickness = contactThickness;
+    plate.axisV[1] = 0.0f;
+    plate.axisV[2] = 1.0f;
+    plate.position[0] = -0.1f;
+    plate.position[2] = height;
+    return plate;
+}
+
 /* A planar sheet comes to rest on a prism without end along its normal, and within a box's height. */
 static void PlanarSheetsRestOnPolygons(void** state)
 {
@@ -568,16 +584,7 @@ static void PlanarSheetsRestOnPolygons(void** state)
         def.height = 0.0f;
         def.size[which == 1 ? 2 : 0] = which == 1 ? 0.001f : 0.6f; /* thin along the normal of the sheet: no matter */
         Add(&host, &def);
-        kiriSheetDef plate;
-        kiriDefaultSheetDef(&plate);
-        plate.planar = 1;
-        plate.gridResolution = 8;
-        plate.frameCount = plate.maxFrames = 1;
-        plate.contactThickness = 0.01f;
-        plate.axisV[1] = 0.0f;
-        plate.axisV[2] = 1.0f;
-        plate.position[0] = -0.1f;
-        plate.position[2] = 0.25f;
+        kiriSheetDef plate = UprightPlate(0.01f, 0.25f);
         kiriSheet sheet = Host_AddRectangle(&host, &plate, 0.2f, 0.1f, 8, 4);
         Ticks(&host, 60);
         assert_true(fabs(TotalsOf(&host, sheet).center[2] - 0.2 - 0.005 - 0.05) < 1e-3);
@@ -601,16 +608,7 @@ static void PlanarBordersRestOnCorners(void** state)
         def.position[2] = -0.070710678f;
         Add(&host, &def);
     }
-    kiriSheetDef plate;
-    kiriDefaultSheetDef(&plate);
-    plate.planar = 1;
-    plate.gridResolution = 8;
-    plate.frameCount = plate.maxFrames = 1;
-    plate.contactThickness = 0.004f;
-    plate.axisV[1] = 0.0f;
-    plate.axisV[2] = 1.0f;
-    plate.position[0] = -0.1f;
-    plate.position[2] = 0.05f;
+    kiriSheetDef plate = UprightPlate(0.004f, 0.05f);
     kiriSheet sheet = Host_AddRectangle(&host, &plate, 0.2f, 0.1f, 1, 1);
     Ticks(&host, 60);
     assert_true(fabs(TotalsOf(&host, sheet).center[2] - 0.002 - 0.05) < 1e-3);
