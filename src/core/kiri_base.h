@@ -91,14 +91,15 @@ typedef struct kiriQuota {
     int64_t used;
 } kiriQuota;
 
-/* Takes items from the quota; false, and takes none, where fewer are left. */
+/* Takes items from the quota; false, and takes none, where fewer are left. What is larger than the whole quota gets it all
+   when nothing of it has been used yet: so everything is done in the end. */
 static inline bool kiriQuota_Take(kiriQuota* quota, int64_t items)
 {
     KIRI_ASSERT(items >= 0 && quota->left >= 0);
-    if (items > quota->left) {
+    if (items > quota->left && quota->used > 0) {
         return false;
     }
-    quota->left -= items;
+    quota->left -= items < quota->left ? items : quota->left;
     quota->used += items;
     return true;
 }
