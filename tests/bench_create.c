@@ -1,0 +1,273 @@
+/* What it costs to create a sheet: time and memory by its size, and meshes whose triangles lie badly. Then what a host may
+   ask of a large sheet. */
+#define _POSIX_C_SOURCE 199309L
+
+#include "bench.h"
+
+/* ---- Memory ------------------------------------------------------------------------------------------------------ */
+
+typedef struct Count {
+    int64_t bytes, peak;
+} Count;
+
+static void* CountedAlloc(void* user, int64_t bytes)
+{
+    Count* count = user;
+    int64_t* block = malloc((size_t)bytes + 16);
+    if (block == NULL) {
+        return NULL;
+    }
+    *block = bytes;
+    count->bytes += bytes;
+    count->peak = count->bytes > count->peak ? count->bytes : count->peak;
+    return block + 2;
+}
+
+static void CountedFree(void* user, void* pointer)
+{
+    if (pointer != NULL) {
+        int64_t* block = (int64_t*)pointer - 2;
+        ((Count*)user)->bytes -= *block;
+        free(block);
+    }
+}
+
+static bool StartWorld(Count* count, kiriWorld** world)
+{
+    kiriWorldDef def = Bench_WorldDef();
+    def.user = count;
+    def.alloc = CountedAlloc;
+    def.free = CountedFree;
+    return kiriCreateWorld(&def, world) == KIRI_OK;
+}
+
+/* ---- Sizes ------------------------------------------------------------------------------------------------------- */
+
+typedef struct Made {
+    double ms, firstTick;
+    int64_t bytes, after, peak; /* when created, after the first tick, at most while it was created */
+} Made;
+
+static bool Make(int32_t squares, int32_t grid, int32_t frames, Made* made)
+{
+    Count count = { 0, 0 };
+    kiriWorld* world = NULL;
+    kiriSheet sheet;
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = grid > 0 ? grid : def.gridResolution;
+    def.frameCount = frames;
+    bool fine = StartWorld(&count, &world);
+    double start = Bench_Clock(NULL);
+    fine = fine && Bench_AddSheet(world, &def, squares, &sheet);
+    made->ms = 1e3 * (Bench_Clock(NULL) - start);
+    made->bytes = count.bytes;
+    made->peak = count.peak;
+    start = Bench_Clock(NULL);
+    fine = fine && kiriWorld_Tick(world, 1.0f / 60.0f, 1) == KIRI_OK;
+    made->firstTick = 1e3 * (Bench_Clock(NULL) - start);
+    made->after = count.bytes;
+    kiriDestroyWorld(world);
+    return fine;
+}
+
+static void PrintMade(Table* table, int32_t squares, int32_t grid, const Made* made, double aim)
+{
+    double vertices = (double)(squares + 1) * (squares + 1);
+    Table_Number(table, vertices);
+    Table_Number(table, grid > 0 ? grid : 32);
+    Table_Judge(table, made->ms, !(made->ms > aim));
+    Table_Number(table, 1e6 * made->ms / vertices);
+    Table_Number(table, made->firstTick);
+    Table_Judge(table, (double)made->bytes / vertices, grid != 1024 || (double)made->bytes < 750.0 * vertices);
+    Table_Number(table, (double)made->after / vertices);
+    Table_Number(table, (double)made->peak / vertices);
+    fflush(stdout);
+}
+
+static bool BenchSizes(void)
+{
+    static const char* const columns[] = { "vertices",     "grid",   "create",  "ns/vertex", "first tick",
+                                           "bytes/vertex", "ticked", "at most", NULL };
+    static const struct {
+        int32_t squares, grid;
+        double aim;
+    } sizes[] = { { 64, 0, 2.0 },   { 64, 64, (double)NAN },    { 256, 0, (double)NAN }, { 256, 256, (double)NAN },
+                  { 1024, 0, 2e3 }, { 1024, 1024, (double)NAN } };
+    Table table;
+    bool fine =
+        Table_Start(&table, "create",
+                    "A square is created, with 25 frames: ms, ns a vertex, ms of the first tick; bytes a vertex "
+                    "when it is there, after a tick, and\nat most meanwhile. Aims: 2 ms and 2 s with the grid of "
+                    "32; 750 bytes where the grid is as fine as a million vertices.",
+                    columns);
+    for (size_t i = 0; fine && i < sizeof sizes / sizeof sizes[0]; i++) {
+        Made best = { .ms = 1e30 }, made;
+        for (int run = 0; fine && run < (sizes[i].squares < 1000 ? 5 : 1); run++) {
+            fine = Make(sizes[i].squares, sizes[i].grid, 25, &made);
+            best = made.ms < best.ms ? made : best;
+        }
+        PrintMade(&table, sizes[i].squares, sizes[i].grid, &best, sizes[i].aim);
+    }
+    return Table_Stop(&table) && fine;
+}
+
+/* ---- Meshes that lie badly ---------------------------------------------------------------------------------------- */
+
+/* `triangles` of them within `extent` of a corner, and one at the other end of a metre. */
+static bool MakeCrowd(int32_t triangles, double extent, double* ms)
+{
+    int32_t side = (int32_t)(sqrt(0.5 * triangles) + 0.5), n = (side + 1) * (side + 1), count = 2 * side * side;
+    float* rest = malloc(2 * sizeof(float) * (size_t)(n + 3));
+    int32_t* indices = malloc(3 * sizeof(int32_t) * (size_t)(count + 1));
+    kiriWorldDef worldDef = Bench_WorldDef();
+    kiriWorld* world = NULL;
+    kiriSheet sheet;
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    bool fine = rest != NULL && indices != NULL && kiriCreateWorld(&worldDef, &world) == KIRI_OK &&
+                kiriFillRectangle((float)extent, (float)extent, side, side, rest, indices) == KIRI_OK;
+    if (fine) {
+        static const float far[6] = { 0.9f, 0.9f, 1.0f, 0.9f, 1.0f, 1.0f };
+        memcpy(rest + 2 * n, far, sizeof far);
+        for (int32_t i = 0; i < 3; i++) {
+            indices[3 * count + i] = n + i;
+        }
+        def.restPositions = rest;
+        def.indices = indices;
+        def.vertexCount = n + 3;
+        def.triangleCount = count + 1;
+        double start = Bench_Clock(NULL);
+        fine = kiriCreateSheet(world, &def, &sheet) == KIRI_OK;
+        *ms = 1e3 * (Bench_Clock(NULL) - start);
+    }
+    kiriDestroyWorld(world);
+    free(rest);
+    free(indices);
+    return fine;
+}
+
+static bool BenchCrowds(void)
+{
+    static const char* const columns[] = { "triangles", "evenly", "crowded", "times", NULL };
+    static const int32_t triangles[] = { 5000, 20000, 80000 };
+    Table table;
+    bool fine = Table_Start(&table, "crowds",
+                            "A sheet is created of so many triangles and one far away: ms where they fill most of its "
+                            "box, and where they lie within 1e-4 of it.\nAim: at most three times as long.",
+                            columns);
+    for (size_t i = 0; fine && i < sizeof triangles / sizeof triangles[0]; i++) {
+        double even = 0.0, crowded = 0.0;
+        fine = MakeCrowd(triangles[i], 0.8, &even) && MakeCrowd(triangles[i], 1e-4, &crowded);
+        Table_Number(&table, triangles[i]);
+        Table_Number(&table, even);
+        Table_Number(&table, crowded);
+        Table_Judge(&table, crowded / even, crowded / even <= 3.0);
+        fflush(stdout);
+    }
+    return Table_Stop(&table) && fine;
+}
+
+/* ---- What a host may ask ------------------------------------------------------------------------------------------ */
+
+typedef struct Asked {
+    double hash, ray, nextRay, slice, pieces, nextPieces; /* ms */
+} Asked;
+
+static bool TimeHash(kiriWorld* world, double* ms)
+{
+    uint64_t hash;
+    double start = Bench_Clock(NULL);
+    bool fine = kiriWorld_GetStateHash(world, &hash) == KIRI_OK;
+    *ms = 1e3 * (Bench_Clock(NULL) - start);
+    return fine;
+}
+
+static bool TimeRay(kiriWorld* world, kiriSheet sheet, double* ms)
+{
+    kiriHit hit;
+    double start = Bench_Clock(NULL);
+    bool fine = kiriSheet_Raycast(world, sheet, (float[]){ 0.37f, 0.41f, 1.0f }, (float[]){ 0.0f, 0.0f, -1.0f }, 10.0f,
+                                  &hit) == KIRI_OK;
+    *ms = 1e3 * (Bench_Clock(NULL) - start);
+    return fine && hit.triangle >= 0;
+}
+
+/* Twice: the first time lists are made. */
+static bool TimePieces(kiriWorld* world, kiriSheet sheet, double* first, double* next)
+{
+    kiriPieceState state;
+    double start = Bench_Clock(NULL);
+    bool fine = kiriSheet_GetPiece(world, sheet, 0, &state) == KIRI_OK;
+    *first = 1e3 * (Bench_Clock(NULL) - start);
+    start = Bench_Clock(NULL);
+    fine = fine && kiriSheet_GetPiece(world, sheet, 0, &state) == KIRI_OK;
+    *next = 1e3 * (Bench_Clock(NULL) - start);
+    return fine;
+}
+
+/* A short edge that goes down through the sheet. */
+static bool TimeSlice(kiriWorld* world, kiriSheet sheet, double* ms)
+{
+    static const float blade[12] = { 0.31f, 0.3f, 1.0f, 0.36f, 0.31f, 1.0f, 0.36f, 0.31f, -1.0f, 0.31f, 0.3f, -1.0f };
+    kiriCut cut;
+    double start = Bench_Clock(NULL);
+    bool fine = kiriSheet_Slice(world, sheet, blade, &cut) == KIRI_OK;
+    *ms = 1e3 * (Bench_Clock(NULL) - start);
+    return fine;
+}
+
+static bool Ask(int32_t squares, Asked* asked)
+{
+    kiriWorldDef worldDef = Bench_WorldDef();
+    kiriWorld* world = NULL;
+    kiriSheet sheet;
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    bool fine = kiriCreateWorld(&worldDef, &world) == KIRI_OK && Bench_AddSheet(world, &def, squares, &sheet) &&
+                kiriWorld_Tick(world, 0.001f, 1) == KIRI_OK && TimeHash(world, &asked->hash) &&
+                TimePieces(world, sheet, &asked->pieces, &asked->nextPieces) && TimeRay(world, sheet, &asked->ray) &&
+                kiriWorld_Tick(world, 0.001f, 1) == KIRI_OK && TimeRay(world, sheet, &asked->nextRay) &&
+                TimeSlice(world, sheet, &asked->slice);
+    kiriDestroyWorld(world);
+    return fine;
+}
+
+static bool BenchAsked(void)
+{
+    static const char* const columns[] = { "vertices", "hash", "ns/vertex", "pieces", "next",
+                                           "ray",      "next", "slice",     NULL };
+    static const int32_t squares[] = { 64, 256, 1000 };
+    Table table;
+    bool fine =
+        Table_Start(&table, "asked",
+                    "What a host may ask of a square: ms of the state hash, of the first piece and again, of the "
+                    "first ray and one after a tick, of a\nslice by a short edge.",
+                    columns);
+    for (size_t i = 0; fine && i < sizeof squares / sizeof squares[0]; i++) {
+        Asked asked;
+        memset(&asked, 0, sizeof asked);
+        double vertices = (double)(squares[i] + 1) * (squares[i] + 1);
+        fine = Ask(squares[i], &asked);
+        Table_Number(&table, vertices);
+        Table_Number(&table, asked.hash);
+        Table_Number(&table, 1e6 * asked.hash / vertices);
+        Table_Number(&table, asked.pieces);
+        Table_Number(&table, asked.nextPieces);
+        Table_Number(&table, asked.ray);
+        Table_Number(&table, asked.nextRay);
+        Table_Number(&table, asked.slice);
+        fflush(stdout);
+    }
+    return Table_Stop(&table) && fine;
+}
+
+int main(void)
+{
+    Bench_WeighClock();
+    bool fine = BenchSizes() && BenchCrowds() && BenchAsked();
+    if (!fine) {
+        fprintf(stderr, "bench_create: something failed\n");
+    }
+    return fine ? 0 : 1;
+}
