@@ -48,7 +48,7 @@ typedef struct Made {
     int64_t bytes, after, peak; /* when created, after the first tick, at most while it was created */
 } Made;
 
-static bool Make(int32_t squares, int32_t grid, int32_t frames, Made* made)
+static bool Make(int32_t squares, int32_t grid, Made* made)
 {
     Count count = { 0, 0 };
     kiriWorld* world = NULL;
@@ -56,7 +56,6 @@ static bool Make(int32_t squares, int32_t grid, int32_t frames, Made* made)
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
     def.gridResolution = grid > 0 ? grid : def.gridResolution;
-    def.frameCount = frames;
     bool fine = StartWorld(&count, &world);
     double start = Bench_Clock(NULL);
     fine = fine && Bench_AddSheet(world, &def, squares, &sheet);
@@ -95,16 +94,16 @@ static bool BenchSizes(void)
     } sizes[] = { { 64, 0, 2.0 },   { 64, 64, (double)NAN },    { 256, 0, (double)NAN }, { 256, 256, (double)NAN },
                   { 1024, 0, 2e3 }, { 1024, 1024, (double)NAN } };
     Table table;
-    bool fine =
-        Table_Start(&table, "create",
-                    "A square is created, with 25 frames: ms, ns a vertex, ms of the first tick; bytes a vertex "
-                    "when it is there, after a tick, and\nat most meanwhile. Aims: 2 ms and 2 s with the grid of "
-                    "32; 750 bytes where the grid is as fine as a million vertices.",
-                    columns);
+    bool fine = Table_Start(
+        &table, "create",
+        "A square is created, with the default settings: ms, ns a vertex, ms of the first tick; bytes a vertex "
+        "when it is there, after a tick, and\nat most meanwhile. Aims: 2 ms and 2 s with the grid of "
+        "32; 750 bytes where the grid is as fine as a million vertices.",
+        columns);
     for (size_t i = 0; fine && i < sizeof sizes / sizeof sizes[0]; i++) {
         Made best = { .ms = 1e30 }, made;
         for (int run = 0; fine && run < (sizes[i].squares < 1000 ? 5 : 1); run++) {
-            fine = Make(sizes[i].squares, sizes[i].grid, 25, &made);
+            fine = Make(sizes[i].squares, sizes[i].grid, &made);
             best = made.ms < best.ms ? made : best;
         }
         PrintMade(&table, sizes[i].squares, sizes[i].grid, &best, sizes[i].aim);

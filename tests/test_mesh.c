@@ -271,6 +271,96 @@ static void RefusesOverlap(void** state)
     assert_int_equal(Try(touching, 6, two, 2), KIRI_OK);
 }
 
+/* Is all of one on the outer side of an edge of the other? */
+static bool IsApart(const float* a, const float* b)
+{
+    for (int i = 0; i < 3; ++i) {
+        const float *p = a + 2 * i, *q = a + 2 * ((i + 1) % 3);
+        bool outer = true;
+        for (int k = 0; k < 3; ++k) {
+            outer = outer && (q[0] - p[0]) * (b[2 * k + 1] - p[1]) <= (q[1] - p[1]) * (b[2 * k] - p[0]);
+        }
+        if (outer) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Triangles thrown at random, few enough that often none overlap: against all pairs. */
+static void RefusesOverlapAnywhere(void** state)
+{
+    (void)state;
+    enum { TRIANGLES = 12, RANGE = 40 };
+    uint32_t seed = 5;
+    int32_t refused = 0, indices[3 * TRIANGLES];
+    for (int round = 0; round < 400; ++round) {
+        float points[6 * TRIANGLES];
+        bool apart = true;
+        for (int32_t t = 0; t < TRIANGLES; ++t) {
+            float* p = points + 6 * t;
+            do {
+                p[0] = (float)(Random(&seed) % RANGE);
+                p[1] = (float)(Random(&seed) % RANGE);
+                for (int k = 2; k < 6; ++k) {
+                    p[k] = p[k % 2] + (float)(Random(&seed) % 9) - 4.0f;
+                }
+            } while ((p[2] - p[0]) * (p[5] - p[1]) <= (p[3] - p[1]) * (p[4] - p[0]));
+            for (int32_t s = 0; s < t; ++s) {
+                apart = apart && (IsApart(p, points + 6 * s) || IsApart(points + 6 * s, p));
+            }
+            for (int32_t k = 3 * t; k < 3 * t + 3; ++k) {
+                indices[k] = k;
+            }
+        }
+        assert_int_equal(Try(points, 3 * TRIANGLES, indices, TRIANGLES), apart ? KIRI_OK : KIRI_ERROR_MESH);
+        refused += !apart;
+    }
+    assert_in_range(refused, 50, 350);
+}
+
+/* 20 000 triangles within 1e-4 of the sheet, and one far away; then one more in the crowd, on others. */
+static void TakesCrowds(void** state)
+{
+    (void)state;
+    enum { SIDE = 100, VERTICES = (SIDE + 1) * (SIDE + 1), TRIANGLES = 2 * SIDE * SIDE };
+    static float points[2 * (VERTICES + 6)];
+    static int32_t indices[3 * (TRIANGLES + 2)];
+    const float far[] = { 0.9f, 0.9f, 1.0f, 0.9f, 1.0f, 1.0f }, on[] = { 4e-5f, 4e-5f, 6e-5f, 4e-5f, 5e-5f, 6e-5f };
+    assert_int_equal(kiriFillRectangle(1e-4f, 1e-4f, SIDE, SIDE, points, indices), KIRI_OK);
+    memcpy(points + 2 * VERTICES, far, sizeof far);
+    memcpy(points + 2 * VERTICES + 6, on, sizeof on);
+    for (int32_t i = 0; i < 6; ++i) {
+        indices[3 * TRIANGLES + i] = VERTICES + i;
+    }
+    assert_int_equal(Try(points, VERTICES + 3, indices, TRIANGLES + 1), KIRI_OK);
+    assert_int_equal(Try(points, VERTICES + 6, indices, TRIANGLES + 2), KIRI_ERROR_MESH);
+}
+
+/* All triangles around one vertex. */
+static void TakesHubs(void** state)
+{
+    (void)state;
+    enum { SPOKES = 3000 };
+    static float points[2 * (SPOKES + 1)];
+    static int32_t indices[3 * SPOKES];
+    kiriMeshData mesh;
+    for (int32_t i = 0; i < SPOKES; ++i) {
+        double angle = 6.283185307179586 * i / SPOKES;
+        points[2 * i + 2] = (float)cos(angle);
+        points[2 * i + 3] = (float)sin(angle);
+        indices[3 * i + 1] = 1 + i;
+        indices[3 * i + 2] = 1 + (i + 1) % SPOKES;
+    }
+    assert_int_equal(Init(&mesh, points, SPOKES + 1, indices, SPOKES), KIRI_OK);
+    for (int32_t i = 0; i < SPOKES; ++i) {
+        assert_int_equal(mesh.triangles.data[i].twin[2], 3 * ((i + 1) % SPOKES));
+        assert_int_equal(mesh.triangles.data[i].twin[1], KIRI_NONE);
+    }
+    assert_int_equal(mesh.triangles.data[0].open, 0);
+    kiriMemory_FreeAll(mesh.memory);
+}
+
 /* Nine triangles wound twice around a vertex: no edge is used twice, but they lie on each other. */
 static void RefusesWindingTwice(void** state)
 {
@@ -700,7 +790,10 @@ int main(void)
         cmocka_unit_test(RefusesArguments),
         cmocka_unit_test(RefusesWhatIsNoSheet),
         cmocka_unit_test(RefusesOverlap),
+        cmocka_unit_test(RefusesOverlapAnywhere),
         cmocka_unit_test(RefusesWindingTwice),
+        cmocka_unit_test(TakesCrowds),
+        cmocka_unit_test(TakesHubs),
         cmocka_unit_test(TakesRectangles),
         cmocka_unit_test(TakesSlits),
         cmocka_unit_test(DividesPinchedVertices),

@@ -1,50 +1,7 @@
 #include "kiri_mesh_edit.h"
+#include "kiri_overlap.h"
 
 #include <string.h>
-
-enum {
-    OVERLAP_TOLERANCE = 64,      /* lattice steps that triangles may intrude on each other: the input is float */
-    MOST_CHECK_SQUARES = 1 << 11 /* a side, when looking for overlaps */
-};
-
-/* From pairs of numbers to a number: open addressing, in insertion order, so the same on every machine. */
-typedef struct PairSlot {
-    int32_t a, b, value;
-} PairSlot;
-
-typedef struct PairTable {
-    PairSlot* slots;
-    uint32_t mask;
-} PairTable;
-
-static bool PairTable_Init(PairTable* table, kiriMemory* memory, int64_t count)
-{
-    int64_t size = 16;
-    while (size < 2 * count) {
-        size *= 2;
-    }
-    table->mask = (uint32_t)(size - 1);
-    table->slots = kiriMemory_Alloc(memory, size * (int64_t)sizeof(PairSlot));
-    for (int64_t i = 0; table->slots != NULL && i < size; ++i) {
-        table->slots[i].value = KIRI_NONE;
-    }
-    return table->slots != NULL;
-}
-
-/* The value of the pair; `value` becomes it when there is none. KIRI_NONE only asks. */
-static int32_t PairTable_Put(PairTable* table, int32_t a, int32_t b, int32_t value)
-{
-    uint64_t hash = ((uint64_t)(uint32_t)a << 32 | (uint32_t)b) * 0x9E3779B97F4A7C15u;
-    uint32_t i = (uint32_t)((hash ^ hash >> 29) * 0xBF58476D1CE4E5B9u >> 32) & table->mask;
-    while (table->slots[i].value != KIRI_NONE && (table->slots[i].a != a || table->slots[i].b != b)) {
-        i = (i + 1) & table->mask;
-    }
-    if (table->slots[i].value == KIRI_NONE) {
-        PairSlot slot = { a, b, value };
-        table->slots[i] = slot;
-    }
-    return table->slots[i].value;
-}
 
 typedef struct MeshInput {
     const float* positions;
@@ -150,22 +107,111 @@ static kiriResult TakeTriangles(kiriMeshData* mesh, const MeshInput* input, cons
     return KIRI_OK;
 }
 
-/* Twins are found by lattice points: an edge whose ends are other vertices on its other side is open. `firstAt` of a
-   vertex is the first vertex at its point. */
-static kiriResult LinkTwins(kiriMeshData* mesh, PairTable* table, const int32_t* firstAt, const char** why)
+/* ---- Twins ---- */
+
+/* Twins are found by lattice points: an edge whose ends are other vertices on its other side is open. Each edge is listed
+   at the one of its ends that has fewer: in a plane these lists are short, even around a hub (Chiba and Nishizeki
+   1985). */
+typedef struct TwinEntry {
+    int32_t half;  /* the half-edge, or its complement where it leads to the point of the list */
+    int32_t other; /* the point at its other end */
+} TwinEntry;
+
+typedef struct TwinWork {
+    int32_t* point;     /* of each vertex: the first vertex at its lattice point */
+    int32_t* degree;    /* of each point: how many half-edges leave it */
+    int32_t* end;       /* of each point: where its list ends */
+    TwinEntry* entries; /* list by list */
+} TwinWork;
+
+static uint32_t HashPlace(kiriLatticePoint at)
 {
-    for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
-        int32_t a = kiriMesh_Tail(mesh, h), b = kiriMesh_Tail(mesh, kiriEdge_Next(h));
-        if (PairTable_Put(table, firstAt[a], firstAt[b], h) != h) {
-            return RefuseMesh(why, KIRI_ERROR_MESH, "two triangles use an edge in the same direction");
-        }
+    uint64_t hash = ((uint64_t)(uint32_t)at.x << 32 | (uint32_t)at.y) * 0x9E3779B97F4A7C15u;
+    return (uint32_t)((hash ^ hash >> 29) * 0xBF58476D1CE4E5B9u >> 32);
+}
+
+/* Open addressing, in the order of vertices: the same on every machine. */
+static bool FindPoints(const kiriMeshData* mesh, kiriMemory* memory, int32_t* point)
+{
+    int64_t size = 16;
+    while (size < 2 * (int64_t)mesh->vertices.count) {
+        size *= 2;
     }
-    for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
-        int32_t a = kiriMesh_Tail(mesh, h), b = kiriMesh_Tail(mesh, kiriEdge_Next(h));
-        int32_t g = PairTable_Put(table, firstAt[b], firstAt[a], KIRI_NONE);
-        kiriMesh_Link(mesh, h, g);
-        kiriMesh_SetOpen(mesh, h,
-                         g != KIRI_NONE && (kiriMesh_Tail(mesh, g) != b || kiriMesh_Tail(mesh, kiriEdge_Next(g)) != a));
+    int32_t* slots = kiriMemory_Alloc(memory, size * (int64_t)sizeof(int32_t));
+    for (int64_t i = 0; slots != NULL && i < size; ++i) {
+        slots[i] = KIRI_NONE;
+    }
+    for (int32_t v = 0; slots != NULL && v < mesh->vertices.count; ++v) {
+        const kiriVertex* vertices = mesh->vertices.data;
+        kiriLatticePoint at = vertices[v].at;
+        uint32_t i = HashPlace(at) & (uint32_t)(size - 1);
+        while (slots[i] != KIRI_NONE && (vertices[slots[i]].at.x != at.x || vertices[slots[i]].at.y != at.y)) {
+            i = (i + 1) & (uint32_t)(size - 1);
+        }
+        slots[i] = slots[i] == KIRI_NONE ? v : slots[i];
+        point[v] = slots[i];
+    }
+    return slots != NULL;
+}
+
+/* The point where the half-edge is listed, and its entry there. */
+static int32_t EntryOf(const kiriMeshData* mesh, const TwinWork* work, int32_t h, TwinEntry* entry)
+{
+    int32_t a = work->point[kiriMesh_Tail(mesh, h)], b = work->point[kiriMesh_Tail(mesh, kiriEdge_Next(h))];
+    bool atHead = work->degree[b] < work->degree[a] || (work->degree[b] == work->degree[a] && b < a);
+    *entry = (TwinEntry){ atHead ? ~h : h, atHead ? a : b };
+    return atHead ? b : a;
+}
+
+/* First `end` counts, then it is where lists begin, and at last where they end. */
+static void ListEdges(const kiriMeshData* mesh, TwinWork* work)
+{
+    int32_t halfEdges = 3 * mesh->triangles.count, sum = 0;
+    TwinEntry entry;
+    for (int32_t h = 0; h < halfEdges; ++h) {
+        ++work->degree[work->point[kiriMesh_Tail(mesh, h)]];
+    }
+    for (int32_t h = 0; h < halfEdges; ++h) {
+        ++work->end[EntryOf(mesh, work, h, &entry)];
+    }
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        int32_t count = work->end[v];
+        work->end[v] = sum;
+        sum += count;
+    }
+    for (int32_t h = 0; h < halfEdges; ++h) {
+        int32_t point = EntryOf(mesh, work, h, &entry);
+        work->entries[work->end[point]++] = entry;
+    }
+}
+
+/* The half-edges run along the same edge. False where they do so in the same direction. */
+static bool LinkEntries(kiriMeshData* mesh, TwinEntry a, TwinEntry b)
+{
+    if ((a.half < 0) == (b.half < 0)) {
+        return false;
+    }
+    int32_t h = a.half < 0 ? ~a.half : a.half, g = b.half < 0 ? ~b.half : b.half;
+    bool open = kiriMesh_Tail(mesh, g) != kiriMesh_Tail(mesh, kiriEdge_Next(h)) ||
+                kiriMesh_Tail(mesh, h) != kiriMesh_Tail(mesh, kiriEdge_Next(g));
+    kiriMesh_Link(mesh, h, g);
+    kiriMesh_SetOpen(mesh, h, open);
+    kiriMesh_SetOpen(mesh, g, open);
+    return true;
+}
+
+static kiriResult LinkTwins(kiriMeshData* mesh, const TwinWork* work, const char** why)
+{
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        int32_t first = v > 0 ? work->end[v - 1] : 0;
+        for (int32_t i = first; i < work->end[v]; ++i) {
+            for (int32_t j = i + 1; j < work->end[v]; ++j) {
+                if (work->entries[i].other == work->entries[j].other &&
+                    !LinkEntries(mesh, work->entries[i], work->entries[j])) {
+                    return RefuseMesh(why, KIRI_ERROR_MESH, "two triangles use an edge in the same direction");
+                }
+            }
+        }
     }
     return KIRI_OK;
 }
@@ -173,17 +219,17 @@ static kiriResult LinkTwins(kiriMeshData* mesh, PairTable* table, const int32_t*
 static kiriResult FindTwins(kiriMeshData* mesh, const char** why)
 {
     kiriMemory scratch = kiriMemory_Like(mesh->memory);
-    PairTable points = { NULL, 0 }, edges = { NULL, 0 };
+    int64_t bytes = mesh->vertices.count * (int64_t)sizeof(int32_t);
+    TwinWork work = { kiriMemory_Alloc(&scratch, bytes), kiriMemory_AllocZeroed(&scratch, bytes),
+                      kiriMemory_AllocZeroed(&scratch, bytes),
+                      kiriMemory_Alloc(&scratch, 3 * mesh->triangles.count * (int64_t)sizeof(TwinEntry)) };
     kiriResult result = KIRI_OK;
-    int32_t* firstAt = kiriMemory_Alloc(&scratch, mesh->vertices.count * (int64_t)sizeof(int32_t));
-    if (firstAt == NULL || !PairTable_Init(&points, &scratch, mesh->vertices.count) ||
-        !PairTable_Init(&edges, &scratch, 3 * (int64_t)mesh->triangles.count)) {
+    if (work.point == NULL || work.degree == NULL || work.end == NULL || work.entries == NULL ||
+        !FindPoints(mesh, &scratch, work.point)) {
         result = RefuseForMemory(why);
     } else {
-        for (int32_t i = 0; i < mesh->vertices.count; ++i) {
-            firstAt[i] = PairTable_Put(&points, mesh->vertices.data[i].at.x, mesh->vertices.data[i].at.y, i);
-        }
-        result = LinkTwins(mesh, &edges, firstAt, why);
+        ListEdges(mesh, &work);
+        result = LinkTwins(mesh, &work, why);
     }
     kiriMemory_FreeAll(&scratch);
     return result;
@@ -232,52 +278,14 @@ static bool ClaimFans(kiriMeshData* mesh)
     return true;
 }
 
-/* Is triangle b on the outer side of an edge of triangle a, but for the tolerance? */
-static bool EdgeSeparates(const kiriLatticePoint a[3], const kiriLatticePoint b[3])
-{
-    for (int i = 0; i < 3; ++i) {
-        kiriLatticePoint p = a[i], q = a[(i + 1) % 3];
-        int64_t length = (q.x > p.x ? (int64_t)q.x - p.x : (int64_t)p.x - q.x) +
-                         (q.y > p.y ? (int64_t)q.y - p.y : (int64_t)p.y - q.y);
-        int64_t most = OVERLAP_TOLERANCE * length;
-        if (kiriOrient(p, q, b[0]) <= most && kiriOrient(p, q, b[1]) <= most && kiriOrient(p, q, b[2]) <= most) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool AnyOverlap(const kiriMeshData* mesh, const kiriSquares* squares)
-{
-    const kiriSquareNode* nodes = squares->nodes.data;
-    for (int32_t square = 0; square < squares->columns * squares->rows; ++square) {
-        for (int32_t i = squares->head[square]; i != KIRI_NONE; i = nodes[i].next) {
-            kiriLatticePoint a[3], b[3];
-            kiriMesh_Corners(mesh, nodes[i].triangle, a);
-            for (int32_t j = nodes[i].next; j != KIRI_NONE; j = nodes[j].next) {
-                kiriMesh_Corners(mesh, nodes[j].triangle, b);
-                if (!EdgeSeparates(a, b) && !EdgeSeparates(b, a)) {
-                    return true;
-                }
-            }
-        }
-    }
-    return false;
-}
-
-/* Every two triangles that share a square, in squares of their own that hold a few triangles each. */
-static kiriResult CheckOverlaps(const kiriMeshData* mesh, kiriLatticePoint extent, const char** why)
+static kiriResult CheckOverlaps(const kiriMeshData* mesh, const char** why)
 {
     kiriMemory scratch = kiriMemory_Like(mesh->memory);
-    double longer = extent.x > extent.y ? extent.x : extent.y, shorter = extent.x > extent.y ? extent.y : extent.x;
-    double resolution = sqrt(mesh->triangles.count * longer / (shorter + 1.0)) + 1.0;
     kiriResult result = KIRI_OK;
-    kiriSquares squares;
-    if (!kiriSquares_Init(&squares, &scratch, extent,
-                          (int32_t)(resolution < MOST_CHECK_SQUARES ? resolution : MOST_CHECK_SQUARES)) ||
-        !kiriMesh_FillSquares(mesh, &squares, &scratch)) {
+    bool any = false;
+    if (!kiriOverlap_Find(mesh, &scratch, &any)) {
         result = RefuseForMemory(why);
-    } else if (AnyOverlap(mesh, &squares)) {
+    } else if (any) {
         result = RefuseMesh(why, KIRI_ERROR_MESH, "two triangles overlap");
     }
     kiriMemory_FreeAll(&scratch);
@@ -291,7 +299,7 @@ static kiriResult BuildMesh(kiriMeshData* mesh, const MeshInput* input, int32_t 
     result = result == KIRI_OK ? TakeVertices(mesh, input, &extent, why) : result;
     result = result == KIRI_OK ? TakeTriangles(mesh, input, why) : result;
     result = result == KIRI_OK ? FindTwins(mesh, why) : result;
-    result = result == KIRI_OK ? CheckOverlaps(mesh, extent, why) : result;
+    result = result == KIRI_OK ? CheckOverlaps(mesh, why) : result;
     if (result != KIRI_OK) {
         return result;
     }

@@ -1,0 +1,200 @@
+#include "kiri_overlap.h"
+
+/* A tree of boxes. The triangles of a node are halved in the middle of where the centres of their boxes are, across its
+   longer side: so a crowd in a corner is parted as well as one that fills the sheet. Coordinates have 30 bits, so no
+   branch is longer than 60 nodes and a few. */
+
+enum {
+    OVERLAP_TOLERANCE = 64, /* lattice steps that triangles may intrude on each other: the input is float */
+    MOST_IN_LEAF = 4
+};
+
+typedef struct OverlapBox {
+    kiriLatticePoint low, high;
+} OverlapBox;
+
+typedef struct OverlapItem {
+    OverlapBox box;
+    int32_t triangle;
+} OverlapItem;
+
+typedef struct OverlapNode {
+    OverlapBox box;
+    int32_t first, end; /* its items */
+    int32_t child;      /* the first of two, or KIRI_NONE in a leaf */
+} OverlapNode;
+
+typedef struct OverlapTree {
+    const kiriMeshData* mesh;
+    OverlapItem* items;
+    OverlapNode* nodes;
+    int32_t nodeCount;
+} OverlapTree;
+
+/* ---- Two triangles ---- */
+
+/* Is triangle b on the outer side of an edge of triangle a, but for the tolerance? */
+static bool EdgeSeparates(const kiriLatticePoint a[3], const kiriLatticePoint b[3])
+{
+    for (int i = 0; i < 3; ++i) {
+        kiriLatticePoint p = a[i], q = a[(i + 1) % 3];
+        int64_t length = (q.x > p.x ? (int64_t)q.x - p.x : (int64_t)p.x - q.x) +
+                         (q.y > p.y ? (int64_t)q.y - p.y : (int64_t)p.y - q.y);
+        int64_t most = OVERLAP_TOLERANCE * length;
+        if (kiriOrient(p, q, b[0]) <= most && kiriOrient(p, q, b[1]) <= most && kiriOrient(p, q, b[2]) <= most) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Boxes that only touch hold no triangles that overlap. */
+static bool BoxesOverlap(const OverlapBox* a, const OverlapBox* b)
+{
+    return a->low.x < b->high.x && b->low.x < a->high.x && a->low.y < b->high.y && b->low.y < a->high.y;
+}
+
+static bool ItemsOverlap(const kiriMeshData* mesh, const OverlapItem* a, const OverlapItem* b)
+{
+    if (!BoxesOverlap(&a->box, &b->box)) {
+        return false;
+    }
+    kiriLatticePoint c[3], d[3];
+    kiriMesh_Corners(mesh, a->triangle, c);
+    kiriMesh_Corners(mesh, b->triangle, d);
+    return !EdgeSeparates(c, d) && !EdgeSeparates(d, c);
+}
+
+/* ---- The tree ---- */
+
+static kiriLatticePoint LowerCorner(kiriLatticePoint a, kiriLatticePoint b)
+{
+    return (kiriLatticePoint){ a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y };
+}
+
+static kiriLatticePoint UpperCorner(kiriLatticePoint a, kiriLatticePoint b)
+{
+    return (kiriLatticePoint){ a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y };
+}
+
+static OverlapItem ItemOf(const kiriMeshData* mesh, int32_t triangle)
+{
+    kiriLatticePoint c[3];
+    kiriMesh_Corners(mesh, triangle, c);
+    OverlapItem item = { { LowerCorner(c[0], LowerCorner(c[1], c[2])), UpperCorner(c[0], UpperCorner(c[1], c[2])) },
+                         triangle };
+    return item;
+}
+
+/* Twice where its middle is. Coordinates of the caller's triangles are not negative, and below 2^30. */
+static int32_t DoubledMiddle(const OverlapItem* item, bool alongX)
+{
+    return alongX ? item->box.low.x + item->box.high.x : item->box.low.y + item->box.high.y;
+}
+
+/* The box of the items of a node, and that of the middles of theirs, doubled. */
+static OverlapBox BoxItems(const OverlapTree* tree, OverlapNode* node)
+{
+    node->box = tree->items[node->first].box;
+    kiriLatticePoint middle = { DoubledMiddle(&tree->items[node->first], true),
+                                DoubledMiddle(&tree->items[node->first], false) };
+    OverlapBox middles = { middle, middle };
+    for (int32_t i = node->first + 1; i < node->end; ++i) {
+        const OverlapItem* item = &tree->items[i];
+        middle = (kiriLatticePoint){ DoubledMiddle(item, true), DoubledMiddle(item, false) };
+        middles = (OverlapBox){ LowerCorner(middles.low, middle), UpperCorner(middles.high, middle) };
+        node->box =
+            (OverlapBox){ LowerCorner(node->box.low, item->box.low), UpperCorner(node->box.high, item->box.high) };
+    }
+    return middles;
+}
+
+/* Puts the items whose middle is not above `most` before the others; the first of the others. */
+static int32_t PartItems(const OverlapTree* tree, const OverlapNode* node, bool alongX, int32_t most)
+{
+    int32_t low = node->first, high = node->end;
+    while (low < high) {
+        OverlapItem item = tree->items[low];
+        if (DoubledMiddle(&item, alongX) <= most) {
+            ++low;
+        } else {
+            tree->items[low] = tree->items[--high];
+            tree->items[high] = item;
+        }
+    }
+    return low;
+}
+
+/* A leaf where all middles are the same point. */
+static void MakeNode(OverlapTree* tree, int32_t index)
+{
+    OverlapNode* node = &tree->nodes[index];
+    OverlapBox middles = BoxItems(tree, node);
+    int32_t width = middles.high.x - middles.low.x, height = middles.high.y - middles.low.y;
+    bool alongX = width > height;
+    node->child = KIRI_NONE;
+    if (node->end - node->first > MOST_IN_LEAF && (width > 0 || height > 0)) {
+        int32_t most = alongX ? middles.low.x + width / 2 : middles.low.y + height / 2;
+        int32_t split = PartItems(tree, node, alongX, most);
+        node->child = tree->nodeCount;
+        tree->nodeCount += 2;
+        tree->nodes[node->child] = (OverlapNode){ node->box, node->first, split, KIRI_NONE };
+        tree->nodes[node->child + 1] = (OverlapNode){ node->box, split, node->end, KIRI_NONE };
+        MakeNode(tree, node->child);
+        MakeNode(tree, node->child + 1);
+    }
+}
+
+/* ---- Pairs ---- */
+
+/* Of two leaves, or of one with itself. */
+static bool LeavesOverlap(const OverlapTree* tree, const OverlapNode* a, const OverlapNode* b)
+{
+    for (int32_t i = a->first; i < a->end; ++i) {
+        for (int32_t j = a == b ? i + 1 : b->first; j < b->end; ++j) {
+            if (ItemsOverlap(tree->mesh, &tree->items[i], &tree->items[j])) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static bool NodesOverlap(const OverlapTree* tree, const OverlapNode* a, const OverlapNode* b)
+{
+    if (a != b && !BoxesOverlap(&a->box, &b->box)) {
+        return false;
+    }
+    if (a->child == KIRI_NONE && b->child == KIRI_NONE) {
+        return LeavesOverlap(tree, a, b);
+    }
+    if (a == b) {
+        const OverlapNode* child = &tree->nodes[a->child];
+        return NodesOverlap(tree, child, child) || NodesOverlap(tree, child + 1, child + 1) ||
+               NodesOverlap(tree, child, child + 1);
+    }
+    bool splitsA = b->child == KIRI_NONE || (a->child != KIRI_NONE && a->end - a->first > b->end - b->first);
+    const OverlapNode* child = &tree->nodes[splitsA ? a->child : b->child];
+    const OverlapNode* other = splitsA ? b : a;
+    return NodesOverlap(tree, child, other) || NodesOverlap(tree, child + 1, other);
+}
+
+bool kiriOverlap_Find(const kiriMeshData* mesh, kiriMemory* memory, bool* any)
+{
+    int32_t count = mesh->triangles.count;
+    OverlapTree tree = { mesh, NULL, NULL, 1 };
+    tree.items = kiriMemory_Alloc(memory, count * (int64_t)sizeof(OverlapItem));
+    tree.nodes = kiriMemory_Alloc(memory, 2 * (int64_t)count * (int64_t)sizeof(OverlapNode));
+    bool fine = tree.items != NULL && tree.nodes != NULL;
+    if (fine) {
+        for (int32_t t = 0; t < count; ++t) {
+            tree.items[t] = ItemOf(mesh, t);
+        }
+        tree.nodes[0] = (OverlapNode){ { { 0, 0 }, { 0, 0 } }, 0, count, KIRI_NONE };
+        MakeNode(&tree, 0);
+        *any = NodesOverlap(&tree, &tree.nodes[0], &tree.nodes[0]);
+    }
+    kiriMemory_Free(memory, tree.items);
+    kiriMemory_Free(memory, tree.nodes);
+    return fine;
+}
