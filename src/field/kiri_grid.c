@@ -6,102 +6,76 @@
 
 /* ---- What an update changes -------------------------------------------------------------------------------------- */
 
-bool kiriGridWork_Flag(kiriGridWork* work, kiriMemory* memory, int32_t square, int flag)
-{
-    uint8_t* flags = &work->squareFlags.data[square];
-    bool ok = *flags != 0 || kiriArray_Push(memory, &work->flagged, square);
-    *flags |= (uint8_t)flag;
-    return ok;
-}
-
-bool kiriGridWork_AddOnce(kiriGridWork* work, kiriMemory* memory, int32_t square, int flag, kiriIndices* list)
-{
-    return kiriGridWork_IsFlagged(work, square, flag) ||
-           (kiriGridWork_Flag(work, memory, square, flag) && kiriArray_Push(memory, list, square));
-}
-
-bool kiriGrid_RecordSteps(kiriGrid* grid, kiriMemory* memory, int32_t cell)
-{
-    KIRI_ASSERT(grid->work->running && kiriGrid_IsCell(grid, cell));
-    uint8_t* flags = &grid->work->cellFlags.data[cell];
-    bool isRecorded = (*flags & KIRI_CELL_STEPS) != 0;
-    *flags |= KIRI_CELL_STEPS;
-    return isRecorded || kiriArray_Push(memory, &grid->changes.steps, cell);
-}
-
-bool kiriGrid_RecordLink(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b)
-{
-    kiriGridWork* work = grid->work;
-    return work->fromScratch ||
-           (kiriGrid_RecordSteps(grid, memory, a) && kiriGrid_RecordSteps(grid, memory, b) &&
-            kiriGridWork_AddOnce(work, memory, grid->cells.data[a].square, KIRI_SQUARE_LINKS_DIRTY,
-                                 &work->linksDirty) &&
-            kiriGridWork_AddOnce(work, memory, grid->cells.data[b].square, KIRI_SQUARE_LINKS_DIRTY, &work->linksDirty));
-}
-
 static void FreeCell(kiriGrid* grid, int32_t c)
 {
     grid->cells.data[c].next = grid->freeCell;
     grid->freeCell = c;
 }
 
-/* Takes cells that are gone out of the other lists. Those that came and went since ClearChanges leave no trace. */
-static void ForgetGone(kiriGrid* grid)
+enum { GRID_LISTS = 4 }; /* of changes, without that of what is gone */
+
+/* A cell that is gone leaves a list of changes. Those that came and went since ClearChanges leave no trace. */
+static void ForgetChange(kiriGrid* grid, const void* list, const void* change)
+{
+    int32_t cell;
+    memcpy(&cell, change, sizeof(cell));
+    if (list == &grid->changes.made) {
+        FreeCell(grid, cell);
+    } else if (list == &grid->changes.material) {
+        grid->cells.data[cell].material = ((const kiriMaterialChange*)change)->was;
+    }
+}
+
+/* Takes cells that are gone out of one of the other lists; a change begins with its cell. */
+static kiriProgress ForgetGone(kiriGrid* grid, const kiriMeshData* mesh, int32_t item, kiriQuota* quota)
 {
     kiriGridChanges* changes = &grid->changes;
-    int32_t steps = 0, material = 0, made = 0, edges = 0;
-    for (int32_t i = 0; i < changes->steps.count; ++i) {
-        changes->steps.data[steps] = changes->steps.data[i];
-        steps += kiriGrid_IsCell(grid, changes->steps.data[i]);
-    }
-    for (int32_t i = 0; i < changes->edges.count; ++i) {
-        changes->edges.data[edges] = changes->edges.data[i];
-        edges += kiriGrid_IsCell(grid, changes->edges.data[i]);
-    }
-    for (int32_t i = 0; i < changes->material.count; ++i) {
-        kiriMaterialChange change = changes->material.data[i];
-        changes->material.data[material] = change;
-        if (kiriGrid_IsCell(grid, change.cell)) {
-            ++material;
+    kiriGridWork* work = grid->work;
+    void* const lists[GRID_LISTS] = { &changes->steps, &changes->edges, &changes->material, &changes->made };
+    size_t bytes = lists[item] == &changes->material ? sizeof(kiriMaterialChange) : sizeof(int32_t);
+    kiriArrayHeader list = kiriArray_GetHeader(lists[item]);
+    (void)mesh;
+    while (work->at < list.count) {
+        const char* change = (const char*)list.data + bytes * (size_t)work->at++;
+        int32_t cell;
+        memcpy(&cell, change, sizeof(cell));
+        if (kiriGrid_IsCell(grid, cell)) {
+            memmove((char*)list.data + bytes * (size_t)work->other++, change, bytes);
         } else {
-            grid->cells.data[change.cell].material = change.was;
+            ForgetChange(grid, lists[item], change);
+        }
+        if (!kiriGridWork_Spend(work, quota, KIRI_GRID_NODE)) {
+            return KIRI_MORE;
         }
     }
-    for (int32_t i = 0; i < changes->made.count; ++i) {
-        int32_t c = changes->made.data[i];
-        changes->made.data[made] = c;
-        if (kiriGrid_IsCell(grid, c)) {
-            ++made;
-        } else {
-            FreeCell(grid, c);
-        }
-    }
-    changes->steps.count = steps;
-    changes->edges.count = edges;
-    changes->material.count = material;
-    changes->made.count = made;
+    list.count = work->other;
+    kiriArray_SetHeader(lists[item], list);
+    return KIRI_DONE;
 }
 
 /* ---- The update -------------------------------------------------------------------------------------------------- */
 
-typedef bool GridStageFn(kiriGrid* grid, const kiriMeshData* mesh, int32_t item);
-
 /* Algorithm 3, each stage over the items of a list. All faces need all cells, diagonal steps all faces, and knights all
    diagonal steps. */
-enum { GRID_STAGES = 5 };
-static GridStageFn* const gridStages[GRID_STAGES] = {
+enum { GRID_STAGES = 6 };
+static kiriGridStageFn* const gridStages[GRID_STAGES] = {
     kiriGrid_MakeCells,       /* of all squares, or the dirty ones */
     kiriGrid_MakeFaces,       /* of squares with new cells */
     kiriGrid_SpreadDirty,     /* from squares where a face came or went, to the cells whose steps may use it */
     kiriGrid_MakeNearSteps,   /* of these cells, */
     kiriGrid_MakeKnightSteps, /* and those that are not amid whole squares */
+    ForgetGone,               /* in the lists of changes */
 };
 
 static int32_t CountStageItems(const kiriGridWork* work, const kiriMeshData* mesh)
 {
     int32_t squares = work->fromScratch ? mesh->squares.columns * mesh->squares.rows : mesh->squares.dirty.count;
-    const int32_t counts[GRID_STAGES] = { squares, work->facesDirty.count, work->linksDirty.count,
-                                          work->stepsDirty.count, work->knightsDirty.count };
+    const int32_t counts[GRID_STAGES] = { squares,
+                                          work->facesDirty.count,
+                                          work->linksDirty.count,
+                                          work->stepsDirty.count,
+                                          work->knightsDirty.count,
+                                          work->removed ? GRID_LISTS : 0 };
     return counts[work->stage];
 }
 
@@ -167,9 +141,25 @@ static void EndGridUpdate(kiriGridWork* work)
     }
     work->flagged.count = work->facesDirty.count = work->linksDirty.count = work->stepsDirty.count =
         work->knightsDirty.count = 0;
-    work->node.count = work->parent.count = 0;
-    work->stage = work->item = 0;
-    work->running = work->removed = false;
+    work->entries.count = work->parent.count = 0;
+    work->due = work->stage = work->item = work->part = work->at = work->other = 0;
+    work->running = work->removed = work->isAmidPart = work->isCollecting = work->isMerging = false;
+}
+
+static kiriProgress RunGridStages(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
+{
+    kiriGridWork* work = grid->work;
+    for (; work->stage < GRID_STAGES; ++work->stage, work->item = 0) {
+        for (; work->item < CountStageItems(work, mesh); ++work->item) {
+            kiriProgress progress =
+                kiriGridWork_Pay(work, quota) ? gridStages[work->stage](grid, mesh, work->item, quota) : KIRI_MORE;
+            if (progress != KIRI_DONE) {
+                return progress;
+            }
+            work->at = work->other = 0;
+        }
+    }
+    return KIRI_DONE;
 }
 
 kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
@@ -177,23 +167,15 @@ kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota
     if ((grid->work == NULL || !grid->work->running) && !StartGridUpdate(grid, mesh)) {
         return KIRI_FAILED;
     }
-    kiriGridWork* work = grid->work;
     KIRI_ASSERT(grid->nodeCell.count == mesh->squares.nodes.count); /* else the mesh has changed during the update */
-    for (; work->stage < GRID_STAGES; ++work->stage, work->item = 0) {
-        while (work->item < CountStageItems(work, mesh)) {
-            if (!kiriQuota_Take(quota, 1)) {
-                return KIRI_MORE;
-            }
-            if (!gridStages[work->stage](grid, mesh, work->item++)) {
-                return KIRI_FAILED;
-            }
-        }
+    kiriProgress progress = RunGridStages(grid, mesh, quota);
+    if (progress == KIRI_DONE && !kiriGridWork_Pay(grid->work, quota)) {
+        progress = KIRI_MORE;
     }
-    if (work->removed) {
-        ForgetGone(grid);
+    if (progress == KIRI_DONE) {
+        EndGridUpdate(grid->work);
     }
-    EndGridUpdate(work);
-    return KIRI_DONE;
+    return progress;
 }
 
 void kiriGrid_ClearChanges(kiriGrid* grid)

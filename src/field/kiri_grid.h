@@ -86,9 +86,10 @@ typedef struct kiriGrid {
 } kiriGrid;
 
 /* The grid of the mesh as it is, from the one before and mesh->squares.dirty: all squares that changed since. A
-   zeroed or reset grid is made from scratch, of all squares. Costs what it touches: an item of the quota is a square
-   looked at, or a cell whose steps are made. KIRI_MORE: call again before the mesh changes or the dirty squares are
-   cleared. KIRI_FAILED: only kiriGrid_Reset helps. */
+   zeroed or reset grid is made from scratch, of all squares. An item of the quota is about 0.3 us of work: a square with
+   many triangles takes many, and may take several calls; what a call does beyond its quota, some 30 items at most where
+   cells have few neighbours, is taken from the next one. KIRI_MORE: call again before the mesh changes or the dirty squares
+   are cleared. KIRI_FAILED: only kiriGrid_Reset helps. */
 kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
 
 /* Once all who follow the grid have seen its changes; not during an update. */

@@ -1,6 +1,5 @@
 #include "kiri_grid_work.h"
 
-#include "../core/kiri_sort.h"
 #include "../core/kiri_union_find.h"
 
 #include <string.h>
@@ -25,46 +24,30 @@ static bool RunsThroughSquare(const kiriMeshData* mesh, const kiriTriangle* t, i
 
 /* A square is whole where there is material and neither the outline nor an open edge runs through it. Then it is wholly
    covered, its triangles all hang together in it, and it has one cell: no need to join or to clip. Most squares are. */
-static bool IsWhole(const kiriMeshData* mesh, int32_t square)
+static kiriProgress LookWhetherWhole(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, kiriQuota* quota)
 {
+    kiriGridWork* work = grid->work;
     const kiriSquareNode* nodes = mesh->squares.nodes.data;
-    int32_t first = mesh->squares.head[square];
-    for (int32_t n = first; n != KIRI_NONE; n = nodes[n].next) {
-        const kiriTriangle* t = &mesh->triangles.data[nodes[n].triangle];
+    bool wasWhole = grid->whole.data[square], isWhole = mesh->squares.head[square] != KIRI_NONE;
+    while (isWhole && work->node != KIRI_NONE) {
+        const kiriTriangle* t = &mesh->triangles.data[nodes[work->node].triangle];
         bool isInner = t->open == 0 && (t->twin[0] | t->twin[1] | t->twin[2]) >= 0; /* KIRI_NONE has the sign bit */
-        if (!isInner && RunsThroughSquare(mesh, t, square)) {
-            return false;
+        isWhole = isInner || !RunsThroughSquare(mesh, t, square);
+        work->node = nodes[work->node].next;
+        if (!kiriGridWork_Spend(work, quota, KIRI_GRID_NODE) && isWhole) {
+            return KIRI_MORE;
         }
     }
-    return first != KIRI_NONE;
+    grid->whole.data[square] = isWhole;
+    work->isSame = wasWhole && isWhole;
+    work->newCells.count = 0;
+    work->due += KIRI_GRID_SQUARE;
+    return work->isSame || kiriGridWork_AddOnce(work, mesh->memory, square, KIRI_SQUARE_FACES_DIRTY, &work->facesDirty)
+               ? KIRI_DONE
+               : KIRI_FAILED;
 }
 
 /* ---- Triangles of a square --------------------------------------------------------------------------------------- */
-
-/* By triangle: the order of a square's list does not matter. */
-static bool IsNodeBefore(const void* nodes, int32_t a, int32_t b)
-{
-    return ((const kiriSquareNode*)nodes)[a].triangle < ((const kiriSquareNode*)nodes)[b].triangle;
-}
-
-bool kiriGridWork_Collect(kiriGridWork* work, const kiriMeshData* mesh, int32_t square)
-{
-    const kiriSquares* squares = &mesh->squares;
-    if (kiriGridWork_IsFlagged(work, square, KIRI_SQUARE_COLLECTED)) {
-        return true;
-    }
-    int32_t first = work->node.count;
-    for (int32_t n = squares->head[square]; n != KIRI_NONE; n = squares->nodes.data[n].next) {
-        if (!kiriArray_Push(mesh->memory, &work->parent, work->node.count) ||
-            !kiriArray_Push(mesh->memory, &work->node, n)) {
-            return false;
-        }
-    }
-    kiriSort(work->node.data + first, work->node.count - first, IsNodeBefore, squares->nodes.data);
-    kiriNodeRange range = { first, work->node.count };
-    work->ranges.data[square] = range;
-    return kiriGridWork_Flag(work, mesh->memory, square, KIRI_SQUARE_COLLECTED);
-}
 
 /* The entry of a triangle among sorted ones, or KIRI_NONE. */
 static int32_t FindTriangleEntry(const kiriGridWork* work, const kiriMeshData* mesh, int32_t from, int32_t end,
@@ -82,25 +65,38 @@ static int32_t FindTriangleEntry(const kiriGridWork* work, const kiriMeshData* m
     return from < end && kiriGridWork_TriangleAt(work, mesh, from) == triangle ? from : KIRI_NONE;
 }
 
-/* Joins the triangles of a square over the closed edges that run through it (algorithm 3). */
-static void JoinTriangles(kiriGridWork* work, const kiriMeshData* mesh, int32_t square)
+/* Joins an entry of a square to those after it that a closed edge through the square leads to. */
+static void JoinEntry(kiriGridWork* work, const kiriMeshData* mesh, int32_t square, int32_t i)
 {
-    kiriNodeRange range = work->ranges.data[square];
-    for (int32_t i = range.first; i < range.end; ++i) {
-        int32_t triangle = kiriGridWork_TriangleAt(work, mesh, i);
-        for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
-            int32_t twin = kiriMesh_Twin(mesh, h);
-            if (twin < h || kiriMesh_IsOpen(mesh, h)) {
-                continue;
-            }
-            int32_t j = FindTriangleEntry(work, mesh, i + 1, range.end, twin / 3);
-            if (j != KIRI_NONE &&
-                kiriSquares_RunsThrough(&mesh->squares, square, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
-                                        mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at)) {
-                kiriUnion_Join(work->parent.data, i, j);
-            }
+    int32_t triangle = kiriGridWork_TriangleAt(work, mesh, i), end = work->ranges.data[square].end;
+    for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
+        int32_t twin = kiriMesh_Twin(mesh, h);
+        if (twin < h || kiriMesh_IsOpen(mesh, h)) {
+            continue;
+        }
+        int32_t j = FindTriangleEntry(work, mesh, i + 1, end, twin / 3);
+        if (j != KIRI_NONE &&
+            kiriSquares_RunsThrough(&mesh->squares, square, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
+                                    mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at)) {
+            kiriUnion_Join(work->parent.data, i, j);
         }
     }
+}
+
+/* Joins the triangles of a square (algorithm 3). */
+static kiriProgress JoinTriangles(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, kiriQuota* quota)
+{
+    kiriGridWork* work = grid->work;
+    if (grid->whole.data[square]) {
+        return KIRI_DONE;
+    }
+    kiriProgress progress = kiriGridWork_Collect(work, mesh, square, quota);
+    kiriNodeRange range = work->ranges.data[square];
+    while (progress == KIRI_DONE && work->at < range.end - range.first) {
+        JoinEntry(work, mesh, square, range.first + work->at++);
+        progress = kiriGridWork_Spend(work, quota, KIRI_GRID_JOIN) ? KIRI_DONE : KIRI_MORE;
+    }
+    return progress;
 }
 
 /* ---- Material ---------------------------------------------------------------------------------------------------- */
@@ -254,18 +250,6 @@ static bool RemoveCell(kiriGrid* grid, kiriMemory* memory, int32_t c)
     return (grid->work->cellFlags.data[c] & KIRI_CELL_MADE) != 0 || kiriArray_Push(memory, &grid->changes.gone, c);
 }
 
-/* The one cell of a whole square holds all its triangles. Where the square was whole before, nothing else changes. */
-static void FillWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
-{
-    const kiriSquareNode* nodes = mesh->squares.nodes.data;
-    int32_t c = grid->squareCell.data[square], lowest = INT32_MAX;
-    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = nodes[n].next) {
-        lowest = nodes[n].triangle < lowest ? nodes[n].triangle : lowest;
-        grid->nodeCell.data[n] = c;
-    }
-    grid->cells.data[c].triangle = lowest;
-}
-
 static bool FindWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
 {
     double x = grid->side, area = x * x;
@@ -277,40 +261,57 @@ static bool FindWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t squa
     return kiriArray_Push(mesh->memory, &grid->work->newCells, whole);
 }
 
-/* The cells of a square that is not whole, by lowest triangle. */
-static bool FindCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+/* Adds what a triangle covers to its cell. Cells come by lowest triangle; so far nodes know them by their rank. */
+static bool MeasureEntry(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, int32_t i)
 {
     kiriGridWork* work = grid->work;
-    if (!kiriGridWork_Collect(work, mesh, square)) {
+    int32_t root = kiriUnion_Root(work->parent.data, i), triangle = kiriGridWork_TriangleAt(work, mesh, i);
+    const kiriNewCell none = { triangle, KIRI_NONE, { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 } };
+    if (root == i && !kiriArray_Push(mesh->memory, &work->newCells, none)) {
         return false;
     }
-    JoinTriangles(work, mesh, square);
-    for (int32_t i = work->ranges.data[square].first; i < work->ranges.data[square].end; ++i) {
-        int32_t root = kiriUnion_Root(work->parent.data, i), node = work->node.data[i],
-                triangle = kiriGridWork_TriangleAt(work, mesh, i);
-        const kiriNewCell none = { triangle, KIRI_NONE, { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 } };
-        if (root == i && !kiriArray_Push(mesh->memory, &work->newCells, none)) {
-            return false;
-        }
-        int32_t rank = root == i ? work->newCells.count - 1 : grid->nodeCell.data[work->node.data[root]];
-        kiriMoments part = MaterialInSquare(mesh, triangle, square);
-        kiriMoments_Add(&work->newCells.data[rank].material, &part);
-        grid->nodeCell.data[node] = rank;
-    }
+    int32_t rank = root == i ? work->newCells.count - 1 : grid->nodeCell.data[work->entries.data[root]];
+    kiriMoments part = MaterialInSquare(mesh, triangle, square);
+    kiriMoments_Add(&work->newCells.data[rank].material, &part);
+    grid->nodeCell.data[work->entries.data[i]] = rank;
+    return true;
+}
+
+static void FinishMaterial(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+{
     kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));
-    for (int32_t rank = 0; rank < work->newCells.count; ++rank) {
-        kiriMoments* material = &work->newCells.data[rank].material;
+    for (int32_t rank = 0; rank < grid->work->newCells.count; ++rank) {
+        kiriMoments* material = &grid->work->newCells.data[rank].material;
         if (!(material->area > kiriLeastShare * grid->side * grid->side)) {
             *material = Speck(grid->side);
         }
         *material = kiriMoments_About(material, kiriVec2_Scale(-1.0, corner));
     }
-    return true;
+}
+
+/* The cells that the square should have, in `newCells`. */
+static kiriProgress FindCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, kiriQuota* quota)
+{
+    kiriGridWork* work = grid->work;
+    if (grid->whole.data[square]) {
+        return work->isSame || FindWholeCell(grid, mesh, square) ? KIRI_DONE : KIRI_FAILED;
+    }
+    kiriNodeRange range = work->ranges.data[square];
+    while (work->at < range.end - range.first) {
+        if (!MeasureEntry(grid, mesh, square, range.first + work->at++)) {
+            return KIRI_FAILED;
+        }
+        if (!kiriGridWork_Spend(work, quota, KIRI_GRID_MEASURE)) {
+            return KIRI_MORE;
+        }
+    }
+    FinishMaterial(grid, mesh, square);
+    return KIRI_DONE;
 }
 
 /* The old cells of the square become the new ones in their order. Where there are more new ones than old, cells are
    added, and where there are fewer, removed. */
-static bool ReplaceCells(kiriGrid* grid, kiriMemory* memory, int32_t square)
+static bool TakeNewCells(kiriGrid* grid, kiriMemory* memory, int32_t square)
 {
     int32_t old = grid->squareCell.data[square], last = KIRI_NONE;
     grid->squareCell.data[square] = KIRI_NONE;
@@ -337,14 +338,30 @@ static bool ReplaceCells(kiriGrid* grid, kiriMemory* memory, int32_t square)
     return true;
 }
 
-/* Gives the square's triangles their cells: so far they have the ranks of FindCells. */
-static void FillCells(kiriGrid* grid, int32_t square)
+static kiriProgress ReplaceCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, kiriQuota* quota)
 {
-    const kiriGridWork* work = grid->work;
-    for (int32_t i = work->ranges.data[square].first; i < work->ranges.data[square].end; ++i) {
-        int32_t* cell = &grid->nodeCell.data[work->node.data[i]];
-        *cell = work->newCells.data[*cell].cell;
+    (void)quota;
+    grid->work->due += KIRI_GRID_CELL * grid->work->newCells.count;
+    return grid->work->isSame || TakeNewCells(grid, mesh->memory, square) ? KIRI_DONE : KIRI_FAILED;
+}
+
+/* The one cell of a whole square holds all its triangles. Where the square was whole before, nothing else changes. */
+static kiriProgress FillWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, kiriQuota* quota)
+{
+    kiriGridWork* work = grid->work;
+    const kiriSquareNode* nodes = mesh->squares.nodes.data;
+    int32_t c = grid->squareCell.data[square], *lowest = &grid->cells.data[c].triangle;
+    *lowest = work->node == mesh->squares.head[square] ? INT32_MAX : *lowest;
+    while (work->node != KIRI_NONE) {
+        int32_t triangle = nodes[work->node].triangle;
+        *lowest = triangle < *lowest ? triangle : *lowest;
+        grid->nodeCell.data[work->node] = c;
+        work->node = nodes[work->node].next;
+        if (!kiriGridWork_Spend(work, quota, KIRI_GRID_NODE)) {
+            return KIRI_MORE;
+        }
     }
+    return KIRI_DONE;
 }
 
 /* An edge in the square may have changed that changes neither material nor faces: a slit that ends there, by its tip. */
@@ -359,26 +376,45 @@ static bool RecordEdges(kiriGrid* grid, kiriMemory* memory, int32_t square)
     return ok;
 }
 
-bool kiriGrid_MakeCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+/* Gives the square's triangles their cells: so far they have the ranks of FindCells. */
+static kiriProgress FillCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, kiriQuota* quota)
 {
+    kiriGridWork* work = grid->work;
+    if (grid->whole.data[square]) {
+        return FillWholeCell(grid, mesh, square, quota);
+    }
+    kiriNodeRange range = work->ranges.data[square];
+    while (work->at < range.end - range.first) {
+        int32_t* cell = &grid->nodeCell.data[work->entries.data[range.first + work->at++]];
+        *cell = work->newCells.data[*cell].cell;
+        if (!kiriGridWork_Spend(work, quota, KIRI_GRID_NODE)) {
+            return KIRI_MORE;
+        }
+    }
+    return RecordEdges(grid, mesh->memory, square) ? KIRI_DONE : KIRI_FAILED;
+}
+
+kiriProgress kiriGrid_MakeCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t item, kiriQuota* quota)
+{
+    enum { PARTS = 5 };
+    static kiriGridStageFn* const parts[PARTS] = { LookWhetherWhole, JoinTriangles, FindCells, ReplaceCells,
+                                                   FillCells };
     kiriGridWork* work = grid->work;
     int32_t square = work->fromScratch ? item : mesh->squares.dirty.data[item];
     KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
-    bool wasWhole = grid->whole.data[square], isWhole = IsWhole(mesh, square);
-    grid->whole.data[square] = isWhole;
-    work->newCells.count = 0;
-    if (!(wasWhole && isWhole) &&
-        (!kiriGridWork_AddOnce(work, mesh->memory, square, KIRI_SQUARE_FACES_DIRTY, &work->facesDirty) ||
-         !(isWhole ? FindWholeCell(grid, mesh, square) : FindCells(grid, mesh, square)) ||
-         !ReplaceCells(grid, mesh->memory, square))) {
-        return false;
+    for (; work->part < PARTS; ++work->part) {
+        if (!work->isAmidPart) {
+            work->node = mesh->squares.head[square];
+            work->at = 0;
+        }
+        kiriProgress progress = parts[work->part](grid, mesh, square, quota);
+        work->isAmidPart = progress == KIRI_MORE;
+        if (progress != KIRI_DONE) {
+            return progress;
+        }
     }
-    if (isWhole) {
-        FillWholeCell(grid, mesh, square);
-        return true;
-    }
-    FillCells(grid, square);
-    return RecordEdges(grid, mesh->memory, square);
+    work->part = 0;
+    return KIRI_DONE;
 }
 
 kiriLatticePoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)

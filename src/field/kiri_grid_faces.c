@@ -131,35 +131,6 @@ static bool AddWholeFace(kiriGrid* grid, const kiriMeshData* mesh, int32_t befor
     return face != NULL;
 }
 
-/* Links the cells of a square to those of the one before it along the axis. A triangle with material in both covers a
-   stretch of the side between them, for both together are convex. */
-static bool AddFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, int32_t square, int axis)
-{
-    kiriGridWork* work = grid->work;
-    if (grid->whole.data[before] && grid->whole.data[square]) {
-        return AddWholeFace(grid, mesh, before, square, axis);
-    }
-    if (!kiriGridWork_Collect(work, mesh, before) || !kiriGridWork_Collect(work, mesh, square)) {
-        return false;
-    }
-    kiriLatticePoint low = kiriSquares_Corner(&mesh->squares, square);
-    kiriNodeRange a = work->ranges.data[before], b = work->ranges.data[square];
-    for (int32_t i = a.first, j = b.first; i < a.end && j < b.end;) {
-        int32_t t = kiriGridWork_TriangleAt(work, mesh, i), u = kiriGridWork_TriangleAt(work, mesh, j);
-        if (t == u) {
-            kiriFace* face = FaceBetween(grid, mesh->memory, grid->nodeCell.data[work->node.data[i]],
-                                         grid->nodeCell.data[work->node.data[j]], axis);
-            if (face == NULL) {
-                return false;
-            }
-            AddStretch(face, mesh, low, CoveredStretch(mesh, t, square, axis));
-        }
-        i += t <= u;
-        j += u <= t;
-    }
-    return true;
-}
-
 /* Empties the faces on the lower side of a square along the axis, and keeps what they were. */
 static bool EmptyFaces(kiriGrid* grid, kiriMemory* memory, int32_t square, int axis)
 {
@@ -201,25 +172,103 @@ static bool CompareFaces(kiriGrid* grid, kiriMemory* memory)
     return true;
 }
 
-static bool MakeSide(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, int32_t square, int axis)
+/* Links the cells of a square to those of the one before it along the axis. A triangle with material in both covers a
+   stretch of the side between them, for both together are convex. */
+static kiriProgress AddFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, int32_t square, int axis,
+                             kiriQuota* quota)
+{
+    kiriGridWork* work = grid->work;
+    kiriLatticePoint low = kiriSquares_Corner(&mesh->squares, square);
+    kiriNodeRange a = work->ranges.data[before], b = work->ranges.data[square];
+    while (a.first + work->at < a.end && b.first + work->other < b.end) {
+        int32_t i = a.first + work->at, j = b.first + work->other;
+        int32_t t = kiriGridWork_TriangleAt(work, mesh, i), u = kiriGridWork_TriangleAt(work, mesh, j);
+        if (t == u) {
+            kiriFace* face = FaceBetween(grid, mesh->memory, grid->nodeCell.data[work->entries.data[i]],
+                                         grid->nodeCell.data[work->entries.data[j]], axis);
+            if (face == NULL) {
+                return KIRI_FAILED;
+            }
+            AddStretch(face, mesh, low, CoveredStretch(mesh, t, square, axis));
+        }
+        work->at += t <= u;
+        work->other += u <= t;
+        if (!kiriGridWork_Spend(work, quota, t == u ? KIRI_GRID_STRETCH : KIRI_GRID_NODE)) {
+            return KIRI_MORE;
+        }
+    }
+    return KIRI_DONE;
+}
+
+static kiriProgress MakeDividedSide(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, int32_t square, int axis,
+                                    kiriQuota* quota)
+{
+    kiriGridWork* work = grid->work;
+    kiriProgress progress = kiriGridWork_Collect(work, mesh, before, quota);
+    progress = progress == KIRI_DONE ? kiriGridWork_Collect(work, mesh, square, quota) : progress;
+    if (progress != KIRI_DONE) {
+        return progress;
+    }
+    if (!work->isMerging) {
+        if (!EmptyFaces(grid, mesh->memory, square, axis)) {
+            return KIRI_FAILED;
+        }
+        work->due += KIRI_GRID_SIDE;
+        work->at = work->other = 0;
+        work->isMerging = true;
+    }
+    progress = AddFaces(grid, mesh, before, square, axis, quota);
+    work->isMerging = progress == KIRI_MORE;
+    return progress != KIRI_DONE || CompareFaces(grid, mesh->memory) ? progress : KIRI_FAILED;
+}
+
+static kiriProgress MakeSide(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, int32_t square, int axis,
+                             kiriQuota* quota)
 {
     if (grid->squareCell.data[before] == KIRI_NONE || grid->squareCell.data[square] == KIRI_NONE) {
-        return true;
+        return KIRI_DONE;
     }
-    return EmptyFaces(grid, mesh->memory, square, axis) && AddFaces(grid, mesh, before, square, axis) &&
-           CompareFaces(grid, mesh->memory);
+    if (!grid->whole.data[before] || !grid->whole.data[square]) {
+        return MakeDividedSide(grid, mesh, before, square, axis, quota);
+    }
+    grid->work->due += KIRI_GRID_SIDE;
+    return EmptyFaces(grid, mesh->memory, square, axis) && AddWholeFace(grid, mesh, before, square, axis) &&
+                   CompareFaces(grid, mesh->memory)
+               ? KIRI_DONE
+               : KIRI_FAILED;
+}
+
+/* The side after a square along the axis, where the square there does not make it. */
+static kiriProgress MakeSideBeyond(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, int axis, kiriQuota* quota)
+{
+    int32_t columns = mesh->squares.columns, beyond = square + (axis == 0 ? 1 : columns);
+    bool isInside = axis == 0 ? square % columns + 1 < columns : beyond < grid->work->squareFlags.count;
+    return isInside && !kiriGridWork_IsFlagged(grid->work, beyond, KIRI_SQUARE_FACES_DIRTY)
+               ? MakeSide(grid, mesh, square, beyond, axis, quota)
+               : KIRI_DONE;
+}
+
+static kiriProgress MakeSideBefore(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, int axis, kiriQuota* quota)
+{
+    int32_t columns = mesh->squares.columns;
+    bool isInside = axis == 0 ? square % columns > 0 : square >= columns;
+    return isInside ? MakeSide(grid, mesh, square - (axis == 0 ? 1 : columns), square, axis, quota) : KIRI_DONE;
 }
 
 /* Between two squares that both have new cells, the one with the higher coordinate does it. */
-bool kiriGrid_MakeFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+kiriProgress kiriGrid_MakeFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t item, kiriQuota* quota)
 {
-    const kiriGridWork* work = grid->work;
-    int32_t square = work->facesDirty.data[item], columns = mesh->squares.columns, column = square % columns;
-    bool right = column + 1 < columns && !kiriGridWork_IsFlagged(work, square + 1, KIRI_SQUARE_FACES_DIRTY);
-    bool above = square + columns < work->squareFlags.count &&
-                 !kiriGridWork_IsFlagged(work, square + columns, KIRI_SQUARE_FACES_DIRTY);
-    return (column == 0 || MakeSide(grid, mesh, square - 1, square, 0)) &&
-           (square < columns || MakeSide(grid, mesh, square - columns, square, 1)) &&
-           (!right || MakeSide(grid, mesh, square, square + 1, 0)) &&
-           (!above || MakeSide(grid, mesh, square, square + columns, 1));
+    enum { SIDES = 4 };
+    kiriGridWork* work = grid->work;
+    int32_t square = work->facesDirty.data[item];
+    for (; work->part < SIDES; ++work->part) {
+        int axis = work->part % 2;
+        kiriProgress progress = work->part < 2 ? MakeSideBefore(grid, mesh, square, axis, quota)
+                                               : MakeSideBeyond(grid, mesh, square, axis, quota);
+        if (progress != KIRI_DONE) {
+            return progress;
+        }
+    }
+    work->part = 0;
+    return KIRI_DONE;
 }

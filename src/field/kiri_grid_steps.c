@@ -105,20 +105,22 @@ static bool MarkStepsDirty(kiriGrid* grid, kiriMemory* memory, int32_t square)
     return kiriGridWork_Flag(grid->work, memory, square, KIRI_SQUARE_STEPS_DIRTY);
 }
 
-bool kiriGrid_SpreadDirty(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+kiriProgress kiriGrid_SpreadDirty(kiriGrid* grid, const kiriMeshData* mesh, int32_t item, kiriQuota* quota)
 {
     kiriGridWork* work = grid->work;
+    (void)quota;
     const kiriSquares* squares = &mesh->squares;
     int32_t square = work->linksDirty.data[item], column = square % squares->columns, row = square / squares->columns;
     for (int32_t v = LargerOf(-STEP_ROWS, -row); v <= STEP_ROWS && row + v < squares->rows; ++v) {
         int32_t reach = StepColumns(v);
         for (int32_t u = LargerOf(-reach, -column); u <= reach && column + u < squares->columns; ++u) {
             if (!MarkStepsDirty(grid, mesh->memory, square + v * squares->columns + u)) {
-                return false;
+                return KIRI_FAILED;
             }
         }
     }
-    return true;
+    work->due += KIRI_GRID_STEPS;
+    return KIRI_DONE;
 }
 
 /* All steps from a cell amid whole squares, in their order. */
@@ -233,6 +235,7 @@ static bool AddDiagonalSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
             int32_t between = kiriFace_Other(&faces[f], c);
             int32_t g = faces[f].axis == axis ? cells[between].firstFace : KIRI_NONE;
             for (; g != KIRI_NONE; g = kiriFace_Next(&faces[g], between)) {
+                grid->work->due += KIRI_GRID_WAY;
                 if (faces[g].axis == axis) {
                     continue;
                 }
@@ -252,27 +255,31 @@ static bool AddDiagonalSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
 }
 
 /* The knights stay what they are until all diagonal steps are made. */
-bool kiriGrid_MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+kiriProgress kiriGrid_MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item, kiriQuota* quota)
 {
     kiriGridWork* work = grid->work;
+    (void)quota;
     kiriMemory* memory = mesh->memory;
     int32_t c = work->stepsDirty.data[item];
     const kiriStepRun* run = &grid->runs.data[c];
     work->steps.count = 0;
+    work->due += KIRI_GRID_STEPS;
     if (IsWholeAround(grid, &mesh->squares, grid->cells.data[c].square)) {
-        return MakeOpenSteps(grid, mesh, c);
+        return MakeOpenSteps(grid, mesh, c) ? KIRI_DONE : KIRI_FAILED;
     }
     if (!AddStraightSteps(grid, memory, c)) {
-        return false;
+        return KIRI_FAILED;
     }
     int32_t straight = work->steps.count;
     if (!AddDiagonalSteps(grid, memory, c)) {
-        return false;
+        return KIRI_FAILED;
     }
     int32_t near = work->steps.count;
     SortSteps(grid, 0);
     return AddSteps(grid, memory, run->end[1], run->end[2]) && SetSteps(grid, memory, c, straight, near) &&
-           kiriArray_Push(memory, &work->knightsDirty, c);
+                   kiriArray_Push(memory, &work->knightsDirty, c)
+               ? KIRI_DONE
+               : KIRI_FAILED;
 }
 
 /* Does a diagonal step after a straight one lead on, not back? */
@@ -288,6 +295,7 @@ static bool AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriStepRun
     const kiriStepRun* runs = grid->runs.data;
     int64_t *mark = grid->work->mark.data, first = NewMark(grid->work);
     for (int32_t i = run->first; i < run->end[0]; ++i) {
+        grid->work->due += runs[steps[i].cell].end[1] - runs[steps[i].cell].end[0];
         for (int32_t j = runs[steps[i].cell].end[0]; j < runs[steps[i].cell].end[1]; ++j) {
             if (IsKnightMove(steps[i], steps[j])) {
                 mark[steps[j].cell] = first;
@@ -307,15 +315,17 @@ static bool AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriStepRun
     return true;
 }
 
-bool kiriGrid_MakeKnightSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+kiriProgress kiriGrid_MakeKnightSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item, kiriQuota* quota)
 {
+    (void)quota;
     kiriMemory* memory = mesh->memory;
     int32_t c = grid->work->knightsDirty.data[item];
     const kiriStepRun run = grid->runs.data[c];
+    grid->work->due += KIRI_GRID_STEPS;
     grid->work->steps.count = 0;
     if (!AddSteps(grid, memory, run.first, run.end[1]) || !AddKnightSteps(grid, memory, &run)) {
-        return false;
+        return KIRI_FAILED;
     }
     SortSteps(grid, run.end[1] - run.first);
-    return SetSteps(grid, memory, c, run.end[0] - run.first, run.end[1] - run.first);
+    return SetSteps(grid, memory, c, run.end[0] - run.first, run.end[1] - run.first) ? KIRI_DONE : KIRI_FAILED;
 }
