@@ -144,7 +144,7 @@ static void SettleValue(kiriField* field, kiriSeed to)
     }
 }
 
-/* SettleFirst where cells may have kept a value: most have a nearer one. */
+/* SettleFirst where cells may have kept a value. */
 static void SettleAgain(kiriField* field, int32_t cell, int32_t distance, int32_t owner)
 {
     int32_t has = field->distance.data[cell];
@@ -205,11 +205,14 @@ static bool TakeStepsFrom(kiriField* field, const kiriRule* rule, int32_t from, 
 {
     const kiriStepRun* run = &rule->grid->runs.data[from];
     const kiriStep* steps = rule->grid->steps.data;
+    const int32_t* has = field->distance.data;
     int32_t owner = field->owner.data[from], end = Passes(rule, from) ? run->end[length] : 0;
     int32_t s = length == 0 ? run->first : run->end[length - 1];
     if (field->cursor[REPAIR_STAGE] == REPAIR_SETTLES) {
         for (; s < end && field->settled.count < most; ++s) {
-            SettleAgain(field, steps[s].cell, distance, owner);
+            if (distance <= has[steps[s].cell]) { /* most have a nearer one */
+                SettleAgain(field, steps[s].cell, distance, owner);
+            }
         }
     } else {
         for (; s < end && field->settled.count < most; ++s) {
@@ -286,43 +289,45 @@ void kiriField_Forget(kiriField* field, int32_t cell)
 }
 
 /* Do its seed or a neighbour still give the cell its value? Every step is longer than nothing, so the cells of a ring
-   cannot support each other. */
-static bool IsSupported(const kiriField* field, const kiriRule* rule, int32_t cell)
+   cannot support each other. Where nothing supports it, or all are asked for, the cells that may have their value from
+   it are put behind the dirty ones, where there is room, and *dependents says how many: they are not counted yet. */
+static bool IsSupported(const kiriField* field, const kiriRule* rule, int32_t cell, bool all, int32_t* dependents)
 {
     const kiriStepRun* run = &rule->grid->runs.data[cell];
-    kiriSeed value = ValueOf(field, cell);
-    if (value.distance > FarthestOf(rule)) {
-        return false;
-    }
+    const kiriStep* steps = rule->grid->steps.data;
+    const int32_t *distance = field->distance.data, *owner = field->owner.data;
+    int32_t value = distance[cell], mine = owner[cell], count = field->dirty.count;
+    bool near = value <= FarthestOf(rule), supported = false;
     for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        kiriStep step = rule->grid->steps.data[s];
-        if (field->distance.data[step.cell] == value.distance - step.length &&
-            field->owner.data[step.cell] == value.owner && Passes(rule, step.cell)) {
-            return true;
+        int32_t next = steps[s].cell, beyond = distance[next] - value, length = steps[s].length;
+        if (beyond == -length && owner[next] == mine && near && Passes(rule, next)) {
+            supported = true;
+            if (!all) {
+                return true;
+            }
+        }
+        if (beyond == length && owner[next] == mine && (field->marks.data[next] & FIELD_DIRTY) == 0) {
+            field->dirty.data[count++] = next;
         }
     }
-    kiriSeed seed = rule->seed(rule->context, cell);
-    return seed.distance == value.distance && seed.owner == value.owner;
+    *dependents = count - field->dirty.count;
+    kiriSeed seed = supported || !near ? (kiriSeed){ cell, KIRI_FAR, KIRI_NONE } : rule->seed(rule->context, cell);
+    return supported || (seed.distance == value && seed.owner == mine);
 }
 
-/* Cells that may have their value from this one are dirty too. */
-static bool MarkDependentsDirty(kiriField* field, kiriMemory* memory, const kiriRule* rule, int32_t cell)
+/* Cells that IsSupported found. */
+static void MarkDependentsDirty(kiriField* field, int32_t dependents)
+{
+    for (; dependents > 0; --dependents) {
+        field->marks.data[field->dirty.data[field->dirty.count++]] |= FIELD_DIRTY;
+    }
+}
+
+static bool MakeDependentsRoom(kiriField* field, kiriMemory* memory, const kiriRule* rule, int32_t cell)
 {
     const kiriStepRun* run = &rule->grid->runs.data[cell];
-    kiriSeed value = ValueOf(field, cell);
-    if (!kiriArray_Reserve(memory, &field->dirty,
-                           (int64_t)field->dirty.count + run->end[KIRI_STEP_LENGTHS - 1] - run->first)) {
-        return false;
-    }
-    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        kiriStep step = rule->grid->steps.data[s];
-        int32_t distance = field->distance.data[step.cell];
-        if (distance != KIRI_FAR && distance - step.length == value.distance &&
-            field->owner.data[step.cell] == value.owner) {
-            kiriField_MarkDirty(field, step.cell);
-        }
-    }
-    return true;
+    return kiriArray_Reserve(memory, &field->dirty,
+                             (int64_t)field->dirty.count + run->end[KIRI_STEP_LENGTHS - 1] - run->first);
 }
 
 /* Clears the affected cells (Ramalingam and Reps): those whose value nothing supports any more. The values that are left
@@ -333,13 +338,17 @@ static kiriProgress ClearAffected(kiriField* field, kiriMemory* memory, const ki
     for (; field->cursor[DIRTY_CHECKED] < field->dirty.count; ++field->cursor[DIRTY_CHECKED]) {
         int32_t cell = field->dirty.data[field->cursor[DIRTY_CHECKED]];
         if (field->distance.data[cell] != KIRI_FAR) {
-            bool supported = IsSupported(field, rule, cell);
             bool blocked = field->cursor[DIRTY_CHECKED] < field->cursor[DIRTY_FROM_CALLER] && !Passes(rule, cell);
+            int32_t dependents = 0;
+            if (!MakeDependentsRoom(field, memory, rule, cell)) {
+                return KIRI_FAILED;
+            }
+            bool supported = IsSupported(field, rule, cell, blocked, &dependents);
             if (!supported && !kiriQuota_Take(quota, 1)) {
                 return KIRI_MORE;
             }
-            if ((!supported || blocked) && !MarkDependentsDirty(field, memory, rule, cell)) {
-                return KIRI_FAILED;
+            if (!supported || blocked) {
+                MarkDependentsDirty(field, dependents);
             }
             if (!supported) {
                 LogValue(field, cell);
@@ -355,14 +364,17 @@ static kiriProgress ClearAffected(kiriField* field, kiriMemory* memory, const ki
 static kiriSeed NearestFor(const kiriField* field, const kiriRule* rule, int32_t cell)
 {
     const kiriStepRun* run = &rule->grid->runs.data[cell];
+    const kiriStep* steps = rule->grid->steps.data;
+    const int32_t *distance = field->distance.data, *owner = field->owner.data;
     kiriSeed best = rule->seed(rule->context, cell), value = ValueOf(field, cell);
     int32_t farthest = FarthestOf(rule);
     best = best.distance <= farthest && IsNearerSeed(best, value) ? best : value;
     for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        kiriStep step = rule->grid->steps.data[s];
-        if (field->distance.data[step.cell] <= farthest - step.length) {
-            kiriSeed over = { cell, field->distance.data[step.cell] + step.length, field->owner.data[step.cell] };
-            best = IsNearerSeed(over, best) && Passes(rule, step.cell) ? over : best;
+        int32_t next = steps[s].cell, length = steps[s].length;
+        int32_t most = best.distance < farthest ? best.distance : farthest;
+        if (distance[next] <= most - length) {
+            kiriSeed over = { cell, distance[next] + length, owner[next] };
+            best = IsNearerSeed(over, best) && Passes(rule, next) ? over : best;
         }
     }
     return best;
