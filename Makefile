@@ -4,6 +4,7 @@
 #   make box2d    cuts a strip that lies on bodies of Box2D
 #   make play     plays a game in a window; GAME=curtain or net, ARGS=--help
 #   make test     builds and runs all tests
+#   make tsan     runs the tests with threads under the thread sanitizer
 #   make lib      build/<config>/libkiri.a and libkiri.so
 #   make single   build/single: the library as kiri.h, kiri.c and kiri.cpp, to add to any build
 #   make bench    runs the benchmarks
@@ -16,7 +17,7 @@
 #   make format   clang-format over all sources
 #   make clean    removes build/
 #
-#   config=release|debug|sanitize   default release
+#   config=release|debug|sanitize|thread   default release
 #   SCENE=name ARGS='--size 1280x960'   for run; ARGS=--help lists them
 
 config ?= release
@@ -36,8 +37,9 @@ FLAGS := -Wall -Wextra -Wpedantic -Wshadow -Werror -ffp-contract=off -fno-math-e
 FLAGS_release := -O2 -DNDEBUG
 FLAGS_debug := -Og -g -DKIRI_ASSERTS
 FLAGS_sanitize := -O1 -g -DKIRI_ASSERTS -fsanitize=address,undefined -fno-sanitize-recover=all
+FLAGS_thread := -O2 -g -DKIRI_ASSERTS -fsanitize=thread
 ifeq ($(FLAGS_$(config)),)
-$(error config is release, debug or sanitize, not '$(config)')
+$(error config is release, debug, sanitize or thread, not '$(config)')
 endif
 FLAGS += $(FLAGS_$(config))
 
@@ -73,9 +75,9 @@ PLAY := $(BUILD)/samples/kiri-play
 # The Python binding is tested where Python has cffi; a sanitized library cannot be loaded by a plain Python.
 # Debian's own python has Debian's python3-cffi.
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
-PYTHON_CHECK := $(if $(filter sanitize,$(config)),,python)
+PYTHON_CHECK := $(if $(filter sanitize thread,$(config)),,python)
 
-.PHONY: all run box2d play python test check floors headers single example lib bench accuracy contact extremes gallery guide deps format clean header exports
+.PHONY: all run box2d play python test tsan check floors headers single example lib bench accuracy contact extremes gallery guide deps format clean header exports
 .DEFAULT_GOAL := all
 .SECONDARY:
 
@@ -96,6 +98,9 @@ play: deps
 
 test: deps
 	@$(MAKE) --no-print-directory -k check
+
+tsan: deps
+	@$(MAKE) --no-print-directory config=thread run-test_tasks run-test_readers
 
 bench: deps
 	@$(MAKE) --no-print-directory $(BENCHES)
@@ -304,8 +309,8 @@ $(BUILD)/tests/test_image: TEST_LIBRARIES := -lpng -lz
 $(BUILD)/tests/test_games: $(GAME_PARTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS)
 $(BUILD)/tests/test_games: TEST_LIBRARIES = $(BUILD)/libkiri.a -lbox2d -lOSMesa -lpng -lz
 
-# Reads a world from two threads.
-$(BUILD)/tests/test_readers: LDFLAGS += -pthread
+# Threads read a world, or work on its ticks.
+$(BUILD)/tests/test_readers $(BUILD)/tests/test_tasks: LDFLAGS += -pthread
 
 # Tests that compare with the heavy elastica.
 $(BUILD)/tests/test_affine $(BUILD)/tests/test_estimate $(BUILD)/tests/test_point: $(BUILD)/tests/reference.c.o

@@ -18,7 +18,8 @@
    - Arrays that a call hands out belong to the library, and stay as they are until the next kiriWorld_Tick or
      kiriDestroyWorld, whatever is called in between.
    - Threads: functions that take a const kiriWorld only read it. Any number of threads may call them at the same time,
-     while no other function runs on that world. Two worlds share nothing. The library starts no thread. */
+     while no other function runs on that world. Two worlds share nothing. The library starts no thread; a tick may use those
+     of the host (kiriWorldDef). */
 
 #ifndef KIRI_H
 #define KIRI_H
@@ -85,6 +86,16 @@ typedef void kiriFreeFn(void* user, void* pointer);
 typedef void kiriLogFn(void* user, const char* line);
 typedef double kiriClockFn(void* user); /* seconds; read for the profile only, never by the simulation */
 
+/* For hosts that lend their threads to a tick. A task is work on the items 0 to itemCount: `start` has the function called,
+   from whatever threads, for ranges of at least minRange items (the last one may be shorter) that together are all of
+   them, each once, and returns something that names the task; `finish` returns when all these calls have. `start` may
+   also make all calls itself, and return null: then there is no `finish`. What a thread wrote must be seen by those that
+   go on after `finish`, as with any lock. A tick has one task at a time. Within one the library does not call the host,
+   and how the items are shared out does not change one bit of what comes of them. */
+typedef void kiriTaskFn(int32_t start, int32_t end, void* taskContext); /* the items from start up to, without, end */
+typedef void* kiriStartTaskFn(void* user, kiriTaskFn* task, int32_t itemCount, int32_t minRange, void* taskContext);
+typedef void kiriFinishTaskFn(void* user, void* handle);
+
 /* The most work that one tick may do, over all sheets, first come first served. What does not fit goes on in the next
    tick, and in the end is what it would have been without a limit: the points given to a sheet before one tick take
    effect together, when all that follows from them is done. Until then the lips of a fresh cut move together. 0: no
@@ -106,9 +117,14 @@ typedef struct kiriWorldDef {
     kiriBudget budget;  /* default: no limit */
     kiriAllocFn* alloc; /* null: malloc and free. Both or none. */
     kiriFreeFn* free;
-    kiriLogFn* log;     /* one line for each error; null: silent */
-    kiriClockFn* clock; /* null: the profile counts, and shows no times */
-    void* user;         /* handed to the four functions above */
+    kiriLogFn* log;             /* one line for each error; null: silent */
+    kiriClockFn* clock;         /* null: the profile counts, and shows no times */
+    kiriStartTaskFn* startTask; /* null: a tick runs in its caller alone. Both or none. */
+    kiriFinishTaskFn* finishTask;
+    int32_t
+        workerCount; /* threads that may work on a task, the caller of the tick with them, 0 to 1024: sizes ranges; up
+                            to 1: no task is started. Default 0 */
+    void* user;      /* handed to the functions above */
 } kiriWorldDef;
 
 KIRI_API void kiriDefaultWorldDef(kiriWorldDef* def);

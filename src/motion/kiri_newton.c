@@ -274,6 +274,7 @@ int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_
             TakeAnew(solver, system, done + iterations);
         }
     }
+    KIRI_ASSERT(done <= iterations + KIRI_EXTRA_SYSTEMS);
     kiriSolver_HoldContacts(solver, system);
     return done;
 }

@@ -79,9 +79,11 @@ uint64_t kiriSolver_Hash(const kiriSolver* solver);
 /* Room for so many contacts: steps have no more. False for memory. */
 bool kiriSolver_ReserveContacts(kiriSolver* solver, int32_t count);
 
+enum { KIRI_EXTRA_SYSTEMS = 6 }; /* of a step, beside its iterations */
+
 /* Moves the frames by dt. Links, corners and area elements are those that were committed; normals of contacts are unit,
-   heldRotation is a rotation. Returns the number of linear systems solved: `iterations`, and up to 6 more where the
-   motion asks for them, but at most `most` (1 or more). Or -1 when it cannot be continued (not finite); the frames are
+   heldRotation is a rotation. Returns the number of linear systems solved: `iterations`, and up to
+   KIRI_EXTRA_SYSTEMS more where the motion asks for them, but at most `most` (1 or more). Or -1 when it cannot be continued (not finite); the frames are
    then as before the call. Allocates nothing. Forces on frames are used, not cleared; reactions are added to. */
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations, int32_t most);
 

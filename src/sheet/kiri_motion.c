@@ -150,6 +150,11 @@ kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt,
     return progress;
 }
 
+int64_t kiriMotion_MostSystems(const kiriSheetData* sheet, int32_t substeps)
+{
+    return (int64_t)substeps * (sheet->settings.iterations + KIRI_EXTRA_SYSTEMS);
+}
+
 kiriTotals kiriMotion_Sum(const kiriSheetData* sheet, const int32_t* indices, int32_t count)
 {
     kiriTotals totals;

@@ -14,6 +14,9 @@ void kiriMotion_Wake(kiriSheetData* sheet);
    be continued, the frames rest where they were. Forces and contacts are used up. */
 kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems);
 
+/* More of the quota it does not take in a tick. */
+int64_t kiriMotion_MostSystems(const kiriSheetData* sheet, int32_t substeps);
+
 kiriTotals kiriMotion_Totals(const kiriSheetData* sheet);
 
 /* The same of some frames (null: of the first ones), without the elastic energy. */

@@ -33,6 +33,11 @@ typedef struct kiriObstacleData {
     kiriVec3 lower, upper;
 } kiriObstacleData;
 
+static inline bool kiriObstacle_IsMovable(const kiriObstacleData* obstacle)
+{
+    return obstacle->mass > 0.0;
+}
+
 static inline kiriVec3 kiriObstacle_ToLocal(const kiriObstacleData* obstacle, kiriVec3 direction)
 {
     return kiriVec3_Make(kiriVec3_Dot(obstacle->rotation.u, direction), kiriVec3_Dot(obstacle->rotation.v, direction),

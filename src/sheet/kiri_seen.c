@@ -110,6 +110,10 @@ void kiriView_Fade(kiriSheetData* sheet, double dt)
 {
     kiriFades_Advance(&sheet->seen.fades, dt);
     kiriFades_Advance(&sheet->seen.pointFades, dt);
+}
+
+void kiriView_Trim(kiriSheetData* sheet)
+{
     if (!sheet->update->isBegun) {
         kiriFades_Trim(&sheet->seen.fades, sheet->memory);
         kiriFades_Trim(&sheet->seen.pointFades, sheet->memory);

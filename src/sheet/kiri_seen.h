@@ -20,6 +20,9 @@ void kiriView_HideGone(kiriSheetData* sheet);
 void kiriView_TakeJump(kiriSheetData* sheet);
 void kiriView_Fade(kiriSheetData* sheet, double dt);
 
+/* Frees what fades have no use for. */
+void kiriView_Trim(kiriSheetData* sheet);
+
 /* Positions and normals from the frames (section 4.1 of the paper). */
 void kiriView_WritePositions(kiriSheetData* sheet);
 

@@ -60,6 +60,20 @@ static bool IsBudget(const kiriBudget* budget)
            budget->samples >= 0 && budget->iterations >= 0;
 }
 
+static const char* FaultOfWorld(const kiriWorldDef* def)
+{
+    if ((def->alloc == NULL) != (def->free == NULL) || !IsBudget(&def->budget) ||
+        !kiriCall_AreFinite(def->gravity, 3)) {
+        return "kiriCreateWorld: only one of alloc and free is null, budget is out of range, or gravity is not finite "
+               "(KIRI_ERROR_ARGUMENT)";
+    }
+    if ((def->startTask == NULL) != (def->finishTask == NULL) || !kiriCall_IsWithin(def->workerCount, 0, 1024)) {
+        return "kiriCreateWorld: only one of startTask and finishTask is null, or workerCount is not within 0 and 1024 "
+               "(KIRI_ERROR_ARGUMENT)";
+    }
+    return NULL;
+}
+
 /* There is no world yet to keep a line. */
 static kiriResult RefuseWorld(const kiriWorldDef* def, kiriResult result, const char* why)
 {
@@ -78,11 +92,9 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     if (def->cookie != KIRI_COOKIE(kiriWorldDef)) {
         return KIRI_ERROR_DEF;
     }
-    if ((def->alloc == NULL) != (def->free == NULL) || !IsBudget(&def->budget) ||
-        !kiriCall_AreFinite(def->gravity, 3)) {
-        return RefuseWorld(def, KIRI_ERROR_ARGUMENT,
-                           "kiriCreateWorld: only one of alloc and free is null, budget is out of range, or gravity is "
-                           "not finite (KIRI_ERROR_ARGUMENT)");
+    const char* why = FaultOfWorld(def);
+    if (why != NULL) {
+        return RefuseWorld(def, KIRI_ERROR_ARGUMENT, why);
     }
     kiriMemory memory = kiriMemory_Make(def->alloc, def->free, def->user);
     kiriWorld* made = memory.alloc(memory.user, sizeof(*made)); /* owns itself: no block of its memory */
@@ -94,6 +106,7 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     made->retired = kiriMemory_Like(&memory);
     made->log = def->log;
     made->clock = def->clock;
+    made->tasks = (kiriTasks){ def->startTask, def->finishTask, def->user, def->workerCount };
     made->user = def->user;
     made->gravity = kiriVec3_Load(def->gravity);
     made->budget = def->budget;

@@ -101,8 +101,7 @@ static bool IsMoving(const kiriObstacleData* obstacle, double dt, double least)
     return obstacle->drift + dt * speed > least;
 }
 
-/* Bodies have their number, obstacles on their own one below zero. */
-static int64_t NumberOf(const kiriObstacleData* obstacle)
+int64_t kiriObstacles_NumberOf(const kiriObstacleData* obstacle)
 {
     return (int64_t)(obstacle->body != 0 ? (uint64_t)obstacle->body << 32 : (uint64_t)obstacle->id << 32 | 1u);
 }
@@ -110,10 +109,10 @@ static int64_t NumberOf(const kiriObstacleData* obstacle)
 /* The row of its body, once for each sheet. */
 static int32_t YieldOfObstacle(kiriSheetData* sheet, const kiriObstacleData* obstacle)
 {
-    int32_t index = kiriTouches_FindYield(sheet, NumberOf(obstacle));
+    int32_t index = kiriTouches_FindYield(sheet, kiriObstacles_NumberOf(obstacle));
     if (index == KIRI_NONE) {
         kiriYieldRow row = kiriObstacle_YieldRow(obstacle);
-        row.number = NumberOf(obstacle);
+        row.number = kiriObstacles_NumberOf(obstacle);
         index = kiriTouches_AddYield(sheet, &row);
     }
     return index;
@@ -236,7 +235,7 @@ static void LoadYield(const kiriWorld* world, kiriYieldRow* row)
 {
     for (int32_t i = 0; i < world->obstacles.count; ++i) {
         const kiriObstacleData* obstacle = world->obstacles.data[i];
-        if (NumberOf(obstacle) == row->number) {
+        if (kiriObstacles_NumberOf(obstacle) == row->number) {
             kiriVec3 arm = kiriVec3_Sub(kiriObstacle_CenterOfMass(obstacle), row->center);
             kiriWrench_Add(&row->impulse, 1.0, &obstacle->impulse);
             row->impulse.moment = kiriVec3_Add(row->impulse.moment, kiriVec3_Cross(arm, obstacle->impulse.force));
@@ -254,8 +253,7 @@ void kiriObstacles_LoadYields(const kiriWorld* world, kiriSheetData* sheet)
     }
 }
 
-/* Null for what is no touch of an obstacle. */
-static kiriObstacleData* OwnerOf(const kiriWorld* world, uint64_t key)
+kiriObstacleData* kiriObstacles_OwnerOf(const kiriWorld* world, uint64_t key)
 {
     int32_t slot = kiriObstacle_SlotOfKey(key);
     return key >> 60 == KIRI_TOUCH_OBSTACLE && slot < world->obstacleIds.slots.count
@@ -263,26 +261,34 @@ static kiriObstacleData* OwnerOf(const kiriWorld* world, uint64_t key)
                : NULL;
 }
 
-static void Give(kiriWorld* world, uint64_t key, kiriVec3 normal, kiriVec3 impulse, kiriVec3 at)
+/* What sheets give in a tick. */
+typedef struct Giving {
+    const kiriWorld* world;
+    bool areMovable; /* obstacles that get it */
+} Giving;
+
+static void Give(const Giving* giving, uint64_t key, kiriVec3 normal, kiriVec3 impulse, kiriVec3 at)
 {
-    kiriObstacleData* obstacle = OwnerOf(world, key);
-    if (obstacle != NULL && kiriVec3_Dot(impulse, normal) > 0.0) {
+    kiriObstacleData* obstacle = kiriObstacles_OwnerOf(giving->world, key);
+    if (obstacle != NULL && kiriObstacle_IsMovable(obstacle) == giving->areMovable &&
+        kiriVec3_Dot(impulse, normal) > 0.0) {
         kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-1.0, impulse), at);
         obstacle->contacts += 1;
     }
 }
 
-void kiriObstacles_TakeImpulses(kiriWorld* world, const kiriSheetData* sheet, double dt)
+void kiriObstacles_TakeImpulses(const kiriWorld* world, const kiriSheetData* sheet, double dt, bool areMovable)
 {
+    const Giving giving = { world, areMovable };
     const kiriTouches* touches = &sheet->touches;
     for (int32_t i = 0; sheet->rest.asleep && i < touches->last.count; ++i) {
         const kiriTouch* touch = &touches->last.data[i];
         kiriVec3 force = kiriTouches_ForceOf(sheet, touch->key);
-        Give(world, touch->key, touch->normal, kiriVec3_Scale(dt, force), touch->seen);
+        Give(&giving, touch->key, touch->normal, kiriVec3_Scale(dt, force), touch->seen);
     }
     for (int32_t i = 0; !sheet->rest.asleep && i < touches->rows.count; ++i) {
         const kiriContactRow* row = &touches->rows.data[i];
-        Give(world, row->key, row->normal, row->impulse, touches->found.data[i].seen);
+        Give(&giving, row->key, row->normal, row->impulse, touches->found.data[i].seen);
     }
 }
 

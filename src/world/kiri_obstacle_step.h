@@ -16,6 +16,12 @@ void kiriObstacles_Add(kiriWorld* world, kiriObstacleData* obstacle);
 void kiriObstacles_Remove(kiriWorld* world, kiriObstacleData* obstacle);
 void kiriObstacles_Put(kiriWorld* world, kiriObstacleData* obstacle, kiriVec3 position, kiriMat3 rotation);
 
+/* Of its body: above zero, that of an obstacle on its own below 2^32 and odd. */
+int64_t kiriObstacles_NumberOf(const kiriObstacleData* obstacle);
+
+/* The obstacle of a touch; null for what is no touch of an obstacle. */
+kiriObstacleData* kiriObstacles_OwnerOf(const kiriWorld* world, uint64_t key);
+
 /* ---- In a tick ---- */
 
 /* Before anything is committed: what sheets may touch, and which of those that sleep shall wake. False for memory: then
@@ -28,8 +34,8 @@ void kiriObstacles_Begin(kiriWorld* world);
 /* Before a sheet is moved: its yield rows get what other sheets gave the same bodies. */
 void kiriObstacles_LoadYields(const kiriWorld* world, kiriSheetData* sheet);
 
-/* After it, or while it sleeps: obstacles take what it gave them. */
-void kiriObstacles_TakeImpulses(kiriWorld* world, const kiriSheetData* sheet, double dt);
+/* After it, or while it sleeps: obstacles that it may move, or the others, take what it gave them. */
+void kiriObstacles_TakeImpulses(const kiriWorld* world, const kiriSheetData* sheet, double dt, bool areMovable);
 
 /* They go on with their velocities. */
 void kiriObstacles_End(kiriWorld* world, double dt);

@@ -99,12 +99,12 @@ void kiriPinStep_Begin(const kiriWorld* world, kiriSheetData* sheet, double dt)
     }
 }
 
-void kiriPinStep_End(const kiriWorld* world, const kiriSheetData* sheet, double dt)
+void kiriPinStep_End(const kiriWorld* world, const kiriSheetData* sheet, double dt, bool areMovable)
 {
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
         const kiriPinData* pin = &sheet->pins.data[i];
         kiriObstacleData* obstacle = kiriPinStep_Obstacle(world, pin);
-        if (obstacle != NULL) {
+        if (obstacle != NULL && kiriObstacle_IsMovable(obstacle) == areMovable) {
             kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-dt, pin->bore.force), pin->target);
         }
     }

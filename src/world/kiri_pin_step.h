@@ -16,8 +16,8 @@ void kiriPinStep_Fasten(const kiriWorld* world, kiriPinData* pin);
    sheet where one has moved. */
 void kiriPinStep_Begin(const kiriWorld* world, kiriSheetData* sheet, double dt);
 
-/* After it, or while it sleeps: obstacles take what pins gave them. */
-void kiriPinStep_End(const kiriWorld* world, const kiriSheetData* sheet, double dt);
+/* After it, or while it sleeps: obstacles that may be moved, or the others, take what pins gave them. */
+void kiriPinStep_End(const kiriWorld* world, const kiriSheetData* sheet, double dt, bool areMovable);
 
 KIRI_C_END
 

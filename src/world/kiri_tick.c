@@ -7,8 +7,8 @@
 #include "../sheet/kiri_stages.h"
 #include "../sheet/kiri_touch.h"
 #include "kiri_blade.h"
+#include "kiri_move_step.h"
 #include "kiri_obstacle_step.h"
-#include "kiri_pin_step.h"
 #include "kiri_pair.h"
 
 #include <string.h>
@@ -210,6 +210,14 @@ static void FinishUpdate(kiriWorld* world, kiriSheetData* sheet)
     kiriPipeline_Finish(sheet);
 }
 
+static void TakeJumps(int32_t start, int32_t end, void* context)
+{
+    const kiriWorld* world = context;
+    for (int32_t i = start; i < end; ++i) {
+        kiriView_TakeJump(world->sheets.data[i]);
+    }
+}
+
 static void CommitAll(kiriWorld* world)
 {
     for (int32_t i = 0; i < world->sheets.count; ++i) {
@@ -224,9 +232,7 @@ static void CommitAll(kiriWorld* world)
         FinishCuts(world, sheet);
     }
     EnterStage(world, KIRI_STAGE_SKIN);
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriView_TakeJump(world->sheets.data[i]);
-    }
+    kiriTasks_Run(&world->tasks, TakeJumps, world->sheets.count, 1, world);
 }
 
 /* Says which sheets have work left, and where it stands. */
@@ -245,24 +251,15 @@ static bool ReportDeferred(kiriWorld* world)
     return any;
 }
 
-/* Moves the sheets, first the one that came too late in the last tick. */
-static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps, kiriQuota* iterations)
+/* What became of the sheets that were moved, in the order in which they were. */
+static kiriResult ReportMoves(kiriWorld* world, kiriResult result)
 {
-    kiriResult result = ReportDeferred(world) ? KIRI_PENDING : KIRI_OK;
     bool isLate = false;
-    int32_t count = world->sheets.count, first = count > 0 ? world->turn % count : 0;
-    EnterStage(world, KIRI_STAGE_SOLVE);
+    int32_t count = world->sheets.count, first = world->turn;
     world->turn = 0;
-    kiriPairs_ApplyLoads(world, dt);
     for (int32_t k = 0; k < count; ++k) {
         int32_t i = (first + k) % count;
-        kiriObstacles_LoadYields(world, world->sheets.data[i]);
-        kiriPinStep_Begin(world, world->sheets.data[i], dt);
-        kiriProgress progress = kiriMotion_Solve(world->sheets.data[i], world->gravity, dt, substeps, iterations);
-        kiriObstacles_TakeImpulses(world, world->sheets.data[i], dt);
-        if (progress != KIRI_MORE) {
-            kiriPinStep_End(world, world->sheets.data[i], dt);
-        }
+        kiriProgress progress = world->moves.of.data[i].progress;
         if (progress == KIRI_FAILED) {
             AddEvent(world, KIRI_EVENT_DIVERGED, world->sheets.data[i]);
             result = KIRI_DIVERGED;
@@ -272,6 +269,16 @@ static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps, kiriQu
             isLate = true;
         }
     }
+    return result;
+}
+
+static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps, kiriQuota* iterations)
+{
+    kiriResult result = ReportDeferred(world) ? KIRI_PENDING : KIRI_OK;
+    EnterStage(world, KIRI_STAGE_SOLVE);
+    kiriPairs_ApplyLoads(world, dt);
+    kiriMoves_Run(world, dt, substeps, iterations);
+    result = ReportMoves(world, result);
     kiriPairs_TakeLoads(world, dt);
     kiriPairs_JoinCalm(world);
     return result;
@@ -304,16 +311,34 @@ static void CountJumps(kiriProfile* profile, const kiriSheetData* sheet)
     profile->largestFade = fades->move > profile->largestFade ? fades->move : profile->largestFade;
 }
 
-static void SkinAll(kiriWorld* world, double dt)
+typedef struct SkinTask {
+    kiriWorld* world;
+    double dt;
+} SkinTask;
+
+static void SkinSheets(int32_t start, int32_t end, void* context)
 {
-    EnterStage(world, KIRI_STAGE_SKIN);
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriSheetData* sheet = world->sheets.data[i];
+    const SkinTask* task = context;
+    for (int32_t i = start; i < end; ++i) {
+        kiriSheetData* sheet = task->world->sheets.data[i];
         if (!sheet->rest.asleep) {
-            kiriView_Fade(sheet, dt);
+            kiriView_Fade(sheet, task->dt);
             kiriView_WritePositions(sheet);
         }
         kiriBounds_Keep(sheet->seen.bounds, &sheet->seen.surface);
+    }
+}
+
+static void SkinAll(kiriWorld* world, double dt)
+{
+    SkinTask task = { world, dt };
+    EnterStage(world, KIRI_STAGE_SKIN);
+    kiriTasks_Run(&world->tasks, SkinSheets, world->sheets.count, 1, &task);
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriSheetData* sheet = world->sheets.data[i];
+        if (!sheet->rest.asleep) {
+            kiriView_Trim(sheet);
+        }
         CountJumps(&world->profile, sheet);
     }
 }
@@ -350,7 +375,8 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     kiriMemory_FreeAll(&world->retired);
     memset(&world->profile, 0, sizeof(world->profile));
     StartAll(world);
-    bool hasRoom = FindPairs(world, dt) && UpdateAll(world, &quotas) && FindTouches(world, dt);
+    bool hasRoom =
+        FindPairs(world, dt) && UpdateAll(world, &quotas) && FindTouches(world, dt) && kiriMoves_Prepare(world);
     kiriResult result = hasRoom ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
     if (result == KIRI_OK) {
         world->events.count = 0;

@@ -2,6 +2,7 @@
 #ifndef KIRI_WORLD_H
 #define KIRI_WORLD_H
 
+#include "../core/kiri_task.h"
 #include "../sheet/kiri_obstacle_touch.h"
 #include "../sheet/kiri_sheet.h"
 
@@ -9,11 +10,32 @@
 
 KIRI_C_BEGIN
 
+/* A sheet meets a body that it may move. */
+typedef struct kiriMeet {
+    int64_t number; /* of the body, see kiriObstacles_NumberOf */
+    int32_t sheet;
+} kiriMeet;
+
+/* How a sheet is moved in a tick. */
+typedef struct kiriMove {
+    int32_t next, tail; /* of its group: the sheet after it; and of a root, the last one */
+    kiriProgress progress;
+    int64_t systems; /* that it took */
+} kiriMove;
+
+/* See kiri_move_step.h. */
+typedef struct kiriMoves {
+    KIRI_ARRAY(kiriMove) of; /* each sheet */
+    KIRI_ARRAY(kiriMeet) meets;
+    kiriIndices order, parent, heads; /* of meets; of sheets in groups; the first sheet of each group */
+} kiriMoves;
+
 struct kiriWorld {
     kiriMemory memory;
     kiriMemory retired; /* arrays that the host may hold until the next tick */
     kiriLogFn* log;
     kiriClockFn* clock;
+    kiriTasks tasks;
     void* user;
     kiriVec3 gravity;
     kiriBudget budget;
@@ -26,6 +48,7 @@ struct kiriWorld {
     kiriIndices obstacleOrder; /* by where they begin along x */
     kiriObstacleSearch obstacleSearch;
     kiriPairs pairs;
+    kiriMoves moves;
     KIRI_ARRAY(kiriEvent) events;
     kiriProfile profile;
     int32_t stage; /* running now, or KIRI_NONE */

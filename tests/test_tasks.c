@@ -1,0 +1,357 @@
+/* Tasks on threads of the host: whatever these are, and in whatever order they work, a tick gives the same bits. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "host.h"
+
+#include <pthread.h>
+
+enum { MOST_WORKERS = 16, SHEETS = 9, BODIES = 5 };
+
+/* ---- A host with threads ---- */
+
+typedef struct Crew {
+    Host host; /* first: its hooks get the crew */
+    pthread_t threads[MOST_WORKERS];
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    int32_t workers;    /* the caller with them */
+    bool isBackwards;   /* no threads: the caller does all at once, from the last range on */
+    bool isOver;        /* threads end */
+    bool isBusy;        /* a task is at hand */
+    kiriTaskFn* task;   /* that */
+    void* context;      /* with this */
+    int32_t next, left; /* item to begin with; items that are not done */
+    int32_t items, range;
+    int32_t started, split; /* tasks; tasks of several ranges */
+    kiriSheet sheets[SHEETS];
+    kiriObstacle bodies[BODIES];
+} Crew;
+
+/* With the lock: takes a range and does it without. False where none is left. */
+static bool WorkOnce(Crew* crew)
+{
+    int32_t start = crew->next, end = start + crew->range < crew->items ? start + crew->range : crew->items;
+    if (!crew->isBusy || start >= crew->items) {
+        return false;
+    }
+    crew->next = end;
+    pthread_mutex_unlock(&crew->lock);
+    crew->task(start, end, crew->context);
+    pthread_mutex_lock(&crew->lock);
+    crew->left -= end - start;
+    pthread_cond_broadcast(&crew->changed);
+    return true;
+}
+
+static void* Serve(void* user)
+{
+    Crew* crew = user;
+    pthread_mutex_lock(&crew->lock);
+    while (!crew->isOver) {
+        if (!WorkOnce(crew)) {
+            pthread_cond_wait(&crew->changed, &crew->lock);
+        }
+    }
+    pthread_mutex_unlock(&crew->lock);
+    return NULL;
+}
+
+static void DoBackwards(const Crew* crew)
+{
+    for (int32_t start = (crew->items - 1) / crew->range * crew->range; start >= 0; start -= crew->range) {
+        crew->task(start, start + crew->range < crew->items ? start + crew->range : crew->items, crew->context);
+    }
+}
+
+static void* StartTask(void* user, kiriTaskFn* task, int32_t itemCount, int32_t minRange, void* context)
+{
+    Crew* crew = user;
+    pthread_mutex_lock(&crew->lock);
+    assert_false(crew->isBusy);
+    assert_true(itemCount > 0 && minRange > 0);
+    crew->isBusy = true;
+    crew->task = task;
+    crew->context = context;
+    crew->items = crew->left = itemCount;
+    crew->range = minRange;
+    crew->next = 0;
+    ++crew->started;
+    crew->split += itemCount > minRange;
+    pthread_cond_broadcast(&crew->changed);
+    pthread_mutex_unlock(&crew->lock);
+    if (crew->isBackwards) {
+        DoBackwards(crew);
+        crew->isBusy = false;
+        return NULL;
+    }
+    return crew;
+}
+
+static void FinishTask(void* user, void* handle)
+{
+    Crew* crew = user;
+    assert_ptr_equal(crew, handle);
+    pthread_mutex_lock(&crew->lock);
+    while (WorkOnce(crew)) {
+    }
+    while (crew->left > 0) {
+        pthread_cond_wait(&crew->changed, &crew->lock);
+    }
+    crew->isBusy = false;
+    pthread_mutex_unlock(&crew->lock);
+}
+
+/* Within a task the library asks the host for nothing. */
+static void* CrewAlloc(void* user, int64_t bytes)
+{
+    assert_false(((Crew*)user)->isBusy);
+    return Host_Alloc(user, bytes);
+}
+
+static void CrewFree(void* user, void* pointer)
+{
+    assert_false(((Crew*)user)->isBusy);
+    Host_Free(user, pointer);
+}
+
+static double CrewClock(void* user)
+{
+    assert_false(((Crew*)user)->isBusy);
+    return 0.0;
+}
+
+/* Of 0 workers it gives no tasks; of fewer than 0 it works backwards. */
+static void Crew_Start(Crew* crew, int32_t workers)
+{
+    memset(crew, 0, sizeof(*crew));
+    crew->host.failAt = -1;
+    crew->host.every = 12;
+    crew->isBackwards = workers < 0;
+    crew->workers = workers;
+    pthread_mutex_init(&crew->lock, NULL);
+    pthread_cond_init(&crew->changed, NULL);
+    kiriWorldDef def = Host_Def(&crew->host);
+    def.alloc = CrewAlloc;
+    def.free = CrewFree;
+    def.clock = CrewClock;
+    def.user = crew;
+    def.startTask = workers != 0 ? StartTask : NULL;
+    def.finishTask = workers != 0 ? FinishTask : NULL;
+    def.workerCount = workers < 0 ? 4 : workers;
+    OK(kiriCreateWorld(&def, &crew->host.world));
+    for (int32_t i = 1; i < workers; ++i) {
+        assert_int_equal(pthread_create(&crew->threads[i], NULL, Serve, crew), 0);
+    }
+}
+
+static void Crew_Stop(Crew* crew)
+{
+    pthread_mutex_lock(&crew->lock);
+    crew->isOver = true;
+    pthread_cond_broadcast(&crew->changed);
+    pthread_mutex_unlock(&crew->lock);
+    for (int32_t i = 1; i < crew->workers; ++i) {
+        pthread_join(crew->threads[i], NULL);
+    }
+    Host_Stop(&crew->host);
+    pthread_cond_destroy(&crew->changed);
+    pthread_mutex_destroy(&crew->lock);
+}
+
+/* ---- A scene ---- */
+
+static kiriObstacle AddBody(Crew* crew, int32_t type, const float position[3], float mass, uint32_t body)
+{
+    kiriObstacleDef def;
+    kiriObstacle obstacle = 0;
+    kiriDefaultObstacleDef(&def);
+    def.type = type;
+    def.radius = 0.2f;
+    memcpy(def.position, position, sizeof(def.position));
+    def.mass = mass;
+    for (int k = 0; k < 3; ++k) {
+        def.inertia[k] = 0.016f * mass;
+    }
+    def.body = body;
+    OK(kiriCreateObstacle(crew->host.world, &def, &obstacle));
+    return obstacle;
+}
+
+static kiriSheet AddSheet(Crew* crew, float x, float y, float z, int32_t squares)
+{
+    kiriSheetDef def = Host_SmallDef();
+    def.position[0] = x;
+    def.position[1] = y;
+    def.position[2] = z;
+    def.touchesSheets = 1;
+    return Host_AddRectangle(&crew->host, &def, 1.0f, 1.0f, squares, squares);
+}
+
+/* A floor; two sheets that lie on each other; two balls, each under two sheets, the second one of a body with a third
+   ball; a sheet that hangs on a ball, which lies on another sheet. */
+static void Build(Crew* crew)
+{
+    static const float floor[3] = { 0.0f, 0.0f, 0.0f }, first[3] = { 1.2f, 0.5f, 0.3f },
+                       second[3] = { 4.2f, 0.5f, 0.3f }, third[3] = { 5.4f, 0.5f, 0.3f },
+                       fourth[3] = { 7.5f, 0.5f, 0.6f };
+    static const float spots[SHEETS][3] = {
+        { 0.15f, 0.0f, 0.52f }, { 4.0f, 0.0f, 0.52f }, { 1.15f, 0.0f, 0.53f },
+        { 3.0f, 0.0f, 0.52f },  { 5.2f, 0.0f, 0.53f }, { 0.2f, 2.0f, 0.05f },
+        { 0.25f, 2.05f, 0.1f }, { 7.0f, 0.0f, 0.35f }, { 7.5f, 0.5f, 0.9f },
+    };
+    crew->bodies[0] = AddBody(crew, KIRI_OBSTACLE_PLANE, floor, 0.0f, 0);
+    crew->bodies[1] = AddBody(crew, KIRI_OBSTACLE_SPHERE, first, 0.3f, 0);
+    crew->bodies[2] = AddBody(crew, KIRI_OBSTACLE_SPHERE, second, 0.4f, 7);
+    crew->bodies[3] = AddBody(crew, KIRI_OBSTACLE_SPHERE, third, 0.4f, 7);
+    crew->bodies[4] = AddBody(crew, KIRI_OBSTACLE_SPHERE, fourth, 0.2f, 0);
+    for (int32_t i = 0; i < SHEETS; ++i) {
+        crew->sheets[i] = AddSheet(crew, spots[i][0], spots[i][1], spots[i][2], 4 + 2 * (i % 4));
+    }
+    kiriPinDef pin;
+    kiriPin made;
+    kiriDefaultPinDef(&pin);
+    memcpy(pin.target, spots[8], sizeof(pin.target));
+    pin.obstacle = crew->bodies[4];
+    OK(kiriCreatePin(crew->host.world, crew->sheets[8], &pin, &made));
+}
+
+/* The host moves its bodies by what sheets gave them. */
+static void MoveBodies(Crew* crew, float dt)
+{
+    for (int32_t i = 1; i < BODIES; ++i) {
+        kiriObstacleState state;
+        OK(kiriObstacle_GetState(crew->host.world, crew->bodies[i], &state));
+        for (int k = 0; k < 3; ++k) {
+            state.velocity[k] += (float)state.impulse[k] / 0.4f - (k == 2 ? 9.81f * dt : 0.0f);
+        }
+        OK(kiriObstacle_SetVelocity(crew->host.world, crew->bodies[i], state.velocity, state.angularVelocity));
+    }
+}
+
+static void Do(Crew* crew, int32_t tick)
+{
+    static const float across[4] = { -0.1f, 0.45f, 1.1f, 0.55f }, slit[4] = { 0.3f, 0.3f, 0.7f, 0.7f };
+    if (tick % 10 == 3) {
+        Host_Cut(&crew->host, crew->sheets[tick / 10 % SHEETS], across, 2);
+        Host_Cut(&crew->host, crew->sheets[(tick / 10 + 4) % SHEETS], slit, 2);
+    }
+    MoveBodies(crew, 0.01f);
+}
+
+/* ---- Comparing ---- */
+
+static void CompareSheets(const Crew* a, const Crew* b)
+{
+    for (int32_t i = 0; i < SHEETS; ++i) {
+        kiriMesh left = Host_Mesh(&a->host, a->sheets[i]), right = Host_Mesh(&b->host, b->sheets[i]);
+        size_t bytes = 3 * sizeof(float) * (size_t)left.vertexCount;
+        assert_int_equal(left.vertexCount, right.vertexCount);
+        assert_memory_equal(left.positions, right.positions, bytes);
+        assert_memory_equal(left.normals, right.normals, bytes);
+    }
+}
+
+static void CompareWorlds(const Crew* a, const Crew* b)
+{
+    kiriProfile left, right;
+    const kiriEvent *first, *second;
+    int32_t firstCount, secondCount;
+    assert_true(Host_Hash(&a->host) == Host_Hash(&b->host));
+    OK(kiriWorld_GetProfile(a->host.world, &left));
+    OK(kiriWorld_GetProfile(b->host.world, &right));
+    assert_memory_equal(&left, &right, sizeof(left));
+    OK(kiriWorld_GetEvents(a->host.world, &first, &firstCount));
+    OK(kiriWorld_GetEvents(b->host.world, &second, &secondCount));
+    assert_int_equal(firstCount, secondCount);
+    assert_memory_equal(first, second, sizeof(*first) * (size_t)firstCount);
+    for (int32_t i = 0; i < BODIES; ++i) {
+        kiriObstacleState one, other;
+        OK(kiriObstacle_GetState(a->host.world, a->bodies[i], &one));
+        OK(kiriObstacle_GetState(b->host.world, b->bodies[i], &other));
+        assert_memory_equal(one.impulse, other.impulse, sizeof(one.impulse));
+        assert_memory_equal(one.angularImpulse, other.angularImpulse, sizeof(one.angularImpulse));
+    }
+    CompareSheets(a, b);
+}
+
+/* Returns how many contacts there were in all ticks. */
+static int64_t Compare(int32_t workers, const kiriBudget* budget, int32_t ticks)
+{
+    static Crew crew, alone;
+    int64_t contacts = 0;
+    Crew_Start(&crew, workers);
+    Crew_Start(&alone, 0);
+    Build(&crew);
+    Build(&alone);
+    OK(kiriWorld_SetBudget(crew.host.world, budget));
+    OK(kiriWorld_SetBudget(alone.host.world, budget));
+    for (int32_t tick = 0; tick < ticks; ++tick) {
+        Do(&crew, tick);
+        Do(&alone, tick);
+        assert_int_equal(Host_Tick(&crew.host, 0.01f, 2), Host_Tick(&alone.host, 0.01f, 2));
+        CompareWorlds(&crew, &alone);
+        kiriProfile profile;
+        OK(kiriWorld_GetProfile(crew.host.world, &profile));
+        contacts += profile.contacts;
+    }
+    assert_int_equal(alone.started, 0);
+    assert_true(workers == 1 ? crew.started == 0 : crew.split > ticks);
+    Crew_Stop(&crew);
+    Crew_Stop(&alone);
+    return contacts;
+}
+
+/* ---- Tests ---- */
+
+static void AnyCrewGivesTheSameBits(void** state)
+{
+    static const int32_t crews[] = { -1, 1, 2, 16 };
+    static const kiriBudget all = { 0, 0, 0, 0 };
+    (void)state;
+    for (size_t i = 0; i < sizeof(crews) / sizeof(*crews); ++i) {
+        assert_true(Compare(crews[i], &all, 36) > 1000);
+    }
+}
+
+/* Systems for about one sheet in three: those share what is left that come first. */
+static void SoItDoesOnABudget(void** state)
+{
+    static const kiriBudget tight = { 32, 60, 40, 14 }, wide = { 64, 200, 100, 120 };
+    (void)state;
+    Compare(-1, &tight, 24);
+    Compare(4, &tight, 24);
+    Compare(-1, &wide, 24);
+    Compare(4, &wide, 24);
+}
+
+static void HooksComeTogether(void** state)
+{
+    Host host;
+    kiriWorld* world = NULL;
+    (void)state;
+    memset(&host, 0, sizeof(host));
+    host.failAt = -1;
+    kiriWorldDef def = Host_Def(&host);
+    def.startTask = StartTask;
+    assert_int_equal(kiriCreateWorld(&def, &world), KIRI_ERROR_ARGUMENT);
+    assert_null(world);
+    def.finishTask = FinishTask;
+    def.workerCount = -1;
+    assert_int_equal(kiriCreateWorld(&def, &world), KIRI_ERROR_ARGUMENT);
+    def.workerCount = 1025;
+    assert_int_equal(kiriCreateWorld(&def, &world), KIRI_ERROR_ARGUMENT);
+    def.workerCount = 1024;
+    OK(kiriCreateWorld(&def, &world));
+    kiriDestroyWorld(world);
+    assert_int_equal(host.live, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(AnyCrewGivesTheSameBits),
+        cmocka_unit_test(SoItDoesOnABudget),
+        cmocka_unit_test(HooksComeTogether),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
