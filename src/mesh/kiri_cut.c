@@ -3,6 +3,9 @@
 /* The range of the lattice: the box of the sheet and half its longer side around it. */
 static const double LowestCoordinate = -0.5 * KIRI_LATTICE, HighestCoordinate = 1.5 * KIRI_LATTICE;
 
+/* About ns: to look at a triangle around a vertex, or in the list of a square; and what is worth an item of the quota. */
+enum { LOOK_EFFORT = 8, ITEM_EFFORT = 512 };
+
 /* One straight move of a blade. The mesh is walked as the plane triangulation that it is, whether edges are open or
    not; only the outline stops the walk. So older cuts are nothing special. */
 typedef struct BladeWalk {
@@ -12,6 +15,7 @@ typedef struct BladeWalk {
     kiriLatticePoint at; /* where the blade is now, */
     int32_t vertex;      /* and a vertex there; KIRI_NONE outside the sheet */
     int32_t splits;      /* triangles made or reshaped */
+    int64_t effort;      /* to look around, about ns */
     bool failed;         /* no memory */
 } BladeWalk;
 
@@ -112,11 +116,12 @@ static bool WedgeHolds(const BladeWalk* walk, int32_t h)
 
 /* The half-edge whose wedge holds the way to the target, or KIRI_NONE: the blade leaves the sheet. Where corners of the
    outline touch, twins do not lead from one to the other, but their triangles are in the same square. */
-static int32_t FindWedge(const BladeWalk* walk)
+static int32_t FindWedge(BladeWalk* walk)
 {
     const kiriMeshData* mesh = walk->mesh;
     int32_t first = FirstAround(mesh, walk->vertex), found = KIRI_NONE;
     for (int32_t h = first; h != KIRI_NONE; h = NextAround(mesh, h, first)) {
+        walk->effort += LOOK_EFFORT;
         if (WedgeHolds(walk, h)) {
             return h;
         }
@@ -124,6 +129,7 @@ static int32_t FindWedge(const BladeWalk* walk)
     int32_t slot = mesh->squares.head[kiriSquares_At(&mesh->squares, walk->at)];
     for (; slot != KIRI_NONE; slot = mesh->squares.nodes.data[slot].next) {
         int32_t h = 3 * mesh->squares.nodes.data[slot].triangle;
+        walk->effort += LOOK_EFFORT;
         for (int32_t end = h + 3; h < end; ++h) {
             bool isHere = IsSamePoint(VertexPoint(walk, kiriMesh_Tail(mesh, h)), walk->at);
             if (isHere && (found == KIRI_NONE || h < found) && WedgeHolds(walk, h)) {
@@ -141,6 +147,7 @@ static bool OpenBetween(BladeWalk* walk, int32_t vertex, kiriLatticePoint other)
     int32_t first = FirstAround(mesh, vertex);
     for (int32_t h = first; h != KIRI_NONE; h = NextAround(mesh, h, first)) {
         int32_t previous = kiriEdge_Previous(h);
+        walk->effort += 2 * LOOK_EFFORT; /* once more where the fan is torn */
         bool leaves = IsSamePoint(VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h))), other);
         if (leaves || IsSamePoint(VertexPoint(walk, kiriMesh_Tail(mesh, previous)), other)) {
             walk->failed = !kiriMesh_Open(walk->mesh, leaves ? h : previous);
@@ -240,11 +247,13 @@ typedef struct SheetEntry {
     double share;
 } SheetEntry;
 
-static void FindEntryInSquare(const BladeWalk* walk, int32_t square, SheetEntry* entry)
+static void FindEntryInSquare(BladeWalk* walk, int32_t square, SheetEntry* entry)
 {
     const kiriMeshData* mesh = walk->mesh;
+    walk->effort += LOOK_EFFORT;
     for (int32_t i = mesh->squares.head[square]; i != KIRI_NONE; i = mesh->squares.nodes.data[i].next) {
         int32_t h = 3 * mesh->squares.nodes.data[i].triangle;
+        walk->effort += LOOK_EFFORT;
         for (int32_t end = h + 3; h < end; ++h) {
             double share = EntryOver(walk, h);
             if (share < entry->share || (share == entry->share && share <= 1.0 && h < entry->edge)) {
@@ -265,7 +274,7 @@ static void SquaresBetween(int32_t side, int32_t count, double a, double b, int3
 }
 
 /* Where the way to the target comes into the sheet first. Only squares along the way are looked at, row by row. */
-static int32_t FindSheetEntry(const BladeWalk* walk)
+static int32_t FindSheetEntry(BladeWalk* walk)
 {
     const kiriSquares* squares = &walk->mesh->squares;
     double dx = (double)walk->to.x - walk->at.x, dy = (double)walk->to.y - walk->at.y;
@@ -327,10 +336,22 @@ static void StartInTriangle(BladeWalk* walk, int32_t triangle)
     walk->at = walk->failed ? walk->at : VertexPoint(walk, walk->vertex);
 }
 
+/* A triangle under the blade. */
+static int32_t LocateBlade(BladeWalk* walk)
+{
+    const kiriSquares* squares = &walk->mesh->squares;
+    int32_t square = kiriSquares_At(squares, walk->at);
+    for (int32_t n = square == KIRI_NONE ? KIRI_NONE : squares->head[square]; n != KIRI_NONE;
+         n = squares->nodes.data[n].next) {
+        walk->effort += LOOK_EFFORT;
+    }
+    return kiriMesh_Locate(walk->mesh, walk->at);
+}
+
 /* One step of the walk. False: the blade is where it can get, or there is no memory. */
 static bool StepBlade(BladeWalk* walk)
 {
-    int32_t triangle = walk->vertex == KIRI_NONE ? kiriMesh_Locate(walk->mesh, walk->at) : KIRI_NONE;
+    int32_t triangle = walk->vertex == KIRI_NONE ? LocateBlade(walk) : KIRI_NONE;
     if (triangle != KIRI_NONE) {
         StartInTriangle(walk, triangle);
         return !walk->failed;
@@ -348,18 +369,28 @@ static bool StepBlade(BladeWalk* walk)
     return true;
 }
 
+/* The items of a step that is done. */
+static int64_t TakeItems(BladeWalk* walk)
+{
+    kiriSquares* squares = &walk->mesh->squares;
+    int64_t items = (walk->splits > 0 ? walk->splits : 1) + (walk->effort + squares->effort) / ITEM_EFFORT;
+    walk->splits = 0;
+    walk->effort = squares->effort = 0;
+    return items;
+}
+
 kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePoint to, double snap, kiriQuota* quota)
 {
-    BladeWalk walk = {
-        mesh, blade->isOnItsWay ? blade->from : blade->at, to, snap, blade->at, blade->vertex, 0, false
-    };
+    BladeWalk walk = { mesh, blade->isOnItsWay ? blade->from : blade->at, to, snap, blade->at, blade->vertex, 0, 0,
+                       false };
     bool isOnItsWay = !IsSamePoint(walk.from, to);
     KIRI_ASSERT(mesh->isOpen && quota->left >= 0 && snap >= 0.0);
     KIRI_ASSERT(blade->vertex == KIRI_NONE || IsSamePoint(VertexPoint(&walk, blade->vertex), blade->at));
+    mesh->squares.effort = 0;
     while (isOnItsWay && quota->left >= KIRI_MOST_SPLITS) {
-        walk.splits = 0;
         isOnItsWay = StepBlade(&walk) && !IsSamePoint(walk.at, to);
-        kiriQuota_Take(quota, walk.splits > 0 ? walk.splits : 1);
+        int64_t items = TakeItems(&walk);
+        kiriQuota_Take(quota, items < quota->left ? items : quota->left);
     }
     if (walk.failed) {
         return KIRI_FAILED;

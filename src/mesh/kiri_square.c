@@ -154,10 +154,17 @@ bool kiriSquares_RunsThrough(const kiriSquares* squares, int32_t square, kiriLat
     return (sideP < 0 && sideQ > 0) || (sideP > 0 && sideQ < 0);
 }
 
+/* To look at all squares of a box. */
+static void AddEffort(kiriSquares* squares, SquareBox r)
+{
+    squares->effort += (int64_t)KIRI_SQUARE_EFFORT * (r.lastRow - r.firstRow + 1) * (r.lastColumn - r.firstColumn + 1);
+}
+
 void kiriSquares_MarkEdgeDirty(kiriSquares* squares, kiriLatticePoint a, kiriLatticePoint b)
 {
     const kiriLatticePoint ends[3] = { a, b, b };
     SquareBox r = BoxOf(squares, ends);
+    AddEffort(squares, r);
     for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
         for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
             int32_t square = row * squares->columns + column;
@@ -262,6 +269,7 @@ static bool AddNode(kiriSquares* squares, kiriMemory* memory, int32_t square, in
             return false;
         }
     }
+    squares->effort += KIRI_SQUARE_EFFORT;
     SetNode(squares, slot, triangle, squares->head[square]);
     SetHead(squares, square, slot);
     MarkSquareDirty(squares, square);
@@ -269,11 +277,12 @@ static bool AddNode(kiriSquares* squares, kiriMemory* memory, int32_t square, in
 }
 
 /* The node of a triangle in a square, which is there; *before is the one that leads to it, or KIRI_NONE. */
-static int32_t FindNode(const kiriSquares* squares, int32_t square, int32_t triangle, int32_t* before)
+static int32_t FindNode(kiriSquares* squares, int32_t square, int32_t triangle, int32_t* before)
 {
     int32_t slot = squares->head[square];
     *before = KIRI_NONE;
     while (squares->nodes.data[slot].triangle != triangle) {
+        squares->effort += KIRI_NODE_EFFORT;
         *before = slot;
         slot = squares->nodes.data[slot].next;
         KIRI_ASSERT(slot >= 0 && slot < squares->nodes.count);
@@ -287,6 +296,7 @@ static bool RemoveNode(kiriSquares* squares, kiriMemory* memory, int32_t square,
         return false;
     }
     int32_t before, slot = FindNode(squares, square, triangle, &before), next = squares->nodes.data[slot].next;
+    squares->effort += KIRI_SQUARE_EFFORT;
     if (before == KIRI_NONE) {
         SetHead(squares, square, next);
     } else {
@@ -306,6 +316,7 @@ static bool ChangeNodes(kiriSquares* squares, kiriMemory* memory, int32_t triang
 {
     KIRI_ASSERT(triangle >= 0 && kiriOrient(corners[0], corners[1], corners[2]) > 0);
     SquareBox r = BoxOf(squares, corners);
+    AddEffort(squares, r);
     for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
         for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
             if (OverlapsInBox(squares, r, column, row, corners) &&

@@ -21,6 +21,9 @@ typedef struct kiriSquareUndo {
     kiriSquareNode was;
 } kiriSquareUndo;
 
+/* About ns: to pass a node of a list; to look whether something is in a square, and to change its list. */
+enum { KIRI_NODE_EFFORT = 1, KIRI_SQUARE_EFFORT = 8 };
+
 typedef struct kiriSquares {
     int32_t columns, rows;
     int32_t side;   /* lattice steps, even; grid line k lies at k * side - 1 */
@@ -31,6 +34,7 @@ typedef struct kiriSquares {
     int32_t* vertexHead;       /* a square's first vertex, or KIRI_NONE: see kiriVertex */
     KIRI_ARRAY(int32_t) dirty; /* squares that have changed since ClearDirty, each once; there is room for all */
     uint8_t* isDirty;          /* of each square: is it in `dirty`? */
+    int64_t effort;            /* what changes have cost so far, in about ns */
 
     /* For Rollback: the changes since Begin in their order, and what was then. */
     bool isOpen;
