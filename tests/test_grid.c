@@ -627,6 +627,7 @@ static void TestCellsOfVertices(void** state)
     for (int32_t v = 0; v < sheet.mesh.vertices.count; ++v) {
         kiriLatticePoint at = sheet.mesh.vertices.data[v].at;
         int32_t cell = kiriGrid_CellOfVertex(&sheet.grid, &sheet.mesh, v);
+        assert_int_equal(cell, kiriGrid_CellOf(&sheet.grid, &sheet.mesh, sheet.mesh.vertices.data[v].edge / 3, at));
         assert_int_equal(sheet.grid.cells.data[cell].square, kiriSquares_At(&sheet.mesh.squares, at));
         for (int32_t w = 0; w < v; ++w) {
             if (kiriDistanceSquared(at, sheet.mesh.vertices.data[w].at) == 0) {
@@ -953,6 +954,11 @@ static void CheckAgainstScratch(const Sheet* sheet)
     kiriGrid fresh = { 0 };
     Update(&fresh, &sheet->mesh);
     CheckSameGrid(&sheet->grid, &fresh, &sheet->mesh.squares);
+    for (int32_t v = 0; v < sheet->mesh.vertices.count; ++v) {
+        const kiriVertex* vertex = &sheet->mesh.vertices.data[v];
+        assert_int_equal(kiriGrid_CellOfVertex(&sheet->grid, &sheet->mesh, v),
+                         kiriGrid_CellOf(&sheet->grid, &sheet->mesh, vertex->edge / 3, vertex->at));
+    }
 }
 
 /* ---- Updates: what they say has changed ------------------------------------------------------------------------- */

@@ -130,7 +130,9 @@ static bool StartGridUpdate(kiriGrid* grid, const kiriMeshData* mesh)
     grid->work->running = true;
     return (!grid->work->fromScratch || StartGridFromScratch(grid, mesh)) &&
            kiriArray_Reserve(mesh->memory, &grid->nodeCell, mesh->squares.nodes.capacity) &&
-           kiriArray_Resize(mesh->memory, &grid->nodeCell, mesh->squares.nodes.count);
+           kiriArray_Resize(mesh->memory, &grid->nodeCell, mesh->squares.nodes.count) &&
+           kiriArray_Reserve(mesh->memory, &grid->vertexCell, mesh->vertices.capacity) &&
+           kiriArray_Resize(mesh->memory, &grid->vertexCell, mesh->vertices.count);
 }
 
 /* Done, or given up. */
@@ -202,7 +204,7 @@ void kiriGrid_Reset(kiriGrid* grid)
 {
     kiriGridChanges* changes = &grid->changes;
     grid->cells.count = grid->runs.count = grid->steps.count = grid->faces.count = grid->squareCell.count = 0;
-    grid->nodeCell.count = grid->whole.count = grid->cellCount = 0;
+    grid->nodeCell.count = grid->vertexCell.count = grid->whole.count = grid->cellCount = 0;
     changes->made.count = changes->gone.count = changes->steps.count = changes->material.count = 0;
     changes->edges.count = 0;
     memset(&grid->stepRoom, 0, sizeof(grid->stepRoom));
@@ -233,13 +235,14 @@ static void TakeCellAway(kiriGrid* grid, kiriMemory* memory, int32_t c)
     FreeCell(grid, c);
 }
 
-void kiriGrid_Keep(kiriGrid* grid, kiriMemory* memory, const kiriKeep* triangles, const int32_t* gone,
-                   int32_t goneCount)
+void kiriGrid_Keep(kiriGrid* grid, kiriMemory* memory, const kiriKeep* triangles, const kiriKeep* vertices,
+                   const int32_t* gone, int32_t goneCount)
 {
     KIRI_ASSERT(!grid->work->running && grid->changes.steps.count == 0 && grid->changes.gone.count == 0);
     for (int32_t k = 0; k < goneCount; ++k) {
         TakeCellAway(grid, memory, gone[k]);
     }
+    kiriKeep_Compact(vertices, &grid->vertexCell, 1, sizeof(int32_t));
     for (int32_t c = 0; c < grid->cells.count && kiriKeep_Moves(triangles); ++c) {
         if (kiriGrid_IsCell(grid, c)) {
             grid->cells.data[c].triangle = kiriKeep_To(triangles, grid->cells.data[c].triangle);
@@ -272,8 +275,10 @@ int32_t kiriGrid_CellOf(const kiriGrid* grid, const kiriMeshData* mesh, int32_t 
 
 int32_t kiriGrid_CellOfVertex(const kiriGrid* grid, const kiriMeshData* mesh, int32_t vertex)
 {
-    const kiriVertex* v = &mesh->vertices.data[vertex];
-    return kiriGrid_CellOf(grid, mesh, v->edge / 3, v->at);
+    int32_t square = kiriSquares_At(&mesh->squares, mesh->vertices.data[vertex].at),
+            first = grid->squareCell.data[square];
+    KIRI_ASSERT(vertex < grid->vertexCell.count);
+    return grid->cells.data[first].next == KIRI_NONE ? first : grid->vertexCell.data[vertex];
 }
 
 kiriVec2 kiriGrid_Middle(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)

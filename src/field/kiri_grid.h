@@ -78,6 +78,7 @@ typedef struct kiriGrid {
     KIRI_ARRAY(kiriFace) faces;     /* by index, with gaps */
     KIRI_ARRAY(int32_t) squareCell; /* a square's first cell, or KIRI_NONE */
     KIRI_ARRAY(int32_t) nodeCell;   /* the cell of each node of mesh->squares.nodes; unused ones mean nothing */
+    KIRI_ARRAY(int32_t) vertexCell; /* the cell of each vertex in a square with several; others mean nothing */
     KIRI_ARRAY(uint8_t) whole;      /* of each square: wholly covered, and no outline or open edge runs through it */
     int32_t cellCount;              /* that live */
     int32_t freeCell, freeFace;     /* heads of lists, or KIRI_NONE */
@@ -98,10 +99,11 @@ void kiriGrid_ClearChanges(kiriGrid* grid);
 /* Forgets everything but its memory: the next update is from scratch. */
 void kiriGrid_Reset(kiriGrid* grid);
 
-/* The cells go that are listed, with all that they hang together with, and the triangles of others get their new index.
-   No change is noted: of what is left nothing else changes. Not during an update, nor before its changes are cleared. */
-void kiriGrid_Keep(kiriGrid* grid, kiriMemory* memory, const kiriKeep* triangles, const int32_t* gone,
-                   int32_t goneCount);
+/* The cells go that are listed, with all that they hang together with, and the triangles and vertices of others get their
+   new index. No change is noted: of what is left nothing else changes. Not during an update, nor before its changes are
+   cleared. */
+void kiriGrid_Keep(kiriGrid* grid, kiriMemory* memory, const kiriKeep* triangles, const kiriKeep* vertices,
+                   const int32_t* gone, int32_t goneCount);
 
 static inline bool kiriGrid_IsCell(const kiriGrid* grid, int32_t cell)
 {

@@ -376,6 +376,18 @@ static bool RecordEdges(kiriGrid* grid, kiriMemory* memory, int32_t square)
     return ok;
 }
 
+/* The vertices of the square that find their fan by this triangle. */
+static void FillVertices(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, int32_t triangle, int32_t cell)
+{
+    const int32_t* corners = mesh->triangles.data[triangle].vertex;
+    for (int i = 0; i < 3; ++i) {
+        const kiriVertex* v = &mesh->vertices.data[corners[i]];
+        if (v->edge / 3 == triangle && kiriSquares_At(&mesh->squares, v->at) == square) {
+            grid->vertexCell.data[corners[i]] = cell;
+        }
+    }
+}
+
 /* Gives the square's triangles their cells: so far they have the ranks of FindCells. */
 static kiriProgress FillCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, kiriQuota* quota)
 {
@@ -385,9 +397,12 @@ static kiriProgress FillCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t 
     }
     kiriNodeRange range = work->ranges.data[square];
     while (work->at < range.end - range.first) {
-        int32_t* cell = &grid->nodeCell.data[work->entries.data[range.first + work->at++]];
+        int32_t i = range.first + work->at++, *cell = &grid->nodeCell.data[work->entries.data[i]];
         *cell = work->newCells.data[*cell].cell;
-        if (!kiriGridWork_Spend(work, quota, KIRI_GRID_NODE)) {
+        if (work->newCells.count > 1) {
+            FillVertices(grid, mesh, square, kiriGridWork_TriangleAt(work, mesh, i), *cell);
+        }
+        if (!kiriGridWork_Spend(work, quota, 2 * KIRI_GRID_NODE)) {
             return KIRI_MORE;
         }
     }

@@ -130,7 +130,7 @@ static void KeepFields(kiriRemoval* removal)
     const int32_t *cells = removal->cells.data, *squares = removal->squares.data;
     int32_t cellCount = removal->cells.count, squareCount = removal->squares.count;
     kiriMesh_Keep(&sheet->mesh, &kept->triangles, &kept->vertices, squares, squareCount);
-    kiriGrid_Keep(&sheet->grid, sheet->memory, &kept->triangles, cells, cellCount);
+    kiriGrid_Keep(&sheet->grid, sheet->memory, &kept->triangles, &kept->vertices, cells, cellCount);
     kiriRegions_Keep(&sheet->regions, &kept->frames, cells, cellCount);
     kiriShape_Keep(&sheet->shape, sheet->memory, &kept->frames, cells, cellCount);
     kiriOwnership_Keep(&sheet->update->refit.ownership, &sheet->grid, &sheet->mesh, &sheet->regions, &kept->triangles,
