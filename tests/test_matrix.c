@@ -118,6 +118,36 @@ static void TestSolves(void** state)
     }
 }
 
+/* Long vectors of the processor or short ones: the same bits. */
+static void TestVectors(void** state)
+{
+    (void)state;
+    static double other[MOST];
+    static const int32_t sizes[3] = { 3, 6, 12 };
+    kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
+    for (int trial = 0; trial < 30; ++trial) {
+        int32_t size = sizes[trial % 3], frames = MOST_FRAMES;
+        for (int refuses = 0; refuses < 2; ++refuses) {
+            uint32_t seed = 99 + (uint32_t)trial;
+            kiriMatrix* matrix = kiriMatrix_Create(&memory, size);
+            assert_non_null(matrix);
+            if (refuses) {
+                kiriMatrix_RefuseLongVectors(matrix);
+            }
+            MakeElements(&seed, size, frames, 16);
+            assert_true(kiriMatrix_Shape(matrix, frames, pairs, pairCount));
+            Assemble(matrix, &seed, size, frames, 16);
+            for (int32_t n = 0; n < size * frames; ++n) {
+                right[n] = RandomBetween(&seed, -1.0, 1.0);
+            }
+            assert_true(kiriMatrix_Factor(matrix));
+            kiriMatrix_Solve(matrix, right, refuses ? other : solution);
+        }
+        assert_memory_equal(other, solution, sizeof(double) * (size_t)(size * frames));
+    }
+    kiriMemory_FreeAll(&memory);
+}
+
 static void TestCovers(void** state)
 {
     (void)state;
@@ -177,6 +207,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestSolves),
+        cmocka_unit_test(TestVectors),
         cmocka_unit_test(TestCovers),
         cmocka_unit_test(TestNotPositive),
     };

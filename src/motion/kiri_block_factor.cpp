@@ -1,7 +1,7 @@
 /* The only file that knows Eigen: its order of unknowns that keeps a factor sparse, and its small vectors. The Cholesky
-   factorisation is our own, for Eigen's goes entry by entry: blocks whose size the compiler knows take a fraction of
-   the time, and their memory is the host's. Vectors are only scaled and added, in a fixed order: the same bits
-   everywhere. */
+   factorisation is our own, for Eigen's goes entry by entry: panels of blocks, whose products stay in registers, take a
+   fraction of the time, and their memory is the host's (Chen, Davis, Hager, Rajamanickam 2008, CHOLMOD, has the same
+   scheme). Numbers are summed in a fixed order: the same bits everywhere. */
 
 /* Before our own headers, which include C's headers as C. */
 #include <Eigen/Sparse>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kiri_block_factor.h"
+#include "kiri_panel.h"
 extern "C" {
 #include "../core/kiri_array.h"
 #include "../core/kiri_hash.h"
@@ -27,27 +28,38 @@ struct Pattern {
     KIRI_ARRAY(int32_t) start, row;
 };
 
-/* A block of the factor left of the diagonal, and its column. */
+/* Columns that follow each other, and have the same rows below them: see kiri_panel.h. */
+struct Panel {
+    int32_t column, width; /* the first one, and how many */
+    int32_t row, below;    /* into `rows`: those below the columns, ascending; and how many */
+    int32_t left;          /* into `left`: of panels before it, what changes this one */
+    int64_t values;        /* into `factors` */
+};
+
+/* Rows of a panel that are columns of another one. */
 struct Left {
-    int32_t block, column;
+    int32_t panel, first, count; /* into the panel's rows */
 };
 
 } // namespace
 
-/* Frames have places in the order of unknowns; rows and columns are places. Blocks lie one after the other, column by
-   column, and so do the entries of a block. With ones on the diagonal of L, matrix = L D L^T; in a factor's diagonal
-   block D stands on the diagonal, and what is above it means nothing. */
+/* Frames have places in the order of unknowns; rows and columns are places. Blocks of the matrix lie one after the other,
+   column by column, and so do the entries of a block. With ones on the diagonal of L, matrix = L D L^T, in panels. */
 struct kiriMatrix {
     kiriMemory* memory;
     int32_t size, count;
+    bool hasLongVectors;
     KIRI_ARRAY(int32_t) place; /* of a frame */
-    Pattern own, factor;
-    KIRI_ARRAY(int32_t) source;    /* what a block of the factor starts from: a block of the matrix, or KIRI_NONE */
-    KIRI_ARRAY(int32_t) leftStart; /* of each row */
+    Pattern own;
+    KIRI_ARRAY(Panel) panels;    /* and one more, where all of them end */
+    KIRI_ARRAY(int32_t) panelOf; /* of each column */
+    KIRI_ARRAY(int32_t) rows;
     KIRI_ARRAY(Left) left;
     KIRI_ARRAY(double) values, factors, right;
-    KIRI_ARRAY(int64_t) keys;                 /* scratch: blocks to be sorted */
-    KIRI_ARRAY(int32_t) child, sibling, mark; /* scratch: the elimination tree; a column's mark on its rows */
+    KIRI_ARRAY(double) scaled, part; /* scratch: rows of a panel times D; what is solved for, as a panel has it */
+    Pattern factor;                  /* scratch: columns of the factor without padding */
+    KIRI_ARRAY(int64_t) keys;        /* scratch: blocks to be sorted */
+    KIRI_ARRAY(int32_t) child, sibling, mark; /* scratch: the elimination tree; where a panel has a row */
 };
 
 namespace
@@ -152,38 +164,93 @@ bool Eliminate(kiriMatrix* matrix)
     return true;
 }
 
-/* The rows of the factor, by the columns that they have blocks in. */
-void CollectLeft(kiriMatrix* matrix)
+/* Joins columns to panels: those whose rows are the next column and its rows. */
+bool JoinColumns(kiriMatrix* matrix)
 {
     const Pattern* factor = &matrix->factor;
-    int32_t *start = matrix->leftStart.data, count = matrix->count;
-    std::fill(start, start + count + 1, 0);
-    for (int32_t b = 0; b < factor->row.count; ++b) {
-        ++start[factor->row.data[b]];
-    }
-    for (int32_t r = 0, sum = 0; r < count; ++r) {
-        sum += start[r] - 1; /* not the diagonal block */
-        start[r] = sum;
-    }
-    start[count] = factor->row.count - count;
-    for (int32_t c = count - 1; c >= 0; --c) {
-        for (int32_t b = factor->start.data[c] + 1; b < factor->start.data[c + 1]; ++b) {
-            Left left = { b, c };
-            matrix->left.data[--start[factor->row.data[b]]] = left;
+    matrix->panels.count = 0;
+    for (int32_t c = 0; c < matrix->count; ++c) {
+        int32_t first = factor->start.data[c], below = factor->start.data[c + 1] - first - 1;
+        Panel* last = matrix->panels.count > 0 ? &matrix->panels.data[matrix->panels.count - 1] : nullptr;
+        if (last != nullptr && last->below == below + 1 && factor->row.data[last->row] == c) {
+            last->width += 1;
+            last->row = first + 1;
+            last->below = below;
+        } else {
+            Panel panel = { c, 1, first + 1, below, 0, 0 };
+            if (!kiriArray_Push(matrix->memory, &matrix->panels, panel)) {
+                return false;
+            }
         }
+        matrix->panelOf.data[c] = matrix->panels.count - 1;
     }
+    Panel end = { matrix->count, 0, 0, 0, 0, 0 };
+    return kiriArray_Push(matrix->memory, &matrix->panels, end);
 }
 
-void FindSources(kiriMatrix* matrix)
+/* Gives panels rows of their own, and places for their values. */
+bool PlacePanels(kiriMatrix* matrix)
 {
-    const Pattern *own = &matrix->own, *factor = &matrix->factor;
-    for (int32_t c = 0; c < matrix->count; ++c) {
-        int32_t from = own->start.data[c], end = own->start.data[c + 1];
-        for (int32_t b = factor->start.data[c]; b < factor->start.data[c + 1]; ++b) {
-            bool isOwn = from < end && own->row.data[from] == factor->row.data[b];
-            matrix->source.data[b] = isOwn ? from++ : (int32_t)KIRI_NONE;
+    int64_t area = (int64_t)matrix->size * matrix->size, values = 0;
+    int32_t highest = 0, widest = 0;
+    matrix->rows.count = 0;
+    for (int32_t p = 0; p < matrix->panels.count; ++p) {
+        Panel* panel = &matrix->panels.data[p];
+        int32_t from = panel->row;
+        panel->row = matrix->rows.count;
+        panel->values = values;
+        values += area * panel->width * (panel->width + panel->below);
+        highest = std::max(highest, panel->width + panel->below);
+        widest = std::max(widest, panel->width);
+        for (int32_t n = 0; n < panel->below; ++n) {
+            if (!kiriArray_Push(matrix->memory, &matrix->rows, matrix->factor.row.data[from + n])) {
+                return false;
+            }
         }
     }
+    return kiriArray_Resize(matrix->memory, &matrix->values, area * matrix->own.row.count) &&
+           kiriArray_Resize(matrix->memory, &matrix->factors, values) &&
+           kiriArray_Resize(matrix->memory, &matrix->scaled, area * highest * widest) &&
+           kiriArray_Resize(matrix->memory, &matrix->part, (int64_t)matrix->size * highest);
+}
+
+/* The rows from n on that are columns of one panel. */
+int32_t RunLength(const kiriMatrix* matrix, const Panel* panel, int32_t n)
+{
+    const int32_t* rows = &matrix->rows.data[panel->row];
+    int32_t end = n + 1;
+    while (end < panel->below && matrix->panelOf.data[rows[end]] == matrix->panelOf.data[rows[n]]) {
+        ++end;
+    }
+    return end - n;
+}
+
+/* By the panels that they change, each from the lowest panel on. */
+bool CollectLeft(kiriMatrix* matrix)
+{
+    Panel* panels = matrix->panels.data;
+    int32_t count = matrix->panels.count, total = 0;
+    for (int32_t p = 0; p < count; ++p) {
+        for (int32_t n = 0; n < panels[p].below; n += RunLength(matrix, &panels[p], n)) {
+            panels[matrix->panelOf.data[matrix->rows.data[panels[p].row + n]]].left += 1;
+            ++total;
+        }
+    }
+    if (!kiriArray_Resize(matrix->memory, &matrix->left, total)) {
+        return false;
+    }
+    for (int32_t p = 0, sum = 0; p < count; ++p) {
+        sum += panels[p].left;
+        panels[p].left = sum;
+    }
+    for (int32_t p = count - 1; p >= 0; --p) {
+        for (int32_t n = 0, run; n < panels[p].below; n += run) {
+            run = RunLength(matrix, &panels[p], n);
+            Left left = { p, n, run };
+            matrix->left.data[--panels[matrix->panelOf.data[matrix->rows.data[panels[p].row + n]]].left] = left;
+        }
+    }
+    return true;
 }
 
 bool MakeRoomForFrames(kiriMatrix* matrix)
@@ -192,21 +259,10 @@ bool MakeRoomForFrames(kiriMatrix* matrix)
     int64_t count = matrix->count;
     return kiriArray_Resize(memory, &matrix->place, count) && kiriArray_Resize(memory, &matrix->child, count) &&
            kiriArray_Resize(memory, &matrix->sibling, count) && kiriArray_Resize(memory, &matrix->mark, count) &&
+           kiriArray_Resize(memory, &matrix->panelOf, count) &&
            kiriArray_Resize(memory, &matrix->own.start, count + 1) &&
            kiriArray_Resize(memory, &matrix->factor.start, count + 1) &&
-           kiriArray_Resize(memory, &matrix->leftStart, count + 1) &&
            kiriArray_Resize(memory, &matrix->right, count * matrix->size);
-}
-
-bool MakeRoomForBlocks(kiriMatrix* matrix)
-{
-    kiriMemory* memory = matrix->memory;
-    int64_t area = (int64_t)matrix->size * matrix->size;
-    int64_t own = matrix->own.row.count, factor = matrix->factor.row.count;
-    return area * factor <= INT32_MAX && kiriArray_Resize(memory, &matrix->source, factor) &&
-           kiriArray_Resize(memory, &matrix->left, factor - matrix->count) &&
-           kiriArray_Resize(memory, &matrix->values, area * own) &&
-           kiriArray_Resize(memory, &matrix->factors, area * factor);
 }
 
 /* ---- Entries ---- */
@@ -299,173 +355,144 @@ void ShiftDiagonal(kiriMatrix* matrix)
 
 /* ---- Factorisation ---- */
 
-/* out -= a b^T */
-template <int size> void SubtractProduct(double* out, const double* a, const double* b)
+/* Fills a panel with the matrix, and marks where it has which row. */
+void StartPanel(kiriMatrix* matrix, const Panel* panel)
 {
-    typedef typename Wide<size>::Columns Columns;
-    for (int32_t c = 0; c < size; c += Wide<size>::count) {
-        Columns sum = Eigen::Map<const Columns>(out + size * c);
-        for (int32_t m = 0; m < size; ++m) {
-            In<size> column(a + size * m);
-            for (int32_t n = 0; n < Wide<size>::count; ++n) {
-                sum.col(n) -= b[size * m + c + n] * column;
+    int32_t size = matrix->size, height = size * (panel->width + panel->below);
+    double* values = &matrix->factors.data[panel->values];
+    std::fill(values, values + (int64_t)height * size * panel->width, 0.0);
+    for (int32_t n = 0; n < panel->width; ++n) {
+        matrix->mark.data[panel->column + n] = n;
+    }
+    for (int32_t n = 0; n < panel->below; ++n) {
+        matrix->mark.data[matrix->rows.data[panel->row + n]] = panel->width + n;
+    }
+    for (int32_t n = 0; n < panel->width; ++n) {
+        int32_t c = panel->column + n;
+        for (int32_t b = matrix->own.start.data[c]; b < matrix->own.start.data[c + 1]; ++b) {
+            const double* from = &matrix->values.data[(int64_t)size * size * b];
+            double* to = values + (int64_t)height * size * n + size * matrix->mark.data[matrix->own.row.data[b]];
+            for (int32_t k = 0; k < size; ++k, from += size, to += height) {
+                std::copy(from, from + size, to);
             }
         }
-        Eigen::Map<Columns>(out + size * c) = sum;
     }
 }
 
-/* Of a diagonal block, with the inverses of D. False where it is not positive definite. */
-template <int size> bool FactorBlock(double* block, double* inverse)
+/* How many rows from n on follow each other in the panel that is marked, too. */
+int32_t FollowRows(const kiriMatrix* matrix, const int32_t* rows, int32_t n, int32_t count)
 {
-    for (int32_t m = 0; m < size; ++m) {
-        double d = block[(size + 1) * m];
-        if (!(d > 0.0)) {
+    int32_t next = n + 1;
+    while (next < count && matrix->mark.data[rows[next]] == matrix->mark.data[rows[n]] + next - n) {
+        ++next;
+    }
+    return next - n;
+}
+
+/* Takes off what a panel before it put into the panel: for each of its columns, rows that follow each other in both at
+   once. */
+void UpdatePanel(kiriMatrix* matrix, const Panel* panel, const Left* left)
+{
+    int32_t size = matrix->size;
+    const Panel* from = &matrix->panels.data[left->panel];
+    const double* values = &matrix->factors.data[from->values];
+    const int32_t *rows = &matrix->rows.data[from->row], *mark = matrix->mark.data;
+    kiriProduct product;
+    product.aStride = size * (from->width + from->below);
+    product.outStride = size * (panel->width + panel->below);
+    product.bStride = size * left->count;
+    product.columns = size;
+    product.depth = size * from->width;
+    kiriPanel_ScaleRows(values, product.aStride, product.depth, size * (from->width + left->first), product.bStride,
+                        matrix->scaled.data);
+    for (int32_t c = 0; c < left->count; ++c) {
+        int32_t first = left->first + c;
+        double* out = &matrix->factors.data[panel->values] + (int64_t)product.outStride * size * mark[rows[first]];
+        product.b = matrix->scaled.data + size * c;
+        for (int32_t n = first, down; n < from->below; n += down) {
+            down = FollowRows(matrix, rows, n, from->below);
+            product.a = values + size * (from->width + n);
+            product.out = out + size * mark[rows[n]];
+            product.rows = size * down;
+            kiriPanel_TakeOff(&product, matrix->hasLongVectors);
+        }
+    }
+}
+
+/* Block column by block column. */
+bool FactorPanel(kiriMatrix* matrix, const Panel* panel)
+{
+    int32_t size = matrix->size, height = size * (panel->width + panel->below);
+    double *values = &matrix->factors.data[panel->values], *scaled = matrix->scaled.data;
+    for (int32_t c = 0; c < size * panel->width; c += size) {
+        double* column = values + (int64_t)height * c + c;
+        if (c > 0) {
+            const kiriProduct product = { column, values + c, scaled, height, height, size, height - c, size, c };
+            kiriPanel_ScaleRows(values, height, c, c, size, scaled);
+            kiriPanel_TakeOff(&product, matrix->hasLongVectors);
+        }
+        if (!kiriPanel_Factor(column, height - c, height, size)) {
             return false;
-        }
-        inverse[m] = 1.0 / d;
-        for (int32_t c = m + 1; c < size; ++c) {
-            double l = inverse[m] * block[size * m + c];
-            for (int32_t r = c; r < size; ++r) {
-                block[size * c + r] -= l * block[size * m + r];
-            }
-        }
-        for (int32_t r = m + 1; r < size; ++r) {
-            block[size * m + r] *= inverse[m];
         }
     }
     return true;
 }
 
-/* What is below the diagonal: block (L D)^-T */
-template <int size> void DivideBlock(double* block, const double* diagonal, const double* inverse)
+bool FactorOnce(kiriMatrix* matrix)
 {
-    for (int32_t m = 0; m < size; ++m) {
-        Column<size> column = Out<size>(block + size * m);
-        for (int32_t n = 0; n < m; ++n) {
-            column -= diagonal[size * n + m] * In<size>(block + size * n);
+    for (int32_t p = 0; p + 1 < matrix->panels.count; ++p) {
+        const Panel* panel = &matrix->panels.data[p];
+        StartPanel(matrix, panel);
+        for (int32_t k = panel->left; k < panel[1].left; ++k) {
+            UpdatePanel(matrix, panel, &matrix->left.data[k]);
         }
-        Out<size>(block + size * m) = column;
-    }
-    for (int32_t m = 0; m < size; ++m) {
-        Out<size>(block + size * m) *= inverse[m];
-    }
-}
-
-template <int size> void StartColumn(kiriMatrix* matrix, int32_t column)
-{
-    const int64_t area = size * size;
-    for (int32_t b = matrix->factor.start.data[column]; b < matrix->factor.start.data[column + 1]; ++b) {
-        double* out = &matrix->factors.data[area * b];
-        int32_t source = matrix->source.data[b];
-        matrix->mark.data[matrix->factor.row.data[b]] = b;
-        if (source != KIRI_NONE) {
-            std::copy(&matrix->values.data[area * source], &matrix->values.data[area * source] + area, out);
-        } else {
-            std::fill(out, out + area, 0.0);
-        }
-    }
-}
-
-/* Takes off what the columns before it put into the column. */
-template <int size> void UpdateColumn(kiriMatrix* matrix, int32_t column)
-{
-    const int64_t area = size * size;
-    double* factors = matrix->factors.data;
-    for (int32_t k = matrix->leftStart.data[column]; k < matrix->leftStart.data[column + 1]; ++k) {
-        Left left = matrix->left.data[k];
-        const double* diagonal = &factors[area * matrix->factor.start.data[left.column]];
-        double scaled[size * size]; /* times D */
-        for (int32_t m = 0; m < size; ++m) {
-            Out<size>(scaled + size * m) = diagonal[(size + 1) * m] * In<size>(&factors[area * left.block + size * m]);
-        }
-        for (int32_t b = left.block; b < matrix->factor.start.data[left.column + 1]; ++b) {
-            double* out = &factors[area * matrix->mark.data[matrix->factor.row.data[b]]];
-            SubtractProduct<size>(out, &factors[area * b], scaled);
-        }
-    }
-}
-
-template <int size> bool FactorAll(kiriMatrix* matrix)
-{
-    const int64_t area = size * size;
-    for (int32_t c = 0; c < matrix->count; ++c) {
-        int32_t first = matrix->factor.start.data[c], end = matrix->factor.start.data[c + 1];
-        double* diagonal = &matrix->factors.data[area * first];
-        StartColumn<size>(matrix, c);
-        UpdateColumn<size>(matrix, c);
-        double inverse[size];
-        if (!FactorBlock<size>(diagonal, inverse)) {
+        if (!FactorPanel(matrix, panel)) {
             return false;
-        }
-        for (int32_t b = first + 1; b < end; ++b) {
-            DivideBlock<size>(&matrix->factors.data[area * b], diagonal, inverse);
         }
     }
     return true;
 }
+
+/* ---- Solution ---- */
 
 /* L y = right in place, then y / D. */
-template <int size> void SolveDown(kiriMatrix* matrix, double* right)
+void SolveDown(kiriMatrix* matrix, double* right)
 {
-    const int64_t area = size * size;
-    for (int32_t c = 0; c < matrix->count; ++c) {
-        int32_t first = matrix->factor.start.data[c], end = matrix->factor.start.data[c + 1];
-        const double* diagonal = &matrix->factors.data[area * first];
-        double* y = right + size * c;
-        for (int32_t m = 0; m < size; ++m) {
-            for (int32_t r = m + 1; r < size; ++r) {
-                y[r] -= diagonal[size * m + r] * y[m];
+    int32_t size = matrix->size;
+    for (int32_t p = 0; p + 1 < matrix->panels.count; ++p) {
+        const Panel* panel = &matrix->panels.data[p];
+        int32_t width = size * panel->width, below = size * panel->below;
+        double *own = right + size * panel->column, *part = matrix->part.data;
+        std::copy(own, own + width, part);
+        std::fill(part + width, part + width + below, 0.0);
+        kiriPanel_SolveDown(&matrix->factors.data[panel->values], width + below, width, part);
+        std::copy(part, part + width, own);
+        part += width;
+        for (int32_t n = 0; n < panel->below; ++n) {
+            double* out = right + size * matrix->rows.data[panel->row + n];
+            for (int32_t k = 0; k < size; ++k) {
+                out[k] += *part++;
             }
-        }
-        for (int32_t b = first + 1; b < end; ++b) {
-            const double* block = &matrix->factors.data[area * b];
-            Out<size> below(right + size * matrix->factor.row.data[b]);
-            for (int32_t m = 0; m < size; ++m) {
-                below -= y[m] * In<size>(block + size * m);
-            }
-        }
-        for (int32_t m = 0; m < size; ++m) {
-            y[m] /= diagonal[(size + 1) * m];
         }
     }
 }
 
 /* L^T x = y in place. */
-template <int size> void SolveUp(kiriMatrix* matrix, double* y)
+void SolveUp(kiriMatrix* matrix, double* y)
 {
-    const int64_t area = size * size;
-    for (int32_t c = matrix->count - 1; c >= 0; --c) {
-        int32_t first = matrix->factor.start.data[c], end = matrix->factor.start.data[c + 1];
-        const double* diagonal = &matrix->factors.data[area * first];
-        double* x = y + size * c;
-        for (int32_t b = first + 1; b < end; ++b) {
-            const double *block = &matrix->factors.data[area * b], *below = y + size * matrix->factor.row.data[b];
-            for (int32_t m = 0; m < size; ++m) {
-                double sum = 0.0;
-                for (int32_t r = 0; r < size; ++r) {
-                    sum += block[size * m + r] * below[r];
-                }
-                x[m] -= sum;
-            }
+    int32_t size = matrix->size;
+    for (int32_t p = matrix->panels.count - 2; p >= 0; --p) {
+        const Panel* panel = &matrix->panels.data[p];
+        int32_t width = size * panel->width;
+        double *own = y + size * panel->column, *part = matrix->part.data;
+        std::copy(own, own + width, part);
+        for (int32_t n = 0; n < panel->below; ++n) {
+            const double* known = y + size * matrix->rows.data[panel->row + n];
+            std::copy(known, known + size, part + width + size * n);
         }
-        for (int32_t m = size - 1; m >= 0; --m) {
-            for (int32_t r = m + 1; r < size; ++r) {
-                x[m] -= diagonal[size * m + r] * x[r];
-            }
-        }
+        kiriPanel_SolveUp(&matrix->factors.data[panel->values], width + size * panel->below, width, part);
+        std::copy(part, part + width, own);
     }
-}
-
-bool FactorOnce(kiriMatrix* matrix)
-{
-    return matrix->size == 3 ? FactorAll<3>(matrix) : matrix->size == 6 ? FactorAll<6>(matrix) : FactorAll<12>(matrix);
-}
-
-template <int size> void SolveBoth(kiriMatrix* matrix)
-{
-    SolveDown<size>(matrix, matrix->right.data);
-    SolveUp<size>(matrix, matrix->right.data);
 }
 
 } // namespace
@@ -479,6 +506,7 @@ extern "C" kiriMatrix* kiriMatrix_Create(kiriMemory* memory, int32_t size)
     kiriMatrix* matrix = new (room) kiriMatrix();
     matrix->memory = memory;
     matrix->size = size;
+    matrix->hasLongVectors = kiriPanel_HasLongVectors();
     return matrix;
 }
 
@@ -493,12 +521,8 @@ extern "C" bool kiriMatrix_Shape(kiriMatrix* matrix, int32_t frameCount, const k
     } catch (...) {
         return false;
     }
-    if (!PlaceBlocks(matrix, pairs, pairCount) || !Eliminate(matrix) || !MakeRoomForBlocks(matrix)) {
-        return false;
-    }
-    CollectLeft(matrix);
-    FindSources(matrix);
-    return true;
+    return PlaceBlocks(matrix, pairs, pairCount) && Eliminate(matrix) && JoinColumns(matrix) && PlacePanels(matrix) &&
+           CollectLeft(matrix);
 }
 
 extern "C" int32_t kiriMatrix_FrameCount(const kiriMatrix* matrix)
@@ -544,6 +568,11 @@ extern "C" uint64_t kiriMatrix_Hash(const kiriMatrix* matrix)
     return hash;
 }
 
+extern "C" void kiriMatrix_RefuseLongVectors(kiriMatrix* matrix)
+{
+    matrix->hasLongVectors = false;
+}
+
 extern "C" void kiriMatrix_Clear(kiriMatrix* matrix)
 {
     std::fill(matrix->values.data, matrix->values.data + matrix->values.count, 0.0);
@@ -583,7 +612,8 @@ extern "C" void kiriMatrix_Solve(kiriMatrix* matrix, const double* right, double
     for (int32_t f = 0; f < matrix->count; ++f) {
         std::copy(right + size * f, right + size * (f + 1), matrix->right.data + size * matrix->place.data[f]);
     }
-    matrix->size == 3 ? SolveBoth<3>(matrix) : matrix->size == 6 ? SolveBoth<6>(matrix) : SolveBoth<12>(matrix);
+    SolveDown(matrix, matrix->right.data);
+    SolveUp(matrix, matrix->right.data);
     for (int32_t f = 0; f < matrix->count; ++f) {
         const double* from = matrix->right.data + size * matrix->place.data[f];
         std::copy(from, from + size, solution + size * f);

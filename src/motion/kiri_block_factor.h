@@ -37,6 +37,9 @@ bool kiriMatrix_Covers(const kiriMatrix* matrix, kiriPair pair);
 /* Of the pattern and the order of unknowns, on which the last bits of a solution depend. */
 uint64_t kiriMatrix_Hash(const kiriMatrix* matrix);
 
+/* Does without the long vectors of the processor, for tests: the bits are the same. */
+void kiriMatrix_RefuseLongVectors(kiriMatrix* matrix);
+
 void kiriMatrix_Clear(kiriMatrix* matrix);
 
 /* Adds a symmetric block of size x size to a frame's own. */
