@@ -108,6 +108,45 @@ static void TestCutWakes(void** state)
     Host_Stop(&host);
 }
 
+/* Sheets with a cut that waits for the budget go on sleeping, and wake one after another as their cuts take effect. */
+static void TestWaitingCutDoesNotWake(void** state)
+{
+    (void)state;
+    enum { SHEETS = 6 };
+    static const float from[2] = { 0.3f, 0.41f }, to[2] = { 0.7f, 0.43f };
+    const kiriBudget budget = { .triangles = KIRI_LEAST_TRIANGLES, .cells = 40, .samples = 20 };
+    Host host;
+    kiriSheet sheets[SHEETS];
+    kiriSheetDef def = Host_SmallDef();
+    Host_Start(&host);
+    OK(kiriWorld_SetGravity(host.world, (const float[3]){ 0.0f, 0.0f, 0.0f }));
+    for (int k = 0; k < SHEETS; ++k) {
+        sheets[k] = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    }
+    assert_true(TicksToSleep(&host, sheets[SHEETS - 1], 100) < 100);
+    OK(kiriWorld_SetBudget(host.world, &budget));
+    for (int k = 0; k < SHEETS; ++k) {
+        kiriCut cut;
+        OK(kiriBeginCut(host.world, sheets[k], from, &cut));
+        OK(kiriCut_Extend(host.world, cut, to, 1));
+        OK(kiriCut_End(host.world, cut));
+    }
+    int commits = 0, most = 0;
+    for (int tick = 0; tick < 1000 && commits < SHEETS; ++tick) {
+        kiriProfile profile;
+        Host_Tick(&host, dt, 2);
+        OK(kiriWorld_GetProfile(host.world, &profile));
+        commits += profile.commits;
+        most = profile.commits > most ? profile.commits : most;
+        for (int k = 0; k < SHEETS; ++k) {
+            assert_true(IsAwake(&host, sheets[k]) <= (k < commits));
+        }
+    }
+    assert_int_equal(commits, SHEETS);
+    assert_true(most < SHEETS);
+    Host_Stop(&host);
+}
+
 typedef enum Call {
     SAME_TARGET,
     SAME_GRAVITY,
@@ -388,7 +427,7 @@ int main(void)
         cmocka_unit_test(TestCallsWake),          cmocka_unit_test(TestHeldSheetSleeps),
         cmocka_unit_test(TestSheetOnFloorSleeps), cmocka_unit_test(TestCreepingFloorWakes),
         cmocka_unit_test(TestSlowDrift),          cmocka_unit_test(TestArguments),
-        cmocka_unit_test(TestSameCallsSameBits),
+        cmocka_unit_test(TestSameCallsSameBits),  cmocka_unit_test(TestWaitingCutDoesNotWake),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

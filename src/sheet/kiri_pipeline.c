@@ -33,6 +33,7 @@ static kiriProgress RunUpTo(kiriSheetData* sheet, int32_t end, kiriQuotas* quota
         }
         progress = pipeline[u->stage].run(sheet, quota);
         u->spent += quota->used - used;
+        quota->left = progress == KIRI_MORE ? 0 : quota->left; /* too little for the next item: nobody else gets it */
         if (progress == KIRI_DONE) {
             /* A blade may move outside the sheet, or along edges that are open already. */
             bool isOver = u->stage == KIRI_STAGE_CUT && !u->cut.meshChanged;
@@ -86,6 +87,14 @@ void kiriPipeline_Start(kiriSheetData* sheet)
         }
     }
     sheet->seen.fades.jump = sheet->seen.fades.move = 0.0;
+}
+
+bool kiriPipeline_CanRun(const kiriSheetData* sheet, const kiriQuotas* quotas)
+{
+    int32_t stage = sheet->update->stage;
+    KIRI_ASSERT(stage != KIRI_NONE);
+    return stage == KIRI_READY || pipeline[stage].quota == KIRI_QUOTA_NONE ||
+           quotas->of[pipeline[stage].quota].left > 0;
 }
 
 kiriProgress kiriPipeline_Run(kiriSheetData* sheet, kiriQuotas* quotas, const kiriWatch* watch)

@@ -33,6 +33,9 @@ bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end);
 /* At the start of a tick: takes the points that were given before one tick from the queue, when nothing is at hand. */
 void kiriPipeline_Start(kiriSheetData* sheet);
 
+/* Has the stage at hand a quota with something left? */
+bool kiriPipeline_CanRun(const kiriSheetData* sheet, const kiriQuotas* quotas);
+
 /* Carries the work at hand on as far as the quotas go. KIRI_DONE: it is ready to commit. KIRI_FAILED: abort it. */
 kiriProgress kiriPipeline_Run(kiriSheetData* sheet, kiriQuotas* quotas, const kiriWatch* watch);
 

@@ -102,7 +102,6 @@ void kiriView_TakeJump(kiriSheetData* sheet)
         BlendVertices(sheet);
         kiriFades_Take(&sheet->seen.fades, surface->exact.data, surface->vertexCount);
         TakePointJump(sheet);
-        sheet->seen.isElsewhere = false;
     }
 }
 

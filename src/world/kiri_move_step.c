@@ -122,9 +122,24 @@ static void MoveGroups(int32_t start, int32_t end, void* context)
 }
 
 /* In the order in which sheets are moved. */
+int32_t kiriMoves_SheetAt(const kiriWorld* world, int32_t turn, int32_t k)
+{
+    const kiriIndices* active = &world->active;
+    int32_t low = 0, high = active->count;
+    while (low < high) {
+        int32_t middle = low + (high - low) / 2;
+        if (active->data[middle] < turn) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return active->data[(low + k) % active->count];
+}
+
 static int32_t SheetAt(const kiriWorld* world, int32_t k)
 {
-    return (world->turn + k) % world->sheets.count;
+    return kiriMoves_SheetAt(world, world->turn, k);
 }
 
 /* From the first one on: as many as have enough systems whatever they take, and one at least. */
@@ -133,7 +148,7 @@ static int32_t EndOfWave(const MoveTask* task, int32_t first)
     const kiriWorld* world = task->world;
     int32_t end = first;
     int64_t most = 0;
-    while (end < world->sheets.count) {
+    while (end < world->active.count) {
         most += kiriMotion_MostSystems(world->sheets.data[SheetAt(world, end)], task->substeps);
         if (most > task->systems.left && end > first) {
             break;
@@ -167,7 +182,7 @@ static void ListGroups(kiriWorld* world, int32_t first, int32_t end)
 /* Sheets that systems are enough for move side by side; the others one after the other, each with what is left. */
 void kiriMoves_Run(kiriWorld* world, double dt, int32_t substeps, kiriQuota* systems)
 {
-    for (int32_t first = 0, end; first < world->sheets.count; first = end) {
+    for (int32_t first = 0, end; first < world->active.count; first = end) {
         MoveTask task = { world, dt, substeps, *systems };
         end = EndOfWave(&task, first);
         ListGroups(world, first, end);

@@ -197,19 +197,42 @@ static bool TouchAll(kiriWorld* world, kiriSheetData* sheet, const Around* aroun
     return ok;
 }
 
+static bool IsAnyMoving(const kiriWorld* world, double dt, double least)
+{
+    bool any = false;
+    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+        any |= IsMoving(world->obstacles.data[i], dt, least);
+    }
+    return any;
+}
+
+/* A sheet that sleeps may wake when a cut takes effect. */
+static bool FindTouchesOf(kiriWorld* world, kiriSheetData* sheet, double dt, double least)
+{
+    bool sleeps = sheet->rest.asleep && sheet->update->stage != KIRI_READY;
+    if (sleeps && !kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface)) {
+        return false;
+    }
+    Around around = MakeAround(world, sheet, dt);
+    sheet->rest.isStirred = sleeps && IsStirred(world, sheet, &around, dt, least);
+    return (sleeps && !sheet->rest.isStirred) || TouchAll(world, sheet, &around);
+}
+
 bool kiriObstacles_FindTouches(kiriWorld* world, double dt)
 {
+    if (world->obstacles.count == 0) {
+        return true;
+    }
     double least = LeastDrift(world);
-    bool ok = world->obstacles.count == 0 || SortObstacles(world, dt);
+    bool isAnyMoving = IsAnyMoving(world, dt, least), ok = SortObstacles(world, dt);
     world->obstacleSearch.memory = &world->memory;
     world->obstacleSearch.dt = dt;
     world->obstacleSearch.gravity = world->gravity;
-    for (int32_t i = 0; ok && world->obstacles.count > 0 && i < world->sheets.count; ++i) {
+    for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
         kiriSheetData* sheet = world->sheets.data[i];
-        bool sleeps = sheet->rest.asleep && !sheet->update->isBegun;
-        Around around = MakeAround(world, sheet, dt);
-        sheet->rest.isStirred = sleeps && IsStirred(world, sheet, &around, dt, least);
-        ok = (sleeps && !sheet->rest.isStirred) || TouchAll(world, sheet, &around);
+        if (isAnyMoving || !sheet->rest.asleep || sheet->update->stage == KIRI_READY) {
+            ok = FindTouchesOf(world, sheet, dt, least);
+        }
     }
     return ok;
 }
@@ -294,7 +317,7 @@ void kiriObstacles_TakeImpulses(const kiriWorld* world, const kiriSheetData* she
 
 void kiriObstacles_End(kiriWorld* world, double dt)
 {
-    double least = LeastDrift(world);
+    double least = world->obstacles.count > 0 ? LeastDrift(world) : 0.0;
     for (int32_t i = 0; i < world->obstacles.count; ++i) {
         kiriObstacleData* obstacle = world->obstacles.data[i];
         kiriObstacle_Advance(obstacle, dt);

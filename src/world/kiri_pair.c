@@ -64,7 +64,6 @@ static bool ListBodies(kiriWorld* world)
     bool ok = true;
     world->pairs.bodies.count = 0;
     for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
-        world->sheets.data[i]->probes.sheet = i;
         ok = !TakesPart(world->sheets.data[i]) || ListBodiesOf(world, world->sheets.data[i]);
     }
     return ok;
@@ -375,11 +374,11 @@ static bool SortFound(kiriWorld* world)
     return true;
 }
 
-static bool IsAnyAwake(const kiriPairs* pairs)
+static bool IsAnyAwake(const kiriWorld* world)
 {
     bool any = false;
-    for (int32_t i = 0; i < pairs->bodies.count; ++i) {
-        any |= !pairs->bodies.data[i].asleep;
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        any |= TakesPart(kiriWorld_Active(world, k)) && !kiriWorld_Active(world, k)->rest.asleep;
     }
     return any;
 }
@@ -387,10 +386,10 @@ static bool IsAnyAwake(const kiriPairs* pairs)
 bool kiriPairs_Find(kiriWorld* world, double dt)
 {
     kiriPairs* pairs = &world->pairs;
-    pairs->nears.count = pairs->found.count = pairs->next.count = 0;
-    return kiriArray_Reserve(&world->memory, &pairs->islands, world->sheets.count) && ListBodies(world) &&
-           (!IsAnyAwake(pairs) || LookAtAll(world, dt)) && KeepSleeping(world) && SortFound(world) &&
-           kiriPairs_FindTouches(world, dt);
+    pairs->nears.count = pairs->found.count = pairs->next.count = pairs->bodies.count = 0;
+    return kiriArray_Reserve(&world->memory, &pairs->islands, world->sheets.count) &&
+           (!IsAnyAwake(world) || (ListBodies(world) && LookAtAll(world, dt))) && KeepSleeping(world) &&
+           SortFound(world) && kiriPairs_FindTouches(world, dt);
 }
 
 /* ---- Sleep ---- */
@@ -427,8 +426,14 @@ void kiriPairs_JoinCalm(kiriWorld* world)
 {
     kiriPairs* pairs = &world->pairs;
     int32_t* parent = pairs->islands.data;
+    if (pairs->pairs.count == 0) {
+        return;
+    }
     KIRI_ASSERT(pairs->islands.capacity >= world->sheets.count);
     kiriUnion_Init(parent, world->sheets.count);
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        world->sheets.data[i]->probes.sheet = i;
+    }
     for (int32_t i = 0; i < pairs->pairs.count; ++i) {
         const kiriSheetData* upper = SheetOf(world, pairs->pairs.data[i].upper);
         const kiriSheetData* lower = SheetOf(world, pairs->pairs.data[i].lower);

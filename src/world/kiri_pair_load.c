@@ -15,8 +15,8 @@
 
 void kiriPairs_ApplyLoads(kiriWorld* world, double dt)
 {
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriSheetData* sheet = world->sheets.data[i];
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        kiriSheetData* sheet = kiriWorld_Active(world, k);
         for (int32_t f = 0; sheet->settings.touchesSheets && !sheet->rest.asleep && f < sheet->frames.count; ++f) {
             kiriFrameData* frame = &sheet->frames.data[f];
             frame->force = kiriVec3_AddScaled(frame->force, 1.0 / dt, frame->load.force);
@@ -148,10 +148,11 @@ static void SettleFrames(kiriSheetData* sheet, double dt)
 void kiriPairs_TakeLoads(kiriWorld* world, double dt)
 {
     FeelAll(world, dt);
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        if (world->sheets.data[i]->settings.touchesSheets && !world->sheets.data[i]->rest.asleep) {
-            FindSupport(world->sheets.data[i]);
-            SettleFrames(world->sheets.data[i], dt);
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        kiriSheetData* sheet = kiriWorld_Active(world, k);
+        if (sheet->settings.touchesSheets && !sheet->rest.asleep) {
+            FindSupport(sheet);
+            SettleFrames(sheet, dt);
         }
     }
 }

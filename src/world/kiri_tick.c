@@ -1,6 +1,7 @@
 #include "kiri_tick.h"
 
 #include "kiri_part.h"
+#include "../core/kiri_sort.h"
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_pipeline.h"
 #include "../sheet/kiri_seen.h"
@@ -44,26 +45,49 @@ static bool IsReady(const kiriSheetData* sheet)
     return sheet->update->stage == KIRI_READY;
 }
 
-/* ---- Updates ---- */
+/* ---- Which sheets ---- */
 
-/* The earliest tick, from this one on, before which points were given that are at hand now; -1 when there is none. */
-static int64_t NextStamp(const kiriWorld* world, int64_t from)
+/* A sheet that sleeps, has no cuts, touches nothing and has no pin on a body that may move is not looked at until it wakes
+   or is given something. */
+static bool IsIdle(const kiriWorld* world, const kiriSheetData* sheet)
 {
-    int64_t next = -1;
+    const kiriTouches* touches = &sheet->touches;
+    return sheet->rest.asleep && sheet->cuts.count == 0 && sheet->queue.count == 0 && sheet->contacts.count == 0 &&
+           touches->last.count == 0 && touches->found.count == 0 && touches->told.count == 0 &&
+           sheet->leaving.count == 0 && (sheet->pins.count == 0 || world->obstacles.count == 0) &&
+           !sheet->seen.isElsewhere && sheet->seen.fades.jump == 0.0 && sheet->seen.fades.move == 0.0;
+}
+
+static void ListActive(kiriWorld* world)
+{
+    world->active.count = 0;
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        const kiriUpdate* u = world->sheets.data[i]->update;
-        if (u->stage != KIRI_NONE && u->cut.stamp >= from && (next < 0 || u->cut.stamp < next)) {
-            next = u->cut.stamp;
+        if (!IsIdle(world, world->sheets.data[i])) {
+            world->active.data[world->active.count++] = i;
         }
     }
-    return next;
+}
+
+/* ---- Updates ---- */
+
+/* First come, first served; of those that came together, in the order of sheets. */
+static bool CameFirst(const void* context, int32_t a, int32_t b)
+{
+    const kiriWorld* world = context;
+    int64_t one = world->sheets.data[a]->update->cut.stamp, other = world->sheets.data[b]->update->cut.stamp;
+    return one < other || (one == other && a < b);
 }
 
 static void StartAll(kiriWorld* world)
 {
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriPipeline_Start(world->sheets.data[i]);
+    world->atWork.count = 0;
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        kiriPipeline_Start(kiriWorld_Active(world, k));
+        if (kiriWorld_Active(world, k)->update->stage != KIRI_NONE) {
+            world->atWork.data[world->atWork.count++] = world->active.data[k];
+        }
     }
+    kiriSort(world->atWork.data, world->atWork.count, CameFirst, world);
 }
 
 /* While the mesh is as it is seen. False for memory. */
@@ -73,26 +97,22 @@ static bool FindPairs(kiriWorld* world, double dt)
     return kiriPairs_Find(world, dt);
 }
 
-/* First come, first served; of those that came together, in the order of sheets. False for memory. */
+/* False for memory. */
 static bool UpdateAll(kiriWorld* world, kiriQuotas* quotas)
 {
     const kiriWatch watch = { EnterStage, world };
-    for (int64_t stamp = NextStamp(world, 0); stamp >= 0; stamp = NextStamp(world, stamp + 1)) {
-        for (int32_t i = 0; i < world->sheets.count; ++i) {
-            kiriSheetData* sheet = world->sheets.data[i];
-            if (sheet->update->stage != KIRI_NONE && sheet->update->cut.stamp == stamp &&
-                kiriPipeline_Run(sheet, quotas, &watch) == KIRI_FAILED) {
-                return false;
-            }
-        }
+    bool ok = true;
+    for (int32_t k = 0; ok && k < world->atWork.count; ++k) {
+        kiriSheetData* sheet = world->sheets.data[world->atWork.data[k]];
+        ok = !kiriPipeline_CanRun(sheet, quotas) || kiriPipeline_Run(sheet, quotas, &watch) != KIRI_FAILED;
     }
-    return true;
+    return ok;
 }
 
 static void AbortAll(kiriWorld* world)
 {
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriPipeline_Abort(world->sheets.data[i]);
+    for (int32_t k = 0; k < world->atWork.count; ++k) {
+        kiriPipeline_Abort(world->sheets.data[world->atWork.data[k]]);
     }
 }
 
@@ -104,27 +124,29 @@ static bool FindTouches(kiriWorld* world, double dt)
 {
     bool ok = true;
     EnterStage(world, KIRI_STAGE_CONTACT);
-    for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
-        ok = kiriTouches_Begin(world->sheets.data[i]);
+    for (int32_t k = 0; ok && k < world->active.count; ++k) {
+        ok = kiriTouches_Begin(kiriWorld_Active(world, k));
     }
     ok = ok && kiriObstacles_FindTouches(world, dt);
     ok = ok && kiriPairs_AddTouches(world, dt);
-    for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
-        ok = kiriTouches_Reserve(world->sheets.data[i]);
-        world->profile.contacts += world->sheets.data[i]->touches.found.count;
+    ListActive(world); /* something may have come near a sheet that slept */
+    for (int32_t k = 0; ok && k < world->active.count; ++k) {
+        ok = kiriTouches_Reserve(kiriWorld_Active(world, k));
+        world->profile.contacts += kiriWorld_Active(world, k)->touches.found.count;
     }
     return ok;
 }
 
 /* ---- Commits ---- */
 
-/* Room for the ids and events of the tick. */
+/* Room for the ids and events of the tick. Of each sheet that wakes in it a pin may break, too. */
 static kiriResult ReserveRoom(kiriWorld* world)
 {
-    int64_t frames = 0, events = 2 * (int64_t)world->sheets.count;
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriSheetData* sheet = world->sheets.data[i];
-        events += (int64_t)sheet->cuts.count + sheet->pins.count + sheet->leaving.count;
+    int64_t frames = 0,
+            events = 2 * (int64_t)world->sheets.count + world->cutIds.slots.count + world->pinIds.slots.count;
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        kiriSheetData* sheet = kiriWorld_Active(world, k);
+        events += sheet->leaving.count;
         if (IsReady(sheet) && sheet->update->cut.meshChanged) {
             frames += sheet->update->placing.sites.count - sheet->frames.count;
             events += sheet->update->next.pieces.count;
@@ -163,6 +185,7 @@ static void CommitUpdate(kiriWorld* world, kiriSheetData* sheet)
 {
     int32_t oldFrames = sheet->frames.count;
     kiriStage_Commit(sheet);
+    kiriMotion_Wake(sheet);
     CountWork(&world->profile, sheet);
     for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
         bool isGone = kiriSheet_IsGone(sheet, i);
@@ -214,17 +237,16 @@ static void TakeJumps(int32_t start, int32_t end, void* context)
 {
     const kiriWorld* world = context;
     for (int32_t i = start; i < end; ++i) {
-        kiriView_TakeJump(world->sheets.data[i]);
+        kiriView_TakeJump(kiriWorld_Active(world, i));
     }
 }
 
 static void CommitAll(kiriWorld* world)
 {
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriSheetData* sheet = world->sheets.data[i];
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        kiriSheetData* sheet = kiriWorld_Active(world, k);
         if (sheet->update->isBegun) {
             kiriStage_CommitMesh(sheet);
-            kiriMotion_Wake(sheet);
         }
         if (IsReady(sheet)) {
             FinishUpdate(world, sheet);
@@ -232,15 +254,15 @@ static void CommitAll(kiriWorld* world)
         FinishCuts(world, sheet);
     }
     EnterStage(world, KIRI_STAGE_SKIN);
-    kiriTasks_Run(&world->tasks, TakeJumps, world->sheets.count, 1, world);
+    kiriTasks_Run(&world->tasks, TakeJumps, world->active.count, 1, world);
 }
 
 /* Says which sheets have work left, and where it stands. */
 static bool ReportDeferred(kiriWorld* world)
 {
     bool any = false;
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        const kiriSheetData* sheet = world->sheets.data[i];
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        const kiriSheetData* sheet = kiriWorld_Active(world, k);
         if (sheet->queue.count > 0) {
             kiriEvent* event = AddEvent(world, KIRI_EVENT_DEFERRED, sheet);
             event->stage = sheet->update->stage == KIRI_NONE ? KIRI_STAGE_CUT : sheet->update->stage;
@@ -255,10 +277,10 @@ static bool ReportDeferred(kiriWorld* world)
 static kiriResult ReportMoves(kiriWorld* world, kiriResult result)
 {
     bool isLate = false;
-    int32_t count = world->sheets.count, first = world->turn;
+    int32_t turn = world->turn;
     world->turn = 0;
-    for (int32_t k = 0; k < count; ++k) {
-        int32_t i = (first + k) % count;
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        int32_t i = kiriMoves_SheetAt(world, turn, k);
         kiriProgress progress = world->moves.of.data[i].progress;
         if (progress == KIRI_FAILED) {
             AddEvent(world, KIRI_EVENT_DIVERGED, world->sheets.data[i]);
@@ -320,9 +342,11 @@ static void SkinSheets(int32_t start, int32_t end, void* context)
 {
     const SkinTask* task = context;
     for (int32_t i = start; i < end; ++i) {
-        kiriSheetData* sheet = task->world->sheets.data[i];
+        kiriSheetData* sheet = kiriWorld_Active(task->world, i);
         if (!sheet->rest.asleep) {
             kiriView_Fade(sheet, task->dt);
+        }
+        if (!sheet->rest.asleep || sheet->seen.isElsewhere) {
             kiriView_WritePositions(sheet);
         }
         kiriBounds_Keep(sheet->seen.bounds, &sheet->seen.surface);
@@ -333,9 +357,9 @@ static void SkinAll(kiriWorld* world, double dt)
 {
     SkinTask task = { world, dt };
     EnterStage(world, KIRI_STAGE_SKIN);
-    kiriTasks_Run(&world->tasks, SkinSheets, world->sheets.count, 1, &task);
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriSheetData* sheet = world->sheets.data[i];
+    kiriTasks_Run(&world->tasks, SkinSheets, world->active.count, 1, &task);
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        kiriSheetData* sheet = kiriWorld_Active(world, k);
         if (!sheet->rest.asleep) {
             kiriView_Trim(sheet);
         }
@@ -346,8 +370,8 @@ static void SkinAll(kiriWorld* world, double dt)
 /* Pieces that the host has taken out of a sheet while work was at hand go now that it is done. */
 static void FinishParting(kiriWorld* world)
 {
-    for (int32_t i = 0, count = world->sheets.count; i < count; ++i) {
-        kiriSheetData* sheet = world->sheets.data[i];
+    for (int32_t i = 0, count = world->active.count; i < count; ++i) {
+        kiriSheetData* sheet = kiriWorld_Active(world, i);
         for (int32_t k = 0, made = kiriParts_Finish(world, sheet); k < made; ++k) {
             const kiriSheetData* part = kiriPool_Find(&world->frameIds, sheet->leaving.data[k])->owner;
             kiriEvent* event = AddEvent(world, KIRI_EVENT_PIECE_DETACHED, part);
@@ -374,6 +398,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     kiriProfile last = world->profile;
     kiriMemory_FreeAll(&world->retired);
     memset(&world->profile, 0, sizeof(world->profile));
+    ListActive(world);
     StartAll(world);
     bool hasRoom =
         FindPairs(world, dt) && UpdateAll(world, &quotas) && FindTouches(world, dt) && kiriMoves_Prepare(world);
@@ -383,10 +408,11 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
         kiriPairs_Commit(world);
         CommitAll(world);
         kiriObstacles_Begin(world);
+        ListActive(world); /* with what woke */
         result = SolveAll(world, dt, substeps, &quotas.of[KIRI_QUOTA_ITERATIONS]);
         kiriObstacles_End(world, dt);
-        for (int32_t i = 0; i < world->sheets.count; ++i) {
-            BreakPins(world, world->sheets.data[i]);
+        for (int32_t k = 0; k < world->active.count; ++k) {
+            BreakPins(world, kiriWorld_Active(world, k));
         }
         SkinAll(world, dt);
         FinishParting(world);

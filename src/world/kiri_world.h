@@ -42,7 +42,8 @@ struct kiriWorld {
     int64_t ticks;
     int32_t turn; /* the sheet that is moved first: the one for which the last tick had no iterations left */
     kiriPool sheetIds, cutIds, frameIds, pinIds, obstacleIds, bladeIds;
-    KIRI_ARRAY(kiriSheetData*) sheets;       /* in the order of their making */
+    KIRI_ARRAY(kiriSheetData*) sheets; /* in the order of their making; */
+    kiriIndices active, atWork;        /* of those that the tick at hand looks at; of those with a cut to work on */
     KIRI_ARRAY(kiriObstacleData*) obstacles; /* the same */
     KIRI_ARRAY(struct kiriBladeData*) blades;
     kiriIndices obstacleOrder; /* by where they begin along x */
@@ -55,6 +56,11 @@ struct kiriWorld {
     double stageStart;
     char errorLine[256]; /* of the last function that changes the world */
 };
+
+static inline kiriSheetData* kiriWorld_Active(const kiriWorld* world, int32_t k)
+{
+    return world->sheets.data[world->active.data[k]];
+}
 
 /* Makes a sheet of the def, which has been checked, and gives it and its frames their ids. *why says what is wrong, or is
    null where the result says it all. */
