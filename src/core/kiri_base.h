@@ -104,6 +104,16 @@ static inline bool kiriQuota_Take(kiriQuota* quota, int64_t items)
     return true;
 }
 
+/* Takes of what is due as much as is left. True when all of it is paid. Unlike kiriQuota_Take it never exceeds a limit. */
+static inline bool kiriQuota_Pay(kiriQuota* quota, int64_t* due)
+{
+    int64_t paid = *due < quota->left ? *due : quota->left;
+    quota->left -= paid;
+    quota->used += paid;
+    *due -= paid;
+    return *due == 0;
+}
+
 KIRI_C_END
 
 #endif

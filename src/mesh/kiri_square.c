@@ -375,6 +375,15 @@ int32_t kiriSquares_At(const kiriSquares* squares, kiriLatticePoint p)
     return row * squares->columns + column;
 }
 
+int32_t kiriSquares_CountNodes(const kiriSquares* squares, int32_t square)
+{
+    int32_t count = 0;
+    for (int32_t n = squares->head[square]; n != KIRI_NONE; n = squares->nodes.data[n].next) {
+        ++count;
+    }
+    return count;
+}
+
 kiriLatticePoint kiriSquares_Corner(const kiriSquares* squares, int32_t square)
 {
     return CornerAt(squares, square % squares->columns, square / squares->columns);

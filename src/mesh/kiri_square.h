@@ -75,6 +75,9 @@ bool kiriSquares_RunsThrough(const kiriSquares* squares, int32_t square, kiriLat
 /* The square around a vertex position, or KIRI_NONE outside the grid. */
 int32_t kiriSquares_At(const kiriSquares* squares, kiriLatticePoint p);
 
+/* How many triangles overlap a square. */
+int32_t kiriSquares_CountNodes(const kiriSquares* squares, int32_t square);
+
 /* The lower corner of a square (odd coordinates). */
 kiriLatticePoint kiriSquares_Corner(const kiriSquares* squares, int32_t square);
 

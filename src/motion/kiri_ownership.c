@@ -112,15 +112,6 @@ static bool StageTransfers(kiriOwnership* ownership, kiriMemory* memory, const k
     return true;
 }
 
-static int32_t CountNodes(const kiriMeshData* mesh, int32_t square)
-{
-    int32_t count = 0;
-    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
-        ++count;
-    }
-    return count;
-}
-
 /* A square without material has no cells to own. */
 static bool StageOwners(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                         const kiriRegions* regions, int32_t square)
@@ -131,7 +122,7 @@ static bool StageOwners(kiriOwnership* ownership, kiriMemory* memory, const kiri
     }
     kiriStagedOwners staged = { square, { regions->field.owner.data[cell], { 0, 0 } } };
     bool isDivided = grid->cells.data[cell].next != KIRI_NONE;
-    int32_t count = isDivided ? CountNodes(mesh, square) : 0;
+    int32_t count = isDivided ? kiriSquares_CountNodes(&mesh->squares, square) : 0;
     if (!kiriArray_Reserve(memory, &ownership->staged, (int64_t)ownership->staged.count + 1) ||
         !kiriSpan_Resize(&staged.owners.parts, &ownership->spans, memory, &ownership->triangleOwners,
                          sizeof(kiriTriangleOwner), count)) {
@@ -158,7 +149,8 @@ static void DropStagedOwners(kiriOwnership* ownership)
     for (int32_t k = 0; k < ownership->staged.count; ++k) {
         FreeParts(ownership, &ownership->staged.data[k].owners.parts);
     }
-    ownership->staged.count = ownership->transfers.count = 0;
+    ownership->staged.count = ownership->transfers.count = ownership->next = 0;
+    ownership->due = 0;
 }
 
 static bool ClearTransfers(kiriOwnership* ownership, kiriMemory* memory, int32_t frameCount)
@@ -173,19 +165,41 @@ static bool ClearTransfers(kiriOwnership* ownership, kiriMemory* memory, int32_t
     return true;
 }
 
-bool kiriOwnership_Stage(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                         const kiriRegions* regions, bool isScratch)
+static bool StartStaging(kiriOwnership* ownership, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount,
+                         bool isScratch)
 {
-    bool ok = ReserveOwners(ownership, memory, mesh) && ClearTransfers(ownership, memory, regions->material.count);
+    bool ok = ReserveOwners(ownership, memory, mesh) && ClearTransfers(ownership, memory, frameCount);
     for (int32_t s = 0; ok && isScratch && s < ownership->isDirty.count; ++s) {
         ok = NoteSquare(ownership, memory, s);
     }
-    for (int32_t k = 0; ok && k < ownership->dirty.count; ++k) {
-        int32_t square = ownership->dirty.data[k];
-        ok = StageTransfers(ownership, memory, grid, mesh, regions, square) &&
-             StageOwners(ownership, memory, grid, mesh, regions, square);
-    }
     return ok;
+}
+
+static int64_t ItemsOfSquare(const kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+{
+    int32_t cell = grid->squareCell.data[square];
+    bool isDivided = cell != KIRI_NONE && grid->cells.data[cell].next != KIRI_NONE;
+    return 1 + (isDivided ? kiriSquares_CountNodes(&mesh->squares, square) / 8 : 0);
+}
+
+kiriProgress kiriOwnership_Stage(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid,
+                                 const kiriMeshData* mesh, const kiriRegions* regions, bool isScratch, kiriQuota* quota)
+{
+    if (ownership->next == 0 && !StartStaging(ownership, memory, mesh, regions->material.count, isScratch)) {
+        return KIRI_FAILED;
+    }
+    while (kiriQuota_Pay(quota, &ownership->due)) {
+        if (ownership->next == ownership->dirty.count) {
+            return KIRI_DONE;
+        }
+        int32_t square = ownership->dirty.data[ownership->next++];
+        if (!StageTransfers(ownership, memory, grid, mesh, regions, square) ||
+            !StageOwners(ownership, memory, grid, mesh, regions, square)) {
+            return KIRI_FAILED;
+        }
+        ownership->due = ItemsOfSquare(grid, mesh, square);
+    }
+    return KIRI_MORE;
 }
 
 static void ClearDirtySquares(kiriOwnership* ownership)
@@ -209,7 +223,7 @@ void kiriOwnership_Commit(kiriOwnership* ownership, const kiriMeshData* mesh)
         FreeParts(ownership, &owners->parts);
         *owners = ownership->staged.data[k].owners;
     }
-    ownership->staged.count = ownership->transfers.count = 0;
+    ownership->staged.count = ownership->transfers.count = ownership->next = 0;
     ownership->triangleCount = mesh->triangles.count;
     ClearDirtySquares(ownership);
 }

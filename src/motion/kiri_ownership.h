@@ -40,6 +40,8 @@ typedef struct kiriOwnership {
     /* Of the update at hand. */
     KIRI_ARRAY(int32_t) dirty;   /* squares in which owners may have changed, each once */
     KIRI_ARRAY(uint8_t) isDirty; /* of each square */
+    int32_t next;                /* in `dirty`: the next to stage; 0: nothing is staged */
+    int64_t due;                 /* items of the one before it that are not paid yet */
     KIRI_ARRAY(kiriStagedOwners) staged;
     KIRI_ARRAY(kiriTransfer) transfers;
     KIRI_ARRAY(int32_t) first; /* of each frame: the first transfer to it, or KIRI_NONE */
@@ -63,10 +65,11 @@ void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const ki
                         const kiriRegions* regions, const kiriKeep* triangles, const kiriKeep* frames,
                         const int32_t* of, int32_t count);
 
-/* Finds what changes owner when the regions come in force: in dirty squares, or in all where `isScratch`. False for
-   memory. */
-bool kiriOwnership_Stage(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                         const kiriRegions* regions, bool isScratch);
+/* Finds what changes owner when the regions come in force: in dirty squares, or in all where `isScratch`. An item of the
+   quota is a square; its triangles count where several cells share it. After KIRI_MORE it goes on where it was. */
+kiriProgress kiriOwnership_Stage(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid,
+                                 const kiriMeshData* mesh, const kiriRegions* regions, bool isScratch,
+                                 kiriQuota* quota);
 
 /* Forgets what is dirty and staged. */
 void kiriOwnership_Drop(kiriOwnership* ownership);

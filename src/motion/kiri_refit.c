@@ -2,15 +2,15 @@
 
 #include <string.h>
 
-bool kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                     const kiriRegions* regions, bool isScratch)
+kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                             const kiriRegions* regions, bool isScratch, kiriQuota* quota)
 {
-    int32_t fits = 0;
-    bool ok = kiriOwnership_Stage(&refit->ownership, memory, grid, mesh, regions, isScratch);
-    for (int32_t f = 0; ok && f < refit->ownership.first.count; ++f) {
-        fits += refit->ownership.first.data[f] != KIRI_NONE;
+    kiriProgress progress = kiriOwnership_Stage(&refit->ownership, memory, grid, mesh, regions, isScratch, quota);
+    refit->most = 0;
+    for (int32_t f = 0; progress == KIRI_DONE && f < refit->ownership.first.count; ++f) {
+        refit->most += refit->ownership.first.data[f] != KIRI_NONE;
     }
-    return ok && kiriArray_Reserve(memory, &refit->fits, fits);
+    return kiriArray_Reserve(memory, &refit->fits, refit->most) ? progress : KIRI_FAILED;
 }
 
 void kiriRefit_Drop(kiriRefit* refit)

@@ -21,11 +21,12 @@ typedef struct kiriFit {
 typedef struct kiriRefit {
     kiriOwnership ownership;
     KIRI_ARRAY(kiriFit) fits;
+    int32_t most; /* fits that the commit will make */
 } kiriRefit;
 
 /* As kiriOwnership_Stage; and room for the fits. */
-bool kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                     const kiriRegions* regions, bool isScratch);
+kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                             const kiriRegions* regions, bool isScratch, kiriQuota* quota);
 
 /* Forgets what is dirty, staged and fitted. */
 void kiriRefit_Drop(kiriRefit* refit);

@@ -136,9 +136,8 @@ static void StartFrame(kiriSheetData* sheet, const kiriSheetDef* def, int32_t in
     kiriSite site = sheet->update->placing.sites.data[index];
     kiriFrameData* frame = &sheet->frames.data[index];
     memset(frame, 0, sizeof(*frame));
-    frame->anchor = def->framePoints != NULL && index < def->frameCount
-                        ? kiriMesh_Snap(&sheet->mesh, site.at)
-                        : kiriGrid_Anchor(&sheet->grid, &sheet->mesh, site.cell);
+    frame->anchor = def->framePoints != NULL && index < def->frameCount ? kiriMesh_Snap(&sheet->mesh, site.at)
+                                                                        : sheet->update->newFrames.data[index].anchor;
     frame->center = site.at;
     frame->A = sheet->settings.mechanics.axes;
     kiriVec2 rest = kiriVec2_Add(sheet->mesh.origin, site.at);

@@ -14,16 +14,15 @@ static uint64_t PieceDataAt(const kiriSheetData* sheet, int32_t triangle)
 
 /* A frame that appears takes its motion from the surface: position, velocity, and the rotation nearest to its slope; an
    affine frame the slope itself. */
-static kiriFrameData NewFrame(const kiriSheetData* sheet, kiriSite site)
+static kiriFrameData MakeFrame(const kiriSheetData* sheet, const kiriNewFrame* from)
 {
     kiriFrameData frame;
     memset(&frame, 0, sizeof(frame));
-    frame.anchor = kiriGrid_Anchor(&sheet->grid, &sheet->mesh, site.cell);
+    frame.anchor = from->anchor;
     frame.center = kiriMesh_Local(&sheet->mesh, frame.anchor);
-    int32_t triangle = kiriMesh_Locate(&sheet->mesh, frame.anchor);
-    triangle = triangle == KIRI_NONE ? sheet->grid.cells.data[site.cell].triangle : triangle;
-    kiriMotion motion = kiriSkin_Motion(&sheet->vertexSkin, sheet->frames.data, &sheet->mesh, triangle, frame.anchor);
-    frame.pieceData = PieceDataAt(sheet, triangle);
+    kiriMotion motion =
+        kiriSkin_Motion(&sheet->vertexSkin, sheet->frames.data, &sheet->mesh, from->triangle, frame.anchor);
+    frame.pieceData = PieceDataAt(sheet, from->triangle);
     frame.x = motion.x;
     frame.velocity = motion.velocity;
     if (sheet->settings.mechanics.model == KIRI_MODEL_LINKS) {
@@ -81,8 +80,9 @@ static void CommitFrames(kiriSheetData* sheet)
 {
     const kiriUpdate* u = sheet->update;
     double densityPerArea = (double)sheet->settings.material.density * sheet->settings.material.thickness;
+    int32_t firstNew = u->placing.sites.count - u->newFrames.count; /* of a sheet that is being made they are there */
     for (int32_t i = sheet->frames.count; i < u->placing.sites.count; ++i) {
-        sheet->frames.data[i] = NewFrame(sheet, u->placing.sites.data[i]);
+        sheet->frames.data[i] = MakeFrame(sheet, &u->newFrames.data[i - firstNew]);
     }
     FitFrames(sheet, sheet->frames.count);
     sheet->frames.count = u->placing.sites.count;

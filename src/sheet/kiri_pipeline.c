@@ -17,7 +17,7 @@ static const PipelineStage pipeline[KIRI_READY] = {
     { KIRI_QUOTA_CELLS, kiriStage_Regions },       /* section 5: frames for pieces that have none */
     { KIRI_QUOTA_CELLS, kiriStage_Shape },         /* section 4.1, algorithm 2; re-sampling of section 5 */
     { KIRI_QUOTA_SAMPLES, kiriStage_Samples },     /* section 6 */
-    { KIRI_QUOTA_NONE, kiriStage_Constants },      /* mass, links, the pattern of the matrix */
+    { KIRI_QUOTA_SAMPLES, kiriStage_Constants },   /* owners of material, new frames, the pattern of the matrix */
 };
 
 static kiriProgress RunUpTo(kiriSheetData* sheet, int32_t end, kiriQuotas* quotas, const kiriWatch* watch)
@@ -93,8 +93,7 @@ bool kiriPipeline_CanRun(const kiriSheetData* sheet, const kiriQuotas* quotas)
 {
     int32_t stage = sheet->update->stage;
     KIRI_ASSERT(stage != KIRI_NONE);
-    return stage == KIRI_READY || pipeline[stage].quota == KIRI_QUOTA_NONE ||
-           quotas->of[pipeline[stage].quota].left > 0;
+    return stage == KIRI_READY || quotas->of[pipeline[stage].quota].left > 0;
 }
 
 kiriProgress kiriPipeline_Run(kiriSheetData* sheet, kiriQuotas* quotas, const kiriWatch* watch)

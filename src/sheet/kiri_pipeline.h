@@ -6,14 +6,7 @@
 
 KIRI_C_BEGIN
 
-enum {
-    KIRI_QUOTA_TRIANGLES,
-    KIRI_QUOTA_CELLS,
-    KIRI_QUOTA_SAMPLES,
-    KIRI_QUOTA_ITERATIONS,
-    KIRI_QUOTA_NONE, /* of a stage that does not count its items */
-    KIRI_QUOTA_COUNT
-};
+enum { KIRI_QUOTA_TRIANGLES, KIRI_QUOTA_CELLS, KIRI_QUOTA_SAMPLES, KIRI_QUOTA_ITERATIONS, KIRI_QUOTA_COUNT };
 
 /* What is left of the budget in this tick. */
 typedef struct kiriQuotas {

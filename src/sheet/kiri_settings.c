@@ -78,7 +78,7 @@ static bool AreSameSettings(const kiriSheetSettings* a, const kiriSheetSettings*
 }
 
 /* The solver counts corners only where Poisson's ratio is above 0. What it had staged for an update is staged again
-   before the commit: stages end within a tick. */
+   before the commit: PrepareCommit and the commit are of one tick. */
 static bool StageSolver(kiriSheetData* sheet, const kiriSheetSettings* given)
 {
     kiriSystem system;

@@ -1,6 +1,5 @@
 #include "kiri_stages.h"
 
-#include "../motion/kiri_affine.h"
 #include "kiri_piece.h"
 #include "kiri_pin.h"
 #include "kiri_seen.h"
@@ -297,79 +296,18 @@ static kiriProgress WeighPoints(kiriSheetData* sheet, kiriQuota* samples)
                                                                                                 : KIRI_FAILED;
 }
 
-kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples)
+kiriProgress kiriStage_RunSteps(kiriSheetData* sheet, kiriQuota* quota, kiriStageStep* const* steps, int32_t count)
 {
-    static kiriProgress (*const steps[])(kiriSheetData*, kiriQuota*) = { BeginSamples, WeighVertices, WeighPoints,
-                                                                         PlaceCollisionPoints };
     kiriProgress progress = KIRI_DONE;
-    while (progress == KIRI_DONE && sheet->update->step < (int32_t)(sizeof(steps) / sizeof(steps[0]))) {
-        progress = steps[sheet->update->step](sheet, samples);
+    while (progress == KIRI_DONE && sheet->update->step < count) {
+        progress = steps[sheet->update->step](sheet, quota);
         sheet->update->step += progress == KIRI_DONE;
     }
     return progress;
 }
 
-/* ---- Constants --------------------------------------------------------------------------------------------------- */
-
-/* What affine frames need beside links. */
-static bool BuildAreaElements(kiriSheetData* sheet)
+kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples)
 {
-    kiriUpdate* u = sheet->update;
-    bool planar = sheet->settings.mechanics.planar;
-    switch (sheet->settings.mechanics.model) {
-    case KIRI_MODEL_AFFINE:
-        return kiriAffine_Build(&u->next.areaElements, sheet->memory, sheet->links.next.data, sheet->links.next.count,
-                                u->material.data, u->placing.sites.count, planar);
-    case KIRI_MODEL_POINTS:
-        return kiriIntegration_Build(&u->next.areaElements, &u->integration, sheet->memory, &sheet->grid, &sheet->mesh,
-                                     &sheet->shape, u->material.data, sheet->settings.integrationPoints,
-                                     sheet->settings.integrationOrder, planar);
-    default:
-        return true;
-    }
-}
-
-static bool ReservePoints(kiriSheetData* sheet)
-{
-    const kiriUpdate* u = sheet->update;
-    int64_t need = (int64_t)sheet->points.count + u->samples.newPoints.count;
-    return kiriArray_Reserve(sheet->memory, &sheet->points, need) &&
-           kiriPlaces_Reserve(&sheet->pointPlaces, sheet->memory, &sheet->mesh, need) &&
-           kiriView_Resize(sheet, sheet->update->placing.sites.count, (int32_t)need);
-}
-
-static int32_t Larger(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
-
-bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount)
-{
-    const kiriUpdate* u = sheet->update;
-    kiriSystem next;
-    memset(&next, 0, sizeof(next));
-    next.mechanics = sheet->settings.mechanics;
-    next.material = sheet->settings.material;
-    next.frameCount = frameCount;
-    next.links = sheet->links.next.data;
-    next.linkCount = sheet->links.next.count;
-    next.corners = sheet->links.nextCorners.data;
-    next.cornerCount = sheet->links.nextCorners.count;
-    next.areaElements = &u->next.areaElements;
-    return kiriSolver_Stage(sheet->solver, &next, u->next.framePiece.data, u->next.pieces.count);
-}
-
-kiriProgress kiriStage_Constants(kiriSheetData* sheet, kiriQuota* none)
-{
-    kiriUpdate* u = sheet->update;
-    (void)none;
-    bool ok = (!kiriSheet_KeepsStrains(sheet) ||
-               kiriStrainOffsets_Reserve(&sheet->strainOffsets, sheet->memory,
-                                         Larger(sheet->links.next.count, sheet->links.links.count),
-                                         u->placing.sites.count)) &&
-              BuildAreaElements(sheet) && kiriPins_Stage(sheet) && ReservePoints(sheet) &&
-              kiriRefit_Stage(&u->refit, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, u->isScratch) &&
-              kiriArray_Reserve(sheet->memory, &sheet->frames, u->placing.sites.count) &&
-              kiriStage_Solver(sheet, u->placing.sites.count);
-    return ok ? KIRI_DONE : KIRI_FAILED;
+    static kiriStageStep* const steps[] = { BeginSamples, WeighVertices, WeighPoints, PlaceCollisionPoints };
+    return kiriStage_RunSteps(sheet, samples, steps, (int32_t)(sizeof(steps) / sizeof(steps[0])));
 }

@@ -12,7 +12,11 @@ kiriProgress kiriStage_Grid(kiriSheetData* sheet, kiriQuota* cells);
 kiriProgress kiriStage_Regions(kiriSheetData* sheet, kiriQuota* cells);
 kiriProgress kiriStage_Shape(kiriSheetData* sheet, kiriQuota* cells);
 kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples);
-kiriProgress kiriStage_Constants(kiriSheetData* sheet, kiriQuota* none);
+kiriProgress kiriStage_Constants(kiriSheetData* sheet, kiriQuota* samples);
+
+/* A stage in steps: goes on with sheet->update->step, which starts with 0. */
+typedef kiriProgress kiriStageStep(kiriSheetData* sheet, kiriQuota* quota);
+kiriProgress kiriStage_RunSteps(kiriSheetData* sheet, kiriQuota* quota, kiriStageStep* const* steps, int32_t count);
 
 /* Stages the solver for so many frames, with the links and the layout that are staged. False for memory. */
 bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount);

@@ -39,6 +39,12 @@ typedef struct kiriSampleWork {
     KIRI_ARRAY(kiriSample) movedPoints; /* `frame` is the index of a point, `cell` where it is now */
 } kiriSampleWork;
 
+/* A frame that appears with the commit. */
+typedef struct kiriNewFrame {
+    kiriLatticePoint anchor;
+    int32_t triangle; /* that it takes its motion from */
+} kiriNewFrame;
+
 /* What a commit has changed, for the profile. */
 typedef struct kiriCommitCounts {
     int32_t cells, weights, vertices, points, links;
@@ -66,6 +72,8 @@ typedef struct kiriUpdate {
     KIRI_ARRAY(kiriMoments) material; /* of each frame's region */
     kiriSampleWork samples;
     kiriRefit refit;
+    int64_t due;                        /* items of the step at hand that are not paid yet */
+    KIRI_ARRAY(kiriNewFrame) newFrames; /* in the order of their sites */
     kiriIntegrationWork integration;
 
     /* Staged for the commit, beside links and weights. */
