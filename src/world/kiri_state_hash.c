@@ -19,8 +19,7 @@ static void HashVec3(uint64_t* hash, kiriVec3 a)
 
 static void HashPoint(uint64_t* hash, kiriLatticePoint p)
 {
-    kiriHash_Int32(hash, p.x);
-    kiriHash_Int32(hash, p.y);
+    kiriHash_Pair(hash, p.x, p.y);
 }
 
 static void HashMesh(uint64_t* hash, const kiriMeshData* mesh)
@@ -30,8 +29,7 @@ static void HashMesh(uint64_t* hash, const kiriMeshData* mesh)
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         const kiriTriangle* triangle = &mesh->triangles.data[t];
         for (int k = 0; k < 3; ++k) {
-            kiriHash_Int32(hash, triangle->vertex[k]);
-            kiriHash_Int32(hash, triangle->twin[k]);
+            kiriHash_Pair(hash, triangle->vertex[k], triangle->twin[k]);
         }
         kiriHash_Int32(hash, triangle->open);
     }

@@ -6,7 +6,7 @@
 
 KIRI_C_BEGIN
 
-/* 64-bit FNV-1a over everything that the coming ticks depend on, derived data included. Field by field, so that padding
+/* A hash of everything that the coming ticks depend on, derived data included. Field by field, so that padding
    never counts. */
 uint64_t kiriStateHash_Of(const kiriWorld* world);
 
