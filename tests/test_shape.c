@@ -584,7 +584,7 @@ static void CompareWithScratch(const Follow* f)
 {
     Follow scratch;
     Follow_ScratchWeights(&scratch, f);
-    Follow_CompareLists(f, &scratch);
+    Follow_CompareReaches(f, &scratch);
     Follow_CompareWeights(f, &scratch);
     Follow_Release(&scratch);
 }

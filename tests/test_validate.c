@@ -395,6 +395,30 @@ static const char* CorruptRegions(kiriWorld* world, kiriSheetData* s, int way)
     }
 }
 
+/* How far a cell in the region of frame 0 is from its site. */
+static int32_t* OwnReach(kiriSheetData* s)
+{
+    kiriReach reach = kiriReaches_First(&s->shape.reaches, 0);
+    while (s->regions.field.owner.data[reach.cell] != 0 || reach.fromSite == 0) {
+        reach = kiriReaches_After(&s->shape.reaches, reach);
+    }
+    return &s->shape.reaches.blocks.data[reach.block].fromSite[reach.cell % KIRI_BLOCK_CELLS];
+}
+
+/* The first block of frame 0. */
+static bool AddBlockTwice(kiriSheetData* s)
+{
+    kiriReaches* reaches = &s->shape.reaches;
+    bool ok = kiriReaches_Reserve(reaches, s->memory, 1);
+    if (ok) {
+        const kiriReachBlock was = reaches->blocks.data[reaches->ofFrame.data[0]];
+        kiriReachBlock* twin = &reaches->blocks.data[kiriReaches_Add(reaches, 0, was.cells)];
+        memcpy(twin->fromSite, was.fromSite, sizeof(was.fromSite));
+        memcpy(twin->fromBorder, was.fromBorder, sizeof(was.fromBorder));
+    }
+    return ok;
+}
+
 static const char* CorruptShape(kiriWorld* world, kiriSheetData* s, int way)
 {
     kiriShape* shape = &s->shape;
@@ -427,18 +451,12 @@ static const char* CorruptShape(kiriWorld* world, kiriSheetData* s, int way)
         shape->rigid.data[0] += 1;
         return "rigidly";
     case 7:
-        for (int32_t k = shape->reaches.data[0].count - 1; k >= 0; --k) {
-            if (s->regions.field.owner.data[shape->reaches.data[0].data[k].cell] == 0) {
-                shape->reaches.data[0].data[k] = shape->reaches.data[0].data[--shape->reaches.data[0].count];
-                break;
-            }
-        }
+        *OwnReach(s) = KIRI_FAR;
         return "distances give";
     case 8:
-        shape->reaches.data[0].data[0] = shape->reaches.data[0].data[1];
-        return "twice";
+        return AddBlockTwice(s) ? "twice" : NULL;
     case 9:
-        shape->reaches.data[0].data[0].fromSite += 100;
+        *OwnReach(s) += 100;
         return "its weight is";
     case 10:
         shape->changes.count = 1;

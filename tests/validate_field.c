@@ -542,10 +542,11 @@ static bool Check_Reaches(Check* check, const kiriSheetData* sheet)
     const kiriShape* shape = &sheet->shape;
     int32_t* seen = Check_Ints(check, sheet->grid.cells.count, KIRI_NONE);
     int64_t found = 0, all = 0;
-    REQUIRE_COUNT(shape->reaches, sheet->frames.count);
-    for (int32_t i = 0; i < shape->reaches.count; ++i) {
-        for (int32_t r = 0; r < shape->reaches.data[i].count; ++r) {
-            kiriReach reach = shape->reaches.data[i].data[r];
+    const kiriReaches* reaches = &shape->reaches;
+    REQUIRE_COUNT(reaches->ofFrame, sheet->frames.count);
+    for (int32_t i = 0; i < reaches->ofFrame.count; ++i) {
+        kiriReach reach = kiriReaches_First(reaches, i);
+        for (; reach.cell != KIRI_NONE; reach = kiriReaches_After(reaches, reach)) {
             REQUIRE(IsIndex(reach.cell, sheet->grid.cells.count) && kiriGrid_IsCell(&sheet->grid, reach.cell),
                     "frame %d reaches cell %d", i, reach.cell);
             REQUIRE(seen[reach.cell] != i, "frame %d reaches cell %d twice", i, reach.cell);

@@ -163,6 +163,13 @@ static bool Passes(const kiriRule* rule, int32_t cell)
     return rule->pass == NULL || rule->pass(rule->context, cell);
 }
 
+static void LookAround(const kiriRule* rule, int32_t cell)
+{
+    if (rule->look != NULL) {
+        rule->look(rule->context, cell);
+    }
+}
+
 /* Where the sweep goes on: from which cursor, and at which distance, no farther than `limit`. */
 static int NearestSource(const kiriField* field, int32_t limit, int32_t* distance)
 {
@@ -208,6 +215,9 @@ static bool TakeStepsFrom(kiriField* field, const kiriRule* rule, int32_t from, 
     const int32_t* has = field->distance.data;
     int32_t owner = field->owner.data[from], end = Passes(rule, from) ? run->end[length] : 0;
     int32_t s = length == 0 ? run->first : run->end[length - 1];
+    if (length == 0) { /* the shortest come first */
+        LookAround(rule, from);
+    }
     if (field->cursor[REPAIR_STAGE] == REPAIR_SETTLES) {
         for (; s < end && field->settled.count < most; ++s) {
             if (distance <= has[steps[s].cell]) { /* most have a nearer one */
@@ -340,6 +350,7 @@ static kiriProgress ClearAffected(kiriField* field, kiriMemory* memory, const ki
         if (field->distance.data[cell] != KIRI_FAR) {
             bool blocked = field->cursor[DIRTY_CHECKED] < field->cursor[DIRTY_FROM_CALLER] && !Passes(rule, cell);
             int32_t dependents = 0;
+            LookAround(rule, cell);
             if (!MakeDependentsRoom(field, memory, rule, cell)) {
                 return KIRI_FAILED;
             }
@@ -391,6 +402,7 @@ static bool SeedSweep(kiriField* field, kiriMemory* memory, const kiriRule* rule
     for (int32_t i = 0; i < field->dirty.count; ++i) {
         int32_t cell = field->dirty.data[i];
         if (i < field->cursor[DIRTY_FROM_CALLER] || field->distance.data[cell] == KIRI_FAR) {
+            LookAround(rule, cell);
             kiriSeed best = NearestFor(field, rule, cell);
             if (best.distance != KIRI_FAR) {
                 field->heap.data[field->heap.count++] = best;

@@ -24,6 +24,10 @@ typedef bool kiriPassFn(const void* context, int32_t cell);
 /* The nearest of the cell's own seeds (of equals, that of the lowest owner), or KIRI_FAR as its distance. */
 typedef kiriSeed kiriSeedFn(const void* context, int32_t cell);
 
+/* Called before a field is read where the steps of a cell lead to. It may put distances there that are not in the field
+   yet, as if they had always been. */
+typedef void kiriLookFn(const void* context, int32_t cell);
+
 /* What makes a field. */
 typedef struct kiriRule {
     const kiriGrid* grid;
@@ -31,6 +35,7 @@ typedef struct kiriRule {
     kiriPassFn* pass; /* or null */
     kiriSeedFn* seed; /* of repairs only */
     const void* context;
+    kiriLookFn* look; /* or null */
 } kiriRule;
 
 typedef struct kiriField {

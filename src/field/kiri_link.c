@@ -294,11 +294,10 @@ static void FindStale(const kiriBorder* border)
         border->work->stale.data[i] = regions->dirty.data[i];
     }
     for (int32_t i = 0; i < border->siteCount; ++i) {
-        const kiriReaches* list = &border->shape->reaches.data[i];
-        for (int32_t k = 0; regions->dirty.data[i] && k < list->count; ++k) {
-            int32_t cell = list->data[k].cell;
-            if (regions->onBorder.data[cell] && regions->field.owner.data[cell] == i) {
-                SpreadStale(border, cell);
+        kiriReach at = kiriReaches_First(&border->shape->reaches, i);
+        for (; regions->dirty.data[i] && at.cell != KIRI_NONE; at = kiriReaches_After(&border->shape->reaches, at)) {
+            if (regions->onBorder.data[at.cell] && regions->field.owner.data[at.cell] == i) {
+                SpreadStale(border, at.cell);
             }
         }
     }
@@ -326,10 +325,10 @@ static bool FindFaces(const kiriBorder* border)
 {
     const kiriRegions* regions = border->regions;
     for (int32_t i = 0; i < border->siteCount; ++i) {
-        const kiriReaches* list = &border->shape->reaches.data[i];
-        for (int32_t k = 0; IsStale(border, i) && k < list->count; ++k) {
-            int32_t cell = list->data[k].cell;
-            if (regions->onBorder.data[cell] && regions->field.owner.data[cell] == i && !FindFacesOf(border, i, cell)) {
+        kiriReach at = kiriReaches_First(&border->shape->reaches, i);
+        for (; IsStale(border, i) && at.cell != KIRI_NONE; at = kiriReaches_After(&border->shape->reaches, at)) {
+            if (regions->onBorder.data[at.cell] && regions->field.owner.data[at.cell] == i &&
+                !FindFacesOf(border, i, at.cell)) {
                 return false;
             }
         }
@@ -561,7 +560,7 @@ bool kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid
     if (links->work == NULL) {
         return false;
     }
-    KIRI_ASSERT(regions->dirty.count == siteCount && shape->reaches.count >= siteCount && !regions->running);
+    KIRI_ASSERT(regions->dirty.count == siteCount && shape->reaches.ofFrame.count >= siteCount && !regions->running);
     kiriBorder border = { memory, grid, mesh, regions, shape, sites, siteCount, links->work };
     links->next.count = links->work->nextEnds.count = links->changed = 0;
     bool ok = MakeLinkRoom(&border);

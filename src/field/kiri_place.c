@@ -153,7 +153,7 @@ static bool StartSiteFlood(PlacerJob* job, kiriField* field, int32_t first, int3
 
 static kiriProgress FloodPart(PlacerJob* job, kiriField* field, kiriPassFn* pass)
 {
-    kiriRule rule = { job->grid, KIRI_FAR - 1, pass, NULL, job->work };
+    kiriRule rule = { job->grid, KIRI_FAR - 1, pass, NULL, job->work, NULL };
     return kiriField_Flood(field, &rule, job->quota);
 }
 

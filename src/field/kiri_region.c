@@ -406,7 +406,7 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
     if (!regions->running && !BeginRegions(&u)) {
         return KIRI_FAILED;
     }
-    kiriRule rule = { grid, KIRI_FAR, NULL, NearestSiteSeed, &u };
+    kiriRule rule = { grid, KIRI_FAR, NULL, NearestSiteSeed, &u, NULL };
     kiriProgress progress = regions->flooding ? kiriField_Flood(&regions->field, &rule, quota)
                                               : kiriField_Repair(&regions->field, memory, &rule, quota);
     regions->running = progress == KIRI_MORE;

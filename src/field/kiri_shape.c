@@ -1,5 +1,7 @@
 #include "kiri_shape_work.h"
 
+#include "../core/kiri_sort.h"
+
 #include <string.h>
 
 /* ---- The weights of a cell --------------------------------------------------------------------------------------- */
@@ -130,92 +132,72 @@ static void NormalizeCell(kiriShapeJob* job, int32_t cell)
 
 /* ---- The update -------------------------------------------------------------------------------------------------- */
 
-static bool MakeShapeRoom(kiriShapeJob* job)
+/* Arrays that are read by whole blocks of cells. */
+static bool MakeBlocksRoom(kiriShapeJob* job)
+{
+    kiriShapeWork* work = job->work;
+    int32_t old = work->marks.count, was = work->isLoaded.count;
+    int32_t blocks = kiriReach_BlockOf(job->grid->cells.count + KIRI_BLOCK_CELLS - 1);
+    int32_t cells = blocks * KIRI_BLOCK_CELLS;
+    if (!kiriReaches_Resize(&job->shape->reaches, job->memory, cells, job->siteCount) ||
+        !kiriField_Resize(&work->fromSite, job->memory, cells) ||
+        !kiriField_Resize(&work->fromBorder, job->memory, cells) ||
+        !kiriArray_Resize(job->memory, &work->marks, cells) || !kiriArray_Reserve(job->memory, &work->loaded, blocks) ||
+        !kiriArray_Resize(job->memory, &work->isLoaded, blocks)) {
+        return false;
+    }
+    memset(work->marks.data + old, 0, (size_t)(cells - old));
+    memset(work->isLoaded.data + was, 0, (size_t)(blocks - was));
+    return true;
+}
+
+static bool MakeCellsRoom(kiriShapeJob* job)
 {
     kiriShape* shape = job->shape;
     kiriShapeWork* work = job->work;
-    int32_t cells = job->grid->cells.count, old = work->marks.count;
-    bool ok =
-        kiriField_Resize(&work->fromSite, job->memory, cells) &&
-        kiriField_Resize(&work->fromBorder, job->memory, cells) &&
-        kiriArray_Resize(job->memory, &shape->spans, cells) && kiriArray_Reserve(job->memory, &shape->changes, cells) &&
-        kiriArray_Reserve(job->memory, &work->dirty, cells) && kiriArray_Resize(job->memory, &work->wasOwner, cells) &&
-        kiriArray_Resize(job->memory, &work->awaited, cells) &&
-        kiriArray_Resize(job->memory, &work->rigidShares, cells) &&
-        kiriArray_Resize(job->memory, &work->marks, cells) &&
-        kiriArray_Reserve(job->memory, &shape->reaches, job->siteCount) &&
-        kiriArray_Reserve(job->memory, &shape->rigid, job->siteCount) &&
-        kiriArray_Reserve(job->memory, &work->frames, job->siteCount);
-    for (int32_t c = old; ok && c < cells; ++c) {
+    int32_t cells = job->grid->cells.count, c = shape->spans.count;
+    if (!kiriArray_Resize(job->memory, &shape->spans, cells) ||
+        !kiriArray_Reserve(job->memory, &shape->changes, cells) ||
+        !kiriArray_Reserve(job->memory, &work->dirty, cells) ||
+        !kiriArray_Resize(job->memory, &work->wasOwner, cells) ||
+        !kiriArray_Resize(job->memory, &work->awaited, cells) ||
+        !kiriArray_Resize(job->memory, &work->counted, cells) ||
+        !kiriArray_Resize(job->memory, &work->rigidShares, cells)) {
+        return false;
+    }
+    for (; c < cells; ++c) {
         shape->spans.data[c] = (kiriSpan){ 0, 0 };
         work->awaited.data[c] = 0;
+        work->counted.data[c] = (kiriCountedCell){ KIRI_NONE, 0 };
         work->rigidShares.data[c] = 0;
-        work->marks.data[c] = 0;
     }
-    while (ok && shape->reaches.count < job->siteCount) {
-        memset(&shape->reaches.data[shape->reaches.count++], 0, sizeof(*shape->reaches.data));
+    return true;
+}
+
+static bool MakeFramesRoom(kiriShapeJob* job)
+{
+    kiriShape* shape = job->shape;
+    kiriShapeWork* work = job->work;
+    if (!kiriArray_Reserve(job->memory, &shape->rigid, job->siteCount) ||
+        !kiriArray_Reserve(job->memory, &work->dirtyFrames, job->siteCount) ||
+        !kiriArray_Reserve(job->memory, &work->frames, job->siteCount)) {
+        return false;
     }
-    while (ok && shape->rigid.count < job->siteCount) {
+    while (shape->rigid.count < job->siteCount) {
         shape->rigid.data[shape->rigid.count++] = 0;
-        memset(&work->frames.data[work->frames.count++], 0, sizeof(*work->frames.data));
+        work->frames.data[work->frames.count++] = (kiriShapeFrame){ 0, { 0, 0 }, 0, KIRI_NONE, false, false };
     }
-    return ok;
+    return true;
 }
 
-static void MarkChange(kiriShapeJob* job, int32_t cell, uint8_t mark)
+static void MarkFrameDirty(kiriShapeJob* job, int32_t frame)
 {
     kiriShapeWork* work = job->work;
-    int32_t square = job->grid->cells.data[cell].square, columns = job->mesh->squares.columns;
-    const int32_t at[2] = { square % columns, square / columns };
-    KIRI_ASSERT(kiriGrid_IsCell(job->grid, cell));
-    work->marks.data[cell] |= mark;
-    for (int i = 0; i < 2; ++i) {
-        work->low[i] = at[i] < work->low[i] ? at[i] : work->low[i];
-        work->high[i] = at[i] > work->high[i] ? at[i] : work->high[i];
+    KIRI_ASSERT(frame >= KIRI_NONE && frame < job->siteCount);
+    if (frame != KIRI_NONE && !work->frames.data[frame].dirty) {
+        work->frames.data[frame].dirty = true;
+        work->dirtyFrames.data[work->dirtyFrames.count++] = frame;
     }
-}
-
-/* Cells whose owner or distance changed. */
-static void MarkRegionChanges(kiriShapeJob* job)
-{
-    kiriShapeWork* work = job->work;
-    const kiriField* field = &job->regions->field;
-    for (int32_t k = 0; k < job->regions->changes.count; ++k) {
-        kiriSeed was = job->regions->changes.data[k];
-        int32_t owner = field->owner.data[was.cell];
-        MarkChange(job, was.cell, KIRI_MARK_REGION);
-        work->wasOwner.data[was.cell] = was.owner;
-        KIRI_ASSERT(was.owner < job->siteCount && owner < job->siteCount);
-        if (was.owner != KIRI_NONE) {
-            work->frames.data[was.owner].dirty = true;
-        }
-        if (owner != KIRI_NONE) {
-            kiriShapeFrame* frame = &work->frames.data[owner];
-            int32_t reach = kiriShapeJob_ReachAt(job, was.cell);
-            frame->dirty = true;
-            frame->reach = reach > frame->reach ? reach : frame->reach;
-        }
-    }
-}
-
-/* Cells that are gone have made others in their squares, so the box holds them too. */
-static void MarkAllChanges(kiriShapeJob* job)
-{
-    const kiriGridChanges* changes = &job->grid->changes;
-    for (int32_t k = 0; k < changes->gone.count; ++k) {
-        int32_t cell = changes->gone.data[k];
-        AddRigid(job, cell, -job->work->rigidShares.data[cell]);
-        ResizeWeights(job, cell, 0);
-        job->work->marks.data[cell] |= KIRI_MARK_GONE;
-    }
-    for (int32_t k = 0; k < changes->steps.count; ++k) {
-        MarkChange(job, changes->steps.data[k], KIRI_MARK_STEPS);
-        AddWeightChange(job, changes->steps.data[k]);
-    }
-    for (int32_t k = 0; k < changes->material.count; ++k) {
-        MarkSumDirty(job, changes->material.data[k].cell);
-    }
-    MarkRegionChanges(job);
 }
 
 static void StartStage(kiriShapeWork* work, kiriShapeStage stage)
@@ -227,36 +209,149 @@ static void StartStage(kiriShapeWork* work, kiriShapeStage stage)
 static bool BeginWeights(kiriShapeJob* job, const kiriSiteMove* moves, int32_t moveCount)
 {
     kiriShapeWork* work = job->work;
-    if (!MakeShapeRoom(job)) {
+    if (!MakeBlocksRoom(job) || !MakeCellsRoom(job) || !MakeFramesRoom(job)) {
         return false;
     }
-    for (int32_t f = 0; f < job->siteCount; ++f) {
-        kiriShapeFrame* frame = &work->frames.data[f];
-        frame->reach = 0;
-        frame->moved = frame->dirty = false;
-    }
     for (int32_t k = 0; k < moveCount; ++k) {
-        KIRI_ASSERT(moves[k].frame >= 0 && moves[k].frame < job->siteCount);
+        MarkFrameDirty(job, moves[k].frame);
         work->frames.data[moves[k].frame].moved = true;
     }
-    work->low[0] = work->low[1] = INT32_MAX;
-    work->high[0] = work->high[1] = INT32_MIN;
-    work->rawWeights.count = work->dirty.count = 0;
-    MarkAllChanges(job);
-    StartStage(work, KIRI_SHAPE_MEASURE);
+    work->rawWeights.count = work->dirty.count = work->touches.count = 0;
+    StartStage(work, KIRI_SHAPE_MARK);
     return true;
 }
 
-static kiriProgress MeasureAllFrames(kiriShapeJob* job, kiriQuota* quota)
+/* ---- What has changed -------------------------------------------------------------------------------------------- */
+
+/* All frames that reach the cell have to look at it. */
+static bool TouchCell(kiriShapeJob* job, int32_t cell)
 {
     kiriShapeWork* work = job->work;
-    for (; work->next < job->siteCount; ++work->next) {
-        job->frame = work->next;
-        if (work->frameStage != KIRI_FRAME_REST || kiriShapeJob_IsFrameDirty(job)) {
-            kiriProgress progress = kiriShapeJob_MeasureFrame(job, quota);
-            if (progress != KIRI_DONE) {
-                return progress;
+    const kiriReaches* reaches = &job->shape->reaches;
+    const kiriReachBlock* block;
+    for (int32_t b = reaches->ofCells.data[kiriReach_BlockOf(cell)]; b != KIRI_NONE; b = block->nextOfCells) {
+        block = &reaches->blocks.data[b];
+        if (block->fromSite[cell % KIRI_BLOCK_CELLS] != KIRI_FAR) {
+            kiriShapeFrame* frame = &work->frames.data[block->frame];
+            kiriTouchedCell touched = { cell, frame->firstTouch };
+            MarkFrameDirty(job, block->frame);
+            frame->firstTouch = work->touches.count;
+            frame->touches += 1;
+            if (!kiriArray_Push(job->memory, &work->touches, touched)) {
+                return false;
             }
+        }
+    }
+    return true;
+}
+
+static bool MarkGone(kiriShapeJob* job, int32_t cell)
+{
+    AddRigid(job, cell, -job->work->rigidShares.data[cell]);
+    ResizeWeights(job, cell, 0);
+    kiriShapeJob_UncountCell(job, cell);
+    job->work->marks.data[cell] |= KIRI_MARK_GONE;
+    return TouchCell(job, cell);
+}
+
+static bool MarkSteps(kiriShapeJob* job, int32_t cell)
+{
+    job->work->marks.data[cell] |= KIRI_MARK_STEPS;
+    AddWeightChange(job, cell);
+    return TouchCell(job, cell);
+}
+
+/* Another owner or distance. */
+static bool MarkRegion(kiriShapeJob* job, kiriSeed was)
+{
+    uint8_t* mark = &job->work->marks.data[was.cell];
+    bool isTouched = (*mark & KIRI_MARK_STEPS) != 0;
+    *mark |= KIRI_MARK_REGION;
+    job->work->wasOwner.data[was.cell] = was.owner;
+    MarkFrameDirty(job, was.owner);
+    MarkFrameDirty(job, job->regions->field.owner.data[was.cell]);
+    return isTouched || TouchCell(job, was.cell);
+}
+
+/* Counts how far distances have to go for the sake of a cell that has changed, and of those beside it. */
+static bool CountAround(kiriShapeJob* job, int32_t cell)
+{
+    const kiriStepRun* run = &job->grid->runs.data[cell];
+    const uint8_t* marks = job->work->marks.data;
+    bool ok = kiriShapeJob_CountCell(job, cell);
+    for (int32_t s = run->first; ok && s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        int32_t beside = job->grid->steps.data[s].cell;
+        ok = (marks[beside] & (KIRI_MARK_STEPS | KIRI_MARK_REGION)) != 0 || kiriShapeJob_CountCell(job, beside);
+    }
+    return ok;
+}
+
+/* What the grid and the regions have changed; and once more, when all is marked. */
+typedef enum ChangeList {
+    LIST_GONE,
+    LIST_STEPS,
+    LIST_MATERIAL,
+    LIST_REGION,
+    LIST_COUNT_STEPS,
+    LIST_COUNT_REGION
+} ChangeList;
+
+static bool MarkChange(kiriShapeJob* job, ChangeList list, int32_t k)
+{
+    const kiriGridChanges* changes = &job->grid->changes;
+    switch (list) {
+    case LIST_GONE:
+        return MarkGone(job, changes->gone.data[k]);
+    case LIST_STEPS:
+        return MarkSteps(job, changes->steps.data[k]);
+    case LIST_MATERIAL:
+        MarkSumDirty(job, changes->material.data[k].cell);
+        return true;
+    case LIST_REGION:
+        return MarkRegion(job, job->regions->changes.data[k]);
+    case LIST_COUNT_STEPS:
+        return CountAround(job, changes->steps.data[k]);
+    default: {
+        int32_t cell = job->regions->changes.data[k].cell;
+        return (job->work->marks.data[cell] & KIRI_MARK_STEPS) != 0 || CountAround(job, cell);
+    }
+    }
+}
+
+/* Goes on at work->next, which counts through all lists. An item is a cell that is counted, or eight that are marked. */
+static kiriProgress MarkChanges(kiriShapeJob* job, kiriQuota* quota)
+{
+    kiriShapeWork* work = job->work;
+    const kiriGridChanges* changes = &job->grid->changes;
+    const int32_t counts[] = { changes->gone.count,         changes->steps.count, changes->material.count,
+                               job->regions->changes.count, changes->steps.count, job->regions->changes.count };
+    int32_t first = 0;
+    for (ChangeList list = LIST_GONE; list <= LIST_COUNT_REGION; ++list) {
+        for (; work->next < first + counts[list]; ++work->next) {
+            if (!kiriQuota_Take(quota, list >= LIST_COUNT_STEPS || work->next % 8 == 0)) {
+                return KIRI_MORE;
+            }
+            if (!MarkChange(job, list, work->next - first)) {
+                return KIRI_FAILED;
+            }
+        }
+        first += counts[list];
+    }
+    kiriSort(work->dirtyFrames.data, work->dirtyFrames.count, NULL, NULL);
+    StartStage(work, KIRI_SHAPE_MEASURE);
+    return KIRI_DONE;
+}
+
+/* ---- The stages -------------------------------------------------------------------------------------------------- */
+
+static kiriProgress MeasureDirtyFrames(kiriShapeJob* job, kiriQuota* quota)
+{
+    kiriShapeWork* work = job->work;
+    for (; work->next < work->dirtyFrames.count; ++work->next) {
+        job->frame = work->dirtyFrames.data[work->next];
+        kiriProgress progress = kiriShapeJob_MeasureFrame(job, quota);
+        if (progress != KIRI_DONE) {
+            return progress;
         }
     }
     StartStage(work, job->shape->weights.count == 0 ? KIRI_SHAPE_MAKE_ROOM : KIRI_SHAPE_PLACE);
@@ -320,6 +415,13 @@ static void EndWeights(kiriShapeJob* job)
     for (int32_t k = 0; k < changes->gone.count; ++k) {
         marks[changes->gone.data[k]] = 0;
     }
+    for (int32_t k = 0; k < job->work->dirtyFrames.count; ++k) {
+        kiriShapeFrame* frame = &job->work->frames.data[job->work->dirtyFrames.data[k]];
+        frame->touches = 0;
+        frame->firstTouch = KIRI_NONE;
+        frame->moved = frame->dirty = false;
+    }
+    job->work->dirtyFrames.count = 0;
     job->work->stage = KIRI_SHAPE_REST;
 }
 
@@ -339,10 +441,11 @@ static kiriProgress NormalizeCells(kiriShapeJob* job, kiriQuota* quota)
 /* Algorithm 2, each stage over its items. */
 static kiriProgress (*const shapeStages[])(kiriShapeJob* job, kiriQuota* quota) = {
     NULL,
-    MeasureAllFrames, /* distances to the site and to the border, and the raw weights that follow from them */
-    MakeFirstRooms,   /* only where no cell has weights yet */
-    PlaceWeights,     /* the raw weights, in the spans of their cells */
-    NormalizeCells,   /* to sum 1 */
+    MarkChanges,        /* cells, and the frames that reach them */
+    MeasureDirtyFrames, /* distances to the site and to the border, and the raw weights that follow from them */
+    MakeFirstRooms,     /* only where no cell has weights yet */
+    PlaceWeights,       /* the raw weights, in the spans of their cells */
+    NormalizeCells,     /* to sum 1 */
 };
 
 kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
@@ -374,6 +477,7 @@ static void RenumberWeights(kiriShape* shape, const kiriKeep* frames)
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
             shape->weights.data[k].frame = kiriKeep_To(frames, shape->weights.data[k].frame);
         }
+        shape->work->counted.data[c].frame = kiriKeep_To(frames, shape->work->counted.data[c].frame);
     }
 }
 
@@ -385,16 +489,19 @@ void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames
         kiriSpan_Resize(&shape->spans.data[gone[k]], &shape->room, memory, &shape->weights,
                         sizeof(*shape->weights.data), 0);
         shape->work->rigidShares.data[gone[k]] = 0;
+        shape->work->counted.data[gone[k]] = (kiriCountedCell){ KIRI_NONE, 0 };
     }
     if (kiriKeep_Moves(frames)) {
         RenumberWeights(shape, frames);
     }
     for (int32_t f = frames->first; f < frames->to.count; ++f) {
+        kiriShapeFrame* frame = &shape->work->frames.data[f];
         if (!kiriKeep_Has(frames, f)) {
-            kiriArray_Release(memory, &shape->reaches.data[f]);
+            kiriSpan_Resize(&frame->sides, &shape->work->sideRoom, memory, &shape->work->sideCounts,
+                            sizeof(*shape->work->sideCounts.data), 0);
         }
     }
-    kiriKeep_Compact(frames, &shape->reaches, 1, sizeof(kiriReaches));
+    kiriReaches_Keep(&shape->reaches, frames);
     kiriKeep_Compact(frames, &shape->rigid, 1, sizeof(int64_t));
     kiriKeep_Compact(frames, &shape->work->frames, 1, sizeof(kiriShapeFrame));
 }
@@ -411,17 +518,18 @@ void kiriShape_ClearChanges(kiriShape* shape)
 
 void kiriShape_Reset(kiriShape* shape)
 {
-    for (int32_t f = 0; f < shape->reaches.count; ++f) {
-        shape->reaches.data[f].count = 0;
-    }
+    kiriShapeWork* work = shape->work;
+    kiriReaches_Clear(&shape->reaches);
     shape->spans.count = shape->weights.count = shape->rigid.count = shape->changes.count = 0;
     memset(&shape->room, 0, sizeof(shape->room));
     shape->recomputed = 0;
-    if (shape->work != NULL) {
-        kiriField_Clear(&shape->work->fromSite);
-        kiriField_Clear(&shape->work->fromBorder);
-        shape->work->marks.count = shape->work->frames.count = 0;
-        shape->work->stage = KIRI_SHAPE_REST;
-        shape->work->frameStage = KIRI_FRAME_REST;
+    if (work != NULL) {
+        kiriField_Clear(&work->fromSite);
+        kiriField_Clear(&work->fromBorder);
+        work->marks.count = work->isLoaded.count = work->loaded.count = 0;
+        work->frames.count = work->dirtyFrames.count = work->sideCounts.count = 0;
+        memset(&work->sideRoom, 0, sizeof(work->sideRoom));
+        work->stage = KIRI_SHAPE_REST;
+        work->frameStage = KIRI_FRAME_REST;
     }
 }

@@ -3,6 +3,7 @@
 #ifndef KIRI_SHAPE_H
 #define KIRI_SHAPE_H
 
+#include "kiri_reach.h"
 #include "kiri_region.h"
 
 KIRI_C_BEGIN
@@ -18,20 +19,13 @@ typedef struct kiriCellWeight {
     double value, raw;
 } kiriCellWeight;
 
-/* How far a cell is from a frame's site, and from the border of its region. */
-typedef struct kiriReach {
-    int32_t cell, fromSite, fromBorder;
-} kiriReach;
-
-typedef KIRI_ARRAY(kiriReach) kiriReaches;
-
 typedef struct kiriShapeWork kiriShapeWork; /* the update at hand: kiri_shape_work.h */
 
 typedef struct kiriShape {
     KIRI_ARRAY(kiriSpan) spans;         /* of each cell: its weights */
     KIRI_ARRAY(kiriCellWeight) weights; /* by spans; in a span by frame; above zero, sum of values 1 */
     kiriSpans room;
-    KIRI_ARRAY(kiriReaches) reaches; /* of each frame: the cells that its distances reach, in no order */
+    kiriReaches reaches; /* of each frame: how far cells are that its weight may reach */
 
     /* Of each frame: the cells in which its weight exceeds rigidWeight, as shares of whole squares, in units of 2^-40:
        a whole number, so that it does not depend on the order of adding. */
@@ -45,11 +39,11 @@ typedef struct kiriShape {
     kiriShapeWork* work;
 } kiriShape;
 
-/* Follows the changes of grid and regions, which are cleared after it. Costs what it touches, and a look at the cells of
-   frames near by. `moves` as in kiriRegions_Update: distances to such a site are made from scratch. An item of the
-   quota is a cell whose distance is taken away, given or flooded, a weight put in its place, or a cell that gets room
-   for its first weights or whose weights are made to sum to 1. Every cell with an owner gets weights. KIRI_MORE: call
-   again before grid, regions or sites change. KIRI_FAILED: only kiriShape_Reset helps. */
+/* Follows the changes of grid and regions, which are cleared after it. Costs what it touches. `moves` as in
+   kiriRegions_Update: distances to such a site are made from scratch. An item of the quota is a cell about which grid or
+   regions have changed something, whose distance is taken away, given or flooded, that gets room for its first weights
+   or whose weights are made to sum to 1; a weight put in its place; or four blocks of distances. Every cell with an owner
+   gets weights. KIRI_MORE: call again before grid, regions or sites change. KIRI_FAILED: only kiriShape_Reset helps. */
 kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                               const kiriRegions* regions, const kiriSite* sites, int32_t siteCount,
                               const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);

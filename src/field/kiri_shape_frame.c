@@ -1,5 +1,7 @@
 #include "kiri_shape_work.h"
 
+#include <string.h>
+
 /* ---- Distances and weights of a frame ---------------------------------------------------------------------------- */
 
 static bool IsInRegion(const kiriShapeJob* job, int32_t cell)
@@ -11,7 +13,7 @@ static bool IsInRegion(const kiriShapeJob* job, int32_t cell)
    over the border to y, to the last cell that gets weight from there. Let the nearest way from such a cell c to the
    border come in by y. Then d <= D(x) + |xy| + |yc|, and the weight is above zero only where d > 2 e = D(x) + |xy| -
    D(y) + 2 |yc|: where |yc| < D(y), and so d < D(x) + |xy| + D(y). */
-int32_t kiriShapeJob_ReachAt(const kiriShapeJob* job, int32_t x)
+static int32_t ReachAt(const kiriShapeJob* job, int32_t x)
 {
     const kiriField* field = &job->regions->field;
     const int32_t *owner = field->owner.data, *distance = field->distance.data;
@@ -27,17 +29,75 @@ int32_t kiriShapeJob_ReachAt(const kiriShapeJob* job, int32_t x)
     return farthest < KIRI_FAR ? (int32_t)farthest : KIRI_FAR - 1;
 }
 
-/* In whole sides, so that it seldom changes. */
-static int32_t LimitOf(int32_t reach)
+/* ---- How far distances to a site have to go ---------------------------------------------------------------------- */
+
+static void CountSide(kiriShapeWork* work, kiriCountedCell counted, int32_t more)
 {
-    int64_t sides = reach / KIRI_UNIT + 1;
-    return sides * KIRI_UNIT < KIRI_FAR ? (int32_t)(sides * KIRI_UNIT) : KIRI_FAR - 1;
+    if (counted.frame != KIRI_NONE) {
+        work->sideCounts.data[work->frames.data[counted.frame].sides.first + counted.sides] += more;
+    }
 }
+
+void kiriShapeJob_UncountCell(kiriShapeJob* job, int32_t cell)
+{
+    kiriCountedCell* counted = &job->work->counted.data[cell];
+    CountSide(job->work, *counted, -1);
+    *counted = (kiriCountedCell){ KIRI_NONE, 0 };
+}
+
+/* Room to count up to so many sides. */
+static bool MakeSidesRoom(kiriShapeJob* job, int32_t frame, int32_t sides)
+{
+    kiriShapeWork* work = job->work;
+    kiriSpan* span = &work->frames.data[frame].sides;
+    int32_t k = span->count;
+    if (sides >= k && !kiriSpan_Resize(span, &work->sideRoom, job->memory, &work->sideCounts,
+                                       sizeof(*work->sideCounts.data), sides + 1)) {
+        return false;
+    }
+    for (; k <= sides; ++k) {
+        work->sideCounts.data[span->first + k] = 0;
+    }
+    return true;
+}
+
+bool kiriShapeJob_CountCell(kiriShapeJob* job, int32_t cell)
+{
+    kiriCountedCell is = { job->regions->field.owner.data[cell], 0 }, was = job->work->counted.data[cell];
+    if (is.frame != KIRI_NONE) {
+        is.sides = ReachAt(job, cell) / KIRI_UNIT;
+    }
+    if (is.frame == was.frame && is.sides == was.sides) {
+        return true;
+    }
+    if (is.frame != KIRI_NONE && !MakeSidesRoom(job, is.frame, is.sides)) {
+        return false;
+    }
+    kiriShapeJob_UncountCell(job, cell);
+    CountSide(job->work, is, 1);
+    job->work->counted.data[cell] = is;
+    return true;
+}
+
+/* As far as the cells of the region ask for, in whole sides, so that it seldom changes. */
+static int32_t LimitOf(const kiriShapeJob* job)
+{
+    const kiriSpan span = job->work->frames.data[job->frame].sides;
+    int64_t sides = span.count;
+    while (sides > 1 && job->work->sideCounts.data[span.first + sides - 1] == 0) {
+        --sides;
+    }
+    return sides < 1 ? KIRI_UNIT : sides * KIRI_UNIT < KIRI_FAR ? (int32_t)(sides * KIRI_UNIT) : KIRI_FAR - 1;
+}
+
+/* ---- Seeds ------------------------------------------------------------------------------------------------------- */
 
 static kiriSeed SiteSeed(const void* context, int32_t cell)
 {
     const kiriShapeJob* job = context;
-    return kiriSite_SeedAt(&job->sites[job->frame], KIRI_NONE, job->grid, job->mesh, cell);
+    const kiriSeed none = { cell, KIRI_FAR, KIRI_NONE };
+    bool may = (job->work->marks.data[cell] & KIRI_MARK_SEED) != 0;
+    return may ? kiriSite_SeedAt(&job->sites[job->frame], KIRI_NONE, job->grid, job->mesh, cell) : none;
 }
 
 /* The border lies on the way between x and y where the distances to their sites are equal. A half is rounded up. */
@@ -91,51 +151,50 @@ static double RawWeight(bool inside, int32_t d, int32_t e)
     return (double)d > 2.0 * e ? 0.5 * (1.0 - e / ((double)d - e)) : 0.0;
 }
 
-/* ---- Its list ---------------------------------------------------------------------------------------------------- */
+/* ---- Its blocks -------------------------------------------------------------------------------------------------- */
 
-/* No way goes farther than a square a KIRI_UNIT, but for what a site off its middle gains at the start. */
-static bool IsInBox(const kiriShapeJob* job)
+/* Loads the distances of these cells, unless they are made from scratch. There is room for all. */
+static void LoadBlock(const kiriShapeJob* job, int32_t cells)
 {
-    int32_t square = job->grid->cells.data[job->sites[job->frame].cell].square, columns = job->mesh->squares.columns;
-    int32_t radius = job->work->frames.data[job->frame].limit / KIRI_UNIT + 2;
-    const int32_t at[2] = { square % columns, square / columns };
-    return job->work->low[0] <= at[0] + radius && job->work->high[0] >= at[0] - radius &&
-           job->work->low[1] <= at[1] + radius && job->work->high[1] >= at[1] - radius;
+    kiriShapeWork* work = job->work;
+    const kiriReaches* reaches = &job->shape->reaches;
+    if (work->isLoaded.data[cells]) {
+        return;
+    }
+    int32_t block = kiriReaches_Find(reaches, job->frame, cells), first = cells * KIRI_BLOCK_CELLS;
+    KIRI_ASSERT(work->loaded.count < work->loaded.capacity);
+    work->isLoaded.data[cells] = 1;
+    work->loaded.data[work->loaded.count++] = (kiriLoadedBlock){ cells, block };
+    if (block != KIRI_NONE && !work->frames.data[job->frame].moved) {
+        const kiriReachBlock* from = &reaches->blocks.data[block];
+        memcpy(&work->fromSite.distance.data[first], from->fromSite, sizeof(from->fromSite));
+        memcpy(&work->fromBorder.distance.data[first], from->fromBorder, sizeof(from->fromBorder));
+    }
 }
 
-/* Distances change only where a cell changes that they reach, for ways come from there. */
-bool kiriShapeJob_IsFrameDirty(const kiriShapeJob* job)
+/* Loads the cells that the steps of this one lead to. */
+static void LoadAround(const void* context, int32_t cell)
 {
-    KIRI_ASSERT(job->frame >= 0 && job->frame < job->siteCount);
-    const kiriShapeFrame* frame = &job->work->frames.data[job->frame];
-    const kiriReaches* list = &job->shape->reaches.data[job->frame];
-    if (frame->moved || frame->dirty) {
-        return true;
+    const kiriShapeJob* job = context;
+    uint8_t* mark = &job->work->marks.data[cell];
+    if ((*mark & KIRI_MARK_SEEN) != 0) {
+        return;
     }
-    if (!IsInBox(job)) {
-        return false;
+    *mark |= KIRI_MARK_SEEN;
+    const kiriStepRun* run = &job->grid->runs.data[cell];
+    const kiriStep* steps = job->grid->steps.data;
+    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        LoadBlock(job, kiriReach_BlockOf(steps[s].cell));
     }
-    uint8_t changed = 0;
-    for (int32_t k = 0; k < list->count && changed == 0; ++k) {
-        changed = job->work->marks.data[list->data[k].cell] & (KIRI_MARK_STEPS | KIRI_MARK_GONE | KIRI_MARK_REGION);
-    }
-    return changed != 0;
 }
 
-/* What the cells of its region ask for: each is in its list, or has come to it in this update. */
-static int32_t ReachOf(const kiriShapeJob* job)
+/* Where the site has moved, nothing of what was is of use; but weights of cells that are out of reach now must go. */
+static void LoadAllBlocks(kiriShapeJob* job)
 {
-    const kiriReaches* list = &job->shape->reaches.data[job->frame];
-    const int32_t* owner = job->regions->field.owner.data;
-    int32_t reach = job->work->frames.data[job->frame].reach;
-    for (int32_t k = 0; k < list->count; ++k) {
-        int32_t cell = list->data[k].cell; /* has no owner where it is gone */
-        if (owner[cell] == job->frame) {
-            int32_t at = kiriShapeJob_ReachAt(job, cell);
-            reach = at > reach ? at : reach;
-        }
+    const kiriReaches* reaches = &job->shape->reaches;
+    for (int32_t b = reaches->ofFrame.data[job->frame]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
+        LoadBlock(job, reaches->blocks.data[b].cells);
     }
-    return reach;
 }
 
 /* A cell has another owner or distance. So where the border of the frame's region runs between it and a cell beside it,
@@ -145,6 +204,7 @@ static void MarkBorderSeedsDirty(kiriShapeJob* job, int32_t cell)
     kiriField* field = &job->work->fromBorder;
     const kiriStepRun* run = &job->grid->runs.data[cell];
     bool inside = IsInRegion(job, cell), turned = inside != (job->work->wasOwner.data[cell] == job->frame);
+    LoadAround(job, cell);
     if (turned) {
         kiriField_MarkDirty(field, cell);
     }
@@ -158,53 +218,80 @@ static void MarkBorderSeedsDirty(kiriShapeJob* job, int32_t cell)
     }
 }
 
-/* Loads a cell about which something has changed; not where it is gone or beyond the limit. */
-static void LoadDirtyCell(kiriShapeJob* job, kiriReach reach, int32_t limit, int32_t rim)
+/* Loads a cell about which something has changed, and marks what may change in the fields. */
+static void LoadTouched(kiriShapeJob* job, int32_t cell)
 {
     kiriShapeWork* work = job->work;
-    uint8_t mark = work->marks.data[reach.cell];
+    uint8_t mark = work->marks.data[cell];
+    LoadBlock(job, kiriReach_BlockOf(cell));
     if ((mark & KIRI_MARK_GONE) != 0) {
+        kiriField_Forget(&work->fromSite, cell);
+        kiriField_Forget(&work->fromBorder, cell);
         return;
     }
-    if (reach.fromSite <= limit) {
-        work->fromSite.distance.data[reach.cell] = reach.fromSite;
-        if ((mark & KIRI_MARK_STEPS) != 0 || reach.fromSite > rim) {
-            kiriField_MarkDirty(&work->fromSite, reach.cell);
-        }
-    }
-    work->fromBorder.distance.data[reach.cell] = reach.fromBorder;
-    if ((mark & KIRI_MARK_STEPS) != 0 || reach.fromSite > limit) {
-        kiriField_MarkDirty(&work->fromBorder, reach.cell);
+    if ((mark & KIRI_MARK_STEPS) != 0) {
+        kiriField_MarkDirty(&work->fromSite, cell);
+        kiriField_MarkDirty(&work->fromBorder, cell);
     }
     if ((mark & KIRI_MARK_REGION) != 0) {
-        MarkBorderSeedsDirty(job, reach.cell);
+        MarkBorderSeedsDirty(job, cell);
     }
 }
 
-/* Loads the list into the fields and marks what may change in them. The seeds of a site depend on the steps of its
-   cell, so cells there are dirty too. */
-static void LoadReaches(kiriShapeJob* job, int32_t limit)
+/* The limit is another: cells beyond it lose their distance, or distances have to go on from those near the old one. */
+static void LoadBeyond(kiriShapeJob* job, int32_t limit)
 {
     kiriShapeWork* work = job->work;
-    const kiriReaches* list = &job->shape->reaches.data[job->frame];
-    int32_t *fromSite = work->fromSite.distance.data, *fromBorder = work->fromBorder.distance.data;
-    const uint8_t* marks = work->marks.data;
-    int32_t old = work->frames.data[job->frame].limit, rim = limit > old ? old - KIRI_UNIT_KNIGHT : KIRI_FAR;
-    int32_t plain = limit > old ? rim : limit; /* what is no farther has changed only where it is marked */
-    for (int32_t k = 0; k < list->count; ++k) {
-        kiriReach reach = list->data[k];
-        if (reach.fromSite <= plain &&
-            (marks[reach.cell] & (KIRI_MARK_STEPS | KIRI_MARK_GONE | KIRI_MARK_REGION)) == 0) {
-            fromSite[reach.cell] = reach.fromSite;
-            fromBorder[reach.cell] = reach.fromBorder;
-        } else {
-            LoadDirtyCell(job, reach, limit, rim);
+    const kiriReaches* reaches = &job->shape->reaches;
+    int32_t old = work->frames.data[job->frame].limit, rim = limit > old ? old - KIRI_UNIT_KNIGHT : limit;
+    for (int32_t b = reaches->ofFrame.data[job->frame]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
+        const kiriReachBlock* block = &reaches->blocks.data[b];
+        for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
+            int32_t cell = block->cells * KIRI_BLOCK_CELLS + k;
+            if (block->fromSite[k] <= rim || block->fromSite[k] == KIRI_FAR ||
+                (work->marks.data[cell] & KIRI_MARK_GONE) != 0) {
+                continue;
+            }
+            LoadBlock(job, block->cells);
+            if (limit > old) {
+                kiriField_MarkDirty(&work->fromSite, cell);
+            } else {
+                kiriField_Forget(&work->fromSite, cell);
+                kiriField_MarkDirty(&work->fromBorder, cell);
+            }
         }
     }
+}
+
+/* The cells about which something has changed: four an item. */
+static kiriProgress LoadAllTouched(kiriShapeJob* job, kiriQuota* quota)
+{
+    kiriShapeFrame* frame = &job->work->frames.data[job->frame];
+    for (; !frame->moved && frame->firstTouch != KIRI_NONE; --frame->touches) {
+        if (!kiriQuota_Take(quota, frame->touches % 4 == 0)) {
+            return KIRI_MORE;
+        }
+        kiriTouchedCell touched = job->work->touches.data[frame->firstTouch];
+        LoadTouched(job, touched.cell);
+        frame->firstTouch = touched.next;
+    }
+    return KIRI_DONE;
+}
+
+/* The seeds of a site depend on the steps of its cell, so cells there are dirty too. */
+static void LoadChanges(kiriShapeJob* job, int32_t limit)
+{
+    kiriShapeWork* work = job->work;
     int32_t cell = job->sites[job->frame].cell;
     const kiriStepRun* run = &job->grid->runs.data[cell];
-    for (int32_t s = run->first; (marks[cell] & KIRI_MARK_STEPS) && s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        kiriField_MarkDirty(&work->fromSite, job->grid->steps.data[s].cell);
+    if (limit != work->frames.data[job->frame].limit) {
+        LoadBeyond(job, limit);
+    }
+    if ((work->marks.data[cell] & KIRI_MARK_STEPS) != 0) {
+        LoadAround(job, cell);
+        for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+            kiriField_MarkDirty(&work->fromSite, job->grid->steps.data[s].cell);
+        }
     }
 }
 
@@ -212,17 +299,22 @@ static bool StartFromSite(kiriShapeJob* job)
 {
     kiriShapeWork* work = job->work;
     kiriShapeFrame* frame = &work->frames.data[job->frame];
-    int32_t limit = LimitOf(ReachOf(job));
-    bool ok = true;
+    int32_t limit = LimitOf(job);
+    work->seeds.count = 0;
+    if (!kiriSite_Seed(&job->sites[job->frame], KIRI_NONE, job->memory, job->grid, job->mesh, &work->seeds)) {
+        return false;
+    }
+    for (int32_t k = 0; k < work->seeds.count; ++k) {
+        work->marks.data[work->seeds.data[k].cell] |= KIRI_MARK_SEED;
+        LoadBlock(job, kiriReach_BlockOf(work->seeds.data[k].cell));
+    }
     if (frame->moved) {
-        work->seeds.count = 0;
-        ok = kiriSite_Seed(&job->sites[job->frame], KIRI_NONE, job->memory, job->grid, job->mesh, &work->seeds) &&
-             kiriField_Start(&work->fromSite, job->memory, work->seeds.data, work->seeds.count);
+        LoadAllBlocks(job);
     } else {
-        LoadReaches(job, limit);
+        LoadChanges(job, limit);
     }
     frame->limit = limit;
-    return ok;
+    return !frame->moved || kiriField_Start(&work->fromSite, job->memory, work->seeds.data, work->seeds.count);
 }
 
 static bool SeedBorder(kiriShapeJob* job)
@@ -267,112 +359,145 @@ static kiriProgress MeasureField(kiriShapeJob* job, kiriField* field, const kiri
                                                     : kiriField_Repair(field, job->memory, rule, quota);
 }
 
+/* ---- Back into its blocks ---------------------------------------------------------------------------------------- */
+
 /* UnloadFrame has made room. */
-static void AddRawWeight(kiriShapeJob* job, kiriReach is)
+static void AddRawWeight(kiriShapeJob* job, int32_t cell, int32_t fromSite, int32_t fromBorder)
 {
     kiriShapeWork* work = job->work;
-    double raw = is.fromSite == KIRI_FAR ? 0.0 : RawWeight(IsInRegion(job, is.cell), is.fromSite, is.fromBorder);
-    bool none = job->shape->spans.data[is.cell].count == 0;
+    double raw = fromSite == KIRI_FAR ? 0.0 : RawWeight(IsInRegion(job, cell), fromSite, fromBorder);
+    bool none = job->shape->spans.data[cell].count == 0;
     if (raw > 0.0 || !none) {
-        work->awaited.data[is.cell] += none;
+        work->awaited.data[cell] += none;
         KIRI_ASSERT(work->rawWeights.count < work->rawWeights.capacity);
-        work->rawWeights.data[work->rawWeights.count++] = (kiriRawWeight){ is.cell, job->frame, raw };
+        work->rawWeights.data[work->rawWeights.count++] = (kiriRawWeight){ cell, job->frame, raw };
     }
 }
 
-/* Takes the distances of a cell out of the fields. */
-static kiriReach UnloadCell(int32_t* fromSite, int32_t* fromBorder, int32_t cell)
+/* Has the cell come to the region of the frame, or left it? */
+static bool HasTurned(const kiriShapeJob* job, int32_t cell)
 {
-    kiriReach reach = { cell, fromSite[cell], fromBorder[cell] };
-    fromSite[cell] = fromBorder[cell] = KIRI_FAR;
-    return reach;
+    return (job->work->marks.data[cell] & KIRI_MARK_REGION) != 0 &&
+           (job->work->wasOwner.data[cell] == job->frame) != IsInRegion(job, cell);
 }
 
-static void UpdateReaches(kiriShapeJob* job)
+/* Distances to the border are given one step farther than ways go on: does the frame reach any of these cells? */
+static bool DropBeyond(const int32_t* fromSite, int32_t* fromBorder)
+{
+    bool any = false;
+    for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
+        fromBorder[k] = fromSite[k] == KIRI_FAR ? KIRI_FAR : fromBorder[k];
+        any = any || fromSite[k] != KIRI_FAR;
+    }
+    return any;
+}
+
+/* The distances go back into the block. Weights follow where they have changed. */
+static void UnloadCells(kiriShapeJob* job, kiriReachBlock* block, const int32_t* fromSite, const int32_t* fromBorder)
+{
+    for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
+        int32_t cell = block->cells * KIRI_BLOCK_CELLS + k;
+        bool same = block->fromSite[k] == fromSite[k] && block->fromBorder[k] == fromBorder[k];
+        bool is = fromSite[k] != KIRI_FAR || block->fromSite[k] != KIRI_FAR;
+        block->fromSite[k] = fromSite[k];
+        block->fromBorder[k] = fromBorder[k];
+        if (is && (!same || HasTurned(job, cell)) && (job->work->marks.data[cell] & KIRI_MARK_GONE) == 0) {
+            AddRawWeight(job, cell, fromSite[k], fromBorder[k]);
+        }
+    }
+}
+
+static void UnloadBlock(kiriShapeJob* job, kiriLoadedBlock loaded)
 {
     kiriShapeWork* work = job->work;
-    kiriReaches* list = &job->shape->reaches.data[job->frame];
-    int32_t *fromSite = work->fromSite.distance.data, *fromBorder = work->fromBorder.distance.data;
-    const uint8_t* marks = work->marks.data;
-    for (int32_t k = 0; k < list->count;) {
-        kiriReach was = list->data[k], is = UnloadCell(fromSite, fromBorder, was.cell);
-        bool same = is.fromSite == was.fromSite && is.fromBorder == was.fromBorder;
-        if (same && (marks[was.cell] & KIRI_MARK_REGION) == 0) {
-            ++k;
-            continue;
-        }
-        if ((marks[was.cell] & KIRI_MARK_GONE) == 0) {
-            AddRawWeight(job, is);
-        }
-        list->data[k] = is.fromSite != KIRI_FAR ? is : list->data[--list->count];
-        k += is.fromSite != KIRI_FAR;
+    kiriReaches* reaches = &job->shape->reaches;
+    int32_t first = loaded.cells * KIRI_BLOCK_CELLS, block = loaded.block;
+    int32_t *fromSite = &work->fromSite.distance.data[first], *fromBorder = &work->fromBorder.distance.data[first];
+    bool any = DropBeyond(fromSite, fromBorder);
+    if (any && block == KIRI_NONE) {
+        block = kiriReaches_Add(reaches, job->frame, loaded.cells);
     }
+    if (block != KIRI_NONE) {
+        UnloadCells(job, &reaches->blocks.data[block], fromSite, fromBorder);
+    }
+    if (!any && block != KIRI_NONE) {
+        kiriReaches_Remove(reaches, block);
+    }
+    for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
+        fromSite[k] = fromBorder[k] = KIRI_FAR;
+        work->marks.data[first + k] &= (uint8_t) ~(KIRI_MARK_SEED | KIRI_MARK_SEEN);
+    }
+    work->isLoaded.data[loaded.cells] = 0;
 }
 
-/* A cell of a flood or a log that is still loaded is new in the list. */
-static void AddReach(kiriShapeJob* job, int32_t cell)
-{
-    kiriReaches* list = &job->shape->reaches.data[job->frame];
-    kiriReach is = UnloadCell(job->work->fromSite.distance.data, job->work->fromBorder.distance.data, cell);
-    if (is.fromSite != KIRI_FAR) {
-        KIRI_ASSERT(list->count < list->capacity && kiriGrid_IsCell(job->grid, cell));
-        list->data[list->count++] = is;
-        AddRawWeight(job, is);
-    }
-}
-
-/* Brings the list up to date with the fields, and empties them. */
-static bool UnloadFrame(kiriShapeJob* job)
+/* Brings the blocks up to date with the fields, and empties these: four blocks an item. */
+static kiriProgress UnloadFrame(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriShapeWork* work = job->work;
-    kiriField *site = &work->fromSite, *border = &work->fromBorder;
-    kiriReaches* list = &job->shape->reaches.data[job->frame];
-    int64_t most = (int64_t)list->count + site->settled.count + site->log.count;
-    if (!kiriArray_Reserve(job->memory, list, most) ||
-        !kiriArray_Reserve(job->memory, &work->rawWeights, work->rawWeights.count + most)) {
-        return false;
+    int64_t cells = (int64_t)KIRI_BLOCK_CELLS * work->loaded.count;
+    if (!kiriReaches_Reserve(&job->shape->reaches, job->memory, work->loaded.count) ||
+        !kiriArray_Reserve(job->memory, &work->rawWeights, work->rawWeights.count + cells)) {
+        return KIRI_FAILED;
     }
-    UpdateReaches(job);
-    for (int32_t k = 0; k < site->settled.count; ++k) {
-        AddReach(job, site->settled.data[k]);
+    for (; work->loaded.count > 0; --work->loaded.count) {
+        if (!kiriQuota_Take(quota, work->loaded.count % 4 == 0)) {
+            return KIRI_MORE;
+        }
+        UnloadBlock(job, work->loaded.data[work->loaded.count - 1]);
     }
-    for (int32_t k = 0; k < site->log.count; ++k) {
-        AddReach(job, site->log.data[k].cell);
-    }
-    /* Distances to the border are given one step farther than ways go on. */
-    for (int32_t k = 0; k < border->log.count; ++k) {
-        border->distance.data[border->log.data[k].cell] = KIRI_FAR;
-    }
-    kiriField_Reset(border);
-    site->settled.count = site->log.count = border->log.count = 0;
-    return true;
+    work->fromSite.settled.count = work->fromSite.log.count = 0;
+    work->fromBorder.settled.count = work->fromBorder.log.count = 0;
+    work->frameStage = KIRI_FRAME_REST;
+    return KIRI_DONE;
 }
+
+/* ---- Algorithm 2 of a frame -------------------------------------------------------------------------------------- */
+
+static kiriProgress StartFrame(kiriShapeJob* job, kiriQuota* quota)
+{
+    kiriProgress progress = LoadAllTouched(job, quota);
+    if (progress == KIRI_DONE) {
+        job->work->frameStage = KIRI_FRAME_SITE;
+        progress = StartFromSite(job) ? KIRI_DONE : KIRI_FAILED;
+    }
+    return progress;
+}
+
+static kiriProgress MeasureFromSite(kiriShapeJob* job, kiriQuota* quota)
+{
+    kiriShapeWork* work = job->work;
+    const kiriRule rule = { job->grid, work->frames.data[job->frame].limit, NULL, SiteSeed, job, LoadAround };
+    kiriProgress progress = MeasureField(job, &work->fromSite, &rule, quota);
+    if (progress == KIRI_DONE) {
+        work->frameStage = KIRI_FRAME_BORDER;
+        progress = StartFromBorder(job) ? KIRI_DONE : KIRI_FAILED;
+    }
+    return progress;
+}
+
+static kiriProgress MeasureFromBorder(kiriShapeJob* job, kiriQuota* quota)
+{
+    kiriShapeWork* work = job->work;
+    const kiriRule rule = { job->grid, KIRI_FAR - 1, HasWeight, BorderSeed, job, LoadAround };
+    kiriProgress progress = MeasureField(job, &work->fromBorder, &rule, quota);
+    if (progress == KIRI_DONE) {
+        work->frameStage = KIRI_FRAME_UNLOAD;
+    }
+    return progress;
+}
+
+static kiriProgress (*const frameStages[])(kiriShapeJob* job, kiriQuota* quota) = {
+    StartFrame,
+    MeasureFromSite,
+    MeasureFromBorder,
+    UnloadFrame,
+};
 
 kiriProgress kiriShapeJob_MeasureFrame(kiriShapeJob* job, kiriQuota* quota)
 {
-    kiriShapeWork* work = job->work;
     kiriProgress progress = KIRI_DONE;
-    if (work->frameStage == KIRI_FRAME_REST) {
-        if (!StartFromSite(job)) {
-            return KIRI_FAILED;
-        }
-        work->frameStage = KIRI_FRAME_SITE;
-    }
-    if (work->frameStage == KIRI_FRAME_SITE) {
-        const kiriRule rule = { job->grid, work->frames.data[job->frame].limit, NULL, SiteSeed, job };
-        progress = MeasureField(job, &work->fromSite, &rule, quota);
-        if (progress == KIRI_DONE) {
-            progress = StartFromBorder(job) ? KIRI_DONE : KIRI_FAILED;
-            work->frameStage = KIRI_FRAME_BORDER;
-        }
-    }
-    if (progress == KIRI_DONE) {
-        const kiriRule rule = { job->grid, KIRI_FAR - 1, HasWeight, BorderSeed, job };
-        progress = MeasureField(job, &work->fromBorder, &rule, quota);
-    }
-    if (progress != KIRI_DONE) {
-        return progress;
-    }
-    work->frameStage = KIRI_FRAME_REST;
-    return UnloadFrame(job) ? KIRI_DONE : KIRI_FAILED;
+    do {
+        progress = frameStages[job->work->frameStage](job, quota);
+    } while (progress == KIRI_DONE && job->work->frameStage != KIRI_FRAME_REST);
+    return progress;
 }

@@ -14,6 +14,8 @@ enum {
     KIRI_MARK_CHANGED = 8,     /* it is in shape->changes, */
     KIRI_MARK_RECOMPUTED = 16, /* and in shape->recomputed */
     KIRI_MARK_DIRTY = 32,      /* it is in work->dirty */
+    KIRI_MARK_SEED = 64,       /* the site of the frame at hand may send it a seed */
+    KIRI_MARK_SEEN = 128,      /* the cells that its steps lead to are loaded */
 };
 
 /* A weight before normalisation, to be put in its place; 0: to be taken away. */
@@ -24,14 +26,31 @@ typedef struct kiriRawWeight {
 
 /* What an update knows of a frame. */
 typedef struct kiriShapeFrame {
-    int32_t limit; /* of the distances in its list */
-    int32_t reach; /* the least limit that the changed cells of its region ask for */
-    bool moved;    /* its site */
-    bool dirty;    /* a cell came to its region, left it, or has another distance in it */
+    int32_t limit;  /* of its distances */
+    kiriSpan sides; /* of work->sideCounts: of each number of sides, how many cells of its region ask for it */
+    int32_t touches, firstTouch; /* how many, and which */
+    bool moved;                  /* its site */
+    bool dirty;                  /* its distances or weights may have changed */
 } kiriShapeFrame;
+
+/* Whose region a cell is in, and how many whole sides distances to the site there have to go for its sake. */
+typedef struct kiriCountedCell {
+    int32_t frame, sides;
+} kiriCountedCell;
+
+/* A cell about which something has changed, and that a frame reaches. */
+typedef struct kiriTouchedCell {
+    int32_t cell, next; /* the next one of the frame, or KIRI_NONE */
+} kiriTouchedCell;
+
+/* Cells whose distances are loaded, and the block that they are from, or KIRI_NONE. */
+typedef struct kiriLoadedBlock {
+    int32_t cells, block;
+} kiriLoadedBlock;
 
 typedef enum kiriShapeStage {
     KIRI_SHAPE_REST,
+    KIRI_SHAPE_MARK,
     KIRI_SHAPE_MEASURE,
     KIRI_SHAPE_MAKE_ROOM,
     KIRI_SHAPE_PLACE,
@@ -39,24 +58,30 @@ typedef enum kiriShapeStage {
 } kiriShapeStage;
 
 /* Which distances of the frame at hand are being measured. */
-typedef enum kiriFrameStage { KIRI_FRAME_REST, KIRI_FRAME_SITE, KIRI_FRAME_BORDER } kiriFrameStage;
+typedef enum kiriFrameStage { KIRI_FRAME_REST, KIRI_FRAME_SITE, KIRI_FRAME_BORDER, KIRI_FRAME_UNLOAD } kiriFrameStage;
 
 struct kiriShapeWork {
     /* Of the frame at hand; empty between frames. All seeds are its own, so they need no owner, and neither do the
-       distances that are loaded from its list. */
+       distances that are loaded from its blocks: only those near what changes. */
     kiriField fromSite;   /* distances to its site, no farther than its weight may be above zero, */
     kiriField fromBorder; /* and to the border of its region */
     kiriSeeds seeds;
     kiriFrameStage frameStage;
+    KIRI_ARRAY(kiriLoadedBlock) loaded;
+    KIRI_ARRAY(uint8_t) isLoaded; /* of each block of cells */
 
     KIRI_ARRAY(uint8_t) marks;       /* of each cell */
     KIRI_ARRAY(int32_t) wasOwner;    /* of cells with KIRI_MARK_REGION */
     KIRI_ARRAY(int32_t) awaited;     /* of cells without weights: how many are still to be put there */
     KIRI_ARRAY(int64_t) rigidShares; /* of each cell: what it adds to the rigid sums of its frames */
+    KIRI_ARRAY(kiriCountedCell) counted;
+    KIRI_ARRAY(int32_t) sideCounts;
+    kiriSpans sideRoom;
     KIRI_ARRAY(kiriShapeFrame) frames;
+    KIRI_ARRAY(int32_t) dirtyFrames;
+    KIRI_ARRAY(kiriTouchedCell) touches;
     KIRI_ARRAY(kiriRawWeight) rawWeights; /* by frame */
     KIRI_ARRAY(int32_t) dirty;            /* cells whose weights do not sum to 1 yet, or that have other material */
-    int32_t low[2], high[2];              /* the box of columns and rows in which something changed */
     kiriShapeStage stage;
     int32_t next; /* item of the stage at which the work goes on */
 };
@@ -74,13 +99,13 @@ typedef struct kiriShapeJob {
     int32_t frame;
 } kiriShapeJob;
 
-/* How far distances to the site of its region have to go for the sake of a cell. */
-int32_t kiriShapeJob_ReachAt(const kiriShapeJob* job, int32_t cell);
+/* Counts how far distances to the site of its region have to go for the sake of a cell, as it is now. */
+bool kiriShapeJob_CountCell(kiriShapeJob* job, int32_t cell);
 
-/* May the distances of the frame at hand have changed? */
-bool kiriShapeJob_IsFrameDirty(const kiriShapeJob* job);
+/* The cell is no more. */
+void kiriShapeJob_UncountCell(kiriShapeJob* job, int32_t cell);
 
-/* Measures the distances of the frame at hand again: brings its list up to date, and adds the weights that follow to
+/* Measures the distances of the frame at hand again: brings its blocks up to date, and adds the weights that follow to
    job->work->rawWeights. An item of the quota: see kiriField_Flood and kiriField_Repair. */
 kiriProgress kiriShapeJob_MeasureFrame(kiriShapeJob* job, kiriQuota* quota);
 

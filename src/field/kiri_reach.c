@@ -1,0 +1,129 @@
+#include "kiri_reach.h"
+
+bool kiriReaches_Resize(kiriReaches* reaches, kiriMemory* memory, int32_t cellCount, int32_t frameCount)
+{
+    int32_t cells = reaches->ofCells.count, frames = reaches->ofFrame.count;
+    int32_t needed = kiriReach_BlockOf(cellCount + KIRI_BLOCK_CELLS - 1);
+    if (!kiriArray_Resize(memory, &reaches->ofCells, needed > cells ? needed : cells) ||
+        !kiriArray_Resize(memory, &reaches->ofFrame, frameCount > frames ? frameCount : frames)) {
+        return false;
+    }
+    for (; cells < reaches->ofCells.count; ++cells) {
+        reaches->ofCells.data[cells] = KIRI_NONE;
+    }
+    for (; frames < reaches->ofFrame.count; ++frames) {
+        reaches->ofFrame.data[frames] = KIRI_NONE;
+    }
+    return true;
+}
+
+void kiriReaches_Clear(kiriReaches* reaches)
+{
+    reaches->blocks.count = reaches->ofCells.count = reaches->ofFrame.count = reaches->freeBlocks = 0;
+}
+
+int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t frame, int32_t cells)
+{
+    int32_t block = reaches->ofCells.data[cells];
+    while (block != KIRI_NONE && reaches->blocks.data[block].frame != frame) {
+        block = reaches->blocks.data[block].nextOfCells;
+    }
+    return block;
+}
+
+bool kiriReaches_Reserve(kiriReaches* reaches, kiriMemory* memory, int32_t more)
+{
+    return kiriArray_Reserve(memory, &reaches->blocks, (int64_t)reaches->blocks.count + more - reaches->freeBlocks);
+}
+
+static int32_t TakeBlock(kiriReaches* reaches)
+{
+    if (reaches->freeBlocks == 0) {
+        KIRI_ASSERT(reaches->blocks.count < reaches->blocks.capacity);
+        return reaches->blocks.count++;
+    }
+    int32_t block = reaches->freeBlock;
+    reaches->freeBlock = reaches->blocks.data[block].nextOfFrame;
+    reaches->freeBlocks -= 1;
+    return block;
+}
+
+int32_t kiriReaches_Add(kiriReaches* reaches, int32_t frame, int32_t cells)
+{
+    int32_t index = TakeBlock(reaches), next = reaches->ofFrame.data[frame];
+    kiriReachBlock* block = &reaches->blocks.data[index];
+    block->frame = frame;
+    block->cells = cells;
+    block->nextOfCells = reaches->ofCells.data[cells];
+    block->nextOfFrame = next;
+    block->previousOfFrame = KIRI_NONE;
+    for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
+        block->fromSite[k] = block->fromBorder[k] = KIRI_FAR;
+    }
+    if (next != KIRI_NONE) {
+        reaches->blocks.data[next].previousOfFrame = index;
+    }
+    reaches->ofCells.data[cells] = reaches->ofFrame.data[frame] = index;
+    return index;
+}
+
+void kiriReaches_Remove(kiriReaches* reaches, int32_t index)
+{
+    kiriReachBlock *blocks = reaches->blocks.data, *block = &blocks[index];
+    int32_t* link = &reaches->ofCells.data[block->cells];
+    while (*link != index) {
+        link = &blocks[*link].nextOfCells;
+    }
+    *link = block->nextOfCells;
+    if (block->nextOfFrame != KIRI_NONE) {
+        blocks[block->nextOfFrame].previousOfFrame = block->previousOfFrame;
+    }
+    if (block->previousOfFrame != KIRI_NONE) {
+        blocks[block->previousOfFrame].nextOfFrame = block->nextOfFrame;
+    } else {
+        reaches->ofFrame.data[block->frame] = block->nextOfFrame;
+    }
+    block->frame = KIRI_NONE;
+    block->nextOfFrame = reaches->freeBlock;
+    reaches->freeBlock = index;
+    reaches->freeBlocks += 1;
+}
+
+void kiriReaches_Keep(kiriReaches* reaches, const kiriKeep* frames)
+{
+    for (int32_t f = frames->first; f < frames->to.count; ++f) {
+        int32_t to = kiriKeep_To(frames, f);
+        while (to == KIRI_NONE && reaches->ofFrame.data[f] != KIRI_NONE) {
+            kiriReaches_Remove(reaches, reaches->ofFrame.data[f]);
+        }
+        for (int32_t b = reaches->ofFrame.data[f]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
+            reaches->blocks.data[b].frame = to;
+        }
+    }
+    kiriKeep_Compact(frames, &reaches->ofFrame, 1, sizeof(int32_t));
+}
+
+/* ---- What a frame reaches ---------------------------------------------------------------------------------------- */
+
+static kiriReach NextReach(const kiriReaches* reaches, int32_t block, int32_t k)
+{
+    for (; block != KIRI_NONE; block = reaches->blocks.data[block].nextOfFrame, k = 0) {
+        const kiriReachBlock* at = &reaches->blocks.data[block];
+        for (; k < KIRI_BLOCK_CELLS; ++k) {
+            if (at->fromSite[k] != KIRI_FAR) {
+                return (kiriReach){ at->cells * KIRI_BLOCK_CELLS + k, at->fromSite[k], at->fromBorder[k], block };
+            }
+        }
+    }
+    return (kiriReach){ KIRI_NONE, KIRI_FAR, KIRI_FAR, KIRI_NONE };
+}
+
+kiriReach kiriReaches_First(const kiriReaches* reaches, int32_t frame)
+{
+    return NextReach(reaches, reaches->ofFrame.data[frame], 0);
+}
+
+kiriReach kiriReaches_After(const kiriReaches* reaches, kiriReach reach)
+{
+    return NextReach(reaches, reach.block, reach.cell % KIRI_BLOCK_CELLS + 1);
+}

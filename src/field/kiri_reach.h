@@ -1,0 +1,70 @@
+/* How far cells are from the sites of frames, and from the borders of their regions: of each frame only for the cells that
+   it reaches. Cells whose indices follow each other, which mostly lie in a row, share a block for each frame that reaches
+   one of them. So what a frame knows of a cell, and which frames reach a cell, is found at the cost of the frames near
+   by. */
+#ifndef KIRI_REACH_H
+#define KIRI_REACH_H
+
+#include "kiri_geodesic.h"
+#include "../core/kiri_keep.h"
+
+KIRI_C_BEGIN
+
+enum { KIRI_BLOCK_CELLS = 16 };
+
+/* What a frame knows of so many cells, from cell `cells` * KIRI_BLOCK_CELLS on. */
+typedef struct kiriReachBlock {
+    int32_t frame; /* KIRI_NONE: no block has this index now */
+    int32_t cells;
+    int32_t nextOfCells; /* the block of another frame for these cells, or KIRI_NONE */
+    int32_t nextOfFrame, previousOfFrame;
+    int32_t fromSite[KIRI_BLOCK_CELLS]; /* KIRI_FAR where the frame does not reach the cell */
+    int32_t fromBorder[KIRI_BLOCK_CELLS];
+} kiriReachBlock;
+
+typedef struct kiriReaches {
+    KIRI_ARRAY(kiriReachBlock) blocks; /* by index, with gaps */
+    KIRI_ARRAY(int32_t) ofCells;       /* heads of lists */
+    KIRI_ARRAY(int32_t) ofFrame;
+    int32_t freeBlocks; /* how many have no frame; the list is headed by */
+    int32_t freeBlock;
+} kiriReaches;
+
+/* A cell that a frame reaches. */
+typedef struct kiriReach {
+    int32_t cell; /* KIRI_NONE: there are no more */
+    int32_t fromSite, fromBorder;
+    int32_t block;
+} kiriReach;
+
+/* Room for so many cells and frames. False for memory. */
+bool kiriReaches_Resize(kiriReaches* reaches, kiriMemory* memory, int32_t cellCount, int32_t frameCount);
+
+/* Makes it empty; keeps the memory. */
+void kiriReaches_Clear(kiriReaches* reaches);
+
+/* The block, or KIRI_NONE. */
+int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t frame, int32_t cells);
+
+/* Room for so many more blocks. */
+bool kiriReaches_Reserve(kiriReaches* reaches, kiriMemory* memory, int32_t more);
+
+/* A block that there is not yet, which reaches nothing. There is room. */
+int32_t kiriReaches_Add(kiriReaches* reaches, int32_t frame, int32_t cells);
+void kiriReaches_Remove(kiriReaches* reaches, int32_t block);
+
+/* Frames that are not kept lose their blocks, others get their new index. */
+void kiriReaches_Keep(kiriReaches* reaches, const kiriKeep* frames);
+
+/* The cells that a frame reaches, in no order. */
+kiriReach kiriReaches_First(const kiriReaches* reaches, int32_t frame);
+kiriReach kiriReaches_After(const kiriReaches* reaches, kiriReach reach);
+
+static inline int32_t kiriReach_BlockOf(int32_t cell)
+{
+    return cell / KIRI_BLOCK_CELLS;
+}
+
+KIRI_C_END
+
+#endif
