@@ -275,6 +275,11 @@ int32_t BlockAt(const kiriMatrix* matrix, int32_t row, int32_t column)
     return at != end && *at == row ? (int32_t)(at - rows) : (int32_t)KIRI_NONE;
 }
 
+void AddNumbers(double* out, const double* numbers, int32_t count)
+{
+    Eigen::Map<Eigen::VectorXd>(out, count) += Eigen::Map<const Eigen::VectorXd>(numbers, count);
+}
+
 /* A column of a block: the compiler knows how long it is. */
 template <int size> using Column = Eigen::Matrix<double, size, 1>;
 template <int size> using In = Eigen::Map<const Column<size>>;
@@ -582,9 +587,22 @@ extern "C" void kiriMatrix_AddOwn(kiriMatrix* matrix, int32_t frame, const doubl
 {
     KIRI_ASSERT(frame >= 0 && frame < matrix->count);
     int32_t area = matrix->size * matrix->size;
-    double* out = &matrix->values.data[(int64_t)area * matrix->own.start.data[matrix->place.data[frame]]];
-    for (int32_t n = 0; n < area; ++n) {
-        out[n] += block[n];
+    AddNumbers(&matrix->values.data[(int64_t)area * matrix->own.start.data[matrix->place.data[frame]]], block, area);
+}
+
+extern "C" void kiriMatrix_AddBlock(kiriMatrix* matrix, int32_t down, int32_t across, const double* block)
+{
+    int32_t size = matrix->size, row = matrix->place.data[down], column = matrix->place.data[across];
+    int32_t at = BlockAt(matrix, std::max(row, column), std::min(row, column));
+    KIRI_ASSERT(at != KIRI_NONE);
+    double* out = &matrix->values.data[(int64_t)size * size * at];
+    for (int32_t c = 0; row < column && c < size; ++c) {
+        for (int32_t r = 0; r < size; ++r) {
+            *out++ += block[size * r + c];
+        }
+    }
+    if (row >= column) {
+        AddNumbers(out, block, size * size);
     }
 }
 

@@ -45,6 +45,10 @@ void kiriMatrix_Clear(kiriMatrix* matrix);
 /* Adds a symmetric block of size x size to a frame's own. */
 void kiriMatrix_AddOwn(kiriMatrix* matrix, int32_t frame, const double* block);
 
+/* Adds the block of a pair in the pattern, the unknowns of frame `down` down; and what mirrors it. Of one frame with
+   itself it is symmetric. */
+void kiriMatrix_AddBlock(kiriMatrix* matrix, int32_t down, int32_t across, const double* block);
+
 /* Adds J^T k J, J of `rows` rows and size columns for each of the frames, which are all different; all pairs of them
    are in the pattern. */
 void kiriMatrix_AddSquares(kiriMatrix* matrix, const int32_t* frames, int32_t frameCount, const double* J,

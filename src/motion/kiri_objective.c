@@ -8,17 +8,6 @@ static void AddEnergy(kiriStepEnergy* sum, double stored, double lost)
 
 /* ---- Pins, clamps and contacts ---- */
 
-kiriVec3 kiriSystem_Arm(const kiriSystem* system, int32_t frame, kiriVec2 at, const kiriPose* pose)
-{
-    return kiriPose_Along(pose, kiriVec2_Sub(at, system->frames[frame].center));
-}
-
-kiriVec3 kiriSystem_Point(const kiriSystem* system, int32_t frame, kiriVec2 at, const kiriPose* poses)
-{
-    KIRI_ASSERT(frame >= 0 && frame < system->frameCount);
-    return kiriVec3_Add(poses[frame].x, kiriSystem_Arm(system, frame, at, &poses[frame]));
-}
-
 static void AddPinEnergy(const kiriSystem* system, const kiriPinRow* pin, const kiriPose* poses, kiriStepEnergy* sum)
 {
     kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, poses), pin->target);
@@ -465,5 +454,7 @@ void kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
     if (kiriSystem_HasWind(system)) {
         kiriWind_Assemble(solver, system);
     }
+    solver->isAlong = true; /* contacts know where they are: nothing has moved since LinearizeContacts */
     kiriObjective_AddHost(solver, system, solver->poses.data);
+    solver->isAlong = false;
 }

@@ -1,5 +1,5 @@
 /* What the files of the solver share: kiri_solver.c (unknowns, pattern, a step), kiri_step_begin.c, kiri_objective.c,
-   kiri_assembly.c, kiri_newton.c, kiri_step_contact.c, kiri_contact_hold.c, kiri_energy_limit.c
+   kiri_newton.c, kiri_step_contact.c, kiri_contact_assembly.c, kiri_contact_hold.c, kiri_energy_limit.c
    and kiri_step_reaction.c. No other file of the library includes it.
 
    The step is a minimisation over the poses of the frames at its end. The objective is
@@ -180,8 +180,16 @@ void kiriSolver_FindTouched(kiriSolver* solver, const kiriSystem* system, const 
 /* ---- Objective ---- */
 
 /* A material point as seen from its frame's x, and in space. */
-kiriVec3 kiriSystem_Arm(const kiriSystem* system, int32_t frame, kiriVec2 at, const kiriPose* pose);
-kiriVec3 kiriSystem_Point(const kiriSystem* system, int32_t frame, kiriVec2 at, const kiriPose* poses);
+static inline kiriVec3 kiriSystem_Arm(const kiriSystem* system, int32_t frame, kiriVec2 at, const kiriPose* pose)
+{
+    return kiriPose_Along(pose, kiriVec2_Sub(at, system->frames[frame].center));
+}
+
+static inline kiriVec3 kiriSystem_Point(const kiriSystem* system, int32_t frame, kiriVec2 at, const kiriPose* poses)
+{
+    KIRI_ASSERT(frame >= 0 && frame < system->frameCount);
+    return kiriVec3_Add(poses[frame].x, kiriSystem_Arm(system, frame, at, &poses[frame]));
+}
 
 /* The strains of element k at the poses. `strains` has KIRI_MOST_STRAINS an element; those of a corner's links are there
    already. */
@@ -261,8 +269,12 @@ double kiriContact_Depth(const kiriSolver* solver, const kiriSystem* system, int
 
 /* Before a system is assembled: springs, depths and slides there. After it is solved: how they change. */
 void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system);
-void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, int32_t k);
+void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, int32_t k); /* kiri_contact_assembly.c */
 void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system);
+
+/* N: friction by the linear model after a part of the step, on the sheet. N/m: what turns the direction of a slide. */
+kiriVec3 kiriContactStep_Drag(const kiriContactStep* step, double part);
+double kiriContactStep_TurnSpring(const kiriContactStep* step);
 
 /* Shortens the step of a piece to where friction, which slips instead of sticking or the other way, ends it: where the
    derivative of the objective along it is zero. */

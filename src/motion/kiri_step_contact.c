@@ -39,17 +39,20 @@ static kiriVec3 AlongPlane(kiriVec3 a, kiriVec3 normal)
     return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, normal), normal);
 }
 
-double kiriContact_Depth(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses)
+static double DepthAt(const kiriContactStep* step, const kiriContactRow* row, kiriVec3 point)
 {
-    return solver->contacts.data[k].plane -
-           kiriVec3_Dot(system->contacts[k].normal, kiriContact_Point(solver, system, k, poses));
+    return step->plane - kiriVec3_Dot(row->normal, point);
 }
 
-static kiriVec3 SlideAt(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses)
+double kiriContact_Depth(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses)
 {
-    const kiriContactStep* step = &solver->contacts.data[k];
-    kiriVec3 way = kiriVec3_Sub(kiriContact_Point(solver, system, k, poses), step->start);
-    return AlongPlane(kiriVec3_Sub(way, step->carried), system->contacts[k].normal);
+    return DepthAt(&solver->contacts.data[k], &system->contacts[k], kiriContact_Point(solver, system, k, poses));
+}
+
+static kiriVec3 SlideAt(const kiriContactStep* step, const kiriContactRow* row, kiriVec3 point)
+{
+    kiriVec3 way = kiriVec3_Sub(point, step->start);
+    return AlongPlane(kiriVec3_Sub(way, step->carried), row->normal);
 }
 
 /* ---- Obstacles that yield ----------------------------------------------------------------------------------------- */
@@ -253,7 +256,7 @@ static void CountPressed(const kiriSolver* solver, const kiriSystem* system)
 /* The spring of the contact is so stiff that nobody sees it, in series with the inertia of the obstacle. Contacts that
    press on one obstacle each have the same share of its mass: then none of them can give it more than is there, and
    together they give all (mass splitting; Tonge, Benevolenski, Voroshilov 2012). */
-static void SetSprings(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+static void SetSprings(const kiriSolver* solver, const kiriSystem* system, int32_t k, kiriVec3 point)
 {
     kiriContactStep* step = &solver->contacts.data[k];
     const kiriContactRow* row = &system->contacts[k];
@@ -264,7 +267,6 @@ static void SetSprings(const kiriSolver* solver, const kiriSystem* system, int32
     spring = spring < most ? spring : most;
     double share = yield != NULL && yield->pressed > 1 ? yield->pressed : 1.0;
     double soft = part * part * share;
-    kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data);
     kiriVec3 along = kiriVec3_Length(step->direction) > 0.5 ? step->direction : row->normal;
     step->give = soft * (row->cushion + InverseMass(system, k, point, row->normal));
     step->stiffness = 1.0 / (1.0 / spring + step->give);
@@ -277,9 +279,10 @@ void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
     for (int32_t k = 0; k < system->contactCount; ++k) {
         kiriContactStep* step = &solver->contacts.data[k];
         if (PieceOf(solver, system, k)->isSearching) {
-            SetSprings(solver, system, k);
-            step->depth = kiriContact_Depth(solver, system, k, solver->poses.data);
-            step->slide = SlideAt(solver, system, k, solver->poses.data);
+            kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data);
+            SetSprings(solver, system, k, point);
+            step->depth = DepthAt(step, &system->contacts[k], point);
+            step->slide = SlideAt(step, &system->contacts[k], point);
             step->sinks = 0.0;
             step->slides = kiriVec3_Make(0.0, 0.0, 0.0);
         }
@@ -293,7 +296,7 @@ static kiriVec3 Trial(const kiriContactStep* step, kiriVec3 slide)
 }
 
 /* N/m: what turns the direction of a slide. */
-static double TurnSpring(const kiriContactStep* step)
+double kiriContactStep_TurnSpring(const kiriContactStep* step)
 {
     double trial = kiriVec3_Length(Trial(step, step->slide));
     return trial > step->limit ? step->grip * step->limit / trial : step->grip;
@@ -313,7 +316,7 @@ static double EnergyAt(const kiriContactStep* step, double depth, kiriVec3 slide
     }
     kiriVec3 beside = Beside(slide, step->direction);
     return energy + step->limit * kiriVec3_Dot(step->direction, slide) +
-           0.5 * TurnSpring(step) * kiriVec3_Dot(beside, beside);
+           0.5 * kiriContactStep_TurnSpring(step) * kiriVec3_Dot(beside, beside);
 }
 
 double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses)
@@ -326,68 +329,17 @@ double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, in
         double part = PieceOf(solver, system, k)->scale;
         return EnergyAt(step, step->depth + part * step->sinks, kiriVec3_AddScaled(step->slide, part, step->slides));
     }
-    return EnergyAt(step, kiriContact_Depth(solver, system, k, poses), SlideAt(solver, system, k, poses));
+    kiriVec3 point = kiriContact_Point(solver, system, k, poses);
+    return EnergyAt(step, DepthAt(step, &system->contacts[k], point), SlideAt(step, &system->contacts[k], point));
 }
 
 /* The friction of the linear model, on the sheet. */
-static kiriVec3 Drag(const kiriContactStep* step, double part)
+kiriVec3 kiriContactStep_Drag(const kiriContactStep* step, double part)
 {
     kiriVec3 slide = kiriVec3_AddScaled(step->slide, part, step->slides);
     return step->sticks ? kiriVec3_AddScaled(step->held, -step->grip, slide)
-                        : kiriVec3_AddScaled(kiriVec3_Scale(-step->limit, step->direction), -TurnSpring(step),
-                                             Beside(slide, step->direction));
-}
-
-/* The derivatives of a move of the point along an axis by the unknowns of a member, at whose `arm` it is. */
-static void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiriWeight member, kiriVec2 local,
-                        kiriVec3 arm, kiriVec3 axis, double* J)
-{
-    kiriVec3 along = kiriVec3_Scale(member.value, axis);
-    kiriFrameRow row = { { along, kiriVec3_Scale(local.x, along), kiriVec3_Scale(local.y, along), { 0.0, 0.0, 0.0 } } };
-    if (!kiriMechanics_IsAffine(&system->mechanics)) {
-        row.by[1] = kiriVec3_Cross(arm, along);
-    }
-    if (system->frames[member.frame].held) {
-        memset(J, 0, sizeof(double) * (size_t)solver->size);
-    } else {
-        kiriSolver_Reduce(solver, &row, J);
-    }
-}
-
-/* Two axes of the plane; the first along the slide where it slips. */
-static void FindAxes(const kiriContactStep* step, kiriVec3 normal, kiriVec3 axes[2])
-{
-    kiriVec3 other = fabs(normal.x) < 0.7 ? kiriVec3_Make(1.0, 0.0, 0.0) : kiriVec3_Make(0.0, 1.0, 0.0);
-    bool slips = !step->sticks && kiriVec3_Length(step->direction) > 0.5;
-    axes[1] = kiriVec3_Normalize(kiriVec3_Cross(normal, slips ? step->direction : other));
-    axes[0] = kiriVec3_Cross(axes[1], normal);
-}
-
-void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    enum { ROWS = 3 };
-    const kiriContactStep* step = &solver->contacts.data[k];
-    double J[ROWS * KIRI_CONTACT_MEMBERS * KIRI_MOST_UNKNOWNS];
-    int32_t frames[KIRI_CONTACT_MEMBERS];
-    kiriVec3 axes[ROWS] = { system->contacts[k].normal }, drag = Drag(step, 0.0);
-    if (!step->isActive) {
-        return;
-    }
-    FindAxes(step, axes[0], &axes[1]);
-    for (int32_t m = 0; m < step->memberCount; ++m) {
-        kiriWeight member = step->members[m];
-        kiriVec2 local = kiriVec2_Sub(system->contacts[k].at, system->frames[member.frame].center);
-        kiriVec3 arm = kiriPose_Along(&solver->poses.data[member.frame], local);
-        frames[m] = member.frame;
-        for (int e = 0; e < ROWS; ++e) {
-            DerivePoint(solver, system, member, local, arm, axes[e], &J[solver->size * (step->memberCount * e + m)]);
-        }
-    }
-    const double springs[ROWS] = { step->stiffness, step->sticks ? step->grip : 0.0,
-                                   step->sticks ? step->grip : TurnSpring(step) };
-    const double pulls[ROWS] = { step->stiffness * step->depth, kiriVec3_Dot(drag, axes[1]),
-                                 kiriVec3_Dot(drag, axes[2]) };
-    kiriSolver_AddSquares(solver, frames, step->memberCount, J, springs, pulls, ROWS);
+                        : kiriVec3_AddScaled(kiriVec3_Scale(-step->limit, step->direction),
+                                             -kiriContactStep_TurnSpring(step), Beside(slide, step->direction));
 }
 
 /* How the point moves by the solution, to first order. */
@@ -429,7 +381,7 @@ static double FrictionSlope(const kiriContactStep* step, double part)
     kiriVec3 trial = Trial(step, kiriVec3_AddScaled(step->slide, part, step->slides));
     double size = kiriVec3_Length(trial);
     kiriVec3 drag = size > step->limit ? kiriVec3_Scale(step->limit / size, trial) : trial;
-    return kiriVec3_Dot(kiriVec3_Sub(Drag(step, part), drag), step->slides);
+    return kiriVec3_Dot(kiriVec3_Sub(kiriContactStep_Drag(step, part), drag), step->slides);
 }
 
 static void SumForceSlopes(const kiriSolver* solver, const kiriSystem* system)
@@ -479,7 +431,7 @@ void kiriSolver_LimitByFriction(kiriSolver* solver, const kiriSystem* system)
 static void TakeForces(kiriContactStep* step, double part)
 {
     double push = step->isActive ? step->stiffness * (step->depth + step->sinks) : 0.0;
-    kiriVec3 drag = step->isActive ? Drag(step, 1.0) : kiriVec3_Make(0.0, 0.0, 0.0);
+    kiriVec3 drag = step->isActive ? kiriContactStep_Drag(step, 1.0) : kiriVec3_Make(0.0, 0.0, 0.0);
     step->push = (1.0 - part) * step->push + part * push;
     step->drag = kiriVec3_AddScaled(kiriVec3_Scale(1.0 - part, step->drag), part, drag);
 }
@@ -518,8 +470,8 @@ static bool Review(const kiriSolver* solver, const kiriSystem* system, int32_t k
 {
     kiriContactStep* step = &solver->contacts.data[k];
     const kiriContactRow* row = &system->contacts[k];
-    double inertia = Inertia(solver, system, k), depth = kiriContact_Depth(solver, system, k, solver->poses.data);
-    kiriVec3 slide = SlideAt(solver, system, k, solver->poses.data);
+    kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data), slide = SlideAt(step, row, point);
+    double inertia = Inertia(solver, system, k), depth = DepthAt(step, row, point);
     if (!step->isActive) {
         if (depth > 0.0) {
             Activate(step, row->friction, inertia, depth, slide);
