@@ -1,4 +1,4 @@
-/* The only file that knows Eigen: its order of unknowns that keeps a factor sparse, and its small vectors. The Cholesky
+/* The only file that knows Eigen: its order of unknowns that keeps a factor sparse. The Cholesky
    factorisation is our own, for Eigen's goes entry by entry: panels of blocks, whose products stay in registers, take a
    fraction of the time, and their memory is the host's (Chen, Davis, Hager, Rajamanickam 2008, CHOLMOD, has the same
    scheme). Numbers are summed in a fixed order: the same bits everywhere. */
@@ -21,6 +21,8 @@ namespace
 {
 
 const double LAST_BITS = 8.0 * DBL_EPSILON; /* of an entry: what a few operations round off */
+
+const int32_t MOST_ROWS = 16; /* of an element that are added together */
 
 /* Which blocks there are on and below the diagonal: the rows of column c are those from start[c] on, ascending, so that
    the diagonal block comes first. */
@@ -270,9 +272,12 @@ bool MakeRoomForFrames(kiriMatrix* matrix)
 /* The block (row, column) of the matrix, row >= column; KIRI_NONE where there is none. */
 int32_t BlockAt(const kiriMatrix* matrix, int32_t row, int32_t column)
 {
-    const int32_t *rows = matrix->own.row.data, *end = rows + matrix->own.start.data[column + 1];
-    const int32_t* at = std::lower_bound(rows + matrix->own.start.data[column], end, row);
-    return at != end && *at == row ? (int32_t)(at - rows) : (int32_t)KIRI_NONE;
+    const int32_t* rows = matrix->own.row.data;
+    int32_t at = matrix->own.start.data[column], end = matrix->own.start.data[column + 1];
+    while (at < end && rows[at] < row) { /* a few: no search is as fast */
+        ++at;
+    }
+    return at < end && rows[at] == row ? at : (int32_t)KIRI_NONE;
 }
 
 void AddNumbers(double* out, const double* numbers, int32_t count)
@@ -280,66 +285,32 @@ void AddNumbers(double* out, const double* numbers, int32_t count)
     Eigen::Map<Eigen::VectorXd>(out, count) += Eigen::Map<const Eigen::VectorXd>(numbers, count);
 }
 
-/* A column of a block: the compiler knows how long it is. */
-template <int size> using Column = Eigen::Matrix<double, size, 1>;
-template <int size> using In = Eigen::Map<const Column<size>>;
-template <int size> using Out = Eigen::Map<Column<size>>;
-
-/* What one element adds, J^T k J: rows of J, `stride` apart, and the stiffness k of each. */
+/* What one element adds, J^T k J: rows of J, and the stiffness k of each. */
 struct Squares {
     const double* J;
     const double* k;
-    int32_t rows, stride;
+    int32_t rows; /* MOST_ROWS or less */
 };
 
-/* Columns that are summed together: a short one by itself would wait for each of its additions, and long ones together
-   would find no registers. */
-template <int size> struct Wide {
-    enum { count = size == 6 ? 2 : 1 };
-    typedef Eigen::Matrix<double, size, count> Columns;
-};
-
-/* Adds the block of frames number a and b of the element, a's unknowns down. */
-template <int size> void AddBlock(double* block, const Squares& s, int32_t a, int32_t b)
+/* Adds what J and k have in one block column, b, of an element: J^T k J. */
+void AddColumn(kiriMatrix* matrix, const Squares* squares, const int32_t* frames, int32_t count, int32_t b)
 {
-    for (int32_t c = 0; c < size; c += Wide<size>::count) {
-        typename Wide<size>::Columns sum = Wide<size>::Columns::Zero();
-        for (int32_t e = 0; e < s.rows; ++e) {
-            const double* J = s.J + e * s.stride;
-            const double *across = J + size * b + c, *last = across + Wide<size>::count - 1;
-            if (*across == 0.0 && *last == 0.0) {
-                continue; /* half of the strains of rigid frames do not see them move */
-            }
-            In<size> down(J + size * a);
-            for (int32_t n = 0; n < Wide<size>::count; ++n) {
-                sum.col(n) += (s.k[e] * across[n]) * down;
-            }
+    int32_t size = matrix->size, stride = size * count, column = matrix->place.data[frames[b]];
+    double scaled[MOST_ROWS * KIRI_MOST_UNKNOWNS];
+    for (int32_t e = 0; e < squares->rows; ++e) {
+        for (int32_t n = 0; n < size; ++n) {
+            scaled[size * e + n] = -squares->k[e] * squares->J[stride * e + size * b + n];
         }
-        Eigen::Map<typename Wide<size>::Columns>(block + size * c) += sum;
     }
-}
-
-/* The same for two rows, which stay in registers. */
-template <int size> void AddBlockOfTwo(double* block, const Squares& s, int32_t a, int32_t b)
-{
-    const double *first = s.J + size * b, *second = first + s.stride;
-    const Column<size> downFirst = In<size>(s.J + size * a), downSecond = In<size>(s.J + size * a + s.stride);
-    for (int32_t c = 0; c < size; ++c) {
-        Out<size>(block + size * c) += (s.k[0] * first[c]) * downFirst + (s.k[1] * second[c]) * downSecond;
-    }
-}
-
-template <int size> void AddBlocks(kiriMatrix* matrix, const Squares& squares, const int32_t* frames, int32_t count)
-{
-    for (int32_t b = 0; b < count; ++b) {
-        for (int32_t a = 0; a < count; ++a) {
-            int32_t row = matrix->place.data[frames[a]], column = matrix->place.data[frames[b]];
-            if (row >= column) {
-                int32_t block = BlockAt(matrix, row, column);
-                KIRI_ASSERT(block != KIRI_NONE);
-                double* values = &matrix->values.data[(int64_t)size * size * block];
-                squares.rows == 2 ? AddBlockOfTwo<size>(values, squares, a, b) : AddBlock<size>(values, squares, a, b);
-            }
+    kiriProduct product = { nullptr, nullptr, scaled, size, stride, size, size, size, squares->rows };
+    for (int32_t a = 0; a < count; ++a) {
+        int32_t row = matrix->place.data[frames[a]];
+        if (row >= column) {
+            int32_t block = BlockAt(matrix, row, column);
+            KIRI_ASSERT(block != KIRI_NONE);
+            product.out = &matrix->values.data[(int64_t)size * size * block];
+            product.a = squares->J + size * a;
+            kiriPanel_TakeOff(&product, matrix->hasLongVectors);
         }
     }
 }
@@ -609,10 +580,12 @@ extern "C" void kiriMatrix_AddBlock(kiriMatrix* matrix, int32_t down, int32_t ac
 extern "C" void kiriMatrix_AddSquares(kiriMatrix* matrix, const int32_t* frames, int32_t frameCount, const double* J,
                                       const double* k, int32_t rows)
 {
-    const Squares squares = { J, k, rows, matrix->size * frameCount };
-    matrix->size == 3   ? AddBlocks<3>(matrix, squares, frames, frameCount)
-    : matrix->size == 6 ? AddBlocks<6>(matrix, squares, frames, frameCount)
-                        : AddBlocks<12>(matrix, squares, frames, frameCount);
+    for (int32_t e = 0; e < rows; e += MOST_ROWS) {
+        const Squares squares = { J + (int64_t)matrix->size * frameCount * e, k + e, std::min(rows - e, MOST_ROWS) };
+        for (int32_t b = 0; b < frameCount; ++b) {
+            AddColumn(matrix, &squares, frames, frameCount, b);
+        }
+    }
 }
 
 extern "C" bool kiriMatrix_Factor(kiriMatrix* matrix)
