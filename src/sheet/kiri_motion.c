@@ -59,7 +59,7 @@ static void ClearForces(kiriSheetData* sheet)
 
 void kiriMotion_Wake(kiriSheetData* sheet)
 {
-    sheet->rest.asleep = false;
+    sheet->rest.asleep = sheet->rest.isIdle = false;
     sheet->rest.calm = 0.0;
 }
 

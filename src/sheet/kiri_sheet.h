@@ -176,6 +176,7 @@ typedef struct kiriRest {
     double calm;    /* s for which it has been slower than sleepSpeed */
     bool asleep;    /* it was not moved by the last tick, and rests */
     bool isStirred; /* in the tick at hand something that moves comes near: it shall wake */
+    bool isIdle;    /* it sleeps, and no tick has anything to do for it until it wakes, or gets a cut or contacts */
 } kiriRest;
 
 /* Who finds touches: the highest four bits of their keys. */

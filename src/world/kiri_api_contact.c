@@ -82,6 +82,7 @@ kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriCo
         data->contacts.data[i] = given;
     }
     data->contacts.count = count;
+    data->rest.isIdle = data->rest.isIdle && count == 0;
     return KIRI_OK;
 }
 

@@ -47,22 +47,24 @@ static bool IsReady(const kiriSheetData* sheet)
 
 /* ---- Which sheets ---- */
 
-/* A sheet that sleeps, has no cuts, touches nothing and has no pin on a body that may move is not looked at until it wakes
-   or is given something. */
+/* There is nothing to do for the sheet until it wakes, or gets a cut or contacts. */
 static bool IsIdle(const kiriWorld* world, const kiriSheetData* sheet)
 {
     const kiriTouches* touches = &sheet->touches;
+    const kiriFades* fades = &sheet->seen.fades;
+    bool mayBeCarried = sheet->pins.count > 0 && world->obstacles.count > 0;
     return sheet->rest.asleep && sheet->cuts.count == 0 && sheet->queue.count == 0 && sheet->contacts.count == 0 &&
-           touches->last.count == 0 && touches->found.count == 0 && touches->told.count == 0 &&
-           sheet->leaving.count == 0 && (sheet->pins.count == 0 || world->obstacles.count == 0) &&
-           !sheet->seen.isElsewhere && sheet->seen.fades.jump == 0.0 && sheet->seen.fades.move == 0.0;
+           touches->last.count == 0 && touches->found.count == 0 && touches->told.count == 0 && !mayBeCarried &&
+           sheet->leaving.count == 0 && !sheet->seen.isElsewhere && fades->jump == 0.0 && fades->move == 0.0;
 }
 
 static void ListActive(kiriWorld* world)
 {
     world->active.count = 0;
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        if (!IsIdle(world, world->sheets.data[i])) {
+        kiriRest* rest = &world->sheets.data[i]->rest;
+        rest->isIdle = !rest->isStirred && (rest->isIdle || IsIdle(world, world->sheets.data[i]));
+        if (!rest->isIdle) {
             world->active.data[world->active.count++] = i;
         }
     }
@@ -129,7 +131,9 @@ static bool FindTouches(kiriWorld* world, double dt)
     }
     ok = ok && kiriObstacles_FindTouches(world, dt);
     ok = ok && kiriPairs_AddTouches(world, dt);
-    ListActive(world); /* something may have come near a sheet that slept */
+    if (world->obstacles.count > 0) {
+        ListActive(world); /* one may have come near a sheet that sleeps */
+    }
     for (int32_t k = 0; ok && k < world->active.count; ++k) {
         ok = kiriTouches_Reserve(kiriWorld_Active(world, k));
         world->profile.contacts += kiriWorld_Active(world, k)->touches.found.count;

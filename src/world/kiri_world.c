@@ -107,6 +107,7 @@ void kiriWorld_EnlistCut(kiriWorld* world, kiriSheetData* sheet, kiriCutData* cu
     cut->id = kiriPool_Add(&world->cutIds, &world->memory, cut, 0);
     cut->index = sheet->cuts.count;
     sheet->cuts.data[sheet->cuts.count++] = cut;
+    sheet->rest.isIdle = false;
 }
 
 void kiriWorld_QueuePoint(const kiriWorld* world, kiriCutData* cut, kiriVec2 to, bool jump)
