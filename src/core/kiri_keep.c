@@ -8,6 +8,36 @@ bool kiriKeep_Init(kiriKeep* keep, kiriMemory* memory, int32_t items)
     return kiriArray_Reserve(memory, &keep->to, items);
 }
 
+bool kiriKeep_InitNone(kiriKeep* keep, kiriMemory* memory, int32_t items)
+{
+    memset(keep, 0, sizeof(*keep));
+    if (!kiriArray_Resize(memory, &keep->to, items)) {
+        return false;
+    }
+    for (int32_t i = 0; i < items; ++i) {
+        keep->to.data[i] = KIRI_NONE;
+    }
+    return true;
+}
+
+void kiriKeep_Take(kiriKeep* keep, const int32_t* items, int32_t count)
+{
+    KIRI_ASSERT(keep->count == 0 && keep->first == 0);
+    for (int32_t k = 0; k < count; ++k) {
+        keep->to.data[items[k]] = k;
+    }
+    keep->count = count;
+}
+
+void kiriKeep_Drop(kiriKeep* keep, const int32_t* items, int32_t count)
+{
+    KIRI_ASSERT(keep->count == count);
+    for (int32_t k = 0; k < count; ++k) {
+        keep->to.data[items[k]] = KIRI_NONE;
+    }
+    keep->count = 0;
+}
+
 /* The end of the run of items, from `from` on, that are kept all, or none of them. */
 static int32_t EndOfRun(const kiriKeep* keep, int32_t from)
 {

@@ -15,12 +15,25 @@ typedef struct kiriKeep {
 /* A map of no items, with room for so many. False for memory. */
 bool kiriKeep_Init(kiriKeep* keep, kiriMemory* memory, int32_t items);
 
+/* A map of so many items, none of which is kept. False for memory. */
+bool kiriKeep_InitNone(kiriKeep* keep, kiriMemory* memory, int32_t items);
+
+/* Where none is kept: these are, from the lowest to the highest. And none again. */
+void kiriKeep_Take(kiriKeep* keep, const int32_t* items, int32_t count);
+void kiriKeep_Drop(kiriKeep* keep, const int32_t* items, int32_t count);
+
 /* The next item. There is room. */
 static inline void kiriKeep_Add(kiriKeep* keep, bool isKept)
 {
     KIRI_ASSERT(keep->to.count < keep->to.capacity);
     keep->first += isKept && keep->first == keep->to.count;
     keep->to.data[keep->to.count++] = isKept ? keep->count++ : KIRI_NONE;
+}
+
+/* A map of no items again, with its room. */
+static inline void kiriKeep_Restart(kiriKeep* keep)
+{
+    keep->to.count = keep->count = keep->first = 0;
 }
 
 /* The new index of an item; KIRI_NONE where it is not kept, and for KIRI_NONE. */

@@ -79,10 +79,16 @@ typedef struct kiriMeshData {
 kiriResult kiriMesh_Init(kiriMeshData* mesh, kiriMemory* memory, const float* positions, int32_t vertexCount,
                          const int32_t* indices, int32_t triangleCount, int32_t resolution, const char** why);
 
-/* A part of another mesh, on the same lattice and squares: the triangles and vertices that are kept, a vertex with its
-   whole fan. False for memory. The journal is open after it. */
-bool kiriMesh_InitPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const kiriKeep* triangles,
-                       const kiriKeep* vertices);
+/* Items of a mesh that become one of their own. */
+typedef struct kiriMeshPart {
+    kiriIndices items;    /* from the lowest to the highest */
+    const kiriKeep* keep; /* keeps these */
+} kiriMeshPart;
+
+/* A part of another mesh, on the same lattice and squares: these triangles and vertices, a vertex with its whole fan.
+   False for memory. The journal is open after it. */
+bool kiriMesh_InitPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const kiriMeshPart* triangles,
+                       const kiriMeshPart* vertices);
 
 /* Takes away the triangles and vertices that are not kept; a vertex goes with its whole fan. `squares`: all squares that
    these triangles are in. Not while the journal is open. Never fails. */

@@ -23,27 +23,27 @@ static void RenumberTriangle(kiriTriangle* t, const kiriKeep* triangles, const k
 
 /* ---- A part as a mesh of its own ---------------------------------------------------------------------------------- */
 
-static bool CopyPart(kiriMeshData* mesh, const kiriMeshData* from, const kiriKeep* triangles, const kiriKeep* vertices)
+static bool CopyPart(kiriMeshData* mesh, const kiriMeshData* from, const kiriMeshPart* triangles,
+                     const kiriMeshPart* vertices)
 {
-    bool ok = true;
-    for (int32_t v = 0; ok && v < from->vertices.count; ++v) {
-        kiriVertex vertex = from->vertices.data[v];
-        if (kiriKeep_Has(vertices, v)) {
-            vertex.edge = EdgeTo(triangles, vertex.edge);
-            KIRI_ASSERT(vertex.edge != KIRI_NONE);
-            vertex.stamp = 0;
-            ok = kiriArray_Push(mesh->memory, &mesh->vertices, vertex);
-        }
+    if (!kiriArray_Resize(mesh->memory, &mesh->vertices, vertices->items.count) ||
+        !kiriArray_Resize(mesh->memory, &mesh->triangles, triangles->items.count)) {
+        return false;
     }
-    for (int32_t t = 0; ok && t < from->triangles.count; ++t) {
-        if (kiriKeep_Has(triangles, t)) {
-            kiriTriangle triangle = from->triangles.data[t];
-            RenumberTriangle(&triangle, triangles, vertices);
-            triangle.stamp = 0;
-            ok = kiriArray_Push(mesh->memory, &mesh->triangles, triangle);
-        }
+    for (int32_t k = 0; k < vertices->items.count; ++k) {
+        kiriVertex vertex = from->vertices.data[vertices->items.data[k]];
+        vertex.edge = EdgeTo(triangles->keep, vertex.edge);
+        KIRI_ASSERT(vertex.edge != KIRI_NONE);
+        vertex.stamp = 0;
+        mesh->vertices.data[k] = vertex;
     }
-    return ok;
+    for (int32_t k = 0; k < triangles->items.count; ++k) {
+        kiriTriangle triangle = from->triangles.data[triangles->items.data[k]];
+        RenumberTriangle(&triangle, triangles->keep, vertices->keep);
+        triangle.stamp = 0;
+        mesh->triangles.data[k] = triangle;
+    }
+    return true;
 }
 
 /* Those of the caller's triangles that the part has something of, and those between. */
@@ -65,8 +65,8 @@ static bool CopySources(kiriMeshData* mesh, const kiriMeshData* from)
     return true;
 }
 
-bool kiriMesh_InitPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const kiriKeep* triangles,
-                       const kiriKeep* vertices)
+bool kiriMesh_InitPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const kiriMeshPart* triangles,
+                       const kiriMeshPart* vertices)
 {
     memset(mesh, 0, sizeof(*mesh));
     mesh->memory = memory;

@@ -208,13 +208,46 @@ static bool BuildPart(const kiriKept* kept, kiriSheetData* to)
     return true;
 }
 
-bool kiriExtract_Build(const kiriKept* kept, kiriSheetData* to)
+/* ---- One piece after the other ---- */
+
+bool kiriExtraction_Init(kiriExtraction* extraction, const kiriKept* left)
 {
+    const kiriSheetData* from = left->from;
+    kiriMemory* memory = &extraction->kept.memory;
+    memset(extraction, 0, sizeof(*extraction));
+    return kiriKept_InitParts(&extraction->kept, from) &&
+           kiriPieceList_Make(&extraction->vertices, memory, from, from->mesh.vertices.count, kiriPiece_OfVertex,
+                              &left->vertices) &&
+           kiriPieceList_Make(&extraction->triangles, memory, from, from->mesh.triangles.count, kiriPiece_OfTriangle,
+                              &left->triangles);
+}
+
+static kiriIndices ItemsOfPiece(const kiriPieceList* list, int32_t piece)
+{
+    kiriSpan span = kiriPiece_Span(list, piece);
+    return (kiriIndices){ list->items.data + span.first, span.count, span.count };
+}
+
+bool kiriExtraction_Build(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
+{
+    kiriKept* kept = &extraction->kept;
     const kiriSheetData* from = kept->from;
-    if (!kiriMesh_InitPart(&to->mesh, to->memory, &from->mesh, &kept->triangles, &kept->vertices)) {
-        return false;
+    kiriMeshPart vertices = { ItemsOfPiece(&extraction->vertices, piece), &kept->vertices };
+    kiriMeshPart triangles = { ItemsOfPiece(&extraction->triangles, piece), &kept->triangles };
+    kiriKept_TakePart(kept, piece, &vertices.items, &triangles.items);
+    bool ok = kiriMesh_InitPart(&to->mesh, to->memory, &from->mesh, &triangles, &vertices);
+    if (ok) {
+        CopySettings(kept, to);
+        to->seen.bounds->patience = from->seen.bounds->patience;
+        ok = BuildPart(kept, to);
     }
-    CopySettings(kept, to);
-    to->seen.bounds->patience = from->seen.bounds->patience;
-    return BuildPart(kept, to);
+    kiriKept_DropPart(kept, piece, &vertices.items, &triangles.items);
+    return ok;
+}
+
+void kiriExtraction_Drop(kiriExtraction* extraction)
+{
+    if (extraction->kept.from != NULL) {
+        kiriMemory_FreeAll(&extraction->kept.memory);
+    }
 }

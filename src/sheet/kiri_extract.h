@@ -6,10 +6,21 @@
 
 KIRI_C_BEGIN
 
-/* The sheet of the pieces that are kept, which are mapped: on the same lattice and squares, so that all that follows from
-   the mesh is what it was bit for bit; frames, pins and contacts keep ids and state. `to` is new. Cuts stay behind. No
-   cut has changed the mesh whose work is not done. False for memory. */
-bool kiriExtract_Build(const kiriKept* kept, kiriSheetData* to);
+/* Parts of a sheet, one after the other: each costs what it is large. */
+typedef struct kiriExtraction {
+    kiriKept kept;                     /* the part at hand; its memory is that of all */
+    kiriPieceList vertices, triangles; /* that leave the sheet */
+} kiriExtraction;
+
+/* What `left` does not keep may become parts. False for memory; Drop is to be called then, too. */
+bool kiriExtraction_Init(kiriExtraction* extraction, const kiriKept* left);
+
+/* The sheet of one piece: on the same lattice and squares, so that all that follows from the mesh is what it was bit for
+   bit; frames, pins and contacts keep ids and state. `to` is new. Cuts stay behind. No cut has changed the mesh whose
+   work is not done. False for memory. */
+bool kiriExtraction_Build(kiriExtraction* extraction, int32_t piece, kiriSheetData* to);
+
+void kiriExtraction_Drop(kiriExtraction* extraction);
 
 KIRI_C_END
 

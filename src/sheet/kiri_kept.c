@@ -56,15 +56,19 @@ static bool MapMesh(kiriKept* kept)
     return true;
 }
 
-bool kiriKept_Map(kiriKept* kept)
+static bool ReserveRest(kiriKept* kept)
 {
     const kiriSheetData* from = kept->from;
-    if (!MapMesh(kept) || !kiriKeep_Init(&kept->frames, &kept->memory, from->frames.count) ||
-        !kiriKeep_Init(&kept->points, &kept->memory, from->points.count) ||
-        !kiriKeep_Init(&kept->pins, &kept->memory, from->pins.count) ||
-        !kiriKeep_Init(&kept->links, &kept->memory, from->links.links.count)) {
-        return false;
-    }
+    return kiriKeep_Init(&kept->frames, &kept->memory, from->frames.count) &&
+           kiriKeep_Init(&kept->points, &kept->memory, from->points.count) &&
+           kiriKeep_Init(&kept->pins, &kept->memory, from->pins.count) &&
+           kiriKeep_Init(&kept->links, &kept->memory, from->links.links.count);
+}
+
+/* There is room. */
+static void MapRest(kiriKept* kept)
+{
+    const kiriSheetData* from = kept->from;
     for (int32_t i = 0; i < from->frames.count; ++i) {
         kiriKeep_Add(&kept->frames, IsFrameKept(kept, i));
     }
@@ -77,8 +81,46 @@ bool kiriKept_Map(kiriKept* kept)
     for (int32_t k = 0; k < from->links.links.count; ++k) {
         kiriKeep_Add(&kept->links, IsFrameKept(kept, from->links.links.data[k].i));
     }
+}
+
+bool kiriKept_Map(kiriKept* kept)
+{
+    if (!MapMesh(kept) || !ReserveRest(kept)) {
+        return false;
+    }
+    MapRest(kept);
     return true;
 }
+
+/* ---- One piece after the other ---- */
+
+bool kiriKept_InitParts(kiriKept* kept, const kiriSheetData* from)
+{
+    return kiriKept_Init(kept, from) && ReserveRest(kept) &&
+           kiriKeep_InitNone(&kept->vertices, &kept->memory, from->mesh.vertices.count) &&
+           kiriKeep_InitNone(&kept->triangles, &kept->memory, from->mesh.triangles.count);
+}
+
+void kiriKept_TakePart(kiriKept* kept, int32_t piece, const kiriIndices* vertices, const kiriIndices* triangles)
+{
+    kept->pieces.data[piece] = 1;
+    kiriKeep_Take(&kept->vertices, vertices->data, vertices->count);
+    kiriKeep_Take(&kept->triangles, triangles->data, triangles->count);
+    MapRest(kept);
+}
+
+void kiriKept_DropPart(kiriKept* kept, int32_t piece, const kiriIndices* vertices, const kiriIndices* triangles)
+{
+    kept->pieces.data[piece] = 0;
+    kiriKeep_Drop(&kept->vertices, vertices->data, vertices->count);
+    kiriKeep_Drop(&kept->triangles, triangles->data, triangles->count);
+    kiriKeep_Restart(&kept->frames);
+    kiriKeep_Restart(&kept->points);
+    kiriKeep_Restart(&kept->pins);
+    kiriKeep_Restart(&kept->links);
+}
+
+/* ---- What follows ---- */
 
 bool kiriKept_FollowContact(const kiriKept* kept, kiriGivenContact* given)
 {

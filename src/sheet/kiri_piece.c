@@ -105,49 +105,59 @@ void kiriPieces_KeepGone(kiriSheetData* sheet, const kiriLayout* old)
 
 /* ---- Lists ---- */
 
-/* Sorts 0 to count - 1 by their pieces; what is of one piece stays in its order. */
-static bool SortByPiece(kiriSheetData* sheet, kiriPieceList* list, const int32_t* pieceOf, int32_t count)
+static int32_t OfFrame(const kiriSheetData* sheet, int32_t frame)
 {
-    int32_t pieces = sheet->layout.pieces.count;
-    if (!kiriArray_Resize(&sheet->shown, &list->first, pieces + 2) ||
-        !kiriArray_Resize(&sheet->shown, &list->items, count)) {
-        return false;
-    }
+    return sheet->layout.framePiece.data[frame];
+}
+
+static int32_t OfPoint(const kiriSheetData* sheet, int32_t point)
+{
+    return sheet->layout.framePiece.data[sheet->points.data[point].frame];
+}
+
+int32_t kiriPiece_OfTriangle(const kiriSheetData* sheet, int32_t triangle)
+{
+    return kiriPiece_OfVertex(sheet, sheet->mesh.triangles.data[triangle].vertex[0]);
+}
+
+/* A counting sort. `pieces` has those of the items, KIRI_NONE where one is left out. */
+static void SortItems(kiriPieceList* list, const int32_t* pieces, int32_t count, int32_t pieceCount)
+{
     int32_t* first = list->first.data;
-    memset(first, 0, sizeof(int32_t) * (size_t)(pieces + 2));
+    memset(first, 0, sizeof(int32_t) * (size_t)(pieceCount + 2));
     for (int32_t i = 0; i < count; ++i) {
-        first[pieceOf[i] + 2] += 1;
+        first[pieces[i] + 2] += pieces[i] != KIRI_NONE;
     }
-    for (int32_t p = 0; p < pieces; ++p) {
+    for (int32_t p = 0; p < pieceCount; ++p) {
         first[p + 2] += first[p + 1];
     }
     for (int32_t i = 0; i < count; ++i) {
-        list->items.data[first[pieceOf[i] + 1]++] = i;
+        if (pieces[i] != KIRI_NONE) {
+            list->items.data[first[pieces[i] + 1]++] = i;
+        }
     }
-    return true;
 }
 
-/* `vertexPiece` has room for a number a vertex, `other` for one a triangle or collision point. */
-static bool SortAll(kiriSheetData* sheet, int32_t* vertexPiece, int32_t* other)
+bool kiriPieceList_Make(kiriPieceList* list, kiriMemory* memory, const kiriSheetData* sheet, int32_t count,
+                        kiriPieceOfFn* pieceOf, const kiriKeep* without)
 {
-    kiriPieceLists* lists = &sheet->lists;
-    const int32_t* framePiece = sheet->layout.framePiece.data;
-    const kiriMeshData* mesh = &sheet->mesh;
-    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
-        vertexPiece[v] = kiriPiece_OfVertex(sheet, v);
+    int32_t pieceCount = sheet->layout.pieces.count;
+    int32_t* pieces = kiriMemory_Alloc(memory, (int64_t)sizeof(int32_t) * count);
+    bool ok = pieces != NULL && kiriArray_Resize(memory, &list->first, pieceCount + 2) &&
+              kiriArray_Resize(memory, &list->items, count - (without != NULL ? without->count : 0));
+    for (int32_t i = 0; ok && i < count; ++i) {
+        pieces[i] = without != NULL && kiriKeep_Has(without, i) ? KIRI_NONE : pieceOf(sheet, i);
     }
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        other[t] = vertexPiece[mesh->triangles.data[t].vertex[0]];
+    if (ok) {
+        SortItems(list, pieces, count, pieceCount);
     }
-    if (!SortByPiece(sheet, &lists->triangles, other, mesh->triangles.count)) {
-        return false;
-    }
-    for (int32_t i = 0; i < sheet->points.count; ++i) {
-        other[i] = framePiece[sheet->points.data[i].frame];
-    }
-    return SortByPiece(sheet, &lists->points, other, sheet->points.count) &&
-           SortByPiece(sheet, &lists->vertices, vertexPiece, mesh->vertices.count) &&
-           SortByPiece(sheet, &lists->frames, framePiece, sheet->frames.count);
+    kiriMemory_Free(memory, pieces);
+    return ok;
+}
+
+static bool SortByPiece(kiriSheetData* sheet, kiriPieceList* list, int32_t count, kiriPieceOfFn* pieceOf)
+{
+    return kiriPieceList_Make(list, &sheet->shown, sheet, count, pieceOf, NULL);
 }
 
 /* What the host reads beside: the ids of frames, and the corners of triangles. */
@@ -171,14 +181,13 @@ static bool FillHostArrays(kiriSheetData* sheet)
 
 bool kiriPieces_List(kiriSheetData* sheet)
 {
-    int64_t vertices = sheet->mesh.vertices.count, triangles = sheet->mesh.triangles.count;
-    int64_t others = triangles > sheet->points.count ? triangles : sheet->points.count;
-    if (!sheet->lists.isFresh) {
-        int32_t* scratch = kiriMemory_Alloc(sheet->memory, (vertices + others) * (int64_t)sizeof(int32_t));
-        sheet->lists.isFresh = scratch != NULL && SortAll(sheet, scratch, scratch + vertices) && FillHostArrays(sheet);
-        kiriMemory_Free(sheet->memory, scratch);
-    }
-    return sheet->lists.isFresh;
+    kiriPieceLists* lists = &sheet->lists;
+    lists->isFresh =
+        lists->isFresh || (SortByPiece(sheet, &lists->frames, sheet->frames.count, OfFrame) &&
+                           SortByPiece(sheet, &lists->vertices, sheet->mesh.vertices.count, kiriPiece_OfVertex) &&
+                           SortByPiece(sheet, &lists->triangles, sheet->mesh.triangles.count, kiriPiece_OfTriangle) &&
+                           SortByPiece(sheet, &lists->points, sheet->points.count, OfPoint) && FillHostArrays(sheet));
+    return lists->isFresh;
 }
 
 kiriSpan kiriPiece_Span(const kiriPieceList* list, int32_t piece)

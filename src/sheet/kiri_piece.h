@@ -18,6 +18,15 @@ bool kiriPieces_AnyGone(const kiriSheetData* sheet);
 /* The pieces of the layout that has just come in force are gone where those were that they came of. */
 void kiriPieces_KeepGone(kiriSheetData* sheet, const kiriLayout* old);
 
+/* The piece of an item. */
+typedef int32_t kiriPieceOfFn(const kiriSheetData* sheet, int32_t item);
+int32_t kiriPiece_OfTriangle(const kiriSheetData* sheet, int32_t triangle);
+
+/* Lists the items 0 to count - 1 by piece, each piece's in their order; but for those that `without` keeps, or null. False
+   for memory. */
+bool kiriPieceList_Make(kiriPieceList* list, kiriMemory* memory, const kiriSheetData* sheet, int32_t count,
+                        kiriPieceOfFn* pieceOf, const kiriKeep* without);
+
 /* Brings the lists up to date: costs nothing where neither mesh nor pieces have changed. False for memory. */
 bool kiriPieces_List(kiriSheetData* sheet);
 

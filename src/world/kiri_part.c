@@ -11,18 +11,24 @@
 
 /* A piece that is taken out. */
 typedef struct Part {
-    kiriRemoval* from;
+    struct Source* from;
     kiriFrame frame;      /* that names it */
     kiriSheetData* sheet; /* that it becomes; null: not made yet */
     int32_t piece;
 } Part;
 
+/* A sheet that loses something. */
+typedef struct Source {
+    kiriRemoval removal;
+    kiriExtraction extraction;
+} Source;
+
 /* What one call takes out of sheets. */
 typedef struct Parting {
     kiriWorld* world;
     kiriMemory memory;
-    kiriRemoval* removals; /* of each sheet that loses something */
-    int32_t removalCount;
+    Source* sources;
+    int32_t sourceCount;
     KIRI_ARRAY(Part) parts;
 } Parting;
 
@@ -31,14 +37,15 @@ static bool Parting_Start(Parting* parting, kiriWorld* world, int32_t sheets)
     memset(parting, 0, sizeof(*parting));
     parting->world = world;
     parting->memory = kiriMemory_Like(&world->memory);
-    parting->removals = kiriMemory_AllocZeroed(&parting->memory, sheets * (int64_t)sizeof(kiriRemoval));
-    return parting->removals != NULL;
+    parting->sources = kiriMemory_AllocZeroed(&parting->memory, sheets * (int64_t)sizeof(Source));
+    return parting->sources != NULL;
 }
 
 static void Parting_End(Parting* parting)
 {
-    for (int32_t k = 0; k < parting->removalCount; ++k) {
-        kiriRemoval_Drop(&parting->removals[k]);
+    for (int32_t k = 0; k < parting->sourceCount; ++k) {
+        kiriExtraction_Drop(&parting->sources[k].extraction);
+        kiriRemoval_Drop(&parting->sources[k].removal);
     }
     kiriMemory_FreeAll(&parting->memory);
 }
@@ -52,26 +59,27 @@ static bool IsBusy(const kiriSheetData* sheet)
 /* ---- Which pieces ---- */
 
 /* All of the sheet is left, for now, but for what is gone; null for memory. */
-static kiriRemoval* AddRemoval(Parting* parting, kiriSheetData* sheet)
+static Source* AddSource(Parting* parting, kiriSheetData* sheet)
 {
-    kiriRemoval* removal = &parting->removals[parting->removalCount++];
+    Source* source = &parting->sources[parting->sourceCount++];
+    kiriRemoval* removal = &source->removal;
     if (!kiriRemoval_Init(removal, sheet)) {
         return NULL;
     }
     for (int32_t p = 0; p < removal->kept.pieces.count; ++p) {
         removal->kept.pieces.data[p] = !sheet->layout.pieces.data[p].isGone;
     }
-    return removal;
+    return source;
 }
 
-static kiriRemoval* RemovalFor(Parting* parting, kiriSheetData* sheet)
+static Source* SourceFor(Parting* parting, kiriSheetData* sheet)
 {
-    for (int32_t k = 0; k < parting->removalCount; ++k) {
-        if (parting->removals[k].sheet == sheet) {
-            return &parting->removals[k];
+    for (int32_t k = 0; k < parting->sourceCount; ++k) {
+        if (parting->sources[k].removal.sheet == sheet) {
+            return &parting->sources[k];
         }
     }
-    return AddRemoval(parting, sheet);
+    return AddSource(parting, sheet);
 }
 
 static int32_t PieceOfFrame(const kiriWorld* world, kiriFrame frame)
@@ -85,11 +93,11 @@ static bool MarkPieces(Parting* parting, const kiriFrame* frames, int32_t count)
 {
     for (int32_t i = 0; i < count; ++i) {
         kiriSheetData* sheet = kiriPool_Find(&parting->world->frameIds, frames[i])->owner;
-        Part part = { RemovalFor(parting, sheet), frames[i], NULL, PieceOfFrame(parting->world, frames[i]) };
+        Part part = { SourceFor(parting, sheet), frames[i], NULL, PieceOfFrame(parting->world, frames[i]) };
         if (part.from == NULL) {
             return false;
         }
-        uint8_t* stays = &part.from->kept.pieces.data[part.piece];
+        uint8_t* stays = &part.from->removal.kept.pieces.data[part.piece];
         if (*stays && !kiriArray_Push(&parting->memory, &parting->parts, part)) {
             return false;
         }
@@ -114,8 +122,8 @@ static bool IsLeaving(const kiriWorld* world, const kiriSheetData* sheet, int32_
 static bool LeavesSome(const Parting* parting)
 {
     bool all = true;
-    for (int32_t k = 0; k < parting->removalCount; ++k) {
-        const kiriKept* kept = &parting->removals[k].kept;
+    for (int32_t k = 0; k < parting->sourceCount; ++k) {
+        const kiriKept* kept = &parting->sources[k].removal.kept;
         bool some = false;
         for (int32_t p = 0; p < kept->pieces.count && !some; ++p) {
             some = kept->pieces.data[p] && !IsLeaving(parting->world, kept->from, p);
@@ -129,8 +137,8 @@ static bool LeavesSome(const Parting* parting)
 static kiriResult ResultOf(const Parting* parting)
 {
     kiriResult result = KIRI_OK;
-    for (int32_t k = 0; k < parting->removalCount; ++k) {
-        result = IsBusy(parting->removals[k].sheet) ? KIRI_PENDING : result;
+    for (int32_t k = 0; k < parting->sourceCount; ++k) {
+        result = IsBusy(parting->sources[k].removal.sheet) ? KIRI_PENDING : result;
     }
     return result;
 }
@@ -140,8 +148,8 @@ static kiriResult ResultOf(const Parting* parting)
 static bool StageRemovals(Parting* parting)
 {
     bool ok = true;
-    for (int32_t k = 0; ok && k < parting->removalCount; ++k) {
-        ok = IsBusy(parting->removals[k].sheet) || kiriRemoval_Stage(&parting->removals[k]);
+    for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
+        ok = IsBusy(parting->sources[k].removal.sheet) || kiriRemoval_Stage(&parting->sources[k].removal);
     }
     return ok;
 }
@@ -163,27 +171,24 @@ static void PointIds(kiriWorld* world, kiriSheetData* sheet)
 
 static void CommitRemovals(Parting* parting)
 {
-    for (int32_t k = 0; k < parting->removalCount; ++k) {
-        if (!IsBusy(parting->removals[k].sheet)) {
-            kiriRemoval_Commit(&parting->removals[k], &parting->world->retired);
-            PointIds(parting->world, parting->removals[k].sheet);
+    for (int32_t k = 0; k < parting->sourceCount; ++k) {
+        if (!IsBusy(parting->sources[k].removal.sheet)) {
+            kiriRemoval_Commit(&parting->sources[k].removal, &parting->world->retired);
+            PointIds(parting->world, parting->sources[k].removal.sheet);
         }
     }
 }
 
 /* ---- Sheets of their own ---- */
 
+/* What the sheet loses is listed once for all its parts. The removal is staged. */
 static bool MakePart(Parting* parting, Part* part)
 {
-    kiriKept kept;
+    Source* from = part->from;
     part->sheet = kiriSheet_New(&parting->world->memory);
-    bool ok = kiriKept_Init(&kept, part->from->sheet) && part->sheet != NULL;
-    if (ok) {
-        kept.pieces.data[part->piece] = 1;
-        ok = kiriKept_Map(&kept) && kiriExtract_Build(&kept, part->sheet);
-    }
-    kiriMemory_FreeAll(&kept.memory);
-    return ok;
+    return part->sheet != NULL &&
+           (from->extraction.kept.from != NULL || kiriExtraction_Init(&from->extraction, &from->removal.kept)) &&
+           kiriExtraction_Build(&from->extraction, part->piece, part->sheet);
 }
 
 static bool MakeParts(Parting* parting)
@@ -191,7 +196,7 @@ static bool MakeParts(Parting* parting)
     bool ok = true;
     for (int32_t k = 0; ok && k < parting->parts.count; ++k) {
         Part* part = &parting->parts.data[k];
-        ok = IsBusy(part->from->sheet) || MakePart(parting, part);
+        ok = IsBusy(part->from->removal.sheet) || MakePart(parting, part);
     }
     return ok;
 }
@@ -209,7 +214,7 @@ static kiriResult ReserveIdsOfParts(Parting* parting)
     int64_t pins = 0;
     int32_t made = 0;
     for (int32_t k = 0; k < parting->parts.count; ++k) {
-        kiriSheetData *sheet = parting->parts.data[k].sheet, *from = parting->parts.data[k].from->sheet;
+        kiriSheetData *sheet = parting->parts.data[k].sheet, *from = parting->parts.data[k].from->removal.sheet;
         pins += sheet != NULL ? sheet->pins.count : 0;
         made += sheet != NULL;
         if (!kiriArray_Reserve(from->memory, &from->leaving, (int64_t)from->leaving.count + parting->parts.count)) {
@@ -227,7 +232,7 @@ static void NamePins(kiriWorld* world, const Part* part)
     for (int32_t i = 0; i < part->sheet->pins.count; ++i) {
         kiriPinData* pin = &part->sheet->pins.data[i];
         const kiriSlot* slot = kiriPool_Find(&world->pinIds, pin->id);
-        if (slot->owner != part->from->sheet || kiriKeep_Has(&part->from->kept.pins, slot->index)) {
+        if (slot->owner != part->from->removal.sheet || kiriKeep_Has(&part->from->removal.kept.pins, slot->index)) {
             pin->id = kiriPool_Add(&world->pinIds, &world->memory, part->sheet, i);
         }
     }
@@ -245,7 +250,7 @@ static void AddSheetOfPart(kiriWorld* world, const Part* part)
 /* When the work at hand is done, unless it is listed already. */
 static void AddLeaving(kiriWorld* world, const Part* part)
 {
-    kiriSheetData* sheet = part->from->sheet;
+    kiriSheetData* sheet = part->from->removal.sheet;
     if (!IsLeaving(world, sheet, part->piece)) {
         sheet->leaving.data[sheet->leaving.count++] = part->frame;
     }
@@ -253,7 +258,7 @@ static void AddLeaving(kiriWorld* world, const Part* part)
 
 static kiriResult Detach(Parting* parting)
 {
-    kiriResult result = MakeParts(parting) && StageRemovals(parting) ? ReserveIdsOfParts(parting) : KIRI_ERROR_MEMORY;
+    kiriResult result = StageRemovals(parting) && MakeParts(parting) ? ReserveIdsOfParts(parting) : KIRI_ERROR_MEMORY;
     if (result != KIRI_OK) {
         DeleteParts(parting);
         return result;
@@ -270,7 +275,8 @@ kiriResult kiriParts_Detach(kiriWorld* world, const kiriFrame* frames, int32_t c
 {
     Parting parting;
     kiriResult result = KIRI_ERROR_MEMORY;
-    if (Parting_Start(&parting, world, world->sheets.count) && MarkPieces(&parting, frames, count)) {
+    if (Parting_Start(&parting, world, count < world->sheets.count ? count : world->sheets.count) &&
+        MarkPieces(&parting, frames, count)) {
         result = LeavesSome(&parting) ? Detach(&parting) : KIRI_ERROR_STATE;
     }
     for (int32_t i = 0; result >= 0 && i < count; ++i) {
@@ -334,8 +340,8 @@ static void ForgetPins(kiriWorld* world, const kiriRemoval* removal)
 static bool RenewIndices(Parting* parting)
 {
     bool ok = true;
-    for (int32_t k = 0; ok && k < parting->removalCount; ++k) {
-        kiriSheetData* sheet = parting->removals[k].sheet;
+    for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
+        kiriSheetData* sheet = parting->sources[k].removal.sheet;
         ok = !IsBusy(sheet) || kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired);
     }
     return ok;
@@ -346,8 +352,8 @@ static kiriResult Destroy(Parting* parting)
     if (!StageRemovals(parting) || !RenewIndices(parting)) {
         return KIRI_ERROR_MEMORY;
     }
-    for (int32_t k = 0; k < parting->removalCount; ++k) {
-        const kiriRemoval* removal = &parting->removals[k];
+    for (int32_t k = 0; k < parting->sourceCount; ++k) {
+        const kiriRemoval* removal = &parting->sources[k].removal;
         if (IsBusy(removal->sheet)) {
             MarkGone(parting->world, removal);
         } else {
@@ -363,7 +369,8 @@ kiriResult kiriParts_Destroy(kiriWorld* world, const kiriFrame* frames, int32_t 
 {
     Parting parting;
     kiriResult result = KIRI_ERROR_MEMORY;
-    if (Parting_Start(&parting, world, world->sheets.count) && MarkPieces(&parting, frames, count)) {
+    if (Parting_Start(&parting, world, count < world->sheets.count ? count : world->sheets.count) &&
+        MarkPieces(&parting, frames, count)) {
         result = LeavesSome(&parting) ? Destroy(&parting) : KIRI_ERROR_STATE;
     }
     Parting_End(&parting);
@@ -392,11 +399,11 @@ static int32_t MarkBelow(kiriKept* kept, double area)
 kiriResult kiriParts_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, int32_t* count)
 {
     Parting parting;
-    kiriRemoval* removal = Parting_Start(&parting, world, 1) ? AddRemoval(&parting, sheet) : NULL;
-    kiriResult result = removal != NULL ? KIRI_OK : KIRI_ERROR_MEMORY;
+    Source* source = Parting_Start(&parting, world, 1) ? AddSource(&parting, sheet) : NULL;
+    kiriResult result = source != NULL ? KIRI_OK : KIRI_ERROR_MEMORY;
     *count = 0;
     if (result == KIRI_OK) {
-        int32_t dropped = MarkBelow(&removal->kept, area);
+        int32_t dropped = MarkBelow(&source->removal.kept, area);
         result = dropped > 0 ? Destroy(&parting) : KIRI_OK;
         *count = result >= 0 ? dropped : 0;
     }
@@ -426,7 +433,7 @@ int32_t kiriParts_Finish(kiriWorld* world, kiriSheetData* sheet)
         return 0;
     }
     ForgetStaleLeaving(world, sheet);
-    bool isDone = Parting_Start(&parting, world, 1) && RemovalFor(&parting, sheet) != NULL &&
+    bool isDone = Parting_Start(&parting, world, 1) && SourceFor(&parting, sheet) != NULL &&
                   MarkPieces(&parting, sheet->leaving.data, sheet->leaving.count) && Detach(&parting) == KIRI_OK;
     Parting_End(&parting);
     return isDone ? sheet->leaving.count : 0;
