@@ -127,8 +127,9 @@ static inline void Body_Divide(Body* body)
     assert_int_equal(kiriShape_Update(&body->shape, &s->memory, &s->grid, &s->mesh, &body->regions, body->sites.data,
                                       count, moves, count, &quota),
                      KIRI_DONE);
-    assert_true(kiriLinks_Update(&body->links, &s->memory, &s->grid, &s->mesh, &body->regions, &body->shape,
-                                 body->sites.data, count));
+    assert_int_equal(
+        kiriLinks_Update(&body->links, &s->memory, &s->grid, &s->mesh, &body->regions, body->sites.data, count, &quota),
+        KIRI_DONE);
     kiriLinks_Commit(&body->links);
     assert_true(kiriArray_Resize(&s->memory, &body->material, count));
     memset(body->material.data, 0, sizeof(kiriMoments) * (size_t)count);

@@ -185,8 +185,9 @@ static inline kiriProgress Follow_Shape(Follow* f)
 
 static inline bool Follow_Links(Follow* f)
 {
-    return kiriLinks_Update(&f->links, f->memory, &f->grid, f->mesh, &f->regions, &f->shape, f->sites.data,
-                            f->sites.count);
+    kiriQuota quota = { INT64_MAX, 0 };
+    return kiriLinks_Update(&f->links, f->memory, &f->grid, f->mesh, &f->regions, f->sites.data, f->sites.count,
+                            &quota) == KIRI_DONE;
 }
 
 static inline kiriProgress Follow_Samples(Follow* f)

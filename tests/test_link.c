@@ -20,8 +20,9 @@ static void Build(Scene* scene, Links* l, const kiriSite* sites, int32_t count)
     assert_int_equal(kiriShape_Update(&l->shape, &scene->memory, &scene->grid, &scene->mesh, &l->regions, sites, count,
                                       moves, count, &quota),
                      KIRI_DONE);
-    assert_true(
-        kiriLinks_Update(&l->made, &scene->memory, &scene->grid, &scene->mesh, &l->regions, &l->shape, sites, count));
+    assert_int_equal(
+        kiriLinks_Update(&l->made, &scene->memory, &scene->grid, &scene->mesh, &l->regions, sites, count, &quota),
+        KIRI_DONE);
     assert_int_equal(l->made.links.count, 0);
     assert_int_equal(l->made.changed, l->made.next.count);
     kiriLinks_Commit(&l->made);

@@ -294,11 +294,9 @@ static void FindStale(const kiriBorder* border)
         border->work->stale.data[i] = regions->dirty.data[i];
     }
     for (int32_t i = 0; i < border->siteCount; ++i) {
-        kiriReach at = kiriReaches_First(&border->shape->reaches, i);
-        for (; regions->dirty.data[i] && at.cell != KIRI_NONE; at = kiriReaches_After(&border->shape->reaches, at)) {
-            if (regions->onBorder.data[at.cell] && regions->field.owner.data[at.cell] == i) {
-                SpreadStale(border, at.cell);
-            }
+        int32_t cell = regions->dirty.data[i] ? regions->border.first.data[i] : KIRI_NONE;
+        for (; cell != KIRI_NONE; cell = regions->border.cells.data[cell].next) {
+            SpreadStale(border, cell);
         }
     }
 }
@@ -325,10 +323,9 @@ static bool FindFaces(const kiriBorder* border)
 {
     const kiriRegions* regions = border->regions;
     for (int32_t i = 0; i < border->siteCount; ++i) {
-        kiriReach at = kiriReaches_First(&border->shape->reaches, i);
-        for (; IsStale(border, i) && at.cell != KIRI_NONE; at = kiriReaches_After(&border->shape->reaches, at)) {
-            if (regions->onBorder.data[at.cell] && regions->field.owner.data[at.cell] == i &&
-                !FindFacesOf(border, i, at.cell)) {
+        int32_t cell = IsStale(border, i) ? regions->border.first.data[i] : KIRI_NONE;
+        for (; cell != KIRI_NONE; cell = regions->border.cells.data[cell].next) {
+            if (!FindFacesOf(border, i, cell)) {
                 return false;
             }
         }
@@ -450,26 +447,19 @@ static void TakeOldLinks(const kiriBorder* border, const kiriLinks* links)
     }
 }
 
-static bool MakeLinks(const kiriBorder* border, const kiriLinks* links)
+/* In items of the budget: a link, a face of its stretch, and one that is looked at. */
+enum { LINK_ITEMS = 80, STRETCH_FACE_ITEMS = 3, FACE_ITEMS = 2 };
+
+/* The links of the stretch through a face, which is in none yet. */
+static bool MakeLinksAt(const kiriBorder* border, int32_t face)
 {
-    kiriLinkWork* work = border->work;
-    for (int32_t k = 0; k < work->faces.count; ++k) {
-        if (work->marks.data[work->faces.data[k]] == KIRI_FACE_FOUND) {
-            double sum;
-            if (!GatherStretch(border, work->faces.data[k], KIRI_FACE_GATHERED)) {
-                return false;
-            }
-            bool bent = kiriVec2_Length(SumNormals(border, &sum)) < 0.5 * sum;
-            if (!(bent ? SplitStretch(border) : AddLink(border, false))) {
-                return false;
-            }
-        }
-    }
-    if (!SortMade(border)) {
+    double sum;
+    if (!GatherStretch(border, face, KIRI_FACE_GATHERED)) {
         return false;
     }
-    TakeOldLinks(border, links);
-    return AddShortLinks(border) && SortMade(border);
+    border->work->due += STRETCH_FACE_ITEMS * (int64_t)border->work->stretch.count + LINK_ITEMS;
+    bool bent = kiriVec2_Length(SumNormals(border, &sum)) < 0.5 * sum;
+    return bent ? SplitStretch(border) : AddLink(border, false);
 }
 
 /* ---- The whole -------------------------------------------------------------------------------------------------- */
@@ -551,31 +541,85 @@ static int32_t CountChanged(const kiriLinks* links)
     return changed;
 }
 
-bool kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                      const kiriRegions* regions, const kiriShape* shape, const kiriSite* sites, int32_t siteCount)
+static bool BeginLinks(const kiriBorder* border, kiriLinks* links)
+{
+    kiriLinkWork* work = border->work;
+    links->next.count = work->nextEnds.count = links->changed = 0;
+    work->running = true;
+    work->at = 0;
+    work->due = 0;
+    if (!MakeLinkRoom(border)) {
+        return false;
+    }
+    FindStale(border);
+    bool ok = FindFaces(border);
+    work->due = FACE_ITEMS * (int64_t)work->faces.count;
+    return ok;
+}
+
+static bool FinishLinks(const kiriBorder* border, kiriLinks* links)
+{
+    kiriLinkWork* work = border->work;
+    if (!SortMade(border)) {
+        return false;
+    }
+    TakeOldLinks(border, links);
+    bool ok = AddShortLinks(border) && SortMade(border) && !work->edges.failed && MergeLinks(border, links) &&
+              kiriBorder_MakeCorners(border, links);
+    if (ok) {
+        links->changed = CountChanged(links);
+        work->due += links->next.count;
+    }
+    return ok;
+}
+
+void kiriLinks_Drop(kiriLinks* links)
+{
+    kiriLinkWork* work = links->work;
+    for (int32_t k = 0; work != NULL && work->running && k < work->faces.count; ++k) {
+        work->marks.data[work->faces.data[k]] = KIRI_FACE_PASSED;
+    }
+    if (work != NULL) {
+        work->running = false;
+    }
+}
+
+/* Face by face, then the whole. */
+static kiriProgress RunLinks(const kiriBorder* border, kiriLinks* links, kiriQuota* quota)
+{
+    kiriLinkWork* work = border->work;
+    bool ok = true;
+    while (ok && kiriQuota_Pay(quota, &work->due)) {
+        int32_t at = work->at++;
+        if (at > work->faces.count) {
+            return KIRI_DONE;
+        }
+        if (at == work->faces.count) {
+            ok = FinishLinks(border, links);
+        } else if (work->marks.data[work->faces.data[at]] == KIRI_FACE_FOUND) {
+            ok = MakeLinksAt(border, work->faces.data[at]);
+        }
+    }
+    return ok ? KIRI_MORE : KIRI_FAILED;
+}
+
+kiriProgress kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                              const kiriRegions* regions, const kiriSite* sites, int32_t siteCount, kiriQuota* quota)
 {
     if (links->work == NULL) {
         links->work = kiriMemory_AllocZeroed(memory, sizeof(*links->work));
     }
     if (links->work == NULL) {
-        return false;
+        return KIRI_FAILED;
     }
-    KIRI_ASSERT(regions->dirty.count == siteCount && shape->reaches.ofFrame.count >= siteCount && !regions->running);
-    kiriBorder border = { memory, grid, mesh, regions, shape, sites, siteCount, links->work };
-    links->next.count = links->work->nextEnds.count = links->changed = 0;
-    bool ok = MakeLinkRoom(&border);
-    if (ok) {
-        FindStale(&border);
+    KIRI_ASSERT(regions->dirty.count == siteCount && regions->border.first.count == siteCount && !regions->running);
+    kiriBorder border = { memory, grid, mesh, regions, sites, siteCount, links->work };
+    bool ok = links->work->running || BeginLinks(&border, links);
+    kiriProgress progress = ok ? RunLinks(&border, links, quota) : KIRI_FAILED;
+    if (progress != KIRI_MORE) {
+        kiriLinks_Drop(links);
     }
-    ok = ok && FindFaces(&border) && MakeLinks(&border, links) && !links->work->edges.failed &&
-         MergeLinks(&border, links) && kiriBorder_MakeCorners(&border, links);
-    if (ok) {
-        links->changed = CountChanged(links);
-    }
-    for (int32_t k = 0; k < links->work->faces.count; ++k) {
-        links->work->marks.data[links->work->faces.data[k]] = KIRI_FACE_PASSED;
-    }
-    return ok;
+    return progress;
 }
 
 /* ---- What is left ---- */

@@ -3,7 +3,7 @@
 #ifndef KIRI_LINK_H
 #define KIRI_LINK_H
 
-#include "kiri_shape.h"
+#include "kiri_region.h"
 
 KIRI_C_BEGIN
 
@@ -49,10 +49,15 @@ typedef struct kiriLinks {
     kiriLinkWork* work;
 } kiriLinks;
 
-/* The links of the regions as they are, into `next`: those between regions that are neither dirty
-   (regions->dirty) nor beside one that is are taken over from `links`, the others made anew; and their corners. False for memory: `links` is as before. */
-bool kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                      const kiriRegions* regions, const kiriShape* shape, const kiriSite* sites, int32_t siteCount);
+/* The links of the regions as they are, into `next`: those between regions that are neither dirty (regions->dirty) nor
+   beside one that is are taken over from `links`, the others made anew; and their corners. An item of the quota is as long
+   as one of the grid: a link counts as many. KIRI_MORE: call again before the regions change. KIRI_FAILED: `links` is as
+   before. */
+kiriProgress kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                              const kiriRegions* regions, const kiriSite* sites, int32_t siteCount, kiriQuota* quota);
+
+/* Forgets an update at hand. */
+void kiriLinks_Drop(kiriLinks* links);
 
 /* The same of what is left when links and frames are taken away: what is kept stays as it is. No link that is kept joins
    a frame that is not. */

@@ -49,6 +49,9 @@ typedef struct kiriNewLink {
 } kiriNewLink;
 
 struct kiriLinkWork {
+    bool running;                /* an update is at hand: it waits for more quota */
+    int32_t at;                  /* in `faces`: the next to look at */
+    int64_t due;                 /* items that are not paid yet */
     KIRI_ARRAY(uint8_t) marks;   /* a kiriFaceMark a face; all PASSED between updates */
     KIRI_ARRAY(uint8_t) stale;   /* of each region: its links are made anew */
     KIRI_ARRAY(int32_t) faces;   /* border faces of regions that are stale */
@@ -66,7 +69,6 @@ typedef struct kiriBorder {
     const kiriGrid* grid;
     const kiriMeshData* mesh;
     const kiriRegions* regions;
-    const kiriShape* shape;
     const kiriSite* sites;
     int32_t siteCount;
     kiriLinkWork* work;

@@ -132,6 +132,7 @@ static bool MakeRegionRoom(const RegionUpdate* u)
     int32_t cell = r->siteAt.count, frame = r->material.count, cellCount = u->grid->cells.count;
     if (!kiriField_Resize(&r->field, u->memory, cellCount) || !kiriArray_Resize(u->memory, &r->siteAt, cellCount) ||
         !kiriArray_Resize(u->memory, &r->onBorder, cellCount) ||
+        !kiriBorderCells_Resize(&r->border, u->memory, cellCount, u->siteCount) ||
         !kiriArray_Resize(u->memory, &r->isChanged, cellCount) ||
         !kiriArray_Resize(u->memory, &r->material, u->siteCount) ||
         !kiriArray_Resize(u->memory, &r->dirty, u->siteCount)) {
@@ -146,6 +147,13 @@ static bool MakeRegionRoom(const RegionUpdate* u)
         r->dirty.data[frame] = 0;
     }
     return true;
+}
+
+/* With the owner that it has. */
+static void SetBorder(kiriRegions* regions, int32_t cell, bool isBorder)
+{
+    regions->onBorder.data[cell] = isBorder;
+    kiriBorderCells_Put(&regions->border, cell, isBorder ? regions->field.owner.data[cell] : KIRI_NONE);
 }
 
 /* ---- What has changed ------------------------------------------------------------------------------------------ */
@@ -189,7 +197,7 @@ static void FollowGrid(const RegionUpdate* u)
         AddToRegion(u, r->field.owner.data[cell], MaterialOf(u, cell), -1);
         kiriField_Forget(&r->field, cell);
         r->siteAt.data[cell] = KIRI_NONE;
-        r->onBorder.data[cell] = 0;
+        SetBorder(r, cell, false);
     }
     for (int32_t k = r->seen.material; k < changes->material.count; ++k) {
         const kiriMaterialChange* change = &changes->material.data[k];
@@ -247,11 +255,11 @@ static void FindBorder(const RegionUpdate* u, int32_t cell)
 {
     const kiriStepRun* run = &u->grid->runs.data[cell];
     const int32_t* owner = u->regions->field.owner.data;
-    uint8_t border = 0;
+    bool border = false;
     for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
         border |= owner[u->grid->steps.data[s].cell] != owner[cell];
     }
-    u->regions->onBorder.data[cell] = border;
+    SetBorder(u->regions, cell, border);
 }
 
 /* The cell has another owner, so its neighbours may be on a border, or no more. */
@@ -259,13 +267,12 @@ static void FindBordersAround(const RegionUpdate* u, int32_t cell)
 {
     const kiriStepRun* run = &u->grid->runs.data[cell];
     const int32_t* owner = u->regions->field.owner.data;
-    uint8_t* onBorder = u->regions->onBorder.data;
     FindBorder(u, cell);
     for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
         int32_t next = u->grid->steps.data[s].cell;
         if (owner[next] != owner[cell]) {
-            onBorder[next] = 1;
-        } else if (onBorder[next]) {
+            SetBorder(u->regions, next, true);
+        } else if (u->regions->onBorder.data[next]) {
             FindBorder(u, next);
         }
     }
@@ -426,12 +433,13 @@ void kiriRegions_Keep(kiriRegions* regions, const kiriKeep* frames, const int32_
     for (int32_t k = 0; k < goneCount; ++k) {
         kiriField_Forget(&regions->field, gone[k]);
         regions->siteAt.data[gone[k]] = KIRI_NONE;
-        regions->onBorder.data[gone[k]] = 0;
+        SetBorder(regions, gone[k], false);
     }
     for (int32_t c = 0; c < regions->siteAt.count && kiriKeep_Moves(frames); ++c) {
         regions->siteAt.data[c] = kiriKeep_To(frames, regions->siteAt.data[c]);
         regions->field.owner.data[c] = kiriKeep_To(frames, regions->field.owner.data[c]);
     }
+    kiriBorderCells_Keep(&regions->border, frames);
     kiriKeep_Compact(frames, &regions->material, 1, sizeof(kiriTally));
     kiriKeep_Compact(frames, &regions->dirty, 1, sizeof(uint8_t));
 }
@@ -449,6 +457,7 @@ void kiriRegions_Reset(kiriRegions* regions)
 {
     kiriField_Clear(&regions->field);
     regions->siteAt.count = regions->onBorder.count = regions->isChanged.count = 0;
+    kiriBorderCells_Reset(&regions->border);
     regions->material.count = regions->dirty.count = 0;
     regions->changes.count = regions->orphans.count = 0;
     regions->seen = (kiriSeenChanges){ 0, 0, 0, 0, 0 };

@@ -2,6 +2,7 @@
 #ifndef KIRI_REGION_H
 #define KIRI_REGION_H
 
+#include "kiri_border_cell.h"
 #include "kiri_geodesic.h"
 #include "../core/kiri_tally.h"
 
@@ -36,6 +37,8 @@ typedef struct kiriRegions {
     /* Of each cell: */
     KIRI_ARRAY(int32_t) siteAt;   /* the frame whose site it holds, or KIRI_NONE; two sites never share one */
     KIRI_ARRAY(uint8_t) onBorder; /* a step from it leads to another region */
+
+    kiriBorderCells border; /* of each frame: those of its region on a border */
 
     /* Of each frame: */
     KIRI_ARRAY(kiriTally) material; /* of its region, exact */

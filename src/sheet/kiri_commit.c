@@ -160,5 +160,6 @@ void kiriStage_Drop(kiriSheetData* sheet)
     u->placing.sites.count = sheet->frames.count;
     u->placing.moves.count = u->placing.movesSeen = 0;
     u->placing.isPlacing = false;
+    kiriLinks_Drop(&sheet->links);
     kiriRefit_Drop(&u->refit);
 }

@@ -64,7 +64,7 @@ void kiriStage_CommitMesh(kiriSheetData* sheet)
 
 /* The steps of the two stages that have more than one; each starts with its first, 0. */
 enum { RELOCATE_SITES, DIVIDE_REGIONS, PLACE_IN_ORPHANS };
-enum { WEIGH_CELLS, ADD_SITES, DIVIDE_AGAIN };
+enum { WEIGH_CELLS, ADD_SITES, DIVIDE_AGAIN, MAKE_LINKS };
 
 kiriProgress kiriStage_Grid(kiriSheetData* sheet, kiriQuota* cells)
 {
@@ -162,28 +162,44 @@ static bool MeasureRegions(kiriSheetData* sheet)
         }
         u->material.data[i] = kiriTally_Moments(&sheet->regions.material.data[i], extent);
     }
-    return kiriLinks_Update(&sheet->links, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, &sheet->shape,
-                            u->placing.sites.data, u->placing.sites.count);
+    return true;
 }
 
-kiriProgress kiriStage_Shape(kiriSheetData* sheet, kiriQuota* cells)
+static kiriProgress MakeLinks(kiriSheetData* sheet, kiriQuota* cells)
+{
+    const kiriSites* sites = &sheet->update->placing.sites;
+    return kiriLinks_Update(&sheet->links, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, sites->data,
+                            sites->count, cells);
+}
+
+/* Sites are added until no frame asks for one. */
+static kiriProgress SettleSites(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
     for (;;) {
         kiriProgress progress = u->step == WEIGH_CELLS ? WeighCells(sheet, cells)
                                 : u->step == ADD_SITES ? kiriSites_Resample(sheet, cells)
                                                        : DivideRegions(sheet, cells);
-        if (progress != KIRI_DONE) {
+        if (progress != KIRI_DONE || (u->step == ADD_SITES && u->placing.moves.count == 0)) {
             return progress;
-        }
-        if (u->step == ADD_SITES && u->placing.moves.count == 0) {
-            return MeasureRegions(sheet) ? KIRI_DONE : KIRI_FAILED;
         }
         if (u->step == WEIGH_CELLS && !kiriSites_ClearMarks(sheet, u->placing.sites.count)) {
             return KIRI_FAILED;
         }
         u->step = u->step == DIVIDE_AGAIN ? WEIGH_CELLS : u->step + 1;
     }
+}
+
+kiriProgress kiriStage_Shape(kiriSheetData* sheet, kiriQuota* cells)
+{
+    if (sheet->update->step != MAKE_LINKS) {
+        kiriProgress progress = SettleSites(sheet, cells);
+        if (progress != KIRI_DONE || !MeasureRegions(sheet)) {
+            return progress != KIRI_DONE ? progress : KIRI_FAILED;
+        }
+        sheet->update->step = MAKE_LINKS;
+    }
+    return MakeLinks(sheet, cells);
 }
 
 /* ---- Samples: section 6 ------------------------------------------------------------------------------------------- */
