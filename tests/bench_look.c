@@ -108,7 +108,7 @@ static kiriVec2 RestOf(const Seen* seen, int32_t vertex)
 
 static kiriVec3 PlaceOf(const Seen* seen, int32_t vertex)
 {
-    return seen->sheet->seen.surface.exact.data[vertex];
+    return kiriSurface_At(&seen->sheet->seen.surface, vertex);
 }
 
 static double Degrees(double cosine, double sine)
@@ -194,7 +194,7 @@ static kiriVec3 OwnTurn(const Seen* seen, int32_t vertex, kiriVec2 way)
     kiriSpan span = seen->sheet->vertexSkin.spans.data[vertex];
     kiriVec3 turn = { 0.0, 0.0, 0.0 };
     for (int32_t k = span.first; k < span.first + span.count; k++) {
-        kiriWeight weight = seen->sheet->vertexSkin.weights.data[k];
+        kiriSampleWeight weight = seen->sheet->vertexSkin.weights.data[k];
         const kiriFrameData* frame = &seen->sheet->frames.data[weight.frame];
         Bend bend = seen->bend[weight.frame];
         turn = kiriVec3_AddScaled(turn, -weight.value * (bend.uu * way.x + bend.uv * way.y), frame->A.u);

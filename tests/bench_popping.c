@@ -36,7 +36,7 @@ static void Remember(Jumps* jumps)
         free(jumps->at);
         jumps->at = malloc(sizeof(kiriVec3) * (size_t)jumps->room);
     }
-    memcpy(jumps->at, surface->exact.data, sizeof(kiriVec3) * (size_t)surface->vertexCount);
+    Probe_RememberSeen(surface, jumps->at);
 }
 
 static void Measure(Jumps* jumps, const SceneType* type, int way)

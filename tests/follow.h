@@ -459,7 +459,7 @@ static inline void Follow_CompareSkins(const kiriSkin* a, const kiriSkin* b)
         assert_true(x.count > 0);
         assert_int_equal(x.count, y.count);
         for (int32_t k = 0; k < x.count; ++k) {
-            kiriWeight v = a->weights.data[x.first + k], w = b->weights.data[y.first + k];
+            kiriSampleWeight v = a->weights.data[x.first + k], w = b->weights.data[y.first + k];
             assert_int_equal(v.frame, w.frame);
             assert_true(v.value == w.value);
         }

@@ -74,6 +74,14 @@ static inline kiriWorldDef Probe_Def(Probe* probe, double size)
     return def;
 }
 
+/* Where vertices are seen. */
+static inline void Probe_RememberSeen(const kiriSurface* surface, kiriVec3* at)
+{
+    for (int32_t v = 0; v < surface->vertexCount; ++v) {
+        at[v] = kiriSurface_At(surface, v);
+    }
+}
+
 /* What fades of a sample. */
 static inline kiriVec3 Probe_OffsetOf(const kiriFades* fades, int32_t sample)
 {

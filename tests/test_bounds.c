@@ -62,7 +62,7 @@ static void MoveAtRandom(Cloth* cloth, uint32_t* seed)
         at.x += noise * RandomBetween(seed, -1.0, 1.0);
         at.y += noise * RandomBetween(seed, -1.0, 1.0);
         at.z += noise * RandomBetween(seed, -1.0, 1.0);
-        cloth->surface.exact.data[v] = at;
+        kiriSurface_Place(&cloth->surface, v, at);
     }
     kiriSurface_WriteArrays(&cloth->surface);
     assert_false(kiriBounds_IsFresh(&cloth->bounds, &cloth->surface));
@@ -85,8 +85,8 @@ static void RandomRay(const Cloth* cloth, uint32_t* seed, kiriVec3* origin, kiri
     const int32_t* v = &surface->indices.data[3 * (Random(seed) % (uint32_t)surface->triangleCount)];
     double b = Random(seed) % 4 == 0 ? 0.0 : RandomBetween(seed, 0.0, 1.0);
     double c = Random(seed) % 4 == 0 ? 0.0 : RandomBetween(seed, 0.0, 1.1 - b);
-    kiriVec3 at = kiriVec3_Scale(1.0 - b - c, surface->exact.data[v[0]]);
-    at = kiriVec3_AddScaled(kiriVec3_AddScaled(at, b, surface->exact.data[v[1]]), c, surface->exact.data[v[2]]);
+    kiriVec3 at = kiriVec3_Scale(1.0 - b - c, kiriSurface_At(surface, v[0]));
+    at = kiriVec3_AddScaled(kiriVec3_AddScaled(at, b, kiriSurface_At(surface, v[1])), c, kiriSurface_At(surface, v[2]));
     kiriVec3 way = RandomVec3(seed, 3.0);
     uint32_t axis = Random(seed) % 6;
     way = axis == 0   ? kiriVec3_Make(0.0, 0.0, way.z)
@@ -154,7 +154,7 @@ static void CheckBoxes(Cloth* cloth, uint32_t* seed)
 {
     const kiriSurface* surface = &cloth->surface;
     kiriIndices found = { NULL, 0, 0 };
-    kiriVec3 at = surface->exact.data[Random(seed) % (uint32_t)surface->vertexCount], size = RandomVec3(seed, 0.5);
+    kiriVec3 at = kiriSurface_At(surface, Random(seed) % (uint32_t)surface->vertexCount), size = RandomVec3(seed, 0.5);
     const Ball ball = { kiriVec3_Add(at, RandomVec3(seed, 0.1)), RandomBetween(seed, 0.0, 0.4) };
     const kiriBox box = { kiriVec3_Add(at, kiriVec3_Make(-fabs(size.x), -fabs(size.y), -fabs(size.z))),
                           kiriVec3_Add(at, kiriVec3_Make(fabs(size.y), fabs(size.z), fabs(size.x))) };
@@ -171,7 +171,7 @@ static void CheckAll(const Cloth* cloth)
 {
     kiriBox all = kiriBounds_All(&cloth->bounds), seen = kiriBox_OfTriangle(&cloth->surface, 0);
     for (int32_t v = 0; v < cloth->surface.vertexCount; ++v) {
-        kiriVec3 p = cloth->surface.exact.data[v];
+        kiriVec3 p = kiriSurface_At(&cloth->surface, v);
         seen.lower = kiriVec3_Make(fmin(p.x, seen.lower.x), fmin(p.y, seen.lower.y), fmin(p.z, seen.lower.z));
         seen.upper = kiriVec3_Make(fmax(p.x, seen.upper.x), fmax(p.y, seen.upper.y), fmax(p.z, seen.upper.z));
     }
@@ -210,7 +210,7 @@ typedef struct Board {
 
 static bool Board_Make(Board* board, const Cloth* cloth, uint32_t* seed)
 {
-    kiriVec3 at = cloth->surface.exact.data[Random(seed) % (uint32_t)cloth->surface.vertexCount];
+    kiriVec3 at = kiriSurface_At(&cloth->surface, Random(seed) % (uint32_t)cloth->surface.vertexCount);
     kiriVec3 a = RandomVec3(seed, 0.6), b = RandomVec3(seed, 0.6), half = kiriVec3_Scale(0.5, kiriVec3_Add(a, b));
     kiriVec3 start = kiriVec3_Sub(kiriVec3_Add(at, RandomVec3(seed, 0.05)), half);
     board->corner[0] = start;
@@ -230,12 +230,12 @@ static double StretchIn(const Cloth* cloth, const kiriWindow* window, int32_t tr
     int count = 0;
     for (int k = 0; k < 3; ++k) {
         int32_t a = v[k], b = v[(k + 1) % 3];
-        double ha = kiriVec3_Dot(window->normal, cloth->surface.exact.data[a]) - window->offset;
-        double hb = kiriVec3_Dot(window->normal, cloth->surface.exact.data[b]) - window->offset;
+        double ha = kiriVec3_Dot(window->normal, kiriSurface_At(&cloth->surface, a)) - window->offset;
+        double hb = kiriVec3_Dot(window->normal, kiriSurface_At(&cloth->surface, b)) - window->offset;
         if ((ha >= 0.0) != (hb >= 0.0) && count < 2) {
             double t = ha / (ha - hb);
             kiriVec2 ra = cloth->surface.rest.data[a], rb = cloth->surface.rest.data[b];
-            kiriVec3 xa = cloth->surface.exact.data[a], xb = cloth->surface.exact.data[b];
+            kiriVec3 xa = kiriSurface_At(&cloth->surface, a), xb = kiriSurface_At(&cloth->surface, b);
             end[count].rest = kiriVec2_Add(ra, kiriVec2_Scale(t, kiriVec2_Sub(rb, ra)));
             end[count++].at = kiriVec3_AddScaled(xa, t, kiriVec3_Sub(xb, xa));
         }

@@ -396,7 +396,7 @@ static void CutWhatSwings(Seen* seen, const kiriSheetDef* def)
         const kiriSurface* surface = &DataOf(probe)->seen.surface;
         assert_true(surface->vertexCount <= 3000);
         seen->pointCount = DataOf(probe)->points.count;
-        memcpy(seen->at, surface->exact.data, sizeof(kiriVec3) * (size_t)surface->vertexCount);
+        Probe_RememberSeen(surface, seen->at);
         if (tick >= 10) {
             OK(kiriCut_Extend(probe->host.world, cut, way[tick - 10], 1));
         }

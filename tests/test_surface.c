@@ -91,13 +91,13 @@ static void AddWeights(Cloth* cloth, kiriVec2 at)
 {
     kiriSpan span = { 0, 0 };
     int32_t count = cloth->frames.count;
-    assert_true(
-        kiriSpan_Resize(&span, &cloth->skin.room, &cloth->memory, &cloth->skin.weights, sizeof(kiriWeight), count));
+    assert_true(kiriSpan_Resize(&span, &cloth->skin.room, &cloth->memory, &cloth->skin.weights,
+                                sizeof(kiriSampleWeight), count));
     double sum = 0.0;
     for (int32_t i = 0; i < count; ++i) {
         kiriVec2 way = kiriVec2_Sub(at, cloth->frames.data[i].center);
         double square = kiriVec2_Dot(way, way) + 1e-6, weight = 1.0 / (square * square * square * square);
-        cloth->skin.weights.data[span.first + i] = (kiriWeight){ i, weight };
+        cloth->skin.weights.data[span.first + i] = (kiriSampleWeight){ i, (float)weight };
         sum += weight;
     }
     for (int32_t i = 0; i < count; ++i) {
@@ -180,11 +180,11 @@ static void CheckPositions(const Cloth* cloth, double away)
     for (int32_t v = 0; v < cloth->mesh.vertices.count; ++v) {
         kiriVec3 sum = { 0.0, 0.0, 0.0 };
         for (int32_t i = 0; i < cloth->skin.spans.data[v].count; ++i) {
-            kiriWeight w = cloth->skin.weights.data[cloth->skin.spans.data[v].first + i];
+            kiriSampleWeight w = cloth->skin.weights.data[cloth->skin.spans.data[v].first + i];
             kiriVec3 carried = kiriFrame_Carry(&cloth->frames.data[w.frame], RestOf(cloth, v));
             sum = kiriVec3_AddScaled(sum, w.value, carried);
         }
-        AssertClose(cloth->surface.exact.data[v], sum, 1e-14 * (1.0 + away));
+        AssertClose(kiriSurface_At(&cloth->surface, v), sum, 1e-6 * (1.0 + away));
         AssertClose(kiriVec3_Load(&cloth->surface.positions.data[3 * v]), sum, 1.2e-7 * (3.0 + away));
     }
 }
@@ -196,13 +196,13 @@ static void CheckNormals(const Cloth* cloth)
         kiriVec3 sum = { 0.0, 0.0, 0.0 };
         for (int32_t h = 0; h < 3 * cloth->mesh.triangles.count; ++h) {
             if (kiriMesh_Tail(&cloth->mesh, h) == v) {
-                kiriVec3 a = cloth->surface.exact.data[v];
-                kiriVec3 b = cloth->surface.exact.data[kiriMesh_Tail(&cloth->mesh, kiriEdge_Next(h))];
-                kiriVec3 c = cloth->surface.exact.data[kiriMesh_Tail(&cloth->mesh, kiriEdge_Previous(h))];
+                kiriVec3 a = kiriSurface_At(&cloth->surface, v);
+                kiriVec3 b = kiriSurface_At(&cloth->surface, kiriMesh_Tail(&cloth->mesh, kiriEdge_Next(h)));
+                kiriVec3 c = kiriSurface_At(&cloth->surface, kiriMesh_Tail(&cloth->mesh, kiriEdge_Previous(h)));
                 sum = kiriVec3_Add(sum, kiriVec3_Cross(kiriVec3_Sub(b, a), kiriVec3_Sub(c, a)));
             }
         }
-        AssertClose(kiriVec3_Load(&cloth->surface.normals.data[3 * v]), kiriVec3_Normalize(sum), 1e-6);
+        AssertClose(kiriVec3_Load(&cloth->surface.normals.data[3 * v]), kiriVec3_Normalize(sum), 1e-5);
     }
 }
 
@@ -246,7 +246,7 @@ static void NormalsKnowNoSize(void** state)
         Write(&cloth);
         Pose(&cloth);
         for (int32_t v = 0; v < cloth.mesh.vertices.count; ++v) {
-            AssertClose(kiriVec3_Load(&cloth.surface.normals.data[3 * v]), normal, 1e-6);
+            AssertClose(kiriVec3_Load(&cloth.surface.normals.data[3 * v]), normal, 1e-5);
         }
         cloth.frames.data[0].A.u = cloth.frames.data[0].A.v = kiriVec3_Make(0.0, 0.0, 0.0);
         Pose(&cloth);
@@ -560,7 +560,8 @@ static void Measure(Cloth* cloth, const Roll* roll, int32_t skinning, double* aw
         kiriVec3 x, n = kiriVec3_Load(&cloth->surface.normals.data[3 * v]);
         kiriMat3 A;
         RollTo(roll, RestOf(cloth, v), &x, &A);
-        double d = kiriVec3_Length(kiriVec3_Sub(cloth->surface.exact.data[v], x)) / (roll->stretch * roll->radius);
+        double d =
+            kiriVec3_Length(kiriVec3_Sub(kiriSurface_At(&cloth->surface, v), x)) / (roll->stretch * roll->radius);
         double lean = kiriVec3_Length(kiriVec3_Cross(n, A.d));
         *away = d > *away ? d : *away;
         bool isInner = fabs(RestOf(cloth, v).x - 0.5) < 0.45 && fabs(RestOf(cloth, v).y - 0.5) < 0.45;
@@ -640,7 +641,7 @@ static void FlatStaysFlat(void** state)
         cloth.surface.skinning = KIRI_SKINNING_SMOOTH;
         Pose(&cloth);
         for (int32_t v = 0; v < cloth.mesh.vertices.count; ++v) {
-            AssertClose(cloth.surface.exact.data[v], kiriFrame_Carry(&pose, RestOf(&cloth, v)), 1e-14);
+            AssertClose(kiriSurface_At(&cloth.surface, v), kiriFrame_Carry(&pose, RestOf(&cloth, v)), 1e-6);
         }
         CheckNormals(&cloth);
         Cloth_Release(&cloth);
@@ -703,11 +704,11 @@ static void WildFramesStayBounded(void** state)
         Write(&cloth);
         Pose(&cloth);
         for (int32_t v = 0; v < cloth.mesh.vertices.count; ++v) {
-            kiriVec3 x = cloth.surface.exact.data[v];
+            kiriVec3 x = kiriSurface_At(&cloth.surface, v);
             assert_true(kiriVec3_Length(x) < 1.8 + 3.0 * 1.5);
             if (v >= old) {
                 int32_t parent = cloth.mesh.births.data[v - old].parent[0];
-                AssertClose(x, cloth.surface.exact.data[parent], 0.0);
+                AssertClose(x, kiriSurface_At(&cloth.surface, parent), 0.0);
             }
         }
         Cloth_Release(&cloth);

@@ -624,7 +624,7 @@ static const char* CorruptSamples(kiriWorld* world, kiriSheetData* s, int way)
     while (skin->spans.data[v].count < 2) {
         ++v;
     }
-    kiriWeight* weight = &skin->weights.data[skin->spans.data[v].first];
+    kiriSampleWeight* weight = &skin->weights.data[skin->spans.data[v].first];
     switch (way) {
     case 0:
         weight->value += 1e-6;

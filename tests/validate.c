@@ -355,17 +355,17 @@ static bool Check_SampleWeights(Check* check, const kiriSheetData* sheet, const 
     double sum = 0.0;
     REQUIRE(span.count > 0, "sample %d has no weights", sample);
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
-        kiriWeight weight = skin->weights.data[k];
+        kiriSampleWeight weight = skin->weights.data[k];
         REQUIRE(weight.frame > last && weight.frame < sheet->frames.count, "sample %d: weight of frame %d after %d",
                 sample, weight.frame, last);
-        REQUIRE(weight.value >= 0.0, "sample %d: weight %g of frame %d", sample, weight.value, weight.frame);
+        REQUIRE(weight.value > 0.0f, "sample %d: weight %g of frame %d", sample, weight.value, weight.frame);
         int32_t other = sheet->layout.framePiece.data[weight.frame];
         REQUIRE(piece == KIRI_NONE || other == piece, "sample %d is of pieces %d and %d", sample, piece, other);
         last = weight.frame;
         piece = other;
         sum += weight.value;
     }
-    REQUIRE(IsNear(sum, 1.0, 1e-9), "the weights of sample %d sum to %.17g", sample, sum);
+    REQUIRE(sum == 1.0, "the weights of sample %d sum to %.17g", sample, sum);
     return true;
 }
 
@@ -374,7 +374,7 @@ static bool Check_Skin(Check* check, const kiriSheetData* sheet, const kiriSkin*
     Rooms rooms;
     REQUIRE_COUNT(skin->spans, count);
     REQUIRE(HasUpdate(sheet) || skin->staged.count == 0, "%d samples are staged", skin->staged.count);
-    if (!Rooms_Start(check, &rooms, skin->weights.data, sizeof(kiriWeight), skin->weights.count, &skin->room)) {
+    if (!Rooms_Start(check, &rooms, skin->weights.data, sizeof(kiriSampleWeight), skin->weights.count, &skin->room)) {
         return false;
     }
     for (int32_t i = 0; i < count; ++i) {

@@ -24,6 +24,9 @@ typedef struct kiriSpans {
 bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes,
                      int32_t count);
 
+/* Have both room for the same number of items? */
+bool kiriSpan_IsAlike(kiriSpan a, kiriSpan b);
+
 KIRI_C_END
 
 #endif

@@ -82,7 +82,7 @@ static void SetAll(kiriSettings* settings, const kiriMeshData* mesh, const kiriS
     settings->mechanics.model = def->model;
     settings->mechanics.planar = def->planar != 0;
     settings->mechanics.axes = AxesOf(def);
-    settings->leastFade = 1e-7 * longer * mesh->step; /* of the longer side */
+    settings->leastFade = 1e-6 * longer * mesh->step; /* of the longer side */
     SetPaper(settings, &def->paper);
     kiriSheetSettings given = kiriSettings_Of(def);
     kiriSettings_Take(settings, &given, mesh->step * mesh->squares.side);
@@ -178,6 +178,7 @@ static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, c
 void kiriBuild_Commit(kiriSheetData* sheet)
 {
     kiriStage_Commit(sheet);
+    kiriSkin_Sort(&sheet->vertexSkin, sheet->memory);
     kiriView_WriteTopology(sheet);
     kiriMesh_Commit(&sheet->mesh);
     sheet->update->stage = KIRI_NONE;

@@ -13,7 +13,7 @@ static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, i
     for (int k = 0; k < 3; ++k) {
         kiriSpan span = sheet->vertexSkin.spans.data[sheet->mesh.triangles.data[place->triangle].vertex[k]];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
-            const kiriWeight* weight = &sheet->vertexSkin.weights.data[i];
+            const kiriSampleWeight* weight = &sheet->vertexSkin.weights.data[i];
             sum += weight->frame == frame ? place->shares[k] * weight->value : 0.0;
         }
     }

@@ -62,7 +62,7 @@ void kiriLoad_Impulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec
         kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[corners[k]].at);
         kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
-            kiriWeight weight = sheet->vertexSkin.weights.data[i];
+            kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
             kiriFrameData* frame = &sheet->frames.data[weight.frame];
             kiriVec3 arm = kiriVec3_Add(kiriVec3_Sub(kiriFrame_Carry(frame, local), frame->x), off);
             kiriVec3 part = kiriVec3_Scale(place->shares[k] * weight.value, impulse);

@@ -54,8 +54,8 @@ static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, in
 {
     const kiriSheetData* sheet = meeting->sheet;
     const int32_t* v = &sheet->seen.surface.indices.data[3 * (int64_t)triangle];
-    kiriVec3 x[3] = { sheet->seen.surface.exact.data[v[0]], sheet->seen.surface.exact.data[v[1]],
-                      sheet->seen.surface.exact.data[v[2]] };
+    kiriVec3 x[3] = { kiriSurface_At(&sheet->seen.surface, v[0]), kiriSurface_At(&sheet->seen.surface, v[1]),
+                      kiriSurface_At(&sheet->seen.surface, v[2]) };
     double height, share[3], gap = meeting->gap + meeting->obstacle->shape.rounding;
     if (!MeetsTriangle(x, point, &height, share)) {
         return false;
@@ -110,7 +110,7 @@ static bool FindCrossed(const kiriMeeting* meeting, const EdgePoint* point)
     }
     for (int32_t i = 0; i < crossed->count; ++i) {
         const int32_t* v = &surface->indices.data[3 * (int64_t)crossed->data[i]];
-        kiriVec3 x[3] = { surface->exact.data[v[0]], surface->exact.data[v[1]], surface->exact.data[v[2]] };
+        kiriVec3 x[3] = { kiriSurface_At(surface, v[0]), kiriSurface_At(surface, v[1]), kiriSurface_At(surface, v[2]) };
         double height, share[3];
         if (MeetsTriangle(x, point, &height, share)) {
             crossed->data[kept++] = crossed->data[i];
@@ -295,7 +295,7 @@ static bool TouchSide(const kiriMeeting* meeting, const EdgePoint* point, int32_
 {
     const kiriSheetData* sheet = meeting->sheet;
     kiriVec3 d = sheet->settings.mechanics.axes.d;
-    kiriVec3 from = sheet->seen.surface.exact.data[a], to = sheet->seen.surface.exact.data[b];
+    kiriVec3 from = kiriSurface_At(&sheet->seen.surface, a), to = kiriSurface_At(&sheet->seen.surface, b);
     double height, share, gap = meeting->gap + meeting->obstacle->shape.rounding;
     if (!MeetSide(from, to, d, point, &height, &share) ||
         !kiriMeeting_IsBorder(&sheet->seen.surface, &meeting->search->crossed, a, b)) {

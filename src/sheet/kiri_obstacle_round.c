@@ -88,7 +88,7 @@ static void GetCorners(const kiriMeeting* meeting, int32_t triangle, kiriVec3 x[
     const kiriSurface* surface = &meeting->sheet->seen.surface;
     for (int k = 0; k < 3; ++k) {
         int32_t vertex = surface->indices.data[3 * (int64_t)triangle + k];
-        x[k] = kiriObstacle_PointToLocal(meeting->obstacle, surface->exact.data[vertex]);
+        x[k] = kiriObstacle_PointToLocal(meeting->obstacle, kiriSurface_At(surface, vertex));
     }
 }
 

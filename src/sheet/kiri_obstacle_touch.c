@@ -19,9 +19,9 @@ kiriBox kiriSheet_Box(const kiriSheetData* sheet)
     if (kiriBounds_IsFresh(sheet->seen.bounds, surface)) {
         return kiriBounds_All(sheet->seen.bounds);
     }
-    kiriBox box = { surface->exact.data[0], surface->exact.data[0] };
+    kiriBox box = { kiriSurface_At(surface, 0), kiriSurface_At(surface, 0) };
     for (int32_t v = 1; v < surface->vertexCount; ++v) {
-        kiriVec3 x = surface->exact.data[v];
+        kiriVec3 x = kiriSurface_At(surface, v);
         box.lower = kiriVec3_Make(x.x < box.lower.x ? x.x : box.lower.x, x.y < box.lower.y ? x.y : box.lower.y,
                                   x.z < box.lower.z ? x.z : box.lower.z);
         box.upper = kiriVec3_Make(x.x > box.upper.x ? x.x : box.upper.x, x.y > box.upper.y ? x.y : box.upper.y,
@@ -75,7 +75,7 @@ kiriVec3 kiriMeeting_VertexVelocity(const kiriSheetData* sheet, int32_t vertex)
     kiriSpan span = sheet->vertexSkin.spans.data[vertex];
     kiriVec3 velocity = { 0.0, 0.0, 0.0 };
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
-        kiriWeight weight = sheet->vertexSkin.weights.data[k];
+        kiriSampleWeight weight = sheet->vertexSkin.weights.data[k];
         velocity = kiriVec3_AddScaled(
             velocity, weight.value,
             kiriFrame_VelocityAt(&sheet->frames.data[weight.frame], sheet->seen.surface.rest.data[vertex]));
@@ -86,7 +86,7 @@ kiriVec3 kiriMeeting_VertexVelocity(const kiriSheetData* sheet, int32_t vertex)
 static int32_t LeadingFrame(const kiriSkin* skin, int32_t sample)
 {
     kiriSpan span = skin->spans.data[sample];
-    kiriWeight most = skin->weights.data[span.first];
+    kiriSampleWeight most = skin->weights.data[span.first];
     for (int32_t k = span.first + 1; k < span.first + span.count; ++k) {
         most = skin->weights.data[k].value > most.value ? skin->weights.data[k] : most;
     }
@@ -241,7 +241,7 @@ static double Preference(const kiriMeeting* meeting, int32_t vertex, double heig
 static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
 {
     const kiriObstacleShape* shape = &meeting->obstacle->shape;
-    kiriVec3 x = meeting->sheet->seen.surface.exact.data[vertex];
+    kiriVec3 x = kiriSurface_At(&meeting->sheet->seen.surface, vertex);
     kiriVec3 local = kiriObstacle_PointToLocal(meeting->obstacle, x);
     if (!kiriObstacleShape_MayReach(shape, local, meeting->reach)) {
         return;
@@ -304,7 +304,7 @@ static void ChooseVertices(const kiriMeeting* meeting)
 static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* touch)
 {
     const kiriObstacleData* obstacle = meeting->obstacle;
-    kiriVec3 x = meeting->sheet->seen.surface.exact.data[vertex], from = kiriObstacle_PointToLocal(obstacle, x);
+    kiriVec3 x = kiriSurface_At(&meeting->sheet->seen.surface, vertex), from = kiriObstacle_PointToLocal(obstacle, x);
     kiriVec3 way =
         kiriObstacle_ToLocal(obstacle, kiriMeeting_Way(meeting, x, kiriMeeting_VertexVelocity(meeting->sheet, vertex)));
     kiriNearest nearest;

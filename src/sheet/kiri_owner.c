@@ -4,7 +4,7 @@
 static int32_t HeaviestAt(const kiriSheetData* sheet, int32_t triangle)
 {
     const kiriSkin* skin = &sheet->vertexSkin;
-    kiriWeight heaviest = { KIRI_NONE, 0.0 };
+    kiriSampleWeight heaviest = { KIRI_NONE, 0.0f };
     for (int corner = 0; corner < 3; ++corner) {
         kiriSpan span = skin->spans.data[sheet->mesh.triangles.data[triangle].vertex[corner]];
         for (int32_t k = span.first; k < span.first + span.count; ++k) {

@@ -27,7 +27,7 @@ kiriVec3 kiriPoint_Position(const kiriSheetData* sheet, const kiriPointPlace* pl
 {
     kiriVec3 x = { 0.0, 0.0, 0.0 };
     for (int k = 0; k < 3; ++k) {
-        x = kiriVec3_AddScaled(x, place->shares[k], sheet->seen.surface.exact.data[CornersOf(sheet, place)[k]]);
+        x = kiriVec3_AddScaled(x, place->shares[k], kiriSurface_At(&sheet->seen.surface, CornersOf(sheet, place)[k]));
     }
     return x;
 }
@@ -36,14 +36,15 @@ kiriVec3 kiriPoint_Position(const kiriSheetData* sheet, const kiriPointPlace* pl
 kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* place)
 {
     const int32_t* corners = CornersOf(sheet, place);
-    const kiriVec3* x = sheet->seen.surface.exact.data;
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
     for (int k = 0; k < 3; ++k) {
         kiriVec3 normal = kiriVec3_Load(&sheet->seen.surface.normals.data[3 * corners[k]]);
         sum = kiriVec3_AddScaled(sum, place->shares[k], normal);
     }
     if (kiriVec3_Length(sum) < 1e-3) {
-        sum = kiriVec3_Cross(kiriVec3_Sub(x[corners[1]], x[corners[0]]), kiriVec3_Sub(x[corners[2]], x[corners[0]]));
+        const kiriSurface* surface = &sheet->seen.surface;
+        kiriVec3 a = kiriSurface_At(surface, corners[0]), b = kiriSurface_At(surface, corners[1]);
+        sum = kiriVec3_Cross(kiriVec3_Sub(b, a), kiriVec3_Sub(kiriSurface_At(surface, corners[2]), a));
     }
     return kiriVec3_Normalize(sum);
 }
@@ -58,7 +59,7 @@ kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* pla
         kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[corner].at);
         kiriSpan span = sheet->vertexSkin.spans.data[corner];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
-            kiriWeight weight = sheet->vertexSkin.weights.data[i];
+            kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
             const kiriFrameData* frame = &sheet->frames.data[weight.frame];
             double share = place->shares[k] * weight.value;
             motion.x = kiriVec3_AddScaled(motion.x, share, kiriFrame_Carry(frame, local));

@@ -175,7 +175,7 @@ kiriVec3 kiriProbe_Velocity(const kiriSheetData* sheet, int32_t vertex)
     kiriVec2 local = sheet->seen.surface.rest.data[vertex];
     kiriVec3 velocity = { 0.0, 0.0, 0.0 };
     for (int32_t i = span.first; i < span.first + span.count; ++i) {
-        kiriWeight weight = sheet->vertexSkin.weights.data[i];
+        kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
         velocity =
             kiriVec3_AddScaled(velocity, weight.value, kiriFrame_VelocityAt(&sheet->frames.data[weight.frame], local));
     }
@@ -191,7 +191,7 @@ static void BoundPieces(kiriSheetData* sheet)
     }
     for (int32_t v = 0; v < probes->vertexPiece.count; ++v) {
         kiriBox* box = &probes->boxes.data[probes->vertexPiece.data[v]];
-        kiriVec3 x = sheet->seen.surface.exact.data[v], *a = &box->lower, *b = &box->upper;
+        kiriVec3 x = kiriSurface_At(&sheet->seen.surface, v), *a = &box->lower, *b = &box->upper;
         *a = kiriVec3_Make(x.x < a->x ? x.x : a->x, x.y < a->y ? x.y : a->y, x.z < a->z ? x.z : a->z);
         *b = kiriVec3_Make(x.x > b->x ? x.x : b->x, x.y > b->y ? x.y : b->y, x.z > b->z ? x.z : b->z);
     }

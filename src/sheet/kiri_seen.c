@@ -4,14 +4,21 @@
 
 #include <string.h>
 
+bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t pointCount)
+{
+    int32_t vertices = sheet->mesh.vertices.count;
+    return kiriArray_Reserve(sheet->memory, &sheet->seen.before, 3 * (int64_t)vertices) &&
+           kiriArray_Reserve(sheet->memory, &sheet->seen.pointsBefore, pointCount) &&
+           kiriFades_Reserve(&sheet->seen.fades, sheet->memory, vertices) &&
+           kiriFades_Reserve(&sheet->seen.pointFades, sheet->memory, pointCount);
+}
+
 bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount)
 {
     return kiriSurface_Resize(&sheet->seen.surface, &sheet->shown, &sheet->mesh, frameCount) &&
            kiriArray_Resize(&sheet->shown, &sheet->seen.pointPositions, 3 * (int64_t)pointCount) &&
            kiriArray_Resize(sheet->memory, &sheet->seen.exactPoints, pointCount) &&
-           (!sheet->update->isBegun ||
-            (kiriFades_Reserve(&sheet->seen.fades, sheet->memory, sheet->mesh.vertices.count) &&
-             kiriFades_Reserve(&sheet->seen.pointFades, sheet->memory, pointCount)));
+           (!sheet->update->isBegun || kiriView_ReserveFades(sheet, pointCount));
 }
 
 /* A newborn vertex lies on the triangle that was seen. */
@@ -20,9 +27,9 @@ static void PlaceNewborn(kiriSheetData* sheet, int32_t vertex)
     const kiriBirth* birth = &sheet->mesh.births.data[vertex - sheet->mesh.oldVertexCount];
     kiriVec3 at = { 0.0, 0.0, 0.0 };
     for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
-        at = kiriVec3_AddScaled(at, birth->share[k], sheet->seen.surface.exact.data[birth->parent[k]]);
+        at = kiriVec3_AddScaled(at, birth->share[k], kiriSurface_At(&sheet->seen.surface, birth->parent[k]));
     }
-    sheet->seen.surface.exact.data[vertex] = at;
+    kiriSurface_Place(&sheet->seen.surface, vertex, at);
 }
 
 static void HideTriangles(kiriSheetData* sheet)
@@ -80,28 +87,59 @@ static void AddPointFades(kiriSheetData* sheet)
     }
 }
 
-/* Points that are new have not been seen elsewhere. */
-static void TakePointJump(kiriSheetData* sheet)
+/* There is room. */
+static void RememberPlaces(kiriSheetData* sheet)
 {
-    kiriFades* fades = &sheet->seen.pointFades;
-    kiriFades_Remember(fades, &sheet->seen.exactPoints.data, &sheet->seen.exactPoints.capacity);
-    BlendPoints(sheet);
-    for (int32_t i = sheet->seen.pointCount; i < sheet->points.count; ++i) {
-        fades->seen.data[i] = sheet->seen.exactPoints.data[i];
+    const kiriSurface* surface = &sheet->seen.surface;
+    sheet->seen.middleBefore = surface->middle;
+    memcpy(sheet->seen.before.data, kiriSurface_Places(surface), 3 * sizeof(float) * (size_t)surface->vertexCount);
+    memcpy(sheet->seen.pointsBefore.data, sheet->seen.exactPoints.data,
+           sizeof(kiriVec3) * (size_t)sheet->seen.pointCount);
+}
+
+static void TakeVertexJumps(kiriSheetData* sheet)
+{
+    const kiriSurface* surface = &sheet->seen.surface;
+    const float *was = sheet->seen.before.data, *is = kiriSurface_Places(surface);
+    kiriVec3 shift = kiriVec3_Sub(sheet->seen.middleBefore, surface->middle);
+    kiriFades_Start(&sheet->seen.fades);
+    for (int32_t v = 0; v < surface->vertexCount; ++v, was += 3, is += 3) {
+        kiriVec3 offset = kiriVec3_Sub(kiriVec3_Load(was), kiriVec3_Load(is));
+        kiriFades_Take(&sheet->seen.fades, v, kiriVec3_Add(offset, shift));
     }
-    kiriFades_Take(fades, sheet->seen.exactPoints.data, sheet->points.count);
-    AddPointFades(sheet);
+}
+
+/* Points that are new have not been seen elsewhere. */
+static void TakePointJumps(kiriSheetData* sheet)
+{
+    const kiriVec3 *was = sheet->seen.pointsBefore.data, *is = sheet->seen.exactPoints.data;
+    kiriFades_Start(&sheet->seen.pointFades);
+    for (int32_t i = 0; i < sheet->seen.pointCount; ++i) {
+        kiriFades_Take(&sheet->seen.pointFades, i, kiriVec3_Sub(was[i], is[i]));
+    }
     sheet->seen.pointCount = sheet->points.count;
 }
 
 void kiriView_TakeJump(kiriSheetData* sheet)
 {
-    kiriSurface* surface = &sheet->seen.surface;
     if (sheet->seen.isElsewhere) {
-        kiriFades_Remember(&sheet->seen.fades, &surface->exact.data, &surface->exact.capacity);
+        RememberPlaces(sheet);
         BlendVertices(sheet);
-        kiriFades_Take(&sheet->seen.fades, surface->exact.data, surface->vertexCount);
-        TakePointJump(sheet);
+        BlendPoints(sheet);
+        TakeVertexJumps(sheet);
+        TakePointJumps(sheet);
+        AddPointFades(sheet);
+    }
+}
+
+/* Gives memory back where nothing fades. */
+static void TrimFades(kiriSheetData* sheet)
+{
+    kiriFades_Trim(&sheet->seen.fades, sheet->memory);
+    kiriFades_Trim(&sheet->seen.pointFades, sheet->memory);
+    if (sheet->seen.fades.fading.count == 0 && sheet->seen.before.capacity > 0) {
+        kiriArray_Release(sheet->memory, &sheet->seen.before);
+        kiriArray_Release(sheet->memory, &sheet->seen.pointsBefore);
     }
 }
 
@@ -114,8 +152,7 @@ void kiriView_Fade(kiriSheetData* sheet, double dt)
 void kiriView_Trim(kiriSheetData* sheet)
 {
     if (!sheet->update->isBegun) {
-        kiriFades_Trim(&sheet->seen.fades, sheet->memory);
-        kiriFades_Trim(&sheet->seen.pointFades, sheet->memory);
+        TrimFades(sheet);
     }
 }
 

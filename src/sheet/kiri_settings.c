@@ -1,6 +1,7 @@
 #include "kiri_settings.h"
 
 #include "kiri_motion.h"
+#include "kiri_seen.h"
 
 #include <string.h>
 
@@ -94,13 +95,6 @@ static bool StageSolver(kiriSheetData* sheet, const kiriSheetSettings* given)
     return kiriSolver_Stage(sheet->solver, &system, sheet->layout.framePiece.data, sheet->layout.pieces.count);
 }
 
-/* What is seen goes over to where it belongs as after a cut. */
-static bool ReserveFades(kiriSheetData* sheet)
-{
-    return kiriFades_Reserve(&sheet->seen.fades, sheet->memory, sheet->mesh.vertices.count) &&
-           kiriFades_Reserve(&sheet->seen.pointFades, sheet->memory, sheet->points.count);
-}
-
 /* Poses and velocities stay. The next commit takes masses from the regions' exact moments again. */
 static void Weigh(kiriSheetData* sheet, const kiriMaterial* before)
 {
@@ -134,7 +128,7 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
     }
     bool looksOther = given->skinning != before.skinning;
     bool isOther = !IsSameMaterial(&given->material, &before.material);
-    if ((looksOther && !ReserveFades(sheet)) || (isOther && !StageSolver(sheet, given))) {
+    if ((looksOther && !kiriView_ReserveFades(sheet, sheet->points.count)) || (isOther && !StageSolver(sheet, given))) {
         return false;
     }
     kiriSettings_Take(&sheet->settings, given, sheet->mesh.step * sheet->mesh.squares.side);

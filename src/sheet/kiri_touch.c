@@ -16,7 +16,7 @@ static kiriVec3 WhereSeen(const kiriSheetData* sheet, const kiriTouch* touch)
     }
     kiriVec3 at = { 0.0, 0.0, 0.0 };
     for (int n = 0; n < 3 && touch->vertex[n] != KIRI_NONE; ++n) {
-        at = kiriVec3_AddScaled(at, touch->share[n], sheet->seen.surface.exact.data[touch->vertex[n]]);
+        at = kiriVec3_AddScaled(at, touch->share[n], kiriSurface_At(&sheet->seen.surface, touch->vertex[n]));
     }
     return at;
 }
@@ -153,7 +153,7 @@ static void AddWeights(TouchBlend* blend, const kiriSkin* skin, int32_t sample, 
 {
     kiriSpan span = skin->spans.data[sample];
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
-        kiriWeight weight = skin->weights.data[k];
+        kiriSampleWeight weight = skin->weights.data[k];
         int32_t n = 0;
         while (n < blend->count && blend->weights[n].frame != weight.frame) {
             ++n;

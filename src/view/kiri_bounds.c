@@ -18,11 +18,12 @@ static kiriVec3 Most(kiriVec3 a, kiriVec3 b)
     return kiriVec3_Make(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
 }
 
-static inline void AddTriangle(kiriBox* box, const kiriVec3* at, const int32_t* corner)
+static inline void AddTriangle(kiriBox* box, const kiriSurface* surface, const int32_t* corner)
 {
     for (int k = 0; k < 3; ++k) {
-        box->lower = Least(at[corner[k]], box->lower);
-        box->upper = Most(at[corner[k]], box->upper);
+        kiriVec3 at = kiriSurface_At(surface, corner[k]);
+        box->lower = Least(at, box->lower);
+        box->upper = Most(at, box->upper);
     }
 }
 
@@ -35,8 +36,8 @@ void kiriBox_Add(kiriBox* box, kiriVec3 at)
 kiriBox kiriBox_OfTriangle(const kiriSurface* surface, int32_t triangle)
 {
     const int32_t* corner = &surface->indices.data[3 * (size_t)triangle];
-    kiriBox box = { surface->exact.data[corner[0]], surface->exact.data[corner[0]] };
-    AddTriangle(&box, surface->exact.data, corner);
+    kiriBox box = { kiriSurface_At(surface, corner[0]), kiriSurface_At(surface, corner[0]) };
+    AddTriangle(&box, surface, corner);
     return box;
 }
 
@@ -148,14 +149,13 @@ static bool ReserveAll(kiriBounds* bounds, kiriMemory* memory, int32_t triangleC
 
 static void FitLeaves(kiriBounds* bounds, const kiriSurface* surface)
 {
-    const kiriVec3* at = surface->exact.data;
     const int32_t *indices = surface->indices.data, *order = bounds->order.data;
     for (int32_t i = 0, leaf = 0; i < surface->triangleCount; ++leaf) {
         int32_t end = surface->triangleCount - i < LEAF ? surface->triangleCount : i + LEAF;
-        kiriVec3 first = at[indices[3 * (size_t)order[i]]];
+        kiriVec3 first = kiriSurface_At(surface, indices[3 * (size_t)order[i]]);
         kiriBox box = { first, first };
         for (; i < end; ++i) {
-            AddTriangle(&box, at, &indices[3 * (size_t)order[i]]);
+            AddTriangle(&box, surface, &indices[3 * (size_t)order[i]]);
         }
         bounds->nodes.data[leaf] = box;
     }

@@ -3,13 +3,12 @@
 bool kiriFades_Reserve(kiriFades* fades, kiriMemory* memory, int32_t sampleCount)
 {
     int32_t room = fades->time > 0.0 ? sampleCount : 0;
-    return kiriArray_Reserve(memory, &fades->seen, sampleCount) && kiriArray_Reserve(memory, &fades->fading, room) &&
-           kiriArray_Reserve(memory, &fades->older, room);
+    return kiriArray_Reserve(memory, &fades->fading, room) && kiriArray_Reserve(memory, &fades->older, room);
 }
 
 void kiriFades_Trim(kiriFades* fades, kiriMemory* memory)
 {
-    if (fades->fading.count == 0 && fades->seen.capacity > 0) {
+    if (fades->fading.count == 0 && fades->fading.capacity > 0) {
         kiriFades_Release(fades, memory);
     }
 }
@@ -18,7 +17,6 @@ void kiriFades_Release(kiriFades* fades, kiriMemory* memory)
 {
     kiriArray_Release(memory, &fades->fading);
     kiriArray_Release(memory, &fades->older);
-    kiriArray_Release(memory, &fades->seen);
 }
 
 void kiriFades_Keep(kiriFades* fades, const kiriKeep* samples)
@@ -54,16 +52,6 @@ static double TimeLeft(const kiriFades* fades, const kiriFading* older, double j
     return sum > 0.0 ? (length * older->left + jump * fades->time) / sum : 0.0;
 }
 
-void kiriFades_Remember(kiriFades* fades, kiriVec3** samples, int32_t* capacity)
-{
-    kiriVec3* data = fades->seen.data;
-    int32_t room = fades->seen.capacity;
-    fades->seen.data = *samples;
-    fades->seen.capacity = *capacity;
-    *samples = data;
-    *capacity = room;
-}
-
 static void TakeOne(kiriFades* fades, const kiriFading* older, kiriVec3 offset)
 {
     double jump = kiriVec3_Length(kiriVec3_Sub(offset, older->offset));
@@ -74,20 +62,18 @@ static void TakeOne(kiriFades* fades, const kiriFading* older, kiriVec3 offset)
     }
 }
 
-void kiriFades_Take(kiriFades* fades, const kiriVec3* now, int32_t sampleCount)
+void kiriFades_Start(kiriFades* fades)
 {
-    int32_t k = 0;
-    double least = fades->least * fades->least;
     MakeOlder(fades);
-    for (int32_t i = 0; i < sampleCount; ++i) {
-        kiriVec3 offset = kiriVec3_Sub(fades->seen.data[i], now[i]);
-        kiriFading none = { i, 0.0, { 0.0, 0.0, 0.0 } };
-        if (k < fades->older.count && fades->older.data[k].sample == i) {
-            TakeOne(fades, &fades->older.data[k++], offset);
-        } else if (kiriVec3_Dot(offset, offset) > least) { /* few do */
-            TakeOne(fades, &none, offset);
-        }
-    }
+    fades->next = 0;
+}
+
+void kiriFades_TakeJump(kiriFades* fades, int32_t sample, kiriVec3 offset)
+{
+    kiriFading none = { sample, 0.0, { 0.0, 0.0, 0.0 } };
+    bool fadesYet = fades->next < fades->older.count && fades->older.data[fades->next].sample == sample;
+    TakeOne(fades, fadesYet ? &fades->older.data[fades->next] : &none, offset);
+    fades->next += fadesYet;
 }
 
 void kiriFades_Advance(kiriFades* fades, double dt)

@@ -19,7 +19,7 @@ typedef struct kiriFades {
     double time;                          /* s that a jump takes; 0: samples jump at once */
     double least;                         /* m: what is less is not seen */
     KIRI_ARRAY(kiriFading) fading, older; /* by sample; the second is room to merge */
-    KIRI_ARRAY(kiriVec3) seen;            /* room for where the samples are seen while a cut takes effect */
+    int32_t next;                         /* in `older`, while jumps are taken */
     double jump, move;                    /* m, in this tick: the longest jump that came, and way that a fade went */
 } kiriFades;
 
@@ -33,11 +33,18 @@ void kiriFades_Release(kiriFades* fades, kiriMemory* memory);
 /* Samples are taken away. */
 void kiriFades_Keep(kiriFades* fades, const kiriKeep* samples);
 
-/* Swaps fades->seen with the samples' own array, which had where they are seen. Both have room for all. */
-void kiriFades_Remember(kiriFades* fades, kiriVec3** samples, int32_t* capacity);
+/* A cut takes effect: Start, then Take for each sample, in their order. The sample is seen so far from where it would be if
+   nothing faded: from here on that fades. */
+void kiriFades_Start(kiriFades* fades);
+void kiriFades_TakeJump(kiriFades* fades, int32_t sample, kiriVec3 offset);
 
-/* Samples that are seen at fades->seen would be at `now`, if nothing faded: the difference fades from here on. */
-void kiriFades_Take(kiriFades* fades, const kiriVec3* now, int32_t sampleCount);
+static inline void kiriFades_Take(kiriFades* fades, int32_t sample, kiriVec3 offset)
+{
+    bool fadesYet = fades->next < fades->older.count && fades->older.data[fades->next].sample == sample;
+    if (fadesYet || kiriVec3_Dot(offset, offset) > fades->least * fades->least) { /* few do */
+        kiriFades_TakeJump(fades, sample, offset);
+    }
+}
 
 /* Time goes on. */
 void kiriFades_Advance(kiriFades* fades, double dt);

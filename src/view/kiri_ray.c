@@ -27,7 +27,7 @@ static bool MeetTriangle(const kiriVec3 corner[3], kiriVec3 origin, kiriVec3 dir
 static void WorldCorners(const kiriSurface* surface, int32_t triangle, kiriVec3 corner[3])
 {
     for (int k = 0; k < 3; ++k) {
-        corner[k] = surface->exact.data[surface->indices.data[3 * (size_t)triangle + (size_t)k]];
+        corner[k] = kiriSurface_At(surface, surface->indices.data[3 * (size_t)triangle + (size_t)k]);
     }
 }
 

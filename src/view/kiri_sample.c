@@ -15,25 +15,47 @@ static void DropSpan(kiriSkin* skin, kiriSpan* span)
     ResizeSampleWeights(skin, NULL, span, 0);
 }
 
+/* Weights are multiples of 1 / WEIGHT_UNITS. Less than half a one is none. */
+#define WEIGHT_UNITS 16777216.0
+#define LEAST_SHARE (0.5 / WEIGHT_UNITS)
+
+/* Rounds weights to units. What is then missing from 1 goes to the largest. Returns how many are left. */
+static int32_t RoundWeights(kiriSampleWeight* weights, int32_t count)
+{
+    int32_t kept = 0, largest = 0, missing = (int32_t)WEIGHT_UNITS;
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t units = (int32_t)(WEIGHT_UNITS * weights[i].value + 0.5);
+        if (units > 0) {
+            weights[kept] = (kiriSampleWeight){ weights[i].frame, (float)(units / WEIGHT_UNITS) };
+            largest = weights[kept].value > weights[largest].value ? kept : largest;
+            missing -= units;
+            ++kept;
+        }
+    }
+    weights[largest].value += (float)(missing / WEIGHT_UNITS);
+    return kept;
+}
+
 /* Stages what the stencil has weighed. Makes room for the commit, too. */
 static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* stencil, int32_t sample)
 {
     kiriReweighed staged = { sample, { 0, 0 } };
     int32_t count = 0;
     for (int32_t i = 0; i < stencil->frames.count; ++i) {
-        count += stencil->values.data[i] > 0.0;
+        count += stencil->values.data[i] >= LEAST_SHARE;
     }
     if (!kiriArray_Reserve(memory, &skin->spans, (int64_t)sample + 1) ||
         !kiriArray_Reserve(memory, &skin->staged, (int64_t)skin->staged.count + 1) ||
         !ResizeSampleWeights(skin, memory, &staged.span, count)) {
         return false;
     }
-    kiriWeight* weight = skin->weights.data + staged.span.first;
+    kiriSampleWeight* weight = skin->weights.data + staged.span.first;
     for (int32_t i = 0; i < stencil->frames.count; ++i) {
-        if (stencil->values.data[i] > 0.0) {
-            *weight++ = (kiriWeight){ stencil->frames.data[i], stencil->values.data[i] };
+        if (stencil->values.data[i] >= LEAST_SHARE) {
+            *weight++ = (kiriSampleWeight){ stencil->frames.data[i], (float)stencil->values.data[i] };
         }
     }
+    RoundWeights(skin->weights.data + staged.span.first, count);
     skin->staged.data[skin->staged.count++] = staged;
     return true;
 }
@@ -52,13 +74,26 @@ bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, 
     return ok;
 }
 
+/* Weights that fit into the room of the old ones go there: samples that lie beside each other keep theirs together. */
+static void TakeStaged(kiriSkin* skin, kiriSpan* span, kiriSpan staged)
+{
+    if (kiriSpan_IsAlike(*span, staged)) {
+        memcpy(skin->weights.data + span->first, skin->weights.data + staged.first,
+               sizeof(kiriSampleWeight) * (size_t)staged.count);
+        span->count = staged.count;
+        DropSpan(skin, &staged);
+    } else {
+        DropSpan(skin, span);
+        *span = staged;
+    }
+}
+
 void kiriSkin_Commit(kiriSkin* skin)
 {
     for (int32_t k = 0; k < skin->staged.count; ++k) {
         kiriReweighed staged = skin->staged.data[k];
         if (staged.sample < skin->spans.count) {
-            DropSpan(skin, &skin->spans.data[staged.sample]);
-            skin->spans.data[staged.sample] = staged.span;
+            TakeStaged(skin, &skin->spans.data[staged.sample], staged.span);
         } else {
             skin->spans.data[skin->spans.count++] = staged.span;
         }
@@ -74,20 +109,40 @@ void kiriSkin_Drop(kiriSkin* skin)
     skin->staged.count = 0;
 }
 
+void kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory)
+{
+    KIRI_ASSERT(skin->staged.count == 0);
+    kiriSkin sorted;
+    memset(&sorted, 0, sizeof(sorted));
+    if (!kiriArray_Reserve(memory, &sorted.weights, skin->weights.count + (int64_t)skin->weights.count / 8)) {
+        return;
+    }
+    for (int32_t i = 0; i < skin->spans.count; ++i) {
+        kiriSpan was = skin->spans.data[i], is = { 0, 0 };
+        ResizeSampleWeights(&sorted, memory, &is, was.count); /* there is room */
+        memcpy(sorted.weights.data + is.first, skin->weights.data + was.first,
+               sizeof(kiriSampleWeight) * (size_t)was.count);
+        skin->spans.data[i] = is;
+    }
+    kiriArray_Release(memory, &skin->weights);
+    kiriArray_SetHeader(&skin->weights, kiriArray_GetHeader(&sorted.weights));
+    skin->room = sorted.room;
+}
+
 /* Adds to the weights of the span, which has room; they stay sorted by frame. */
 static void Blend(kiriSkin* skin, kiriSpan* span, int32_t frame, double value)
 {
-    kiriWeight* weights = skin->weights.data + span->first;
+    kiriSampleWeight* weights = skin->weights.data + span->first;
     int32_t k = 0;
     while (k < span->count && weights[k].frame < frame) {
         ++k;
     }
     if (k == span->count || weights[k].frame != frame) {
         memmove(weights + k + 1, weights + k, (size_t)(span->count - k) * sizeof(*weights));
-        weights[k] = (kiriWeight){ frame, 0.0 };
+        weights[k] = (kiriSampleWeight){ frame, 0.0f };
         ++span->count;
     }
-    weights[k].value += value;
+    weights[k].value += (float)value;
 }
 
 static bool InheritOne(kiriSkin* skin, kiriMemory* memory, const kiriBirth* birth)
@@ -105,10 +160,11 @@ static bool InheritOne(kiriSkin* skin, kiriMemory* memory, const kiriBirth* birt
     for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
         kiriSpan parent = skin->spans.data[birth->parent[k]];
         for (int32_t i = parent.first; i < parent.first + parent.count; ++i) {
-            kiriWeight weight = skin->weights.data[i];
+            kiriSampleWeight weight = skin->weights.data[i];
             Blend(skin, &sum, weight.frame, birth->share[k] * weight.value);
         }
     }
+    sum.count = RoundWeights(skin->weights.data + sum.first, sum.count);
     ResizeSampleWeights(skin, memory, &span, sum.count);
     skin->spans.data[skin->spans.count++] = span;
     return true;
@@ -345,7 +401,7 @@ kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrame
     kiriVec3 x = { 0.0, 0.0, 0.0 };
     kiriSpan span = skin->spans.data[sample];
     for (int32_t i = span.first; i < span.first + span.count; ++i) {
-        kiriWeight weight = skin->weights.data[i];
+        kiriSampleWeight weight = skin->weights.data[i];
         x = kiriVec3_AddScaled(x, weight.value, kiriFrame_Carry(&frames[weight.frame], local));
     }
     return x;
@@ -381,7 +437,7 @@ kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* fram
         double share = (double)kiriOrient(corners[(k + 1) % 3], corners[(k + 2) % 3], at) / area;
         kiriSpan span = vertexSkin->spans.data[mesh->triangles.data[triangle].vertex[k]];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
-            kiriWeight weight = vertexSkin->weights.data[i];
+            kiriSampleWeight weight = vertexSkin->weights.data[i];
             AddMotion(&motion, &frames[weight.frame], local, share * weight.value);
         }
     }

@@ -13,10 +13,16 @@ typedef struct kiriReweighed {
     kiriSpan span;
 } kiriReweighed;
 
+/* A weight of a sample: a multiple of 2^-24, so that those of a sample add up to 1 exactly. Never 0. */
+typedef struct kiriSampleWeight {
+    int32_t frame;
+    float value;
+} kiriSampleWeight;
+
 /* The weights of a row of samples. */
 typedef struct kiriSkin {
-    KIRI_ARRAY(kiriSpan) spans;     /* one a sample */
-    KIRI_ARRAY(kiriWeight) weights; /* by spans; in a span by frame */
+    KIRI_ARRAY(kiriSpan) spans;           /* one a sample */
+    KIRI_ARRAY(kiriSampleWeight) weights; /* by spans; in a span by frame */
     kiriSpans room;
     KIRI_ARRAY(kiriReweighed) staged; /* weights that take effect with the commit */
 } kiriSkin;
@@ -44,6 +50,10 @@ bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, 
 /* The weights staged become those of the samples, or are dropped. Neither fails. */
 void kiriSkin_Commit(kiriSkin* skin);
 void kiriSkin_Drop(kiriSkin* skin);
+
+/* Puts the weights in the order of samples, in which they are read, with some room for more. Where there is no memory for
+   that they stay as they are. Nothing is staged. */
+void kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory);
 
 /* Which samples lie in which square, for samples that never move: a list a square. */
 typedef struct kiriPlaces {

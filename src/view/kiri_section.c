@@ -92,7 +92,7 @@ typedef struct Pieces {
 
 static double HeightOf(const Pieces* p, int32_t vertex)
 {
-    return kiriVec3_Dot(p->window->normal, p->surface->exact.data[vertex]) - p->window->offset;
+    return kiriVec3_Dot(p->window->normal, kiriSurface_At(p->surface, vertex)) - p->window->offset;
 }
 
 static kiriSectionPoint Between(kiriSectionPoint a, kiriSectionPoint b, double t)
@@ -107,8 +107,8 @@ static void CrossEdge(const Pieces* p, Piece* piece, int k, int32_t a, int32_t b
 {
     int32_t low = a < b ? a : b, high = a < b ? b : a;
     const kiriVec2* rest = p->surface->rest.data;
-    kiriSectionPoint from = { rest[low], p->surface->exact.data[low] },
-                     to = { rest[high], p->surface->exact.data[high] };
+    kiriSectionPoint from = { rest[low], kiriSurface_At(p->surface, low) },
+                     to = { rest[high], kiriSurface_At(p->surface, high) };
     double above = HeightOf(p, low), t = above / (above - HeightOf(p, high));
     kiriVec2 way = kiriVec2_Sub(rest[high], rest[low]), in = kiriVec2_Sub(rest[other], rest[low]);
     kiriVec2 out = kiriVec2_Make(way.y, -way.x);

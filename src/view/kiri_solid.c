@@ -61,7 +61,7 @@ static void AddSolidVertex(SolidArrays* to, const kiriSurface* surface, int32_t 
 {
     int32_t n = to->vertexCount++;
     kiriVec3 out = kiriVec3_Load(&surface->normals.data[3 * vertex]);
-    kiriVec3_Store(&to->positions[3 * n], kiriVec3_AddScaled(surface->exact.data[vertex], above, out));
+    kiriVec3_Store(&to->positions[3 * n], kiriVec3_AddScaled(kiriSurface_At(surface, vertex), above, out));
     kiriVec3_Store(&to->normals[3 * n], normal);
     memcpy(&to->restPositions[2 * n], &surface->restPositions.data[2 * vertex], 2 * sizeof(float));
     to->sources[n] = vertex;
@@ -93,7 +93,7 @@ static void AddSides(SolidArrays* to, const kiriSurface* surface, double half)
 /* Four vertices of their own, so that it is flat and its edges are sharp. */
 static void AddRim(SolidArrays* to, const kiriSurface* surface, int32_t a, int32_t b, double half)
 {
-    kiriVec3 along = kiriVec3_Sub(surface->exact.data[b], surface->exact.data[a]);
+    kiriVec3 along = kiriVec3_Sub(kiriSurface_At(surface, b), kiriSurface_At(surface, a));
     kiriVec3 up =
         kiriVec3_Add(kiriVec3_Load(&surface->normals.data[3 * a]), kiriVec3_Load(&surface->normals.data[3 * b]));
     kiriVec3 out = kiriVec3_Normalize(kiriVec3_Cross(along, up));

@@ -1,21 +1,27 @@
 #include "kiri_surface.h"
 
+#include "kiri_normal.h"
+
 #include <string.h>
 
 bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount)
 {
     int64_t vertices = mesh->vertices.count, triangles = mesh->triangles.count;
-    return kiriArray_Resize(memory, &surface->positions, 3 * vertices) &&
+    return kiriArray_Reserve(memory, &surface->positions, 3 * vertices + 1) &&
+           kiriArray_Reserve(memory, &surface->places, 3 * vertices + 1) &&
+           kiriArray_Resize(memory, &surface->positions, 3 * vertices) &&
+           kiriArray_Resize(memory, &surface->places, 3 * vertices) &&
            kiriArray_Resize(memory, &surface->normals, 3 * vertices) &&
            kiriArray_Resize(memory, &surface->restPositions, 2 * vertices) &&
            kiriArray_Resize(memory, &surface->sourceWeights, 3 * vertices) &&
            kiriArray_Resize(memory, &surface->sourceTriangles, vertices) &&
            kiriArray_Resize(memory, &surface->indices, 3 * triangles) &&
-           kiriArray_Resize(memory, &surface->rest, vertices) && kiriArray_Resize(memory, &surface->exact, vertices) &&
-           kiriArray_Resize(memory, &surface->slopes, vertices) &&
+           kiriArray_Resize(memory, &surface->rest, vertices) &&
+           kiriArray_Resize(memory, &surface->slopes, 4 * vertices) &&
            kiriArray_Resize(memory, &surface->corners, 3 * (triangles + triangles % 2)) &&
            kiriArray_Resize(memory, &surface->carriers, frameCount) &&
-           kiriArray_Resize(memory, &surface->bends, frameCount);
+           kiriArray_Resize(memory, &surface->bends, frameCount) &&
+           kiriPatches_Reserve(&surface->patches, memory, frameCount);
 }
 
 /* ---- Topology ---- */
@@ -115,6 +121,7 @@ void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
     change.oldVertexCount = surface->vertexCount;
     change.oldTriangleCount = surface->triangleCount;
     surface->origin = mesh->origin;
+    surface->longer = KIRI_LATTICE * mesh->step;
     surface->pose += 1;
     surface->revision = mesh->revision;
     surface->vertexCount = mesh->vertices.count;
@@ -209,7 +216,7 @@ bool kiriShown_Reserve(kiriShown* shown, kiriMemory* memory, const kiriKeep* tri
 {
     int64_t vertexCount = vertices->count, triangleCount = triangles->count;
     memset(shown, 0, sizeof(*shown));
-    return kiriArray_Reserve(memory, &shown->positions, 3 * vertexCount) &&
+    return kiriArray_Reserve(memory, &shown->positions, 3 * vertexCount + 1) &&
            kiriArray_Reserve(memory, &shown->normals, 3 * vertexCount) &&
            kiriArray_Reserve(memory, &shown->restPositions, 2 * vertexCount) &&
            kiriArray_Reserve(memory, &shown->sourceWeights, 3 * vertexCount) &&
@@ -258,8 +265,8 @@ void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* tr
     TakeKept(vertices, &surface->sourceTriangles, &shown->sourceTriangles, 1, retired);
     TakeKept(triangles, &surface->indices, &shown->indices, 3, retired);
     kiriKeep_Compact(vertices, &surface->rest, 1, sizeof(kiriVec2));
-    kiriKeep_Compact(vertices, &surface->exact, 1, sizeof(kiriVec3));
-    kiriKeep_Compact(vertices, &surface->slopes, 1, sizeof(kiriVec3));
+    kiriKeep_Compact(vertices, &surface->places, 3, sizeof(float));
+    surface->slopes.count = 4 * vertices->count;
     surface->carriers.count = surface->bends.count = frameCount;
     surface->vertexCount = vertices->count;
     surface->triangleCount = triangles->count;
@@ -298,246 +305,82 @@ bool kiriSurface_CopyIndices16(const kiriSurface* surface, int32_t firstTriangle
     return true;
 }
 
-/* ---- Curvature ----
-
-   In a flat patch the surface bulges: half-way between two frames that stand at an angle t on a cylinder of radius R,
-   both patches are R t^2 / 8 outside. So the patch of a frame follows the arc that its neighbours' directors tell. Be K
-   the curvature, g = K q and f^2 = g . g: the patch goes from q to q sin f / f in the plane, and up by
-   q . g (1 - cos f) / f^2. That is exact for one direction of bending, which is what thin sheets have, and right to the
-   second order elsewhere.
-
-   A frame that stretches by s has arcs s times as long for the same angles: K and six, divided by s^2, say so. */
-
-/* The angle, of which this is the cosine, over its sine: Pade's [4/4] of the half-angle's arc tangent, 0.7 % off at 120
-   degrees. Never above 8: frames back to back tell nothing. */
-static double AngleOverSine(double cosine)
-{
-    double lower = 1.0 + cosine > 0.1 ? 1.0 + cosine : 0.1, x = (2.0 - lower) / lower;
-    double angle = (945.0 + x * (735.0 + 64.0 * x)) / (945.0 + x * (1050.0 + 225.0 * x));
-    return angle * (1.0 + x);
-}
-
-/* How the director of `other` leans, seen from a frame, where it is s away. */
-static void AddDirectorTurn(kiriBend* bend, const kiriCarrier* carrier, kiriVec3 other, kiriVec2 s, double weight)
-{
-    double k = -weight * AngleOverSine(kiriVec3_Dot(carrier->d, other));
-    double tu = k * kiriVec3_Dot(carrier->u, other), tv = k * kiriVec3_Dot(carrier->v, other);
-    bend->uu += weight * s.x * s.x;
-    bend->uv += weight * s.x * s.y;
-    bend->vv += weight * s.y * s.y;
-    bend->ruu += s.x * tu;
-    bend->ruv += s.y * tu + s.x * tv;
-    bend->rvv += s.y * tv;
-}
-
-/* The symmetric K that best takes each way s to its lean; where the neighbours, all in a row, leave it open, the least.
-   That share, a thousandth, also says how far K may follow the noise across a row. */
-static void Curve(kiriCarrier* carrier, const kiriBend* bend)
-{
-    double least = 1e-3 * (bend->uu + bend->vv), m = bend->uv;
-    double a = bend->uu + least, c = bend->vv + least, b = bend->uu + bend->vv + 2.0 * least;
-    double det = a * (b * c - m * m) - m * m * c;
-    double square = kiriVec3_Length(kiriVec3_Cross(carrier->u, carrier->v));
-    if (!(det > 0.0 && square > 0.0)) {
-        return;
-    }
-    double scale = 1.0 / (square * det);
-    carrier->six = 6.0 / square;
-    carrier->uu = scale * ((b * c - m * m) * bend->ruu - m * c * bend->ruv + m * m * bend->rvv);
-    carrier->uv = scale * (-m * c * bend->ruu + a * c * bend->ruv - a * m * bend->rvv);
-    carrier->vv = scale * (m * m * bend->ruu - a * m * bend->ruv + (a * b - m * m) * bend->rvv);
-}
-
-/* rad: rms of the angle by which a patch may turn over its region. On an arc that is 40 degrees from frame to frame. */
-static const double mostTurn = 0.2;
-
-/* Where neighbours turn farther, they do not tell how the region bends: there are creases, narrow bridges, and neighbours
-   on both sides of a slit that bend apart. A patch that is less bent is strained less there. */
-static void LimitCurve(kiriCarrier* carrier, const kiriFrameData* frame)
-{
-    double uu = carrier->uu, uv = carrier->uv, vv = carrier->vv;
-    const double* m = frame->inertia;
-    double square = (uu * uu + uv * uv) * m[0] + 2.0 * uv * (uu + vv) * m[1] + (uv * uv + vv * vv) * m[2];
-    double turn = frame->mass > 0.0 && square > 0.0 ? sqrt(6.0 * square / (carrier->six * frame->mass)) : 0.0;
-    if (turn > mostTurn) {
-        carrier->uu *= mostTurn / turn;
-        carrier->uv *= mostTurn / turn;
-        carrier->vv *= mostTurn / turn;
-    }
-}
-
-/* From center to center along the link. */
-static kiriVec2 CentreToCentre(const kiriFrameData* frames, const kiriLink* link)
-{
-    kiriVec2 start = kiriVec2_Sub(frames[link->i].site.at, frames[link->i].center);
-    kiriVec2 end = kiriVec2_Sub(frames[link->j].center, frames[link->j].site.at);
-    return kiriVec2_Add(kiriVec2_Add(start, link->span), end);
-}
-
-static void BendCarriers(kiriSurface* surface, const kiriFrameData* frames, int32_t frameCount, const kiriLink* links,
-                         int32_t linkCount)
-{
-    memset(surface->bends.data, 0, sizeof(kiriBend) * (size_t)frameCount);
-    for (int32_t k = 0; k < linkCount; ++k) {
-        const kiriLink* link = &links[k];
-        kiriCarrier *i = &surface->carriers.data[link->i], *j = &surface->carriers.data[link->j];
-        kiriVec2 way = CentreToCentre(frames, link);
-        AddDirectorTurn(&surface->bends.data[link->i], i, j->d, way, link->width);
-        AddDirectorTurn(&surface->bends.data[link->j], j, i->d, kiriVec2_Scale(-1.0, way), link->width);
-    }
-    for (int32_t i = 0; i < frameCount; ++i) {
-        Curve(&surface->carriers.data[i], &surface->bends.data[i]);
-        LimitCurve(&surface->carriers.data[i], &frames[i]);
-    }
-}
-
 /* ---- Positions ---- */
 
-static void WriteCarriers(kiriSurface* surface, const kiriFrameData* frames, int32_t frameCount)
+/* The middle of the frames, to a power of two between two and four times the longer side: so it is 0 for all sheets near
+   the origin of the world, and seldom changes. Floats hold it. */
+static double RoundToFloats(double x, double unit)
 {
-    memset(surface->carriers.data, 0, sizeof(kiriCarrier) * (size_t)frameCount);
+    double steps = x / unit;
+    if (steps > -1e15 && steps < 1e15) {
+        x = unit * (double)(int64_t)(steps < 0.0 ? steps - 0.5 : steps + 0.5);
+    }
+    return (float)x;
+}
+
+static kiriVec3 FindMiddle(const kiriFrameData* frames, int32_t frameCount, double longer)
+{
+    double unit = 1.0;
+    while (unit < 2.0 * longer) {
+        unit *= 2.0;
+    }
+    while (unit > 4.0 * longer) {
+        unit *= 0.5;
+    }
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
     for (int32_t i = 0; i < frameCount; ++i) {
-        kiriCarrier* carrier = &surface->carriers.data[i];
-        carrier->u = frames[i].A.u;
-        carrier->v = frames[i].A.v;
-        carrier->x = frames[i].x;
-        carrier->center = frames[i].center;
-        carrier->six = 6.0;
-        carrier->origin = kiriFrame_Carry(&frames[i], kiriVec2_Make(0.0, 0.0));
-        carrier->d = kiriVec3_Normalize(kiriVec3_Cross(carrier->u, carrier->v));
+        sum = kiriVec3_AddScaled(sum, 1.0 / frameCount, frames[i].x);
     }
+    return kiriVec3_Make(RoundToFloats(sum.x, unit), RoundToFloats(sum.y, unit), RoundToFloats(sum.z, unit));
 }
 
-static kiriVec3 BlendFlat(const kiriCarrier* carriers, const kiriWeight* weights, int32_t count, kiriVec2 p)
+void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, int32_t frameCount,
+                            const kiriLink* links, int32_t linkCount)
 {
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
-    for (int32_t i = 0; i < count; ++i) {
-        const kiriCarrier* c = &carriers[weights[i].frame];
-        double w = weights[i].value;
-        sum.x += w * (c->origin.x + p.x * c->u.x + p.y * c->v.x);
-        sum.y += w * (c->origin.y + p.x * c->u.y + p.y * c->v.y);
-        sum.z += w * (c->origin.z + p.x * c->u.z + p.y * c->v.z);
+    bool isBent = surface->skinning == KIRI_SKINNING_SMOOTH && linkCount > 0;
+    surface->middle = FindMiddle(frames, frameCount, surface->longer);
+    kiriCarriers_Write(surface->carriers.data, frames, frameCount);
+    if (isBent) {
+        kiriCarriers_Bend(surface->carriers.data, surface->bends.data, frames, frameCount, links, linkCount);
     }
-    return sum;
+    kiriPatches_Write(&surface->patches, surface->carriers.data, frameCount, surface->middle, isBent);
 }
 
-/* sin f / f and (1 - cos f) / f^2 as fractions over 12 + f^2: one thousandth off at 40 degrees, and however strongly
-   bent never farther from the center than twice q. */
-static kiriVec3 BlendBent(const kiriCarrier* carriers, const kiriWeight* weights, int32_t count, kiriVec2 p)
+void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t begin, int32_t end)
 {
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
-    for (int32_t i = 0; i < count; ++i) {
-        const kiriCarrier* k = &carriers[weights[i].frame];
-        double w = weights[i].value, qu = p.x - k->center.x, qv = p.y - k->center.y;
-        double gu = k->uu * qu + k->uv * qv, gv = k->uv * qu + k->vv * qv;
-        double bow = (gu * qu + gv * qv) / (k->six + 0.5 * (gu * gu + gv * gv));
-        double a = qu - bow * gu, b = qv - bow * gv, c = 3.0 * bow;
-        sum.x += w * (k->x.x + a * k->u.x + b * k->v.x + c * k->d.x);
-        sum.y += w * (k->x.y + a * k->u.y + b * k->v.y + c * k->d.y);
-        sum.z += w * (k->x.z + a * k->u.z + b * k->v.z + c * k->d.z);
-    }
-    return sum;
-}
-
-/* Loops of their own, for speed. */
-static void BlendAll(kiriSurface* surface, const kiriSkin* skin, bool isBent)
-{
-    const kiriCarrier* carriers = surface->carriers.data;
-    const kiriWeight* weights = skin->weights.data;
-    const kiriVec2* rest = surface->rest.data;
-    for (int32_t v = 0; !isBent && v < surface->vertexCount; ++v) {
-        kiriSpan span = skin->spans.data[v];
-        surface->exact.data[v] = BlendFlat(carriers, weights + span.first, span.count, rest[v]);
-    }
-    for (int32_t v = 0; isBent && v < surface->vertexCount; ++v) {
-        kiriSpan span = skin->spans.data[v];
-        surface->exact.data[v] = BlendBent(carriers, weights + span.first, span.count, rest[v]);
-    }
-}
-
-/* ---- Normals ---- */
-
-static void AddInPlace(kiriVec3* sum, kiriVec3 a)
-{
-    sum->x += a.x;
-    sum->y += a.y;
-    sum->z += a.z;
-}
-
-/* The cross product of two sides is twice the area times the normal: sums are area-weighted. Where two triangles share
-   an edge, their corners on it get one sum from both. */
-static void SumSlopes(kiriSurface* surface)
-{
-    const kiriVec3* x = surface->exact.data;
-    kiriVec3* sums = surface->slopes.data;
-    memset(sums, 0, sizeof(kiriVec3) * (size_t)surface->vertexCount);
-    for (int32_t t = 0; t < surface->triangleCount; t += 2) {
-        const int32_t* v = &surface->corners.data[3 * (size_t)t];
-        kiriVec3 ab = kiriVec3_Sub(x[v[1]], x[v[0]]), ac = kiriVec3_Sub(x[v[2]], x[v[0]]);
-        kiriVec3 first = kiriVec3_Cross(ab, ac);
-        AddInPlace(&sums[v[1]], first);
-        if (v[0] == v[3] && v[2] == v[4]) {
-            kiriVec3 second = kiriVec3_Cross(ac, kiriVec3_Sub(x[v[5]], x[v[0]])), both = kiriVec3_Add(first, second);
-            AddInPlace(&sums[v[5]], second);
-            AddInPlace(&sums[v[0]], both);
-            AddInPlace(&sums[v[2]], both);
-        } else {
-            kiriVec3 de = kiriVec3_Sub(x[v[4]], x[v[3]]), df = kiriVec3_Sub(x[v[5]], x[v[3]]);
-            kiriVec3 second = kiriVec3_Cross(de, df);
-            AddInPlace(&sums[v[0]], first);
-            AddInPlace(&sums[v[2]], first);
-            AddInPlace(&sums[v[3]], second);
-            AddInPlace(&sums[v[4]], second);
-            AddInPlace(&sums[v[5]], second);
-        }
-    }
-}
-
-/* What the host reads. Normals in floats where the squared length has a place there: twice as fast. A length that fits a float may have a square
-   that does not. */
-static void StoreAll(kiriSurface* surface)
-{
-    for (int32_t v = 0; v < surface->vertexCount; ++v) {
-        kiriVec3_Store(&surface->positions.data[3 * (size_t)v], surface->exact.data[v]);
-        kiriVec3 slope = surface->slopes.data[v];
-        float* normal = &surface->normals.data[3 * (size_t)v];
-        double square = kiriVec3_Dot(slope, slope);
-        if (square > 1e-30 && square < 1e30) {
-            float scale = 1.0f / sqrtf((float)square);
-            normal[0] = scale * (float)slope.x;
-            normal[1] = scale * (float)slope.y;
-            normal[2] = scale * (float)slope.z;
-        } else {
-            kiriVec3 unit = kiriVec3_Normalize(slope);
-            bool known = kiriVec3_Dot(unit, unit) > 0.0;
-            kiriVec3_Store(normal, known ? unit : kiriVec3_Make(0.0, 0.0, 1.0));
-        }
-    }
+    kiriSkin_WritePositions(skin, &surface->patches, surface->rest.data, begin, end, kiriSurface_Places(surface));
 }
 
 void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriFrameData* frames, int32_t frameCount,
                        const kiriLink* links, int32_t linkCount)
 {
-    bool isBent = surface->skinning == KIRI_SKINNING_SMOOTH && linkCount > 0;
-    WriteCarriers(surface, frames, frameCount);
-    if (isBent) {
-        BendCarriers(surface, frames, frameCount, links, linkCount);
-    }
-    BlendAll(surface, skin, isBent);
+    kiriSurface_TakeFrames(surface, frames, frameCount, links, linkCount);
+    kiriSurface_BlendRange(surface, skin, 0, surface->vertexCount);
 }
 
 void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades)
 {
     for (int32_t k = 0; k < fades->fading.count; ++k) {
         kiriFading fading = fades->fading.data[k];
-        kiriVec3* exact = &surface->exact.data[fading.sample];
-        *exact = kiriVec3_Add(*exact, fading.offset);
+        kiriSurface_Place(surface, fading.sample, kiriVec3_Add(kiriSurface_At(surface, fading.sample), fading.offset));
+    }
+}
+
+void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end)
+{
+    const float middle[3] = { (float)surface->middle.x, (float)surface->middle.y, (float)surface->middle.z };
+    for (int32_t v = begin; kiriSurface_IsFar(surface) && v < end; ++v) {
+        for (ptrdiff_t k = 3 * (ptrdiff_t)v; k < 3 * (ptrdiff_t)v + 3; ++k) {
+            surface->positions.data[k] = middle[k % 3] + surface->places.data[k];
+        }
     }
 }
 
 void kiriSurface_WriteArrays(kiriSurface* surface)
 {
     surface->pose += 1;
-    SumSlopes(surface);
-    StoreAll(surface);
+    kiriSurface_WriteRange(surface, 0, surface->vertexCount);
+    kiriNormals_Sum(surface->slopes.data, surface->vertexCount, kiriSurface_Places(surface), surface->corners.data,
+                    surface->triangleCount);
+    kiriNormals_Write(surface->normals.data, surface->slopes.data, 0, surface->vertexCount);
 }

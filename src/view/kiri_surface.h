@@ -3,26 +3,10 @@
 #ifndef KIRI_SURFACE_H
 #define KIRI_SURFACE_H
 
+#include "kiri_blend.h"
 #include "kiri_fade.h"
-#include "../field/kiri_link.h"
-#include "kiri_sample.h"
 
 KIRI_C_BEGIN
-
-/* A frame as skinning reads it: the rest point p goes to x + a u + b v + c d. In a flat patch (a, b) is q = p - center
-   and c is 0; a bent one follows the arc that its curvature gives, see kiri_surface.c. */
-typedef struct kiriCarrier {
-    kiriVec3 origin; /* where the flat patch has the local origin */
-    kiriVec3 u, v, d, x;
-    kiriVec2 center;
-    double uu, uv, vv, six; /* curvature K, 1/m; 6 for a rigid frame */
-} kiriCarrier;
-
-/* What a frame's neighbours tell about its curvature: normal equations. */
-typedef struct kiriBend {
-    double uu, uv, vv;    /* sums of W s s */
-    double ruu, ruv, rvv; /* and of W s t, t being how the director turns over s */
-} kiriBend;
 
 /* A commit, for hosts that keep the mesh elsewhere. */
 typedef struct kiriChange {
@@ -36,6 +20,7 @@ enum { KIRI_CHANGES = 32 };
 typedef struct kiriSurface {
     int32_t skinning; /* KIRI_SKINNING_... */
     kiriVec2 origin;  /* m, rest plane: of local coordinates */
+    double longer;    /* m: side of the sheet */
 
     /* What the host reads. */
     KIRI_ARRAY(float) positions, normals, restPositions, sourceWeights;
@@ -45,15 +30,40 @@ typedef struct kiriSurface {
 
     KIRI_ARRAY(kiriVec2) rest;   /* local m */
     KIRI_ARRAY(int32_t) corners; /* 6 for two triangles: turned to a, b, c and a, c, d where they share an edge */
-    KIRI_ARRAY(kiriVec3) exact;  /* positions: floats far from the origin tell corners no more apart */
-    KIRI_ARRAY(kiriVec3) slopes; /* sums for the normals */
+    KIRI_ARRAY(float) slopes;    /* 4 a vertex: sums for the normals */
     int64_t pose;                /* grows whenever positions or corners may have changed */
+    kiriVec3 middle;             /* m: near the sheet; 0 where that is near the origin of the world */
+    KIRI_ARRAY(float) places;    /* 3 a vertex, from `middle`, where that is not 0: else the positions have them */
     KIRI_ARRAY(kiriCarrier) carriers;
     KIRI_ARRAY(kiriBend) bends;
+    kiriPatches patches;
 
     kiriChange changes[KIRI_CHANGES]; /* a ring */
     int32_t changeCount, lastChange;
 } kiriSurface;
+
+/* Floats far from the origin of the world tell corners no more apart. */
+static inline bool kiriSurface_IsFar(const kiriSurface* surface)
+{
+    return surface->middle.x != 0.0 || surface->middle.y != 0.0 || surface->middle.z != 0.0;
+}
+
+/* 3 floats a vertex, from `middle`. */
+static inline float* kiriSurface_Places(const kiriSurface* surface)
+{
+    return kiriSurface_IsFar(surface) ? surface->places.data : surface->positions.data;
+}
+
+/* Where a vertex is seen: to 1e-6 of the sheet's size. */
+static inline kiriVec3 kiriSurface_At(const kiriSurface* surface, int32_t vertex)
+{
+    return kiriVec3_Add(surface->middle, kiriVec3_Load(kiriSurface_Places(surface) + 3 * (ptrdiff_t)vertex));
+}
+
+static inline void kiriSurface_Place(kiriSurface* surface, int32_t vertex, kiriVec3 at)
+{
+    kiriVec3_Store(kiriSurface_Places(surface) + 3 * (ptrdiff_t)vertex, kiriVec3_Sub(at, surface->middle));
+}
 
 /* Room for the mesh as it is and for so many frames; after it the others never fail. */
 bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount);
@@ -83,13 +93,22 @@ bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemo
 /* A triangle is seen no more: all its corners are the first. */
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);
 
-/* Where the vertices are now, in doubles, from the frames. The links tell a smooth surface how to bend; a linear one does
-   not ask. */
+/* Takes over where the frames are. The links tell a smooth surface how to bend; a linear one does not ask. */
+void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, int32_t frameCount,
+                            const kiriLink* links, int32_t linkCount);
+
+/* Where the vertices from `begin` to `end` are. Writes nothing else: ranges may be written at the same time. */
+void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t begin, int32_t end);
+
+/* Both, for all vertices. */
 void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriFrameData* frames, int32_t frameCount,
                        const kiriLink* links, int32_t linkCount);
 
 /* Moves the vertices that are seen elsewhere. */
 void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades);
+
+/* The positions that the host reads, of the vertices from `begin` to `end`. Writes nothing else. */
+void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end);
 
 /* The positions and normals that the host reads: once in a tick. */
 void kiriSurface_WriteArrays(kiriSurface* surface);

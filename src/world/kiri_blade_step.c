@@ -50,7 +50,7 @@ static bool Seen(const kiriSheetData* sheet, kiriVec2 rest, kiriVec3* at)
     *at = kiriVec3_Make(0.0, 0.0, 0.0);
     for (int k = 0; k < 3; ++k) {
         double share = (double)kiriOrient(c[(k + 1) % 3], c[(k + 2) % 3], p) / whole;
-        *at = kiriVec3_AddScaled(*at, share, sheet->seen.surface.exact.data[v[k]]);
+        *at = kiriVec3_AddScaled(*at, share, kiriSurface_At(&sheet->seen.surface, v[k]));
     }
     return true;
 }
@@ -61,7 +61,7 @@ static kiriVec3 VelocityOf(const kiriSheetData* sheet, int32_t vertex)
     kiriSpan span = sheet->vertexSkin.spans.data[vertex];
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
     for (int32_t i = 0; i < span.count; ++i) {
-        kiriWeight w = sheet->vertexSkin.weights.data[span.first + i];
+        kiriSampleWeight w = sheet->vertexSkin.weights.data[span.first + i];
         kiriVec2 rest = sheet->seen.surface.rest.data[vertex];
         sum = kiriVec3_AddScaled(sum, w.value, kiriFrame_VelocityAt(&sheet->frames.data[w.frame], rest));
     }

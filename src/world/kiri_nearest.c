@@ -63,11 +63,11 @@ static Place NearestOnTriangle(kiriVec3 p, kiriVec3 a, kiriVec3 b, kiriVec3 c)
 static double WayToBorder(const kiriSheetData* sheet, const kiriNear* near)
 {
     const kiriTriangle* t = &sheet->mesh.triangles.data[near->triangle];
-    const kiriVec3* exact = sheet->seen.surface.exact.data;
+    const kiriSurface* surface = &sheet->seen.surface;
     double least = HUGE_VAL;
     for (int k = 0; k < 3; ++k) {
-        kiriVec3 from = exact[t->vertex[k]], to = exact[t->vertex[(k + 1) % 3]], apex = exact[t->vertex[(k + 2) % 3]];
-        kiriVec3 edge = kiriVec3_Sub(to, from);
+        kiriVec3 from = kiriSurface_At(surface, t->vertex[k]), to = kiriSurface_At(surface, t->vertex[(k + 1) % 3]);
+        kiriVec3 apex = kiriSurface_At(surface, t->vertex[(k + 2) % 3]), edge = kiriVec3_Sub(to, from);
         double area = kiriVec3_Length(kiriVec3_Cross(edge, kiriVec3_Sub(apex, from)));
         double way = near->share[(k + 2) % 3] * area / kiriVec3_Length(edge);
         bool isBorder = t->twin[k] == KIRI_NONE || (t->open >> k & 1) != 0;
@@ -80,10 +80,11 @@ static double WayToBorder(const kiriSheetData* sheet, const kiriNear* near)
 static double Measure(kiriNear* near, const kiriBody* bodies, int32_t triangle)
 {
     const kiriSheetData* sheet = bodies[near->other].sheet;
-    const int32_t* corners = &sheet->seen.surface.indices.data[3 * (size_t)triangle];
-    const kiriVec3* exact = sheet->seen.surface.exact.data;
-    kiriVec3 a = exact[corners[0]], b = exact[corners[1]], c = exact[corners[2]];
-    kiriVec3 p = bodies[near->body].sheet->seen.surface.exact.data[near->vertex];
+    const kiriSurface* surface = &sheet->seen.surface;
+    const int32_t* corners = &surface->indices.data[3 * (size_t)triangle];
+    kiriVec3 a = kiriSurface_At(surface, corners[0]), b = kiriSurface_At(surface, corners[1]);
+    kiriVec3 c = kiriSurface_At(surface, corners[2]);
+    kiriVec3 p = kiriSurface_At(&bodies[near->body].sheet->seen.surface, near->vertex);
     Place place = NearestOnTriangle(p, a, b, c);
     kiriVec3 q = kiriVec3_Scale(place.share[0], a);
     q = kiriVec3_AddScaled(kiriVec3_AddScaled(q, place.share[1], b), place.share[2], c);

@@ -130,7 +130,7 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
         kiriNear near = {
             body, other, a->sheet->probes.list.items.data[i], KIRI_NONE, { 0.0 }, { 0.0, 0.0, 0.0 }, 0.0
         };
-        kiriVec3 x = a->sheet->seen.surface.exact.data[near.vertex];
+        kiriVec3 x = kiriSurface_At(&a->sheet->seen.surface, near.vertex);
         if (!Holds(&box, x)) {
             continue;
         }

@@ -32,7 +32,7 @@ static void LoadVertex(kiriSheetData* sheet, int32_t vertex, kiriVec3 impulse)
     kiriSpan span = sheet->vertexSkin.spans.data[vertex];
     kiriVec2 local = sheet->seen.surface.rest.data[vertex];
     for (int32_t i = span.first; i < span.first + span.count; ++i) {
-        kiriWeight weight = sheet->vertexSkin.weights.data[i];
+        kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
         kiriFrameData* frame = &sheet->frames.data[weight.frame];
         kiriVec3 arm = kiriVec3_Sub(kiriFrame_Carry(frame, local), frame->x),
                  part = kiriVec3_Scale(weight.value, impulse);

@@ -14,7 +14,7 @@ static kiriVec3 SeenAt(const kiriPlace3* place)
 {
     kiriVec3 x = { 0.0, 0.0, 0.0 };
     for (int k = 0; k < 3 && place->vertex[k] != KIRI_NONE; ++k) {
-        x = kiriVec3_AddScaled(x, place->share[k], place->sheet->seen.surface.exact.data[place->vertex[k]]);
+        x = kiriVec3_AddScaled(x, place->share[k], kiriSurface_At(&place->sheet->seen.surface, place->vertex[k]));
     }
     return x;
 }
@@ -26,7 +26,7 @@ static const kiriFrameData* LargestFrame(const kiriPlace3* place)
     for (int k = 0; k < 3 && place->vertex[k] != KIRI_NONE; ++k) {
         kiriSpan span = place->sheet->vertexSkin.spans.data[place->vertex[k]];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
-            kiriWeight weight = place->sheet->vertexSkin.weights.data[i];
+            kiriSampleWeight weight = place->sheet->vertexSkin.weights.data[i];
             if (weight.value * place->share[k] > most) {
                 most = weight.value * place->share[k];
                 best = weight.frame;

@@ -1,0 +1,31 @@
+/* Linear-blend skinning in floats (section 4.1 of the paper). */
+#ifndef KIRI_BLEND_H
+#define KIRI_BLEND_H
+
+#include "kiri_carrier.h"
+#include "kiri_sample.h"
+
+KIRI_C_BEGIN
+
+/* Carriers as skinning reads them, in rows of floats. */
+enum { KIRI_FLAT_FLOATS = 12, KIRI_BENT_FLOATS = 24 };
+typedef struct kiriPatches {
+    KIRI_ARRAY(float) floats;
+    int32_t count;
+    bool isBent;
+} kiriPatches;
+
+/* Room for so many. */
+bool kiriPatches_Reserve(kiriPatches* patches, kiriMemory* memory, int32_t count);
+
+/* Positions are measured from `from`: near the sheet floats tell its points apart. */
+void kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent);
+
+/* Where the samples from `begin` to `end` are, 3 floats each, by their rest points. Writes nothing else: ranges may be
+   written at the same time. */
+void kiriSkin_WritePositions(const kiriSkin* skin, const kiriPatches* patches, const kiriVec2* rest, int32_t begin,
+                             int32_t end, float* positions);
+
+KIRI_C_END
+
+#endif

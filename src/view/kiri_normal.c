@@ -1,0 +1,94 @@
+#include "kiri_normal.h"
+
+#include "../core/kiri_lanes.h"
+
+#include <string.h>
+
+static kiriLanes EdgeAlong(const float* x, int32_t from, int32_t to)
+{
+    return kiriLanes_Sub(kiriLanes_Load(x + 3 * (ptrdiff_t)to), kiriLanes_Load(x + 3 * (ptrdiff_t)from));
+}
+
+static void AddSlope(float* slopes, int32_t vertex, kiriLanes slope)
+{
+    float* sum = slopes + 4 * (ptrdiff_t)vertex;
+    kiriLanes_Store(sum, kiriLanes_Add(kiriLanes_Load(sum), slope));
+}
+
+/* The cross product of two sides is twice the area times the normal: sums are area-weighted. Where two triangles share
+   an edge, their corners on it get one sum from both. */
+void kiriNormals_Sum(float* slopes, int32_t vertexCount, const float* positions, const int32_t* corners,
+                     int32_t triangleCount)
+{
+    memset(slopes, 0, 4 * sizeof(float) * (size_t)vertexCount);
+    for (int32_t t = 0; t < triangleCount; t += 2) {
+        const int32_t* v = corners + 3 * (ptrdiff_t)t;
+        kiriLanes ac = EdgeAlong(positions, v[0], v[2]), first = kiriLanes_Cross(EdgeAlong(positions, v[0], v[1]), ac);
+        AddSlope(slopes, v[1], first);
+        if (v[0] == v[3] && v[2] == v[4]) {
+            kiriLanes second = kiriLanes_Cross(ac, EdgeAlong(positions, v[0], v[5])),
+                      both = kiriLanes_Add(first, second);
+            AddSlope(slopes, v[5], second);
+            AddSlope(slopes, v[0], both);
+            AddSlope(slopes, v[2], both);
+        } else {
+            kiriLanes second = kiriLanes_Cross(EdgeAlong(positions, v[3], v[4]), EdgeAlong(positions, v[3], v[5]));
+            AddSlope(slopes, v[0], first);
+            AddSlope(slopes, v[2], first);
+            AddSlope(slopes, v[3], second);
+            AddSlope(slopes, v[4], second);
+            AddSlope(slopes, v[5], second);
+        }
+    }
+}
+
+/* A length that fits a float may have a square that does not. */
+static void WriteNormal(float* normal, const float* slope)
+{
+    kiriVec3 unit = kiriVec3_Normalize(kiriVec3_Load(slope));
+    bool known = kiriVec3_Dot(unit, unit) > 0.0;
+    kiriVec3_Store(normal, known ? unit : kiriVec3_Make(0.0, 0.0, 1.0));
+}
+
+/* Four squared lengths: x, y and z of each are brought together first. */
+static kiriLanes SquaresOf(const float* slopes)
+{
+    kiriLanes a = kiriLanes_Load(slopes), b = kiriLanes_Load(slopes + 4);
+    kiriLanes c = kiriLanes_Load(slopes + 8), d = kiriLanes_Load(slopes + 12);
+    kiriLanes abxy = kiriLanes_Join(a, 0, 1, b, 0, 1), cdxy = kiriLanes_Join(c, 0, 1, d, 0, 1);
+    kiriLanes x = kiriLanes_Join(abxy, 0, 2, cdxy, 0, 2), y = kiriLanes_Join(abxy, 1, 3, cdxy, 1, 3);
+    kiriLanes z = kiriLanes_Join(kiriLanes_Join(a, 2, 2, b, 2, 2), 0, 2, kiriLanes_Join(c, 2, 2, d, 2, 2), 0, 2);
+    kiriLanes xy = kiriLanes_Add(kiriLanes_Mul(x, x), kiriLanes_Mul(y, y));
+    return kiriLanes_Add(xy, kiriLanes_Mul(z, z));
+}
+
+static void WriteFourNormals(float* normals, const float* slopes)
+{
+    float square[4], scale[4];
+    kiriLanes squares = SquaresOf(slopes);
+    kiriLanes_Store(square, squares);
+    kiriLanes_Store(scale, kiriLanes_Div(kiriLanes_Splat(1.0f), kiriLanes_Sqrt(squares)));
+    for (int k = 0; k < 4; ++k) {
+        if (square[k] > 1e-30f && square[k] < 1e30f) {
+            kiriLanes unit = kiriLanes_Mul(kiriLanes_Splat(scale[k]), kiriLanes_Load(slopes + 4 * k));
+            kiriLanes_StoreThree(normals + 3 * k, unit);
+        } else {
+            WriteNormal(normals + 3 * k, slopes + 4 * k);
+        }
+    }
+}
+
+/* The last ones are written by fours too, so that ranges do not change any. */
+void kiriNormals_Write(float* normals, const float* slopes, int32_t begin, int32_t end)
+{
+    int32_t v = begin;
+    for (; v + 4 <= end; v += 4) {
+        WriteFourNormals(normals + 3 * (ptrdiff_t)v, slopes + 4 * (ptrdiff_t)v);
+    }
+    float last[16] = { 0.0f }, written[12];
+    if (v < end) {
+        memcpy(last, slopes + 4 * (ptrdiff_t)v, 4 * sizeof(float) * (size_t)(end - v));
+        WriteFourNormals(written, last);
+        memcpy(normals + 3 * (ptrdiff_t)v, written, 3 * sizeof(float) * (size_t)(end - v));
+    }
+}
