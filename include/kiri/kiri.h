@@ -649,7 +649,8 @@ KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, 
    40 bytes a square: crumbs are better dropped. Costs a pass over the sheet's arrays, and what the piece alone takes to
    make.
    KIRI_PENDING: work on a cut is at hand in the sheet; *detached is 0. When it is done, what is the piece of this frame
-   then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. KIRI_ERROR_STATE: nothing would be left of the sheet. */
+   then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. That counts as samples of the budget: until they are paid
+   for, over several ticks if need be, further cuts of the sheet wait. KIRI_ERROR_STATE: nothing would be left of the sheet. */
 KIRI_API kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached);
 
 /* The same without keeping the piece: ids of its frames and pins are stale. Costs a pass over the sheet's arrays.

@@ -269,6 +269,7 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriPinData) pins;
     KIRI_ARRAY(kiriGivenContact) contacts; /* of the next tick */
     KIRI_ARRAY(kiriFrame) leaving;         /* their pieces become sheets when the work at hand is done */
+    int64_t leavingPaid;                   /* samples, for taking them out, and what the host has destroyed */
 
     /* Room reserved by whoever makes it needed, so that a tick without a cut allocates nothing. */
     KIRI_ARRAY(kiriPinRow) pinRows;     /* points, then two for each share of a hinge */

@@ -9,6 +9,9 @@
 
 #include <string.h>
 
+#define PASSED_VERTICES 12 /* of the sheet that pieces leave, for one sample; */
+#define MADE_SQUARES 8     /* the same of the squares of a sheet that is made */
+
 /* A piece that is taken out. */
 typedef struct Part {
     struct Source* from;
@@ -426,15 +429,46 @@ static void ForgetStaleLeaving(kiriWorld* world, kiriSheetData* sheet)
     sheet->leaving.count = kept;
 }
 
-int32_t kiriParts_Finish(kiriWorld* world, kiriSheetData* sheet)
+bool kiriParts_AreDue(const kiriSheetData* sheet)
+{
+    return !IsBusy(sheet) && (sheet->leaving.count > 0 || kiriPieces_AnyGone(sheet));
+}
+
+/* Samples: a pass over the vertices of the sheet, and those of each part, on squares of its own, once more. */
+static int64_t CostOfParting(const Parting* parting, const kiriSheetData* sheet)
+{
+    const kiriSquares* squares = &sheet->mesh.squares;
+    double vertices = sheet->mesh.vertices.count, cost = vertices / PASSED_VERTICES, whole = 0.0;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        whole += sheet->layout.pieces.data[p].area;
+    }
+    for (int32_t k = 0; k < parting->parts.count; ++k) {
+        double share = sheet->layout.pieces.data[parting->parts.data[k].piece].area / whole;
+        cost += share * vertices + (double)squares->columns * squares->rows / MADE_SQUARES;
+    }
+    return 1 + (int64_t)cost;
+}
+
+/* Over several ticks, if need be. */
+static bool IsPaid(const Parting* parting, kiriSheetData* sheet, kiriQuota* samples)
+{
+    int64_t cost = CostOfParting(parting, sheet), due = cost > sheet->leavingPaid ? cost - sheet->leavingPaid : 0;
+    bool isPaid = kiriQuota_Pay(samples, &due);
+    sheet->leavingPaid = cost - due;
+    return isPaid;
+}
+
+int32_t kiriParts_Finish(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)
 {
     Parting parting;
-    if (IsBusy(sheet) || (sheet->leaving.count == 0 && !kiriPieces_AnyGone(sheet))) {
+    if (!kiriParts_AreDue(sheet)) {
         return 0;
     }
     ForgetStaleLeaving(world, sheet);
     bool isDone = Parting_Start(&parting, world, 1) && SourceFor(&parting, sheet) != NULL &&
-                  MarkPieces(&parting, sheet->leaving.data, sheet->leaving.count) && Detach(&parting) == KIRI_OK;
+                  MarkPieces(&parting, sheet->leaving.data, sheet->leaving.count) && IsPaid(&parting, sheet, samples) &&
+                  Detach(&parting) == KIRI_OK;
+    sheet->leavingPaid = isDone ? 0 : sheet->leavingPaid;
     Parting_End(&parting);
     return isDone ? sheet->leaving.count : 0;
 }

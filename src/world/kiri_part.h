@@ -16,9 +16,12 @@ kiriResult kiriParts_Destroy(kiriWorld* world, const kiriFrame* frames, int32_t 
 /* Takes away all pieces below an area (m^2) but the largest. The same. */
 kiriResult kiriParts_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, int32_t* count);
 
-/* At the end of a tick: what waits, where no work is at hand in the sheet. Returns how many pieces have become sheets:
+/* Does something wait, while no work is at hand in the sheet? No work begins before that is done. */
+bool kiriParts_AreDue(const kiriSheetData* sheet);
+
+/* At the end of a tick: what is due, once samples have paid for it. Returns how many pieces have become sheets:
    sheet->leaving begins with their frames, and is for the caller to empty. Where memory is refused they wait on. */
-int32_t kiriParts_Finish(kiriWorld* world, kiriSheetData* sheet);
+int32_t kiriParts_Finish(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples);
 
 KIRI_C_END
 

@@ -322,6 +322,9 @@ static void HashLeaving(uint64_t* hash, const kiriSheetData* sheet)
     for (int32_t k = 0; k < sheet->leaving.count; ++k) {
         kiriHash_Int32(hash, (int32_t)sheet->leaving.data[k]);
     }
+    if (sheet->leavingPaid > 0) {
+        kiriHash_Int32(hash, (int32_t)sheet->leavingPaid);
+    }
 }
 
 static void HashWaiting(uint64_t* hash, const kiriWorld* world, const kiriSheetData* sheet)

@@ -3,6 +3,7 @@
 #include "kiri_part.h"
 #include "../core/kiri_sort.h"
 #include "../sheet/kiri_motion.h"
+#include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_pipeline.h"
 #include "../sheet/kiri_seen.h"
 #include "../sheet/kiri_stages.h"
@@ -55,7 +56,8 @@ static bool IsIdle(const kiriWorld* world, const kiriSheetData* sheet)
     bool mayBeCarried = sheet->pins.count > 0 && world->obstacles.count > 0;
     return sheet->rest.asleep && sheet->cuts.count == 0 && sheet->queue.count == 0 && sheet->contacts.count == 0 &&
            touches->last.count == 0 && touches->found.count == 0 && touches->told.count == 0 && !mayBeCarried &&
-           sheet->leaving.count == 0 && !sheet->seen.isElsewhere && fades->jump == 0.0 && fades->move == 0.0;
+           sheet->leaving.count == 0 && !kiriPieces_AnyGone(sheet) && !sheet->seen.isElsewhere && fades->jump == 0.0 &&
+           fades->move == 0.0;
 }
 
 static void ListActive(kiriWorld* world)
@@ -84,8 +86,11 @@ static void StartAll(kiriWorld* world)
 {
     world->atWork.count = 0;
     for (int32_t k = 0; k < world->active.count; ++k) {
-        kiriPipeline_Start(kiriWorld_Active(world, k));
-        if (kiriWorld_Active(world, k)->update->stage != KIRI_NONE) {
+        kiriSheetData* sheet = kiriWorld_Active(world, k);
+        if (!kiriParts_AreDue(sheet)) {
+            kiriPipeline_Start(sheet);
+        }
+        if (sheet->update->stage != KIRI_NONE) {
             world->atWork.data[world->atWork.count++] = world->active.data[k];
         }
     }
@@ -371,19 +376,22 @@ static void SkinAll(kiriWorld* world, double dt)
     }
 }
 
-/* Pieces that the host has taken out of a sheet while work was at hand go now that it is done. */
-static void FinishParting(kiriWorld* world)
+/* Pieces that the host has taken out of a sheet while work was at hand go now that it is done. False where some wait on. */
+static bool FinishParting(kiriWorld* world, kiriQuota* samples)
 {
+    bool isDone = true;
     for (int32_t i = 0, count = world->active.count; i < count; ++i) {
         kiriSheetData* sheet = kiriWorld_Active(world, i);
-        for (int32_t k = 0, made = kiriParts_Finish(world, sheet); k < made; ++k) {
+        for (int32_t k = 0, made = kiriParts_Finish(world, sheet, samples); k < made; ++k) {
             const kiriSheetData* part = kiriPool_Find(&world->frameIds, sheet->leaving.data[k])->owner;
             kiriEvent* event = AddEvent(world, KIRI_EVENT_PIECE_DETACHED, part);
             event->frame = sheet->leaving.data[k];
             event->area = (float)part->layout.pieces.data[0].area;
             sheet->leaving.count = k + 1 < made ? sheet->leaving.count : 0;
         }
+        isDone = isDone && !kiriParts_AreDue(sheet);
     }
+    return isDone;
 }
 
 static void CountSpent(kiriProfile* profile, const kiriQuotas* quotas)
@@ -419,7 +427,8 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
             BreakPins(world, kiriWorld_Active(world, k));
         }
         SkinAll(world, dt);
-        FinishParting(world);
+        bool isParted = FinishParting(world, &quotas.of[KIRI_QUOTA_SAMPLES]);
+        result = result == KIRI_OK && !isParted ? KIRI_PENDING : result;
         CountSpent(&world->profile, &quotas);
         world->profile.sheetPairs = kiriPairs_CountAwake(world);
         EnterStage(world, KIRI_NONE);
