@@ -192,9 +192,12 @@ static inline bool Follow_Links(Follow* f)
 
 static inline kiriProgress Follow_Samples(Follow* f)
 {
-    bool started = kiriRefresh_NoteDirty(&f->refresh, f->memory, f->mesh) &&
-                   kiriRefresh_Start(&f->refresh, f->memory, &f->shape, &f->grid, f->mesh, f->oldVertices);
-    kiriProgress progress = started ? KIRI_MORE : KIRI_FAILED;
+    kiriProgress progress = kiriRefresh_NoteDirty(&f->refresh, f->memory, f->mesh) ? KIRI_MORE : KIRI_FAILED;
+    while (progress == KIRI_MORE) {
+        kiriQuota quota = Follow_Quota(f);
+        progress = kiriRefresh_Start(&f->refresh, f->memory, &f->shape, &f->grid, f->mesh, f->oldVertices, &quota);
+    }
+    progress = progress == KIRI_DONE ? KIRI_MORE : progress;
     while (progress == KIRI_MORE) {
         kiriQuota quota = Follow_Quota(f);
         progress = kiriRefresh_Vertices(&f->refresh, &f->vertexSkin, f->memory, &f->shape, &f->grid, f->mesh, &quota);

@@ -161,5 +161,6 @@ void kiriStage_Drop(kiriSheetData* sheet)
     u->placing.moves.count = u->placing.movesSeen = 0;
     u->placing.isPlacing = false;
     kiriLinks_Drop(&sheet->links);
+    kiriRefresh_Drop(&u->samples.refresh);
     kiriRefit_Drop(&u->refit);
 }

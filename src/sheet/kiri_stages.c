@@ -287,14 +287,19 @@ static kiriProgress PlaceCollisionPoints(kiriSheetData* sheet, kiriQuota* sample
     return KIRI_DONE;
 }
 
-static kiriProgress BeginSamples(kiriSheetData* sheet, kiriQuota* samples)
+static kiriProgress JoinPieces(kiriSheetData* sheet, kiriQuota* samples)
+{
+    if (!kiriQuota_Take(samples, 1)) {
+        return KIRI_MORE;
+    }
+    return kiriPieces_Stage(sheet) ? KIRI_DONE : KIRI_FAILED;
+}
+
+static kiriProgress FindSamples(kiriSheetData* sheet, kiriQuota* samples)
 {
     kiriSampleWork* work = &sheet->update->samples;
-    (void)samples;
-    return kiriPieces_Stage(sheet) && kiriRefresh_Start(&work->refresh, sheet->memory, &sheet->shape, &sheet->grid,
-                                                        &sheet->mesh, work->oldVertices)
-               ? KIRI_DONE
-               : KIRI_FAILED;
+    return kiriRefresh_Start(&work->refresh, sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh,
+                             work->oldVertices, samples);
 }
 
 static kiriProgress WeighVertices(kiriSheetData* sheet, kiriQuota* samples)
@@ -324,6 +329,6 @@ kiriProgress kiriStage_RunSteps(kiriSheetData* sheet, kiriQuota* quota, kiriStag
 
 kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples)
 {
-    static kiriStageStep* const steps[] = { BeginSamples, WeighVertices, WeighPoints, PlaceCollisionPoints };
+    static kiriStageStep* const steps[] = { JoinPieces, FindSamples, WeighVertices, WeighPoints, PlaceCollisionPoints };
     return kiriStage_RunSteps(sheet, samples, steps, (int32_t)(sizeof(steps) / sizeof(steps[0])));
 }

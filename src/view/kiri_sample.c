@@ -280,8 +280,7 @@ bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriM
     return true;
 }
 
-bool kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
-                       const kiriMeshData* mesh, int32_t firstVertex)
+static bool StartMarks(kiriRefresh* refresh, kiriMemory* memory, const kiriMeshData* mesh)
 {
     int32_t old = refresh->marks.count;
     refresh->squares.count = refresh->square = 0;
@@ -293,20 +292,48 @@ bool kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape
     for (int32_t s = old; s < refresh->marks.count; ++s) {
         refresh->marks.data[s] = 0;
     }
-    for (int32_t k = 0; k < shape->changes.count; ++k) {
+    return true;
+}
+
+/* The k-th thing that has changed: a cell's weights, the mesh in a square, or a vertex that is new. */
+static void AddChange(kiriRefresh* refresh, const kiriShape* shape, const kiriGrid* grid, const kiriMeshData* mesh,
+                      int32_t firstVertex, int32_t k)
+{
+    int32_t cells = shape->changes.count, squares = cells + refresh->noted.count;
+    if (k < cells) {
         AddSquaresAround(refresh, mesh, grid->cells.data[shape->changes.data[k]].square);
+    } else if (k < squares) {
+        AddSquaresAround(refresh, mesh, refresh->noted.data[k - cells]);
+    } else {
+        AddSquare(refresh, kiriSquares_At(&mesh->squares, mesh->vertices.data[firstVertex + k - squares].at));
     }
-    for (int32_t k = 0; k < refresh->noted.count; ++k) {
-        AddSquaresAround(refresh, mesh, refresh->noted.data[k]);
-    }
-    refresh->noted.count = 0;
-    for (int32_t v = firstVertex; v < mesh->vertices.count; ++v) {
-        AddSquare(refresh, kiriSquares_At(&mesh->squares, mesh->vertices.data[v].at));
-    }
-    for (int32_t k = 0; k < refresh->squares.count; ++k) {
+}
+
+void kiriRefresh_Drop(kiriRefresh* refresh)
+{
+    for (int32_t k = 0; refresh->change > 0 && k < refresh->squares.count; ++k) {
         refresh->marks.data[refresh->squares.data[k]] = 0;
     }
-    return true;
+    refresh->noted.count = refresh->change = 0;
+}
+
+enum { CHANGES_AN_ITEM = 8 };
+
+kiriProgress kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+                               const kiriMeshData* mesh, int32_t firstVertex, kiriQuota* quota)
+{
+    int32_t count = shape->changes.count + refresh->noted.count + mesh->vertices.count - firstVertex;
+    if (refresh->change == 0 && !StartMarks(refresh, memory, mesh)) {
+        return KIRI_FAILED;
+    }
+    for (; refresh->change < count; ++refresh->change) {
+        if (refresh->change % CHANGES_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
+            return KIRI_MORE;
+        }
+        AddChange(refresh, shape, grid, mesh, firstVertex, refresh->change);
+    }
+    kiriRefresh_Drop(refresh);
+    return KIRI_DONE;
 }
 
 /* What a refresh works on. */

@@ -69,7 +69,8 @@ bool kiriPlaces_Add(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* 
 typedef struct kiriRefresh {
     KIRI_ARRAY(int32_t) noted;   /* squares in which the mesh changed, until Start */
     KIRI_ARRAY(int32_t) squares; /* with such samples */
-    KIRI_ARRAY(uint8_t) marks;   /* of each square */
+    KIRI_ARRAY(uint8_t) marks;   /* of each square; all 0 but during Start */
+    int32_t change;              /* that Start looks at next */
     int32_t square, sample;      /* where the work goes on */
     kiriStencil stencil;         /* of the cell at hand */
 } kiriRefresh;
@@ -78,14 +79,17 @@ typedef struct kiriRefresh {
    material elsewhere, and vertices there may have come to a lip. False for memory. */
 bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriMeshData* mesh);
 
-/* Vertices from `firstVertex` on are new, and are staged all. */
-bool kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
-                       const kiriMeshData* mesh, int32_t firstVertex);
+/* Vertices from `firstVertex` on are new, and are staged all. Here an item of the quota is eight changes. */
+kiriProgress kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
+                               const kiriMeshData* mesh, int32_t firstVertex, kiriQuota* quota);
 kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, kiriMemory* memory, const kiriShape* shape,
                                   const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
 kiriProgress kiriRefresh_Points(kiriRefresh* refresh, kiriSkin* skin, const kiriPlaces* places,
                                 const kiriSamples* points, kiriMemory* memory, const kiriShape* shape,
                                 const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
+
+/* Forgets what is noted, and a Start that waits for more quota. */
+void kiriRefresh_Drop(kiriRefresh* refresh);
 
 /* Vertices born since kiriMesh_Begin take a blend of their parents' weights, so that they lie on the surface as it was.
    Truncate takes that back. */
