@@ -18,12 +18,12 @@ enum {
 };
 enum { REPAIR_NONE, REPAIR_CLEARS, REPAIR_SETTLES };
 
-bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount)
+bool kiriField_ResizeToFlood(kiriField* field, kiriMemory* memory, int32_t cellCount)
 {
     if (!kiriArray_Reserve(memory, &field->distance, cellCount) ||
         !kiriArray_Reserve(memory, &field->owner, cellCount) ||
-        !kiriArray_Reserve(memory, &field->settled, cellCount) || !kiriArray_Reserve(memory, &field->log, cellCount) ||
-        !kiriArray_Reserve(memory, &field->dirty, cellCount) || !kiriArray_Reserve(memory, &field->marks, cellCount)) {
+        !kiriArray_Reserve(memory, &field->settled, cellCount) ||
+        !kiriArray_Reserve(memory, &field->marks, cellCount)) {
         return false;
     }
     for (int32_t c = field->distance.count; c < cellCount; ++c) {
@@ -33,6 +33,12 @@ bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount)
     }
     field->distance.count = field->owner.count = field->marks.count = cellCount;
     return true;
+}
+
+bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount)
+{
+    return kiriArray_Reserve(memory, &field->log, cellCount) && kiriArray_Reserve(memory, &field->dirty, cellCount) &&
+           kiriField_ResizeToFlood(field, memory, cellCount);
 }
 
 void kiriField_Reset(kiriField* field)

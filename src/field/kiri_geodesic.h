@@ -54,6 +54,9 @@ typedef struct kiriField {
 /* Room for so many cells; new ones are FAR. A zeroed field is empty. False for memory: what was there stays. */
 bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount);
 
+/* The same for a field that is never repaired. */
+bool kiriField_ResizeToFlood(kiriField* field, kiriMemory* memory, int32_t cellCount);
+
 /* Makes it a field of no cells, whatever its state; keeps the memory. */
 void kiriField_Clear(kiriField* field);
 

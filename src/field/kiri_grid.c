@@ -79,7 +79,7 @@ static int32_t CountStageItems(const kiriGridWork* work, const kiriMeshData* mes
     return counts[work->stage];
 }
 
-/* Room for a cell a square and for more that cuts make, so that the first cut need not move everything. */
+/* Room for a cell a square; growing adds an eighth for what cuts make, so that the first one need not move everything. */
 static bool ReserveCells(kiriGrid* grid, const kiriMeshData* mesh)
 {
     kiriGridWork* work = grid->work;
@@ -88,7 +88,7 @@ static bool ReserveCells(kiriGrid* grid, const kiriMeshData* mesh)
     for (int32_t s = 0; s < grid->squareCell.count; ++s) {
         squares += mesh->squares.head[s] != KIRI_NONE;
     }
-    int64_t cells = squares + squares / 4 + 64;
+    int64_t cells = squares + 64;
     return kiriArray_Reserve(memory, &grid->cells, cells) && kiriArray_Reserve(memory, &grid->runs, cells) &&
            kiriArray_Reserve(memory, &work->cellFlags, cells) && kiriArray_Reserve(memory, &work->mark, cells) &&
            kiriArray_Reserve(memory, &grid->changes.made, cells) &&
@@ -198,6 +198,23 @@ void kiriGrid_ClearChanges(kiriGrid* grid)
     }
     changes->made.count = changes->gone.count = changes->steps.count = changes->material.count = 0;
     changes->edges.count = 0;
+}
+
+void kiriGrid_DropScratch(kiriGrid* grid, kiriMemory* memory)
+{
+    kiriGridChanges* changes = &grid->changes;
+    kiriGridWork* work = grid->work;
+    KIRI_ASSERT(!work->running && changes->made.count == 0 && changes->edges.count == 0);
+    kiriArray_Release(memory, &changes->made);
+    kiriArray_Release(memory, &changes->steps);
+    kiriArray_Release(memory, &changes->edges);
+    kiriArray_Release(memory, &work->facesDirty);
+    kiriArray_Release(memory, &work->linksDirty);
+    kiriArray_Release(memory, &work->stepsDirty);
+    kiriArray_Release(memory, &work->knightsDirty);
+    kiriArray_Release(memory, &work->flagged);
+    kiriArray_Release(memory, &work->entries);
+    kiriArray_Release(memory, &work->parent);
 }
 
 void kiriGrid_Reset(kiriGrid* grid)

@@ -96,6 +96,10 @@ kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota
 /* Once all who follow the grid have seen its changes; not during an update. */
 void kiriGrid_ClearChanges(kiriGrid* grid);
 
+/* Gives back the room of lists that were long while all was made, and that what changes makes as long as it needs. Not
+   during an update, nor before its changes are cleared. */
+void kiriGrid_DropScratch(kiriGrid* grid, kiriMemory* memory);
+
 /* Forgets everything but its memory: the next update is from scratch. */
 void kiriGrid_Reset(kiriGrid* grid);
 

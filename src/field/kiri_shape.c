@@ -506,6 +506,12 @@ void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames
     kiriKeep_Compact(frames, &shape->work->frames, 1, sizeof(kiriShapeFrame));
 }
 
+void kiriShape_DropScratch(kiriShape* shape, kiriMemory* memory)
+{
+    KIRI_ASSERT(shape->work->stage == KIRI_SHAPE_REST);
+    kiriArray_Release(memory, &shape->work->rawWeights);
+}
+
 void kiriShape_ClearChanges(kiriShape* shape)
 {
     KIRI_ASSERT(shape->work == NULL || shape->work->stage == KIRI_SHAPE_REST);

@@ -53,6 +53,9 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
 void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames, const int32_t* gone,
                     int32_t goneCount);
 void kiriShape_ClearChanges(kiriShape* shape);
+
+/* Gives back the room of what is as long as what an update changes. Not during an update. */
+void kiriShape_DropScratch(kiriShape* shape, kiriMemory* memory);
 void kiriShape_Reset(kiriShape* shape);
 
 KIRI_C_END

@@ -175,6 +175,21 @@ static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, c
     return KIRI_OK;
 }
 
+/* What is as long as all that has just been made, and later as what a cut changes. */
+static void DropScratch(kiriSheetData* sheet)
+{
+    kiriOwnership* ownership = &sheet->update->refit.ownership;
+    KIRI_ASSERT(sheet->vertexSkin.staged.count == 0 && ownership->staged.count == 0 && ownership->dirty.count == 0);
+    kiriGrid_DropScratch(&sheet->grid, sheet->memory);
+    kiriShape_DropScratch(&sheet->shape, sheet->memory);
+    kiriArray_Release(sheet->memory, &sheet->regions.changes);
+    kiriArray_Release(sheet->memory, &sheet->regions.orphans);
+    kiriArray_Release(sheet->memory, &sheet->vertexSkin.staged);
+    kiriArray_Release(sheet->memory, &sheet->update->samples.refresh.noted);
+    kiriArray_Release(sheet->memory, &ownership->staged);
+    kiriArray_Release(sheet->memory, &ownership->dirty);
+}
+
 void kiriBuild_Commit(kiriSheetData* sheet)
 {
     kiriStage_Commit(sheet);
@@ -183,6 +198,7 @@ void kiriBuild_Commit(kiriSheetData* sheet)
     kiriMesh_Commit(&sheet->mesh);
     sheet->update->stage = KIRI_NONE;
     sheet->update->placing.spread = 0;
+    DropScratch(sheet);
 }
 
 kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, const char** why)
