@@ -418,7 +418,7 @@ static double ReadClock(void* user)
 typedef struct Record {
     double* seconds[KIRI_STAGE_COUNT + 1]; /* one a tick; the last row: whole ticks */
     int32_t ticks;
-    int64_t cutSegments, trianglesSplit, cellsSettled, solverIterations;
+    int64_t cutSegments, trianglesSplit, cellsSettled, systemsSolved;
     kiriCounts before, after;
 } Record;
 
@@ -443,7 +443,7 @@ static void Record_Tick(Record* record, const Scene* scene, double seconds)
     record->cutSegments += profile.cutSegments;
     record->trianglesSplit += profile.trianglesSplit;
     record->cellsSettled += profile.cellsSettled;
-    record->solverIterations += profile.solverIterations;
+    record->systemsSolved += profile.systemsSolved;
 }
 
 static int CompareNumbers(const void* left, const void* right)
@@ -482,7 +482,7 @@ static void Record_Print(Record* record, const Scene* scene)
     printf("\n  %.0f ticks a second\n", record->ticks / total);
     printf("  %lld cut segments, %lld triangles split, %lld cells settled, %lld linear systems\n",
            (long long)record->cutSegments, (long long)record->trianglesSplit, (long long)record->cellsSettled,
-           (long long)record->solverIterations);
+           (long long)record->systemsSolved);
     uint64_t hash = 0;
     kiriWorld_GetStateHash(scene->world, &hash);
     printf("  state hash %016llx\n", (unsigned long long)hash);

@@ -750,7 +750,7 @@ static void TickAndCompare(Trial* trial, kiriTotals* after, double* peak)
     outcome->spacing = fmax(outcome->spacing, FLT_EPSILON * far / trial->size);
     kiriProfile profile;
     CALL(kiriWorld_GetProfile(trial->world, &profile));
-    outcome->solved = profile.solverIterations > outcome->solved ? profile.solverIterations : outcome->solved;
+    outcome->solved = profile.systemsSolved > outcome->solved ? profile.systemsSolved : outcome->solved;
 }
 
 static bool IsFine(const Outcome* outcome)

@@ -213,7 +213,7 @@ static void AddProfile(const Scene* scene, const Setting* setting, Outcome* outc
     kiriProfile profile;
     kiriWorld_GetProfile(scene->world, &profile);
     double frames = setting->columns * setting->rows * (setting->model == KIRI_MODEL_LINKS ? 1.0 : 8.0);
-    outcome->cost += profile.solverIterations * frames;
+    outcome->cost += profile.systemsSolved * frames;
     outcome->seconds += profile.seconds[KIRI_STAGE_SOLVE] + profile.seconds[KIRI_STAGE_SKIN];
     for (int stage = 0; stage < KIRI_STAGE_COUNT; ++stage) {
         *all += profile.seconds[stage];

@@ -1054,6 +1054,42 @@ static double CountingClock(void* user)
     return 0.5 * (double)host->calls++;
 }
 
+/* Systems of many frames count for more; those that are larger than the whole budget are solved all the same, one sheet
+   a tick, in turn. */
+static void LargeSystems(void** state)
+{
+    (void)state;
+    kiriProfile profile;
+    kiriBudget budget = { 0, 0, 0, 1 };
+    int32_t items[2];
+    for (int many = 0; many < 2; ++many) {
+        Host host;
+        Host_Start(&host);
+        kiriSheetDef def = Host_SmallDef();
+        def.gridResolution = 32;
+        def.framePoints = NULL;
+        def.frameCount = def.maxFrames = many ? 64 : 16;
+        def.iterations = 1;
+        Host_AddRectangle(&host, &def, 1.0f, 1.0f, 16, 16);
+        Tick(&host, 0.01f, 1);
+        OK(kiriWorld_GetProfile(host.world, &profile));
+        assert_int_equal(profile.systemsSolved, 1);
+        items[many] = profile.solverIterations;
+        if (many) {
+            Host_AddRectangle(&host, &def, 1.0f, 1.0f, 16, 16);
+            OK(kiriWorld_SetBudget(host.world, &budget));
+            for (int tick = 0; tick < 4; ++tick) {
+                assert_int_equal(Host_Tick(&host, 0.01f, 2), KIRI_PENDING);
+                OK(kiriWorld_GetProfile(host.world, &profile));
+                assert_int_equal(profile.systemsSolved, 1);
+                assert_int_equal(profile.solverIterations, items[1]);
+            }
+        }
+        Host_Stop(&host);
+    }
+    assert_true(items[0] >= 2 && items[1] >= 3 * items[0] - 3 && items[1] <= 6 * items[0]);
+}
+
 static void Profile(void** state)
 {
     (void)state;
@@ -1179,6 +1215,7 @@ int main(void)
         cmocka_unit_test(Holes),
         cmocka_unit_test(WeightsAtFrames),
         cmocka_unit_test(TwoParts),
+        cmocka_unit_test(LargeSystems),
         cmocka_unit_test(Profile),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -51,6 +51,7 @@ struct kiriMatrix {
     kiriMemory* memory;
     int32_t size, count;
     bool hasLongVectors;
+    int64_t products;          /* of blocks, that a factorisation takes */
     KIRI_ARRAY(int32_t) place; /* of a frame */
     Pattern own;
     KIRI_ARRAY(Panel) panels;    /* and one more, where all of them end */
@@ -171,6 +172,7 @@ bool JoinColumns(kiriMatrix* matrix)
 {
     const Pattern* factor = &matrix->factor;
     matrix->panels.count = 0;
+    matrix->products = 0;
     for (int32_t c = 0; c < matrix->count; ++c) {
         int32_t first = factor->start.data[c], below = factor->start.data[c + 1] - first - 1;
         Panel* last = matrix->panels.count > 0 ? &matrix->panels.data[matrix->panels.count - 1] : nullptr;
@@ -185,6 +187,7 @@ bool JoinColumns(kiriMatrix* matrix)
             }
         }
         matrix->panelOf.data[c] = matrix->panels.count - 1;
+        matrix->products += (int64_t)below * (below + 1) / 2;
     }
     Panel end = { matrix->count, 0, 0, 0, 0, 0 };
     return kiriArray_Push(matrix->memory, &matrix->panels, end);
@@ -504,6 +507,11 @@ extern "C" bool kiriMatrix_Shape(kiriMatrix* matrix, int32_t frameCount, const k
 extern "C" int32_t kiriMatrix_FrameCount(const kiriMatrix* matrix)
 {
     return matrix->count;
+}
+
+extern "C" int64_t kiriMatrix_ProductCount(const kiriMatrix* matrix)
+{
+    return matrix->products * matrix->size * matrix->size * matrix->size / 216;
 }
 
 extern "C" int32_t kiriMatrix_PairCount(const kiriMatrix* matrix)

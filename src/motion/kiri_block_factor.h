@@ -31,6 +31,9 @@ int32_t kiriMatrix_FrameCount(const kiriMatrix* matrix);
 int32_t kiriMatrix_PairCount(const kiriMatrix* matrix);
 void kiriMatrix_GetPairs(kiriMatrix* matrix, kiriPair* pairs);
 
+/* How many products of blocks a factorisation takes, as of blocks of size 6. */
+int64_t kiriMatrix_ProductCount(const kiriMatrix* matrix);
+
 /* Is the pair in the pattern? */
 bool kiriMatrix_Covers(const kiriMatrix* matrix, kiriPair pair);
 

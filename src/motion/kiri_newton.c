@@ -261,6 +261,7 @@ int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_
             return -1;
         }
         ++done;
+        solver->solved += 1;
         if (done >= iterations) {
             kiriSolver_FindGains(solver, system);
             isLeft = ChooseUnfinished(solver, done);

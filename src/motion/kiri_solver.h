@@ -81,6 +81,12 @@ bool kiriSolver_ReserveContacts(kiriSolver* solver, int32_t count);
 
 enum { KIRI_EXTRA_SYSTEMS = 6 }; /* of a step, beside its iterations */
 
+/* What a linear system of the current configuration counts in a budget: see kiriBudget in kiri.h. */
+int64_t kiriSolver_SystemItems(const kiriSolver* solver, int32_t contactCount);
+
+/* The linear systems that steps solved since this was last called. */
+int32_t kiriSolver_TakeSolved(kiriSolver* solver);
+
 /* Moves the frames by dt. Links, corners and area elements are those that were committed; normals of contacts are unit,
    heldRotation is a rotation. Returns the number of linear systems solved: `iterations`, and up to
    KIRI_EXTRA_SYSTEMS more where the motion asks for them, but at most `most` (1 or more). Or -1 when it cannot be continued (not finite); the frames are

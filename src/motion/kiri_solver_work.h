@@ -114,6 +114,7 @@ struct kiriSolver {
     double dt, damping; /* h of this step; flexDamping / dt */
     bool isAlong;       /* are poses those along the step that was solved for? */
     bool isHeld;        /* does the host move a frame? */
+    int32_t solved;     /* linear systems since TakeSolved */
     int32_t size;       /* unknowns a frame */
     kiriUnknown unknowns[KIRI_MOST_UNKNOWNS];
     kiriMatrix *matrix, *nextMatrix;        /* the current one, and one with room for the next pattern */

@@ -97,20 +97,28 @@ static bool IsCalm(const kiriSheetData* sheet)
 
 /* ---- Tick ---- */
 
+/* How many linear systems the quota has left; one where it is less, but nothing of it is used yet. */
+static int64_t SystemsLeft(const kiriQuota* quota, int64_t items)
+{
+    int64_t fit = quota->left / items;
+    return fit > 0 || quota->used > 0 ? fit : 1;
+}
+
 /* Fewer and longer substeps where the quota asks for it, and one system at least for each. */
 static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system, double dt, int32_t substeps,
                                  kiriQuota* systems)
 {
-    substeps = systems->left < substeps ? (int32_t)systems->left : substeps;
+    int64_t items = kiriSolver_SystemItems(sheet->solver, system->contactCount), left = SystemsLeft(systems, items);
+    substeps = left < substeps ? (int32_t)left : substeps;
     for (int32_t i = 0; i < substeps; ++i) {
         kiriFollow_Step(sheet, i, substeps, dt / substeps);
-        int64_t most = systems->left - (substeps - 1 - i);
+        int64_t most = SystemsLeft(systems, items) - (substeps - 1 - i);
         int32_t solved = kiriSolver_Step(sheet->solver, system, dt / substeps, sheet->settings.iterations,
                                          most < INT32_MAX ? (int32_t)most : INT32_MAX);
         if (solved < 0) {
             return KIRI_FAILED;
         }
-        kiriQuota_Take(systems, solved);
+        kiriQuota_Take(systems, solved * items);
     }
     return substeps > 0 ? KIRI_DONE : KIRI_MORE;
 }
@@ -150,9 +158,10 @@ kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt,
     return progress;
 }
 
-int64_t kiriMotion_MostSystems(const kiriSheetData* sheet, int32_t substeps)
+int64_t kiriMotion_MostItems(const kiriSheetData* sheet, int32_t substeps)
 {
-    return (int64_t)substeps * (sheet->settings.iterations + KIRI_EXTRA_SYSTEMS);
+    int64_t items = kiriSolver_SystemItems(sheet->solver, sheet->touches.found.count);
+    return substeps * (sheet->settings.iterations + KIRI_EXTRA_SYSTEMS) * items;
 }
 
 kiriTotals kiriMotion_Sum(const kiriSheetData* sheet, const int32_t* indices, int32_t count)

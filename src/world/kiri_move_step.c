@@ -149,7 +149,7 @@ static int32_t EndOfWave(const MoveTask* task, int32_t first)
     int32_t end = first;
     int64_t most = 0;
     while (end < world->active.count) {
-        most += kiriMotion_MostSystems(world->sheets.data[SheetAt(world, end)], task->substeps);
+        most += kiriMotion_MostItems(world->sheets.data[SheetAt(world, end)], task->substeps);
         if (most > task->systems.left && end > first) {
             break;
         }
@@ -190,6 +190,7 @@ void kiriMoves_Run(kiriWorld* world, double dt, int32_t substeps, kiriQuota* sys
         for (int32_t k = first; k < end; ++k) {
             GiveImpulses(&task, SheetAt(world, k), false);
             kiriQuota_Take(systems, world->moves.of.data[SheetAt(world, k)].systems);
+            world->profile.systemsSolved += kiriSolver_TakeSolved(world->sheets.data[SheetAt(world, k)]->solver);
         }
     }
 }
