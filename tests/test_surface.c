@@ -120,7 +120,8 @@ static void Pose(Cloth* cloth)
 {
     kiriSurface_Blend(&cloth->surface, &cloth->skin, cloth->frames.data, cloth->frames.count, cloth->links.data,
                       cloth->links.count);
-    kiriSurface_WriteArrays(&cloth->surface);
+    kiriSurface_SumNormals(&cloth->surface);
+    kiriSurface_WriteRange(&cloth->surface, 0, cloth->surface.vertexCount);
 }
 
 static void TurnAtRandom(kiriFrameData* frame, double away, uint32_t* seed)

@@ -205,7 +205,7 @@ static void Build(Crew* crew)
     crew->bodies[3] = AddBody(crew, KIRI_OBSTACLE_SPHERE, third, 0.4f, 7);
     crew->bodies[4] = AddBody(crew, KIRI_OBSTACLE_SPHERE, fourth, 0.2f, 0);
     for (int32_t i = 0; i < SHEETS; ++i) {
-        crew->sheets[i] = AddSheet(crew, spots[i][0], spots[i][1], spots[i][2], 4 + 2 * (i % 4));
+        crew->sheets[i] = AddSheet(crew, spots[i][0], spots[i][1], spots[i][2], i == 5 ? 46 : 4 + 2 * (i % 4));
     }
     kiriPinDef pin;
     kiriPin made;

@@ -156,11 +156,21 @@ void kiriView_Trim(kiriSheetData* sheet)
     }
 }
 
-void kiriView_WritePositions(kiriSheetData* sheet)
+void kiriView_TakeFrames(kiriSheetData* sheet)
 {
-    BlendVertices(sheet);
+    kiriSurface_TakeFrames(&sheet->seen.surface, sheet->frames.data, sheet->frames.count, sheet->links.links.data,
+                           sheet->links.links.count);
+}
+
+void kiriView_BlendRange(kiriSheetData* sheet, int32_t begin, int32_t end)
+{
+    kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, begin, end);
+}
+
+void kiriView_Sum(kiriSheetData* sheet)
+{
     kiriSurface_AddFades(&sheet->seen.surface, &sheet->seen.fades);
-    kiriSurface_WriteArrays(&sheet->seen.surface);
+    kiriSurface_SumNormals(&sheet->seen.surface);
     BlendPoints(sheet);
     AddPointFades(sheet);
     for (int32_t i = 0; i < sheet->points.count; ++i) {
@@ -168,4 +178,18 @@ void kiriView_WritePositions(kiriSheetData* sheet)
     }
     sheet->seen.pointCount = sheet->points.count;
     sheet->seen.isElsewhere = false;
+}
+
+void kiriView_WriteRange(kiriSheetData* sheet, int32_t begin, int32_t end)
+{
+    kiriSurface_WriteRange(&sheet->seen.surface, begin, end);
+}
+
+void kiriView_WritePositions(kiriSheetData* sheet)
+{
+    int32_t count = sheet->seen.surface.vertexCount;
+    kiriView_TakeFrames(sheet);
+    kiriView_BlendRange(sheet, 0, count);
+    kiriView_Sum(sheet);
+    kiriView_WriteRange(sheet, 0, count);
 }

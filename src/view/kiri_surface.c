@@ -366,6 +366,13 @@ void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades)
     }
 }
 
+void kiriSurface_SumNormals(kiriSurface* surface)
+{
+    surface->pose += 1;
+    kiriNormals_Sum(surface->slopes.data, surface->vertexCount, kiriSurface_Places(surface), surface->corners.data,
+                    surface->triangleCount);
+}
+
 void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end)
 {
     const float middle[3] = { (float)surface->middle.x, (float)surface->middle.y, (float)surface->middle.z };
@@ -374,13 +381,5 @@ void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end)
             surface->positions.data[k] = middle[k % 3] + surface->places.data[k];
         }
     }
-}
-
-void kiriSurface_WriteArrays(kiriSurface* surface)
-{
-    surface->pose += 1;
-    kiriSurface_WriteRange(surface, 0, surface->vertexCount);
-    kiriNormals_Sum(surface->slopes.data, surface->vertexCount, kiriSurface_Places(surface), surface->corners.data,
-                    surface->triangleCount);
-    kiriNormals_Write(surface->normals.data, surface->slopes.data, 0, surface->vertexCount);
+    kiriNormals_Write(surface->normals.data, surface->slopes.data, begin, end);
 }

@@ -107,11 +107,11 @@ void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriFra
 /* Moves the vertices that are seen elsewhere. */
 void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades);
 
-/* The positions that the host reads, of the vertices from `begin` to `end`. Writes nothing else. */
-void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end);
+/* Once in a tick, when all vertices are where they are seen: the sums that normals are made of. */
+void kiriSurface_SumNormals(kiriSurface* surface);
 
-/* The positions and normals that the host reads: once in a tick. */
-void kiriSurface_WriteArrays(kiriSurface* surface);
+/* Then the positions and normals that the host reads, of the vertices from `begin` to `end`. Writes nothing else. */
+void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end);
 
 /* What has changed since the host saw that revision: all, where that is too long ago. */
 void kiriSurface_GetDirty(const kiriSurface* surface, uint32_t sinceRevision, kiriDirty* dirty);

@@ -12,6 +12,7 @@
 #include "kiri_move_step.h"
 #include "kiri_obstacle_step.h"
 #include "kiri_pair.h"
+#include "kiri_skin_step.h"
 
 #include <string.h>
 
@@ -342,37 +343,12 @@ static void CountJumps(kiriProfile* profile, const kiriSheetData* sheet)
     profile->largestFade = fades->move > profile->largestFade ? fades->move : profile->largestFade;
 }
 
-typedef struct SkinTask {
-    kiriWorld* world;
-    double dt;
-} SkinTask;
-
-static void SkinSheets(int32_t start, int32_t end, void* context)
-{
-    const SkinTask* task = context;
-    for (int32_t i = start; i < end; ++i) {
-        kiriSheetData* sheet = kiriWorld_Active(task->world, i);
-        if (!sheet->rest.asleep) {
-            kiriView_Fade(sheet, task->dt);
-        }
-        if (!sheet->rest.asleep || sheet->seen.isElsewhere) {
-            kiriView_WritePositions(sheet);
-        }
-        kiriBounds_Keep(sheet->seen.bounds, &sheet->seen.surface);
-    }
-}
-
 static void SkinAll(kiriWorld* world, double dt)
 {
-    SkinTask task = { world, dt };
     EnterStage(world, KIRI_STAGE_SKIN);
-    kiriTasks_Run(&world->tasks, SkinSheets, world->active.count, 1, &task);
+    kiriSkinStep_Run(world, dt);
     for (int32_t k = 0; k < world->active.count; ++k) {
-        kiriSheetData* sheet = kiriWorld_Active(world, k);
-        if (!sheet->rest.asleep) {
-            kiriView_Trim(sheet);
-        }
-        CountJumps(&world->profile, sheet);
+        CountJumps(&world->profile, kiriWorld_Active(world, k));
     }
 }
 
@@ -412,8 +388,8 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     memset(&world->profile, 0, sizeof(world->profile));
     ListActive(world);
     StartAll(world);
-    bool hasRoom =
-        FindPairs(world, dt) && UpdateAll(world, &quotas) && FindTouches(world, dt) && kiriMoves_Prepare(world);
+    bool hasRoom = FindPairs(world, dt) && UpdateAll(world, &quotas) && FindTouches(world, dt) &&
+                   kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world);
     kiriResult result = hasRoom ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
     if (result == KIRI_OK) {
         world->events.count = 0;

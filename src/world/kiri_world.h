@@ -30,6 +30,11 @@ typedef struct kiriMoves {
     kiriIndices order, parent, heads; /* of meets; of sheets in groups; the first sheet of each group */
 } kiriMoves;
 
+/* Vertices of a sheet that are skinned at a time. */
+typedef struct kiriSkinRange {
+    int32_t sheet, begin, end;
+} kiriSkinRange;
+
 struct kiriWorld {
     kiriMemory memory;
     kiriMemory retired; /* arrays that the host may hold until the next tick */
@@ -50,6 +55,7 @@ struct kiriWorld {
     kiriObstacleSearch obstacleSearch;
     kiriPairs pairs;
     kiriMoves moves;
+    KIRI_ARRAY(kiriSkinRange) skinRanges;
     KIRI_ARRAY(kiriEvent) events;
     kiriProfile profile;
     int32_t stage; /* running now, or KIRI_NONE */
