@@ -576,7 +576,7 @@ static Polyline RandomPolyline(uint32_t* seed, Pool* pool, double reach)
 
 static bool CutPolyline(kiriMeshData* mesh, const Polyline* line, double snap)
 {
-    kiriBladeTip blade = { line->points[0], KIRI_NONE, false, { 0, 0 } };
+    kiriBladeTip blade = { line->points[0], KIRI_NONE, false, { 0, 0 }, 0 };
     for (int i = 1; i < line->count; ++i) {
         if (Move(mesh, &blade, line->points[i], snap) != KIRI_DONE) {
             return false;
@@ -848,7 +848,7 @@ static bool SameMesh(const kiriMeshData* a, const kiriMeshData* b)
 static int64_t CutInParts(kiriMeshData* mesh, const Polyline* line, double snap, uint32_t* seed, uint32_t most,
                           bool count)
 {
-    kiriBladeTip blade = { line->points[0], KIRI_NONE, false, { 0, 0 } };
+    kiriBladeTip blade = { line->points[0], KIRI_NONE, false, { 0, 0 }, 0 };
     int64_t used = 0;
     for (int i = 1; i < line->count; ++i) {
         kiriProgress progress = KIRI_MORE;
@@ -867,7 +867,7 @@ static int64_t CutInParts(kiriMeshData* mesh, const Polyline* line, double snap,
             used += quota.used;
         }
     }
-    return used;
+    return used + blade.owed;
 }
 
 static void InterruptedMovesGoOn(void** state)

@@ -104,14 +104,15 @@ static inline bool kiriQuota_Take(kiriQuota* quota, int64_t items)
     return true;
 }
 
-/* Takes of what is due as much as is left. True when all of it is paid. Unlike kiriQuota_Take it never exceeds a limit. */
-static inline bool kiriQuota_Pay(kiriQuota* quota, int64_t* due)
+/* Takes what is owed for work, or what is left of it; false where some is still owed. So how far the work has come depends
+   on what it was given in all, not on the parts. Unlike kiriQuota_Take it never exceeds a limit. */
+static inline bool kiriQuota_Pay(kiriQuota* quota, int64_t* owed)
 {
-    int64_t paid = *due < quota->left ? *due : quota->left;
-    quota->left -= paid;
-    quota->used += paid;
-    *due -= paid;
-    return *due == 0;
+    int64_t items = *owed < quota->left ? *owed : quota->left;
+    quota->left -= items;
+    quota->used += items;
+    *owed -= items;
+    return *owed == 0;
 }
 
 KIRI_C_END

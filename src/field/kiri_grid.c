@@ -118,6 +118,27 @@ static bool StartGridFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
     return ReserveCells(grid, mesh);
 }
 
+/* Room for a cell more in half of the squares that changed, so that no tick moves all arrays. */
+static kiriProgress MakeRoomForCells(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
+{
+    enum { CELL_BYTES = 512 }; /* that an item moves */
+    kiriGridWork* work = grid->work;
+    if (work == NULL || grid->squareCell.count == 0) {
+        return KIRI_DONE;
+    }
+    int64_t more = mesh->squares.dirty.count / 2 + 64, cells = grid->cells.count + more;
+    kiriMemory* memory = mesh->memory;
+    const kiriRoom rooms[] = { KIRI_ROOM(memory, &grid->cells, cells),
+                               KIRI_ROOM(memory, &grid->runs, cells),
+                               KIRI_ROOM(memory, &work->cellFlags, cells),
+                               KIRI_ROOM(memory, &work->mark, cells),
+                               KIRI_ROOM(memory, &grid->faces, grid->faces.count + 2 * more),
+                               KIRI_ROOM(memory, &grid->steps, grid->steps.count + KIRI_OPEN_STEPS * more),
+                               KIRI_ROOM(memory, &grid->nodeCell, mesh->squares.nodes.capacity),
+                               KIRI_ROOM(memory, &grid->vertexCell, mesh->vertices.capacity) };
+    return kiriGrowing_GoOn(&work->growing, rooms, (int32_t)(sizeof(rooms) / sizeof(rooms[0])), quota, CELL_BYTES);
+}
+
 static bool StartGridUpdate(kiriGrid* grid, const kiriMeshData* mesh)
 {
     if (grid->work == NULL) {
@@ -166,8 +187,14 @@ static kiriProgress RunGridStages(kiriGrid* grid, const kiriMeshData* mesh, kiri
 
 kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
 {
-    if ((grid->work == NULL || !grid->work->running) && !StartGridUpdate(grid, mesh)) {
-        return KIRI_FAILED;
+    if (grid->work == NULL || !grid->work->running) {
+        kiriProgress room = MakeRoomForCells(grid, mesh, quota);
+        if (room != KIRI_DONE) {
+            return room;
+        }
+        if (!StartGridUpdate(grid, mesh)) {
+            return KIRI_FAILED;
+        }
     }
     KIRI_ASSERT(grid->nodeCell.count == mesh->squares.nodes.count); /* else the mesh has changed during the update */
     kiriProgress progress = RunGridStages(grid, mesh, quota);
@@ -226,6 +253,7 @@ void kiriGrid_Reset(kiriGrid* grid)
     changes->edges.count = 0;
     memset(&grid->stepRoom, 0, sizeof(grid->stepRoom));
     if (grid->work != NULL) {
+        kiriGrowing_Drop(&grid->work->growing);
         grid->work->cellFlags.count = grid->work->mark.count = 0;
         EndGridUpdate(grid->work);
     }

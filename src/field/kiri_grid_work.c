@@ -4,12 +4,10 @@
 
 bool kiriGridWork_Pay(kiriGridWork* work, kiriQuota* quota)
 {
-    int64_t items = work->due / KIRI_GRID_ITEM;
-    if (!kiriQuota_Take(quota, items)) {
-        return false;
-    }
-    work->due -= KIRI_GRID_ITEM * items;
-    return true;
+    int64_t owed = work->due / KIRI_GRID_ITEM, rest = work->due % KIRI_GRID_ITEM;
+    bool isPaid = kiriQuota_Pay(quota, &owed);
+    work->due = KIRI_GRID_ITEM * owed + rest;
+    return isPaid;
 }
 
 /* ---- Lists ------------------------------------------------------------------------------------------------------- */

@@ -57,6 +57,7 @@ typedef struct kiriOldFace {
 } kiriOldFace;
 
 struct kiriGridWork {
+    kiriGrowing growing; /* before an update */
     bool running, fromScratch;
     bool removed;        /* a cell is gone */
     int64_t due;         /* of what is done the quota has not given this yet */
@@ -122,7 +123,7 @@ bool kiriGridWork_Flag(kiriGridWork* work, kiriMemory* memory, int32_t square, i
 /* Puts the square in the list of a flag, once an update. */
 bool kiriGridWork_AddOnce(kiriGridWork* work, kiriMemory* memory, int32_t square, int flag, kiriIndices* list);
 
-/* Takes from the quota what is due; false where it has not that much. */
+/* Takes from the quota what is due, or what it has of it; false where some is still due. */
 bool kiriGridWork_Pay(kiriGridWork* work, kiriQuota* quota);
 
 /* So much has been done of what may be long. False: pause. */

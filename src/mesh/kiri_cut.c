@@ -370,7 +370,7 @@ static bool StepBlade(BladeWalk* walk)
 }
 
 /* The items of a step that is done. */
-static int64_t TakeItems(BladeWalk* walk)
+static int64_t CountItems(BladeWalk* walk)
 {
     kiriSquares* squares = &walk->mesh->squares;
     int64_t items = (walk->splits > 0 ? walk->splits : 1) + (walk->effort + squares->effort) / ITEM_EFFORT;
@@ -387,14 +387,15 @@ kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePo
     KIRI_ASSERT(mesh->isOpen && quota->left >= 0 && snap >= 0.0);
     KIRI_ASSERT(blade->vertex == KIRI_NONE || IsSamePoint(VertexPoint(&walk, blade->vertex), blade->at));
     mesh->squares.effort = 0;
-    while (isOnItsWay && quota->left >= KIRI_MOST_SPLITS) {
+    int64_t owed = blade->owed;
+    while (kiriQuota_Pay(quota, &owed) && isOnItsWay && quota->left >= KIRI_MOST_SPLITS) {
         isOnItsWay = StepBlade(&walk) && !IsSamePoint(walk.at, to);
-        int64_t items = TakeItems(&walk);
-        kiriQuota_Take(quota, items < quota->left ? items : quota->left);
+        owed = CountItems(&walk);
     }
     if (walk.failed) {
         return KIRI_FAILED;
     }
+    blade->owed = owed;
     blade->at = walk.at;
     blade->vertex = walk.vertex;
     blade->isOnItsWay = isOnItsWay;
@@ -416,6 +417,7 @@ kiriBladeTip kiriCut_Place(const kiriMeshData* mesh, kiriVec2 local)
     blade.vertex = KIRI_NONE;
     blade.isOnItsWay = false;
     blade.from = blade.at;
+    blade.owed = 0;
     return blade;
 }
 

@@ -13,6 +13,7 @@ typedef struct kiriBladeTip {
     int32_t vertex;        /* a vertex at that point, or KIRI_NONE: not in the sheet, or not yet moved */
     bool isOnItsWay;       /* the last move was interrupted, */
     kiriLatticePoint from; /* and began here */
+    int64_t owed;          /* items of the quota for what is done already */
 } kiriBladeTip;
 
 /* A step of the blade, from vertex to vertex, splits an edge or a triangle at most: so many triangles are made or
@@ -22,8 +23,8 @@ enum { KIRI_MOST_SPLITS = 4 };
 /* Moves the blade to `to` in a straight line and cuts on the way; it may leave the sheet and come back. `snap` (lattice
    steps): a vertex or edge this near is taken instead of making a new one; the cut stays within two snaps of the line.
    A step takes an item of the quota for each triangle that it makes or reshapes, and one where it finds its way
-   without; and more where it looks at many squares, at many triangles in one, or around a vertex with many. It is one
-   step, so it may take more than there is left: it gets that. KIRI_MORE: less than KIRI_MOST_SPLITS is left, and the blade is on its way; a call with the same `to` goes
+   without; and more where it looks at many squares, at many triangles in one, or around a vertex with many. What
+   is more than there is left the next call takes first. KIRI_MORE: less than KIRI_MOST_SPLITS is left, and the blade is on its way; a call with the same `to` goes
    on, and in the end the mesh is what one call had made of it, bit for bit. KIRI_FAILED: roll the mesh back; the blade
    is then where it was before the call. */
 kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePoint to, double snap, kiriQuota* quota);

@@ -2,6 +2,7 @@
 
 #include "kiri_piece.h"
 #include "kiri_pin.h"
+#include "kiri_room.h"
 #include "kiri_seen.h"
 #include "kiri_site.h"
 
@@ -31,11 +32,15 @@ static kiriProgress TakeQueuedPoint(kiriSheetData* sheet, const kiriQueuedPoint*
     return progress;
 }
 
+/* The steps of the stage; the first is 0. */
+enum { MAKE_ROOM, CUT_MESH };
+
 /* Takes queued points as far as the quota goes. Newborn vertices stay on the surface as it is. */
 kiriProgress kiriStage_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles)
 {
     kiriUpdate* u = sheet->update;
-    kiriProgress progress = KIRI_DONE;
+    kiriProgress progress = u->step == MAKE_ROOM ? kiriRoom_ForCut(sheet, triangles) : KIRI_DONE;
+    u->step = progress == KIRI_DONE ? CUT_MESH : u->step;
     kiriMesh_Begin(&sheet->mesh);
     while (progress == KIRI_DONE && u->cut.taken < u->cut.count) {
         progress = TakeQueuedPoint(sheet, &sheet->queue.data[u->cut.taken], triangles);

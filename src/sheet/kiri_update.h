@@ -67,6 +67,8 @@ typedef struct kiriUpdate {
     kiriUpdateStart start;
     bool isBegun; /* in this tick */
 
+    kiriGrowing growing; /* of arrays before a cut, */
+    uint32_t growsSince; /* at this revision of the mesh */
     kiriCutWork cut;
     kiriPlacingWork placing;
     KIRI_ARRAY(kiriMoments) material; /* of each frame's region */

@@ -1,0 +1,57 @@
+#include "kiri_room.h"
+
+/* For each edge that a blade crosses; a triangle is in two squares or so, and a vertex has few weights. */
+enum { ROOM_VERTICES = 3, ROOM_TRIANGLES = 3, ROOM_NODES = 6, ROOM_WEIGHTS = 24 };
+
+enum { ROOM_BYTES = 2048 }; /* that an item moves */
+
+/* About as many edges as the points of the update cross, in a mesh of even triangles; at most as many as it has vertices. */
+static int64_t CountCrossings(const kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    const kiriMeshData* mesh = &sheet->mesh;
+    double way = 0.0, most = mesh->vertices.count, width = (double)mesh->squares.columns * mesh->squares.side,
+           height = (double)mesh->squares.rows * mesh->squares.side;
+    for (int32_t i = u->cut.taken; i < u->cut.count; ++i) {
+        const kiriQueuedPoint* point = &sheet->queue.data[i];
+        kiriVec2 from = i > 0 && sheet->queue.data[i - 1].cut == point->cut ? sheet->queue.data[i - 1].to
+                                                                            : point->cut->tip.last,
+                 to = point->to;
+        if (!point->jump && kiriCut_Clip(mesh, &from, &to)) {
+            way += kiriVec2_Length(kiriVec2_Sub(to, from)) / mesh->step;
+        }
+    }
+    double spacing = sqrt(2.0 * width * height / (mesh->triangles.count + 1.0)), crossings = 3.0 * way / spacing;
+    return (int64_t)(crossings < most ? crossings : most) + u->cut.count;
+}
+
+kiriProgress kiriRoom_ForCut(kiriSheetData* sheet, kiriQuota* triangles)
+{
+    kiriMemory *own = sheet->memory, *shown = &sheet->shown;
+    kiriMeshData* mesh = &sheet->mesh;
+    kiriSkin* skin = &sheet->vertexSkin;
+    kiriSurface* s = &sheet->seen.surface;
+    kiriUpdate* u = sheet->update;
+    if (u->growsSince != mesh->revision) {
+        kiriGrowing_Drop(&u->growing); /* pieces have gone */
+        u->growsSince = mesh->revision;
+    }
+    int64_t more = CountCrossings(sheet), vertices = mesh->vertices.count + ROOM_VERTICES * more,
+            added = mesh->triangles.count + ROOM_TRIANGLES * more, corners = 3 * (added + 1);
+    const kiriRoom rooms[] = { KIRI_ROOM(own, &mesh->vertices, vertices),
+                               KIRI_ROOM(own, &mesh->triangles, added),
+                               KIRI_ROOM(own, &mesh->squares.nodes, mesh->squares.nodes.count + ROOM_NODES * more),
+                               KIRI_ROOM(own, &skin->spans, vertices),
+                               KIRI_ROOM(own, &skin->weights, skin->weights.count + ROOM_WEIGHTS * more),
+                               KIRI_ROOM(shown, &s->restPositions, 2 * vertices),
+                               KIRI_ROOM(shown, &s->sourceWeights, 3 * vertices),
+                               KIRI_ROOM(shown, &s->sourceTriangles, vertices),
+                               KIRI_ROOM(shown, &s->indices, corners),
+                               KIRI_ROOM(shown, &s->corners, corners),
+                               KIRI_ROOM(shown, &s->rest, vertices),
+                               KIRI_CHANGING_ROOM(shown, &s->positions, 3 * vertices + 1),
+                               KIRI_CHANGING_ROOM(shown, &s->normals, 3 * vertices),
+                               KIRI_CHANGING_ROOM(shown, &s->places, 3 * vertices + 1),
+                               KIRI_CHANGING_ROOM(shown, &s->slopes, 4 * vertices) };
+    return kiriGrowing_GoOn(&u->growing, rooms, (int32_t)(sizeof(rooms) / sizeof(rooms[0])), triangles, ROOM_BYTES);
+}
