@@ -131,7 +131,7 @@ static kiriResult TakeFramePoints(kiriSheetData* sheet, const kiriSheetDef* def,
     return KIRI_OK;
 }
 
-static void StartFrame(kiriSheetData* sheet, const kiriSheetDef* def, int32_t index)
+static void LayFrame(kiriSheetData* sheet, const kiriSheetDef* def, int32_t index)
 {
     kiriSite site = sheet->update->placing.sites.data[index];
     kiriFrameData* frame = &sheet->frames.data[index];
@@ -169,7 +169,7 @@ static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, c
     }
     sheet->frames.count = sheet->update->placing.sites.count;
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        StartFrame(sheet, def, i);
+        LayFrame(sheet, def, i);
     }
     kiriBuild_Commit(sheet);
     return KIRI_OK;

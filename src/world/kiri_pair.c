@@ -236,7 +236,7 @@ static const kiriTouchingPair* FindOld(const kiriPairs* pairs, kiriFrame a, kiri
 
 /* Has the lower one of before come to be the upper one? By how it is turned, and not by where the other one is: pieces that
    cross do not change places. */
-static bool HasTurned(const kiriWorld* world, const kiriTouchingPair* old, int32_t lower, kiriSpan nears)
+static bool HasSideTurned(const kiriWorld* world, const kiriTouchingPair* old, int32_t lower, kiriSpan nears)
 {
     const kiriSheetData* sheet = world->pairs.bodies.data[lower].sheet;
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
@@ -253,7 +253,7 @@ static kiriTouchingPair Decide(const kiriWorld* world, int32_t a, int32_t b, kir
     const kiriPairs* pairs = &world->pairs;
     const kiriBody *one = &pairs->bodies.data[a], *other = &pairs->bodies.data[b];
     const kiriTouchingPair* old = FindOld(pairs, one->id, other->id);
-    if (old != NULL && HasTurned(world, old, old->upper == one->id ? b : a, nears)) {
+    if (old != NULL && HasSideTurned(world, old, old->upper == one->id ? b : a, nears)) {
         old = NULL;
     }
     bool isUpper = old != NULL ? old->upper == one->id : IsUpper(world, one, other, DirectionFrom(pairs, nears, a, dt));

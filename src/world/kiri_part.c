@@ -319,7 +319,7 @@ static void RemovePins(kiriWorld* world, const kiriRemoval* removal)
 }
 
 /* Nobody sees or touches the pieces any more, until they can be taken away. */
-static void MarkGone(kiriWorld* world, const kiriRemoval* removal)
+static void MarkRemoved(kiriWorld* world, const kiriRemoval* removal)
 {
     kiriSheetData* sheet = removal->sheet;
     ForgetIds(world, removal);
@@ -358,7 +358,7 @@ static kiriResult Destroy(Parting* parting)
     for (int32_t k = 0; k < parting->sourceCount; ++k) {
         const kiriRemoval* removal = &parting->sources[k].removal;
         if (IsBusy(removal->sheet)) {
-            MarkGone(parting->world, removal);
+            MarkRemoved(parting->world, removal);
         } else {
             ForgetIds(parting->world, removal);
             ForgetPins(parting->world, removal);
