@@ -1,5 +1,6 @@
 #include "kiri_grid_work.h"
 
+#include "../core/kiri_hash.h"
 #include "../core/kiri_sort.h"
 
 #include <string.h>
@@ -225,6 +226,19 @@ void kiriGrid_ClearChanges(kiriGrid* grid)
     }
     changes->made.count = changes->gone.count = changes->steps.count = changes->material.count = 0;
     changes->edges.count = 0;
+}
+
+void kiriGrid_HashProgress(const kiriGrid* grid, uint64_t* hash)
+{
+    const kiriGridWork* work = grid->work;
+    if (work != NULL && work->running) {
+        kiriHash_Int64(hash, work->due);
+        kiriHash_Pair(hash, work->stage, work->item);
+        kiriHash_Pair(hash, work->at, work->other);
+        if (work->isAmidPart) {
+            kiriHash_Pair(hash, work->part, work->node);
+        }
+    }
 }
 
 void kiriGrid_DropScratch(kiriGrid* grid, kiriMemory* memory)

@@ -96,6 +96,9 @@ kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota
 /* Once all who follow the grid have seen its changes; not during an update. */
 void kiriGrid_ClearChanges(kiriGrid* grid);
 
+/* How far the update at hand has come, for the state hash: it is not all in what the quota has given. */
+void kiriGrid_HashProgress(const kiriGrid* grid, uint64_t* hash);
+
 /* Gives back the room of lists that were long while all was made, and that what changes makes as long as it needs. Not
    during an update, nor before its changes are cleared. */
 void kiriGrid_DropScratch(kiriGrid* grid, kiriMemory* memory);
