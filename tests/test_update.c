@@ -252,6 +252,33 @@ static void TestCutOfTwoThousandPoints(void** state)
     Host_Stop(&hosts[1]);
 }
 
+/* Squares that take many ticks each, and squares that are many more than a tick takes: it ends, as without a budget. */
+static void TestSlashOfAnyGrid(void** state)
+{
+    (void)state;
+    const int32_t meshes[2] = { 40, 4 }, grids[2] = { 2, 60 };
+    const float line[4] = { -0.1f, 0.31f, 1.1f, 0.63f };
+    for (int i = 0; i < 2; ++i) {
+        Host hosts[2];
+        int32_t ticks[2];
+        StartPair(hosts, &tight);
+        hosts[1].every = 100;
+        for (int k = 0; k < 2; ++k) {
+            kiriSheetDef def = Host_SmallDef();
+            def.gridResolution = grids[i];
+            def.frameCount = def.maxFrames = 2;
+            kiriSheet sheet = Host_AddRectangle(&hosts[k], &def, 1.0f, 1.0f, meshes[i], meshes[i]);
+            Host_Cut(&hosts[k], sheet, line, 2);
+            ticks[k] = Settle(&hosts[k], k == 0 ? &(kiriBudget){ 0, 0, 0, 0 } : &tight);
+            assert_int_equal(Host_Counts(&hosts[k], sheet).pieces, 2);
+        }
+        assert_true(ticks[0] == 1 && ticks[1] > 20);
+        CompareLayouts(hosts);
+        Host_Stop(&hosts[0]);
+        Host_Stop(&hosts[1]);
+    }
+}
+
 static void TestFiftyCutsOnFiftySheets(void** state)
 {
     (void)state;
@@ -382,6 +409,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestIncrementalEqualsFromScratch),
         cmocka_unit_test(TestCutOfTwoThousandPoints),
+        cmocka_unit_test(TestSlashOfAnyGrid),
         cmocka_unit_test(TestFiftyCutsOnFiftySheets),
         cmocka_unit_test(TestBladeFasterThanItsBudget),
         cmocka_unit_test(TestIterationsAreShared),
