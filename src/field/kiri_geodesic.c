@@ -12,11 +12,11 @@ enum {
 
 /* What `cursor` holds. In a sweep the first three go over the settled cells, one for each length of steps. Before it: */
 enum {
-    DIRTY_CHECKED,     /* dirty cells that were checked */
+    DIRTY_CHECKED,     /* dirty cells that were checked, or looked at for seeds of the sweep */
     DIRTY_FROM_CALLER, /* how many the caller marked; those behind are dependents */
     REPAIR_STAGE = KIRI_STEP_LENGTHS,
 };
-enum { REPAIR_NONE, REPAIR_CLEARS, REPAIR_SETTLES };
+enum { REPAIR_NONE, REPAIR_CLEARS, REPAIR_SEEDS, REPAIR_SETTLES };
 
 bool kiriField_ResizeToFlood(kiriField* field, kiriMemory* memory, int32_t cellCount)
 {
@@ -361,7 +361,7 @@ static kiriProgress ClearAffected(kiriField* field, kiriMemory* memory, const ki
                 return KIRI_FAILED;
             }
             bool supported = IsSupported(field, rule, cell, blocked, &dependents);
-            if (!supported && !kiriQuota_Take(quota, 1)) {
+            if (!kiriQuota_Take(quota, !supported || field->cursor[DIRTY_CHECKED] % 4 == 0)) {
                 return KIRI_MORE;
             }
             if (!supported || blocked) {
@@ -397,16 +397,25 @@ static kiriSeed NearestFor(const kiriField* field, const kiriRule* rule, int32_t
     return best;
 }
 
+/* The sweep starts when the heap has all its seeds. */
+static void StartSweep(kiriField* field)
+{
+    MakeHeap(field);
+    field->dirty.count = field->settled.count = 0;
+    field->cursor[0] = field->cursor[1] = field->cursor[2] = 0;
+    field->cursor[REPAIR_STAGE] = REPAIR_SETTLES;
+}
+
 /* The seeds of the sweep: what affected cells get from their neighbours, and the values of the caller's dirty cells, for
    ways from there may be new. */
-static bool SeedSweep(kiriField* field, kiriMemory* memory, const kiriRule* rule)
+static kiriProgress SeedSweep(kiriField* field, const kiriRule* rule, kiriQuota* quota)
 {
-    field->heap.count = 0;
-    if (!kiriArray_Reserve(memory, &field->heap, field->dirty.count)) {
-        return false;
-    }
-    for (int32_t i = 0; i < field->dirty.count; ++i) {
+    for (int32_t i = field->cursor[DIRTY_CHECKED]; i < field->dirty.count; ++i) {
         int32_t cell = field->dirty.data[i];
+        field->cursor[DIRTY_CHECKED] = i;
+        if (!kiriQuota_Take(quota, i % 2 == 0)) {
+            return KIRI_MORE;
+        }
         if (i < field->cursor[DIRTY_FROM_CALLER] || field->distance.data[cell] == KIRI_FAR) {
             LookAround(rule, cell);
             kiriSeed best = NearestFor(field, rule, cell);
@@ -415,11 +424,17 @@ static bool SeedSweep(kiriField* field, kiriMemory* memory, const kiriRule* rule
             }
         }
     }
-    MakeHeap(field);
-    field->dirty.count = field->settled.count = 0;
-    field->cursor[0] = field->cursor[1] = field->cursor[2] = 0;
-    field->cursor[REPAIR_STAGE] = REPAIR_SETTLES;
-    return true;
+    StartSweep(field);
+    return KIRI_DONE;
+}
+
+/* Room for all seeds of the sweep. */
+static bool BeginSeeds(kiriField* field, kiriMemory* memory)
+{
+    field->heap.count = 0;
+    field->cursor[DIRTY_CHECKED] = 0;
+    field->cursor[REPAIR_STAGE] = REPAIR_SEEDS;
+    return kiriArray_Reserve(memory, &field->heap, field->dirty.count);
 }
 
 static void BeginRepair(kiriField* field)
@@ -455,9 +470,12 @@ kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRu
         if (progress != KIRI_DONE) {
             return progress;
         }
-        if (!SeedSweep(field, memory, rule)) {
+        if (!BeginSeeds(field, memory)) {
             return KIRI_FAILED;
         }
+    }
+    if (field->cursor[REPAIR_STAGE] == REPAIR_SEEDS && SeedSweep(field, rule, quota) == KIRI_MORE) {
+        return KIRI_MORE;
     }
     if (Sweep(field, rule, quota) == KIRI_MORE) {
         return KIRI_MORE;

@@ -337,15 +337,26 @@ static void DropOrphans(const RegionUpdate* u)
     r->orphans.count = kept;
 }
 
+/* What follows from all that the repair has changed. */
+static kiriProgress FollowLog(const RegionUpdate* u, kiriQuota* quota)
+{
+    kiriRegions* r = u->regions;
+    for (; r->followed < r->field.log.count; ++r->followed) {
+        if (!kiriQuota_Take(quota, 1)) {
+            return KIRI_MORE;
+        }
+        if (!FollowChange(u, r->field.log.data[r->followed])) {
+            return KIRI_FAILED;
+        }
+    }
+    return KIRI_DONE;
+}
+
 static bool FinishRepair(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     const kiriGridChanges* changes = &u->grid->changes;
     bool ok = true;
-    DropOrphans(u);
-    for (int32_t k = 0; ok && k < r->field.log.count; ++k) {
-        ok = FollowChange(u, r->field.log.data[k]);
-    }
     for (int32_t k = r->seen.steps; k < changes->steps.count; ++k) {
         FindBorder(u, changes->steps.data[k]);
     }
@@ -404,6 +415,24 @@ static bool BeginRegions(const RegionUpdate* u)
     return true;
 }
 
+static kiriProgress DivideCells(const RegionUpdate* u, kiriQuota* quota)
+{
+    kiriRegions* r = u->regions;
+    kiriRule rule = { u->grid, KIRI_FAR, NULL, NearestSiteSeed, u, NULL };
+    if (r->flooding) {
+        return kiriField_Flood(&r->field, &rule, quota);
+    }
+    kiriProgress progress = r->following ? KIRI_DONE : kiriField_Repair(&r->field, u->memory, &rule, quota);
+    if (progress == KIRI_DONE && !r->following) {
+        DropOrphans(u);
+        r->following = true;
+        r->followed = 0;
+    }
+    progress = progress == KIRI_DONE ? FollowLog(u, quota) : progress;
+    r->following = r->following && progress == KIRI_MORE;
+    return progress;
+}
+
 kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const kiriGrid* grid,
                                 const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
                                 const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota)
@@ -413,9 +442,7 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
     if (!regions->running && !BeginRegions(&u)) {
         return KIRI_FAILED;
     }
-    kiriRule rule = { grid, KIRI_FAR, NULL, NearestSiteSeed, &u, NULL };
-    kiriProgress progress = regions->flooding ? kiriField_Flood(&regions->field, &rule, quota)
-                                              : kiriField_Repair(&regions->field, memory, &rule, quota);
+    kiriProgress progress = DivideCells(&u, quota);
     regions->running = progress == KIRI_MORE;
     if (progress != KIRI_DONE) {
         return progress;
@@ -461,5 +488,5 @@ void kiriRegions_Reset(kiriRegions* regions)
     regions->material.count = regions->dirty.count = 0;
     regions->changes.count = regions->orphans.count = 0;
     regions->seen = (kiriSeenChanges){ 0, 0, 0, 0, 0 };
-    regions->running = false;
+    regions->running = regions->following = false;
 }

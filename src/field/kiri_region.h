@@ -51,6 +51,8 @@ typedef struct kiriRegions {
 
     /* Private. */
     bool flooding;                 /* the update is one from scratch */
+    bool following;                /* the field is right again; */
+    int32_t followed;              /* so much of its log has been followed */
     KIRI_ARRAY(uint8_t) isChanged; /* of each cell: it is in `changes` */
     kiriSeenChanges seen;
 } kiriRegions;
@@ -62,7 +64,7 @@ typedef struct kiriSiteMove {
 } kiriSiteMove;
 
 /* Follows the grid's changes and those of the sites. Sites are in cells that live, no two in one, and are never taken
-   away. An item of the quota: see kiriField_Repair. From scratch: a zeroed or reset kiriRegions, and all sites in
+   away. An item of the quota: see kiriField_Repair, and a cell of its log. From scratch: a zeroed or reset kiriRegions, and all sites in
    `moves`. KIRI_MORE: call again with the same arguments. KIRI_FAILED: only kiriRegions_Reset helps. Several updates,
    each with more sites, may come before the changes of grid and regions are cleared, which is together, and before the
    grid is updated again. */

@@ -318,7 +318,8 @@ static bool MarkChange(kiriShapeJob* job, ChangeList list, int32_t k)
     }
 }
 
-/* Goes on at work->next, which counts through all lists. An item is a cell that is counted, or eight that are marked. */
+/* Goes on at work->next, which counts through all lists. An item is a cell that is marked, or counted with those beside
+   it. */
 static kiriProgress MarkChanges(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriShapeWork* work = job->work;
@@ -328,7 +329,7 @@ static kiriProgress MarkChanges(kiriShapeJob* job, kiriQuota* quota)
     int32_t first = 0;
     for (ChangeList list = LIST_GONE; list <= LIST_COUNT_REGION; ++list) {
         for (; work->next < first + counts[list]; ++work->next) {
-            if (!kiriQuota_Take(quota, list >= LIST_COUNT_STEPS || work->next % 8 == 0)) {
+            if (!kiriQuota_Take(quota, 1)) {
                 return KIRI_MORE;
             }
             if (!MarkChange(job, list, work->next - first)) {

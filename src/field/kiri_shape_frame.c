@@ -263,12 +263,12 @@ static void LoadBeyond(kiriShapeJob* job, int32_t limit)
     }
 }
 
-/* The cells about which something has changed: four an item. */
+/* The cells about which something has changed. */
 static kiriProgress LoadAllTouched(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriShapeFrame* frame = &job->work->frames.data[job->frame];
     for (; !frame->moved && frame->firstTouch != KIRI_NONE; --frame->touches) {
-        if (!kiriQuota_Take(quota, frame->touches % 4 == 0)) {
+        if (!kiriQuota_Take(quota, 1)) {
             return KIRI_MORE;
         }
         kiriTouchedCell touched = job->work->touches.data[frame->firstTouch];
@@ -430,7 +430,7 @@ static void UnloadBlock(kiriShapeJob* job, kiriLoadedBlock loaded)
     work->isLoaded.data[loaded.cells] = 0;
 }
 
-/* Brings the blocks up to date with the fields, and empties these: four blocks an item. */
+/* Brings the blocks up to date with the fields, and empties these. */
 static kiriProgress UnloadFrame(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriShapeWork* work = job->work;
@@ -440,7 +440,7 @@ static kiriProgress UnloadFrame(kiriShapeJob* job, kiriQuota* quota)
         return KIRI_FAILED;
     }
     for (; work->loaded.count > 0; --work->loaded.count) {
-        if (!kiriQuota_Take(quota, work->loaded.count % 4 == 0)) {
+        if (!kiriQuota_Take(quota, 1)) {
             return KIRI_MORE;
         }
         UnloadBlock(job, work->loaded.data[work->loaded.count - 1]);
