@@ -183,7 +183,7 @@ static void TestCurtainIsWon(void** state)
 {
     (void)state;
     static Recorded recorded;
-    PlayDemo(&curtainGame, 1, 12 * GAME_RATE, &recorded);
+    PlayDemo(&curtainGame, 2, 12 * GAME_RATE, &recorded);
     assert_int_equal(recorded.end.state, GAME_WON);
     assert_true(recorded.end.score > 90);
 }

@@ -22,6 +22,10 @@ KIRI_C_BEGIN
 
 typedef __m128 kiriLanes;
 
+static inline kiriLanes kiriLanes_Four(float i, float j, float k, float l)
+{
+    return _mm_setr_ps(i, j, k, l);
+}
 static inline kiriLanes kiriLanes_Load(const float* four)
 {
     return _mm_loadu_ps(four);

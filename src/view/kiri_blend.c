@@ -105,8 +105,8 @@ static kiriLanes AddBent(kiriLanes sum, const float* rows, kiriSampleWeight firs
 /* An odd last one has a partner that counts nothing. */
 static kiriLanes BlendBent(const float* rows, const kiriSampleWeight* weight, const kiriSampleWeight* end, kiriVec2 p)
 {
-    const float twice[4] = { (float)p.x, (float)p.y, (float)p.x, (float)p.y };
-    kiriLanes at = kiriLanes_Load(twice), sum = kiriLanes_Splat(0.0f);
+    float x = (float)p.x, y = (float)p.y;
+    kiriLanes at = kiriLanes_Four(x, y, x, y), sum = kiriLanes_Splat(0.0f);
     for (; weight + 1 < end; weight += 2) {
         sum = AddBent(sum, rows, weight[0], weight[1], at);
     }
