@@ -299,6 +299,9 @@ $(BUILD)/tests/test_extremes: $(BUILD)/tests/extremes.c.o
 
 $(BUILD)/tests/test_quality: $(BUILD)/tests/sweep.c.o
 
+$(BUILD)/tests/eigen_solvers.cpp.o: CXXFLAGS += -isystem $(EIGEN)
+$(BUILD)/tests/bench_solvers: $(BUILD)/tests/eigen_solvers.cpp.o
+
 $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(VALIDATE_OBJECTS) $(SCENE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $(filter-out %.a,$^) $(filter %.a,$^) -lcmocka $(TEST_LIBRARIES) -lm

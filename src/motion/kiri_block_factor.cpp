@@ -585,6 +585,19 @@ extern "C" void kiriMatrix_AddBlock(kiriMatrix* matrix, int32_t down, int32_t ac
     }
 }
 
+extern "C" void kiriMatrix_GetBlock(const kiriMatrix* matrix, int32_t down, int32_t across, double* block)
+{
+    int32_t size = matrix->size, row = matrix->place.data[down], column = matrix->place.data[across];
+    int32_t at = BlockAt(matrix, std::max(row, column), std::min(row, column));
+    KIRI_ASSERT(at != KIRI_NONE);
+    const double* values = &matrix->values.data[(int64_t)size * size * at];
+    for (int32_t c = 0; c < size; ++c) {
+        for (int32_t r = 0; r < size; ++r) {
+            *block++ = row < column ? values[size * r + c] : values[size * c + r];
+        }
+    }
+}
+
 extern "C" void kiriMatrix_AddSquares(kiriMatrix* matrix, const int32_t* frames, int32_t frameCount, const double* J,
                                       const double* k, int32_t rows)
 {

@@ -52,6 +52,9 @@ void kiriMatrix_AddOwn(kiriMatrix* matrix, int32_t frame, const double* block);
    itself it is symmetric. */
 void kiriMatrix_AddBlock(kiriMatrix* matrix, int32_t down, int32_t across, const double* block);
 
+/* Reads a block, which is in the pattern, as it was added: for who compares solvers. */
+void kiriMatrix_GetBlock(const kiriMatrix* matrix, int32_t down, int32_t across, double* block);
+
 /* Adds J^T k J, J of `rows` rows and size columns for each of the frames, which are all different; all pairs of them
    are in the pattern. */
 void kiriMatrix_AddSquares(kiriMatrix* matrix, const int32_t* frames, int32_t frameCount, const double* J,

@@ -1,0 +1,183 @@
+/* What linear solvers take on the systems of hanging sheets: ours, and those that Eigen has. */
+#define _POSIX_C_SOURCE 199309L
+
+#include "bench.h"
+
+#include "eigen_solvers.h"
+#include "motion/kiri_solver_work.h"
+#include "world/kiri_world.h"
+
+enum { SQUARES = 64, TICKS = 6, MOST_ROUNDS = 1000, DENSE_FRAMES = 300, SLOW_FRAMES = 2000, RUNS = 5 };
+
+static const char* const names[SOLVER_COUNT] = { "SimplicialLDLT",   "SimplicialLLT",    "SparseLU",  "CG, diagonal",
+                                                 "CG, incomplete L", "BiCGSTAB, diagon", "dense LDLT" };
+
+/* ---- Systems ----------------------------------------------------------------------------------------------------- */
+
+/* A sheet that hangs by two corners, and swings. */
+static bool MakeSheet(kiriWorld** world, int32_t frames)
+{
+    kiriWorldDef worldDef = Bench_WorldDef();
+    kiriSheetDef def;
+    kiriSheet sheet;
+    kiriDefaultSheetDef(&def);
+    def.axisV[1] = 0.0f;
+    def.axisV[2] = 1.0f;
+    def.gridResolution = 64;
+    while ((double)def.gridResolution * def.gridResolution < 16.0 * frames) {
+        def.gridResolution *= 2;
+    }
+    def.frameCount = def.maxFrames = frames;
+    bool fine = kiriCreateWorld(&worldDef, world) == KIRI_OK && Bench_AddSheet(*world, &def, SQUARES, &sheet);
+    for (int corner = 0; fine && corner < 2; ++corner) {
+        kiriPinDef pin;
+        kiriPin id;
+        kiriDefaultPinDef(&pin);
+        pin.restPoint[0] = pin.target[0] = (float)corner;
+        pin.restPoint[1] = pin.target[2] = 1.0f;
+        fine = kiriCreatePin(*world, sheet, &pin, &id) == KIRI_OK;
+    }
+    for (int tick = 0; fine && tick < TICKS; ++tick) {
+        fine = kiriWorld_Tick(*world, 1.0f / 60.0f, 1) == KIRI_OK;
+    }
+    return fine;
+}
+
+/* Entries of the lower triangle in the block of two frames. */
+static void AddEntries(SparseSystem* system, const kiriMatrix* matrix, int32_t size, int32_t down, int32_t across)
+{
+    double block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS];
+    kiriMatrix_GetBlock(matrix, down, across, block);
+    for (int32_t c = 0; c < size; ++c) {
+        for (int32_t r = down == across ? c : 0; r < size; ++r) {
+            ((int32_t*)system->row)[system->entries] = size * down + r;
+            ((int32_t*)system->column)[system->entries] = size * across + c;
+            ((double*)system->value)[system->entries++] = block[size * c + r];
+        }
+    }
+}
+
+/* The last system that the solver had. */
+static SparseSystem ReadSystem(kiriSolver* solver)
+{
+    int32_t size = solver->size, frames = solver->frameCount, pairs = kiriMatrix_PairCount(solver->matrix);
+    size_t most = (size_t)(frames + pairs) * (size_t)(size * size);
+    SparseSystem system = { size * frames,
+                            0,
+                            malloc(sizeof(int32_t) * most),
+                            malloc(sizeof(int32_t) * most),
+                            malloc(sizeof(double) * most),
+                            solver->force.data };
+    kiriPair* pair = malloc(sizeof(kiriPair) * (size_t)pairs);
+    kiriMatrix_GetPairs(solver->matrix, pair);
+    for (int32_t f = 0; f < frames; ++f) {
+        AddEntries(&system, solver->matrix, size, f, f);
+    }
+    for (int32_t k = 0; k < pairs; ++k) {
+        bool isSwapped = pair[k].a < pair[k].b;
+        AddEntries(&system, solver->matrix, size, isSwapped ? pair[k].b : pair[k].a, isSwapped ? pair[k].a : pair[k].b);
+    }
+    free(pair);
+    return system;
+}
+
+/* ---- Times ------------------------------------------------------------------------------------------------------- */
+
+static void TakeLeast(SolverTimes* least, const SolverTimes* times, int run)
+{
+    least->analyse = run == 0 || times->analyse < least->analyse ? times->analyse : least->analyse;
+    least->factor = run == 0 || times->factor < least->factor ? times->factor : least->factor;
+    least->solve = run == 0 || times->solve < least->solve ? times->solve : least->solve;
+    least->rounds = times->rounds;
+}
+
+static bool TimeOurs(kiriSolver* solver, double* solution, SolverTimes* times)
+{
+    int32_t pairs = kiriMatrix_PairCount(solver->matrix);
+    kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
+    kiriMatrix* matrix = kiriMatrix_Create(&memory, solver->size);
+    kiriPair* pair = malloc(sizeof(kiriPair) * (size_t)pairs);
+    double start = Bench_Clock(NULL);
+    kiriMatrix_GetPairs(solver->matrix, pair);
+    bool fine = kiriMatrix_Shape(matrix, solver->frameCount, pair, pairs);
+    double analysed = Bench_Clock(NULL);
+    fine = fine && kiriMatrix_Factor(solver->matrix);
+    double factored = Bench_Clock(NULL);
+    kiriMatrix_Solve(solver->matrix, solver->force.data, solution);
+    *times = (SolverTimes){ analysed - start, factored - analysed, Bench_Clock(NULL) - factored, 0 };
+    kiriMemory_FreeAll(&memory);
+    free(pair);
+    return fine;
+}
+
+static void PrintSolver(Table* table, int32_t frames, const char* name, const SolverTimes* times, double error)
+{
+    Table_Number(table, frames);
+    Table_Text(table, name);
+    Table_Number(table, 1e3 * times->analyse);
+    Table_Number(table, 1e3 * times->factor);
+    Table_Number(table, 1e3 * times->solve);
+    Table_Number(table, 1e6 * (times->factor + times->solve) / frames);
+    Table_Number(table, times->rounds > 0 ? times->rounds : (double)NAN);
+    Table_Number(table, log10(error));
+}
+
+static bool BenchSolvers(Table* table, kiriSolver* solver)
+{
+    int32_t frames = solver->frameCount;
+    SparseSystem system = ReadSystem(solver);
+    double* reference = malloc(sizeof(double) * (size_t)system.unknowns);
+    double* solution = malloc(sizeof(double) * (size_t)system.unknowns);
+    int runs = frames > SLOW_FRAMES ? 1 : RUNS;
+    SolverTimes least, times;
+    EigenSolvers_Reference(&system, reference);
+    bool fine = true;
+    for (int run = 0; fine && run < RUNS; ++run) {
+        fine = TimeOurs(solver, solution, &times);
+        TakeLeast(&least, &times, run);
+    }
+    PrintSolver(table, frames, "ours", &least, EigenSolvers_Distance(&system, solution, reference));
+    for (int32_t which = 0; fine && which < SOLVER_COUNT; ++which) {
+        bool hasFactor = which != SOLVER_DENSE || frames <= DENSE_FRAMES;
+        for (int run = 0; hasFactor && run < runs; ++run) {
+            hasFactor = EigenSolvers_Solve(which, &system, MOST_ROUNDS, Bench_Clock, solution, &times) != 0;
+            TakeLeast(&least, &times, run);
+        }
+        if (hasFactor) {
+            double error = EigenSolvers_Distance(&system, solution, reference);
+            PrintSolver(table, frames, names[which], &least, error);
+        }
+    }
+    free((void*)system.row);
+    free((void*)system.column);
+    free((void*)system.value);
+    free(reference);
+    free(solution);
+    return fine;
+}
+
+int main(void)
+{
+    static const char* const columns[] = { "frames",   "solver          ", "analyse", "factor", "solve",
+                                           "us/frame", "rounds",           "error",   NULL };
+    static const int32_t counts[] = { 24, 289, 1000, 5000 };
+    Table table;
+    Bench_WeighClock();
+    bool fine =
+        Table_Start(&table, "solvers",
+                    "The linear system of a square that hangs by two corners, 6 unknowns a frame: ms for a new "
+                    "pattern, a factorisation and a\nsolution, and us a frame of the last two; the error's "
+                    "decimal logarithm, by the energy of the difference from a refined solution.\nIterations "
+                    "end at a residual of 1e-9, or after 1000 rounds. SparseLU counts what it does in `factor`.",
+                    columns);
+    for (size_t i = 0; fine && i < sizeof counts / sizeof counts[0]; ++i) {
+        kiriWorld* world = NULL;
+        fine = MakeSheet(&world, counts[i]) && BenchSolvers(&table, world->sheets.data[0]->solver);
+        kiriDestroyWorld(world);
+    }
+    fine = Table_Stop(&table) && fine;
+    if (!fine) {
+        fprintf(stderr, "bench_solvers: something failed\n");
+    }
+    return fine ? 0 : 1;
+}
