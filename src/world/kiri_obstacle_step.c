@@ -150,7 +150,7 @@ static Around MakeAround(const kiriWorld* world, const kiriSheetData* sheet, dou
 {
     Around around;
     around.box = kiriSheet_Box(sheet);
-    around.speed = kiriSheet_SpeedLimit(sheet, &around.box);
+    around.speed = sheet->rest.asleep ? 0.0 : kiriSheet_SpeedLimit(sheet, &around.box);
     around.reach = kiriReach_Of(around.speed, world->gravity, dt) + sheet->settings.contactThickness;
     return around;
 }

@@ -41,7 +41,7 @@ static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
     kiriPairs* pairs = &world->pairs;
     int32_t first = pairs->bodies.count, count = sheet->layout.pieces.count;
     sheet->probes.firstBody = first;
-    if (!kiriProbes_Update(sheet) || !kiriArray_Resize(&world->memory, &pairs->bodies, (int64_t)first + count)) {
+    if (!kiriArray_Resize(&world->memory, &pairs->bodies, (int64_t)first + count)) {
         return false;
     }
     for (int32_t p = 0; p < count; ++p) {
@@ -59,12 +59,74 @@ static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
     return true;
 }
 
-static bool ListBodies(kiriWorld* world)
+/* What is awake: around all of it, and its fastest and thickest. */
+typedef struct Waking {
+    kiriBox box;
+    double speed, thickness;
+    bool any;
+} Waking;
+
+static double FastestOf(const kiriSheetData* sheet)
+{
+    double fastest = 0.0;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        fastest = sheet->probes.speeds.data[p] > fastest ? sheet->probes.speeds.data[p] : fastest;
+    }
+    return fastest;
+}
+
+static void AddWaking(Waking* waking, const kiriSheetData* sheet)
+{
+    double speed = FastestOf(sheet), thickness = sheet->settings.contactThickness;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        const kiriBox* box = &sheet->probes.boxes.data[p];
+        waking->box = waking->any ? waking->box : *box;
+        kiriBox_Add(&waking->box, box->lower);
+        kiriBox_Add(&waking->box, box->upper);
+        waking->any = true;
+    }
+    waking->speed = speed > waking->speed ? speed : waking->speed;
+    waking->thickness = thickness > waking->thickness ? thickness : waking->thickness;
+}
+
+/* False for memory. */
+static bool FindWaking(kiriWorld* world, Waking* waking)
 {
     bool ok = true;
-    world->pairs.bodies.count = 0;
+    memset(waking, 0, sizeof(*waking));
+    for (int32_t k = 0; ok && k < world->active.count; ++k) {
+        kiriSheetData* sheet = kiriWorld_Active(world, k);
+        if (TakesPart(sheet) && !sheet->rest.asleep) {
+            ok = kiriProbes_Update(sheet);
+            if (ok) {
+                AddWaking(waking, sheet);
+            }
+        }
+    }
+    return ok;
+}
+
+/* May anything that is awake come near the sheet in the tick? What sleeps and is farther away is no body. */
+static bool IsNearWaking(const kiriWorld* world, const Waking* waking, const kiriSheetData* sheet, double dt)
+{
+    kiriBox box = kiriSheet_Box(sheet);
+    double speed = waking->speed + FastestOf(sheet) + dt * kiriVec3_Length(world->gravity);
+    return kiriBox_MeetWithin(&box, &waking->box, waking->thickness + sheet->settings.contactThickness + dt * speed);
+}
+
+static bool ListBodies(kiriWorld* world, const Waking* waking, double dt)
+{
+    bool ok = true;
     for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
-        ok = !TakesPart(world->sheets.data[i]) || ListBodiesOf(world, world->sheets.data[i]);
+        kiriSheetData* sheet = world->sheets.data[i];
+        if (!TakesPart(sheet)) {
+            continue;
+        }
+        ok = !sheet->rest.asleep ||
+             (kiriProbes_Update(sheet) && kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface));
+        if (ok && (!sheet->rest.asleep || IsNearWaking(world, waking, sheet, dt))) {
+            ok = ListBodiesOf(world, sheet);
+        }
     }
     return ok;
 }
@@ -374,21 +436,13 @@ static bool SortFound(kiriWorld* world)
     return true;
 }
 
-static bool IsAnyAwake(const kiriWorld* world)
-{
-    bool any = false;
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        any |= TakesPart(kiriWorld_Active(world, k)) && !kiriWorld_Active(world, k)->rest.asleep;
-    }
-    return any;
-}
-
 bool kiriPairs_Find(kiriWorld* world, double dt)
 {
     kiriPairs* pairs = &world->pairs;
+    Waking waking;
     pairs->nears.count = pairs->found.count = pairs->next.count = pairs->bodies.count = 0;
-    return kiriArray_Reserve(&world->memory, &pairs->islands, world->sheets.count) &&
-           (!IsAnyAwake(world) || (ListBodies(world) && LookAtAll(world, dt))) && KeepSleeping(world) &&
+    return kiriArray_Reserve(&world->memory, &pairs->islands, world->sheets.count) && FindWaking(world, &waking) &&
+           (!waking.any || (ListBodies(world, &waking, dt) && LookAtAll(world, dt))) && KeepSleeping(world) &&
            SortFound(world) && kiriPairs_FindTouches(world, dt);
 }
 

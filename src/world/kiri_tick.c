@@ -49,14 +49,23 @@ static bool IsReady(const kiriSheetData* sheet)
 
 /* ---- Which sheets ---- */
 
+/* Is a pin of it on an obstacle, which may move? */
+static bool MayBeCarried(const kiriSheetData* sheet)
+{
+    bool any = false;
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        any |= sheet->pins.data[i].anchor.obstacle != 0;
+    }
+    return any;
+}
+
 /* There is nothing to do for the sheet until it wakes, or gets a cut or contacts. */
-static bool IsIdle(const kiriWorld* world, const kiriSheetData* sheet)
+static bool IsIdle(const kiriSheetData* sheet)
 {
     const kiriTouches* touches = &sheet->touches;
     const kiriFades* fades = &sheet->seen.fades;
-    bool mayBeCarried = sheet->pins.count > 0 && world->obstacles.count > 0;
     return sheet->rest.asleep && sheet->cuts.count == 0 && sheet->queue.count == 0 && sheet->contacts.count == 0 &&
-           touches->last.count == 0 && touches->found.count == 0 && touches->told.count == 0 && !mayBeCarried &&
+           touches->last.count == 0 && touches->found.count == 0 && touches->told.count == 0 && !MayBeCarried(sheet) &&
            sheet->leaving.count == 0 && !kiriPieces_AnyGone(sheet) && !sheet->seen.isElsewhere && fades->jump == 0.0 &&
            fades->move == 0.0;
 }
@@ -66,7 +75,7 @@ static void ListActive(kiriWorld* world)
     world->active.count = 0;
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         kiriRest* rest = &world->sheets.data[i]->rest;
-        rest->isIdle = !rest->isStirred && (rest->isIdle || IsIdle(world, world->sheets.data[i]));
+        rest->isIdle = !rest->isStirred && (rest->isIdle || IsIdle(world->sheets.data[i]));
         if (!rest->isIdle) {
             world->active.data[world->active.count++] = i;
         }
