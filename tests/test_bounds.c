@@ -168,6 +168,43 @@ static void CheckBoxes(Cloth* cloth, uint32_t* seed)
     kiriArray_Release(&cloth->room, &found);
 }
 
+/* The nearest first corner of a triangle; of equally near ones that of the lower triangle. */
+typedef struct Nearest {
+    const kiriSurface* surface;
+    kiriVec3 from;
+    double least;
+    int32_t triangle, looks;
+} Nearest;
+
+static double LookAtCorner(void* context, int32_t triangle)
+{
+    Nearest* nearest = context;
+    kiriVec3 corner = kiriSurface_At(nearest->surface, nearest->surface->indices.data[3 * triangle]);
+    kiriVec3 off = kiriVec3_Sub(corner, nearest->from);
+    double square = kiriVec3_Dot(off, off);
+    bool isLower = square == nearest->least && triangle < nearest->triangle;
+    nearest->looks += 1;
+    if (square < nearest->least || isLower) {
+        nearest->least = square;
+        nearest->triangle = triangle;
+    }
+    return nearest->least;
+}
+
+static void CheckNearest(const Cloth* cloth, uint32_t* seed)
+{
+    const kiriSurface* surface = &cloth->surface;
+    kiriVec3 at = kiriSurface_At(surface, Random(seed) % (uint32_t)surface->vertexCount);
+    double reach = RandomBetween(seed, 0.0, 2.0);
+    Nearest all = { surface, kiriVec3_Add(at, RandomVec3(seed, 0.3)), reach * reach, KIRI_NONE, 0 }, found = all;
+    for (int32_t t = 0; t < surface->triangleCount; ++t) {
+        LookAtCorner(&all, t);
+    }
+    kiriBounds_Nearest(&cloth->bounds, surface, found.from, found.least, LookAtCorner, &found);
+    assert_int_equal(found.triangle, all.triangle);
+    assert_true(found.least == all.least && found.looks <= all.looks);
+}
+
 static void CheckAll(const Cloth* cloth)
 {
     kiriBox all = kiriBounds_All(&cloth->bounds), seen = kiriBox_OfTriangle(&cloth->surface, 0);
@@ -193,6 +230,7 @@ static void TestFindsWhatIsThere(void** state)
             for (int k = 0; k < 40; ++k, ++rays) {
                 hits += CheckRay(&cloth, &seed);
                 CheckBoxes(&cloth, &seed);
+                CheckNearest(&cloth, &seed);
             }
             CutAtRandom(&cloth, &seed);
         }

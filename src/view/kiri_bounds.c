@@ -334,6 +334,91 @@ bool kiriBounds_FindLeaves(const kiriBounds* bounds, const kiriSurface* surface,
     return FindFromRoot(&finder);
 }
 
+/* ---- The nearest ---- */
+
+#define ROUNDING_OF_BOXES (1.0 + 1e-9) /* of squares of distances: a box is never farther than what is in it */
+
+typedef struct NearSearch {
+    const kiriBounds* bounds;
+    const kiriSurface* surface;
+    kiriVec3 from;
+    double most;
+    kiriNearFn* look;
+    void* context;
+} NearSearch;
+
+static double OffSide(double x, double lower, double upper)
+{
+    return x < lower ? lower - x : x > upper ? x - upper : 0.0;
+}
+
+static double SquareToBox(const kiriBox* box, kiriVec3 x)
+{
+    kiriVec3 off = kiriVec3_Make(OffSide(x.x, box->lower.x, box->upper.x), OffSide(x.y, box->lower.y, box->upper.y),
+                                 OffSide(x.z, box->lower.z, box->upper.z));
+    return kiriVec3_Dot(off, off);
+}
+
+/* The child that is the nearest of those not visited yet, or `end`. */
+static int32_t NextChild(const double* squares, int32_t first, int32_t end)
+{
+    int32_t best = end;
+    for (int32_t i = first; i < end; ++i) {
+        bool isLeft = squares[i - first] >= 0.0;
+        best = isLeft && (best == end || squares[i - first] < squares[best - first]) ? i : best;
+    }
+    return best;
+}
+
+static bool IsNearEnough(const NearSearch* search, double square)
+{
+    return square <= search->most * ROUNDING_OF_BOXES;
+}
+
+static void LookInLeaf(NearSearch* search, int32_t leaf)
+{
+    int32_t first, end = ItemsOf(search->bounds, 0, leaf, &first);
+    for (int32_t i = first; i < end; ++i) {
+        int32_t triangle = search->bounds->order.data[i];
+        kiriBox box = kiriBox_OfTriangle(search->surface, triangle);
+        if (IsNearEnough(search, SquareToBox(&box, search->from))) {
+            search->most = search->look(search->context, triangle);
+        }
+    }
+}
+
+static void LookInNode(NearSearch* search, int32_t level, int32_t node)
+{
+    double squares[FAN];
+    int32_t first, end = ItemsOf(search->bounds, level, node, &first);
+    for (int32_t i = first; i < end; ++i) {
+        squares[i - first] = SquareToBox(&search->bounds->nodes.data[i], search->from);
+    }
+    for (int32_t i; (i = NextChild(squares, first, end)) < end && IsNearEnough(search, squares[i - first]);) {
+        squares[i - first] = -1.0;
+        if (level > 1) {
+            LookInNode(search, level - 1, i);
+        } else {
+            LookInLeaf(search, i);
+        }
+    }
+}
+
+void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, kiriVec3 from, double most,
+                        kiriNearFn* look, void* context)
+{
+    NearSearch search = { bounds, surface, from, most, look, context };
+    int32_t root = bounds->nodes.count - 1;
+    KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
+    if (root >= 0 && IsNearEnough(&search, SquareToBox(&bounds->nodes.data[root], from))) {
+        if (bounds->levelCount > 1) {
+            LookInNode(&search, bounds->levelCount - 1, root);
+        } else {
+            LookInLeaf(&search, root);
+        }
+    }
+}
+
 static bool MeetsBox(const void* context, const kiriBox* box)
 {
     return kiriBox_Meet(context, box);

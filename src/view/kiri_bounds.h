@@ -80,6 +80,13 @@ kiriBox kiriBounds_All(const kiriBounds* bounds);
    of a box that holds one it says so of. */
 typedef bool kiriMeetsFn(const void* context, const kiriBox* box);
 
+/* Looks at a triangle; returns the square of the distance, m^2, beyond which no other is asked for. */
+typedef double kiriNearFn(void* context, int32_t triangle);
+
+/* Has the triangles looked at that may be that near, the nearer boxes first. `most` is what holds at the start. */
+void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, kiriVec3 from, double most,
+                        kiriNearFn* look, void* context);
+
 /* Appends the triangles whose own box meets it, by index. False for memory. */
 bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets, const void* context,
                      kiriMemory* memory, kiriIndices* found);

@@ -107,19 +107,36 @@ static bool IsBeside(const kiriNear* near, const kiriBody* bodies, double distan
            (isLip && way < INSIDE_TRIANGLE * distance && fabs(near->height) < FLAT_TRIANGLE * distance);
 }
 
-bool kiriNearest_Find(kiriNear* near, const kiriBody* bodies, double reach, double distance, const int32_t* triangles,
-                      int32_t count)
+typedef struct Looking {
+    kiriNear* near;
+    const kiriBody* bodies;
+    double least; /* m^2 */
+    bool found;
+} Looking;
+
+static double LookAtTriangle(void* context, int32_t triangle)
 {
-    double least = reach * reach;
-    bool found = false;
-    for (int32_t i = 0; i < count; ++i) {
-        kiriNear one = *near;
-        double squared = Measure(&one, bodies, triangles[i]);
-        if (squared < least) {
-            least = squared;
-            *near = one;
-            found = true;
+    Looking* looking = context;
+    const kiriBody* other = &looking->bodies[looking->near->other];
+    int32_t corner = other->sheet->seen.surface.indices.data[3 * (size_t)triangle];
+    if (other->sheet->probes.vertexPiece.data[corner] == other->piece) {
+        kiriNear one = *looking->near;
+        double squared = Measure(&one, looking->bodies, triangle);
+        bool isLower = looking->found && squared == looking->least && triangle < looking->near->triangle;
+        if (squared < looking->least || isLower) {
+            looking->least = squared;
+            *looking->near = one;
+            looking->found = true;
         }
     }
-    return found && !IsBeside(near, bodies, distance, least);
+    return looking->least;
+}
+
+bool kiriNearest_Find(kiriNear* near, const kiriBody* bodies, double reach, double distance)
+{
+    Looking looking = { near, bodies, reach * reach, false };
+    const kiriSheetData* other = bodies[near->other].sheet;
+    kiriVec3 from = kiriSurface_At(&bodies[near->body].sheet->seen.surface, near->vertex);
+    kiriBounds_Nearest(other->seen.bounds, &other->seen.surface, from, looking.least, LookAtTriangle, &looking);
+    return looking.found && !IsBeside(near, bodies, distance, looking.least);
 }

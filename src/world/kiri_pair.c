@@ -159,27 +159,6 @@ static bool Holds(const kiriBox* box, kiriVec3 x)
     return kiriBox_Meet(box, &point);
 }
 
-/* Triangles of the other body near the probe. */
-static bool FindTriangles(kiriWorld* world, const kiriBody* other, kiriVec3 x, double reach)
-{
-    kiriIndices* found = &world->pairs.triangles;
-    kiriBox point = { x, x }, box = Widened(&point, reach);
-    const kiriSheetData* sheet = other->sheet;
-    int32_t kept = 0;
-    found->count = 0;
-    if (!kiriBounds_Box(sheet->seen.bounds, &sheet->seen.surface, &box, &world->memory, found)) {
-        return false;
-    }
-    for (int32_t i = 0; i < found->count; ++i) {
-        int32_t corner = sheet->seen.surface.indices.data[3 * (size_t)found->data[i]];
-        if (sheet->probes.vertexPiece.data[corner] == other->piece) {
-            found->data[kept++] = found->data[i];
-        }
-    }
-    found->count = kept;
-    return true;
-}
-
 /* What the probes of one body find on another. */
 static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reach)
 {
@@ -196,9 +175,7 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
         if (!Holds(&box, x)) {
             continue;
         }
-        ok = FindTriangles(world, b, x, reach);
-        if (ok && kiriNearest_Find(&near, pairs->bodies.data, reach, kiriPair_Distance(a, b), pairs->triangles.data,
-                                   pairs->triangles.count)) {
+        if (kiriNearest_Find(&near, pairs->bodies.data, reach, kiriPair_Distance(a, b))) {
             ok = kiriArray_Push(&world->memory, &pairs->nears, near);
         }
     }

@@ -75,8 +75,7 @@ typedef struct kiriPairs {
     KIRI_ARRAY(kiriBody) bodies;
     kiriIndices order; /* of bodies, by the lower end of their box along x */
     KIRI_ARRAY(kiriNear) nears;
-    kiriIndices triangles; /* found near a probe */
-    kiriIndices islands;   /* of sheets that touch */
+    kiriIndices islands; /* of sheets that touch */
     KIRI_ARRAY(kiriPairTouch) touches;
     KIRI_ARRAY(kiriFeltPush) felt, nextFelt; /* by key */
 } kiriPairs;
