@@ -482,8 +482,10 @@ static bool MakeLinkRoom(const kiriBorder* border)
     return true;
 }
 
-static void AddNext(const kiriBorder* border, kiriLinks* links, const kiriLink* link, const kiriLinkEnds* ends)
+static void AddNext(const kiriBorder* border, kiriLinks* links, const kiriLink* link, const kiriLinkEnds* ends,
+                    int32_t was)
 {
+    border->work->was.data[border->work->was.count++] = was;
     links->next.data[links->next.count++] = *link;
     border->work->nextEnds.data[border->work->nextEnds.count++] = *ends;
 }
@@ -495,9 +497,12 @@ static bool MergeLinks(const kiriBorder* border, kiriLinks* links)
     int32_t made = 0;
     int64_t most = (int64_t)links->links.count + work->made.count;
     if (!kiriArray_Reserve(border->memory, &links->next, most) ||
-        !kiriArray_Reserve(border->memory, &work->nextEnds, most)) {
+        !kiriArray_Reserve(border->memory, &work->nextEnds, most) ||
+        !kiriArray_Reserve(border->memory, &work->was, most) ||
+        !kiriArray_Resize(border->memory, &work->now, links->links.count)) {
         return false;
     }
+    work->was.count = 0;
     for (int32_t k = 0; k < links->links.count; ++k) {
         const kiriLink* link = &links->links.data[k];
         bool isShort = work->ends.data[k].isShort;
@@ -507,14 +512,15 @@ static bool MergeLinks(const kiriBorder* border, kiriLinks* links)
                 if (!IsPairBefore(&first->link, link)) {
                     break;
                 }
-                AddNext(border, links, &first->link, &first->ends);
+                AddNext(border, links, &first->link, &first->ends, KIRI_NONE);
             }
-            AddNext(border, links, link, &work->ends.data[k]);
+            work->now.data[k] = links->next.count;
+            AddNext(border, links, link, &work->ends.data[k], k);
         }
     }
     for (; made < work->made.count; ++made) {
         const kiriNewLink* last = &work->made.data[work->order.data[made]];
-        AddNext(border, links, &last->link, &last->ends);
+        AddNext(border, links, &last->link, &last->ends, KIRI_NONE);
     }
     return true;
 }
@@ -568,7 +574,7 @@ static bool FinishLinks(const kiriBorder* border, kiriLinks* links)
               kiriBorder_MakeCorners(border, links);
     if (ok) {
         links->changed = CountChanged(links);
-        work->due += links->next.count;
+        work->due += 2 * (int64_t)links->next.count;
     }
     return ok;
 }

@@ -350,17 +350,57 @@ static bool MakeCorner(const kiriBorder* border, const kiriLinks* links, int32_t
     return SetWeights(links, corner);
 }
 
+/* Is no region stale at the corners of a link? Then all links there are what they were. */
+static bool AreCornersOld(const kiriBorder* border, int32_t k)
+{
+    const kiriLinkWork* work = border->work;
+    bool isOld = work->was.data[k] != KIRI_NONE;
+    for (int e = 0; isOld && e < 2; ++e) {
+        const kiriLinkEnd* end = &work->nextEnds.data[k].end[e];
+        for (int a = 0; end->kind == KIRI_END_CORNER && a < KIRI_CORNER_REGIONS && end->region[a] != KIRI_NONE; ++a) {
+            isOld = isOld && !work->stale.data[end->region[a]];
+        }
+    }
+    return isOld;
+}
+
+/* The corners whose lowest link is link k, as they are in force; *at goes on through these. */
+static bool TakeCorners(const kiriBorder* border, kiriLinks* links, int32_t k, int32_t* at)
+{
+    const kiriLinkWork* work = border->work;
+    bool ok = true;
+    while (*at < links->corners.count && links->corners.data[*at].link[0] < work->was.data[k]) {
+        ++*at;
+    }
+    for (; ok && *at < links->corners.count && links->corners.data[*at].link[0] == work->was.data[k]; ++*at) {
+        kiriCorner corner = links->corners.data[*at];
+        for (int32_t c = 0; c < corner.count; ++c) {
+            corner.link[c] = work->now.data[corner.link[c]];
+        }
+        ok = kiriArray_Push(border->memory, &links->nextCorners, corner);
+    }
+    return ok;
+}
+
+static bool MakeCornersOf(const kiriBorder* border, kiriLinks* links, int32_t k)
+{
+    bool ok = true;
+    for (int e = 0; ok && e < 2; ++e) {
+        kiriCorner corner;
+        if (MakeCorner(border, links, k, &border->work->nextEnds.data[k].end[e], &corner)) {
+            ok = kiriArray_Push(border->memory, &links->nextCorners, corner);
+        }
+    }
+    return ok;
+}
+
 bool kiriBorder_MakeCorners(const kiriBorder* border, kiriLinks* links)
 {
+    int32_t at = 0;
     bool ok = true;
     links->nextCorners.count = 0;
     for (int32_t k = 0; ok && k < links->next.count; ++k) {
-        for (int e = 0; ok && e < 2; ++e) {
-            kiriCorner corner;
-            if (MakeCorner(border, links, k, &border->work->nextEnds.data[k].end[e], &corner)) {
-                ok = kiriArray_Push(border->memory, &links->nextCorners, corner);
-            }
-        }
+        ok = AreCornersOld(border, k) ? TakeCorners(border, links, k, &at) : MakeCornersOf(border, links, k);
     }
     return ok;
 }

@@ -61,6 +61,8 @@ struct kiriLinkWork {
     KIRI_ARRAY(int32_t) order;         /* of what was made */
     KIRI_ARRAY(kiriLinkEnds) ends;     /* of kiriLinks.links, */
     KIRI_ARRAY(kiriLinkEnds) nextEnds; /* and of kiriLinks.next */
+    KIRI_ARRAY(int32_t) was;           /* of each next link: which one it was, or KIRI_NONE where it is made, */
+    KIRI_ARRAY(int32_t) now;           /* and of each link: which one it is next; of those that are taken over */
     kiriSightEdges edges;              /* near the links that are made */
 };
 

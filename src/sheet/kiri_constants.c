@@ -72,7 +72,7 @@ static int64_t ItemsOfCommit(const kiriSheetData* sheet)
     int64_t weights = (int64_t)sheet->vertexSkin.staged.count + sheet->pointSkin.staged.count;
     int64_t elements = (int64_t)sheet->links.next.count + sheet->links.nextCorners.count + u->placing.sites.count;
     return 1 + weights / 16 + u->refit.ownership.staged.count / 16 + 2 * (int64_t)u->newFrames.count +
-           3 * (int64_t)u->refit.most + elements / 8;
+           3 * (int64_t)u->refit.most + elements * 2 / 3;
 }
 
 /* Where new frames take their motion from the surface: their anchors, and the triangles there. */
