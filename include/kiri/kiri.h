@@ -399,8 +399,9 @@ typedef struct kiriSheetDef {
     int32_t iterations;      /* Newton steps a substep, 1 to 64; default 2 */
 
     /* A sheet all of whose frames move slower than this (m/s, rms over the material of each) for half a second falls
-       asleep: it rests, and its ticks cost nothing. What is new wakes it: a cut, a pin or its pose, a hold, a load,
-       gravity, contacts other than those it fell asleep with, kiriSheet_Wake. Default 0.001; 0: it never sleeps. */
+       asleep: it rests, and its ticks cost nothing. What is new wakes it: a cut when it takes effect, a pin or its
+       pose, a hold, a load, gravity, contacts other than those it fell asleep with, kiriSheet_Wake. Default 0.001; 0: it
+       never sleeps. */
     float sleepSpeed;
 
     int32_t model;    /* KIRI_MODEL_..., default KIRI_MODEL_LINKS */
