@@ -279,6 +279,36 @@ static void TestSlashOfAnyGrid(void** state)
     }
 }
 
+/* Many pieces at once: all that a commit does for them is paid from the budget, by many ticks. */
+static void TestDice(void** state)
+{
+    (void)state;
+    enum { LINES = 6 };
+    Host hosts[2];
+    StartPair(hosts, &tight);
+    int32_t ticks[2];
+    for (int k = 0; k < 2; ++k) {
+        kiriSheetDef def = Host_SmallDef();
+        def.gridResolution = 20;
+        def.collisionPoints = 40;
+        kiriSheet sheet = Host_AddRectangle(&hosts[k], &def, 1.0f, 1.0f, 12, 12);
+        for (int i = 0; i < 2 * LINES; ++i) {
+            float at = ((float)(i / 2) + 0.613f) / LINES;
+            float line[4] = { i % 2 ? at : -0.1f, i % 2 ? -0.1f : at, i % 2 ? at : 1.1f, i % 2 ? 1.1f : at };
+            Host_Cut(&hosts[k], sheet, line, 2);
+        }
+        ticks[k] = Settle(&hosts[k], k == 0 ? &(kiriBudget){ 0, 0, 0, 0 } : &tight);
+        kiriCounts counts;
+        OK(kiriSheet_GetCounts(hosts[k].world, sheet, &counts));
+        assert_int_equal(counts.pieces, (LINES + 1) * (LINES + 1));
+    }
+    assert_int_equal(ticks[0], 1);
+    assert_true(ticks[1] > 100);
+    CompareLayouts(hosts);
+    Host_Stop(&hosts[0]);
+    Host_Stop(&hosts[1]);
+}
+
 static void TestFiftyCutsOnFiftySheets(void** state)
 {
     (void)state;
@@ -410,6 +440,7 @@ int main(void)
         cmocka_unit_test(TestIncrementalEqualsFromScratch),
         cmocka_unit_test(TestCutOfTwoThousandPoints),
         cmocka_unit_test(TestSlashOfAnyGrid),
+        cmocka_unit_test(TestDice),
         cmocka_unit_test(TestFiftyCutsOnFiftySheets),
         cmocka_unit_test(TestBladeFasterThanItsBudget),
         cmocka_unit_test(TestIterationsAreShared),
