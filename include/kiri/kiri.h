@@ -101,9 +101,10 @@ typedef void kiriFinishTaskFn(void* user, void* handle);
    effect together, when all that follows from them is done. Until then the lips of a fresh cut move together. 0: no
    limit. */
 typedef struct kiriBudget {
-    int32_t triangles;  /* split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
-    int32_t cells;      /* looked at, or given another distance: grid, regions and shape functions */
-    int32_t samples;    /* vertices and collision points with new weights */
+    int32_t triangles; /* split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
+    int32_t cells;     /* looked at, or given another distance: grid, regions, shape functions; a link counts as many */
+    int32_t samples;   /* vertices and collision points with new weights; and what it takes to put all that is new in
+                           force at once, which is paid before */
     int32_t iterations; /* work on linear systems, of 30 to 60 us each. A system counts 1, and 1 more for each 16 frames
                        (5 of affine ones), for each 64 contacts, and for each 1280 products of blocks that its
                        factorisation takes: in a square of 24, 289, 1000, 5000 frames it is 2, 36, 184, 2411. A sheet
