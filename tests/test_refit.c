@@ -499,6 +499,38 @@ static void TestFadesAreInTheHash(void** state)
     Host_Stop(&host);
 }
 
+/* A sheet that lies still is not written again, until it moves or is put elsewhere, by however much. */
+static void TestStillSheetsAreNotWritten(void** state)
+{
+    static const float weightless[3] = { 0.0f, 0.0f, 0.0f }, push[3] = { 0.0f, 0.0f, 1.0f },
+                       spin[3] = { 0.0f, 0.0f, 0.0f };
+    static const float away[3] = { 2.0f, 0.0f, 0.0f },
+                       upright[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+    (void)state;
+    Host host;
+    kiriSheetDef def;
+    kiriMesh mesh;
+    kiriDefaultSheetDef(&def);
+    def.sleepSpeed = 0.0f;
+    Host_Start(&host);
+    OK(kiriWorld_SetGravity(host.world, weightless));
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
+    const kiriSurface* surface = &host.world->sheets.data[0]->seen.surface;
+    int64_t pose = surface->pose;
+    OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
+    assert_true(surface->pose == pose);
+    OK(kiriSheet_GetMesh(host.world, sheet, &mesh));
+    float x = mesh.positions[0];
+    OK(kiriSheet_Transform(host.world, sheet, upright, away));
+    OK(kiriSheet_GetMesh(host.world, sheet, &mesh));
+    assert_true(mesh.positions[0] == x + 2.0f && surface->pose > pose);
+    OK(kiriSheet_SetVelocity(host.world, sheet, push, spin));
+    pose = surface->pose;
+    OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
+    assert_true(surface->pose > pose);
+    Host_Stop(&host);
+}
+
 static void TestNoSleepBeforeTheEnd(void** state)
 {
     (void)state;
@@ -604,6 +636,7 @@ int main(void)
         cmocka_unit_test(TestNothingSeenJumps),
         cmocka_unit_test(TestFadesEnd),
         cmocka_unit_test(TestFadesAreInTheHash),
+        cmocka_unit_test(TestStillSheetsAreNotWritten),
         cmocka_unit_test(TestNoSleepBeforeTheEnd),
         cmocka_unit_test(TestDefsThatAreNone),
         cmocka_unit_test(TestBentPaperGainsNoEnergy),

@@ -100,8 +100,11 @@ static void AddWeights(Cloth* cloth, kiriVec2 at)
         cloth->skin.weights.data[span.first + i] = (kiriSampleWeight){ i, (float)weight };
         sum += weight;
     }
-    for (int32_t i = 0; i < count; ++i) {
-        cloth->skin.weights.data[span.first + i].value /= sum;
+    double rest = 1.0; /* multiples of 2^-24 that add up to 1, as the library has them */
+    for (int32_t i = count - 1; i >= 0; --i) {
+        float* value = &cloth->skin.weights.data[span.first + i].value;
+        *value = i > 0 ? (float)(floor(*value / sum * 16777216.0) / 16777216.0) : (float)rest;
+        rest -= *value;
     }
     assert_true(kiriArray_Push(&cloth->memory, &cloth->skin.spans, span));
 }
@@ -185,7 +188,7 @@ static void CheckPositions(const Cloth* cloth, double away)
             kiriVec3 carried = kiriFrame_Carry(&cloth->frames.data[w.frame], RestOf(cloth, v));
             sum = kiriVec3_AddScaled(sum, w.value, carried);
         }
-        AssertClose(kiriSurface_At(&cloth->surface, v), sum, 1e-6 * (1.0 + away));
+        AssertClose(kiriSurface_At(&cloth->surface, v), sum, 2e-6);
         AssertClose(kiriVec3_Load(&cloth->surface.positions.data[3 * v]), sum, 1.2e-7 * (3.0 + away));
     }
 }
@@ -203,7 +206,7 @@ static void CheckNormals(const Cloth* cloth)
                 sum = kiriVec3_Add(sum, kiriVec3_Cross(kiriVec3_Sub(b, a), kiriVec3_Sub(c, a)));
             }
         }
-        AssertClose(kiriVec3_Load(&cloth->surface.normals.data[3 * v]), kiriVec3_Normalize(sum), 1e-5);
+        AssertClose(kiriVec3_Load(&cloth->surface.normals.data[3 * v]), kiriVec3_Normalize(sum), 1e-4); /* slivers */
     }
 }
 

@@ -45,6 +45,7 @@ void kiriView_HideGone(kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
     HideTriangles(sheet);
+    surface->isWritten = false;
     sheet->mesh.revision += 1;
     surface->revision = sheet->mesh.revision;
     surface->changeCount = 0;
@@ -160,17 +161,22 @@ void kiriView_TakeFrames(kiriSheetData* sheet)
 {
     kiriSurface_TakeFrames(&sheet->seen.surface, sheet->frames.data, sheet->frames.count, sheet->links.links.data,
                            sheet->links.links.count);
+    sheet->seen.surface.isWritten &= sheet->seen.fades.fading.count == 0;
 }
 
 void kiriView_BlendRange(kiriSheetData* sheet, int32_t begin, int32_t end)
 {
-    kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, begin, end);
+    if (!sheet->seen.surface.isWritten) {
+        kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, begin, end);
+    }
 }
 
 void kiriView_Sum(kiriSheetData* sheet)
 {
-    kiriSurface_AddFades(&sheet->seen.surface, &sheet->seen.fades);
-    kiriSurface_SumNormals(&sheet->seen.surface);
+    if (!sheet->seen.surface.isWritten) {
+        kiriSurface_AddFades(&sheet->seen.surface, &sheet->seen.fades);
+        kiriSurface_SumNormals(&sheet->seen.surface);
+    }
     BlendPoints(sheet);
     AddPointFades(sheet);
     for (int32_t i = 0; i < sheet->points.count; ++i) {
@@ -182,7 +188,14 @@ void kiriView_Sum(kiriSheetData* sheet)
 
 void kiriView_WriteRange(kiriSheetData* sheet, int32_t begin, int32_t end)
 {
-    kiriSurface_WriteRange(&sheet->seen.surface, begin, end);
+    if (!sheet->seen.surface.isWritten) {
+        kiriSurface_WriteRange(&sheet->seen.surface, begin, end);
+    }
+}
+
+void kiriView_EndWriting(kiriSheetData* sheet)
+{
+    sheet->seen.surface.isWritten = sheet->seen.fades.fading.count == 0;
 }
 
 void kiriView_WritePositions(kiriSheetData* sheet)
@@ -192,4 +205,5 @@ void kiriView_WritePositions(kiriSheetData* sheet)
     kiriView_BlendRange(sheet, 0, count);
     kiriView_Sum(sheet);
     kiriView_WriteRange(sheet, 0, count);
+    kiriView_EndWriting(sheet);
 }

@@ -35,6 +35,7 @@ void kiriView_TakeFrames(kiriSheetData* sheet);
 void kiriView_BlendRange(kiriSheetData* sheet, int32_t begin, int32_t end);
 void kiriView_Sum(kiriSheetData* sheet);
 void kiriView_WriteRange(kiriSheetData* sheet, int32_t begin, int32_t end);
+void kiriView_EndWriting(kiriSheetData* sheet);
 
 KIRI_C_END
 

@@ -43,19 +43,25 @@ static void WriteBent(float* row, const kiriCarrier* carrier, kiriVec3 from)
     }
 }
 
-void kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent)
+bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent)
 {
+    size_t each = isBent ? KIRI_BENT_FLOATS : KIRI_FLAT_FLOATS;
+    bool isOther = patches->count != count || patches->isBent != isBent;
     patches->count = count;
     patches->isBent = isBent;
-    patches->floats.count = (isBent ? KIRI_BENT_FLOATS : KIRI_FLAT_FLOATS) * count;
+    patches->floats.count = (int32_t)each * count;
     KIRI_ASSERT(patches->floats.count <= patches->floats.capacity);
     for (int32_t i = 0; i < count; ++i) {
+        float row[KIRI_BENT_FLOATS], *was = patches->floats.data + each * (size_t)i;
         if (isBent) {
-            WriteBent(&patches->floats.data[(size_t)KIRI_BENT_FLOATS * (size_t)i], &carriers[i], from);
+            WriteBent(row, &carriers[i], from);
         } else {
-            WriteFlat(&patches->floats.data[(size_t)KIRI_FLAT_FLOATS * (size_t)i], &carriers[i], from);
+            WriteFlat(row, &carriers[i], from);
         }
+        isOther = isOther || memcmp(was, row, sizeof(float) * each) != 0;
+        memcpy(was, row, sizeof(float) * each);
     }
+    return isOther;
 }
 
 /* ---- Positions ---- */

@@ -18,8 +18,9 @@ typedef struct kiriPatches {
 /* Room for so many. */
 bool kiriPatches_Reserve(kiriPatches* patches, kiriMemory* memory, int32_t count);
 
-/* Positions are measured from `from`: near the sheet floats tell its points apart. */
-void kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent);
+/* Positions are measured from `from`: near the sheet floats tell its points apart. Returns whether any patch is other than
+   before. */
+bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent);
 
 /* Where the samples from `begin` to `end` are, 3 floats each, by their rest points. Writes nothing else: ranges may be
    written at the same time. */

@@ -123,6 +123,7 @@ void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
     surface->origin = mesh->origin;
     surface->longer = KIRI_LATTICE * mesh->step;
     surface->pose += 1;
+    surface->isWritten = false;
     surface->revision = mesh->revision;
     surface->vertexCount = mesh->vertices.count;
     surface->triangleCount = mesh->triangles.count;
@@ -273,6 +274,7 @@ void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* tr
     surface->revision = mesh->revision;
     surface->changeCount = 0;
     surface->pose += 1;
+    surface->isWritten = false;
     RenumberIndices(surface, mesh);
 }
 
@@ -338,12 +340,15 @@ void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, i
                             const kiriLink* links, int32_t linkCount)
 {
     bool isBent = surface->skinning == KIRI_SKINNING_SMOOTH && linkCount > 0;
-    surface->middle = FindMiddle(frames, frameCount, surface->longer);
+    kiriVec3 was = surface->middle, middle = FindMiddle(frames, frameCount, surface->longer);
+    bool isSame = was.x == middle.x && was.y == middle.y && was.z == middle.z;
+    surface->middle = middle;
     kiriCarriers_Write(surface->carriers.data, frames, frameCount);
     if (isBent) {
         kiriCarriers_Bend(surface->carriers.data, surface->bends.data, frames, frameCount, links, linkCount);
     }
-    kiriPatches_Write(&surface->patches, surface->carriers.data, frameCount, surface->middle, isBent);
+    isSame = !kiriPatches_Write(&surface->patches, surface->carriers.data, frameCount, middle, isBent) && isSame;
+    surface->isWritten = surface->isWritten && isSame;
 }
 
 void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t begin, int32_t end)
@@ -355,6 +360,7 @@ void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriFra
                        const kiriLink* links, int32_t linkCount)
 {
     kiriSurface_TakeFrames(surface, frames, frameCount, links, linkCount);
+    surface->isWritten = false;
     kiriSurface_BlendRange(surface, skin, 0, surface->vertexCount);
 }
 

@@ -37,6 +37,7 @@ typedef struct kiriSurface {
     KIRI_ARRAY(kiriCarrier) carriers;
     KIRI_ARRAY(kiriBend) bends;
     kiriPatches patches;
+    bool isWritten; /* the arrays show the patches as they are */
 
     kiriChange changes[KIRI_CHANGES]; /* a ring */
     int32_t changeCount, lastChange;
@@ -93,7 +94,8 @@ bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemo
 /* A triangle is seen no more: all its corners are the first. */
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);
 
-/* Takes over where the frames are. The links tell a smooth surface how to bend; a linear one does not ask. */
+/* Takes over where the frames are. The links tell a smooth surface how to bend; a linear one does not ask.
+   Where nothing is other than when arrays were written, they stay so. */
 void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, int32_t frameCount,
                             const kiriLink* links, int32_t linkCount);
 

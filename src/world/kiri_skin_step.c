@@ -92,6 +92,7 @@ static void EndSheets(int32_t start, int32_t end, void* context)
     for (int32_t k = start; k < end; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(task->world, k);
         if (IsInRanges(task->world, sheet)) {
+            kiriView_EndWriting(sheet);
             kiriBounds_Keep(sheet->seen.bounds, &sheet->seen.surface);
         }
     }
