@@ -34,7 +34,7 @@ EIGEN ?= $(or $(patsubst -I%,%,$(shell pkg-config --cflags-only-I eigen3 2>/dev/
 
 # Contraction to fused multiply-add would give other bits on other machines.
 FLAGS := -Wall -Wextra -Wpedantic -Wshadow -Werror -ffp-contract=off -fno-math-errno -fPIC -MMD -MP
-FLAGS_release := -O2 -DNDEBUG
+FLAGS_release := -O3 -DNDEBUG
 FLAGS_debug := -Og -g -DKIRI_ASSERTS
 FLAGS_sanitize := -O1 -g -DKIRI_ASSERTS -fsanitize=address,undefined -fno-sanitize-recover=all
 FLAGS_thread := -O2 -g -DKIRI_ASSERTS -fsanitize=thread
