@@ -1123,9 +1123,9 @@ static void Profile(void** state)
         assert_true(profile.cellsSettled > 0 && profile.linksChanged > 0);
         assert_true(profile.cellsChanged > 0 && profile.cellsChanged <= counts.cells);
         assert_true(profile.weightsChanged > 0 && profile.weightsChanged <= counts.cells);
-        assert_true(profile.verticesChanged + profile.pointsChanged == profile.samplesRefreshed);
-        assert_true(profile.samplesRefreshed > 0 &&
-                    profile.samplesRefreshed <= counts.vertices + counts.collisionPoints);
+        int32_t changed = profile.verticesChanged + profile.pointsChanged;
+        assert_true(changed > 0 && changed <= counts.vertices + counts.collisionPoints);
+        assert_true(profile.samplesRefreshed >= changed);
         for (int i = 0; i < KIRI_STAGE_COUNT; ++i) {
             assert_true(timed ? profile.seconds[i] > 0.0 : profile.seconds[i] == 0.0);
         }

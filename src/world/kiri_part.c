@@ -31,7 +31,7 @@ typedef struct Parting {
     kiriWorld* world;
     kiriMemory memory;
     Source* sources;
-    int32_t sourceCount;
+    int32_t sourceCount, sourceRoom;
     KIRI_ARRAY(Part) parts;
 } Parting;
 
@@ -40,6 +40,7 @@ static bool Parting_Start(Parting* parting, kiriWorld* world, int32_t sheets)
     memset(parting, 0, sizeof(*parting));
     parting->world = world;
     parting->memory = kiriMemory_Like(&world->memory);
+    parting->sourceRoom = sheets;
     parting->sources = kiriMemory_AllocZeroed(&parting->memory, sheets * (int64_t)sizeof(Source));
     return parting->sources != NULL;
 }
@@ -64,6 +65,7 @@ static bool IsBusy(const kiriSheetData* sheet)
 /* All of the sheet is left, for now, but for what is gone; null for memory. */
 static Source* AddSource(Parting* parting, kiriSheetData* sheet)
 {
+    KIRI_ASSERT(parting->sourceCount < parting->sourceRoom);
     Source* source = &parting->sources[parting->sourceCount++];
     kiriRemoval* removal = &source->removal;
     if (!kiriRemoval_Init(removal, sheet)) {
@@ -416,13 +418,14 @@ kiriResult kiriParts_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double a
 
 /* ---- What waits ---- */
 
-/* Those that are destroyed meanwhile become nothing. */
+/* Those that are destroyed meanwhile become nothing; others were detached by a call while the budget was awaited. */
 static void ForgetStaleLeaving(kiriWorld* world, kiriSheetData* sheet)
 {
     int32_t kept = 0;
     for (int32_t k = 0; k < sheet->leaving.count; ++k) {
         kiriFrame frame = sheet->leaving.data[k];
-        if (kiriPool_Find(&world->frameIds, frame) != NULL) {
+        const kiriSlot* slot = kiriPool_Find(&world->frameIds, frame);
+        if (slot != NULL && slot->owner == sheet) {
             sheet->leaving.data[kept++] = frame;
         }
     }
