@@ -63,6 +63,7 @@ static void TestSettingsAreADefs(void** state)
         other.groups = 1;
         other.crumbArea = 0.01f;
         other.maxFrames = 7;
+        other.normals = 0;
         kiriSheet sheet = Host_AddRectangle(&host, way == 0 ? &other : &def, 1.0f, 1.0f, 4, 4);
         OK(kiriSheet_GetSettings(host.world, sheet, &settings));
         settings.material = other.material;
@@ -75,6 +76,7 @@ static void TestSettingsAreADefs(void** state)
         settings.groups = other.groups;
         settings.crumbArea = other.crumbArea;
         settings.maxFrames = other.maxFrames;
+        settings.normals = other.normals;
         OK(kiriSheet_SetSettings(host.world, sheet, &settings));
         Host_Cut(&host, sheet, line, 2); /* which touches all regions, so that masses are exact in both */
         for (int i = 0; i < 20; ++i) {
@@ -150,6 +152,7 @@ static void TestSettingsAreChecked(void** state)
     REFUSED_SETTING(skinning, 2, KIRI_ERROR_ARGUMENT);
     REFUSED_SETTING(timeStepping, 2, KIRI_ERROR_ARGUMENT);
     REFUSED_SETTING(fadeTime, -1.0f, KIRI_ERROR_ARGUMENT);
+    REFUSED_SETTING(normals, 2, KIRI_ERROR_ARGUMENT);
     Host_Stop(&host);
 }
 

@@ -162,6 +162,8 @@ def test_arrays():
     assert flat(some.normals) == flat(mesh.normals) and some.vertexCount == mesh.vertexCount
     assert not hasattr(some, "positions")
     raises(TypeError, sheet.mesh, "vertexCount")
+    sheet.set_settings(normals=0)
+    assert sheet.mesh("normals").normals is None and sheet.settings().normals == 0
     assert len(sheet.collision_points()) == 0
 
 

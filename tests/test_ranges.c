@@ -103,6 +103,7 @@ static const Field sheetFields[] = {
     { WHOLE(kiriSheetDef, planar), { 0, 1, END }, { -1, 2, END } },
     { WHOLE(kiriSheetDef, timeStepping), { 0, 1, END }, { -1, 2, END } },
     { REAL(kiriSheetDef, fadeTime), { 0.0, FLT_MIN, 1.0, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
+    { WHOLE(kiriSheetDef, normals), { 0, 1, END }, { -1, 2, END } },
 };
 
 static const Field paperFields[] = {

@@ -111,6 +111,7 @@ static void AddWeights(Cloth* cloth, kiriVec2 at)
 
 static void Write(Cloth* cloth)
 {
+    cloth->surface.wantsNormals = true;
     assert_true(kiriSurface_Resize(&cloth->surface, &cloth->room, &cloth->mesh, cloth->frames.count));
     kiriSurface_WriteTopology(&cloth->surface, &cloth->mesh);
     kiriMesh_Commit(&cloth->mesh);

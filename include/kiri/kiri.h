@@ -420,6 +420,12 @@ typedef struct kiriSheetDef {
        Default 0.2; 0: at once. */
     float fadeTime;
 
+    /* 1: normals of the mesh are made in every tick. 0: kiriMesh has none, and kiriSheet_CopyVertices copies none; this
+       saves half of the time of linear skinning. The sheet moves the same, bit for bit: where edges of obstacles or other
+       sheets touch it, the tick makes normals for itself. So does kiriSheet_GetSolid; and what kiriSheet_GetPoint says
+       is the same to rounding. Default 1. */
+    int32_t normals;
+
     kiriPaperOptions paper; /* default: none of the paper's own ways */
 } kiriSheetDef;
 
@@ -441,6 +447,7 @@ typedef struct kiriSheetSettings {
     float sleepSpeed;
     int32_t skinning, timeStepping;
     float fadeTime; /* stays 0 with paper.popping */
+    int32_t normals;
 } kiriSheetSettings;
 
 KIRI_API kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet sheet, kiriSheetSettings* settings);
@@ -461,7 +468,7 @@ KIRI_API kiriResult kiriFillRectangle(float width, float height, int32_t columns
    sheet; sourceTriangles and sourceWeights are as exact as the sheet is large. */
 typedef struct kiriMesh {
     const float* positions;         /* 3 a vertex, m, world */
-    const float* normals;           /* 3 a vertex, unit */
+    const float* normals;           /* 3 a vertex, unit; null where the sheet makes none */
     const float* restPositions;     /* 2 a vertex, m */
     const int32_t* indices;         /* 3 a triangle */
     const int32_t* sourceTriangles; /* 1 a vertex: the triangle of the def that it lies in, */
@@ -490,7 +497,7 @@ KIRI_API kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, 
                                        kiriDirty* dirty);
 
 /* Copies positions and normals of some vertices, 3 floats each, to where the host wants them; strides in bytes, 12 or
-   more. Null: without these. */
+   more. Null: without these. KIRI_ERROR_STATE: normals of a sheet that makes none. */
 KIRI_API kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count,
                                            void* positions, int32_t positionStride, void* normals,
                                            int32_t normalStride);

@@ -41,9 +41,10 @@ static bool IsTangentTo(const EdgePoint* point, kiriVec3 normal)
 }
 
 /* The normal that is seen at the point, smooth over the sides of triangles, towards the outside of the obstacle. */
-static kiriVec3 SeenNormal(const kiriSurface* surface, const int32_t* v, const double share[3], kiriVec3 out)
+static kiriVec3 SeenNormal(kiriSurface* surface, const int32_t* v, const double share[3], kiriVec3 out)
 {
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    kiriSurface_NeedNormals(surface);
     for (int k = 0; k < 3; ++k) {
         sum = kiriVec3_AddScaled(sum, share[k], kiriVec3_Load(&surface->normals.data[3 * (int64_t)v[k]]));
     }
@@ -52,7 +53,7 @@ static kiriVec3 SeenNormal(const kiriSurface* surface, const int32_t* v, const d
 
 static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, int32_t triangle, kiriTouch* touch)
 {
-    const kiriSheetData* sheet = meeting->sheet;
+    kiriSheetData* sheet = meeting->sheet;
     const int32_t* v = &sheet->seen.surface.indices.data[3 * (int64_t)triangle];
     kiriVec3 x[3] = { kiriSurface_At(&sheet->seen.surface, v[0]), kiriSurface_At(&sheet->seen.surface, v[1]),
                       kiriSurface_At(&sheet->seen.surface, v[2]) };

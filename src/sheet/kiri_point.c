@@ -32,14 +32,43 @@ kiriVec3 kiriPoint_Position(const kiriSheetData* sheet, const kiriPointPlace* pl
     return x;
 }
 
+static kiriVec3 AddCorner(const kiriSheetData* sheet, kiriVec3 sum, int32_t h)
+{
+    const kiriSurface* surface = &sheet->seen.surface;
+    const int32_t* v = sheet->mesh.triangles.data[h / 3].vertex;
+    kiriVec3 a = kiriSurface_At(surface, v[0]), b = kiriSurface_At(surface, v[1]), c = kiriSurface_At(surface, v[2]);
+    return kiriVec3_Add(sum, kiriVec3_Cross(kiriVec3_Sub(b, a), kiriVec3_Sub(c, a)));
+}
+
+/* As kiriNormals_Write has it, to rounding, for those who may not write: from the fan of the vertex. */
+static kiriVec3 VertexNormal(const kiriSheetData* sheet, int32_t vertex)
+{
+    const kiriSurface* surface = &sheet->seen.surface;
+    if (surface->hasNormals) {
+        return kiriVec3_Load(&surface->normals.data[3 * (size_t)vertex]);
+    }
+    int32_t start = sheet->mesh.vertices.data[vertex].edge, h = start;
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    do {
+        sum = AddCorner(sheet, sum, h);
+        h = kiriMesh_CounterClockwise(&sheet->mesh, h);
+    } while (h != KIRI_NONE && h != start);
+    if (h == KIRI_NONE) {
+        for (h = kiriMesh_Clockwise(&sheet->mesh, start); h != KIRI_NONE; h = kiriMesh_Clockwise(&sheet->mesh, h)) {
+            sum = AddCorner(sheet, sum, h);
+        }
+    }
+    kiriVec3 unit = kiriVec3_Normalize(sum);
+    return kiriVec3_Dot(unit, unit) > 0.0 ? unit : kiriVec3_Make(0.0, 0.0, 1.0);
+}
+
 /* Where the normals of the corners cancel out, that of the triangle. */
 kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* place)
 {
     const int32_t* corners = CornersOf(sheet, place);
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
     for (int k = 0; k < 3; ++k) {
-        kiriVec3 normal = kiriVec3_Load(&sheet->seen.surface.normals.data[3 * corners[k]]);
-        sum = kiriVec3_AddScaled(sum, place->shares[k], normal);
+        sum = kiriVec3_AddScaled(sum, place->shares[k], VertexNormal(sheet, corners[k]));
     }
     if (kiriVec3_Length(sum) < 1e-3) {
         const kiriSurface* surface = &sheet->seen.surface;

@@ -24,6 +24,7 @@ kiriSheetSettings kiriSettings_Of(const kiriSheetDef* def)
     given.skinning = def->skinning;
     given.timeStepping = def->timeStepping;
     given.fadeTime = def->fadeTime;
+    given.normals = def->normals;
     return given;
 }
 
@@ -57,6 +58,7 @@ void kiriSettings_Apply(kiriSheetData* sheet)
     sheet->shape.rigidWeight = settings->rigidWeight;
     sheet->shape.eased = settings->eased;
     sheet->seen.surface.skinning = settings->skinning;
+    sheet->seen.surface.wantsNormals = settings->given.normals != 0;
     sheet->seen.fades.time = sheet->seen.pointFades.time = settings->fadeTime;
     sheet->seen.fades.least = sheet->seen.pointFades.least = settings->leastFade;
 }
@@ -75,7 +77,8 @@ static bool AreSameSettings(const kiriSheetSettings* a, const kiriSheetSettings*
     return IsSameMaterial(&a->material, &b->material) && a->maxFrames == b->maxFrames && a->crumbArea == b->crumbArea &&
            a->friction == b->friction && a->contactThickness == b->contactThickness && a->groups == b->groups &&
            a->touchesSheets == b->touchesSheets && a->iterations == b->iterations && a->sleepSpeed == b->sleepSpeed &&
-           a->skinning == b->skinning && a->timeStepping == b->timeStepping && a->fadeTime == b->fadeTime;
+           a->skinning == b->skinning && a->timeStepping == b->timeStepping && a->fadeTime == b->fadeTime &&
+           a->normals == b->normals;
 }
 
 /* The solver counts corners only where Poisson's ratio is above 0. What it had staged for an update is staged again
@@ -134,6 +137,9 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
     kiriSettings_Take(&sheet->settings, given, sheet->mesh.step * sheet->mesh.squares.side);
     kiriSettings_Apply(sheet);
     sheet->seen.isElsewhere |= looksOther;
+    if (sheet->seen.surface.wantsNormals) {
+        kiriSurface_NeedNormals(&sheet->seen.surface);
+    }
     if (!kiriSheet_KeepsStrains(sheet)) {
         DropOffsets(sheet);
     }

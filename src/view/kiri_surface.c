@@ -372,11 +372,19 @@ void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades)
     }
 }
 
+static void SumSlopes(kiriSurface* surface)
+{
+    kiriNormals_Sum(surface->slopes.data, surface->vertexCount, kiriSurface_Places(surface), surface->corners.data,
+                    surface->triangleCount);
+}
+
 void kiriSurface_SumNormals(kiriSurface* surface)
 {
     surface->pose += 1;
-    kiriNormals_Sum(surface->slopes.data, surface->vertexCount, kiriSurface_Places(surface), surface->corners.data,
-                    surface->triangleCount);
+    surface->hasNormals = surface->wantsNormals;
+    if (surface->hasNormals) {
+        SumSlopes(surface);
+    }
 }
 
 void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end)
@@ -387,5 +395,16 @@ void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end)
             surface->positions.data[k] = middle[k % 3] + surface->places.data[k];
         }
     }
-    kiriNormals_Write(surface->normals.data, surface->slopes.data, begin, end);
+    if (surface->hasNormals) {
+        kiriNormals_Write(surface->normals.data, surface->slopes.data, begin, end);
+    }
+}
+
+void kiriSurface_NeedNormals(kiriSurface* surface)
+{
+    if (!surface->hasNormals) {
+        surface->hasNormals = true;
+        SumSlopes(surface);
+        kiriNormals_Write(surface->normals.data, surface->slopes.data, 0, surface->vertexCount);
+    }
 }

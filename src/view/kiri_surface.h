@@ -37,7 +37,8 @@ typedef struct kiriSurface {
     KIRI_ARRAY(kiriCarrier) carriers;
     KIRI_ARRAY(kiriBend) bends;
     kiriPatches patches;
-    bool isWritten; /* the arrays show the patches as they are */
+    bool isWritten;                /* the arrays show the patches as they are */
+    bool wantsNormals, hasNormals; /* the host asks for them; they are those of where vertices are seen */
 
     kiriChange changes[KIRI_CHANGES]; /* a ring */
     int32_t changeCount, lastChange;
@@ -109,11 +110,15 @@ void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriFra
 /* Moves the vertices that are seen elsewhere. */
 void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades);
 
-/* Once in a tick, when all vertices are where they are seen: the sums that normals are made of. */
+/* Once in a tick, when all vertices are where they are seen: the sums that normals are made of, where the host asks for
+   these. */
 void kiriSurface_SumNormals(kiriSurface* surface);
 
 /* Then the positions and normals that the host reads, of the vertices from `begin` to `end`. Writes nothing else. */
 void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end);
+
+/* Before normals are read: makes them where the tick did not, the same bits. */
+void kiriSurface_NeedNormals(kiriSurface* surface);
 
 /* What has changed since the host saw that revision: all, where that is too long ago. */
 void kiriSurface_GetDirty(const kiriSurface* surface, uint32_t sinceRevision, kiriDirty* dirty);

@@ -33,6 +33,9 @@ static const char* FaultOfMotion(const kiriSheetSettings* s)
     if (!kiriCall_IsAtLeast(s->sleepSpeed, 0.0f) || !kiriCall_IsAtLeast(s->fadeTime, 0.0f)) {
         return "sleepSpeed or fadeTime is below 0";
     }
+    if (!kiriCall_IsWithin(s->normals, 0, 1)) {
+        return "normals is not 0 or 1";
+    }
     return kiriCall_IsWithin(s->iterations, 1, 64) ? NULL : "iterations is not within 1 and 64";
 }
 

@@ -24,6 +24,7 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     def->sleepSpeed = 0.001f;
     def->timeStepping = KIRI_TIME_STEPPING_SECOND_ORDER;
     def->fadeTime = 0.2f;
+    def->normals = 1;
     def->paper.integrationOrder = 1;
 }
 

@@ -15,7 +15,7 @@ kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* 
     KIRI_FIND_SHEET(data, sheet);
     const kiriSurface* surface = &data->seen.surface;
     mesh->positions = surface->positions.data;
-    mesh->normals = surface->normals.data;
+    mesh->normals = surface->wantsNormals ? surface->normals.data : NULL;
     mesh->restPositions = surface->restPositions.data;
     mesh->indices = surface->indices.data;
     mesh->sourceTriangles = surface->sourceTriangles.data;
@@ -42,6 +42,7 @@ kiriResult kiriSheet_GetSolid(kiriWorld* world, kiriSheet sheet, float thickness
     KIRI_CHECK(solid != NULL, "solid is null");
     KIRI_CHECK(kiriCall_IsAtLeast(thickness, 0.0f), "thickness is not finite, or below 0");
     KIRI_FIND_SHEET(data, sheet);
+    kiriSurface_NeedNormals(&data->seen.surface);
     double thick = thickness > 0.0f ? thickness : data->settings.material.thickness;
     return kiriSolid_Build(solid, &world->retired, &data->seen.surface, &data->mesh, thick)
                ? KIRI_OK
@@ -61,6 +62,9 @@ kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet sheet, int32
                "a stride is below 12 bytes");
     KIRI_FIND_SHEET(data, sheet);
     KIRI_CHECK(IsRange(first, count, data->seen.surface.vertexCount), "the sheet has no such vertices");
+    if (normals != NULL && !data->seen.surface.wantsNormals) {
+        return KIRI_FAIL(KIRI_ERROR_STATE, "the sheet makes no normals");
+    }
     kiriSurface_CopyVertices(&data->seen.surface, first, count, positions, positionStride, normals, normalStride);
     return KIRI_OK;
 }

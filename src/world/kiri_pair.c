@@ -326,6 +326,8 @@ static bool LookAtPair(kiriWorld* world, int32_t a, int32_t b, double dt)
     if (nears.count == 0) {
         return true;
     }
+    kiriSurface_NeedNormals(&one->sheet->seen.surface);
+    kiriSurface_NeedNormals(&other->sheet->seen.surface);
     kiriTouchingPair pair = Decide(world, a, b, nears, dt);
     return kiriArray_Push(&world->memory, &pairs->found, pair);
 }

@@ -189,10 +189,12 @@ def _record(struct):
 
 
 def _copy(pointer, count, width):
-    """Rows of numbers, read-only: a numpy array, or a memoryview where numpy is missing."""
+    """Rows of numbers, read-only: a numpy array, or a memoryview where numpy is missing. None where there are none."""
     item, shape = _formats[ffi.typeof(pointer).item.cname], (count, width) if width > 1 else (count,)
     if count == 0:
         return numpy.empty(shape, item) if numpy else memoryview(b"").cast(item)
+    if pointer == ffi.NULL:
+        return None
     memory = memoryview(bytes(ffi.buffer(pointer, 4 * count * width))).cast(item, shape)
     return numpy.asarray(memory) if numpy else memory
 
