@@ -44,6 +44,7 @@ static void HideTriangles(kiriSheetData* sheet)
 void kiriView_HideGone(kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
+    kiriSurface_NeedNormals(surface); /* what is gone has them until the next tick */
     HideTriangles(sheet);
     surface->isWritten = false;
     sheet->mesh.revision += 1;

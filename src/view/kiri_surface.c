@@ -259,6 +259,7 @@ static void RenumberIndices(kiriSurface* surface, const kiriMeshData* mesh)
 void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* triangles, const kiriKeep* vertices,
                       const kiriMeshData* mesh, int32_t frameCount, kiriMemory* retired)
 {
+    kiriSurface_NeedNormals(surface); /* in another order sums have other bits */
     TakeKept(vertices, &surface->positions, &shown->positions, 3, retired);
     TakeKept(vertices, &surface->normals, &shown->normals, 3, retired);
     TakeKept(vertices, &surface->restPositions, &shown->restPositions, 2, retired);
