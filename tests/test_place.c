@@ -8,14 +8,29 @@
 
 /* ---- Pairs at slit ends ---- */
 
+/* With so many items at a time; how many times it took. */
+static int32_t FindEnds(Scene* scene, const kiriPlacer* placer, kiriSlitEnds* ends, int64_t items)
+{
+    kiriSlitSearch search = { 0 };
+    int32_t times = 0;
+    kiriProgress progress = KIRI_MORE;
+    for (; progress == KIRI_MORE; ++times) {
+        kiriQuota quota = { items, 0 };
+        progress = kiriSlits_FindEnds(ends, &search, &scene->memory, &scene->grid, &scene->mesh, placer->cells.data,
+                                      placer->cells.count, &quota);
+        assert_true(progress != KIRI_MORE || quota.used == items);
+    }
+    assert_int_equal(progress, KIRI_DONE);
+    return times;
+}
+
 static void AddPairs(Scene* scene, kiriSites* sites, double spacing, int32_t most)
 {
     kiriPlacer placer = { 0 };
     Scene_BuildGrid(scene);
     assert_true(kiriPlacer_TakePiece(&placer, &scene->memory, &scene->grid, Scene_Cell(scene, 0.01, 0.01)));
     kiriSlitEnds ends = { 0 };
-    assert_true(
-        kiriSlits_FindEnds(&ends, &scene->memory, &scene->grid, &scene->mesh, placer.cells.data, placer.cells.count));
+    FindEnds(scene, &placer, &ends, INT64_MAX);
     assert_true(kiriSlits_AddPairs(sites, &scene->memory, &scene->grid, &scene->mesh, &ends, spacing, most));
 }
 
@@ -61,6 +76,39 @@ static void NoMoreThanAskedFor(void** state)
         assert_int_equal(sites.count, most < 4 ? most / 2 * 2 : 4);
         Scene_Release(&scene);
     }
+}
+
+/* A piece and its slit ends are the same when a budget interrupts the search, also after one that was given up. */
+static void TakenInParts(void** state)
+{
+    (void)state;
+    Scene scene;
+    kiriPlacer whole = { 0 }, parts = { 0 };
+    Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
+    Scene_Slit(&scene, 0.3, 0.0, 0.3, 0.4);
+    Scene_Slit(&scene, 0.6, 0.7, 0.8, 0.7);
+    Scene_Slit(&scene, 0.9, 0.0, 0.9, 1.0);
+    Scene_BuildGrid(&scene);
+    int32_t cell = Scene_Cell(&scene, 0.01, 0.01);
+    kiriQuota few = { 3, 0 };
+    assert_true(kiriPlacer_TakePiece(&whole, &scene.memory, &scene.grid, cell));
+    assert_true(kiriPlacer_StartPiece(&parts, &scene.memory, &scene.grid, Scene_Cell(&scene, 0.95, 0.5)));
+    assert_int_equal(kiriPlacer_GoOnWithPiece(&parts, &scene.memory, &scene.grid, &few), KIRI_MORE);
+    assert_true(kiriPlacer_StartPiece(&parts, &scene.memory, &scene.grid, cell));
+    int32_t times = 1;
+    for (kiriQuota quota = { 7, 0 }; kiriPlacer_GoOnWithPiece(&parts, &scene.memory, &scene.grid, &quota) == KIRI_MORE;
+         ++times) {
+        quota = (kiriQuota){ 7, 0 };
+    }
+    assert_true(times > 10);
+    assert_int_equal(parts.cells.count, whole.cells.count);
+    assert_memory_equal(parts.cells.data, whole.cells.data, sizeof(int32_t) * (size_t)whole.cells.count);
+    assert_int_equal(FindEnds(&scene, &whole, &whole.ends, INT64_MAX), 1);
+    assert_true(FindEnds(&scene, &parts, &parts.ends, 1) > 10);
+    assert_int_equal(whole.ends.count, 3);
+    assert_int_equal(parts.ends.count, 3);
+    assert_memory_equal(parts.ends.data, whole.ends.data, sizeof(kiriSlitEnd) * 3);
+    Scene_Release(&scene);
 }
 
 /* Where another slit is in the way the pair is closer; in a neck of the width of two squares there is none. */
@@ -118,9 +166,11 @@ static void PairsFailCleanly(void** state)
     assert_true(kiriPlacer_TakePiece(&placer, &scene.memory, &scene.grid, 0));
     for (int k = 0; k < 2; ++k) {
         scene.purse.budget = k == 0 ? 0 : -1;
-        bool ok =
-            kiriSlits_FindEnds(&ends, &scene.memory, &scene.grid, &scene.mesh, placer.cells.data, placer.cells.count);
-        assert_int_equal(ok, k);
+        kiriSlitSearch search = { 0 };
+        kiriQuota quota = { INT64_MAX, 0 };
+        kiriProgress progress = kiriSlits_FindEnds(&ends, &search, &scene.memory, &scene.grid, &scene.mesh,
+                                                   placer.cells.data, placer.cells.count, &quota);
+        assert_int_equal(progress, k == 0 ? KIRI_FAILED : KIRI_DONE);
     }
     assert_int_equal(ends.count, 1);
     scene.purse.budget = 0;
@@ -316,12 +366,19 @@ static void ResamplingStops(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(BothSidesOfEachEnd),         cmocka_unit_test(NoMoreThanAskedFor),
-        cmocka_unit_test(AsCloseAsThereIsRoom),       cmocka_unit_test(OnlyEnds),
-        cmocka_unit_test(PairsFailCleanly),           cmocka_unit_test(BordersBeginAtSlitEnds),
-        cmocka_unit_test(CloseFramePointsAreRefused), cmocka_unit_test(LipsAreNotClose),
-        cmocka_unit_test(ManyFramesAreRefused),       cmocka_unit_test(ResamplingStops),
-        cmocka_unit_test(BordersStayBesideSlits),     cmocka_unit_test(PairsTwoSquaresApart),
+        cmocka_unit_test(BothSidesOfEachEnd),
+        cmocka_unit_test(TakenInParts),
+        cmocka_unit_test(NoMoreThanAskedFor),
+        cmocka_unit_test(AsCloseAsThereIsRoom),
+        cmocka_unit_test(OnlyEnds),
+        cmocka_unit_test(PairsFailCleanly),
+        cmocka_unit_test(BordersBeginAtSlitEnds),
+        cmocka_unit_test(CloseFramePointsAreRefused),
+        cmocka_unit_test(LipsAreNotClose),
+        cmocka_unit_test(ManyFramesAreRefused),
+        cmocka_unit_test(ResamplingStops),
+        cmocka_unit_test(BordersStayBesideSlits),
+        cmocka_unit_test(PairsTwoSquaresApart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,6 +55,7 @@ struct kiriPlacerWork {
     KIRI_ARRAY(int32_t) sampled;    /* of each cell: distance to the nearest new site while sampling */
     KIRI_ARRAY(int32_t) holds;      /* of each cell: the site in it, or CELL_FREE, or CELL_BARRED to sampling */
     KIRI_ARRAY(uint8_t) marks;      /* of each cell: zero, but while a piece is taken */
+    bool isTaking;                  /* a piece */
     KIRI_ARRAY(SiteTarget) targets; /* of each new site */
     kiriSeeds seeds;
     PlacerStage stage;
@@ -593,17 +594,23 @@ static bool TakeCell(kiriPlacer* placer, kiriMemory* memory, int32_t cell)
     return true;
 }
 
+enum { TAKEN_CELLS_AN_ITEM = 4 }; /* with what it takes to order and to mark them */
+
 /* Breadth first over straight steps: there is one for every two cells that share a face. */
-static bool GatherPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
+static kiriProgress GatherPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota)
 {
-    bool ok = TakeCell(placer, memory, cell);
-    for (int32_t k = 0; ok && k < placer->cells.count; ++k) {
-        const kiriStepRun* run = &grid->runs.data[placer->cells.data[k]];
-        for (int32_t s = run->first; ok && s < run->end[0]; ++s) {
-            ok = TakeCell(placer, memory, grid->steps.data[s].cell);
+    for (int32_t* k = &placer->work->cursor; *k < placer->cells.count; ++*k) {
+        const kiriStepRun* run = &grid->runs.data[placer->cells.data[*k]];
+        if (*k % TAKEN_CELLS_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
+            return KIRI_MORE;
+        }
+        for (int32_t s = run->first; s < run->end[0]; ++s) {
+            if (!TakeCell(placer, memory, grid->steps.data[s].cell)) {
+                return KIRI_FAILED;
+            }
         }
     }
-    return ok;
+    return KIRI_DONE;
 }
 
 /* Brings the cells, which are marked, into their order. Where they fill a good part of the squares from the first to
@@ -630,23 +637,46 @@ static void OrderPiece(kiriPlacer* placer, const kiriGrid* grid)
     }
 }
 
-bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
+static void ClearTakenMarks(kiriPlacer* placer)
+{
+    for (int32_t k = 0; placer->work->isTaking && k < placer->cells.count; ++k) {
+        placer->work->marks.data[placer->cells.data[k]] = 0;
+    }
+    placer->work->isTaking = false;
+}
+
+bool kiriPlacer_StartPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
     kiriPlacerWork* work = WorkOf(placer, memory);
     if (work == NULL || !kiriArray_Reserve(memory, &work->marks, grid->cells.count)) {
         return false;
     }
+    ClearTakenMarks(placer); /* of a piece that was given up */
     while (work->marks.count < grid->cells.count) {
         work->marks.data[work->marks.count++] = 0;
     }
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell));
-    placer->cells.count = 0;
-    bool ok = GatherPiece(placer, memory, grid, cell);
-    if (ok) {
+    placer->cells.count = work->cursor = 0;
+    work->isTaking = true;
+    return TakeCell(placer, memory, cell);
+}
+
+kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota)
+{
+    if (!placer->work->isTaking) {
+        return KIRI_DONE;
+    }
+    kiriProgress progress = GatherPiece(placer, memory, grid, quota);
+    if (progress == KIRI_DONE) {
         OrderPiece(placer, grid);
+        ClearTakenMarks(placer);
     }
-    for (int32_t k = 0; k < placer->cells.count; ++k) {
-        work->marks.data[placer->cells.data[k]] = 0;
-    }
-    return ok;
+    return progress;
+}
+
+bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
+{
+    kiriQuota unlimited = { INT64_MAX, 0 };
+    return kiriPlacer_StartPiece(placer, memory, grid, cell) &&
+           kiriPlacer_GoOnWithPiece(placer, memory, grid, &unlimited) == KIRI_DONE;
 }

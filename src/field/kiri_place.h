@@ -28,6 +28,11 @@ typedef struct kiriPlacer {
    memory. */
 bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell);
 
+/* The same as a job: start, which is false for memory, and then go on until it is done. An item of the quota is some cells.
+   It is done at once where the piece is there. After KIRI_FAILED, or where the job is given up, start again. */
+bool kiriPlacer_StartPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell);
+kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota);
+
 /* For the part in placer->cells and the sites in placer->sites, which lie in it, each in a cell of its own: `count`
    more, or one in each free cell where there are fewer. Sampling takes only cells that `allowed` marks (one byte a cell
    of the grid; null: all); it is read now and not kept. One site in a part without sites goes to the cell nearest to

@@ -27,13 +27,15 @@ static int32_t LipAt(const kiriMeshData* mesh, int32_t vertex)
     return isEnd ? first : KIRI_NONE;
 }
 
-bool kiriSlits_FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriSlitEnd* end)
+/* Adds the vertices it looks at. */
+static bool SearchCell(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriSlitEnd* end, int32_t* looks)
 {
     int32_t square = grid->cells.data[cell].square;
     int32_t v = grid->whole.data[square] ? KIRI_NONE : mesh->squares.vertexHead[square];
     for (; v != KIRI_NONE; v = mesh->vertices.data[v].next) {
-        int32_t lip = LipAt(mesh, v);
-        if (lip != KIRI_NONE && kiriGrid_CellOfVertex(grid, mesh, v) == cell) {
+        int32_t lip = kiriGrid_CellOfVertex(grid, mesh, v) == cell ? LipAt(mesh, v) : KIRI_NONE;
+        *looks += 1;
+        if (lip != KIRI_NONE) {
             int32_t before = kiriMesh_Tail(mesh, kiriEdge_Next(lip));
             end->at = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
             kiriVec2 way = kiriVec2_Sub(end->at, kiriMesh_Local(mesh, mesh->vertices.data[before].at));
@@ -45,16 +47,31 @@ bool kiriSlits_FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t
     return false;
 }
 
-bool kiriSlits_FindEnds(kiriSlitEnds* ends, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                        const int32_t* cells, int32_t cellCount)
+bool kiriSlits_FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriSlitEnd* end)
 {
-    bool ok = true;
-    ends->count = 0;
-    for (int32_t i = 0; ok && i < cellCount; ++i) {
+    int32_t looks = 0;
+    return SearchCell(grid, mesh, cell, end, &looks);
+}
+
+enum { SEARCHED_CELLS_AN_ITEM = 16, SEARCHED_VERTICES_AN_ITEM = 8 };
+
+kiriProgress kiriSlits_FindEnds(kiriSlitEnds* ends, kiriSlitSearch* search, kiriMemory* memory, const kiriGrid* grid,
+                                const kiriMeshData* mesh, const int32_t* cells, int32_t cellCount, kiriQuota* quota)
+{
+    ends->count = search->seen == 0 ? 0 : ends->count;
+    while (kiriQuota_Pay(quota, &search->owed)) {
         kiriSlitEnd end;
-        ok = !kiriSlits_FindEndIn(grid, mesh, cells[i], &end) || kiriArray_Push(memory, ends, end);
+        int32_t looks = 0;
+        if (search->seen == cellCount) {
+            return KIRI_DONE;
+        }
+        if (SearchCell(grid, mesh, cells[search->seen], &end, &looks) && !kiriArray_Push(memory, ends, end)) {
+            return KIRI_FAILED;
+        }
+        search->owed = (search->seen % SEARCHED_CELLS_AN_ITEM == 0) + looks / SEARCHED_VERTICES_AN_ITEM;
+        search->seen += 1;
     }
-    return ok;
+    return KIRI_MORE;
 }
 
 /* ---- Pairs ---- */

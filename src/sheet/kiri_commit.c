@@ -159,7 +159,7 @@ void kiriStage_Drop(kiriSheetData* sheet)
     u->samples.newPoints.count = u->samples.movedPoints.count = 0;
     u->placing.sites.count = sheet->frames.count;
     u->placing.moves.count = u->placing.movesSeen = 0;
-    u->placing.isPlacing = false;
+    u->placing.isTaking = u->placing.isPlacing = false;
     kiriLinks_Drop(&sheet->links);
     kiriRefresh_Drop(&u->samples.refresh);
     kiriRefit_Drop(&u->refit);

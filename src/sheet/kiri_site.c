@@ -235,12 +235,23 @@ static bool StartPlacing(kiriSheetData* sheet, int32_t count, double spacing)
 }
 
 /* Takes the piece with this cell, and its slit ends, into the placer. */
-static bool TakePiece(kiriSheetData* sheet, int32_t cell)
+static kiriProgress TakePiece(kiriSheetData* sheet, int32_t cell, kiriQuota* cells)
 {
-    kiriPlacer* placer = &sheet->update->placing.placer;
-    return kiriPlacer_TakePiece(placer, sheet->memory, &sheet->grid, cell) &&
-           kiriSlits_FindEnds(&placer->ends, sheet->memory, &sheet->grid, &sheet->mesh, placer->cells.data,
-                              placer->cells.count);
+    kiriPlacingWork* placing = &sheet->update->placing;
+    kiriPlacer* placer = &placing->placer;
+    if (!placing->isTaking) {
+        placing->search = (kiriSlitSearch){ 0, 0 };
+        if (!kiriPlacer_StartPiece(placer, sheet->memory, &sheet->grid, cell)) {
+            return KIRI_FAILED;
+        }
+    }
+    kiriProgress progress = kiriPlacer_GoOnWithPiece(placer, sheet->memory, &sheet->grid, cells);
+    if (progress == KIRI_DONE) {
+        progress = kiriSlits_FindEnds(&placer->ends, &placing->search, sheet->memory, &sheet->grid, &sheet->mesh,
+                                      placer->cells.data, placer->cells.count, cells);
+    }
+    placing->isTaking = progress == KIRI_MORE;
+    return progress;
 }
 
 /* How far apart `count` frames are in the piece in the placer, away from slit ends. */
@@ -250,17 +261,23 @@ static double SpacingOf(const kiriSheetData* sheet, int32_t count)
 }
 
 /* Starts placing frames in the piece of an orphan, and marks its cells as seen to. */
-static bool StartOrphan(kiriSheetData* sheet, int32_t cell)
+static kiriProgress StartOrphan(kiriSheetData* sheet, int32_t cell, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
-    if (!TakePiece(sheet, cell)) {
-        return false;
+    kiriProgress progress = TakePiece(sheet, cell, cells);
+    if (progress != KIRI_DONE) {
+        return progress;
     }
     for (int32_t i = 0; i < u->placing.placer.cells.count; ++i) {
         u->placing.marks.data[u->placing.placer.cells.data[i]] = 1;
     }
     int32_t count = FramesFor(sheet);
-    return StartPlacing(sheet, count, SpacingOf(sheet, count));
+    return StartPlacing(sheet, count, SpacingOf(sheet, count)) ? KIRI_DONE : KIRI_FAILED;
+}
+
+static bool IsAtPiece(const kiriSheetData* sheet)
+{
+    return sheet->update->placing.isTaking || sheet->update->placing.isPlacing;
 }
 
 /* Frames for the pieces that have none, at least one each (section 5 of the paper). */
@@ -269,13 +286,11 @@ kiriProgress kiriSites_PlaceInOrphans(kiriSheetData* sheet, kiriQuota* cells)
     kiriUpdate* u = sheet->update;
     for (; u->placing.at < sheet->regions.orphans.count; ++u->placing.at) {
         int32_t cell = sheet->regions.orphans.data[u->placing.at];
-        if (!u->placing.isPlacing && u->placing.marks.data[cell]) {
+        if (!IsAtPiece(sheet) && u->placing.marks.data[cell]) {
             continue;
         }
-        if (!u->placing.isPlacing && !StartOrphan(sheet, cell)) {
-            return KIRI_FAILED;
-        }
-        kiriProgress progress = kiriSites_RunPlacer(sheet, cells);
+        kiriProgress progress = u->placing.isPlacing ? KIRI_DONE : StartOrphan(sheet, cell, cells);
+        progress = progress == KIRI_DONE ? kiriSites_RunPlacer(sheet, cells) : progress;
         if (progress != KIRI_DONE) {
             return progress;
         }
@@ -383,14 +398,13 @@ static bool MayGetMore(const kiriSheetData* sheet)
     return !IsCrumbTaken(sheet) && placing->own.count < kiriSites_MostIn(placing->placer.cells.count);
 }
 
-/* One more site in the piece of the frame, in a rigid cell. In a piece all of whose sites are new they are all placed
+/* One more site in the piece in the placer, in a rigid cell. In a piece all of whose sites are new they are all placed
    again, to lie evenly. */
-static bool StartResample(kiriSheetData* sheet, int32_t frame)
+static bool AddToPiece(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
     bool old;
-    if (!TakePiece(sheet, u->placing.sites.data[frame].cell) || !MarkRigidCells(sheet) ||
-        !TakeSitesOfPiece(sheet, &old)) {
+    if (!MarkRigidCells(sheet) || !TakeSitesOfPiece(sheet, &old)) {
         return false;
     }
     bool more = MayGetMore(sheet);
@@ -402,6 +416,12 @@ static bool StartResample(kiriSheetData* sheet, int32_t frame)
     u->placing.placer.known = old ? &sheet->regions.field : NULL;
     return kiriPlacer_Start(&u->placing.placer, sheet->memory, &sheet->grid, &sheet->mesh, u->placing.allowed.data,
                             more ? 1 : 0);
+}
+
+static kiriProgress StartResample(kiriSheetData* sheet, int32_t frame, kiriQuota* cells)
+{
+    kiriProgress progress = TakePiece(sheet, sheet->update->placing.sites.data[frame].cell, cells);
+    return progress != KIRI_DONE || AddToPiece(sheet) ? progress : KIRI_FAILED;
 }
 
 /* New sites take the indices of those of the piece that were placed again, then new ones. A piece that has no cell for
@@ -438,14 +458,12 @@ kiriProgress kiriSites_Resample(kiriSheetData* sheet, kiriQuota* cells)
     kiriUpdate* u = sheet->update;
     for (; u->placing.at < u->placing.marks.count && u->placing.sites.count < sheet->settings.maxFrames;
          ++u->placing.at) {
-        if (!u->placing.isPlacing && (u->placing.marks.data[u->placing.at] || !NeedsAnother(sheet, u->placing.at) ||
-                                      IsOfCrumb(sheet, u->placing.at))) {
+        if (!IsAtPiece(sheet) && (u->placing.marks.data[u->placing.at] || !NeedsAnother(sheet, u->placing.at) ||
+                                  IsOfCrumb(sheet, u->placing.at))) {
             continue;
         }
-        if (!u->placing.isPlacing && !StartResample(sheet, u->placing.at)) {
-            return KIRI_FAILED;
-        }
-        kiriProgress progress = kiriSites_RunPlacer(sheet, cells);
+        kiriProgress progress = u->placing.isPlacing ? KIRI_DONE : StartResample(sheet, u->placing.at, cells);
+        progress = progress == KIRI_DONE ? kiriSites_RunPlacer(sheet, cells) : progress;
         if (progress != KIRI_DONE) {
             return progress;
         }

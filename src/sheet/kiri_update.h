@@ -22,7 +22,9 @@ typedef struct kiriPlacingWork {
     int32_t movesSeen; /* by the regions */
     int32_t spread;    /* frames to spread over the sheet, at its start */
     kiriPlacer placer;
-    bool isPlacing;
+    bool isTaking;               /* a piece into the placer, */
+    bool isPlacing;              /* in it */
+    kiriSlitSearch search;       /* for its slit ends */
     bool isAgain;                /* all sites of the piece in the placer are placed again */
     double whole;                /* m^2 of the sheet; while things are spread over it */
     int32_t at;                  /* orphan, frame or piece that is being seen to */
