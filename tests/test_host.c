@@ -124,6 +124,36 @@ static void TestSettingsChangeWhileItMoves(void** state)
     Host_Stop(&host);
 }
 
+/* Another look is seen to come little by little, from the tick on in which both are asked for. */
+static void TestFadesMayBeginWithAnotherLook(void** state)
+{
+    (void)state;
+    for (int together = 0; together < 2; ++together) {
+        Host host;
+        kiriSheetDef def = Host_SmallDef();
+        kiriSheetSettings settings;
+        def.fadeTime = 0.0f;
+        def.skinning = KIRI_SKINNING_LINEAR;
+        Host_Start(&host);
+        kiriSheet sheet = Hang(&host, &def);
+        for (int i = 0; i < 20; ++i) {
+            OK(Host_Tick(&host, DT, 2));
+        }
+        OK(kiriSheet_GetSettings(host.world, sheet, &settings));
+        settings.skinning = KIRI_SKINNING_SMOOTH;
+        if (!together) {
+            OK(kiriSheet_SetSettings(host.world, sheet, &settings));
+        }
+        settings.fadeTime = 1.0f;
+        OK(kiriSheet_SetSettings(host.world, sheet, &settings));
+        OK(Host_Tick(&host, DT, 2));
+        kiriProfile profile;
+        OK(kiriWorld_GetProfile(host.world, &profile));
+        assert_true(profile.largestJump > 0.0 && profile.largestFade > 0.0);
+        Host_Stop(&host);
+    }
+}
+
 static void TestSettingsAreChecked(void** state)
 {
     (void)state;
@@ -1053,6 +1083,7 @@ int main(void)
         cmocka_unit_test(TestSettingsAreThoseOfTheDef),
         cmocka_unit_test(TestSettingsAreADefs),
         cmocka_unit_test(TestSettingsChangeWhileItMoves),
+        cmocka_unit_test(TestFadesMayBeginWithAnotherLook),
         cmocka_unit_test(TestSettingsAreChecked),
         cmocka_unit_test(TestPointIsWhatIsSeen),
         cmocka_unit_test(TestPointNamesItsPiece),

@@ -2,6 +2,8 @@
 #define KIRI_PLAIN_LANES
 #define kiriPatches_Reserve Plain_ReservePatches
 #define kiriPatches_Write Plain_WritePatches
+#define kiriPatches_Forget Plain_ForgetPatches
+#define kiriPatches_MayMove Plain_MayMove
 #define kiriSkin_WritePositions Plain_WritePositions
 #define kiriNormals_Sum Plain_SumNormals
 #define kiriNormals_Write Plain_WriteNormals
@@ -9,6 +11,8 @@
 #include "view/kiri_normal.c"
 #undef kiriPatches_Reserve
 #undef kiriPatches_Write
+#undef kiriPatches_Forget
+#undef kiriPatches_MayMove
 #undef kiriSkin_WritePositions
 #undef kiriNormals_Sum
 #undef kiriNormals_Write

@@ -2,6 +2,7 @@
 
 #include "kiri_piece.h"
 #include "kiri_pin.h"
+#include "kiri_seen.h"
 
 #include <string.h>
 
@@ -128,6 +129,7 @@ void kiriStage_Commit(kiriSheetData* sheet)
     }
     CommitFrames(sheet);
     CommitPoints(sheet);
+    kiriView_TouchStaged(sheet);
     kiriSkin_Commit(&sheet->vertexSkin);
     kiriSkin_Commit(&sheet->pointSkin);
     kiriLinks_Commit(&sheet->links);

@@ -255,6 +255,7 @@ static void KeepSeen(kiriRemoval* removal, kiriMemory* retired)
     }
     ReplaceFloats(&sheet->seen.pointPositions, &removal->points, retired);
     sheet->seen.pointCount = kept->points.count;
+    sheet->seen.vertexCount = kept->vertices.count;
 }
 
 /* The host may hold them. */

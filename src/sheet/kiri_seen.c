@@ -4,21 +4,34 @@
 
 #include <string.h>
 
-bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t pointCount)
+bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t pointCount, double fadeTime)
 {
-    int32_t vertices = sheet->mesh.vertices.count;
-    return kiriArray_Reserve(sheet->memory, &sheet->seen.before, 3 * (int64_t)vertices) &&
-           kiriArray_Reserve(sheet->memory, &sheet->seen.pointsBefore, pointCount) &&
-           kiriFades_Reserve(&sheet->seen.fades, sheet->memory, vertices) &&
-           kiriFades_Reserve(&sheet->seen.pointFades, sheet->memory, pointCount);
+    bool fade = fadeTime > 0.0;
+    return kiriArray_Reserve(sheet->memory, &sheet->seen.pointsBefore, pointCount) &&
+           kiriFades_Reserve(&sheet->seen.fades, sheet->memory, fade ? sheet->mesh.vertices.count : 0) &&
+           kiriFades_Reserve(&sheet->seen.pointFades, sheet->memory, fade ? pointCount : 0);
+}
+
+enum { BLOCK = 64 }; /* vertices */
+
+static bool ResizeBlocks(kiriSheetData* sheet)
+{
+    int32_t old = sheet->seen.touched.count;
+    if (!kiriArray_Resize(sheet->memory, &sheet->seen.touched, sheet->mesh.vertices.count / BLOCK + 1)) {
+        return false;
+    }
+    for (int32_t block = old; block < sheet->seen.touched.count; ++block) {
+        sheet->seen.touched.data[block] = 0;
+    }
+    return true;
 }
 
 bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount)
 {
     return kiriSurface_Resize(&sheet->seen.surface, &sheet->shown, &sheet->mesh, frameCount) &&
            kiriArray_Resize(&sheet->shown, &sheet->seen.pointPositions, 3 * (int64_t)pointCount) &&
-           kiriArray_Resize(sheet->memory, &sheet->seen.exactPoints, pointCount) &&
-           (!sheet->update->isBegun || kiriView_ReserveFades(sheet, pointCount));
+           kiriArray_Resize(sheet->memory, &sheet->seen.exactPoints, pointCount) && ResizeBlocks(sheet) &&
+           (!sheet->update->isBegun || kiriView_ReserveFades(sheet, pointCount, sheet->seen.fades.time));
 }
 
 /* A newborn vertex lies on the triangle that was seen. */
@@ -65,10 +78,11 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
     sheet->seen.isElsewhere = true;
 }
 
-static void BlendVertices(kiriSheetData* sheet)
+void kiriView_TakeFrames(kiriSheetData* sheet)
 {
-    kiriSurface_Blend(&sheet->seen.surface, &sheet->vertexSkin, sheet->frames.data, sheet->frames.count,
-                      sheet->links.links.data, sheet->links.links.count);
+    kiriSurface_TakeFrames(&sheet->seen.surface, sheet->frames.data, sheet->frames.count, sheet->links.links.data,
+                           sheet->links.links.count);
+    sheet->seen.surface.isWritten &= sheet->seen.fades.fading.count == 0;
 }
 
 /* Linear whatever is seen: here contacts push (see kiri_motion.c). */
@@ -89,25 +103,55 @@ static void AddPointFades(kiriSheetData* sheet)
     }
 }
 
-/* There is room. */
-static void RememberPlaces(kiriSheetData* sheet)
+void kiriView_TouchStaged(kiriSheetData* sheet)
 {
-    const kiriSurface* surface = &sheet->seen.surface;
-    sheet->seen.middleBefore = surface->middle;
-    memcpy(sheet->seen.before.data, kiriSurface_Places(surface), 3 * sizeof(float) * (size_t)surface->vertexCount);
-    memcpy(sheet->seen.pointsBefore.data, sheet->seen.exactPoints.data,
-           sizeof(kiriVec3) * (size_t)sheet->seen.pointCount);
+    for (int32_t k = 0; k < sheet->vertexSkin.staged.count; ++k) {
+        sheet->seen.touched.data[sheet->vertexSkin.staged.data[k].sample / BLOCK] = 1;
+    }
 }
 
-static void TakeVertexJumps(kiriSheetData* sheet)
+static void TouchFading(kiriSheetData* sheet)
 {
-    const kiriSurface* surface = &sheet->seen.surface;
-    const float *was = sheet->seen.before.data, *is = kiriSurface_Places(surface);
-    kiriVec3 shift = kiriVec3_Sub(sheet->seen.middleBefore, surface->middle);
-    kiriFades_Start(&sheet->seen.fades);
-    for (int32_t v = 0; v < surface->vertexCount; ++v, was += 3, is += 3) {
+    for (int32_t k = 0; k < sheet->seen.fades.fading.count; ++k) {
+        sheet->seen.touched.data[sheet->seen.fades.fading.data[k].sample / BLOCK] = 1;
+    }
+}
+
+static bool MayBeElsewhere(const kiriSheetData* sheet, int32_t begin, int32_t end)
+{
+    return sheet->seen.touched.data[begin / BLOCK] || end > sheet->seen.vertexCount ||
+           kiriPatches_MayMove(&sheet->seen.surface.patches, &sheet->vertexSkin, begin, end);
+}
+
+/* The vertices of a block, `before` being where all are seen, go where their weights have them. */
+static void LookAtVertices(kiriSheetData* sheet, int32_t begin, int32_t end, const float* before, kiriVec3 shift)
+{
+    float room[3 * BLOCK], *was = room;
+    memcpy(was, before + 3 * (ptrdiff_t)begin, 3 * sizeof(float) * (size_t)(end - begin));
+    kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, begin, end);
+    const float* is = kiriSurface_Places(&sheet->seen.surface) + 3 * (ptrdiff_t)begin;
+    for (int32_t v = begin; v < end; ++v, was += 3, is += 3) {
         kiriVec3 offset = kiriVec3_Sub(kiriVec3_Load(was), kiriVec3_Load(is));
         kiriFades_Take(&sheet->seen.fades, v, kiriVec3_Add(offset, shift));
+    }
+}
+
+/* All other vertices are seen where they were written last, by the same weights and patches: they do not jump. */
+static void TakeVertexJumps(kiriSheetData* sheet)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    kiriVec3 middle = surface->middle;
+    const float* before = kiriSurface_Places(surface);
+    TouchFading(sheet);
+    kiriView_TakeFrames(sheet);
+    surface->isWritten = false;
+    kiriVec3 shift = kiriVec3_Sub(middle, surface->middle);
+    kiriFades_Start(&sheet->seen.fades);
+    for (int32_t begin = 0; begin < surface->vertexCount; begin += BLOCK) {
+        int32_t end = begin + BLOCK < surface->vertexCount ? begin + BLOCK : surface->vertexCount;
+        if (MayBeElsewhere(sheet, begin, end)) {
+            LookAtVertices(sheet, begin, end, before, shift);
+        }
     }
 }
 
@@ -115,6 +159,10 @@ static void TakeVertexJumps(kiriSheetData* sheet)
 static void TakePointJumps(kiriSheetData* sheet)
 {
     const kiriVec3 *was = sheet->seen.pointsBefore.data, *is = sheet->seen.exactPoints.data;
+    if (sheet->seen.pointCount > 0) {
+        memcpy(sheet->seen.pointsBefore.data, is, sizeof(kiriVec3) * (size_t)sheet->seen.pointCount);
+    }
+    BlendPoints(sheet);
     kiriFades_Start(&sheet->seen.pointFades);
     for (int32_t i = 0; i < sheet->seen.pointCount; ++i) {
         kiriFades_Take(&sheet->seen.pointFades, i, kiriVec3_Sub(was[i], is[i]));
@@ -125,9 +173,6 @@ static void TakePointJumps(kiriSheetData* sheet)
 void kiriView_TakeJump(kiriSheetData* sheet)
 {
     if (sheet->seen.isElsewhere) {
-        RememberPlaces(sheet);
-        BlendVertices(sheet);
-        BlendPoints(sheet);
         TakeVertexJumps(sheet);
         TakePointJumps(sheet);
         AddPointFades(sheet);
@@ -139,8 +184,7 @@ static void TrimFades(kiriSheetData* sheet)
 {
     kiriFades_Trim(&sheet->seen.fades, sheet->memory);
     kiriFades_Trim(&sheet->seen.pointFades, sheet->memory);
-    if (sheet->seen.fades.fading.count == 0 && sheet->seen.before.capacity > 0) {
-        kiriArray_Release(sheet->memory, &sheet->seen.before);
+    if (sheet->seen.pointFades.fading.count == 0 && sheet->seen.pointsBefore.capacity > 0) {
         kiriArray_Release(sheet->memory, &sheet->seen.pointsBefore);
     }
 }
@@ -156,13 +200,6 @@ void kiriView_Trim(kiriSheetData* sheet)
     if (!sheet->update->isBegun) {
         TrimFades(sheet);
     }
-}
-
-void kiriView_TakeFrames(kiriSheetData* sheet)
-{
-    kiriSurface_TakeFrames(&sheet->seen.surface, sheet->frames.data, sheet->frames.count, sheet->links.links.data,
-                           sheet->links.links.count);
-    sheet->seen.surface.isWritten &= sheet->seen.fades.fading.count == 0;
 }
 
 void kiriView_BlendRange(kiriSheetData* sheet, int32_t begin, int32_t end)
@@ -184,6 +221,10 @@ void kiriView_Sum(kiriSheetData* sheet)
         kiriVec3_Store(&sheet->seen.pointPositions.data[3 * i], sheet->seen.exactPoints.data[i]);
     }
     sheet->seen.pointCount = sheet->points.count;
+    sheet->seen.vertexCount = sheet->seen.surface.vertexCount;
+    if (sheet->seen.isElsewhere) {
+        memset(sheet->seen.touched.data, 0, (size_t)sheet->seen.touched.count);
+    }
     sheet->seen.isElsewhere = false;
 }
 

@@ -9,8 +9,11 @@ KIRI_C_BEGIN
 /* Room for the mesh as it is, for so many frames and collision points; after it writing never fails. */
 bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount);
 
-/* Room for what fades when a cut takes effect, or what is seen changes otherwise. */
-bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t pointCount);
+/* Room for what fades in so much time when a cut takes effect, or what is seen changes otherwise. */
+bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t pointCount, double fadeTime);
+
+/* The vertices whose weights are staged; before these take effect. */
+void kiriView_TouchStaged(kiriSheetData* sheet);
 
 /* What has changed in the mesh; before kiriMesh_Commit. */
 void kiriView_WriteTopology(kiriSheetData* sheet);

@@ -129,9 +129,10 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
     if (AreSameSettings(&before, given)) {
         return true;
     }
-    bool looksOther = given->skinning != before.skinning;
+    bool looksOther = sheet->seen.isElsewhere || given->skinning != before.skinning;
     bool isOther = !IsSameMaterial(&given->material, &before.material);
-    if ((looksOther && !kiriView_ReserveFades(sheet, sheet->points.count)) || (isOther && !StageSolver(sheet, given))) {
+    if ((looksOther && !kiriView_ReserveFades(sheet, sheet->points.count, given->fadeTime)) ||
+        (isOther && !StageSolver(sheet, given))) {
         return false;
     }
     kiriSettings_Take(&sheet->settings, given, sheet->mesh.step * sheet->mesh.squares.side);

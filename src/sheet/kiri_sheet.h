@@ -231,10 +231,10 @@ typedef struct kiriSeen {
     KIRI_ARRAY(kiriVec3) exactPoints; /* where the collision points are seen, */
     int32_t pointCount;               /* so many */
     KIRI_ARRAY(float) pointPositions;
-    KIRI_ARRAY(float) before; /* room for where vertices are seen while a cut takes effect, from here: */
-    kiriVec3 middleBefore;
-    KIRI_ARRAY(kiriVec3) pointsBefore; /* and collision points */
-    bool isElsewhere;                  /* vertices are new, or a cut took effect, since positions were written */
+    KIRI_ARRAY(kiriVec3) pointsBefore; /* room for that while a cut takes effect */
+    bool isElsewhere;                  /* vertices are new, or a cut took effect, since positions were written: */
+    int32_t vertexCount;               /* vertices that are not new */
+    KIRI_ARRAY(uint8_t) touched;       /* of each block of vertices: some have other weights, or fade */
 } kiriSeen;
 
 struct kiriUpdate;

@@ -6,7 +6,13 @@
 
 bool kiriPatches_Reserve(kiriPatches* patches, kiriMemory* memory, int32_t count)
 {
-    return kiriArray_Reserve(memory, &patches->floats, (int64_t)KIRI_BENT_FLOATS * count);
+    return kiriArray_Reserve(memory, &patches->floats, (int64_t)KIRI_BENT_FLOATS * count) &&
+           kiriArray_Reserve(memory, &patches->isOther, count);
+}
+
+void kiriPatches_Forget(kiriPatches* patches)
+{
+    patches->count = 0;
 }
 
 /* ---- Rows of floats ---- */
@@ -46,8 +52,9 @@ static void WriteBent(float* row, const kiriCarrier* carrier, kiriVec3 from)
 bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent)
 {
     size_t each = isBent ? KIRI_BENT_FLOATS : KIRI_FLAT_FLOATS;
-    bool isOther = patches->count != count || patches->isBent != isBent;
-    patches->count = count;
+    bool isOther = patches->count != count;
+    int32_t known = patches->isBent == isBent ? patches->count : 0;
+    patches->count = patches->isOther.count = count;
     patches->isBent = isBent;
     patches->floats.count = (int32_t)each * count;
     KIRI_ASSERT(patches->floats.count <= patches->floats.capacity);
@@ -58,10 +65,24 @@ bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_
         } else {
             WriteFlat(row, &carriers[i], from);
         }
-        isOther = isOther || memcmp(was, row, sizeof(float) * each) != 0;
+        patches->isOther.data[i] = i >= known || memcmp(was, row, sizeof(float) * each) != 0;
+        isOther |= patches->isOther.data[i];
         memcpy(was, row, sizeof(float) * each);
     }
     return isOther;
+}
+
+bool kiriPatches_MayMove(const kiriPatches* patches, const kiriSkin* skin, int32_t begin, int32_t end)
+{
+    bool mayMove = false;
+    for (int32_t s = begin; !mayMove && s < end; ++s) {
+        const kiriSampleWeight* weight = skin->weights.data + skin->spans.data[s].first;
+        const kiriSampleWeight* last = weight + skin->spans.data[s].count;
+        for (; weight < last; ++weight) {
+            mayMove |= patches->isOther.data[weight->frame];
+        }
+    }
+    return mayMove;
 }
 
 /* ---- Positions ---- */

@@ -11,6 +11,7 @@ KIRI_C_BEGIN
 enum { KIRI_FLAT_FLOATS = 12, KIRI_BENT_FLOATS = 24 };
 typedef struct kiriPatches {
     KIRI_ARRAY(float) floats;
+    KIRI_ARRAY(uint8_t) isOther; /* one a patch: than before it was written last */
     int32_t count;
     bool isBent;
 } kiriPatches;
@@ -21,6 +22,12 @@ bool kiriPatches_Reserve(kiriPatches* patches, kiriMemory* memory, int32_t count
 /* Positions are measured from `from`: near the sheet floats tell its points apart. Returns whether any patch is other than
    before. */
 bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent);
+
+/* None is as before when they are written next. */
+void kiriPatches_Forget(kiriPatches* patches);
+
+/* May a sample from `begin` to `end` be elsewhere, because a patch that carries it is other than before? */
+bool kiriPatches_MayMove(const kiriPatches* patches, const kiriSkin* skin, int32_t begin, int32_t end);
 
 /* Where the samples from `begin` to `end` are, 3 floats each, by their rest points. Writes nothing else: ranges may be
    written at the same time. */

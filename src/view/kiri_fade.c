@@ -1,9 +1,10 @@
 #include "kiri_fade.h"
 
+#include <string.h>
+
 bool kiriFades_Reserve(kiriFades* fades, kiriMemory* memory, int32_t sampleCount)
 {
-    int32_t room = fades->time > 0.0 ? sampleCount : 0;
-    return kiriArray_Reserve(memory, &fades->fading, room) && kiriArray_Reserve(memory, &fades->older, room);
+    return kiriArray_Reserve(memory, &fades->fading, sampleCount);
 }
 
 void kiriFades_Trim(kiriFades* fades, kiriMemory* memory)
@@ -16,7 +17,6 @@ void kiriFades_Trim(kiriFades* fades, kiriMemory* memory)
 void kiriFades_Release(kiriFades* fades, kiriMemory* memory)
 {
     kiriArray_Release(memory, &fades->fading);
-    kiriArray_Release(memory, &fades->older);
 }
 
 void kiriFades_Keep(kiriFades* fades, const kiriKeep* samples)
@@ -32,19 +32,6 @@ void kiriFades_Keep(kiriFades* fades, const kiriKeep* samples)
     fades->fading.count = kept;
 }
 
-/* Lists swap: what fades is now older. */
-static void MakeOlder(kiriFades* fades)
-{
-    kiriFading* data = fades->older.data;
-    int32_t capacity = fades->older.capacity;
-    fades->older.data = fades->fading.data;
-    fades->older.count = fades->fading.count;
-    fades->older.capacity = fades->fading.capacity;
-    fades->fading.data = data;
-    fades->fading.count = 0;
-    fades->fading.capacity = capacity;
-}
-
 /* A jump on top of another leaves both as much time as they are long. */
 static double TimeLeft(const kiriFades* fades, const kiriFading* older, double jump)
 {
@@ -58,22 +45,31 @@ static void TakeOne(kiriFades* fades, const kiriFading* older, kiriVec3 offset)
     fades->jump = jump > fades->jump ? jump : fades->jump;
     if (fades->time > 0.0 && kiriVec3_Length(offset) > fades->least) {
         kiriFading next = { older->sample, TimeLeft(fades, older, jump), offset };
-        fades->fading.data[fades->fading.count++] = next; /* Reserve has made room */
+        KIRI_ASSERT(fades->fading.count < fades->older); /* Reserve has made room */
+        fades->fading.data[fades->fading.count++] = next;
     }
 }
 
+/* What fades goes to the end of the room; from there it is merged to the front with what comes. As there is room for every
+   sample, the front stays behind. */
 void kiriFades_Start(kiriFades* fades)
 {
-    MakeOlder(fades);
-    fades->next = 0;
+    kiriFading* data = fades->fading.data;
+    int32_t count = fades->fading.count;
+    fades->older = fades->fading.capacity - count;
+    if (count > 0) {
+        memmove(data + fades->older, data, sizeof(*data) * (size_t)count);
+    }
+    fades->fading.count = 0;
 }
 
 void kiriFades_TakeJump(kiriFades* fades, int32_t sample, kiriVec3 offset)
 {
-    kiriFading none = { sample, 0.0, { 0.0, 0.0, 0.0 } };
-    bool fadesYet = fades->next < fades->older.count && fades->older.data[fades->next].sample == sample;
-    TakeOne(fades, fadesYet ? &fades->older.data[fades->next] : &none, offset);
-    fades->next += fadesYet;
+    kiriFading older = { sample, 0.0, { 0.0, 0.0, 0.0 } };
+    if (kiriFades_Has(fades, sample)) {
+        older = fades->fading.data[fades->older++];
+    }
+    TakeOne(fades, &older, offset);
 }
 
 void kiriFades_Advance(kiriFades* fades, double dt)

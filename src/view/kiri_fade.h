@@ -16,14 +16,14 @@ typedef struct kiriFading {
 
 /* Of a row of samples: those that are seen elsewhere than their weights have them. */
 typedef struct kiriFades {
-    double time;                          /* s that a jump takes; 0: samples jump at once */
-    double least;                         /* m: what is less is not seen */
-    KIRI_ARRAY(kiriFading) fading, older; /* by sample; the second is room to merge */
-    int32_t next;                         /* in `older`, while jumps are taken */
-    double jump, move;                    /* m, in this tick: the longest jump that came, and way that a fade went */
+    double time;                   /* s that a jump takes; 0: samples jump at once */
+    double least;                  /* m: what is less is not seen */
+    KIRI_ARRAY(kiriFading) fading; /* by sample */
+    int32_t older;                 /* while jumps are taken: the next of those from before, at the end of the room */
+    double jump, move;             /* m, in this tick: the longest jump that came, and way that a fade went */
 } kiriFades;
 
-/* Room for so many samples, so that the others do not fail. */
+/* Room for so many samples, so that the others do not fail; none is needed where jumps take no time. */
 bool kiriFades_Reserve(kiriFades* fades, kiriMemory* memory, int32_t sampleCount);
 
 /* Gives memory back where nothing fades. */
@@ -33,15 +33,20 @@ void kiriFades_Release(kiriFades* fades, kiriMemory* memory);
 /* Samples are taken away. */
 void kiriFades_Keep(kiriFades* fades, const kiriKeep* samples);
 
-/* A cut takes effect: Start, then Take for each sample, in their order. The sample is seen so far from where it would be if
+/* A cut takes effect: Start, then Take, in their order, for each sample that fades, or whose place may be another. The sample is seen so far from where it would be if
    nothing faded: from here on that fades. */
 void kiriFades_Start(kiriFades* fades);
 void kiriFades_TakeJump(kiriFades* fades, int32_t sample, kiriVec3 offset);
 
+/* Does the sample, which is the next to take, fade already? */
+static inline bool kiriFades_Has(const kiriFades* fades, int32_t sample)
+{
+    return fades->older < fades->fading.capacity && fades->fading.data[fades->older].sample == sample;
+}
+
 static inline void kiriFades_Take(kiriFades* fades, int32_t sample, kiriVec3 offset)
 {
-    bool fadesYet = fades->next < fades->older.count && fades->older.data[fades->next].sample == sample;
-    if (fadesYet || kiriVec3_Dot(offset, offset) > fades->least * fades->least) { /* few do */
+    if (kiriFades_Has(fades, sample) || kiriVec3_Dot(offset, offset) > fades->least * fades->least) { /* few do */
         kiriFades_TakeJump(fades, sample, offset);
     }
 }

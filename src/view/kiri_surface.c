@@ -276,6 +276,7 @@ void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* tr
     surface->changeCount = 0;
     surface->pose += 1;
     surface->isWritten = false;
+    kiriPatches_Forget(&surface->patches);
     RenumberIndices(surface, mesh);
 }
 
@@ -344,12 +345,15 @@ void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, i
     kiriVec3 was = surface->middle, middle = FindMiddle(frames, frameCount, surface->longer);
     bool isSame = was.x == middle.x && was.y == middle.y && was.z == middle.z;
     surface->middle = middle;
+    if (!isSame) {
+        kiriPatches_Forget(&surface->patches);
+    }
     kiriCarriers_Write(surface->carriers.data, frames, frameCount);
     if (isBent) {
         kiriCarriers_Bend(surface->carriers.data, surface->bends.data, frames, frameCount, links, linkCount);
     }
-    isSame = !kiriPatches_Write(&surface->patches, surface->carriers.data, frameCount, middle, isBent) && isSame;
-    surface->isWritten = surface->isWritten && isSame;
+    bool isOther = kiriPatches_Write(&surface->patches, surface->carriers.data, frameCount, middle, isBent);
+    surface->isWritten = surface->isWritten && !isOther;
 }
 
 void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t begin, int32_t end)
