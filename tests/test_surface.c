@@ -720,14 +720,52 @@ static void WildFramesStayBounded(void** state)
     }
 }
 
+/* Frame 0 carries the vertices of the first row, and frame 1 all others. */
+static void OnlyWhatChangedPatchesCarryMayMove(void** state)
+{
+    (void)state;
+    Cloth cloth;
+    Cloth_Init(&cloth, 2);
+    AddFrame(&cloth, 0.5, 0.0);
+    AddFrame(&cloth, 0.5, 0.1);
+    Write(&cloth);
+    int32_t row = SIDE + 1, count = cloth.mesh.vertices.count;
+    for (int32_t v = 0; v < count; ++v) {
+        kiriSpan* span = &cloth.skin.spans.data[v];
+        *span = (kiriSpan){ span->first + (v < row ? 0 : 1), 1 };
+        cloth.skin.weights.data[span->first].value = 1.0f;
+    }
+    const kiriPatches* patches = &cloth.surface.patches;
+    Pose(&cloth);
+    assert_true(kiriPatches_MayMove(patches, &cloth.skin, 0, row)); /* for the first time */
+    Pose(&cloth);
+    assert_false(kiriPatches_MayMove(patches, &cloth.skin, 0, count));
+    cloth.frames.data[1].x.z += 0.01;
+    Pose(&cloth);
+    assert_false(kiriPatches_MayMove(patches, &cloth.skin, 0, row));
+    assert_true(kiriPatches_MayMove(patches, &cloth.skin, 0, row + 1));
+    assert_true(kiriPatches_MayMove(patches, &cloth.skin, count - 1, count));
+    Pose(&cloth);
+    cloth.frames.data[1].x.x += 1e4; /* places are measured from elsewhere */
+    Pose(&cloth);
+    assert_true(kiriPatches_MayMove(patches, &cloth.skin, 0, row));
+    Cloth_Release(&cloth);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(SurfaceIsTheBlend),     cmocka_unit_test(NormalsKnowNoSize),
-        cmocka_unit_test(HostsKeepUp),           cmocka_unit_test(RangesAreSmall),
-        cmocka_unit_test(RoomMayBeRefused),      cmocka_unit_test(CopiesAreTheSame),
-        cmocka_unit_test(ArcsAreRound),          cmocka_unit_test(StrongBendsAreLimited),
-        cmocka_unit_test(FlatStaysFlat),         cmocka_unit_test(RowsBendAlong),
+        cmocka_unit_test(SurfaceIsTheBlend),
+        cmocka_unit_test(NormalsKnowNoSize),
+        cmocka_unit_test(HostsKeepUp),
+        cmocka_unit_test(RangesAreSmall),
+        cmocka_unit_test(RoomMayBeRefused),
+        cmocka_unit_test(CopiesAreTheSame),
+        cmocka_unit_test(ArcsAreRound),
+        cmocka_unit_test(StrongBendsAreLimited),
+        cmocka_unit_test(OnlyWhatChangedPatchesCarryMayMove),
+        cmocka_unit_test(FlatStaysFlat),
+        cmocka_unit_test(RowsBendAlong),
         cmocka_unit_test(WildFramesStayBounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
