@@ -655,7 +655,7 @@ def test_blade_and_pieces():
     assert abs(part.totals().area - 0.5) < 0.01 and sheet.counts().pieces == 1
     line = sheet.begin_cut((-0.1, 0.5))
     line.extend([(0.6, 0.5)])
-    world.set_budget(cells=10000)
+    world.set_budget(cells=100000)
     world.tick(1 / 60)
     assert sheet.counts().pieces == 2
     world.destroy_pieces(sheet.piece_frames(1)[:1])
