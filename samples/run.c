@@ -480,9 +480,9 @@ static void Record_Print(Record* record, const Scene* scene)
     }
     PrintStage("all", record->seconds[KIRI_STAGE_COUNT], record->ticks);
     printf("\n  %.0f ticks a second\n", record->ticks / total);
-    printf("  %lld cut segments, %lld triangles split, %lld cells settled, %lld linear systems\n",
-           (long long)record->cutSegments, (long long)record->trianglesSplit, (long long)record->cellsSettled,
-           (long long)record->systemsSolved);
+    printf("  %lld cut segments, %lld linear systems; items of work: %lld of triangles, %lld of cells\n",
+           (long long)record->cutSegments, (long long)record->systemsSolved, (long long)record->trianglesSplit,
+           (long long)record->cellsSettled);
     uint64_t hash = 0;
     kiriWorld_GetStateHash(scene->world, &hash);
     printf("  state hash %016llx\n", (unsigned long long)hash);
