@@ -1423,6 +1423,77 @@ static void TestQuota(void** state)
     assert_true(largest > 2);
 }
 
+/* ---- Sleep ------------------------------------------------------------------------------------------------------- */
+
+static bool IsInRow(int f, int row)
+{
+    return f / 4 == row;
+}
+
+/* Three rows that were one sheet: the pattern of the matrix still joins them. */
+static void MakeRows(Scene* s, uint32_t seed)
+{
+    MakeSheet(s, 4, 3, 0.2, 0.15, Paper);
+    for (int k = 0, count = 0; k < s->system.linkCount; ++k) {
+        if (s->links[k].i / 4 == s->links[k].j / 4) {
+            s->links[count++] = s->links[k];
+        }
+    }
+    s->cornerCount = 0;
+    CommitLinks(s, 9);
+    for (int f = 0; f < s->system.frameCount; ++f) {
+        s->frames[f].velocity = RandomVector(&seed, 1.0);
+        s->frames[f].spin = RandomVector(&seed, 3.0);
+    }
+}
+
+/* A row moves as it does beside others, whether these move or sleep. Where they sleep they stay. */
+static void TestSleepersStay(void** state)
+{
+    (void)state;
+    for (int row = 0; row < 3; ++row) {
+        kiriFrameData before[12];
+        MakeRows(&scene, 17);
+        MakeRows(&twin, 17);
+        memcpy(before, scene.frames, sizeof(before));
+        for (int p = 0; p < 3; ++p) {
+            kiriSolver_SetAwake(scene.solver, p, p == row);
+        }
+        const kiriAwake* awake = kiriSolver_Awake(scene.solver, &scene.system);
+        assert_true(awake->pieces.count == 1 && awake->frames.count == 4 && awake->elements.count == 3);
+        assert_true(kiriSolver_SystemItems(scene.solver, 0) <= kiriSolver_SystemItems(twin.solver, 0));
+        Steps(&scene, 20, 0.005, 2);
+        Steps(&twin, 20, 0.005, 2);
+        for (int f = 0; f < 12; ++f) {
+            const kiriFrameData* as = IsInRow(f, row) ? &twin.frames[f] : &before[f];
+            assert_memory_equal(&scene.frames[f], as, sizeof(*as));
+        }
+        kiriSolver_SetAwake(scene.solver, (row + 1) % 3, true);
+        Steps(&scene, 1, 0.005, 2);
+        for (int f = 0; f < 12; ++f) {
+            bool isStill = memcmp(&scene.frames[f], &before[f], sizeof(before[f])) == 0;
+            assert_int_equal(isStill, IsInRow(f, (row + 2) % 3));
+        }
+        Drop(&scene);
+        Drop(&twin);
+    }
+}
+
+/* What is no number in one piece stays there. */
+static void TestSleepersAfterFailure(void** state)
+{
+    (void)state;
+    MakeRows(&scene, 18);
+    kiriSolver_SetAwake(scene.solver, 1, false);
+    scene.frames[0].velocity.x = NAN;
+    assert_int_equal(kiriSolver_Step(scene.solver, &scene.system, 0.005, 2, INT32_MAX), -1);
+    scene.frames[0].velocity.x = 0.0;
+    Steps(&scene, 5, 0.005, 2);
+    kiriSolver_SetAwake(scene.solver, 1, true);
+    Steps(&scene, 5, 0.005, 2);
+    Drop(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -1464,6 +1535,8 @@ int main(void)
         cmocka_unit_test(TestStagedIsApart),
         cmocka_unit_test(TestStagingPoorly),
         cmocka_unit_test(TestQuota),
+        cmocka_unit_test(TestSleepersStay),
+        cmocka_unit_test(TestSleepersAfterFailure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

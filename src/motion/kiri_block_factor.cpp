@@ -51,11 +51,15 @@ struct kiriMatrix {
     kiriMemory* memory;
     int32_t size, count;
     bool hasLongVectors;
-    int64_t products;          /* of blocks, that a factorisation takes */
+    int64_t products;          /* of blocks, that a factorisation of the chosen panels takes */
     KIRI_ARRAY(int32_t) place; /* of a frame */
     Pattern own;
-    KIRI_ARRAY(Panel) panels;    /* and one more, where all of them end */
-    KIRI_ARRAY(int32_t) panelOf; /* of each column */
+    KIRI_ARRAY(Panel) panels;     /* and one more, where all of them end */
+    KIRI_ARRAY(int32_t) panelOf;  /* of each column */
+    kiriIndices chosen;           /* panels with a frame that is chosen */
+    kiriIndices frames;           /* that are chosen, */
+    kiriIndices idle;             /* and columns of chosen panels that are not: they are those of the identity */
+    KIRI_ARRAY(uint8_t) isChosen; /* of each panel */
     KIRI_ARRAY(int32_t) rows;
     KIRI_ARRAY(Left) left;
     KIRI_ARRAY(double) values, factors, right;
@@ -172,7 +176,6 @@ bool JoinColumns(kiriMatrix* matrix)
 {
     const Pattern* factor = &matrix->factor;
     matrix->panels.count = 0;
-    matrix->products = 0;
     for (int32_t c = 0; c < matrix->count; ++c) {
         int32_t first = factor->start.data[c], below = factor->start.data[c + 1] - first - 1;
         Panel* last = matrix->panels.count > 0 ? &matrix->panels.data[matrix->panels.count - 1] : nullptr;
@@ -187,7 +190,6 @@ bool JoinColumns(kiriMatrix* matrix)
             }
         }
         matrix->panelOf.data[c] = matrix->panels.count - 1;
-        matrix->products += (int64_t)below * (below + 1) / 2;
     }
     Panel end = { matrix->count, 0, 0, 0, 0, 0 };
     return kiriArray_Push(matrix->memory, &matrix->panels, end);
@@ -264,10 +266,48 @@ bool MakeRoomForFrames(kiriMatrix* matrix)
     int64_t count = matrix->count;
     return kiriArray_Resize(memory, &matrix->place, count) && kiriArray_Resize(memory, &matrix->child, count) &&
            kiriArray_Resize(memory, &matrix->sibling, count) && kiriArray_Resize(memory, &matrix->mark, count) &&
-           kiriArray_Resize(memory, &matrix->panelOf, count) &&
+           kiriArray_Resize(memory, &matrix->panelOf, count) && kiriArray_Resize(memory, &matrix->frames, count) &&
+           kiriArray_Resize(memory, &matrix->chosen, count) && kiriArray_Resize(memory, &matrix->idle, count) &&
+           kiriArray_Resize(memory, &matrix->isChosen, count) &&
            kiriArray_Resize(memory, &matrix->own.start, count + 1) &&
            kiriArray_Resize(memory, &matrix->factor.start, count + 1) &&
            kiriArray_Resize(memory, &matrix->right, count * matrix->size);
+}
+
+/* ---- Choice ---- */
+
+void ChoosePanels(kiriMatrix* matrix)
+{
+    matrix->chosen.count = 0;
+    matrix->products = 0;
+    for (int32_t p = 0; p + 1 < matrix->panels.count; ++p) {
+        const Panel* panel = &matrix->panels.data[p];
+        if (matrix->isChosen.data[p]) {
+            matrix->chosen.data[matrix->chosen.count++] = p;
+            for (int32_t n = 0; n < panel->width; ++n) {
+                int64_t below = panel->below + n;
+                matrix->products += below * (below + 1) / 2;
+            }
+        }
+    }
+}
+
+/* `mark` of a column is its own where its frame is chosen. */
+void FindIdle(kiriMatrix* matrix)
+{
+    matrix->idle.count = 0;
+    for (int32_t c = 0; c < matrix->count; ++c) {
+        if (matrix->isChosen.data[matrix->panelOf.data[c]] && matrix->mark.data[c] != c) {
+            matrix->idle.data[matrix->idle.count++] = c;
+        }
+    }
+}
+
+void ClearPanel(kiriMatrix* matrix, const Panel* panel)
+{
+    int64_t area = (int64_t)matrix->size * matrix->size;
+    const int32_t* start = &matrix->own.start.data[panel->column];
+    std::fill(matrix->values.data + area * start[0], matrix->values.data + area * start[panel->width], 0.0);
 }
 
 /* ---- Entries ---- */
@@ -324,7 +364,8 @@ void AddColumn(kiriMatrix* matrix, const Squares* squares, const int32_t* frames
 void ShiftDiagonal(kiriMatrix* matrix)
 {
     int32_t size = matrix->size;
-    for (int32_t c = 0; c < matrix->count; ++c) {
+    for (int32_t f = 0; f < matrix->frames.count; ++f) {
+        int32_t c = matrix->place.data[matrix->frames.data[f]];
         double* block = &matrix->values.data[(int64_t)size * size * matrix->own.start.data[c]];
         for (int32_t n = 0; n < size; ++n) {
             block[(size + 1) * n] *= 1.0 + LAST_BITS;
@@ -419,11 +460,13 @@ bool FactorPanel(kiriMatrix* matrix, const Panel* panel)
 
 bool FactorOnce(kiriMatrix* matrix)
 {
-    for (int32_t p = 0; p + 1 < matrix->panels.count; ++p) {
-        const Panel* panel = &matrix->panels.data[p];
+    for (int32_t k = 0; k < matrix->chosen.count; ++k) {
+        const Panel* panel = &matrix->panels.data[matrix->chosen.data[k]];
         StartPanel(matrix, panel);
-        for (int32_t k = panel->left; k < panel[1].left; ++k) {
-            UpdatePanel(matrix, panel, &matrix->left.data[k]);
+        for (int32_t n = panel->left; n < panel[1].left; ++n) {
+            if (matrix->isChosen.data[matrix->left.data[n].panel]) { /* others have zeros there */
+                UpdatePanel(matrix, panel, &matrix->left.data[n]);
+            }
         }
         if (!FactorPanel(matrix, panel)) {
             return false;
@@ -438,8 +481,8 @@ bool FactorOnce(kiriMatrix* matrix)
 void SolveDown(kiriMatrix* matrix, double* right)
 {
     int32_t size = matrix->size;
-    for (int32_t p = 0; p + 1 < matrix->panels.count; ++p) {
-        const Panel* panel = &matrix->panels.data[p];
+    for (int32_t k = 0; k < matrix->chosen.count; ++k) {
+        const Panel* panel = &matrix->panels.data[matrix->chosen.data[k]];
         int32_t width = size * panel->width, below = size * panel->below;
         double *own = right + size * panel->column, *part = matrix->part.data;
         std::copy(own, own + width, part);
@@ -449,8 +492,8 @@ void SolveDown(kiriMatrix* matrix, double* right)
         part += width;
         for (int32_t n = 0; n < panel->below; ++n) {
             double* out = right + size * matrix->rows.data[panel->row + n];
-            for (int32_t k = 0; k < size; ++k) {
-                out[k] += *part++;
+            for (int32_t e = 0; e < size; ++e) {
+                out[e] += *part++;
             }
         }
     }
@@ -460,8 +503,8 @@ void SolveDown(kiriMatrix* matrix, double* right)
 void SolveUp(kiriMatrix* matrix, double* y)
 {
     int32_t size = matrix->size;
-    for (int32_t p = matrix->panels.count - 2; p >= 0; --p) {
-        const Panel* panel = &matrix->panels.data[p];
+    for (int32_t k = matrix->chosen.count - 1; k >= 0; --k) {
+        const Panel* panel = &matrix->panels.data[matrix->chosen.data[k]];
         int32_t width = size * panel->width;
         double *own = y + size * panel->column, *part = matrix->part.data;
         std::copy(own, own + width, part);
@@ -500,8 +543,32 @@ extern "C" bool kiriMatrix_Shape(kiriMatrix* matrix, int32_t frameCount, const k
     } catch (...) {
         return false;
     }
-    return PlaceBlocks(matrix, pairs, pairCount) && Eliminate(matrix) && JoinColumns(matrix) && PlacePanels(matrix) &&
-           CollectLeft(matrix);
+    if (!PlaceBlocks(matrix, pairs, pairCount) || !Eliminate(matrix) || !JoinColumns(matrix) || !PlacePanels(matrix) ||
+        !CollectLeft(matrix)) {
+        return false;
+    }
+    for (int32_t f = 0; f < frameCount; ++f) {
+        matrix->frames.data[f] = f;
+    }
+    kiriMatrix_Choose(matrix, matrix->frames.data, frameCount);
+    return true;
+}
+
+extern "C" void kiriMatrix_Choose(kiriMatrix* matrix, const int32_t* frames, int32_t count)
+{
+    KIRI_ASSERT(count >= 0 && count <= matrix->count);
+    std::fill(matrix->isChosen.data, matrix->isChosen.data + matrix->isChosen.count, (uint8_t)0);
+    std::fill(matrix->mark.data, matrix->mark.data + matrix->mark.count, (int32_t)KIRI_NONE);
+    for (int32_t n = 0; n < count; ++n) {
+        int32_t c = matrix->place.data[frames[n]];
+        matrix->frames.data[n] = frames[n];
+        matrix->mark.data[c] = c;
+        matrix->isChosen.data[matrix->panelOf.data[c]] = 1;
+    }
+    matrix->frames.count = count;
+    std::fill(matrix->right.data, matrix->right.data + matrix->right.count, 0.0);
+    ChoosePanels(matrix);
+    FindIdle(matrix);
 }
 
 extern "C" int32_t kiriMatrix_FrameCount(const kiriMatrix* matrix)
@@ -559,7 +626,16 @@ extern "C" void kiriMatrix_RefuseLongVectors(kiriMatrix* matrix)
 
 extern "C" void kiriMatrix_Clear(kiriMatrix* matrix)
 {
-    std::fill(matrix->values.data, matrix->values.data + matrix->values.count, 0.0);
+    int32_t size = matrix->size;
+    for (int32_t k = 0; k < matrix->chosen.count; ++k) {
+        ClearPanel(matrix, &matrix->panels.data[matrix->chosen.data[k]]);
+    }
+    for (int32_t k = 0; k < matrix->idle.count; ++k) {
+        double* block = &matrix->values.data[(int64_t)size * size * matrix->own.start.data[matrix->idle.data[k]]];
+        for (int32_t n = 0; n < size; ++n) {
+            block[(size + 1) * n] = 1.0;
+        }
+    }
 }
 
 extern "C" void kiriMatrix_AddOwn(kiriMatrix* matrix, int32_t frame, const double* block)
@@ -621,12 +697,14 @@ extern "C" bool kiriMatrix_Factor(kiriMatrix* matrix)
 extern "C" void kiriMatrix_Solve(kiriMatrix* matrix, const double* right, double* solution)
 {
     int32_t size = matrix->size;
-    for (int32_t f = 0; f < matrix->count; ++f) {
+    for (int32_t n = 0; n < matrix->frames.count; ++n) {
+        int32_t f = matrix->frames.data[n];
         std::copy(right + size * f, right + size * (f + 1), matrix->right.data + size * matrix->place.data[f]);
     }
     SolveDown(matrix, matrix->right.data);
     SolveUp(matrix, matrix->right.data);
-    for (int32_t f = 0; f < matrix->count; ++f) {
+    for (int32_t n = 0; n < matrix->frames.count; ++n) {
+        int32_t f = matrix->frames.data[n];
         const double* from = matrix->right.data + size * matrix->place.data[f];
         std::copy(from, from + size, solution + size * f);
     }

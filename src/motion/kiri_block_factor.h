@@ -31,7 +31,7 @@ int32_t kiriMatrix_FrameCount(const kiriMatrix* matrix);
 int32_t kiriMatrix_PairCount(const kiriMatrix* matrix);
 void kiriMatrix_GetPairs(kiriMatrix* matrix, kiriPair* pairs);
 
-/* How many products of blocks a factorisation takes, as of blocks of size 6. */
+/* How many products of blocks a factorisation of what is chosen takes, as of blocks of size 6. */
 int64_t kiriMatrix_ProductCount(const kiriMatrix* matrix);
 
 /* Is the pair in the pattern? */
@@ -42,6 +42,10 @@ uint64_t kiriMatrix_Hash(const kiriMatrix* matrix);
 
 /* Does without the long vectors of the processor, for tests: the bits are the same. */
 void kiriMatrix_RefuseLongVectors(kiriMatrix* matrix);
+
+/* Clear, Factor and Solve leave out all frames but these, which ascend: blocks that they share with others stay zero, and
+   no block of others is added. Shape chooses all. */
+void kiriMatrix_Choose(kiriMatrix* matrix, const int32_t* frames, int32_t count);
 
 void kiriMatrix_Clear(kiriMatrix* matrix);
 

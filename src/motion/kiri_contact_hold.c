@@ -24,7 +24,7 @@ static kiriPieceStep* PieceOfRow(const kiriSolver* solver, const kiriSystem* sys
 static bool FindDeep(kiriSolver* solver, const kiriSystem* system)
 {
     bool any = false;
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         solver->pieces.data[i].isHeldUp = solver->pieces.data[i].isSearching = false;
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
@@ -35,8 +35,10 @@ static bool FindDeep(kiriSolver* solver, const kiriSystem* system)
             PieceOfRow(solver, system, k)->isSearching = any = true;
         }
     }
-    for (int32_t f = 0; any && f < system->frameCount; ++f) {
-        solver->trial.data[f] = solver->poses.data[f];
+    if (any) {
+        KIRI_EACH(f, solver->awake.frames) {
+            solver->trial.data[f] = solver->poses.data[f];
+        }
     }
     return any;
 }
@@ -46,7 +48,7 @@ static bool FindDeep(kiriSolver* solver, const kiriSystem* system)
 /* Touches are found for frames as they are turned at the start: else other points of the material are below planes. */
 static void TurnBack(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         const kiriMat3 *start = &solver->start.data[f].A, *end = &solver->poses.data[f].A;
         kiriVec3 u = kiriVec3_Sub(end->u, start->u), v = kiriVec3_Sub(end->v, start->v);
         double turn = kiriVec3_Dot(u, u) + kiriVec3_Dot(v, v);
@@ -108,7 +110,7 @@ static bool HoldPiece(kiriSolver* solver, const kiriSystem* system, int32_t k)
     }
     double push = depth / (share / inertia + step->give);
     step->push += push;
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         if (kiriSolver_PieceOf(solver, f) == piece && !system->frames[f].held) {
             solver->poses.data[f].x = kiriVec3_AddScaled(solver->poses.data[f].x, push / inertia, along);
         }
@@ -119,7 +121,7 @@ static bool HoldPiece(kiriSolver* solver, const kiriSystem* system, int32_t k)
 static void SumMasses(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSolver_ClearMeans(solver);
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         kiriSolver_PieceOf(solver, f)->mass += system->frames[f].held ? 0.0 : system->frames[f].mass;
     }
 }
@@ -144,7 +146,7 @@ static bool TakeHeld(kiriSolver* solver, const kiriSystem* system)
 {
     bool isLeft = false;
     kiriObjective_Evaluate(solver, system, solver->poses.data);
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         double most = piece->start.potential + piece->means;
         most = most > piece->now.potential ? most : piece->now.potential;
@@ -155,7 +157,7 @@ static bool TakeHeld(kiriSolver* solver, const kiriSystem* system)
         }
         isLeft |= piece->isSearching;
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         if (kiriSolver_PieceOf(solver, f)->isSearching) {
             solver->poses.data[f] = solver->trial.data[f];
         }

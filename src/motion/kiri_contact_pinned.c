@@ -12,11 +12,11 @@ static void ChoosePinned(kiriSolver* solver, const kiriSystem* system)
     for (int32_t k = 0; k < system->clampCount; ++k) {
         kiriSolver_PieceOf(solver, system->clamps[k].frame)->isPinned = false;
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         piece->isPinned = piece->isPinned && !system->frames[f].held;
     }
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         piece->asked = piece->given = kiriVec3_Make(0.0, 0.0, 0.0);
         piece->pressed = 0.0;
@@ -26,7 +26,7 @@ static void ChoosePinned(kiriSolver* solver, const kiriSystem* system)
 /* `asked` of each piece: what its momentum and its pins say that contacts did, N s; `given`: what contacts say. */
 static void SumPinned(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         const kiriFrameData *before = &solver->before.data[f], *after = &solver->after.data[f];
         kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         kiriVec3 gravity = kiriVec3_Scale(before->mass, kiriSystem_Gravity(system));
@@ -55,7 +55,7 @@ void kiriSolver_BalancePinned(kiriSolver* solver, const kiriSystem* system)
 {
     ChoosePinned(solver, system);
     SumPinned(solver, system);
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         double fit = kiriVec3_Dot(piece->asked, piece->given), size = kiriVec3_Dot(piece->given, piece->given);
         bool isClear = size > ONE_SIDED * ONE_SIDED * piece->pressed * piece->pressed;

@@ -6,7 +6,7 @@
 
 void kiriSolver_ClearMeans(kiriSolver* solver)
 {
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         solver->pieces.data[i].mean = kiriVec3_Make(0.0, 0.0, 0.0);
         solver->pieces.data[i].mass = 0.0;
     }
@@ -17,13 +17,13 @@ void kiriSolver_ClearMeans(kiriSolver* solver)
 void kiriSolver_CenterFreePieces(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSolver_ClearMeans(solver);
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         kiriVec3 off = kiriVec3_Sub(solver->predictions.data[f].pose.x, solver->poses.data[f].x);
         piece->mean = kiriVec3_AddScaled(piece->mean, system->frames[f].mass, off);
         piece->mass += system->frames[f].mass;
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         kiriVec3* x = &solver->poses.data[f].x;
         double squared =
@@ -36,7 +36,7 @@ void kiriSolver_CenterFreePieces(kiriSolver* solver, const kiriSystem* system)
 
 static void WriteStepEnd(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         const kiriPrediction* prediction = &solver->predictions.data[f];
         const kiriStepping* stepping = &kiriSolver_PieceOf(solver, f)->stepping;
         const kiriFrameData* before = &solver->before.data[f];
@@ -72,15 +72,14 @@ static void SumContacts(kiriSolver* solver, const kiriSystem* system)
 static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
 {
     const kiriVec3* normal = system->mechanics.planar ? &system->mechanics.axes.d : NULL;
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceMomentum start = { .isFree = solver->pieces.data[i].isFree,
                                     .isPushed = solver->pieces.data[i].isPushed };
         solver->momenta.data[i] = start;
     }
     SumContacts(solver, system);
-    kiriMomentum_Restore(solver->before.data, solver->after.data, system->frameCount, solver->framePiece.data,
-                         solver->momenta.data, solver->pieceCount, &system->material, kiriSystem_Gravity(system),
-                         solver->dt, normal);
+    kiriMomentum_Restore(solver->before.data, solver->after.data, &solver->awake, solver->framePiece.data,
+                         solver->momenta.data, &system->material, kiriSystem_Gravity(system), solver->dt, normal);
 }
 
 /* ---- Gains ---- */
@@ -120,7 +119,7 @@ double kiriPieceStep_MostTaken(const kiriPieceStep* piece)
 static void SumGains(kiriSolver* solver, const kiriSystem* system)
 {
     kiriVec3 gravity = kiriSystem_Gravity(system);
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         const kiriPieceMomentum* momentum = &solver->momenta.data[i];
         piece->kinetic = 0.0;
@@ -129,7 +128,7 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
         piece->gain = -KIRI_ROUNDING * (piece->start.potential + piece->now.potential) - piece->noise +
                       piece->now.potential - piece->start.potential;
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
         if (!start->held) {
             kiriVec3 way = kiriVec3_Sub(end->x, start->x);
@@ -196,7 +195,7 @@ static bool IsThrown(const kiriPieceStep* piece)
 
 static void TryPushes(kiriSolver* solver, const kiriSystem* system, int trial)
 {
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         double part = trial < TRIALS ? (double)(TRIALS - 1 - trial) / TRIALS : piece->low;
         piece->keepForces = piece->isThrown ? part * piece->high : piece->keepForces;
@@ -204,7 +203,7 @@ static void TryPushes(kiriSolver* solver, const kiriSystem* system, int trial)
     WriteStepEnd(solver, system);
     RestoreMomentum(solver, system);
     SumGains(solver, system);
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         if (Excess(piece) < piece->slope && piece->slope > 0.0) {
             piece->slope = Excess(piece);
@@ -219,7 +218,7 @@ static void TryPushes(kiriSolver* solver, const kiriSystem* system, int trial)
 static void LimitPushes(kiriSolver* solver, const kiriSystem* system)
 {
     bool any = false;
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         piece->isThrown = IsThrown(piece);
         piece->low = 1.0;
@@ -237,7 +236,7 @@ static void LimitPushes(kiriSolver* solver, const kiriSystem* system)
 void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
 {
     LimitPushes(solver, system);
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         double energy = piece->gain > 0.0 ? piece->gain : 0.0, rest = piece->kinetic - piece->turning;
         piece->keepRest = TakeEnergy(rest > 0.0 ? rest : 0.0, &energy);
@@ -245,7 +244,7 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
         bool isOwn = piece->isFree || (piece->isPushed && !IsThrown(piece));
         piece->keepMean = isOwn ? 1.0 : TakeEnergy(piece->moving, &energy);
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         int32_t i = solver->framePiece.data[f];
         if (solver->pieces.data[i].gain > 0.0 && !solver->after.data[f].held) {
             ScaleVelocities(&solver->pieces.data[i], &solver->momenta.data[i], &solver->after.data[f]);

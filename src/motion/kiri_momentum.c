@@ -2,10 +2,10 @@
 
 #include <float.h>
 
-static void GatherCenters(const kiriFrameData* before, const kiriFrameData* after, int32_t frameCount,
-                          const int32_t* piece, kiriPieceMomentum* pieces, int32_t pieceCount)
+static void GatherCenters(const kiriFrameData* before, const kiriFrameData* after, const kiriAwake* awake,
+                          const int32_t* piece, kiriPieceMomentum* pieces)
 {
-    for (int32_t f = 0; f < frameCount; ++f) {
+    KIRI_EACH(f, awake->frames) {
         kiriPieceMomentum* p = &pieces[piece[f]];
         double m = before[f].held ? 0.0 : before[f].mass;
         p->mass += m;
@@ -14,7 +14,7 @@ static void GatherCenters(const kiriFrameData* before, const kiriFrameData* afte
         p->centerAfter = kiriVec3_AddScaled(p->centerAfter, m, after[f].x);
         p->velocityAfter = kiriVec3_AddScaled(p->velocityAfter, m, after[f].velocity);
     }
-    for (int32_t i = 0; i < pieceCount; ++i) {
+    KIRI_EACH(i, awake->pieces) {
         kiriPieceMomentum* p = &pieces[i];
         double share = 1.0 / (p->mass > DBL_MIN ? p->mass : DBL_MIN);
         p->centerBefore = kiriVec3_Scale(share, p->centerBefore);
@@ -59,9 +59,9 @@ static void MoveTogether(kiriPieceMomentum* p)
     p->velocityAfter = velocity;
 }
 
-static void FindTurns(kiriPieceMomentum* pieces, int32_t pieceCount, const kiriVec3* normal)
+static void FindTurns(kiriPieceMomentum* pieces, const kiriAwake* awake, const kiriVec3* normal)
 {
-    for (int32_t i = 0; i < pieceCount; ++i) {
+    KIRI_EACH(i, awake->pieces) {
         kiriPieceMomentum* p = &pieces[i];
         if (p->mass > 0.0) {
             bool isOwn = p->isFree || p->isPushed;
@@ -82,18 +82,18 @@ static void FindTurns(kiriPieceMomentum* pieces, int32_t pieceCount, const kiriV
     }
 }
 
-void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t frameCount, const int32_t* piece,
-                          kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, kiriVec3 gravity,
-                          double dt, const kiriVec3* normal)
+void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, const kiriAwake* awake,
+                          const int32_t* piece, kiriPieceMomentum* pieces, const kiriMaterial* material,
+                          kiriVec3 gravity, double dt, const kiriVec3* normal)
 {
-    GatherCenters(before, after, frameCount, piece, pieces, pieceCount);
-    for (int32_t f = 0; f < frameCount; ++f) {
+    GatherCenters(before, after, awake, piece, pieces);
+    KIRI_EACH(f, awake->frames) {
         if (!before[f].held) {
             AddFrameTurning(&pieces[piece[f]], &before[f], &after[f], material, gravity, dt);
         }
     }
-    FindTurns(pieces, pieceCount, normal);
-    for (int32_t f = 0; f < frameCount; ++f) {
+    FindTurns(pieces, awake, normal);
+    KIRI_EACH(f, awake->frames) {
         const kiriPieceMomentum* p = &pieces[piece[f]];
         if (p->isFree || p->isPushed) {
             kiriVec3 arm = kiriVec3_Sub(after[f].x, p->centerAfter);

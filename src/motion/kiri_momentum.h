@@ -4,6 +4,7 @@
 #ifndef KIRI_MOMENTUM_H
 #define KIRI_MOMENTUM_H
 
+#include "kiri_awake.h"
 #include "kiri_prediction.h"
 
 KIRI_C_BEGIN
@@ -25,13 +26,13 @@ typedef struct kiriPieceMomentum {
 } kiriPieceMomentum;
 
 /* Turns free pieces as rigid bodies until they have the angular momentum that they should have; pieces on which contacts
-   alone act get the whole momentum that these gave. Frames are those before
+   alone act get the whole momentum that these gave; of what is awake. Frames are those before
    and after the step; piece[f] is the piece of frame f; isFree, isPushed and pushed are set in `pieces`, the
    rest is zero, and written. In a planar
    sheet `normal` is that of its plane; else null. */
-void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t frameCount, const int32_t* piece,
-                          kiriPieceMomentum* pieces, int32_t pieceCount, const kiriMaterial* material, kiriVec3 gravity,
-                          double dt, const kiriVec3* normal);
+void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, const kiriAwake* awake,
+                          const int32_t* piece, kiriPieceMomentum* pieces, const kiriMaterial* material,
+                          kiriVec3 gravity, double dt, const kiriVec3* normal);
 
 KIRI_C_END
 

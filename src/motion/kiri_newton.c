@@ -16,23 +16,25 @@
 /* The line search begins with the whole of the Gauss-Newton step, or as much of it as turns no frame too far. */
 static void StartSearch(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         piece->now = piece->isSearching ? piece->sum : piece->now;
         piece->enough = piece->now.objective * (1.0 + KIRI_ROUNDING) + piece->noise;
         piece->scale = LONGEST_ITERATION_TURN;
         piece->promise = 0.0;
     }
-    for (int32_t n = 0; n < solver->size * system->frameCount; ++n) {
-        kiriSolver_PieceOf(solver, n / solver->size)->promise += 0.5 * solver->force.data[n] * solver->move.data[n];
-    }
-    for (int32_t f = 0; !kiriMechanics_IsAffine(&system->mechanics) && f < system->frameCount; ++f) {
-        kiriFrameRow change = kiriSolver_Expand(solver, 1.0, &solver->move.data[solver->size * f]);
-        double turn = kiriVec3_Length(change.by[1]);
+    KIRI_EACH(f, solver->awake.frames) {
         kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        piece->scale = turn > piece->scale ? turn : piece->scale;
+        for (int32_t n = solver->size * f; n < solver->size * (f + 1); ++n) {
+            piece->promise += 0.5 * solver->force.data[n] * solver->move.data[n];
+        }
+        if (!kiriMechanics_IsAffine(&system->mechanics)) {
+            kiriFrameRow change = kiriSolver_Expand(solver, 1.0, &solver->move.data[solver->size * f]);
+            double turn = kiriVec3_Length(change.by[1]);
+            piece->scale = turn > piece->scale ? turn : piece->scale;
+        }
     }
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         solver->pieces.data[i].scale = LONGEST_ITERATION_TURN / solver->pieces.data[i].scale;
     }
     kiriSolver_LimitByFriction(solver, system);
@@ -40,7 +42,7 @@ static void StartSearch(kiriSolver* solver, const kiriSystem* system)
 
 static void TryStep(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         const kiriPose* pose = &solver->poses.data[f];
         if (!piece->isSearching) {
@@ -73,16 +75,16 @@ static bool IsGood(const kiriPieceStep* piece)
 }
 
 /* Pieces whose step is good enough take it. Returns whether there are others. */
-static bool TakeTrial(kiriSolver* solver, const kiriSystem* system)
+static bool TakeTrial(kiriSolver* solver)
 {
     bool isLeft = false;
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         if (IsGood(piece)) {
             solver->poses.data[f] = solver->trial.data[f];
         }
     }
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         if (IsGood(piece)) {
             piece->now = piece->sum;
@@ -96,11 +98,11 @@ static bool TakeTrial(kiriSolver* solver, const kiriSystem* system)
 /* Pieces in their first step that still search may end where the objective is that of the free prediction, or some times as large as where they start. */
 static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         solver->trial.data[f] = solver->predictions.data[f].pose;
     }
     kiriObjective_Evaluate(solver, system, solver->trial.data);
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         double rise = MOST_RISE * piece->now.objective, predicted = piece->sum.objective;
         double allowed = (predicted > rise ? predicted : rise) * (1.0 + KIRI_ROUNDING) + piece->noise;
@@ -114,7 +116,7 @@ static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
 static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
 {
     bool isFirst = false;
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         solver->pieces.data[i].isSearching = solver->pieces.data[i].isIterated;
         isFirst |= solver->pieces.data[i].isIterated && solver->pieces.data[i].isFirst;
     }
@@ -126,21 +128,21 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
     kiriSolver_MoveContacts(solver, system);
     StartSearch(solver, system);
     TryStep(solver, system);
-    bool isLeft = TakeTrial(solver, system);
+    bool isLeft = TakeTrial(solver);
     if (isLeft && isFirst) {
         AllowPrediction(solver, system);
         TryStep(solver, system);
-        isLeft = TakeTrial(solver, system);
+        isLeft = TakeTrial(solver);
     }
     for (int halving = 0; isLeft && halving < HALVINGS; ++halving) {
-        for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        KIRI_EACH(i, solver->awake.pieces) {
             solver->pieces.data[i].scale *= 0.5;
         }
         TryStep(solver, system);
-        isLeft = TakeTrial(solver, system);
+        isLeft = TakeTrial(solver);
     }
     kiriSolver_ReviewContacts(solver, system);
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         solver->pieces.data[i].isFirst &= !solver->pieces.data[i].isIterated;
     }
     return true;
@@ -162,7 +164,7 @@ static bool IsSuspect(const kiriPieceStep* piece)
 static bool ChooseUnfinished(kiriSolver* solver, int32_t done)
 {
     bool any = false;
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         bool isShort = piece->scale < KIRI_SHORT_STEP && piece->promise > WORTHWHILE * piece->now.objective;
         bool hasGained = piece->stepping.isEuler && !(piece->gain <= 0.0);
@@ -179,12 +181,12 @@ static bool ChooseUnfinished(kiriSolver* solver, int32_t done)
 /* The pieces that are new, at these poses. */
 static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         solver->pieces.data[i].isSearching = solver->pieces.data[i].isNew;
     }
     kiriSolver_GuessContacts(solver, system);
     kiriObjective_Evaluate(solver, system, solver->start.data);
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         piece->start = piece->isNew ? piece->sum : piece->start;
         piece->isFirst |= piece->isNew;
@@ -198,7 +200,7 @@ static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
 static void TakeAnew(kiriSolver* solver, const kiriSystem* system, int32_t wanted)
 {
     bool any = false;
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         piece->wanted = piece->isNew ? wanted : piece->wanted;
         any |= piece->isNew;
@@ -214,7 +216,7 @@ static void TakeAnew(kiriSolver* solver, const kiriSystem* system, int32_t wante
 static bool RestartPieces(kiriSolver* solver, const kiriSystem* system)
 {
     bool any = false;
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         bool isOver = !(piece->now.objective <= piece->start.objective * (1.0 + KIRI_ROUNDING) + piece->noise);
         double most = (isOver ? MOST_TAKEN : 1.0) * kiriPieceStep_MostTaken(piece);
@@ -225,13 +227,13 @@ static bool RestartPieces(kiriSolver* solver, const kiriSystem* system)
         kiriSolver_BecomeEuler(solver, system);
         EvaluateStart(solver, system);
     }
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         piece->now = piece->isIterated ? piece->start : piece->now;
         piece->solved = piece->isIterated ? FREE_SYSTEMS : piece->solved;
         piece->isFirst = false;
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         if (kiriSolver_PieceOf(solver, f)->isIterated) {
             solver->poses.data[f] = solver->start.data[f];
         }

@@ -78,10 +78,10 @@ void kiriObjective_AddElement(const kiriSolver* solver, const kiriSystem* system
 
 void kiriObjective_AddInertia(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         memset(&solver->pieces.data[i].sum, 0, sizeof(kiriStepEnergy));
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         if (piece->isSearching) {
             const kiriPrediction* prediction = &solver->predictions.data[f];
@@ -104,7 +104,7 @@ void kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* system, const 
     kiriObjective_AddInertia(solver, system, poses);
     /* Held frames start from where the host puts them: other strains than those at the start of the step. */
     bool isKnown = poses == solver->start.data && !solver->isHeld;
-    for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
+    KIRI_EACH(k, solver->awake.elements) {
         kiriPieceStep* piece = kiriSolver_PieceOfElement(solver, system, k);
         double pulling[KIRI_MOST_STRAINS];
         if (!piece->isSearching) {
@@ -167,13 +167,13 @@ static double AffineNoise(const kiriSolver* solver, const kiriSystem* system, in
 void kiriObjective_FindNoise(kiriSolver* solver, const kiriSystem* system)
 {
     const double share = KIRI_LAST_BITS * KIRI_LAST_BITS * (1.0 + solver->damping);
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         kiriVec3 x = solver->start.data[f].x;
         kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         double part = piece->stepping.part;
         piece->noise += share * system->frames[f].mass * kiriVec3_Dot(x, x) / (part * part);
     }
-    for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
+    KIRI_EACH(k, solver->awake.elements) {
         const double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
         const kiriCorner* corner = kiriElement_Corner(system, k);
         double noise = kiriElement_IsRigidCorner(system, k) ? CornerNoise(solver, system, corner, stiffness)
@@ -420,9 +420,9 @@ static void AddClamp(kiriSolver* solver, const kiriSystem* system, const kiriCla
 void kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
 {
     kiriMatrix_Clear(solver->matrix);
-    memset(solver->force.data, 0, sizeof(double) * (size_t)(solver->size * system->frameCount));
     kiriSolver_LinearizeContacts(solver, system);
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
+        memset(&solver->force.data[solver->size * f], 0, sizeof(double) * (size_t)solver->size);
         if (IsStill(solver, system, f)) {
             AddIdentity(solver, f);
         } else {
@@ -430,7 +430,7 @@ void kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
         }
     }
     kiriObjective_AddInertia(solver, system, solver->poses.data);
-    for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
+    KIRI_EACH(k, solver->awake.elements) {
         kiriPieceStep* piece = kiriSolver_PieceOfElement(solver, system, k);
         if (piece->isSearching) {
             AddElement(solver, system, k, &piece->sum);

@@ -77,6 +77,7 @@ static bool ReserveSolver(kiriSolver* solver, const kiriSystem* next)
     int64_t traced = hasTraces ? kiriElement_LinkCount(next) : 0;
     int64_t unknowns = (int64_t)solver->size * frameCount, rows = (int64_t)KIRI_MOST_STRAINS * most;
     return kiriArray_Reserve(memory, &solver->nextFramePiece, frameCount) &&
+           kiriAwake_Reserve(&solver->awake, memory, frameCount, elementCount) &&
            kiriArray_Reserve(memory, &solver->pieces, frameCount) &&
            kiriArray_Reserve(memory, &solver->momenta, frameCount) &&
            kiriArray_Reserve(memory, &solver->before, frameCount) &&
@@ -195,7 +196,45 @@ void kiriSolver_Commit(kiriSolver* solver)
         solver->nextMatrix = matrix;
     }
     solver->isStaged = false;
+    kiriAwake_Start(&solver->awake, solver->pieceCount);
     KIRI_ASSERT(kiriMatrix_FrameCount(solver->matrix) == solver->frameCount);
+}
+
+/* ---- What is awake ---- */
+
+void kiriSolver_SetAwake(kiriSolver* solver, int32_t piece, bool isAwake)
+{
+    kiriAwake_Set(&solver->awake, piece, isAwake);
+}
+
+static void ListAwake(kiriSolver* solver, const kiriSystem* system)
+{
+    kiriAwake* awake = &solver->awake;
+    const uint8_t* isAwake = awake->isAwake.data;
+    const int32_t* framePiece = solver->framePiece.data;
+    awake->pieces.count = awake->frames.count = awake->elements.count = 0;
+    for (int32_t p = 0; p < solver->pieceCount; ++p) {
+        awake->pieces.data[awake->pieces.count] = p;
+        awake->pieces.count += isAwake[p];
+    }
+    for (int32_t f = 0; f < solver->frameCount; ++f) {
+        awake->frames.data[awake->frames.count] = f;
+        awake->frames.count += isAwake[framePiece[f]];
+    }
+    for (int32_t k = 0; k < solver->elementCount; ++k) {
+        awake->elements.data[awake->elements.count] = k;
+        awake->elements.count += isAwake[framePiece[kiriElement_FirstMember(system, k)]];
+    }
+}
+
+const kiriAwake* kiriSolver_Awake(kiriSolver* solver, const kiriSystem* system)
+{
+    if (!solver->awake.isListed) {
+        ListAwake(solver, system);
+        kiriMatrix_Choose(solver->matrix, solver->awake.frames.data, solver->awake.frames.count);
+        solver->awake.isListed = true;
+    }
+    return &solver->awake;
 }
 
 uint64_t kiriSolver_Hash(const kiriSolver* solver)
@@ -212,9 +251,9 @@ static bool FitsFloats(kiriVec3 a)
     return fabs(a.x) <= most && fabs(a.y) <= most && fabs(a.z) <= most;
 }
 
-static bool IsReadable(const kiriSolver* solver, int32_t frameCount)
+static bool IsReadable(const kiriSolver* solver)
 {
-    for (int32_t f = 0; f < frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         const kiriFrameData* frame = &solver->after.data[f];
         if (!FitsFloats(frame->x) || !FitsFloats(frame->A.u) || !FitsFloats(frame->A.v) || !FitsFloats(frame->A.d) ||
             !FitsFloats(frame->velocity) || !FitsFloats(frame->spin) || !FitsFloats(frame->rate.u) ||
@@ -228,7 +267,7 @@ static bool IsReadable(const kiriSolver* solver, int32_t frameCount)
 
 static void WriteFrames(const kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         kiriFrameData* frame = &system->frames[f];
         const kiriFrameData* end = &solver->after.data[f];
         frame->x = end->x;
@@ -247,7 +286,7 @@ static void ForgetHistories(kiriSolver* solver, const kiriSystem* system)
 {
     bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;
     kiriSolver_FindTouched(solver, system, solver->poses.data);
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         if (isEuler || kiriSolver_PieceOf(solver, f)->isTouched) {
             memset(&solver->after.data[f].history, 0, sizeof(kiriHistory));
         }
@@ -258,7 +297,8 @@ static void ForgetHistories(kiriSolver* solver, const kiriSystem* system)
    contacts. */
 int64_t kiriSolver_SystemItems(const kiriSolver* solver, int32_t contactCount)
 {
-    int64_t frames = (int64_t)solver->frameCount * (solver->size > 6 ? 3 : 1);
+    bool isListed = solver->awake.isListed;
+    int64_t frames = (int64_t)(isListed ? solver->awake.frames.count : solver->frameCount) * (solver->size > 6 ? 3 : 1);
     return 1 + (4 * frames + contactCount + kiriMatrix_ProductCount(solver->matrix) / 20) / 64;
 }
 
@@ -274,12 +314,12 @@ int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt,
     KIRI_ASSERT(most >= 1);
     kiriSolver_Begin(solver, system, dt);
     int32_t done = kiriSolver_Minimise(solver, system, iterations < most ? iterations : most, most);
-    if (done < 0) {
-        return -1;
+    if (done >= 0) {
+        kiriSolver_LimitEnergy(solver, system);
+        ForgetHistories(solver, system);
     }
-    kiriSolver_LimitEnergy(solver, system);
-    ForgetHistories(solver, system);
-    if (!IsReadable(solver, system->frameCount)) {
+    if (done < 0 || !IsReadable(solver)) {
+        solver->awake.isListed = false; /* the matrix may have what is no number where it skips columns */
         return -1;
     }
     kiriSolver_AddReactions(solver, system);

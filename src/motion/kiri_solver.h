@@ -2,6 +2,7 @@
 #ifndef KIRI_SOLVER_H
 #define KIRI_SOLVER_H
 
+#include "kiri_awake.h"
 #include "kiri_strain_offset.h"
 #include "kiri_area_element.h"
 #include "kiri_clamp.h"
@@ -73,6 +74,13 @@ bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t*
 /* What is staged, if anything, becomes current. */
 void kiriSolver_Commit(kiriSolver* solver);
 
+/* Of the current configuration: steps move what is awake and nothing else. All pieces are awake after a commit. Rows of
+   pins, clamps and contacts must be of pieces that are awake. */
+void kiriSolver_SetAwake(kiriSolver* solver, int32_t piece, bool isAwake);
+
+/* The lists of what is awake, made where they are others than before. The system is of the current configuration. */
+const kiriAwake* kiriSolver_Awake(kiriSolver* solver, const kiriSystem* system);
+
 /* Of the pattern, which depends on what was staged before: the last bits of steps depend on it. */
 uint64_t kiriSolver_Hash(const kiriSolver* solver);
 
@@ -81,7 +89,8 @@ bool kiriSolver_ReserveContacts(kiriSolver* solver, int32_t count);
 
 enum { KIRI_EXTRA_SYSTEMS = 6 }; /* of a step, beside its iterations */
 
-/* What a linear system of the current configuration counts in a budget: see kiriBudget in kiri.h. */
+/* What a linear system of the current configuration, or of what was listed awake in it, counts in a budget: see
+   kiriBudget in kiri.h. */
 int64_t kiriSolver_SystemItems(const kiriSolver* solver, int32_t contactCount);
 
 /* The linear systems that steps solved since this was last called. */

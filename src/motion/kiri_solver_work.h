@@ -122,6 +122,7 @@ struct kiriSolver {
     int32_t pieceCount, nextPieceCount;
     int32_t frameCount, nextFrameCount;
     int32_t elementCount, nextElementCount;
+    kiriAwake awake;
     bool isStaged, isNextMatrix; /* is there a next configuration, and has it a pattern of its own? */
     KIRI_ARRAY(kiriPair) pairs;  /* scratch: of the next configuration */
     /* Room for the larger of the two configurations. */

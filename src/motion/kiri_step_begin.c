@@ -99,14 +99,14 @@ static bool IsShifted(const kiriSystem* system, const kiriPieceStep* piece)
 static void ShiftFreePieces(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSolver_ClearMeans(solver);
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         double mass = system->frames[f].mass;
         kiriVec3 change = kiriVec3_Sub(solver->predictions.data[f].velocity, solver->before.data[f].velocity);
         piece->mean = kiriVec3_AddScaled(piece->mean, mass, change);
         piece->mass += mass;
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         kiriPrediction* prediction = &solver->predictions.data[f];
         if (IsShifted(system, piece)) {
@@ -119,7 +119,7 @@ static void ShiftFreePieces(kiriSolver* solver, const kiriSystem* system)
 /* Of the pieces that begin. */
 static void Predict(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         if (piece->isNew) {
             solver->predictions.data[f] = PredictFrame(system, &solver->before.data[f], &piece->stepping);
@@ -145,7 +145,7 @@ static bool IsBroken(const kiriFrameData* frame, double dt)
 static void ChooseSteppings(kiriSolver* solver, const kiriSystem* system)
 {
     bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         const kiriFrameData* frame = &system->frames[f];
         kiriStepping* chosen = &kiriSolver_PieceOf(solver, f)->stepping;
         kiriStepping own = isEuler || IsBroken(frame, solver->dt) ? kiriStepping_Euler(solver->dt)
@@ -174,7 +174,7 @@ static void FindPushed(kiriSolver* solver, const kiriSystem* system)
 
 void kiriSolver_BecomeEuler(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         if (piece->isNew) {
             piece->stepping = kiriStepping_Euler(solver->dt);
@@ -194,7 +194,7 @@ static bool IsSamePose(const kiriPose* a, const kiriPose* b)
 /* The host moves a held frame, or a clamp, to its place at once. */
 static void FindCarried(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         const kiriPose *from = &solver->start.data[f], *to = &solver->predictions.data[f].pose;
         if (system->frames[f].held && !IsSamePose(from, to)) {
             kiriSolver_PieceOf(solver, f)->isTouched = true;
@@ -215,7 +215,7 @@ static void StepTouchedByEuler(kiriSolver* solver, const kiriSystem* system)
     FindPushed(solver, system);
     kiriSolver_FindTouched(solver, system, solver->start.data);
     kiriSolver_FindTouched(solver, system, solver->poses.data);
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         piece->isNew = piece->isTouched && !piece->stepping.isEuler;
     }
@@ -261,12 +261,12 @@ static void BeginClamp(const kiriSolver* solver, const kiriSystem* system, kiriC
 /* Finds which pieces are free, and clears the rest. */
 static void BeginPieces(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         memset(&solver->pieces.data[i], 0, sizeof(kiriPieceStep));
         solver->pieces.data[i].isFree = !kiriSystem_HasWind(system);
         solver->pieces.data[i].scale = 1.0;
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         kiriSolver_PieceOf(solver, f)->isFree &= !system->frames[f].held;
     }
     for (int32_t k = 0; k < system->pinCount; ++k) {
@@ -288,17 +288,17 @@ static kiriVec3* CarriedOn(const kiriStepping* stepping, kiriHistory* history)
 }
 
 /* Inner forces do not move a free piece as a whole. A commit that changed masses may have left a mean. */
-static void CenterHistories(kiriSolver* solver, const kiriSystem* system)
+static void CenterHistories(kiriSolver* solver)
 {
     kiriSolver_ClearMeans(solver);
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         kiriFrameData* frame = &solver->before.data[f];
         const kiriVec3* carried = CarriedOn(&piece->stepping, &frame->history);
         piece->mean = kiriVec3_AddScaled(piece->mean, frame->mass, *carried);
         piece->mass += frame->mass;
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         kiriVec3* carried = CarriedOn(&piece->stepping, &solver->before.data[f].history);
         if (piece->isFree && !piece->stepping.isEuler) {
@@ -309,7 +309,7 @@ static void CenterHistories(kiriSolver* solver, const kiriSystem* system)
 
 static void SetNew(kiriSolver* solver)
 {
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         solver->pieces.data[i].isNew = true;
     }
 }
@@ -318,11 +318,12 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
 {
     KIRI_ASSERT(dt > 0.0 && system->frameCount == solver->frameCount);
     KIRI_ASSERT(kiriElement_Count(system) == solver->elementCount);
+    kiriSolver_Awake(solver, system);
     solver->dt = dt;
     solver->damping = (double)system->material.flexDamping / dt;
     solver->isAlong = solver->isHeld = false;
     BeginPieces(solver, system);
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         solver->isHeld |= system->frames[f].held != 0;
         solver->start.data[f] = kiriPose_Of(&system->frames[f]);
         solver->before.data[f] = FlattenFrame(&system->mechanics, &system->frames[f]);
@@ -331,16 +332,16 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     kiriSolver_BeginContacts(solver, system);
     SetNew(solver);
     ChooseSteppings(solver, system);
-    CenterHistories(solver, system);
+    CenterHistories(solver);
     Predict(solver, system);
     StepTouchedByEuler(solver, system);
-    for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
+    KIRI_EACH(k, solver->awake.elements) {
         BeginElement(solver, system, k);
     }
     for (int32_t k = 0; k < system->clampCount; ++k) {
         BeginClamp(solver, system, &system->clamps[k]);
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         if (system->frames[f].held) {
             solver->start.data[f] = solver->predictions.data[f].pose;
         }

@@ -166,7 +166,7 @@ static void FindMeans(kiriSolver* solver, const kiriSystem* system)
         piece->isNear = true;
     }
     double gravity = kiriVec3_Length(kiriSystem_Gravity(system));
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         const kiriFrameData* frame = &solver->before.data[f];
         kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         if (piece->isNear) {
@@ -386,7 +386,7 @@ static double FrictionSlope(const kiriContactStep* step, double part)
 
 static void SumForceSlopes(const kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         piece->slope = -2.0 * piece->promise * (1.0 - piece->scale);
     }
@@ -403,7 +403,7 @@ void kiriSolver_LimitByFriction(kiriSolver* solver, const kiriSystem* system)
 {
     bool any = false;
     SumForceSlopes(solver, system);
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         piece->isCrossing = piece->isSearching && piece->solved >= EARLY && piece->slope > SLOPE * piece->promise;
         piece->low = 0.0;
@@ -411,12 +411,12 @@ void kiriSolver_LimitByFriction(kiriSolver* solver, const kiriSystem* system)
         any |= piece->isCrossing;
     }
     for (int halving = 0; any && halving < SLIDE_HALVINGS; ++halving) {
-        for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        KIRI_EACH(i, solver->awake.pieces) {
             kiriPieceStep* piece = &solver->pieces.data[i];
             piece->scale = piece->isCrossing ? 0.5 * (piece->low + piece->high) : piece->scale;
         }
         SumForceSlopes(solver, system);
-        for (int32_t i = 0; i < solver->pieceCount; ++i) {
+        KIRI_EACH(i, solver->awake.pieces) {
             kiriPieceStep* piece = &solver->pieces.data[i];
             piece->low = piece->slope > 0.0 ? piece->low : piece->scale;
             piece->high = piece->slope > 0.0 ? piece->scale : piece->high;
@@ -490,7 +490,7 @@ static bool Review(const kiriSolver* solver, const kiriSystem* system, int32_t k
 
 void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         solver->pieces.data[i].mostPush = 0.0;
         solver->pieces.data[i].isUnsettled = false;
         solver->pieces.data[i].solved += solver->pieces.data[i].isIterated;
@@ -534,11 +534,11 @@ kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriSystem* system, i
    the iteration came there. */
 static void SumWays(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         piece->asked = piece->isHeldUp && piece->isPushed ? kiriVec3_Make(0.0, 0.0, 0.0) : piece->asked;
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         double part = piece->stepping.part;
         if (piece->isHeldUp && piece->isPushed) {
@@ -552,7 +552,7 @@ static void SumWays(kiriSolver* solver, const kiriSystem* system)
    all are as much less as makes their sum fit that. */
 void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         solver->pieces.data[i].asked = solver->pieces.data[i].given = kiriVec3_Make(0.0, 0.0, 0.0);
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
@@ -563,7 +563,7 @@ void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
         piece->given = kiriVec3_Add(piece->given, WithinCone(step, &system->contacts[k]));
     }
     SumWays(solver, system);
-    for (int32_t i = 0; i < solver->pieceCount; ++i) {
+    KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         double fit = kiriVec3_Dot(piece->asked, piece->given), size = kiriVec3_Dot(piece->given, piece->given);
         piece->keepForces = fit >= size ? 1.0 : fit > 0.0 ? fit / size : 0.0;

@@ -86,8 +86,8 @@ static void AddContacts(const kiriSolver* solver, const kiriSystem* system)
 
 static void AddWind(const kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; kiriSystem_HasWind(system) && f < system->frameCount; ++f) {
-        if (system->frames[f].held) {
+    KIRI_EACH(f, solver->awake.frames) {
+        if (kiriSystem_HasWind(system) && system->frames[f].held) {
             TakeFromHold(solver, system, f, kiriWind_OnFrame(solver, system, f));
         }
     }
@@ -162,8 +162,8 @@ static void EndReactions(const kiriSolver* solver, const kiriSystem* system)
     for (int32_t k = 0; reactions->clamps != NULL && k < system->clampCount; ++k) {
         EndReaction(&kiriSolver_PieceOf(solver, system->clamps[k].frame)->stepping, &reactions->clamps[k]);
     }
-    for (int32_t f = 0; reactions->frames != NULL && f < system->frameCount; ++f) {
-        if (system->frames[f].held) {
+    KIRI_EACH(f, solver->awake.frames) {
+        if (reactions->frames != NULL && system->frames[f].held) {
             EndReaction(&kiriSolver_PieceOf(solver, f)->stepping, &reactions->frames[f]);
             AddMomentum(solver, system, f);
         }
@@ -177,7 +177,7 @@ void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
     if (solver->isHeld && system->reactions.frames != NULL) {
         AddContacts(solver, system);
         AddWind(solver, system);
-        for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
+        KIRI_EACH(k, solver->awake.elements) {
             AddHeldElement(solver, system, k);
         }
     }

@@ -68,7 +68,7 @@ bool kiriSystem_HasWind(const kiriSystem* system)
 
 void kiriWind_AddEnergy(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
         for (int k = 0; piece->isSearching && !system->frames[f].held && k < SAMPLES; ++k) {
             WindSpring spring = SpringAt(solver, system, f, k);
@@ -82,7 +82,7 @@ void kiriWind_AddEnergy(kiriSolver* solver, const kiriSystem* system, const kiri
 
 void kiriWind_Assemble(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_EACH(f, solver->awake.frames) {
         bool isStill = system->frames[f].held || !kiriSolver_PieceOf(solver, f)->isSearching;
         for (int k = 0; !isStill && k < SAMPLES; ++k) {
             WindSpring spring = SpringAt(solver, system, f, k);

@@ -1,0 +1,28 @@
+#include "kiri_awake.h"
+
+#include <string.h>
+
+bool kiriAwake_Reserve(kiriAwake* awake, kiriMemory* memory, int32_t frameCount, int32_t elementCount)
+{
+    return kiriArray_Reserve(memory, &awake->isAwake, frameCount) &&
+           kiriArray_Reserve(memory, &awake->pieces, frameCount) &&
+           kiriArray_Reserve(memory, &awake->frames, frameCount) &&
+           kiriArray_Reserve(memory, &awake->elements, elementCount);
+}
+
+void kiriAwake_Start(kiriAwake* awake, int32_t pieceCount)
+{
+    KIRI_ASSERT(pieceCount <= awake->isAwake.capacity);
+    if (pieceCount > 0) {
+        memset(awake->isAwake.data, 1, (size_t)pieceCount);
+    }
+    awake->isAwake.count = pieceCount;
+    awake->isListed = false;
+}
+
+void kiriAwake_Set(kiriAwake* awake, int32_t piece, bool isAwake)
+{
+    KIRI_ASSERT(piece >= 0 && piece < awake->isAwake.count);
+    awake->isListed = awake->isListed && awake->isAwake.data[piece] == isAwake;
+    awake->isAwake.data[piece] = isAwake;
+}
