@@ -98,6 +98,8 @@ static void SquaresListWhatTheyOverlap(void** state)
     assert_int_equal(squares.side, 10);
     assert_int_equal(squares.columns, 7);
     assert_int_equal(squares.rows, 4);
+    kiriLatticePoint was[3] = { { 0, 0 }, { 60, 0 }, { 0, 34 } };
+    assert_true(kiriSquares_Insert(&squares, Heap(), 5, was));
     for (int round = 0; round < 3000; ++round) {
         kiriLatticePoint c[3];
         for (int i = 0; i < 3; ++i) {
@@ -107,14 +109,16 @@ static void SquaresListWhatTheyOverlap(void** state)
         if (kiriOrient(c[0], c[1], c[2]) <= 0) {
             continue;
         }
-        assert_true(kiriSquares_Insert(&squares, Heap(), round, c));
+        kiriSquares_ClearDirty(&squares);
+        assert_true(kiriSquares_Reshape(&squares, Heap(), 5, was, c));
         for (int32_t s = 0; s < 28; ++s) {
             /* Small numbers: an overlap has at least the area of a triangle between lines through their points. */
             bool overlaps = ClippedArea(c, kiriSquares_Corner(&squares, s), 10.0) > 1e-9;
             assert_int_equal(kiriSquares_Overlap(&squares, s, c), overlaps);
             assert_int_equal(squares.head[s] != KIRI_NONE, overlaps);
+            assert_int_equal(squares.isDirty[s], overlaps || kiriSquares_Overlap(&squares, s, was));
         }
-        assert_true(kiriSquares_Remove(&squares, Heap(), round, c));
+        memcpy(was, c, sizeof(was));
     }
     assert_true(squares.nodes.count <= 28);
     kiriMemory_FreeAll(Heap());
@@ -181,7 +185,7 @@ static void SquaresWithoutMemory(void** state)
 {
     (void)state;
     kiriLatticePoint extent = { 60, 34 }, big[3] = { { 0, 0 }, { 60, 0 }, { 0, 34 } },
-                     small[3] = { { 0, 0 }, { 4, 0 }, { 0, 4 } };
+                     small[3] = { { 0, 0 }, { 4, 0 }, { 0, 4 } }, far[3] = { { 20, 0 }, { 60, 0 }, { 20, 34 } };
     Meter meter = { -1, 0 };
     kiriMemory memory = kiriMemory_Make(MeterAlloc, MeterFree, &meter);
     kiriSquares squares;
@@ -193,7 +197,7 @@ static void SquaresWithoutMemory(void** state)
     for (; !done; ++failures) {
         kiriSquares_Begin(&squares);
         meter.untilFailure = failures;
-        done = kiriSquares_Remove(&squares, &memory, 0, small) && kiriSquares_Insert(&squares, &memory, 1, big) &&
+        done = kiriSquares_Reshape(&squares, &memory, 0, small, far) && kiriSquares_Insert(&squares, &memory, 1, big) &&
                kiriSquares_Insert(&squares, &memory, 2, small);
         meter.untilFailure = 0;
         kiriSquares_Rollback(&squares);

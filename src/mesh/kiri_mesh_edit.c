@@ -66,11 +66,12 @@ static bool InsertSquares(kiriMeshData* mesh, int32_t triangle)
     return kiriSquares_Insert(&mesh->squares, mesh->memory, triangle, corners);
 }
 
-static bool RemoveSquares(kiriMeshData* mesh, int32_t triangle)
+/* The triangle is not as it was when its corners were these. */
+static bool ReshapeInSquares(kiriMeshData* mesh, int32_t triangle, const kiriLatticePoint was[3])
 {
-    kiriLatticePoint corners[3];
-    kiriMesh_Corners(mesh, triangle, corners);
-    return kiriSquares_Remove(&mesh->squares, mesh->memory, triangle, corners);
+    kiriLatticePoint is[3];
+    kiriMesh_Corners(mesh, triangle, is);
+    return kiriSquares_Reshape(&mesh->squares, mesh->memory, triangle, was, is);
 }
 
 void kiriMesh_Rollback(kiriMeshData* mesh)
@@ -165,30 +166,34 @@ static int32_t SplitSide(kiriMeshData* mesh, int32_t h, int32_t p)
     return added;
 }
 
+/* One side of a split edge: the triangle that it was, and the one that was added. */
+static bool SideToSquares(kiriMeshData* mesh, int32_t h, const kiriLatticePoint was[3], int32_t added)
+{
+    return ReshapeInSquares(mesh, h / 3, was) && InsertSquares(mesh, added / 3);
+}
+
 int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
 {
     KIRI_ASSERT(kiriMesh_CanSplitEdge(mesh, h, at));
     int32_t g = kiriMesh_Twin(mesh, h);
     if (!ReserveSplit(mesh) || !SaveTriangle(mesh, h / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(h)) ||
-        !RemoveSquares(mesh, h / 3) ||
-        (g != KIRI_NONE &&
-         (!SaveTriangle(mesh, g / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(g)) || !RemoveSquares(mesh, g / 3)))) {
+        (g != KIRI_NONE && (!SaveTriangle(mesh, g / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(g))))) {
         return KIRI_NONE;
     }
+    kiriLatticePoint was[3], wasBeyond[3];
+    kiriMesh_Corners(mesh, h / 3, was);
     ++mesh->revision;
     int32_t p = AddOnEdge(mesh, h, at);
     int32_t added = SplitSide(mesh, h, p);
     if (g == KIRI_NONE) {
-        return InsertSquares(mesh, h / 3) && InsertSquares(mesh, added / 3) ? p : KIRI_NONE;
+        return SideToSquares(mesh, h, was, added) ? p : KIRI_NONE;
     }
+    kiriMesh_Corners(mesh, g / 3, wasBeyond);
     int32_t q = kiriMesh_IsOpen(mesh, g) ? AddOnEdge(mesh, g, at) : p;
     int32_t addedBeyond = SplitSide(mesh, g, q);
     kiriMesh_Link(mesh, h, addedBeyond);
     kiriMesh_Link(mesh, added, g);
-    return InsertSquares(mesh, h / 3) && InsertSquares(mesh, added / 3) && InsertSquares(mesh, g / 3) &&
-                   InsertSquares(mesh, addedBeyond / 3)
-               ? p
-               : KIRI_NONE;
+    return SideToSquares(mesh, h, was, added) && SideToSquares(mesh, g, wasBeyond, addedBeyond) ? p : KIRI_NONE;
 }
 
 static kiriBirth BirthInside(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
@@ -209,9 +214,11 @@ int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLattice
     KIRI_ASSERT(kiriMesh_CanSplitTriangle(mesh, triangle, at));
     int32_t h = 3 * triangle;
     if (!ReserveSplit(mesh) || !SaveTriangle(mesh, triangle) || !SaveHalfEdge(mesh, h + 1) ||
-        !SaveHalfEdge(mesh, h + 2) || !RemoveSquares(mesh, triangle)) {
+        !SaveHalfEdge(mesh, h + 2)) {
         return KIRI_NONE;
     }
+    kiriLatticePoint corners[3];
+    kiriMesh_Corners(mesh, triangle, corners);
     ++mesh->revision;
     kiriTriangle was = mesh->triangles.data[triangle];
     kiriBirth birth = BirthInside(mesh, triangle, at);
@@ -225,7 +232,7 @@ int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLattice
     kiriMesh_Link(mesh, h + 1, k + 2);
     kiriMesh_Link(mesh, k + 1, l + 2);
     kiriMesh_Link(mesh, l + 1, h + 2);
-    return InsertSquares(mesh, triangle) && InsertSquares(mesh, k / 3) && InsertSquares(mesh, l / 3) ? p : KIRI_NONE;
+    return ReshapeInSquares(mesh, triangle, corners) && InsertSquares(mesh, k / 3) && InsertSquares(mesh, l / 3) ? p : KIRI_NONE;
 }
 
 /* Half-edge h has just been opened: where that divides the fan at its tail, the part on its left gets a new vertex. */

@@ -308,11 +308,7 @@ static bool RemoveNode(kiriSquares* squares, kiriMemory* memory, int32_t square,
     return true;
 }
 
-typedef bool NodeChange(kiriSquares* squares, kiriMemory* memory, int32_t square, int32_t triangle);
-
-/* Adds or removes the triangle in all squares that it overlaps. */
-static bool ChangeNodes(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3],
-                        NodeChange* change)
+bool kiriSquares_Insert(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3])
 {
     KIRI_ASSERT(triangle >= 0 && kiriOrient(corners[0], corners[1], corners[2]) > 0);
     SquareBox r = BoxOf(squares, corners);
@@ -320,7 +316,7 @@ static bool ChangeNodes(kiriSquares* squares, kiriMemory* memory, int32_t triang
     for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
         for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
             if (OverlapsInBox(squares, r, column, row, corners) &&
-                !change(squares, memory, row * squares->columns + column, triangle)) {
+                !AddNode(squares, memory, row * squares->columns + column, triangle)) {
                 return false;
             }
         }
@@ -328,14 +324,38 @@ static bool ChangeNodes(kiriSquares* squares, kiriMemory* memory, int32_t triang
     return true;
 }
 
-bool kiriSquares_Insert(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3])
+static SquareBox JoinBoxes(SquareBox a, SquareBox b)
 {
-    return ChangeNodes(squares, memory, triangle, corners, AddNode);
+    SquareBox box = { a.firstColumn < b.firstColumn ? a.firstColumn : b.firstColumn,
+                      a.lastColumn > b.lastColumn ? a.lastColumn : b.lastColumn,
+                      a.firstRow < b.firstRow ? a.firstRow : b.firstRow, a.lastRow > b.lastRow ? a.lastRow : b.lastRow };
+    return box;
 }
 
-bool kiriSquares_Remove(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3])
+static bool ReshapeIn(kiriSquares* squares, kiriMemory* memory, int32_t square, int32_t triangle, bool was, bool is)
 {
-    return ChangeNodes(squares, memory, triangle, corners, RemoveNode);
+    if (was && is) {
+        MarkSquareDirty(squares, square);
+        return true;
+    }
+    return was ? RemoveNode(squares, memory, square, triangle) : !is || AddNode(squares, memory, square, triangle);
+}
+
+bool kiriSquares_Reshape(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint was[3],
+                         const kiriLatticePoint is[3])
+{
+    SquareBox r = JoinBoxes(BoxOf(squares, was), BoxOf(squares, is));
+    AddEffort(squares, r);
+    for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
+        for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
+            int32_t square = row * squares->columns + column;
+            if (!ReshapeIn(squares, memory, square, triangle, kiriSquares_Overlap(squares, square, was),
+                           kiriSquares_Overlap(squares, square, is))) {
+                return false;
+            }
+        }
+    }
+    return true;
 }
 
 /* The nodes of the triangles that are not kept become free. */

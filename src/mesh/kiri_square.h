@@ -49,10 +49,12 @@ bool kiriSquares_Init(kiriSquares* squares, kiriMemory* memory, kiriLatticePoint
 /* The same squares, without triangles and vertices. */
 bool kiriSquares_InitLike(kiriSquares* squares, kiriMemory* memory, const kiriSquares* like);
 
-/* The triangle's corners are counter-clockwise. Both make the squares dirty that they change, and fail only for memory:
-   then some squares have changed and some have not, and the caller rolls back or gives up the squares. */
+/* The triangle's corners are counter-clockwise. Both make the squares dirty that the triangle overlaps or has overlapped,
+   and fail only for memory: then some squares have changed and some have not, and the caller rolls back or gives up the
+   squares. To take a triangle out of a square its list is walked; one that stays in a square keeps its place there. */
 bool kiriSquares_Insert(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3]);
-bool kiriSquares_Remove(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3]);
+bool kiriSquares_Reshape(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint was[3],
+                         const kiriLatticePoint is[3]);
 
 /* Rollback restores what was at Begin, slot for slot, vertices aside: others (the grid) keep arrays by node. Squares that
    became dirty since are clean again; where ClearDirty has been called since, all are dirty, for somebody has read what
