@@ -1,5 +1,7 @@
 #include "kiri_room.h"
 
+#include <string.h>
+
 /* For each edge that a blade crosses; a triangle is in two squares or so, and a vertex has few weights. */
 enum { ROOM_VERTICES = 3, ROOM_TRIANGLES = 3, ROOM_NODES = 6, ROOM_WEIGHTS = 24 };
 
@@ -25,33 +27,61 @@ static int64_t CountCrossings(const kiriSheetData* sheet)
     return (int64_t)(crossings < most ? crossings : most) + u->cut.count;
 }
 
-kiriProgress kiriRoom_ForCut(kiriSheetData* sheet, kiriQuota* triangles)
+enum { ROOMS = 15 };
+
+static void ListRooms(kiriSheetData* sheet, int64_t more, kiriRoom rooms[ROOMS])
 {
     kiriMemory *own = sheet->memory, *shown = &sheet->shown;
     kiriMeshData* mesh = &sheet->mesh;
     kiriSkin* skin = &sheet->vertexSkin;
     kiriSurface* s = &sheet->seen.surface;
-    kiriUpdate* u = sheet->update;
-    if (u->growsSince != mesh->revision) {
-        kiriGrowing_Drop(&u->growing); /* pieces have gone */
-        u->growsSince = mesh->revision;
+    int64_t vertices = mesh->vertices.count + ROOM_VERTICES * more, added = mesh->triangles.count + ROOM_TRIANGLES * more,
+            corners = 3 * (added + 1);
+    const kiriRoom all[ROOMS] = { KIRI_ROOM(own, &mesh->vertices, vertices),
+                                  KIRI_ROOM(own, &mesh->triangles, added),
+                                  KIRI_ROOM(own, &mesh->squares.nodes, mesh->squares.nodes.count + ROOM_NODES * more),
+                                  KIRI_ROOM(own, &skin->spans, vertices),
+                                  KIRI_ROOM(own, &skin->weights, skin->weights.count + ROOM_WEIGHTS * more),
+                                  KIRI_ROOM(shown, &s->restPositions, 2 * vertices),
+                                  KIRI_ROOM(shown, &s->sourceWeights, 3 * vertices),
+                                  KIRI_ROOM(shown, &s->sourceTriangles, vertices),
+                                  KIRI_ROOM(shown, &s->indices, corners),
+                                  KIRI_ROOM(shown, &s->corners, corners),
+                                  KIRI_ROOM(shown, &s->rest, vertices),
+                                  KIRI_CHANGING_ROOM(shown, &s->positions, 3 * vertices + 1),
+                                  KIRI_CHANGING_ROOM(shown, &s->normals, 3 * vertices),
+                                  KIRI_CHANGING_ROOM(shown, &s->places, 3 * vertices + 1),
+                                  KIRI_CHANGING_ROOM(shown, &s->slopes, 4 * vertices) };
+    memcpy(rooms, all, sizeof(all));
+}
+
+/* What a tick may need: each triangle made takes an item. */
+static int64_t CrossingsInTick(const kiriQuota* triangles, int64_t crossings)
+{
+    int64_t most = triangles->left / ROOM_TRIANGLES + 1;
+    return most < 4 * crossings ? most : 4 * crossings;
+}
+
+bool kiriRoom_IsLow(kiriSheetData* sheet, const kiriQuota* triangles)
+{
+    kiriRoom rooms[ROOMS];
+    bool isLow = false;
+    ListRooms(sheet, CrossingsInTick(triangles, CountCrossings(sheet)), rooms);
+    for (int32_t i = 0; i < ROOMS; ++i) {
+        isLow |= rooms[i].need > kiriArray_GetHeader(rooms[i].array).capacity;
     }
-    int64_t more = CountCrossings(sheet), vertices = mesh->vertices.count + ROOM_VERTICES * more,
-            added = mesh->triangles.count + ROOM_TRIANGLES * more, corners = 3 * (added + 1);
-    const kiriRoom rooms[] = { KIRI_ROOM(own, &mesh->vertices, vertices),
-                               KIRI_ROOM(own, &mesh->triangles, added),
-                               KIRI_ROOM(own, &mesh->squares.nodes, mesh->squares.nodes.count + ROOM_NODES * more),
-                               KIRI_ROOM(own, &skin->spans, vertices),
-                               KIRI_ROOM(own, &skin->weights, skin->weights.count + ROOM_WEIGHTS * more),
-                               KIRI_ROOM(shown, &s->restPositions, 2 * vertices),
-                               KIRI_ROOM(shown, &s->sourceWeights, 3 * vertices),
-                               KIRI_ROOM(shown, &s->sourceTriangles, vertices),
-                               KIRI_ROOM(shown, &s->indices, corners),
-                               KIRI_ROOM(shown, &s->corners, corners),
-                               KIRI_ROOM(shown, &s->rest, vertices),
-                               KIRI_CHANGING_ROOM(shown, &s->positions, 3 * vertices + 1),
-                               KIRI_CHANGING_ROOM(shown, &s->normals, 3 * vertices),
-                               KIRI_CHANGING_ROOM(shown, &s->places, 3 * vertices + 1),
-                               KIRI_CHANGING_ROOM(shown, &s->slopes, 4 * vertices) };
-    return kiriGrowing_GoOn(&u->growing, rooms, (int32_t)(sizeof(rooms) / sizeof(rooms[0])), triangles, ROOM_BYTES);
+    return isLow;
+}
+
+kiriProgress kiriRoom_ForCut(kiriSheetData* sheet, kiriQuota* triangles)
+{
+    kiriUpdate* u = sheet->update;
+    kiriRoom rooms[ROOMS];
+    if (u->growsSince != sheet->mesh.revision) {
+        kiriGrowing_Drop(&u->growing); /* pieces have gone */
+        u->growsSince = sheet->mesh.revision;
+    }
+    int64_t crossings = CountCrossings(sheet), inTick = CrossingsInTick(triangles, crossings);
+    ListRooms(sheet, u->cut.taken > 0 && crossings < inTick ? inTick : crossings, rooms);
+    return kiriGrowing_GoOn(&u->growing, rooms, ROOMS, triangles, ROOM_BYTES);
 }

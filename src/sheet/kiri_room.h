@@ -6,8 +6,9 @@
 
 KIRI_C_BEGIN
 
-/* Before the first of the points of an update: room for what they may make. What they make beyond it gets room when
-   arrays are full. */
+/* Before points of an update are taken: room for what they may make. More than was guessed gets room when arrays are
+   full, all at one go: so whoever goes on in a new tick asks whether room is low. */
+bool kiriRoom_IsLow(kiriSheetData* sheet, const kiriQuota* triangles);
 kiriProgress kiriRoom_ForCut(kiriSheetData* sheet, kiriQuota* triangles);
 
 KIRI_C_END

@@ -39,6 +39,7 @@ enum { MAKE_ROOM, CUT_MESH };
 kiriProgress kiriStage_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles)
 {
     kiriUpdate* u = sheet->update;
+    u->step = u->step == CUT_MESH && kiriRoom_IsLow(sheet, triangles) ? MAKE_ROOM : u->step;
     kiriProgress progress = u->step == MAKE_ROOM ? kiriRoom_ForCut(sheet, triangles) : KIRI_DONE;
     u->step = progress == KIRI_DONE ? CUT_MESH : u->step;
     kiriMesh_Begin(&sheet->mesh);
