@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_FRAMES = 24, MOST = MOST_FRAMES * KIRI_MOST_UNKNOWNS, MOST_PAIRS = 80, MOST_MEMBERS = 4, ROWS = 9 };
+enum { MOST_FRAMES = 24, MOST = MOST_FRAMES * KIRI_MOST_UNKNOWNS, MOST_MEMBERS = 4, ROWS = 9 };
 
 static double dense[MOST][MOST], right[MOST], solution[MOST];
-static kiriPair pairs[MOST_PAIRS + 64];
+static kiriPair pairs[MOST_FRAMES * MOST_FRAMES];
 static int32_t pairCount;
 
 /* An element couples all pairs of its frames. */
@@ -118,6 +118,56 @@ static void TestSolves(void** state)
     }
 }
 
+/* All frames below `both` with each other, and all from there on less two: what the first have by themselves makes one
+   panel, wider than is taken off at once. */
+static void MakeWideElements(uint32_t* seed, int32_t size, int32_t frames, int32_t both)
+{
+    pairCount = 0;
+    for (int32_t b = 0; b < frames; ++b) {
+        for (int32_t a = b < both ? 0 : both - 2; a < b; ++a) {
+            pairs[pairCount++] = (kiriPair){ a, b };
+        }
+    }
+    for (int32_t e = 0; e < 16; ++e) {
+        Element* element = &elements[e];
+        int32_t first = e % 2 == 0 ? 0 : both - 2, last = e % 2 == 0 ? both : frames;
+        element->count = MOST_MEMBERS;
+        for (int32_t m = 0; m < MOST_MEMBERS; ++m) {
+            int32_t quarter = (last - first) / MOST_MEMBERS;
+            element->frames[m] = first + quarter * m + (int32_t)(Random(seed) % (uint32_t)quarter);
+        }
+        for (int32_t n = 0; n < ROWS * element->count * size; ++n) {
+            element->J[n] = RandomBetween(seed, -1.0, 1.0);
+        }
+        for (int32_t n = 0; n < ROWS; ++n) {
+            element->k[n] = RandomBetween(seed, 0.1, 10.0);
+        }
+    }
+}
+
+static void TestWidePanels(void** state)
+{
+    (void)state;
+    static const int32_t sizes[3] = { 3, 6, 12 };
+    kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
+    uint32_t seed = 123;
+    for (int trial = 0; trial < 12; ++trial) {
+        int32_t size = sizes[trial % 3], frames = MOST_FRAMES, unknowns = size * frames;
+        kiriMatrix* matrix = kiriMatrix_Create(&memory, size);
+        assert_non_null(matrix);
+        MakeWideElements(&seed, size, frames, 12 + trial / 3);
+        assert_true(kiriMatrix_Shape(matrix, frames, pairs, pairCount));
+        Assemble(matrix, &seed, size, frames, 16);
+        for (int32_t n = 0; n < unknowns; ++n) {
+            right[n] = RandomBetween(&seed, -1.0, 1.0);
+        }
+        assert_true(kiriMatrix_Factor(matrix));
+        kiriMatrix_Solve(matrix, right, solution);
+        assert_true(Residual(unknowns) < 1e-10);
+    }
+    kiriMemory_FreeAll(&memory);
+}
+
 /* Long vectors of the processor or short ones: the same bits. */
 static void TestVectors(void** state)
 {
@@ -206,10 +256,8 @@ static void TestNotPositive(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSolves),
-        cmocka_unit_test(TestVectors),
-        cmocka_unit_test(TestCovers),
-        cmocka_unit_test(TestNotPositive),
+        cmocka_unit_test(TestSolves), cmocka_unit_test(TestWidePanels),  cmocka_unit_test(TestVectors),
+        cmocka_unit_test(TestCovers), cmocka_unit_test(TestNotPositive),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

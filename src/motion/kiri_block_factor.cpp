@@ -22,7 +22,8 @@ namespace
 
 const double LAST_BITS = 8.0 * DBL_EPSILON; /* of an entry: what a few operations round off */
 
-const int32_t MOST_ROWS = 16; /* of an element that are added together */
+const int32_t MOST_ROWS = 16;  /* of an element that are added together */
+const int32_t MOST_DEPTH = 48; /* columns whose products are taken off at once: a multiple of all sizes of blocks */
 
 /* Which blocks there are on and below the diagonal: the rows of column c are those from start[c] on, ascending, so that
    the diagonal block comes first. */
@@ -409,50 +410,80 @@ int32_t FollowRows(const kiriMatrix* matrix, const int32_t* rows, int32_t n, int
     return next - n;
 }
 
-/* Takes off what a panel before it put into the panel: for each of its columns, rows that follow each other in both at
-   once. */
-void UpdatePanel(kiriMatrix* matrix, const Panel* panel, const Left* left)
+/* Takes off what a panel before it put into the panel, by the numbers from k on of `product->depth` columns: for each of
+   its columns, rows that follow each other in both at once. */
+void TakeOffColumns(kiriMatrix* matrix, const Panel* panel, const Left* left, int32_t k, kiriProduct* product)
 {
     int32_t size = matrix->size;
     const Panel* from = &matrix->panels.data[left->panel];
-    const double* values = &matrix->factors.data[from->values];
+    const double* values = &matrix->factors.data[from->values] + (int64_t)product->aStride * k;
     const int32_t *rows = &matrix->rows.data[from->row], *mark = matrix->mark.data;
-    kiriProduct product;
-    product.aStride = size * (from->width + from->below);
-    product.outStride = size * (panel->width + panel->below);
-    product.bStride = size * left->count;
-    product.columns = size;
-    product.depth = size * from->width;
-    kiriPanel_ScaleRows(values, product.aStride, product.depth, size * (from->width + left->first), product.bStride,
-                        matrix->scaled.data);
     for (int32_t c = 0; c < left->count; ++c) {
         int32_t first = left->first + c;
-        double* out = &matrix->factors.data[panel->values] + (int64_t)product.outStride * size * mark[rows[first]];
-        product.b = matrix->scaled.data + size * c;
+        double* out = &matrix->factors.data[panel->values] + (int64_t)product->outStride * size * mark[rows[first]];
+        product->b = matrix->scaled.data + (int64_t)product->bStride * k + size * c;
         for (int32_t n = first, down; n < from->below; n += down) {
             down = FollowRows(matrix, rows, n, from->below);
-            product.a = values + size * (from->width + n);
-            product.out = out + size * mark[rows[n]];
-            product.rows = size * down;
-            kiriPanel_TakeOff(&product, matrix->hasLongVectors);
+            product->a = values + size * (from->width + n);
+            product->out = out + size * mark[rows[n]];
+            product->rows = size * down;
+            kiriPanel_TakeOff(product, matrix->hasLongVectors);
         }
     }
 }
 
-/* Block column by block column. */
+/* So many columns at once that their rows stay in the cache while all columns of the panel pass. */
+void UpdatePanel(kiriMatrix* matrix, const Panel* panel, const Left* left)
+{
+    int32_t size = matrix->size, depth;
+    const Panel* from = &matrix->panels.data[left->panel];
+    int32_t width = size * from->width, height = width + size * from->below, count = size * left->count;
+    kiriPanel_ScaleRows(&matrix->factors.data[from->values], height, 0, width, size * (from->width + left->first),
+                        count, matrix->scaled.data);
+    for (int32_t k = 0; k < width; k += depth) {
+        depth = std::min(width - k, MOST_DEPTH);
+        kiriProduct product = { nullptr, nullptr, nullptr, size * (panel->width + panel->below), height, count,
+                                0,       size,    depth };
+        TakeOffColumns(matrix, panel, left, k, &product);
+    }
+}
+
+/* Takes what columns `first` to `last` of a panel changed off its column c, from the diagonal on. */
+void TakeOffOwn(kiriMatrix* matrix, double* values, int32_t height, int32_t first, int32_t last, int32_t c)
+{
+    int32_t size = matrix->size;
+    const double* from = values + (int64_t)height * first;
+    const kiriProduct product = { values + (int64_t)height * c + c,
+                                  from + c,
+                                  matrix->scaled.data,
+                                  height,
+                                  height,
+                                  size,
+                                  height - c,
+                                  size,
+                                  last - first };
+    kiriPanel_ScaleRows(from, height, first, last - first, c, size, matrix->scaled.data);
+    kiriPanel_TakeOff(&product, matrix->hasLongVectors);
+}
+
+/* Block column by block column. What so many columns changed is taken off all that follow at once, while it is in the
+   cache. */
 bool FactorPanel(kiriMatrix* matrix, const Panel* panel)
 {
-    int32_t size = matrix->size, height = size * (panel->width + panel->below);
-    double *values = &matrix->factors.data[panel->values], *scaled = matrix->scaled.data;
-    for (int32_t c = 0; c < size * panel->width; c += size) {
-        double* column = values + (int64_t)height * c + c;
-        if (c > 0) {
-            const kiriProduct product = { column, values + c, scaled, height, height, size, height - c, size, c };
-            kiriPanel_ScaleRows(values, height, c, c, size, scaled);
-            kiriPanel_TakeOff(&product, matrix->hasLongVectors);
+    int32_t size = matrix->size, height = size * (panel->width + panel->below), width = size * panel->width;
+    double* values = &matrix->factors.data[panel->values];
+    for (int32_t first = 0, last; first < width; first = last) {
+        last = std::min(first + MOST_DEPTH, width);
+        for (int32_t c = first; c < last; c += size) {
+            if (c > first) {
+                TakeOffOwn(matrix, values, height, first, c, c);
+            }
+            if (!kiriPanel_Factor(values + (int64_t)height * c + c, height - c, height, size)) {
+                return false;
+            }
         }
-        if (!kiriPanel_Factor(column, height - c, height, size)) {
-            return false;
+        for (int32_t c = last; c < width; c += size) {
+            TakeOffOwn(matrix, values, height, first, last, c);
         }
     }
     return true;

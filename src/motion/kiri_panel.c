@@ -58,6 +58,30 @@ DEFINE_TILE(TileOfOne, double)
 DEFINE_TILE(TileOfTwo, Two)
 #ifdef HAS_FOUR_LANES
 DEFINE_TILE(TileOfFour, Four)
+
+/* Six rows by six columns: what is left of blocks of six below tiles of twelve rows. */
+INLINE void TileOfSix(double* out, ptrdiff_t outStride, const double* a, ptrdiff_t aStride, const double* b,
+                      ptrdiff_t bStride, int32_t depth)
+{
+    Four s[6];
+    Two t[6];
+    UNROLL for (int c = 0; c < 6; ++c)
+    {
+        s[c] = *(const Four*)(out + c * outStride), t[c] = *(const Two*)(out + c * outStride + 4);
+    }
+    for (int32_t k = 0; k < depth; ++k, a += aStride, b += bStride) {
+        const Four a0 = *(const Four*)a;
+        const Two a1 = *(const Two*)(a + 4);
+        UNROLL for (int c = 0; c < 6; ++c)
+        {
+            s[c] -= b[c] * a0, t[c] -= b[c] * a1;
+        }
+    }
+    UNROLL for (int c = 0; c < 6; ++c)
+    {
+        *(Four*)(out + c * outStride) = s[c], *(Two*)(out + c * outStride + 4) = t[c];
+    }
+}
 #endif
 
 /* The rows from `row` on, by three columns. */
@@ -74,13 +98,20 @@ INLINE void TakeOffRows(const kiriProduct* p, int32_t row, double* out, const do
 #ifdef HAS_FOUR_LANES
 WITH_FOUR_LANES static void TakeOffByFour(const kiriProduct* p)
 {
-    for (int32_t c = 0; c < p->columns; c += 3) {
-        double* out = p->out + (ptrdiff_t)c * p->outStride;
-        int32_t row = 0;
-        for (; row + 12 <= p->rows; row += 12) {
-            TileOfFour(out + row, p->outStride, p->a + row, p->aStride, p->b + c, p->bStride, p->depth);
+    int32_t row = 0;
+    for (; row + 12 <= p->rows; row += 12) {
+        for (int32_t c = 0; c < p->columns; c += 3) {
+            TileOfFour(p->out + (ptrdiff_t)c * p->outStride + row, p->outStride, p->a + row, p->aStride, p->b + c,
+                       p->bStride, p->depth);
         }
-        TakeOffRows(p, row, out, p->b + c);
+    }
+    int32_t column = 0;
+    for (; row + 6 == p->rows && column + 6 <= p->columns; column += 6) {
+        TileOfSix(p->out + (ptrdiff_t)column * p->outStride + row, p->outStride, p->a + row, p->aStride, p->b + column,
+                  p->bStride, p->depth);
+    }
+    for (; column < p->columns; column += 3) {
+        TakeOffRows(p, row, p->out + (ptrdiff_t)column * p->outStride, p->b + column);
     }
 }
 #endif
@@ -100,11 +131,12 @@ void kiriPanel_TakeOff(const kiriProduct* product, bool hasLongVectors)
     }
 }
 
-void kiriPanel_ScaleRows(const double* panel, int32_t height, int32_t depth, int32_t row, int32_t count, double* out)
+void kiriPanel_ScaleRows(const double* columns, int32_t height, int32_t first, int32_t depth, int32_t row,
+                         int32_t count, double* out)
 {
-    for (int32_t k = 0; k < depth; ++k, panel += height) {
-        double d = panel[k];
-        const double* from = panel + row;
+    for (int32_t k = 0; k < depth; ++k, columns += height) {
+        double d = columns[first + k];
+        const double* from = columns + row;
         int32_t n = 0;
         for (; n + TWO_LANES <= count; n += TWO_LANES, out += TWO_LANES) {
             *(Two*)out = d * *(const Two*)(from + n);

@@ -25,8 +25,10 @@ typedef struct kiriProduct {
 
 void kiriPanel_TakeOff(const kiriProduct* product, bool hasLongVectors);
 
-/* `count` rows of the first `depth` columns of a panel times D, into `out` row by row of D. */
-void kiriPanel_ScaleRows(const double* panel, int32_t height, int32_t depth, int32_t row, int32_t count, double* out);
+/* `count` rows of `depth` columns of a panel times D, into `out` row by row of D. `columns` is where column `first` of the
+   panel begins. */
+void kiriPanel_ScaleRows(const double* columns, int32_t height, int32_t first, int32_t depth, int32_t row,
+                         int32_t count, double* out);
 
 /* Factors the first `size` (3, 6 or 12) columns of a panel of `height` rows, of which the first ones are the diagonal
    block. False where it is not positive definite. */
