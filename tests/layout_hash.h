@@ -14,9 +14,10 @@ static inline void HashPlace(uint64_t* hash, const kiriGrid* grid, int32_t cell)
 
 static inline void HashSteps(uint64_t* hash, const kiriGrid* grid, int32_t cell)
 {
-    kiriStepRun run = grid->runs.data[cell];
-    for (int32_t s = run.first; s < run.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        kiriStep step = grid->steps.data[s];
+    kiriSteps steps;
+    kiriGrid_GetSteps(grid, cell, &steps);
+    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        kiriStep step = steps.data[s];
         HashPlace(hash, grid, step.cell);
         kiriHash_Int32(hash, step.length);
     }

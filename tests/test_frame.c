@@ -47,9 +47,10 @@ static void Measure(Plain* p, int32_t site, int32_t minded)
         changed = false;
         for (int32_t k = 0; k < p->count; ++k) {
             int32_t cell = p->cells[k];
-            const kiriStepRun* run = &p->grid->runs.data[cell];
-            for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-                kiriStep step = p->grid->steps.data[s];
+            kiriSteps steps;
+            kiriGrid_GetSteps(p->grid, cell, &steps);
+            for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+                kiriStep step = steps.data[s];
                 if (*DistanceOf(p, site, cell) + step.length < *DistanceOf(p, site, step.cell)) {
                     *DistanceOf(p, site, step.cell) = *DistanceOf(p, site, cell) + step.length;
                     changed = true;
@@ -72,9 +73,10 @@ static void MeasureCloseness(Plain* p)
     for (bool changed = true; changed;) {
         changed = false;
         for (int32_t k = 0; k < p->count; ++k) {
-            const kiriStepRun* run = &p->grid->runs.data[p->cells[k]];
-            for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-                kiriStep step = p->grid->steps.data[s];
+            kiriSteps steps;
+            kiriGrid_GetSteps(p->grid, p->cells[k], &steps);
+            for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+                kiriStep step = steps.data[s];
                 bool nearer = distance[p->cells[k]] + step.length < distance[step.cell];
                 distance[step.cell] = nearer ? distance[p->cells[k]] + step.length : distance[step.cell];
                 changed = changed || nearer;
@@ -521,9 +523,9 @@ static void AddOldSites(Plain* p, int32_t count, uint32_t* seed)
     for (int32_t k = 0; k < count; ++k) {
         int32_t cell = p->cells[Random(seed) % (uint32_t)p->count];
         if (p->siteCount > 0 && Random(seed) % 2 == 0) {
-            const kiriStepRun* run = &p->grid->runs.data[p->sites[p->siteCount - 1].cell];
-            int32_t steps = run->end[0] - run->first;
-            cell = steps > 0 ? p->grid->steps.data[run->first + (int32_t)(Random(seed) % (uint32_t)steps)].cell : cell;
+            kiriSteps steps;
+            kiriGrid_GetSteps(p->grid, p->sites[p->siteCount - 1].cell, &steps);
+            cell = steps.end[0] > 0 ? steps.data[Random(seed) % (uint32_t)steps.end[0]].cell : cell;
         }
         kiriSite site = kiriFrames_SiteIn(p->grid, p->mesh, cell);
         bool taken = false;
@@ -703,6 +705,7 @@ static void Permute(kiriGrid* out, const kiriGrid* grid, kiriMemory* memory, con
     int32_t count = grid->cells.count;
     memset(out, 0, sizeof(*out));
     out->side = grid->side;
+    memcpy(out->openTo, grid->openTo, sizeof(out->openTo));
     assert_true(kiriArray_Resize(memory, &out->cells, count) && kiriArray_Resize(memory, &out->runs, count) &&
                 kiriArray_Resize(memory, &out->steps, grid->steps.count) &&
                 kiriArray_Resize(memory, &out->squareCell, grid->squareCell.count));
@@ -713,7 +716,8 @@ static void Permute(kiriGrid* out, const kiriGrid* grid, kiriMemory* memory, con
     }
     for (int32_t c = 0; c < count; ++c) {
         const kiriStepRun* run = &grid->runs.data[c];
-        for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        int32_t end = kiriStepRun_IsOpen(run) ? run->first : run->end[KIRI_STEP_LENGTHS - 1];
+        for (int32_t s = run->first; s < end; ++s) {
             out->steps.data[s] = grid->steps.data[s];
             out->steps.data[s].cell = to[grid->steps.data[s].cell];
         }

@@ -165,9 +165,10 @@ static void Relax(const kiriGrid* grid, const kiriSeed* seeds, int32_t count, in
     for (bool changed = true; changed;) {
         changed = false;
         for (int32_t c = 0; c < grid->cells.count; ++c) {
-            int32_t end = distance[c] < KIRI_FAR ? grid->runs.data[c].end[KIRI_STEP_LENGTHS - 1] : 0;
-            for (int32_t s = grid->runs.data[c].first; s < end; ++s) {
-                int32_t to = grid->steps.data[s].cell, d = distance[c] + grid->steps.data[s].length;
+            kiriSteps steps;
+            kiriGrid_GetSteps(grid, c, &steps);
+            for (int32_t s = 0; distance[c] < KIRI_FAR && s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+                int32_t to = steps.data[s].cell, d = distance[c] + steps.data[s].length;
                 if (d <= limit && (d < distance[to] || (d == distance[to] && owner[c] < owner[to])) &&
                     (pass == NULL || pass(context, c))) {
                     distance[to] = d;

@@ -197,14 +197,18 @@ static const kiriFace* FindFace(const kiriGrid* grid, int32_t a, int32_t b)
 
 static int32_t CountSteps(const kiriGrid* grid, int32_t c)
 {
-    return grid->runs.data[c].end[2] - grid->runs.data[c].first;
+    kiriSteps steps;
+    kiriGrid_GetSteps(grid, c, &steps);
+    return steps.end[2];
 }
 
 static int32_t StepLength(const kiriGrid* grid, int32_t a, int32_t b)
 {
-    for (int32_t s = grid->runs.data[a].first; s < grid->runs.data[a].end[2]; ++s) {
-        if (grid->steps.data[s].cell == b) {
-            return grid->steps.data[s].length;
+    kiriSteps steps;
+    kiriGrid_GetSteps(grid, a, &steps);
+    for (int32_t s = 0; s < steps.end[2]; ++s) {
+        if (steps.data[s].cell == b) {
+            return steps.data[s].length;
         }
     }
     return 0;
@@ -445,22 +449,23 @@ static void CheckSteps(const Sheet* sheet)
         }
     }
     for (int32_t a = 0; a < n; ++a) {
-        int32_t s = grid->runs.data[a].first;
+        int32_t s = 0;
+        kiriSteps steps;
+        kiriGrid_GetSteps(grid, a, &steps);
         for (int kind = 0; kind < 3; ++kind) {
             const char* is = kind == 0 ? straight : kind == 1 ? diagonal : knight;
             for (int32_t b = 0; b < n; ++b) {
                 if (is[a * n + b]) {
-                    assert_true(s < grid->runs.data[a].end[kind]);
-                    assert_int_equal(grid->steps.data[s].cell, b);
-                    assert_int_equal(grid->steps.data[s].length, kind == 0 ? 256 : kind == 1 ? 362 : 572);
-                    assert_int_equal(StepLength(grid, b, a), grid->steps.data[s].length);
-                    assert_int_equal(grid->cells.data[a].square + grid->steps.data[s].u +
-                                         columns * grid->steps.data[s].v,
+                    assert_true(s < steps.end[kind]);
+                    assert_int_equal(steps.data[s].cell, b);
+                    assert_int_equal(steps.data[s].length, kind == 0 ? 256 : kind == 1 ? 362 : 572);
+                    assert_int_equal(StepLength(grid, b, a), steps.data[s].length);
+                    assert_int_equal(grid->cells.data[a].square + steps.data[s].u + columns * steps.data[s].v,
                                      grid->cells.data[b].square);
                     ++s;
                 }
             }
-            assert_int_equal(s, grid->runs.data[a].end[kind]);
+            assert_int_equal(s, steps.end[kind]);
         }
     }
     free(straight);
@@ -918,12 +923,12 @@ static void CheckSameSteps(const kiriGrid* a, const kiriGrid* b, const int32_t* 
         if (match[c] == KIRI_NONE) {
             continue;
         }
-        const kiriStepRun *p = &a->runs.data[c], *q = &b->runs.data[match[c]];
-        for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
-            assert_int_equal(p->end[k] - p->first, q->end[k] - q->first);
-        }
-        for (int32_t i = 0; i < CountSteps(a, c); ++i) {
-            kiriStep s = a->steps.data[p->first + i], t = b->steps.data[q->first + i];
+        kiriSteps p, q;
+        kiriGrid_GetSteps(a, c, &p);
+        kiriGrid_GetSteps(b, match[c], &q);
+        assert_memory_equal(p.end, q.end, sizeof(p.end));
+        for (int32_t i = 0; i < p.end[2]; ++i) {
+            kiriStep s = p.data[i], t = q.data[i];
             assert_true(match[s.cell] == t.cell && s.length == t.length && s.u == t.u && s.v == t.v);
         }
     }
@@ -979,6 +984,7 @@ static kiriGrid CopyGrid(const kiriGrid* grid)
     copy.cells.data = CopyBytes(grid->cells.data, sizeof(kiriCell) * (size_t)grid->cells.count);
     copy.runs.data = CopyBytes(grid->runs.data, sizeof(kiriStepRun) * (size_t)grid->runs.count);
     copy.steps.data = CopyBytes(grid->steps.data, sizeof(kiriStep) * (size_t)grid->steps.count);
+    copy.squareCell.data = CopyBytes(grid->squareCell.data, sizeof(int32_t) * (size_t)grid->squareCell.count);
     copy.faces.data = CopyBytes(grid->faces.data, sizeof(kiriFace) * (size_t)grid->faces.count);
     return copy;
 }
@@ -988,6 +994,7 @@ static void FreeCopy(kiriGrid* copy)
     free(copy->cells.data);
     free(copy->runs.data);
     free(copy->steps.data);
+    free(copy->squareCell.data);
     free(copy->faces.data);
 }
 
@@ -998,13 +1005,11 @@ static bool HadCell(const kiriGrid* was, int32_t c)
 
 static bool SameSteps(const kiriGrid* was, const kiriGrid* is, int32_t c)
 {
-    const kiriStepRun *p = &was->runs.data[c], *q = &is->runs.data[c];
-    bool same = true;
-    for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
-        same = same && p->end[k] - p->first == q->end[k] - q->first;
-    }
-    return same && (CountSteps(was, c) == 0 || SameBits(&was->steps.data[p->first], &is->steps.data[q->first],
-                                                        sizeof(kiriStep) * (size_t)CountSteps(was, c)));
+    kiriSteps p, q;
+    kiriGrid_GetSteps(was, c, &p);
+    kiriGrid_GetSteps(is, c, &q);
+    return memcmp(p.end, q.end, sizeof(p.end)) == 0 &&
+           (p.end[2] == 0 || SameBits(p.data, q.data, sizeof(kiriStep) * (size_t)p.end[2]));
 }
 
 static bool HasFacesOf(const kiriGrid* a, const kiriGrid* b, int32_t c)

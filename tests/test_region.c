@@ -262,11 +262,6 @@ static void MakeFromScratch(Sheet* sheet, kiriRegions* regions)
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
 
-static int32_t EndOf(const kiriGrid* grid, int32_t cell)
-{
-    return grid->runs.data[cell].end[KIRI_STEP_LENGTHS - 1];
-}
-
 static int32_t HolderOf(const Sheet* sheet, int32_t cell)
 {
     for (int32_t i = 0; i < sheet->sites.count; ++i) {
@@ -312,18 +307,22 @@ static kiriSeed* Relax(const Sheet* sheet)
     for (int32_t i = 0; i < sheet->sites.count; ++i) {
         int32_t cell = sheet->sites.data[i].cell;
         OfferSite(sheet, &values[cell], i);
-        for (int32_t s = grid->runs.data[cell].first; s < EndOf(grid, cell); ++s) {
-            OfferSite(sheet, &values[grid->steps.data[s].cell], i);
+        kiriSteps steps;
+        kiriGrid_GetSteps(grid, cell, &steps);
+        for (int32_t s = 0; s < steps.end[2]; ++s) {
+            OfferSite(sheet, &values[steps.data[s].cell], i);
         }
     }
     for (bool changed = true; changed;) {
         changed = false;
         for (int32_t c = 0; c < grid->cells.count; ++c) {
             bool any = kiriGrid_IsCell(grid, c) && values[c].distance != KIRI_FAR;
-            for (int32_t s = grid->runs.data[c].first; any && s < EndOf(grid, c); ++s) {
-                kiriSeed* to = &values[grid->steps.data[s].cell];
+            kiriSteps steps;
+            kiriGrid_GetSteps(grid, c, &steps);
+            for (int32_t s = 0; any && s < steps.end[2]; ++s) {
+                kiriSeed* to = &values[steps.data[s].cell];
                 int32_t before = to->distance, owner = to->owner;
-                Offer(to, values[c].distance + grid->steps.data[s].length, values[c].owner);
+                Offer(to, values[c].distance + steps.data[s].length, values[c].owner);
                 changed = changed || to->distance != before || to->owner != owner;
             }
         }
@@ -341,8 +340,10 @@ static void CheckDistances(const Sheet* sheet)
         assert_int_equal(regions->field.distance.data[c], lives ? values[c].distance : KIRI_FAR);
         assert_int_equal(regions->field.owner.data[c], owner);
         assert_int_equal(regions->siteAt.data[c], HolderOf(sheet, c));
-        for (int32_t s = sheet->grid.runs.data[c].first; lives && s < EndOf(&sheet->grid, c); ++s) {
-            border = border || values[sheet->grid.steps.data[s].cell].owner != owner;
+        kiriSteps steps;
+        kiriGrid_GetSteps(&sheet->grid, c, &steps);
+        for (int32_t s = 0; lives && s < steps.end[2]; ++s) {
+            border = border || values[steps.data[s].cell].owner != owner;
         }
         assert_int_equal(regions->onBorder.data[c] != 0, border);
         assert_true(HolderOf(sheet, c) == KIRI_NONE || owner == HolderOf(sheet, c));

@@ -126,8 +126,10 @@ static void Relax(const Scene* scene, int32_t* distance)
     for (bool changed = true; changed;) {
         changed = false;
         for (int32_t c = 0; c < scene->grid.cells.count; ++c) {
-            for (int32_t s = scene->grid.runs.data[c].first; s < scene->grid.runs.data[c].end[2]; ++s) {
-                kiriStep to = scene->grid.steps.data[s];
+            kiriSteps steps;
+            kiriGrid_GetSteps(&scene->grid, c, &steps);
+            for (int32_t s = 0; s < steps.end[2]; ++s) {
+                kiriStep to = steps.data[s];
                 if (distance[c] != KIRI_FAR && distance[c] + to.length < distance[to.cell]) {
                     distance[to.cell] = distance[c] + to.length;
                     changed = true;
@@ -143,8 +145,10 @@ static void Measure(const Scene* scene, const Weights* w, const kiriSite* site, 
     for (int32_t c = 0; c < scene->grid.cells.count; ++c) {
         d[c] = kiriSite_SeedAt(site, frame, &scene->grid, &scene->mesh, c).distance;
         e[c] = KIRI_FAR;
-        for (int32_t s = scene->grid.runs.data[c].first; s < scene->grid.runs.data[c].end[2]; ++s) {
-            kiriStep to = scene->grid.steps.data[s];
+        kiriSteps steps;
+        kiriGrid_GetSteps(&scene->grid, c, &steps);
+        for (int32_t s = 0; s < steps.end[2]; ++s) {
+            kiriStep to = steps.data[s];
             int32_t half = (distance[to.cell] + to.length - distance[c] + 1) / 2;
             e[c] = (owner[c] == frame) != (owner[to.cell] == frame) && half < e[c] ? half : e[c];
         }
@@ -366,10 +370,11 @@ static void PieceWithoutFrameHasNoWeights(void** state)
 static bool Spans(const Scene* scene, int32_t cell)
 {
     kiriVec2 middle = kiriGrid_Middle(&scene->grid, &scene->mesh, cell), first = { 0.0, 0.0 };
-    for (int32_t s = scene->grid.runs.data[cell].first; s < scene->grid.runs.data[cell].end[2]; ++s) {
-        if (scene->grid.steps.data[s].length <= KIRI_UNIT_DIAGONAL) {
-            kiriVec2 p =
-                kiriVec2_Sub(kiriGrid_Middle(&scene->grid, &scene->mesh, scene->grid.steps.data[s].cell), middle);
+    kiriSteps steps;
+    kiriGrid_GetSteps(&scene->grid, cell, &steps);
+    for (int32_t s = 0; s < steps.end[2]; ++s) {
+        if (steps.data[s].length <= KIRI_UNIT_DIAGONAL) {
+            kiriVec2 p = kiriVec2_Sub(kiriGrid_Middle(&scene->grid, &scene->mesh, steps.data[s].cell), middle);
             if (fabs(first.x * p.y - first.y * p.x) > 0.5 * scene->grid.side * scene->grid.side) {
                 return true;
             }

@@ -329,6 +329,9 @@ static const char* CorruptFaces(kiriWorld* world, kiriSheetData* s, int way)
     case 13:
         grid->steps.count += 1;
         return "is in no span";
+    case 14:
+        run->first = ~(grid->cells.data[c].square + 1); /* as if it were amid whole squares, elsewhere */
+        return "grid: the step";
     default:
         return NULL;
     }

@@ -262,13 +262,29 @@ static bool Check_FacesAreComplete(Check* check, const kiriSheetData* sheet)
 
 static bool HasWayBack(const kiriGrid* grid, int32_t from, int length, kiriStep step)
 {
-    const kiriStepRun* run = &grid->runs.data[step.cell];
+    kiriSteps steps;
     bool found = false;
-    for (int32_t k = length == 0 ? run->first : run->end[length - 1]; !found && k < run->end[length]; ++k) {
-        kiriStep back = grid->steps.data[k];
+    kiriGrid_GetSteps(grid, step.cell, &steps);
+    for (int32_t k = length == 0 ? 0 : steps.end[length - 1]; !found && k < steps.end[length]; ++k) {
+        kiriStep back = steps.data[k];
         found = back.cell == from && back.length == step.length && back.u == -step.u && back.v == -step.v;
     }
     return found;
+}
+
+/* Stored steps, or an open cell with two rows of squares around it. */
+static bool IsRun(const kiriSheetData* sheet, int32_t c)
+{
+    const kiriGrid* grid = &sheet->grid;
+    const kiriStepRun* run = &grid->runs.data[c];
+    int32_t square = grid->cells.data[c].square, columns = sheet->mesh.squares.columns;
+    int32_t column = square % columns, row = square / columns;
+    if (kiriStepRun_IsOpen(run)) {
+        return run->first == ~square && column >= 2 && column < columns - 2 && row >= 2 &&
+               row < sheet->mesh.squares.rows - 2;
+    }
+    return run->first <= run->end[0] && run->end[0] <= run->end[1] && run->end[1] <= run->end[2] &&
+           run->end[2] <= grid->steps.count;
 }
 
 static bool Check_StepsOfCell(Check* check, const kiriSheetData* sheet, int32_t c)
@@ -277,13 +293,14 @@ static bool Check_StepsOfCell(Check* check, const kiriSheetData* sheet, int32_t 
     static const int squared[KIRI_STEP_LENGTHS] = { 1, 2, 5 };
     const kiriGrid* grid = &sheet->grid;
     const kiriStepRun* run = &grid->runs.data[c];
-    REQUIRE(run->first >= 0 && run->first <= run->end[0] && run->end[0] <= run->end[1] && run->end[1] <= run->end[2] &&
-                run->end[2] <= grid->steps.count,
-            "cell %d has steps %d to %d, %d, %d", c, run->first, run->end[0], run->end[1], run->end[2]);
-    int32_t faces = 0, straight = run->end[0] - run->first;
+    kiriSteps steps;
+    REQUIRE(IsRun(sheet, c), "cell %d has steps %d to %d, %d, %d", c, run->first, run->end[0], run->end[1],
+            run->end[2]);
+    kiriGrid_GetSteps(grid, c, &steps);
+    int32_t faces = 0, straight = steps.end[0];
     for (int length = 0; length < KIRI_STEP_LENGTHS; ++length) {
-        for (int32_t k = length == 0 ? run->first : run->end[length - 1]; k < run->end[length]; ++k) {
-            kiriStep step = grid->steps.data[k];
+        for (int32_t k = length == 0 ? 0 : steps.end[length - 1]; k < steps.end[length]; ++k) {
+            kiriStep step = steps.data[k];
             REQUIRE(IsIndex(step.cell, grid->cells.count) && kiriGrid_IsCell(grid, step.cell),
                     "a step leads from cell %d to %d", c, step.cell);
             REQUIRE(step.length == lengths[length] && step.u * step.u + step.v * step.v == squared[length],
@@ -319,8 +336,9 @@ static bool Check_Steps(Check* check, const kiriSheetData* sheet)
         if (!Check_StepsOfCell(check, sheet, c)) {
             return false;
         }
-        int32_t first = grid->runs.data[c].first, count = grid->runs.data[c].end[KIRI_STEP_LENGTHS - 1] - first;
-        kiriSpan span = { first, count > 0 && count < LEAST_ROOM ? LEAST_ROOM : count };
+        const kiriStepRun* run = &grid->runs.data[c];
+        int32_t count = kiriStepRun_IsOpen(run) ? 0 : run->end[KIRI_STEP_LENGTHS - 1] - run->first;
+        kiriSpan span = { run->first, count > 0 && count < LEAST_ROOM ? LEAST_ROOM : count };
         if (!Rooms_Take(check, &rooms, span, c)) {
             return false;
         }
@@ -347,13 +365,14 @@ static kiriSeed NearestWay(const kiriSheetData* sheet, int32_t c)
 {
     const kiriGrid* grid = &sheet->grid;
     const int32_t* siteAt = sheet->regions.siteAt.data;
-    const kiriStepRun* run = &grid->runs.data[c];
+    kiriSteps steps;
     kiriSeed best = { c, KIRI_FAR, INT32_MAX };
+    kiriGrid_GetSteps(grid, c, &steps);
     if (siteAt[c] != KIRI_NONE) {
         best = kiriSite_SeedAt(&sheet->frames.data[siteAt[c]].site, siteAt[c], grid, &sheet->mesh, c);
     }
-    for (int32_t k = run->first; k < run->end[KIRI_STEP_LENGTHS - 1]; ++k) {
-        kiriStep step = grid->steps.data[k];
+    for (int32_t k = 0; k < steps.end[KIRI_STEP_LENGTHS - 1]; ++k) {
+        kiriStep step = steps.data[k];
         kiriSeed way = { c, sheet->regions.field.distance.data[step.cell] + step.length,
                          sheet->regions.field.owner.data[step.cell] };
         best = IsNearerSeed(way, best) ? way : best;
@@ -389,9 +408,10 @@ static bool Check_Distances(Check* check, const kiriSheetData* sheet)
                 "cell %d is at %d from %d, but there is a way of %d from %d", c, field->distance.data[c],
                 field->owner.data[c], way.distance, way.owner);
         bool onBorder = false;
-        const kiriStepRun* run = &grid->runs.data[c];
-        for (int32_t k = run->first; k < run->end[KIRI_STEP_LENGTHS - 1]; ++k) {
-            onBorder = onBorder || field->owner.data[grid->steps.data[k].cell] != field->owner.data[c];
+        kiriSteps steps;
+        kiriGrid_GetSteps(grid, c, &steps);
+        for (int32_t k = 0; k < steps.end[KIRI_STEP_LENGTHS - 1]; ++k) {
+            onBorder = onBorder || field->owner.data[steps.data[k].cell] != field->owner.data[c];
         }
         REQUIRE(onBorder == (sheet->regions.onBorder.data[c] != 0), "cell %d and the border", c);
     }

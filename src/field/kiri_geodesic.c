@@ -211,28 +211,52 @@ static void TakeNearestSeed(kiriField* field)
     }
 }
 
+/* Where steps of a cell lead, those from `from` to `end`: stored ones, or those of an open cell. */
+typedef struct StepsAhead {
+    const kiriStep* stored; /* or null */
+    const int32_t *around, *openTo;
+    int32_t from, end;
+} StepsAhead;
+
+static inline int32_t CellAhead(const StepsAhead* ahead, int32_t s)
+{
+    return ahead->stored != NULL ? ahead->stored[s].cell : ahead->around[ahead->openTo[s]];
+}
+
+/* The steps of one length. */
+static inline StepsAhead LookAhead(const kiriGrid* grid, int32_t cell, int length)
+{
+    static const int32_t openEnds[] = { 0, 4, 8, KIRI_OPEN_STEPS };
+    const kiriStepRun* run = &grid->runs.data[cell];
+    if (kiriStepRun_IsOpen(run)) {
+        return (StepsAhead){ NULL, kiriGrid_AroundOpen(grid, run), grid->openTo, openEnds[length],
+                             openEnds[length + 1] };
+    }
+    int32_t from = length == 0 ? run->first : run->end[length - 1];
+    return (StepsAhead){ grid->steps.data, NULL, NULL, from, run->end[length] };
+}
+
 /* Takes the steps of one length. False where `most` cells are settled before all are taken: they are all taken again
    later, which changes nothing. */
 static bool TakeStepsFrom(kiriField* field, const kiriRule* rule, int32_t from, int length, int32_t distance,
                           int64_t most)
 {
-    const kiriStepRun* run = &rule->grid->runs.data[from];
-    const kiriStep* steps = rule->grid->steps.data;
     const int32_t* has = field->distance.data;
-    int32_t owner = field->owner.data[from], end = Passes(rule, from) ? run->end[length] : 0;
-    int32_t s = length == 0 ? run->first : run->end[length - 1];
+    const StepsAhead ahead = LookAhead(rule->grid, from, length);
+    int32_t owner = field->owner.data[from], s = ahead.from, end = Passes(rule, from) ? ahead.end : ahead.from;
     if (length == 0) { /* the shortest come first */
         LookAround(rule, from);
     }
     if (field->cursor[REPAIR_STAGE] == REPAIR_SETTLES) {
         for (; s < end && field->settled.count < most; ++s) {
-            if (distance <= has[steps[s].cell]) { /* most have a nearer one */
-                SettleAgain(field, steps[s].cell, distance, owner);
+            int32_t to = CellAhead(&ahead, s);
+            if (distance <= has[to]) { /* most have a nearer one */
+                SettleAgain(field, to, distance, owner);
             }
         }
     } else {
         for (; s < end && field->settled.count < most; ++s) {
-            SettleFirst(field, steps[s].cell, distance, owner);
+            SettleFirst(field, CellAhead(&ahead, s), distance, owner);
         }
     }
     return s >= end;
@@ -309,21 +333,22 @@ void kiriField_Forget(kiriField* field, int32_t cell)
    it are put behind the dirty ones, where there is room, and *dependents says how many: they are not counted yet. */
 static bool IsSupported(const kiriField* field, const kiriRule* rule, int32_t cell, bool all, int32_t* dependents)
 {
-    const kiriStepRun* run = &rule->grid->runs.data[cell];
-    const kiriStep* steps = rule->grid->steps.data;
     const int32_t *distance = field->distance.data, *owner = field->owner.data;
     int32_t value = distance[cell], mine = owner[cell], count = field->dirty.count;
     bool near = value <= FarthestOf(rule), supported = false;
-    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t next = steps[s].cell, beyond = distance[next] - value, length = steps[s].length;
-        if (beyond == -length && owner[next] == mine && near && Passes(rule, next)) {
-            supported = true;
-            if (!all) {
-                return true;
+    for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
+        const StepsAhead ahead = LookAhead(rule->grid, cell, k);
+        for (int32_t s = ahead.from; s < ahead.end; ++s) {
+            int32_t next = CellAhead(&ahead, s), beyond = distance[next] - value;
+            if (beyond == -stepLengths[k] && owner[next] == mine && near && Passes(rule, next)) {
+                supported = true;
+                if (!all) {
+                    return true;
+                }
             }
-        }
-        if (beyond == length && owner[next] == mine && (field->marks.data[next] & FIELD_DIRTY) == 0) {
-            field->dirty.data[count++] = next;
+            if (beyond == stepLengths[k] && owner[next] == mine && (field->marks.data[next] & FIELD_DIRTY) == 0) {
+                field->dirty.data[count++] = next;
+            }
         }
     }
     *dependents = count - field->dirty.count;
@@ -342,8 +367,8 @@ static void MarkDependentsDirty(kiriField* field, int32_t dependents)
 static bool MakeDependentsRoom(kiriField* field, kiriMemory* memory, const kiriRule* rule, int32_t cell)
 {
     const kiriStepRun* run = &rule->grid->runs.data[cell];
-    return kiriArray_Reserve(memory, &field->dirty,
-                             (int64_t)field->dirty.count + run->end[KIRI_STEP_LENGTHS - 1] - run->first);
+    int32_t steps = kiriStepRun_IsOpen(run) ? KIRI_OPEN_STEPS : run->end[KIRI_STEP_LENGTHS - 1] - run->first;
+    return kiriArray_Reserve(memory, &field->dirty, (int64_t)field->dirty.count + steps);
 }
 
 /* Clears the affected cells (Ramalingam and Reps): those whose value nothing supports any more. The values that are left
@@ -380,18 +405,18 @@ static kiriProgress ClearAffected(kiriField* field, kiriMemory* memory, const ki
 /* The nearest that seed and neighbours give the cell, or what it has. */
 static kiriSeed NearestFor(const kiriField* field, const kiriRule* rule, int32_t cell)
 {
-    const kiriStepRun* run = &rule->grid->runs.data[cell];
-    const kiriStep* steps = rule->grid->steps.data;
     const int32_t *distance = field->distance.data, *owner = field->owner.data;
     kiriSeed best = rule->seed(rule->context, cell), value = ValueOf(field, cell);
     int32_t farthest = FarthestOf(rule);
     best = best.distance <= farthest && IsNearerSeed(best, value) ? best : value;
-    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t next = steps[s].cell, length = steps[s].length;
-        int32_t most = best.distance < farthest ? best.distance : farthest;
-        if (distance[next] <= most - length) {
-            kiriSeed over = { cell, distance[next] + length, owner[next] };
-            best = IsNearerSeed(over, best) && Passes(rule, next) ? over : best;
+    for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
+        const StepsAhead ahead = LookAhead(rule->grid, cell, k);
+        for (int32_t s = ahead.from; s < ahead.end; ++s) {
+            int32_t next = CellAhead(&ahead, s), most = best.distance < farthest ? best.distance : farthest;
+            if (distance[next] <= most - stepLengths[k]) {
+                kiriSeed over = { cell, distance[next] + stepLengths[k], owner[next] };
+                best = IsNearerSeed(over, best) && Passes(rule, next) ? over : best;
+            }
         }
     }
     return best;

@@ -94,8 +94,7 @@ static bool ReserveCells(kiriGrid* grid, const kiriMeshData* mesh)
            kiriArray_Reserve(memory, &work->cellFlags, cells) && kiriArray_Reserve(memory, &work->mark, cells) &&
            kiriArray_Reserve(memory, &grid->changes.made, cells) &&
            kiriArray_Reserve(memory, &grid->changes.steps, cells) &&
-           kiriArray_Reserve(memory, &work->stepsDirty, cells) && kiriArray_Reserve(memory, &grid->faces, 2 * cells) &&
-           kiriArray_Reserve(memory, &grid->steps, KIRI_OPEN_STEPS * cells);
+           kiriArray_Reserve(memory, &work->stepsDirty, cells) && kiriArray_Reserve(memory, &grid->faces, 2 * cells);
 }
 
 /* Before the first update ever, or after a reset. */
@@ -116,10 +115,12 @@ static bool StartGridFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
     }
     grid->side = mesh->step * mesh->squares.side;
     grid->freeCell = grid->freeFace = KIRI_NONE;
+    kiriGrid_StartSteps(grid, mesh);
     return ReserveCells(grid, mesh);
 }
 
-/* Room for a cell more in half of the squares that changed, so that no tick moves all arrays. */
+/* Room for a cell more in half of the squares that changed, and for steps around them, so that no tick moves all
+   arrays. */
 static kiriProgress MakeRoomForCells(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
 {
     enum { CELL_BYTES = 512 }; /* that an item moves */
@@ -128,13 +129,14 @@ static kiriProgress MakeRoomForCells(kiriGrid* grid, const kiriMeshData* mesh, k
         return KIRI_DONE;
     }
     int64_t more = mesh->squares.dirty.count / 2 + 64, cells = grid->cells.count + more;
+    int64_t notOpen = 5 * (int64_t)mesh->squares.dirty.count + 64; /* a cut, and two rows of squares on each side */
     kiriMemory* memory = mesh->memory;
     const kiriRoom rooms[] = { KIRI_ROOM(memory, &grid->cells, cells),
                                KIRI_ROOM(memory, &grid->runs, cells),
                                KIRI_ROOM(memory, &work->cellFlags, cells),
                                KIRI_ROOM(memory, &work->mark, cells),
                                KIRI_ROOM(memory, &grid->faces, grid->faces.count + 2 * more),
-                               KIRI_ROOM(memory, &grid->steps, grid->steps.count + KIRI_OPEN_STEPS * more),
+                               KIRI_ROOM(memory, &grid->steps, grid->steps.count + KIRI_OPEN_STEPS * notOpen),
                                KIRI_ROOM(memory, &grid->nodeCell, mesh->squares.nodes.capacity),
                                KIRI_ROOM(memory, &grid->vertexCell, mesh->vertices.capacity) };
     return kiriGrowing_GoOn(&work->growing, rooms, (int32_t)(sizeof(rooms) / sizeof(rooms[0])), quota, CELL_BYTES);

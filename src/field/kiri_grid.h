@@ -41,12 +41,29 @@ typedef struct kiriStep {
     int8_t u, v;    /* squares that it goes along each axis */
 } kiriStep;
 
-enum { KIRI_STEP_LENGTHS = 3 };
+enum { KIRI_STEP_LENGTHS = 3, KIRI_OPEN_STEPS = 16 };
 
-/* Where the steps of a cell are: straight ones from first to end[0], diagonal ones to end[1], knights to end[2]. */
+/* Where the steps of a cell are: straight ones from first to end[0], diagonal ones to end[1], knights to end[2]. A cell
+   amid whole squares is open: it has all sixteen steps there are, each to the first cell of its square. They follow from
+   its own square, and are not stored: `first` is ~square, and means nothing else. */
 typedef struct kiriStepRun {
     int32_t first, end[KIRI_STEP_LENGTHS];
 } kiriStepRun;
+
+static inline bool kiriStepRun_IsOpen(const kiriStepRun* run)
+{
+    return run->first < 0;
+}
+
+/* The steps of an open cell, in their order; `cell` means nothing. */
+extern const kiriStep kiriOpenSteps[KIRI_OPEN_STEPS];
+
+/* The steps of a cell, stored or not: straight ones from 0 to end[0], diagonal ones to end[1], knights to end[2]. */
+typedef struct kiriSteps {
+    const kiriStep* data;
+    int32_t end[KIRI_STEP_LENGTHS];
+    kiriStep room[KIRI_OPEN_STEPS]; /* of an open cell */
+} kiriSteps;
 
 /* A cell whose material changed, and what it was. */
 typedef struct kiriMaterialChange {
@@ -75,13 +92,14 @@ typedef struct kiriGrid {
     KIRI_ARRAY(kiriStepRun) runs; /* of each cell */
     KIRI_ARRAY(kiriStep) steps;   /* by runs, with gaps; in a run by length, then square, then lowest triangle */
     kiriSpans stepRoom;
-    KIRI_ARRAY(kiriFace) faces;     /* by index, with gaps */
-    KIRI_ARRAY(int32_t) squareCell; /* a square's first cell, or KIRI_NONE */
-    KIRI_ARRAY(int32_t) nodeCell;   /* the cell of each node of mesh->squares.nodes; unused ones mean nothing */
-    KIRI_ARRAY(int32_t) vertexCell; /* the cell of each vertex in a square with several; others mean nothing */
-    KIRI_ARRAY(uint8_t) whole;      /* of each square: wholly covered, and no outline or open edge runs through it */
-    int32_t cellCount;              /* that live */
-    int32_t freeCell, freeFace;     /* heads of lists, or KIRI_NONE */
+    int32_t openTo[KIRI_OPEN_STEPS]; /* how many squares on the steps of an open cell lead */
+    KIRI_ARRAY(kiriFace) faces;      /* by index, with gaps */
+    KIRI_ARRAY(int32_t) squareCell;  /* a square's first cell, or KIRI_NONE */
+    KIRI_ARRAY(int32_t) nodeCell;    /* the cell of each node of mesh->squares.nodes; unused ones mean nothing */
+    KIRI_ARRAY(int32_t) vertexCell;  /* the cell of each vertex in a square with several; others mean nothing */
+    KIRI_ARRAY(uint8_t) whole;       /* of each square: wholly covered, and no outline or open edge runs through it */
+    int32_t cellCount;               /* that live */
+    int32_t freeCell, freeFace;      /* heads of lists, or KIRI_NONE */
     kiriGridChanges changes;
     kiriGridWork* work;
 } kiriGrid;
@@ -118,16 +136,49 @@ static inline bool kiriGrid_IsCell(const kiriGrid* grid, int32_t cell)
     return grid->cells.data[cell].square != KIRI_NONE;
 }
 
+/* The first cells of squares, seen from the square of an open cell: its steps lead to [openTo[k]]. */
+static inline const int32_t* kiriGrid_AroundOpen(const kiriGrid* grid, const kiriStepRun* run)
+{
+    KIRI_ASSERT(kiriStepRun_IsOpen(run));
+    return &grid->squareCell.data[~run->first];
+}
+
+/* The steps of a cell, to be read while the grid does not change and `steps` stays where it is. */
+static inline void kiriGrid_GetSteps(const kiriGrid* grid, int32_t cell, kiriSteps* steps)
+{
+    const kiriStepRun* run = &grid->runs.data[cell];
+    if (!kiriStepRun_IsOpen(run)) {
+        steps->data = grid->steps.data + run->first;
+        for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
+            steps->end[k] = run->end[k] - run->first;
+        }
+        return;
+    }
+    const int32_t* around = kiriGrid_AroundOpen(grid, run);
+    for (int k = 0; k < KIRI_OPEN_STEPS; ++k) {
+        steps->room[k] = kiriOpenSteps[k];
+        steps->room[k].cell = around[grid->openTo[k]];
+    }
+    steps->data = steps->room;
+    steps->end[0] = 4;
+    steps->end[1] = 8;
+    steps->end[2] = KIRI_OPEN_STEPS;
+}
+
 /* The same cell, or a straight or diagonal step apart. */
 static inline bool kiriGrid_AreNear(const kiriGrid* grid, int32_t a, int32_t b)
 {
-    const kiriStepRun* run = &grid->runs.data[a];
-    for (int32_t s = run->first; a != b && s < run->end[1]; ++s) {
-        if (grid->steps.data[s].cell == b) {
+    kiriSteps steps;
+    if (a == b) {
+        return true;
+    }
+    kiriGrid_GetSteps(grid, a, &steps);
+    for (int32_t s = 0; s < steps.end[1]; ++s) {
+        if (steps.data[s].cell == b) {
             return true;
         }
     }
-    return a == b;
+    return false;
 }
 
 /* A face seen from one of its cells: the cell beyond, and the next face of that one. */

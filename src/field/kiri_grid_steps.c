@@ -44,16 +44,17 @@ static int32_t RoomFor(int32_t count)
     return count == 0 ? 0 : LargerOf(count, KIRI_OPEN_STEPS);
 }
 
+/* That are stored. */
 static int32_t CountSteps(const kiriStepRun* run)
 {
-    return run->end[KIRI_STEP_LENGTHS - 1] - run->first;
+    return kiriStepRun_IsOpen(run) ? 0 : run->end[KIRI_STEP_LENGTHS - 1] - run->first;
 }
 
 /* Room for so many steps; false for memory. */
 static bool SetStepCount(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t count)
 {
     kiriStepRun* run = &grid->runs.data[c];
-    kiriSpan span = { run->first, RoomFor(CountSteps(run)) };
+    kiriSpan span = { kiriStepRun_IsOpen(run) ? 0 : run->first, RoomFor(CountSteps(run)) };
     bool ok = kiriSpan_Resize(&span, &grid->stepRoom, memory, &grid->steps, sizeof(kiriStep), RoomFor(count));
     run->first = span.first;
     run->end[0] = run->end[1] = run->end[2] = span.first + count;
@@ -67,6 +68,16 @@ void kiriGrid_RemoveSteps(kiriGrid* grid, kiriMemory* memory, int32_t cell)
     (void)ok;
 }
 
+/* Are these the steps that the cell has? */
+static bool HasSteps(const kiriGrid* grid, int32_t c, int32_t straight, int32_t near)
+{
+    const kiriGridWork* work = grid->work;
+    kiriSteps has;
+    kiriGrid_GetSteps(grid, c, &has);
+    return has.end[0] == straight && has.end[1] == near && has.end[2] == work->steps.count &&
+           (has.end[2] == 0 || memcmp(has.data, work->steps.data, sizeof(kiriStep) * (size_t)work->steps.count) == 0);
+}
+
 /* The cell's steps become those in `work`: so many straight ones, and so many straight and diagonal ones. */
 static bool SetSteps(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t straight, int32_t near)
 {
@@ -74,9 +85,7 @@ static bool SetSteps(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t stra
     kiriStepRun* run = &grid->runs.data[c];
     KIRI_ASSERT(kiriGrid_IsCell(grid, c) && 0 <= straight && straight <= near && near <= work->steps.count);
     size_t bytes = sizeof(kiriStep) * (size_t)work->steps.count;
-    if (CountSteps(run) == work->steps.count && run->end[0] - run->first == straight &&
-        run->end[1] - run->first == near &&
-        (bytes == 0 || memcmp(&grid->steps.data[run->first], work->steps.data, bytes) == 0)) {
+    if (HasSteps(grid, c, straight, near)) {
         return true;
     }
     if (!SetStepCount(grid, memory, c, work->steps.count)) {
@@ -123,8 +132,7 @@ kiriProgress kiriGrid_SpreadDirty(kiriGrid* grid, const kiriMeshData* mesh, int3
     return KIRI_DONE;
 }
 
-/* All steps from a cell amid whole squares, in their order. */
-static const kiriStep openSteps[] = {
+const kiriStep kiriOpenSteps[KIRI_OPEN_STEPS] = {
     { 0, KIRI_UNIT, 0, -1 },          { 0, KIRI_UNIT, -1, 0 },           { 0, KIRI_UNIT, 1, 0 },
     { 0, KIRI_UNIT, 0, 1 },           { 0, KIRI_UNIT_DIAGONAL, -1, -1 }, { 0, KIRI_UNIT_DIAGONAL, 1, -1 },
     { 0, KIRI_UNIT_DIAGONAL, -1, 1 }, { 0, KIRI_UNIT_DIAGONAL, 1, 1 },   { 0, KIRI_UNIT_KNIGHT, -1, -2 },
@@ -138,8 +146,8 @@ static bool AddStep(kiriGrid* grid, kiriMemory* memory, kiriStep step)
     return kiriArray_Push(memory, &grid->work->steps, step);
 }
 
-/* Adds steps that the cell has. */
-static bool AddSteps(kiriGrid* grid, kiriMemory* memory, int32_t from, int32_t end)
+/* Adds steps that the cell has, from one length up to another. */
+static bool AddSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* steps, int32_t from, int32_t end)
 {
     kiriGridWork* work = grid->work;
     int32_t count = work->steps.count;
@@ -147,25 +155,48 @@ static bool AddSteps(kiriGrid* grid, kiriMemory* memory, int32_t from, int32_t e
         return false;
     }
     if (from < end) {
-        memcpy(&work->steps.data[count], &grid->steps.data[from], sizeof(kiriStep) * (size_t)(end - from));
+        memcpy(&work->steps.data[count], &steps->data[from], sizeof(kiriStep) * (size_t)(end - from));
     }
     return true;
 }
 
-/* The steps of a cell amid whole squares. */
-static bool MakeOpenSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t c)
+void kiriGrid_StartSteps(kiriGrid* grid, const kiriMeshData* mesh)
+{
+    for (int k = 0; k < KIRI_OPEN_STEPS; ++k) {
+        grid->openTo[k] = kiriOpenSteps[k].v * mesh->squares.columns + kiriOpenSteps[k].u;
+    }
+}
+
+/* Puts the steps of an open cell into `work`. */
+static bool ListOpenSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
 {
     int32_t square = grid->cells.data[c].square;
-    if (!kiriArray_Resize(mesh->memory, &grid->work->steps, KIRI_OPEN_STEPS)) {
+    grid->work->steps.count = 0;
+    for (int k = 0; k < KIRI_OPEN_STEPS; ++k) {
+        kiriStep step = kiriOpenSteps[k];
+        step.cell = grid->squareCell.data[square + grid->openTo[k]];
+        KIRI_ASSERT(kiriGrid_IsCell(grid, step.cell));
+        if (!AddStep(grid, memory, step)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* A cell amid whole squares, which is open. If it was, its steps are the same: a square that stays whole keeps its
+   cell. */
+static bool MakeOpenSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
+{
+    if (kiriStepRun_IsOpen(&grid->runs.data[c])) {
+        return true;
+    }
+    if (!ListOpenSteps(grid, memory, c)) {
         return false;
     }
-    kiriStep* steps = grid->work->steps.data;
-    for (int k = 0; k < KIRI_OPEN_STEPS; ++k) {
-        steps[k] = openSteps[k];
-        steps[k].cell = grid->squareCell.data[square + steps[k].v * mesh->squares.columns + steps[k].u];
-        KIRI_ASSERT(kiriGrid_IsCell(grid, steps[k].cell));
-    }
-    return SetSteps(grid, mesh->memory, c, 4, 8);
+    bool same = HasSteps(grid, c, 4, 8);
+    kiriGrid_RemoveSteps(grid, memory, c);
+    grid->runs.data[c].first = ~grid->cells.data[c].square;
+    return same || kiriGrid_RecordSteps(grid, memory, c);
 }
 
 /* Does step a come before b? Both from the same cell: the way tells the order of squares. */
@@ -261,11 +292,11 @@ kiriProgress kiriGrid_MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, in
     (void)quota;
     kiriMemory* memory = mesh->memory;
     int32_t c = work->stepsDirty.data[item];
-    const kiriStepRun* run = &grid->runs.data[c];
+    kiriSteps has;
     work->steps.count = 0;
     work->due += KIRI_GRID_STEPS;
     if (IsWholeAround(grid, &mesh->squares, grid->cells.data[c].square)) {
-        return MakeOpenSteps(grid, mesh, c) ? KIRI_DONE : KIRI_FAILED;
+        return MakeOpenSteps(grid, memory, c) ? KIRI_DONE : KIRI_FAILED;
     }
     if (!AddStraightSteps(grid, memory, c)) {
         return KIRI_FAILED;
@@ -276,7 +307,8 @@ kiriProgress kiriGrid_MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, in
     }
     int32_t near = work->steps.count;
     SortSteps(grid, 0);
-    return AddSteps(grid, memory, run->end[1], run->end[2]) && SetSteps(grid, memory, c, straight, near) &&
+    kiriGrid_GetSteps(grid, c, &has);
+    return AddSteps(grid, memory, &has, has.end[1], has.end[2]) && SetSteps(grid, memory, c, straight, near) &&
                    kiriArray_Push(memory, &work->knightsDirty, c)
                ? KIRI_DONE
                : KIRI_FAILED;
@@ -288,25 +320,33 @@ static bool IsKnightMove(kiriStep straight, kiriStep diagonal)
     return straight.u == diagonal.u || straight.v == diagonal.v;
 }
 
-/* To cells reached straight, then diagonally, and also diagonally, then straight: a slit is never jumped. */
-static bool AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriStepRun* run)
+/* Marks the cells reached straight, then diagonally. */
+static void MarkKnightSteps(kiriGrid* grid, const kiriSteps* steps, int64_t mark)
 {
-    const kiriStep* steps = grid->steps.data;
-    const kiriStepRun* runs = grid->runs.data;
-    int64_t *mark = grid->work->mark.data, first = NewMark(grid->work);
-    for (int32_t i = run->first; i < run->end[0]; ++i) {
-        grid->work->due += runs[steps[i].cell].end[1] - runs[steps[i].cell].end[0];
-        for (int32_t j = runs[steps[i].cell].end[0]; j < runs[steps[i].cell].end[1]; ++j) {
-            if (IsKnightMove(steps[i], steps[j])) {
-                mark[steps[j].cell] = first;
+    for (int32_t i = 0; i < steps->end[0]; ++i) {
+        kiriSteps on;
+        kiriGrid_GetSteps(grid, steps->data[i].cell, &on);
+        grid->work->due += on.end[1] - on.end[0];
+        for (int32_t j = on.end[0]; j < on.end[1]; ++j) {
+            if (IsKnightMove(steps->data[i], on.data[j])) {
+                grid->work->mark.data[on.data[j].cell] = mark;
             }
         }
     }
-    for (int32_t i = run->end[0]; i < run->end[1]; ++i) {
-        for (int32_t j = runs[steps[i].cell].first; j < runs[steps[i].cell].end[0]; ++j) {
-            if (mark[steps[j].cell] == first) {
-                mark[steps[j].cell] = first + 1;
-                if (!AddStep(grid, memory, Joined(steps[i], steps[j], KIRI_UNIT_KNIGHT))) {
+}
+
+/* To cells reached straight, then diagonally, and also diagonally, then straight: a slit is never jumped. */
+static bool AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* steps)
+{
+    int64_t *mark = grid->work->mark.data, first = NewMark(grid->work);
+    MarkKnightSteps(grid, steps, first);
+    for (int32_t i = steps->end[0]; i < steps->end[1]; ++i) {
+        kiriSteps on;
+        kiriGrid_GetSteps(grid, steps->data[i].cell, &on);
+        for (int32_t j = 0; j < on.end[0]; ++j) {
+            if (mark[on.data[j].cell] == first) {
+                mark[on.data[j].cell] = first + 1;
+                if (!AddStep(grid, memory, Joined(steps->data[i], on.data[j], KIRI_UNIT_KNIGHT))) {
                     return false;
                 }
             }
@@ -320,12 +360,13 @@ kiriProgress kiriGrid_MakeKnightSteps(kiriGrid* grid, const kiriMeshData* mesh, 
     (void)quota;
     kiriMemory* memory = mesh->memory;
     int32_t c = grid->work->knightsDirty.data[item];
-    const kiriStepRun run = grid->runs.data[c];
+    kiriSteps has;
+    kiriGrid_GetSteps(grid, c, &has);
     grid->work->due += KIRI_GRID_STEPS;
     grid->work->steps.count = 0;
-    if (!AddSteps(grid, memory, run.first, run.end[1]) || !AddKnightSteps(grid, memory, &run)) {
+    if (!AddSteps(grid, memory, &has, 0, has.end[1]) || !AddKnightSteps(grid, memory, &has)) {
         return KIRI_FAILED;
     }
-    SortSteps(grid, run.end[1] - run.first);
-    return SetSteps(grid, memory, c, run.end[0] - run.first, run.end[1] - run.first) ? KIRI_DONE : KIRI_FAILED;
+    SortSteps(grid, has.end[1]);
+    return SetSteps(grid, memory, c, has.end[0], has.end[1]) ? KIRI_DONE : KIRI_FAILED;
 }

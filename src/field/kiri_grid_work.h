@@ -27,8 +27,6 @@ enum {
    exactly; their size is not, and may round to nothing where others divide by it. */
 static const double kiriLeastShare = 1e-14;
 
-enum { KIRI_OPEN_STEPS = 16 }; /* steps of a cell amid whole squares */
-
 /* Of a square in the update at hand. */
 enum {
     KIRI_SQUARE_COLLECTED = 1,   /* its triangles are in `entries` */
@@ -150,6 +148,9 @@ bool kiriGrid_RecordLink(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t 
 
 void kiriGrid_FreeFace(kiriGrid* grid, int32_t face);
 bool kiriGrid_RemoveFace(kiriGrid* grid, kiriMemory* memory, int32_t face);
+
+/* Readies a grid from scratch for steps. */
+void kiriGrid_StartSteps(kiriGrid* grid, const kiriMeshData* mesh);
 
 /* Gives back the room of a cell's steps. */
 void kiriGrid_RemoveSteps(kiriGrid* grid, kiriMemory* memory, int32_t cell);

@@ -94,10 +94,11 @@ static bool GatherStretch(const kiriBorder* border, int32_t face, kiriFaceMark n
     bool ok = kiriArray_Push(border->memory, &work->stretch, face);
     for (int32_t k = 0; ok && k < work->stretch.count; ++k) {
         kiriBorderSide side = kiriBorder_SideOf(border, work->stretch.data[k]);
-        const kiriStepRun* run = &grid->runs.data[side.x];
+        kiriSteps steps;
+        kiriGrid_GetSteps(grid, side.x, &steps);
         ok = GatherFacesAt(border, &side, side.x, mark, next);
-        for (int32_t s = run->first; ok && s < run->end[1]; ++s) {
-            ok = GatherFacesAt(border, &side, grid->steps.data[s].cell, mark, next);
+        for (int32_t s = 0; ok && s < steps.end[1]; ++s) {
+            ok = GatherFacesAt(border, &side, steps.data[s].cell, mark, next);
         }
     }
     kiriSort(work->stretch.data, work->stretch.count, IsFaceBefore, border);
@@ -171,9 +172,10 @@ static void TryLongSteps(const kiriBorder* border, int32_t cell, int32_t to, Sit
 {
     const kiriGrid* grid = border->grid;
     const kiriField* field = &border->regions->field;
-    const kiriStepRun* run = &grid->runs.data[cell];
-    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        kiriStep step = grid->steps.data[s];
+    kiriSteps steps;
+    kiriGrid_GetSteps(grid, cell, &steps);
+    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        kiriStep step = steps.data[s];
         if (field->owner.data[step.cell] == to) {
             int32_t length = field->distance.data[cell] + step.length + field->distance.data[step.cell];
             if (length < way->length) {
@@ -278,9 +280,10 @@ static bool AddLink(const kiriBorder* border, bool bent)
 /* Marks the regions that a step leads to from this border cell. */
 static void SpreadStale(const kiriBorder* border, int32_t cell)
 {
-    const kiriStepRun* run = &border->grid->runs.data[cell];
-    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t owner = border->regions->field.owner.data[border->grid->steps.data[s].cell];
+    kiriSteps steps;
+    kiriGrid_GetSteps(border->grid, cell, &steps);
+    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        int32_t owner = border->regions->field.owner.data[steps.data[s].cell];
         KIRI_ASSERT(owner != KIRI_NONE);
         border->work->stale.data[owner] = 1;
     }

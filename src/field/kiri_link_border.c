@@ -42,9 +42,10 @@ static void AddRegion(const kiriBorder* border, NearRegions* near, int32_t cell)
 
 static void AddRegionsAround(const kiriBorder* border, NearRegions* near, int32_t cell)
 {
-    const kiriStepRun* run = &border->grid->runs.data[cell];
-    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        AddRegion(border, near, border->grid->steps.data[s].cell);
+    kiriSteps steps;
+    kiriGrid_GetSteps(border->grid, cell, &steps);
+    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        AddRegion(border, near, steps.data[s].cell);
     }
 }
 
@@ -84,12 +85,13 @@ static int32_t CellBefore(const kiriBorder* border, int32_t cell)
 {
     const kiriField* field = &border->regions->field;
     int32_t region = field->owner.data[cell], distance = field->distance.data[cell];
-    const kiriStepRun* run = &border->grid->runs.data[cell];
+    kiriSteps steps;
+    kiriGrid_GetSteps(border->grid, cell, &steps);
     if (kiriSite_SeedAt(&border->sites[region], region, border->grid, border->mesh, cell).distance == distance) {
         return KIRI_NONE;
     }
-    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        kiriStep step = border->grid->steps.data[s];
+    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        kiriStep step = steps.data[s];
         if (field->owner.data[step.cell] == region && field->distance.data[step.cell] + step.length == distance) {
             return step.cell;
         }
@@ -706,13 +708,14 @@ bool kiriBorder_MakeShort(const kiriBorder* border, const kiriLinkEnd* near, con
 
 bool kiriBorder_FindBeside(const kiriBorder* border, const kiriLinkEnd* end, int which, int32_t* at, int32_t cells[2])
 {
-    const kiriStepRun* run = &border->grid->runs.data[end->cell[which]];
+    kiriSteps steps;
+    kiriGrid_GetSteps(border->grid, end->cell[which], &steps);
     const int32_t* owner = border->regions->field.owner.data;
     cells[0] = end->cell[which];
-    for (int32_t s = run->first + *at; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        cells[1] = border->grid->steps.data[s].cell;
+    for (int32_t s = *at; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        cells[1] = steps.data[s].cell;
         if (owner[cells[1]] > owner[cells[0]]) {
-            *at = s + 1 - run->first;
+            *at = s + 1;
             return true;
         }
     }

@@ -600,12 +600,13 @@ enum { TAKEN_CELLS_AN_ITEM = 4 }; /* with what it takes to order and to mark the
 static kiriProgress GatherPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota)
 {
     for (int32_t* k = &placer->work->cursor; *k < placer->cells.count; ++*k) {
-        const kiriStepRun* run = &grid->runs.data[placer->cells.data[*k]];
+        kiriSteps steps;
+        kiriGrid_GetSteps(grid, placer->cells.data[*k], &steps);
         if (*k % TAKEN_CELLS_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
             return KIRI_MORE;
         }
-        for (int32_t s = run->first; s < run->end[0]; ++s) {
-            if (!TakeCell(placer, memory, grid->steps.data[s].cell)) {
+        for (int32_t s = 0; s < steps.end[0]; ++s) {
+            if (!TakeCell(placer, memory, steps.data[s].cell)) {
                 return KIRI_FAILED;
             }
         }

@@ -31,14 +31,15 @@ static kiriSeed SeedNear(const kiriSite* site, int32_t owner, const kiriGrid* gr
 bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, const kiriGrid* grid,
                    const kiriMeshData* mesh, kiriSeeds* seeds)
 {
-    const kiriStepRun* run = &grid->runs.data[site->cell];
     kiriSeed own = SeedNear(site, owner, grid, mesh, site->cell);
+    kiriSteps steps;
     if (!kiriArray_Push(memory, seeds, own)) {
         return false;
     }
-    int32_t end = IsAtMiddle(site, grid, mesh) ? run->first : run->end[KIRI_STEP_LENGTHS - 1];
-    for (int32_t s = run->first; s < end; ++s) {
-        kiriSeed seed = SeedNear(site, owner, grid, mesh, grid->steps.data[s].cell);
+    kiriGrid_GetSteps(grid, site->cell, &steps);
+    int32_t end = IsAtMiddle(site, grid, mesh) ? 0 : steps.end[KIRI_STEP_LENGTHS - 1];
+    for (int32_t s = 0; s < end; ++s) {
+        kiriSeed seed = SeedNear(site, owner, grid, mesh, steps.data[s].cell);
         if (!kiriArray_Push(memory, seeds, seed)) {
             return false;
         }
@@ -58,13 +59,16 @@ static bool AreNear(const kiriGrid* grid, const kiriMeshData* mesh, int32_t a, i
 kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, const kiriMeshData* mesh,
                          int32_t cell)
 {
-    const kiriStepRun* run = &grid->runs.data[cell];
-    bool near = cell == site->cell;
-    int32_t end = AreNear(grid, mesh, cell, site->cell) ? run->end[KIRI_STEP_LENGTHS - 1] : run->first;
-    for (int32_t s = run->first; s < end && !near; ++s) {
-        near = grid->steps.data[s].cell == site->cell;
-    }
     kiriSeed none = { cell, KIRI_FAR, KIRI_NONE };
+    kiriSteps steps;
+    if (!AreNear(grid, mesh, cell, site->cell)) {
+        return none;
+    }
+    kiriGrid_GetSteps(grid, cell, &steps);
+    bool near = cell == site->cell;
+    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1] && !near; ++s) {
+        near = steps.data[s].cell == site->cell;
+    }
     return near ? SeedNear(site, owner, grid, mesh, cell) : none;
 }
 
@@ -92,9 +96,10 @@ static kiriSeed NearestSiteSeed(const void* context, int32_t cell)
     if (siteAt[cell] != KIRI_NONE) {
         return SeedNear(&u->sites[siteAt[cell]], siteAt[cell], u->grid, u->mesh, cell);
     }
-    const kiriStepRun* run = &u->grid->runs.data[cell];
-    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t owner = siteAt[u->grid->steps.data[s].cell];
+    kiriSteps steps;
+    kiriGrid_GetSteps(u->grid, cell, &steps);
+    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        int32_t owner = siteAt[steps.data[s].cell];
         if (owner != KIRI_NONE) {
             kiriSeed seed = SeedNear(&u->sites[owner], owner, u->grid, u->mesh, cell);
             bool nearer = seed.distance < best.distance || (seed.distance == best.distance && owner < best.owner);
@@ -160,11 +165,12 @@ static void SetBorder(kiriRegions* regions, int32_t cell, bool isBorder)
 
 static void MarkDirtyAround(const RegionUpdate* u, int32_t cell)
 {
-    const kiriStepRun* run = &u->grid->runs.data[cell];
+    kiriSteps steps;
     if (kiriGrid_IsCell(u->grid, cell)) {
+        kiriGrid_GetSteps(u->grid, cell, &steps);
         kiriField_MarkDirty(&u->regions->field, cell);
-        for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-            kiriField_MarkDirty(&u->regions->field, u->grid->steps.data[s].cell);
+        for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+            kiriField_MarkDirty(&u->regions->field, steps.data[s].cell);
         }
     }
 }
@@ -253,11 +259,12 @@ static bool StartRegionFlood(const RegionUpdate* u)
 
 static void FindBorder(const RegionUpdate* u, int32_t cell)
 {
-    const kiriStepRun* run = &u->grid->runs.data[cell];
+    kiriSteps steps;
+    kiriGrid_GetSteps(u->grid, cell, &steps);
     const int32_t* owner = u->regions->field.owner.data;
     bool border = false;
-    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        border |= owner[u->grid->steps.data[s].cell] != owner[cell];
+    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        border |= owner[steps.data[s].cell] != owner[cell];
     }
     SetBorder(u->regions, cell, border);
 }
@@ -265,11 +272,12 @@ static void FindBorder(const RegionUpdate* u, int32_t cell)
 /* The cell has another owner, so its neighbours may be on a border, or no more. */
 static void FindBordersAround(const RegionUpdate* u, int32_t cell)
 {
-    const kiriStepRun* run = &u->grid->runs.data[cell];
+    kiriSteps steps;
+    kiriGrid_GetSteps(u->grid, cell, &steps);
     const int32_t* owner = u->regions->field.owner.data;
     FindBorder(u, cell);
-    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t next = u->grid->steps.data[s].cell;
+    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        int32_t next = steps.data[s].cell;
         if (owner[next] != owner[cell]) {
             SetBorder(u->regions, next, true);
         } else if (u->regions->onBorder.data[next]) {

@@ -276,11 +276,12 @@ static bool MarkRegion(kiriShapeJob* job, kiriSeed was)
 /* Counts how far distances have to go for the sake of a cell that has changed, and of those beside it. */
 static bool CountAround(kiriShapeJob* job, int32_t cell)
 {
-    const kiriStepRun* run = &job->grid->runs.data[cell];
+    kiriSteps steps;
+    kiriGrid_GetSteps(job->grid, cell, &steps);
     const uint8_t* marks = job->work->marks.data;
     bool ok = kiriShapeJob_CountCell(job, cell);
-    for (int32_t s = run->first; ok && s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t beside = job->grid->steps.data[s].cell;
+    for (int32_t s = 0; ok && s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        int32_t beside = steps.data[s].cell;
         ok = (marks[beside] & (KIRI_MARK_STEPS | KIRI_MARK_REGION)) != 0 || kiriShapeJob_CountCell(job, beside);
     }
     return ok;

@@ -17,10 +17,14 @@ static int32_t ReachAt(const kiriShapeJob* job, int32_t x)
 {
     const kiriField* field = &job->regions->field;
     const int32_t *owner = field->owner.data, *distance = field->distance.data;
-    const kiriStepRun* run = &job->grid->runs.data[x];
+    kiriSteps steps;
     int64_t farthest = distance[x];
-    for (int32_t s = run->first; job->regions->onBorder.data[x] && s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        kiriStep step = job->grid->steps.data[s];
+    if (!job->regions->onBorder.data[x]) {
+        return distance[x] < KIRI_FAR ? distance[x] : KIRI_FAR - 1;
+    }
+    kiriGrid_GetSteps(job->grid, x, &steps);
+    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        kiriStep step = steps.data[s];
         if (owner[step.cell] != owner[x]) {
             int64_t over = (int64_t)distance[x] + step.length + distance[step.cell];
             farthest = over > farthest ? over : farthest;
@@ -104,10 +108,11 @@ static kiriSeed SiteSeed(const void* context, int32_t cell)
 static int32_t DistanceToBorder(const kiriShapeJob* job, int32_t x)
 {
     const int32_t* distance = job->regions->field.distance.data;
-    const kiriStepRun* run = &job->grid->runs.data[x];
+    kiriSteps steps;
+    kiriGrid_GetSteps(job->grid, x, &steps);
     int32_t least = KIRI_FAR;
-    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        kiriStep step = job->grid->steps.data[s];
+    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        kiriStep step = steps.data[s];
         if (IsInRegion(job, step.cell) != IsInRegion(job, x)) {
             int32_t half = (distance[step.cell] + step.length - distance[x] + 1) / 2;
             least = half < least ? half : least;
@@ -181,10 +186,10 @@ static void LoadAround(const void* context, int32_t cell)
         return;
     }
     *mark |= KIRI_MARK_SEEN;
-    const kiriStepRun* run = &job->grid->runs.data[cell];
-    const kiriStep* steps = job->grid->steps.data;
-    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        LoadBlock(job, kiriReach_BlockOf(steps[s].cell));
+    kiriSteps steps;
+    kiriGrid_GetSteps(job->grid, cell, &steps);
+    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        LoadBlock(job, kiriReach_BlockOf(steps.data[s].cell));
     }
 }
 
@@ -202,15 +207,17 @@ static void LoadAllBlocks(kiriShapeJob* job)
 static void MarkBorderSeedsDirty(kiriShapeJob* job, int32_t cell)
 {
     kiriField* field = &job->work->fromBorder;
-    const kiriStepRun* run = &job->grid->runs.data[cell];
     bool inside = IsInRegion(job, cell), turned = inside != (job->work->wasOwner.data[cell] == job->frame);
+    kiriSteps steps;
     LoadAround(job, cell);
     if (turned) {
         kiriField_MarkDirty(field, cell);
+    } else if (!job->regions->onBorder.data[cell]) {
+        return;
     }
-    for (int32_t s = run->first; (turned || job->regions->onBorder.data[cell]) && s < run->end[KIRI_STEP_LENGTHS - 1];
-         ++s) {
-        int32_t beside = job->grid->steps.data[s].cell;
+    kiriGrid_GetSteps(job->grid, cell, &steps);
+    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        int32_t beside = steps.data[s].cell;
         if (turned || IsInRegion(job, beside) != inside) {
             kiriField_MarkDirty(field, cell);
             kiriField_MarkDirty(field, beside);
@@ -283,14 +290,15 @@ static void LoadChanges(kiriShapeJob* job, int32_t limit)
 {
     kiriShapeWork* work = job->work;
     int32_t cell = job->sites[job->frame].cell;
-    const kiriStepRun* run = &job->grid->runs.data[cell];
+    kiriSteps steps;
     if (limit != work->frames.data[job->frame].limit) {
         LoadBeyond(job, limit);
     }
     if ((work->marks.data[cell] & KIRI_MARK_STEPS) != 0) {
         LoadAround(job, cell);
-        for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-            kiriField_MarkDirty(&work->fromSite, job->grid->steps.data[s].cell);
+        kiriGrid_GetSteps(job->grid, cell, &steps);
+        for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+            kiriField_MarkDirty(&work->fromSite, steps.data[s].cell);
         }
     }
 }

@@ -225,12 +225,13 @@ static void InsertStep(kiriStencil* stencil, const kiriGrid* grid, kiriStep step
 /* Two straight steps around a corner. */
 static bool InsertBeyond(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, kiriStep to)
 {
-    const kiriStepRun* run = &grid->runs.data[to.cell];
-    if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)stencil->steps.count + run->end[0] - run->first)) {
+    kiriSteps steps;
+    kiriGrid_GetSteps(grid, to.cell, &steps);
+    if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)stencil->steps.count + steps.end[0])) {
         return false;
     }
-    for (int32_t k = run->first; k < run->end[0]; ++k) {
-        kiriStep on = grid->steps.data[k];
+    for (int32_t k = 0; k < steps.end[0]; ++k) {
+        kiriStep on = steps.data[k];
         if ((to.u != 0) != (on.u != 0)) {
             on.u = (int8_t)(on.u + to.u);
             on.v = (int8_t)(on.v + to.v);
@@ -243,10 +244,11 @@ static bool InsertBeyond(kiriStencil* stencil, kiriMemory* memory, const kiriGri
 /* Most cells have eight others around them, and no square there is divided: then steps of the grid tell all. */
 static bool IsPlain(const kiriGrid* grid, int32_t cell)
 {
-    const kiriStepRun* run = &grid->runs.data[cell];
-    bool plain = run->end[1] - run->first == 8 && grid->whole.data[grid->cells.data[cell].square];
-    for (int32_t k = run->first; plain && k < run->end[1]; ++k) {
-        plain = grid->whole.data[grid->cells.data[grid->steps.data[k].cell].square];
+    kiriSteps steps;
+    kiriGrid_GetSteps(grid, cell, &steps);
+    bool plain = steps.end[1] == 8 && grid->whole.data[grid->cells.data[cell].square];
+    for (int32_t k = 0; plain && k < steps.end[1]; ++k) {
+        plain = grid->whole.data[grid->cells.data[steps.data[k].cell].square];
     }
     return plain;
 }
@@ -255,19 +257,20 @@ static bool IsPlain(const kiriGrid* grid, int32_t cell)
    ways around it: beside a cut there is often one, and a fit without these cells is another from cell to cell. */
 static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
-    const kiriStepRun* run = &grid->runs.data[cell];
+    kiriSteps steps;
+    kiriGrid_GetSteps(grid, cell, &steps);
     bool plain = IsPlain(grid, cell);
-    int32_t end = run->end[plain ? 1 : 0];
+    int32_t end = steps.end[plain ? 1 : 0];
     stencil->steps.count = 0;
-    if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)end - run->first + 1)) {
+    if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)end + 1)) {
         return false;
     }
     stencil->steps.data[stencil->steps.count++] = (kiriStep){ cell, 0, 0, 0 };
-    for (int32_t k = run->first; k < end; ++k) {
-        InsertStep(stencil, grid, grid->steps.data[k]);
+    for (int32_t k = 0; k < end; ++k) {
+        InsertStep(stencil, grid, steps.data[k]);
     }
-    for (int32_t k = run->first; !plain && k < run->end[0]; ++k) {
-        if (!InsertBeyond(stencil, memory, grid, grid->steps.data[k])) {
+    for (int32_t k = 0; !plain && k < steps.end[0]; ++k) {
+        if (!InsertBeyond(stencil, memory, grid, steps.data[k])) {
             return false;
         }
     }

@@ -138,9 +138,10 @@ int32_t kiriSites_MostIn(int32_t cells)
 bool kiriSites_IsCrowded(const kiriGrid* grid, const kiriSites* sites, const kiriSite* site, const int32_t* holder)
 {
     double least = 0.999 * grid->side; /* points of the caller are floats */
-    const kiriStepRun* run = &grid->runs.data[site->cell];
-    for (int32_t s = run->first; s < run->end[1]; ++s) {
-        int32_t other = holder[grid->steps.data[s].cell];
+    kiriSteps steps;
+    kiriGrid_GetSteps(grid, site->cell, &steps);
+    for (int32_t s = 0; s < steps.end[1]; ++s) {
+        int32_t other = holder[steps.data[s].cell];
         if (other != KIRI_NONE) {
             kiriVec2 off = kiriVec2_Sub(sites->data[other].at, site->at);
             if (kiriVec2_Dot(off, off) < least * least) {
