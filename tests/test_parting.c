@@ -148,6 +148,69 @@ static void TestOfSeveralSheets(void** state)
     Host_Stop(&host);
 }
 
+/* The first frame of the piece whose vertices are nearest to a rest point. */
+static kiriFrame FrameNear(Host* host, kiriSheet sheet, float u, float v)
+{
+    kiriFrame frame = 0;
+    float least = 1e30f;
+    kiriMesh mesh = Host_Mesh(host, sheet);
+    for (int32_t p = 0; p < Host_Counts(host, sheet).pieces; ++p) {
+        kiriPieceMesh piece;
+        float sum[2] = { 0.0f, 0.0f };
+        OK(kiriSheet_GetPieceMesh(host->world, sheet, p, &piece));
+        for (int32_t i = 0; i < 2 * piece.vertexCount; ++i) {
+            sum[i % 2] += mesh.restPositions[2 * piece.vertices[i / 2] + i % 2] / (float)piece.vertexCount;
+        }
+        float far = hypotf(sum[0] - u, sum[1] - v);
+        frame = far < least ? Host_FrameOf(host, sheet, p) : frame;
+        least = fminf(far, least);
+    }
+    return frame;
+}
+
+/* A part has the squares around it, wherever these begin. Blades come into it from all sides, a line finds it, and a part
+   of the part has fewer still. In the second world all fields are made anew. */
+static void TestSquaresOfAPart(void** state)
+{
+    (void)state;
+    static const float blades[3][4] = { { 0.2f, 0.87f, 1.2f, 0.83f },
+                                        { 0.88f, 1.3f, 0.91f, -0.2f },
+                                        { 1.3f, 1.1f, 0.5f, 0.61f } };
+    Host hosts[2];
+    kiriSheet part[2], of[2];
+    for (int k = 0; k < 2; ++k) {
+        kiriSheetDef def = DefOf(24);
+        def.paper.fromScratch = k;
+        Host_Start(&hosts[k]);
+        kiriSheet sheet = Chop(&hosts[k], &def, 3, 2);
+        kiriPinDef pin;
+        kiriPin id;
+        OK(kiriFrame_DetachPiece(hosts[k].world, FrameNear(&hosts[k], sheet, 0.85f, 0.8f), &part[k]));
+        const kiriSquares *few = &SheetAt(&hosts[k], 1)->mesh.squares, *all = &SheetAt(&hosts[k], 0)->mesh.squares;
+        assert_true(few->columns < all->columns / 2 && few->rows < 2 * all->rows / 3);
+        assert_true(few->firstColumn > all->columns / 2 && few->firstRow > all->rows / 3);
+        for (int i = 0; i < 3; ++i) {
+            Host_Cut(&hosts[k], part[k], blades[i], 2);
+            OK(Host_Tick(&hosts[k], 1.0f / 60.0f, 1));
+        }
+        assert_int_equal(Host_Counts(&hosts[k], part[k]).pieces, 7);
+        kiriDefaultPinDef(&pin);
+        pin.restPoint[0] = 0.97f;
+        pin.restPoint[1] = 0.98f;
+        OK(kiriCreatePin(hosts[k].world, part[k], &pin, &id));
+        OK(kiriSheet_ClampLine(hosts[k].world, part[k], (float[]){ 0.7f, 0.56f }, (float[]){ 0.96f, 0.56f },
+                                &id));
+        OK(kiriFrame_DetachPiece(hosts[k].world, FrameNear(&hosts[k], part[k], 0.97f, 0.98f), &of[k]));
+        assert_true(SheetAt(&hosts[k], 2)->mesh.squares.firstColumn > few->firstColumn);
+        OK(Host_Tick(&hosts[k], 1.0f / 60.0f, 1));
+    }
+    for (int32_t s = 0; s < 3; ++s) {
+        assert_int_equal(HashLayout(SheetAt(&hosts[0], s)), HashLayout(SheetAt(&hosts[1], s)));
+    }
+    Host_Stop(&hosts[0]);
+    Host_Stop(&hosts[1]);
+}
+
 /* ---- At random ---- */
 
 static void CutAtRandom(Host* host, kiriSheet sheet, uint32_t* seed)
@@ -701,6 +764,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestManyAreAsOneByOne),
         cmocka_unit_test(TestOfSeveralSheets),
+        cmocka_unit_test(TestSquaresOfAPart),
         cmocka_unit_test(TestLeftIsAsFromScratch),
         cmocka_unit_test(TestUnderBudgets),
         cmocka_unit_test(TestWaitingChangesNothing),

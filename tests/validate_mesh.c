@@ -133,7 +133,8 @@ static int32_t CountOverlaps(const kiriSquares* squares, const kiriLatticePoint 
 {
     int32_t low[2] = { INT32_MAX, INT32_MAX }, high[2] = { INT32_MIN, INT32_MIN }, count = 0;
     for (int i = 0; i < 3; ++i) {
-        int32_t xy[2] = { (c[i].x + 1) / squares->side, (c[i].y + 1) / squares->side };
+        int32_t xy[2] = { (c[i].x + 1) / squares->side - squares->firstColumn,
+                          (c[i].y + 1) / squares->side - squares->firstRow };
         for (int axis = 0; axis < 2; ++axis) {
             low[axis] = xy[axis] < low[axis] ? xy[axis] : low[axis];
             high[axis] = xy[axis] > high[axis] ? xy[axis] : high[axis];

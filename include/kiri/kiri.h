@@ -663,8 +663,8 @@ KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, 
    the rest keeps the id, the new sheet's has one of its own (kiriSheet_GetPins). Both sheets have all settings (of
    collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself, and sleep each
    for itself. Cuts stay with the rest: a blade in the piece cuts nothing until it is back. Indices of vertices, triangles
-   and collision points of the rest change (its revision grows). Both keep the grid of the whole sheet, which takes about
-   40 bytes a square: crumbs are better dropped. Costs a pass over the sheet's arrays, and what the piece alone takes to
+   and collision points of the rest change (its revision grows). The new sheet has the squares of the grid around it, at
+   about 40 bytes a square: crumbs are better dropped. Costs a pass over the sheet's arrays, and what the piece alone takes to
    make.
    KIRI_PENDING: work on a cut is at hand in the sheet; *detached is 0. When it is done, what is the piece of this frame
    then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. That counts as samples of the budget: until they are paid

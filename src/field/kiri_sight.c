@@ -182,11 +182,12 @@ typedef struct SightAxis {
     double next, each;
 } SightAxis;
 
-static SightAxis StartAxis(double from, double way, const kiriGrid* grid, const kiriMeshData* mesh)
+/* `first`: the first column of the grid, or its first row. */
+static SightAxis StartAxis(double from, double way, int32_t first, const kiriGrid* grid, const kiriMeshData* mesh)
 {
     double x = (from + mesh->step) / grid->side;
     int32_t at = (int32_t)(x + 1.0) - 1; /* rounded down: never below -1 */
-    SightAxis axis = { at, way > 0.0 ? 1 : -1, 2.0, 2.0 };
+    SightAxis axis = { at - first, way > 0.0 ? 1 : -1, 2.0, 2.0 };
     if (way != 0.0) {
         axis.each = grid->side / fabs(way);
         axis.next = (way > 0.0 ? at + 1 - x : x - at) * axis.each;
@@ -200,7 +201,8 @@ kiriSightEnd kiriSight_Cast(const kiriSight* sight, kiriVec2 p, kiriVec2 q, kiri
     kiriVec2 way = kiriVec2_Sub(q, p);
     double least = 1e-6 * sight->grid->side;
     SightRay ray = { p, way, kiriVec2_Length(way), least, { 2.0, KIRI_NONE }, p };
-    SightAxis u = StartAxis(p.x, way.x, sight->grid, sight->mesh), v = StartAxis(p.y, way.y, sight->grid, sight->mesh);
+    SightAxis u = StartAxis(p.x, way.x, squares->firstColumn, sight->grid, sight->mesh),
+              v = StartAxis(p.y, way.y, squares->firstRow, sight->grid, sight->mesh);
     for (double entry = 0.0; entry < 1.0;) {
         int32_t square = v.at * squares->columns + u.at;
         bool isInside = u.at >= 0 && u.at < squares->columns && v.at >= 0 && v.at < squares->rows;

@@ -264,10 +264,12 @@ static void FindEntryInSquare(BladeWalk* walk, int32_t square, SheetEntry* entry
     }
 }
 
-/* The first and last of `count` squares of a column or row between two coordinates in any order, and two steps more. */
-static void SquaresBetween(int32_t side, int32_t count, double a, double b, int32_t* first, int32_t* last)
+/* The first and last of `count` squares of a column or row, which begins at `start`, between two coordinates in any
+   order, and two steps more. */
+static void SquaresBetween(int32_t side, int32_t start, int32_t count, double a, double b, int32_t* first,
+                           int32_t* last)
 {
-    double low = (a < b ? a : b) - 1.0, high = (a < b ? b : a) + 3.0;
+    double from = (double)start * side, low = (a < b ? a : b) - 1.0 - from, high = (a < b ? b : a) + 3.0 - from;
     *first = low <= 0.0 ? 0 : (int32_t)(low / side);
     *last = high < 0.0 ? -1 : (int32_t)(high / side);
     *last = *last < count ? *last : count - 1;
@@ -280,15 +282,16 @@ static int32_t FindSheetEntry(BladeWalk* walk)
     double dx = (double)walk->to.x - walk->at.x, dy = (double)walk->to.y - walk->at.y;
     int32_t firstRow, lastRow, first, last;
     SheetEntry entry = { KIRI_NONE, 2.0 };
-    SquaresBetween(squares->side, squares->rows, walk->at.y, walk->to.y, &firstRow, &lastRow);
+    SquaresBetween(squares->side, squares->firstRow, squares->rows, walk->at.y, walk->to.y, &firstRow, &lastRow);
     for (int32_t row = firstRow; row <= lastRow; ++row) {
-        double low = ((double)row * squares->side - 3.0 - walk->at.y) / (dy != 0.0 ? dy : 1.0);
+        double low =
+            (((double)squares->firstRow + row) * squares->side - 3.0 - walk->at.y) / (dy != 0.0 ? dy : 1.0);
         double high = low + ((double)squares->side + 4.0) / (dy != 0.0 ? dy : 1.0);
         double enter = low < high ? low : high, leave = low < high ? high : low;
         enter = dy == 0.0 || enter < 0.0 ? 0.0 : enter;
         leave = dy == 0.0 || leave > 1.0 ? 1.0 : leave;
-        SquaresBetween(squares->side, squares->columns, walk->at.x + enter * dx, walk->at.x + leave * dx, &first,
-                       &last);
+        SquaresBetween(squares->side, squares->firstColumn, squares->columns, walk->at.x + enter * dx,
+                       walk->at.x + leave * dx, &first, &last);
         for (int32_t column = first; column <= last; ++column) {
             FindEntryInSquare(walk, row * squares->columns + column, &entry);
         }

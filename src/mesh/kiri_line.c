@@ -82,14 +82,16 @@ static kiriSpan RowsOf(const SideLine* line, int32_t column)
 {
     const kiriSquares* squares = &line->mesh->squares;
     const kiriLatticePoint *a = &line->ends[0], *b = &line->ends[1];
-    double dx = (double)b->x - a->x, dy = (double)b->y - a->y, left = (double)column * squares->side - 1.0, y[2];
+    double dx = (double)b->x - a->x, dy = (double)b->y - a->y, y[2];
+    double left = ((double)squares->firstColumn + column) * squares->side - 1.0;
     for (int k = 0; k < 2; ++k) {
         double t = dx != 0.0 ? (left + k * squares->side - a->x) / dx : k;
         y[k] = a->y + (t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t) * dy;
     }
-    double low = y[0] < y[1] ? y[0] : y[1], high = y[0] < y[1] ? y[1] : y[0];
-    int32_t first = Within(low * squares->perStep - 1.0, squares->rows - 1);
-    kiriSpan rows = { first, Within(high * squares->perStep + 2.0, squares->rows - 1) - first + 1 };
+    double low = (y[0] < y[1] ? y[0] : y[1]) * squares->perStep - squares->firstRow;
+    double high = (y[0] < y[1] ? y[1] : y[0]) * squares->perStep - squares->firstRow;
+    int32_t first = Within(low - 1.0, squares->rows - 1);
+    kiriSpan rows = { first, Within(high + 2.0, squares->rows - 1) - first + 1 };
     return rows;
 }
 
@@ -104,9 +106,10 @@ static bool CoverLine(const SideLine* beside, kiriMemory* memory, kiriLine* line
 {
     const kiriSquares* squares = &beside->mesh->squares;
     const kiriLatticePoint* p = beside->ends;
-    double low = p[0].x < p[1].x ? p[0].x : p[1].x, high = p[0].x < p[1].x ? p[1].x : p[0].x;
-    int32_t first = line->covers.count, last = Within(high * squares->perStep + 1.0, squares->columns - 1);
-    for (int32_t column = Within(low * squares->perStep - 1.0, squares->columns - 1); column <= last; ++column) {
+    double low = (p[0].x < p[1].x ? p[0].x : p[1].x) * squares->perStep - squares->firstColumn;
+    double high = (p[0].x < p[1].x ? p[1].x : p[0].x) * squares->perStep - squares->firstColumn;
+    int32_t first = line->covers.count, last = Within(high + 1.0, squares->columns - 1);
+    for (int32_t column = Within(low - 1.0, squares->columns - 1); column <= last; ++column) {
         kiriSpan rows = RowsOf(beside, column);
         for (int32_t k = 0; k < rows.count; ++k) {
             if (!CoverSquare(beside, memory, (rows.first + k) * squares->columns + column, line)) {

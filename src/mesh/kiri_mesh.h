@@ -85,8 +85,8 @@ typedef struct kiriMeshPart {
     const kiriKeep* keep; /* keeps these */
 } kiriMeshPart;
 
-/* A part of another mesh, on the same lattice and squares: these triangles and vertices, a vertex with its whole fan.
-   False for memory. The journal is open after it. */
+/* A part of another mesh, on the same lattice and the squares around it: these triangles and vertices, a vertex with its
+   whole fan. False for memory. The journal is open after it. */
 bool kiriMesh_InitPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const kiriMeshPart* triangles,
                        const kiriMeshPart* vertices);
 

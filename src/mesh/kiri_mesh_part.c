@@ -65,6 +65,20 @@ static bool CopySources(kiriMeshData* mesh, const kiriMeshData* from)
     return true;
 }
 
+static bool CopySquares(kiriMeshData* mesh, const kiriMeshData* from)
+{
+    kiriLatticePoint lower = mesh->vertices.data[0].at, upper = lower;
+    for (int32_t v = 1; v < mesh->vertices.count; ++v) {
+        kiriLatticePoint at = mesh->vertices.data[v].at;
+        lower.x = at.x < lower.x ? at.x : lower.x;
+        lower.y = at.y < lower.y ? at.y : lower.y;
+        upper.x = at.x > upper.x ? at.x : upper.x;
+        upper.y = at.y > upper.y ? at.y : upper.y;
+    }
+    return kiriSquares_InitPart(&mesh->squares, mesh->memory, &from->squares, lower, upper) &&
+           kiriMesh_FillSquares(mesh, &mesh->squares, mesh->memory);
+}
+
 bool kiriMesh_InitPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const kiriMeshPart* triangles,
                        const kiriMeshPart* vertices)
 {
@@ -73,9 +87,7 @@ bool kiriMesh_InitPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshDat
     mesh->origin = from->origin;
     mesh->step = from->step;
     mesh->revision = from->revision + 1;
-    if (!CopyPart(mesh, from, triangles, vertices) || !CopySources(mesh, from) ||
-        !kiriSquares_InitLike(&mesh->squares, mesh->memory, &from->squares) ||
-        !kiriMesh_FillSquares(mesh, &mesh->squares, mesh->memory)) {
+    if (!CopyPart(mesh, from, triangles, vertices) || !CopySources(mesh, from) || !CopySquares(mesh, from)) {
         return false;
     }
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {

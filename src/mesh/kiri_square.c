@@ -53,30 +53,46 @@ bool kiriSquares_Init(kiriSquares* squares, kiriMemory* memory, kiriLatticePoint
     return AllocateSquares(squares, memory);
 }
 
-bool kiriSquares_InitLike(kiriSquares* squares, kiriMemory* memory, const kiriSquares* like)
+/* The column or row of an even coordinate, not negative, counted from the lower border of the whole sheet. The quotient
+   is at least 1 / side from a whole number: so its rounding does not show, and the multiplication is as good as a
+   division and faster. */
+static int32_t LineOf(const kiriSquares* squares, int32_t coordinate)
+{
+    return (int32_t)(squares->perStep * ((double)coordinate + 1.0));
+}
+
+/* Of `count` columns or rows from `first` on, those from a coordinate to another, and some beside them. */
+static void TakeLines(const kiriSquares* like, int32_t lower, int32_t upper, int32_t* first, int32_t* count)
+{
+    int32_t end = *first + *count, from = LineOf(like, lower) - KIRI_SQUARES_BESIDE,
+            to = LineOf(like, upper) + KIRI_SQUARES_BESIDE + 1;
+    *first = from > *first ? from : *first;
+    *count = (to < end ? to : end) - *first;
+    KIRI_ASSERT(*count > 0);
+}
+
+bool kiriSquares_InitPart(kiriSquares* squares, kiriMemory* memory, const kiriSquares* like, kiriLatticePoint lower,
+                          kiriLatticePoint upper)
 {
     memset(squares, 0, sizeof(*squares));
     squares->side = like->side;
     squares->columns = like->columns;
     squares->rows = like->rows;
+    squares->firstColumn = like->firstColumn;
+    squares->firstRow = like->firstRow;
+    TakeLines(like, lower.x, upper.x, &squares->firstColumn, &squares->columns);
+    TakeLines(like, lower.y, upper.y, &squares->firstRow, &squares->rows);
     return AllocateSquares(squares, memory);
-}
-
-/* The column or row of an even coordinate, not negative. The quotient is at least 1 / side from a whole number: so its
-   rounding does not show, and the multiplication is as good as a division and faster. */
-static int32_t LineOf(const kiriSquares* squares, int32_t coordinate)
-{
-    return (int32_t)(squares->perStep * ((double)coordinate + 1.0));
 }
 
 /* The squares that the box of the corners overlaps. Corners are even and grid lines odd, so no corner is on a line. */
 static SquareBox BoxOf(const kiriSquares* squares, const kiriLatticePoint c[3])
 {
     SquareBox range;
-    range.firstColumn = LineOf(squares, Min3(c[0].x, c[1].x, c[2].x));
-    range.lastColumn = LineOf(squares, Max3(c[0].x, c[1].x, c[2].x));
-    range.firstRow = LineOf(squares, Min3(c[0].y, c[1].y, c[2].y));
-    range.lastRow = LineOf(squares, Max3(c[0].y, c[1].y, c[2].y));
+    range.firstColumn = LineOf(squares, Min3(c[0].x, c[1].x, c[2].x)) - squares->firstColumn;
+    range.lastColumn = LineOf(squares, Max3(c[0].x, c[1].x, c[2].x)) - squares->firstColumn;
+    range.firstRow = LineOf(squares, Min3(c[0].y, c[1].y, c[2].y)) - squares->firstRow;
+    range.lastRow = LineOf(squares, Max3(c[0].y, c[1].y, c[2].y)) - squares->firstRow;
     KIRI_ASSERT(range.firstColumn >= 0 && range.lastColumn < squares->columns);
     KIRI_ASSERT(range.firstRow >= 0 && range.lastRow < squares->rows);
     return range;
@@ -85,7 +101,8 @@ static SquareBox BoxOf(const kiriSquares* squares, const kiriLatticePoint c[3])
 static kiriLatticePoint CornerAt(const kiriSquares* squares, int32_t column, int32_t row)
 {
     KIRI_ASSERT(column >= 0 && column < squares->columns && row >= 0 && row < squares->rows);
-    kiriLatticePoint corner = { column * squares->side - 1, row * squares->side - 1 };
+    kiriLatticePoint corner = { (squares->firstColumn + column) * squares->side - 1,
+                                (squares->firstRow + row) * squares->side - 1 };
     return corner;
 }
 
@@ -388,11 +405,19 @@ void kiriSquares_Keep(kiriSquares* squares, const kiriKeep* triangles, const int
 
 int32_t kiriSquares_At(const kiriSquares* squares, kiriLatticePoint p)
 {
-    int32_t column = LineOf(squares, p.x), row = LineOf(squares, p.y);
-    if (p.x < 0 || p.y < 0 || column >= squares->columns || row >= squares->rows) {
+    int32_t column = LineOf(squares, p.x) - squares->firstColumn, row = LineOf(squares, p.y) - squares->firstRow;
+    if (p.x < 0 || p.y < 0 || column < 0 || row < 0 || column >= squares->columns || row >= squares->rows) {
         return KIRI_NONE;
     }
     return row * squares->columns + column;
+}
+
+int32_t kiriSquares_InPart(const kiriSquares* part, const kiriSquares* whole, int32_t square)
+{
+    int32_t column = square % whole->columns + whole->firstColumn - part->firstColumn;
+    int32_t row = square / whole->columns + whole->firstRow - part->firstRow;
+    KIRI_ASSERT(column >= 0 && column < part->columns && row >= 0 && row < part->rows);
+    return row * part->columns + column;
 }
 
 int32_t kiriSquares_CountNodes(const kiriSquares* squares, int32_t square)

@@ -21,12 +21,16 @@ typedef struct kiriSquareUndo {
     kiriSquareNode was;
 } kiriSquareUndo;
 
+/* As far as steps lead: so rows that follow each other are never near by their numbers alone. */
+enum { KIRI_SQUARES_BESIDE = 2 };
+
 /* About ns: to pass a node of a list; to look whether something is in a square, and to change its list. */
 enum { KIRI_NODE_EFFORT = 1, KIRI_SQUARE_EFFORT = 8 };
 
 typedef struct kiriSquares {
     int32_t columns, rows;
-    int32_t side;   /* lattice steps, even; grid line k lies at k * side - 1 */
+    int32_t firstColumn, firstRow; /* where they begin: a part of a sheet has those around it alone */
+    int32_t side;                  /* lattice steps, even; grid line k lies at k * side - 1 */
     double perStep; /* 1 / side */
     int32_t* head;  /* a square's first node, or KIRI_NONE; columns * rows, row by row */
     KIRI_ARRAY(kiriSquareNode) nodes;
@@ -46,8 +50,10 @@ typedef struct kiriSquares {
 /* `resolution` squares along the longer of the two extents (lattice steps, from 0). */
 bool kiriSquares_Init(kiriSquares* squares, kiriMemory* memory, kiriLatticePoint extent, int32_t resolution);
 
-/* The same squares, without triangles and vertices. */
-bool kiriSquares_InitLike(kiriSquares* squares, kiriMemory* memory, const kiriSquares* like);
+/* Of these squares those around the box between two points, and KIRI_SQUARES_BESIDE more on each side as far as there
+   are any; without triangles and vertices. */
+bool kiriSquares_InitPart(kiriSquares* squares, kiriMemory* memory, const kiriSquares* like, kiriLatticePoint lower,
+                          kiriLatticePoint upper);
 
 /* The triangle's corners are counter-clockwise. Both make the squares dirty that the triangle overlaps or has overlapped,
    and fail only for memory: then some squares have changed and some have not, and the caller rolls back or gives up the
@@ -76,6 +82,9 @@ bool kiriSquares_RunsThrough(const kiriSquares* squares, int32_t square, kiriLat
 
 /* The square around a vertex position, or KIRI_NONE outside the grid. */
 int32_t kiriSquares_At(const kiriSquares* squares, kiriLatticePoint p);
+
+/* The square of a part that is this one of the squares that it is of; it is among them. */
+int32_t kiriSquares_InPart(const kiriSquares* part, const kiriSquares* whole, int32_t square);
 
 /* How many triangles overlap a square. */
 int32_t kiriSquares_CountNodes(const kiriSquares* squares, int32_t square);

@@ -27,7 +27,8 @@ static void CopySettings(const kiriKept* kept, kiriSheetData* to)
 static int32_t CellInPart(const kiriKept* kept, const kiriSheetData* to, int32_t cell)
 {
     const kiriCell* was = &kept->from->grid.cells.data[cell];
-    int32_t found = to->grid.squareCell.data[was->square];
+    int32_t found =
+        to->grid.squareCell.data[kiriSquares_InPart(&to->mesh.squares, &kept->from->mesh.squares, was->square)];
     while (to->grid.cells.data[found].triangle != kiriKeep_To(&kept->triangles, was->triangle)) {
         found = to->grid.cells.data[found].next;
     }
