@@ -213,6 +213,12 @@ static int32_t AnyCell(const Net* net, uint32_t* seed)
     return (int32_t)(Random(seed) % (uint32_t)net->count);
 }
 
+/* Its steps or its seed have changed, but not whether ways pass: that may be said, or not. */
+static void MarkStepsDirty(Net* net, int32_t cell, uint32_t* seed)
+{
+    (Random(seed) % 8 == 0 ? kiriField_MarkDirty : kiriField_MarkStepsDirty)(&net->field, cell);
+}
+
 /* Steps come and go around a cell, as around the tip of a blade. */
 static void ChangeSteps(Net* net, uint32_t* seed)
 {
@@ -220,8 +226,8 @@ static void ChangeSteps(Net* net, uint32_t* seed)
     for (int32_t b = 0; b < net->count; ++b) {
         if (LengthBetween(a, b) > 0 && Random(seed) % 3 == 0) {
             Link(net, a, b, !net->linked[a][b]);
-            kiriField_MarkDirty(&net->field, a);
-            kiriField_MarkDirty(&net->field, b);
+            MarkStepsDirty(net, a, seed);
+            MarkStepsDirty(net, b, seed);
         }
     }
 }
@@ -237,8 +243,8 @@ static void CutNet(Net* net, uint32_t* seed)
             int32_t along = across ? a / 2 / SIDE : a / 2 % SIDE;
             if (net->linked[a][b] && x <= line && y > line && along >= from) {
                 Link(net, a, b, 0);
-                kiriField_MarkDirty(&net->field, a);
-                kiriField_MarkDirty(&net->field, b);
+                MarkStepsDirty(net, a, seed);
+                MarkStepsDirty(net, b, seed);
             }
         }
     }
@@ -250,7 +256,7 @@ static void ChangeSeed(Net* net, uint32_t* seed)
     kiriSeed none = { c, KIRI_FAR, KIRI_NONE };
     kiriSeed some = { c, (int32_t)(Random(seed) % 500), (int32_t)(Random(seed) % 4) };
     net->seeds[c] = net->seeds[c].distance == KIRI_FAR ? some : none;
-    kiriField_MarkDirty(&net->field, c);
+    MarkStepsDirty(net, c, seed);
 }
 
 static void ChangePass(Net* net, uint32_t* seed)
@@ -286,7 +292,7 @@ static void ReplaceCell(Net* net, uint32_t* seed)
     for (int32_t b = 0; b < net->count; ++b) {
         if (net->linked[a][b]) {
             Link(net, a, b, 0);
-            kiriField_MarkDirty(&net->field, b);
+            MarkStepsDirty(net, b, seed);
         }
     }
     kiriField_Forget(&net->field, a);
@@ -294,10 +300,10 @@ static void ReplaceCell(Net* net, uint32_t* seed)
         for (int32_t b = 0; b < net->count; ++b) {
             if (LengthBetween(a, b) > 0 && Random(seed) % 2 == 0) {
                 Link(net, a, b, 1);
-                kiriField_MarkDirty(&net->field, b);
+                MarkStepsDirty(net, b, seed);
             }
         }
-        kiriField_MarkDirty(&net->field, a);
+        MarkStepsDirty(net, a, seed);
     }
 }
 
@@ -310,10 +316,10 @@ static void AddCell(Net* net, uint32_t* seed)
         for (int32_t b = 0; b < a; ++b) {
             if (LengthBetween(a, b) > 0 && Random(seed) % 2 == 0) {
                 Link(net, a, b, 1);
-                kiriField_MarkDirty(&net->field, b);
+                MarkStepsDirty(net, b, seed);
             }
         }
-        kiriField_MarkDirty(&net->field, a);
+        MarkStepsDirty(net, a, seed);
     }
 }
 

@@ -8,6 +8,7 @@ enum {
     FIELD_DIRTY = 1,   /* in `dirty`, not checked yet */
     FIELD_LOGGED = 2,  /* in `log` */
     FIELD_SETTLED = 4, /* in `settled` */
+    FIELD_PASSES = 8,  /* whether ways pass through it may have changed; of the caller's */
 };
 
 /* What `cursor` holds. In a sweep the first three go over the settled cells, one for each length of steps. Before it: */
@@ -119,7 +120,7 @@ static void SettleFirst(kiriField* field, int32_t cell, int32_t distance, int32_
     }
 }
 
-static kiriSeed ValueOf(const kiriField* field, int32_t cell)
+static inline kiriSeed ValueOf(const kiriField* field, int32_t cell)
 {
     kiriSeed value = { cell, field->distance.data[cell], field->owner.data[cell] };
     return value;
@@ -176,19 +177,25 @@ static void LookAround(const kiriRule* rule, int32_t cell)
     }
 }
 
+/* Where what the steps of one length reach next lies; FAR_BEYOND where they reach nothing more so far. */
+static const int64_t FAR_BEYOND = INT64_MAX;
+
+static inline int64_t NextReachOf(const kiriField* field, int length)
+{
+    int32_t cursor = field->cursor[length];
+    return cursor < field->settled.count
+               ? (int64_t)field->distance.data[field->settled.data[cursor]] + stepLengths[length]
+               : FAR_BEYOND;
+}
+
 /* Where the sweep goes on: from which cursor, and at which distance, no farther than `limit`. */
-static int NearestSource(const kiriField* field, int32_t limit, int32_t* distance)
+static inline int NearestSource(const kiriField* field, const int64_t* reach, int32_t limit, int32_t* distance)
 {
     int source = FROM_NOWHERE;
     int64_t least = limit;
     for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
-        if (field->cursor[k] < field->settled.count) {
-            int64_t d = (int64_t)field->distance.data[field->settled.data[field->cursor[k]]] + stepLengths[k];
-            if (d <= least) {
-                least = d;
-                source = k;
-            }
-        }
+        source = reach[k] <= least ? k : source;
+        least = reach[k] <= least ? reach[k] : least;
     }
     if (field->heap.count > 0 && field->heap.data[0].distance <= least) {
         least = field->heap.data[0].distance;
@@ -238,28 +245,43 @@ static inline StepsAhead LookAhead(const kiriGrid* grid, int32_t cell, int lengt
 
 /* Takes the steps of one length. False where `most` cells are settled before all are taken: they are all taken again
    later, which changes nothing. */
-static bool TakeStepsFrom(kiriField* field, const kiriRule* rule, int32_t from, int length, int32_t distance,
-                          int64_t most)
+static inline bool TakeStepsFrom(kiriField* field, const kiriRule* rule, int32_t from, int length, int32_t distance,
+                                 int64_t most)
 {
     const int32_t* has = field->distance.data;
-    const StepsAhead ahead = LookAhead(rule->grid, from, length);
-    int32_t owner = field->owner.data[from], s = ahead.from, end = Passes(rule, from) ? ahead.end : ahead.from;
+    int32_t owner = field->owner.data[from];
+    if (!Passes(rule, from)) {
+        return true;
+    }
     if (length == 0) { /* the shortest come first */
         LookAround(rule, from);
     }
+    const StepsAhead ahead = LookAhead(rule->grid, from, length);
+    int32_t s = ahead.from;
     if (field->cursor[REPAIR_STAGE] == REPAIR_SETTLES) {
-        for (; s < end && field->settled.count < most; ++s) {
+        for (; s < ahead.end && field->settled.count < most; ++s) {
             int32_t to = CellAhead(&ahead, s);
             if (distance <= has[to]) { /* most have a nearer one */
                 SettleAgain(field, to, distance, owner);
             }
         }
     } else {
-        for (; s < end && field->settled.count < most; ++s) {
+        for (; s < ahead.end && field->settled.count < most; ++s) {
             SettleFirst(field, CellAhead(&ahead, s), distance, owner);
         }
     }
-    return s >= end;
+    return s >= ahead.end;
+}
+
+/* Takes the steps of one length from all cells at the distance where its cursor is. */
+static void TakeStepsOf(kiriField* field, const kiriRule* rule, int length, int32_t distance, int64_t most)
+{
+    int32_t* cursor = &field->cursor[length];
+    int32_t from = field->settled.data[*cursor], passed = field->distance.data[from];
+    while (from != KIRI_NONE && field->distance.data[from] == passed &&
+           TakeStepsFrom(field, rule, from, length, distance, most)) {
+        from = ++*cursor < field->settled.count ? field->settled.data[*cursor] : KIRI_NONE;
+    }
 }
 
 /* Until nothing is left, or the quota is spent on settled cells. */
@@ -267,20 +289,18 @@ static kiriProgress Sweep(kiriField* field, const kiriRule* rule, kiriQuota* quo
 {
     int32_t before = field->settled.count, farthest = FarthestOf(rule), distance;
     int64_t most = quota->left < INT32_MAX ? before + quota->left : INT64_MAX;
-    int source = NearestSource(field, farthest, &distance);
+    int64_t reach[KIRI_STEP_LENGTHS] = { NextReachOf(field, 0), NextReachOf(field, 1), NextReachOf(field, 2) };
+    int source = NearestSource(field, reach, farthest, &distance);
     while (source != FROM_NOWHERE && field->settled.count < most) {
         if (source == FROM_SEED) {
             TakeNearestSeed(field);
         } else {
-            int32_t from = field->settled.data[field->cursor[source]], passed = field->distance.data[from];
-            /* All cells at this distance, without asking for the source again. */
-            while (from != KIRI_NONE && field->distance.data[from] == passed &&
-                   TakeStepsFrom(field, rule, from, source, distance, most)) {
-                bool more = ++field->cursor[source] < field->settled.count;
-                from = more ? field->settled.data[field->cursor[source]] : KIRI_NONE;
-            }
+            TakeStepsOf(field, rule, source, distance, most);
         }
-        source = NearestSource(field, farthest, &distance);
+        for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
+            reach[k] = k == source || reach[k] == FAR_BEYOND ? NextReachOf(field, k) : reach[k];
+        }
+        source = NearestSource(field, reach, farthest, &distance);
     }
     kiriQuota_Take(quota, field->settled.count - before);
     return source == FROM_NOWHERE ? KIRI_DONE : KIRI_MORE;
@@ -311,7 +331,7 @@ kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* 
 
 /* ---- Repairs ----------------------------------------------------------------------------------------------------- */
 
-void kiriField_MarkDirty(kiriField* field, int32_t cell)
+void kiriField_MarkStepsDirty(kiriField* field, int32_t cell)
 {
     KIRI_ASSERT(cell >= 0 && cell < field->marks.count);
     if ((field->marks.data[cell] & FIELD_DIRTY) == 0) {
@@ -319,6 +339,12 @@ void kiriField_MarkDirty(kiriField* field, int32_t cell)
         field->marks.data[cell] |= FIELD_DIRTY;
         field->dirty.data[field->dirty.count++] = cell;
     }
+}
+
+void kiriField_MarkDirty(kiriField* field, int32_t cell)
+{
+    kiriField_MarkStepsDirty(field, cell);
+    field->marks.data[cell] |= FIELD_PASSES;
 }
 
 void kiriField_Forget(kiriField* field, int32_t cell)
@@ -338,15 +364,16 @@ static bool IsSupported(const kiriField* field, const kiriRule* rule, int32_t ce
     bool near = value <= FarthestOf(rule), supported = false;
     for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
         const StepsAhead ahead = LookAhead(rule->grid, cell, k);
+        int32_t nearer = value - stepLengths[k], farther = value + stepLengths[k];
         for (int32_t s = ahead.from; s < ahead.end; ++s) {
-            int32_t next = CellAhead(&ahead, s), beyond = distance[next] - value;
-            if (beyond == -stepLengths[k] && owner[next] == mine && near && Passes(rule, next)) {
+            int32_t next = CellAhead(&ahead, s), has = distance[next];
+            if (has == nearer && owner[next] == mine && near && Passes(rule, next)) {
                 supported = true;
                 if (!all) {
                     return true;
                 }
             }
-            if (beyond == stepLengths[k] && owner[next] == mine && (field->marks.data[next] & FIELD_DIRTY) == 0) {
+            if (has == farther && owner[next] == mine && (field->marks.data[next] & FIELD_DIRTY) == 0) {
                 field->dirty.data[count++] = next;
             }
         }
@@ -372,14 +399,14 @@ static bool MakeDependentsRoom(kiriField* field, kiriMemory* memory, const kiriR
 }
 
 /* Clears the affected cells (Ramalingam and Reps): those whose value nothing supports any more. The values that are left
-   are lengths of ways that still exist, if not the shortest. A dirty cell of the caller that ways do not pass (any
-   longer) keeps its own value, but its dependents may lose theirs. */
+   are lengths of ways that still exist, if not the shortest. A cell that ways do not pass (any longer) keeps its own
+   value, but its dependents may lose theirs. */
 static kiriProgress ClearAffected(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
 {
     for (; field->cursor[DIRTY_CHECKED] < field->dirty.count; ++field->cursor[DIRTY_CHECKED]) {
         int32_t cell = field->dirty.data[field->cursor[DIRTY_CHECKED]];
         if (field->distance.data[cell] != KIRI_FAR) {
-            bool blocked = field->cursor[DIRTY_CHECKED] < field->cursor[DIRTY_FROM_CALLER] && !Passes(rule, cell);
+            bool blocked = (field->marks.data[cell] & FIELD_PASSES) != 0 && !Passes(rule, cell);
             int32_t dependents = 0;
             LookAround(rule, cell);
             if (!MakeDependentsRoom(field, memory, rule, cell)) {
@@ -409,13 +436,15 @@ static kiriSeed NearestFor(const kiriField* field, const kiriRule* rule, int32_t
     kiriSeed best = rule->seed(rule->context, cell), value = ValueOf(field, cell);
     int32_t farthest = FarthestOf(rule);
     best = best.distance <= farthest && IsNearerSeed(best, value) ? best : value;
+    int32_t most = best.distance < farthest ? best.distance : farthest;
     for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
         const StepsAhead ahead = LookAhead(rule->grid, cell, k);
         for (int32_t s = ahead.from; s < ahead.end; ++s) {
-            int32_t next = CellAhead(&ahead, s), most = best.distance < farthest ? best.distance : farthest;
+            int32_t next = CellAhead(&ahead, s);
             if (distance[next] <= most - stepLengths[k]) {
                 kiriSeed over = { cell, distance[next] + stepLengths[k], owner[next] };
                 best = IsNearerSeed(over, best) && Passes(rule, next) ? over : best;
+                most = best.distance < most ? best.distance : most;
             }
         }
     }
@@ -431,8 +460,21 @@ static void StartSweep(kiriField* field)
     field->cursor[REPAIR_STAGE] = REPAIR_SETTLES;
 }
 
-/* The seeds of the sweep: what affected cells get from their neighbours, and the values of the caller's dirty cells, for
-   ways from there may be new. */
+/* A cell that has lost its value gets the nearest that there is for it. One of the caller's that kept its own may get a
+   nearer one, over a new step or from its seed; and where ways pass that did not, they go on from it with what it has.
+   What it gives by new steps is no matter of its own: the cells that they lead to are dirty too. */
+static void SeedFrom(kiriField* field, const kiriRule* rule, int32_t cell)
+{
+    bool passes = (field->marks.data[cell] & FIELD_PASSES) != 0;
+    LookAround(rule, cell);
+    kiriSeed best = NearestFor(field, rule, cell);
+    if (best.distance != KIRI_FAR && (passes || IsNearerSeed(best, ValueOf(field, cell)))) {
+        field->heap.data[field->heap.count++] = best;
+    }
+    field->marks.data[cell] &= (uint8_t)~FIELD_PASSES;
+}
+
+/* The seeds of the sweep. */
 static kiriProgress SeedSweep(kiriField* field, const kiriRule* rule, kiriQuota* quota)
 {
     for (int32_t i = field->cursor[DIRTY_CHECKED]; i < field->dirty.count; ++i) {
@@ -442,11 +484,7 @@ static kiriProgress SeedSweep(kiriField* field, const kiriRule* rule, kiriQuota*
             return KIRI_MORE;
         }
         if (i < field->cursor[DIRTY_FROM_CALLER] || field->distance.data[cell] == KIRI_FAR) {
-            LookAround(rule, cell);
-            kiriSeed best = NearestFor(field, rule, cell);
-            if (best.distance != KIRI_FAR) {
-                field->heap.data[field->heap.count++] = best;
-            }
+            SeedFrom(field, rule, cell);
         }
     }
     StartSweep(field);

@@ -76,6 +76,9 @@ void kiriField_Reset(kiriField* field);
 /* The cell's steps or seed may have changed, or whether ways pass through it. Never fails: room is made by Resize. */
 void kiriField_MarkDirty(kiriField* field, int32_t cell);
 
+/* The same where ways pass through the cell, or do not, as before, and so far as before: it costs less. */
+void kiriField_MarkStepsDirty(kiriField* field, int32_t cell);
+
 /* The cell is no more, and then it must not be dirty; or it shall be FAR. The cells that its steps led to must be dirty.
    Not logged. */
 void kiriField_Forget(kiriField* field, int32_t cell);

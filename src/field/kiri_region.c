@@ -168,9 +168,9 @@ static void MarkDirtyAround(const RegionUpdate* u, int32_t cell)
     kiriSteps steps;
     if (kiriGrid_IsCell(u->grid, cell)) {
         kiriGrid_GetSteps(u->grid, cell, &steps);
-        kiriField_MarkDirty(&u->regions->field, cell);
+        kiriField_MarkStepsDirty(&u->regions->field, cell);
         for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-            kiriField_MarkDirty(&u->regions->field, steps.data[s].cell);
+            kiriField_MarkStepsDirty(&u->regions->field, steps.data[s].cell);
         }
     }
 }
@@ -215,7 +215,7 @@ static void FollowGrid(const RegionUpdate* u)
         int32_t cell = changes->steps.data[k];
         KIRI_ASSERT(kiriGrid_IsCell(u->grid, cell));
         MarkRegionDirty(r, r->field.owner.data[cell]);
-        kiriField_MarkDirty(&r->field, cell);
+        kiriField_MarkStepsDirty(&r->field, cell);
     }
     for (int32_t k = r->seen.edges; k < changes->edges.count; ++k) {
         MarkRegionDirty(r, r->field.owner.data[changes->edges.data[k]]);

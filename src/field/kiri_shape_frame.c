@@ -158,22 +158,27 @@ static double RawWeight(bool inside, int32_t d, int32_t e)
 
 /* ---- Its blocks -------------------------------------------------------------------------------------------------- */
 
-/* Loads the distances of these cells, unless they are made from scratch. There is room for all. */
-static void LoadBlock(const kiriShapeJob* job, int32_t cells)
+/* There is room for all. */
+static void LoadNewBlock(const kiriShapeJob* job, int32_t cells)
 {
     kiriShapeWork* work = job->work;
     const kiriReaches* reaches = &job->shape->reaches;
-    if (work->isLoaded.data[cells]) {
-        return;
-    }
     int32_t block = kiriReaches_Find(reaches, job->frame, cells), first = cells * KIRI_BLOCK_CELLS;
     KIRI_ASSERT(work->loaded.count < work->loaded.capacity);
-    work->isLoaded.data[cells] = 1;
+    work->isLoaded.data[cells] = KIRI_BLOCK_LOADED;
     work->loaded.data[work->loaded.count++] = (kiriLoadedBlock){ cells, block };
     if (block != KIRI_NONE && !work->frames.data[job->frame].moved) {
         const kiriReachBlock* from = &reaches->blocks.data[block];
         memcpy(&work->fromSite.distance.data[first], from->fromSite, sizeof(from->fromSite));
         memcpy(&work->fromBorder.distance.data[first], from->fromBorder, sizeof(from->fromBorder));
+    }
+}
+
+/* Loads the distances of these cells, unless they are made from scratch. */
+static inline void LoadBlock(const kiriShapeJob* job, int32_t cells)
+{
+    if (!job->work->isLoaded.data[cells]) {
+        LoadNewBlock(job, cells);
     }
 }
 
@@ -186,10 +191,16 @@ static void LoadAround(const void* context, int32_t cell)
         return;
     }
     *mark |= KIRI_MARK_SEEN;
-    kiriSteps steps;
-    kiriGrid_GetSteps(job->grid, cell, &steps);
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        LoadBlock(job, kiriReach_BlockOf(steps.data[s].cell));
+    const kiriStepRun* run = &job->grid->runs.data[cell];
+    if (kiriStepRun_IsOpen(run)) {
+        const int32_t* around = kiriGrid_AroundOpen(job->grid, run);
+        for (int k = 0; k < KIRI_OPEN_STEPS; ++k) {
+            LoadBlock(job, kiriReach_BlockOf(around[job->grid->openTo[k]]));
+        }
+        return;
+    }
+    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        LoadBlock(job, kiriReach_BlockOf(job->grid->steps.data[s].cell));
     }
 }
 
@@ -212,6 +223,7 @@ static void MarkBorderSeedsDirty(kiriShapeJob* job, int32_t cell)
     LoadAround(job, cell);
     if (turned) {
         kiriField_MarkDirty(field, cell);
+        job->work->isLoaded.data[kiriReach_BlockOf(cell)] |= KIRI_BLOCK_TURNED;
     } else if (!job->regions->onBorder.data[cell]) {
         return;
     }
@@ -219,8 +231,26 @@ static void MarkBorderSeedsDirty(kiriShapeJob* job, int32_t cell)
     for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
         int32_t beside = steps.data[s].cell;
         if (turned || IsInRegion(job, beside) != inside) {
-            kiriField_MarkDirty(field, cell);
-            kiriField_MarkDirty(field, beside);
+            kiriField_MarkStepsDirty(field, cell);
+            kiriField_MarkStepsDirty(field, beside);
+        }
+    }
+}
+
+/* The steps of a cell have changed. Of those that they lead to, cells that the frame does not reach yet do not know of
+   it: other frames, or none, have touched them. */
+static void MarkStepsAround(kiriShapeJob* job, int32_t cell)
+{
+    kiriShapeWork* work = job->work;
+    kiriSteps steps;
+    kiriField_MarkStepsDirty(&work->fromSite, cell);
+    kiriField_MarkStepsDirty(&work->fromBorder, cell);
+    LoadAround(job, cell);
+    kiriGrid_GetSteps(job->grid, cell, &steps);
+    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        int32_t beside = steps.data[s].cell;
+        if (work->fromSite.distance.data[beside] == KIRI_FAR && (work->marks.data[beside] & KIRI_MARK_STEPS) != 0) {
+            kiriField_MarkStepsDirty(&work->fromSite, beside);
         }
     }
 }
@@ -237,8 +267,7 @@ static void LoadTouched(kiriShapeJob* job, int32_t cell)
         return;
     }
     if ((mark & KIRI_MARK_STEPS) != 0) {
-        kiriField_MarkDirty(&work->fromSite, cell);
-        kiriField_MarkDirty(&work->fromBorder, cell);
+        MarkStepsAround(job, cell);
     }
     if ((mark & KIRI_MARK_REGION) != 0) {
         MarkBorderSeedsDirty(job, cell);
@@ -298,7 +327,7 @@ static void LoadChanges(kiriShapeJob* job, int32_t limit)
         LoadAround(job, cell);
         kiriGrid_GetSteps(job->grid, cell, &steps);
         for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-            kiriField_MarkDirty(&work->fromSite, steps.data[s].cell);
+            kiriField_MarkStepsDirty(&work->fromSite, steps.data[s].cell);
         }
     }
 }
@@ -415,6 +444,16 @@ static void UnloadCells(kiriShapeJob* job, kiriReachBlock* block, const int32_t*
     }
 }
 
+/* Has nothing changed in the block? */
+static bool IsAsLoaded(const kiriShapeJob* job, int32_t cells, const kiriReachBlock* block)
+{
+    const kiriShapeWork* work = job->work;
+    int32_t first = cells * KIRI_BLOCK_CELLS;
+    return !work->frames.data[job->frame].moved && work->isLoaded.data[cells] == KIRI_BLOCK_LOADED &&
+           memcmp(block->fromSite, &work->fromSite.distance.data[first], sizeof(block->fromSite)) == 0 &&
+           memcmp(block->fromBorder, &work->fromBorder.distance.data[first], sizeof(block->fromBorder)) == 0;
+}
+
 static void UnloadBlock(kiriShapeJob* job, kiriLoadedBlock loaded)
 {
     kiriShapeWork* work = job->work;
@@ -425,7 +464,7 @@ static void UnloadBlock(kiriShapeJob* job, kiriLoadedBlock loaded)
     if (any && block == KIRI_NONE) {
         block = kiriReaches_Add(reaches, job->frame, loaded.cells);
     }
-    if (block != KIRI_NONE) {
+    if (block != KIRI_NONE && !IsAsLoaded(job, loaded.cells, &reaches->blocks.data[block])) {
         UnloadCells(job, &reaches->blocks.data[block], fromSite, fromBorder);
     }
     if (!any && block != KIRI_NONE) {

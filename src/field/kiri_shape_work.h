@@ -18,6 +18,12 @@ enum {
     KIRI_MARK_SEEN = 128,      /* the cells that its steps lead to are loaded */
 };
 
+/* Of a block of cells. */
+enum {
+    KIRI_BLOCK_LOADED = 1,
+    KIRI_BLOCK_TURNED = 2 /* a cell in it has come to the region of the frame, or left it */
+};
+
 /* A weight before normalisation, to be put in its place; 0: to be taken away. */
 typedef struct kiriRawWeight {
     int32_t cell, frame;
@@ -68,7 +74,7 @@ struct kiriShapeWork {
     kiriSeeds seeds;
     kiriFrameStage frameStage;
     KIRI_ARRAY(kiriLoadedBlock) loaded;
-    KIRI_ARRAY(uint8_t) isLoaded; /* of each block of cells */
+    KIRI_ARRAY(uint8_t) isLoaded; /* of each block of cells: KIRI_BLOCK_LOADED... */
 
     KIRI_ARRAY(uint8_t) marks;       /* of each cell */
     KIRI_ARRAY(int32_t) wasOwner;    /* of cells with KIRI_MARK_REGION */
