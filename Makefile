@@ -6,6 +6,7 @@
 #   make test     builds and runs all tests
 #   make tsan     runs the tests with threads under the thread sanitizer
 #   make lib      build/<config>/libkiri.a and libkiri.so
+#   make portable-arm64 runs the scenes on an emulated arm64, and compares bits
 #   make single   build/single: the library as kiri.h, kiri.c and kiri.cpp, to add to any build
 #   make bench    runs the benchmarks
 #   make accuracy compares with references from outside, and plots error against cost; CASE=torsion: that one only
@@ -77,7 +78,7 @@ PLAY := $(BUILD)/samples/kiri-play
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 PYTHON_CHECK := $(if $(filter sanitize thread,$(config)),,python)
 
-.PHONY: all run box2d play python test tsan check floors headers single example lib bench accuracy contact extremes gallery guide deps format clean header exports
+.PHONY: all run box2d play python test tsan portable-arm64 check floors headers single example lib bench accuracy contact extremes gallery guide deps format clean header exports
 .DEFAULT_GOAL := all
 .SECONDARY:
 
@@ -98,6 +99,20 @@ play: deps
 
 test: deps
 	@$(MAKE) --no-print-directory -k check
+
+# Scenes with NEON, on an emulator: the bits are those of this machine.
+ARM64_TOOLS := aarch64-linux-gnu-gcc aarch64-linux-gnu-g++ aarch64-linux-gnu-ar qemu-aarch64
+HASHES := tests/scene_hashes
+
+portable-arm64:
+	@for tool in $(ARM64_TOOLS); do command -v $$tool > /dev/null || { \
+	    echo "portable-arm64 needs $$tool; Debian: gcc-aarch64-linux-gnu g++-aarch64-linux-gnu qemu-user"; exit 1; }; done
+	@$(MAKE) --no-print-directory $(BUILD)/$(HASHES)
+	@$(MAKE) --no-print-directory BUILD=build/arm64 CC=aarch64-linux-gnu-gcc CXX=aarch64-linux-gnu-g++ \
+	    AR=aarch64-linux-gnu-ar LDFLAGS=-static build/arm64/$(HASHES)
+	$(BUILD)/$(HASHES) > $(BUILD)/$(HASHES).txt
+	qemu-aarch64 build/arm64/$(HASHES) > build/arm64/$(HASHES).txt
+	@diff $(BUILD)/$(HASHES).txt build/arm64/$(HASHES).txt && echo "arm64: the same bits"
 
 tsan: deps
 	@$(MAKE) --no-print-directory config=thread run-test_tasks run-test_readers
@@ -282,6 +297,10 @@ $(BUILD)/tests/contact: $(patsubst %,$(BUILD)/%.c.o,tests/contact $(CONTACT_PART
         $(BOX2D_LAWS) $(SCENE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lbox2d -lm
+
+$(BUILD)/tests/scene_hashes: $(BUILD)/tests/scene_hashes.c.o $(SCENE_OBJECTS) $(BUILD)/libkiri.a
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lm
 
 $(BUILD)/tests/extremes: $(BUILD)/tests/extremes_main.c.o $(BUILD)/tests/extremes.c.o $(BUILD)/libkiri.a
 	@echo "  $@"
