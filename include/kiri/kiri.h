@@ -67,7 +67,8 @@ enum kiriResultCode {
     KIRI_ERROR_STATE = -5,    /* the call comes in the wrong order */
     KIRI_ERROR_MEMORY = -6,   /* the allocator returned null */
     KIRI_DIVERGED = -7,       /* the motion of a sheet could not be continued; it was put to rest where it was */
-    KIRI_ERROR_LIMIT = -8     /* all ids of a kind are used up: 4 194 304 at a time, 2^29 over the life of a world */
+    KIRI_ERROR_LIMIT = -8,    /* all ids of a kind are used up: 4 194 304 at a time, 2^29 over the life of a world */
+    KIRI_ERROR_BUILD = -9     /* the library was compiled such that its bits are not those of other machines */
 };
 
 /* The library's version, as KIRI_VERSION. */
@@ -137,7 +138,8 @@ typedef struct kiriWorldDef {
 
 KIRI_API void kiriDefaultWorldDef(kiriWorldDef* def);
 
-/* Makes an empty world. On failure *world is null. */
+/* Makes an empty world. On failure *world is null. KIRI_ERROR_BUILD: the compiler has contracted products and sums to fused
+   multiply-adds (-ffp-contract=fast of clang), or has reordered them. */
 KIRI_API kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 
 /* Frees the world and all that is in it. Null is allowed. */

@@ -2,6 +2,8 @@
 #ifndef KIRI_BASE_H
 #define KIRI_BASE_H
 
+#include "kiri_float.h"
+
 #include "../../include/kiri/kiri.h"
 
 #include <stdbool.h>

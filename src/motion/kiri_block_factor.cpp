@@ -3,6 +3,8 @@
    fraction of the time, and their memory is the host's (Chen, Davis, Hager, Rajamanickam 2008, CHOLMOD, has the same
    scheme). Numbers are summed in a fixed order: the same bits everywhere. */
 
+#include "../core/kiri_float.h"
+
 /* Before our own headers, which include C's headers as C. */
 #include <Eigen/Sparse>
 #include <algorithm>

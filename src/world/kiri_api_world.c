@@ -33,6 +33,8 @@ const char* kiriGetResultName(kiriResult result)
         return "KIRI_DIVERGED";
     case KIRI_ERROR_LIMIT:
         return "KIRI_ERROR_LIMIT";
+    case KIRI_ERROR_BUILD:
+        return "KIRI_ERROR_BUILD";
     default:
         return "unknown";
     }
@@ -95,6 +97,11 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     const char* why = FaultOfWorld(def);
     if (why != NULL) {
         return RefuseWorld(def, KIRI_ERROR_ARGUMENT, why);
+    }
+    if (!kiriFloat_IsExact()) {
+        return RefuseWorld(def, KIRI_ERROR_BUILD,
+                           "kiriCreateWorld: the library is compiled with fused multiply-add or reordered sums; add "
+                           "-ffp-contract=off (KIRI_ERROR_BUILD)");
     }
     kiriMemory memory = kiriMemory_Make(def->alloc, def->free, def->user);
     kiriWorld* made = memory.alloc(memory.user, sizeof(*made)); /* owns itself: no block of its memory */

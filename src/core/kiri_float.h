@@ -1,0 +1,43 @@
+/* The same bits on every machine: each operation on floats and doubles is rounded by itself, in its own type. Every file
+   includes this one first, so that a host may compile the sources with options of its own. What cannot be had by a pragma
+   does not compile, or creates no world. */
+#ifndef KIRI_FLOAT_H
+#define KIRI_FLOAT_H
+
+/* No fused multiply-add: it rounds once where two operations round twice. GCC obeys this where it is set for functions,
+   which keeps them from being inlined into others: only where the processor has the instruction. */
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(__GNUC__) && (defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF))
+#pragma GCC optimize("fp-contract=off")
+#elif defined(_MSC_VER)
+#pragma fp_contract(off)
+#endif
+
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0) ||                           \
+    defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__) ||                   \
+    defined(_M_FP_FAST)
+#error "Kiri gives the same bits everywhere only without -ffast-math, -Ofast, /fp:fast and what they consist of."
+#endif
+
+#include <float.h>
+#include <stdbool.h>
+
+/* 16: numbers of 16 bits have a type of their own, and all others too. */
+#if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
+#error                                                                                                                 \
+    "Kiri needs floats and doubles without excess precision: -msse2 -mfpmath=sse on x86, -fexcess-precision=fast on s390x."
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Tells at run time what no macro tells, as clang's -ffp-contract=fast, which heeds no pragma. */
+bool kiriFloat_IsExact(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
