@@ -14,7 +14,7 @@
 #   make extremes runs what nobody should do to a sheet, and says what became of it
 #   make gallery  renders the pictures of the README, and the film that it begins with
 #   make guide    renders the pictures of src/README.md
-#   make deps     installs what is missing (Debian and its relatives)
+#   make deps     installs what is missing for all of these (Debian and its relatives)
 #   make format   clang-format over all sources
 #   make clean    removes build/
 #
@@ -27,11 +27,26 @@ GAME ?=
 ARGS ?=
 CASE ?=
 
-DEBIAN_PACKAGES := gcc g++ make libeigen3-dev libosmesa6-dev libpng-dev libcmocka-dev libbox2d-dev libsdl2-dev \
-                   python3-cffi
+# Packages by what they are for, as Debian names them.
+NEEDS_lib := gcc g++ libeigen3-dev
+NEEDS_run := $(NEEDS_lib) libosmesa6-dev libpng-dev
+NEEDS_box2d := $(NEEDS_run) libbox2d-dev
+NEEDS_play := $(NEEDS_box2d) libsdl2-dev
+NEEDS_test := $(NEEDS_play) libcmocka-dev
+NEEDS_tsan := $(NEEDS_lib) libcmocka-dev
+NEEDS_bench := $(NEEDS_lib) libcmocka-dev
+NEEDS_accuracy := $(NEEDS_lib) libpng-dev
+NEEDS_contact := $(NEEDS_lib) libbox2d-dev
+NEEDS_extremes := $(NEEDS_lib)
+NEEDS_gallery := $(NEEDS_play)
+NEEDS_guide := $(NEEDS_run)
+# Without these, tests of bindings are left out, with a line that says so.
+WANTS_test := python3-cffi
 
 BUILD := build/$(config)
-EIGEN ?= $(or $(patsubst -I%,%,$(shell pkg-config --cflags-only-I eigen3 2>/dev/null)),/usr/include/eigen3)
+ifndef EIGEN
+EIGEN := $(or $(patsubst -I%,%,$(shell pkg-config --cflags-only-I eigen3 2>/dev/null)),/usr/include/eigen3)
+endif
 
 # Contraction to fused multiply-add would give other bits on other machines.
 FLAGS := -Wall -Wextra -Wpedantic -Wshadow -Werror -ffp-contract=off -fno-math-errno -fPIC -MMD -MP
@@ -77,27 +92,45 @@ PLAY := $(BUILD)/samples/kiri-play
 # Debian's own python has Debian's python3-cffi.
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 PYTHON_CHECK := $(if $(filter sanitize thread,$(config)),,python)
+# Tests of the Makefile itself, once.
+BUILD_CHECK := $(if $(filter release,$(config)),builds)
 
-.PHONY: all run box2d play python test tsan portable-arm64 check floors headers single example lib bench accuracy contact extremes gallery guide deps format clean header exports
+# What was made by other commands, or by another Makefile, is made anew: objects depend on a file with the text of the
+# commands, the library on one with the lists of objects, and all that is linked on the library.
+COMPILE_TEXT := $(COMPILE_C) | $(COMPILE_CXX) | $(EIGEN)
+LINK_TEXT := $(LINK) | $(AR) | $(LIBRARY_OBJECTS) | $(SAMPLE_OBJECTS) | $(GAME_OBJECTS)
+TO_COMPILE := $(BUILD)/compile.txt Makefile
+TO_LINK := $(BUILD)/link.txt Makefile
+
+.PHONY: all run box2d play python builds test tsan portable-arm64 check floors headers single example lib bench accuracy contact extremes gallery guide deps format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
 
 all: lib
 
+# What each target needs is installed where that may be, and else named in one line.
+PACKAGES = CC='$(CC)' CXX='$(CXX)' EIGEN='$(EIGEN)' PYTHON='$(PYTHON)' sh .ci/packages
+
+packages-%:
+	@$(PACKAGES) --install 'make $*' $(NEEDS_$*) -- $(WANTS_$*)
+
+deps:
+	@$(PACKAGES) --install 'make deps' gcc g++ $(NEEDS_test) $(WANTS_test)
+
 # Submakes, so that nothing is compiled before the packages are there.
-run: deps
+run: packages-run
 	@$(MAKE) --no-print-directory $(RUN)
 	$(RUN) --scene $(SCENE) $(ARGS)
 
-box2d: deps
+box2d: packages-box2d
 	@$(MAKE) --no-print-directory $(BOX2D)
 	$(BOX2D) $(ARGS)
 
-play: deps
+play: packages-play
 	@$(MAKE) --no-print-directory $(PLAY)
 	$(PLAY) $(if $(GAME),--game $(GAME)) $(ARGS)
 
-test: deps
+test: packages-test
 	@$(MAKE) --no-print-directory -k check
 
 # Scenes with NEON, on an emulator: the bits are those of this machine.
@@ -114,19 +147,19 @@ portable-arm64:
 	qemu-aarch64 build/arm64/$(HASHES) > build/arm64/$(HASHES).txt
 	@diff $(BUILD)/$(HASHES).txt build/arm64/$(HASHES).txt && echo "arm64: the same bits"
 
-tsan: deps
+tsan: packages-tsan
 	@$(MAKE) --no-print-directory config=thread run-test_tasks run-test_readers
 
-bench: deps
+bench: packages-bench
 	@$(MAKE) --no-print-directory $(BENCHES)
 	@set -e; for bench in $(BENCHES); do $$bench; done
 
-accuracy extremes: %: deps
+accuracy extremes: %: packages-%
 	@$(MAKE) --no-print-directory $(BUILD)/tests/$@
 	@mkdir -p build/$@
 	$(BUILD)/tests/$@ $(if $(filter accuracy,$@),tests/data build/accuracy "$(CASE)")
 
-contact: deps
+contact: packages-contact
 	@$(MAKE) --no-print-directory $(BUILD)/tests/contact
 	$(BUILD)/tests/contact "$(CASE)"
 
@@ -141,7 +174,7 @@ PLAY_FILM := --headless --size 320x240 --oversampling 4 --every 6
 CURTAIN_FILM := --game curtain --level 5 --demo --ticks 480
 NET_FILM := --script samples/games/scripts/net_6.txt
 
-gallery: accuracy
+gallery: packages-gallery accuracy
 	@$(MAKE) --no-print-directory $(RUN) $(BOX2D) $(PLAY)
 	@mkdir -p samples/pictures
 	set -e; for scene in $(GALLERY); do \
@@ -160,7 +193,7 @@ gallery: accuracy
 MOMENT = $(RUN) --quiet --ticks $(2) --every $$(($(2) - 1)) --output build/guide/$(1) $(3) && \
     cp build/guide/$(1)/frame_0001.png samples/pictures/guide_$(1).png
 
-guide: deps
+guide: packages-guide
 	@$(MAKE) --no-print-directory $(RUN)
 	@mkdir -p samples/pictures
 	$(call MOMENT,cells,120,--scene bunny --grid 24 --cells --size 600x600)
@@ -177,12 +210,15 @@ $(TEST_RUNS): run-%: $(BUILD)/tests/%
 	@if $< > $<.log 2>&1; then echo "== $<"; grep '^\[  PASSED' $<.log; \
 	else echo "== $< FAILED"; cat $<.log; exit 1; fi
 
-check: $(TEST_RUNS) $(RUN) $(BOX2D) $(PLAY) floors headers exports example $(PYTHON_CHECK)
+check: $(TEST_RUNS) $(RUN) $(BOX2D) $(PLAY) floors headers exports example $(PYTHON_CHECK) $(BUILD_CHECK)
 	@echo "all tests passed ($(config))"
 
 python: $(BUILD)/libkiri.so
 	@if ! $(PYTHON) -c 'import cffi' 2>/dev/null; then echo "python: no cffi, binding not tested"; exit 0; fi; \
-	echo "== tests/test_python.py"; KIRI_LIBRARY=$(abspath $<) $(PYTHON) tests/test_python.py
+	echo "== tests/test_python.py"; KIRI_LIBRARY=$< $(PYTHON) tests/test_python.py
+
+builds: lib $(RUN)
+	@sh tests/test_build.sh
 
 # The folders of src are floors: a file includes from its own and from those below, never from above; and no two units
 # include each other, directly or by a detour (tsort says where). kiri_X_work.h is private to the files of X.
@@ -227,7 +263,7 @@ example: single
 	@mkdir -p build/single/kiri && cp include/kiri/kiri.h build/single/kiri/kiri.h
 	@sed -n '/^```c$$/,/^```$$/p' README.md | sed '/^```/d' > build/single/example.c
 	@cd build/single && $(CC) -std=c99 -Wall -Werror -I. -c kiri.c example.c && \
-	    $(CXX) -std=c++14 -fno-rtti -Wall -Werror -isystem $(EIGEN) -c kiri.cpp -o kiri_cpp.o && \
+	    $(CXX) -std=c++14 -fno-rtti -Wall -Werror -isystem "$(EIGEN)" -c kiri.cpp -o kiri_cpp.o && \
 	    $(CXX) kiri.o example.o kiri_cpp.o -lm -o example && ./example
 
 exports: $(BUILD)/libkiri.so
@@ -237,42 +273,51 @@ exports: $(BUILD)/libkiri.so
 
 lib: $(BUILD)/libkiri.a $(BUILD)/libkiri.so
 
-$(BUILD)/libkiri.a: $(LIBRARY_OBJECTS)
+# Written only when the text is another one. Before the first object it is seen whether compilers and Eigen are there.
+$(BUILD)/compile.txt: FORCE
+	$(shell mkdir -p $(@D))$(file >$@.new,$(COMPILE_TEXT))
+	@if cmp -s $@.new $@; then rm $@.new; else $(PACKAGES) 'make lib' $(NEEDS_lib) && mv $@.new $@; fi
+
+$(BUILD)/link.txt: FORCE
+	$(shell mkdir -p $(@D))$(file >$@.new,$(LINK_TEXT))
+	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
+
+$(BUILD)/libkiri.a: $(LIBRARY_OBJECTS) $(TO_LINK)
 	@rm -f $@
-	@$(AR) rcs $@ $^
+	@$(AR) rcs $@ $(LIBRARY_OBJECTS)
 
 # The script hides the C++ templates too, which -fvisibility=hidden alone does not.
-$(BUILD)/libkiri.so: $(LIBRARY_OBJECTS)
+$(BUILD)/libkiri.so: $(LIBRARY_OBJECTS) $(TO_LINK)
 	@echo '{ global: kiri*; local: *; };' > $(BUILD)/kiri.map
 	@echo "  $@"
-	@$(LINK) -shared -Wl,--version-script=$(BUILD)/kiri.map -o $@ $^ -lm
+	@$(LINK) -shared -Wl,--version-script=$(BUILD)/kiri.map -o $@ $(LIBRARY_OBJECTS) -lm
 
-$(BUILD)/src/%.c.o: src/%.c
+$(BUILD)/src/%.c.o: src/%.c $(TO_COMPILE)
 	@mkdir -p $(@D)
 	@echo "  $<"
 	@$(COMPILE_C) -fvisibility=hidden -c $< -o $@
 
-$(BUILD)/src/%.cpp.o: src/%.cpp
+$(BUILD)/src/%.cpp.o: src/%.cpp $(TO_COMPILE)
 	@mkdir -p $(@D)
 	@echo "  $<"
-	@$(COMPILE_CXX) -fvisibility=hidden -fvisibility-inlines-hidden -isystem $(EIGEN) -c $< -o $@
+	@$(COMPILE_CXX) -fvisibility=hidden -fvisibility-inlines-hidden -isystem "$(EIGEN)" -c $< -o $@
 
-$(BUILD)/samples/%.c.o: samples/%.c
+$(BUILD)/samples/%.c.o: samples/%.c $(TO_COMPILE)
 	@mkdir -p $(@D)
 	@echo "  $<"
 	@$(COMPILE_C) -Iinclude -c $< -o $@
 
-$(BUILD)/samples/%.cpp.o: samples/%.cpp
+$(BUILD)/samples/%.cpp.o: samples/%.cpp $(TO_COMPILE)
 	@mkdir -p $(@D)
 	@echo "  $<"
 	@$(COMPILE_CXX) -Iinclude -c $< -o $@
 
-$(BUILD)/tests/%.c.o: tests/%.c
+$(BUILD)/tests/%.c.o: tests/%.c $(TO_COMPILE)
 	@mkdir -p $(@D)
 	@echo "  $<"
 	@$(COMPILE_C) -Iinclude -Isrc -Isamples -Itests -c $< -o $@
 
-$(BUILD)/tests/%.cpp.o: tests/%.cpp
+$(BUILD)/tests/%.cpp.o: tests/%.cpp $(TO_COMPILE)
 	@mkdir -p $(@D)
 	@echo "  $<"
 	@$(COMPILE_CXX) -Iinclude -Isrc -Isamples -Itests -c $< -o $@
@@ -318,7 +363,7 @@ $(BUILD)/tests/test_extremes: $(BUILD)/tests/extremes.c.o
 
 $(BUILD)/tests/test_quality: $(BUILD)/tests/sweep.c.o
 
-$(BUILD)/tests/eigen_solvers.cpp.o: CXXFLAGS += -isystem $(EIGEN)
+$(BUILD)/tests/eigen_solvers.cpp.o: override CXXFLAGS += -isystem "$(EIGEN)"
 $(BUILD)/tests/bench_solvers: $(BUILD)/tests/eigen_solvers.cpp.o
 
 $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(VALIDATE_OBJECTS) $(SCENE_OBJECTS) $(BUILD)/libkiri.a
@@ -332,20 +377,10 @@ $(BUILD)/tests/test_games: $(GAME_PARTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS)
 $(BUILD)/tests/test_games: TEST_LIBRARIES = $(BUILD)/libkiri.a -lbox2d -lOSMesa -lpng -lz
 
 # Threads read a world, or work on its ticks.
-$(BUILD)/tests/test_readers $(BUILD)/tests/test_tasks: LDFLAGS += -pthread
+$(BUILD)/tests/test_readers $(BUILD)/tests/test_tasks: override LDFLAGS += -pthread
 
 # Tests that compare with the heavy elastica.
 $(BUILD)/tests/test_affine $(BUILD)/tests/test_estimate $(BUILD)/tests/test_point: $(BUILD)/tests/reference.c.o
-
-deps:
-	@if ! command -v apt-get >/dev/null; then echo "needed, as Debian names it: $(DEBIAN_PACKAGES)"; exit 0; fi; \
-	missing=; for package in $(DEBIAN_PACKAGES); do \
-	    dpkg-query -W -f '$${db:Status-Status}\n' $$package 2>/dev/null | grep -qx installed || missing="$$missing $$package"; \
-	done; \
-	if [ -z "$$missing" ]; then exit 0; fi; echo "installing$$missing"; \
-	sudo=; if [ "$$(id -u)" != 0 ] && command -v sudo >/dev/null; then sudo=sudo; fi; \
-	$$sudo apt-get update && \
-	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get -y --no-install-recommends install $$missing
 
 format:
 	clang-format -i $(wildcard include/kiri/*.h src/*/*.h src/*/*.c src/*/*.cpp samples/*.h samples/*.c samples/*.cpp samples/*/*.h samples/*/*.c samples/*/*.cpp tests/*.h tests/*.c tests/*.cpp)

@@ -1,0 +1,166 @@
+#!/bin/sh
+# Tests of the Makefile: what is made anew, what is said where something is missing, and paths with spaces and brackets.
+# It works in folders of its own, with the CC and CXX that it is called with, and installs nothing. The library and
+# kiri-run have to be there.
+set -eu
+cd "$(dirname "$0")/.."
+root=$PWD
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+unset MAKEFLAGS MFLAGS MAKELEVEL MAKEOVERRIDES
+
+fail() {
+    echo "test_build: $*" >&2
+    [ ! -s "$folder/log" ] || sed 's/^/    /' "$folder/log" >&2
+    exit 1
+}
+
+run_make() { # in the present folder
+    make "$@" > "$folder/log" 2>&1 || fail "make $* failed"
+}
+
+# ---- What is made anew ----------------------------------------------------------------------------------------------
+
+# A library of two files, to be quick.
+tree="$folder/a b [c]"
+mkdir -p "$tree/src/core" "$tree/.ci" "$tree/include/kiri"
+cp Makefile "$tree"
+cp -r .ci "$tree"
+cp -r bindings "$tree"
+cp include/kiri/kiri.h "$tree/include/kiri"
+cd "$tree"
+source_of() { # name, value
+    echo "#pragma GCC visibility push(default)"
+    echo "int kiri$1(void); int kiri$1(void) { return $2; }"
+}
+source_of One VALUE > src/core/one.c
+source_of Two 2 > src/core/two.c
+{ echo 'extern "C" {'; source_of Three 3; echo '}'; } > src/core/three.cpp
+
+# Whether the last make compiled a file, or did not.
+compiled() {
+    grep -q "^  src/core/$1\$" "$folder/log" || fail "$1 was not compiled again after $2"
+}
+rested() {
+    ! grep -q '^  ' "$folder/log" || fail "something was made anew after $1"
+}
+has() {
+    nm "build/release/$1" | grep -q " T $2\$"
+}
+
+run_make lib CFLAGS=-DVALUE=1
+compiled one.c 'nothing was there'
+run_make lib CFLAGS=-DVALUE=1
+rested nothing
+run_make lib CFLAGS=-DVALUE=5
+compiled one.c 'other CFLAGS'
+run_make lib CFLAGS='-DVALUE="(int)sizeof(\"a b\")"'
+compiled one.c 'CFLAGS with quotes'
+run_make lib CFLAGS='-DVALUE="(int)sizeof(\"a b\")"'
+rested 'the same CFLAGS with quotes'
+export CFLAGS=-DVALUE=1
+run_make lib
+run_make lib CXXFLAGS=-DNOTHING
+compiled three.cpp 'other CXXFLAGS'
+run_make lib
+run_make lib CC="env ${CC:-cc}"
+compiled one.c 'another CC'
+run_make lib CXX="env ${CXX:-c++}"
+compiled three.cpp 'another CXX'
+run_make lib
+run_make lib LDFLAGS=-Wl,-O1
+grep -q libkiri.so "$folder/log" || fail 'other LDFLAGS linked nothing'
+run_make lib
+touch Makefile
+run_make lib
+compiled one.c 'the Makefile was edited'
+run_make lib
+rested nothing
+
+mv src/core/two.c src/core/second.c
+run_make lib
+compiled second.c 'it was renamed'
+for library in libkiri.a libkiri.so; do has $library kiriTwo || fail "$library lost what a renamed file has"; done
+rm src/core/second.c
+run_make lib
+for library in libkiri.a libkiri.so; do
+    ! has $library kiriTwo || fail "$library has what was deleted"
+    has $library kiriOne && has $library kiriThree || fail "$library lost what was not deleted"
+done
+unset CFLAGS
+
+# ---- What is missing ------------------------------------------------------------------------------------------------
+
+# A machine that has nothing but what is in this folder. Its user is not root, until somebody says so.
+bin="$folder/bin"
+mkdir "$bin"
+# The compilers themselves: a cache of compilers would look for them in PATH.
+plain=$(echo "$PATH" | tr : '\n' | grep -v ccache | paste -sd :)
+c=$(PATH=$plain command -v "${CC:-cc}")
+cxx=$(PATH=$plain command -v "${CXX:-c++}")
+for tool in sh env make cat cmp mv rm mkdir touch sed awk grep tr sort nm ar as ld; do
+    ln -s "$(command -v $tool)" "$bin"
+done
+stub() { # name, what it does
+    printf '#!/bin/sh\n%s\n' "$2" > "$bin/$1"
+    chmod +x "$bin/$1"
+}
+stub id 'echo 1000'
+printf '#!/bin/sh\nprintf "%%s\\n" "$*" >> "%s/installed"\n' "$folder" > "$bin/apt-get"
+chmod +x "$bin/apt-get"
+compilers() { # what is added to their command
+    stub cc "exec $c $1\"\$@\""
+    stub c++ "exec $cxx $1\"\$@\""
+}
+
+# What make says must be one line with these words, and then make's own that it gives up.
+refuses() { # words, make's arguments
+    words=$1
+    shift
+    if PATH=$bin make CC=cc CXX=c++ EIGEN="$folder/eigen" "$@" > "$folder/log" 2>&1; then fail "make $* did not fail"; fi
+    grep -q "$words" "$folder/log" || fail "make $* does not say: $words"
+    [ "$(grep -vc ' [*][*][*] ' "$folder/log")" = 1 ] || fail "make $* says more than a line"
+}
+
+refuses 'make lib needs gcc libc6-dev g++ libeigen3-dev .*apt-get install gcc libc6-dev g++ libeigen3-dev' lib
+compilers ''
+refuses 'make lib needs libeigen3-dev ' lib
+mkdir -p "$folder/eigen/Eigen"
+touch "$folder/eigen/Eigen/Sparse"
+PATH=$bin run_make CC=cc CXX=c++ lib EIGEN="$folder/eigen" CFLAGS=-DVALUE=1
+# Without headers but the language's own, whatever this machine has.
+compilers "-nostdinc -I$folder/headers "
+mkdir "$folder/headers"
+touch "$folder/headers/stdint.h" "$folder/headers/vector"
+refuses 'make run needs libosmesa6-dev libpng-dev (' run
+refuses 'make deps needs .*libbox2d-dev.* python3-cffi' deps PYTHON=none
+mkdir "$folder/headers/GL"
+touch "$folder/headers/GL/osmesa.h"
+refuses 'make run needs libpng-dev (' run
+[ ! -e "$folder/installed" ] || fail 'apt-get was called by one who is not root'
+stub id 'echo 0'
+PATH=$bin run_make CC=cc CXX=c++ EIGEN="$folder/eigen" packages-run
+grep -q 'install libpng-dev$' "$folder/installed" || fail 'root did not install libpng-dev, or more than that'
+rm "$folder/installed"
+touch "$folder/headers/png.h"
+PATH=$bin run_make CC=cc CXX=c++ EIGEN="$folder/eigen" packages-run
+[ ! -s "$folder/log" ] && [ ! -e "$folder/installed" ] || fail 'something was done though nothing was missing'
+
+# ---- A path with spaces and brackets --------------------------------------------------------------------------------
+
+# All of the repository, with what is built already: times of files are kept, so that little is made anew.
+tree="$folder/all of it [d]"
+mkdir -p "$tree/build/release"
+cd "$root"
+for part in Makefile README.md .ci include src bindings samples tests; do cp -a "$part" "$tree"; done
+for part in compile.txt link.txt libkiri.a libkiri.so kiri.map src samples; do
+    cp -a "build/release/$part" "$tree/build/release"
+done
+cd "$tree"
+touch src/core/kiri_base.c
+run_make lib
+run_make run ARGS="--ticks 2 --every 1 --size 160x120"
+[ -s build/pictures/contact_sheet.png ] || fail 'no picture'
+run_make floors exports
+run_make python
+echo "test_build: stale builds, missing packages and paths: as it should be"
