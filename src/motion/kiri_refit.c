@@ -10,7 +10,12 @@ kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGri
     for (int32_t f = 0; progress == KIRI_DONE && f < refit->ownership.first.count; ++f) {
         refit->most += refit->ownership.first.data[f] != KIRI_NONE;
     }
-    return kiriArray_Reserve(memory, &refit->fits, refit->most) ? progress : KIRI_FAILED;
+    int32_t frameCount = refit->ownership.first.count;
+    bool hasRoom = kiriArray_Reserve(memory, &refit->fits, refit->most) &&
+                   kiriArray_Reserve(memory, &refit->gained, frameCount) &&
+                   kiriArray_Reserve(memory, &refit->firstOf, frameCount) &&
+                   kiriArray_Reserve(memory, &refit->nextOf, frameCount);
+    return hasRoom ? progress : KIRI_FAILED;
 }
 
 void kiriRefit_Drop(kiriRefit* refit)
@@ -240,7 +245,7 @@ void kiriRefit_Solve(kiriRefit* refit, const kiriFrameData* frames, int32_t fram
 /* A piece as one rigid body, with the motion that has its momenta. */
 typedef struct RigidBody {
     int32_t piece;
-    double gained, energy, mass;
+    double energy, mass;
     kiriVec3 x, velocity, angular, spin;
     kiriMat3 inertia;
 } RigidBody;
@@ -263,20 +268,17 @@ static void AddTurning(RigidBody* body, const kiriFrameData* frame, const kiriMa
     body->angular = kiriVec3_AddScaled(body->angular, frame->mass, kiriVec3_Cross(arm, velocity));
 }
 
-static void GatherBody(RigidBody* body, const kiriFrameData* frames, int32_t frameCount, const int32_t* framePiece,
+static void GatherBody(RigidBody* body, const kiriRefit* refit, const kiriFrameData* frames,
                        const kiriMaterial* material)
 {
-    for (int32_t f = 0; f < frameCount; ++f) {
-        if (framePiece[f] == body->piece) {
-            AddLinear(body, &frames[f], material);
-        }
+    int32_t first = refit->firstOf.data[body->piece];
+    for (int32_t f = first; f != KIRI_NONE; f = refit->nextOf.data[f]) {
+        AddLinear(body, &frames[f], material);
     }
     body->x = kiriVec3_Scale(1.0 / body->mass, body->x);
     body->velocity = kiriVec3_Scale(1.0 / body->mass, body->velocity);
-    for (int32_t f = 0; f < frameCount; ++f) {
-        if (framePiece[f] == body->piece) {
-            AddTurning(body, &frames[f], material);
-        }
+    for (int32_t f = first; f != KIRI_NONE; f = refit->nextOf.data[f]) {
+        AddTurning(body, &frames[f], material);
     }
     body->spin = kiriMat3_Solve(&body->inertia, body->angular);
 }
@@ -298,22 +300,41 @@ static double RootOfShare(double part, double whole)
     return part > 0.0 && whole > part ? sqrt(part / whole) : part > 0.0 ? 1.0 : 0.0;
 }
 
-static void LimitPieceEnergy(RigidBody* body, kiriFrameData* frames, int32_t frameCount, const int32_t* framePiece,
-                             const kiriMaterial* material)
+static void LimitPieceEnergy(const kiriRefit* refit, int32_t piece, kiriFrameData* frames, const kiriMaterial* material)
 {
-    GatherBody(body, frames, frameCount, framePiece, material);
-    double moving = 0.5 * body->mass * kiriVec3_Dot(body->velocity, body->velocity);
-    double turning = 0.5 * kiriVec3_Dot(body->spin, body->angular), due = body->energy - body->gained;
-    double ofRest = RootOfShare(due - moving - turning, body->energy - moving - turning);
+    RigidBody body;
+    memset(&body, 0, sizeof(body));
+    body.piece = piece;
+    GatherBody(&body, refit, frames, material);
+    double moving = 0.5 * body.mass * kiriVec3_Dot(body.velocity, body.velocity);
+    double turning = 0.5 * kiriVec3_Dot(body.spin, body.angular), due = body.energy - refit->gained.data[piece];
+    double ofRest = RootOfShare(due - moving - turning, body.energy - moving - turning);
     double ofTurning = ofRest > 0.0 ? 1.0 : RootOfShare(due - moving, turning);
-    for (int32_t f = 0; f < frameCount; ++f) {
-        if (framePiece[f] == body->piece && !frames[f].held) {
-            ScaleMotion(body, &frames[f], ofTurning, ofRest);
+    for (int32_t f = refit->firstOf.data[piece]; f != KIRI_NONE; f = refit->nextOf.data[f]) {
+        if (!frames[f].held) {
+            ScaleMotion(&body, &frames[f], ofTurning, ofRest);
         }
     }
 }
 
-void kiriRefit_LimitEnergy(const kiriRefit* refit, kiriFrameData* frames, int32_t frameCount, const int32_t* framePiece,
+/* The frames of each piece, in their order, and what its fits have gained. Stage has made room. */
+static void ListByPiece(kiriRefit* refit, int32_t frameCount, const int32_t* framePiece, int32_t pieceCount)
+{
+    KIRI_ASSERT(pieceCount <= refit->firstOf.capacity && frameCount <= refit->nextOf.capacity);
+    for (int32_t p = 0; p < pieceCount; ++p) {
+        refit->firstOf.data[p] = KIRI_NONE;
+        refit->gained.data[p] = 0.0;
+    }
+    for (int32_t f = frameCount - 1; f >= 0; --f) {
+        refit->nextOf.data[f] = refit->firstOf.data[framePiece[f]];
+        refit->firstOf.data[framePiece[f]] = f;
+    }
+    for (int32_t k = 0; k < refit->fits.count; ++k) {
+        refit->gained.data[framePiece[refit->fits.data[k].frame]] += refit->fits.data[k].gained;
+    }
+}
+
+void kiriRefit_LimitEnergy(kiriRefit* refit, kiriFrameData* frames, int32_t frameCount, const int32_t* framePiece,
                            int32_t pieceCount, const kiriMaterial* material)
 {
     double gained = 0.0, rounding = 0.0;
@@ -321,15 +342,13 @@ void kiriRefit_LimitEnergy(const kiriRefit* refit, kiriFrameData* frames, int32_
         gained += refit->fits.data[k].gained;
         rounding += 1e-13 * kiriFrame_KineticEnergy(&refit->fits.data[k].state, material);
     }
-    for (int32_t p = 0; gained > rounding && p < pieceCount; ++p) {
-        RigidBody body;
-        memset(&body, 0, sizeof(body));
-        body.piece = p;
-        for (int32_t k = 0; k < refit->fits.count; ++k) {
-            body.gained += framePiece[refit->fits.data[k].frame] == p ? refit->fits.data[k].gained : 0.0;
-        }
-        if (body.gained > 0.0) {
-            LimitPieceEnergy(&body, frames, frameCount, framePiece, material);
+    if (!(gained > rounding)) {
+        return;
+    }
+    ListByPiece(refit, frameCount, framePiece, pieceCount);
+    for (int32_t p = 0; p < pieceCount; ++p) {
+        if (refit->gained.data[p] > 0.0) {
+            LimitPieceEnergy(refit, p, frames, material);
         }
     }
 }

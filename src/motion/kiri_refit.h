@@ -21,7 +21,10 @@ typedef struct kiriFit {
 typedef struct kiriRefit {
     kiriOwnership ownership;
     KIRI_ARRAY(kiriFit) fits;
-    int32_t most; /* fits that the commit will make */
+    int32_t most;                /* fits that the commit will make */
+    KIRI_ARRAY(double) gained;   /* scratch: of each piece, J; */
+    KIRI_ARRAY(int32_t) firstOf; /* its first frame, or KIRI_NONE; */
+    KIRI_ARRAY(int32_t) nextOf;  /* of each frame: the next of its piece, or KIRI_NONE */
 } kiriRefit;
 
 /* As kiriOwnership_Stage; and room for the fits. */
@@ -40,7 +43,7 @@ void kiriRefit_Solve(kiriRefit* refit, const kiriFrameData* frames, int32_t fram
 
 /* When the frames have their fits: takes back what kinetic energy these have brought. framePiece[f] is the piece of
    frame f. Never fails. */
-void kiriRefit_LimitEnergy(const kiriRefit* refit, kiriFrameData* frames, int32_t frameCount, const int32_t* framePiece,
+void kiriRefit_LimitEnergy(kiriRefit* refit, kiriFrameData* frames, int32_t frameCount, const int32_t* framePiece,
                            int32_t pieceCount, const kiriMaterial* material);
 
 /* The regions come in force. Never fails. */

@@ -13,28 +13,32 @@ static uint64_t PieceDataAt(const kiriSheetData* sheet, int32_t triangle)
     return span.count > 0 ? sheet->frames.data[sheet->vertexSkin.weights.data[span.first].frame].pieceData : 0;
 }
 
-/* A frame that appears takes its motion from the surface: position, velocity, and the rotation nearest to its slope; an
-   affine frame the slope itself. */
+/* One that appears, without its motion. */
 static kiriFrameData MakeFrame(const kiriSheetData* sheet, const kiriNewFrame* from)
 {
     kiriFrameData frame;
     memset(&frame, 0, sizeof(frame));
     frame.anchor = from->anchor;
     frame.center = kiriMesh_Local(&sheet->mesh, frame.anchor);
-    kiriMotion motion =
-        kiriSkin_Motion(&sheet->vertexSkin, sheet->frames.data, &sheet->mesh, from->triangle, frame.anchor);
     frame.pieceData = PieceDataAt(sheet, from->triangle);
-    frame.x = motion.x;
-    frame.velocity = motion.velocity;
-    if (sheet->settings.mechanics.model == KIRI_MODEL_LINKS) {
-        frame.A = kiriMat3_Rotation(motion.A);
-        frame.spin = motion.spin;
-    } else {
-        frame.A = motion.A;
-        frame.spin = kiriMat3_Spin(&motion.A, &motion.rate);
-        frame.rate = kiriMat3_Beside(&motion.A, &motion.rate, frame.spin);
-    }
     return frame;
+}
+
+/* From the surface: position, velocity, and the rotation nearest to its slope; for an affine frame the slope itself. */
+static void TakeMotion(const kiriSheetData* sheet, kiriFrameData* frame, int32_t triangle)
+{
+    kiriMotion motion =
+        kiriSkin_Motion(&sheet->vertexSkin, sheet->frames.data, &sheet->mesh, triangle, frame->anchor);
+    frame->x = motion.x;
+    frame->velocity = motion.velocity;
+    if (sheet->settings.mechanics.model == KIRI_MODEL_LINKS) {
+        frame->A = kiriMat3_Rotation(motion.A);
+        frame->spin = motion.spin;
+    } else {
+        frame->A = motion.A;
+        frame->spin = kiriMat3_Spin(&motion.A, &motion.rate);
+        frame->rate = kiriMat3_Beside(&motion.A, &motion.rate, frame->spin);
+    }
 }
 
 /* What the frames with new material do, all from the motion before: see kiri_refit.h. */
@@ -77,16 +81,33 @@ static void RecenterFrame(const kiriSheetData* sheet, kiriFrameData* frame, cons
     }
 }
 
+/* Frames that appear, and what those with new material do. What is fitted needs no motion from the surface. */
+static void AddFrames(kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    const kiriRefit* refit = &u->refit;
+    int32_t oldCount = sheet->frames.count, fit = 0;
+    int32_t firstNew = u->placing.sites.count - u->newFrames.count; /* of a sheet that is being made they are there */
+    for (int32_t i = oldCount; i < u->placing.sites.count; ++i) {
+        sheet->frames.data[i] = MakeFrame(sheet, &u->newFrames.data[i - firstNew]);
+    }
+    FitFrames(sheet, oldCount);
+    for (int32_t i = oldCount; i < u->placing.sites.count; ++i) {
+        while (fit < refit->fits.count && refit->fits.data[fit].frame < i) {
+            ++fit;
+        }
+        if (fit == refit->fits.count || refit->fits.data[fit].frame != i) {
+            TakeMotion(sheet, &sheet->frames.data[i], u->newFrames.data[i - firstNew].triangle);
+        }
+    }
+    sheet->frames.count = u->placing.sites.count;
+}
+
 static void CommitFrames(kiriSheetData* sheet)
 {
     const kiriUpdate* u = sheet->update;
     double densityPerArea = (double)sheet->settings.material.density * sheet->settings.material.thickness;
-    int32_t firstNew = u->placing.sites.count - u->newFrames.count; /* of a sheet that is being made they are there */
-    for (int32_t i = sheet->frames.count; i < u->placing.sites.count; ++i) {
-        sheet->frames.data[i] = MakeFrame(sheet, &u->newFrames.data[i - firstNew]);
-    }
-    FitFrames(sheet, sheet->frames.count);
-    sheet->frames.count = u->placing.sites.count;
+    AddFrames(sheet);
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         sheet->frames.data[i].site = u->placing.sites.data[i];
         if (sheet->regions.dirty.data[i]) {
