@@ -215,8 +215,11 @@ static inline kiriProgress Follow_Samples(Follow* f)
 
 static inline void Follow_Commit(Follow* f)
 {
+    kiriQuota unlimited = { INT64_MAX, 0 };
     kiriSkin_Commit(&f->vertexSkin);
     kiriSkin_Commit(&f->pointSkin);
+    assert_int_equal(kiriSkin_Settle(&f->vertexSkin, &unlimited), KIRI_DONE);
+    assert_int_equal(kiriSkin_Settle(&f->pointSkin, &unlimited), KIRI_DONE);
     kiriLinks_Commit(&f->links);
     kiriShape_ClearChanges(&f->shape);
     f->oldVertices = f->mesh->vertices.count;

@@ -333,8 +333,14 @@ kiriProgress kiriStage_RunSteps(kiriSheetData* sheet, kiriQuota* quota, kiriStag
     return progress;
 }
 
+kiriProgress kiriStage_Settle(kiriSheetData* sheet, kiriQuota* samples)
+{
+    kiriProgress progress = kiriSkin_Settle(&sheet->vertexSkin, samples);
+    return progress == KIRI_DONE ? kiriSkin_Settle(&sheet->pointSkin, samples) : progress;
+}
+
 kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples)
 {
-    static kiriStageStep* const steps[] = { JoinPieces, FindSamples, WeighVertices, WeighPoints, PlaceCollisionPoints };
+    static kiriStageStep* const steps[] = { kiriStage_Settle, JoinPieces, FindSamples, WeighVertices, WeighPoints, PlaceCollisionPoints };
     return kiriStage_RunSteps(sheet, samples, steps, (int32_t)(sizeof(steps) / sizeof(steps[0])));
 }

@@ -41,6 +41,7 @@ static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* 
 {
     kiriReweighed staged = { sample, { 0, 0 } };
     int32_t count = 0;
+    KIRI_ASSERT(skin->settling.count == 0);
     for (int32_t i = 0; i < stencil->frames.count; ++i) {
         count += stencil->values.data[i] >= LEAST_SHARE;
     }
@@ -74,31 +75,56 @@ bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, 
     return ok;
 }
 
-/* Weights that fit into the room of the old ones go there: samples that lie beside each other keep theirs together. */
-static void TakeStaged(kiriSkin* skin, kiriSpan* span, kiriSpan staged)
+/* Only spans change hands here, for all of it is in one tick. */
+void kiriSkin_Commit(kiriSkin* skin)
 {
-    if (kiriSpan_IsAlike(*span, staged)) {
-        memcpy(skin->weights.data + span->first, skin->weights.data + staged.first,
+    KIRI_ASSERT(skin->settling.count == 0);
+    for (int32_t k = 0; k < skin->staged.count; ++k) {
+        kiriReweighed* staged = &skin->staged.data[k];
+        kiriSpan span = staged->span, before = { 0, 0 };
+        if (staged->sample < skin->spans.count) {
+            before = skin->spans.data[staged->sample];
+        } else {
+            skin->spans.count += 1; /* there is room */
+        }
+        skin->spans.data[staged->sample] = span;
+        staged->span = before;
+    }
+    kiriArrayHeader staged = kiriArray_GetHeader(&skin->staged);
+    kiriArray_SetHeader(&skin->staged, kiriArray_GetHeader(&skin->settling));
+    kiriArray_SetHeader(&skin->settling, staged);
+}
+
+static void SettleOne(kiriSkin* skin, kiriSpan* span, kiriSpan before)
+{
+    if (kiriSpan_IsAlike(*span, before)) {
+        kiriSpan staged = *span;
+        memcpy(skin->weights.data + before.first, skin->weights.data + staged.first,
                sizeof(kiriSampleWeight) * (size_t)staged.count);
-        span->count = staged.count;
+        span->first = before.first;
         DropSpan(skin, &staged);
     } else {
-        DropSpan(skin, span);
-        *span = staged;
+        DropSpan(skin, &before);
     }
 }
 
-void kiriSkin_Commit(kiriSkin* skin)
+enum { SETTLED_AN_ITEM = 32 };
+
+kiriProgress kiriSkin_Settle(kiriSkin* skin, kiriQuota* quota)
 {
-    for (int32_t k = 0; k < skin->staged.count; ++k) {
-        kiriReweighed staged = skin->staged.data[k];
-        if (staged.sample < skin->spans.count) {
-            TakeStaged(skin, &skin->spans.data[staged.sample], staged.span);
-        } else {
-            skin->spans.data[skin->spans.count++] = staged.span;
+    while (skin->settling.count > 0 && kiriQuota_Take(quota, 1)) {
+        for (int32_t k = 0; k < SETTLED_AN_ITEM && skin->settling.count > 0; ++k) {
+            kiriReweighed settling = skin->settling.data[--skin->settling.count];
+            SettleOne(skin, &skin->spans.data[settling.sample], settling.span);
         }
     }
-    skin->staged.count = 0;
+    return skin->settling.count == 0 ? KIRI_DONE : KIRI_MORE;
+}
+
+static void SettleAll(kiriSkin* skin)
+{
+    kiriQuota unlimited = { INT64_MAX, 0 };
+    kiriSkin_Settle(skin, &unlimited);
 }
 
 void kiriSkin_Drop(kiriSkin* skin)
@@ -114,6 +140,7 @@ void kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory)
     KIRI_ASSERT(skin->staged.count == 0);
     kiriSkin sorted;
     memset(&sorted, 0, sizeof(sorted));
+    SettleAll(skin);
     if (!kiriArray_Reserve(memory, &sorted.weights, skin->weights.count + (int64_t)skin->weights.count / 8)) {
         return;
     }
@@ -190,6 +217,7 @@ void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount)
 void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* frames)
 {
     KIRI_ASSERT(skin->staged.count == 0);
+    SettleAll(skin);
     for (int32_t i = samples->first; i < skin->spans.count; ++i) {
         if (!kiriKeep_Has(samples, i)) {
             DropSpan(skin, &skin->spans.data[i]);

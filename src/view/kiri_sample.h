@@ -24,7 +24,8 @@ typedef struct kiriSkin {
     KIRI_ARRAY(kiriSpan) spans;           /* one a sample */
     KIRI_ARRAY(kiriSampleWeight) weights; /* by spans; in a span by frame */
     kiriSpans room;
-    KIRI_ARRAY(kiriReweighed) staged; /* weights that take effect with the commit */
+    KIRI_ARRAY(kiriReweighed) staged;   /* weights that take effect with the commit */
+    KIRI_ARRAY(kiriReweighed) settling; /* samples whose weights are where they were staged, and the room they had before */
 } kiriSkin;
 
 /* A material point that the host collides with the world. */
@@ -43,16 +44,20 @@ typedef struct kiriMotion {
 } kiriMotion;
 
 /* Stages the weights of a sample at a local point of a cell. A sample is staged at most once before a commit; those
-   from `spans.count` on are new and must be staged in their order. False for memory. */
+   from `spans.count` on are new and must be staged in their order. Nothing is settling. False for memory. */
 bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                     const kiriMeshData* mesh, int32_t sample, int32_t cell, kiriVec2 at);
 
-/* The weights staged become those of the samples, or are dropped. Neither fails. */
+/* The weights staged become those of the samples, and settle later; or they are dropped. Neither fails. */
 void kiriSkin_Commit(kiriSkin* skin);
 void kiriSkin_Drop(kiriSkin* skin);
 
+/* After a commit: weights go to the room of the old ones where they fit, so that samples that lie beside each other keep
+   theirs together, and other room is given back. An item of the quota is 32 samples. Never fails. */
+kiriProgress kiriSkin_Settle(kiriSkin* skin, kiriQuota* quota);
+
 /* Puts the weights in the order of samples, in which they are read, with some room for more. Where there is no memory for
-   that they stay as they are. Nothing is staged. */
+   that they stay as they are. Nothing is staged; what settles has settled. */
 void kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory);
 
 /* Which samples lie in which square, for samples that never move: a list a square. */

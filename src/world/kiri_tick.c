@@ -114,6 +114,19 @@ static bool FindPairs(kiriWorld* world, double dt)
     return kiriPairs_Find(world, dt);
 }
 
+/* With what the budget has left. Sheets at work do so when they come to their samples: until then arrays may grow. */
+static void SettleWeights(kiriWorld* world, kiriQuota* samples)
+{
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        kiriSheetData* sheet = kiriWorld_Active(world, k);
+        bool isSettling = sheet->vertexSkin.settling.count + sheet->pointSkin.settling.count > 0;
+        if (isSettling && sheet->update->stage == KIRI_NONE) {
+            EnterStage(world, KIRI_STAGE_SAMPLES);
+            kiriStage_Settle(sheet, samples);
+        }
+    }
+}
+
 /* False for memory. */
 static bool UpdateAll(kiriWorld* world, kiriQuotas* quotas)
 {
@@ -123,6 +136,7 @@ static bool UpdateAll(kiriWorld* world, kiriQuotas* quotas)
         kiriSheetData* sheet = world->sheets.data[world->atWork.data[k]];
         ok = !kiriPipeline_CanRun(sheet, quotas) || kiriPipeline_Run(sheet, quotas, &watch) != KIRI_FAILED;
     }
+    SettleWeights(world, &quotas->of[KIRI_QUOTA_SAMPLES]);
     return ok;
 }
 
