@@ -331,6 +331,15 @@ void AddNumbers(double* out, const double* numbers, int32_t count)
     Eigen::Map<Eigen::VectorXd>(out, count) += Eigen::Map<const Eigen::VectorXd>(numbers, count);
 }
 
+/* Of one frame: a call of a function that copies takes longer. */
+inline void CopyNumbers(double* to, const double* from, int32_t size)
+{
+    for (int32_t n = 0; n < size; n += 3) {
+        double a = from[n], b = from[n + 1], c = from[n + 2];
+        to[n] = a, to[n + 1] = b, to[n + 2] = c;
+    }
+}
+
 /* What one element adds, J^T k J: rows of J, and the stiffness k of each. */
 struct Squares {
     const double* J;
@@ -339,13 +348,15 @@ struct Squares {
 };
 
 /* Adds what J and k have in one block column, b, of an element: J^T k J. */
+template <int32_t size>
 void AddColumn(kiriMatrix* matrix, const Squares* squares, const int32_t* frames, int32_t count, int32_t b)
 {
-    int32_t size = matrix->size, stride = size * count, column = matrix->place.data[frames[b]];
-    double scaled[MOST_ROWS * KIRI_MOST_UNKNOWNS];
+    int32_t stride = size * count, column = matrix->place.data[frames[b]];
+    double scaled[MOST_ROWS * size];
     for (int32_t e = 0; e < squares->rows; ++e) {
+        const double k = -squares->k[e], *J = squares->J + stride * e + size * b;
         for (int32_t n = 0; n < size; ++n) {
-            scaled[size * e + n] = -squares->k[e] * squares->J[stride * e + size * b + n];
+            scaled[size * e + n] = k * J[n];
         }
     }
     kiriProduct product = { nullptr, nullptr, scaled, size, stride, size, size, size, squares->rows };
@@ -396,7 +407,7 @@ void StartPanel(kiriMatrix* matrix, const Panel* panel)
             const double* from = &matrix->values.data[(int64_t)size * size * b];
             double* to = values + (int64_t)height * size * n + size * matrix->mark.data[matrix->own.row.data[b]];
             for (int32_t k = 0; k < size; ++k, from += size, to += height) {
-                std::copy(from, from + size, to);
+                CopyNumbers(to, from, size);
             }
         }
     }
@@ -441,7 +452,7 @@ void UpdatePanel(kiriMatrix* matrix, const Panel* panel, const Left* left)
     const Panel* from = &matrix->panels.data[left->panel];
     int32_t width = size * from->width, height = width + size * from->below, count = size * left->count;
     kiriPanel_ScaleRows(&matrix->factors.data[from->values], height, 0, width, size * (from->width + left->first),
-                        count, matrix->scaled.data);
+                        count, matrix->scaled.data, matrix->hasLongVectors);
     for (int32_t k = 0; k < width; k += depth) {
         depth = std::min(width - k, MOST_DEPTH);
         kiriProduct product = { nullptr, nullptr, nullptr, size * (panel->width + panel->below), height, count,
@@ -464,7 +475,7 @@ void TakeOffOwn(kiriMatrix* matrix, double* values, int32_t height, int32_t firs
                                   height - c,
                                   size,
                                   last - first };
-    kiriPanel_ScaleRows(from, height, first, last - first, c, size, matrix->scaled.data);
+    kiriPanel_ScaleRows(from, height, first, last - first, c, size, matrix->scaled.data, matrix->hasLongVectors);
     kiriPanel_TakeOff(&product, matrix->hasLongVectors);
 }
 
@@ -480,7 +491,7 @@ bool FactorPanel(kiriMatrix* matrix, const Panel* panel)
             if (c > first) {
                 TakeOffOwn(matrix, values, height, first, c, c);
             }
-            if (!kiriPanel_Factor(values + (int64_t)height * c + c, height - c, height, size)) {
+            if (!kiriPanel_Factor(values + (int64_t)height * c + c, height - c, height, size, matrix->hasLongVectors)) {
                 return false;
             }
         }
@@ -518,10 +529,10 @@ void SolveDown(kiriMatrix* matrix, double* right)
         const Panel* panel = &matrix->panels.data[matrix->chosen.data[k]];
         int32_t width = size * panel->width, below = size * panel->below;
         double *own = right + size * panel->column, *part = matrix->part.data;
-        std::copy(own, own + width, part);
+        CopyNumbers(part, own, width);
         std::fill(part + width, part + width + below, 0.0);
         kiriPanel_SolveDown(&matrix->factors.data[panel->values], width + below, width, part);
-        std::copy(part, part + width, own);
+        CopyNumbers(own, part, width);
         part += width;
         for (int32_t n = 0; n < panel->below; ++n) {
             double* out = right + size * matrix->rows.data[panel->row + n];
@@ -540,13 +551,13 @@ void SolveUp(kiriMatrix* matrix, double* y)
         const Panel* panel = &matrix->panels.data[matrix->chosen.data[k]];
         int32_t width = size * panel->width;
         double *own = y + size * panel->column, *part = matrix->part.data;
-        std::copy(own, own + width, part);
+        CopyNumbers(part, own, width);
         for (int32_t n = 0; n < panel->below; ++n) {
             const double* known = y + size * matrix->rows.data[panel->row + n];
-            std::copy(known, known + size, part + width + size * n);
+            CopyNumbers(part + width + size * n, known, size);
         }
         kiriPanel_SolveUp(&matrix->factors.data[panel->values], width + size * panel->below, width, part);
-        std::copy(part, part + width, own);
+        CopyNumbers(own, part, width);
     }
 }
 
@@ -713,7 +724,13 @@ extern "C" void kiriMatrix_AddSquares(kiriMatrix* matrix, const int32_t* frames,
     for (int32_t e = 0; e < rows; e += MOST_ROWS) {
         const Squares squares = { J + (int64_t)matrix->size * frameCount * e, k + e, std::min(rows - e, MOST_ROWS) };
         for (int32_t b = 0; b < frameCount; ++b) {
-            AddColumn(matrix, &squares, frames, frameCount, b);
+            if (matrix->size == 6) {
+                AddColumn<6>(matrix, &squares, frames, frameCount, b);
+            } else if (matrix->size == 3) {
+                AddColumn<3>(matrix, &squares, frames, frameCount, b);
+            } else {
+                AddColumn<12>(matrix, &squares, frames, frameCount, b);
+            }
         }
     }
 }
@@ -732,13 +749,13 @@ extern "C" void kiriMatrix_Solve(kiriMatrix* matrix, const double* right, double
     int32_t size = matrix->size;
     for (int32_t n = 0; n < matrix->frames.count; ++n) {
         int32_t f = matrix->frames.data[n];
-        std::copy(right + size * f, right + size * (f + 1), matrix->right.data + size * matrix->place.data[f]);
+        CopyNumbers(matrix->right.data + size * matrix->place.data[f], right + size * f, size);
     }
     SolveDown(matrix, matrix->right.data);
     SolveUp(matrix, matrix->right.data);
     for (int32_t n = 0; n < matrix->frames.count; ++n) {
         int32_t f = matrix->frames.data[n];
         const double* from = matrix->right.data + size * matrix->place.data[f];
-        std::copy(from, from + size, solution + size * f);
+        CopyNumbers(solution + size * f, from, size);
     }
 }

@@ -131,20 +131,47 @@ void kiriPanel_TakeOff(const kiriProduct* product, bool hasLongVectors)
     }
 }
 
-void kiriPanel_ScaleRows(const double* columns, int32_t height, int32_t first, int32_t depth, int32_t row,
-                         int32_t count, double* out)
+INLINE void ScaleRows(const double* columns, int32_t height, int32_t first, int32_t depth, int32_t row, int32_t count,
+                      double* out, const bool isByFour)
 {
-    for (int32_t k = 0; k < depth; ++k, columns += height) {
+    (void)isByFour;
+    for (int32_t k = 0; k < depth; ++k, columns += height, out += count) {
         double d = columns[first + k];
         const double* from = columns + row;
         int32_t n = 0;
-        for (; n + TWO_LANES <= count; n += TWO_LANES, out += TWO_LANES) {
-            *(Two*)out = d * *(const Two*)(from + n);
+#ifdef HAS_FOUR_LANES
+        for (; isByFour && n + 4 <= count; n += 4) {
+            *(Four*)(out + n) = d * *(const Four*)(from + n);
+        }
+#endif
+        for (; n + TWO_LANES <= count; n += TWO_LANES) {
+            *(Two*)(out + n) = d * *(const Two*)(from + n);
         }
         for (; n < count; ++n) {
-            *out++ = d * from[n];
+            out[n] = d * from[n];
         }
     }
+}
+
+#ifdef HAS_FOUR_LANES
+WITH_FOUR_LANES static void ScaleRowsByFour(const double* columns, int32_t height, int32_t first, int32_t depth,
+                                            int32_t row, int32_t count, double* out)
+{
+    ScaleRows(columns, height, first, depth, row, count, out, true);
+}
+#endif
+
+void kiriPanel_ScaleRows(const double* columns, int32_t height, int32_t first, int32_t depth, int32_t row,
+                         int32_t count, double* out, bool hasLongVectors)
+{
+#ifdef HAS_FOUR_LANES
+    if (hasLongVectors) {
+        ScaleRowsByFour(columns, height, first, depth, row, count, out);
+        return;
+    }
+#endif
+    (void)hasLongVectors;
+    ScaleRows(columns, height, first, depth, row, count, out, false);
 }
 
 /* ---- Factorisation of a block column: `size` is known to the compiler ---- */
@@ -194,14 +221,23 @@ INLINE bool FactorDiagonal(double* block, ptrdiff_t stride, const int size, doub
 
 DEFINE_DIVIDE(DivideOne, double)
 DEFINE_DIVIDE(DivideTwo, Two)
+#ifdef HAS_FOUR_LANES
+DEFINE_DIVIDE(DivideFour, Four)
+#endif
 
-INLINE bool FactorColumns(double* panel, int32_t height, ptrdiff_t stride, const int size)
+INLINE bool FactorColumns(double* panel, int32_t height, ptrdiff_t stride, const int size, const bool isByFour)
 {
     double divisor[12 * 12], inverse[12];
     if (!FactorDiagonal(panel, stride, size, divisor, inverse)) {
         return false;
     }
     int32_t r = size;
+    (void)isByFour;
+#ifdef HAS_FOUR_LANES
+    for (; isByFour && r + 4 <= height; r += 4) {
+        DivideFour(panel + r, stride, size, divisor, inverse);
+    }
+#endif
     for (; r + TWO_LANES <= height; r += TWO_LANES) {
         DivideTwo(panel + r, stride, size, divisor, inverse);
     }
@@ -211,24 +247,30 @@ INLINE bool FactorColumns(double* panel, int32_t height, ptrdiff_t stride, const
     return true;
 }
 
-static bool FactorThree(double* panel, int32_t height, ptrdiff_t stride)
-{
-    return FactorColumns(panel, height, stride, 3);
-}
+/* One function a size of blocks and length of vectors. */
+#define DEFINE_FACTOR(Factor, size, target, isByFour)                                                                  \
+    target static bool Factor(double* panel, int32_t height, ptrdiff_t stride)                                         \
+    {                                                                                                                  \
+        return FactorColumns(panel, height, stride, size, isByFour);                                                   \
+    }
 
-static bool FactorSix(double* panel, int32_t height, ptrdiff_t stride)
-{
-    return FactorColumns(panel, height, stride, 6);
-}
+DEFINE_FACTOR(FactorThree, 3, , false)
+DEFINE_FACTOR(FactorSix, 6, , false)
+DEFINE_FACTOR(FactorTwelve, 12, , false)
+#ifdef HAS_FOUR_LANES
+DEFINE_FACTOR(FactorSixByFour, 6, WITH_FOUR_LANES, true)
+DEFINE_FACTOR(FactorTwelveByFour, 12, WITH_FOUR_LANES, true)
+#endif
 
-static bool FactorTwelve(double* panel, int32_t height, ptrdiff_t stride)
-{
-    return FactorColumns(panel, height, stride, 12);
-}
-
-bool kiriPanel_Factor(double* panel, int32_t height, int32_t stride, int32_t size)
+bool kiriPanel_Factor(double* panel, int32_t height, int32_t stride, int32_t size, bool hasLongVectors)
 {
     KIRI_ASSERT(size == 3 || size == 6 || size == 12);
+#ifdef HAS_FOUR_LANES
+    if (hasLongVectors && size > 3) {
+        return size == 6 ? FactorSixByFour(panel, height, stride) : FactorTwelveByFour(panel, height, stride);
+    }
+#endif
+    (void)hasLongVectors;
     return size == 3   ? FactorThree(panel, height, stride)
            : size == 6 ? FactorSix(panel, height, stride)
                        : FactorTwelve(panel, height, stride);

@@ -28,11 +28,11 @@ void kiriPanel_TakeOff(const kiriProduct* product, bool hasLongVectors);
 /* `count` rows of `depth` columns of a panel times D, into `out` row by row of D. `columns` is where column `first` of the
    panel begins. */
 void kiriPanel_ScaleRows(const double* columns, int32_t height, int32_t first, int32_t depth, int32_t row,
-                         int32_t count, double* out);
+                         int32_t count, double* out, bool hasLongVectors);
 
 /* Factors the first `size` (3, 6 or 12) columns of a panel of `height` rows, of which the first ones are the diagonal
    block. False where it is not positive definite. */
-bool kiriPanel_Factor(double* panel, int32_t height, int32_t stride, int32_t size);
+bool kiriPanel_Factor(double* panel, int32_t height, int32_t stride, int32_t size, bool hasLongVectors);
 
 /* y has `height` numbers, the first `width` of which are the panel's. L y' = y, and the rest of y is what that takes off
    the rows below; then y' / D. */
