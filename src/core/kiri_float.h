@@ -1,6 +1,6 @@
 /* The same bits on every machine: each operation on floats and doubles is rounded by itself, in its own type. Every file
    includes this one first, so that a host may compile the sources with options of its own. What cannot be had by a pragma
-   does not compile, or creates no world. */
+   does not compile, or creates no world (kiri_exact.h). */
 #ifndef KIRI_FLOAT_H
 #define KIRI_FLOAT_H
 
@@ -21,23 +21,11 @@
 #endif
 
 #include <float.h>
-#include <stdbool.h>
 
 /* 16: numbers of 16 bits have a type of their own, and all others too. */
 #if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
 #error                                                                                                                 \
     "Kiri needs floats and doubles without excess precision: -msse2 -mfpmath=sse on x86, -fexcess-precision=fast on s390x."
-#endif
-
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-/* Tells at run time what no macro tells, as clang's -ffp-contract=fast, which heeds no pragma. */
-bool kiriFloat_IsExact(void);
-
-#ifdef __cplusplus
-}
 #endif
 
 #endif

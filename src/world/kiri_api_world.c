@@ -1,6 +1,7 @@
 #include "kiri_call.h"
 #include "kiri_state_hash.h"
 #include "kiri_tick.h"
+#include "../core/kiri_exact.h"
 #include "../sheet/kiri_motion.h"
 
 #include <string.h>
@@ -98,7 +99,7 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     if (why != NULL) {
         return RefuseWorld(def, KIRI_ERROR_ARGUMENT, why);
     }
-    if (!kiriFloat_IsExact()) {
+    if (!kiriExact_AreFloats()) {
         return RefuseWorld(def, KIRI_ERROR_BUILD,
                            "kiriCreateWorld: the library is compiled with fused multiply-add or reordered sums; add "
                            "-ffp-contract=off (KIRI_ERROR_BUILD)");

@@ -1,5 +1,8 @@
-#include "kiri_float.h"
+#include "kiri_exact.h"
+
 #include "kiri_lanes.h"
+
+#include <float.h>
 
 /* What is volatile is not known to the compiler, which would compute it by itself, without the processor's
    instructions. */
@@ -32,7 +35,7 @@ static bool IsOrderKept(void)
     return s + l - l == 0.0 && x / y != x * inverse;
 }
 
-bool kiriFloat_IsExact(void)
+bool kiriExact_AreFloats(void)
 {
     return IsProductRounded() && AreLanesRounded() && IsOrderKept();
 }
