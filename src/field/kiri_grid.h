@@ -143,8 +143,9 @@ static inline const int32_t* kiriGrid_AroundOpen(const kiriGrid* grid, const kir
     return &grid->squareCell.data[~run->first];
 }
 
-/* The steps of a cell, to be read while the grid does not change and `steps` stays where it is. */
-static inline void kiriGrid_GetSteps(const kiriGrid* grid, int32_t cell, kiriSteps* steps)
+/* The steps of a cell, to be read while the grid does not change and `steps` stays where it is; of the first so many
+   lengths alone. */
+static inline void kiriGrid_GetStepsTo(const kiriGrid* grid, int32_t cell, int lengths, kiriSteps* steps)
 {
     const kiriStepRun* run = &grid->runs.data[cell];
     if (!kiriStepRun_IsOpen(run)) {
@@ -155,7 +156,7 @@ static inline void kiriGrid_GetSteps(const kiriGrid* grid, int32_t cell, kiriSte
         return;
     }
     const int32_t* around = kiriGrid_AroundOpen(grid, run);
-    for (int k = 0; k < KIRI_OPEN_STEPS; ++k) {
+    for (int k = 0; k < (lengths == 3 ? KIRI_OPEN_STEPS : 4 * lengths); ++k) {
         steps->room[k] = kiriOpenSteps[k];
         steps->room[k].cell = around[grid->openTo[k]];
     }
@@ -165,6 +166,11 @@ static inline void kiriGrid_GetSteps(const kiriGrid* grid, int32_t cell, kiriSte
     steps->end[2] = KIRI_OPEN_STEPS;
 }
 
+static inline void kiriGrid_GetSteps(const kiriGrid* grid, int32_t cell, kiriSteps* steps)
+{
+    kiriGrid_GetStepsTo(grid, cell, KIRI_STEP_LENGTHS, steps);
+}
+
 /* The same cell, or a straight or diagonal step apart. */
 static inline bool kiriGrid_AreNear(const kiriGrid* grid, int32_t a, int32_t b)
 {
@@ -172,7 +178,7 @@ static inline bool kiriGrid_AreNear(const kiriGrid* grid, int32_t a, int32_t b)
     if (a == b) {
         return true;
     }
-    kiriGrid_GetSteps(grid, a, &steps);
+    kiriGrid_GetStepsTo(grid, a, 2, &steps);
     for (int32_t s = 0; s < steps.end[1]; ++s) {
         if (steps.data[s].cell == b) {
             return true;

@@ -325,7 +325,7 @@ static void MarkKnightSteps(kiriGrid* grid, const kiriSteps* steps, int64_t mark
 {
     for (int32_t i = 0; i < steps->end[0]; ++i) {
         kiriSteps on;
-        kiriGrid_GetSteps(grid, steps->data[i].cell, &on);
+        kiriGrid_GetStepsTo(grid, steps->data[i].cell, 2, &on);
         grid->work->due += on.end[1] - on.end[0];
         for (int32_t j = on.end[0]; j < on.end[1]; ++j) {
             if (IsKnightMove(steps->data[i], on.data[j])) {
@@ -342,7 +342,7 @@ static bool AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* 
     MarkKnightSteps(grid, steps, first);
     for (int32_t i = steps->end[0]; i < steps->end[1]; ++i) {
         kiriSteps on;
-        kiriGrid_GetSteps(grid, steps->data[i].cell, &on);
+        kiriGrid_GetStepsTo(grid, steps->data[i].cell, 2, &on);
         for (int32_t j = 0; j < on.end[0]; ++j) {
             if (mark[on.data[j].cell] == first) {
                 mark[on.data[j].cell] = first + 1;

@@ -21,7 +21,7 @@ kiriBorderSide kiriBorder_SideOf(const kiriBorder* border, int32_t face)
 static bool IsStale(const kiriBorder* border, int32_t region)
 {
     KIRI_ASSERT(region >= 0 && region < border->siteCount);
-    return border->work->stale.data[region] != 0;
+    return (border->work->stale.data[region] & KIRI_REGION_STALE) != 0;
 }
 
 /* ---- Order ------------------------------------------------------------------------------------------------------ */
@@ -43,6 +43,11 @@ static bool IsFaceBefore(const void* context, int32_t a, int32_t b)
     return fLow != gLow ? fLow < gLow : fHigh->triangle < gHigh->triangle;
 }
 
+static bool IsOfPair(const kiriLink* link, const kiriLink* other)
+{
+    return link->i == other->i && link->j == other->j;
+}
+
 static bool IsPairBefore(const kiriLink* a, const kiriLink* b)
 {
     return a->i != b->i ? a->i < b->i : a->j < b->j;
@@ -55,7 +60,10 @@ static bool IsMadeBefore(const void* context, int32_t a, int32_t b)
     if (x->link.i != y->link.i) {
         return x->link.i < y->link.i;
     }
-    return x->link.j != y->link.j ? x->link.j < y->link.j : IsFaceBefore(border, x->face, y->face);
+    if (x->link.j != y->link.j || x->face == KIRI_NONE) {
+        return x->link.j != y->link.j ? x->link.j < y->link.j : a < b; /* those of a pair that is kept are in order */
+    }
+    return IsFaceBefore(border, x->face, y->face);
 }
 
 /* ---- Stretches -------------------------------------------------------------------------------------------------- */
@@ -65,7 +73,8 @@ static bool GatherFacesAt(const kiriBorder* border, const kiriBorderSide* from, 
                           kiriFaceMark next)
 {
     const kiriGrid* grid = border->grid;
-    for (int32_t f = grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
+    bool may = border->regions->onBorder.data[cell] && border->regions->field.owner.data[cell] == from->i;
+    for (int32_t f = may ? grid->cells.data[cell].firstFace : KIRI_NONE; f != KIRI_NONE;) {
         const kiriFace* face = &grid->faces.data[f];
         if (border->work->marks.data[f] == mark) {
             kiriBorderSide side = kiriBorder_SideOf(border, f);
@@ -95,7 +104,7 @@ static bool GatherStretch(const kiriBorder* border, int32_t face, kiriFaceMark n
     for (int32_t k = 0; ok && k < work->stretch.count; ++k) {
         kiriBorderSide side = kiriBorder_SideOf(border, work->stretch.data[k]);
         kiriSteps steps;
-        kiriGrid_GetSteps(grid, side.x, &steps);
+        kiriGrid_GetStepsTo(grid, side.x, 2, &steps);
         ok = GatherFacesAt(border, &side, side.x, mark, next);
         for (int32_t s = 0; ok && s < steps.end[1]; ++s) {
             ok = GatherFacesAt(border, &side, steps.data[s].cell, mark, next);
@@ -285,7 +294,7 @@ static void SpreadStale(const kiriBorder* border, int32_t cell)
     for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
         int32_t owner = border->regions->field.owner.data[steps.data[s].cell];
         KIRI_ASSERT(owner != KIRI_NONE);
-        border->work->stale.data[owner] = 1;
+        border->work->stale.data[owner] |= KIRI_REGION_STALE;
     }
 }
 
@@ -294,7 +303,7 @@ static void FindStale(const kiriBorder* border)
 {
     const kiriRegions* regions = border->regions;
     for (int32_t i = 0; i < border->siteCount; ++i) {
-        border->work->stale.data[i] = regions->dirty.data[i];
+        border->work->stale.data[i] = regions->dirty.data[i] ? KIRI_REGION_STALE : 0;
     }
     for (int32_t i = 0; i < border->siteCount; ++i) {
         int32_t cell = regions->dirty.data[i] ? regions->border.first.data[i] : KIRI_NONE;
@@ -304,14 +313,82 @@ static void FindStale(const kiriBorder* border)
     }
 }
 
-/* A face between two such regions is found from the lower one. */
+/* ---- Pairs of regions that are kept ---- */
+
+static bool IsPairTouched(const kiriBorder* border, int32_t i, int32_t j)
+{
+    const kiriRegionPair* pairs = border->work->touched.data;
+    int32_t low = 0, high = border->work->touched.count;
+    while (low < high) {
+        int32_t middle = low + (high - low) / 2;
+        if (pairs[middle].i < i || (pairs[middle].i == i && pairs[middle].j < j)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low < border->work->touched.count && pairs[low].i == i && pairs[low].j == j;
+}
+
+/* Links of one pair, from the first up to the end, neither of whose regions is dirty. Where a border ends is asked at each
+   of its faces: so one of the regions must have no dirty one anywhere beside it. */
+static bool KeepPair(const kiriBorder* border, const kiriLinks* links, int32_t first, int32_t end)
+{
+    kiriLinkWork* work = border->work;
+    const kiriLink* link = &links->links.data[first];
+    bool ok = true, isUntouched = !IsStale(border, link->i) || !IsStale(border, link->j);
+    for (int32_t k = first; isUntouched && k < end; ++k) {
+        isUntouched = kiriBorder_IsUntouched(border, &work->ends.data[k]);
+    }
+    if (!isUntouched) {
+        work->stale.data[link->i] |= KIRI_REGION_TOUCHED;
+        return kiriArray_Push(border->memory, &work->touched, ((kiriRegionPair){ link->i, link->j }));
+    }
+    for (int32_t k = first; ok && k < end; ++k) {
+        kiriNewLink kept = { links->links.data[k], work->ends.data[k], KIRI_NONE, true };
+        ok = kiriArray_Push(border->memory, &work->made, kept);
+    }
+    return ok;
+}
+
+/* The border of two regions that are not dirty is what it was, and where no dirty region is near it so are its links. */
+static bool KeepUntouched(const kiriBorder* border, const kiriLinks* links)
+{
+    const uint8_t* dirty = border->regions->dirty.data;
+    int32_t end = 0;
+    for (int32_t first = 0; first < links->links.count; first = end) {
+        const kiriLink* link = &links->links.data[first];
+        while (end < links->links.count && IsOfPair(&links->links.data[end], link)) {
+            ++end;
+        }
+        bool isAsked = !dirty[link->i] && !dirty[link->j] && !border->work->ends.data[first].isShort &&
+                       (IsStale(border, link->i) || IsStale(border, link->j));
+        if (isAsked && !KeepPair(border, links, first, end)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* ---- Faces of the others ---- */
+
+/* A face is found from the region that is dirty, or from the lower one. */
+static bool IsFoundFrom(const kiriBorder* border, int32_t region, int32_t other)
+{
+    const uint8_t* dirty = border->regions->dirty.data;
+    if (dirty[region] || dirty[other]) {
+        return dirty[region] && (region < other || !dirty[other]);
+    }
+    return region < other && IsPairTouched(border, region, other);
+}
+
 static bool FindFacesOf(const kiriBorder* border, int32_t region, int32_t cell)
 {
     const kiriGrid* grid = border->grid;
     for (int32_t f = grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
         const kiriFace* face = &grid->faces.data[f];
         int32_t other = border->regions->field.owner.data[kiriFace_Other(face, cell)];
-        if (other != region && (region < other || !IsStale(border, other))) {
+        if (other != region && IsFoundFrom(border, region, other)) {
             border->work->marks.data[f] = KIRI_FACE_FOUND;
             if (!kiriArray_Push(border->memory, &border->work->faces, f)) {
                 return false;
@@ -326,7 +403,8 @@ static bool FindFaces(const kiriBorder* border)
 {
     const kiriRegions* regions = border->regions;
     for (int32_t i = 0; i < border->siteCount; ++i) {
-        int32_t cell = IsStale(border, i) ? regions->border.first.data[i] : KIRI_NONE;
+        bool isAsked = regions->dirty.data[i] || (border->work->stale.data[i] & KIRI_REGION_TOUCHED) != 0;
+        int32_t cell = isAsked ? regions->border.first.data[i] : KIRI_NONE;
         for (; cell != KIRI_NONE; cell = regions->border.cells.data[cell].next) {
             if (!FindFacesOf(border, i, cell)) {
                 return false;
@@ -450,8 +528,8 @@ static void TakeOldLinks(const kiriBorder* border, const kiriLinks* links)
     }
 }
 
-/* In items of the budget: a link, a face of its stretch, and one that is looked at. */
-enum { LINK_ITEMS = 80, STRETCH_FACE_ITEMS = 3, FACE_ITEMS = 2 };
+/* In items of the budget: a link, a face of its stretch, one that is looked at, and a link that is kept. */
+enum { LINK_ITEMS = 80, STRETCH_FACE_ITEMS = 3, FACE_ITEMS = 2, KEPT_ITEMS = 4 };
 
 /* The links of the stretch through a face, which is in none yet. */
 static bool MakeLinksAt(const kiriBorder* border, int32_t face)
@@ -481,7 +559,7 @@ static bool MakeLinkRoom(const kiriBorder* border)
     for (int32_t f = old; f < work->marks.count; ++f) {
         work->marks.data[f] = KIRI_FACE_PASSED;
     }
-    work->faces.count = work->made.count = 0;
+    work->faces.count = work->made.count = work->touched.count = 0;
     return true;
 }
 
@@ -528,11 +606,6 @@ static bool MergeLinks(const kiriBorder* border, kiriLinks* links)
     return true;
 }
 
-static bool IsOfPair(const kiriLink* link, const kiriLink* other)
-{
-    return link->i == other->i && link->j == other->j;
-}
-
 /* How many links are not bit for bit what they were. */
 static int32_t CountChanged(const kiriLinks* links)
 {
@@ -561,8 +634,8 @@ static bool BeginLinks(const kiriBorder* border, kiriLinks* links)
         return false;
     }
     FindStale(border);
-    bool ok = FindFaces(border);
-    work->due = FACE_ITEMS * (int64_t)work->faces.count;
+    bool ok = KeepUntouched(border, links) && FindFaces(border);
+    work->due = FACE_ITEMS * (int64_t)work->faces.count + KEPT_ITEMS * (int64_t)work->made.count;
     return ok;
 }
 

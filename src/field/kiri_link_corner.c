@@ -358,7 +358,7 @@ static bool AreCornersOld(const kiriBorder* border, int32_t k)
     for (int e = 0; isOld && e < 2; ++e) {
         const kiriLinkEnd* end = &work->nextEnds.data[k].end[e];
         for (int a = 0; end->kind == KIRI_END_CORNER && a < KIRI_CORNER_REGIONS && end->region[a] != KIRI_NONE; ++a) {
-            isOld = isOld && !work->stale.data[end->region[a]];
+            isOld = isOld && (work->stale.data[end->region[a]] & KIRI_REGION_STALE) == 0;
         }
     }
     return isOld;

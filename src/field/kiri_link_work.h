@@ -44,19 +44,27 @@ typedef struct kiriLinkEnds {
 typedef struct kiriNewLink {
     kiriLink link;
     kiriLinkEnds ends;
-    int32_t face; /* KIRI_NONE where it is short */
+    int32_t face; /* KIRI_NONE where it is short, or kept with all links of its pair */
     bool isOld;   /* it is what it was: see kiriBorder_IsUntouched */
 } kiriNewLink;
 
+/* Of a region: its links are looked at; some, to a higher one, are made anew though both are not dirty. */
+enum { KIRI_REGION_STALE = 1, KIRI_REGION_TOUCHED = 2 };
+
+typedef struct kiriRegionPair {
+    int32_t i, j;
+} kiriRegionPair;
+
 struct kiriLinkWork {
-    bool running;                /* an update is at hand: it waits for more quota */
-    int32_t at;                  /* in `faces`: the next to look at */
-    int64_t due;                 /* items that are not paid yet */
-    KIRI_ARRAY(uint8_t) marks;   /* a kiriFaceMark a face; all PASSED between updates */
-    KIRI_ARRAY(uint8_t) stale;   /* of each region: its links are made anew */
-    KIRI_ARRAY(int32_t) faces;   /* border faces of regions that are stale */
-    KIRI_ARRAY(int32_t) whole;   /* a connected stretch of them, in order, */
-    KIRI_ARRAY(int32_t) stretch; /* and the faces of the link at hand, in order */
+    bool running;                       /* an update is at hand: it waits for more quota */
+    int32_t at;                         /* in `faces`: the next to look at */
+    int64_t due;                        /* items that are not paid yet */
+    KIRI_ARRAY(uint8_t) marks;          /* a kiriFaceMark a face; all PASSED between updates */
+    KIRI_ARRAY(uint8_t) stale;          /* of each region: KIRI_REGION_STALE... */
+    KIRI_ARRAY(kiriRegionPair) touched; /* neither is dirty, but a region near the ends of a link of theirs is */
+    KIRI_ARRAY(int32_t) faces;          /* border faces whose links are made anew */
+    KIRI_ARRAY(int32_t) whole;          /* a connected stretch of them, in order, */
+    KIRI_ARRAY(int32_t) stretch;        /* and the faces of the link at hand, in order */
     KIRI_ARRAY(kiriNewLink) made;
     KIRI_ARRAY(int32_t) order;         /* of what was made */
     KIRI_ARRAY(kiriLinkEnds) ends;     /* of kiriLinks.links, */

@@ -601,7 +601,7 @@ static kiriProgress GatherPiece(kiriPlacer* placer, kiriMemory* memory, const ki
 {
     for (int32_t* k = &placer->work->cursor; *k < placer->cells.count; ++*k) {
         kiriSteps steps;
-        kiriGrid_GetSteps(grid, placer->cells.data[*k], &steps);
+        kiriGrid_GetStepsTo(grid, placer->cells.data[*k], 1, &steps);
         if (*k % TAKEN_CELLS_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
             return KIRI_MORE;
         }

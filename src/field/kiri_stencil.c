@@ -226,7 +226,7 @@ static void InsertStep(kiriStencil* stencil, const kiriGrid* grid, kiriStep step
 static bool InsertBeyond(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, kiriStep to)
 {
     kiriSteps steps;
-    kiriGrid_GetSteps(grid, to.cell, &steps);
+    kiriGrid_GetStepsTo(grid, to.cell, 1, &steps);
     if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)stencil->steps.count + steps.end[0])) {
         return false;
     }
@@ -245,7 +245,7 @@ static bool InsertBeyond(kiriStencil* stencil, kiriMemory* memory, const kiriGri
 static bool IsPlain(const kiriGrid* grid, int32_t cell)
 {
     kiriSteps steps;
-    kiriGrid_GetSteps(grid, cell, &steps);
+    kiriGrid_GetStepsTo(grid, cell, 2, &steps);
     bool plain = steps.end[1] == 8 && grid->whole.data[grid->cells.data[cell].square];
     for (int32_t k = 0; plain && k < steps.end[1]; ++k) {
         plain = grid->whole.data[grid->cells.data[steps.data[k].cell].square];
@@ -258,7 +258,7 @@ static bool IsPlain(const kiriGrid* grid, int32_t cell)
 static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
     kiriSteps steps;
-    kiriGrid_GetSteps(grid, cell, &steps);
+    kiriGrid_GetStepsTo(grid, cell, 2, &steps);
     bool plain = IsPlain(grid, cell);
     int32_t end = steps.end[plain ? 1 : 0];
     stencil->steps.count = 0;

@@ -139,7 +139,7 @@ bool kiriSites_IsCrowded(const kiriGrid* grid, const kiriSites* sites, const kir
 {
     double least = 0.999 * grid->side; /* points of the caller are floats */
     kiriSteps steps;
-    kiriGrid_GetSteps(grid, site->cell, &steps);
+    kiriGrid_GetStepsTo(grid, site->cell, 2, &steps);
     for (int32_t s = 0; s < steps.end[1]; ++s) {
         int32_t other = holder[steps.data[s].cell];
         if (other != KIRI_NONE) {
