@@ -8,6 +8,7 @@
 #   make lib      build/<config>/libkiri.a and libkiri.so
 #   make portable-arm64 runs the scenes on an emulated arm64, and compares bits
 #   make single   build/single: the library as kiri.h, kiri.c and kiri.cpp, to add to any build
+#   make install  library, header and packages of pkg-config and CMake; PREFIX=, DESTDIR=, libdir=; make uninstall
 #   make bench    runs the benchmarks
 #   make accuracy compares with references from outside, and plots error against cost; CASE=torsion: that one only
 #   make contact  measures contact against laws and peers; CASE=laws: that group only
@@ -41,7 +42,7 @@ NEEDS_extremes := $(NEEDS_lib)
 NEEDS_gallery := $(NEEDS_play)
 NEEDS_guide := $(NEEDS_run)
 # Without these, tests of bindings are left out, with a line that says so.
-WANTS_test := python3-cffi
+WANTS_test := python3-cffi cmake pkg-config
 
 BUILD := build/$(config)
 ifndef EIGEN
@@ -58,6 +59,12 @@ ifeq ($(FLAGS_$(config)),)
 $(error config is release, debug, sanitize or thread, not '$(config)')
 endif
 FLAGS += $(FLAGS_$(config))
+
+# Of the library, from its header. Before 1.0 a minor version may change the interface, so it is in the shared library's
+# name too.
+VERSION := $(subst $() ,.,$(shell sed -n 's/.*define KIRI_VERSION_[MP][A-Z]* //p' include/kiri/kiri.h))
+VERSION_PARTS := $(subst ., ,$(VERSION))
+SOVERSION := $(firstword $(VERSION_PARTS))$(if $(filter 0,$(firstword $(VERSION_PARTS))),.$(word 2,$(VERSION_PARTS)))
 
 COMPILE_C = $(CC) -std=c99 $(FLAGS) $(CFLAGS)
 COMPILE_CXX = $(CXX) -std=c++14 $(FLAGS) $(CXXFLAGS)
@@ -92,15 +99,17 @@ PLAY := $(BUILD)/samples/kiri-play
 # Debian's own python has Debian's python3-cffi.
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 PYTHON_CHECK := $(if $(filter sanitize thread,$(config)),,python)
-# Tests of the Makefile itself, once.
-BUILD_CHECK := $(if $(filter release,$(config)),builds)
+# Tests of the Makefile itself, and of what it installs: once.
+BUILD_CHECK := $(if $(filter release,$(config)),builds consumers)
 
 # What was made by other commands, or by another Makefile, is made anew: objects depend on a file with the text of the
 # commands, the library on one with the lists of objects, and all that is linked on the library.
 COMPILE_TEXT := $(COMPILE_C) | $(COMPILE_CXX) | $(EIGEN)
-LINK_TEXT := $(LINK) | $(AR) | $(LIBRARY_OBJECTS) | $(SAMPLE_OBJECTS) | $(GAME_OBJECTS)
+LINK_TEXT := $(LINK) | $(VERSION) | $(AR) | $(LIBRARY_OBJECTS) | $(SAMPLE_OBJECTS) | $(GAME_OBJECTS)
 TO_COMPILE := $(BUILD)/compile.txt Makefile
 TO_LINK := $(BUILD)/link.txt Makefile
+
+include bindings/install.mk
 
 .PHONY: all run box2d play python builds test tsan portable-arm64 check floors headers single example lib bench accuracy contact extremes gallery guide deps format clean exports FORCE
 .DEFAULT_GOAL := all
@@ -287,10 +296,14 @@ $(BUILD)/libkiri.a: $(LIBRARY_OBJECTS) $(TO_LINK)
 	@$(AR) rcs $@ $(LIBRARY_OBJECTS)
 
 # The script hides the C++ templates too, which -fvisibility=hidden alone does not.
-$(BUILD)/libkiri.so: $(LIBRARY_OBJECTS) $(TO_LINK)
-	@echo '{ global: kiri*; local: *; };' > $(BUILD)/kiri.map
+$(BUILD)/libkiri.so.$(VERSION): $(LIBRARY_OBJECTS) bindings/kiri.map $(TO_LINK)
 	@echo "  $@"
-	@$(LINK) -shared -Wl,--version-script=$(BUILD)/kiri.map -o $@ $(LIBRARY_OBJECTS) -lm
+	@$(LINK) -shared -Wl,-soname,libkiri.so.$(SOVERSION) -Wl,--version-script=bindings/kiri.map -o $@ $(LIBRARY_OBJECTS) -lm
+
+# The links by which programs find it: when they are linked, and when they start.
+$(BUILD)/libkiri.so: $(BUILD)/libkiri.so.$(VERSION)
+	@ln -sf libkiri.so.$(VERSION) $(BUILD)/libkiri.so.$(SOVERSION)
+	@ln -sf libkiri.so.$(SOVERSION) $@
 
 $(BUILD)/src/%.c.o: src/%.c $(TO_COMPILE)
 	@mkdir -p $(@D)

@@ -98,7 +98,7 @@ mkdir "$bin"
 plain=$(echo "$PATH" | tr : '\n' | grep -v ccache | paste -sd :)
 c=$(PATH=$plain command -v "${CC:-cc}")
 cxx=$(PATH=$plain command -v "${CXX:-c++}")
-for tool in sh env make cat cmp mv rm mkdir touch sed awk grep tr sort nm ar as ld; do
+for tool in sh env make cat cmp mv rm mkdir touch sed awk grep tr sort nm ar as ld ln; do
     ln -s "$(command -v $tool)" "$bin"
 done
 stub() { # name, what it does
@@ -153,9 +153,7 @@ tree="$folder/all of it [d]"
 mkdir -p "$tree/build/release"
 cd "$root"
 for part in Makefile README.md .ci include src bindings samples tests; do cp -a "$part" "$tree"; done
-for part in compile.txt link.txt libkiri.a libkiri.so kiri.map src samples; do
-    cp -a "build/release/$part" "$tree/build/release"
-done
+(cd build/release && cp -a compile.txt link.txt libkiri.* src samples "$tree/build/release")
 cd "$tree"
 touch src/core/kiri_base.c
 run_make lib
