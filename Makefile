@@ -9,6 +9,7 @@
 #   make portable-arm64 runs the scenes on an emulated arm64, and compares bits
 #   make single   build/single: the library as kiri.h, kiri.c and kiri.cpp, to add to any build
 #   make install  library, header and packages of pkg-config and CMake; PREFIX=, DESTDIR=, libdir=; make uninstall
+#   make abi      compares the binary interface with the last version's
 #   make bench    runs the benchmarks
 #   make accuracy compares with references from outside, and plots error against cost; CASE=torsion: that one only
 #   make contact  measures contact against laws and peers; CASE=laws: that group only

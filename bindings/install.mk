@@ -1,4 +1,5 @@
-# make install, make uninstall; and make consumers, which builds a program on each way to use the library.
+# make install, make uninstall; make consumers builds a program in each way to use the library; make abi compares what
+# programs rely on with the last version, of which make abi-list keeps it.
 #
 #   PREFIX=/usr/local   libdir, includedir: below it
 #   DESTDIR=            goes before all of them, for those who make packages
@@ -19,7 +20,7 @@ FILL = sed -e 's|@VERSION@|$(VERSION)|' -e 's|@SOVERSION@|$(SOVERSION)|' -e 's|@
     -e 's|@libdir@|$(libdir)|' -e 's|@includedir@|$(includedir)|' \
     -e "s|@way@|$$(realpath -m --relative-to='$(libdir)/cmake/kiri' '$(includedir)')|"
 
-.PHONY: install uninstall consumers
+.PHONY: install uninstall consumers abi abi-list
 
 install: lib
 	install -d '$(INSTALL_HEADER)' '$(INSTALL_LIBRARY)/pkgconfig' '$(INSTALL_LIBRARY)/cmake/kiri'
@@ -39,3 +40,14 @@ uninstall:
 
 consumers: lib example
 	@CONFIG=$(config) EIGEN='$(EIGEN)' CC='$(CC)' CXX='$(CXX)' sh tests/consumer/run.sh
+
+# The last version is that of the last tag, or where there is none the list as it is.
+ABI_LIST := tests/data/abi.txt
+
+abi: $(BUILD)/libkiri.so
+	@list=$(ABI_LIST); tag=$$(git describe --tags --abbrev=0 2> /dev/null); \
+	if [ -n "$$tag" ] && git show "$$tag:$$list" > $(BUILD)/abi.txt 2> /dev/null; then list=$(BUILD)/abi.txt; fi; \
+	$(PYTHON) tests/abi.py $< $$list
+
+abi-list: $(BUILD)/libkiri.so
+	$(PYTHON) tests/abi.py $< $(ABI_LIST) --write

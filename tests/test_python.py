@@ -406,6 +406,20 @@ def test_version():
         assert "version" in str(raises(AssertionError, run_python, "-c", script))
 
 
+def test_binary_interface():
+    import abi
+    old = abi.interface(library)
+    assert old["field kiriMesh.positions"].endswith("float *") and old["constant KIRI_PENDING"] == "1"
+    assert abi.read("".join(f"{name} = {value}\n" for name, value in old.items())) == old
+    assert not abi.breaks(old, dict(old, **{"function kiriNew": "int32_t(*)(void)"}))
+    for change in ({"constant KIRI_PENDING": "2"}, {"struct kiriMesh": "1 bytes"}):
+        assert abi.breaks(old, dict(old, **change))
+        assert abi.breaks(dict(old, version="0.5.0"), dict(old, version="0.5.9", **change))
+        assert not abi.breaks(dict(old, version="0.5.9"), dict(old, version="0.6.0", **change))
+        assert abi.breaks(dict(old, version="1.2.0"), dict(old, version="1.3.0", **change))
+    assert abi.breaks(old, {name: value for name, value in old.items() if name != "function kiriWorld_Tick"})
+
+
 def test_example():
     for block in ((), ("-c", "import sys, runpy; sys.modules['numpy'] = None; sys.argv.pop(0);"
                        "runpy.run_path(sys.argv[0], run_name='__main__')")):
