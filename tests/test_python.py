@@ -427,6 +427,16 @@ def test_example():
         assert "came off" in lines[0] and "state hash" in lines[-1]
 
 
+def test_example_says_what_is_missing():
+    for word, setting in (("needs cffi", "sys.modules['cffi'] = None"),
+                          ("make lib", "os.environ['KIRI_LIBRARY'] = '/nowhere/libkiri.so'")):
+        script = f"import os, runpy, sys; {setting}; runpy.run_path(sys.argv[1], run_name='__main__')"
+        done = subprocess.run([sys.executable, "-c", script, str(repository / "bindings/python/example.py")],
+                              env=dict(os.environ, PYTHONPATH=str(repository / "bindings/python"),
+                                       PYTHONDONTWRITEBYTECODE="1"), capture_output=True, text=True, timeout=100)
+        assert done.returncode == 1 and word in done.stderr and done.stderr.count("\n") == 1, done.stderr
+
+
 def test_world_with_callbacks_is_collected():
     run_script("""
 blocks = Blocks()

@@ -1,6 +1,12 @@
-"""Cuts a sheet that hangs by two corners, and prints what comes of it."""
+"""Cuts a sheet that hangs by two corners, and prints what comes of it. Needs cffi and `make lib`; numpy is not needed."""
 
-import kiri
+import sys
+
+try:
+    import kiri
+    kiri.load()
+except ImportError as error:
+    sys.exit(f"example.py: {error}")
 
 
 def main():

@@ -28,7 +28,10 @@ import threading
 import types
 import weakref
 
-import cffi
+try:
+    import cffi
+except ImportError:
+    raise ImportError("kiri needs cffi: pip install cffi, or Debian's python3-cffi") from None
 
 try:
     import numpy
@@ -77,7 +80,11 @@ def load(path=None):
     """The C functions, by their C names."""
     path = os.path.abspath(path or os.environ.get("KIRI_LIBRARY") or _repository / "build/release/libkiri.so")
     if path not in _libraries:
-        library = ffi.dlopen(path)
+        try:
+            library = ffi.dlopen(path)
+        except OSError as error:
+            why = str(error).split(".  Additionally")[0]
+            raise ImportError(f"{why}; `make lib` builds it, KIRI_LIBRARY says where it is") from None
         if library.kiriGetVersion() != KIRI_VERSION:
             raise ImportError(f"{path} has version {library.kiriGetVersion()}, the header {KIRI_VERSION}")
         _libraries[path] = library
