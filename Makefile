@@ -16,6 +16,7 @@
 #   make extremes runs what nobody should do to a sheet, and says what became of it
 #   make gallery  renders the pictures of the README, and the film that it begins with
 #   make guide    renders the pictures of src/README.md
+#   make portable builds a storm for other machines and compilers, and compares bits; deps-portable: installs these
 #   make deps     installs what is missing for all of these (Debian and its relatives)
 #   make format   clang-format over all sources
 #   make clean    removes build/
@@ -220,7 +221,7 @@ $(TEST_RUNS): run-%: $(BUILD)/tests/%
 	@if $< > $<.log 2>&1; then echo "== $<"; grep '^\[  PASSED' $<.log; \
 	else echo "== $< FAILED"; cat $<.log; exit 1; fi
 
-check: $(TEST_RUNS) $(RUN) $(BOX2D) $(PLAY) floors headers exports example $(PYTHON_CHECK) $(BUILD_CHECK)
+check: $(TEST_RUNS) $(RUN) $(BOX2D) $(PLAY) floors headers float-guards exports example $(PYTHON_CHECK) $(BUILD_CHECK)
 	@echo "all tests passed ($(config))"
 
 python: $(BUILD)/libkiri.so
@@ -395,6 +396,41 @@ $(BUILD)/tests/test_readers $(BUILD)/tests/test_tasks: override LDFLAGS += -pthr
 
 # Tests that compare with the heavy elastica.
 $(BUILD)/tests/test_affine $(BUILD)/tests/test_estimate $(BUILD)/tests/test_point: $(BUILD)/tests/reference.c.o
+
+# ---- The same bits everywhere ----
+
+# What prints the hashes, without other libraries. It is linked from objects, for archives differ between machines.
+STORM ?= $(BUILD)/tests/storm
+
+$(STORM): $(patsubst %,$(BUILD)/tests/%.c.o,storm storm_acts storm_cuts storm_seen) $(LIBRARY_OBJECTS) $(TO_LINK)
+	@echo "  $@"
+	@$(LINK) -o $@ $(filter %.o,$^) -lm
+
+# What the sources refuse, as far as the compiler knows it.
+float-guards:
+	@for option in -ffast-math -Ofast -ffinite-math-only -mfpmath=387; do \
+	    echo | $(CC) $$option -fsyntax-only -x c - 2> /dev/null || continue; \
+	    $(CC) $$option -fsyntax-only -x c src/core/kiri_float.h 2>&1 | grep -q '#error .*Kiri' || \
+	        { echo "kiri_float.h compiles with $$option"; exit 1; }; \
+	done; echo "floats: options that give other bits do not compile"
+
+# TARGETS='aarch64 wasm': these only; TIME=300: begins no target after so many seconds.
+portable: float-guards
+	+@MAKE='$(MAKE)' TARGETS='$(TARGETS)' TIME='$(TIME)' sh tests/portable.sh
+
+# After a change that moves state hashes, and says why.
+portable-golden: $(STORM)
+	$(STORM) > tests/data/storm.txt
+
+PORTABLE_PACKAGES := clang lld g++-i686-linux-gnu g++-aarch64-linux-gnu g++-arm-linux-gnueabihf g++-riscv64-linux-gnu \
+                     g++-s390x-linux-gnu qemu-user g++-mingw-w64-x86-64 wine wine64 emscripten nodejs musl-tools
+
+deps-portable:
+	@sudo=; if [ "$$(id -u)" != 0 ]; then sudo=sudo; fi; \
+	$$sudo apt-get update && $$sudo env DEBIAN_FRONTEND=noninteractive apt-get -y --no-install-recommends install \
+	    gcc g++ make libeigen3-dev $(PORTABLE_PACKAGES) || { echo "make portable takes $(PORTABLE_PACKAGES)"; exit 1; }
+
+.PHONY: float-guards portable portable-golden deps-portable
 
 format:
 	clang-format -i $(wildcard include/kiri/*.h src/*/*.h src/*/*.c src/*/*.cpp samples/*.h samples/*.c samples/*.cpp samples/*/*.h samples/*/*.c samples/*/*.cpp tests/*.h tests/*.c tests/*.cpp)
