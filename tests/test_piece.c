@@ -967,7 +967,8 @@ static void TestContactsMoveAlong(void** state)
     Host_Cut(&host, sheet, line, 2);
     Tick(&host, 1);
     OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 1), &detached));
-    assert_int_equal(DataOf(&host, sheet)->touches.last.count + DataOf(&host, detached)->touches.last.count, 1);
+    assert_int_equal(
+        DataOf(&host, sheet)->touches.last.touches.count + DataOf(&host, detached)->touches.last.touches.count, 1);
     Host_Stop(&host);
 }
 

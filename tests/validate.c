@@ -294,6 +294,20 @@ static bool Check_Pins(Check* check, const kiriSheetData* sheet)
     return Check_PinShares(check, sheet);
 }
 
+static bool Check_TouchMemory(Check* check, const kiriSheetData* sheet, const kiriTouchMemory* memory)
+{
+    for (int32_t k = 0; k < memory->touches.count; ++k) {
+        int32_t point = memory->touches.data[k].point;
+        REQUIRE(point == KIRI_NONE || IsIndex(point, sheet->points.count), "touch %d is of point %d", k, point);
+    }
+    for (int32_t k = 1; k < memory->forces.count; ++k) {
+        REQUIRE(memory->forces.data[k - 1].key <= memory->forces.data[k].key, "force %d is out of order", k);
+    }
+    REQUIRE(memory->forces.count <= memory->touches.count, "%d forces of %d touches", memory->forces.count,
+            memory->touches.count);
+    return true;
+}
+
 static bool Check_Contacts(Check* check, const kiriSheetData* sheet)
 {
     const kiriTouches* touches = &sheet->touches;
@@ -308,12 +322,28 @@ static bool Check_Contacts(Check* check, const kiriSheetData* sheet)
     }
     REQUIRE(touches->nextTold.capacity >= sheet->contacts.count && touches->found.capacity >= sheet->contacts.count,
             "room for %d contacts of %d", touches->found.capacity, sheet->contacts.count);
-    for (int32_t k = 0; k < touches->last.count; ++k) {
-        int32_t point = touches->last.data[k].point;
-        REQUIRE(point == KIRI_NONE || IsIndex(point, sheet->points.count), "touch %d is of point %d", k, point);
+    return Check_TouchMemory(check, sheet, &touches->last) && Check_TouchMemory(check, sheet, &touches->slept);
+}
+
+static bool IsStill(const kiriFrameData* frame)
+{
+    return kiriVec3_Dot(frame->velocity, frame->velocity) == 0.0 && kiriVec3_Dot(frame->spin, frame->spin) == 0.0 &&
+           frame->history.dt == 0.0;
+}
+
+static bool Check_Rest(Check* check, const kiriSheetData* sheet)
+{
+    bool any = false;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        const kiriPiece* piece = &sheet->layout.pieces.data[p];
+        any = any || kiriPiece_IsAwake(piece);
+        REQUIRE(!piece->rest.isStirred && piece->rest.calm >= 0.0, "piece %d is stirred, or calm for %g s", p,
+                piece->rest.calm);
     }
-    for (int32_t k = 1; k < touches->forces.count; ++k) {
-        REQUIRE(touches->forces.data[k - 1].key <= touches->forces.data[k].key, "force %d is out of order", k);
+    REQUIRE(sheet->rest.asleep != any, "the sheet is said to sleep: %d", sheet->rest.asleep);
+    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+        REQUIRE(!kiriSheet_PieceOf(sheet, f)->rest.asleep || IsStill(&sheet->frames.data[f]),
+                "frame %d moves, and its piece sleeps", f);
     }
     return true;
 }
@@ -341,6 +371,10 @@ static bool Check_Points(Check* check, const kiriSheetData* sheet)
             REQUIRE(sheet->regions.field.owner.data[cell] == point->frame, "point %d is of frame %d, its cell of %d", i,
                     point->frame, sheet->regions.field.owner.data[cell]);
         }
+    }
+    check->part = "rest";
+    if (!Check_Rest(check, sheet)) {
+        return false;
     }
     check->part = "contacts";
     return Check_Contacts(check, sheet);

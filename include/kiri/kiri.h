@@ -400,16 +400,17 @@ typedef struct kiriSheetDef {
        momentum is not exchanged exactly. Pieces that cross are parted at 0.25 m/s. A sheet feels others by its vertices,
        about one a grid square and more along borders: two edges that cross are not seen. A piece that wraps around the
        border of another, so that it lies on both sides of it, has one side all the same. Folds of one piece do not touch
-       each other. Sheets that touch wake and fall asleep together. Default 0. */
+       each other. Pieces that touch wake and fall asleep together. Default 0. */
     int32_t touchesSheets;
 
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
     int32_t iterations;      /* Newton steps a substep, 1 to 64; default 2 */
 
-    /* A sheet all of whose frames move slower than this (m/s, rms over the material of each) for half a second falls
-       asleep: it rests, and its ticks cost nothing. What is new wakes it: a cut when it takes effect, a pin or its
-       pose, a hold, a load, gravity, contacts other than those it fell asleep with, kiriSheet_Wake. Default 0.001; 0: it
-       never sleeps. */
+    /* A piece all of whose frames move slower than this (m/s, rms over the material of each) for half a second falls
+       asleep: it rests, and costs next to nothing. What is new to it wakes it: a cut that changes it, when that takes
+       effect; a pin that holds it, or the pin's pose; a hold, a load, contacts other than those it fell asleep with;
+       something that moves and comes near. Gravity, wind, settings and kiriSheet_Wake wake all pieces of the sheet. The
+       ticks of a sheet all of whose pieces sleep cost nothing. Default 0.001; 0: none sleeps. */
     float sleepSpeed;
 
     int32_t model;    /* KIRI_MODEL_..., default KIRI_MODEL_LINKS */
@@ -560,7 +561,8 @@ KIRI_API kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet,
    links, when it is called. */
 KIRI_API kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sheet, double* relative);
 
-/* *awake is 0 for a sheet that sleeps, see sleepSpeed. */
+/* *awake is 0 where all pieces of the sheet sleep, see sleepSpeed; kiriPieceState says which do. kiriSheet_Wake wakes all of
+   them. */
 KIRI_API kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, int32_t* awake);
 KIRI_API kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet);
 
@@ -636,6 +638,7 @@ typedef struct kiriPieceState {
     float lower[3], upper[3];                             /* m, world: the least box around its vertices */
     int32_t frames, vertices, triangles, collisionPoints; /* how many */
     int32_t crumb;                                        /* 1: see kiriSheetDef */
+    int32_t asleep;                                       /* 1: see sleepSpeed */
 } kiriPieceState;
 
 /* What is in a piece, in the order of the mesh. The arrays are parts of one for all pieces, piece after piece. */
@@ -663,10 +666,11 @@ KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, 
    keep their ids and states, and what waits for the next tick: the motion goes on as if nothing had happened, but for the
    solver's guard over energy and step length, which is one for each sheet. A clamp or hinge that holds both becomes two:
    the rest keeps the id, the new sheet's has one of its own (kiriSheet_GetPins). Both sheets have all settings (of
-   collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself, and sleep each
-   for itself. Cuts stay with the rest: a blade in the piece cuts nothing until it is back. Indices of vertices, triangles
-   and collision points of the rest change (its revision grows). The new sheet has the squares of the grid around it, at
-   about 40 bytes a square: crumbs are better dropped. Costs a pass over the sheet's arrays, and what the piece alone takes to
+   collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself; a piece that
+   sleeps goes on sleeping. Cuts stay with the rest: a blade in the piece cuts nothing until it is back. Indices of
+   vertices, triangles and collision points of the rest change (its revision grows). The new sheet has the squares of the
+   grid around it, at about 40 bytes a square: crumbs are better dropped. Costs a pass over the sheet's arrays, and what
+   the piece alone takes to
    make.
    KIRI_PENDING: work on a cut is at hand in the sheet; *detached is 0. When it is done, what is the piece of this frame
    then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. That counts as samples of the budget: until they are paid
@@ -761,7 +765,7 @@ KIRI_API kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const floa
 
 /* With what the host's hold acted on the sheet: force (N, world) and torque (N m) about the frame's rest point; means
    over the last tick, impulses divided by its dt. They carry the frame's own weight and change its momentum, too. Zero
-   for a frame that was free. A sheet that sleeps keeps those that it fell asleep with. */
+   for a frame that was free. A piece that sleeps keeps those that it fell asleep with. */
 KIRI_API kiriResult kiriFrame_GetReaction(const kiriWorld* world, kiriFrame frame, double force[3], double torque[3]);
 
 /* ---- Load ------------------------------------------------------------------------------------------------------- */
@@ -866,7 +870,7 @@ KIRI_API kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPi
 
 /* With what the pin acted on the sheet: force (N, world) and torque (N m) about its target; means over the last tick,
    impulses divided by its dt. So the reactions of all pins and held frames are the weight of a sheet at rest, and in
-   motion what changes its momentum (as far as `iterations` have the tick solved). Zero before the first tick. A sheet that
+   motion what changes its momentum (as far as `iterations` have the tick solved). Zero before the first tick. A piece that
    sleeps keeps those that it fell asleep with. */
 KIRI_API kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, double force[3], double torque[3]);
 
@@ -908,7 +912,7 @@ typedef struct kiriContactForce {
 } kiriContactForce;
 
 /* One for each contact that was set before the last tick, in the order given. The sum of the impulses, with those of
-   gravity, loads and obstacles, is the change of momentum of a piece that nothing holds. A sheet that sleeps goes on to
+   gravity, loads and obstacles, is the change of momentum of a piece that nothing holds. A piece that sleeps goes on to
    press with what it fell asleep with. */
 KIRI_API kiriResult kiriSheet_GetContactForces(const kiriWorld* world, kiriSheet sheet, const kiriContactForce** forces,
                                                int32_t* count);

@@ -54,8 +54,8 @@ struct kiriMatrix {
     kiriMemory* memory;
     int32_t size, count;
     bool hasLongVectors;
-    int64_t products;          /* of blocks, that a factorisation of the chosen panels takes */
-    KIRI_ARRAY(int32_t) place; /* of a frame */
+    int64_t products, chosenProducts; /* of blocks, that a factorisation takes, and one of the chosen panels */
+    KIRI_ARRAY(int32_t) place;        /* of a frame */
     Pattern own;
     KIRI_ARRAY(Panel) panels;     /* and one more, where all of them end */
     KIRI_ARRAY(int32_t) panelOf;  /* of each column */
@@ -282,14 +282,14 @@ bool MakeRoomForFrames(kiriMatrix* matrix)
 void ChoosePanels(kiriMatrix* matrix)
 {
     matrix->chosen.count = 0;
-    matrix->products = 0;
+    matrix->chosenProducts = 0;
     for (int32_t p = 0; p + 1 < matrix->panels.count; ++p) {
         const Panel* panel = &matrix->panels.data[p];
         if (matrix->isChosen.data[p]) {
             matrix->chosen.data[matrix->chosen.count++] = p;
             for (int32_t n = 0; n < panel->width; ++n) {
                 int64_t below = panel->below + n;
-                matrix->products += below * (below + 1) / 2;
+                matrix->chosenProducts += below * (below + 1) / 2;
             }
         }
     }
@@ -595,6 +595,7 @@ extern "C" bool kiriMatrix_Shape(kiriMatrix* matrix, int32_t frameCount, const k
         matrix->frames.data[f] = f;
     }
     kiriMatrix_Choose(matrix, matrix->frames.data, frameCount);
+    matrix->products = matrix->chosenProducts;
     return true;
 }
 
@@ -620,9 +621,9 @@ extern "C" int32_t kiriMatrix_FrameCount(const kiriMatrix* matrix)
     return matrix->count;
 }
 
-extern "C" int64_t kiriMatrix_ProductCount(const kiriMatrix* matrix)
+extern "C" int64_t kiriMatrix_ProductCount(const kiriMatrix* matrix, bool chosen)
 {
-    return matrix->products * matrix->size * matrix->size * matrix->size / 216;
+    return (chosen ? matrix->chosenProducts : matrix->products) * matrix->size * matrix->size * matrix->size / 216;
 }
 
 extern "C" int32_t kiriMatrix_PairCount(const kiriMatrix* matrix)

@@ -31,8 +31,8 @@ int32_t kiriMatrix_FrameCount(const kiriMatrix* matrix);
 int32_t kiriMatrix_PairCount(const kiriMatrix* matrix);
 void kiriMatrix_GetPairs(kiriMatrix* matrix, kiriPair* pairs);
 
-/* How many products of blocks a factorisation of what is chosen takes, as of blocks of size 6. */
-int64_t kiriMatrix_ProductCount(const kiriMatrix* matrix);
+/* How many products of blocks a factorisation of what is chosen, or of all, takes, as of blocks of size 6. */
+int64_t kiriMatrix_ProductCount(const kiriMatrix* matrix, bool chosen);
 
 /* Is the pair in the pattern? */
 bool kiriMatrix_Covers(const kiriMatrix* matrix, kiriPair pair);

@@ -207,7 +207,7 @@ void kiriSolver_SetAwake(kiriSolver* solver, int32_t piece, bool isAwake)
     kiriAwake_Set(&solver->awake, piece, isAwake);
 }
 
-static void ListAwake(kiriSolver* solver, const kiriSystem* system)
+static void WriteLists(kiriSolver* solver, const kiriSystem* system)
 {
     kiriAwake* awake = &solver->awake;
     const uint8_t* isAwake = awake->isAwake.data;
@@ -227,13 +227,19 @@ static void ListAwake(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-const kiriAwake* kiriSolver_Awake(kiriSolver* solver, const kiriSystem* system)
+bool kiriSolver_ListAwake(kiriSolver* solver, const kiriSystem* system)
 {
-    if (!solver->awake.isListed) {
-        ListAwake(solver, system);
-        kiriMatrix_Choose(solver->matrix, solver->awake.frames.data, solver->awake.frames.count);
-        solver->awake.isListed = true;
+    if (solver->awake.isListed) {
+        return false;
     }
+    WriteLists(solver, system);
+    kiriMatrix_Choose(solver->matrix, solver->awake.frames.data, solver->awake.frames.count);
+    solver->awake.isListed = true;
+    return true;
+}
+
+const kiriAwake* kiriSolver_Awake(const kiriSolver* solver)
+{
     return &solver->awake;
 }
 
@@ -295,11 +301,21 @@ static void ForgetHistories(kiriSolver* solver, const kiriSystem* system)
 
 /* An item is the time of 16 frames, about 30 us: the links of a frame take as long as 80 products of blocks or as 4
    contacts. */
+static int64_t ItemsOfSystem(const kiriSolver* solver, int64_t frames, int64_t products, int32_t contactCount)
+{
+    return 1 + (4 * frames * (solver->size > 6 ? 3 : 1) + contactCount + products / 20) / 64;
+}
+
 int64_t kiriSolver_SystemItems(const kiriSolver* solver, int32_t contactCount)
 {
-    bool isListed = solver->awake.isListed;
-    int64_t frames = (int64_t)(isListed ? solver->awake.frames.count : solver->frameCount) * (solver->size > 6 ? 3 : 1);
-    return 1 + (4 * frames + contactCount + kiriMatrix_ProductCount(solver->matrix) / 20) / 64;
+    KIRI_ASSERT(solver->awake.isListed);
+    return ItemsOfSystem(solver, solver->awake.frames.count, kiriMatrix_ProductCount(solver->matrix, true),
+                         contactCount);
+}
+
+int64_t kiriSolver_MostItems(const kiriSolver* solver, int32_t contactCount)
+{
+    return ItemsOfSystem(solver, solver->frameCount, kiriMatrix_ProductCount(solver->matrix, false), contactCount);
 }
 
 int32_t kiriSolver_TakeSolved(kiriSolver* solver)

@@ -78,8 +78,12 @@ void kiriSolver_Commit(kiriSolver* solver);
    pins, clamps and contacts must be of pieces that are awake. */
 void kiriSolver_SetAwake(kiriSolver* solver, int32_t piece, bool isAwake);
 
-/* The lists of what is awake, made where they are others than before. The system is of the current configuration. */
-const kiriAwake* kiriSolver_Awake(kiriSolver* solver, const kiriSystem* system);
+/* Makes the lists of what is awake, where they are others than before, and returns whether they are. The system is of the
+   current configuration. A step does so itself. */
+bool kiriSolver_ListAwake(kiriSolver* solver, const kiriSystem* system);
+
+/* These lists, as they were made last. */
+const kiriAwake* kiriSolver_Awake(const kiriSolver* solver);
 
 /* Of the pattern, which depends on what was staged before: the last bits of steps depend on it. */
 uint64_t kiriSolver_Hash(const kiriSolver* solver);
@@ -89,9 +93,9 @@ bool kiriSolver_ReserveContacts(kiriSolver* solver, int32_t count);
 
 enum { KIRI_EXTRA_SYSTEMS = 6 }; /* of a step, beside its iterations */
 
-/* What a linear system of the current configuration, or of what was listed awake in it, counts in a budget: see
-   kiriBudget in kiri.h. */
+/* What a linear system of what is listed awake counts in a budget, see kiriBudget in kiri.h; and of all, asleep or not. */
 int64_t kiriSolver_SystemItems(const kiriSolver* solver, int32_t contactCount);
+int64_t kiriSolver_MostItems(const kiriSolver* solver, int32_t contactCount);
 
 /* The linear systems that steps solved since this was last called. */
 int32_t kiriSolver_TakeSolved(kiriSolver* solver);

@@ -318,7 +318,7 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
 {
     KIRI_ASSERT(dt > 0.0 && system->frameCount == solver->frameCount);
     KIRI_ASSERT(kiriElement_Count(system) == solver->elementCount);
-    kiriSolver_Awake(solver, system);
+    kiriSolver_ListAwake(solver, system);
     solver->dt = dt;
     solver->damping = (double)system->material.flexDamping / dt;
     solver->isAlong = solver->isHeld = false;

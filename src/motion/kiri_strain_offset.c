@@ -88,11 +88,11 @@ void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* ol
     strainOffsets->strainOffsets.count = linkCount;
 }
 
-void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, double dt, double time)
+void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriIndices* elements, double dt, double time)
 {
     double keep = time / (time + dt);
-    for (int32_t k = 0; k < strainOffsets->strainOffsets.count; ++k) {
-        for (int e = 0; e < KIRI_STRAINS; ++e) {
+    KIRI_EACH(k, *elements) {
+        for (int e = 0; k < strainOffsets->strainOffsets.count && e < KIRI_STRAINS; ++e) {
             double* strain = &strainOffsets->strainOffsets.data[k].strain[e];
             *strain = fabs(*strain) > 1e-12 ? keep * *strain : 0.0;
         }

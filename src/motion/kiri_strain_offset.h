@@ -4,6 +4,7 @@
 #ifndef KIRI_STRAIN_OFFSET_H
 #define KIRI_STRAIN_OFFSET_H
 
+#include "kiri_awake.h"
 #include "kiri_strain.h"
 
 KIRI_C_BEGIN
@@ -30,8 +31,8 @@ void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* ol
                             const kiriLink* links, int32_t linkCount, const kiriFrameData* frames,
                             const kiriMaterial* material);
 
-/* Offsets fade to 1 / e within `time` (s). */
-void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, double dt, double time);
+/* Offsets of those links that are among these elements fade to 1 / e within `time` (s). */
+void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriIndices* elements, double dt, double time);
 
 KIRI_C_END
 

@@ -132,7 +132,7 @@ void kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocit
             frame->spin = spin;
             memset(&frame->rate, 0, sizeof(frame->rate));
             memset(&frame->history, 0, sizeof(frame->history));
+            kiriMotion_WakeFrame(sheet, i);
         }
     }
-    kiriMotion_Wake(sheet);
 }

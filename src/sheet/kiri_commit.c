@@ -163,6 +163,7 @@ void kiriStage_Commit(kiriSheetData* sheet)
     sheet->layout = u->next;
     u->next = layout;
     kiriPieces_KeepGone(sheet, &u->next);
+    kiriPieces_KeepRest(sheet, &u->next);
     kiriPins_WriteLinkParts(sheet);
     kiriPins_KeepReactions(sheet, &u->next.pinShares);
     if (keepsStrains) {

@@ -1,6 +1,7 @@
 #include "kiri_extract.h"
 
 #include "kiri_build.h"
+#include "kiri_motion.h"
 #include "kiri_piece.h"
 #include "kiri_pin.h"
 #include "kiri_pipeline.h"
@@ -18,8 +19,6 @@ static void CopySettings(const kiriKept* kept, kiriSheetData* to)
     to->settings = from->settings;
     to->settings.collisionPoints = share * from->settings.collisionPoints;
     to->settings.integrationPoints = share * from->settings.integrationPoints;
-    to->rest.calm = from->rest.calm;
-    to->rest.asleep = from->rest.asleep;
     kiriSettings_Apply(to);
 }
 
@@ -77,18 +76,13 @@ static bool CopyPins(const kiriKept* kept, kiriSheetData* to)
     return ok;
 }
 
-/* What pushed in the last tick, with the force. */
-static void CopyTouches(const kiriKept* kept, kiriSheetData* to)
+/* What pushed when the piece was moved last, with the force. */
+static void CopyTouches(const kiriKept* kept, const kiriTouchMemory* from, kiriTouchMemory* to)
 {
-    const kiriTouches* from = &kept->from->touches;
-    for (int32_t i = 0; i < from->last.count; ++i) {
-        kiriTouch touch = from->last.data[i];
+    for (int32_t i = 0; i < from->touches.count; ++i) {
+        kiriTouch touch = from->touches.data[i];
         if (kiriKept_FollowTouch(kept, &touch)) {
-            to->touches.last.data[to->touches.last.count++] = touch;
-            kiriVec3 force = kiriTouches_ForceOf(kept->from, from->last.data[i].key);
-            if (kiriVec3_Dot(force, force) > 0.0) {
-                kiriTouches_Remember(to, touch.key, force);
-            }
+            kiriTouchMemory_Add(to, &touch, kiriTouches_ForceOf(kept->from, from->touches.data[i].key));
         }
     }
 }
@@ -97,7 +91,9 @@ static void CopyTouches(const kiriKept* kept, kiriSheetData* to)
 static bool CopyContacts(const kiriKept* kept, kiriSheetData* to)
 {
     const kiriSheetData* from = kept->from;
-    int32_t most = from->contacts.count > from->touches.last.count ? from->contacts.count : from->touches.last.count;
+    const kiriTouches* touches = &from->touches;
+    int32_t remembered = touches->last.touches.count + touches->slept.touches.count;
+    int32_t most = from->contacts.count > remembered ? from->contacts.count : remembered;
     if (!kiriArray_Reserve(to->memory, &to->contacts, most) ||
         !kiriArray_Reserve(&to->shown, &to->touches.nextTold, most) || !kiriTouches_Room(to, most)) {
         return false;
@@ -108,7 +104,8 @@ static bool CopyContacts(const kiriKept* kept, kiriSheetData* to)
             to->contacts.data[to->contacts.count++] = given;
         }
     }
-    CopyTouches(kept, to);
+    CopyTouches(kept, &touches->last, &to->touches.last);
+    CopyTouches(kept, &touches->slept, &to->touches.slept);
     return true;
 }
 
@@ -193,6 +190,17 @@ static void CopyPinHistory(const kiriKept* kept, kiriSheetData* to)
     }
 }
 
+/* Of the one piece that it is. */
+static void CopyRest(const kiriKept* kept, kiriSheetData* to)
+{
+    for (int32_t i = 0; i < kept->from->frames.count; ++i) {
+        if (kiriKeep_To(&kept->frames, i) != KIRI_NONE) {
+            to->layout.pieces.data[0].rest = kiriSheet_PieceOf(kept->from, i)->rest;
+        }
+    }
+    kiriMotion_SumRest(to);
+}
+
 static bool BuildPart(const kiriKept* kept, kiriSheetData* to)
 {
     to->solver = kiriSolver_Create(to->memory, &to->settings.mechanics);
@@ -205,6 +213,7 @@ static bool BuildPart(const kiriKept* kept, kiriSheetData* to)
     CopyStrainOffsets(kept, to);
     CopyPinHistory(kept, to);
     kiriPins_SumShares(to);
+    CopyRest(kept, to);
     kiriView_WritePositions(to);
     return true;
 }

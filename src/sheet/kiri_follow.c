@@ -96,7 +96,7 @@ static void DropOffs(kiriSheetData* sheet)
     for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
         sheet->layout.pinShares.data[k].off = none;
     }
-    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+    KIRI_EACH(f, kiriSolver_Awake(sheet->solver)->frames) {
         sheet->frames.data[f].heldOff = none;
         sheet->frames.data[f].isOffKnown = false;
     }
@@ -109,17 +109,17 @@ void kiriFollow_Begin(kiriSheetData* sheet, double dt)
         return;
     }
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        if (sheet->pins.data[i].type == KIRI_PIN_POINT) {
+        if (kiriPins_IsAwakePoint(sheet, i)) {
             SettlePoint(sheet, i, dt);
         }
     }
     for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
         kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
-        if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
+        if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP && kiriSheet_Moves(sheet, pinned->share.frame)) {
             SettleClamp(sheet, pinned, dt);
         }
     }
-    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+    KIRI_EACH(f, kiriSolver_Awake(sheet->solver)->frames) {
         SettleFrame(sheet, f, dt);
     }
 }
@@ -160,15 +160,15 @@ static bool IsAnyPinMoved(const kiriSheetData* sheet)
     return any;
 }
 
-/* By the end of the step, `after` s after the start of the tick. Pins that hold points have the first rows, in their
-   order. */
+/* By the end of the step, `after` s after the start of the tick. Pins that hold points of what is awake have the first
+   rows, in their order. */
 static bool Yield(kiriSheetData* sheet, double after, double h)
 {
     bool any = false;
     int32_t row = 0;
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
         kiriPinAnchor* anchor = &sheet->pins.data[i].anchor;
-        if (sheet->pins.data[i].type != KIRI_PIN_POINT) {
+        if (!kiriPins_IsAwakePoint(sheet, i)) {
             continue;
         }
         if (anchor->most > 0.0) {
@@ -188,7 +188,7 @@ void kiriFollow_Step(kiriSheetData* sheet, int32_t i, int32_t n, double h)
     if (Yield(sheet, (i + 1) * h, h) || IsAnyPinMoved(sheet)) {
         kiriPins_WriteRows(sheet, (double)i / n, i + 1 == n ? 1.0 : (i + 1.0) / n);
     }
-    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+    KIRI_EACH(f, kiriSolver_Awake(sheet->solver)->frames) {
         if (sheet->frames.data[f].held) {
             MoveHeld(&sheet->frames.data[f], n - i);
         }

@@ -37,19 +37,17 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     return system;
 }
 
-static void PutToRest(kiriSheetData* sheet)
+static void PutToRest(kiriFrameData* frame)
 {
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        memset(&sheet->frames.data[i].velocity, 0, sizeof(kiriVec3));
-        memset(&sheet->frames.data[i].spin, 0, sizeof(kiriVec3));
-        memset(&sheet->frames.data[i].rate, 0, sizeof(kiriMat3));
-        memset(&sheet->frames.data[i].history, 0, sizeof(kiriHistory));
-    }
+    memset(&frame->velocity, 0, sizeof(kiriVec3));
+    memset(&frame->spin, 0, sizeof(kiriVec3));
+    memset(&frame->rate, 0, sizeof(kiriMat3));
+    memset(&frame->history, 0, sizeof(kiriHistory));
 }
 
 static void ClearForces(kiriSheetData* sheet)
 {
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH(i, kiriSolver_Awake(sheet->solver)->frames) {
         memset(&sheet->frames.data[i].force, 0, sizeof(kiriVec3));
         memset(&sheet->frames.data[i].torque, 0, sizeof(kiriVec3));
     }
@@ -57,42 +55,153 @@ static void ClearForces(kiriSheetData* sheet)
 
 /* ---- Sleep ---- */
 
+void kiriMotion_WakePiece(kiriSheetData* sheet, int32_t piece)
+{
+    kiriPiece* woken = &sheet->layout.pieces.data[piece];
+    if (!woken->isGone) {
+        woken->rest.asleep = sheet->rest.asleep = sheet->rest.isIdle = false;
+        woken->rest.calm = 0.0;
+    }
+}
+
+void kiriMotion_WakeFrame(kiriSheetData* sheet, int32_t frame)
+{
+    kiriMotion_WakePiece(sheet, sheet->layout.framePiece.data[frame]);
+}
+
+void kiriMotion_WakePin(kiriSheetData* sheet, int32_t pin)
+{
+    const kiriPinShares* shares = &sheet->layout.pinShares;
+    kiriMotion_WakeFrame(sheet, sheet->layout.pinFrame.data[pin]);
+    for (int32_t k = 0; k < shares->count; ++k) {
+        if (shares->data[k].pin == pin) {
+            kiriMotion_WakeFrame(sheet, shares->data[k].share.frame);
+        }
+    }
+}
+
 void kiriMotion_Wake(kiriSheetData* sheet)
 {
-    sheet->rest.asleep = sheet->rest.isIdle = false;
-    sheet->rest.calm = 0.0;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        kiriMotion_WakePiece(sheet, p);
+    }
 }
 
-static bool IsFading(const kiriSheetData* sheet)
+void kiriMotion_WakeStirred(kiriSheetData* sheet)
 {
-    return sheet->seen.fades.fading.count > 0 || sheet->seen.pointFades.fading.count > 0;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        if (sheet->layout.pieces.data[p].rest.isStirred) {
+            kiriMotion_WakePiece(sheet, p);
+        }
+    }
+    kiriMotion_LetRest(sheet);
 }
 
-/* Falls asleep before a tick, not after one, so that what is seen is where it came to rest. For a sheet that sleeps
-   nobody finds touches but the host: who moves other things wakes it. */
-static bool Sleeps(kiriSheetData* sheet)
+void kiriMotion_LetRest(kiriSheetData* sheet)
 {
-    if (sheet->rest.calm >= KIRI_CALM_SECONDS && kiriTouches_AreNew(sheet, KIRI_TOUCH_HOST)) {
-        kiriMotion_Wake(sheet);
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        sheet->layout.pieces.data[p].rest.isStirred = false;
     }
-    if (sheet->rest.calm >= KIRI_CALM_SECONDS && !IsFading(sheet) && !sheet->rest.asleep) {
-        PutToRest(sheet);
-        sheet->rest.asleep = true;
+    sheet->rest.isStirred = false;
+}
+
+void kiriMotion_SumRest(kiriSheetData* sheet)
+{
+    bool any = false;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        any = any || kiriPiece_IsAwake(&sheet->layout.pieces.data[p]);
     }
-    return sheet->rest.asleep;
+    sheet->rest.asleep = !any;
+    sheet->rest.isIdle = sheet->rest.isIdle && !any;
+}
+
+/* What is seen elsewhere than where it is moves on, and does not sleep. */
+static void MarkFading(kiriSheetData* sheet)
+{
+    const kiriFades *fades = &sheet->seen.fades, *pointFades = &sheet->seen.pointFades;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        sheet->layout.pieces.data[p].rest.isFading = false;
+    }
+    for (int32_t k = 0; k < fades->fading.count; ++k) {
+        int32_t piece = kiriPiece_OfVertex(sheet, fades->fading.data[k].sample);
+        sheet->layout.pieces.data[piece].rest.isFading = true;
+    }
+    for (int32_t k = 0; k < pointFades->fading.count; ++k) {
+        int32_t frame = sheet->points.data[pointFades->fading.data[k].sample].frame;
+        kiriSheet_PieceOf(sheet, frame)->rest.isFading = true;
+    }
+}
+
+/* Before a tick, not after one, so that what is seen is where it came to rest. */
+static void FallAsleep(kiriSheetData* sheet)
+{
+    bool any = false;
+    MarkFading(sheet);
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        kiriRest* rest = &sheet->layout.pieces.data[p].rest;
+        bool falls = !rest->asleep && rest->calm >= KIRI_CALM_SECONDS && !rest->isFading;
+        rest->asleep = rest->asleep || falls;
+        any = any || falls;
+    }
+    for (int32_t i = 0; any && i < sheet->frames.count; ++i) {
+        if (kiriSheet_PieceOf(sheet, i)->rest.asleep) {
+            PutToRest(&sheet->frames.data[i]);
+        }
+    }
+}
+
+/* For a piece that sleeps nobody finds touches but the host: who moves other things wakes it. */
+static void ChooseAwake(kiriSheetData* sheet, const kiriSystem* system)
+{
+    int32_t at = 0, piece;
+    while (kiriTouches_NextNew(sheet, &at, &piece)) {
+        kiriMotion_WakePiece(sheet, piece);
+    }
+    if (sheet->rest.asleep) {
+        return;
+    }
+    FallAsleep(sheet);
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        kiriSolver_SetAwake(sheet->solver, p, kiriPiece_IsAwake(&sheet->layout.pieces.data[p]));
+    }
+    if (kiriSolver_ListAwake(sheet->solver, system)) {
+        kiriTouches_Sort(sheet);
+        kiriMotion_SumRest(sheet);
+    }
 }
 
 /* The fastest frame counts, by the root mean square over its material. */
-static bool IsCalm(const kiriSheetData* sheet)
+static void CountCalm(kiriSheetData* sheet, double dt)
 {
+    const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
     double limit = 0.5 * sheet->settings.sleepSpeed * sheet->settings.sleepSpeed;
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        const kiriFrameData* frame = &sheet->frames.data[i];
-        if (!(kiriFrame_KineticEnergy(frame, &sheet->settings.material) < limit * frame->mass)) {
-            return false;
-        }
+    KIRI_EACH(p, awake->pieces) {
+        sheet->layout.pieces.data[p].rest.isCalm = true;
     }
-    return true;
+    KIRI_EACH(i, awake->frames) {
+        const kiriFrameData* frame = &sheet->frames.data[i];
+        bool isSlow = kiriFrame_KineticEnergy(frame, &sheet->settings.material) < limit * frame->mass;
+        kiriRest* rest = &kiriSheet_PieceOf(sheet, i)->rest;
+        rest->isCalm = rest->isCalm && isSlow;
+    }
+    KIRI_EACH(p, awake->pieces) {
+        kiriRest* rest = &sheet->layout.pieces.data[p].rest;
+        rest->calm = rest->isCalm ? rest->calm + dt : 0.0;
+    }
+}
+
+/* Where the motion could not be continued. */
+static void Stop(kiriSheetData* sheet)
+{
+    const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
+    KIRI_EACH(i, awake->frames) {
+        PutToRest(&sheet->frames.data[i]);
+    }
+    KIRI_EACH(p, awake->pieces) {
+        kiriMotion_WakePiece(sheet, p);
+    }
+    kiriPins_ClearReactions(sheet);
+    kiriTouches_Clear(sheet);
 }
 
 /* ---- Tick ---- */
@@ -123,6 +232,7 @@ static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system,
     return substeps > 0 ? KIRI_DONE : KIRI_MORE;
 }
 
+/* Pins and touches have rows by now: the system is made again. */
 static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
     kiriFollow_Begin(sheet, dt);
@@ -132,23 +242,23 @@ static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt
     kiriSystem system = MakeSystem(sheet, gravity);
     kiriProgress progress = TakeSubsteps(sheet, &system, dt, substeps, systems);
     if (progress == KIRI_FAILED) {
-        PutToRest(sheet);
-        kiriMotion_Wake(sheet);
-        kiriPins_ClearReactions(sheet);
-        kiriTouches_Clear(sheet);
+        Stop(sheet);
     } else if (progress == KIRI_DONE) {
         kiriPins_TakeReactions(sheet, dt);
         kiriTouches_End(sheet);
-        kiriStrainOffsets_Advance(&sheet->strainOffsets, dt, sheet->seen.fades.time);
+        kiriStrainOffsets_Advance(&sheet->strainOffsets, &kiriSolver_Awake(sheet->solver)->elements, dt,
+                                  sheet->seen.fades.time);
         kiriPins_FadeOffsets(sheet, dt, sheet->seen.fades.time);
-        sheet->rest.calm = IsCalm(sheet) ? sheet->rest.calm + dt : 0.0;
+        CountCalm(sheet, dt);
     }
     return progress;
 }
 
 kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
-    if (Sleeps(sheet)) {
+    kiriSystem system = MakeSystem(sheet, gravity);
+    ChooseAwake(sheet, &system);
+    if (sheet->rest.asleep) {
         kiriTouches_Tell(sheet, dt);
         return KIRI_DONE;
     }
@@ -160,7 +270,7 @@ kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt,
 
 int64_t kiriMotion_MostItems(const kiriSheetData* sheet, int32_t substeps)
 {
-    int64_t items = kiriSolver_SystemItems(sheet->solver, sheet->touches.found.count);
+    int64_t items = kiriSolver_MostItems(sheet->solver, sheet->touches.found.count);
     return substeps * (sheet->settings.iterations + KIRI_EXTRA_SYSTEMS) * items;
 }
 

@@ -6,10 +6,21 @@
 
 KIRI_C_BEGIN
 
-/* What makes a sheet move that rests calls this: it is awake, for half a second at least. */
+/* What makes pieces move that rest calls one of these: they are awake, for half a second at least. All pieces, one, that
+   of a frame, those that a pin holds. */
 void kiriMotion_Wake(kiriSheetData* sheet);
+void kiriMotion_WakePiece(kiriSheetData* sheet, int32_t piece);
+void kiriMotion_WakeFrame(kiriSheetData* sheet, int32_t frame);
+void kiriMotion_WakePin(kiriSheetData* sheet, int32_t pin);
 
-/* Moves the frames by dt in equal substeps, unless the sheet sleeps or falls asleep. Items of the quota are what
+/* Of the sheet, from its pieces. */
+void kiriMotion_SumRest(kiriSheetData* sheet);
+
+/* Pieces that are stirred wake, or sleep on; none is stirred any more. */
+void kiriMotion_WakeStirred(kiriSheetData* sheet);
+void kiriMotion_LetRest(kiriSheetData* sheet);
+
+/* Moves the frames by dt in equal substeps, but for those of pieces that sleep or fall asleep. Items of the quota are what
    linear systems count (kiriSolver_SystemItems). KIRI_MORE: there was none left, and the frames are where they were. KIRI_FAILED: the motion could not
    be continued, the frames rest where they were. Forces and contacts are used up. */
 kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems);

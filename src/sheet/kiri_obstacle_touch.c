@@ -1,6 +1,7 @@
 #include "kiri_obstacle_work.h"
 
 #include "../core/kiri_sort.h"
+#include "kiri_piece.h"
 
 /* So many patches a frame, about: its six unknowns need no more points, but for what bends within its reach. */
 #define PATCHES_A_FRAME 4.0
@@ -51,6 +52,9 @@ double kiriSheet_SpeedLimit(const kiriSheetData* sheet, const kiriBox* box)
     double fastest = 0.0;
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         const kiriFrameData* frame = &sheet->frames.data[i];
+        if (kiriSheet_PieceOf(sheet, i)->rest.asleep) {
+            continue;
+        }
         double turn = kiriVec3_Length(frame->spin) + kiriVec3_Length(frame->rate.u) + kiriVec3_Length(frame->rate.v);
         double speed = kiriVec3_Length(frame->velocity) + turn * Lever(frame, box);
         fastest = speed > fastest ? speed : fastest;
@@ -349,6 +353,26 @@ static int32_t PatchSide(const kiriSheetData* sheet, double square)
     return side < 2.0 ? 1 : side < 4096.0 ? (int32_t)side : 4096;
 }
 
+typedef struct NearBox {
+    const kiriObstacleData* obstacle;
+    double reach;
+} NearBox;
+
+static bool IsBoxWithin(const void* context, const kiriBox* box)
+{
+    const NearBox* near = context;
+    return kiriObstacle_IsNear(near->obstacle, box->lower, box->upper, near->reach);
+}
+
+bool kiriObstacleSearch_Near(kiriObstacleSearch* search, const kiriSheetData* sheet, const kiriObstacleData* obstacle,
+                             double reach)
+{
+    const NearBox near = { obstacle, reach };
+    search->triangles.count = 0;
+    return kiriBounds_Find(sheet->seen.bounds, &sheet->seen.surface, IsBoxWithin, &near, search->memory,
+                           &search->triangles);
+}
+
 bool kiriObstacleSearch_Reserve(kiriObstacleSearch* search, const kiriSheetData* sheet)
 {
     const kiriSquares* squares = &sheet->mesh.squares;
@@ -398,6 +422,19 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
     return meeting;
 }
 
+/* Of the triangles found, those of pieces that move, or shall wake. */
+static void DropSleepers(kiriObstacleSearch* search, const kiriSheetData* sheet)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < search->triangles.count; ++i) {
+        int32_t triangle = search->triangles.data[i];
+        if (kiriPiece_MayMove(&sheet->layout.pieces.data[kiriPiece_OfTriangle(sheet, triangle)])) {
+            search->triangles.data[kept++] = triangle;
+        }
+    }
+    search->triangles.count = kept;
+}
+
 bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle,
                             double speed, int32_t yield)
 {
@@ -407,6 +444,7 @@ bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, co
                                &search->triangles)) {
         return false;
     }
+    DropSleepers(search, sheet);
     return search->triangles.count == 0 ||
            (kiriMeeting_TouchVertices(&meeting) && kiriMeeting_TouchRounds(&meeting) &&
             (sheet->settings.mechanics.planar ? kiriMeeting_TouchCorners(&meeting) : kiriMeeting_TouchEdges(&meeting)));

@@ -51,7 +51,11 @@ double kiriReach_Of(double speed, kiriVec3 gravity, double dt);
 /* Makes room for this sheet, so that no search in it needs memory. */
 bool kiriObstacleSearch_Reserve(kiriObstacleSearch* search, const kiriSheetData* sheet);
 
-/* Adds touches of the sheet, whose bounds must be fresh; `yield` is the row of the obstacle's body. False for memory. */
+/* Finds the triangles whose box is within reach of that of the obstacle; bounds must be fresh. False for memory. */
+bool kiriObstacleSearch_Near(kiriObstacleSearch* search, const kiriSheetData* sheet, const kiriObstacleData* obstacle,
+                             double reach);
+
+/* Adds touches of the pieces that move, or shall wake, of the sheet, whose bounds must be fresh; `yield` is the row of the obstacle's body. False for memory. */
 bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle,
                             double speed, int32_t yield);
 

@@ -21,12 +21,6 @@ static bool JoinFrames(kiriSheetData* sheet)
     return true;
 }
 
-int32_t kiriPiece_OfVertex(const kiriSheetData* sheet, int32_t vertex)
-{
-    int32_t first = sheet->vertexSkin.spans.data[vertex].first;
-    return sheet->layout.framePiece.data[sheet->vertexSkin.weights.data[first].frame];
-}
-
 /* The old piece that the material of a frame was in: of a new one, that of a frame which moves it on the old
    surface. */
 static int32_t OriginOf(const kiriSheetData* sheet, int32_t frame)
@@ -73,7 +67,7 @@ bool kiriPieces_Stage(kiriSheetData* sheet)
     for (int32_t i = 0; i < u->placing.sites.count; ++i) {
         int32_t root = kiriUnion_Root(u->parent.data, i);
         if (root == i) {
-            kiriPiece piece = { 0.0, i, OriginOf(sheet, i), false, false };
+            kiriPiece piece = { .frame = i, .origin = OriginOf(sheet, i) };
             next->framePiece.data[i] = next->pieces.count;
             if (!kiriArray_Push(sheet->memory, &next->pieces, piece)) {
                 return false;
@@ -101,6 +95,118 @@ void kiriPieces_KeepGone(kiriSheetData* sheet, const kiriLayout* old)
         kiriPiece* piece = &sheet->layout.pieces.data[p];
         piece->isGone = piece->origin != KIRI_NONE && old->pieces.data[piece->origin].isGone;
     }
+}
+
+/* ---- Which a cut touches ---- */
+
+static kiriPiece* NextOfFrame(const kiriSheetData* sheet, int32_t frame)
+{
+    const kiriLayout* next = &sheet->update->next;
+    return &next->pieces.data[next->framePiece.data[frame]];
+}
+
+/* Is its region the same, and its site? Regions are dirty beside a cut, too. */
+static bool IsSameFrame(const kiriSheetData* sheet, int32_t i)
+{
+    const kiriUpdate* u = sheet->update;
+    const kiriFrameData* frame = &sheet->frames.data[i];
+    const kiriSite* site = &u->placing.sites.data[i];
+    kiriVec2 center = kiriMoments_Center(&u->material.data[i]);
+    kiriMoments about = kiriMoments_About(&u->material.data[i], center);
+    double density = (double)sheet->settings.material.density * sheet->settings.material.thickness;
+    return site->at.x == frame->site.at.x && site->at.y == frame->site.at.y && frame->center.x == center.x &&
+           frame->center.y == center.y && frame->area == u->material.data[i].area &&
+           frame->inertia[0] == density * about.uu && frame->inertia[1] == density * about.uv &&
+           frame->inertia[2] == density * about.vv;
+}
+
+static void TouchByFrames(kiriSheetData* sheet)
+{
+    for (int32_t i = 0; i < sheet->update->placing.sites.count; ++i) {
+        bool isNew = i >= sheet->frames.count;
+        if (isNew || (sheet->regions.dirty.data[i] && !IsSameFrame(sheet, i))) {
+            NextOfFrame(sheet, i)->isTouched = true;
+        }
+    }
+}
+
+static bool IsEarlierLink(const kiriLink* a, const kiriLink* b)
+{
+    return a->i != b->i ? a->i < b->i : a->j < b->j;
+}
+
+/* Links come in one order. */
+static void TouchByLinks(kiriSheetData* sheet)
+{
+    int32_t o = 0, n = 0, oldCount = sheet->links.links.count, nextCount = sheet->links.next.count;
+    while (o < oldCount || n < nextCount) {
+        const kiriLink *old = &sheet->links.links.data[o], *next = &sheet->links.next.data[n];
+        bool isGone = n == nextCount || (o < oldCount && IsEarlierLink(old, next));
+        bool isNew = !isGone && (o == oldCount || IsEarlierLink(next, old));
+        if (isGone || isNew || memcmp(old, next, sizeof(*old)) != 0) {
+            NextOfFrame(sheet, isGone ? old->i : next->i)->isTouched = true;
+            NextOfFrame(sheet, isGone ? old->j : next->j)->isTouched = true;
+        }
+        o += !isNew;
+        n += !isGone;
+    }
+}
+
+/* Samples beside a cut are weighed anew, too, and most come out as they were. */
+static void TouchBySamples(kiriSheetData* sheet, const kiriSkin* skin, int32_t oldCount)
+{
+    for (int32_t k = 0; k < skin->staged.count; ++k) {
+        const kiriReweighed* staged = &skin->staged.data[k];
+        const kiriSampleWeight* weights = &skin->weights.data[staged->span.first];
+        kiriPiece* piece = NextOfFrame(sheet, weights->frame);
+        bool isNew = staged->sample >= oldCount;
+        const kiriSpan* was = isNew ? NULL : &skin->spans.data[staged->sample];
+        piece->isTouched = piece->isTouched || isNew || was->count != staged->span.count ||
+                           memcmp(&skin->weights.data[was->first], weights, sizeof(*weights) * (size_t)was->count) != 0;
+    }
+}
+
+/* A piece is touched where a part of it is; and so are all of its parts. */
+static void TouchByOrigin(kiriSheetData* sheet)
+{
+    kiriLayout* next = &sheet->update->next;
+    for (int32_t p = 0; p < next->pieces.count; ++p) {
+        const kiriPiece* piece = &next->pieces.data[p];
+        if (piece->isTouched && piece->origin != KIRI_NONE) {
+            sheet->layout.pieces.data[piece->origin].rest.isStirred = true;
+        }
+    }
+    for (int32_t p = 0; p < next->pieces.count; ++p) {
+        kiriPiece* piece = &next->pieces.data[p];
+        bool isOfTouched = piece->origin != KIRI_NONE && sheet->layout.pieces.data[piece->origin].rest.isStirred;
+        piece->isTouched = piece->isTouched || isOfTouched;
+    }
+}
+
+void kiriPieces_FindTouched(kiriSheetData* sheet)
+{
+    kiriLayout* next = &sheet->update->next;
+    for (int32_t p = 0; p < next->pieces.count; ++p) {
+        next->pieces.data[p].isTouched = next->pieces.data[p].cameOff;
+    }
+    TouchByFrames(sheet);
+    TouchByLinks(sheet);
+    TouchBySamples(sheet, &sheet->vertexSkin, sheet->update->samples.oldVertices);
+    TouchBySamples(sheet, &sheet->pointSkin, sheet->points.count);
+    TouchByOrigin(sheet);
+}
+
+/* ---- Rest ---- */
+
+void kiriPieces_KeepRest(kiriSheetData* sheet, const kiriLayout* old)
+{
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        kiriPiece* piece = &sheet->layout.pieces.data[p];
+        if (piece->origin != KIRI_NONE && !piece->isTouched) {
+            piece->rest = old->pieces.data[piece->origin].rest;
+        }
+    }
+    kiriMotion_SumRest(sheet);
 }
 
 /* ---- Lists ---- */
@@ -230,6 +336,7 @@ kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece)
     state.vertices = vertices.count;
     state.triangles = kiriPiece_Span(&lists->triangles, piece).count;
     state.crumb = sheet->layout.pieces.data[piece].area < sheet->settings.crumbArea;
+    state.asleep = sheet->layout.pieces.data[piece].rest.asleep;
     state.collisionPoints = kiriPiece_Span(&lists->points, piece).count;
     return state;
 }

@@ -351,6 +351,12 @@ static kiriClampRow ClampRowOf(const kiriSheetData* sheet, const kiriPinShare* p
     return row;
 }
 
+/* Rows are those of pieces that are awake: what sleeps keeps what it was held with. */
+bool kiriPins_IsAwakePoint(const kiriSheetData* sheet, int32_t index)
+{
+    return sheet->pins.data[index].type == KIRI_PIN_POINT && kiriSheet_Moves(sheet, sheet->layout.pinFrame.data[index]);
+}
+
 /* A reaction at the start of a tick: only its history is left. */
 static kiriReaction BeginReaction(const kiriReaction* last)
 {
@@ -365,12 +371,15 @@ void kiriPins_BeginReactions(kiriSheetData* sheet)
     KIRI_ASSERT(sheet->frameReactions.capacity >= sheet->frames.count);
     sheet->pinReactions.count = sheet->clampReactions.count = 0;
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        if (sheet->pins.data[i].type == KIRI_PIN_POINT) {
+        if (kiriPins_IsAwakePoint(sheet, i)) {
             sheet->pinReactions.data[sheet->pinReactions.count++] = BeginReaction(&sheet->pins.data[i].reaction);
         }
     }
     for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
         const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+        if (!kiriSheet_Moves(sheet, pinned->share.frame)) {
+            continue;
+        }
         if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
             sheet->clampReactions.data[sheet->clampReactions.count++] = BeginReaction(&pinned->reactions[0]);
         } else {
@@ -379,7 +388,7 @@ void kiriPins_BeginReactions(kiriSheetData* sheet)
         }
     }
     sheet->frameReactions.count = sheet->frames.count;
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH(i, kiriSolver_Awake(sheet->solver)->frames) {
         sheet->frameReactions.data[i] = BeginReaction(&sheet->frames.data[i].reaction);
     }
     KIRI_ASSERT(sheet->pinReactions.count == sheet->pinRows.count &&
@@ -391,12 +400,15 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
     const kiriPinShares* shares = &sheet->layout.pinShares;
     sheet->pinRows.count = sheet->clampRows.count = 0;
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        if (sheet->pins.data[i].type == KIRI_PIN_POINT) {
+        if (kiriPins_IsAwakePoint(sheet, i)) {
             WritePoint(sheet, i, to);
         }
     }
     for (int32_t k = 0; k < shares->count; ++k) {
         const kiriPinShare* pinned = &shares->data[k];
+        if (!kiriSheet_Moves(sheet, pinned->share.frame)) {
+            continue;
+        }
         if (sheet->pins.data[pinned->pin].type == KIRI_PIN_HINGE) {
             WriteHinge(sheet, pinned, to);
         } else {
@@ -463,7 +475,8 @@ void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time)
 {
     double keep = time / (time + dt);
     for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-        for (int e = 0; e < KIRI_CLAMP_STRAINS; ++e) {
+        bool isAwake = kiriSheet_Moves(sheet, sheet->layout.pinShares.data[k].share.frame);
+        for (int e = 0; isAwake && e < KIRI_CLAMP_STRAINS; ++e) {
             double* offset = &sheet->layout.pinShares.data[k].offset[e];
             *offset = fabs(*offset) > 1e-12 ? keep * *offset : 0.0;
         }
@@ -506,8 +519,8 @@ static void TakePinReactions(kiriSheetData* sheet, double perTime)
     int32_t row = 0, clamp = 0;
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
         kiriPinData* pin = &sheet->pins.data[i];
-        memset(&pin->bore, 0, sizeof(pin->bore));
-        if (pin->type == KIRI_PIN_POINT) {
+        if (kiriPins_IsAwakePoint(sheet, i)) {
+            memset(&pin->bore, 0, sizeof(pin->bore));
             pin->reaction = sheet->pinReactions.data[row++];
             AddBorne(pin, &pin->reaction, pin->target, perTime, &pin->bore);
         }
@@ -515,6 +528,9 @@ static void TakePinReactions(kiriSheetData* sheet, double perTime)
     for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
         kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
         const kiriPinData* pin = &sheet->pins.data[pinned->pin];
+        if (!kiriSheet_Moves(sheet, pinned->share.frame)) {
+            continue;
+        }
         memset(&pinned->bore, 0, sizeof(pinned->bore));
         if (pin->type == KIRI_PIN_CLAMP) {
             kiriVec3 at = sheet->clampRows.data[clamp].pose.x;
@@ -547,7 +563,7 @@ void kiriPins_SumShares(kiriSheetData* sheet)
 void kiriPins_TakeReactions(kiriSheetData* sheet, double dt)
 {
     TakePinReactions(sheet, 1.0 / dt);
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH(i, kiriSolver_Awake(sheet->solver)->frames) {
         kiriFrameData* frame = &sheet->frames.data[i];
         frame->reaction = sheet->frameReactions.data[i];
         memset(&frame->bore, 0, sizeof(frame->bore));

@@ -42,7 +42,10 @@ void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin);
 /* Elastic energy between clamps and the sites of the frames that they hold, J. */
 double kiriPins_ElasticEnergy(const kiriSheetData* sheet);
 
-/* Writes what the solver reads. Pins that the host moves go on evenly within a tick: rows are those of a step from one part
+/* Is it a pin of a point whose piece is awake? Such pins have the first of the rows, in their order. */
+bool kiriPins_IsAwakePoint(const kiriSheetData* sheet, int32_t index);
+
+/* Writes what the solver reads of what is awake. Pins that the host moves go on evenly within a tick: rows are those of a step from one part
    of it, 0 to 1, to another. Reactions begin with a tick; after it they are what pins and held frames had to bear. */
 void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to);
 void kiriPins_BeginReactions(kiriSheetData* sheet);

@@ -1,5 +1,6 @@
 #include "kiri_remove.h"
 
+#include "kiri_motion.h"
 #include "kiri_pin.h"
 #include "kiri_stages.h"
 #include "kiri_touch.h"
@@ -47,7 +48,10 @@ static bool StagePieces(kiriRemoval* removal)
               kiriArray_Reserve(sheet->memory, &next->framePiece, layout->framePiece.count);
     for (int32_t p = 0; ok && p < layout->pieces.count; ++p) {
         const kiriPiece* was = &layout->pieces.data[p];
-        kiriPiece piece = { was->area, kiriKeep_To(&removal->kept.frames, was->frame), KIRI_NONE, false, false };
+        kiriPiece piece = { .area = was->area,
+                            .frame = kiriKeep_To(&removal->kept.frames, was->frame),
+                            .origin = KIRI_NONE,
+                            .rest = was->rest };
         kiriKeep_Add(&pieces, removal->kept.pieces.data[p] != 0);
         if (removal->kept.pieces.data[p]) {
             next->pieces.data[next->pieces.count++] = piece;
@@ -88,15 +92,17 @@ static bool StagePins(kiriRemoval* removal)
     return ok;
 }
 
-/* What each touch of the last tick pushed with. */
+/* What each touch that is remembered pushed with: of the last tick, and then of pieces that sleep. */
 static bool ListForces(kiriRemoval* removal)
 {
     const kiriTouches* touches = &removal->sheet->touches;
-    if (!kiriArray_Resize(&removal->kept.memory, &removal->forces, touches->last.count)) {
+    int32_t last = touches->last.touches.count, slept = touches->slept.touches.count;
+    if (!kiriArray_Resize(&removal->kept.memory, &removal->forces, (int64_t)last + slept)) {
         return false;
     }
-    for (int32_t i = 0; i < touches->last.count; ++i) {
-        removal->forces.data[i] = kiriTouches_ForceOf(removal->sheet, touches->last.data[i].key);
+    for (int32_t i = 0; i < last + slept; ++i) {
+        const kiriTouch* touch = i < last ? &touches->last.touches.data[i] : &touches->slept.touches.data[i - last];
+        removal->forces.data[i] = kiriTouches_ForceOf(removal->sheet, touch->key);
     }
     return true;
 }
@@ -162,22 +168,16 @@ static void KeepContacts(const kiriKept* kept, kiriSheetData* sheet)
 }
 
 /* Forces go by keys, and keys by indices: they are remembered anew. */
-static void KeepTouches(kiriRemoval* removal, kiriSheetData* sheet)
+static void KeepTouches(const kiriRemoval* removal, kiriTouchMemory* memory, const kiriVec3* forces)
 {
-    kiriTouches* touches = &sheet->touches;
-    int32_t left = 0;
-    sheet->touches.forces.count = 0;
-    for (int32_t i = 0; i < touches->last.count; ++i) {
-        kiriTouch touch = touches->last.data[i];
+    int32_t count = memory->touches.count;
+    memory->touches.count = memory->forces.count = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        kiriTouch touch = memory->touches.data[i];
         if (kiriKept_FollowTouch(&removal->kept, &touch)) {
-            kiriVec3 force = removal->forces.data[i];
-            touches->last.data[left++] = touch;
-            if (kiriVec3_Dot(force, force) > 0.0) {
-                kiriTouches_Remember(sheet, touch.key, force);
-            }
+            kiriTouchMemory_Add(memory, &touch, forces[i]);
         }
     }
-    touches->last.count = left;
 }
 
 /* What the sheet keeps of its pieces from tick to tick, beside fields and what is staged: state that is new belongs
@@ -193,7 +193,9 @@ static void KeepState(kiriRemoval* removal)
     kiriKeep_Compact(&kept->pins, &sheet->pins, 1, sizeof(kiriPinData));
     kiriKeep_Compact(&kept->links, &sheet->strainOffsets.strainOffsets, 1, sizeof(kiriStrainOffset));
     KeepContacts(kept, sheet);
-    KeepTouches(removal, sheet);
+    int32_t last = sheet->touches.last.touches.count;
+    KeepTouches(removal, &sheet->touches.last, removal->forces.data);
+    KeepTouches(removal, &sheet->touches.slept, removal->forces.data + last);
     kiriFades_Keep(&sheet->seen.fades, &kept->vertices);
     kiriFades_Keep(&sheet->seen.pointFades, &kept->points);
     u->samples.oldVertices = sheet->mesh.vertices.count;
@@ -232,6 +234,7 @@ static void CommitStaged(kiriRemoval* removal)
     sheet->update->next = layout;
     kiriPins_WriteLinkParts(sheet);
     kiriPins_SumShares(sheet);
+    kiriMotion_SumRest(sheet);
 }
 
 static void ReplaceFloats(void* array, void* fresh, kiriMemory* retired)

@@ -15,12 +15,28 @@
 
 KIRI_C_BEGIN
 
+/* s: a piece that is slower than sleepSpeed for so long falls asleep, and what goes no farther meanwhile does not wake
+   it. */
+#define KIRI_CALM_SECONDS 0.5
+
+/* A piece that hardly moves falls asleep. */
+typedef struct kiriRest {
+    double calm;    /* s for which it has been slower than sleepSpeed */
+    bool asleep;    /* it was not moved by the last tick, and rests */
+    bool isStirred; /* in the tick at hand something that moves comes near, or a cut changes it: it shall wake */
+    bool isFading;  /* scratch: some of it is seen elsewhere; */
+    bool isCalm;    /* scratch: it was slower than sleepSpeed in this tick */
+} kiriRest;
+
 typedef struct kiriPiece {
     double area;    /* m^2 */
     int32_t frame;  /* its lowest */
     int32_t origin; /* the piece of the layout before that it was a part of; KIRI_NONE in the first layout */
     bool cameOff;   /* it is not the largest part of its origin: that goes on, the others came off */
     bool isGone;    /* the host has destroyed it: it is not seen, and goes when the work at hand is done */
+    bool isTouched; /* its frames, links or samples are not those of its origin */
+    int32_t island; /* scratch: of pieces that touch, see kiri_pair.c */
+    kiriRest rest;
 } kiriPiece;
 
 /* What of a line belongs to one frame. Places on the line and lengths go from 0 to 1. */
@@ -167,17 +183,12 @@ typedef struct kiriSettings {
     bool eased;       /* weights of points have no kinks at sites */
 } kiriSettings;
 
-/* s: a sheet that is slower than sleepSpeed for so long falls asleep, and what goes no farther meanwhile does not wake
-   it. */
-#define KIRI_CALM_SECONDS 0.5
-
-/* A sheet that hardly moves falls asleep. */
-typedef struct kiriRest {
-    double calm;    /* s for which it has been slower than sleepSpeed */
-    bool asleep;    /* it was not moved by the last tick, and rests */
-    bool isStirred; /* in the tick at hand something that moves comes near: it shall wake */
-    bool isIdle;    /* it sleeps, and no tick has anything to do for it until it wakes, or gets a cut or contacts */
-} kiriRest;
+/* How all the pieces of a sheet rest. */
+typedef struct kiriSheetRest {
+    bool asleep;    /* none of them moves */
+    bool isStirred; /* one of them shall wake */
+    bool isIdle; /* they sleep, and no tick has anything to do for it until one wakes, or it gets a cut or contacts */
+} kiriSheetRest;
 
 /* Who finds touches: the highest four bits of their keys. */
 enum kiriTouchKind { KIRI_TOUCH_HOST = 1, KIRI_TOUCH_OBSTACLE = 2, KIRI_TOUCH_PAIR = 3 };
@@ -196,6 +207,7 @@ typedef struct kiriTouch {
     double friction, pushSpeed;
     int32_t yield;
     double felt, cushion;
+    int32_t row; /* its contact row; KIRI_NONE where its piece sleeps */
 } kiriTouch;
 
 /* With what a contact pushed when the sheet was moved last. */
@@ -204,13 +216,19 @@ typedef struct kiriTouchForce {
     kiriVec3 force; /* N, on the sheet */
 } kiriTouchForce;
 
+/* Touches, and what of them pushed, by key. */
+typedef struct kiriTouchMemory {
+    KIRI_ARRAY(kiriTouch) touches;
+    KIRI_ARRAY(kiriTouchForce) forces;
+} kiriTouchMemory;
+
 /* See kiri_touch.h. */
 typedef struct kiriTouches {
     KIRI_ARRAY(kiriTouch) found; /* in the tick at hand, */
     KIRI_ARRAY(kiriYieldRow) yields;
-    KIRI_ARRAY(kiriContactRow) rows;       /* and the row of each */
-    KIRI_ARRAY(kiriTouch) last;            /* those of the last tick that moved the sheet, */
-    KIRI_ARRAY(kiriTouchForce) forces;     /* and what of them pushed, by key */
+    KIRI_ARRAY(kiriContactRow) rows;       /* and the rows of those whose pieces are awake */
+    kiriTouchMemory last;                  /* of the last tick that moved the sheet */
+    kiriTouchMemory slept;                 /* of pieces that sleep: of the last tick that moved them */
     KIRI_ARRAY(int32_t) order;             /* scratch */
     KIRI_ARRAY(kiriContactForce) told;     /* what the host reads, of the contacts that it gave; */
     KIRI_ARRAY(kiriContactForce) nextTold; /* room for those of the next tick */
@@ -280,7 +298,7 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriLineShare) lineShares;                                  /* and what of it belongs to each frame */
 
     kiriTouches touches;
-    kiriRest rest;
+    kiriSheetRest rest;
     kiriSeen seen;
     kiriPieceLists lists;
     kiriProbes probes;
@@ -297,10 +315,40 @@ static inline kiriVec2 kiriSheet_ToLocal(const kiriSheetData* sheet, const float
     return kiriVec2_Make(rest[0] - sheet->mesh.origin.x, rest[1] - sheet->mesh.origin.y);
 }
 
+/* The piece of a frame. */
+static inline kiriPiece* kiriSheet_PieceOf(const kiriSheetData* sheet, int32_t frame)
+{
+    return &sheet->layout.pieces.data[sheet->layout.framePiece.data[frame]];
+}
+
+/* The piece of the material that a vertex belongs to: its frames are all of one. */
+static inline int32_t kiriPiece_OfVertex(const kiriSheetData* sheet, int32_t vertex)
+{
+    int32_t first = sheet->vertexSkin.spans.data[vertex].first;
+    return sheet->layout.framePiece.data[sheet->vertexSkin.weights.data[first].frame];
+}
+
 /* Has the host destroyed the piece of a frame? It stays, unseen, until the work at hand is done. */
 static inline bool kiriSheet_IsGone(const kiriSheetData* sheet, int32_t frame)
 {
-    return sheet->layout.pieces.data[sheet->layout.framePiece.data[frame]].isGone;
+    return kiriSheet_PieceOf(sheet, frame)->isGone;
+}
+
+/* Do ticks move it? */
+static inline bool kiriPiece_IsAwake(const kiriPiece* piece)
+{
+    return !piece->rest.asleep && !piece->isGone;
+}
+
+/* Or shall it wake in the tick at hand? */
+static inline bool kiriPiece_MayMove(const kiriPiece* piece)
+{
+    return kiriPiece_IsAwake(piece) || (piece->rest.isStirred && !piece->isGone);
+}
+
+static inline bool kiriSheet_Moves(const kiriSheetData* sheet, int32_t frame)
+{
+    return kiriPiece_IsAwake(kiriSheet_PieceOf(sheet, frame));
 }
 
 /* Do links go on with their strains when a cut changes them? */

@@ -23,20 +23,21 @@ static kiriVec3 WhereSeen(const kiriSheetData* sheet, const kiriTouch* touch)
 
 #define KIRI_FAR_BELOW 1e9 /* m */
 
-/* Is the point in a piece that the host has destroyed? */
-static bool IsGone(const kiriSheetData* sheet, const kiriTouch* touch)
+/* A cut may have come between the vertices of a touch: it is of the piece of the first. */
+static kiriPiece* PieceOfTouch(const kiriSheetData* sheet, const kiriTouch* touch)
 {
     if (touch->point != KIRI_NONE) {
-        return kiriSheet_IsGone(sheet, sheet->points.data[touch->point].frame);
+        return kiriSheet_PieceOf(sheet, sheet->points.data[touch->point].frame);
     }
     int32_t first = sheet->vertexSkin.spans.data[touch->vertex[0]].first;
-    return kiriSheet_IsGone(sheet, sheet->vertexSkin.weights.data[first].frame);
+    return kiriSheet_PieceOf(sheet, sheet->vertexSkin.weights.data[first].frame);
 }
 
 bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch)
 {
     kiriTouch found = *touch;
-    if (IsGone(sheet, touch)) {
+    found.row = KIRI_NONE;
+    if (PieceOfTouch(sheet, touch)->isGone) {
         found.offset -= KIRI_FAR_BELOW; /* the host is told of each of its contacts */
     }
     KIRI_ASSERT(touch->yield == KIRI_NONE || touch->yield < sheet->touches.yields.count);
@@ -122,15 +123,27 @@ bool kiriTouches_Begin(kiriSheetData* sheet)
     return ok;
 }
 
+static bool ReserveMemory(kiriSheetData* sheet, kiriTouchMemory* memory, int64_t count)
+{
+    return kiriArray_Reserve(sheet->memory, &memory->touches, count) &&
+           kiriArray_Reserve(sheet->memory, &memory->forces, count);
+}
+
+/* All may fall asleep, or wake, before the next touches are found. */
+static bool RoomToRemember(kiriSheetData* sheet, int64_t count)
+{
+    kiriTouches* touches = &sheet->touches;
+    int64_t all = count + touches->last.touches.count + touches->slept.touches.count;
+    return ReserveMemory(sheet, &touches->last, all) && ReserveMemory(sheet, &touches->slept, all) &&
+           kiriArray_Reserve(sheet->memory, &touches->order, all);
+}
+
 bool kiriTouches_Room(kiriSheetData* sheet, int64_t count)
 {
     kiriTouches* touches = &sheet->touches;
     return kiriArray_Reserve(sheet->memory, &touches->found, count) &&
            kiriArray_Reserve(sheet->memory, &touches->yields, count) &&
-           kiriArray_Reserve(sheet->memory, &touches->rows, count) &&
-           kiriArray_Reserve(sheet->memory, &touches->last, count) &&
-           kiriArray_Reserve(sheet->memory, &touches->forces, count) &&
-           kiriArray_Reserve(sheet->memory, &touches->order, count) &&
+           kiriArray_Reserve(sheet->memory, &touches->rows, count) && RoomToRemember(sheet, count) &&
            kiriSolver_ReserveContacts(sheet->solver, (int32_t)count);
 }
 
@@ -246,44 +259,64 @@ void kiriTouches_WriteRows(kiriSheetData* sheet)
 {
     kiriTouches* touches = &sheet->touches;
     KIRI_ASSERT(touches->rows.capacity >= touches->found.count);
-    touches->rows.count = touches->found.count;
+    touches->rows.count = 0;
     for (int32_t i = 0; i < touches->found.count; ++i) {
-        WriteContactRow(sheet, &touches->found.data[i], &touches->rows.data[i]);
+        kiriTouch* touch = &touches->found.data[i];
+        kiriContactRow* row = &touches->rows.data[touches->rows.count];
+        WriteContactRow(sheet, touch, row);
+        bool isAwake = kiriSheet_Moves(sheet, row->weights[0].frame);
+        touch->row = isAwake ? touches->rows.count : KIRI_NONE;
+        touches->rows.count += isAwake;
     }
 }
 
 /* ---- What is remembered -------------------------------------------------------------------------------------------- */
 
-static int32_t FindForce(const kiriSheetData* sheet, uint64_t key)
+/* The first that has this key or a larger one. */
+static int32_t FindForce(const kiriTouchMemory* memory, uint64_t key)
 {
-    int32_t low = 0, high = sheet->touches.forces.count;
+    int32_t low = 0, high = memory->forces.count;
     while (low < high) {
         int32_t middle = low + (high - low) / 2;
-        if (sheet->touches.forces.data[middle].key < key) {
+        if (memory->forces.data[middle].key < key) {
             low = middle + 1;
         } else {
             high = middle;
         }
     }
-    return low < sheet->touches.forces.count && sheet->touches.forces.data[low].key == key ? low : KIRI_NONE;
+    return low;
+}
+
+static bool HasForce(const kiriTouchMemory* memory, uint64_t key, kiriVec3* force)
+{
+    int32_t at = FindForce(memory, key);
+    bool found = at < memory->forces.count && memory->forces.data[at].key == key;
+    *force = found ? memory->forces.data[at].force : *force;
+    return found;
 }
 
 kiriVec3 kiriTouches_ForceOf(const kiriSheetData* sheet, uint64_t key)
 {
-    int32_t found = FindForce(sheet, key);
-    return found != KIRI_NONE ? sheet->touches.forces.data[found].force : kiriVec3_Make(0.0, 0.0, 0.0);
+    kiriVec3 force = { 0.0, 0.0, 0.0 };
+    if (!HasForce(&sheet->touches.last, key, &force)) {
+        HasForce(&sheet->touches.slept, key, &force);
+    }
+    return force;
 }
 
-void kiriTouches_Remember(kiriSheetData* sheet, uint64_t key, kiriVec3 force)
+void kiriTouchMemory_Add(kiriTouchMemory* memory, const kiriTouch* touch, kiriVec3 force)
 {
-    kiriTouches* touches = &sheet->touches;
-    int32_t at = touches->forces.count++;
-    KIRI_ASSERT(at < touches->forces.capacity);
-    for (; at > 0 && touches->forces.data[at - 1].key > key; --at) {
-        touches->forces.data[at] = touches->forces.data[at - 1];
+    KIRI_ASSERT(memory->touches.count < memory->touches.capacity);
+    memory->touches.data[memory->touches.count++] = *touch;
+    if (kiriVec3_Dot(force, force) > 0.0) {
+        int32_t at = memory->forces.count++;
+        KIRI_ASSERT(at < memory->forces.capacity);
+        for (; at > 0 && memory->forces.data[at - 1].key > touch->key; --at) {
+            memory->forces.data[at] = memory->forces.data[at - 1];
+        }
+        memory->forces.data[at].key = touch->key;
+        memory->forces.data[at].force = force;
     }
-    touches->forces.data[at].key = key;
-    touches->forces.data[at].force = force;
 }
 
 static bool IsRowBefore(const void* context, int32_t a, int32_t b)
@@ -295,7 +328,7 @@ static bool IsRowBefore(const void* context, int32_t a, int32_t b)
 
 static void SortForces(kiriTouches* touches)
 {
-    touches->order.count = touches->forces.count = 0;
+    touches->order.count = touches->last.forces.count = 0;
     for (int32_t i = 0; i < touches->rows.count; ++i) {
         if (kiriVec3_Dot(touches->rows.data[i].force, touches->rows.data[i].normal) > 0.0) {
             touches->order.data[touches->order.count++] = i;
@@ -305,7 +338,7 @@ static void SortForces(kiriTouches* touches)
     for (int32_t k = 0; k < touches->order.count; ++k) {
         const kiriContactRow* row = &touches->rows.data[touches->order.data[k]];
         kiriTouchForce force = { row->key, row->force };
-        touches->forces.data[touches->forces.count++] = force;
+        touches->last.forces.data[touches->last.forces.count++] = force;
     }
 }
 
@@ -313,15 +346,60 @@ void kiriTouches_End(kiriSheetData* sheet)
 {
     kiriTouches* touches = &sheet->touches;
     SortForces(touches);
-    if (touches->found.count > 0) {
-        memcpy(touches->last.data, touches->found.data, sizeof(kiriTouch) * (size_t)touches->found.count);
+    touches->last.touches.count = 0;
+    for (int32_t i = 0; i < touches->found.count; ++i) {
+        if (touches->found.data[i].row != KIRI_NONE) {
+            touches->last.touches.data[touches->last.touches.count++] = touches->found.data[i];
+        }
     }
-    touches->last.count = touches->found.count;
 }
 
 void kiriTouches_Clear(kiriSheetData* sheet)
 {
-    sheet->touches.forces.count = sheet->touches.last.count = sheet->touches.rows.count = 0;
+    sheet->touches.last.forces.count = sheet->touches.last.touches.count = 0;
+    sheet->touches.rows.count = 0;
+    for (int32_t i = 0; i < sheet->touches.found.count; ++i) {
+        sheet->touches.found.data[i].row = KIRI_NONE;
+    }
+}
+
+/* ---- Sleep --------------------------------------------------------------------------------------------------------- */
+
+/* Takes a force out of what is remembered; zero where there is none. */
+static kiriVec3 TakeForce(kiriTouchMemory* memory, uint64_t key)
+{
+    kiriVec3 force = { 0.0, 0.0, 0.0 };
+    if (HasForce(memory, key, &force)) {
+        int32_t at = FindForce(memory, key);
+        kiriTouchForce* gap = &memory->forces.data[at];
+        memory->forces.count -= 1;
+        memmove(gap, gap + 1, sizeof(*gap) * (size_t)(memory->forces.count - at));
+    }
+    return force;
+}
+
+/* Those of pieces that sleep, or of the others, go over; and those of pieces that are gone go. */
+static void MoveTouches(const kiriSheetData* sheet, kiriTouchMemory* from, kiriTouchMemory* to, bool areAsleep)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < from->touches.count; ++i) {
+        kiriTouch touch = from->touches.data[i];
+        const kiriPiece* piece = PieceOfTouch(sheet, &touch);
+        if (piece->isGone) {
+            TakeForce(from, touch.key);
+        } else if (piece->rest.asleep == areAsleep) {
+            kiriTouchMemory_Add(to, &touch, TakeForce(from, touch.key));
+        } else {
+            from->touches.data[kept++] = touch;
+        }
+    }
+    from->touches.count = kept;
+}
+
+void kiriTouches_Sort(kiriSheetData* sheet)
+{
+    MoveTouches(sheet, &sheet->touches.last, &sheet->touches.slept, true);
+    MoveTouches(sheet, &sheet->touches.slept, &sheet->touches.last, false);
 }
 
 /* Touches are found anew each tick, where a sheet that hardly moves is seen: a plane that passes the point as near as
@@ -335,30 +413,78 @@ static bool IsSame(const kiriSheetData* sheet, const kiriTouch* a, const kiriTou
            kiriVec3_Length(faster) <= sheet->settings.sleepSpeed;
 }
 
-/* Sheets that touch each other wake each other (kiri_pair.c): what they touch changes with their last bits. */
 static bool IsOfKind(const kiriTouch* touch, int32_t kind)
 {
-    return kind == 0 ? touch->key >> 60 != KIRI_TOUCH_PAIR : touch->key >> 60 == (uint64_t)kind;
+    return touch->key >> 60 == (uint64_t)kind;
 }
 
-bool kiriTouches_AreNew(const kiriSheetData* sheet, int32_t kind)
+/* Of all that are found, then of those of the last tick, then of those of pieces that sleep. */
+static const kiriTouch* TouchAt(const kiriTouches* touches, int32_t i)
 {
-    const kiriTouches* touches = &sheet->touches;
-    int32_t k = 0;
-    for (int32_t i = 0; i < touches->found.count; ++i) {
-        if (IsOfKind(&touches->found.data[i], kind)) {
-            while (k < touches->last.count && !IsOfKind(&touches->last.data[k], kind)) {
-                ++k;
-            }
-            if (k >= touches->last.count || !IsSame(sheet, &touches->last.data[k++], &touches->found.data[i])) {
-                return true;
-            }
+    int32_t last = i - touches->found.count, slept = last - touches->last.touches.count;
+    return last < 0    ? &touches->found.data[i]
+           : slept < 0 ? &touches->last.touches.data[last]
+                       : &touches->slept.touches.data[slept];
+}
+
+static bool HasLowerTouchKey(const void* context, int32_t a, int32_t b)
+{
+    uint64_t first = TouchAt(context, a)->key, second = TouchAt(context, b)->key;
+    return first < second || (first == second && a < b);
+}
+
+/* By key: the host's contacts of pieces that are calm, those found first. */
+static void ListCalm(kiriSheetData* sheet)
+{
+    kiriTouches* touches = &sheet->touches;
+    int32_t count = touches->found.count + touches->last.touches.count + touches->slept.touches.count;
+    touches->order.count = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        const kiriTouch* touch = TouchAt(touches, i);
+        if (IsOfKind(touch, KIRI_TOUCH_HOST) && PieceOfTouch(sheet, touch)->rest.calm >= KIRI_CALM_SECONDS) {
+            KIRI_ASSERT(touches->order.count < touches->order.capacity);
+            touches->order.data[touches->order.count++] = i;
         }
     }
-    while (k < touches->last.count && !IsOfKind(&touches->last.data[k], kind)) {
-        ++k;
+    if (touches->order.count > 1) {
+        kiriSort(touches->order.data, touches->order.count, HasLowerTouchKey, touches);
     }
-    return k < touches->last.count;
+}
+
+/* Has each of one key that was found its like among those remembered, in their order, and none is left? */
+static bool AreSame(const kiriSheetData* sheet, const int32_t* order, int32_t count)
+{
+    const kiriTouches* touches = &sheet->touches;
+    int32_t found = 0;
+    while (found < count && order[found] < touches->found.count) {
+        ++found;
+    }
+    bool same = 2 * found == count;
+    for (int32_t n = 0; same && n < found; ++n) {
+        same = IsSame(sheet, TouchAt(touches, order[found + n]), TouchAt(touches, order[n]));
+    }
+    return same;
+}
+
+bool kiriTouches_NextNew(kiriSheetData* sheet, int32_t* at, int32_t* piece)
+{
+    const kiriTouches* touches = &sheet->touches;
+    if (*at == 0) {
+        ListCalm(sheet);
+    }
+    const int32_t* order = touches->order.data;
+    while (*at < touches->order.count) {
+        int32_t first = *at;
+        uint64_t key = TouchAt(touches, order[first])->key;
+        while (*at < touches->order.count && TouchAt(touches, order[*at])->key == key) {
+            *at += 1;
+        }
+        if (!AreSame(sheet, order + first, *at - first)) {
+            *piece = (int32_t)(PieceOfTouch(sheet, TouchAt(touches, order[first])) - sheet->layout.pieces.data);
+            return true;
+        }
+    }
+    return false;
 }
 
 /* The key of a collision point has its index. */
@@ -390,8 +516,8 @@ static void TellOne(const kiriSheetData* sheet, int32_t i, double dt, kiriContac
     const kiriContact* contact = &sheet->contacts.data[i].contact;
     kiriVec3 at = touch->seen, impulse = kiriVec3_Scale(dt, kiriTouches_ForceOf(sheet, touch->key));
     kiriVec3 way = kiriVec3_Make(0.0, 0.0, 0.0);
-    if (i < sheet->touches.rows.count) {
-        const kiriContactRow* row = &sheet->touches.rows.data[i];
+    if (touch->row != KIRI_NONE) {
+        const kiriContactRow* row = &sheet->touches.rows.data[touch->row];
         kiriVec3 now = { 0.0, 0.0, 0.0 };
         for (int32_t n = 0; n < row->weightCount; ++n) {
             kiriVec3 x = kiriFrame_Carry(&sheet->frames.data[row->weights[n].frame], row->at);

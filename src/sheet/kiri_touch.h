@@ -28,27 +28,31 @@ bool kiriTouches_Room(kiriSheetData* sheet, int64_t count);
 /* When all are found: room for what comes of them. */
 bool kiriTouches_Reserve(kiriSheetData* sheet);
 
-/* After the commit: a row for each touch, in their order. */
+/* After the commit: a row for each touch of a piece that is awake, in their order. */
 void kiriTouches_WriteRows(kiriSheetData* sheet);
 
-/* Are they others than those by which the sheet was moved last? Only those of one kind count, or all (0). */
-bool kiriTouches_AreNew(const kiriSheetData* sheet, int32_t kind);
+/* The next calm piece of which the host's contacts are others than those by which it was moved last; false where there is
+   none. *at is 0 at first. A piece may come more than once. */
+bool kiriTouches_NextNew(kiriSheetData* sheet, int32_t* at, int32_t* piece);
+
+/* When other pieces are awake: what is remembered of them is there where it belongs. */
+void kiriTouches_Sort(kiriSheetData* sheet);
 
 /* After the sheet was moved: remembers what pushed. */
 void kiriTouches_End(kiriSheetData* sheet);
 
-/* What the host is told of its contacts; the contacts are gone then. `dt` s: of the tick. A sheet that sleeps pushes with
+/* What the host is told of its contacts; the contacts are gone then. `dt` s: of the tick. A piece that sleeps pushes with
    what it fell asleep with. */
 void kiriTouches_Tell(kiriSheetData* sheet, double dt);
 
-/* The motion could not be continued: nothing pushed. */
+/* The motion could not be continued: nothing that is awake pushed. */
 void kiriTouches_Clear(kiriSheetData* sheet);
 
-/* What the contact of that key pushed with when the sheet was moved last, N; zero where there was none. */
+/* What the contact of that key pushed with when its piece was moved last, N; zero where there was none. */
 kiriVec3 kiriTouches_ForceOf(const kiriSheetData* sheet, uint64_t key);
 
-/* Remembers a force, of a key that has none yet, in a sheet with room. */
-void kiriTouches_Remember(kiriSheetData* sheet, uint64_t key, kiriVec3 force);
+/* Remembers a touch, and its force unless that is zero. There is room. */
+void kiriTouchMemory_Add(kiriTouchMemory* memory, const kiriTouch* touch, kiriVec3 force);
 
 /* The same touch in a part of the sheet, whose collision points and vertices have these indices; false where it is of
    another part, or its finder alone knows it. */

@@ -60,7 +60,7 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
     kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frame)->owner;
     if (position == NULL) {
         if (data->held) {
-            kiriMotion_Wake(sheet);
+            kiriMotion_WakeFrame(sheet, kiriPool_Find(&world->frameIds, frame)->index);
         }
         data->held = 0;
         return KIRI_OK;
@@ -81,7 +81,7 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
     if (!before.held || !kiriVec3_Equal(before.goalPosition, data->goalPosition) ||
         !kiriVec3_Equal(before.goalRotation.u, data->goalRotation.u) ||
         !kiriVec3_Equal(before.goalRotation.v, data->goalRotation.v)) {
-        kiriMotion_Wake(sheet);
+        kiriMotion_WakeFrame(sheet, kiriPool_Find(&world->frameIds, frame)->index);
     }
     return KIRI_OK;
 }

@@ -1,12 +1,18 @@
 #include "kiri_call.h"
 #include "../sheet/kiri_load.h"
 #include "../sheet/kiri_motion.h"
+#include "../sheet/kiri_piece.h"
 
 /* A load of nothing wakes nobody. */
-static void WakeFor(kiriSheetData* sheet, const float load[3])
+static bool IsLoad(const float load[3])
 {
-    if (load[0] != 0.0f || load[1] != 0.0f || load[2] != 0.0f) {
-        kiriMotion_Wake(sheet);
+    return load[0] != 0.0f || load[1] != 0.0f || load[2] != 0.0f;
+}
+
+static void WakeFor(kiriSheetData* sheet, int32_t frame, const float force[3], const float torque[3])
+{
+    if (IsLoad(force) || IsLoad(torque)) {
+        kiriMotion_WakeFrame(sheet, frame);
     }
 }
 
@@ -16,11 +22,11 @@ kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float f
     KIRI_CHECK(force != NULL && torque != NULL && kiriCall_AreFinite(force, 3) && kiriCall_AreFinite(torque, 3),
                "force or torque is null or not finite");
     KIRI_FIND_FRAME_SHEET(sheet, frame);
-    kiriFrameData* data = &sheet->frames.data[kiriPool_Find(&world->frameIds, frame)->index];
+    int32_t index = kiriPool_Find(&world->frameIds, frame)->index;
+    kiriFrameData* data = &sheet->frames.data[index];
     data->force = kiriVec3_Add(data->force, kiriVec3_Load(force));
     data->torque = kiriVec3_Add(data->torque, kiriVec3_Load(torque));
-    WakeFor(sheet, force);
-    WakeFor(sheet, torque);
+    WakeFor(sheet, index, force, torque);
     return KIRI_OK;
 }
 
@@ -36,8 +42,7 @@ kiriResult kiriSheet_ApplyForce(kiriWorld* world, kiriSheet sheet, const float r
     int32_t frame = kiriSheet_ToLattice(data, restPoint, &at) ? kiriOwner_At(data, at) : KIRI_NONE;
     KIRI_CHECK(frame != KIRI_NONE, "restPoint lies outside the material");
     kiriLoad_AtPoint(data, frame, kiriMesh_Local(&data->mesh, at), kiriVec3_Load(force), kiriVec3_Load(torque));
-    WakeFor(data, force);
-    WakeFor(data, torque);
+    WakeFor(data, frame, force, torque);
     return KIRI_OK;
 }
 
@@ -55,7 +60,9 @@ kiriResult kiriSheet_ApplyLineLoad(kiriWorld* world, kiriSheet sheet, const floa
     }
     KIRI_CHECK(data->lineShares.count > 0, "the line meets no material");
     kiriLoad_AlongLine(data, ends[0], ends[1], kiriVec3_Load(forcePerLength));
-    WakeFor(data, forcePerLength);
+    for (int32_t k = 0; k < data->lineShares.count; ++k) {
+        WakeFor(data, data->lineShares.data[k].frame, forcePerLength, forcePerLength);
+    }
     return KIRI_OK;
 }
 
@@ -64,9 +71,10 @@ kiriResult kiriSheet_ApplyPressure(kiriWorld* world, kiriSheet sheet, float pres
     KIRI_CHANGES(world);
     KIRI_CHECK(kiriCall_AreFinite(&pressure, 1), "pressure is not finite");
     KIRI_FIND_SHEET(data, sheet);
-    const float load[3] = { pressure, 0.0f, 0.0f };
     kiriLoad_OnSurface(data, pressure);
-    WakeFor(data, load);
+    if (pressure != 0.0f) {
+        kiriMotion_Wake(data);
+    }
     return KIRI_OK;
 }
 
@@ -81,7 +89,10 @@ kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float
     KIRI_CHECK(kiriSheet_ToLattice(data, restPoint, &at) && kiriPoint_Find(data, at, &place),
                "restPoint lies outside the material");
     kiriLoad_Impulse(data, &place, kiriVec3_Load(impulse));
-    WakeFor(data, impulse);
+    if (IsLoad(impulse)) {
+        int32_t vertex = data->mesh.triangles.data[place.triangle].vertex[0];
+        kiriMotion_WakePiece(data, kiriPiece_OfVertex(data, vertex));
+    }
     return KIRI_OK;
 }
 

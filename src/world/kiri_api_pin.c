@@ -34,7 +34,7 @@ static kiriResult AddNewPin(kiriWorld* world, kiriSheetData* data, const kiriPin
         *pin = kiriPool_Add(&world->pinIds, &world->memory, data, data->pins.count - 1);
         data->pins.data[data->pins.count - 1].id = *pin;
         kiriPins_ForgetHistory(data, data->pins.count - 1);
-        kiriMotion_Wake(data);
+        kiriMotion_WakePin(data, data->pins.count - 1);
     }
     return result;
 }
@@ -136,7 +136,7 @@ kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3
         data->target = kiriVec3_Load(target);
         kiriPinStep_Fasten(world, data);
         kiriPins_ForgetHistory(sheet, (int32_t)(data - sheet->pins.data));
-        kiriMotion_Wake(sheet);
+        kiriMotion_WakePin(sheet, (int32_t)(data - sheet->pins.data));
     }
     return KIRI_OK;
 }
@@ -158,7 +158,7 @@ kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float target[3],
     if (!kiriVec3_Equal(before.target, data->target) || !kiriVec3_Equal(before.rotation.u, data->rotation.u) ||
         !kiriVec3_Equal(before.rotation.v, data->rotation.v)) {
         kiriPins_ForgetHistory(sheet, (int32_t)(data - sheet->pins.data));
-        kiriMotion_Wake(sheet);
+        kiriMotion_WakePin(sheet, (int32_t)(data - sheet->pins.data));
     }
     return KIRI_OK;
 }
@@ -171,7 +171,7 @@ kiriResult kiriPin_SetBreakForce(kiriWorld* world, kiriPin pin, float breakForce
     kiriPinData* data = &sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index];
     if (data->breakForce != (double)breakForce) {
         data->breakForce = breakForce;
-        kiriMotion_Wake(sheet);
+        kiriMotion_WakePin(sheet, (int32_t)(data - sheet->pins.data));
     }
     return KIRI_OK;
 }

@@ -23,11 +23,14 @@ static bool ListMeets(kiriWorld* world, int32_t sheet)
     const kiriSheetData* data = world->sheets.data[sheet];
     const kiriObstacleData* last = NULL;
     bool ok = true;
+    const kiriTouchMemory* memories[] = { &data->touches.last, &data->touches.slept };
     for (int32_t i = 0; ok && i < data->touches.found.count; ++i) {
         ok = AddMeet(world, sheet, kiriObstacles_OwnerOf(world, data->touches.found.data[i].key), &last);
     }
-    for (int32_t i = 0; ok && i < data->touches.last.count; ++i) {
-        ok = AddMeet(world, sheet, kiriObstacles_OwnerOf(world, data->touches.last.data[i].key), &last);
+    for (int n = 0; n < 2; ++n) {
+        for (int32_t i = 0; ok && i < memories[n]->touches.count; ++i) {
+            ok = AddMeet(world, sheet, kiriObstacles_OwnerOf(world, memories[n]->touches.data[i].key), &last);
+        }
     }
     for (int32_t i = 0; ok && i < data->pins.count; ++i) {
         ok = AddMeet(world, sheet, kiriPinStep_Obstacle(world, &data->pins.data[i]), &last);

@@ -3,6 +3,7 @@
 #include "../sheet/kiri_motion.h"
 #include "../core/kiri_sort.h"
 #include "../sheet/kiri_obstacle_touch.h"
+#include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_touch.h"
 #include "../sheet/kiri_update.h"
 
@@ -43,12 +44,32 @@ static bool IsTouching(const kiriObstacleData* obstacle, const kiriSheetData* sh
            kiriObstacle_IsNear(obstacle, box.lower, box.upper, sheet->settings.contactThickness);
 }
 
+/* What of the sheet is within reach of an obstacle that is bound. False for memory. */
+static bool FindNear(kiriWorld* world, kiriSheetData* sheet, const kiriObstacleData* obstacle, double reach)
+{
+    world->obstacleSearch.memory = &world->memory;
+    return kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) &&
+           kiriObstacleSearch_Near(&world->obstacleSearch, sheet, obstacle, reach);
+}
+
+static void WakeNear(kiriWorld* world, kiriSheetData* sheet, const kiriObstacleData* obstacle)
+{
+    const kiriIndices* triangles = &world->obstacleSearch.triangles;
+    if (sheet->layout.pieces.count == 1 || !FindNear(world, sheet, obstacle, sheet->settings.contactThickness)) {
+        kiriMotion_Wake(sheet);
+        return;
+    }
+    for (int32_t i = 0; i < triangles->count; ++i) {
+        kiriMotion_WakePiece(sheet, kiriPiece_OfTriangle(sheet, triangles->data[i]));
+    }
+}
+
 static void WakeAround(kiriWorld* world, kiriObstacleData* obstacle)
 {
     kiriObstacle_Bound(obstacle, 0.0);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         if (IsTouching(obstacle, world->sheets.data[i])) {
-            kiriMotion_Wake(world->sheets.data[i]);
+            WakeNear(world, world->sheets.data[i], obstacle);
         }
     }
 }
@@ -171,16 +192,47 @@ static kiriObstacleData* NextNear(const kiriWorld* world, const kiriSheetData* s
     return NULL;
 }
 
-/* Something that moves comes near: a sheet that sleeps shall wake. */
-static bool IsStirred(const kiriWorld* world, const kiriSheetData* sheet, const Around* around, double dt, double least)
+static void Stir(kiriSheetData* sheet, int32_t piece)
 {
-    int32_t at = 0;
-    for (kiriObstacleData* obstacle; (obstacle = NextNear(world, sheet, around, &at)) != NULL;) {
-        if (IsMoving(obstacle, dt, least)) {
-            return true;
-        }
+    kiriRest* rest = &sheet->layout.pieces.data[piece].rest;
+    rest->isStirred = rest->isStirred || rest->asleep;
+    sheet->rest.isStirred = sheet->rest.isStirred || rest->asleep;
+}
+
+/* False for memory. */
+static bool StirNear(kiriWorld* world, kiriSheetData* sheet, const kiriObstacleData* obstacle, double reach)
+{
+    const kiriIndices* triangles = &world->obstacleSearch.triangles;
+    if (sheet->layout.pieces.count == 1) {
+        Stir(sheet, 0);
+        return true;
     }
-    return false;
+    bool ok = FindNear(world, sheet, obstacle, reach);
+    for (int32_t i = 0; ok && i < triangles->count; ++i) {
+        Stir(sheet, kiriPiece_OfTriangle(sheet, triangles->data[i]));
+    }
+    return ok;
+}
+
+/* Something that moves comes near: pieces that sleep shall wake. False for memory. */
+static bool StirSleepers(kiriWorld* world, kiriSheetData* sheet, const Around* around, double dt, double least)
+{
+    const Around still = { around->box, 0.0, kiriReach_Of(0.0, world->gravity, dt) + sheet->settings.contactThickness };
+    int32_t at = 0;
+    bool ok = true;
+    for (kiriObstacleData* obstacle; ok && (obstacle = NextNear(world, sheet, &still, &at)) != NULL;) {
+        ok = !IsMoving(obstacle, dt, least) || StirNear(world, sheet, obstacle, still.reach);
+    }
+    return ok;
+}
+
+static bool HasSleepers(const kiriSheetData* sheet)
+{
+    bool any = false;
+    for (int32_t p = 0; !any && p < sheet->layout.pieces.count; ++p) {
+        any = sheet->layout.pieces.data[p].rest.asleep;
+    }
+    return any;
 }
 
 static bool TouchAll(kiriWorld* world, kiriSheetData* sheet, const Around* around)
@@ -206,7 +258,7 @@ static bool IsAnyMoving(const kiriWorld* world, double dt, double least)
     return any;
 }
 
-/* A sheet that sleeps may wake when a cut takes effect. */
+/* Pieces that sleep may wake when a cut takes effect: these are stirred already. */
 static bool FindTouchesOf(kiriWorld* world, kiriSheetData* sheet, double dt, double least)
 {
     bool sleeps = sheet->rest.asleep && sheet->update->stage != KIRI_READY;
@@ -214,7 +266,9 @@ static bool FindTouchesOf(kiriWorld* world, kiriSheetData* sheet, double dt, dou
         return false;
     }
     Around around = MakeAround(world, sheet, dt);
-    sheet->rest.isStirred = sleeps && IsStirred(world, sheet, &around, dt, least);
+    if (HasSleepers(sheet) && !StirSleepers(world, sheet, &around, dt, least)) {
+        return false;
+    }
     return (sleeps && !sheet->rest.isStirred) || TouchAll(world, sheet, &around);
 }
 
@@ -247,8 +301,7 @@ void kiriObstacles_Begin(kiriWorld* world)
     }
     for (int32_t i = 0; world->obstacles.count > 0 && i < world->sheets.count; ++i) {
         if (world->sheets.data[i]->rest.isStirred) {
-            kiriMotion_Wake(world->sheets.data[i]);
-            world->sheets.data[i]->rest.isStirred = false;
+            kiriMotion_WakeStirred(world->sheets.data[i]);
         }
     }
 }
@@ -304,14 +357,17 @@ void kiriObstacles_TakeImpulses(const kiriWorld* world, const kiriSheetData* she
 {
     const Giving giving = { world, areMovable };
     const kiriTouches* touches = &sheet->touches;
-    for (int32_t i = 0; sheet->rest.asleep && i < touches->last.count; ++i) {
-        const kiriTouch* touch = &touches->last.data[i];
+    for (int32_t i = 0; i < touches->slept.touches.count; ++i) {
+        const kiriTouch* touch = &touches->slept.touches.data[i];
         kiriVec3 force = kiriTouches_ForceOf(sheet, touch->key);
         Give(&giving, touch->key, touch->normal, kiriVec3_Scale(dt, force), touch->seen);
     }
-    for (int32_t i = 0; !sheet->rest.asleep && i < touches->rows.count; ++i) {
-        const kiriContactRow* row = &touches->rows.data[i];
-        Give(&giving, row->key, row->normal, row->impulse, touches->found.data[i].seen);
+    for (int32_t i = 0; i < touches->found.count; ++i) {
+        const kiriTouch* touch = &touches->found.data[i];
+        if (touch->row != KIRI_NONE) {
+            const kiriContactRow* row = &touches->rows.data[touch->row];
+            Give(&giving, row->key, row->normal, row->impulse, touch->seen);
+        }
     }
 }
 

@@ -52,7 +52,7 @@ static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
         body.id = sheet->frames.data[sheet->layout.pieces.data[p].frame].id;
         body.box = sheet->probes.boxes.data[p];
         body.speed = sheet->probes.speeds.data[p];
-        body.asleep = sheet->rest.asleep;
+        body.asleep = !kiriPiece_IsAwake(&sheet->layout.pieces.data[p]);
         pairs->bodies.data[first + p] = body;
     }
     SumFrames(pairs, sheet, first);
@@ -80,10 +80,12 @@ static void AddWaking(Waking* waking, const kiriSheetData* sheet)
     double speed = FastestOf(sheet), thickness = sheet->settings.contactThickness;
     for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
         const kiriBox* box = &sheet->probes.boxes.data[p];
-        waking->box = waking->any ? waking->box : *box;
-        kiriBox_Add(&waking->box, box->lower);
-        kiriBox_Add(&waking->box, box->upper);
-        waking->any = true;
+        if (kiriPiece_IsAwake(&sheet->layout.pieces.data[p])) {
+            waking->box = waking->any ? waking->box : *box;
+            kiriBox_Add(&waking->box, box->lower);
+            kiriBox_Add(&waking->box, box->upper);
+            waking->any = true;
+        }
     }
     waking->speed = speed > waking->speed ? speed : waking->speed;
     waking->thickness = thickness > waking->thickness ? thickness : waking->thickness;
@@ -371,11 +373,17 @@ static bool LookAtAll(kiriWorld* world, double dt)
     return true;
 }
 
-/* Is the body there still, and does it sleep? */
-static bool IsPairAsleep(const kiriWorld* world, kiriFrame id)
+/* The piece of a body, where it is there still; else null. */
+static kiriPiece* PieceOfBody(const kiriWorld* world, kiriFrame id)
 {
     const kiriSlot* slot = kiriPool_Find(&world->frameIds, id);
-    return slot != NULL && ((const kiriSheetData*)slot->owner)->rest.asleep;
+    return slot != NULL ? kiriSheet_PieceOf(slot->owner, slot->index) : NULL;
+}
+
+static bool IsPairAsleep(const kiriWorld* world, kiriFrame id)
+{
+    const kiriPiece* piece = PieceOfBody(world, id);
+    return piece != NULL && piece->rest.asleep;
 }
 
 /* Pairs that sleep are not looked at, and stay. */
@@ -420,28 +428,28 @@ bool kiriPairs_Find(kiriWorld* world, double dt)
     kiriPairs* pairs = &world->pairs;
     Waking waking;
     pairs->nears.count = pairs->found.count = pairs->next.count = pairs->bodies.count = 0;
-    return kiriArray_Reserve(&world->memory, &pairs->islands, world->sheets.count) && FindWaking(world, &waking) &&
-           (!waking.any || (ListBodies(world, &waking, dt) && LookAtAll(world, dt))) && KeepSleeping(world) &&
-           SortFound(world) && kiriPairs_FindTouches(world, dt);
+    return FindWaking(world, &waking) && (!waking.any || (ListBodies(world, &waking, dt) && LookAtAll(world, dt))) &&
+           KeepSleeping(world) && SortFound(world) && kiriPairs_FindTouches(world, dt) &&
+           kiriArray_Reserve(&world->memory, &pairs->islands, 2 * (int64_t)pairs->next.count) &&
+           kiriArray_Reserve(&world->memory, &pairs->calms, 2 * (int64_t)pairs->next.count);
 }
 
 /* ---- Sleep ---- */
 
-static kiriSheetData* SheetOf(const kiriWorld* world, kiriFrame id)
+static void WakeBody(const kiriWorld* world, kiriFrame id)
 {
     const kiriSlot* slot = kiriPool_Find(&world->frameIds, id);
-    return slot != NULL ? slot->owner : NULL;
+    kiriMotion_WakeFrame(slot->owner, slot->index);
 }
 
 /* What touches something that is awake, or lay on something that is gone, wakes. */
 static void WakeTouching(kiriWorld* world, const kiriTouchingPairs* pairs)
 {
     for (int32_t i = 0; i < pairs->count; ++i) {
-        kiriSheetData* upper = SheetOf(world, pairs->data[i].upper);
-        kiriSheetData* lower = SheetOf(world, pairs->data[i].lower);
-        bool isUpperAsleep = upper != NULL && upper->rest.asleep, isLowerAsleep = lower != NULL && lower->rest.asleep;
-        if (pairs->data[i].touches && isUpperAsleep != isLowerAsleep) {
-            kiriMotion_Wake(isUpperAsleep ? upper : lower);
+        const kiriTouchingPair* pair = &pairs->data[i];
+        bool isUpperAsleep = IsPairAsleep(world, pair->upper), isLowerAsleep = IsPairAsleep(world, pair->lower);
+        if (pair->touches && isUpperAsleep != isLowerAsleep) {
+            WakeBody(world, isUpperAsleep ? pair->upper : pair->lower);
         }
     }
 }
@@ -455,32 +463,62 @@ void kiriPairs_Commit(kiriWorld* world)
     world->pairs.next = old;
 }
 
-void kiriPairs_JoinCalm(kiriWorld* world)
+typedef void IslandFn(kiriPairs* pairs, kiriPiece* upper, kiriPiece* lower);
+
+static void ForgetIslands(kiriPairs* pairs, kiriPiece* upper, kiriPiece* lower)
+{
+    (void)pairs;
+    upper->island = lower->island = KIRI_NONE;
+}
+
+static int32_t NewIsland(kiriPairs* pairs, const kiriPiece* piece)
+{
+    int32_t island = pairs->islands.count++;
+    KIRI_ASSERT(island < pairs->islands.capacity && island < pairs->calms.capacity);
+    pairs->islands.data[island] = island;
+    pairs->calms.data[island] = piece->rest.calm;
+    return island;
+}
+
+static void JoinIslands(kiriPairs* pairs, kiriPiece* upper, kiriPiece* lower)
+{
+    upper->island = upper->island == KIRI_NONE ? NewIsland(pairs, upper) : upper->island;
+    lower->island = lower->island == KIRI_NONE ? NewIsland(pairs, lower) : lower->island;
+    kiriUnion_Join(pairs->islands.data, upper->island, lower->island);
+}
+
+static void TakeLeastCalm(kiriPairs* pairs, kiriPiece* upper, kiriPiece* lower)
+{
+    double* least = &pairs->calms.data[kiriUnion_Root(pairs->islands.data, upper->island)];
+    *least = upper->rest.calm < *least ? upper->rest.calm : *least;
+    *least = lower->rest.calm < *least ? lower->rest.calm : *least;
+}
+
+static void GiveLeastCalm(kiriPairs* pairs, kiriPiece* upper, kiriPiece* lower)
+{
+    upper->rest.calm = lower->rest.calm = pairs->calms.data[kiriUnion_Root(pairs->islands.data, upper->island)];
+}
+
+/* For the two pieces of each pair that touches. */
+static void ForIslands(kiriWorld* world, IslandFn* visit)
 {
     kiriPairs* pairs = &world->pairs;
-    int32_t* parent = pairs->islands.data;
-    if (pairs->pairs.count == 0) {
-        return;
-    }
-    KIRI_ASSERT(pairs->islands.capacity >= world->sheets.count);
-    kiriUnion_Init(parent, world->sheets.count);
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        world->sheets.data[i]->probes.sheet = i;
-    }
     for (int32_t i = 0; i < pairs->pairs.count; ++i) {
-        const kiriSheetData* upper = SheetOf(world, pairs->pairs.data[i].upper);
-        const kiriSheetData* lower = SheetOf(world, pairs->pairs.data[i].lower);
-        if (pairs->pairs.data[i].touches && upper != NULL && lower != NULL) {
-            kiriUnion_Join(parent, upper->probes.sheet, lower->probes.sheet);
+        const kiriTouchingPair* pair = &pairs->pairs.data[i];
+        kiriPiece *upper = PieceOfBody(world, pair->upper), *lower = PieceOfBody(world, pair->lower);
+        if (pair->touches && upper != NULL && lower != NULL) {
+            visit(pairs, upper, lower);
         }
     }
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriRest *own = &world->sheets.data[i]->rest, *root = &world->sheets.data[kiriUnion_Root(parent, i)]->rest;
-        root->calm = own->calm < root->calm ? own->calm : root->calm;
-    }
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        world->sheets.data[i]->rest.calm = world->sheets.data[kiriUnion_Root(parent, i)]->rest.calm;
-    }
+}
+
+void kiriPairs_JoinCalm(kiriWorld* world)
+{
+    world->pairs.islands.count = 0;
+    ForIslands(world, ForgetIslands);
+    ForIslands(world, JoinIslands);
+    ForIslands(world, TakeLeastCalm);
+    ForIslands(world, GiveLeastCalm);
 }
 
 int32_t kiriPairs_CountAwake(const kiriWorld* world)

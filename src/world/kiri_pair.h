@@ -16,7 +16,7 @@ KIRI_C_BEGIN
    memory. */
 bool kiriPairs_Find(kiriWorld* world, double dt);
 
-/* What was found is in force from here on. Sheets that touch something that moves wake. */
+/* What was found is in force from here on. Pieces that touch something that moves wake. */
 void kiriPairs_Commit(kiriWorld* world);
 
 /* Gives the sheets that are upper ones what they touch. Between kiriTouches_Begin and kiriTouches_Reserve; false for
@@ -28,7 +28,7 @@ bool kiriPairs_AddTouches(kiriWorld* world, double dt);
 void kiriPairs_ApplyLoads(kiriWorld* world, double dt);
 void kiriPairs_TakeLoads(kiriWorld* world, double dt);
 
-/* After the sheets are moved: sheets that touch are as calm as the least calm of them, so that they fall asleep together. */
+/* After the sheets are moved: pieces that touch are as calm as the least calm of them, so that they fall asleep together. */
 void kiriPairs_JoinCalm(kiriWorld* world);
 
 /* Pairs that are in force and do not sleep. */

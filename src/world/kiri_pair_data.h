@@ -75,7 +75,8 @@ typedef struct kiriPairs {
     KIRI_ARRAY(kiriBody) bodies;
     kiriIndices order; /* of bodies, by the lower end of their box along x */
     KIRI_ARRAY(kiriNear) nears;
-    kiriIndices islands; /* of sheets that touch */
+    kiriIndices islands;      /* of pieces that touch, */
+    KIRI_ARRAY(double) calms; /* s: and the calm of the least calm one of each */
     KIRI_ARRAY(kiriPairTouch) touches;
     KIRI_ARRAY(kiriFeltPush) felt, nextFelt; /* by key */
 } kiriPairs;

@@ -19,6 +19,9 @@ void kiriPairs_ApplyLoads(kiriWorld* world, double dt)
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         for (int32_t f = 0; sheet->settings.touchesSheets && !sheet->rest.asleep && f < sheet->frames.count; ++f) {
             kiriFrameData* frame = &sheet->frames.data[f];
+            if (!kiriSheet_Moves(sheet, f)) {
+                continue;
+            }
             frame->force = kiriVec3_AddScaled(frame->force, 1.0 / dt, frame->load.force);
             frame->torque = kiriVec3_AddScaled(frame->torque, 1.0 / dt, frame->load.moment);
             memset(&frame->load, 0, sizeof(frame->load));
@@ -68,11 +71,12 @@ static kiriVec3 Feel(const kiriPairs* pairs, const kiriPairTouch* touch, double 
 {
     const kiriTouches* touches = &touch->upper.sheet->touches;
     kiriVec3 was = FeltForce(pairs, touch->key);
-    if (touch->touch >= touches->rows.count) {
+    int32_t row = touches->found.data[touch->touch].row;
+    if (row == KIRI_NONE) {
         return was; /* it was not moved */
     }
     double part = dt / (dt + FEELING);
-    kiriVec3 push = kiriVec3_Scale(1.0 / dt, touches->rows.data[touch->touch].impulse);
+    kiriVec3 push = kiriVec3_Scale(1.0 / dt, touches->rows.data[row].impulse);
     return kiriVec3_AddScaled(was, part, kiriVec3_Sub(push, was));
 }
 
@@ -115,7 +119,8 @@ static bool LiesOnPlane(const kiriSheetData* sheet, const kiriContactRow* row)
 
 static void FindSupport(kiriSheetData* sheet)
 {
-    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+    const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
+    KIRI_EACH(f, awake->frames) {
         memset(&sheet->frames.data[f].support, 0, sizeof(kiriVec3));
     }
     for (int32_t k = 0; k < sheet->touches.rows.count; ++k) {
@@ -123,7 +128,7 @@ static void FindSupport(kiriSheetData* sheet)
         kiriVec3* support = &sheet->frames.data[row->weights[0].frame].support;
         *support = LiesOnPlane(sheet, row) ? kiriVec3_Add(*support, row->normal) : *support;
     }
-    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+    KIRI_EACH(f, awake->frames) {
         sheet->frames.data[f].support = kiriVec3_Normalize(sheet->frames.data[f].support);
     }
 }
@@ -133,7 +138,7 @@ static void FindSupport(kiriSheetData* sheet)
 static void SettleFrames(kiriSheetData* sheet, double dt)
 {
     double slow = SLOW * sheet->settings.sleepSpeed, keep = SETTLED / (SETTLED + dt);
-    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+    KIRI_EACH(f, kiriSolver_Awake(sheet->solver)->frames) {
         kiriFrameData* frame = &sheet->frames.data[f];
         double energy = kiriFrame_KineticEnergy(frame, &sheet->settings.material);
         bool isCarried = kiriVec3_Dot(frame->support, frame->support) > 0.0;

@@ -1,10 +1,12 @@
 #include "kiri_part.h"
 
 #include "../sheet/kiri_extract.h"
+#include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_pin.h"
 #include "../sheet/kiri_remove.h"
 #include "../sheet/kiri_seen.h"
+#include "../sheet/kiri_touch.h"
 #include "../sheet/kiri_update.h"
 
 #include <string.h>
@@ -329,6 +331,8 @@ static void MarkRemoved(kiriWorld* world, const kiriRemoval* removal)
     for (int32_t p = 0; p < removal->kept.pieces.count; ++p) {
         sheet->layout.pieces.data[p].isGone = !removal->kept.pieces.data[p];
     }
+    kiriTouches_Sort(sheet); /* nothing that is gone pushes */
+    kiriMotion_SumRest(sheet);
     kiriView_HideGone(sheet);
 }
 

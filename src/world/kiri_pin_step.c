@@ -62,11 +62,12 @@ static void Clear(kiriPinAnchor* anchor)
     anchor->way = none;
 }
 
-/* A sheet that sleeps does not mind what moves less than it would itself before it woke. */
+/* A piece that sleeps does not mind what moves less than it would itself before it woke. */
 static bool IsTargetStill(const kiriSheetData* sheet, const kiriPinData* pin, kiriVec3 from, kiriVec3 to)
 {
     double least = KIRI_CALM_SECONDS * sheet->settings.sleepSpeed;
-    return sheet->rest.asleep && kiriVec3_Length(kiriVec3_Sub(from, pin->target)) <= least &&
+    return kiriSheet_PieceOf(sheet, sheet->layout.pinFrame.data[pin - sheet->pins.data])->rest.asleep &&
+           kiriVec3_Length(kiriVec3_Sub(from, pin->target)) <= least &&
            kiriVec3_Length(kiriVec3_Sub(to, pin->target)) <= least;
 }
 
@@ -86,7 +87,7 @@ static void BeginPin(const kiriWorld* world, kiriSheetData* sheet, int32_t index
         pin->lastTarget = from;
         pin->target = to;
         kiriPins_ForgetHistory(sheet, index);
-        kiriMotion_Wake(sheet);
+        kiriMotion_WakePin(sheet, index);
     }
     Soften(&pin->anchor, obstacle, from, CountPinsOn(world, sheet, obstacle));
 }

@@ -251,22 +251,35 @@ static void HashContacts(uint64_t* hash, const kiriSheetData* sheet)
 }
 
 /* Of the last tick that moved the sheet. */
-static void HashTouches(uint64_t* hash, const kiriTouches* touches)
+static void HashTouch(uint64_t* hash, const kiriTouch* touch)
 {
-    kiriHash_Int32(hash, touches->last.count);
-    for (int32_t i = 0; i < touches->last.count; ++i) {
-        const kiriTouch* touch = &touches->last.data[i];
-        kiriHash_Word(hash, touch->key);
-        HashVec3(hash, touch->normal);
-        HashVec3(hash, touch->velocity);
-        kiriHash_Double(hash, touch->offset);
-        kiriHash_Double(hash, touch->friction);
+    kiriHash_Word(hash, touch->key);
+    HashVec3(hash, touch->normal);
+    HashVec3(hash, touch->velocity);
+    kiriHash_Double(hash, touch->offset);
+    kiriHash_Double(hash, touch->friction);
+}
+
+static void HashTouchForces(uint64_t* hash, const kiriTouchMemory* memory)
+{
+    for (int32_t i = 0; i < memory->forces.count; ++i) {
+        kiriHash_Word(hash, memory->forces.data[i].key);
+        HashVec3(hash, memory->forces.data[i].force);
     }
-    kiriHash_Int32(hash, touches->forces.count);
-    for (int32_t i = 0; i < touches->forces.count; ++i) {
-        kiriHash_Word(hash, touches->forces.data[i].key);
-        HashVec3(hash, touches->forces.data[i].force);
+}
+
+static void HashTouches(uint64_t* hash, const kiriTouchMemory* last, const kiriTouchMemory* slept)
+{
+    kiriHash_Int32(hash, last->touches.count + slept->touches.count);
+    for (int32_t i = 0; i < last->touches.count; ++i) {
+        HashTouch(hash, &last->touches.data[i]);
     }
+    for (int32_t i = 0; i < slept->touches.count; ++i) {
+        HashTouch(hash, &slept->touches.data[i]);
+    }
+    kiriHash_Int32(hash, last->forces.count + slept->forces.count);
+    HashTouchForces(hash, last);
+    HashTouchForces(hash, slept);
 }
 
 /* How far the work on a cut has come. Which items of it are done follows from how many, for their order does. What is
@@ -390,9 +403,21 @@ static void HashFades(uint64_t* hash, const kiriFades* fades)
 static void HashRest(uint64_t* hash, const kiriSheetData* sheet)
 {
     kiriHash_Double(hash, sheet->settings.sleepSpeed);
-    kiriHash_Double(hash, sheet->rest.calm);
+    const kiriPiece* pieces = sheet->layout.pieces.data;
+    double least = pieces[0].rest.calm;
+    for (int32_t p = 1; p < sheet->layout.pieces.count; ++p) {
+        least = pieces[p].rest.calm < least ? pieces[p].rest.calm : least;
+    }
+    kiriHash_Double(hash, least);
     kiriHash_Int32(hash, sheet->rest.asleep);
-    HashTouches(hash, &sheet->touches);
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        if (pieces[p].rest.calm != least || pieces[p].rest.asleep != sheet->rest.asleep) {
+            kiriHash_Int32(hash, p);
+            kiriHash_Double(hash, pieces[p].rest.calm);
+            kiriHash_Int32(hash, pieces[p].rest.asleep);
+        }
+    }
+    HashTouches(hash, &sheet->touches.last, &sheet->touches.slept);
 }
 
 /* What it gave sheets and took from them in the last tick does not matter for the coming ones. */

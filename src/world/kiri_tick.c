@@ -65,16 +65,16 @@ static bool IsIdle(const kiriSheetData* sheet)
     const kiriTouches* touches = &sheet->touches;
     const kiriFades* fades = &sheet->seen.fades;
     return sheet->rest.asleep && sheet->cuts.count == 0 && sheet->queue.count == 0 && sheet->contacts.count == 0 &&
-           touches->last.count == 0 && touches->found.count == 0 && touches->told.count == 0 && !MayBeCarried(sheet) &&
-           sheet->leaving.count == 0 && !kiriPieces_AnyGone(sheet) && !sheet->seen.isElsewhere && fades->jump == 0.0 &&
-           fades->move == 0.0;
+           touches->last.touches.count == 0 && touches->slept.touches.count == 0 && touches->found.count == 0 &&
+           touches->told.count == 0 && !MayBeCarried(sheet) && sheet->leaving.count == 0 &&
+           !kiriPieces_AnyGone(sheet) && !sheet->seen.isElsewhere && fades->jump == 0.0 && fades->move == 0.0;
 }
 
 static void ListActive(kiriWorld* world)
 {
     world->active.count = 0;
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriRest* rest = &world->sheets.data[i]->rest;
+        kiriSheetRest* rest = &world->sheets.data[i]->rest;
         rest->isIdle = !rest->isStirred && (rest->isIdle || IsIdle(world->sheets.data[i]));
         if (!rest->isIdle) {
             world->active.data[world->active.count++] = i;
@@ -145,18 +145,30 @@ static void AbortAll(kiriWorld* world)
     for (int32_t k = 0; k < world->atWork.count; ++k) {
         kiriPipeline_Abort(world->sheets.data[world->atWork.data[k]]);
     }
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriMotion_LetRest(world->sheets.data[i]);
+    }
 }
 
 /* ---- Contact ---- */
 
+/* Pieces that a cut changes in this tick shall wake. */
+static void StirTouched(kiriSheetData* sheet)
+{
+    if (IsReady(sheet) && sheet->update->cut.meshChanged) {
+        kiriPieces_FindTouched(sheet);
+    }
+}
+
 /* Before anything is committed, so that a tick that is refused leaves all as it was: touches are found where the sheets
-   are seen. A sheet that sleeps asks nobody but the host. False for memory. */
+   are seen. A piece that sleeps asks nobody but the host. False for memory. */
 static bool FindTouches(kiriWorld* world, double dt)
 {
     bool ok = true;
     EnterStage(world, KIRI_STAGE_CONTACT);
     for (int32_t k = 0; ok && k < world->active.count; ++k) {
         ok = kiriTouches_Begin(kiriWorld_Active(world, k));
+        StirTouched(kiriWorld_Active(world, k));
     }
     ok = ok && kiriObstacles_FindTouches(world, dt);
     ok = ok && kiriPairs_AddTouches(world, dt);
@@ -218,7 +230,6 @@ static void CommitUpdate(kiriWorld* world, kiriSheetData* sheet)
 {
     int32_t oldFrames = sheet->frames.count;
     kiriStage_Commit(sheet);
-    kiriMotion_Wake(sheet);
     CountWork(&world->profile, sheet);
     for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
         bool isGone = kiriSheet_IsGone(sheet, i);

@@ -17,8 +17,8 @@ void kiriWorld_RemovePin(kiriWorld* world, kiriSheetData* sheet, int32_t index)
 {
     kiriPin pin = sheet->pins.data[index].id;
     kiriPins_ForgetHistory(sheet, index);
+    kiriMotion_WakePin(sheet, index);
     kiriPins_Remove(sheet, index);
-    kiriMotion_Wake(sheet);
     if (index < sheet->pins.count) {
         kiriPool_Find(&world->pinIds, sheet->pins.data[index].id)->index = index;
     }

@@ -1,0 +1,631 @@
+/* Pieces of a sheet that come to rest, sleep and wake, each for itself, through the public header alone. */
+#include "host.h"
+
+static const float dt = 1.0f / 60.0f;
+enum { HALF_SECOND = 30, STRIPS = 4 };
+
+static void Tick(Host* host)
+{
+    OK(Host_Tick(host, dt, 2));
+}
+
+static kiriPieceState PieceOf(const Host* host, kiriSheet sheet, int32_t piece)
+{
+    kiriPieceState state;
+    OK(kiriSheet_GetPiece(host->world, sheet, piece, &state));
+    return state;
+}
+
+/* One bit for each piece that is awake. */
+static uint32_t Awake(const Host* host, kiriSheet sheet)
+{
+    uint32_t bits = 0;
+    int32_t awake, pieces = Host_Counts(host, sheet).pieces;
+    for (int32_t p = 0; p < pieces; ++p) {
+        bits |= PieceOf(host, sheet, p).asleep ? 0u : 1u << p;
+    }
+    OK(kiriSheet_IsAwake(host->world, sheet, &awake));
+    assert_int_equal(awake, bits != 0);
+    return bits;
+}
+
+static void SleepAll(Host* host, kiriSheet sheet)
+{
+    for (int k = 0; k < 900 && Awake(host, sheet) != 0; ++k) {
+        Tick(host);
+    }
+    assert_int_equal(Awake(host, sheet), 0);
+}
+
+/* The index that the strip from u = strip / 4 on has now. */
+static int32_t StripAt(const Host* host, kiriSheet sheet, int strip)
+{
+    const float rest[2] = { ((float)strip + 0.55f) / STRIPS, 0.48f };
+    kiriPointState point;
+    int32_t piece;
+    OK(kiriSheet_GetPoint(host->world, sheet, rest, &point));
+    OK(kiriFrame_GetPiece(host->world, point.frame, &piece));
+    return piece;
+}
+
+static kiriFrame FrameAt(const Host* host, kiriSheet sheet, int strip)
+{
+    return Host_FrameOf(host, sheet, StripAt(host, sheet, strip));
+}
+
+static uint32_t Bit(const Host* host, kiriSheet sheet, int strip)
+{
+    return 1u << StripAt(host, sheet, strip);
+}
+
+static kiriSheetDef StripsDef(void)
+{
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = 16;
+    def.frameCount = 8;
+    def.maxFrames = 64;
+    def.collisionPoints = 24;
+    def.material.airDamping = 4.0f;
+    def.material.flexDamping = 0.02f;
+    return def;
+}
+
+/* A square in four strips, of two frames and more each, without gravity. */
+static kiriSheet AddStrips(Host* host, kiriSheetDef* def)
+{
+    static const float none[3] = { 0.0f, 0.0f, 0.0f };
+    OK(kiriWorld_SetGravity(host->world, none));
+    kiriSheet sheet = Host_AddRectangle(host, def, 1.0f, 1.0f, 16, 16);
+    for (int i = 1; i < STRIPS; ++i) {
+        float u = (float)i / STRIPS + 0.011f;
+        const float line[4] = { u, -0.1f, u, 1.1f };
+        Host_Cut(host, sheet, line, 2);
+    }
+    Tick(host);
+    assert_int_equal(Host_Counts(host, sheet).pieces, STRIPS);
+    return sheet;
+}
+
+static kiriSheet StartStrips(Host* host)
+{
+    kiriSheetDef def = StripsDef();
+    Host_Start(host);
+    return AddStrips(host, &def);
+}
+
+static void Throw(Host* host, kiriSheet sheet, int strip, float up)
+{
+    static const float none[3] = { 0.0f, 0.0f, 0.0f };
+    const float velocity[3] = { 0.0f, 0.0f, up };
+    OK(kiriFrame_SetPieceVelocity(host->world, FrameAt(host, sheet, strip), velocity, none));
+}
+
+/* ---- Falling asleep ---- */
+
+/* The faster a strip is thrown the later it sleeps. Until then it moves as where nothing sleeps, to the last bit; and then
+   no more. */
+static void TestOneByOne(void** state)
+{
+    (void)state;
+    static const float speeds[STRIPS] = { 0.0f, 1.0f, 0.01f, 0.1f };
+    static const int order[STRIPS] = { 0, 2, 3, 1 };
+    Host hosts[2];
+    kiriSheet sheets[2];
+    int asleepAt[STRIPS] = { 0 };
+    for (int h = 0; h < 2; ++h) {
+        kiriSheetDef def = StripsDef();
+        def.sleepSpeed = h == 0 ? def.sleepSpeed : 0.0f;
+        Host_Start(&hosts[h]);
+        sheets[h] = AddStrips(&hosts[h], &def);
+        for (int i = 0; i < STRIPS; ++i) {
+            Throw(&hosts[h], sheets[h], i, speeds[i]);
+        }
+    }
+    kiriPieceState rested[STRIPS];
+    for (int tick = 1; tick < 400; ++tick) {
+        Tick(&hosts[0]);
+        Tick(&hosts[1]);
+        for (int i = 0; i < STRIPS; ++i) {
+            kiriPieceState one = PieceOf(&hosts[0], sheets[0], StripAt(&hosts[0], sheets[0], i));
+            kiriPieceState other = PieceOf(&hosts[1], sheets[1], StripAt(&hosts[1], sheets[1], i));
+            assert_false(other.asleep);
+            if (one.asleep && asleepAt[i] == 0) {
+                asleepAt[i] = tick;
+                rested[i] = one;
+                assert_true(one.momentum[0] == 0.0 && one.momentum[1] == 0.0 && one.momentum[2] == 0.0);
+            }
+            assert_memory_equal(one.center, asleepAt[i] > 0 ? rested[i].center : other.center, sizeof(one.center));
+            assert_memory_equal(one.lower, asleepAt[i] > 0 ? rested[i].lower : other.lower, sizeof(one.lower));
+        }
+    }
+    assert_true(asleepAt[0] >= HALF_SECOND && asleepAt[1] > 0);
+    for (int i = 1; i < STRIPS; ++i) {
+        assert_true(asleepAt[order[i]] > asleepAt[order[i - 1]] + 10);
+    }
+    Host_Stop(&hosts[0]);
+    Host_Stop(&hosts[1]);
+}
+
+/* What sleeps takes nothing from the budget. */
+static void TestWork(void** state)
+{
+    (void)state;
+    kiriSheetDef def = StripsDef();
+    kiriProfile profile;
+    Host host;
+    def.gridResolution = 40;
+    def.frameCount = 200;
+    def.maxFrames = 400;
+    Host_Start(&host);
+    kiriSheet sheet = AddStrips(&host, &def);
+    Tick(&host);
+    OK(kiriWorld_GetProfile(host.world, &profile));
+    int32_t all = profile.solverIterations;
+    SleepAll(&host, sheet);
+    Throw(&host, sheet, 2, 0.1f);
+    Tick(&host);
+    OK(kiriWorld_GetProfile(host.world, &profile));
+    assert_true(profile.solverIterations > 0 && 2 * profile.solverIterations < all);
+    Host_Stop(&host);
+}
+
+/* ---- Waking ---- */
+
+typedef enum Call {
+    FORCE,
+    TORQUE,
+    POINT_FORCE,
+    IMPULSE,
+    VELOCITY,
+    HOLD,
+    PIN,
+    PIN_MOVES,
+    PIN_GOES,
+    CONTACT,
+    NO_FORCE,
+    LINE,
+    PRESSURE,
+    GRAVITY,
+    SETTINGS,
+    WAKE,
+    SHEET_VELOCITY,
+    CALLS
+} Call;
+
+/* To the third strip alone, up to NO_FORCE. */
+static void Perform(Host* host, kiriSheet sheet, Call call)
+{
+    static const float none[3] = { 0.0f, 0.0f, 0.0f }, some[3] = { 1e-4f, 0.0f, 1e-4f },
+                       eye[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    static const float at[2] = { 0.6f, 0.48f }, from[2] = { 0.1f, 0.5f }, to[2] = { 0.9f, 0.5f };
+    kiriFrame frame = FrameAt(host, sheet, 2);
+    kiriPointState point;
+    kiriSheetSettings settings;
+    OK(kiriSheet_GetPoint(host->world, sheet, at, &point));
+    kiriContact contact = {
+        .point = -1, .restPoint = { at[0], at[1] }, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 0.01f
+    };
+    switch (call) {
+    case FORCE:
+    case NO_FORCE:
+        OK(kiriFrame_ApplyForce(host->world, frame, call == FORCE ? some : none, none));
+        break;
+    case TORQUE:
+        OK(kiriFrame_ApplyForce(host->world, frame, none, some));
+        break;
+    case POINT_FORCE:
+        OK(kiriSheet_ApplyForce(host->world, sheet, at, some, none));
+        break;
+    case IMPULSE:
+        OK(kiriSheet_ApplyImpulse(host->world, sheet, at, some));
+        break;
+    case VELOCITY:
+        OK(kiriFrame_SetPieceVelocity(host->world, frame, some, none));
+        break;
+    case HOLD:
+        OK(kiriFrame_Hold(host->world, frame, point.position, eye));
+        break;
+    case CONTACT:
+        contact.offset += point.position[2];
+        OK(kiriSheet_SetContacts(host->world, sheet, &contact, 1));
+        break;
+    case LINE:
+        OK(kiriSheet_ApplyLineLoad(host->world, sheet, from, to, some));
+        break;
+    case PRESSURE:
+        OK(kiriSheet_ApplyPressure(host->world, sheet, 0.01f));
+        break;
+    case GRAVITY:
+        OK(kiriWorld_SetGravity(host->world, some));
+        break;
+    case SETTINGS:
+        OK(kiriSheet_GetSettings(host->world, sheet, &settings));
+        settings.friction *= 0.5f;
+        OK(kiriSheet_SetSettings(host->world, sheet, &settings));
+        break;
+    case SHEET_VELOCITY:
+        OK(kiriSheet_SetVelocity(host->world, sheet, some, none));
+        break;
+    default:
+        OK(kiriSheet_Wake(host->world, sheet));
+        break;
+    }
+}
+
+static kiriPin PinStrip(Host* host, kiriSheet sheet)
+{
+    static const float at[2] = { 0.6f, 0.48f };
+    kiriPinDef def;
+    kiriPin pin;
+    kiriPointState point;
+    kiriDefaultPinDef(&def);
+    OK(kiriSheet_GetPoint(host->world, sheet, at, &point));
+    memcpy(def.restPoint, at, sizeof(at));
+    memcpy(def.target, point.position, sizeof(def.target));
+    OK(kiriCreatePin(host->world, sheet, &def, &pin));
+    return pin;
+}
+
+static void PerformWithPin(Host* host, kiriSheet sheet, Call call)
+{
+    static const float elsewhere[3] = { 0.6f, 0.48f, 0.01f };
+    kiriPin pin = PinStrip(host, sheet);
+    if (call != PIN) {
+        SleepAll(host, sheet);
+        OK(call == PIN_MOVES ? kiriPin_SetTarget(host->world, pin, elsewhere) : kiriDestroyPin(host->world, pin));
+    }
+}
+
+/* What is new to a piece wakes it, and no other. */
+static void TestCallsWake(void** state)
+{
+    (void)state;
+    for (int call = 0; call < CALLS; ++call) {
+        Host host;
+        kiriSheet sheet = StartStrips(&host);
+        SleepAll(&host, sheet);
+        if (call == PIN || call == PIN_MOVES || call == PIN_GOES) {
+            PerformWithPin(&host, sheet, (Call)call);
+        } else {
+            Perform(&host, sheet, (Call)call);
+        }
+        Tick(&host);
+        uint32_t expected = call < NO_FORCE ? Bit(&host, sheet, 2) : call == NO_FORCE ? 0 : 15;
+        if (Awake(&host, sheet) != expected) {
+            fail_msg("call %d: %x are awake", call, Awake(&host, sheet));
+        }
+        Host_Stop(&host);
+    }
+}
+
+/* Contacts that a piece fell asleep with leave it asleep, whatever others get. */
+static void TestContactsOfOthers(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheet sheet = StartStrips(&host);
+    kiriContact contacts[2] = { { .point = -1, .restPoint = { 0.1f, 0.5f }, .normal = { 0, 0, 1 }, .offset = -0.5f },
+                                { .point = -1, .restPoint = { 0.6f, 0.5f }, .normal = { 0, 0, 1 }, .offset = -0.5f } };
+    for (int k = 0; k < 60; ++k) {
+        OK(kiriSheet_SetContacts(host.world, sheet, contacts, 2));
+        Tick(&host);
+    }
+    assert_int_equal(Awake(&host, sheet), 0);
+    for (int k = 0; k < 5; ++k) {
+        contacts[1].offset -= 0.1f;
+        OK(kiriSheet_SetContacts(host.world, sheet, contacts, 2));
+        Tick(&host);
+        assert_int_equal(Awake(&host, sheet), Bit(&host, sheet, 2));
+    }
+    OK(kiriSheet_SetContacts(host.world, sheet, contacts + 1, 1)); /* the first one's is gone */
+    Tick(&host);
+    assert_int_equal(Awake(&host, sheet), Bit(&host, sheet, 2) | Bit(&host, sheet, 0));
+    Host_Stop(&host);
+}
+
+/* ---- Cuts ---- */
+
+/* A slit wakes the piece that it is in, and what cuts it in two both parts; the strips beside it share squares with it. */
+static void TestCutWakesItsPiece(void** state)
+{
+    (void)state;
+    static const float slit[4] = { 0.6f, 0.3f, 0.65f, 0.6f };
+    static const float loop[8] = { 0.6f, 0.7f, 0.7f, 0.7f, 0.65f, 0.9f, 0.6f, 0.7f };
+    Host host;
+    kiriSheet sheet = StartStrips(&host);
+    SleepAll(&host, sheet);
+    Host_Cut(&host, sheet, slit, 2);
+    assert_int_equal(Awake(&host, sheet), 0);
+    Tick(&host);
+    assert_int_equal(Awake(&host, sheet), Bit(&host, sheet, 2));
+    SleepAll(&host, sheet);
+    Host_Cut(&host, sheet, loop, 4);
+    Tick(&host);
+    assert_int_equal(Host_Counts(&host, sheet).pieces, STRIPS + 1);
+    assert_int_equal(__builtin_popcount(Awake(&host, sheet)), 2);
+    assert_true((Awake(&host, sheet) & Bit(&host, sheet, 2)) != 0);
+    Host_Stop(&host);
+}
+
+/* The same cuts with all made from scratch give the same bits, whoever sleeps. */
+static void TestScratch(void** state)
+{
+    (void)state;
+    Host hosts[2];
+    kiriSheet sheets[2];
+    for (int h = 0; h < 2; ++h) {
+        kiriSheetDef def = StripsDef();
+        def.paper.fromScratch = h;
+        Host_Start(&hosts[h]);
+        sheets[h] = AddStrips(&hosts[h], &def);
+    }
+    for (int cut = 0; cut < 8; ++cut) {
+        float u = 0.13f + 0.25f * (float)(cut % 4), v = 0.2f + 0.08f * (float)cut;
+        const float line[4] = { u - 0.06f, v, u + (cut == 5 ? 0.3f : 0.05f), v + 0.01f };
+        uint32_t seen = 0;
+        for (int h = 0; h < 2; ++h) {
+            Host_Cut(&hosts[h], sheets[h], line, 2);
+        }
+        for (int k = 0; k < 40; ++k) {
+            Tick(&hosts[0]);
+            Tick(&hosts[1]);
+            kiriMesh one = Host_Mesh(&hosts[0], sheets[0]), other = Host_Mesh(&hosts[1], sheets[1]);
+            assert_int_equal(one.vertexCount, other.vertexCount);
+            assert_memory_equal(one.positions, other.positions, 3 * sizeof(float) * (size_t)one.vertexCount);
+            assert_int_equal(Awake(&hosts[0], sheets[0]), Awake(&hosts[1], sheets[1]));
+            seen |= 1u << __builtin_popcount(Awake(&hosts[0], sheets[0]));
+        }
+        assert_true(cut == 0 || cut == 5 || (seen & 2) != 0); /* one alone was awake */
+    }
+    Host_Stop(&hosts[0]);
+    Host_Stop(&hosts[1]);
+}
+
+/* ---- Obstacles ---- */
+
+static kiriObstacle AddBall(Host* host, float u, float v, float z, float up)
+{
+    kiriObstacleDef def;
+    kiriObstacle ball;
+    kiriDefaultObstacleDef(&def);
+    def.type = KIRI_OBSTACLE_SPHERE;
+    def.radius = 0.03f;
+    def.position[0] = u;
+    def.position[1] = v;
+    def.position[2] = z;
+    def.velocity[2] = up;
+    OK(kiriCreateObstacle(host->world, &def, &ball));
+    return ball;
+}
+
+static void TestObstacleWakesWhatIsNear(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheet sheet = StartStrips(&host);
+    SleepAll(&host, sheet);
+    AddBall(&host, 0.37f, 0.5f, -0.2f, 0.3f);
+    uint32_t near = Bit(&host, sheet, 1);
+    int tick = 0;
+    for (; tick < 60 && Awake(&host, sheet) == 0; ++tick) {
+        Tick(&host);
+    }
+    assert_true(tick > 10 && tick < 60);
+    double height = PieceOf(&host, sheet, StripAt(&host, sheet, 1)).center[2];
+    for (int k = 0; k < 30; ++k) {
+        assert_int_equal(Awake(&host, sheet), near);
+        Tick(&host);
+    }
+    assert_true(PieceOf(&host, sheet, StripAt(&host, sheet, 1)).center[2] > height + 0.05);
+    Host_Stop(&host);
+}
+
+/* Away from under a piece, an obstacle wakes that. */
+static void TestObstacleGoes(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheet sheet = StartStrips(&host);
+    kiriObstacle ball = AddBall(&host, 0.37f, 0.5f, -0.032f, 0.0f);
+    SleepAll(&host, sheet);
+    OK(kiriDestroyObstacle(host.world, ball));
+    assert_int_equal(Awake(&host, sheet), Bit(&host, sheet, 1));
+    Host_Stop(&host);
+}
+
+/* Strips on a floor sleep while one is pushed about. All the while the floor bears the weight of all. */
+static void TestFloorBearsSleepers(void** state)
+{
+    (void)state;
+    static const float down[3] = { 0.0f, 0.0f, -9.81f };
+    Host host;
+    kiriSheetDef def = StripsDef();
+    kiriObstacleDef floorDef;
+    kiriObstacle floor;
+    kiriObstacleState felt;
+    def.position[2] = 0.001f;
+    Host_Start(&host);
+    kiriSheet sheet = AddStrips(&host, &def);
+    kiriDefaultObstacleDef(&floorDef);
+    floorDef.type = KIRI_OBSTACLE_PLANE;
+    OK(kiriCreateObstacle(host.world, &floorDef, &floor));
+    OK(kiriWorld_SetGravity(host.world, down));
+    double weight = 9.81 * Host_Totals(&host, sheet).mass;
+    for (int k = 0; k < 240; ++k) {
+        const float push[3] = { k % 2 == 0 ? 0.3f : -0.3f, 0.0f, 0.0f };
+        OK(kiriFrame_ApplyForce(host.world, FrameAt(&host, sheet, 2), push, (const float[3]){ 0.0f, 0.0f, 0.0f }));
+        Tick(&host);
+        OK(kiriObstacle_GetState(host.world, floor, &felt));
+        if (k > 120) {
+            assert_int_equal(Awake(&host, sheet), Bit(&host, sheet, 2));
+            assert_true(fabs(-felt.impulse[2] / (weight * (double)dt) - 1.0) < 0.02);
+        }
+    }
+    int32_t contacts = felt.contacts;
+    SleepAll(&host, sheet);
+    Tick(&host);
+    OK(kiriObstacle_GetState(host.world, floor, &felt));
+    assert_true(fabs(-felt.impulse[2] / (weight * (double)dt) - 1.0) < 0.02 && felt.contacts >= contacts / 2);
+    Host_Stop(&host);
+}
+
+/* ---- Pieces that touch ---- */
+
+/* The first strip is carried over the second, and laid down there. */
+static void TestPiecesThatTouch(void** state)
+{
+    (void)state;
+    static const float down[3] = { 0.0f, 0.0f, -9.81f }, none[3] = { 0.0f, 0.0f, 0.0f };
+    static const struct {
+        float velocity[3];
+        int ticks;
+    } ways[] = { { { 0.0f, 0.0f, 0.6f }, 6 }, { { 1.0f, 0.0f, 0.0f }, 15 }, { { 0.0f, 0.0f, 0.0f }, 1 } };
+    Host host;
+    kiriSheetDef def = StripsDef();
+    kiriObstacleDef floorDef;
+    kiriObstacle floor;
+    def.material.airDamping = 0.5f;
+    def.touchesSheets = 1;
+    def.contactThickness = 0.01f;
+    def.position[2] = 0.005f;
+    Host_Start(&host);
+    kiriSheet sheet = AddStrips(&host, &def);
+    kiriDefaultObstacleDef(&floorDef);
+    floorDef.type = KIRI_OBSTACLE_PLANE;
+    OK(kiriCreateObstacle(host.world, &floorDef, &floor));
+    for (size_t i = 0; i < sizeof(ways) / sizeof(ways[0]); ++i) {
+        for (int k = 0; k < ways[i].ticks; ++k) {
+            OK(kiriFrame_SetPieceVelocity(host.world, FrameAt(&host, sheet, 0), ways[i].velocity, none));
+            Tick(&host);
+        }
+    }
+    OK(kiriFrame_DestroyPiece(host.world, FrameAt(&host, sheet, 2))); /* so that the last one touches none */
+    OK(kiriWorld_SetGravity(host.world, down));
+    uint32_t both = Bit(&host, sheet, 0) | Bit(&host, sheet, 1), awake = 15;
+    int together = 0;
+    for (int k = 0; k < 900 && (awake & both) != 0; ++k) {
+        const float push[3] = { k % 2 == 0 ? 0.3f : -0.3f, 0.0f, 0.0f };
+        OK(kiriFrame_ApplyForce(host.world, FrameAt(&host, sheet, 3), push, none));
+        Tick(&host);
+        awake = Awake(&host, sheet);
+        together += (awake & both) == both;
+        assert_true((awake & both) == 0 || (awake & both) == both);
+    }
+    assert_true(together > HALF_SECOND && (awake & both) == 0 && awake == Bit(&host, sheet, 3));
+    double above = PieceOf(&host, sheet, StripAt(&host, sheet, 0)).center[2];
+    assert_true(above > 0.01 && above < 0.03);
+    /* What wakes one of them wakes the other. */
+    OK(kiriFrame_ApplyForce(host.world, FrameAt(&host, sheet, 1), (const float[3]){ 0.0f, 0.0f, 1e-3f }, none));
+    Tick(&host);
+    Tick(&host);
+    assert_int_equal(Awake(&host, sheet) & both, both);
+    Host_Stop(&host);
+}
+
+/* ---- Parts ---- */
+
+/* A piece that sleeps sleeps on as a sheet of its own, and so do those that are left. */
+static void TestDetachAsleep(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheet sheet = StartStrips(&host), part;
+    int32_t awake;
+    SleepAll(&host, sheet);
+    Throw(&host, sheet, 0, 0.5f);
+    OK(kiriFrame_DetachPiece(host.world, FrameAt(&host, sheet, 2), &part));
+    OK(kiriSheet_IsAwake(host.world, part, &awake));
+    assert_false(awake);
+    assert_int_equal(Awake(&host, sheet), Bit(&host, sheet, 0));
+    OK(kiriFrame_DestroyPiece(host.world, FrameAt(&host, sheet, 0)));
+    assert_int_equal(Awake(&host, sheet), 0);
+    Tick(&host);
+    Throw(&host, sheet, 1, 0.5f);
+    Tick(&host);
+    assert_int_equal(Awake(&host, sheet), Bit(&host, sheet, 1));
+    assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
+    Host_Stop(&host);
+}
+
+/* ---- Memory ---- */
+
+/* A tick that is refused leaves pieces as they slept. */
+static void TestRefused(void** state)
+{
+    (void)state;
+    static const float slit[4] = { 0.6f, 0.3f, 0.65f, 0.7f };
+    Host host;
+    kiriSheet sheet = StartStrips(&host);
+    SleepAll(&host, sheet);
+    AddBall(&host, 0.1f, 0.5f, -0.045f, 0.8f);
+    Throw(&host, sheet, 3, 0.2f);
+    Host_Cut(&host, sheet, slit, 2);
+    uint32_t before = Awake(&host, sheet);
+    uint64_t hash = Host_Hash(&host);
+    int refused = 0;
+    for (int64_t at = 0;; ++at) {
+        host.failAt = host.calls + at;
+        kiriResult result = Host_Tick(&host, dt, 2);
+        host.failAt = -1;
+        if (result == KIRI_OK) {
+            break;
+        }
+        assert_int_equal(result, KIRI_ERROR_MEMORY);
+        assert_int_equal(Awake(&host, sheet), before);
+        assert_true(Host_Hash(&host) == hash);
+        ++refused;
+    }
+    assert_true(refused > 3);
+    assert_int_equal(Awake(&host, sheet), Bit(&host, sheet, 3) | Bit(&host, sheet, 2) | Bit(&host, sheet, 0));
+    Host_Stop(&host);
+}
+
+/* Pieces that fall asleep and wake need no memory. */
+static void TestNoAllocation(void** state)
+{
+    (void)state;
+    static const float down[3] = { 0.0f, 0.0f, -9.81f };
+    Host host;
+    kiriSheetDef def = StripsDef();
+    kiriObstacleDef floorDef;
+    kiriObstacle floor;
+    def.position[2] = 0.001f;
+    Host_Start(&host);
+    kiriSheet sheet = AddStrips(&host, &def);
+    kiriDefaultObstacleDef(&floorDef);
+    floorDef.type = KIRI_OBSTACLE_PLANE;
+    OK(kiriCreateObstacle(host.world, &floorDef, &floor));
+    OK(kiriWorld_SetGravity(host.world, down));
+    for (int round = 0; round < 3; ++round) {
+        int64_t calls = host.calls;
+        for (int k = 0; k < 200; ++k) {
+            if (k % 50 == 0) {
+                Throw(&host, sheet, k / 50, 0.05f);
+            }
+            OK(kiriWorld_Tick(host.world, dt, 2));
+        }
+        assert_true(round < 2 || host.calls == calls);
+    }
+    Host_Stop(&host);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestOneByOne),
+        cmocka_unit_test(TestWork),
+        cmocka_unit_test(TestCallsWake),
+        cmocka_unit_test(TestContactsOfOthers),
+        cmocka_unit_test(TestCutWakesItsPiece),
+        cmocka_unit_test(TestScratch),
+        cmocka_unit_test(TestObstacleWakesWhatIsNear),
+        cmocka_unit_test(TestObstacleGoes),
+        cmocka_unit_test(TestFloorBearsSleepers),
+        cmocka_unit_test(TestPiecesThatTouch),
+        cmocka_unit_test(TestDetachAsleep),
+        cmocka_unit_test(TestRefused),
+        cmocka_unit_test(TestNoAllocation),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
