@@ -521,12 +521,19 @@ static void CheckMesh(const kiriSheetData* was, const kiriSheetData* is, const M
     }
 }
 
+/* The square of the sheet that is one of the part. */
+static int32_t SquareIn(const kiriSquares* whole, const kiriSquares* part, int32_t square)
+{
+    int32_t column = square % part->columns + part->firstColumn - whole->firstColumn;
+    return (square / part->columns + part->firstRow - whole->firstRow) * whole->columns + column;
+}
+
 /* Regions and weights, cell by cell. */
 static void CheckCells(const kiriSheetData* was, const kiriSheetData* is, const Maps* maps)
 {
     int32_t seen = 0;
     for (int32_t s = 0; s < is->grid.squareCell.count; ++s) {
-        int32_t a = was->grid.squareCell.data[s];
+        int32_t a = was->grid.squareCell.data[SquareIn(&was->mesh.squares, &is->mesh.squares, s)];
         for (int32_t b = is->grid.squareCell.data[s]; b != KIRI_NONE; b = is->grid.cells.data[b].next, ++seen) {
             while (maps->triangleTo[was->grid.cells.data[a].triangle] != is->grid.cells.data[b].triangle) {
                 a = was->grid.cells.data[a].next;
