@@ -2,6 +2,7 @@
 #include "host.h"
 
 #include "layout_hash.h"
+#include "sheet/kiri_remove.h"
 #include "sheet/kiri_update.h"
 
 enum { MOST_SHEETS = 64, MOST_PIECES = 600 };
@@ -296,6 +297,217 @@ static void TestLeftIsAsFromScratch(void** state)
     assert_true(parted > 30);
 }
 
+/* ---- What is seen ---- */
+
+static int32_t CountHidden(const kiriMesh* mesh)
+{
+    int32_t hidden = 0;
+    for (int32_t t = 0; t < mesh->triangleCount; ++t) {
+        const int32_t* corner = &mesh->indices[3 * t];
+        hidden += corner[0] == corner[1] && corner[1] == corner[2];
+    }
+    return hidden;
+}
+
+static bool IsHit(const Host* host, kiriSheet sheet, float u, float v)
+{
+    const float origin[3] = { u, v, 1.0f }, down[3] = { 0.0f, 0.0f, -1.0f };
+    kiriHit hit;
+    kiriResult result = kiriSheet_Raycast(host->world, sheet, origin, down, 10.0f, &hit);
+    OK(result < 0 ? result : KIRI_OK);
+    return result == KIRI_OK && hit.triangle >= 0;
+}
+
+/* ---- Holes ---- */
+
+/* Moves together what is left of a sheet. */
+static void Tidy(const Host* host, kiriSheetData* sheet)
+{
+    kiriRemoval removal;
+    assert_true(kiriRemoval_Init(&removal, sheet));
+    memset(removal.kept.pieces.data, 1, (size_t)removal.kept.pieces.count);
+    assert_true(kiriRemoval_Stage(&removal, false));
+    kiriRemoval_Commit(&removal, &host->world->retired);
+    kiriRemoval_Drop(&removal);
+    assert_true(sheet->mesh.vertexHoles == 0 && sheet->mesh.triangleHoles == 0);
+}
+
+/* All vertices that are there, in their order, are seen at the same places. */
+static void CompareVertices(const kiriSheetData* a, const kiriSheetData* b)
+{
+    int32_t other = 0;
+    for (int32_t v = 0; v < a->mesh.vertices.count; ++v) {
+        if (kiriMesh_IsVertex(&a->mesh, v)) {
+            assert_memory_equal(&a->seen.surface.positions.data[3 * v], &b->seen.surface.positions.data[3 * other],
+                                3 * sizeof(float));
+            ++other;
+        }
+    }
+    assert_int_equal(other, b->mesh.vertices.count);
+}
+
+static void CompareFrames(const kiriSheetData* a, const kiriSheetData* b)
+{
+    assert_int_equal(a->frames.count, b->frames.count);
+    for (int32_t f = 0; f < a->frames.count; ++f) {
+        assert_int_equal(a->frames.data[f].id, b->frames.data[f].id);
+        assert_memory_equal(&a->frames.data[f].x, &b->frames.data[f].x, sizeof(kiriVec3));
+        assert_memory_equal(&a->frames.data[f].velocity, &b->frames.data[f].velocity, sizeof(kiriVec3));
+        assert_memory_equal(&a->frames.data[f].A, &b->frames.data[f].A, sizeof(kiriMat3));
+    }
+}
+
+/* Detaches or destroys up to three pieces, none of them large, or drops crumbs. */
+static kiriResult PartSmallPieces(Host* host, kiriSheet sheet, uint32_t* seed)
+{
+    kiriFrame frames[3];
+    kiriSheet made[3];
+    int32_t count = 0, pieces = Host_Counts(host, sheet).pieces, first = (int32_t)(Random(seed) % 64), dropped;
+    for (int32_t i = 0; count < 3 && i < pieces; ++i) {
+        kiriPieceState piece;
+        OK(kiriSheet_GetPiece(host->world, sheet, (first + i) % pieces, &piece));
+        if (piece.frames > 0 && piece.area < 0.1 * Host_Totals(host, sheet).area) {
+            frames[count++] = Host_FrameOf(host, sheet, (first + i) % pieces);
+        }
+    }
+    switch (Random(seed) % 3) {
+    case 0:
+        return kiriWorld_DetachPieces(host->world, frames, count, made);
+    case 1:
+        return kiriWorld_DestroyPieces(host->world, frames, count);
+    default:
+        return kiriSheet_DropCrumbs(host->world, sheet, 0.002f, &dropped);
+    }
+}
+
+/* A large sheet keeps the indices of what is left, until half of it are holes. In the second world it moves together each
+   time: all goes on the same to the last bit. The world is validated after each tick. */
+static void TestHolesChangeNothing(void** state)
+{
+    (void)state;
+    int32_t holes = 0, tidied = 0;
+    for (uint32_t run = 1; run <= 2; ++run) {
+        Host hosts[2];
+        kiriSheet sheets[2];
+        uint32_t seeds[2] = { 83u * run, 83u * run };
+        for (int k = 0; k < 2; ++k) {
+            kiriSheetDef def = DefOf(20);
+            def.model = (int32_t)(run % 3);
+            Host_Start(&hosts[k]);
+            sheets[k] = Host_AddRectangle(&hosts[k], &def, 1.0f, 1.0f, 80, 80);
+        }
+        for (int tick = 0; tick < 60; ++tick) {
+            int32_t before = SheetAt(&hosts[0], 0)->mesh.vertexHoles;
+            for (int k = 0; k < 2; ++k) {
+                if (tick < 40) {
+                    CutAtRandom(&hosts[k], sheets[k], &seeds[k]);
+                }
+                assert_true(Host_Tick(&hosts[k], 1.0f / 60.0f, 1) >= 0);
+                if (tick % 3 == 2) {
+                    assert_true(PartSmallPieces(&hosts[k], sheets[k], &seeds[k]) >= 0);
+                    Host_Validate(&hosts[k]);
+                }
+            }
+            for (int32_t s = 0; s < hosts[1].world->sheets.count; ++s) {
+                kiriSheetData* twin = hosts[1].world->sheets.data[s];
+                if (twin->mesh.vertexHoles > 0) {
+                    Tidy(&hosts[1], twin);
+                    CompareVertices(SheetAt(&hosts[0], s), twin);
+                }
+                CompareFrames(SheetAt(&hosts[0], s), twin);
+            }
+            holes += SheetAt(&hosts[0], 0)->mesh.vertexHoles > before;
+            tidied += SheetAt(&hosts[0], 0)->mesh.vertexHoles < before;
+        }
+        assert_int_equal(hosts[0].world->sheets.count, hosts[1].world->sheets.count);
+        Host_Stop(&hosts[0]);
+        Host_Stop(&hosts[1]);
+    }
+    assert_true(holes > 5 && tidied > 0);
+}
+
+/* What the host sees of a hole: a triangle with three equal corners, in the range that is dirty; not hit. Arrays that it has
+   stay as they were. */
+static void TestHolesAreNotSeen(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetDef def = DefOf(24);
+    Host_Start(&host);
+    Weightless(&host);
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 70, 70), detached;
+    Host_Cut(&host, sheet, (float[]){ 0.7f, -0.1f, 0.7f, 0.3f, 1.1f, 0.3f }, 3);
+    Host_Cut(&host, sheet, (float[]){ 0.4f, -0.1f, 0.4f, 0.3f, -0.1f, 0.3f }, 3);
+    OK(Host_Tick(&host, 1.0f / 60.0f, 1));
+    kiriCounts counts = Host_Counts(&host, sheet);
+    kiriMesh before = Host_Mesh(&host, sheet);
+    int32_t* indices = malloc(sizeof(int32_t) * 3 * (size_t)before.triangleCount);
+    memcpy(indices, before.indices, sizeof(int32_t) * 3 * (size_t)before.triangleCount);
+    kiriPieceMesh piece;
+    kiriFrame gone = FrameNear(&host, sheet, 0.85f, 0.15f);
+    int32_t index;
+    OK(kiriFrame_GetPiece(host.world, gone, &index));
+    OK(kiriSheet_GetPieceMesh(host.world, sheet, index, &piece));
+    int32_t triangles = piece.triangleCount;
+    assert_true(IsHit(&host, sheet, 0.85f, 0.15f) && IsHit(&host, sheet, 0.2f, 0.15f));
+    OK(kiriFrame_DestroyPiece(host.world, gone));
+    Host_Validate(&host);
+    kiriMesh after = Host_Mesh(&host, sheet);
+    assert_memory_equal(indices, before.indices, sizeof(int32_t) * 3 * (size_t)before.triangleCount);
+    free(indices);
+    assert_int_equal(after.triangleCount, before.triangleCount);
+    assert_int_equal(after.vertexCount, before.vertexCount);
+    assert_int_equal(CountHidden(&after), triangles);
+    kiriDirty dirty;
+    OK(kiriSheet_GetDirty(host.world, sheet, before.revision, &dirty));
+    assert_true(after.revision > before.revision && dirty.oldTriangles.count >= triangles);
+    assert_true(dirty.newVertices.count == 0 && dirty.newTriangles.count == 0 && dirty.oldVertices.count == 0);
+    assert_true(!IsHit(&host, sheet, 0.85f, 0.15f) && IsHit(&host, sheet, 0.2f, 0.15f) &&
+                IsHit(&host, sheet, 0.55f, 0.15f));
+    assert_int_equal(Host_Counts(&host, sheet).pieces, counts.pieces - 1);
+    OK(kiriFrame_DetachPiece(host.world, FrameNear(&host, sheet, 0.2f, 0.15f), &detached));
+    assert_true(!IsHit(&host, sheet, 0.2f, 0.15f) && IsHit(&host, detached, 0.2f, 0.15f));
+    Host_Cut(&host, sheet, (float[]){ -0.2f, 0.15f, 1.2f, 0.16f }, 2);
+    OK(Host_Tick(&host, 1.0f / 60.0f, 1));
+    assert_int_equal(Host_Counts(&host, sheet).pieces, 2); /* from the border of a hole to that of another */
+    assert_int_equal(Host_Counts(&host, detached).pieces, 1);
+    Host_Stop(&host);
+}
+
+/* Whatever allocation fails, all is as before. */
+static void TestHolesWithoutMemory(void** state)
+{
+    (void)state;
+    for (int destroy = 0; destroy < 2; ++destroy) {
+        Host host;
+        kiriSheetDef def = DefOf(24);
+        Host_Start(&host);
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 70, 70), detached;
+        Host_Cut(&host, sheet, (float[]){ 0.7f, -0.1f, 0.7f, 0.3f, 1.1f, 0.3f }, 3);
+        OK(Host_Tick(&host, 1.0f / 60.0f, 1));
+        kiriFrame gone = FrameNear(&host, sheet, 0.85f, 0.15f);
+        uint64_t before = Host_Hash(&host);
+        int32_t failures = 0;
+        kiriResult result;
+        do {
+            host.failAt = host.calls + failures;
+            host.failOnce = true;
+            result = destroy ? kiriFrame_DestroyPiece(host.world, gone)
+                             : kiriFrame_DetachPiece(host.world, gone, &detached);
+            host.failAt = -1;
+            if (result != KIRI_OK) {
+                assert_int_equal(result, KIRI_ERROR_MEMORY);
+                assert_int_equal(Host_Hash(&host), before);
+                Host_Validate(&host);
+                failures += destroy ? 1 : 1 + failures / 16;
+            }
+        } while (result != KIRI_OK);
+        assert_true(failures > 10 && SheetAt(&host, 0)->mesh.vertexHoles > 0);
+        OK(Host_Tick(&host, 1.0f / 60.0f, 1));
+        Host_Stop(&host);
+    }
+}
+
 /* In whatever stage the work is. The world is validated after every tick. */
 static void TestUnderBudgets(void** state)
 {
@@ -418,25 +630,6 @@ static void TestWaitingChangesNothing(void** state)
     }
     Host_Stop(&hosts[0]);
     Host_Stop(&hosts[1]);
-}
-
-static int32_t CountHidden(const kiriMesh* mesh)
-{
-    int32_t hidden = 0;
-    for (int32_t t = 0; t < mesh->triangleCount; ++t) {
-        const int32_t* corner = &mesh->indices[3 * t];
-        hidden += corner[0] == corner[1] && corner[1] == corner[2];
-    }
-    return hidden;
-}
-
-static bool IsHit(const Host* host, kiriSheet sheet, float u, float v)
-{
-    const float origin[3] = { u, v, 1.0f }, down[3] = { 0.0f, 0.0f, -1.0f };
-    kiriHit hit;
-    kiriResult result = kiriSheet_Raycast(host->world, sheet, origin, down, 10.0f, &hit);
-    OK(result < 0 ? result : KIRI_OK);
-    return result == KIRI_OK && hit.triangle >= 0;
 }
 
 /* A piece that waits to go is not seen, not hit and not found, and nothing touches it. */
@@ -767,6 +960,9 @@ int main(void)
         cmocka_unit_test(TestOfSeveralSheets),
         cmocka_unit_test(TestSquaresOfAPart),
         cmocka_unit_test(TestLeftIsAsFromScratch),
+        cmocka_unit_test(TestHolesChangeNothing),
+        cmocka_unit_test(TestHolesAreNotSeen),
+        cmocka_unit_test(TestHolesWithoutMemory),
         cmocka_unit_test(TestUnderBudgets),
         cmocka_unit_test(TestWaitingChangesNothing),
         cmocka_unit_test(TestGoneIsGone),

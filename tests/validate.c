@@ -201,6 +201,7 @@ static bool Check_PiecesOfMesh(Check* check, const kiriSheetData* sheet)
 {
     const kiriMeshData* mesh = &sheet->mesh;
     int32_t pieces = mesh->triangles.count, *parent = Check_Unions(check, pieces);
+    pieces -= mesh->triangleHoles;
     check->part = "pieces";
     for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
         int32_t twin = kiriMesh_Twin(mesh, h);
@@ -211,9 +212,7 @@ static bool Check_PiecesOfMesh(Check* check, const kiriSheetData* sheet)
     REQUIRE(pieces == sheet->layout.pieces.count, "the mesh has %d pieces, the layout %d", pieces,
             sheet->layout.pieces.count);
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        const int32_t* vertex = mesh->triangles.data[Union_Root(parent, t)].vertex;
-        int32_t first = kiriPiece_OfVertex(sheet, vertex[0]);
-        REQUIRE(kiriPiece_OfVertex(sheet, mesh->triangles.data[t].vertex[0]) == first,
+        REQUIRE(kiriPiece_OfTriangle(sheet, t) == kiriPiece_OfTriangle(sheet, Union_Root(parent, t)),
                 "triangle %d is of another piece", t);
     }
     return true;
@@ -412,7 +411,10 @@ static bool Check_Skin(Check* check, const kiriSheetData* sheet, const kiriSkin*
         return false;
     }
     for (int32_t i = 0; i < count; ++i) {
-        if (!Rooms_Take(check, &rooms, skin->spans.data[i], i) || !Check_SampleWeights(check, sheet, skin, i)) {
+        bool isHole = skin == &sheet->vertexSkin && !kiriMesh_IsVertex(&sheet->mesh, i);
+        REQUIRE(!isHole || skin->spans.data[i].count == 0, "vertex %d is a hole, and has weights", i);
+        if (!isHole && (!Rooms_Take(check, &rooms, skin->spans.data[i], i) ||
+                        !Check_SampleWeights(check, sheet, skin, i))) {
             return false;
         }
     }
@@ -455,7 +457,8 @@ static bool Check_Parents(Check* check, const kiriSheetData* sheet)
 
 static bool Check_IsVertexGone(const kiriSheetData* sheet, int32_t vertex)
 {
-    return sheet->layout.pieces.data[kiriPiece_OfVertex(sheet, vertex)].isGone;
+    int32_t piece = kiriPiece_OfVertex(sheet, vertex);
+    return piece == KIRI_NONE || sheet->layout.pieces.data[piece].isGone;
 }
 
 static bool Check_Topology(Check* check, const kiriSheetData* sheet)
@@ -468,6 +471,11 @@ static bool Check_Topology(Check* check, const kiriSheetData* sheet)
     REQUIRE(surface->revision == mesh->revision, "revision %u of %u", surface->revision, mesh->revision);
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         const int32_t *is = mesh->triangles.data[t].vertex, unseen[3] = { is[0], is[0], is[0] };
+        const int32_t* seen = &surface->indices.data[3 * (size_t)t];
+        if (!kiriMesh_IsTriangle(mesh, t)) {
+            REQUIRE(seen[0] == seen[1] && seen[1] == seen[2], "triangle %d is a hole, and seen", t);
+            continue;
+        }
         REQUIRE(memcmp(&surface->indices.data[3 * (size_t)t], Check_IsVertexGone(sheet, is[0]) ? unseen : is,
                        3 * sizeof(int32_t)) == 0,
                 "triangle %d has other corners", t);

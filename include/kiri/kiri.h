@@ -668,16 +668,17 @@ KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, 
    the rest keeps the id, the new sheet's has one of its own (kiriSheet_GetPins). Both sheets have all settings (of
    collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself; a piece that
    sleeps goes on sleeping. Cuts stay with the rest: a blade in the piece cuts nothing until it is back. Indices of
-   vertices, triangles and collision points of the rest change (its revision grows). The new sheet has the squares of the
-   grid around it, at about 40 bytes a square: crumbs are better dropped. Costs a pass over the sheet's arrays, and what
-   the piece alone takes to
-   make.
+   collision points of the rest change. Its triangles and vertices keep their indices where it has more than 4096 vertices, and while no more
+   than half of them are of pieces that went: these triangles have three equal corners, these vertices are of no triangle.
+   Else all move together, and their indices change. In either case its revision grows, and kiriSheet_GetDirty says what
+   changed. The new sheet has the squares of the grid around it, at about 40 bytes a square: crumbs are better dropped.
+   Costs what the piece takes to make, and a look at the weights of what is left; where indices change more.
    KIRI_PENDING: work on a cut is at hand in the sheet; *detached is 0. When it is done, what is the piece of this frame
    then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. That counts as samples of the budget: until they are paid
    for, over several ticks if need be, further cuts of the sheet wait. KIRI_ERROR_STATE: nothing would be left of the sheet. */
 KIRI_API kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached);
 
-/* The same without keeping the piece: ids of its frames and pins are stale. Costs a pass over the sheet's arrays.
+/* The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but for making a sheet.
    KIRI_PENDING: work on a cut is at hand. The piece is gone all the same: its triangles are in kiriMesh, with three equal
    corners; it touches nothing; no point of it is found. When the work is done its vertices go, too; until then kiriCounts
    still counts it, and its kiriPieceState is all zeros. */

@@ -8,18 +8,6 @@ bool kiriKeep_Init(kiriKeep* keep, kiriMemory* memory, int32_t items)
     return kiriArray_Reserve(memory, &keep->to, items);
 }
 
-bool kiriKeep_InitNone(kiriKeep* keep, kiriMemory* memory, int32_t items)
-{
-    memset(keep, 0, sizeof(*keep));
-    if (!kiriArray_Resize(memory, &keep->to, items)) {
-        return false;
-    }
-    for (int32_t i = 0; i < items; ++i) {
-        keep->to.data[i] = KIRI_NONE;
-    }
-    return true;
-}
-
 void kiriKeep_Take(kiriKeep* keep, const int32_t* items, int32_t count)
 {
     KIRI_ASSERT(keep->count == 0 && keep->first == 0);
@@ -36,6 +24,14 @@ void kiriKeep_Drop(kiriKeep* keep, const int32_t* items, int32_t count)
         keep->to.data[items[k]] = KIRI_NONE;
     }
     keep->count = 0;
+}
+
+kiriKeep kiriKeep_LeaveHoles(const kiriKeep* gone)
+{
+    kiriKeep keep = *gone;
+    keep.count = gone->to.count - gone->count;
+    keep.leavesHoles = true;
+    return keep;
 }
 
 /* The end of the run of items, from `from` on, that are kept all, or none of them. */
@@ -65,7 +61,7 @@ static void MoveRuns(const kiriKeep* keep, unsigned char* to, const unsigned cha
 void kiriKeep_Compact(const kiriKeep* keep, void* array, int32_t each, size_t entryBytes)
 {
     kiriArrayHeader header = kiriArray_GetHeader(array);
-    if (header.count > 0) {
+    if (header.count > 0 && !keep->leavesHoles) {
         KIRI_ASSERT(header.count == each * keep->to.count);
         MoveRuns(keep, header.data, header.data, keep->first, (size_t)each * entryBytes);
         header.count = each * keep->count;

@@ -91,9 +91,11 @@ int64_t kiriMesh_DoubledArea(const kiriMeshData* mesh)
 {
     int64_t sum = 0;
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        kiriLatticePoint c[3];
-        kiriMesh_Corners(mesh, t, c);
-        sum += kiriOrient(c[0], c[1], c[2]);
+        if (kiriMesh_IsTriangle(mesh, t)) {
+            kiriLatticePoint c[3];
+            kiriMesh_Corners(mesh, t, c);
+            sum += kiriOrient(c[0], c[1], c[2]);
+        }
     }
     return sum;
 }

@@ -268,7 +268,9 @@ void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const ki
         bool isDivided = cell != KIRI_NONE && grid->cells.data[cell].next != KIRI_NONE;
         isDivided ? DropParts(ownership, triangles, &owners->parts) : FreeParts(ownership, &owners->parts);
     }
-    RenumberOwners(ownership, triangles, frames);
+    if (kiriKeep_Moves(triangles) || kiriKeep_Moves(frames)) {
+        RenumberOwners(ownership, triangles, frames);
+    }
     for (int32_t k = 0; k < count; ++k) {
         int32_t cell = grid->squareCell.data[of[k]];
         ownership->squares.data[of[k]].owner = cell == KIRI_NONE ? KIRI_NONE : regions->field.owner.data[cell];

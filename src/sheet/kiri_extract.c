@@ -2,7 +2,6 @@
 
 #include "kiri_build.h"
 #include "kiri_motion.h"
-#include "kiri_piece.h"
 #include "kiri_pin.h"
 #include "kiri_pipeline.h"
 #include "kiri_seen.h"
@@ -220,30 +219,25 @@ static bool BuildPart(const kiriKept* kept, kiriSheetData* to)
 
 /* ---- One piece after the other ---- */
 
-bool kiriExtraction_Init(kiriExtraction* extraction, const kiriKept* left)
+bool kiriExtraction_Init(kiriExtraction* extraction, const kiriGathered* gathered)
 {
-    const kiriSheetData* from = left->from;
-    kiriMemory* memory = &extraction->kept.memory;
     memset(extraction, 0, sizeof(*extraction));
-    return kiriKept_InitParts(&extraction->kept, from) &&
-           kiriPieceList_Make(&extraction->vertices, memory, from, from->mesh.vertices.count, kiriPiece_OfVertex,
-                              &left->vertices) &&
-           kiriPieceList_Make(&extraction->triangles, memory, from, from->mesh.triangles.count, kiriPiece_OfTriangle,
-                              &left->triangles);
+    extraction->gathered = gathered;
+    return kiriKept_InitParts(&extraction->kept, gathered->sheet);
 }
 
-static kiriIndices ItemsOfPiece(const kiriPieceList* list, int32_t piece)
+static kiriIndices ItemsOfSpan(const kiriIndices* items, kiriSpan span)
 {
-    kiriSpan span = kiriPiece_Span(list, piece);
-    return (kiriIndices){ list->items.data + span.first, span.count, span.count };
+    return (kiriIndices){ items->data + span.first, span.count, span.count };
 }
 
 bool kiriExtraction_Build(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
 {
     kiriKept* kept = &extraction->kept;
     const kiriSheetData* from = kept->from;
-    kiriMeshPart vertices = { ItemsOfPiece(&extraction->vertices, piece), &kept->vertices };
-    kiriMeshPart triangles = { ItemsOfPiece(&extraction->triangles, piece), &kept->triangles };
+    const kiriGatheredPiece* found = kiriGather_Find(extraction->gathered, piece);
+    kiriMeshPart vertices = { ItemsOfSpan(&extraction->gathered->vertices, found->vertices), &kept->vertices };
+    kiriMeshPart triangles = { ItemsOfSpan(&extraction->gathered->triangles, found->triangles), &kept->triangles };
     kiriKept_TakePart(kept, piece, &vertices.items, &triangles.items);
     bool ok = kiriMesh_InitPart(&to->mesh, to->memory, &from->mesh, &triangles, &vertices);
     if (ok) {

@@ -2,18 +2,19 @@
 #ifndef KIRI_EXTRACT_H
 #define KIRI_EXTRACT_H
 
+#include "kiri_gather.h"
 #include "kiri_kept.h"
 
 KIRI_C_BEGIN
 
 /* Parts of a sheet, one after the other: each costs what it is large. */
 typedef struct kiriExtraction {
-    kiriKept kept;                     /* the part at hand; its memory is that of all */
-    kiriPieceList vertices, triangles; /* that leave the sheet */
+    kiriKept kept; /* the part at hand; its memory is that of all */
+    const kiriGathered* gathered;
 } kiriExtraction;
 
-/* What `left` does not keep may become parts. False for memory; Drop is to be called then, too. */
-bool kiriExtraction_Init(kiriExtraction* extraction, const kiriKept* left);
+/* What is gathered may become parts, while it is not marked. False for memory; Drop is to be called then, too. */
+bool kiriExtraction_Init(kiriExtraction* extraction, const kiriGathered* gathered);
 
 /* The sheet of one piece: on the same lattice and squares, so that all that follows from the mesh is what it was bit for
    bit; frames, pins and contacts keep ids and state. `to` is new. Cuts stay behind. No cut has changed the mesh whose

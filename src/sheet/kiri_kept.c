@@ -48,7 +48,8 @@ static bool MapMesh(kiriKept* kept)
         return false;
     }
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
-        kiriKeep_Add(&kept->vertices, kept->pieces.data[kiriPiece_OfVertex(kept->from, v)] != 0);
+        int32_t piece = kiriPiece_OfVertex(kept->from, v);
+        kiriKeep_Add(&kept->vertices, piece != KIRI_NONE && kept->pieces.data[piece] != 0);
     }
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         kiriKeep_Add(&kept->triangles, kiriKeep_Has(&kept->vertices, mesh->triangles.data[t].vertex[0]));
@@ -83,6 +84,17 @@ static void MapRest(kiriKept* kept)
     }
 }
 
+bool kiriKept_LeaveHoles(kiriKept* kept)
+{
+    kept->vertices = kiriKeep_LeaveHoles(&kept->from->taking.vertices);
+    kept->triangles = kiriKeep_LeaveHoles(&kept->from->taking.triangles);
+    if (!ReserveRest(kept)) {
+        return false;
+    }
+    MapRest(kept);
+    return true;
+}
+
 bool kiriKept_Map(kiriKept* kept)
 {
     if (!MapMesh(kept) || !ReserveRest(kept)) {
@@ -96,13 +108,13 @@ bool kiriKept_Map(kiriKept* kept)
 
 bool kiriKept_InitParts(kiriKept* kept, const kiriSheetData* from)
 {
-    return kiriKept_Init(kept, from) && ReserveRest(kept) &&
-           kiriKeep_InitNone(&kept->vertices, &kept->memory, from->mesh.vertices.count) &&
-           kiriKeep_InitNone(&kept->triangles, &kept->memory, from->mesh.triangles.count);
+    return kiriKept_Init(kept, from) && ReserveRest(kept);
 }
 
 void kiriKept_TakePart(kiriKept* kept, int32_t piece, const kiriIndices* vertices, const kiriIndices* triangles)
 {
+    kept->vertices = kept->from->taking.vertices;
+    kept->triangles = kept->from->taking.triangles;
     kept->pieces.data[piece] = 1;
     kiriKeep_Take(&kept->vertices, vertices->data, vertices->count);
     kiriKeep_Take(&kept->triangles, triangles->data, triangles->count);
@@ -140,7 +152,7 @@ bool kiriKept_FollowTouch(const kiriKept* kept, kiriTouch* touch)
 {
     bool isKept = true;
     if (touch->key >> 60 != KIRI_TOUCH_OBSTACLE) {
-        return kiriTouch_Follow(touch, kept->points.to.data, kept->vertices.to.data);
+        return kiriTouch_Follow(touch, &kept->points, &kept->vertices);
     }
     for (int n = 0; n < 3 && touch->vertex[n] != KIRI_NONE; ++n) {
         touch->vertex[n] = kiriKeep_To(&kept->vertices, touch->vertex[n]);

@@ -19,7 +19,11 @@ bool kiriKept_Init(kiriKept* kept, const kiriSheetData* from);
 /* Makes the maps, for the pieces as they are marked now. False for memory. */
 bool kiriKept_Map(kiriKept* kept);
 
-/* For one piece after the other: maps of which none keeps anything yet. False for memory. */
+/* The same where triangles and vertices leave holes: those that kiriGather_Mark has marked, as long as they are. */
+bool kiriKept_LeaveHoles(kiriKept* kept);
+
+/* For one piece after the other: maps of which none keeps anything yet; those of vertices and triangles are the sheet's own
+   (kiriTaking), which nobody else uses meanwhile. False for memory. */
 bool kiriKept_InitParts(kiriKept* kept, const kiriSheetData* from);
 
 /* The piece is kept, and all maps are made; these are its items, from the lowest to the highest. And none is again. */

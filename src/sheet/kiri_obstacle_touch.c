@@ -20,9 +20,13 @@ kiriBox kiriSheet_Box(const kiriSheetData* sheet)
     if (kiriBounds_IsFresh(sheet->seen.bounds, surface)) {
         return kiriBounds_All(sheet->seen.bounds);
     }
-    kiriBox box = { kiriSurface_At(surface, 0), kiriSurface_At(surface, 0) };
-    for (int32_t v = 1; v < surface->vertexCount; ++v) {
-        kiriVec3 x = kiriSurface_At(surface, v);
+    int32_t first = 0;
+    while (!kiriMesh_IsVertex(&sheet->mesh, first)) {
+        ++first;
+    }
+    kiriBox box = { kiriSurface_At(surface, first), kiriSurface_At(surface, first) };
+    for (int32_t v = first + 1; v < surface->vertexCount; ++v) {
+        kiriVec3 x = kiriSurface_At(surface, kiriMesh_IsVertex(&sheet->mesh, v) ? v : first);
         box.lower = kiriVec3_Make(x.x < box.lower.x ? x.x : box.lower.x, x.y < box.lower.y ? x.y : box.lower.y,
                                   x.z < box.lower.z ? x.z : box.lower.z);
         box.upper = kiriVec3_Make(x.x > box.upper.x ? x.x : box.upper.x, x.y > box.upper.y ? x.y : box.upper.y,
@@ -273,7 +277,7 @@ static void CollectVertices(const kiriMeeting* meeting)
     search->vertices.count = 0;
     for (int64_t i = 0; i < 3 * (int64_t)search->triangles.count; ++i) {
         int32_t vertex = indices[3 * (int64_t)search->triangles.data[i / 3] + i % 3];
-        if (search->marks.data[vertex] != search->mark) {
+        if (search->marks.data[vertex] != search->mark && kiriMesh_IsVertex(&meeting->sheet->mesh, vertex)) {
             search->marks.data[vertex] = search->mark;
             search->vertices.data[search->vertices.count++] = vertex;
             low = vertex < low ? vertex : low;

@@ -223,10 +223,11 @@ static int32_t OfPoint(const kiriSheetData* sheet, int32_t point)
 
 int32_t kiriPiece_OfTriangle(const kiriSheetData* sheet, int32_t triangle)
 {
-    return kiriPiece_OfVertex(sheet, sheet->mesh.triangles.data[triangle].vertex[0]);
+    int32_t vertex = sheet->mesh.triangles.data[triangle].vertex[0];
+    return vertex != KIRI_NONE ? kiriPiece_OfVertex(sheet, vertex) : KIRI_NONE;
 }
 
-/* A counting sort. `pieces` has those of the items, KIRI_NONE where one is left out. */
+/* A counting sort. `pieces` has those of the items, KIRI_NONE where one is of none. */
 static void SortItems(kiriPieceList* list, const int32_t* pieces, int32_t count, int32_t pieceCount)
 {
     int32_t* first = list->first.data;
@@ -242,28 +243,27 @@ static void SortItems(kiriPieceList* list, const int32_t* pieces, int32_t count,
             list->items.data[first[pieces[i] + 1]++] = i;
         }
     }
+    list->items.count = first[pieceCount];
 }
 
-bool kiriPieceList_Make(kiriPieceList* list, kiriMemory* memory, const kiriSheetData* sheet, int32_t count,
-                        kiriPieceOfFn* pieceOf, const kiriKeep* without)
+/* The piece of an item, or KIRI_NONE. */
+typedef int32_t PieceOfFn(const kiriSheetData* sheet, int32_t item);
+
+static bool SortByPiece(kiriSheetData* sheet, kiriPieceList* list, int32_t count, PieceOfFn* pieceOf)
 {
     int32_t pieceCount = sheet->layout.pieces.count;
+    kiriMemory* memory = &sheet->shown;
     int32_t* pieces = kiriMemory_Alloc(memory, (int64_t)sizeof(int32_t) * count);
     bool ok = pieces != NULL && kiriArray_Resize(memory, &list->first, pieceCount + 2) &&
-              kiriArray_Resize(memory, &list->items, count - (without != NULL ? without->count : 0));
+              kiriArray_Resize(memory, &list->items, count);
     for (int32_t i = 0; ok && i < count; ++i) {
-        pieces[i] = without != NULL && kiriKeep_Has(without, i) ? KIRI_NONE : pieceOf(sheet, i);
+        pieces[i] = pieceOf(sheet, i);
     }
     if (ok) {
         SortItems(list, pieces, count, pieceCount);
     }
     kiriMemory_Free(memory, pieces);
     return ok;
-}
-
-static bool SortByPiece(kiriSheetData* sheet, kiriPieceList* list, int32_t count, kiriPieceOfFn* pieceOf)
-{
-    return kiriPieceList_Make(list, &sheet->shown, sheet, count, pieceOf, NULL);
 }
 
 /* What the host reads beside: the ids of frames, and the corners of triangles. */

@@ -9,6 +9,9 @@ KIRI_C_BEGIN
 /* Stages the pieces that come in force with the next commit, from the links that are staged. False for memory. */
 bool kiriPieces_Stage(kiriSheetData* sheet);
 
+/* The piece of a triangle; KIRI_NONE for a hole. */
+int32_t kiriPiece_OfTriangle(const kiriSheetData* sheet, int32_t triangle);
+
 /* Is any piece gone? */
 bool kiriPieces_AnyGone(const kiriSheetData* sheet);
 
@@ -21,15 +24,6 @@ void kiriPieces_FindTouched(kiriSheetData* sheet);
 
 /* The pieces of the layout that has just come in force rest as those that they came of, where they are not touched. */
 void kiriPieces_KeepRest(kiriSheetData* sheet, const kiriLayout* old);
-
-/* The piece of an item. */
-typedef int32_t kiriPieceOfFn(const kiriSheetData* sheet, int32_t item);
-int32_t kiriPiece_OfTriangle(const kiriSheetData* sheet, int32_t triangle);
-
-/* Lists the items 0 to count - 1 by piece, each piece's in their order; but for those that `without` keeps, or null. False
-   for memory. */
-bool kiriPieceList_Make(kiriPieceList* list, kiriMemory* memory, const kiriSheetData* sheet, int32_t count,
-                        kiriPieceOfFn* pieceOf, const kiriKeep* without);
 
 /* Brings the lists up to date: costs nothing where neither mesh nor pieces have changed. False for memory. */
 bool kiriPieces_List(kiriSheetData* sheet);

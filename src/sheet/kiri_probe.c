@@ -146,7 +146,7 @@ static bool MarkVertices(kiriSheetData* sheet)
     }
     for (int32_t v = 0; v < vertices; ++v) {
         probes->vertexPiece.data[v] = kiriPiece_OfVertex(sheet, v);
-        probes->isBorder.data[v] = IsBorder(&sheet->mesh, v);
+        probes->isBorder.data[v] = kiriMesh_IsVertex(&sheet->mesh, v) && IsBorder(&sheet->mesh, v);
         probes->isChosen.data[v] = 0;
     }
     return true;

@@ -35,6 +35,14 @@ static bool ListCells(kiriRemoval* removal)
     return ok;
 }
 
+static bool ListGathered(kiriRemoval* removal)
+{
+    kiriGather_Mark(&removal->gathered);
+    removal->cells = removal->gathered.cells;
+    removal->squares = removal->gathered.squares;
+    return kiriKept_LeaveHoles(&removal->kept);
+}
+
 static bool StagePieces(kiriRemoval* removal)
 {
     kiriSheetData* sheet = removal->sheet;
@@ -117,17 +125,59 @@ static bool StageLayout(kiriRemoval* removal)
            kiriLinks_Keep(&sheet->links, sheet->memory, &removal->kept.links, &removal->kept.frames);
 }
 
-bool kiriRemoval_Stage(kiriRemoval* removal)
+bool kiriRemoval_Gather(kiriRemoval* removal)
+{
+    return kiriGather_Make(&removal->gathered, removal->sheet, &removal->kept.memory, removal->kept.pieces.data);
+}
+
+enum { SMALL_SHEET = 4096 }; /* vertices: a pass over them takes no longer than a tick */
+
+bool kiriRemoval_IsSmall(const kiriSheetData* sheet)
+{
+    return sheet->mesh.vertices.count <= SMALL_SHEET;
+}
+
+bool kiriRemoval_MayLeaveHoles(const kiriRemoval* removal)
+{
+    const kiriMeshData* mesh = &removal->sheet->mesh;
+    int64_t holes = (int64_t)mesh->vertexHoles + removal->gathered.vertices.count;
+    return !kiriRemoval_IsSmall(removal->sheet) && 2 * holes <= mesh->vertices.count;
+}
+
+static bool StageItems(kiriRemoval* removal)
+{
+    const kiriKept* kept = &removal->kept;
+    return removal->leavesHoles
+               ? ListGathered(removal)
+               : kiriKept_Map(&removal->kept) && ListCells(removal) &&
+                     kiriShown_Reserve(&removal->shown, &removal->sheet->shown, &kept->triangles, &kept->vertices);
+}
+
+bool kiriRemoval_Stage(kiriRemoval* removal, bool leavesHoles)
 {
     kiriSheetData* sheet = removal->sheet;
     KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
-    return kiriKept_Map(&removal->kept) && ListCells(removal) && ListForces(removal) && StageLayout(removal) &&
-           kiriShown_Reserve(&removal->shown, &sheet->shown, &removal->kept.triangles, &removal->kept.vertices) &&
+    removal->leavesHoles = leavesHoles;
+    return StageItems(removal) && ListForces(removal) && StageLayout(removal) &&
            kiriArray_Reserve(&sheet->shown, &removal->points, 3 * (int64_t)removal->kept.points.count) &&
            kiriStage_Solver(sheet, removal->kept.frames.count);
 }
 
 /* ---- Gone ---- */
+
+static void KeepMesh(kiriRemoval* removal)
+{
+    kiriMeshData* mesh = &removal->sheet->mesh;
+    const kiriKept* kept = &removal->kept;
+    const kiriGathered* gone = &removal->gathered;
+    if (removal->leavesHoles) {
+        const kiriMeshLoss loss = { &gone->triangles, &gone->vertices, &gone->squares, kept->triangles,
+                                    kept->vertices };
+        kiriMesh_LeaveHoles(mesh, &loss);
+    } else {
+        kiriMesh_Keep(mesh, &kept->triangles, &kept->vertices, removal->squares.data, removal->squares.count);
+    }
+}
 
 static void KeepFields(kiriRemoval* removal)
 {
@@ -135,7 +185,7 @@ static void KeepFields(kiriRemoval* removal)
     const kiriKept* kept = &removal->kept;
     const int32_t *cells = removal->cells.data, *squares = removal->squares.data;
     int32_t cellCount = removal->cells.count, squareCount = removal->squares.count;
-    kiriMesh_Keep(&sheet->mesh, &kept->triangles, &kept->vertices, squares, squareCount);
+    KeepMesh(removal);
     kiriGrid_Keep(&sheet->grid, sheet->memory, &kept->triangles, &kept->vertices, cells, cellCount);
     kiriRegions_Keep(&sheet->regions, &kept->frames, cells, cellCount);
     kiriShape_Keep(&sheet->shape, sheet->memory, &kept->frames, cells, cellCount);
@@ -152,7 +202,11 @@ static void KeepPoints(kiriRemoval* removal)
     }
     kiriPlaces_Keep(&sheet->pointPlaces, &removal->kept.points);
     kiriSkin_Keep(&sheet->pointSkin, &removal->kept.points, &removal->kept.frames);
-    kiriSkin_Keep(&sheet->vertexSkin, &removal->kept.vertices, &removal->kept.frames);
+    if (removal->leavesHoles) {
+        kiriSkin_LeaveHoles(&sheet->vertexSkin, &removal->gathered.vertices, &removal->kept.frames);
+    } else {
+        kiriSkin_Keep(&sheet->vertexSkin, &removal->kept.vertices, &removal->kept.frames);
+    }
 }
 
 static void KeepContacts(const kiriKept* kept, kiriSheetData* sheet)
@@ -244,13 +298,25 @@ static void ReplaceFloats(void* array, void* fresh, kiriMemory* retired)
     kiriMemory_Adopt(retired, was.data);
 }
 
+static void KeepSurface(kiriRemoval* removal, kiriMemory* retired)
+{
+    kiriSheetData* sheet = removal->sheet;
+    const kiriKept* kept = &removal->kept;
+    if (removal->leavesHoles) {
+        kiriSurface_LeaveHoles(&sheet->seen.surface, &removal->gathered.triangles, &sheet->mesh, kept->frames.count);
+    } else {
+        kiriSurface_Keep(&sheet->seen.surface, &removal->shown, &kept->triangles, &kept->vertices, &sheet->mesh,
+                         kept->frames.count, retired);
+        kiriBounds_Forget(sheet->seen.bounds);
+        sheet->seen.vertexCount = kept->vertices.count;
+    }
+}
+
 static void KeepSeen(kiriRemoval* removal, kiriMemory* retired)
 {
     kiriSheetData* sheet = removal->sheet;
     const kiriKept* kept = &removal->kept;
-    kiriSurface_Keep(&sheet->seen.surface, &removal->shown, &kept->triangles, &kept->vertices, &sheet->mesh,
-                     kept->frames.count, retired);
-    kiriBounds_Forget(sheet->seen.bounds);
+    KeepSurface(removal, retired);
     kiriKeep_Compact(&kept->points, &sheet->seen.exactPoints, 1, sizeof(kiriVec3));
     if (sheet->seen.pointPositions.count > 0) {
         kiriKeep_Copy(&kept->points, removal->points.data, sheet->seen.pointPositions.data, 3 * sizeof(float));
@@ -258,7 +324,6 @@ static void KeepSeen(kiriRemoval* removal, kiriMemory* retired)
     }
     ReplaceFloats(&sheet->seen.pointPositions, &removal->points, retired);
     sheet->seen.pointCount = kept->points.count;
-    sheet->seen.vertexCount = kept->vertices.count;
 }
 
 /* The host may hold them. */
@@ -292,6 +357,7 @@ void kiriRemoval_Commit(kiriRemoval* removal, kiriMemory* retired)
 void kiriRemoval_Drop(kiriRemoval* removal)
 {
     if (removal->sheet != NULL) {
+        kiriGather_Unmark(&removal->gathered);
         kiriShown_Release(&removal->shown, &removal->sheet->shown);
         kiriArray_Release(&removal->sheet->shown, &removal->points);
         kiriMemory_FreeAll(&removal->kept.memory);

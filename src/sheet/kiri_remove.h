@@ -3,6 +3,7 @@
 #ifndef KIRI_REMOVE_H
 #define KIRI_REMOVE_H
 
+#include "kiri_gather.h"
 #include "kiri_kept.h"
 
 KIRI_C_BEGIN
@@ -10,7 +11,9 @@ KIRI_C_BEGIN
 typedef struct kiriRemoval {
     kiriSheetData* sheet;
     kiriKept kept;                      /* what is left */
-    KIRI_ARRAY(int32_t) cells, squares; /* that go, and the squares in which they are, each once */
+    kiriGathered gathered;              /* what goes, where it leaves holes or becomes parts */
+    bool leavesHoles;                   /* triangles and vertices do not move together */
+    kiriIndices cells, squares;         /* that go, and the squares in which they are, each once */
     KIRI_ARRAY(kiriVec3) forces;        /* of each touch of the last tick */
     kiriShown shown;
     KIRI_ARRAY(float) points; /* where collision points that are left are seen */
@@ -19,9 +22,19 @@ typedef struct kiriRemoval {
 /* Nothing is left yet: the caller marks in `kept` what is. False for memory; Drop is to be called then, too. */
 bool kiriRemoval_Init(kiriRemoval* removal, kiriSheetData* sheet);
 
+/* Lists what goes, by piece. Needed only where parts are made, or holes are to be left. False for memory. */
+bool kiriRemoval_Gather(kiriRemoval* removal);
+
+/* Would it be as well to leave holes, when what goes is gathered? Else all triangles and vertices of the sheet move
+   together: that takes a pass over the sheet, once for as much as has gone, and where a sheet is small each time. */
+bool kiriRemoval_MayLeaveHoles(const kiriRemoval* removal);
+
 /* Makes ready: after it Commit does not fail. Fields belong to the mesh as it is (kiriUpdate_IsFieldCurrent). False for
    memory; nothing has changed. */
-bool kiriRemoval_Stage(kiriRemoval* removal);
+bool kiriRemoval_Stage(kiriRemoval* removal, bool leavesHoles);
+
+/* A small sheet leaves none. */
+bool kiriRemoval_IsSmall(const kiriSheetData* sheet);
 
 /* Pieces go. Blades that were in their material are in none; other cuts go on. Arrays that the host may hold get the owner
    `retired`. Ids are left to the caller. Never fails. */

@@ -48,7 +48,8 @@ static void PlaceNewborn(kiriSheetData* sheet, int32_t vertex)
 static void HideTriangles(kiriSheetData* sheet)
 {
     for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
-        if (sheet->layout.pieces.data[kiriPiece_OfVertex(sheet, sheet->mesh.triangles.data[t].vertex[0])].isGone) {
+        int32_t piece = kiriMesh_IsTriangle(&sheet->mesh, t) ? kiriPiece_OfTriangle(sheet, t) : KIRI_NONE;
+        if (piece != KIRI_NONE && sheet->layout.pieces.data[piece].isGone) {
             kiriSurface_HideTriangle(&sheet->seen.surface, t);
         }
     }
@@ -132,7 +133,9 @@ static void LookAtVertices(kiriSheetData* sheet, int32_t begin, int32_t end, con
     const float* is = kiriSurface_Places(&sheet->seen.surface) + 3 * (ptrdiff_t)begin;
     for (int32_t v = begin; v < end; ++v, was += 3, is += 3) {
         kiriVec3 offset = kiriVec3_Sub(kiriVec3_Load(was), kiriVec3_Load(is));
-        kiriFades_Take(&sheet->seen.fades, v, kiriVec3_Add(offset, shift));
+        if (kiriMesh_IsVertex(&sheet->mesh, v)) {
+            kiriFades_Take(&sheet->seen.fades, v, kiriVec3_Add(offset, shift));
+        }
     }
 }
 

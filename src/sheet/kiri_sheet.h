@@ -135,6 +135,12 @@ typedef struct kiriPinData {
     kiriWrench bore;       /* about the target: mean of the last tick that moved the sheet */
 } kiriPinData;
 
+/* Maps for taking pieces out, see kiri_gather.h: they keep nothing, but while that is done. */
+typedef struct kiriTaking {
+    kiriKeep vertices, triangles;
+    KIRI_ARRAY(uint8_t) cells;
+} kiriTaking;
+
 /* How far a cut has come. */
 typedef struct kiriTip {
     kiriVec2 last; /* local: the last point taken */
@@ -288,6 +294,7 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriGivenContact) contacts; /* of the next tick */
     KIRI_ARRAY(kiriFrame) leaving;         /* their pieces become sheets when the work at hand is done */
     int64_t leavingPaid;                   /* samples, for taking them out, and what the host has destroyed */
+    kiriTaking taking;
 
     /* Room reserved by whoever makes it needed, so that a tick without a cut allocates nothing. */
     KIRI_ARRAY(kiriPinRow) pinRows;     /* points, then two for each share of a hinge */
@@ -321,11 +328,11 @@ static inline kiriPiece* kiriSheet_PieceOf(const kiriSheetData* sheet, int32_t f
     return &sheet->layout.pieces.data[sheet->layout.framePiece.data[frame]];
 }
 
-/* The piece of the material that a vertex belongs to: its frames are all of one. */
+/* The piece of the material that a vertex belongs to: its frames are all of one. KIRI_NONE for a hole. */
 static inline int32_t kiriPiece_OfVertex(const kiriSheetData* sheet, int32_t vertex)
 {
-    int32_t first = sheet->vertexSkin.spans.data[vertex].first;
-    return sheet->layout.framePiece.data[sheet->vertexSkin.weights.data[first].frame];
+    kiriSpan span = sheet->vertexSkin.spans.data[vertex];
+    return span.count > 0 ? sheet->layout.framePiece.data[sheet->vertexSkin.weights.data[span.first].frame] : KIRI_NONE;
 }
 
 /* Has the host destroyed the piece of a frame? It stays, unseen, until the work at hand is done. */

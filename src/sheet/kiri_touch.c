@@ -488,18 +488,18 @@ bool kiriTouches_NextNew(kiriSheetData* sheet, int32_t* at, int32_t* piece)
 }
 
 /* The key of a collision point has its index. */
-bool kiriTouch_Follow(kiriTouch* touch, const int32_t* pointTo, const int32_t* vertexTo)
+bool kiriTouch_Follow(kiriTouch* touch, const kiriKeep* points, const kiriKeep* vertices)
 {
     if (!IsOfKind(touch, KIRI_TOUCH_HOST)) {
         return false;
     }
     if (touch->point != KIRI_NONE) {
-        touch->point = pointTo[touch->point];
+        touch->point = kiriKeep_To(points, touch->point);
         touch->key = (touch->key & ~UINT64_C(0xffffffff)) | (uint32_t)touch->point;
         return touch->point != KIRI_NONE;
     }
     for (int n = 0; n < 3; ++n) {
-        touch->vertex[n] = vertexTo[touch->vertex[n]];
+        touch->vertex[n] = kiriKeep_To(vertices, touch->vertex[n]);
         if (touch->vertex[n] == KIRI_NONE) {
             return false;
         }

@@ -56,7 +56,7 @@ void kiriTouchMemory_Add(kiriTouchMemory* memory, const kiriTouch* touch, kiriVe
 
 /* The same touch in a part of the sheet, whose collision points and vertices have these indices; false where it is of
    another part, or its finder alone knows it. */
-bool kiriTouch_Follow(kiriTouch* touch, const int32_t* pointTo, const int32_t* vertexTo);
+bool kiriTouch_Follow(kiriTouch* touch, const kiriKeep* points, const kiriKeep* vertices);
 
 KIRI_C_END
 

@@ -147,15 +147,36 @@ static bool ReserveAll(kiriBounds* bounds, kiriMemory* memory, int32_t triangleC
 
 /* ---- Fitting ---- */
 
+/* Its corners are one, see kiriSurface_HideTriangle. */
+static bool IsHidden(const kiriSurface* surface, int32_t triangle)
+{
+    const int32_t* corner = &surface->indices.data[3 * (size_t)triangle];
+    return corner[0] == corner[1];
+}
+
+/* The first triangle from place i on, before `end`, that is not hidden; KIRI_NONE where all are. */
+static int32_t FirstSeen(const kiriSurface* surface, const int32_t* order, int32_t i, int32_t end)
+{
+    while (i < end && IsHidden(surface, order[i])) {
+        ++i;
+    }
+    return i < end ? order[i] : KIRI_NONE;
+}
+
+/* Where all triangles of a leaf are hidden it has a point of the leaf before. */
 static void FitLeaves(kiriBounds* bounds, const kiriSurface* surface)
 {
     const int32_t *indices = surface->indices.data, *order = bounds->order.data;
-    for (int32_t i = 0, leaf = 0; i < surface->triangleCount; ++leaf) {
-        int32_t end = surface->triangleCount - i < LEAF ? surface->triangleCount : i + LEAF;
-        kiriVec3 first = kiriSurface_At(surface, indices[3 * (size_t)order[i]]);
+    int32_t seen = FirstSeen(surface, order, 0, surface->triangleCount), count = surface->triangleCount;
+    for (int32_t i = 0, leaf = 0; i < count; ++leaf) {
+        int32_t end = count - i < LEAF ? count : i + LEAF, own = FirstSeen(surface, order, i, end);
+        seen = own != KIRI_NONE || seen == KIRI_NONE ? own : seen;
+        kiriVec3 first = kiriSurface_At(surface, indices[3 * (size_t)(seen != KIRI_NONE ? seen : order[i])]);
         kiriBox box = { first, first };
         for (; i < end; ++i) {
-            AddTriangle(&box, surface, &indices[3 * (size_t)order[i]]);
+            if (!IsHidden(surface, order[i])) {
+                AddTriangle(&box, surface, &indices[3 * (size_t)order[i]]);
+            }
         }
         bounds->nodes.data[leaf] = box;
     }

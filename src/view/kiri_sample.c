@@ -214,6 +214,16 @@ void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount)
     }
 }
 
+static void RenumberFrames(kiriSkin* skin, const kiriKeep* frames)
+{
+    for (int32_t i = 0; i < skin->spans.count && kiriKeep_Moves(frames); ++i) {
+        kiriSpan span = skin->spans.data[i];
+        for (int32_t k = span.first; k < span.first + span.count; ++k) {
+            skin->weights.data[k].frame = kiriKeep_To(frames, skin->weights.data[k].frame);
+        }
+    }
+}
+
 void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* frames)
 {
     KIRI_ASSERT(skin->staged.count == 0);
@@ -224,12 +234,17 @@ void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* fram
         }
     }
     kiriKeep_Compact(samples, &skin->spans, 1, sizeof(kiriSpan));
-    for (int32_t i = 0; i < skin->spans.count && kiriKeep_Moves(frames); ++i) {
-        kiriSpan span = skin->spans.data[i];
-        for (int32_t k = span.first; k < span.first + span.count; ++k) {
-            skin->weights.data[k].frame = kiriKeep_To(frames, skin->weights.data[k].frame);
-        }
+    RenumberFrames(skin, frames);
+}
+
+void kiriSkin_LeaveHoles(kiriSkin* skin, const kiriIndices* samples, const kiriKeep* frames)
+{
+    KIRI_ASSERT(skin->staged.count == 0);
+    SettleAll(skin);
+    for (int32_t k = 0; k < samples->count; ++k) {
+        DropSpan(skin, &skin->spans.data[samples->data[k]]);
     }
+    RenumberFrames(skin, frames);
 }
 
 /* ---- Where samples are ------------------------------------------------------------------------------------------ */

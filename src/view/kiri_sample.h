@@ -106,6 +106,9 @@ void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount);
 void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* frames);
 void kiriPlaces_Keep(kiriPlaces* places, const kiriKeep* samples);
 
+/* The same where the samples leave holes: these have no weights then. */
+void kiriSkin_LeaveHoles(kiriSkin* skin, const kiriIndices* samples, const kiriKeep* frames);
+
 kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrameData* frames, kiriVec2 local);
 
 /* The motion at a lattice point of a triangle, from the weights of its corners. */

@@ -18,6 +18,9 @@ static bool IsBorderEdge(const kiriMeshData* mesh, int32_t t, int k)
 {
     const kiriTriangle* triangle = &mesh->triangles.data[t];
     int32_t twin = triangle->twin[k];
+    if (!kiriMesh_IsTriangle(mesh, t)) {
+        return false;
+    }
     if (twin == KIRI_NONE || (triangle->open >> k & 1) == 0) {
         return twin == KIRI_NONE;
     }

@@ -112,6 +112,13 @@ static void WriteOldTriangles(kiriSurface* surface, const kiriMeshData* mesh, ki
     }
 }
 
+static void RememberChange(kiriSurface* surface, const kiriChange* change)
+{
+    surface->lastChange = (surface->lastChange + 1) % KIRI_CHANGES;
+    surface->changes[surface->lastChange] = *change;
+    surface->changeCount += surface->changeCount < KIRI_CHANGES ? 1 : 0;
+}
+
 void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
 {
     kiriChange change;
@@ -140,9 +147,7 @@ void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
         WriteCorners(surface, pair);
     }
     if (change.oldVertexCount > 0 && change.from != change.to) {
-        surface->lastChange = (surface->lastChange + 1) % KIRI_CHANGES;
-        surface->changes[surface->lastChange] = change;
-        surface->changeCount += surface->changeCount < KIRI_CHANGES ? 1 : 0;
+        RememberChange(surface, &change);
     }
 }
 
@@ -209,6 +214,27 @@ void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle)
     int32_t* corners = &surface->indices.data[3 * (size_t)triangle];
     corners[1] = corners[2] = corners[0];
     WriteCorners(surface, triangle / 2);
+}
+
+void kiriSurface_LeaveHoles(kiriSurface* surface, const kiriIndices* triangles, const kiriMeshData* mesh,
+                            int32_t frameCount)
+{
+    kiriChange change;
+    memset(&change, 0, sizeof(change));
+    change.from = surface->revision;
+    change.to = mesh->revision;
+    change.oldVertexCount = surface->vertexCount;
+    change.oldTriangleCount = surface->triangleCount;
+    for (int32_t k = 0; k < triangles->count; ++k) {
+        kiriSurface_HideTriangle(surface, triangles->data[k]);
+        Extend(&change.triangles, triangles->data[k]);
+    }
+    RememberChange(surface, &change);
+    surface->revision = mesh->revision;
+    surface->carriers.count = surface->bends.count = frameCount;
+    surface->pose += 1;
+    surface->isWritten = false;
+    kiriPatches_Forget(&surface->patches);
 }
 
 /* ---- What is left ---- */

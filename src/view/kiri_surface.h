@@ -89,6 +89,10 @@ void kiriShown_Release(kiriShown* shown, kiriMemory* memory);
 void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* triangles, const kiriKeep* vertices,
                       const kiriMeshData* mesh, int32_t frameCount, kiriMemory* retired);
 
+/* The same where triangles and vertices leave holes. The host does not hold the indices. */
+void kiriSurface_LeaveHoles(kiriSurface* surface, const kiriIndices* triangles, const kiriMeshData* mesh,
+                            int32_t frameCount);
+
 /* The indices get a new array, for the host may hold the old one, which gets the owner `retired`. False for memory. */
 bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired);
 

@@ -34,6 +34,7 @@ typedef struct Parting {
     kiriMemory memory;
     Source* sources;
     int32_t sourceCount, sourceRoom;
+    bool isInTick;
     KIRI_ARRAY(Part) parts;
 } Parting;
 
@@ -152,11 +153,34 @@ static kiriResult ResultOf(const Parting* parting)
 
 /* ---- Out of their sheets ---- */
 
+/* What the sheet loses is listed once for all its parts. */
+static bool GatherSources(Parting* parting, bool makesParts)
+{
+    bool ok = true;
+    for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
+        kiriRemoval* removal = &parting->sources[k].removal;
+        bool isNeeded = makesParts || !kiriRemoval_IsSmall(removal->sheet);
+        ok = IsBusy(removal->sheet) || !isNeeded || kiriRemoval_Gather(removal);
+    }
+    return ok;
+}
+
+/* The host may hold the indices, but not at the end of a tick. */
+static bool StageRemoval(Parting* parting, kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    bool leavesHoles = kiriRemoval_MayLeaveHoles(removal);
+    return kiriRemoval_Stage(removal, leavesHoles) &&
+           (!leavesHoles || parting->isInTick ||
+            kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired));
+}
+
 static bool StageRemovals(Parting* parting)
 {
     bool ok = true;
     for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
-        ok = IsBusy(parting->sources[k].removal.sheet) || kiriRemoval_Stage(&parting->sources[k].removal);
+        kiriRemoval* removal = &parting->sources[k].removal;
+        ok = IsBusy(removal->sheet) || StageRemoval(parting, removal);
     }
     return ok;
 }
@@ -188,13 +212,12 @@ static void CommitRemovals(Parting* parting)
 
 /* ---- Sheets of their own ---- */
 
-/* What the sheet loses is listed once for all its parts. The removal is staged. */
 static bool MakePart(Parting* parting, Part* part)
 {
     Source* from = part->from;
     part->sheet = kiriSheet_New(&parting->world->memory);
     return part->sheet != NULL &&
-           (from->extraction.kept.from != NULL || kiriExtraction_Init(&from->extraction, &from->removal.kept)) &&
+           (from->extraction.kept.from != NULL || kiriExtraction_Init(&from->extraction, &from->removal.gathered)) &&
            kiriExtraction_Build(&from->extraction, part->piece, part->sheet);
 }
 
@@ -265,7 +288,8 @@ static void AddLeaving(kiriWorld* world, const Part* part)
 
 static kiriResult Detach(Parting* parting)
 {
-    kiriResult result = StageRemovals(parting) && MakeParts(parting) ? ReserveIdsOfParts(parting) : KIRI_ERROR_MEMORY;
+    bool ok = GatherSources(parting, parting->parts.count > 0) && MakeParts(parting) && StageRemovals(parting);
+    kiriResult result = ok ? ReserveIdsOfParts(parting) : KIRI_ERROR_MEMORY;
     if (result != KIRI_OK) {
         DeleteParts(parting);
         return result;
@@ -358,7 +382,7 @@ static bool RenewIndices(Parting* parting)
 
 static kiriResult Destroy(Parting* parting)
 {
-    if (!StageRemovals(parting) || !RenewIndices(parting)) {
+    if (!GatherSources(parting, false) || !StageRemovals(parting) || !RenewIndices(parting)) {
         return KIRI_ERROR_MEMORY;
     }
     for (int32_t k = 0; k < parting->sourceCount; ++k) {
@@ -472,7 +496,7 @@ int32_t kiriParts_Finish(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samp
         return 0;
     }
     ForgetStaleLeaving(world, sheet);
-    bool isDone = Parting_Start(&parting, world, 1) && SourceFor(&parting, sheet) != NULL &&
+    bool isDone = Parting_Start(&parting, world, 1) && (parting.isInTick = true) && SourceFor(&parting, sheet) != NULL &&
                   MarkPieces(&parting, sheet->leaving.data, sheet->leaving.count) && IsPaid(&parting, sheet, samples) &&
                   Detach(&parting) == KIRI_OK;
     sheet->leavingPaid = isDone ? 0 : sheet->leavingPaid;

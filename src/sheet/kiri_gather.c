@@ -1,0 +1,246 @@
+#include "kiri_gather.h"
+
+#include "../core/kiri_sort.h"
+#include "kiri_update.h"
+
+#include <string.h>
+
+/* ---- Room ---- */
+
+/* A map of all items, which keeps none. It keeps none at rest, too: so what is new is all there is to write. */
+static bool ReserveMap(kiriKeep* map, kiriMemory* memory, int32_t items)
+{
+    int32_t known = map->to.count;
+    if (!kiriArray_Resize(memory, &map->to, items)) {
+        return false;
+    }
+    for (int32_t i = known; i < items; ++i) {
+        map->to.data[i] = KIRI_NONE;
+    }
+    return true;
+}
+
+static bool ReserveTaking(kiriSheetData* sheet)
+{
+    kiriTaking* taking = &sheet->taking;
+    int32_t known = taking->cells.count, cells = sheet->grid.cells.count;
+    KIRI_ASSERT(taking->vertices.count == 0 && taking->triangles.count == 0);
+    if (!ReserveMap(&taking->vertices, sheet->memory, sheet->mesh.vertices.count) ||
+        !ReserveMap(&taking->triangles, sheet->memory, sheet->mesh.triangles.count) ||
+        !kiriArray_Resize(sheet->memory, &taking->cells, cells)) {
+        return false;
+    }
+    for (int32_t c = known; c < cells; ++c) {
+        taking->cells.data[c] = 0;
+    }
+    return true;
+}
+
+/* ---- Cells ---- */
+
+static bool TakeCell(kiriGathered* gathered, int32_t cell)
+{
+    uint8_t* mark = &gathered->sheet->taking.cells.data[cell];
+    if (!*mark && !kiriArray_Push(gathered->memory, &gathered->cells, cell)) {
+        return false;
+    }
+    *mark = 1;
+    return true;
+}
+
+/* Straight steps lead to all material of a piece, and to no other. */
+static bool FloodCells(kiriGathered* gathered, int32_t from)
+{
+    const kiriGrid* grid = &gathered->sheet->grid;
+    bool ok = true;
+    for (int32_t k = from; ok && k < gathered->cells.count; ++k) {
+        kiriSteps steps;
+        kiriGrid_GetStepsTo(grid, gathered->cells.data[k], 1, &steps);
+        for (int32_t s = 0; ok && s < steps.end[0]; ++s) {
+            ok = TakeCell(gathered, steps.data[s].cell);
+        }
+    }
+    return ok;
+}
+
+/* ---- Triangles and vertices ---- */
+
+static bool TakeItem(kiriMemory* memory, kiriKeep* map, kiriIndices* items, int32_t item)
+{
+    if (map->to.data[item] == KIRI_NONE && !kiriArray_Push(memory, items, item)) {
+        return false;
+    }
+    map->to.data[item] = 0;
+    return true;
+}
+
+/* With its vertices. */
+static bool TakeTriangle(kiriGathered* gathered, int32_t triangle)
+{
+    kiriTaking* taking = &gathered->sheet->taking;
+    const int32_t* vertex = gathered->sheet->mesh.triangles.data[triangle].vertex;
+    bool ok = TakeItem(gathered->memory, &taking->triangles, &gathered->triangles, triangle);
+    for (int k = 0; ok && k < 3; ++k) {
+        ok = TakeItem(gathered->memory, &taking->vertices, &gathered->vertices, vertex[k]);
+    }
+    return ok;
+}
+
+static bool TakeTrianglesOf(kiriGathered* gathered, int32_t cell)
+{
+    const kiriSheetData* sheet = gathered->sheet;
+    const kiriSquareNode* nodes = sheet->mesh.squares.nodes.data;
+    bool ok = true;
+    for (int32_t n = sheet->mesh.squares.head[sheet->grid.cells.data[cell].square]; ok && n != KIRI_NONE;
+         n = nodes[n].next) {
+        ok = sheet->grid.nodeCell.data[n] != cell || TakeTriangle(gathered, nodes[n].triangle);
+    }
+    return ok;
+}
+
+/* Puts the items from `from` on in order. They are marked in the map, so where they are close a look at all between is
+   faster than to sort. */
+static kiriSpan SortSpan(const kiriKeep* map, kiriIndices* items, int32_t from)
+{
+    int32_t count = items->count - from, low = INT32_MAX, high = -1;
+    for (int32_t k = from; k < items->count; ++k) {
+        low = items->data[k] < low ? items->data[k] : low;
+        high = items->data[k] > high ? items->data[k] : high;
+    }
+    if (high - low > 16 * (int64_t)count) {
+        kiriSort(items->data + from, count, NULL, NULL);
+        return (kiriSpan){ from, count };
+    }
+    for (int32_t i = low, k = from; i <= high && k < items->count; ++i) {
+        if (map->to.data[i] != KIRI_NONE) {
+            items->data[k++] = i;
+        }
+    }
+    return (kiriSpan){ from, count };
+}
+
+static void ClearMap(kiriKeep* map, const int32_t* items, int32_t count)
+{
+    for (int32_t k = 0; k < count; ++k) {
+        map->to.data[items[k]] = KIRI_NONE;
+    }
+}
+
+/* ---- Pieces ---- */
+
+/* The cells from `from` on are those of the piece. Its marks go again, so that those of each piece are alone. */
+static bool TakePiece(kiriGathered* gathered, int32_t piece, int32_t from)
+{
+    kiriTaking* taking = &gathered->sheet->taking;
+    kiriIndices *triangles = &gathered->triangles, *vertices = &gathered->vertices;
+    int32_t firstTriangle = triangles->count, firstVertex = vertices->count;
+    bool ok = true;
+    for (int32_t k = from; ok && k < gathered->cells.count; ++k) {
+        ok = TakeTrianglesOf(gathered, gathered->cells.data[k]);
+    }
+    kiriGatheredPiece taken = { piece, SortSpan(&taking->triangles, triangles, firstTriangle),
+                                SortSpan(&taking->vertices, vertices, firstVertex) };
+    ClearMap(&taking->triangles, triangles->data + firstTriangle, triangles->count - firstTriangle);
+    ClearMap(&taking->vertices, vertices->data + firstVertex, vertices->count - firstVertex);
+    return ok && kiriArray_Push(gathered->memory, &gathered->pieces, taken);
+}
+
+/* Frames of a piece that is gathered have their cell marked. */
+static bool TakePieces(kiriGathered* gathered, const uint8_t* stays)
+{
+    const kiriSheetData* sheet = gathered->sheet;
+    bool ok = true;
+    for (int32_t f = 0; ok && f < sheet->frames.count; ++f) {
+        int32_t piece = sheet->layout.framePiece.data[f], cell = sheet->frames.data[f].site.cell;
+        int32_t from = gathered->cells.count;
+        if (!stays[piece] && !sheet->taking.cells.data[cell]) {
+            ok = TakeCell(gathered, cell) && FloodCells(gathered, from) && TakePiece(gathered, piece, from);
+        }
+    }
+    return ok;
+}
+
+static void ClearCells(kiriGathered* gathered)
+{
+    for (int32_t k = 0; k < gathered->cells.count; ++k) {
+        gathered->sheet->taking.cells.data[gathered->cells.data[k]] = 0;
+    }
+}
+
+static bool ListSquares(kiriGathered* gathered)
+{
+    kiriIndices* squares = &gathered->squares;
+    if (!kiriArray_Resize(gathered->memory, squares, gathered->cells.count)) {
+        return false;
+    }
+    for (int32_t k = 0; k < gathered->cells.count; ++k) {
+        squares->data[k] = gathered->sheet->grid.cells.data[gathered->cells.data[k]].square;
+    }
+    kiriSort(squares->data, squares->count, NULL, NULL);
+    int32_t count = 0;
+    for (int32_t k = 0; k < squares->count; ++k) {
+        if (count == 0 || squares->data[k] != squares->data[count - 1]) {
+            squares->data[count++] = squares->data[k];
+        }
+    }
+    squares->count = count;
+    return true;
+}
+
+bool kiriGather_Make(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory, const uint8_t* stays)
+{
+    KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
+    memset(gathered, 0, sizeof(*gathered));
+    gathered->sheet = sheet;
+    gathered->memory = memory;
+    if (!ReserveTaking(sheet)) {
+        return false;
+    }
+    bool ok = TakePieces(gathered, stays);
+    ClearCells(gathered);
+    return ok && ListSquares(gathered);
+}
+
+const kiriGatheredPiece* kiriGather_Find(const kiriGathered* gathered, int32_t piece)
+{
+    int32_t low = 0, high = gathered->pieces.count - 1;
+    while (low < high) {
+        int32_t middle = (low + high) / 2;
+        if (gathered->pieces.data[middle].piece < piece) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    KIRI_ASSERT(gathered->pieces.data[low].piece == piece);
+    return &gathered->pieces.data[low];
+}
+
+/* ---- All of them ---- */
+
+static void MarkItems(kiriKeep* map, const kiriIndices* items)
+{
+    for (int32_t k = 0; k < items->count; ++k) {
+        map->to.data[items->data[k]] = 0;
+    }
+    map->count = items->count;
+}
+
+void kiriGather_Mark(kiriGathered* gathered)
+{
+    KIRI_ASSERT(!gathered->isMarked);
+    MarkItems(&gathered->sheet->taking.triangles, &gathered->triangles);
+    MarkItems(&gathered->sheet->taking.vertices, &gathered->vertices);
+    gathered->isMarked = true;
+}
+
+void kiriGather_Unmark(kiriGathered* gathered)
+{
+    if (gathered->isMarked) {
+        kiriTaking* taking = &gathered->sheet->taking;
+        ClearMap(&taking->triangles, gathered->triangles.data, gathered->triangles.count);
+        ClearMap(&taking->vertices, gathered->vertices.data, gathered->vertices.count);
+        taking->triangles.count = taking->vertices.count = 0;
+        gathered->isMarked = false;
+    }
+}
