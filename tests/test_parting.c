@@ -199,8 +199,7 @@ static void TestSquaresOfAPart(void** state)
         pin.restPoint[0] = 0.97f;
         pin.restPoint[1] = 0.98f;
         OK(kiriCreatePin(hosts[k].world, part[k], &pin, &id));
-        OK(kiriSheet_ClampLine(hosts[k].world, part[k], (float[]){ 0.7f, 0.56f }, (float[]){ 0.96f, 0.56f },
-                                &id));
+        OK(kiriSheet_ClampLine(hosts[k].world, part[k], (float[]){ 0.7f, 0.56f }, (float[]){ 0.96f, 0.56f }, &id));
         OK(kiriFrame_DetachPiece(hosts[k].world, FrameNear(&hosts[k], part[k], 0.97f, 0.98f), &of[k]));
         assert_true(SheetAt(&hosts[k], 2)->mesh.squares.firstColumn > few->firstColumn);
         OK(Host_Tick(&hosts[k], 1.0f / 60.0f, 1));
@@ -492,8 +491,8 @@ static void TestHolesWithoutMemory(void** state)
         do {
             host.failAt = host.calls + failures;
             host.failOnce = true;
-            result = destroy ? kiriFrame_DestroyPiece(host.world, gone)
-                             : kiriFrame_DetachPiece(host.world, gone, &detached);
+            result =
+                destroy ? kiriFrame_DestroyPiece(host.world, gone) : kiriFrame_DetachPiece(host.world, gone, &detached);
             host.failAt = -1;
             if (result != KIRI_OK) {
                 assert_int_equal(result, KIRI_ERROR_MEMORY);
@@ -506,6 +505,91 @@ static void TestHolesWithoutMemory(void** state)
         OK(Host_Tick(&host, 1.0f / 60.0f, 1));
         Host_Stop(&host);
     }
+}
+
+/* ---- On account ---- */
+
+/* A call does what one tick's samples pay for, and the coming ticks have less; the rest of many pieces is made tick by tick,
+   and no tick spends more than it has. In the end all is as without a budget. */
+static void TestCallsKeepToTheBudget(void** state)
+{
+    (void)state;
+    enum { PIECES = 36, SAMPLES = 700 };
+    uint64_t layouts[2] = { 0, 0 };
+    for (int k = 0; k < 2; ++k) {
+        const kiriBudget budget = { 0, 0, k == 0 ? SAMPLES : 0, 0 };
+        kiriFrame frames[PIECES];
+        kiriSheet made[PIECES];
+        kiriResult result;
+        int32_t ticks = 0, waiting = 0, most = 0;
+        Host host;
+        Host_Start(&host);
+        Weightless(&host);
+        kiriSheetDef def = DefOf(48);
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 80, 80);
+        for (int32_t i = 1; i < 6; ++i) {
+            float at = ((float)i + 0.013f) / 6.0f;
+            Host_Cut(&host, sheet, (float[]){ at, -0.1f, at, 1.1f }, 2);
+            Host_Cut(&host, sheet, (float[]){ -0.1f, at, 1.1f, at }, 2);
+        }
+        OK(Host_Tick(&host, 1.0f / 60.0f, 1));
+        OK(kiriWorld_SetBudget(host.world, &budget));
+        int32_t count = ListFrames(&host, sheet, 9, frames);
+        result = kiriFrame_DetachPiece(host.world, frames[0], &made[0]);
+        assert_true(result == KIRI_OK && made[0] != 0);
+        result = kiriWorld_DetachPieces(host.world, frames + 1, count - 1, made + 1);
+        assert_int_equal(result, k == 0 ? KIRI_PENDING : KIRI_OK);
+        for (int32_t i = 1; i < count; ++i) {
+            assert_true((made[i] == 0) == (k == 0));
+            waiting += made[i] == 0;
+        }
+        while (result == KIRI_PENDING) {
+            kiriProfile profile;
+            kiriEvent event;
+            result = Host_Tick(&host, 1.0f / 60.0f, 1);
+            int32_t came = Host_Events(&host, KIRI_EVENT_PIECE_DETACHED, &event);
+            OK(kiriWorld_GetProfile(host.world, &profile));
+            assert_true(profile.samplesRefreshed <= SAMPLES);
+            waiting -= came;
+            most = came > most ? came : most;
+            ticks += came > 0;
+        }
+        assert_true(waiting == 0 && host.world->samplesDue == 0);
+        assert_true(k == 1 || (ticks > 5 && most < 6));
+        assert_int_equal(host.world->sheets.count, 1 + count);
+        OK(Host_Tick(&host, 1.0f / 60.0f, 1));
+        for (int32_t s = 0; s <= count; ++s) { /* the sheets come in the order that was asked for */
+            layouts[k] = 3 * layouts[k] + HashLayout(SheetAt(&host, s));
+        }
+        Host_Stop(&host);
+    }
+    assert_true(layouts[0] == layouts[1]);
+}
+
+/* What destroying takes is counted, too: a cut that comes after it has less. */
+static void TestDestroyingIsOnAccount(void** state)
+{
+    (void)state;
+    const kiriBudget budget = { 0, 0, 50, 0 };
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = DefOf(24);
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 80, 80);
+    Host_Cut(&host, sheet, (float[]){ 0.7f, -0.1f, 0.7f, 0.3f, 1.1f, 0.3f }, 3);
+    OK(Host_Tick(&host, 1.0f / 60.0f, 1));
+    OK(kiriWorld_SetBudget(host.world, &budget));
+    uint64_t before = Host_Hash(&host);
+    OK(kiriFrame_DestroyPiece(host.world, FrameNear(&host, sheet, 0.85f, 0.15f)));
+    int64_t due = host.world->samplesDue;
+    assert_true(due > 50 && Host_Hash(&host) != before);
+    for (; due > 0; due -= 50) {
+        kiriProfile profile;
+        OK(Host_Tick(&host, 1.0f / 60.0f, 1));
+        OK(kiriWorld_GetProfile(host.world, &profile));
+        assert_int_equal(profile.samplesRefreshed, due < 50 ? due : 50);
+    }
+    assert_int_equal(host.world->samplesDue, 0);
+    Host_Stop(&host);
 }
 
 /* In whatever stage the work is. The world is validated after every tick. */
@@ -963,6 +1047,8 @@ int main(void)
         cmocka_unit_test(TestHolesChangeNothing),
         cmocka_unit_test(TestHolesAreNotSeen),
         cmocka_unit_test(TestHolesWithoutMemory),
+        cmocka_unit_test(TestCallsKeepToTheBudget),
+        cmocka_unit_test(TestDestroyingIsOnAccount),
         cmocka_unit_test(TestUnderBudgets),
         cmocka_unit_test(TestWaitingChangesNothing),
         cmocka_unit_test(TestGoneIsGone),

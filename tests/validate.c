@@ -413,8 +413,8 @@ static bool Check_Skin(Check* check, const kiriSheetData* sheet, const kiriSkin*
     for (int32_t i = 0; i < count; ++i) {
         bool isHole = skin == &sheet->vertexSkin && !kiriMesh_IsVertex(&sheet->mesh, i);
         REQUIRE(!isHole || skin->spans.data[i].count == 0, "vertex %d is a hole, and has weights", i);
-        if (!isHole && (!Rooms_Take(check, &rooms, skin->spans.data[i], i) ||
-                        !Check_SampleWeights(check, sheet, skin, i))) {
+        if (!isHole &&
+            (!Rooms_Take(check, &rooms, skin->spans.data[i], i) || !Check_SampleWeights(check, sheet, skin, i))) {
             return false;
         }
     }

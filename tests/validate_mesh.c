@@ -236,7 +236,8 @@ static bool Check_VertexLists(Check* check, const kiriMeshData* mesh)
             ++listed;
         }
     }
-    REQUIRE(listed == mesh->vertices.count - mesh->vertexHoles, "squares list %d vertices of %d", listed, mesh->vertices.count);
+    REQUIRE(listed == mesh->vertices.count - mesh->vertexHoles, "squares list %d vertices of %d", listed,
+            mesh->vertices.count);
     return true;
 }
 
@@ -273,7 +274,8 @@ static bool Check_Provenance(Check* check, const kiriMeshData* mesh)
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
         const kiriVertex* vertex = &mesh->vertices.data[v];
         double x = 0.0, y = 0.0, sum = 0.0, near = 3e-7 * 536870912.0;
-        REQUIRE(found[v] || !kiriMesh_IsVertex(mesh, v), "vertex %d takes its source %d from elsewhere", v, vertex->source);
+        REQUIRE(found[v] || !kiriMesh_IsVertex(mesh, v), "vertex %d takes its source %d from elsewhere", v,
+                vertex->source);
         for (int i = 0; i < 3; ++i) {
             kiriLatticePoint c = mesh->sourceCorners.data[3 * (vertex->source - mesh->firstSource) + i];
             REQUIRE(vertex->share[i] >= 0.0f, "vertex %d has share %g", v, (double)vertex->share[i]);
@@ -313,7 +315,8 @@ static bool Check_Births(Check* check, const kiriMeshData* mesh)
 bool Check_Mesh(Check* check, const kiriMeshData* mesh, bool isConforming)
 {
     check->part = "mesh";
-    return Check_Holes(check, mesh) && Check_Triangles(check, mesh) && Check_Twins(check, mesh) && Check_Places(check, mesh, isConforming) &&
-           Check_Fans(check, mesh) && Check_Squares(check, mesh) && Check_VertexLists(check, mesh) &&
-           Check_DirtySquares(check, mesh) && Check_Provenance(check, mesh) && Check_Births(check, mesh);
+    return Check_Holes(check, mesh) && Check_Triangles(check, mesh) && Check_Twins(check, mesh) &&
+           Check_Places(check, mesh, isConforming) && Check_Fans(check, mesh) && Check_Squares(check, mesh) &&
+           Check_VertexLists(check, mesh) && Check_DirtySquares(check, mesh) && Check_Provenance(check, mesh) &&
+           Check_Births(check, mesh);
 }

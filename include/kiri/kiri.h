@@ -673,19 +673,24 @@ KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, 
    Else all move together, and their indices change. In either case its revision grows, and kiriSheet_GetDirty says what
    changed. The new sheet has the squares of the grid around it, at about 40 bytes a square: crumbs are better dropped.
    Costs what the piece takes to make, and a look at the weights of what is left; where indices change more.
-   KIRI_PENDING: work on a cut is at hand in the sheet; *detached is 0. When it is done, what is the piece of this frame
-   then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. That counts as samples of the budget: until they are paid
-   for, over several ticks if need be, further cuts of the sheet wait. KIRI_ERROR_STATE: nothing would be left of the sheet. */
+   KIRI_PENDING: work on a cut is at hand in the sheet, or it takes more samples than the budget leaves calls before the
+   next tick; *detached is 0. When the work is done, what is the piece of this frame then becomes a sheet, and
+   KIRI_EVENT_PIECE_DETACHED names it. About 1.2 samples for each vertex of the piece, 0.7 for each cell, and one for 80
+   vertices of the rest are paid before, over several ticks if need be, of many pieces one after the other; until then
+   further cuts of the sheet wait. A piece that is worth more than the samples of a tick is made in one tick all the same,
+   when they are paid. What a call does at once the coming ticks have less. KIRI_ERROR_STATE: nothing would be left of the
+   sheet. */
 KIRI_API kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached);
 
-/* The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but for making a sheet.
+/* The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but for making a sheet: that is
+   done at once, and the coming ticks have less.
    KIRI_PENDING: work on a cut is at hand. The piece is gone all the same: its triangles are in kiriMesh, with three equal
    corners; it touches nothing; no point of it is found. When the work is done its vertices go, too; until then kiriCounts
    still counts it, and its kiriPieceState is all zeros. */
 KIRI_API kiriResult kiriFrame_DestroyPiece(kiriWorld* world, kiriFrame frame);
 
 /* The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames of one piece count once.
-   Where one is refused, none goes. KIRI_PENDING: some wait. detached[i] is the sheet that the piece of frames[i] has
+   Where one is refused, none goes. KIRI_PENDING: some wait, those of one sheet together. detached[i] is the sheet that the piece of frames[i] has
    become, 0 where it waits. */
 KIRI_API kiriResult kiriWorld_DetachPieces(kiriWorld* world, const kiriFrame* frames, int32_t count,
                                            kiriSheet* detached);

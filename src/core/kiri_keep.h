@@ -10,7 +10,7 @@ typedef struct kiriKeep {
     KIRI_ARRAY(int32_t) to; /* of each item: its new index, or KIRI_NONE */
     int32_t count;          /* items that are kept */
     int32_t first;          /* the first that is not, or the number of items: those before it stay where they are */
-    bool leavesHoles;       /* all stay where they are: then `to` is KIRI_NONE for those that are kept, and for no others */
+    bool leavesHoles; /* all stay where they are: then `to` is KIRI_NONE for those that are kept, and for no others */
 } kiriKeep;
 
 /* A map of no items, with room for so many. False for memory. */

@@ -284,8 +284,7 @@ static int32_t FindSheetEntry(BladeWalk* walk)
     SheetEntry entry = { KIRI_NONE, 2.0 };
     SquaresBetween(squares->side, squares->firstRow, squares->rows, walk->at.y, walk->to.y, &firstRow, &lastRow);
     for (int32_t row = firstRow; row <= lastRow; ++row) {
-        double low =
-            (((double)squares->firstRow + row) * squares->side - 3.0 - walk->at.y) / (dy != 0.0 ? dy : 1.0);
+        double low = (((double)squares->firstRow + row) * squares->side - 3.0 - walk->at.y) / (dy != 0.0 ? dy : 1.0);
         double high = low + ((double)squares->side + 4.0) / (dy != 0.0 ? dy : 1.0);
         double enter = low < high ? low : high, leave = low < high ? high : low;
         enter = dy == 0.0 || enter < 0.0 ? 0.0 : enter;

@@ -169,8 +169,9 @@ void kiriMesh_LeaveHoles(kiriMeshData* mesh, const kiriMeshLoss* loss)
     kiriSquares_Keep(&mesh->squares, &loss->keepTriangles, loss->squares->data, loss->squares->count);
     for (int32_t k = 0; k < loss->triangles->count; ++k) {
         kiriTriangle* t = &mesh->triangles.data[loss->triangles->data[k]];
-        *t = (kiriTriangle){ { KIRI_NONE, KIRI_NONE, KIRI_NONE }, { KIRI_NONE, KIRI_NONE, KIRI_NONE }, t->source,
-                             KIRI_NONE,                           0,                                   t->stamp };
+        *t = (kiriTriangle){
+            { KIRI_NONE, KIRI_NONE, KIRI_NONE }, { KIRI_NONE, KIRI_NONE, KIRI_NONE }, t->source, KIRI_NONE, 0, t->stamp
+        };
     }
     for (int32_t k = 0; k < loss->vertices->count; ++k) {
         mesh->vertices.data[loss->vertices->data[k]].edge = KIRI_NONE;

@@ -31,8 +31,8 @@ typedef struct kiriSquares {
     int32_t columns, rows;
     int32_t firstColumn, firstRow; /* where they begin: a part of a sheet has those around it alone */
     int32_t side;                  /* lattice steps, even; grid line k lies at k * side - 1 */
-    double perStep; /* 1 / side */
-    int32_t* head;  /* a square's first node, or KIRI_NONE; columns * rows, row by row */
+    double perStep;                /* 1 / side */
+    int32_t* head;                 /* a square's first node, or KIRI_NONE; columns * rows, row by row */
     KIRI_ARRAY(kiriSquareNode) nodes;
     int32_t freeNode;
     int32_t* vertexHead;       /* a square's first vertex, or KIRI_NONE: see kiriVertex */

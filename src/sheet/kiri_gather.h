@@ -14,8 +14,8 @@ typedef struct kiriGatheredPiece {
 
 typedef struct kiriGathered {
     kiriSheetData* sheet;
-    kiriMemory* memory; /* of the lists */
-    KIRI_ARRAY(kiriGatheredPiece) pieces; /* in their order */
+    kiriMemory* memory;                              /* of the lists */
+    KIRI_ARRAY(kiriGatheredPiece) pieces;            /* in their order */
     kiriIndices triangles, vertices, cells, squares; /* squares: those of the cells, each once */
     bool isMarked;
 } kiriGathered;

@@ -10,11 +10,11 @@ KIRI_C_BEGIN
 
 typedef struct kiriRemoval {
     kiriSheetData* sheet;
-    kiriKept kept;                      /* what is left */
-    kiriGathered gathered;              /* what goes, where it leaves holes or becomes parts */
-    bool leavesHoles;                   /* triangles and vertices do not move together */
-    kiriIndices cells, squares;         /* that go, and the squares in which they are, each once */
-    KIRI_ARRAY(kiriVec3) forces;        /* of each touch of the last tick */
+    kiriKept kept;               /* what is left */
+    kiriGathered gathered;       /* what goes, where it leaves holes or becomes parts */
+    bool leavesHoles;            /* triangles and vertices do not move together */
+    kiriIndices cells, squares;  /* that go, and the squares in which they are, each once */
+    KIRI_ARRAY(kiriVec3) forces; /* of each touch of the last tick */
     kiriShown shown;
     KIRI_ARRAY(float) points; /* where collision points that are left are seen */
 } kiriRemoval;

@@ -11,8 +11,13 @@
 
 #include <string.h>
 
-#define PASSED_VERTICES 12 /* of the sheet that pieces leave, for one sample; */
-#define MADE_SQUARES 8     /* the same of the squares of a sheet that is made */
+/* For one sample: so many vertices have their weights renumbered, or move together. */
+#define RENUMBERED_VERTICES 80
+#define PASSED_VERTICES 12
+
+/* Samples that it takes to make a sheet, for each of its vertices, and for each of its cells. */
+#define VERTEX_SAMPLES 1.2
+#define CELL_SAMPLES 0.7
 
 /* A piece that is taken out. */
 typedef struct Part {
@@ -26,6 +31,8 @@ typedef struct Part {
 typedef struct Source {
     kiriRemoval removal;
     kiriExtraction extraction;
+    bool waits;     /* what is to become a sheet does so later */
+    double samples; /* that it costs at once */
 } Source;
 
 /* What one call takes out of sheets. */
@@ -90,6 +97,15 @@ static Source* SourceFor(Parting* parting, kiriSheetData* sheet)
     return AddSource(parting, sheet);
 }
 
+static bool IsSource(const Parting* parting, const kiriSheetData* sheet)
+{
+    bool any = false;
+    for (int32_t k = 0; k < parting->sourceCount; ++k) {
+        any = any || parting->sources[k].removal.sheet == sheet;
+    }
+    return any;
+}
+
 static int32_t PieceOfFrame(const kiriWorld* world, kiriFrame frame)
 {
     const kiriSlot* slot = kiriPool_Find(&world->frameIds, frame);
@@ -146,9 +162,62 @@ static kiriResult ResultOf(const Parting* parting)
 {
     kiriResult result = KIRI_OK;
     for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        result = IsBusy(parting->sources[k].removal.sheet) ? KIRI_PENDING : result;
+        result = parting->sources[k].waits ? KIRI_PENDING : result;
     }
     return result;
+}
+
+/* ---- What it costs ---- */
+
+/* Samples: to take pieces out of a sheet. */
+static double CostOfRemoval(const kiriSheetData* sheet, double share)
+{
+    const kiriMeshData* mesh = &sheet->mesh;
+    double vertices = (double)mesh->vertices.count - mesh->vertexHoles, holes = mesh->vertexHoles + share * vertices;
+    bool isPass = kiriRemoval_IsSmall(sheet) || 2.0 * holes > mesh->vertices.count;
+    return 1.0 + vertices / RENUMBERED_VERTICES + (isPass ? vertices / PASSED_VERTICES : 0.0);
+}
+
+/* And to make sheets of them. */
+static double CostOfSheets(const kiriSheetData* sheet, double share)
+{
+    double vertices = (double)sheet->mesh.vertices.count - sheet->mesh.vertexHoles;
+    return share * (VERTEX_SAMPLES * vertices + CELL_SAMPLES * sheet->grid.cellCount);
+}
+
+static double WholeArea(const kiriSheetData* sheet)
+{
+    double whole = 0.0;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        whole += sheet->layout.pieces.data[p].area;
+    }
+    return whole;
+}
+
+/* A call does at once what is left of one tick's samples; the rest waits, each sheet's for itself. What work is at hand in,
+   or has others that wait, waits in any case. */
+static void ChooseWhatWaits(Parting* parting, bool makesSheets)
+{
+    kiriWorld* world = parting->world;
+    double left = world->budget.samples > 0 ? (double)world->budget.samples - (double)world->samplesDue : 1e18;
+    for (int32_t k = 0; k < parting->sourceCount; ++k) {
+        Source* source = &parting->sources[k];
+        const kiriSheetData* sheet = source->removal.sheet;
+        double share = 1.0 - kiriKept_Share(&source->removal.kept);
+        source->samples = CostOfRemoval(sheet, share) + (makesSheets ? CostOfSheets(sheet, share) : 0.0);
+        source->waits = !parting->isInTick &&
+                        (IsBusy(sheet) || (makesSheets && (source->samples > left || kiriParts_AreDue(sheet))));
+        left -= source->waits ? 0.0 : source->samples;
+    }
+}
+
+/* Once it is done. */
+static void ChargeCall(const Parting* parting)
+{
+    kiriWorld* world = parting->world;
+    for (int32_t k = 0; k < parting->sourceCount && world->budget.samples > 0 && !parting->isInTick; ++k) {
+        world->samplesDue += parting->sources[k].waits ? 0 : (int64_t)parting->sources[k].samples;
+    }
 }
 
 /* ---- Out of their sheets ---- */
@@ -160,7 +229,7 @@ static bool GatherSources(Parting* parting, bool makesParts)
     for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
         kiriRemoval* removal = &parting->sources[k].removal;
         bool isNeeded = makesParts || !kiriRemoval_IsSmall(removal->sheet);
-        ok = IsBusy(removal->sheet) || !isNeeded || kiriRemoval_Gather(removal);
+        ok = parting->sources[k].waits || !isNeeded || kiriRemoval_Gather(removal);
     }
     return ok;
 }
@@ -180,7 +249,7 @@ static bool StageRemovals(Parting* parting)
     bool ok = true;
     for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
         kiriRemoval* removal = &parting->sources[k].removal;
-        ok = IsBusy(removal->sheet) || StageRemoval(parting, removal);
+        ok = parting->sources[k].waits || StageRemoval(parting, removal);
     }
     return ok;
 }
@@ -203,7 +272,7 @@ static void PointIds(kiriWorld* world, kiriSheetData* sheet)
 static void CommitRemovals(Parting* parting)
 {
     for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        if (!IsBusy(parting->sources[k].removal.sheet)) {
+        if (!parting->sources[k].waits) {
             kiriRemoval_Commit(&parting->sources[k].removal, &parting->world->retired);
             PointIds(parting->world, parting->sources[k].removal.sheet);
         }
@@ -226,7 +295,7 @@ static bool MakeParts(Parting* parting)
     bool ok = true;
     for (int32_t k = 0; ok && k < parting->parts.count; ++k) {
         Part* part = &parting->parts.data[k];
-        ok = IsBusy(part->from->removal.sheet) || MakePart(parting, part);
+        ok = part->from->waits || MakePart(parting, part);
     }
     return ok;
 }
@@ -283,6 +352,7 @@ static void AddLeaving(kiriWorld* world, const Part* part)
     kiriSheetData* sheet = part->from->removal.sheet;
     if (!IsLeaving(world, sheet, part->piece)) {
         sheet->leaving.data[sheet->leaving.count++] = part->frame;
+        sheet->rest.isIdle = false;
     }
 }
 
@@ -299,6 +369,7 @@ static kiriResult Detach(Parting* parting)
         part->sheet != NULL ? AddSheetOfPart(parting->world, part) : AddLeaving(parting->world, part);
     }
     CommitRemovals(parting);
+    ChargeCall(parting);
     return ResultOf(parting);
 }
 
@@ -308,11 +379,12 @@ kiriResult kiriParts_Detach(kiriWorld* world, const kiriFrame* frames, int32_t c
     kiriResult result = KIRI_ERROR_MEMORY;
     if (Parting_Start(&parting, world, count < world->sheets.count ? count : world->sheets.count) &&
         MarkPieces(&parting, frames, count)) {
+        ChooseWhatWaits(&parting, true);
         result = LeavesSome(&parting) ? Detach(&parting) : KIRI_ERROR_STATE;
     }
     for (int32_t i = 0; result >= 0 && i < count; ++i) {
         const kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frames[i])->owner;
-        ids[i] = IsBusy(sheet) ? 0 : sheet->id;
+        ids[i] = IsSource(&parting, sheet) ? 0 : sheet->id; /* else the frame would have left it */
     }
     Parting_End(&parting);
     return result;
@@ -375,19 +447,21 @@ static bool RenewIndices(Parting* parting)
     bool ok = true;
     for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
         kiriSheetData* sheet = parting->sources[k].removal.sheet;
-        ok = !IsBusy(sheet) || kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired);
+        ok = !parting->sources[k].waits ||
+             kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired);
     }
     return ok;
 }
 
 static kiriResult Destroy(Parting* parting)
 {
+    ChooseWhatWaits(parting, false);
     if (!GatherSources(parting, false) || !StageRemovals(parting) || !RenewIndices(parting)) {
         return KIRI_ERROR_MEMORY;
     }
     for (int32_t k = 0; k < parting->sourceCount; ++k) {
         const kiriRemoval* removal = &parting->sources[k].removal;
-        if (IsBusy(removal->sheet)) {
+        if (parting->sources[k].waits) {
             MarkRemoved(parting->world, removal);
         } else {
             ForgetIds(parting->world, removal);
@@ -395,6 +469,7 @@ static kiriResult Destroy(Parting* parting)
         }
     }
     CommitRemovals(parting);
+    ChargeCall(parting);
     return ResultOf(parting);
 }
 
@@ -465,28 +540,40 @@ bool kiriParts_AreDue(const kiriSheetData* sheet)
     return !IsBusy(sheet) && (sheet->leaving.count > 0 || kiriPieces_AnyGone(sheet));
 }
 
-/* Samples: a pass over the vertices of the sheet, and those of each part, on squares of its own, once more. */
-static int64_t CostOfParting(const Parting* parting, const kiriSheetData* sheet)
+/* Samples for what is gone, and for the first `count` of those that leave. */
+static int64_t CostOfLeaving(const kiriWorld* world, const kiriSheetData* sheet, int32_t count)
 {
-    const kiriSquares* squares = &sheet->mesh.squares;
-    double vertices = sheet->mesh.vertices.count, cost = vertices / PASSED_VERTICES, whole = 0.0;
+    const kiriPiece* pieces = sheet->layout.pieces.data;
+    double whole = WholeArea(sheet), gone = 0.0, share = 0.0;
     for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        whole += sheet->layout.pieces.data[p].area;
+        gone += pieces[p].isGone ? pieces[p].area / whole : 0.0;
     }
-    for (int32_t k = 0; k < parting->parts.count; ++k) {
-        double share = sheet->layout.pieces.data[parting->parts.data[k].piece].area / whole;
-        cost += share * vertices + (double)squares->columns * squares->rows / MADE_SQUARES;
+    for (int32_t k = 0; k < count; ++k) {
+        share += pieces[PieceOfFrame(world, sheet->leaving.data[k])].area / whole;
     }
-    return 1 + (int64_t)cost;
+    return (int64_t)(CostOfRemoval(sheet, gone + share) + CostOfSheets(sheet, share));
 }
 
-/* Over several ticks, if need be. */
-static bool IsPaid(const Parting* parting, kiriSheetData* sheet, kiriQuota* samples)
+/* How many of those that leave the samples pay for, what was paid before with them: one at least, which takes several ticks
+   if need be. KIRI_NONE: it is not paid for yet. */
+static int32_t PayForLeaving(const kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)
 {
-    int64_t cost = CostOfParting(parting, sheet), due = cost > sheet->leavingPaid ? cost - sheet->leavingPaid : 0;
+    int32_t count = sheet->leaving.count > 0, most = sheet->leaving.count;
+    int64_t paid = sheet->leavingPaid, cost = CostOfLeaving(world, sheet, count);
+    while (count < most) {
+        int32_t more = most - count > 16 ? count + (most - count) / 2 : count + 1;
+        int64_t costOfMore = CostOfLeaving(world, sheet, more);
+        if (costOfMore - paid > samples->left) {
+            most = more - 1;
+        } else {
+            count = more;
+            cost = costOfMore;
+        }
+    }
+    int64_t due = cost > paid ? cost - paid : 0;
     bool isPaid = kiriQuota_Pay(samples, &due);
     sheet->leavingPaid = cost - due;
-    return isPaid;
+    return isPaid ? count : KIRI_NONE;
 }
 
 int32_t kiriParts_Finish(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)
@@ -496,10 +583,22 @@ int32_t kiriParts_Finish(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samp
         return 0;
     }
     ForgetStaleLeaving(world, sheet);
-    bool isDone = Parting_Start(&parting, world, 1) && (parting.isInTick = true) && SourceFor(&parting, sheet) != NULL &&
-                  MarkPieces(&parting, sheet->leaving.data, sheet->leaving.count) && IsPaid(&parting, sheet, samples) &&
-                  Detach(&parting) == KIRI_OK;
+    int32_t count = PayForLeaving(world, sheet, samples);
+    if (count == KIRI_NONE) {
+        return 0;
+    }
+    bool isDone = Parting_Start(&parting, world, 1);
+    parting.isInTick = true;
+    isDone = isDone && SourceFor(&parting, sheet) != NULL && MarkPieces(&parting, sheet->leaving.data, count) &&
+             Detach(&parting) == KIRI_OK;
     sheet->leavingPaid = isDone ? 0 : sheet->leavingPaid;
     Parting_End(&parting);
-    return isDone ? sheet->leaving.count : 0;
+    return isDone ? count : 0;
+}
+
+void kiriParts_ForgetMade(kiriSheetData* sheet, int32_t made)
+{
+    sheet->leaving.count -= made;
+    memmove(sheet->leaving.data, sheet->leaving.data + made,
+            sizeof(*sheet->leaving.data) * (size_t)sheet->leaving.count);
 }

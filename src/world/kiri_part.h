@@ -20,8 +20,9 @@ kiriResult kiriParts_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double a
 bool kiriParts_AreDue(const kiriSheetData* sheet);
 
 /* At the end of a tick: what is due, once samples have paid for it. Returns how many pieces have become sheets:
-   sheet->leaving begins with their frames, and is for the caller to empty. Where memory is refused they wait on. */
+   sheet->leaving begins with their frames until ForgetMade. Where memory is refused they wait on. */
 int32_t kiriParts_Finish(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples);
+void kiriParts_ForgetMade(kiriSheetData* sheet, int32_t made);
 
 KIRI_C_END
 

@@ -498,6 +498,9 @@ uint64_t kiriStateHash_Of(const kiriWorld* world)
     kiriHash_Int32(&hash, world->budget.samples);
     kiriHash_Int32(&hash, world->budget.iterations);
     kiriHash_Int32(&hash, world->turn);
+    if (world->samplesDue > 0) {
+        kiriHash_Int64(&hash, world->samplesDue);
+    }
     for (int32_t i = 0; i < world->blades.count; ++i) {
         HashBlade(&hash, world, world->blades.data[i]);
     }

@@ -392,13 +392,14 @@ static bool FinishParting(kiriWorld* world, kiriQuota* samples)
     bool isDone = true;
     for (int32_t i = 0, count = world->active.count; i < count; ++i) {
         kiriSheetData* sheet = kiriWorld_Active(world, i);
-        for (int32_t k = 0, made = kiriParts_Finish(world, sheet, samples); k < made; ++k) {
+        int32_t made = kiriParts_Finish(world, sheet, samples);
+        for (int32_t k = 0; k < made; ++k) {
             const kiriSheetData* part = kiriPool_Find(&world->frameIds, sheet->leaving.data[k])->owner;
             kiriEvent* event = AddEvent(world, KIRI_EVENT_PIECE_DETACHED, part);
             event->frame = sheet->leaving.data[k];
             event->area = (float)part->layout.pieces.data[0].area;
-            sheet->leaving.count = k + 1 < made ? sheet->leaving.count : 0;
         }
+        kiriParts_ForgetMade(sheet, made);
         isDone = isDone && !kiriParts_AreDue(sheet);
     }
     return isDone;
@@ -418,6 +419,8 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
 {
     kiriQuotas quotas = ShareOut(&world->budget);
     kiriProfile last = world->profile;
+    int64_t samplesDue = world->samplesDue; /* calls since the last tick were on account */
+    (void)kiriQuota_Pay(&quotas.of[KIRI_QUOTA_SAMPLES], &samplesDue);
     kiriMemory_FreeAll(&world->retired);
     memset(&world->profile, 0, sizeof(world->profile));
     ListActive(world);
@@ -427,6 +430,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     kiriResult result = hasRoom ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
     if (result == KIRI_OK) {
         world->events.count = 0;
+        world->samplesDue = samplesDue;
         kiriPairs_Commit(world);
         CommitAll(world);
         kiriObstacles_Begin(world);

@@ -44,6 +44,7 @@ struct kiriWorld {
     void* user;
     kiriVec3 gravity;
     kiriBudget budget;
+    int64_t samplesDue; /* that calls have taken: the coming ticks have less */
     int64_t ticks;
     int32_t turn; /* the sheet that is moved first: the one for which the last tick had no iterations left */
     kiriPool sheetIds, cutIds, frameIds, pinIds, obstacleIds, bladeIds;
