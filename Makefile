@@ -392,7 +392,7 @@ $(BUILD)/tests/test_games: $(GAME_PARTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS)
 $(BUILD)/tests/test_games: TEST_LIBRARIES = $(BUILD)/libkiri.a -lbox2d -lOSMesa -lpng -lz
 
 # Threads read a world, or work on its ticks.
-$(BUILD)/tests/test_readers $(BUILD)/tests/test_tasks: override LDFLAGS += -pthread
+$(BUILD)/tests/test_readers $(BUILD)/tests/test_tasks $(BUILD)/tests/bench_tasks: override LDFLAGS += -pthread
 
 # Tests that compare with the heavy elastica.
 $(BUILD)/tests/test_affine $(BUILD)/tests/test_estimate $(BUILD)/tests/test_point: $(BUILD)/tests/reference.c.o

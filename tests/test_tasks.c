@@ -324,6 +324,32 @@ static void SoItDoesOnABudget(void** state)
     Compare(4, &wide, 24);
 }
 
+/* Tasks of one tick of sheets in free fall, beside an obstacle or not. */
+static int32_t TasksOfFall(bool hasObstacle)
+{
+    static const float below[3] = { 0.0f, 0.0f, -100.0f };
+    static Crew crew;
+    Crew_Start(&crew, 2);
+    for (int32_t i = 0; i < 4; ++i) {
+        AddSheet(&crew, 2.0f * (float)i, 0.0f, 0.5f, 6);
+    }
+    if (hasObstacle) {
+        AddBody(&crew, KIRI_OBSTACLE_PLANE, below, 0.0f, 0);
+    }
+    Host_Tick(&crew.host, 0.01f, 2);
+    int32_t before = crew.started;
+    Host_Tick(&crew.host, 0.01f, 2);
+    int32_t tasks = crew.started - before;
+    Crew_Stop(&crew);
+    return tasks;
+}
+
+static void SheetsLookForObstaclesInATask(void** state)
+{
+    (void)state;
+    assert_int_equal(TasksOfFall(true), TasksOfFall(false) + 1);
+}
+
 static void HooksComeTogether(void** state)
 {
     Host host;
@@ -351,6 +377,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(AnyCrewGivesTheSameBits),
         cmocka_unit_test(SoItDoesOnABudget),
+        cmocka_unit_test(SheetsLookForObstaclesInATask),
         cmocka_unit_test(HooksComeTogether),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -30,6 +30,13 @@ static void DefaultFree(void* user, void* pointer)
     free(pointer);
 }
 
+static void* RefuseAlloc(void* user, int64_t bytes)
+{
+    (void)user;
+    (void)bytes;
+    return NULL;
+}
+
 kiriMemory kiriMemory_Make(kiriAllocFn* alloc, kiriFreeFn* free, void* user)
 {
     kiriMemory memory = { DefaultAlloc, DefaultFree, NULL, NULL };
@@ -44,6 +51,11 @@ kiriMemory kiriMemory_Make(kiriAllocFn* alloc, kiriFreeFn* free, void* user)
 kiriMemory kiriMemory_Like(const kiriMemory* memory)
 {
     return kiriMemory_Make(memory->alloc, memory->free, memory->user);
+}
+
+kiriMemory kiriMemory_None(void)
+{
+    return kiriMemory_Make(RefuseAlloc, DefaultFree, NULL);
 }
 
 static kiriBlock* BlockOf(void* pointer)

@@ -62,6 +62,9 @@ kiriMemory kiriMemory_Make(kiriAllocFn* alloc, kiriFreeFn* free, void* user);
 /* Another owner with the same hooks, without blocks. */
 kiriMemory kiriMemory_Like(const kiriMemory* memory);
 
+/* An owner that has no memory at all: for tasks, which do without or fail. */
+kiriMemory kiriMemory_None(void);
+
 /* Null when there is no memory. Not zeroed. */
 void* kiriMemory_Alloc(kiriMemory* memory, int64_t bytes);
 

@@ -45,17 +45,18 @@ static bool IsTouching(const kiriObstacleData* obstacle, const kiriSheetData* sh
 }
 
 /* What of the sheet is within reach of an obstacle that is bound. False for memory. */
-static bool FindNear(kiriWorld* world, kiriSheetData* sheet, const kiriObstacleData* obstacle, double reach)
+static bool FindNear(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle, double reach)
 {
-    world->obstacleSearch.memory = &world->memory;
     return kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) &&
-           kiriObstacleSearch_Near(&world->obstacleSearch, sheet, obstacle, reach);
+           kiriObstacleSearch_Near(search, sheet, obstacle, reach);
 }
 
 static void WakeNear(kiriWorld* world, kiriSheetData* sheet, const kiriObstacleData* obstacle)
 {
-    const kiriIndices* triangles = &world->obstacleSearch.triangles;
-    if (sheet->layout.pieces.count == 1 || !FindNear(world, sheet, obstacle, sheet->settings.contactThickness)) {
+    kiriObstacleSearch* search = &world->obstacleSearch;
+    const kiriIndices* triangles = &search->triangles;
+    search->memory = &world->memory;
+    if (sheet->layout.pieces.count == 1 || !FindNear(search, sheet, obstacle, sheet->settings.contactThickness)) {
         kiriMotion_Wake(sheet);
         return;
     }
@@ -192,6 +193,13 @@ static kiriObstacleData* NextNear(const kiriWorld* world, const kiriSheetData* s
     return NULL;
 }
 
+/* A tick in which all sheets look for touches. */
+typedef struct TouchSearch {
+    kiriWorld* world;
+    double dt, least;
+    bool isAnyMoving;
+} TouchSearch;
+
 static void Stir(kiriSheetData* sheet, int32_t piece)
 {
     kiriRest* rest = &sheet->layout.pieces.data[piece].rest;
@@ -200,14 +208,14 @@ static void Stir(kiriSheetData* sheet, int32_t piece)
 }
 
 /* False for memory. */
-static bool StirNear(kiriWorld* world, kiriSheetData* sheet, const kiriObstacleData* obstacle, double reach)
+static bool StirNear(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle, double reach)
 {
-    const kiriIndices* triangles = &world->obstacleSearch.triangles;
+    const kiriIndices* triangles = &search->triangles;
     if (sheet->layout.pieces.count == 1) {
         Stir(sheet, 0);
         return true;
     }
-    bool ok = FindNear(world, sheet, obstacle, reach);
+    bool ok = FindNear(search, sheet, obstacle, reach);
     for (int32_t i = 0; ok && i < triangles->count; ++i) {
         Stir(sheet, kiriPiece_OfTriangle(sheet, triangles->data[i]));
     }
@@ -215,13 +223,15 @@ static bool StirNear(kiriWorld* world, kiriSheetData* sheet, const kiriObstacleD
 }
 
 /* Something that moves comes near: pieces that sleep shall wake. False for memory. */
-static bool StirSleepers(kiriWorld* world, kiriSheetData* sheet, const Around* around, double dt, double least)
+static bool StirSleepers(const TouchSearch* looking, kiriObstacleSearch* search, kiriSheetData* sheet,
+                         const Around* around)
 {
-    const Around still = { around->box, 0.0, kiriReach_Of(0.0, world->gravity, dt) + sheet->settings.contactThickness };
+    double fall = kiriReach_Of(0.0, looking->world->gravity, looking->dt);
+    const Around still = { around->box, 0.0, fall + sheet->settings.contactThickness };
     int32_t at = 0;
     bool ok = true;
-    for (kiriObstacleData* obstacle; ok && (obstacle = NextNear(world, sheet, &still, &at)) != NULL;) {
-        ok = !IsMoving(obstacle, dt, least) || StirNear(world, sheet, obstacle, still.reach);
+    for (kiriObstacleData* obstacle; ok && (obstacle = NextNear(looking->world, sheet, &still, &at)) != NULL;) {
+        ok = !IsMoving(obstacle, looking->dt, looking->least) || StirNear(search, sheet, obstacle, still.reach);
     }
     return ok;
 }
@@ -235,9 +245,8 @@ static bool HasSleepers(const kiriSheetData* sheet)
     return any;
 }
 
-static bool TouchAll(kiriWorld* world, kiriSheetData* sheet, const Around* around)
+static bool TouchAll(const kiriWorld* world, kiriObstacleSearch* search, kiriSheetData* sheet, const Around* around)
 {
-    kiriObstacleSearch* search = &world->obstacleSearch;
     int32_t at = 0;
     bool ok = true;
     for (kiriObstacleData* obstacle; ok && (obstacle = NextNear(world, sheet, around, &at)) != NULL;) {
@@ -259,17 +268,71 @@ static bool IsAnyMoving(const kiriWorld* world, double dt, double least)
 }
 
 /* Pieces that sleep may wake when a cut takes effect: these are stirred already. */
-static bool FindTouchesOf(kiriWorld* world, kiriSheetData* sheet, double dt, double least)
+static bool FindTouchesOf(const TouchSearch* looking, kiriObstacleSearch* search, kiriSheetData* sheet)
 {
     bool sleeps = sheet->rest.asleep && sheet->update->stage != KIRI_READY;
+    if (sleeps && !looking->isAnyMoving) {
+        return true;
+    }
     if (sleeps && !kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface)) {
         return false;
     }
-    Around around = MakeAround(world, sheet, dt);
-    if (HasSleepers(sheet) && !StirSleepers(world, sheet, &around, dt, least)) {
+    Around around = MakeAround(looking->world, sheet, looking->dt);
+    if (HasSleepers(sheet) && !StirSleepers(looking, search, sheet, &around)) {
         return false;
     }
-    return (sleeps && !sheet->rest.isStirred) || TouchAll(world, sheet, &around);
+    return (sleeps && !sheet->rest.isStirred) || TouchAll(looking->world, search, sheet, &around);
+}
+
+/* In a task nothing may be allocated. A sheet that comes short of room is as before, and looks again when all are done. */
+static void TryTouchesOf(const TouchSearch* looking, kiriObstacleSearch* search, kiriSheetData* sheet)
+{
+    kiriTouches* touches = &sheet->touches;
+    kiriMemory *own = sheet->memory, none = kiriMemory_None();
+    int32_t found = touches->found.count, yields = touches->yields.count;
+    sheet->memory = search->memory = &none;
+    touches->isShort = !FindTouchesOf(looking, search, sheet);
+    sheet->memory = own;
+    search->memory = &looking->world->memory;
+    touches->found.count = touches->isShort ? found : touches->found.count;
+    touches->yields.count = touches->isShort ? yields : touches->yields.count;
+}
+
+/* Each search looks for every so many-th sheet: so those that are near each other in the list, and alike, are shared out. */
+static void LookForTouches(int32_t start, int32_t end, void* context)
+{
+    const TouchSearch* looking = context;
+    const kiriWorld* world = looking->world;
+    for (int32_t k = start; k < end; ++k) {
+        for (int32_t i = k; i < world->sheets.count; i += world->searches.count) {
+            TryTouchesOf(looking, &world->searches.data[k], world->sheets.data[i]);
+        }
+    }
+}
+
+static void ReadySearch(kiriWorld* world, kiriObstacleSearch* search, double dt)
+{
+    search->memory = &world->memory;
+    search->dt = dt;
+    search->gravity = world->gravity;
+}
+
+/* Two a worker, so that they end at about the same time. False for memory. */
+static bool LookInTasks(TouchSearch* looking)
+{
+    kiriWorld* world = looking->world;
+    int32_t made = world->searches.count, wanted = 2 * world->tasks.workers;
+    if (made < wanted && !kiriArray_Resize(&world->memory, &world->searches, wanted)) {
+        return false;
+    }
+    for (int32_t k = made; k < wanted; ++k) {
+        memset(&world->searches.data[k], 0, sizeof(kiriObstacleSearch));
+    }
+    for (int32_t k = 0; k < wanted; ++k) {
+        ReadySearch(world, &world->searches.data[k], looking->dt);
+    }
+    kiriTasks_Run(&world->tasks, LookForTouches, wanted, 1, looking);
+    return true;
 }
 
 bool kiriObstacles_FindTouches(kiriWorld* world, double dt)
@@ -278,15 +341,15 @@ bool kiriObstacles_FindTouches(kiriWorld* world, double dt)
         return true;
     }
     double least = LeastDrift(world);
-    bool isAnyMoving = IsAnyMoving(world, dt, least), ok = SortObstacles(world, dt);
-    world->obstacleSearch.memory = &world->memory;
-    world->obstacleSearch.dt = dt;
-    world->obstacleSearch.gravity = world->gravity;
+    TouchSearch looking = { world, dt, least, IsAnyMoving(world, dt, least) };
+    bool areTasks = kiriTasks_AreGiven(&world->tasks);
+    bool ok = SortObstacles(world, dt) && (!areTasks || LookInTasks(&looking));
+    ReadySearch(world, &world->obstacleSearch, dt);
     for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
         kiriSheetData* sheet = world->sheets.data[i];
-        if (isAnyMoving || !sheet->rest.asleep || sheet->update->stage == KIRI_READY) {
-            ok = FindTouchesOf(world, sheet, dt, least);
-        }
+        kiriObstacleSearch* search =
+            areTasks ? &world->searches.data[i % world->searches.count] : &world->obstacleSearch;
+        ok = (areTasks && !sheet->touches.isShort) || FindTouchesOf(&looking, search, sheet);
     }
     return ok;
 }

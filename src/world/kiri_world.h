@@ -54,6 +54,7 @@ struct kiriWorld {
     KIRI_ARRAY(struct kiriBladeData*) blades;
     kiriIndices obstacleOrder; /* by where they begin along x */
     kiriObstacleSearch obstacleSearch;
+    KIRI_ARRAY(kiriObstacleSearch) searches; /* for tasks: so many sheets may look for touches at a time */
     kiriPairs pairs;
     kiriMoves moves;
     KIRI_ARRAY(kiriSkinRange) skinRanges;

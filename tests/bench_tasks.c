@@ -1,0 +1,231 @@
+/* What a second worker saves: ticks of many sheets on the floor, of many in a heap, and of one large sheet, of which
+   almost all is skinning. Times are of the wall, for the time of one thread says nothing here: the least of several
+   runs of the same ticks. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "bench.h"
+
+#include <pthread.h>
+
+enum { MOST_WORKERS = 2, TICKS = 30, WARM_TICKS = 10, RUNS = 3 };
+
+/* ---- A host with threads ---- */
+
+typedef struct Crew {
+    pthread_t threads[MOST_WORKERS];
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    bool isOver;
+    kiriTaskFn* task; /* at hand, or null */
+    void* context;
+    int32_t next, left, items, range; /* item to begin with, items that are not done */
+} Crew;
+
+/* With the lock: takes a range and does it without. False where none is left. */
+static bool WorkOnce(Crew* crew)
+{
+    int32_t start = crew->next, end = start + crew->range < crew->items ? start + crew->range : crew->items;
+    if (crew->task == NULL || start >= crew->items) {
+        return false;
+    }
+    kiriTaskFn* task = crew->task;
+    crew->next = end;
+    pthread_mutex_unlock(&crew->lock);
+    task(start, end, crew->context);
+    pthread_mutex_lock(&crew->lock);
+    crew->left -= end - start;
+    if (crew->left == 0) {
+        pthread_cond_broadcast(&crew->changed);
+    }
+    return true;
+}
+
+static void* Serve(void* user)
+{
+    Crew* crew = user;
+    pthread_mutex_lock(&crew->lock);
+    while (!crew->isOver) {
+        if (!WorkOnce(crew)) {
+            pthread_cond_wait(&crew->changed, &crew->lock);
+        }
+    }
+    pthread_mutex_unlock(&crew->lock);
+    return NULL;
+}
+
+static void* StartTask(void* user, kiriTaskFn* task, int32_t itemCount, int32_t minRange, void* context)
+{
+    Crew* crew = user;
+    pthread_mutex_lock(&crew->lock);
+    crew->task = task;
+    crew->context = context;
+    crew->items = crew->left = itemCount;
+    crew->range = minRange;
+    crew->next = 0;
+    pthread_cond_broadcast(&crew->changed);
+    pthread_mutex_unlock(&crew->lock);
+    return crew;
+}
+
+static void FinishTask(void* user, void* handle)
+{
+    Crew* crew = user;
+    (void)handle;
+    pthread_mutex_lock(&crew->lock);
+    while (WorkOnce(crew)) {
+    }
+    while (crew->left > 0) {
+        pthread_cond_wait(&crew->changed, &crew->lock);
+    }
+    crew->task = NULL;
+    pthread_mutex_unlock(&crew->lock);
+}
+
+static bool Crew_Start(Crew* crew, int32_t workers)
+{
+    memset(crew, 0, sizeof *crew);
+    pthread_mutex_init(&crew->lock, NULL);
+    pthread_cond_init(&crew->changed, NULL);
+    bool fine = true;
+    for (int32_t i = 1; fine && i < workers; i++) {
+        fine = pthread_create(&crew->threads[i], NULL, Serve, crew) == 0;
+    }
+    return fine;
+}
+
+static void Crew_Stop(Crew* crew, int32_t workers)
+{
+    pthread_mutex_lock(&crew->lock);
+    crew->isOver = true;
+    pthread_cond_broadcast(&crew->changed);
+    pthread_mutex_unlock(&crew->lock);
+    for (int32_t i = 1; i < workers; i++) {
+        pthread_join(crew->threads[i], NULL);
+    }
+    pthread_cond_destroy(&crew->changed);
+    pthread_mutex_destroy(&crew->lock);
+}
+
+/* ---- Rows ---- */
+
+typedef struct Row {
+    const char* name;
+    int32_t sheets, squares, frames;
+    bool isHeap; /* sheets lie over each other, and touch */
+} Row;
+
+static const Row rows[] = {
+    { "on the floor", 64, 24, 9, false },
+    { "in heaps of 4", 64, 24, 9, true },
+    { "in the air", 1, 255, 25, false },
+};
+
+static bool Build(kiriWorld* world, const Row* row)
+{
+    kiriSheetDef def;
+    kiriObstacleDef floor;
+    kiriObstacle obstacle;
+    bool fine = true;
+    kiriDefaultObstacleDef(&floor);
+    floor.type = KIRI_OBSTACLE_PLANE;
+    floor.position[2] = row->sheets > 1 ? 0.0f : -1000.0f;
+    fine = kiriCreateObstacle(world, &floor, &obstacle) == KIRI_OK;
+    for (int32_t i = 0; fine && i < row->sheets; i++) {
+        kiriSheet sheet;
+        int32_t spot = row->isHeap ? i / 4 : i, layer = row->isHeap ? i % 4 : 0;
+        kiriDefaultSheetDef(&def);
+        def.frameCount = row->frames;
+        def.sleepSpeed = 0.0f;
+        def.touchesSheets = row->isHeap;
+        def.position[0] = 1.3f * (float)(spot % 8) + 0.1f * (float)layer;
+        def.position[1] = 1.3f * (float)(spot / 8);
+        def.position[2] = 0.02f + 0.02f * (float)layer;
+        fine = Bench_AddSheet(world, &def, row->squares, &sheet);
+    }
+    return fine;
+}
+
+static double WallClock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Seconds of each tick, where they are less than what is there; 0 workers: without hooks. */
+static bool Run(const Row* row, int32_t workers, double* seconds, uint64_t* hash)
+{
+    Crew crew;
+    kiriWorldDef def;
+    kiriWorld* world = NULL;
+    kiriDefaultWorldDef(&def);
+    def.startTask = workers > 0 ? StartTask : NULL;
+    def.finishTask = workers > 0 ? FinishTask : NULL;
+    def.workerCount = workers;
+    def.user = &crew;
+    bool fine = Crew_Start(&crew, workers) && kiriCreateWorld(&def, &world) == KIRI_OK && Build(world, row);
+    for (int32_t i = 0; fine && i < WARM_TICKS + TICKS; i++) {
+        double start = WallClock();
+        fine = kiriWorld_Tick(world, 1.0f / 60.0f, 2) == KIRI_OK;
+        double took = WallClock() - start;
+        if (i >= WARM_TICKS && took < seconds[i - WARM_TICKS]) {
+            seconds[i - WARM_TICKS] = took;
+        }
+    }
+    fine = fine && kiriWorld_GetStateHash(world, hash) == KIRI_OK;
+    kiriDestroyWorld(world);
+    Crew_Stop(&crew, workers);
+    return fine;
+}
+
+static double MeanOf(const double* seconds)
+{
+    double sum = 0.0;
+    for (int i = 0; i < TICKS; i++) {
+        sum += seconds[i] / TICKS;
+    }
+    return sum;
+}
+
+static bool BenchRow(Table* table, const Row* row)
+{
+    double seconds[MOST_WORKERS + 1][TICKS], means[MOST_WORKERS + 1];
+    uint64_t hashes[MOST_WORKERS + 1] = { 0 };
+    bool fine = true;
+    for (int i = 0; i < (MOST_WORKERS + 1) * TICKS; i++) {
+        seconds[i / TICKS][i % TICKS] = INFINITY;
+    }
+    for (int run = 0; fine && run < RUNS; run++) {
+        for (int32_t workers = 0; fine && workers <= MOST_WORKERS; workers++) {
+            fine = Run(row, workers, seconds[workers], &hashes[workers]);
+            fine = fine && hashes[workers] == hashes[0];
+        }
+    }
+    for (int workers = 0; workers <= MOST_WORKERS; workers++) {
+        means[workers] = MeanOf(seconds[workers]);
+    }
+    Table_Text(table, row->name);
+    Table_Number(table, row->sheets);
+    Table_Number(table, row->sheets * (row->squares + 1) * (row->squares + 1));
+    for (int workers = 0; workers <= MOST_WORKERS; workers++) {
+        Table_Number(table, 1e3 * means[workers]);
+    }
+    Table_Number(table, means[0] / means[MOST_WORKERS]);
+    return fine;
+}
+
+int main(void)
+{
+    static const char* const columns[] = { "sheets that lie", "sheets",    "vertices", "no hooks",
+                                           "1 worker",        "2 workers", "faster",   NULL };
+    Table table;
+    bool fine = Table_Start(&table, "tasks",
+                            "Tasks: ms of the wall that a tick takes, the mean over 30 of the least of three runs, "
+                            "without hooks, with one worker and\nwith two, and how many times faster two are. The bits "
+                            "are the same.",
+                            columns);
+    for (size_t i = 0; fine && i < sizeof rows / sizeof rows[0]; i++) {
+        fine = BenchRow(&table, &rows[i]);
+    }
+    return Table_Stop(&table) && fine ? 0 : 1;
+}
