@@ -243,6 +243,27 @@ static inline StepsAhead LookAhead(const kiriGrid* grid, int32_t cell, int lengt
     return (StepsAhead){ grid->steps.data, NULL, NULL, from, run->end[length] };
 }
 
+/* SettleFirst for all steps of one length of an open cell. */
+static inline void SettleAroundOpen(kiriField* field, const kiriGrid* grid, const kiriStepRun* run, int length,
+                                    int32_t distance, int32_t owner)
+{
+    const int32_t *around = kiriGrid_AroundOpen(grid, run), *to = grid->openTo + 4 * length;
+    int32_t *has = field->distance.data, *owners = field->owner.data, *settled = field->settled.data;
+    int32_t count = field->settled.count, steps = length == KIRI_STEP_LENGTHS - 1 ? 8 : 4;
+    for (int32_t s = 0; s < steps; ++s) {
+        int32_t cell = around[to[s]];
+        if (has[cell] == KIRI_FAR) {
+            has[cell] = distance;
+            owners[cell] = owner;
+            settled[count++] = cell;
+        } else if (has[cell] == distance && owner < owners[cell]) {
+            owners[cell] = owner;
+        }
+    }
+    KIRI_ASSERT(count <= field->settled.capacity);
+    field->settled.count = count;
+}
+
 /* Takes the steps of one length. False where `most` cells are settled before all are taken: they are all taken again
    later, which changes nothing. */
 static inline bool TakeStepsFrom(kiriField* field, const kiriRule* rule, int32_t from, int length, int32_t distance,
@@ -256,9 +277,15 @@ static inline bool TakeStepsFrom(kiriField* field, const kiriRule* rule, int32_t
     if (length == 0) { /* the shortest come first */
         LookAround(rule, from);
     }
+    bool repairs = field->cursor[REPAIR_STAGE] == REPAIR_SETTLES;
+    const kiriStepRun* run = &rule->grid->runs.data[from];
+    if (!repairs && kiriStepRun_IsOpen(run) && field->settled.count + 8 <= most) {
+        SettleAroundOpen(field, rule->grid, run, length, distance, owner);
+        return true;
+    }
     const StepsAhead ahead = LookAhead(rule->grid, from, length);
     int32_t s = ahead.from;
-    if (field->cursor[REPAIR_STAGE] == REPAIR_SETTLES) {
+    if (repairs) {
         for (; s < ahead.end && field->settled.count < most; ++s) {
             int32_t to = CellAhead(&ahead, s);
             if (distance <= has[to]) { /* most have a nearer one */

@@ -28,7 +28,8 @@ typedef enum PlacerStage {
     LOWER,         /* the distances of sampling by these */
     FLOOD_ALL_NEW, /* distances to all new sites, where they are the nearest */
     SUM,           /* the material of their regions */
-    AIM,           /* for the cells nearest to the regions' centroids */
+    AIM_NEAR,      /* for the cells nearest to the regions' centroids, where these are, */
+    AIM,           /* and in whole regions that do not hold theirs */
     SUM_PART,      /* the material of the part, */
     AIM_PART,      /* and the cell nearest to its centroid, for one site by itself */
     PLACER_STAGES
@@ -40,10 +41,11 @@ typedef struct SiteTarget {
     int64_t area, u, v;
     kiriVec2 center;
     int32_t cell; /* of the region, nearest to the center */
+    bool isFound; /* it need not be looked for */
     double distance;
 } SiteTarget;
 
-static const SiteTarget noTarget = { 0, 0, 0, { 0.0, 0.0 }, KIRI_NONE, 0.0 };
+static const SiteTarget noTarget = { 0, 0, 0, { 0.0, 0.0 }, KIRI_NONE, false, 0.0 };
 
 struct kiriPlacerWork {
     const kiriField* old; /* from the old sites: `flooded`, or the caller's */
@@ -62,6 +64,7 @@ struct kiriPlacerWork {
     int32_t cursor;   /* of the stage: how many cells of its list it has seen */
     int32_t left;     /* sites still to sample */
     int32_t farthest; /* cell found so far, or KIRI_NONE */
+    int32_t lost;     /* targets that AIM_NEAR has not found */
     int32_t round;
 };
 
@@ -358,7 +361,8 @@ static kiriProgress SumRegions(PlacerJob* job)
         for (int32_t k = 0; k < job->placer->sites.count - job->placer->oldCount; ++k) {
             FindCenter(job, &job->work->targets.data[k]);
         }
-        job->work->stage = AIM;
+        job->work->lost = 0;
+        job->work->stage = AIM_NEAR;
     }
     return progress;
 }
@@ -366,9 +370,29 @@ static kiriProgress SumRegions(PlacerJob* job)
 static void AimCell(PlacerJob* job, int32_t cell)
 {
     SiteTarget* target = TargetOf(job, cell);
-    if (target != NULL) {
+    if (target != NULL && !target->isFound) {
         Consider(job, target, cell);
     }
+}
+
+/* Looks where the center of a target is, and in the squares around: middles of all others are at least one and a half
+   sides away. */
+static void AimAround(PlacerJob* job, SiteTarget* target)
+{
+    const kiriSquares* squares = &job->mesh->squares;
+    int32_t square = kiriSquares_At(squares, kiriMesh_Snap(job->mesh, target->center));
+    int32_t column = square % squares->columns, row = square / squares->columns;
+    for (int32_t k = 0; square != KIRI_NONE && k < 9; ++k) {
+        int32_t u = column + k % 3 - 1, v = row + k / 3 - 1;
+        bool isSquare = u >= 0 && u < squares->columns && v >= 0 && v < squares->rows;
+        int32_t c = isSquare ? job->grid->squareCell.data[v * squares->columns + u] : KIRI_NONE;
+        for (; c != KIRI_NONE; c = job->grid->cells.data[c].next) {
+            if (job->work->fresh.distance.data[c] != KIRI_FAR && TargetOf(job, c) == target) {
+                Consider(job, target, c);
+            }
+        }
+    }
+    target->isFound = target->cell != KIRI_NONE && target->distance < 2.0 * job->grid->side * job->grid->side;
 }
 
 /* The centroid itself where it lies in the square of the target cell. From middle to middle of cells a site would get
@@ -403,10 +427,27 @@ static bool MoveToTargets(PlacerJob* job)
     return moved;
 }
 
+/* Most regions hold their centroid. */
+static kiriProgress AimNearCenters(PlacerJob* job)
+{
+    kiriPlacerWork* work = job->work;
+    int32_t count = job->placer->sites.count - job->placer->oldCount;
+    for (; work->cursor < count; ++work->cursor) {
+        if (!kiriQuota_Take(job->quota, 1)) {
+            return KIRI_MORE;
+        }
+        AimAround(job, &work->targets.data[work->cursor]);
+        work->lost += !work->targets.data[work->cursor].isFound;
+    }
+    work->cursor = 0;
+    work->stage = AIM;
+    return KIRI_DONE;
+}
+
 static kiriProgress AimAtCenters(PlacerJob* job)
 {
     kiriPlacer* placer = job->placer;
-    kiriProgress progress = VisitFreshCells(job, AimCell);
+    kiriProgress progress = job->work->lost > 0 ? VisitFreshCells(job, AimCell) : KIRI_DONE;
     if (progress != KIRI_DONE) {
         return progress;
     }
@@ -461,8 +502,8 @@ static kiriProgress AimPart(PlacerJob* job)
 /* ---- The job */
 
 static kiriProgress (*const placerStages[PLACER_STAGES])(PlacerJob* job) = {
-    NULL,        FloodEnds,  FloodOld,     SampleFarthest, FloodNew, LowerDistances,
-    FloodAllNew, SumRegions, AimAtCenters, SumPart,        AimPart,
+    NULL,        FloodEnds,  FloodOld,       SampleFarthest, FloodNew, LowerDistances,
+    FloodAllNew, SumRegions, AimNearCenters, AimAtCenters,   SumPart,  AimPart,
 };
 
 kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
