@@ -114,15 +114,17 @@ static bool FindPairs(kiriWorld* world, double dt)
     return kiriPairs_Find(world, dt);
 }
 
-/* With what the budget has left. Sheets at work do so when they come to their samples: until then arrays may grow. */
-static void SettleWeights(kiriWorld* world, kiriQuota* samples)
+/* With what the budget has left; items of work on cuts alone are counted. Sheets at work do so when they come to their
+   samples: until then arrays may grow. */
+static void SettleWeights(kiriWorld* world, int64_t samples)
 {
-    for (int32_t k = 0; k < world->active.count; ++k) {
+    kiriQuota quota = { samples, 0 };
+    for (int32_t k = 0; k < world->active.count && quota.left > 0; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         bool isSettling = sheet->vertexSkin.settling.count + sheet->pointSkin.settling.count > 0;
         if (isSettling && sheet->update->stage == KIRI_NONE) {
-            EnterStage(world, KIRI_STAGE_SAMPLES);
-            kiriStage_Settle(sheet, samples);
+            EnterStage(world, KIRI_STAGE_SKIN);
+            kiriStage_Settle(sheet, &quota);
         }
     }
 }
@@ -136,7 +138,7 @@ static bool UpdateAll(kiriWorld* world, kiriQuotas* quotas)
         kiriSheetData* sheet = world->sheets.data[world->atWork.data[k]];
         ok = !kiriPipeline_CanRun(sheet, quotas) || kiriPipeline_Run(sheet, quotas, &watch) != KIRI_FAILED;
     }
-    SettleWeights(world, &quotas->of[KIRI_QUOTA_SAMPLES]);
+    SettleWeights(world, quotas->of[KIRI_QUOTA_SAMPLES].left);
     return ok;
 }
 
