@@ -69,13 +69,14 @@ bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_
         isOther |= patches->isOther.data[i];
         memcpy(was, row, sizeof(float) * each);
     }
+    patches->areOther = isOther;
     return isOther;
 }
 
 bool kiriPatches_MayMove(const kiriPatches* patches, const kiriSkin* skin, int32_t begin, int32_t end)
 {
     bool mayMove = false;
-    for (int32_t s = begin; !mayMove && s < end; ++s) {
+    for (int32_t s = begin; patches->areOther && !mayMove && s < end; ++s) {
         const kiriSampleWeight* weight = skin->weights.data + skin->spans.data[s].first;
         const kiriSampleWeight* last = weight + skin->spans.data[s].count;
         for (; weight < last; ++weight) {

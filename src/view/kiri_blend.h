@@ -14,6 +14,7 @@ typedef struct kiriPatches {
     KIRI_ARRAY(uint8_t) isOther; /* one a patch: than before it was written last */
     int32_t count;
     bool isBent;
+    bool areOther; /* is any? */
 } kiriPatches;
 
 /* Room for so many. */
