@@ -232,9 +232,20 @@ static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system,
     return substeps > 0 ? KIRI_DONE : KIRI_MORE;
 }
 
+/* The quota has nothing left for the sheet, and nobody reads what it would do. */
+static bool MustWait(const kiriSheetData* sheet, const kiriQuota* systems)
+{
+    bool isRead = sheet->touches.found.count > 0 || sheet->pins.count > 0;
+    return !isRead && SystemsLeft(systems, kiriSolver_SystemItems(sheet->solver, 0)) == 0;
+}
+
 /* Pins and touches have rows by now: the system is made again. */
 static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
+    if (MustWait(sheet, systems)) {
+        sheet->touches.rows.count = 0;
+        return KIRI_MORE;
+    }
     kiriFollow_Begin(sheet, dt);
     kiriPins_WriteRows(sheet, 0.0, 1.0);
     kiriPins_BeginReactions(sheet);
