@@ -73,15 +73,38 @@ bool kiriRoom_IsLow(kiriSheetData* sheet, const kiriQuota* triangles)
     return isLow;
 }
 
+/* What has been moved counts no more where pieces have gone. */
+static void StartGrowing(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    if (u->growsSince != sheet->mesh.revision) {
+        kiriGrowing_Drop(&u->growing);
+        u->growsSince = sheet->mesh.revision;
+    }
+}
+
 kiriProgress kiriRoom_ForCut(kiriSheetData* sheet, kiriQuota* triangles)
 {
     kiriUpdate* u = sheet->update;
     kiriRoom rooms[ROOMS];
-    if (u->growsSince != sheet->mesh.revision) {
-        kiriGrowing_Drop(&u->growing); /* pieces have gone */
-        u->growsSince = sheet->mesh.revision;
-    }
+    StartGrowing(sheet);
     int64_t crossings = CountCrossings(sheet), inTick = CrossingsInTick(triangles, crossings);
     ListRooms(sheet, u->cut.taken > 0 && crossings < inTick ? inTick : crossings, rooms);
     return kiriGrowing_GoOn(&u->growing, rooms, ROOMS, triangles, ROOM_BYTES);
+}
+
+/* In a mesh of even triangles. */
+kiriProgress kiriRoom_ForWeights(kiriSheetData* sheet, kiriQuota* samples)
+{
+    enum { WEIGHT_BYTES = 4096 }; /* that an item moves */
+    const kiriSquares* squares = &sheet->mesh.squares;
+    kiriSkin* skin = &sheet->vertexSkin;
+    int64_t vertices = sheet->mesh.vertices.count, all = (int64_t)squares->columns * squares->rows,
+            more = vertices * sheet->update->samples.refresh.squares.count / all,
+            each = skin->weights.count / (vertices > 0 ? vertices : 1) + 1;
+    const kiriRoom rooms[] = { KIRI_ROOM(sheet->memory, &skin->staged, more),
+                               KIRI_ROOM(sheet->memory, &skin->weights, skin->weights.count + each * more) };
+    StartGrowing(sheet);
+    return kiriGrowing_GoOn(&sheet->update->growing, rooms, (int32_t)(sizeof(rooms) / sizeof(rooms[0])), samples,
+                            WEIGHT_BYTES);
 }

@@ -11,6 +11,9 @@ KIRI_C_BEGIN
 bool kiriRoom_IsLow(kiriSheetData* sheet, const kiriQuota* triangles);
 kiriProgress kiriRoom_ForCut(kiriSheetData* sheet, kiriQuota* triangles);
 
+/* Before samples are weighed, of which the squares are known. */
+kiriProgress kiriRoom_ForWeights(kiriSheetData* sheet, kiriQuota* samples);
+
 KIRI_C_END
 
 #endif
