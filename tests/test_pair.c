@@ -57,6 +57,49 @@ static void TestPairsAreFoundWhereNear(void** state)
     }
 }
 
+static const float dt = 1.0f / 60.0f;
+
+static void AddFloor(Host* host)
+{
+    kiriObstacleDef def;
+    kiriObstacle floor = 0;
+    kiriDefaultObstacleDef(&def);
+    def.type = KIRI_OBSTACLE_PLANE;
+    OK(kiriCreateObstacle(host->world, &def, &floor));
+}
+
+static bool IsAwake(const Host* host, kiriSheet sheet)
+{
+    int32_t awake = -1;
+    OK(kiriSheet_IsAwake(host->world, sheet, &awake));
+    return awake == 1;
+}
+
+/* A sheet that moved while it was the only one, and fell asleep, is found where it lies. */
+static void TestWhoWasAloneIsFound(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    host.every = 30;
+    AddFloor(&host);
+    kiriSheetDef def = SquareDef(0.0f, 0.0f, 0.3f);
+    kiriSheet first = AddSquare(&host, &def);
+    def = SquareDef(5.0f, 0.0f, 0.3f);
+    kiriSheet other = AddSquare(&host, &def);
+    OK(Host_Tick(&host, dt, 2)); /* both are known where they are */
+    OK(kiriDestroySheet(host.world, other));
+    for (int i = 0; i < 600 && IsAwake(&host, first); ++i) {
+        OK(Host_Tick(&host, dt, 2));
+    }
+    assert_false(IsAwake(&host, first));
+    def = SquareDef(0.02f, 0.0f, 0.006f);
+    AddSquare(&host, &def);
+    OK(Host_Tick(&host, dt, 2));
+    assert_int_equal(Pairs(&host), 1);
+    Host_Stop(&host);
+}
+
 static void TestGroupsApart(void** state)
 {
     (void)state;
@@ -71,17 +114,6 @@ static void TestGroupsApart(void** state)
     OK(Host_Tick(&host, 1.0f / 60.0f, 2));
     assert_int_equal(Pairs(&host), 0);
     Host_Stop(&host);
-}
-
-static const float dt = 1.0f / 60.0f;
-
-static void AddFloor(Host* host)
-{
-    kiriObstacleDef def;
-    kiriObstacle floor = 0;
-    kiriDefaultObstacleDef(&def);
-    def.type = KIRI_OBSTACLE_PLANE;
-    OK(kiriCreateObstacle(host->world, &def, &floor));
 }
 
 enum { PILE = 4 };
@@ -100,13 +132,6 @@ static void StartPile(Host* host, kiriSheet sheets[PILE])
         def.axisV[0] = (float)-s;
         sheets[i] = AddSquare(host, &def);
     }
-}
-
-static bool IsAwake(const Host* host, kiriSheet sheet)
-{
-    int32_t awake = -1;
-    OK(kiriSheet_IsAwake(host->world, sheet, &awake));
-    return awake == 1;
 }
 
 static int CountAwake(const Host* host, const kiriSheet* sheets, int count)
@@ -352,6 +377,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestPairsAreFoundWhereNear),
+        cmocka_unit_test(TestWhoWasAloneIsFound),
         cmocka_unit_test(TestGroupsApart),
         cmocka_unit_test(TestPileRestsInOrder),
         cmocka_unit_test(TestNeverCrossOnTheirWay),

@@ -105,7 +105,7 @@ double kiriMesh_Area(const kiriMeshData* mesh)
     return 0.5 * (double)kiriMesh_DoubledArea(mesh) * mesh->step * mesh->step;
 }
 
-static kiriVec2 DirectionOf(const kiriMeshData* mesh, int32_t from, int32_t to)
+kiriVec2 kiriMesh_Direction(const kiriMeshData* mesh, int32_t from, int32_t to)
 {
     kiriLatticePoint a = mesh->vertices.data[from].at, b = mesh->vertices.data[to].at;
     kiriVec2 way = kiriVec2_Make((double)b.x - a.x, (double)b.y - a.y);
@@ -125,8 +125,8 @@ kiriVec2 kiriMesh_Lean(const kiriMeshData* mesh, int32_t vertex)
     while ((h = kiriMesh_CounterClockwise(mesh, last)) != KIRI_NONE) {
         last = h;
     }
-    kiriVec2 a = DirectionOf(mesh, vertex, kiriMesh_Tail(mesh, kiriEdge_Next(first)));
-    kiriVec2 b = DirectionOf(mesh, vertex, kiriMesh_Tail(mesh, kiriEdge_Previous(last)));
+    kiriVec2 a = kiriMesh_Direction(mesh, vertex, kiriMesh_Tail(mesh, kiriEdge_Next(first)));
+    kiriVec2 b = kiriMesh_Direction(mesh, vertex, kiriMesh_Tail(mesh, kiriEdge_Previous(last)));
     return kiriVec2_Make(0.125 * (b.y - a.y), 0.125 * (a.x - b.x));
 }
 

@@ -177,6 +177,9 @@ static inline void kiriMesh_Corners(const kiriMeshData* mesh, int32_t triangle, 
 /* A triangle whose closure holds the point (the lowest index, so that lips of a cut do not matter), or KIRI_NONE. */
 int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriLatticePoint at);
 
+/* From one vertex to another, unit. */
+kiriVec2 kiriMesh_Direction(const kiriMeshData* mesh, int32_t from, int32_t to);
+
 /* From a vertex on a lip, or on the outline, into its material: a quarter long where the lip is straight, 0 where the fan
    of the vertex goes all around. */
 kiriVec2 kiriMesh_Lean(const kiriMeshData* mesh, int32_t vertex);

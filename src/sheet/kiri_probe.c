@@ -22,19 +22,10 @@ typedef struct Choice {
 
 typedef KIRI_ARRAY(Choice) Choices;
 
-static bool IsBorder(const kiriMeshData* mesh, int32_t vertex)
-{
-    int32_t first = mesh->vertices.data[vertex].edge, h = first;
-    do {
-        h = kiriMesh_CounterClockwise(mesh, h);
-    } while (h != KIRI_NONE && h != first);
-    return h == KIRI_NONE;
-}
-
 /* The sharper the corner the shorter the way into its material. */
 static double Rank(const kiriSheetData* sheet, int32_t vertex)
 {
-    kiriVec2 lean = kiriMesh_Lean(&sheet->mesh, vertex);
+    kiriVec2 lean = kiriVec2_Scale(0.125, sheet->probes.leans.data[vertex]);
     return sheet->probes.isBorder.data[vertex] ? kiriVec2_Dot(lean, lean) : 1.0;
 }
 
@@ -132,12 +123,35 @@ static bool ListChosen(kiriSheetData* sheet)
     return true;
 }
 
+/* An edge of the border begins the fan at the one end, and ends that at the other. */
+static void MarkBorderEdge(kiriSheetData* sheet, int32_t from, int32_t to)
+{
+    kiriProbes* probes = &sheet->probes;
+    kiriVec2 along = kiriMesh_Direction(&sheet->mesh, from, to), left = kiriVec2_Make(-along.y, along.x);
+    probes->isBorder.data[from] = probes->isBorder.data[to] = 1;
+    probes->leans.data[from] = kiriVec2_Add(probes->leans.data[from], left);
+    probes->leans.data[to] = kiriVec2_Add(probes->leans.data[to], left);
+}
+
+static void MarkBorder(kiriSheetData* sheet)
+{
+    for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
+        const kiriTriangle* triangle = &sheet->mesh.triangles.data[t];
+        for (int i = 0; kiriMesh_IsTriangle(&sheet->mesh, t) && i < 3; ++i) {
+            if ((triangle->open >> i & 1) != 0 || triangle->twin[i] == KIRI_NONE) {
+                MarkBorderEdge(sheet, triangle->vertex[i], triangle->vertex[(i + 1) % 3]);
+            }
+        }
+    }
+}
+
 static bool MarkVertices(kiriSheetData* sheet)
 {
     kiriProbes* probes = &sheet->probes;
     int32_t vertices = sheet->mesh.vertices.count;
     if (!kiriArray_Resize(sheet->memory, &probes->vertexPiece, vertices) ||
         !kiriArray_Resize(sheet->memory, &probes->isBorder, vertices) ||
+        !kiriArray_Resize(sheet->memory, &probes->leans, vertices) ||
         !kiriArray_Resize(sheet->memory, &probes->isChosen, vertices) ||
         !kiriArray_Resize(sheet->memory, &probes->touch, vertices) ||
         !kiriArray_Resize(sheet->memory, &probes->boxes, sheet->layout.pieces.count) ||
@@ -146,9 +160,10 @@ static bool MarkVertices(kiriSheetData* sheet)
     }
     for (int32_t v = 0; v < vertices; ++v) {
         probes->vertexPiece.data[v] = kiriPiece_OfVertex(sheet, v);
-        probes->isBorder.data[v] = kiriMesh_IsVertex(&sheet->mesh, v) && IsBorder(&sheet->mesh, v);
-        probes->isChosen.data[v] = 0;
+        probes->isBorder.data[v] = probes->isChosen.data[v] = 0;
+        probes->leans.data[v] = kiriVec2_Make(0.0, 0.0);
     }
+    MarkBorder(sheet);
     return true;
 }
 

@@ -109,6 +109,7 @@ typedef struct kiriProbes {
     int32_t sheet, firstBody;        /* indices of the sheet, and of its pieces among the bodies of kiri_pair.c */
     KIRI_ARRAY(int32_t) vertexPiece; /* of each vertex: its piece, */
     KIRI_ARRAY(uint8_t) isBorder;    /* is it on the outline or a lip? */
+    KIRI_ARRAY(kiriVec2) leans;      /* and if so, eight times kiriMesh_Lean, else zero */
     KIRI_ARRAY(uint8_t) isChosen;    /* is it a probe? */
     kiriPieceList list;              /* the probes, by piece */
     KIRI_ARRAY(kiriVec3) velocities; /* of probes, in the order of the list */

@@ -108,6 +108,22 @@ static bool FindWaking(kiriWorld* world, Waking* waking)
     return ok;
 }
 
+/* Are there two bodies at least? Of a single one nobody keeps up its probes. */
+static bool AreSeveral(const kiriWorld* world)
+{
+    kiriSheetData* last = NULL;
+    int32_t count = 0;
+    for (int32_t i = 0; i < world->sheets.count && count < 2; ++i) {
+        kiriSheetData* sheet = world->sheets.data[i];
+        count += TakesPart(sheet) ? sheet->layout.pieces.count : 0;
+        last = TakesPart(sheet) ? sheet : last;
+    }
+    if (count == 1) {
+        last->probes.isFresh = false;
+    }
+    return count > 1;
+}
+
 /* May anything that is awake come near the sheet in the tick? What sleeps and is farther away is no body. */
 static bool IsNearWaking(const kiriWorld* world, const Waking* waking, const kiriSheetData* sheet, double dt)
 {
@@ -423,13 +439,18 @@ static bool SortFound(kiriWorld* world)
     return true;
 }
 
+static bool LookForPairs(kiriWorld* world, double dt)
+{
+    Waking waking;
+    return FindWaking(world, &waking) && (!waking.any || (ListBodies(world, &waking, dt) && LookAtAll(world, dt)));
+}
+
 bool kiriPairs_Find(kiriWorld* world, double dt)
 {
     kiriPairs* pairs = &world->pairs;
-    Waking waking;
     pairs->nears.count = pairs->found.count = pairs->next.count = pairs->bodies.count = 0;
-    return FindWaking(world, &waking) && (!waking.any || (ListBodies(world, &waking, dt) && LookAtAll(world, dt))) &&
-           KeepSleeping(world) && SortFound(world) && kiriPairs_FindTouches(world, dt) &&
+    return (!AreSeveral(world) || LookForPairs(world, dt)) && KeepSleeping(world) && SortFound(world) &&
+           kiriPairs_FindTouches(world, dt) &&
            kiriArray_Reserve(&world->memory, &pairs->islands, 2 * (int64_t)pairs->next.count) &&
            kiriArray_Reserve(&world->memory, &pairs->calms, 2 * (int64_t)pairs->next.count);
 }
