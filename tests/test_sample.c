@@ -1,5 +1,23 @@
 #include "follow.h"
 
+/* What a commit writes to old samples is other than what they have; new ones are there all. */
+static void AssertStagedDiffer(const kiriSkin* skin, int32_t oldCount, int32_t count)
+{
+    int32_t fresh = 0;
+    for (int32_t k = 0; k < skin->staged.count; ++k) {
+        kiriReweighed staged = skin->staged.data[k];
+        kiriSpan was = staged.sample < oldCount ? skin->spans.data[staged.sample] : (kiriSpan){ 0, 0 };
+        bool isSame = was.count == staged.span.count;
+        for (int32_t i = 0; isSame && i < was.count; ++i) {
+            kiriSampleWeight a = skin->weights.data[was.first + i], b = skin->weights.data[staged.span.first + i];
+            isSame = a.frame == b.frame && a.value == b.value;
+        }
+        assert_false(isSame);
+        fresh += staged.sample >= oldCount;
+    }
+    assert_int_equal(fresh, count - oldCount);
+}
+
 /* Weights of vertices and points after any cuts are those from scratch, bit for bit, whatever the quota. */
 static void CutSheetsEqualThoseFromScratch(void** state)
 {
@@ -27,6 +45,7 @@ static void CutSheetsEqualThoseFromScratch(void** state)
             assert_int_equal(Follow_Samples(&f), KIRI_DONE);
             all += f.mesh->vertices.count;
             staged += f.vertexSkin.staged.count;
+            AssertStagedDiffer(&f.vertexSkin, f.oldVertices, f.mesh->vertices.count);
             Follow_Commit(&f);
             Follow_Compare(&f);
             kiriSquares_ClearDirty(&scene.mesh.squares);

@@ -366,6 +366,7 @@ kiriProgress kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const k
                                const kiriMeshData* mesh, int32_t firstVertex, kiriQuota* quota)
 {
     int32_t count = shape->changes.count + refresh->noted.count + mesh->vertices.count - firstVertex;
+    refresh->oldCount = firstVertex;
     if (refresh->change == 0 && !StartMarks(refresh, memory, mesh)) {
         return KIRI_FAILED;
     }
@@ -411,7 +412,19 @@ static int32_t CellOfSample(const Samples* samples, int32_t square, int32_t samp
                : kiriGrid_CellAround(samples->grid, samples->mesh, samples->points->data[sample].at);
 }
 
-/* A sample has often the cell of the one before. */
+/* Cells around an old sample have changed, and often its weights have not: then what was staged last is taken back. */
+static void UnstageSame(kiriSkin* skin, int32_t oldCount)
+{
+    kiriReweighed* last = &skin->staged.data[skin->staged.count - 1];
+    kiriSpan is = last->span, was = last->sample < oldCount ? skin->spans.data[last->sample] : (kiriSpan){ 0, 0 };
+    if (was.count == is.count && memcmp(skin->weights.data + was.first, skin->weights.data + is.first,
+                                        sizeof(kiriSampleWeight) * (size_t)is.count) == 0) {
+        DropSpan(skin, &last->span);
+        skin->staged.count -= 1;
+    }
+}
+
+/* A sample has often the cell of the one before. What is staged of a point says that it may have another cell, too. */
 static bool RefreshOne(kiriRefresh* refresh, const Samples* samples, int32_t square, int32_t sample)
 {
     kiriStencil* stencil = &refresh->stencil;
@@ -425,7 +438,13 @@ static bool RefreshOne(kiriRefresh* refresh, const Samples* samples, int32_t squ
     bool leans = stencil->split && samples->places == NULL;
     kiriVec2 lean = leans ? kiriMesh_Lean(samples->mesh, sample) : kiriVec2_Make(0.0, 0.0);
     kiriStencil_Weigh(stencil, kiriMesh_Local(samples->mesh, at), lean);
-    return StageWeights(samples->skin, samples->memory, stencil, sample);
+    if (!StageWeights(samples->skin, samples->memory, stencil, sample)) {
+        return false;
+    }
+    if (samples->places == NULL) {
+        UnstageSame(samples->skin, refresh->oldCount);
+    }
+    return true;
 }
 
 static kiriProgress Refresh(kiriRefresh* refresh, const Samples* samples, kiriQuota* quota)

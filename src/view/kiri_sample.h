@@ -24,8 +24,9 @@ typedef struct kiriSkin {
     KIRI_ARRAY(kiriSpan) spans;           /* one a sample */
     KIRI_ARRAY(kiriSampleWeight) weights; /* by spans; in a span by frame */
     kiriSpans room;
-    KIRI_ARRAY(kiriReweighed) staged;   /* weights that take effect with the commit */
-    KIRI_ARRAY(kiriReweighed) settling; /* samples whose weights are where they were staged, and the room they had before */
+    KIRI_ARRAY(kiriReweighed) staged; /* weights that take effect with the commit */
+    KIRI_ARRAY(kiriReweighed)
+    settling; /* samples whose weights are where they were staged, and the room they had before */
 } kiriSkin;
 
 /* A material point that the host collides with the world. */
@@ -76,6 +77,7 @@ typedef struct kiriRefresh {
     KIRI_ARRAY(int32_t) squares; /* with such samples */
     KIRI_ARRAY(uint8_t) marks;   /* of each square; all 0 but during Start */
     int32_t change;              /* that Start looks at next */
+    int32_t oldCount;            /* samples that are not new */
     int32_t square, sample;      /* where the work goes on */
     kiriStencil stencil;         /* of the cell at hand */
 } kiriRefresh;
@@ -84,7 +86,8 @@ typedef struct kiriRefresh {
    material elsewhere, and vertices there may have come to a lip. False for memory. */
 bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriMeshData* mesh);
 
-/* Vertices from `firstVertex` on are new, and are staged all. Here an item of the quota is eight changes. */
+/* Vertices from `firstVertex` on are new, and are staged all; older ones where they come out other than before. Here an
+   item of the quota is eight changes. */
 kiriProgress kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                                const kiriMeshData* mesh, int32_t firstVertex, kiriQuota* quota);
 kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, kiriMemory* memory, const kiriShape* shape,
