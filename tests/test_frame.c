@@ -264,7 +264,7 @@ static int32_t CellAt(const Scene* scene, int32_t n)
 static void AssertEven(Scene* scene, const kiriSites* sites)
 {
     double* area = calloc((size_t)sites->count, sizeof(double));
-    kiriRule rule = { &scene->grid, KIRI_FAR, NULL, NULL, NULL, NULL };
+    kiriRule rule = { &scene->grid, KIRI_FAR, NULL, NULL, NULL, NULL, { NULL, NULL } };
     kiriQuota quota = Endless();
     kiriSeeds seeds = { 0 };
     for (int32_t i = 0; i < sites->count; ++i) {

@@ -97,7 +97,7 @@ static void FloodBy(Sheet* sheet, kiriField* field, const kiriRule* rule, const 
 
 static void Flood(Sheet* sheet, const kiriSeed* seeds, int32_t count, int32_t limit)
 {
-    kiriRule rule = { &sheet->grid, limit, NULL, NULL, NULL, NULL };
+    kiriRule rule = { &sheet->grid, limit, NULL, NULL, NULL, NULL, { NULL, NULL } };
     FloodBy(sheet, &sheet->field, &rule, seeds, count);
 }
 
@@ -186,7 +186,7 @@ static void CheckAgainstRelaxing(Sheet* sheet, const kiriSeed* seeds, int32_t co
     int32_t n = sheet->grid.cells.count, reached = 0;
     int32_t *distance = malloc(sizeof(int32_t) * (size_t)n), *owner = malloc(sizeof(int32_t) * (size_t)n);
     Relax(&sheet->grid, seeds, count, limit, pass, context, distance, owner);
-    kiriRule rule = { &sheet->grid, limit, pass, NULL, context, NULL };
+    kiriRule rule = { &sheet->grid, limit, pass, NULL, context, NULL, { NULL, NULL } };
     FloodBy(sheet, &sheet->field, &rule, seeds, count);
     assert_memory_equal(distance, sheet->field.distance.data, sizeof(int32_t) * (size_t)n);
     assert_memory_equal(owner, sheet->field.owner.data, sizeof(int32_t) * (size_t)n);
@@ -491,7 +491,7 @@ static void TestRepairsFollowCuts(void** state)
         Sheet sheet;
         OpenSquare(&sheet, 10 + (int32_t)(Random(&seed) % 20));
         Starts starts = { &sheet.grid, sheet.mesh.squares.columns };
-        kiriRule rule = { &sheet.grid, round % 3 == 2 ? 1500 : KIRI_FAR, NULL, StartOf, &starts, NULL };
+        kiriRule rule = { &sheet.grid, round % 3 == 2 ? 1500 : KIRI_FAR, NULL, StartOf, &starts, NULL, { NULL, NULL } };
         for (int cut = 0; cut < 40; ++cut) {
             CutRandomly(&sheet, &seed, cut % 3);
             UpdateGrid(&sheet);

@@ -91,7 +91,7 @@ static void Open(Net* net, int32_t count, double share, uint32_t* seed)
     net->memory = kiriMemory_Make(NetAlloc, NetFree, net);
     net->untilFailure = -1;
     net->count = count;
-    net->rule = (kiriRule){ &net->grid, KIRI_FAR, NULL, NetSeed, net, NULL };
+    net->rule = (kiriRule){ &net->grid, KIRI_FAR, NULL, NetSeed, net, NULL, { NULL, NULL } };
     for (int32_t a = 0; a < MOST; ++a) {
         net->seeds[a] = (kiriSeed){ a, KIRI_FAR, KIRI_NONE };
         net->farthest[a] = KIRI_FAR;

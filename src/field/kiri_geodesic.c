@@ -165,9 +165,17 @@ static int32_t FarthestOf(const kiriRule* rule)
     return rule->limit < KIRI_FAR ? rule->limit : KIRI_FAR - 1;
 }
 
-static bool Passes(const kiriRule* rule, int32_t cell)
+static inline bool Passes(const kiriRule* rule, int32_t cell)
 {
     return rule->pass == NULL || rule->pass(rule->context, cell);
+}
+
+/* Passes, of floods. */
+static inline bool LetsPass(const kiriField* field, const kiriRule* rule, int32_t cell)
+{
+    int32_t distance = field->distance.data[cell];
+    return (rule->below[0] == NULL || distance < rule->below[0][cell]) &&
+           (rule->below[1] == NULL || distance < rule->below[1][cell]) && Passes(rule, cell);
 }
 
 static void LookAround(const kiriRule* rule, int32_t cell)
@@ -271,7 +279,7 @@ static inline bool TakeStepsFrom(kiriField* field, const kiriRule* rule, int32_t
 {
     const int32_t* has = field->distance.data;
     int32_t owner = field->owner.data[from];
-    if (!Passes(rule, from)) {
+    if (!LetsPass(field, rule, from)) {
         return true;
     }
     if (length == 0) { /* the shortest come first */
@@ -551,7 +559,7 @@ static void EndRepair(kiriField* field)
 
 kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
 {
-    KIRI_ASSERT(rule->seed != NULL);
+    KIRI_ASSERT(rule->seed != NULL && rule->below[0] == NULL && rule->below[1] == NULL);
     if (field->cursor[REPAIR_STAGE] == REPAIR_NONE) {
         BeginRepair(field);
     }

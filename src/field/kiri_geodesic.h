@@ -36,6 +36,8 @@ typedef struct kiriRule {
     kiriSeedFn* seed; /* of repairs only */
     const void* context;
     kiriLookFn* look; /* or null */
+    /* Or null: of floods: ways go on only from cells that are nearer than this, one number a cell. */
+    const int32_t* below[2];
 } kiriRule;
 
 typedef struct kiriField {

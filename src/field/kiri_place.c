@@ -47,6 +47,17 @@ typedef struct SiteTarget {
 
 static const SiteTarget noTarget = { 0, 0, 0, { 0.0, 0.0 }, KIRI_NONE, false, 0.0 };
 
+/* So many cells of the part, one after the other in their order. */
+enum { SAMPLE_CELLS = 512 };
+
+/* The farthest free cell of a block when it was looked at: since then cells have only come nearer, or been taken. */
+typedef struct SampleBlock {
+    int64_t distance; /* below zero: none is free */
+    int32_t cell;
+    int32_t seen; /* how many sites there were then */
+    bool isCovered;
+} SampleBlock;
+
 struct kiriPlacerWork {
     const kiriField* old; /* from the old sites: `flooded`, or the caller's */
     kiriField flooded;
@@ -59,9 +70,11 @@ struct kiriPlacerWork {
     KIRI_ARRAY(uint8_t) marks;      /* of each cell: zero, but while a piece is taken */
     bool isTaking;                  /* a piece */
     KIRI_ARRAY(SiteTarget) targets; /* of each new site */
+    KIRI_ARRAY(SampleBlock) blocks; /* of the part */
     kiriSeeds seeds;
     PlacerStage stage;
     int32_t cursor;   /* of the stage: how many cells of its list it has seen */
+    int64_t due;      /* cells that were looked at, and that the quota has not given yet */
     int32_t left;     /* sites still to sample */
     int32_t farthest; /* cell found so far, or KIRI_NONE */
     int32_t lost;     /* targets that AIM_NEAR has not found */
@@ -155,22 +168,16 @@ static bool StartSiteFlood(PlacerJob* job, kiriField* field, int32_t first, int3
     return kiriField_Start(field, job->memory, seeds->data, seeds->count);
 }
 
-static kiriProgress FloodPart(PlacerJob* job, kiriField* field, kiriPassFn* pass)
+/* Ways go on only from cells that are nearer than these distances, or null. */
+static kiriProgress FloodPart(PlacerJob* job, kiriField* field, const int32_t* below, const int32_t* andBelow)
 {
-    kiriRule rule = { job->grid, KIRI_FAR - 1, pass, NULL, job->work, NULL };
+    kiriRule rule = { job->grid, KIRI_FAR - 1, NULL, NULL, NULL, NULL, { below, andBelow } };
     return kiriField_Flood(field, &rule, job->quota);
 }
 
-static bool IsNearerThanOld(const void* context, int32_t cell)
+static bool IsNearerThanOld(const kiriPlacerWork* work, int32_t cell)
 {
-    const kiriPlacerWork* work = context;
     return work->fresh.distance.data[cell] < work->old->distance.data[cell];
-}
-
-static bool IsNearestSoFar(const void* context, int32_t cell)
-{
-    const kiriPlacerWork* work = context;
-    return IsNearerThanOld(work, cell) && work->fresh.distance.data[cell] < work->sampled.data[cell];
 }
 
 static kiriProgress GoOnTo(PlacerJob* job, kiriProgress progress, PlacerStage next)
@@ -186,7 +193,7 @@ static kiriProgress GoOnTo(PlacerJob* job, kiriProgress progress, PlacerStage ne
 static kiriProgress FloodEnds(PlacerJob* job)
 {
     bool isAsked = job->work->reach > 0;
-    return GoOnTo(job, isAsked ? FloodPart(job, &job->work->ends, NULL) : KIRI_DONE, FLOOD_OLD);
+    return GoOnTo(job, isAsked ? FloodPart(job, &job->work->ends, NULL, NULL) : KIRI_DONE, FLOOD_OLD);
 }
 
 /* How much closer sites shall be at a cell, times CLOSENESS. */
@@ -203,6 +210,9 @@ static int64_t ClosenessAt(const kiriPlacerWork* work, int32_t cell)
 /* What makes a centroidal Voronoi diagram as much closer: the fourth power, as a density (Du, Faber, Gunzburger 1999). */
 static int64_t DensityAt(const kiriPlacerWork* work, int32_t cell)
 {
+    if (work->reach == 0) {
+        return 1;
+    }
     int64_t squared = ClosenessAt(work, cell) * ClosenessAt(work, cell);
     return squared * squared / ((int64_t)CLOSENESS * CLOSENESS * CLOSENESS * CLOSENESS);
 }
@@ -212,7 +222,7 @@ static int64_t DensityAt(const kiriPlacerWork* work, int32_t cell)
 static kiriProgress FloodOld(PlacerJob* job)
 {
     bool isKnown = job->work->old != &job->work->flooded;
-    return GoOnTo(job, isKnown ? KIRI_DONE : FloodPart(job, &job->work->flooded, NULL), SAMPLE);
+    return GoOnTo(job, isKnown ? KIRI_DONE : FloodPart(job, &job->work->flooded, NULL, NULL), SAMPLE);
 }
 
 static int64_t SampledDistance(const kiriPlacerWork* work, int32_t cell)
@@ -237,6 +247,66 @@ static void FindFarthest(PlacerJob* job, int32_t cell)
     }
 }
 
+/* How many cells were looked at. */
+static int32_t LookAtBlock(PlacerJob* job, SampleBlock* block)
+{
+    kiriPlacerWork* work = job->work;
+    const kiriPlacer* placer = job->placer;
+    int32_t first = (int32_t)(block - work->blocks.data) * SAMPLE_CELLS, left = placer->cells.count - first;
+    int32_t end = first + (left < SAMPLE_CELLS ? left : SAMPLE_CELLS);
+    work->farthest = KIRI_NONE;
+    for (int32_t i = first; i < end; ++i) {
+        FindFarthest(job, placer->cells.data[i]);
+    }
+    block->cell = work->farthest;
+    block->distance = block->cell == KIRI_NONE ? -1 : SampledDistance(work, block->cell);
+    block->isCovered = block->cell != KIRI_NONE && MostlyCovered(job->grid, block->cell);
+    block->seen = placer->sites.count;
+    return end - first;
+}
+
+/* The block that may have the farthest cell; of equals the first. */
+static SampleBlock* FarthestBlock(const kiriPlacerWork* work)
+{
+    SampleBlock* best = work->blocks.data;
+    for (int32_t b = 1; b < work->blocks.count; ++b) {
+        SampleBlock* block = &work->blocks.data[b];
+        if (block->distance > best->distance ||
+            (block->distance == best->distance && block->isCovered && !best->isCovered)) {
+            best = block;
+        }
+    }
+    return best;
+}
+
+/* Looks at blocks until the one that may have the farthest cell has it. */
+static kiriProgress FindFarthestOfAll(PlacerJob* job)
+{
+    kiriPlacerWork* work = job->work;
+    SampleBlock* best = FarthestBlock(work);
+    for (; best->seen != job->placer->sites.count; best = FarthestBlock(work)) {
+        if (!kiriQuota_Pay(job->quota, &work->due)) {
+            return KIRI_MORE;
+        }
+        work->due = LookAtBlock(job, best);
+    }
+    work->farthest = best->cell;
+    return kiriQuota_Pay(job->quota, &work->due) ? KIRI_DONE : KIRI_MORE;
+}
+
+static bool StartBlocks(const kiriPlacer* placer, kiriMemory* memory)
+{
+    kiriPlacerWork* work = placer->work;
+    int32_t count = placer->cells.count / SAMPLE_CELLS + 1;
+    if (!kiriArray_Resize(memory, &work->blocks, count)) {
+        return false;
+    }
+    for (int32_t b = 0; b < count; ++b) {
+        work->blocks.data[b] = (SampleBlock){ INT64_MAX, KIRI_NONE, -1, true };
+    }
+    return true;
+}
+
 /* Ready for a round of relaxation. */
 static kiriProgress StartRound(PlacerJob* job)
 {
@@ -253,7 +323,7 @@ static kiriProgress SampleFarthest(PlacerJob* job)
 {
     kiriPlacerWork* work = job->work;
     kiriSites* sites = &job->placer->sites;
-    kiriProgress progress = VisitPartCells(job, FindFarthest);
+    kiriProgress progress = FindFarthestOfAll(job);
     if (progress != KIRI_DONE) {
         return progress;
     }
@@ -273,7 +343,8 @@ static kiriProgress SampleFarthest(PlacerJob* job)
 
 static kiriProgress FloodNew(PlacerJob* job)
 {
-    return GoOnTo(job, FloodPart(job, &job->work->fresh, IsNearestSoFar), LOWER);
+    return GoOnTo(job, FloodPart(job, &job->work->fresh, job->work->old->distance.data, job->work->sampled.data),
+                  LOWER);
 }
 
 static void LowerCell(PlacerJob* job, int32_t cell)
@@ -293,7 +364,7 @@ static kiriProgress LowerDistances(PlacerJob* job)
 
 static kiriProgress FloodAllNew(PlacerJob* job)
 {
-    return GoOnTo(job, FloodPart(job, &job->work->fresh, IsNearerThanOld), SUM);
+    return GoOnTo(job, FloodPart(job, &job->work->fresh, job->work->old->distance.data, NULL), SUM);
 }
 
 /* The target of the new site that a cell belongs to; null where it is an old one. */
@@ -612,9 +683,10 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     work->old = known == NULL ? &work->flooded : known;
     work->cursor = work->round = 0;
     work->left = count;
+    work->due = 0;
     work->farthest = KIRI_NONE;
     work->targets.data[0] = noTarget;
-    if (!StartEnds(placer, memory, grid)) {
+    if (!StartEnds(placer, memory, grid) || !StartBlocks(placer, memory)) {
         return false;
     }
     work->stage = FirstStage(placer);

@@ -426,7 +426,7 @@ static bool BeginRegions(const RegionUpdate* u)
 static kiriProgress DivideCells(const RegionUpdate* u, kiriQuota* quota)
 {
     kiriRegions* r = u->regions;
-    kiriRule rule = { u->grid, KIRI_FAR, NULL, NearestSiteSeed, u, NULL };
+    kiriRule rule = { u->grid, KIRI_FAR, NULL, NearestSiteSeed, u, NULL, { NULL, NULL } };
     if (r->flooding) {
         return kiriField_Flood(&r->field, &rule, quota);
     }

@@ -390,10 +390,23 @@ static bool StartFromBorder(kiriShapeJob* job)
     return true;
 }
 
+/* Fields that are made from scratch are empty where no block is loaded. */
+static kiriLookFn* LookFor(const kiriShapeJob* job)
+{
+    return job->work->frames.data[job->frame].moved ? NULL : LoadAround;
+}
+
 static kiriProgress MeasureField(kiriShapeJob* job, kiriField* field, const kiriRule* rule, kiriQuota* quota)
 {
-    return job->work->frames.data[job->frame].moved ? kiriField_Flood(field, rule, quota)
-                                                    : kiriField_Repair(field, job->memory, rule, quota);
+    int32_t k = field->settled.count;
+    if (!job->work->frames.data[job->frame].moved) {
+        return kiriField_Repair(field, job->memory, rule, quota);
+    }
+    kiriProgress progress = kiriField_Flood(field, rule, quota);
+    for (; k < field->settled.count; ++k) {
+        LoadBlock(job, kiriReach_BlockOf(field->settled.data[k]));
+    }
+    return progress;
 }
 
 /* ---- Back into its blocks ---------------------------------------------------------------------------------------- */
@@ -513,7 +526,8 @@ static kiriProgress StartFrame(kiriShapeJob* job, kiriQuota* quota)
 static kiriProgress MeasureFromSite(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriShapeWork* work = job->work;
-    const kiriRule rule = { job->grid, work->frames.data[job->frame].limit, NULL, SiteSeed, job, LoadAround };
+    const kiriRule rule = { job->grid,     work->frames.data[job->frame].limit, NULL, SiteSeed, job, LookFor(job),
+                            { NULL, NULL } };
     kiriProgress progress = MeasureField(job, &work->fromSite, &rule, quota);
     if (progress == KIRI_DONE) {
         work->frameStage = KIRI_FRAME_BORDER;
@@ -525,7 +539,7 @@ static kiriProgress MeasureFromSite(kiriShapeJob* job, kiriQuota* quota)
 static kiriProgress MeasureFromBorder(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriShapeWork* work = job->work;
-    const kiriRule rule = { job->grid, KIRI_FAR - 1, HasWeight, BorderSeed, job, LoadAround };
+    const kiriRule rule = { job->grid, KIRI_FAR - 1, HasWeight, BorderSeed, job, LookFor(job), { NULL, NULL } };
     kiriProgress progress = MeasureField(job, &work->fromBorder, &rule, quota);
     if (progress == KIRI_DONE) {
         work->frameStage = KIRI_FRAME_UNLOAD;

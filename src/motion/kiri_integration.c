@@ -92,7 +92,7 @@ static bool FloodFromPoints(PointBuilder* b)
 {
     kiriIntegrationWork* work = b->work;
     const kiriSites* points = &work->placer.sites;
-    kiriRule rule = { b->grid, KIRI_FAR - 1, NULL, NULL, NULL, NULL };
+    kiriRule rule = { b->grid, KIRI_FAR - 1, NULL, NULL, NULL, NULL, { NULL, NULL } };
     kiriQuota endless = { INT64_MAX, 0 };
     kiriField_Reset(&work->field);
     work->seeds.count = 0;
