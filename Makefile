@@ -43,6 +43,7 @@ NEEDS_contact := $(NEEDS_lib) libbox2d-dev
 NEEDS_extremes := $(NEEDS_lib)
 NEEDS_gallery := $(NEEDS_play)
 NEEDS_guide := $(NEEDS_run)
+NEEDS_portable := $(NEEDS_lib)
 # Without these, tests of bindings are left out, with a line that says so.
 WANTS_test := python3-cffi cmake pkg-config
 
@@ -407,7 +408,7 @@ STORM ?= $(BUILD)/tests/storm
 
 $(STORM): $(patsubst %,$(BUILD)/tests/%.c.o,storm storm_acts storm_cuts storm_seen) $(LIBRARY_OBJECTS) $(TO_LINK)
 	@echo "  $@"
-	@$(LINK) -o $@ $(filter %.o,$^) -lm
+	@$(LINK) -o $@ $(filter %.o,$^) $(STORM_LIBRARIES) -lm
 
 # What the sources refuse, as far as the compiler knows it.
 float-guards:
@@ -418,7 +419,7 @@ float-guards:
 	done; echo "floats: options that give other bits do not compile"
 
 # TARGETS='aarch64 wasm': these only; TIME=300: begins no target after so many seconds.
-portable: float-guards
+portable: float-guards packages-portable
 	+@MAKE='$(MAKE)' TARGETS='$(TARGETS)' TIME='$(TIME)' sh tests/portable.sh
 
 # After a change that moves state hashes, and says why.

@@ -8,9 +8,6 @@ set -u
 golden=tests/data/storm.txt
 passed=0 failed='' skipped=0
 start=$(date +%s)
-# Libraries that emscripten makes for itself.
-EM_CACHE=${EM_CACHE:-$PWD/build/portable/emscripten}
-export EM_CACHE
 
 # name | what it needs | CC | CXX | options of both | options of the linker | what runs it | suffix of the program
 # The ones that say most come first, for those who have little time.
@@ -19,9 +16,9 @@ gcc         | gcc                     | gcc                       | g++         
 fused       | gcc avx2                | gcc                       | g++                       | -O3 -std=gnu* -march=x86-64-v3 -ffp-contract=fast               |                     |              |
 clang       | clang                   | clang                     | clang++                   | -O2 -std=gnu*                                                   |                     |              |
 aarch64     | aarch64-linux-gnu-g++   | aarch64-linux-gnu-gcc     | aarch64-linux-gnu-g++     | -O2 -std=gnu*                                                   | -static             | qemu-aarch64 |
-wasm        | em++ node               | emcc                      | em++                      | -O2                                                             | -sALLOW_MEMORY_GROWTH | node       | .js
+wasm        | em++ node               | emcc                      | em++                      | -O2                                                             | -sALLOW_MEMORY_GROWTH -sSINGLE_FILE | node | .js
 s390x       | s390x-linux-gnu-g++     | s390x-linux-gnu-gcc       | s390x-linux-gnu-g++       | -O2 -std=gnu* -march=z13                                        | -static             | qemu-s390x   |
-i386        | i686-linux-gnu-g++      | i686-linux-gnu-gcc        | i686-linux-gnu-g++        | -O2 -std=gnu* -msse2 -mfpmath=sse                               | -static             | qemu-i386    |
+i386        | i686-linux-gnu-g++ x86  | i686-linux-gnu-gcc        | i686-linux-gnu-g++        | -O2 -std=gnu* -msse2 -mfpmath=sse                               | -static             |              |
 windows     | x86_64-w64-mingw32-g++  | x86_64-w64-mingw32-gcc    | x86_64-w64-mingw32-g++    | -O2 -std=gnu*                                                   | -static             | wine         | .exe
 clang-avx2  | clang avx2              | clang                     | clang++                   | -O3 -march=x86-64-v3                                            |                     |              |
 clang-fused | clang avx2              | clang                     | clang++                   | -O2 -march=x86-64-v3 -ffp-contract=fast                         |                     |              |
@@ -33,7 +30,7 @@ clang-lto   | clang ld.lld            | clang                     | clang++     
 clang-arm64 | clang aarch64-linux-gnu-g++ | clang --target=aarch64-linux-gnu | clang++ --target=aarch64-linux-gnu | -O3                                              | -static             | qemu-aarch64 |
 armhf       | arm-linux-gnueabihf-g++ | arm-linux-gnueabihf-gcc   | arm-linux-gnueabihf-g++   | -O2 -std=gnu* -mfpu=neon-vfpv4                                  | -static             | qemu-arm     |
 riscv64     | riscv64-linux-gnu-g++   | riscv64-linux-gnu-gcc     | riscv64-linux-gnu-g++     | -O2 -std=gnu*                                                   | -static             | qemu-riscv64 |
-musl        | musl-gcc                | musl-gcc                  | g++                       | -O2                                                             |                     |              |
+musl        | musl-gcc g++            | musl-gcc                  | g++                       | -O2                                                             |                     |              |
 '
 
 say() {
@@ -45,16 +42,25 @@ missing() {
     for need in "$@"; do
         case $need in
         avx2) grep -qw avx2 /proc/cpuinfo 2>/dev/null || echo "a processor with fused multiply-add" ;;
+        x86) case $(uname -m) in x86_64 | i?86) ;; *) echo "an x86 processor" ;; esac ;;
         *) command -v "$need" >/dev/null 2>&1 || echo "$need" ;;
         esac
     done
 }
 
+# Debian's libstdc++ is made for glibc: what it takes from there beside C is needed for exceptions and threads only.
+build_musl() {
+    names="-Wl,--defsym=arc4random=0 -Wl,--defsym=_dl_find_object=0 -Wl,--defsym=__libc_single_threaded=main"
+    build LINK="musl-gcc -static $names" \
+        STORM_LIBRARIES="-L$(dirname "$(g++ -print-file-name=libstdc++.a)") -lstdc++ -lgcc_eh"
+}
+
+# Arguments: variables of the Makefile.
 build() {
     c=$(echo "$options" | sed 's/gnu\*/gnu11/') plus=$(echo "$options" | sed 's/gnu\*/gnu++14/')
     ${MAKE:-make} --no-print-directory BUILD="$place" config=release CC="$cc" CXX="$cxx" \
         FLAGS="-Wall -Wextra -fno-math-errno -DNDEBUG -MMD -MP" FLAGS_release="-DNDEBUG $link" \
-        CFLAGS="$c" CXXFLAGS="$plus" STORM="$program" "$program" > "$place/log" 2>&1
+        PACKAGES=: CFLAGS="$c" CXXFLAGS="$plus" STORM="$program" "$@" "$program" > "$place/log" 2>&1
 }
 
 # The hashes that are wanted: those of the repository, or none where no world may be made.
@@ -79,7 +85,8 @@ try() {
         skipped=$((skipped + 1))
         return
     fi
-    if ! build; then
+    if [ "$name" = musl ]; then make=build_musl; else make=build; fi
+    if ! $make; then
         say "$name" "FAILED: does not build, see $place/log"
         failed="$failed $name"
         return

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { TICKS = 40, PRINTED = 10 };
+enum { TICKS = 24, PRINTED = 8 };
 
 static const StormType types[] = {
     { .name = "links", .sheets = 2 },
@@ -15,7 +15,7 @@ static const StormType types[] = {
     { .name = "planar", .planar = true, .sheets = 2 },
     { .name = "rubber", .model = KIRI_MODEL_AFFINE, .skinning = KIRI_SKINNING_SMOOTH, .planar = true, .sheets = 2 },
     { .name = "scratch", .fromScratch = true, .sheets = 2 },
-    { .name = "crowd", .touches = true, .obstacles = true, .tasks = true, .sheets = 6 },
+    { .name = "crowd", .touches = true, .obstacles = true, .tasks = true, .sheets = 4 },
     { .name = "budget", .touches = true, .sheets = 3, .budget = { 64, 400, 100, 8 } },
 };
 
@@ -62,7 +62,7 @@ static kiriResult Start(Storm* storm, const StormType* type)
 
 static void Tick(Storm* storm)
 {
-    for (uint32_t acts = 1 + Storm_Random(storm, 3); acts > 0; acts--) {
+    for (uint32_t acts = 2 + Storm_Random(storm, 4); acts > 0; acts--) {
         Storm_Act(storm);
     }
     Storm_Note(storm, kiriWorld_Tick(storm->world, 1.0f / 60.0f, 1 + (int32_t)Storm_Random(storm, 3)));
