@@ -206,7 +206,7 @@ static const Adversary adversaries[] = {
       .act = CutEachShort,
       .sheets = 1000,
       .asleep = true },
-    { .name = "slash513", .squares = 512, .grid = 512, .frames = 25, .act = Slash, .cells = 200, .seconds = 60 },
+    { .name = "slash513", .squares = 512, .grid = 512, .frames = 25, .act = Slash, .cells = 200, .seconds = 400 },
     { .name = "patch142k", .build = AddFinePatch, .grid = 32, .frames = 25, .act = CutFinePatch },
     { .name = "grid1024", .squares = 8, .grid = 1024, .frames = 5, .act = CutAcross },
     { .name = "detach65", .squares = 64, .grid = 64, .frames = 25, .act = Detach, .actions = 2, .prepare = CutCorner },
