@@ -232,7 +232,9 @@ int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLattice
     kiriMesh_Link(mesh, h + 1, k + 2);
     kiriMesh_Link(mesh, k + 1, l + 2);
     kiriMesh_Link(mesh, l + 1, h + 2);
-    return ReshapeInSquares(mesh, triangle, corners) && InsertSquares(mesh, k / 3) && InsertSquares(mesh, l / 3) ? p : KIRI_NONE;
+    return ReshapeInSquares(mesh, triangle, corners) && InsertSquares(mesh, k / 3) && InsertSquares(mesh, l / 3)
+               ? p
+               : KIRI_NONE;
 }
 
 /* Half-edge h has just been opened: where that divides the fan at its tail, the part on its left gets a new vertex. */

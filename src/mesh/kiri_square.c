@@ -345,7 +345,8 @@ static SquareBox JoinBoxes(SquareBox a, SquareBox b)
 {
     SquareBox box = { a.firstColumn < b.firstColumn ? a.firstColumn : b.firstColumn,
                       a.lastColumn > b.lastColumn ? a.lastColumn : b.lastColumn,
-                      a.firstRow < b.firstRow ? a.firstRow : b.firstRow, a.lastRow > b.lastRow ? a.lastRow : b.lastRow };
+                      a.firstRow < b.firstRow ? a.firstRow : b.firstRow,
+                      a.lastRow > b.lastRow ? a.lastRow : b.lastRow };
     return box;
 }
 

@@ -11,10 +11,9 @@ kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGri
         refit->most += refit->ownership.first.data[f] != KIRI_NONE;
     }
     int32_t frameCount = refit->ownership.first.count;
-    bool hasRoom = kiriArray_Reserve(memory, &refit->fits, refit->most) &&
-                   kiriArray_Reserve(memory, &refit->gained, frameCount) &&
-                   kiriArray_Reserve(memory, &refit->firstOf, frameCount) &&
-                   kiriArray_Reserve(memory, &refit->nextOf, frameCount);
+    bool hasRoom =
+        kiriArray_Reserve(memory, &refit->fits, refit->most) && kiriArray_Reserve(memory, &refit->gained, frameCount) &&
+        kiriArray_Reserve(memory, &refit->firstOf, frameCount) && kiriArray_Reserve(memory, &refit->nextOf, frameCount);
     return hasRoom ? progress : KIRI_FAILED;
 }
 

@@ -27,8 +27,7 @@ static kiriFrameData MakeFrame(const kiriSheetData* sheet, const kiriNewFrame* f
 /* From the surface: position, velocity, and the rotation nearest to its slope; for an affine frame the slope itself. */
 static void TakeMotion(const kiriSheetData* sheet, kiriFrameData* frame, int32_t triangle)
 {
-    kiriMotion motion =
-        kiriSkin_Motion(&sheet->vertexSkin, sheet->frames.data, &sheet->mesh, triangle, frame->anchor);
+    kiriMotion motion = kiriSkin_Motion(&sheet->vertexSkin, sheet->frames.data, &sheet->mesh, triangle, frame->anchor);
     frame->x = motion.x;
     frame->velocity = motion.velocity;
     if (sheet->settings.mechanics.model == KIRI_MODEL_LINKS) {

@@ -35,8 +35,8 @@ static void ListRooms(kiriSheetData* sheet, int64_t more, kiriRoom rooms[ROOMS])
     kiriMeshData* mesh = &sheet->mesh;
     kiriSkin* skin = &sheet->vertexSkin;
     kiriSurface* s = &sheet->seen.surface;
-    int64_t vertices = mesh->vertices.count + ROOM_VERTICES * more, added = mesh->triangles.count + ROOM_TRIANGLES * more,
-            corners = 3 * (added + 1);
+    int64_t vertices = mesh->vertices.count + ROOM_VERTICES * more,
+            added = mesh->triangles.count + ROOM_TRIANGLES * more, corners = 3 * (added + 1);
     const kiriRoom all[ROOMS] = { KIRI_ROOM(own, &mesh->vertices, vertices),
                                   KIRI_ROOM(own, &mesh->triangles, added),
                                   KIRI_ROOM(own, &mesh->squares.nodes, mesh->squares.nodes.count + ROOM_NODES * more),

@@ -341,7 +341,7 @@ kiriProgress kiriStage_Settle(kiriSheetData* sheet, kiriQuota* samples)
 
 kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples)
 {
-    static kiriStageStep* const steps[] = { kiriStage_Settle,    JoinPieces,    FindSamples, kiriRoom_ForWeights,
-                                              WeighVertices, WeighPoints, PlaceCollisionPoints };
+    static kiriStageStep* const steps[] = { kiriStage_Settle, JoinPieces,  FindSamples,         kiriRoom_ForWeights,
+                                            WeighVertices,    WeighPoints, PlaceCollisionPoints };
     return kiriStage_RunSteps(sheet, samples, steps, (int32_t)(sizeof(steps) / sizeof(steps[0])));
 }
