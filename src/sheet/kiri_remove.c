@@ -132,16 +132,10 @@ bool kiriRemoval_Gather(kiriRemoval* removal)
 
 enum { SMALL_SHEET = 4096 }; /* vertices: a pass over them takes no longer than a tick */
 
-bool kiriRemoval_IsSmall(const kiriSheetData* sheet)
+bool kiriRemoval_IsWorthAPass(const kiriSheetData* sheet, double share)
 {
-    return sheet->mesh.vertices.count <= SMALL_SHEET;
-}
-
-bool kiriRemoval_MayLeaveHoles(const kiriRemoval* removal)
-{
-    const kiriMeshData* mesh = &removal->sheet->mesh;
-    int64_t holes = (int64_t)mesh->vertexHoles + removal->gathered.vertices.count;
-    return !kiriRemoval_IsSmall(removal->sheet) && 2 * holes <= mesh->vertices.count;
+    int32_t vertices = sheet->mesh.vertices.count, holes = sheet->mesh.vertexHoles;
+    return vertices <= SMALL_SHEET || 2.0 * (holes + share * (vertices - holes)) > vertices;
 }
 
 static bool StageItems(kiriRemoval* removal)

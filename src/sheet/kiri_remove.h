@@ -25,16 +25,14 @@ bool kiriRemoval_Init(kiriRemoval* removal, kiriSheetData* sheet);
 /* Lists what goes, by piece. Needed only where parts are made, or holes are to be left. False for memory. */
 bool kiriRemoval_Gather(kiriRemoval* removal);
 
-/* Would it be as well to leave holes, when what goes is gathered? Else all triangles and vertices of the sheet move
-   together: that takes a pass over the sheet, once for as much as has gone, and where a sheet is small each time. */
-bool kiriRemoval_MayLeaveHoles(const kiriRemoval* removal);
+/* Is it worth while to move all triangles and vertices that are left together, when this share of the sheet's area goes?
+   That takes a pass over the sheet: once for as much as has gone, and where a sheet is small each time. Else what goes is
+   gathered, and leaves holes. */
+bool kiriRemoval_IsWorthAPass(const kiriSheetData* sheet, double share);
 
 /* Makes ready: after it Commit does not fail. Fields belong to the mesh as it is (kiriUpdate_IsFieldCurrent). False for
    memory; nothing has changed. */
 bool kiriRemoval_Stage(kiriRemoval* removal, bool leavesHoles);
-
-/* A small sheet leaves none. */
-bool kiriRemoval_IsSmall(const kiriSheetData* sheet);
 
 /* Pieces go. Blades that were in their material are in none; other cuts go on. Arrays that the host may hold get the owner
    `retired`. Ids are left to the caller. Never fails. */

@@ -31,6 +31,7 @@ typedef struct Part {
 typedef struct Source {
     kiriRemoval removal;
     kiriExtraction extraction;
+    bool leavesHoles;
     bool waits;     /* what is to become a sheet does so later */
     double samples; /* that it costs at once */
 } Source;
@@ -173,9 +174,9 @@ static kiriResult ResultOf(const Parting* parting)
 static double CostOfRemoval(const kiriSheetData* sheet, double share)
 {
     const kiriMeshData* mesh = &sheet->mesh;
-    double vertices = (double)mesh->vertices.count - mesh->vertexHoles, holes = mesh->vertexHoles + share * vertices;
-    bool isPass = kiriRemoval_IsSmall(sheet) || 2.0 * holes > mesh->vertices.count;
-    return 1.0 + vertices / RENUMBERED_VERTICES + (isPass ? vertices / PASSED_VERTICES : 0.0);
+    double vertices = (double)mesh->vertices.count - mesh->vertexHoles;
+    double pass = kiriRemoval_IsWorthAPass(sheet, share) ? vertices / PASSED_VERTICES : 0.0;
+    return 1.0 + vertices / RENUMBERED_VERTICES + pass;
 }
 
 /* And to make sheets of them. */
@@ -204,6 +205,7 @@ static void ChooseWhatWaits(Parting* parting, bool makesSheets)
         Source* source = &parting->sources[k];
         const kiriSheetData* sheet = source->removal.sheet;
         double share = 1.0 - kiriKept_Share(&source->removal.kept);
+        source->leavesHoles = !kiriRemoval_IsWorthAPass(sheet, share);
         source->samples = CostOfRemoval(sheet, share) + (makesSheets ? CostOfSheets(sheet, share) : 0.0);
         source->waits = !parting->isInTick &&
                         (IsBusy(sheet) || (makesSheets && (source->samples > left || kiriParts_AreDue(sheet))));
@@ -227,20 +229,19 @@ static bool GatherSources(Parting* parting, bool makesParts)
 {
     bool ok = true;
     for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
-        kiriRemoval* removal = &parting->sources[k].removal;
-        bool isNeeded = makesParts || !kiriRemoval_IsSmall(removal->sheet);
-        ok = parting->sources[k].waits || !isNeeded || kiriRemoval_Gather(removal);
+        Source* source = &parting->sources[k];
+        bool isNeeded = makesParts || source->leavesHoles;
+        ok = source->waits || !isNeeded || kiriRemoval_Gather(&source->removal);
     }
     return ok;
 }
 
 /* The host may hold the indices, but not at the end of a tick. */
-static bool StageRemoval(Parting* parting, kiriRemoval* removal)
+static bool StageRemoval(Parting* parting, Source* source)
 {
-    kiriSheetData* sheet = removal->sheet;
-    bool leavesHoles = kiriRemoval_MayLeaveHoles(removal);
-    return kiriRemoval_Stage(removal, leavesHoles) &&
-           (!leavesHoles || parting->isInTick ||
+    kiriSheetData* sheet = source->removal.sheet;
+    return kiriRemoval_Stage(&source->removal, source->leavesHoles) &&
+           (!source->leavesHoles || parting->isInTick ||
             kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired));
 }
 
@@ -248,8 +249,8 @@ static bool StageRemovals(Parting* parting)
 {
     bool ok = true;
     for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
-        kiriRemoval* removal = &parting->sources[k].removal;
-        ok = parting->sources[k].waits || StageRemoval(parting, removal);
+        Source* source = &parting->sources[k];
+        ok = source->waits || StageRemoval(parting, source);
     }
     return ok;
 }
@@ -358,6 +359,7 @@ static void AddLeaving(kiriWorld* world, const Part* part)
 
 static kiriResult Detach(Parting* parting)
 {
+    ChooseWhatWaits(parting, true);
     bool ok = GatherSources(parting, parting->parts.count > 0) && MakeParts(parting) && StageRemovals(parting);
     kiriResult result = ok ? ReserveIdsOfParts(parting) : KIRI_ERROR_MEMORY;
     if (result != KIRI_OK) {
@@ -379,7 +381,6 @@ kiriResult kiriParts_Detach(kiriWorld* world, const kiriFrame* frames, int32_t c
     kiriResult result = KIRI_ERROR_MEMORY;
     if (Parting_Start(&parting, world, count < world->sheets.count ? count : world->sheets.count) &&
         MarkPieces(&parting, frames, count)) {
-        ChooseWhatWaits(&parting, true);
         result = LeavesSome(&parting) ? Detach(&parting) : KIRI_ERROR_STATE;
     }
     for (int32_t i = 0; result >= 0 && i < count; ++i) {
