@@ -473,6 +473,42 @@ static void TestHolesAreNotSeen(void** state)
     Host_Stop(&host);
 }
 
+/* A small sheet falls through the hole in a large one that is held, and lies on it beside. */
+static void TestHolesTouchNothing(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = DefOf(24), small = DefOf(8);
+    def.touchesSheets = small.touchesSheets = 1;
+    def.collisionPoints = small.collisionPoints = 0.0f;
+    small.frameCount = 1;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 70, 70), fallen[2];
+    Host_Cut(&host, sheet, (float[]){ 0.6f, -0.1f, 0.6f, 0.4f, 1.1f, 0.4f }, 3);
+    OK(Host_Tick(&host, 1.0f / 60.0f, 1));
+    OK(kiriFrame_DestroyPiece(host.world, FrameNear(&host, sheet, 0.85f, 0.15f)));
+    assert_true(SheetAt(&host, 0)->mesh.vertexHoles > 0);
+    for (int32_t i = 0; i < SheetAt(&host, 0)->frames.count; ++i) {
+        kiriFrame frame = SheetAt(&host, 0)->frames.data[i].id;
+        kiriFrameState is;
+        OK(kiriFrame_GetState(host.world, frame, &is));
+        OK(kiriFrame_Hold(host.world, frame, is.position, is.rotation));
+    }
+    for (int k = 0; k < 2; ++k) {
+        small.position[0] = k == 0 ? 0.75f : 0.2f;
+        small.position[1] = k == 0 ? 0.1f : 0.6f;
+        small.position[2] = 0.05f;
+        fallen[k] = Host_AddRectangle(&host, &small, 0.15f, 0.15f, 4, 4);
+    }
+    for (int tick = 0; tick < 40; ++tick) {
+        assert_true(Host_Tick(&host, 1.0f / 60.0f, 2) >= 0);
+        Host_Validate(&host);
+    }
+    assert_true(Host_Totals(&host, fallen[0]).center[2] < -0.5);
+    assert_true(Host_Totals(&host, fallen[1]).center[2] > -0.01);
+    Host_Stop(&host);
+}
+
 /* Whatever allocation fails, all is as before. */
 static void TestHolesWithoutMemory(void** state)
 {
@@ -1046,6 +1082,7 @@ int main(void)
         cmocka_unit_test(TestLeftIsAsFromScratch),
         cmocka_unit_test(TestHolesChangeNothing),
         cmocka_unit_test(TestHolesAreNotSeen),
+        cmocka_unit_test(TestHolesTouchNothing),
         cmocka_unit_test(TestHolesWithoutMemory),
         cmocka_unit_test(TestCallsKeepToTheBudget),
         cmocka_unit_test(TestDestroyingIsOnAccount),

@@ -205,6 +205,9 @@ static void BoundPieces(kiriSheetData* sheet)
         probes->boxes.data[p].upper = kiriVec3_Make(-HUGE_VAL, -HUGE_VAL, -HUGE_VAL);
     }
     for (int32_t v = 0; v < probes->vertexPiece.count; ++v) {
+        if (probes->vertexPiece.data[v] == KIRI_NONE) {
+            continue; /* a hole */
+        }
         kiriBox* box = &probes->boxes.data[probes->vertexPiece.data[v]];
         kiriVec3 x = kiriSurface_At(&sheet->seen.surface, v), *a = &box->lower, *b = &box->upper;
         *a = kiriVec3_Make(x.x < a->x ? x.x : a->x, x.y < a->y ? x.y : a->y, x.z < a->z ? x.z : a->z);
