@@ -117,6 +117,7 @@ include bindings/install.mk
 .PHONY: all run box2d play python builds test tsan portable-arm64 check floors headers single example lib bench accuracy contact extremes gallery guide deps format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
+.DELETE_ON_ERROR:
 
 all: lib
 
