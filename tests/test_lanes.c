@@ -62,7 +62,7 @@ static void FillPatches(Patchwork* work, bool isBent, double size, uint32_t* see
         c->vv = RandomBetween(seed, -20.0, 20.0);
     }
     assert_true(Plain_ReservePatches(&work->patches, &work->memory, FRAMES));
-    Plain_WritePatches(&work->patches, carriers, FRAMES, RandomVector(seed, size), isBent);
+    Plain_WritePatches(&work->patches, carriers, FRAMES, RandomVector(seed, size), isBent, NULL);
 }
 
 static void FillVertices(Patchwork* work, uint32_t* seed)

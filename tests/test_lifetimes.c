@@ -101,6 +101,7 @@ typedef struct Desk {
     kiriSheet sheet;
     kiriPin pin;
     kiriCut cut;
+    bool waits; /* a piece is to be detached, when the budget has paid for it */
 } Desk;
 
 static void Desk_Start(Desk* desk)
@@ -133,20 +134,28 @@ static void Desk_Stop(Desk* desk)
 
 /* ---- Calls in between ---- */
 
+/* What it may be with a piece that waits: the call waits, too, or would leave nothing. */
+static bool Waits(kiriResult result)
+{
+    return result == KIRI_OK || result == KIRI_PENDING || result == KIRI_ERROR_STATE;
+}
+
 static void DetachPiece(Desk* desk, uint32_t random)
 {
     int32_t pieces = Host_Counts(&desk->host, desk->sheet).pieces;
     kiriSheet detached;
     kiriFrame frame = Host_FrameOf(&desk->host, desk->sheet, (int32_t)(random % (uint32_t)pieces));
     kiriResult result = kiriFrame_DetachPiece(desk->host.world, frame, &detached);
-    assert_int_equal(result, pieces > 1 ? KIRI_OK : KIRI_ERROR_STATE);
+    desk->waits = desk->waits || result == KIRI_PENDING;
+    assert_true(result == (pieces > 1 ? KIRI_OK : KIRI_ERROR_STATE) || (desk->waits && Waits(result)));
 }
 
 static void DestroyPiece(Desk* desk, uint32_t random)
 {
     int32_t pieces = Host_Counts(&desk->host, desk->sheet).pieces;
     kiriFrame frame = Host_FrameOf(&desk->host, desk->sheet, (int32_t)(random % (uint32_t)pieces));
-    assert_int_equal(kiriFrame_DestroyPiece(desk->host.world, frame), pieces > 1 ? KIRI_OK : KIRI_ERROR_STATE);
+    kiriResult result = kiriFrame_DestroyPiece(desk->host.world, frame);
+    assert_true(result == (pieces > 1 ? KIRI_OK : KIRI_ERROR_STATE) || (desk->waits && Waits(result)));
 }
 
 static void DropCrumbs(Desk* desk, uint32_t random)

@@ -18,11 +18,13 @@ void kiriAwake_Start(kiriAwake* awake, int32_t pieceCount)
     }
     awake->isAwake.count = pieceCount;
     awake->isListed = false;
+    awake->wakes += 1;
 }
 
 void kiriAwake_Set(kiriAwake* awake, int32_t piece, bool isAwake)
 {
     KIRI_ASSERT(piece >= 0 && piece < awake->isAwake.count);
     awake->isListed = awake->isListed && awake->isAwake.data[piece] == isAwake;
+    awake->wakes += isAwake && !awake->isAwake.data[piece];
     awake->isAwake.data[piece] = isAwake;
 }

@@ -11,6 +11,7 @@ typedef struct kiriAwake {
     KIRI_ARRAY(uint8_t) isAwake;          /* of each piece */
     bool isListed;                        /* are the lists of these? */
     kiriIndices pieces, frames, elements; /* ascending */
+    int64_t lists, wakes;                 /* how often lists were made, and pieces woken */
 } kiriAwake;
 
 /* The loop over a list: `index` is each of its items. */

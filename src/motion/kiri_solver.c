@@ -235,6 +235,7 @@ bool kiriSolver_ListAwake(kiriSolver* solver, const kiriSystem* system)
     WriteLists(solver, system);
     kiriMatrix_Choose(solver->matrix, solver->awake.frames.data, solver->awake.frames.count);
     solver->awake.isListed = true;
+    solver->awake.lists += 1;
     return true;
 }
 

@@ -71,7 +71,7 @@ static bool RenewShown(kiriSheetData* sheet, kiriMemory* retired)
     Retire(retired, &surface->positions.data, positions);
     Retire(retired, &surface->normals.data, normals);
     Retire(retired, &sheet->seen.pointPositions.data, points);
-    surface->isWritten = false;
+    surface->isWritten = surface->isSteady = false;
     return true;
 }
 

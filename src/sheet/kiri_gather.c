@@ -38,7 +38,7 @@ static bool ReserveTaking(kiriSheetData* sheet)
 
 /* ---- Cells ---- */
 
-static bool GatherCell(kiriGathered* gathered, int32_t cell)
+static bool TakeGatheredCell(kiriGathered* gathered, int32_t cell)
 {
     uint8_t* mark = &gathered->sheet->taking.cells.data[cell];
     if (!*mark && !kiriArray_Push(gathered->memory, &gathered->cells, cell)) {
@@ -57,7 +57,7 @@ static bool FloodCells(kiriGathered* gathered, int32_t from)
         kiriSteps steps;
         kiriGrid_GetStepsTo(grid, gathered->cells.data[k], 1, &steps);
         for (int32_t s = 0; ok && s < steps.end[0]; ++s) {
-            ok = GatherCell(gathered, steps.data[s].cell);
+            ok = TakeGatheredCell(gathered, steps.data[s].cell);
         }
     }
     return ok;
@@ -129,7 +129,7 @@ static void ClearMap(kiriKeep* map, const int32_t* items, int32_t count)
 /* ---- Pieces ---- */
 
 /* The cells from `from` on are those of the piece. Its marks go again, so that those of each piece are alone. */
-static bool GatherPiece(kiriGathered* gathered, int32_t piece, int32_t from)
+static bool TakeFlooded(kiriGathered* gathered, int32_t piece, int32_t from)
 {
     kiriTaking* taking = &gathered->sheet->taking;
     kiriIndices *triangles = &gathered->triangles, *vertices = &gathered->vertices;
@@ -154,7 +154,7 @@ static bool TakePieces(kiriGathered* gathered, const uint8_t* stays)
         int32_t piece = sheet->layout.framePiece.data[f], cell = sheet->frames.data[f].site.cell;
         int32_t from = gathered->cells.count;
         if (!stays[piece] && !sheet->taking.cells.data[cell]) {
-            ok = GatherCell(gathered, cell) && FloodCells(gathered, from) && GatherPiece(gathered, piece, from);
+            ok = TakeGatheredCell(gathered, cell) && FloodCells(gathered, from) && TakeFlooded(gathered, piece, from);
         }
     }
     return ok;

@@ -105,7 +105,7 @@ static bool FindCrossed(const kiriMeeting* meeting, const EdgePoint* point)
     kiriIndices* crossed = &meeting->search->crossed;
     int32_t kept = 0;
     crossed->count = 0;
-    if (!kiriBounds_FindLeaves(meeting->sheet->seen.bounds, surface, MeetsLine, point, meeting->search->memory,
+    if (!kiriBounds_FindLeaves(meeting->sheet->seen.bounds, surface, MeetsLine, point, 0, meeting->search->memory,
                                crossed)) {
         return false;
     }

@@ -426,6 +426,17 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
     return meeting;
 }
 
+/* Of the movers, unless something else has been woken since, or shall wake. */
+static int64_t VersionOf(const kiriSheetData* sheet)
+{
+    const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
+    bool isSame = awake->isListed && awake->lists == sheet->seen.lists;
+    for (int32_t p = 0; isSame && p < sheet->layout.pieces.count; ++p) {
+        isSame = awake->isAwake.data[p] || !kiriPiece_MayMove(&sheet->layout.pieces.data[p]);
+    }
+    return isSame ? awake->lists : 0;
+}
+
 /* Of the triangles found, those of pieces that move, or shall wake. */
 static void DropSleepers(kiriObstacleSearch* search, const kiriSheetData* sheet)
 {
@@ -444,8 +455,8 @@ bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, co
 {
     kiriMeeting meeting = MakeMeeting(search, sheet, obstacle, speed, yield);
     search->triangles.count = 0;
-    if (!kiriBounds_FindLeaves(sheet->seen.bounds, &sheet->seen.surface, IsBoxNear, &meeting, search->memory,
-                               &search->triangles)) {
+    if (!kiriBounds_FindLeaves(sheet->seen.bounds, &sheet->seen.surface, IsBoxNear, &meeting, VersionOf(sheet),
+                               search->memory, &search->triangles)) {
         return false;
     }
     DropSleepers(search, sheet);

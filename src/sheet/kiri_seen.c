@@ -16,14 +16,84 @@ enum { BLOCK = 64 }; /* vertices */
 
 static bool ResizeBlocks(kiriSheetData* sheet)
 {
-    int32_t old = sheet->seen.touched.count;
-    if (!kiriArray_Resize(sheet->memory, &sheet->seen.touched, sheet->mesh.vertices.count / BLOCK + 1)) {
+    int32_t old = sheet->seen.touched.count, blocks = sheet->mesh.vertices.count / BLOCK + 1;
+    if (!kiriArray_Resize(sheet->memory, &sheet->seen.touched, blocks) ||
+        !kiriArray_Resize(sheet->memory, &sheet->seen.movers, blocks)) {
         return false;
     }
     for (int32_t block = old; block < sheet->seen.touched.count; ++block) {
         sheet->seen.touched.data[block] = 0;
     }
     return true;
+}
+
+/* ---- What sleeps ---- */
+
+static int32_t FindMover(const kiriSheetData* sheet, int32_t block)
+{
+    int32_t end = (block + 1) * BLOCK, count = sheet->seen.surface.vertexCount;
+    for (int32_t v = block * BLOCK; v < end && v < count; ++v) {
+        kiriSpan span = sheet->vertexSkin.spans.data[v]; /* of a hole it is empty */
+        int32_t frame = span.count > 0 ? sheet->vertexSkin.weights.data[span.first].frame : KIRI_NONE;
+        if (frame != KIRI_NONE && kiriSheet_Moves(sheet, frame)) {
+            return frame;
+        }
+    }
+    return KIRI_NONE;
+}
+
+/* When other pieces are awake: a block has its mover until that falls asleep, and one that has none gets one where a piece
+   woke. */
+static void FindMovers(kiriSheetData* sheet, bool isNew)
+{
+    const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
+    int32_t* movers = sheet->seen.movers.data;
+    bool hasWoken = isNew || awake->wakes != sheet->seen.wakes;
+    for (int32_t block = 0; block < sheet->seen.movers.count; ++block) {
+        bool isKnown = !isNew && (movers[block] == KIRI_NONE ? !hasWoken : kiriSheet_Moves(sheet, movers[block]));
+        movers[block] = isKnown ? movers[block] : FindMover(sheet, block);
+    }
+    sheet->seen.lists = awake->lists;
+    sheet->seen.wakes = awake->wakes;
+}
+
+/* Null where anything may be elsewhere than it was seen last. */
+static const kiriAwake* AwakeOf(kiriSheetData* sheet)
+{
+    const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
+    bool hasLinks = sheet->settings.mechanics.model != KIRI_MODEL_POINTS;
+    bool isOther = sheet->seen.isElsewhere || !sheet->seen.surface.isSteady;
+    return awake->isListed && !isOther && (hasLinks || sheet->settings.skinning == KIRI_SKINNING_LINEAR) ? awake : NULL;
+}
+
+/* The end of the blocks from `begin` on that have a mover, or have none, like that at `begin`. */
+static int32_t EndOfMovers(const kiriSheetData* sheet, int32_t begin, int32_t end, bool* moves)
+{
+    const int32_t* movers = sheet->seen.movers.data;
+    int32_t block = begin / BLOCK, last = (end - 1) / BLOCK;
+    *moves = movers[block] != KIRI_NONE;
+    while (block < last && (movers[block + 1] != KIRI_NONE) == *moves) {
+        ++block;
+    }
+    return block < last ? (block + 1) * BLOCK : end;
+}
+
+typedef void WriteVerticesFn(kiriSheetData* sheet, int32_t begin, int32_t end);
+
+/* For all vertices, or those of the blocks that move. */
+static void ForMoving(kiriSheetData* sheet, int32_t begin, int32_t end, WriteVerticesFn* write)
+{
+    if (!sheet->seen.surface.isPartly) {
+        write(sheet, begin, end);
+        return;
+    }
+    for (int32_t next; begin < end; begin = next) {
+        bool moves;
+        next = EndOfMovers(sheet, begin, end, &moves);
+        if (moves) {
+            write(sheet, begin, next);
+        }
+    }
 }
 
 bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount)
@@ -60,7 +130,7 @@ void kiriView_HideGone(kiriSheetData* sheet)
     kiriSurface* surface = &sheet->seen.surface;
     kiriSurface_NeedNormals(surface); /* what is gone has them until the next tick */
     HideTriangles(sheet);
-    surface->isWritten = false;
+    surface->isWritten = surface->isSteady = false;
     sheet->mesh.revision += 1;
     surface->revision = sheet->mesh.revision;
     surface->changeCount = 0;
@@ -81,15 +151,24 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
 
 void kiriView_TakeFrames(kiriSheetData* sheet)
 {
+    const kiriAwake* awake = AwakeOf(sheet);
+    sheet->seen.hasNewBlocks = sheet->seen.hasNewBlocks || !sheet->seen.surface.isSteady;
     kiriSurface_TakeFrames(&sheet->seen.surface, sheet->frames.data, sheet->frames.count, sheet->links.links.data,
-                           sheet->links.links.count);
+                           sheet->links.links.count, awake);
+    if (sheet->seen.surface.isPartly && awake->lists != sheet->seen.lists) {
+        FindMovers(sheet, sheet->seen.hasNewBlocks);
+        sheet->seen.hasNewBlocks = false;
+    }
     sheet->seen.surface.isWritten &= sheet->seen.fades.fading.count == 0;
 }
 
 /* Linear whatever is seen: here contacts push (see kiri_motion.c). */
-static void BlendPoints(kiriSheetData* sheet)
+static void BlendPoints(kiriSheetData* sheet, bool isPartly)
 {
     for (int32_t i = 0; i < sheet->points.count; ++i) {
+        if (isPartly && !kiriSheet_Moves(sheet, sheet->points.data[i].frame)) {
+            continue;
+        }
         kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->points.data[i].at);
         sheet->seen.exactPoints.data[i] = kiriSkin_Position(&sheet->pointSkin, i, sheet->frames.data, local);
     }
@@ -165,7 +244,7 @@ static void TakePointJumps(kiriSheetData* sheet)
     if (sheet->seen.pointCount > 0) {
         memcpy(sheet->seen.pointsBefore.data, is, sizeof(kiriVec3) * (size_t)sheet->seen.pointCount);
     }
-    BlendPoints(sheet);
+    BlendPoints(sheet, false);
     kiriFades_Start(&sheet->seen.pointFades);
     for (int32_t i = 0; i < sheet->seen.pointCount; ++i) {
         kiriFades_Take(&sheet->seen.pointFades, i, kiriVec3_Sub(was[i], is[i]));
@@ -205,10 +284,20 @@ void kiriView_Trim(kiriSheetData* sheet)
     }
 }
 
+static void BlendVertices(kiriSheetData* sheet, int32_t begin, int32_t end)
+{
+    kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, begin, end);
+}
+
+static void WriteVertices(kiriSheetData* sheet, int32_t begin, int32_t end)
+{
+    kiriSurface_WriteRange(&sheet->seen.surface, begin, end);
+}
+
 void kiriView_BlendRange(kiriSheetData* sheet, int32_t begin, int32_t end)
 {
     if (!sheet->seen.surface.isWritten) {
-        kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, begin, end);
+        ForMoving(sheet, begin, end, BlendVertices);
     }
 }
 
@@ -218,7 +307,7 @@ void kiriView_Sum(kiriSheetData* sheet)
         kiriSurface_AddFades(&sheet->seen.surface, &sheet->seen.fades);
         kiriSurface_SumNormals(&sheet->seen.surface);
     }
-    BlendPoints(sheet);
+    BlendPoints(sheet, sheet->seen.surface.isPartly);
     AddPointFades(sheet);
     for (int32_t i = 0; i < sheet->points.count; ++i) {
         kiriVec3_Store(&sheet->seen.pointPositions.data[3 * i], sheet->seen.exactPoints.data[i]);
@@ -234,13 +323,21 @@ void kiriView_Sum(kiriSheetData* sheet)
 void kiriView_WriteRange(kiriSheetData* sheet, int32_t begin, int32_t end)
 {
     if (!sheet->seen.surface.isWritten) {
-        kiriSurface_WriteRange(&sheet->seen.surface, begin, end);
+        ForMoving(sheet, begin, end, WriteVertices);
     }
 }
 
 void kiriView_EndWriting(kiriSheetData* sheet)
 {
     sheet->seen.surface.isWritten = sheet->seen.fades.fading.count == 0;
+    sheet->seen.surface.isSteady = true;
+}
+
+void kiriView_KeepBounds(kiriSheetData* sheet)
+{
+    bool isKnown = sheet->seen.surface.isPartly;
+    const kiriMovers movers = { isKnown ? sheet->seen.movers.data : NULL, BLOCK, sheet->seen.lists };
+    kiriBounds_Keep(sheet->seen.bounds, &sheet->seen.surface, &movers);
 }
 
 void kiriView_WritePositions(kiriSheetData* sheet)

@@ -29,6 +29,9 @@ void kiriView_Fade(kiriSheetData* sheet, double dt);
 /* Frees what fades have no use for. */
 void kiriView_Trim(kiriSheetData* sheet);
 
+/* When positions are written: the boxes around them, where somebody asks. */
+void kiriView_KeepBounds(kiriSheetData* sheet);
+
 /* Positions and normals from the frames (section 4.1 of the paper). */
 void kiriView_WritePositions(kiriSheetData* sheet);
 

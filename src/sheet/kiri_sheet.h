@@ -261,6 +261,9 @@ typedef struct kiriSeen {
     bool isElsewhere;                  /* vertices are new, or a cut took effect, since positions were written: */
     int32_t vertexCount;               /* vertices that are not new */
     KIRI_ARRAY(uint8_t) touched;       /* of each block of vertices: some have other weights, or fade */
+    KIRI_ARRAY(int32_t) movers;        /* of each block: a frame of it that is awake; KIRI_NONE: all of it sleeps */
+    bool hasNewBlocks;                 /* vertices have come since movers were found, */
+    int64_t lists, wakes;              /* for this state of kiriAwake */
 } kiriSeen;
 
 struct kiriUpdate;

@@ -49,7 +49,8 @@ static void WriteBent(float* row, const kiriCarrier* carrier, kiriVec3 from)
     }
 }
 
-bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent)
+bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent,
+                       const kiriIndices* some)
 {
     size_t each = isBent ? KIRI_BENT_FLOATS : KIRI_FLAT_FLOATS;
     bool isOther = patches->count != count;
@@ -58,7 +59,12 @@ bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_
     patches->isBent = isBent;
     patches->floats.count = (int32_t)each * count;
     KIRI_ASSERT(patches->floats.count <= patches->floats.capacity);
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_ASSERT(some == NULL || known == count);
+    if (some != NULL && count > 0) {
+        memset(patches->isOther.data, 0, (size_t)count);
+    }
+    for (int32_t n = 0; n < (some != NULL ? some->count : count); ++n) {
+        int32_t i = some != NULL ? some->data[n] : n;
         float row[KIRI_BENT_FLOATS], *was = patches->floats.data + each * (size_t)i;
         if (isBent) {
             WriteBent(row, &carriers[i], from);

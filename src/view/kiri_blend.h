@@ -20,9 +20,10 @@ typedef struct kiriPatches {
 /* Room for so many. */
 bool kiriPatches_Reserve(kiriPatches* patches, kiriMemory* memory, int32_t count);
 
-/* Positions are measured from `from`: near the sheet floats tell its points apart. Returns whether any patch is other than
-   before. */
-bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent);
+/* Positions are measured from `from`: near the sheet floats tell its points apart. Only those of `some`, unless that is
+   null, may be other than they were written last. Returns whether any patch is other than before. */
+bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent,
+                       const kiriIndices* some);
 
 /* None is as before when they are written next. */
 void kiriPatches_Forget(kiriPatches* patches);

@@ -140,7 +140,7 @@ static bool ReserveAll(kiriBounds* bounds, kiriMemory* memory, int32_t triangleC
         kiriArray_Release(memory, &bounds->other);
     }
     return kiriArray_Reserve(memory, &bounds->order, triangleCount) &&
-           kiriArray_Reserve(memory, &bounds->nodes, nodes) &&
+           kiriArray_Reserve(memory, &bounds->nodes, nodes) && kiriArray_Reserve(memory, &bounds->moves, nodes) &&
            (!sorts || (kiriArray_Reserve(memory, &bounds->codes, triangleCount) &&
                        kiriArray_Reserve(memory, &bounds->other, triangleCount)));
 }
@@ -163,22 +163,41 @@ static int32_t FirstSeen(const kiriSurface* surface, const int32_t* order, int32
     return i < end ? order[i] : KIRI_NONE;
 }
 
-/* Where all triangles of a leaf are hidden it has a point of the leaf before. */
-static void FitLeaves(kiriBounds* bounds, const kiriSurface* surface)
+static int32_t EndOfLeaf(const kiriSurface* surface, int32_t leaf)
+{
+    return surface->triangleCount - leaf * LEAF < LEAF ? surface->triangleCount : (leaf + 1) * LEAF;
+}
+
+/* All triangles of the leaf are hidden: it has a point of the leaf before, which makes no other box larger. */
+static kiriVec3 PointOfHidden(const kiriBounds* bounds, const kiriSurface* surface, int32_t leaf)
+{
+    const int32_t* order = bounds->order.data;
+    if (leaf > 0) {
+        return bounds->nodes.data[leaf - 1].lower;
+    }
+    int32_t seen = FirstSeen(surface, order, 0, surface->triangleCount);
+    return kiriSurface_At(surface, surface->indices.data[3 * (size_t)(seen != KIRI_NONE ? seen : order[0])]);
+}
+
+static void FitLeaf(kiriBounds* bounds, const kiriSurface* surface, int32_t leaf)
 {
     const int32_t *indices = surface->indices.data, *order = bounds->order.data;
-    int32_t seen = FirstSeen(surface, order, 0, surface->triangleCount), count = surface->triangleCount;
-    for (int32_t i = 0, leaf = 0; i < count; ++leaf) {
-        int32_t end = count - i < LEAF ? count : i + LEAF, own = FirstSeen(surface, order, i, end);
-        seen = own != KIRI_NONE || seen == KIRI_NONE ? own : seen;
-        kiriVec3 first = kiriSurface_At(surface, indices[3 * (size_t)(seen != KIRI_NONE ? seen : order[i])]);
-        kiriBox box = { first, first };
-        for (; i < end; ++i) {
-            if (!IsHidden(surface, order[i])) {
-                AddTriangle(&box, surface, &indices[3 * (size_t)order[i]]);
-            }
+    int32_t seen = FirstSeen(surface, order, leaf * LEAF, EndOfLeaf(surface, leaf));
+    kiriVec3 first = seen != KIRI_NONE ? kiriSurface_At(surface, indices[3 * (size_t)seen])
+                                       : PointOfHidden(bounds, surface, leaf);
+    kiriBox box = { first, first };
+    for (int32_t i = leaf * LEAF; i < EndOfLeaf(surface, leaf); ++i) {
+        if (!IsHidden(surface, order[i])) {
+            AddTriangle(&box, surface, &indices[3 * (size_t)order[i]]);
         }
-        bounds->nodes.data[leaf] = box;
+    }
+    bounds->nodes.data[leaf] = box;
+}
+
+static void FitLeaves(kiriBounds* bounds, const kiriSurface* surface)
+{
+    for (int32_t leaf = 0; leaf * LEAF < surface->triangleCount; ++leaf) {
+        FitLeaf(bounds, surface, leaf);
     }
 }
 
@@ -214,6 +233,77 @@ static void FitBox(kiriBounds* bounds, const kiriSurface* surface)
     FitLeaves(bounds, surface);
     FitNodes(bounds);
     bounds->pose = surface->pose;
+    bounds->moves.count = 0;
+}
+
+/* ---- What moves ---- */
+
+static bool MovesLeaf(const kiriBounds* bounds, const kiriSurface* surface, const kiriMovers* movers, int32_t leaf)
+{
+    bool any = false;
+    for (int32_t i = leaf * LEAF; !any && i < EndOfLeaf(surface, leaf); ++i) {
+        int32_t vertex = surface->indices.data[3 * (size_t)bounds->order.data[i]];
+        any = movers->data[vertex / movers->block] != KIRI_NONE;
+    }
+    return any;
+}
+
+/* Of leaves, then of the nodes above them. */
+static void MarkMoving(kiriBounds* bounds, const kiriSurface* surface, const kiriMovers* movers)
+{
+    uint8_t* moves = bounds->moves.data;
+    int32_t child = 0, leaves = bounds->levelCount > 1 ? bounds->firsts[1] : bounds->nodes.count;
+    for (int32_t leaf = 0; leaf < leaves; ++leaf) {
+        moves[leaf] = MovesLeaf(bounds, surface, movers, leaf);
+    }
+    for (int32_t level = 1; level < bounds->levelCount; ++level) {
+        int32_t end = bounds->firsts[level];
+        for (int32_t node = end; child < end; ++node) {
+            moves[node] = 0;
+            for (int k = 0; k < FAN && child < end; ++k, ++child) {
+                moves[node] |= moves[child];
+            }
+        }
+    }
+    bounds->moves.count = bounds->nodes.count;
+    bounds->version = movers->version;
+}
+
+/* The children of a node: from *first up to the end that it returns. */
+static int32_t ChildrenOf(const kiriBounds* bounds, int32_t level, int32_t node, int32_t* first)
+{
+    int32_t start = bounds->firsts[level - 1], end = bounds->firsts[level];
+    *first = start + FAN * (node - end);
+    return end - *first < FAN ? end : *first + FAN;
+}
+
+static void FitMoving(kiriBounds* bounds, const kiriSurface* surface, int32_t level, int32_t node)
+{
+    if (level == 0) {
+        FitLeaf(bounds, surface, node);
+        return;
+    }
+    kiriBox* nodes = bounds->nodes.data;
+    int32_t first, end = ChildrenOf(bounds, level, node, &first);
+    for (int32_t child = first; child < end; ++child) {
+        if (bounds->moves.data[child]) {
+            FitMoving(bounds, surface, level - 1, child);
+        }
+    }
+    kiriBox box = nodes[first];
+    for (int32_t child = first; child < end; ++child) {
+        box.lower = Least(nodes[child].lower, box.lower);
+        box.upper = Most(nodes[child].upper, box.upper);
+    }
+    nodes[node] = box;
+}
+
+/* Does the rest fit since the last tick? */
+static bool FitsButForMovers(const kiriBounds* bounds, const kiriSurface* surface, const kiriMovers* movers)
+{
+    return movers->data != NULL && surface->isPartly && bounds->pose + 1 == surface->pose && bounds->levelCount > 0 &&
+           bounds->order.count == surface->triangleCount && !NeedsSorting(bounds, surface->triangleCount) &&
+           bounds->moves.capacity >= bounds->nodes.count;
 }
 
 void kiriBounds_Forget(kiriBounds* bounds)
@@ -265,18 +355,29 @@ bool kiriBounds_Reserve(kiriBounds* bounds, kiriMemory* memory, int32_t triangle
     }
     kiriArray_Release(memory, &bounds->order);
     kiriArray_Release(memory, &bounds->nodes);
+    kiriArray_Release(memory, &bounds->moves);
     bounds->levelCount = 0;
     return true;
 }
 
-void kiriBounds_Keep(kiriBounds* bounds, const kiriSurface* surface)
+void kiriBounds_Keep(kiriBounds* bounds, const kiriSurface* surface, const kiriMovers* movers)
 {
-    if (bounds->patience > 0) {
-        bounds->patience -= 1;
-        if (!kiriBounds_IsFresh(bounds, surface)) {
-            FitBox(bounds, surface);
-        }
+    bounds->patience -= bounds->patience > 0;
+    if (bounds->patience == 0 || kiriBounds_IsFresh(bounds, surface)) {
+        return;
     }
+    if (!FitsButForMovers(bounds, surface, movers)) {
+        FitBox(bounds, surface);
+        return;
+    }
+    if (bounds->moves.count == 0 || bounds->version != movers->version) {
+        MarkMoving(bounds, surface, movers);
+    }
+    int32_t root = bounds->nodes.count - 1;
+    if (bounds->moves.data[root]) {
+        FitMoving(bounds, surface, bounds->levelCount - 1, root);
+    }
+    bounds->pose = surface->pose;
 }
 
 /* ---- Queries ---- */
@@ -303,6 +404,7 @@ typedef struct Finder {
     kiriMemory* memory;
     kiriIndices* found;
     bool wholeLeaves;
+    const uint8_t* moves; /* of each node: is it looked at? Null: all are */
 } Finder;
 
 static bool FindIn(const Finder* finder, int32_t level, int32_t node)
@@ -311,7 +413,9 @@ static bool FindIn(const Finder* finder, int32_t level, int32_t node)
     bool ok = true;
     for (int32_t i = first; ok && i < end; ++i) {
         if (level > 0) {
-            ok = !finder->meets(finder->context, &finder->bounds->nodes.data[i]) || FindIn(finder, level - 1, i);
+            bool isLeftOut = finder->moves != NULL && !finder->moves[i];
+            ok = isLeftOut || !finder->meets(finder->context, &finder->bounds->nodes.data[i]) ||
+                 FindIn(finder, level - 1, i);
             continue;
         }
         int32_t triangle = finder->bounds->order.data[i];
@@ -337,7 +441,7 @@ static bool FindFromRoot(const Finder* finder)
 bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets, const void* context,
                      kiriMemory* memory, kiriIndices* found)
 {
-    const Finder finder = { bounds, surface, meets, context, memory, found, false };
+    const Finder finder = { bounds, surface, meets, context, memory, found, false, NULL };
     int32_t before = found->count;
     if (!FindFromRoot(&finder)) {
         return false;
@@ -349,9 +453,12 @@ bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriM
 }
 
 bool kiriBounds_FindLeaves(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets,
-                           const void* context, kiriMemory* memory, kiriIndices* found)
+                           const void* context, int64_t version, kiriMemory* memory, kiriIndices* found)
 {
-    const Finder finder = { bounds, surface, meets, context, memory, found, true };
+    bool isMarked = bounds->moves.count > 0 && bounds->version == version;
+    const Finder finder = {
+        bounds, surface, meets, context, memory, found, true, isMarked ? bounds->moves.data : NULL
+    };
     return FindFromRoot(&finder);
 }
 

@@ -35,7 +35,16 @@ typedef struct kiriBounds {
     int32_t levelCount;                 /* so many levels, 0: there is no tree */
     int32_t sorted;                     /* triangles there were when the tree was made */
     int64_t pose;                       /* surface->pose that the boxes fit */
+    KIRI_ARRAY(uint8_t) moves;          /* of each node: is any of it awake? Empty: not known */
+    int64_t version;                    /* of the movers that say so */
 } kiriBounds;
+
+/* Which vertices are awake, by blocks of so many: KIRI_NONE where none is. The version is another whenever that changes. */
+typedef struct kiriMovers {
+    const int32_t* data; /* or null: not known */
+    int32_t block;
+    int64_t version; /* 1 or more */
+} kiriMovers;
 
 static inline bool kiriBox_Meet(const kiriBox* a, const kiriBox* b)
 {
@@ -69,9 +78,10 @@ bool kiriBounds_Update(kiriBounds* bounds, kiriMemory* memory, const kiriSurface
 /* Word from somebody who reads. Any number of threads may call it at the same time. */
 void kiriBounds_Ask(const kiriBounds* bounds);
 
-/* For the tick. Room for so many triangles, where boxes are wanted; then, when positions are written, the boxes. */
+/* For the tick. Room for so many triangles, where boxes are wanted; then, when positions are written, the boxes: of what
+   moves alone, where the surface was written so. */
 bool kiriBounds_Reserve(kiriBounds* bounds, kiriMemory* memory, int32_t triangleCount);
-void kiriBounds_Keep(kiriBounds* bounds, const kiriSurface* surface);
+void kiriBounds_Keep(kiriBounds* bounds, const kiriSurface* surface, const kiriMovers* movers);
 
 /* The box of the whole surface; the surface must have a triangle. */
 kiriBox kiriBounds_All(const kiriBounds* bounds);
@@ -92,9 +102,9 @@ bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriM
                      kiriMemory* memory, kiriIndices* found);
 
 /* All triangles of the leaves whose box meets it: some more than those, in no order. Where each is looked at anyway that
-   is cheaper. */
+   is cheaper. Leaves out what sleeps, where `version` is that of the movers by which boxes were kept last; 0: nothing. */
 bool kiriBounds_FindLeaves(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets,
-                           const void* context, kiriMemory* memory, kiriIndices* found);
+                           const void* context, int64_t version, kiriMemory* memory, kiriIndices* found);
 
 /* The same for those whose box meets a box. */
 bool kiriBounds_Box(const kiriBounds* bounds, const kiriSurface* surface, const kiriBox* box, kiriMemory* memory,

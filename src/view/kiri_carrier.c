@@ -2,11 +2,22 @@
 
 #include <string.h>
 
-void kiriCarriers_Write(kiriCarrier* carriers, const kiriFrameData* frames, int32_t count)
+static int32_t CarrierCount(const kiriIndices* list, int32_t count)
 {
-    memset(carriers, 0, sizeof(kiriCarrier) * (size_t)count);
-    for (int32_t i = 0; i < count; ++i) {
+    return list != NULL ? list->count : count;
+}
+
+static int32_t CarrierAt(const kiriIndices* list, int32_t n)
+{
+    return list != NULL ? list->data[n] : n;
+}
+
+void kiriCarriers_Write(kiriCarrier* carriers, const kiriFrameData* frames, int32_t count, const kiriIndices* some)
+{
+    for (int32_t n = 0; n < CarrierCount(some, count); ++n) {
+        int32_t i = CarrierAt(some, n);
         kiriCarrier* carrier = &carriers[i];
+        memset(carrier, 0, sizeof(*carrier));
         carrier->u = frames[i].A.u;
         carrier->v = frames[i].A.v;
         carrier->x = frames[i].x;
@@ -93,17 +104,20 @@ static kiriVec2 CentreToCentre(const kiriFrameData* frames, const kiriLink* link
 }
 
 void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameData* frames, int32_t count,
-                       const kiriLink* links, int32_t linkCount)
+                       const kiriLink* links, int32_t linkCount, const kiriIndices* some, const kiriIndices* someLinks)
 {
-    memset(bends, 0, sizeof(kiriBend) * (size_t)count);
-    for (int32_t k = 0; k < linkCount; ++k) {
-        const kiriLink* link = &links[k];
+    for (int32_t n = 0; n < CarrierCount(some, count); ++n) {
+        memset(&bends[CarrierAt(some, n)], 0, sizeof(kiriBend));
+    }
+    for (int32_t n = 0; n < CarrierCount(someLinks, linkCount) && CarrierAt(someLinks, n) < linkCount; ++n) {
+        const kiriLink* link = &links[CarrierAt(someLinks, n)];
         kiriCarrier *i = &carriers[link->i], *j = &carriers[link->j];
         kiriVec2 way = CentreToCentre(frames, link);
         AddDirectorTurn(&bends[link->i], i, j->d, way, link->width);
         AddDirectorTurn(&bends[link->j], j, i->d, kiriVec2_Scale(-1.0, way), link->width);
     }
-    for (int32_t i = 0; i < count; ++i) {
+    for (int32_t n = 0; n < CarrierCount(some, count); ++n) {
+        int32_t i = CarrierAt(some, n);
         Curve(&carriers[i], &bends[i]);
         LimitCurve(&carriers[i], &frames[i]);
     }

@@ -21,12 +21,13 @@ typedef struct kiriBend {
     double ruu, ruv, rvv; /* and of W s t, t being how the director turns over s */
 } kiriBend;
 
-/* Flat patches; `count` frames have one each. */
-void kiriCarriers_Write(kiriCarrier* carriers, const kiriFrameData* frames, int32_t count);
+/* Flat patches; `count` frames have one each. Here and below only `some` of them are written, unless that is null. */
+void kiriCarriers_Write(kiriCarrier* carriers, const kiriFrameData* frames, int32_t count, const kiriIndices* some);
 
-/* Bends them as the links tell. `bends` is scratch, one a frame. */
+/* Bends them as the links tell: all, or those of `someLinks`, ascending, that are below linkCount. `bends` is scratch, one a
+   frame. */
 void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameData* frames, int32_t count,
-                       const kiriLink* links, int32_t linkCount);
+                       const kiriLink* links, int32_t linkCount, const kiriIndices* some, const kiriIndices* someLinks);
 
 KIRI_C_END
 

@@ -130,7 +130,7 @@ void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
     surface->origin = mesh->origin;
     surface->longer = KIRI_LATTICE * mesh->step;
     surface->pose += 1;
-    surface->isWritten = false;
+    surface->isWritten = surface->isSteady = false;
     surface->revision = mesh->revision;
     surface->vertexCount = mesh->vertices.count;
     surface->triangleCount = mesh->triangles.count;
@@ -233,7 +233,7 @@ void kiriSurface_LeaveHoles(kiriSurface* surface, const kiriIndices* triangles, 
     surface->revision = mesh->revision;
     surface->carriers.count = surface->bends.count = frameCount;
     surface->pose += 1;
-    surface->isWritten = false;
+    surface->isWritten = surface->isSteady = false; /* frames have other indices */
     kiriPatches_Forget(&surface->patches);
 }
 
@@ -301,7 +301,7 @@ void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* tr
     surface->revision = mesh->revision;
     surface->changeCount = 0;
     surface->pose += 1;
-    surface->isWritten = false;
+    surface->isWritten = surface->isSteady = false;
     kiriPatches_Forget(&surface->patches);
     RenumberIndices(surface, mesh);
 }
@@ -364,8 +364,14 @@ static kiriVec3 FindMiddle(const kiriFrameData* frames, int32_t frameCount, doub
     return kiriVec3_Make(RoundToFloats(sum.x, unit), RoundToFloats(sum.y, unit), RoundToFloats(sum.z, unit));
 }
 
+/* Are patches as they were written last but for those of what is awake? */
+static bool IsPartly(const kiriSurface* surface, int32_t frameCount, bool isBent)
+{
+    return surface->isSteady && surface->patches.count == frameCount && surface->patches.isBent == isBent;
+}
+
 void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, int32_t frameCount,
-                            const kiriLink* links, int32_t linkCount)
+                            const kiriLink* links, int32_t linkCount, const kiriAwake* awake)
 {
     bool isBent = surface->skinning == KIRI_SKINNING_SMOOTH && linkCount > 0;
     kiriVec3 was = surface->middle, middle = FindMiddle(frames, frameCount, surface->longer);
@@ -374,11 +380,14 @@ void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, i
     if (!isSame) {
         kiriPatches_Forget(&surface->patches);
     }
-    kiriCarriers_Write(surface->carriers.data, frames, frameCount);
+    surface->isPartly = awake != NULL && IsPartly(surface, frameCount, isBent);
+    const kiriIndices* some = surface->isPartly ? &awake->frames : NULL;
+    kiriCarriers_Write(surface->carriers.data, frames, frameCount, some);
     if (isBent) {
-        kiriCarriers_Bend(surface->carriers.data, surface->bends.data, frames, frameCount, links, linkCount);
+        kiriCarriers_Bend(surface->carriers.data, surface->bends.data, frames, frameCount, links, linkCount, some,
+                          surface->isPartly ? &awake->elements : NULL);
     }
-    bool isOther = kiriPatches_Write(&surface->patches, surface->carriers.data, frameCount, middle, isBent);
+    bool isOther = kiriPatches_Write(&surface->patches, surface->carriers.data, frameCount, middle, isBent, some);
     surface->isWritten = surface->isWritten && !isOther;
 }
 
@@ -390,7 +399,7 @@ void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t 
 void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriFrameData* frames, int32_t frameCount,
                        const kiriLink* links, int32_t linkCount)
 {
-    kiriSurface_TakeFrames(surface, frames, frameCount, links, linkCount);
+    kiriSurface_TakeFrames(surface, frames, frameCount, links, linkCount, NULL);
     surface->isWritten = false;
     kiriSurface_BlendRange(surface, skin, 0, surface->vertexCount);
 }

@@ -5,6 +5,7 @@
 
 #include "kiri_blend.h"
 #include "kiri_fade.h"
+#include "../motion/kiri_awake.h"
 
 KIRI_C_BEGIN
 
@@ -37,7 +38,9 @@ typedef struct kiriSurface {
     KIRI_ARRAY(kiriCarrier) carriers;
     KIRI_ARRAY(kiriBend) bends;
     kiriPatches patches;
-    bool isWritten;                /* the arrays show the patches as they are */
+    bool isWritten;                /* the arrays show the patches as they are; */
+    bool isSteady;                 /* they did when positions were written last, but for what fades; */
+    bool isPartly;                 /* and since then patches have changed of what is awake alone */
     bool wantsNormals, hasNormals; /* the host asks for them; they are those of where vertices are seen */
 
     kiriChange changes[KIRI_CHANGES]; /* a ring */
@@ -100,9 +103,10 @@ bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemo
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);
 
 /* Takes over where the frames are. The links tell a smooth surface how to bend; a linear one does not ask.
-   Where nothing is other than when arrays were written, they stay so. */
+   Where nothing is other than when arrays were written, they stay so. `awake`: only its frames may be elsewhere than when
+   they were taken over last, and its elements begin with links; or null. */
 void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, int32_t frameCount,
-                            const kiriLink* links, int32_t linkCount);
+                            const kiriLink* links, int32_t linkCount, const kiriAwake* awake);
 
 /* Where the vertices from `begin` to `end` are. Writes nothing else: ranges may be written at the same time. */
 void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t begin, int32_t end);

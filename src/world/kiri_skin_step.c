@@ -53,7 +53,7 @@ static void BeginSheets(int32_t start, int32_t end, void* context)
         if (!sheet->rest.asleep || sheet->seen.isElsewhere) {
             kiriView_WritePositions(sheet);
         }
-        kiriBounds_Keep(sheet->seen.bounds, &sheet->seen.surface);
+        kiriView_KeepBounds(sheet);
     }
 }
 
@@ -93,7 +93,7 @@ static void EndSheets(int32_t start, int32_t end, void* context)
         kiriSheetData* sheet = kiriWorld_Active(task->world, k);
         if (IsInRanges(task->world, sheet)) {
             kiriView_EndWriting(sheet);
-            kiriBounds_Keep(sheet->seen.bounds, &sheet->seen.surface);
+            kiriView_KeepBounds(sheet);
         }
     }
 }
