@@ -214,7 +214,8 @@ typedef struct kiriTouch {
     double friction, pushSpeed;
     int32_t yield;
     double felt, cushion;
-    int32_t row; /* its contact row; KIRI_NONE where its piece sleeps */
+    int32_t row;    /* its contact row; KIRI_NONE where its piece sleeps */
+    kiriVec3 force; /* N, on the sheet: of one that is remembered of a piece that sleeps */
 } kiriTouch;
 
 /* With what a contact pushed when the sheet was moved last. */

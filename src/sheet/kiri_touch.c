@@ -307,7 +307,8 @@ kiriVec3 kiriTouches_ForceOf(const kiriSheetData* sheet, uint64_t key)
 void kiriTouchMemory_Add(kiriTouchMemory* memory, const kiriTouch* touch, kiriVec3 force)
 {
     KIRI_ASSERT(memory->touches.count < memory->touches.capacity);
-    memory->touches.data[memory->touches.count++] = *touch;
+    memory->touches.data[memory->touches.count] = *touch;
+    memory->touches.data[memory->touches.count++].force = force;
     if (kiriVec3_Dot(force, force) > 0.0) {
         int32_t at = memory->forces.count++;
         KIRI_ASSERT(at < memory->forces.capacity);

@@ -422,8 +422,7 @@ void kiriObstacles_TakeImpulses(const kiriWorld* world, const kiriSheetData* she
     const kiriTouches* touches = &sheet->touches;
     for (int32_t i = 0; i < touches->slept.touches.count; ++i) {
         const kiriTouch* touch = &touches->slept.touches.data[i];
-        kiriVec3 force = kiriTouches_ForceOf(sheet, touch->key);
-        Give(&giving, touch->key, touch->normal, kiriVec3_Scale(dt, force), touch->seen);
+        Give(&giving, touch->key, touch->normal, kiriVec3_Scale(dt, touch->force), touch->seen);
     }
     for (int32_t i = 0; i < touches->found.count; ++i) {
         const kiriTouch* touch = &touches->found.data[i];
