@@ -6,7 +6,6 @@
 #   make test     builds and runs all tests
 #   make tsan     runs the tests with threads under the thread sanitizer
 #   make lib      build/<config>/libkiri.a and libkiri.so
-#   make portable-arm64 runs the scenes on an emulated arm64, and compares bits
 #   make single   build/single: the library as kiri.h, kiri.c and kiri.cpp, to add to any build
 #   make install  library, header and packages of pkg-config and CMake; PREFIX=, DESTDIR=, libdir=; make uninstall
 #   make abi      compares the binary interface with the last version's
@@ -114,7 +113,7 @@ TO_LINK := $(BUILD)/link.txt Makefile
 
 include bindings/install.mk
 
-.PHONY: all run box2d play python builds test tsan portable-arm64 check floors headers single example lib bench accuracy contact extremes gallery guide deps format clean exports FORCE
+.PHONY: all run box2d play python builds test tsan check floors headers single example lib bench accuracy contact extremes gallery guide deps format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
 .DELETE_ON_ERROR:
@@ -145,20 +144,6 @@ play: packages-play
 
 test: packages-test
 	@$(MAKE) --no-print-directory -k check
-
-# Scenes with NEON, on an emulator: the bits are those of this machine.
-ARM64_TOOLS := aarch64-linux-gnu-gcc aarch64-linux-gnu-g++ aarch64-linux-gnu-ar qemu-aarch64
-HASHES := tests/scene_hashes
-
-portable-arm64:
-	@for tool in $(ARM64_TOOLS); do command -v $$tool > /dev/null || { \
-	    echo "portable-arm64 needs $$tool; Debian: gcc-aarch64-linux-gnu g++-aarch64-linux-gnu qemu-user"; exit 1; }; done
-	@$(MAKE) --no-print-directory $(BUILD)/$(HASHES)
-	@$(MAKE) --no-print-directory BUILD=build/arm64 CC=aarch64-linux-gnu-gcc CXX=aarch64-linux-gnu-g++ \
-	    AR=aarch64-linux-gnu-ar LDFLAGS=-static build/arm64/$(HASHES)
-	$(BUILD)/$(HASHES) > $(BUILD)/$(HASHES).txt
-	qemu-aarch64 build/arm64/$(HASHES) > build/arm64/$(HASHES).txt
-	@diff $(BUILD)/$(HASHES).txt build/arm64/$(HASHES).txt && echo "arm64: the same bits"
 
 tsan: packages-tsan
 	@$(MAKE) --no-print-directory config=thread run-test_tasks run-test_readers
@@ -362,10 +347,6 @@ $(BUILD)/tests/contact: $(patsubst %,$(BUILD)/%.c.o,tests/contact $(CONTACT_PART
         $(BOX2D_LAWS) $(SCENE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lbox2d -lm
-
-$(BUILD)/tests/scene_hashes: $(BUILD)/tests/scene_hashes.c.o $(SCENE_OBJECTS) $(BUILD)/libkiri.a
-	@echo "  $@"
-	@$(LINK) -o $@ $^ -lm
 
 $(BUILD)/tests/extremes: $(BUILD)/tests/extremes_main.c.o $(BUILD)/tests/extremes.c.o $(BUILD)/libkiri.a
 	@echo "  $@"
