@@ -1461,6 +1461,7 @@ static void TestSleepersStay(void** state)
         }
         const kiriAwake* awake = kiriSolver_Awake(scene.solver);
         assert_true(kiriSolver_ListAwake(scene.solver, &scene.system));
+        assert_true(kiriSolver_ListAwake(twin.solver, &twin.system));
         assert_true(awake->pieces.count == 1 && awake->frames.count == 4 && awake->elements.count == 3);
         assert_true(kiriSolver_SystemItems(scene.solver, 0) <= kiriSolver_SystemItems(twin.solver, 0));
         Steps(&scene, 20, 0.005, 2);
