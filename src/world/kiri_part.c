@@ -599,7 +599,8 @@ int32_t kiriParts_Finish(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samp
 
 void kiriParts_ForgetMade(kiriSheetData* sheet, int32_t made)
 {
+    for (int32_t k = made; k < sheet->leaving.count; ++k) {
+        sheet->leaving.data[k - made] = sheet->leaving.data[k];
+    }
     sheet->leaving.count -= made;
-    memmove(sheet->leaving.data, sheet->leaving.data + made,
-            sizeof(*sheet->leaving.data) * (size_t)sheet->leaving.count);
 }
