@@ -331,7 +331,7 @@ static const char* CorruptFaces(kiriWorld* world, kiriSheetData* s, int way)
         return "is in no span";
     case 14:
         run->first = ~(grid->cells.data[c].square + 1); /* as if it were amid whole squares, elsewhere */
-        return "grid: the step";
+        return "has steps";
     default:
         return NULL;
     }

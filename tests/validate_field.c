@@ -287,15 +287,23 @@ static bool IsRun(const kiriSheetData* sheet, int32_t c)
            run->end[2] <= grid->steps.count;
 }
 
+/* Before any is followed. */
+static bool Check_Runs(Check* check, const kiriSheetData* sheet)
+{
+    for (int32_t c = 0; c < sheet->grid.cells.count; ++c) {
+        const kiriStepRun* run = &sheet->grid.runs.data[c];
+        REQUIRE(!kiriGrid_IsCell(&sheet->grid, c) || IsRun(sheet, c), "cell %d has steps %d to %d, %d, %d", c, run->first,
+                run->end[0], run->end[1], run->end[2]);
+    }
+    return true;
+}
+
 static bool Check_StepsOfCell(Check* check, const kiriSheetData* sheet, int32_t c)
 {
     static const int16_t lengths[KIRI_STEP_LENGTHS] = { KIRI_UNIT, KIRI_UNIT_DIAGONAL, KIRI_UNIT_KNIGHT };
     static const int squared[KIRI_STEP_LENGTHS] = { 1, 2, 5 };
     const kiriGrid* grid = &sheet->grid;
-    const kiriStepRun* run = &grid->runs.data[c];
     kiriSteps steps;
-    REQUIRE(IsRun(sheet, c), "cell %d has steps %d to %d, %d, %d", c, run->first, run->end[0], run->end[1],
-            run->end[2]);
     kiriGrid_GetSteps(grid, c, &steps);
     int32_t faces = 0, straight = steps.end[0];
     for (int length = 0; length < KIRI_STEP_LENGTHS; ++length) {
@@ -326,7 +334,8 @@ static bool Check_Steps(Check* check, const kiriSheetData* sheet)
     enum { LEAST_ROOM = 16 }; /* in kiri_grid.c */
     const kiriGrid* grid = &sheet->grid;
     Rooms rooms;
-    if (!Rooms_Start(check, &rooms, grid->steps.data, sizeof(kiriStep), grid->steps.count, &grid->stepRoom)) {
+    if (!Check_Runs(check, sheet) ||
+        !Rooms_Start(check, &rooms, grid->steps.data, sizeof(kiriStep), grid->steps.count, &grid->stepRoom)) {
         return false;
     }
     for (int32_t c = 0; c < grid->cells.count; ++c) {
