@@ -668,8 +668,9 @@ KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, 
    the rest keeps the id, the new sheet's has one of its own (kiriSheet_GetPins). Both sheets have all settings (of
    collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself; a piece that
    sleeps goes on sleeping. Cuts stay with the rest: a blade in the piece cuts nothing until it is back. Indices of
-   collision points of the rest change. Its triangles and vertices keep their indices where it has more than 4096 vertices, and while no more
-   than half of them are of pieces that went: these triangles have three equal corners, these vertices are of no triangle.
+   collision points of the rest change. Its triangles and vertices keep their indices where it has more than 4096
+   vertices, and while no more than half of them are of pieces that went: these triangles have three equal corners, these
+   vertices are of no triangle.
    Else all move together, and their indices change. In either case its revision grows, and kiriSheet_GetDirty says what
    changed. The new sheet has the squares of the grid around it, at about 40 bytes a square: crumbs are better dropped.
    Costs what the piece takes to make, and a look at the weights of what is left; where indices change more.

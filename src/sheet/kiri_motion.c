@@ -57,6 +57,7 @@ static void ClearForces(kiriSheetData* sheet)
 
 void kiriMotion_WakePiece(kiriSheetData* sheet, int32_t piece)
 {
+    KIRI_ASSERT(piece >= 0 && piece < sheet->layout.pieces.count);
     kiriPiece* woken = &sheet->layout.pieces.data[piece];
     if (!woken->isGone) {
         woken->rest.asleep = sheet->rest.asleep = sheet->rest.isIdle = false;

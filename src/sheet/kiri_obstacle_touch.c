@@ -442,8 +442,9 @@ static void DropSleepers(kiriObstacleSearch* search, const kiriSheetData* sheet)
 {
     int32_t kept = 0;
     for (int32_t i = 0; i < search->triangles.count; ++i) {
-        int32_t triangle = search->triangles.data[i];
-        if (kiriPiece_MayMove(&sheet->layout.pieces.data[kiriPiece_OfTriangle(sheet, triangle)])) {
+        int32_t triangle = search->triangles.data[i], piece = kiriPiece_OfTriangle(sheet, triangle);
+        KIRI_ASSERT(piece != KIRI_NONE); /* no hole is found */
+        if (kiriPiece_MayMove(&sheet->layout.pieces.data[piece])) {
             search->triangles.data[kept++] = triangle;
         }
     }

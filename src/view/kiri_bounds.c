@@ -419,6 +419,9 @@ static bool FindIn(const Finder* finder, int32_t level, int32_t node)
             continue;
         }
         int32_t triangle = finder->bounds->order.data[i];
+        if (IsHidden(finder->surface, triangle)) {
+            continue;
+        }
         bool isFound = finder->wholeLeaves;
         if (!isFound) {
             kiriBox box = kiriBox_OfTriangle(finder->surface, triangle);
@@ -509,7 +512,7 @@ static void LookInLeaf(NearSearch* search, int32_t leaf)
     for (int32_t i = first; i < end; ++i) {
         int32_t triangle = search->bounds->order.data[i];
         kiriBox box = kiriBox_OfTriangle(search->surface, triangle);
-        if (IsNearEnough(search, SquareToBox(&box, search->from))) {
+        if (!IsHidden(search->surface, triangle) && IsNearEnough(search, SquareToBox(&box, search->from))) {
             search->most = search->look(search->context, triangle);
         }
     }
