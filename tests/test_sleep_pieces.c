@@ -72,11 +72,11 @@ static kiriSheetDef StripsDef(void)
 }
 
 /* A square in four strips, of two frames and more each, without gravity. */
-static kiriSheet AddStrips(Host* host, kiriSheetDef* def)
+static kiriSheet AddFineStrips(Host* host, kiriSheetDef* def, int32_t squares)
 {
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
     OK(kiriWorld_SetGravity(host->world, none));
-    kiriSheet sheet = Host_AddRectangle(host, def, 1.0f, 1.0f, 16, 16);
+    kiriSheet sheet = Host_AddRectangle(host, def, 1.0f, 1.0f, squares, squares);
     for (int i = 1; i < STRIPS; ++i) {
         float u = (float)i / STRIPS + 0.011f;
         const float line[4] = { u, -0.1f, u, 1.1f };
@@ -85,6 +85,11 @@ static kiriSheet AddStrips(Host* host, kiriSheetDef* def)
     Tick(host);
     assert_int_equal(Host_Counts(host, sheet).pieces, STRIPS);
     return sheet;
+}
+
+static kiriSheet AddStrips(Host* host, kiriSheetDef* def)
+{
+    return AddFineStrips(host, def, 16);
 }
 
 static kiriSheet StartStrips(Host* host)
@@ -434,6 +439,73 @@ static void TestObstacleGoes(void** state)
     Host_Stop(&host);
 }
 
+/* A ball comes up through the plane of the sheet, while the last strip sleeps or moves. */
+static void PassThrough(Host* host, kiriSheet sheet, float u, bool isLastAwake, uint32_t woken)
+{
+    uint32_t last = isLastAwake ? Bit(host, sheet, 3) : 0;
+    AddBall(host, u, 0.5f, -0.3f, 3.0f);
+    for (int k = 0; k < 12; ++k) {
+        if (isLastAwake) {
+            Throw(host, sheet, 3, 0.1f);
+        }
+        Tick(host);
+        assert_int_equal(Awake(host, sheet) & ~woken, last);
+    }
+    assert_int_equal(Awake(host, sheet), last | woken);
+}
+
+/* A ball is put there, taken to elsewhere, put there again and destroyed. */
+static void PutAndTake(Host* host, kiriSheet sheet, float u, uint32_t woken)
+{
+    static const float eye[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, far[3] = { 0.5f, 0.5f, -3.0f };
+    const float there[3] = { u, 0.5f, -0.032f };
+    kiriObstacle ball = AddBall(host, far[0], far[1], far[2], 0.0f);
+    for (int round = 0; round < 2; ++round) {
+        OK(kiriObstacle_SetPose(host->world, ball, there, eye));
+        Tick(host);
+        assert_int_equal(Awake(host, sheet), woken);
+        SleepAll(host, sheet);
+        OK(round == 0 ? kiriObstacle_SetPose(host->world, ball, far, eye) : kiriDestroyObstacle(host->world, ball));
+        assert_int_equal(Awake(host, sheet), woken);
+        SleepAll(host, sheet);
+    }
+}
+
+/* What a large sheet leaves where a strip was is no piece: an obstacle that moves there, is put there or taken away, in a
+   sheet that sleeps or of which a strip moves, wakes what is beside the hole, and that alone. */
+static void TestObstacleBesideHoles(void** state)
+{
+    (void)state;
+    static const float places[3] = { 0.39f, 0.527f, 0.233f }; /* amid the hole; near the strip after, and before it */
+    static const int woken[3] = { -1, 2, 0 };
+    for (int run = 0; run < 12; ++run) {
+        int place = run % 3;
+        bool isMoving = run / 3 % 2 == 0, detaches = run >= 6;
+        Host host;
+        kiriSheet part;
+        kiriSheetDef def = StripsDef();
+        Host_Start(&host);
+        host.every = 8;
+        kiriSheet sheet = AddFineStrips(&host, &def, 68);
+        int32_t triangles = Host_Mesh(&host, sheet).triangleCount;
+        if (detaches) {
+            OK(kiriFrame_DetachPiece(host.world, FrameAt(&host, sheet, 1), &part));
+            OK(kiriDestroySheet(host.world, part));
+        } else {
+            OK(kiriFrame_DestroyPiece(host.world, FrameAt(&host, sheet, 1)));
+        }
+        assert_int_equal(Host_Mesh(&host, sheet).triangleCount, triangles); /* holes are left */
+        SleepAll(&host, sheet);
+        uint32_t beside = woken[place] >= 0 ? Bit(&host, sheet, woken[place]) : 0;
+        if (isMoving) {
+            PassThrough(&host, sheet, places[place], detaches, beside);
+        } else {
+            PutAndTake(&host, sheet, places[place], beside);
+        }
+        Host_Stop(&host);
+    }
+}
+
 /* Strips on a floor sleep while one is pushed about. All the while the floor bears the weight of all. */
 static void TestFloorBearsSleepers(void** state)
 {
@@ -621,6 +693,7 @@ int main(void)
         cmocka_unit_test(TestScratch),
         cmocka_unit_test(TestObstacleWakesWhatIsNear),
         cmocka_unit_test(TestObstacleGoes),
+        cmocka_unit_test(TestObstacleBesideHoles),
         cmocka_unit_test(TestFloorBearsSleepers),
         cmocka_unit_test(TestPiecesThatTouch),
         cmocka_unit_test(TestDetachAsleep),
