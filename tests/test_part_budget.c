@@ -1,0 +1,283 @@
+/* Pieces that part at random, under small budgets and without one: what comes of it is the same. */
+#include "host.h"
+
+#include "layout_hash.h"
+#include "sheet/kiri_update.h"
+
+enum { ROUNDS = 6, MOST_TARGETS = 8, MOST_PIECES = 400 };
+
+/* What a piece is, wherever it is listed and whatever indices it has. */
+typedef struct Portrait {
+    double area;
+    uint64_t rest; /* of the places of its vertices at rest */
+    int32_t frames, triangles, points;
+} Portrait;
+
+typedef struct Gallery {
+    Portrait of[MOST_PIECES];
+    int32_t count;
+    double area; /* of all */
+} Gallery;
+
+/* ---- What is there ---- */
+
+static uint64_t HashRest(const kiriMesh* mesh, const kiriPieceMesh* piece)
+{
+    uint64_t sum = 0;
+    for (int32_t i = 0; i < piece->vertexCount; ++i) {
+        uint64_t hash = KIRI_HASH_START;
+        kiriHash_Bytes(&hash, &mesh->restPositions[2 * piece->vertices[i]], 2 * sizeof(float));
+        sum += hash;
+    }
+    return sum;
+}
+
+static int ComparePortraits(const void* left, const void* right)
+{
+    const Portrait *a = left, *b = right;
+    return a->area != b->area ? (a->area > b->area) - (a->area < b->area) : (a->rest > b->rest) - (a->rest < b->rest);
+}
+
+/* All pieces of all sheets, the smallest first. */
+static Gallery Portray(const Host* host)
+{
+    Gallery gallery = { .count = 0 };
+    for (int32_t s = 0; s < host->world->sheets.count; ++s) {
+        kiriSheet sheet = host->world->sheets.data[s]->id;
+        kiriMesh mesh = Host_Mesh(host, sheet);
+        for (int32_t p = 0; p < Host_Counts(host, sheet).pieces; ++p) {
+            kiriPieceState state;
+            kiriPieceMesh piece;
+            OK(kiriSheet_GetPiece(host->world, sheet, p, &state));
+            OK(kiriSheet_GetPieceMesh(host->world, sheet, p, &piece));
+            assert_in_range(gallery.count, 0, MOST_PIECES - 1);
+            gallery.area += state.area;
+            gallery.of[gallery.count++] =
+                (Portrait){ state.area, HashRest(&mesh, &piece), state.frames, state.triangles, state.collisionPoints };
+        }
+    }
+    qsort(gallery.of, (size_t)gallery.count, sizeof(Portrait), ComparePortraits);
+    return gallery;
+}
+
+static void CompareGalleries(const Gallery* a, const Gallery* b)
+{
+    assert_int_equal(a->count, b->count);
+    for (int32_t i = 0; i < a->count; ++i) {
+        assert_true(a->of[i].area == b->of[i].area && a->of[i].rest == b->of[i].rest);
+        assert_int_equal(a->of[i].frames, b->of[i].frames);
+        assert_int_equal(a->of[i].triangles, b->of[i].triangles);
+        assert_int_equal(a->of[i].points, b->of[i].points);
+    }
+}
+
+/* Of all sheets, in whatever order they came. */
+static uint64_t HashLayouts(const Host* host)
+{
+    uint64_t sum = 0;
+    for (int32_t s = 0; s < host->world->sheets.count; ++s) {
+        sum += HashLayout(host->world->sheets.data[s]);
+    }
+    return sum;
+}
+
+/* ---- What is done ---- */
+
+static void TickOnce(Host* host, int32_t samples, kiriResult* result)
+{
+    kiriProfile profile;
+    *result = Host_Tick(host, 1.0f / 60.0f, 1);
+    assert_true(*result >= 0);
+    OK(kiriWorld_GetProfile(host->world, &profile));
+    assert_true(samples == 0 || profile.samplesRefreshed <= samples);
+}
+
+/* Until nothing waits. */
+static int32_t Settle(Host* host, int32_t samples)
+{
+    kiriResult result = KIRI_PENDING;
+    int32_t ticks = 0;
+    while (result == KIRI_PENDING) {
+        TickOnce(host, samples, &result);
+        assert_in_range(++ticks, 1, 20000);
+    }
+    return ticks;
+}
+
+static kiriSheet AnySheet(const Host* host, uint32_t* seed)
+{
+    uint32_t draw = Random(seed), other = Random(seed);
+    int32_t count = host->world->sheets.count;
+    return host->world->sheets.data[draw % 5 == 0 ? (int32_t)(other % (uint32_t)count) : 0]->id;
+}
+
+/* Across all of the sheet, or a loop in it. */
+static void CutSomewhere(Host* host, kiriSheet sheet, uint32_t* seed)
+{
+    float from = (float)RandomBetween(seed, 0.0, 1.0), to = (float)RandomBetween(seed, 0.0, 1.0);
+    float u = (float)RandomBetween(seed, 0.1, 0.8), v = (float)RandomBetween(seed, 0.1, 0.8);
+    switch (Random(seed) % 3) {
+    case 0:
+        Host_Cut(host, sheet, (float[]){ from, -0.1f, to, 1.1f }, 2);
+        break;
+    case 1:
+        Host_Cut(host, sheet, (float[]){ -0.1f, from, 1.1f, to }, 2);
+        break;
+    default:
+        Host_Cut(host, sheet, (float[]){ u, v, u + 0.15f, v, u + 0.1f, v + 0.15f, u, v }, 4);
+    }
+}
+
+/* Frames of so many pieces of the sheet, each once, and not of all. */
+static int32_t ChooseTargets(const Host* host, kiriSheet sheet, uint32_t* seed, kiriFrame* targets)
+{
+    int32_t pieces = Host_Counts(host, sheet).pieces, first = (int32_t)(Random(seed) % 64);
+    int32_t count = (int32_t)(Random(seed) % MOST_TARGETS);
+    count = count < pieces ? count : pieces - 1;
+    for (int32_t i = 0; i < count; ++i) {
+        targets[i] = Host_FrameOf(host, sheet, (first + i) % pieces);
+    }
+    return count;
+}
+
+static double AreaOf(const Host* host, kiriSheet sheet, kiriFrame frame)
+{
+    kiriPieceState state;
+    int32_t piece;
+    OK(kiriFrame_GetPiece(host->world, frame, &piece));
+    OK(kiriSheet_GetPiece(host->world, sheet, piece, &state));
+    return state.area;
+}
+
+/* Parts the targets in calls of one or a few, with ticks between them; returns the area that is destroyed. `waited` counts
+   the calls that were not done at once. */
+static double Part(Host* host, kiriSheet sheet, const kiriFrame* targets, int32_t count, uint32_t* seed,
+                   int32_t* waited, int32_t samples)
+{
+    double destroyed = 0.0;
+    for (int32_t i = 0, many; i < count; i += many) {
+        kiriSheet made[MOST_TARGETS];
+        kiriResult result;
+        many = 1 + (int32_t)(Random(seed) % 3);
+        many = many < count - i ? many : count - i;
+        if (Random(seed) % 3 == 0) {
+            for (int32_t k = i; k < i + many; ++k) {
+                destroyed += AreaOf(host, sheet, targets[k]);
+            }
+            result = kiriWorld_DestroyPieces(host->world, targets + i, many);
+        } else {
+            result = kiriWorld_DetachPieces(host->world, targets + i, many, made);
+        }
+        assert_true(result == KIRI_OK || result == KIRI_PENDING);
+        *waited += result == KIRI_PENDING;
+        Host_Validate(host);
+        for (int32_t ticks = (int32_t)(Random(seed) % 3); ticks > 0; --ticks) {
+            TickOnce(host, samples, &result);
+        }
+    }
+    return destroyed;
+}
+
+/* The area of what is dropped. */
+static double Drop(Host* host, kiriSheet sheet, double area)
+{
+    int32_t dropped;
+    double before = Host_Totals(host, sheet).area;
+    OK(kiriSheet_DropCrumbs(host->world, sheet, (float)area, &dropped));
+    return before - Host_Totals(host, sheet).area;
+}
+
+static kiriSheetDef DefOfRun(uint32_t run)
+{
+    static const float layers[] = { 0.0f, 30.0f };
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = 20;
+    def.frameCount = 6;
+    def.maxFrames = 4096;
+    def.collisionPoints = layers[run % 2];
+    def.sleepSpeed = run % 3 == 0 ? def.sleepSpeed : 0.0f;
+    def.model = run % 5 == 4 ? KIRI_MODEL_AFFINE : KIRI_MODEL_LINKS;
+    return def;
+}
+
+/* A round: cuts, and when they are done, pieces that part while the next cuts wait. Returns the area that goes. */
+static double PlayRound(Host* host, uint32_t* seed, int32_t samples, int32_t* waited)
+{
+    kiriFrame targets[MOST_TARGETS];
+    for (int32_t cuts = 2 + (int32_t)(Random(seed) % 3); cuts > 0; --cuts) {
+        CutSomewhere(host, AnySheet(host, seed), seed);
+    }
+    Settle(host, samples);
+    kiriSheet sheet = AnySheet(host, seed);
+    double gone = Random(seed) % 3 == 0 ? Drop(host, sheet, 0.004) : 0.0;
+    int32_t count = ChooseTargets(host, sheet, seed, targets);
+    gone += Part(host, sheet, targets, count, seed, waited, samples);
+    CutSomewhere(host, sheet, seed);
+    return gone;
+}
+
+/* ---- Tests ---- */
+
+static void RunAtRandom(uint32_t run, int32_t squares, const kiriBudget* budget, int32_t* waited)
+{
+    static const float none[3] = { 0.0f, 0.0f, 0.0f };
+    static Gallery galleries[2];
+    Host hosts[2];
+    double gone[2] = { 0.0, 0.0 };
+    uint32_t seeds[2] = { 1201u * run, 1201u * run };
+    int32_t samples[2] = { budget->samples, 0 }, unlimited = 0;
+    for (int k = 0; k < 2; ++k) {
+        kiriSheetDef def = DefOfRun(run);
+        Host_Start(&hosts[k]);
+        OK(kiriWorld_SetGravity(hosts[k].world, none));
+        Host_AddRectangle(&hosts[k], &def, 1.0f, 1.0f, squares, squares);
+    }
+    OK(kiriWorld_SetBudget(hosts[0].world, budget));
+    for (int round = 0; round < ROUNDS; ++round) {
+        for (int k = 0; k < 2; ++k) {
+            gone[k] += PlayRound(&hosts[k], &seeds[k], samples[k], k == 0 ? waited : &unlimited);
+            Settle(&hosts[k], samples[k]);
+            galleries[k] = Portray(&hosts[k]);
+            assert_float_equal(galleries[k].area + gone[k], 1.0, 1e-6);
+        }
+        CompareGalleries(&galleries[0], &galleries[1]);
+        assert_true(squares > 60 || HashLayouts(&hosts[0]) == HashLayouts(&hosts[1]));
+    }
+    assert_int_equal(unlimited, 0);
+    Host_Stop(&hosts[0]);
+    Host_Stop(&hosts[1]);
+}
+
+/* Small sheets move together when pieces go, so their indices are the same, too. */
+static void TestSmallSheets(void** state)
+{
+    (void)state;
+    int32_t waited = 0;
+    for (uint32_t run = 1; run <= 10; ++run) {
+        const kiriBudget budget = { 60, 300, run % 2 ? 25 : 150, 0 };
+        RunAtRandom(run, 14, &budget, &waited);
+    }
+    assert_true(waited > 20);
+}
+
+/* Large ones keep holes. */
+static void TestLargeSheets(void** state)
+{
+    (void)state;
+    int32_t waited = 0;
+    for (uint32_t run = 1; run <= 2; ++run) {
+        const kiriBudget budget = { 200, 1500, run % 2 ? 150 : 1500, 0 };
+        RunAtRandom(run, 70, &budget, &waited);
+    }
+    assert_true(waited > 5);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestSmallSheets),
+        cmocka_unit_test(TestLargeSheets),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
