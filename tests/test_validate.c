@@ -127,10 +127,10 @@ static const char* CorruptMesh(kiriWorld* world, kiriSheetData* s, int way)
         mesh->vertices.data[0].edge = mesh->vertices.data[1].edge;
         return "has half-edge";
     case 8:
-        triangles[0].source = mesh->firstSource - 1;
+        triangles[0].source = -1;
         return "is of source";
     case 9:
-        mesh->vertices.data[3].source += mesh->vertices.data[3].source > mesh->firstSource ? -1 : 40;
+        mesh->vertices.data[3].source += mesh->vertices.data[3].source > 0 ? -1 : 40;
         return "from elsewhere";
     case 10:
         mesh->vertices.data[3].share[0] += 0.01f;

@@ -28,7 +28,8 @@ static bool Check_Holes(Check* check, const kiriMeshData* mesh)
 
 static bool Check_Triangles(Check* check, const kiriMeshData* mesh)
 {
-    int32_t sources = mesh->sourceCorners.count / 3;
+    REQUIRE(mesh->sources.count == 0 || 3 * mesh->sources.count == mesh->sourceCorners.count,
+            "%d sources have %d corners", mesh->sources.count, mesh->sourceCorners.count);
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         const kiriTriangle* triangle = &mesh->triangles.data[t];
         if (!kiriMesh_IsTriangle(mesh, t)) {
@@ -44,7 +45,7 @@ static bool Check_Triangles(Check* check, const kiriMeshData* mesh)
         kiriMesh_Corners(mesh, t, c);
         REQUIRE(kiriOrient(c[0], c[1], c[2]) > 0, "triangle %d is turned over or has no area", t);
         REQUIRE(((c[0].x | c[0].y) & 1) == 0, "triangle %d has a corner with an odd coordinate", t);
-        REQUIRE(IsIndex(triangle->source - mesh->firstSource, sources), "triangle %d is of source %d", t,
+        REQUIRE(kiriMesh_SourceCorners(mesh, triangle->source) != NULL, "triangle %d is of source %d", t,
                 triangle->source);
         REQUIRE((triangle->open & ~7) == 0, "triangle %d has open bits %d", t, triangle->open);
     }
@@ -277,7 +278,7 @@ static bool Check_Provenance(Check* check, const kiriMeshData* mesh)
         REQUIRE(found[v] || !kiriMesh_IsVertex(mesh, v), "vertex %d takes its source %d from elsewhere", v,
                 vertex->source);
         for (int i = 0; i < 3; ++i) {
-            kiriLatticePoint c = mesh->sourceCorners.data[3 * (vertex->source - mesh->firstSource) + i];
+            kiriLatticePoint c = kiriMesh_SourceCorners(mesh, vertex->source)[i];
             REQUIRE(vertex->share[i] >= 0.0f, "vertex %d has share %g", v, (double)vertex->share[i]);
             x += (double)vertex->share[i] * c.x;
             y += (double)vertex->share[i] * c.y;

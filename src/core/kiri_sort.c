@@ -28,6 +28,40 @@ void kiriSort(int32_t* items, int32_t count, kiriBeforeFn* before, const void* c
     }
 }
 
+enum { DIGIT_BITS = 11, DIGITS = 1 << DIGIT_BITS };
+
+/* In the order of one digit, and of those below it as they were. */
+static void SortByDigit(const int32_t* items, int32_t* to, int32_t count, int shift)
+{
+    int32_t first[DIGITS + 1] = { 0 };
+    for (int32_t i = 0; i < count; ++i) {
+        first[((items[i] >> shift) & (DIGITS - 1)) + 1] += 1;
+    }
+    for (int32_t d = 0; d < DIGITS; ++d) {
+        first[d + 1] += first[d];
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        to[first[(items[i] >> shift) & (DIGITS - 1)]++] = items[i];
+    }
+}
+
+void kiriSort_Numbers(int32_t* items, int32_t* room, int32_t count)
+{
+    int32_t all = 0, *from = items, *to = room;
+    for (int32_t i = 0; i < count; ++i) {
+        KIRI_ASSERT(items[i] >= 0);
+        all |= items[i];
+    }
+    for (int shift = 0; shift < 31 && all >> shift > 0; shift += DIGIT_BITS) {
+        SortByDigit(from, to, count, shift);
+        from = to;
+        to = from == items ? room : items;
+    }
+    if (from != items) {
+        memcpy(items, from, sizeof(*items) * (size_t)count);
+    }
+}
+
 /* Merges the two runs at hand, the left one from `room`; false where it did not come to the end of `most` moves. */
 static bool MergeRuns(kiriSorting* s, int32_t* items, int32_t* room, int32_t count, kiriBeforeFn* before,
                       const void* context, int32_t* most)

@@ -13,6 +13,9 @@ typedef bool kiriBeforeFn(const void* context, int32_t a, int32_t b);
 /* In place, without memory. `before` null: by the items themselves. */
 void kiriSort(int32_t* items, int32_t count, kiriBeforeFn* before, const void* context);
 
+/* Items of 0 and above, the lowest first, in a time that grows as their number. `room` has room for as many. */
+void kiriSort_Numbers(int32_t* items, int32_t* room, int32_t count);
+
 /* How far a sorting that may be interrupted has come; zeroed: at its start. */
 typedef struct kiriSorting {
     int32_t width, block;    /* the runs that are merged, and the first of the two at hand */

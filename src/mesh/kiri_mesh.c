@@ -28,12 +28,28 @@ int32_t kiriMesh_AddTriangle(kiriMeshData* mesh, int32_t a, int32_t b, int32_t c
     return index;
 }
 
+const kiriLatticePoint* kiriMesh_SourceCorners(const kiriMeshData* mesh, int32_t source)
+{
+    int32_t low = 0, high = mesh->sources.count;
+    while (low < high) {
+        int32_t middle = (low + high) / 2;
+        if (mesh->sources.data[middle] < source) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    bool hasAll = mesh->sources.count == 0;
+    bool isThere = hasAll ? source >= 0 && source < mesh->sourceCorners.count / 3
+                          : low < mesh->sources.count && mesh->sources.data[low] == source;
+    return isThere ? &mesh->sourceCorners.data[3 * (int64_t)(hasAll ? source : low)] : NULL;
+}
+
 /* Rounding to the lattice may have put the vertex a step outside. */
 void kiriMesh_SetSource(kiriMeshData* mesh, int32_t vertex, int32_t source)
 {
-    int32_t first = 3 * (source - mesh->firstSource);
-    KIRI_ASSERT(first >= 0 && first < mesh->sourceCorners.count && vertex >= 0 && vertex < mesh->vertices.count);
-    const kiriLatticePoint* c = &mesh->sourceCorners.data[first];
+    const kiriLatticePoint* c = kiriMesh_SourceCorners(mesh, source);
+    KIRI_ASSERT(c != NULL && vertex >= 0 && vertex < mesh->vertices.count);
     kiriVertex* v = &mesh->vertices.data[vertex];
     double share[3], sum = 0.0;
     for (int i = 0; i < 3; ++i) {

@@ -61,9 +61,10 @@ typedef struct kiriMeshData {
     /* Holes: triangles without vertices, and vertices without an edge, that were taken away. None is in a square. */
     int32_t triangleHoles, vertexHoles;
 
-    /* Corners of the caller's triangles, three a triangle, from triangle firstSource on: for source and share. */
+    /* Corners of the caller's triangles, three a triangle, for source and share. A part has those alone that its triangles
+       are of: `sources`, ascending; that is empty where the mesh has all of them. */
     KIRI_ARRAY(kiriLatticePoint) sourceCorners;
-    int32_t firstSource;
+    kiriIndices sources;
 
     /* The journal: what changed since kiriMesh_Begin. Until Commit these are all that can have changed: the triangles
        of savedTriangles and those from oldTriangleCount on; the vertices of savedVertices (their source and share,
@@ -209,6 +210,9 @@ int32_t kiriMesh_AddTriangle(kiriMeshData* mesh, int32_t a, int32_t b, int32_t c
 /* Half-edges h and g run along the same edge in opposite directions; g may be KIRI_NONE. */
 void kiriMesh_Link(kiriMeshData* mesh, int32_t h, int32_t g);
 void kiriMesh_SetOpen(kiriMeshData* mesh, int32_t h, bool open);
+
+/* The three corners of one of the caller's triangles; null where the mesh has nothing of it. */
+const kiriLatticePoint* kiriMesh_SourceCorners(const kiriMeshData* mesh, int32_t source);
 
 /* Sets the vertex's source, and its share in it. */
 void kiriMesh_SetSource(kiriMeshData* mesh, int32_t vertex, int32_t source);

@@ -1,5 +1,7 @@
 #include "kiri_mesh_edit.h"
 
+#include "../core/kiri_sort.h"
+
 #include <string.h>
 
 /* Half-edges keep their place in their triangle. */
@@ -46,22 +48,43 @@ static bool CopyPart(kiriMeshData* mesh, const kiriMeshData* from, const kiriMes
     return true;
 }
 
-/* Those of the caller's triangles that the part has something of, and those between. */
+static int32_t DropRepeated(int32_t* sorted, int32_t count)
+{
+    int32_t left = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        if (left == 0 || sorted[i] != sorted[left - 1]) {
+            sorted[left++] = sorted[i];
+        }
+    }
+    return left;
+}
+
+/* Those of the caller's triangles that the part has something of. */
+static bool ListSources(kiriMeshData* mesh)
+{
+    int32_t count = mesh->triangles.count;
+    int32_t* room = kiriMemory_Alloc(mesh->memory, (int64_t)sizeof(int32_t) * count);
+    bool ok = room != NULL && kiriArray_Resize(mesh->memory, &mesh->sources, count);
+    for (int32_t t = 0; ok && t < count; ++t) {
+        mesh->sources.data[t] = mesh->triangles.data[t].source;
+    }
+    if (ok) {
+        kiriSort_Numbers(mesh->sources.data, room, count);
+        mesh->sources.count = DropRepeated(mesh->sources.data, count);
+    }
+    kiriMemory_Free(mesh->memory, room);
+    return ok;
+}
+
 static bool CopySources(kiriMeshData* mesh, const kiriMeshData* from)
 {
-    int32_t first = INT32_MAX, last = 0;
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        int32_t source = mesh->triangles.data[t].source;
-        first = source < first ? source : first;
-        last = source > last ? source : last;
-    }
-    int32_t count = 3 * (last - first + 1);
-    mesh->firstSource = first;
-    if (!kiriArray_Resize(mesh->memory, &mesh->sourceCorners, count)) {
+    if (!ListSources(mesh) || !kiriArray_Resize(mesh->memory, &mesh->sourceCorners, 3 * (int64_t)mesh->sources.count)) {
         return false;
     }
-    memcpy(mesh->sourceCorners.data, &from->sourceCorners.data[3 * (first - from->firstSource)],
-           sizeof(kiriLatticePoint) * (size_t)count);
+    for (int32_t k = 0; k < mesh->sources.count; ++k) {
+        memcpy(&mesh->sourceCorners.data[3 * (size_t)k], kiriMesh_SourceCorners(from, mesh->sources.data[k]),
+               3 * sizeof(kiriLatticePoint));
+    }
     return true;
 }
 

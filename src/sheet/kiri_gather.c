@@ -98,25 +98,15 @@ static bool TakeTrianglesOf(kiriGathered* gathered, int32_t cell)
     return ok;
 }
 
-/* Puts the items from `from` on in order. They are marked in the map, so where they are close a look at all between is
-   faster than to sort. */
-static kiriSpan SortSpan(const kiriKeep* map, kiriIndices* items, int32_t from)
+/* The items from `from` on, put in order. `ok` gets false for memory. */
+static kiriSpan SortSpan(kiriGathered* gathered, kiriIndices* items, int32_t from, bool* ok)
 {
-    int32_t count = items->count - from, low = INT32_MAX, high = -1;
-    for (int32_t k = from; k < items->count; ++k) {
-        low = items->data[k] < low ? items->data[k] : low;
-        high = items->data[k] > high ? items->data[k] : high;
+    kiriSpan span = { from, items->count - from };
+    *ok = *ok && kiriArray_Reserve(gathered->memory, &gathered->room, span.count);
+    if (*ok && span.count > 0) {
+        kiriSort_Numbers(items->data + from, gathered->room.data, span.count);
     }
-    if (high - low > 16 * (int64_t)count) {
-        kiriSort(items->data + from, count, NULL, NULL);
-        return (kiriSpan){ from, count };
-    }
-    for (int32_t i = low, k = from; i <= high && k < items->count; ++i) {
-        if (map->to.data[i] != KIRI_NONE) {
-            items->data[k++] = i;
-        }
-    }
-    return (kiriSpan){ from, count };
+    return span;
 }
 
 static void ClearMap(kiriKeep* map, const int32_t* items, int32_t count)
@@ -138,8 +128,8 @@ static bool TakeFlooded(kiriGathered* gathered, int32_t piece, int32_t from)
     for (int32_t k = from; ok && k < gathered->cells.count; ++k) {
         ok = TakeTrianglesOf(gathered, gathered->cells.data[k]);
     }
-    kiriGatheredPiece taken = { piece, SortSpan(&taking->triangles, triangles, firstTriangle),
-                                SortSpan(&taking->vertices, vertices, firstVertex) };
+    kiriGatheredPiece taken = { piece, SortSpan(gathered, triangles, firstTriangle, &ok),
+                                SortSpan(gathered, vertices, firstVertex, &ok) };
     ClearMap(&taking->triangles, triangles->data + firstTriangle, triangles->count - firstTriangle);
     ClearMap(&taking->vertices, vertices->data + firstVertex, vertices->count - firstVertex);
     return ok && kiriArray_Push(gathered->memory, &gathered->pieces, taken);
@@ -170,13 +160,14 @@ static void ClearCells(kiriGathered* gathered)
 static bool ListSquares(kiriGathered* gathered)
 {
     kiriIndices* squares = &gathered->squares;
-    if (!kiriArray_Resize(gathered->memory, squares, gathered->cells.count)) {
+    if (!kiriArray_Resize(gathered->memory, squares, gathered->cells.count) ||
+        !kiriArray_Reserve(gathered->memory, &gathered->room, gathered->cells.count)) {
         return false;
     }
     for (int32_t k = 0; k < gathered->cells.count; ++k) {
         squares->data[k] = gathered->sheet->grid.cells.data[gathered->cells.data[k]].square;
     }
-    kiriSort(squares->data, squares->count, NULL, NULL);
+    kiriSort_Numbers(squares->data, gathered->room.data, squares->count);
     int32_t count = 0;
     for (int32_t k = 0; k < squares->count; ++k) {
         if (count == 0 || squares->data[k] != squares->data[count - 1]) {

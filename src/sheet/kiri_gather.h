@@ -17,6 +17,7 @@ typedef struct kiriGathered {
     kiriMemory* memory;                              /* of the lists */
     KIRI_ARRAY(kiriGatheredPiece) pieces;            /* in their order */
     kiriIndices triangles, vertices, cells, squares; /* squares: those of the cells, each once */
+    kiriIndices room;                                /* to sort them */
     bool isMarked;
 } kiriGathered;
 
