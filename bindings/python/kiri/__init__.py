@@ -14,13 +14,16 @@ are those of the header; this file only turns ids into objects, results into exc
 
 Arrays that come back are copies: they outlive ticks, pieces, sheets and the world. Threads may share a world: a call
 that changes it waits until no other runs, calls that only read run side by side. The functions given to World (alloc,
-free, log, clock) run inside of such a call, and what they call on their own world fails with KIRI_ERROR_STATE.
+free, log, clock) run inside of such a call, and what they call on their own world fails with KIRI_ERROR_STATE. What
+they raise is raised by that call when it is done; until then it goes on as if they had returned None, or 0.
+World(executor=ThreadPoolExecutor(4), workerCount=4) lends the threads of an executor to its ticks.
 
 The header is $KIRI_HEADER or include/kiri/kiri.h of this repository, the library is the argument of World,
 $KIRI_LIBRARY, or build/release/libkiri.so.
 """
 
 import atexit
+import concurrent.futures
 import os
 import pathlib
 import re
@@ -56,7 +59,8 @@ KIRI_VERSION_MAJOR, KIRI_VERSION_MINOR, KIRI_VERSION_PATCH = (
     int(re.search(rf"#define KIRI_VERSION_{part} (\d+)", _header)[1]) for part in ("MAJOR", "MINOR", "PATCH"))
 KIRI_VERSION = 10000 * KIRI_VERSION_MAJOR + 100 * KIRI_VERSION_MINOR + KIRI_VERSION_PATCH
 
-# Functions that only read the world.
+# Functions of a world, and those that only read it.
+_functions = set(re.findall(r"kiriResult (\w+)\((?:const )?kiriWorld\* ?world", _header))
 _reading = set(re.findall(r"(\w+)\(const kiriWorld\*", _header))
 
 # How long the arrays are that a struct points to: a field that counts the rows, numbers in a row.
@@ -143,7 +147,7 @@ def _rows(item, values, width):
     return _check_length(array, count * width), count
 
 
-def _fill(lib, struct, values, kept):
+def _fill(world, struct, values, kept):
     """Sets fields by name. What the struct only points to goes to `kept`."""
     kind = ffi.typeof(struct)
     kind = kind if kind.kind == "struct" else kind.item
@@ -154,17 +158,17 @@ def _fill(lib, struct, values, kept):
             raise TypeError(f"{kind.cname} has no field {name}")
         field = fields[name].type
         if isinstance(value, dict) and field.kind == "struct":
-            _fill(lib, getattr(struct, name), value, kept)
+            _fill(world, getattr(struct, name), value, kept)
             continue
         if isinstance(value, _Handle):
-            value = value.id
+            value = world.id_of(value)
         if value is None:
             value = ffi.NULL
         elif field.kind == "array":
             value = list(_vector(value, field.length))
         elif field.kind in ("pointer", "function"):
             if field.kind == "function":
-                value = value if isinstance(value, ffi.CData) else ffi.callback(field, value)
+                value = value if isinstance(value, ffi.CData) else ffi.callback(field, value, onerror=world._note)
             else:
                 value = _array(field.item.cname, value)
             kept.append(value)
@@ -176,11 +180,11 @@ def _fill(lib, struct, values, kept):
         _check_length(array, width * getattr(struct, count))
 
 
-def _definition(lib, kind, values, kept):
+def _definition(world, kind, values, kept):
     """A def by its kiriDefault function, with these fields."""
     definition = ffi.new(kind + "*")
-    getattr(lib, kind.replace("kiri", "kiriDefault", 1))(definition)
-    _fill(lib, definition, values, kept)
+    getattr(world.lib, kind.replace("kiri", "kiriDefault", 1))(definition)
+    _fill(world, definition, values, kept)
     return definition
 
 
@@ -262,23 +266,75 @@ def _close_all():
 
 class _Said(threading.local):
     line = ""  # the last that C has logged in this thread, until it is in an exception
+    raised = None  # by a callback in this thread, until the call is done
+
+
+class _Threads:
+    """Shares the ranges of a task out among the threads of a concurrent.futures.Executor."""
+
+    def __init__(self, executor, workers):
+        self._executor = executor
+        self._workers = max(workers, 1)
+
+    def start(self, _, task, count, least, context):
+        size = max(least, -(-count // self._workers))
+        first, *others = [(at, min(at + size, count), context) for at in range(0, count, size)]
+        others = [(self._submit(task, part), part) for part in others]
+        task(*first)
+        for future, part in others:
+            if future is None or not self._is_done(future):
+                task(*part)
+        return ffi.NULL  # nothing is left for finishTask
+
+    def _submit(self, task, part):
+        """None where the executor takes no more."""
+        try:
+            return self._executor.submit(task, *part)
+        except RuntimeError:
+            return None
+
+    @staticmethod
+    def _is_done(future):
+        """False where it was cancelled, or its executor cannot call C."""
+        try:
+            future.result()
+            return True
+        except Exception:
+            return False
 
 
 class World:
-    """Fields of kiriWorldDef by name."""
+    """Fields of kiriWorldDef by name, and an executor."""
 
     _world = ffi.NULL
 
-    def __init__(self, library=None, **fields):
+    def __init__(self, library=None, executor=None, **fields):
+        if self._world != ffi.NULL:
+            raise TypeError("the world is there already")
         self._turns = _Turns()
         self._said = _Said()
         self._kept = []
         self.lib = load(library)
         fields["log"] = self._make_log(self._said, fields.get("log"))
+        self._lend(executor, fields)
         world = ffi.new("kiriWorld**")
-        self._check(self.lib.kiriCreateWorld(_definition(self.lib, "kiriWorldDef", fields, self._kept), world))
+        result = self.lib.kiriCreateWorld(_definition(self, "kiriWorldDef", fields, self._kept), world)
         self._world = world[0]
+        self._check(result)
         _worlds.add(self)
+
+    @staticmethod
+    def _lend(executor, fields):
+        """A function in Python that raises amid a task would leave it undone, so tasks take an executor."""
+        for name in ("startTask", "finishTask"):
+            if not isinstance(fields.get(name) or ffi.NULL, ffi.CData):
+                raise TypeError(f"{name} must be a function of C: in Python, give an executor")
+        if executor:
+            fields["startTask"] = _Threads(executor, fields.get("workerCount", 1)).start
+            fields["finishTask"] = lambda user, handle: None
+
+    def __reduce__(self):
+        raise TypeError("a world cannot be copied")
 
     @staticmethod
     def _make_log(said, forward):
@@ -294,6 +350,7 @@ class World:
         try:
             world, self._world = self._world, ffi.NULL
             self.lib.kiriDestroyWorld(world)
+            self._check(KIRI_OK)
         finally:
             self._turns.leave()
 
@@ -307,16 +364,32 @@ class World:
     def __exit__(self, *_):
         self.close()
 
+    def _note(self, _, raised, __):
+        """What a callback raised."""
+        self._said.raised = self._said.raised or raised
+
     def _check(self, result):
+        raised, line = self._said.raised, self._said.line
+        self._said.raised, self._said.line = None, ""
+        if raised:
+            raise raised
         if result < 0:
-            name = ffi.string(self.lib.kiriGetResultName(result)).decode()
-            line, self._said.line = self._said.line, ""
-            raise KiriError(result, name, line)
+            raise KiriError(result, ffi.string(self.lib.kiriGetResultName(result)).decode(), line)
         return result
+
+    def id_of(self, thing, kind=None):
+        """Of a sheet, cut, frame and so on of this world: another world may have the same id."""
+        if not isinstance(thing, kind or _Handle):
+            raise TypeError(f"a {(kind or _Handle).__name__} is wanted, not {thing!r}")
+        if thing.world is not self:
+            raise ValueError(f"{thing!r} is of another world")
+        return thing.id
 
     def call(self, name, *arguments, take=None):
         """Any C function that takes the world first and returns a kiriResult. What it hands out lives until the next
         tick, which may be another thread's: `take` runs before that, and its result is returned."""
+        if name not in _functions:
+            raise TypeError(f"{name} is no function of a world")
         self._turns.enter(name not in _reading)
         try:
             if self._world == ffi.NULL:
@@ -350,7 +423,7 @@ class World:
     def create(self, kind, *before, **fields):
         """The id of a new thing, from its def with these fields."""
         kept = []  # until C has read it
-        definition = _definition(self.lib, f"kiri{kind}Def", fields, kept)
+        definition = _definition(self, f"kiri{kind}Def", fields, kept)
         return self.get(f"kiriCreate{kind}", "kiri" + kind, *before, definition)
 
     def tick(self, dt, substeps=1):
@@ -371,19 +444,19 @@ class World:
 
     def detach_pieces(self, frames):
         """The pieces of these frames as sheets, None for those that wait: see Frame.detach_piece. In one pass."""
-        ids = [frame.id for frame in frames]
+        ids = [self.id_of(frame, Frame) for frame in frames]
         made = ffi.new("kiriSheet[]", max(len(ids), 1))
         self.call("kiriWorld_DetachPieces", ffi.new("kiriFrame[]", ids), len(ids), made)
         return [Sheet(self, made[i]) if made[i] else None for i in range(len(ids))]
 
     def destroy_pieces(self, frames):
-        ids = [frame.id for frame in frames]
+        ids = [self.id_of(frame, Frame) for frame in frames]
         self.call("kiriWorld_DestroyPieces", ffi.new("kiriFrame[]", ids), len(ids))
 
     def set_budget(self, **fields):
         """Fields of kiriBudget by name; none: no limit."""
         budget = ffi.new("kiriBudget*")
-        _fill(self.lib, budget, fields, [])
+        _fill(self, budget, fields, [])
         self.call("kiriWorld_SetBudget", budget)
 
     def raycast(self, origin, direction, max_distance):
@@ -400,16 +473,7 @@ class World:
 
     def begin_blade(self, sheet=None):
         """A blade in world space, for one sheet or for all."""
-        return Blade(self, self.get("kiriBeginBlade", "kiriBlade", sheet.id if sheet else 0))
-
-    def detach_pieces(self, frames):
-        """The pieces with these frames as sheets of their own; frames of one piece have the same."""
-        sheets = ffi.new("kiriSheet[]", max(len(frames), 1))
-        self.call("kiriWorld_DetachPieces", [frame.id for frame in frames], len(frames), sheets)
-        return [Sheet(self, sheets[i]) for i in range(len(frames))]
-
-    def destroy_pieces(self, frames):
-        self.call("kiriWorld_DestroyPieces", [frame.id for frame in frames], len(frames))
+        return Blade(self, self.get("kiriBeginBlade", "kiriBlade", self.id_of(sheet, Sheet) if sheet else 0))
 
     def create_sheet(self, positions, triangles, **fields):
         """Rest positions and triangles, flat or in rows; other fields of kiriSheetDef by name, material and paper as
@@ -483,7 +547,7 @@ class Sheet(_Handle):
         """Fields of kiriSheetSettings by name, material as a dict; others stay."""
         settings, kept = ffi.new("kiriSheetSettings*"), []
         self.world.call("kiriSheet_GetSettings", self.id, settings)
-        _fill(self.world.lib, settings, fields, kept)
+        _fill(self.world, settings, fields, kept)
         self.world.call("kiriSheet_SetSettings", self.id, settings)
 
     def user_data(self):
@@ -593,7 +657,7 @@ class Sheet(_Handle):
     def set_wind(self, **fields):
         """Fields of kiriWind by name; none: no wind."""
         wind = ffi.new("kiriWind*")
-        _fill(self.world.lib, wind, fields, [])
+        _fill(self.world, wind, fields, [])
         self.world.call("kiriSheet_SetWind", self.id, wind)
 
     def set_contacts(self, contacts):
