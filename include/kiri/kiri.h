@@ -767,7 +767,8 @@ KIRI_API kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, 
 
 /* The host moves the frame: its rest point, as it is seen, goes to `position` with `rotation` (a rotation matrix, columns
    as above) in the next tick, evenly, and stays there until the next call. An affine frame is not stretched then. On a planar sheet the
-   rotation is about its normal. Null, null: it is free again. */
+   rotation is about its normal. Null, null: it is free again. Contacts do not push material that held frames carry for
+   more than half: it goes where the host has it, through obstacles too. */
 KIRI_API kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9]);
 
 /* With what the host's hold acted on the sheet: force (N, world) and torque (N m) about the frame's rest point; means

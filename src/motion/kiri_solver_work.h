@@ -46,6 +46,7 @@ enum { KIRI_CONTACT_MEMBERS = 8 };
 typedef struct kiriContactStep {
     kiriWeight members[KIRI_CONTACT_MEMBERS]; /* the frames that it acts on */
     int32_t memberCount;
+    bool isHeld;      /* are they held, half of them by weight? */
     double mass;      /* kg: of the frames, by their weights */
     kiriVec3 start;   /* m: its point at the start of the step */
     kiriVec3 carried; /* m: how far the obstacle goes in the step */

@@ -10,6 +10,8 @@
 #define EARLY 2             /* systems */
 #define PUSH_TOLERANCE 0.02 /* of the largest push of the piece: forces that are off by less need no other iteration */
 #define SINK_TOLERANCE 1e-5 /* m: nor do points that came below a plane by less */
+#define LEAST_FREE 0.5      /* of the weights of a contact: those of frames that the host does not hold */
+#define FAR_BELOW 1e9       /* m: of planes that nothing can touch */
 
 /* ---- Points ------------------------------------------------------------------------------------------------------- */
 
@@ -132,7 +134,18 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, int32
     double depth = now - kiriVec3_Dot(row->normal, step->start), pushed = row->pushSpeed * solver->dt;
     step->lowered = depth > pushed ? depth - pushed : 0.0;
     step->lift = kiriVec3_Dot(row->normal, step->carried) + (depth > 0.0 ? depth - step->lowered : 0.0);
-    step->plane = now + kiriVec3_Dot(row->normal, step->carried) - step->lowered;
+    step->plane = now + kiriVec3_Dot(row->normal, step->carried) - step->lowered - (step->isHeld ? FAR_BELOW : 0.0);
+}
+
+/* A point that goes with frames that the host holds goes where these go. Other frames, which hardly carry it, would have
+   to move many times as far as it is deep, and a contact has the force for that. */
+static bool IsHeld(const kiriSystem* system, const kiriContactStep* step)
+{
+    double free = 0.0;
+    for (int32_t m = 0; m < step->memberCount; ++m) {
+        free += system->frames[step->members[m].frame].held ? 0.0 : step->members[m].value;
+    }
+    return free < LEAST_FREE;
 }
 
 static double MassOf(const kiriSystem* system, const kiriContactStep* step)
@@ -159,6 +172,9 @@ static void FindMeans(kiriSolver* solver, const kiriSystem* system)
     for (int32_t k = 0; k < system->contactCount; ++k) {
         kiriPieceStep* piece = PieceOf(solver, system, k);
         const kiriContactStep* step = &solver->contacts.data[k];
+        if (step->isHeld) {
+            continue;
+        }
         double fast = (kiriVec3_Length(step->carried) + fabs(step->lift)) / solver->dt;
         double given = MeansOf(system, k, step, solver->dt);
         piece->obstacleSpeed = fast > piece->obstacleSpeed ? fast : piece->obstacleSpeed;
@@ -185,6 +201,7 @@ void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
         kiriContactStep* step = &solver->contacts.data[k];
         memset(step, 0, sizeof(*step));
         ChooseMembers(solver, &system->contacts[k], step);
+        step->isHeld = IsHeld(system, step);
         step->mass = MassOf(system, step);
         PlacePlane(solver, system, k);
     }
