@@ -364,6 +364,8 @@ $(BUILD)/tests/test_extremes: $(BUILD)/tests/extremes.c.o
 
 $(BUILD)/tests/test_quality: $(BUILD)/tests/sweep.c.o
 
+$(BUILD)/tests/test_record: $(patsubst %,$(BUILD)/tests/%.c.o,storm_acts storm_cuts storm_seen)
+
 $(BUILD)/tests/eigen_solvers.cpp.o: override CXXFLAGS += -isystem "$(EIGEN)"
 $(BUILD)/tests/bench_solvers: $(BUILD)/tests/eigen_solvers.cpp.o
 

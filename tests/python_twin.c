@@ -86,5 +86,6 @@ int main(void)
     PRINT_SIZE(kiriSolid);
     PRINT_SIZE(kiriObstacleDef);
     PRINT_SIZE(kiriObstacleState);
+    PRINT_SIZE(kiriReplay);
     return 0;
 }

@@ -169,15 +169,16 @@ static void NullWorld(void** state)
 static void Names(void** state)
 {
     (void)state;
-    static const char* const results[] = { "KIRI_ERROR_BUILD",  "KIRI_ERROR_LIMIT", "KIRI_DIVERGED",
-                                           "KIRI_ERROR_MEMORY", "KIRI_ERROR_STATE", "KIRI_ERROR_MESH",
-                                           "KIRI_ERROR_ID",     "KIRI_ERROR_DEF",   "KIRI_ERROR_ARGUMENT",
-                                           "KIRI_OK",           "KIRI_PENDING" };
-    for (int32_t r = KIRI_ERROR_BUILD; r <= KIRI_PENDING; ++r) {
-        assert_string_equal(kiriGetResultName(r), results[r - KIRI_ERROR_BUILD]);
+    static const char* const results[] = { "KIRI_ERROR_REPLAY", "KIRI_ERROR_DATA",     "KIRI_ERROR_BUILD",
+                                           "KIRI_ERROR_LIMIT",  "KIRI_DIVERGED",       "KIRI_ERROR_MEMORY",
+                                           "KIRI_ERROR_STATE",  "KIRI_ERROR_MESH",     "KIRI_ERROR_ID",
+                                           "KIRI_ERROR_DEF",    "KIRI_ERROR_ARGUMENT", "KIRI_OK",
+                                           "KIRI_PENDING" };
+    for (int32_t r = KIRI_ERROR_REPLAY; r <= KIRI_PENDING; ++r) {
+        assert_string_equal(kiriGetResultName(r), results[r - KIRI_ERROR_REPLAY]);
     }
     assert_string_equal(kiriGetResultName(2), "unknown");
-    assert_string_equal(kiriGetResultName(-10), "unknown");
+    assert_string_equal(kiriGetResultName(-12), "unknown");
     for (int32_t s = 0; s < KIRI_STAGE_COUNT; ++s) {
         assert_true(kiriGetStageName(s)[0] != '\0');
         for (int32_t other = 0; other < s; ++other) {

@@ -107,7 +107,7 @@ def run_twin():
 def test_same_hash_and_sizes_as_c():
     twin = run_twin()
     assert f"{run_scene()[0].state_hash():016x}" == twin.pop("hash")
-    assert len(twin) == 23
+    assert len(twin) == 24
     for name, size in twin.items():
         assert kiri.ffi.sizeof(name) == int(size), name
 
@@ -717,6 +717,43 @@ for _ in range(4):
     del nonsense[:2 * len(made) - 2]
 assert calls > 4000 and 0 < raised < calls, (calls, raised)
 """).stderr
+
+
+def record_scene():
+    recording = bytearray()
+    world, sheet, _ = make_scene(record=recording.extend, recordHashTicks=1)
+    world.note(b"here")
+    raises(kiri.KiriError, world.tick, -1.0)
+    for _ in range(5):
+        world.tick(1 / 60)
+    hash = world.state_hash()
+    world.close()
+    return recording, sheet.id, hash
+
+
+def test_recording():
+    recording, sheet, hash = record_scene()
+    world = kiri.World()
+    assert list(world.replay(recording)) == [b"here", None, None, None, None, None]
+    assert world.state_hash() == hash and [found.id for found in world.sheets()] == [sheet]
+    assert world.sheets()[0].counts().pieces == 2
+    assert raises(kiri.KiriError, list, world.replay(recording)).result == kiri.KIRI_ERROR_STATE
+    assert raises(kiri.KiriError, world.note, b"").result == kiri.KIRI_ERROR_ARGUMENT
+    for broken in (b"", b"something else", recording[:-7], recording[:500]):
+        error = raises(kiri.KiriError, list, kiri.World().replay(broken))
+        assert error.result == kiri.KIRI_ERROR_DATA and "kiriWorld_Replay" in str(error)
+    recording[22] ^= 1  # of gravity
+    error = raises(kiri.KiriError, list, kiri.World().replay(recording))
+    assert error.result == kiri.KIRI_ERROR_REPLAY and "kiriWorld_Tick in tick 1" in str(error)
+    assert kiri.World().sheets() == []
+    raises(TypeError, world.note, 5)
+    raises(TypeError, list, world.replay("text"))
+
+
+def test_record_that_raises():
+    def record(recorded):
+        raise OSError("no room")
+    assert str(raises(OSError, kiri.World, record=record)) == "no room"
 
 
 def test_settings():

@@ -68,7 +68,9 @@ enum kiriResultCode {
     KIRI_ERROR_MEMORY = -6,   /* the allocator returned null */
     KIRI_DIVERGED = -7,       /* the motion of a sheet could not be continued; it was put to rest where it was */
     KIRI_ERROR_LIMIT = -8,    /* all ids of a kind are used up: 4 194 304 at a time, 2^29 over the life of a world */
-    KIRI_ERROR_BUILD = -9     /* the library was compiled such that its bits are not those of other machines */
+    KIRI_ERROR_BUILD = -9,    /* the library was compiled such that its bits are not those of other machines */
+    KIRI_ERROR_DATA = -10,    /* bytes that are damaged, cut short, of something else, or of a later version */
+    KIRI_ERROR_REPLAY = -11   /* a call that was made again gave something else than its recording has */
 };
 
 /* The library's version, as KIRI_VERSION. */
@@ -86,6 +88,7 @@ typedef void* kiriAllocFn(void* user, int64_t bytes); /* at least 16-byte aligne
 typedef void kiriFreeFn(void* user, void* pointer);
 typedef void kiriLogFn(void* user, const char* line);
 typedef double kiriClockFn(void* user); /* seconds; read for the profile only, never by the simulation */
+typedef void kiriRecordFn(void* user, const void* bytes, int32_t count); /* the next bytes of the recording */
 
 /* For hosts that lend their threads to a tick. A task is work on the items 0 to itemCount: `start` has the function called,
    from whatever threads, for ranges of at least minRange items (the last one may be shorter) that together are all of
@@ -134,6 +137,9 @@ typedef struct kiriWorldDef {
         workerCount; /* threads that may work on a task, the caller of the tick with them, 0 to 1024: sizes ranges; up
                             to 1: no task is started. Default 0 */
     void* user;      /* handed to the functions above */
+    kiriRecordFn* record; /* gets the recording of the world, see kiriWorld_Replay; null: there is none */
+    int32_t
+        recordHashTicks; /* the recording has the state hash after so many ticks, and at the end; 0: never. Default 60 */
 } kiriWorldDef;
 
 KIRI_API void kiriDefaultWorldDef(kiriWorldDef* def);
@@ -168,6 +174,49 @@ KIRI_API kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budg
    the same calls have the same hash, and two with the same hash go on alike. After a refused allocation some items are
    made again: the hash tells that while work waits, or while the budget limits cells or samples. */
 KIRI_API kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash);
+
+/* Writes up to `capacity` ids of the world's sheets, in the order of their making; *count is how many there are. */
+KIRI_API kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheets, int32_t capacity, int32_t* count);
+
+/* ---- Recording -------------------------------------------------------------------------------------------------- */
+
+/* A recording has all that a world was given: each call of a function that changes it, with its arguments, its result and
+   the ids that it made; calls that failed, too. For reports of errors, for tests, and to show a run elsewhere: the same
+   bytes give the same run, bit for bit, on any machine, with the same version of the library. All bytes that `record` of
+   the world def got are the recording, one after the other. It gets the arguments of a call before the call does anything,
+   so a run that crashed is recorded up to the call that it crashed in; kiriDestroyWorld writes the end. Recording takes no
+   memory, and a fraction of the time of the calls; a tick takes 8 bytes, a point of a cut 8, a mesh 8 for each vertex
+   and 3 to 6 for each triangle. */
+
+/* Puts some bytes of the host's own (1 to KIRI_MOST_NOTE_BYTES) in the recording, where a replay finds them: what its camera
+   saw, what a player pressed. The world does not change; without a recording nothing happens. */
+enum kiriNoteLimit { KIRI_MOST_NOTE_BYTES = 1 << 20 };
+
+KIRI_API kiriResult kiriWorld_Note(kiriWorld* world, const void* bytes, int32_t count);
+
+/* How far a replay has come: all zero at its start. */
+typedef struct kiriReplay {
+    int64_t offset;   /* in the recording: where it goes on */
+    int64_t calls;    /* made so far */
+    int64_t ticks;    /* that were not refused */
+    const void* note; /* where it stopped at a note: its bytes, in the recording; else null */
+    int32_t noteCount;
+} kiriReplay;
+
+/* Makes the calls of a recording up to the next tick or note, and that one. The world is to be new, as
+   kiriCreateWorld makes it; gravity and budget become those of the recording. What the host has of its own, such as memory,
+   log and tasks, stays the host's. Ids are those of the recording: kiriWorld_GetSheets has those of sheets.
+   KIRI_PENDING: more follows, call it again. KIRI_OK: that was the end.
+   KIRI_ERROR_REPLAY: a call gave another result, other ids or another state than recorded; the line says which. The next
+   call goes on behind it.
+   KIRI_ERROR_DATA: the bytes are no recording, damaged, cut short, or of a later version; the line says where. Calls before
+   that place have been made. So has the last one of a recording that ends within a call, as that of a run which crashed.
+   KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: the next call was refused memory, and may be tried again.
+   Calls that were refused memory when they were recorded are left out: they changed nothing. Where that was a tick and a
+   budget limits cells or samples, the next hashes may differ. */
+KIRI_API kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, int64_t size, kiriReplay* replay);
+
+/* ---- Events ----------------------------------------------------------------------------------------------------- */
 
 /* What happened since the start of the last tick that was not refused. */
 enum kiriEventType {

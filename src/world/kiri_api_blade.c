@@ -3,7 +3,7 @@
 
 kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_BEGIN_BLADE, &sheet, blade);
     KIRI_CHECK(blade != NULL, "blade is null");
     *blade = 0;
     if (sheet != 0 && kiriCall_Owner(&world->sheetIds, sheet) == NULL) {
@@ -19,7 +19,7 @@ kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade)
 
 kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const float from[3], const float to[3])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_BLADE_MOVE_EDGE, &blade, from, to);
     KIRI_CHECK(from != NULL && to != NULL && kiriCall_AreFinite(from, 3) && kiriCall_AreFinite(to, 3),
                "from or to is null, or not finite");
     KIRI_FIND_BLADE(data, blade);
@@ -29,7 +29,7 @@ kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const float fro
 kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float origin[3], const float direction[3],
                              float length)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_BLADE_MOVE_RAY, &blade, origin, direction, &length);
     KIRI_CHECK(origin != NULL && direction != NULL && kiriCall_AreFinite(origin, 3) && kiriCall_AreFinite(direction, 3),
                "origin or direction is null, or not finite");
     KIRI_CHECK(direction[0] != 0.0f || direction[1] != 0.0f || direction[2] != 0.0f, "direction is zero");
@@ -41,7 +41,7 @@ kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float orig
 
 kiriResult kiriBlade_End(kiriWorld* world, kiriBlade blade)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_BLADE_END, &blade);
     KIRI_FIND_BLADE(data, blade);
     KIRI_RETURN(kiriWorld_RemoveBlade(world, data));
 }

@@ -22,7 +22,7 @@ static const char* FaultOfTurn(const kiriSheetData* sheet, const float rotation[
 
 kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float rotation[9], const float translation[3])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_SHEET_TRANSFORM, &sheet, rotation, translation);
     KIRI_CHECK(rotation != NULL && kiriCall_AreFinite(rotation, 9), "rotation is null or not finite");
     KIRI_CHECK(translation != NULL && kiriCall_AreFinite(translation, 3), "translation is null or not finite");
     KIRI_FIND_SHEET(data, sheet);
@@ -30,31 +30,31 @@ kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float ro
     KIRI_CHECK(why == NULL, why);
     kiriMat3 given = { kiriVec3_Load(&rotation[0]), kiriVec3_Load(&rotation[3]), kiriVec3_Load(&rotation[6]) };
     kiriMat3 R = kiriMat3_Rotation(given);
-    return kiriCarry_Sheet(data, &R, kiriVec3_Load(translation), &world->retired) ? KIRI_OK
-                                                                                  : KIRI_FAIL(KIRI_ERROR_MEMORY, NULL);
+    bool isDone = kiriCarry_Sheet(data, &R, kiriVec3_Load(translation), &world->retired);
+    KIRI_RETURN(isDone ? KIRI_OK : KIRI_ERROR_MEMORY);
 }
 
 kiriResult kiriSheet_SetVelocity(kiriWorld* world, kiriSheet sheet, const float velocity[3],
                                  const float angularVelocity[3])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_SHEET_SET_VELOCITY, &sheet, velocity, angularVelocity);
     KIRI_CHECK(velocity != NULL && kiriCall_AreFinite(velocity, 3), "velocity is null or not finite");
     KIRI_CHECK(angularVelocity != NULL && kiriCall_AreFinite(angularVelocity, 3),
                "angularVelocity is null or not finite");
     KIRI_FIND_SHEET(data, sheet);
     kiriCarry_SetVelocity(data, KIRI_NONE, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity));
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriFrame_SetPieceVelocity(kiriWorld* world, kiriFrame frame, const float velocity[3],
                                       const float angularVelocity[3])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_FRAME_SET_PIECE_VELOCITY, &frame, velocity, angularVelocity);
     KIRI_CHECK(velocity != NULL && kiriCall_AreFinite(velocity, 3), "velocity is null or not finite");
     KIRI_CHECK(angularVelocity != NULL && kiriCall_AreFinite(angularVelocity, 3),
                "angularVelocity is null or not finite");
     KIRI_FIND_FRAME_SHEET(sheet, frame);
     int32_t piece = sheet->layout.framePiece.data[kiriPool_Find(&world->frameIds, frame)->index];
     kiriCarry_SetVelocity(sheet, piece, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity));
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }

@@ -68,7 +68,7 @@ static bool ReserveContacts(kiriSheetData* data, int32_t count)
 
 kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriContact* contacts, int32_t count)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_SHEET_SET_CONTACTS, &sheet, contacts, &count);
     KIRI_CHECK(count == 0 || (count > 0 && contacts != NULL), "contacts is null, or count below 0");
     KIRI_FIND_SHEET(data, sheet);
     const char* why = FaultOfContacts(data, contacts, count);
@@ -83,7 +83,7 @@ kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriCo
     }
     data->contacts.count = count;
     data->rest.isIdle = data->rest.isIdle && count == 0;
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriSheet_GetContactForces(const kiriWorld* world, kiriSheet sheet, const kiriContactForce** forces,

@@ -3,7 +3,7 @@
 
 kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriCut* cut)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_BEGIN_CUT, &sheet, restPoint, cut);
     KIRI_CHECK(restPoint != NULL && kiriCall_AreFinite(restPoint, 2) && cut != NULL,
                "restPoint or cut is null, or not finite");
     *cut = 0;
@@ -15,12 +15,12 @@ kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint
     }
     kiriWorld_QueuePoint(world, made, kiriSheet_ToLocal(data, restPoint), true);
     *cut = made->id;
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints, int32_t count)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_CUT_EXTEND, &cut, restPoints, &count);
     KIRI_CHECK(restPoints != NULL && kiriCall_IsWithin(count, 1, 1 << 24),
                "restPoints is null, or count not within 1 and 16777216");
     KIRI_CHECK(kiriCall_AreFinite(restPoints, 2 * count), "a point is not finite");
@@ -35,18 +35,18 @@ kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints
     for (int32_t i = 0; i < count; ++i) {
         kiriWorld_QueuePoint(world, data, kiriSheet_ToLocal(sheet, &restPoints[2 * i]), false);
     }
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriCut_End(kiriWorld* world, kiriCut cut)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_CUT_END, &cut);
     KIRI_FIND_CUT(data, cut);
     if (data->ended) {
         return KIRI_FAIL(KIRI_ERROR_STATE, "the cut has been ended");
     }
     data->ended = true;
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 /* The ways of a cut along all lines of a section, and where each of them starts. */
@@ -90,7 +90,7 @@ static kiriResult QueueSlice(kiriWorld* world, kiriSheetData* sheet, const kiriV
 
 kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[12], kiriCut* cut)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_SHEET_SLICE, &sheet, blade, cut);
     KIRI_CHECK(blade != NULL && kiriCall_AreFinite(blade, 12) && cut != NULL, "blade or cut is null, or not finite");
     *cut = 0;
     KIRI_FIND_SHEET(data, sheet);

@@ -51,7 +51,7 @@ kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrame
 
 kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_FRAME_HOLD, &frame, position, rotation);
     KIRI_CHECK((position == NULL) == (rotation == NULL), "only one of position and rotation is null");
     kiriFrameData* data = FindFrame(world, frame);
     if (data == NULL) {
@@ -63,7 +63,7 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
             kiriMotion_WakeFrame(sheet, kiriPool_Find(&world->frameIds, frame)->index);
         }
         data->held = 0;
-        return KIRI_OK;
+        KIRI_RETURN(KIRI_OK);
     }
     KIRI_CHECK(kiriCall_AreFinite(position, 3), "position is not finite");
     const char* why = kiriCall_FaultOfRotation(sheet, rotation);
@@ -83,7 +83,7 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
         !kiriVec3_Equal(before.goalRotation.v, data->goalRotation.v)) {
         kiriMotion_WakeFrame(sheet, kiriPool_Find(&world->frameIds, frame)->index);
     }
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriFrame_GetReaction(const kiriWorld* world, kiriFrame frame, double force[3], double torque[3])

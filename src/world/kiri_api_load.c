@@ -18,7 +18,7 @@ static void WakeFor(kiriSheetData* sheet, int32_t frame, const float force[3], c
 
 kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3], const float torque[3])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_FRAME_APPLY_FORCE, &frame, force, torque);
     KIRI_CHECK(force != NULL && torque != NULL && kiriCall_AreFinite(force, 3) && kiriCall_AreFinite(torque, 3),
                "force or torque is null or not finite");
     KIRI_FIND_FRAME_SHEET(sheet, frame);
@@ -27,13 +27,13 @@ kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float f
     data->force = kiriVec3_Add(data->force, kiriVec3_Load(force));
     data->torque = kiriVec3_Add(data->torque, kiriVec3_Load(torque));
     WakeFor(sheet, index, force, torque);
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriSheet_ApplyForce(kiriWorld* world, kiriSheet sheet, const float restPoint[2], const float force[3],
                                 const float torque[3])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_SHEET_APPLY_FORCE, &sheet, restPoint, force, torque);
     KIRI_CHECK(restPoint != NULL && kiriCall_AreFinite(restPoint, 2), "restPoint is null or not finite");
     KIRI_CHECK(force != NULL && torque != NULL && kiriCall_AreFinite(force, 3) && kiriCall_AreFinite(torque, 3),
                "force or torque is null or not finite");
@@ -43,13 +43,13 @@ kiriResult kiriSheet_ApplyForce(kiriWorld* world, kiriSheet sheet, const float r
     KIRI_CHECK(frame != KIRI_NONE, "restPoint lies outside the material");
     kiriLoad_AtPoint(data, frame, kiriMesh_Local(&data->mesh, at), kiriVec3_Load(force), kiriVec3_Load(torque));
     WakeFor(data, frame, force, torque);
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriSheet_ApplyLineLoad(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
                                    const float forcePerLength[3])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_SHEET_APPLY_LINE_LOAD, &sheet, from, to, forcePerLength);
     KIRI_CHECK(forcePerLength != NULL && kiriCall_AreFinite(forcePerLength, 3), "forcePerLength is null or not finite");
     KIRI_FIND_SHEET(data, sheet);
     kiriLatticePoint ends[2];
@@ -63,24 +63,24 @@ kiriResult kiriSheet_ApplyLineLoad(kiriWorld* world, kiriSheet sheet, const floa
     for (int32_t k = 0; k < data->lineShares.count; ++k) {
         WakeFor(data, data->lineShares.data[k].frame, forcePerLength, forcePerLength);
     }
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriSheet_ApplyPressure(kiriWorld* world, kiriSheet sheet, float pressure)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_SHEET_APPLY_PRESSURE, &sheet, &pressure);
     KIRI_CHECK(kiriCall_AreFinite(&pressure, 1), "pressure is not finite");
     KIRI_FIND_SHEET(data, sheet);
     kiriLoad_OnSurface(data, pressure);
     if (pressure != 0.0f) {
         kiriMotion_Wake(data);
     }
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float restPoint[2], const float impulse[3])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_SHEET_APPLY_IMPULSE, &sheet, restPoint, impulse);
     KIRI_CHECK(restPoint != NULL && kiriCall_AreFinite(restPoint, 2), "restPoint is null or not finite");
     KIRI_CHECK(impulse != NULL && kiriCall_AreFinite(impulse, 3), "impulse is null or not finite");
     KIRI_FIND_SHEET(data, sheet);
@@ -93,7 +93,7 @@ kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float
         int32_t vertex = data->mesh.triangles.data[place.triangle].vertex[0];
         kiriMotion_WakePiece(data, kiriPiece_OfVertex(data, vertex));
     }
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 static const char* FaultOfWind(const kiriWind* wind)
@@ -109,7 +109,7 @@ static const char* FaultOfWind(const kiriWind* wind)
 
 kiriResult kiriSheet_SetWind(kiriWorld* world, kiriSheet sheet, const kiriWind* wind)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_SHEET_SET_WIND, &sheet, wind);
     KIRI_CHECK(wind != NULL, "wind is null");
     const char* why = FaultOfWind(wind);
     KIRI_CHECK(why == NULL, why);
@@ -121,5 +121,5 @@ kiriResult kiriSheet_SetWind(kiriWorld* world, kiriSheet sheet, const kiriWind* 
         data->settings.air = air;
         kiriMotion_Wake(data);
     }
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }

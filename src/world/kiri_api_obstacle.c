@@ -244,7 +244,7 @@ static kiriObstacleData* Make(kiriMemory* memory, const kiriObstacleDef* def)
 
 kiriResult kiriCreateObstacle(kiriWorld* world, const kiriObstacleDef* def, kiriObstacle* obstacle)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_CREATE_OBSTACLE, def, obstacle);
     KIRI_CHECK(def != NULL && obstacle != NULL, "def or obstacle is null");
     *obstacle = 0;
     if (def->cookie != KIRI_COOKIE(kiriObstacleDef)) {
@@ -259,15 +259,15 @@ kiriResult kiriCreateObstacle(kiriWorld* world, const kiriObstacleDef* def, kiri
     }
     kiriObstacles_Add(world, made);
     *obstacle = made->id;
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriDestroyObstacle(kiriWorld* world, kiriObstacle obstacle)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_DESTROY_OBSTACLE, &obstacle);
     KIRI_FIND_OBSTACLE(data, obstacle);
     kiriObstacles_Remove(world, data);
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 /* ---- Changes ------------------------------------------------------------------------------------------------------ */
@@ -275,47 +275,47 @@ kiriResult kiriDestroyObstacle(kiriWorld* world, kiriObstacle obstacle)
 kiriResult kiriObstacle_SetPose(kiriWorld* world, kiriObstacle obstacle, const float position[3],
                                 const float rotation[9])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_OBSTACLE_SET_POSE, &obstacle, position, rotation);
     const char* why = FaultOfPose(position, rotation);
     KIRI_CHECK(why == NULL, why);
     KIRI_FIND_OBSTACLE(data, obstacle);
     kiriObstacles_Put(world, data, kiriVec3_Load(position), LoadRotation(rotation));
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriObstacle_SetVelocity(kiriWorld* world, kiriObstacle obstacle, const float velocity[3],
                                     const float angularVelocity[3])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_OBSTACLE_SET_VELOCITY, &obstacle, velocity, angularVelocity);
     KIRI_CHECK(velocity != NULL && angularVelocity != NULL && kiriCall_AreFinite(velocity, 3) &&
                    kiriCall_AreFinite(angularVelocity, 3),
                "velocity or angularVelocity is null or not finite");
     KIRI_FIND_OBSTACLE(data, obstacle);
     data->velocity = kiriVec3_Load(velocity);
     data->spin = kiriVec3_Load(angularVelocity);
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriObstacle_SetSurfaceVelocity(kiriWorld* world, kiriObstacle obstacle, const float velocity[3])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_OBSTACLE_SET_SURFACE_VELOCITY, &obstacle, velocity);
     KIRI_CHECK(velocity != NULL && kiriCall_AreFinite(velocity, 3), "velocity is null or not finite");
     KIRI_FIND_OBSTACLE(data, obstacle);
     kiriVec3 surface = kiriVec3_Load(velocity);
     data->drift = kiriVec3_Equal(data->surface, surface) ? data->drift : KIRI_ENDLESS;
     data->surface = surface;
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriObstacle_SetMass(kiriWorld* world, kiriObstacle obstacle, float mass, const float inertia[6],
                                 const float centerOfMass[3])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_OBSTACLE_SET_MASS, &obstacle, &mass, inertia, centerOfMass);
     const char* why = FaultOfMass(mass, inertia, centerOfMass);
     KIRI_CHECK(why == NULL, why);
     KIRI_FIND_OBSTACLE(data, obstacle);
     SetMass(data, mass, inertia, centerOfMass);
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 /* ---- State -------------------------------------------------------------------------------------------------------- */

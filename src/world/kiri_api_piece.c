@@ -13,7 +13,7 @@
 
 kiriResult kiriSheet_GetPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceState* state)
 {
-    KIRI_CHANGES(world);
+    KIRI_PREPARES(world);
     KIRI_CHECK(state != NULL, "state is null");
     KIRI_FIND_SHEET(data, sheet);
     LIST_PIECES(data, piece);
@@ -23,7 +23,7 @@ kiriResult kiriSheet_GetPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, 
 
 kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceMesh* mesh)
 {
-    KIRI_CHANGES(world);
+    KIRI_PREPARES(world);
     KIRI_CHECK(mesh != NULL, "mesh is null");
     KIRI_FIND_SHEET(data, sheet);
     LIST_PIECES(data, piece);
@@ -46,7 +46,7 @@ kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, int32_t pie
 kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, int32_t piece, const kiriFrame** frames,
                                     int32_t* count)
 {
-    KIRI_CHANGES(world);
+    KIRI_PREPARES(world);
     KIRI_CHECK(frames != NULL && count != NULL, "frames or count is null");
     KIRI_FIND_SHEET(data, sheet);
     LIST_PIECES(data, piece);
@@ -76,28 +76,24 @@ static const char* FaultOfParting(kiriResult result)
     return result == KIRI_ERROR_STATE ? "the piece is all that is left of its sheet" : NULL;
 }
 
-#define RETURN_PARTING(result)                                                                                         \
-    do {                                                                                                               \
-        kiriResult outcome = (result);                                                                                 \
-        return outcome < 0 ? KIRI_FAIL(outcome, FaultOfParting(outcome)) : outcome;                                    \
-    } while (0)
-
 kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_FRAME_DETACH_PIECE, &frame, detached);
     KIRI_CHECK(detached != NULL, "detached is null");
     *detached = 0;
     KIRI_FIND_FRAME_SHEET(sheet, frame);
     (void)sheet;
-    RETURN_PARTING(kiriParts_Detach(world, &frame, 1, detached));
+    kiriResult result = kiriParts_Detach(world, &frame, 1, detached);
+    KIRI_RETURN_OR_SAY(result, FaultOfParting(result));
 }
 
 kiriResult kiriFrame_DestroyPiece(kiriWorld* world, kiriFrame frame)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_FRAME_DESTROY_PIECE, &frame);
     KIRI_FIND_FRAME_SHEET(sheet, frame);
     (void)sheet;
-    RETURN_PARTING(kiriParts_Destroy(world, &frame, 1));
+    kiriResult result = kiriParts_Destroy(world, &frame, 1);
+    KIRI_RETURN_OR_SAY(result, FaultOfParting(result));
 }
 
 static bool AreFrames(const kiriWorld* world, const kiriFrame* frames, int32_t count)
@@ -119,25 +115,27 @@ static bool AreFrames(const kiriWorld* world, const kiriFrame* frames, int32_t c
 
 kiriResult kiriWorld_DetachPieces(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* detached)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_WORLD_DETACH_PIECES, frames, &count, detached);
     KIRI_CHECK(count <= 0 || detached != NULL, "detached is null");
     for (int32_t i = 0; i < count; ++i) {
         detached[i] = 0;
     }
     CHECK_FRAMES(frames, count);
-    RETURN_PARTING(kiriParts_Detach(world, frames, count, detached));
+    kiriResult result = kiriParts_Detach(world, frames, count, detached);
+    KIRI_RETURN_OR_SAY(result, FaultOfParting(result));
 }
 
 kiriResult kiriWorld_DestroyPieces(kiriWorld* world, const kiriFrame* frames, int32_t count)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_WORLD_DESTROY_PIECES, frames, &count);
     CHECK_FRAMES(frames, count);
-    RETURN_PARTING(kiriParts_Destroy(world, frames, count));
+    kiriResult result = kiriParts_Destroy(world, frames, count);
+    KIRI_RETURN_OR_SAY(result, FaultOfParting(result));
 }
 
 kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_SHEET_DROP_CRUMBS, &sheet, &area, count);
     KIRI_CHECK(count != NULL && kiriCall_IsAtLeast(area, 0.0f), "count is null, or area not finite or below 0");
     KIRI_FIND_SHEET(data, sheet);
     KIRI_RETURN(kiriParts_DropCrumbs(world, data, area, count));

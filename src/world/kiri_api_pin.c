@@ -41,7 +41,7 @@ static kiriResult AddNewPin(kiriWorld* world, kiriSheetData* data, const kiriPin
 
 kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* def, kiriPin* pin)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_CREATE_PIN, &sheet, def, pin);
     KIRI_CHECK(def != NULL && pin != NULL, "def or pin is null");
     *pin = 0;
     if (def->cookie != KIRI_COOKIE(kiriPinDef)) {
@@ -67,7 +67,7 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
                          ? def->stiffness
                          : 10.0 * data->settings.material.youngsModulus * data->settings.material.thickness;
     kiriResult result = AddNewPin(world, data, &made, frame, pin);
-    return result == KIRI_OK ? KIRI_OK : KIRI_FAIL(result, NULL);
+    KIRI_RETURN(result);
 }
 
 /* ---- Lines -------------------------------------------------------------------------------------------------------- */
@@ -103,32 +103,32 @@ static kiriResult HoldLine(kiriWorld* world, kiriSheetData* data, int32_t type, 
 kiriResult kiriSheet_ClampLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
                                kiriPin* clamp)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_SHEET_CLAMP_LINE, &sheet, from, to, clamp);
     KIRI_CHECK(clamp != NULL, "clamp is null");
     *clamp = 0;
     KIRI_FIND_SHEET(data, sheet);
     const char* why;
     kiriResult result = HoldLine(world, data, KIRI_PIN_CLAMP, from, to, clamp, &why);
-    return result == KIRI_OK ? KIRI_OK : KIRI_FAIL(result, why);
+    KIRI_RETURN_OR_SAY(result, why);
 }
 
 kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
                                kiriPin* hinge)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_SHEET_HINGE_LINE, &sheet, from, to, hinge);
     KIRI_CHECK(hinge != NULL, "hinge is null");
     *hinge = 0;
     KIRI_FIND_SHEET(data, sheet);
     const char* why;
     kiriResult result = HoldLine(world, data, KIRI_PIN_HINGE, from, to, hinge, &why);
-    return result == KIRI_OK ? KIRI_OK : KIRI_FAIL(result, why);
+    KIRI_RETURN_OR_SAY(result, why);
 }
 
 /* ---- All pins ----------------------------------------------------------------------------------------------------- */
 
 kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_PIN_SET_TARGET, &pin, target);
     KIRI_CHECK(target != NULL && kiriCall_AreFinite(target, 3), "target is null or not finite");
     KIRI_FIND_PIN_SHEET(sheet, pin);
     kiriPinData* data = &sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index];
@@ -138,12 +138,12 @@ kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3
         kiriPins_ForgetHistory(sheet, (int32_t)(data - sheet->pins.data));
         kiriMotion_WakePin(sheet, (int32_t)(data - sheet->pins.data));
     }
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float target[3], const float rotation[9])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_PIN_SET_POSE, &pin, target, rotation);
     KIRI_CHECK(target != NULL && kiriCall_AreFinite(target, 3), "target is null or not finite");
     KIRI_CHECK(rotation != NULL && kiriCall_AreFinite(rotation, 9), "rotation is null or not finite");
     KIRI_FIND_PIN_SHEET(sheet, pin);
@@ -160,12 +160,12 @@ kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float target[3],
         kiriPins_ForgetHistory(sheet, (int32_t)(data - sheet->pins.data));
         kiriMotion_WakePin(sheet, (int32_t)(data - sheet->pins.data));
     }
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriPin_SetBreakForce(kiriWorld* world, kiriPin pin, float breakForce)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_PIN_SET_BREAK_FORCE, &pin, &breakForce);
     KIRI_CHECK(kiriCall_IsAtLeast(breakForce, 0.0f), "breakForce is not finite, or below 0");
     KIRI_FIND_PIN_SHEET(sheet, pin);
     kiriPinData* data = &sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index];
@@ -173,7 +173,7 @@ kiriResult kiriPin_SetBreakForce(kiriWorld* world, kiriPin pin, float breakForce
         data->breakForce = breakForce;
         kiriMotion_WakePin(sheet, (int32_t)(data - sheet->pins.data));
     }
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 static void StoreRest(const kiriSheetData* sheet, kiriLatticePoint at, float rest[2])
@@ -227,8 +227,8 @@ kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* p
 
 kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_DESTROY_PIN, &pin);
     KIRI_FIND_PIN_SHEET(sheet, pin);
     kiriWorld_RemovePin(world, sheet, kiriPool_Find(&world->pinIds, pin)->index);
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }

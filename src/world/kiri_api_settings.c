@@ -64,7 +64,7 @@ kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet sheet, kiriSh
 
 kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSheetSettings* settings)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_SHEET_SET_SETTINGS, &sheet, settings);
     KIRI_CHECK(settings != NULL, "settings is null");
     if (settings->cookie != KIRI_COOKIE(kiriSheetSettings)) {
         return KIRI_FAIL(KIRI_ERROR_DEF, "the settings were not filled by kiriSheet_GetSettings");
@@ -72,5 +72,5 @@ kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSh
     const char* why = kiriCall_FaultOfSettings(settings);
     KIRI_CHECK(why == NULL, why);
     KIRI_FIND_SHEET(data, sheet);
-    return kiriSettings_Change(data, settings) ? KIRI_OK : KIRI_FAIL(KIRI_ERROR_MEMORY, NULL);
+    KIRI_RETURN(kiriSettings_Change(data, settings) ? KIRI_OK : KIRI_ERROR_MEMORY);
 }

@@ -95,7 +95,7 @@ static const char* FaultOfSheet(const kiriSheetDef* def)
 
 kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_CREATE_SHEET, def, sheet);
     KIRI_CHECK(def != NULL && sheet != NULL, "def or sheet is null");
     *sheet = 0;
     if (def->cookie != KIRI_COOKIE(kiriSheetDef)) {
@@ -104,15 +104,15 @@ kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet*
     const char* why = FaultOfSheet(def);
     KIRI_CHECK(why == NULL, why);
     kiriResult result = kiriWorld_AddSheet(world, def, sheet, &why);
-    return result == KIRI_OK ? result : KIRI_FAIL(result, why);
+    KIRI_RETURN_OR_SAY(result, why);
 }
 
 kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_DESTROY_SHEET, &sheet);
     KIRI_FIND_SHEET(data, sheet);
     kiriWorld_RemoveSheet(world, data);
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions,

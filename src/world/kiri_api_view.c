@@ -38,7 +38,7 @@ kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t 
 /* The arrays are gone with the next tick. */
 kiriResult kiriSheet_GetSolid(kiriWorld* world, kiriSheet sheet, float thickness, kiriSolid* solid)
 {
-    KIRI_CHANGES(world);
+    KIRI_PREPARES(world);
     KIRI_CHECK(solid != NULL, "solid is null");
     KIRI_CHECK(kiriCall_IsAtLeast(thickness, 0.0f), "thickness is not finite, or below 0");
     KIRI_FIND_SHEET(data, sheet);
@@ -128,10 +128,10 @@ kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, int32_t* a
 
 kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_SHEET_WAKE, &sheet);
     KIRI_FIND_SHEET(data, sheet);
     kiriMotion_Wake(data);
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 /* ---- Rays ---- */

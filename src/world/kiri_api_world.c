@@ -36,6 +36,10 @@ const char* kiriGetResultName(kiriResult result)
         return "KIRI_ERROR_LIMIT";
     case KIRI_ERROR_BUILD:
         return "KIRI_ERROR_BUILD";
+    case KIRI_ERROR_DATA:
+        return "KIRI_ERROR_DATA";
+    case KIRI_ERROR_REPLAY:
+        return "KIRI_ERROR_REPLAY";
     default:
         return "unknown";
     }
@@ -54,6 +58,7 @@ void kiriDefaultWorldDef(kiriWorldDef* def)
         memset(def, 0, sizeof(*def));
         def->cookie = KIRI_COOKIE(kiriWorldDef);
         def->gravity[2] = -9.81f;
+        def->recordHashTicks = 60;
     }
 }
 
@@ -69,6 +74,9 @@ static const char* FaultOfWorld(const kiriWorldDef* def)
         !kiriCall_AreFinite(def->gravity, 3)) {
         return "kiriCreateWorld: only one of alloc and free is null, budget is out of range, or gravity is not finite "
                "(KIRI_ERROR_ARGUMENT)";
+    }
+    if (def->recordHashTicks < 0) {
+        return "kiriCreateWorld: recordHashTicks is below 0 (KIRI_ERROR_ARGUMENT)";
     }
     if ((def->startTask == NULL) != (def->finishTask == NULL) || !kiriCall_IsWithin(def->workerCount, 0, 1024)) {
         return "kiriCreateWorld: only one of startTask and finishTask is null, or workerCount is not within 0 and 1024 "
@@ -125,6 +133,7 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     kiriPool_Init(&made->pinIds, KIRI_KIND_PIN);
     kiriPool_Init(&made->obstacleIds, KIRI_KIND_OBSTACLE);
     kiriPool_Init(&made->bladeIds, KIRI_KIND_BLADE);
+    kiriRecord_Start(made, def);
     *world = made;
     return KIRI_OK;
 }
@@ -134,6 +143,7 @@ void kiriDestroyWorld(kiriWorld* world)
     if (world == NULL) {
         return;
     }
+    kiriRecord_Stop(world);
     while (world->sheets.count > 0) {
         kiriWorld_RemoveSheet(world, world->sheets.data[world->sheets.count - 1]);
     }
@@ -144,7 +154,7 @@ void kiriDestroyWorld(kiriWorld* world)
 
 kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_WORLD_TICK, &dt, &substeps, NULL);
     KIRI_CHECK(kiriCall_IsAtLeast(dt, 1e-6f) && dt <= 10.0f, "dt is not within 1e-6 and 10 s");
     KIRI_CHECK(kiriCall_IsWithin(substeps, 1, 64), "substeps is not within 1 and 64");
     kiriResult result = kiriWorld_Advance(world, dt, substeps);
@@ -164,22 +174,42 @@ const char* kiriWorld_GetLastError(const kiriWorld* world)
 
 kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3])
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_WORLD_SET_GRAVITY, gravity);
     KIRI_CHECK(gravity != NULL && kiriCall_AreFinite(gravity, 3), "gravity is null or not finite");
     kiriVec3 before = world->gravity;
     world->gravity = kiriVec3_Load(gravity);
     for (int32_t i = 0; i < world->sheets.count && !kiriVec3_Equal(before, world->gravity); ++i) {
         kiriMotion_Wake(world->sheets.data[i]);
     }
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget)
 {
-    KIRI_CHANGES(world);
+    KIRI_CHANGES(world, KIRI_CALL_WORLD_SET_BUDGET, budget);
     KIRI_CHECK(budget != NULL && IsBudget(budget),
                "budget is null, or below 0, or its triangles below KIRI_LEAST_TRIANGLES");
     world->budget = *budget;
+    KIRI_RETURN(KIRI_OK);
+}
+
+/* The recording has it; the world itself does not care. */
+kiriResult kiriWorld_Note(kiriWorld* world, const void* bytes, int32_t count)
+{
+    KIRI_CHANGES(world, KIRI_CALL_WORLD_NOTE, bytes, &count);
+    KIRI_CHECK(bytes != NULL && kiriCall_IsWithin(count, 1, KIRI_MOST_NOTE_BYTES),
+               "bytes is null, or count not within 1 and 1048576");
+    KIRI_RETURN(KIRI_OK);
+}
+
+kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheets, int32_t capacity, int32_t* count)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(count != NULL && (capacity == 0 || (capacity > 0 && sheets != NULL)), "count is null, or sheets is");
+    for (int32_t i = 0; i < world->sheets.count && i < capacity; ++i) {
+        sheets[i] = world->sheets.data[i]->id;
+    }
+    *count = world->sheets.count;
     return KIRI_OK;
 }
 

@@ -3,7 +3,7 @@
 #ifndef KIRI_CALL_H
 #define KIRI_CALL_H
 
-#include "kiri_world.h"
+#include "kiri_record.h"
 
 KIRI_C_BEGIN
 
@@ -12,9 +12,21 @@ enum { KIRI_LINE_BYTES = sizeof(((kiriWorld*)NULL)->errorLine) };
 /* The defs are stamped with their size, so that a def of another version, or a forgotten default, is found out. */
 #define KIRI_COOKIE(Type) (0x4b000000u | (uint32_t)sizeof(Type))
 
-/* A function that changes the world keeps its line there; one that only reads gives it to the log alone, so that several
-   threads may read. Without a world there is only the code. */
-#define KIRI_CHANGES(world)                                                                                            \
+/* How a public function begins: one that changes the world, with its number and its arguments for the recording, those
+   that go by value by their address; one that only makes what somebody looks at, so that no tick depends on it; one that
+   only reads. The first two keep their line in the world, the last one gives it to the log alone, so that several threads
+   may read. Without a world there is only the code. */
+#define KIRI_CHANGES(world, number, ...)                                                                               \
+    KIRI_PREPARES_ANY(world);                                                                                          \
+    const void* const callArguments[] = { __VA_ARGS__ };                                                               \
+    const kiriCall thisCall = { (world), (number), callArguments };                                                    \
+    const kiriCall* record = (world)->recorder.sink.write != NULL ? kiriRecord_Begin(&thisCall) : NULL
+
+#define KIRI_PREPARES(world)                                                                                           \
+    KIRI_PREPARES_ANY(world);                                                                                          \
+    const kiriCall* record = NULL
+
+#define KIRI_PREPARES_ANY(world)                                                                                       \
     if ((world) == NULL) {                                                                                             \
         return KIRI_ERROR_ARGUMENT;                                                                                    \
     }                                                                                                                  \
@@ -25,15 +37,18 @@ enum { KIRI_LINE_BYTES = sizeof(((kiriWorld*)NULL)->errorLine) };
     if ((world) == NULL) {                                                                                             \
         return KIRI_ERROR_ARGUMENT;                                                                                    \
     }                                                                                                                  \
-    char line[KIRI_LINE_BYTES]
+    char line[KIRI_LINE_BYTES];                                                                                        \
+    const kiriCall* record = NULL
 
-/* Every function returns through here or with a result that is no error. `why` null: the result says it all. */
-#define KIRI_FAIL(result, why) kiriCall_Fail(world, line, result, __func__, why)
-#define KIRI_RETURN(result)                                                                                            \
+/* Every function that is recorded returns through these; others also with a result that is no error. `why` null: the
+   result says it all. */
+#define KIRI_FAIL(result, why) kiriCall_End(record, kiriCall_Fail(world, line, result, __func__, why))
+#define KIRI_RETURN_OR_SAY(result, why)                                                                                \
     do {                                                                                                               \
         kiriResult outcome = (result);                                                                                 \
-        return outcome < 0 ? KIRI_FAIL(outcome, NULL) : outcome;                                                       \
+        return outcome < 0 ? KIRI_FAIL(outcome, why) : kiriCall_End(record, outcome);                                  \
     } while (0)
+#define KIRI_RETURN(result) KIRI_RETURN_OR_SAY(result, NULL)
 
 #define KIRI_CHECK(condition, why)                                                                                     \
     do {                                                                                                               \
@@ -59,6 +74,14 @@ enum { KIRI_LINE_BYTES = sizeof(((kiriWorld*)NULL)->errorLine) };
 #define KIRI_FIND_BLADE(pointer, id) KIRI_FIND(kiriBladeData, pointer, bladeIds, id, "blade")
 
 kiriResult kiriCall_Fail(const kiriWorld* world, char* line, kiriResult result, const char* function, const char* why);
+
+static inline kiriResult kiriCall_End(const kiriCall* record, kiriResult result)
+{
+    if (record != NULL) {
+        kiriRecord_End(record, result);
+    }
+    return result;
+}
 
 /* Null for an id that names nothing in the pool. */
 void* kiriCall_Owner(const kiriPool* pool, uint32_t id);

@@ -7,6 +7,7 @@
 #include "../sheet/kiri_sheet.h"
 
 #include "kiri_pair_data.h"
+#include "kiri_recorder.h"
 
 KIRI_C_BEGIN
 
@@ -41,6 +42,7 @@ struct kiriWorld {
     kiriLogFn* log;
     kiriClockFn* clock;
     kiriTasks tasks;
+    kiriRecorder recorder;
     void* user;
     kiriVec3 gravity;
     kiriBudget budget;

@@ -14,7 +14,7 @@ are those of the header; this file only turns ids into objects, results into exc
 
 Arrays that come back are copies: they outlive ticks, pieces, sheets and the world. Threads may share a world: a call
 that changes it waits until no other runs, calls that only read run side by side. The functions given to World (alloc,
-free, log, clock) run inside of such a call, and what they call on their own world fails with KIRI_ERROR_STATE. What
+free, log, clock, record) run inside of such a call, and what they call on their own world fails with KIRI_ERROR_STATE. What
 they raise is raised by that call when it is done; until then it goes on as if they had returned None, or 0.
 World(executor=ThreadPoolExecutor(4), workerCount=4) lends the threads of an executor to its ticks.
 
@@ -304,7 +304,7 @@ class _Threads:
 
 
 class World:
-    """Fields of kiriWorldDef by name, and an executor."""
+    """Fields of kiriWorldDef by name, and an executor. `record` gets bytes: a file's write will do."""
 
     _world = ffi.NULL
 
@@ -317,6 +317,8 @@ class World:
         self.lib = load(library)
         fields["log"] = self._make_log(self._said, fields.get("log"))
         self._lend(executor, fields)
+        if fields.get("record") and not isinstance(fields["record"], ffi.CData):
+            fields["record"] = self._make_record(fields["record"])
         world = ffi.new("kiriWorld**")
         result = self.lib.kiriCreateWorld(_definition(self, "kiriWorldDef", fields, self._kept), world)
         self._world = world[0]
@@ -335,6 +337,12 @@ class World:
 
     def __reduce__(self):
         raise TypeError("a world cannot be copied")
+
+    @staticmethod
+    def _make_record(write):
+        def record(user, pointer, count):
+            write(ffi.buffer(pointer, count)[:])
+        return record
 
     @staticmethod
     def _make_log(said, forward):
@@ -435,6 +443,25 @@ class World:
     def state_hash(self):
         return self.get("kiriWorld_GetStateHash", "uint64_t")
 
+    def sheets(self):
+        count = self.get("kiriWorld_GetSheets", "int32_t", ffi.NULL, 0)
+        sheets = ffi.new("kiriSheet[]", max(count, 1))
+        count = min(count, self.get("kiriWorld_GetSheets", "int32_t", sheets, count))
+        return [Sheet(self, sheets[i]) for i in range(count)]
+
+    def note(self, note):
+        """Bytes for the recording, which replays find."""
+        note = bytes(memoryview(note))
+        self.call("kiriWorld_Note", note, len(note))
+
+    def replay(self, recording):
+        """Makes the calls of a recording. Yields after each tick None, and each note as bytes. A call that goes otherwise
+        than recorded, and a damaged recording, raise KiriError."""
+        recording = bytes(memoryview(recording))
+        at = ffi.new("kiriReplay*")
+        while self.call("kiriWorld_Replay", ffi.from_buffer(recording), len(recording), at) == KIRI_PENDING:
+            yield ffi.buffer(at.note, at.noteCount)[:] if at.note != ffi.NULL else None
+
     def profile(self):
         return _record(self.get("kiriWorld_GetProfile", "kiriProfile"))
 
@@ -443,7 +470,8 @@ class World:
                               "kiriEvent")
 
     def detach_pieces(self, frames):
-        """The pieces of these frames as sheets, None for those that wait: see Frame.detach_piece. In one pass."""
+        """The pieces of these frames as sheets, None for those that wait: see Frame.detach_piece. In one pass;
+        frames of one piece have the same."""
         ids = [self.id_of(frame, Frame) for frame in frames]
         made = ffi.new("kiriSheet[]", max(len(ids), 1))
         self.call("kiriWorld_DetachPieces", ffi.new("kiriFrame[]", ids), len(ids), made)

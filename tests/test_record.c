@@ -1,0 +1,778 @@
+/* Recordings: what is recorded, and what comes of it when it is replayed. */
+#include "storm.h"
+#include "tape.h"
+
+#include "world/kiri_record.h"
+
+#include <stdio.h>
+
+/* ---- A storm ------------------------------------------------------------------------------------------------------ */
+
+enum { STORM_TICKS = 12 };
+
+static const StormType storms[] = {
+    { .name = "links", .obstacles = true, .touches = true, .sheets = 3 },
+    { .name = "smooth", .skinning = KIRI_SKINNING_SMOOTH, .obstacles = true, .sheets = 2 },
+    { .name = "affine", .model = KIRI_MODEL_AFFINE, .obstacles = true, .sheets = 1 },
+    { .name = "points", .model = KIRI_MODEL_POINTS, .sheets = 1 },
+    { .name = "planar", .planar = true, .timeStepping = KIRI_TIME_STEPPING_EULER, .sheets = 2 },
+    { .name = "budget", .touches = true, .sheets = 3, .budget = { 64, 400, 100, 8 } },
+};
+
+static void StartStorm(Storm* storm, Tape* tape, const StormType* type)
+{
+    memset(storm, 0, sizeof *storm);
+    storm->type = type;
+    storm->seed = 7 + (uint32_t)(type - storms);
+    kiriWorldDef def = Tape_Def(tape);
+    def.budget = type->budget;
+    OK(kiriCreateWorld(&def, &tape->host.world));
+    storm->world = tape->host.world;
+    for (int32_t i = 0; i < type->sheets; i++) {
+        Storm_AddSheet(storm);
+    }
+    for (int32_t i = 0; type->obstacles && i < STORM_OBSTACLES; i++) {
+        Storm_AddObstacle(storm);
+    }
+}
+
+/* With looks at all that can be seen: they are not in the recording, and nothing depends on them. Nobody validates it:
+   where settings changed, regions are marked until the next cut. */
+static void RecordStorm(Tape* tape, const StormType* type, uint64_t hashes[STORM_TICKS])
+{
+    Storm storm;
+    StartStorm(&storm, tape, type);
+    for (int32_t tick = 0; tick < STORM_TICKS; tick++) {
+        for (uint32_t acts = 4 + Storm_Random(&storm, 4); acts > 0; acts--) {
+            Storm_Act(&storm);
+        }
+        kiriWorld_Tick(storm.world, 1.0f / 60.0f, 1 + (int32_t)Storm_Random(&storm, 3));
+        Storm_HashSeen(&storm);
+        hashes[tick] = Host_Hash(&tape->host);
+    }
+    Host_Destroy(&tape->host);
+}
+
+static void TestStorm(void** state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof storms / sizeof storms[0]; i++) {
+        Tape tape, again;
+        uint64_t hashes[STORM_TICKS];
+        RecordStorm(&tape, &storms[i], hashes);
+        Tape_Start(&again);
+        for (int32_t tick = 0; tick < STORM_TICKS; tick++) {
+            assert_int_equal(Tape_Step(&again, &tape), KIRI_PENDING);
+            assert_int_equal(again.replay.ticks, tick + 1);
+            assert_true(Host_Hash(&again.host) == hashes[tick]);
+        }
+        OK(Tape_Step(&again, &tape));
+        assert_int_equal(again.replay.offset, tape.size);
+        Host_Destroy(&again.host);
+        if (storms[i].budget.cells == 0) { /* the def of the replaying world is the recorded one's */
+            assert_int_equal(again.size, tape.size);
+            assert_memory_equal(again.bytes, tape.bytes, (size_t)tape.size);
+        }
+        Tape_Free(&again);
+        Tape_Free(&tape);
+    }
+}
+
+/* ---- Each call ---------------------------------------------------------------------------------------------------- */
+
+static const float zero[3] = { 0.0f, 0.0f, 0.0f }, up[3] = { 0.0f, 0.0f, 1.0f };
+static const float axes[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+static const float middle[2] = { 0.5f, 0.5f };
+
+static kiriSheet AddSheet(Tape* tape, float z)
+{
+    kiriSheetDef def = Host_SmallDef();
+    def.position[2] = z;
+    return Host_AddRectangle(&tape->host, &def, 1.0f, 1.0f, 4, 4);
+}
+
+static kiriFrame FrameAt(const Tape* tape, kiriSheet sheet, float u, float v)
+{
+    const float point[2] = { u, v };
+    kiriPointState state;
+    OK(kiriSheet_GetPoint(tape->host.world, sheet, point, &state));
+    return state.frame;
+}
+
+static void Tick(Tape* tape)
+{
+    assert_true(Host_Tick(&tape->host, 1.0f / 60.0f, 2) >= 0);
+}
+
+/* From side to side in the direction of v. */
+static void Part(Tape* tape, kiriSheet sheet, float u)
+{
+    const float points[4] = { u, -0.1f, u + 0.01f, 1.1f };
+    Host_Cut(&tape->host, sheet, points, 2);
+    Tick(tape);
+}
+
+static void TakeParts(Tape* tape, kiriSheet sheet)
+{
+    kiriWorld* world = tape->host.world;
+    kiriSheet detached[2];
+    int32_t count;
+    for (int i = 1; i < 6; i++) {
+        Part(tape, sheet, 0.15f * (float)i);
+    }
+    OK(kiriFrame_DetachPiece(world, FrameAt(tape, sheet, 0.05f, 0.5f), &detached[0]));
+    OK(kiriFrame_DestroyPiece(world, FrameAt(tape, sheet, 0.95f, 0.5f)));
+    kiriFrame frames[2] = { FrameAt(tape, sheet, 0.25f, 0.5f), FrameAt(tape, sheet, 0.7f, 0.5f) };
+    OK(kiriWorld_DetachPieces(world, frames, 2, detached));
+    frames[0] = FrameAt(tape, sheet, 0.4f, 0.5f);
+    OK(kiriWorld_DestroyPieces(world, frames, 1));
+    OK(kiriSheet_DropCrumbs(world, detached[0], 0.001f, &count));
+    Tick(tape);
+}
+
+static void Slash(Tape* tape, kiriSheet sheet)
+{
+    kiriWorld* world = tape->host.world;
+    static const float swept[12] = { 0.5f, -1.0f, -9.0f, 0.5f, -1.0f, 9.0f, 0.5f, 0.6f, 9.0f, 0.5f, 0.6f, -9.0f };
+    static const float edges[4][3] = {
+        { 0.2f, -1.0f, 9.0f }, { 0.2f, -1.0f, -9.0f }, { 0.2f, 0.5f, 9.0f }, { 0.2f, 0.5f, -9.0f }
+    };
+    static const float origin[3] = { 0.2f, 0.7f, 9.0f }, down[3] = { 0.0f, 0.0f, -1.0f };
+    kiriBlade blade;
+    kiriCut cut;
+    OK(kiriSheet_Slice(world, sheet, swept, &cut));
+    OK(kiriBeginBlade(world, 0, &blade));
+    OK(kiriBlade_MoveEdge(world, blade, edges[0], edges[1]));
+    OK(kiriBlade_MoveEdge(world, blade, edges[2], edges[3]));
+    OK(kiriBlade_MoveRay(world, blade, origin, down, 18.0f));
+    OK(kiriBlade_End(world, blade));
+    Tick(tape);
+}
+
+static void HoldAndLoad(Tape* tape, kiriSheet sheet)
+{
+    kiriWorld* world = tape->host.world;
+    const float force[3] = { 0.01f, 0.0f, 0.02f }, from[2] = { 0.1f, 0.8f }, to[2] = { 0.9f, 0.8f };
+    kiriFrame frame = FrameAt(tape, sheet, 0.9f, 0.9f);
+    kiriFrameState state;
+    const kiriWind wind = { { 1.0f, 0.5f, 0.2f }, 1.2f, 1.1f, 0.1f };
+    kiriContact contact = { -1, { 0.4f, 0.4f }, { 0.0f, 0.0f, 1.0f }, -0.1f, { 0 }, 0.5f, 0.0f, 0.0f, 3 };
+    OK(kiriFrame_GetState(world, frame, &state));
+    OK(kiriFrame_Hold(world, frame, state.position, axes));
+    OK(kiriFrame_ApplyForce(world, FrameAt(tape, sheet, 0.1f, 0.9f), force, zero));
+    OK(kiriSheet_ApplyForce(world, sheet, from, force, zero));
+    OK(kiriSheet_ApplyLineLoad(world, sheet, from, to, force));
+    OK(kiriSheet_ApplyPressure(world, sheet, -0.5f));
+    OK(kiriSheet_ApplyImpulse(world, sheet, to, force));
+    OK(kiriSheet_SetWind(world, sheet, &wind));
+    OK(kiriSheet_SetContacts(world, sheet, &contact, 1));
+    Tick(tape);
+    OK(kiriFrame_Hold(world, frame, NULL, NULL));
+}
+
+static void Pin(Tape* tape, kiriSheet sheet, kiriObstacle obstacle)
+{
+    kiriWorld* world = tape->host.world;
+    const float from[2] = { 0.1f, 0.8f }, to[2] = { 0.4f, 0.8f };
+    kiriPin pins[3];
+    kiriPinState state;
+    kiriPinDef def;
+    kiriDefaultPinDef(&def);
+    def.restPoint[0] = def.restPoint[1] = 0.1f;
+    def.target[0] = def.target[1] = 0.1f;
+    def.stiffness = 20.0f;
+    def.obstacle = obstacle;
+    OK(kiriCreatePin(world, sheet, &def, &pins[0]));
+    OK(kiriSheet_ClampLine(world, sheet, from, to, &pins[1]));
+    OK(kiriSheet_HingeLine(world, sheet, from, to, &pins[2]));
+    Tick(tape);
+    OK(kiriPin_GetState(world, pins[1], &state));
+    state.target[2] += 0.01f;
+    OK(kiriPin_SetTarget(world, pins[0], up));
+    OK(kiriPin_SetPose(world, pins[1], state.target, state.rotation));
+    OK(kiriPin_SetBreakForce(world, pins[0], 3.0f));
+    OK(kiriPin_SetUserData(world, pins[2], UINT64_MAX));
+    Tick(tape);
+    OK(kiriDestroyPin(world, pins[1]));
+}
+
+static kiriObstacle Obstruct(Tape* tape)
+{
+    static const float outline[8] = { -1.0f, -1.0f, 1.0f, -1.0f, 1.0f, 1.0f, -1.0f, 1.0f };
+    static const float inertia[6] = { 1.0f, 1.0f, 1.0f, 0.0f, 0.0f, 0.0f }, below[3] = { 0.5f, 0.5f, -0.3f };
+    kiriWorld* world = tape->host.world;
+    kiriObstacleDef def;
+    kiriObstacle obstacle, other;
+    kiriDefaultObstacleDef(&def);
+    def.type = KIRI_OBSTACLE_PRISM;
+    def.outline = outline;
+    def.outlineCount = 4;
+    def.height = 0.1f;
+    OK(kiriCreateObstacle(world, &def, &obstacle));
+    def.type = KIRI_OBSTACLE_SPHERE;
+    def.outline = (const float*)(const void*)&def; /* no outline: nobody may read it */
+    def.radius = 0.1f;
+    OK(kiriCreateObstacle(world, &def, &other));
+    OK(kiriObstacle_SetPose(world, obstacle, below, axes));
+    OK(kiriObstacle_SetVelocity(world, obstacle, up, zero));
+    OK(kiriObstacle_SetSurfaceVelocity(world, obstacle, up));
+    OK(kiriObstacle_SetMass(world, obstacle, 2.0f, inertia, zero));
+    OK(kiriDestroyObstacle(world, other));
+    return obstacle;
+}
+
+static void Change(Tape* tape, kiriSheet sheet)
+{
+    kiriWorld* world = tape->host.world;
+    const float gravity[3] = { 0.0f, 0.1f, -5.0f }, way[3] = { 0.0f, 0.0f, 0.1f };
+    const kiriBudget budget = { 1000, 100000, 100000, 1000 };
+    kiriSheetSettings settings;
+    OK(kiriSheet_GetSettings(world, sheet, &settings));
+    settings.friction = 0.25f;
+    OK(kiriSheet_SetSettings(world, sheet, &settings));
+    OK(kiriWorld_SetGravity(world, gravity));
+    OK(kiriWorld_SetBudget(world, &budget));
+    OK(kiriSheet_Wake(world, sheet));
+    OK(kiriSheet_Transform(world, sheet, axes, way));
+    OK(kiriSheet_SetVelocity(world, sheet, up, zero));
+    OK(kiriFrame_SetPieceVelocity(world, FrameAt(tape, sheet, 0.5f, 0.1f), zero, up));
+    OK(kiriSheet_SetUserData(world, sheet, 12345678901234567u));
+    OK(kiriFrame_SetPieceUserData(world, FrameAt(tape, sheet, 0.5f, 0.1f), 1));
+    OK(kiriWorld_Note(world, "a note", 6));
+    Tick(tape);
+}
+
+static void Refuse(Tape* tape, kiriSheet sheet)
+{
+    kiriWorld* world = tape->host.world;
+    const float nan[3] = { 0.0f, NAN, 0.0f };
+    kiriSheetDef def;
+    kiriSheet made;
+    kiriCut cut;
+    kiriDefaultSheetDef(&def);
+    assert_int_equal(kiriCreateSheet(world, &def, &made), KIRI_ERROR_ARGUMENT);
+    def.vertexCount = -1;
+    def.restPositions = (const float*)(const void*)&def; /* nobody may read it */
+    def.indices = (const int32_t*)(const void*)&def;
+    def.triangleCount = INT32_MAX;
+    assert_int_equal(kiriCreateSheet(world, &def, &made), KIRI_ERROR_ARGUMENT);
+    memset(&def, 0x5a, sizeof def);
+    assert_int_equal(kiriCreateSheet(world, &def, &made), KIRI_ERROR_DEF);
+    assert_int_equal(kiriCreateSheet(world, NULL, &made), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriCreateSheet(world, &def, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriBeginCut(world, sheet + 100, middle, &cut), KIRI_ERROR_ID);
+    assert_int_equal(kiriBeginCut(world, sheet, middle, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriCut_Extend(world, UINT32_MAX, middle, INT32_MAX), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriCut_Extend(world, 0, middle, 1), KIRI_ERROR_ID);
+    assert_int_equal(kiriWorld_SetGravity(world, nan), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_SetGravity(world, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_DetachPieces(world, NULL, 2, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_DetachPieces(world, NULL, -2, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_DestroyPieces(world, &sheet, 1), KIRI_ERROR_ID);
+    assert_int_equal(kiriSheet_SetContacts(world, sheet, NULL, 1), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_Note(world, NULL, 3), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_Tick(world, -1.0f, 1), KIRI_ERROR_ARGUMENT);
+}
+
+/* Every call that there is succeeds, and some fail. */
+static void RecordAll(Tape* tape)
+{
+    Tape_Start(tape);
+    kiriSheet sheet = AddSheet(tape, 0.0f), other = AddSheet(tape, 0.5f);
+    kiriObstacle obstacle = Obstruct(tape);
+    TakeParts(tape, other);
+    Slash(tape, sheet);
+    HoldAndLoad(tape, sheet);
+    Pin(tape, sheet, obstacle);
+    Change(tape, sheet);
+    Refuse(tape, sheet);
+    OK(kiriDestroySheet(tape->host.world, other));
+    Tick(tape);
+    Tape_Stop(tape);
+}
+
+static void TestAll(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    RecordAll(&tape);
+    Tape_Start(&again);
+    OK(Tape_Play(&again, &tape));
+    Tape_Stop(&again);
+    assert_int_equal(again.size, tape.size);
+    assert_memory_equal(again.bytes, tape.bytes, (size_t)tape.size);
+    Tape_Free(&again);
+    Tape_Free(&tape);
+}
+
+/* ---- What is in it ------------------------------------------------------------------------------------------------ */
+
+/* How often each call succeeded in a recording. */
+static void CountCalls(const Tape* tape, int32_t counts[KIRI_CALL_COUNT])
+{
+    kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
+    kiriCoder coder = { NULL, tape->bytes + KIRI_RECORD_MAGIC_BYTES, tape->bytes + tape->size, &memory,
+                        KIRI_CODER_FINE };
+    uint64_t number = 0;
+    kiriCoder_Unsigned(&coder, &number); /* versions */
+    kiriCoder_Unsigned(&coder, &number);
+    while (coder.at != coder.end) {
+        const void* arguments[KIRI_RECORD_ARGUMENTS] = { NULL };
+        kiriRecordValue values[KIRI_RECORD_ARGUMENTS];
+        uint64_t nulls = 0;
+        kiriResult result = 0;
+        memset(values, 0, sizeof values);
+        kiriCoder_Unsigned(&coder, &number);
+        if (number & 1) {
+            kiriCoder_Unsigned(&coder, &nulls);
+        }
+        const kiriRecordCall* call = kiriRecord_Find(number >> 1);
+        assert_non_null(call);
+        kiriRecord_CodeArguments(&coder, call, arguments, values, nulls);
+        kiriRecord_CodeOutcome(&coder, call, arguments, &result);
+        assert_int_equal(coder.fault, KIRI_CODER_FINE);
+        counts[number >> 1] += result >= 0;
+        kiriMemory_FreeAll(&memory);
+    }
+}
+
+static void TestAllCallsAreRecorded(void** state)
+{
+    (void)state;
+    Tape tape;
+    int32_t counts[KIRI_CALL_COUNT] = { 0 };
+    RecordAll(&tape);
+    CountCalls(&tape, counts);
+    for (uint64_t number = 0; number < KIRI_CALL_COUNT; number++) {
+        const kiriRecordCall* call = kiriRecord_Find(number);
+        if (call != NULL && counts[number] == 0) {
+            fail_msg("%s is not in the recording of all calls", call->name);
+        }
+    }
+    Tape_Free(&tape);
+}
+
+static bool IsInTable(const char* name)
+{
+    for (uint64_t number = 0; number < KIRI_CALL_COUNT; number++) {
+        const kiriRecordCall* call = kiriRecord_Find(number);
+        if (call != NULL && strcmp(call->name, name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* These take a world that is not const, and no tick depends on them. */
+static bool IsLook(const char* name)
+{
+    static const char* const looks[] = { "kiriSheet_GetSolid", "kiriSheet_GetPiece", "kiriSheet_GetPieceMesh",
+                                         "kiriSheet_GetPieceFrames", "kiriWorld_Replay" };
+    for (size_t i = 0; i < sizeof looks / sizeof looks[0]; i++) {
+        if (strcmp(looks[i], name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void TestHeaderAndTableAgree(void** state)
+{
+    (void)state;
+    FILE* header = fopen("include/kiri/kiri.h", "r");
+    assert_non_null(header);
+    char line[512], name[128];
+    int32_t found = 0;
+    while (fgets(line, sizeof line, header) != NULL) {
+        if (sscanf(line, "KIRI_API kiriResult %127[A-Za-z_](kiriWorld* world", name) != 1 ||
+            strstr(line, "(kiriWorld* world") == NULL) {
+            continue;
+        }
+        found++;
+        if (IsInTable(name) == IsLook(name)) {
+            fail_msg("%s is to be in kiri_record_table.c, or in IsLook", name);
+        }
+    }
+    fclose(header);
+    assert_true(found >= 50);
+}
+
+/* Every byte of a def is recorded, but for its cookie, pointers and padding. */
+static void CheckStruct(const char* name, const kiriRecordStruct* of)
+{
+    bool covered[1024] = { false };
+    for (int32_t i = 0; i < of->fieldCount; i++) {
+        const kiriRecordField* field = &of->fields[i];
+        bool isPointer = field->kind >= KIRI_FIELD_FLOATS_AT;
+        for (int32_t k = 0; k < (isPointer ? (int32_t)sizeof(void*) : 4 * field->count); k++) {
+            assert_false(covered[field->offset + k]);
+            covered[field->offset + k] = true;
+        }
+    }
+    int32_t left = 0;
+    for (int32_t i = of->cookie != 0 ? 4 : 0; i < of->bytes; i++) {
+        left += !covered[i];
+    }
+    /* Padding: before the first pointer, and at the end. */
+    if (left % 4 != 0 || left > (name[4] == 'C' ? 8 : 0)) {
+        fail_msg("%s: %d bytes of its struct are in no field", name, left);
+    }
+}
+
+static void TestAllFieldsAreRecorded(void** state)
+{
+    (void)state;
+    int32_t found = 0;
+    for (uint64_t number = 0; number < KIRI_CALL_COUNT; number++) {
+        const kiriRecordCall* call = kiriRecord_Find(number);
+        for (int i = 0; call != NULL && i < KIRI_RECORD_ARGUMENTS; i++) {
+            if (call->arguments[i].of != NULL) {
+                CheckStruct(call->name, call->arguments[i].of);
+                found++;
+            }
+        }
+    }
+    assert_int_equal(found, 8);
+}
+
+/* ---- Small recordings --------------------------------------------------------------------------------------------- */
+
+/* A sheet falls on a floor while it is cut. */
+static void RecordSmall(Tape* tape)
+{
+    static const float way[8] = { 0.3f, -0.1f, 0.5f, 0.5f, 0.4f, 0.8f, 0.2f, 1.1f };
+    kiriObstacleDef floor;
+    kiriObstacle obstacle;
+    Tape_Start(tape);
+    kiriDefaultObstacleDef(&floor);
+    floor.position[2] = -0.01f;
+    OK(kiriCreateObstacle(tape->host.world, &floor, &obstacle));
+    kiriSheet sheet = AddSheet(tape, 0.0f);
+    Tick(tape);
+    Host_Cut(&tape->host, sheet, way, 4);
+    Tick(tape);
+    OK(kiriWorld_Note(tape->host.world, "hello", 5));
+    Tick(tape);
+    Tape_Stop(tape);
+}
+
+static void TestSize(void** state)
+{
+    (void)state;
+    Tape tape;
+    float stroke[200];
+    for (int i = 0; i < 200; i++) {
+        stroke[i] = 0.005f * (float)i;
+    }
+    Tape_Start(&tape);
+    kiriSheet sheet = AddSheet(&tape, 0.0f);
+    assert_true(tape.size < 700); /* 25 vertices, 32 triangles */
+    int64_t before = tape.size;
+    Host_Cut(&tape.host, sheet, stroke, 100);
+    assert_in_range(tape.size - before, 800, 830);
+    before = tape.size;
+    Tick(&tape);
+    assert_in_range(tape.size - before, 7, 16);
+    Tape_Stop(&tape);
+    Tape_Free(&tape);
+}
+
+static void TestNotes(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    RecordSmall(&tape);
+    Tape_Start(&again);
+    for (int tick = 1; tick <= 2; tick++) {
+        assert_int_equal(Tape_Step(&again, &tape), KIRI_PENDING);
+        assert_null(again.replay.note);
+    }
+    assert_int_equal(Tape_Step(&again, &tape), KIRI_PENDING);
+    assert_int_equal(again.replay.ticks, 2);
+    assert_int_equal(again.replay.noteCount, 5);
+    assert_memory_equal(again.replay.note, "hello", 5);
+    assert_int_equal(Tape_Step(&again, &tape), KIRI_PENDING);
+    assert_null(again.replay.note);
+    OK(Tape_Step(&again, &tape));
+    OK(Tape_Step(&again, &tape)); /* the end stays the end */
+    kiriSheet sheets[2];
+    int32_t count;
+    OK(kiriWorld_GetSheets(again.host.world, sheets, 2, &count));
+    assert_int_equal(count, 1);
+    assert_int_equal(Host_Counts(&again.host, sheets[0]).pieces, 2);
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    Tape_Free(&tape);
+}
+
+/* A world that records allocates as one that does not. */
+static void TestNoMemory(void** state)
+{
+    (void)state;
+    int64_t calls[2];
+    for (int records = 0; records < 2; records++) {
+        Tape tape;
+        kiriWorldDef def = Tape_Def(&tape);
+        def.record = records ? Tape_Write : NULL;
+        OK(kiriCreateWorld(&def, &tape.host.world));
+        kiriSheet sheet = AddSheet(&tape, 0.0f);
+        Part(&tape, sheet, 0.5f);
+        OK(kiriWorld_Note(tape.host.world, "hello", 5));
+        calls[records] = tape.host.calls;
+        Tape_Stop(&tape);
+        Tape_Free(&tape);
+    }
+    assert_int_equal(calls[0], calls[1]);
+}
+
+static void TestMisuse(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    kiriReplay replay = { 0 };
+    kiriWorldDef def = Tape_Def(&again);
+    def.recordHashTicks = -1;
+    assert_int_equal(kiriCreateWorld(&def, &again.host.world), KIRI_ERROR_ARGUMENT);
+    RecordSmall(&tape);
+    Tape_Start(&again);
+    kiriWorld* world = again.host.world;
+    assert_int_equal(kiriWorld_Replay(NULL, tape.bytes, tape.size, &replay), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_Replay(world, NULL, tape.size, &replay), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_Replay(world, tape.bytes, -1, &replay), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_Replay(world, tape.bytes, tape.size, NULL), KIRI_ERROR_ARGUMENT);
+    replay.offset = tape.size + 1;
+    assert_int_equal(kiriWorld_Replay(world, tape.bytes, tape.size, &replay), KIRI_ERROR_ARGUMENT);
+    replay.offset = -1;
+    assert_int_equal(kiriWorld_Replay(world, tape.bytes, tape.size, &replay), KIRI_ERROR_ARGUMENT);
+    replay.offset = 0;
+    assert_int_equal(kiriWorld_Replay(world, "", 0, &replay), KIRI_ERROR_DATA);
+    assert_int_equal(kiriWorld_Replay(world, "something else than a recording", 31, &replay), KIRI_ERROR_DATA);
+    assert_int_equal(replay.offset, 0);
+    AddSheet(&again, 0.0f);
+    assert_int_equal(kiriWorld_Replay(world, tape.bytes, tape.size, &replay), KIRI_ERROR_STATE);
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    Tape_Free(&tape);
+}
+
+/* ---- Differences -------------------------------------------------------------------------------------------------- */
+
+enum { VERSION_BYTE = KIRI_RECORD_MAGIC_BYTES, GRAVITY_BYTE = KIRI_RECORD_MAGIC_BYTES + 4 };
+
+/* Replays with one byte changed; the line. */
+static kiriResult PlayChanged(const Tape* tape, int64_t byte, uint8_t flips, Tape* again)
+{
+    Tape_Start(again);
+    tape->bytes[byte] ^= flips;
+    kiriResult result = Tape_Play(again, tape);
+    return result;
+}
+
+static void TestAnotherGravity(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    RecordSmall(&tape);
+    assert_int_equal(PlayChanged(&tape, GRAVITY_BYTE + 10, 1, &again), KIRI_ERROR_REPLAY);
+    assert_int_equal(again.replay.ticks, 1);
+    assert_non_null(strstr(again.host.line, "kiriWorld_Tick in tick 1, leads to another state"));
+    assert_int_equal(Tape_Step(&again, &tape), KIRI_ERROR_REPLAY); /* goes on, and still differs */
+    assert_int_equal(again.replay.ticks, 2);
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    Tape_Free(&tape);
+}
+
+static void TestNewerVersions(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    RecordSmall(&tape);
+    assert_int_equal(PlayChanged(&tape, VERSION_BYTE, 3, &again), KIRI_ERROR_DATA);
+    assert_non_null(strstr(again.host.line, "later version"));
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    tape.bytes[VERSION_BYTE] ^= 3;
+    /* A def with more fields than there are. */
+    assert_int_equal(PlayChanged(&tape, GRAVITY_BYTE + 12, 2, &again), KIRI_ERROR_DATA);
+    assert_non_null(strstr(again.host.line, "later version"));
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    Tape_Free(&tape);
+}
+
+static void TestAnotherResult(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    Tape_Start(&tape);
+    kiriSheet sheet = AddSheet(&tape, 0.0f);
+    OK(kiriSheet_Wake(tape.host.world, sheet));
+    int64_t resultByte = tape.size - 1;
+    Tick(&tape);
+    Tape_Stop(&tape);
+    assert_int_equal(PlayChanged(&tape, resultByte, 4, &again), KIRI_ERROR_REPLAY);
+    assert_non_null(strstr(again.host.line, "call 3, kiriSheet_Wake in tick 0, gives another result than recorded"));
+    assert_int_equal(Tape_Step(&again, &tape), KIRI_PENDING);
+    OK(Tape_Step(&again, &tape));
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    tape.bytes[resultByte] ^= 4;
+    /* The id of the sheet, before the call that wakes it: its number, its argument, its result. */
+    assert_int_equal(PlayChanged(&tape, resultByte - 3, 64, &again), KIRI_ERROR_REPLAY);
+    assert_non_null(strstr(again.host.line, "kiriCreateSheet in tick 0, makes other ids than recorded"));
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    Tape_Free(&tape);
+}
+
+/* ---- Damage ------------------------------------------------------------------------------------------------------- */
+
+/* The end of one call is a good end; within a call it is none. */
+static void TestCutShort(void** state)
+{
+    (void)state;
+    Tape tape;
+    int32_t whole = 0, within = 0;
+    RecordSmall(&tape);
+    int64_t size = tape.size;
+    for (tape.size = 1; tape.size < size; tape.size += tape.size < size - 150 ? 7 : 1) {
+        Tape again;
+        Tape_Start(&again);
+        kiriResult result = Tape_Play(&again, &tape);
+        whole += result == KIRI_OK;
+        within += strstr(again.host.line, "is the last one: the recording ends within it") != NULL;
+        assert_true(result == KIRI_OK || result == KIRI_ERROR_DATA);
+        Tape_Stop(&again);
+        Tape_Free(&again);
+    }
+    assert_in_range(whole, 5, 20);
+    assert_in_range(within, 5, 20);
+    Tape_Free(&tape);
+}
+
+static void TestFlippedBits(void** state)
+{
+    (void)state;
+    Tape tape;
+    uint32_t seed = 5;
+    int32_t noticed = 0, tried = 0;
+    RecordSmall(&tape);
+    for (int64_t byte = 0; byte < tape.size; byte += 1 + Random(&seed) % 3, tried++) {
+        uint8_t flips = (uint8_t)(1u << Random(&seed) % 8);
+        Tape again;
+        noticed += PlayChanged(&tape, byte, flips, &again) < 0;
+        tape.bytes[byte] ^= flips;
+        Tape_Stop(&again);
+        Tape_Free(&again);
+    }
+    assert_true(noticed > tried / 2);
+    Tape_Free(&tape);
+}
+
+/* Entries of nonsense after a good start. */
+static void TestGarbage(void** state)
+{
+    (void)state;
+    Tape tape;
+    uint32_t seed = 11;
+    RecordSmall(&tape);
+    for (int round = 0; round < 300; round++) {
+        Tape again;
+        int64_t from = GRAVITY_BYTE + 12 + Random(&seed) % (uint32_t)(tape.size - GRAVITY_BYTE - 12);
+        Tape broken = tape;
+        broken.bytes = malloc((size_t)tape.size);
+        memcpy(broken.bytes, tape.bytes, (size_t)tape.size);
+        for (int64_t i = from; i < from + 24 && i < tape.size; i++) {
+            broken.bytes[i] = (uint8_t)(Random(&seed) % 4 == 0 ? 0xff : Random(&seed));
+        }
+        Tape_Start(&again);
+        assert_true(Tape_Play(&again, &broken) <= 0);
+        Tape_Stop(&again);
+        Tape_Free(&again);
+        free(broken.bytes);
+    }
+    Tape_Free(&tape);
+}
+
+/* ---- Memory ------------------------------------------------------------------------------------------------------- */
+
+/* Each allocation of a replay is refused once; it goes on, and ends as recorded. */
+static void TestRefusedReplay(void** state)
+{
+    (void)state;
+    Tape tape;
+    bool isDone = false;
+    RecordSmall(&tape);
+    for (int64_t failAt = 1; !isDone; failAt += failAt < 100 ? 1 : 13) {
+        Tape again;
+        Tape_Start(&again);
+        again.host.failAt = failAt;
+        again.host.failOnce = true;
+        kiriResult result = Tape_Play(&again, &tape);
+        isDone = result == KIRI_OK;
+        if (!isDone) {
+            assert_int_equal(result, KIRI_ERROR_MEMORY);
+            OK(Tape_Play(&again, &tape));
+        }
+        Tape_Stop(&again);
+        Tape_Free(&again);
+    }
+    Tape_Free(&tape);
+}
+
+/* What was refused memory when it was recorded is left out. */
+static void TestRecordedRefusals(void** state)
+{
+    (void)state;
+    static const float way[4] = { 0.3f, -0.1f, 0.5f, 1.5f };
+    for (int64_t failAt = 1; failAt < 400; failAt += 7) {
+        Tape tape, again;
+        Tape_Start(&tape);
+        tape.host.failAt = failAt;
+        tape.host.failOnce = true;
+        kiriSheet sheet = 0;
+        kiriSheetDef def = Host_SmallDef();
+        while (Host_TryRectangle(&tape.host, &def, 1.0f, 1.0f, 4, 4, &sheet) == KIRI_ERROR_MEMORY) {
+        }
+        kiriCut cut = 0;
+        while (kiriBeginCut(tape.host.world, sheet, way, &cut) == KIRI_ERROR_MEMORY) {
+        }
+        while (kiriCut_Extend(tape.host.world, cut, way + 2, 1) == KIRI_ERROR_MEMORY) {
+        }
+        OK(kiriCut_End(tape.host.world, cut));
+        while (Host_Tick(&tape.host, 0.01f, 1) == KIRI_ERROR_MEMORY) {
+        }
+        Tick(&tape);
+        Tape_Stop(&tape);
+        Tape_Start(&again);
+        OK(Tape_Play(&again, &tape));
+        Tape_Stop(&again);
+        Tape_Free(&again);
+        Tape_Free(&tape);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestStorm),
+        cmocka_unit_test(TestAll),
+        cmocka_unit_test(TestAllCallsAreRecorded),
+        cmocka_unit_test(TestHeaderAndTableAgree),
+        cmocka_unit_test(TestAllFieldsAreRecorded),
+        cmocka_unit_test(TestSize),
+        cmocka_unit_test(TestNotes),
+        cmocka_unit_test(TestNoMemory),
+        cmocka_unit_test(TestMisuse),
+        cmocka_unit_test(TestAnotherGravity),
+        cmocka_unit_test(TestNewerVersions),
+        cmocka_unit_test(TestAnotherResult),
+        cmocka_unit_test(TestCutShort),
+        cmocka_unit_test(TestFlippedBits),
+        cmocka_unit_test(TestGarbage),
+        cmocka_unit_test(TestRefusedReplay),
+        cmocka_unit_test(TestRecordedRefusals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
