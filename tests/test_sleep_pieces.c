@@ -542,6 +542,48 @@ static void TestFloorBearsSleepers(void** state)
     Host_Stop(&host);
 }
 
+/* What a table bears of strips that sleep follows the length of the tick, and where its centre of mass is: it is moved too
+   little to wake anybody. */
+static void TestWhatSleepersPressWith(void** state)
+{
+    (void)state;
+    static const float down[3] = { 0.0f, 0.0f, -9.81f }, eye[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    float at[3] = { 0.5f, 0.5f, -0.1f };
+    Host host;
+    kiriSheetDef def = StripsDef();
+    kiriObstacleDef tableDef;
+    kiriObstacle table;
+    kiriObstacleState is[3];
+    def.position[2] = 0.001f;
+    Host_Start(&host);
+    kiriSheet sheet = AddStrips(&host, &def);
+    kiriDefaultObstacleDef(&tableDef);
+    tableDef.type = KIRI_OBSTACLE_BOX;
+    tableDef.size[0] = tableDef.size[1] = 3.0f;
+    tableDef.size[2] = 0.2f;
+    memcpy(tableDef.position, at, sizeof(at));
+    OK(kiriCreateObstacle(host.world, &tableDef, &table));
+    OK(kiriWorld_SetGravity(host.world, down));
+    SleepAll(&host, sheet);
+    for (int k = 0; k < 3; ++k) {
+        OK(Host_Tick(&host, k == 1 ? 0.5f * dt : dt, 2));
+        OK(kiriObstacle_GetState(host.world, table, &is[k]));
+        at[0] += k == 1 ? 1e-4f : 0.0f;
+        OK(kiriObstacle_SetPose(host.world, table, at, eye));
+    }
+    assert_int_equal(Awake(&host, sheet), 0);
+    assert_true(fabs(-is[0].impulse[2] / (9.81 * Host_Totals(&host, sheet).mass * (double)dt) - 1.0) < 0.02);
+    for (int k = 0; k < 3; ++k) {
+        double turn = is[0].angularImpulse[k] + (k == 1 ? 1e-4 * is[0].impulse[2] : 0.0);
+        assert_true(fabs(is[1].impulse[k] - 0.5 * is[0].impulse[k]) < 1e-12);
+        assert_true(fabs(is[2].impulse[k] - is[0].impulse[k]) < 1e-12);
+        assert_true(fabs(is[1].angularImpulse[k] - 0.5 * is[0].angularImpulse[k]) < 1e-12);
+        assert_true(fabs(is[2].angularImpulse[k] - turn) < 1e-3 * 1e-4 * fabs(is[0].impulse[2]));
+    }
+    assert_true(is[0].contacts > 0 && is[1].contacts == is[0].contacts && is[2].contacts == is[0].contacts);
+    Host_Stop(&host);
+}
+
 /* ---- Pieces that touch ---- */
 
 /* The first strip is carried over the second, and laid down there. */
@@ -695,6 +737,7 @@ int main(void)
         cmocka_unit_test(TestObstacleGoes),
         cmocka_unit_test(TestObstacleBesideHoles),
         cmocka_unit_test(TestFloorBearsSleepers),
+        cmocka_unit_test(TestWhatSleepersPressWith),
         cmocka_unit_test(TestPiecesThatTouch),
         cmocka_unit_test(TestDetachAsleep),
         cmocka_unit_test(TestRefused),

@@ -295,13 +295,16 @@ static bool Check_Pins(Check* check, const kiriSheetData* sheet)
 
 static bool Check_TouchMemory(Check* check, const kiriSheetData* sheet, const kiriTouchMemory* memory)
 {
+    int32_t given = 0;
     for (int32_t k = 0; k < memory->touches.count; ++k) {
         int32_t point = memory->touches.data[k].point;
+        given += memory->touches.data[k].key >> 60 == KIRI_TOUCH_HOST;
         REQUIRE(point == KIRI_NONE || IsIndex(point, sheet->points.count), "touch %d is of point %d", k, point);
     }
     for (int32_t k = 1; k < memory->forces.count; ++k) {
         REQUIRE(memory->forces.data[k - 1].key <= memory->forces.data[k].key, "force %d is out of order", k);
     }
+    REQUIRE(memory->given == given, "%d contacts of the host are counted as %d", given, memory->given);
     REQUIRE(memory->forces.count <= memory->touches.count, "%d forces of %d touches", memory->forces.count,
             memory->touches.count);
     return true;

@@ -219,7 +219,7 @@ static void KeepContacts(const kiriKept* kept, kiriSheetData* sheet)
 static void KeepTouches(const kiriRemoval* removal, kiriTouchMemory* memory, const kiriVec3* forces)
 {
     int32_t count = memory->touches.count;
-    memory->touches.count = memory->forces.count = 0;
+    memory->touches.count = memory->forces.count = memory->given = 0;
     for (int32_t i = 0; i < count; ++i) {
         kiriTouch touch = memory->touches.data[i];
         if (kiriKept_FollowTouch(&removal->kept, &touch)) {
@@ -244,6 +244,7 @@ static void KeepState(kiriRemoval* removal)
     int32_t last = sheet->touches.last.touches.count;
     KeepTouches(removal, &sheet->touches.last, removal->forces.data);
     KeepTouches(removal, &sheet->touches.slept, removal->forces.data + last);
+    sheet->touches.rests.areSummed = false;
     kiriFades_Keep(&sheet->seen.fades, &kept->vertices);
     kiriFades_Keep(&sheet->seen.pointFades, &kept->points);
     u->samples.oldVertices = sheet->mesh.vertices.count;

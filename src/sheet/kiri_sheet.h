@@ -228,7 +228,23 @@ typedef struct kiriTouchForce {
 typedef struct kiriTouchMemory {
     KIRI_ARRAY(kiriTouch) touches;
     KIRI_ARRAY(kiriTouchForce) forces;
+    int32_t given; /* of the touches: contacts of the host */
 } kiriTouchMemory;
+
+/* What pieces that sleep press with on an obstacle in a tick. */
+typedef struct kiriRestLoad {
+    int32_t slot;       /* of the obstacle */
+    int32_t contacts;   /* that press */
+    kiriVec3 center;    /* of mass of the obstacle, then */
+    kiriWrench impulse; /* N s, N m s about it, on the obstacle */
+} kiriRestLoad;
+
+/* The sums are kept: they change only where a piece falls asleep or wakes, or the obstacle moves. */
+typedef struct kiriRestLoads {
+    KIRI_ARRAY(kiriRestLoad) on;
+    double dt;      /* s: of the tick that they were summed for */
+    bool areSummed; /* they are those of what sleeps now */
+} kiriRestLoads;
 
 /* See kiri_touch.h. */
 typedef struct kiriTouches {
@@ -237,6 +253,7 @@ typedef struct kiriTouches {
     KIRI_ARRAY(kiriContactRow) rows;       /* and the rows of those whose pieces are awake */
     kiriTouchMemory last;                  /* of the last tick that moved the sheet */
     kiriTouchMemory slept;                 /* of pieces that sleep: of the last tick that moved them */
+    kiriRestLoads rests;                   /* what these press with on obstacles */
     KIRI_ARRAY(int32_t) order;             /* scratch */
     bool isShort;                          /* there was no room to find those of obstacles */
     KIRI_ARRAY(kiriContactForce) told;     /* what the host reads, of the contacts that it gave; */

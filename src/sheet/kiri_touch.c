@@ -113,6 +113,11 @@ static bool AddGiven(kiriSheetData* sheet, const kiriGivenContact* given)
     return FindYieldOf(sheet, contact, &touch.yield) && kiriTouches_Add(sheet, &touch);
 }
 
+static bool IsOfKind(const kiriTouch* touch, int32_t kind)
+{
+    return touch->key >> 60 == (uint64_t)kind;
+}
+
 bool kiriTouches_Begin(kiriSheetData* sheet)
 {
     bool ok = true;
@@ -307,6 +312,7 @@ kiriVec3 kiriTouches_ForceOf(const kiriSheetData* sheet, uint64_t key)
 void kiriTouchMemory_Add(kiriTouchMemory* memory, const kiriTouch* touch, kiriVec3 force)
 {
     KIRI_ASSERT(memory->touches.count < memory->touches.capacity);
+    memory->given += IsOfKind(touch, KIRI_TOUCH_HOST);
     memory->touches.data[memory->touches.count] = *touch;
     memory->touches.data[memory->touches.count++].force = force;
     if (kiriVec3_Dot(force, force) > 0.0) {
@@ -347,17 +353,18 @@ void kiriTouches_End(kiriSheetData* sheet)
 {
     kiriTouches* touches = &sheet->touches;
     SortForces(touches);
-    touches->last.touches.count = 0;
+    touches->last.touches.count = touches->last.given = 0;
     for (int32_t i = 0; i < touches->found.count; ++i) {
         if (touches->found.data[i].row != KIRI_NONE) {
             touches->last.touches.data[touches->last.touches.count++] = touches->found.data[i];
+            touches->last.given += IsOfKind(&touches->found.data[i], KIRI_TOUCH_HOST);
         }
     }
 }
 
 void kiriTouches_Clear(kiriSheetData* sheet)
 {
-    sheet->touches.last.forces.count = sheet->touches.last.touches.count = 0;
+    sheet->touches.last.forces.count = sheet->touches.last.touches.count = sheet->touches.last.given = 0;
     sheet->touches.rows.count = 0;
     for (int32_t i = 0; i < sheet->touches.found.count; ++i) {
         sheet->touches.found.data[i].row = KIRI_NONE;
@@ -382,7 +389,7 @@ static kiriVec3 TakeForce(kiriTouchMemory* memory, uint64_t key)
 /* Those of pieces that sleep, or of the others, go over; and those of pieces that are gone go. */
 static void MoveTouches(const kiriSheetData* sheet, kiriTouchMemory* from, kiriTouchMemory* to, bool areAsleep)
 {
-    int32_t kept = 0;
+    int32_t kept = 0, given = 0;
     for (int32_t i = 0; i < from->touches.count; ++i) {
         kiriTouch touch = from->touches.data[i];
         const kiriPiece* piece = PieceOfTouch(sheet, &touch);
@@ -392,13 +399,16 @@ static void MoveTouches(const kiriSheetData* sheet, kiriTouchMemory* from, kiriT
             kiriTouchMemory_Add(to, &touch, TakeForce(from, touch.key));
         } else {
             from->touches.data[kept++] = touch;
+            given += IsOfKind(&touch, KIRI_TOUCH_HOST);
         }
     }
     from->touches.count = kept;
+    from->given = given;
 }
 
 void kiriTouches_Sort(kiriSheetData* sheet)
 {
+    sheet->touches.rests.areSummed = false;
     MoveTouches(sheet, &sheet->touches.last, &sheet->touches.slept, true);
     MoveTouches(sheet, &sheet->touches.slept, &sheet->touches.last, false);
 }
@@ -412,11 +422,6 @@ static bool IsSame(const kiriSheetData* sheet, const kiriTouch* a, const kiriTou
     return a->key == b->key && a->friction == b->friction && kiriVec3_Length(tilt) <= CALM_SLOPE &&
            fabs(rise) <= KIRI_CALM_SECONDS * sheet->settings.sleepSpeed &&
            kiriVec3_Length(faster) <= sheet->settings.sleepSpeed;
-}
-
-static bool IsOfKind(const kiriTouch* touch, int32_t kind)
-{
-    return touch->key >> 60 == (uint64_t)kind;
 }
 
 /* Of all that are found, then of those of the last tick, then of those of pieces that sleep. */
@@ -470,6 +475,9 @@ static bool AreSame(const kiriSheetData* sheet, const int32_t* order, int32_t co
 bool kiriTouches_NextNew(kiriSheetData* sheet, int32_t* at, int32_t* piece)
 {
     const kiriTouches* touches = &sheet->touches;
+    if (sheet->contacts.count + touches->last.given + touches->slept.given == 0) {
+        return false;
+    }
     if (*at == 0) {
         ListCalm(sheet);
     }

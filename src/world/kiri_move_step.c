@@ -94,7 +94,7 @@ typedef struct MoveTask {
 /* What moves by it is of one group; what does not gets it when all are moved, in the order of sheets. */
 static void GiveImpulses(const MoveTask* task, int32_t i, bool areMovable)
 {
-    const kiriSheetData* sheet = task->world->sheets.data[i];
+    kiriSheetData* sheet = task->world->sheets.data[i];
     kiriObstacles_TakeImpulses(task->world, sheet, task->dt, areMovable);
     if (task->world->moves.of.data[i].progress != KIRI_MORE) {
         kiriPinStep_End(task->world, sheet, task->dt, areMovable);

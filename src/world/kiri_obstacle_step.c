@@ -22,6 +22,9 @@ void kiriObstacles_Add(kiriWorld* world, kiriObstacleData* obstacle)
 {
     world->obstacles.data[world->obstacles.count++] = obstacle;
     obstacle->id = kiriPool_Add(&world->obstacleIds, &world->memory, obstacle, 0);
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        world->sheets.data[i]->touches.rests.areSummed = false; /* its slot may have been that of another */
+    }
 }
 
 /* ---- What rests near them ----------------------------------------------------------------------------------------- */
@@ -400,35 +403,104 @@ kiriObstacleData* kiriObstacles_OwnerOf(const kiriWorld* world, uint64_t key)
                : NULL;
 }
 
-/* What sheets give in a tick. */
-typedef struct Giving {
-    const kiriWorld* world;
-    bool areMovable; /* obstacles that get it */
-} Giving;
-
-static void Give(const Giving* giving, uint64_t key, kiriVec3 normal, kiriVec3 impulse, kiriVec3 at)
+bool kiriObstacles_ReserveRests(const kiriWorld* world, kiriSheetData* sheet)
 {
-    kiriObstacleData* obstacle = kiriObstacles_OwnerOf(giving->world, key);
-    if (obstacle != NULL && kiriObstacle_IsMovable(obstacle) == giving->areMovable &&
-        kiriVec3_Dot(impulse, normal) > 0.0) {
-        kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-1.0, impulse), at);
+    int32_t touches = sheet->touches.last.touches.count + sheet->touches.slept.touches.count;
+    int32_t most = touches < world->obstacles.count ? touches : world->obstacles.count;
+    return kiriArray_Reserve(sheet->memory, &sheet->touches.rests.on, most);
+}
+
+/* Touches of one obstacle come after each other, mostly. */
+static kiriRestLoad* RestLoadOn(kiriRestLoads* rests, int32_t slot, kiriVec3 center)
+{
+    for (int32_t k = rests->on.count - 1; k >= 0; --k) {
+        if (rests->on.data[k].slot == slot) {
+            return &rests->on.data[k];
+        }
+    }
+    KIRI_ASSERT(rests->on.count < rests->on.capacity);
+    kiriRestLoad* load = &rests->on.data[rests->on.count++];
+    memset(load, 0, sizeof(*load));
+    load->slot = slot;
+    load->center = center;
+    return load;
+}
+
+static void AddToRests(const kiriWorld* world, kiriRestLoads* rests, const kiriTouch* touch)
+{
+    const kiriObstacleData* obstacle = kiriObstacles_OwnerOf(world, touch->key);
+    kiriVec3 impulse = kiriVec3_Scale(rests->dt, touch->force);
+    if (obstacle != NULL && kiriVec3_Dot(impulse, touch->normal) > 0.0) {
+        kiriVec3 center = kiriObstacle_CenterOfMass(obstacle), back = kiriVec3_Scale(-1.0, impulse);
+        kiriRestLoad* load = RestLoadOn(rests, kiriObstacle_SlotOfKey(touch->key), center);
+        kiriVec3 turn = kiriVec3_Cross(kiriVec3_Sub(touch->seen, center), back);
+        load->impulse.force = kiriVec3_Add(load->impulse.force, back);
+        load->impulse.moment = kiriVec3_Add(load->impulse.moment, turn);
+        load->contacts += 1;
+    }
+}
+
+static kiriObstacleData* OwnerOfSlot(const kiriWorld* world, int32_t slot)
+{
+    return world->obstacleIds.slots.data[slot].owner;
+}
+
+static bool AreRestsSummed(const kiriWorld* world, const kiriRestLoads* rests, double dt)
+{
+    bool are = rests->areSummed && rests->dt == dt;
+    for (int32_t k = 0; are && k < rests->on.count; ++k) {
+        const kiriObstacleData* obstacle = OwnerOfSlot(world, rests->on.data[k].slot);
+        kiriVec3 was = rests->on.data[k].center, is = obstacle != NULL ? kiriObstacle_CenterOfMass(obstacle) : was;
+        are = obstacle != NULL && was.x == is.x && was.y == is.y && was.z == is.z;
+    }
+    return are;
+}
+
+/* Of each sheet by itself, so that the sums can be kept. */
+static void SumRests(const kiriWorld* world, kiriSheetData* sheet, double dt)
+{
+    kiriRestLoads* rests = &sheet->touches.rests;
+    if (!AreRestsSummed(world, rests, dt)) {
+        rests->on.count = 0;
+        rests->dt = dt;
+        rests->areSummed = true;
+        for (int32_t i = 0; i < sheet->touches.slept.touches.count; ++i) {
+            AddToRests(world, rests, &sheet->touches.slept.touches.data[i]);
+        }
+    }
+}
+
+static void GiveRests(const kiriWorld* world, const kiriRestLoads* rests, bool areMovable)
+{
+    for (int32_t k = 0; k < rests->on.count; ++k) {
+        const kiriRestLoad* load = &rests->on.data[k];
+        kiriObstacleData* obstacle = OwnerOfSlot(world, load->slot);
+        if (kiriObstacle_IsMovable(obstacle) == areMovable) {
+            kiriWrench_Add(&obstacle->impulse, 1.0, &load->impulse);
+            obstacle->contacts += load->contacts;
+        }
+    }
+}
+
+static void GiveRow(const kiriWorld* world, const kiriContactRow* row, kiriVec3 at, bool areMovable)
+{
+    kiriObstacleData* obstacle = kiriObstacles_OwnerOf(world, row->key);
+    if (obstacle != NULL && kiriObstacle_IsMovable(obstacle) == areMovable &&
+        kiriVec3_Dot(row->impulse, row->normal) > 0.0) {
+        kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-1.0, row->impulse), at);
         obstacle->contacts += 1;
     }
 }
 
-void kiriObstacles_TakeImpulses(const kiriWorld* world, const kiriSheetData* sheet, double dt, bool areMovable)
+void kiriObstacles_TakeImpulses(const kiriWorld* world, kiriSheetData* sheet, double dt, bool areMovable)
 {
-    const Giving giving = { world, areMovable };
     const kiriTouches* touches = &sheet->touches;
-    for (int32_t i = 0; i < touches->slept.touches.count; ++i) {
-        const kiriTouch* touch = &touches->slept.touches.data[i];
-        Give(&giving, touch->key, touch->normal, kiriVec3_Scale(dt, touch->force), touch->seen);
-    }
+    SumRests(world, sheet, dt);
+    GiveRests(world, &touches->rests, areMovable);
     for (int32_t i = 0; i < touches->found.count; ++i) {
         const kiriTouch* touch = &touches->found.data[i];
         if (touch->row != KIRI_NONE) {
-            const kiriContactRow* row = &touches->rows.data[touch->row];
-            Give(&giving, row->key, row->normal, row->impulse, touch->seen);
+            GiveRow(world, &touches->rows.data[touch->row], touch->seen, areMovable);
         }
     }
 }

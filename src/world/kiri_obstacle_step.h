@@ -28,6 +28,9 @@ kiriObstacleData* kiriObstacles_OwnerOf(const kiriWorld* world, uint64_t key);
    nothing has changed. */
 bool kiriObstacles_FindTouches(kiriWorld* world, double dt);
 
+/* Room for what pieces of the sheet that sleep press with. False for memory. */
+bool kiriObstacles_ReserveRests(const kiriWorld* world, kiriSheetData* sheet);
+
 /* The tick is not refused: nothing has been given yet, and sheets wake. */
 void kiriObstacles_Begin(kiriWorld* world);
 
@@ -35,7 +38,7 @@ void kiriObstacles_Begin(kiriWorld* world);
 void kiriObstacles_LoadYields(const kiriWorld* world, kiriSheetData* sheet);
 
 /* After it, or while it sleeps: obstacles that it may move, or the others, take what it gave them. */
-void kiriObstacles_TakeImpulses(const kiriWorld* world, const kiriSheetData* sheet, double dt, bool areMovable);
+void kiriObstacles_TakeImpulses(const kiriWorld* world, kiriSheetData* sheet, double dt, bool areMovable);
 
 /* They go on with their velocities. */
 void kiriObstacles_End(kiriWorld* world, double dt);

@@ -178,7 +178,8 @@ static bool FindTouches(kiriWorld* world, double dt)
         ListActive(world); /* one may have come near a sheet that sleeps */
     }
     for (int32_t k = 0; ok && k < world->active.count; ++k) {
-        ok = kiriTouches_Reserve(kiriWorld_Active(world, k));
+        ok = kiriTouches_Reserve(kiriWorld_Active(world, k)) &&
+             kiriObstacles_ReserveRests(world, kiriWorld_Active(world, k));
         world->profile.contacts += kiriWorld_Active(world, k)->touches.found.count;
     }
     return ok;
