@@ -46,16 +46,41 @@ const kiriLatticePoint* kiriMesh_SourceCorners(const kiriMeshData* mesh, int32_t
 }
 
 /* Rounding to the lattice may have put the vertex a step outside. */
+/* Shares on the nearest edge, for a point that rounding has put beside the triangle. Areas do not tell it where the
+   triangle is a sliver. */
+static void ShareNearestEdge(const kiriLatticePoint c[3], kiriLatticePoint at, double share[3])
+{
+    double nearest = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        kiriLatticePoint a = c[i], b = c[(i + 1) % 3];
+        double x = (double)b.x - a.x, y = (double)b.y - a.y, u = (double)at.x - a.x, v = (double)at.y - a.y;
+        double along = (u * x + v * y) / (x * x + y * y);
+        along = along < 0.0 ? 0.0 : along > 1.0 ? 1.0 : along;
+        double du = u - along * x, dv = v - along * y, distance = du * du + dv * dv;
+        if (i == 0 || distance < nearest) {
+            nearest = distance;
+            share[i] = 1.0 - along;
+            share[(i + 1) % 3] = along;
+            share[(i + 2) % 3] = 0.0;
+        }
+    }
+}
+
 void kiriMesh_SetSource(kiriMeshData* mesh, int32_t vertex, int32_t source)
 {
     const kiriLatticePoint* c = kiriMesh_SourceCorners(mesh, source);
     KIRI_ASSERT(c != NULL && vertex >= 0 && vertex < mesh->vertices.count);
     kiriVertex* v = &mesh->vertices.data[vertex];
     double share[3], sum = 0.0;
+    bool isInside = true;
     for (int i = 0; i < 3; ++i) {
-        int64_t area = kiriOrient(c[(i + 1) % 3], c[(i + 2) % 3], v->at);
-        share[i] = area > 0 ? (double)area : 0.0;
+        share[i] = (double)kiriOrient(c[(i + 1) % 3], c[(i + 2) % 3], v->at);
+        isInside = isInside && share[i] >= 0.0;
         sum += share[i];
+    }
+    if (!isInside) {
+        ShareNearestEdge(c, v->at, share);
+        sum = 1.0;
     }
     v->source = source;
     for (int i = 0; i < 3; ++i) {
