@@ -261,7 +261,9 @@ static bool AddCollisionPoints(kiriSheetData* sheet)
     kiriUpdate* u = sheet->update;
     for (int32_t i = 0; i < u->placing.placer.sites.count; ++i) {
         int32_t cell = u->placing.placer.sites.data[i].cell, sample = sheet->points.count + u->samples.newPoints.count;
-        kiriSample point = { kiriGrid_Anchor(&sheet->grid, &sheet->mesh, cell), cell, KIRI_NONE };
+        kiriLatticePoint at = kiriGrid_Anchor(&sheet->grid, &sheet->mesh, cell);
+        cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, at); /* the tip of a triangle may be another's, too */
+        kiriSample point = { at, cell, KIRI_NONE };
         if (!kiriArray_Push(sheet->memory, &u->samples.newPoints, point) ||
             !kiriSkin_Stage(&sheet->pointSkin, sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh, sample, cell,
                             kiriMesh_Local(&sheet->mesh, point.at))) {
