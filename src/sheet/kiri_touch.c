@@ -33,6 +33,26 @@ static kiriPiece* PieceOfTouch(const kiriSheetData* sheet, const kiriTouch* touc
     return kiriSheet_PieceOf(sheet, sheet->vertexSkin.weights.data[first].frame);
 }
 
+static bool IsTouchFinite(const kiriTouch* touch)
+{
+    const kiriVec3 *n = &touch->normal, *v = &touch->velocity;
+    double sum = touch->share[0] + touch->share[1] + touch->share[2] + touch->offset;
+    sum += n->x + n->y + n->z + v->x + v->y + v->z;
+    return sum - sum == 0.0;
+}
+
+/* Places and speeds of 1e30 and more come to what doubles cannot hold. Then nothing reaches the plane. */
+static void Disarm(const kiriSheetData* sheet, kiriTouch* touch)
+{
+    const kiriVec3 up = { 0.0, 0.0, 1.0 }, none = { 0.0, 0.0, 0.0 };
+    touch->share[0] = 1.0;
+    touch->share[1] = touch->share[2] = 0.0;
+    touch->normal = up;
+    touch->velocity = none;
+    touch->seen = WhereSeen(sheet, touch);
+    touch->offset = touch->seen.z - KIRI_FAR_BELOW;
+}
+
 bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch)
 {
     kiriTouch found = *touch;
@@ -43,6 +63,9 @@ bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch)
     KIRI_ASSERT(touch->yield == KIRI_NONE || touch->yield < sheet->touches.yields.count);
     KIRI_ASSERT(touch->point != KIRI_NONE || touch->vertex[0] < sheet->seen.surface.vertexCount);
     found.seen = WhereSeen(sheet, touch);
+    if (!IsTouchFinite(&found)) {
+        Disarm(sheet, &found);
+    }
     return kiriArray_Push(sheet->memory, &sheet->touches.found, found);
 }
 
