@@ -113,7 +113,7 @@ TO_LINK := $(BUILD)/link.txt Makefile
 
 include bindings/install.mk
 
-.PHONY: all run box2d play python builds test tsan check floors headers single example lib bench accuracy contact extremes gallery guide deps format clean exports FORCE
+.PHONY: all run box2d play python builds test tsan check floors fields headers single example lib bench accuracy contact extremes gallery guide deps format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
 .DELETE_ON_ERROR:
@@ -208,7 +208,7 @@ $(TEST_RUNS): run-%: $(BUILD)/tests/%
 	@if $< > $<.log 2>&1; then echo "== $<"; grep '^\[  PASSED' $<.log; \
 	else echo "== $< FAILED"; cat $<.log; exit 1; fi
 
-check: $(TEST_RUNS) $(RUN) $(BOX2D) $(PLAY) floors headers float-guards exports example $(PYTHON_CHECK) $(BUILD_CHECK)
+check: $(TEST_RUNS) $(RUN) $(BOX2D) $(PLAY) floors fields headers float-guards exports example $(PYTHON_CHECK) $(BUILD_CHECK)
 	@echo "all tests passed ($(config))"
 
 python: $(BUILD)/libkiri.so
@@ -230,6 +230,10 @@ floors:
 	done
 	@grep -H '#include "' src/*/* | $(UNIT_INCLUDES) | awk '$$1 != $$2 && $$2 !~ /_work$$/' | sort -u | tsort > /dev/null
 	@echo "src: includes go down the floors, and in no circle"
+
+# What is saved of a struct is what it has.
+fields:
+	@$(PYTHON) tests/fields.py
 
 # The public header stands alone, in strict C99 and C++11; each inner header, in C++ without run-time types too.
 headers:
@@ -382,6 +386,8 @@ $(BUILD)/tests/test_games: TEST_LIBRARIES = $(BUILD)/libkiri.a -lbox2d -lOSMesa 
 # Threads read a world, or work on its ticks.
 $(BUILD)/tests/test_readers $(BUILD)/tests/test_tasks $(BUILD)/tests/bench_tasks: override LDFLAGS += -pthread
 
+$(BUILD)/tests/test_save: $(patsubst %,$(BUILD)/tests/%.c.o,storm_types storm_acts storm_cuts storm_seen)
+
 # Tests that compare with the heavy elastica.
 $(BUILD)/tests/test_affine $(BUILD)/tests/test_estimate $(BUILD)/tests/test_point: $(BUILD)/tests/reference.c.o
 
@@ -390,7 +396,7 @@ $(BUILD)/tests/test_affine $(BUILD)/tests/test_estimate $(BUILD)/tests/test_poin
 # What prints the hashes, without other libraries. It is linked from objects, for archives differ between machines.
 STORM ?= $(BUILD)/tests/storm
 
-$(STORM): $(patsubst %,$(BUILD)/tests/%.c.o,storm storm_acts storm_cuts storm_seen) $(LIBRARY_OBJECTS) $(TO_LINK)
+$(STORM): $(patsubst %,$(BUILD)/tests/%.c.o,storm storm_types storm_acts storm_cuts storm_seen) $(LIBRARY_OBJECTS) $(TO_LINK)
 	@echo "  $@"
 	@$(LINK) -o $@ $(filter %.o,$^) $(STORM_LIBRARIES) -lm
 

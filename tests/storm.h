@@ -33,9 +33,20 @@ typedef struct Storm {
     int32_t sheetCount, obstacleCount;
     kiriBlade blade; /* or 0 */
     float edge[2][3];
-    kiriCut cut;     /* that goes on from tick to tick, or 0 */
+    kiriCut cut; /* that goes on from tick to tick, or 0 */
     float tip[2];
 } Storm;
+
+/* ---- Storms ---- */
+
+enum { STORM_TYPES = 10 };
+extern const StormType Storm_Types[STORM_TYPES];
+
+/* With a world of the def, which gets the type's budget and tasks. */
+kiriResult Storm_Start(Storm* storm, int32_t kind, kiriWorldDef* def);
+
+/* Something happens, and time goes on. */
+void Storm_Tick(Storm* storm);
 
 /* ---- Random numbers ---- */
 

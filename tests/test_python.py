@@ -121,6 +121,23 @@ def test_two_runs_agree_and_another_gravity_does_not():
     assert world.state_hash() != run_scene()[0].state_hash()
 
 
+def test_save_and_load():
+    world, sheet, cut = make_scene()
+    world.tick(1 / 60)
+    saved, other = world.save(), kiri.World()
+    other.load(saved)
+    assert other.save() == saved and other.state_hash() == world.state_hash()
+    for each in (world, other):
+        each.tick(1 / 60)
+    assert other.state_hash() == world.state_hash()
+    before = other.state_hash()
+    for wrong in (b"", saved[:-1], saved[:9] + b"x" + saved[10:]):
+        raises(kiri.KiriError, other.load, wrong)
+    assert other.state_hash() == before
+    world.load(saved)
+    assert sheet.counts().vertices == len(sheet.mesh().positions)
+
+
 def test_cut():
     world, sheet, cut = make_scene()
     before = sheet.counts()
@@ -197,7 +214,10 @@ def test_arrays_of_c_live_until_the_tick():
     def destroy(sheet):
         sheet.piece_frames(1)[0].destroy_piece()
 
-    for change in (detach, destroy, kiri.Sheet.destroy, lambda sheet: sheet.drop_crumbs(10.0)):
+    def load(sheet):
+        sheet.world.load(sheet.world.save())
+
+    for change in (detach, destroy, kiri.Sheet.destroy, lambda sheet: sheet.drop_crumbs(10.0), load):
         world, sheet, _ = run_scene()
         buffers, before = bytes_of(world, sheet)
         change(sheet)

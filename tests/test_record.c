@@ -274,6 +274,23 @@ static void Refuse(Tape* tape, kiriSheet sheet)
     assert_int_equal(kiriWorld_Tick(world, -1.0f, 1), KIRI_ERROR_ARGUMENT);
 }
 
+/* Back to what was saved two ticks before. */
+static void GoBack(Tape* tape)
+{
+    kiriWorld* world = tape->host.world;
+    int64_t size;
+    OK(kiriWorld_Save(world, NULL, 0, &size));
+    void* bytes = malloc((size_t)size);
+    assert_non_null(bytes);
+    OK(kiriWorld_Save(world, bytes, size, &size));
+    Tick(tape);
+    Tick(tape);
+    OK(kiriWorld_Load(world, bytes, size));
+    assert_int_equal(kiriWorld_Load(world, bytes, size - 1), KIRI_ERROR_DATA);
+    free(bytes);
+    Tick(tape);
+}
+
 /* Every call that there is succeeds, and some fail. */
 static void RecordAll(Tape* tape)
 {
@@ -285,6 +302,7 @@ static void RecordAll(Tape* tape)
     HoldAndLoad(tape, sheet);
     Pin(tape, sheet, obstacle);
     Change(tape, sheet);
+    GoBack(tape);
     Refuse(tape, sheet);
     OK(kiriDestroySheet(tape->host.world, other));
     Tick(tape);

@@ -216,6 +216,22 @@ typedef struct kiriReplay {
    budget limits cells or samples, the next hashes may differ. */
 KIRI_API kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, int64_t size, kiriReplay* replay);
 
+/* ---- Save and load ---------------------------------------------------------------------------------------------- */
+
+/* All that the coming ticks depend on, as bytes: sheets, cuts that wait or are being worked on, pins, obstacles, blades,
+   ids, events. A world that is loaded goes on as the one that was saved would have, bit for bit, and ids name what they
+   named: on another machine, and in another build of the same version of the library. */
+
+/* Writes the world. *size: bytes that there are. `bytes` null: they are counted only, and capacity does not matter; else
+   it has room for `capacity`. Writes nothing where that is less than *size (KIRI_ERROR_ARGUMENT). Only reads the world. */
+KIRI_API kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
+
+/* The world becomes what was saved, from a world with whatever hooks; its own stay: allocation, log, clock and tasks. The
+   profile has no times until the next tick. What it had before is gone, but arrays that it handed out live until the
+   next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this library does not
+   read. KIRI_ERROR_MEMORY. Then nothing has changed. A recording has the bytes, up to 2^31 of them. */
+KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
+
 /* ---- Events ----------------------------------------------------------------------------------------------------- */
 
 /* What happened since the start of the last tick that was not refused. */

@@ -59,6 +59,18 @@ kiriSlot* kiriPool_Find(const kiriPool* pool, uint32_t id)
     return s->owner != NULL && s->generation == generation ? s : NULL;
 }
 
+bool kiriPool_Claim(kiriPool* pool, uint32_t id, void* owner, int32_t index)
+{
+    uint32_t slot = id & (MOST_SLOTS - 1), generation = id >> ID_SLOT_BITS & LAST_GENERATION;
+    if (id >> ID_KIND_SHIFT != pool->kind || slot >= (uint32_t)pool->slots.count) {
+        return false;
+    }
+    kiriSlot* s = &pool->slots.data[slot];
+    bool isFree = s->owner == NULL && s->generation == generation && s->index == index;
+    s->owner = isFree ? owner : s->owner;
+    return isFree;
+}
+
 void kiriPool_Remove(kiriPool* pool, uint32_t id)
 {
     kiriSlot* s = kiriPool_Find(pool, id);

@@ -119,27 +119,45 @@ static bool StartGridFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
     return ReserveCells(grid, mesh);
 }
 
-/* Room for a cell more in half of the squares that changed, and for steps around them, so that no tick moves all
-   arrays. */
-static kiriProgress MakeRoomForCells(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
+enum { GRID_ROOMS = 8 };
+
+/* Room for a cell more in half of the squares that changed, and for steps around them. */
+static void ListGridRooms(kiriGrid* grid, const kiriMeshData* mesh, kiriRoom rooms[GRID_ROOMS])
 {
-    enum { CELL_BYTES = 512 }; /* that an item moves */
     kiriGridWork* work = grid->work;
-    if (work == NULL || grid->squareCell.count == 0) {
-        return KIRI_DONE;
-    }
     int64_t more = mesh->squares.dirty.count / 2 + 64, cells = grid->cells.count + more;
     int64_t notOpen = 5 * (int64_t)mesh->squares.dirty.count + 64; /* a cut, and two rows of squares on each side */
     kiriMemory* memory = mesh->memory;
-    const kiriRoom rooms[] = { KIRI_ROOM(memory, &grid->cells, cells),
-                               KIRI_ROOM(memory, &grid->runs, cells),
-                               KIRI_ROOM(memory, &work->cellFlags, cells),
-                               KIRI_ROOM(memory, &work->mark, cells),
-                               KIRI_ROOM(memory, &grid->faces, grid->faces.count + 2 * more),
-                               KIRI_ROOM(memory, &grid->steps, grid->steps.count + KIRI_OPEN_STEPS * notOpen),
-                               KIRI_ROOM(memory, &grid->nodeCell, mesh->squares.nodes.capacity),
-                               KIRI_ROOM(memory, &grid->vertexCell, mesh->vertices.capacity) };
-    return kiriGrowing_GoOn(&work->growing, rooms, (int32_t)(sizeof(rooms) / sizeof(rooms[0])), quota, CELL_BYTES);
+    const kiriRoom all[GRID_ROOMS] = { KIRI_ROOM(memory, &grid->cells, cells),
+                                       KIRI_ROOM(memory, &grid->runs, cells),
+                                       KIRI_ROOM(memory, &work->cellFlags, cells),
+                                       KIRI_ROOM(memory, &work->mark, cells),
+                                       KIRI_ROOM(memory, &grid->faces, grid->faces.count + 2 * more),
+                                       KIRI_ROOM(memory, &grid->steps, grid->steps.count + KIRI_OPEN_STEPS * notOpen),
+                                       KIRI_ROOM(memory, &grid->nodeCell, mesh->squares.nodes.capacity),
+                                       KIRI_ROOM(memory, &grid->vertexCell, mesh->vertices.capacity) };
+    memcpy(rooms, all, sizeof(all));
+}
+
+/* So that no tick moves all arrays. */
+static kiriProgress MakeRoomForCells(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
+{
+    enum { CELL_BYTES = 512 }; /* that an item moves */
+    kiriRoom rooms[GRID_ROOMS];
+    if (grid->work == NULL || grid->squareCell.count == 0) {
+        return KIRI_DONE;
+    }
+    ListGridRooms(grid, mesh, rooms);
+    return kiriGrowing_GoOn(&grid->work->growing, rooms, GRID_ROOMS, quota, CELL_BYTES);
+}
+
+void kiriGrid_ArchiveGrowing(kiriArchive* archive, kiriGrid* grid, const kiriMeshData* mesh)
+{
+    kiriRoom rooms[GRID_ROOMS];
+    if (grid->work != NULL) {
+        ListGridRooms(grid, mesh, rooms);
+        kiriArchive_Growing(archive, &grid->work->growing, rooms, GRID_ROOMS);
+    }
 }
 
 static bool StartGridUpdate(kiriGrid* grid, const kiriMeshData* mesh)

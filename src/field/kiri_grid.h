@@ -3,6 +3,7 @@
 #ifndef KIRI_GRID_H
 #define KIRI_GRID_H
 
+#include "../core/kiri_archive.h"
 #include "../mesh/kiri_mesh.h"
 #include "../core/kiri_span.h"
 
@@ -116,6 +117,9 @@ void kiriGrid_ClearChanges(kiriGrid* grid);
 
 /* How far the update at hand has come, for the state hash: it is not all in what the quota has given. */
 void kiriGrid_HashProgress(const kiriGrid* grid, uint64_t* hash);
+
+/* The array of it that is growing, as bytes, after all else of grid and mesh. */
+void kiriGrid_ArchiveGrowing(kiriArchive* archive, kiriGrid* grid, const kiriMeshData* mesh);
 
 /* Gives back the room of lists that were long while all was made, and that what changes makes as long as it needs. Not
    during an update, nor before its changes are cleared. */

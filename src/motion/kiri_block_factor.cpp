@@ -15,6 +15,7 @@
 #include "kiri_block_factor.h"
 #include "kiri_panel.h"
 extern "C" {
+#include "../core/kiri_archive.h"
 #include "../core/kiri_array.h"
 #include "../core/kiri_hash.h"
 }
@@ -275,6 +276,57 @@ bool MakeRoomForFrames(kiriMatrix* matrix)
            kiriArray_Resize(memory, &matrix->own.start, count + 1) &&
            kiriArray_Resize(memory, &matrix->factor.start, count + 1) &&
            kiriArray_Resize(memory, &matrix->right, count * matrix->size);
+}
+
+/* When the order of frames and the blocks are known. */
+bool FinishShape(kiriMatrix* matrix)
+{
+    if (!Eliminate(matrix) || !JoinColumns(matrix) || !PlacePanels(matrix) || !CollectLeft(matrix)) {
+        return false;
+    }
+    for (int32_t f = 0; f < matrix->count; ++f) {
+        matrix->frames.data[f] = f;
+    }
+    kiriMatrix_Choose(matrix, matrix->frames.data, matrix->count);
+    matrix->products = matrix->chosenProducts;
+    return true;
+}
+
+/* ---- What bytes may have ---- */
+
+bool IsOrder(kiriMatrix* matrix)
+{
+    int32_t *seen = matrix->mark.data, count = matrix->count;
+    bool isOrder = true;
+    std::fill(seen, seen + count, 0);
+    for (int32_t f = 0; isOrder && f < count; ++f) {
+        int32_t place = matrix->place.data[f];
+        isOrder = place >= 0 && place < count && seen[place]++ == 0;
+    }
+    return isOrder;
+}
+
+bool AreStarts(const kiriMatrix* matrix)
+{
+    const int32_t* start = matrix->own.start.data;
+    bool areFine = start[0] == 0;
+    for (int32_t c = 0; c < matrix->count; ++c) {
+        areFine &= start[c + 1] > start[c];
+    }
+    return areFine;
+}
+
+bool AreRows(const kiriMatrix* matrix)
+{
+    bool areFine = true;
+    for (int32_t c = 0; c < matrix->count; ++c) {
+        int32_t first = matrix->own.start.data[c], end = matrix->own.start.data[c + 1];
+        areFine &= matrix->own.row.data[first] == c && matrix->own.row.data[end - 1] < matrix->count;
+        for (int32_t b = first + 1; b < end; ++b) {
+            areFine &= matrix->own.row.data[b] > matrix->own.row.data[b - 1];
+        }
+    }
+    return areFine;
 }
 
 /* ---- Choice ---- */
@@ -587,16 +639,37 @@ extern "C" bool kiriMatrix_Shape(kiriMatrix* matrix, int32_t frameCount, const k
     } catch (...) {
         return false;
     }
-    if (!PlaceBlocks(matrix, pairs, pairCount) || !Eliminate(matrix) || !JoinColumns(matrix) || !PlacePanels(matrix) ||
-        !CollectLeft(matrix)) {
-        return false;
+    return PlaceBlocks(matrix, pairs, pairCount) && FinishShape(matrix);
+}
+
+extern "C" void kiriMatrix_Archive(kiriArchive* archive, kiriMatrix* matrix)
+{
+    bool reads = kiriArchive_Reads(archive);
+    int32_t count = kiriArchive_Count(archive, matrix->count, 0, reads ? (archive->size - archive->at) / 8 : INT32_MAX);
+    if (count == 0 || kiriArchive_HasFailed(archive)) {
+        return;
     }
-    for (int32_t f = 0; f < frameCount; ++f) {
-        matrix->frames.data[f] = f;
+    if (reads) {
+        matrix->count = count;
+        archive->isShort |= !MakeRoomForFrames(matrix);
     }
-    kiriMatrix_Choose(matrix, matrix->frames.data, frameCount);
-    matrix->products = matrix->chosenProducts;
-    return true;
+    if (archive->isShort) {
+        return;
+    }
+    kiriArchive_Numbers(archive, matrix->place.data, 4, count);
+    kiriArchive_Numbers(archive, matrix->own.start.data, 4, (int64_t)count + 1);
+    int32_t blocks = matrix->own.start.data[count];
+    if (reads) {
+        kiriArchive_Expect(archive, IsOrder(matrix) && AreStarts(matrix) && blocks <= archive->size - archive->at);
+        archive->isShort |= !archive->isBad && !kiriArray_Resize(matrix->memory, &matrix->own.row, blocks);
+    }
+    if (!kiriArchive_HasFailed(archive)) {
+        kiriArchive_Numbers(archive, matrix->own.row.data, 4, blocks);
+    }
+    if (reads && !kiriArchive_HasFailed(archive)) {
+        kiriArchive_Expect(archive, AreRows(matrix));
+        archive->isShort |= !archive->isBad && !FinishShape(matrix);
+    }
 }
 
 extern "C" void kiriMatrix_Choose(kiriMatrix* matrix, const int32_t* frames, int32_t count)

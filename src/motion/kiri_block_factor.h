@@ -40,6 +40,12 @@ bool kiriMatrix_Covers(const kiriMatrix* matrix, kiriPair pair);
 /* Of the pattern and the order of unknowns, on which the last bits of a solution depend. */
 uint64_t kiriMatrix_Hash(const kiriMatrix* matrix);
 
+struct kiriArchive;
+
+/* The pattern and the order of unknowns, as bytes: see core/kiri_archive.h. Only where these are read the matrix is
+   changed, and has the factorisation of the pattern then. */
+void kiriMatrix_Archive(struct kiriArchive* archive, kiriMatrix* matrix);
+
 /* Does without the long vectors of the processor, for tests: the bits are the same. */
 void kiriMatrix_RefuseLongVectors(kiriMatrix* matrix);
 

@@ -93,18 +93,34 @@ kiriProgress kiriRoom_ForCut(kiriSheetData* sheet, kiriQuota* triangles)
     return kiriGrowing_GoOn(&u->growing, rooms, ROOMS, triangles, ROOM_BYTES);
 }
 
+enum { WEIGHT_ROOMS = 2 };
+
 /* In a mesh of even triangles. */
-kiriProgress kiriRoom_ForWeights(kiriSheetData* sheet, kiriQuota* samples)
+static void ListWeightRooms(kiriSheetData* sheet, kiriRoom rooms[WEIGHT_ROOMS])
 {
-    enum { WEIGHT_BYTES = 4096 }; /* that an item moves */
     const kiriSquares* squares = &sheet->mesh.squares;
     kiriSkin* skin = &sheet->vertexSkin;
     int64_t vertices = sheet->mesh.vertices.count, all = (int64_t)squares->columns * squares->rows,
             more = vertices * sheet->update->samples.refresh.squares.count / all,
             each = skin->weights.count / (vertices > 0 ? vertices : 1) + 1;
-    const kiriRoom rooms[] = { KIRI_ROOM(sheet->memory, &skin->staged, more),
-                               KIRI_ROOM(sheet->memory, &skin->weights, skin->weights.count + each * more) };
+    const kiriRoom both[WEIGHT_ROOMS] = { KIRI_ROOM(sheet->memory, &skin->staged, more),
+                                          KIRI_ROOM(sheet->memory, &skin->weights, skin->weights.count + each * more) };
+    memcpy(rooms, both, sizeof(both));
+}
+
+kiriProgress kiriRoom_ForWeights(kiriSheetData* sheet, kiriQuota* samples)
+{
+    enum { WEIGHT_BYTES = 4096 }; /* that an item moves */
+    kiriRoom rooms[WEIGHT_ROOMS];
+    ListWeightRooms(sheet, rooms);
     StartGrowing(sheet);
-    return kiriGrowing_GoOn(&sheet->update->growing, rooms, (int32_t)(sizeof(rooms) / sizeof(rooms[0])), samples,
-                            WEIGHT_BYTES);
+    return kiriGrowing_GoOn(&sheet->update->growing, rooms, WEIGHT_ROOMS, samples, WEIGHT_BYTES);
+}
+
+void kiriRoom_ArchiveGrowing(kiriArchive* archive, kiriSheetData* sheet)
+{
+    kiriRoom rooms[ROOMS + WEIGHT_ROOMS];
+    ListRooms(sheet, 0, rooms);
+    ListWeightRooms(sheet, rooms + ROOMS);
+    kiriArchive_Growing(archive, &sheet->update->growing, rooms, ROOMS + WEIGHT_ROOMS);
 }

@@ -2,6 +2,7 @@
 #ifndef KIRI_ROOM_H
 #define KIRI_ROOM_H
 
+#include "../core/kiri_archive.h"
 #include "kiri_update.h"
 
 KIRI_C_BEGIN
@@ -13,6 +14,9 @@ kiriProgress kiriRoom_ForCut(kiriSheetData* sheet, kiriQuota* triangles);
 
 /* Before samples are weighed, of which the squares are known. */
 kiriProgress kiriRoom_ForWeights(kiriSheetData* sheet, kiriQuota* samples);
+
+/* The array that is growing, as bytes, after all else of the sheet. */
+void kiriRoom_ArchiveGrowing(kiriArchive* archive, kiriSheetData* sheet);
 
 KIRI_C_END
 

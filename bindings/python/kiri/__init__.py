@@ -462,6 +462,20 @@ class World:
         while self.call("kiriWorld_Replay", ffi.from_buffer(recording), len(recording), at) == KIRI_PENDING:
             yield ffi.buffer(at.note, at.noteCount)[:] if at.note != ffi.NULL else None
 
+    def save(self):
+        """All that the coming ticks depend on, as bytes: see load."""
+        size = ffi.new("int64_t*")
+
+        def take():
+            data = bytearray(size[0])
+            self._check(self.lib.kiriWorld_Save(self._world, ffi.from_buffer(data), size[0], size))
+            return bytes(data)
+        return self.call("kiriWorld_Save", ffi.NULL, 0, size, take=take)
+
+    def load(self, data):
+        """The world becomes what was saved; objects go on naming what they named then."""
+        self.call("kiriWorld_Load", ffi.from_buffer(data), len(data))
+
     def profile(self):
         return _record(self.get("kiriWorld_GetProfile", "kiriProfile"))
 

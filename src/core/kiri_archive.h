@@ -1,0 +1,148 @@
+/* State as bytes, and back. Tables of fields say what of a struct is kept; size, bytes and reading follow from the same
+   tables. Numbers are little-endian by value, without padding and pointers, so bytes are the same on every machine. */
+#ifndef KIRI_ARCHIVE_H
+#define KIRI_ARCHIVE_H
+
+#include "kiri_array.h"
+
+KIRI_C_BEGIN
+
+typedef struct kiriArchive kiriArchive;
+
+/* Does one thing in both directions: `object` is written where bytes are read, and else only read. */
+typedef void kiriArchiveFn(kiriArchive* archive, void* object);
+
+enum kiriMemberKind {
+    KIRI_MEMBER_RUN,    /* numbers of one width, in fields that follow each other */
+    KIRI_MEMBER_BOOLS,  /* the same of bools */
+    KIRI_MEMBER_PART,   /* a struct, or an array of C of them */
+    KIRI_MEMBER_ITEMS,  /* a KIRI_ARRAY of numbers of one width, or of structs of them */
+    KIRI_MEMBER_PARTS,  /* a KIRI_ARRAY of structs */
+    KIRI_MEMBER_ROOM,   /* a KIRI_ARRAY: its room alone; it is empty when it is read */
+    KIRI_MEMBER_SPACE,  /* a KIRI_ARRAY: its room and its count; whoever reads it writes the items anew */
+    KIRI_MEMBER_OWNED,  /* a pointer to a struct in a block of its own, or null */
+    KIRI_MEMBER_CUSTOM, /* what a function says, of the whole object */
+    KIRI_MEMBER_DROPPED /* nothing: it is zero when it is read */
+};
+
+typedef struct kiriMember {
+    int32_t kind, width; /* width: bytes a number */
+    int32_t offset;
+    int32_t size;                    /* bytes of the run, of the part, or of an item */
+    const struct kiriRecord* record; /* of the part, or of an item */
+    kiriArchiveFn* custom;
+} kiriMember;
+
+typedef struct kiriRecord {
+    const kiriMember* fields;
+    int32_t count;
+    int32_t size; /* bytes of the struct */
+} kiriRecord;
+
+#define KIRI_FIELD_SIZE(Type, field) (int32_t)sizeof(((Type*)NULL)->field)
+#define KIRI_ITEM_SIZE(Type, field) (int32_t)sizeof(*((Type*)NULL)->field.data)
+#define KIRI_FIELD_END(Type, field) ((int32_t)offsetof(Type, field) + KIRI_FIELD_SIZE(Type, field))
+
+/* `tests/fields.py` (make fields) holds the tables against the structs: each field is in its table, once and as what it
+   is. */
+#define KIRI_RUN(width, Type, first, last)                                                                             \
+    {                                                                                                                  \
+        KIRI_MEMBER_RUN, width, (int32_t)offsetof(Type, first),                                                        \
+            KIRI_FIELD_END(Type, last) - (int32_t)offsetof(Type, first), NULL, NULL                                    \
+    }
+#define KIRI_BOOLS(Type, first, last)                                                                                  \
+    {                                                                                                                  \
+        KIRI_MEMBER_BOOLS, 1, (int32_t)offsetof(Type, first),                                                          \
+            KIRI_FIELD_END(Type, last) - (int32_t)offsetof(Type, first), NULL, NULL                                    \
+    }
+#define KIRI_PART(Type, field, record)                                                                                 \
+    {                                                                                                                  \
+        KIRI_MEMBER_PART, 0, (int32_t)offsetof(Type, field), KIRI_FIELD_SIZE(Type, field), &record, NULL               \
+    }
+#define KIRI_ITEMS(width, Type, field)                                                                                 \
+    {                                                                                                                  \
+        KIRI_MEMBER_ITEMS, width, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), NULL, NULL              \
+    }
+#define KIRI_PARTS(Type, field, record)                                                                                \
+    {                                                                                                                  \
+        KIRI_MEMBER_PARTS, 0, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), &record, NULL               \
+    }
+#define KIRI_ROOM_OF(Type, field)                                                                                      \
+    {                                                                                                                  \
+        KIRI_MEMBER_ROOM, 0, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), NULL, NULL                   \
+    }
+#define KIRI_SPACE_OF(Type, field)                                                                                     \
+    {                                                                                                                  \
+        KIRI_MEMBER_SPACE, 0, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), NULL, NULL                  \
+    }
+#define KIRI_OWNED(Type, field, record)                                                                                \
+    {                                                                                                                  \
+        KIRI_MEMBER_OWNED, 0, (int32_t)offsetof(Type, field), 0, &record, NULL                                         \
+    }
+#define KIRI_CUSTOM(Type, field, function)                                                                             \
+    {                                                                                                                  \
+        KIRI_MEMBER_CUSTOM, 0, (int32_t)offsetof(Type, field), 0, NULL, function                                       \
+    }
+#define KIRI_DROPPED(Type, field)                                                                                      \
+    {                                                                                                                  \
+        KIRI_MEMBER_DROPPED, 0, (int32_t)offsetof(Type, field), 0, NULL, NULL                                          \
+    }
+#define KIRI_RECORD(Type, fields)                                                                                      \
+    {                                                                                                                  \
+        fields, (int32_t)(sizeof(fields) / sizeof(fields[0])), (int32_t)sizeof(Type)                                   \
+    }
+
+typedef enum kiriArchiveMode { KIRI_ARCHIVE_MEASURE, KIRI_ARCHIVE_WRITE, KIRI_ARCHIVE_READ } kiriArchiveMode;
+
+struct kiriArchive {
+    kiriArchiveMode mode;
+    uint8_t* bytes;     /* null where they are measured */
+    int64_t at, size;   /* so many are done, of so many */
+    int64_t room;       /* READ: bytes of memory that arrays may still take */
+    kiriMemory* memory; /* READ: of what is made */
+    bool isBad;         /* READ: these bytes are none that were written; what is read then is zero */
+    bool isShort;       /* no memory */
+};
+
+kiriArchive kiriArchive_Measure(void);
+kiriArchive kiriArchive_Write(void* bytes, int64_t size);
+kiriArchive kiriArchive_Read(const void* bytes, int64_t size, kiriMemory* memory);
+
+static inline bool kiriArchive_Reads(const kiriArchive* archive)
+{
+    return archive->mode == KIRI_ARCHIVE_READ;
+}
+
+static inline bool kiriArchive_HasFailed(const kiriArchive* archive)
+{
+    return archive->isBad || archive->isShort;
+}
+
+/* Bytes that were read are nonsense, unless `isFine`. */
+void kiriArchive_Expect(kiriArchive* archive, bool isFine);
+
+/* Numbers that lie one after the other. */
+void kiriArchive_Numbers(kiriArchive* archive, void* numbers, int32_t width, int64_t count);
+
+static inline void kiriArchive_Int32(kiriArchive* archive, int32_t* number)
+{
+    kiriArchive_Numbers(archive, number, 4, 1);
+}
+
+/* A whole number that is none of an object; where bytes are read, what they have. It is within these. */
+int32_t kiriArchive_Count(kiriArchive* archive, int64_t count, int64_t least, int64_t most);
+
+/* An object, or so many in a row. Where bytes are read it is zero before; what it has then is in blocks of
+   archive->memory. */
+void kiriArchive_Object(kiriArchive* archive, const kiriRecord* record, void* object);
+void kiriArchive_Objects(kiriArchive* archive, const kiriRecord* record, void* objects, int64_t count);
+
+/* A block of so many numbers, of *block. */
+void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_t count);
+
+/* One array of several that grow: see kiriGrowing. Those are read before. */
+void kiriArchive_Growing(kiriArchive* archive, kiriGrowing* growing, const kiriRoom* rooms, int32_t count);
+
+KIRI_C_END
+
+#endif

@@ -1,0 +1,20 @@
+/* Grid, regions, shape functions, links and sites as bytes: see core/kiri_archive.h. */
+#ifndef KIRI_FIELD_SAVE_H
+#define KIRI_FIELD_SAVE_H
+
+#include "../core/kiri_archive.h"
+#include "kiri_link.h"
+#include "kiri_place.h"
+
+KIRI_C_BEGIN
+
+extern const kiriRecord kiriFieldRecord, kiriSiteRecord, kiriGridRecord, kiriRegionsRecord, kiriShapeRecord,
+    kiriLinksRecord, kiriPlacerRecord;
+
+/* Where bytes were read: pointers into what was read beside. `known`: the field that the placer was given. */
+void kiriLinks_EndReading(kiriLinks* links, kiriMemory* memory);
+void kiriPlacer_EndReading(kiriPlacer* placer, const kiriField* known);
+
+KIRI_C_END
+
+#endif

@@ -1,0 +1,52 @@
+#include "kiri_sheet_save.h"
+
+#include "kiri_obstacle.h"
+
+static const kiriMember ObstacleShapeMembers[] = {
+    KIRI_RUN(4, kiriObstacleShape, type, type), KIRI_RUN(8, kiriObstacleShape, radius, rounding),
+    KIRI_DROPPED(kiriObstacleShape, outline),   KIRI_DROPPED(kiriObstacleShape, normals),
+    KIRI_DROPPED(kiriObstacleShape, count),     KIRI_RUN(8, kiriObstacleShape, flat, flat),
+};
+static const kiriRecord ObstacleShapeRecord = KIRI_RECORD(kiriObstacleShape, ObstacleShapeMembers);
+
+static const kiriMember ObstacleDataMembers[] = {
+    KIRI_RUN(4, kiriObstacleData, id, id),
+    KIRI_PART(kiriObstacleData, shape, ObstacleShapeRecord),
+    KIRI_RUN(8, kiriObstacleData, position, center),
+    KIRI_RUN(4, kiriObstacleData, body, body),
+    KIRI_RUN(8, kiriObstacleData, pushSpeed, pushSpeed),
+    KIRI_RUN(4, kiriObstacleData, groups, groups),
+    KIRI_RUN(8, kiriObstacleData, impulse, impulse),
+    KIRI_RUN(4, kiriObstacleData, contacts, contacts),
+    KIRI_RUN(8, kiriObstacleData, drift, upper),
+};
+static const kiriRecord ObstacleDataRecord = KIRI_RECORD(kiriObstacleData, ObstacleDataMembers);
+
+enum { MOST_OUTLINE = 64 };
+
+/* With its outline behind it, in one block. */
+static kiriObstacleData* MakeObstacle(kiriMemory* memory, int32_t corners)
+{
+    int64_t bytes = (int64_t)(sizeof(kiriObstacleData) + 2 * sizeof(kiriVec2) * (size_t)corners);
+    kiriObstacleData* obstacle = kiriMemory_AllocZeroed(memory, bytes);
+    if (obstacle != NULL) {
+        obstacle->shape.count = corners;
+        obstacle->shape.outline = (kiriVec2*)(obstacle + 1);
+        obstacle->shape.normals = obstacle->shape.outline + corners;
+    }
+    return obstacle;
+}
+
+void kiriObstacle_Archive(kiriArchive* archive, kiriObstacleData** made, kiriMemory* memory)
+{
+    bool reads = kiriArchive_Reads(archive);
+    int32_t corners = kiriArchive_Count(archive, reads ? 0 : (*made)->shape.count, 0, MOST_OUTLINE);
+    if (reads) {
+        *made = kiriArchive_HasFailed(archive) ? NULL : MakeObstacle(memory, corners);
+        archive->isShort |= *made == NULL && !archive->isBad;
+    }
+    if (*made != NULL) {
+        kiriArchive_Object(archive, &ObstacleDataRecord, *made);
+        kiriArchive_Numbers(archive, (*made)->shape.outline, 8, 4 * (int64_t)corners);
+    }
+}

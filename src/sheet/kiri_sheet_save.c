@@ -1,0 +1,464 @@
+#include "kiri_sheet_save.h"
+
+#include "../field/kiri_field_save.h"
+#include "../mesh/kiri_mesh_save.h"
+#include "../motion/kiri_motion_save.h"
+#include "../view/kiri_view_save.h"
+#include "kiri_room.h"
+#include "kiri_seen.h"
+
+/* ---- Tables ------------------------------------------------------------------------------------------------------- */
+
+static const kiriMember SettingsMembers[] = {
+    KIRI_RUN(4, kiriSettings, material, material),     KIRI_PART(kiriSettings, mechanics, kiriMechanicsRecord),
+    KIRI_RUN(4, kiriSettings, given, given),           KIRI_RUN(8, kiriSettings, snap, frameLength),
+    KIRI_RUN(4, kiriSettings, maxFrames, skinning),    KIRI_RUN(8, kiriSettings, fadeTime, contactThickness),
+    KIRI_RUN(4, kiriSettings, groups, groups),         KIRI_BOOLS(kiriSettings, touchesSheets, touchesSheets),
+    KIRI_RUN(8, kiriSettings, air, integrationPoints), KIRI_RUN(4, kiriSettings, integrationOrder, integrationOrder),
+    KIRI_BOOLS(kiriSettings, fromScratch, eased),
+};
+static const kiriRecord SettingsRecord = KIRI_RECORD(kiriSettings, SettingsMembers);
+
+static const kiriMember RestMembers[] = {
+    KIRI_RUN(8, kiriRest, calm, calm),
+    KIRI_BOOLS(kiriRest, asleep, isCalm),
+};
+static const kiriRecord RestRecord = KIRI_RECORD(kiriRest, RestMembers);
+
+static const kiriMember PieceMembers[] = {
+    KIRI_RUN(8, kiriPiece, area, area),        KIRI_RUN(4, kiriPiece, frame, origin),
+    KIRI_BOOLS(kiriPiece, cameOff, isTouched), KIRI_RUN(4, kiriPiece, island, island),
+    KIRI_PART(kiriPiece, rest, RestRecord),
+};
+static const kiriRecord PieceRecord = KIRI_RECORD(kiriPiece, PieceMembers);
+
+static const kiriMember SeveredLinkMembers[] = {
+    KIRI_RUN(4, kiriSeveredLink, pin, link),
+    KIRI_RUN(8, kiriSeveredLink, part, part),
+};
+static const kiriRecord SeveredLinkRecord = KIRI_RECORD(kiriSeveredLink, SeveredLinkMembers);
+
+static const kiriMember LineShareMembers[] = {
+    KIRI_RUN(4, kiriLineShare, frame, frame),
+    KIRI_RUN(8, kiriLineShare, length, ends),
+    KIRI_RUN(4, kiriLineShare, open, open),
+};
+static const kiriRecord LineShareRecord = KIRI_RECORD(kiriLineShare, LineShareMembers);
+
+static const kiriMember PinShareMembers[] = {
+    KIRI_RUN(4, kiriPinShare, pin, pin),
+    KIRI_PART(kiriPinShare, share, LineShareRecord),
+    KIRI_RUN(8, kiriPinShare, offset, bore),
+};
+static const kiriRecord PinShareRecord = KIRI_RECORD(kiriPinShare, PinShareMembers);
+
+static const kiriMember LayoutMembers[] = {
+    KIRI_PARTS(kiriLayout, pieces, PieceRecord),
+    KIRI_ITEMS(4, kiriLayout, framePiece),
+    KIRI_ITEMS(4, kiriLayout, pinFrame),
+    KIRI_PARTS(kiriLayout, severed, SeveredLinkRecord),
+    KIRI_PARTS(kiriLayout, pinShares, PinShareRecord),
+    KIRI_PART(kiriLayout, areaElements, kiriAreaElementsRecord),
+};
+static const kiriRecord LayoutRecord = KIRI_RECORD(kiriLayout, LayoutMembers);
+
+static const kiriMember PinAnchorMembers[] = {
+    KIRI_RUN(4, kiriPinAnchor, obstacle, obstacle),
+    KIRI_RUN(8, kiriPinAnchor, local, softness),
+};
+static const kiriRecord PinAnchorRecord = KIRI_RECORD(kiriPinAnchor, PinAnchorMembers);
+
+static const kiriMember PinDataMembers[] = {
+    KIRI_RUN(4, kiriPinData, id, id),
+    KIRI_RUN(8, kiriPinData, userData, userData),
+    KIRI_RUN(4, kiriPinData, type, to),
+    KIRI_RUN(8, kiriPinData, target, breakForce),
+    KIRI_PART(kiriPinData, anchor, PinAnchorRecord),
+    KIRI_RUN(8, kiriPinData, off, off),
+    KIRI_RUN(4, kiriPinData, offFrame, offFrame),
+    KIRI_RUN(8, kiriPinData, stiffness, bore),
+};
+static const kiriRecord PinDataRecord = KIRI_RECORD(kiriPinData, PinDataMembers);
+
+static const kiriMember GivenContactMembers[] = {
+    KIRI_RUN(4, kiriGivenContact, contact, vertex),
+    KIRI_RUN(8, kiriGivenContact, share, share),
+};
+static const kiriRecord GivenContactRecord = KIRI_RECORD(kiriGivenContact, GivenContactMembers);
+
+static const kiriMember KeepMembers[] = {
+    KIRI_ITEMS(4, kiriKeep, to),
+    KIRI_RUN(4, kiriKeep, count, first),
+    KIRI_BOOLS(kiriKeep, leavesHoles, leavesHoles),
+};
+static const kiriRecord KeepRecord = KIRI_RECORD(kiriKeep, KeepMembers);
+
+static const kiriMember TakingMembers[] = {
+    KIRI_PART(kiriTaking, vertices, KeepRecord),
+    KIRI_PART(kiriTaking, triangles, KeepRecord),
+    KIRI_ITEMS(1, kiriTaking, cells),
+};
+static const kiriRecord TakingRecord = KIRI_RECORD(kiriTaking, TakingMembers);
+
+static const kiriMember TouchMembers[] = {
+    KIRI_RUN(8, kiriTouch, key, key),         KIRI_RUN(4, kiriTouch, point, vertex),
+    KIRI_RUN(8, kiriTouch, share, pushSpeed), KIRI_RUN(4, kiriTouch, yield, yield),
+    KIRI_RUN(8, kiriTouch, felt, cushion),    KIRI_RUN(4, kiriTouch, row, row),
+    KIRI_RUN(8, kiriTouch, force, force),
+};
+static const kiriRecord TouchRecord = KIRI_RECORD(kiriTouch, TouchMembers);
+
+static const kiriMember TouchMemoryMembers[] = {
+    KIRI_PARTS(kiriTouchMemory, touches, TouchRecord),
+    KIRI_ITEMS(8, kiriTouchMemory, forces),
+    KIRI_RUN(4, kiriTouchMemory, given, given),
+};
+static const kiriRecord TouchMemoryRecord = KIRI_RECORD(kiriTouchMemory, TouchMemoryMembers);
+
+static const kiriMember ContactForceMembers[] = {
+    KIRI_RUN(8, kiriContactForce, impulse, depth),
+    KIRI_RUN(4, kiriContactForce, point, obstacle),
+};
+static const kiriRecord ContactForceRecord = KIRI_RECORD(kiriContactForce, ContactForceMembers);
+
+/* Summed anew. */
+static const kiriMember RestLoadsMembers[] = {
+    KIRI_ROOM_OF(kiriRestLoads, on),
+    KIRI_DROPPED(kiriRestLoads, dt),
+    KIRI_DROPPED(kiriRestLoads, areSummed),
+};
+static const kiriRecord RestLoadsRecord = KIRI_RECORD(kiriRestLoads, RestLoadsMembers);
+
+static const kiriMember TouchesMembers[] = {
+    KIRI_SPACE_OF(kiriTouches, found),
+    KIRI_ROOM_OF(kiriTouches, yields),
+    KIRI_ROOM_OF(kiriTouches, rows),
+    KIRI_PART(kiriTouches, last, TouchMemoryRecord),
+    KIRI_PART(kiriTouches, slept, TouchMemoryRecord),
+    KIRI_PART(kiriTouches, rests, RestLoadsRecord),
+    KIRI_ROOM_OF(kiriTouches, order),
+    KIRI_BOOLS(kiriTouches, isShort, isShort),
+    KIRI_DROPPED(kiriTouches, told),
+    KIRI_DROPPED(kiriTouches, nextTold),
+};
+static const kiriRecord TouchesRecord = KIRI_RECORD(kiriTouches, TouchesMembers);
+
+static const kiriMember SeenMembers[] = {
+    KIRI_DROPPED(kiriSeen, surface),
+    KIRI_DROPPED(kiriSeen, bounds),
+    KIRI_PART(kiriSeen, fades, kiriFadesRecord),
+    KIRI_PART(kiriSeen, pointFades, kiriFadesRecord),
+    KIRI_SPACE_OF(kiriSeen, exactPoints),
+    KIRI_RUN(4, kiriSeen, pointCount, pointCount),
+    KIRI_DROPPED(kiriSeen, pointPositions),
+    KIRI_ROOM_OF(kiriSeen, pointsBefore),
+    KIRI_BOOLS(kiriSeen, isElsewhere, isElsewhere),
+    KIRI_RUN(4, kiriSeen, vertexCount, vertexCount),
+    KIRI_ITEMS(1, kiriSeen, touched),
+    KIRI_ITEMS(4, kiriSeen, movers),
+    KIRI_BOOLS(kiriSeen, hasNewBlocks, hasNewBlocks),
+    KIRI_RUN(8, kiriSeen, lists, wakes),
+};
+static const kiriRecord SeenRecord = KIRI_RECORD(kiriSeen, SeenMembers);
+
+static const kiriMember UpdateStartMembers[] = {
+    KIRI_RUN(4, kiriUpdateStart, stage, taken),
+    KIRI_BOOLS(kiriUpdateStart, meshChanged, meshChanged),
+    KIRI_RUN(8, kiriUpdateStart, spent, spent),
+};
+static const kiriRecord UpdateStartRecord = KIRI_RECORD(kiriUpdateStart, UpdateStartMembers);
+
+static const kiriMember CutWorkMembers[] = {
+    KIRI_RUN(8, kiriCutWork, stamp, stamp),
+    KIRI_RUN(4, kiriCutWork, count, taken),
+    KIRI_BOOLS(kiriCutWork, meshChanged, meshChanged),
+};
+static const kiriRecord CutWorkRecord = KIRI_RECORD(kiriCutWork, CutWorkMembers);
+
+static const kiriMember SlitSearchMembers[] = {
+    KIRI_RUN(4, kiriSlitSearch, seen, seen),
+    KIRI_RUN(8, kiriSlitSearch, owed, owed),
+};
+static const kiriRecord SlitSearchRecord = KIRI_RECORD(kiriSlitSearch, SlitSearchMembers);
+
+static const kiriMember PlacingWorkMembers[] = {
+    KIRI_PARTS(kiriPlacingWork, sites, kiriSiteRecord),
+    KIRI_ITEMS(4, kiriPlacingWork, moves),
+    KIRI_RUN(4, kiriPlacingWork, movesSeen, spread),
+    KIRI_PART(kiriPlacingWork, placer, kiriPlacerRecord),
+    KIRI_BOOLS(kiriPlacingWork, isTaking, isPlacing),
+    KIRI_PART(kiriPlacingWork, search, SlitSearchRecord),
+    KIRI_BOOLS(kiriPlacingWork, isAgain, isAgain),
+    KIRI_RUN(8, kiriPlacingWork, whole, whole),
+    KIRI_RUN(4, kiriPlacingWork, at, at),
+    KIRI_ITEMS(1, kiriPlacingWork, marks),
+    KIRI_ITEMS(1, kiriPlacingWork, allowed),
+    KIRI_ITEMS(1, kiriPlacingWork, flags),
+    KIRI_ITEMS(4, kiriPlacingWork, own),
+};
+static const kiriRecord PlacingWorkRecord = KIRI_RECORD(kiriPlacingWork, PlacingWorkMembers);
+
+static const kiriMember SampleWorkMembers[] = {
+    KIRI_RUN(4, kiriSampleWork, oldVertices, oldVertices),
+    KIRI_PART(kiriSampleWork, refresh, kiriRefreshRecord),
+    KIRI_ITEMS(4, kiriSampleWork, newPoints),
+    KIRI_ITEMS(4, kiriSampleWork, movedPoints),
+};
+static const kiriRecord SampleWorkRecord = KIRI_RECORD(kiriSampleWork, SampleWorkMembers);
+
+static const kiriMember UpdateMembers[] = {
+    KIRI_RUN(4, kiriUpdate, stage, step),
+    KIRI_RUN(8, kiriUpdate, spent, spent),
+    KIRI_BOOLS(kiriUpdate, needsRebuild, isScratch),
+    KIRI_PART(kiriUpdate, start, UpdateStartRecord),
+    KIRI_BOOLS(kiriUpdate, isBegun, isBegun),
+    KIRI_DROPPED(kiriUpdate, growing),
+    KIRI_RUN(4, kiriUpdate, growsSince, growsSince),
+    KIRI_PART(kiriUpdate, cut, CutWorkRecord),
+    KIRI_PART(kiriUpdate, placing, PlacingWorkRecord),
+    KIRI_ITEMS(8, kiriUpdate, material),
+    KIRI_PART(kiriUpdate, samples, SampleWorkRecord),
+    KIRI_PART(kiriUpdate, refit, kiriRefitRecord),
+    KIRI_RUN(8, kiriUpdate, due, due),
+    KIRI_ITEMS(4, kiriUpdate, newFrames),
+    KIRI_DROPPED(kiriUpdate, integration),
+    KIRI_PART(kiriUpdate, next, LayoutRecord),
+    KIRI_ITEMS(4, kiriUpdate, parent),
+    KIRI_RUN(4, kiriUpdate, counts, counts),
+};
+static const kiriRecord UpdateRecord = KIRI_RECORD(kiriUpdate, UpdateMembers);
+
+static const kiriMember BladeTipMembers[] = {
+    KIRI_RUN(4, kiriBladeTip, at, vertex),
+    KIRI_BOOLS(kiriBladeTip, isOnItsWay, isOnItsWay),
+    KIRI_RUN(4, kiriBladeTip, from, from),
+    KIRI_RUN(8, kiriBladeTip, owed, owed),
+};
+static const kiriRecord BladeTipRecord = KIRI_RECORD(kiriBladeTip, BladeTipMembers);
+
+static const kiriMember TipMembers[] = {
+    KIRI_RUN(8, kiriTip, last, last),
+    KIRI_PART(kiriTip, blade, BladeTipRecord),
+};
+static const kiriRecord TipRecord = KIRI_RECORD(kiriTip, TipMembers);
+
+static const kiriMember CutDataMembers[] = {
+    KIRI_RUN(4, kiriCutData, id, id),
+    KIRI_DROPPED(kiriCutData, sheet),
+    KIRI_RUN(4, kiriCutData, index, index),
+    KIRI_PART(kiriCutData, tip, TipRecord),
+    KIRI_PART(kiriCutData, committed, TipRecord),
+    KIRI_RUN(4, kiriCutData, waiting, waiting),
+    KIRI_BOOLS(kiriCutData, ended, ended),
+};
+static const kiriRecord CutDataRecord = KIRI_RECORD(kiriCutData, CutDataMembers);
+
+static const kiriMember QueuedPointMembers[] = {
+    KIRI_DROPPED(kiriQueuedPoint, cut),
+    KIRI_RUN(8, kiriQueuedPoint, to, stamp),
+    KIRI_BOOLS(kiriQueuedPoint, jump, jump),
+};
+static const kiriRecord QueuedPointRecord = KIRI_RECORD(kiriQueuedPoint, QueuedPointMembers);
+
+/* Arrays that the host may hold, which are of another owner. */
+static const kiriMember ToldMembers[] = {
+    KIRI_PARTS(kiriTouches, told, ContactForceRecord),
+    KIRI_ROOM_OF(kiriTouches, nextTold),
+};
+static const kiriRecord ToldRecord = KIRI_RECORD(kiriTouches, ToldMembers);
+
+static const kiriMember ShownPointsMembers[] = {
+    KIRI_SPACE_OF(kiriSeen, pointPositions),
+};
+static const kiriRecord ShownPointsRecord = KIRI_RECORD(kiriSeen, ShownPointsMembers);
+
+/* Of the world's memory. Pointers are put in by hand. */
+static const kiriMember QueueMembers[] = {
+    KIRI_SPACE_OF(kiriSheetData, queue),
+    KIRI_SPACE_OF(kiriSheetData, cuts),
+};
+static const kiriRecord QueueRecord = KIRI_RECORD(kiriSheetData, QueueMembers);
+
+/* What changes with the work on cuts alone. */
+static const kiriMember StillSheetMembers[] = {
+    KIRI_PART(kiriSheetData, mesh, kiriMeshRecord),
+    KIRI_PART(kiriSheetData, grid, kiriGridRecord),
+    KIRI_PART(kiriSheetData, regions, kiriRegionsRecord),
+    KIRI_PART(kiriSheetData, shape, kiriShapeRecord),
+    KIRI_OWNED(kiriSheetData, update, UpdateRecord),
+    KIRI_PART(kiriSheetData, links, kiriLinksRecord),
+    KIRI_ITEMS(4, kiriSheetData, points),
+    KIRI_PART(kiriSheetData, vertexSkin, kiriSkinRecord),
+    KIRI_PART(kiriSheetData, pointSkin, kiriSkinRecord),
+    KIRI_PART(kiriSheetData, pointPlaces, kiriPlacesRecord),
+    KIRI_PART(kiriSheetData, taking, TakingRecord),
+    KIRI_ITEMS(8, kiriSheetData, linkParts),
+};
+static const kiriRecord StillSheetRecord = KIRI_RECORD(kiriSheetData, StillSheetMembers);
+
+/* And in any tick. */
+static const kiriMember LiveSheetMembers[] = {
+    KIRI_RUN(4, kiriSheetData, id, id),
+    KIRI_DROPPED(kiriSheetData, memory),
+    KIRI_DROPPED(kiriSheetData, own),
+    KIRI_DROPPED(kiriSheetData, shown),
+    KIRI_PART(kiriSheetData, settings, SettingsRecord),
+    KIRI_PARTS(kiriSheetData, frames, kiriFrameRecord),
+    KIRI_PART(kiriSheetData, layout, LayoutRecord),
+    KIRI_PART(kiriSheetData, strainOffsets, kiriStrainOffsetsRecord),
+    KIRI_DROPPED(kiriSheetData, solver),
+    KIRI_DROPPED(kiriSheetData, queue),
+    KIRI_DROPPED(kiriSheetData, cuts),
+    KIRI_PARTS(kiriSheetData, pins, PinDataRecord),
+    KIRI_PARTS(kiriSheetData, contacts, GivenContactRecord),
+    KIRI_ITEMS(4, kiriSheetData, leaving),
+    KIRI_RUN(8, kiriSheetData, leavingPaid, leavingPaid),
+    KIRI_ROOM_OF(kiriSheetData, pinRows),
+    KIRI_ROOM_OF(kiriSheetData, clampRows),
+    KIRI_ROOM_OF(kiriSheetData, pinReactions),
+    KIRI_ROOM_OF(kiriSheetData, clampReactions),
+    KIRI_ROOM_OF(kiriSheetData, frameReactions),
+    KIRI_DROPPED(kiriSheetData, line),
+    KIRI_DROPPED(kiriSheetData, lineShares),
+    KIRI_PART(kiriSheetData, touches, TouchesRecord),
+    KIRI_BOOLS(kiriSheetData, rest, rest),
+    KIRI_DROPPED(kiriSheetData, seen),
+    KIRI_DROPPED(kiriSheetData, lists),
+    KIRI_DROPPED(kiriSheetData, probes),
+};
+static const kiriRecord LiveSheetRecord = KIRI_RECORD(kiriSheetData, LiveSheetMembers);
+
+/* ---- Both directions ---------------------------------------------------------------------------------------------- */
+
+void kiriSheet_ArchiveStill(kiriArchive* archive, kiriSheetData* sheet)
+{
+    bool reads = kiriArchive_Reads(archive);
+    archive->memory = &sheet->own;
+    kiriArchive_Object(archive, &StillSheetRecord, sheet);
+    archive->memory = &sheet->shown;
+    kiriArchive_Object(archive, &kiriStillSurfaceRecord, &sheet->seen.surface);
+    archive->memory = &sheet->own;
+    kiriArchive_Expect(archive, sheet->update != NULL);
+    if (reads && !kiriArchive_HasFailed(archive)) {
+        kiriMesh_EndReading(&sheet->mesh, &sheet->own);
+        kiriLinks_EndReading(&sheet->links, &sheet->own);
+        kiriPlacer_EndReading(&sheet->update->placing.placer, &sheet->regions.field);
+    }
+}
+
+static void MoveQueue(kiriArchive* archive, kiriSheetData* sheet)
+{
+    for (int32_t i = 0; i < sheet->queue.count && !kiriArchive_HasFailed(archive); ++i) {
+        kiriQueuedPoint* point = &sheet->queue.data[i];
+        int32_t cut = kiriArchive_Count(archive, point->cut != NULL ? point->cut->index : 0, 0, sheet->cuts.count - 1);
+        kiriArchive_Object(archive, &QueuedPointRecord, point);
+        if (kiriArchive_Reads(archive) && cut < sheet->cuts.count) {
+            point->cut = sheet->cuts.data[cut];
+        }
+    }
+}
+
+static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet)
+{
+    for (int32_t i = 0; i < sheet->cuts.count && !kiriArchive_HasFailed(archive); ++i) {
+        if (kiriArchive_Reads(archive)) {
+            sheet->cuts.data[i] = kiriMemory_AllocZeroed(archive->memory, sizeof(kiriCutData));
+            archive->isShort |= sheet->cuts.data[i] == NULL;
+        }
+        if (sheet->cuts.data[i] != NULL) {
+            kiriArchive_Object(archive, &CutDataRecord, sheet->cuts.data[i]);
+            kiriArchive_Expect(archive, sheet->cuts.data[i]->index == i);
+            sheet->cuts.data[i]->sheet = sheet;
+        }
+    }
+}
+
+/* Vertices are where the patches and what fades have them, but when weights or frames have changed since they were
+   written. */
+static bool AreWeightsSeen(const kiriSheetData* sheet)
+{
+    const kiriSurface* surface = &sheet->seen.surface;
+    return !sheet->seen.isElsewhere && surface->patches.count == sheet->frames.count &&
+           surface->vertexCount == sheet->seen.vertexCount && surface->vertexCount == sheet->vertexSkin.spans.count;
+}
+
+static void BlendSurface(kiriSheetData* sheet)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    kiriSurface_BlendRange(surface, &sheet->vertexSkin, 0, surface->vertexCount);
+    kiriSurface_AddFades(surface, &sheet->seen.fades);
+}
+
+static void MoveVertices(kiriArchive* archive, kiriSheetData* sheet)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    float* places = kiriSurface_Places(surface);
+    if (kiriArchive_Count(archive, AreWeightsSeen(sheet), 0, 1) == 0) {
+        kiriArchive_Numbers(archive, places, 4, 3 * (int64_t)surface->vertexCount);
+    } else if (kiriArchive_Reads(archive) && !kiriArchive_HasFailed(archive)) {
+        BlendSurface(sheet);
+    }
+}
+
+static void MovePoints(kiriArchive* archive, kiriSheetData* sheet)
+{
+    kiriArchive_Numbers(archive, sheet->seen.exactPoints.data, 8, 3 * (int64_t)sheet->seen.exactPoints.count);
+    kiriArchive_Numbers(archive, sheet->seen.pointPositions.data, 4, sheet->seen.pointPositions.count);
+}
+
+static void MoveSeen(kiriArchive* archive, kiriSheetData* sheet)
+{
+    archive->memory = &sheet->own;
+    kiriArchive_Object(archive, &SeenRecord, &sheet->seen);
+    archive->memory = &sheet->shown;
+    kiriArchive_Object(archive, &ShownPointsRecord, &sheet->seen);
+    kiriArchive_Object(archive, &ToldRecord, &sheet->touches);
+    kiriArchive_Object(archive, &kiriLiveSurfaceRecord, &sheet->seen.surface);
+    archive->memory = &sheet->own;
+    if (!kiriArchive_HasFailed(archive)) {
+        MoveVertices(archive, sheet);
+        MovePoints(archive, sheet);
+    }
+}
+
+static void MoveBounds(kiriArchive* archive, kiriBounds* bounds)
+{
+    int32_t isThere = kiriArchive_Count(archive, bounds->levelCount > 0, 0, 1);
+    kiriArchive_Int32(archive, &bounds->asked);
+    kiriArchive_Int32(archive, &bounds->patience);
+    bounds->levelCount = isThere && kiriArchive_Reads(archive) ? 1 : bounds->levelCount;
+}
+
+void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
+{
+    archive->memory = &sheet->own;
+    kiriArchive_Object(archive, &LiveSheetRecord, sheet);
+    kiriSolver_Archive(archive, &sheet->solver, &sheet->settings.mechanics);
+    if (!kiriArchive_HasFailed(archive)) {
+        kiriGrid_ArchiveGrowing(archive, &sheet->grid, &sheet->mesh);
+        kiriRoom_ArchiveGrowing(archive, sheet);
+        MoveSeen(archive, sheet);
+        MoveBounds(archive, sheet->seen.bounds);
+    }
+    archive->memory = memory;
+    kiriArchive_Object(archive, &QueueRecord, sheet);
+    MoveCuts(archive, sheet);
+    MoveQueue(archive, sheet);
+}
+
+/* Boxes, and normals, are made anew where they were there. */
+bool kiriSheet_EndReading(kiriSheetData* sheet)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    bool hasNormals = surface->hasNormals, hasBounds = sheet->seen.bounds->levelCount > 0;
+    surface->hasNormals = false;
+    kiriSurface_WriteRange(surface, 0, surface->vertexCount);
+    if (hasNormals) {
+        kiriSurface_NeedNormals(surface);
+    }
+    int32_t patience = sheet->seen.bounds->patience;
+    sheet->seen.bounds->levelCount = 0;
+    bool ok = !hasBounds || kiriBounds_Update(sheet->seen.bounds, sheet->memory, surface);
+    sheet->seen.bounds->patience = patience;
+    return ok;
+}

@@ -1,0 +1,82 @@
+#include "kiri_view_save.h"
+
+/* It is gathered anew. */
+static void ForgetStencil(kiriArchive* archive, void* object)
+{
+    kiriRefresh* refresh = object;
+    if (kiriArchive_Reads(archive)) {
+        refresh->stencil.cell = KIRI_NONE;
+    }
+}
+
+static const kiriMember SkinMembers[] = {
+    KIRI_ITEMS(4, kiriSkin, spans),  KIRI_ITEMS(4, kiriSkin, weights),  KIRI_RUN(4, kiriSkin, room, room),
+    KIRI_ITEMS(4, kiriSkin, staged), KIRI_ITEMS(4, kiriSkin, settling),
+};
+const kiriRecord kiriSkinRecord = KIRI_RECORD(kiriSkin, SkinMembers);
+
+static const kiriMember PlacesMembers[] = {
+    KIRI_ITEMS(4, kiriPlaces, head),
+    KIRI_ITEMS(4, kiriPlaces, next),
+};
+const kiriRecord kiriPlacesRecord = KIRI_RECORD(kiriPlaces, PlacesMembers);
+
+static const kiriMember RefreshMembers[] = {
+    KIRI_ITEMS(4, kiriRefresh, noted),
+    KIRI_ITEMS(4, kiriRefresh, squares),
+    KIRI_ITEMS(1, kiriRefresh, marks),
+    KIRI_RUN(4, kiriRefresh, change, sample),
+    KIRI_CUSTOM(kiriRefresh, stencil, ForgetStencil),
+};
+const kiriRecord kiriRefreshRecord = KIRI_RECORD(kiriRefresh, RefreshMembers);
+
+static const kiriMember FadingMembers[] = {
+    KIRI_RUN(4, kiriFading, sample, sample),
+    KIRI_RUN(8, kiriFading, left, offset),
+};
+static const kiriRecord FadingRecord = KIRI_RECORD(kiriFading, FadingMembers);
+
+static const kiriMember FadesMembers[] = {
+    KIRI_RUN(8, kiriFades, time, least),
+    KIRI_PARTS(kiriFades, fading, FadingRecord),
+    KIRI_RUN(4, kiriFades, older, older),
+    KIRI_RUN(8, kiriFades, jump, move),
+};
+const kiriRecord kiriFadesRecord = KIRI_RECORD(kiriFades, FadesMembers);
+
+static const kiriMember PatchesMembers[] = {
+    KIRI_ITEMS(4, kiriPatches, floats),
+    KIRI_ITEMS(1, kiriPatches, isOther),
+    KIRI_RUN(4, kiriPatches, count, count),
+    KIRI_BOOLS(kiriPatches, isBent, areOther),
+};
+static const kiriRecord PatchesRecord = KIRI_RECORD(kiriPatches, PatchesMembers);
+
+/* What only the work on cuts changes, and whoever takes pieces out. */
+static const kiriMember StillSurfaceMembers[] = {
+    KIRI_ITEMS(4, kiriSurface, restPositions),
+    KIRI_ITEMS(4, kiriSurface, sourceWeights),
+    KIRI_ITEMS(4, kiriSurface, indices),
+    KIRI_ITEMS(4, kiriSurface, sourceTriangles),
+    KIRI_ITEMS(8, kiriSurface, rest),
+    KIRI_ITEMS(4, kiriSurface, corners),
+    KIRI_RUN(4, kiriSurface, changes, lastChange),
+};
+const kiriRecord kiriStillSurfaceRecord = KIRI_RECORD(kiriSurface, StillSurfaceMembers);
+
+/* And what changes in any tick. Vertices and normals are made anew. */
+static const kiriMember LiveSurfaceMembers[] = {
+    KIRI_RUN(4, kiriSurface, skinning, skinning),
+    KIRI_RUN(8, kiriSurface, origin, longer),
+    KIRI_SPACE_OF(kiriSurface, positions),
+    KIRI_SPACE_OF(kiriSurface, normals),
+    KIRI_RUN(4, kiriSurface, vertexCount, revision),
+    KIRI_SPACE_OF(kiriSurface, slopes),
+    KIRI_RUN(8, kiriSurface, pose, middle),
+    KIRI_SPACE_OF(kiriSurface, places),
+    KIRI_ITEMS(8, kiriSurface, carriers),
+    KIRI_SPACE_OF(kiriSurface, bends),
+    KIRI_PART(kiriSurface, patches, PatchesRecord),
+    KIRI_BOOLS(kiriSurface, isWritten, hasNormals),
+};
+const kiriRecord kiriLiveSurfaceRecord = KIRI_RECORD(kiriSurface, LiveSurfaceMembers);

@@ -1,0 +1,16 @@
+/* Weights of samples and the surface as bytes: see core/kiri_archive.h. */
+#ifndef KIRI_VIEW_SAVE_H
+#define KIRI_VIEW_SAVE_H
+
+#include "../core/kiri_archive.h"
+#include "kiri_fade.h"
+#include "kiri_surface.h"
+
+KIRI_C_BEGIN
+
+extern const kiriRecord kiriSkinRecord, kiriPlacesRecord, kiriRefreshRecord, kiriFadesRecord;
+extern const kiriRecord kiriStillSurfaceRecord, kiriLiveSurfaceRecord;
+
+KIRI_C_END
+
+#endif
