@@ -217,6 +217,118 @@ static double PlayRound(Host* host, uint32_t* seed, int32_t samples, int32_t* wa
     return gone;
 }
 
+/* ---- Ahead ---- */
+
+enum { SETTINGS, PIN, CLAMP, ANOTHER_GOES, IT_GOES, TURN, REFUSE, SHEET_GOES, DISTURBANCES };
+
+static void Disturb(Host* host, kiriSheet sheet, kiriFrame leaves, kiriFrame other, int disturbance)
+{
+    static const float quarter[9] = { 0.0f, 1.0f, 0.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f }, shift[3] = { 1, 2, 3 };
+    kiriSheetSettings settings;
+    kiriPinDef def;
+    kiriPin pin;
+    kiriDefaultPinDef(&def);
+    def.restPoint[0] = 0.5f;
+    def.restPoint[1] = 0.12f;
+    switch (disturbance) {
+    case SETTINGS:
+        OK(kiriSheet_GetSettings(host->world, sheet, &settings));
+        settings.skinning = KIRI_SKINNING_SMOOTH;
+        settings.normals = 1;
+        settings.maxFrames = 7;
+        OK(kiriSheet_SetSettings(host->world, sheet, &settings));
+        break;
+    case PIN:
+        OK(kiriCreatePin(host->world, sheet, &def, &pin));
+        break;
+    case CLAMP:
+        OK(kiriSheet_ClampLine(host->world, sheet, (float[]){ 0.5f, 0.1f }, (float[]){ 0.5f, 0.9f }, &pin));
+        break;
+    case ANOTHER_GOES:
+        OK(kiriFrame_DestroyPiece(host->world, other));
+        break;
+    case IT_GOES:
+        OK(kiriFrame_DestroyPiece(host->world, leaves));
+        break;
+    case TURN:
+        OK(kiriSheet_Transform(host->world, sheet, quarter, shift));
+        break;
+    default:
+        break;
+    }
+}
+
+/* Three strips, of which one is detached. Under a budget it is made before it leaves: then something else happens. */
+static void StartAhead(Host* host, int disturbance, bool hasBudget, bool* wasMade)
+{
+    static const float none[3] = { 0.0f, 0.0f, 0.0f };
+    const kiriBudget budget = { 0, 0, 60, 0 };
+    kiriResult result;
+    kiriSheet made;
+    Host_Start(host);
+    OK(kiriWorld_SetGravity(host->world, none));
+    kiriSheetDef def = DefOfRun(1);
+    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 70, 70);
+    Host_Cut(host, sheet, (float[]){ -0.1f, 0.241f, 1.1f, 0.252f }, 2);
+    Host_Cut(host, sheet, (float[]){ -0.1f, 0.603f, 1.1f, 0.622f }, 2);
+    Settle(host, 0);
+    int32_t leaves = 0;
+    kiriPieceState state;
+    for (int32_t p = 0; p < 3; ++p) {
+        OK(kiriSheet_GetPiece(host->world, sheet, p, &state));
+        leaves = state.center[1] < 0.24 ? p : leaves;
+    }
+    kiriFrame frame = Host_FrameOf(host, sheet, leaves), other = Host_FrameOf(host, sheet, (leaves + 1) % 3);
+    if (!hasBudget) {
+        Disturb(host, sheet, frame, other, disturbance);
+        assert_true(disturbance == IT_GOES || kiriFrame_DetachPiece(host->world, frame, &made) == KIRI_OK);
+        return;
+    }
+    const kiriAhead* ahead = &host->world->sheets.data[0]->ahead;
+    OK(kiriWorld_SetBudget(host->world, &budget));
+    assert_int_equal(kiriFrame_DetachPiece(host->world, frame, &made), KIRI_PENDING);
+    for (int32_t tick = 0; tick < 30 && !*wasMade; ++tick) {
+        host->failAt = disturbance == REFUSE ? host->calls + tick % 16 : -1;
+        TickOnce(host, 60, &result);
+        *wasMade = *wasMade || (ahead->part != NULL && ahead->part->update != NULL &&
+                                ahead->part->update->stage == KIRI_STAGE_CONSTANTS);
+    }
+    host->failAt = -1;
+    Disturb(host, sheet, frame, other, disturbance);
+}
+
+/* What is made before does not tell in what comes of it; and it is made before. */
+static void TestMadeAhead(void** state)
+{
+    (void)state;
+    for (int disturbance = 0; disturbance < DISTURBANCES; ++disturbance) {
+        Host hosts[2];
+        bool wasMade = false;
+        StartAhead(&hosts[0], disturbance, true, &wasMade);
+        assert_true(wasMade || disturbance == REFUSE);
+        if (disturbance == SHEET_GOES) {
+            OK(kiriDestroySheet(hosts[0].world, hosts[0].world->sheets.data[0]->id));
+            Host_Stop(&hosts[0]);
+            continue;
+        }
+        Settle(&hosts[0], 60);
+        StartAhead(&hosts[1], disturbance, false, &wasMade);
+        Settle(&hosts[1], 0);
+        assert_int_equal(hosts[0].world->sheets.count, disturbance == IT_GOES ? 1 : 2);
+        assert_int_equal(hosts[1].world->sheets.count, hosts[0].world->sheets.count);
+        assert_true(HashLayouts(&hosts[0]) == HashLayouts(&hosts[1]));
+        for (int32_t s = 0; s < hosts[0].world->sheets.count; ++s) {
+            const kiriSheetData *a = hosts[0].world->sheets.data[s], *b = hosts[1].world->sheets.data[s];
+            assert_int_equal(a->pins.count, b->pins.count);
+            assert_int_equal(a->settings.skinning, b->settings.skinning);
+            assert_int_equal(a->settings.maxFrames, b->settings.maxFrames);
+            assert_true(a->ahead.frame == 0 && a->ahead.part == NULL);
+        }
+        Host_Stop(&hosts[0]);
+        Host_Stop(&hosts[1]);
+    }
+}
+
 /* ---- Tests ---- */
 
 static void RunAtRandom(uint32_t run, int32_t squares, const kiriBudget* budget, int32_t* waited)
@@ -230,6 +342,7 @@ static void RunAtRandom(uint32_t run, int32_t squares, const kiriBudget* budget,
     for (int k = 0; k < 2; ++k) {
         kiriSheetDef def = DefOfRun(run);
         Host_Start(&hosts[k]);
+        hosts[k].every = squares > 60 ? 4 : 0;
         OK(kiriWorld_SetGravity(hosts[k].world, none));
         Host_AddRectangle(&hosts[k], &def, 1.0f, 1.0f, squares, squares);
     }
@@ -254,7 +367,7 @@ static void TestSmallSheets(void** state)
 {
     (void)state;
     int32_t waited = 0;
-    for (uint32_t run = 1; run <= 10; ++run) {
+    for (uint32_t run = 1; run <= 8; ++run) {
         const kiriBudget budget = { 60, 300, run % 2 ? 25 : 150, 0 };
         RunAtRandom(run, 14, &budget, &waited);
     }
@@ -278,6 +391,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestSmallSheets),
         cmocka_unit_test(TestLargeSheets),
+        cmocka_unit_test(TestMadeAhead),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -743,8 +743,8 @@ KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, 
    next tick; *detached is 0. When the work is done, what is the piece of this frame then becomes a sheet, and
    KIRI_EVENT_PIECE_DETACHED names it. About 1.2 samples for each vertex of the piece, 0.7 for each cell, and one for 80
    vertices of the rest are paid before, over several ticks if need be, of many pieces one after the other; until then
-   further cuts of the sheet wait. A piece that is worth more than the samples of a tick is made in one tick all the same,
-   when they are paid. What a call does at once the coming ticks have less. KIRI_ERROR_STATE: nothing would be left of the
+   further cuts of the sheet wait. A piece that is worth more than the samples of a tick is made as they are paid; it leaves
+   in one tick all the same, which takes a third of the work. What a call does at once the coming ticks have less. KIRI_ERROR_STATE: nothing would be left of the
    sheet. */
 KIRI_API kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached);
 

@@ -3,7 +3,6 @@
 #include "kiri_build.h"
 #include "kiri_motion.h"
 #include "kiri_pin.h"
-#include "kiri_pipeline.h"
 #include "kiri_seen.h"
 #include "kiri_settings.h"
 #include "kiri_touch.h"
@@ -108,19 +107,6 @@ static bool CopyContacts(const kiriKept* kept, kiriSheetData* to)
     return true;
 }
 
-/* No frame is added: whoever wants one has asked before, or asks with the next cut. */
-static bool RunStages(const kiriKept* kept, kiriSheetData* to)
-{
-    if (!kiriPipeline_Make(to, KIRI_STAGE_REGIONS) || !CopySites(kept, to) || !CopyPoints(kept, to) ||
-        !CopyPins(kept, to) || !CopyContacts(kept, to)) {
-        return false;
-    }
-    to->settings.maxFrames = 0;
-    bool ok = kiriPipeline_Make(to, KIRI_READY);
-    to->settings.maxFrames = kept->from->settings.maxFrames;
-    return ok;
-}
-
 /* Frames as they are to the last bit, whatever a commit does to new ones. */
 static void CopyFrames(const kiriKept* kept, kiriSheetData* to)
 {
@@ -200,10 +186,12 @@ static void CopyRest(const kiriKept* kept, kiriSheetData* to)
     kiriMotion_SumRest(to);
 }
 
-static bool BuildPart(const kiriKept* kept, kiriSheetData* to)
+/* What may change until the piece leaves: all but the fields. */
+static bool CopyMotion(const kiriKept* kept, kiriSheetData* to)
 {
     to->solver = kiriSolver_Create(to->memory, &to->settings.mechanics);
-    if (to->solver == NULL || !RunStages(kept, to) || !CopyAllFades(kept, to)) {
+    if (to->solver == NULL || !CopyPins(kept, to) || !CopyContacts(kept, to) || !kiriPipeline_Make(to, KIRI_READY) ||
+        !CopyAllFades(kept, to)) {
         return false;
     }
     CopyFrames(kept, to);
@@ -231,22 +219,83 @@ static kiriIndices ItemsOfSpan(const kiriIndices* items, kiriSpan span)
     return (kiriIndices){ items->data + span.first, span.count, span.count };
 }
 
-bool kiriExtraction_Build(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
+double kiriExtraction_Samples(const kiriSheetData* sheet, double share)
+{
+    const double vertexSamples = 1.2, cellSamples = 0.7;
+    double vertices = (double)sheet->mesh.vertices.count - sheet->mesh.vertexHoles;
+    return share * (vertexSamples * vertices + cellSamples * sheet->grid.cellCount);
+}
+
+/* The part at hand: its vertices and triangles. */
+typedef struct PartItems {
+    kiriMeshPart vertices, triangles;
+} PartItems;
+
+static PartItems TakePiece(kiriExtraction* extraction, int32_t piece)
 {
     kiriKept* kept = &extraction->kept;
-    const kiriSheetData* from = kept->from;
     const kiriGatheredPiece* found = kiriGather_Find(extraction->gathered, piece);
-    kiriMeshPart vertices = { ItemsOfSpan(&extraction->gathered->vertices, found->vertices), &kept->vertices };
-    kiriMeshPart triangles = { ItemsOfSpan(&extraction->gathered->triangles, found->triangles), &kept->triangles };
-    kiriKept_TakePart(kept, piece, &vertices.items, &triangles.items);
-    bool ok = kiriMesh_InitPart(&to->mesh, to->memory, &from->mesh, &triangles, &vertices);
+    PartItems items = { { ItemsOfSpan(&extraction->gathered->vertices, found->vertices), &kept->vertices },
+                        { ItemsOfSpan(&extraction->gathered->triangles, found->triangles), &kept->triangles } };
+    kiriKept_TakePart(kept, piece, &items.vertices.items, &items.triangles.items);
+    return items;
+}
+
+static void DropPiece(kiriExtraction* extraction, int32_t piece, const PartItems* items)
+{
+    kiriKept_DropPart(&extraction->kept, piece, &items->vertices.items, &items->triangles.items);
+}
+
+bool kiriExtraction_Begin(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
+{
+    PartItems items = TakePiece(extraction, piece);
+    bool ok = kiriMesh_InitPart(&to->mesh, to->memory, &extraction->kept.from->mesh, &items.triangles, &items.vertices);
     if (ok) {
-        CopySettings(kept, to);
-        to->seen.bounds->patience = from->seen.bounds->patience;
-        ok = BuildPart(kept, to);
+        CopySettings(&extraction->kept, to);
     }
-    kiriKept_DropPart(kept, piece, &vertices.items, &triangles.items);
+    DropPiece(extraction, piece, &items);
     return ok;
+}
+
+/* When its cells are there. */
+static bool FillCellsOfPart(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
+{
+    PartItems items = TakePiece(extraction, piece);
+    bool ok = CopySites(&extraction->kept, to) && CopyPoints(&extraction->kept, to);
+    DropPiece(extraction, piece, &items);
+    return ok;
+}
+
+/* No frame is added: whoever wants one has asked before, or asks with the next cut. */
+kiriProgress kiriExtraction_GoOn(kiriExtraction* extraction, int32_t piece, kiriSheetData* to, kiriQuotas* quotas)
+{
+    to->settings.maxFrames = 0;
+    kiriProgress progress = kiriPipeline_MakeSome(to, KIRI_STAGE_REGIONS, quotas);
+    if (progress == KIRI_DONE && to->update->placing.sites.count == 0 && !FillCellsOfPart(extraction, piece, to)) {
+        return KIRI_FAILED;
+    }
+    return progress == KIRI_DONE ? kiriPipeline_MakeSome(to, KIRI_STAGE_CONSTANTS, quotas) : progress;
+}
+
+static bool EndPart(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
+{
+    const kiriSheetData* from = extraction->kept.from;
+    PartItems items = TakePiece(extraction, piece);
+    CopySettings(&extraction->kept, to); /* as they are now */
+    to->settings.maxFrames = 0;
+    to->seen.bounds->patience = from->seen.bounds->patience;
+    bool ok = CopyMotion(&extraction->kept, to);
+    to->settings.maxFrames = from->settings.maxFrames;
+    DropPiece(extraction, piece, &items);
+    return ok;
+}
+
+bool kiriExtraction_Build(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
+{
+    kiriQuotas unlimited = kiriQuotas_Unlimited();
+    bool isBegun = to->mesh.vertices.count > 0;
+    return (isBegun || kiriExtraction_Begin(extraction, piece, to)) &&
+           kiriExtraction_GoOn(extraction, piece, to, &unlimited) == KIRI_DONE && EndPart(extraction, piece, to);
 }
 
 void kiriExtraction_Drop(kiriExtraction* extraction)

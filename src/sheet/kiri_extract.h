@@ -4,6 +4,7 @@
 
 #include "kiri_gather.h"
 #include "kiri_kept.h"
+#include "kiri_pipeline.h"
 
 KIRI_C_BEGIN
 
@@ -17,9 +18,17 @@ typedef struct kiriExtraction {
 bool kiriExtraction_Init(kiriExtraction* extraction, const kiriGathered* gathered);
 
 /* The sheet of one piece: on the same lattice and squares, so that all that follows from the mesh is what it was bit for
-   bit; frames, pins and contacts keep ids and state. `to` is new. Cuts stay behind. No cut has changed the mesh whose
-   work is not done. False for memory. */
+   bit; frames, pins and contacts keep ids and state. `to` is new, or begun. Cuts stay behind. No cut has changed the mesh
+   whose work is not done. False for memory. */
 bool kiriExtraction_Build(kiriExtraction* extraction, int32_t piece, kiriSheetData* to);
+
+/* The same little by little, before the piece leaves: its mesh, then its fields and weights as far as the quotas go. These
+   depend on the mesh of the sheet alone, so long as that is the same; all else Build takes as it is in the end. */
+bool kiriExtraction_Begin(kiriExtraction* extraction, int32_t piece, kiriSheetData* to);
+kiriProgress kiriExtraction_GoOn(kiriExtraction* extraction, int32_t piece, kiriSheetData* to, kiriQuotas* quotas);
+
+/* What it takes to make sheets of this share of a sheet's area, in samples. */
+double kiriExtraction_Samples(const kiriSheetData* sheet, double share);
 
 void kiriExtraction_Drop(kiriExtraction* extraction);
 

@@ -20,6 +20,15 @@ static const PipelineStage pipeline[KIRI_READY] = {
     { KIRI_QUOTA_SAMPLES, kiriStage_Constants },   /* owners of material, new frames, the pattern of the matrix */
 };
 
+kiriQuotas kiriQuotas_Unlimited(void)
+{
+    kiriQuotas quotas;
+    for (int i = 0; i < KIRI_QUOTA_COUNT; ++i) {
+        quotas.of[i] = (kiriQuota){ INT64_MAX, 0 };
+    }
+    return quotas;
+}
+
 static kiriProgress RunUpTo(kiriSheetData* sheet, int32_t end, kiriQuotas* quotas, const kiriWatch* watch)
 {
     kiriUpdate* u = sheet->update;
@@ -55,21 +64,23 @@ static bool StartSkin(kiriSheetData* sheet)
     return true;
 }
 
-bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end)
+kiriProgress kiriPipeline_MakeSome(kiriSheetData* sheet, int32_t end, kiriQuotas* quotas)
 {
-    kiriQuotas unlimited;
-    for (int i = 0; i < KIRI_QUOTA_COUNT; ++i) {
-        unlimited.of[i] = (kiriQuota){ INT64_MAX, 0 };
-    }
     if (sheet->update == NULL) {
         sheet->update = kiriMemory_AllocZeroed(sheet->memory, sizeof(kiriUpdate));
         if (sheet->update == NULL || !StartSkin(sheet)) {
-            return false;
+            return KIRI_FAILED;
         }
         sheet->update->stage = KIRI_STAGE_GRID;
         sheet->update->isScratch = true;
     }
-    return RunUpTo(sheet, end, &unlimited, NULL) == KIRI_DONE;
+    return RunUpTo(sheet, end, quotas, NULL);
+}
+
+bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end)
+{
+    kiriQuotas unlimited = kiriQuotas_Unlimited();
+    return kiriPipeline_MakeSome(sheet, end, &unlimited) == KIRI_DONE;
 }
 
 void kiriPipeline_Start(kiriSheetData* sheet)

@@ -13,6 +13,8 @@ typedef struct kiriQuotas {
     kiriQuota of[KIRI_QUOTA_COUNT];
 } kiriQuotas;
 
+kiriQuotas kiriQuotas_Unlimited(void);
+
 /* Is told which stage begins, for the profile. */
 typedef struct kiriWatch {
     void (*enter)(void* context, int32_t stage);
@@ -22,6 +24,9 @@ typedef struct kiriWatch {
 /* For a sheet that has its mesh, and nothing else: runs the stages from the grid up to the stage `end`, without a limit.
    Again for the next ones. False for memory. */
 bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end);
+
+/* The same as far as the quotas go. KIRI_MORE: again with new ones. */
+kiriProgress kiriPipeline_MakeSome(kiriSheetData* sheet, int32_t end, kiriQuotas* quotas);
 
 /* At the start of a tick: takes the points that were given before one tick from the queue, when nothing is at hand. */
 void kiriPipeline_Start(kiriSheetData* sheet);

@@ -1,5 +1,6 @@
 #include "kiri_remove.h"
 
+#include "kiri_ahead.h"
 #include "kiri_motion.h"
 #include "kiri_pin.h"
 #include "kiri_stages.h"
@@ -127,7 +128,12 @@ static bool StageLayout(kiriRemoval* removal)
 
 bool kiriRemoval_Gather(kiriRemoval* removal)
 {
-    return kiriGather_Make(&removal->gathered, removal->sheet, &removal->kept.memory, removal->kept.pieces.data);
+    const kiriGathered* known = kiriAhead_Gathered(removal->sheet, removal->kept.pieces.data);
+    if (known != NULL) {
+        removal->gathered = *known;
+    }
+    return known != NULL ||
+           kiriGather_Make(&removal->gathered, removal->sheet, &removal->kept.memory, removal->kept.pieces.data);
 }
 
 enum { SMALL_SHEET = 4096 }; /* vertices: a pass over them takes no longer than a tick */
@@ -136,6 +142,15 @@ bool kiriRemoval_IsWorthAPass(const kiriSheetData* sheet, double share)
 {
     int32_t vertices = sheet->mesh.vertices.count, holes = sheet->mesh.vertexHoles;
     return vertices <= SMALL_SHEET || 2.0 * (holes + share * (vertices - holes)) > vertices;
+}
+
+double kiriRemoval_Samples(const kiriSheetData* sheet, double share)
+{
+    enum { RENUMBERED_VERTICES = 80, PASSED_VERTICES = 12 }; /* for one: weights are renumbered; all moves together */
+    const kiriMeshData* mesh = &sheet->mesh;
+    double vertices = (double)mesh->vertices.count - mesh->vertexHoles;
+    double pass = kiriRemoval_IsWorthAPass(sheet, share) ? vertices / PASSED_VERTICES : 0.0;
+    return 1.0 + vertices / RENUMBERED_VERTICES + pass;
 }
 
 static bool StageItems(kiriRemoval* removal)

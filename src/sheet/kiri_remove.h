@@ -30,6 +30,9 @@ bool kiriRemoval_Gather(kiriRemoval* removal);
    gathered, and leaves holes. */
 bool kiriRemoval_IsWorthAPass(const kiriSheetData* sheet, double share);
 
+/* What it takes to take this share of a sheet's area out of it, in samples. */
+double kiriRemoval_Samples(const kiriSheetData* sheet, double share);
+
 /* Makes ready: after it Commit does not fail. Fields belong to the mesh as it is (kiriUpdate_IsFieldCurrent). False for
    memory; nothing has changed. */
 bool kiriRemoval_Stage(kiriRemoval* removal, bool leavesHoles);

@@ -19,6 +19,8 @@ kiriSheetData* kiriSheet_New(kiriMemory* memory)
 void kiriSheet_Delete(kiriSheetData* sheet, kiriMemory* memory)
 {
     if (sheet != NULL) {
+        kiriSheet_Delete(sheet->ahead.part, memory);
+        kiriMemory_FreeAll(&sheet->ahead.memory);
         kiriMemory_FreeAll(&sheet->shown);
         kiriMemory_FreeAll(&sheet->own);
         kiriArray_Release(memory, &sheet->queue);

@@ -142,6 +142,16 @@ typedef struct kiriTaking {
     KIRI_ARRAY(uint8_t) cells;
 } kiriTaking;
 
+/* The sheet of a piece that is to leave, as far as it is made before that, see kiri_ahead.h. Nothing depends on it. */
+typedef struct kiriAhead {
+    kiriFrame frame; /* names the piece; 0: none */
+    int32_t piece;
+    uint32_t revision;             /* of the mesh that it is made of */
+    struct kiriSheetData* part;    /* null: not begun */
+    struct kiriGathered* gathered; /* what belongs to the piece; null: not yet */
+    kiriMemory memory;             /* of that */
+} kiriAhead;
+
 /* How far a cut has come. */
 typedef struct kiriTip {
     kiriVec2 last; /* local: the last point taken */
@@ -317,6 +327,7 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriGivenContact) contacts; /* of the next tick */
     KIRI_ARRAY(kiriFrame) leaving;         /* their pieces become sheets when the work at hand is done */
     int64_t leavingPaid;                   /* samples, for taking them out, and what the host has destroyed */
+    kiriAhead ahead;                       /* for the first of them */
     kiriTaking taking;
 
     /* Room reserved by whoever makes it needed, so that a tick without a cut allocates nothing. */

@@ -395,6 +395,9 @@ static bool FinishParting(kiriWorld* world, kiriQuota* samples)
     bool isDone = true;
     for (int32_t i = 0, count = world->active.count; i < count; ++i) {
         kiriSheetData* sheet = kiriWorld_Active(world, i);
+        if (kiriParts_AreDue(sheet)) {
+            EnterStage(world, KIRI_STAGE_CONSTANTS);
+        }
         int32_t made = kiriParts_Finish(world, sheet, samples);
         for (int32_t k = 0; k < made; ++k) {
             const kiriSheetData* part = kiriPool_Find(&world->frameIds, sheet->leaving.data[k])->owner;
