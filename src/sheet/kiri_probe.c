@@ -172,7 +172,7 @@ static bool ChooseProbes(kiriSheetData* sheet)
     kiriMemory scratch = kiriMemory_Like(sheet->memory);
     Choices choices = { NULL, 0, 0 };
     bool ok = MarkVertices(sheet);
-    Block block = { BlockSize(sheet), 0, 0 };
+    Block block = { sheet->probes.block, 0, 0 };
     for (; ok && block.row < sheet->mesh.squares.rows; block.row += block.size) {
         for (block.column = 0; ok && block.column < sheet->mesh.squares.columns; block.column += block.size) {
             ok = ChooseInBlock(sheet, &scratch, &choices, &block);
@@ -234,6 +234,7 @@ bool kiriProbes_Update(kiriSheetData* sheet)
 {
     kiriProbes* probes = &sheet->probes;
     bool isNew = !probes->isFresh;
+    probes->block = isNew ? BlockSize(sheet) : probes->block;
     if (isNew && !ChooseProbes(sheet)) {
         return false;
     }
@@ -242,5 +243,15 @@ bool kiriProbes_Update(kiriSheetData* sheet)
         BoundPieces(sheet);
         MeasureVelocities(sheet);
     }
+    return true;
+}
+
+bool kiriProbes_Remake(kiriSheetData* sheet)
+{
+    if (!ChooseProbes(sheet)) {
+        return false;
+    }
+    BoundPieces(sheet);
+    MeasureVelocities(sheet);
     return true;
 }

@@ -12,6 +12,9 @@ KIRI_C_BEGIN
    memory. */
 bool kiriProbes_Update(kiriSheetData* sheet);
 
+/* Of a sheet that was read from bytes: chooses them as they were chosen, which is by `block`. */
+bool kiriProbes_Remake(kiriSheetData* sheet);
+
 /* m/s: of a vertex. */
 kiriVec3 kiriProbe_Velocity(const kiriSheetData* sheet, int32_t vertex);
 

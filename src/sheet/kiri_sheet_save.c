@@ -4,8 +4,11 @@
 #include "../mesh/kiri_mesh_save.h"
 #include "../motion/kiri_motion_save.h"
 #include "../view/kiri_view_save.h"
+#include "kiri_probe.h"
 #include "kiri_room.h"
 #include "kiri_seen.h"
+
+#include <string.h>
 
 /* ---- Tables ------------------------------------------------------------------------------------------------------- */
 
@@ -272,6 +275,21 @@ static const kiriMember ShownPointsMembers[] = {
 };
 static const kiriRecord ShownPointsRecord = KIRI_RECORD(kiriSeen, ShownPointsMembers);
 
+/* Probes are chosen anew; those of a sheet that sleeps keep the velocities that they had. */
+static const kiriMember ProbesMembers[] = {
+    KIRI_BOOLS(kiriProbes, isFresh, isFresh), KIRI_RUN(4, kiriProbes, block, block), KIRI_DROPPED(kiriProbes, sheet),
+    KIRI_DROPPED(kiriProbes, firstBody),      KIRI_DROPPED(kiriProbes, vertexPiece), KIRI_DROPPED(kiriProbes, isBorder),
+    KIRI_DROPPED(kiriProbes, leans),          KIRI_DROPPED(kiriProbes, isChosen),    KIRI_DROPPED(kiriProbes, list),
+    KIRI_DROPPED(kiriProbes, boxes),          KIRI_DROPPED(kiriProbes, touch),
+};
+static const kiriRecord ProbesRecord = KIRI_RECORD(kiriProbes, ProbesMembers);
+
+static const kiriMember ProbeSpeedsMembers[] = {
+    KIRI_ITEMS(8, kiriProbes, velocities),
+    KIRI_ITEMS(8, kiriProbes, speeds),
+};
+static const kiriRecord ProbeSpeedsRecord = KIRI_RECORD(kiriProbes, ProbeSpeedsMembers);
+
 /* Of the world's memory. Pointers are put in by hand. */
 static const kiriMember QueueMembers[] = {
     KIRI_SPACE_OF(kiriSheetData, queue),
@@ -429,6 +447,14 @@ static void MoveBounds(kiriArchive* archive, kiriBounds* bounds)
     bounds->levelCount = isThere && kiriArchive_Reads(archive) ? 1 : bounds->levelCount;
 }
 
+static void MoveProbes(kiriArchive* archive, kiriSheetData* sheet)
+{
+    kiriArchive_Object(archive, &ProbesRecord, &sheet->probes);
+    if (sheet->probes.isFresh && sheet->rest.asleep) {
+        kiriArchive_Object(archive, &ProbeSpeedsRecord, &sheet->probes);
+    }
+}
+
 void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
 {
     archive->memory = &sheet->own;
@@ -439,6 +465,7 @@ void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemor
         kiriRoom_ArchiveGrowing(archive, sheet);
         MoveSeen(archive, sheet);
         MoveBounds(archive, sheet->seen.bounds);
+        MoveProbes(archive, sheet);
     }
     archive->memory = memory;
     kiriArchive_Object(archive, &QueueRecord, sheet);
@@ -446,7 +473,35 @@ void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemor
     MoveQueue(archive, sheet);
 }
 
-/* Boxes, and normals, are made anew where they were there. */
+/* What array `from` has goes to `to`, which has as many items or was empty. */
+static void TakeSpeeds(void* to, const void* from, size_t itemBytes)
+{
+    kiriArrayHeader old = kiriArray_GetHeader(from), fresh = kiriArray_GetHeader(to);
+    if (old.count == fresh.count && old.count > 0) {
+        memcpy(fresh.data, old.data, itemBytes * (size_t)old.count);
+    }
+}
+
+static bool RemakeProbes(kiriSheetData* sheet)
+{
+    kiriProbes read = sheet->probes;
+    if (!read.isFresh) {
+        return true;
+    }
+    memset(&sheet->probes, 0, sizeof(sheet->probes));
+    sheet->probes.block = read.block > 0 ? read.block : 1;
+    sheet->probes.isFresh = true;
+    bool ok = kiriProbes_Remake(sheet);
+    if (ok) {
+        TakeSpeeds(&sheet->probes.velocities, &read.velocities, sizeof(kiriVec3));
+        TakeSpeeds(&sheet->probes.speeds, &read.speeds, sizeof(double));
+    }
+    kiriArray_Release(sheet->memory, &read.velocities);
+    kiriArray_Release(sheet->memory, &read.speeds);
+    return ok;
+}
+
+/* Boxes, normals and probes are made anew where they were there. */
 bool kiriSheet_EndReading(kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
@@ -460,5 +515,5 @@ bool kiriSheet_EndReading(kiriSheetData* sheet)
     sheet->seen.bounds->levelCount = 0;
     bool ok = !hasBounds || kiriBounds_Update(sheet->seen.bounds, sheet->memory, surface);
     sheet->seen.bounds->patience = patience;
-    return ok;
+    return ok && RemakeProbes(sheet);
 }

@@ -8,11 +8,19 @@
 
 /* ---- Tables ------------------------------------------------------------------------------------------------------- */
 
+/* What was found is of the tick at hand alone. */
+static const kiriMember PairMembers[] = {
+    KIRI_RUN(4, kiriTouchingPair, upper, touches),
+    KIRI_DROPPED(kiriTouchingPair, bodies),
+    KIRI_DROPPED(kiriTouchingPair, nears),
+};
+static const kiriRecord PairRecord = KIRI_RECORD(kiriTouchingPair, PairMembers);
+
 static const kiriMember PairsMembers[] = {
-    KIRI_ITEMS(4, kiriPairs, pairs),  KIRI_ROOM_OF(kiriPairs, next),     KIRI_ROOM_OF(kiriPairs, found),
-    KIRI_ROOM_OF(kiriPairs, bodies),  KIRI_ROOM_OF(kiriPairs, order),    KIRI_ROOM_OF(kiriPairs, nears),
-    KIRI_ROOM_OF(kiriPairs, islands), KIRI_ROOM_OF(kiriPairs, calms),    KIRI_ROOM_OF(kiriPairs, touches),
-    KIRI_ITEMS(8, kiriPairs, felt),   KIRI_ROOM_OF(kiriPairs, nextFelt),
+    KIRI_PARTS(kiriPairs, pairs, PairRecord), KIRI_ROOM_OF(kiriPairs, next),     KIRI_ROOM_OF(kiriPairs, found),
+    KIRI_ROOM_OF(kiriPairs, bodies),          KIRI_ROOM_OF(kiriPairs, order),    KIRI_ROOM_OF(kiriPairs, nears),
+    KIRI_ROOM_OF(kiriPairs, islands),         KIRI_ROOM_OF(kiriPairs, calms),    KIRI_ROOM_OF(kiriPairs, touches),
+    KIRI_ITEMS(8, kiriPairs, felt),           KIRI_ROOM_OF(kiriPairs, nextFelt),
 };
 static const kiriRecord PairsRecord = KIRI_RECORD(kiriPairs, PairsMembers);
 
