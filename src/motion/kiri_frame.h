@@ -76,6 +76,10 @@ static inline kiriVec3 kiriFrame_VelocityAt(const kiriFrameData* frame, kiriVec2
     return kiriVec3_AddScaled(velocity, p.y - frame->center.y, frame->rate.v);
 }
 
+/* Can the host read it as floats? An eighth of these leaves room for the sums and blends that they are made of. NaN does
+   not fit. */
+bool kiriFrame_FitsFloats(const kiriFrameData* frame);
+
 /* Gives the frame the mass and centre of its region; the motion of the material does not change. */
 void kiriFrame_Recenter(kiriFrameData* frame, const kiriMoments* material, double densityPerArea);
 

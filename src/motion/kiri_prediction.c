@@ -1,5 +1,6 @@
 #include "kiri_prediction.h"
 
+#include <float.h>
 #include <string.h>
 
 #define LONGEST_PART_TURN 1.0 /* of one part of a step: a Cayley vector */
@@ -333,6 +334,20 @@ kiriPrediction kiriPrediction_Held(const kiriFrameData* frame, const kiriMateria
     prediction.target = prediction.pose.A;
     prediction.guess = prediction.pose;
     return prediction;
+}
+
+static bool FitsFloats(kiriVec3 a)
+{
+    const double most = 0.125 * (double)FLT_MAX;
+    return fabs(a.x) <= most && fabs(a.y) <= most && fabs(a.z) <= most;
+}
+
+bool kiriFrame_FitsFloats(const kiriFrameData* frame)
+{
+    return FitsFloats(frame->x) && FitsFloats(frame->A.u) && FitsFloats(frame->A.v) && FitsFloats(frame->A.d) &&
+           FitsFloats(frame->velocity) && FitsFloats(frame->spin) && FitsFloats(frame->rate.u) &&
+           FitsFloats(frame->rate.v) && FitsFloats(frame->rate.d) &&
+           FitsFloats(kiriFrame_VelocityAt(frame, frame->site.at));
 }
 
 void kiriFrame_Recenter(kiriFrameData* frame, const kiriMoments* material, double densityPerArea)

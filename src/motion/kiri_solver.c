@@ -251,21 +251,10 @@ uint64_t kiriSolver_Hash(const kiriSolver* solver)
 
 /* ---- End of a step ---- */
 
-/* The host reads floats. An eighth leaves room for the sums and blends that they are made of. NaN does not fit. */
-static bool FitsFloats(kiriVec3 a)
-{
-    const double most = 0.125 * (double)FLT_MAX;
-    return fabs(a.x) <= most && fabs(a.y) <= most && fabs(a.z) <= most;
-}
-
 static bool IsReadable(const kiriSolver* solver)
 {
     KIRI_EACH(f, solver->awake.frames) {
-        const kiriFrameData* frame = &solver->after.data[f];
-        if (!FitsFloats(frame->x) || !FitsFloats(frame->A.u) || !FitsFloats(frame->A.v) || !FitsFloats(frame->A.d) ||
-            !FitsFloats(frame->velocity) || !FitsFloats(frame->spin) || !FitsFloats(frame->rate.u) ||
-            !FitsFloats(frame->rate.v) || !FitsFloats(frame->rate.d) ||
-            !FitsFloats(kiriFrame_VelocityAt(frame, frame->site.at))) {
+        if (!kiriFrame_FitsFloats(&solver->after.data[f])) {
             return false;
         }
     }

@@ -34,6 +34,18 @@ static void CarryFrame(kiriFrameData* frame, const kiriMat3* R, kiriVec3 t, bool
     TurnVector(R, &frame->heldOff);
 }
 
+bool kiriCarry_FitsSheet(const kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t)
+{
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        kiriFrameData moved = sheet->frames.data[i];
+        CarryFrame(&moved, R, t, false);
+        if (!kiriFrame_FitsFloats(&moved)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static void TurnFades(kiriFades* fades, const kiriMat3* R)
 {
     for (int32_t k = 0; k < fades->fading.count; ++k) {
@@ -116,8 +128,28 @@ static kiriVec3 CenterOf(const kiriSheetData* sheet, int32_t piece)
     return kiriVec3_Scale(1.0 / mass, sum);
 }
 
+static void GiveVelocity(kiriFrameData* frame, kiriVec3 center, kiriVec3 velocity, kiriVec3 spin)
+{
+    frame->velocity = kiriVec3_Add(velocity, kiriVec3_Cross(spin, kiriVec3_Sub(frame->x, center)));
+    frame->spin = spin;
+    memset(&frame->rate, 0, sizeof(frame->rate));
+    memset(&frame->history, 0, sizeof(frame->history));
+}
+
+static bool FitsVelocity(const kiriSheetData* sheet, int32_t piece, kiriVec3 center, kiriVec3 velocity, kiriVec3 spin)
+{
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        kiriFrameData given = sheet->frames.data[i];
+        GiveVelocity(&given, center, velocity, spin);
+        if (IsOf(sheet, i, piece) && !kiriFrame_FitsFloats(&given)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* In a planar sheet, what is across the plane is dropped. */
-void kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocity, kiriVec3 spin)
+bool kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocity, kiriVec3 spin)
 {
     const kiriMechanics* mechanics = &sheet->settings.mechanics;
     kiriVec3 d = mechanics->axes.d, center = CenterOf(sheet, piece);
@@ -125,14 +157,14 @@ void kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocit
         velocity = kiriVec3_AddScaled(velocity, -kiriVec3_Dot(velocity, d), d);
         spin = kiriVec3_Scale(kiriVec3_Dot(spin, d), d);
     }
+    if (!FitsVelocity(sheet, piece, center, velocity, spin)) {
+        return false;
+    }
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        kiriFrameData* frame = &sheet->frames.data[i];
         if (IsOf(sheet, i, piece)) {
-            frame->velocity = kiriVec3_Add(velocity, kiriVec3_Cross(spin, kiriVec3_Sub(frame->x, center)));
-            frame->spin = spin;
-            memset(&frame->rate, 0, sizeof(frame->rate));
-            memset(&frame->history, 0, sizeof(frame->history));
+            GiveVelocity(&sheet->frames.data[i], center, velocity, spin);
             kiriMotion_WakeFrame(sheet, i);
         }
     }
+    return true;
 }

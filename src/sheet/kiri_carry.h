@@ -10,8 +10,12 @@ KIRI_C_BEGIN
    may hold go to `retired`, and others are written. False for memory: nothing has changed. */
 bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMemory* retired);
 
-/* The frames of a piece, or of all (KIRI_NONE), move as one rigid body: `spin` about their centre of mass. */
-void kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocity, kiriVec3 spin);
+/* Would frames still fit floats, see kiriFrame_FitsFloats? */
+bool kiriCarry_FitsSheet(const kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t);
+
+/* The frames of a piece, or of all (KIRI_NONE), move as one rigid body: `spin` about their centre of mass. False, and
+   changes nothing, where frames would not fit floats. */
+bool kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocity, kiriVec3 spin);
 
 KIRI_C_END
 

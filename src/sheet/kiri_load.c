@@ -52,21 +52,51 @@ static void Push(const kiriSheetData* sheet, kiriFrameData* frame, kiriVec3 impu
     frame->velocity = kiriVec3_AddScaled(frame->velocity, 1.0 / frame->mass, impulse);
 }
 
-/* What is seen lies off where the weights have the point, where it fades or its patches are bent: each share of the
-   impulse acts as if that much beside its frame's own point, so that the sum acts where the point is seen. */
-void kiriLoad_Impulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 impulse)
+/* The parts of the impulse that this frame gets by the corners of the triangle; or, KIRI_NONE, each frame its own. */
+static void PushFrames(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 off, kiriVec3 impulse, int32_t only,
+                       kiriFrameData* frames)
 {
     const int32_t* corners = sheet->mesh.triangles.data[place->triangle].vertex;
-    kiriVec3 off = kiriVec3_Sub(kiriPoint_Position(sheet, place), kiriPoint_Blend(sheet, place).x);
     for (int k = 0; k < 3; ++k) {
         kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[corners[k]].at);
         kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
             kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
-            kiriFrameData* frame = &sheet->frames.data[weight.frame];
-            kiriVec3 arm = kiriVec3_Add(kiriVec3_Sub(kiriFrame_Carry(frame, local), frame->x), off);
-            kiriVec3 part = kiriVec3_Scale(place->shares[k] * weight.value, impulse);
-            Push(sheet, frame, part, kiriVec3_Cross(arm, part));
+            if (only == KIRI_NONE || only == weight.frame) {
+                kiriFrameData* frame = only == KIRI_NONE ? &frames[weight.frame] : frames;
+                kiriVec3 arm = kiriVec3_Add(kiriVec3_Sub(kiriFrame_Carry(frame, local), frame->x), off);
+                kiriVec3 part = kiriVec3_Scale(place->shares[k] * weight.value, impulse);
+                Push(sheet, frame, part, kiriVec3_Cross(arm, part));
+            }
         }
     }
+}
+
+static bool FitsImpulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 off, kiriVec3 impulse)
+{
+    const int32_t* corners = sheet->mesh.triangles.data[place->triangle].vertex;
+    for (int k = 0; k < 3; ++k) {
+        kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
+        for (int32_t i = span.first; i < span.first + span.count; ++i) {
+            int32_t f = sheet->vertexSkin.weights.data[i].frame;
+            kiriFrameData pushed = sheet->frames.data[f];
+            PushFrames(sheet, place, off, impulse, f, &pushed);
+            if (!kiriFrame_FitsFloats(&pushed)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* What is seen lies off where the weights have the point, where it fades or its patches are bent: each share of the
+   impulse acts as if that much beside its frame's own point, so that the sum acts where the point is seen. */
+bool kiriLoad_Impulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 impulse)
+{
+    kiriVec3 off = kiriVec3_Sub(kiriPoint_Position(sheet, place), kiriPoint_Blend(sheet, place).x);
+    if (!FitsImpulse(sheet, place, off, impulse)) {
+        return false;
+    }
+    PushFrames(sheet, place, off, impulse, KIRI_NONE, sheet->frames.data);
+    return true;
 }

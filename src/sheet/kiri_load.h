@@ -16,8 +16,8 @@ void kiriLoad_AlongLine(kiriSheetData* sheet, kiriLatticePoint from, kiriLattice
 void kiriLoad_OnSurface(kiriSheetData* sheet, double pressure);
 
 /* An impulse (N s) on a point as it is seen, at once: each frame that carries the point gets its share. The sheet gets the
-   impulse, and its moment about where the point is seen. */
-void kiriLoad_Impulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 impulse);
+   impulse, and its moment about where the point is seen. False, and changes nothing, where frames would not fit floats. */
+bool kiriLoad_Impulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 impulse);
 
 KIRI_C_END
 

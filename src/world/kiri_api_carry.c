@@ -30,6 +30,7 @@ kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float ro
     KIRI_CHECK(why == NULL, why);
     kiriMat3 given = { kiriVec3_Load(&rotation[0]), kiriVec3_Load(&rotation[3]), kiriVec3_Load(&rotation[6]) };
     kiriMat3 R = kiriMat3_Rotation(given);
+    KIRI_CHECK(kiriCarry_FitsSheet(data, &R, kiriVec3_Load(translation)), "floats cannot hold what comes of it");
     bool isDone = kiriCarry_Sheet(data, &R, kiriVec3_Load(translation), &world->retired);
     KIRI_RETURN(isDone ? KIRI_OK : KIRI_ERROR_MEMORY);
 }
@@ -42,7 +43,8 @@ kiriResult kiriSheet_SetVelocity(kiriWorld* world, kiriSheet sheet, const float 
     KIRI_CHECK(angularVelocity != NULL && kiriCall_AreFinite(angularVelocity, 3),
                "angularVelocity is null or not finite");
     KIRI_FIND_SHEET(data, sheet);
-    kiriCarry_SetVelocity(data, KIRI_NONE, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity));
+    KIRI_CHECK(kiriCarry_SetVelocity(data, KIRI_NONE, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity)),
+               "floats cannot hold what comes of it");
     KIRI_RETURN(KIRI_OK);
 }
 
@@ -55,6 +57,7 @@ kiriResult kiriFrame_SetPieceVelocity(kiriWorld* world, kiriFrame frame, const f
                "angularVelocity is null or not finite");
     KIRI_FIND_FRAME_SHEET(sheet, frame);
     int32_t piece = sheet->layout.framePiece.data[kiriPool_Find(&world->frameIds, frame)->index];
-    kiriCarry_SetVelocity(sheet, piece, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity));
+    KIRI_CHECK(kiriCarry_SetVelocity(sheet, piece, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity)),
+               "floats cannot hold what comes of it");
     KIRI_RETURN(KIRI_OK);
 }

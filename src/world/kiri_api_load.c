@@ -88,7 +88,7 @@ kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float
     kiriPointPlace place;
     KIRI_CHECK(kiriSheet_ToLattice(data, restPoint, &at) && kiriPoint_Find(data, at, &place),
                "restPoint lies outside the material");
-    kiriLoad_Impulse(data, &place, kiriVec3_Load(impulse));
+    KIRI_CHECK(kiriLoad_Impulse(data, &place, kiriVec3_Load(impulse)), "floats cannot hold what comes of it");
     if (IsLoad(impulse)) {
         int32_t vertex = data->mesh.triangles.data[place.triangle].vertex[0];
         kiriMotion_WakePiece(data, kiriPiece_OfVertex(data, vertex));

@@ -35,10 +35,24 @@ kiriResult kiriWorld_ReserveSheets(kiriWorld* world, int32_t count)
                : KIRI_ERROR_MEMORY;
 }
 
+static bool FramesFitFloats(const kiriSheetData* sheet)
+{
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        if (!kiriFrame_FitsFloats(&sheet->frames.data[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
 kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, const char** why)
 {
     kiriSheetData* sheet = kiriSheet_New(&world->memory);
     kiriResult result = sheet != NULL ? kiriBuild_FromDef(sheet, def, why) : KIRI_ERROR_MEMORY;
+    if (result == KIRI_OK && !FramesFitFloats(sheet)) {
+        *why = "floats cannot hold where it is, or how it moves";
+        result = KIRI_ERROR_ARGUMENT;
+    }
     if (result == KIRI_OK) {
         *why = NULL;
         result = kiriWorld_ReserveSheets(world, 1);
