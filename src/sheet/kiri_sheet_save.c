@@ -331,6 +331,7 @@ static const kiriMember LiveSheetMembers[] = {
     KIRI_PARTS(kiriSheetData, contacts, GivenContactRecord),
     KIRI_ITEMS(4, kiriSheetData, leaving),
     KIRI_RUN(8, kiriSheetData, leavingPaid, leavingPaid),
+    KIRI_DROPPED(kiriSheetData, ahead),
     KIRI_ROOM_OF(kiriSheetData, pinRows),
     KIRI_ROOM_OF(kiriSheetData, clampRows),
     KIRI_ROOM_OF(kiriSheetData, pinReactions),
