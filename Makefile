@@ -4,6 +4,7 @@
 #   make box2d    cuts a strip that lies on bodies of Box2D
 #   make play     plays a game in a window; GAME=curtain or net, ARGS=--help
 #   make test     builds and runs all tests
+#   make fuzz     looks for input that breaks something; FUZZ=mesh: other than calls; TIME=600: s
 #   make tsan     runs the tests with threads under the thread sanitizer
 #   make lib      build/<config>/libkiri.a and libkiri.so
 #   make single   build/single: the library as kiri.h, kiri.c and kiri.cpp, to add to any build
@@ -28,6 +29,7 @@ SCENE ?= bunny
 GAME ?=
 ARGS ?=
 CASE ?=
+FUZZ ?= calls
 
 # Packages by what they are for, as Debian names them.
 NEEDS_lib := gcc g++ libeigen3-dev
@@ -36,6 +38,7 @@ NEEDS_box2d := $(NEEDS_run) libbox2d-dev
 NEEDS_play := $(NEEDS_box2d) libsdl2-dev
 NEEDS_test := $(NEEDS_play) libcmocka-dev
 NEEDS_tsan := $(NEEDS_lib) libcmocka-dev
+NEEDS_fuzz := clang $(NEEDS_lib) libcmocka-dev
 NEEDS_bench := $(NEEDS_lib) libcmocka-dev
 NEEDS_accuracy := $(NEEDS_lib) libpng-dev
 NEEDS_contact := $(NEEDS_lib) libbox2d-dev
@@ -56,9 +59,12 @@ FLAGS := -Wall -Wextra -Wpedantic -Wshadow -Werror -ffp-contract=off -fno-math-e
 FLAGS_release := -O3 -DNDEBUG
 FLAGS_debug := -Og -g -DKIRI_ASSERTS
 FLAGS_sanitize := -O1 -g -DKIRI_ASSERTS -fsanitize=address,undefined -fno-sanitize-recover=all
+# With clang: `make fuzz` says so. Zero added to a null pointer is no error in C++, and none in the next C.
+FLAGS_fuzz := -O1 -g -DKIRI_ASSERTS -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all \
+              -fno-sanitize=pointer-overflow
 FLAGS_thread := -O2 -g -DKIRI_ASSERTS -fsanitize=thread
 ifeq ($(FLAGS_$(config)),)
-$(error config is release, debug, sanitize or thread, not '$(config)')
+$(error config is release, debug, sanitize, thread or fuzz, not '$(config)')
 endif
 FLAGS += $(FLAGS_$(config))
 
@@ -86,6 +92,8 @@ SCENE_OBJECTS := $(filter $(BUILD)/samples/scene% %/outline.c.o,$(SAMPLE_OBJECTS
 # Checks of a whole world, for all tests.
 VALIDATE_OBJECTS := $(patsubst %,$(BUILD)/tests/%.c.o,validate validate_mesh validate_field)
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c)) $(patsubst %.cpp,$(BUILD)/%,$(wildcard tests/test_*.cpp))
+# Each tests/fuzz_X.c, its input in tests/data/fuzz/X.
+FUZZERS := calls
 # What `make accuracy` is made of beside its driver.
 ACCURACY_PARTS := $(addprefix tests/,accuracy_beam accuracy_plate accuracy_shell accuracy_cut accuracy_motion specimen \
                   frame_layout results reference trade sweep plot)
@@ -113,7 +121,7 @@ TO_LINK := $(BUILD)/link.txt Makefile
 
 include bindings/install.mk
 
-.PHONY: all run box2d play python builds test tsan check floors fields headers single example lib bench accuracy contact extremes gallery guide deps format clean exports FORCE
+.PHONY: all run box2d play python builds test fuzz tsan check floors fields headers single example lib bench accuracy contact extremes gallery guide deps format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
 .DELETE_ON_ERROR:
@@ -144,6 +152,12 @@ play: packages-play
 
 test: packages-test
 	@$(MAKE) --no-print-directory -k check
+
+fuzz: packages-fuzz
+	@$(MAKE) --no-print-directory config=fuzz CC=clang CXX=clang++ build/fuzz/tests/fuzz_$(FUZZ)
+	@mkdir -p build/fuzz/$(FUZZ)
+	build/fuzz/tests/fuzz_$(FUZZ) -max_total_time=$(or $(TIME),60) -max_len=700 -timeout=60 -rss_limit_mb=4096 \
+	    -artifact_prefix=build/fuzz/$(FUZZ)- build/fuzz/$(FUZZ) tests/data/fuzz/$(FUZZ)
 
 tsan: packages-tsan
 	@$(MAKE) --no-print-directory config=thread run-test_tasks run-test_readers
@@ -208,7 +222,16 @@ $(TEST_RUNS): run-%: $(BUILD)/tests/%
 	@if $< > $<.log 2>&1; then echo "== $<"; grep '^\[  PASSED' $<.log; \
 	else echo "== $< FAILED"; cat $<.log; exit 1; fi
 
-check: $(TEST_RUNS) $(RUN) $(BOX2D) $(PLAY) floors fields headers float-guards exports example $(PYTHON_CHECK) $(BUILD_CHECK)
+# Input that fuzzers have found, and more at random.
+FUZZ_RUNS := $(patsubst %,run-fuzz_%,$(FUZZERS))
+
+.PHONY: $(FUZZ_RUNS)
+
+$(FUZZ_RUNS): run-fuzz_%: $(BUILD)/tests/fuzz_%
+	@if $< tests/data/fuzz/$* > $<.log 2>&1; then echo "== $<"; tail -n 1 $<.log; \
+	else echo "== $< FAILED"; tail -n 20 $<.log; exit 1; fi
+
+check: $(TEST_RUNS) $(FUZZ_RUNS) $(RUN) $(BOX2D) $(PLAY) floors fields headers float-guards exports example $(PYTHON_CHECK) $(BUILD_CHECK)
 	@echo "all tests passed ($(config))"
 
 python: $(BUILD)/libkiri.so
@@ -387,6 +410,15 @@ $(BUILD)/tests/test_games: TEST_LIBRARIES = $(BUILD)/libkiri.a -lbox2d -lOSMesa 
 $(BUILD)/tests/test_readers $(BUILD)/tests/test_tasks $(BUILD)/tests/bench_tasks: override LDFLAGS += -pthread
 
 $(BUILD)/tests/test_save: $(patsubst %,$(BUILD)/tests/%.c.o,storm_types storm_acts storm_cuts storm_seen)
+
+# Fuzzers: with the main of libFuzzer, or one that runs what it is given.
+FUZZ_MAIN := $(if $(filter fuzz,$(config)),,$(BUILD)/tests/fuzz_main.c.o)
+
+$(patsubst %,$(BUILD)/tests/fuzz_%,$(FUZZERS)): $(BUILD)/tests/fuzz.c.o $(FUZZ_MAIN)
+$(BUILD)/tests/fuzz_calls: $(patsubst %,$(BUILD)/tests/fuzz_%.c.o,read world)
+ifeq ($(config),fuzz)
+$(BUILD)/tests/fuzz_%: override LDFLAGS += -fsanitize=fuzzer
+endif
 
 # Tests that compare with the heavy elastica.
 $(BUILD)/tests/test_affine $(BUILD)/tests/test_estimate $(BUILD)/tests/test_point: $(BUILD)/tests/reference.c.o

@@ -14,13 +14,17 @@
 
 typedef struct Host {
     kiriWorld* world;
-    int64_t live;   /* blocks that are out */
-    int64_t calls;  /* of the allocator */
-    int64_t failAt; /* the call that gets null; negative: none */
-    bool failOnce;  /* or all calls from there on */
-    int32_t ticks;  /* through Host_Tick */
-    int32_t every;  /* so many ticks the world is validated; 0: every one */
-    int32_t lines;  /* logged */
+    int64_t live;    /* blocks that are out */
+    int64_t calls;   /* of the allocator */
+    int64_t failAt;  /* the call that gets null; negative: none */
+    bool failOnce;   /* or all calls from there on */
+    int64_t most;    /* bytes that a block may have; 0: no limit */
+    int64_t refused; /* calls that got null */
+    uint8_t
+        poison;    /* other bits than usual, for what is not written: two hosts that differ in it tell who reads that */
+    int32_t ticks; /* through Host_Tick */
+    int32_t every; /* so many ticks the world is validated; 0: every one */
+    int32_t lines; /* logged */
     char line[256]; /* the last of them */
 } Host;
 
@@ -34,14 +38,16 @@ static inline void* Host_Alloc(void* user, int64_t bytes)
 {
     Host* host = user;
     int64_t call = host->calls++;
-    if (host->failAt >= 0 && (host->failOnce ? call == host->failAt : call >= host->failAt)) {
+    bool isTooLarge = host->most > 0 && bytes > host->most;
+    if (isTooLarge || (host->failAt >= 0 && (host->failOnce ? call == host->failAt : call >= host->failAt))) {
+        ++host->refused;
         return NULL;
     }
     HostBlock* block = malloc(sizeof(HostBlock) + (size_t)bytes);
     assert_non_null(block);
     block->bytes = bytes;
     ++host->live;
-    return memset(block + 1, 0xcd, (size_t)bytes);
+    return memset(block + 1, 0xcd ^ host->poison, (size_t)bytes);
 }
 
 /* Poisoned again, for whoever still reads it. The compiler would leave the poison out before a plain call of free. */

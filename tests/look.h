@@ -19,7 +19,7 @@ static inline uint64_t Look_Mesh(uint64_t hash, const kiriMesh* mesh)
 {
     size_t vertices = (size_t)mesh->vertexCount, triangles = (size_t)mesh->triangleCount;
     hash = Look_Bytes(hash, mesh->positions, 12 * vertices);
-    hash = Look_Bytes(hash, mesh->normals, 12 * vertices);
+    hash = mesh->normals == NULL ? hash : Look_Bytes(hash, mesh->normals, 12 * vertices);
     hash = Look_Bytes(hash, mesh->restPositions, 8 * vertices);
     hash = Look_Bytes(hash, mesh->indices, 12 * triangles);
     hash = Look_Bytes(hash, mesh->sourceTriangles, 4 * vertices);

@@ -701,7 +701,7 @@ static const char* CorruptSurface(kiriWorld* world, kiriSheetData* s, int way)
         s->seen.fades.fading.data[1].sample = s->seen.fades.fading.data[0].sample;
         return "fades: sample";
     case 8:
-        s->seen.fades.fading.data[0].left = 2.0 * s->seen.fades.time;
+        s->seen.fades.fading.data[0].left = 0.0;
         return "fades for";
     default:
         return NULL;
