@@ -62,12 +62,19 @@ static bool AreBelow(const kiriIndices* indices, int32_t count)
     return areBelow;
 }
 
-static bool IsSolver(const kiriSolver* solver)
+/* Lists that were not made since others woke are of nothing. */
+static bool AreLists(const kiriSolver* solver)
 {
     const kiriAwake* awake = &solver->awake;
+    return !awake->isListed ||
+           (AreBelow(&awake->pieces, solver->pieceCount) && AreBelow(&awake->frames, solver->frameCount) &&
+            AreBelow(&awake->elements, solver->elementCount));
+}
+
+static bool IsSolver(const kiriSolver* solver)
+{
     bool isFine = solver->frameCount == kiriMatrix_FrameCount(solver->matrix) && solver->pieceCount >= 0 &&
-                  awake->isAwake.count == solver->pieceCount && AreBelow(&awake->pieces, solver->pieceCount) &&
-                  AreBelow(&awake->frames, solver->frameCount) && AreBelow(&awake->elements, solver->elementCount);
+                  solver->awake.isAwake.count == solver->pieceCount && AreLists(solver);
     for (int32_t f = 0; isFine && f < solver->frameCount; ++f) {
         isFine = solver->framePiece.data[f] >= 0 && solver->framePiece.data[f] < solver->pieceCount;
     }
