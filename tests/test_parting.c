@@ -845,6 +845,29 @@ static void TestAskedTwice(void** state)
     Host_Stop(&host);
 }
 
+/* The largest piece waits to be detached: crumbs are below the next one, too, for the sheet must not be left empty. */
+static void TestCrumbsWhileTheLargestLeaves(void** state)
+{
+    (void)state;
+    static const kiriBudget budget = { 0, 30, 20, 0 };
+    Host host;
+    Wait wait = StartWait(&host, &budget);
+    kiriSheet detached;
+    kiriPieceState largest, other;
+    int32_t dropped;
+    OK(kiriSheet_GetPiece(host.world, wait.sheet, 0, &largest));
+    OK(kiriSheet_GetPiece(host.world, wait.sheet, 1, &other));
+    assert_true(largest.area > other.area);
+    assert_int_equal(kiriFrame_DetachPiece(host.world, wait.frames[0], &detached), KIRI_PENDING);
+    assert_true(kiriSheet_DropCrumbs(host.world, wait.sheet, 10.0f, &dropped) >= 0);
+    assert_int_equal(dropped, 2);
+    while (Host_Tick(&host, 1.0f / 60.0f, 1) == KIRI_PENDING) {
+    }
+    assert_int_equal(host.world->sheets.count, 2);
+    assert_int_equal(Host_Counts(&host, wait.sheet).pieces, 1);
+    Host_Stop(&host);
+}
+
 /* ---- On a floor ---- */
 
 /* How many contacts of the first sheet are known to have pushed. */
@@ -1090,6 +1113,7 @@ int main(void)
         cmocka_unit_test(TestWaitingChangesNothing),
         cmocka_unit_test(TestGoneIsGone),
         cmocka_unit_test(TestAskedTwice),
+        cmocka_unit_test(TestCrumbsWhileTheLargestLeaves),
         cmocka_unit_test(TestWaitingCallsWithoutMemory),
         cmocka_unit_test(TestWaitingIsPatient),
         cmocka_unit_test(TestWaitingIsPaid),

@@ -763,7 +763,8 @@ KIRI_API kiriResult kiriWorld_DetachPieces(kiriWorld* world, const kiriFrame* fr
                                            kiriSheet* detached);
 KIRI_API kiriResult kiriWorld_DestroyPieces(kiriWorld* world, const kiriFrame* frames, int32_t count);
 
-/* Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is how many. */
+/* Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is how many. Where that one
+   waits to become a sheet, the largest of the others stays, too. */
 KIRI_API kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count);
 
 /* ---- Cut -------------------------------------------------------------------------------------------------------- */

@@ -461,17 +461,28 @@ kiriResult kiriParts_Destroy(kiriWorld* world, const kiriFrame* frames, int32_t 
 
 /* ---- Crumbs ---- */
 
-/* Marks what goes, and returns how many pieces these are. */
-static int32_t MarkBelow(kiriKept* kept, double area)
+/* The largest of the pieces that are kept; or of those of them that do not wait to become a sheet. */
+static int32_t LargestKept(const kiriWorld* world, const kiriKept* kept, bool isToStay)
 {
     const kiriLayout* layout = &kept->from->layout;
-    int32_t largest = KIRI_NONE, dropped = 0;
+    int32_t largest = KIRI_NONE;
     for (int32_t p = 0; p < layout->pieces.count; ++p) {
         bool isLarger = largest == KIRI_NONE || layout->pieces.data[p].area > layout->pieces.data[largest].area;
-        largest = kept->pieces.data[p] && isLarger ? p : largest;
+        if (kept->pieces.data[p] && isLarger && !(isToStay && IsLeaving(world, kept->from, p))) {
+            largest = p;
+        }
     }
+    return largest;
+}
+
+/* Marks what goes, and returns how many pieces these are. */
+static int32_t MarkBelow(const kiriWorld* world, kiriKept* kept, double area)
+{
+    const kiriLayout* layout = &kept->from->layout;
+    int32_t dropped = 0, largest = LargestKept(world, kept, false);
+    int32_t second = IsLeaving(world, kept->from, largest) ? LargestKept(world, kept, true) : largest;
     for (int32_t p = 0; p < layout->pieces.count; ++p) {
-        bool stays = p == largest || layout->pieces.data[p].area >= area;
+        bool stays = p == largest || p == second || layout->pieces.data[p].area >= area;
         dropped += kept->pieces.data[p] && !stays;
         kept->pieces.data[p] = kept->pieces.data[p] && stays;
     }
@@ -485,7 +496,7 @@ kiriResult kiriParts_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double a
     kiriResult result = source != NULL ? KIRI_OK : KIRI_ERROR_MEMORY;
     *count = 0;
     if (result == KIRI_OK) {
-        int32_t dropped = MarkBelow(&source->removal.kept, area);
+        int32_t dropped = MarkBelow(world, &source->removal.kept, area);
         result = dropped > 0 ? Destroy(&parting) : KIRI_OK;
         *count = result >= 0 ? dropped : 0;
     }
