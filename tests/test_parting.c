@@ -799,6 +799,9 @@ static void TestGoneIsGone(void** state)
     memcpy(pinDef.restPoint, at, sizeof(at));
     assert_int_equal(kiriCreatePin(host.world, wait.sheet, &pinDef, &pin), KIRI_ERROR_ARGUMENT);
     OK(kiriDestroyPin(host.world, other));
+    const float ends[4] = { 0.2f, at[1], 0.8f, at[1] };
+    assert_int_equal(kiriSheet_ClampLine(host.world, wait.sheet, ends, ends + 2, &pin), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_ApplyLineLoad(host.world, wait.sheet, ends, ends + 2, up), KIRI_ERROR_ARGUMENT);
     kiriContact contact;
     memset(&contact, 0, sizeof(contact));
     contact.point = point;

@@ -37,9 +37,10 @@ int32_t kiriOwner_OfNode(const kiriSheetData* sheet, int32_t node, bool isStaged
     if (node == KIRI_NONE) {
         return KIRI_NONE;
     }
-    return isStaged || kiriUpdate_IsFieldCurrent(sheet->update)
-               ? sheet->regions.field.owner.data[sheet->grid.nodeCell.data[node]]
-               : HeaviestAt(sheet, sheet->mesh.squares.nodes.data[node].triangle);
+    int32_t frame = isStaged || kiriUpdate_IsFieldCurrent(sheet->update)
+                        ? sheet->regions.field.owner.data[sheet->grid.nodeCell.data[node]]
+                        : HeaviestAt(sheet, sheet->mesh.squares.nodes.data[node].triangle);
+    return isStaged || !kiriSheet_IsGone(sheet, frame) ? frame : KIRI_NONE;
 }
 
 /* ---- Lines -------------------------------------------------------------------------------------------------------- */
