@@ -1,6 +1,12 @@
 /* Bad input: every function refuses it with the right code and one line, and the world stays as it was. */
 #include "host.h"
 
+#include <fenv.h>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
 static const float badFloats[3] = { NAN, INFINITY, -INFINITY };
 
 typedef struct Before {
@@ -188,6 +194,46 @@ static void Names(void** state)
     assert_string_equal(kiriGetStageName(-1), "");
     assert_string_equal(kiriGetStageName(KIRI_STAGE_COUNT), "");
     assert_int_equal(kiriGetVersion(), KIRI_VERSION);
+}
+
+/* No world was created, the line says why, and nothing was allocated. */
+static void AssertModeRefused(kiriResult result, const Host* host)
+{
+    assert_int_equal(result, KIRI_ERROR_BUILD);
+    assert_null(host->world);
+    assert_int_equal(host->calls, 0);
+    assert_int_equal(host->lines, 1);
+    assert_non_null(strstr(host->line, "FTZ"));
+}
+
+/* In each mode of the processor that gives other bits; and a world is made again afterwards. */
+static void ModesOfFloats(void** state)
+{
+    (void)state;
+    static const int roundings[] = { FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO };
+    for (int i = 0; i < 3; ++i) {
+        Host host = { .failAt = -1 };
+        kiriWorldDef def = Host_Def(&host);
+        assert_int_equal(fesetround(roundings[i]), 0);
+        kiriResult result = kiriCreateWorld(&def, &host.world);
+        fesetround(FE_TONEAREST);
+        AssertModeRefused(result, &host);
+    }
+#if defined(__SSE2__)
+    static const unsigned int flushes[] = { 0x8000, 0x0040 }; /* of results; of what is read */
+    for (int i = 0; i < 2; ++i) {
+        Host host = { .failAt = -1 };
+        kiriWorldDef def = Host_Def(&host);
+        unsigned int mode = _mm_getcsr();
+        _mm_setcsr(mode | flushes[i]);
+        kiriResult result = kiriCreateWorld(&def, &host.world);
+        _mm_setcsr(mode);
+        AssertModeRefused(result, &host);
+    }
+#endif
+    Host host;
+    Host_Start(&host);
+    Host_Stop(&host);
 }
 
 /* Every preset makes a sheet; other numbers make none. */
@@ -1073,6 +1119,7 @@ int main(void)
         cmocka_unit_test(NullWorld),
         cmocka_unit_test(Names),
         cmocka_unit_test(WorldDefs),
+        cmocka_unit_test(ModesOfFloats),
         cmocka_unit_test(Materials),
         cmocka_unit_test(WorldArguments),
         cmocka_unit_test(SheetDefFloats),

@@ -69,7 +69,7 @@ enum kiriResultCode {
     KIRI_ERROR_MEMORY = -6,   /* the allocator returned null */
     KIRI_DIVERGED = -7,       /* the motion of a sheet could not be continued; it was put to rest where it was */
     KIRI_ERROR_LIMIT = -8,    /* all ids of a kind are used up: 4 194 304 at a time, 2^29 over the life of a world */
-    KIRI_ERROR_BUILD = -9,    /* the library was compiled such that its bits are not those of other machines */
+    KIRI_ERROR_BUILD = -9,    /* floats are not computed as on other machines, see kiriCreateWorld */
     KIRI_ERROR_DATA = -10,    /* bytes that are damaged, cut short, of something else, or of a later version */
     KIRI_ERROR_REPLAY = -11   /* a call that was made again gave something else than its recording has */
 };
@@ -146,7 +146,9 @@ typedef struct kiriWorldDef {
 KIRI_API void kiriDefaultWorldDef(kiriWorldDef* def);
 
 /* Makes an empty world. On failure *world is null. KIRI_ERROR_BUILD: the compiler has contracted products and sums to fused
-   multiply-adds (-ffp-contract=fast of clang), or has reordered them. */
+   multiply-adds (-ffp-contract=fast of clang), or has reordered them; or this thread flushes small floats to zero (FTZ,
+   DAZ) or does not round to nearest. The threads of later calls, and those that the host runs tasks on, are not checked:
+   in such a mode their bits are others. */
 KIRI_API kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 
 /* Frees the world and all that is in it. Null is allowed. */

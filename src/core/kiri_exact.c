@@ -39,3 +39,25 @@ bool kiriExact_AreFloats(void)
 {
     return IsProductRounded() && AreLanesRounded() && IsOrderKept();
 }
+
+/* The least normal number halves, and the half doubles again, which it does not where it is read as zero. */
+static bool AreSmallKept(void)
+{
+    volatile double least = DBL_MIN, half = 0.5 * DBL_MIN;
+    volatile float leastFloat = FLT_MIN, halfFloat = 0.5f * FLT_MIN;
+    double d = least, e = half;
+    float f = leastFloat, g = halfFloat;
+    return 0.5 * d > 0.0 && 2.0 * e == d && 0.5f * f > 0.0f && 2.0f * g == f;
+}
+
+static bool AreNearest(void)
+{
+    volatile double one = 1.0, less = 0.25 * DBL_EPSILON, more = 0.75 * DBL_EPSILON;
+    double a = one, b = less, c = more;
+    return a + b == a && a + c > a && -a - b == -a && -a - c < -a;
+}
+
+bool kiriExact_IsModePlain(void)
+{
+    return AreSmallKept() && AreNearest();
+}

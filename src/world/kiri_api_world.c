@@ -107,6 +107,11 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     if (why != NULL) {
         return RefuseWorld(def, KIRI_ERROR_ARGUMENT, why);
     }
+    if (!kiriExact_IsModePlain()) {
+        return RefuseWorld(def, KIRI_ERROR_BUILD,
+                           "kiriCreateWorld: this thread flushes small floats to zero (FTZ, DAZ) or does not round to "
+                           "nearest; set the processor's mode back (KIRI_ERROR_BUILD)");
+    }
     if (!kiriExact_AreFloats()) {
         return RefuseWorld(def, KIRI_ERROR_BUILD,
                            "kiriCreateWorld: the library is compiled with fused multiply-add or reordered sums; add "
