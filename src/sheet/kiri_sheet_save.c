@@ -392,12 +392,12 @@ static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet)
     }
 }
 
-/* Vertices are where the patches and what fades have them, but when weights or frames have changed since they were
-   written. */
+/* Vertices and normals are what patches, fades and triangles make of them, but when weights, or what is seen, have changed
+   since they were written. */
 static bool AreWeightsSeen(const kiriSheetData* sheet)
 {
     const kiriSurface* surface = &sheet->seen.surface;
-    return !sheet->seen.isElsewhere && surface->patches.count == sheet->frames.count &&
+    return !sheet->seen.isElsewhere && surface->isSteady && surface->patches.count == sheet->frames.count &&
            surface->vertexCount == sheet->seen.vertexCount && surface->vertexCount == sheet->vertexSkin.spans.count;
 }
 
@@ -414,6 +414,7 @@ static void MoveVertices(kiriArchive* archive, kiriSheetData* sheet)
     float* places = kiriSurface_Places(surface);
     if (kiriArchive_Count(archive, AreWeightsSeen(sheet), 0, 1) == 0) {
         kiriArchive_Numbers(archive, places, 4, 3 * (int64_t)surface->vertexCount);
+        kiriArchive_Numbers(archive, surface->normals.data, 4, surface->normals.count);
     } else if (kiriArchive_Reads(archive) && !kiriArchive_HasFailed(archive)) {
         BlendSurface(sheet);
     }
@@ -506,12 +507,14 @@ static bool RemakeProbes(kiriSheetData* sheet)
 bool kiriSheet_EndReading(kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
-    bool hasNormals = surface->hasNormals, hasBounds = sheet->seen.bounds->levelCount > 0;
+    bool hasNormals = surface->hasNormals, isKept = !AreWeightsSeen(sheet),
+         hasBounds = sheet->seen.bounds->levelCount > 0;
     surface->hasNormals = false;
     kiriSurface_WriteRange(surface, 0, surface->vertexCount);
-    if (hasNormals) {
+    if (hasNormals && !isKept) {
         kiriSurface_NeedNormals(surface);
     }
+    surface->hasNormals = hasNormals;
     int32_t patience = sheet->seen.bounds->patience;
     sheet->seen.bounds->levelCount = 0;
     bool ok = !hasBounds || kiriBounds_Update(sheet->seen.bounds, sheet->memory, surface);
