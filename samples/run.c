@@ -4,7 +4,9 @@
 #include "debug.h"
 #include "draw.h"
 #include "image.h"
+#include "run_options.h"
 #include "scene.h"
+#include "scene_record.h"
 
 #include <errno.h>
 #include <math.h>
@@ -15,158 +17,6 @@
 #include <time.h>
 
 enum { SHEET_COLUMNS = 4, SHEET_ROWS = 2, SHEET_GAP = 4, MAX_BLADES = 4, LAST_DELAY = 60 };
-
-/* ---- Options ---------------------------------------------------------------------------------------------------- */
-
-typedef struct Options {
-    const char* scene;
-    const char* output;
-    const char* data;
-    const char* film;
-    DebugOptions debug;
-    int32_t ticks, every, width, height, grid, controlFrames, budget;
-    int32_t solid;    /* mm; 0: the surface alone */
-    float closeUp[3]; /* rest point, m, and factor; factor 0: as the scene has it */
-    bool axes, plain, asPaper, smooth, quiet, help;
-} Options;
-
-static void PrintHelp(void)
-{
-    printf("kiri-run: runs a scene and writes its pictures\n\n"
-           "  --scene NAME          which scene\n"
-           "  --output FOLDER       where the pictures go (build/pictures)\n"
-           "  --film FILE           a moving picture of them too, an animated PNG\n"
-           "  --data FOLDER         where the outlines are (samples/data)\n"
-           "  --ticks N             sixtieths of a second to run (the scene's own)\n"
-           "  --size WxH            of a picture, in pixels, 100x100 or more (640x480)\n"
-           "  --every N             ticks from picture to picture (2); 0: no pictures\n"
-           "  --grid N              grid squares along the sheet (the scene's own)\n"
-           "  --control-frames N    control frames at the start (the scene's own)\n"
-           "  --budget N            blade points taken in one tick; 0: no limit (0)\n"
-           "  --zoom U,V,FACTOR     a close-up of the rest point, in sizes of the scene\n"
-           "  --paper               mesh, grid and frames of the paper's table 1\n"
-           "  --smooth              smooth skinning\n"
-           "  --solid N             show the sheet N mm thick, with its rims\n"
-           "  --plain               rigid frames, free in space, in scenes that have others\n"
-           "  --frames-axes         show the control frames\n"
-           "  --weights all|N       colour the sheet by the shape functions of all frames, or of frame N\n"
-           "  --regions             show where each frame has the largest weight\n"
-           "  --links               show which regions touch\n"
-           "  --cells               show the grid, and which of its squares the cuts divide\n"
-           "  --points              show the collision points\n"
-           "  --quiet               no progress line\n"
-           "  --help\n\nScenes:\n");
-    for (int32_t i = 0; Scene_GetType(i) != NULL; i++) {
-        printf("  %-10s %s\n", Scene_GetType(i)->name, Scene_GetType(i)->about);
-    }
-}
-
-static bool ReadNumber(const char* text, int32_t low, int32_t high, int32_t* number)
-{
-    char* end;
-    long value = strtol(text, &end, 10);
-    *number = (int32_t)value;
-    return end != text && *end == 0 && value >= low && value <= high;
-}
-
-static bool ReadSize(const char* text, Options* options)
-{
-    char rest;
-    return sscanf(text, "%d x %d%c", &options->width, &options->height, &rest) == 2 && options->width >= 100 &&
-           options->height >= 100 && options->width <= 4096 && options->height <= 4096;
-}
-
-static bool ReadCloseUp(const char* text, Options* options)
-{
-    char rest;
-    float* at = options->closeUp;
-    return sscanf(text, "%f,%f,%f%c", &at[0], &at[1], &at[2], &rest) == 3 && at[2] >= 1.0f && at[2] <= 100.0f;
-}
-
-static bool ReadFlag(const char* name, Options* options)
-{
-    const struct {
-        const char* name;
-        bool* flag;
-    } flags[] = { { "--help", &options->help },           { "--quiet", &options->quiet },
-                  { "--frames-axes", &options->axes },    { "--regions", &options->debug.regions },
-                  { "--links", &options->debug.links },   { "--cells", &options->debug.cells },
-                  { "--points", &options->debug.points }, { "--plain", &options->plain },
-                  { "--smooth", &options->smooth },       { "--paper", &options->asPaper } };
-    for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
-        if (strcmp(name, flags[i].name) == 0) {
-            *flags[i].flag = true;
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool ReadWeights(const char* text, Options* options)
-{
-    if (strcmp(text, "all") == 0) {
-        options->debug.weightsOf = DEBUG_ALL_FRAMES;
-        return true;
-    }
-    return ReadNumber(text, 0, DEBUG_MAX_FRAMES - 1, &options->debug.weightsOf);
-}
-
-static bool ReadValue(const char* name, const char* value, Options* options)
-{
-    if (strcmp(name, "--scene") == 0) {
-        options->scene = value;
-        return Scene_FindType(value) != NULL;
-    } else if (strcmp(name, "--output") == 0) {
-        options->output = value;
-        return true;
-    } else if (strcmp(name, "--film") == 0) {
-        options->film = value;
-        return true;
-    } else if (strcmp(name, "--data") == 0) {
-        options->data = value;
-        return true;
-    } else if (strcmp(name, "--weights") == 0) {
-        return ReadWeights(value, options);
-    } else if (strcmp(name, "--size") == 0) {
-        return ReadSize(value, options);
-    } else if (strcmp(name, "--zoom") == 0) {
-        return ReadCloseUp(value, options);
-    } else if (strcmp(name, "--ticks") == 0) {
-        return ReadNumber(value, 1, 100000, &options->ticks);
-    } else if (strcmp(name, "--every") == 0) {
-        return ReadNumber(value, 0, 100000, &options->every);
-    } else if (strcmp(name, "--grid") == 0) {
-        return ReadNumber(value, 1, 4096, &options->grid);
-    } else if (strcmp(name, "--control-frames") == 0) {
-        return ReadNumber(value, 1, DEBUG_MAX_FRAMES, &options->controlFrames);
-    }
-    if (strcmp(name, "--solid") == 0) {
-        return ReadNumber(value, 1, 1000, &options->solid);
-    }
-    if (strcmp(name, "--budget") == 0) {
-        return ReadNumber(value, 0, 1 << 24, &options->budget);
-    }
-    return false;
-}
-
-static bool ReadOptions(int count, char** words, Options* options)
-{
-    for (int i = 1; i < count; i++) {
-        if (ReadFlag(words[i], options)) {
-            continue;
-        } else if (i + 1 < count && ReadValue(words[i], words[i + 1], options)) {
-            i++;
-        } else {
-            fprintf(stderr, "kiri-run: not understood: %s %s\n", words[i], i + 1 < count ? words[i + 1] : "");
-            return false;
-        }
-    }
-    if (options->film != NULL && options->every == 0) {
-        fprintf(stderr, "kiri-run: --film without pictures: --every 0\n");
-        return false;
-    }
-    return true;
-}
 
 static bool MakeFolders(const char* path)
 {
@@ -415,35 +265,35 @@ static double ReadClock(void* user)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-typedef struct Record {
+typedef struct Times {
     double* seconds[KIRI_STAGE_COUNT + 1]; /* one a tick; the last row: whole ticks */
     int32_t ticks;
     int64_t cutSegments, trianglesSplit, cellsSettled, systemsSolved;
     kiriCounts before, after;
-} Record;
+} Times;
 
-static bool Record_Create(Record* record, int32_t ticks)
+static bool Times_Create(Times* times, int32_t ticks)
 {
-    *record = (Record){ .ticks = 0 };
+    *times = (Times){ .ticks = 0 };
     double* block = malloc(sizeof(double) * (KIRI_STAGE_COUNT + 1) * (size_t)ticks);
     for (int32_t i = 0; i <= KIRI_STAGE_COUNT; i++) {
-        record->seconds[i] = block != NULL ? block + i * ticks : NULL;
+        times->seconds[i] = block != NULL ? block + i * ticks : NULL;
     }
     return block != NULL;
 }
 
-static void Record_Tick(Record* record, const Scene* scene, double seconds)
+static void Times_Tick(Times* times, const Scene* scene, double seconds)
 {
     kiriProfile profile;
     kiriWorld_GetProfile(scene->world, &profile);
     for (int32_t i = 0; i < KIRI_STAGE_COUNT; i++) {
-        record->seconds[i][record->ticks] = profile.seconds[i];
+        times->seconds[i][times->ticks] = profile.seconds[i];
     }
-    record->seconds[KIRI_STAGE_COUNT][record->ticks++] = seconds;
-    record->cutSegments += profile.cutSegments;
-    record->trianglesSplit += profile.trianglesSplit;
-    record->cellsSettled += profile.cellsSettled;
-    record->systemsSolved += profile.systemsSolved;
+    times->seconds[KIRI_STAGE_COUNT][times->ticks++] = seconds;
+    times->cutSegments += profile.cutSegments;
+    times->trianglesSplit += profile.trianglesSplit;
+    times->cellsSettled += profile.cellsSettled;
+    times->systemsSolved += profile.systemsSolved;
 }
 
 static int CompareNumbers(const void* left, const void* right)
@@ -458,15 +308,15 @@ static void PrintStage(const char* name, double* seconds, int32_t count)
     printf("  %-12s %10.3f %10.3f\n", name, 1e3 * seconds[count / 2], 1e3 * seconds[count - 1]);
 }
 
-static void Record_Print(Record* record, const Scene* scene)
+static void Times_Print(Times* times, const Scene* scene)
 {
-    const kiriCounts* a = &record->before;
-    const kiriCounts* b = &record->after;
+    const kiriCounts* a = &times->before;
+    const kiriCounts* b = &times->after;
     double total = 0.0;
-    for (int32_t i = 0; i < record->ticks; i++) {
-        total += record->seconds[KIRI_STAGE_COUNT][i];
+    for (int32_t i = 0; i < times->ticks; i++) {
+        total += times->seconds[KIRI_STAGE_COUNT][i];
     }
-    printf("%s: %d ticks of 1/60 s, %d substeps each\n\n", scene->type->name, record->ticks, scene->type->substeps);
+    printf("%s: %d ticks of 1/60 s, %d substeps each\n\n", scene->type->name, times->ticks, scene->type->substeps);
     printf("  %-12s %10s %10s\n", "", "before", "after");
     printf("  %-12s %10d %10d\n", "vertices", a->vertices, b->vertices);
     printf("  %-12s %10d %10d\n", "triangles", a->triangles, b->triangles);
@@ -476,13 +326,13 @@ static void Record_Print(Record* record, const Scene* scene)
     printf("  %-12s %10d %10d\n\n", "pieces", a->pieces, b->pieces);
     printf("  %-12s %10s %10s\n", "ms a tick", "median", "worst");
     for (int32_t i = 0; i < KIRI_STAGE_COUNT; i++) {
-        PrintStage(kiriGetStageName(i), record->seconds[i], record->ticks);
+        PrintStage(kiriGetStageName(i), times->seconds[i], times->ticks);
     }
-    PrintStage("all", record->seconds[KIRI_STAGE_COUNT], record->ticks);
-    printf("\n  %.0f ticks a second\n", record->ticks / total);
+    PrintStage("all", times->seconds[KIRI_STAGE_COUNT], times->ticks);
+    printf("\n  %.0f ticks a second\n", times->ticks / total);
     printf("  %lld cut segments, %lld linear systems; items of work: %lld of triangles, %lld of cells\n",
-           (long long)record->cutSegments, (long long)record->systemsSolved, (long long)record->trianglesSplit,
-           (long long)record->cellsSettled);
+           (long long)times->cutSegments, (long long)times->systemsSolved, (long long)times->trianglesSplit,
+           (long long)times->cellsSettled);
     uint64_t hash = 0;
     kiriWorld_GetStateHash(scene->world, &hash);
     printf("  state hash %016llx\n", (unsigned long long)hash);
@@ -490,12 +340,13 @@ static void Record_Print(Record* record, const Scene* scene)
 
 /* ---- Running ---------------------------------------------------------------------------------------------------- */
 
-static bool RunTicks(Scene* scene, Film* film, Record* record, const Options* options, int32_t ticks)
+/* `replay`: null, or in place of the scene's script. */
+static bool RunTicks(Scene* scene, SceneReplay* replay, Film* film, Times* times, const Options* options, int32_t ticks)
 {
     for (int32_t i = 0; i < ticks; i++) {
         double start = ReadClock(NULL);
-        kiriResult result = Scene_Tick(scene);
-        Record_Tick(record, scene, ReadClock(NULL) - start);
+        kiriResult result = replay != NULL ? SceneReplay_Tick(replay, scene) : Scene_Tick(scene);
+        Times_Tick(times, scene, ReadClock(NULL) - start);
         if (result < 0) {
             fprintf(stderr, "\ntick %d: %s: %s\n", i, kiriGetResultName(result), kiriWorld_GetLastError(scene->world));
             return false;
@@ -529,24 +380,64 @@ static bool FinishPictures(Film* film, const Options* options)
     return true;
 }
 
-static bool RunScene(Scene* scene, const Options* options)
+static int32_t CountTicks(const Scene* scene, const SceneReplay* replay, const Options* options)
+{
+    int32_t all = replay != NULL ? replay->ticks : scene->type->ticks;
+    return options->ticks > 0 && (replay == NULL || options->ticks < all) ? options->ticks : all;
+}
+
+static bool RunScene(Scene* scene, SceneReplay* replay, const Options* options)
 {
     Film film;
-    Record record;
-    int32_t ticks = options->ticks > 0 ? options->ticks : scene->type->ticks;
+    Times times;
+    int32_t ticks = CountTicks(scene, replay, options);
     if ((options->every > 0 && !MakeFolders(options->output)) || !Film_Create(&film, options, ticks)) {
         return false;
     }
-    bool fine = Record_Create(&record, ticks);
+    bool fine = Times_Create(&times, ticks);
     if (fine) {
-        kiriSheet_GetCounts(scene->world, scene->sheet, &record.before);
-        fine = RunTicks(scene, &film, &record, options, ticks);
-        kiriSheet_GetCounts(scene->world, scene->sheet, &record.after);
-        Record_Print(&record, scene);
+        kiriSheet_GetCounts(scene->world, scene->sheet, &times.before);
+        fine = RunTicks(scene, replay, &film, &times, options, ticks);
+        kiriSheet_GetCounts(scene->world, scene->sheet, &times.after);
+        Times_Print(&times, scene);
     }
     fine = fine && (options->every == 0 || FinishPictures(&film, options));
-    free(record.seconds[0]);
+    free(times.seconds[0]);
     Film_Destroy(&film);
+    return fine;
+}
+
+static bool RunScript(const Options* options, kiriWorldDef* def)
+{
+    SceneOptions sceneOptions = { .dataFolder = options->data,
+                                  .gridResolution = options->grid,
+                                  .frameCount = options->controlFrames,
+                                  .plain = options->plain,
+                                  .asPaper = options->asPaper,
+                                  .smooth = options->smooth };
+    Scene scene;
+    FILE* file = NULL;
+    if (options->record != NULL && !SceneRecord_Open(&file, options->record, def)) {
+        return false;
+    }
+    bool fine = Scene_Start(&scene, Scene_FindType(options->scene), def, &sceneOptions);
+    if (fine) {
+        fine = RunScene(&scene, NULL, options);
+        Scene_Stop(&scene);
+    }
+    return SceneRecord_Close(file, options->record) && fine;
+}
+
+static bool RunReplay(const Options* options, const kiriWorldDef* def)
+{
+    Scene scene;
+    SceneReplay replay;
+    bool fine = SceneReplay_Start(&replay, options->replay, &scene, Scene_FindType(options->scene), def);
+    if (fine) {
+        fine = RunScene(&scene, &replay, options) && replay.isRight;
+        Scene_Stop(&scene);
+    }
+    SceneReplay_Free(&replay);
     return fine;
 }
 
@@ -558,25 +449,14 @@ int main(int count, char** words)
                         .width = 640,
                         .height = 480,
                         .debug = { .weightsOf = DEBUG_NO_FRAME } };
-    if (!ReadOptions(count, words, &options) || options.help) {
-        PrintHelp();
+    if (!Options_Read(count, words, &options) || options.help) {
+        Options_PrintHelp();
         return options.help ? 0 : 2;
     }
     kiriWorldDef def;
     kiriDefaultWorldDef(&def);
     def.clock = ReadClock;
     def.budget.cells = options.budget;
-    SceneOptions sceneOptions = { .dataFolder = options.data,
-                                  .gridResolution = options.grid,
-                                  .frameCount = options.controlFrames,
-                                  .plain = options.plain,
-                                  .asPaper = options.asPaper,
-                                  .smooth = options.smooth };
-    Scene scene;
-    if (!Scene_Start(&scene, Scene_FindType(options.scene), &def, &sceneOptions)) {
-        return 1;
-    }
-    bool fine = RunScene(&scene, &options);
-    Scene_Stop(&scene);
+    bool fine = options.replay != NULL ? RunReplay(&options, &def) : RunScript(&options, &def);
     return fine ? 0 : 1;
 }

@@ -2,7 +2,7 @@
 
 #include "outline.h"
 #include "scene_parts.h"
-#include "scene_parts.h"
+#include "scene_record.h"
 #include "scene_types.h"
 
 #include <stdio.h>
@@ -93,6 +93,10 @@ bool Scene_Start(Scene* scene, const SceneType* type, const kiriWorldDef* def, c
         Scene_Stop(scene);
         return false;
     }
+    scene->isRecorded = def->record != NULL;
+    if (scene->isRecorded) {
+        Scene_NoteStart(scene);
+    }
     return true;
 }
 
@@ -162,6 +166,9 @@ kiriResult Scene_Tick(Scene* scene)
         scene->type->push(scene);
     }
     scene->tick++;
+    if (scene->isRecorded) {
+        Scene_NoteTick(scene);
+    }
     return kiriWorld_Tick(scene->world, 1.0f / 60.0f, scene->type->substeps);
 }
 

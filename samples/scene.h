@@ -57,7 +57,7 @@ typedef struct SceneType {
     void (*push)(Scene* scene);                               /* forces and contacts of a tick; may be null */
 } SceneType;
 
-enum { SCENE_MAX_STROKES = 64, SCENE_MAX_PINS = 16 };
+enum { SCENE_MAX_STROKES = 64, SCENE_MAX_PINS = 16, SCENE_NOTE_SIZE = 4096 };
 
 struct Scene {
     const SceneType* type; /* with an own pace: `paced` */
@@ -73,6 +73,8 @@ struct Scene {
     kiriPin pins[SCENE_MAX_PINS];
     float targets[SCENE_MAX_PINS][3]; /* where the pins are held */
     int32_t pinCount;
+    bool isRecorded;             /* its world records: notes say what is seen */
+    char noted[SCENE_NOTE_SIZE]; /* the last of them */
 };
 
 /* The scene number `index`, or null when there are no more. */

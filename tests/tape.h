@@ -40,6 +40,18 @@ static inline void Tape_Start(Tape* tape)
     OK(kiriCreateWorld(&def, &tape->host.world));
 }
 
+static inline kiriSheet Tape_AddSheet(Tape* tape, float z)
+{
+    kiriSheetDef def = Host_SmallDef();
+    def.position[2] = z;
+    return Host_AddRectangle(&tape->host, &def, 1.0f, 1.0f, 4, 4);
+}
+
+static inline void Tape_Tick(Tape* tape)
+{
+    assert_true(Host_Tick(&tape->host, 1.0f / 60.0f, 2) >= 0);
+}
+
 /* The end of the recording; its bytes stay. */
 static inline void Tape_Stop(Tape* tape)
 {

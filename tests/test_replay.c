@@ -1,0 +1,293 @@
+/* Replays of recordings that differ, are damaged, end too early, or meet a lack of memory. */
+#include "tape.h"
+
+#include "world/kiri_record.h"
+
+/* ---- Small recordings --------------------------------------------------------------------------------------------- */
+
+/* A sheet falls on a floor while it is cut. */
+static void RecordSmall(Tape* tape)
+{
+    static const float way[8] = { 0.3f, -0.1f, 0.5f, 0.5f, 0.4f, 0.8f, 0.2f, 1.1f };
+    kiriObstacleDef floor;
+    kiriObstacle obstacle;
+    Tape_Start(tape);
+    kiriDefaultObstacleDef(&floor);
+    floor.position[2] = -0.01f;
+    OK(kiriCreateObstacle(tape->host.world, &floor, &obstacle));
+    kiriSheet sheet = Tape_AddSheet(tape, 0.0f);
+    Tape_Tick(tape);
+    Host_Cut(&tape->host, sheet, way, 4);
+    Tape_Tick(tape);
+    OK(kiriWorld_Note(tape->host.world, "hello", 5));
+    Tape_Tick(tape);
+    Tape_Stop(tape);
+}
+
+static void TestNotes(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    RecordSmall(&tape);
+    Tape_Start(&again);
+    for (int tick = 1; tick <= 2; tick++) {
+        assert_int_equal(Tape_Step(&again, &tape), KIRI_PENDING);
+        assert_null(again.replay.note);
+    }
+    assert_int_equal(Tape_Step(&again, &tape), KIRI_PENDING);
+    assert_int_equal(again.replay.ticks, 2);
+    assert_int_equal(again.replay.noteCount, 5);
+    assert_memory_equal(again.replay.note, "hello", 5);
+    assert_int_equal(Tape_Step(&again, &tape), KIRI_PENDING);
+    assert_null(again.replay.note);
+    OK(Tape_Step(&again, &tape));
+    OK(Tape_Step(&again, &tape)); /* the end stays the end */
+    kiriSheet sheets[2];
+    int32_t count;
+    OK(kiriWorld_GetSheets(again.host.world, sheets, 2, &count));
+    assert_int_equal(count, 1);
+    assert_int_equal(Host_Counts(&again.host, sheets[0]).pieces, 2);
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    Tape_Free(&tape);
+}
+
+static void TestMisuse(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    kiriReplay replay = { 0 };
+    kiriWorldDef def = Tape_Def(&again);
+    def.recordHashTicks = -1;
+    assert_int_equal(kiriCreateWorld(&def, &again.host.world), KIRI_ERROR_ARGUMENT);
+    RecordSmall(&tape);
+    Tape_Start(&again);
+    kiriWorld* world = again.host.world;
+    assert_int_equal(kiriWorld_Replay(NULL, tape.bytes, tape.size, &replay), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_Replay(world, NULL, tape.size, &replay), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_Replay(world, tape.bytes, -1, &replay), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_Replay(world, tape.bytes, tape.size, NULL), KIRI_ERROR_ARGUMENT);
+    replay.offset = tape.size + 1;
+    assert_int_equal(kiriWorld_Replay(world, tape.bytes, tape.size, &replay), KIRI_ERROR_ARGUMENT);
+    replay.offset = -1;
+    assert_int_equal(kiriWorld_Replay(world, tape.bytes, tape.size, &replay), KIRI_ERROR_ARGUMENT);
+    replay.offset = 0;
+    assert_int_equal(kiriWorld_Replay(world, "", 0, &replay), KIRI_ERROR_DATA);
+    assert_int_equal(kiriWorld_Replay(world, "something else than a recording", 31, &replay), KIRI_ERROR_DATA);
+    assert_int_equal(replay.offset, 0);
+    Tape_AddSheet(&again, 0.0f);
+    assert_int_equal(kiriWorld_Replay(world, tape.bytes, tape.size, &replay), KIRI_ERROR_STATE);
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    Tape_Free(&tape);
+}
+
+/* ---- Differences -------------------------------------------------------------------------------------------------- */
+
+enum { VERSION_BYTE = KIRI_RECORD_MAGIC_BYTES, GRAVITY_BYTE = KIRI_RECORD_MAGIC_BYTES + 4 };
+
+/* Replays with one byte changed; the line. */
+static kiriResult PlayChanged(const Tape* tape, int64_t byte, uint8_t flips, Tape* again)
+{
+    Tape_Start(again);
+    tape->bytes[byte] ^= flips;
+    kiriResult result = Tape_Play(again, tape);
+    return result;
+}
+
+static void TestAnotherGravity(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    RecordSmall(&tape);
+    assert_int_equal(PlayChanged(&tape, GRAVITY_BYTE + 10, 1, &again), KIRI_ERROR_REPLAY);
+    assert_int_equal(again.replay.ticks, 1);
+    assert_non_null(strstr(again.host.line, "kiriWorld_Tick in tick 1, leads to another state"));
+    assert_int_equal(Tape_Step(&again, &tape), KIRI_ERROR_REPLAY); /* goes on, and still differs */
+    assert_int_equal(again.replay.ticks, 2);
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    Tape_Free(&tape);
+}
+
+static void TestNewerVersions(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    RecordSmall(&tape);
+    assert_int_equal(PlayChanged(&tape, VERSION_BYTE, 3, &again), KIRI_ERROR_DATA);
+    assert_non_null(strstr(again.host.line, "later version"));
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    tape.bytes[VERSION_BYTE] ^= 3;
+    /* A def with more fields than there are. */
+    assert_int_equal(PlayChanged(&tape, GRAVITY_BYTE + 12, 2, &again), KIRI_ERROR_DATA);
+    assert_non_null(strstr(again.host.line, "later version"));
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    Tape_Free(&tape);
+}
+
+static void TestAnotherResult(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    Tape_Start(&tape);
+    kiriSheet sheet = Tape_AddSheet(&tape, 0.0f);
+    OK(kiriSheet_Wake(tape.host.world, sheet));
+    int64_t resultByte = tape.size - 1;
+    Tape_Tick(&tape);
+    Tape_Stop(&tape);
+    assert_int_equal(PlayChanged(&tape, resultByte, 4, &again), KIRI_ERROR_REPLAY);
+    assert_non_null(strstr(again.host.line, "call 3, kiriSheet_Wake in tick 0, gives another result than recorded"));
+    assert_int_equal(Tape_Step(&again, &tape), KIRI_PENDING);
+    OK(Tape_Step(&again, &tape));
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    tape.bytes[resultByte] ^= 4;
+    /* The id of the sheet, before the call that wakes it: its number, its argument, its result. */
+    assert_int_equal(PlayChanged(&tape, resultByte - 3, 64, &again), KIRI_ERROR_REPLAY);
+    assert_non_null(strstr(again.host.line, "kiriCreateSheet in tick 0, makes other ids than recorded"));
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    Tape_Free(&tape);
+}
+
+/* ---- Damage ------------------------------------------------------------------------------------------------------- */
+
+/* The end of one call is a good end; within a call it is none. */
+static void TestCutShort(void** state)
+{
+    (void)state;
+    Tape tape;
+    int32_t whole = 0, within = 0;
+    RecordSmall(&tape);
+    int64_t size = tape.size;
+    for (tape.size = 1; tape.size < size; tape.size += tape.size < size - 150 ? 7 : 1) {
+        Tape again;
+        Tape_Start(&again);
+        kiriResult result = Tape_Play(&again, &tape);
+        whole += result == KIRI_OK;
+        within += strstr(again.host.line, "is the last one: the recording ends within it") != NULL;
+        assert_true(result == KIRI_OK || result == KIRI_ERROR_DATA);
+        Tape_Stop(&again);
+        Tape_Free(&again);
+    }
+    assert_in_range(whole, 5, 20);
+    assert_in_range(within, 5, 20);
+    Tape_Free(&tape);
+}
+
+static void TestFlippedBits(void** state)
+{
+    (void)state;
+    Tape tape;
+    uint32_t seed = 5;
+    int32_t noticed = 0, tried = 0;
+    RecordSmall(&tape);
+    for (int64_t byte = 0; byte < tape.size; byte += 1 + Random(&seed) % 3, tried++) {
+        uint8_t flips = (uint8_t)(1u << Random(&seed) % 8);
+        Tape again;
+        noticed += PlayChanged(&tape, byte, flips, &again) < 0;
+        tape.bytes[byte] ^= flips;
+        Tape_Stop(&again);
+        Tape_Free(&again);
+    }
+    assert_true(noticed > tried / 2);
+    Tape_Free(&tape);
+}
+
+/* Entries of nonsense after a good start. */
+static void TestGarbage(void** state)
+{
+    (void)state;
+    Tape tape;
+    uint32_t seed = 11;
+    RecordSmall(&tape);
+    for (int round = 0; round < 300; round++) {
+        Tape again;
+        int64_t from = GRAVITY_BYTE + 12 + Random(&seed) % (uint32_t)(tape.size - GRAVITY_BYTE - 12);
+        Tape broken = tape;
+        broken.bytes = malloc((size_t)tape.size);
+        memcpy(broken.bytes, tape.bytes, (size_t)tape.size);
+        for (int64_t i = from; i < from + 24 && i < tape.size; i++) {
+            broken.bytes[i] = (uint8_t)(Random(&seed) % 4 == 0 ? 0xff : Random(&seed));
+        }
+        Tape_Start(&again);
+        assert_true(Tape_Play(&again, &broken) <= 0);
+        Tape_Stop(&again);
+        Tape_Free(&again);
+        free(broken.bytes);
+    }
+    Tape_Free(&tape);
+}
+
+/* ---- Memory ------------------------------------------------------------------------------------------------------- */
+
+/* Each allocation of a replay is refused once; it goes on, and ends as recorded. */
+static void TestRefusedReplay(void** state)
+{
+    (void)state;
+    Tape tape;
+    bool isDone = false;
+    RecordSmall(&tape);
+    for (int64_t failAt = 1; !isDone; failAt += failAt < 100 ? 1 : 13) {
+        Tape again;
+        Tape_Start(&again);
+        again.host.failAt = failAt;
+        again.host.failOnce = true;
+        kiriResult result = Tape_Play(&again, &tape);
+        isDone = result == KIRI_OK;
+        if (!isDone) {
+            assert_int_equal(result, KIRI_ERROR_MEMORY);
+            OK(Tape_Play(&again, &tape));
+        }
+        Tape_Stop(&again);
+        Tape_Free(&again);
+    }
+    Tape_Free(&tape);
+}
+
+/* What was refused memory when it was recorded is left out. */
+static void TestRecordedRefusals(void** state)
+{
+    (void)state;
+    static const float way[4] = { 0.3f, -0.1f, 0.5f, 1.5f };
+    for (int64_t failAt = 1; failAt < 400; failAt += 7) {
+        Tape tape, again;
+        Tape_Start(&tape);
+        tape.host.failAt = failAt;
+        tape.host.failOnce = true;
+        kiriSheet sheet = 0;
+        kiriSheetDef def = Host_SmallDef();
+        while (Host_TryRectangle(&tape.host, &def, 1.0f, 1.0f, 4, 4, &sheet) == KIRI_ERROR_MEMORY) {
+        }
+        kiriCut cut = 0;
+        while (kiriBeginCut(tape.host.world, sheet, way, &cut) == KIRI_ERROR_MEMORY) {
+        }
+        while (kiriCut_Extend(tape.host.world, cut, way + 2, 1) == KIRI_ERROR_MEMORY) {
+        }
+        OK(kiriCut_End(tape.host.world, cut));
+        while (Host_Tick(&tape.host, 0.01f, 1) == KIRI_ERROR_MEMORY) {
+        }
+        Tape_Tick(&tape);
+        Tape_Stop(&tape);
+        Tape_Start(&again);
+        OK(Tape_Play(&again, &tape));
+        Tape_Stop(&again);
+        Tape_Free(&again);
+        Tape_Free(&tape);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestNotes),          cmocka_unit_test(TestMisuse),
+        cmocka_unit_test(TestAnotherGravity), cmocka_unit_test(TestNewerVersions),
+        cmocka_unit_test(TestAnotherResult),  cmocka_unit_test(TestCutShort),
+        cmocka_unit_test(TestFlippedBits),    cmocka_unit_test(TestGarbage),
+        cmocka_unit_test(TestRefusedReplay),  cmocka_unit_test(TestRecordedRefusals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
