@@ -448,6 +448,10 @@ portable: float-guards packages-portable
 portable-golden: $(STORM)
 	$(STORM) > tests/data/storm.txt
 
+# The same: the calls of recorded games, with what comes of them now.
+recordings: $(BUILD)/tests/test_recordings
+	$< --write
+
 PORTABLE_PACKAGES := clang lld g++-i686-linux-gnu g++-aarch64-linux-gnu g++-arm-linux-gnueabihf g++-riscv64-linux-gnu \
                      g++-s390x-linux-gnu qemu-user g++-mingw-w64-x86-64 wine wine64 emscripten nodejs musl-tools
 
@@ -456,7 +460,7 @@ deps-portable:
 	$$sudo apt-get update && $$sudo env DEBIAN_FRONTEND=noninteractive apt-get -y --no-install-recommends install \
 	    gcc g++ make libeigen3-dev $(PORTABLE_PACKAGES) || { echo "make portable takes $(PORTABLE_PACKAGES)"; exit 1; }
 
-.PHONY: float-guards portable portable-golden deps-portable
+.PHONY: float-guards portable portable-golden recordings deps-portable
 
 format:
 	clang-format -i $(wildcard include/kiri/*.h src/*/*.h src/*/*.c src/*/*.cpp samples/*.h samples/*.c samples/*.cpp samples/*/*.h samples/*/*.c samples/*/*.cpp tests/*.h tests/*.c tests/*.cpp)

@@ -179,6 +179,39 @@ static void TestCurtainIsReplayed(void** state)
     Play_Stop(&play);
 }
 
+/* The file has the calls since the level was last started: they go as they did without the game. */
+static void TestCallsAreRecorded(void** state)
+{
+    (void)state;
+    static Play play;
+    static uint8_t bytes[1 << 18];
+    const GameEvent restart = { 2, GAME_KEY_PRESSED, 0, 0, 0, 0, 'r' };
+    assert_true(Play_StartRecorded(&play, &curtainGame, 2, filePath));
+    for (int32_t i = 0; i < 32; i++) {
+        assert_true(i != restart.tick || Play_Send(&play, &restart));
+        assert_true(Play_Tick(&play));
+    }
+    assert_true(Play_Stop(&play));
+    assert_false(Play_StartRecorded(&play, &curtainGame, 2, "build/no such folder/calls"));
+    FILE* file = fopen(filePath, "rb");
+    assert_non_null(file);
+    int64_t size = (int64_t)fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+
+    kiriWorldDef def;
+    kiriWorld* world;
+    kiriReplay replay = { 0 };
+    kiriDefaultWorldDef(&def);
+    assert_int_equal(kiriCreateWorld(&def, &world), KIRI_OK);
+    kiriResult result = KIRI_PENDING;
+    while (result == KIRI_PENDING) {
+        result = kiriWorld_Replay(world, bytes, size, &replay);
+    }
+    assert_int_equal(result, KIRI_OK);
+    assert_int_equal(replay.ticks, 30);
+    kiriDestroyWorld(world);
+}
+
 static void TestCurtainIsWon(void** state)
 {
     (void)state;
@@ -196,6 +229,7 @@ int main(int count, char** words)
         cmocka_unit_test(TestScriptKeepsEvents),       cmocka_unit_test(TestScriptRefusesNonsense),
         cmocka_unit_test(TestRaysMeetWhatIsSeenThere), cmocka_unit_test(TestSoundsAreHeardAndEnd),
         cmocka_unit_test(TestCurtainIsReplayed),       cmocka_unit_test(TestCurtainIsWon),
+        cmocka_unit_test(TestCallsAreRecorded),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     remove(filePath);

@@ -31,20 +31,48 @@ static void Free(void* user, void* pointer)
     }
 }
 
+static void WriteCalls(void* user, const void* bytes, int32_t count)
+{
+    fwrite(bytes, 1, (size_t)count, ((Play*)user)->calls);
+}
+
+static bool CloseCalls(Play* play)
+{
+    bool fine = play->calls == NULL || !ferror(play->calls);
+    fine = (play->calls == NULL || fclose(play->calls) == 0) && fine;
+    play->calls = NULL;
+    return fine;
+}
+
+/* Unbuffered: whole after a crash, too. */
+static bool OpenCalls(Play* play)
+{
+    play->calls = fopen(play->callsPath, "wb");
+    if (play->calls == NULL) {
+        fprintf(stderr, "cannot write %s\n", play->callsPath);
+        return false;
+    }
+    setvbuf(play->calls, NULL, _IONBF, 0);
+    play->host.worldDef.record = WriteCalls;
+    return true;
+}
+
 static bool StartLevel(Play* play, int32_t level)
 {
-    if (play->game != NULL) {
-        play->type->stop(play->game);
+    bool fine = Play_Stop(play) && (play->callsPath == NULL || OpenCalls(play));
+    if (!fine) {
+        return false;
     }
     play->level = level;
     play->game = play->type->start(level, &play->host);
     return play->game != NULL;
 }
 
-bool Play_Start(Play* play, const GameType* type, int32_t level)
+bool Play_StartRecorded(Play* play, const GameType* type, int32_t level, const char* callsPath)
 {
     memset(play, 0, sizeof *play);
     play->type = type;
+    play->callsPath = callsPath;
     Sounds_Init(&play->sounds);
     kiriDefaultWorldDef(&play->host.worldDef);
     play->host.worldDef.alloc = Allocate;
@@ -54,12 +82,18 @@ bool Play_Start(Play* play, const GameType* type, int32_t level)
     return StartLevel(play, level);
 }
 
-void Play_Stop(Play* play)
+bool Play_Start(Play* play, const GameType* type, int32_t level)
+{
+    return Play_StartRecorded(play, type, level, NULL);
+}
+
+bool Play_Stop(Play* play)
 {
     if (play->game != NULL) {
         play->type->stop(play->game);
         play->game = NULL;
     }
+    return CloseCalls(play);
 }
 
 bool Play_Send(Play* play, const GameEvent* event)

@@ -4,6 +4,8 @@
 
 #include "game.h"
 
+#include <stdio.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -17,11 +19,18 @@ typedef struct Play {
     int64_t allocations; /* how often worlds asked for memory */
     GameHost host;
     Sounds sounds;
+    const char* callsPath; /* where the recording of the level's world goes; null: there is none */
+    FILE* calls;
 } Play;
 
 /* Level 1 to type->levels. A play stays where it is: the game points into it. */
 bool Play_Start(Play* play, const GameType* type, int32_t level);
-void Play_Stop(Play* play);
+
+/* With a recording (kiriWorld_Replay) of all calls since the level was last started, in a file of this name; null: none. */
+bool Play_StartRecorded(Play* play, const GameType* type, int32_t level, const char* callsPath);
+
+/* False: the recording is not whole. */
+bool Play_Stop(Play* play);
 
 /* Restarts and changes of level are events, too. */
 bool Play_Send(Play* play, const GameEvent* event);

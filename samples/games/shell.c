@@ -17,7 +17,7 @@ enum { MINUTE = 60 * GAME_RATE, MAX_EVENTS = 256, MAX_OWED = 4, DEFAULT_TICKS = 
 static const double slowPace = 0.25;
 
 typedef struct Options {
-    const char *game, *script, *record, *pictures, *film;
+    const char *game, *script, *record, *calls, *pictures, *film;
     int32_t level, ticks, every, width, height, oversampling;
     int32_t slowFrom, slowTo; /* ticks that are shown in slow motion */
     bool headless, demo, hash, report, mute, help;
@@ -50,6 +50,7 @@ static void PrintHelp(const GameType* const* games)
     printf("  --level N\n"
            "  --script FILE     plays recorded events (a script names its game and level)\n"
            "  --record FILE     writes one\n"
+           "  --calls FILE      all calls of Kiri since the level was started, for kiri-run --replay\n"
            "  --demo            the game plays itself, where it can\n"
            "  --headless        no window\n"
            "  --ticks N         stops then; without a window: at the end of the script, or after %d\n"
@@ -95,11 +96,9 @@ static bool ReadText(const char* name, const char* value, Options* options)
     const struct {
         const char* name;
         const char** text;
-    } texts[] = { { "--game", &options->game },
-                  { "--script", &options->script },
-                  { "--record", &options->record },
-                  { "--pictures", &options->pictures },
-                  { "--film", &options->film } };
+    } texts[] = { { "--game", &options->game },         { "--script", &options->script },
+                  { "--record", &options->record },     { "--calls", &options->calls },
+                  { "--pictures", &options->pictures }, { "--film", &options->film } };
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         if (strcmp(name, texts[i].name) == 0) {
             *texts[i].text = value;
@@ -395,7 +394,7 @@ static bool StartPlay(Shell* shell, const GameType* const* games)
         fprintf(stderr, type != NULL ? "kiri-play: no level %d\n" : "", level);
         return false;
     }
-    return Play_Start(&shell->play, type, level);
+    return Play_StartRecorded(&shell->play, type, level, options->calls);
 }
 
 static bool OpenRecord(Shell* shell)
@@ -448,8 +447,9 @@ static bool Close(Shell* shell)
     if (shell->film.file != NULL && !Apng_Close(&shell->film)) {
         fine = false;
     }
+    fine = Play_Stop(&shell->play) && fine;
     if (!fine) {
-        fprintf(stderr, "could not write all of the record or the film\n");
+        fprintf(stderr, "could not write all of the record, the calls or the film\n");
     }
     if (shell->window != NULL) {
         Window_Close(shell->window);
@@ -459,7 +459,6 @@ static bool Close(Shell* shell)
     }
     Image_Free(&shell->image);
     Script_Free(&shell->script);
-    Play_Stop(&shell->play);
     return fine;
 }
 
