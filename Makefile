@@ -5,6 +5,7 @@
 #   make play     plays a game in a window; GAME=curtain or net, ARGS=--help
 #   make test     builds and runs all tests
 #   make fuzz     looks for input that breaks something; FUZZ=mesh: other than calls; TIME=600: s
+#   make scarce   refuses each request for memory of the scenes once
 #   make tsan     runs the tests with threads under the thread sanitizer
 #   make lib      build/<config>/libkiri.a and libkiri.so
 #   make single   build/single: the library as kiri.h, kiri.c and kiri.cpp, to add to any build
@@ -121,7 +122,7 @@ TO_LINK := $(BUILD)/link.txt Makefile
 
 include bindings/install.mk
 
-.PHONY: all run box2d play python builds test fuzz tsan check floors fields headers single example lib bench accuracy contact extremes gallery guide deps format clean exports FORCE
+.PHONY: all run box2d play python builds test fuzz scarce tsan check floors fields headers single example lib bench accuracy contact extremes gallery guide deps format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
 .DELETE_ON_ERROR:
@@ -158,6 +159,10 @@ fuzz: packages-fuzz
 	@mkdir -p build/fuzz/$(FUZZ)
 	build/fuzz/tests/fuzz_$(FUZZ) -max_total_time=$(or $(TIME),60) -max_len=700 -timeout=60 -rss_limit_mb=4096 \
 	    -artifact_prefix=build/fuzz/$(FUZZ)- build/fuzz/$(FUZZ) tests/data/fuzz/$(FUZZ)
+
+scarce: packages-bench
+	@$(MAKE) --no-print-directory $(BUILD)/tests/test_scarce
+	$(BUILD)/tests/test_scarce all
 
 tsan: packages-tsan
 	@$(MAKE) --no-print-directory config=thread run-test_tasks run-test_readers
