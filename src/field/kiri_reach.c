@@ -31,9 +31,19 @@ int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t frame, int32_t cell
     return block;
 }
 
+static int64_t BlocksWith(const kiriReaches* reaches, int32_t more)
+{
+    return (int64_t)reaches->blocks.count + more - reaches->freeBlocks;
+}
+
+bool kiriReaches_Grows(const kiriReaches* reaches, int32_t more)
+{
+    return BlocksWith(reaches, more) > reaches->blocks.capacity;
+}
+
 bool kiriReaches_Reserve(kiriReaches* reaches, kiriMemory* memory, int32_t more)
 {
-    return kiriArray_Reserve(memory, &reaches->blocks, (int64_t)reaches->blocks.count + more - reaches->freeBlocks);
+    return kiriArray_Reserve(memory, &reaches->blocks, BlocksWith(reaches, more));
 }
 
 static int32_t TakeBlock(kiriReaches* reaches)

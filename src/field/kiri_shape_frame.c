@@ -490,14 +490,41 @@ static void UnloadBlock(kiriShapeJob* job, kiriLoadedBlock loaded)
     work->isLoaded.data[loaded.cells] = 0;
 }
 
+/* Items for what is in an array that has to move; what is worth more than a whole limit takes all of one. */
+static bool PayForMoving(kiriQuota* quota, int64_t items)
+{
+    bool mustWait = items > quota->left && quota->used > 0;
+    return !mustWait && kiriQuota_Take(quota, items < quota->left ? items : quota->left);
+}
+
+/* Room for all that may come out of the fields. Where an array has to move, that is paid before. */
+static kiriProgress MakeRoomToUnload(kiriShapeJob* job, kiriQuota* quota)
+{
+    enum { MOVED_BLOCKS = 1, MOVED_WEIGHTS = 8 }; /* for an item */
+    kiriReaches* reaches = &job->shape->reaches;
+    kiriShapeWork* work = job->work;
+    int64_t weights = work->rawWeights.count + (int64_t)KIRI_BLOCK_CELLS * work->loaded.count;
+    bool growsReaches = kiriReaches_Grows(reaches, work->loaded.count);
+    if (growsReaches && !PayForMoving(quota, reaches->blocks.count / MOVED_BLOCKS)) {
+        return KIRI_MORE;
+    }
+    if (growsReaches && !kiriReaches_Reserve(reaches, job->memory, work->loaded.count)) {
+        return KIRI_FAILED;
+    }
+    bool growsWeights = weights > work->rawWeights.capacity;
+    if (growsWeights && !PayForMoving(quota, work->rawWeights.count / MOVED_WEIGHTS)) {
+        return KIRI_MORE;
+    }
+    return kiriArray_Reserve(job->memory, &work->rawWeights, weights) ? KIRI_DONE : KIRI_FAILED;
+}
+
 /* Brings the blocks up to date with the fields, and empties these. */
 static kiriProgress UnloadFrame(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriShapeWork* work = job->work;
-    int64_t cells = (int64_t)KIRI_BLOCK_CELLS * work->loaded.count;
-    if (!kiriReaches_Reserve(&job->shape->reaches, job->memory, work->loaded.count) ||
-        !kiriArray_Reserve(job->memory, &work->rawWeights, work->rawWeights.count + cells)) {
-        return KIRI_FAILED;
+    kiriProgress progress = MakeRoomToUnload(job, quota);
+    if (progress != KIRI_DONE) {
+        return progress;
     }
     for (; work->loaded.count > 0; --work->loaded.count) {
         if (!kiriQuota_Take(quota, 1)) {
