@@ -197,7 +197,7 @@ static void Check(SceneReplay* replay, Scene* scene)
 bool SceneReplay_Start(SceneReplay* replay, const char* path, Scene* scene, const SceneType* type,
                        const kiriWorldDef* def)
 {
-    *replay = (SceneReplay){ NULL };
+    *replay = (SceneReplay){ .bytes = NULL };
     if (!ReadAll(replay, path)) {
         fprintf(stderr, "cannot read %s\n", path);
         return false;
@@ -228,5 +228,5 @@ bool SceneReplay_Start(SceneReplay* replay, const char* path, Scene* scene, cons
 void SceneReplay_Free(SceneReplay* replay)
 {
     free(replay->bytes);
-    *replay = (SceneReplay){ NULL };
+    *replay = (SceneReplay){ .bytes = NULL };
 }
