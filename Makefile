@@ -94,7 +94,7 @@ SCENE_OBJECTS := $(filter $(BUILD)/samples/scene% %/outline.c.o,$(SAMPLE_OBJECTS
 VALIDATE_OBJECTS := $(patsubst %,$(BUILD)/tests/%.c.o,validate validate_mesh validate_field)
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c)) $(patsubst %.cpp,$(BUILD)/%,$(wildcard tests/test_*.cpp))
 # Each tests/fuzz_X.c, its input in tests/data/fuzz/X.
-FUZZERS := calls mesh
+FUZZERS := calls mesh replay
 # What `make accuracy` is made of beside its driver.
 ACCURACY_PARTS := $(addprefix tests/,accuracy_beam accuracy_plate accuracy_shell accuracy_cut accuracy_motion specimen \
                   frame_layout results reference trade sweep plot)
