@@ -1,10 +1,13 @@
 /* Recordings: what is recorded, and what comes of it when it is replayed. */
+#define _DEFAULT_SOURCE /* for MAP_ANONYMOUS */
+
 #include "storm.h"
 #include "tape.h"
 
 #include "world/kiri_record.h"
 
 #include <stdio.h>
+#include <sys/mman.h>
 
 /* ---- A storm ------------------------------------------------------------------------------------------------------ */
 
@@ -441,6 +444,47 @@ static void TestAllFieldsAreRecorded(void** state)
     assert_int_equal(found, 8);
 }
 
+/* ---- Read-only arguments ------------------------------------------------------------------------------------------ */
+
+/* A copy that nobody may change. */
+static const void* Freeze(const void* bytes, size_t size)
+{
+    void* page = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    assert_true(page != MAP_FAILED);
+    memcpy(page, bytes, size);
+    assert_int_equal(mprotect(page, size, PROT_READ), 0);
+    return page;
+}
+
+/* What a host gives is not even written with what is in it. */
+static void TestReadOnlyArguments(void** state)
+{
+    (void)state;
+    const kiriBudget budget = { 1000, 100000, 100000, 1000 };
+    const kiriContact contact = { -1, { 0.4f, 0.4f }, { 0.0f, 0.0f, 1.0f }, -0.1f, { 0 }, 0.5f, 0.0f, 0.0f, 3 };
+    kiriObstacleDef obstacleDef;
+    kiriObstacle obstacle;
+    kiriSheet sheet;
+    Tape tape;
+    Tape_Start(&tape);
+    kiriWorld* world = tape.host.world;
+    kiriSheetDef def = Host_SmallDef();
+    Rectangle mesh = Rectangle_Make(&def, 1.0f, 1.0f, 4, 4);
+    def.restPositions = Freeze(mesh.positions, sizeof(float) * 50);
+    def.indices = Freeze(mesh.indices, sizeof(int32_t) * 96);
+    kiriDefaultObstacleDef(&obstacleDef);
+    OK(kiriCreateSheet(world, Freeze(&def, sizeof def), &sheet));
+    OK(kiriCreateObstacle(world, Freeze(&obstacleDef, sizeof obstacleDef), &obstacle));
+    OK(kiriWorld_SetBudget(world, Freeze(&budget, sizeof budget)));
+    OK(kiriSheet_SetContacts(world, sheet, Freeze(&contact, sizeof contact), 1));
+    kiriFrame frame = FrameAt(&tape, sheet, 0.5f, 0.5f);
+    assert_int_equal(kiriWorld_DestroyPieces(world, Freeze(&frame, sizeof frame), 1), KIRI_ERROR_STATE);
+    OK(kiriWorld_Note(world, Freeze("hello", 5), 5));
+    Tape_Stop(&tape);
+    Rectangle_Free(&mesh);
+    Tape_Free(&tape);
+}
+
 /* ---- What it costs -------------------------------------------------------------------------------------------------- */
 
 static void TestSize(void** state)
@@ -492,6 +536,7 @@ int main(void)
         cmocka_unit_test(TestAllCallsAreRecorded),
         cmocka_unit_test(TestHeaderAndTableAgree),
         cmocka_unit_test(TestAllFieldsAreRecorded),
+        cmocka_unit_test(TestReadOnlyArguments),
         cmocka_unit_test(TestSize),
         cmocka_unit_test(TestNoMemory),
     };

@@ -92,7 +92,9 @@ void kiriCoder_Int(kiriCoder* coder, int32_t* value)
 {
     int64_t wide = *value;
     kiriCoder_Signed(coder, &wide);
-    *value = Narrow(coder, wide);
+    if (kiriCoder_Reads(coder)) {
+        *value = Narrow(coder, wide);
+    }
 }
 
 /* The slot comes first, so that ids of few things are short: see kiri_pool.h. */
@@ -103,8 +105,9 @@ void kiriCoder_Id(kiriCoder* coder, uint32_t* value)
     if (turned > UINT32_MAX) {
         kiriCoder_Stop(coder, KIRI_CODER_DAMAGED);
     }
-    uint32_t read = (uint32_t)turned;
-    *value = kiriCoder_Reads(coder) ? read >> 10 | read << 22 : *value;
+    if (kiriCoder_Reads(coder)) {
+        *value = (uint32_t)turned >> 10 | (uint32_t)turned << 22;
+    }
 }
 
 static void CodeFixed(kiriCoder* coder, uint64_t* value, int bytes)
@@ -115,7 +118,9 @@ static void CodeFixed(kiriCoder* coder, uint64_t* value, int bytes)
         kiriCoder_Byte(coder, &byte);
         read |= (uint64_t)byte << 8 * i;
     }
-    *value = read;
+    if (kiriCoder_Reads(coder)) {
+        *value = read;
+    }
 }
 
 void kiriCoder_Float(kiriCoder* coder, float* value)
@@ -143,7 +148,9 @@ void kiriCoder_Indices(kiriCoder* coder, int32_t* values, int64_t count)
         kiriCoder_Signed(coder, &step);
         bool isNear = step >= -(int64_t)UINT32_MAX && step <= (int64_t)UINT32_MAX;
         last = Narrow(coder, isNear ? last + step : INT64_MAX);
-        values[i] = (int32_t)last;
+        if (kiriCoder_Reads(coder)) {
+            values[i] = (int32_t)last;
+        }
     }
 }
 

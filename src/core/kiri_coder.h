@@ -45,7 +45,7 @@ static inline bool kiriCoder_Reads(const kiriCoder* coder)
 /* Keeps the first fault. */
 void kiriCoder_Stop(kiriCoder* coder, kiriCoderFault fault);
 
-/* They write what is there, or read into it; it has been initialised in either case. */
+/* They write what is there, which may be read-only, or read into it; it has been initialised in either case. */
 void kiriCoder_Byte(kiriCoder* coder, uint8_t* value);
 void kiriCoder_Unsigned(kiriCoder* coder, uint64_t* value);
 void kiriCoder_Signed(kiriCoder* coder, int64_t* value);

@@ -62,7 +62,9 @@ static void CodePointer(kiriCoder* coder, const kiriRecordField* field, char* de
     if (how == 1) {
         CodeArray(coder, field, def, &array);
     }
-    memcpy(def + field->offset, &array, sizeof(array));
+    if (kiriCoder_Reads(coder)) {
+        memcpy(def + field->offset, &array, sizeof(array));
+    }
 }
 
 /* How many fields there are; 0: its cookie is not that of the struct, so nobody knows what it is. */
