@@ -91,7 +91,7 @@ PICTURE_OBJECTS := $(patsubst %,$(BUILD)/samples/%.c.o,image edges)
 # What tests and benchmarks take from the samples: the scenes.
 SCENE_OBJECTS := $(filter $(BUILD)/samples/scene% %/outline.c.o,$(SAMPLE_OBJECTS))
 # Checks of a whole world, for all tests.
-VALIDATE_OBJECTS := $(patsubst %,$(BUILD)/tests/%.c.o,validate validate_mesh validate_field)
+VALIDATE_OBJECTS := $(patsubst %,$(BUILD)/tests/%.c.o,validate validate_mesh validate_field validate_seen)
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c)) $(patsubst %.cpp,$(BUILD)/%,$(wildcard tests/test_*.cpp))
 # Each tests/fuzz_X.c, its input in tests/data/fuzz/X.
 FUZZERS := calls mesh replay

@@ -659,7 +659,7 @@ static bool Check_Sheet(Check* check, const kiriSheetData* sheet)
            Check_Links(check, sheet) && Check_Corners(check, sheet) && Check_Pieces(check, sheet) &&
            Check_Patches(check, sheet) && Check_Skins(check, sheet) &&
            (!IsSettled(sheet) || Check_Derived(check, sheet)) && Check_Pins(check, sheet) &&
-           Check_Points(check, sheet) && Check_Surface(check, sheet) &&
+           Check_Points(check, sheet) && Check_Surface(check, sheet) && Check_Seen(check, sheet) &&
            Check_Fades(check, &sheet->seen.fades, sheet->mesh.vertices.count) &&
            Check_Fades(check, &sheet->seen.pointFades, sheet->points.count) && Check_Queue(check, sheet);
 }

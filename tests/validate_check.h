@@ -117,5 +117,6 @@ bool Check_Mesh(Check* check, const kiriMeshData* mesh, bool isConforming);
 bool Check_Grid(Check* check, const kiriSheetData* sheet);
 bool Check_Regions(Check* check, const kiriSheetData* sheet);
 bool Check_Shape(Check* check, const kiriSheetData* sheet);
+bool Check_Seen(Check* check, const kiriSheetData* sheet);
 
 #endif

@@ -138,8 +138,11 @@ static void FallAsleep(kiriSheetData* sheet)
 {
     bool any = false;
     MarkFading(sheet);
+    sheet->seen.areFadesAsleep = false;
     for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
         kiriRest* rest = &sheet->layout.pieces.data[p].rest;
+        bool isStill = rest->asleep || sheet->layout.pieces.data[p].isGone;
+        sheet->seen.areFadesAsleep |= isStill && rest->isFading;
         bool falls = !rest->asleep && rest->calm >= KIRI_CALM_SECONDS && !rest->isFading;
         rest->asleep = rest->asleep || falls;
         any = any || falls;

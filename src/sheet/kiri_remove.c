@@ -1,6 +1,7 @@
 #include "kiri_remove.h"
 
 #include "kiri_ahead.h"
+#include "kiri_blocks.h"
 #include "kiri_motion.h"
 #include "kiri_pin.h"
 #include "kiri_stages.h"
@@ -327,6 +328,7 @@ static void KeepSeen(kiriRemoval* removal, kiriMemory* retired)
     kiriSheetData* sheet = removal->sheet;
     const kiriKept* kept = &removal->kept;
     KeepSurface(removal, retired);
+    kiriBlocks_Forget(&sheet->seen.blocks);
     kiriKeep_Compact(&kept->points, &sheet->seen.exactPoints, 1, sizeof(kiriVec3));
     if (sheet->seen.pointPositions.count > 0) {
         kiriKeep_Copy(&kept->points, removal->points.data, sheet->seen.pointPositions.data, 3 * sizeof(float));

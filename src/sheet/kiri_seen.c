@@ -1,5 +1,6 @@
 #include "kiri_seen.h"
 
+#include "kiri_blocks.h"
 #include "kiri_piece.h"
 
 #include <string.h>
@@ -12,85 +13,48 @@ bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t pointCount, double fade
            kiriFades_Reserve(&sheet->seen.pointFades, sheet->memory, fade ? pointCount : 0);
 }
 
-enum { BLOCK = 64 }; /* vertices */
-
-static bool ResizeBlocks(kiriSheetData* sheet)
-{
-    int32_t old = sheet->seen.touched.count, blocks = sheet->mesh.vertices.count / BLOCK + 1;
-    if (!kiriArray_Resize(sheet->memory, &sheet->seen.touched, blocks) ||
-        !kiriArray_Resize(sheet->memory, &sheet->seen.movers, blocks)) {
-        return false;
-    }
-    for (int32_t block = old; block < sheet->seen.touched.count; ++block) {
-        sheet->seen.touched.data[block] = 0;
-    }
-    return true;
-}
-
 /* ---- What sleeps ---- */
-
-static int32_t FindMover(const kiriSheetData* sheet, int32_t block)
-{
-    int32_t end = (block + 1) * BLOCK, count = sheet->seen.surface.vertexCount;
-    for (int32_t v = block * BLOCK; v < end && v < count; ++v) {
-        kiriSpan span = sheet->vertexSkin.spans.data[v]; /* of a hole it is empty */
-        int32_t frame = span.count > 0 ? sheet->vertexSkin.weights.data[span.first].frame : KIRI_NONE;
-        if (frame != KIRI_NONE && kiriSheet_Moves(sheet, frame)) {
-            return frame;
-        }
-    }
-    return KIRI_NONE;
-}
-
-/* When other pieces are awake: a block has its mover until that falls asleep, and one that has none gets one where a piece
-   woke. */
-static void FindMovers(kiriSheetData* sheet, bool isNew)
-{
-    const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
-    int32_t* movers = sheet->seen.movers.data;
-    bool hasWoken = isNew || awake->wakes != sheet->seen.wakes;
-    for (int32_t block = 0; block < sheet->seen.movers.count; ++block) {
-        bool isKnown = !isNew && (movers[block] == KIRI_NONE ? !hasWoken : kiriSheet_Moves(sheet, movers[block]));
-        movers[block] = isKnown ? movers[block] : FindMover(sheet, block);
-    }
-    sheet->seen.lists = awake->lists;
-    sheet->seen.wakes = awake->wakes;
-}
 
 /* Null where anything may be elsewhere than it was seen last. */
 static const kiriAwake* AwakeOf(kiriSheetData* sheet)
 {
     const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
     bool hasLinks = sheet->settings.mechanics.model != KIRI_MODEL_POINTS;
-    bool isOther = sheet->seen.isElsewhere || !sheet->seen.surface.isSteady;
+    bool isOther = !sheet->seen.surface.isSteady || sheet->seen.areFadesAsleep ||
+                   (sheet->rest.asleep && sheet->seen.fades.fading.count + sheet->seen.pointFades.fading.count > 0);
     return awake->isListed && !isOther && (hasLinks || sheet->settings.skinning == KIRI_SKINNING_LINEAR) ? awake : NULL;
 }
 
-/* The end of the blocks from `begin` on that have a mover, or have none, like that at `begin`. */
-static int32_t EndOfMovers(const kiriSheetData* sheet, int32_t begin, int32_t end, bool* moves)
+/* Does the block move, or, if asked, have triangles that are others? */
+static inline bool IsMeant(const kiriBlocks* blocks, int32_t block, bool orStale)
 {
-    const int32_t* movers = sheet->seen.movers.data;
-    int32_t block = begin / BLOCK, last = (end - 1) / BLOCK;
-    *moves = movers[block] != KIRI_NONE;
-    while (block < last && (movers[block + 1] != KIRI_NONE) == *moves) {
+    return kiriBlocks_Moves(blocks, block) || (orStale && blocks->stale.data[block]);
+}
+
+/* The end of the blocks from `begin` on that are meant, or are not, like the first. */
+static int32_t EndOfBlocks(const kiriBlocks* blocks, int32_t begin, int32_t end, bool orStale, bool* are)
+{
+    int32_t block = begin / KIRI_BLOCK, last = (end - 1) / KIRI_BLOCK;
+    *are = IsMeant(blocks, block, orStale);
+    while (block < last && IsMeant(blocks, block + 1, orStale) == *are) {
         ++block;
     }
-    return block < last ? (block + 1) * BLOCK : end;
+    return block < last ? (block + 1) * KIRI_BLOCK : end;
 }
 
 typedef void WriteVerticesFn(kiriSheetData* sheet, int32_t begin, int32_t end);
 
-/* For all vertices, or those of the blocks that move. */
-static void ForMoving(kiriSheetData* sheet, int32_t begin, int32_t end, WriteVerticesFn* write)
+/* For all vertices, or those of the blocks that are meant. */
+static void ForBlocks(kiriSheetData* sheet, int32_t begin, int32_t end, bool orStale, WriteVerticesFn* write)
 {
     if (!sheet->seen.surface.isPartly) {
         write(sheet, begin, end);
         return;
     }
     for (int32_t next; begin < end; begin = next) {
-        bool moves;
-        next = EndOfMovers(sheet, begin, end, &moves);
-        if (moves) {
+        bool are;
+        next = EndOfBlocks(&sheet->seen.blocks, begin, end, orStale, &are);
+        if (are) {
             write(sheet, begin, next);
         }
     }
@@ -100,7 +64,8 @@ bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCoun
 {
     return kiriSurface_Resize(&sheet->seen.surface, &sheet->shown, &sheet->mesh, frameCount) &&
            kiriArray_Resize(&sheet->shown, &sheet->seen.pointPositions, 3 * (int64_t)pointCount) &&
-           kiriArray_Resize(sheet->memory, &sheet->seen.exactPoints, pointCount) && ResizeBlocks(sheet) &&
+           kiriArray_Resize(sheet->memory, &sheet->seen.exactPoints, pointCount) &&
+           kiriBlocks_Resize(&sheet->seen.blocks, sheet->memory, sheet->mesh.vertices.count, frameCount) &&
            (!sheet->update->isBegun || kiriView_ReserveFades(sheet, pointCount, sheet->seen.fades.time));
 }
 
@@ -115,11 +80,35 @@ static void PlaceNewborn(kiriSheetData* sheet, int32_t vertex)
     kiriSurface_Place(&sheet->seen.surface, vertex, at);
 }
 
+static void StaleCorners(kiriSheetData* sheet, const int32_t* corners)
+{
+    for (int k = 0; k < 3; ++k) {
+        kiriBlocks_Stale(&sheet->seen.blocks, corners[k]);
+    }
+}
+
+/* The corners that triangles had, and that they have. */
+static void StaleChanges(kiriSheetData* sheet)
+{
+    const kiriMeshData* mesh = &sheet->mesh;
+    for (int32_t k = 0; k < mesh->savedTriangles.count; ++k) {
+        const kiriSavedTriangle* saved = &mesh->savedTriangles.data[k];
+        if (saved->index < mesh->oldTriangleCount) {
+            StaleCorners(sheet, saved->was.vertex);
+            StaleCorners(sheet, mesh->triangles.data[saved->index].vertex);
+        }
+    }
+    for (int32_t t = mesh->oldTriangleCount; t < mesh->triangles.count; ++t) {
+        StaleCorners(sheet, mesh->triangles.data[t].vertex);
+    }
+}
+
 static void HideTriangles(kiriSheetData* sheet)
 {
     for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
         int32_t piece = kiriMesh_IsTriangle(&sheet->mesh, t) ? kiriPiece_OfTriangle(sheet, t) : KIRI_NONE;
         if (piece != KIRI_NONE && sheet->layout.pieces.data[piece].isGone) {
+            StaleCorners(sheet, &sheet->seen.surface.indices.data[3 * (size_t)t]);
             kiriSurface_HideTriangle(&sheet->seen.surface, t);
         }
     }
@@ -143,6 +132,7 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
         PlaceNewborn(sheet, v);
     }
     kiriSurface_WriteTopology(&sheet->seen.surface, &sheet->mesh);
+    StaleChanges(sheet);
     if (kiriPieces_AnyGone(sheet)) {
         HideTriangles(sheet); /* a cut goes on in what is gone */
     }
@@ -152,12 +142,11 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
 void kiriView_TakeFrames(kiriSheetData* sheet)
 {
     const kiriAwake* awake = AwakeOf(sheet);
-    sheet->seen.hasNewBlocks = sheet->seen.hasNewBlocks || !sheet->seen.surface.isSteady;
     kiriSurface_TakeFrames(&sheet->seen.surface, sheet->frames.data, sheet->frames.count, sheet->links.links.data,
                            sheet->links.links.count, awake);
-    if (sheet->seen.surface.isPartly && awake->lists != sheet->seen.lists) {
-        FindMovers(sheet, sheet->seen.hasNewBlocks);
-        sheet->seen.hasNewBlocks = false;
+    if (sheet->seen.surface.isPartly && (awake->lists != sheet->seen.lists || sheet->seen.blocks.hasUnknown)) {
+        kiriBlocks_FindMovers(sheet);
+        sheet->seen.lists = awake->lists;
     }
     sheet->seen.surface.isWritten &= sheet->seen.fades.fading.count == 0;
 }
@@ -186,55 +175,87 @@ static void AddPointFades(kiriSheetData* sheet)
 void kiriView_TouchStaged(kiriSheetData* sheet)
 {
     for (int32_t k = 0; k < sheet->vertexSkin.staged.count; ++k) {
-        sheet->seen.touched.data[sheet->vertexSkin.staged.data[k].sample / BLOCK] = 1;
+        sheet->seen.blocks.touched.data[sheet->vertexSkin.staged.data[k].sample / KIRI_BLOCK] = 1;
     }
 }
 
 static void TouchFading(kiriSheetData* sheet)
 {
     for (int32_t k = 0; k < sheet->seen.fades.fading.count; ++k) {
-        sheet->seen.touched.data[sheet->seen.fades.fading.data[k].sample / BLOCK] = 1;
+        sheet->seen.blocks.touched.data[sheet->seen.fades.fading.data[k].sample / KIRI_BLOCK] = 1;
     }
 }
 
-static bool MayBeElsewhere(const kiriSheetData* sheet, int32_t begin, int32_t end)
+/* Other patches, and the frames of these. */
+typedef struct JumpLook {
+    kiriFrameMask other;
+    kiriVec3 shift;
+    const float* before; /* where all vertices are seen */
+    bool movesSleepers;  /* one that sleeps goes elsewhere */
+} JumpLook;
+
+static bool MayBeElsewhere(const kiriSheetData* sheet, const JumpLook* look, int32_t begin, int32_t end)
 {
-    return sheet->seen.touched.data[begin / BLOCK] || end > sheet->seen.vertexCount ||
-           kiriPatches_MayMove(&sheet->seen.surface.patches, &sheet->vertexSkin, begin, end);
+    const kiriBlocks* blocks = &sheet->seen.blocks;
+    return blocks->touched.data[begin / KIRI_BLOCK] || end > sheet->seen.vertexCount ||
+           (kiriBlocks_MayMeet(blocks, begin / KIRI_BLOCK, &look->other) &&
+            kiriPatches_MayMove(&sheet->seen.surface.patches, &sheet->vertexSkin, begin, end));
 }
 
-/* The vertices of a block, `before` being where all are seen, go where their weights have them. */
-static void LookAtVertices(kiriSheetData* sheet, int32_t begin, int32_t end, const float* before, kiriVec3 shift)
+static bool IsVertexAwake(const kiriSheetData* sheet, int32_t vertex)
 {
-    float room[3 * BLOCK], *was = room;
-    memcpy(was, before + 3 * (ptrdiff_t)begin, 3 * sizeof(float) * (size_t)(end - begin));
+    int32_t piece = kiriPiece_OfVertex(sheet, vertex);
+    return piece != KIRI_NONE && kiriPiece_IsAwake(&sheet->layout.pieces.data[piece]);
+}
+
+/* The vertices of a block go where their weights have them. */
+static void LookAtVertices(kiriSheetData* sheet, JumpLook* look, int32_t begin, int32_t end)
+{
+    float room[3 * KIRI_BLOCK], *was = room;
+    memcpy(was, look->before + 3 * (ptrdiff_t)begin, 3 * sizeof(float) * (size_t)(end - begin));
     kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, begin, end);
     const float* is = kiriSurface_Places(&sheet->seen.surface) + 3 * (ptrdiff_t)begin;
     for (int32_t v = begin; v < end; ++v, was += 3, is += 3) {
         kiriVec3 offset = kiriVec3_Sub(kiriVec3_Load(was), kiriVec3_Load(is));
         if (kiriMesh_IsVertex(&sheet->mesh, v)) {
-            kiriFades_Take(&sheet->seen.fades, v, kiriVec3_Add(offset, shift));
+            kiriFades_Take(&sheet->seen.fades, v, kiriVec3_Add(offset, look->shift));
         }
+        look->movesSleepers = look->movesSleepers || (v < sheet->seen.vertexCount &&
+                                                      kiriVec3_Dot(offset, offset) > 0.0 && !IsVertexAwake(sheet, v));
     }
 }
 
-/* All other vertices are seen where they were written last, by the same weights and patches: they do not jump. */
+/* Of a block with other weights, or with new vertices, frames and mover are found anew. */
+static void LookAtBlock(kiriSheetData* sheet, JumpLook* look, int32_t begin, int32_t end)
+{
+    LookAtVertices(sheet, look, begin, end);
+    if (sheet->seen.blocks.touched.data[begin / KIRI_BLOCK] || end > sheet->seen.vertexCount) {
+        kiriBlocks_ForgetOne(&sheet->seen.blocks, begin / KIRI_BLOCK);
+    }
+}
+
+/* All other vertices are seen where they were written last, by the same weights and patches: they do not jump. After it
+   all are where weights and patches have them, but for what fades: as after writing. */
 static void TakeVertexJumps(kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
     kiriVec3 middle = surface->middle;
-    const float* before = kiriSurface_Places(surface);
+    JumpLook look = { .before = kiriSurface_Places(surface) };
     TouchFading(sheet);
+    surface->isSteady = false;
     kiriView_TakeFrames(sheet);
     surface->isWritten = false;
-    kiriVec3 shift = kiriVec3_Sub(middle, surface->middle);
+    look.shift = kiriVec3_Sub(middle, surface->middle);
+    look.other = kiriBlocks_MaskOfOther(&surface->patches);
+    look.movesSleepers = look.shift.x != 0.0 || look.shift.y != 0.0 || look.shift.z != 0.0;
     kiriFades_Start(&sheet->seen.fades);
-    for (int32_t begin = 0; begin < surface->vertexCount; begin += BLOCK) {
-        int32_t end = begin + BLOCK < surface->vertexCount ? begin + BLOCK : surface->vertexCount;
-        if (MayBeElsewhere(sheet, begin, end)) {
-            LookAtVertices(sheet, begin, end, before, shift);
+    for (int32_t begin = 0; begin < surface->vertexCount; begin += KIRI_BLOCK) {
+        int32_t end = begin + KIRI_BLOCK < surface->vertexCount ? begin + KIRI_BLOCK : surface->vertexCount;
+        if (MayBeElsewhere(sheet, &look, begin, end)) {
+            LookAtBlock(sheet, &look, begin, end);
         }
     }
+    surface->isSteady = !look.movesSleepers;
 }
 
 /* Points that are new have not been seen elsewhere. */
@@ -297,15 +318,57 @@ static void WriteVertices(kiriSheetData* sheet, int32_t begin, int32_t end)
 void kiriView_BlendRange(kiriSheetData* sheet, int32_t begin, int32_t end)
 {
     if (!sheet->seen.surface.isWritten) {
-        ForMoving(sheet, begin, end, BlendVertices);
+        ForBlocks(sheet, begin, end, false, BlendVertices);
     }
+}
+
+/* ---- Normals ---- */
+
+/* Are the sums of most vertices what they were? One by one they take several times as long. */
+static bool IsSumKnown(const kiriSheetData* sheet)
+{
+    enum { FEW = 8 };
+    const kiriSurface* surface = &sheet->seen.surface;
+    bool isKnown = surface->isPartly && surface->hasSlopes && surface->hasNormals && surface->wantsNormals;
+    int32_t anew = 0, blocks = (surface->vertexCount + KIRI_BLOCK - 1) / KIRI_BLOCK;
+    for (int32_t block = 0; isKnown && block < blocks; ++block) {
+        anew += IsMeant(&sheet->seen.blocks, block, true);
+    }
+    return isKnown && FEW * (int64_t)anew <= blocks;
+}
+
+/* No triangle joins a vertex that moved to one of a piece that sleeps. */
+static bool SumNormalsOf(kiriSheetData* sheet, int32_t block)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    int32_t end =
+        surface->vertexCount - block * KIRI_BLOCK < KIRI_BLOCK ? surface->vertexCount : (block + 1) * KIRI_BLOCK;
+    bool ok = true;
+    for (int32_t v = block * KIRI_BLOCK; ok && v < end; ++v) {
+        bool isAnew = sheet->seen.blocks.stale.data[block] || IsVertexAwake(sheet, v);
+        ok = !isAnew || kiriSurface_SumNormal(surface, &sheet->mesh, v);
+    }
+    return ok;
+}
+
+static bool SumSomeNormals(kiriSheetData* sheet)
+{
+    bool ok = true;
+    for (int32_t block = 0; ok && block * KIRI_BLOCK < sheet->seen.surface.vertexCount; ++block) {
+        ok = !IsMeant(&sheet->seen.blocks, block, true) || SumNormalsOf(sheet, block);
+    }
+    return ok;
 }
 
 void kiriView_Sum(kiriSheetData* sheet)
 {
     if (!sheet->seen.surface.isWritten) {
         kiriSurface_AddFades(&sheet->seen.surface, &sheet->seen.fades);
-        kiriSurface_SumNormals(&sheet->seen.surface);
+        if (IsSumKnown(sheet) && SumSomeNormals(sheet)) {
+            sheet->seen.surface.pose += 1;
+        } else {
+            kiriSurface_SumNormals(&sheet->seen.surface);
+        }
     }
     BlendPoints(sheet, sheet->seen.surface.isPartly);
     AddPointFades(sheet);
@@ -315,7 +378,7 @@ void kiriView_Sum(kiriSheetData* sheet)
     sheet->seen.pointCount = sheet->points.count;
     sheet->seen.vertexCount = sheet->seen.surface.vertexCount;
     if (sheet->seen.isElsewhere) {
-        memset(sheet->seen.touched.data, 0, (size_t)sheet->seen.touched.count);
+        memset(sheet->seen.blocks.touched.data, 0, (size_t)sheet->seen.blocks.touched.count);
     }
     sheet->seen.isElsewhere = false;
 }
@@ -323,12 +386,15 @@ void kiriView_Sum(kiriSheetData* sheet)
 void kiriView_WriteRange(kiriSheetData* sheet, int32_t begin, int32_t end)
 {
     if (!sheet->seen.surface.isWritten) {
-        ForMoving(sheet, begin, end, WriteVertices);
+        ForBlocks(sheet, begin, end, true, WriteVertices);
     }
 }
 
 void kiriView_EndWriting(kiriSheetData* sheet)
 {
+    if (!sheet->seen.surface.isWritten) {
+        memset(sheet->seen.blocks.stale.data, 0, (size_t)sheet->seen.blocks.stale.count);
+    }
     sheet->seen.surface.isWritten = sheet->seen.fades.fading.count == 0;
     sheet->seen.surface.isSteady = true;
 }
@@ -336,7 +402,7 @@ void kiriView_EndWriting(kiriSheetData* sheet)
 void kiriView_KeepBounds(kiriSheetData* sheet)
 {
     bool isKnown = sheet->seen.surface.isPartly;
-    const kiriMovers movers = { isKnown ? sheet->seen.movers.data : NULL, BLOCK, sheet->seen.lists };
+    const kiriMovers movers = { isKnown ? sheet->seen.blocks.movers.data : NULL, KIRI_BLOCK, sheet->seen.lists };
     kiriBounds_Keep(sheet->seen.bounds, &sheet->seen.surface, &movers);
 }
 

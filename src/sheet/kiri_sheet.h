@@ -278,6 +278,21 @@ typedef struct kiriGivenContact {
     double share[3];
 } kiriGivenContact;
 
+/* A bit for each frame, by its index modulo 256. */
+typedef struct kiriFrameMask {
+    uint64_t bits[4];
+} kiriFrameMask;
+
+/* Of each block of vertices, see kiri_blocks.h. */
+typedef struct kiriBlocks {
+    KIRI_ARRAY(uint8_t) touched;      /* some have other weights, or fade */
+    KIRI_ARRAY(uint8_t) stale;        /* triangles around them are others, so are their normals */
+    KIRI_ARRAY(int32_t) movers;       /* a frame of it that is awake; KIRI_NONE: all of it sleeps; or KIRI_UNKNOWN */
+    KIRI_ARRAY(kiriFrameMask) frames; /* that carry it, where its mover is known */
+    KIRI_ARRAY(uint8_t) moved;        /* of each frame: was it awake when movers were found last? */
+    bool hasUnknown;
+} kiriBlocks;
+
 /* What the host sees, see kiri_seen.h. */
 typedef struct kiriSeen {
     kiriSurface surface;
@@ -289,10 +304,9 @@ typedef struct kiriSeen {
     KIRI_ARRAY(kiriVec3) pointsBefore; /* room for that while a cut takes effect */
     bool isElsewhere;                  /* vertices are new, or a cut took effect, since positions were written: */
     int32_t vertexCount;               /* vertices that are not new */
-    KIRI_ARRAY(uint8_t) touched;       /* of each block of vertices: some have other weights, or fade */
-    KIRI_ARRAY(int32_t) movers;        /* of each block: a frame of it that is awake; KIRI_NONE: all of it sleeps */
-    bool hasNewBlocks;                 /* vertices have come since movers were found, */
-    int64_t lists, wakes;              /* for this state of kiriAwake */
+    kiriBlocks blocks;                 /* of vertices; the movers are those */
+    int64_t lists;                     /* of this state of kiriAwake */
+    bool areFadesAsleep;               /* some fade of a piece that sleeps, or is gone */
 } kiriSeen;
 
 struct kiriUpdate;

@@ -42,6 +42,83 @@ void kiriNormals_Sum(float* slopes, int32_t vertexCount, const float* positions,
     }
 }
 
+/* The same for one vertex of a pair, in the same order. */
+static kiriLanes AddPairTo(kiriLanes sum, int32_t vertex, const float* positions, const int32_t* v)
+{
+    kiriLanes ac = EdgeAlong(positions, v[0], v[2]), first = kiriLanes_Cross(EdgeAlong(positions, v[0], v[1]), ac);
+    if (v[0] == v[3] && v[2] == v[4]) {
+        kiriLanes second = kiriLanes_Cross(ac, EdgeAlong(positions, v[0], v[5])), both = kiriLanes_Add(first, second);
+        const kiriLanes by[4] = { first, second, both, both };
+        const int32_t of[4] = { v[1], v[5], v[0], v[2] };
+        for (int k = 0; k < 4; ++k) {
+            sum = of[k] == vertex ? kiriLanes_Add(sum, by[k]) : sum;
+        }
+        return sum;
+    }
+    kiriLanes second = kiriLanes_Cross(EdgeAlong(positions, v[3], v[4]), EdgeAlong(positions, v[3], v[5]));
+    for (int k = 0; k < 6; ++k) {
+        sum = v[k] == vertex ? kiriLanes_Add(sum, k < 3 ? first : second) : sum;
+    }
+    return sum;
+}
+
+enum { MOST_PAIRS = 64 }; /* around a vertex */
+
+/* Into a row of pairs that ascends, once; false where there is no room. */
+static bool InsertPair(int32_t* pairs, int32_t* count, int32_t pair)
+{
+    int32_t at = *count;
+    while (at > 0 && pairs[at - 1] > pair) {
+        --at;
+    }
+    if (at > 0 && pairs[at - 1] == pair) {
+        return true;
+    }
+    if (*count == MOST_PAIRS) {
+        return false;
+    }
+    memmove(pairs + at + 1, pairs + at, sizeof(*pairs) * (size_t)(*count - at));
+    pairs[at] = pair;
+    *count += 1;
+    return true;
+}
+
+/* The pairs of the fan of a vertex: counter-clockwise all around or to its end, else clockwise from where it began. */
+static bool ListPairs(const kiriMeshData* mesh, int32_t vertex, int32_t* pairs, int32_t* count)
+{
+    int32_t start = mesh->vertices.data[vertex].edge, h = start;
+    bool ok = true;
+    *count = 0;
+    while (ok && h != KIRI_NONE) {
+        ok = InsertPair(pairs, count, h / 6);
+        h = kiriMesh_CounterClockwise(mesh, h);
+        if (h == start) {
+            return ok;
+        }
+    }
+    h = start == KIRI_NONE ? KIRI_NONE : kiriMesh_Clockwise(mesh, start);
+    while (ok && h != KIRI_NONE) {
+        ok = InsertPair(pairs, count, h / 6);
+        h = kiriMesh_Clockwise(mesh, h);
+    }
+    return ok;
+}
+
+bool kiriNormals_SumOne(float* slopes, int32_t vertex, const float* positions, const int32_t* corners,
+                        const kiriMeshData* mesh)
+{
+    int32_t pairs[MOST_PAIRS], count;
+    kiriLanes sum = kiriLanes_Splat(0.0f);
+    if (!ListPairs(mesh, vertex, pairs, &count)) {
+        return false;
+    }
+    for (int32_t k = 0; k < count; ++k) {
+        sum = AddPairTo(sum, vertex, positions, corners + 6 * (ptrdiff_t)pairs[k]);
+    }
+    kiriLanes_Store(slopes + 4 * (ptrdiff_t)vertex, sum);
+    return true;
+}
+
 /* A length that fits a float may have a square that does not. */
 static void WriteNormal(float* normal, const float* slope)
 {

@@ -295,6 +295,7 @@ void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* tr
     kiriKeep_Compact(vertices, &surface->rest, 1, sizeof(kiriVec2));
     kiriKeep_Compact(vertices, &surface->places, 3, sizeof(float));
     surface->slopes.count = 4 * vertices->count;
+    surface->hasSlopes = false;
     surface->carriers.count = surface->bends.count = frameCount;
     surface->vertexCount = vertices->count;
     surface->triangleCount = triangles->count;
@@ -414,14 +415,20 @@ void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades)
 
 static void SumSlopes(kiriSurface* surface)
 {
+    surface->hasSlopes = true;
     kiriNormals_Sum(surface->slopes.data, surface->vertexCount, kiriSurface_Places(surface), surface->corners.data,
                     surface->triangleCount);
+}
+
+bool kiriSurface_SumNormal(kiriSurface* surface, const kiriMeshData* mesh, int32_t vertex)
+{
+    return kiriNormals_SumOne(surface->slopes.data, vertex, kiriSurface_Places(surface), surface->corners.data, mesh);
 }
 
 void kiriSurface_SumNormals(kiriSurface* surface)
 {
     surface->pose += 1;
-    surface->hasNormals = surface->wantsNormals;
+    surface->hasNormals = surface->hasSlopes = surface->wantsNormals;
     if (surface->hasNormals) {
         SumSlopes(surface);
     }

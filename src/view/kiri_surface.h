@@ -41,7 +41,8 @@ typedef struct kiriSurface {
     bool isWritten;                /* the arrays show the patches as they are; */
     bool isSteady;                 /* they did when positions were written last, but for what fades; */
     bool isPartly;                 /* and since then patches have changed of what is awake alone */
-    bool wantsNormals, hasNormals; /* the host asks for them; they are those of where vertices are seen */
+    bool wantsNormals, hasNormals; /* the host asks for them; they are those of where vertices are seen, */
+    bool hasSlopes;                /* and so are the sums that they are made of */
 
     kiriChange changes[KIRI_CHANGES]; /* a ring */
     int32_t changeCount, lastChange;
@@ -121,6 +122,9 @@ void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades);
 /* Once in a tick, when all vertices are where they are seen: the sums that normals are made of, where the host asks for
    these. */
 void kiriSurface_SumNormals(kiriSurface* surface);
+
+/* That of one vertex, the others being known. False where too many triangles meet in it. */
+bool kiriSurface_SumNormal(kiriSurface* surface, const kiriMeshData* mesh, int32_t vertex);
 
 /* Then the positions and normals that the host reads, of the vertices from `begin` to `end`. Writes nothing else. */
 void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end);

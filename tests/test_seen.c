@@ -1,0 +1,177 @@
+/* What a tick does not write anew is seen as if it were: the world is validated after each tick, and that writes all of it. */
+#include "host.h"
+
+enum { SQUARES = 96, DICE = 12, TICKS = 150 };
+
+static const float dt = 1.0f / 60.0f;
+
+typedef struct Way {
+    int32_t skinning, model;
+    bool isFar, hasBudget, hasObstacle;
+} Way;
+
+static kiriSheet Dice(Host* host, const Way* way)
+{
+    static const float none[3] = { 0.0f, 0.0f, 0.0f };
+    kiriBudget budget = { .triangles = 60, .cells = 400, .samples = 60 };
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = 36;
+    def.frameCount = 4;
+    def.maxFrames = 4096;
+    def.rigidArea = 1.0f;
+    def.skinning = way->skinning;
+    def.model = way->model;
+    def.collisionPoints = 100;
+    def.normals = 1;
+    def.sleepSpeed = 0.02f;
+    def.material.airDamping = 20.0f;
+    def.position[0] = way->isFar ? 1000.0f : 0.0f;
+    OK(kiriWorld_SetGravity(host->world, none));
+    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, SQUARES, SQUARES);
+    for (int32_t i = 1; i < DICE; ++i) {
+        float at = ((float)i + 0.013f) / DICE;
+        Host_Cut(host, sheet, (float[]){ at, -0.1f, at, 1.1f }, 2);
+        Host_Cut(host, sheet, (float[]){ -0.1f, at, 1.1f, at }, 2);
+    }
+    OK(Host_Tick(host, dt, 1));
+    assert_int_equal(Host_Counts(host, sheet).pieces, DICE * DICE);
+    for (int32_t k = 0; k < 40; ++k) {
+        OK(kiriWorld_Tick(host->world, dt, 1));
+    }
+    if (way->hasBudget) {
+        OK(kiriWorld_SetBudget(host->world, &budget));
+    }
+    return sheet;
+}
+
+static kiriFrame FrameAtPlace(const Host* host, kiriSheet sheet, float u, float v)
+{
+    const float at[2] = { u, v };
+    kiriPointState point;
+    int32_t piece;
+    bool isThere = kiriSheet_GetPoint(host->world, sheet, at, &point) == KIRI_OK &&
+                   kiriFrame_GetPiece(host->world, point.frame, &piece) == KIRI_OK;
+    return isThere ? point.frame : 0; /* a piece that goes may wait */
+}
+
+static int32_t CountAsleep(const Host* host, kiriSheet sheet)
+{
+    int32_t asleep = 0;
+    for (int32_t p = 0; p < Host_Counts(host, sheet).pieces; ++p) {
+        kiriPieceState state;
+        OK(kiriSheet_GetPiece(host->world, sheet, p, &state));
+        asleep += state.asleep;
+    }
+    return asleep;
+}
+
+static float Unit(uint32_t* seed)
+{
+    return (float)(Random(seed) % 10000) / 10000.0f;
+}
+
+/* A push, a slit, a cut through a few pieces, a piece that goes, other settings, a push to all, or nothing. */
+static void Disturb(Host* host, kiriSheet sheet, uint32_t* seed)
+{
+    static const float none[3] = { 0.0f, 0.0f, 0.0f };
+    float u = 0.02f + 0.96f * Unit(seed), v = 0.02f + 0.96f * Unit(seed);
+    kiriFrame frame = FrameAtPlace(host, sheet, u, v);
+    const float push[3] = { 0.1f * Unit(seed), 0.1f * Unit(seed), 0.3f * Unit(seed) };
+    kiriSheetSettings settings;
+    uint32_t what = Random(seed) % 32;
+    if (what < 8) {
+        assert_true(frame == 0 || kiriFrame_SetPieceVelocity(host->world, frame, push, push) == KIRI_OK);
+    } else if (what < 16) {
+        Host_Cut(host, sheet, (float[]){ u, v, u + 0.02f, v + 0.013f }, 2);
+    } else if (what < 18) {
+        Host_Cut(host, sheet, (float[]){ u, v, u + 0.1f, v + 0.1f }, 2);
+    } else if (what < 22) {
+        assert_true(frame == 0 || kiriFrame_DestroyPiece(host->world, frame) >= 0);
+    } else if (what < 23) {
+        OK(kiriSheet_GetSettings(host->world, sheet, &settings));
+        settings.skinning = 1 - settings.skinning;
+        OK(kiriSheet_SetSettings(host->world, sheet, &settings));
+    } else if (what < 24) {
+        OK(kiriSheet_SetVelocity(host->world, sheet, push, none));
+    }
+}
+
+static void TestAsWrittenAnew(void** state)
+{
+    (void)state;
+    static const Way ways[] = {
+        { KIRI_SKINNING_LINEAR, KIRI_MODEL_LINKS, false, false, false },
+        { KIRI_SKINNING_SMOOTH, KIRI_MODEL_LINKS, false, true, true },
+        { KIRI_SKINNING_LINEAR, KIRI_MODEL_LINKS, true, true, false },
+        { KIRI_SKINNING_LINEAR, KIRI_MODEL_LINKS, false, true, true },
+    };
+    for (size_t w = 0; w < sizeof(ways) / sizeof(ways[0]); ++w) {
+        Host host;
+        uint32_t seed = 7u + (uint32_t)w;
+        int32_t both = 0;
+        Host_Start(&host);
+        kiriSheet sheet = Dice(&host, &ways[w]);
+        if (ways[w].hasObstacle) {
+            kiriObstacleDef def;
+            kiriObstacle ball;
+            kiriDefaultObstacleDef(&def);
+            def.radius = 0.1f;
+            def.position[2] = -0.3f;
+            def.velocity[0] = def.velocity[1] = 0.4f;
+            def.velocity[2] = 0.2f;
+            def.type = KIRI_OBSTACLE_SPHERE;
+            OK(kiriCreateObstacle(host.world, &def, &ball));
+        }
+        for (int32_t tick = 0; tick < TICKS; ++tick) {
+            if (tick % 4 == 0) {
+                Disturb(&host, sheet, &seed);
+                Host_Validate(&host);
+            }
+            assert_true(Host_Tick(&host, dt, 1) >= 0);
+            int32_t asleep = CountAsleep(&host, sheet), pieces = Host_Counts(&host, sheet).pieces;
+            both += asleep > pieces / 2 && asleep < pieces;
+        }
+
+        assert_true(both > TICKS / 4);
+        Host_Stop(&host);
+    }
+}
+
+/* Pieces that are cut in two sleep, and each part wakes alone: vertices have other frames than when they moved last. */
+static void TestPartsWakeAlone(void** state)
+{
+    (void)state;
+    enum { CUTS = 6 };
+    static const float none[3] = { 0.0f, 0.0f, 0.0f }, up[3] = { 0.0f, 0.0f, 0.2f };
+    const Way way = { KIRI_SKINNING_LINEAR, KIRI_MODEL_LINKS, false, false, false };
+    Host host;
+    Host_Start(&host);
+    kiriSheet sheet = Dice(&host, &way);
+    for (int32_t k = 0; k < CUTS; ++k) {
+        float u = (1.5f + (float)k) / DICE, v = (2.5f + (float)k) / DICE;
+        Host_Cut(&host, sheet, (float[]){ u - 0.5f / DICE, v + 0.003f, u + 0.6f / DICE, v + 0.004f }, 2);
+    }
+    for (int32_t tick = 0; tick < 45; ++tick) {
+        OK(kiriWorld_Tick(host.world, dt, 1));
+    }
+    int32_t pieces = Host_Counts(&host, sheet).pieces;
+    assert_int_equal(pieces, DICE * DICE + CUTS);
+    assert_int_equal(CountAsleep(&host, sheet), pieces);
+    for (int32_t k = 0; k < 2 * CUTS; ++k) {
+        float u = (1.5f + (float)(k / 2)) / DICE, v = (2.5f + (float)(k / 2) + (k % 2 ? 0.3f : -0.3f)) / DICE;
+        OK(kiriFrame_SetPieceVelocity(host.world, FrameAtPlace(&host, sheet, u, v), up, none));
+        OK(Host_Tick(&host, dt, 1));
+        assert_int_equal(CountAsleep(&host, sheet), pieces - 1 - k);
+    }
+    Host_Stop(&host);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestAsWrittenAnew),
+        cmocka_unit_test(TestPartsWakeAlone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

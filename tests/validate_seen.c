@@ -1,0 +1,48 @@
+/* What is seen: as if all of it were written anew. */
+#include "validate_check.h"
+
+#include <string.h>
+
+static float* CopyFloats(Check* check, const float* from, int64_t count)
+{
+    float* copy = (float*)Check_Bytes(check, (count + 4) * (int64_t)sizeof(float));
+    if (count > 0) {
+        memcpy(copy, from, sizeof(float) * (size_t)count);
+    }
+    return copy;
+}
+
+/* Hole vertices are of no triangle, wherever they are. */
+static bool Check_SameFloats(Check* check, const kiriSheetData* sheet, const char* what, const float* is,
+                             const float* should)
+{
+    for (int32_t v = 0; v < sheet->seen.surface.vertexCount; ++v) {
+        const float *a = is + 3 * (size_t)v, *b = should + 3 * (size_t)v;
+        REQUIRE(!kiriMesh_IsVertex(&sheet->mesh, v) || memcmp(a, b, 3 * sizeof(float)) == 0,
+                "the %s of vertex %d is %.9g %.9g %.9g, written anew %.9g %.9g %.9g", what, v, (double)a[0],
+                (double)a[1], (double)a[2], (double)b[0], (double)b[1], (double)b[2]);
+    }
+    return true;
+}
+
+bool Check_Seen(Check* check, const kiriSheetData* sheet)
+{
+    const kiriSurface* surface = &sheet->seen.surface;
+    kiriSurface anew = *surface;
+    int64_t count = surface->vertexCount;
+    check->part = "seen";
+    if (!surface->isSteady || surface->patches.count != sheet->frames.count || sheet->seen.isElsewhere) {
+        return true; /* something has changed since it was written */
+    }
+    anew.positions.data = CopyFloats(check, surface->positions.data, 3 * count + 1);
+    anew.places.data = CopyFloats(check, surface->places.data, 3 * count + 1);
+    anew.normals.data = CopyFloats(check, surface->normals.data, 3 * count);
+    anew.slopes.data = CopyFloats(check, surface->slopes.data, 4 * count);
+    kiriSurface_BlendRange(&anew, &sheet->vertexSkin, 0, surface->vertexCount);
+    kiriSurface_AddFades(&anew, &sheet->seen.fades);
+    kiriSurface_SumNormals(&anew);
+    kiriSurface_WriteRange(&anew, 0, surface->vertexCount);
+    return Check_SameFloats(check, sheet, "position", surface->positions.data, anew.positions.data) &&
+           (!surface->wantsNormals || !surface->hasNormals ||
+            Check_SameFloats(check, sheet, "normal", surface->normals.data, anew.normals.data));
+}
