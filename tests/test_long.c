@@ -1,0 +1,203 @@
+/* Long play: a blade that never rests, pieces that are detached or dropped as crumbs, sheets that come and go. Work and
+   memory must not grow with the time that a world has run. In `make test` a tenth of ten minutes; with an argument
+   (`make long`) all of it. */
+#include "host.h"
+
+enum { PERIODS = 10, PERIOD = 360, LONG_PERIOD = 3600, LIFE = 60, MOST_PARTS = 64, SQUARES = 16 };
+
+static int32_t period = PERIOD;
+
+/* Bytes that are out. */
+static int64_t bytesLive;
+
+static void* CountingAlloc(void* user, int64_t bytes)
+{
+    (void)user;
+    int64_t* block = malloc(16 + (size_t)bytes);
+    assert_non_null(block);
+    block[0] = bytes;
+    bytesLive += bytes;
+    return block + 2;
+}
+
+static void CountingFree(void* user, void* pointer)
+{
+    (void)user;
+    if (pointer != NULL) {
+        int64_t* block = (int64_t*)pointer - 2;
+        bytesLive -= block[0];
+        free(block);
+    }
+}
+
+/* What a period took. */
+typedef struct Period {
+    int64_t items, worst, bytes; /* of all ticks, of one, and the most at a time */
+    int32_t pieces, sheets;      /* that came off; that were made */
+} Period;
+
+typedef struct Play {
+    kiriWorld* world;
+    kiriSheet sheet, parts[MOST_PARTS]; /* parts fall, and go after a while */
+    int32_t ends[MOST_PARTS], partCount, tick, left;
+    kiriCut cut;
+    float at[2], way[2];
+    uint32_t seed;
+    Period now;
+} Play;
+
+static void AddSheet(Play* play)
+{
+    kiriSheetDef def;
+    kiriPinDef pin;
+    kiriPin id;
+    kiriDefaultSheetDef(&def);
+    kiriDefaultPinDef(&pin);
+    def.gridResolution = 24;
+    def.frameCount = 6;
+    def.maxFrames = 40;
+    def.crumbArea = 0.002f;
+    def.collisionPoints = 20;
+    Rectangle r = Rectangle_Make(&def, 1.0f, 1.0f, SQUARES, SQUARES);
+    OK(kiriCreateSheet(play->world, &def, &play->sheet));
+    Rectangle_Free(&r);
+    for (int i = 0; i < 2; ++i) {
+        pin.restPoint[0] = pin.target[0] = (float)i;
+        pin.restPoint[1] = pin.target[1] = 1.0f;
+        OK(kiriCreatePin(play->world, play->sheet, &pin, &id));
+    }
+    play->left = 0;
+    play->now.sheets += 1;
+}
+
+/* A sheet of which too little is left goes, and another one comes. */
+static void RenewSheet(Play* play)
+{
+    kiriTotals totals;
+    OK(kiriSheet_GetTotals(play->world, play->sheet, &totals));
+    if (totals.area < 0.4) {
+        OK(kiriDestroySheet(play->world, play->sheet));
+        AddSheet(play);
+    }
+}
+
+static void MoveBlade(Play* play)
+{
+    if (play->left == 0) {
+        for (int i = 0; i < 2; ++i) {
+            play->at[i] = (float)RandomBetween(&play->seed, -0.1, 1.1);
+            play->way[i] = (float)RandomBetween(&play->seed, -0.05, 0.05);
+        }
+        OK(kiriBeginCut(play->world, play->sheet, play->at, &play->cut));
+        play->left = 20 + (int32_t)(Random(&play->seed) % 60);
+    }
+    for (int i = 0; i < 2; ++i) {
+        play->way[i] += (float)RandomBetween(&play->seed, -0.012, 0.012);
+        play->at[i] += play->way[i];
+    }
+    OK(kiriCut_Extend(play->world, play->cut, play->at, 1));
+    play->left -= 1;
+    if (play->left == 0) {
+        OK(kiriCut_End(play->world, play->cut));
+    }
+}
+
+/* The smaller pieces of the sheet, and what falls too long. */
+static void PartPieces(Play* play)
+{
+    int32_t count;
+    kiriPieceState state;
+    assert_true(kiriSheet_DropCrumbs(play->world, play->sheet, 0.002f, &count) >= 0);
+    play->now.pieces += count;
+    kiriCounts counts;
+    OK(kiriSheet_GetCounts(play->world, play->sheet, &counts));
+    for (int32_t p = counts.pieces - 1; p > 0 && play->partCount < MOST_PARTS; --p) {
+        const kiriFrame* frames;
+        kiriSheet made;
+        OK(kiriSheet_GetPiece(play->world, play->sheet, p, &state));
+        OK(kiriSheet_GetPieceFrames(play->world, play->sheet, p, &frames, &count));
+        if (count > 0 && state.area < 0.3 && kiriFrame_DetachPiece(play->world, frames[0], &made) == KIRI_OK) {
+            play->ends[play->partCount] = play->tick + LIFE;
+            play->parts[play->partCount++] = made;
+            play->now.pieces += 1;
+        }
+    }
+    int32_t kept = 0;
+    for (int32_t k = 0; k < play->partCount; ++k) {
+        if (play->ends[k] <= play->tick) {
+            OK(kiriDestroySheet(play->world, play->parts[k]));
+        } else {
+            play->ends[kept] = play->ends[k];
+            play->parts[kept++] = play->parts[k];
+        }
+    }
+    play->partCount = kept;
+}
+
+static void Count(Play* play)
+{
+    kiriProfile profile;
+    OK(kiriWorld_GetProfile(play->world, &profile));
+    int64_t items = (int64_t)profile.trianglesSplit + profile.cellsSettled + profile.samplesRefreshed;
+    play->now.items += items;
+    play->now.worst = items > play->now.worst ? items : play->now.worst;
+    play->now.bytes = bytesLive > play->now.bytes ? bytesLive : play->now.bytes;
+}
+
+static Period RunPeriod(Play* play)
+{
+    memset(&play->now, 0, sizeof(play->now));
+    for (int32_t i = 0; i < period; ++i, ++play->tick) {
+        RenewSheet(play);
+        MoveBlade(play);
+        kiriResult result = kiriWorld_Tick(play->world, 1.0f / 60.0f, 1);
+        assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
+        Count(play);
+        PartPieces(play);
+        if (play->tick % 97 == 0) {
+            const char* wrong = Validate_World(play->world);
+            if (wrong != NULL) {
+                fail_msg("tick %d: %s", (int)play->tick, wrong);
+            }
+        }
+    }
+    return play->now;
+}
+
+static void TestLongPlay(void** state)
+{
+    (void)state;
+    static Play play;
+    Period periods[PERIODS];
+    int32_t pieces = 0;
+    kiriWorldDef def;
+    kiriDefaultWorldDef(&def);
+    def.alloc = CountingAlloc;
+    def.free = CountingFree;
+    play.seed = 2463534242u;
+    OK(kiriCreateWorld(&def, &play.world));
+    AddSheet(&play);
+    for (int k = 0; k < PERIODS; ++k) {
+        periods[k] = RunPeriod(&play);
+        pieces += periods[k].pieces;
+        print_message("period %d: %lld items a tick, %lld at worst, %lld KB, %d pieces, %d sheets\n", k,
+                      (long long)(periods[k].items / period), (long long)periods[k].worst,
+                      (long long)(periods[k].bytes / 1024), (int)periods[k].pieces, (int)periods[k].sheets);
+    }
+    const Period *second = &periods[1], *last = &periods[PERIODS - 1];
+    print_message("the last period against the second: items %.2f, worst %.2f, memory %.2f\n",
+                  (double)last->items / (double)second->items, (double)last->worst / (double)second->worst,
+                  (double)last->bytes / (double)second->bytes);
+    assert_true(pieces > 2 * PERIODS);
+    assert_true(last->items < 2 * second->items && last->worst < 3 * second->worst && last->bytes < 2 * second->bytes);
+    kiriDestroyWorld(play.world);
+    assert_int_equal(bytesLive, 0);
+}
+
+int main(int count, char** arguments)
+{
+    (void)arguments;
+    const struct CMUnitTest tests[] = { cmocka_unit_test(TestLongPlay) };
+    period = count > 1 ? LONG_PERIOD : PERIOD;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
