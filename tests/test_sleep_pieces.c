@@ -329,6 +329,56 @@ static void TestContactsOfOthers(void** state)
     Host_Stop(&host);
 }
 
+/* Each corner of a small sheet lies in a groove: two contacts at one point, of one obstacle. Asleep they are told what each
+   pushed with. */
+static void TestContactsOfOnePoint(void** state)
+{
+    (void)state;
+    enum { CONTACTS = 8 };
+    static const float slope = 0.6f, rise = 0.8f, down[3] = { 0.0f, 0.0f, -9.81f };
+    Host host;
+    kiriContact contacts[CONTACTS];
+    const kiriContactForce* told;
+    kiriSheetDef def = Host_SmallDef();
+    int32_t count;
+    def.framePoints = NULL;
+    def.frameCount = 1;
+    Host_Start(&host);
+    OK(kiriWorld_SetGravity(host.world, down));
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
+    memset(contacts, 0, sizeof(contacts));
+    for (int k = 0; k < CONTACTS; ++k) {
+        contacts[k].point = -1;
+        contacts[k].restPoint[0] = k / 2 % 2 ? 0.9f : 0.1f;
+        contacts[k].restPoint[1] = k / 4 ? 0.9f : 0.1f;
+        contacts[k].normal[0] = k % 2 ? slope : -slope;
+        contacts[k].normal[2] = rise;
+        contacts[k].friction = 0.3f;
+        contacts[k].offset = contacts[k].normal[0] * contacts[k].restPoint[0];
+    }
+    double pushed[CONTACTS][3];
+    for (int tick = 0; tick < 300; ++tick) {
+        OK(kiriSheet_SetContacts(host.world, sheet, contacts, CONTACTS));
+        Tick(&host);
+        OK(kiriSheet_GetContactForces(host.world, sheet, &told, &count));
+        assert_int_equal(count, CONTACTS);
+        for (int k = 0; k < count && Awake(&host, sheet) != 0; ++k) {
+            memcpy(pushed[k], told[k].impulse, sizeof(pushed[k]));
+        }
+    }
+    assert_int_equal(Awake(&host, sheet), 0);
+    double weight = 9.81 * Host_Totals(&host, sheet).mass * (double)dt;
+    int differ = 0;
+    for (int k = 0; k < CONTACTS; ++k) {
+        for (int n = 0; n < 3; ++n) {
+            assert_true(fabs(told[k].impulse[n] - pushed[k][n]) < 0.01 * weight);
+        }
+        differ += k % 2 && fabs(pushed[k][0] - pushed[k - 1][0]) > 0.01 * weight;
+    }
+    assert_true(differ > 0);
+    Host_Stop(&host);
+}
+
 /* ---- Cuts ---- */
 
 /* A slit wakes the piece that it is in, and what cuts it in two both parts; the strips beside it share squares with it. */
@@ -731,6 +781,7 @@ int main(void)
         cmocka_unit_test(TestWork),
         cmocka_unit_test(TestCallsWake),
         cmocka_unit_test(TestContactsOfOthers),
+        cmocka_unit_test(TestContactsOfOnePoint),
         cmocka_unit_test(TestCutWakesItsPiece),
         cmocka_unit_test(TestScratch),
         cmocka_unit_test(TestObstacleWakesWhatIsNear),

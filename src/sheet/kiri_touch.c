@@ -141,12 +141,40 @@ static bool IsOfKind(const kiriTouch* touch, int32_t kind)
     return touch->key >> 60 == (uint64_t)kind;
 }
 
+static bool HasLowerGivenKey(const void* context, int32_t a, int32_t b)
+{
+    const kiriTouch* found = context;
+    return found[a].key < found[b].key || (found[a].key == found[b].key && a < b);
+}
+
+/* Contacts at one point with one obstacle get different keys, in the order in which the host gave them: up to 64 of them. */
+static void NumberRepeated(kiriTouches* touches)
+{
+    enum { MOST_REPEATED = 64 };
+    kiriTouch* found = touches->found.data;
+    KIRI_ASSERT(touches->order.capacity >= touches->found.count);
+    for (int32_t i = 0; i < touches->found.count; ++i) {
+        touches->order.data[i] = i;
+    }
+    kiriSort(touches->order.data, touches->found.count, HasLowerGivenKey, found);
+    uint64_t last = 0, repeated = 0;
+    for (int32_t k = 0; k < touches->found.count; ++k) {
+        kiriTouch* touch = &found[touches->order.data[k]];
+        repeated = k > 0 && touch->key == last ? repeated + 1 : 0;
+        last = touch->key;
+        touch->key ^= repeated % MOST_REPEATED << 53; /* above the obstacle */
+    }
+}
+
 bool kiriTouches_Begin(kiriSheetData* sheet)
 {
     bool ok = true;
     sheet->touches.found.count = sheet->touches.yields.count = sheet->touches.rows.count = 0;
     for (int32_t i = 0; ok && i < sheet->contacts.count; ++i) {
         ok = AddGiven(sheet, &sheet->contacts.data[i]);
+    }
+    if (ok && sheet->contacts.count > 1) {
+        NumberRepeated(&sheet->touches);
     }
     return ok;
 }
