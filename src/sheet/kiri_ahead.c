@@ -26,7 +26,7 @@ static int32_t PieceWith(const kiriSheetData* sheet, kiriFrame frame)
     return sheet->layout.framePiece.data[i];
 }
 
-static bool GatherPiece(kiriSheetData* sheet)
+static bool GatherAhead(kiriSheetData* sheet)
 {
     kiriAhead* ahead = &sheet->ahead;
     kiriGathered* gathered = kiriMemory_AllocZeroed(&ahead->memory, sizeof(*gathered));
@@ -65,7 +65,7 @@ void kiriAhead_GoOn(kiriSheetData* sheet, kiriFrame frame, kiriMemory* memory, k
         ahead->revision = sheet->mesh.revision;
         ahead->memory = kiriMemory_Like(memory);
     }
-    if (!(ahead->gathered == NULL ? GatherPiece(sheet) : MakeSome(sheet, memory, quotas))) {
+    if (!(ahead->gathered == NULL ? GatherAhead(sheet) : MakeSome(sheet, memory, quotas))) {
         kiriAhead_Drop(sheet, memory);
     }
 }

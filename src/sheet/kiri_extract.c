@@ -227,28 +227,28 @@ double kiriExtraction_Samples(const kiriSheetData* sheet, double share)
 }
 
 /* The part at hand: its vertices and triangles. */
-typedef struct PartItems {
+typedef struct PartMembers {
     kiriMeshPart vertices, triangles;
-} PartItems;
+} PartMembers;
 
-static PartItems TakePiece(kiriExtraction* extraction, int32_t piece)
+static PartMembers TakeItemsOf(kiriExtraction* extraction, int32_t piece)
 {
     kiriKept* kept = &extraction->kept;
     const kiriGatheredPiece* found = kiriGather_Find(extraction->gathered, piece);
-    PartItems items = { { ItemsOfSpan(&extraction->gathered->vertices, found->vertices), &kept->vertices },
+    PartMembers items = { { ItemsOfSpan(&extraction->gathered->vertices, found->vertices), &kept->vertices },
                         { ItemsOfSpan(&extraction->gathered->triangles, found->triangles), &kept->triangles } };
     kiriKept_TakePart(kept, piece, &items.vertices.items, &items.triangles.items);
     return items;
 }
 
-static void DropPiece(kiriExtraction* extraction, int32_t piece, const PartItems* items)
+static void DropPiece(kiriExtraction* extraction, int32_t piece, const PartMembers* items)
 {
     kiriKept_DropPart(&extraction->kept, piece, &items->vertices.items, &items->triangles.items);
 }
 
 bool kiriExtraction_Begin(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
 {
-    PartItems items = TakePiece(extraction, piece);
+    PartMembers items = TakeItemsOf(extraction, piece);
     bool ok = kiriMesh_InitPart(&to->mesh, to->memory, &extraction->kept.from->mesh, &items.triangles, &items.vertices);
     if (ok) {
         CopySettings(&extraction->kept, to);
@@ -260,7 +260,7 @@ bool kiriExtraction_Begin(kiriExtraction* extraction, int32_t piece, kiriSheetDa
 /* When its cells are there. */
 static bool FillCellsOfPart(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
 {
-    PartItems items = TakePiece(extraction, piece);
+    PartMembers items = TakeItemsOf(extraction, piece);
     bool ok = CopySites(&extraction->kept, to) && CopyPoints(&extraction->kept, to);
     DropPiece(extraction, piece, &items);
     return ok;
@@ -280,7 +280,7 @@ kiriProgress kiriExtraction_GoOn(kiriExtraction* extraction, int32_t piece, kiri
 static bool EndPart(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
 {
     const kiriSheetData* from = extraction->kept.from;
-    PartItems items = TakePiece(extraction, piece);
+    PartMembers items = TakeItemsOf(extraction, piece);
     CopySettings(&extraction->kept, to); /* as they are now */
     to->settings.maxFrames = 0;
     to->seen.bounds->patience = from->seen.bounds->patience;

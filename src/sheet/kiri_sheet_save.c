@@ -146,6 +146,12 @@ static const kiriMember TouchesMembers[] = {
 };
 static const kiriRecord TouchesRecord = KIRI_RECORD(kiriTouches, TouchesMembers);
 
+static const kiriMember BlocksMembers[] = {
+    KIRI_ITEMS(1, kiriBlocks, touched), KIRI_ITEMS(1, kiriBlocks, stale), KIRI_ITEMS(4, kiriBlocks, movers),
+    KIRI_ITEMS(8, kiriBlocks, frames),  KIRI_ITEMS(1, kiriBlocks, moved), KIRI_BOOLS(kiriBlocks, hasUnknown, hasUnknown),
+};
+static const kiriRecord BlocksRecord = KIRI_RECORD(kiriBlocks, BlocksMembers);
+
 static const kiriMember SeenMembers[] = {
     KIRI_DROPPED(kiriSeen, surface),
     KIRI_DROPPED(kiriSeen, bounds),
@@ -157,10 +163,9 @@ static const kiriMember SeenMembers[] = {
     KIRI_ROOM_OF(kiriSeen, pointsBefore),
     KIRI_BOOLS(kiriSeen, isElsewhere, isElsewhere),
     KIRI_RUN(4, kiriSeen, vertexCount, vertexCount),
-    KIRI_ITEMS(1, kiriSeen, touched),
-    KIRI_ITEMS(4, kiriSeen, movers),
-    KIRI_BOOLS(kiriSeen, hasNewBlocks, hasNewBlocks),
-    KIRI_RUN(8, kiriSeen, lists, wakes),
+    KIRI_PART(kiriSeen, blocks, BlocksRecord),
+    KIRI_RUN(8, kiriSeen, lists, lists),
+    KIRI_BOOLS(kiriSeen, areFadesAsleep, areFadesAsleep),
 };
 static const kiriRecord SeenRecord = KIRI_RECORD(kiriSeen, SeenMembers);
 

@@ -78,5 +78,6 @@ static const kiriMember LiveSurfaceMembers[] = {
     KIRI_SPACE_OF(kiriSurface, bends),
     KIRI_PART(kiriSurface, patches, PatchesRecord),
     KIRI_BOOLS(kiriSurface, isWritten, hasNormals),
+    KIRI_DROPPED(kiriSurface, hasSlopes),
 };
 const kiriRecord kiriLiveSurfaceRecord = KIRI_RECORD(kiriSurface, LiveSurfaceMembers);
