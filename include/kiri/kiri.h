@@ -235,6 +235,19 @@ KIRI_API kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t 
    read. KIRI_ERROR_MEMORY. Then nothing has changed. A recording has the bytes, up to 2^31 of them. */
 KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
 
+/* What has changed since a save, for hosts that go back a little: a save now and then, and a difference to it each tick.
+   Where no cut is being worked on it has poses, velocities and contacts, a few kilobytes a sheet; a cut adds what it changed.
+   base: what kiriWorld_Save wrote of this world, or what it was loaded from, with all calls since. *size and `bytes` as
+   in kiriWorld_Save; where capacity is not enough, what is in `bytes` means nothing. KIRI_ERROR_DATA: base is no save.
+   Only reads the world. */
+KIRI_API kiriResult kiriWorld_SaveDifference(const kiriWorld* world, const void* base, int64_t baseSize, void* bytes,
+                                             int64_t capacity, int64_t* size);
+
+/* The world becomes what it was when the difference was written, as kiriWorld_Load. Any world, and on any machine, with the
+   same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or one to another base. */
+KIRI_API kiriResult kiriWorld_LoadDifference(kiriWorld* world, const void* base, int64_t baseSize, const void* bytes,
+                                             int64_t size);
+
 /* ---- Events ----------------------------------------------------------------------------------------------------- */
 
 /* What happened since the start of the last tick that was not refused. */

@@ -94,14 +94,23 @@ typedef struct kiriRecord {
 
 typedef enum kiriArchiveMode { KIRI_ARCHIVE_MEASURE, KIRI_ARCHIVE_WRITE, KIRI_ARCHIVE_READ } kiriArchiveMode;
 
+/* Bytes that others are written, or read, as a difference to. */
+typedef struct kiriArchiveBase {
+    const uint8_t* bytes; /* or null: there are none */
+    int64_t at, end;      /* what follows is compared with those from `at` on, as far as `end` */
+    int64_t equal, other; /* so many of the token at hand: bytes that are those of the base, then others */
+    int64_t token;        /* WRITE: where it is; KIRI_NONE: none is open */
+} kiriArchiveBase;
+
 struct kiriArchive {
     kiriArchiveMode mode;
     uint8_t* bytes;     /* null where they are measured */
     int64_t at, size;   /* so many are done, of so many */
     int64_t room;       /* READ: bytes of memory that arrays may still take */
     kiriMemory* memory; /* READ: of what is made */
-    bool isBad;         /* READ: these bytes are none that were written; what is read then is zero */
-    bool isShort;       /* no memory */
+    bool isBad;   /* READ: these bytes are none that were written; what is read then is zero. WRITE: more than `size` */
+    bool isShort; /* no memory */
+    kiriArchiveBase base;
 };
 
 kiriArchive kiriArchive_Measure(void);
@@ -118,6 +127,11 @@ static inline bool kiriArchive_HasFailed(const kiriArchive* archive)
     return archive->isBad || archive->isShort;
 }
 
+/* What follows is a difference to these bytes, which have the same objects as they were; then, as it is again. The less has
+   changed, the fewer bytes it takes; they are right whatever the base has. */
+void kiriArchive_BeginDifference(kiriArchive* archive, const uint8_t* base, int64_t size);
+void kiriArchive_EndDifference(kiriArchive* archive);
+
 /* Bytes that were read are nonsense, unless `isFine`. */
 void kiriArchive_Expect(kiriArchive* archive, bool isFine);
 
@@ -128,6 +142,9 @@ static inline void kiriArchive_Int32(kiriArchive* archive, int32_t* number)
 {
     kiriArchive_Numbers(archive, number, 4, 1);
 }
+
+/* So many numbers that are in no KIRI_ARRAY, with their count: where bytes are read that is at most `room`, and returned. */
+int32_t kiriArchive_Row(kiriArchive* archive, void* numbers, int32_t width, int32_t count, int32_t room);
 
 /* A whole number that is none of an object; where bytes are read, what they have. It is within these. */
 int32_t kiriArchive_Count(kiriArchive* archive, int64_t count, int64_t least, int64_t most);

@@ -645,7 +645,7 @@ extern "C" bool kiriMatrix_Shape(kiriMatrix* matrix, int32_t frameCount, const k
 extern "C" void kiriMatrix_Archive(kiriArchive* archive, kiriMatrix* matrix)
 {
     bool reads = kiriArchive_Reads(archive);
-    int32_t count = kiriArchive_Count(archive, matrix->count, 0, reads ? (archive->size - archive->at) / 8 : INT32_MAX);
+    int32_t count = kiriArchive_Count(archive, matrix->count, 0, reads ? archive->room / 64 : INT32_MAX);
     if (count == 0 || kiriArchive_HasFailed(archive)) {
         return;
     }
@@ -660,7 +660,7 @@ extern "C" void kiriMatrix_Archive(kiriArchive* archive, kiriMatrix* matrix)
     kiriArchive_Numbers(archive, matrix->own.start.data, 4, (int64_t)count + 1);
     int32_t blocks = matrix->own.start.data[count];
     if (reads) {
-        kiriArchive_Expect(archive, IsOrder(matrix) && AreStarts(matrix) && blocks <= archive->size - archive->at);
+        kiriArchive_Expect(archive, IsOrder(matrix) && AreStarts(matrix) && blocks <= archive->room / 8);
         archive->isShort |= !archive->isBad && !kiriArray_Resize(matrix->memory, &matrix->own.row, blocks);
     }
     if (!kiriArchive_HasFailed(archive)) {

@@ -226,7 +226,7 @@ static void LookAtVertices(kiriSheetData* sheet, JumpLook* look, int32_t begin, 
 }
 
 /* Of a block with other weights, or with new vertices, frames and mover are found anew. */
-static void LookAtBlock(kiriSheetData* sheet, JumpLook* look, int32_t begin, int32_t end)
+static void LookAtJumps(kiriSheetData* sheet, JumpLook* look, int32_t begin, int32_t end)
 {
     LookAtVertices(sheet, look, begin, end);
     if (sheet->seen.blocks.touched.data[begin / KIRI_BLOCK] || end > sheet->seen.vertexCount) {
@@ -252,7 +252,7 @@ static void TakeVertexJumps(kiriSheetData* sheet)
     for (int32_t begin = 0; begin < surface->vertexCount; begin += KIRI_BLOCK) {
         int32_t end = begin + KIRI_BLOCK < surface->vertexCount ? begin + KIRI_BLOCK : surface->vertexCount;
         if (MayBeElsewhere(sheet, &look, begin, end)) {
-            LookAtBlock(sheet, &look, begin, end);
+            LookAtJumps(sheet, &look, begin, end);
         }
     }
     surface->isSteady = !look.movesSleepers;

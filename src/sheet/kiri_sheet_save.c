@@ -89,20 +89,6 @@ static const kiriMember GivenContactMembers[] = {
 };
 static const kiriRecord GivenContactRecord = KIRI_RECORD(kiriGivenContact, GivenContactMembers);
 
-static const kiriMember KeepMembers[] = {
-    KIRI_ITEMS(4, kiriKeep, to),
-    KIRI_RUN(4, kiriKeep, count, first),
-    KIRI_BOOLS(kiriKeep, leavesHoles, leavesHoles),
-};
-static const kiriRecord KeepRecord = KIRI_RECORD(kiriKeep, KeepMembers);
-
-static const kiriMember TakingMembers[] = {
-    KIRI_PART(kiriTaking, vertices, KeepRecord),
-    KIRI_PART(kiriTaking, triangles, KeepRecord),
-    KIRI_ITEMS(1, kiriTaking, cells),
-};
-static const kiriRecord TakingRecord = KIRI_RECORD(kiriTaking, TakingMembers);
-
 static const kiriMember TouchMembers[] = {
     KIRI_RUN(8, kiriTouch, key, key),         KIRI_RUN(4, kiriTouch, point, vertex),
     KIRI_RUN(8, kiriTouch, share, pushSpeed), KIRI_RUN(4, kiriTouch, yield, yield),
@@ -218,8 +204,8 @@ static const kiriMember UpdateMembers[] = {
     KIRI_RUN(4, kiriUpdate, stage, step),
     KIRI_RUN(8, kiriUpdate, spent, spent),
     KIRI_BOOLS(kiriUpdate, needsRebuild, isScratch),
-    KIRI_PART(kiriUpdate, start, UpdateStartRecord),
-    KIRI_BOOLS(kiriUpdate, isBegun, isBegun),
+    KIRI_DROPPED(kiriUpdate, start),
+    KIRI_DROPPED(kiriUpdate, isBegun),
     KIRI_DROPPED(kiriUpdate, growing),
     KIRI_RUN(4, kiriUpdate, growsSince, growsSince),
     KIRI_PART(kiriUpdate, cut, CutWorkRecord),
@@ -235,6 +221,13 @@ static const kiriMember UpdateMembers[] = {
     KIRI_RUN(4, kiriUpdate, counts, counts),
 };
 static const kiriRecord UpdateRecord = KIRI_RECORD(kiriUpdate, UpdateMembers);
+
+/* What each tick begins with. */
+static const kiriMember UpdateTickMembers[] = {
+    KIRI_PART(kiriUpdate, start, UpdateStartRecord),
+    KIRI_BOOLS(kiriUpdate, isBegun, isBegun),
+};
+static const kiriRecord UpdateTickRecord = KIRI_RECORD(kiriUpdate, UpdateTickMembers);
 
 static const kiriMember BladeTipMembers[] = {
     KIRI_RUN(4, kiriBladeTip, at, vertex),
@@ -314,8 +307,7 @@ static const kiriMember StillSheetMembers[] = {
     KIRI_PART(kiriSheetData, vertexSkin, kiriSkinRecord),
     KIRI_PART(kiriSheetData, pointSkin, kiriSkinRecord),
     KIRI_PART(kiriSheetData, pointPlaces, kiriPlacesRecord),
-    KIRI_PART(kiriSheetData, taking, TakingRecord),
-    KIRI_ITEMS(8, kiriSheetData, linkParts),
+    KIRI_DROPPED(kiriSheetData, taking),
 };
 static const kiriRecord StillSheetRecord = KIRI_RECORD(kiriSheetData, StillSheetMembers);
 
@@ -337,6 +329,7 @@ static const kiriMember LiveSheetMembers[] = {
     KIRI_ITEMS(4, kiriSheetData, leaving),
     KIRI_RUN(8, kiriSheetData, leavingPaid, leavingPaid),
     KIRI_DROPPED(kiriSheetData, ahead),
+    KIRI_ITEMS(8, kiriSheetData, linkParts),
     KIRI_ROOM_OF(kiriSheetData, pinRows),
     KIRI_ROOM_OF(kiriSheetData, clampRows),
     KIRI_ROOM_OF(kiriSheetData, pinReactions),
@@ -468,6 +461,7 @@ void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemor
     kiriArchive_Object(archive, &LiveSheetRecord, sheet);
     kiriSolver_Archive(archive, &sheet->solver, &sheet->settings.mechanics);
     if (!kiriArchive_HasFailed(archive)) {
+        kiriArchive_Object(archive, &UpdateTickRecord, sheet->update);
         kiriGrid_ArchiveGrowing(archive, &sheet->grid, &sheet->mesh);
         kiriRoom_ArchiveGrowing(archive, sheet);
         MoveSeen(archive, sheet);

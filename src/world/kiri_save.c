@@ -112,7 +112,101 @@ static const kiriRecord WorldRecord = KIRI_RECORD(kiriWorld, WorldMembers);
 
 /* ---- Both directions ---------------------------------------------------------------------------------------------- */
 
-static void ArchiveSheets(kiriArchive* archive, kiriWorld* world)
+enum { SAVE_VERSION = 1, HEAD_BYTES = 32, SUM_BYTES = 8, SHEET_HEAD_BYTES = 24 };
+
+/* A save that another one is a difference to. */
+typedef struct SaveBase {
+    const uint8_t* bytes;
+    int64_t first, at, size; /* where the first sheet is, and the one to look at; without the sum */
+    uint64_t sum;
+} SaveBase;
+
+/* Comes before the two parts of a sheet, in a save; and in a difference to one. */
+typedef struct SheetHead {
+    uint32_t id;
+    int32_t unused;      /* 0 */
+    int64_t still, live; /* bytes of the parts; of a difference 0 */
+} SheetHead;
+
+static const kiriMember SheetHeadMembers[] = {
+    KIRI_RUN(4, SheetHead, id, unused),
+    KIRI_RUN(8, SheetHead, still, live),
+};
+static const kiriRecord SheetHeadRecord = KIRI_RECORD(SheetHead, SheetHeadMembers);
+
+/* What of the base is the sheet with this id; zero where it has none. The search begins where the last one ended. */
+static SheetHead FindInBase(SaveBase* base, uint32_t id, int64_t* at)
+{
+    SheetHead head;
+    int64_t start = base->at;
+    bool isPast = false;
+    while (!isPast || base->at < start) {
+        kiriArchive archive = kiriArchive_Read(base->bytes + base->at, base->size - base->at, NULL);
+        kiriArchive_Object(&archive, &SheetHeadRecord, &head);
+        int64_t left = archive.size - archive.at;
+        if (archive.isBad || head.still < 0 || head.live < 0 || head.still > left || head.live > left - head.still) {
+            isPast = isPast || start == base->first;
+            base->at = base->first;
+            if (isPast) {
+                break;
+            }
+            isPast = true;
+            continue;
+        }
+        *at = base->at + archive.at;
+        base->at = *at + head.still + head.live;
+        if (head.id == id) {
+            return head;
+        }
+    }
+    return (SheetHead){ 0, 0, 0, 0 };
+}
+
+static void BeginPart(kiriArchive* archive, const SaveBase* base, int64_t at, int64_t size)
+{
+    if (base != NULL) {
+        kiriArchive_BeginDifference(archive, size > 0 ? base->bytes + at : NULL, size);
+    }
+}
+
+static void EndSection(kiriArchive* archive, const SaveBase* base)
+{
+    if (base != NULL) {
+        kiriArchive_EndDifference(archive);
+    }
+}
+
+/* Lengths are known when both parts are written. */
+static void PatchHead(kiriArchive* archive, int64_t at, SheetHead* head)
+{
+    if (archive->mode == KIRI_ARCHIVE_WRITE && !kiriArchive_HasFailed(archive)) {
+        kiriArchive patch = kiriArchive_Write(archive->bytes + at, archive->at - at);
+        kiriArchive_Object(&patch, &SheetHeadRecord, head);
+    }
+}
+
+static void ArchiveSheet(kiriArchive* archive, kiriWorld* world, kiriSheetData* sheet, SaveBase* base)
+{
+    int64_t start = archive->at, inBase = 0;
+    SheetHead head = { sheet->id, 0, 0, 0 }, was = { 0, 0, 0, 0 };
+    kiriArchive_Object(archive, &SheetHeadRecord, &head);
+    if (base != NULL) {
+        was = FindInBase(base, head.id, &inBase);
+    }
+    BeginPart(archive, base, inBase, was.still);
+    kiriSheet_ArchiveStill(archive, sheet);
+    EndSection(archive, base);
+    head.still = base == NULL ? archive->at - start - SHEET_HEAD_BYTES : 0;
+    if (!kiriArchive_HasFailed(archive)) {
+        BeginPart(archive, base, inBase + was.still, was.live);
+        kiriSheet_ArchiveLive(archive, sheet, &world->memory);
+        EndSection(archive, base);
+    }
+    head.live = base == NULL ? archive->at - start - SHEET_HEAD_BYTES - head.still : 0;
+    PatchHead(archive, start, &head);
+}
+
+static void ArchiveSheets(kiriArchive* archive, kiriWorld* world, SaveBase* base)
 {
     for (int32_t i = 0; i < world->sheets.count && !kiriArchive_HasFailed(archive); ++i) {
         if (kiriArchive_Reads(archive)) {
@@ -120,10 +214,7 @@ static void ArchiveSheets(kiriArchive* archive, kiriWorld* world)
             archive->isShort |= world->sheets.data[i] == NULL;
         }
         if (world->sheets.data[i] != NULL) {
-            kiriSheet_ArchiveStill(archive, world->sheets.data[i]);
-        }
-        if (world->sheets.data[i] != NULL && !kiriArchive_HasFailed(archive)) {
-            kiriSheet_ArchiveLive(archive, world->sheets.data[i], &world->memory);
+            ArchiveSheet(archive, world, world->sheets.data[i], base);
         }
     }
 }
@@ -141,16 +232,25 @@ static void ArchiveBlades(kiriArchive* archive, kiriWorld* world)
     }
 }
 
-/* Each thing has the slot of its id, and each slot that is not free has one. */
-static void ArchiveWorld(kiriArchive* archive, kiriWorld* world)
+/* The world without its sheets, after the number of bytes that it takes; then these. */
+static void ArchiveWorld(kiriArchive* archive, kiriWorld* world, SaveBase* base)
 {
+    int64_t start = archive->at, size = 0;
     archive->memory = &world->memory;
+    kiriArchive_Numbers(archive, &size, 8, 1);
+    BeginPart(archive, base, HEAD_BYTES + 8, base != NULL ? base->first - HEAD_BYTES - 8 : 0);
     kiriArchive_Object(archive, &WorldRecord, world);
     for (int32_t i = 0; i < world->obstacles.count && !kiriArchive_HasFailed(archive); ++i) {
         kiriObstacle_Archive(archive, &world->obstacles.data[i], &world->memory);
     }
     ArchiveBlades(archive, world);
-    ArchiveSheets(archive, world);
+    EndSection(archive, base);
+    size = archive->at - start - 8;
+    if (archive->mode == KIRI_ARCHIVE_WRITE && !kiriArchive_HasFailed(archive)) {
+        kiriArchive patch = kiriArchive_Write(archive->bytes + start, 8);
+        kiriArchive_Numbers(&patch, &size, 8, 1);
+    }
+    ArchiveSheets(archive, world, base);
 }
 
 /* ---- Ids ---------------------------------------------------------------------------------------------------------- */
@@ -189,16 +289,15 @@ static bool ClaimIds(kiriWorld* world)
 
 /* ---- The format --------------------------------------------------------------------------------------------------- */
 
-enum { SAVE_VERSION = 1, HEAD_BYTES = 32, SUM_BYTES = 8 };
-
 static const char saveMagic[8] = { 'K', 'i', 'r', 'i', 'S', 'a', 'v', 'e' };
+static const char differenceMagic[8] = { 'K', 'i', 'r', 'i', 'D', 'i', 'f', 'f' };
 
 /* What comes before the world; the sum of all bytes comes after it. */
 typedef struct SaveHead {
     char magic[8];
     int32_t version, library;
-    int64_t size; /* of all bytes */
-    uint64_t base;
+    int64_t size;  /* of all bytes */
+    uint64_t base; /* of a difference: the sum of its base */
 } SaveHead;
 
 static const kiriMember SaveHeadMembers[] = {
@@ -208,66 +307,115 @@ static const kiriMember SaveHeadMembers[] = {
 };
 static const kiriRecord SaveHeadRecord = KIRI_RECORD(SaveHead, SaveHeadMembers);
 
+static uint64_t WordAt(const uint8_t* bytes, int64_t count)
+{
+    uint64_t word = 0;
+    for (int64_t k = 0; k < 8 && k < count; ++k) {
+        word |= (uint64_t)bytes[k] << (8 * k);
+    }
+    return word;
+}
+
 /* Eight bytes at a time. */
 static uint64_t SumBytes(const uint8_t* bytes, int64_t count)
 {
     uint64_t sum = KIRI_HASH_START;
     for (int64_t n = 0; n < count; n += 8) {
-        uint64_t word = 0;
-        for (int64_t k = n; k < n + 8 && k < count; ++k) {
-            word |= (uint64_t)bytes[k] << (8 * (k - n));
-        }
-        kiriHash_Int64(&sum, (int64_t)word);
+        kiriHash_Int64(&sum, (int64_t)WordAt(bytes + n, count - n));
     }
     return sum;
 }
 
-static int64_t MeasureWorld(const kiriWorld* world)
+static kiriWorld* Unlocked(const kiriWorld* world)
+{
+    return (kiriWorld*)(uintptr_t)world; /* archives that do not read bytes change nothing */
+}
+
+/* Where the head is in order, all but the sum: null and what is there; else what is wrong. */
+static const char* FaultOfHead(const uint8_t* bytes, int64_t size, const char magic[8], SaveHead* head)
+{
+    kiriArchive archive = kiriArchive_Read(bytes, size, NULL);
+    kiriArchive_Object(&archive, &SaveHeadRecord, head);
+    if (archive.isBad || memcmp(head->magic, magic, sizeof(head->magic)) != 0) {
+        return magic == saveMagic ? "these bytes are no save of kiriWorld_Save"
+                                  : "these bytes are no difference of kiriWorld_SaveDifference";
+    }
+    if (head->version != SAVE_VERSION) {
+        return "the bytes are of another version of the format";
+    }
+    return head->size == size && size >= HEAD_BYTES + SUM_BYTES + 8 ? NULL : "the bytes are not as many as were saved";
+}
+
+static const char* FaultOfBytes(const uint8_t* bytes, int64_t size, const char magic[8], SaveHead* head)
+{
+    const char* why = FaultOfHead(bytes, size, magic, head);
+    bool isSame = why != NULL || WordAt(bytes + size - SUM_BYTES, SUM_BYTES) == SumBytes(bytes, size - SUM_BYTES);
+    return isSame ? why : "the bytes are not those that were saved";
+}
+
+/* Of a save whose head is in order. False where its parts are not. */
+static bool FindBase(SaveBase* base, const uint8_t* bytes, int64_t size)
+{
+    int64_t world = (int64_t)WordAt(bytes + HEAD_BYTES, 8), first = HEAD_BYTES + 8;
+    base->bytes = bytes;
+    base->size = size - SUM_BYTES;
+    base->sum = WordAt(bytes + size - SUM_BYTES, SUM_BYTES);
+    bool isFine = world >= 0 && world <= base->size - first;
+    base->first = base->at = isFine ? first + world : first;
+    return isFine;
+}
+
+static int64_t MeasureWorld(const kiriWorld* world, SaveBase* base)
 {
     kiriArchive archive = kiriArchive_Measure();
-    ArchiveWorld(&archive, (kiriWorld*)(uintptr_t)world); /* which only reads it */
+    ArchiveWorld(&archive, Unlocked(world), base);
     return HEAD_BYTES + archive.at + SUM_BYTES;
+}
+
+/* With the base, which may be null. False where the bytes are too few. */
+static bool WriteWorld(const kiriWorld* world, SaveBase* base, uint8_t* bytes, int64_t capacity, int64_t* size)
+{
+    kiriArchive archive = kiriArchive_Write(bytes, capacity);
+    SaveHead head = { { 0 }, SAVE_VERSION, KIRI_VERSION, 0, base != NULL ? base->sum : 0 };
+    memcpy(head.magic, base != NULL ? differenceMagic : saveMagic, sizeof(head.magic));
+    kiriArchive_Object(&archive, &SaveHeadRecord, &head);
+    ArchiveWorld(&archive, Unlocked(world), base);
+    head.size = archive.at + SUM_BYTES;
+    if (archive.isBad || head.size > capacity) {
+        return false;
+    }
+    kiriArchive again = kiriArchive_Write(bytes, HEAD_BYTES);
+    kiriArchive_Object(&again, &SaveHeadRecord, &head);
+    uint64_t sum = SumBytes(bytes, archive.at);
+    kiriArchive_Numbers(&archive, &sum, 8, 1);
+    *size = archive.at;
+    return true;
+}
+
+static kiriResult SaveWorld(const kiriWorld* world, SaveBase* base, void* bytes, int64_t capacity, int64_t* size)
+{
+    if (bytes != NULL && WriteWorld(world, base, bytes, capacity, size)) {
+        return KIRI_OK;
+    }
+    *size = MeasureWorld(world, base);
+    return bytes == NULL ? KIRI_OK : KIRI_ERROR_ARGUMENT;
 }
 
 kiriResult kiriSave_Write(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
 {
-    *size = MeasureWorld(world);
-    if (bytes == NULL) {
-        return KIRI_OK;
-    }
-    if (capacity < *size) {
-        return KIRI_ERROR_ARGUMENT;
-    }
-    kiriArchive archive = kiriArchive_Write(bytes, *size);
-    SaveHead head = { { 0 }, SAVE_VERSION, KIRI_VERSION, *size, 0 };
-    memcpy(head.magic, saveMagic, sizeof(saveMagic));
-    kiriArchive_Object(&archive, &SaveHeadRecord, &head);
-    ArchiveWorld(&archive, (kiriWorld*)(uintptr_t)world);
-    uint64_t sum = SumBytes(bytes, archive.at);
-    kiriArchive_Numbers(&archive, &sum, 8, 1);
-    KIRI_ASSERT(archive.at == *size);
-    return KIRI_OK;
+    return SaveWorld(world, NULL, bytes, capacity, size);
 }
 
-/* What is wrong with the bytes as such, or null. */
-static const char* FaultOfBytes(const uint8_t* bytes, int64_t size)
+kiriResult kiriSave_WriteDifference(const kiriWorld* world, const void* from, int64_t fromSize, void* bytes,
+                                    int64_t capacity, int64_t* size, const char** why)
 {
     SaveHead head;
-    uint64_t sum;
-    kiriArchive archive = kiriArchive_Read(bytes, size, NULL);
-    kiriArchive_Object(&archive, &SaveHeadRecord, &head);
-    if (archive.isBad || memcmp(head.magic, saveMagic, sizeof(saveMagic)) != 0) {
-        return "these bytes are no save of kiriWorld_Save";
+    SaveBase base;
+    *why = FaultOfHead(from, fromSize, saveMagic, &head);
+    if (*why == NULL && !FindBase(&base, from, fromSize)) {
+        *why = "the bytes are not those that were saved";
     }
-    if (head.version != SAVE_VERSION) {
-        return "the bytes are of another version of the format";
-    }
-    if (head.size != size) {
-        return "the bytes are not as many as were saved";
-    }
-    archive = kiriArchive_Read(bytes + size - SUM_BYTES, SUM_BYTES, NULL);
-    kiriArchive_Numbers(&archive, &sum, 8, 1);
-    return sum == SumBytes(bytes, size - SUM_BYTES) ? NULL : "the bytes are not those that were saved";
+    return *why != NULL ? KIRI_ERROR_DATA : SaveWorld(world, &base, bytes, capacity, size);
 }
 
 /* ---- A world from bytes ------------------------------------------------------------------------------------------- */
@@ -283,10 +431,11 @@ static void DropSheets(kiriWorld* world, kiriMemory* shown)
     world->sheets.count = 0;
 }
 
-static kiriResult ReadWorld(kiriWorld* made, const uint8_t* bytes, int64_t size)
+static kiriResult ReadWorld(kiriWorld* made, const uint8_t* bytes, int64_t size, SaveBase* base)
 {
     kiriArchive archive = kiriArchive_Read(bytes + HEAD_BYTES, size - HEAD_BYTES - SUM_BYTES, &made->memory);
-    ArchiveWorld(&archive, made);
+    archive.room += base != NULL ? kiriArchive_Read(NULL, base->size, NULL).room : 0;
+    ArchiveWorld(&archive, made, base);
     kiriArchive_Expect(&archive, archive.at == archive.size);
     kiriArchive_Expect(&archive, kiriArchive_HasFailed(&archive) || ClaimIds(made));
     for (int32_t i = 0; i < made->sheets.count && !kiriArchive_HasFailed(&archive); ++i) {
@@ -314,16 +463,12 @@ static void TakeWorld(kiriWorld* world, kiriWorld* made)
     kiriMemory_AdoptAll(&world->memory, &made->memory);
 }
 
-kiriResult kiriSave_Read(kiriWorld* world, const void* bytes, int64_t size, const char** why)
+static kiriResult LoadWorld(kiriWorld* world, const uint8_t* bytes, int64_t size, SaveBase* base, const char** why)
 {
-    *why = FaultOfBytes(bytes, size);
-    if (*why != NULL) {
-        return KIRI_ERROR_DATA;
-    }
     kiriWorld made;
     memset(&made, 0, sizeof(made));
     made.memory = kiriMemory_Like(&world->memory);
-    kiriResult result = ReadWorld(&made, bytes, size);
+    kiriResult result = ReadWorld(&made, bytes, size, base);
     if (result != KIRI_OK) {
         *why = result == KIRI_ERROR_MEMORY ? NULL : "the bytes have a right sum, but no world";
         DropSheets(&made, NULL);
@@ -332,4 +477,24 @@ kiriResult kiriSave_Read(kiriWorld* world, const void* bytes, int64_t size, cons
     }
     TakeWorld(world, &made);
     return KIRI_OK;
+}
+
+kiriResult kiriSave_Read(kiriWorld* world, const void* bytes, int64_t size, const char** why)
+{
+    SaveHead head;
+    *why = FaultOfBytes(bytes, size, saveMagic, &head);
+    return *why != NULL ? KIRI_ERROR_DATA : LoadWorld(world, bytes, size, NULL, why);
+}
+
+kiriResult kiriSave_ReadDifference(kiriWorld* world, const void* from, int64_t fromSize, const void* bytes,
+                                   int64_t size, const char** why)
+{
+    SaveHead head, fromHead;
+    SaveBase base;
+    *why = FaultOfBytes(bytes, size, differenceMagic, &head);
+    *why = *why == NULL ? FaultOfBytes(from, fromSize, saveMagic, &fromHead) : *why;
+    if (*why == NULL && (!FindBase(&base, from, fromSize) || base.sum != head.base)) {
+        *why = "these bytes are a difference to another save";
+    }
+    return *why != NULL ? KIRI_ERROR_DATA : LoadWorld(world, bytes, size, &base, why);
 }

@@ -462,19 +462,25 @@ class World:
         while self.call("kiriWorld_Replay", ffi.from_buffer(recording), len(recording), at) == KIRI_PENDING:
             yield ffi.buffer(at.note, at.noteCount)[:] if at.note != ffi.NULL else None
 
-    def save(self):
-        """All that the coming ticks depend on, as bytes: see load."""
+    def save(self, base=None):
+        """All that the coming ticks depend on, as bytes: see load. With a base, which an earlier call has returned: what
+        has changed since."""
         size = ffi.new("int64_t*")
+        name, before = ("kiriWorld_Save", ()) if base is None else (
+            "kiriWorld_SaveDifference", (ffi.from_buffer(base), len(base)))
 
         def take():
             data = bytearray(size[0])
-            self._check(self.lib.kiriWorld_Save(self._world, ffi.from_buffer(data), size[0], size))
+            self._check(getattr(self.lib, name)(self._world, *before, ffi.from_buffer(data), size[0], size))
             return bytes(data)
-        return self.call("kiriWorld_Save", ffi.NULL, 0, size, take=take)
+        return self.call(name, *before, ffi.NULL, 0, size, take=take)
 
-    def load(self, data):
-        """The world becomes what was saved; objects go on naming what they named then."""
-        self.call("kiriWorld_Load", ffi.from_buffer(data), len(data))
+    def load(self, data, base=None):
+        """The world becomes what was saved; objects go on naming what they named then. A base as that of save."""
+        if base is None:
+            self.call("kiriWorld_Load", ffi.from_buffer(data), len(data))
+        else:
+            self.call("kiriWorld_LoadDifference", ffi.from_buffer(base), len(base), ffi.from_buffer(data), len(data))
 
     def profile(self):
         return _record(self.get("kiriWorld_GetProfile", "kiriProfile"))
