@@ -214,10 +214,12 @@ kiriResult kiriSheet_GetPoint(const kiriWorld* world, kiriSheet sheet, const flo
     kiriPointPlace place;
     KIRI_CHECK(kiriSheet_ToLattice(data, restPoint, &at) && kiriPoint_Find(data, at, &place),
                "restPoint lies outside the material");
+    int32_t frame = kiriOwner_At(data, at);
+    KIRI_CHECK(frame != KIRI_NONE, "restPoint lies in a piece that is destroyed");
     kiriVec3_Store(state->position, kiriPoint_Position(data, &place));
     kiriVec3_Store(state->normal, kiriPoint_Normal(data, &place));
     kiriVec3_Store(state->velocity, kiriPoint_Blend(data, &place).velocity);
-    state->frame = data->frames.data[kiriOwner_At(data, at)].id;
+    state->frame = data->frames.data[frame].id;
     return KIRI_OK;
 }
 
