@@ -6,6 +6,7 @@
 #define kiriPatches_MayMove Plain_MayMove
 #define kiriSkin_WritePositions Plain_WritePositions
 #define kiriNormals_Sum Plain_SumNormals
+#define kiriNormals_SumOne Plain_SumOneNormal
 #define kiriNormals_Write Plain_WriteNormals
 #include "view/kiri_blend.c"
 #include "view/kiri_normal.c"
@@ -15,6 +16,7 @@
 #undef kiriPatches_MayMove
 #undef kiriSkin_WritePositions
 #undef kiriNormals_Sum
+#undef kiriNormals_SumOne
 #undef kiriNormals_Write
 
 #include "support.h"

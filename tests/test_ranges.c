@@ -71,11 +71,11 @@ typedef struct Field {
 
 /* The material's numbers overflow at the far ends, and then sheets are put to rest; they must end all the same. */
 static const Field sheetFields[] = {
-    { REAL(kiriSheetDef, position[0]), { -1e6, 0.0, FLT_MAX, END }, { NO_NUMBER, END } },
-    { REAL(kiriSheetDef, position[2]), { -FLT_MAX, 1e3, END }, { NO_NUMBER, END } },
+    { REAL(kiriSheetDef, position[0]), { -1e6, 0.0, 3e37, END }, { FLT_MAX, NO_NUMBER, END } },
+    { REAL(kiriSheetDef, position[2]), { -3e37, 1e3, END }, { -FLT_MAX, NO_NUMBER, END } },
     { REAL(kiriSheetDef, axisU[0]), { 0.9999, 1.0001, END }, { 0.0, 1.1, NO_NUMBER } },
     { REAL(kiriSheetDef, axisV[0]), { 0.0, 1e-4, END }, { 0.1, NO_NUMBER, END } },
-    { REAL(kiriSheetDef, velocity[2]), { -FLT_MAX, -1.0, 1e4, END }, { NO_NUMBER, END } },
+    { REAL(kiriSheetDef, velocity[2]), { -3e37, -1.0, 1e4, END }, { -FLT_MAX, NO_NUMBER, END } },
     { REAL(kiriSheetDef, material.youngsModulus), { FLT_MIN, 1.0, 1e6, 1e12, FLT_MAX, END }, { 0.0, -1.0, NO_NUMBER } },
     { REAL(kiriSheetDef, material.poissonsRatio), { 0.0, 0.3, 0.4999, END }, { -1e-6, 0.5, NO_NUMBER } },
     { REAL(kiriSheetDef, material.thickness), { FLT_MIN, 1e-6, 0.1, FLT_MAX, END }, { 0.0, -1e-3, NO_NUMBER } },

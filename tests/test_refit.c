@@ -494,8 +494,11 @@ static void TestFadesAreInTheHash(void** state)
     StartFading(&host, &def, &sheet);
     kiriFades* fades = &host.world->sheets.data[0]->seen.fades;
     uint64_t hash = Host_Hash(&host);
-    fades->fading.data[fades->fading.count - 1].offset.x += 1e-6;
+    double* offset = &fades->fading.data[fades->fading.count - 1].offset.x;
+    double was = *offset;
+    *offset = was + 1e-6;
     assert_true(Host_Hash(&host) != hash);
+    *offset = was;
     Host_Stop(&host);
 }
 

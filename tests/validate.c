@@ -527,7 +527,7 @@ static bool Check_Fades(Check* check, const kiriFades* fades, int32_t sampleCoun
         REQUIRE(IsIndex(fading->sample, sampleCount) && (k == 0 || fading[-1].sample < fading->sample),
                 "sample %d of %d fades", fading->sample, sampleCount);
         /* It may be longer than fades->time: what has begun goes on when the time is changed. */
-        REQUIRE(AreFinite3(fading->offset) && fading->left > 0.0 && fading->left < 1e30, "sample %d fades for %g s",
+        REQUIRE(AreFinite3(fading->offset) && fading->left > 0.0 && isfinite(fading->left), "sample %d fades for %g s",
                 fading->sample, fading->left);
     }
     return true;
@@ -659,8 +659,8 @@ static bool Check_Sheet(Check* check, const kiriSheetData* sheet)
            Check_Links(check, sheet) && Check_Corners(check, sheet) && Check_Pieces(check, sheet) &&
            Check_Patches(check, sheet) && Check_Skins(check, sheet) &&
            (!IsSettled(sheet) || Check_Derived(check, sheet)) && Check_Pins(check, sheet) &&
-           Check_Points(check, sheet) && Check_Surface(check, sheet) && Check_Seen(check, sheet) &&
-           Check_Fades(check, &sheet->seen.fades, sheet->mesh.vertices.count) &&
+           Check_Points(check, sheet) && Check_Surface(check, sheet) &&
+           Check_Fades(check, &sheet->seen.fades, sheet->mesh.vertices.count) && Check_Seen(check, sheet) &&
            Check_Fades(check, &sheet->seen.pointFades, sheet->points.count) && Check_Queue(check, sheet);
 }
 
