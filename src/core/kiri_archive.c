@@ -379,16 +379,16 @@ int32_t kiriArchive_Row(kiriArchive* archive, void* numbers, int32_t width, int3
     return count;
 }
 
-static int64_t BytesOfObject(const kiriRecord* record);
+static int64_t BytesOfObject(const kiriTable* table);
 
 static void MoveArrayOfParts(kiriArchive* archive, const kiriMember* member, void* array)
 {
-    int64_t each = BytesOfObject(member->record), was = each == KIRI_NONE ? INT64_MAX : PeekInt32(archive, 4) * each;
+    int64_t each = BytesOfObject(member->table), was = each == KIRI_NONE ? INT64_MAX : PeekInt32(archive, 4) * each;
     kiriArrayHeader header = MoveHeader(archive, array, member->size, true);
     int64_t end = EnterBase(archive, was);
     if (header.count > 0) {
         memset(header.data, 0, kiriArchive_Reads(archive) ? (size_t)header.count * (size_t)member->size : 0);
-        kiriArchive_Objects(archive, member->record, header.data, header.count);
+        kiriArchive_Objects(archive, member->table, header.data, header.count);
     }
     LeaveBase(archive, end);
 }
@@ -428,14 +428,14 @@ static void MoveOwned(kiriArchive* archive, const kiriMember* member, void* poin
         LeaveBase(archive, EnterBase(archive, isThere ? 0 : INT64_MAX)); /* it is not known what follows */
     }
     if (isThere && kiriArchive_Reads(archive)) {
-        object = MakeBlock(archive, member->record->size);
+        object = MakeBlock(archive, member->table->size);
         if (object != NULL) {
-            memset(object, 0, (size_t)member->record->size);
+            memset(object, 0, (size_t)member->table->size);
         }
         memcpy(pointer, &object, sizeof(object));
     }
     if (isThere && object != NULL) {
-        kiriArchive_Object(archive, member->record, object);
+        kiriArchive_Object(archive, member->table, object);
     }
 }
 
@@ -450,7 +450,7 @@ static void MoveField(kiriArchive* archive, const kiriMember* member, uint8_t* o
         MoveBools(archive, at, member->size);
         break;
     case KIRI_MEMBER_PART:
-        kiriArchive_Objects(archive, member->record, at, member->size / member->record->size);
+        kiriArchive_Objects(archive, member->table, at, member->size / member->table->size);
         break;
     case KIRI_MEMBER_ITEMS:
         MoveArrayOfNumbers(archive, member, at);
@@ -475,54 +475,54 @@ static void MoveField(kiriArchive* archive, const kiriMember* member, uint8_t* o
     }
 }
 
-void kiriArchive_Object(kiriArchive* archive, const kiriRecord* record, void* object)
+void kiriArchive_Object(kiriArchive* archive, const kiriTable* table, void* object)
 {
-    for (int32_t k = 0; k < record->count; ++k) {
-        MoveField(archive, &record->fields[k], object);
+    for (int32_t k = 0; k < table->count; ++k) {
+        MoveField(archive, &table->fields[k], object);
     }
 }
 
 /* Is an object in memory what it is as bytes, on a machine that keeps numbers so? */
-static bool IsTight(const kiriRecord* record)
+static bool IsTight(const kiriTable* table)
 {
     int32_t size = 0;
-    for (int32_t k = 0; k < record->count; ++k) {
-        const kiriMember* member = &record->fields[k];
-        bool isTight = member->kind == KIRI_MEMBER_RUN || (member->kind == KIRI_MEMBER_PART && IsTight(member->record));
+    for (int32_t k = 0; k < table->count; ++k) {
+        const kiriMember* member = &table->fields[k];
+        bool isTight = member->kind == KIRI_MEMBER_RUN || (member->kind == KIRI_MEMBER_PART && IsTight(member->table));
         size += isTight ? member->size : 0;
     }
-    return size == record->size;
+    return size == table->size;
 }
 
 /* How many bytes an object is that has no arrays; KIRI_NONE where that is not the same of all. */
-static int64_t BytesOfObject(const kiriRecord* record)
+static int64_t BytesOfObject(const kiriTable* table)
 {
     int64_t bytes = 0;
-    for (int32_t k = 0; k < record->count && bytes != KIRI_NONE; ++k) {
-        const kiriMember* member = &record->fields[k];
-        int64_t part = member->kind == KIRI_MEMBER_PART ? BytesOfObject(member->record) : 1;
+    for (int32_t k = 0; k < table->count && bytes != KIRI_NONE; ++k) {
+        const kiriMember* member = &table->fields[k];
+        int64_t part = member->kind == KIRI_MEMBER_PART ? BytesOfObject(member->table) : 1;
         bool isPart = member->kind == KIRI_MEMBER_PART && part != KIRI_NONE;
         bool isFixed = isPart || member->kind == KIRI_MEMBER_RUN || member->kind == KIRI_MEMBER_BOOLS;
-        int64_t more = isPart ? part * (member->size / member->record->size) : member->size;
+        int64_t more = isPart ? part * (member->size / member->table->size) : member->size;
         bytes = isFixed ? bytes + more : member->kind == KIRI_MEMBER_DROPPED ? bytes : KIRI_NONE;
     }
     return bytes;
 }
 
-void kiriArchive_Objects(kiriArchive* archive, const kiriRecord* record, void* objects, int64_t count)
+void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* objects, int64_t count)
 {
-    if (count > 1 && IsLittleEndian() && IsTight(record)) {
-        kiriArchive_Numbers(archive, objects, 1, count * record->size);
+    if (count > 1 && IsLittleEndian() && IsTight(table)) {
+        kiriArchive_Numbers(archive, objects, 1, count * table->size);
         return;
     }
     int64_t each =
-        archive->mode == KIRI_ARCHIVE_MEASURE && archive->base.bytes == NULL ? BytesOfObject(record) : KIRI_NONE;
+        archive->mode == KIRI_ARCHIVE_MEASURE && archive->base.bytes == NULL ? BytesOfObject(table) : KIRI_NONE;
     if (each != KIRI_NONE) {
         TakeBytes(archive, each * count);
         return;
     }
     for (int64_t n = 0; n < count && !kiriArchive_HasFailed(archive); ++n) {
-        kiriArchive_Object(archive, record, (uint8_t*)objects + n * record->size);
+        kiriArchive_Object(archive, table, (uint8_t*)objects + n * table->size);
     }
 }
 

@@ -28,16 +28,16 @@ enum kiriMemberKind {
 typedef struct kiriMember {
     int32_t kind, width; /* width: bytes a number */
     int32_t offset;
-    int32_t size;                    /* bytes of the run, of the part, or of an item */
-    const struct kiriRecord* record; /* of the part, or of an item */
+    int32_t size;                  /* bytes of the run, of the part, or of an item */
+    const struct kiriTable* table; /* of the part, or of an item */
     kiriArchiveFn* custom;
 } kiriMember;
 
-typedef struct kiriRecord {
+typedef struct kiriTable {
     const kiriMember* fields;
     int32_t count;
     int32_t size; /* bytes of the struct */
-} kiriRecord;
+} kiriTable;
 
 #define KIRI_FIELD_SIZE(Type, field) (int32_t)sizeof(((Type*)NULL)->field)
 #define KIRI_ITEM_SIZE(Type, field) (int32_t)sizeof(*((Type*)NULL)->field.data)
@@ -55,17 +55,17 @@ typedef struct kiriRecord {
         KIRI_MEMBER_BOOLS, 1, (int32_t)offsetof(Type, first),                                                          \
             KIRI_FIELD_END(Type, last) - (int32_t)offsetof(Type, first), NULL, NULL                                    \
     }
-#define KIRI_PART(Type, field, record)                                                                                 \
+#define KIRI_PART(Type, field, table)                                                                                  \
     {                                                                                                                  \
-        KIRI_MEMBER_PART, 0, (int32_t)offsetof(Type, field), KIRI_FIELD_SIZE(Type, field), &record, NULL               \
+        KIRI_MEMBER_PART, 0, (int32_t)offsetof(Type, field), KIRI_FIELD_SIZE(Type, field), &table, NULL                \
     }
 #define KIRI_ITEMS(width, Type, field)                                                                                 \
     {                                                                                                                  \
         KIRI_MEMBER_ITEMS, width, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), NULL, NULL              \
     }
-#define KIRI_PARTS(Type, field, record)                                                                                \
+#define KIRI_PARTS(Type, field, table)                                                                                 \
     {                                                                                                                  \
-        KIRI_MEMBER_PARTS, 0, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), &record, NULL               \
+        KIRI_MEMBER_PARTS, 0, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), &table, NULL                \
     }
 #define KIRI_ROOM_OF(Type, field)                                                                                      \
     {                                                                                                                  \
@@ -75,9 +75,9 @@ typedef struct kiriRecord {
     {                                                                                                                  \
         KIRI_MEMBER_SPACE, 0, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), NULL, NULL                  \
     }
-#define KIRI_OWNED(Type, field, record)                                                                                \
+#define KIRI_OWNED(Type, field, table)                                                                                 \
     {                                                                                                                  \
-        KIRI_MEMBER_OWNED, 0, (int32_t)offsetof(Type, field), 0, &record, NULL                                         \
+        KIRI_MEMBER_OWNED, 0, (int32_t)offsetof(Type, field), 0, &table, NULL                                          \
     }
 #define KIRI_CUSTOM(Type, field, function)                                                                             \
     {                                                                                                                  \
@@ -87,7 +87,7 @@ typedef struct kiriRecord {
     {                                                                                                                  \
         KIRI_MEMBER_DROPPED, 0, (int32_t)offsetof(Type, field), 0, NULL, NULL                                          \
     }
-#define KIRI_RECORD(Type, fields)                                                                                      \
+#define KIRI_TABLE(Type, fields)                                                                                       \
     {                                                                                                                  \
         fields, (int32_t)(sizeof(fields) / sizeof(fields[0])), (int32_t)sizeof(Type)                                   \
     }
@@ -151,8 +151,8 @@ int32_t kiriArchive_Count(kiriArchive* archive, int64_t count, int64_t least, in
 
 /* An object, or so many in a row. Where bytes are read it is zero before; what it has then is in blocks of
    archive->memory. */
-void kiriArchive_Object(kiriArchive* archive, const kiriRecord* record, void* object);
-void kiriArchive_Objects(kiriArchive* archive, const kiriRecord* record, void* objects, int64_t count);
+void kiriArchive_Object(kiriArchive* archive, const kiriTable* table, void* object);
+void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* objects, int64_t count);
 
 /* A block of so many numbers, of *block. */
 void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_t count);

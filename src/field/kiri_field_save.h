@@ -8,8 +8,8 @@
 
 KIRI_C_BEGIN
 
-extern const kiriRecord kiriFieldRecord, kiriSiteRecord, kiriGridRecord, kiriRegionsRecord, kiriShapeRecord,
-    kiriLinksRecord, kiriPlacerRecord;
+extern const kiriTable kiriFieldTable, kiriSiteTable, kiriGridTable, kiriRegionsTable, kiriShapeTable, kiriLinksTable,
+    kiriPlacerTable;
 
 /* Where bytes were read: pointers into what was read beside. `known`: the field that the placer was given. */
 void kiriLinks_EndReading(kiriLinks* links, kiriMemory* memory);

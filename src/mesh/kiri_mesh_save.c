@@ -30,20 +30,20 @@ static const kiriMember SquaresMembers[] = {
     KIRI_ITEMS(4, kiriSquares, undo),
     KIRI_RUN(4, kiriSquares, oldNodeCount, oldDirtyCount),
 };
-static const kiriRecord SquaresRecord = KIRI_RECORD(kiriSquares, SquaresMembers);
+static const kiriTable SquaresTable = KIRI_TABLE(kiriSquares, SquaresMembers);
 
 static const kiriMember BirthMembers[] = {
     KIRI_RUN(4, kiriBirth, parent, parent),
     KIRI_RUN(8, kiriBirth, share, share),
 };
-static const kiriRecord BirthRecord = KIRI_RECORD(kiriBirth, BirthMembers);
+static const kiriTable BirthTable = KIRI_TABLE(kiriBirth, BirthMembers);
 
 static const kiriMember MeshDataMembers[] = {
     KIRI_DROPPED(kiriMeshData, memory),
     KIRI_RUN(8, kiriMeshData, origin, step),
     KIRI_ITEMS(4, kiriMeshData, triangles),
     KIRI_ITEMS(4, kiriMeshData, vertices),
-    KIRI_PART(kiriMeshData, squares, SquaresRecord),
+    KIRI_PART(kiriMeshData, squares, SquaresTable),
     KIRI_RUN(4, kiriMeshData, revision, vertexHoles),
     KIRI_ITEMS(4, kiriMeshData, sourceCorners),
     KIRI_ITEMS(4, kiriMeshData, sources),
@@ -51,9 +51,9 @@ static const kiriMember MeshDataMembers[] = {
     KIRI_RUN(4, kiriMeshData, stamp, oldRevision),
     KIRI_ITEMS(4, kiriMeshData, savedTriangles),
     KIRI_ITEMS(4, kiriMeshData, savedVertices),
-    KIRI_PARTS(kiriMeshData, births, BirthRecord),
+    KIRI_PARTS(kiriMeshData, births, BirthTable),
 };
-const kiriRecord kiriMeshRecord = KIRI_RECORD(kiriMeshData, MeshDataMembers);
+const kiriTable kiriMeshTable = KIRI_TABLE(kiriMeshData, MeshDataMembers);
 
 void kiriMesh_EndReading(kiriMeshData* mesh, kiriMemory* memory)
 {

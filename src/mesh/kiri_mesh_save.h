@@ -7,7 +7,7 @@
 
 KIRI_C_BEGIN
 
-extern const kiriRecord kiriMeshRecord;
+extern const kiriTable kiriMeshTable;
 
 /* What follows from the rest, where bytes were read. */
 void kiriMesh_EndReading(kiriMeshData* mesh, kiriMemory* memory);

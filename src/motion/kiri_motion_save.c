@@ -7,52 +7,52 @@ static const kiriMember HistoryMembers[] = {
     KIRI_RUN(4, kiriHistory, isHalf, isHeld),
     KIRI_RUN(8, kiriHistory, gain, turnPull),
 };
-static const kiriRecord HistoryRecord = KIRI_RECORD(kiriHistory, HistoryMembers);
+static const kiriTable HistoryTable = KIRI_TABLE(kiriHistory, HistoryMembers);
 
 static const kiriMember FrameDataMembers[] = {
     KIRI_RUN(4, kiriFrameData, id, id),
     KIRI_RUN(8, kiriFrameData, pieceData, pieceData),
-    KIRI_PART(kiriFrameData, site, kiriSiteRecord),
+    KIRI_PART(kiriFrameData, site, kiriSiteTable),
     KIRI_RUN(4, kiriFrameData, anchor, anchor),
     KIRI_RUN(8, kiriFrameData, center, support),
-    KIRI_PART(kiriFrameData, history, HistoryRecord),
+    KIRI_PART(kiriFrameData, history, HistoryTable),
     KIRI_RUN(4, kiriFrameData, held, held),
     KIRI_RUN(8, kiriFrameData, heldPosition, heldOff),
     KIRI_BOOLS(kiriFrameData, isOffKnown, isOffKnown),
     KIRI_RUN(8, kiriFrameData, reaction, bore),
 };
-const kiriRecord kiriFrameRecord = KIRI_RECORD(kiriFrameData, FrameDataMembers);
+const kiriTable kiriFrameTable = KIRI_TABLE(kiriFrameData, FrameDataMembers);
 
 static const kiriMember AreaElementMembers[] = {
     KIRI_RUN(8, kiriAreaElement, area, lean),
     KIRI_RUN(4, kiriAreaElement, first, lastRow),
 };
-static const kiriRecord AreaElementRecord = KIRI_RECORD(kiriAreaElement, AreaElementMembers);
+static const kiriTable AreaElementTable = KIRI_TABLE(kiriAreaElement, AreaElementMembers);
 
 static const kiriMember FrameShareMembers[] = {
     KIRI_RUN(4, kiriFrameShare, frame, frame),
     KIRI_RUN(8, kiriFrameShare, move, slope),
 };
-static const kiriRecord FrameShareRecord = KIRI_RECORD(kiriFrameShare, FrameShareMembers);
+static const kiriTable FrameShareTable = KIRI_TABLE(kiriFrameShare, FrameShareMembers);
 
 static const kiriMember AreaElementsMembers[] = {
-    KIRI_PARTS(kiriAreaElements, elements, AreaElementRecord),
-    KIRI_PARTS(kiriAreaElements, shares, FrameShareRecord),
+    KIRI_PARTS(kiriAreaElements, elements, AreaElementTable),
+    KIRI_PARTS(kiriAreaElements, shares, FrameShareTable),
 };
-const kiriRecord kiriAreaElementsRecord = KIRI_RECORD(kiriAreaElements, AreaElementsMembers);
+const kiriTable kiriAreaElementsTable = KIRI_TABLE(kiriAreaElements, AreaElementsMembers);
 
 static const kiriMember StrainOffsetsMembers[] = {
     KIRI_ITEMS(8, kiriStrainOffsets, strainOffsets),
     KIRI_ROOM_OF(kiriStrainOffsets, older),
     KIRI_ROOM_OF(kiriStrainOffsets, frames),
 };
-const kiriRecord kiriStrainOffsetsRecord = KIRI_RECORD(kiriStrainOffsets, StrainOffsetsMembers);
+const kiriTable kiriStrainOffsetsTable = KIRI_TABLE(kiriStrainOffsets, StrainOffsetsMembers);
 
 static const kiriMember TransferMembers[] = {
     KIRI_RUN(4, kiriTransfer, from, next),
     KIRI_RUN(8, kiriTransfer, material, material),
 };
-static const kiriRecord TransferRecord = KIRI_RECORD(kiriTransfer, TransferMembers);
+static const kiriTable TransferTable = KIRI_TABLE(kiriTransfer, TransferMembers);
 
 static const kiriMember OwnershipMembers[] = {
     KIRI_ITEMS(4, kiriOwnership, squares),
@@ -63,20 +63,20 @@ static const kiriMember OwnershipMembers[] = {
     KIRI_RUN(4, kiriOwnership, next, next),
     KIRI_RUN(8, kiriOwnership, due, due),
     KIRI_ITEMS(4, kiriOwnership, staged),
-    KIRI_PARTS(kiriOwnership, transfers, TransferRecord),
+    KIRI_PARTS(kiriOwnership, transfers, TransferTable),
     KIRI_ITEMS(4, kiriOwnership, first),
 };
-static const kiriRecord OwnershipRecord = KIRI_RECORD(kiriOwnership, OwnershipMembers);
+static const kiriTable OwnershipTable = KIRI_TABLE(kiriOwnership, OwnershipMembers);
 
 static const kiriMember RefitMembers[] = {
-    KIRI_PART(kiriRefit, ownership, OwnershipRecord),
+    KIRI_PART(kiriRefit, ownership, OwnershipTable),
     KIRI_ROOM_OF(kiriRefit, fits),
     KIRI_RUN(4, kiriRefit, most, most),
     KIRI_ROOM_OF(kiriRefit, gained),
     KIRI_ROOM_OF(kiriRefit, firstOf),
     KIRI_ROOM_OF(kiriRefit, nextOf),
 };
-const kiriRecord kiriRefitRecord = KIRI_RECORD(kiriRefit, RefitMembers);
+const kiriTable kiriRefitTable = KIRI_TABLE(kiriRefit, RefitMembers);
 
 static const kiriMember MechanicsMembers[] = {
     KIRI_RUN(4, kiriMechanics, model, model),
@@ -84,4 +84,4 @@ static const kiriMember MechanicsMembers[] = {
     KIRI_RUN(8, kiriMechanics, axes, axes),
     KIRI_RUN(4, kiriMechanics, timeStepping, timeStepping),
 };
-const kiriRecord kiriMechanicsRecord = KIRI_RECORD(kiriMechanics, MechanicsMembers);
+const kiriTable kiriMechanicsTable = KIRI_TABLE(kiriMechanics, MechanicsMembers);

@@ -8,8 +8,8 @@
 
 KIRI_C_BEGIN
 
-extern const kiriRecord kiriFrameRecord, kiriAreaElementsRecord, kiriStrainOffsetsRecord, kiriRefitRecord,
-    kiriMechanicsRecord;
+extern const kiriTable kiriFrameTable, kiriAreaElementsTable, kiriStrainOffsetsTable, kiriRefitTable,
+    kiriMechanicsTable;
 
 /* The solver, which is made where bytes are read: the pattern of its matrix is made anew from the pairs of frames. */
 void kiriSolver_Archive(kiriArchive* archive, kiriSolver** solver, const kiriMechanics* mechanics);

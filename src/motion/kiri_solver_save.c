@@ -5,7 +5,7 @@ static const kiriMember AwakeMembers[] = {
     KIRI_ITEMS(1, kiriAwake, isAwake), KIRI_BOOLS(kiriAwake, isListed, isListed), KIRI_ITEMS(4, kiriAwake, pieces),
     KIRI_ITEMS(4, kiriAwake, frames),  KIRI_ITEMS(4, kiriAwake, elements),        KIRI_RUN(8, kiriAwake, lists, wakes),
 };
-static const kiriRecord AwakeRecord = KIRI_RECORD(kiriAwake, AwakeMembers);
+static const kiriTable AwakeTable = KIRI_TABLE(kiriAwake, AwakeMembers);
 
 /* Between ticks nothing is staged, and no step is at hand. */
 static const kiriMember SolverMembers[] = {
@@ -26,7 +26,7 @@ static const kiriMember SolverMembers[] = {
     KIRI_DROPPED(kiriSolver, nextFrameCount),
     KIRI_RUN(4, kiriSolver, elementCount, elementCount),
     KIRI_DROPPED(kiriSolver, nextElementCount),
-    KIRI_PART(kiriSolver, awake, AwakeRecord),
+    KIRI_PART(kiriSolver, awake, AwakeTable),
     KIRI_DROPPED(kiriSolver, isStaged),
     KIRI_DROPPED(kiriSolver, isNextMatrix),
     KIRI_DROPPED(kiriSolver, pairs),
@@ -51,7 +51,7 @@ static const kiriMember SolverMembers[] = {
     KIRI_ROOM_OF(kiriSolver, rows),
     KIRI_ROOM_OF(kiriSolver, J),
 };
-static const kiriRecord SolverRecord = KIRI_RECORD(kiriSolver, SolverMembers);
+static const kiriTable SolverTable = KIRI_TABLE(kiriSolver, SolverMembers);
 
 static bool AreBelow(const kiriIndices* indices, int32_t count)
 {
@@ -91,7 +91,7 @@ void kiriSolver_Archive(kiriArchive* archive, kiriSolver** made, const kiriMecha
     if (solver == NULL) {
         return;
     }
-    kiriArchive_Object(archive, &SolverRecord, solver);
+    kiriArchive_Object(archive, &SolverTable, solver);
     kiriArchive_Expect(archive, solver->frameCount >= 0 && solver->frameCount <= solver->framePiece.capacity);
     if (kiriArchive_HasFailed(archive)) {
         return;

@@ -7,11 +7,11 @@ static const kiriMember ObstacleShapeMembers[] = {
     KIRI_DROPPED(kiriObstacleShape, outline),   KIRI_DROPPED(kiriObstacleShape, normals),
     KIRI_DROPPED(kiriObstacleShape, count),     KIRI_RUN(8, kiriObstacleShape, flat, flat),
 };
-static const kiriRecord ObstacleShapeRecord = KIRI_RECORD(kiriObstacleShape, ObstacleShapeMembers);
+static const kiriTable ObstacleShapeTable = KIRI_TABLE(kiriObstacleShape, ObstacleShapeMembers);
 
 static const kiriMember ObstacleDataMembers[] = {
     KIRI_RUN(4, kiriObstacleData, id, id),
-    KIRI_PART(kiriObstacleData, shape, ObstacleShapeRecord),
+    KIRI_PART(kiriObstacleData, shape, ObstacleShapeTable),
     KIRI_RUN(8, kiriObstacleData, position, center),
     KIRI_RUN(4, kiriObstacleData, body, body),
     KIRI_RUN(8, kiriObstacleData, pushSpeed, pushSpeed),
@@ -20,7 +20,7 @@ static const kiriMember ObstacleDataMembers[] = {
     KIRI_RUN(4, kiriObstacleData, contacts, contacts),
     KIRI_RUN(8, kiriObstacleData, drift, upper),
 };
-static const kiriRecord ObstacleDataRecord = KIRI_RECORD(kiriObstacleData, ObstacleDataMembers);
+static const kiriTable ObstacleDataTable = KIRI_TABLE(kiriObstacleData, ObstacleDataMembers);
 
 enum { MOST_OUTLINE = 64 };
 
@@ -46,7 +46,7 @@ void kiriObstacle_Archive(kiriArchive* archive, kiriObstacleData** made, kiriMem
         archive->isShort |= *made == NULL && !archive->isBad;
     }
     if (*made != NULL) {
-        kiriArchive_Object(archive, &ObstacleDataRecord, *made);
+        kiriArchive_Object(archive, &ObstacleDataTable, *made);
         kiriArchive_Numbers(archive, (*made)->shape.outline, 8, 4 * (int64_t)corners);
     }
 }

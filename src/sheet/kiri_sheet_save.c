@@ -13,81 +13,81 @@
 /* ---- Tables ------------------------------------------------------------------------------------------------------- */
 
 static const kiriMember SettingsMembers[] = {
-    KIRI_RUN(4, kiriSettings, material, material),     KIRI_PART(kiriSettings, mechanics, kiriMechanicsRecord),
+    KIRI_RUN(4, kiriSettings, material, material),     KIRI_PART(kiriSettings, mechanics, kiriMechanicsTable),
     KIRI_RUN(4, kiriSettings, given, given),           KIRI_RUN(8, kiriSettings, snap, frameLength),
     KIRI_RUN(4, kiriSettings, maxFrames, skinning),    KIRI_RUN(8, kiriSettings, fadeTime, contactThickness),
     KIRI_RUN(4, kiriSettings, groups, groups),         KIRI_BOOLS(kiriSettings, touchesSheets, touchesSheets),
     KIRI_RUN(8, kiriSettings, air, integrationPoints), KIRI_RUN(4, kiriSettings, integrationOrder, integrationOrder),
     KIRI_BOOLS(kiriSettings, fromScratch, eased),
 };
-static const kiriRecord SettingsRecord = KIRI_RECORD(kiriSettings, SettingsMembers);
+static const kiriTable SettingsTable = KIRI_TABLE(kiriSettings, SettingsMembers);
 
 static const kiriMember RestMembers[] = {
     KIRI_RUN(8, kiriRest, calm, calm),
     KIRI_BOOLS(kiriRest, asleep, isCalm),
 };
-static const kiriRecord RestRecord = KIRI_RECORD(kiriRest, RestMembers);
+static const kiriTable RestTable = KIRI_TABLE(kiriRest, RestMembers);
 
 static const kiriMember PieceMembers[] = {
     KIRI_RUN(8, kiriPiece, area, area),        KIRI_RUN(4, kiriPiece, frame, origin),
     KIRI_BOOLS(kiriPiece, cameOff, isTouched), KIRI_RUN(4, kiriPiece, island, island),
-    KIRI_PART(kiriPiece, rest, RestRecord),
+    KIRI_PART(kiriPiece, rest, RestTable),
 };
-static const kiriRecord PieceRecord = KIRI_RECORD(kiriPiece, PieceMembers);
+static const kiriTable PieceTable = KIRI_TABLE(kiriPiece, PieceMembers);
 
 static const kiriMember SeveredLinkMembers[] = {
     KIRI_RUN(4, kiriSeveredLink, pin, link),
     KIRI_RUN(8, kiriSeveredLink, part, part),
 };
-static const kiriRecord SeveredLinkRecord = KIRI_RECORD(kiriSeveredLink, SeveredLinkMembers);
+static const kiriTable SeveredLinkTable = KIRI_TABLE(kiriSeveredLink, SeveredLinkMembers);
 
 static const kiriMember LineShareMembers[] = {
     KIRI_RUN(4, kiriLineShare, frame, frame),
     KIRI_RUN(8, kiriLineShare, length, ends),
     KIRI_RUN(4, kiriLineShare, open, open),
 };
-static const kiriRecord LineShareRecord = KIRI_RECORD(kiriLineShare, LineShareMembers);
+static const kiriTable LineShareTable = KIRI_TABLE(kiriLineShare, LineShareMembers);
 
 static const kiriMember PinShareMembers[] = {
     KIRI_RUN(4, kiriPinShare, pin, pin),
-    KIRI_PART(kiriPinShare, share, LineShareRecord),
+    KIRI_PART(kiriPinShare, share, LineShareTable),
     KIRI_RUN(8, kiriPinShare, offset, bore),
 };
-static const kiriRecord PinShareRecord = KIRI_RECORD(kiriPinShare, PinShareMembers);
+static const kiriTable PinShareTable = KIRI_TABLE(kiriPinShare, PinShareMembers);
 
 static const kiriMember LayoutMembers[] = {
-    KIRI_PARTS(kiriLayout, pieces, PieceRecord),
+    KIRI_PARTS(kiriLayout, pieces, PieceTable),
     KIRI_ITEMS(4, kiriLayout, framePiece),
     KIRI_ITEMS(4, kiriLayout, pinFrame),
-    KIRI_PARTS(kiriLayout, severed, SeveredLinkRecord),
-    KIRI_PARTS(kiriLayout, pinShares, PinShareRecord),
-    KIRI_PART(kiriLayout, areaElements, kiriAreaElementsRecord),
+    KIRI_PARTS(kiriLayout, severed, SeveredLinkTable),
+    KIRI_PARTS(kiriLayout, pinShares, PinShareTable),
+    KIRI_PART(kiriLayout, areaElements, kiriAreaElementsTable),
 };
-static const kiriRecord LayoutRecord = KIRI_RECORD(kiriLayout, LayoutMembers);
+static const kiriTable LayoutTable = KIRI_TABLE(kiriLayout, LayoutMembers);
 
 static const kiriMember PinAnchorMembers[] = {
     KIRI_RUN(4, kiriPinAnchor, obstacle, obstacle),
     KIRI_RUN(8, kiriPinAnchor, local, softness),
 };
-static const kiriRecord PinAnchorRecord = KIRI_RECORD(kiriPinAnchor, PinAnchorMembers);
+static const kiriTable PinAnchorTable = KIRI_TABLE(kiriPinAnchor, PinAnchorMembers);
 
 static const kiriMember PinDataMembers[] = {
     KIRI_RUN(4, kiriPinData, id, id),
     KIRI_RUN(8, kiriPinData, userData, userData),
     KIRI_RUN(4, kiriPinData, type, to),
     KIRI_RUN(8, kiriPinData, target, breakForce),
-    KIRI_PART(kiriPinData, anchor, PinAnchorRecord),
+    KIRI_PART(kiriPinData, anchor, PinAnchorTable),
     KIRI_RUN(8, kiriPinData, off, off),
     KIRI_RUN(4, kiriPinData, offFrame, offFrame),
     KIRI_RUN(8, kiriPinData, stiffness, bore),
 };
-static const kiriRecord PinDataRecord = KIRI_RECORD(kiriPinData, PinDataMembers);
+static const kiriTable PinDataTable = KIRI_TABLE(kiriPinData, PinDataMembers);
 
 static const kiriMember GivenContactMembers[] = {
     KIRI_RUN(4, kiriGivenContact, contact, vertex),
     KIRI_RUN(8, kiriGivenContact, share, share),
 };
-static const kiriRecord GivenContactRecord = KIRI_RECORD(kiriGivenContact, GivenContactMembers);
+static const kiriTable GivenContactTable = KIRI_TABLE(kiriGivenContact, GivenContactMembers);
 
 static const kiriMember TouchMembers[] = {
     KIRI_RUN(8, kiriTouch, key, key),         KIRI_RUN(4, kiriTouch, point, vertex),
@@ -95,20 +95,20 @@ static const kiriMember TouchMembers[] = {
     KIRI_RUN(8, kiriTouch, felt, cushion),    KIRI_RUN(4, kiriTouch, row, row),
     KIRI_RUN(8, kiriTouch, force, force),
 };
-static const kiriRecord TouchRecord = KIRI_RECORD(kiriTouch, TouchMembers);
+static const kiriTable TouchTable = KIRI_TABLE(kiriTouch, TouchMembers);
 
 static const kiriMember TouchMemoryMembers[] = {
-    KIRI_PARTS(kiriTouchMemory, touches, TouchRecord),
+    KIRI_PARTS(kiriTouchMemory, touches, TouchTable),
     KIRI_ITEMS(8, kiriTouchMemory, forces),
     KIRI_RUN(4, kiriTouchMemory, given, given),
 };
-static const kiriRecord TouchMemoryRecord = KIRI_RECORD(kiriTouchMemory, TouchMemoryMembers);
+static const kiriTable TouchMemoryTable = KIRI_TABLE(kiriTouchMemory, TouchMemoryMembers);
 
 static const kiriMember ContactForceMembers[] = {
     KIRI_RUN(8, kiriContactForce, impulse, depth),
     KIRI_RUN(4, kiriContactForce, point, obstacle),
 };
-static const kiriRecord ContactForceRecord = KIRI_RECORD(kiriContactForce, ContactForceMembers);
+static const kiriTable ContactForceTable = KIRI_TABLE(kiriContactForce, ContactForceMembers);
 
 /* Summed anew. */
 static const kiriMember RestLoadsMembers[] = {
@@ -116,72 +116,73 @@ static const kiriMember RestLoadsMembers[] = {
     KIRI_DROPPED(kiriRestLoads, dt),
     KIRI_DROPPED(kiriRestLoads, areSummed),
 };
-static const kiriRecord RestLoadsRecord = KIRI_RECORD(kiriRestLoads, RestLoadsMembers);
+static const kiriTable RestLoadsTable = KIRI_TABLE(kiriRestLoads, RestLoadsMembers);
 
 static const kiriMember TouchesMembers[] = {
     KIRI_SPACE_OF(kiriTouches, found),
     KIRI_ROOM_OF(kiriTouches, yields),
     KIRI_ROOM_OF(kiriTouches, rows),
-    KIRI_PART(kiriTouches, last, TouchMemoryRecord),
-    KIRI_PART(kiriTouches, slept, TouchMemoryRecord),
-    KIRI_PART(kiriTouches, rests, RestLoadsRecord),
+    KIRI_PART(kiriTouches, last, TouchMemoryTable),
+    KIRI_PART(kiriTouches, slept, TouchMemoryTable),
+    KIRI_PART(kiriTouches, rests, RestLoadsTable),
     KIRI_ROOM_OF(kiriTouches, order),
     KIRI_BOOLS(kiriTouches, isShort, isShort),
     KIRI_DROPPED(kiriTouches, told),
     KIRI_DROPPED(kiriTouches, nextTold),
 };
-static const kiriRecord TouchesRecord = KIRI_RECORD(kiriTouches, TouchesMembers);
+static const kiriTable TouchesTable = KIRI_TABLE(kiriTouches, TouchesMembers);
 
 static const kiriMember BlocksMembers[] = {
-    KIRI_ITEMS(1, kiriBlocks, touched), KIRI_ITEMS(1, kiriBlocks, stale), KIRI_ITEMS(4, kiriBlocks, movers),
-    KIRI_ITEMS(8, kiriBlocks, frames),  KIRI_ITEMS(1, kiriBlocks, moved), KIRI_BOOLS(kiriBlocks, hasUnknown, hasUnknown),
+    KIRI_ITEMS(1, kiriBlocks, touched), KIRI_ITEMS(1, kiriBlocks, stale),
+    KIRI_ITEMS(4, kiriBlocks, movers),  KIRI_ITEMS(8, kiriBlocks, frames),
+    KIRI_ITEMS(1, kiriBlocks, moved),   KIRI_BOOLS(kiriBlocks, hasUnknown, hasUnknown),
 };
-static const kiriRecord BlocksRecord = KIRI_RECORD(kiriBlocks, BlocksMembers);
+static const kiriTable BlocksTable = KIRI_TABLE(kiriBlocks, BlocksMembers);
 
 static const kiriMember SeenMembers[] = {
     KIRI_DROPPED(kiriSeen, surface),
     KIRI_DROPPED(kiriSeen, bounds),
-    KIRI_PART(kiriSeen, fades, kiriFadesRecord),
-    KIRI_PART(kiriSeen, pointFades, kiriFadesRecord),
+    KIRI_PART(kiriSeen, fades, kiriFadesTable),
+    KIRI_PART(kiriSeen, pointFades, kiriFadesTable),
     KIRI_SPACE_OF(kiriSeen, exactPoints),
     KIRI_RUN(4, kiriSeen, pointCount, pointCount),
     KIRI_DROPPED(kiriSeen, pointPositions),
     KIRI_ROOM_OF(kiriSeen, pointsBefore),
     KIRI_BOOLS(kiriSeen, isElsewhere, isElsewhere),
     KIRI_RUN(4, kiriSeen, vertexCount, vertexCount),
-    KIRI_PART(kiriSeen, blocks, BlocksRecord),
+    KIRI_PART(kiriSeen, blocks, BlocksTable),
     KIRI_RUN(8, kiriSeen, lists, lists),
     KIRI_BOOLS(kiriSeen, areFadesAsleep, areFadesAsleep),
 };
-static const kiriRecord SeenRecord = KIRI_RECORD(kiriSeen, SeenMembers);
+static const kiriTable SeenTable = KIRI_TABLE(kiriSeen, SeenMembers);
 
 static const kiriMember UpdateStartMembers[] = {
     KIRI_RUN(4, kiriUpdateStart, stage, taken),
     KIRI_BOOLS(kiriUpdateStart, meshChanged, meshChanged),
     KIRI_RUN(8, kiriUpdateStart, spent, spent),
 };
-static const kiriRecord UpdateStartRecord = KIRI_RECORD(kiriUpdateStart, UpdateStartMembers);
+static const kiriTable UpdateStartTable = KIRI_TABLE(kiriUpdateStart, UpdateStartMembers);
 
 static const kiriMember CutWorkMembers[] = {
     KIRI_RUN(8, kiriCutWork, stamp, stamp),
     KIRI_RUN(4, kiriCutWork, count, taken),
     KIRI_BOOLS(kiriCutWork, meshChanged, meshChanged),
 };
-static const kiriRecord CutWorkRecord = KIRI_RECORD(kiriCutWork, CutWorkMembers);
+static const kiriTable CutWorkTable = KIRI_TABLE(kiriCutWork, CutWorkMembers);
 
 static const kiriMember SlitSearchMembers[] = {
     KIRI_RUN(4, kiriSlitSearch, seen, seen),
     KIRI_RUN(8, kiriSlitSearch, owed, owed),
 };
-static const kiriRecord SlitSearchRecord = KIRI_RECORD(kiriSlitSearch, SlitSearchMembers);
+static const kiriTable SlitSearchTable = KIRI_TABLE(kiriSlitSearch, SlitSearchMembers);
 
 static const kiriMember PlacingWorkMembers[] = {
-    KIRI_PARTS(kiriPlacingWork, sites, kiriSiteRecord),
+    KIRI_PARTS(kiriPlacingWork, sites, kiriSiteTable),
     KIRI_ITEMS(4, kiriPlacingWork, moves),
     KIRI_RUN(4, kiriPlacingWork, movesSeen, spread),
-    KIRI_PART(kiriPlacingWork, placer, kiriPlacerRecord),
+    KIRI_PART(kiriPlacingWork, placer, kiriPlacerTable),
     KIRI_BOOLS(kiriPlacingWork, isTaking, isPlacing),
-    KIRI_PART(kiriPlacingWork, search, SlitSearchRecord),
+    KIRI_PART(kiriPlacingWork, search, SlitSearchTable),
     KIRI_BOOLS(kiriPlacingWork, isAgain, isAgain),
     KIRI_RUN(8, kiriPlacingWork, whole, whole),
     KIRI_RUN(4, kiriPlacingWork, at, at),
@@ -190,15 +191,15 @@ static const kiriMember PlacingWorkMembers[] = {
     KIRI_ITEMS(1, kiriPlacingWork, flags),
     KIRI_ITEMS(4, kiriPlacingWork, own),
 };
-static const kiriRecord PlacingWorkRecord = KIRI_RECORD(kiriPlacingWork, PlacingWorkMembers);
+static const kiriTable PlacingWorkTable = KIRI_TABLE(kiriPlacingWork, PlacingWorkMembers);
 
 static const kiriMember SampleWorkMembers[] = {
     KIRI_RUN(4, kiriSampleWork, oldVertices, oldVertices),
-    KIRI_PART(kiriSampleWork, refresh, kiriRefreshRecord),
+    KIRI_PART(kiriSampleWork, refresh, kiriRefreshTable),
     KIRI_ITEMS(4, kiriSampleWork, newPoints),
     KIRI_ITEMS(4, kiriSampleWork, movedPoints),
 };
-static const kiriRecord SampleWorkRecord = KIRI_RECORD(kiriSampleWork, SampleWorkMembers);
+static const kiriTable SampleWorkTable = KIRI_TABLE(kiriSampleWork, SampleWorkMembers);
 
 static const kiriMember UpdateMembers[] = {
     KIRI_RUN(4, kiriUpdate, stage, step),
@@ -208,26 +209,26 @@ static const kiriMember UpdateMembers[] = {
     KIRI_DROPPED(kiriUpdate, isBegun),
     KIRI_DROPPED(kiriUpdate, growing),
     KIRI_RUN(4, kiriUpdate, growsSince, growsSince),
-    KIRI_PART(kiriUpdate, cut, CutWorkRecord),
-    KIRI_PART(kiriUpdate, placing, PlacingWorkRecord),
+    KIRI_PART(kiriUpdate, cut, CutWorkTable),
+    KIRI_PART(kiriUpdate, placing, PlacingWorkTable),
     KIRI_ITEMS(8, kiriUpdate, material),
-    KIRI_PART(kiriUpdate, samples, SampleWorkRecord),
-    KIRI_PART(kiriUpdate, refit, kiriRefitRecord),
+    KIRI_PART(kiriUpdate, samples, SampleWorkTable),
+    KIRI_PART(kiriUpdate, refit, kiriRefitTable),
     KIRI_RUN(8, kiriUpdate, due, due),
     KIRI_ITEMS(4, kiriUpdate, newFrames),
     KIRI_DROPPED(kiriUpdate, integration),
-    KIRI_PART(kiriUpdate, next, LayoutRecord),
+    KIRI_PART(kiriUpdate, next, LayoutTable),
     KIRI_ITEMS(4, kiriUpdate, parent),
     KIRI_RUN(4, kiriUpdate, counts, counts),
 };
-static const kiriRecord UpdateRecord = KIRI_RECORD(kiriUpdate, UpdateMembers);
+static const kiriTable UpdateTable = KIRI_TABLE(kiriUpdate, UpdateMembers);
 
 /* What each tick begins with. */
 static const kiriMember UpdateTickMembers[] = {
-    KIRI_PART(kiriUpdate, start, UpdateStartRecord),
+    KIRI_PART(kiriUpdate, start, UpdateStartTable),
     KIRI_BOOLS(kiriUpdate, isBegun, isBegun),
 };
-static const kiriRecord UpdateTickRecord = KIRI_RECORD(kiriUpdate, UpdateTickMembers);
+static const kiriTable UpdateTickTable = KIRI_TABLE(kiriUpdate, UpdateTickMembers);
 
 static const kiriMember BladeTipMembers[] = {
     KIRI_RUN(4, kiriBladeTip, at, vertex),
@@ -235,43 +236,43 @@ static const kiriMember BladeTipMembers[] = {
     KIRI_RUN(4, kiriBladeTip, from, from),
     KIRI_RUN(8, kiriBladeTip, owed, owed),
 };
-static const kiriRecord BladeTipRecord = KIRI_RECORD(kiriBladeTip, BladeTipMembers);
+static const kiriTable BladeTipTable = KIRI_TABLE(kiriBladeTip, BladeTipMembers);
 
 static const kiriMember TipMembers[] = {
     KIRI_RUN(8, kiriTip, last, last),
-    KIRI_PART(kiriTip, blade, BladeTipRecord),
+    KIRI_PART(kiriTip, blade, BladeTipTable),
 };
-static const kiriRecord TipRecord = KIRI_RECORD(kiriTip, TipMembers);
+static const kiriTable TipTable = KIRI_TABLE(kiriTip, TipMembers);
 
 static const kiriMember CutDataMembers[] = {
     KIRI_RUN(4, kiriCutData, id, id),
     KIRI_DROPPED(kiriCutData, sheet),
     KIRI_RUN(4, kiriCutData, index, index),
-    KIRI_PART(kiriCutData, tip, TipRecord),
-    KIRI_PART(kiriCutData, committed, TipRecord),
+    KIRI_PART(kiriCutData, tip, TipTable),
+    KIRI_PART(kiriCutData, committed, TipTable),
     KIRI_RUN(4, kiriCutData, waiting, waiting),
     KIRI_BOOLS(kiriCutData, ended, ended),
 };
-static const kiriRecord CutDataRecord = KIRI_RECORD(kiriCutData, CutDataMembers);
+static const kiriTable CutDataTable = KIRI_TABLE(kiriCutData, CutDataMembers);
 
 static const kiriMember QueuedPointMembers[] = {
     KIRI_DROPPED(kiriQueuedPoint, cut),
     KIRI_RUN(8, kiriQueuedPoint, to, stamp),
     KIRI_BOOLS(kiriQueuedPoint, jump, jump),
 };
-static const kiriRecord QueuedPointRecord = KIRI_RECORD(kiriQueuedPoint, QueuedPointMembers);
+static const kiriTable QueuedPointTable = KIRI_TABLE(kiriQueuedPoint, QueuedPointMembers);
 
 /* Arrays that the host may hold, which are of another owner. */
 static const kiriMember ToldMembers[] = {
-    KIRI_PARTS(kiriTouches, told, ContactForceRecord),
+    KIRI_PARTS(kiriTouches, told, ContactForceTable),
     KIRI_ROOM_OF(kiriTouches, nextTold),
 };
-static const kiriRecord ToldRecord = KIRI_RECORD(kiriTouches, ToldMembers);
+static const kiriTable ToldTable = KIRI_TABLE(kiriTouches, ToldMembers);
 
 static const kiriMember ShownPointsMembers[] = {
     KIRI_SPACE_OF(kiriSeen, pointPositions),
 };
-static const kiriRecord ShownPointsRecord = KIRI_RECORD(kiriSeen, ShownPointsMembers);
+static const kiriTable ShownPointsTable = KIRI_TABLE(kiriSeen, ShownPointsMembers);
 
 /* Probes are chosen anew; those of a sheet that sleeps keep the velocities that they had. */
 static const kiriMember ProbesMembers[] = {
@@ -280,36 +281,36 @@ static const kiriMember ProbesMembers[] = {
     KIRI_DROPPED(kiriProbes, leans),          KIRI_DROPPED(kiriProbes, isChosen),    KIRI_DROPPED(kiriProbes, list),
     KIRI_DROPPED(kiriProbes, boxes),          KIRI_DROPPED(kiriProbes, touch),
 };
-static const kiriRecord ProbesRecord = KIRI_RECORD(kiriProbes, ProbesMembers);
+static const kiriTable ProbesTable = KIRI_TABLE(kiriProbes, ProbesMembers);
 
 static const kiriMember ProbeSpeedsMembers[] = {
     KIRI_ITEMS(8, kiriProbes, velocities),
     KIRI_ITEMS(8, kiriProbes, speeds),
 };
-static const kiriRecord ProbeSpeedsRecord = KIRI_RECORD(kiriProbes, ProbeSpeedsMembers);
+static const kiriTable ProbeSpeedsTable = KIRI_TABLE(kiriProbes, ProbeSpeedsMembers);
 
 /* Of the world's memory. Pointers are put in by hand. */
 static const kiriMember QueueMembers[] = {
     KIRI_SPACE_OF(kiriSheetData, queue),
     KIRI_SPACE_OF(kiriSheetData, cuts),
 };
-static const kiriRecord QueueRecord = KIRI_RECORD(kiriSheetData, QueueMembers);
+static const kiriTable QueueTable = KIRI_TABLE(kiriSheetData, QueueMembers);
 
 /* What changes with the work on cuts alone. */
 static const kiriMember StillSheetMembers[] = {
-    KIRI_PART(kiriSheetData, mesh, kiriMeshRecord),
-    KIRI_PART(kiriSheetData, grid, kiriGridRecord),
-    KIRI_PART(kiriSheetData, regions, kiriRegionsRecord),
-    KIRI_PART(kiriSheetData, shape, kiriShapeRecord),
-    KIRI_OWNED(kiriSheetData, update, UpdateRecord),
-    KIRI_PART(kiriSheetData, links, kiriLinksRecord),
+    KIRI_PART(kiriSheetData, mesh, kiriMeshTable),
+    KIRI_PART(kiriSheetData, grid, kiriGridTable),
+    KIRI_PART(kiriSheetData, regions, kiriRegionsTable),
+    KIRI_PART(kiriSheetData, shape, kiriShapeTable),
+    KIRI_OWNED(kiriSheetData, update, UpdateTable),
+    KIRI_PART(kiriSheetData, links, kiriLinksTable),
     KIRI_ITEMS(4, kiriSheetData, points),
-    KIRI_PART(kiriSheetData, vertexSkin, kiriSkinRecord),
-    KIRI_PART(kiriSheetData, pointSkin, kiriSkinRecord),
-    KIRI_PART(kiriSheetData, pointPlaces, kiriPlacesRecord),
+    KIRI_PART(kiriSheetData, vertexSkin, kiriSkinTable),
+    KIRI_PART(kiriSheetData, pointSkin, kiriSkinTable),
+    KIRI_PART(kiriSheetData, pointPlaces, kiriPlacesTable),
     KIRI_DROPPED(kiriSheetData, taking),
 };
-static const kiriRecord StillSheetRecord = KIRI_RECORD(kiriSheetData, StillSheetMembers);
+static const kiriTable StillSheetTable = KIRI_TABLE(kiriSheetData, StillSheetMembers);
 
 /* And in any tick. */
 static const kiriMember LiveSheetMembers[] = {
@@ -317,15 +318,15 @@ static const kiriMember LiveSheetMembers[] = {
     KIRI_DROPPED(kiriSheetData, memory),
     KIRI_DROPPED(kiriSheetData, own),
     KIRI_DROPPED(kiriSheetData, shown),
-    KIRI_PART(kiriSheetData, settings, SettingsRecord),
-    KIRI_PARTS(kiriSheetData, frames, kiriFrameRecord),
-    KIRI_PART(kiriSheetData, layout, LayoutRecord),
-    KIRI_PART(kiriSheetData, strainOffsets, kiriStrainOffsetsRecord),
+    KIRI_PART(kiriSheetData, settings, SettingsTable),
+    KIRI_PARTS(kiriSheetData, frames, kiriFrameTable),
+    KIRI_PART(kiriSheetData, layout, LayoutTable),
+    KIRI_PART(kiriSheetData, strainOffsets, kiriStrainOffsetsTable),
     KIRI_DROPPED(kiriSheetData, solver),
     KIRI_DROPPED(kiriSheetData, queue),
     KIRI_DROPPED(kiriSheetData, cuts),
-    KIRI_PARTS(kiriSheetData, pins, PinDataRecord),
-    KIRI_PARTS(kiriSheetData, contacts, GivenContactRecord),
+    KIRI_PARTS(kiriSheetData, pins, PinDataTable),
+    KIRI_PARTS(kiriSheetData, contacts, GivenContactTable),
     KIRI_ITEMS(4, kiriSheetData, leaving),
     KIRI_RUN(8, kiriSheetData, leavingPaid, leavingPaid),
     KIRI_DROPPED(kiriSheetData, ahead),
@@ -337,13 +338,13 @@ static const kiriMember LiveSheetMembers[] = {
     KIRI_ROOM_OF(kiriSheetData, frameReactions),
     KIRI_DROPPED(kiriSheetData, line),
     KIRI_DROPPED(kiriSheetData, lineShares),
-    KIRI_PART(kiriSheetData, touches, TouchesRecord),
+    KIRI_PART(kiriSheetData, touches, TouchesTable),
     KIRI_BOOLS(kiriSheetData, rest, rest),
     KIRI_DROPPED(kiriSheetData, seen),
     KIRI_DROPPED(kiriSheetData, lists),
     KIRI_DROPPED(kiriSheetData, probes),
 };
-static const kiriRecord LiveSheetRecord = KIRI_RECORD(kiriSheetData, LiveSheetMembers);
+static const kiriTable LiveSheetTable = KIRI_TABLE(kiriSheetData, LiveSheetMembers);
 
 /* ---- Both directions ---------------------------------------------------------------------------------------------- */
 
@@ -351,9 +352,9 @@ void kiriSheet_ArchiveStill(kiriArchive* archive, kiriSheetData* sheet)
 {
     bool reads = kiriArchive_Reads(archive);
     archive->memory = &sheet->own;
-    kiriArchive_Object(archive, &StillSheetRecord, sheet);
+    kiriArchive_Object(archive, &StillSheetTable, sheet);
     archive->memory = &sheet->shown;
-    kiriArchive_Object(archive, &kiriStillSurfaceRecord, &sheet->seen.surface);
+    kiriArchive_Object(archive, &kiriStillSurfaceTable, &sheet->seen.surface);
     archive->memory = &sheet->own;
     kiriArchive_Expect(archive, sheet->update != NULL);
     if (reads && !kiriArchive_HasFailed(archive)) {
@@ -368,7 +369,7 @@ static void MoveQueue(kiriArchive* archive, kiriSheetData* sheet)
     for (int32_t i = 0; i < sheet->queue.count && !kiriArchive_HasFailed(archive); ++i) {
         kiriQueuedPoint* point = &sheet->queue.data[i];
         int32_t cut = kiriArchive_Count(archive, point->cut != NULL ? point->cut->index : 0, 0, sheet->cuts.count - 1);
-        kiriArchive_Object(archive, &QueuedPointRecord, point);
+        kiriArchive_Object(archive, &QueuedPointTable, point);
         if (kiriArchive_Reads(archive) && cut < sheet->cuts.count) {
             point->cut = sheet->cuts.data[cut];
         }
@@ -383,7 +384,7 @@ static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet)
             archive->isShort |= sheet->cuts.data[i] == NULL;
         }
         if (sheet->cuts.data[i] != NULL) {
-            kiriArchive_Object(archive, &CutDataRecord, sheet->cuts.data[i]);
+            kiriArchive_Object(archive, &CutDataTable, sheet->cuts.data[i]);
             kiriArchive_Expect(archive, sheet->cuts.data[i]->index == i);
             sheet->cuts.data[i]->sheet = sheet;
         }
@@ -427,11 +428,11 @@ static void MovePoints(kiriArchive* archive, kiriSheetData* sheet)
 static void MoveSeen(kiriArchive* archive, kiriSheetData* sheet)
 {
     archive->memory = &sheet->own;
-    kiriArchive_Object(archive, &SeenRecord, &sheet->seen);
+    kiriArchive_Object(archive, &SeenTable, &sheet->seen);
     archive->memory = &sheet->shown;
-    kiriArchive_Object(archive, &ShownPointsRecord, &sheet->seen);
-    kiriArchive_Object(archive, &ToldRecord, &sheet->touches);
-    kiriArchive_Object(archive, &kiriLiveSurfaceRecord, &sheet->seen.surface);
+    kiriArchive_Object(archive, &ShownPointsTable, &sheet->seen);
+    kiriArchive_Object(archive, &ToldTable, &sheet->touches);
+    kiriArchive_Object(archive, &kiriLiveSurfaceTable, &sheet->seen.surface);
     archive->memory = &sheet->own;
     if (!kiriArchive_HasFailed(archive)) {
         MoveVertices(archive, sheet);
@@ -449,19 +450,19 @@ static void MoveBounds(kiriArchive* archive, kiriBounds* bounds)
 
 static void MoveProbes(kiriArchive* archive, kiriSheetData* sheet)
 {
-    kiriArchive_Object(archive, &ProbesRecord, &sheet->probes);
+    kiriArchive_Object(archive, &ProbesTable, &sheet->probes);
     if (sheet->probes.isFresh && sheet->rest.asleep) {
-        kiriArchive_Object(archive, &ProbeSpeedsRecord, &sheet->probes);
+        kiriArchive_Object(archive, &ProbeSpeedsTable, &sheet->probes);
     }
 }
 
 void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
 {
     archive->memory = &sheet->own;
-    kiriArchive_Object(archive, &LiveSheetRecord, sheet);
+    kiriArchive_Object(archive, &LiveSheetTable, sheet);
     kiriSolver_Archive(archive, &sheet->solver, &sheet->settings.mechanics);
     if (!kiriArchive_HasFailed(archive)) {
-        kiriArchive_Object(archive, &UpdateTickRecord, sheet->update);
+        kiriArchive_Object(archive, &UpdateTickTable, sheet->update);
         kiriGrid_ArchiveGrowing(archive, &sheet->grid, &sheet->mesh);
         kiriRoom_ArchiveGrowing(archive, sheet);
         MoveSeen(archive, sheet);
@@ -469,7 +470,7 @@ void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemor
         MoveProbes(archive, sheet);
     }
     archive->memory = memory;
-    kiriArchive_Object(archive, &QueueRecord, sheet);
+    kiriArchive_Object(archive, &QueueTable, sheet);
     MoveCuts(archive, sheet);
     MoveQueue(archive, sheet);
 }

@@ -13,13 +13,13 @@ static const kiriMember SkinMembers[] = {
     KIRI_ITEMS(4, kiriSkin, spans),  KIRI_ITEMS(4, kiriSkin, weights),  KIRI_RUN(4, kiriSkin, room, room),
     KIRI_ITEMS(4, kiriSkin, staged), KIRI_ITEMS(4, kiriSkin, settling),
 };
-const kiriRecord kiriSkinRecord = KIRI_RECORD(kiriSkin, SkinMembers);
+const kiriTable kiriSkinTable = KIRI_TABLE(kiriSkin, SkinMembers);
 
 static const kiriMember PlacesMembers[] = {
     KIRI_ITEMS(4, kiriPlaces, head),
     KIRI_ITEMS(4, kiriPlaces, next),
 };
-const kiriRecord kiriPlacesRecord = KIRI_RECORD(kiriPlaces, PlacesMembers);
+const kiriTable kiriPlacesTable = KIRI_TABLE(kiriPlaces, PlacesMembers);
 
 static const kiriMember RefreshMembers[] = {
     KIRI_ITEMS(4, kiriRefresh, noted),
@@ -28,21 +28,21 @@ static const kiriMember RefreshMembers[] = {
     KIRI_RUN(4, kiriRefresh, change, sample),
     KIRI_CUSTOM(kiriRefresh, stencil, ForgetStencil),
 };
-const kiriRecord kiriRefreshRecord = KIRI_RECORD(kiriRefresh, RefreshMembers);
+const kiriTable kiriRefreshTable = KIRI_TABLE(kiriRefresh, RefreshMembers);
 
 static const kiriMember FadingMembers[] = {
     KIRI_RUN(4, kiriFading, sample, sample),
     KIRI_RUN(8, kiriFading, left, offset),
 };
-static const kiriRecord FadingRecord = KIRI_RECORD(kiriFading, FadingMembers);
+static const kiriTable FadingTable = KIRI_TABLE(kiriFading, FadingMembers);
 
 static const kiriMember FadesMembers[] = {
     KIRI_RUN(8, kiriFades, time, least),
-    KIRI_PARTS(kiriFades, fading, FadingRecord),
+    KIRI_PARTS(kiriFades, fading, FadingTable),
     KIRI_RUN(4, kiriFades, older, older),
     KIRI_RUN(8, kiriFades, jump, move),
 };
-const kiriRecord kiriFadesRecord = KIRI_RECORD(kiriFades, FadesMembers);
+const kiriTable kiriFadesTable = KIRI_TABLE(kiriFades, FadesMembers);
 
 static const kiriMember PatchesMembers[] = {
     KIRI_ITEMS(4, kiriPatches, floats),
@@ -50,7 +50,7 @@ static const kiriMember PatchesMembers[] = {
     KIRI_RUN(4, kiriPatches, count, count),
     KIRI_BOOLS(kiriPatches, isBent, areOther),
 };
-static const kiriRecord PatchesRecord = KIRI_RECORD(kiriPatches, PatchesMembers);
+static const kiriTable PatchesTable = KIRI_TABLE(kiriPatches, PatchesMembers);
 
 /* What only the work on cuts changes, and whoever takes pieces out. */
 static const kiriMember StillSurfaceMembers[] = {
@@ -62,7 +62,7 @@ static const kiriMember StillSurfaceMembers[] = {
     KIRI_ITEMS(4, kiriSurface, corners),
     KIRI_RUN(4, kiriSurface, changes, lastChange),
 };
-const kiriRecord kiriStillSurfaceRecord = KIRI_RECORD(kiriSurface, StillSurfaceMembers);
+const kiriTable kiriStillSurfaceTable = KIRI_TABLE(kiriSurface, StillSurfaceMembers);
 
 /* And what changes in any tick. Vertices and normals are made anew. */
 static const kiriMember LiveSurfaceMembers[] = {
@@ -76,8 +76,8 @@ static const kiriMember LiveSurfaceMembers[] = {
     KIRI_SPACE_OF(kiriSurface, places),
     KIRI_ITEMS(8, kiriSurface, carriers),
     KIRI_SPACE_OF(kiriSurface, bends),
-    KIRI_PART(kiriSurface, patches, PatchesRecord),
+    KIRI_PART(kiriSurface, patches, PatchesTable),
     KIRI_BOOLS(kiriSurface, isWritten, hasNormals),
     KIRI_DROPPED(kiriSurface, hasSlopes),
 };
-const kiriRecord kiriLiveSurfaceRecord = KIRI_RECORD(kiriSurface, LiveSurfaceMembers);
+const kiriTable kiriLiveSurfaceTable = KIRI_TABLE(kiriSurface, LiveSurfaceMembers);

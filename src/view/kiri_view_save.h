@@ -8,8 +8,8 @@
 
 KIRI_C_BEGIN
 
-extern const kiriRecord kiriSkinRecord, kiriPlacesRecord, kiriRefreshRecord, kiriFadesRecord;
-extern const kiriRecord kiriStillSurfaceRecord, kiriLiveSurfaceRecord;
+extern const kiriTable kiriSkinTable, kiriPlacesTable, kiriRefreshTable, kiriFadesTable;
+extern const kiriTable kiriStillSurfaceTable, kiriLiveSurfaceTable;
 
 KIRI_C_END
 

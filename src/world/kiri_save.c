@@ -14,55 +14,55 @@ static const kiriMember PairMembers[] = {
     KIRI_DROPPED(kiriTouchingPair, bodies),
     KIRI_DROPPED(kiriTouchingPair, nears),
 };
-static const kiriRecord PairRecord = KIRI_RECORD(kiriTouchingPair, PairMembers);
+static const kiriTable PairTable = KIRI_TABLE(kiriTouchingPair, PairMembers);
 
 static const kiriMember PairsMembers[] = {
-    KIRI_PARTS(kiriPairs, pairs, PairRecord), KIRI_ROOM_OF(kiriPairs, next),     KIRI_ROOM_OF(kiriPairs, found),
-    KIRI_ROOM_OF(kiriPairs, bodies),          KIRI_ROOM_OF(kiriPairs, order),    KIRI_ROOM_OF(kiriPairs, nears),
-    KIRI_ROOM_OF(kiriPairs, islands),         KIRI_ROOM_OF(kiriPairs, calms),    KIRI_ROOM_OF(kiriPairs, touches),
-    KIRI_ITEMS(8, kiriPairs, felt),           KIRI_ROOM_OF(kiriPairs, nextFelt),
+    KIRI_PARTS(kiriPairs, pairs, PairTable), KIRI_ROOM_OF(kiriPairs, next),     KIRI_ROOM_OF(kiriPairs, found),
+    KIRI_ROOM_OF(kiriPairs, bodies),         KIRI_ROOM_OF(kiriPairs, order),    KIRI_ROOM_OF(kiriPairs, nears),
+    KIRI_ROOM_OF(kiriPairs, islands),        KIRI_ROOM_OF(kiriPairs, calms),    KIRI_ROOM_OF(kiriPairs, touches),
+    KIRI_ITEMS(8, kiriPairs, felt),          KIRI_ROOM_OF(kiriPairs, nextFelt),
 };
-static const kiriRecord PairsRecord = KIRI_RECORD(kiriPairs, PairsMembers);
+static const kiriTable PairsTable = KIRI_TABLE(kiriPairs, PairsMembers);
 
 static const kiriMember LoopMembers[] = {
     KIRI_BOOLS(kiriLoop, isOpen, isPassed),
     KIRI_RUN(8, kiriLoop, start, then),
 };
-static const kiriRecord LoopRecord = KIRI_RECORD(kiriLoop, LoopMembers);
+static const kiriTable LoopTable = KIRI_TABLE(kiriLoop, LoopMembers);
 
 static const kiriMember LayerMembers[] = {
     KIRI_RUN(4, kiriLayer, sheet, cut),
     KIRI_RUN(8, kiriLayer, rest, share),
-    KIRI_PART(kiriLayer, loop, LoopRecord),
+    KIRI_PART(kiriLayer, loop, LoopTable),
 };
-static const kiriRecord LayerRecord = KIRI_RECORD(kiriLayer, LayerMembers);
+static const kiriTable LayerTable = KIRI_TABLE(kiriLayer, LayerMembers);
 
 static const kiriMember BladeDataMembers[] = {
     KIRI_RUN(4, kiriBladeData, id, sheet),
     KIRI_BOOLS(kiriBladeData, isPlaced, isPlaced),
     KIRI_RUN(8, kiriBladeData, edge, elapsed),
-    KIRI_PARTS(kiriBladeData, layers, LayerRecord),
+    KIRI_PARTS(kiriBladeData, layers, LayerTable),
 };
-static const kiriRecord BladeDataRecord = KIRI_RECORD(kiriBladeData, BladeDataMembers);
+static const kiriTable BladeDataTable = KIRI_TABLE(kiriBladeData, BladeDataMembers);
 
 /* The owner of a slot is found by its id. */
 static const kiriMember SlotMembers[] = {
     KIRI_DROPPED(kiriSlot, owner),
     KIRI_RUN(4, kiriSlot, index, generation),
 };
-static const kiriRecord SlotRecord = KIRI_RECORD(kiriSlot, SlotMembers);
+static const kiriTable SlotTable = KIRI_TABLE(kiriSlot, SlotMembers);
 
 static const kiriMember PoolMembers[] = {
     KIRI_RUN(4, kiriPool, kind, freeCount),
-    KIRI_PARTS(kiriPool, slots, SlotRecord),
+    KIRI_PARTS(kiriPool, slots, SlotTable),
 };
-static const kiriRecord PoolRecord = KIRI_RECORD(kiriPool, PoolMembers);
+static const kiriTable PoolTable = KIRI_TABLE(kiriPool, PoolMembers);
 
 static const kiriMember MovesMembers[] = {
     KIRI_ROOM_OF(kiriMoves, of),     KIRI_ROOM_OF(kiriMoves, meets), KIRI_ROOM_OF(kiriMoves, order),
     KIRI_ROOM_OF(kiriMoves, parent), KIRI_ROOM_OF(kiriMoves, heads),
 };
-static const kiriRecord MovesRecord = KIRI_RECORD(kiriMoves, MovesMembers);
+static const kiriTable MovesTable = KIRI_TABLE(kiriMoves, MovesMembers);
 
 /* Times are of this machine. */
 static const kiriMember ProfileMembers[] = {
@@ -70,7 +70,7 @@ static const kiriMember ProfileMembers[] = {
     KIRI_RUN(4, kiriProfile, cutSegments, sheetPairs),
     KIRI_RUN(8, kiriProfile, largestJump, largestFade),
 };
-static const kiriRecord ProfileRecord = KIRI_RECORD(kiriProfile, ProfileMembers);
+static const kiriTable ProfileTable = KIRI_TABLE(kiriProfile, ProfileMembers);
 
 /* Hooks stay those of the world that bytes are read into. */
 static const kiriMember WorldMembers[] = {
@@ -85,12 +85,12 @@ static const kiriMember WorldMembers[] = {
     KIRI_RUN(4, kiriWorld, budget, budget),
     KIRI_RUN(8, kiriWorld, samplesDue, ticks),
     KIRI_RUN(4, kiriWorld, turn, turn),
-    KIRI_PART(kiriWorld, sheetIds, PoolRecord),
-    KIRI_PART(kiriWorld, cutIds, PoolRecord),
-    KIRI_PART(kiriWorld, frameIds, PoolRecord),
-    KIRI_PART(kiriWorld, pinIds, PoolRecord),
-    KIRI_PART(kiriWorld, obstacleIds, PoolRecord),
-    KIRI_PART(kiriWorld, bladeIds, PoolRecord),
+    KIRI_PART(kiriWorld, sheetIds, PoolTable),
+    KIRI_PART(kiriWorld, cutIds, PoolTable),
+    KIRI_PART(kiriWorld, frameIds, PoolTable),
+    KIRI_PART(kiriWorld, pinIds, PoolTable),
+    KIRI_PART(kiriWorld, obstacleIds, PoolTable),
+    KIRI_PART(kiriWorld, bladeIds, PoolTable),
     KIRI_SPACE_OF(kiriWorld, sheets),
     KIRI_ROOM_OF(kiriWorld, active),
     KIRI_ROOM_OF(kiriWorld, atWork),
@@ -99,16 +99,16 @@ static const kiriMember WorldMembers[] = {
     KIRI_ITEMS(4, kiriWorld, obstacleOrder),
     KIRI_DROPPED(kiriWorld, obstacleSearch),
     KIRI_DROPPED(kiriWorld, searches),
-    KIRI_PART(kiriWorld, pairs, PairsRecord),
-    KIRI_PART(kiriWorld, moves, MovesRecord),
+    KIRI_PART(kiriWorld, pairs, PairsTable),
+    KIRI_PART(kiriWorld, moves, MovesTable),
     KIRI_ROOM_OF(kiriWorld, skinRanges),
     KIRI_ITEMS(4, kiriWorld, events),
-    KIRI_PART(kiriWorld, profile, ProfileRecord),
+    KIRI_PART(kiriWorld, profile, ProfileTable),
     KIRI_DROPPED(kiriWorld, stage),
     KIRI_DROPPED(kiriWorld, stageStart),
     KIRI_DROPPED(kiriWorld, errorLine),
 };
-static const kiriRecord WorldRecord = KIRI_RECORD(kiriWorld, WorldMembers);
+static const kiriTable WorldTable = KIRI_TABLE(kiriWorld, WorldMembers);
 
 /* ---- Both directions ---------------------------------------------------------------------------------------------- */
 
@@ -132,7 +132,7 @@ static const kiriMember SheetHeadMembers[] = {
     KIRI_RUN(4, SheetHead, id, unused),
     KIRI_RUN(8, SheetHead, still, live),
 };
-static const kiriRecord SheetHeadRecord = KIRI_RECORD(SheetHead, SheetHeadMembers);
+static const kiriTable SheetHeadTable = KIRI_TABLE(SheetHead, SheetHeadMembers);
 
 /* What of the base is the sheet with this id; zero where it has none. The search begins where the last one ended. */
 static SheetHead FindInBase(SaveBase* base, uint32_t id, int64_t* at)
@@ -142,7 +142,7 @@ static SheetHead FindInBase(SaveBase* base, uint32_t id, int64_t* at)
     bool isPast = false;
     while (!isPast || base->at < start) {
         kiriArchive archive = kiriArchive_Read(base->bytes + base->at, base->size - base->at, NULL);
-        kiriArchive_Object(&archive, &SheetHeadRecord, &head);
+        kiriArchive_Object(&archive, &SheetHeadTable, &head);
         int64_t left = archive.size - archive.at;
         if (archive.isBad || head.still < 0 || head.live < 0 || head.still > left || head.live > left - head.still) {
             isPast = isPast || start == base->first;
@@ -181,7 +181,7 @@ static void PatchHead(kiriArchive* archive, int64_t at, SheetHead* head)
 {
     if (archive->mode == KIRI_ARCHIVE_WRITE && !kiriArchive_HasFailed(archive)) {
         kiriArchive patch = kiriArchive_Write(archive->bytes + at, archive->at - at);
-        kiriArchive_Object(&patch, &SheetHeadRecord, head);
+        kiriArchive_Object(&patch, &SheetHeadTable, head);
     }
 }
 
@@ -189,7 +189,7 @@ static void ArchiveSheet(kiriArchive* archive, kiriWorld* world, kiriSheetData* 
 {
     int64_t start = archive->at, inBase = 0;
     SheetHead head = { sheet->id, 0, 0, 0 }, was = { 0, 0, 0, 0 };
-    kiriArchive_Object(archive, &SheetHeadRecord, &head);
+    kiriArchive_Object(archive, &SheetHeadTable, &head);
     if (base != NULL) {
         was = FindInBase(base, head.id, &inBase);
     }
@@ -227,7 +227,7 @@ static void ArchiveBlades(kiriArchive* archive, kiriWorld* world)
             archive->isShort |= world->blades.data[i] == NULL;
         }
         if (world->blades.data[i] != NULL) {
-            kiriArchive_Object(archive, &BladeDataRecord, world->blades.data[i]);
+            kiriArchive_Object(archive, &BladeDataTable, world->blades.data[i]);
         }
     }
 }
@@ -239,7 +239,7 @@ static void ArchiveWorld(kiriArchive* archive, kiriWorld* world, SaveBase* base)
     archive->memory = &world->memory;
     kiriArchive_Numbers(archive, &size, 8, 1);
     BeginPart(archive, base, HEAD_BYTES + 8, base != NULL ? base->first - HEAD_BYTES - 8 : 0);
-    kiriArchive_Object(archive, &WorldRecord, world);
+    kiriArchive_Object(archive, &WorldTable, world);
     for (int32_t i = 0; i < world->obstacles.count && !kiriArchive_HasFailed(archive); ++i) {
         kiriObstacle_Archive(archive, &world->obstacles.data[i], &world->memory);
     }
@@ -305,7 +305,7 @@ static const kiriMember SaveHeadMembers[] = {
     KIRI_RUN(4, SaveHead, version, library),
     KIRI_RUN(8, SaveHead, size, base),
 };
-static const kiriRecord SaveHeadRecord = KIRI_RECORD(SaveHead, SaveHeadMembers);
+static const kiriTable SaveHeadTable = KIRI_TABLE(SaveHead, SaveHeadMembers);
 
 static uint64_t WordAt(const uint8_t* bytes, int64_t count)
 {
@@ -335,7 +335,7 @@ static kiriWorld* Unlocked(const kiriWorld* world)
 static const char* FaultOfHead(const uint8_t* bytes, int64_t size, const char magic[8], SaveHead* head)
 {
     kiriArchive archive = kiriArchive_Read(bytes, size, NULL);
-    kiriArchive_Object(&archive, &SaveHeadRecord, head);
+    kiriArchive_Object(&archive, &SaveHeadTable, head);
     if (archive.isBad || memcmp(head->magic, magic, sizeof(head->magic)) != 0) {
         return magic == saveMagic ? "these bytes are no save of kiriWorld_Save"
                                   : "these bytes are no difference of kiriWorld_SaveDifference";
@@ -378,14 +378,14 @@ static bool WriteWorld(const kiriWorld* world, SaveBase* base, uint8_t* bytes, i
     kiriArchive archive = kiriArchive_Write(bytes, capacity);
     SaveHead head = { { 0 }, SAVE_VERSION, KIRI_VERSION, 0, base != NULL ? base->sum : 0 };
     memcpy(head.magic, base != NULL ? differenceMagic : saveMagic, sizeof(head.magic));
-    kiriArchive_Object(&archive, &SaveHeadRecord, &head);
+    kiriArchive_Object(&archive, &SaveHeadTable, &head);
     ArchiveWorld(&archive, Unlocked(world), base);
     head.size = archive.at + SUM_BYTES;
     if (archive.isBad || head.size > capacity) {
         return false;
     }
     kiriArchive again = kiriArchive_Write(bytes, HEAD_BYTES);
-    kiriArchive_Object(&again, &SaveHeadRecord, &head);
+    kiriArchive_Object(&again, &SaveHeadTable, &head);
     uint64_t sum = SumBytes(bytes, archive.at);
     kiriArchive_Numbers(&archive, &sum, 8, 1);
     *size = archive.at;
