@@ -28,7 +28,7 @@
 
 /* Of this header; kiriGetVersion has that of the library. */
 #define KIRI_VERSION_MAJOR 0
-#define KIRI_VERSION_MINOR 6
+#define KIRI_VERSION_MINOR 7
 #define KIRI_VERSION_PATCH 0
 #define KIRI_VERSION (10000 * KIRI_VERSION_MAJOR + 100 * KIRI_VERSION_MINOR + KIRI_VERSION_PATCH)
 
@@ -232,7 +232,8 @@ KIRI_API kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t 
 /* The world becomes what was saved, from a world with whatever hooks; its own stay: allocation, log, clock and tasks. The
    profile has no times until the next tick. What it had before is gone, but arrays that it handed out live until the
    next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this library does not
-   read. KIRI_ERROR_MEMORY. Then nothing has changed. A recording has the bytes, up to 2^31 of them. */
+   read. KIRI_ERROR_MEMORY. Then nothing has changed. The sum in a save finds damage, not malice: load no save that somebody
+   may have made to do harm. A recording has the bytes, up to 2^31 of them. */
 KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
 
 /* What has changed since a save, for hosts that go back a little: a save now and then, and a difference to it each tick.
