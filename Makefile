@@ -9,6 +9,7 @@
 #   make analyze  gcc's analyzer, cppcheck and clang-tidy over src; deps-analyze: installs these; valgrind: a few tests
 #   make scarce   refuses each request for memory of the scenes once
 #   make tsan     runs the tests with threads under the thread sanitizer
+#   make coverage says which part of the lines of each file the tests run
 #   make lib      build/<config>/libkiri.a and libkiri.so
 #   make single   build/single: the library as kiri.h, kiri.c and kiri.cpp, to add to any build
 #   make install  library, header and packages of pkg-config and CMake; PREFIX=, DESTDIR=, libdir=; make uninstall
@@ -24,7 +25,7 @@
 #   make format   clang-format over all sources
 #   make clean    removes build/
 #
-#   config=release|debug|sanitize|thread   default release
+#   config=release|debug|sanitize|thread|coverage|fuzz   default release
 #   SCENE=name ARGS='--size 1280x960'   for run; ARGS=--help lists them
 
 config ?= release
@@ -66,8 +67,9 @@ FLAGS_sanitize := -O1 -g -DKIRI_ASSERTS -fsanitize=address,undefined -fno-saniti
 FLAGS_fuzz := -O1 -g -DKIRI_ASSERTS -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all \
               -fno-sanitize=pointer-overflow
 FLAGS_thread := -O2 -g -DKIRI_ASSERTS -fsanitize=thread
+FLAGS_coverage := -Og --coverage -DNDEBUG
 ifeq ($(FLAGS_$(config)),)
-$(error config is release, debug, sanitize, thread or fuzz, not '$(config)')
+$(error config is release, debug, sanitize, thread, coverage or fuzz, not '$(config)')
 endif
 FLAGS += $(FLAGS_$(config))
 
@@ -200,6 +202,12 @@ valgrind: packages-bench
 tsan: packages-tsan
 	@$(MAKE) --no-print-directory config=thread run-test_tasks run-test_readers
 
+# Counts from runs of older objects would be refused, or added.
+coverage: packages-test
+	@mkdir -p build/coverage && find build/coverage -name '*.gcda' -delete
+	@$(MAKE) --no-print-directory config=coverage run-tests
+	@sh tests/coverage.sh build/coverage 95
+
 bench: packages-bench
 	@$(MAKE) --no-print-directory $(BENCHES)
 	@set -e; for bench in $(BENCHES); do $$bench; done
@@ -254,7 +262,9 @@ guide: packages-guide
 # Each test program by itself, so that -j runs several at a time. What it printed is beside it, and shown when it fails.
 TEST_RUNS := $(patsubst $(BUILD)/tests/%,run-%,$(TESTS))
 
-.PHONY: $(TEST_RUNS)
+.PHONY: $(TEST_RUNS) run-tests coverage
+
+run-tests: $(TEST_RUNS)
 
 $(TEST_RUNS): run-%: $(BUILD)/tests/%
 	@if $< > $<.log 2>&1; then echo "== $<"; grep '^\[  PASSED' $<.log; \
