@@ -1,0 +1,207 @@
+/* What it takes to save a world and to go back: whole, and as the difference to a save of up to a second before, as a game
+   does that keeps every tick of some seconds. The scenes, and a crowd of sheets of which one is cut now and then. */
+#define _POSIX_C_SOURCE 199309L
+
+#include "../samples/scene.h"
+#include "bench.h"
+
+enum { TICKS = 360, BASE_TICKS = 60, LOAD_TICKS = 30, CROWD = 100, CROWD_SQUARES = 16 };
+
+/* Bytes of the host. */
+typedef struct Bytes {
+    uint8_t* data;
+    int64_t size, capacity;
+} Bytes;
+
+typedef struct Sizes {
+    Bytes base, difference;
+    kiriWorld* other;                      /* that it is loaded into */
+    Series tick, save, load, change, back; /* ms: of a tick; of the world; of differences */
+    Series full, calm, cut;                /* KB: saves; differences without a cut since the base, and with */
+    bool isCut;                            /* a cut took effect since the base */
+} Sizes;
+
+static void Fail(const char* what)
+{
+    fprintf(stderr, "bench_save: %s\n", what);
+    exit(1);
+}
+
+static void Bytes_Reserve(Bytes* bytes, int64_t size)
+{
+    if (size > bytes->capacity) {
+        bytes->capacity = 2 * size;
+        bytes->data = realloc(bytes->data, (size_t)bytes->capacity);
+        if (bytes->data == NULL) {
+            Fail("no memory");
+        }
+    }
+}
+
+static double Since(double start)
+{
+    return 1e3 * (Bench_Clock(NULL) - start);
+}
+
+/* Room for both is there before: a game keeps its buffers. */
+static void SaveBase(Sizes* sizes, const kiriWorld* world)
+{
+    if (kiriWorld_Save(world, NULL, 0, &sizes->base.size) != KIRI_OK) {
+        Fail("no save");
+    }
+    Bytes_Reserve(&sizes->base, sizes->base.size);
+    Bytes_Reserve(&sizes->difference, 2 * sizes->base.size + 4096);
+    double start = Bench_Clock(NULL);
+    kiriWorld_Save(world, sizes->base.data, sizes->base.capacity, &sizes->base.size);
+    Series_Add(&sizes->save, Since(start));
+    Series_Add(&sizes->full, 1e-3 * (double)sizes->base.size);
+    sizes->isCut = false;
+}
+
+static void SaveChange(Sizes* sizes, const kiriWorld* world)
+{
+    kiriProfile profile;
+    kiriWorld_GetProfile(world, &profile);
+    sizes->isCut = sizes->isCut || profile.commits > 0 || profile.trianglesSplit > 0 || profile.cellsSettled > 0;
+    double start = Bench_Clock(NULL);
+    if (kiriWorld_SaveDifference(world, sizes->base.data, sizes->base.size, sizes->difference.data,
+                                 sizes->difference.capacity, &sizes->difference.size) != KIRI_OK) {
+        Fail("no difference");
+    }
+    Series_Add(&sizes->change, Since(start));
+    Series_Add(sizes->isCut ? &sizes->cut : &sizes->calm, 1e-3 * (double)sizes->difference.size);
+}
+
+/* Both ways back lead to the same state. */
+static void GoBack(Sizes* sizes, const kiriWorld* world)
+{
+    uint64_t is, was;
+    double start = Bench_Clock(NULL);
+    kiriResult result = kiriWorld_Load(sizes->other, sizes->base.data, sizes->base.size);
+    Series_Add(&sizes->load, Since(start));
+    start = Bench_Clock(NULL);
+    if (result == KIRI_OK) {
+        result = kiriWorld_LoadDifference(sizes->other, sizes->base.data, sizes->base.size, sizes->difference.data,
+                                          sizes->difference.size);
+    }
+    Series_Add(&sizes->back, Since(start));
+    kiriWorld_GetStateHash(world, &is);
+    kiriWorld_GetStateHash(sizes->other, &was);
+    if (result != KIRI_OK || is != was) {
+        Fail("the way back leads elsewhere");
+    }
+}
+
+static void AfterTick(Sizes* sizes, const kiriWorld* world, int32_t tick, double milliseconds)
+{
+    Series_Add(&sizes->tick, milliseconds);
+    if (tick % BASE_TICKS == 0) {
+        SaveBase(sizes, world);
+        return;
+    }
+    SaveChange(sizes, world);
+    if (tick % LOAD_TICKS == LOAD_TICKS - 1) {
+        GoBack(sizes, world);
+    }
+}
+
+static void PlayScene(Sizes* sizes, const SceneType* type)
+{
+    static Scene scene;
+    const SceneOptions options = { 0 };
+    kiriWorldDef def = Bench_WorldDef();
+    if (!Scene_Start(&scene, type, &def, &options)) {
+        Fail(type->name);
+    }
+    for (int32_t tick = 0; tick < type->ticks && tick < TICKS; tick++) {
+        double start = Bench_Clock(NULL);
+        Scene_Tick(&scene);
+        AfterTick(sizes, scene.world, tick, Since(start));
+    }
+    Scene_Stop(&scene);
+}
+
+static void PlayCrowd(Sizes* sizes)
+{
+    kiriWorldDef worldDef = Bench_WorldDef();
+    kiriWorld* world = NULL;
+    kiriSheet sheets[CROWD];
+    bool fine = kiriCreateWorld(&worldDef, &world) == KIRI_OK;
+    for (int32_t i = 0; fine && i < CROWD; i++) {
+        kiriSheetDef def;
+        kiriDefaultSheetDef(&def);
+        def.position[1] = 2.0f * (float)i;
+        def.gridResolution = CROWD_SQUARES;
+        fine = Bench_AddSheet(world, &def, CROWD_SQUARES, &sheets[i]);
+    }
+    for (int32_t tick = 0; fine && tick < TICKS / 3; tick++) {
+        const float way[4] = { 0.3f, -0.1f, 0.4f, 0.7f };
+        kiriCut cut;
+        if (tick % BASE_TICKS == BASE_TICKS / 2) {
+            fine = kiriBeginCut(world, sheets[tick % CROWD], way, &cut) == KIRI_OK &&
+                   kiriCut_Extend(world, cut, way + 2, 1) == KIRI_OK && kiriCut_End(world, cut) == KIRI_OK;
+        }
+        double start = Bench_Clock(NULL);
+        fine = fine && kiriWorld_Tick(world, 1.0f / 60.0f, 2) >= 0;
+        AfterTick(sizes, world, tick, Since(start));
+    }
+    kiriDestroyWorld(world);
+    if (!fine) {
+        Fail("the crowd");
+    }
+}
+
+static void Print(Table* table, const char* name, Sizes* sizes)
+{
+    Table_Text(table, name);
+    Series* numbers[] = { &sizes->tick, &sizes->full, &sizes->save,   &sizes->load,
+                          &sizes->calm, &sizes->cut,  &sizes->change, &sizes->back };
+    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+        Table_Number(table, Series_Median(numbers[k]));
+        Series_Free(numbers[k]);
+    }
+    kiriDestroyWorld(sizes->other);
+    free(sizes->base.data);
+    free(sizes->difference.data);
+}
+
+/* A world for the way back. */
+static Sizes Start(void)
+{
+    Sizes sizes;
+    memset(&sizes, 0, sizeof sizes);
+    kiriWorldDef def = Bench_WorldDef();
+    if (kiriCreateWorld(&def, &sizes.other) != KIRI_OK) {
+        Fail("no world");
+    }
+    return sizes;
+}
+
+/* bench_save NAME: that scene alone, or "crowd". */
+int main(int count, char** names)
+{
+    static const char* const scenes[] = { "spiral", "kirigami", "patchwork", "vortex", "fallingguy", "bunny" };
+    static const char* const columns[] = { "scene",   "tick ms", "full KB",       "save ms", "load ms",
+                                           "calm KB", "cut KB",  "difference ms", "back ms", NULL };
+    Table table;
+    Bench_WeighClock();
+    if (!Table_Start(&table, "save",
+                     "Saves, and differences to a save of the last second: medians. calm: no cut since that save",
+                     columns)) {
+        return 1;
+    }
+    for (size_t i = 0; i <= sizeof scenes / sizeof scenes[0]; i++) {
+        const char* name = i < sizeof scenes / sizeof scenes[0] ? scenes[i] : "crowd";
+        if (count > 1 && strcmp(names[1], name) != 0) {
+            continue;
+        }
+        Sizes sizes = Start();
+        if (strcmp(name, "crowd") == 0) {
+            PlayCrowd(&sizes);
+        } else {
+            PlayScene(&sizes, Scene_FindType(name));
+        }
+        Print(&table, name, &sizes);
+    }
+    return Table_Stop(&table) ? 0 : 1;
+}
