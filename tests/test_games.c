@@ -212,6 +212,71 @@ static void TestCallsAreRecorded(void** state)
     kiriDestroyWorld(world);
 }
 
+static uint64_t HashOf(const Play* play)
+{
+    GameStatus status;
+    play->type->getStatus(play->game, &status);
+    return status.hash;
+}
+
+static bool IsCut(const GameEvent* event)
+{
+    return event->type == GAME_DOWN && event->button == GAME_LEFT;
+}
+
+/* Plays until the tick; returns the hash before the first cut. */
+static uint64_t PlayUntil(Play* play, const Recorded* recorded, int32_t tick, int32_t delay)
+{
+    uint64_t before = 0;
+    int32_t next = 0;
+    for (int32_t i = 0; i < tick; i++) {
+        for (; next < recorded->count && recorded->events[next].tick == i; next++) {
+            GameEvent event = recorded->events[next];
+            before = before == 0 && IsCut(&event) ? HashOf(play) : before;
+            event.tick += delay;
+            assert_true(Play_Send(play, &event));
+        }
+        assert_true(Play_Tick(play));
+    }
+    return before;
+}
+
+/* A cut that is taken back was never there: what follows goes as it did. */
+static void TestCutsAreTakenBack(void** state)
+{
+    (void)state;
+    static Recorded recorded;
+    static Play play;
+    PlayDemo(&curtainGame, 5, RECORD_TICKS, &recorded);
+    int32_t first = 0;
+    while (first < recorded.count && !IsCut(&recorded.events[first])) {
+        first++;
+    }
+    assert_true(first < recorded.count);
+    int32_t tick = recorded.events[first].tick, more = 200;
+    assert_true(Play_Start(&play, &curtainGame, 5));
+    uint64_t before = PlayUntil(&play, &recorded, tick + more, 0), after = HashOf(&play);
+    const GameEvent undo = { tick + more, GAME_KEY_PRESSED, 0, 0, 0, 0, 'z' };
+    assert_true(after != before);
+    for (int32_t k = 0; k < 8 && HashOf(&play) != before; k++) {
+        assert_true(Play_Send(&play, &undo));
+    }
+    assert_true(HashOf(&play) == before);
+    assert_true(Play_Send(&play, &undo)); /* there is no more to take back */
+    assert_true(HashOf(&play) == before);
+    for (int32_t i = tick, next = first; i < RECORD_TICKS; i++) {
+        for (; next < recorded.count && recorded.events[next].tick == i; next++) {
+            GameEvent event = recorded.events[next];
+            event.tick += more;
+            assert_true(Play_Send(&play, &event));
+        }
+        assert_true(Play_Tick(&play));
+    }
+    assert_true(HashOf(&play) == recorded.end.hash);
+    Play_Stop(&play);
+    assert_int_equal(play.bytes, 0);
+}
+
 static void TestCurtainIsWon(void** state)
 {
     (void)state;
@@ -229,7 +294,7 @@ int main(int count, char** words)
         cmocka_unit_test(TestScriptKeepsEvents),       cmocka_unit_test(TestScriptRefusesNonsense),
         cmocka_unit_test(TestRaysMeetWhatIsSeenThere), cmocka_unit_test(TestSoundsAreHeardAndEnd),
         cmocka_unit_test(TestCurtainIsReplayed),       cmocka_unit_test(TestCurtainIsWon),
-        cmocka_unit_test(TestCallsAreRecorded),
+        cmocka_unit_test(TestCallsAreRecorded),        cmocka_unit_test(TestCutsAreTakenBack),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     remove(filePath);

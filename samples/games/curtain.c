@@ -195,6 +195,7 @@ static void Curtain_Stop(void* game)
     for (int32_t i = 0; i < MAX_CLOTHS; i++) {
         DropCloth(curtain, &curtain->cloths[i]);
     }
+    Curtain_Forget(curtain);
     kiriDestroyWorld(curtain->world);
     free(curtain);
 }
@@ -295,7 +296,10 @@ static void PointerDown(Curtain* curtain, const GameEvent* event, const float or
     Pointer* pointer = &curtain->pointers[event->pointer];
     if (event->button == GAME_RIGHT) {
         Grab(curtain, event->pointer, origin, direction);
-    } else if (kiriBeginBlade(curtain->world, 0, &pointer->blade) == KIRI_OK) {
+        return;
+    }
+    Curtain_Keep(curtain);
+    if (kiriBeginBlade(curtain->world, 0, &pointer->blade) == KIRI_OK) {
         kiriBlade_MoveRay(curtain->world, pointer->blade, origin, direction, 20.0f);
         pointer->trailCount = 0;
     }
@@ -350,6 +354,8 @@ static void Key(Curtain* curtain, const GameEvent* event)
         curtain->basketSpeed = pressed ? way * basketPace : 0.0f;
     } else if (event->key == ' ' && pressed) {
         KeepHands(curtain);
+    } else if (event->key == 'z' && pressed) {
+        Curtain_Undo(curtain);
     }
 }
 
@@ -680,6 +686,7 @@ static void MakeSounds(Curtain* curtain)
     kiriObstacleState bottom;
     kiriWorld_GetProfile(curtain->world, &profile);
     if (profile.cutSegments > 0) {
+        curtain->hasCut = true;
         Sounds_Play(curtain->host.sounds, SOUND_CUT, 0.7f);
     }
     if (kiriObstacle_GetState(curtain->world, curtain->basket[0], &bottom) == KIRI_OK) {
