@@ -486,7 +486,7 @@ typedef struct kiriSheetDef {
     int32_t touchesSheets;
 
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
-    int32_t iterations;      /* Newton steps a substep, 1 to 64; default 2 */
+    int32_t iterations; /* Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the README */
 
     /* A piece all of whose frames move slower than this (m/s, rms over the material of each) for half a second falls
        asleep: it rests, and costs next to nothing. What is new to it wakes it: a cut that changes it, when that takes
