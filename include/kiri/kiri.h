@@ -237,7 +237,8 @@ KIRI_API kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t 
 KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
 
 /* What has changed since a save, for hosts that go back a little: a save now and then, and a difference to it each tick.
-   Where no cut is being worked on it has poses, velocities and contacts, a few kilobytes a sheet; a cut adds what it changed.
+   Where no cut is being worked on it has poses, velocities and contacts; a cut adds what it changed. All of the world is
+   compared with the base, so it takes about as long as a save (tests/README.md has sizes and times).
    base: what kiriWorld_Save wrote of this world, or what it was loaded from, with all calls since. *size and `bytes` as
    in kiriWorld_Save; where capacity is not enough, what is in `bytes` means nothing. KIRI_ERROR_DATA: base is no save.
    Only reads the world. */
