@@ -12,6 +12,7 @@
 #   make coverage says which part of the lines of each file the tests run
 #   make lib      build/<config>/libkiri.a and libkiri.so
 #   make single   build/single: the library as kiri.h, kiri.c and kiri.cpp, to add to any build
+#   make bindings makes kiri.json, and what each language has of it, from the header
 #   make install  library, header and packages of pkg-config and CMake; PREFIX=, DESTDIR=, libdir=; make uninstall
 #   make abi      compares the binary interface with the last version's
 #   make bench    runs the benchmarks
@@ -114,6 +115,8 @@ PLAY := $(BUILD)/samples/kiri-play
 # Debian's own python has Debian's python3-cffi.
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 PYTHON_CHECK := $(if $(filter sanitize thread,$(config)),,python)
+# What is made from the header, once.
+DESCRIBED_CHECK := $(if $(filter release,$(config)),described)
 # Tests of the Makefile itself, and of what it installs: once.
 BUILD_CHECK := $(if $(filter release,$(config)),builds consumers)
 
@@ -126,7 +129,7 @@ TO_LINK := $(BUILD)/link.txt Makefile
 
 include bindings/install.mk
 
-.PHONY: all run box2d play python builds lib single example bench accuracy contact extremes gallery guide deps
+.PHONY: all run box2d play python bindings described builds lib single example bench accuracy contact extremes gallery guide deps
 .PHONY: test fuzz scarce long analyze deps-analyze valgrind tsan check floors fields headers format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
@@ -279,12 +282,20 @@ $(FUZZ_RUNS): run-fuzz_%: $(BUILD)/tests/fuzz_%
 	@if $< tests/data/fuzz/$* > $<.log 2>&1; then echo "== $<"; tail -n 1 $<.log; \
 	else echo "== $< FAILED"; tail -n 20 $<.log; exit 1; fi
 
-check: $(TEST_RUNS) $(FUZZ_RUNS) $(RUN) $(BOX2D) $(PLAY) floors fields headers float-guards exports example $(PYTHON_CHECK) $(BUILD_CHECK)
+check: $(TEST_RUNS) $(FUZZ_RUNS) $(RUN) $(BOX2D) $(PLAY) floors fields headers float-guards exports example $(PYTHON_CHECK) $(DESCRIBED_CHECK) $(BUILD_CHECK)
 	@echo "all tests passed ($(config))"
 
 python: $(BUILD)/libkiri.so
 	@if ! $(PYTHON) -c 'import cffi' 2>/dev/null; then echo "python: no cffi, binding not tested"; exit 0; fi; \
 	echo "== tests/test_python.py"; KIRI_LIBRARY=$< $(PYTHON) tests/test_python.py
+
+bindings:
+	@$(PYTHON) bindings/generator
+
+# It is fresh, complete, and the compiler's layout of structs is that of the description; emcc's too where it is there.
+described: $(BUILD)/libkiri.so
+	@$(PYTHON) bindings/generator --check
+	@CC='$(CC)' $(PYTHON) tests/test_description.py $<
 
 builds: lib $(RUN)
 	@sh tests/test_build.sh

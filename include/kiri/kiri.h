@@ -124,6 +124,7 @@ typedef struct kiriBudget {
 
 enum kiriBudgetLimit { KIRI_LEAST_TRIANGLES = 16 };
 
+/* Of a world: gravity, budget, and the host's functions. */
 typedef struct kiriWorldDef {
     uint32_t cookie;
     float gravity[3];   /* m/s^2; default (0, 0, -9.81) */
@@ -143,6 +144,7 @@ typedef struct kiriWorldDef {
         recordHashTicks; /* the recording has the state hash after so many ticks, and at the end; 0: never. Default 60 */
 } kiriWorldDef;
 
+/* Fills the def with its defaults, and stamps it. */
 KIRI_API void kiriDefaultWorldDef(kiriWorldDef* def);
 
 /* Makes an empty world. On failure *world is null. KIRI_ERROR_BUILD: the compiler has contracted products and sums to fused
@@ -168,6 +170,7 @@ KIRI_API kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps)
    reads leaves it as it is, and gives its line to the log. Valid until the next function that changes the world. */
 KIRI_API const char* kiriWorld_GetLastError(const kiriWorld* world);
 
+/* m/s^2. All pieces wake. */
 KIRI_API kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
 
 /* Takes effect with the next tick. */
@@ -191,10 +194,10 @@ KIRI_API kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheet
    memory, and a fraction of the time of the calls; a tick takes 8 bytes, a point of a cut 8, a mesh 8 for each vertex
    and 3 to 6 for each triangle. */
 
-/* Puts some bytes of the host's own (1 to KIRI_MOST_NOTE_BYTES) in the recording, where a replay finds them: what its camera
-   saw, what a player pressed. The world does not change; without a recording nothing happens. */
 enum kiriNoteLimit { KIRI_MOST_NOTE_BYTES = 1 << 20 };
 
+/* Puts some bytes of the host's own (1 to KIRI_MOST_NOTE_BYTES) in the recording, where a replay finds them: what its camera
+   saw, what a player pressed. The world does not change; without a recording nothing happens. */
 KIRI_API kiriResult kiriWorld_Note(kiriWorld* world, const void* bytes, int32_t count);
 
 /* How far a replay has come: all zero at its start. */
@@ -264,6 +267,7 @@ enum kiriEventType {
         7 /* sheet (the new one), frame, area: what kiriFrame_DetachPiece left waiting is done */
 };
 
+/* Of the fields after `sheet` an event has those that its type names; the others are 0, `stage` is -1. */
 typedef struct kiriEvent {
     int32_t type; /* KIRI_EVENT_... */
     kiriSheet sheet;
@@ -293,6 +297,7 @@ enum kiriStage {
     KIRI_STAGE_COUNT
 };
 
+/* What the last tick did, and what it took. */
 typedef struct kiriProfile {
     double seconds[KIRI_STAGE_COUNT]; /* of the last tick; zero without a clock */
     int32_t cutSegments;              /* blade segments that took effect */
@@ -315,6 +320,7 @@ typedef struct kiriProfile {
     double largestJump, largestFade;
 } kiriProfile;
 
+/* Of the last tick that was not refused. */
 KIRI_API kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile);
 
 /* For hosts that would rather think in time than in items: the budget whose work would have taken so many microseconds
@@ -328,6 +334,7 @@ KIRI_API const char* kiriGetStageName(int32_t stage);
 
 /* ---- Sheet ------------------------------------------------------------------------------------------------------ */
 
+/* What a sheet is made of: homogeneous, isotropic. */
 typedef struct kiriMaterial {
     float youngsModulus; /* Pa, above 0 */
     float poissonsRatio; /* 0 to below 0.5 */
@@ -346,6 +353,7 @@ enum kiriMaterialPreset {
     KIRI_MATERIAL_COUNT
 };
 
+/* The numbers of a preset, KIRI_MATERIAL_... */
 KIRI_API kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
 
 /* How much work for how much accuracy. The presets are measured (`make accuracy`; tests/sweep.h has the scenes) on a strip
@@ -364,6 +372,7 @@ typedef struct kiriQuality {
 
 enum kiriQualityPreset { KIRI_QUALITY_FAST, KIRI_QUALITY_BALANCED, KIRI_QUALITY_ACCURATE, KIRI_QUALITY_COUNT };
 
+/* The numbers of a preset, KIRI_QUALITY_... */
 KIRI_API kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality);
 
 /* How a sheet deforms. */
@@ -424,6 +433,7 @@ typedef struct kiriPaperOptions {
     int32_t integrationOrder;  /* 1 or 2 */
 } kiriPaperOptions;
 
+/* Of a sheet: its rest shape, where it starts, its material, and how it is computed. */
 typedef struct kiriSheetDef {
     uint32_t cookie;
 
@@ -520,9 +530,13 @@ typedef struct kiriSheetDef {
     kiriPaperOptions paper; /* default: none of the paper's own ways */
 } kiriSheetDef;
 
+/* Fills the def with its defaults, and stamps it. It has no mesh yet. */
 KIRI_API void kiriDefaultSheetDef(kiriSheetDef* def);
 
+/* Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles are no sheet; the line says which one and why. */
 KIRI_API kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet);
+
+/* The sheet is gone, with its cuts, frames and pins; their ids are stale. */
 KIRI_API kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
 
 /* What of the def may be changed while the sheet lives, as there. kiriSheet_GetSettings stamps it. */
@@ -541,6 +555,7 @@ typedef struct kiriSheetSettings {
     int32_t normals;
 } kiriSheetSettings;
 
+/* What they are now, stamped for kiriSheet_SetSettings. */
 KIRI_API kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet sheet, kiriSheetSettings* settings);
 
 /* Checked as the def is: all or nothing. KIRI_ERROR_DEF: they did not come from GetSettings. The sheet wakes where one is
@@ -569,14 +584,16 @@ typedef struct kiriMesh {
     uint32_t revision;
 } kiriMesh;
 
+/* The arrays, without a copy. */
 KIRI_API kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* mesh);
 
-/* What has changed in the mesh, for hosts that keep a copy of it, on a GPU say. Positions and normals change with every
-   tick; all else of a vertex, and the corners of a triangle, only in these ranges. */
+/* So many items from the first on. */
 typedef struct kiriRange {
     int32_t first, count;
 } kiriRange;
 
+/* What has changed in the mesh, for hosts that keep a copy of it, on a GPU say. Positions and normals change with every
+   tick; all else of a vertex, and the corners of a triangle, only in these ranges. */
 typedef struct kiriDirty {
     kiriRange newVertices, newTriangles; /* up to the last one of the mesh */
     kiriRange oldVertices, oldTriangles; /* the least ranges that hold all older ones with other data */
@@ -619,10 +636,12 @@ KIRI_API kiriResult kiriSheet_GetSolid(kiriWorld* world, kiriSheet sheet, float 
 KIRI_API kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet, const float** positions,
                                                  int32_t* count);
 
+/* How many there are of each. */
 typedef struct kiriCounts {
     int32_t vertices, triangles, cells, frames, links, pieces, collisionPoints;
 } kiriCounts;
 
+/* Costs nothing. */
 KIRI_API kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCounts* counts);
 
 /* Area (m^2), mass (kg), kinetic energy and elastic energy (J), linear and angular momentum about the world's origin
@@ -632,6 +651,7 @@ typedef struct kiriTotals {
     double center[3], momentum[3], angularMomentum[3];
 } kiriTotals;
 
+/* Sums over the frames, made when they are asked for. */
 KIRI_API kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet, kiriTotals* totals);
 
 /* An estimate of the error of the sheet's shape as it is now, where it rests or moves slowly: rms distance from where a
@@ -673,9 +693,7 @@ KIRI_API kiriResult kiriPin_GetUserData(const kiriWorld* world, kiriPin pin, uin
 KIRI_API kiriResult kiriFrame_SetPieceUserData(kiriWorld* world, kiriFrame frame, uint64_t data);
 KIRI_API kiriResult kiriFrame_GetPieceUserData(const kiriWorld* world, kiriFrame frame, uint64_t* data);
 
-/* Where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: nowhere. The first ray looks at
-   every triangle; the next tick makes boxes over them, and as long as somebody asks every now and then (in 120 ticks)
-   they follow the sheet: a ray takes some microseconds, and a tick of a large sheet a quarter more. */
+/* What a ray meets. */
 typedef struct kiriHit {
     float restPoint[2]; /* where to cut */
     float position[3];
@@ -684,6 +702,9 @@ typedef struct kiriHit {
     int32_t triangle;
 } kiriHit;
 
+/* Where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: nowhere. The first ray looks at
+   every triangle; the next tick makes boxes over them, and as long as somebody asks every now and then (in 120 ticks)
+   they follow the sheet: a ray takes some microseconds, and a tick of a large sheet a quarter more. */
 KIRI_API kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, const float origin[3],
                                       const float direction[3], float maxDistance, kiriHit* hit);
 
@@ -831,6 +852,7 @@ KIRI_API kiriResult kiriBlade_End(kiriWorld* world, kiriBlade blade);
 
 /* ---- Frame ------------------------------------------------------------------------------------------------------ */
 
+/* Pose, motion and region of a frame. */
 typedef struct kiriFrameState {
     float restPoint[2];
     float position[3];        /* of the rest point */
@@ -847,6 +869,7 @@ typedef struct kiriFrameState {
 KIRI_API kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFrame* frames, int32_t capacity,
                                         int32_t* count);
 
+/* Pose, motion and region as they are now. */
 KIRI_API kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state);
 
 /* The host moves the frame: its rest point, as it is seen, goes to `position` with `rotation` (a rotation matrix, columns
@@ -901,6 +924,7 @@ typedef struct kiriWind {
                           the sheet, 0.01 or so of a smooth one */
 } kiriWind;
 
+/* Copied; it blows until the next call. */
 KIRI_API kiriResult kiriSheet_SetWind(kiriWorld* world, kiriSheet sheet, const kiriWind* wind);
 
 /* ---- Pin -------------------------------------------------------------------------------------------------------- */
@@ -917,7 +941,10 @@ typedef struct kiriPinDef {
                               mass yields to it within the tick. When it is destroyed the target stays where it was */
 } kiriPinDef;
 
+/* Fills the def with its defaults, and stamps it. */
 KIRI_API void kiriDefaultPinDef(kiriPinDef* def);
+
+/* Pins a point of the sheet. On failure *pin is 0. A point outside the sheet: KIRI_ERROR_ARGUMENT. */
 KIRI_API kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* def, kiriPin* pin);
 
 /* Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp holds place and direction of
@@ -945,9 +972,10 @@ KIRI_API kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float t
 /* As in the def, for pins of all types; N, 0: it never breaks. */
 KIRI_API kiriResult kiriPin_SetBreakForce(kiriWorld* world, kiriPin pin, float breakForce);
 
-/* What a pin is, and what it did in the last tick. */
+/* What a pin holds. */
 enum kiriPinType { KIRI_PIN_POINT, KIRI_PIN_HINGE, KIRI_PIN_CLAMP };
 
+/* What a pin is, and where it holds. */
 typedef struct kiriPinState {
     int32_t type; /* KIRI_PIN_... */
     kiriSheet sheet;
@@ -958,6 +986,7 @@ typedef struct kiriPinState {
     kiriObstacle obstacle; /* that it goes with, or 0 */
 } kiriPinState;
 
+/* What it is, and where it holds now. */
 KIRI_API kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* state);
 
 /* With what the pin acted on the sheet: force (N, world) and torque (N m) about its target; means over the last tick,
@@ -970,6 +999,7 @@ KIRI_API kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, dou
 KIRI_API kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* pins, int32_t capacity,
                                       int32_t* count);
 
+/* It lets go; its id is stale. */
 KIRI_API kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
 
 /* A point of the material that touches something: the plane dot(normal, x) = offset keeps it on its upper side, with as
@@ -1027,6 +1057,7 @@ enum kiriObstacleType {
                                0: without end */
 };
 
+/* Of an obstacle: its shape, where it is, its motion, and its mass. */
 typedef struct kiriObstacleDef {
     uint32_t cookie;
     int32_t type;             /* KIRI_OBSTACLE_... */
@@ -1050,8 +1081,13 @@ typedef struct kiriObstacleDef {
     uint32_t groups;       /* see the sheet def. Default: all */
 } kiriObstacleDef;
 
+/* Fills the def with its defaults, and stamps it. */
 KIRI_API void kiriDefaultObstacleDef(kiriObstacleDef* def);
+
+/* Adds an obstacle. On failure *obstacle is 0. */
 KIRI_API kiriResult kiriCreateObstacle(kiriWorld* world, const kiriObstacleDef* def, kiriObstacle* obstacle);
+
+/* It is gone, its id stale. What rested on it wakes. */
 KIRI_API kiriResult kiriDestroyObstacle(kiriWorld* world, kiriObstacle obstacle);
 
 /* Where it is when the next tick starts. It did not move there: velocities alone say what sheets feel. rotation: a
@@ -1068,6 +1104,7 @@ KIRI_API kiriResult kiriObstacle_SetSurfaceVelocity(kiriWorld* world, kiriObstac
 KIRI_API kiriResult kiriObstacle_SetMass(kiriWorld* world, kiriObstacle obstacle, float mass, const float inertia[6],
                                          const float centerOfMass[3]);
 
+/* Where it is now, with what it moves, and what it felt. */
 typedef struct kiriObstacleState {
     float position[3], rotation[9], velocity[3], angularVelocity[3];
     double impulse[3], angularImpulse[3]; /* N s, N m s about its centre of mass: what sheets and pins gave it in the
@@ -1075,6 +1112,7 @@ typedef struct kiriObstacleState {
     int32_t contacts;                     /* that pushed in the last tick */
 } kiriObstacleState;
 
+/* Pose and velocities as they are now. */
 KIRI_API kiriResult kiriObstacle_GetState(const kiriWorld* world, kiriObstacle obstacle, kiriObstacleState* state);
 
 /* The box (m, world) that holds all that the sheet may touch in a tick of dt: a host needs no obstacles or contacts
