@@ -127,7 +127,9 @@ LINK_TEXT := $(LINK) | $(VERSION) | $(AR) | $(LIBRARY_OBJECTS) | $(SAMPLE_OBJECT
 TO_COMPILE := $(BUILD)/compile.txt Makefile
 TO_LINK := $(BUILD)/link.txt Makefile
 
-include bindings/install.mk
+# Each language's rules; what they add to LANGUAGE_CHECKS is run by `make check`.
+LANGUAGE_CHECKS :=
+include bindings/install.mk $(wildcard bindings/*/rules.mk)
 
 .PHONY: all run box2d play python bindings described builds lib single example bench accuracy contact extremes gallery guide deps
 .PHONY: test fuzz scarce long analyze deps-analyze valgrind tsan check floors fields headers format clean exports FORCE
@@ -282,7 +284,8 @@ $(FUZZ_RUNS): run-fuzz_%: $(BUILD)/tests/fuzz_%
 	@if $< tests/data/fuzz/$* > $<.log 2>&1; then echo "== $<"; tail -n 1 $<.log; \
 	else echo "== $< FAILED"; tail -n 20 $<.log; exit 1; fi
 
-check: $(TEST_RUNS) $(FUZZ_RUNS) $(RUN) $(BOX2D) $(PLAY) floors fields headers float-guards exports example $(PYTHON_CHECK) $(DESCRIBED_CHECK) $(BUILD_CHECK)
+check: $(TEST_RUNS) $(FUZZ_RUNS) $(RUN) $(BOX2D) $(PLAY) floors fields headers float-guards exports example $(PYTHON_CHECK) $(DESCRIBED_CHECK) $(BUILD_CHECK) \
+    $(if $(filter release,$(config)),$(LANGUAGE_CHECKS))
 	@echo "all tests passed ($(config))"
 
 python: $(BUILD)/libkiri.so

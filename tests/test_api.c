@@ -477,6 +477,70 @@ static void FillRectangle(void** state)
     assert_true(AllFinite(positions, 18));
 }
 
+/* It is the sheet that kiriFillRectangle and kiriCreateSheet make, or none, and leaves no memory behind. */
+static void CreateRectangle(void** state)
+{
+    (void)state;
+    Host hosts[2];
+    kiriSheet sheets[2];
+    uint64_t hashes[2];
+    for (int i = 0; i < 2; ++i) {
+        Host_Start(&hosts[i]);
+        kiriSheetDef def = Host_SmallDef();
+        if (i == 0) {
+            sheets[i] = Host_AddRectangle(&hosts[i], &def, 1.0f, 1.0f, 4, 4);
+        } else {
+            OK(kiriCreateRectangle(hosts[i].world, 1.0f, 1.0f, 4, 4, &def, &sheets[i]));
+        }
+        OK(kiriWorld_GetStateHash(hosts[i].world, &hashes[i]));
+    }
+    assert_int_equal(hashes[0], hashes[1]);
+    kiriWorld* world = hosts[1].world;
+    kiriSheet sheet = 7;
+    OK(kiriCreateRectangle(world, 1.0f, 1.0f, 2, 2, NULL, &sheet));
+    assert_int_not_equal(sheet, 0);
+    OK(kiriDestroySheet(world, sheet));
+    assert_int_equal(kiriCreateRectangle(world, NAN, 1.0f, 2, 2, NULL, &sheet), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(sheet, 0);
+    assert_int_equal(kiriCreateRectangle(world, 1.0f, 1.0f, 2, 4097, NULL, &sheet), KIRI_ERROR_ARGUMENT);
+    assert_string_not_equal(kiriWorld_GetLastError(world), "");
+    assert_int_equal(kiriCreateRectangle(world, 1.0f, 1.0f, 2, 2, NULL, NULL), KIRI_ERROR_ARGUMENT);
+    kiriSheetDef unstamped = Host_SmallDef();
+    unstamped.cookie = 0;
+    assert_int_equal(kiriCreateRectangle(world, 1.0f, 1.0f, 2, 2, &unstamped, &sheet), KIRI_ERROR_DEF);
+    for (int i = 0; i < 2; ++i) {
+        Host_Stop(&hosts[i]);
+    }
+}
+
+static void CreateRectangleWithoutMemory(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    uint64_t before, after;
+    kiriSheet sheet; /* the first one, so that there is room for an id */
+    OK(kiriCreateRectangle(host.world, 1.0f, 1.0f, 2, 2, NULL, &sheet));
+    OK(kiriDestroySheet(host.world, sheet));
+    OK(kiriWorld_GetStateHash(host.world, &before));
+    kiriResult result = KIRI_ERROR_MEMORY;
+    for (int request = 0; result == KIRI_ERROR_MEMORY; ++request) {
+        int64_t live = host.live;
+        host.failAt = host.calls + request;
+        result = kiriCreateRectangle(host.world, 1.0f, 1.0f, 2, 2, NULL, &sheet);
+        if (result != KIRI_OK) {
+            assert_int_equal(result, KIRI_ERROR_MEMORY);
+            assert_int_equal(host.live, live);
+            assert_string_not_equal(kiriWorld_GetLastError(host.world), "");
+            OK(kiriWorld_GetStateHash(host.world, &after));
+            assert_int_equal(before, after);
+        }
+    }
+    assert_true(host.refused > 10);
+    host.failAt = -1;
+    Host_Stop(&host);
+}
+
 /* What names nothing of a kind: nothing, garbage, neighbours of a living id, ids of other kinds, and the dead. */
 static int32_t WrongIds(const Fixture* f, uint32_t living, uint32_t dead, uint32_t* ids)
 {
@@ -1126,6 +1190,8 @@ int main(void)
         cmocka_unit_test(SheetDefInts),
         cmocka_unit_test(Meshes),
         cmocka_unit_test(FillRectangle),
+        cmocka_unit_test(CreateRectangle),
+        cmocka_unit_test(CreateRectangleWithoutMemory),
         cmocka_unit_test(Ids),
         cmocka_unit_test(SheetArguments),
         cmocka_unit_test(CutArguments),

@@ -76,7 +76,7 @@ def outcomes(threads):
 
 
 def make_scene(**fields):
-    """The same as in python_twin.c."""
+    """A cut on its way."""
     world = kiri.World(**{"gravity": (1.0, 0.0, -9.81), **fields})
     sheet = world.create_rectangle(1.0, 0.75, 16, 12, position=(0, 0, 1), material={"youngsModulus": 1e7}, frameCount=6)
     sheet.create_pin((0.0, 0.0), (0.0, 0.0, 1.0))
@@ -94,11 +94,35 @@ def run_scene():
     return world, sheet, cut
 
 
+def run_as_twin():
+    """The same as in tests/twin.c."""
+    world = kiri.World(gravity=(1.0, 0.0, -9.81))
+    sheet = world.create_rectangle(1.0, 0.75, 16, 12, position=(0, 0, 1), material={"youngsModulus": 1e7}, frameCount=6)
+    for u in (0.0, 1.0):
+        sheet.create_pin((u, 0.0), (u, 0.0, 1.0))
+    world.create_obstacle(kiri.KIRI_OBSTACLE_SPHERE, radius=0.25, position=(0.5, 0.5, 0.5))
+    cut = sheet.begin_cut((0.3, -0.1))
+    cut.extend([(0.3, 0.4), (0.7, 0.45), (0.65, 0.85)])
+    cut.end()
+    blade = world.begin_blade()
+    for tick in range(120):
+        if 40 <= tick < 60:
+            x = 0.0625 * (tick - 44)
+            blade.move_edge((x, 0.125, -1.0), (x, 0.125, 2.0))
+        elif tick == 60:
+            blade.end()
+        world.tick(1 / 60, 2)
+        for event in world.events():
+            if event.type == kiri.KIRI_EVENT_PIECE_OFF:
+                kiri.Frame(world, event.frame).detach_piece()
+    return world
+
+
 def run_twin():
     with tempfile.TemporaryDirectory() as folder:
         program = os.path.join(folder, "twin")
         subprocess.run([os.environ.get("CC", "cc"), "-std=c99", f"-I{repository}/include",
-                        f"{repository}/tests/python_twin.c", library, f"-Wl,-rpath,{os.path.dirname(library)}",
+                        f"{repository}/tests/twin.c", library, f"-Wl,-rpath,{os.path.dirname(library)}",
                         "-o", program], check=True)
         lines = subprocess.run([program], check=True, capture_output=True, text=True).stdout.splitlines()
     return dict(line.split() for line in lines)
@@ -106,7 +130,9 @@ def run_twin():
 
 def test_same_hash_and_sizes_as_c():
     twin = run_twin()
-    assert f"{run_scene()[0].state_hash():016x}" == twin.pop("hash")
+    world = run_as_twin()
+    assert f"{world.state_hash():016x}" == twin.pop("hash")
+    assert len(world.sheets()) == int(twin.pop("sheets"))
     assert len(twin) == 24
     for name, size in twin.items():
         assert kiri.ffi.sizeof(name) == int(size), name
@@ -354,7 +380,7 @@ def test_error_has_the_line_of_its_call():
     assert "kiriWorld_Tick" in str(raises(kiri.KiriError, world.tick, -1.0))
     assert "kiriSheet_Raycast" in str(raises(kiri.KiriError, sheet.raycast, (0, 0, 0), (0, 0, 0), 1.0))
     assert "kiriCut_End" in str(raises(kiri.KiriError, cut.end))
-    assert str(raises(kiri.KiriError, world.create_rectangle, -1.0, 1.0, 1, 1)) == "KIRI_ERROR_ARGUMENT"
+    assert "kiriCreateRectangle" in str(raises(kiri.KiriError, world.create_rectangle, -1.0, 1.0, 1, 1))
     assert "kiriCreateWorld" in str(raises(kiri.KiriError, kiri.World, gravity=(0, 0, float("nan"))))
     assert "closed" in str(raises(kiri.KiriError, (world.close(), world.tick)[1], 1 / 60))
 

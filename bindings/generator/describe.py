@@ -21,7 +21,7 @@ ARRAYS = {
 NULLABLE = {"kiriSheetDef.framePoints", "kiriObstacleDef.outline", "kiriMesh.normals", "kiriReplay.note",
             "kiriWorldDef.alloc", "kiriWorldDef.free", "kiriWorldDef.log", "kiriWorldDef.clock",
             "kiriWorldDef.startTask", "kiriWorldDef.finishTask", "kiriWorldDef.user", "kiriWorldDef.record",
-            "kiriDestroyWorld.world", "kiriWorld_Save.bytes", "kiriWorld_SaveDifference.bytes",
+            "kiriDestroyWorld.world", "kiriCreateRectangle.def", "kiriWorld_Save.bytes", "kiriWorld_SaveDifference.bytes",
             "kiriSheet_CopyVertices.positions", "kiriSheet_CopyVertices.normals", "kiriSheet_GetWeights.gradients",
             "kiriFrame_Hold.position", "kiriFrame_Hold.rotation", "kiriBeginBlade.sheet"}
 PARAMETERS = {

@@ -539,6 +539,12 @@ KIRI_API kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, k
 /* The sheet is gone, with its cuts, frames and pins; their ids are stale. */
 KIRI_API kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
 
+/* A sheet that is a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns
+   and rows are 1 to 4096. def: all but the mesh, which is not read; null: the defaults. A recording has it as
+   kiriCreateSheet. */
+KIRI_API kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int32_t columns, int32_t rows,
+                                        const kiriSheetDef* def, kiriSheet* sheet);
+
 /* What of the def may be changed while the sheet lives, as there. kiriSheet_GetSettings stamps it. */
 typedef struct kiriSheetSettings {
     uint32_t cookie;

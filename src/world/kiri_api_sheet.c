@@ -115,11 +115,16 @@ kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet)
     KIRI_RETURN(KIRI_OK);
 }
 
+static bool IsRectangle(float width, float height, int32_t columns, int32_t rows)
+{
+    return kiriCall_IsAbove(width, 0.0f) && kiriCall_IsAbove(height, 0.0f) && kiriCall_IsWithin(columns, 1, 4096) &&
+           kiriCall_IsWithin(rows, 1, 4096);
+}
+
 kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions,
                              int32_t* indices)
 {
-    if (!kiriCall_IsAbove(width, 0.0f) || !kiriCall_IsAbove(height, 0.0f) || !kiriCall_IsWithin(columns, 1, 4096) ||
-        !kiriCall_IsWithin(rows, 1, 4096) || restPositions == NULL || indices == NULL) {
+    if (!IsRectangle(width, height, columns, rows) || restPositions == NULL || indices == NULL) {
         return KIRI_ERROR_ARGUMENT;
     }
     for (int32_t j = 0; j <= rows; ++j) {
@@ -138,4 +143,32 @@ kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t
         }
     }
     return KIRI_OK;
+}
+
+kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int32_t columns, int32_t rows,
+                               const kiriSheetDef* def, kiriSheet* sheet)
+{
+    KIRI_PREPARES(world);
+    KIRI_CHECK(sheet != NULL, "sheet is null");
+    *sheet = 0;
+    KIRI_CHECK(IsRectangle(width, height, columns, rows), "a size is not above 0, or a count not within 1 and 4096");
+    kiriSheetDef filled;
+    kiriDefaultSheetDef(&filled);
+    if (def != NULL) {
+        filled = *def;
+    }
+    filled.vertexCount = (columns + 1) * (rows + 1);
+    filled.triangleCount = 2 * columns * rows;
+    float* positions = kiriMemory_Alloc(&world->memory, (int64_t)sizeof(float) * 2 * filled.vertexCount);
+    int32_t* indices = kiriMemory_Alloc(&world->memory, (int64_t)sizeof(int32_t) * 3 * filled.triangleCount);
+    kiriResult result = KIRI_ERROR_MEMORY;
+    if (positions != NULL && indices != NULL) {
+        kiriFillRectangle(width, height, columns, rows, positions, indices);
+        filled.restPositions = positions;
+        filled.indices = indices;
+        result = kiriCreateSheet(world, &filled, sheet);
+    }
+    kiriMemory_Free(&world->memory, positions);
+    kiriMemory_Free(&world->memory, indices);
+    return line[0] == '\0' && result < 0 ? KIRI_FAIL(result, NULL) : result;
 }

@@ -532,10 +532,9 @@ class World:
                                        triangleCount=triangle_count, **fields))
 
     def create_rectangle(self, width, height, columns, rows, **fields):
-        positions = ffi.new("float[]", 2 * (columns + 1) * (rows + 1))
-        triangles = ffi.new("int32_t[]", 6 * columns * rows)
-        self._check(self.lib.kiriFillRectangle(width, height, columns, rows, positions, triangles))
-        return self.create_sheet(positions, triangles, **fields)
+        kept = []  # until C has read it
+        definition = _definition(self, "kiriSheetDef", fields, kept)
+        return Sheet(self, self.get("kiriCreateRectangle", "kiriSheet", width, height, columns, rows, definition))
 
 
 class _Handle:
