@@ -464,6 +464,42 @@ static void TestReactionsInMotion(void** state)
     }
 }
 
+/* What wind does to a sheet that is held everywhere, the holds bear: the pressure of its area, at its centre. */
+static void TestHoldsBearWind(void** state)
+{
+    (void)state;
+    static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+    const kiriWind wind = { { 3.0f, -2.0f, 5.0f }, 1.2f, 1.1f, 0.3f };
+    for (int model = KIRI_MODEL_LINKS; model <= KIRI_MODEL_AFFINE; ++model) {
+        Host host;
+        Host_Start(&host);
+        kiriSheetDef def = ReactionDef(model);
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.5f, 6, 3);
+        kiriFrame frames[64];
+        int32_t count;
+        OK(kiriSheet_GetFrames(host.world, sheet, frames, 64, &count));
+        for (int32_t i = 0; i < count; ++i) {
+            kiriFrameState frame;
+            OK(kiriFrame_GetState(host.world, frames[i], &frame));
+            OK(kiriFrame_Hold(host.world, frames[i], frame.position, eye));
+        }
+        OK(kiriSheet_SetWind(host.world, sheet, &wind));
+        double force[3], torque[3];
+        for (int i = 0; i < 3; ++i) {
+            OK(Host_Tick(&host, 0.01f, 2));
+        }
+        SumReactions(&host, sheet, force, torque);
+        kiriTotals totals = Host_Totals(&host, sheet);
+        double speed = sqrt(9.0 + 4.0 + 25.0), pressure = 0.5 * 1.2 * speed * totals.area;
+        kiriVec3 due = { -pressure * 0.3 * 3.0, pressure * 0.3 * 2.0, totals.mass * 9.81 - pressure * 1.1 * 5.0 };
+        kiriVec3 turn = kiriVec3_Cross(kiriVec3_Make(totals.center[0], totals.center[1], totals.center[2]), due);
+        kiriVec3 f = { force[0], force[1], force[2] }, t = { torque[0], torque[1], torque[2] };
+        assert_true(kiriVec3_Length(kiriVec3_Sub(f, due)) < 1e-5 * kiriVec3_Length(due));
+        assert_true(kiriVec3_Length(kiriVec3_Sub(t, turn)) < 1e-5 * kiriVec3_Length(due));
+        Host_Stop(&host);
+    }
+}
+
 /* ---- Strips by theory --------------------------------------------------------------------------------------------- */
 
 typedef struct Beam {
@@ -978,6 +1014,7 @@ int main(void)
         cmocka_unit_test(TestLoadsMove),
         cmocka_unit_test(TestReactionsAtRest),
         cmocka_unit_test(TestReactionsInMotion),
+        cmocka_unit_test(TestHoldsBearWind),
         cmocka_unit_test(TestPressureBetweenSupports),
         cmocka_unit_test(TestPullAndPush),
         cmocka_unit_test(TestHangsFromHinge),
