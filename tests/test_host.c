@@ -249,6 +249,38 @@ static void TestPointIsWhatIsSeen(void** state)
     }
 }
 
+/* A square of two triangles, one of them turned over: within the other the normals of the corners cancel out somewhere,
+   and there the point has that of the triangle. */
+static void TestPointHasANormal(void** state)
+{
+    (void)state;
+    static const float sites[8] = { 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f, 1.0f, 1.0f };
+    static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+    static const float places[4][3] = { { 0.0f }, { 1.0f, 2.0f }, { 0.0f, 1.0f }, { 1.0f, 0.0f } };
+    static const float signs[4] = { -1.0f, -1.0f, 1.0f, -1.0f };
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    def.framePoints = sites;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 1, 1);
+    kiriFrame frames[4];
+    int32_t count;
+    OK(kiriSheet_GetFrames(host.world, sheet, frames, 4, &count));
+    for (int i = 0; i < 4; ++i) {
+        OK(kiriFrame_Hold(host.world, frames[i], places[i], eye));
+    }
+    OK(Host_Tick(&host, DT, 1));
+    for (int hasNormals = 0; hasNormals < 2; ++hasNormals) {
+        kiriPointState point = PointAt(&host, sheet, 0.25f, 0.75f);
+        assert_true(point.normal[0] == 0.0f && point.normal[1] == 0.0f && point.normal[2] == 1.0f);
+        kiriMesh mesh = Host_Mesh(&host, sheet); /* which makes normals */
+        for (int v = 0; v < 4; ++v) {
+            assert_true(fabs((double)(mesh.normals[3 * v + 2] - signs[v])) < 1e-6);
+        }
+    }
+    Host_Stop(&host);
+}
+
 static void TestPointNamesItsPiece(void** state)
 {
     (void)state;
@@ -1086,6 +1118,7 @@ int main(void)
         cmocka_unit_test(TestFadesMayBeginWithAnotherLook),
         cmocka_unit_test(TestSettingsAreChecked),
         cmocka_unit_test(TestPointIsWhatIsSeen),
+        cmocka_unit_test(TestPointHasANormal),
         cmocka_unit_test(TestPointNamesItsPiece),
         cmocka_unit_test(TestImpulseIsMomentum),
         cmocka_unit_test(TestImpulseInPlane),
