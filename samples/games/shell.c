@@ -391,7 +391,9 @@ static bool StartPlay(Shell* shell, const GameType* const* games)
                                                                   : games[0]->name);
     int32_t level = options->level > 0 ? options->level : script->level > 0 ? script->level : 1;
     if (type == NULL || level > type->levels) {
-        fprintf(stderr, type != NULL ? "kiri-play: no level %d\n" : "", level);
+        if (type != NULL) {
+            fprintf(stderr, "kiri-play: no level %d\n", level);
+        }
         return false;
     }
     return Play_StartRecorded(&shell->play, type, level, options->calls);
