@@ -6,6 +6,7 @@
 #include "kiri_seen.h"
 #include "kiri_settings.h"
 #include "kiri_touch.h"
+#include "kiri_touch_memory.h"
 
 #include <string.h>
 
@@ -75,14 +76,16 @@ static bool CopyPins(const kiriKept* kept, kiriSheetData* to)
 }
 
 /* What pushed when the piece was moved last, with the force. */
-static void CopyTouches(const kiriKept* kept, const kiriTouchMemory* from, kiriTouchMemory* to)
+static void CopyTouches(const kiriKept* kept, const kiriTouchMemory* from, kiriTouchMemory* to, kiriIndices* order)
 {
+    int32_t before = to->touches.count;
     for (int32_t i = 0; i < from->touches.count; ++i) {
         kiriTouch touch = from->touches.data[i];
         if (kiriKept_FollowTouch(kept, &touch)) {
             kiriTouchMemory_Add(to, &touch, kiriTouches_ForceOf(kept->from, from->touches.data[i].key));
         }
     }
+    kiriTouchMemory_SortForces(to, before, order);
 }
 
 /* Room for contacts is what SetContacts reserves, so that none is needed later. */
@@ -102,8 +105,8 @@ static bool CopyContacts(const kiriKept* kept, kiriSheetData* to)
             to->contacts.data[to->contacts.count++] = given;
         }
     }
-    CopyTouches(kept, &touches->last, &to->touches.last);
-    CopyTouches(kept, &touches->slept, &to->touches.slept);
+    CopyTouches(kept, &touches->last, &to->touches.last, &to->touches.order);
+    CopyTouches(kept, &touches->slept, &to->touches.slept, &to->touches.order);
     return true;
 }
 
@@ -236,7 +239,7 @@ static PartMembers TakeItemsOf(kiriExtraction* extraction, int32_t piece)
     kiriKept* kept = &extraction->kept;
     const kiriGatheredPiece* found = kiriGather_Find(extraction->gathered, piece);
     PartMembers items = { { ItemsOfSpan(&extraction->gathered->vertices, found->vertices), &kept->vertices },
-                        { ItemsOfSpan(&extraction->gathered->triangles, found->triangles), &kept->triangles } };
+                          { ItemsOfSpan(&extraction->gathered->triangles, found->triangles), &kept->triangles } };
     kiriKept_TakePart(kept, piece, &items.vertices.items, &items.triangles.items);
     return items;
 }

@@ -6,6 +6,7 @@
 #include "kiri_pin.h"
 #include "kiri_stages.h"
 #include "kiri_touch.h"
+#include "kiri_touch_memory.h"
 
 #include <string.h>
 
@@ -232,7 +233,7 @@ static void KeepContacts(const kiriKept* kept, kiriSheetData* sheet)
 }
 
 /* Forces go by keys, and keys by indices: they are remembered anew. */
-static void KeepTouches(const kiriRemoval* removal, kiriTouchMemory* memory, const kiriVec3* forces)
+static void KeepTouches(kiriRemoval* removal, kiriTouchMemory* memory, const kiriVec3* forces)
 {
     int32_t count = memory->touches.count;
     memory->touches.count = memory->forces.count = memory->given = 0;
@@ -242,6 +243,7 @@ static void KeepTouches(const kiriRemoval* removal, kiriTouchMemory* memory, con
             kiriTouchMemory_Add(memory, &touch, forces[i]);
         }
     }
+    kiriTouchMemory_SortForces(memory, 0, &removal->sheet->touches.order);
 }
 
 /* What the sheet keeps of its pieces from tick to tick, beside fields and what is staged: state that is new belongs

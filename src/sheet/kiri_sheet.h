@@ -265,7 +265,7 @@ typedef struct kiriTouches {
     kiriTouchMemory last;                  /* of the last tick that moved the sheet */
     kiriTouchMemory slept;                 /* of pieces that sleep: of the last tick that moved them */
     kiriRestLoads rests;                   /* what these press with on obstacles */
-    KIRI_ARRAY(int32_t) order;             /* scratch */
+    kiriIndices order;                     /* scratch */
     bool isShort;                          /* there was no room to find those of obstacles */
     KIRI_ARRAY(kiriContactForce) told;     /* what the host reads, of the contacts that it gave; */
     KIRI_ARRAY(kiriContactForce) nextTold; /* room for those of the next tick */

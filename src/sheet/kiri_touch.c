@@ -1,6 +1,7 @@
 #include "kiri_touch.h"
 
 #include "../core/kiri_sort.h"
+#include "kiri_touch_memory.h"
 
 #include <string.h>
 
@@ -134,11 +135,6 @@ static bool AddGiven(kiriSheetData* sheet, const kiriGivenContact* given)
     touch.pushSpeed = contact->pushSpeed > 0.0f ? (double)contact->pushSpeed : DEFAULT_PUSH;
     touch.felt = contact->inverseMass;
     return FindYieldOf(sheet, contact, &touch.yield) && kiriTouches_Add(sheet, &touch);
-}
-
-static bool IsOfKind(const kiriTouch* touch, int32_t kind)
-{
-    return touch->key >> 60 == (uint64_t)kind;
 }
 
 static bool HasLowerGivenKey(const void* context, int32_t a, int32_t b)
@@ -328,53 +324,13 @@ void kiriTouches_WriteRows(kiriSheetData* sheet)
 
 /* ---- What is remembered -------------------------------------------------------------------------------------------- */
 
-/* The first that has this key or a larger one. */
-static int32_t FindForce(const kiriTouchMemory* memory, uint64_t key)
-{
-    int32_t low = 0, high = memory->forces.count;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        if (memory->forces.data[middle].key < key) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
-static bool HasForce(const kiriTouchMemory* memory, uint64_t key, kiriVec3* force)
-{
-    int32_t at = FindForce(memory, key);
-    bool found = at < memory->forces.count && memory->forces.data[at].key == key;
-    *force = found ? memory->forces.data[at].force : *force;
-    return found;
-}
-
 kiriVec3 kiriTouches_ForceOf(const kiriSheetData* sheet, uint64_t key)
 {
     kiriVec3 force = { 0.0, 0.0, 0.0 };
-    if (!HasForce(&sheet->touches.last, key, &force)) {
-        HasForce(&sheet->touches.slept, key, &force);
+    if (!kiriTouchMemory_Find(&sheet->touches.last, key, &force)) {
+        kiriTouchMemory_Find(&sheet->touches.slept, key, &force);
     }
     return force;
-}
-
-void kiriTouchMemory_Add(kiriTouchMemory* memory, const kiriTouch* touch, kiriVec3 force)
-{
-    KIRI_ASSERT(memory->touches.count < memory->touches.capacity);
-    memory->given += IsOfKind(touch, KIRI_TOUCH_HOST);
-    memory->touches.data[memory->touches.count] = *touch;
-    memory->touches.data[memory->touches.count++].force = force;
-    if (kiriVec3_Dot(force, force) > 0.0) {
-        int32_t at = memory->forces.count++;
-        KIRI_ASSERT(at < memory->forces.capacity);
-        for (; at > 0 && memory->forces.data[at - 1].key > touch->key; --at) {
-            memory->forces.data[at] = memory->forces.data[at - 1];
-        }
-        memory->forces.data[at].key = touch->key;
-        memory->forces.data[at].force = force;
-    }
 }
 
 static bool IsRowBefore(const void* context, int32_t a, int32_t b)
@@ -408,7 +364,7 @@ void kiriTouches_End(kiriSheetData* sheet)
     for (int32_t i = 0; i < touches->found.count; ++i) {
         if (touches->found.data[i].row != KIRI_NONE) {
             touches->last.touches.data[touches->last.touches.count++] = touches->found.data[i];
-            touches->last.given += IsOfKind(&touches->found.data[i], KIRI_TOUCH_HOST);
+            touches->last.given += kiriTouch_IsOfKind(&touches->found.data[i], KIRI_TOUCH_HOST);
         }
     }
 }
@@ -424,37 +380,26 @@ void kiriTouches_Clear(kiriSheetData* sheet)
 
 /* ---- Sleep --------------------------------------------------------------------------------------------------------- */
 
-/* Takes a force out of what is remembered; zero where there is none. */
-static kiriVec3 TakeForce(kiriTouchMemory* memory, uint64_t key)
-{
-    kiriVec3 force = { 0.0, 0.0, 0.0 };
-    if (HasForce(memory, key, &force)) {
-        int32_t at = FindForce(memory, key);
-        kiriTouchForce* gap = &memory->forces.data[at];
-        memory->forces.count -= 1;
-        memmove(gap, gap + 1, sizeof(*gap) * (size_t)(memory->forces.count - at));
-    }
-    return force;
-}
-
 /* Those of pieces that sleep, or of the others, go over; and those of pieces that are gone go. */
-static void MoveTouches(const kiriSheetData* sheet, kiriTouchMemory* from, kiriTouchMemory* to, bool areAsleep)
+static void MoveTouches(kiriSheetData* sheet, kiriTouchMemory* from, kiriTouchMemory* to, bool areAsleep)
 {
-    int32_t kept = 0, given = 0;
+    int32_t kept = 0, given = 0, before = to->touches.count;
     for (int32_t i = 0; i < from->touches.count; ++i) {
         kiriTouch touch = from->touches.data[i];
         const kiriPiece* piece = PieceOfTouch(sheet, &touch);
         if (piece->isGone) {
-            TakeForce(from, touch.key);
+            kiriTouchMemory_Take(from, touch.key);
         } else if (piece->rest.asleep == areAsleep) {
-            kiriTouchMemory_Add(to, &touch, TakeForce(from, touch.key));
+            kiriTouchMemory_Add(to, &touch, kiriTouchMemory_Take(from, touch.key));
         } else {
             from->touches.data[kept++] = touch;
-            given += IsOfKind(&touch, KIRI_TOUCH_HOST);
+            given += kiriTouch_IsOfKind(&touch, KIRI_TOUCH_HOST);
         }
     }
     from->touches.count = kept;
     from->given = given;
+    kiriTouchMemory_DropTaken(from);
+    kiriTouchMemory_SortForces(to, before, &sheet->touches.order);
 }
 
 void kiriTouches_Sort(kiriSheetData* sheet)
@@ -498,7 +443,7 @@ static void ListCalm(kiriSheetData* sheet)
     touches->order.count = 0;
     for (int32_t i = 0; i < count; ++i) {
         const kiriTouch* touch = TouchAt(touches, i);
-        if (IsOfKind(touch, KIRI_TOUCH_HOST) && PieceOfTouch(sheet, touch)->rest.calm >= KIRI_CALM_SECONDS) {
+        if (kiriTouch_IsOfKind(touch, KIRI_TOUCH_HOST) && PieceOfTouch(sheet, touch)->rest.calm >= KIRI_CALM_SECONDS) {
             KIRI_ASSERT(touches->order.count < touches->order.capacity);
             touches->order.data[touches->order.count++] = i;
         }
@@ -550,7 +495,7 @@ bool kiriTouches_NextNew(kiriSheetData* sheet, int32_t* at, int32_t* piece)
 /* The key of a collision point has its index. */
 bool kiriTouch_Follow(kiriTouch* touch, const kiriKeep* points, const kiriKeep* vertices)
 {
-    if (!IsOfKind(touch, KIRI_TOUCH_HOST)) {
+    if (!kiriTouch_IsOfKind(touch, KIRI_TOUCH_HOST)) {
         return false;
     }
     if (touch->point != KIRI_NONE) {

@@ -51,9 +51,6 @@ void kiriTouches_Clear(kiriSheetData* sheet);
 /* What the contact of that key pushed with when its piece was moved last, N; zero where there was none. */
 kiriVec3 kiriTouches_ForceOf(const kiriSheetData* sheet, uint64_t key);
 
-/* Remembers a touch, and its force unless that is zero. There is room. */
-void kiriTouchMemory_Add(kiriTouchMemory* memory, const kiriTouch* touch, kiriVec3 force);
-
 /* The same touch in a part of the sheet, whose collision points and vertices have these indices; false where it is of
    another part, or its finder alone knows it. */
 bool kiriTouch_Follow(kiriTouch* touch, const kiriKeep* points, const kiriKeep* vertices);
