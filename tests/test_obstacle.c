@@ -251,13 +251,14 @@ static void BadDefsAreRefused(void** state)
         struct {
             float* field;
             float value;
-        } bad[] = { { &def.position[1], NAN },        { &def.rotation[0], 2.0f },
-                    { &def.rotation[8], -1.0f },      { &def.velocity[2], NAN },
-                    { &def.friction, -0.1f },         { &def.mass, -1.0f },
-                    { &def.pushSpeed, 0.0f },         { &def.pushSpeed, INFINITY },
-                    { &def.rounding, -1.0f },         { &def.inertia[0], -1.0f },
-                    { &def.inertia[3], 0.1f },        { &def.angularVelocity[0], INFINITY },
-                    { &def.surfaceVelocity[0], NAN }, { &def.centerOfMass[0], NAN } };
+        } bad[] = {
+            { &def.position[1], NAN },        { &def.rotation[0], 2.0f },         { &def.rotation[8], -1.0f },
+            { &def.velocity[2], NAN },        { &def.friction, -0.1f },           { &def.mass, -1.0f },
+            { &def.pushSpeed, 0.0f },         { &def.pushSpeed, INFINITY },       { &def.rounding, -1.0f },
+            { &def.inertia[0], -1.0f },       { &def.inertia[3], 0.1f },          { &def.angularVelocity[0], INFINITY },
+            { &def.surfaceVelocity[0], NAN }, { &def.centerOfMass[0], NAN },      { &def.position[2], -5e37f },
+            { &def.velocity[0], 5e37f },      { &def.angularVelocity[1], 5e37f }, { &def.surfaceVelocity[2], -5e37f }
+        };
         for (size_t i = 0; i < sizeof(bad) / sizeof(bad[0]); ++i) {
             float kept = *bad[i].field;
             *bad[i].field = bad[i].value;
@@ -290,6 +291,36 @@ static void BadDefsAreRefused(void** state)
     prism.cookie = 1;
     REFUSED(KIRI_ERROR_DEF, kiriCreateObstacle(host.world, &prism, &none));
     Host_Stop(&host);
+}
+
+/* There it would be read as no float after a tick. Short of that it goes on, and comes back. */
+static void WhereFloatsEndNothingMoves(void** state)
+{
+    (void)state;
+    const float beyond[3] = { 0.0f, 5e37f, 0.0f }, within[3] = { 4e37f, -4e37f, 4e37f }, zero[3] = { 0 };
+    for (int32_t type = KIRI_OBSTACLE_PLANE; type <= KIRI_OBSTACLE_PRISM; ++type) {
+        Host host;
+        Host_Start(&host);
+        kiriObstacleDef def = DefOf(type);
+        kiriObstacle obstacle = Add(&host, &def);
+        AddPlate(&host, 0.0f, 2.0f, 0.001f);
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriObstacle_SetPose(host.world, obstacle, beyond, def.rotation));
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriObstacle_SetVelocity(host.world, obstacle, beyond, zero));
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriObstacle_SetVelocity(host.world, obstacle, zero, beyond));
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriObstacle_SetSurfaceVelocity(host.world, obstacle, beyond));
+        OK(kiriObstacle_SetPose(host.world, obstacle, within, def.rotation));
+        OK(kiriObstacle_SetVelocity(host.world, obstacle, within, within));
+        for (int i = 0; i < 3; ++i) {
+            kiriResult result = Host_Tick(&host, 10.0f, 1);
+            assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
+            kiriObstacleState now = StateOf(&host, obstacle);
+            assert_true(AllFinite(now.position, 3) && AllFinite(now.rotation, 9));
+        }
+        OK(kiriObstacle_SetVelocity(host.world, obstacle, zero, zero));
+        OK(kiriObstacle_SetPose(host.world, obstacle, zero, def.rotation));
+        OK(Host_Tick(&host, dt, 1));
+        Host_Stop(&host);
+    }
 }
 
 static void StaleIdsAreRefused(void** state)
@@ -887,6 +918,7 @@ int main(void)
         cmocka_unit_test(CirclePointsAreEven),
         cmocka_unit_test(BadDefsAreRefused),
         cmocka_unit_test(StaleIdsAreRefused),
+        cmocka_unit_test(WhereFloatsEndNothingMoves),
         cmocka_unit_test(PlateRestsOnAFloor),
         cmocka_unit_test(SleepersWake),
         cmocka_unit_test(SlowLiftsCarry),

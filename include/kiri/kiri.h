@@ -60,8 +60,8 @@ typedef int32_t kiriResult;
 enum kiriResultCode {
     KIRI_OK = 0,
     KIRI_PENDING = 1,         /* done, and work is left for later ticks */
-    KIRI_ERROR_ARGUMENT = -1, /* null pointer, NaN, infinite, or outside the documented range; or a sheet would be where
-                                 floats end, or move that fast: 4e37 m, m/s or 1/s */
+    KIRI_ERROR_ARGUMENT = -1, /* null pointer, NaN, infinite, or outside the documented range; or a sheet or obstacle
+                                 would be where floats end, or move that fast: 4e37 m, m/s or 1/s */
     KIRI_ERROR_DEF = -2,      /* the def was not filled by its kiriDefault function */
     KIRI_ERROR_ID = -3,       /* unknown or stale id, or the id of another kind */
     KIRI_ERROR_MESH = -4,     /* the triangles do not form a sheet: degenerate, inverted, duplicate, overlapping */

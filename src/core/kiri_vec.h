@@ -4,6 +4,7 @@
 
 #include "kiri_base.h"
 
+#include <float.h>
 #include <math.h>
 
 KIRI_C_BEGIN
@@ -122,6 +123,13 @@ static inline double kiriVec3_Length(kiriVec3 a)
 static inline bool kiriVec3_Equal(kiriVec3 a, kiriVec3 b)
 {
     return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* Places (m) and speeds (m/s, 1/s) farther out are refused, so that sums of a few of them are floats. */
+static inline bool kiriVec3_FitsFloats(kiriVec3 a)
+{
+    const double most = 0.125 * (double)FLT_MAX;
+    return fabs(a.x) <= most && fabs(a.y) <= most && fabs(a.z) <= most;
 }
 
 static inline kiriVec3 kiriVec3_Cross(kiriVec3 a, kiriVec3 b)

@@ -1,6 +1,5 @@
 #include "kiri_prediction.h"
 
-#include <float.h>
 #include <string.h>
 
 #define LONGEST_PART_TURN 1.0 /* of one part of a step: a Cayley vector */
@@ -336,18 +335,13 @@ kiriPrediction kiriPrediction_Held(const kiriFrameData* frame, const kiriMateria
     return prediction;
 }
 
-static bool FitsFloats(kiriVec3 a)
-{
-    const double most = 0.125 * (double)FLT_MAX;
-    return fabs(a.x) <= most && fabs(a.y) <= most && fabs(a.z) <= most;
-}
-
 bool kiriFrame_FitsFloats(const kiriFrameData* frame)
 {
-    return FitsFloats(frame->x) && FitsFloats(frame->A.u) && FitsFloats(frame->A.v) && FitsFloats(frame->A.d) &&
-           FitsFloats(frame->velocity) && FitsFloats(frame->spin) && FitsFloats(frame->rate.u) &&
-           FitsFloats(frame->rate.v) && FitsFloats(frame->rate.d) &&
-           FitsFloats(kiriFrame_VelocityAt(frame, frame->site.at));
+    return kiriVec3_FitsFloats(frame->x) && kiriVec3_FitsFloats(frame->A.u) && kiriVec3_FitsFloats(frame->A.v) &&
+           kiriVec3_FitsFloats(frame->A.d) && kiriVec3_FitsFloats(frame->velocity) &&
+           kiriVec3_FitsFloats(frame->spin) && kiriVec3_FitsFloats(frame->rate.u) &&
+           kiriVec3_FitsFloats(frame->rate.v) && kiriVec3_FitsFloats(frame->rate.d) &&
+           kiriVec3_FitsFloats(kiriFrame_VelocityAt(frame, frame->site.at));
 }
 
 void kiriFrame_Recenter(kiriFrameData* frame, const kiriMoments* material, double densityPerArea)

@@ -101,10 +101,15 @@ static const char* FaultOfShape(const kiriObstacleDef* def)
     return def->type == KIRI_OBSTACLE_PRISM ? FaultOfPrism(def) : NULL;
 }
 
+static bool IsWithinFloats(const float value[3])
+{
+    return kiriCall_AreFinite(value, 3) && kiriVec3_FitsFloats(kiriVec3_Load(value));
+}
+
 static const char* FaultOfPose(const float position[3], const float rotation[9])
 {
-    if (position == NULL || rotation == NULL || !kiriCall_AreFinite(position, 3)) {
-        return "position or rotation is null, or position not finite";
+    if (position == NULL || rotation == NULL || !IsWithinFloats(position)) {
+        return "position or rotation is null, or position not finite or where floats end";
     }
     if (!kiriCall_AreOrthonormal(&rotation[0], &rotation[3]) || !kiriCall_AreOrthonormal(&rotation[3], &rotation[6]) ||
         !kiriCall_AreOrthonormal(&rotation[6], &rotation[0])) {
@@ -135,9 +140,9 @@ static const char* FaultOfObstacle(const kiriObstacleDef* def)
             return faults[i];
         }
     }
-    if (!kiriCall_AreFinite(def->velocity, 3) || !kiriCall_AreFinite(def->angularVelocity, 3) ||
-        !kiriCall_AreFinite(def->surfaceVelocity, 3)) {
-        return "a velocity is not finite";
+    if (!IsWithinFloats(def->velocity) || !IsWithinFloats(def->angularVelocity) ||
+        !IsWithinFloats(def->surfaceVelocity)) {
+        return "a velocity is not finite, or where floats end";
     }
     return kiriCall_IsAtLeast(def->friction, 0.0f) && kiriCall_IsAbove(def->pushSpeed, 0.0f)
                ? NULL
@@ -287,9 +292,9 @@ kiriResult kiriObstacle_SetVelocity(kiriWorld* world, kiriObstacle obstacle, con
                                     const float angularVelocity[3])
 {
     KIRI_CHANGES(world, KIRI_CALL_OBSTACLE_SET_VELOCITY, &obstacle, velocity, angularVelocity);
-    KIRI_CHECK(velocity != NULL && angularVelocity != NULL && kiriCall_AreFinite(velocity, 3) &&
-                   kiriCall_AreFinite(angularVelocity, 3),
-               "velocity or angularVelocity is null or not finite");
+    KIRI_CHECK(velocity != NULL && angularVelocity != NULL && IsWithinFloats(velocity) &&
+                   IsWithinFloats(angularVelocity),
+               "velocity or angularVelocity is null, not finite, or where floats end");
     KIRI_FIND_OBSTACLE(data, obstacle);
     data->velocity = kiriVec3_Load(velocity);
     data->spin = kiriVec3_Load(angularVelocity);
@@ -299,7 +304,7 @@ kiriResult kiriObstacle_SetVelocity(kiriWorld* world, kiriObstacle obstacle, con
 kiriResult kiriObstacle_SetSurfaceVelocity(kiriWorld* world, kiriObstacle obstacle, const float velocity[3])
 {
     KIRI_CHANGES(world, KIRI_CALL_OBSTACLE_SET_SURFACE_VELOCITY, &obstacle, velocity);
-    KIRI_CHECK(velocity != NULL && kiriCall_AreFinite(velocity, 3), "velocity is null or not finite");
+    KIRI_CHECK(velocity != NULL && IsWithinFloats(velocity), "velocity is null, not finite, or where floats end");
     KIRI_FIND_OBSTACLE(data, obstacle);
     kiriVec3 surface = kiriVec3_Load(velocity);
     data->drift = kiriVec3_Equal(data->surface, surface) ? data->drift : KIRI_ENDLESS;
