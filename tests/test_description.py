@@ -90,6 +90,22 @@ class TestFunctions(unittest.TestCase):
                     self.assertIn(field["length"], names, struct["name"])
 
 
+class TestReference(unittest.TestCase):
+    text = (repository / "bindings/REFERENCE.md").read_text()
+    headings = re.findall(r"^##+ (.+)$", text, re.M)
+
+    def test_that_all_have_a_heading(self):
+        for kind in ("callbacks", "enums", "structs", "functions"):
+            for thing in description[kind]:
+                self.assertEqual(self.headings.count(thing["name"]), 1, thing["name"])
+
+    def test_that_links_lead_somewhere(self):
+        goals = {heading.lower().replace(" ", "-") for heading in self.headings}
+        links = re.findall(r"\]\(#([^)]*)\)", self.text)
+        self.assertGreater(len(links), len(description["functions"]))
+        self.assertEqual(sorted(set(links) - goals), [])
+
+
 class TestReader(unittest.TestCase):
     def test_that_comments_find_their_declaration(self):
         text = """/* ---- Part ---- */

@@ -178,7 +178,8 @@ class Describer:
     # ---- Functions
 
     def _callback(self, callback):
-        return {"name": callback["name"], "doc": callback["doc"], "returns": self._c(callback["returns"]),
+        return {"name": callback["name"], "section": callback["section"], "doc": callback["doc"],
+                "returns": self._c(callback["returns"]),
                 "parameters": [{"name": p["name"], "c": self._c(p)} for p in callback["parameters"]]}
 
     @staticmethod
