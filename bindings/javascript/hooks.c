@@ -1,0 +1,30 @@
+/* A table of functions in WebAssembly takes no plain functions of JavaScript: the hooks of a world are these here, which
+   call functions that the module imports. `user` is the number of the world in kiri.js. */
+
+#include "kiri/kiri.h"
+
+#define IMPORTED(name) __attribute__((import_module("kiri"), import_name(name)))
+
+IMPORTED("log") void kiriHost_Log(void* user, const char* line);
+IMPORTED("clock") double kiriHost_Clock(void* user);
+IMPORTED("record") void kiriHost_Record(void* user, const void* bytes, int32_t count);
+
+static void HostLog(void* user, const char* line) {
+    kiriHost_Log(user, line);
+}
+
+static double HostClock(void* user) {
+    return kiriHost_Clock(user);
+}
+
+static void HostRecord(void* user, const void* bytes, int32_t count) {
+    kiriHost_Record(user, bytes, count);
+}
+
+/* Whether the world has a clock, and a recording; it always has a log. */
+KIRI_API void kiriHost_SetHooks(kiriWorldDef* def, int32_t user, int32_t clock, int32_t record) {
+    def->user = (void*)(intptr_t)user;
+    def->log = HostLog;
+    def->clock = clock ? HostClock : 0;
+    def->record = record ? HostRecord : 0;
+}

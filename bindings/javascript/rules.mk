@@ -1,0 +1,63 @@
+# The library as WebAssembly, its JavaScript, and the page in samples/web.
+#
+#   make wasm     build/wasm/kiri.wasm, for bindings/javascript
+#   make javascript   the binding's tests, under node
+
+WASM := build/wasm
+EMCC ?= emcc
+EMXX ?= em++
+WASM_SPEED ?= -O2
+WASM_FLAGS := $(WASM_SPEED) -DNDEBUG -fno-math-errno -ffp-contract=off -fvisibility=hidden -Wall -Wextra
+WASM_LINK := --no-entry -sSTANDALONE_WASM -sERROR_ON_UNDEFINED_SYMBOLS=0 -sWARN_ON_UNDEFINED_SYMBOLS=0 -sALLOW_MEMORY_GROWTH -sWASM_BIGINT -sMALLOC=emmalloc \
+             -sTOTAL_STACK=524288 -sINITIAL_MEMORY=8MB -sMAXIMUM_MEMORY=2GB
+WASM_OBJECTS := $(patsubst %,$(WASM)/%.o,$(wildcard src/*/*.c src/*/*.cpp) bindings/javascript/hooks.c)
+
+.PHONY: wasm
+
+wasm: $(WASM)/kiri.wasm
+
+$(WASM)/%.c.o: %.c
+	@mkdir -p $(@D)
+	@echo "  wasm $<"
+	@$(EMCC) -std=c99 $(WASM_FLAGS) -Iinclude -MMD -MP -c $< -o $@
+
+$(WASM)/%.cpp.o: %.cpp
+	@mkdir -p $(@D)
+	@echo "  wasm $<"
+	@$(EMXX) -std=c++14 $(WASM_FLAGS) -fno-rtti -isystem "$(EIGEN)" -MMD -MP -c $< -o $@
+
+# All functions of the header, and what runtime.js calls beside them.
+$(WASM)/exports.txt: bindings/kiri.json
+	@mkdir -p $(@D)
+	@$(PYTHON) -c 'import json; print(*["_" + f["name"] for f in json.load(open("$<"))["functions"]], \
+	    "_kiriHost_SetHooks", "_malloc", "_free", sep="\n")' > $@
+
+$(WASM)/kiri.wasm: $(WASM_OBJECTS) $(WASM)/exports.txt
+	@$(EMXX) $(WASM_SPEED) $(WASM_LINK) -sEXPORTED_FUNCTIONS=@$(WASM)/exports.txt $(WASM_OBJECTS) -o $@
+	@echo "  $@: $$(wc -c < $@) bytes, $$(gzip -9c $@ | wc -c) as gzip"
+
+-include $(WASM_OBJECTS:.o=.d)
+
+# As a user has it: kiri.js and what it stands on beside kiri.wasm.
+WASM_PACKAGE := $(WASM)/kiri
+
+$(WASM_PACKAGE)/kiri.wasm: $(WASM)/kiri.wasm bindings/javascript/kiri.js bindings/javascript/kiri.d.ts \
+        bindings/javascript/runtime.js bindings/javascript/package.json bindings/javascript/README.md LICENSE
+	@mkdir -p $(@D)
+	@cp $^ $(@D)
+
+LANGUAGE_CHECKS += javascript
+WANTS_test += emscripten nodejs
+
+.PHONY: javascript javascript-tests
+
+javascript:
+	@if ! command -v $(EMXX) > /dev/null || ! command -v node > /dev/null; then \
+	    echo "javascript: no $(EMXX) or node, binding not tested"; \
+	else $(MAKE) --no-print-directory javascript-tests; fi
+
+javascript-tests: $(WASM_PACKAGE)/kiri.wasm $(BUILD)/tests/python_twin
+	@echo "== tests/test_javascript.mjs"
+	@node --expose-gc tests/test_javascript.mjs $(WASM_PACKAGE) "$$($(BUILD)/tests/python_twin | sed -n 's/hash //p')" \
+	    > $(WASM)/test.log 2>&1 || { cat $(WASM)/test.log; exit 1; }
+	@grep -h 'garbage of a tick\|^# pass' $(WASM)/test.log
