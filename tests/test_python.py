@@ -147,6 +147,13 @@ def test_two_runs_agree_and_another_gravity_does_not():
     assert world.state_hash() != run_scene()[0].state_hash()
 
 
+def test_a_world_is_collected_while_cffi_parses():
+    code = ("import gc, kiri; gc.disable(); world = kiri.World(); world.itself = world; del world\n"
+            "with kiri.ffi._lock: gc.collect()")
+    environment = {**os.environ, "KIRI_LIBRARY": library, "PYTHONPATH": os.path.join(repository, "bindings/python")}
+    subprocess.run([sys.executable, "-c", code], env=environment, check=True, timeout=60)
+
+
 def test_save_and_load():
     world, sheet, cut = make_scene()
     world.tick(1 / 60)

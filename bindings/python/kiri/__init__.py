@@ -91,6 +91,9 @@ def load(path=None):
             raise ImportError(f"{why}; `make lib` builds it, KIRI_LIBRARY says where it is") from None
         if library.kiriGetVersion() != KIRI_VERSION:
             raise ImportError(f"{path} has version {library.kiriGetVersion()}, the header {KIRI_VERSION}")
+        # The first use of a function takes a lock of cffi, which a thread may hold when it collects a world.
+        for name in re.findall(r"KIRI_API [\w ]+\*? ?(kiri\w+)\(", _header):
+            getattr(library, name)
         _libraries[path] = library
     return _libraries[path]
 
