@@ -5,6 +5,7 @@ import copy
 import gc
 import os
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -296,6 +297,20 @@ def test_frames_and_weights():
     frames[0].release()
     world.tick(1 / 60)
     assert frames[0].state().held == 0
+
+
+def test_debug_draw():
+    world, sheet, _ = make_scene()
+    world.tick(1 / 60)
+    counts = sheet.counts()
+    drawn = world.debug_draw(flags=kiri.KIRI_DRAW_FRAMES | kiri.KIRI_DRAW_LINKS | kiri.KIRI_DRAW_TRIANGLES)
+    assert len(drawn.points) == 16 * counts.frames
+    assert len(drawn.lines) == 2 * 16 * (3 * counts.frames + 2 * counts.links)
+    assert len(drawn.triangles) == 3 * 16 * counts.triangles
+    x, y, z, color = struct.unpack("fffI", drawn.points[:16])
+    assert (x, y, z) == sheet.frames()[0].state().position and color >> 24 == 255
+    raises(ZeroDivisionError, world.debug_draw, lines=lambda user, vertices, count: 1 // 0)
+    raises(kiri.KiriError, world.debug_draw, size=0.0)
 
 
 def test_force_and_contacts():

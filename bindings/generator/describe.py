@@ -20,6 +20,7 @@ ARRAYS = {
 }
 NULLABLE = {"kiriSheetDef.framePoints", "kiriObstacleDef.outline", "kiriMesh.normals", "kiriReplay.note",
             "kiriWorldDef.alloc", "kiriWorldDef.free", "kiriWorldDef.log", "kiriWorldDef.clock",
+            "kiriDebugDraw.points", "kiriDebugDraw.lines", "kiriDebugDraw.triangles", "kiriDebugDraw.user",
             "kiriWorldDef.startTask", "kiriWorldDef.finishTask", "kiriWorldDef.user", "kiriWorldDef.record",
             "kiriDestroyWorld.world", "kiriCreateRectangle.def", "kiriWorld_Save.bytes", "kiriWorld_SaveDifference.bytes",
             "kiriSheet_CopyVertices.positions", "kiriSheet_CopyVertices.normals", "kiriSheet_GetWeights.gradients",

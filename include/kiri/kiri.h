@@ -1127,6 +1127,52 @@ KIRI_API kiriResult kiriObstacle_GetState(const kiriWorld* world, kiriObstacle o
 KIRI_API kiriResult kiriSheet_GetReach(const kiriWorld* world, kiriSheet sheet, float dt, float lower[3],
                                        float upper[3]);
 
+/* ---- Debug draw ------------------------------------------------------------------------------------------------- */
+
+/* What is drawn. */
+enum kiriDrawFlag {
+    KIRI_DRAW_TRIANGLES = 1,   /* a triangle for each of the mesh, in a colour of its piece, pale where that sleeps */
+    KIRI_DRAW_EDGES = 2,       /* a line for each edge between two triangles */
+    KIRI_DRAW_BORDERS = 4,     /* a line for each edge of the outline and of lips */
+    KIRI_DRAW_FRAMES = 8,      /* a point and three axes each: u red, v green, normal blue; held ones black */
+    KIRI_DRAW_LINKS = 16,      /* two lines each: from frame to frame by the middle of their border */
+    KIRI_DRAW_PINS = 32,       /* a point at the target; a line to the point of the material, or along the line */
+    KIRI_DRAW_CONTACTS = 64,   /* a point and its normal for each that pushed as the last tick ended */
+    KIRI_DRAW_BLADES = 128,    /* a line along the edge, and a point in each layer that it is in */
+    KIRI_DRAW_BOXES = 256,     /* twelve lines around each piece */
+    KIRI_DRAW_OBSTACLES = 512, /* lines along edges and rims, without the rounding; a plane is a square */
+    KIRI_DRAW_POINTS = 1024,   /* a point for each collision point */
+    KIRI_DRAW_ALL = 2047
+};
+
+/* A corner of what is drawn: as it is, it may go to a GPU. */
+typedef struct kiriDrawVertex {
+    float position[3]; /* m, world */
+    uint32_t color;    /* red in its lowest byte, then green, blue, and opacity, which is 255 */
+} kiriDrawVertex;
+
+/* Gets the next vertices, up to 240 in a call: one for a point, two for a line, three for a triangle. They are the
+   library's, and gone after the call. */
+typedef void kiriDrawFn(void* user, const kiriDrawVertex* vertices, int32_t count);
+
+/* What is drawn, and by whom. */
+typedef struct kiriDebugDraw {
+    uint32_t cookie;
+    uint32_t flags;        /* KIRI_DRAW_..., added up; default: all but TRIANGLES and EDGES */
+    kiriSheet sheet;       /* only this one is drawn, without obstacles and blades; 0 (default): all */
+    float size;            /* m, above 0: length of axes and normals; a plane is 20 times as wide. Default 0.05 */
+    kiriDrawFn* points;    /* null: these are not drawn */
+    kiriDrawFn* lines;     /* the same */
+    kiriDrawFn* triangles; /* the same */
+    void* user;            /* handed to these functions */
+} kiriDebugDraw;
+
+/* Fills it with its defaults, and stamps it. */
+KIRI_API void kiriDefaultDebugDraw(kiriDebugDraw* draw);
+
+/* Draws the world as after the last tick, by the host's functions. Only reads the world, and takes no memory. */
+KIRI_API kiriResult kiriWorld_DebugDraw(const kiriWorld* world, const kiriDebugDraw* draw);
+
 #ifdef __cplusplus
 }
 #endif

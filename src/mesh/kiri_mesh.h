@@ -164,6 +164,17 @@ static inline int32_t kiriMesh_Clockwise(const kiriMeshData* mesh, int32_t h)
     return twin == KIRI_NONE ? KIRI_NONE : kiriEdge_Next(twin);
 }
 
+/* Does the surface end at the half-edge? A cut of one edge, both ends of which are closed, has no gap yet. */
+static inline bool kiriMesh_IsBorder(const kiriMeshData* mesh, int32_t h)
+{
+    int32_t twin = kiriMesh_Twin(mesh, h);
+    if (twin == KIRI_NONE || !kiriMesh_IsOpen(mesh, h)) {
+        return twin == KIRI_NONE;
+    }
+    return kiriMesh_Tail(mesh, kiriEdge_Next(twin)) != kiriMesh_Tail(mesh, h) ||
+           kiriMesh_Tail(mesh, twin) != kiriMesh_Tail(mesh, kiriEdge_Next(h));
+}
+
 static inline void kiriMesh_Corners(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint corners[3])
 {
     const kiriTriangle* t = kiriMesh_TriangleOf(mesh, 3 * triangle);

@@ -13,27 +13,12 @@ static int32_t SolidCorner(const kiriMeshData* mesh, int32_t t, int k)
     return mesh->triangles.data[t].vertex[k % 3];
 }
 
-/* Does the surface end at the half-edge? A cut of one edge, both ends of which are closed, has no gap yet. */
-static bool IsBorderEdge(const kiriMeshData* mesh, int32_t t, int k)
-{
-    const kiriTriangle* triangle = &mesh->triangles.data[t];
-    int32_t twin = triangle->twin[k];
-    if (!kiriMesh_IsTriangle(mesh, t)) {
-        return false;
-    }
-    if (twin == KIRI_NONE || (triangle->open >> k & 1) == 0) {
-        return twin == KIRI_NONE;
-    }
-    return SolidCorner(mesh, twin / 3, twin % 3 + 1) != SolidCorner(mesh, t, k) ||
-           SolidCorner(mesh, twin / 3, twin % 3) != SolidCorner(mesh, t, k + 1);
-}
-
 static int32_t CountBorders(const kiriMeshData* mesh)
 {
     int32_t count = 0;
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         for (int k = 0; k < 3; ++k) {
-            count += IsBorderEdge(mesh, t, k);
+            count += kiriMesh_IsTriangle(mesh, t) && kiriMesh_IsBorder(mesh, 3 * t + k);
         }
     }
     return count;
@@ -123,7 +108,7 @@ bool kiriSolid_Build(kiriSolid* solid, kiriMemory* memory, const kiriSurface* su
     AddSides(&to, surface, 0.5 * thickness);
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         for (int k = 0; k < 3; ++k) {
-            if (IsBorderEdge(mesh, t, k)) {
+            if (kiriMesh_IsTriangle(mesh, t) && kiriMesh_IsBorder(mesh, 3 * t + k)) {
                 AddRim(&to, surface, SolidCorner(mesh, t, k), SolidCorner(mesh, t, k + 1), 0.5 * thickness);
             }
         }

@@ -452,6 +452,18 @@ class World:
         count = min(count, self.get("kiriWorld_GetSheets", "int32_t", sheets, count))
         return [Sheet(self, sheets[i]) for i in range(count)]
 
+    def debug_draw(self, **fields):
+        """What kiriWorld_DebugDraw draws, with fields of kiriDebugDraw by name: points, lines and triangles, each as bytes of
+        kiriDrawVertex: three floats and a colour. Functions of the caller's get batches of their own."""
+        drawn = types.SimpleNamespace(points=bytearray(), lines=bytearray(), triangles=bytearray())
+
+        def adder(to):
+            return lambda user, vertices, count: to.extend(ffi.buffer(vertices, 16 * count))
+        kept = []
+        fields = {**{kind: adder(to) for kind, to in vars(drawn).items()}, **fields}
+        self.call("kiriWorld_DebugDraw", _definition(self, "kiriDebugDraw", fields, kept))
+        return drawn
+
     def note(self, note):
         """Bytes for the recording, which replays find."""
         note = bytes(memoryview(note))
