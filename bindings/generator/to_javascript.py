@@ -7,7 +7,8 @@ import typescript
 
 FOLDER = "bindings/javascript"
 # Of a world def, what only threads and memory outside of WebAssembly would use; hooks are set by runtime.js.
-HIDDEN = {"kiriWorldDef": {"alloc", "free", "log", "clock", "startTask", "finishTask", "workerCount", "user", "record"}}
+HIDDEN = {"kiriWorldDef": {"alloc", "free", "log", "clock", "startTask", "finishTask", "workerCount", "user", "record"},
+          "kiriDebugDraw": {"points", "lines", "triangles", "user"}}
 HOOKS = ["log", "clock", "record"]
 ARRAYS = {"float": "Float32Array", "double": "Float64Array", "int32_t": "Int32Array", "uint32_t": "Uint32Array",
           "uint16_t": "Uint16Array"}

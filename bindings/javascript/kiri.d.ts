@@ -190,6 +190,33 @@ export enum ObstacleType {
     Prism = 5,
 }
 
+/** What is drawn. */
+export enum DrawFlag {
+    /** a triangle for each of the mesh, in a colour of its piece, pale where that sleeps */
+    Triangles = 1,
+    /** a line for each edge between two triangles */
+    Edges = 2,
+    /** a line for each edge of the outline and of lips */
+    Borders = 4,
+    /** a point and three axes each: u red, v green, normal blue; held ones black */
+    Frames = 8,
+    /** two lines each: from frame to frame by the middle of their border */
+    Links = 16,
+    /** a point at the target; a line to the point of the material, or along the line */
+    Pins = 32,
+    /** a point and its normal for each that pushed as the last tick ended */
+    Contacts = 64,
+    /** a line along the edge, and a point in each layer that it is in */
+    Blades = 128,
+    /** twelve lines around each piece */
+    Boxes = 256,
+    /** lines along edges and rims, without the rounding; a plane is a square */
+    Obstacles = 512,
+    /** a point for each collision point */
+    Points = 1024,
+    All = 2047,
+}
+
 /** The most work that one tick may do, over all sheets, first come first served. What does not fit goes on in the next
  *  tick, and in the end is what it would have been without a limit: the points given to a sheet before one tick take
  *  effect together, when all that follows from them is done. Until then the lips of a fresh cut move together. 0: no
@@ -1136,6 +1163,30 @@ export class ObstacleState {
     contacts: number;
 }
 
+
+/** What is drawn, and by whom. */
+export class DebugDraw {
+    cookie: number;
+    /** KIRI_DRAW_..., added up; default: all but TRIANGLES and EDGES */
+    flags: DrawFlag;
+    /** only this one is drawn, without obstacles and blades; 0 (default): all */
+    sheet: Sheet | null;
+    /** m, above 0: length of axes and normals; a plane is 20 times as wide. Default 0.05 */
+    size: number;
+}
+/** What a host gives as DebugDraw: what is left out is as the default has it. */
+export interface DebugDrawGiven {
+    cookie?: number;
+    /** KIRI_DRAW_..., added up; default: all but TRIANGLES and EDGES */
+    flags?: DrawFlag;
+    /** only this one is drawn, without obstacles and blades; 0 (default): all */
+    sheet?: Sheet | null;
+    /** m, above 0: length of axes and normals; a plane is 20 times as wide. Default 0.05 */
+    size?: number;
+}
+
+export function defaultDebugDraw(into?: DebugDraw): DebugDraw;
+
 /** The library's version, as KIRI_VERSION. */
 export function getVersion(): number;
 
@@ -1250,6 +1301,8 @@ export class World {
     beginBlade(sheet?: Sheet | null): Blade;
     /** Adds an obstacle. On failure *obstacle is 0. */
     createObstacle(def: ObstacleDefGiven): Obstacle;
+    /** Draws the world as after the last tick, by the host's functions. Only reads the world, and takes no memory. */
+    debugDraw(draw: DebugDrawGiven): ResultCode;
 }
 
 export class Sheet {

@@ -26,6 +26,8 @@ export const Skinning = enumeration({ Linear: 0, Smooth: 1 });
 export const TimeStepping = enumeration({ SecondOrder: 0, Euler: 1 });
 export const PinType = enumeration({ Point: 0, Hinge: 1, Clamp: 2 });
 export const ObstacleType = enumeration({ Plane: 0, Sphere: 1, Capsule: 2, Box: 3, Cylinder: 4, Prism: 5 });
+export const DrawFlag = enumeration({ Triangles: 1, Edges: 2, Borders: 4, Frames: 8, Links: 16, Pins: 32, Contacts:
+    64, Blades: 128, Boxes: 256, Obstacles: 512, Points: 1024, All: 2047 });
 
 function things(Class, world, at, count) {
     return Array.from(U32.subarray(at >> 2, (at >> 2) + count), (id) => thing(Class, world, id));
@@ -94,6 +96,9 @@ export const layouts = {
         groups: 176 } },
     kiriObstacleState: { size: 128, fields: { position: 0, rotation: 12, velocity: 48, angularVelocity: 60, impulse:
         72, angularImpulse: 96, contacts: 120 } },
+    kiriDrawVertex: { size: 16, fields: { position: 0, color: 12 } },
+    kiriDebugDraw: { size: 32, fields: { cookie: 0, flags: 4, sheet: 8, size: 12, points: 16, lines: 20, triangles:
+        24, user: 28 } },
 };
 
 export class Budget {
@@ -1229,6 +1234,39 @@ function readObstacleState(o, at, world) {
     return o;
 }
 
+export class DebugDraw {
+    cookie = 0;
+    flags = 0;
+    sheet = null;
+    size = 0;
+}
+
+function readDebugDraw(o, at, world) {
+    o.cookie = U32[(at) >> 2];
+    o.flags = U32[(at + 4) >> 2];
+    o.sheet = thing(Sheet, world, U32[(at + 8) >> 2], o.sheet);
+    o.size = F32[(at + 12) >> 2];
+    return o;
+}
+
+const fieldsOfDebugDraw = new Set(["cookie", "flags", "sheet", "size"]);
+
+function writeDebugDraw(o, at, world) {
+    known(o, fieldsOfDebugDraw, "DebugDraw");
+    if (o.cookie !== undefined) {
+        U32[(at) >> 2] = o.cookie;
+    }
+    if (o.flags !== undefined) {
+        U32[(at + 4) >> 2] = o.flags;
+    }
+    if (o.sheet !== undefined) {
+        U32[(at + 8) >> 2] = idOf(o.sheet, world);
+    }
+    if (o.size !== undefined) {
+        F32[(at + 12) >> 2] = o.size;
+    }
+}
+
 export function defaultWorldDef(into = new WorldDef()) {
     wasm.kiriDefaultWorldDef(scratch);
     return readWorldDef(into, scratch, null);
@@ -1247,6 +1285,11 @@ export function defaultPinDef(into = new PinDef()) {
 export function defaultObstacleDef(into = new ObstacleDef()) {
     wasm.kiriDefaultObstacleDef(scratch);
     return readObstacleDef(into, scratch, null);
+}
+
+export function defaultDebugDraw(into = new DebugDraw()) {
+    wasm.kiriDefaultDebugDraw(scratch);
+    return readDebugDraw(into, scratch, null);
 }
 
 export function getVersion() {
@@ -1606,6 +1649,21 @@ export class World extends WorldBase {
                 fail(this, $result, "kiriCreateObstacle");
             }
             return thing(Obstacle, this, U32[(scratch + 184) >> 2]);
+        } finally {
+            release();
+        }
+    }
+
+    debugDraw(draw) {
+        const $world = pointer(this);
+        try {
+            wasm.kiriDefaultDebugDraw(scratch);
+            writeDebugDraw(draw, scratch, this);
+            const $result = wasm.kiriWorld_DebugDraw($world, scratch);
+            if ($result < 0) {
+                fail(this, $result, "kiriWorld_DebugDraw");
+            }
+            return $result;
         } finally {
             release();
         }
