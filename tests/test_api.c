@@ -254,6 +254,33 @@ static void Materials(void** state)
     Host_Stop(&host);
 }
 
+/* Every preset moves a sheet, the next one with more work; other numbers write none. What they are worth: test_quality.c. */
+static void Qualities(void** state)
+{
+    (void)state;
+    Host host;
+    kiriQuality quality = { 0, 0, 0, 0 }, refused = { 7, 7, 7, 7 };
+    Host_Start(&host);
+    for (int32_t preset = 0; preset < KIRI_QUALITY_COUNT; ++preset) {
+        kiriQuality less = quality;
+        kiriSheetDef def;
+        kiriDefaultSheetDef(&def);
+        OK(kiriGetQuality(preset, &quality));
+        assert_true(quality.framesAlong > less.framesAlong && quality.gridResolution > less.gridResolution);
+        assert_true(quality.iterations >= less.iterations && quality.substeps > less.substeps);
+        def.frameCount = quality.framesAlong;
+        def.gridResolution = quality.gridResolution;
+        def.iterations = quality.iterations;
+        Host_AddRectangle(&host, &def, 1.0f, 0.25f, 8, 2);
+        OK(Host_Tick(&host, 1.0f / 60.0f, quality.substeps));
+    }
+    assert_int_equal(kiriGetQuality(-1, &refused), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriGetQuality(KIRI_QUALITY_COUNT, &refused), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriGetQuality(KIRI_QUALITY_FAST, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(refused.framesAlong, 7);
+    Host_Stop(&host);
+}
+
 static void WorldDefs(void** state)
 {
     (void)state;
@@ -1185,6 +1212,7 @@ int main(void)
         cmocka_unit_test(WorldDefs),
         cmocka_unit_test(ModesOfFloats),
         cmocka_unit_test(Materials),
+        cmocka_unit_test(Qualities),
         cmocka_unit_test(WorldArguments),
         cmocka_unit_test(SheetDefFloats),
         cmocka_unit_test(SheetDefInts),

@@ -118,26 +118,12 @@ static void TestErrorFallsAndCostGrows(void** state)
     }
 }
 
-static void TestArguments(void** state)
-{
-    kiriQuality quality = { 7, 7, 7, 7 };
-    (void)state;
-    assert_int_equal(kiriGetQuality(-1, &quality), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriGetQuality(KIRI_QUALITY_COUNT, &quality), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriGetQuality(KIRI_QUALITY_FAST, NULL), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(quality.framesAlong, 7);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestReferenceIsConverged),
-        cmocka_unit_test(TestNoPresetIsDominated),
-        cmocka_unit_test(TestMostAreDominated),
-        cmocka_unit_test(TestErrorsAreAsDocumented),
-        cmocka_unit_test(TestErrorsInTwoDimensions),
-        cmocka_unit_test(TestErrorFallsAndCostGrows),
-        cmocka_unit_test(TestArguments),
+        cmocka_unit_test(TestReferenceIsConverged),  cmocka_unit_test(TestNoPresetIsDominated),
+        cmocka_unit_test(TestMostAreDominated),      cmocka_unit_test(TestErrorsAreAsDocumented),
+        cmocka_unit_test(TestErrorsInTwoDimensions), cmocka_unit_test(TestErrorFallsAndCostGrows),
     };
     return cmocka_run_group_tests(tests, RunSweep, NULL);
 }
