@@ -25,6 +25,18 @@ static bool Check_SameFloats(Check* check, const kiriSheetData* sheet, const cha
     return true;
 }
 
+/* Far from the origin of the world positions are sums of floats, in whatever way these were added. */
+static bool Check_AreFarSums(Check* check, const kiriSheetData* sheet, const kiriSurface* surface)
+{
+    const float middle[3] = { (float)surface->middle.x, (float)surface->middle.y, (float)surface->middle.z };
+    for (int64_t k = 0; kiriSurface_IsFar(surface) && k < 3 * (int64_t)surface->vertexCount; ++k) {
+        float sum = middle[k % 3] + surface->places.data[k];
+        REQUIRE(!kiriMesh_IsVertex(&sheet->mesh, (int32_t)(k / 3)) || surface->positions.data[k] == sum,
+                "coordinate %d is %.9g, and not %.9g", (int)k, (double)surface->positions.data[k], (double)sum);
+    }
+    return true;
+}
+
 bool Check_Seen(Check* check, const kiriSheetData* sheet)
 {
     const kiriSurface* surface = &sheet->seen.surface;
@@ -42,7 +54,8 @@ bool Check_Seen(Check* check, const kiriSheetData* sheet)
     kiriSurface_AddFades(&anew, &sheet->seen.fades);
     kiriSurface_SumNormals(&anew);
     kiriSurface_WriteRange(&anew, 0, surface->vertexCount);
-    return Check_SameFloats(check, sheet, "position", surface->positions.data, anew.positions.data) &&
+    return Check_AreFarSums(check, sheet, &anew) &&
+           Check_SameFloats(check, sheet, "position", surface->positions.data, anew.positions.data) &&
            (!surface->wantsNormals || !surface->hasNormals ||
             Check_SameFloats(check, sheet, "normal", surface->normals.data, anew.normals.data));
 }

@@ -1,5 +1,6 @@
 #include "kiri_surface.h"
 
+#include "../core/kiri_lanes.h"
 #include "kiri_normal.h"
 
 #include <string.h>
@@ -434,13 +435,29 @@ void kiriSurface_SumNormals(kiriSurface* surface)
     }
 }
 
+/* Four vertices at a time: three lanes of x, y, z, x and so on. */
+static void WriteFar(kiriSurface* surface, int32_t begin, int32_t end)
+{
+    const kiriVec3 m = surface->middle;
+    const float middle[6] = { (float)m.x, (float)m.y, (float)m.z, (float)m.x, (float)m.y, (float)m.z };
+    const kiriLanes xyzx = kiriLanes_Load(middle), yzxy = kiriLanes_Load(middle + 1), zxyz = kiriLanes_Load(middle + 2);
+    const float* from = surface->places.data + 3 * (ptrdiff_t)begin;
+    float* to = surface->positions.data + 3 * (ptrdiff_t)begin;
+    int32_t v = begin;
+    for (; v + 4 <= end; v += 4, from += 12, to += 12) {
+        kiriLanes_Store(to, kiriLanes_Add(xyzx, kiriLanes_Load(from)));
+        kiriLanes_Store(to + 4, kiriLanes_Add(yzxy, kiriLanes_Load(from + 4)));
+        kiriLanes_Store(to + 8, kiriLanes_Add(zxyz, kiriLanes_Load(from + 8)));
+    }
+    for (int32_t k = 0; k < 3 * (end - v); ++k) {
+        to[k] = middle[k % 3] + from[k];
+    }
+}
+
 void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end)
 {
-    const float middle[3] = { (float)surface->middle.x, (float)surface->middle.y, (float)surface->middle.z };
-    for (int32_t v = begin; kiriSurface_IsFar(surface) && v < end; ++v) {
-        for (ptrdiff_t k = 3 * (ptrdiff_t)v; k < 3 * (ptrdiff_t)v + 3; ++k) {
-            surface->positions.data[k] = middle[k % 3] + surface->places.data[k];
-        }
+    if (kiriSurface_IsFar(surface)) {
+        WriteFar(surface, begin, end);
     }
     if (surface->hasNormals) {
         kiriNormals_Write(surface->normals.data, surface->slopes.data, begin, end);
