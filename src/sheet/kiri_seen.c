@@ -298,6 +298,13 @@ void kiriView_Fade(kiriSheetData* sheet, double dt)
     kiriFades_Advance(&sheet->seen.pointFades, dt);
 }
 
+bool kiriView_IsSettled(const kiriSheetData* sheet)
+{
+    const kiriSeen* seen = &sheet->seen;
+    return seen->surface.isWritten && seen->surface.isSteady && !seen->isElsewhere && seen->fades.fading.count == 0 &&
+           seen->pointFades.fading.count == 0;
+}
+
 void kiriView_Trim(kiriSheetData* sheet)
 {
     if (!sheet->update->isBegun) {

@@ -26,6 +26,9 @@ void kiriView_HideGone(kiriSheetData* sheet);
 void kiriView_TakeJump(kiriSheetData* sheet);
 void kiriView_Fade(kiriSheetData* sheet, double dt);
 
+/* Would writing positions change nothing, as long as frames stay where they are? */
+bool kiriView_IsSettled(const kiriSheetData* sheet);
+
 /* Frees what fades have no use for. */
 void kiriView_Trim(kiriSheetData* sheet);
 

@@ -9,10 +9,17 @@ typedef struct SkinTask {
     double dt;
 } SkinTask;
 
-/* Without tasks, and where a sheet is one range or sleeps, all is done at one go. */
-static bool IsInRanges(const kiriWorld* world, const kiriSheetData* sheet)
+static bool IsStill(const kiriWorld* world, int32_t k)
 {
-    return kiriTasks_AreGiven(&world->tasks) && !sheet->rest.asleep && sheet->mesh.vertices.count > RANGE_VERTICES;
+    return world->moves.of.data[world->active.data[k]].isStill;
+}
+
+/* Without tasks, and where a sheet is one range, sleeps or stood still, all is done at one go. */
+static bool IsInRanges(const kiriWorld* world, int32_t k)
+{
+    const kiriSheetData* sheet = kiriWorld_Active(world, k);
+    return kiriTasks_AreGiven(&world->tasks) && !IsStill(world, k) && !sheet->rest.asleep &&
+           sheet->mesh.vertices.count > RANGE_VERTICES;
 }
 
 bool kiriSkinStep_Prepare(kiriWorld* world)
@@ -24,12 +31,21 @@ bool kiriSkinStep_Prepare(kiriWorld* world)
     return kiriArray_Reserve(&world->memory, &world->skinRanges, count);
 }
 
+/* Sheets for which the budget had nothing left stood where they were written last. */
+static void FindStill(kiriWorld* world)
+{
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        kiriMove* move = &world->moves.of.data[world->active.data[k]];
+        move->isStill = move->progress == KIRI_MORE && kiriView_IsSettled(kiriWorld_Active(world, k));
+    }
+}
+
 static void ListRanges(kiriWorld* world)
 {
     world->skinRanges.count = 0;
     for (int32_t k = 0; k < world->active.count; ++k) {
         const kiriSheetData* sheet = kiriWorld_Active(world, k);
-        int32_t vertices = IsInRanges(world, sheet) ? sheet->mesh.vertices.count : 0;
+        int32_t vertices = IsInRanges(world, k) ? sheet->mesh.vertices.count : 0;
         for (int32_t v = 0; v < vertices; v += RANGE_VERTICES) {
             kiriSkinRange range = { world->active.data[k], v,
                                     v + RANGE_VERTICES < vertices ? v + RANGE_VERTICES : vertices };
@@ -43,10 +59,13 @@ static void BeginSheets(int32_t start, int32_t end, void* context)
     const SkinTask* task = context;
     for (int32_t k = start; k < end; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(task->world, k);
+        if (IsStill(task->world, k)) {
+            continue;
+        }
         if (!sheet->rest.asleep) {
             kiriView_Fade(sheet, task->dt);
         }
-        if (IsInRanges(task->world, sheet)) {
+        if (IsInRanges(task->world, k)) {
             kiriView_TakeFrames(sheet);
             continue;
         }
@@ -71,7 +90,7 @@ static void SumSheets(int32_t start, int32_t end, void* context)
     const SkinTask* task = context;
     for (int32_t k = start; k < end; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(task->world, k);
-        if (IsInRanges(task->world, sheet)) {
+        if (IsInRanges(task->world, k)) {
             kiriView_Sum(sheet);
         }
     }
@@ -91,7 +110,7 @@ static void EndSheets(int32_t start, int32_t end, void* context)
     const SkinTask* task = context;
     for (int32_t k = start; k < end; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(task->world, k);
-        if (IsInRanges(task->world, sheet)) {
+        if (IsInRanges(task->world, k)) {
             kiriView_EndWriting(sheet);
             kiriView_KeepBounds(sheet);
         }
@@ -101,6 +120,7 @@ static void EndSheets(int32_t start, int32_t end, void* context)
 void kiriSkinStep_Run(kiriWorld* world, double dt)
 {
     SkinTask task = { world, dt };
+    FindStill(world);
     ListRanges(world);
     kiriTasks_Run(&world->tasks, BeginSheets, world->active.count, 1, &task);
     if (world->skinRanges.count > 0) {
@@ -110,7 +130,7 @@ void kiriSkinStep_Run(kiriWorld* world, double dt)
         kiriTasks_Run(&world->tasks, EndSheets, world->active.count, 1, &task);
     }
     for (int32_t k = 0; k < world->active.count; ++k) {
-        if (!kiriWorld_Active(world, k)->rest.asleep) {
+        if (!IsStill(world, k) && !kiriWorld_Active(world, k)->rest.asleep) {
             kiriView_Trim(kiriWorld_Active(world, k));
         }
     }

@@ -21,6 +21,7 @@ typedef struct kiriMeet {
 typedef struct kiriMove {
     int32_t next, tail; /* of its group: the sheet after it; and of a root, the last one */
     kiriProgress progress;
+    bool isStill;    /* and what is seen of it is what was */
     int64_t systems; /* that it took */
 } kiriMove;
 
