@@ -47,7 +47,6 @@ $(WASM_PACKAGE)/kiri.wasm: $(WASM)/kiri.wasm bindings/javascript/kiri.js binding
 	@cp $^ $(@D)
 
 LANGUAGE_CHECKS += javascript
-WANTS_test += emscripten nodejs
 
 .PHONY: javascript javascript-tests
 
@@ -61,3 +60,34 @@ javascript-tests: $(WASM_PACKAGE)/kiri.wasm $(BUILD)/tests/python_twin
 	@node --expose-gc tests/test_javascript.mjs $(WASM_PACKAGE) "$$($(BUILD)/tests/python_twin | sed -n 's/hash //p')" \
 	    > $(WASM)/test.log 2>&1 || { cat $(WASM)/test.log; exit 1; }
 	@grep -h 'garbage of a tick\|^# pass' $(WASM)/test.log
+
+# ---- The page: static files in build/web ----
+
+WEB := build/web
+WEB_TOOLS := build/web_tools
+
+.PHONY: web web-serve web-test
+
+web: $(WEB)/main.js
+
+$(WEB_TOOLS)/installed: samples/web/package.json
+	@mkdir -p $(@D) && cp $< $(@D)
+	@npm install --prefix $(@D) --no-audit --no-fund --silent
+	@touch $@
+
+$(WEB)/main.js: $(wildcard samples/web/*) $(WASM_PACKAGE)/kiri.wasm $(WEB_TOOLS)/installed
+	@mkdir -p $(@D)
+	@cp samples/web/*.html samples/web/*.css $(WASM_PACKAGE)/kiri.wasm $(@D)
+	@NODE_PATH=$(WEB_TOOLS)/node_modules $(WEB_TOOLS)/node_modules/.bin/esbuild samples/web/main.js --bundle --minify \
+	    --format=esm --target=es2022 --alias:kiri=./$(WASM_PACKAGE)/kiri.js --outfile=$@ --log-level=warning
+	@echo "  $(WEB): $$(cat $(WEB)/* | wc -c) bytes"
+
+# Any server of static files does.
+web-serve: web
+	cd $(WEB) && $(PYTHON) -m http.server 8000
+
+BROWSER ?= $(firstword $(wildcard /usr/bin/chromium /usr/bin/chromium-browser /usr/bin/google-chrome))
+
+web-test: web
+	@if [ -z "$(BROWSER)" ]; then echo "web: no chromium, the page was not tested"; \
+	else node tests/test_web.mjs $(WEB) $(WEB_TOOLS)/node_modules/playwright-core/index.js $(WEB)_test $(BROWSER); fi

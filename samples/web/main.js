@@ -1,0 +1,241 @@
+// The page: a sheet hangs there, and a finger cuts it.
+
+import { KiriError, Replay, ResultCode, load } from "kiri";
+
+import { Hand } from "./hand.js";
+import { makeMaterials } from "./materials.js";
+import { Panel } from "./panel.js";
+import { readCuts } from "./paths.js";
+import { lantern, snowflake } from "./patterns.js";
+import { makePrint } from "./print.js";
+import { Tape, pack, unpack } from "./share.js";
+import { SIZE, Simulation, TICK } from "./simulation.js";
+import { Skin } from "./skin.js";
+import { Sound } from "./sound.js";
+import { Stage } from "./stage.js";
+import { Grab, Knife, Scissors, Snowflake } from "./tools.js";
+
+const UNDOS = 24;
+const text = new TextEncoder();
+
+class Game {
+    choice = { sheet: "paper", tool: "knife", quality: 1, flat: false, folded: false };
+    sound = new Sound();
+    undos = [];
+    tools = { knife: Knife, scissors: Scissors, grab: Grab };
+    behind = 0; // s that the world is behind the clock
+    frames = 0;
+    times = { simulation: 0, skin: 0, draw: 0 }; // ms of the last frame
+
+    constructor(canvas) {
+        this.stage = new Stage(canvas);
+        this.materials = makeMaterials();
+        this.panel = new Panel(this);
+        this.hand = new Hand(canvas, this);
+        addEventListener("resize", () => this.stage.resize());
+    }
+
+    get grabs() {
+        return this.choice.tool === "grab";
+    }
+
+    get isReplaying() {
+        return Boolean(this.replay);
+    }
+
+    makeTool() {
+        return this.choice.folded && !this.grabs ? new Snowflake(this, SIZE / 2) : new this.tools[this.choice.tool](this);
+    }
+
+    // ---- Worlds
+
+    restart(changes = {}, def = {}) {
+        Object.assign(this.choice, changes);
+        this.replay = null;
+        this.undos.length = 0;
+        this.tape = new Tape();
+        this.open(new Simulation(this.options(def), this.tape.take));
+        this.simulation.world.note(text.encode(JSON.stringify(this.choice)));
+        this.simulation.build();
+        this.panel.showQuality(this.simulation);
+        this.show();
+    }
+
+    options(def) {
+        const { quality, flat, sheet } = this.choice;
+        return { material: this.materials[sheet], quality, flat, def, columns: this.columns };
+    }
+
+    open(simulation) {
+        this.simulation?.destroy();
+        this.simulation = simulation;
+        const look = this.materials[this.choice.sheet];
+        if (this.skin) {
+            this.stage.scene.remove(this.skin.mesh);
+            this.skin.dispose();
+        }
+        this.skin = new Skin(look, makePrint);
+        this.sound.look = look.sound;
+        this.stage.hang(this.choice.flat);
+        this.stage.scene.add(this.skin.mesh);
+        this.panel.pressSheet(this.choice.sheet);
+        this.behind = 0;
+    }
+
+    // ---- What the host does
+
+    /** What the library refuses is said, and changes nothing. */
+    attempt(work) {
+        try {
+            return work();
+        } catch (error) {
+            if (!(error instanceof KiriError)) {
+                this.panel.say(error.message);
+                console.error(error);
+            }
+        }
+    }
+
+    beforeAct() {
+        this.undos.push(this.simulation.world.save());
+        if (this.undos.length > UNDOS) {
+            this.undos.shift();
+        }
+        this.simulation.slow = !this.grabs;
+        this.panel.hint.classList.add("gone");
+    }
+
+    afterAct() {
+        this.simulation.slow = false;
+        this.simulation.dropCrumbs();
+    }
+
+    undo() {
+        if (this.undos.length && !this.hand.tool && !this.isReplaying) {
+            this.simulation.world.load(this.undos.pop());
+            this.skin.revision = -1;
+            this.simulation.look();
+        }
+    }
+
+    cut(paths) {
+        this.beforeAct();
+        this.attempt(() => this.simulation.cut(paths));
+        this.afterAct();
+    }
+
+    cutFile(content) {
+        this.cut(readCuts(content, SIZE));
+    }
+
+    showSnowflake() {
+        this.restart({ sheet: "paper", flat: false, folded: true });
+        this.cut(snowflake(SIZE));
+        this.panel.say("Folded paper: each cut is made twelve times");
+    }
+
+    showLantern() {
+        this.restart({ sheet: "paper", flat: true, folded: false }, { frameCount: 120, maxFrames: 160, iterations: 4 });
+        this.cut(lantern(SIZE));
+    }
+
+    // ---- Links
+
+    async link() {
+        return `#${await pack(this.tape.bytes())}`;
+    }
+
+    async play(packed) {
+        this.recording = await unpack(packed);
+        this.tape = new Tape();
+        const simulation = new Simulation(this.options({}), null);
+        this.replay = new Replay();
+        // The first note says what sheet it was.
+        simulation.world.replay(this.recording, this.replay);
+        if (this.replay.note) {
+            Object.assign(this.choice, JSON.parse(new TextDecoder().decode(this.replay.note)));
+        }
+        this.open(simulation);
+        this.panel.say("A recording: choose a sheet to cut your own");
+    }
+
+    /** One recorded tick. After the last one the world goes on by itself. */
+    playTick() {
+        const { world } = this.simulation, ticks = this.replay.ticks;
+        while (this.replay && this.replay.ticks === ticks) {
+            if (world.replay(this.recording, this.replay) !== ResultCode.Pending) {
+                this.finished = { ticks: this.replay.ticks, hash: world.getStateHash().toString(16).padStart(16, "0") };
+                this.replay = null;
+            }
+        }
+        this.simulation.look();
+    }
+
+    // ---- Frames
+
+    frame(seconds) {
+        const start = performance.now();
+        const pixels = this.hand.reach();
+        this.sound.cut(this.hand.tool && !this.grabs && this.choice.tool !== "scissors" ? pixels : 0);
+        // While a blade is down each picture has a tick of its own, so that the lip is where the finger is.
+        this.behind = Math.min(this.behind + seconds, 2 * TICK);
+        if (this.simulation.slow && !this.isReplaying) {
+            this.simulation.tick();
+            this.behind = 0;
+        }
+        for (; this.behind >= 0.9 * TICK; this.behind -= TICK) {
+            if (this.isReplaying) {
+                this.playTick();
+            } else {
+                this.simulation.tick();
+            }
+        }
+        this.times.simulation = performance.now() - start;
+        this.show();
+    }
+
+    show() {
+        const start = performance.now();
+        if (this.simulation.sheet) {
+            this.skin.follow(this.simulation.sheet, this.simulation.sheet.getMesh(this.mesh).revision);
+        }
+        const drawn = performance.now();
+        this.stage.draw();
+        this.times.skin = drawn - start;
+        this.times.draw = performance.now() - drawn;
+        if (++this.frames % 10 === 0) {
+            this.panel.showCost(this.simulation);
+        }
+    }
+
+    run() {
+        let before = performance.now();
+        const loop = (now) => {
+            requestAnimationFrame(loop);
+            this.stage.spare((now - before) / 1000);
+            this.frame(Math.max(0, now - before) / 1000);
+            before = now;
+        };
+        requestAnimationFrame(loop);
+    }
+}
+
+async function start() {
+    await load(new URL("./kiri.wasm", import.meta.url));
+    const game = globalThis.game = new Game(document.getElementById("view"));
+    const packed = location.hash.slice(1);
+    game.restart();
+    if (packed) {
+        await game.play(packed);
+    }
+    // Tests make their frames themselves.
+    if (!new URLSearchParams(location.search).has("still")) {
+        game.run();
+    }
+    game.opened = performance.now();
+}
+
+start().catch((error) => {
+    console.error(error);
+    document.getElementById("hint").textContent = `This browser cannot show it: ${error.message}`;
+});

@@ -1,0 +1,30 @@
+// What the sheets are made of: the library's presets, and how they look and sound.
+
+import { MaterialPreset, Model, getMaterial } from "kiri";
+
+const of = (preset, changes) => ({ ...getMaterial(preset), ...changes });
+
+/** Made after load(): numbers are the library's. */
+export const makeMaterials = () => ({
+    paper: {
+        material: of(MaterialPreset.Paper, { airDamping: 0.6, flexDamping: 2e-3 }),
+        drawn: 0.5e-3, roughness: 0.92, metalness: 0, rim: 0xf4efe4, print: "paper",
+        sound: { pitch: 3800, width: 0.7, volume: 0.5 },
+    },
+    cloth: {
+        material: of(MaterialPreset.Cotton, { airDamping: 0.8, flexDamping: 4e-3 }),
+        drawn: 1.1e-3, roughness: 1, metalness: 0, rim: 0x8fa6b8, print: "cloth",
+        sound: { pitch: 900, width: 0.5, volume: 0.35 },
+    },
+    foil: {
+        material: of(MaterialPreset.Foil, { airDamping: 0.5, flexDamping: 1e-3 }),
+        drawn: 0.3e-3, roughness: 0.24, metalness: 1, rim: 0xd9d6d0, print: "foil",
+        sound: { pitch: 6200, width: 1.6, volume: 0.4 },
+    },
+    rubber: {
+        material: of(MaterialPreset.Rubber, { airDamping: 0.5, flexDamping: 1e-2 }),
+        model: Model.Affine, iterations: 4,
+        drawn: 3e-3, roughness: 0.55, metalness: 0, rim: 0x8f2f27, print: "rubber",
+        sound: { pitch: 320, width: 0.8, volume: 0.5 },
+    },
+});

@@ -1,0 +1,50 @@
+// Cuts that are ready: a snowflake, and slits that open to a lantern.
+
+const around = (middle, radius, angle) => [middle + radius * Math.cos(angle), middle + radius * Math.sin(angle)];
+
+function arc(middle, radius, from, to, step = 0.003) {
+    const count = Math.max(6, Math.ceil(Math.abs(to - from) * radius / step));
+    return Array.from({ length: count + 1 }, (_, i) => around(middle, radius, from + (to - from) * i / count)).flat();
+}
+
+/** Holes of a snowflake and its outline, six times and mirrored. */
+export function snowflake(size) {
+    const middle = size / 2, unit = size / 2, paths = [];
+    const leaf = (radius, at, length, width) => {
+        // A closed rhomb, along the ray `at`.
+        const point = (r, w) => {
+            const c = Math.cos(at), s = Math.sin(at);
+            return [middle + unit * (r * c - w * s), middle + unit * (r * s + w * c)];
+        };
+        paths.push([point(radius, 0), point(radius + length / 2, width), point(radius + length, 0),
+                    point(radius + length / 2, -width), point(radius, 0)].flat());
+    };
+    for (let i = 0; i < 6; i++) {
+        const ray = i * Math.PI / 3 + Math.PI / 6;
+        leaf(0.14, ray, 0.2, 0.045);
+        leaf(0.47, ray, 0.2, 0.07);
+        leaf(0.3, ray + Math.PI / 6, 0.2, 0.05);
+    }
+    const outline = [];
+    for (let i = 0; i <= 60; i++) {
+        const angle = i * Math.PI / 30 + Math.PI / 6;
+        const radius = [0.94, 0.86, 0.87, 0.7, 0.6, 0.52, 0.6, 0.7, 0.87, 0.86][i % 10];
+        outline.push(...around(middle, unit * radius, angle));
+    }
+    paths.push(outline);
+    return paths;
+}
+
+/** Rings of slits, each over the gaps of the one before, and a round outline: held in its middle, the disc opens. */
+export function lantern(size) {
+    const middle = size / 2, paths = [], rings = 9, slits = 4, gap = 0.16;
+    for (let ring = 0; ring < rings; ring++) {
+        const radius = size * (0.09 + 0.345 * ring / (rings - 1)), turn = (ring % 2) * Math.PI / slits;
+        for (let i = 0; i < slits; i++) {
+            const from = turn + i * 2 * Math.PI / slits;
+            paths.push(arc(middle, radius, from + gap / 2 + 0.02 / (radius / size) * 0.2, from + 2 * Math.PI / slits - gap / 2));
+        }
+    }
+    paths.push(arc(middle, size * 0.475, 0, 2 * Math.PI));
+    return paths;
+}

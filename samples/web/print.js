@@ -1,0 +1,131 @@
+// What is printed on both sides of a sheet, drawn once.
+
+import { CanvasTexture, RepeatWrapping, SRGBColorSpace } from "three";
+
+const SIDE = 1024;
+
+function texture(draw, color = true) {
+    const canvas = document.createElement("canvas");
+    canvas.width = canvas.height = SIDE;
+    draw(canvas.getContext("2d"));
+    const made = new CanvasTexture(canvas);
+    made.anisotropy = 8;
+    made.wrapS = made.wrapT = RepeatWrapping;
+    if (color) {
+        made.colorSpace = SRGBColorSpace;
+    }
+    return made;
+}
+
+const fill = (c, color) => { c.fillStyle = color; c.fillRect(0, 0, SIDE, SIDE); };
+
+/** Fine noise: fibres of paper, dust. */
+function grain(c, strength, seed = 1) {
+    const image = c.getImageData(0, 0, SIDE, SIDE), data = image.data;
+    let s = seed;
+    for (let i = 0; i < data.length; i += 4) {
+        s = (Math.imul(s, 1664525) + 1013904223) >>> 0;
+        const change = (s / 4294967296 - 0.5) * strength;
+        data[i] += change; data[i + 1] += change; data[i + 2] += change;
+    }
+    c.putImageData(image, 0, 0);
+}
+
+/** Rows of waves, as on Japanese paper. */
+function waves(c, radius, line, ground, y0 = 0) {
+    c.lineWidth = radius / 14;
+    for (let row = 0, y = y0; y < SIDE + radius; row++, y += radius / 2) {
+        for (let x = (row % 2) * radius - radius; x < SIDE + radius; x += 2 * radius) {
+            for (let r = radius; r > radius / 8; r -= radius / 4) {
+                c.beginPath();
+                c.arc(x, y, r, Math.PI, 0);
+                c.fillStyle = ground;
+                c.strokeStyle = line;
+                c.fill();
+                c.stroke();
+            }
+        }
+    }
+}
+
+const paints = {
+    paper(c) {
+        fill(c, "#f3ecdd");
+        c.fillStyle = "#c8402f";
+        c.beginPath();
+        c.arc(SIDE * 0.5, SIDE * 0.42, SIDE * 0.24, 0, 7);
+        c.fill();
+        waves(c, 84, "#27507a", "#f3ecdd", SIDE * 0.62);
+        c.strokeStyle = "#27507a";
+        c.lineWidth = 6;
+        c.strokeRect(28, 28, SIDE - 56, SIDE - 56);
+        grain(c, 12);
+    },
+    paperBack(c) {
+        fill(c, "#e9dfc9");
+        c.strokeStyle = "#c9bda2";
+        c.lineWidth = 1.5;
+        for (let i = 0; i <= SIDE; i += 64) {
+            c.beginPath(); c.moveTo(i, 0); c.lineTo(i, SIDE); c.moveTo(0, i); c.lineTo(SIDE, i); c.stroke();
+        }
+        grain(c, 12, 7);
+    },
+    cloth(c) {
+        fill(c, "#eef1f0");
+        for (let i = 0; i < SIDE; i += 128) {
+            c.fillStyle = "#3d6c9766";
+            c.fillRect(i, 0, 64, SIDE);
+            c.fillRect(0, i, SIDE, 64);
+        }
+        c.globalAlpha = 0.13;
+        for (let i = 0; i < SIDE; i += 4) {
+            c.fillStyle = i % 8 ? "#000" : "#fff";
+            c.fillRect(i, 0, 1.6, SIDE);
+            c.fillRect(0, i, SIDE, 1.6);
+        }
+        c.globalAlpha = 1;
+        grain(c, 16, 3);
+    },
+    clothBack(c) {
+        paints.cloth(c);
+        c.fillStyle = "#ffffff8c";
+        c.fillRect(0, 0, SIDE, SIDE);
+    },
+    foil(c) {
+        fill(c, "#e2bd6a");
+        c.strokeStyle = "#f3dca0";
+        c.lineWidth = 5;
+        for (let i = 0; i < SIDE; i += 128) {
+            for (let j = 0; j < SIDE; j += 128) {
+                c.beginPath(); c.moveTo(i + 64, j + 16); c.lineTo(i + 112, j + 64); c.lineTo(i + 64, j + 112);
+                c.lineTo(i + 16, j + 64); c.closePath(); c.stroke();
+            }
+        }
+        grain(c, 5, 5);
+    },
+    foilBack(c) {
+        fill(c, "#dcdad6");
+        grain(c, 5, 9);
+    },
+    rubber(c) {
+        fill(c, "#c2463a");
+        for (let i = 0; i < 16; i++) {
+            for (let j = 0; j < 16; j++) {
+                c.beginPath();
+                c.arc((i + (j % 2 ? 0.75 : 0.25)) * 64, (j + 0.5) * 64, 14, 0, 7);
+                c.fillStyle = "#d9695b";
+                c.fill();
+            }
+        }
+        grain(c, 9, 11);
+    },
+    rubberBack(c) {
+        fill(c, "#a83a30");
+        grain(c, 9, 13);
+    },
+};
+
+/** Textures of the front and the back. */
+export function makePrint(name) {
+    return { front: texture(paints[name]), back: texture(paints[`${name}Back`]) };
+}

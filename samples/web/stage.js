@@ -1,0 +1,148 @@
+// Camera, light and ground.
+
+import {
+    AmbientLight, BoxGeometry, CircleGeometry, Color, CylinderGeometry, DirectionalLight, Fog, Mesh, MeshBasicMaterial,
+    MeshStandardMaterial, NeutralToneMapping, PCFShadowMap, PerspectiveCamera, PMREMGenerator, Scene, SphereGeometry,
+    Vector3, WebGLRenderer, BackSide, HemisphereLight,
+} from "three";
+
+import { SIZE } from "./simulation.js";
+
+const BACKGROUND = 0xd9d4cb;
+
+export class Stage {
+    constructor(canvas) {
+        this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+        this.renderer.shadowMap.enabled = true;
+        this.renderer.shadowMap.type = PCFShadowMap;
+        this.renderer.toneMapping = NeutralToneMapping;
+        this.scene = new Scene();
+        this.scene.background = new Color(BACKGROUND);
+        this.scene.fog = new Fog(BACKGROUND, 1.6, 4);
+        this.camera = new PerspectiveCamera(35, 1, 0.02, 20);
+        this.target = new Vector3(0, 0.2, 0);
+        this.detail = 1; // of the window's pixels: less where drawing takes too long
+        this.slowFrames = 0;
+        this.turn = { around: 0.35, above: 0.22, distance: 0.98 };
+        this.addLight();
+        this.addGround();
+        this.addRod();
+        this.resize();
+    }
+
+    addLight() {
+        const sun = new DirectionalLight(0xfff1de, 2.6);
+        sun.position.set(0.55, 1.1, 0.75);
+        sun.target.position.set(0, 0.12, 0);
+        sun.castShadow = true;
+        sun.shadow.mapSize.set(1024, 1024);
+        Object.assign(sun.shadow.camera, { left: -0.5, right: 0.5, top: 0.5, bottom: -0.5, near: 0.2, far: 3 });
+        sun.shadow.bias = -0.0006;
+        sun.shadow.normalBias = 0.002;
+        sun.shadow.radius = 4;
+        this.scene.add(sun, sun.target, new HemisphereLight(0xe9f0ff, 0xb8a68e, 0.85), new AmbientLight(0xffffff, 0.12));
+        this.scene.environment = this.makeSurroundings();
+        this.scene.environmentIntensity = 0.55;
+    }
+
+    /** What shiny sheets mirror: a grey room with three lamps. */
+    makeSurroundings() {
+        const room = new Scene();
+        room.add(new Mesh(new SphereGeometry(5, 16, 8), new MeshBasicMaterial({ color: 0x8d8a86, side: BackSide })));
+        const lamp = (x, y, z, w, h, brightness) => {
+            const mesh = new Mesh(new BoxGeometry(w, h, 0.05), new MeshBasicMaterial());
+            mesh.material.color.setScalar(brightness);
+            mesh.position.set(x, y, z);
+            mesh.lookAt(0, 0, 0);
+            room.add(mesh);
+        };
+        lamp(2, 3, 2.5, 2, 1.6, 9);
+        lamp(-3.5, 1.5, 1, 1, 3, 4);
+        lamp(0.5, 1, -4, 4, 0.6, 3);
+        const generator = new PMREMGenerator(this.renderer);
+        const made = generator.fromScene(room, 0.03).texture;
+        generator.dispose();
+        return made;
+    }
+
+    addGround() {
+        const ground = new Mesh(new CircleGeometry(6, 48), new MeshStandardMaterial({ color: 0xcfc8bb, roughness: 1, envMapIntensity: 0.5 }));
+        ground.rotation.x = -Math.PI / 2;
+        ground.receiveShadow = true;
+        this.scene.add(ground);
+    }
+
+    /** What the sheet hangs from. */
+    addRod() {
+        const material = new MeshStandardMaterial({ color: 0x6f5a45, roughness: 0.6 });
+        this.rod = new Mesh(new CylinderGeometry(0.0045, 0.0045, SIZE + 0.05, 20), material);
+        this.rod.rotation.z = Math.PI / 2;
+        this.rod.position.set(0, 0.13 + SIZE + 0.002, 0);
+        this.string = new Mesh(new CylinderGeometry(0.0011, 0.0011, 1, 8), material);
+        this.string.position.set(0, 0.84, 0);
+        for (const mesh of [this.rod, this.string]) {
+            mesh.castShadow = true;
+            this.scene.add(mesh);
+        }
+    }
+
+    /** A sheet that lies flat hangs from a string, one that hangs down from a rod. */
+    hang(flat) {
+        this.rod.visible = !flat;
+        this.string.visible = flat;
+    }
+
+    resize() {
+        const width = innerWidth, height = innerHeight;
+        this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2) * this.detail);
+        this.renderer.setSize(width, height, false);
+        this.camera.aspect = width / height;
+        // The sheet fits in narrow windows too.
+        this.camera.fov = width < height ? 35 * Math.min(1.7, height / width) : 35;
+        this.camera.updateProjectionMatrix();
+        this.aim();
+    }
+
+    /** Turns by so many pixels. */
+    turnBy(x, y) {
+        this.turn.around -= x * 0.006;
+        this.turn.above = Math.min(1.45, Math.max(-0.05, this.turn.above + y * 0.006));
+        this.aim();
+    }
+
+    zoomBy(factor) {
+        this.turn.distance = Math.min(2.2, Math.max(0.25, this.turn.distance * factor));
+        this.aim();
+    }
+
+    aim() {
+        const { around, above, distance } = this.turn;
+        this.camera.position.set(Math.sin(around) * Math.cos(above), Math.sin(above), Math.cos(around) * Math.cos(above))
+            .multiplyScalar(distance).add(this.target);
+        this.camera.position.y = Math.max(0.02, this.camera.position.y);
+        this.camera.lookAt(this.target);
+        this.camera.updateMatrixWorld();
+    }
+
+    /** The ray through a point of the window, for the library. */
+    ray(x, y) {
+        const at = new Vector3(2 * x / innerWidth - 1, 1 - 2 * y / innerHeight, 0.5).unproject(this.camera);
+        const origin = this.camera.position;
+        const direction = at.sub(origin).normalize();
+        return { origin: origin.toArray(), direction: direction.toArray() };
+    }
+
+    /** Slow machines draw fewer pixels. */
+    spare(seconds) {
+        this.slowFrames = seconds > 0.03 ? this.slowFrames + 1 : 0;
+        if (this.slowFrames > 12 && this.detail > 0.4) {
+            this.slowFrames = 0;
+            this.detail *= 0.8;
+            this.resize();
+        }
+    }
+
+    draw() {
+        this.renderer.render(this.scene, this.camera);
+    }
+}

@@ -1,0 +1,169 @@
+// The page in a browser without a window: node tests/test_web.mjs PAGE PLAYWRIGHT PICTURES BROWSER. Prints what a frame
+// takes, and writes pictures.
+
+import assert from "node:assert/strict";
+import { mkdirSync, readFileSync } from "node:fs";
+import { createServer } from "node:http";
+import { extname, join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { resolve } from "node:path";
+
+const [page, playwright, pictures, browserPath] = process.argv.slice(2);
+const { chromium } = (await import(pathToFileURL(resolve(playwright)))).default;
+const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm" };
+mkdirSync(pictures, { recursive: true });
+
+const server = createServer((request, response) => {
+    const path = new URL(request.url, "http://x").pathname.replace(/\/$/, "/index.html");
+    try {
+        const body = readFileSync(join(page, path));
+        response.writeHead(200, { "content-type": types[extname(path)] ?? "application/octet-stream" }).end(body);
+    } catch {
+        response.writeHead(404).end();
+    }
+}).listen(0, "127.0.0.1");
+await new Promise((done) => server.once("listening", done));
+const address = `http://127.0.0.1:${server.address().port}/`;
+
+const browser = await chromium.launch({
+    executablePath: browserPath,
+    args: ["--no-sandbox", "--disable-gpu", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic",
+           "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+});
+
+const errors = [];
+async function open(where = "?still", options = { viewport: { width: 900, height: 620 } }) {
+    const context = await browser.newContext(options), tab = await context.newPage();
+    tab.on("pageerror", (error) => errors.push(`${error.message} ${error.stack}`));
+    tab.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+    await tab.goto(address + where);
+    await tab.waitForFunction(() => globalThis.game?.opened, null, { timeout: 60000 });
+    return tab;
+}
+
+const picture = (tab, name) => tab.screenshot({ path: join(pictures, `${name}.png`), timeout: 120000 });
+
+/** Ticks of the page by hand: pictures of a slow machine are then those of a fast one. */
+const pass = (tab, ticks) => tab.evaluate((count) => {
+    const { game } = globalThis;
+    for (let i = 0; i < count; i++) {
+        game.simulation.tick();
+    }
+    game.show();
+}, ticks);
+
+/** Where a rest position is in the window. */
+const seen = (tab, u, v) => tab.evaluate(([u, v]) => {
+    const { simulation, stage } = globalThis.game;
+    const at = stage.target.clone().fromArray(simulation.sheet.getPoint([u, v]).position).project(stage.camera);
+    return [(at.x + 1) / 2 * innerWidth, (1 - at.y) / 2 * innerHeight];
+}, [u, v]);
+
+async function drag(tab, points, steps = 6) {
+    await tab.mouse.move(...points[0]);
+    await tab.mouse.down();
+    for (const point of points.slice(1)) {
+        await tab.mouse.move(...point, { steps });
+        await tab.evaluate(() => globalThis.game.frame(1 / 60));
+    }
+    await tab.mouse.up();
+}
+
+const pieces = (tab) => tab.evaluate(() => globalThis.game.simulation.sheet.getCounts().pieces);
+
+try {
+    const tab = await open();
+    const opened = await tab.evaluate(() => globalThis.game.opened);
+    await pass(tab, 60);
+    await picture(tab, "1_opened");
+
+    // A drag across parts the sheet.
+    const across = [];
+    for (let i = 0; i <= 12; i++) {
+        across.push(await seen(tab, 0.003 + 0.294 * i / 12, 0.1 + 0.05 * Math.sin(i)));
+    }
+    across.unshift([across[0][0] - 12, across[0][1]]);
+    across.push([across.at(-1)[0] + 30, across.at(-1)[1]]);
+    await drag(tab, across);
+    await pass(tab, 12);
+    assert.equal(await pieces(tab), 2, "a drag from side to side makes two pieces");
+    await picture(tab, "2_cut");
+
+    // A circle drawn by hand falls out.
+    const circle = [];
+    for (let i = 0; i <= 24; i++) {
+        circle.push(await seen(tab, 0.15 + 0.05 * Math.cos(i * Math.PI / 12), 0.22 + 0.04 * Math.sin(i * Math.PI / 12)));
+    }
+    await drag(tab, circle, 3);
+    await pass(tab, 90);
+    assert.equal(await pieces(tab), 3, "a circle comes off");
+    await picture(tab, "3_pieces");
+
+    // Undo brings it back; beside the sheet the view turns.
+    await tab.evaluate(() => globalThis.game.undo());
+    assert.equal(await pieces(tab), 2, "undo takes the last cut back");
+    const before = await tab.evaluate(() => globalThis.game.stage.turn.around);
+    await drag(tab, [[60, 550], [160, 550]]);
+    assert.notEqual(await tab.evaluate(() => globalThis.game.stage.turn.around), before, "a drag beside the sheet turns");
+
+    // Sheets.
+    for (const name of ["cloth", "foil", "rubber"]) {
+        await tab.evaluate((name) => globalThis.game.restart({ sheet: name }), name);
+        await pass(tab, 20);
+        const way = [];
+        for (let i = 0; i <= 10; i++) {
+            way.push(await seen(tab, 0.3 * (0.2 + 0.06 * i), 0.15 + 0.06 * Math.cos(0.6 * i)));
+        }
+        await drag(tab, way);
+        await pass(tab, 40);
+        await picture(tab, `4_${name}`);
+    }
+    await tab.evaluate(() => globalThis.game.showSnowflake());
+    await pass(tab, 100);
+    await picture(tab, "5_snowflake");
+    await tab.evaluate(() => globalThis.game.showLantern());
+    await pass(tab, 150);
+    await picture(tab, "6_lantern");
+
+    // What a frame takes at 4225 vertices.
+    await tab.evaluate(() => globalThis.game.restart({ sheet: "paper", flat: false, folded: false }));
+    const median = await tab.evaluate(() => {
+        const { game } = globalThis, rows = [];
+        for (let i = 0; i < 60; i++) {
+            game.frame(1 / 60);
+            rows.push({ ...game.times });
+        }
+        const of = (name) => rows.map((row) => row[name]).sort((a, b) => a - b)[30].toFixed(1);
+        return `${game.simulation.sheet.getCounts().vertices} vertices: simulation ${of("simulation")} ms, ` +
+            `buffers ${of("skin")} ms, calls of WebGL ${of("draw")} ms`;
+    });
+
+    // A link plays to the same hash.
+    await drag(tab, [await seen(tab, 0.05, 0.1), await seen(tab, 0.25, 0.15)], 10);
+    await pass(tab, 10);
+    const [link, hash] = await tab.evaluate(async () => [await globalThis.game.link(),
+        globalThis.game.simulation.world.getStateHash().toString(16).padStart(16, "0")]);
+    const other = await open(`?still${link}`);
+    const played = await other.evaluate(() => {
+        const { game } = globalThis;
+        while (game.replay) {
+            game.playTick();
+        }
+        return game.finished.hash;
+    });
+    assert.equal(played, hash, "a link ends in the same state");
+
+    // A phone.
+    const phone = await open("?still", { viewport: { width: 390, height: 780 }, hasTouch: true, isMobile: true });
+    await pass(phone, 30);
+    await picture(phone, "7_phone");
+
+    assert.deepEqual(errors, []);
+    console.log(`web: opened after ${opened.toFixed(0)} ms; ${median}; a link of ${link.length} characters; all as it should be`);
+} catch (error) {
+    console.error(errors.join("\n"));
+    throw error;
+} finally {
+    await browser.close();
+    server.close();
+}
