@@ -1,0 +1,1752 @@
+--- Kiri 0.7.0 for LuaJIT: cuts thin sheets while they move. This one file and the shared library are all of it.
+---
+---     local kiri = require "kiri"
+---     local world = kiri.World()
+---     local sheet = world:createRectangle(1, 1, 16, 16, {frameCount = 9})
+---     local cut = sheet:beginCut {-0.1, 0.5}
+---     cut:extend {1.1, 0.5}
+---     cut:finish()
+---     world:tick(1 / 60, 1)
+---     print(sheet:getCounts().pieces)
+---
+--- Names are those of kiri.h, without kiri and KIRI_: kiriSheet_GetMesh is sheet:getMesh, KIRI_EVENT_PIECE_OFF is
+--- kiri.EVENT_PIECE_OFF. What C writes behind pointers is returned; what has nothing to return says whether work is
+--- left (KIRI_PENDING). A def is a table of what is other than its default. Vectors and points are tables of numbers,
+--- or arrays of C. A failure is an error with fields result, name and line.
+---
+--- Arrays are those of the library, without a copy: a[0] to a[#a - 1]. They end with the next tick: then they raise an
+--- error. a:pointer() is what C has, and is not guarded. Structs can be given to be filled again: sheet:getMesh(mesh)
+--- makes no garbage. kiri.C has the functions of C.
+---
+--- The library is looked for in $KIRI_LIBRARY, on package.cpath, beside this file, and where the system looks.
+
+local ffi = require "ffi"
+local jit = require "jit"
+
+ffi.cdef [[
+typedef struct kiriWorld kiriWorld;
+typedef uint32_t kiriSheet;
+typedef uint32_t kiriCut;
+typedef uint32_t kiriFrame;
+typedef uint32_t kiriPin;
+typedef uint32_t kiriObstacle;
+typedef uint32_t kiriBlade;
+typedef int32_t kiriResult;
+typedef void* kiriAllocFn(void* user, int64_t bytes);
+typedef void kiriFreeFn(void* user, void* pointer);
+typedef void kiriLogFn(void* user, const char* line);
+typedef double kiriClockFn(void* user);
+typedef void kiriRecordFn(void* user, const void* bytes, int32_t count);
+typedef void kiriTaskFn(int32_t start, int32_t end, void* taskContext);
+typedef void* kiriStartTaskFn(void* user, kiriTaskFn* task, int32_t itemCount, int32_t minRange, void* taskContext);
+typedef void kiriFinishTaskFn(void* user, void* handle);
+typedef void kiriDrawFn(void* user, const kiriDrawVertex* vertices, int32_t count);
+typedef struct kiriBudget { int32_t triangles; int32_t cells; int32_t samples; int32_t iterations; } kiriBudget;
+typedef struct kiriWorldDef { uint32_t cookie; float gravity[3]; kiriBudget budget; kiriAllocFn* alloc; kiriFreeFn* free; kiriLogFn* log; kiriClockFn* clock; kiriStartTaskFn* startTask; kiriFinishTaskFn* finishTask; int32_t workerCount; void* user; kiriRecordFn* record; int32_t recordHashTicks; } kiriWorldDef;
+typedef struct kiriReplay { int64_t offset; int64_t calls; int64_t ticks; const void* note; int32_t noteCount; } kiriReplay;
+typedef struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; kiriPin pin; int32_t crumb; float area; int32_t stage; int32_t waiting; } kiriEvent;
+typedef struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSplit; int32_t cellsSettled; int32_t samplesRefreshed; int32_t solverIterations; int32_t cellsChanged; int32_t weightsChanged; int32_t verticesChanged; int32_t pointsChanged; int32_t linksChanged; int32_t commits; int32_t systemsSolved; int32_t contacts; int32_t sheetPairs; double largestJump; double largestFade; } kiriProfile;
+typedef struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; } kiriMaterial;
+typedef struct kiriQuality { int32_t framesAlong; int32_t gridResolution; int32_t iterations; int32_t substeps; } kiriQuality;
+typedef struct kiriPaperOptions { int32_t fromScratch; int32_t popping; int32_t linearWeights; int32_t integrationPoints; int32_t integrationOrder; } kiriPaperOptions;
+typedef struct kiriSheetDef { uint32_t cookie; const float* restPositions; int32_t vertexCount; const int32_t* indices; int32_t triangleCount; float position[3]; float axisU[3]; float axisV[3]; float velocity[3]; kiriMaterial material; int32_t gridResolution; float snapDistance; int32_t frameCount; float frameLength; float accuracy; const float* framePoints; int32_t maxFrames; float rigidWeight; float rigidArea; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t collisionPoints; int32_t iterations; float sleepSpeed; int32_t model; int32_t skinning; int32_t planar; int32_t timeStepping; float fadeTime; int32_t normals; kiriPaperOptions paper; } kiriSheetDef;
+typedef struct kiriSheetSettings { uint32_t cookie; kiriMaterial material; int32_t maxFrames; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t iterations; float sleepSpeed; int32_t skinning; int32_t timeStepping; float fadeTime; int32_t normals; } kiriSheetSettings;
+typedef struct kiriMesh { const float* positions; const float* normals; const float* restPositions; const int32_t* indices; const int32_t* sourceTriangles; const float* sourceWeights; int32_t vertexCount; int32_t triangleCount; uint32_t revision; } kiriMesh;
+typedef struct kiriRange { int32_t first; int32_t count; } kiriRange;
+typedef struct kiriDirty { kiriRange newVertices; kiriRange newTriangles; kiriRange oldVertices; kiriRange oldTriangles; uint32_t revision; } kiriDirty;
+typedef struct kiriSolid { const float* positions; const float* normals; const float* restPositions; const int32_t* indices; const int32_t* sources; int32_t vertexCount; int32_t triangleCount; int32_t rimTriangle; } kiriSolid;
+typedef struct kiriCounts { int32_t vertices; int32_t triangles; int32_t cells; int32_t frames; int32_t links; int32_t pieces; int32_t collisionPoints; } kiriCounts;
+typedef struct kiriTotals { double area; double mass; double kineticEnergy; double elasticEnergy; double center[3]; double momentum[3]; double angularMomentum[3]; } kiriTotals;
+typedef struct kiriHit { float restPoint[2]; float position[3]; float normal[3]; float distance; int32_t triangle; } kiriHit;
+typedef struct kiriPointState { float position[3]; float normal[3]; float velocity[3]; kiriFrame frame; } kiriPointState;
+typedef struct kiriPieceState { double area; double mass; double center[3]; double momentum[3]; double angularMomentum[3]; float lower[3]; float upper[3]; int32_t frames; int32_t vertices; int32_t triangles; int32_t collisionPoints; int32_t crumb; int32_t asleep; } kiriPieceState;
+typedef struct kiriPieceMesh { const int32_t* vertices; const int32_t* triangles; const int32_t* indices; const int32_t* collisionPoints; int32_t vertexCount; int32_t triangleCount; int32_t collisionPointCount; } kiriPieceMesh;
+typedef struct kiriFrameState { float restPoint[2]; float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; float area; float mass; int32_t held; } kiriFrameState;
+typedef struct kiriWind { float velocity[3]; float density; float drag; float lift; } kiriWind;
+typedef struct kiriPinDef { uint32_t cookie; float restPoint[2]; float target[3]; float stiffness; float breakForce; kiriObstacle obstacle; } kiriPinDef;
+typedef struct kiriPinState { int32_t type; kiriSheet sheet; float from[2]; float to[2]; float target[3]; float rotation[9]; float breakForce; kiriObstacle obstacle; } kiriPinState;
+typedef struct kiriContact { int32_t point; float restPoint[2]; float normal[3]; float offset; float velocity[3]; float friction; float inverseMass; float pushSpeed; int32_t obstacle; } kiriContact;
+typedef struct kiriContactForce { double impulse[3]; double position[3]; double depth; int32_t point; int32_t obstacle; } kiriContactForce;
+typedef struct kiriObstacleDef { uint32_t cookie; int32_t type; float size[3]; float radius; float height; const float* outline; int32_t outlineCount; float rounding; float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; float surfaceVelocity[3]; float friction; float mass; float inertia[6]; float centerOfMass[3]; uint32_t body; float pushSpeed; uint32_t groups; } kiriObstacleDef;
+typedef struct kiriObstacleState { float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; double impulse[3]; double angularImpulse[3]; int32_t contacts; } kiriObstacleState;
+typedef struct kiriDrawVertex { float position[3]; uint32_t color; } kiriDrawVertex;
+typedef struct kiriDebugDraw { uint32_t cookie; uint32_t flags; kiriSheet sheet; float size; kiriDrawFn* points; kiriDrawFn* lines; kiriDrawFn* triangles; void* user; } kiriDebugDraw;
+int32_t kiriGetVersion(void);
+const char* kiriGetResultName(kiriResult result);
+void kiriDefaultWorldDef(kiriWorldDef* def);
+kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
+void kiriDestroyWorld(kiriWorld* world);
+kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
+const char* kiriWorld_GetLastError(const kiriWorld* world);
+kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
+kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget);
+kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash);
+kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheets, int32_t capacity, int32_t* count);
+kiriResult kiriWorld_Note(kiriWorld* world, const void* bytes, int32_t count);
+kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, int64_t size, kiriReplay* replay);
+kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
+kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
+kiriResult kiriWorld_SaveDifference(const kiriWorld* world, const void* base, int64_t baseSize, void* bytes, int64_t capacity, int64_t* size);
+kiriResult kiriWorld_LoadDifference(kiriWorld* world, const void* base, int64_t baseSize, const void* bytes, int64_t size);
+kiriResult kiriWorld_GetEvents(const kiriWorld* world, const kiriEvent** events, int32_t* count);
+kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile);
+kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget);
+const char* kiriGetStageName(int32_t stage);
+kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
+kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality);
+void kiriDefaultSheetDef(kiriSheetDef* def);
+kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet);
+kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
+kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int32_t columns, int32_t rows, const kiriSheetDef* def, kiriSheet* sheet);
+kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet sheet, kiriSheetSettings* settings);
+kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSheetSettings* settings);
+kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions, int32_t* indices);
+kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* mesh);
+kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t sinceRevision, kiriDirty* dirty);
+kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count, void* positions, int32_t positionStride, void* normals, int32_t normalStride);
+kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count, uint16_t* indices);
+kiriResult kiriSheet_GetSolid(kiriWorld* world, kiriSheet sheet, float thickness, kiriSolid* solid);
+kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet, const float** positions, int32_t* count);
+kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCounts* counts);
+kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet, kiriTotals* totals);
+kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sheet, double* relative);
+kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, int32_t* awake);
+kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet);
+kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float rotation[9], const float translation[3]);
+kiriResult kiriSheet_SetVelocity(kiriWorld* world, kiriSheet sheet, const float velocity[3], const float angularVelocity[3]);
+kiriResult kiriFrame_SetPieceVelocity(kiriWorld* world, kiriFrame frame, const float velocity[3], const float angularVelocity[3]);
+kiriResult kiriSheet_SetUserData(kiriWorld* world, kiriSheet sheet, uint64_t data);
+kiriResult kiriSheet_GetUserData(const kiriWorld* world, kiriSheet sheet, uint64_t* data);
+kiriResult kiriPin_SetUserData(kiriWorld* world, kiriPin pin, uint64_t data);
+kiriResult kiriPin_GetUserData(const kiriWorld* world, kiriPin pin, uint64_t* data);
+kiriResult kiriFrame_SetPieceUserData(kiriWorld* world, kiriFrame frame, uint64_t data);
+kiriResult kiriFrame_GetPieceUserData(const kiriWorld* world, kiriFrame frame, uint64_t* data);
+kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, const float origin[3], const float direction[3], float maxDistance, kiriHit* hit);
+kiriResult kiriWorld_Raycast(const kiriWorld* world, const float origin[3], const float direction[3], float maxDistance, kiriSheet* sheet, kiriHit* hit);
+kiriResult kiriSheet_GetPoint(const kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriPointState* state);
+kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriFrame* frames, float* weights, float* gradients, int32_t capacity, int32_t* count);
+kiriResult kiriSheet_GetPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceState* state);
+kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceMesh* mesh);
+kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, int32_t piece, const kiriFrame** frames, int32_t* count);
+kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* piece);
+kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached);
+kiriResult kiriFrame_DestroyPiece(kiriWorld* world, kiriFrame frame);
+kiriResult kiriWorld_DetachPieces(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* detached);
+kiriResult kiriWorld_DestroyPieces(kiriWorld* world, const kiriFrame* frames, int32_t count);
+kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count);
+kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriCut* cut);
+kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints, int32_t count);
+kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
+kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[12], kiriCut* cut);
+kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade);
+kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const float from[3], const float to[3]);
+kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float origin[3], const float direction[3], float length);
+kiriResult kiriBlade_End(kiriWorld* world, kiriBlade blade);
+kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFrame* frames, int32_t capacity, int32_t* count);
+kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state);
+kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9]);
+kiriResult kiriFrame_GetReaction(const kiriWorld* world, kiriFrame frame, double force[3], double torque[3]);
+kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3], const float torque[3]);
+kiriResult kiriSheet_ApplyForce(kiriWorld* world, kiriSheet sheet, const float restPoint[2], const float force[3], const float torque[3]);
+kiriResult kiriSheet_ApplyLineLoad(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2], const float forcePerLength[3]);
+kiriResult kiriSheet_ApplyPressure(kiriWorld* world, kiriSheet sheet, float pressure);
+kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float restPoint[2], const float impulse[3]);
+kiriResult kiriSheet_SetWind(kiriWorld* world, kiriSheet sheet, const kiriWind* wind);
+void kiriDefaultPinDef(kiriPinDef* def);
+kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* def, kiriPin* pin);
+kiriResult kiriSheet_ClampLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2], kiriPin* clamp);
+kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2], kiriPin* hinge);
+kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3]);
+kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float target[3], const float rotation[9]);
+kiriResult kiriPin_SetBreakForce(kiriWorld* world, kiriPin pin, float breakForce);
+kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* state);
+kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, double force[3], double torque[3]);
+kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* pins, int32_t capacity, int32_t* count);
+kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
+kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriContact* contacts, int32_t count);
+kiriResult kiriSheet_GetContactForces(const kiriWorld* world, kiriSheet sheet, const kiriContactForce** forces, int32_t* count);
+void kiriDefaultObstacleDef(kiriObstacleDef* def);
+kiriResult kiriCreateObstacle(kiriWorld* world, const kiriObstacleDef* def, kiriObstacle* obstacle);
+kiriResult kiriDestroyObstacle(kiriWorld* world, kiriObstacle obstacle);
+kiriResult kiriObstacle_SetPose(kiriWorld* world, kiriObstacle obstacle, const float position[3], const float rotation[9]);
+kiriResult kiriObstacle_SetVelocity(kiriWorld* world, kiriObstacle obstacle, const float velocity[3], const float angularVelocity[3]);
+kiriResult kiriObstacle_SetSurfaceVelocity(kiriWorld* world, kiriObstacle obstacle, const float velocity[3]);
+kiriResult kiriObstacle_SetMass(kiriWorld* world, kiriObstacle obstacle, float mass, const float inertia[6], const float centerOfMass[3]);
+kiriResult kiriObstacle_GetState(const kiriWorld* world, kiriObstacle obstacle, kiriObstacleState* state);
+kiriResult kiriSheet_GetReach(const kiriWorld* world, kiriSheet sheet, float dt, float lower[3], float upper[3]);
+void kiriDefaultDebugDraw(kiriDebugDraw* draw);
+kiriResult kiriWorld_DebugDraw(const kiriWorld* world, const kiriDebugDraw* draw);
+]]
+
+local kiri = {VERSION = "0.7.0"}
+
+kiri.OK = 0
+kiri.PENDING = 1
+kiri.ERROR_ARGUMENT = -1
+kiri.ERROR_DEF = -2
+kiri.ERROR_ID = -3
+kiri.ERROR_MESH = -4
+kiri.ERROR_STATE = -5
+kiri.ERROR_MEMORY = -6
+kiri.DIVERGED = -7
+kiri.ERROR_LIMIT = -8
+kiri.ERROR_BUILD = -9
+kiri.ERROR_DATA = -10
+kiri.ERROR_REPLAY = -11
+kiri.ResultCode = {[0] = "OK", [1] = "PENDING", [-1] = "ERROR_ARGUMENT", [-2] = "ERROR_DEF", [-3] = "ERROR_ID", [-4] = "ERROR_MESH", [-5] = "ERROR_STATE", [-6] = "ERROR_MEMORY", [-7] = "DIVERGED", [-8] = "ERROR_LIMIT", [-9] = "ERROR_BUILD", [-10] = "ERROR_DATA", [-11] = "ERROR_REPLAY"}
+kiri.LEAST_TRIANGLES = 16
+kiri.MOST_NOTE_BYTES = 1048576
+kiri.EVENT_CUT_FINISHED = 1
+kiri.EVENT_PIECE_OFF = 2
+kiri.EVENT_FRAME_ADDED = 3
+kiri.EVENT_DIVERGED = 4
+kiri.EVENT_DEFERRED = 5
+kiri.EVENT_PIN_BROKE = 6
+kiri.EVENT_PIECE_DETACHED = 7
+kiri.EventType = {[1] = "CUT_FINISHED", [2] = "PIECE_OFF", [3] = "FRAME_ADDED", [4] = "DIVERGED", [5] = "DEFERRED", [6] = "PIN_BROKE", [7] = "PIECE_DETACHED"}
+kiri.STAGE_CUT = 0
+kiri.STAGE_GRID = 1
+kiri.STAGE_REGIONS = 2
+kiri.STAGE_SHAPE = 3
+kiri.STAGE_SAMPLES = 4
+kiri.STAGE_CONSTANTS = 5
+kiri.STAGE_CONTACT = 6
+kiri.STAGE_SOLVE = 7
+kiri.STAGE_SKIN = 8
+kiri.STAGE_COUNT = 9
+kiri.Stage = {[0] = "CUT", [1] = "GRID", [2] = "REGIONS", [3] = "SHAPE", [4] = "SAMPLES", [5] = "CONSTANTS", [6] = "CONTACT", [7] = "SOLVE", [8] = "SKIN", [9] = "COUNT"}
+kiri.MATERIAL_PAPER = 0
+kiri.MATERIAL_COTTON = 1
+kiri.MATERIAL_RUBBER = 2
+kiri.MATERIAL_FOIL = 3
+kiri.MATERIAL_COUNT = 4
+kiri.MaterialPreset = {[0] = "PAPER", [1] = "COTTON", [2] = "RUBBER", [3] = "FOIL", [4] = "COUNT"}
+kiri.QUALITY_FAST = 0
+kiri.QUALITY_BALANCED = 1
+kiri.QUALITY_ACCURATE = 2
+kiri.QUALITY_COUNT = 3
+kiri.QualityPreset = {[0] = "FAST", [1] = "BALANCED", [2] = "ACCURATE", [3] = "COUNT"}
+kiri.MODEL_LINKS = 0
+kiri.MODEL_AFFINE = 1
+kiri.MODEL_POINTS = 2
+kiri.Model = {[0] = "LINKS", [1] = "AFFINE", [2] = "POINTS"}
+kiri.SKINNING_LINEAR = 0
+kiri.SKINNING_SMOOTH = 1
+kiri.Skinning = {[0] = "LINEAR", [1] = "SMOOTH"}
+kiri.TIME_STEPPING_SECOND_ORDER = 0
+kiri.TIME_STEPPING_EULER = 1
+kiri.TimeStepping = {[0] = "SECOND_ORDER", [1] = "EULER"}
+kiri.PIN_POINT = 0
+kiri.PIN_HINGE = 1
+kiri.PIN_CLAMP = 2
+kiri.PinType = {[0] = "POINT", [1] = "HINGE", [2] = "CLAMP"}
+kiri.OBSTACLE_PLANE = 0
+kiri.OBSTACLE_SPHERE = 1
+kiri.OBSTACLE_CAPSULE = 2
+kiri.OBSTACLE_BOX = 3
+kiri.OBSTACLE_CYLINDER = 4
+kiri.OBSTACLE_PRISM = 5
+kiri.ObstacleType = {[0] = "PLANE", [1] = "SPHERE", [2] = "CAPSULE", [3] = "BOX", [4] = "CYLINDER", [5] = "PRISM"}
+kiri.DRAW_TRIANGLES = 1
+kiri.DRAW_EDGES = 2
+kiri.DRAW_BORDERS = 4
+kiri.DRAW_FRAMES = 8
+kiri.DRAW_LINKS = 16
+kiri.DRAW_PINS = 32
+kiri.DRAW_CONTACTS = 64
+kiri.DRAW_BLADES = 128
+kiri.DRAW_BOXES = 256
+kiri.DRAW_OBSTACLES = 512
+kiri.DRAW_POINTS = 1024
+kiri.DRAW_ALL = 2047
+kiri.DrawFlag = {[1] = "TRIANGLES", [2] = "EDGES", [4] = "BORDERS", [8] = "FRAMES", [16] = "LINKS", [32] = "PINS", [64] = "CONTACTS", [128] = "BLADES", [256] = "BOXES", [512] = "OBSTACLES", [1024] = "POINTS", [2047] = "ALL"}
+
+-- ---- The library --------------------------------------------------------------------------------------------------
+
+local file = ({Windows = "kiri.dll", OSX = "libkiri.dylib"})[ffi.os] or "libkiri.so"
+
+local function load()
+    local places, tried = {}, {}
+    places[1] = os.getenv "KIRI_LIBRARY"
+    places[#places + 1] = package.searchpath and package.searchpath("libkiri", package.cpath)
+    local here = debug.getinfo(1, "S").source:match "^@(.*[/\\])" or "./"
+    places[#places + 1] = here .. file
+    local love = rawget(_G, "love")
+    if love and love.filesystem then
+        places[#places + 1] = love.filesystem.getSource() .. "/" .. file
+        places[#places + 1] = love.filesystem.getSourceBaseDirectory() .. "/" .. file
+    end
+    places[#places + 1] = "kiri"
+    for i = 1, #places do
+        local found, library = pcall(ffi.load, places[i])
+        if found then return library end
+        tried[i] = library
+    end
+    error("kiri: the library is not found. `make lib` builds it, KIRI_LIBRARY says where it is\n" ..
+          table.concat(tried, "\n"))
+end
+
+local C = load()
+kiri.C = C
+do
+    local major, minor, patch = kiri.VERSION:match "(%d+)%.(%d+)%.(%d+)"
+    if C.kiriGetVersion() ~= 10000 * major + 100 * minor + patch then
+        error(("kiri: the library has version %d, this file %s"):format(C.kiriGetVersion(), kiri.VERSION))
+    end
+end
+
+-- ---- What is shared by all worlds ---------------------------------------------------------------------------------
+
+-- A world has a cell: how often its arrays have ended. It only grows. Cells of worlds that are gone are used again when
+-- all have been used.
+local CELLS = 65536
+local now = ffi.new("uint32_t[?]", CELLS)
+local worlds = setmetatable({}, {__mode = "v"}) -- by cell
+local free_cells, next_cell = {}, 0
+
+local new, out, room, structs = {}, {}, {}, {}
+
+local function passed(world)
+    if world.c then now[world.cell] = now[world.cell] + 1 end
+end
+
+-- An error with its place in the program: the first one that is not in this file.
+local Error = {}
+Error.__index = Error
+
+function Error:__tostring()
+    return self.message
+end
+
+local this_file = debug.getinfo(1, "S").source
+
+local function fail(world, name, result, changes)
+    local line = world and not world.c and "the world is gone" or ""
+    if world and world.c then
+        line = changes and ffi.string(C.kiriWorld_GetLastError(world.c)) or world.said.line or ""
+        world.said.line = nil
+    end
+    local level, place = 2, ""
+    for i = 2, 8 do
+        local info = debug.getinfo(i, "Sl")
+        if info and info.source ~= this_file then
+            place = info.currentline > 0 and ("%s:%d: "):format(info.short_src, info.currentline) or ""
+            break
+        end
+    end
+    local named = ffi.string(C.kiriGetResultName(result))
+    error(setmetatable({result = result, name = named, line = line, call = name, message =
+        ("%s%s: %s%s"):format(place, name, named, line ~= "" and ": " .. line or "")}, Error), level)
+end
+
+local function stale()
+    error("this array has ended: its world has made another tick, or is gone", 3)
+end
+
+-- ---- From Lua to C ------------------------------------------------------------------------------------------------
+
+local vectors = {}
+for i = 1, 4 do vectors[i] = ffi.new("float[16]") end
+
+local function vector(place, values, count)
+    if type(values) == "cdata" then
+        return values
+    end
+    local to = vectors[place]
+    if type(values) ~= "table" or values[count + 1] ~= nil then
+        error(("%d numbers are wanted"):format(count), 3)
+    end
+    for i = 1, count do
+        local value = values[i]
+        if type(value) ~= "number" then error(("%d numbers are wanted"):format(count), 3) end
+        to[i - 1] = value
+    end
+    return to
+end
+
+local function id_of(world, thing, kind)
+    if thing == nil then return 0 end
+    if type(thing) ~= "table" or thing.kind ~= kind then error("a " .. kind .. " is wanted", 3) end
+    if thing.world ~= world then error("this " .. kind .. " is of another world", 3) end
+    return thing.id
+end
+
+local function flat(values, into)
+    for i = 1, #values do
+        if type(values[i]) == "table" then
+            flat(values[i], into)
+        else
+            into[#into + 1] = values[i]
+        end
+    end
+    return into
+end
+
+-- Arrays that grow, for what is given as a table. C has copied it when a call is done.
+local grown = {}
+
+local function array_for(item, count)
+    local array = grown[item]
+    if not array or array.size < count then
+        array = {size = 2 * count, data = ffi.new(item .. "[?]", 2 * count)}
+        grown[item] = array
+    end
+    return array.data
+end
+
+local fill
+
+local function rows_of(values, count, item, width)
+    if type(values) == "cdata" then
+        return values, count or error("an array of C needs a count", 3)
+    end
+    if structs[item] then
+        local array = array_for(item, #values)
+        for i = 1, #values do
+            ffi.fill(array[i - 1], ffi.sizeof(item))
+            fill(array[i - 1], item, values[i])
+        end
+        return array, #values
+    end
+    local numbers = type(values[1]) == "table" and flat(values, {}) or values
+    if #numbers % width ~= 0 then error(("%d numbers a row are wanted"):format(width), 3) end
+    local array = array_for(item, #numbers)
+    for i = 1, #numbers do array[i - 1] = numbers[i] end
+    return array, #numbers / width
+end
+
+local function ids_of(world, things, count, item)
+    if type(things) == "cdata" then
+        return things, count or error("an array of C needs a count", 3)
+    end
+    local array = array_for(item, #things)
+    for i = 1, #things do array[i - 1] = id_of(world, things[i], item:sub(5)) end
+    return array, #things
+end
+
+local kept = {} -- until C has read it
+
+-- Sets fields of a struct by name.
+function fill(struct, name, values, world)
+    local fields = structs[name].fields
+    for key, value in pairs(values) do
+        local kind = fields[key]
+        if not kind then error(("%s has no field %s"):format(name, tostring(key)), 0) end
+        if type(value) == "boolean" then
+            struct[key] = value and 1 or 0
+        elseif kind == "id" then
+            struct[key] = type(value) == "table" and id_of(world, value, value.kind) or value
+        elseif type(kind) == "number" and type(value) == "table" then
+            if #value ~= kind then error(("%s.%s: %d numbers are wanted"):format(name, key, kind), 0) end
+            for i = 1, kind do struct[key][i - 1] = value[i] end
+        elseif type(kind) == "table" and type(value) == "table" then
+            local numbers = flat(value, {})
+            if #numbers % kind.width ~= 0 then error(("%s.%s: %d numbers a row are wanted"):format(name, key, kind.width), 0) end
+            local array = ffi.new(kind.item .. "[?]", math.max(#numbers, 1), numbers)
+            kept[#kept + 1] = array
+            struct[key] = array
+            if values[kind.count] == nil then
+                struct[kind.count] = #numbers / kind.width
+            elseif values[kind.count] ~= #numbers / kind.width then
+                error(("%s.%s: %d rows are wanted"):format(name, key, values[kind.count]), 0)
+            end
+        elseif type(value) == "table" and structs[kind] then
+            fill(struct[key], kind, value, world)
+        else
+            struct[key] = value
+        end
+    end
+    return struct
+end
+
+local scratch = {}
+
+-- A struct from a table of what is other than its default.
+local function struct_of(world, values, name)
+    if type(values) == "cdata" or values == nil and not structs[name].default then
+        return values
+    end
+    for i = #kept, 1, -1 do kept[i] = nil end
+    local struct = scratch[name] or ffi.new(name)
+    scratch[name] = struct
+    if structs[name].default then
+        C[structs[name].default](struct)
+    else
+        ffi.fill(struct, ffi.sizeof(name))
+    end
+    return fill(struct, name, values or {}, world)
+end
+
+-- ---- From C to Lua ------------------------------------------------------------------------------------------------
+
+-- The same thing is the same table, as long as somebody has it.
+local function handle(world, id, kind)
+    if id == 0 then return nil end
+    local thing = world.things[id]
+    if not thing then
+        thing = setmetatable({world = world, id = id, kind = kind}, world.classes[kind])
+        world.things[id] = thing
+    end
+    return thing
+end
+
+local function list_of(world, array, count, kind, none)
+    local list = {}
+    for i = 1, count do
+        local value = array[i - 1]
+        if kind then value = handle(world, value, kind) end
+        if value == nil then value = none end
+        list[i] = value
+    end
+    return list
+end
+
+local function make_room(size)
+    room.size = size
+    for _, item in ipairs {"kiriSheet", "kiriFrame", "kiriPin", "float"} do
+        room[item] = ffi.new(item .. "[?]", size)
+    end
+    room.float2 = ffi.new("float[?]", 2 * size)
+end
+make_room(64)
+
+-- Arrays of the library. `named`: they have ids of this kind; `fields`: they have structs, with ids in some fields.
+local function array_type(item, named, fields)
+    local name = item .. "Array"
+    ffi.cdef(("typedef struct { const %s* data; int32_t count, width; uint32_t world, epoch; } %s;"):format(item, name))
+    local row
+    if fields then
+        ffi.cdef(("typedef struct { const %s* data; uint32_t world, epoch; } %sRow;"):format(item, item))
+        row = ffi.metatype(item .. "Row", {__index = function(self, key)
+            if now[self.world] ~= self.epoch then stale() end
+            local kind = fields[key]
+            if kind then return handle(worlds[self.world], self.data[key], kind) end
+            return self.data[key]
+        end})
+    end
+    local Array = {}
+    function Array:pointer()
+        if now[self.world] ~= self.epoch then stale() end
+        return self.data
+    end
+    function Array:copy(destination)
+        ffi.copy(destination, self:pointer(), self.count * self.width * ffi.sizeof(item))
+    end
+    function Array:totable()
+        local values = {}
+        for i = 0, #self - 1 do values[i + 1] = self[i] end
+        return values
+    end
+    local function each(array, i)
+        i = i + 1
+        if i < #array then return i, array[i] end
+    end
+    function Array:each()
+        return each, self, -1
+    end
+    new[name] = ffi.metatype(name, {
+        __len = function(self) return self.count * self.width end,
+        __index = function(self, key)
+            if type(key) ~= "number" then return Array[key] end
+            if now[self.world] ~= self.epoch then stale() end
+            if key < 0 or key >= self.count * self.width then error("index out of the array", 2) end
+            if row then return row(self.data + key, self.world, self.epoch) end
+            if named then return handle(worlds[self.world], self.data[key], named) end
+            return self.data[key]
+        end,
+    })
+    out[item .. "Rows"] = ffi.new("const " .. item .. "*[1]")
+end
+
+-- Structs that have such arrays, or ids.
+local function view_type(name, fields)
+    ffi.cdef(("typedef struct { %s c; uint32_t world, epoch; } %sView;"):format(name, name))
+    new[name .. "View"] = ffi.metatype(name .. "View", {__index = function(self, key)
+        local field = fields[key]
+        if not field then return self.c[key] end
+        if not field[2] then return handle(worlds[self.world], self.c[key], field[1]) end
+        if now[self.world] ~= self.epoch then stale() end
+        if self.c[key] == nil and self.c[field[2]] > 0 then return nil end
+        return new[field[1] .. "Array"](self.c[key], self.c[field[2]], field[3], self.world, self.epoch)
+    end})
+end
+
+structs.kiriBudget = {fields = {triangles = "number", cells = "number", samples = "number", iterations = "number"}}
+structs.kiriWorldDef = {fields = {cookie = "number", gravity = 3, budget = "kiriBudget", alloc = "callback", free = "callback", log = "callback", clock = "callback", startTask = "callback", finishTask = "callback", workerCount = "number", user = "pointer", record = "callback", recordHashTicks = "number"}, default = "kiriDefaultWorldDef"}
+structs.kiriReplay = {fields = {offset = "number", calls = "number", ticks = "number", note = {item = "void", count = "noteCount", width = 1}, noteCount = "number"}}
+structs.kiriEvent = {fields = {type = "number", sheet = "id", cut = "id", frame = "id", pin = "id", crumb = "number", area = "number", stage = "number", waiting = "number"}}
+structs.kiriProfile = {fields = {seconds = 9, cutSegments = "number", trianglesSplit = "number", cellsSettled = "number", samplesRefreshed = "number", solverIterations = "number", cellsChanged = "number", weightsChanged = "number", verticesChanged = "number", pointsChanged = "number", linksChanged = "number", commits = "number", systemsSolved = "number", contacts = "number", sheetPairs = "number", largestJump = "number", largestFade = "number"}}
+structs.kiriMaterial = {fields = {youngsModulus = "number", poissonsRatio = "number", thickness = "number", density = "number", airDamping = "number", flexDamping = "number"}}
+structs.kiriQuality = {fields = {framesAlong = "number", gridResolution = "number", iterations = "number", substeps = "number"}}
+structs.kiriPaperOptions = {fields = {fromScratch = "number", popping = "number", linearWeights = "number", integrationPoints = "number", integrationOrder = "number"}}
+structs.kiriSheetDef = {fields = {cookie = "number", restPositions = {item = "float", count = "vertexCount", width = 2}, vertexCount = "number", indices = {item = "int32_t", count = "triangleCount", width = 3}, triangleCount = "number", position = 3, axisU = 3, axisV = 3, velocity = 3, material = "kiriMaterial", gridResolution = "number", snapDistance = "number", frameCount = "number", frameLength = "number", accuracy = "number", framePoints = {item = "float", count = "frameCount", width = 2}, maxFrames = "number", rigidWeight = "number", rigidArea = "number", crumbArea = "number", friction = "number", contactThickness = "number", groups = "number", touchesSheets = "number", collisionPoints = "number", iterations = "number", sleepSpeed = "number", model = "number", skinning = "number", planar = "number", timeStepping = "number", fadeTime = "number", normals = "number", paper = "kiriPaperOptions"}, default = "kiriDefaultSheetDef"}
+structs.kiriSheetSettings = {fields = {cookie = "number", material = "kiriMaterial", maxFrames = "number", crumbArea = "number", friction = "number", contactThickness = "number", groups = "number", touchesSheets = "number", iterations = "number", sleepSpeed = "number", skinning = "number", timeStepping = "number", fadeTime = "number", normals = "number"}}
+structs.kiriMesh = {fields = {positions = {item = "float", count = "vertexCount", width = 3}, normals = {item = "float", count = "vertexCount", width = 3}, restPositions = {item = "float", count = "vertexCount", width = 2}, indices = {item = "int32_t", count = "triangleCount", width = 3}, sourceTriangles = {item = "int32_t", count = "vertexCount", width = 1}, sourceWeights = {item = "float", count = "vertexCount", width = 3}, vertexCount = "number", triangleCount = "number", revision = "number"}}
+structs.kiriRange = {fields = {first = "number", count = "number"}}
+structs.kiriDirty = {fields = {newVertices = "kiriRange", newTriangles = "kiriRange", oldVertices = "kiriRange", oldTriangles = "kiriRange", revision = "number"}}
+structs.kiriSolid = {fields = {positions = {item = "float", count = "vertexCount", width = 3}, normals = {item = "float", count = "vertexCount", width = 3}, restPositions = {item = "float", count = "vertexCount", width = 2}, indices = {item = "int32_t", count = "triangleCount", width = 3}, sources = {item = "int32_t", count = "vertexCount", width = 1}, vertexCount = "number", triangleCount = "number", rimTriangle = "number"}}
+structs.kiriCounts = {fields = {vertices = "number", triangles = "number", cells = "number", frames = "number", links = "number", pieces = "number", collisionPoints = "number"}}
+structs.kiriTotals = {fields = {area = "number", mass = "number", kineticEnergy = "number", elasticEnergy = "number", center = 3, momentum = 3, angularMomentum = 3}}
+structs.kiriHit = {fields = {restPoint = 2, position = 3, normal = 3, distance = "number", triangle = "number"}}
+structs.kiriPointState = {fields = {position = 3, normal = 3, velocity = 3, frame = "id"}}
+structs.kiriPieceState = {fields = {area = "number", mass = "number", center = 3, momentum = 3, angularMomentum = 3, lower = 3, upper = 3, frames = "number", vertices = "number", triangles = "number", collisionPoints = "number", crumb = "number", asleep = "number"}}
+structs.kiriPieceMesh = {fields = {vertices = {item = "int32_t", count = "vertexCount", width = 1}, triangles = {item = "int32_t", count = "triangleCount", width = 1}, indices = {item = "int32_t", count = "triangleCount", width = 3}, collisionPoints = {item = "int32_t", count = "collisionPointCount", width = 1}, vertexCount = "number", triangleCount = "number", collisionPointCount = "number"}}
+structs.kiriFrameState = {fields = {restPoint = 2, position = 3, rotation = 9, velocity = 3, angularVelocity = 3, area = "number", mass = "number", held = "number"}}
+structs.kiriWind = {fields = {velocity = 3, density = "number", drag = "number", lift = "number"}}
+structs.kiriPinDef = {fields = {cookie = "number", restPoint = 2, target = 3, stiffness = "number", breakForce = "number", obstacle = "id"}, default = "kiriDefaultPinDef"}
+structs.kiriPinState = {fields = {type = "number", sheet = "id", from = 2, to = 2, target = 3, rotation = 9, breakForce = "number", obstacle = "id"}}
+structs.kiriContact = {fields = {point = "number", restPoint = 2, normal = 3, offset = "number", velocity = 3, friction = "number", inverseMass = "number", pushSpeed = "number", obstacle = "number"}}
+structs.kiriContactForce = {fields = {impulse = 3, position = 3, depth = "number", point = "number", obstacle = "number"}}
+structs.kiriObstacleDef = {fields = {cookie = "number", type = "number", size = 3, radius = "number", height = "number", outline = {item = "float", count = "outlineCount", width = 2}, outlineCount = "number", rounding = "number", position = 3, rotation = 9, velocity = 3, angularVelocity = 3, surfaceVelocity = 3, friction = "number", mass = "number", inertia = 6, centerOfMass = 3, body = "number", pushSpeed = "number", groups = "number"}, default = "kiriDefaultObstacleDef"}
+structs.kiriObstacleState = {fields = {position = 3, rotation = 9, velocity = 3, angularVelocity = 3, impulse = 3, angularImpulse = 3, contacts = "number"}}
+structs.kiriDrawVertex = {fields = {position = 3, color = "number"}}
+structs.kiriDebugDraw = {fields = {cookie = "number", flags = "number", sheet = "id", size = "number", points = "callback", lines = "callback", triangles = "callback", user = "pointer"}, default = "kiriDefaultDebugDraw"}
+
+array_type("kiriFrame", "Frame", nil)
+array_type("kiriEvent", nil, {sheet = "Sheet", cut = "Cut", frame = "Frame", pin = "Pin"})
+array_type("kiriContactForce", nil, {})
+array_type("int32_t", nil, nil)
+array_type("float", nil, nil)
+view_type("kiriMesh", {positions = {"float", "vertexCount", 3}, normals = {"float", "vertexCount", 3}, restPositions = {"float", "vertexCount", 2}, indices = {"int32_t", "triangleCount", 3}, sourceTriangles = {"int32_t", "vertexCount", 1}, sourceWeights = {"float", "vertexCount", 3}})
+view_type("kiriSolid", {positions = {"float", "vertexCount", 3}, normals = {"float", "vertexCount", 3}, restPositions = {"float", "vertexCount", 2}, indices = {"int32_t", "triangleCount", 3}, sources = {"int32_t", "vertexCount", 1}})
+view_type("kiriPointState", {frame = {"Frame"}})
+view_type("kiriPieceMesh", {vertices = {"int32_t", "vertexCount", 1}, triangles = {"int32_t", "triangleCount", 1}, indices = {"int32_t", "triangleCount", 3}, collisionPoints = {"int32_t", "collisionPointCount", 1}})
+view_type("kiriPinState", {sheet = {"Sheet"}, obstacle = {"Obstacle"}})
+
+for name in pairs(structs) do
+    new[name] = new[name] or ffi.typeof(name)
+    kiri[name:sub(5)] = new[name]
+end
+for _, item in ipairs {"int32_t", "int64_t", "uint64_t", "double", "kiriSheet", "kiriCut", "kiriFrame", "kiriPin",
+                       "kiriObstacle", "kiriBlade"} do
+    out[item:gsub("kiri", "")] = ffi.new(item .. "[1]")
+end
+
+-- ---- Classes ------------------------------------------------------------------------------------------------------
+
+local core = {C = C, ffi = ffi, now = now, new = new, out = out, room = room, fail = fail, passed = passed,
+              vector = vector, id_of = id_of, ids_of = ids_of, rows_of = rows_of, struct_of = struct_of,
+              handle = handle, list_of = list_of, make_room = make_room}
+
+-- It has no locals of this file, so that there can be two of it: see hooked.
+local function define(core, kiri, World, Sheet, Cut, Frame, Pin, Obstacle, Blade)
+local C, ffi, now, new, out, room, fail, passed = core.C, core.ffi, core.now, core.new, core.out, core.room, core.fail,
+    core.passed
+local vector, id_of, ids_of, rows_of, struct_of, handle, list_of, make_room = core.vector, core.id_of, core.ids_of,
+    core.rows_of, core.struct_of, core.handle, core.list_of, core.make_room
+
+--- The library's version, as KIRI_VERSION.
+function kiri.getVersion()
+    return C.kiriGetVersion()
+end
+
+--- The name of a result, "KIRI_OK" and so on; "unknown" for another number.
+function kiri.getResultName(result)
+    return ffi.string(C.kiriGetResultName(result))
+end
+
+--- Fills the def with its defaults, and stamps it.
+function kiri.defaultWorldDef(def)
+    def = def or new.kiriWorldDef()
+    C.kiriDefaultWorldDef(def)
+    return def
+end
+
+--- One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut
+--- points, then moves every sheet. KIRI_PENDING: the budget is spent and more work waits: the events say which cuts;
+--- a sheet may also have stood still for want of iterations. KIRI_ERROR_MEMORY: nothing moved and cuts still wait,
+--- call again. What the refused work had prepared is made again: until then kiriSheet_GetWeights gives
+--- KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than it would have. KIRI_ERROR_LIMIT:
+--- the same, and it stays so until frames are destroyed. KIRI_DIVERGED: the sheets named by the events were put to
+--- rest, the others moved.
+function World:tick(dt, substeps)
+    local world = self
+    local result = C.kiriWorld_Tick(world.c, dt, substeps)
+    passed(world)
+    if result < 0 then fail(world, "kiriWorld_Tick", result, true) end
+    return result == 1
+end
+
+--- What went wrong in the last function that changes the world, in one line; "" when nothing did. A function that
+--- only reads leaves it as it is, and gives its line to the log. Valid until the next function that changes the
+--- world.
+function World:getLastError()
+    local world = self
+    return ffi.string(C.kiriWorld_GetLastError(world.c))
+end
+
+--- m/s^2. All pieces wake.
+function World:setGravity(gravity)
+    local world = self
+    local result = C.kiriWorld_SetGravity(world.c, vector(1, gravity, 3))
+    if result < 0 then fail(world, "kiriWorld_SetGravity", result, true) end
+    return result == 1
+end
+
+--- Takes effect with the next tick.
+function World:setBudget(budget)
+    local world = self
+    local result = C.kiriWorld_SetBudget(world.c, struct_of(world, budget, "kiriBudget"))
+    if result < 0 then fail(world, "kiriWorld_SetBudget", result, true) end
+    return result == 1
+end
+
+--- A hash of everything that the coming ticks depend on, work that waits for its budget included: two worlds that got
+--- the same calls have the same hash, and two with the same hash go on alike. After a refused allocation some items
+--- are made again: the hash tells that while work waits, or while the budget limits cells or samples.
+function World:getStateHash()
+    local world = self
+    local result = C.kiriWorld_GetStateHash(world.c, out.uint64_t)
+    if result < 0 then fail(world, "kiriWorld_GetStateHash", result, false) end
+    local hash = out.uint64_t[0]
+    return hash
+end
+
+--- Writes up to `capacity` ids of the world's sheets, in the order of their making; *count is how many there are.
+function World:getSheets()
+    local world = self
+    local result = C.kiriWorld_GetSheets(world.c, room.kiriSheet, room.size, out.int32_t)
+    if result < 0 then fail(world, "kiriWorld_GetSheets", result, false) end
+    if out.int32_t[0] > room.size then make_room(out.int32_t[0]) return World.getSheets(self) end
+    return list_of(world, room.kiriSheet, out.int32_t[0], "Sheet")
+end
+
+--- Puts some bytes of the host's own (1 to KIRI_MOST_NOTE_BYTES) in the recording, where a replay finds them: what
+--- its camera saw, what a player pressed. The world does not change; without a recording nothing happens.
+function World:note(bytes, count)
+    local world = self
+    count = count or #bytes
+    local result = C.kiriWorld_Note(world.c, bytes, count)
+    if result < 0 then fail(world, "kiriWorld_Note", result, true) end
+    return result == 1
+end
+
+--- Makes the calls of a recording up to the next tick or note, and that one. The world is to be new, as
+--- kiriCreateWorld makes it; gravity and budget become those of the recording. What the host has of its own, such as
+--- memory, log and tasks, stays the host's. Ids are those of the recording: kiriWorld_GetSheets has those of sheets.
+--- KIRI_PENDING: more follows, call it again. KIRI_OK: that was the end. KIRI_ERROR_REPLAY: a call gave another
+--- result, other ids or another state than recorded; the line says which. The next call goes on behind it.
+--- KIRI_ERROR_DATA: the bytes are no recording, damaged, cut short, or of a later version; the line says where. Calls
+--- before that place have been made. So has the last one of a recording that ends within a call, as that of a run
+--- which crashed. KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: the next call was refused memory, and
+--- may be tried again. Calls that were refused memory when they were recorded are left out: they changed nothing.
+--- Where that was a tick and a budget limits cells or samples, the next hashes may differ.
+function World:replay(recording, replay, size)
+    local world = self
+    size = size or #recording
+    local result = C.kiriWorld_Replay(world.c, recording, size, replay)
+    passed(world)
+    if result < 0 then fail(world, "kiriWorld_Replay", result, true) end
+    return result == 1
+end
+
+--- Writes the world. *size: bytes that there are. `bytes` null: they are counted only, and capacity does not matter;
+--- else it has room for `capacity`. Writes nothing where that is less than *size (KIRI_ERROR_ARGUMENT). Only reads
+--- the world.
+function World:save(bytes, capacity)
+    local world = self
+    local result = C.kiriWorld_Save(world.c, bytes, capacity or 0, out.int64_t)
+    if result < 0 then fail(world, "kiriWorld_Save", result, false) end
+    if bytes then return tonumber(out.int64_t[0]) end
+    bytes = ffi.new("uint8_t[?]", out.int64_t[0])
+    local size = self:save(bytes, out.int64_t[0])
+    return ffi.string(bytes, size)
+end
+
+--- The world becomes what was saved, from a world with whatever hooks; its own stay: allocation, log, clock and
+--- tasks. The profile has no times until the next tick. What it had before is gone, but arrays that it handed out
+--- live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this
+--- library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. The sum in a save finds damage, not malice:
+--- load no save that somebody may have made to do harm. A recording has the bytes, up to 2^31 of them.
+function World:load(bytes, size)
+    local world = self
+    size = size or #bytes
+    local result = C.kiriWorld_Load(world.c, bytes, size)
+    if result < 0 then fail(world, "kiriWorld_Load", result, true) end
+    return result == 1
+end
+
+--- What has changed since a save, for hosts that go back a little: a save now and then, and a difference to it each
+--- tick. Where no cut is being worked on it has poses, velocities and contacts; a cut adds what it changed. All of
+--- the world is compared with the base, so it takes about as long as a save (tests/README.md has sizes and times).
+--- base: what kiriWorld_Save wrote of this world, or what it was loaded from, with all calls since. *size and `bytes`
+--- as in kiriWorld_Save; where capacity is not enough, what is in `bytes` means nothing. KIRI_ERROR_DATA: base is no
+--- save. Only reads the world.
+function World:saveDifference(base, bytes, capacity, baseSize)
+    local world = self
+    baseSize = baseSize or #base
+    local result = C.kiriWorld_SaveDifference(world.c, base, baseSize, bytes, capacity or 0, out.int64_t)
+    if result < 0 then fail(world, "kiriWorld_SaveDifference", result, false) end
+    if bytes then return tonumber(out.int64_t[0]) end
+    bytes = ffi.new("uint8_t[?]", out.int64_t[0])
+    local size = self:saveDifference(base, bytes, out.int64_t[0], baseSize)
+    return ffi.string(bytes, size)
+end
+
+--- The world becomes what it was when the difference was written, as kiriWorld_Load. Any world, and on any machine,
+--- with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or one to another base.
+function World:loadDifference(base, bytes, baseSize, size)
+    local world = self
+    baseSize = baseSize or #base
+    size = size or #bytes
+    local result = C.kiriWorld_LoadDifference(world.c, base, baseSize, bytes, size)
+    if result < 0 then fail(world, "kiriWorld_LoadDifference", result, true) end
+    return result == 1
+end
+
+--- *events points to *count events.
+function World:getEvents()
+    local world = self
+    local result = C.kiriWorld_GetEvents(world.c, out.kiriEventRows, out.int32_t)
+    if result < 0 then fail(world, "kiriWorld_GetEvents", result, false) end
+    return new.kiriEventArray(out.kiriEventRows[0], out.int32_t[0], 1, world.cell, now[world.cell])
+end
+
+--- Of the last tick that was not refused.
+function World:getProfile(profile)
+    local world = self
+    profile = profile or new.kiriProfile()
+    local result = C.kiriWorld_GetProfile(world.c, profile)
+    if result < 0 then fail(world, "kiriWorld_GetProfile", result, false) end
+    return profile
+end
+
+--- For hosts that would rather think in time than in items: the budget whose work would have taken so many
+--- microseconds a tick at the pace of the profile, which may be the sum of several. Each item that the profile has
+--- some of is set; others stay. The simulation never reads a clock: the choice is the host's, and a replay must hand
+--- in the same budgets.
+function kiri.fitBudget(profile, microseconds, budget)
+    local result = C.kiriFitBudget(struct_of(nil, profile, "kiriProfile"), microseconds, budget)
+    if result < 0 then fail(nil, "kiriFitBudget", result, false) end
+    return result == 1
+end
+
+--- The name of a stage, for tables; "" for a number that is none.
+function kiri.getStageName(stage)
+    return ffi.string(C.kiriGetStageName(stage))
+end
+
+--- The numbers of a preset, KIRI_MATERIAL_...
+function kiri.getMaterial(preset, material)
+    material = material or new.kiriMaterial()
+    local result = C.kiriGetMaterial(preset, material)
+    if result < 0 then fail(nil, "kiriGetMaterial", result, false) end
+    return material
+end
+
+--- The numbers of a preset, KIRI_QUALITY_...
+function kiri.getQuality(preset, quality)
+    quality = quality or new.kiriQuality()
+    local result = C.kiriGetQuality(preset, quality)
+    if result < 0 then fail(nil, "kiriGetQuality", result, false) end
+    return quality
+end
+
+--- Fills the def with its defaults, and stamps it. It has no mesh yet.
+function kiri.defaultSheetDef(def)
+    def = def or new.kiriSheetDef()
+    C.kiriDefaultSheetDef(def)
+    return def
+end
+
+--- Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles are no sheet; the line says which one and
+--- why.
+function World:createSheet(def)
+    local world = self
+    local result = C.kiriCreateSheet(world.c, struct_of(world, def, "kiriSheetDef"), out.Sheet)
+    if result < 0 then fail(world, "kiriCreateSheet", result, true) end
+    return handle(world, out.Sheet[0], "Sheet")
+end
+
+--- The sheet is gone, with its cuts, frames and pins; their ids are stale.
+function Sheet:destroy()
+    local world = self.world
+    local result = C.kiriDestroySheet(world.c, self.id)
+    if result < 0 then fail(world, "kiriDestroySheet", result, true) end
+    return result == 1
+end
+
+--- A sheet that is a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
+--- columns and rows are 1 to 4096. def: all but the mesh, which is not read; null: the defaults. A recording has it
+--- as kiriCreateSheet.
+function World:createRectangle(width, height, columns, rows, def)
+    local world = self
+    local result = C.kiriCreateRectangle(world.c, width, height, columns, rows, struct_of(world, def, "kiriSheetDef"), out.Sheet)
+    if result < 0 then fail(world, "kiriCreateRectangle", result, true) end
+    return handle(world, out.Sheet[0], "Sheet")
+end
+
+--- What they are now, stamped for kiriSheet_SetSettings.
+function Sheet:getSettings(settings)
+    local world = self.world
+    settings = settings or new.kiriSheetSettings()
+    local result = C.kiriSheet_GetSettings(world.c, self.id, settings)
+    if result < 0 then fail(world, "kiriSheet_GetSettings", result, false) end
+    return settings
+end
+
+--- Checked as the def is: all or nothing. KIRI_ERROR_DEF: they did not come from GetSettings. The sheet wakes where
+--- one is other than before. Places and velocities stay: with another mass so momentum changes. Stiffnesses that pins
+--- have, and the lengths that frames were spread by, stay as they are.
+function Sheet:setSettings(settings)
+    local world = self.world
+    local result = C.kiriSheet_SetSettings(world.c, self.id, struct_of(world, settings, "kiriSheetSettings"))
+    if result < 0 then fail(world, "kiriSheet_SetSettings", result, true) end
+    return result == 1
+end
+
+--- A rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1) floats and 6 *
+--- columns * rows indices. columns and rows are 1 to 4096.
+function kiri.fillRectangle(width, height, columns, rows, restPositions, indices)
+    restPositions = restPositions or ffi.new("float[?]", 2 * (columns + 1) * (rows + 1))
+    indices = indices or ffi.new("int32_t[?]", 6 * columns * rows)
+    local result = C.kiriFillRectangle(width, height, columns, rows, restPositions, indices)
+    if result < 0 then fail(nil, "kiriFillRectangle", result, false) end
+    return restPositions, indices
+end
+
+--- The arrays, without a copy.
+function Sheet:getMesh(mesh)
+    local world = self.world
+    mesh = mesh or new.kiriMeshView()
+    local result = C.kiriSheet_GetMesh(world.c, self.id, mesh.c)
+    if result < 0 then fail(world, "kiriSheet_GetMesh", result, false) end
+    mesh.world, mesh.epoch = world.cell, now[world.cell]
+    return mesh
+end
+
+--- What changed since the host saw that revision; all of the mesh where that is too long ago, or 0.
+function Sheet:getDirty(sinceRevision, dirty)
+    local world = self.world
+    dirty = dirty or new.kiriDirty()
+    local result = C.kiriSheet_GetDirty(world.c, self.id, sinceRevision, dirty)
+    if result < 0 then fail(world, "kiriSheet_GetDirty", result, false) end
+    return dirty
+end
+
+--- Copies positions and normals of some vertices, 3 floats each, to where the host wants them; strides in bytes, 12
+--- or more. Null: without these. KIRI_ERROR_STATE: normals of a sheet that makes none.
+function Sheet:copyVertices(first, count, positions, positionStride, normals, normalStride)
+    local world = self.world
+    local result = C.kiriSheet_CopyVertices(world.c, self.id, first, count, positions, positionStride, normals, normalStride)
+    if result < 0 then fail(world, "kiriSheet_CopyVertices", result, false) end
+    return result == 1
+end
+
+--- Copies the indices of some triangles, 3 each, as 16-bit numbers. KIRI_ERROR_STATE: there are more than 65535
+--- vertices.
+function Sheet:copyIndices16(firstTriangle, count, indices)
+    local world = self.world
+    indices = indices or ffi.new("uint16_t[?]", 3 * count)
+    local result = C.kiriSheet_CopyIndices16(world.c, self.id, firstTriangle, count, indices)
+    if result < 0 then fail(world, "kiriSheet_CopyIndices16", result, false) end
+    return indices
+end
+
+--- thickness: m, 0: that of the material. Made when it is asked for.
+function Sheet:getSolid(thickness, solid)
+    local world = self.world
+    solid = solid or new.kiriSolidView()
+    local result = C.kiriSheet_GetSolid(world.c, self.id, thickness, solid.c)
+    if result < 0 then fail(world, "kiriSheet_GetSolid", result, true) end
+    solid.world, solid.epoch = world.cell, now[world.cell]
+    return solid
+end
+
+--- Collision points: 3 floats of position (m, world) a point.
+function Sheet:getCollisionPoints()
+    local world = self.world
+    local result = C.kiriSheet_GetCollisionPoints(world.c, self.id, out.floatRows, out.int32_t)
+    if result < 0 then fail(world, "kiriSheet_GetCollisionPoints", result, false) end
+    return new.floatArray(out.floatRows[0], out.int32_t[0], 3, world.cell, now[world.cell])
+end
+
+--- Costs nothing.
+function Sheet:getCounts(counts)
+    local world = self.world
+    counts = counts or new.kiriCounts()
+    local result = C.kiriSheet_GetCounts(world.c, self.id, counts)
+    if result < 0 then fail(world, "kiriSheet_GetCounts", result, false) end
+    return counts
+end
+
+--- Sums over the frames, made when they are asked for.
+function Sheet:getTotals(totals)
+    local world = self.world
+    totals = totals or new.kiriTotals()
+    local result = C.kiriSheet_GetTotals(world.c, self.id, totals)
+    if result < 0 then fail(world, "kiriSheet_GetTotals", result, false) end
+    return totals
+end
+
+--- An estimate of the error of the sheet's shape as it is now, where it rests or moves slowly: rms distance from
+--- where a sheet of very many frames would be under the same loads, over the rms way that it has gone from its flat
+--- shape; 0 to 1, and 1 where there are too few frames to tell. It compares the strains of neighbouring links
+--- (KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE). Measured on cantilevers and on a sheet with a slit, of 3 to 140
+--- frames, it is not below a third of the error, and not above four times the error or, where that is below 0.5 %,
+--- 1.5 %. Where a sheet also turned as a whole, as by hanging from two corners, it says up to ten times too much. It
+--- knows nothing of errors of the grid, of time stepping, and of loads that are finer than frames. It takes memory
+--- and time for one pass over the links, when it is called.
+function Sheet:estimateError()
+    local world = self.world
+    local result = C.kiriSheet_EstimateError(world.c, self.id, out.double)
+    if result < 0 then fail(world, "kiriSheet_EstimateError", result, false) end
+    local relative = out.double[0]
+    return relative
+end
+
+--- *awake is 0 where all pieces of the sheet sleep, see sleepSpeed; kiriPieceState says which do. kiriSheet_Wake
+--- wakes all of them.
+function Sheet:isAwake()
+    local world = self.world
+    local result = C.kiriSheet_IsAwake(world.c, self.id, out.int32_t)
+    if result < 0 then fail(world, "kiriSheet_IsAwake", result, false) end
+    local awake = out.int32_t[0] ~= 0
+    return awake
+end
+
+--- *awake is 0 where all pieces of the sheet sleep, see sleepSpeed; kiriPieceState says which do. kiriSheet_Wake
+--- wakes all of them.
+function Sheet:wake()
+    local world = self.world
+    local result = C.kiriSheet_Wake(world.c, self.id)
+    if result < 0 then fail(world, "kiriSheet_Wake", result, true) end
+    return result == 1
+end
+
+--- Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities turn. The columns of
+--- `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. Targets of pins,
+--- holds, loads and contacts stay where they are: destroy or move them first, or the sheet is drawn back. It wakes.
+function Sheet:transform(rotation, translation)
+    local world = self.world
+    local result = C.kiriSheet_Transform(world.c, self.id, vector(1, rotation, 9), vector(2, translation, 3))
+    if result < 0 then fail(world, "kiriSheet_Transform", result, true) end
+    return result == 1
+end
+
+--- From now on it moves as a rigid body, until forces change that: `velocity` (m/s) of its centre of mass, and
+--- `angularVelocity` (rad/s) about it. What a planar sheet has across its plane is dropped; held frames follow their
+--- hold. kiriFrame_SetPieceVelocity: of the piece with that frame alone.
+function Sheet:setVelocity(velocity, angularVelocity)
+    local world = self.world
+    local result = C.kiriSheet_SetVelocity(world.c, self.id, vector(1, velocity, 3), vector(2, angularVelocity, 3))
+    if result < 0 then fail(world, "kiriSheet_SetVelocity", result, true) end
+    return result == 1
+end
+
+--- From now on it moves as a rigid body, until forces change that: `velocity` (m/s) of its centre of mass, and
+--- `angularVelocity` (rad/s) about it. What a planar sheet has across its plane is dropped; held frames follow their
+--- hold. kiriFrame_SetPieceVelocity: of the piece with that frame alone.
+function Frame:setPieceVelocity(velocity, angularVelocity)
+    local world = self.world
+    local result = C.kiriFrame_SetPieceVelocity(world.c, self.id, vector(1, velocity, 3), vector(2, angularVelocity, 3))
+    if result < 0 then fail(world, "kiriFrame_SetPieceVelocity", result, true) end
+    return result == 1
+end
+
+--- A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
+--- kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
+--- parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+function Sheet:setUserData(data)
+    local world = self.world
+    local result = C.kiriSheet_SetUserData(world.c, self.id, data)
+    if result < 0 then fail(world, "kiriSheet_SetUserData", result, true) end
+    return result == 1
+end
+
+--- A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
+--- kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
+--- parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+function Sheet:getUserData()
+    local world = self.world
+    local result = C.kiriSheet_GetUserData(world.c, self.id, out.uint64_t)
+    if result < 0 then fail(world, "kiriSheet_GetUserData", result, false) end
+    local data = out.uint64_t[0]
+    return data
+end
+
+--- A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
+--- kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
+--- parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+function Pin:setUserData(data)
+    local world = self.world
+    local result = C.kiriPin_SetUserData(world.c, self.id, data)
+    if result < 0 then fail(world, "kiriPin_SetUserData", result, true) end
+    return result == 1
+end
+
+--- A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
+--- kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
+--- parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+function Pin:getUserData()
+    local world = self.world
+    local result = C.kiriPin_GetUserData(world.c, self.id, out.uint64_t)
+    if result < 0 then fail(world, "kiriPin_GetUserData", result, false) end
+    local data = out.uint64_t[0]
+    return data
+end
+
+--- A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
+--- kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
+--- parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+function Frame:setPieceUserData(data)
+    local world = self.world
+    local result = C.kiriFrame_SetPieceUserData(world.c, self.id, data)
+    if result < 0 then fail(world, "kiriFrame_SetPieceUserData", result, true) end
+    return result == 1
+end
+
+--- A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
+--- kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
+--- parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+function Frame:getPieceUserData()
+    local world = self.world
+    local result = C.kiriFrame_GetPieceUserData(world.c, self.id, out.uint64_t)
+    if result < 0 then fail(world, "kiriFrame_GetPieceUserData", result, false) end
+    local data = out.uint64_t[0]
+    return data
+end
+
+--- Where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: nowhere. The first ray
+--- looks at every triangle; the next tick makes boxes over them, and as long as somebody asks every now and then (in
+--- 120 ticks) they follow the sheet: a ray takes some microseconds, and a tick of a large sheet a quarter more.
+function Sheet:raycast(origin, direction, maxDistance, hit)
+    local world = self.world
+    hit = hit or new.kiriHit()
+    local result = C.kiriSheet_Raycast(world.c, self.id, vector(1, origin, 3), vector(2, direction, 3), maxDistance, hit)
+    if result < 0 then fail(world, "kiriSheet_Raycast", result, false) end
+    return hit
+end
+
+--- The first sheet that a ray meets; *sheet is 0 where there is none.
+function World:raycast(origin, direction, maxDistance, hit)
+    local world = self
+    hit = hit or new.kiriHit()
+    local result = C.kiriWorld_Raycast(world.c, vector(1, origin, 3), vector(2, direction, 3), maxDistance, out.Sheet, hit)
+    if result < 0 then fail(world, "kiriWorld_Raycast", result, false) end
+    return handle(world, out.Sheet[0], "Sheet"), hit
+end
+
+--- Outside the sheet: KIRI_ERROR_ARGUMENT. On a cut, the lip that holds the point; either where both do.
+function Sheet:getPoint(restPoint, state)
+    local world = self.world
+    state = state or new.kiriPointStateView()
+    local result = C.kiriSheet_GetPoint(world.c, self.id, vector(1, restPoint, 2), state.c)
+    if result < 0 then fail(world, "kiriSheet_GetPoint", result, false) end
+    state.world, state.epoch = world.cell, now[world.cell]
+    return state
+end
+
+--- The shape functions at a rest point: up to `capacity` frames with their weights (sum 1) and, unless null,
+--- gradients (2 floats a frame, 1/m). *count is how many there are, however many fit. Outside the sheet:
+--- KIRI_ERROR_ARGUMENT; while work on a cut waits for its budget: KIRI_ERROR_STATE.
+function Sheet:getWeights(restPoint)
+    local world = self.world
+    local result = C.kiriSheet_GetWeights(world.c, self.id, vector(1, restPoint, 2), room.kiriFrame, room.float, room.float2, room.size, out.int32_t)
+    if result < 0 then fail(world, "kiriSheet_GetWeights", result, false) end
+    if out.int32_t[0] > room.size then make_room(out.int32_t[0]) return Sheet.getWeights(self, restPoint) end
+    return list_of(world, room.kiriFrame, out.int32_t[0], "Frame"), list_of(world, room.float, out.int32_t[0], nil), list_of(world, room.float2, out.int32_t[0] * 2, nil)
+end
+
+--- The first of these calls after a cut sorts the sheet by pieces, which may fail with KIRI_ERROR_MEMORY. An index
+--- that is no piece's: KIRI_ERROR_ARGUMENT.
+function Sheet:getPiece(piece, state)
+    local world = self.world
+    state = state or new.kiriPieceState()
+    local result = C.kiriSheet_GetPiece(world.c, self.id, piece, state)
+    if result < 0 then fail(world, "kiriSheet_GetPiece", result, true) end
+    return state
+end
+
+--- The first of these calls after a cut sorts the sheet by pieces, which may fail with KIRI_ERROR_MEMORY. An index
+--- that is no piece's: KIRI_ERROR_ARGUMENT.
+function Sheet:getPieceMesh(piece, mesh)
+    local world = self.world
+    mesh = mesh or new.kiriPieceMeshView()
+    local result = C.kiriSheet_GetPieceMesh(world.c, self.id, piece, mesh.c)
+    if result < 0 then fail(world, "kiriSheet_GetPieceMesh", result, true) end
+    mesh.world, mesh.epoch = world.cell, now[world.cell]
+    return mesh
+end
+
+--- *frames points to *count ids.
+function Sheet:getPieceFrames(piece)
+    local world = self.world
+    local result = C.kiriSheet_GetPieceFrames(world.c, self.id, piece, out.kiriFrameRows, out.int32_t)
+    if result < 0 then fail(world, "kiriSheet_GetPieceFrames", result, true) end
+    return new.kiriFrameArray(out.kiriFrameRows[0], out.int32_t[0], 1, world.cell, now[world.cell])
+end
+
+--- The index that the piece with this frame has now.
+function Frame:getPiece()
+    local world = self.world
+    local result = C.kiriFrame_GetPiece(world.c, self.id, out.int32_t)
+    if result < 0 then fail(world, "kiriFrame_GetPiece", result, false) end
+    local piece = out.int32_t[0]
+    return piece
+end
+
+--- Makes a sheet of the piece with this frame. Its frames, pins and collision points move along, in their order; they
+--- keep their ids and states, and what waits for the next tick: the motion goes on as if nothing had happened, but
+--- for the solver's guard over energy and step length, which is one for each sheet. A clamp or hinge that holds both
+--- becomes two: the rest keeps the id, the new sheet's has one of its own (kiriSheet_GetPins). Both sheets have all
+--- settings (of collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself;
+--- a piece that sleeps goes on sleeping. Cuts stay with the rest: a blade in the piece cuts nothing until it is back.
+--- Indices of collision points of the rest change. Its triangles and vertices keep their indices where it has more
+--- than 4096 vertices, and while no more than half of them are of pieces that went: these triangles have three equal
+--- corners, these vertices are of no triangle. Else all move together, and their indices change. In either case its
+--- revision grows, and kiriSheet_GetDirty says what changed. The new sheet has the squares of the grid around it, at
+--- about 40 bytes a square: crumbs are better dropped. Costs what the piece takes to make, and a look at the weights
+--- of what is left; where indices change more. KIRI_PENDING: work on a cut is at hand in the sheet, or it takes more
+--- samples than the budget leaves calls before the next tick; *detached is 0. When the work is done, what is the
+--- piece of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. About 1.2 samples for each
+--- vertex of the piece, 0.7 for each cell, and one for 80 vertices of the rest are paid before, over several ticks if
+--- need be, of many pieces one after the other; until then further cuts of the sheet wait. A piece that is worth more
+--- than the samples of a tick is made as they are paid; it leaves in one tick all the same, which takes a third of
+--- the work. What a call does at once the coming ticks have less. KIRI_ERROR_STATE: nothing would be left of the
+--- sheet.
+function Frame:detachPiece()
+    local world = self.world
+    local result = C.kiriFrame_DetachPiece(world.c, self.id, out.Sheet)
+    if result < 0 then fail(world, "kiriFrame_DetachPiece", result, true) end
+    return handle(world, out.Sheet[0], "Sheet")
+end
+
+--- The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but for making a sheet:
+--- that is done at once, and the coming ticks have less. KIRI_PENDING: work on a cut is at hand. The piece is gone
+--- all the same: its triangles are in kiriMesh, with three equal corners; it touches nothing; no point of it is
+--- found. When the work is done its vertices go, too; until then kiriCounts still counts it, and its kiriPieceState
+--- is all zeros.
+function Frame:destroyPiece()
+    local world = self.world
+    local result = C.kiriFrame_DestroyPiece(world.c, self.id)
+    if result < 0 then fail(world, "kiriFrame_DestroyPiece", result, true) end
+    return result == 1
+end
+
+--- The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames of one piece count
+--- once. Where one is refused, none goes. KIRI_PENDING: some wait, those of one sheet together. detached[i] is the
+--- sheet that the piece of frames[i] has become, 0 where it waits.
+function World:detachPieces(frames, count)
+    local world = self
+    frames, count = ids_of(world, frames, count, "kiriFrame")
+    local detached = ffi.new("kiriSheet[?]", count)
+    local result = C.kiriWorld_DetachPieces(world.c, frames, count, detached)
+    if result < 0 then fail(world, "kiriWorld_DetachPieces", result, true) end
+    return list_of(world, detached, count, "Sheet", false)
+end
+
+--- The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames of one piece count
+--- once. Where one is refused, none goes. KIRI_PENDING: some wait, those of one sheet together. detached[i] is the
+--- sheet that the piece of frames[i] has become, 0 where it waits.
+function World:destroyPieces(frames, count)
+    local world = self
+    frames, count = ids_of(world, frames, count, "kiriFrame")
+    local result = C.kiriWorld_DestroyPieces(world.c, frames, count)
+    if result < 0 then fail(world, "kiriWorld_DestroyPieces", result, true) end
+    return result == 1
+end
+
+--- Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is how many. Where
+--- that one waits to become a sheet, the largest of the others stays, too.
+function Sheet:dropCrumbs(area)
+    local world = self.world
+    local result = C.kiriSheet_DropCrumbs(world.c, self.id, area, out.int32_t)
+    if result < 0 then fail(world, "kiriSheet_DropCrumbs", result, true) end
+    local count = out.int32_t[0]
+    return count
+end
+
+--- A cut is a polyline in the rest plane. Points may lie anywhere: what is outside the sheet cuts nothing. Points
+--- wait until the next tick. The end of a cut that lies inside the sheet stays closed until the blade moves on.
+function Sheet:beginCut(restPoint)
+    local world = self.world
+    local result = C.kiriBeginCut(world.c, self.id, vector(1, restPoint, 2), out.Cut)
+    if result < 0 then fail(world, "kiriBeginCut", result, true) end
+    return handle(world, out.Cut[0], "Cut")
+end
+
+--- restPoints: 2 floats a point; count is 1 to 2^24.
+function Cut:extend(restPoints, count)
+    local world = self.world
+    restPoints, count = rows_of(restPoints, count, "float", 2)
+    local result = C.kiriCut_Extend(world.c, self.id, restPoints, count)
+    if result < 0 then fail(world, "kiriCut_Extend", result, true) end
+    return result == 1
+end
+
+--- No more points come. After the tick in which the last of them takes effect the id is stale, and
+--- KIRI_EVENT_CUT_FINISHED tells.
+function Cut:finish()
+    local world = self.world
+    local result = C.kiriCut_End(world.c, self.id)
+    if result < 0 then fail(world, "kiriCut_End", result, true) end
+    return result == 1
+end
+
+--- A blade (a straight edge) that moves in world space from blade[0]-blade[1] to blade[3]-blade[2] cuts where the
+--- swept quadrilateral meets the sheet as it is now, past borders, so that it parts what it crosses. The cut is ended
+--- already. Slices of a sheet that moves do not join from tick to tick: for that take a blade.
+function Sheet:slice(blade)
+    local world = self.world
+    local result = C.kiriSheet_Slice(world.c, self.id, vector(1, blade, 12), out.Cut)
+    if result < 0 then fail(world, "kiriSheet_Slice", result, true) end
+    return handle(world, out.Cut[0], "Cut")
+end
+
+--- sheet 0: it cuts all sheets, also those that are made later and pieces that get a sheet of their own. A blade for
+--- one sheet whose sheet is gone cuts nothing.
+function World:beginBlade(sheet)
+    local world = self
+    local result = C.kiriBeginBlade(world.c, id_of(world, sheet, "Sheet"), out.Blade)
+    if result < 0 then fail(world, "kiriBeginBlade", result, true) end
+    return handle(world, out.Blade[0], "Blade")
+end
+
+--- The blade is now the straight edge between two points (m, world). From where it was it got there straight, each
+--- end along a line. The first call only says where it begins. Where an end of the edge lies inside of what it sweeps
+--- of the sheet, it cuts only what it sweeps. An edge without length cuts nothing.
+function Blade:moveEdge(from, to)
+    local world = self.world
+    local result = C.kiriBlade_MoveEdge(world.c, self.id, vector(1, from, 3), vector(2, to, 3))
+    if result < 0 then fail(world, "kiriBlade_MoveEdge", result, true) end
+    return result == 1
+end
+
+--- The same for a ray that a camera casts: an edge `length` m long.
+function Blade:moveRay(origin, direction, length)
+    local world = self.world
+    local result = C.kiriBlade_MoveRay(world.c, self.id, vector(1, origin, 3), vector(2, direction, 3), length)
+    if result < 0 then fail(world, "kiriBlade_MoveRay", result, true) end
+    return result == 1
+end
+
+--- It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends.
+function Blade:finish()
+    local world = self.world
+    local result = C.kiriBlade_End(world.c, self.id)
+    if result < 0 then fail(world, "kiriBlade_End", result, true) end
+    return result == 1
+end
+
+--- Writes up to `capacity` ids of the sheet's frames; *count is how many there are.
+function Sheet:getFrames()
+    local world = self.world
+    local result = C.kiriSheet_GetFrames(world.c, self.id, room.kiriFrame, room.size, out.int32_t)
+    if result < 0 then fail(world, "kiriSheet_GetFrames", result, false) end
+    if out.int32_t[0] > room.size then make_room(out.int32_t[0]) return Sheet.getFrames(self) end
+    return list_of(world, room.kiriFrame, out.int32_t[0], "Frame")
+end
+
+--- Pose, motion and region as they are now.
+function Frame:getState(state)
+    local world = self.world
+    state = state or new.kiriFrameState()
+    local result = C.kiriFrame_GetState(world.c, self.id, state)
+    if result < 0 then fail(world, "kiriFrame_GetState", result, false) end
+    return state
+end
+
+--- The host moves the frame: its rest point, as it is seen, goes to `position` with `rotation` (a rotation matrix,
+--- columns as above) in the next tick, evenly, and stays there until the next call. An affine frame is not stretched
+--- then. On a planar sheet the rotation is about its normal. Null, null: it is free again. Contacts do not push
+--- material that held frames carry for more than half: it goes where the host has it, through obstacles too.
+function Frame:hold(position, rotation)
+    local world = self.world
+    local result = C.kiriFrame_Hold(world.c, self.id, position and vector(1, position, 3), rotation and vector(2, rotation, 9))
+    if result < 0 then fail(world, "kiriFrame_Hold", result, true) end
+    return result == 1
+end
+
+--- With what the host's hold acted on the sheet: force (N, world) and torque (N m) about the frame's rest point;
+--- means over the last tick, impulses divided by its dt. They carry the frame's own weight and change its momentum,
+--- too. Zero for a frame that was free. A piece that sleeps keeps those that it fell asleep with.
+function Frame:getReaction(force, torque)
+    local world = self.world
+    force = force or ffi.new("double[?]", 3)
+    torque = torque or ffi.new("double[?]", 3)
+    local result = C.kiriFrame_GetReaction(world.c, self.id, force, torque)
+    if result < 0 then fail(world, "kiriFrame_GetReaction", result, false) end
+    return force, torque
+end
+
+--- A force (N, world) on the frame's centre of mass and a torque (N m).
+function Frame:applyForce(force, torque)
+    local world = self.world
+    local result = C.kiriFrame_ApplyForce(world.c, self.id, vector(1, force, 3), vector(2, torque, 3))
+    if result < 0 then fail(world, "kiriFrame_ApplyForce", result, true) end
+    return result == 1
+end
+
+--- A force (N, world) on a point of the material and a torque (N m).
+function Sheet:applyForce(restPoint, force, torque)
+    local world = self.world
+    local result = C.kiriSheet_ApplyForce(world.c, self.id, vector(1, restPoint, 2), vector(2, force, 3), vector(3, torque, 3))
+    if result < 0 then fail(world, "kiriSheet_ApplyForce", result, true) end
+    return result == 1
+end
+
+--- A force (N, world) on each metre of a straight line of the rest plane, as far as it lies in the material, edges
+--- included. Where it runs along a cut, each lip gets half. The ends differ; a line that meets no material:
+--- KIRI_ERROR_ARGUMENT.
+function Sheet:applyLineLoad(from, to, forcePerLength)
+    local world = self.world
+    local result = C.kiriSheet_ApplyLineLoad(world.c, self.id, vector(1, from, 2), vector(2, to, 2), vector(3, forcePerLength, 3))
+    if result < 0 then fail(world, "kiriSheet_ApplyLineLoad", result, true) end
+    return result == 1
+end
+
+--- A pressure (Pa) that pushes the whole sheet along its normal, or against it where below 0.
+function Sheet:applyPressure(pressure)
+    local world = self.world
+    local result = C.kiriSheet_ApplyPressure(world.c, self.id, pressure)
+    if result < 0 then fail(world, "kiriSheet_ApplyPressure", result, true) end
+    return result == 1
+end
+
+--- An impulse (N s, world) on a point of the material, where it is seen now. Velocities change at once, by as much as
+--- the frames that carry the point resist; a held frame's part is lost. Outside the sheet: KIRI_ERROR_ARGUMENT.
+function Sheet:applyImpulse(restPoint, impulse)
+    local world = self.world
+    local result = C.kiriSheet_ApplyImpulse(world.c, self.id, vector(1, restPoint, 2), vector(2, impulse, 3))
+    if result < 0 then fail(world, "kiriSheet_ApplyImpulse", result, true) end
+    return result == 1
+end
+
+--- Copied; it blows until the next call.
+function Sheet:setWind(wind)
+    local world = self.world
+    local result = C.kiriSheet_SetWind(world.c, self.id, struct_of(world, wind, "kiriWind"))
+    if result < 0 then fail(world, "kiriSheet_SetWind", result, true) end
+    return result == 1
+end
+
+--- Fills the def with its defaults, and stamps it.
+function kiri.defaultPinDef(def)
+    def = def or new.kiriPinDef()
+    C.kiriDefaultPinDef(def)
+    return def
+end
+
+--- Pins a point of the sheet. On failure *pin is 0. A point outside the sheet: KIRI_ERROR_ARGUMENT.
+function Sheet:createPin(def)
+    local world = self.world
+    local result = C.kiriCreatePin(world.c, self.id, struct_of(world, def, "kiriPinDef"), out.Pin)
+    if result < 0 then fail(world, "kiriCreatePin", result, true) end
+    return handle(world, out.Pin[0], "Pin")
+end
+
+--- Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp holds place and direction
+--- of the material there, as a vice does; a hinge its place only, so that the sheet may turn about the line. Both
+--- begin where the material is now; the line stays straight, and as long as it is at rest.
+--- They hold what the line meets, edges included, with the stiffness that the material has between the line and the
+--- frames that it meets. So a clamp along an edge is where the drawing has it, whatever the number of frames, where
+--- kiriFrame_Hold clamps at a frame's site. A clamp through the sheet parts what is on its two sides, so that neither
+--- bends the other. A line that runs along a cut holds both lips; one beside it, by a 512th of a square of the grid
+--- or more, holds one. The ends differ; a line that meets no material: KIRI_ERROR_ARGUMENT.
+function Sheet:clampLine(from, to)
+    local world = self.world
+    local result = C.kiriSheet_ClampLine(world.c, self.id, vector(1, from, 2), vector(2, to, 2), out.Pin)
+    if result < 0 then fail(world, "kiriSheet_ClampLine", result, true) end
+    return handle(world, out.Pin[0], "Pin")
+end
+
+--- Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp holds place and direction
+--- of the material there, as a vice does; a hinge its place only, so that the sheet may turn about the line. Both
+--- begin where the material is now; the line stays straight, and as long as it is at rest.
+--- They hold what the line meets, edges included, with the stiffness that the material has between the line and the
+--- frames that it meets. So a clamp along an edge is where the drawing has it, whatever the number of frames, where
+--- kiriFrame_Hold clamps at a frame's site. A clamp through the sheet parts what is on its two sides, so that neither
+--- bends the other. A line that runs along a cut holds both lips; one beside it, by a 512th of a square of the grid
+--- or more, holds one. The ends differ; a line that meets no material: KIRI_ERROR_ARGUMENT.
+function Sheet:hingeLine(from, to)
+    local world = self.world
+    local result = C.kiriSheet_HingeLine(world.c, self.id, vector(1, from, 2), vector(2, to, 2), out.Pin)
+    if result < 0 then fail(world, "kiriSheet_HingeLine", result, true) end
+    return handle(world, out.Pin[0], "Pin")
+end
+
+--- Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until the
+--- next call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is
+--- seen there.
+function Pin:setTarget(target)
+    local world = self.world
+    local result = C.kiriPin_SetTarget(world.c, self.id, vector(1, target, 3))
+    if result < 0 then fail(world, "kiriPin_SetTarget", result, true) end
+    return result == 1
+end
+
+--- The same with the rotation of the line's material: columns are the directions of u and v and the normal. On a
+--- planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT for a pin that holds a point.
+function Pin:setPose(target, rotation)
+    local world = self.world
+    local result = C.kiriPin_SetPose(world.c, self.id, vector(1, target, 3), vector(2, rotation, 9))
+    if result < 0 then fail(world, "kiriPin_SetPose", result, true) end
+    return result == 1
+end
+
+--- As in the def, for pins of all types; N, 0: it never breaks.
+function Pin:setBreakForce(breakForce)
+    local world = self.world
+    local result = C.kiriPin_SetBreakForce(world.c, self.id, breakForce)
+    if result < 0 then fail(world, "kiriPin_SetBreakForce", result, true) end
+    return result == 1
+end
+
+--- What it is, and where it holds now.
+function Pin:getState(state)
+    local world = self.world
+    state = state or new.kiriPinStateView()
+    local result = C.kiriPin_GetState(world.c, self.id, state.c)
+    if result < 0 then fail(world, "kiriPin_GetState", result, false) end
+    state.world, state.epoch = world.cell, now[world.cell]
+    return state
+end
+
+--- With what the pin acted on the sheet: force (N, world) and torque (N m) about its target; means over the last
+--- tick, impulses divided by its dt. So the reactions of all pins and held frames are the weight of a sheet at rest,
+--- and in motion what changes its momentum (as far as `iterations` have the tick solved). Zero before the first tick.
+--- A piece that sleeps keeps those that it fell asleep with.
+function Pin:getReaction(force, torque)
+    local world = self.world
+    force = force or ffi.new("double[?]", 3)
+    torque = torque or ffi.new("double[?]", 3)
+    local result = C.kiriPin_GetReaction(world.c, self.id, force, torque)
+    if result < 0 then fail(world, "kiriPin_GetReaction", result, false) end
+    return force, torque
+end
+
+--- Writes up to `capacity` ids of the sheet's pins, of all types; *count is how many there are.
+function Sheet:getPins()
+    local world = self.world
+    local result = C.kiriSheet_GetPins(world.c, self.id, room.kiriPin, room.size, out.int32_t)
+    if result < 0 then fail(world, "kiriSheet_GetPins", result, false) end
+    if out.int32_t[0] > room.size then make_room(out.int32_t[0]) return Sheet.getPins(self) end
+    return list_of(world, room.kiriPin, out.int32_t[0], "Pin")
+end
+
+--- It lets go; its id is stale.
+function Pin:destroy()
+    local world = self.world
+    local result = C.kiriDestroyPin(world.c, self.id)
+    if result < 0 then fail(world, "kiriDestroyPin", result, true) end
+    return result == 1
+end
+
+--- The contacts of the next tick; they replace those of an earlier call, and are gone after the tick. A contact is
+--- known again by its point, or its rest point, and its obstacle: what it pushed with is where the next tick starts.
+function Sheet:setContacts(contacts, count)
+    local world = self.world
+    contacts, count = rows_of(contacts, count, "kiriContact", 1)
+    local result = C.kiriSheet_SetContacts(world.c, self.id, contacts, count)
+    if result < 0 then fail(world, "kiriSheet_SetContacts", result, true) end
+    return result == 1
+end
+
+--- One for each contact that was set before the last tick, in the order given. The sum of the impulses, with those of
+--- gravity, loads and obstacles, is the change of momentum of a piece that nothing holds. A piece that sleeps goes on
+--- to press with what it fell asleep with.
+function Sheet:getContactForces()
+    local world = self.world
+    local result = C.kiriSheet_GetContactForces(world.c, self.id, out.kiriContactForceRows, out.int32_t)
+    if result < 0 then fail(world, "kiriSheet_GetContactForces", result, false) end
+    return new.kiriContactForceArray(out.kiriContactForceRows[0], out.int32_t[0], 1, world.cell, now[world.cell])
+end
+
+--- Fills the def with its defaults, and stamps it.
+function kiri.defaultObstacleDef(def)
+    def = def or new.kiriObstacleDef()
+    C.kiriDefaultObstacleDef(def)
+    return def
+end
+
+--- Adds an obstacle. On failure *obstacle is 0.
+function World:createObstacle(def)
+    local world = self
+    local result = C.kiriCreateObstacle(world.c, struct_of(world, def, "kiriObstacleDef"), out.Obstacle)
+    if result < 0 then fail(world, "kiriCreateObstacle", result, true) end
+    return handle(world, out.Obstacle[0], "Obstacle")
+end
+
+--- It is gone, its id stale. What rested on it wakes.
+function Obstacle:destroy()
+    local world = self.world
+    local result = C.kiriDestroyObstacle(world.c, self.id)
+    if result < 0 then fail(world, "kiriDestroyObstacle", result, true) end
+    return result == 1
+end
+
+--- Where it is when the next tick starts. It did not move there: velocities alone say what sheets feel. rotation: a
+--- rotation matrix, columns as in the def.
+function Obstacle:setPose(position, rotation)
+    local world = self.world
+    local result = C.kiriObstacle_SetPose(world.c, self.id, vector(1, position, 3), vector(2, rotation, 9))
+    if result < 0 then fail(world, "kiriObstacle_SetPose", result, true) end
+    return result == 1
+end
+
+--- With what it moves in the next tick and from then on.
+function Obstacle:setVelocity(velocity, angularVelocity)
+    local world = self.world
+    local result = C.kiriObstacle_SetVelocity(world.c, self.id, vector(1, velocity, 3), vector(2, angularVelocity, 3))
+    if result < 0 then fail(world, "kiriObstacle_SetVelocity", result, true) end
+    return result == 1
+end
+
+--- With what it moves in the next tick and from then on.
+function Obstacle:setSurfaceVelocity(velocity)
+    local world = self.world
+    local result = C.kiriObstacle_SetSurfaceVelocity(world.c, self.id, vector(1, velocity, 3))
+    if result < 0 then fail(world, "kiriObstacle_SetSurfaceVelocity", result, true) end
+    return result == 1
+end
+
+--- As in the def.
+function Obstacle:setMass(mass, inertia, centerOfMass)
+    local world = self.world
+    local result = C.kiriObstacle_SetMass(world.c, self.id, mass, vector(1, inertia, 6), vector(2, centerOfMass, 3))
+    if result < 0 then fail(world, "kiriObstacle_SetMass", result, true) end
+    return result == 1
+end
+
+--- Pose and velocities as they are now.
+function Obstacle:getState(state)
+    local world = self.world
+    state = state or new.kiriObstacleState()
+    local result = C.kiriObstacle_GetState(world.c, self.id, state)
+    if result < 0 then fail(world, "kiriObstacle_GetState", result, false) end
+    return state
+end
+
+--- The box (m, world) that holds all that the sheet may touch in a tick of dt: a host needs no obstacles or contacts
+--- outside. It reaches as far around the sheet as its fastest point can go by its velocity and gravity, twice, and
+--- the contact thickness. Obstacles that move themselves come as much nearer. dt as in kiriWorld_Tick.
+function Sheet:getReach(dt, lower, upper)
+    local world = self.world
+    lower = lower or ffi.new("float[?]", 3)
+    upper = upper or ffi.new("float[?]", 3)
+    local result = C.kiriSheet_GetReach(world.c, self.id, dt, lower, upper)
+    if result < 0 then fail(world, "kiriSheet_GetReach", result, false) end
+    return lower, upper
+end
+
+--- Fills it with its defaults, and stamps it.
+function kiri.defaultDebugDraw(draw)
+    draw = draw or new.kiriDebugDraw()
+    C.kiriDefaultDebugDraw(draw)
+    return draw
+end
+
+--- Draws the world as after the last tick, by the host's functions. Only reads the world, and takes no memory.
+function World:debugDraw(draw)
+    local world = self
+    local result = C.kiriWorld_DebugDraw(world.c, struct_of(world, draw, "kiriDebugDraw"))
+    if result < 0 then fail(world, "kiriWorld_DebugDraw", result, false) end
+    return result == 1
+end
+
+end
+
+--- Frees the world and all that is in it.
+local function destroy(world)
+    local c = world.c
+    if c then
+        world.c = nil
+        world.free(ffi.gc(c, nil))
+    end
+end
+jit.off(destroy)
+
+local KINDS = {"World", "Sheet", "Cut", "Frame", "Pin", "Obstacle", "Blade"}
+
+local function classes_by(defined, functions)
+    local classes = {}
+    for i, kind in ipairs(KINDS) do
+        local class = {}
+        class.__index = class
+        class.__tostring = function(self) return ("kiri.%s(0x%x)"):format(kind, self.id or 0) end
+        classes[i], classes[kind] = class, class
+    end
+    defined(core, functions, unpack(classes))
+    classes.World.destroy = destroy
+    -- A sheet, frame and so on by the id that C has for it.
+    for i = 2, #KINDS do
+        classes.World[KINDS[i]:lower()] = function(world, id) return handle(world, id, KINDS[i]) end
+    end
+    return classes
+end
+
+local plain = classes_by(define, kiri)
+for _, kind in ipairs(KINDS) do kiri[kind] = plain[kind] end
+
+-- Compiled code cannot call C that calls Lua again. So worlds that have functions of Lua get classes of their own, which
+-- are not compiled.
+local function hooked()
+    if not core.hooked then
+        core.hooked = classes_by(loadstring(string.dump(define)), {})
+        for _, kind in ipairs(KINDS) do
+            for _, method in pairs(core.hooked[kind]) do
+                if type(method) == "function" then jit.off(method) end
+            end
+        end
+    end
+    return core.hooked
+end
+
+local HOOKS = {alloc = "kiriAllocFn*", free = "kiriFreeFn*", log = "kiriLogFn*", clock = "kiriClockFn*",
+               record = "kiriRecordFn*"}
+
+-- The functions of a def as C calls them. `log` gets a line, `record` bytes as a string.
+local function hook(said, def, callbacks)
+    for name, value in pairs(def) do
+        if type(value) == "function" then
+            if not HOOKS[name] then error(name .. " must be a function of C: other threads call it", 0) end
+            local call = value
+            if name == "log" then
+                call = function(_, line)
+                    said.line = ffi.string(line)
+                    value(said.line)
+                end
+            elseif name == "record" then
+                call = function(_, bytes, count) value(ffi.string(bytes, count)) end
+            end
+            callbacks[name] = ffi.cast(HOOKS[name], call)
+        end
+    end
+    return callbacks
+end
+
+local function create_world(_, def)
+    def = def or {}
+    local cell = next_cell
+    if cell < CELLS then
+        next_cell = next_cell + 1
+    else
+        cell = table.remove(free_cells) or error "too many worlds"
+    end
+    local world = {cell = cell, things = setmetatable({}, {__mode = "v"}), said = {}}
+    local callbacks = hook(world.said, def, {})
+    world.classes = next(callbacks) and hooked() or plain
+    local given = {}
+    for name, value in pairs(def) do given[name] = callbacks[name] or value end
+    local made = ffi.new("kiriWorld*[1]")
+    local result = C.kiriCreateWorld(struct_of(nil, given, "kiriWorldDef"), made)
+    if result < 0 then
+        free_cells[#free_cells + 1] = cell
+        fail(nil, "kiriCreateWorld", result, false)
+    end
+    world.free = function(c)
+        C.kiriDestroyWorld(c)
+        now[cell] = now[cell] + 1
+        free_cells[#free_cells + 1] = cell
+        for _, callback in pairs(callbacks) do callback:free() end
+    end
+    world.c = ffi.gc(made[0], world.free)
+    worlds[cell] = world
+    return setmetatable(world, world.classes.World)
+end
+jit.off(create_world)
+
+setmetatable(kiri.World, {__call = create_world})
+
+return kiri
