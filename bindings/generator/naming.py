@@ -1,4 +1,4 @@
-"""Names and comments, as languages want them. For the to_X.py beside this file."""
+"""Names and comments, as languages have them: for the generators of all of them."""
 
 import re
 import textwrap
@@ -6,15 +6,57 @@ import textwrap
 # Arrays that were handed out end with these calls.
 ENDS_VIEWS = ("kiriWorld_Tick", "kiriWorld_Replay", "kiriDestroyWorld")
 
+def snake(name):
+    """snake_case of a name: sheetDef, SheetDef and CopyIndices16 give sheet_def, sheet_def and copy_indices16."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
+
+
+def pascal(name):
+    """PascalCase of KIRI_STYLE or of camelCase."""
+    if "_" in name or name.isupper():
+        return "".join(part.capitalize() for part in name.split("_"))
+    return name[:1].upper() + name[1:]
+
 
 def camel(name):
-    """GetMesh: getMesh."""
-    return name[:1].lower() + name[1:]
+    made = pascal(name)
+    return made[:1].lower() + made[1:]
 
 
-def snake(name):
-    """GetMesh, frameCount: get_mesh, frame_count; CopyIndices16: copy_indices16."""
-    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
+def bare(name):
+    """Without the prefix of the library: kiriSheetDef gives SheetDef."""
+    return name[4:] if name.startswith("kiri") else name
+
+
+def constant(enum, value):
+    """The name of a value without what the names of its enum have in common: CUT_FINISHED."""
+    return value["name"][len(enum["prefix"]):]
+
+
+def wrapped(doc, start, width=100):
+    """A comment, each line with `start` before it; [] where there is none. Lists stay line by line."""
+    lines = []
+    for line in doc.split("\n") if doc else []:
+        indent = "  " if line.startswith("- ") else ""
+        lines += textwrap.wrap(line, width - len(start), subsequent_indent=indent, break_long_words=False,
+                               break_on_hyphens=False) or [""]
+    return [(start + line).rstrip() for line in lines]
+
+
+def pends(function):
+    """Whether KIRI_PENDING is one of its results."""
+    return "KIRI_PENDING" in function["doc"]
+
+
+def or_zero(doc):
+    """Whether an id may be 0, none."""
+    return bool(re.search(r"\bor 0\b", doc))
+
+
+def may_give_none(function, parameter):
+    """Whether an id that it gives may be 0 where it did not fail."""
+    doc = re.sub(r"On failure \*\w+ is 0\.", "", function["doc"])
+    return bool(re.search(rf"\*{parameter['name']} is 0\b", doc))
 
 
 def comment(text, prefix, width=118):

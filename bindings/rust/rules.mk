@@ -1,0 +1,31 @@
+# make rust tests the crates kiri-sys and kiri; rust-cost says what calls cost; package-rust makes packages and uses them.
+#
+# Crates are fetched once, by the first of these.
+
+LANGUAGE_CHECKS += rust
+
+.PHONY: rust rust-cost package-rust
+
+CARGO ?= cargo
+RUST_TARGET := $(CURDIR)/build/rust
+# Of the library that is built already.
+RUST_ENV = KIRI_LIBRARY_DIR='$(CURDIR)/$(BUILD)' CARGO_TARGET_DIR='$(RUST_TARGET)' CARGO_TERM_COLOR=never
+RUST_IS_THERE = [ "$$(printf '%s\n' 1.82 "$$($(CARGO) --version 2> /dev/null | cut -d ' ' -f 2)" | sort -V | head -n 1)" = 1.82 ]
+RUST_CARGO = cd bindings/rust && $(RUST_ENV) $(CARGO)
+
+rust: $(BUILD)/libkiri.a $(BUILD)/tests/twin
+	@if ! $(RUST_IS_THERE); then echo "rust: no cargo of 1.82 or later, binding not tested"; exit 0; fi; \
+	mkdir -p $(RUST_TARGET); log=$(RUST_TARGET)/log; \
+	if ! (cd bindings/rust && { $(CARGO) fetch --locked --offline || $(CARGO) fetch --locked; }) > $$log 2>&1; then \
+	    echo "rust: the crate cc cannot be fetched, binding not tested"; exit 0; fi; \
+	echo "== bindings/rust"; \
+	($(RUST_CARGO) test --offline --locked --quiet) > $$log 2>&1 || { cat $$log; exit 1; }; \
+	if $(CARGO) clippy --version > /dev/null 2>&1; then \
+	    ($(RUST_CARGO) clippy --offline --locked --quiet --all-targets -- -D warnings) > $$log 2>&1 || { cat $$log; exit 1; }; fi; \
+	for example in first_cut twin; do ($(RUST_CARGO) build --offline --locked --quiet --example $$example) || exit 1; done; \
+	$(RUST_TARGET)/debug/examples/first_cut | grep -qx '2 pieces' || { echo "rust: the first cut gives no 2 pieces"; exit 1; }; \
+	$(RUST_TARGET)/debug/examples/twin > $(RUST_TARGET)/twin.txt; $(BUILD)/tests/twin | head -n 2 | cmp - $(RUST_TARGET)/twin.txt || exit 1; \
+	echo "rust: tests pass, and the hash is that of C: $$(head -n 1 $(RUST_TARGET)/twin.txt)"
+
+rust-cost: $(BUILD)/libkiri.a
+	@$(RUST_CARGO) run --quiet --locked --release --example cost
