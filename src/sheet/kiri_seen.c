@@ -234,6 +234,18 @@ static void LookAtJumps(kiriSheetData* sheet, JumpLook* look, int32_t begin, int
     }
 }
 
+/* A piece that moves in this tick is written anew whatever is seen of it: what rounding does to its patches is no jump. */
+static void ForgetRounded(kiriSheetData* sheet)
+{
+    kiriPatches* patches = &sheet->seen.surface.patches;
+    for (int32_t i = 0; i < patches->count; ++i) {
+        const kiriPiece* piece = kiriSheet_PieceOf(sheet, i);
+        bool moves = kiriPiece_IsAwake(piece) && piece->rest.calm < KIRI_CALM_SECONDS;
+        bool isRounded = patches->isOther.data[i] == KIRI_PATCH_ROUNDED;
+        patches->isOther.data[i] = isRounded && moves ? KIRI_PATCH_SAME : patches->isOther.data[i];
+    }
+}
+
 /* All other vertices are seen where they were written last, by the same weights and patches: they do not jump. After it
    all are where weights and patches have them, but for what fades: as after writing. */
 static void TakeVertexJumps(kiriSheetData* sheet)
@@ -246,6 +258,7 @@ static void TakeVertexJumps(kiriSheetData* sheet)
     kiriView_TakeFrames(sheet);
     surface->isWritten = false;
     look.shift = kiriVec3_Sub(middle, surface->middle);
+    ForgetRounded(sheet);
     look.other = kiriBlocks_MaskOfOther(&surface->patches);
     look.movesSleepers = look.shift.x != 0.0 || look.shift.y != 0.0 || look.shift.z != 0.0;
     kiriFades_Start(&sheet->seen.fades);

@@ -49,6 +49,21 @@ static void WriteBent(float* row, const kiriCarrier* carrier, kiriVec3 from)
     }
 }
 
+/* A frame that gets another center carries the same flat patch, but for the last bits of its doubles. Of floats only those
+   near 0 tell. */
+static uint8_t ChangeOfRow(const float* was, const float* row, size_t each)
+{
+    const float least = 1e-12f;
+    uint8_t change = KIRI_PATCH_SAME;
+    for (size_t k = 0; k < each; ++k) {
+        float by = row[k] - was[k];
+        if (memcmp(&row[k], &was[k], sizeof(float)) != 0) {
+            change = change != KIRI_PATCH_OTHER && by > -least && by < least ? KIRI_PATCH_ROUNDED : KIRI_PATCH_OTHER;
+        }
+    }
+    return change;
+}
+
 bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent,
                        const kiriIndices* some)
 {
@@ -71,8 +86,8 @@ bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_
         } else {
             WriteFlat(row, &carriers[i], from);
         }
-        patches->isOther.data[i] = i >= known || memcmp(was, row, sizeof(float) * each) != 0;
-        isOther |= patches->isOther.data[i];
+        patches->isOther.data[i] = i >= known ? KIRI_PATCH_OTHER : ChangeOfRow(was, row, each);
+        isOther |= patches->isOther.data[i] != KIRI_PATCH_SAME;
         memcpy(was, row, sizeof(float) * each);
     }
     patches->areOther = isOther;

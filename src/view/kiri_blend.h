@@ -9,9 +9,13 @@ KIRI_C_BEGIN
 
 /* Carriers as skinning reads them, in rows of floats. */
 enum { KIRI_FLAT_FLOATS = 12, KIRI_BENT_FLOATS = 24 };
+
+/* Is a patch other than before it was written last? By rounding alone: nobody could see it. */
+enum kiriPatchChange { KIRI_PATCH_SAME, KIRI_PATCH_ROUNDED, KIRI_PATCH_OTHER };
+
 typedef struct kiriPatches {
     KIRI_ARRAY(float) floats;
-    KIRI_ARRAY(uint8_t) isOther; /* one a patch: than before it was written last */
+    KIRI_ARRAY(uint8_t) isOther; /* one a patch: KIRI_PATCH_... */
     int32_t count;
     bool isBent;
     bool areOther; /* is any? */
