@@ -76,3 +76,9 @@ def derived(function):
 def terms(length, name=lambda word: word):
     """A length with its parameters renamed."""
     return re.sub(r"[a-z]\w*", lambda word: name(word[0]), str(length))
+
+
+def is_flags(enum):
+    """Whether values are added up: 1, 2, 4 and so on, up to one for all of them."""
+    values = [value["value"] for value in enum["values"][:-1]]
+    return len(values) > 2 and values == [1 << i for i in range(len(values))]

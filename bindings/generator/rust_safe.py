@@ -7,7 +7,8 @@ from rust_raw import NUMBERS, escaped
 
 # By hand in lib.rs, for what they lend or take outlives the call.
 BY_HAND = {"kiriDefaultWorldDef", "kiriCreateWorld", "kiriDestroyWorld", "kiriWorld_GetLastError", "kiriWorld_Replay",
-           "kiriWorld_GetEvents", "kiriSheet_CopyVertices", "kiriGetVersion"}
+           "kiriWorld_GetEvents", "kiriSheet_CopyVertices", "kiriGetVersion", "kiriDefaultDebugDraw",
+           "kiriWorld_DebugDraw"}
 STRUCTS_BY_HAND = {"kiriWorldDef", "kiriReplay", "kiriEvent"}
 CONSTANTS = {"kiriBudgetLimit", "kiriNoteLimit"}
 # Counts that say something by themselves too, where their pointer is null.
@@ -70,6 +71,9 @@ class Safe:
         for enum in self._d["enums"]:
             if enum["name"] in CONSTANTS:
                 continue
+            if naming.is_flags(enum):
+                names.update({value["name"]: f"[`{value['name'][5:]}`]" for value in enum["values"]})
+                continue
             names.update({value["name"]: f"[`{naming.bare(enum['name'])}::{self._variant(enum, value)}`]"
                           for value in self._values(enum)})
         fields = {field["name"] for struct in self._d["structs"] for field in struct["fields"]}
@@ -77,6 +81,7 @@ class Safe:
         names.update({name: f"`{naming.snake(name)}`" for name in fields if naming.snake(name) != name})
         names.update({"kiriWorld_Tick": "[`World::tick`]", "kiriCreateWorld": "[`World::new`]",
                       "kiriWorld_GetEvents": "[`World::events`]", "kiriSheet_CopyVertices": "[`Sheet::copy_vertices`]",
+                      "kiriDebugDraw": "[`DebugDraw`]", "kiriWorld_DebugDraw": "[`World::debug_draw`]",
                       "kiriWorld_Replay": "[`Replay`]", "kiriEvent": "[`Event`]", "kiriReplay": "[`Replay`]"})
         return names
 
@@ -115,6 +120,12 @@ class Safe:
         name = naming.bare(enum["name"])
         if enum["name"] in CONSTANTS:
             return "\n".join(f"pub const {value['name'][5:]}: i32 = {value['value']};" for value in enum["values"]) + "\n"
+        if naming.is_flags(enum):
+            lines = self._doc(enum["doc"], "// ")
+            for value in enum["values"]:
+                lines += self._doc(value["doc"], "/// ")
+                lines.append(f"pub const {value['name'][5:]}: u32 = {value['value']};")
+            return "\n".join(lines + [""])
         lines = self._doc(enum["doc"], "/// ")
         lines += ["#[non_exhaustive]", "#[repr(i32)]", "#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]", f"pub enum {name} {{"]
         for value in self._values(enum):

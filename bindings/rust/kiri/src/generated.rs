@@ -540,63 +540,30 @@ impl ObstacleType {
     }
 }
 
-/// What is drawn.
-#[non_exhaustive]
-#[repr(i32)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum DrawFlag {
-    /// a triangle for each of the mesh, in a colour of its piece, pale where that sleeps
-    Triangles = 1,
-    /// a line for each edge between two triangles
-    Edges = 2,
-    /// a line for each edge of the outline and of lips
-    Borders = 4,
-    /// a point and three axes each: u red, v green, normal blue; held ones black
-    Frames = 8,
-    /// two lines each: from frame to frame by the middle of their border
-    Links = 16,
-    /// a point at the target; a line to the point of the material, or along the line
-    Pins = 32,
-    /// a point and its normal for each that pushed as the last tick ended
-    Contacts = 64,
-    /// a line along the edge, and a point in each layer that it is in
-    Blades = 128,
-    /// twelve lines around each piece
-    Boxes = 256,
-    /// lines along edges and rims, without the rounding; a plane is a square
-    Obstacles = 512,
-    /// a point for each collision point
-    Points = 1024,
-    All = 2047,
-}
-
-impl DrawFlag {
-    /// All of them.
-    pub const ALL: [Self; 12] = [
-        Self::Triangles,
-        Self::Edges,
-        Self::Borders,
-        Self::Frames,
-        Self::Links,
-        Self::Pins,
-        Self::Contacts,
-        Self::Blades,
-        Self::Boxes,
-        Self::Obstacles,
-        Self::Points,
-        Self::All,
-    ];
-
-    /// Of a number of C.
-    pub fn from_raw(value: i32) -> Option<Self> {
-        Self::ALL.into_iter().find(|known| *known as i32 == value)
-    }
-
-    #[allow(dead_code)]
-    pub(crate) fn known(value: i32) -> Self {
-        Self::from_raw(value).expect("the library gives what its header has")
-    }
-}
+// What is drawn.
+/// a triangle for each of the mesh, in a colour of its piece, pale where that sleeps
+pub const DRAW_TRIANGLES: u32 = 1;
+/// a line for each edge between two triangles
+pub const DRAW_EDGES: u32 = 2;
+/// a line for each edge of the outline and of lips
+pub const DRAW_BORDERS: u32 = 4;
+/// a point and three axes each: u red, v green, normal blue; held ones black
+pub const DRAW_FRAMES: u32 = 8;
+/// two lines each: from frame to frame by the middle of their border
+pub const DRAW_LINKS: u32 = 16;
+/// a point at the target; a line to the point of the material, or along the line
+pub const DRAW_PINS: u32 = 32;
+/// a point and its normal for each that pushed as the last tick ended
+pub const DRAW_CONTACTS: u32 = 64;
+/// a line along the edge, and a point in each layer that it is in
+pub const DRAW_BLADES: u32 = 128;
+/// twelve lines around each piece
+pub const DRAW_BOXES: u32 = 256;
+/// lines along edges and rims, without the rounding; a plane is a square
+pub const DRAW_OBSTACLES: u32 = 512;
+/// a point for each collision point
+pub const DRAW_POINTS: u32 = 1024;
+pub const DRAW_ALL: u32 = 2047;
 
 /// The most work that one tick may do, over all sheets, first come first served. What does not fit
 /// goes on in the next tick, and in the end is what it would have been without a limit: the points
@@ -2318,18 +2285,6 @@ impl World {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriCreateObstacle(self.raw_mut(), &def.raw(), &mut obstacle) }, self)?;
         Ok(Obstacle::known(obstacle))
-    }
-
-    /// Draws the world as after the last tick, by the host's functions. Only reads the world, and
-    /// takes no memory.
-    ///
-    /// # Safety
-    ///
-    /// The functions that it is given are called within.
-    pub unsafe fn debug_draw(&self, draw: &sys::kiriDebugDraw) -> Result<()> {
-        // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriWorld_DebugDraw(self.raw(), draw) })?;
-        Ok(())
     }
 }
 

@@ -8,8 +8,10 @@ use std::ptr::NonNull;
 #[allow(clippy::type_complexity)]
 #[rustfmt::skip]
 mod generated;
+mod debug_draw;
 mod host;
 
+pub use debug_draw::{DebugDraw, Shape};
 pub use generated::*;
 pub use host::{Allocator, Part, Parts, Task, WorldDef};
 
@@ -24,7 +26,7 @@ pub type Result<T> = std::result::Result<T, Error>;
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", result_name(self.code), self.line)
+        f.write_str(if self.line.is_empty() { result_name(self.code) } else { &self.line })
     }
 }
 

@@ -30,7 +30,12 @@ fn ticks(world: &mut World, count: i32) {
 fn each_function_is_called() {
     let described = include_str!("../../../kiri.json");
     let (_, functions) = described.split_once("\n \"functions\": [").unwrap();
-    let sources = [include_str!("../src/generated.rs"), include_str!("../src/lib.rs"), include_str!("../src/host.rs")];
+    let sources = [
+        include_str!("../src/generated.rs"),
+        include_str!("../src/lib.rs"),
+        include_str!("../src/host.rs"),
+        include_str!("../src/debug_draw.rs"),
+    ];
     let mut count = 0;
     for line in functions.lines().filter_map(|line| line.strip_prefix("   \"name\": \"")) {
         let name = line.trim_end_matches("\",");
@@ -50,7 +55,7 @@ fn errors_have_a_code_and_a_line() {
     assert!(!refused.line.is_empty());
     let refused = sheet.point(&world, [7.0, 7.0]).unwrap_err();
     assert!(refused.code == ResultCode::ErrorArgument && !refused.line.is_empty());
-    assert!(refused.to_string().starts_with("KIRI_ERROR_ARGUMENT: "));
+    assert!(refused.to_string().starts_with("kiriSheet_GetPoint: "));
     sheet.destroy(&mut world).unwrap();
     assert_eq!(sheet.counts(&world).unwrap_err().code, ResultCode::ErrorId);
 }
@@ -266,4 +271,15 @@ fn memory_may_come_from_the_host() {
     assert!(count > 0);
     drop(world);
     assert_eq!(from.0.load(Ordering::Relaxed), 0);
+}
+
+#[test]
+fn debug_draw_goes_to_a_closure() {
+    let (world, sheet) = small();
+    let mut counts = [0; 3];
+    let what =
+        kiri::DebugDraw { flags: kiri::DRAW_TRIANGLES | kiri::DRAW_EDGES, sheet: Some(sheet), ..Default::default() };
+    world.debug_draw(&what, |shape, vertices| counts[shape as usize] += vertices.len()).unwrap();
+    assert!(counts[kiri::Shape::Triangles as usize] == 3 * 128 && counts[kiri::Shape::Lines as usize] > 0);
+    assert!(world.debug_draw(&kiri::DebugDraw { size: -1.0, ..what }, |_, _| ()).is_err());
 }

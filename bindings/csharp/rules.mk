@@ -1,0 +1,32 @@
+# make csharp tests the binding with Mono; csharp-cost says what calls cost; package-csharp makes packages of Unity and NuGet.
+
+LANGUAGE_CHECKS += csharp
+WANTS_test += mono-mcs mono-runtime
+
+.PHONY: csharp csharp-cost package-csharp
+
+CSHARP := build/csharp
+CSHARP_RUNTIME := $(wildcard bindings/csharp/Runtime/*.cs)
+CSHARP_UNITY := $(wildcard bindings/csharp/Runtime/Unity/*.cs)
+CSHARP_TESTS := $(addprefix bindings/csharp/Tests/,Layout.cs Tests.cs UnityStubs.cs)
+MCS = mcs -nologo -unsafe -optimize -langversion:7.2 -warnaserror -nowarn:649
+CSHARP_RUN = LD_LIBRARY_PATH='$(CURDIR)/$(BUILD)' mono
+
+# The library, and with the components of Unity the tests.
+$(CSHARP)/tests.exe: $(CSHARP_RUNTIME) $(CSHARP_UNITY) $(CSHARP_TESTS) bindings/csharp/Tests/Twin.cs bindings/csharp/Tests/FirstCut.cs
+	@mkdir -p $(CSHARP)
+	@$(MCS) -target:library -out:$(CSHARP)/Kiri.dll $(CSHARP_RUNTIME)
+	@$(MCS) -r:$(CSHARP)/Kiri.dll -out:$(CSHARP)/first_cut.exe bindings/csharp/Tests/FirstCut.cs
+	@$(MCS) -r:$(CSHARP)/Kiri.dll -out:$(CSHARP)/twin.exe bindings/csharp/Tests/Twin.cs
+	@$(MCS) -define:KIRI_UNITY -main:Kiri.Tests.Tests -out:$@ $(CSHARP_RUNTIME) $(CSHARP_UNITY) $(CSHARP_TESTS) bindings/csharp/Tests/Twin.cs
+
+csharp: $(BUILD)/libkiri.so $(BUILD)/tests/twin
+	@if ! command -v mcs > /dev/null || ! command -v mono > /dev/null; then echo "csharp: no mono, binding not tested"; exit 0; fi; \
+	set -e; echo "== bindings/csharp"; $(MAKE) --no-print-directory $(CSHARP)/tests.exe; \
+	$(CSHARP_RUN) $(CSHARP)/tests.exe . > $(CSHARP)/log 2>&1 || { cat $(CSHARP)/log; exit 1; }; tail -n 1 $(CSHARP)/log; \
+	$(CSHARP_RUN) $(CSHARP)/first_cut.exe | grep -qx '2 pieces' || { echo "csharp: the first cut gives no 2 pieces"; exit 1; }; \
+	$(CSHARP_RUN) $(CSHARP)/twin.exe > $(CSHARP)/twin.txt; $(BUILD)/tests/twin | head -n 2 | cmp - $(CSHARP)/twin.txt; \
+	echo "csharp: tests pass, and the hash is that of C: $$(head -n 1 $(CSHARP)/twin.txt)"
+
+csharp-cost: $(BUILD)/libkiri.so $(CSHARP)/tests.exe
+	@$(CSHARP_RUN) $(CSHARP)/tests.exe . cost
