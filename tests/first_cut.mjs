@@ -1,8 +1,8 @@
-import { World, fillRectangle, load } from "kiri";
+import { World, load } from "kiri";
 
 await load();
-const world = new World({ gravity: [0, 0, -9.81] });
-const sheet = world.createSheet(fillRectangle(0.2, 0.2, 32, 32));
+const world = new World();
+const sheet = world.createRectangle(0.2, 0.2, 32, 32);
 const cut = sheet.beginCut([0.1, -0.01]);
 cut.extend([0.1, 0.21]);
 cut.end();

@@ -1,5 +1,5 @@
 // The binding of JavaScript: node tests/test_javascript.mjs FOLDER, where kiri.js and kiri.wasm are, and what the C
-// program tests/python_twin.c printed. Prints what calls cost.
+// program tests/twin.c printed. Prints what calls cost.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -21,7 +21,7 @@ const inWorld = (work, def) => {
         world.destroy();
     }
 };
-const square = (world, def) => world.createSheet({ ...kiri.fillRectangle(0.2, 0.2, 16, 16), ...def });
+const square = (world, def) => world.createRectangle(0.2, 0.2, 16, 16, def);
 const throwsCode = (work, code) => assert.throws(work, (error) => error instanceof KiriError && error.code === code);
 const camel = (name) => name[0].toLowerCase() + name.slice(1);
 
@@ -43,7 +43,7 @@ test("no function is missing", () => {
 
 test("the module asks for nothing but hooks and what memory needs", () => {
     const imports = WebAssembly.Module.imports(new WebAssembly.Module(readFileSync(resolve(folder, "kiri.wasm"))));
-    const allowed = ["kiri.log", "kiri.clock", "kiri.record", "env.emscripten_notify_memory_growth",
+    const allowed = ["kiri.log", "kiri.clock", "kiri.record", "kiri.draw", "env.emscripten_notify_memory_growth",
                      "wasi_snapshot_preview1.proc_exit"];
     assert.deepEqual(imports.map((i) => `${i.module}.${i.name}`).filter((name) => !allowed.includes(name)), []);
 });
@@ -54,18 +54,33 @@ test("enums have names both ways", () => {
     assert.equal(ResultCode[-3], "ErrorId");
 });
 
+// tests/twin.c has the same scene.
 test("the same calls as in C give the same hash", () => inWorld((world) => {
-    const sheet = world.createSheet({ ...kiri.fillRectangle(1, 0.75, 16, 12), position: [0, 0, 1],
-                                      material: { youngsModulus: 1e7 }, frameCount: 6 });
+    const sheet = world.createRectangle(1, 0.75, 16, 12, { position: [0, 0, 1], material: { youngsModulus: 1e7 },
+                                                           frameCount: 6 });
     for (const u of [0, 1]) {
         sheet.createPin({ restPoint: [u, 0], target: [u, 0, 1] });
     }
+    world.createObstacle({ type: kiri.ObstacleType.Sphere, radius: 0.25, position: [0.5, 0.5, 0.5] });
     const cut = sheet.beginCut([0.3, -0.1]);
     cut.extend([0.3, 0.4, 0.7, 0.45, 0.65, 0.85]);
     cut.end();
-    for (let tick = 0; tick < 30; tick++) {
+    const blade = world.beginBlade();
+    for (let tick = 0; tick < 120; tick++) {
+        if (tick >= 40 && tick < 60) {
+            const x = 0.0625 * (tick - 44);
+            blade.moveEdge([x, 0.125, -1], [x, 0.125, 2]);
+        } else if (tick === 60) {
+            blade.end();
+        }
         world.tick(1 / 60, 2);
+        for (const event of world.getEvents()) {
+            if (event.type === EventType.PieceOff) {
+                event.frame.detachPiece();
+            }
+        }
     }
+    assert.equal(world.getSheets().length, 3);
     assert.equal(world.getStateHash().toString(16).padStart(16, "0"), twinHash);
 }, { gravity: [1, 0, -9.81] }));
 
@@ -122,9 +137,9 @@ test("views outlive growth of the memory", () => inWorld((world) => {
     const mesh = square(world).getMesh();
     const before = mesh.positions, x = before[3];
     const buffer = kiri.wasm.memory.buffer;
-    const large = square(world, kiri.fillRectangle(0.2, 0.2, 160, 160));
+    const large = world.createRectangle(0.2, 0.2, 160, 160);
     while (kiri.wasm.memory.buffer === buffer) {
-        square(world, kiri.fillRectangle(0.2, 0.2, 160, 160));
+        world.createRectangle(0.2, 0.2, 160, 160);
     }
     assert.equal(before.length, 0, "the old array is of no memory");
     assert.equal(mesh.positions[3], x);
@@ -215,8 +230,18 @@ test("weights, raycasts, contacts, obstacles and copies", () => inWorld((world) 
     assert.equal(sheet.getUserData(), 2n ** 63n);
 }));
 
+test("debug draw hands over vertices", () => inWorld((world) => {
+    const sheet = square(world);
+    let lines = 0, corners = 0;
+    world.debugDraw({ sheet, flags: kiri.DrawFlag.All, lines: (vertices, colors, count) => {
+        lines += count / 2;
+        assert.ok(colors[3] >>> 24 === 255 && Math.abs(vertices[2]) < 1);
+    }, triangles: (vertices, colors, count) => { corners += count; } });
+    assert.ok(lines > 512 && corners >= 3 * 512);
+}));
+
 test("what calls cost", () => inWorld((world) => {
-    const sheet = world.createSheet(kiri.fillRectangle(0.2, 0.2, 99, 99));
+    const sheet = world.createRectangle(0.2, 0.2, 99, 99);
     const time = (count, work) => {
         work(count);
         const start = performance.now();

@@ -9,7 +9,8 @@ FOLDER = "bindings/javascript"
 # Of a world def, what only threads and memory outside of WebAssembly would use; hooks are set by runtime.js.
 HIDDEN = {"kiriWorldDef": {"alloc", "free", "log", "clock", "startTask", "finishTask", "workerCount", "user", "record"},
           "kiriDebugDraw": {"points", "lines", "triangles", "user"}}
-HOOKS = ["log", "clock", "record"]
+# Functions that the host gives by these names.
+HOOKS = {"kiriWorldDef": ["log", "clock", "record"], "kiriDebugDraw": ["points", "lines", "triangles"]}
 ARRAYS = {"float": "Float32Array", "double": "Float64Array", "int32_t": "Int32Array", "uint32_t": "Uint32Array",
           "uint16_t": "Uint16Array"}
 HEAPS = {"float": ("F32", 2), "double": ("F64", 3), "int32_t": ("I32", 2), "uint32_t": ("U32", 2),
@@ -154,7 +155,7 @@ class Maker:
         """Only what the host gave; the rest stays as the default function, or zeros, have it."""
         name = short(struct["name"])
         counted = {f["length"] for f in struct["fields"] if f["form"] == "pointer" and f.get("length")}
-        allowed = [f["name"] for f in self.fields(struct)] + (HOOKS if struct["name"] == "kiriWorldDef" else [])
+        allowed = [f["name"] for f in self.fields(struct)] + HOOKS.get(struct["name"], [])
         yield from self.wrap(f"const fieldsOf{name} = new Set([{', '.join(repr(n)[1:-1].join(chr(34) * 2) for n in allowed)}]);")
         yield ""
         yield f"function write{name}(o, at, world) {{"
@@ -258,7 +259,9 @@ class Call:
                  else f"U8.fill(0, {at}, {at} + {struct['size']['wasm32']});")
         world = self.world if self.function["class"] else "null"
         lines = [start, f"write{short(p['type'])}({name}, {at}, {world});"]
-        self.takes |= any(f["form"] == "pointer" for f in struct["fields"])
+        if p["type"] == "kiriDebugDraw":
+            lines.append(f"setDraw({name}, {at});")
+        self.takes |= any(f["form"] == "pointer" and f.get("length") for f in struct["fields"])
         if p["nullable"]:
             lines = [f"if ({name}) {{"] + [f"    {line}" for line in lines] + ["}"]
         self.before += lines
@@ -483,7 +486,7 @@ HEAD = """// Made from include/kiri/kiri.h by bindings/generator/to_javascript.p
 
 import {
     F32, F64, I32, KiriError, Rows, Shown, Thing, U32, U64, U8, View, WorldBase, copy, enumeration, fail, fill, idOf, int64,
-    known, load, pointer, put, putRows, release, scatter, scratch, string, take, thing, wasm,
+    known, load, pointer, put, putRows, release, scatter, scratch, setDraw, string, take, thing, wasm,
 } from "./runtime.js";
 
 export { KiriError, Rows, View, load, wasm };

@@ -113,6 +113,10 @@ class Declarations:
                 yield "    clock?: () => number;"
                 yield "    /** Gets the next bytes of the recording. */"
                 yield "    record?: (bytes: Uint8Array) => void;"
+            if struct["name"] == "kiriDebugDraw":
+                for name, what in (("points", "one vertex each"), ("lines", "two"), ("triangles", "three")):
+                    yield f"    /** Gets {name}, {what}. vertices: x, y, z and a color a row; colors: the same memory. */"
+                    yield f"    {name}?: (vertices: Float32Array, colors: Uint32Array, count: number) => void;"
             yield "}"
 
     def fields(self, struct, got):

@@ -9,22 +9,54 @@ IMPORTED("log") void kiriHost_Log(void* user, const char* line);
 IMPORTED("clock") double kiriHost_Clock(void* user);
 IMPORTED("record") void kiriHost_Record(void* user, const void* bytes, int32_t count);
 
-static void HostLog(void* user, const char* line) {
+IMPORTED("draw") void kiriHost_Draw(int32_t corners, const kiriDrawVertex* vertices, int32_t count);
+
+static void HostLog(void* user, const char* line)
+{
     kiriHost_Log(user, line);
 }
 
-static double HostClock(void* user) {
+static double HostClock(void* user)
+{
     return kiriHost_Clock(user);
 }
 
-static void HostRecord(void* user, const void* bytes, int32_t count) {
+static void HostRecord(void* user, const void* bytes, int32_t count)
+{
     kiriHost_Record(user, bytes, count);
 }
 
 /* Whether the world has a clock, and a recording; it always has a log. */
-KIRI_API void kiriHost_SetHooks(kiriWorldDef* def, int32_t user, int32_t clock, int32_t record) {
+KIRI_API void kiriHost_SetHooks(kiriWorldDef* def, int32_t user, int32_t clock, int32_t record)
+{
     def->user = (void*)(intptr_t)user;
     def->log = HostLog;
     def->clock = clock ? HostClock : 0;
     def->record = record ? HostRecord : 0;
+}
+
+static void HostPoints(void* user, const kiriDrawVertex* vertices, int32_t count)
+{
+    (void)user;
+    kiriHost_Draw(1, vertices, count);
+}
+
+static void HostLines(void* user, const kiriDrawVertex* vertices, int32_t count)
+{
+    (void)user;
+    kiriHost_Draw(2, vertices, count);
+}
+
+static void HostTriangles(void* user, const kiriDrawVertex* vertices, int32_t count)
+{
+    (void)user;
+    kiriHost_Draw(3, vertices, count);
+}
+
+/* What is drawn of points, lines and triangles. */
+KIRI_API void kiriHost_SetDraw(kiriDebugDraw* draw, int32_t points, int32_t lines, int32_t triangles)
+{
+    draw->points = points ? HostPoints : 0;
+    draw->lines = lines ? HostLines : 0;
+    draw->triangles = triangles ? HostTriangles : 0;
 }

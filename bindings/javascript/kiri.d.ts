@@ -1183,6 +1183,12 @@ export interface DebugDrawGiven {
     sheet?: Sheet | null;
     /** m, above 0: length of axes and normals; a plane is 20 times as wide. Default 0.05 */
     size?: number;
+    /** Gets points, one vertex each. vertices: x, y, z and a color a row; colors: the same memory. */
+    points?: (vertices: Float32Array, colors: Uint32Array, count: number) => void;
+    /** Gets lines, two. vertices: x, y, z and a color a row; colors: the same memory. */
+    lines?: (vertices: Float32Array, colors: Uint32Array, count: number) => void;
+    /** Gets triangles, three. vertices: x, y, z and a color a row; colors: the same memory. */
+    triangles?: (vertices: Float32Array, colors: Uint32Array, count: number) => void;
 }
 
 export function defaultDebugDraw(into?: DebugDraw): DebugDraw;

@@ -2,7 +2,7 @@
 
 import {
     F32, F64, I32, KiriError, Rows, Shown, Thing, U32, U64, U8, View, WorldBase, copy, enumeration, fail, fill, idOf, int64,
-    known, load, pointer, put, putRows, release, scatter, scratch, string, take, thing, wasm,
+    known, load, pointer, put, putRows, release, scatter, scratch, setDraw, string, take, thing, wasm,
 } from "./runtime.js";
 
 export { KiriError, Rows, View, load, wasm };
@@ -1249,7 +1249,7 @@ function readDebugDraw(o, at, world) {
     return o;
 }
 
-const fieldsOfDebugDraw = new Set(["cookie", "flags", "sheet", "size"]);
+const fieldsOfDebugDraw = new Set(["cookie", "flags", "sheet", "size", "points", "lines", "triangles"]);
 
 function writeDebugDraw(o, at, world) {
     known(o, fieldsOfDebugDraw, "DebugDraw");
@@ -1656,17 +1656,14 @@ export class World extends WorldBase {
 
     debugDraw(draw) {
         const $world = pointer(this);
-        try {
-            wasm.kiriDefaultDebugDraw(scratch);
-            writeDebugDraw(draw, scratch, this);
-            const $result = wasm.kiriWorld_DebugDraw($world, scratch);
-            if ($result < 0) {
-                fail(this, $result, "kiriWorld_DebugDraw");
-            }
-            return $result;
-        } finally {
-            release();
+        wasm.kiriDefaultDebugDraw(scratch);
+        writeDebugDraw(draw, scratch, this);
+        setDraw(draw, scratch);
+        const $result = wasm.kiriWorld_DebugDraw($world, scratch);
+        if ($result < 0) {
+            fail(this, $result, "kiriWorld_DebugDraw");
         }
+        return $result;
     }
 }
 

@@ -1,12 +1,14 @@
 # The library as WebAssembly, its JavaScript, and the page in samples/web.
 #
-#   make wasm     build/wasm/kiri.wasm, for bindings/javascript
-#   make javascript   the binding's tests, under node
+#   make wasm                build/wasm/kiri.wasm
+#   make javascript          the binding's tests, under node
+#   make package-javascript  the npm package, and a test that installs it
+#   make web                 the page, static files in build/web; web-serve; web-test
 
 WASM := build/wasm
 EMCC ?= emcc
 EMXX ?= em++
-WASM_SPEED ?= -O2
+WASM_SPEED ?= -Os -finline-functions
 WASM_FLAGS := $(WASM_SPEED) -DNDEBUG -fno-math-errno -ffp-contract=off -fvisibility=hidden -Wall -Wextra
 WASM_LINK := --no-entry -sSTANDALONE_WASM -sERROR_ON_UNDEFINED_SYMBOLS=0 -sWARN_ON_UNDEFINED_SYMBOLS=0 -sALLOW_MEMORY_GROWTH -sWASM_BIGINT -sMALLOC=emmalloc \
              -sTOTAL_STACK=524288 -sINITIAL_MEMORY=8MB -sMAXIMUM_MEMORY=2GB
@@ -27,10 +29,10 @@ $(WASM)/%.cpp.o: %.cpp
 	@$(EMXX) -std=c++14 $(WASM_FLAGS) -fno-rtti -isystem "$(EIGEN)" -MMD -MP -c $< -o $@
 
 # All functions of the header, and what runtime.js calls beside them.
-$(WASM)/exports.txt: bindings/kiri.json
+$(WASM)/exports.txt: bindings/kiri.json bindings/javascript/rules.mk
 	@mkdir -p $(@D)
 	@$(PYTHON) -c 'import json; print(*["_" + f["name"] for f in json.load(open("$<"))["functions"]], \
-	    "_kiriHost_SetHooks", "_malloc", "_free", sep="\n")' > $@
+	    "_kiriHost_SetHooks", "_kiriHost_SetDraw", "_malloc", "_free", sep="\n")' > $@
 
 $(WASM)/kiri.wasm: $(WASM_OBJECTS) $(WASM)/exports.txt
 	@$(EMXX) $(WASM_SPEED) $(WASM_LINK) -sEXPORTED_FUNCTIONS=@$(WASM)/exports.txt $(WASM_OBJECTS) -o $@
@@ -55,9 +57,9 @@ javascript:
 	    echo "javascript: no $(EMXX) or node, binding not tested"; \
 	else $(MAKE) --no-print-directory javascript-tests; fi
 
-javascript-tests: $(WASM_PACKAGE)/kiri.wasm $(BUILD)/tests/python_twin
+javascript-tests: $(WASM_PACKAGE)/kiri.wasm $(BUILD)/tests/twin
 	@echo "== tests/test_javascript.mjs"
-	@node --expose-gc tests/test_javascript.mjs $(WASM_PACKAGE) "$$($(BUILD)/tests/python_twin | sed -n 's/hash //p')" \
+	@node --expose-gc tests/test_javascript.mjs $(WASM_PACKAGE) "$$($(BUILD)/tests/twin | sed -n 's/hash //p')" \
 	    > $(WASM)/test.log 2>&1 || { cat $(WASM)/test.log; exit 1; }
 	@grep -h 'garbage of a tick\|^# pass' $(WASM)/test.log
 
@@ -88,6 +90,19 @@ web-serve: web
 
 BROWSER ?= $(firstword $(wildcard /usr/bin/chromium /usr/bin/chromium-browser /usr/bin/google-chrome))
 
-web-test: web
+# The recording of the page ends in the same state here.
+web-test: web $(BUILD)/tests/replay_hash
 	@if [ -z "$(BROWSER)" ]; then echo "web: no chromium, the page was not tested"; \
-	else node tests/test_web.mjs $(WEB) $(WEB_TOOLS)/node_modules/playwright-core/index.js $(WEB)_test $(BROWSER); fi
+	else node tests/test_web.mjs $(WEB) $(WEB_TOOLS)/node_modules/playwright-core/index.js $(WEB)_test $(BROWSER) && \
+	    test "$$($(BUILD)/tests/replay_hash $(WEB)_test/recording)" = "$$(cat $(WEB)_test/hash)" && \
+	    echo "web: C ends in the same state"; fi
+
+# The npm package, installed in an empty folder and used there.
+.PHONY: package-javascript
+
+package-javascript: $(WASM_PACKAGE)/kiri.wasm
+	@cd $(WASM_PACKAGE) && npm pkg set version=$(VERSION) --silent && npm pack --silent --pack-destination .. > /dev/null
+	@rm -rf $(WASM)/clean && mkdir $(WASM)/clean && cp tests/first_cut.mjs $(WASM)/clean
+	@cd $(WASM)/clean && npm init -y > /dev/null 2>&1 && npm install --no-audit --no-fund --silent ../kiri-$(VERSION).tgz && \
+	    node first_cut.mjs | grep '^2 pieces'
+	@echo "  $(WASM)/kiri-$(VERSION).tgz: $$(wc -c < $(WASM)/kiri-$(VERSION).tgz) bytes"

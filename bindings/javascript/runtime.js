@@ -39,6 +39,8 @@ async function start(source) {
             log: (user, line) => worlds[user]._log(string(line)),
             clock: (user) => worlds[user]._clock(),
             record: (user, bytes, count) => worlds[user]._record(U8.slice(bytes, bytes + count)),
+            draw: (corners, at, count) => drawing[corners](new Float32Array(U8.buffer, at, 4 * count),
+                                                           new Uint32Array(U8.buffer, at, 4 * count), count),
         },
     });
     wasm = instance.exports;
@@ -244,6 +246,14 @@ export function fail(world, code, name) {
         world._line = "";
     }
     throw new KiriError(code, `${line || name}: ${string(wasm.kiriGetResultName(code))}`);
+}
+
+let drawing = null; // by the corners of what is drawn
+
+/** The functions of a debug draw, for the call that follows. */
+export function setDraw(draw, at) {
+    drawing = [null, draw.points, draw.lines, draw.triangles];
+    wasm.kiriHost_SetDraw(at, draw.points ? 1 : 0, draw.lines ? 1 : 0, draw.triangles ? 1 : 0);
 }
 
 // ---- Views
