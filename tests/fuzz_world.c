@@ -136,6 +136,70 @@ static void CheckWorld(const Fuzz* fuzz, int32_t k)
     }
 }
 
+/* J: of motion and height. The size of the parts tells what rounding may be, with speeds of 1e-4 sizes a second. */
+static double EnergyOf(const kiriWorld* world, double scale, double* size)
+{
+    const double gravity[3] = { world->gravity.x, world->gravity.y, world->gravity.z };
+    double energy = 0.0;
+    *size = 0.0;
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriTotals totals;
+        OK(kiriSheet_GetTotals(world, world->sheets.data[i]->id, &totals));
+        energy += totals.kineticEnergy;
+        *size += totals.kineticEnergy + 1e-5 * totals.mass * scale * scale;
+        for (int k = 0; k < 3; ++k) {
+            energy -= totals.mass * gravity[k] * totals.center[k];
+            *size += totals.mass * fabs(gravity[k] * totals.center[k]);
+        }
+    }
+    return energy;
+}
+
+/* Where nothing but gravity and what calls gave acts on sheets that began without strain, no tick adds to the energy of
+   motion and height: so no speed comes from nowhere. */
+static void CheckEnergy(Fuzz* fuzz, const FuzzCall* call, const FuzzAct* act, double before, kiriResult result)
+{
+    double size, energy = EnergyOf(fuzz->hosts[0].world, fuzz->scale, &size);
+    const kiriSheetDef* def = &act->def.sheet;
+    bool isCreated = strcmp(call->name, "CreateSheet") == 0;
+    fuzz->energySize = size > fuzz->energySize ? size : fuzz->energySize;
+    fuzz->isStirred = fuzz->isStirred || ((call->flags & FUZZ_STIRS) != 0 && result >= 0) || fuzz->mayShrink ||
+                      (isCreated && (def->paper.popping || def->touchesSheets));
+    if ((call->flags & FUZZ_TICKS) == 0) {
+        fuzz->energy += energy - before;
+    } else if (!fuzz->isStirred) {
+        FUZZ_CHECK(energy <= fuzz->energy + 1e-3 * fuzz->energySize, "a tick has %g J, of %g", energy, fuzz->energy);
+    }
+}
+
+/* A linear system may be larger than a whole limit: then it is the only one of its tick. */
+static bool IsOneSystem(const kiriWorld* world, int32_t items)
+{
+    bool any = false;
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        const kiriSheetData* sheet = world->sheets.data[i];
+        any = any || items == kiriSolver_SystemItems(sheet->solver, sheet->touches.rows.count);
+    }
+    return any;
+}
+
+/* No tick counts more items than its limit. Steps of the work on cuts are all smaller than the least limit, or are paid
+   in parts. */
+static void CheckBudget(const kiriWorld* world, kiriResult result)
+{
+    kiriProfile profile;
+    OK(kiriWorld_GetProfile(world, &profile));
+    const int32_t limits[] = { world->budget.triangles, world->budget.cells, world->budget.samples,
+                               world->budget.iterations };
+    const int32_t items[] = { profile.trianglesSplit, profile.cellsSettled, profile.samplesRefreshed,
+                              profile.solverIterations };
+    for (int i = 0; i < 4; ++i) {
+        bool isLarge = i == 3 && IsOneSystem(world, items[i]);
+        FUZZ_CHECK(result < 0 || limits[i] == 0 || items[i] <= limits[i] || isLarge,
+                   "a tick counts %d of %d items of kind %d", (int)items[i], (int)limits[i], i);
+    }
+}
+
 static bool IsAtWork(const kiriWorld* world)
 {
     for (int32_t i = 0; i < world->sheets.count; ++i) {
@@ -264,6 +328,7 @@ void Fuzz_Make(Fuzz* fuzz, const FuzzCall* call, FuzzAct* act)
         n += 40 * FuzzBytes_Below(&fuzz->bytes, 32);
     }
     kiriResult results[2] = { KIRI_OK, KIRI_OK };
+    double size, energy = EnergyOf(fuzz->hosts[0].world, fuzz->scale, &size);
     FuzzAct other = *act;
     results[0] = CallPoorly(fuzz, 0, call, act, fuzz->twin == FUZZ_ALONE ? n : 0);
     Report(call, results[0]);
@@ -280,10 +345,12 @@ void Fuzz_Make(Fuzz* fuzz, const FuzzCall* call, FuzzAct* act)
                         strcmp(call->name, "CreateSheet") == 0;
     KeepIds(fuzz, call, act);
     CheckArea(fuzz, call, results[0]);
+    CheckEnergy(fuzz, call, act, energy, results[0]);
     if ((call->flags & FUZZ_READS) == 0) {
         for (int32_t k = 0; k < fuzz->hostCount; ++k) {
             if ((call->flags & FUZZ_TICKS) != 0) {
                 CheckWorld(fuzz, k);
+                CheckBudget(fuzz->hosts[k].world, results[k]);
             } else {
                 Host_Validate(&fuzz->hosts[k]);
             }

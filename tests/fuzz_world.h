@@ -67,9 +67,11 @@ typedef struct Fuzz {
     int32_t hostCount, sheetsMade, ticks;
     float scale; /* m: of the sheets */
     FuzzIds sheets, frames, pins, cuts, obstacles, blades;
-    double area, mass, slack; /* of all sheets together; the latter by itself */
-    bool mayShrink;           /* a piece that was destroyed waits to go */
-    bool isOver;              /* it gets too large to go on */
+    double area, mass, slack;  /* of all sheets together; the latter by itself */
+    double energy, energySize; /* J: the most that there can be; and of what size its parts were */
+    bool isStirred;            /* something gave energy that nobody counts */
+    bool mayShrink;            /* a piece that was destroyed waits to go */
+    bool isOver;               /* it gets too large to go on */
 } Fuzz;
 
 typedef kiriResult FuzzCallFn(kiriWorld* world, FuzzAct* act);
@@ -80,7 +82,8 @@ enum FuzzCallFlags {
     FUZZ_MAKES_SHEET = 4,
     FUZZ_DESTROYS = 8, /* material */
     FUZZ_ADDS = 16,    /* things that cost in each tick */
-    FUZZ_SEVERAL = 32  /* calls in one: not refused memory */
+    FUZZ_SEVERAL = 32, /* calls in one: not refused memory */
+    FUZZ_STIRS = 64    /* later ticks may add energy */
 };
 
 /* `needs` lists the arguments, see FuzzAct_Read. */
