@@ -2,7 +2,7 @@
 // takes, and writes pictures.
 
 import assert from "node:assert/strict";
-import { mkdirSync, readFileSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -32,7 +32,7 @@ const browser = await chromium.launch({
 });
 
 const errors = [];
-async function open(where = "?still", options = { viewport: { width: 900, height: 620 } }) {
+async function open(where = "?still", options = { viewport: { width: 840, height: 580 } }) {
     const context = await browser.newContext(options), tab = await context.newPage();
     tab.on("pageerror", (error) => errors.push(`${error.message} ${error.stack}`));
     tab.on("console", (message) => message.type() === "error" && errors.push(message.text()));
@@ -50,6 +50,7 @@ const pass = (tab, ticks) => tab.evaluate((count) => {
         game.simulation.tick();
     }
     game.show();
+    game.panel.showCost(game.simulation);
 }, ticks);
 
 /** Where a rest position is in the window. */
@@ -64,7 +65,7 @@ async function drag(tab, points, steps = 6) {
     await tab.mouse.down();
     for (const point of points.slice(1)) {
         await tab.mouse.move(...point, { steps });
-        await tab.evaluate(() => globalThis.game.frame(1 / 60));
+        await tab.evaluate(() => globalThis.game.step(1 / 60));
     }
     await tab.mouse.up();
 }
@@ -103,7 +104,7 @@ try {
     await tab.evaluate(() => globalThis.game.undo());
     assert.equal(await pieces(tab), 2, "undo takes the last cut back");
     const before = await tab.evaluate(() => globalThis.game.stage.turn.around);
-    await drag(tab, [[60, 550], [160, 550]]);
+    await drag(tab, [[60, 500], [160, 500]]);
     assert.notEqual(await tab.evaluate(() => globalThis.game.stage.turn.around), before, "a drag beside the sheet turns");
 
     // Sheets.
@@ -126,7 +127,7 @@ try {
     await picture(tab, "6_lantern");
 
     // What a frame takes at 4225 vertices.
-    await tab.evaluate(() => globalThis.game.restart({ sheet: "paper", flat: false, folded: false }));
+    await tab.evaluate(() => globalThis.game.restart({ sheet: "paper", hangs: "rod", folded: false }));
     const median = await tab.evaluate(() => {
         const { game } = globalThis, rows = [];
         for (let i = 0; i < 60; i++) {
@@ -141,6 +142,7 @@ try {
     // A link plays to the same hash.
     await drag(tab, [await seen(tab, 0.05, 0.1), await seen(tab, 0.25, 0.15)], 10);
     await pass(tab, 10);
+    const recording = await tab.evaluate(() => [...globalThis.game.tape.bytes()]);
     const [link, hash] = await tab.evaluate(async () => [await globalThis.game.link(),
         globalThis.game.simulation.world.getStateHash().toString(16).padStart(16, "0")]);
     const other = await open(`?still${link}`);
@@ -152,6 +154,8 @@ try {
         return game.finished.hash;
     });
     assert.equal(played, hash, "a link ends in the same state");
+    writeFileSync(join(pictures, "recording"), new Uint8Array(recording));
+    writeFileSync(join(pictures, "hash"), hash);
 
     // A phone.
     const phone = await open("?still", { viewport: { width: 390, height: 780 }, hasTouch: true, isMobile: true });

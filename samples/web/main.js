@@ -6,7 +6,7 @@ import { Hand } from "./hand.js";
 import { makeMaterials } from "./materials.js";
 import { Panel } from "./panel.js";
 import { readCuts } from "./paths.js";
-import { lantern, snowflake } from "./patterns.js";
+import { disc, lantern, snowflake } from "./patterns.js";
 import { makePrint } from "./print.js";
 import { Tape, pack, unpack } from "./share.js";
 import { SIZE, Simulation, TICK } from "./simulation.js";
@@ -19,7 +19,7 @@ const UNDOS = 24;
 const text = new TextEncoder();
 
 class Game {
-    choice = { sheet: "paper", tool: "knife", quality: 1, flat: false, folded: false };
+    choice = { sheet: "paper", tool: "knife", quality: 1, hangs: "rod", folded: false };
     sound = new Sound();
     undos = [];
     tools = { knife: Knife, scissors: Scissors, grab: Grab };
@@ -49,21 +49,21 @@ class Game {
 
     // ---- Worlds
 
-    restart(changes = {}, def = {}) {
+    restart(changes = {}, special = {}) {
         Object.assign(this.choice, changes);
         this.replay = null;
         this.undos.length = 0;
         this.tape = new Tape();
-        this.open(new Simulation(this.options(def), this.tape.take));
+        this.open(new Simulation({ ...this.options(), ...special }, this.tape.take));
         this.simulation.world.note(text.encode(JSON.stringify(this.choice)));
         this.simulation.build();
         this.panel.showQuality(this.simulation);
         this.show();
     }
 
-    options(def) {
-        const { quality, flat, sheet } = this.choice;
-        return { material: this.materials[sheet], quality, flat, def, columns: this.columns };
+    options() {
+        const { quality, hangs, sheet } = this.choice;
+        return { material: this.materials[sheet], quality, hangs };
     }
 
     open(simulation) {
@@ -76,7 +76,7 @@ class Game {
         }
         this.skin = new Skin(look, makePrint);
         this.sound.look = look.sound;
-        this.stage.hang(this.choice.flat);
+        this.stage.hang(this.choice.hangs);
         this.stage.scene.add(this.skin.mesh);
         this.panel.pressSheet(this.choice.sheet);
         this.behind = 0;
@@ -129,13 +129,14 @@ class Game {
     }
 
     showSnowflake() {
-        this.restart({ sheet: "paper", flat: false, folded: true });
+        this.restart({ sheet: "paper", hangs: "tip", folded: true });
         this.cut(snowflake(SIZE));
         this.panel.say("Folded paper: each cut is made twelve times");
     }
 
     showLantern() {
-        this.restart({ sheet: "paper", flat: true, folded: false }, { frameCount: 120, maxFrames: 160, iterations: 4 });
+        this.restart({ sheet: "paper", hangs: "middle", folded: false },
+            { mesh: disc(SIZE), def: { frameCount: 100, maxFrames: 160, iterations: 4 } });
         this.cut(lantern(SIZE));
     }
 
@@ -148,7 +149,7 @@ class Game {
     async play(packed) {
         this.recording = await unpack(packed);
         this.tape = new Tape();
-        const simulation = new Simulation(this.options({}), null);
+        const simulation = new Simulation(this.options(), null);
         this.replay = new Replay();
         // The first note says what sheet it was.
         simulation.world.replay(this.recording, this.replay);
@@ -174,6 +175,12 @@ class Game {
     // ---- Frames
 
     frame(seconds) {
+        this.step(seconds);
+        this.show();
+    }
+
+    /** What the hand did, and the ticks that are due. */
+    step(seconds) {
         const start = performance.now();
         const pixels = this.hand.reach();
         this.sound.cut(this.hand.tool && !this.grabs && this.choice.tool !== "scissors" ? pixels : 0);
@@ -191,7 +198,6 @@ class Game {
             }
         }
         this.times.simulation = performance.now() - start;
-        this.show();
     }
 
     show() {

@@ -18,7 +18,7 @@ export const makeMaterials = () => ({
     },
     foil: {
         material: of(MaterialPreset.Foil, { airDamping: 0.5, flexDamping: 1e-3 }),
-        drawn: 0.3e-3, roughness: 0.24, metalness: 1, rim: 0xd9d6d0, print: "foil",
+        drawn: 0.3e-3, roughness: 0.36, metalness: 0.92, creased: true, rim: 0xd9d6d0, print: "foil",
         sound: { pitch: 6200, width: 1.6, volume: 0.4 },
     },
     rubber: {

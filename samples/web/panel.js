@@ -34,13 +34,14 @@ export class Panel {
         this.slider.value = game.choice.quality;
         this.slider.addEventListener("input", () => game.restart({ quality: Number(this.slider.value) }));
         at("acts").append(
-            button("Undo", () => game.undo()), button("New sheet", () => game.restart({ flat: false, folded: false })),
+            button("Undo", () => game.undo()), button("New sheet", () => game.restart({ hangs: "rod", folded: false })),
             button("Snowflake", () => game.showSnowflake()), button("Lantern", () => game.showLantern()),
             button("Cut a file…", () => this.askFile()), button("Copy link", () => this.copyLink()),
             this.sound = button("Sound off", () => {
                 game.sound.muted = !game.sound.muted;
                 this.sound.textContent = game.sound.muted ? "Sound on" : "Sound off";
             }));
+        at("more").open = innerWidth > 720;
         addEventListener("keydown", (event) => {
             if (event.key === "z" && (event.ctrlKey || event.metaKey)) {
                 game.undo();

@@ -35,16 +35,34 @@ export function snowflake(size) {
     return paths;
 }
 
-/** Rings of slits, each over the gaps of the one before, and a round outline: held in its middle, the disc opens. */
+/** Rings of slits, each over the gaps of the one before: a disc that is held in its middle opens. */
 export function lantern(size) {
-    const middle = size / 2, paths = [], rings = 9, slits = 4, gap = 0.16;
+    const middle = size / 2, paths = [], rings = 9, slits = 4;
     for (let ring = 0; ring < rings; ring++) {
-        const radius = size * (0.09 + 0.345 * ring / (rings - 1)), turn = (ring % 2) * Math.PI / slits;
+        const radius = size * (0.09 + 0.36 * ring / (rings - 1)), turn = (ring % 2) * Math.PI / slits;
+        const half = 0.024 * size / radius; // of what stays
         for (let i = 0; i < slits; i++) {
             const from = turn + i * 2 * Math.PI / slits;
-            paths.push(arc(middle, radius, from + gap / 2 + 0.02 / (radius / size) * 0.2, from + 2 * Math.PI / slits - gap / 2));
+            paths.push(arc(middle, radius, from + half, from + 2 * Math.PI / slits - half));
         }
     }
-    paths.push(arc(middle, size * 0.475, 0, 2 * Math.PI));
     return paths;
+}
+
+/** A round sheet: a mesh for a sheet def. */
+export function disc(size, rings = 26, sectors = 120) {
+    const restPositions = [size / 2, size / 2], indices = [];
+    for (let ring = 1; ring <= rings; ring++) {
+        const first = 1 + (ring - 1) * sectors;
+        for (let i = 0; i < sectors; i++) {
+            restPositions.push(...around(size / 2, size / 2 * ring / rings, i * 2 * Math.PI / sectors));
+            const next = (i + 1) % sectors;
+            if (ring === 1) {
+                indices.push(0, first + i, first + next);
+            } else {
+                indices.push(first - sectors + i, first + i, first + next, first - sectors + i, first + next, first - sectors + next);
+            }
+        }
+    }
+    return { restPositions, indices };
 }

@@ -129,3 +129,24 @@ const paints = {
 export function makePrint(name) {
     return { front: texture(paints[name]), back: texture(paints[`${name}Back`]) };
 }
+
+/** Heights of foil that was crumpled and smoothed: straight folds in all directions. */
+export function makeCreases() {
+    return texture((c) => {
+        fill(c, "#808080");
+        let s = 17;
+        const next = () => (s = (Math.imul(s, 1664525) + 1013904223) >>> 0) / 4294967296;
+        for (let i = 0; i < 90; i++) {
+            const x = next() * SIDE, y = next() * SIDE, angle = next() * 7, wide = 30 + 110 * next();
+            c.save();
+            c.translate(x, y);
+            c.rotate(angle);
+            const slope = c.createLinearGradient(0, 0, wide, 0), light = next() > 0.5;
+            slope.addColorStop(0, light ? "#ffffff48" : "#00000048");
+            slope.addColorStop(1, "#80808000");
+            c.fillStyle = slope;
+            c.fillRect(0, -400, wide, 800);
+            c.restore();
+        }
+    }, false);
+}

@@ -1,15 +1,19 @@
 // The world: one sheet that hangs from a rod above a floor, what holds it, and time. No drawing here.
 
-import { ObstacleType, Profile, Skinning, Stage, World, fillRectangle, getQuality } from "kiri";
+import { ObstacleType, Profile, Skinning, Stage, World, getQuality } from "kiri";
 
 export const SIZE = 0.3; // m, of the sheet's sides
 export const TICK = 1 / 60; // s
 export const SLOW = 1 / 4; // of time, while a blade is down
-const LIFT = 0.13; // m, of the lower edge above the floor
+export const LIFT = 0.13; // m, of the lower edge above the floor
+export const HIGH = 0.4; // m, of a sheet that lies flat
+export const TIP = 0.284; // m, where a snowflake hangs
+const COLUMNS = 64;
 const CRUMB = 2e-6; // m^2
 
 export class Simulation {
-    /** options: material (of materials.js), quality (0, 1, 2), flat, columns. record: gets bytes of the recording. */
+    /** options: material (of materials.js), quality (0, 1, 2), hangs ("rod", "tip", "middle"), def and mesh (where it is
+     *  no square). record: gets bytes of the recording. */
     constructor(options, record) {
         this.options = options;
         this.quality = getQuality(options.quality);
@@ -22,20 +26,20 @@ export class Simulation {
 
     /** A world without a sheet gets its own. One that is to be replayed gets it from the recording. */
     build() {
-        const columns = this.options.columns ?? 64;
+        const { mesh } = this.options;
         this.world.createObstacle({ type: ObstacleType.Plane, rotation: [1, 0, 0, 0, 0, -1, 0, 1, 0], friction: 0.8 });
-        this.sheet = this.world.createSheet(this.def(columns));
+        this.sheet = mesh ? this.world.createSheet({ ...this.def(), ...mesh })
+            : this.world.createRectangle(SIZE, SIZE, COLUMNS, COLUMNS, this.def());
         this.hold();
         this.sheet.setWind({ velocity: [0, 0, 0], density: 1.2, drag: 1.2, lift: 0.02 });
     }
 
-    def(columns) {
+    def() {
         const { material, model, iterations } = this.options.material;
         const along = this.quality.framesAlong + 1 >> 1;
-        const flat = this.options.flat;
+        const flat = this.options.hangs === "middle";
         return {
-            ...fillRectangle(SIZE, SIZE, columns, columns),
-            position: flat ? [-SIZE / 2, 0.34, SIZE / 2] : [-SIZE / 2, LIFT, 0],
+            position: flat ? [-SIZE / 2, HIGH, SIZE / 2] : [-SIZE / 2, LIFT, 0],
             axisU: [1, 0, 0], axisV: flat ? [0, 0, -1] : [0, 1, 0],
             material, skinning: Skinning.Smooth, touchesSheets: 1, friction: 0.7, contactThickness: 1.2e-3,
             gridResolution: this.quality.gridResolution,
@@ -45,10 +49,12 @@ export class Simulation {
     }
 
     hold() {
-        if (this.options.flat) {
-            const middle = SIZE / 2, arm = 0.008;
+        const { hangs } = this.options, middle = SIZE / 2, arm = 0.008;
+        if (hangs === "middle") {
             this.sheet.clampLine([middle - arm, middle], [middle + arm, middle]);
             this.sheet.clampLine([middle, middle - arm], [middle, middle + arm]);
+        } else if (hangs === "tip") {
+            this.sheet.clampLine([middle - arm, TIP], [middle + arm, TIP]);
         } else {
             this.sheet.hingeLine([0, SIZE], [SIZE, SIZE]);
         }

@@ -3,9 +3,11 @@
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, MeshStandardMaterial } from "three";
 import { Solid } from "kiri";
 
+import { makeCreases } from "./print.js";
 import { SIZE } from "./simulation.js";
 
 const prints = new Map();
+let creases = null;
 
 export class Skin {
     constructor(look, makePrint) {
@@ -14,6 +16,9 @@ export class Skin {
         }
         const { front, back } = prints.get(look.print);
         const shine = { roughness: look.roughness, metalness: look.metalness };
+        if (look.creased) {
+            Object.assign(shine, { bumpMap: creases ??= makeCreases(), bumpScale: 3 });
+        }
         this.materials = [
             new MeshStandardMaterial({ map: front, ...shine }),
             new MeshStandardMaterial({ map: back, ...shine }),

@@ -6,7 +6,7 @@ import {
     Vector3, WebGLRenderer, BackSide, HemisphereLight,
 } from "three";
 
-import { SIZE } from "./simulation.js";
+import { HIGH, LIFT, SIZE, TIP } from "./simulation.js";
 
 const BACKGROUND = 0xd9d4cb;
 
@@ -48,7 +48,7 @@ export class Stage {
     /** What shiny sheets mirror: a grey room with three lamps. */
     makeSurroundings() {
         const room = new Scene();
-        room.add(new Mesh(new SphereGeometry(5, 16, 8), new MeshBasicMaterial({ color: 0x8d8a86, side: BackSide })));
+        room.add(new Mesh(new SphereGeometry(5, 16, 8), new MeshBasicMaterial({ color: 0xc9c5bf, side: BackSide })));
         const lamp = (x, y, z, w, h, brightness) => {
             const mesh = new Mesh(new BoxGeometry(w, h, 0.05), new MeshBasicMaterial());
             mesh.material.color.setScalar(brightness);
@@ -56,8 +56,9 @@ export class Stage {
             mesh.lookAt(0, 0, 0);
             room.add(mesh);
         };
-        lamp(2, 3, 2.5, 2, 1.6, 9);
-        lamp(-3.5, 1.5, 1, 1, 3, 4);
+        lamp(2, 3, 2.5, 2, 1.6, 12);
+        lamp(-3.5, 1.5, 1, 1, 3, 6);
+        lamp(1.5, 0.4, 4, 1.2, 2.4, 5);
         lamp(0.5, 1, -4, 4, 0.6, 3);
         const generator = new PMREMGenerator(this.renderer);
         const made = generator.fromScene(room, 0.03).texture;
@@ -77,19 +78,19 @@ export class Stage {
         const material = new MeshStandardMaterial({ color: 0x6f5a45, roughness: 0.6 });
         this.rod = new Mesh(new CylinderGeometry(0.0045, 0.0045, SIZE + 0.05, 20), material);
         this.rod.rotation.z = Math.PI / 2;
-        this.rod.position.set(0, 0.13 + SIZE + 0.002, 0);
+        this.rod.position.set(0, LIFT + SIZE + 0.002, 0);
         this.string = new Mesh(new CylinderGeometry(0.0011, 0.0011, 1, 8), material);
-        this.string.position.set(0, 0.84, 0);
         for (const mesh of [this.rod, this.string]) {
             mesh.castShadow = true;
             this.scene.add(mesh);
         }
     }
 
-    /** A sheet that lies flat hangs from a string, one that hangs down from a rod. */
-    hang(flat) {
-        this.rod.visible = !flat;
-        this.string.visible = flat;
+    /** From a rod, or from a string at its tip or in its middle. */
+    hang(from) {
+        this.rod.visible = from === "rod";
+        this.string.visible = !this.rod.visible;
+        this.string.position.set(0, 0.5 + (from === "tip" ? LIFT + TIP : HIGH), 0);
     }
 
     resize() {
