@@ -65,6 +65,7 @@ end
 
 function tests.twin_has_the_hash_of_c()
     local of_c = output_of(arg[1]):match "hash %x+\nsheets %d+"
+    assert(of_c)
     equal(output_of("luajit bindings/lua/twin.lua"):match "hash %x+\nsheets %d+", of_c)
 end
 
@@ -256,6 +257,31 @@ function tests.record_and_replay()
     equal(notes, 1)
     assert(again:getStateHash() == hash)
     equal(tonumber(at.ticks), 200)
+end
+
+function tests.what_hooks_raise_is_raised_by_the_call()
+    local full = false
+    local world = halved {record = function() if full then error "disk is full" end end}
+    full = true
+    fails("disk is full", world.tick, world, 1 / 60, 1)
+    full = false
+    world:tick(1 / 60, 1)
+    fails("disk is full", kiri.World, {record = function() error "disk is full" end})
+end
+
+function tests.what_is_drawn()
+    local world, sheet = halved()
+    world:tick(1 / 60, 1)
+    local corners, points = 0, 0
+    local draw = {flags = kiri.DRAW_TRIANGLES + kiri.DRAW_FRAMES, sheet = sheet,
+                  triangles = function(vertices, count) corners = corners + count end,
+                  points = function(vertices, count) points = points + count end}
+    for _ = 1, 200 do world:debugDraw(draw) end
+    equal(corners, 200 * 3 * sheet:getCounts().triangles)
+    equal(points, 200 * frames_of(sheet))
+    draw.points = function() error "stop" end
+    fails("stop", world.debugDraw, world, draw)
+    world:debugDraw {}
 end
 
 function tests.functions_that_threads_call_are_of_c()

@@ -6,7 +6,7 @@ import naming
 
 LAYER = pathlib.Path(__file__).resolve().parents[1] / "lua/layer.lua"
 RENAMED = {"End": "finish"}  # a word of Lua
-BY_HAND = {"kiriCreateWorld", "kiriDestroyWorld"}
+BY_HAND = {"kiriCreateWorld", "kiriDestroyWorld", "kiriWorld_DebugDraw"}
 
 ROCKSPEC = """-- luarocks make, in a checkout: builds the library by make, with g++ and Eigen.
 rockspec_format = "3.0"
@@ -22,8 +22,9 @@ dependencies = {"lua == 5.1"}
 build = {
     type = "make",
     build_target = "lib",
+    build_variables = {BUILD = "build/rock-build"},
     install_pass = false,
-    install = {lua = {kiri = "bindings/lua/kiri.lua"}, lib = {libkiri = "build/release/libkiri.so"}},
+    install = {lua = {kiri = "bindings/lua/kiri.lua"}, lib = {libkiri = "build/rock-build/libkiri.so"}},
 }
 """
 
@@ -39,11 +40,13 @@ class Lua:
     def cdef(self):
         lines = [f"typedef struct {name} {name};" for name in self._of["opaque"]]
         lines += [f"typedef {of} {name};" for name, of in self._of["aliases"].items()]
+        # First the names of structs, for callbacks get pointers to some.
+        lines += [f"typedef struct {name} {name};" for name in self._structs]
         for callback in self._of["callbacks"]:
             lines.append(f"typedef {callback['returns']} {callback['name']}({self._c(callback['parameters'])});")
         for struct in self._of["structs"]:
             fields = " ".join(self._field(field) for field in struct["fields"])
-            lines.append(f"typedef struct {struct['name']} {{ {fields} }} {struct['name']};")
+            lines.append(f"struct {struct['name']} {{ {fields} }};")
         for function in self._of["functions"]:
             lines.append(f"{function['returns']} {function['name']}({self._c(function['parameters'])});")
         return "\n".join(lines)

@@ -12,6 +12,7 @@ dependencies = {"lua == 5.1"}
 build = {
     type = "make",
     build_target = "lib",
+    build_variables = {BUILD = "build/rock-build"},
     install_pass = false,
-    install = {lua = {kiri = "bindings/lua/kiri.lua"}, lib = {libkiri = "build/release/libkiri.so"}},
+    install = {lua = {kiri = "bindings/lua/kiri.lua"}, lib = {libkiri = "build/rock-build/libkiri.so"}},
 }

@@ -32,6 +32,36 @@ typedef uint32_t kiriPin;
 typedef uint32_t kiriObstacle;
 typedef uint32_t kiriBlade;
 typedef int32_t kiriResult;
+typedef struct kiriBudget kiriBudget;
+typedef struct kiriWorldDef kiriWorldDef;
+typedef struct kiriReplay kiriReplay;
+typedef struct kiriEvent kiriEvent;
+typedef struct kiriProfile kiriProfile;
+typedef struct kiriMaterial kiriMaterial;
+typedef struct kiriQuality kiriQuality;
+typedef struct kiriPaperOptions kiriPaperOptions;
+typedef struct kiriSheetDef kiriSheetDef;
+typedef struct kiriSheetSettings kiriSheetSettings;
+typedef struct kiriMesh kiriMesh;
+typedef struct kiriRange kiriRange;
+typedef struct kiriDirty kiriDirty;
+typedef struct kiriSolid kiriSolid;
+typedef struct kiriCounts kiriCounts;
+typedef struct kiriTotals kiriTotals;
+typedef struct kiriHit kiriHit;
+typedef struct kiriPointState kiriPointState;
+typedef struct kiriPieceState kiriPieceState;
+typedef struct kiriPieceMesh kiriPieceMesh;
+typedef struct kiriFrameState kiriFrameState;
+typedef struct kiriWind kiriWind;
+typedef struct kiriPinDef kiriPinDef;
+typedef struct kiriPinState kiriPinState;
+typedef struct kiriContact kiriContact;
+typedef struct kiriContactForce kiriContactForce;
+typedef struct kiriObstacleDef kiriObstacleDef;
+typedef struct kiriObstacleState kiriObstacleState;
+typedef struct kiriDrawVertex kiriDrawVertex;
+typedef struct kiriDebugDraw kiriDebugDraw;
 typedef void* kiriAllocFn(void* user, int64_t bytes);
 typedef void kiriFreeFn(void* user, void* pointer);
 typedef void kiriLogFn(void* user, const char* line);
@@ -41,36 +71,36 @@ typedef void kiriTaskFn(int32_t start, int32_t end, void* taskContext);
 typedef void* kiriStartTaskFn(void* user, kiriTaskFn* task, int32_t itemCount, int32_t minRange, void* taskContext);
 typedef void kiriFinishTaskFn(void* user, void* handle);
 typedef void kiriDrawFn(void* user, const kiriDrawVertex* vertices, int32_t count);
-typedef struct kiriBudget { int32_t triangles; int32_t cells; int32_t samples; int32_t iterations; } kiriBudget;
-typedef struct kiriWorldDef { uint32_t cookie; float gravity[3]; kiriBudget budget; kiriAllocFn* alloc; kiriFreeFn* free; kiriLogFn* log; kiriClockFn* clock; kiriStartTaskFn* startTask; kiriFinishTaskFn* finishTask; int32_t workerCount; void* user; kiriRecordFn* record; int32_t recordHashTicks; } kiriWorldDef;
-typedef struct kiriReplay { int64_t offset; int64_t calls; int64_t ticks; const void* note; int32_t noteCount; } kiriReplay;
-typedef struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; kiriPin pin; int32_t crumb; float area; int32_t stage; int32_t waiting; } kiriEvent;
-typedef struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSplit; int32_t cellsSettled; int32_t samplesRefreshed; int32_t solverIterations; int32_t cellsChanged; int32_t weightsChanged; int32_t verticesChanged; int32_t pointsChanged; int32_t linksChanged; int32_t commits; int32_t systemsSolved; int32_t contacts; int32_t sheetPairs; double largestJump; double largestFade; } kiriProfile;
-typedef struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; } kiriMaterial;
-typedef struct kiriQuality { int32_t framesAlong; int32_t gridResolution; int32_t iterations; int32_t substeps; } kiriQuality;
-typedef struct kiriPaperOptions { int32_t fromScratch; int32_t popping; int32_t linearWeights; int32_t integrationPoints; int32_t integrationOrder; } kiriPaperOptions;
-typedef struct kiriSheetDef { uint32_t cookie; const float* restPositions; int32_t vertexCount; const int32_t* indices; int32_t triangleCount; float position[3]; float axisU[3]; float axisV[3]; float velocity[3]; kiriMaterial material; int32_t gridResolution; float snapDistance; int32_t frameCount; float frameLength; float accuracy; const float* framePoints; int32_t maxFrames; float rigidWeight; float rigidArea; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t collisionPoints; int32_t iterations; float sleepSpeed; int32_t model; int32_t skinning; int32_t planar; int32_t timeStepping; float fadeTime; int32_t normals; kiriPaperOptions paper; } kiriSheetDef;
-typedef struct kiriSheetSettings { uint32_t cookie; kiriMaterial material; int32_t maxFrames; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t iterations; float sleepSpeed; int32_t skinning; int32_t timeStepping; float fadeTime; int32_t normals; } kiriSheetSettings;
-typedef struct kiriMesh { const float* positions; const float* normals; const float* restPositions; const int32_t* indices; const int32_t* sourceTriangles; const float* sourceWeights; int32_t vertexCount; int32_t triangleCount; uint32_t revision; } kiriMesh;
-typedef struct kiriRange { int32_t first; int32_t count; } kiriRange;
-typedef struct kiriDirty { kiriRange newVertices; kiriRange newTriangles; kiriRange oldVertices; kiriRange oldTriangles; uint32_t revision; } kiriDirty;
-typedef struct kiriSolid { const float* positions; const float* normals; const float* restPositions; const int32_t* indices; const int32_t* sources; int32_t vertexCount; int32_t triangleCount; int32_t rimTriangle; } kiriSolid;
-typedef struct kiriCounts { int32_t vertices; int32_t triangles; int32_t cells; int32_t frames; int32_t links; int32_t pieces; int32_t collisionPoints; } kiriCounts;
-typedef struct kiriTotals { double area; double mass; double kineticEnergy; double elasticEnergy; double center[3]; double momentum[3]; double angularMomentum[3]; } kiriTotals;
-typedef struct kiriHit { float restPoint[2]; float position[3]; float normal[3]; float distance; int32_t triangle; } kiriHit;
-typedef struct kiriPointState { float position[3]; float normal[3]; float velocity[3]; kiriFrame frame; } kiriPointState;
-typedef struct kiriPieceState { double area; double mass; double center[3]; double momentum[3]; double angularMomentum[3]; float lower[3]; float upper[3]; int32_t frames; int32_t vertices; int32_t triangles; int32_t collisionPoints; int32_t crumb; int32_t asleep; } kiriPieceState;
-typedef struct kiriPieceMesh { const int32_t* vertices; const int32_t* triangles; const int32_t* indices; const int32_t* collisionPoints; int32_t vertexCount; int32_t triangleCount; int32_t collisionPointCount; } kiriPieceMesh;
-typedef struct kiriFrameState { float restPoint[2]; float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; float area; float mass; int32_t held; } kiriFrameState;
-typedef struct kiriWind { float velocity[3]; float density; float drag; float lift; } kiriWind;
-typedef struct kiriPinDef { uint32_t cookie; float restPoint[2]; float target[3]; float stiffness; float breakForce; kiriObstacle obstacle; } kiriPinDef;
-typedef struct kiriPinState { int32_t type; kiriSheet sheet; float from[2]; float to[2]; float target[3]; float rotation[9]; float breakForce; kiriObstacle obstacle; } kiriPinState;
-typedef struct kiriContact { int32_t point; float restPoint[2]; float normal[3]; float offset; float velocity[3]; float friction; float inverseMass; float pushSpeed; int32_t obstacle; } kiriContact;
-typedef struct kiriContactForce { double impulse[3]; double position[3]; double depth; int32_t point; int32_t obstacle; } kiriContactForce;
-typedef struct kiriObstacleDef { uint32_t cookie; int32_t type; float size[3]; float radius; float height; const float* outline; int32_t outlineCount; float rounding; float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; float surfaceVelocity[3]; float friction; float mass; float inertia[6]; float centerOfMass[3]; uint32_t body; float pushSpeed; uint32_t groups; } kiriObstacleDef;
-typedef struct kiriObstacleState { float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; double impulse[3]; double angularImpulse[3]; int32_t contacts; } kiriObstacleState;
-typedef struct kiriDrawVertex { float position[3]; uint32_t color; } kiriDrawVertex;
-typedef struct kiriDebugDraw { uint32_t cookie; uint32_t flags; kiriSheet sheet; float size; kiriDrawFn* points; kiriDrawFn* lines; kiriDrawFn* triangles; void* user; } kiriDebugDraw;
+struct kiriBudget { int32_t triangles; int32_t cells; int32_t samples; int32_t iterations; };
+struct kiriWorldDef { uint32_t cookie; float gravity[3]; kiriBudget budget; kiriAllocFn* alloc; kiriFreeFn* free; kiriLogFn* log; kiriClockFn* clock; kiriStartTaskFn* startTask; kiriFinishTaskFn* finishTask; int32_t workerCount; void* user; kiriRecordFn* record; int32_t recordHashTicks; };
+struct kiriReplay { int64_t offset; int64_t calls; int64_t ticks; const void* note; int32_t noteCount; };
+struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; kiriPin pin; int32_t crumb; float area; int32_t stage; int32_t waiting; };
+struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSplit; int32_t cellsSettled; int32_t samplesRefreshed; int32_t solverIterations; int32_t cellsChanged; int32_t weightsChanged; int32_t verticesChanged; int32_t pointsChanged; int32_t linksChanged; int32_t commits; int32_t systemsSolved; int32_t contacts; int32_t sheetPairs; double largestJump; double largestFade; };
+struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; };
+struct kiriQuality { int32_t framesAlong; int32_t gridResolution; int32_t iterations; int32_t substeps; };
+struct kiriPaperOptions { int32_t fromScratch; int32_t popping; int32_t linearWeights; int32_t integrationPoints; int32_t integrationOrder; };
+struct kiriSheetDef { uint32_t cookie; const float* restPositions; int32_t vertexCount; const int32_t* indices; int32_t triangleCount; float position[3]; float axisU[3]; float axisV[3]; float velocity[3]; kiriMaterial material; int32_t gridResolution; float snapDistance; int32_t frameCount; float frameLength; float accuracy; const float* framePoints; int32_t maxFrames; float rigidWeight; float rigidArea; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t collisionPoints; int32_t iterations; float sleepSpeed; int32_t model; int32_t skinning; int32_t planar; int32_t timeStepping; float fadeTime; int32_t normals; kiriPaperOptions paper; };
+struct kiriSheetSettings { uint32_t cookie; kiriMaterial material; int32_t maxFrames; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t iterations; float sleepSpeed; int32_t skinning; int32_t timeStepping; float fadeTime; int32_t normals; };
+struct kiriMesh { const float* positions; const float* normals; const float* restPositions; const int32_t* indices; const int32_t* sourceTriangles; const float* sourceWeights; int32_t vertexCount; int32_t triangleCount; uint32_t revision; };
+struct kiriRange { int32_t first; int32_t count; };
+struct kiriDirty { kiriRange newVertices; kiriRange newTriangles; kiriRange oldVertices; kiriRange oldTriangles; uint32_t revision; };
+struct kiriSolid { const float* positions; const float* normals; const float* restPositions; const int32_t* indices; const int32_t* sources; int32_t vertexCount; int32_t triangleCount; int32_t rimTriangle; };
+struct kiriCounts { int32_t vertices; int32_t triangles; int32_t cells; int32_t frames; int32_t links; int32_t pieces; int32_t collisionPoints; };
+struct kiriTotals { double area; double mass; double kineticEnergy; double elasticEnergy; double center[3]; double momentum[3]; double angularMomentum[3]; };
+struct kiriHit { float restPoint[2]; float position[3]; float normal[3]; float distance; int32_t triangle; };
+struct kiriPointState { float position[3]; float normal[3]; float velocity[3]; kiriFrame frame; };
+struct kiriPieceState { double area; double mass; double center[3]; double momentum[3]; double angularMomentum[3]; float lower[3]; float upper[3]; int32_t frames; int32_t vertices; int32_t triangles; int32_t collisionPoints; int32_t crumb; int32_t asleep; };
+struct kiriPieceMesh { const int32_t* vertices; const int32_t* triangles; const int32_t* indices; const int32_t* collisionPoints; int32_t vertexCount; int32_t triangleCount; int32_t collisionPointCount; };
+struct kiriFrameState { float restPoint[2]; float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; float area; float mass; int32_t held; };
+struct kiriWind { float velocity[3]; float density; float drag; float lift; };
+struct kiriPinDef { uint32_t cookie; float restPoint[2]; float target[3]; float stiffness; float breakForce; kiriObstacle obstacle; };
+struct kiriPinState { int32_t type; kiriSheet sheet; float from[2]; float to[2]; float target[3]; float rotation[9]; float breakForce; kiriObstacle obstacle; };
+struct kiriContact { int32_t point; float restPoint[2]; float normal[3]; float offset; float velocity[3]; float friction; float inverseMass; float pushSpeed; int32_t obstacle; };
+struct kiriContactForce { double impulse[3]; double position[3]; double depth; int32_t point; int32_t obstacle; };
+struct kiriObstacleDef { uint32_t cookie; int32_t type; float size[3]; float radius; float height; const float* outline; int32_t outlineCount; float rounding; float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; float surfaceVelocity[3]; float friction; float mass; float inertia[6]; float centerOfMass[3]; uint32_t body; float pushSpeed; uint32_t groups; };
+struct kiriObstacleState { float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; double impulse[3]; double angularImpulse[3]; int32_t contacts; };
+struct kiriDrawVertex { float position[3]; uint32_t color; };
+struct kiriDebugDraw { uint32_t cookie; uint32_t flags; kiriSheet sheet; float size; kiriDrawFn* points; kiriDrawFn* lines; kiriDrawFn* triangles; void* user; };
 int32_t kiriGetVersion(void);
 const char* kiriGetResultName(kiriResult result);
 void kiriDefaultWorldDef(kiriWorldDef* def);
@@ -450,6 +480,8 @@ function fill(struct, name, values, world)
             elseif values[kind.count] ~= #numbers / kind.width then
                 error(("%s.%s: %d rows are wanted"):format(name, key, values[kind.count]), 0)
             end
+        elseif type(value) == "function" then
+            error(("%s.%s: a function of C is wanted"):format(name, key), 0)
         elseif type(value) == "table" and structs[kind] then
             fill(struct[key], kind, value, world)
         else
@@ -1637,14 +1669,6 @@ function kiri.defaultDebugDraw(draw)
     return draw
 end
 
---- Draws the world as after the last tick, by the host's functions. Only reads the world, and takes no memory.
-function World:debugDraw(draw)
-    local world = self
-    local result = C.kiriWorld_DebugDraw(world.c, struct_of(world, draw, "kiriDebugDraw"))
-    if result < 0 then fail(world, "kiriWorld_DebugDraw", result, false) end
-    return result == 1
-end
-
 end
 
 --- Frees the world and all that is in it.
@@ -1657,6 +1681,43 @@ local function destroy(world)
 end
 jit.off(destroy)
 
+-- What functions of Lua raise while C calls them is raised when C is done.
+local raised
+
+local function guarded(call)
+    return function(...)
+        local done, why = pcall(call, ...)
+        raised = raised or not done and why or nil
+    end
+end
+
+local function raise()
+    local why = raised
+    raised = nil
+    if why then error(why, 0) end
+end
+
+local drawn, drawers = {}, {}
+
+--- Draws the world as after the last tick: fields of kiriDebugDraw by name. `points`, `lines` and `triangles` are functions
+--- that get (vertices, count), an array of C with fields position and color; it is gone after the call.
+local function debug_draw(world, draw)
+    local given = {}
+    for name, value in pairs(draw) do
+        if type(value) == "function" then
+            drawers[name] = drawers[name] or ffi.cast("kiriDrawFn*", guarded(function(_, vertices, count)
+                return drawn[name](vertices, count)
+            end))
+            drawn[name], value = value, drawers[name]
+        end
+        given[name] = value
+    end
+    local result = C.kiriWorld_DebugDraw(world.c, struct_of(world, given, "kiriDebugDraw"))
+    raise()
+    if result < 0 then fail(world, "kiriWorld_DebugDraw", result, false) end
+end
+jit.off(debug_draw)
+
 local KINDS = {"World", "Sheet", "Cut", "Frame", "Pin", "Obstacle", "Blade"}
 
 local function classes_by(defined, functions)
@@ -1668,7 +1729,7 @@ local function classes_by(defined, functions)
         classes[i], classes[kind] = class, class
     end
     defined(core, functions, unpack(classes))
-    classes.World.destroy = destroy
+    classes.World.destroy, classes.World.debugDraw = destroy, debug_draw
     -- A sheet, frame and so on by the id that C has for it.
     for i = 2, #KINDS do
         classes.World[KINDS[i]:lower()] = function(world, id) return handle(world, id, KINDS[i]) end
@@ -1679,14 +1740,31 @@ end
 local plain = classes_by(define, kiri)
 for _, kind in ipairs(KINDS) do kiri[kind] = plain[kind] end
 
+local function raise_before(...)
+    raise()
+    return ...
+end
+
+local function raising(method)
+    local function call(...)
+        raised = nil
+        return raise_before(method(...))
+    end
+    jit.off(call)
+    return call
+end
+
 -- Compiled code cannot call C that calls Lua again. So worlds that have functions of Lua get classes of their own, which
 -- are not compiled.
 local function hooked()
     if not core.hooked then
         core.hooked = classes_by(loadstring(string.dump(define)), {})
         for _, kind in ipairs(KINDS) do
-            for _, method in pairs(core.hooked[kind]) do
-                if type(method) == "function" then jit.off(method) end
+            local class = core.hooked[kind]
+            for name, method in pairs(class) do
+                if type(method) == "function" then
+                    class[name] = jit.off(method) or raising(method)
+                end
             end
         end
     end
@@ -1710,7 +1788,7 @@ local function hook(said, def, callbacks)
             elseif name == "record" then
                 call = function(_, bytes, count) value(ffi.string(bytes, count)) end
             end
-            callbacks[name] = ffi.cast(HOOKS[name], call)
+            callbacks[name] = ffi.cast(HOOKS[name], (name == "log" or name == "record") and guarded(call) or call)
         end
     end
     return callbacks
@@ -1743,6 +1821,7 @@ local function create_world(_, def)
     end
     world.c = ffi.gc(made[0], world.free)
     worlds[cell] = world
+    raise()
     return setmetatable(world, world.classes.World)
 end
 jit.off(create_world)

@@ -220,6 +220,8 @@ function fill(struct, name, values, world)
             elseif values[kind.count] ~= #numbers / kind.width then
                 error(("%s.%s: %d rows are wanted"):format(name, key, values[kind.count]), 0)
             end
+        elseif type(value) == "function" then
+            error(("%s.%s: a function of C is wanted"):format(name, key), 0)
         elseif type(value) == "table" and structs[kind] then
             fill(struct[key], kind, value, world)
         else
@@ -380,6 +382,43 @@ local function destroy(world)
 end
 jit.off(destroy)
 
+-- What functions of Lua raise while C calls them is raised when C is done.
+local raised
+
+local function guarded(call)
+    return function(...)
+        local done, why = pcall(call, ...)
+        raised = raised or not done and why or nil
+    end
+end
+
+local function raise()
+    local why = raised
+    raised = nil
+    if why then error(why, 0) end
+end
+
+local drawn, drawers = {}, {}
+
+--- Draws the world as after the last tick: fields of kiriDebugDraw by name. `points`, `lines` and `triangles` are functions
+--- that get (vertices, count), an array of C with fields position and color; it is gone after the call.
+local function debug_draw(world, draw)
+    local given = {}
+    for name, value in pairs(draw) do
+        if type(value) == "function" then
+            drawers[name] = drawers[name] or ffi.cast("kiriDrawFn*", guarded(function(_, vertices, count)
+                return drawn[name](vertices, count)
+            end))
+            drawn[name], value = value, drawers[name]
+        end
+        given[name] = value
+    end
+    local result = C.kiriWorld_DebugDraw(world.c, struct_of(world, given, "kiriDebugDraw"))
+    raise()
+    if result < 0 then fail(world, "kiriWorld_DebugDraw", result, false) end
+end
+jit.off(debug_draw)
+
 local KINDS = {"World", "Sheet", "Cut", "Frame", "Pin", "Obstacle", "Blade"}
 
 local function classes_by(defined, functions)
@@ -391,7 +430,7 @@ local function classes_by(defined, functions)
         classes[i], classes[kind] = class, class
     end
     defined(core, functions, unpack(classes))
-    classes.World.destroy = destroy
+    classes.World.destroy, classes.World.debugDraw = destroy, debug_draw
     -- A sheet, frame and so on by the id that C has for it.
     for i = 2, #KINDS do
         classes.World[KINDS[i]:lower()] = function(world, id) return handle(world, id, KINDS[i]) end
@@ -402,14 +441,31 @@ end
 local plain = classes_by(define, kiri)
 for _, kind in ipairs(KINDS) do kiri[kind] = plain[kind] end
 
+local function raise_before(...)
+    raise()
+    return ...
+end
+
+local function raising(method)
+    local function call(...)
+        raised = nil
+        return raise_before(method(...))
+    end
+    jit.off(call)
+    return call
+end
+
 -- Compiled code cannot call C that calls Lua again. So worlds that have functions of Lua get classes of their own, which
 -- are not compiled.
 local function hooked()
     if not core.hooked then
         core.hooked = classes_by(loadstring(string.dump(define)), {})
         for _, kind in ipairs(KINDS) do
-            for _, method in pairs(core.hooked[kind]) do
-                if type(method) == "function" then jit.off(method) end
+            local class = core.hooked[kind]
+            for name, method in pairs(class) do
+                if type(method) == "function" then
+                    class[name] = jit.off(method) or raising(method)
+                end
             end
         end
     end
@@ -433,7 +489,7 @@ local function hook(said, def, callbacks)
             elseif name == "record" then
                 call = function(_, bytes, count) value(ffi.string(bytes, count)) end
             end
-            callbacks[name] = ffi.cast(HOOKS[name], call)
+            callbacks[name] = ffi.cast(HOOKS[name], (name == "log" or name == "record") and guarded(call) or call)
         end
     end
     return callbacks
@@ -466,6 +522,7 @@ local function create_world(_, def)
     end
     world.c = ffi.gc(made[0], world.free)
     worlds[cell] = world
+    raise()
     return setmetatable(world, world.classes.World)
 end
 jit.off(create_world)
