@@ -1,0 +1,195 @@
+"""A curtain that is cut with the mouse, in pygame: python3 samples/pygame/main.py. R hangs a new one.
+
+`--demo FOLDER` cuts by itself, writes pictures, and prints what came of it."""
+
+import math
+import os
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bindings/python"))
+
+import kiri
+import pygame
+
+WIDTH, HEIGHT = 960, 640
+TICK, SUBSTEPS = 1 / 60, 2
+SKY, FLOOR, INK = (243, 234, 217), (206, 189, 163), (52, 46, 60)
+STRIPES = ((214, 84, 61), (240, 196, 118))
+LIGHT = (0.36, -0.80, 0.48)
+
+
+class Camera:
+    """Looks along y, with z up. A point of the world goes to a pixel, a pixel to a ray."""
+
+    eye, height, focus = -3.2, 0.62, 1.75
+
+    def pixel(self, x, y, z):
+        scale = self.focus * HEIGHT / (y - self.eye)
+        return WIDTH / 2 + scale * x, HEIGHT / 2 - scale * (z - self.height)
+
+    def ray(self, pixel):
+        scale = self.focus * HEIGHT
+        return (0.0, self.eye, self.height), ((pixel[0] - WIDTH / 2) / scale, 1.0, (HEIGHT / 2 - pixel[1]) / scale)
+
+
+class Curtain:
+    """The world: a cloth on a rail, a ball that leans into it, and a floor."""
+
+    def __init__(self):
+        self.world = kiri.World()
+        self.world.create_obstacle(kiri.KIRI_OBSTACLE_PLANE, friction=0.8)
+        self.world.create_obstacle(kiri.KIRI_OBSTACLE_SPHERE, radius=0.22, position=(0.15, 0.24, 0.45))
+        self.sheet = self.world.create_rectangle(
+            1.5, 1.0, 42, 28, position=(-0.75, 0.0, 0.18), axisU=(1, 0, 0), axisV=(0, 0, 1), frameCount=24,
+            gridResolution=48, collisionPoints=400, touchesSheets=1)
+        for i in range(7):
+            u = 0.01 + 1.48 * i / 6
+            self.sheet.create_pin((u, 0.99), (0.94 * (u - 0.75), 0.04 * (-1) ** i, 1.17))
+        self.sheets, self.blade, self.way, self.cuts = [self.sheet], None, [], 0
+
+    def tick(self):
+        """The blade goes where the mouse was since the last tick, then all moves."""
+        if self.way and not self.blade:
+            self.blade = self.world.begin_blade()
+            self.cuts += 1
+        for origin, direction in self.way:
+            if direction:
+                self.blade.move_ray(origin, direction, 6.0)
+            elif self.blade:
+                self.blade.end()
+                self.blade = None
+        self.way.clear()
+        self.world.tick(TICK, SUBSTEPS)
+
+
+# ---- Drawing ---------------------------------------------------------------------------------------------------------
+
+
+def color_of(rest, normal):
+    """Stripes by where the material is, so that they stay on their pieces, with light from both sides."""
+    stripe = STRIPES[int(14 * rest[0] / 1.5) % 2]
+    light = 0.45 + 0.55 * abs(sum(a * b for a, b in zip(normal, LIGHT)))
+    return tuple(int(min(255, light * part)) for part in stripe)
+
+
+def triangles_of(sheet, camera, look):
+    """Depth, colour and corners of each triangle, and corners of its shadow; the library's arrays are read without a copy.
+    `look` keeps colours of vertices, which only cuts add to."""
+    with sheet.mesh_view() as mesh:
+        positions, normals = mesh.positions.tolist(), mesh.normals.tolist()
+        if look.get("revision") != mesh.revision:
+            look.update(revision=mesh.revision, rest=mesh.restPositions.tolist(), indices=mesh.indices.tolist())
+    pixels = [camera.pixel(*position) for position in positions]
+    shadows = [camera.pixel(x + 0.35 * z, y + 0.55 * z, 0.0) for x, y, z in positions]
+    for a, b, c in look["indices"]:
+        if a != b:
+            rest = [(look["rest"][a][i] + look["rest"][b][i] + look["rest"][c][i]) / 3 for i in (0, 1)]
+            yield (positions[a][1] + positions[b][1] + positions[c][1], color_of(rest, normals[a]),
+                   (pixels[a], pixels[b], pixels[c]), (shadows[a], shadows[b], shadows[c]))
+
+
+def draw_ball(screen, camera, radius, position):
+    x, y = camera.pixel(*position)
+    size = radius * camera.focus * HEIGHT / (position[1] - camera.eye)
+    for i in range(24):
+        part = i / 23
+        shade = tuple(int(90 + 110 * part + more) for more in (0, 8, 20))
+        pygame.draw.circle(screen, shade, (x - 0.25 * part * size, y - 0.3 * part * size), size * (1 - 0.92 * part))
+
+
+def draw(screen, curtain, camera, looks, font):
+    screen.fill(SKY)
+    horizon = camera.pixel(0, 8.0, 0.0)[1]
+    pygame.draw.rect(screen, FLOOR, (0, horizon, WIDTH, HEIGHT - horizon))
+    drawn = [triangle for sheet in curtain.sheets for triangle in triangles_of(sheet, camera, looks.setdefault(sheet.id, {}))]
+    drawn.sort(key=lambda triangle: -triangle[0])
+    shadow = tuple(int(0.82 * part) for part in FLOOR)
+    for _, _, _, corners in drawn:
+        pygame.draw.polygon(screen, shadow, corners)
+    draw_ball(screen, camera, 0.21, (0.15, 0.24, 0.45))
+    for _, color, corners, _ in drawn:
+        pygame.draw.polygon(screen, color, corners)
+    pygame.draw.line(screen, INK, camera.pixel(-0.8, 0, 1.18), camera.pixel(0.8, 0, 1.18), 6)
+    pieces = sum(sheet.counts().pieces for sheet in curtain.sheets)
+    screen.blit(font.render(f"drag to cut   R: a new curtain   cuts {curtain.cuts}   pieces {pieces}", True, INK), (16, 12))
+
+
+# ---- The mouse, or a script --------------------------------------------------------------------------------------------
+
+# From tick, to tick, and pixels between which the mouse goes.
+STROKES = ((40, 70, (200, 260), (540, 560)), (100, 125, (760, 200), (500, 560)))
+
+
+def circle(tick):
+    """A disc out of the middle, from tick 150 to 190."""
+    angle = 2.2 * math.pi * (tick - 150) / 40
+    return 330 + 60 * math.cos(angle), 240 + 60 * math.sin(angle)
+
+
+def script(curtain, camera, tick):
+    for first, last, start, end in STROKES:
+        if first <= tick <= last:
+            share = (tick - first) / (last - first)
+            curtain.way.append(camera.ray([a + share * (b - a) for a, b in zip(start, end)]))
+        if tick == last:
+            curtain.way.append((None, None))
+    if 150 <= tick <= 190:
+        curtain.way.append(camera.ray(circle(tick)))
+    if tick == 190:
+        curtain.way.append((None, None))
+
+
+def mouse(curtain, camera, event):
+    if event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
+        curtain.way.append(camera.ray(event.pos))
+    elif event.type == pygame.MOUSEMOTION and event.buttons[0]:
+        curtain.way.append(camera.ray(event.pos))
+    elif event.type == pygame.MOUSEBUTTONUP and event.button == 1:
+        curtain.way.append((None, None))
+
+
+def demo(screen, camera, font, folder):
+    curtain, looks = Curtain(), {}
+    for tick in range(331):
+        script(curtain, camera, tick)
+        curtain.tick()
+        if tick in (30, 68, 124, 195, 330):
+            draw(screen, curtain, camera, looks, font)
+            name = f"pygame_{tick:03}.png"
+            pygame.image.save(screen, os.path.join(folder, name))
+            red = sum(screen.get_at((x, y))[0] > 1.6 * screen.get_at((x, y))[2] for x in range(0, WIDTH, 4)
+                      for y in range(0, HEIGHT, 4))
+            print(f"picture {name} cloth {red / (WIDTH * HEIGHT / 16):.3f}")
+    print(f"cuts {curtain.cuts} pieces {curtain.sheet.counts().pieces} hash {curtain.world.state_hash():016x}")
+
+
+def play(screen, camera, font):
+    curtain, looks, clock = Curtain(), {}, pygame.time.Clock()
+    while True:
+        for event in pygame.event.get():
+            if event.type == pygame.QUIT or event.type == pygame.KEYDOWN and event.key == pygame.K_ESCAPE:
+                return
+            if event.type == pygame.KEYDOWN and event.key == pygame.K_r:
+                curtain, looks = Curtain(), {}
+            mouse(curtain, camera, event)
+        curtain.tick()
+        draw(screen, curtain, camera, looks, font)
+        pygame.display.flip()
+        clock.tick(60)
+
+
+def main():
+    pygame.display.init()
+    pygame.font.init()
+    pygame.display.set_caption("Kiri in pygame")
+    screen = pygame.display.set_mode((WIDTH, HEIGHT))
+    font = pygame.font.Font(None, 26)
+    if "--demo" in sys.argv:
+        demo(screen, Camera(), font, sys.argv[sys.argv.index("--demo") + 1])
+    else:
+        play(screen, Camera(), font)
+
+
+if __name__ == "__main__":
+    main()
