@@ -29,3 +29,21 @@ rust: $(BUILD)/libkiri.a $(BUILD)/tests/twin
 
 rust-cost: $(BUILD)/libkiri.a
 	@$(RUST_CARGO) run --quiet --locked --release --example cost
+
+# ---- samples/macroquad: a window; and a picture of a cut that plays itself, where there is no screen ----
+
+MACROQUAD = cd samples/macroquad && $(RUST_ENV) $(CARGO)
+MACROQUAD_RUN := $(RUST_TARGET)/debug/kiri-macroquad
+
+.PHONY: macroquad macroquad-test
+
+macroquad: $(BUILD)/libkiri.a
+	@$(MACROQUAD) run --quiet
+
+# The picture has the sheet, of which a part has come off; without a screen or OpenGL nothing is tested.
+macroquad-test: $(BUILD)/libkiri.a
+	@if ! $(RUST_IS_THERE) || ! command -v xvfb-run > /dev/null; then echo "macroquad: no cargo or no Xvfb, not tested"; exit 0; fi; \
+	set -e; ($(MACROQUAD) build --quiet --locked); \
+	LIBGL_ALWAYS_SOFTWARE=1 timeout 120 xvfb-run -a -s '-screen 0 800x600x24' $(MACROQUAD_RUN) --script $(RUST_TARGET)/macroquad.png > $(RUST_TARGET)/macroquad.txt; \
+	grep -q '^2 sheets' $(RUST_TARGET)/macroquad.txt; $(PYTHON) samples/macroquad/check.py build/rust/macroquad.png; \
+	echo "macroquad: $$(cat $(RUST_TARGET)/macroquad.txt); the picture is $(RUST_TARGET)/macroquad.png"
