@@ -9,7 +9,7 @@ typedef struct SkinTask {
     double dt;
 } SkinTask;
 
-static bool IsStill(const kiriWorld* world, int32_t k)
+static bool StoodStill(const kiriWorld* world, int32_t k)
 {
     return world->moves.of.data[world->active.data[k]].isStill;
 }
@@ -18,7 +18,7 @@ static bool IsStill(const kiriWorld* world, int32_t k)
 static bool IsInRanges(const kiriWorld* world, int32_t k)
 {
     const kiriSheetData* sheet = kiriWorld_Active(world, k);
-    return kiriTasks_AreGiven(&world->tasks) && !IsStill(world, k) && !sheet->rest.asleep &&
+    return kiriTasks_AreGiven(&world->tasks) && !StoodStill(world, k) && !sheet->rest.asleep &&
            sheet->mesh.vertices.count > RANGE_VERTICES;
 }
 
@@ -59,7 +59,7 @@ static void BeginSheets(int32_t start, int32_t end, void* context)
     const SkinTask* task = context;
     for (int32_t k = start; k < end; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(task->world, k);
-        if (IsStill(task->world, k)) {
+        if (StoodStill(task->world, k)) {
             continue;
         }
         if (!sheet->rest.asleep) {
@@ -130,7 +130,7 @@ void kiriSkinStep_Run(kiriWorld* world, double dt)
         kiriTasks_Run(&world->tasks, EndSheets, world->active.count, 1, &task);
     }
     for (int32_t k = 0; k < world->active.count; ++k) {
-        if (!IsStill(world, k) && !kiriWorld_Active(world, k)->rest.asleep) {
+        if (!StoodStill(world, k) && !kiriWorld_Active(world, k)->rest.asleep) {
             kiriView_Trim(kiriWorld_Active(world, k));
         }
     }
