@@ -21,13 +21,32 @@ void Debug_Destroy(Debug* debug)
     free(debug->raster.triangles);
     free(debug->raster.owners);
     free(debug->raster.colors);
-    free(debug->lines);
+    Lines_Free(&debug->lines);
     *debug = (Debug){ .frameCount = 0 };
 }
 
 bool Debug_IsWanted(const DebugOptions* options)
 {
     return options->weightsOf != DEBUG_NO_FRAME || options->regions || options->links || options->cells;
+}
+
+bool Debug_DrawLines(Debug* debug, const Scene* scene, const DebugOptions* options)
+{
+    const struct {
+        bool wanted;
+        uint32_t flags;
+        int kinds;
+    } all[] = { { options->points, KIRI_DRAW_POINTS, LINES_POINTS },
+                { options->links, KIRI_DRAW_LINKS, LINES_LINES },
+                { options->links, KIRI_DRAW_FRAMES, LINES_POINTS },
+                { options->axes, KIRI_DRAW_FRAMES, LINES_LINES } };
+    bool fine = true;
+    Lines_Clear(&debug->lines);
+    for (size_t i = 0; fine && i < sizeof all / sizeof all[0]; i++) {
+        fine = !all[i].wanted || Lines_Add(&debug->lines, scene->world, scene->sheet, all[i].flags,
+                                           0.05f * scene->type->size, all[i].kinds);
+    }
+    return fine;
 }
 
 /* ---- Triangles -------------------------------------------------------------------------------------------------- */
@@ -218,126 +237,6 @@ static void ColorRegions(Raster* raster, const kiriMesh* mesh)
     }
 }
 
-/* ---- Links ------------------------------------------------------------------------------------------------------ */
-
-/* The border between two regions. Several stretches between the same two are taken for one. */
-typedef struct Border {
-    int32_t a, b, count, middle; /* middle: the square nearest to the border's own */
-    double u, v, nearest;
-} Border;
-
-typedef struct Borders {
-    Border* data;
-    int32_t count, capacity;
-} Borders;
-
-static Border* FindBorder(Borders* borders, int32_t a, int32_t b)
-{
-    for (int32_t i = 0; i < borders->count; i++) {
-        if (borders->data[i].a == a && borders->data[i].b == b) {
-            return &borders->data[i];
-        }
-    }
-    if (borders->count == borders->capacity) {
-        int32_t capacity = borders->capacity > 0 ? 2 * borders->capacity : 64;
-        Border* data = realloc(borders->data, (size_t)capacity * sizeof(Border));
-        if (data == NULL) {
-            return NULL;
-        }
-        borders->data = data;
-        borders->capacity = capacity;
-    }
-    borders->data[borders->count] = (Border){ .a = a, .b = b, .nearest = INFINITY };
-    return &borders->data[borders->count++];
-}
-
-/* First pass: the middle of each border. Second pass: the square of it that lies nearest there. */
-static bool VisitBorder(Borders* borders, const Raster* raster, int32_t square, int32_t other, int pass)
-{
-    int32_t a = raster->owners[square], b = raster->owners[other];
-    Border* border = FindBorder(borders, a < b ? a : b, a < b ? b : a);
-    if (border == NULL) {
-        return false;
-    }
-    if (pass == 0) {
-        border->u += square % SIZE;
-        border->v += square / SIZE;
-        border->count++;
-        return true;
-    }
-    double u = square % SIZE - border->u / border->count, v = square / SIZE - border->v / border->count;
-    if (u * u + v * v < border->nearest) {
-        border->nearest = u * u + v * v;
-        border->middle = square;
-    }
-    return true;
-}
-
-static bool FindBorders(Borders* borders, const Raster* raster, const kiriMesh* mesh)
-{
-    bool fine = true;
-    for (int pass = 0; pass < 2; pass++) {
-        for (int32_t square = 0; fine && square < SQUARES - SIZE; square++) {
-            for (int32_t k = 0; fine && k < 2; k++) {
-                int32_t other = square + (k == 0 ? 1 : SIZE);
-                fine = !IsBorder(raster, mesh, square, other) || VisitBorder(borders, raster, square, other, pass);
-            }
-        }
-    }
-    return fine;
-}
-
-static bool AddLine(Debug* debug, const float from[3], const float to[3])
-{
-    if (debug->lineCount == debug->lineCapacity) {
-        int32_t capacity = debug->lineCapacity > 0 ? 2 * debug->lineCapacity : 64;
-        float* lines = realloc(debug->lines, (size_t)capacity * 6 * sizeof(float));
-        if (lines == NULL) {
-            return false;
-        }
-        debug->lines = lines;
-        debug->lineCapacity = capacity;
-    }
-    memcpy(debug->lines + 6 * debug->lineCount, from, 3 * sizeof(float));
-    memcpy(debug->lines + 6 * debug->lineCount + 3, to, 3 * sizeof(float));
-    debug->lineCount++;
-    return true;
-}
-
-static void GetWorldPosition(const Raster* raster, const kiriMesh* mesh, int32_t square, float position[3])
-{
-    float point[2], shares[3];
-    GetMiddle(raster, square, point);
-    GetShares(mesh, raster->triangles[square], point, shares);
-    for (int c = 0; c < 3; c++) {
-        position[c] = 0.0f;
-        for (int i = 0; i < 3; i++) {
-            position[c] += shares[i] * mesh->positions[3 * mesh->indices[3 * raster->triangles[square] + i] + c];
-        }
-    }
-}
-
-/* From frame to frame by the middle of the border. */
-static bool AddLinks(Debug* debug, const Scene* scene, const kiriMesh* mesh)
-{
-    Borders borders = { .data = NULL };
-    bool fine = FindBorders(&borders, &debug->raster, mesh);
-    debug->lineCount = 0;
-    for (int32_t i = 0; fine && i < borders.count; i++) {
-        const Border* border = &borders.data[i];
-        kiriFrameState a, b;
-        float middle[3];
-        GetWorldPosition(&debug->raster, mesh, border->middle, middle);
-        /* Beside a cut, the weights of a square may be those of the other side: such borders are shorter. */
-        if (border->count >= 4 && kiriFrame_GetState(scene->world, debug->frames[border->a], &a) == KIRI_OK &&
-            kiriFrame_GetState(scene->world, debug->frames[border->b], &b) == KIRI_OK) {
-            fine = AddLine(debug, a.position, middle) && AddLine(debug, middle, b.position);
-        }
-    }
-    free(borders.data);
-    return fine;
-}
-
 /* ---- Cells ------------------------------------------------------------------------------------------------------ */
 
 /* Marks the part of the material inside one grid square that is joined to a raster square; returns how large it is. */
@@ -443,5 +342,5 @@ bool Debug_Update(Debug* debug, const Scene* scene, const kiriMesh* mesh, const 
         SpreadColors(&debug->raster);
         debug->raster.revision = mesh->revision;
     }
-    return !options->links || options->cells || AddLinks(debug, scene, mesh);
+    return true;
 }

@@ -1,15 +1,17 @@
-/* Pictures of what the library works with: shape functions, regions, links, cells. All of it is asked for through the
-   public header, on a raster over the rest plane: it shows what a host can know, as exactly as the raster is fine. */
+/* Pictures of what the library works with. Frames, links and points are those of its debug draw. Shape functions, regions
+   and cells are asked for through the public header, on a raster over the rest plane: it shows what a host can know, as
+   exactly as the raster is fine. */
 #ifndef DEBUG_H
 #define DEBUG_H
 
+#include "lines.h"
 #include "scene.h"
 
 enum { RASTER_SIZE = 768, DEBUG_MAX_FRAMES = 1024 };
 
 typedef struct DebugOptions {
     int32_t weightsOf; /* a frame's number; DEBUG_ALL_FRAMES; or DEBUG_NO_FRAME */
-    bool regions, links, cells, points;
+    bool regions, links, cells, points, axes;
 } DebugOptions;
 
 enum { DEBUG_NO_FRAME = -2, DEBUG_ALL_FRAMES = -1 };
@@ -27,8 +29,7 @@ typedef struct Debug {
     Raster raster;
     kiriFrame frames[DEBUG_MAX_FRAMES];
     int32_t frameCount;
-    float* lines; /* 6 a line: its ends, m */
-    int32_t lineCount, lineCapacity;
+    Lines lines;
 } Debug;
 
 /* False without memory. */
@@ -38,7 +39,10 @@ void Debug_Destroy(Debug* debug);
 /* Whether the options want a raster. */
 bool Debug_IsWanted(const DebugOptions* options);
 
-/* Raster and lines of the scene as it is now. False without memory. */
+/* Lines and points of the scene as it is now. False without memory. */
+bool Debug_DrawLines(Debug* debug, const Scene* scene, const DebugOptions* options);
+
+/* The raster of the scene as it is now. False without memory. */
 bool Debug_Update(Debug* debug, const Scene* scene, const kiriMesh* mesh, const DebugOptions* options);
 
 #endif

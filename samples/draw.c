@@ -303,58 +303,33 @@ static bool ReserveEdges(Painter* painter, int32_t count)
     return painter->edgeCapacity >= count;
 }
 
-/* ---- Axes and blade --------------------------------------------------------------------------------------------- */
+/* ---- Lines and blade --------------------------------------------------------------------------------------------- */
 
-static void DrawAxes(const kiriFrameState* frames, int32_t count, float length)
+static void DrawVertices(GLenum kind, const Vertices* vertices)
 {
-    glDisable(GL_DEPTH_TEST);
-    glLineWidth(2.0f * OVERSAMPLING);
-    glBegin(GL_LINES);
-    for (int32_t i = 0; i < 3 * count; i++) {
-        const kiriFrameState* frame = &frames[i / 3];
-        const float* axis = frame->rotation + 3 * (i % 3);
-        float color[3] = { 0.15f, 0.15f, 0.15f };
-        color[i % 3] = 0.9f;
-        glColor3fv(color);
-        glVertex3fv(frame->position);
-        glVertex3f(frame->position[0] + length * axis[0], frame->position[1] + length * axis[1],
-                   frame->position[2] + length * axis[2]);
+    glBegin(kind);
+    for (int32_t i = 0; i < vertices->count; i++) {
+        uint32_t color = vertices->data[i].color;
+        glColor3ub(color & 0xff, color >> 8 & 0xff, color >> 16 & 0xff);
+        glVertex3fv(vertices->data[i].position);
     }
     glEnd();
-    glEnable(GL_DEPTH_TEST);
 }
 
-static void DrawLines(const float* lines, int32_t count)
+static void DrawLines(const View* view)
 {
-    glDisable(GL_DEPTH_TEST);
+    if (!view->hidesLines) {
+        glDisable(GL_DEPTH_TEST);
+    }
     glLineWidth(1.6f * OVERSAMPLING);
     glPointSize(6.0f * OVERSAMPLING);
     glEnable(GL_POINT_SMOOTH);
     glEnable(GL_BLEND);
-    glColor3f(0.08f, 0.08f, 0.10f);
-    for (int k = 0; k < 2; k++) {
-        glBegin(k == 0 ? GL_LINES : GL_POINTS);
-        for (int32_t i = 0; i < 2 * count; i++) {
-            if (k == 0 || i % 4 == 0 || i % 4 == 3) { /* two lines a link: points at its frames */
-                glVertex3fv(lines + 3 * i);
-            }
-        }
-        glEnd();
-    }
+    DrawVertices(GL_LINES, &view->lines.lines);
+    DrawVertices(GL_POINTS, &view->lines.points);
     glDisable(GL_BLEND);
     glDisable(GL_POINT_SMOOTH);
     glEnable(GL_DEPTH_TEST);
-}
-
-static void DrawPoints(const float* points, int32_t count)
-{
-    glPointSize(4.0f * OVERSAMPLING);
-    glColor3f(0.85f, 0.10f, 0.45f);
-    glBegin(GL_POINTS);
-    for (int32_t i = 0; i < count; i++) {
-        glVertex3fv(points + 3 * i);
-    }
-    glEnd();
 }
 
 /* A round bar along the z axis. */
@@ -491,9 +466,7 @@ bool Painter_Paint(Painter* painter, const View* view, Image* image)
     if (!view->pegs) {
         DrawThreads(view->pins, view->pinCount, zoom);
     }
-    DrawPoints(view->points, view->pointCount);
-    DrawLines(view->lines, view->lineCount);
-    DrawAxes(view->axes, view->axesCount, 0.05f / zoom);
+    DrawLines(view);
     glPopMatrix();
     if (view->pegs) {
         DrawPegs(view->pins, view->pinCount, zoom);

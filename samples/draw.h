@@ -3,6 +3,7 @@
 #define DRAW_H
 
 #include "image.h"
+#include "lines.h"
 #include "scene.h"
 
 typedef struct View {
@@ -18,13 +19,9 @@ typedef struct View {
     const uint8_t* raster; /* rasterSize x rasterSize colours over the rest plane instead of the look; or null */
     int32_t rasterSize;
     float rasterOrigin[2], rasterWidth; /* m */
-    const float* lines;                 /* 6 a line, over all else */
-    int32_t lineCount;
-    const float* points; /* 3 a point */
-    int32_t pointCount;
-    const kiriFrameState* axes;
-    int32_t axesCount;
-    const float* blades; /* 3 a blade: where its tip is */
+    Lines lines;                        /* over all else, */
+    bool hidesLines;                    /* or hidden by what is before them */
+    const float* blades;                /* 3 a blade: where its tip is */
     int32_t bladeCount;
 } View;
 

@@ -93,17 +93,6 @@ static bool Film_Create(Film* film, const Options* options, int32_t ticks)
     return fine;
 }
 
-static int32_t GetAxes(const Scene* scene, kiriFrameState* states)
-{
-    kiriFrame frames[DEBUG_MAX_FRAMES];
-    int32_t count = 0, known = 0;
-    kiriSheet_GetFrames(scene->world, scene->sheet, frames, DEBUG_MAX_FRAMES, &count);
-    for (int32_t i = 0; i < count && i < DEBUG_MAX_FRAMES; i++) {
-        known += kiriFrame_GetState(scene->world, frames[i], &states[known]) == KIRI_OK;
-    }
-    return known;
-}
-
 /* Where the vertex is that lies nearest to a rest point. */
 static const float* FindVertex(const kiriMesh* mesh, const float restPoint[2])
 {
@@ -140,8 +129,6 @@ static bool ShowDebug(View* view, Film* film, const Scene* scene, const Options*
     view->rasterSize = RASTER_SIZE;
     memcpy(view->rasterOrigin, raster->origin, sizeof view->rasterOrigin);
     view->rasterWidth = RASTER_SIZE * raster->side;
-    view->lines = film->debug.lines;
-    view->lineCount = film->debug.lineCount;
     return true;
 }
 
@@ -164,7 +151,6 @@ static bool TakeSolid(View* view, const Scene* scene, float thickness)
 
 static bool Film_Shoot(Film* film, const Scene* scene, const Options* options)
 {
-    static kiriFrameState axes[DEBUG_MAX_FRAMES];
     View view = { .camera = scene->type->camera,
                   .size = scene->type->size,
                   .look = scene->type->look,
@@ -182,13 +168,10 @@ static bool Film_Shoot(Film* film, const Scene* scene, const Options* options)
     if (Debug_IsWanted(&options->debug) && !ShowDebug(&view, film, scene, options)) {
         return false;
     }
-    if (options->debug.points) {
-        kiriSheet_GetCollisionPoints(scene->world, scene->sheet, &view.points, &view.pointCount);
+    if (!Debug_DrawLines(&film->debug, scene, &options->debug)) {
+        return false;
     }
-    if (options->axes) {
-        view.axes = axes;
-        view.axesCount = GetAxes(scene, axes);
-    }
+    view.lines = film->debug.lines;
     view.bladeCount = Scene_GetBlades(scene, restPoints, MAX_BLADES);
     view.blades = blades[0];
     for (int32_t i = 0; i < view.bladeCount; i++) {

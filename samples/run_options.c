@@ -66,11 +66,16 @@ static bool ReadFlag(const char* name, Options* options)
     const struct {
         const char* name;
         bool* flag;
-    } flags[] = { { "--help", &options->help },           { "--quiet", &options->quiet },
-                  { "--frames-axes", &options->axes },    { "--regions", &options->debug.regions },
-                  { "--links", &options->debug.links },   { "--cells", &options->debug.cells },
-                  { "--points", &options->debug.points }, { "--plain", &options->plain },
-                  { "--smooth", &options->smooth },       { "--paper", &options->asPaper } };
+    } flags[] = { { "--help", &options->help },
+                  { "--quiet", &options->quiet },
+                  { "--frames-axes", &options->debug.axes },
+                  { "--regions", &options->debug.regions },
+                  { "--links", &options->debug.links },
+                  { "--cells", &options->debug.cells },
+                  { "--points", &options->debug.points },
+                  { "--plain", &options->plain },
+                  { "--smooth", &options->smooth },
+                  { "--paper", &options->asPaper } };
     for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
         if (strcmp(name, flags[i].name) == 0) {
             *flags[i].flag = true;

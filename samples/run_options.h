@@ -17,7 +17,7 @@ typedef struct Options {
     int32_t ticks, every, width, height, grid, controlFrames, budget;
     int32_t solid;    /* mm; 0: the surface alone */
     float closeUp[3]; /* rest point, m, and factor; factor 0: as the scene has it */
-    bool axes, plain, asPaper, smooth, quiet, help;
+    bool plain, asPaper, smooth, quiet, help;
 } Options;
 
 void Options_PrintHelp(void);

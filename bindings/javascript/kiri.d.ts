@@ -198,7 +198,7 @@ export enum DrawFlag {
     Edges = 2,
     /** a line for each edge of the outline and of lips */
     Borders = 4,
-    /** a point and three axes each: u red, v green, normal blue; held ones black */
+    /** a point and three axes each: u red, v green, normal blue; held ones red */
     Frames = 8,
     /** two lines each: from frame to frame by the middle of their border */
     Links = 16,
@@ -558,7 +558,7 @@ export class SheetDef {
     touchesSheets: boolean;
     /** spread evenly over the sheet, at least one in every piece; default 0: none */
     collisionPoints: number;
-    /** Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the README */
+    /** Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual */
     iterations: number;
     /** A piece all of whose frames move slower than this (m/s, rms over the material of each) for half a second falls
      *  asleep: it rests, and costs next to nothing. What is new to it wakes it: a cut that changes it, when that takes
@@ -651,7 +651,7 @@ export interface SheetDefGiven {
     touchesSheets?: boolean | number;
     /** spread evenly over the sheet, at least one in every piece; default 0: none */
     collisionPoints?: number;
-    /** Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the README */
+    /** Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual */
     iterations?: number;
     /** A piece all of whose frames move slower than this (m/s, rms over the material of each) for half a second falls
      *  asleep: it rests, and costs next to nothing. What is new to it wakes it: a cut that changes it, when that takes
@@ -710,7 +710,7 @@ export class SheetSettings {
      *  around the border of another, so that it lies on both sides of it, has one side all the same. Folds of one piece
      *  do not touch each other. Pieces that touch wake and fall asleep together. Default 0. */
     touchesSheets: boolean;
-    /** Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the README */
+    /** Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual */
     iterations: number;
     /** A piece all of whose frames move slower than this (m/s, rms over the material of each) for half a second falls
      *  asleep: it rests, and costs next to nothing. What is new to it wakes it: a cut that changes it, when that takes
@@ -756,7 +756,7 @@ export interface SheetSettingsGiven {
      *  around the border of another, so that it lies on both sides of it, has one side all the same. Folds of one piece
      *  do not touch each other. Pieces that touch wake and fall asleep together. Default 0. */
     touchesSheets?: boolean | number;
-    /** Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the README */
+    /** Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual */
     iterations?: number;
     /** A piece all of whose frames move slower than this (m/s, rms over the material of each) for half a second falls
      *  asleep: it rests, and costs next to nothing. What is new to it wakes it: a cut that changes it, when that takes

@@ -497,7 +497,7 @@ typedef struct kiriSheetDef {
     int32_t touchesSheets;
 
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
-    int32_t iterations; /* Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the README */
+    int32_t iterations; /* Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual */
 
     /* A piece all of whose frames move slower than this (m/s, rms over the material of each) for half a second falls
        asleep: it rests, and costs next to nothing. What is new to it wakes it: a cut that changes it, when that takes
@@ -1134,7 +1134,7 @@ enum kiriDrawFlag {
     KIRI_DRAW_TRIANGLES = 1,   /* a triangle for each of the mesh, in a colour of its piece, pale where that sleeps */
     KIRI_DRAW_EDGES = 2,       /* a line for each edge between two triangles */
     KIRI_DRAW_BORDERS = 4,     /* a line for each edge of the outline and of lips */
-    KIRI_DRAW_FRAMES = 8,      /* a point and three axes each: u red, v green, normal blue; held ones black */
+    KIRI_DRAW_FRAMES = 8,      /* a point and three axes each: u red, v green, normal blue; held ones red */
     KIRI_DRAW_LINKS = 16,      /* two lines each: from frame to frame by the middle of their border */
     KIRI_DRAW_PINS = 32,       /* a point at the target; a line to the point of the material, or along the line */
     KIRI_DRAW_CONTACTS = 64,   /* a point and its normal for each that pushed as the last tick ended */

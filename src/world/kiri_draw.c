@@ -161,7 +161,7 @@ static void DrawFrames(kiriDrawing* drawing, const kiriSheetData* sheet)
             continue;
         }
         kiriVec3 at = kiriFrame_Carry(frame, frame->site.at);
-        kiriDrawing_Point(drawing, at, frame->held ? kiriDrawing_Color(0, 0, 0) : kiriDrawing_Color(60, 60, 200));
+        kiriDrawing_Point(drawing, at, frame->held ? kiriDrawing_Color(220, 40, 40) : kiriDrawing_Color(25, 25, 30));
         kiriDrawing_Line(drawing, at, kiriVec3_AddScaled(at, drawing->size, frame->A.u),
                          kiriDrawing_Color(230, 40, 40));
         kiriDrawing_Line(drawing, at, kiriVec3_AddScaled(at, drawing->size, frame->A.v),
