@@ -19,8 +19,9 @@
 #   make accuracy compares with references from outside, and plots error against cost; CASE=torsion: that one only
 #   make contact  measures contact against laws and peers; CASE=laws: that group only
 #   make extremes runs what nobody should do to a sheet, and says what became of it
-#   make gallery  renders the pictures of the README, and the film that it begins with
+#   make gallery  renders the pictures of samples/README.md, and the film that the README begins with
 #   make guide    renders the pictures of src/README.md
+#   make manual   compiles and runs the programs of the manual, and renders its pictures
 #   make portable builds a storm for other machines and compilers, and compares bits; deps-portable: installs these
 #   make deps     installs what is missing for all of these (Debian and its relatives)
 #   make format   clang-format over all sources
@@ -50,6 +51,7 @@ NEEDS_contact := $(NEEDS_lib) libbox2d-dev
 NEEDS_extremes := $(NEEDS_lib)
 NEEDS_gallery := $(NEEDS_play)
 NEEDS_guide := $(NEEDS_run)
+NEEDS_manual := $(NEEDS_run)
 NEEDS_portable := $(NEEDS_lib)
 # Without these, tests of bindings are left out, with a line that says so.
 WANTS_test := python3-cffi cmake pkg-config
@@ -117,8 +119,8 @@ PLAY := $(BUILD)/samples/kiri-play
 # Debian's own python has Debian's python3-cffi.
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 PYTHON_CHECK := $(if $(filter sanitize thread,$(config)),,python)
-# What is made from the header, once.
-DESCRIBED_CHECK := $(if $(filter release,$(config)),described)
+# What is made from the header, and the programs of the manual, once.
+DESCRIBED_CHECK := $(if $(filter release,$(config)),described manual-programs)
 # Tests of the Makefile itself, and of what it installs: once.
 BUILD_CHECK := $(if $(filter release,$(config)),builds consumers)
 
@@ -225,7 +227,7 @@ contact: packages-contact
 	@$(MAKE) --no-print-directory $(BUILD)/tests/contact
 	$(BUILD)/tests/contact "$(CASE)"
 
-# Scenes in the README; and the shape functions of one, as in figure 2 of the paper.
+# Scenes in samples/README.md; and the shape functions of one, as in figure 2 of the paper.
 GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat
 # The film film.png: a man is cut out of a sheet that moves, 15 pictures a second, in the time of the scene. It ends where
 # he swings to the front.
@@ -262,6 +264,20 @@ guide: packages-guide
 	$(call MOMENT,regions,120,--scene bunny --regions --links --size 600x600)
 	$(call MOMENT,weights,120,--scene bunny --weights 4 --size 600x600)
 	$(call MOMENT,pieces,262,--scene flat --regions --links)
+
+# The programs of the manual, as a user compiles them; what they print is what it says. And with what takes pictures.
+MANUAL = $(PYTHON) samples/manual/manual.py $(BUILD)/manual \
+    '$(CC) -std=c99 -Wall -Wextra -Werror $(FLAGS_$(config)) -Iinclude {source} $(BUILD)/libkiri.a -lstdc++ -lm -o {program}'
+MANUAL_PICTURES := $(patsubst %,$(BUILD)/samples/%.c.o,manual/picture draw edges image lines) $(BUILD)/libkiri.a
+
+.PHONY: manual manual-programs
+
+manual: packages-manual
+	@$(MAKE) --no-print-directory manual-programs $(MANUAL_PICTURES)
+	@$(MANUAL) --pictures $(MANUAL_PICTURES) -lOSMesa -lpng -lz -lstdc++ -lm
+
+manual-programs: $(BUILD)/libkiri.a
+	@$(MANUAL)
 
 # Each test program by itself, so that -j runs several at a time. What it printed is beside it, and shown when it fails.
 TEST_RUNS := $(patsubst $(BUILD)/tests/%,run-%,$(TESTS))
