@@ -497,7 +497,7 @@ namespace Kiri
         Edges = 2,
         /// <summary>a line for each edge of the outline and of lips</summary>
         Borders = 4,
-        /// <summary>a point and three axes each: u red, v green, normal blue; held ones black</summary>
+        /// <summary>a point and three axes each: u red, v green, normal blue; held ones red</summary>
         Frames = 8,
         /// <summary>two lines each: from frame to frame by the middle of their border</summary>
         Links = 16,
@@ -797,7 +797,7 @@ namespace Kiri
         public Flag TouchesSheets;
         /// <summary>spread evenly over the sheet, at least one in every piece; default 0: none</summary>
         public int CollisionPoints;
-        /// <summary>Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the README</summary>
+        /// <summary>Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual</summary>
         public int Iterations;
         /// <summary>A piece all of whose frames move slower than this (m/s, rms over the material of each) for half a second
         /// falls asleep: it rests, and costs next to nothing. What is new to it wakes it: a cut that changes it, when
@@ -868,7 +868,7 @@ namespace Kiri
         /// side all the same. Folds of one piece do not touch each other. Pieces that touch wake and fall asleep
         /// together. Default 0.</summary>
         public Flag TouchesSheets;
-        /// <summary>Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the README</summary>
+        /// <summary>Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual</summary>
         public int Iterations;
         /// <summary>A piece all of whose frames move slower than this (m/s, rms over the material of each) for half a second
         /// falls asleep: it rests, and costs next to nothing. What is new to it wakes it: a cut that changes it, when

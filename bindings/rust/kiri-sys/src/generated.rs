@@ -152,7 +152,7 @@ pub const KIRI_DRAW_TRIANGLES: i32 = 1;
 pub const KIRI_DRAW_EDGES: i32 = 2;
 /// a line for each edge of the outline and of lips
 pub const KIRI_DRAW_BORDERS: i32 = 4;
-/// a point and three axes each: u red, v green, normal blue; held ones black
+/// a point and three axes each: u red, v green, normal blue; held ones red
 pub const KIRI_DRAW_FRAMES: i32 = 8;
 /// two lines each: from frame to frame by the middle of their border
 pub const KIRI_DRAW_LINKS: i32 = 16;
@@ -523,7 +523,7 @@ pub struct kiriSheetDef {
     pub touchesSheets: i32,
     /// spread evenly over the sheet, at least one in every piece; default 0: none
     pub collisionPoints: i32,
-    /// Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the README
+    /// Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual
     pub iterations: i32,
     /// A piece all of whose frames move slower than this (m/s, rms over the material of each) for
     /// half a second falls asleep: it rests, and costs next to nothing. What is new to it wakes it:
@@ -586,7 +586,7 @@ pub struct kiriSheetSettings {
     /// of it, has one side all the same. Folds of one piece do not touch each other. Pieces that
     /// touch wake and fall asleep together. Default 0.
     pub touchesSheets: i32,
-    /// Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the README
+    /// Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual
     pub iterations: i32,
     /// A piece all of whose frames move slower than this (m/s, rms over the material of each) for
     /// half a second falls asleep: it rests, and costs next to nothing. What is new to it wakes it:

@@ -547,7 +547,7 @@ pub const DRAW_TRIANGLES: u32 = 1;
 pub const DRAW_EDGES: u32 = 2;
 /// a line for each edge of the outline and of lips
 pub const DRAW_BORDERS: u32 = 4;
-/// a point and three axes each: u red, v green, normal blue; held ones black
+/// a point and three axes each: u red, v green, normal blue; held ones red
 pub const DRAW_FRAMES: u32 = 8;
 /// two lines each: from frame to frame by the middle of their border
 pub const DRAW_LINKS: u32 = 16;
@@ -910,7 +910,7 @@ pub struct SheetDef<'a> {
     pub touches_sheets: bool,
     /// spread evenly over the sheet, at least one in every piece; default 0: none
     pub collision_points: i32,
-    /// Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the README
+    /// Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual
     pub iterations: i32,
     /// A piece all of whose frames move slower than this (m/s, rms over the material of each) for
     /// half a second falls asleep: it rests, and costs next to nothing. What is new to it wakes it:
@@ -1067,7 +1067,7 @@ pub struct SheetSettings {
     /// of it, has one side all the same. Folds of one piece do not touch each other. Pieces that
     /// touch wake and fall asleep together. Default 0.
     pub touches_sheets: bool,
-    /// Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the README
+    /// Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual
     pub iterations: i32,
     /// A piece all of whose frames move slower than this (m/s, rms over the material of each) for
     /// half a second falls asleep: it rests, and costs next to nothing. What is new to it wakes it:
