@@ -1,29 +1,23 @@
 #!/bin/sh
-# Runs tests and says which part of the lines of each file of src they have run, least first. Fails where that is less than
-# it shall be, where a file is in no program, and where a test fails.
+# What `make coverage` runs and says.
 #
-#   MAKE=make tests/coverage.sh BUILD PERCENT      from the root
-#
-# With COUNTED=1 the tests are not run again: it says what earlier runs have counted.
+#   tests/coverage.sh                   the targets that run tests
+#   tests/coverage.sh BUILD PERCENT     which part of the lines of each file of src they have run, least first; fails where
+#                                       that is less than it shall be, and where a file is in no program
 set -eu
-build=$1 least=$2
 
-# Not run here, for they play long, and run no line that the others do not run in less time.
+# Not run, for they play long, and run no line that the others do not run in less time.
 too_long='test_extremes test_games test_long test_net test_quality test_samples test_scarce'
 
-programs() {
+if [ $# = 0 ]; then
+    echo run-fuzz_calls run-fuzz_mesh run-fuzz_replay
     for test in tests/test_*.c tests/test_*.cpp; do
         test=$(basename "${test%.*}")
         case " $too_long " in *" $test "*) ;; *) echo "run-$test" ;; esac
     done
-    echo run-fuzz_calls run-fuzz_mesh run-fuzz_replay
-}
-
-# Counts from runs of older objects would be refused, or added.
-if [ -z "${COUNTED:-}" ]; then
-    mkdir -p "$build" && find "$build" -name '*.gcda' -delete
-    $MAKE --no-print-directory config=coverage $(programs)
+    exit
 fi
+build=$1 least=$2
 
 # What gcov says of the file that an object was made of; of headers it says as much for each file that includes them. A file
 # without lines to run has no number.
