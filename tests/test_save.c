@@ -269,8 +269,15 @@ static void test_calls_are_checked(void** state)
     int64_t size = 0;
     uint8_t* few = malloc((size_t)bytes.size - 1);
     assert_int_equal(kiriWorld_Save(host.world, NULL, 0, NULL), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriWorld_Save(host.world, few, bytes.size - 1, &size), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(size, bytes.size);
+    for (int64_t capacity = bytes.size - 1; capacity >= 0; capacity = capacity / 2 - (capacity == 0)) {
+        memset(few, 0x77, (size_t)bytes.size - 1);
+        size = 0;
+        assert_int_equal(kiriWorld_Save(host.world, few, capacity, &size), KIRI_ERROR_ARGUMENT);
+        assert_int_equal(size, bytes.size);
+        for (int64_t n = 0; n < bytes.size - 1; ++n) {
+            assert_int_equal(few[n], 0x77); /* nothing is written */
+        }
+    }
     assert_int_equal(kiriWorld_Load(host.world, NULL, 100), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriWorld_Load(host.world, bytes.data, -1), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriWorld_Save(NULL, NULL, 0, &size), KIRI_ERROR_ARGUMENT);
@@ -278,6 +285,65 @@ static void test_calls_are_checked(void** state)
     assert_int_equal(HashOf(host.world), hash);
     free(few);
     free(bytes.data);
+    Host_Stop(&host);
+}
+
+static void AssertNoDifference(Host* host, Bytes base, Bytes difference, uint64_t hash)
+{
+    assert_int_equal(kiriWorld_LoadDifference(host->world, base.data, base.size, difference.data, difference.size),
+                     KIRI_ERROR_DATA);
+    assert_true(HashOf(host->world) == hash);
+}
+
+/* Differences that are changed or cut short, to another save, or to none, change nothing. */
+static void test_differences_are_checked(void** state)
+{
+    (void)state;
+    Host host;
+    StartSmall(&host);
+    Bytes base = Save(host.world);
+    Host_Tick(&host, 1.0f / 60.0f, 1);
+    Bytes later = Save(host.world), difference = SaveDifference(host.world, base);
+    uint64_t hash = HashOf(host.world);
+    Host_Tick(&host, 1.0f / 60.0f, 1);
+    uint64_t now = HashOf(host.world);
+    AssertNoDifference(&host, later, difference, now);
+    AssertNoDifference(&host, difference, difference, now);
+    AssertNoDifference(&host, base, base, now);
+    for (Bytes part = difference; part.size > 0;) {
+        part.size -= 1;
+        AssertNoDifference(&host, base, part, now);
+    }
+    for (int64_t bit = 0; bit < 8 * difference.size; bit += 11) {
+        difference.data[bit / 8] ^= (uint8_t)(1 << bit % 8);
+        AssertNoDifference(&host, base, difference, now);
+        difference.data[bit / 8] ^= (uint8_t)(1 << bit % 8);
+    }
+    base.data[base.size / 2] ^= 1;
+    AssertNoDifference(&host, base, difference, now);
+    base.data[base.size / 2] ^= 1;
+    assert_int_equal(kiriWorld_LoadDifference(host.world, base.data, base.size, difference.data, difference.size),
+                     KIRI_OK);
+    assert_true(HashOf(host.world) == hash);
+
+    /* With too few bytes it says how many it takes, and writes none behind those that there are. */
+    for (int64_t capacity = 0; capacity < difference.size; capacity += 1 + capacity / 7) {
+        uint8_t* few = malloc((size_t)capacity + 1);
+        int64_t size = 0;
+        few[capacity] = 0x77;
+        assert_int_equal(kiriWorld_SaveDifference(host.world, base.data, base.size, few, capacity, &size),
+                         KIRI_ERROR_ARGUMENT);
+        assert_true(size == difference.size && few[capacity] == 0x77);
+        free(few);
+    }
+    int64_t size = 0;
+    assert_int_equal(kiriWorld_SaveDifference(host.world, difference.data, difference.size, NULL, 0, &size),
+                     KIRI_ERROR_DATA);
+    assert_int_equal(kiriWorld_SaveDifference(host.world, base.data, base.size - 1, NULL, 0, &size), KIRI_ERROR_DATA);
+    assert_true(HashOf(host.world) == hash);
+    free(base.data);
+    free(later.data);
+    free(difference.data);
     Host_Stop(&host);
 }
 
@@ -318,7 +384,7 @@ int main(void)
         cmocka_unit_test(test_a_storm_goes_on),       cmocka_unit_test(test_work_that_waits_goes_on),
         cmocka_unit_test(test_a_storm_goes_back),     cmocka_unit_test(test_what_is_cut_short_is_refused),
         cmocka_unit_test(test_no_bit_may_change),     cmocka_unit_test(test_calls_are_checked),
-        cmocka_unit_test(test_memory_may_be_refused),
+        cmocka_unit_test(test_memory_may_be_refused), cmocka_unit_test(test_differences_are_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

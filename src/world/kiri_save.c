@@ -392,12 +392,16 @@ static bool WriteWorld(const kiriWorld* world, SaveBase* base, uint8_t* bytes, i
     return true;
 }
 
+/* Of a whole world nothing is written where it does not fit: it is measured in no time. To measure a difference takes as
+   long as to write it. */
 static kiriResult SaveWorld(const kiriWorld* world, SaveBase* base, void* bytes, int64_t capacity, int64_t* size)
 {
-    if (bytes != NULL && WriteWorld(world, base, bytes, capacity, size)) {
+    bool isMeasured = bytes == NULL || base == NULL;
+    int64_t least = isMeasured ? MeasureWorld(world, base) : 0;
+    if (bytes != NULL && least <= capacity && WriteWorld(world, base, bytes, capacity, size)) {
         return KIRI_OK;
     }
-    *size = MeasureWorld(world, base);
+    *size = isMeasured ? least : MeasureWorld(world, base);
     return bytes == NULL ? KIRI_OK : KIRI_ERROR_ARGUMENT;
 }
 
