@@ -275,6 +275,18 @@ static void RefusesOverlap(void** state)
     assert_int_equal(Try(touching, 6, two, 2), KIRI_OK);
 }
 
+/* A few steps of the lattice wide, beside a triangle that is as thin and ends far away: what floats are given for rounding
+   does not let them lie on each other. */
+static void RefusesOverlapOfTheSmallest(void** state)
+{
+    (void)state;
+    const int32_t two[] = { 0, 1, 2, 3, 4, 5 };
+    const float on[] = { 0, 0, 1e8f, 0, 0, 1, 0.5f, 0, 1.5f, 0, 1.5f, 1 };
+    const float beside[] = { 0, 0, 1e8f, 0, 0, 1, 0.5f, 1, 1.5f, 1, 1.5f, 2 };
+    assert_int_equal(Try(on, 6, two, 2), KIRI_ERROR_MESH);
+    assert_int_equal(Try(beside, 6, two, 2), KIRI_OK);
+}
+
 /* Is all of one on the outer side of an edge of the other? */
 static bool IsApart(const float* a, const float* b)
 {
@@ -794,6 +806,7 @@ int main(void)
         cmocka_unit_test(RefusesArguments),
         cmocka_unit_test(RefusesWhatIsNoSheet),
         cmocka_unit_test(RefusesOverlap),
+        cmocka_unit_test(RefusesOverlapOfTheSmallest),
         cmocka_unit_test(RefusesOverlapAnywhere),
         cmocka_unit_test(RefusesWindingTwice),
         cmocka_unit_test(TakesCrowds),

@@ -6,6 +6,7 @@
 
 enum {
     OVERLAP_TOLERANCE = 64, /* lattice steps that triangles may intrude on each other: the input is float */
+    LATTICE_ROUNDING = 2,   /* lattice steps: by as much they always may */
     MOST_IN_LEAF = 4
 };
 
@@ -33,15 +34,31 @@ typedef struct OverlapTree {
 
 /* ---- Two triangles ---- */
 
+/* The most that b may intrude on a over its edge from p to q: what the tolerance says, but no more than half of the height
+   of a and half of the width of b. Else triangles that are as small as the tolerance might lie on each other. */
+static int64_t MostIntrusion(kiriLatticePoint p, kiriLatticePoint q, int64_t area, int64_t outer)
+{
+    int64_t length =
+        (q.x > p.x ? (int64_t)q.x - p.x : (int64_t)p.x - q.x) + (q.y > p.y ? (int64_t)q.y - p.y : (int64_t)p.y - q.y);
+    int64_t most = OVERLAP_TOLERANCE * length, least = LATTICE_ROUNDING * length;
+    most = most < area / 2 ? most : area / 2;
+    most = most < -outer ? most : -outer;
+    return most > least ? most : least;
+}
+
 /* Is triangle b on the outer side of an edge of triangle a, but for the tolerance? */
 static bool EdgeSeparates(const kiriLatticePoint a[3], const kiriLatticePoint b[3])
 {
+    int64_t area = kiriOrient(a[0], a[1], a[2]);
     for (int i = 0; i < 3; ++i) {
         kiriLatticePoint p = a[i], q = a[(i + 1) % 3];
-        int64_t length = (q.x > p.x ? (int64_t)q.x - p.x : (int64_t)p.x - q.x) +
-                         (q.y > p.y ? (int64_t)q.y - p.y : (int64_t)p.y - q.y);
-        int64_t most = OVERLAP_TOLERANCE * length;
-        if (kiriOrient(p, q, b[0]) <= most && kiriOrient(p, q, b[1]) <= most && kiriOrient(p, q, b[2]) <= most) {
+        int64_t inner = kiriOrient(p, q, b[0]), outer = inner;
+        for (int k = 1; k < 3; ++k) {
+            int64_t above = kiriOrient(p, q, b[k]);
+            inner = above > inner ? above : inner;
+            outer = above < outer ? above : outer;
+        }
+        if (inner <= MostIntrusion(p, q, area, outer)) {
             return true;
         }
     }
