@@ -32,7 +32,7 @@ const browser = await chromium.launch({
 });
 
 const errors = [];
-async function open(where = "?still", options = { viewport: { width: 840, height: 580 } }) {
+async function open(where = "?still", options = { viewport: { width: 1000, height: 640 } }) {
     const context = await browser.newContext(options), tab = await context.newPage();
     tab.on("pageerror", (error) => errors.push(`${error.message} ${error.stack}`));
     tab.on("console", (message) => message.type() === "error" && errors.push(message.text()));
@@ -104,7 +104,7 @@ try {
     await tab.evaluate(() => globalThis.game.undo());
     assert.equal(await pieces(tab), 2, "undo takes the last cut back");
     const before = await tab.evaluate(() => globalThis.game.stage.turn.around);
-    await drag(tab, [[60, 500], [160, 500]]);
+    await drag(tab, [[60, 560], [160, 560]]);
     assert.notEqual(await tab.evaluate(() => globalThis.game.stage.turn.around), before, "a drag beside the sheet turns");
 
     // Sheets.

@@ -129,14 +129,14 @@ class Game {
     }
 
     showSnowflake() {
-        this.restart({ sheet: "paper", hangs: "tip", folded: true });
+        this.restart({ sheet: "paper", hangs: "tip", folded: true }, { def: { touchesSheets: 0 } });
         this.cut(snowflake(SIZE));
         this.panel.say("Folded paper: each cut is made twelve times");
     }
 
     showLantern() {
         this.restart({ sheet: "paper", hangs: "middle", folded: false },
-            { mesh: disc(SIZE), def: { frameCount: 100, maxFrames: 160, iterations: 4 } });
+            { mesh: disc(SIZE), def: { frameCount: 80, maxFrames: 100 } });
         this.cut(lantern(SIZE));
     }
 

@@ -88,7 +88,7 @@ export class Panel {
         const { gridResolution, substeps } = simulation.quality;
         document.getElementById("quality-says").textContent =
             `${frames} frames carry it, a grid of ${gridResolution}, ${substeps} substeps: error about ` +
-            `${["2", "0.8", "0.4"][simulation.options.quality]} %`;
+            `${["2", "0.8", "0.4"][simulation.options.quality]}\u00a0%`;
         this.slider.value = simulation.options.quality;
     }
 

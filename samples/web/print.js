@@ -136,16 +136,17 @@ export function makeCreases() {
         fill(c, "#808080");
         let s = 17;
         const next = () => (s = (Math.imul(s, 1664525) + 1013904223) >>> 0) / 4294967296;
-        for (let i = 0; i < 90; i++) {
-            const x = next() * SIDE, y = next() * SIDE, angle = next() * 7, wide = 30 + 110 * next();
+        for (let i = 0; i < 60; i++) {
+            const x = next() * SIDE, y = next() * SIDE, angle = next() * 7, wide = 90 + 260 * next();
             c.save();
             c.translate(x, y);
             c.rotate(angle);
             const slope = c.createLinearGradient(0, 0, wide, 0), light = next() > 0.5;
-            slope.addColorStop(0, light ? "#ffffff48" : "#00000048");
-            slope.addColorStop(1, "#80808000");
+            slope.addColorStop(0, light ? "#ffffff00" : "#00000000");
+            slope.addColorStop(0.2 + 0.6 * next(), light ? "#ffffff50" : "#00000050");
+            slope.addColorStop(1, light ? "#ffffff00" : "#00000000");
             c.fillStyle = slope;
-            c.fillRect(0, -400, wide, 800);
+            c.fillRect(0, -1500, wide, 3000);
             c.restore();
         }
     }, false);

@@ -9,6 +9,7 @@ export const LIFT = 0.13; // m, of the lower edge above the floor
 export const HIGH = 0.4; // m, of a sheet that lies flat
 export const TIP = 0.284; // m, where a snowflake hangs
 const COLUMNS = 64;
+const BREEZE = [0.22, 0, 0.3]; // m/s: flat light looks like no sheet
 const CRUMB = 2e-6; // m^2
 
 export class Simulation {
@@ -31,7 +32,7 @@ export class Simulation {
         this.sheet = mesh ? this.world.createSheet({ ...this.def(), ...mesh })
             : this.world.createRectangle(SIZE, SIZE, COLUMNS, COLUMNS, this.def());
         this.hold();
-        this.sheet.setWind({ velocity: [0, 0, 0], density: 1.2, drag: 1.2, lift: 0.02 });
+        this.sheet.setWind({ velocity: BREEZE, density: 1.2, drag: 1.2, lift: 0.02 });
     }
 
     def() {

@@ -17,7 +17,7 @@ export class Skin {
         const { front, back } = prints.get(look.print);
         const shine = { roughness: look.roughness, metalness: look.metalness };
         if (look.creased) {
-            Object.assign(shine, { bumpMap: creases ??= makeCreases(), bumpScale: 3 });
+            Object.assign(shine, { bumpMap: creases ??= makeCreases(), bumpScale: 2.2 });
         }
         this.materials = [
             new MeshStandardMaterial({ map: front, ...shine }),

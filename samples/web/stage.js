@@ -31,7 +31,7 @@ export class Stage {
     }
 
     addLight() {
-        const sun = new DirectionalLight(0xfff1de, 2.6);
+        const sun = new DirectionalLight(0xfff4e6, 2.5);
         sun.position.set(0.55, 1.1, 0.75);
         sun.target.position.set(0, 0.12, 0);
         sun.castShadow = true;
@@ -67,7 +67,7 @@ export class Stage {
     }
 
     addGround() {
-        const ground = new Mesh(new CircleGeometry(6, 48), new MeshStandardMaterial({ color: 0xcfc8bb, roughness: 1, envMapIntensity: 0.5 }));
+        const ground = new Mesh(new CircleGeometry(6, 48), new MeshStandardMaterial({ color: 0xbdb8b0, roughness: 1 }));
         ground.rotation.x = -Math.PI / 2;
         ground.receiveShadow = true;
         this.scene.add(ground);
