@@ -1,0 +1,3 @@
+module kiri
+
+go 1.24
