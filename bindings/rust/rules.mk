@@ -47,3 +47,20 @@ macroquad-test: $(BUILD)/libkiri.a
 	LIBGL_ALWAYS_SOFTWARE=1 timeout 120 xvfb-run -a -s '-screen 0 800x600x24' $(MACROQUAD_RUN) --script $(RUST_TARGET)/macroquad.png > $(RUST_TARGET)/macroquad.txt; \
 	grep -q '^2 sheets' $(RUST_TARGET)/macroquad.txt; $(PYTHON) samples/macroquad/check.py build/rust/macroquad.png; \
 	echo "macroquad: $$(cat $(RUST_TARGET)/macroquad.txt); the picture is $(RUST_TARGET)/macroquad.png"
+
+# ---- Packages: both crates, with the library's sources as single files; built and used where nothing else is ----
+
+RUST_STAGE := $(RUST_TARGET)/stage
+RUST_CLEAN := $(RUST_TARGET)/clean
+
+package-rust: single
+	@set -e; rm -rf $(RUST_STAGE) $(RUST_CLEAN); mkdir -p $(RUST_STAGE) $(RUST_CLEAN)/src; \
+	cp -r bindings/rust/Cargo.* bindings/rust/kiri-sys bindings/rust/kiri $(RUST_STAGE); cp LICENSE $(RUST_STAGE)/kiri; \
+	cp LICENSE $(RUST_STAGE)/kiri-sys; \
+	mkdir $(RUST_STAGE)/kiri-sys/library; cp build/single/kiri.h build/single/kiri.c build/single/kiri.cpp $(RUST_STAGE)/kiri-sys/library; \
+	cd $(RUST_STAGE); $(CARGO) package --workspace --no-verify --allow-dirty --quiet --target-dir $(RUST_TARGET); \
+	cd $(RUST_CLEAN); for crate in kiri-sys kiri; do tar xzf $(RUST_TARGET)/package/$$crate-$(VERSION).crate; done; \
+	printf '[package]\nname = "clean"\nversion = "0.0.0"\nedition = "2021"\n[workspace]\n[dependencies]\nkiri = { path = "kiri-%s" }\n[patch.crates-io]\nkiri-sys = { path = "kiri-sys-%s" }\n' $(VERSION) $(VERSION) > Cargo.toml; \
+	cp kiri-$(VERSION)/examples/first_cut.rs src/main.rs; \
+	env -u KIRI_LIBRARY_DIR EIGEN_DIR='$(EIGEN)' $(CARGO) run --quiet --target-dir $(RUST_CLEAN)/target | grep -qx '2 pieces'; \
+	echo "rust: $(RUST_TARGET)/package: kiri-sys-$(VERSION).crate ($$(wc -c < $(RUST_TARGET)/package/kiri-sys-$(VERSION).crate) bytes) and kiri-$(VERSION).crate, and a program of the two cuts"
