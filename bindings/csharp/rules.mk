@@ -30,3 +30,18 @@ csharp: $(BUILD)/libkiri.so $(BUILD)/tests/twin
 
 csharp-cost: $(BUILD)/libkiri.so $(CSHARP)/tests.exe
 	@$(CSHARP_RUN) $(CSHARP)/tests.exe . cost
+
+# The first program is built from the sources of the one package, and with the assembly of the other, and run with the
+# library that each brings.
+CSHARP_CLEAN := $(CSHARP)/clean
+
+package-csharp: $(BUILD)/libkiri.so $(CSHARP)/tests.exe
+	@set -e; $(PYTHON) bindings/csharp/pack.py $(VERSION) $(BUILD)/libkiri.so $(CSHARP)/Kiri.dll $(CSHARP); \
+	rm -rf $(CSHARP_CLEAN); mkdir -p $(CSHARP_CLEAN)/unity $(CSHARP_CLEAN)/nuget; \
+	tar xzf $(CSHARP)/com.kiri.kiri-$(VERSION).tgz -C $(CSHARP_CLEAN)/unity; \
+	$(PYTHON) -m zipfile -e $(CSHARP)/Kiri.$(VERSION).nupkg $(CSHARP_CLEAN)/nuget; cp bindings/csharp/Tests/FirstCut.cs $(CSHARP_CLEAN); \
+	cd $(CSHARP_CLEAN); $(MCS) -out:unity.exe FirstCut.cs unity/package/Runtime/*.cs; cp nuget/lib/net45/Kiri.dll .; $(MCS) -r:Kiri.dll -out:nuget.exe FirstCut.cs; \
+	LD_LIBRARY_PATH=unity/package/Plugins/x86_64 mono unity.exe | grep -qx '2 pieces'; \
+	LD_LIBRARY_PATH=nuget/runtimes/linux-x64/native mono nuget.exe | grep -qx '2 pieces'; \
+	for file in $$(find unity/package/*/ ! -name '*.meta'); do [ -e "$${file%/}.meta" ] || { echo "csharp: $$file has no .meta"; exit 1; }; done; \
+	echo "csharp: $(CSHARP)/com.kiri.kiri-$(VERSION).tgz and Kiri.$(VERSION).nupkg, and a program of the two cuts"
