@@ -273,7 +273,7 @@ MANUAL = $(PYTHON) samples/manual/manual.py $(BUILD)/manual \
     '$(CC) -std=c99 -Wall -Wextra -Werror $(FLAGS_$(config)) -Iinclude {source} $(BUILD)/libkiri.a -lstdc++ -lm -o {program}'
 MANUAL_PICTURES := $(patsubst %,$(BUILD)/samples/%.c.o,manual/picture draw edges image lines) $(BUILD)/libkiri.a
 
-.PHONY: manual manual-programs
+.PHONY: manual manual-programs manual-golden
 
 manual: packages-manual
 	@$(MAKE) --no-print-directory manual-programs $(MANUAL_PICTURES)
@@ -281,6 +281,10 @@ manual: packages-manual
 
 manual-programs: $(BUILD)/libkiri.a
 	@$(MANUAL)
+
+# After a change that moves what they print.
+manual-golden: $(BUILD)/libkiri.a
+	@$(MANUAL) --write
 
 # Each test program by itself, so that -j runs several at a time. What it printed is beside it, and shown when it fails.
 TEST_RUNS := $(patsubst $(BUILD)/tests/%,run-%,$(TESTS))

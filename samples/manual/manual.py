@@ -50,7 +50,8 @@ def main(folder, command, option=None, *renderer):
         if option == "--write":
             path.write_text(text[:chapter.start("prints")] + prints + text[chapter.end("prints"):])
         elif prints != chapter["prints"]:
-            sys.exit(f"{path.name}: its program prints\n{prints}and not\n{chapter['prints']}")
+            sys.exit(f"{path.name}: its program prints\n{prints}and not\n{chapter['prints']}"
+                     "`make manual-golden` puts it there")
     print(f"manual: {len(chapters)} chapters {'have their pictures' if option == '--pictures' else 'hold'}")
 
 
