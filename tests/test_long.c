@@ -1,5 +1,5 @@
-/* Long play: a blade that never rests, pieces that are detached or dropped as crumbs, sheets that come and go. Work and
-   memory must not grow with the time that a world has run. In `make test` a tenth of ten minutes; with an argument
+/* Long play: a blade that never rests, pieces that are detached or dropped as crumbs, cuts that are taken back; and sheets
+   that come and go, or one that stays. Work and memory must not grow with the time that a world has run. In `make test` a tenth of ten minutes; with an argument
    (`make long`) all of it. */
 #include "host.h"
 
@@ -34,17 +34,66 @@ static void CountingFree(void* user, void* pointer)
 typedef struct Period {
     int64_t items, worst, bytes; /* of all ticks, of one, and the most at a time */
     int32_t pieces, sheets;      /* that came off; that were made */
+    int32_t undone;              /* cuts that were taken back */
 } Period;
+
+/* Bytes of a save, or of a difference to one. */
+typedef struct Saved {
+    void* bytes;
+    int64_t size, capacity;
+} Saved;
+
+/* What falls, and goes after a while. */
+typedef struct Parts {
+    kiriSheet sheets[MOST_PARTS];
+    int32_t ends[MOST_PARTS], count;
+} Parts;
 
 typedef struct Play {
     kiriWorld* world;
-    kiriSheet sheet, parts[MOST_PARTS]; /* parts fall, and go after a while */
-    int32_t ends[MOST_PARTS], partCount, tick, left;
+    kiriSheet sheet;
+    Parts parts, partsBefore;
+    Saved base, before; /* of the sheet when it was new; the difference to that from before the cut at hand */
+    bool staysOne;      /* the sheet goes back to when it was new, and no other comes */
+    int32_t tick, left;
     kiriCut cut;
     float at[2], way[2];
     uint32_t seed;
     Period now;
 } Play;
+
+static void Saved_Reserve(Saved* saved, int64_t size)
+{
+    if (size > saved->capacity) {
+        saved->bytes = realloc(saved->bytes, (size_t)(2 * size));
+        assert_non_null(saved->bytes);
+        saved->capacity = 2 * size;
+    }
+}
+
+static void SaveBase(Play* play)
+{
+    OK(kiriWorld_Save(play->world, NULL, 0, &play->base.size));
+    Saved_Reserve(&play->base, play->base.size);
+    OK(kiriWorld_Save(play->world, play->base.bytes, play->base.capacity, &play->base.size));
+}
+
+static void SaveBefore(Play* play)
+{
+    Saved *base = &play->base, *before = &play->before;
+    OK(kiriWorld_SaveDifference(play->world, base->bytes, base->size, NULL, 0, &before->size));
+    Saved_Reserve(before, before->size);
+    OK(kiriWorld_SaveDifference(play->world, base->bytes, base->size, before->bytes, before->capacity, &before->size));
+    play->partsBefore = play->parts;
+}
+
+/* The world is again what it was before the last cut. */
+static void TakeBack(Play* play)
+{
+    OK(kiriWorld_LoadDifference(play->world, play->base.bytes, play->base.size, play->before.bytes, play->before.size));
+    play->parts = play->partsBefore;
+    play->now.undone += 1;
+}
 
 static void AddSheet(Play* play)
 {
@@ -68,14 +117,18 @@ static void AddSheet(Play* play)
     }
     play->left = 0;
     play->now.sheets += 1;
+    SaveBase(play);
 }
 
-/* A sheet of which too little is left goes, and another one comes. */
+/* A sheet of which too little is left goes, and another one comes; or it is new again. */
 static void RenewSheet(Play* play)
 {
     kiriTotals totals;
     OK(kiriSheet_GetTotals(play->world, play->sheet, &totals));
-    if (totals.area < 0.4) {
+    if (totals.area < 0.4 && play->staysOne) {
+        OK(kiriWorld_Load(play->world, play->base.bytes, play->base.size));
+        play->parts.count = play->left = 0;
+    } else if (totals.area < 0.4) {
         OK(kiriDestroySheet(play->world, play->sheet));
         AddSheet(play);
     }
@@ -88,6 +141,7 @@ static void MoveBlade(Play* play)
             play->at[i] = (float)RandomBetween(&play->seed, -0.1, 1.1);
             play->way[i] = (float)RandomBetween(&play->seed, -0.05, 0.05);
         }
+        SaveBefore(play);
         OK(kiriBeginCut(play->world, play->sheet, play->at, &play->cut));
         play->left = 20 + (int32_t)(Random(&play->seed) % 60);
     }
@@ -99,6 +153,9 @@ static void MoveBlade(Play* play)
     play->left -= 1;
     if (play->left == 0) {
         OK(kiriCut_End(play->world, play->cut));
+        if (Random(&play->seed) % 3 == 0) {
+            TakeBack(play);
+        }
     }
 }
 
@@ -111,27 +168,28 @@ static void PartPieces(Play* play)
     play->now.pieces += count;
     kiriCounts counts;
     OK(kiriSheet_GetCounts(play->world, play->sheet, &counts));
-    for (int32_t p = counts.pieces - 1; p > 0 && play->partCount < MOST_PARTS; --p) {
+    Parts* parts = &play->parts;
+    for (int32_t p = counts.pieces - 1; p > 0 && parts->count < MOST_PARTS; --p) {
         const kiriFrame* frames;
         kiriSheet made;
         OK(kiriSheet_GetPiece(play->world, play->sheet, p, &state));
         OK(kiriSheet_GetPieceFrames(play->world, play->sheet, p, &frames, &count));
         if (count > 0 && state.area < 0.3 && kiriFrame_DetachPiece(play->world, frames[0], &made) == KIRI_OK) {
-            play->ends[play->partCount] = play->tick + LIFE;
-            play->parts[play->partCount++] = made;
+            parts->ends[parts->count] = play->tick + LIFE;
+            parts->sheets[parts->count++] = made;
             play->now.pieces += 1;
         }
     }
     int32_t kept = 0;
-    for (int32_t k = 0; k < play->partCount; ++k) {
-        if (play->ends[k] <= play->tick) {
-            OK(kiriDestroySheet(play->world, play->parts[k]));
+    for (int32_t k = 0; k < parts->count; ++k) {
+        if (parts->ends[k] <= play->tick) {
+            OK(kiriDestroySheet(play->world, parts->sheets[k]));
         } else {
-            play->ends[kept] = play->ends[k];
-            play->parts[kept++] = play->parts[k];
+            parts->ends[kept] = parts->ends[k];
+            parts->sheets[kept++] = parts->sheets[k];
         }
     }
-    play->partCount = kept;
+    parts->count = kept;
 }
 
 static void Count(Play* play)
@@ -164,40 +222,58 @@ static Period RunPeriod(Play* play)
     return play->now;
 }
 
-static void TestLongPlay(void** state)
+static void PlayLong(bool staysOne)
 {
-    (void)state;
-    static Play play;
+    Play play;
     Period periods[PERIODS];
-    int32_t pieces = 0;
+    int32_t pieces = 0, undone = 0, sheets = 0;
     kiriWorldDef def;
     kiriDefaultWorldDef(&def);
     def.alloc = CountingAlloc;
     def.free = CountingFree;
+    memset(&play, 0, sizeof(play));
+    play.staysOne = staysOne;
     play.seed = 2463534242u;
     OK(kiriCreateWorld(&def, &play.world));
     AddSheet(&play);
     for (int k = 0; k < PERIODS; ++k) {
         periods[k] = RunPeriod(&play);
         pieces += periods[k].pieces;
-        print_message("period %d: %lld items a tick, %lld at worst, %lld KB, %d pieces, %d sheets\n", k,
-                      (long long)(periods[k].items / period), (long long)periods[k].worst,
-                      (long long)(periods[k].bytes / 1024), (int)periods[k].pieces, (int)periods[k].sheets);
+        undone += periods[k].undone;
+        sheets += periods[k].sheets;
+        print_message(
+            "period %d: %lld items a tick, %lld at worst, %lld KB, %d pieces, %d sheets, %d cuts taken back\n", k,
+            (long long)(periods[k].items / period), (long long)periods[k].worst, (long long)(periods[k].bytes / 1024),
+            (int)periods[k].pieces, (int)periods[k].sheets, (int)periods[k].undone);
     }
     const Period *second = &periods[1], *last = &periods[PERIODS - 1];
     print_message("the last period against the second: items %.2f, worst %.2f, memory %.2f\n",
                   (double)last->items / (double)second->items, (double)last->worst / (double)second->worst,
                   (double)last->bytes / (double)second->bytes);
-    assert_true(pieces > 2 * PERIODS);
+    assert_true(pieces > 2 * PERIODS && undone > PERIODS && (sheets == 0) == staysOne);
     assert_true(last->items < 2 * second->items && last->worst < 3 * second->worst && last->bytes < 2 * second->bytes);
     kiriDestroyWorld(play.world);
     assert_int_equal(bytesLive, 0);
+    free(play.base.bytes);
+    free(play.before.bytes);
+}
+
+static void TestSheetsThatGo(void** state)
+{
+    (void)state;
+    PlayLong(false);
+}
+
+static void TestSheetThatStays(void** state)
+{
+    (void)state;
+    PlayLong(true);
 }
 
 int main(int count, char** arguments)
 {
     (void)arguments;
-    const struct CMUnitTest tests[] = { cmocka_unit_test(TestLongPlay) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(TestSheetsThatGo), cmocka_unit_test(TestSheetThatStays) };
     period = count > 1 ? LONG_PERIOD : PERIOD;
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
