@@ -55,6 +55,28 @@ static void ArraysFail(void** state)
     assert_int_equal(purse.out, 0);
 }
 
+/* What is there stays, and all of the room beyond it is written. */
+static void ArraysGrowReady(void** state)
+{
+    (void)state;
+    Purse purse = { -1, 0 };
+    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
+    kiriIndices array = { NULL, 0, 0 };
+    for (int32_t i = 0; i < 100; ++i) {
+        assert_true(kiriArray_ReserveReady(&memory, &array, array.count + 1));
+        array.data[array.count++] = i + 1;
+        for (int32_t k = 0; k < array.capacity; ++k) {
+            assert_int_equal(array.data[k], k < array.count ? k + 1 : 0);
+        }
+    }
+    purse.budget = 0;
+    kiriIndices was = array;
+    assert_false(kiriArray_ReserveReady(&memory, &array, array.capacity + 1));
+    assert_true(array.data == was.data && array.count == was.count && array.capacity == was.capacity);
+    kiriArray_Release(&memory, &array);
+    assert_int_equal(purse.out, 0);
+}
+
 /* Some items a call, and in the end what was in the arrays is in them. */
 static void ArraysGrowInParts(void** state)
 {
@@ -736,6 +758,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ArraysGrow),
         cmocka_unit_test(ArraysFail),
+        cmocka_unit_test(ArraysGrowReady),
         cmocka_unit_test(ArraysGrowInParts),
         cmocka_unit_test(GrowingIsDropped),
         cmocka_unit_test(MemoryByDefault),

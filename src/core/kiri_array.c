@@ -48,6 +48,19 @@ bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBy
     return true;
 }
 
+bool kiriArray_GrowReady(kiriMemory* memory, void* array, int64_t need, size_t itemBytes)
+{
+    if (!kiriArray_Grow(memory, array, need, itemBytes)) {
+        return false;
+    }
+    kiriArrayHeader header = kiriArray_GetHeader(array);
+    if (header.capacity > header.count) {
+        memset((char*)header.data + (size_t)header.count * itemBytes, 0,
+               (size_t)(header.capacity - header.count) * itemBytes);
+    }
+    return true;
+}
+
 /* The new block of an array; false for memory. */
 static bool BeginGrowing(kiriGrowing* growing, const kiriRoom* room, kiriArrayHeader header)
 {

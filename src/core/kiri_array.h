@@ -30,6 +30,9 @@ typedef KIRI_ARRAY(int32_t) kiriIndices;
 /* Makes room for `need` items in all. `array` points to a KIRI_ARRAY whose items have itemBytes. */
 bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
 
+/* The same, and writes to all of the new room: so the system gives its pages now, and not when the room is used. */
+bool kiriArray_GrowReady(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
+
 /* Frees the items and leaves the array empty. */
 void kiriArray_Release(kiriMemory* memory, void* array);
 
@@ -69,6 +72,9 @@ void kiriGrowing_Drop(kiriGrowing* growing);
 
 #define kiriArray_Reserve(memory, array, need)                                                                         \
     ((int64_t)(need) <= (array)->capacity || kiriArray_Grow((memory), (array), (need), sizeof(*(array)->data)))
+
+#define kiriArray_ReserveReady(memory, array, need)                                                                    \
+    ((int64_t)(need) <= (array)->capacity || kiriArray_GrowReady((memory), (array), (need), sizeof(*(array)->data)))
 
 /* Room for `size` items, and the count set to it; new items are not initialised. */
 #define kiriArray_Resize(memory, array, size)                                                                          \

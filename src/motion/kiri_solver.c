@@ -68,7 +68,7 @@ kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics
 /* ---- Staging ---------------------------------------------------------------------------------------------------- */
 
 /* Only scratch, so that nothing is lost by growing. */
-static bool ReserveSolver(kiriSolver* solver, const kiriSystem* next)
+bool kiriSolver_Reserve(kiriSolver* solver, const kiriSystem* next)
 {
     kiriMemory* memory = solver->memory;
     int32_t frameCount = next->frameCount, elementCount = kiriElement_Count(next);
@@ -76,25 +76,27 @@ static bool ReserveSolver(kiriSolver* solver, const kiriSystem* next)
     bool hasTraces = kiriElement_CornerCount(next) > 0 && !kiriMechanics_IsAffine(&next->mechanics);
     int64_t traced = hasTraces ? kiriElement_LinkCount(next) : 0;
     int64_t unknowns = (int64_t)solver->size * frameCount, rows = (int64_t)KIRI_MOST_STRAINS * most;
-    return kiriArray_Reserve(memory, &solver->nextFramePiece, frameCount) &&
+    return kiriArray_ReserveReady(memory, &solver->nextFramePiece, frameCount) &&
            kiriAwake_Reserve(&solver->awake, memory, frameCount, elementCount) &&
-           kiriArray_Reserve(memory, &solver->pieces, frameCount) &&
-           kiriArray_Reserve(memory, &solver->momenta, frameCount) &&
-           kiriArray_Reserve(memory, &solver->before, frameCount) &&
-           kiriArray_Reserve(memory, &solver->after, frameCount) &&
-           kiriArray_Reserve(memory, &solver->predictions, frameCount) &&
-           kiriArray_Reserve(memory, &solver->start, frameCount) &&
-           kiriArray_Reserve(memory, &solver->poses, frameCount) &&
-           kiriArray_Reserve(memory, &solver->trial, frameCount) &&
-           kiriArray_Reserve(memory, &solver->stiffness, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
-           kiriArray_Reserve(memory, &solver->loss, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
-           kiriArray_Reserve(memory, &solver->startStrain, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
-           kiriArray_Reserve(memory, &solver->nowStrain, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
-           kiriArray_Reserve(memory, &solver->tracedRows, traced * KIRI_TRACED * 2 * solver->size) &&
-           kiriArray_Reserve(memory, &solver->stopping, elementCount) &&
-           kiriArray_Reserve(memory, &solver->force, unknowns) && kiriArray_Reserve(memory, &solver->move, unknowns) &&
-           kiriArray_Reserve(memory, &solver->members, most) && kiriArray_Reserve(memory, &solver->rows, rows) &&
-           kiriArray_Reserve(memory, &solver->J, rows * solver->size);
+           kiriArray_ReserveReady(memory, &solver->pieces, frameCount) &&
+           kiriArray_ReserveReady(memory, &solver->momenta, frameCount) &&
+           kiriArray_ReserveReady(memory, &solver->before, frameCount) &&
+           kiriArray_ReserveReady(memory, &solver->after, frameCount) &&
+           kiriArray_ReserveReady(memory, &solver->predictions, frameCount) &&
+           kiriArray_ReserveReady(memory, &solver->start, frameCount) &&
+           kiriArray_ReserveReady(memory, &solver->poses, frameCount) &&
+           kiriArray_ReserveReady(memory, &solver->trial, frameCount) &&
+           kiriArray_ReserveReady(memory, &solver->stiffness, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
+           kiriArray_ReserveReady(memory, &solver->loss, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
+           kiriArray_ReserveReady(memory, &solver->startStrain, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
+           kiriArray_ReserveReady(memory, &solver->nowStrain, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
+           kiriArray_ReserveReady(memory, &solver->tracedRows, traced * KIRI_TRACED * 2 * solver->size) &&
+           kiriArray_ReserveReady(memory, &solver->stopping, elementCount) &&
+           kiriArray_ReserveReady(memory, &solver->force, unknowns) &&
+           kiriArray_ReserveReady(memory, &solver->move, unknowns) &&
+           kiriArray_ReserveReady(memory, &solver->members, most) &&
+           kiriArray_ReserveReady(memory, &solver->rows, rows) &&
+           kiriArray_ReserveReady(memory, &solver->J, rows * solver->size);
 }
 
 /* Is the pair one of a corner that a link of it has already? */
@@ -163,7 +165,7 @@ bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t*
     KIRI_ASSERT(next->mechanics.model == solver->mechanics.model);
     solver->isStaged = false;
     solver->nextElementCount = kiriElement_Count(next);
-    if (!ReserveSolver(solver, next) || !CollectPairs(solver, next, framePiece)) {
+    if (!kiriSolver_Reserve(solver, next) || !CollectPairs(solver, next, framePiece)) {
         return false;
     }
     for (int32_t f = 0; f < frameCount; ++f) {

@@ -63,6 +63,9 @@ typedef struct kiriSystem {
 /* A solver for no frames yet. Null for memory. */
 kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics);
 
+/* Room for this system, before it is staged: of a large one the system takes a while to give it. False for memory. */
+bool kiriSolver_Reserve(kiriSolver* solver, const kiriSystem* next);
+
 /* Prepares for this system, of which only frameCount, links, corners, area elements and Poisson's ratio are read;
    replaces what was staged before. Steps go on with the current ones. framePiece[f] is the piece of frame f: no element
    joins frames of two pieces. The matrix gets a new pattern only where the current one does not cover the pairs of

@@ -38,7 +38,7 @@ static int32_t Larger(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
-bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount)
+static kiriSystem NextSystem(const kiriSheetData* sheet, int32_t frameCount)
 {
     const kiriUpdate* u = sheet->update;
     kiriSystem next;
@@ -51,7 +51,22 @@ bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount)
     next.corners = sheet->links.nextCorners.data;
     next.cornerCount = sheet->links.nextCorners.count;
     next.areaElements = &u->next.areaElements;
-    return kiriSolver_Stage(sheet->solver, &next, u->next.framePiece.data, u->next.pieces.count);
+    return next;
+}
+
+bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount)
+{
+    const kiriLayout* layout = &sheet->update->next;
+    kiriSystem next = NextSystem(sheet, frameCount);
+    return kiriSolver_Stage(sheet->solver, &next, layout->framePiece.data, layout->pieces.count);
+}
+
+/* In the ticks that pay for the commit, and not in its own. */
+static bool ReserveFrames(kiriSheetData* sheet)
+{
+    int32_t count = sheet->update->placing.sites.count;
+    kiriSystem next = NextSystem(sheet, count);
+    return kiriArray_ReserveReady(sheet->memory, &sheet->frames, count) && kiriSolver_Reserve(sheet->solver, &next);
 }
 
 /* ---- Steps ---- */
@@ -80,7 +95,7 @@ static kiriProgress PlaceNewFrames(kiriSheetData* sheet, kiriQuota* samples)
 {
     kiriUpdate* u = sheet->update;
     int32_t count = u->placing.sites.count - sheet->frames.count;
-    if (!kiriArray_Reserve(sheet->memory, &u->newFrames, count)) {
+    if (!kiriArray_Reserve(sheet->memory, &u->newFrames, count) || !ReserveFrames(sheet)) {
         return KIRI_FAILED;
     }
     while (kiriQuota_Pay(samples, &u->due)) {
