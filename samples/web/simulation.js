@@ -50,7 +50,7 @@ export class Simulation {
     }
 
     hold() {
-        const { hangs } = this.options, middle = SIZE / 2, arm = 0.008;
+        const { hangs } = this.options, middle = SIZE / 2, arm = hangs === "tip" ? 0.003 : 0.008;
         if (hangs === "middle") {
             this.sheet.clampLine([middle - arm, middle], [middle + arm, middle]);
             this.sheet.clampLine([middle, middle - arm], [middle, middle + arm]);
