@@ -267,6 +267,13 @@ function tests.what_hooks_raise_is_raised_by_the_call()
     full = false
     world:tick(1 / 60, 1)
     fails("disk is full", kiri.World, {record = function() error "disk is full" end})
+    local bytes = 0
+    for _ = 1, 300 do -- compiled, if it were not for the hooks
+        local short = kiri.World {record = function(some) bytes = bytes + #some end}
+        short:setGravity {0, 0, 0}
+        short:destroy()
+    end
+    assert(bytes > 300 * 8)
 end
 
 function tests.what_is_drawn()

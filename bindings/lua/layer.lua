@@ -520,6 +520,7 @@ local function create_world(_, def)
         free_cells[#free_cells + 1] = cell
         for _, callback in pairs(callbacks) do callback:free() end
     end
+    jit.off(world.free)
     world.c = ffi.gc(made[0], world.free)
     worlds[cell] = world
     raise()
