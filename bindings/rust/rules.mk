@@ -45,7 +45,7 @@ macroquad-test: $(BUILD)/libkiri.a
 	@if ! $(RUST_IS_THERE) || ! command -v xvfb-run > /dev/null; then echo "macroquad: no cargo or no Xvfb, not tested"; exit 0; fi; \
 	set -e; ($(MACROQUAD) build --quiet --locked); \
 	LIBGL_ALWAYS_SOFTWARE=1 timeout 120 xvfb-run -a -s '-screen 0 800x600x24' $(MACROQUAD_RUN) --script $(RUST_TARGET)/macroquad.png > $(RUST_TARGET)/macroquad.txt; \
-	grep -q '^2 sheets' $(RUST_TARGET)/macroquad.txt; $(PYTHON) samples/macroquad/check.py build/rust/macroquad.png; \
+	grep -q '^2 sheets' $(RUST_TARGET)/macroquad.txt; $(PYTHON) samples/check_paper.py build/rust/macroquad.png; \
 	echo "macroquad: $$(cat $(RUST_TARGET)/macroquad.txt); the picture is $(RUST_TARGET)/macroquad.png"
 
 # ---- Packages: both crates, with the library's sources as single files; built and used where nothing else is ----

@@ -1,4 +1,4 @@
-"""Holds a picture of the sample against what it should show: python3 check.py PICTURE.png."""
+"""Holds a picture of the paper of macroquad and Godot against what it should show: python3 check_paper.py PICTURE.png."""
 
 import struct
 import sys
@@ -34,11 +34,12 @@ def is_paper(pixel):
 
 def main(path):
     rows = pixels_of(path)
-    half = len(rows) // 2
+    at = lambda share: int(share * len(rows))
     ball = sum(pixel[2] > pixel[0] + 60 for row in rows for pixel in row)
-    above, below = (sum(map(is_paper, sum(part, []))) for part in (rows[:half], rows[half:]))
-    print(f"{path}: {ball} pixels of the ball, {above} of paper that hangs, {below} of what fell")
-    assert ball > 5000 and above > 20000 and below > 5000, "the ball, the sheet, and what came off it"
+    paper = lambda first, last: sum(map(is_paper, sum(rows[at(first):at(last)], [])))
+    hangs, between, fell = paper(0, 0.4), paper(0.42, 0.58), paper(0.6, 1)
+    print(f"{path}: {ball} pixels of the ball, {hangs} of paper that hangs, {between} under it, {fell} of what fell")
+    assert ball > 5000 and hangs > 20000 and between < 1000 and fell > 5000, "what came off lies on the ball"
 
 
 main(sys.argv[1])

@@ -1,0 +1,44 @@
+# A sheet as Godot draws it: both sides, with lines as on paper for school.
+extends MeshInstance
+
+var revision = 0
+var uvs
+var indices
+
+func _init():
+	mesh = ArrayMesh.new()
+	material_override = SpatialMaterial.new()
+	material_override.albedo_texture = paper()
+	material_override.params_cull_mode = SpatialMaterial.CULL_DISABLED
+
+# Positions and normals in each frame; corners and the place in the print where a cut has changed them.
+func update(world, sheet):
+	if world.get_revision(sheet) != revision:
+		revision = world.get_revision(sheet)
+		uvs = world.get_rest_positions(sheet)
+		indices = world.get_indices(sheet)
+	var arrays = []
+	arrays.resize(ArrayMesh.ARRAY_MAX)
+	arrays[ArrayMesh.ARRAY_VERTEX] = world.get_positions(sheet)
+	arrays[ArrayMesh.ARRAY_NORMAL] = world.get_normals(sheet)
+	arrays[ArrayMesh.ARRAY_TEX_UV] = uvs
+	arrays[ArrayMesh.ARRAY_INDEX] = indices
+	if mesh.get_surface_count() > 0:
+		mesh.surface_remove(0)
+	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays)
+
+static func paper():
+	var image = Image.new()
+	image.create(256, 256, false, Image.FORMAT_RGB8)
+	image.fill(Color(0.99, 0.98, 0.95))
+	image.lock()
+	for y in range(8, 256, 16):
+		for x in 256:
+			image.set_pixel(x, y, Color(0.55, 0.67, 0.84))
+	for y in 256:
+		image.set_pixel(34, y, Color(0.84, 0.31, 0.31))
+		image.set_pixel(35, y, Color(0.84, 0.31, 0.31))
+	image.unlock()
+	var texture = ImageTexture.new()
+	texture.create_from_image(image)
+	return texture
