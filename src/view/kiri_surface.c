@@ -204,7 +204,9 @@ bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemo
     if (!kiriArray_Resize(memory, &fresh, was.count)) {
         return false;
     }
-    memcpy(fresh.data, was.data, sizeof(int32_t) * (size_t)was.count);
+    if (was.count > 0) { /* else there may be no array */
+        memcpy(fresh.data, was.data, sizeof(int32_t) * (size_t)was.count);
+    }
     kiriArray_SetHeader(&surface->indices, kiriArray_GetHeader(&fresh));
     kiriMemory_Adopt(retired, was.data);
     return true;
