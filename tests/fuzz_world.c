@@ -437,9 +437,26 @@ static void CheckStillWorks(Host* host, int32_t ticks)
     FUZZ_CHECK(Host_Counts(host, sheet).pieces == 2, "a sheet is not cut");
 }
 
+/* What it became can be saved, and loaded by another world. */
+static void LoadInAnother(const Host* host)
+{
+    Host other;
+    int64_t size = 0;
+    OK(kiriWorld_Save(host->world, NULL, 0, &size));
+    uint8_t* bytes = malloc((size_t)size);
+    OK(kiriWorld_Save(host->world, bytes, size, &size));
+    Host_Start(&other);
+    kiriResult result = kiriWorld_Load(other.world, bytes, size);
+    FUZZ_CHECK(result == KIRI_OK, "a save is refused: %s", kiriWorld_GetLastError(other.world));
+    FUZZ_CHECK(Host_Hash(&other) == Host_Hash(host), "a save is loaded as another world");
+    Host_Stop(&other);
+    free(bytes);
+}
+
 void Fuzz_Stop(Fuzz* fuzz)
 {
     for (int32_t k = 0; k < fuzz->hostCount; ++k) {
+        LoadInAnother(&fuzz->hosts[k]);
         CheckStillWorks(&fuzz->hosts[k], fuzz->ticks);
         CheckWorld(fuzz, k);
         kiriDestroyWorld(fuzz->hosts[k].world);

@@ -520,7 +520,7 @@ static void TakeOldLinks(const kiriBorder* border, const kiriLinks* links)
         }
         bool isOfPair = old < links->links.count && !IsPairBefore(&made->link, &links->links.data[old]);
         KIRI_ASSERT(isOfPair || !made->isOld);
-        if (made->isOld) {
+        if (made->isOld && isOfPair) {
             made->link = links->links.data[old];
             made->ends = work->ends.data[old];
         }

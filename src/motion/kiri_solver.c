@@ -181,6 +181,43 @@ bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t*
     return solver->isStaged;
 }
 
+/* What steps write into. */
+static bool HasRoomForSteps(const kiriSolver* solver, const kiriSystem* system)
+{
+    int64_t frames = system->frameCount, elements = kiriElement_Count(system), most = kiriElement_MostMembers(system);
+    bool hasTraces = kiriElement_CornerCount(system) > 0 && !kiriMechanics_IsAffine(&system->mechanics);
+    int64_t traced = hasTraces ? kiriElement_LinkCount(system) : 0, strains = KIRI_MOST_STRAINS * elements;
+    const kiriAwake* awake = &solver->awake;
+    return awake->isAwake.capacity >= solver->pieceCount && awake->pieces.capacity >= frames &&
+           awake->frames.capacity >= frames && awake->elements.capacity >= elements &&
+           solver->pieces.capacity >= frames && solver->momenta.capacity >= frames &&
+           solver->before.capacity >= frames && solver->after.capacity >= frames &&
+           solver->predictions.capacity >= frames && solver->start.capacity >= frames &&
+           solver->poses.capacity >= frames && solver->trial.capacity >= frames &&
+           solver->stiffness.capacity >= strains && solver->loss.capacity >= strains &&
+           solver->startStrain.capacity >= strains && solver->nowStrain.capacity >= strains &&
+           solver->tracedRows.capacity >= traced * KIRI_TRACED * 2 * solver->size &&
+           solver->stopping.capacity >= elements && solver->force.capacity >= solver->size * frames &&
+           solver->move.capacity >= solver->size * frames && solver->members.capacity >= most &&
+           solver->rows.capacity >= KIRI_MOST_STRAINS * most &&
+           solver->J.capacity >= KIRI_MOST_STRAINS * most * solver->size;
+}
+
+bool kiriSolver_Fits(kiriSolver* solver, const kiriSystem* system, const int32_t* framePiece, int32_t pieceCount,
+                     bool* isShort)
+{
+    bool fits = solver->frameCount == system->frameCount && solver->pieceCount == pieceCount &&
+                solver->elementCount == kiriElement_Count(system);
+    for (int32_t f = 0; fits && f < system->frameCount; ++f) {
+        fits = solver->framePiece.data[f] == framePiece[f];
+    }
+    fits = fits && HasRoomForSteps(solver, system);
+    *isShort = fits && !CollectPairs(solver, system, framePiece);
+    fits = fits && !*isShort && IsCovered(solver, system->frameCount);
+    kiriArray_Release(solver->memory, &solver->pairs);
+    return fits;
+}
+
 void kiriSolver_Commit(kiriSolver* solver)
 {
     if (!solver->isStaged) {

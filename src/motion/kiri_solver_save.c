@@ -53,11 +53,12 @@ static const kiriMember SolverMembers[] = {
 };
 static const kiriTable SolverTable = KIRI_TABLE(kiriSolver, SolverMembers);
 
+/* Ascending: so there are no more than `count`. */
 static bool AreBelow(const kiriIndices* indices, int32_t count)
 {
     bool areBelow = true;
     for (int32_t k = 0; k < indices->count; ++k) {
-        areBelow &= indices->data[k] >= 0 && indices->data[k] < count;
+        areBelow &= indices->data[k] > (k > 0 ? indices->data[k - 1] : KIRI_NONE) && indices->data[k] < count;
     }
     return areBelow;
 }

@@ -3,6 +3,7 @@
 #include "../field/kiri_field_save.h"
 #include "../mesh/kiri_mesh_save.h"
 #include "../motion/kiri_motion_save.h"
+#include "../view/kiri_view_check.h"
 #include "../view/kiri_view_save.h"
 #include "kiri_probe.h"
 #include "kiri_room.h"
@@ -400,22 +401,15 @@ static bool AreWeightsSeen(const kiriSheetData* sheet)
            surface->vertexCount == sheet->seen.vertexCount && surface->vertexCount == sheet->vertexSkin.spans.count;
 }
 
-static void BlendSurface(kiriSheetData* sheet)
-{
-    kiriSurface* surface = &sheet->seen.surface;
-    kiriSurface_BlendRange(surface, &sheet->vertexSkin, 0, surface->vertexCount);
-    kiriSurface_AddFades(surface, &sheet->seen.fades);
-}
-
 static void MoveVertices(kiriArchive* archive, kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
-    float* places = kiriSurface_Places(surface);
-    if (kiriArchive_Count(archive, AreWeightsSeen(sheet), 0, 1) == 0) {
-        kiriArchive_Numbers(archive, places, 4, 3 * (int64_t)surface->vertexCount);
+    bool areSeen = AreWeightsSeen(sheet);
+    kiriArchive_Expect(archive, kiriSurface_HasRoom(surface));
+    kiriArchive_Expect(archive, kiriArchive_Count(archive, areSeen, 0, 1) == areSeen);
+    if (!areSeen && !kiriArchive_HasFailed(archive)) {
+        kiriArchive_Numbers(archive, kiriSurface_Places(surface), 4, 3 * (int64_t)surface->vertexCount);
         kiriArchive_Numbers(archive, surface->normals.data, 4, surface->normals.count);
-    } else if (kiriArchive_Reads(archive) && !kiriArchive_HasFailed(archive)) {
-        BlendSurface(sheet);
     }
 }
 
@@ -509,6 +503,10 @@ bool kiriSheet_EndReading(kiriSheetData* sheet)
     kiriSurface* surface = &sheet->seen.surface;
     bool hasNormals = surface->hasNormals, isKept = !AreWeightsSeen(sheet),
          hasBounds = sheet->seen.bounds->levelCount > 0;
+    if (!isKept) {
+        kiriSurface_BlendRange(surface, &sheet->vertexSkin, 0, surface->vertexCount);
+        kiriSurface_AddFades(surface, &sheet->seen.fades);
+    }
     surface->hasNormals = false;
     kiriSurface_WriteRange(surface, 0, surface->vertexCount);
     if (hasNormals && !isKept) {

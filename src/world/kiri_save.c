@@ -3,6 +3,7 @@
 #include "../core/kiri_hash.h"
 #include "../sheet/kiri_sheet_save.h"
 #include "kiri_blade.h"
+#include "kiri_world_check.h"
 
 #include <string.h>
 
@@ -442,6 +443,9 @@ static kiriResult ReadWorld(kiriWorld* made, const uint8_t* bytes, int64_t size,
     ArchiveWorld(&archive, made, base);
     kiriArchive_Expect(&archive, archive.at == archive.size);
     kiriArchive_Expect(&archive, kiriArchive_HasFailed(&archive) || ClaimIds(made));
+    bool isShort = false, isFine = kiriArchive_HasFailed(&archive) || kiriWorld_Check(made, &isShort);
+    archive.isShort |= isShort;
+    kiriArchive_Expect(&archive, isFine);
     for (int32_t i = 0; i < made->sheets.count && !kiriArchive_HasFailed(&archive); ++i) {
         archive.isShort |= !kiriSheet_EndReading(made->sheets.data[i]);
     }

@@ -1,0 +1,338 @@
+#include "kiri_mesh_check.h"
+
+#include <string.h>
+
+/* ---- Rules -------------------------------------------------------------------------------------------------------- */
+
+static const kiriMust NodeMust[] = {
+    KIRI_INDEX_OR_NONE(KIRI_OF_TRIANGLES, kiriSquareNode, triangle, triangle),
+};
+
+static const kiriMust TriangleMust[] = {
+    KIRI_INDEX_OR_NONE(KIRI_OF_VERTICES, kiriTriangle, vertex, vertex),
+    KIRI_INDEX_OR_NONE(KIRI_OF_HALF_EDGES, kiriTriangle, twin, twin),
+    KIRI_INDEX_OR_NONE(KIRI_OF_TRIANGLES, kiriTriangle, parent, parent),
+    KIRI_WITHIN(0, 7, kiriTriangle, open, open),
+};
+
+static const kiriMust VertexMust[] = {
+    KIRI_INDEX_OR_NONE(KIRI_OF_HALF_EDGES, kiriVertex, edge, edge),
+    KIRI_INDEX_OR_NONE(KIRI_OF_VERTICES, kiriVertex, next, next),
+    KIRI_FLOATS(kiriVertex, share, share),
+};
+
+static const kiriMust SourceCornerMust[] = {
+    KIRI_WITHIN(0, KIRI_LATTICE, kiriLatticePoint, x, y),
+};
+
+static const kiriMust MeshMust[] = {
+    KIRI_REALS(kiriMeshData, origin, step),
+    KIRI_ITEMS_MUST(kiriMeshData, triangles, TriangleMust),
+    KIRI_ITEMS_MUST(kiriMeshData, vertices, VertexMust),
+    KIRI_ITEMS_MUST(kiriMeshData, squares.nodes, NodeMust),
+    KIRI_ITEMS_MUST(kiriMeshData, sourceCorners, SourceCornerMust),
+    KIRI_COUNTS(kiriMeshData, squares.effort, squares.effort),
+};
+
+void kiriMesh_Count(const kiriMeshData* mesh, kiriCheck* check)
+{
+    check->count[KIRI_OF_TRIANGLES] = mesh->triangles.count;
+    check->count[KIRI_OF_HALF_EDGES] = 3 * (int64_t)mesh->triangles.count;
+    check->count[KIRI_OF_VERTICES] = mesh->vertices.count;
+    check->count[KIRI_OF_SQUARES] = (int64_t)mesh->squares.columns * mesh->squares.rows;
+    check->count[KIRI_OF_NODES] = mesh->squares.nodes.count;
+}
+
+/* ---- Lines and corners -------------------------------------------------------------------------------------------- */
+
+/* The far end of the last line is within what a lattice point may be. */
+static bool AreLines(const kiriSquares* squares, int32_t first, int32_t count)
+{
+    return first >= 0 && count > 0 && ((int64_t)first + count) * squares->side <= (int64_t)KIRI_LATTICE * 2;
+}
+
+static bool AreSquares(const kiriSquares* squares)
+{
+    return squares->side > 0 && squares->side % 2 == 0 && squares->perStep == 1.0 / squares->side &&
+           AreLines(squares, squares->firstColumn, squares->columns) &&
+           AreLines(squares, squares->firstRow, squares->rows) && squares->dirty.capacity >= 0 &&
+           squares->dirty.capacity >= (int64_t)squares->columns * squares->rows;
+}
+
+static bool AreSources(const kiriMeshData* mesh)
+{
+    bool areFine = mesh->sourceCorners.count % 3 == 0 &&
+                   (mesh->sources.count == 0 || 3 * (int64_t)mesh->sources.count == mesh->sourceCorners.count);
+    for (int32_t k = 0; areFine && k < mesh->sourceCorners.count; k += 3) {
+        const kiriLatticePoint* c = &mesh->sourceCorners.data[k];
+        areFine = kiriOrient(c[0], c[1], c[2]) > 0;
+    }
+    return areFine;
+}
+
+/* Between ticks nothing is amid a change. */
+static bool IsClosed(const kiriMeshData* mesh)
+{
+    return !mesh->isOpen && !mesh->squares.isOpen && mesh->savedTriangles.count == 0 &&
+           mesh->savedVertices.count == 0 && mesh->squares.undo.count == 0 && mesh->triangles.count > 0 &&
+           mesh->triangles.count <= KIRI_MOST_TRIANGLES && mesh->squares.nodes.count > 0;
+}
+
+/* ---- Triangles ---------------------------------------------------------------------------------------------------- */
+
+static bool IsHole(const kiriTriangle* triangle)
+{
+    bool isHole = triangle->open == 0;
+    for (int i = 0; i < 3; ++i) {
+        isHole = isHole && triangle->vertex[i] == KIRI_NONE && triangle->twin[i] == KIRI_NONE;
+    }
+    return isHole;
+}
+
+static bool IsAtSamePlace(kiriLatticePoint a, kiriLatticePoint b)
+{
+    return a.x == b.x && a.y == b.y;
+}
+
+static kiriLatticePoint TailAt(const kiriMeshData* mesh, int32_t h)
+{
+    return mesh->vertices.data[kiriMesh_Tail(mesh, h)].at;
+}
+
+/* A half-edge and its twin are of one another; where they are closed they have the same vertices. */
+static bool IsTwinSound(const kiriMeshData* mesh, int32_t h)
+{
+    int32_t twin = kiriMesh_Twin(mesh, h);
+    bool isOpen = kiriMesh_IsOpen(mesh, h);
+    if (twin == KIRI_NONE) {
+        return !isOpen;
+    }
+    return twin / 3 != h / 3 && kiriMesh_IsTriangle(mesh, twin / 3) && kiriMesh_Twin(mesh, twin) == h &&
+           kiriMesh_IsOpen(mesh, twin) == isOpen && IsAtSamePlace(TailAt(mesh, h), TailAt(mesh, kiriEdge_Next(twin))) &&
+           (isOpen || kiriMesh_Tail(mesh, h) == kiriMesh_Tail(mesh, kiriEdge_Next(twin)));
+}
+
+static bool IsSound(const kiriMeshData* mesh, int32_t t)
+{
+    const kiriTriangle* triangle = &mesh->triangles.data[t];
+    if (triangle->parent >= t) {
+        return false; /* it was split from an older one */
+    }
+    if (!kiriMesh_IsTriangle(mesh, t)) {
+        return IsHole(triangle);
+    }
+    if (triangle->vertex[1] == KIRI_NONE || triangle->vertex[2] == KIRI_NONE ||
+        kiriMesh_SourceCorners(mesh, triangle->source) == NULL) {
+        return false;
+    }
+    kiriLatticePoint c[3];
+    kiriMesh_Corners(mesh, t, c);
+    return kiriOrient(c[0], c[1], c[2]) > 0;
+}
+
+static bool AreTriangles(const kiriMeshData* mesh)
+{
+    bool areFine = true;
+    int32_t holes = 0;
+    for (int32_t t = 0; areFine && t < mesh->triangles.count; ++t) {
+        areFine = IsSound(mesh, t);
+        holes += !kiriMesh_IsTriangle(mesh, t);
+    }
+    for (int32_t h = 0; areFine && h < 3 * mesh->triangles.count; ++h) {
+        areFine = !kiriMesh_IsTriangle(mesh, h / 3) || IsTwinSound(mesh, h);
+    }
+    return areFine && holes == mesh->triangleHoles && holes < mesh->triangles.count;
+}
+
+/* ---- Vertices ----------------------------------------------------------------------------------------------------- */
+
+/* How many corners the fan of a vertex has. It ends, for each corner is followed by one, and follows one. */
+static int32_t CountFan(const kiriMeshData* mesh, int32_t vertex)
+{
+    int32_t start = mesh->vertices.data[vertex].edge, count = 1, h;
+    for (h = kiriMesh_CounterClockwise(mesh, start); h != KIRI_NONE && h != start;
+         h = kiriMesh_CounterClockwise(mesh, h)) {
+        ++count;
+    }
+    if (h == start) {
+        return count;
+    }
+    for (h = kiriMesh_Clockwise(mesh, start); h != KIRI_NONE; h = kiriMesh_Clockwise(mesh, h)) {
+        ++count;
+    }
+    return count;
+}
+
+static bool IsPlaced(const kiriMeshData* mesh, const kiriVertex* vertex)
+{
+    return vertex->at.x >= 0 && vertex->at.y >= 0 && vertex->at.x <= 2 * (int64_t)KIRI_LATTICE &&
+           vertex->at.y <= 2 * (int64_t)KIRI_LATTICE && ((vertex->at.x | vertex->at.y) & 1) == 0 &&
+           kiriSquares_At(&mesh->squares, vertex->at) != KIRI_NONE;
+}
+
+/* Before triangles, which ask where vertices are. */
+static bool ArePlaces(const kiriMeshData* mesh)
+{
+    bool areFine = true;
+    int32_t holes = 0;
+    for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
+        const kiriVertex* vertex = &mesh->vertices.data[v];
+        areFine = IsPlaced(mesh, vertex) &&
+                  (!kiriMesh_IsVertex(mesh, v) || kiriMesh_SourceCorners(mesh, vertex->source) != NULL);
+        holes += !kiriMesh_IsVertex(mesh, v);
+    }
+    return areFine && holes == mesh->vertexHoles;
+}
+
+/* Each corner is in the fan of its vertex. */
+static bool AreFans(const kiriMeshData* mesh)
+{
+    int64_t corners = 3 * ((int64_t)mesh->triangles.count - mesh->triangleHoles);
+    bool areFine = true;
+    for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
+        int32_t edge = mesh->vertices.data[v].edge;
+        areFine = edge == KIRI_NONE || (kiriMesh_IsTriangle(mesh, edge / 3) && kiriMesh_Tail(mesh, edge) == v);
+        corners -= areFine && edge != KIRI_NONE ? CountFan(mesh, v) : 0;
+    }
+    return areFine && corners == 0;
+}
+
+/* ---- Squares ------------------------------------------------------------------------------------------------------ */
+
+/* In how many squares the triangle lies. */
+static int64_t CountOverlaps(const kiriSquares* squares, const kiriLatticePoint c[3])
+{
+    int32_t at[3], columns[3], low, high, from, to;
+    int64_t count = 0;
+    for (int i = 0; i < 3; ++i) {
+        at[i] = kiriSquares_At(squares, c[i]);
+        columns[i] = at[i] % squares->columns;
+    }
+    if (at[0] == at[1] && at[1] == at[2]) {
+        return 1;
+    }
+    low = high = at[0] / squares->columns;
+    from = to = columns[0];
+    for (int i = 1; i < 3; ++i) {
+        int32_t row = at[i] / squares->columns;
+        low = row < low ? row : low;
+        high = row > high ? row : high;
+        from = columns[i] < from ? columns[i] : from;
+        to = columns[i] > to ? columns[i] : to;
+    }
+    for (int32_t row = low; row <= high; ++row) {
+        for (int32_t column = from; column <= to; ++column) {
+            count += kiriSquares_Overlap(squares, row * squares->columns + column, c);
+        }
+    }
+    return count;
+}
+
+/* A square lists triangles that lie in it, each once. `last`: of each triangle, the square that listed it last. */
+static bool ListsSquare(const kiriMeshData* mesh, int32_t square, int32_t* last)
+{
+    const kiriSquares* squares = &mesh->squares;
+    bool isFine = true;
+    for (int32_t n = squares->head[square]; isFine && n != KIRI_NONE; n = squares->nodes.data[n].next) {
+        int32_t t = squares->nodes.data[n].triangle;
+        isFine = t != KIRI_NONE && kiriMesh_IsTriangle(mesh, t) && last[t] != square + 1;
+        if (isFine) {
+            kiriLatticePoint c[3];
+            kiriMesh_Corners(mesh, t, c);
+            isFine = kiriSquares_Overlap(squares, square, c);
+            last[t] = square + 1;
+        }
+    }
+    return isFine;
+}
+
+/* And none is left out. */
+static bool AreAllListed(const kiriMeshData* mesh, int64_t listed)
+{
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        if (kiriMesh_IsTriangle(mesh, t)) {
+            kiriLatticePoint c[3];
+            kiriMesh_Corners(mesh, t, c);
+            listed -= CountOverlaps(&mesh->squares, c);
+        }
+    }
+    return listed == 0;
+}
+
+/* Lists of nodes, one a square, and one of those that are free. */
+static bool AreNodeLists(kiriCheck* check, const kiriMeshData* mesh, int32_t* listed)
+{
+    const kiriSquares* squares = &mesh->squares;
+    kiriChains chains;
+    bool areFine =
+        kiriCheck_StartChains(check, &chains, &squares->nodes.data->next, sizeof(kiriSquareNode), squares->nodes.count);
+    for (int64_t s = 0; areFine && s < check->count[KIRI_OF_SQUARES]; ++s) {
+        areFine = kiriCheck_Chain(check, &chains, squares->head[s]);
+    }
+    *listed = chains.listed;
+    areFine = areFine && kiriCheck_Chain(check, &chains, squares->freeNode) &&
+              kiriCheck_That(check, chains.listed == squares->nodes.count);
+    kiriMemory_Free(&check->memory, chains.seen);
+    return areFine;
+}
+
+static bool AreSquareLists(kiriCheck* check, const kiriMeshData* mesh)
+{
+    int32_t listed = 0;
+    if (!AreNodeLists(check, mesh, &listed)) {
+        return false;
+    }
+    int32_t* last = (int32_t*)(void*)kiriCheck_Bytes(check, (int64_t)sizeof(int32_t) * check->count[KIRI_OF_TRIANGLES]);
+    bool areFine = last != NULL;
+    for (int32_t s = 0; areFine && s < check->count[KIRI_OF_SQUARES]; ++s) {
+        areFine = kiriCheck_That(check, ListsSquare(mesh, s, last));
+    }
+    kiriMemory_Free(&check->memory, last);
+    return areFine && kiriCheck_That(check, AreAllListed(mesh, listed));
+}
+
+/* Each vertex is in the list of its square, later ones first. */
+static bool AreVertexLists(kiriCheck* check, const kiriMeshData* mesh)
+{
+    const kiriSquares* squares = &mesh->squares;
+    int64_t listed = 0;
+    bool areFine = true;
+    for (int32_t s = 0; areFine && s < check->count[KIRI_OF_SQUARES]; ++s) {
+        int32_t last = mesh->vertices.count;
+        for (int32_t v = squares->vertexHead[s]; areFine && v != KIRI_NONE; v = mesh->vertices.data[v].next) {
+            areFine = v >= 0 && v < last && kiriMesh_IsVertex(mesh, v) &&
+                      kiriSquares_At(squares, mesh->vertices.data[v].at) == s;
+            last = v;
+            ++listed;
+        }
+    }
+    return kiriCheck_That(check, areFine && listed == mesh->vertices.count - mesh->vertexHoles);
+}
+
+/* Dirty squares are marked, each once. */
+static bool AreDirty(kiriCheck* check, const kiriMeshData* mesh)
+{
+    const kiriSquares* squares = &mesh->squares;
+    kiriIndices dirty = { squares->dirty.data, squares->dirty.count, squares->dirty.capacity };
+    int64_t marked = 0;
+    if (!kiriCheck_Distinct(check, &dirty, check->count[KIRI_OF_SQUARES])) {
+        return false;
+    }
+    for (int64_t s = 0; s < check->count[KIRI_OF_SQUARES]; ++s) {
+        marked += squares->isDirty[s] != 0;
+    }
+    bool areFine = marked == dirty.count;
+    for (int32_t k = 0; k < dirty.count; ++k) {
+        areFine = areFine && squares->isDirty[dirty.data[k]];
+    }
+    return kiriCheck_That(check, areFine);
+}
+
+/* In an order in which each trusts what those before have seen. */
+bool kiriMesh_Check(const kiriMeshData* mesh, kiriCheck* check)
+{
+    return kiriCheck_That(check, AreSquares(&mesh->squares) && IsClosed(mesh)) &&
+           kiriCheck_Object(check, MeshMust, mesh) && kiriCheck_That(check, mesh->step > 0.0) &&
+           kiriCheck_That(check, AreSources(mesh) && ArePlaces(mesh) && AreTriangles(mesh) && AreFans(mesh)) &&
+           AreSquareLists(check, mesh) && AreVertexLists(check, mesh) && AreDirty(check, mesh);
+}

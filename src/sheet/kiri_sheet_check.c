@@ -1,0 +1,441 @@
+#include "kiri_sheet_check.h"
+
+#include "../field/kiri_link_check.h"
+#include "../mesh/kiri_mesh_check.h"
+#include "../motion/kiri_motion_check.h"
+#include "../view/kiri_view_check.h"
+#include "kiri_blocks.h"
+#include "kiri_piece.h"
+#include "kiri_pin.h"
+#include "kiri_seen.h"
+#include "kiri_update.h"
+
+/* ---- Layout ------------------------------------------------------------------------------------------------------- */
+
+static const kiriMust IsPieceIndex[] = { KIRI_INDEX(KIRI_OF_PIECES, kiriSpan, first, first) };
+static const kiriMust IsFrameIndex[] = { KIRI_INDEX(KIRI_OF_REGIONS, kiriSpan, first, first) };
+
+static const kiriMust PieceMust[] = {
+    KIRI_REALS(kiriPiece, area, area),
+    KIRI_INDEX(KIRI_OF_REGIONS, kiriPiece, frame, frame),
+    KIRI_REALS(kiriPiece, rest.calm, rest.calm),
+};
+
+static const kiriMust LineShareMust[] = {
+    KIRI_INDEX(KIRI_OF_REGIONS, kiriLineShare, frame, frame),
+    KIRI_REALS(kiriLineShare, length, ends),
+};
+
+static const kiriMust PinShareMust[] = {
+    KIRI_INDEX(KIRI_OF_PINS, kiriPinShare, pin, pin),
+    KIRI_PART_MUST(kiriPinShare, share, kiriLineShare, LineShareMust),
+    KIRI_REALS(kiriPinShare, offset, bore),
+};
+
+static const kiriMust SeveredMust[] = {
+    KIRI_INDEX(KIRI_OF_PINS, kiriSeveredLink, pin, pin),
+    KIRI_INDEX(KIRI_OF_LINKS, kiriSeveredLink, link, link),
+    KIRI_REALS(kiriSeveredLink, part, part),
+};
+
+static const kiriMust PiecesMust[] = {
+    KIRI_ITEMS_MUST(kiriLayout, pieces, PieceMust),
+    KIRI_ITEMS_MUST(kiriLayout, framePiece, IsPieceIndex),
+    KIRI_LENGTH(KIRI_OF_REGIONS, kiriLayout, framePiece),
+};
+
+static const kiriMust LayoutMust[] = {
+    KIRI_ITEMS_MUST(kiriLayout, pinFrame, IsFrameIndex),
+    KIRI_LENGTH(KIRI_OF_PINS, kiriLayout, pinFrame),
+    KIRI_ITEMS_MUST(kiriLayout, severed, SeveredMust),
+    KIRI_ITEMS_MUST(kiriLayout, pinShares, PinShareMust),
+};
+
+/* Pieces are numbered by their lowest frame. */
+static bool ArePieces(kiriCheck* check, const kiriLayout* layout, int64_t frames)
+{
+    check->count[KIRI_OF_REGIONS] = frames;
+    check->count[KIRI_OF_PIECES] = layout->pieces.count;
+    bool areFine = kiriCheck_Object(check, PiecesMust, layout);
+    int32_t pieces = 0;
+    for (int32_t f = 0; areFine && f < frames; ++f) {
+        int32_t piece = layout->framePiece.data[f];
+        areFine = kiriCheck_That(check, piece <= pieces && (piece < pieces || layout->pieces.data[piece].frame == f));
+        pieces += piece == pieces;
+    }
+    return areFine && kiriCheck_That(check, pieces == layout->pieces.count);
+}
+
+static bool AreLinksOfPieces(const kiriLayout* layout, const kiriLink* links, int32_t count)
+{
+    bool areFine = true;
+    for (int32_t k = 0; areFine && k < count; ++k) {
+        areFine = layout->framePiece.data[links[k].i] == layout->framePiece.data[links[k].j];
+    }
+    return areFine;
+}
+
+static bool AreShares(const kiriPinShares* shares, const kiriSheetData* sheet)
+{
+    bool areFine = true;
+    for (int32_t k = 0; areFine && k < shares->count; ++k) {
+        int32_t pin = shares->data[k].pin;
+        areFine = sheet->pins.data[pin].type != KIRI_PIN_POINT && (k == 0 || shares->data[k - 1].pin <= pin) &&
+                  shares->data[k].share.length > 0.0 && shares->data[k].share.load > 0.0;
+    }
+    return areFine;
+}
+
+static const kiriMust OffsetsMust[] = {
+    KIRI_REALS(kiriStrainOffset, strain, strain),
+};
+
+static const kiriMust RowsMust[] = {
+    KIRI_ITEMS_MUST(kiriSheetData, linkParts, kiriMustBeReal),
+    KIRI_ITEMS_MUST(kiriSheetData, strainOffsets.strainOffsets, OffsetsMust),
+};
+
+/* In force. */
+static bool IsLayout(kiriCheck* check, const kiriSheetData* sheet)
+{
+    const kiriLayout* layout = &sheet->layout;
+    int32_t links = sheet->links.links.count, offsets = sheet->strainOffsets.strainOffsets.count;
+    check->count[KIRI_OF_PINS] = sheet->pins.count;
+    check->count[KIRI_OF_LINKS] = links;
+    return ArePieces(check, layout, sheet->frames.count) && kiriCheck_Object(check, LayoutMust, layout) &&
+           kiriAreaElements_Check(&layout->areaElements, check) && kiriCheck_Object(check, RowsMust, sheet) &&
+           kiriCheck_That(check, AreLinksOfPieces(layout, sheet->links.links.data, links) &&
+                                     AreShares(&layout->pinShares, sheet) &&
+                                     (offsets == 0 || (offsets == links && kiriSheet_KeepsStrains(sheet))) &&
+                                     sheet->linkParts.count == (layout->severed.count > 0 ? links : 0));
+}
+
+/* Frames of an area element are of one piece. */
+static bool AreElementsOfPieces(const kiriLayout* layout)
+{
+    const kiriAreaElements* areas = &layout->areaElements;
+    bool areFine = true;
+    for (int32_t k = 0; areFine && k < areas->elements.count; ++k) {
+        const kiriFrameShare* shares = &areas->shares.data[areas->elements.data[k].first];
+        for (int32_t n = 1; areFine && n < areas->elements.data[k].count; ++n) {
+            areFine = shares[n - 1].frame < shares[n].frame &&
+                      layout->framePiece.data[shares[n].frame] == layout->framePiece.data[shares[0].frame];
+        }
+    }
+    return areFine;
+}
+
+/* Weights of a sample are of frames of one piece. */
+static bool AreSamplesOfPieces(const kiriLayout* layout, const kiriSkin* skin)
+{
+    bool areFine = true;
+    for (int32_t i = 0; areFine && i < skin->spans.count; ++i) {
+        kiriSpan span = skin->spans.data[i];
+        for (int32_t k = span.first + 1; areFine && k < span.first + span.count; ++k) {
+            areFine = layout->framePiece.data[skin->weights.data[k].frame] ==
+                          layout->framePiece.data[skin->weights.data[k - 1].frame] &&
+                      skin->weights.data[k - 1].frame < skin->weights.data[k].frame;
+        }
+    }
+    return areFine;
+}
+
+/* And so are the corners of triangles that are joined. */
+static bool AreTrianglesOfPieces(const kiriSheetData* sheet)
+{
+    const kiriMeshData* mesh = &sheet->mesh;
+    bool areFine = true;
+    for (int32_t t = 0; areFine && t < mesh->triangles.count; ++t) {
+        const int32_t* corners = mesh->triangles.data[t].vertex;
+        areFine = !kiriMesh_IsTriangle(mesh, t) ||
+                  (kiriPiece_OfVertex(sheet, corners[0]) == kiriPiece_OfVertex(sheet, corners[1]) &&
+                   kiriPiece_OfVertex(sheet, corners[0]) == kiriPiece_OfVertex(sheet, corners[2]));
+    }
+    return areFine;
+}
+
+/* ---- Pins, points and contacts ------------------------------------------------------------------------------------ */
+
+static const kiriMust PinMust[] = {
+    KIRI_WITHIN(KIRI_PIN_POINT, KIRI_PIN_CLAMP, kiriPinData, type, type),
+    KIRI_REALS(kiriPinData, target, breakForce),
+    KIRI_REALS(kiriPinData, anchor.local, anchor.softness),
+    KIRI_REALS(kiriPinData, off, off),
+    KIRI_REALS(kiriPinData, stiffness, bore),
+};
+
+static const kiriMust GivenMust[] = {
+    KIRI_FLOATS(kiriGivenContact, contact.restPoint, contact.pushSpeed),
+    KIRI_REALS(kiriGivenContact, share, share),
+};
+
+static const kiriMust TouchMust[] = {
+    KIRI_REALS(kiriTouch, share, pushSpeed),
+    KIRI_REALS(kiriTouch, felt, cushion),
+    KIRI_REALS(kiriTouch, force, force),
+};
+
+static const kiriMust TouchForceMust[] = {
+    KIRI_REALS(kiriTouchForce, force, force),
+};
+
+static const kiriMust TouchMemoryMust[] = {
+    KIRI_ITEMS_MUST(kiriTouchMemory, touches, TouchMust),
+    KIRI_ITEMS_MUST(kiriTouchMemory, forces, TouchForceMust),
+};
+
+/* In what may be cut of the rest plane. */
+static bool IsOnLattice(kiriLatticePoint at)
+{
+    enum { MOST = KIRI_LATTICE + KIRI_LATTICE / 2 + 2 };
+    return at.x >= -MOST && at.x <= MOST && at.y >= -MOST && at.y <= MOST;
+}
+
+static bool IsInSquare(const kiriSheetData* sheet, kiriLatticePoint at)
+{
+    int32_t square = IsOnLattice(at) && at.x >= 0 && at.y >= 0 ? kiriSquares_At(&sheet->mesh.squares, at) : KIRI_NONE;
+    return square != KIRI_NONE && sheet->mesh.squares.head[square] != KIRI_NONE;
+}
+
+static bool ArePins(kiriCheck* check, const kiriSheetData* sheet)
+{
+    bool areFine = true;
+    for (int32_t i = 0; areFine && i < sheet->pins.count; ++i) {
+        const kiriPinData* pin = &sheet->pins.data[i];
+        bool isPoint = pin->type == KIRI_PIN_POINT;
+        areFine = kiriCheck_Object(check, PinMust, pin) &&
+                  kiriCheck_That(check, IsOnLattice(pin->at) && IsOnLattice(pin->to) &&
+                                            isPoint == (pin->at.x == pin->to.x && pin->at.y == pin->to.y) &&
+                                            isPoint == (pin->stiffness > 0.0));
+    }
+    return areFine;
+}
+
+/* A place is a collision point, or a blend of vertices: those that are not there come last. */
+static bool IsPlace(const kiriSheetData* sheet, int32_t point, const int32_t vertex[3])
+{
+    bool isFine = point >= KIRI_NONE && point < sheet->points.count && (point != KIRI_NONE || vertex[0] != KIRI_NONE);
+    for (int k = 0; isFine && k < 3 && point == KIRI_NONE; ++k) {
+        isFine = vertex[k] == KIRI_NONE ||
+                 (vertex[k] >= 0 && vertex[k] < sheet->mesh.vertices.count &&
+                  kiriMesh_IsVertex(&sheet->mesh, vertex[k]) && (k == 0 || vertex[k - 1] != KIRI_NONE));
+    }
+    return isFine;
+}
+
+static bool IsTouchMemory(kiriCheck* check, const kiriSheetData* sheet, const kiriTouchMemory* memory)
+{
+    bool isFine = kiriCheck_Object(check, TouchMemoryMust, memory) &&
+                  kiriCheck_That(check, memory->given >= 0 && memory->given <= memory->touches.count);
+    for (int32_t k = 0; isFine && k < memory->touches.count; ++k) {
+        const kiriTouch* touch = &memory->touches.data[k];
+        isFine = kiriCheck_That(check, IsPlace(sheet, touch->point, touch->vertex));
+    }
+    return isFine;
+}
+
+static bool AreContacts(kiriCheck* check, const kiriSheetData* sheet)
+{
+    const kiriTouches* touches = &sheet->touches;
+    bool areFine = kiriCheck_That(check, touches->nextTold.capacity >= sheet->contacts.count &&
+                                             touches->found.capacity >= sheet->contacts.count);
+    for (int32_t k = 0; areFine && k < sheet->contacts.count; ++k) {
+        const kiriGivenContact* given = &sheet->contacts.data[k];
+        areFine = kiriCheck_Object(check, GivenMust, given) &&
+                  kiriCheck_That(check, IsPlace(sheet, given->contact.point, given->vertex));
+        for (int n = 0; areFine && n < 3 && given->contact.point == KIRI_NONE; ++n) {
+            areFine = kiriCheck_That(check, given->vertex[n] != KIRI_NONE);
+        }
+    }
+    return areFine && IsTouchMemory(check, sheet, &touches->last) && IsTouchMemory(check, sheet, &touches->slept);
+}
+
+static bool ArePoints(kiriCheck* check, const kiriSheetData* sheet)
+{
+    bool areFine = kiriCheck_That(check, sheet->seen.pointCount >= 0 && sheet->seen.pointCount <= sheet->points.count &&
+                                             sheet->seen.exactPoints.count == sheet->points.count &&
+                                             sheet->seen.pointPositions.count == 3 * (int64_t)sheet->points.count);
+    for (int32_t i = 0; areFine && i < sheet->points.count; ++i) {
+        const kiriSample* point = &sheet->points.data[i];
+        areFine = kiriCheck_That(check, IsInSquare(sheet, point->at) && point->frame >= 0 &&
+                                            point->frame < sheet->frames.count && point->cell >= 0);
+    }
+    return areFine && kiriPlaces_Check(&sheet->pointPlaces, check, sheet->points.count);
+}
+
+/* ---- Cuts --------------------------------------------------------------------------------------------------------- */
+
+static const kiriMust TipMust[] = {
+    KIRI_REALS(kiriTip, last, last),
+    KIRI_INDEX_OR_NONE(KIRI_OF_VERTICES, kiriTip, blade.vertex, blade.vertex),
+    KIRI_COUNTS(kiriTip, blade.owed, blade.owed),
+};
+
+static bool IsTip(kiriCheck* check, const kiriSheetData* sheet, const kiriTip* tip)
+{
+    const kiriBladeTip* blade = &tip->blade;
+    bool isFine = kiriCheck_Object(check, TipMust, tip) &&
+                  kiriCheck_That(check, IsOnLattice(blade->at) && IsOnLattice(blade->from));
+    if (isFine && blade->vertex != KIRI_NONE) {
+        kiriLatticePoint at = sheet->mesh.vertices.data[blade->vertex].at;
+        isFine = kiriMesh_IsVertex(&sheet->mesh, blade->vertex) && at.x == blade->at.x && at.y == blade->at.y;
+    }
+    return kiriCheck_That(check, isFine);
+}
+
+/* As many points of each cut wait as it says. */
+static bool AreCuts(kiriCheck* check, const kiriSheetData* sheet)
+{
+    bool areFine = true;
+    for (int32_t c = 0; areFine && c < sheet->cuts.count; ++c) {
+        const kiriCutData* cut = sheet->cuts.data[c];
+        areFine = IsTip(check, sheet, &cut->tip) && IsTip(check, sheet, &cut->committed) && cut->waiting >= 0;
+    }
+    int64_t waiting = 0;
+    for (int32_t c = 0; areFine && c < sheet->cuts.count; ++c) {
+        int32_t found = 0;
+        for (int32_t k = 0; k < sheet->queue.count; ++k) {
+            found += sheet->queue.data[k].cut == sheet->cuts.data[c];
+        }
+        areFine = found == sheet->cuts.data[c]->waiting;
+        waiting += found;
+    }
+    return kiriCheck_That(check, areFine && waiting == sheet->queue.count);
+}
+
+static const kiriMust PointMust[] = {
+    KIRI_REALS(kiriQueuedPoint, to, to),
+    KIRI_COUNTS(kiriQueuedPoint, stamp, stamp),
+};
+
+static bool IsQueue(kiriCheck* check, const kiriSheetData* sheet)
+{
+    bool isFine = true;
+    for (int32_t k = 0; isFine && k < sheet->queue.count; ++k) {
+        isFine = kiriCheck_Object(check, PointMust, &sheet->queue.data[k]);
+    }
+    return isFine;
+}
+
+/* ---- What is seen ------------------------------------------------------------------------------------------------- */
+
+/* There may be more than the vertices of today need. */
+static bool AreBlocks(const kiriBlocks* blocks, const kiriSheetData* sheet)
+{
+    int32_t count = blocks->movers.count;
+    bool areFine = count > sheet->mesh.vertices.count / KIRI_BLOCK && blocks->touched.count == count &&
+                   blocks->stale.count == count && blocks->frames.count == count &&
+                   blocks->moved.count >= sheet->frames.count;
+    for (int32_t k = 0; areFine && k < count; ++k) {
+        areFine = blocks->movers.data[k] >= KIRI_UNKNOWN && blocks->movers.data[k] < sheet->frames.count;
+    }
+    return areFine;
+}
+
+static bool IsSeen(kiriCheck* check, const kiriSheetData* sheet)
+{
+    const kiriSeen* seen = &sheet->seen;
+    return kiriSurface_Check(&seen->surface, &sheet->mesh, check) &&
+           kiriFades_Check(&seen->fades, check, sheet->mesh.vertices.count) &&
+           kiriFades_Check(&seen->pointFades, check, sheet->points.count) &&
+           kiriCheck_That(check, AreBlocks(&seen->blocks, sheet) && seen->vertexCount >= 0);
+}
+
+/* ---- All of it ---------------------------------------------------------------------------------------------------- */
+
+static const kiriMust SettingsMust[] = {
+    KIRI_REALS(kiriSettings, snap, frameLength),
+    KIRI_WITHIN(1, INT32_MAX, kiriSettings, maxFrames, maxFrames),
+    KIRI_WITHIN(1, 64, kiriSettings, iterations, iterations),
+    KIRI_WITHIN(KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH, kiriSettings, skinning, skinning),
+    KIRI_REALS(kiriSettings, fadeTime, contactThickness),
+    KIRI_REALS(kiriSettings, air, air),
+    KIRI_REALS(kiriSettings, collisionPoints, integrationPoints),
+    KIRI_WITHIN(1, 2, kiriSettings, integrationOrder, integrationOrder),
+};
+
+static bool AreSettings(kiriCheck* check, const kiriSettings* settings)
+{
+    return kiriMechanics_Check(&settings->mechanics, check) && kiriCheck_Object(check, SettingsMust, settings) &&
+           kiriCheck_That(check, settings->snap >= 0.0 && settings->contactThickness > 0.0 &&
+                                     settings->frameLength >= 0.0 && settings->collisionPoints >= 0.0 &&
+                                     settings->collisionPoints <= 1 << 20 && settings->integrationPoints >= 0.0 &&
+                                     settings->integrationPoints <= 1 << 20);
+}
+
+static bool AreFramesSound(kiriCheck* check, const kiriSheetData* sheet)
+{
+    bool areFine =
+        kiriCheck_That(check, sheet->frames.count > 0 && sheet->regions.dirty.capacity >= sheet->frames.count);
+    for (int32_t f = 0; areFine && f < sheet->frames.count; ++f) {
+        areFine = kiriFrame_Check(&sheet->frames.data[f], check, &sheet->mesh);
+    }
+    return areFine;
+}
+
+/* Rows of pins, of clamps and of what they react with have room, and the solver is one of this sheet. */
+static bool HasRoomForRows(kiriCheck* check, const kiriSheetData* sheet)
+{
+    int64_t pins = sheet->pins.count + 2 * (int64_t)sheet->layout.pinShares.count,
+            shares = sheet->layout.pinShares.count;
+    bool hasRoom = sheet->pinRows.capacity >= pins && sheet->clampRows.capacity >= shares &&
+                   sheet->pinReactions.capacity >= pins && sheet->clampReactions.capacity >= shares &&
+                   sheet->frameReactions.capacity >= sheet->frames.count;
+    kiriSystem system = { .mechanics = sheet->settings.mechanics,
+                          .frames = sheet->frames.data,
+                          .frameCount = sheet->frames.count,
+                          .links = sheet->links.links.data,
+                          .linkCount = sheet->links.links.count,
+                          .corners = sheet->links.corners.data,
+                          .cornerCount = sheet->links.corners.count,
+                          .areaElements = &sheet->layout.areaElements,
+                          .material = sheet->settings.material };
+    bool isShort = false;
+    hasRoom = hasRoom && kiriSolver_Fits(sheet->solver, &system, sheet->layout.framePiece.data,
+                                         sheet->layout.pieces.count, &isShort);
+    check->isShort |= isShort;
+    return kiriCheck_That(check, hasRoom || isShort);
+}
+
+bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check)
+{
+    kiriMesh_Count(&sheet->mesh, check);
+    check->count[KIRI_OF_FRAMES] = sheet->frames.count;
+    check->count[KIRI_OF_SITES] = sheet->update->placing.sites.count;
+    return kiriMesh_Check(&sheet->mesh, check) && AreSettings(check, &sheet->settings) &&
+           AreFramesSound(check, sheet) &&
+           kiriCheck_That(check, sheet->update->placing.sites.count >= sheet->frames.count) &&
+           kiriLinks_Check(&sheet->links, check) && IsLayout(check, sheet) && ArePins(check, sheet) &&
+           kiriSkin_Check(&sheet->vertexSkin, check, sheet->mesh.vertices.count, &sheet->mesh) &&
+           kiriSkin_Check(&sheet->pointSkin, check, sheet->points.count, NULL) &&
+           kiriCheck_That(
+               check, AreElementsOfPieces(&sheet->layout) && AreSamplesOfPieces(&sheet->layout, &sheet->vertexSkin) &&
+                          AreSamplesOfPieces(&sheet->layout, &sheet->pointSkin) && AreTrianglesOfPieces(sheet)) &&
+           ArePoints(check, sheet) && AreCuts(check, sheet) && IsQueue(check, sheet) && IsSeen(check, sheet) &&
+           AreContacts(check, sheet) && HasRoomForRows(check, sheet);
+}
+
+/* ---- Obstacles ---------------------------------------------------------------------------------------------------- */
+
+static const kiriMust ObstacleMust[] = {
+    KIRI_WITHIN(KIRI_OBSTACLE_PLANE, KIRI_OBSTACLE_PRISM, kiriObstacleData, shape.type, shape.type),
+    KIRI_REALS(kiriObstacleData, shape.radius, shape.rounding),
+    KIRI_REALS(kiriObstacleData, shape.flat, shape.flat),
+    KIRI_REALS(kiriObstacleData, position, center),
+    KIRI_REALS(kiriObstacleData, pushSpeed, pushSpeed),
+    KIRI_REALS(kiriObstacleData, impulse, impulse),
+    KIRI_WITHIN(0, INT32_MAX, kiriObstacleData, contacts, contacts),
+    KIRI_REALS(kiriObstacleData, drift, upper),
+};
+
+bool kiriObstacle_Check(const kiriObstacleData* obstacle, kiriCheck* check)
+{
+    const kiriObstacleShape* shape = &obstacle->shape;
+    bool isPrism = shape->type == KIRI_OBSTACLE_PRISM, isFine = true;
+    for (int32_t k = 0; k < 2 * shape->count; ++k) {
+        isFine = isFine && fabs(shape->outline[k].x) <= 2e6 && fabs(shape->outline[k].y) <= 2e6;
+    }
+    return kiriCheck_Object(check, ObstacleMust, obstacle) &&
+           kiriCheck_That(check, isFine && (isPrism ? shape->count >= 3 : shape->count == 0) && obstacle->mass >= 0.0 &&
+                                     shape->type != KIRI_OBSTACLE_BOX);
+}

@@ -1,0 +1,20 @@
+/* Is a sheet that was read one with which ticks and calls may go on? */
+#ifndef KIRI_SHEET_CHECK_H
+#define KIRI_SHEET_CHECK_H
+
+#include "../core/kiri_check.h"
+#include "kiri_obstacle.h"
+#include "kiri_sheet.h"
+
+KIRI_C_BEGIN
+
+/* What is in force: mesh, frames, links, layout, weights, pins, points, cuts, contacts, what is seen, and the room that
+   ticks use without asking for it. What the world knows is left to it: ids, and settings that the host gave. Not looked at
+   are grid, regions, shape functions and the work on a cut. */
+bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check);
+
+bool kiriObstacle_Check(const kiriObstacleData* obstacle, kiriCheck* check);
+
+KIRI_C_END
+
+#endif

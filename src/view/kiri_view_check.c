@@ -1,0 +1,173 @@
+#include "kiri_view_check.h"
+
+/* ---- Rules -------------------------------------------------------------------------------------------------------- */
+
+static const kiriMust IsSampleOrNone[] = { KIRI_INDEX_OR_NONE(KIRI_OF_SAMPLES, kiriSpan, first, first) };
+
+static const kiriMust SampleWeightMust[] = {
+    KIRI_INDEX(KIRI_OF_REGIONS, kiriSampleWeight, frame, frame),
+    KIRI_FLOATS(kiriSampleWeight, value, value),
+};
+
+static const kiriMust PlacesMust[] = {
+    KIRI_ITEMS_MUST(kiriPlaces, head, IsSampleOrNone),
+    KIRI_ITEMS_MUST(kiriPlaces, next, IsSampleOrNone),
+    KIRI_LENGTH(KIRI_OF_SAMPLES, kiriPlaces, next),
+};
+
+static const kiriMust FadingMust[] = {
+    KIRI_INDEX(KIRI_OF_SAMPLES, kiriFading, sample, sample),
+    KIRI_REALS(kiriFading, left, offset),
+};
+
+static const kiriMust FadesMust[] = {
+    KIRI_REALS(kiriFades, time, least),
+    KIRI_ITEMS_MUST(kiriFades, fading, FadingMust),
+    KIRI_REALS(kiriFades, jump, move),
+};
+
+static const kiriMust IsVertexIndex[] = { KIRI_INDEX(KIRI_OF_VERTICES, kiriSpan, first, first) };
+
+static const kiriMust SurfaceMust[] = {
+    KIRI_WITHIN(KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH, kiriSurface, skinning, skinning),
+    KIRI_REALS(kiriSurface, origin, longer),
+    KIRI_REALS(kiriSurface, middle, middle),
+    KIRI_COUNTS(kiriSurface, pose, pose),
+    KIRI_ITEMS_MUST(kiriSurface, corners, IsVertexIndex),
+    KIRI_ITEMS_MUST(kiriSurface, rest, kiriMustBeVector),
+    KIRI_ITEMS_MUST(kiriSurface, patches.floats, kiriMustBeFloat),
+    KIRI_WITHIN(0, KIRI_CHANGES, kiriSurface, changeCount, changeCount),
+    KIRI_WITHIN(0, KIRI_CHANGES - 1, kiriSurface, lastChange, lastChange),
+};
+
+/* ---- Weights ------------------------------------------------------------------------------------------------------ */
+
+static bool AreWeightsIn(kiriCheck* check, kiriRooms* rooms, const kiriSkin* skin, kiriSpan span)
+{
+    bool areFine = kiriCheck_Span(check, rooms, span);
+    for (int32_t k = span.first; areFine && k < span.first + span.count; ++k) {
+        areFine = kiriCheck_Object(check, SampleWeightMust, &skin->weights.data[k]);
+    }
+    return areFine;
+}
+
+/* Each sample is staged at most once; those that are new, in their order. */
+static bool AreStaged(kiriCheck* check, const kiriSkin* skin, kiriRooms* rooms)
+{
+    int32_t next = skin->spans.count;
+    uint8_t* seen = kiriCheck_Bytes(check, skin->spans.count);
+    bool areFine = seen != NULL;
+    for (int32_t k = 0; areFine && k < skin->staged.count; ++k) {
+        kiriReweighed staged = skin->staged.data[k];
+        areFine =
+            staged.sample == next || (staged.sample >= 0 && staged.sample < skin->spans.count && !seen[staged.sample]);
+        next += staged.sample == next;
+        areFine = areFine && staged.span.count > 0 && AreWeightsIn(check, rooms, skin, staged.span);
+        if (areFine && staged.sample < skin->spans.count) {
+            seen[staged.sample] = 1;
+        }
+    }
+    kiriMemory_Free(&check->memory, seen);
+    return kiriCheck_That(check, areFine) && skin->spans.capacity >= next;
+}
+
+static bool AreSettling(kiriCheck* check, const kiriSkin* skin, kiriRooms* rooms)
+{
+    bool areFine = kiriCheck_That(check, skin->staged.count == 0 || skin->settling.count == 0);
+    for (int32_t k = 0; areFine && k < skin->settling.count; ++k) {
+        kiriReweighed settling = skin->settling.data[k];
+        areFine = kiriCheck_That(check, settling.sample >= 0 && settling.sample < skin->spans.count) &&
+                  kiriCheck_Span(check, rooms, settling.span);
+    }
+    return areFine;
+}
+
+bool kiriSkin_Check(const kiriSkin* skin, kiriCheck* check, int32_t samples, const kiriMeshData* holes)
+{
+    kiriRooms rooms;
+    check->count[KIRI_OF_REGIONS] = check->count[KIRI_OF_FRAMES];
+    bool areFine = kiriCheck_That(check, skin->spans.count == samples) &&
+                   kiriCheck_StartRooms(check, &rooms, &skin->weights, sizeof(kiriSampleWeight), &skin->room);
+    for (int32_t i = 0; areFine && i < samples; ++i) {
+        bool isHole = holes != NULL && !kiriMesh_IsVertex(holes, i);
+        areFine = kiriCheck_That(check, isHole == (skin->spans.data[i].count == 0)) &&
+                  AreWeightsIn(check, &rooms, skin, skin->spans.data[i]);
+    }
+    check->count[KIRI_OF_REGIONS] = check->count[KIRI_OF_SITES];
+    areFine = areFine && kiriCheck_That(check, AreStaged(check, skin, &rooms)) && AreSettling(check, skin, &rooms);
+    kiriMemory_Free(&check->memory, areFine ? rooms.taken : NULL);
+    return areFine;
+}
+
+bool kiriPlaces_Check(const kiriPlaces* places, kiriCheck* check, int32_t samples)
+{
+    check->count[KIRI_OF_SAMPLES] = samples;
+    kiriChains chains;
+    bool areFine = kiriCheck_That(check, places->head.count <= check->count[KIRI_OF_SQUARES] &&
+                                             (samples == 0 || places->head.count == check->count[KIRI_OF_SQUARES])) &&
+                   kiriCheck_Object(check, PlacesMust, places) &&
+                   kiriCheck_StartChains(check, &chains, places->next.data, sizeof(int32_t), samples);
+    for (int32_t s = 0; areFine && s < places->head.count; ++s) {
+        areFine = kiriCheck_Chain(check, &chains, places->head.data[s]);
+    }
+    return areFine;
+}
+
+/* By sample, each once. */
+bool kiriFades_Check(const kiriFades* fades, kiriCheck* check, int32_t samples)
+{
+    check->count[KIRI_OF_SAMPLES] = samples;
+    bool areFine = kiriCheck_Object(check, FadesMust, fades);
+    for (int32_t k = 1; areFine && k < fades->fading.count; ++k) {
+        areFine = kiriCheck_That(check, fades->fading.data[k - 1].sample < fades->fading.data[k].sample);
+    }
+    for (int32_t k = 0; areFine && k < fades->fading.count; ++k) {
+        areFine = kiriCheck_That(check, fades->fading.data[k].left > 0.0);
+    }
+    return areFine;
+}
+
+/* ---- The surface -------------------------------------------------------------------------------------------------- */
+
+bool kiriSurface_HasRoom(const kiriSurface* surface)
+{
+    int64_t vertices = surface->vertexCount;
+    return vertices >= 0 && surface->positions.count == 3 * vertices && surface->places.count == 3 * vertices &&
+           surface->normals.count == 3 * vertices && surface->slopes.count == 4 * vertices &&
+           surface->rest.count == vertices && surface->positions.capacity >= 3 * vertices + 1 &&
+           surface->places.capacity >= 3 * vertices + 1;
+}
+
+/* All rows are as long as the mesh is large, and there is a patch for each frame that is seen. */
+static bool AreRowsOfSurface(const kiriSurface* surface, const kiriMeshData* mesh, int64_t frames)
+{
+    int64_t vertices = mesh->vertices.count, triangles = mesh->triangles.count;
+    int64_t floats = surface->patches.isBent ? KIRI_BENT_FLOATS : KIRI_FLAT_FLOATS;
+    return surface->vertexCount == vertices && surface->triangleCount == triangles && kiriSurface_HasRoom(surface) &&
+           surface->restPositions.count == 2 * vertices && surface->sourceWeights.count == 3 * vertices &&
+           surface->sourceTriangles.count == vertices && surface->indices.count == 3 * triangles &&
+           surface->corners.count == 3 * (triangles + triangles % 2) && surface->carriers.count >= frames &&
+           surface->bends.count >= frames && surface->patches.count >= 0 && surface->patches.count <= frames &&
+           surface->patches.floats.capacity >= KIRI_BENT_FLOATS * frames &&
+           surface->patches.floats.capacity >= floats * surface->patches.count &&
+           surface->patches.isOther.capacity >= frames;
+}
+
+/* Corners are those of the mesh, or all one where the triangle is not seen. */
+static bool AreCornersOfSurface(const kiriSurface* surface, const kiriMeshData* mesh)
+{
+    bool areFine = true;
+    for (int32_t t = 0; areFine && t < mesh->triangles.count; ++t) {
+        const int32_t *is = &surface->indices.data[3 * (size_t)t], *should = mesh->triangles.data[t].vertex;
+        bool isHidden = is[0] == is[1] && is[0] == is[2] && is[0] >= 0 && is[0] < mesh->vertices.count;
+        areFine = isHidden ||
+                  (kiriMesh_IsTriangle(mesh, t) && is[0] == should[0] && is[1] == should[1] && is[2] == should[2]);
+    }
+    return areFine;
+}
+
+bool kiriSurface_Check(const kiriSurface* surface, const kiriMeshData* mesh, kiriCheck* check)
+{
+    return kiriCheck_That(check, AreRowsOfSurface(surface, mesh, check->count[KIRI_OF_FRAMES])) &&
+           kiriCheck_Object(check, SurfaceMust, surface) && kiriCheck_That(check, AreCornersOfSurface(surface, mesh));
+}
