@@ -140,6 +140,9 @@ try {
     });
 
     // A link plays to the same hash.
+    await drag(tab, [await seen(tab, 0.05, 0.2), await seen(tab, 0.25, 0.25)], 10);
+    await pass(tab, 5);
+    await tab.evaluate(() => globalThis.game.undo());
     await drag(tab, [await seen(tab, 0.05, 0.1), await seen(tab, 0.25, 0.15)], 10);
     await pass(tab, 10);
     const recording = await tab.evaluate(() => [...globalThis.game.tape.bytes()]);

@@ -97,7 +97,7 @@ class Game {
     }
 
     beforeAct() {
-        this.undos.push(this.simulation.world.save());
+        this.undos.push({ save: this.simulation.world.save(), recorded: this.tape.length });
         if (this.undos.length > UNDOS) {
             this.undos.shift();
         }
@@ -112,7 +112,9 @@ class Game {
 
     undo() {
         if (this.undos.length && !this.hand.tool && !this.isReplaying) {
-            this.simulation.world.load(this.undos.pop());
+            const { save, recorded } = this.undos.pop();
+            this.simulation.world.load(save);
+            this.tape.rewind(recorded);
             this.skin.revision = -1;
             this.simulation.look();
         }

@@ -21,8 +21,18 @@ export async function unpack(text) {
 /** Keeps what a world records. */
 export class Tape {
     parts = [];
+    length = 0;
 
-    take = (bytes) => this.parts.push(bytes);
+    take = (bytes) => {
+        this.parts.push(bytes);
+        this.length += bytes.length;
+    };
+
+    /** Forgets what came after so many bytes: the world is as it was then. */
+    rewind(length) {
+        this.parts = [this.bytes().slice(0, length)];
+        this.length = length;
+    }
 
     bytes() {
         const all = new Uint8Array(this.parts.reduce((sum, part) => sum + part.length, 0));
