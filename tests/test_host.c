@@ -684,6 +684,87 @@ static void TestSeenIsHeld(void** state)
     }
 }
 
+enum { STRIP_FRAMES = 64, STRIP_EDGES = 3 };
+
+typedef struct HungStrip {
+    kiriFrameState frames[STRIP_FRAMES];
+    int32_t count;
+    double drop, off; /* of the free edge; of the clamped one, at most */
+} HungStrip;
+
+/* A strip of paper that hangs from a clamp along its edge u = 0, u = 0.2 or v = 0. */
+static void HangStrip(int32_t skinning, int32_t frameCount, int32_t resolution, int edge, HungStrip* strip)
+{
+    static const float froms[STRIP_EDGES][2] = { { 0.0f, 0.0f }, { 0.2f, 0.0f }, { 0.0f, 0.0f } };
+    static const float tos[STRIP_EDGES][2] = { { 0.0f, 0.05f }, { 0.2f, 0.05f }, { 0.2f, 0.0f } };
+    static const float tips[STRIP_EDGES][2] = { { 0.2f, 0.025f }, { 0.0f, 0.025f }, { 0.1f, 0.05f } };
+    const float *from = froms[edge], *to = tos[edge];
+    Host host;
+    kiriSheetDef def;
+    kiriPin clamp;
+    kiriFrame frames[STRIP_FRAMES];
+    Host_Start(&host);
+    host.every = 600;
+    kiriDefaultSheetDef(&def);
+    OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
+    def.frameCount = frameCount;
+    def.gridResolution = resolution;
+    def.skinning = skinning;
+    def.sleepSpeed = 0.0f;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 0.2f, 0.05f, 40, 10);
+    OK(kiriSheet_ClampLine(host.world, sheet, from, to, &clamp));
+    for (int i = 0; i < 600; ++i) {
+        OK(Host_Tick(&host, DT, 2));
+    }
+    OK(kiriSheet_GetFrames(host.world, sheet, frames, STRIP_FRAMES, &strip->count));
+    for (int32_t i = 0; i < strip->count; ++i) {
+        OK(kiriFrame_GetState(host.world, frames[i], &strip->frames[i]));
+    }
+    strip->drop = -PointAt(&host, sheet, tips[edge][0], tips[edge][1]).position[2];
+    strip->off = 0.0;
+    for (int k = 0; k <= 20; ++k) {
+        float t = (float)k / 20.0f;
+        const float at[3] = { from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), 0.0f };
+        strip->off = fmax(strip->off, Apart(PointAt(&host, sheet, at[0], at[1]).position, at));
+    }
+    Host_Stop(&host);
+}
+
+/* The most that the shapes differ by: how far any frame is from where the first one, moved by what it is off, has it. */
+static double ShapesApart(const HungStrip* a, const HungStrip* b)
+{
+    double most = 0.0;
+    assert_int_equal(a->count, b->count);
+    for (int32_t i = 0; i < a->count; ++i) {
+        double square = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            double first = (double)a->frames[0].position[k] - b->frames[0].position[k];
+            square += pow((double)a->frames[i].position[k] - b->frames[i].position[k] - first, 2.0);
+        }
+        most = fmax(most, sqrt(square));
+    }
+    return most;
+}
+
+/* What is seen of a clamped sheet moves its clamp as a whole: so it has the shape that it has with flat patches, and hangs
+   as far down, to 1 % of the strip; with 9 frames, whose surface is farther off at the edge, to 1.5 %. */
+static void TestSmoothClampKeepsShape(void** state)
+{
+    (void)state;
+    static const int32_t layouts[][2] = { { 0, 32 }, { 9, 32 }, { 14, 48 } };
+    for (int i = 0; i < 3 * STRIP_EDGES; ++i) {
+        const int32_t* layout = layouts[i / STRIP_EDGES];
+        HungStrip flat, smooth;
+        HangStrip(KIRI_SKINNING_LINEAR, layout[0], layout[1], i % STRIP_EDGES, &flat);
+        HangStrip(KIRI_SKINNING_SMOOTH, layout[0], layout[1], i % STRIP_EDGES, &smooth);
+        double apart = ShapesApart(&flat, &smooth);
+        print_message("%d frames, edge %d: %.2f mm down, smooth %.2f, shapes %.3f mm apart, %.2f mm off the clamp\n",
+                      flat.count, i % STRIP_EDGES, 1e3 * flat.drop, 1e3 * smooth.drop, 1e3 * apart, 1e3 * smooth.off);
+        assert_true(apart < 3e-4 && smooth.off < 5e-4);
+        assert_true(fabs(smooth.drop - flat.drop) < (layout[0] == 9 ? 2.5e-3 : 1.6e-3));
+    }
+}
+
 static kiriObstacle AddBall(Host* host, float x, float y, float z, float mass)
 {
     kiriObstacleDef def;
@@ -1131,6 +1212,7 @@ int main(void)
         cmocka_unit_test(TestDrawnPinDoesNotJerk),
         cmocka_unit_test(TestHeldFrameMovesEvenly),
         cmocka_unit_test(TestSeenIsHeld),
+        cmocka_unit_test(TestSmoothClampKeepsShape),
         cmocka_unit_test(TestPinGoesWithObstacle),
         cmocka_unit_test(TestBodyAtPinKeepsMomentum),
         cmocka_unit_test(TestTransformMovesAll),

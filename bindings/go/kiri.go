@@ -2318,7 +2318,7 @@ func (self Sheet) HingeLine(from [2]float32, to [2]float32) (Pin, error) {
 
 // Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until the
 // next call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is
-// seen there.
+// seen there; of a clamp the mean along its line, for each piece: single points of the line are seen a little off it.
 func (self Pin) SetTarget(target [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err

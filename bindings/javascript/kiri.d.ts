@@ -1539,7 +1539,8 @@ export class Pin {
     getUserData(): bigint;
     /** Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until the
      *  next call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is
-     *  seen there. */
+     *  seen there; of a clamp the mean along its line, for each piece: single points of the line are seen a little off
+     *  it. */
     setTarget(target: ArrayLike<number>): ResultCode;
     /** The same with the rotation of the line's material: columns are the directions of u and v and the normal. On a
      *  planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT for a pin that holds a point. */

@@ -1500,7 +1500,8 @@ end
 
 --- Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until the
 --- next call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is
---- seen there.
+--- seen there; of a clamp the mean along its line, for each piece: single points of the line are seen a little off
+--- it.
 function Pin:setTarget(target)
     local world = self.world
     local result = C.kiriPin_SetTarget(world.c, self.id, vector(1, target, 3))

@@ -968,7 +968,8 @@ KIRI_API kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const
                                         kiriPin* hinge);
 
 /* Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until the next
-   call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen there. */
+   call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen there; of
+   a clamp the mean along its line, for each piece: single points of the line are seen a little off it. */
 KIRI_API kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3]);
 
 /* The same with the rotation of the line's material: columns are the directions of u and v and the normal. On a planar

@@ -64,14 +64,56 @@ static void SettlePoint(kiriSheetData* sheet, int32_t index, double dt)
     }
 }
 
-static void SettleClamp(kiriSheetData* sheet, kiriPinShare* pinned, double dt)
+/* Do they hold the same piece for the same clamp? */
+static bool IsSameHold(const kiriSheetData* sheet, const kiriPinShare* a, const kiriPinShare* b)
 {
-    const kiriPinData* pin = &sheet->pins.data[pinned->pin];
-    kiriVec2 at = kiriPin_Centroid(sheet, pinned);
-    kiriVec3 seen;
-    if (FindSeenBeside(sheet, pinned->share.frame, at, &seen)) {
-        kiriVec3 missing = kiriVec3_Sub(kiriPin_PlaceOf(sheet, pin, at), seen);
-        Settle(sheet, &pinned->off, kiriVec3_Add(pinned->off, missing), true, CLAMP_RATE * dt);
+    const int32_t* pieces = sheet->layout.framePiece.data;
+    return a->pin == b->pin && pieces[a->share.frame] == pieces[b->share.frame];
+}
+
+static bool IsFirstOfHold(const kiriSheetData* sheet, int32_t k)
+{
+    const kiriPinShare* shares = sheet->layout.pinShares.data;
+    for (int32_t i = k - 1; i >= 0 && shares[i].pin == shares[k].pin; --i) {
+        if (IsSameHold(sheet, &shares[i], &shares[k])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Where the pose has to be moved for the piece to be seen on the line: the mean along it. */
+static bool FindHoldOff(const kiriSheetData* sheet, int32_t first, kiriVec3* off)
+{
+    const kiriPinShares* shares = &sheet->layout.pinShares;
+    kiriVec3 sum = { 0.0, 0.0, 0.0 }, seen;
+    double length = 0.0;
+    for (int32_t k = first; k < shares->count && shares->data[k].pin == shares->data[first].pin; ++k) {
+        const kiriPinShare* pinned = &shares->data[k];
+        kiriVec2 at = kiriPin_Centroid(sheet, pinned);
+        if (IsSameHold(sheet, &shares->data[first], pinned) && FindSeenBeside(sheet, pinned->share.frame, at, &seen)) {
+            kiriVec3 missing = kiriVec3_Sub(kiriPin_PlaceOf(sheet, &sheet->pins.data[pinned->pin], at), seen);
+            sum = kiriVec3_AddScaled(sum, pinned->share.length, kiriVec3_Add(pinned->off, missing));
+            length += pinned->share.length;
+        }
+    }
+    *off = length > 0.0 ? kiriVec3_Scale(1.0 / length, sum) : sum;
+    return length > 0.0;
+}
+
+/* All that it holds of a piece is moved as one. Were each share moved by what is missing there, the line would bend: a
+   sheet that is curled along its clamp is far too stiff, and turns its surface there, which asks for more. */
+static void SettleClamp(kiriSheetData* sheet, int32_t first, double dt)
+{
+    kiriPinShares* shares = &sheet->layout.pinShares;
+    kiriVec3 off;
+    if (!FindHoldOff(sheet, first, &off)) {
+        return;
+    }
+    for (int32_t k = first; k < shares->count && shares->data[k].pin == shares->data[first].pin; ++k) {
+        if (IsSameHold(sheet, &shares->data[first], &shares->data[k])) {
+            Settle(sheet, &shares->data[k].off, off, true, CLAMP_RATE * dt);
+        }
     }
 }
 
@@ -114,9 +156,10 @@ void kiriFollow_Begin(kiriSheetData* sheet, double dt)
         }
     }
     for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-        kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
-        if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP && kiriSheet_Moves(sheet, pinned->share.frame)) {
-            SettleClamp(sheet, pinned, dt);
+        const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+        bool isClamp = sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP;
+        if (isClamp && kiriSheet_Moves(sheet, pinned->share.frame) && IsFirstOfHold(sheet, k)) {
+            SettleClamp(sheet, k, dt);
         }
     }
     KIRI_EACH(f, kiriSolver_Awake(sheet->solver)->frames) {

@@ -1353,7 +1353,8 @@ namespace Kiri
 
         /// <summary>Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until
         /// the next call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is
-        /// what is seen there.</summary>
+        /// what is seen there; of a clamp the mean along its line, for each piece: single points of the line are seen a
+        /// little off it.</summary>
         public void SetTarget(Float3 target)
         {
             World.Check(Native.kiriPin_SetTarget(World.Handle, Id, (float*)&target));

@@ -473,7 +473,8 @@ class Pin:
     def set_target(self, target):
         """Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until
         the next call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is
-        what is seen there.
+        what is seen there; of a clamp the mean along its line, for each piece: single points of the line are seen a
+        little off it.
         """
         return self.world.call('kiriPin_SetTarget', self.id, core.vector(target, 3))
 

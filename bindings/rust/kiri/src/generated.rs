@@ -2877,7 +2877,8 @@ impl Pin {
 
     /// Where the pin holds its point, or the middle of its line (m, world): at the end of the next
     /// tick, and until the next call. Within the tick it goes there evenly. With
-    /// [`Skinning::Smooth`] what pins and clamps hold is what is seen there.
+    /// [`Skinning::Smooth`] what pins and clamps hold is what is seen there; of a clamp the mean
+    /// along its line, for each piece: single points of the line are seen a little off it.
     pub fn set_target(self, world: &mut World, target: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriPin_SetTarget(world.raw_mut(), self.raw(), target.as_ptr()) }, world)?;
