@@ -191,18 +191,41 @@ static double LookAtCorner(void* context, int32_t triangle)
     return nearest->least;
 }
 
-static void CheckNearest(const Cloth* cloth, uint32_t* seed)
+/* Leaves with triangles of several groups. */
+static int32_t CountMixed(const kiriBounds* bounds)
+{
+    int32_t mixed = 0, leaves = bounds->levelCount > 1 ? bounds->firsts[1] : 1;
+    for (int32_t leaf = 0; leaf < leaves; ++leaf) {
+        mixed += bounds->groups.data[leaf] == KIRI_MIXED;
+    }
+    return mixed;
+}
+
+static void CheckNearest(Cloth* cloth, uint32_t* seed)
 {
     const kiriSurface* surface = &cloth->surface;
     kiriVec3 at = kiriSurface_At(surface, Random(seed) % (uint32_t)surface->vertexCount);
     double reach = RandomBetween(seed, 0.0, 2.0);
+    /* Bands of vertices, so that some boxes are of one group, and some of several; or mixed so that the tree is made anew. */
+    bool isMixed = Random(seed) % 4 == 0;
+    int32_t* ofVertex = malloc(sizeof(int32_t) * (size_t)surface->vertexCount);
+    kiriGroup group = { ofVertex, (int32_t)(Random(seed) % 3) };
+    assert_non_null(ofVertex);
+    for (int32_t v = 0; v < surface->vertexCount; ++v) {
+        ofVertex[v] = isMixed ? (int32_t)(Random(seed) % 3) : 3 * v / surface->vertexCount;
+    }
     Nearest all = { surface, kiriVec3_Add(at, RandomVec3(seed, 0.3)), reach * reach, KIRI_NONE, 0 }, found = all;
     for (int32_t t = 0; t < surface->triangleCount; ++t) {
-        LookAtCorner(&all, t);
+        if (ofVertex[surface->indices.data[3 * t]] == group.group) {
+            LookAtCorner(&all, t);
+        }
     }
-    kiriBounds_Nearest(&cloth->bounds, surface, found.from, found.least, LookAtCorner, &found);
+    assert_true(kiriBounds_Group(&cloth->bounds, &cloth->room, surface, ofVertex, 3));
+    assert_true(CountMixed(&cloth->bounds) <= 3 + surface->triangleCount / 8 / 16);
+    kiriBounds_Nearest(&cloth->bounds, surface, group, found.from, found.least, LookAtCorner, &found);
     assert_int_equal(found.triangle, all.triangle);
     assert_true(found.least == all.least && found.looks <= all.looks);
+    free(ofVertex);
 }
 
 static void CheckAll(const Cloth* cloth)

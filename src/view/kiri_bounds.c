@@ -1,10 +1,8 @@
-#include "kiri_bounds.h"
+#include "kiri_bounds_work.h"
 
 #include "../core/kiri_sort.h"
 
 #include <string.h>
-
-enum { LEAF = 8, FAN = 4 }; /* triangles of a leaf, children of a node */
 
 /* ---- Boxes ---- */
 
@@ -99,21 +97,27 @@ static void SortByBits(const uint32_t* codes, int shift, const int32_t* from, in
     }
 }
 
+void kiriBounds_SortByCodes(kiriBounds* bounds, int32_t count)
+{
+    const uint32_t* codes = bounds->codes.data;
+    int32_t *a = bounds->order.data, *b = bounds->other.data;
+    SortByBits(codes, 0, a, b, count);
+    SortByBits(codes, 11, b, a, count);
+    SortByBits(codes, 22, a, b, count);
+    memcpy(a, b, sizeof(int32_t) * (size_t)count);
+}
+
 static void SortTriangles(kiriBounds* bounds, const kiriSurface* surface)
 {
-    int32_t count = surface->triangleCount, *a = bounds->order.data, *b = bounds->other.data;
     WriteCodes(bounds, surface);
-    SortByBits(bounds->codes.data, 0, a, b, count);
-    SortByBits(bounds->codes.data, 11, b, a, count);
-    SortByBits(bounds->codes.data, 22, a, b, count);
-    memcpy(a, b, sizeof(int32_t) * (size_t)count);
-    bounds->sorted = count;
+    kiriBounds_SortByCodes(bounds, surface->triangleCount);
+    bounds->sorted = surface->triangleCount;
 }
 
 /* Where levels begin, and how many nodes there are in all. */
 static int32_t LayLevels(int32_t triangleCount, int32_t firsts[KIRI_BOUNDS_LEVELS], int32_t* levelCount)
 {
-    int32_t nodes = 0, wide = triangleCount / LEAF + (triangleCount % LEAF != 0);
+    int32_t nodes = 0, wide = triangleCount / KIRI_BOUNDS_LEAF + (triangleCount % KIRI_BOUNDS_LEAF != 0);
     *levelCount = 0;
     for (;;) {
         KIRI_ASSERT(*levelCount < KIRI_BOUNDS_LEVELS);
@@ -122,7 +126,7 @@ static int32_t LayLevels(int32_t triangleCount, int32_t firsts[KIRI_BOUNDS_LEVEL
         if (wide <= 1) {
             return nodes;
         }
-        wide = wide / FAN + (wide % FAN != 0);
+        wide = wide / KIRI_BOUNDS_FAN + (wide % KIRI_BOUNDS_FAN != 0);
     }
 }
 
@@ -147,17 +151,10 @@ static bool ReserveAll(kiriBounds* bounds, kiriMemory* memory, int32_t triangleC
 
 /* ---- Fitting ---- */
 
-/* Its corners are one, see kiriSurface_HideTriangle. */
-static bool IsHidden(const kiriSurface* surface, int32_t triangle)
-{
-    const int32_t* corner = &surface->indices.data[3 * (size_t)triangle];
-    return corner[0] == corner[1];
-}
-
 /* The first triangle from place i on, before `end`, that is not hidden; KIRI_NONE where all are. */
 static int32_t FirstSeen(const kiriSurface* surface, const int32_t* order, int32_t i, int32_t end)
 {
-    while (i < end && IsHidden(surface, order[i])) {
+    while (i < end && kiriBounds_IsHidden(surface, order[i])) {
         ++i;
     }
     return i < end ? order[i] : KIRI_NONE;
@@ -165,7 +162,8 @@ static int32_t FirstSeen(const kiriSurface* surface, const int32_t* order, int32
 
 static int32_t EndOfLeaf(const kiriSurface* surface, int32_t leaf)
 {
-    return surface->triangleCount - leaf * LEAF < LEAF ? surface->triangleCount : (leaf + 1) * LEAF;
+    return surface->triangleCount - leaf * KIRI_BOUNDS_LEAF < KIRI_BOUNDS_LEAF ? surface->triangleCount
+                                                                               : (leaf + 1) * KIRI_BOUNDS_LEAF;
 }
 
 /* All triangles of the leaf are hidden: it has a point of the leaf before, which makes no other box larger. */
@@ -182,12 +180,12 @@ static kiriVec3 PointOfHidden(const kiriBounds* bounds, const kiriSurface* surfa
 static void FitLeaf(kiriBounds* bounds, const kiriSurface* surface, int32_t leaf)
 {
     const int32_t *indices = surface->indices.data, *order = bounds->order.data;
-    int32_t seen = FirstSeen(surface, order, leaf * LEAF, EndOfLeaf(surface, leaf));
-    kiriVec3 first = seen != KIRI_NONE ? kiriSurface_At(surface, indices[3 * (size_t)seen])
-                                       : PointOfHidden(bounds, surface, leaf);
+    int32_t seen = FirstSeen(surface, order, leaf * KIRI_BOUNDS_LEAF, EndOfLeaf(surface, leaf));
+    kiriVec3 first =
+        seen != KIRI_NONE ? kiriSurface_At(surface, indices[3 * (size_t)seen]) : PointOfHidden(bounds, surface, leaf);
     kiriBox box = { first, first };
-    for (int32_t i = leaf * LEAF; i < EndOfLeaf(surface, leaf); ++i) {
-        if (!IsHidden(surface, order[i])) {
+    for (int32_t i = leaf * KIRI_BOUNDS_LEAF; i < EndOfLeaf(surface, leaf); ++i) {
+        if (!kiriBounds_IsHidden(surface, order[i])) {
             AddTriangle(&box, surface, &indices[3 * (size_t)order[i]]);
         }
     }
@@ -196,7 +194,7 @@ static void FitLeaf(kiriBounds* bounds, const kiriSurface* surface, int32_t leaf
 
 static void FitLeaves(kiriBounds* bounds, const kiriSurface* surface)
 {
-    for (int32_t leaf = 0; leaf * LEAF < surface->triangleCount; ++leaf) {
+    for (int32_t leaf = 0; leaf * KIRI_BOUNDS_LEAF < surface->triangleCount; ++leaf) {
         FitLeaf(bounds, surface, leaf);
     }
 }
@@ -208,13 +206,21 @@ static void FitNodes(kiriBounds* bounds)
         int32_t child = bounds->firsts[level - 1], end = bounds->firsts[level];
         for (int32_t node = end; child < end; ++node) {
             kiriBox box = nodes[child];
-            for (int k = 0; k < FAN && child < end; ++k, ++child) {
+            for (int k = 0; k < KIRI_BOUNDS_FAN && child < end; ++k, ++child) {
                 box.lower = Least(nodes[child].lower, box.lower);
                 box.upper = Most(nodes[child].upper, box.upper);
             }
             nodes[node] = box;
         }
     }
+}
+
+void kiriBounds_Fit(kiriBounds* bounds, const kiriSurface* surface)
+{
+    FitLeaves(bounds, surface);
+    FitNodes(bounds);
+    bounds->pose = surface->pose;
+    bounds->moves.count = 0;
 }
 
 static void FitBox(kiriBounds* bounds, const kiriSurface* surface)
@@ -230,10 +236,7 @@ static void FitBox(kiriBounds* bounds, const kiriSurface* surface)
     if (sorts) {
         SortTriangles(bounds, surface);
     }
-    FitLeaves(bounds, surface);
-    FitNodes(bounds);
-    bounds->pose = surface->pose;
-    bounds->moves.count = 0;
+    kiriBounds_Fit(bounds, surface);
 }
 
 /* ---- What moves ---- */
@@ -241,7 +244,7 @@ static void FitBox(kiriBounds* bounds, const kiriSurface* surface)
 static bool MovesLeaf(const kiriBounds* bounds, const kiriSurface* surface, const kiriMovers* movers, int32_t leaf)
 {
     bool any = false;
-    for (int32_t i = leaf * LEAF; !any && i < EndOfLeaf(surface, leaf); ++i) {
+    for (int32_t i = leaf * KIRI_BOUNDS_LEAF; !any && i < EndOfLeaf(surface, leaf); ++i) {
         int32_t vertex = surface->indices.data[3 * (size_t)bounds->order.data[i]];
         any = movers->data[vertex / movers->block] != KIRI_NONE;
     }
@@ -260,7 +263,7 @@ static void MarkMoving(kiriBounds* bounds, const kiriSurface* surface, const kir
         int32_t end = bounds->firsts[level];
         for (int32_t node = end; child < end; ++node) {
             moves[node] = 0;
-            for (int k = 0; k < FAN && child < end; ++k, ++child) {
+            for (int k = 0; k < KIRI_BOUNDS_FAN && child < end; ++k, ++child) {
                 moves[node] |= moves[child];
             }
         }
@@ -273,8 +276,8 @@ static void MarkMoving(kiriBounds* bounds, const kiriSurface* surface, const kir
 static int32_t ChildrenOf(const kiriBounds* bounds, int32_t level, int32_t node, int32_t* first)
 {
     int32_t start = bounds->firsts[level - 1], end = bounds->firsts[level];
-    *first = start + FAN * (node - end);
-    return end - *first < FAN ? end : *first + FAN;
+    *first = start + KIRI_BOUNDS_FAN * (node - end);
+    return end - *first < KIRI_BOUNDS_FAN ? end : *first + KIRI_BOUNDS_FAN;
 }
 
 static void FitMoving(kiriBounds* bounds, const kiriSurface* surface, int32_t level, int32_t node)
@@ -355,6 +358,7 @@ bool kiriBounds_Reserve(kiriBounds* bounds, kiriMemory* memory, int32_t triangle
     }
     kiriArray_Release(memory, &bounds->order);
     kiriArray_Release(memory, &bounds->nodes);
+    kiriArray_Release(memory, &bounds->groups);
     kiriArray_Release(memory, &bounds->moves);
     bounds->levelCount = 0;
     return true;
@@ -387,15 +391,6 @@ kiriBox kiriBounds_All(const kiriBounds* bounds)
     return bounds->nodes.data[bounds->nodes.count - 1];
 }
 
-/* The children of a node, or the triangles of a leaf: the items from *first up to the end that it returns. */
-static int32_t ItemsOf(const kiriBounds* bounds, int32_t level, int32_t node, int32_t* first)
-{
-    int32_t fan = level == 0 ? LEAF : FAN, start = level == 0 ? 0 : bounds->firsts[level - 1];
-    int32_t end = level == 0 ? bounds->order.count : bounds->firsts[level];
-    *first = start + fan * (node - bounds->firsts[level]);
-    return end - *first < fan ? end : *first + fan;
-}
-
 typedef struct Finder {
     const kiriBounds* bounds;
     const kiriSurface* surface;
@@ -409,7 +404,7 @@ typedef struct Finder {
 
 static bool FindIn(const Finder* finder, int32_t level, int32_t node)
 {
-    int32_t first, end = ItemsOf(finder->bounds, level, node, &first);
+    int32_t first, end = kiriBounds_ItemsOf(finder->bounds, level, node, &first);
     bool ok = true;
     for (int32_t i = first; ok && i < end; ++i) {
         if (level > 0) {
@@ -419,7 +414,7 @@ static bool FindIn(const Finder* finder, int32_t level, int32_t node)
             continue;
         }
         int32_t triangle = finder->bounds->order.data[i];
-        if (IsHidden(finder->surface, triangle)) {
+        if (kiriBounds_IsHidden(finder->surface, triangle)) {
             continue;
         }
         bool isFound = finder->wholeLeaves;
@@ -465,90 +460,7 @@ bool kiriBounds_FindLeaves(const kiriBounds* bounds, const kiriSurface* surface,
     return FindFromRoot(&finder);
 }
 
-/* ---- The nearest ---- */
-
-#define ROUNDING_OF_BOXES (1.0 + 1e-9) /* of squares of distances: a box is never farther than what is in it */
-
-typedef struct NearSearch {
-    const kiriBounds* bounds;
-    const kiriSurface* surface;
-    kiriVec3 from;
-    double most;
-    kiriNearFn* look;
-    void* context;
-} NearSearch;
-
-static double OffSide(double x, double lower, double upper)
-{
-    return x < lower ? lower - x : x > upper ? x - upper : 0.0;
-}
-
-static double SquareToBox(const kiriBox* box, kiriVec3 x)
-{
-    kiriVec3 off = kiriVec3_Make(OffSide(x.x, box->lower.x, box->upper.x), OffSide(x.y, box->lower.y, box->upper.y),
-                                 OffSide(x.z, box->lower.z, box->upper.z));
-    return kiriVec3_Dot(off, off);
-}
-
-/* The child that is the nearest of those not visited yet, or `end`. */
-static int32_t NextChild(const double* squares, int32_t first, int32_t end)
-{
-    int32_t best = end;
-    for (int32_t i = first; i < end; ++i) {
-        bool isLeft = squares[i - first] >= 0.0;
-        best = isLeft && (best == end || squares[i - first] < squares[best - first]) ? i : best;
-    }
-    return best;
-}
-
-static bool IsNearEnough(const NearSearch* search, double square)
-{
-    return square <= search->most * ROUNDING_OF_BOXES;
-}
-
-static void LookInLeaf(NearSearch* search, int32_t leaf)
-{
-    int32_t first, end = ItemsOf(search->bounds, 0, leaf, &first);
-    for (int32_t i = first; i < end; ++i) {
-        int32_t triangle = search->bounds->order.data[i];
-        kiriBox box = kiriBox_OfTriangle(search->surface, triangle);
-        if (!IsHidden(search->surface, triangle) && IsNearEnough(search, SquareToBox(&box, search->from))) {
-            search->most = search->look(search->context, triangle);
-        }
-    }
-}
-
-static void LookInNode(NearSearch* search, int32_t level, int32_t node)
-{
-    double squares[FAN];
-    int32_t first, end = ItemsOf(search->bounds, level, node, &first);
-    for (int32_t i = first; i < end; ++i) {
-        squares[i - first] = SquareToBox(&search->bounds->nodes.data[i], search->from);
-    }
-    for (int32_t i; (i = NextChild(squares, first, end)) < end && IsNearEnough(search, squares[i - first]);) {
-        squares[i - first] = -1.0;
-        if (level > 1) {
-            LookInNode(search, level - 1, i);
-        } else {
-            LookInLeaf(search, i);
-        }
-    }
-}
-
-void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, kiriVec3 from, double most,
-                        kiriNearFn* look, void* context)
-{
-    NearSearch search = { bounds, surface, from, most, look, context };
-    int32_t root = bounds->nodes.count - 1;
-    KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
-    if (root >= 0 && IsNearEnough(&search, SquareToBox(&bounds->nodes.data[root], from))) {
-        if (bounds->levelCount > 1) {
-            LookInNode(&search, bounds->levelCount - 1, root);
-        } else {
-            LookInLeaf(&search, root);
-        }
-    }
-}
+/* ---- Boxes that meet a box ---- */
 
 static bool MeetsBox(const void* context, const kiriBox* box)
 {
@@ -595,7 +507,7 @@ static bool MeetsRay(const RayWalk* walk, const kiriBox* box)
 
 static void WalkRay(RayWalk* walk, int32_t level, int32_t node)
 {
-    int32_t first, end = ItemsOf(walk->bounds, level, node, &first);
+    int32_t first, end = kiriBounds_ItemsOf(walk->bounds, level, node, &first);
     if (level == 0) {
         walk->visit(walk->context, &walk->bounds->order.data[first], end - first, &walk->distance);
         return;

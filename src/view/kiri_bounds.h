@@ -2,7 +2,7 @@
 
    The shape of the tree follows the rest plane: triangles that lie near each other there share a leaf, and neighbouring
    leaves a node. So it is made once and holds however the sheet moves; only boxes are fitted anew, all of them, in one
-   pass over the triangles. Triangles that a cut makes come in leaves of their own at the end, in the order in which the
+   pass over the triangles. Where pieces ask for what is near, each has leaves of its own. Triangles that a cut makes come in leaves of their own at the end, in the order in which the
    blade made them; the tree is made anew when their number has doubled. What a query finds does not depend on any of
    this: it is in the order of triangles. So bounds are no part of the state.
 
@@ -21,7 +21,7 @@ typedef struct kiriBox {
     kiriVec3 lower, upper;
 } kiriBox;
 
-enum { KIRI_BOUNDS_PATIENCE = 120, KIRI_BOUNDS_LEVELS = 20 };
+enum { KIRI_BOUNDS_PATIENCE = 120, KIRI_BOUNDS_LEVELS = 20, KIRI_MIXED = -2 };
 
 typedef struct kiriBounds {
     int32_t asked;    /* by readers, from any thread: written without tearing, and read by the tick alone */
@@ -37,6 +37,7 @@ typedef struct kiriBounds {
     int64_t pose;                       /* surface->pose that the boxes fit */
     KIRI_ARRAY(uint8_t) moves;          /* of each node: is any of it awake? Empty: not known */
     int64_t version;                    /* of the movers that say so */
+    KIRI_ARRAY(int32_t) groups; /* of each node, see kiriBounds_Group: that of all its triangles, or KIRI_MIXED */
 } kiriBounds;
 
 /* Which vertices are awake, by blocks of so many: KIRI_NONE where none is. The version is another whenever that changes. */
@@ -93,9 +94,22 @@ typedef bool kiriMeetsFn(const void* context, const kiriBox* box);
 /* Looks at a triangle; returns the square of the distance, m^2, beyond which no other is asked for. */
 typedef double kiriNearFn(void* context, int32_t triangle);
 
-/* Has the triangles looked at that may be that near, the nearer boxes first. `most` is what holds at the start. */
-void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, kiriVec3 from, double most,
-                        kiriNearFn* look, void* context);
+/* Triangles of one group; all corners of a triangle are in one. */
+typedef struct kiriGroup {
+    const int32_t* ofVertex;
+    int32_t group; /* 0 or more */
+} kiriGroup;
+
+/* Finds out which boxes have triangles of one group only, so that kiriBounds_Nearest leaves out those of others, and where
+   too many have several, makes the tree anew, group by group. To be called after kiriBounds_Update, again where groups have
+   changed. False for memory. */
+bool kiriBounds_Group(kiriBounds* bounds, kiriMemory* memory, const kiriSurface* surface, const int32_t* ofVertex,
+                      int32_t groupCount);
+
+/* Has the triangles of a group looked at that may be that near, the nearer boxes first. `most` is what holds at the
+   start. */
+void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, kiriGroup group, kiriVec3 from,
+                        double most, kiriNearFn* look, void* context);
 
 /* Appends the triangles whose own box meets it, by index. False for memory. */
 bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets, const void* context,

@@ -117,17 +117,13 @@ typedef struct Looking {
 static double LookAtTriangle(void* context, int32_t triangle)
 {
     Looking* looking = context;
-    const kiriBody* other = &looking->bodies[looking->near->other];
-    int32_t corner = other->sheet->seen.surface.indices.data[3 * (size_t)triangle];
-    if (other->sheet->probes.vertexPiece.data[corner] == other->piece) {
-        kiriNear one = *looking->near;
-        double squared = Measure(&one, looking->bodies, triangle);
-        bool isLower = looking->found && squared == looking->least && triangle < looking->near->triangle;
-        if (squared < looking->least || isLower) {
-            looking->least = squared;
-            *looking->near = one;
-            looking->found = true;
-        }
+    kiriNear one = *looking->near;
+    double squared = Measure(&one, looking->bodies, triangle);
+    bool isLower = looking->found && squared == looking->least && triangle < looking->near->triangle;
+    if (squared < looking->least || isLower) {
+        looking->least = squared;
+        *looking->near = one;
+        looking->found = true;
     }
     return looking->least;
 }
@@ -137,6 +133,7 @@ bool kiriNearest_Find(kiriNear* near, const kiriBody* bodies, double reach, doub
     Looking looking = { near, bodies, reach * reach, false };
     const kiriSheetData* other = bodies[near->other].sheet;
     kiriVec3 from = kiriSurface_At(&bodies[near->body].sheet->seen.surface, near->vertex);
-    kiriBounds_Nearest(other->seen.bounds, &other->seen.surface, from, looking.least, LookAtTriangle, &looking);
+    kiriGroup piece = { other->probes.vertexPiece.data, bodies[near->other].piece };
+    kiriBounds_Nearest(other->seen.bounds, &other->seen.surface, piece, from, looking.least, LookAtTriangle, &looking);
     return looking.found && !IsBeside(near, bodies, distance, looking.least);
 }

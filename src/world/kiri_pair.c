@@ -41,6 +41,7 @@ static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
     kiriPairs* pairs = &world->pairs;
     int32_t first = pairs->bodies.count, count = sheet->layout.pieces.count;
     sheet->probes.firstBody = first;
+    sheet->probes.areGrouped = false;
     if (!kiriArray_Resize(&world->memory, &pairs->bodies, (int64_t)first + count)) {
         return false;
     }
@@ -324,6 +325,19 @@ static kiriTouchingPair Decide(const kiriWorld* world, int32_t a, int32_t b, kir
 
 /* ---- Pairs ---- */
 
+/* Boxes that fit, and know their pieces; once a tick. */
+static bool UpdateBounds(kiriSheetData* sheet)
+{
+    kiriBounds* bounds = sheet->seen.bounds;
+    const kiriSurface* surface = &sheet->seen.surface;
+    bool ok =
+        sheet->probes.areGrouped ||
+        (kiriBounds_Update(bounds, sheet->memory, surface) &&
+         kiriBounds_Group(bounds, sheet->memory, surface, sheet->probes.vertexPiece.data, sheet->layout.pieces.count));
+    sheet->probes.areGrouped = ok;
+    return ok;
+}
+
 static bool LookAtPair(kiriWorld* world, int32_t a, int32_t b, double dt)
 {
     kiriPairs* pairs = &world->pairs;
@@ -335,9 +349,8 @@ static bool LookAtPair(kiriWorld* world, int32_t a, int32_t b, double dt)
         (one->sheet->settings.groups & other->sheet->settings.groups) == 0) {
         return true;
     }
-    if (!kiriBounds_Update(one->sheet->seen.bounds, one->sheet->memory, &one->sheet->seen.surface) ||
-        !kiriBounds_Update(other->sheet->seen.bounds, other->sheet->memory, &other->sheet->seen.surface) ||
-        !FindNears(world, a, b, reach) || !FindNears(world, b, a, reach)) {
+    if (!UpdateBounds(one->sheet) || !UpdateBounds(other->sheet) || !FindNears(world, a, b, reach) ||
+        !FindNears(world, b, a, reach)) {
         return false;
     }
     nears.count = pairs->nears.count - nears.first;
