@@ -623,10 +623,79 @@ static void TestWeightsAfterRefusal(void** state)
     Stand_Stop(&s);
 }
 
+/* ---- Saves after a refused tick ---- */
+
+static void LoadInto(Host* host, const kiriWorld* world)
+{
+    int64_t size;
+    OK(kiriWorld_Save(world, NULL, 0, &size));
+    void* bytes = malloc((size_t)size);
+    assert_non_null(bytes);
+    OK(kiriWorld_Save(world, bytes, size, &size));
+    OK(kiriWorld_Load(host->world, bytes, size));
+    free(bytes);
+}
+
+/* Loads what is saved then, and goes on with both worlds. False where nothing was refused. */
+static bool GoOnFromSave(int32_t work, int64_t n)
+{
+    Stand s;
+    Host other;
+    Stand_Start(&s, work);
+    LiftLimits(&s);
+    bool isRefused = CallPoorly(&s, &calls[0], n, n % 2 == 0) == KIRI_ERROR_MEMORY;
+    if (isRefused) {
+        Host_Start(&other);
+        LoadInto(&other, s.host.world);
+        for (int tick = 0; tick < 3; ++tick) {
+            assert_true(Host_Hash(&other) == Host_Hash(&s.host));
+            OK(CallTick(&s));
+            OK(kiriWorld_Tick(other.world, 0.01f, 2));
+        }
+        Host_Stop(&other);
+    }
+    Stand_Stop(&s);
+    return isRefused;
+}
+
+static void TestSaveAfterRefusal(void** state)
+{
+    (void)state;
+    for (int32_t work = 0; work < STATES; ++work) {
+        int64_t n = 0;
+        while (GoOnFromSave(work, n)) {
+            ++n;
+        }
+        assert_true(n > 4);
+    }
+}
+
+/* The journal of the mesh is closed then: pieces may leave the sheet. */
+static void TestDetachAfterRefusal(void** state)
+{
+    (void)state;
+    kiriResult result = KIRI_ERROR_MEMORY;
+    int32_t refused = 0;
+    for (; result == KIRI_ERROR_MEMORY; ++refused) {
+        Stand s;
+        Stand_Start(&s, NO_WORK);
+        result = CallPoorly(&s, &calls[0], refused, true);
+        if (result == KIRI_ERROR_MEMORY) {
+            assert_true(CallDetachPiece(&s) >= 0);
+            OK(CallTick(&s));
+        }
+        Stand_Stop(&s);
+    }
+    assert_true(refused > 4);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(TestCallsRefused), cmocka_unit_test(TestTicksRefused),
-                                        cmocka_unit_test(TestRefusedAtRandom), cmocka_unit_test(TestPointsAfterRefusal),
-                                        cmocka_unit_test(TestWeightsAfterRefusal) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestCallsRefused),        cmocka_unit_test(TestTicksRefused),
+        cmocka_unit_test(TestRefusedAtRandom),     cmocka_unit_test(TestPointsAfterRefusal),
+        cmocka_unit_test(TestWeightsAfterRefusal), cmocka_unit_test(TestSaveAfterRefusal),
+        cmocka_unit_test(TestDetachAfterRefusal)
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -655,14 +655,20 @@ static bool FinishLinks(const kiriBorder* border, kiriLinks* links)
     return ok;
 }
 
-void kiriLinks_Drop(kiriLinks* links)
+static void EndLinks(kiriLinkWork* work)
 {
-    kiriLinkWork* work = links->work;
-    for (int32_t k = 0; work != NULL && work->running && k < work->faces.count; ++k) {
+    for (int32_t k = 0; work->running && k < work->faces.count; ++k) {
         work->marks.data[work->faces.data[k]] = KIRI_FACE_PASSED;
     }
-    if (work != NULL) {
-        work->running = false;
+    work->running = false;
+}
+
+void kiriLinks_Drop(kiriLinks* links)
+{
+    links->next.count = links->nextCorners.count = 0; /* they may be of regions that go */
+    if (links->work != NULL) {
+        EndLinks(links->work);
+        links->work->nextEnds.count = 0;
     }
 }
 
@@ -699,7 +705,7 @@ kiriProgress kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGr
     bool ok = links->work->running || BeginLinks(&border, links);
     kiriProgress progress = ok ? RunLinks(&border, links, quota) : KIRI_FAILED;
     if (progress != KIRI_MORE) {
-        kiriLinks_Drop(links);
+        EndLinks(links->work);
     }
     return progress;
 }

@@ -56,7 +56,7 @@ typedef struct kiriLinks {
 kiriProgress kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                               const kiriRegions* regions, const kiriSite* sites, int32_t siteCount, kiriQuota* quota);
 
-/* Forgets an update at hand. */
+/* Forgets an update at hand, and what one has made. */
 void kiriLinks_Drop(kiriLinks* links);
 
 /* The same of what is left when links and frames are taken away: what is kept stays as it is. No link that is kept joins

@@ -1,5 +1,6 @@
 #include "kiri_pipeline.h"
 
+#include "kiri_seen.h"
 #include "kiri_stages.h"
 
 #include <string.h>
@@ -133,7 +134,9 @@ void kiriPipeline_Finish(kiriSheetData* sheet)
 static void RollBackMesh(kiriSheetData* sheet)
 {
     kiriMesh_Rollback(&sheet->mesh);
+    kiriMesh_Commit(&sheet->mesh); /* nothing: between two ticks the journal is closed */
     kiriSkin_Truncate(&sheet->vertexSkin, sheet->mesh.vertices.count);
+    kiriView_Truncate(sheet);
     for (int32_t i = 0; i < sheet->cuts.count; ++i) {
         sheet->cuts.data[i]->tip = sheet->cuts.data[i]->committed;
     }

@@ -69,6 +69,13 @@ bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCoun
            (!sheet->update->isBegun || kiriView_ReserveFades(sheet, pointCount, sheet->seen.fades.time));
 }
 
+void kiriView_Truncate(kiriSheetData* sheet)
+{
+    kiriSurface_Truncate(&sheet->seen.surface);
+    sheet->seen.pointPositions.count = 3 * sheet->points.count;
+    sheet->seen.exactPoints.count = sheet->points.count;
+}
+
 /* A newborn vertex lies on the triangle that was seen. */
 static void PlaceNewborn(kiriSheetData* sheet, int32_t vertex)
 {

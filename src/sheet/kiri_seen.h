@@ -9,6 +9,9 @@ KIRI_C_BEGIN
 /* Room for the mesh as it is, for so many frames and collision points; after it writing never fails. */
 bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount);
 
+/* What was for vertices and points that do not come is no more than room. After kiriMesh_Rollback; never fails. */
+void kiriView_Truncate(kiriSheetData* sheet);
+
 /* Room for what fades in so much time when a cut takes effect, or what is seen changes otherwise. */
 bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t pointCount, double fadeTime);
 

@@ -25,6 +25,18 @@ bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMesh
            kiriPatches_Reserve(&surface->patches, memory, frameCount);
 }
 
+void kiriSurface_Truncate(kiriSurface* surface)
+{
+    int32_t vertices = surface->vertexCount, triangles = surface->triangleCount;
+    surface->positions.count = surface->places.count = surface->normals.count = 3 * vertices;
+    surface->restPositions.count = 2 * vertices;
+    surface->sourceWeights.count = 3 * vertices;
+    surface->sourceTriangles.count = surface->rest.count = vertices;
+    surface->slopes.count = 4 * vertices;
+    surface->indices.count = 3 * triangles;
+    surface->corners.count = 3 * (triangles + triangles % 2);
+}
+
 /* ---- Topology ---- */
 
 static void WriteNewVertex(kiriSurface* surface, const kiriMeshData* mesh, int32_t v)
