@@ -2,6 +2,7 @@
    each allocation is refused once, and all from there on. */
 #include "look.h"
 
+#include "sheet/kiri_blocks.h"
 #include "sheet/kiri_update.h"
 #include "layout_hash.h"
 
@@ -689,13 +690,47 @@ static void TestDetachAfterRefusal(void** state)
     assert_true(refused > 4);
 }
 
+/* ---- Blocks of vertices ---- */
+
+static void CheckNewBlocks(const kiriBlocks* blocks)
+{
+    for (int32_t block = 0; block < blocks->movers.count; ++block) {
+        assert_int_equal(blocks->movers.data[block], KIRI_UNKNOWN);
+        assert_int_equal(blocks->touched.data[block] | blocks->stale.data[block], 0);
+    }
+    for (int32_t frame = 0; frame < blocks->moved.count; ++frame) {
+        assert_int_equal(blocks->moved.data[frame], 0);
+    }
+}
+
+/* Each of the arrays is refused once: when they are there, nothing is known of any block. */
+static void TestBlocksAfterRefusal(void** state)
+{
+    (void)state;
+    Host host = { .failOnce = true };
+    for (int64_t n = 0; n <= 5; ++n) {
+        kiriMemory memory = kiriMemory_Make(Host_Alloc, Host_Free, &host);
+        kiriBlocks blocks;
+        memset(&blocks, 0, sizeof(blocks));
+        host.failAt = host.calls + n;
+        assert_true(kiriBlocks_Resize(&blocks, &memory, 1000, 7) == (n == 5));
+        CheckNewBlocks(&blocks);
+        host.failAt = -1;
+        assert_true(kiriBlocks_Resize(&blocks, &memory, 1000, 7));
+        assert_int_equal(blocks.movers.count, 1000 / KIRI_BLOCK + 1);
+        assert_int_equal(blocks.moved.count, 7);
+        CheckNewBlocks(&blocks);
+        kiriMemory_FreeAll(&memory);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestCallsRefused),        cmocka_unit_test(TestTicksRefused),
         cmocka_unit_test(TestRefusedAtRandom),     cmocka_unit_test(TestPointsAfterRefusal),
         cmocka_unit_test(TestWeightsAfterRefusal), cmocka_unit_test(TestSaveAfterRefusal),
-        cmocka_unit_test(TestDetachAfterRefusal)
+        cmocka_unit_test(TestDetachAfterRefusal),  cmocka_unit_test(TestBlocksAfterRefusal)
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,11 +5,13 @@
 bool kiriBlocks_Resize(kiriBlocks* blocks, kiriMemory* memory, int32_t vertexCount, int32_t frameCount)
 {
     int32_t old = blocks->movers.count, count = vertexCount / KIRI_BLOCK + 1, oldFrames = blocks->moved.count;
-    if (!kiriArray_Resize(memory, &blocks->touched, count) || !kiriArray_Resize(memory, &blocks->stale, count) ||
-        !kiriArray_Resize(memory, &blocks->frames, count) || !kiriArray_Resize(memory, &blocks->movers, count) ||
-        !kiriArray_Resize(memory, &blocks->moved, frameCount)) {
+    if (!kiriArray_Reserve(memory, &blocks->touched, count) || !kiriArray_Reserve(memory, &blocks->stale, count) ||
+        !kiriArray_Reserve(memory, &blocks->frames, count) || !kiriArray_Reserve(memory, &blocks->movers, count) ||
+        !kiriArray_Reserve(memory, &blocks->moved, frameCount)) {
         return false;
     }
+    blocks->touched.count = blocks->stale.count = blocks->frames.count = blocks->movers.count = count;
+    blocks->moved.count = frameCount;
     for (int32_t block = old; block < count; ++block) {
         blocks->touched.data[block] = blocks->stale.data[block] = 0;
         kiriBlocks_ForgetOne(blocks, block);
