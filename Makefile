@@ -20,6 +20,7 @@
 #   make contact  measures contact against laws and peers; CASE=laws: that group only
 #   make extremes runs what nobody should do to a sheet, and says what became of it
 #   make gallery  renders the pictures of samples/README.md, and the film that the README begins with
+#   make gallery-engines  pictures of the samples in other engines, from their tests
 #   make guide    renders the pictures of src/README.md
 #   make manual   compiles and runs the programs of the manual, and renders its pictures
 #   make portable builds a storm for other machines and compilers, and compares bits; deps-portable: installs these
@@ -244,6 +245,17 @@ gallery: packages-gallery accuracy
 	$(BOX2D) --output build/gallery/box2d
 	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
 	for scene in strip square tongue; do cp build/accuracy/trade_$$scene.png samples/pictures/; done
+
+# The samples in other engines, as their tests see them.
+.PHONY: gallery-engines
+
+gallery-engines: web-test love-test pygame-test godot-test
+	cp build/web_test/3_pieces.png samples/pictures/web_cut.png
+	cp build/web_test/5_snowflake.png samples/pictures/web_snowflake.png
+	cp build/web_test/6_lantern.png samples/pictures/web_lantern.png
+	cp build/love/love_290.png samples/pictures/love.png
+	cp build/pygame/pygame_195.png samples/pictures/pygame.png
+	cp build/godot/godot.png samples/pictures/godot.png
 
 # One tick of a scene, for the guide: what the picture is called, the tick, and options of kiri-run.
 MOMENT = $(RUN) --quiet --ticks $(2) --every $$(($(2) - 1)) --output build/guide/$(1) $(3) && \
