@@ -111,10 +111,11 @@ static double AreaOf(const kiriWorld* world)
 
 static void CheckArea(Fuzz* fuzz, const FuzzCall* call, kiriResult result)
 {
-    double area = AreaOf(fuzz->hosts[0].world), by = fuzz->slack + 1e-9;
+    /* An end is rounded by a step of the lattice, which of a sliver may be that of the sheet it was cut out of. */
+    double area = AreaOf(fuzz->hosts[0].world), by = fuzz->slack + 1e-9, rounding = fuzz->slack > 0.0 ? 1e-9 : 0.0;
     if ((call->flags & FUZZ_DESTROYS) != 0) {
         fuzz->mayShrink = fuzz->mayShrink || result == KIRI_PENDING;
-        FUZZ_CHECK(area <= fuzz->area * (1.0 + by), "%s: the area grows to %.12g", call->name, area);
+        FUZZ_CHECK(area <= fuzz->area * (1.0 + by) + rounding, "%s: the area grows to %.12g", call->name, area);
         fuzz->area = area;
     } else if (strcmp(call->name, "CreateSheet") == 0) {
         fuzz->area = area;
@@ -122,8 +123,8 @@ static void CheckArea(Fuzz* fuzz, const FuzzCall* call, kiriResult result)
     if (fuzz->mayShrink && area < fuzz->area) {
         fuzz->area = area;
     }
-    FUZZ_CHECK(fabs(area - fuzz->area) <= by * fuzz->area, "%s: the area was %.12g, and is %.12g", call->name,
-               fuzz->area, area);
+    FUZZ_CHECK(fabs(area - fuzz->area) <= by * fuzz->area + rounding, "%s: the area was %.12g, and is %.12g",
+               call->name, fuzz->area, area);
 }
 
 static void CheckWorld(const Fuzz* fuzz, int32_t k)
@@ -415,7 +416,8 @@ void Fuzz_Start(Fuzz* fuzz, const uint8_t* data, size_t size)
     Fuzz_Make(fuzz, create, &act);
 }
 
-/* A sheet that is new is cut into two. Without a budget each tick does all that was asked for before one tick. */
+/* A sheet that is new is cut into two. Without a budget each tick does all that was asked for before one tick, also where
+   it says KIRI_DIVERGED of another sheet. */
 static void CheckStillWorks(Host* host, int32_t ticks)
 {
     static const float down[3] = { 0.0f, 0.0f, -9.81f }, across[4] = { -0.1f, 0.41f, 1.1f, 0.43f };
@@ -429,7 +431,8 @@ static void CheckStillWorks(Host* host, int32_t ticks)
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
     Host_Cut(host, sheet, across, 2);
     kiriResult result = KIRI_PENDING;
-    for (int32_t tick = 0; tick < 2 || (tick < ticks + 2 && result == KIRI_PENDING); ++tick) {
+    for (int32_t tick = 0; tick < 2 || (tick < ticks + 2 && (result == KIRI_PENDING || IsAtWork(host->world)));
+         ++tick) {
         result = kiriWorld_Tick(host->world, 1.0f / 60.0f, 1);
     }
     FUZZ_CHECK(result == KIRI_OK || result == KIRI_DIVERGED, "a tick at the end gives %s", kiriGetResultName(result));
