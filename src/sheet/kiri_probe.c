@@ -158,6 +158,7 @@ static bool MarkVertices(kiriSheetData* sheet)
         !kiriArray_Resize(sheet->memory, &probes->speeds, sheet->layout.pieces.count)) {
         return false;
     }
+    probes->areGrouped = false;
     for (int32_t v = 0; v < vertices; ++v) {
         probes->vertexPiece.data[v] = kiriPiece_OfVertex(sheet, v);
         probes->isBorder.data[v] = probes->isChosen.data[v] = 0;

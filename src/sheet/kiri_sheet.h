@@ -106,7 +106,7 @@ typedef struct kiriPinAnchor {
 /* The vertices by which the sheet feels others, see kiri_probe.h. */
 typedef struct kiriProbes {
     bool isFresh;                    /* neither mesh nor pieces have changed since */
-    bool areGrouped;                 /* do the bounds know the pieces, for the tick at hand? */
+    bool areGrouped;                 /* do the bounds know the pieces, unless they were made anew? */
     int32_t block;                   /* squares of the grid, across and along, that share probes */
     int32_t sheet, firstBody;        /* indices of the sheet, and of its pieces among the bodies of kiri_pair.c */
     KIRI_ARRAY(int32_t) vertexPiece; /* of each vertex: its piece, */

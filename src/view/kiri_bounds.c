@@ -234,6 +234,7 @@ static void FitBox(kiriBounds* bounds, const kiriSurface* surface)
     }
     bounds->order.count = count;
     if (sorts) {
+        bounds->groups.count = 0;
         SortTriangles(bounds, surface);
     }
     kiriBounds_Fit(bounds, surface);

@@ -41,7 +41,6 @@ static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
     kiriPairs* pairs = &world->pairs;
     int32_t first = pairs->bodies.count, count = sheet->layout.pieces.count;
     sheet->probes.firstBody = first;
-    sheet->probes.areGrouped = false;
     if (!kiriArray_Resize(&world->memory, &pairs->bodies, (int64_t)first + count)) {
         return false;
     }
@@ -325,15 +324,16 @@ static kiriTouchingPair Decide(const kiriWorld* world, int32_t a, int32_t b, kir
 
 /* ---- Pairs ---- */
 
-/* Boxes that fit, and know their pieces; once a tick. */
+/* Boxes that fit, and know their pieces, unless either was made anew since. */
 static bool UpdateBounds(kiriSheetData* sheet)
 {
     kiriBounds* bounds = sheet->seen.bounds;
     const kiriSurface* surface = &sheet->seen.surface;
-    bool ok =
-        sheet->probes.areGrouped ||
-        (kiriBounds_Update(bounds, sheet->memory, surface) &&
-         kiriBounds_Group(bounds, sheet->memory, surface, sheet->probes.vertexPiece.data, sheet->layout.pieces.count));
+    bool ok = kiriBounds_Update(bounds, sheet->memory, surface);
+    if (ok && !(sheet->probes.areGrouped && bounds->groups.count == bounds->nodes.count)) {
+        ok = kiriBounds_Group(bounds, sheet->memory, surface, sheet->probes.vertexPiece.data,
+                              sheet->layout.pieces.count);
+    }
     sheet->probes.areGrouped = ok;
     return ok;
 }
