@@ -1211,7 +1211,7 @@ func GetResultName(result ResultCode) string {
 // again. What the refused work had prepared is made again: until then kiriSheet_GetWeights gives KIRI_ERROR_STATE,
 // and with a budget a cut may take effect some ticks later than it would have. KIRI_ERROR_LIMIT: the same, and it
 // stays so until frames are destroyed. KIRI_DIVERGED: the sheets named by the events were put to rest, the others
-// moved.
+// moved. Work may wait then, too, as KIRI_EVENT_DEFERRED says.
 func (w *World) Tick(dt float32, substeps int32) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err

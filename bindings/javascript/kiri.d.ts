@@ -1231,7 +1231,7 @@ export class World {
      *  wait, call again. What the refused work had prepared is made again: until then Sheet.getWeights gives
      *  KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than it would have. KIRI_ERROR_LIMIT:
      *  the same, and it stays so until frames are destroyed. KIRI_DIVERGED: the sheets named by the events were put to
-     *  rest, the others moved. */
+     *  rest, the others moved. Work may wait then, too, as KIRI_EVENT_DEFERRED says. */
     tick(dt: number, substeps: number): ResultCode;
     /** What went wrong in the last function that changes the world, in one line; "" when nothing did. A function that
      *  only reads leaves it as it is, and gives its line to the log. Valid until the next function that changes the

@@ -690,7 +690,7 @@ end
 --- call again. What the refused work had prepared is made again: until then kiriSheet_GetWeights gives
 --- KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than it would have. KIRI_ERROR_LIMIT:
 --- the same, and it stays so until frames are destroyed. KIRI_DIVERGED: the sheets named by the events were put to
---- rest, the others moved.
+--- rest, the others moved. Work may wait then, too, as KIRI_EVENT_DEFERRED says.
 function World:tick(dt, substeps)
     local world = self
     local result = C.kiriWorld_Tick(world.c, dt, substeps)

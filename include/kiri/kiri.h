@@ -163,7 +163,8 @@ KIRI_API void kiriDestroyWorld(kiriWorld* world);
    until then kiriSheet_GetWeights gives KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than
    it would have.
    KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed.
-   KIRI_DIVERGED: the sheets named by the events were put to rest, the others moved. */
+   KIRI_DIVERGED: the sheets named by the events were put to rest, the others moved. Work may wait then, too, as
+   KIRI_EVENT_DEFERRED says. */
 KIRI_API kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
 
 /* What went wrong in the last function that changes the world, in one line; "" when nothing did. A function that only

@@ -1033,7 +1033,8 @@ unsafe extern "C" {
     /// refused work had prepared is made again: until then kiriSheet_GetWeights gives
     /// KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than it would
     /// have. KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed. KIRI_DIVERGED:
-    /// the sheets named by the events were put to rest, the others moved.
+    /// the sheets named by the events were put to rest, the others moved. Work may wait then, too,
+    /// as KIRI_EVENT_DEFERRED says.
     pub fn kiriWorld_Tick(world: *mut kiriWorld, dt: f32, substeps: i32) -> kiriResult;
     /// What went wrong in the last function that changes the world, in one line; "" when nothing
     /// did. A function that only reads leaves it as it is, and gives its line to the log. Valid

@@ -2079,7 +2079,7 @@ impl World {
     /// [`ResultCode::ErrorState`], and with a budget a cut may take effect some ticks later than it
     /// would have. [`ResultCode::ErrorLimit`]: the same, and it stays so until frames are
     /// destroyed. [`ResultCode::Diverged`]: the sheets named by the events were put to rest, the
-    /// others moved.
+    /// others moved. Work may wait then, too, as [`EventType::Deferred`] says.
     pub fn tick(&mut self, dt: f32, substeps: i32) -> Result<Status> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         let result = check(unsafe { sys::kiriWorld_Tick(self.raw_mut(), dt, substeps) }, self)?;
