@@ -533,9 +533,10 @@ float-guards:
 	        { echo "kiri_float.h compiles with $$option"; exit 1; }; \
 	done; echo "floats: options that give other bits do not compile"
 
-# TARGETS='aarch64 wasm': these only; TIME=300: begins no target after so many seconds.
+# TARGETS='aarch64 wasm': these only; TIME=300: begins no target after so many seconds. Its makes share the jobs of this
+# one, so it is called with make -n too, and is only shown then.
 portable: float-guards packages-portable
-	+@MAKE='$(MAKE)' TARGETS='$(TARGETS)' TIME='$(TIME)' sh tests/portable.sh
+	+@$(if $(findstring n,$(filter-out --%,$(firstword -$(MAKEFLAGS)))),echo) env MAKE='$(MAKE)' TARGETS='$(TARGETS)' TIME='$(TIME)' sh tests/portable.sh
 
 # After a change that moves state hashes, and says why.
 portable-golden: $(STORM)

@@ -187,7 +187,7 @@ echo 'int g(int a);' > src/core/unbuilt.c
 tree="$folder/all of it [d]"
 mkdir -p "$tree/build/release"
 cd "$root"
-for part in Makefile README.md .ci include src bindings samples tests; do cp -a "$part" "$tree"; done
+for part in Makefile README.md LICENSE .ci include src bindings samples tests; do cp -a "$part" "$tree"; done
 (cd build/release && cp -a compile.txt link.txt libkiri.* src samples "$tree/build/release")
 cd "$tree"
 touch src/core/kiri_base.c
@@ -196,4 +196,12 @@ run_make run ARGS="--ticks 2 --every 1 --size 160x120"
 [ -s build/pictures/contact_sheet.png ] || fail 'no picture'
 run_make floors exports
 run_make python
-echo "test_build: stale builds, missing packages and paths: as it should be"
+
+# ---- What would be done ---------------------------------------------------------------------------------------------
+
+# It is only said, also where nothing is built.
+find build | sort > "$folder/before"
+for target in check gallery-engines portable; do run_make -n config=release BUILD=build/nowhere $target; done
+rm -rf build/nowhere
+find build | sort | cmp -s "$folder/before" - || fail 'make -n makes something'
+echo "test_build: stale builds, missing packages, paths and make -n: as it should be"
