@@ -4,6 +4,7 @@
 #   make box2d    cuts a strip that lies on bodies of Box2D
 #   make play     plays a game in a window; GAME=curtain or net, ARGS=--help
 #   make test     builds and runs all tests
+#   make quick    a few of them, with all calls: for config=debug beside config=sanitize
 #   make fuzz     looks for input that breaks something; FUZZ=mesh: other than calls; TIME=600: s
 #   make long     ten minutes of play: work and memory of its minutes
 #   make analyze  gcc's analyzer, cppcheck and clang-tidy over src; deps-analyze: installs these; valgrind: a few tests
@@ -137,7 +138,7 @@ LANGUAGE_CHECKS :=
 include bindings/install.mk $(wildcard bindings/*/rules.mk)
 
 .PHONY: all run box2d play python bindings described builds lib single example bench accuracy contact extremes gallery guide deps
-.PHONY: test fuzz scarce long analyze deps-analyze valgrind tsan check floors fields headers format clean exports FORCE
+.PHONY: test quick fuzz scarce long analyze deps-analyze valgrind tsan check floors fields headers format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
 .DELETE_ON_ERROR:
@@ -288,7 +289,10 @@ manual-golden: $(BUILD)/libkiri.a
 	@$(MANUAL) --write
 
 # Each test program by itself, so that -j runs several at a time. What it printed is beside it, and shown when it fails.
+# Those that take longest begin first: what is begun last keeps one processor, and the others wait.
 TEST_RUNS := $(patsubst $(BUILD)/tests/%,run-%,$(TESTS))
+LONG_RUNS := $(filter $(TEST_RUNS),$(addprefix run-test_,refusals samples parting extremes load update ranges seen estimate \
+             promises games net save))
 
 .PHONY: $(TEST_RUNS) run-tests coverage
 
@@ -307,9 +311,13 @@ $(FUZZ_RUNS): run-fuzz_%: $(BUILD)/tests/fuzz_%
 	@if $< tests/data/fuzz/$* > $<.log 2>&1; then echo "== $<"; tail -n 1 $<.log; \
 	else echo "== $< FAILED"; tail -n 20 $<.log; exit 1; fi
 
-check: $(TEST_RUNS) $(FUZZ_RUNS) $(RUN) $(BOX2D) $(PLAY) floors fields headers float-guards exports example $(PYTHON_CHECK) $(DESCRIBED_CHECK) $(BUILD_CHECK) \
-    $(if $(filter release,$(config)),$(LANGUAGE_CHECKS))
+check: $(LONG_RUNS) $(BUILD_CHECK) $(if $(filter release,$(config)),$(LANGUAGE_CHECKS)) $(TEST_RUNS) $(FUZZ_RUNS) $(RUN) $(BOX2D) $(PLAY) \
+    floors fields headers float-guards exports example $(PYTHON_CHECK) $(DESCRIBED_CHECK)
 	@echo "all tests passed ($(config))"
+
+# The input of fuzzers and the recordings have all calls; Python loads no sanitized library.
+quick: $(FUZZ_RUNS) $(addprefix run-test_,api recordings world) exports $(PYTHON_CHECK)
+	@echo "a few tests passed ($(config))"
 
 python: $(BUILD)/libkiri.so
 	@if ! $(PYTHON) -c 'import cffi' 2>/dev/null; then echo "python: no cffi, binding not tested"; exit 0; fi; \
