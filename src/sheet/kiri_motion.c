@@ -3,6 +3,7 @@
 #include "../motion/kiri_prediction.h"
 #include "kiri_follow.h"
 #include "kiri_touch.h"
+#include "kiri_turn.h"
 
 #include <string.h>
 
@@ -47,9 +48,11 @@ static void PutToRest(kiriFrameData* frame)
 
 static void ClearForces(kiriSheetData* sheet)
 {
-    KIRI_EACH(i, kiriSolver_Awake(sheet->solver)->frames) {
-        memset(&sheet->frames.data[i].force, 0, sizeof(kiriVec3));
-        memset(&sheet->frames.data[i].torque, 0, sizeof(kiriVec3));
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        if (kiriPiece_IsAwake(kiriSheet_PieceOf(sheet, i))) {
+            memset(&sheet->frames.data[i].force, 0, sizeof(kiriVec3));
+            memset(&sheet->frames.data[i].torque, 0, sizeof(kiriVec3));
+        }
     }
 }
 
@@ -155,7 +158,7 @@ static void FallAsleep(kiriSheetData* sheet)
 }
 
 /* For a piece that sleeps nobody finds touches but the host: who moves other things wakes it. */
-static void ChooseAwake(kiriSheetData* sheet, const kiriSystem* system)
+static void ChooseAwake(kiriSheetData* sheet, const kiriSystem* system, const kiriQuota* systems)
 {
     int32_t at = 0, piece;
     while (kiriTouches_NextNew(sheet, &at, &piece)) {
@@ -168,7 +171,8 @@ static void ChooseAwake(kiriSheetData* sheet, const kiriSystem* system)
     for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
         kiriSolver_SetAwake(sheet->solver, p, kiriPiece_IsAwake(&sheet->layout.pieces.data[p]));
     }
-    if (kiriSolver_ListAwake(sheet->solver, system)) {
+    bool areOther = kiriSolver_ListAwake(sheet->solver, system);
+    if (kiriTurns_Begin(sheet, system, systems) || areOther) {
         kiriTouches_Sort(sheet);
         kiriMotion_SumRest(sheet);
     }
@@ -265,6 +269,7 @@ static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt
                                   sheet->seen.fades.time);
         kiriPins_FadeOffsets(sheet, dt, sheet->seen.fades.time);
         CountCalm(sheet, dt);
+        kiriTurns_Take(sheet);
     }
     return progress;
 }
@@ -272,7 +277,7 @@ static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt
 kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
     kiriSystem system = MakeSystem(sheet, gravity);
-    ChooseAwake(sheet, &system);
+    ChooseAwake(sheet, &system, systems);
     if (sheet->rest.asleep) {
         kiriTouches_Tell(sheet, dt);
         return KIRI_DONE;

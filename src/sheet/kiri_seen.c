@@ -21,6 +21,7 @@ static const kiriAwake* AwakeOf(kiriSheetData* sheet)
     const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
     bool hasLinks = sheet->settings.mechanics.model != KIRI_MODEL_POINTS;
     bool isOther = !sheet->seen.surface.isSteady || sheet->seen.areFadesAsleep ||
+                   (sheet->turns.waiting > 0 && sheet->seen.isElsewhere) ||
                    (sheet->rest.asleep && sheet->seen.fades.fading.count + sheet->seen.pointFades.fading.count > 0);
     return awake->isListed && !isOther && (hasLinks || sheet->settings.skinning == KIRI_SKINNING_LINEAR) ? awake : NULL;
 }
@@ -212,7 +213,7 @@ static bool MayBeElsewhere(const kiriSheetData* sheet, const JumpLook* look, int
 static bool IsVertexAwake(const kiriSheetData* sheet, int32_t vertex)
 {
     int32_t piece = kiriPiece_OfVertex(sheet, vertex);
-    return piece != KIRI_NONE && kiriPiece_IsAwake(&sheet->layout.pieces.data[piece]);
+    return piece != KIRI_NONE && kiriPiece_IsMoved(&sheet->layout.pieces.data[piece]);
 }
 
 /* The vertices of a block go where their weights have them. */

@@ -24,6 +24,7 @@ typedef struct kiriRest {
     double calm;    /* s for which it has been slower than sleepSpeed */
     bool asleep;    /* it was not moved by the last tick, and rests */
     bool isStirred; /* in the tick at hand something that moves comes near, or a cut changes it: it shall wake */
+    bool waits;     /* in the tick at hand the budget has no systems left for it, see kiri_turn.h */
     bool isFading;  /* scratch: some of it is seen elsewhere; */
     bool isCalm;    /* scratch: it was slower than sleepSpeed in this tick */
 } kiriRest;
@@ -36,6 +37,7 @@ typedef struct kiriPiece {
     bool isGone;    /* the host has destroyed it: it is not seen, and goes when the work at hand is done */
     bool isTouched; /* its frames, links or samples are not those of its origin */
     int32_t island; /* scratch: of pieces that touch, see kiri_pair.c */
+    int32_t work;   /* scratch: its part of a linear system, see kiri_turn.c */
     kiriRest rest;
 } kiriPiece;
 
@@ -209,6 +211,12 @@ typedef struct kiriSheetRest {
     bool isIdle; /* they sleep, and no tick has anything to do for it until one wakes, or it gets a cut or contacts */
 } kiriSheetRest;
 
+/* See kiri_turn.h. */
+typedef struct kiriTurns {
+    int32_t next;    /* a frame of the piece that is moved first */
+    int32_t waiting; /* pieces that wait in the tick at hand */
+} kiriTurns;
+
 /* Who finds touches: the highest four bits of their keys. */
 enum kiriTouchKind { KIRI_TOUCH_HOST = 1, KIRI_TOUCH_OBSTACLE = 2, KIRI_TOUCH_PAIR = 3 };
 
@@ -356,6 +364,7 @@ typedef struct kiriSheetData {
 
     kiriTouches touches;
     kiriSheetRest rest;
+    kiriTurns turns;
     kiriSeen seen;
     kiriPieceLists lists;
     kiriProbes probes;
@@ -403,9 +412,15 @@ static inline bool kiriPiece_MayMove(const kiriPiece* piece)
     return kiriPiece_IsAwake(piece) || (piece->rest.isStirred && !piece->isGone);
 }
 
+/* From when a tick moves frames until it is over: is the piece moved in it? At other times: would it be? */
+static inline bool kiriPiece_IsMoved(const kiriPiece* piece)
+{
+    return kiriPiece_IsAwake(piece) && !piece->rest.waits;
+}
+
 static inline bool kiriSheet_Moves(const kiriSheetData* sheet, int32_t frame)
 {
-    return kiriPiece_IsAwake(kiriSheet_PieceOf(sheet, frame));
+    return kiriPiece_IsMoved(kiriSheet_PieceOf(sheet, frame));
 }
 
 /* Do links go on with their strains when a cut changes them? */

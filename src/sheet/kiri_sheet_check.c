@@ -397,6 +397,16 @@ static bool HasRoomForRows(kiriCheck* check, const kiriSheetData* sheet)
     return kiriCheck_That(check, hasRoom || isShort);
 }
 
+/* Between two ticks nobody waits. */
+static bool AreTurns(kiriCheck* check, const kiriSheetData* sheet)
+{
+    bool waits = sheet->turns.waiting != 0;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        waits = waits || sheet->layout.pieces.data[p].rest.waits;
+    }
+    return kiriCheck_That(check, !waits && sheet->turns.next >= 0);
+}
+
 bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check)
 {
     kiriMesh_Count(&sheet->mesh, check);
@@ -405,7 +415,8 @@ bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check)
     return kiriMesh_Check(&sheet->mesh, check) && AreSettings(check, &sheet->settings) &&
            AreFramesSound(check, sheet) &&
            kiriCheck_That(check, sheet->update->placing.sites.count >= sheet->frames.count) &&
-           kiriLinks_Check(&sheet->links, check) && IsLayout(check, sheet) && ArePins(check, sheet) &&
+           kiriLinks_Check(&sheet->links, check) && IsLayout(check, sheet) && AreTurns(check, sheet) &&
+           ArePins(check, sheet) &&
            kiriSkin_Check(&sheet->vertexSkin, check, sheet->mesh.vertices.count, &sheet->mesh) &&
            kiriSkin_Check(&sheet->pointSkin, check, sheet->points.count, NULL) &&
            kiriCheck_That(

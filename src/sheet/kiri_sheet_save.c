@@ -31,7 +31,7 @@ static const kiriTable RestTable = KIRI_TABLE(kiriRest, RestMembers);
 
 static const kiriMember PieceMembers[] = {
     KIRI_RUN(8, kiriPiece, area, area),        KIRI_RUN(4, kiriPiece, frame, origin),
-    KIRI_BOOLS(kiriPiece, cameOff, isTouched), KIRI_RUN(4, kiriPiece, island, island),
+    KIRI_BOOLS(kiriPiece, cameOff, isTouched), KIRI_RUN(4, kiriPiece, island, work),
     KIRI_PART(kiriPiece, rest, RestTable),
 };
 static const kiriTable PieceTable = KIRI_TABLE(kiriPiece, PieceMembers);
@@ -342,6 +342,7 @@ static const kiriMember LiveSheetMembers[] = {
     KIRI_DROPPED(kiriSheetData, lineShares),
     KIRI_PART(kiriSheetData, touches, TouchesTable),
     KIRI_BOOLS(kiriSheetData, rest, rest),
+    KIRI_RUN(4, kiriSheetData, turns, turns),
     KIRI_DROPPED(kiriSheetData, seen),
     KIRI_DROPPED(kiriSheetData, lists),
     KIRI_DROPPED(kiriSheetData, probes),

@@ -380,8 +380,8 @@ void kiriTouches_Clear(kiriSheetData* sheet)
 
 /* ---- Sleep --------------------------------------------------------------------------------------------------------- */
 
-/* Those of pieces that sleep, or of the others, go over; and those of pieces that are gone go. */
-static void MoveTouches(kiriSheetData* sheet, kiriTouchMemory* from, kiriTouchMemory* to, bool areAsleep)
+/* Those of pieces that are not moved, or of the others, go over; and those of pieces that are gone go. */
+static void MoveTouches(kiriSheetData* sheet, kiriTouchMemory* from, kiriTouchMemory* to, bool areMoved)
 {
     int32_t kept = 0, given = 0, before = to->touches.count;
     for (int32_t i = 0; i < from->touches.count; ++i) {
@@ -389,7 +389,7 @@ static void MoveTouches(kiriSheetData* sheet, kiriTouchMemory* from, kiriTouchMe
         const kiriPiece* piece = PieceOfTouch(sheet, &touch);
         if (piece->isGone) {
             kiriTouchMemory_Take(from, touch.key);
-        } else if (piece->rest.asleep == areAsleep) {
+        } else if (kiriPiece_IsMoved(piece) == areMoved) {
             kiriTouchMemory_Add(to, &touch, kiriTouchMemory_Take(from, touch.key));
         } else {
             from->touches.data[kept++] = touch;
@@ -405,8 +405,8 @@ static void MoveTouches(kiriSheetData* sheet, kiriTouchMemory* from, kiriTouchMe
 void kiriTouches_Sort(kiriSheetData* sheet)
 {
     sheet->touches.rests.areSummed = false;
-    MoveTouches(sheet, &sheet->touches.last, &sheet->touches.slept, true);
-    MoveTouches(sheet, &sheet->touches.slept, &sheet->touches.last, false);
+    MoveTouches(sheet, &sheet->touches.last, &sheet->touches.slept, false);
+    MoveTouches(sheet, &sheet->touches.slept, &sheet->touches.last, true);
 }
 
 /* Touches are found anew each tick, where a sheet that hardly moves is seen: a plane that passes the point as near as
@@ -468,6 +468,11 @@ static bool AreSame(const kiriSheetData* sheet, const int32_t* order, int32_t co
     return same;
 }
 
+int32_t kiriTouch_Piece(const kiriSheetData* sheet, const kiriTouch* touch)
+{
+    return (int32_t)(PieceOfTouch(sheet, touch) - sheet->layout.pieces.data);
+}
+
 bool kiriTouches_NextNew(kiriSheetData* sheet, int32_t* at, int32_t* piece)
 {
     const kiriTouches* touches = &sheet->touches;
@@ -485,7 +490,7 @@ bool kiriTouches_NextNew(kiriSheetData* sheet, int32_t* at, int32_t* piece)
             *at += 1;
         }
         if (!AreSame(sheet, order + first, *at - first)) {
-            *piece = (int32_t)(PieceOfTouch(sheet, TouchAt(touches, order[first])) - sheet->layout.pieces.data);
+            *piece = kiriTouch_Piece(sheet, TouchAt(touches, order[first]));
             return true;
         }
     }

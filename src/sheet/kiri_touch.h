@@ -35,7 +35,10 @@ void kiriTouches_WriteRows(kiriSheetData* sheet);
    none. *at is 0 at first. A piece may come more than once. */
 bool kiriTouches_NextNew(kiriSheetData* sheet, int32_t* at, int32_t* piece);
 
-/* When other pieces are awake: what is remembered of them is there where it belongs. */
+/* The piece that has it. */
+int32_t kiriTouch_Piece(const kiriSheetData* sheet, const kiriTouch* touch);
+
+/* When other pieces are moved: what is remembered of them is there where it belongs. */
 void kiriTouches_Sort(kiriSheetData* sheet);
 
 /* After the sheet was moved: remembers what pushed. */

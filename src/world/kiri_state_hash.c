@@ -417,6 +417,9 @@ static void HashRest(uint64_t* hash, const kiriSheetData* sheet)
             kiriHash_Int32(hash, pieces[p].rest.asleep);
         }
     }
+    if (sheet->turns.next > 0) {
+        kiriHash_Int32(hash, sheet->turns.next);
+    }
     HashTouches(hash, &sheet->touches.last, &sheet->touches.slept);
 }
 

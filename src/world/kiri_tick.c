@@ -8,6 +8,7 @@
 #include "../sheet/kiri_seen.h"
 #include "../sheet/kiri_stages.h"
 #include "../sheet/kiri_touch.h"
+#include "../sheet/kiri_turn.h"
 #include "kiri_blade.h"
 #include "kiri_move_step.h"
 #include "kiri_obstacle_step.h"
@@ -320,10 +321,11 @@ static bool ReportDeferred(kiriWorld* world)
     return any;
 }
 
-/* What became of the sheets that were moved, in the order in which they were. */
+/* What became of the sheets that were moved, in the order in which they were. In the next tick the first that stood still
+   comes first; where none did, the first of which a piece waited. */
 static kiriResult ReportMoves(kiriWorld* world, kiriResult result)
 {
-    bool isLate = false;
+    bool isLate = false, isPartlyLate = false;
     int32_t turn = world->turn;
     world->turn = 0;
     for (int32_t k = 0; k < world->active.count; ++k) {
@@ -332,10 +334,12 @@ static kiriResult ReportMoves(kiriWorld* world, kiriResult result)
         if (progress == KIRI_FAILED) {
             AddEvent(world, KIRI_EVENT_DIVERGED, world->sheets.data[i]);
             result = KIRI_DIVERGED;
-        } else if (progress == KIRI_MORE) {
-            world->turn = isLate ? world->turn : i;
+        } else if (progress == KIRI_MORE || world->sheets.data[i]->turns.waiting > 0) {
+            bool isWhole = progress == KIRI_MORE;
+            world->turn = isLate || (isPartlyLate && !isWhole) ? world->turn : i;
             result = result == KIRI_OK ? KIRI_PENDING : result;
-            isLate = true;
+            isLate = isLate || isWhole;
+            isPartlyLate = true;
         }
     }
     return result;
@@ -385,6 +389,7 @@ static void SkinAll(kiriWorld* world, double dt)
     EnterStage(world, KIRI_STAGE_SKIN);
     kiriSkinStep_Run(world, dt);
     for (int32_t k = 0; k < world->active.count; ++k) {
+        kiriTurns_End(kiriWorld_Active(world, k));
         CountJumps(&world->profile, kiriWorld_Active(world, k));
     }
 }

@@ -538,7 +538,9 @@ namespace Kiri
         /// <summary>work on linear systems, of 30 to 60 us each. A system counts 1, and 1 more for each 16 frames (5 of affine
         /// ones), for each 64 contacts, and for each 1280 products of blocks that its factorisation takes: in a square
         /// of 24, 289, 1000, 5000 frames it is 2, 36, 184, 2411. A sheet that gets fewer systems than its substeps
-        /// takes longer ones; one that gets none stands still in this tick, and comes first in the next</summary>
+        /// takes longer ones. Where one system of all its pieces is more than what is left, they take turns: some are
+        /// moved, the others stay where they are in this tick, with their velocity, and come first in the next; a sheet
+        /// that gets none stands still, too. A piece whose system is more than the whole limit is moved alone</summary>
         public int Iterations;
     }
 

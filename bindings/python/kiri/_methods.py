@@ -71,11 +71,12 @@ class World:
     def tick(self, dt, substeps=1):
         """One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut
         points, then moves every sheet. KIRI_PENDING: the budget is spent and more work waits: the events say which
-        cuts; a sheet may also have stood still for want of iterations. KIRI_ERROR_MEMORY: nothing moved and cuts
-        still wait, call again. What the refused work had prepared is made again: until then kiriSheet_GetWeights
-        gives KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than it would have.
-        KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed. KIRI_DIVERGED: the sheets named by
-        the events were put to rest, the others moved. Work may wait then, too, as KIRI_EVENT_DEFERRED says.
+        cuts; a sheet, or some of its pieces, may also have stood still for want of iterations. KIRI_ERROR_MEMORY:
+        nothing moved and cuts still wait, call again. What the refused work had prepared is made again: until then
+        kiriSheet_GetWeights gives KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than
+        it would have. KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed. KIRI_DIVERGED: the
+        sheets named by the events were put to rest, the others moved. Work may wait then, too, as
+        KIRI_EVENT_DEFERRED says.
         """
         return self.call('kiriWorld_Tick', dt, substeps)
 

@@ -257,8 +257,10 @@ pub struct kiriBudget {
     /// work on linear systems, of 30 to 60 us each. A system counts 1, and 1 more for each 16
     /// frames (5 of affine ones), for each 64 contacts, and for each 1280 products of blocks that
     /// its factorisation takes: in a square of 24, 289, 1000, 5000 frames it is 2, 36, 184, 2411. A
-    /// sheet that gets fewer systems than its substeps takes longer ones; one that gets none stands
-    /// still in this tick, and comes first in the next
+    /// sheet that gets fewer systems than its substeps takes longer ones. Where one system of all
+    /// its pieces is more than what is left, they take turns: some are moved, the others stay where
+    /// they are in this tick, with their velocity, and come first in the next; a sheet that gets
+    /// none stands still, too. A piece whose system is more than the whole limit is moved alone
     pub iterations: i32,
 }
 
@@ -1028,13 +1030,13 @@ unsafe extern "C" {
     pub fn kiriDestroyWorld(world: *mut kiriWorld);
     /// One fixed step of dt seconds (1e-6 to 10), solved in \`substeps\` equal parts (1 to 64).
     /// Takes the waiting cut points, then moves every sheet. KIRI_PENDING: the budget is spent and
-    /// more work waits: the events say which cuts; a sheet may also have stood still for want of
-    /// iterations. KIRI_ERROR_MEMORY: nothing moved and cuts still wait, call again. What the
-    /// refused work had prepared is made again: until then kiriSheet_GetWeights gives
-    /// KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than it would
-    /// have. KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed. KIRI_DIVERGED:
-    /// the sheets named by the events were put to rest, the others moved. Work may wait then, too,
-    /// as KIRI_EVENT_DEFERRED says.
+    /// more work waits: the events say which cuts; a sheet, or some of its pieces, may also have
+    /// stood still for want of iterations. KIRI_ERROR_MEMORY: nothing moved and cuts still wait,
+    /// call again. What the refused work had prepared is made again: until then
+    /// kiriSheet_GetWeights gives KIRI_ERROR_STATE, and with a budget a cut may take effect some
+    /// ticks later than it would have. KIRI_ERROR_LIMIT: the same, and it stays so until frames are
+    /// destroyed. KIRI_DIVERGED: the sheets named by the events were put to rest, the others moved.
+    /// Work may wait then, too, as KIRI_EVENT_DEFERRED says.
     pub fn kiriWorld_Tick(world: *mut kiriWorld, dt: f32, substeps: i32) -> kiriResult;
     /// What went wrong in the last function that changes the world, in one line; "" when nothing
     /// did. A function that only reads leaves it as it is, and gives its line to the log. Valid

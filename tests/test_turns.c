@@ -1,0 +1,275 @@
+/* Pieces of a sheet that take turns where the budget has too few linear systems for all of them. */
+#include "host.h"
+
+static const float dt = 1.0f / 60.0f, still[3] = { 0.0f, 0.0f, 0.0f };
+enum { PARTS = 7, PIECES = PARTS * PARTS, MOST = 64 };
+
+static void CutDice(Host* host, kiriSheet sheet)
+{
+    for (int i = 1; i < PARTS; ++i) {
+        float at = ((float)i + 0.03f) / PARTS;
+        Host_Cut(host, sheet, (float[]){ at, -0.1f, at, 1.1f }, 2);
+        Host_Cut(host, sheet, (float[]){ -0.1f, at, 1.1f, at }, 2);
+    }
+}
+
+static kiriSheet AddSheet(Host* host, const float position[3], int32_t skinning)
+{
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = 28;
+    def.frameCount = 1;
+    def.maxFrames = 1000;
+    def.rigidArea = 1.0f;
+    def.material.airDamping = 0.0f;
+    def.skinning = skinning;
+    def.normals = 1;
+    memcpy(def.position, position, sizeof(def.position));
+    return Host_AddRectangle(host, &def, 1.0f, 1.0f, 14, 14);
+}
+
+static void Limit(Host* host, int32_t systems)
+{
+    const kiriBudget budget = { .triangles = 0, .cells = 0, .samples = 0, .iterations = systems };
+    OK(kiriWorld_SetBudget(host->world, &budget));
+}
+
+/* In pieces that are to move under a budget. */
+static kiriSheet StartDice(Host* host, int32_t systems)
+{
+    Host_Start(host);
+    OK(kiriWorld_SetGravity(host->world, (const float[3]){ 0.0f, 0.0f, 0.0f }));
+    kiriSheet sheet = AddSheet(host, (const float[3]){ 0.0f, 0.0f, 0.0f }, KIRI_SKINNING_LINEAR);
+    CutDice(host, sheet);
+    OK(Host_Tick(host, dt, 2));
+    Limit(host, systems);
+    return sheet;
+}
+
+static int32_t GetFrames(const Host* host, kiriSheet sheet, kiriFrame* frames, kiriFrameState* states)
+{
+    int32_t count;
+    OK(kiriSheet_GetFrames(host->world, sheet, frames, MOST, &count));
+    assert_true(count <= MOST);
+    for (int32_t i = 0; i < count; ++i) {
+        OK(kiriFrame_GetState(host->world, frames[i], &states[i]));
+    }
+    return count;
+}
+
+static int32_t SystemsOf(const Host* host)
+{
+    kiriProfile profile;
+    OK(kiriWorld_GetProfile(host->world, &profile));
+    return profile.solverIterations;
+}
+
+static void CheckMomentum(const Host* host, kiriSheet sheet, const double* momentum)
+{
+    kiriTotals totals = Host_Totals(host, sheet);
+    for (int k = 0; k < 3; ++k) {
+        assert_true(fabs(totals.momentum[k] - momentum[k]) < 1e-9 * totals.mass);
+    }
+}
+
+/* Each gets as many ticks as any other, or one more or less. One that waits stays where it is and keeps its velocity. */
+static void TestPiecesTakeTurns(void** state)
+{
+    (void)state;
+    Host host;
+    kiriFrame frames[MOST];
+    kiriFrameState was[MOST], is[MOST];
+    int32_t ticks[MOST] = { 0 }, least = INT32_MAX, most = 0;
+    kiriSheet sheet = StartDice(&host, 1);
+    OK(kiriSheet_SetVelocity(host.world, sheet, (const float[3]){ 0.5f, 0.2f, 1.0f },
+                             (const float[3]){ 0.0f, 0.3f, 0.1f }));
+    kiriTotals totals = Host_Totals(&host, sheet);
+    int32_t count = GetFrames(&host, sheet, frames, was);
+    assert_int_equal(count, PIECES);
+    for (int tick = 0; tick < 40; ++tick) {
+        int32_t moved = 0;
+        assert_int_equal(Host_Tick(&host, dt, 2), KIRI_PENDING);
+        assert_int_equal(SystemsOf(&host), 1);
+        GetFrames(&host, sheet, frames, is);
+        for (int32_t i = 0; i < count; ++i) {
+            bool isMoved = memcmp(was[i].position, is[i].position, sizeof(is[i].position)) != 0;
+            ticks[i] += isMoved;
+            moved += isMoved;
+            if (!isMoved) {
+                assert_memory_equal(&was[i], &is[i], sizeof(is[i]));
+            }
+        }
+        assert_in_range(moved, 10, 15);
+        memcpy(was, is, sizeof(was));
+        CheckMomentum(&host, sheet, totals.momentum);
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        least = ticks[i] < least ? ticks[i] : least;
+        most = ticks[i] > most ? ticks[i] : most;
+    }
+    assert_true(least >= 8 && most <= least + 1);
+    Limit(&host, 0);
+    OK(Host_Tick(&host, dt, 2));
+    Host_Stop(&host);
+}
+
+/* Forces are of one tick, also for those that wait in it. */
+static void TestForcesAreUsedUp(void** state)
+{
+    (void)state;
+    Host host;
+    kiriFrame frames[MOST];
+    kiriFrameState states[MOST], after[MOST];
+    kiriSheet sheet = StartDice(&host, 1);
+    int32_t count = GetFrames(&host, sheet, frames, states), pushed = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        OK(kiriFrame_ApplyForce(host.world, frames[i], (const float[3]){ 0.0f, 0.0f, states[i].mass },
+                                (const float[3]){ 0.0f, 0.0f, 0.0f }));
+    }
+    for (int tick = 0; tick < 8; ++tick) {
+        assert_int_equal(Host_Tick(&host, dt, 2), KIRI_PENDING);
+    }
+    GetFrames(&host, sheet, frames, after);
+    for (int32_t i = 0; i < count; ++i) {
+        pushed += after[i].velocity[2] > 0.0f;
+        assert_true(after[i].velocity[2] < 1.01f * dt);
+    }
+    assert_in_range(pushed, 10, 15);
+    Host_Stop(&host);
+}
+
+/* Small sheets that come after the dice are moved as well. */
+static void TestSheetsTakeTurns(void** state)
+{
+    (void)state;
+    enum { OTHERS = 3 };
+    Host host;
+    kiriSheet others[OTHERS];
+    int32_t moved[OTHERS] = { 0 }, dice = 0;
+    double last[OTHERS + 1] = { 0.0 };
+    kiriSheet sheet = StartDice(&host, 1);
+    OK(kiriSheet_SetVelocity(host.world, sheet, (const float[3]){ 0.0f, 0.0f, 1.0f }, still));
+    for (int k = 0; k < OTHERS; ++k) {
+        others[k] = AddSheet(&host, (const float[3]){ 2.0f + (float)k, 0.0f, 0.0f }, KIRI_SKINNING_LINEAR);
+        OK(kiriSheet_SetVelocity(host.world, others[k], (const float[3]){ 0.0f, 0.0f, 1.0f }, still));
+    }
+    for (int tick = 0; tick < 80; ++tick) {
+        assert_int_equal(Host_Tick(&host, dt, 2), KIRI_PENDING);
+        assert_true(SystemsOf(&host) <= 1);
+        for (int k = 0; k < OTHERS; ++k) {
+            double z = Host_Totals(&host, others[k]).center[2];
+            moved[k] += z > last[k];
+            last[k] = z;
+        }
+        double z = Host_Totals(&host, sheet).center[2];
+        dice += z > last[OTHERS];
+        last[OTHERS] = z;
+    }
+    for (int k = 0; k < OTHERS; ++k) {
+        assert_in_range(moved[k], 80 / (OTHERS + 1) - 2, 80 / (OTHERS + 1) + 2);
+    }
+    assert_in_range(dice, 80 / (OTHERS + 1) - 2, 80 / (OTHERS + 1) + 2);
+    Host_Stop(&host);
+}
+
+static kiriObstacle AddFloor(Host* host)
+{
+    kiriObstacleDef def;
+    kiriObstacle obstacle;
+    kiriDefaultObstacleDef(&def);
+    def.type = KIRI_OBSTACLE_PLANE;
+    def.position[2] = -0.05f;
+    OK(kiriCreateObstacle(host->world, &def, &obstacle));
+    return obstacle;
+}
+
+/* Whoever lies on a floor presses on it, also while it waits; and all come to rest. */
+static void TestPiecesComeToRest(void** state)
+{
+    (void)state;
+    Host host;
+    kiriObstacleState floorState;
+    int32_t awake = 1, ticks = 0;
+    kiriSheet sheet = StartDice(&host, 2);
+    kiriObstacle ground = AddFloor(&host);
+    OK(kiriWorld_SetGravity(host.world, (const float[3]){ 0.0f, 0.0f, -9.81f }));
+    for (; awake != 0 && ticks < 3000; ++ticks) {
+        assert_true(Host_Tick(&host, dt, 2) >= 0);
+        assert_true(SystemsOf(&host) <= 2);
+        OK(kiriSheet_IsAwake(host.world, sheet, &awake));
+        if (ticks % 100 == 90) {
+            double weight = 9.81 * Host_Totals(&host, sheet).mass;
+            OK(kiriObstacle_GetState(host.world, ground, &floorState));
+            assert_true(fabs((double)floorState.impulse[2] / (double)dt + weight) < 0.2 * weight);
+        }
+    }
+    assert_int_equal(awake, 0);
+    assert_true(fabs(Host_Totals(&host, sheet).center[2] + 0.05) < 0.003);
+    Host_Stop(&host);
+}
+
+/* What is seen is what is there, whoever waits: far away, with normals, fades and patches that bend. Host_Tick looks. */
+static void CutWhileWaiting(int32_t skinning, float x)
+{
+    Host host;
+    Host_Start(&host);
+    kiriSheet sheet = AddSheet(&host, (const float[3]){ x, 0.0f, 0.0f }, skinning);
+    kiriPin pin;
+    OK(kiriSheet_ClampLine(host.world, sheet, (const float[2]){ 0.0f, 1.0f }, (const float[2]){ 1.0f, 1.0f }, &pin));
+    Limit(&host, 1);
+    for (int tick = 0; tick < 60; ++tick) {
+        assert_true(Host_Tick(&host, dt, 2) >= 0);
+        if (tick % 20 == 5) {
+            CutDice(&host, sheet);
+        }
+        if (tick % 20 == 12) {
+            float at = 0.3f + 0.01f * (float)tick;
+            Host_Cut(&host, sheet, (float[]){ at, at, at + 0.1f, at - 0.1f }, 2);
+        }
+    }
+    Host_Stop(&host);
+}
+
+static void TestSeenWhileWaiting(void** state)
+{
+    (void)state;
+    CutWhileWaiting(KIRI_SKINNING_LINEAR, 0.0f);
+    CutWhileWaiting(KIRI_SKINNING_SMOOTH, 1000.0f);
+}
+
+/* Who comes next is a part of the state. */
+static void TestSaveWhileWaiting(void** state)
+{
+    (void)state;
+    Host host, other;
+    int64_t size;
+    kiriSheet sheet = StartDice(&host, 1);
+    OK(kiriSheet_SetVelocity(host.world, sheet, (const float[3]){ 0.5f, 0.2f, 1.0f }, still));
+    AddFloor(&host);
+    for (int tick = 0; tick < 3; ++tick) {
+        assert_int_equal(Host_Tick(&host, dt, 2), KIRI_PENDING);
+    }
+    OK(kiriWorld_Save(host.world, NULL, 0, &size));
+    void* bytes = malloc((size_t)size);
+    OK(kiriWorld_Save(host.world, bytes, size, &size));
+    Host_Start(&other);
+    OK(kiriWorld_Load(other.world, bytes, size));
+    for (int tick = 0; tick < 20; ++tick) {
+        assert_true(Host_Hash(&host) == Host_Hash(&other));
+        assert_int_equal(Host_Tick(&host, dt, 2), KIRI_PENDING);
+        assert_int_equal(Host_Tick(&other, dt, 2), KIRI_PENDING);
+    }
+    free(bytes);
+    Host_Stop(&host);
+    Host_Stop(&other);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestPiecesTakeTurns),  cmocka_unit_test(TestForcesAreUsedUp),
+        cmocka_unit_test(TestSheetsTakeTurns),  cmocka_unit_test(TestPiecesComeToRest),
+        cmocka_unit_test(TestSeenWhileWaiting), cmocka_unit_test(TestSaveWhileWaiting),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
