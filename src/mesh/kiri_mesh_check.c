@@ -299,11 +299,11 @@ static bool AreVertexLists(kiriCheck* check, const kiriMeshData* mesh)
     bool areFine = true;
     for (int32_t s = 0; areFine && s < check->count[KIRI_OF_SQUARES]; ++s) {
         int32_t last = mesh->vertices.count;
-        for (int32_t v = squares->vertexHead[s]; areFine && v != KIRI_NONE; v = mesh->vertices.data[v].next) {
+        for (int32_t v = squares->vertexHead[s]; areFine && v != KIRI_NONE; ++listed) {
             areFine = v >= 0 && v < last && kiriMesh_IsVertex(mesh, v) &&
                       kiriSquares_At(squares, mesh->vertices.data[v].at) == s;
             last = v;
-            ++listed;
+            v = areFine ? mesh->vertices.data[v].next : KIRI_NONE;
         }
     }
     return kiriCheck_That(check, areFine && listed == mesh->vertices.count - mesh->vertexHoles);
