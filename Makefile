@@ -507,6 +507,7 @@ $(BUILD)/tests/test_games: TEST_LIBRARIES = $(BUILD)/libkiri.a -lbox2d -lOSMesa 
 $(BUILD)/tests/test_readers $(BUILD)/tests/test_tasks $(BUILD)/tests/bench_tasks: override LDFLAGS += -pthread
 
 $(BUILD)/tests/test_save: $(patsubst %,$(BUILD)/tests/%.c.o,storm_types storm_acts storm_cuts storm_seen)
+$(BUILD)/tests/test_saves: $(patsubst %,$(BUILD)/tests/%.c.o,storm_types storm_acts storm_cuts storm_seen)
 
 # Fuzzers: with the main of libFuzzer, or one that runs what it is given.
 FUZZ_MAIN := $(if $(filter fuzz,$(config)),,$(BUILD)/tests/fuzz_main.c.o)

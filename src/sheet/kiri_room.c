@@ -117,10 +117,14 @@ kiriProgress kiriRoom_ForWeights(kiriSheetData* sheet, kiriQuota* samples)
     return kiriGrowing_GoOn(&sheet->update->growing, rooms, WEIGHT_ROOMS, samples, WEIGHT_BYTES);
 }
 
+/* What counts no more is not kept: its array may have become shorter. */
 void kiriRoom_ArchiveGrowing(kiriArchive* archive, kiriSheetData* sheet)
 {
     kiriRoom rooms[ROOMS + WEIGHT_ROOMS];
+    kiriUpdate* u = sheet->update;
+    kiriGrowing none = { NULL, NULL, NULL, 0, 0, u->growing.owed };
+    bool counts = kiriArchive_Reads(archive) || u->growsSince == sheet->mesh.revision;
     ListRooms(sheet, 0, rooms);
     ListWeightRooms(sheet, rooms + ROOMS);
-    kiriArchive_Growing(archive, &sheet->update->growing, rooms, ROOMS + WEIGHT_ROOMS);
+    kiriArchive_Growing(archive, counts ? &u->growing : &none, rooms, ROOMS + WEIGHT_ROOMS);
 }
