@@ -94,6 +94,13 @@ typedef struct kiriBorderSide {
 
 kiriBorderSide kiriBorder_SideOf(const kiriBorder* border, int32_t face);
 
+/* For kiriSort, context: the border. By square, axis, and the lowest triangles of the two cells: not by indices. No two
+   faces share all of it. */
+bool kiriBorder_IsFaceBefore(const void* context, int32_t a, int32_t b);
+
+/* Adds the links of the stretch through a face, which is in none yet, to what was made. False for memory. */
+bool kiriBorder_MakeLinksAt(const kiriBorder* border, int32_t face);
+
 /* The four cells around a node of the grid, counter-clockwise from the lower left one, where faces join each to the
    next, and none is a sliver: no slit and no outline runs to the node. */
 typedef struct kiriRing {
