@@ -79,6 +79,98 @@ static void TestReplayIsTheSame(void**)
     assert_int_equal(first.score, second.score);
 }
 
+/* ---- Going back --------------------------------------------------------------------------------------------------- */
+
+/* Sends what a script has from event `next` on, `late` ticks later, and ticks until `end`. */
+static void PlayFrom(Play* play, const Script& script, int next, int late, int end)
+{
+    for (; play->tick < end; Play_Tick(play)) {
+        for (; next < script.count && script.events[next].tick + late <= play->tick; ++next) {
+            assert_true(Play_Send(play, &script.events[next]));
+        }
+    }
+}
+
+/* The events that begin strokes. */
+static std::vector<int> StrokesOf(const Script& script)
+{
+    std::vector<int> strokes;
+    for (int i = 0; i < script.count; ++i) {
+        if (script.events[i].type == GAME_DOWN) {
+            strokes.push_back(i);
+        }
+    }
+    return strokes;
+}
+
+/* Takes strokes back until one has not been made yet, and makes them again: sheets, crates and score are as they were
+   then, and become what they became. */
+static void TakeBack(int level, size_t stroke, int more)
+{
+    char path[64];
+    std::snprintf(path, sizeof path, "samples/games/scripts/net_%d.txt", level);
+    Script script;
+    Play play;
+    assert_true(Script_Read(&script, path));
+    const std::vector<int> strokes = StrokesOf(script);
+    assert_true(stroke < strokes.size());
+    const int first = strokes[stroke], begin = script.events[first].tick,
+              end = script.events[strokes.back()].tick + more;
+    assert_true(Play_Start(&play, &netGame, level));
+    PlayFrom(&play, script, 0, 0, begin);
+    const GameStatus before = StatusOf(play);
+    PlayFrom(&play, script, first, 0, end);
+    const GameStatus after = StatusOf(play);
+    const GameEvent undo = { end, GAME_KEY_PRESSED, 0, 0, 0, 0, 'z' };
+    for (size_t i = stroke; i < strokes.size(); ++i) {
+        assert_true(StatusOf(play).hash != before.hash);
+        assert_true(Play_Send(&play, &undo));
+    }
+    assert_true(StatusOf(play).hash == before.hash);
+    assert_int_equal(StatusOf(play).score, before.score);
+    PlayFrom(&play, script, first, end - begin, end + end - begin);
+    assert_true(StatusOf(play).hash == after.hash);
+    assert_int_equal(StatusOf(play).state, after.state);
+    Play_Stop(&play);
+    assert_int_equal(play.bytes, 0);
+    Script_Free(&script);
+}
+
+static void TestStrokesAreTakenBack(void**)
+{
+    TakeBack(1, 0, 180); /* the crate has come to rest elsewhere */
+    TakeBack(4, 0, 60);
+    TakeBack(5, 0, 100);
+    TakeBack(6, 0, 60);
+    TakeBack(6, 2, 100);
+}
+
+/* A stroke in the air takes nothing's place: the one before it is taken back. While a stroke is made it ends. */
+static void TestOnlyCutsAreTakenBack(void**)
+{
+    Script script;
+    Play play;
+    assert_true(Script_Read(&script, "samples/games/scripts/net_1.txt"));
+    const int first = StrokesOf(script)[0], begin = script.events[first].tick;
+    assert_true(Play_Start(&play, &netGame, 1));
+    const GameEvent undo = { 0, GAME_KEY_PRESSED, 0, 0, 0, 0, 'z' };
+    PlayFrom(&play, script, 0, 0, begin);
+    const uint64_t before = StatusOf(play).hash;
+    assert_true(Play_Send(&play, &undo)); /* there is nothing to take back */
+    assert_true(StatusOf(play).hash == before);
+    PlayFrom(&play, script, first, 0, begin + 60);
+    const GameEvent down = { 0, GAME_DOWN, 0, GAME_LEFT, 20, 20, 0 }, up = { 0, GAME_UP, 0, GAME_LEFT, 40, 20, 0 };
+    assert_true(Play_Send(&play, &down) && Play_Tick(&play));
+    assert_true(Play_Send(&play, &up) && Play_Tick(&play));
+    assert_true(Play_Send(&play, &down) && Play_Tick(&play));
+    assert_true(Play_Send(&play, &undo));
+    assert_true(StatusOf(play).hash == before);
+    assert_true(Play_Tick(&play) && Play_Send(&play, &up) && Play_Tick(&play));
+    assert_int_equal(StatusOf(play).state, GAME_PLAYING);
+    Play_Stop(&play);
+    Script_Free(&script);
+}
+
 /* A swipe parts the rope of level 1 whenever it comes, whether the rope swings up or down. */
 static void TestSwipesPart(void**)
 {
@@ -168,9 +260,10 @@ static void TestMomentumIsKept(void**)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestScriptsWin),      cmocka_unit_test(TestNothingWinsNothing),
-        cmocka_unit_test(TestReplayIsTheSame), cmocka_unit_test(TestSwipesPart),
-        cmocka_unit_test(TestMomentumIsKept),
+        cmocka_unit_test(TestScriptsWin),           cmocka_unit_test(TestNothingWinsNothing),
+        cmocka_unit_test(TestReplayIsTheSame),      cmocka_unit_test(TestSwipesPart),
+        cmocka_unit_test(TestMomentumIsKept),       cmocka_unit_test(TestStrokesAreTakenBack),
+        cmocka_unit_test(TestOnlyCutsAreTakenBack),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

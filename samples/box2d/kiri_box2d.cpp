@@ -75,6 +75,38 @@ float Length(const b2Vec3& motion)
     return b2Vec2(motion.x, motion.y).Length();
 }
 
+std::vector<b2Body*> BodiesOf(b2World* box2d)
+{
+    std::vector<b2Body*> all;
+    for (b2Body* body = box2d->GetBodyList(); body != nullptr; body = body->GetNext()) {
+        all.push_back(body);
+    }
+    return all;
+}
+
+int NumberOf(const std::vector<b2Body*>& all, const b2Body* body)
+{
+    return static_cast<int>(std::find(all.begin(), all.end(), body) - all.begin());
+}
+
+int NumberOf(const b2Fixture* fixture)
+{
+    int number = 0;
+    for (const b2Fixture* each = fixture->GetBody()->GetFixtureList(); each != fixture; each = each->GetNext()) {
+        ++number;
+    }
+    return number;
+}
+
+b2Fixture* FixtureOf(b2Body* body, int number)
+{
+    b2Fixture* fixture = body->GetFixtureList();
+    for (; number > 0; --number) {
+        fixture = fixture->GetNext();
+    }
+    return fixture;
+}
+
 } // namespace
 
 KiriBox2d::KiriBox2d(kiriWorld* world, b2World* box2d, const KiriBox2dDef& how)
@@ -285,4 +317,45 @@ kiriResult KiriBox2d::GiveBack()
         memory.isKnown = true;
     }
     return failure;
+}
+
+/* ---- Going back --------------------------------------------------------------------------------------------------- */
+
+/* Between ticks nothing is felt yet, and the next Mirror finds what is near. */
+KiriBox2dSave KiriBox2d::Save() const
+{
+    KiriBox2dSave save;
+    const std::vector<b2Body*> all = BodiesOf(bodies);
+    for (const Part& part : parts) {
+        save.parts.push_back({ NumberOf(all, part.fixture->GetBody()), NumberOf(part.fixture), part.child,
+                               part.obstacle, part.place, part.isHeld });
+    }
+    for (const auto& entry : memories) {
+        const Memory& memory = entry.second;
+        save.memories.push_back({ NumberOf(all, entry.first), memory.number, memory.impulse, memory.velocity,
+                                  memory.isKnown, memory.isCarried });
+    }
+    save.numbers = numbers;
+    return save;
+}
+
+void KiriBox2d::Load(const KiriBox2dSave& save, b2World* box2d)
+{
+    const std::vector<b2Body*> all = BodiesOf(box2d);
+    parts.clear();
+    memories.clear();
+    for (const KiriBox2dSave::Part& part : save.parts) {
+        b2Fixture* fixture = FixtureOf(all[static_cast<size_t>(part.body)], part.fixture);
+        parts.push_back({ fixture, part.child, part.obstacle, part.place, true, part.isHeld });
+    }
+    for (const KiriBox2dSave::Memory& kept : save.memories) {
+        Memory& memory = memories[all[static_cast<size_t>(kept.body)]];
+        memory.number = kept.number;
+        memory.impulse = kept.impulse;
+        memory.velocity = kept.velocity;
+        memory.isKnown = kept.isKnown;
+        memory.isCarried = kept.isCarried;
+    }
+    numbers = save.numbers;
+    bodies = box2d;
 }

@@ -32,6 +32,29 @@ struct KiriBox2dDef {
     void* user = nullptr; /* handed to these functions */
 };
 
+class KiriBox2d;
+
+/* What a KiriBox2d knows beside the saves of a kiriWorld. Bodies and fixtures are numbered as the b2World lists them. */
+class KiriBox2dSave
+{
+    friend class KiriBox2d;
+    struct Part {
+        int body, fixture, child;
+        kiriObstacle obstacle;
+        b2Vec2 place;
+        bool isHeld;
+    };
+    struct Memory {
+        int body;
+        uint32_t number;
+        b2Vec3 impulse, velocity;
+        bool isKnown, isCarried;
+    };
+    std::vector<Part> parts;
+    std::vector<Memory> memories;
+    uint32_t numbers = 0;
+};
+
 class KiriBox2d
 {
   public:
@@ -46,6 +69,12 @@ class KiriBox2d
 
     /* Call it before a fixture is destroyed, with its body or alone, and before its shape changes. */
     void Forget(const b2Fixture* fixture);
+
+    /* For going back, between two ticks. Box2D saves nothing: the host makes a b2World anew, with the same bodies and
+       fixtures in the same order, and gives them their places, angles, velocities and sleep. Load comes after
+       kiriWorld_Load, and goes on with that b2World; the former one may then be destroyed. */
+    KiriBox2dSave Save() const;
+    void Load(const KiriBox2dSave& save, b2World* box2d);
 
   private:
     /* A child of a fixture. */

@@ -195,7 +195,7 @@ static void Curtain_Stop(void* game)
     for (int32_t i = 0; i < MAX_CLOTHS; i++) {
         DropCloth(curtain, &curtain->cloths[i]);
     }
-    Curtain_Forget(curtain);
+    Undo_Clear(&curtain->undo);
     kiriDestroyWorld(curtain->world);
     free(curtain);
 }
@@ -211,6 +211,7 @@ static void* Curtain_Start(int32_t number, const GameHost* host)
     curtain->host = *host;
     curtain->level = &levels[number - 1];
     curtain->demo.mark = -1;
+    Undo_Init(&curtain->undo, free);
     bool fine = AddObstacles(curtain);
     for (int32_t i = 0; fine && i < curtain->level->curtains; i++) {
         fine = AddCloth(curtain, &curtain->cloths[i], i);
@@ -686,7 +687,7 @@ static void MakeSounds(Curtain* curtain)
     kiriObstacleState bottom;
     kiriWorld_GetProfile(curtain->world, &profile);
     if (profile.cutSegments > 0) {
-        curtain->hasCut = true;
+        curtain->undo.hasCut = true;
         Sounds_Play(curtain->host.sounds, SOUND_CUT, 0.7f);
     }
     if (kiriObstacle_GetState(curtain->world, curtain->basket[0], &bottom) == KIRI_OK) {

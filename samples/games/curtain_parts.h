@@ -4,6 +4,7 @@
 
 #include "game.h"
 #include "track.h"
+#include "undo.h"
 
 enum {
     MAX_MARKS = 6,
@@ -16,8 +17,7 @@ enum {
     MARK_CORNERS = 40,
     TRAIL = 14,
     TEXTURE_SIZE = 512,
-    BASKET_PARTS = 5,
-    MAX_SAVES = 8
+    BASKET_PARTS = 5
 };
 
 /* ---- Levels: curtain_level.c ------------------------------------------------------------------------------------ */
@@ -103,8 +103,6 @@ typedef struct Note {
     int32_t since; /* tick; 0: none */
 } Note;
 
-typedef struct CurtainSave CurtainSave; /* curtain_undo.c */
-
 typedef struct Curtain {
     GameHost host;
     const Level* level;
@@ -122,10 +120,8 @@ typedef struct Curtain {
     float wind[3]; /* m/s */
     int32_t tick;
     int32_t state, score, collected;
-    int32_t landed;                /* contacts of the basket in the last tick, to hear when something lands */
-    CurtainSave* saves[MAX_SAVES]; /* as it was before the last cuts, */
-    int32_t saveCount;
-    bool hasCut; /* since the last of them a blade has cut */
+    int32_t landed; /* contacts of the basket in the last tick, to hear when something lands */
+    Undo undo;
     struct Demo {
         int32_t jobs; /* begun so far */
         int32_t job, cloth, mark, step, wait;
@@ -135,13 +131,11 @@ typedef struct Curtain {
 
 /* ---- Going back: curtain_undo.c --------------------------------------------------------------------------------- */
 
-/* A cut may begin: keeps the game as it is. The oldest of many is forgotten; without memory nothing is kept. */
+/* A cut may begin: keeps the game as it is, as undo.h says. */
 void Curtain_Keep(Curtain* curtain);
 
 /* To before the last cut that is kept. False: there is none. */
 bool Curtain_Undo(Curtain* curtain);
-
-void Curtain_Forget(Curtain* curtain);
 
 /* ---- The stage -------------------------------------------------------------------------------------------------- */
 

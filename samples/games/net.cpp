@@ -27,7 +27,10 @@ b2Vec2 PlaceOf(const NetGame& game, const GameEvent& event)
 void Event(void* data, const GameEvent* event)
 {
     NetGame* game = static_cast<NetGame*>(data);
-    if (event->type == GAME_DOWN && event->button == GAME_LEFT && !game->isPressed) {
+    if (event->type == GAME_KEY_PRESSED && event->key == 'z') {
+        NetGame_Undo(game);
+    } else if (event->type == GAME_DOWN && event->button == GAME_LEFT && !game->isPressed) {
+        NetGame_Keep(game);
         game->isPressed = true;
         game->path.assign(1, PlaceOf(*game, *event));
         game->trail.clear();
@@ -69,6 +72,7 @@ void CountCuts(NetGame* game)
     if (kiriWorld_GetProfile(game->world, &profile) == KIRI_OK && profile.trianglesSplit > 0) {
         game->cuts += game->hasCut ? 0 : 1;
         game->hasCut = true;
+        game->undo.hasCut = true;
         Sounds_Play(game->host->sounds, SOUND_CUT, 0.5f);
     }
     size_t keep = game->isPressed ? NET_TRAIL : game->trail.size() / 2;
@@ -151,7 +155,7 @@ bool Tick(void* data)
         return false;
     }
     game->loudest = 0.0f;
-    game->box2d.Step(GAME_DT, 8, 3);
+    game->box2d->Step(GAME_DT, 8, 3);
     for (NetBody& body : game->bodies) {
         body.before = body.after;
         body.after = body.body != nullptr ? NetGame_GetPose(*body.body) : body.after;
@@ -222,6 +226,7 @@ void GetStatus(void* data, GameStatus* status)
 
 NetGame::~NetGame()
 {
+    Undo_Clear(&undo);
     touching.reset();
     for (NetSheet& sheet : sheets) {
         Track_Free(&sheet.track);

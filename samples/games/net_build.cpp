@@ -31,7 +31,7 @@ b2Body* AddBody(NetGame* game, const NetItem* item, b2BodyType type, float turn)
     def.position.Set(item->value[0] * NET_UNITS, item->value[1] * NET_UNITS);
     def.angle = turn * b2_pi / 180.0f;
     def.userData.pointer = reinterpret_cast<uintptr_t>(item);
-    b2Body* body = game->box2d.CreateBody(&def);
+    b2Body* body = game->box2d->CreateBody(&def);
     game->bodies.push_back({ item, body, NetGame_GetPose(*body), NetGame_GetPose(*body), 0 });
     return body;
 }
@@ -57,12 +57,12 @@ void AddSeesaw(NetGame* game, const NetItem* item)
     AddBox(game, item, b2_dynamicBody, item->value[2], 0.04f, 0.0f, 0.8f);
     b2BodyDef ground;
     b2RevoluteJointDef joint;
-    joint.Initialize(game->box2d.CreateBody(&ground), game->bodies.back().body,
+    joint.Initialize(game->box2d->CreateBody(&ground), game->bodies.back().body,
                      game->bodies.back().body->GetPosition());
     joint.enableLimit = true;
     joint.lowerAngle = -0.4f;
     joint.upperAngle = 0.4f;
-    game->box2d.CreateJoint(&joint);
+    game->box2d->CreateJoint(&joint);
     game->bodies.back().body->SetAngularDamping(0.5f);
 }
 
@@ -182,28 +182,37 @@ bool AddCloth(NetGame* game, const NetItem& item)
            AddPin(game, inset, height - inset, left) && AddPin(game, width - inset, height - inset, right);
 }
 
-bool AddItem(NetGame* game, const NetItem* item)
+void AddBodyOf(NetGame* game, const NetItem* item)
 {
     const float* value = item->value;
     switch (item->kind) {
     case NET_BLOCK:
         AddBox(game, item, b2_staticBody, value[2], value[3], value[4], 0.0f);
-        return true;
+        break;
     case NET_BELT:
         AddBox(game, item, b2_staticBody, value[2], value[3], 0.0f, 0.0f);
-        return true;
+        break;
     case NET_WHEEL:
         AddWheel(game, item);
-        return true;
+        break;
     case NET_SEESAW:
         AddSeesaw(game, item);
-        return true;
+        break;
     case NET_CRATE:
         AddBox(game, item, b2_dynamicBody, value[2], value[2], 0.0f, value[3]);
-        return true;
+        break;
     case NET_GOAL:
         game->bodies.push_back({ item, nullptr, Pose(), Pose(), 0 });
-        return true;
+        break;
+    default:
+        break;
+    }
+}
+
+bool AddSheetOf(NetGame* game, const NetItem* item)
+{
+    const float* value = item->value;
+    switch (item->kind) {
     case NET_ROPE:
         return AddRope(game, b2Vec2(value[0], value[1]), b2Vec2(value[2], value[3]));
     case NET_NET:
@@ -239,6 +248,18 @@ const NetItem* NetGame_FindPar(const NetGame& game)
     return nullptr;
 }
 
+std::unique_ptr<b2World> NetGame_BuildBodies(NetGame* game)
+{
+    std::unique_ptr<b2World> former = std::move(game->box2d);
+    game->box2d.reset(new b2World(b2Vec2(0.0f, -9.81f * NET_UNITS)));
+    game->box2d->SetContactListener(game);
+    game->bodies.clear();
+    for (const NetItem& item : game->level.items) {
+        AddBodyOf(game, &item);
+    }
+    return former;
+}
+
 bool NetGame_Build(NetGame* game)
 {
     if (kiriCreateWorld(&game->host->worldDef, &game->world) != KIRI_OK) {
@@ -248,11 +269,12 @@ bool NetGame_Build(NetGame* game)
     KiriBox2dDef def;
     def.unitsPerMetre = NET_UNITS;
     def.surfaceVelocity = BeltVelocity;
-    game->touching.reset(new KiriBox2d(game->world, &game->box2d, def));
-    game->box2d.SetContactListener(game);
+    NetGame_BuildBodies(game);
+    game->touching.reset(new KiriBox2d(game->world, game->box2d.get(), def));
     game->camera = NetGame_MakeCamera();
+    NetGame_InitUndo(game);
     for (const NetItem& item : game->level.items) {
-        if (!AddItem(game, &item)) {
+        if (!AddSheetOf(game, &item)) {
             std::fprintf(stderr, "level %s: %s\n", game->level.name.c_str(), kiriWorld_GetLastError(game->world));
             return false;
         }

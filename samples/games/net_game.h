@@ -7,6 +7,7 @@
 #include "../box2d/kiri_box2d.h"
 #include "game.h"
 #include "track.h"
+#include "undo.h"
 
 #include <memory>
 #include <vector>
@@ -35,7 +36,7 @@ struct NetGame : b2ContactListener {
     NetLevel level;
     const GameHost* host = nullptr;
     kiriWorld* world = nullptr;
-    b2World box2d{ b2Vec2(0.0f, -9.81f * NET_UNITS) };
+    std::unique_ptr<b2World> box2d;
     std::unique_ptr<KiriBox2d> touching;
     std::vector<NetBody> bodies; /* one for each item that is a body; a goal has none, but is among them */
     std::vector<NetSheet> sheets;
@@ -48,6 +49,8 @@ struct NetGame : b2ContactListener {
     std::vector<b2Vec2> path;  /* m: where the mouse was since the last tick */
     std::vector<b2Vec2> trail; /* m: and before that */
 
+    Undo undo = Undo();
+
     int ticks = 0, cuts = 0, state = GAME_PLAYING;
     float loudest = 0.0f; /* speed of the hardest hit in this tick, m/s */
 
@@ -58,8 +61,15 @@ struct NetGame : b2ContactListener {
 
 /* net_build.cpp. False: it says on stderr what failed. */
 bool NetGame_Build(NetGame* game);
+/* A b2World with its bodies as they are when the level begins. Returns the former one, into which others may still point. */
+std::unique_ptr<b2World> NetGame_BuildBodies(NetGame* game);
 Pose NetGame_GetPose(const b2Body& body);
 const NetItem* NetGame_FindPar(const NetGame& game);
+
+/* net_undo.cpp. Keep: a stroke begins. Undo: to before the last stroke that has cut; false: there is none, or it failed. */
+void NetGame_InitUndo(NetGame* game);
+void NetGame_Keep(NetGame* game);
+bool NetGame_Undo(NetGame* game);
 
 /* net_draw.cpp */
 GameCamera NetGame_MakeCamera();
