@@ -250,7 +250,8 @@ gallery: packages-gallery accuracy
 # The samples in other engines, as their tests see them.
 .PHONY: gallery-engines
 
-gallery-engines: web-test love-test pygame-test godot-test
+gallery-engines: web-test babylon-test love-test pygame-test godot-test
+	cp build/babylon_test/2_cut.png samples/pictures/babylon.png
 	cp build/web_test/3_pieces.png samples/pictures/web_cut.png
 	cp build/web_test/5_snowflake.png samples/pictures/web_snowflake.png
 	cp build/web_test/6_lantern.png samples/pictures/web_lantern.png

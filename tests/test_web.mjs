@@ -2,46 +2,14 @@
 // takes, and writes pictures.
 
 import assert from "node:assert/strict";
-import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
-import { createServer } from "node:http";
-import { extname, join } from "node:path";
-import { pathToFileURL } from "node:url";
-import { resolve } from "node:path";
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
+
+import { openBrowser } from "./browser.mjs";
 
 const [page, playwright, pictures, browserPath] = process.argv.slice(2);
-const { chromium } = (await import(pathToFileURL(resolve(playwright)))).default;
-const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm" };
-mkdirSync(pictures, { recursive: true });
-
-const server = createServer((request, response) => {
-    const path = new URL(request.url, "http://x").pathname.replace(/\/$/, "/index.html");
-    try {
-        const body = readFileSync(join(page, path));
-        response.writeHead(200, { "content-type": types[extname(path)] ?? "application/octet-stream" }).end(body);
-    } catch {
-        response.writeHead(404).end();
-    }
-}).listen(0, "127.0.0.1");
-await new Promise((done) => server.once("listening", done));
-const address = `http://127.0.0.1:${server.address().port}/`;
-
-const browser = await chromium.launch({
-    executablePath: browserPath,
-    args: ["--no-sandbox", "--disable-gpu", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic",
-           "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
-});
-
-const errors = [];
-async function open(where = "?still", options = { viewport: { width: 1000, height: 640 } }) {
-    const context = await browser.newContext(options), tab = await context.newPage();
-    tab.on("pageerror", (error) => errors.push(`${error.message} ${error.stack}`));
-    tab.on("console", (message) => message.type() === "error" && errors.push(message.text()));
-    await tab.goto(address + where);
-    await tab.waitForFunction(() => globalThis.game?.opened, null, { timeout: 60000 });
-    return tab;
-}
-
-const picture = (tab, name) => tab.screenshot({ path: join(pictures, `${name}.png`), timeout: 120000 });
+const browser = await openBrowser(page, playwright, pictures, browserPath);
+const { open, picture, errors } = browser;
 
 /** Ticks of the page by hand: pictures of a slow machine are then those of a fast one. */
 const pass = (tab, ticks) => tab.evaluate((count) => {
@@ -172,5 +140,4 @@ try {
     throw error;
 } finally {
     await browser.close();
-    server.close();
 }

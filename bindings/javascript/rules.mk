@@ -4,6 +4,7 @@
 #   make javascript          the binding's tests, under node
 #   make package-javascript  the npm package, and a test that installs it
 #   make web                 the page, static files in build/web; web-serve; web-test
+#   make babylon             a host in babylon.js, static files in build/babylon; babylon-serve; babylon-test
 
 WASM := build/wasm
 EMCC ?= emcc
@@ -97,6 +98,33 @@ web-test: web $(BUILD)/tests/replay_hash
 	else node tests/test_web.mjs $(WEB) $(WEB_TOOLS)/node_modules/playwright-core/index.js $(WEB)_test $(BROWSER) && \
 	    test "$$($(BUILD)/tests/replay_hash $(WEB)_test/recording)" = "$$(cat $(WEB)_test/hash)" && \
 	    echo "web: C ends in the same state"; fi
+
+# ---- The host in babylon.js: static files in build/babylon ----
+
+BABYLON := build/babylon
+BABYLON_TOOLS := build/babylon_tools
+
+.PHONY: babylon babylon-serve babylon-test
+
+babylon: $(BABYLON)/main.js
+
+$(BABYLON_TOOLS)/installed: samples/babylon/package.json
+	@mkdir -p $(@D) && cp $< $(@D)
+	@npm install --prefix $(@D) --no-audit --no-fund --silent
+	@touch $@
+
+$(BABYLON)/main.js: $(wildcard samples/babylon/*) $(WASM_PACKAGE)/kiri.wasm $(WEB_TOOLS)/installed $(BABYLON_TOOLS)/installed
+	@mkdir -p $(@D)
+	@cp samples/babylon/index.html $(WASM_PACKAGE)/kiri.wasm $(@D)
+	@NODE_PATH=$(BABYLON_TOOLS)/node_modules $(WEB_TOOLS)/node_modules/.bin/esbuild samples/babylon/main.js --bundle --minify \
+	    --format=esm --target=es2022 --alias:kiri=./$(WASM_PACKAGE)/kiri.js --outfile=$@ --log-level=warning
+
+babylon-serve: babylon
+	cd $(BABYLON) && $(PYTHON) -m http.server 8000
+
+babylon-test: babylon
+	@if [ -z "$(BROWSER)" ]; then echo "babylon: no chromium, the page was not tested"; \
+	else node tests/test_babylon.mjs $(BABYLON) $(WEB_TOOLS)/node_modules/playwright-core/index.js $(BABYLON)_test $(BROWSER); fi
 
 # The npm package, installed in an empty folder and used there.
 .PHONY: package-javascript

@@ -1,0 +1,84 @@
+// The host of babylon.js in a browser without a window: node tests/test_babylon.mjs PAGE PLAYWRIGHT PICTURES BROWSER.
+
+import assert from "node:assert/strict";
+
+import { openBrowser } from "./browser.mjs";
+
+const browser = await openBrowser(...process.argv.slice(2));
+
+const pass = (tab, ticks) => tab.evaluate((count) => {
+    const { game } = globalThis;
+    for (let i = 0; i < count; i++) {
+        game.tick();
+    }
+    game.draw();
+    return game.sheet.getCounts().pieces;
+}, ticks);
+
+/** The color in the picture where a rest position is. */
+const colorAt = (tab, u, v) => tab.evaluate(([u, v]) => {
+    const { game } = globalThis, { engine } = game, at = game.project(game.sheet.getPoint([u, v]).position);
+    game.draw();
+    const pixels = new Uint8Array(4), gl = engine._gl;
+    gl.readPixels(at[0], engine.getRenderHeight() - at[1], 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    return [...pixels.subarray(0, 3)];
+}, [u, v]);
+
+const seen = (tab, u, v) => tab.evaluate(([u, v]) => {
+    const { game } = globalThis;
+    return game.project(game.sheet.getPoint([u, v]).position);
+}, [u, v]);
+
+try {
+    const tab = await browser.open();
+    assert.equal(await pass(tab, 150), 1);
+    await browser.picture(tab, "1_draped");
+
+    // The cloth is drawn, with its print: the border is red, the sheet within is not.
+    const border = await colorAt(tab, 0.3, 0.024), within = await colorAt(tab, 0.3, 0.1);
+    assert.ok(border[0] > 1.5 * border[2], `border ${border}`);
+    assert.ok(within[0] < 1.3 * within[2], `within ${within}`);
+
+    // A circle comes off, the view stays.
+    const turned = () => tab.evaluate(() => globalThis.game.camera.alpha), alpha = await turned();
+    const around = (i) => seen(tab, 0.32 + 0.08 * Math.cos(i * Math.PI / 12), 0.2 + 0.08 * Math.sin(i * Math.PI / 12));
+    await tab.mouse.move(...await around(0));
+    await tab.mouse.down();
+    for (let i = 1; i <= 25; i++) {
+        await tab.mouse.move(...await around(i), { steps: 2 });
+        await pass(tab, 1);
+    }
+    await tab.mouse.up();
+    await pass(tab, 12);
+    const areas = await tab.evaluate(() => {
+        const { sheet } = globalThis.game;
+        return Array.from({ length: sheet.getCounts().pieces }, (_, i) => sheet.getPiece(i).area).sort((a, b) => b - a);
+    });
+    assert.equal(areas.filter((area) => area > 1e-4).length, 2, "a circle drawn on the cloth comes off");
+    assert.ok(Math.abs(areas[1] - Math.PI * 0.08 ** 2) < 2e-3, `its area is ${areas[1]} m2`);
+    assert.equal(await turned(), alpha);
+    await browser.picture(tab, "2_cut");
+    await pass(tab, 60);
+    await browser.picture(tab, "3_fallen");
+
+    // Beside the cloth a drag turns.
+    await tab.mouse.move(60, 560);
+    await tab.mouse.down();
+    await tab.mouse.move(160, 560, { steps: 4 });
+    await tab.mouse.up();
+    await pass(tab, 1);
+    assert.notEqual(await turned(), alpha);
+
+    await tab.keyboard.press("d");
+    await pass(tab, 0);
+    assert.ok(await tab.evaluate(() => globalThis.game.lines.count) > 200, "frames and borders are lines");
+    await browser.picture(tab, "4_debug");
+
+    assert.deepEqual(browser.errors, []);
+    console.log("babylon: a circle was cut out of the cloth; all as it should be");
+} catch (error) {
+    console.error(browser.errors.join("\n"));
+    throw error;
+} finally {
+    await browser.close();
+}
