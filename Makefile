@@ -257,7 +257,7 @@ gallery-engines: web-test babylon-test love-test pygame-test godot-test
 	cp build/web_test/6_lantern.png samples/pictures/web_lantern.png
 	cp build/love/love_290.png samples/pictures/love.png
 	cp build/pygame/pygame_195.png samples/pictures/pygame.png
-	cp build/godot/godot.png samples/pictures/godot.png
+	cp $(BUILD)/godot/godot4.png samples/pictures/godot.png
 
 # One tick of a scene, for the guide: what the picture is called, the tick, and options of kiri-run.
 MOMENT = $(RUN) --quiet --ticks $(2) --every $$(($(2) - 1)) --output build/guide/$(1) $(3) && \

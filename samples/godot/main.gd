@@ -1,15 +1,15 @@
 # A sheet of paper: drag with the mouse to cut it. With --picture=PICTURE.png it plays a cut by itself.
 extends Spatial
 
-const KiriWorld = preload("res://kiri_world.gdns")
-const SheetMesh = preload("res://sheet_mesh.gd")
+const Kiri = preload("res://addons/kiri/kiri.gd")
+const SheetMesh = preload("sheet_mesh.gd")
 const BALL = Vector3(0.5, -0.55, 0.05)
 const FLOOR = -0.8
 const SCRIPT_TICKS = 150
 
-var world = KiriWorld.new()
+var world = Kiri.World.new()
 var meshes = {}
-var blade = 0
+var blade = null
 var tick = 0
 var picture = ""
 var camera = Camera.new()
@@ -19,11 +19,18 @@ func _ready():
 		if argument.begins_with("--picture="):
 			picture = argument.substr(10)
 	make_stage()
-	var sheet = world.create_rectangle(1.0, 1.0, 32, 32, Vector3())
+	hang_paper()
+	world.create_obstacle({"type": Kiri.OBSTACLE_SPHERE, "position": BALL, "radius": 0.25})
+	# The third column of its rotation points out of a plane.
+	world.create_obstacle({"position": Vector3(0, FLOOR, 0), "rotation": Basis(Vector3.RIGHT, -PI / 2)})
+
+func hang_paper():
+	var material = Kiri.get_material(Kiri.MATERIAL_PAPER)
+	material.youngs_modulus = 2e8
+	var sheet = world.create_rectangle(1.0, 1.0, 32, 32, {"material": material, "frame_count": 9,
+			"touches_sheets": true, "contact_thickness": 0.01})
 	for u in [0.0, 1.0]:
-		world.create_pin(sheet, Vector2(u, 1.0), Vector3(u, 1.0, 0.0))
-	world.create_ball(BALL, 0.25)
-	world.create_floor(FLOOR)
+		sheet.create_pin({"rest_point": Vector2(u, 1.0), "target": Vector3(u, 1.0, 0.0)})
 
 func make_stage():
 	camera.look_at_from_position(Vector3(1.5, 0.75, 2.4), Vector3(0.5, 0.15, 0.0), Vector3.UP)
@@ -64,17 +71,20 @@ func _physics_process(_delta):
 	else:
 		end_cut()
 	world.tick(1.0 / 60.0, 2)
+	for event in world.get_events():
+		if event.type == Kiri.EVENT_PIECE_OFF:
+			event.frame.detach_piece()
 	tick += 1
 
 func cut_along(origin, direction):
-	if blade == 0:
+	if blade == null:
 		blade = world.begin_blade()
-	world.move_ray(blade, origin, direction, 10.0)
+	blade.move_ray(origin, direction, 10.0)
 
 func end_cut():
-	if blade != 0:
-		world.end_blade(blade)
-	blade = 0
+	if blade != null:
+		blade.end()
+	blade = null
 
 # A wave from side to side.
 func cut_by_script():
@@ -90,7 +100,7 @@ func _process(_delta):
 		if not meshes.has(sheet):
 			meshes[sheet] = SheetMesh.new()
 			add_child(meshes[sheet])
-		meshes[sheet].update(world, sheet)
+		meshes[sheet].update(sheet)
 	if picture != "" and tick >= SCRIPT_TICKS:
 		finish()
 
@@ -102,5 +112,5 @@ func finish():
 	image.flip_y()
 	image.convert(Image.FORMAT_RGBA8)
 	image.save_png(picture)
-	print(meshes.size(), " sheets, hash ", world.get_state_hash())
+	print("%d sheets, hash %x" % [meshes.size(), world.get_state_hash() & 0xffffffff])
 	get_tree().quit()

@@ -1,31 +1,16 @@
 # A sheet as Godot draws it: both sides, with lines as on paper for school.
 extends MeshInstance
 
-var revision = 0
-var uvs
-var indices
-
 func _init():
 	mesh = ArrayMesh.new()
 	material_override = SpatialMaterial.new()
 	material_override.albedo_texture = paper()
 	material_override.params_cull_mode = SpatialMaterial.CULL_DISABLED
 
-# Positions and normals in each frame; corners and the place in the print where a cut has changed them.
-func update(world, sheet):
-	if world.get_revision(sheet) != revision:
-		revision = world.get_revision(sheet)
-		uvs = world.get_rest_positions(sheet)
-		indices = world.get_indices(sheet)
-	var arrays = []
-	arrays.resize(ArrayMesh.ARRAY_MAX)
-	arrays[ArrayMesh.ARRAY_VERTEX] = world.get_positions(sheet)
-	arrays[ArrayMesh.ARRAY_NORMAL] = world.get_normals(sheet)
-	arrays[ArrayMesh.ARRAY_TEX_UV] = uvs
-	arrays[ArrayMesh.ARRAY_INDEX] = indices
+func update(sheet):
 	if mesh.get_surface_count() > 0:
 		mesh.surface_remove(0)
-	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays)
+	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, sheet.get_surface_arrays())
 
 static func paper():
 	var image = Image.new()
