@@ -17,21 +17,10 @@
    What is the same from round to round is kept: distances to the old sites are flooded once, those to the new sites
    only as far as these are nearer. */
 
-enum { MOST_ROUNDS = 20, CELL_FREE = KIRI_NONE, CELL_BARRED = -2, AREA_UNITS = 1 << 24, CLOSENESS = 16 };
-
-static const SiteTarget noTarget = { 0, 0, 0, { 0.0, 0.0 }, KIRI_NONE, false, 0.0 };
+enum { CELL_BARRED = -2, CLOSENESS = 16 };
 
 /* So many cells of the part, one after the other in their order. */
 enum { SAMPLE_CELLS = 512 };
-
-typedef struct PlacerJob {
-    kiriPlacer* placer;
-    kiriPlacerWork* work;
-    kiriMemory* memory;
-    const kiriGrid* grid;
-    const kiriMeshData* mesh;
-    kiriQuota* quota;
-} PlacerJob;
 
 /* A full cell is taken at its middle, where the cell's weight is exactly 1; of others the middle may not be
    material. */
@@ -42,43 +31,6 @@ kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32
     bool full = material->area > 0.999 * grid->side * grid->side;
     kiriSite site = { full ? kiriGrid_Middle(grid, mesh, cell) : kiriMoments_Center(material), cell };
     return site;
-}
-
-static bool MostlyCovered(const kiriGrid* grid, int32_t cell)
-{
-    return grid->cells.data[cell].material.area > 0.5 * grid->side * grid->side;
-}
-
-static double SquaredDistance(kiriVec2 a, kiriVec2 b)
-{
-    kiriVec2 d = kiriVec2_Sub(a, b);
-    return kiriVec2_Dot(d, d);
-}
-
-/* Visits the cells of a list, from the cursor on. */
-static kiriProgress VisitCells(PlacerJob* job, const int32_t* cells, int32_t count,
-                               void visit(PlacerJob* job, int32_t cell))
-{
-    int32_t from = job->work->cursor, end = count;
-    if (end - from > job->quota->left) {
-        end = from + (int32_t)job->quota->left;
-    }
-    kiriQuota_Take(job->quota, end - from);
-    for (int32_t i = from; i < end; ++i) {
-        visit(job, cells[i]);
-    }
-    job->work->cursor = end < count ? end : 0;
-    return end < count ? KIRI_MORE : KIRI_DONE;
-}
-
-static kiriProgress VisitPartCells(PlacerJob* job, void visit(PlacerJob* job, int32_t cell))
-{
-    return VisitCells(job, job->placer->cells.data, job->placer->cells.count, visit);
-}
-
-static kiriProgress VisitFreshCells(PlacerJob* job, void visit(PlacerJob* job, int32_t cell))
-{
-    return VisitCells(job, job->work->fresh.settled.data, job->work->fresh.settled.count, visit);
 }
 
 /* Drops seeds, from the first on, in cells that hold another site. */
@@ -95,8 +47,7 @@ static void DropSeeds(PlacerJob* job, int32_t first, int32_t owner)
     seeds->count = kept;
 }
 
-/* Makes a field ready to flood from sites first to end. */
-static bool StartSiteFlood(PlacerJob* job, kiriField* field, int32_t first, int32_t end)
+bool kiriPlacerJob_StartFlood(PlacerJob* job, kiriField* field, int32_t first, int32_t end)
 {
     kiriSeeds* seeds = &job->work->seeds;
     kiriField_Reset(field);
@@ -111,24 +62,10 @@ static bool StartSiteFlood(PlacerJob* job, kiriField* field, int32_t first, int3
     return kiriField_Start(field, job->memory, seeds->data, seeds->count);
 }
 
-/* Ways go on only from cells that are nearer than these distances, or null. */
-static kiriProgress FloodPart(PlacerJob* job, kiriField* field, const int32_t* below, const int32_t* andBelow)
+kiriProgress kiriPlacerJob_Flood(PlacerJob* job, kiriField* field, const int32_t* below, const int32_t* andBelow)
 {
     kiriRule rule = { job->grid, KIRI_FAR - 1, NULL, NULL, NULL, NULL, { below, andBelow } };
     return kiriField_Flood(field, &rule, job->quota);
-}
-
-static bool IsNearerThanOld(const kiriPlacerWork* work, int32_t cell)
-{
-    return work->fresh.distance.data[cell] < work->old->distance.data[cell];
-}
-
-static kiriProgress GoOnTo(PlacerJob* job, kiriProgress progress, PlacerStage next)
-{
-    if (progress == KIRI_DONE) {
-        job->work->stage = next;
-    }
-    return progress;
 }
 
 /* ---- Closeness */
@@ -136,7 +73,8 @@ static kiriProgress GoOnTo(PlacerJob* job, kiriProgress progress, PlacerStage ne
 static kiriProgress FloodEnds(PlacerJob* job)
 {
     bool isAsked = job->work->reach > 0;
-    return GoOnTo(job, isAsked ? FloodPart(job, &job->work->ends, NULL, NULL) : KIRI_DONE, FLOOD_OLD);
+    return kiriPlacerJob_GoOnTo(job, isAsked ? kiriPlacerJob_Flood(job, &job->work->ends, NULL, NULL) : KIRI_DONE,
+                                FLOOD_OLD);
 }
 
 /* How much closer sites shall be at a cell, times CLOSENESS. */
@@ -151,7 +89,7 @@ static int64_t ClosenessAt(const kiriPlacerWork* work, int32_t cell)
 }
 
 /* What makes a centroidal Voronoi diagram as much closer: the fourth power, as a density (Du, Faber, Gunzburger 1999). */
-static int64_t DensityAt(const kiriPlacerWork* work, int32_t cell)
+int64_t kiriPlacerWork_DensityAt(const kiriPlacerWork* work, int32_t cell)
 {
     if (work->reach == 0) {
         return 1;
@@ -165,7 +103,8 @@ static int64_t DensityAt(const kiriPlacerWork* work, int32_t cell)
 static kiriProgress FloodOld(PlacerJob* job)
 {
     bool isKnown = job->work->old != &job->work->flooded;
-    return GoOnTo(job, isKnown ? KIRI_DONE : FloodPart(job, &job->work->flooded, NULL, NULL), SAMPLE);
+    return kiriPlacerJob_GoOnTo(job, isKnown ? KIRI_DONE : kiriPlacerJob_Flood(job, &job->work->flooded, NULL, NULL),
+                                SAMPLE);
 }
 
 static int64_t SampledDistance(const kiriPlacerWork* work, int32_t cell)
@@ -178,14 +117,14 @@ static int64_t SampledDistance(const kiriPlacerWork* work, int32_t cell)
 static void FindFarthest(PlacerJob* job, int32_t cell)
 {
     kiriPlacerWork* work = job->work;
-    if (work->holds.data[cell] != CELL_FREE) {
+    if (work->holds.data[cell] != KIRI_CELL_FREE) {
         return;
     }
     int32_t best = work->farthest;
     int64_t distance = SampledDistance(work, cell);
     int64_t farthest = best == KIRI_NONE ? KIRI_NONE : SampledDistance(work, best);
-    if (distance > farthest ||
-        (distance == farthest && MostlyCovered(job->grid, cell) && !MostlyCovered(job->grid, best))) {
+    if (distance > farthest || (distance == farthest && kiriGrid_IsMostlyCovered(job->grid, cell) &&
+                                !kiriGrid_IsMostlyCovered(job->grid, best))) {
         work->farthest = cell;
     }
 }
@@ -203,7 +142,7 @@ static int32_t LookAtBlock(PlacerJob* job, SampleBlock* block)
     }
     block->cell = work->farthest;
     block->distance = block->cell == KIRI_NONE ? -1 : SampledDistance(work, block->cell);
-    block->isCovered = block->cell != KIRI_NONE && MostlyCovered(job->grid, block->cell);
+    block->isCovered = block->cell != KIRI_NONE && kiriGrid_IsMostlyCovered(job->grid, block->cell);
     block->seen = placer->sites.count;
     return end - first;
 }
@@ -250,18 +189,6 @@ static bool StartBlocks(const kiriPlacer* placer, kiriMemory* memory)
     return true;
 }
 
-/* Ready for a round of relaxation. */
-static kiriProgress StartRound(PlacerJob* job)
-{
-    kiriPlacerWork* work = job->work;
-    const kiriSites* sites = &job->placer->sites;
-    for (int32_t i = job->placer->oldCount; i < sites->count; ++i) {
-        work->targets.data[i - job->placer->oldCount] = noTarget;
-    }
-    work->stage = FLOOD_ALL_NEW;
-    return StartSiteFlood(job, &work->fresh, job->placer->oldCount, sites->count) ? KIRI_DONE : KIRI_FAILED;
-}
-
 static kiriProgress SampleFarthest(PlacerJob* job)
 {
     kiriPlacerWork* work = job->work;
@@ -278,16 +205,17 @@ static kiriProgress SampleFarthest(PlacerJob* job)
     work->left = work->farthest == KIRI_NONE ? 0 : work->left - 1;
     work->farthest = KIRI_NONE;
     if (work->left == 0) {
-        return StartRound(job);
+        return kiriPlacerJob_StartRound(job);
     }
     work->stage = FLOOD_NEW;
-    return StartSiteFlood(job, &work->fresh, sites->count - 1, sites->count) ? KIRI_DONE : KIRI_FAILED;
+    return kiriPlacerJob_StartFlood(job, &work->fresh, sites->count - 1, sites->count) ? KIRI_DONE : KIRI_FAILED;
 }
 
 static kiriProgress FloodNew(PlacerJob* job)
 {
-    return GoOnTo(job, FloodPart(job, &job->work->fresh, job->work->old->distance.data, job->work->sampled.data),
-                  LOWER);
+    return kiriPlacerJob_GoOnTo(
+        job, kiriPlacerJob_Flood(job, &job->work->fresh, job->work->old->distance.data, job->work->sampled.data),
+        LOWER);
 }
 
 static void LowerCell(PlacerJob* job, int32_t cell)
@@ -300,224 +228,24 @@ static void LowerCell(PlacerJob* job, int32_t cell)
 
 static kiriProgress LowerDistances(PlacerJob* job)
 {
-    return GoOnTo(job, VisitFreshCells(job, LowerCell), SAMPLE);
-}
-
-/* ---- Relaxation */
-
-static kiriProgress FloodAllNew(PlacerJob* job)
-{
-    return GoOnTo(job, FloodPart(job, &job->work->fresh, job->work->old->distance.data, NULL), SUM);
-}
-
-/* The target of the new site that a cell belongs to; null where it is an old one. */
-static SiteTarget* TargetOf(PlacerJob* job, int32_t cell)
-{
-    kiriPlacerWork* work = job->work;
-    int32_t owner = work->holds.data[cell];
-    if (owner < 0) {
-        owner = IsNearerThanOld(work, cell) ? work->fresh.owner.data[cell] : 0;
-    }
-    return owner < job->placer->oldCount ? NULL : &work->targets.data[owner - job->placer->oldCount];
-}
-
-/* Every cell counts for something, so that every region has a center. */
-static void AddMaterial(const PlacerJob* job, SiteTarget* target, int32_t cell)
-{
-    const kiriMoments* material = &job->grid->cells.data[cell].material;
-    double side = job->grid->side;
-    int64_t area = (int64_t)(AREA_UNITS * (material->area / (side * side)) + 0.5);
-    area = area > 0 ? area : 1;
-    area *= DensityAt(job->work, cell);
-    double scale = (double)area / (material->area * side);
-    target->area += area;
-    target->u += (int64_t)(scale * material->u + 0.5);
-    target->v += (int64_t)(scale * material->v + 0.5);
-}
-
-static void FindCenter(const PlacerJob* job, SiteTarget* target)
-{
-    double scale = job->grid->side / (double)target->area;
-    target->center = kiriVec2_Make(scale * (double)target->u, scale * (double)target->v);
-}
-
-/* Is the cell better for the target than the one that it has? Cells come in any order. */
-static bool IsBetter(const PlacerJob* job, const SiteTarget* target, int32_t cell, double distance)
-{
-    if (target->cell == KIRI_NONE || distance != target->distance) {
-        return target->cell == KIRI_NONE || distance < target->distance;
-    }
-    bool mostly = MostlyCovered(job->grid, cell);
-    return mostly != MostlyCovered(job->grid, target->cell) ? mostly : kiriGrid_IsBefore(job->grid, cell, target->cell);
-}
-
-static void Consider(const PlacerJob* job, SiteTarget* target, int32_t cell)
-{
-    double distance = SquaredDistance(kiriGrid_Middle(job->grid, job->mesh, cell), target->center);
-    if (IsBetter(job, target, cell, distance)) {
-        target->cell = cell;
-        target->distance = distance;
-    }
-}
-
-static void SumCell(PlacerJob* job, int32_t cell)
-{
-    SiteTarget* target = TargetOf(job, cell);
-    if (target != NULL) {
-        AddMaterial(job, target, cell);
-    }
-}
-
-static kiriProgress SumRegions(PlacerJob* job)
-{
-    kiriProgress progress = VisitFreshCells(job, SumCell);
-    if (progress == KIRI_DONE) {
-        for (int32_t k = 0; k < job->placer->sites.count - job->placer->oldCount; ++k) {
-            FindCenter(job, &job->work->targets.data[k]);
-        }
-        job->work->lost = 0;
-        job->work->stage = AIM_NEAR;
-    }
-    return progress;
-}
-
-static void AimCell(PlacerJob* job, int32_t cell)
-{
-    SiteTarget* target = TargetOf(job, cell);
-    if (target != NULL && !target->isFound) {
-        Consider(job, target, cell);
-    }
-}
-
-/* Looks where the center of a target is, and in the squares around: middles of all others are at least one and a half
-   sides away. */
-static void AimAround(PlacerJob* job, SiteTarget* target)
-{
-    const kiriSquares* squares = &job->mesh->squares;
-    int32_t square = kiriSquares_At(squares, kiriMesh_Snap(job->mesh, target->center));
-    int32_t column = square % squares->columns, row = square / squares->columns;
-    for (int32_t k = 0; square != KIRI_NONE && k < 9; ++k) {
-        int32_t u = column + k % 3 - 1, v = row + k / 3 - 1;
-        bool isSquare = u >= 0 && u < squares->columns && v >= 0 && v < squares->rows;
-        int32_t c = isSquare ? job->grid->squareCell.data[v * squares->columns + u] : KIRI_NONE;
-        for (; c != KIRI_NONE; c = job->grid->cells.data[c].next) {
-            if (job->work->fresh.distance.data[c] != KIRI_FAR && TargetOf(job, c) == target) {
-                Consider(job, target, c);
-            }
-        }
-    }
-    target->isFound = target->cell != KIRI_NONE && target->distance < 2.0 * job->grid->side * job->grid->side;
-}
-
-/* The centroid itself where it lies in the square of the target cell. From middle to middle of cells a site would get
-   stuck where its centroid is less than half a side away. */
-static kiriSite SiteFor(const PlacerJob* job, const SiteTarget* target)
-{
-    kiriVec2 off = kiriVec2_Sub(target->center, kiriGrid_Middle(job->grid, job->mesh, target->cell));
-    double half = 0.5 * job->grid->side;
-    kiriSite site = kiriFrames_SiteIn(job->grid, job->mesh, target->cell);
-    if (fabs(off.x) < half && fabs(off.y) < half) {
-        site.at = target->center;
-    }
-    return site;
-}
-
-/* All new sites go to their targets. Did one go farther than a hundredth of a side? */
-static bool MoveToTargets(PlacerJob* job)
-{
-    kiriPlacer* placer = job->placer;
-    bool moved = false;
-    for (int32_t i = placer->oldCount; i < placer->sites.count; ++i) {
-        job->work->holds.data[placer->sites.data[i].cell] = CELL_FREE;
-    }
-    for (int32_t i = placer->oldCount; i < placer->sites.count; ++i) {
-        kiriSite site = SiteFor(job, &job->work->targets.data[i - placer->oldCount]);
-        moved =
-            moved || SquaredDistance(site.at, placer->sites.data[i].at) > 0.0001 * job->grid->side * job->grid->side;
-        placer->sites.data[i] = site;
-        KIRI_ASSERT(job->work->holds.data[site.cell] < 0); /* two sites in a cell */
-        job->work->holds.data[site.cell] = i;
-    }
-    return moved;
-}
-
-/* Most regions hold their centroid. */
-static kiriProgress AimNearCenters(PlacerJob* job)
-{
-    kiriPlacerWork* work = job->work;
-    int32_t count = job->placer->sites.count - job->placer->oldCount;
-    for (; work->cursor < count; ++work->cursor) {
-        if (!kiriQuota_Take(job->quota, 1)) {
-            return KIRI_MORE;
-        }
-        AimAround(job, &work->targets.data[work->cursor]);
-        work->lost += !work->targets.data[work->cursor].isFound;
-    }
-    work->cursor = 0;
-    work->stage = AIM;
-    return KIRI_DONE;
-}
-
-static kiriProgress AimAtCenters(PlacerJob* job)
-{
-    kiriPlacer* placer = job->placer;
-    kiriProgress progress = job->work->lost > 0 ? VisitFreshCells(job, AimCell) : KIRI_DONE;
-    if (progress != KIRI_DONE) {
-        return progress;
-    }
-    if (MoveToTargets(job) && ++job->work->round < MOST_ROUNDS) {
-        return StartRound(job);
-    }
-    for (int32_t i = placer->oldCount; i < placer->sites.count; ++i) {
-        placer->sites.data[i] = kiriFrames_SiteIn(job->grid, job->mesh, placer->sites.data[i].cell);
-    }
-    job->work->stage = PLACER_RESTS;
-    return KIRI_DONE;
-}
-
-/* ---- One site by itself */
-
-static void SumPartCell(PlacerJob* job, int32_t cell)
-{
-    AddMaterial(job, &job->work->targets.data[0], cell);
-}
-
-static kiriProgress SumPart(PlacerJob* job)
-{
-    kiriProgress progress = VisitPartCells(job, SumPartCell);
-    if (progress == KIRI_DONE) {
-        FindCenter(job, &job->work->targets.data[0]);
-        job->work->stage = AIM_PART;
-    }
-    return progress;
-}
-
-static void AimPartCell(PlacerJob* job, int32_t cell)
-{
-    if (job->work->holds.data[cell] == CELL_FREE) {
-        Consider(job, &job->work->targets.data[0], cell);
-    }
-}
-
-static kiriProgress AimPart(PlacerJob* job)
-{
-    kiriProgress progress = VisitPartCells(job, AimPartCell);
-    if (progress == KIRI_DONE) {
-        kiriSites* sites = &job->placer->sites;
-        int32_t cell = job->work->targets.data[0].cell;
-        if (cell != KIRI_NONE) {
-            sites->data[sites->count++] = kiriFrames_SiteIn(job->grid, job->mesh, cell);
-        }
-        job->work->stage = PLACER_RESTS;
-    }
-    return progress;
+    return kiriPlacerJob_GoOnTo(job, kiriPlacerJob_VisitFresh(job, LowerCell), SAMPLE);
 }
 
 /* ---- The job */
 
 static kiriProgress (*const placerStages[PLACER_STAGES])(PlacerJob* job) = {
-    NULL,        FloodEnds,  FloodOld,       SampleFarthest, FloodNew, LowerDistances,
-    FloodAllNew, SumRegions, AimNearCenters, AimAtCenters,   SumPart,  AimPart,
+    NULL,
+    FloodEnds,
+    FloodOld,
+    SampleFarthest,
+    FloodNew,
+    LowerDistances,
+    kiriPlacerJob_FloodAllNew,
+    kiriPlacerJob_SumRegions,
+    kiriPlacerJob_AimNearCenters,
+    kiriPlacerJob_AimAtCenters,
+    kiriPlacerJob_SumPart,
+    kiriPlacerJob_AimPart,
 };
 
 kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
@@ -558,7 +286,7 @@ static void ClearPart(const kiriPlacer* placer, const uint8_t* allowed)
     for (int32_t k = 0; k < placer->cells.count; ++k) {
         int32_t cell = placer->cells.data[k];
         work->sampled.data[cell] = KIRI_FAR;
-        work->holds.data[cell] = allowed == NULL || allowed[cell] ? CELL_FREE : CELL_BARRED;
+        work->holds.data[cell] = allowed == NULL || allowed[cell] ? KIRI_CELL_FREE : CELL_BARRED;
     }
     for (int32_t i = 0; i < placer->sites.count; ++i) {
         int32_t* holds = &work->holds.data[placer->sites.data[i].cell];
@@ -620,7 +348,7 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     }
     ClearPart(placer, allowed);
     PlacerJob job = { placer, work, memory, grid, mesh, NULL };
-    if (!StartSiteFlood(&job, &work->flooded, 0, known == NULL ? placer->oldCount : 0)) {
+    if (!kiriPlacerJob_StartFlood(&job, &work->flooded, 0, known == NULL ? placer->oldCount : 0)) {
         return false;
     }
     work->old = known == NULL ? &work->flooded : known;
@@ -628,7 +356,7 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     work->left = count;
     work->due = 0;
     work->farthest = KIRI_NONE;
-    work->targets.data[0] = noTarget;
+    work->targets.data[0] = kiriSiteTarget_None();
     if (!StartEnds(placer, memory, grid) || !StartBlocks(placer, memory)) {
         return false;
     }

@@ -1,4 +1,4 @@
-/* The work of a placer at hand: private to kiri_place.c, and to who saves it. */
+/* The work of a placer at hand: private to kiri_place*.c, and to who saves it. */
 #ifndef KIRI_PLACE_WORK_H
 #define KIRI_PLACE_WORK_H
 
@@ -48,7 +48,7 @@ struct kiriPlacerWork {
     int32_t closest;                /* closeness at the ends, times CLOSENESS */
     kiriField fresh;                /* from the site just sampled, or from all new ones */
     KIRI_ARRAY(int32_t) sampled;    /* of each cell: distance to the nearest new site while sampling */
-    KIRI_ARRAY(int32_t) holds;      /* of each cell: the site in it, or CELL_FREE, or CELL_BARRED to sampling */
+    KIRI_ARRAY(int32_t) holds;      /* of each cell: the site in it, or KIRI_CELL_FREE, or barred to sampling */
     KIRI_ARRAY(uint8_t) marks;      /* of each cell: zero, but while a piece is taken */
     bool isTaking;                  /* a piece */
     KIRI_ARRAY(SiteTarget) targets; /* of each new site */
@@ -62,6 +62,86 @@ struct kiriPlacerWork {
     int32_t lost;     /* targets that AIM_NEAR has not found */
     int32_t round;
 };
+
+enum { KIRI_CELL_FREE = KIRI_NONE };
+
+static inline SiteTarget kiriSiteTarget_None(void)
+{
+    return (SiteTarget){ 0, 0, 0, { 0.0, 0.0 }, KIRI_NONE, false, 0.0 };
+}
+
+typedef struct PlacerJob {
+    kiriPlacer* placer;
+    kiriPlacerWork* work;
+    kiriMemory* memory;
+    const kiriGrid* grid;
+    const kiriMeshData* mesh;
+    kiriQuota* quota;
+} PlacerJob;
+
+static inline bool kiriGrid_IsMostlyCovered(const kiriGrid* grid, int32_t cell)
+{
+    return grid->cells.data[cell].material.area > 0.5 * grid->side * grid->side;
+}
+
+/* Visits the cells of a list, from the cursor on. */
+static inline kiriProgress kiriPlacerJob_Visit(PlacerJob* job, const int32_t* cells, int32_t count,
+                                               void visit(PlacerJob* job, int32_t cell))
+{
+    int32_t from = job->work->cursor, end = count;
+    if (end - from > job->quota->left) {
+        end = from + (int32_t)job->quota->left;
+    }
+    kiriQuota_Take(job->quota, end - from);
+    for (int32_t i = from; i < end; ++i) {
+        visit(job, cells[i]);
+    }
+    job->work->cursor = end < count ? end : 0;
+    return end < count ? KIRI_MORE : KIRI_DONE;
+}
+
+static inline kiriProgress kiriPlacerJob_VisitPart(PlacerJob* job, void visit(PlacerJob* job, int32_t cell))
+{
+    return kiriPlacerJob_Visit(job, job->placer->cells.data, job->placer->cells.count, visit);
+}
+
+static inline kiriProgress kiriPlacerJob_VisitFresh(PlacerJob* job, void visit(PlacerJob* job, int32_t cell))
+{
+    return kiriPlacerJob_Visit(job, job->work->fresh.settled.data, job->work->fresh.settled.count, visit);
+}
+
+static inline bool kiriPlacerWork_IsNearerThanOld(const kiriPlacerWork* work, int32_t cell)
+{
+    return work->fresh.distance.data[cell] < work->old->distance.data[cell];
+}
+
+static inline kiriProgress kiriPlacerJob_GoOnTo(PlacerJob* job, kiriProgress progress, PlacerStage next)
+{
+    if (progress == KIRI_DONE) {
+        job->work->stage = next;
+    }
+    return progress;
+}
+
+/* Ways go on only from cells that are nearer than these distances, or null. */
+kiriProgress kiriPlacerJob_Flood(PlacerJob* job, kiriField* field, const int32_t* below, const int32_t* andBelow);
+
+/* Makes a field ready to flood from sites first to end. */
+bool kiriPlacerJob_StartFlood(PlacerJob* job, kiriField* field, int32_t first, int32_t end);
+
+/* How much denser sites shall be at a cell. */
+int64_t kiriPlacerWork_DensityAt(const kiriPlacerWork* work, int32_t cell);
+
+/* Ready for a round of relaxation; and its stages. */
+kiriProgress kiriPlacerJob_StartRound(PlacerJob* job);
+kiriProgress kiriPlacerJob_FloodAllNew(PlacerJob* job);
+kiriProgress kiriPlacerJob_SumRegions(PlacerJob* job);
+kiriProgress kiriPlacerJob_AimNearCenters(PlacerJob* job);
+kiriProgress kiriPlacerJob_AimAtCenters(PlacerJob* job);
+
+/* The stages for one site by itself. */
+kiriProgress kiriPlacerJob_SumPart(PlacerJob* job);
+kiriProgress kiriPlacerJob_AimPart(PlacerJob* job);
 
 KIRI_C_END
 
