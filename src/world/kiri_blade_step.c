@@ -2,24 +2,12 @@
 
 #include "../sheet/kiri_seen.h"
 
-/* Measured in snap distances: nearer in the rest plane than SAME two places are one, and than STILL a layer is not led
-   on; past a border a cut goes on by REACH, which is less than what a blade snaps to, so that it cuts no notch into what
-   is beyond. */
-#define SAME 2.0
+/* Measured in snap distances: nearer in the rest plane than STILL a layer is not led on; past a border a cut goes on by
+   REACH, which is less than what a blade snaps to, so that it cuts no notch into what is beyond. */
 #define STILL 2.0
 #define REACH 0.5
 #define STRAIGHT 0.25
 #define DEGENERATE 0.25
-
-/* Shares of the length of a loop: as near as CLOSING it comes by its beginning; it is closed when it has gone on by
-   OVERLAP. */
-#define CLOSING 0.015
-#define OVERLAP 0.1
-
-static double RestDistance(kiriVec2 a, kiriVec2 b)
-{
-    return kiriVec2_Length(kiriVec2_Sub(a, b));
-}
 
 static kiriVec3 EdgeAt(const kiriVec3* edge, double share)
 {
@@ -79,109 +67,6 @@ static kiriVec3 DriftOf(const kiriBladeWork* work, int32_t triangle)
     return sum;
 }
 
-/* ---- Strokes ---- */
-
-/* The stroke of a track, which begins where the track is when its cut is new. KIRI_NONE for memory. */
-static int32_t StrokeOf(kiriBladeWork* work, kiriTrack* track)
-{
-    if (track->stroke == KIRI_NONE) {
-        const kiriStroke stroke = { track->sheet, track->cut, false };
-        const kiriStrokePoint start = { work->strokes.count, track->rest, track->rest, true };
-        if (!kiriArray_Push(&work->memory, &work->strokes, stroke) ||
-            (track->cut == NULL && !kiriArray_Push(&work->memory, &work->points, start))) {
-            return KIRI_NONE;
-        }
-        track->stroke = work->strokes.count - 1;
-    }
-    return track->stroke;
-}
-
-static bool AddPoint(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest)
-{
-    const kiriStrokePoint point = { StrokeOf(work, track), track->rest, rest, false };
-    track->loop.length += RestDistance(track->rest, rest);
-    track->rest = rest;
-    return point.stroke != KIRI_NONE && kiriArray_Push(&work->memory, &work->points, point);
-}
-
-bool kiriLoop_IsNear(const kiriLoop* loop, kiriVec2 end)
-{
-    return loop->isOpen && RestDistance(loop->start, end) < CLOSING * loop->length;
-}
-
-/* On the way to a place: it is nearest here, no longer on the way there. */
-static void NotePassing(kiriTrack* track, kiriVec2 to)
-{
-    kiriLoop* loop = &track->loop;
-    kiriVec2 way = kiriVec2_Sub(to, track->rest), left = kiriVec2_Sub(loop->start, track->rest);
-    double square = kiriVec2_Dot(way, way), share = square > 0.0 ? kiriVec2_Dot(left, way) / square : 0.0;
-    kiriVec2 near = kiriVec2_Add(track->rest, kiriVec2_Scale(share > 0.0 ? share : 0.0, way));
-    if (!loop->isPassed && share <= 1.0 && kiriLoop_IsNear(loop, near)) {
-        loop->isPassed = true;
-        loop->near = near;
-        loop->then = loop->length;
-    }
-}
-
-/* From where it came by, and back to where it is. */
-static bool CloseLoop(kiriBladeWork* work, kiriTrack* track)
-{
-    int32_t stroke = StrokeOf(work, track);
-    const kiriStrokePoint points[3] = { { stroke, track->loop.near, track->loop.near, true },
-                                        { stroke, track->loop.near, track->loop.start, false },
-                                        { stroke, track->rest, track->rest, true } };
-    bool ok = stroke != KIRI_NONE;
-    for (int k = 0; ok && k < 3; ++k) {
-        ok = kiriArray_Push(&work->memory, &work->points, points[k]);
-    }
-    track->loop.isOpen = track->loop.isPassed = false;
-    return ok;
-}
-
-static bool Lead(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest)
-{
-    NotePassing(track, rest);
-    bool ok = AddPoint(work, track, rest);
-    bool hasGoneOn = track->loop.isPassed && track->loop.length > (1.0 + OVERLAP) * track->loop.then;
-    return ok && (!hasGoneOn || CloseLoop(work, track));
-}
-
-/* Along work->path, without the points at its beginning where the track is already. */
-static bool LeadAlong(kiriBladeWork* work, kiriTrack* track)
-{
-    bool ok = true;
-    kiriVec2 start = track->rest;
-    for (int32_t i = 0; ok && i < work->path.count; ++i) {
-        bool isHere = i + 1 < work->path.count && RestDistance(work->path.data[i], start) < SAME * work->snap;
-        start = isHere ? start : kiriVec2_Make(1e300, 1e300);
-        ok = isHere || Lead(work, track, work->path.data[i]);
-    }
-    return ok;
-}
-
-/* Is there material around the end of a track, though it went over a border? Then it has crossed a cut. */
-static bool IsAtLip(const kiriTrack* track)
-{
-    kiriVec3 x;
-    return Seen(track->sheet, track->rest, &x);
-}
-
-/* The blade is out of the layer. A loop that has crossed a cut is taken for closed. */
-static bool End(kiriBladeWork* work, kiriTrack* track)
-{
-    bool isIdle = track->cut == NULL && track->stroke == KIRI_NONE;
-    bool ok = !track->loop.isPassed || IsAtLip(track) || CloseLoop(work, track);
-    track->isDone = track->isOver = true;
-    if (!isIdle) {
-        int32_t stroke = StrokeOf(work, track);
-        ok = ok && stroke != KIRI_NONE;
-        if (ok) {
-            work->strokes.data[stroke].isOver = true;
-        }
-    }
-    return ok;
-}
-
 /* ---- Crossings ---- */
 
 enum { TAKEN = -1 }; /* the triangle of a crossing that belongs to a track */
@@ -192,7 +77,7 @@ static kiriCrossing* NearestCrossing(const kiriBladeWork* work, kiriVec2 rest, d
     kiriCrossing* nearest = NULL;
     for (int32_t i = 0; i < work->crossings.count; ++i) {
         kiriCrossing* crossing = &work->crossings.data[i];
-        double d = RestDistance(crossing->rest, rest);
+        double d = kiriRest_Distance(crossing->rest, rest);
         if (crossing->triangle != TAKEN && d <= distance) {
             distance = d;
             nearest = crossing;
@@ -204,8 +89,8 @@ static kiriCrossing* NearestCrossing(const kiriBladeWork* work, kiriVec2 rest, d
 /* The track is in the layer at this crossing, and is led there, unless that is no way. */
 static bool GoOn(kiriBladeWork* work, kiriTrack* track, kiriCrossing* crossing)
 {
-    bool isStill = RestDistance(track->rest, crossing->rest) < STILL * work->snap;
-    bool ok = isStill || Lead(work, track, crossing->rest);
+    bool isStill = kiriRest_Distance(track->rest, crossing->rest) < STILL * work->snap;
+    bool ok = isStill || kiriTrack_Lead(work, track, crossing->rest);
     track->at = crossing->at;
     track->share = crossing->share;
     track->isDone = true;
@@ -224,9 +109,10 @@ static const kiriSectionLine* LineFrom(const kiriBladeWork* work, kiriVec2 rest,
     for (int32_t i = 0; i < section->lines.count; ++i) {
         const kiriSectionLine* line = &section->lines.data[i];
         const kiriSectionPoint* points = &section->points.data[line->first];
-        double d[2] = { RestDistance(points[0].rest, rest), RestDistance(points[line->count - 1].rest, rest) };
+        double d[2] = { kiriRest_Distance(points[0].rest, rest),
+                        kiriRest_Distance(points[line->count - 1].rest, rest) };
         int end = d[0] <= d[1] ? 0 : 1;
-        if (d[end] < SAME * work->snap && d[1 - end] > longest) {
+        if (d[end] < KIRI_BLADE_SAME * work->snap && d[1 - end] > longest) {
             longest = d[1 - end];
             found = line;
             *fromLast = end == 1;
@@ -282,11 +168,11 @@ static bool Flatten(const kiriBladeWork* work, const kiriVec3* other, kiriVec3 x
    where the line ends, but nearer to it than this track. */
 static kiriTrack* OtherTrack(kiriBladeWork* work, const kiriTrack* track, kiriVec2 rest)
 {
-    double nearest = RestDistance(track->rest, rest);
+    double nearest = kiriRest_Distance(track->rest, rest);
     kiriTrack* found = NULL;
     for (int32_t i = 0; i < work->oldCount; ++i) {
         kiriTrack* other = &work->tracks.data[i];
-        double distance = RestDistance(other->rest, rest);
+        double distance = kiriRest_Distance(other->rest, rest);
         if (other != track && other->sheet == work->sheet && !other->isDone && distance < nearest) {
             nearest = distance;
             found = other;
@@ -301,33 +187,34 @@ static bool FollowLine(kiriBladeWork* work, kiriTrack* track, const kiriSectionL
 {
     const kiriSectionPoint* end = EndOfWay(work, line, !fromLast);
     int32_t type = line->end[fromLast ? 0 : 1];
-    kiriCrossing* crossing = type == KIRI_SIDE_TO ? NearestCrossing(work, end->rest, SAME * work->snap) : NULL;
-    bool isStill = crossing != NULL && RestDistance(track->rest, crossing->rest) < STILL * work->snap;
+    kiriCrossing* crossing =
+        type == KIRI_SIDE_TO ? NearestCrossing(work, end->rest, KIRI_BLADE_SAME * work->snap) : NULL;
+    bool isStill = crossing != NULL && kiriRest_Distance(track->rest, crossing->rest) < STILL * work->snap;
     kiriTrack* other = type == KIRI_SIDE_FROM ? OtherTrack(work, track, end->rest) : NULL;
-    bool ok = isStill || (FindPath(work, line, fromLast) && LeadAlong(work, track));
+    bool ok = isStill || (FindPath(work, line, fromLast) && kiriTrack_LeadAlong(work, track));
     if (!ok || crossing != NULL) {
         return ok && GoOn(work, track, crossing);
     }
     if (other != NULL) {
-        ok = Lead(work, track, other->rest) && End(work, other);
+        ok = kiriTrack_Lead(work, track, other->rest) && kiriTrack_End(work, other);
     }
     bool isLost = type == KIRI_SIDE_FROM && other == NULL;
-    return ok && (isLost || End(work, track));
+    return ok && (isLost || kiriTrack_End(work, track));
 }
 
 /* Is the line more than what is around its beginning? */
 static bool LeadsOn(const kiriBladeWork* work, const kiriSectionLine* line, bool fromLast)
 {
-    double length = RestDistance(EndOfWay(work, line, false)->rest, EndOfWay(work, line, true)->rest);
-    return line->end[fromLast ? 0 : 1] == KIRI_SIDE_TO || length > SAME * work->snap;
+    double length = kiriRest_Distance(EndOfWay(work, line, false)->rest, EndOfWay(work, line, true)->rest);
+    return line->end[fromLast ? 0 : 1] == KIRI_SIDE_TO || length > KIRI_BLADE_SAME * work->snap;
 }
 
 /* To a border that is here, perhaps; but the way may go on elsewhere (PassAlong): the track counts as lost. */
 static bool FollowShort(kiriBladeWork* work, kiriTrack* track, const kiriSectionLine* line, bool fromLast)
 {
     kiriVec2 rest = track->rest;
-    bool ok =
-        line->end[fromLast ? 0 : 1] != KIRI_END_BORDER || (FindPath(work, line, fromLast) && LeadAlong(work, track));
+    bool ok = line->end[fromLast ? 0 : 1] != KIRI_END_BORDER ||
+              (FindPath(work, line, fromLast) && kiriTrack_LeadAlong(work, track));
     track->rest = rest;
     return ok;
 }
@@ -356,7 +243,7 @@ static bool FollowTrack(kiriBladeWork* work, kiriTrack* track)
     /* Hardly any way, or the tip of the cut stands out of the surface: then the layer is where the edge is nearest in the
        material. */
     double way = kiriVec3_Length(kiriVec3_Sub(to, x));
-    kiriCrossing* crossing = NearestCrossing(work, track->rest, 2.0 * way + SAME * work->snap);
+    kiriCrossing* crossing = NearestCrossing(work, track->rest, 2.0 * way + KIRI_BLADE_SAME * work->snap);
     return crossing != NULL ? GoOn(work, track, crossing) : line == NULL || FollowShort(work, track, line, fromLast);
 }
 
@@ -368,7 +255,7 @@ static const kiriTrack* LostTrack(const kiriBladeWork* work, kiriVec2 rest, doub
     const kiriTrack* nearest = NULL;
     for (int32_t i = 0; i < work->oldCount; ++i) {
         const kiriTrack* track = &work->tracks.data[i];
-        double d = RestDistance(track->rest, rest);
+        double d = kiriRest_Distance(track->rest, rest);
         if (track->isLost && d <= distance) {
             distance = d;
             nearest = track;
@@ -396,7 +283,8 @@ static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSe
 {
     const kiriSectionPoint* start = EndOfWay(work, line, fromLast);
     int32_t type = line->end[fromLast ? 1 : 0];
-    kiriCrossing* other = type == KIRI_SIDE_TO ? NearestCrossing(work, start->rest, SAME * work->snap) : NULL;
+    kiriCrossing* other =
+        type == KIRI_SIDE_TO ? NearestCrossing(work, start->rest, KIRI_BLADE_SAME * work->snap) : NULL;
     const kiriTrack* lost = type == KIRI_SIDE_FROM ? LostTrack(work, start->rest, near) : NULL;
     if (!FindPath(work, line, fromLast)) {
         return false;
@@ -413,7 +301,7 @@ static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSe
         return false;
     }
     kiriTrack* track = &work->tracks.data[work->tracks.count - 1];
-    return LeadAlong(work, track) && GoOn(work, track, crossing);
+    return kiriTrack_LeadAlong(work, track) && GoOn(work, track, crossing);
 }
 
 /* The line that leads to the crossing from where the edge was; from farther back where a border is near, for where the
@@ -451,7 +339,7 @@ static bool EnterLayer(kiriBladeWork* work, kiriCrossing* crossing)
     }
     if (line != NULL) {
         double near = kiriVec3_Length(kiriVec3_Sub(EdgeAt(was, crossing->share), crossing->at));
-        return EnterAlong(work, crossing, line, !fromLast, 2.0 * near + SAME * work->snap);
+        return EnterAlong(work, crossing, line, !fromLast, 2.0 * near + KIRI_BLADE_SAME * work->snap);
     }
     bool ok = AddTrack(work, crossing, crossing->rest, LoopFrom(crossing->rest, true));
     crossing->triangle = TAKEN;
@@ -472,7 +360,7 @@ static kiriSectionPoint MiddleOf(const kiriSection* section, const kiriSectionLi
 static bool IsLed(const kiriBladeWork* work, const kiriSectionLine* line)
 {
     kiriVec2 rest = MiddleOf(&work->section, line).rest;
-    double near = 2.0 * SAME * work->snap + kiriVec3_Length(work->drift);
+    double near = 2.0 * KIRI_BLADE_SAME * work->snap + kiriVec3_Length(work->drift);
     bool isLed = false;
     for (int32_t i = work->firstPoint; !isLed && i < work->points.count; ++i) {
         const kiriStrokePoint* point = &work->points.data[i];
@@ -485,7 +373,7 @@ static bool IsLed(const kiriBladeWork* work, const kiriSectionLine* line)
 /* Lines from a layer that the blade is in, or was in, are those of tracks; but for a track that was lost. */
 static bool PassAlong(kiriBladeWork* work, const kiriSectionLine* line)
 {
-    double near = 2.0 * kiriVec3_Length(work->drift) + SAME * work->snap;
+    double near = 2.0 * kiriVec3_Length(work->drift) + KIRI_BLADE_SAME * work->snap;
     int inner = line->end[0] == KIRI_SIDE_FROM ? 0 : line->end[1] == KIRI_SIDE_FROM ? 1 : KIRI_NONE;
     const kiriSectionPoint *first = EndOfWay(work, line, false), *last = EndOfWay(work, line, true);
     if (line->end[0] == KIRI_SIDE_TO || line->end[1] == KIRI_SIDE_TO || IsLed(work, line)) {
@@ -502,7 +390,7 @@ static bool PassAlong(kiriBladeWork* work, const kiriSectionLine* line)
     kiriTrack track = {
         work->sheet, NULL, KIRI_NONE, from, work->is[0], 0.0, LoopFrom(from, false), false, false, false
     };
-    return LeadAlong(work, &track) && End(work, &track);
+    return kiriTrack_LeadAlong(work, &track) && kiriTrack_End(work, &track);
 }
 
 static const kiriSectionLine* LineNear(const kiriSection* section, kiriVec2 rest)
@@ -620,7 +508,7 @@ bool kiriBlade_Step(kiriBladeWork* work)
     ok = ok && PassThrough(work);
     for (int32_t i = 0; ok && i < work->oldCount; ++i) {
         kiriTrack* track = &work->tracks.data[i];
-        ok = track->sheet != sheet || !track->isLost || track->isOver || End(work, track);
+        ok = track->sheet != sheet || !track->isLost || track->isOver || kiriTrack_End(work, track);
     }
     return ok;
 }

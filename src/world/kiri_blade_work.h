@@ -56,6 +56,21 @@ typedef struct kiriBladeWork {
     kiriRestPoints path;
 } kiriBladeWork;
 
+/* Nearer in the rest plane than this, in snap distances, two places are one. */
+#define KIRI_BLADE_SAME 2.0
+
+static inline double kiriRest_Distance(kiriVec2 a, kiriVec2 b)
+{
+    return kiriVec2_Length(kiriVec2_Sub(a, b));
+}
+
+/* A track goes on: to a place; or along work->path, without the points at its beginning where it is already. False for memory. */
+bool kiriTrack_Lead(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest);
+bool kiriTrack_LeadAlong(kiriBladeWork* work, kiriTrack* track);
+
+/* The blade is out of the layer. A loop that has crossed a cut is taken for closed. False for memory. */
+bool kiriTrack_End(kiriBladeWork* work, kiriTrack* track);
+
 /* Is the end of the cut so near to its beginning that it may be closed? */
 bool kiriLoop_IsNear(const kiriLoop* loop, kiriVec2 end);
 
