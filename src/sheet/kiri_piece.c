@@ -183,6 +183,15 @@ static void TouchByOrigin(kiriSheetData* sheet)
     }
 }
 
+static bool AreAllTouched(const kiriLayout* layout)
+{
+    bool are = true;
+    for (int32_t p = 0; are && p < layout->pieces.count; ++p) {
+        are = layout->pieces.data[p].isTouched;
+    }
+    return are;
+}
+
 void kiriPieces_FindTouched(kiriSheetData* sheet)
 {
     kiriLayout* next = &sheet->update->next;
@@ -191,8 +200,10 @@ void kiriPieces_FindTouched(kiriSheetData* sheet)
     }
     TouchByFrames(sheet);
     TouchByLinks(sheet);
-    TouchBySamples(sheet, &sheet->vertexSkin, sheet->update->samples.oldVertices);
-    TouchBySamples(sheet, &sheet->pointSkin, sheet->points.count);
+    if (!AreAllTouched(next)) { /* there may be many samples */
+        TouchBySamples(sheet, &sheet->vertexSkin, sheet->update->samples.oldVertices);
+        TouchBySamples(sheet, &sheet->pointSkin, sheet->points.count);
+    }
     TouchByOrigin(sheet);
 }
 

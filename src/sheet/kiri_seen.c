@@ -198,8 +198,10 @@ static void TouchFading(kiriSheetData* sheet)
 typedef struct JumpLook {
     kiriFrameMask other;
     kiriVec3 shift;
+    bool isShifted;
     const float* before; /* where all vertices are seen */
-    bool movesSleepers;  /* one that sleeps goes elsewhere */
+    bool anySleeps;      /* some piece does, */
+    bool movesSleepers;  /* and a vertex of one that does goes elsewhere */
 } JumpLook;
 
 static bool MayBeElsewhere(const kiriSheetData* sheet, const JumpLook* look, int32_t begin, int32_t end)
@@ -216,21 +218,50 @@ static bool IsVertexAwake(const kiriSheetData* sheet, int32_t vertex)
     return piece != KIRI_NONE && kiriPiece_IsMoved(&sheet->layout.pieces.data[piece]);
 }
 
-/* The vertices of a block go where their weights have them. */
-static void LookAtVertices(kiriSheetData* sheet, JumpLook* look, int32_t begin, int32_t end)
+static void TakeOffsets(kiriSheetData* sheet, const JumpLook* look, const float* was, const float* is, int32_t begin,
+                        int32_t end)
 {
-    float room[3 * KIRI_BLOCK], *was = room;
-    memcpy(was, look->before + 3 * (ptrdiff_t)begin, 3 * sizeof(float) * (size_t)(end - begin));
-    kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, begin, end);
-    const float* is = kiriSurface_Places(&sheet->seen.surface) + 3 * (ptrdiff_t)begin;
     for (int32_t v = begin; v < end; ++v, was += 3, is += 3) {
         kiriVec3 offset = kiriVec3_Sub(kiriVec3_Load(was), kiriVec3_Load(is));
         if (kiriMesh_IsVertex(&sheet->mesh, v)) {
             kiriFades_Take(&sheet->seen.fades, v, kiriVec3_Add(offset, look->shift));
         }
-        look->movesSleepers = look->movesSleepers || (v < sheet->seen.vertexCount &&
-                                                      kiriVec3_Dot(offset, offset) > 0.0 && !IsVertexAwake(sheet, v));
     }
+}
+
+static bool MovesSleepers(const kiriSheetData* sheet, const float* was, const float* is, int32_t begin, int32_t end)
+{
+    bool any = false;
+    for (int32_t v = begin; !any && v < end && v < sheet->seen.vertexCount; ++v, was += 3, is += 3) {
+        bool isElsewhere = !(was[0] == is[0] && was[1] == is[1] && was[2] == is[2]);
+        any = isElsewhere && !IsVertexAwake(sheet, v);
+    }
+    return any;
+}
+
+static bool IsAnyBeyond(const float* a, const float* b, int32_t count, float most)
+{
+    int32_t beyond = 0;
+    for (int32_t k = 0; k < count; ++k) {
+        float by = a[k] - b[k];
+        beyond |= !(by <= most) | !(by >= -most);
+    }
+    return beyond != 0;
+}
+
+/* The vertices of a block go where their weights have them. Most go no farther than rounding takes them: floats tell. */
+static void LookAtVertices(kiriSheetData* sheet, JumpLook* look, int32_t begin, int32_t end)
+{
+    float was[3 * KIRI_BLOCK];
+    kiriFades* fades = &sheet->seen.fades;
+    memcpy(was, look->before + 3 * (ptrdiff_t)begin, 3 * sizeof(float) * (size_t)(end - begin));
+    kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, begin, end);
+    const float* is = kiriSurface_Places(&sheet->seen.surface) + 3 * (ptrdiff_t)begin;
+    if (look->isShifted || kiriFades_HasBelow(fades, end) ||
+        IsAnyBeyond(was, is, 3 * (end - begin), (float)(0.5 * fades->least))) {
+        TakeOffsets(sheet, look, was, is, begin, end);
+    }
+    look->movesSleepers = look->movesSleepers || (look->anySleeps && MovesSleepers(sheet, was, is, begin, end));
 }
 
 /* Of a block with other weights, or with new vertices, frames and mover are found anew. */
@@ -254,6 +285,15 @@ static void ForgetRounded(kiriSheetData* sheet)
     }
 }
 
+static bool AnySleeps(const kiriSheetData* sheet)
+{
+    bool any = false;
+    for (int32_t p = 0; !any && p < sheet->layout.pieces.count; ++p) {
+        any = !kiriPiece_IsMoved(&sheet->layout.pieces.data[p]);
+    }
+    return any;
+}
+
 /* All other vertices are seen where they were written last, by the same weights and patches: they do not jump. After it
    all are where weights and patches have them, but for what fades: as after writing. */
 static void TakeVertexJumps(kiriSheetData* sheet)
@@ -268,7 +308,8 @@ static void TakeVertexJumps(kiriSheetData* sheet)
     look.shift = kiriVec3_Sub(middle, surface->middle);
     ForgetRounded(sheet);
     look.other = kiriBlocks_MaskOfOther(&surface->patches);
-    look.movesSleepers = look.shift.x != 0.0 || look.shift.y != 0.0 || look.shift.z != 0.0;
+    look.isShifted = look.movesSleepers = look.shift.x != 0.0 || look.shift.y != 0.0 || look.shift.z != 0.0;
+    look.anySleeps = AnySleeps(sheet);
     kiriFades_Start(&sheet->seen.fades);
     for (int32_t begin = 0; begin < surface->vertexCount; begin += KIRI_BLOCK) {
         int32_t end = begin + KIRI_BLOCK < surface->vertexCount ? begin + KIRI_BLOCK : surface->vertexCount;
