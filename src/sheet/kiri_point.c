@@ -62,7 +62,17 @@ static kiriVec3 VertexNormal(const kiriSheetData* sheet, int32_t vertex)
     return kiriVec3_Dot(unit, unit) > 0.0 ? unit : kiriVec3_Make(0.0, 0.0, 1.0);
 }
 
-/* Where the normals of the corners cancel out, that of the triangle. */
+/* The corner next to it. */
+static int32_t HeaviestCorner(const kiriSheetData* sheet, const kiriPointPlace* place)
+{
+    int best = 0;
+    for (int k = 1; k < 3; ++k) {
+        best = place->shares[k] > place->shares[best] ? k : best;
+    }
+    return CornersOf(sheet, place)[best];
+}
+
+/* Where the normals of the corners cancel out, that of the triangle; where that has no area, that of one corner. */
 kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* place)
 {
     const int32_t* corners = CornersOf(sheet, place);
@@ -75,7 +85,8 @@ kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* plac
         kiriVec3 a = kiriSurface_At(surface, corners[0]), b = kiriSurface_At(surface, corners[1]);
         sum = kiriVec3_Cross(kiriVec3_Sub(b, a), kiriVec3_Sub(kiriSurface_At(surface, corners[2]), a));
     }
-    return kiriVec3_Normalize(sum);
+    kiriVec3 unit = kiriVec3_Normalize(sum);
+    return kiriVec3_Dot(unit, unit) > 0.5 ? unit : VertexNormal(sheet, HeaviestCorner(sheet, place));
 }
 
 /* As the mesh has it: at the corners the frames are blended, between them the corners. */
