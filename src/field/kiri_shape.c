@@ -474,12 +474,14 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
 
 static void RenumberWeights(kiriShape* shape, const kiriKeep* frames)
 {
+    const int32_t* to = frames->to.data;
     for (int32_t c = 0; c < shape->spans.count; ++c) {
-        kiriSpan span = shape->spans.data[c];
-        for (int32_t k = span.first; k < span.first + span.count; ++k) {
-            shape->weights.data[k].frame = kiriKeep_To(frames, shape->weights.data[k].frame);
+        kiriCellWeight* weight = shape->weights.data + shape->spans.data[c].first;
+        for (const kiriCellWeight* end = weight + shape->spans.data[c].count; weight < end; ++weight) {
+            weight->frame = to[weight->frame];
         }
-        shape->work->counted.data[c].frame = kiriKeep_To(frames, shape->work->counted.data[c].frame);
+        kiriCountedCell* counted = &shape->work->counted.data[c];
+        counted->frame = counted->frame != KIRI_NONE ? to[counted->frame] : KIRI_NONE;
     }
 }
 

@@ -269,6 +269,18 @@ static bool FillCellsOfPart(kiriExtraction* extraction, int32_t piece, kiriSheet
     return ok;
 }
 
+/* All that is seen of it but where: it takes long, and nothing changes it any more. */
+static kiriProgress WriteTopologyOfPart(kiriSheetData* to)
+{
+    if (to->seen.surface.vertexCount == 0) {
+        if (!kiriView_Resize(to, to->update->placing.sites.count, to->points.count)) {
+            return KIRI_FAILED;
+        }
+        kiriSurface_WriteTopology(&to->seen.surface, &to->mesh);
+    }
+    return KIRI_DONE;
+}
+
 /* No frame is added: whoever wants one has asked before, or asks with the next cut. */
 kiriProgress kiriExtraction_GoOn(kiriExtraction* extraction, int32_t piece, kiriSheetData* to, kiriQuotas* quotas)
 {
@@ -277,7 +289,8 @@ kiriProgress kiriExtraction_GoOn(kiriExtraction* extraction, int32_t piece, kiri
     if (progress == KIRI_DONE && to->update->placing.sites.count == 0 && !FillCellsOfPart(extraction, piece, to)) {
         return KIRI_FAILED;
     }
-    return progress == KIRI_DONE ? kiriPipeline_MakeSome(to, KIRI_STAGE_CONSTANTS, quotas) : progress;
+    progress = progress == KIRI_DONE ? kiriPipeline_MakeSome(to, KIRI_STAGE_CONSTANTS, quotas) : progress;
+    return progress == KIRI_DONE ? WriteTopologyOfPart(to) : progress;
 }
 
 static bool EndPart(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)

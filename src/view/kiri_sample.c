@@ -214,12 +214,14 @@ void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount)
     }
 }
 
+/* The last weights of a sample are those of the highest frames: the others stay as they are. */
 static void RenumberFrames(kiriSkin* skin, const kiriKeep* frames)
 {
+    const int32_t *to = frames->to.data, least = frames->first;
     for (int32_t i = 0; i < skin->spans.count && kiriKeep_Moves(frames); ++i) {
-        kiriSpan span = skin->spans.data[i];
-        for (int32_t k = span.first; k < span.first + span.count; ++k) {
-            skin->weights.data[k].frame = kiriKeep_To(frames, skin->weights.data[k].frame);
+        kiriSampleWeight* weights = skin->weights.data + skin->spans.data[i].first;
+        for (int32_t k = skin->spans.data[i].count; k-- > 0 && weights[k].frame >= least;) {
+            weights[k].frame = to[weights[k].frame];
         }
     }
 }
