@@ -1,7 +1,7 @@
 /* Pieces: what is in them, and sheets of their own. Where the header can tell, only it is asked. */
 #include "host.h"
 
-#include "sheet/kiri_piece.h"
+#include "sheet/kiri_piece_list.h"
 #include "world/kiri_world.h"
 
 enum { MOST_PIECES = 4096 };
@@ -348,7 +348,7 @@ static Before Remember(Host* host, kiriSheet sheet)
 {
     Before before = { *DataOf(host, sheet), Host_Totals(host, sheet) };
     kiriSheetData* data = &before.data;
-    assert_true(kiriPieces_List(DataOf(host, sheet)));
+    assert_true(kiriPieces_ListFrames(DataOf(host, sheet)) && kiriPieces_ListTriangles(DataOf(host, sheet)));
     data->lists = DataOf(host, sheet)->lists;
     COPY(data->mesh.triangles);
     COPY(data->mesh.vertices);

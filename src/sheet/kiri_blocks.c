@@ -57,6 +57,68 @@ kiriFrameMask kiriBlocks_MaskOfOther(const kiriPatches* patches)
     return mask;
 }
 
+/* ---- Frames that go ---- */
+
+enum { MASK_WORDS = 4, MASK_BITS = 64 * MASK_WORDS };
+
+/* What each bit becomes: frames that share one may get several. */
+static void MapBits(const kiriKeep* frames, kiriFrameMask to[MASK_BITS])
+{
+    memset(to, 0, MASK_BITS * sizeof(*to));
+    for (int32_t i = 0; i < frames->to.count; ++i) {
+        if (kiriKeep_Has(frames, i)) {
+            AddToMask(&to[i % MASK_BITS], kiriKeep_To(frames, i));
+        }
+    }
+}
+
+static kiriFrameMask MappedMask(const kiriFrameMask* mask, const kiriFrameMask to[MASK_BITS])
+{
+    kiriFrameMask mapped = { { 0 } };
+    for (int word = 0; word < MASK_WORDS; ++word) {
+        uint64_t left = mask->bits[word];
+        for (int bit = 0; left != 0; ++bit, left >>= 1) {
+            for (int k = 0; (left & 1) != 0 && k < MASK_WORDS; ++k) {
+                mapped.bits[k] |= to[64 * word + bit].bits[k];
+            }
+        }
+    }
+    return mapped;
+}
+
+static void KeepMoved(kiriBlocks* blocks, const kiriKeep* frames)
+{
+    for (int32_t i = 0; i < blocks->moved.count; ++i) {
+        int32_t to = i < frames->to.count ? kiriKeep_To(frames, i) : KIRI_NONE;
+        if (to != KIRI_NONE) {
+            blocks->moved.data[to] = blocks->moved.data[i];
+        }
+    }
+    for (int32_t i = frames->count; i < blocks->moved.count; ++i) {
+        blocks->moved.data[i] = 0;
+    }
+}
+
+void kiriBlocks_LeaveHoles(kiriBlocks* blocks, const kiriIndices* vertices, const kiriKeep* frames)
+{
+    kiriFrameMask to[MASK_BITS];
+    MapBits(frames, to);
+    for (int32_t k = 0; k < vertices->count; ++k) {
+        kiriBlocks_ForgetOne(blocks, vertices->data[k] / KIRI_BLOCK);
+    }
+    for (int32_t block = 0; block < blocks->movers.count; ++block) {
+        int32_t mover = blocks->movers.data[block];
+        if (mover != KIRI_UNKNOWN) {
+            KIRI_ASSERT(mover == KIRI_NONE || kiriKeep_Has(frames, mover));
+            blocks->movers.data[block] = kiriKeep_To(frames, mover);
+            blocks->frames.data[block] = MappedMask(&blocks->frames.data[block], to);
+        }
+    }
+    KeepMoved(blocks, frames);
+}
+
+/* ---- Movers ---- */
+
 static int32_t EndOfBlock(const kiriSheetData* sheet, int32_t block)
 {
     int32_t count = sheet->seen.surface.vertexCount;
@@ -75,8 +137,6 @@ static void WriteMask(kiriSheetData* sheet, int32_t block)
     }
     sheet->seen.blocks.frames.data[block] = mask;
 }
-
-/* ---- Movers ---- */
 
 static int32_t FindMover(const kiriSheetData* sheet, int32_t block)
 {

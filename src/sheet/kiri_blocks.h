@@ -15,6 +15,9 @@ bool kiriBlocks_Resize(kiriBlocks* blocks, kiriMemory* memory, int32_t vertexCou
 /* Vertices or frames have other indices: nothing is known. */
 void kiriBlocks_Forget(kiriBlocks* blocks);
 
+/* These vertices are gone, and frames with them: others have new indices. The rest is as well known as before. */
+void kiriBlocks_LeaveHoles(kiriBlocks* blocks, const kiriIndices* vertices, const kiriKeep* frames);
+
 /* Of these vertices some have other weights, or are new: who moves them is found anew. */
 void kiriBlocks_ForgetOne(kiriBlocks* blocks, int32_t block);
 

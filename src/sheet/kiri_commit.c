@@ -1,6 +1,6 @@
 #include "kiri_stages.h"
 
-#include "kiri_piece.h"
+#include "kiri_piece_list.h"
 #include "kiri_pin.h"
 #include "kiri_seen.h"
 
@@ -140,7 +140,7 @@ void kiriStage_Commit(kiriSheetData* sheet)
     u->counts.vertices = sheet->vertexSkin.staged.count;
     u->counts.points = sheet->pointSkin.staged.count;
     u->counts.links = sheet->links.changed;
-    sheet->lists.isFresh = false;
+    kiriPieceLists_Forget(&sheet->lists);
     sheet->probes.isFresh = false;
     int32_t oldLinks = sheet->links.links.count;
     bool keepsStrains = kiriSheet_KeepsStrains(sheet);

@@ -1,4 +1,4 @@
-/* Pieces: the connected parts of a sheet, and what is in each. They are numbered by their lowest frame. */
+/* Pieces: the connected parts of a sheet. They are numbered by their lowest frame. */
 #ifndef KIRI_PIECE_H
 #define KIRI_PIECE_H
 
@@ -24,15 +24,6 @@ void kiriPieces_FindTouched(kiriSheetData* sheet);
 
 /* The pieces of the layout that has just come in force rest as those that they came of, where they are not touched. */
 void kiriPieces_KeepRest(kiriSheetData* sheet, const kiriLayout* old);
-
-/* Brings the lists up to date: costs nothing where neither mesh nor pieces have changed. False for memory. */
-bool kiriPieces_List(kiriSheetData* sheet);
-
-/* Where the piece is in one of the lists. */
-kiriSpan kiriPiece_Span(const kiriPieceList* list, int32_t piece);
-
-/* What the host asks about a piece; the lists are up to date. */
-kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece);
 
 KIRI_C_END
 

@@ -220,7 +220,7 @@ static void MeasureVelocities(kiriSheetData* sheet)
 {
     kiriProbes* probes = &sheet->probes;
     for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        kiriSpan span = kiriPiece_Span(&probes->list, p);
+        kiriSpan span = kiriPieceRow_Of(&probes->list, p);
         double most = 0.0;
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
             probes->velocities.data[i] = kiriProbe_Velocity(sheet, probes->list.items.data[i]);

@@ -3,6 +3,7 @@
 #include "kiri_ahead.h"
 #include "kiri_blocks.h"
 #include "kiri_motion.h"
+#include "kiri_piece_list.h"
 #include "kiri_pin.h"
 #include "kiri_stages.h"
 #include "kiri_touch.h"
@@ -317,7 +318,9 @@ static void KeepSurface(kiriRemoval* removal, kiriMemory* retired)
     const kiriKept* kept = &removal->kept;
     if (removal->leavesHoles) {
         kiriSurface_LeaveHoles(&sheet->seen.surface, &removal->gathered.triangles, &sheet->mesh, kept->frames.count);
+        kiriBlocks_LeaveHoles(&sheet->seen.blocks, &removal->gathered.vertices, &kept->frames);
     } else {
+        kiriBlocks_Forget(&sheet->seen.blocks);
         kiriSurface_Keep(&sheet->seen.surface, &removal->shown, &kept->triangles, &kept->vertices, &sheet->mesh,
                          kept->frames.count, retired);
         kiriBounds_Forget(sheet->seen.bounds);
@@ -330,7 +333,6 @@ static void KeepSeen(kiriRemoval* removal, kiriMemory* retired)
     kiriSheetData* sheet = removal->sheet;
     const kiriKept* kept = &removal->kept;
     KeepSurface(removal, retired);
-    kiriBlocks_Forget(&sheet->seen.blocks);
     kiriKeep_Compact(&kept->points, &sheet->seen.exactPoints, 1, sizeof(kiriVec3));
     if (sheet->seen.pointPositions.count > 0) {
         kiriKeep_Copy(&kept->points, removal->points.data, sheet->seen.pointPositions.data, 3 * sizeof(float));
@@ -340,17 +342,14 @@ static void KeepSeen(kiriRemoval* removal, kiriMemory* retired)
     sheet->seen.pointCount = kept->points.count;
 }
 
-/* The host may hold them. */
-static void RetireLists(kiriPieceLists* lists, kiriMemory* retired)
+static void KeepLists(kiriRemoval* removal, kiriMemory* retired)
 {
-    kiriPieceList* all[] = { &lists->frames, &lists->vertices, &lists->triangles, &lists->points };
-    for (int i = 0; i < 4; ++i) {
-        kiriMemory_Adopt(retired, all[i]->first.data);
-        kiriMemory_Adopt(retired, all[i]->items.data);
+    kiriPieceLists* lists = &removal->sheet->lists;
+    if (removal->leavesHoles) {
+        kiriPieceLists_LeaveHoles(lists, removal->kept.pieces.data, retired);
+    } else {
+        kiriPieceLists_Retire(lists, retired);
     }
-    kiriMemory_Adopt(retired, lists->ids.data);
-    kiriMemory_Adopt(retired, lists->corners.data);
-    memset(lists, 0, sizeof(*lists));
 }
 
 void kiriRemoval_Commit(kiriRemoval* removal, kiriMemory* retired)
@@ -362,7 +361,7 @@ void kiriRemoval_Commit(kiriRemoval* removal, kiriMemory* retired)
     CommitStaged(removal);
     MoveBlades(removal);
     KeepSeen(removal, retired);
-    RetireLists(&removal->sheet->lists, retired);
+    KeepLists(removal, retired);
     removal->sheet->probes.isFresh = false;
     memset(&removal->shown, 0, sizeof(removal->shown));
     memset(&removal->points, 0, sizeof(removal->points));

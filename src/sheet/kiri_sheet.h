@@ -81,19 +81,33 @@ typedef struct kiriLayout {
     kiriAreaElements areaElements;  /* of affine frames */
 } kiriLayout;
 
-/* What is in each piece, by index: first the items of piece 0, and so on. */
-typedef struct kiriPieceList {
-    KIRI_ARRAY(int32_t) first; /* of each piece: its first item; where the next one begins it ends */
+/* What is in each piece, by index. Where pieces have gone there may be items of none in between. */
+typedef struct kiriPieceItems {
+    KIRI_ARRAY(kiriSpan) spans; /* of each piece */
     KIRI_ARRAY(int32_t) items;
-} kiriPieceList;
+} kiriPieceItems;
 
 /* Made when the host asks for them. */
 typedef struct kiriPieceLists {
-    bool isFresh; /* neither mesh nor pieces have changed since */
-    kiriPieceList frames, vertices, triangles, points;
-    KIRI_ARRAY(kiriFrame) ids;   /* of the frames */
-    KIRI_ARRAY(int32_t) corners; /* of the triangles */
+    bool hasFrames, hasVertices,
+        hasTriangles; /* listed, and neither mesh nor pieces have changed since. Of triangles the
+                                                  spans are known with the vertices. */
+    kiriPieceItems frames, vertices, triangles, points; /* points: with the frames */
+    KIRI_ARRAY(kiriFrame) ids;                          /* of the frames */
+    KIRI_ARRAY(int32_t) corners;                        /* of the triangles */
 } kiriPieceLists;
+
+/* Some vertices by piece: first those of piece 0, and so on. */
+typedef struct kiriPieceRow {
+    KIRI_ARRAY(int32_t) first; /* of each piece: its first item; where the next one begins it ends */
+    KIRI_ARRAY(int32_t) items;
+} kiriPieceRow;
+
+static inline kiriSpan kiriPieceRow_Of(const kiriPieceRow* row, int32_t piece)
+{
+    int32_t first = row->first.data[piece];
+    return (kiriSpan){ first, row->first.data[piece + 1] - first };
+}
 
 /* An obstacle that a pin goes with. What the pin gives it moves it within the tick: so far only the host will know. */
 typedef struct kiriPinAnchor {
@@ -115,7 +129,7 @@ typedef struct kiriProbes {
     KIRI_ARRAY(uint8_t) isBorder;    /* is it on the outline or a lip? */
     KIRI_ARRAY(kiriVec2) leans;      /* and if so, eight times kiriMesh_Lean, else zero */
     KIRI_ARRAY(uint8_t) isChosen;    /* is it a probe? */
-    kiriPieceList list;              /* the probes, by piece */
+    kiriPieceRow list;               /* the probes, by piece */
     KIRI_ARRAY(kiriVec3) velocities; /* of probes, in the order of the list */
     KIRI_ARRAY(kiriBox) boxes;       /* of pieces, as they are seen */
     KIRI_ARRAY(int32_t) touch;       /* of each vertex: what it touches in the tick at hand, for kiri_pair_touch.c */

@@ -1,6 +1,6 @@
 #include "kiri_stages.h"
 
-#include "kiri_piece.h"
+#include "kiri_piece_list.h"
 #include "kiri_pin.h"
 #include "kiri_room.h"
 #include "kiri_seen.h"
@@ -56,7 +56,7 @@ kiriProgress kiriStage_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles)
 void kiriStage_CommitMesh(kiriSheetData* sheet)
 {
     if (sheet->mesh.savedTriangles.count > 0) {
-        sheet->lists.isFresh = false;
+        kiriPieceLists_Forget(&sheet->lists);
         sheet->probes.isFresh = false;
         kiriView_WriteTopology(sheet);
     }

@@ -1,12 +1,14 @@
 #include "kiri_call.h"
 #include "kiri_part.h"
-#include "../sheet/kiri_piece.h"
+#include "../sheet/kiri_piece_list.h"
 
-/* Brings the lists of pieces up to date. */
-#define LIST_PIECES(data, piece)                                                                                       \
+#define CHECK_PIECE(data, piece)                                                                                       \
+    KIRI_CHECK(kiriCall_IsWithin(piece, 0, data->layout.pieces.count - 1), "the sheet has no such piece")
+
+/* Brings lists of pieces up to date. */
+#define LIST_PIECES(isListed)                                                                                          \
     do {                                                                                                               \
-        KIRI_CHECK(kiriCall_IsWithin(piece, 0, data->layout.pieces.count - 1), "the sheet has no such piece");         \
-        if (!kiriPieces_List(data)) {                                                                                  \
+        if (!(isListed)) {                                                                                             \
             return KIRI_FAIL(KIRI_ERROR_MEMORY, NULL);                                                                 \
         }                                                                                                              \
     } while (0)
@@ -16,7 +18,8 @@ kiriResult kiriSheet_GetPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, 
     KIRI_PREPARES(world);
     KIRI_CHECK(state != NULL, "state is null");
     KIRI_FIND_SHEET(data, sheet);
-    LIST_PIECES(data, piece);
+    CHECK_PIECE(data, piece);
+    LIST_PIECES(kiriPieces_ListFrames(data) && kiriPieces_ListVertices(data));
     *state = kiriPiece_State(data, piece);
     return KIRI_OK;
 }
@@ -26,10 +29,12 @@ kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, int32_t pie
     KIRI_PREPARES(world);
     KIRI_CHECK(mesh != NULL, "mesh is null");
     KIRI_FIND_SHEET(data, sheet);
-    LIST_PIECES(data, piece);
+    CHECK_PIECE(data, piece);
+    LIST_PIECES(kiriPieces_ListFrames(data) && kiriPieces_ListTriangles(data));
     const kiriPieceLists* lists = &data->lists;
-    kiriSpan vertices = kiriPiece_Span(&lists->vertices, piece), triangles = kiriPiece_Span(&lists->triangles, piece);
-    kiriSpan points = kiriPiece_Span(&lists->points, piece);
+    kiriSpan vertices = kiriPieceItems_Of(&lists->vertices, piece);
+    kiriSpan triangles = kiriPieceItems_Of(&lists->triangles, piece);
+    kiriSpan points = kiriPieceItems_Of(&lists->points, piece);
     if (data->layout.pieces.data[piece].isGone) {
         vertices.count = triangles.count = points.count = 0;
     }
@@ -49,8 +54,9 @@ kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, int32_t p
     KIRI_PREPARES(world);
     KIRI_CHECK(frames != NULL && count != NULL, "frames or count is null");
     KIRI_FIND_SHEET(data, sheet);
-    LIST_PIECES(data, piece);
-    kiriSpan span = kiriPiece_Span(&data->lists.frames, piece);
+    CHECK_PIECE(data, piece);
+    LIST_PIECES(kiriPieces_ListFrames(data));
+    kiriSpan span = kiriPieceItems_Of(&data->lists.frames, piece);
     *frames = data->lists.ids.data + span.first;
     *count = data->layout.pieces.data[piece].isGone ? 0 : span.count;
     return KIRI_OK;

@@ -182,7 +182,7 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
 {
     kiriPairs* pairs = &world->pairs;
     const kiriBody *a = &pairs->bodies.data[body], *b = &pairs->bodies.data[other];
-    kiriSpan probes = kiriPiece_Span(&a->sheet->probes.list, a->piece);
+    kiriSpan probes = kiriPieceRow_Of(&a->sheet->probes.list, a->piece);
     kiriBox box = Widened(&b->box, reach);
     bool ok = true;
     for (int32_t i = probes.first; ok && i < probes.first + probes.count; ++i) {

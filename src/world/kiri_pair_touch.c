@@ -123,7 +123,7 @@ static void ForgetTouches(kiriWorld* world)
 {
     for (int32_t i = 0; i < world->pairs.bodies.count; ++i) {
         kiriProbes* probes = &world->pairs.bodies.data[i].sheet->probes;
-        kiriSpan span = kiriPiece_Span(&probes->list, world->pairs.bodies.data[i].piece);
+        kiriSpan span = kiriPieceRow_Of(&probes->list, world->pairs.bodies.data[i].piece);
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
             probes->touch.data[probes->list.items.data[k]] = KIRI_NONE;
         }

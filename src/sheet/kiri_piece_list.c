@@ -1,0 +1,307 @@
+#include "kiri_piece_list.h"
+
+#include "kiri_motion.h"
+
+#include <string.h>
+
+/* ---- Rows ---- */
+
+/* Spans for so many pieces, all empty. False for memory. */
+static bool StartSpans(kiriPieceItems* list, kiriMemory* memory, int32_t pieceCount)
+{
+    if (!kiriArray_Resize(memory, &list->spans, pieceCount)) {
+        return false;
+    }
+    for (int32_t p = 0; p < pieceCount; ++p) {
+        list->spans.data[p] = (kiriSpan){ 0, 0 };
+    }
+    return true;
+}
+
+static void CountItem(kiriPieceItems* list, int32_t piece)
+{
+    if (piece != KIRI_NONE) {
+        list->spans.data[piece].count += 1;
+    }
+}
+
+/* All are counted: spans lie one after the other. Returns how many items there are. */
+static int32_t PlaceSpans(kiriPieceItems* list)
+{
+    int32_t count = 0;
+    for (int32_t p = 0; p < list->spans.count; ++p) {
+        list->spans.data[p].first = count;
+        count += list->spans.data[p].count;
+    }
+    return count;
+}
+
+/* Room for the items, and where those of each piece begin, which the caller moves on from item to item; null for memory. */
+static int32_t* StartItems(kiriPieceItems* list, kiriMemory* memory, int32_t count)
+{
+    if (!kiriArray_Resize(memory, &list->items, count)) {
+        return NULL;
+    }
+    int32_t* next = kiriMemory_Alloc(memory, (int64_t)sizeof(int32_t) * list->spans.count);
+    for (int32_t p = 0; next != NULL && p < list->spans.count; ++p) {
+        next[p] = list->spans.data[p].first;
+    }
+    return next;
+}
+
+/* Items in their order. `pieces` has that of each, KIRI_NONE where it is in none. The spans count them. False for memory. */
+static bool FillItems(kiriPieceItems* list, kiriMemory* memory, const int32_t* pieces, int32_t count)
+{
+    int32_t* next = StartItems(list, memory, PlaceSpans(list));
+    for (int32_t i = 0; next != NULL && i < count; ++i) {
+        if (pieces[i] != KIRI_NONE) {
+            list->items.data[next[pieces[i]]++] = i;
+        }
+    }
+    kiriMemory_Free(memory, next);
+    return next != NULL;
+}
+
+/* ---- Frames and collision points ---- */
+
+/* The piece of an item. */
+typedef int32_t PieceOfItemFn(const kiriSheetData* sheet, int32_t item);
+
+static int32_t PieceOfListedFrame(const kiriSheetData* sheet, int32_t frame)
+{
+    return sheet->layout.framePiece.data[frame];
+}
+
+static int32_t PieceOfListedPoint(const kiriSheetData* sheet, int32_t point)
+{
+    return sheet->layout.framePiece.data[sheet->points.data[point].frame];
+}
+
+static bool ListFew(kiriSheetData* sheet, kiriPieceItems* list, int32_t count, PieceOfItemFn* pieceOf)
+{
+    kiriMemory* memory = &sheet->shown;
+    int32_t* pieces = kiriMemory_Alloc(memory, (int64_t)sizeof(int32_t) * count);
+    bool ok = pieces != NULL && StartSpans(list, memory, sheet->layout.pieces.count);
+    for (int32_t i = 0; ok && i < count; ++i) {
+        pieces[i] = pieceOf(sheet, i);
+        CountItem(list, pieces[i]);
+    }
+    ok = ok && FillItems(list, memory, pieces, count);
+    kiriMemory_Free(memory, pieces);
+    return ok;
+}
+
+static bool NameFrames(kiriSheetData* sheet)
+{
+    kiriPieceLists* lists = &sheet->lists;
+    if (!kiriArray_Resize(&sheet->shown, &lists->ids, lists->frames.items.count)) {
+        return false;
+    }
+    for (int32_t i = 0; i < lists->ids.count; ++i) {
+        lists->ids.data[i] = sheet->frames.data[lists->frames.items.data[i]].id;
+    }
+    return true;
+}
+
+bool kiriPieces_ListFrames(kiriSheetData* sheet)
+{
+    kiriPieceLists* lists = &sheet->lists;
+    lists->hasFrames = lists->hasFrames ||
+                       (ListFew(sheet, &lists->frames, sheet->frames.count, PieceOfListedFrame) &&
+                        ListFew(sheet, &lists->points, sheet->points.count, PieceOfListedPoint) && NameFrames(sheet));
+    return lists->hasFrames;
+}
+
+/* ---- Vertices and triangles ---- */
+
+/* By its corners as they are seen: those of a hole, and of what is hidden, are one vertex. */
+static int32_t PieceOfCorners(const int32_t* corners, const int32_t* vertexPieces)
+{
+    return corners[0] != corners[1] ? vertexPieces[corners[0]] : KIRI_NONE;
+}
+
+static bool CountTriangles(kiriSheetData* sheet, const int32_t* vertexPieces)
+{
+    kiriPieceItems* list = &sheet->lists.triangles;
+    const int32_t* corners = sheet->seen.surface.indices.data;
+    if (!StartSpans(list, &sheet->shown, sheet->layout.pieces.count)) {
+        return false;
+    }
+    for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
+        CountItem(list, PieceOfCorners(corners + 3 * (size_t)t, vertexPieces));
+    }
+    PlaceSpans(list);
+    return true;
+}
+
+static bool ListAllVertices(kiriSheetData* sheet)
+{
+    kiriPieceItems* list = &sheet->lists.vertices;
+    kiriMemory* memory = &sheet->shown;
+    int32_t count = sheet->mesh.vertices.count;
+    int32_t* pieces = kiriMemory_Alloc(memory, (int64_t)sizeof(int32_t) * count);
+    bool ok = pieces != NULL && StartSpans(list, memory, sheet->layout.pieces.count);
+    for (int32_t v = 0; ok && v < count; ++v) {
+        pieces[v] = kiriPiece_OfVertex(sheet, v);
+        CountItem(list, pieces[v]);
+    }
+    ok = ok && FillItems(list, memory, pieces, count) && CountTriangles(sheet, pieces);
+    kiriMemory_Free(memory, pieces);
+    return ok;
+}
+
+bool kiriPieces_ListVertices(kiriSheetData* sheet)
+{
+    sheet->lists.hasVertices = sheet->lists.hasVertices || ListAllVertices(sheet);
+    return sheet->lists.hasVertices;
+}
+
+/* By the lists of vertices. */
+static void WriteVertexPieces(const kiriPieceItems* vertices, int32_t* pieces)
+{
+    for (int32_t p = 0; p < vertices->spans.count; ++p) {
+        kiriSpan span = vertices->spans.data[p];
+        for (int32_t i = span.first; i < span.first + span.count; ++i) {
+            pieces[vertices->items.data[i]] = p;
+        }
+    }
+}
+
+/* Where the items of all pieces end. */
+static int32_t EndOfSpans(const kiriPieceItems* list)
+{
+    int32_t end = 0;
+    for (int32_t p = 0; p < list->spans.count; ++p) {
+        kiriSpan span = list->spans.data[p];
+        end = span.first + span.count > end ? span.first + span.count : end;
+    }
+    return end;
+}
+
+static void FillTriangles(kiriSheetData* sheet, int32_t* next, const int32_t* vertexPieces)
+{
+    kiriPieceLists* lists = &sheet->lists;
+    for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
+        const int32_t* corners = sheet->seen.surface.indices.data + 3 * (size_t)t;
+        int32_t piece = PieceOfCorners(corners, vertexPieces);
+        if (piece != KIRI_NONE) {
+            int32_t at = next[piece]++;
+            lists->triangles.items.data[at] = t;
+            memcpy(&lists->corners.data[3 * (size_t)at], corners, 3 * sizeof(int32_t));
+        }
+    }
+}
+
+static bool ListAllTriangles(kiriSheetData* sheet)
+{
+    kiriPieceLists* lists = &sheet->lists;
+    kiriMemory* memory = &sheet->shown;
+    int32_t count = EndOfSpans(&lists->triangles);
+    int32_t* pieces = kiriMemory_Alloc(memory, (int64_t)sizeof(int32_t) * sheet->mesh.vertices.count);
+    int32_t* next = pieces != NULL && kiriArray_Resize(memory, &lists->corners, 3 * (int64_t)count)
+                        ? StartItems(&lists->triangles, memory, count)
+                        : NULL;
+    if (next != NULL) {
+        WriteVertexPieces(&lists->vertices, pieces);
+        FillTriangles(sheet, next, pieces);
+    }
+    kiriMemory_Free(memory, next);
+    kiriMemory_Free(memory, pieces);
+    return next != NULL;
+}
+
+bool kiriPieces_ListTriangles(kiriSheetData* sheet)
+{
+    sheet->lists.hasTriangles =
+        sheet->lists.hasTriangles || (kiriPieces_ListVertices(sheet) && ListAllTriangles(sheet));
+    return sheet->lists.hasTriangles;
+}
+
+kiriSpan kiriPieceItems_Of(const kiriPieceItems* list, int32_t piece)
+{
+    return list->spans.data[piece];
+}
+
+/* ---- Pieces that go ---- */
+
+static void KeepSpans(kiriPieceItems* list, const uint8_t* stays)
+{
+    int32_t count = 0;
+    for (int32_t p = 0; p < list->spans.count; ++p) {
+        if (stays[p]) {
+            list->spans.data[count++] = list->spans.data[p];
+        }
+    }
+    list->spans.count = count;
+}
+
+/* The host may hold the items. */
+static void RetireItems(kiriPieceItems* list, kiriMemory* retired)
+{
+    kiriMemory_Adopt(retired, list->spans.data);
+    kiriMemory_Adopt(retired, list->items.data);
+    memset(list, 0, sizeof(*list));
+}
+
+void kiriPieceLists_LeaveHoles(kiriPieceLists* lists, const uint8_t* stays, kiriMemory* retired)
+{
+    RetireItems(&lists->frames, retired);
+    RetireItems(&lists->points, retired);
+    kiriMemory_Adopt(retired, lists->ids.data);
+    memset(&lists->ids, 0, sizeof(lists->ids));
+    lists->hasFrames = false;
+    if (lists->hasVertices) {
+        KeepSpans(&lists->vertices, stays);
+        KeepSpans(&lists->triangles, stays);
+    }
+}
+
+void kiriPieceLists_Retire(kiriPieceLists* lists, kiriMemory* retired)
+{
+    kiriPieceItems* all[] = { &lists->frames, &lists->vertices, &lists->triangles, &lists->points };
+    for (int i = 0; i < 4; ++i) {
+        RetireItems(all[i], retired);
+    }
+    kiriMemory_Adopt(retired, lists->ids.data);
+    kiriMemory_Adopt(retired, lists->corners.data);
+    memset(lists, 0, sizeof(*lists));
+}
+
+/* ---- State ---- */
+
+/* The least box around the vertices as they are seen. */
+static void Bound(const kiriSheetData* sheet, kiriSpan span, float lower[3], float upper[3])
+{
+    for (int32_t i = span.first; i < span.first + span.count; ++i) {
+        const float* x = &sheet->seen.surface.positions.data[3 * (size_t)sheet->lists.vertices.items.data[i]];
+        for (int k = 0; k < 3; ++k) {
+            lower[k] = i == span.first || x[k] < lower[k] ? x[k] : lower[k];
+            upper[k] = i == span.first || x[k] > upper[k] ? x[k] : upper[k];
+        }
+    }
+}
+
+kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece)
+{
+    const kiriPieceLists* lists = &sheet->lists;
+    kiriSpan frames = kiriPieceItems_Of(&lists->frames, piece), vertices = kiriPieceItems_Of(&lists->vertices, piece);
+    if (sheet->layout.pieces.data[piece].isGone) {
+        return (kiriPieceState){ 0 };
+    }
+    kiriTotals totals = kiriMotion_Sum(sheet, lists->frames.items.data + frames.first, frames.count);
+    kiriPieceState state;
+    memset(&state, 0, sizeof(state));
+    state.area = totals.area;
+    state.mass = totals.mass;
+    memcpy(state.center, totals.center, sizeof(state.center));
+    memcpy(state.momentum, totals.momentum, sizeof(state.momentum));
+    memcpy(state.angularMomentum, totals.angularMomentum, sizeof(state.angularMomentum));
+    Bound(sheet, vertices, state.lower, state.upper);
+    state.frames = frames.count;
+    state.vertices = vertices.count;
+    state.triangles = kiriPieceItems_Of(&lists->triangles, piece).count;
+    state.crumb = sheet->layout.pieces.data[piece].area < sheet->settings.crumbArea;
+    state.asleep = sheet->layout.pieces.data[piece].rest.asleep;
+    state.collisionPoints = kiriPieceItems_Of(&lists->points, piece).count;
+    return state;
+}
