@@ -18,6 +18,26 @@ GODOT = {"NIL": "Variant", "BOOL": "bool", "INT": "int", "REAL": "float", "STRIN
          "VECTOR3": "Vector3", "BASIS": "Basis", "DICTIONARY": "Dictionary", "ARRAY": "Array",
          "BYTES": "PackedByteArray", "INTS": "PackedInt32Array", "FLOATS": "PackedFloat32Array",
          "VECTORS2": "PackedVector2Array", "VECTORS3": "PackedVector3Array"}
+# What comments say of pointers, as it is for scripts.
+AS_SCRIPTS_SEE = [
+    (r"Writes up to `capacity` ids of (.*?); \*count is how many there are\.", r"The objects of \1."),
+    (r"On failure \*\w+ is (0|null)\.", "Null on failure."),
+    (r"\*(\w+) is 0\b", r"\1 is null"),
+    (r"\*(\w+)\b", r"\1"),
+]
+# Where a comment says little but how C gives something.
+SAYS = {
+    "kiriWorld_Save": "The world as bytes.",
+    "kiriWorld_GetEvents": "What happened in the last tick, one dictionary each: `type`, and what such an event has.",
+    "kiriSheet_GetPieceFrames": "The frames of a piece; the first one names it.",
+    "kiriSheet_IsAwake": "False where all pieces of the sheet sleep, see sleep_speed; kiriPieceState says which do. "
+                         "kiriSheet_Wake wakes all of them.",
+    "kiriSheet_Wake": "Wakes all pieces.",
+    "kiriSheet_GetWeights": "The shape functions at a rest point: frames, their weights (sum 1), and gradients (1/m).",
+    "kiriSheet_CopyIndices16": "Corners of some triangles as numbers of 16 bits, for a buffer of indices. "
+                               "KIRI_ERROR_STATE: there are more than 65535 vertices.",
+    "kiriFillRectangle": "The mesh of a rectangle, for kiriCreateSheet.",
+}
 DEFAULTS = {"DICTIONARY": "{}", "NIL": "null", "OBJECT": "null"}
 
 # Written by hand in by_hand.c: arguments (name, kind, class), how many are required, answer, and what is said of them;
@@ -155,7 +175,7 @@ class Godot:
 
     def _method(self, function):
         made = {"class": function["class"], "name": naming.snake(function["method"]), "function": function["name"],
-                "doc": function["doc"], "source": function}
+                "doc": SAYS.get(function["name"], function["doc"]), "source": function}
         if function["name"] in BY_HAND:
             by_hand, arguments, required, answer, doc = BY_HAND[function["name"]]
             return {**made, "by_hand": by_hand, "arguments": arguments, "required": required, "answer": answer, "doc": doc,
@@ -332,6 +352,8 @@ class Godot:
 
     def _named(self, text):
         """Names of C as scripts have them."""
+        for pattern, scripts in AS_SCRIPTS_SEE:
+            text = re.sub(pattern, scripts, text)
         functions = {m["function"]: m for m in self.methods if m["function"]}
         def function(found):
             m = functions.get(found[0])
@@ -340,7 +362,16 @@ class Godot:
         text = re.sub(r"\bkiri\w+_\w+\b|\bkiri(?:Create|Destroy|Begin|Get|Default|Fill|Fit)\w+\b", function, text)
         text = re.sub(r"\bKIRI_(\w*[A-Z])\b", r"[constant Kiri.\1]", text)
         text = re.sub(r"`([^`]+)`", r"[code]\1[/code]", text)
+        text = re.sub(r"\bkiri[A-Z]\w+\b", self._giver, text)
         return re.sub(r"\bkiriWorld\b", "KiriWorld", text).replace("default (0, 0, -9.81)", Y_IS_UP)
+
+    def _giver(self, found):
+        """The method that gives, or else takes, a struct."""
+        for method in self.methods:
+            for p in method.get("source", {}).get("parameters", []):
+                if p["type"] == found[0] and p["type"] in self._structs:
+                    return f"[method {class_name(method['class'])}.{method['name']}]"
+        return found[0]
 
     def _keys(self, kind, seen=()):
         struct = self._structs[kind]
