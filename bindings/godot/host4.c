@@ -244,7 +244,7 @@ static int ReadText(const Variant* key, char text[MOST_TEXT])
     if (type != GODOT_STRING && type != GODOT_STRING_NAME) {
         return 0;
     }
-    api.string_new_with_utf8_chars(&string, "");
+    api.construct[KIND_STRING](&string, NULL); /* what takes no memory: some Godots do not free what was there */
     api.variant_stringify(key, &string);
     int64_t count = api.string_to_utf8_chars(&string, text, MOST_TEXT - 1);
     text[count < MOST_TEXT ? count : MOST_TEXT - 1] = 0;
@@ -481,8 +481,8 @@ static void AskOfType(Kind kind)
     api.toValue[kind] = api.get_variant_from_type_constructor(TYPES[kind]);
     api.fromValue[kind] = api.get_variant_to_type_constructor(TYPES[kind]);
     api.destruct[kind] = api.variant_get_ptr_destructor(TYPES[kind]);
+    api.construct[kind] = api.variant_get_ptr_constructor(TYPES[kind], 0);
     if (kind >= KIND_ARRAY) {
-        api.construct[kind] = api.variant_get_ptr_constructor(TYPES[kind], 0);
         api.resize[kind] = api.variant_get_ptr_builtin_method(TYPES[kind], &resize, RESIZE);
         api.size[kind] = api.variant_get_ptr_builtin_method(TYPES[kind], &size, SIZE);
     }

@@ -7,13 +7,13 @@ func _init() -> void:
 	for name in classes:
 		for method in ClassDB.class_get_method_list(name, true):
 			print("method ", name, ".", method.name)
-	typed()
+	print("typed calls ", "good" if typed() and not leaks() else "FAILED")
 	var failures = load("res://test_godot.gd").new().run(Kiri, KiriWorld)
 	print(load("res://twin.gd").run(Kiri, Kiri.create_world({"gravity": Vector3(1, 0, -9.81)})))
 	quit(1 if failures > 0 else 0)
 
 # Typed code calls by pointers instead of variants.
-func typed() -> void:
+func typed() -> bool:
 	var world: KiriWorld = KiriWorld.new()
 	var sheet: KiriSheet = world.create_rectangle(1.0, 1.0, 4, 4, {"collision_points": 5})
 	var same: KiriSheet = world.get_sheets()[0]
@@ -28,7 +28,14 @@ func typed() -> void:
 	var points: PackedVector3Array = sheet.get_collision_points()
 	var blade: KiriBlade = world.begin_blade(null)
 	var moved: int = blade.move_edge(Vector3(0, 0, 1), Vector3(0, 0, 2))
-	var good: bool = same == sheet and is_equal_approx(hit.distance, 1.0) and held == Kiri.OK and bytes.size() > 0 and awake \
+	return same == sheet and is_equal_approx(hit.distance, 1.0) and held == Kiri.OK and bytes.size() > 0 and awake \
 			and error >= 0.0 and name == "KIRI_OK" and points.size() > 0 and moved == Kiri.OK
-	world.destroy()
-	print("typed calls ", "good" if good and sheet.begin_cut(Vector2()) == null else "FAILED")
+
+# Whether calls leave something behind, values or objects.
+func leaks() -> bool:
+	typed()
+	var objects := Performance.get_monitor(Performance.OBJECT_COUNT)
+	var memory := OS.get_static_memory_usage()
+	for i in 100:
+		typed()
+	return Performance.get_monitor(Performance.OBJECT_COUNT) != objects or OS.get_static_memory_usage() > memory + 1000
