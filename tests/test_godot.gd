@@ -10,7 +10,7 @@ func run(kiri_class, class_of_worlds):
 	kiri = kiri_class
 	world_class = class_of_worlds
 	for name in ["constants", "defaults", "worlds", "sheets", "meshes", "cuts", "blades", "events", "frames", "pieces", "pins",
-			"loads", "obstacles", "contacts", "rays", "saves", "recordings", "drawing", "settings", "handles", "errors"]:
+			"loads", "obstacles", "contacts", "rays", "saves", "recordings", "drawing", "settings", "handles", "errors", "threads"]:
 		at = name
 		call("test_" + name)
 	print("%d checks, %d failed" % [checks, failures])
@@ -406,6 +406,18 @@ func test_errors():
 	equal(sheet.get_counts(), {}, "its world is gone")
 	equal(sheet.begin_cut(Vector2(0, 0)), null)
 	equal(world.tick(1.0 / 60.0, 1), kiri.ERROR_ARGUMENT)
+
+# Threads change no bit.
+func test_threads():
+	var hashes = []
+	for count in [1, 4]:
+		var world = kiri.create_world({"worker_count": count})
+		var sheet = world.create_rectangle(1.0, 1.0, 64, 64, {"grid_resolution": 64, "frame_count": 60, "iterations": 4})
+		var cut = sheet.begin_cut(Vector2(-0.1, 0.4))
+		cut.extend([Vector2(1.1, 0.6)])
+		tick(world, 5)
+		hashes.append(world.get_state_hash())
+	equal(hashes[0], hashes[1])
 
 func test_worlds():
 	var world = kiri.create_world({"gravity": Vector3(0, 0, 0), "budget": {"iterations": 1000}})

@@ -9,8 +9,8 @@ import naming
 TYPES = {"int32_t": "INT32", "uint32_t": "UINT32", "int64_t": "INT64", "uint64_t": "UINT64", "uint16_t": "UINT16",
          "void": "BYTE", "float": "FLOAT", "double": "DOUBLE", "kiriResult": "INT32"}
 CLASSES = [None, "World", "Sheet", "Cut", "Frame", "Pin", "Obstacle", "Blade"]
-# Keys that scripts do not see: stamps, functions of the host, and what only threads take.
-HIDDEN = {"cookie", "user", "workerCount"}
+# Keys that scripts do not see: stamps, and what functions of the host get.
+HIDDEN = {"cookie", "user"}
 Y_IS_UP = "default (0, -9.81, 0): y is up"
 
 # As Godot names what scripts see.

@@ -78,4 +78,9 @@ extern const int SURFACE_ARRAYS;
 
 void PushError(const char* line);
 
+/* Calls for each of 0 to count - 1, from threads of the engine; EndTask waits for what it gave. Null: all is done. */
+typedef void EachFn(void* user, uint32_t i);
+void* BeginTask(EachFn* each, void* user, int32_t count);
+void EndTask(void* task);
+
 #endif

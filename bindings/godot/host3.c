@@ -251,6 +251,20 @@ void PushError(const char* line)
     CALL(PRINT_ERROR, void, (const char*, const char*, const char*, int))(line, "kiri", __FILE__, __LINE__);
 }
 
+/* Godot 3 has no threads to lend. */
+void* BeginTask(EachFn* each, void* user, int32_t count)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        each(user, (uint32_t)i);
+    }
+    return NULL;
+}
+
+void EndTask(void* task)
+{
+    (void)task;
+}
+
 /* ---- Objects ---- */
 
 Variant OfObject(const Self* self)

@@ -287,6 +287,44 @@ void PushError(const char* line)
     api.print_error(line, "kiri", __FILE__, __LINE__, 1);
 }
 
+/* ---- Threads ---- */
+
+/* The pool of Godot's threads, which is there later than the library. */
+static void* ThreadPool(void)
+{
+    Text name = NameOf("WorkerThreadPool");
+    void* pool = api.global_get_singleton(&name);
+    api.destructName(&name);
+    return pool;
+}
+
+/* What waits for a task, since 4.1. */
+static void* WaitMethod(void)
+{
+    enum { WAIT = 1286410249 };
+    Text class = NameOf("WorkerThreadPool"), name = NameOf("wait_for_group_task_completion");
+    void* method = api.classdb_get_method_bind(&class, &name, WAIT);
+    api.destructName(&class);
+    api.destructName(&name);
+    return method;
+}
+
+void* BeginTask(EachFn* each, void* user, int32_t count)
+{
+    Text description;
+    api.string_new_with_utf8_chars(&description, "kiri");
+    int64_t task = api.worker_thread_pool_add_native_group_task(ThreadPool(), each, user, count, -1, 1, &description);
+    api.destruct[KIND_STRING](&description);
+    return (void*)(intptr_t)task;
+}
+
+void EndTask(void* task)
+{
+    int64_t id = (intptr_t)task;
+    const void* arguments[] = { &id };
+    api.object_method_bind_ptrcall(WaitMethod(), ThreadPool(), arguments, NULL);
+}
+
 /* ---- Objects ---- */
 
 static const BindingCallbacks NO_CALLBACKS = { NULL, NULL, NULL };

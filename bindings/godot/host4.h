@@ -124,6 +124,12 @@ typedef void* IndexFn(void* array, int64_t i);
     X(void, object_set_instance_binding,                                                                               \
       (void* object, void* token, void* binding, const BindingCallbacks* callbacks))                                   \
     X(void*, object_get_instance_binding, (void* object, void* token, const BindingCallbacks* callbacks))              \
+    X(void*, global_get_singleton, (const void* name))                                                                 \
+    X(void*, classdb_get_method_bind, (const void* className, const void* name, int64_t hash))                         \
+    X(void, object_method_bind_ptrcall, (void* method, void* object, const void* const* arguments, void* answer))      \
+    X(int64_t, worker_thread_pool_add_native_group_task,                                                               \
+      (void* pool, void (*each)(void* user, uint32_t i), void* user, int32_t count, int32_t tasks, Bool isHigh,        \
+       const void* description))                                                                                       \
     X(void, ref_set_object, (void* reference, void* object))                                                           \
     X(void, classdb_register_extension_class2,                                                                         \
       (void* library, const void* name, const void* parent, const ClassInfo* info))                                    \

@@ -112,6 +112,34 @@ static double Seconds(void* user)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+static void CallRange(void* user, uint32_t i)
+{
+    const Task* task = &((Self*)user)->task;
+    int32_t start = (int32_t)i * task->range, left = task->itemCount - start;
+    task->call(start, start + (left < task->range ? left : task->range), task->context);
+}
+
+/* Some ranges for each thread, so that one that begins late does not keep the others waiting. */
+static void* StartTask(void* user, kiriTaskFn* call, int32_t itemCount, int32_t minRange, void* context)
+{
+    enum { RANGES = 4 };
+    Self* self = user;
+    int32_t share = itemCount / (RANGES * self->workerCount) + 1;
+    self->task = (Task){ call, context, itemCount, share > minRange ? share : minRange };
+    int32_t count = (itemCount + self->task.range - 1) / self->task.range;
+    if (count > 1) {
+        return BeginTask(CallRange, self, count);
+    }
+    call(0, itemCount, context);
+    return NULL;
+}
+
+static void FinishTask(void* user, void* task)
+{
+    (void)user;
+    EndTask(task);
+}
+
 kiriResult BeginWorld(Self* self, const HostDef* def)
 {
     kiriWorldDef own = def->def;
@@ -121,6 +149,9 @@ kiriResult BeginWorld(Self* self, const HostDef* def)
     own.log = TakeLine;
     own.clock = def->clock ? Seconds : NULL;
     own.record = def->record ? TakeBytes : NULL;
+    own.startTask = own.workerCount > 1 ? StartTask : NULL;
+    own.finishTask = own.workerCount > 1 ? FinishTask : NULL;
+    self->workerCount = own.workerCount;
     return kiriCreateWorld(&own, &self->world);
 }
 

@@ -12,6 +12,13 @@ typedef struct HostDef {
     int32_t record, clock;
 } HostDef;
 
+/* What a tick lends to threads: one at a time. */
+typedef struct Task {
+    kiriTaskFn* call;
+    void* context;
+    int32_t itemCount, range;
+} Task;
+
 /* Bytes that a recording has given, and no script has taken yet. */
 typedef struct Bytes {
     uint8_t* items;
@@ -32,6 +39,8 @@ struct Self {
     Handles handles;
     Bytes recording;
     int recordingFailed; /* no memory for some of it */
+    int32_t workerCount;
+    Task task;
     kiriResult last;     /* result */
     char line[MOST_TEXT];
     /* Of the others: the world's object, which they keep. */

@@ -20,12 +20,13 @@ static const Struct BUDGET = { "Budget", (int)sizeof(kiriBudget), 4, BUDGET_FIEL
 static const Field WORLD_DEF_FIELDS[] = {
     { "gravity", TYPE_FLOAT, KIND_VECTOR3, (int)offsetof(kiriWorldDef, gravity), 3, 0, 0, 0, CLASS_NONE, NULL },
     { "budget", TYPE_STRUCT, KIND_DICTIONARY, (int)offsetof(kiriWorldDef, budget), 1, 0, 0, 0, CLASS_NONE, &BUDGET },
+    { "worker_count", TYPE_INT32, KIND_INT, (int)offsetof(kiriWorldDef, workerCount), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "record_hash_ticks", TYPE_INT32, KIND_INT, (int)offsetof(kiriWorldDef, recordHashTicks), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "record", TYPE_FLAG, KIND_BOOL, (int)offsetof(HostDef, record), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "clock", TYPE_FLAG, KIND_BOOL, (int)offsetof(HostDef, clock), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-const Struct WORLD_DEF = { "WorldDef", (int)sizeof(HostDef), 5, WORLD_DEF_FIELDS, FillWorldDef, NULL };
+const Struct WORLD_DEF = { "WorldDef", (int)sizeof(HostDef), 6, WORLD_DEF_FIELDS, FillWorldDef, NULL };
 
 static const Field REPLAY_FIELDS[] = {
     { "offset", TYPE_INT64, KIND_INT, (int)offsetof(kiriReplay, offset), 1, 0, 0, 0, CLASS_NONE, NULL },
