@@ -3,7 +3,7 @@
 #include "../motion/kiri_prediction.h"
 #include "kiri_follow.h"
 #include "kiri_touch.h"
-#include "kiri_turn.h"
+#include "kiri_piece_turn.h"
 
 #include <string.h>
 
@@ -172,7 +172,7 @@ static void ChooseAwake(kiriSheetData* sheet, const kiriSystem* system, const ki
         kiriSolver_SetAwake(sheet->solver, p, kiriPiece_IsAwake(&sheet->layout.pieces.data[p]));
     }
     bool areOther = kiriSolver_ListAwake(sheet->solver, system);
-    if (kiriTurns_Begin(sheet, system, systems) || areOther) {
+    if (kiriPieceTurns_Begin(sheet, system, systems) || areOther) {
         kiriTouches_Sort(sheet);
         kiriMotion_SumRest(sheet);
     }
@@ -269,7 +269,7 @@ static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt
                                   sheet->seen.fades.time);
         kiriPins_FadeOffsets(sheet, dt, sheet->seen.fades.time);
         CountCalm(sheet, dt);
-        kiriTurns_Take(sheet);
+        kiriPieceTurns_Take(sheet);
     }
     return progress;
 }

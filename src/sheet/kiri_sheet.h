@@ -24,7 +24,7 @@ typedef struct kiriRest {
     double calm;    /* s for which it has been slower than sleepSpeed */
     bool asleep;    /* it was not moved by the last tick, and rests */
     bool isStirred; /* in the tick at hand something that moves comes near, or a cut changes it: it shall wake */
-    bool waits;     /* in the tick at hand the budget has no systems left for it, see kiri_turn.h */
+    bool waits;     /* in the tick at hand the budget has no systems left for it, see kiri_piece_turn.h */
     bool isFading;  /* scratch: some of it is seen elsewhere; */
     bool isCalm;    /* scratch: it was slower than sleepSpeed in this tick */
 } kiriRest;
@@ -37,7 +37,7 @@ typedef struct kiriPiece {
     bool isGone;    /* the host has destroyed it: it is not seen, and goes when the work at hand is done */
     bool isTouched; /* its frames, links or samples are not those of its origin */
     int32_t island; /* scratch: of pieces that touch, see kiri_pair.c */
-    int32_t work;   /* scratch: its part of a linear system, see kiri_turn.c */
+    int32_t work;   /* scratch: its part of a linear system, see kiri_piece_turn.c */
     kiriRest rest;
 } kiriPiece;
 
@@ -225,11 +225,11 @@ typedef struct kiriSheetRest {
     bool isIdle; /* they sleep, and no tick has anything to do for it until one wakes, or it gets a cut or contacts */
 } kiriSheetRest;
 
-/* See kiri_turn.h. */
-typedef struct kiriTurns {
+/* See kiri_piece_turn.h. */
+typedef struct kiriPieceTurns {
     int32_t next;    /* a frame of the piece that is moved first */
     int32_t waiting; /* pieces that wait in the tick at hand */
-} kiriTurns;
+} kiriPieceTurns;
 
 /* Who finds touches: the highest four bits of their keys. */
 enum kiriTouchKind { KIRI_TOUCH_HOST = 1, KIRI_TOUCH_OBSTACLE = 2, KIRI_TOUCH_PAIR = 3 };
@@ -378,7 +378,7 @@ typedef struct kiriSheetData {
 
     kiriTouches touches;
     kiriSheetRest rest;
-    kiriTurns turns;
+    kiriPieceTurns turns;
     kiriSeen seen;
     kiriPieceLists lists;
     kiriProbes probes;

@@ -8,7 +8,7 @@
 #include "../sheet/kiri_seen.h"
 #include "../sheet/kiri_stages.h"
 #include "../sheet/kiri_touch.h"
-#include "../sheet/kiri_turn.h"
+#include "../sheet/kiri_piece_turn.h"
 #include "kiri_blade.h"
 #include "kiri_move_step.h"
 #include "kiri_obstacle_step.h"
@@ -389,7 +389,7 @@ static void SkinAll(kiriWorld* world, double dt)
     EnterStage(world, KIRI_STAGE_SKIN);
     kiriSkinStep_Run(world, dt);
     for (int32_t k = 0; k < world->active.count; ++k) {
-        kiriTurns_End(kiriWorld_Active(world, k));
+        kiriPieceTurns_End(kiriWorld_Active(world, k));
         CountJumps(&world->profile, kiriWorld_Active(world, k));
     }
 }

@@ -1,4 +1,4 @@
-#include "kiri_turn.h"
+#include "kiri_piece_turn.h"
 
 #include "kiri_touch.h"
 
@@ -75,7 +75,7 @@ static void NoteFading(kiriSheetData* sheet)
 }
 
 /* Pieces are chosen by frames and contacts; what their factorisation takes is known when they are listed. */
-bool kiriTurns_Begin(kiriSheetData* sheet, const kiriSystem* system, const kiriQuota* systems)
+bool kiriPieceTurns_Begin(kiriSheetData* sheet, const kiriSystem* system, const kiriQuota* systems)
 {
     int64_t items = kiriSolver_SystemItems(sheet->solver, sheet->touches.found.count), left = systems->left;
     KIRI_ASSERT(sheet->turns.waiting == 0);
@@ -93,7 +93,7 @@ bool kiriTurns_Begin(kiriSheetData* sheet, const kiriSystem* system, const kiriQ
     return true;
 }
 
-void kiriTurns_Take(kiriSheetData* sheet)
+void kiriPieceTurns_Take(kiriSheetData* sheet)
 {
     int32_t count = sheet->layout.pieces.count, first = FirstPiece(sheet), k = 0;
     while (k < count && !sheet->layout.pieces.data[(first + k) % count].rest.waits) {
@@ -102,7 +102,7 @@ void kiriTurns_Take(kiriSheetData* sheet)
     sheet->turns.next = k < count ? sheet->layout.pieces.data[(first + k) % count].frame : 0;
 }
 
-void kiriTurns_End(kiriSheetData* sheet)
+void kiriPieceTurns_End(kiriSheetData* sheet)
 {
     for (int32_t p = 0; sheet->turns.waiting > 0 && p < sheet->layout.pieces.count; ++p) {
         sheet->layout.pieces.data[p].rest.waits = false;
