@@ -177,7 +177,8 @@ fuzz: packages-fuzz
 	    -artifact_prefix=build/fuzz/$(FUZZ)- build/fuzz/$(FUZZ) tests/data/fuzz/$(FUZZ)
 
 scarce: packages-bench
-	@$(MAKE) --no-print-directory $(BUILD)/tests/test_scarce
+	@$(MAKE) --no-print-directory $(BUILD)/tests/test_scarce $(BUILD)/tests/test_unchanged
+	$(BUILD)/tests/test_unchanged 3
 	$(BUILD)/tests/test_scarce all
 
 long: packages-bench
@@ -507,8 +508,8 @@ $(BUILD)/tests/test_games: TEST_LIBRARIES = $(BUILD)/libkiri.a -lbox2d -lOSMesa 
 # Threads read a world, or work on its ticks.
 $(BUILD)/tests/test_readers $(BUILD)/tests/test_tasks $(BUILD)/tests/bench_tasks: override LDFLAGS += -pthread
 
-$(BUILD)/tests/test_save: $(patsubst %,$(BUILD)/tests/%.c.o,storm_types storm_acts storm_cuts storm_seen)
-$(BUILD)/tests/test_saves: $(patsubst %,$(BUILD)/tests/%.c.o,storm_types storm_acts storm_cuts storm_seen)
+$(addprefix $(BUILD)/tests/,test_save test_saves test_unchanged): \
+    $(patsubst %,$(BUILD)/tests/%.c.o,storm_types storm_acts storm_cuts storm_seen)
 
 # Fuzzers: with the main of libFuzzer, or one that runs what it is given.
 FUZZ_MAIN := $(if $(filter fuzz,$(config)),,$(BUILD)/tests/fuzz_main.c.o)

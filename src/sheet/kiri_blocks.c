@@ -2,6 +2,12 @@
 
 #include <string.h>
 
+static void SetCounts(kiriBlocks* blocks, int32_t count, int32_t frameCount)
+{
+    blocks->touched.count = blocks->stale.count = blocks->frames.count = blocks->movers.count = count;
+    blocks->moved.count = frameCount;
+}
+
 bool kiriBlocks_Resize(kiriBlocks* blocks, kiriMemory* memory, int32_t vertexCount, int32_t frameCount)
 {
     int32_t old = blocks->movers.count, count = vertexCount / KIRI_BLOCK + 1, oldFrames = blocks->moved.count;
@@ -10,8 +16,7 @@ bool kiriBlocks_Resize(kiriBlocks* blocks, kiriMemory* memory, int32_t vertexCou
         !kiriArray_Reserve(memory, &blocks->moved, frameCount)) {
         return false;
     }
-    blocks->touched.count = blocks->stale.count = blocks->frames.count = blocks->movers.count = count;
-    blocks->moved.count = frameCount;
+    SetCounts(blocks, count, frameCount);
     for (int32_t block = old; block < count; ++block) {
         blocks->touched.data[block] = blocks->stale.data[block] = 0;
         kiriBlocks_ForgetOne(blocks, block);
@@ -20,6 +25,12 @@ bool kiriBlocks_Resize(kiriBlocks* blocks, kiriMemory* memory, int32_t vertexCou
         blocks->moved.data[i] = 0;
     }
     return true;
+}
+
+void kiriBlocks_Truncate(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCount)
+{
+    KIRI_ASSERT(vertexCount / KIRI_BLOCK + 1 <= blocks->movers.count && frameCount <= blocks->moved.count);
+    SetCounts(blocks, vertexCount / KIRI_BLOCK + 1, frameCount);
 }
 
 void kiriBlocks_ForgetOne(kiriBlocks* blocks, int32_t block)

@@ -12,6 +12,9 @@ enum { KIRI_BLOCK = 64, KIRI_UNKNOWN = -2 };
 /* Room for so many vertices and frames. Nothing is known of new blocks. False for memory. */
 bool kiriBlocks_Resize(kiriBlocks* blocks, kiriMemory* memory, int32_t vertexCount, int32_t frameCount);
 
+/* There are no more vertices and frames than these, again. Never fails. */
+void kiriBlocks_Truncate(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCount);
+
 /* Vertices or frames have other indices: nothing is known. */
 void kiriBlocks_Forget(kiriBlocks* blocks);
 

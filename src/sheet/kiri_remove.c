@@ -333,6 +333,7 @@ static void KeepSeen(kiriRemoval* removal, kiriMemory* retired)
     kiriSheetData* sheet = removal->sheet;
     const kiriKept* kept = &removal->kept;
     KeepSurface(removal, retired);
+    kiriBlocks_Truncate(&sheet->seen.blocks, sheet->seen.surface.vertexCount, sheet->frames.count);
     kiriKeep_Compact(&kept->points, &sheet->seen.exactPoints, 1, sizeof(kiriVec3));
     if (sheet->seen.pointPositions.count > 0) {
         kiriKeep_Copy(&kept->points, removal->points.data, sheet->seen.pointPositions.data, 3 * sizeof(float));

@@ -72,7 +72,8 @@ bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCoun
 
 void kiriView_Truncate(kiriSheetData* sheet)
 {
-    kiriSurface_Truncate(&sheet->seen.surface);
+    kiriSurface_Truncate(&sheet->seen.surface, sheet->frames.count);
+    kiriBlocks_Truncate(&sheet->seen.blocks, sheet->seen.surface.vertexCount, sheet->frames.count);
     sheet->seen.pointPositions.count = 3 * sheet->points.count;
     sheet->seen.exactPoints.count = sheet->points.count;
 }

@@ -25,7 +25,7 @@ bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMesh
            kiriPatches_Reserve(&surface->patches, memory, frameCount);
 }
 
-void kiriSurface_Truncate(kiriSurface* surface)
+void kiriSurface_Truncate(kiriSurface* surface, int32_t frameCount)
 {
     int32_t vertices = surface->vertexCount, triangles = surface->triangleCount;
     surface->positions.count = surface->places.count = surface->normals.count = 3 * vertices;
@@ -35,6 +35,7 @@ void kiriSurface_Truncate(kiriSurface* surface)
     surface->slopes.count = 4 * vertices;
     surface->indices.count = 3 * triangles;
     surface->corners.count = 3 * (triangles + triangles % 2);
+    surface->carriers.count = surface->bends.count = frameCount;
 }
 
 /* ---- Topology ---- */

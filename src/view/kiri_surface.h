@@ -74,8 +74,8 @@ static inline void kiriSurface_Place(kiriSurface* surface, int32_t vertex, kiriV
 /* Room for the mesh as it is and for so many frames; after it the others never fail. */
 bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount);
 
-/* The mesh is again as it is seen: what was for more of it is no more than room. Never fails. */
-void kiriSurface_Truncate(kiriSurface* surface);
+/* The mesh is again as it is seen, and so many frames move it: what was for more is no more than room. Never fails. */
+void kiriSurface_Truncate(kiriSurface* surface, int32_t frameCount);
 
 /* Takes over what kiriMesh_Begin's journal says has changed; call it before kiriMesh_Commit. The first time
    all of the mesh. */
