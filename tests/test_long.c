@@ -3,6 +3,8 @@
    (`make long`) all of it. */
 #include "host.h"
 
+#include <time.h>
+
 enum { PERIODS = 10, PERIOD = 360, LONG_PERIOD = 3600, LIFE = 60, MOST_PARTS = 64, SQUARES = 16 };
 
 static int32_t period = PERIOD;
@@ -35,6 +37,7 @@ typedef struct Period {
     int64_t items, worst, bytes; /* of all ticks, of one, and the most at a time */
     int32_t pieces, sheets;      /* that came off; that were made */
     int32_t undone;              /* cuts that were taken back */
+    double seconds;              /* of the processor, in ticks */
 } Period;
 
 /* Bytes of a save, or of a difference to one. */
@@ -208,7 +211,9 @@ static Period RunPeriod(Play* play)
     for (int32_t i = 0; i < period; ++i, ++play->tick) {
         RenewSheet(play);
         MoveBlade(play);
+        clock_t start = clock();
         kiriResult result = kiriWorld_Tick(play->world, 1.0f / 60.0f, 1);
+        play->now.seconds += (double)(clock() - start) / CLOCKS_PER_SEC;
         assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
         Count(play);
         PartPieces(play);
@@ -220,6 +225,14 @@ static Period RunPeriod(Play* play)
         }
     }
     return play->now;
+}
+
+static void Print(int k, const Period* p)
+{
+    print_message("period %d: %lld items a tick, %lld at worst, %.2f ms, %lld KB, %d pieces, %d sheets, %d cuts taken "
+                  "back\n",
+                  k, (long long)(p->items / period), (long long)p->worst, 1e3 * p->seconds / period,
+                  (long long)(p->bytes / 1024), (int)p->pieces, (int)p->sheets, (int)p->undone);
 }
 
 static void PlayLong(bool staysOne)
@@ -241,15 +254,12 @@ static void PlayLong(bool staysOne)
         pieces += periods[k].pieces;
         undone += periods[k].undone;
         sheets += periods[k].sheets;
-        print_message(
-            "period %d: %lld items a tick, %lld at worst, %lld KB, %d pieces, %d sheets, %d cuts taken back\n", k,
-            (long long)(periods[k].items / period), (long long)periods[k].worst, (long long)(periods[k].bytes / 1024),
-            (int)periods[k].pieces, (int)periods[k].sheets, (int)periods[k].undone);
+        Print(k, &periods[k]);
     }
     const Period *second = &periods[1], *last = &periods[PERIODS - 1];
-    print_message("the last period against the second: items %.2f, worst %.2f, memory %.2f\n",
+    print_message("the last period against the second: items %.2f, worst %.2f, memory %.2f, time %.2f\n",
                   (double)last->items / (double)second->items, (double)last->worst / (double)second->worst,
-                  (double)last->bytes / (double)second->bytes);
+                  (double)last->bytes / (double)second->bytes, last->seconds / second->seconds);
     assert_true(pieces > 2 * PERIODS && undone > PERIODS && (sheets == 0) == staysOne);
     assert_true(last->items < 2 * second->items && last->worst < 3 * second->worst && last->bytes < 2 * second->bytes);
     kiriDestroyWorld(play.world);
