@@ -222,6 +222,31 @@ static void TestGarbage(void** state)
     Tape_Free(&tape);
 }
 
+/* A world that was made without gravity, without a budget or without either: no call writes that. */
+static void TestWorldOfNothing(void** state)
+{
+    (void)state;
+    Tape tape;
+    RecordSmall(&tape);
+    for (uint8_t nulls = 1; nulls <= 3; nulls++) {
+        Tape again, broken = { 0 };
+        const uint8_t call[2] = { KIRI_CALL_CREATE_WORLD << 1 | 1, nulls }, none[8] = { 0 };
+        Tape_Write(&broken, tape.bytes, GRAVITY_BYTE - 1);
+        Tape_Write(&broken, call, 2);
+        if ((nulls & 1) == 0) {
+            Tape_Write(&broken, tape.bytes + GRAVITY_BYTE, 12);
+        }
+        Tape_Write(&broken, none, nulls & 2 ? 1 : 8); /* a budget without limits, and the result */
+        Tape_Start(&again);
+        assert_int_equal(Tape_Play(&again, &broken), KIRI_ERROR_REPLAY);
+        assert_non_null(strstr(again.host.line, "kiriCreateWorld"));
+        Tape_Stop(&again);
+        Tape_Free(&again);
+        Tape_Free(&broken);
+    }
+    Tape_Free(&tape);
+}
+
 /* ---- Memory ------------------------------------------------------------------------------------------------------- */
 
 /* Each allocation of a replay is refused once; it goes on, and ends as recorded. */
@@ -283,11 +308,17 @@ static void TestRecordedRefusals(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestNotes),          cmocka_unit_test(TestMisuse),
-        cmocka_unit_test(TestAnotherGravity), cmocka_unit_test(TestNewerVersions),
-        cmocka_unit_test(TestAnotherResult),  cmocka_unit_test(TestCutShort),
-        cmocka_unit_test(TestFlippedBits),    cmocka_unit_test(TestGarbage),
-        cmocka_unit_test(TestRefusedReplay),  cmocka_unit_test(TestRecordedRefusals),
+        cmocka_unit_test(TestNotes),
+        cmocka_unit_test(TestMisuse),
+        cmocka_unit_test(TestAnotherGravity),
+        cmocka_unit_test(TestNewerVersions),
+        cmocka_unit_test(TestAnotherResult),
+        cmocka_unit_test(TestCutShort),
+        cmocka_unit_test(TestFlippedBits),
+        cmocka_unit_test(TestGarbage),
+        cmocka_unit_test(TestWorldOfNothing),
+        cmocka_unit_test(TestRefusedReplay),
+        cmocka_unit_test(TestRecordedRefusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -241,11 +241,14 @@ MAKER(Obstacle_SetMass, GIVEN_ID(0), GIVEN_FLOAT(1), given[2], given[3])
 static kiriResult MakeWorld(kiriWorld* world, const void* const* given)
 {
     float gravity[3];
+    const float* wanted = given[0];
     const kiriBudget *budget = given[1], *was = &world->budget;
-    kiriResult result = given[0] != NULL && budget != NULL ? KIRI_OK : KIRI_ERROR_ARGUMENT;
+    if (wanted == NULL || budget == NULL) { /* no call writes that */
+        return KIRI_ERROR_ARGUMENT;
+    }
+    kiriResult result = KIRI_OK;
     kiriVec3_Store(gravity, world->gravity);
     for (int i = 0; i < 3 && result == KIRI_OK; ++i) {
-        const float* wanted = given[0];
         result = wanted[i] == gravity[i] ? KIRI_OK : kiriWorld_SetGravity(world, wanted);
         kiriVec3_Store(gravity, world->gravity);
     }
