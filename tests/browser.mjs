@@ -32,9 +32,10 @@ export async function openBrowser(page, playwright, pictures, executablePath) {
     mkdirSync(pictures, { recursive: true });
     return {
         errors,
-        /** A tab, when the page says that it is ready. */
-        async open(where = "?still", options = { viewport: { width: 1000, height: 640 } }) {
+        /** A tab, when the page says that it is ready. first: a function that runs in it before the page's own. */
+        async open(where = "?still", options = { viewport: { width: 1000, height: 640 } }, first = () => {}) {
             const context = await browser.newContext(options), tab = await context.newPage();
+            await tab.addInitScript(first);
             tab.on("pageerror", (error) => errors.push(`${error.message} ${error.stack}`));
             tab.on("console", (message) => message.type() === "error" && errors.push(message.text()));
             await tab.goto(address + where);

@@ -96,6 +96,7 @@ BROWSER ?= $(firstword $(wildcard /usr/bin/chromium /usr/bin/chromium-browser /u
 web-test: web $(BUILD)/tests/replay_hash
 	@if [ -z "$(BROWSER)" ]; then echo "web: no chromium, the page was not tested"; \
 	else node tests/test_web.mjs $(WEB) $(WEB_TOOLS)/node_modules/playwright-core/index.js $(WEB)_test $(BROWSER) && \
+	    node tests/test_web_features.mjs $(WEB) $(WEB_TOOLS)/node_modules/playwright-core/index.js $(WEB)_test $(BROWSER) && \
 	    test "$$($(BUILD)/tests/replay_hash $(WEB)_test/recording)" = "$$(cat $(WEB)_test/hash)" && \
 	    echo "web: C ends in the same state"; fi
 

@@ -26,7 +26,11 @@ export class Hand {
         this.pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
         this.game.sound.wake();
         if (this.pointers.size > 1) {
+            const touched = this.tool && !this.last && !this.waiting.length;
             this.letGo();
+            if (touched) {
+                this.game.undos.pop(); // of an act that was none
+            }
             return;
         }
         const hit = event.button === 0 && !this.game.isReplaying && this.meet(event.clientX, event.clientY);

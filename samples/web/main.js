@@ -127,7 +127,14 @@ class Game {
     }
 
     cutFile(content) {
-        this.cut(readCuts(content, SIZE));
+        let paths;
+        try {
+            paths = readCuts(content, SIZE);
+        } catch (error) {
+            this.panel.say(error.message);
+            return;
+        }
+        this.cut(paths);
     }
 
     showSnowflake() {

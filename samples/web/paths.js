@@ -20,21 +20,51 @@ function fromSvg(text) {
 function lineOf(shape, step) {
     const length = shape.getTotalLength(), matrix = shape.getCTM() ?? new DOMMatrix(), lines = [[]];
     const count = Math.min(4000, Math.max(2, Math.ceil(length / step)));
-    let before = null;
-    for (let i = 0; i <= count; i++) {
-        const at = shape.getPointAtLength(length * i / count);
-        if (before && Math.hypot(at.x - before.x, at.y - before.y) > 1.5 * length / count + 1e-9) {
+    const add = ({ x, y }) => lines.at(-1).push([matrix.a * x + matrix.c * y + matrix.e, -(matrix.b * x + matrix.d * y + matrix.f)]);
+    add(shape.getPointAtLength(0));
+    for (let i = 1; i <= count; i++) {
+        const [end, next] = findJump(shape, length * (i - 1) / count, length * i / count);
+        if (end) {
+            add(end);
             lines.push([]);
+            add(next);
         }
-        lines.at(-1).push([matrix.a * at.x + matrix.c * at.y + matrix.e, -(matrix.b * at.x + matrix.d * at.y + matrix.f)]);
-        before = at;
+        add(shape.getPointAtLength(length * i / count));
     }
     return lines.filter((line) => line.length > 1);
 }
 
+/** Where a path ends between two lengths, and where it goes on: points that are further apart than the way between them. */
+function findJump(shape, from, to) {
+    const jumps = (a, b) => {
+        const p = shape.getPointAtLength(a), q = shape.getPointAtLength(b);
+        return Math.hypot(p.x - q.x, p.y - q.y) > 1.5 * (b - a) + 1e-4 * (to - from);
+    };
+    if (!jumps(from, to)) {
+        return [];
+    }
+    for (let i = 0; i < 20; i++) {
+        const middle = (from + to) / 2;
+        [from, to] = jumps(from, middle) ? [from, middle] : [middle, to];
+    }
+    return [shape.getPointAtLength(from), shape.getPointAtLength(to)];
+}
+
+function frameOf(text) {
+    try {
+        const fold = JSON.parse(text);
+        return fold.vertices_coords ? fold : fold.file_frames?.[0];
+    } catch {
+        return null;
+    }
+}
+
 /** FOLD: edges that are cuts (C) or borders (B). */
 function fromFold(text) {
-    const fold = JSON.parse(text), frame = fold.vertices_coords ? fold : fold.file_frames[0];
+    const frame = frameOf(text);
+    if (!frame?.vertices_coords || !frame.edges_vertices) {
+        throw new Error("this is no FOLD with edges");
+    }
     return frame.edges_vertices
         .filter((_, i) => /[BC]/.test(frame.edges_assignment?.[i] ?? "C"))
         .map((edge) => edge.map((vertex) => frame.vertices_coords[vertex].slice(0, 2)));

@@ -133,6 +133,12 @@ export class Stage {
         return { origin: origin.toArray(), direction: direction.toArray() };
     }
 
+    /** Where a point is in the window. */
+    windowOf(position) {
+        const at = new Vector3(...position).project(this.camera);
+        return [(at.x + 1) / 2 * innerWidth, (1 - at.y) / 2 * innerHeight];
+    }
+
     /** Slow machines draw fewer pixels. */
     spare(seconds) {
         this.slowFrames = seconds > 0.03 ? this.slowFrames + 1 : 0;
