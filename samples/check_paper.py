@@ -42,4 +42,5 @@ def main(path):
     assert ball > 5000 and hangs > 20000 and between < 1000 and fell > 5000, "what came off lies on the ball"
 
 
-main(sys.argv[1])
+if __name__ == "__main__":
+    main(sys.argv[1])

@@ -136,6 +136,8 @@ func test_meshes():
 	equal(copied.normals.size(), 5)
 	equal(sheet.copy_indices16(63, 1)[0], mesh.indices[189])
 	equal(sheet.get_solid(0.01).positions.size() >= 90, true)
+	equal(sheet.get_solid_arrays(0.01)[0], sheet.get_solid(0.01).positions)
+	equal(sheet.get_solid_arrays("thick"), [])
 	equal(sheet.get_dirty(0).new_vertices.count, 45)
 	var bare = a_sheet(world, {"normals": false, "collision_points": 7})
 	equal(bare.get_vertex_buffer().size(), 45 * 12, "without normals")

@@ -18,6 +18,9 @@ binding = repository / "bindings/godot"
 sys.path.insert(0, str(repository / "bindings/generator"))
 sys.dont_write_bytecode = True
 
+sys.path.insert(0, str(repository / "samples"))
+
+import check_paper
 import naming
 import to_godot
 
@@ -47,8 +50,9 @@ class Engine:
             shutil.copy(file, folder)
         shutil.copy(self.build / f"libkiri_godot{self.version}.so", folder / "bin")
         (folder / "example").mkdir()
-        for name in ("main.gd", "main.tscn", "sheet_mesh.gd"):
-            shutil.copy(SAMPLES[self.version] / name, folder / "example")
+        for file in SAMPLES[self.version].iterdir():
+            if file.name != "project.godot":
+                shutil.copy(file, folder / "example")
 
     def project(self, name, files, sample=False):
         """A new one with the addon and some files."""
@@ -210,6 +214,11 @@ def picture(engine, folder, scene=()):
 
 def check_pictures(engine):
     made = picture(engine, engine.project("project", [], sample=True))
+    if engine.version == 4:
+        # The boxes around pieces are orange.
+        rows = check_paper.pixels_of(made.with_name("picture_debug.png"))
+        boxes = sum(red > 200 and 130 < green < 200 and blue < 60 for row in rows for red, green, blue in row)
+        assert boxes > 200, f"debug draw: {boxes} pixels of boxes"
     shutil.copy(made, engine.build / f"godot{engine.version}.png")
 
 

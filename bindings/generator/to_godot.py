@@ -57,19 +57,23 @@ BY_HAND = {
                             "[code]lines[/code] and [code]triangles[/code], each with [code]positions[/code] and "
                             "[code]colors[/code]. Keys of draw: those of [method Kiri.default_debug_draw]."),
 }
+# Beside the functions of the header: class, name, in by_hand.c, arguments, answer, and what is said of them.
 MORE = [
-    ("World", "get_last_result", "GetLastResult", ("INT", None),
+    ("World", "get_last_result", "GetLastResult", [], ("INT", None),
      "The result of the last call of a method of this world or of one of its objects: [constant Kiri.OK], "
      "[constant Kiri.PENDING], or what failed."),
-    ("World", "take_recording", "TakeRecording", ("BYTES", None),
+    ("World", "take_recording", "TakeRecording", [], ("BYTES", None),
      "The bytes that the recording has got since the last call: one after the other they are the recording. Of worlds "
      "that were made with [code]record[/code]."),
-    ("Sheet", "get_revision", "GetRevision", ("INT", None),
+    ("Sheet", "get_revision", "GetRevision", [], ("INT", None),
      "Grows where a cut has changed the triangles of the mesh or where its vertices are in the rest plane."),
-    ("Sheet", "get_surface_arrays", "GetSurfaceArrays", ("ARRAY", None),
+    ("Sheet", "get_surface_arrays", "GetSurfaceArrays", [], ("ARRAY", None),
      "What [code]ArrayMesh.add_surface_from_arrays[/code] takes: positions, normals, UVs, which are rest positions in m, "
      "and indices, clockwise as Godot has them. Copies."),
-    ("Sheet", "get_vertex_buffer", "GetVertexBuffer", ("BYTES", None),
+    ("Sheet", "get_solid_arrays", "GetSolidArrays", [("thickness", "REAL", None)], ("ARRAY", None),
+     "The same of the sheet with a thickness in m: both its sides, and rims along its outline and lips. See "
+     "[method get_solid]."),
+    ("Sheet", "get_vertex_buffer", "GetVertexBuffer", [], ("BYTES", None),
      "What [code]RenderingServer.mesh_surface_update_vertex_region[/code] of Godot 4 takes, for a surface made from "
      "[method get_surface_arrays]: while [method get_revision] stays the same, this is enough in each frame."),
 ]
@@ -90,8 +94,9 @@ class Godot:
         self._structs = {struct["name"]: struct for struct in description["structs"]}
         self._used = []
         self.methods = [self._method(function) for function in description["functions"]]
-        self.methods += [{"class": of, "name": name, "function": None, "by_hand": by_hand, "arguments": [], "required": 0,
-                          "answer": answer, "doc": doc, "returns": "RESULT"} for of, name, by_hand, answer, doc in MORE]
+        self.methods += [{"class": of, "name": name, "function": None, "by_hand": by_hand, "arguments": arguments,
+                          "required": len(arguments), "answer": answer, "doc": doc, "returns": "RESULT"}
+                         for of, name, by_hand, arguments, answer, doc in MORE]
 
     # ---- Kinds of what scripts see
 

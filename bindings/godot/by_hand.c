@@ -209,35 +209,59 @@ Variant GetRevision(const Method* method, Self* self, const Variant* const* argu
 }
 
 /* Triangles the way round that Godot has them: clockwise. */
-static Variant TurnedIndices(const kiriMesh* mesh)
+static Variant TurnIndices(const int32_t* indices, int32_t triangleCount)
 {
-    int64_t count = 3 * (int64_t)mesh->triangleCount;
+    int64_t count = 3 * (int64_t)triangleCount;
     int32_t* turned = malloc((size_t)count * sizeof *turned + 1);
     for (int64_t i = 0; turned != NULL && i < count; i += 3) {
-        turned[i] = mesh->indices[i];
-        turned[i + 1] = mesh->indices[i + 2];
-        turned[i + 2] = mesh->indices[i + 1];
+        turned[i] = indices[i];
+        turned[i + 1] = indices[i + 2];
+        turned[i + 2] = indices[i + 1];
     }
     Variant made = OfRows(KIND_INTS, turned, turned != NULL ? count : 0);
     free(turned);
     return made;
 }
 
-Variant GetSurfaceArrays(const Method* method, Self* self, const Variant* const* arguments, int count)
+static Variant SurfaceArrays(const float* positions, const float* normals, const float* uvs, int32_t vertexCount,
+                             const int32_t* indices, int32_t triangleCount)
 {
     enum { POSITIONS = 0, NORMALS = 1, UVS = 4 };
+    Variant arrays = NewArray(SURFACE_ARRAYS);
+    SetItem(&arrays, POSITIONS, OfRows(KIND_VECTORS3, positions, vertexCount));
+    if (normals != NULL) {
+        SetItem(&arrays, NORMALS, OfRows(KIND_VECTORS3, normals, vertexCount));
+    }
+    SetItem(&arrays, UVS, OfRows(KIND_VECTORS2, uvs, vertexCount));
+    SetItem(&arrays, SURFACE_ARRAYS - 1, TurnIndices(indices, triangleCount));
+    return arrays;
+}
+
+Variant GetSurfaceArrays(const Method* method, Self* self, const Variant* const* arguments, int count)
+{
     kiriMesh mesh;
     (void)arguments, (void)count;
-    Variant arrays = NewArray(SURFACE_ARRAYS);
-    if (MeshOf(method, self, &mesh)) {
-        SetItem(&arrays, POSITIONS, OfRows(KIND_VECTORS3, mesh.positions, mesh.vertexCount));
-        if (mesh.normals != NULL) {
-            SetItem(&arrays, NORMALS, OfRows(KIND_VECTORS3, mesh.normals, mesh.vertexCount));
-        }
-        SetItem(&arrays, UVS, OfRows(KIND_VECTORS2, mesh.restPositions, mesh.vertexCount));
-        SetItem(&arrays, SURFACE_ARRAYS - 1, TurnedIndices(&mesh));
+    return MeshOf(method, self, &mesh) ? SurfaceArrays(mesh.positions, mesh.normals, mesh.restPositions,
+                                                       mesh.vertexCount, mesh.indices, mesh.triangleCount)
+                                       : NewArray(0);
+}
+
+Variant GetSolidArrays(const Method* method, Self* self, const Variant* const* arguments, int count)
+{
+    kiriMesh mesh;
+    kiriSolid solid;
+    float thickness = 0.0f;
+    (void)count;
+    if (!ReadItem(arguments[0], TYPE_FLOAT, CLASS_NONE, NULL, &thickness)) {
+        Fail(method, "the thickness is no number", NULL);
+        return NewArray(0);
     }
-    return arrays;
+    if (!MeshOf(method, self, &mesh) ||
+        !Check(method, self->owner, kiriSheet_GetSolid(self->owner->world, self->id, thickness, &solid))) {
+        return NewArray(0);
+    }
+    return SurfaceArrays(solid.positions, solid.normals, solid.restPositions, solid.vertexCount, solid.indices,
+                         solid.triangleCount);
 }
 
 /* A unit vector in 4 bytes, as Godot 4 packs it: on an octahedron, unfolded to a square. */

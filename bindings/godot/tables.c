@@ -1881,6 +1881,10 @@ static const Argument WORLD_DEBUG_DRAW_ARGUMENTS[] = {
     { "draw", KIND_DICTIONARY, CLASS_NONE },
 };
 
+static const Argument SHEET_GET_SOLID_ARRAYS_ARGUMENTS[] = {
+    { "thickness", KIND_REAL, CLASS_NONE },
+};
+
 const Method METHODS[] = {
     { CLASS_KIRI, "get_version", "kiriGetVersion", RETURNS_INT, KIND_INT, CLASS_NONE, 0, 0, NULL, 0, NULL, Call_kiriGetVersion, NULL },
     { CLASS_KIRI, "get_result_name", "kiriGetResultName", RETURNS_TEXT, KIND_STRING, CLASS_NONE, 1, 1, KIRI_GET_RESULT_NAME_ARGUMENTS, 1, KIRI_GET_RESULT_NAME_PARAMETERS, Call_kiriGetResultName, NULL },
@@ -1991,6 +1995,7 @@ const Method METHODS[] = {
     { CLASS_WORLD, "take_recording", NULL, RETURNS_RESULT, KIND_BYTES, CLASS_NONE, 0, 0, NULL, 0, NULL, NULL, TakeRecording },
     { CLASS_SHEET, "get_revision", NULL, RETURNS_RESULT, KIND_INT, CLASS_NONE, 0, 0, NULL, 0, NULL, NULL, GetRevision },
     { CLASS_SHEET, "get_surface_arrays", NULL, RETURNS_RESULT, KIND_ARRAY, CLASS_NONE, 0, 0, NULL, 0, NULL, NULL, GetSurfaceArrays },
+    { CLASS_SHEET, "get_solid_arrays", NULL, RETURNS_RESULT, KIND_ARRAY, CLASS_NONE, 1, 1, SHEET_GET_SOLID_ARRAYS_ARGUMENTS, 0, NULL, NULL, GetSolidArrays },
     { CLASS_SHEET, "get_vertex_buffer", NULL, RETURNS_RESULT, KIND_BYTES, CLASS_NONE, 0, 0, NULL, 0, NULL, NULL, GetVertexBuffer },
 };
 const int METHOD_COUNT = (int)(sizeof METHODS / sizeof *METHODS);

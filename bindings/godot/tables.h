@@ -134,6 +134,6 @@ extern const Struct WORLD_DEF, DEBUG_DRAW, SHEET_SETTINGS, HIT;
 /* Written by hand, in by_hand.c. */
 void FillWorldDef(void* def);
 ByHand CreateWorld, DestroyWorld, DebugDraw, CopyVertices, GetLastResult, TakeRecording, GetRevision, GetSurfaceArrays,
-    GetVertexBuffer;
+    GetSolidArrays, GetVertexBuffer;
 
 #endif

@@ -1,7 +1,8 @@
-# A sheet of paper: drag with the mouse to cut it. With -- --picture=PICTURE.png it plays a cut by itself.
+# A sheet of paper: drag with the mouse to cut it. T: it is cardboard; D: what Kiri has of it. With -- --picture=PICTURE.png it plays a cut by itself.
 extends Node3D
 
 const SheetMesh := preload("sheet_mesh.gd")
+const DebugMesh := preload("debug_mesh.gd")
 const BALL := Vector3(0.5, -0.55, 0.05)
 const FLOOR := -0.8
 const SCRIPT_TICKS := 150
@@ -12,6 +13,8 @@ var blade: KiriBlade
 var tick := 0
 var picture := ""
 var camera := Camera3D.new()
+var debug := DebugMesh.new()
+var thickness := 0.0
 
 func _ready() -> void:
 	for argument in OS.get_cmdline_user_args():
@@ -35,6 +38,8 @@ func make_stage() -> void:
 	camera.look_at_from_position(Vector3(1.5, 0.75, 2.4), Vector3(0.5, 0.15, 0.0))
 	camera.fov = 45
 	add_child(camera)
+	debug.visible = false
+	add_child(debug)
 	var sun := DirectionalLight3D.new()
 	sun.look_at_from_position(Vector3(0.6, 1.0, 1.6), Vector3())
 	sun.light_energy = 0.6
@@ -77,6 +82,14 @@ func _physics_process(_delta: float) -> void:
 			event.frame.detach_piece()
 	tick += 1
 
+func _unhandled_key_input(event: InputEvent) -> void:
+	if event.is_action_pressed("ui_cancel"):
+		get_tree().quit()
+	elif event.is_pressed() and event.keycode == KEY_T:
+		thickness = 0.01 - thickness
+	elif event.is_pressed() and event.keycode == KEY_D:
+		debug.visible = not debug.visible
+
 func cut_along(origin: Vector3, direction: Vector3) -> void:
 	if blade == null:
 		blade = world.begin_blade()
@@ -101,16 +114,25 @@ func _process(_delta: float) -> void:
 		if not meshes.has(sheet):
 			meshes[sheet] = SheetMesh.new()
 			add_child(meshes[sheet])
-		meshes[sheet].update(sheet)
-	if picture != "" and tick >= SCRIPT_TICKS:
+		meshes[sheet].update(sheet, thickness)
+	if debug.visible:
+		debug.update(world)
+	if picture != "" and tick >= SCRIPT_TICKS and is_processing():
 		finish()
+
+func save_picture(path: String) -> void:
+	await RenderingServer.frame_post_draw
+	var image := get_viewport().get_texture().get_image()
+	image.convert(Image.FORMAT_RGBA8)
+	image.save_png(path)
 
 func finish() -> void:
 	set_process(false)
 	set_physics_process(false)
-	await RenderingServer.frame_post_draw
-	var image := get_viewport().get_texture().get_image()
-	image.convert(Image.FORMAT_RGBA8)
-	image.save_png(picture)
+	await save_picture(picture)
+	thickness = 0.01
+	debug.visible = true
+	_process(0.0)
+	await save_picture(picture.replace(".png", "_debug.png"))
 	print("%d sheets, hash %x" % [meshes.size(), world.get_state_hash() & 0xffffffff])
 	get_tree().quit()

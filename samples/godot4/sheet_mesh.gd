@@ -11,12 +11,14 @@ func _init() -> void:
 	material.cull_mode = BaseMaterial3D.CULL_DISABLED
 	material_override = material
 
-# A new surface where a cut has changed the triangles, else positions and normals straight into the buffer of the GPU.
-func update(sheet: KiriSheet) -> void:
-	if sheet.get_revision() != revision:
-		revision = sheet.get_revision()
+# A new surface where a cut has changed the triangles, else positions and normals straight into the buffer of the GPU. With
+# a thickness a new one in each frame.
+func update(sheet: KiriSheet, thickness: float) -> void:
+	if thickness > 0.0 or sheet.get_revision() != revision:
+		revision = sheet.get_revision() if thickness == 0.0 else -1
 		mesh.clear_surfaces()
-		mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, sheet.get_surface_arrays(), [], {},
+		mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES,
+				sheet.get_solid_arrays(thickness) if thickness > 0.0 else sheet.get_surface_arrays(), [], {},
 				Mesh.ARRAY_FLAG_USE_DYNAMIC_UPDATE)
 	else:
 		RenderingServer.mesh_surface_update_vertex_region(mesh.get_rid(), 0, 0, sheet.get_vertex_buffer())
