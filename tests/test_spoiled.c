@@ -2,6 +2,8 @@
    nothing. A world is made wrong in memory in one way at a time, and saved as it is. */
 #include "host.h"
 
+#include "field/kiri_grid_work.h"
+#include "sheet/kiri_update.h"
 #include "world/kiri_world.h"
 
 typedef void SpoilFn(kiriSheetData* sheet);
@@ -36,6 +38,22 @@ static void StartCut(Host* host)
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
     Host_Cut(host, sheet, slit, 2);
     OK(Host_Tick(host, 0.01f, 1));
+}
+
+/* And the work on another cut, which is at this stage and step of it. */
+static void StartAtWork(Host* host, int32_t stage, int32_t step)
+{
+    const float around[12] = { 0.2f, 0.5f, 0.8f, 0.5f, 0.8f, 0.9f, 0.4f, 0.9f, 0.4f, 0.2f, 0.9f, 0.2f };
+    const kiriBudget budget = { 64, 5, 3, 0 };
+    StartCut(host);
+    const kiriSheetData* sheet = host->world->sheets.data[0];
+    Host_Cut(host, sheet->id, around, 6);
+    OK(kiriWorld_SetBudget(host->world, &budget));
+    for (int tick = 0; tick < 2000 && (sheet->update->stage != stage || sheet->update->step != step); ++tick) {
+        assert_true(kiriWorld_Tick(host->world, 0.01f, 1) >= 0);
+    }
+    assert_int_equal(sheet->update->stage, stage);
+    assert_int_equal(sheet->update->step, step);
 }
 
 /* The world of the host is spoiled, and then what it was again. */
@@ -99,6 +117,120 @@ static void TestMesh(void** state)
     CHECK_ALL_REFUSED(&host, spoilers);
 }
 
+/* ---- The grid ---- */
+
+static void CellIsOfAnotherSquare(kiriSheetData* sheet)
+{
+    sheet->grid.cells.data[sheet->grid.squareCell.data[0]].square = 1;
+}
+
+static void CellFollowsItself(kiriSheetData* sheet)
+{
+    int32_t cell = sheet->grid.squareCell.data[0];
+    sheet->grid.cells.data[cell].next = cell;
+}
+
+static void FaceHasNoWidth(kiriSheetData* sheet)
+{
+    sheet->grid.faces.data[0].width = 0.0;
+}
+
+static void FaceFollowsItself(kiriSheetData* sheet)
+{
+    sheet->grid.faces.data[0].next[0] = 0;
+}
+
+/* A run that is stored, and has steps. */
+static kiriStepRun* StoredRun(kiriSheetData* sheet)
+{
+    kiriStepRun* run = sheet->grid.runs.data;
+    while (kiriStepRun_IsOpen(run) || run->end[0] == run->first) {
+        ++run;
+    }
+    return run;
+}
+
+static void StepLeadsFar(kiriSheetData* sheet)
+{
+    sheet->grid.steps.data[StoredRun(sheet)->first].cell = sheet->grid.squareCell.data[60];
+}
+
+static void StepsEndBeyond(kiriSheetData* sheet)
+{
+    StoredRun(sheet)->end[2] = sheet->grid.steps.count + 1;
+}
+
+static void BorderIsOpen(kiriSheetData* sheet)
+{
+    sheet->grid.runs.data[sheet->grid.squareCell.data[0]].first = ~0;
+}
+
+static void TriangleIsInNoCell(kiriSheetData* sheet)
+{
+    sheet->grid.nodeCell.data[sheet->mesh.squares.head[0]] = KIRI_NONE;
+}
+
+static void MaterialIsNegative(kiriSheetData* sheet)
+{
+    sheet->grid.cells.data[0].material.area = -1.0;
+}
+
+static void TestGrid(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "CellIsOfAnotherSquare", CellIsOfAnotherSquare },
+        { "CellFollowsItself", CellFollowsItself },
+        { "FaceHasNoWidth", FaceHasNoWidth },
+        { "FaceFollowsItself", FaceFollowsItself },
+        { "StepLeadsFar", StepLeadsFar },
+        { "StepsEndBeyond", StepsEndBeyond },
+        { "BorderIsOpen", BorderIsOpen },
+        { "TriangleIsInNoCell", TriangleIsInNoCell },
+        { "MaterialIsNegative", MaterialIsNegative },
+    };
+    Host host;
+    StartCut(&host);
+    CHECK_ALL_REFUSED(&host, spoilers);
+}
+
+static void ItemIsBeyond(kiriSheetData* sheet)
+{
+    sheet->grid.work->item = 1 << 24;
+}
+
+static void RangeIsBeyond(kiriSheetData* sheet)
+{
+    kiriGridWork* work = sheet->grid.work;
+    int32_t square = work->flagged.data[0];
+    work->squareFlags.data[square] |= KIRI_SQUARE_COLLECTED;
+    work->ranges.data[square].first = 0;
+    work->ranges.data[square].end = 1 << 24;
+}
+
+static void StageIsNone(kiriSheetData* sheet)
+{
+    sheet->grid.work->stage = 99;
+}
+
+static void TestGridAtWork(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "ItemIsBeyond", ItemIsBeyond },
+        { "RangeIsBeyond", RangeIsBeyond },
+        { "StageIsNone", StageIsNone },
+    };
+    Host host;
+    StartAtWork(&host, KIRI_STAGE_GRID, 0);
+    const kiriGridWork* work = host.world->sheets.data[0]->grid.work;
+    for (int tick = 0; tick < 100 && work->flagged.count == 0; ++tick) {
+        assert_true(kiriWorld_Tick(host.world, 0.01f, 1) >= 0);
+    }
+    assert_true(work->running && work->flagged.count > 0);
+    CHECK_ALL_REFUSED(&host, spoilers);
+}
+
 /* ---- What is no harm ---- */
 
 /* The cell of a point is found anew with the next cut, where the grid was made from scratch: a save may have any. */
@@ -121,6 +253,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestMesh),
+        cmocka_unit_test(TestGrid),
+        cmocka_unit_test(TestGridAtWork),
         cmocka_unit_test(TestPointOfNoCell),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

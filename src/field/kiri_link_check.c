@@ -1,4 +1,4 @@
-#include "kiri_link_check.h"
+#include "kiri_field_check.h"
 #include "kiri_link_work.h"
 
 /* ---- Rules -------------------------------------------------------------------------------------------------------- */

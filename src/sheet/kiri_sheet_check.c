@@ -1,6 +1,6 @@
 #include "kiri_sheet_check.h"
 
-#include "../field/kiri_link_check.h"
+#include "../field/kiri_field_check.h"
 #include "../mesh/kiri_mesh_check.h"
 #include "../motion/kiri_motion_check.h"
 #include "../view/kiri_view_check.h"
@@ -184,16 +184,10 @@ static const kiriMust TouchMemoryMust[] = {
     KIRI_ITEMS_MUST(kiriTouchMemory, forces, TouchForceMust),
 };
 
-/* In what may be cut of the rest plane. */
-static bool IsOnLattice(kiriLatticePoint at)
-{
-    enum { MOST = KIRI_LATTICE + KIRI_LATTICE / 2 + 2 };
-    return at.x >= -MOST && at.x <= MOST && at.y >= -MOST && at.y <= MOST;
-}
-
 static bool IsInSquare(const kiriSheetData* sheet, kiriLatticePoint at)
 {
-    int32_t square = IsOnLattice(at) && at.x >= 0 && at.y >= 0 ? kiriSquares_At(&sheet->mesh.squares, at) : KIRI_NONE;
+    int32_t square =
+        kiriLattice_Has(at) && at.x >= 0 && at.y >= 0 ? kiriSquares_At(&sheet->mesh.squares, at) : KIRI_NONE;
     return square != KIRI_NONE && sheet->mesh.squares.head[square] != KIRI_NONE;
 }
 
@@ -204,7 +198,7 @@ static bool ArePins(kiriCheck* check, const kiriSheetData* sheet)
         const kiriPinData* pin = &sheet->pins.data[i];
         bool isPoint = pin->type == KIRI_PIN_POINT;
         areFine = kiriCheck_Object(check, PinMust, pin) &&
-                  kiriCheck_That(check, IsOnLattice(pin->at) && IsOnLattice(pin->to) &&
+                  kiriCheck_That(check, kiriLattice_Has(pin->at) && kiriLattice_Has(pin->to) &&
                                             isPoint == (pin->at.x == pin->to.x && pin->at.y == pin->to.y) &&
                                             isPoint == (pin->stiffness > 0.0));
     }
@@ -261,60 +255,6 @@ static bool ArePoints(kiriCheck* check, const kiriSheetData* sheet)
                                             point->frame < sheet->frames.count && point->cell >= 0);
     }
     return areFine && kiriPlaces_Check(&sheet->pointPlaces, check, sheet->points.count);
-}
-
-/* ---- Cuts --------------------------------------------------------------------------------------------------------- */
-
-static const kiriMust TipMust[] = {
-    KIRI_REALS(kiriTip, last, last),
-    KIRI_INDEX_OR_NONE(KIRI_OF_VERTICES, kiriTip, blade.vertex, blade.vertex),
-    KIRI_COUNTS(kiriTip, blade.owed, blade.owed),
-};
-
-static bool IsTip(kiriCheck* check, const kiriSheetData* sheet, const kiriTip* tip)
-{
-    const kiriBladeTip* blade = &tip->blade;
-    bool isFine = kiriCheck_Object(check, TipMust, tip) &&
-                  kiriCheck_That(check, IsOnLattice(blade->at) && IsOnLattice(blade->from));
-    if (isFine && blade->vertex != KIRI_NONE) {
-        kiriLatticePoint at = sheet->mesh.vertices.data[blade->vertex].at;
-        isFine = kiriMesh_IsVertex(&sheet->mesh, blade->vertex) && at.x == blade->at.x && at.y == blade->at.y;
-    }
-    return kiriCheck_That(check, isFine);
-}
-
-/* As many points of each cut wait as it says. */
-static bool AreCuts(kiriCheck* check, const kiriSheetData* sheet)
-{
-    bool areFine = true;
-    for (int32_t c = 0; areFine && c < sheet->cuts.count; ++c) {
-        const kiriCutData* cut = sheet->cuts.data[c];
-        areFine = IsTip(check, sheet, &cut->tip) && IsTip(check, sheet, &cut->committed) && cut->waiting >= 0;
-    }
-    int64_t waiting = 0;
-    for (int32_t c = 0; areFine && c < sheet->cuts.count; ++c) {
-        int32_t found = 0;
-        for (int32_t k = 0; k < sheet->queue.count; ++k) {
-            found += sheet->queue.data[k].cut == sheet->cuts.data[c];
-        }
-        areFine = found == sheet->cuts.data[c]->waiting;
-        waiting += found;
-    }
-    return kiriCheck_That(check, areFine && waiting == sheet->queue.count);
-}
-
-static const kiriMust PointMust[] = {
-    KIRI_REALS(kiriQueuedPoint, to, to),
-    KIRI_COUNTS(kiriQueuedPoint, stamp, stamp),
-};
-
-static bool IsQueue(kiriCheck* check, const kiriSheetData* sheet)
-{
-    bool isFine = true;
-    for (int32_t k = 0; isFine && k < sheet->queue.count; ++k) {
-        isFine = kiriCheck_Object(check, PointMust, &sheet->queue.data[k]);
-    }
-    return isFine;
 }
 
 /* ---- What is seen ------------------------------------------------------------------------------------------------- */
@@ -407,14 +347,25 @@ static bool AreTurns(kiriCheck* check, const kiriSheetData* sheet)
     return kiriCheck_That(check, !waits && sheet->turns.next >= 0);
 }
 
+/* Grid, regions and shape functions that an update left behind are made anew before anybody asks them. */
+static bool AreLeft(kiriCheck* check, const kiriSheetData* sheet)
+{
+    const kiriGrid* grid = &sheet->grid;
+    check->count[KIRI_OF_CELLS] = INT32_MAX;
+    check->count[KIRI_OF_FACES] = INT32_MAX;
+    return kiriCheck_That(check, sheet->update->stage == KIRI_STAGE_GRID || sheet->update->stage <= KIRI_STAGE_CUT) &&
+           kiriGrid_CheckLeft(grid, check);
+}
+
 bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check)
 {
+    const kiriUpdate* u = sheet->update;
     kiriMesh_Count(&sheet->mesh, check);
     check->count[KIRI_OF_FRAMES] = sheet->frames.count;
-    check->count[KIRI_OF_SITES] = sheet->update->placing.sites.count;
-    return kiriMesh_Check(&sheet->mesh, check) && AreSettings(check, &sheet->settings) &&
-           AreFramesSound(check, sheet) &&
-           kiriCheck_That(check, sheet->update->placing.sites.count >= sheet->frames.count) &&
+    check->count[KIRI_OF_SITES] = u->placing.sites.count;
+    bool isMesh = kiriMesh_Check(&sheet->mesh, check) && AreSettings(check, &sheet->settings) &&
+                  AreFramesSound(check, sheet) && kiriCheck_That(check, u->placing.sites.count >= sheet->frames.count);
+    return isMesh && (u->needsRebuild ? AreLeft(check, sheet) : kiriGrid_Check(&sheet->grid, &sheet->mesh, check)) &&
            kiriLinks_Check(&sheet->links, check) && IsLayout(check, sheet) && AreTurns(check, sheet) &&
            ArePins(check, sheet) &&
            kiriSkin_Check(&sheet->vertexSkin, check, sheet->mesh.vertices.count, &sheet->mesh) &&
@@ -422,31 +373,6 @@ bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check)
            kiriCheck_That(
                check, AreElementsOfPieces(&sheet->layout) && AreSamplesOfPieces(&sheet->layout, &sheet->vertexSkin) &&
                           AreSamplesOfPieces(&sheet->layout, &sheet->pointSkin) && AreTrianglesOfPieces(sheet)) &&
-           ArePoints(check, sheet) && AreCuts(check, sheet) && IsQueue(check, sheet) && IsSeen(check, sheet) &&
+           ArePoints(check, sheet) && kiriCuts_Check(sheet, check) && IsSeen(check, sheet) &&
            AreContacts(check, sheet) && HasRoomForRows(check, sheet);
-}
-
-/* ---- Obstacles ---------------------------------------------------------------------------------------------------- */
-
-static const kiriMust ObstacleMust[] = {
-    KIRI_WITHIN(KIRI_OBSTACLE_PLANE, KIRI_OBSTACLE_PRISM, kiriObstacleData, shape.type, shape.type),
-    KIRI_REALS(kiriObstacleData, shape.radius, shape.rounding),
-    KIRI_REALS(kiriObstacleData, shape.flat, shape.flat),
-    KIRI_REALS(kiriObstacleData, position, center),
-    KIRI_REALS(kiriObstacleData, pushSpeed, pushSpeed),
-    KIRI_REALS(kiriObstacleData, impulse, impulse),
-    KIRI_WITHIN(0, INT32_MAX, kiriObstacleData, contacts, contacts),
-    KIRI_REALS(kiriObstacleData, drift, upper),
-};
-
-bool kiriObstacle_Check(const kiriObstacleData* obstacle, kiriCheck* check)
-{
-    const kiriObstacleShape* shape = &obstacle->shape;
-    bool isPrism = shape->type == KIRI_OBSTACLE_PRISM, isFine = true;
-    for (int32_t k = 0; k < 2 * shape->count; ++k) {
-        isFine = isFine && fabs(shape->outline[k].x) <= 2e6 && fabs(shape->outline[k].y) <= 2e6;
-    }
-    return kiriCheck_Object(check, ObstacleMust, obstacle) &&
-           kiriCheck_That(check, isFine && (isPrism ? shape->count >= 3 : shape->count == 0) && obstacle->mass >= 0.0 &&
-                                     shape->type != KIRI_OBSTACLE_BOX);
 }

@@ -8,10 +8,20 @@
 
 KIRI_C_BEGIN
 
-/* What is in force: mesh, frames, links, layout, weights, pins, points, cuts, contacts, what is seen, and the room that
-   ticks use without asking for it. What the world knows is left to it: ids, and settings that the host gave. Not looked at
-   are grid, regions, shape functions and the work on a cut. */
+/* What is in force: mesh, grid, frames, links, layout, weights, pins, points, cuts, contacts, what is seen, and the room
+   that ticks use without asking for it. What the world knows is left to it: ids, and settings that the host gave. Not
+   looked at are regions, shape functions and the work on a cut. */
 bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check);
+
+/* In what may be cut of the rest plane. */
+static inline bool kiriLattice_Has(kiriLatticePoint at)
+{
+    enum { MOST = KIRI_LATTICE + KIRI_LATTICE / 2 + 2 };
+    return at.x >= -MOST && at.x <= MOST && at.y >= -MOST && at.y <= MOST;
+}
+
+/* The cuts of a sheet, and the points that wait. */
+bool kiriCuts_Check(const kiriSheetData* sheet, kiriCheck* check);
 
 bool kiriObstacle_Check(const kiriObstacleData* obstacle, kiriCheck* check);
 
