@@ -254,13 +254,18 @@ test("what calls cost", () => inWorld((world) => {
     let garbage = "not measured (node --expose-gc)";
     if (globalThis.gc) {
         const loop = (n) => { for (let i = 0; i < n; i++) { world.tick(1e-4, 1); sheet.getMesh(mesh).positions[0]; } };
-        loop(200);
-        gc();
-        const before = process.memoryUsage().heapUsed;
-        loop(300);
-        const bytes = (process.memoryUsage().heapUsed - before) / 300;
+        // The engine compiles what it runs at times of its own, and to look costs a few bytes too: the least of some rounds,
+        // less a round of nothing, is what is left behind.
+        const left = (n) => {
+            gc();
+            const before = process.memoryUsage().heapUsed;
+            loop(n);
+            return process.memoryUsage().heapUsed - before;
+        };
+        const least = (n) => Math.min(...Array.from({ length: 8 }, () => left(n)));
+        const bytes = Math.max(0, least(300) - least(0)) / 300;
         garbage = `${bytes.toFixed(0)} bytes`;
-        assert.ok(bytes < 100, garbage);
+        assert.ok(bytes < 1, garbage);
     }
     console.log(`getCounts ${(1e6 * call).toFixed(0)} ns; positions of 10 000 vertices into an array ` +
                 `${(1e3 * copied).toFixed(1)} us; garbage of a tick and its mesh: ${garbage}`);
