@@ -3,6 +3,7 @@
 #include "host.h"
 
 #include "field/kiri_grid_work.h"
+#include "field/kiri_shape_work.h"
 #include "sheet/kiri_update.h"
 #include "world/kiri_world.h"
 
@@ -231,6 +232,123 @@ static void TestGridAtWork(void** state)
     CHECK_ALL_REFUSED(&host, spoilers);
 }
 
+/* ---- Regions and shape functions ---- */
+
+static void OwnerIsNoRegion(kiriSheetData* sheet)
+{
+    sheet->regions.field.owner.data[sheet->grid.squareCell.data[0]] = sheet->frames.count;
+}
+
+static void CellIsNobodys(kiriSheetData* sheet)
+{
+    sheet->regions.field.owner.data[sheet->grid.squareCell.data[0]] = KIRI_NONE;
+    sheet->regions.field.distance.data[sheet->grid.squareCell.data[0]] = KIRI_FAR;
+}
+
+static void BorderCellFollowsItself(kiriSheetData* sheet)
+{
+    int32_t cell = sheet->regions.border.first.data[0];
+    sheet->regions.border.cells.data[cell].next = cell;
+}
+
+static void SumOverflows(kiriSheetData* sheet)
+{
+    sheet->regions.material.data[0].area.low = INT64_MIN;
+}
+
+static void TestRegions(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "OwnerIsNoRegion", OwnerIsNoRegion },
+        { "CellIsNobodys", CellIsNobodys },
+        { "BorderCellFollowsItself", BorderCellFollowsItself },
+        { "SumOverflows", SumOverflows },
+    };
+    Host host;
+    StartCut(&host);
+    CHECK_ALL_REFUSED(&host, spoilers);
+}
+
+static void WeightIsOfNoFrame(kiriSheetData* sheet)
+{
+    sheet->shape.weights.data[sheet->shape.spans.data[0].first].frame = 1 << 20;
+}
+
+static void WeightIsZero(kiriSheetData* sheet)
+{
+    sheet->shape.weights.data[sheet->shape.spans.data[0].first].raw = 0.0;
+}
+
+static void SpansOverlap(kiriSheetData* sheet)
+{
+    sheet->shape.spans.data[0] = sheet->shape.spans.data[1];
+}
+
+static void DistanceIsNegative(kiriSheetData* sheet)
+{
+    sheet->shape.reaches.blocks.data[sheet->shape.reaches.ofCells.data[0]].fromSite[0] = INT32_MIN;
+}
+
+static void CellBeyondTheGridIsNear(kiriSheetData* sheet)
+{
+    int32_t last = sheet->shape.reaches.ofCells.count - 1, block = sheet->shape.reaches.ofCells.data[last];
+    assert_true(sheet->grid.cells.count % KIRI_BLOCK_CELLS > 0);
+    sheet->shape.reaches.blocks.data[block].fromSite[KIRI_BLOCK_CELLS - 1] = 0;
+}
+
+static void BlockFollowsItself(kiriSheetData* sheet)
+{
+    int32_t block = sheet->shape.reaches.ofFrame.data[0];
+    sheet->shape.reaches.blocks.data[block].nextOfFrame = block;
+}
+
+static void FrameIsTouchedAtRest(kiriSheetData* sheet)
+{
+    sheet->shape.work->frames.data[0].firstTouch = 0;
+}
+
+static void TestShape(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "WeightIsOfNoFrame", WeightIsOfNoFrame },
+        { "WeightIsZero", WeightIsZero },
+        { "SpansOverlap", SpansOverlap },
+        { "DistanceIsNegative", DistanceIsNegative },
+        { "CellBeyondTheGridIsNear", CellBeyondTheGridIsNear },
+        { "BlockFollowsItself", BlockFollowsItself },
+        { "FrameIsTouchedAtRest", FrameIsTouchedAtRest },
+    };
+    Host host;
+    StartCut(&host);
+    CHECK_ALL_REFUSED(&host, spoilers);
+}
+
+static void DirtyFrameIsNone(kiriSheetData* sheet)
+{
+    sheet->shape.work->dirtyFrames.data[0] = 1 << 20;
+}
+
+static void CellIsDirtyTwice(kiriSheetData* sheet)
+{
+    kiriField* field = &sheet->regions.field;
+    field->settled.data[0] = field->settled.data[1] = 0;
+    field->settled.count = 2;
+}
+
+static void TestShapeAtWork(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "DirtyFrameIsNone", DirtyFrameIsNone },
+        { "CellIsDirtyTwice", CellIsDirtyTwice },
+    };
+    Host host;
+    StartAtWork(&host, KIRI_STAGE_SHAPE, 0);
+    CHECK_ALL_REFUSED(&host, spoilers);
+}
+
 /* ---- What is no harm ---- */
 
 /* The cell of a point is found anew with the next cut, where the grid was made from scratch: a save may have any. */
@@ -252,9 +370,8 @@ static void TestPointOfNoCell(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestMesh),
-        cmocka_unit_test(TestGrid),
-        cmocka_unit_test(TestGridAtWork),
+        cmocka_unit_test(TestMesh),          cmocka_unit_test(TestGrid),  cmocka_unit_test(TestGridAtWork),
+        cmocka_unit_test(TestRegions),       cmocka_unit_test(TestShape), cmocka_unit_test(TestShapeAtWork),
         cmocka_unit_test(TestPointOfNoCell),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

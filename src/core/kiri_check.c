@@ -157,6 +157,15 @@ bool kiriCheck_Distinct(kiriCheck* check, const kiriIndices* indices, int64_t en
     return kiriCheck_That(check, areFine);
 }
 
+bool kiriCheck_Marked(kiriCheck* check, const kiriIndices* list, int64_t end, const uint8_t* marks, uint8_t mark)
+{
+    bool areFine = kiriCheck_Distinct(check, list, end);
+    for (int32_t k = 0; areFine && k < list->count; ++k) {
+        areFine = (marks[list->data[k]] & mark) != 0;
+    }
+    return kiriCheck_That(check, areFine);
+}
+
 bool kiriCheck_StartChains(kiriCheck* check, kiriChains* chains, const void* next, size_t stride, int32_t items)
 {
     *chains = (kiriChains){ kiriCheck_Bytes(check, items), next, (int64_t)stride, items, 0 };

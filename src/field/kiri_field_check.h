@@ -1,11 +1,18 @@
-/* Are grid and links that were read such that work may go on with them? */
+/* Are grid, regions, shape functions, links and sites that were read such that work may go on with them? */
 #ifndef KIRI_FIELD_CHECK_H
 #define KIRI_FIELD_CHECK_H
 
 #include "../core/kiri_check.h"
 #include "kiri_link.h"
+#include "kiri_place.h"
+#include "kiri_shape.h"
 
 KIRI_C_BEGIN
+
+/* Distances of ways that a step may go on from. */
+enum { KIRI_FARTHEST = KIRI_FAR - 4 * KIRI_UNIT_KNIGHT };
+
+extern const kiriMust kiriSiteMust[2];
 
 /* The mesh is right. Counts cells and faces. */
 bool kiriGrid_Check(const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* check);
@@ -13,7 +20,20 @@ bool kiriGrid_Check(const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* c
 /* Of a grid that is reset before it is used again. */
 bool kiriGrid_CheckLeft(const kiriGrid* grid, kiriCheck* check);
 
-/* Those in force are of frames, those that are staged of sites: both are counted. */
+/* What a field is for: floods alone; repairs, too; and where frames measure their shapes, it is emptied block by block, or
+   is empty between frames. */
+typedef enum kiriFieldUse { KIRI_FIELD_FLOODS, KIRI_FIELD_REPAIRS, KIRI_FIELD_EMPTIED, KIRI_FIELD_EMPTY } kiriFieldUse;
+
+/* A field of the grid, whose owners are below so many. */
+bool kiriField_Check(const kiriField* field, kiriCheck* check, int64_t owners, kiriFieldUse use);
+
+/* Of a field that is emptied before it is used again: it may have been larger. */
+bool kiriField_CheckLeft(const kiriField* field, kiriCheck* check);
+
+/* May parts of a sheet be added and taken away? */
+bool kiriTally_IsSum(const kiriTally* tally);
+bool kiriRegions_Check(const kiriRegions* regions, const kiriGrid* grid, kiriCheck* check, bool areAllOwned);
+bool kiriShape_Check(const kiriShape* shape, const kiriGrid* grid, kiriCheck* check);
 bool kiriLinks_Check(const kiriLinks* links, kiriCheck* check);
 
 KIRI_C_END

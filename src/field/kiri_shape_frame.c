@@ -118,7 +118,7 @@ static int32_t DistanceToBorder(const kiriShapeJob* job, int32_t x)
             least = half < least ? half : least;
         }
     }
-    return least;
+    return least > 0 ? least : 0; /* it is, but for distances that somebody made up */
 }
 
 static kiriSeed BorderSeed(const void* context, int32_t cell)
@@ -149,9 +149,8 @@ static bool HasWeight(const void* context, int32_t cell)
 static double RawWeight(bool inside, int32_t d, int32_t e)
 {
     if (inside) {
-        /* Never 0 / 0: d is 0 only in the middle of the site's own cell, and the border does not pass there. In a piece
-           with one frame e is KIRI_FAR, which makes the weight 1 once it is normalised. */
-        return 0.5 * (1.0 + e / ((double)d + e));
+        /* In a piece with one frame e is KIRI_FAR, which makes the weight 1 once it is normalised. */
+        return e > 0 ? 0.5 * (1.0 + e / ((double)d + e)) : 0.5;
     }
     return (double)d > 2.0 * e ? 0.5 * (1.0 - e / ((double)d - e)) : 0.0;
 }
@@ -451,7 +450,7 @@ static void UnloadCells(kiriShapeJob* job, kiriReachBlock* block, const int32_t*
         bool is = fromSite[k] != KIRI_FAR || block->fromSite[k] != KIRI_FAR;
         block->fromSite[k] = fromSite[k];
         block->fromBorder[k] = fromBorder[k];
-        if (is && (!same || HasTurned(job, cell)) && (job->work->marks.data[cell] & KIRI_MARK_GONE) == 0) {
+        if (is && (!same || HasTurned(job, cell)) && kiriGrid_IsCell(job->grid, cell)) {
             AddRawWeight(job, cell, fromSite[k], fromBorder[k]);
         }
     }

@@ -257,6 +257,37 @@ static bool ArePoints(kiriCheck* check, const kiriSheetData* sheet)
     return areFine && kiriPlaces_Check(&sheet->pointPlaces, check, sheet->points.count);
 }
 
+/* ---- The work at hand --------------------------------------------------------------------------------------------- */
+
+/* Steps of kiri_stages.c and of those that it names. */
+enum { STEP_LINKS = 3 };
+
+/* Sites are in cells that live, once they were found again in the new grid. */
+static bool AreSitesIn(kiriCheck* check, const kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    bool areFound =
+        u->stage < KIRI_STAGE_GRID || u->stage > KIRI_STAGE_REGIONS || (u->stage == KIRI_STAGE_REGIONS && u->step > 0);
+    bool areFine = true;
+    for (int32_t i = 0; areFine && (areFound || !u->isScratch) && i < u->placing.sites.count; ++i) {
+        const kiriSite* site = &u->placing.sites.data[i];
+        areFine = kiriCheck_Object(check, kiriSiteMust, site) &&
+                  kiriCheck_That(check, !areFound || kiriGrid_IsCell(&sheet->grid, site->cell));
+    }
+    return areFine;
+}
+
+/* Grid, regions, shape functions, and what was done with them. */
+static bool IsFollowed(kiriCheck* check, const kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    bool areOwned = u->stage <= KIRI_STAGE_CUT || u->stage > KIRI_STAGE_REGIONS;
+    bool isDividing = u->stage == KIRI_STAGE_SHAPE && u->step == STEP_LINKS - 1;
+    return kiriGrid_Check(&sheet->grid, &sheet->mesh, check) && AreSitesIn(check, sheet) &&
+           kiriRegions_Check(&sheet->regions, &sheet->grid, check, areOwned && !isDividing) &&
+           kiriShape_Check(&sheet->shape, &sheet->grid, check);
+}
+
 /* ---- What is seen ------------------------------------------------------------------------------------------------- */
 
 /* There may be more than the vertices of today need. */
@@ -365,7 +396,7 @@ bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check)
     check->count[KIRI_OF_SITES] = u->placing.sites.count;
     bool isMesh = kiriMesh_Check(&sheet->mesh, check) && AreSettings(check, &sheet->settings) &&
                   AreFramesSound(check, sheet) && kiriCheck_That(check, u->placing.sites.count >= sheet->frames.count);
-    return isMesh && (u->needsRebuild ? AreLeft(check, sheet) : kiriGrid_Check(&sheet->grid, &sheet->mesh, check)) &&
+    return isMesh && (u->needsRebuild ? AreLeft(check, sheet) : IsFollowed(check, sheet)) &&
            kiriLinks_Check(&sheet->links, check) && IsLayout(check, sheet) && AreTurns(check, sheet) &&
            ArePins(check, sheet) &&
            kiriSkin_Check(&sheet->vertexSkin, check, sheet->mesh.vertices.count, &sheet->mesh) &&

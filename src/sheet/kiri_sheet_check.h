@@ -8,9 +8,9 @@
 
 KIRI_C_BEGIN
 
-/* What is in force: mesh, grid, frames, links, layout, weights, pins, points, cuts, contacts, what is seen, and the room
+/* What is in force: mesh, grid, regions, shape functions, frames, links, layout, weights, pins, points, cuts, contacts, what is seen, and the room
    that ticks use without asking for it. What the world knows is left to it: ids, and settings that the host gave. Not
-   looked at are regions, shape functions and the work on a cut. */
+   looked at is the rest of the work on a cut. */
 bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check);
 
 /* In what may be cut of the rest plane. */

@@ -1,0 +1,293 @@
+#include "kiri_field_check.h"
+#include "kiri_shape_work.h"
+
+/* ---- Rules ------------------------------------------------------------------------------------------------------ */
+
+static const kiriMust IsShapeCell[] = { KIRI_INDEX(KIRI_OF_CELLS, kiriSpan, first, first) };
+static const kiriMust IsRegion[] = { KIRI_INDEX(KIRI_OF_REGIONS, kiriSpan, first, first) };
+
+static const kiriMust WeightMust[] = {
+    KIRI_INDEX(KIRI_OF_REGIONS, kiriCellWeight, frame, frame),
+    KIRI_REALS(kiriCellWeight, value, raw),
+};
+
+static const kiriMust ReachBlockMust[] = {
+    KIRI_INDEX_OR_NONE(KIRI_OF_REGIONS, kiriReachBlock, frame, frame),
+};
+
+static const kiriMust ShapeFrameMust[] = {
+    KIRI_WITHIN(0, KIRI_FAR, kiriShapeFrame, limit, limit),
+    KIRI_WITHIN(0, INT32_MAX, kiriShapeFrame, touches, touches),
+};
+
+static const kiriMust RawWeightMust[] = {
+    KIRI_INDEX(KIRI_OF_CELLS, kiriRawWeight, cell, cell),
+    KIRI_INDEX(KIRI_OF_REGIONS, kiriRawWeight, frame, frame),
+    KIRI_REALS(kiriRawWeight, raw, raw),
+};
+
+static const kiriMust TouchedMust[] = {
+    KIRI_INDEX(KIRI_OF_CELLS, kiriTouchedCell, cell, cell),
+};
+
+static const kiriMust ShapeWorkMust[] = {
+    KIRI_WITHIN(KIRI_FRAME_REST, KIRI_FRAME_UNLOAD, kiriShapeWork, frameStage, frameStage),
+    KIRI_ITEMS_MUST(kiriShapeWork, frames, ShapeFrameMust),
+    KIRI_LENGTH(KIRI_OF_REGIONS, kiriShapeWork, frames),
+    KIRI_ITEMS_MUST(kiriShapeWork, dirtyFrames, IsRegion),
+    KIRI_WITHIN(KIRI_SHAPE_REST, KIRI_SHAPE_NORMALIZE, kiriShapeWork, stage, stage),
+    KIRI_WITHIN(0, INT32_MAX, kiriShapeWork, next, next),
+};
+
+/* While an update is at hand: what rests has whatever the last one left there. */
+static const kiriMust RunningShapeMust[] = {
+    KIRI_ITEMS_MUST(kiriShapeWork, touches, TouchedMust),
+    KIRI_ITEMS_MUST(kiriShapeWork, rawWeights, RawWeightMust),
+    KIRI_ITEMS_MUST(kiriShapeWork, dirty, IsShapeCell),
+};
+
+static const kiriMust ShapeMust[] = {
+    KIRI_ITEMS_MUST(kiriShape, reaches.blocks, ReachBlockMust),
+    KIRI_LENGTH(KIRI_OF_REGIONS, kiriShape, reaches.ofFrame),
+    KIRI_REALS(kiriShape, rigidWeight, rigidWeight),
+    KIRI_ITEMS_MUST(kiriShape, changes, IsShapeCell),
+    KIRI_COUNTS(kiriShape, recomputed, recomputed),
+    KIRI_OWNED_MUST(kiriShape, work, ShapeWorkMust),
+};
+
+/* Of weights that are awaited nothing is there yet. */
+static bool AreWeightsOf(kiriCheck* check, const kiriShape* shape, int32_t cell)
+{
+    kiriSpan span = shape->spans.data[cell];
+    int32_t awaited = shape->work->awaited.data[cell];
+    bool areFine = awaited >= 0 && awaited <= (span.count > 0 ? span.count : check->count[KIRI_OF_REGIONS]);
+    for (int32_t k = span.first; areFine && k < span.first + span.count - (span.count > 0 ? awaited : 0); ++k) {
+        const kiriCellWeight* weight = &shape->weights.data[k];
+        areFine = kiriCheck_Object(check, WeightMust, weight) && weight->raw > 0.0 && weight->raw <= 1.0 &&
+                  weight->value >= 0.0 && weight->value <= 1.0;
+    }
+    return kiriCheck_That(check, areFine);
+}
+
+static bool AreWeights(kiriCheck* check, const kiriShape* shape)
+{
+    kiriRooms rooms;
+    bool areFine = kiriCheck_StartRooms(check, &rooms, &shape->weights, sizeof(kiriCellWeight), &shape->room);
+    for (int32_t c = 0; areFine && c < shape->spans.count; ++c) {
+        areFine = kiriCheck_Span(check, &rooms, shape->spans.data[c]) && AreWeightsOf(check, shape, c);
+    }
+    kiriMemory_Free(&check->memory, areFine ? rooms.taken : NULL);
+    return areFine;
+}
+
+/* Cells beyond those of the grid are far. */
+static bool AreDistances(const kiriReachBlock* block, int64_t cells)
+{
+    bool areFine = true;
+    for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
+        int32_t site = block->fromSite[k], border = block->fromBorder[k];
+        bool isThere = (int64_t)block->cells * KIRI_BLOCK_CELLS + k < cells;
+        areFine &= (site == KIRI_FAR || (isThere && site >= 0 && site <= KIRI_FARTHEST)) &&
+                   (border == KIRI_FAR || (isThere && border >= 0 && border <= KIRI_FARTHEST));
+    }
+    return areFine;
+}
+
+/* Blocks are in the list of their cells and in that of their frame, or free. */
+static bool AreReaches(kiriCheck* check, const kiriReaches* reaches)
+{
+    const kiriReachBlock* blocks = reaches->blocks.data;
+    if (reaches->blocks.count == 0) {
+        return kiriCheck_That(check, reaches->freeBlocks == 0);
+    }
+    kiriChains ofCells, ofFrame;
+    bool areFine = kiriCheck_StartChains(check, &ofCells, &blocks->nextOfCells, sizeof(*blocks), reaches->blocks.count);
+    for (int32_t c = 0; areFine && c < reaches->ofCells.count; ++c) {
+        areFine = kiriCheck_Chain(check, &ofCells, reaches->ofCells.data[c]);
+        for (int32_t b = reaches->ofCells.data[c]; areFine && b != KIRI_NONE; b = blocks[b].nextOfCells) {
+            areFine = kiriCheck_That(check, blocks[b].cells == c && blocks[b].frame != KIRI_NONE &&
+                                                AreDistances(&blocks[b], check->count[KIRI_OF_CELLS]));
+        }
+    }
+    areFine =
+        areFine && kiriCheck_StartChains(check, &ofFrame, &blocks->nextOfFrame, sizeof(*blocks), reaches->blocks.count);
+    for (int32_t f = 0; areFine && f < reaches->ofFrame.count; ++f) {
+        int32_t before = KIRI_NONE;
+        areFine = kiriCheck_Chain(check, &ofFrame, reaches->ofFrame.data[f]);
+        for (int32_t b = reaches->ofFrame.data[f]; areFine && b != KIRI_NONE; b = blocks[b].nextOfFrame) {
+            areFine = kiriCheck_That(check, blocks[b].frame == f && blocks[b].previousOfFrame == before);
+            before = b;
+        }
+    }
+    areFine = areFine && kiriCheck_That(check, ofCells.listed == ofFrame.listed && reaches->freeBlocks >= 0);
+    int32_t free = areFine ? reaches->freeBlock : KIRI_NONE;
+    for (int32_t k = 0; areFine && k < reaches->freeBlocks; ++k) {
+        areFine = kiriCheck_That(check, free >= 0 && free < reaches->blocks.count && !ofFrame.seen[free] &&
+                                            blocks[free].frame == KIRI_NONE);
+        if (areFine) {
+            ofFrame.seen[free] = 1;
+            free = blocks[free].nextOfFrame;
+        }
+    }
+    return areFine && kiriCheck_That(check, ofFrame.listed + reaches->freeBlocks == reaches->blocks.count);
+}
+
+static bool AreListsOfShape(kiriCheck* check, const kiriShape* shape)
+{
+    const kiriShapeWork* work = shape->work;
+    kiriIndices changes = { shape->changes.data, shape->changes.count, shape->changes.capacity };
+    kiriIndices dirty = { work->dirty.data, work->dirty.count, work->dirty.capacity };
+    kiriIndices frames = { work->dirtyFrames.data, work->dirtyFrames.count, work->dirtyFrames.capacity };
+    bool isFilling = work->stage > KIRI_SHAPE_REST && work->stage < KIRI_SHAPE_NORMALIZE;
+    bool areFine =
+        kiriCheck_Marked(check, &changes, work->marks.count, work->marks.data, KIRI_MARK_CHANGED) &&
+        kiriCheck_That(check, changes.capacity >= shape->spans.count && work->dirty.capacity >= shape->spans.count) &&
+        (!isFilling || kiriCheck_Marked(check, &dirty, work->marks.count, work->marks.data, KIRI_MARK_DIRTY)) &&
+        kiriCheck_Distinct(check, &frames, work->frames.count);
+    for (int32_t k = 0; areFine && k < frames.count; ++k) {
+        areFine = kiriCheck_That(check, work->frames.data[frames.data[k]].dirty);
+    }
+    return areFine && kiriCheck_That(check, frames.capacity >= work->frames.count &&
+                                                (work->stage != KIRI_SHAPE_REST || frames.count == 0));
+}
+
+static bool AreSideCounts(const kiriShapeWork* work, kiriSpan sides)
+{
+    bool areFine = true;
+    for (int32_t k = sides.first; k < sides.first + sides.count; ++k) {
+        areFine &= work->sideCounts.data[k] >= 0 && work->sideCounts.data[k] < INT32_MAX / 2;
+    }
+    return areFine;
+}
+
+/* How far distances have to go is counted in spans of their own; what touches frames are lists. */
+static bool AreCounted(kiriCheck* check, const kiriShapeWork* work, int32_t cells)
+{
+    kiriRooms rooms;
+    bool areFine = kiriCheck_StartRooms(check, &rooms, &work->sideCounts, sizeof(int32_t), &work->sideRoom);
+    for (int32_t f = 0; areFine && f < work->frames.count; ++f) {
+        const kiriShapeFrame* frame = &work->frames.data[f];
+        bool isAtRest = frame->firstTouch == KIRI_NONE && !frame->moved && !frame->dirty;
+        areFine = kiriCheck_Span(check, &rooms, frame->sides) && AreSideCounts(work, frame->sides) &&
+                  kiriCheck_That(check, work->stage == KIRI_SHAPE_REST ? isAtRest
+                                                                       : frame->firstTouch >= KIRI_NONE &&
+                                                                             frame->firstTouch < work->touches.count);
+    }
+    for (int32_t c = 0; areFine && c < cells; ++c) {
+        kiriCountedCell counted = work->counted.data[c];
+        areFine = kiriCheck_That(
+            check, counted.frame >= KIRI_NONE && counted.frame < work->frames.count &&
+                       (counted.frame == KIRI_NONE ||
+                        (counted.sides >= 0 && counted.sides < work->frames.data[counted.frame].sides.count)));
+    }
+    for (int32_t k = 0; areFine && work->stage != KIRI_SHAPE_REST && k < work->touches.count; ++k) {
+        areFine = kiriCheck_That(check, work->touches.data[k].next >= KIRI_NONE && work->touches.data[k].next < k);
+    }
+    return areFine;
+}
+
+/* Blocks that are loaded are of one frame: each knows its cells. */
+static bool AreLoaded(kiriCheck* check, const kiriShape* shape)
+{
+    const kiriShapeWork* work = shape->work;
+    const kiriReaches* reaches = &shape->reaches;
+    uint8_t* seen = kiriCheck_Bytes(check, work->isLoaded.count);
+    bool areFine = seen != NULL && work->loaded.capacity >= work->isLoaded.count &&
+                   (work->stage == KIRI_SHAPE_MEASURE || work->loaded.count == 0);
+    for (int32_t k = 0; areFine && k < work->loaded.count; ++k) {
+        kiriLoadedBlock loaded = work->loaded.data[k];
+        areFine = loaded.cells >= 0 && loaded.cells < work->isLoaded.count && !seen[loaded.cells] &&
+                  work->isLoaded.data[loaded.cells] != 0 && loaded.block >= KIRI_NONE &&
+                  loaded.block < reaches->blocks.count;
+        if (areFine) {
+            seen[loaded.cells] = 1;
+            areFine = loaded.block == KIRI_NONE || (reaches->blocks.data[loaded.block].frame != KIRI_NONE &&
+                                                    reaches->blocks.data[loaded.block].cells == loaded.cells);
+        }
+    }
+    kiriMemory_Free(&check->memory, seen);
+    return kiriCheck_That(check, areFine);
+}
+
+/* Sums of it, in units of 2^-40 of a square, hold. */
+#define MOST_OF_CELL (INT64_C(1) << 42)
+#define MOST_OF_SHEET (INT64_C(1) << 61)
+
+static bool IsRigidSum(int64_t sum, int64_t most)
+{
+    return sum >= -most && sum <= most;
+}
+
+static bool AreRigidSums(const kiriShape* shape)
+{
+    bool areFine = true;
+    for (int32_t f = 0; f < shape->rigid.count; ++f) {
+        areFine &= IsRigidSum(shape->rigid.data[f], MOST_OF_SHEET);
+    }
+    return areFine;
+}
+
+/* As many weights come to a cell as it awaits. */
+static bool AreAwaited(kiriCheck* check, const kiriShape* shape)
+{
+    const kiriShapeWork* work = shape->work;
+    int32_t* left = (int32_t*)(void*)kiriCheck_Bytes(check, (int64_t)sizeof(int32_t) * shape->spans.count);
+    int32_t from = work->stage == KIRI_SHAPE_PLACE ? work->next : 0;
+    bool areFine = left != NULL;
+    bool isFilling = work->stage > KIRI_SHAPE_REST && work->stage < KIRI_SHAPE_NORMALIZE;
+    for (int32_t k = from; areFine && isFilling && k < work->rawWeights.count; ++k) {
+        const kiriRawWeight* weight = &work->rawWeights.data[k];
+        bool isAwaited = work->awaited.data[weight->cell] > 0;
+        left[weight->cell] += isAwaited;
+        areFine = weight->raw <= 1.0 && (isAwaited ? weight->raw > 0.0 : weight->raw >= 0.0);
+    }
+    for (int32_t c = 0; areFine && c < shape->spans.count; ++c) {
+        areFine = left[c] == work->awaited.data[c] && IsRigidSum(work->rigidShares.data[c], MOST_OF_CELL);
+    }
+    kiriMemory_Free(&check->memory, left);
+    return kiriCheck_That(check, areFine);
+}
+
+static bool AreRowsOfShape(const kiriShape* shape, const kiriGrid* grid)
+{
+    const kiriShapeWork* work = shape->work;
+    int32_t cells = shape->spans.count, blocks = work->isLoaded.count;
+    return cells <= grid->cells.count && (work->stage == KIRI_SHAPE_REST || cells == grid->cells.count) &&
+           cells <= work->wasOwner.count && cells <= work->awaited.count && cells <= work->counted.count &&
+           cells <= work->rigidShares.count && blocks == shape->reaches.ofCells.count &&
+           work->marks.count == (int64_t)blocks * KIRI_BLOCK_CELLS && work->marks.count >= cells &&
+           work->marks.count == work->fromSite.distance.count && work->marks.count == work->fromBorder.distance.count &&
+           (work->frameStage == KIRI_FRAME_REST || work->stage == KIRI_SHAPE_MEASURE);
+}
+
+/* Between frames it is empty; but for one of which some was loaded, cells may be dirty. */
+static bool IsFieldOfFrame(kiriCheck* check, const kiriShapeWork* work, const kiriField* field)
+{
+    kiriFieldUse use = work->frameStage == KIRI_FRAME_REST     ? KIRI_FIELD_EMPTY
+                       : work->frameStage == KIRI_FRAME_UNLOAD ? KIRI_FIELD_EMPTIED
+                                                               : KIRI_FIELD_REPAIRS;
+    bool isAtFrame = work->stage == KIRI_SHAPE_MEASURE && work->next < work->dirtyFrames.count;
+    bool mayBeDirty =
+        use != KIRI_FIELD_EMPTY || (isAtFrame && !work->frames.data[work->dirtyFrames.data[work->next]].moved);
+    return kiriField_Check(field, check, INT32_MAX, use) &&
+           kiriCheck_That(check, mayBeDirty || field->dirty.count == 0);
+}
+
+bool kiriShape_Check(const kiriShape* shape, const kiriGrid* grid, kiriCheck* check)
+{
+    int64_t cells = check->count[KIRI_OF_CELLS];
+    if (!kiriCheck_That(check, shape->work != NULL) || !kiriCheck_That(check, AreRowsOfShape(shape, grid))) {
+        return false;
+    }
+    check->count[KIRI_OF_REGIONS] = shape->rigid.count;
+    check->count[KIRI_OF_CELLS] = shape->spans.count;
+    bool isFine = kiriCheck_That(check, shape->rigid.count <= check->count[KIRI_OF_SITES] && AreRigidSums(shape)) &&
+                  kiriCheck_Object(check, ShapeMust, shape) &&
+                  (shape->work->stage == KIRI_SHAPE_REST || kiriCheck_Object(check, RunningShapeMust, shape->work)) &&
+                  AreReaches(check, &shape->reaches) && IsFieldOfFrame(check, shape->work, &shape->work->fromSite) &&
+                  IsFieldOfFrame(check, shape->work, &shape->work->fromBorder) && AreListsOfShape(check, shape) &&
+                  AreCounted(check, shape->work, shape->spans.count) && AreLoaded(check, shape) &&
+                  AreWeights(check, shape) && AreAwaited(check, shape);
+    check->count[KIRI_OF_CELLS] = cells;
+    return isFine;
+}
