@@ -3,6 +3,8 @@
 #include "host.h"
 
 #include "field/kiri_grid_work.h"
+#include "field/kiri_link_work.h"
+#include "field/kiri_place_work.h"
 #include "field/kiri_shape_work.h"
 #include "sheet/kiri_update.h"
 #include "world/kiri_world.h"
@@ -349,7 +351,83 @@ static void TestShapeAtWork(void** state)
     CHECK_ALL_REFUSED(&host, spoilers);
 }
 
-/* ---- What is no harm ---- */
+/* ---- Links at work, and what is placed ---- */
+
+static void FaceIsNoBorder(kiriSheetData* sheet)
+{
+    const int32_t* owner = sheet->regions.field.owner.data;
+    const kiriFace* face = sheet->grid.faces.data;
+    while (face->cell[0] == KIRI_NONE || owner[face->cell[0]] != owner[face->cell[1]]) {
+        ++face;
+    }
+    sheet->links.work->faces.data[0] = (int32_t)(face - sheet->grid.faces.data);
+}
+
+static void SightIsUnlisted(kiriSheetData* sheet)
+{
+    sheet->links.work->edges.squares.count = 0;
+    sheet->links.work->edges.spans.data[0] = (kiriSpan){ 0, 1 };
+}
+
+static void TestLinksAtWork(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "FaceIsNoBorder", FaceIsNoBorder },
+        { "SightIsUnlisted", SightIsUnlisted },
+    };
+    Host host;
+    StartAtWork(&host, KIRI_STAGE_SHAPE, 3);
+    CHECK_ALL_REFUSED(&host, spoilers);
+}
+
+/* ---- The work as a whole ---- */
+
+static void StageIsTooHigh(kiriSheetData* sheet)
+{
+    sheet->update->stage = KIRI_READY + 1;
+}
+
+static void StepIsTooHigh(kiriSheetData* sheet)
+{
+    sheet->update->step = 7;
+}
+
+static void SiteIsInNoCell(kiriSheetData* sheet)
+{
+    sheet->update->placing.sites.data[0].cell = 1 << 24;
+}
+
+static void MoreIsTakenThanWaits(kiriSheetData* sheet)
+{
+    sheet->update->cut.taken = sheet->update->cut.count + 1;
+}
+
+static void OwnerOfMaterialIsNone(kiriSheetData* sheet)
+{
+    sheet->update->refit.ownership.squares.data[0].owner = 1 << 20;
+}
+
+static void PieceIsNone(kiriSheetData* sheet)
+{
+    sheet->update->next.framePiece.data[0] = 1 << 20;
+}
+
+static void TestWork(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "StageIsTooHigh", StageIsTooHigh },
+        { "StepIsTooHigh", StepIsTooHigh },
+        { "SiteIsInNoCell", SiteIsInNoCell },
+        { "MoreIsTakenThanWaits", MoreIsTakenThanWaits },
+        { "OwnerOfMaterialIsNone", OwnerOfMaterialIsNone },
+        { "PieceIsNone", PieceIsNone },
+    };
+    Host host;
+    StartAtWork(&host, KIRI_STAGE_SAMPLES, 4);
+    CHECK_ALL_REFUSED(&host, spoilers);
+}
 
 /* The cell of a point is found anew with the next cut, where the grid was made from scratch: a save may have any. */
 static void TestPointOfNoCell(void** state)
@@ -370,9 +448,9 @@ static void TestPointOfNoCell(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestMesh),          cmocka_unit_test(TestGrid),  cmocka_unit_test(TestGridAtWork),
-        cmocka_unit_test(TestRegions),       cmocka_unit_test(TestShape), cmocka_unit_test(TestShapeAtWork),
-        cmocka_unit_test(TestPointOfNoCell),
+        cmocka_unit_test(TestMesh),        cmocka_unit_test(TestGrid),  cmocka_unit_test(TestGridAtWork),
+        cmocka_unit_test(TestRegions),     cmocka_unit_test(TestShape), cmocka_unit_test(TestShapeAtWork),
+        cmocka_unit_test(TestLinksAtWork), cmocka_unit_test(TestWork),  cmocka_unit_test(TestPointOfNoCell),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

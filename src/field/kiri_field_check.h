@@ -34,7 +34,9 @@ bool kiriField_CheckLeft(const kiriField* field, kiriCheck* check);
 bool kiriTally_IsSum(const kiriTally* tally);
 bool kiriRegions_Check(const kiriRegions* regions, const kiriGrid* grid, kiriCheck* check, bool areAllOwned);
 bool kiriShape_Check(const kiriShape* shape, const kiriGrid* grid, kiriCheck* check);
-bool kiriLinks_Check(const kiriLinks* links, kiriCheck* check);
+bool kiriLinks_Check(const kiriLinks* links, const kiriGrid* grid, const kiriMeshData* mesh, const kiriRegions* regions,
+                     kiriCheck* check);
+bool kiriPlacer_Check(const kiriPlacer* placer, const kiriGrid* grid, kiriCheck* check);
 
 KIRI_C_END
 

@@ -1,7 +1,9 @@
 #include "kiri_field_check.h"
 #include "kiri_link_work.h"
 
-/* ---- Rules -------------------------------------------------------------------------------------------------------- */
+/* ---- Rules ------------------------------------------------------------------------------------------------------ */
+
+static const kiriMust IsLinkFace[] = { KIRI_INDEX(KIRI_OF_FACES, kiriSpan, first, first) };
 
 static const kiriMust LinkMust[] = {
     KIRI_INDEX(KIRI_OF_REGIONS, kiriLink, i, j),
@@ -18,19 +20,39 @@ static const kiriMust LinkEndsMust[] = {
     KIRI_PART_MUST(kiriLinkEnds, end, kiriLinkEnd, LinkEndMust),
 };
 
+static const kiriMust NewLinkMust[] = {
+    KIRI_INDEX(KIRI_OF_SITES, kiriNewLink, link.i, link.j),
+    KIRI_PART_MUST(kiriNewLink, ends, kiriLinkEnds, LinkEndsMust),
+    KIRI_INDEX_OR_NONE(KIRI_OF_FACES, kiriNewLink, face, face),
+};
+
 static const kiriMust CornerMust[] = {
     KIRI_WITHIN(3, 4, kiriCorner, count, count),
     KIRI_INDEX_OR_NONE(KIRI_OF_LINKS, kiriCorner, link, link),
     KIRI_REALS(kiriCorner, weight, area),
 };
 
+static const kiriMust RegionPairMust[] = {
+    KIRI_INDEX(KIRI_OF_SITES, kiriRegionPair, i, j),
+};
+
+static const kiriMust SightEdgeMust[] = {
+    KIRI_REALS(kiriSightEdge, tail, after),
+    KIRI_INDEX(KIRI_OF_HALF_EDGES, kiriSightEdge, edge, edge),
+    KIRI_INDEX(KIRI_OF_CELLS, kiriSightEdge, cell, cell),
+};
+
+static const kiriMust RunningLinksMust[] = {
+    KIRI_WITHIN(0, INT32_MAX - 1, kiriLinkWork, at, at),     KIRI_COUNTS(kiriLinkWork, due, due),
+    KIRI_LENGTH(KIRI_OF_SITES, kiriLinkWork, stale),         KIRI_ITEMS_MUST(kiriLinkWork, touched, RegionPairMust),
+    KIRI_ITEMS_MUST(kiriLinkWork, faces, IsLinkFace),        KIRI_ITEMS_MUST(kiriLinkWork, made, NewLinkMust),
+    KIRI_LENGTH(KIRI_OF_SQUARES, kiriLinkWork, edges.spans), KIRI_ITEMS_MUST(kiriLinkWork, edges.edges, SightEdgeMust),
+};
+
 static const kiriMust EndsOfLinksMust[] = {
     KIRI_ITEMS_MUST(kiriLinkWork, ends, LinkEndsMust),
 };
 
-/* ---- Links and corners -------------------------------------------------------------------------------------------- */
-
-/* In their order. */
 static bool AreRowOfLinks(kiriCheck* check, const kiriLink* links, int32_t count, int64_t frames)
 {
     check->count[KIRI_OF_REGIONS] = frames;
@@ -59,14 +81,82 @@ static bool AreCornersOfLinks(kiriCheck* check, const kiriCorner* corners, int32
     return areFine;
 }
 
-bool kiriLinks_Check(const kiriLinks* links, kiriCheck* check)
+/* Edges that were seen, by square: of a square that is not in the list nothing is known. */
+static bool AreSights(kiriCheck* check, const kiriLinkWork* work)
+{
+    const kiriSightEdges* edges = &work->edges;
+    kiriIndices squares = { edges->squares.data, edges->squares.count, edges->squares.capacity };
+    bool areFine = kiriCheck_Distinct(check, &squares, edges->spans.count);
+    int32_t known = 0, listed = 0;
+    for (int32_t s = 0; areFine && s < edges->spans.count; ++s) {
+        kiriSpan span = edges->spans.data[s];
+        known += span.count != KIRI_NONE;
+        areFine = span.count == KIRI_NONE ||
+                  (span.count >= 0 && span.first >= 0 && (int64_t)span.first + span.count <= edges->edges.count);
+    }
+    for (int32_t k = 0; areFine && k < squares.count; ++k) {
+        listed += edges->spans.data[squares.data[k]].count != KIRI_NONE;
+    }
+    return kiriCheck_That(check, areFine && known == listed && edges->spans.count <= check->count[KIRI_OF_SQUARES]);
+}
+
+/* They are of the border of the material: a walk around a vertex that begins at one ends. */
+static bool AreOfMaterial(const kiriSightEdges* edges, const kiriMeshData* mesh)
+{
+    bool areFine = true;
+    for (int32_t k = 0; areFine && k < edges->edges.count; ++k) {
+        int32_t h = edges->edges.data[k].edge;
+        areFine = kiriMesh_IsTriangle(mesh, h / 3) && (kiriMesh_Twin(mesh, h) == KIRI_NONE || kiriMesh_IsOpen(mesh, h));
+    }
+    return areFine;
+}
+
+static bool AreMarksOfFaces(const kiriLinkWork* work, int32_t faces)
+{
+    bool areFine = !work->running || work->marks.count >= faces;
+    for (int32_t k = 0; areFine && k < work->marks.count; ++k) {
+        areFine = work->marks.data[k] <= KIRI_FACE_BENT;
+    }
+    for (int32_t k = 0; areFine && work->running && k < work->faces.count; ++k) {
+        areFine = work->faces.data[k] >= 0 && work->faces.data[k] < work->marks.count;
+    }
+    return areFine;
+}
+
+/* Faces at hand are borders. */
+static bool AreFacesAtHand(const kiriLinkWork* work, const kiriGrid* grid, const int32_t* owner)
+{
+    bool areFine = true;
+    for (int32_t k = 0; areFine && k < work->faces.count; ++k) {
+        const kiriFace* face = &grid->faces.data[work->faces.data[k]];
+        areFine = face->cell[0] != KIRI_NONE && owner[face->cell[0]] != owner[face->cell[1]];
+    }
+    for (int32_t k = 0; areFine && k < work->made.count; ++k) {
+        const int32_t* cells = work->made.data[k].ends.end[0].cell;
+        for (int32_t e = 0; e < 2; ++e) {
+            cells = work->made.data[k].ends.end[e].cell;
+            areFine = areFine && cells[0] >= 0 && cells[0] < grid->cells.count && cells[1] >= 0 &&
+                      cells[1] < grid->cells.count;
+        }
+    }
+    return areFine;
+}
+
+bool kiriLinks_Check(const kiriLinks* links, const kiriGrid* grid, const kiriMeshData* mesh, const kiriRegions* regions,
+                     kiriCheck* check)
 {
     const kiriLinkWork* work = links->work;
-    return kiriCheck_That(check, work != NULL && work->ends.count == links->links.count &&
-                                     work->nextEnds.count == links->next.count) &&
-           AreRowOfLinks(check, links->next.data, links->next.count, check->count[KIRI_OF_SITES]) &&
+    if (!kiriCheck_That(check, work != NULL && work->ends.count == links->links.count &&
+                                   work->nextEnds.count == links->next.count)) {
+        return false;
+    }
+    return AreRowOfLinks(check, links->next.data, links->next.count, check->count[KIRI_OF_SITES]) &&
            AreCornersOfLinks(check, links->nextCorners.data, links->nextCorners.count, links->next.count) &&
            AreRowOfLinks(check, links->links.data, links->links.count, check->count[KIRI_OF_FRAMES]) &&
            AreCornersOfLinks(check, links->corners.data, links->corners.count, links->links.count) &&
-           kiriCheck_Object(check, EndsOfLinksMust, work);
+           kiriCheck_Object(check, EndsOfLinksMust, work) && AreSights(check, work) &&
+           kiriCheck_That(check, AreMarksOfFaces(work, grid->faces.count)) &&
+           (!work->running || (kiriCheck_Object(check, RunningLinksMust, work) &&
+                               kiriCheck_That(check, AreOfMaterial(&work->edges, mesh) &&
+                                                         AreFacesAtHand(work, grid, regions->field.owner.data))));
 }

@@ -259,8 +259,97 @@ static bool ArePoints(kiriCheck* check, const kiriSheetData* sheet)
 
 /* ---- The work at hand --------------------------------------------------------------------------------------------- */
 
-/* Steps of kiri_stages.c and of those that it names. */
-enum { STEP_LINKS = 3 };
+static const kiriMust MoveMust[] = {
+    KIRI_INDEX(KIRI_OF_SITES, kiriSiteMove, frame, frame),
+    KIRI_INDEX_OR_NONE(KIRI_OF_CELLS, kiriSiteMove, was, was),
+};
+
+static const kiriMust MomentsMust[] = {
+    KIRI_REALS(kiriMoments, area, vv),
+};
+
+static const kiriMust OwnMust[] = { KIRI_INDEX(KIRI_OF_SITES, kiriSpan, first, first) };
+
+static const kiriMust PlacingMust[] = {
+    KIRI_ITEMS_MUST(kiriUpdate, placing.own, OwnMust),
+};
+
+enum { MOST_STEPS = 16 };
+
+static const kiriMust UpdateMust[] = {
+    KIRI_WITHIN(KIRI_NONE, KIRI_READY, kiriUpdate, stage, stage),
+    KIRI_WITHIN(0, MOST_STEPS, kiriUpdate, step, step),
+    KIRI_COUNTS(kiriUpdate, spent, spent),
+    KIRI_COUNTS(kiriUpdate, cut.stamp, cut.stamp),
+    KIRI_WITHIN(0, INT32_MAX, kiriUpdate, cut.count, cut.taken),
+    KIRI_ITEMS_MUST(kiriUpdate, placing.moves, MoveMust),
+    KIRI_WITHIN(0, INT32_MAX, kiriUpdate, placing.movesSeen, placing.spread),
+    KIRI_COUNTS(kiriUpdate, placing.search.owed, placing.search.owed),
+    KIRI_REALS(kiriUpdate, placing.whole, placing.whole),
+    KIRI_WITHIN(0, INT32_MAX, kiriUpdate, placing.search.seen, placing.search.seen),
+    KIRI_WITHIN(0, INT32_MAX, kiriUpdate, placing.at, placing.at),
+    KIRI_ITEMS_MUST(kiriUpdate, material, MomentsMust),
+    KIRI_UP_TO(KIRI_OF_VERTICES, kiriUpdate, samples.oldVertices, samples.oldVertices),
+    KIRI_WITHIN(0, INT32_MAX / 8, kiriUpdate, refit.most, refit.most),
+    KIRI_COUNTS(kiriUpdate, due, due),
+};
+
+/* New samples are in cells; samples that move are points. */
+static bool AreNewSamples(const kiriSheetData* sheet)
+{
+    const kiriSampleWork* work = &sheet->update->samples;
+    bool areFine = true;
+    for (int32_t k = 0; areFine && k < work->newPoints.count; ++k) {
+        areFine = IsInSquare(sheet, work->newPoints.data[k].at) && work->newPoints.data[k].cell >= 0 &&
+                  work->newPoints.data[k].cell < sheet->grid.cells.count &&
+                  kiriGrid_IsCell(&sheet->grid, work->newPoints.data[k].cell);
+    }
+    for (int32_t k = 0; areFine && k < work->movedPoints.count; ++k) {
+        areFine = work->movedPoints.data[k].cell >= 0 && work->movedPoints.data[k].cell < sheet->grid.cells.count &&
+                  work->movedPoints.data[k].frame >= 0 && work->movedPoints.data[k].frame < sheet->points.count;
+    }
+    return areFine;
+}
+
+/* Steps of kiri_stages.c and of those that it names: the last of each stage, and some after which more is there. */
+enum { STEP_ORPHANS = 2, STEP_SITES = 1, STEP_LINKS = 3, STEP_SAMPLES = 2, STEP_POINTS = 6, STEP_PREPARE = 2 };
+
+static bool IsStepOfStage(const kiriUpdate* u)
+{
+    static const int32_t last[KIRI_READY + 1] = { 1, 0, STEP_ORPHANS, STEP_LINKS, STEP_POINTS, STEP_PREPARE, 0 };
+    return u->stage == KIRI_NONE || u->step <= last[u->stage];
+}
+
+/* Marks are of cells, of frames or of pieces, as the step at hand has them. */
+static bool AreMarks(const kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    int64_t marks = u->placing.marks.count;
+    if (u->stage == KIRI_STAGE_REGIONS && u->step == STEP_ORPHANS) {
+        return marks == sheet->grid.cells.count;
+    }
+    if (u->stage == KIRI_STAGE_SHAPE && u->step == STEP_SITES) {
+        return marks <= u->placing.sites.count && marks >= sheet->frames.count;
+    }
+    return u->stage != KIRI_STAGE_SAMPLES || u->step < STEP_POINTS || marks == u->next.pieces.count;
+}
+
+/* What is staged for the commit: pieces that links join. */
+static bool IsStaged(kiriCheck* check, const kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    bool isLate = u->stage > KIRI_STAGE_SAMPLES || (u->stage == KIRI_STAGE_SAMPLES && u->step >= STEP_SAMPLES);
+    if (u->stage == KIRI_READY || !isLate) {
+        return kiriCheck_That(check, u->stage != KIRI_READY);
+    }
+    bool isFine = ArePieces(check, &u->next, u->placing.sites.count) &&
+                  kiriCheck_That(check, AreLinksOfPieces(&u->next, sheet->links.next.data, sheet->links.next.count));
+    for (int32_t p = 0; isFine && p < u->next.pieces.count; ++p) {
+        int32_t origin = u->next.pieces.data[p].origin;
+        isFine = origin >= KIRI_NONE && origin < sheet->layout.pieces.count;
+    }
+    return kiriCheck_That(check, isFine && u->material.count == u->placing.sites.count);
+}
 
 /* Sites are in cells that live, once they were found again in the new grid. */
 static bool AreSitesIn(kiriCheck* check, const kiriSheetData* sheet)
@@ -277,6 +366,45 @@ static bool AreSitesIn(kiriCheck* check, const kiriSheetData* sheet)
     return areFine;
 }
 
+/* Frames that appear take their motion from where there is a triangle. */
+static bool AreNewFrames(const kiriSheetData* sheet)
+{
+    bool areFine = true;
+    for (int32_t k = 0; areFine && k < sheet->update->newFrames.count; ++k) {
+        int32_t triangle = sheet->update->newFrames.data[k].triangle;
+        areFine =
+            triangle >= 0 && triangle < sheet->mesh.triangles.count && kiriMesh_IsTriangle(&sheet->mesh, triangle);
+    }
+    return areFine;
+}
+
+/* What rests has whatever the last work left there. */
+static bool ArePartsOfWork(const kiriUpdate* u, const kiriSheetData* sheet)
+{
+    int64_t sites = u->placing.sites.count, fresh = sites - sheet->frames.count;
+    bool isPlaced = u->stage == KIRI_STAGE_CONSTANTS && u->step > 0;
+    if (u->stage == KIRI_NONE) {
+        return fresh == 0;
+    }
+    return u->cut.taken <= u->cut.count && u->cut.count <= sheet->queue.count &&
+           u->placing.movesSeen <= u->placing.moves.count && IsStepOfStage(u) &&
+           (!isPlaced || u->newFrames.count <= fresh) &&
+           (u->step < STEP_PREPARE || !isPlaced || u->newFrames.count == fresh) &&
+           ((!u->placing.isTaking && !u->placing.isPlacing) || u->placing.placer.work != NULL);
+}
+
+/* The placer is amid a piece: which step it is of is known by the stage. */
+static bool IsPlacing(const kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    bool isAmid = u->placing.isTaking || u->placing.isPlacing;
+    bool may =
+        (u->stage == KIRI_STAGE_REGIONS && u->step == STEP_ORPHANS && u->placing.at < sheet->regions.orphans.count) ||
+        (u->stage == KIRI_STAGE_SHAPE && u->step == STEP_SITES && u->placing.at < u->placing.marks.count) ||
+        (u->stage == KIRI_STAGE_SAMPLES && u->step == STEP_POINTS);
+    return !isAmid || may;
+}
+
 /* Grid, regions, shape functions, and what was done with them. */
 static bool IsFollowed(kiriCheck* check, const kiriSheetData* sheet)
 {
@@ -285,7 +413,23 @@ static bool IsFollowed(kiriCheck* check, const kiriSheetData* sheet)
     bool isDividing = u->stage == KIRI_STAGE_SHAPE && u->step == STEP_LINKS - 1;
     return kiriGrid_Check(&sheet->grid, &sheet->mesh, check) && AreSitesIn(check, sheet) &&
            kiriRegions_Check(&sheet->regions, &sheet->grid, check, areOwned && !isDividing) &&
-           kiriShape_Check(&sheet->shape, &sheet->grid, check);
+           kiriShape_Check(&sheet->shape, &sheet->grid, check) &&
+           kiriPlacer_Check(&u->placing.placer, &sheet->grid, check) &&
+           kiriOwnership_Check(&u->refit.ownership, check, &sheet->mesh) &&
+           kiriCheck_That(check, AreNewSamples(sheet) && AreMarks(sheet) && IsPlacing(sheet));
+}
+
+static bool IsWork(kiriCheck* check, const kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    check->count[KIRI_OF_SAMPLES] =
+        u->stage == KIRI_STAGE_SAMPLES && u->step == STEP_POINTS - 1 ? sheet->points.count : sheet->mesh.vertices.count;
+    bool isPlaced = u->stage == KIRI_STAGE_CONSTANTS && u->step > 0;
+    return kiriCheck_Object(check, UpdateMust, u) &&
+           (!isPlaced || kiriCheck_That(check, AreNewFrames(sheet) && kiriRefit_HasRoom(&u->refit))) &&
+           (!u->placing.isPlacing || kiriCheck_Object(check, PlacingMust, u)) &&
+           kiriCheck_That(check, ArePartsOfWork(u, sheet)) && kiriRefresh_Check(&u->samples.refresh, check) &&
+           IsStaged(check, sheet);
 }
 
 /* ---- What is seen ------------------------------------------------------------------------------------------------- */
@@ -397,13 +541,13 @@ bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check)
     bool isMesh = kiriMesh_Check(&sheet->mesh, check) && AreSettings(check, &sheet->settings) &&
                   AreFramesSound(check, sheet) && kiriCheck_That(check, u->placing.sites.count >= sheet->frames.count);
     return isMesh && (u->needsRebuild ? AreLeft(check, sheet) : IsFollowed(check, sheet)) &&
-           kiriLinks_Check(&sheet->links, check) && IsLayout(check, sheet) && AreTurns(check, sheet) &&
-           ArePins(check, sheet) &&
+           kiriLinks_Check(&sheet->links, &sheet->grid, &sheet->mesh, &sheet->regions, check) &&
+           IsLayout(check, sheet) && AreTurns(check, sheet) && ArePins(check, sheet) &&
            kiriSkin_Check(&sheet->vertexSkin, check, sheet->mesh.vertices.count, &sheet->mesh) &&
            kiriSkin_Check(&sheet->pointSkin, check, sheet->points.count, NULL) &&
            kiriCheck_That(
                check, AreElementsOfPieces(&sheet->layout) && AreSamplesOfPieces(&sheet->layout, &sheet->vertexSkin) &&
                           AreSamplesOfPieces(&sheet->layout, &sheet->pointSkin) && AreTrianglesOfPieces(sheet)) &&
-           ArePoints(check, sheet) && kiriCuts_Check(sheet, check) && IsSeen(check, sheet) &&
+           IsWork(check, sheet) && ArePoints(check, sheet) && kiriCuts_Check(sheet, check) && IsSeen(check, sheet) &&
            AreContacts(check, sheet) && HasRoomForRows(check, sheet);
 }

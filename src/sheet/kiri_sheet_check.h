@@ -8,9 +8,8 @@
 
 KIRI_C_BEGIN
 
-/* What is in force: mesh, grid, regions, shape functions, frames, links, layout, weights, pins, points, cuts, contacts, what is seen, and the room
-   that ticks use without asking for it. What the world knows is left to it: ids, and settings that the host gave. Not
-   looked at is the rest of the work on a cut. */
+/* All of it, but for what the world knows: ids, and settings that the host gave. After it all rooms are large enough that
+   ticks use without asking for them. */
 bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check);
 
 /* In what may be cut of the rest plane. */

@@ -2,6 +2,7 @@
 
 /* ---- Rules -------------------------------------------------------------------------------------------------------- */
 
+static const kiriMust MustBeSquareOfView[] = { KIRI_INDEX(KIRI_OF_SQUARES, kiriSpan, first, first) };
 static const kiriMust IsSampleOrNone[] = { KIRI_INDEX_OR_NONE(KIRI_OF_SAMPLES, kiriSpan, first, first) };
 
 static const kiriMust SampleWeightMust[] = {
@@ -13,6 +14,12 @@ static const kiriMust PlacesMust[] = {
     KIRI_ITEMS_MUST(kiriPlaces, head, IsSampleOrNone),
     KIRI_ITEMS_MUST(kiriPlaces, next, IsSampleOrNone),
     KIRI_LENGTH(KIRI_OF_SAMPLES, kiriPlaces, next),
+};
+
+static const kiriMust RefreshMust[] = {
+    KIRI_ITEMS_MUST(kiriRefresh, noted, MustBeSquareOfView),
+    KIRI_ITEMS_MUST(kiriRefresh, squares, MustBeSquareOfView),
+    KIRI_WITHIN(0, INT32_MAX - 1, kiriRefresh, change, square),
 };
 
 static const kiriMust FadingMust[] = {
@@ -111,6 +118,21 @@ bool kiriPlaces_Check(const kiriPlaces* places, kiriCheck* check, int32_t sample
         areFine = kiriCheck_Chain(check, &chains, places->head.data[s]);
     }
     return areFine;
+}
+
+/* Marks are up while squares are collected, of these alone; and each comes once. */
+bool kiriRefresh_Check(const kiriRefresh* refresh, kiriCheck* check)
+{
+    kiriIndices squares = { refresh->squares.data, refresh->squares.count, refresh->squares.capacity };
+    int64_t all = check->count[KIRI_OF_SQUARES];
+    bool isFine = kiriCheck_Object(check, RefreshMust, refresh) && kiriCheck_That(check, refresh->marks.count <= all) &&
+                  kiriCheck_Distinct(check, &squares, all);
+    for (int32_t k = 0; isFine && refresh->change > 0 && k < squares.count; ++k) {
+        isFine =
+            kiriCheck_That(check, squares.data[k] < refresh->marks.count && refresh->marks.data[squares.data[k]] != 0);
+    }
+    return isFine &&
+           kiriCheck_That(check, refresh->change == 0 || (refresh->marks.count == all && squares.capacity >= all));
 }
 
 /* By sample, each once. */

@@ -14,6 +14,8 @@ bool kiriSkin_Check(const kiriSkin* skin, kiriCheck* check, int32_t samples, con
 /* Lists of so many samples by square. */
 bool kiriPlaces_Check(const kiriPlaces* places, kiriCheck* check, int32_t samples);
 
+/* An update of samples. */
+bool kiriRefresh_Check(const kiriRefresh* refresh, kiriCheck* check);
 bool kiriFades_Check(const kiriFades* fades, kiriCheck* check, int32_t samples);
 
 /* Has a surface that is being read room for its vertices? Then these can be read. */

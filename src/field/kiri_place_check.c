@@ -1,0 +1,138 @@
+#include "kiri_field_check.h"
+#include "kiri_place_work.h"
+
+/* ---- Rules ------------------------------------------------------------------------------------------------------ */
+
+static const kiriMust IsPlacerCell[] = { KIRI_INDEX(KIRI_OF_CELLS, kiriSpan, first, first) };
+
+static const kiriMust SlitEndMust[] = {
+    KIRI_REALS(kiriSlitEnd, at, along),
+    KIRI_INDEX(KIRI_OF_CELLS, kiriSlitEnd, cell, cell),
+};
+
+static const kiriMust PlacerMust[] = {
+    KIRI_ITEMS_MUST(kiriPlacer, sites, kiriSiteMust),
+    KIRI_ITEMS_MUST(kiriPlacer, cells, IsPlacerCell),
+    KIRI_ITEMS_MUST(kiriPlacer, ends, SlitEndMust),
+    KIRI_REALS(kiriPlacer, reach, closeness),
+};
+
+static const kiriMust TargetMust[] = {
+    KIRI_REALS(SiteTarget, center, center),
+    KIRI_INDEX_OR_NONE(KIRI_OF_CELLS, SiteTarget, cell, cell),
+    KIRI_REALS(SiteTarget, distance, distance),
+};
+
+static const kiriMust SampleBlockMust[] = {
+    KIRI_INDEX_OR_NONE(KIRI_OF_CELLS, SampleBlock, cell, cell),
+};
+
+static const kiriMust PlacerWorkMust[] = {
+    KIRI_COUNTS(kiriPlacerWork, reach, reach),
+    KIRI_WITHIN(0, 1 << 20, kiriPlacerWork, closest, closest),
+    KIRI_ITEMS_MUST(kiriPlacerWork, blocks, SampleBlockMust),
+    KIRI_WITHIN(PLACER_RESTS, PLACER_STAGES - 1, kiriPlacerWork, stage, stage),
+    KIRI_WITHIN(0, INT32_MAX, kiriPlacerWork, cursor, cursor),
+    KIRI_COUNTS(kiriPlacerWork, due, due),
+    KIRI_WITHIN(0, INT32_MAX, kiriPlacerWork, left, left),
+    KIRI_INDEX_OR_NONE(KIRI_OF_CELLS, kiriPlacerWork, farthest, farthest),
+    KIRI_WITHIN(0, INT32_MAX - 1, kiriPlacerWork, lost, round),
+};
+
+/* Are there distances from new sites? */
+static bool HasFresh(const kiriPlacerWork* work)
+{
+    return work->stage >= FLOOD_NEW && work->stage <= AIM;
+}
+
+/* Targets of new sites, while these are moved; or of one by itself. */
+static int32_t CountTargets(const kiriPlacer* placer)
+{
+    PlacerStage stage = placer->work->stage;
+    bool isMoving = stage >= FLOOD_ALL_NEW && stage <= AIM;
+    return isMoving ? placer->sites.count - placer->oldCount : stage >= SUM_PART;
+}
+
+/* Cells of the part live, and all that a step leads to from one is of the part: nobody else is asked anything. */
+static bool IsPart(kiriCheck* check, const kiriPlacer* placer, const kiriGrid* grid)
+{
+    const kiriPlacerWork* work = placer->work;
+    uint8_t* isPart = kiriCheck_Bytes(check, grid->cells.count);
+    bool isFine = isPart != NULL;
+    for (int32_t k = 0; isFine && k < placer->cells.count; ++k) {
+        int32_t cell = placer->cells.data[k];
+        isFine = kiriGrid_IsCell(grid, cell) && work->holds.data[cell] >= -2 &&
+                 work->holds.data[cell] < placer->sites.count && work->sampled.data[cell] >= 0;
+        isPart[cell] = 1;
+    }
+    for (int32_t k = 0; isFine && k < placer->cells.count; ++k) {
+        kiriSteps steps;
+        kiriGrid_GetSteps(grid, placer->cells.data[k], &steps);
+        for (int32_t s = 0; isFine && s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+            isFine = isPart[steps.data[s].cell];
+        }
+    }
+    for (int32_t k = 0; isFine && k < placer->sites.count; ++k) {
+        isFine = isPart[placer->sites.data[k].cell];
+    }
+    for (int32_t k = 0; isFine && HasFresh(work) && k < work->fresh.settled.count; ++k) {
+        isFine = isPart[work->fresh.settled.data[k]];
+    }
+    for (int32_t k = 0; isFine && k < work->blocks.count; ++k) {
+        isFine = work->blocks.data[k].cell == KIRI_NONE || isPart[work->blocks.data[k].cell];
+    }
+    for (int32_t k = 0; isFine && k < CountTargets(placer); ++k) {
+        isFine = kiriCheck_Object(check, TargetMust, &work->targets.data[k]) &&
+                 (work->targets.data[k].cell == KIRI_NONE || isPart[work->targets.data[k].cell]);
+    }
+    kiriMemory_Free(&check->memory, isPart);
+    return kiriCheck_That(check, isFine);
+}
+
+enum { SAMPLED_CELLS = 512 }; /* a block: see kiri_place.c */
+
+/* Rows are as long as cells and sites are many. */
+static bool AreRowsOfPlacer(const kiriPlacer* placer, const kiriGrid* grid)
+{
+    const kiriPlacerWork* work = placer->work;
+    int64_t fresh = (int64_t)placer->sites.count - placer->oldCount, cells = grid->cells.count;
+    return work->sampled.count == cells && work->holds.count == cells && work->flooded.distance.count == cells &&
+           work->fresh.distance.count == cells && placer->oldCount >= 0 && fresh >= 0 && placer->cells.count > 0 &&
+           fresh + work->left <= (work->targets.count > 0 ? work->targets.count : 1) && work->targets.count > 0 &&
+           placer->sites.capacity >= placer->sites.count + (int64_t)work->left &&
+           work->blocks.count == placer->cells.count / SAMPLED_CELLS + 1 &&
+           (work->reach == 0 || work->ends.distance.count == cells) &&
+           (work->stage != AIM_PART || work->targets.data[0].area > 0);
+}
+
+static bool IsTaking(kiriCheck* check, const kiriPlacer* placer, const kiriGrid* grid)
+{
+    const kiriPlacerWork* work = placer->work;
+    kiriIndices cells = { placer->cells.data, placer->cells.count, placer->cells.capacity };
+    return !work->isTaking || (kiriCheck_That(check, work->marks.count == grid->cells.count) &&
+                               kiriCheck_Marked(check, &cells, work->marks.count, work->marks.data, 1));
+}
+
+bool kiriPlacer_Check(const kiriPlacer* placer, const kiriGrid* grid, kiriCheck* check)
+{
+    const kiriPlacerWork* work = placer->work;
+    if (work == NULL) {
+        return true;
+    }
+    /* What rests is thrown away before it is used again, and may be of a grid that is no more. */
+    bool isFine = kiriField_CheckLeft(&work->flooded, check) && kiriField_CheckLeft(&work->ends, check) &&
+                  kiriField_CheckLeft(&work->fresh, check);
+    if (!isFine || (work->stage == PLACER_RESTS && !work->isTaking)) {
+        return isFine;
+    }
+    isFine = kiriCheck_Object(check, PlacerMust, placer) && kiriCheck_Object(check, PlacerWorkMust, work) &&
+             IsTaking(check, placer, grid);
+    if (!isFine || work->stage == PLACER_RESTS) {
+        return isFine;
+    }
+    return kiriCheck_That(check, AreRowsOfPlacer(placer, grid)) &&
+           (!HasFresh(work) || kiriField_Check(&work->fresh, check, placer->sites.count, KIRI_FIELD_FLOODS)) &&
+           IsPart(check, placer, grid) &&
+           kiriField_Check(&work->flooded, check, placer->sites.count, KIRI_FIELD_FLOODS) &&
+           (work->reach == 0 || kiriField_Check(&work->ends, check, placer->sites.count, KIRI_FIELD_FLOODS));
+}
