@@ -40,10 +40,23 @@ void kiriNearRegions_AddAt(const kiriBorder* border, const kiriLinkEnd* end, kir
     AddRegionsAround(border, near, end->cell[1]);
 }
 
+/* Those of links that are kept are: others may be of bytes that somebody made up. */
+static bool AreCellsThere(const kiriGrid* grid, const kiriLinkEnd* end)
+{
+    bool areThere = true;
+    for (int k = 0; areThere && k < 2; ++k) {
+        areThere = end->cell[k] >= 0 && end->cell[k] < grid->cells.count && kiriGrid_IsCell(grid, end->cell[k]);
+    }
+    return areThere;
+}
+
 bool kiriBorder_IsUntouched(const kiriBorder* border, const kiriLinkEnds* ends)
 {
     kiriNearRegions near;
     near.count = 0;
+    if (!AreCellsThere(border->grid, &ends->end[0]) || !AreCellsThere(border->grid, &ends->end[1])) {
+        return false;
+    }
     kiriNearRegions_AddAt(border, &ends->end[0], &near);
     kiriNearRegions_AddAt(border, &ends->end[1], &near);
     for (int32_t k = 0; k < near.count; ++k) {

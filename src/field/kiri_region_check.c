@@ -120,8 +120,6 @@ const kiriMust kiriSiteMust[2] = {
 
 /* ---- Regions ---------------------------------------------------------------------------------------------------- */
 
-static const kiriMust IsSiteOrNone[] = { KIRI_INDEX_OR_NONE(KIRI_OF_SITES, kiriSpan, first, first) };
-
 static const kiriMust BorderCellMust[] = {
     KIRI_INDEX_OR_NONE(KIRI_OF_REGIONS, kiriBorderCell, region, region),
     KIRI_INDEX_OR_NONE(KIRI_OF_CELLS, kiriBorderCell, next, before),
@@ -133,7 +131,6 @@ static const kiriMust RegionChangeMust[] = {
 };
 
 static const kiriMust RegionsMust[] = {
-    KIRI_ITEMS_MUST(kiriRegions, siteAt, IsSiteOrNone),
     KIRI_ITEMS_MUST(kiriRegions, border.cells, BorderCellMust),
     KIRI_LENGTH(KIRI_OF_REGIONS, kiriRegions, border.first),
     KIRI_LENGTH(KIRI_OF_REGIONS, kiriRegions, dirty),
@@ -186,6 +183,26 @@ static bool AreTallies(const kiriRegions* regions)
     return areFine;
 }
 
+static bool IsNewCell(const kiriGrid* grid, int32_t cell)
+{
+    bool isNew = false;
+    for (int32_t k = 0; !isNew && k < grid->changes.made.count; ++k) {
+        isNew = grid->changes.made.data[k] == cell;
+    }
+    return isNew;
+}
+
+/* A cell that is gone, or was made since regions looked, may have the site of another. */
+static bool AreSitesAt(const kiriRegions* regions, const kiriGrid* grid, int64_t sites)
+{
+    bool areFine = true;
+    for (int32_t c = 0; areFine && c < regions->siteAt.count; ++c) {
+        int32_t site = regions->siteAt.data[c];
+        areFine = (site >= KIRI_NONE && site < sites) || !kiriGrid_IsCell(grid, c) || IsNewCell(grid, c);
+    }
+    return areFine;
+}
+
 static bool AreOwned(const kiriRegions* regions, const kiriGrid* grid)
 {
     bool areOwned = regions->field.owner.count >= grid->cells.count;
@@ -211,6 +228,6 @@ bool kiriRegions_Check(const kiriRegions* regions, const kiriGrid* grid, kiriChe
                           AreRowsOfRegions(regions, grid) && regions->material.count <= check->count[KIRI_OF_SITES]) &&
            kiriField_Check(&regions->field, check, regions->material.count, KIRI_FIELD_REPAIRS) &&
            kiriCheck_Object(check, RegionsMust, regions) &&
-           kiriCheck_That(check, AreTallies(regions) && AreBorders(&regions->border) &&
-                                     (!areAllOwned || AreOwned(regions, grid)));
+           kiriCheck_That(check, AreTallies(regions) && AreSitesAt(regions, grid, check->count[KIRI_OF_SITES]) &&
+                                     AreBorders(&regions->border) && (!areAllOwned || AreOwned(regions, grid)));
 }

@@ -478,7 +478,8 @@ static void RenumberWeights(kiriShape* shape, const kiriKeep* frames)
     for (int32_t c = 0; c < shape->spans.count; ++c) {
         kiriCellWeight* weight = shape->weights.data + shape->spans.data[c].first;
         for (const kiriCellWeight* end = weight + shape->spans.data[c].count; weight < end; ++weight) {
-            weight->frame = to[weight->frame];
+            int32_t now = to[weight->frame];
+            weight->frame = now != KIRI_NONE ? now : 0; /* never gone, but for bytes that were made up */
         }
         kiriCountedCell* counted = &shape->work->counted.data[c];
         counted->frame = counted->frame != KIRI_NONE ? to[counted->frame] : KIRI_NONE;

@@ -427,7 +427,7 @@ static bool IsWork(kiriCheck* check, const kiriSheetData* sheet)
     bool isPlaced = u->stage == KIRI_STAGE_CONSTANTS && u->step > 0;
     return kiriCheck_Object(check, UpdateMust, u) &&
            (!isPlaced || kiriCheck_That(check, AreNewFrames(sheet) && kiriRefit_HasRoom(&u->refit))) &&
-           (!u->placing.isPlacing || kiriCheck_Object(check, PlacingMust, u)) &&
+           (!u->placing.isPlacing || u->stage != KIRI_STAGE_SHAPE || kiriCheck_Object(check, PlacingMust, u)) &&
            kiriCheck_That(check, ArePartsOfWork(u, sheet)) && kiriRefresh_Check(&u->samples.refresh, check) &&
            IsStaged(check, sheet);
 }

@@ -221,7 +221,8 @@ static void RenumberFrames(kiriSkin* skin, const kiriKeep* frames)
     for (int32_t i = 0; i < skin->spans.count && kiriKeep_Moves(frames); ++i) {
         kiriSampleWeight* weights = skin->weights.data + skin->spans.data[i].first;
         for (int32_t k = skin->spans.data[i].count; k-- > 0 && weights[k].frame >= least;) {
-            weights[k].frame = to[weights[k].frame];
+            int32_t now = to[weights[k].frame];
+            weights[k].frame = now != KIRI_NONE ? now : 0; /* never gone, but for bytes that were made up */
         }
     }
 }

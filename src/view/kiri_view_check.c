@@ -49,11 +49,14 @@ static const kiriMust SurfaceMust[] = {
 
 /* ---- Weights ------------------------------------------------------------------------------------------------------ */
 
+/* Frames ascend. */
 static bool AreWeightsIn(kiriCheck* check, kiriRooms* rooms, const kiriSkin* skin, kiriSpan span)
 {
     bool areFine = kiriCheck_Span(check, rooms, span);
     for (int32_t k = span.first; areFine && k < span.first + span.count; ++k) {
-        areFine = kiriCheck_Object(check, SampleWeightMust, &skin->weights.data[k]);
+        const kiriSampleWeight* weight = &skin->weights.data[k];
+        areFine = kiriCheck_Object(check, SampleWeightMust, weight) &&
+                  kiriCheck_That(check, k == span.first || weight[-1].frame < weight->frame);
     }
     return areFine;
 }
