@@ -2,6 +2,18 @@
 
 #include <string.h>
 
+kiriObstacleData* kiriObstacle_Alloc(kiriMemory* memory, int32_t corners)
+{
+    int64_t bytes = (int64_t)(sizeof(kiriObstacleData) + 2 * sizeof(kiriVec2) * (size_t)corners);
+    kiriObstacleData* obstacle = kiriMemory_AllocZeroed(memory, bytes);
+    if (obstacle != NULL) {
+        obstacle->shape.count = corners;
+        obstacle->shape.outline = (kiriVec2*)(obstacle + 1);
+        obstacle->shape.normals = obstacle->shape.outline + corners;
+    }
+    return obstacle;
+}
+
 /* ---- Where it is -------------------------------------------------------------------------------------------------- */
 
 /* m: for how far out the turning of a plane, or of what has no end, counts. */

@@ -33,6 +33,9 @@ typedef struct kiriObstacleData {
     kiriVec3 lower, upper;
 } kiriObstacleData;
 
+/* Zeroed, with its outline of so many corners behind it, in one block. Null for memory. */
+kiriObstacleData* kiriObstacle_Alloc(kiriMemory* memory, int32_t corners);
+
 static inline bool kiriObstacle_IsMovable(const kiriObstacleData* obstacle)
 {
     return obstacle->mass > 0.0;

@@ -24,25 +24,12 @@ static const kiriTable ObstacleDataTable = KIRI_TABLE(kiriObstacleData, Obstacle
 
 enum { MOST_OUTLINE = 64 };
 
-/* With its outline behind it, in one block. */
-static kiriObstacleData* MakeObstacle(kiriMemory* memory, int32_t corners)
-{
-    int64_t bytes = (int64_t)(sizeof(kiriObstacleData) + 2 * sizeof(kiriVec2) * (size_t)corners);
-    kiriObstacleData* obstacle = kiriMemory_AllocZeroed(memory, bytes);
-    if (obstacle != NULL) {
-        obstacle->shape.count = corners;
-        obstacle->shape.outline = (kiriVec2*)(obstacle + 1);
-        obstacle->shape.normals = obstacle->shape.outline + corners;
-    }
-    return obstacle;
-}
-
 void kiriObstacle_Archive(kiriArchive* archive, kiriObstacleData** made, kiriMemory* memory)
 {
     bool reads = kiriArchive_Reads(archive);
     int32_t corners = kiriArchive_Count(archive, reads ? 0 : (*made)->shape.count, 0, MOST_OUTLINE);
     if (reads) {
-        *made = kiriArchive_HasFailed(archive) ? NULL : MakeObstacle(memory, corners);
+        *made = kiriArchive_HasFailed(archive) ? NULL : kiriObstacle_Alloc(memory, corners);
         archive->isShort |= *made == NULL && !archive->isBad;
     }
     if (*made != NULL) {

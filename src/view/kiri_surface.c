@@ -126,6 +126,17 @@ static void WriteOldTriangles(kiriSurface* surface, const kiriMeshData* mesh, ki
     }
 }
 
+static kiriChange ChangeTo(const kiriSurface* surface, const kiriMeshData* mesh)
+{
+    kiriChange change;
+    memset(&change, 0, sizeof(change));
+    change.from = surface->revision;
+    change.to = mesh->revision;
+    change.oldVertexCount = surface->vertexCount;
+    change.oldTriangleCount = surface->triangleCount;
+    return change;
+}
+
 static void RememberChange(kiriSurface* surface, const kiriChange* change)
 {
     surface->lastChange = (surface->lastChange + 1) % KIRI_CHANGES;
@@ -135,12 +146,7 @@ static void RememberChange(kiriSurface* surface, const kiriChange* change)
 
 void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
 {
-    kiriChange change;
-    memset(&change, 0, sizeof(change));
-    change.from = surface->revision;
-    change.to = mesh->revision;
-    change.oldVertexCount = surface->vertexCount;
-    change.oldTriangleCount = surface->triangleCount;
+    kiriChange change = ChangeTo(surface, mesh);
     surface->origin = mesh->origin;
     surface->longer = KIRI_LATTICE * mesh->step;
     surface->pose += 1;
@@ -235,12 +241,7 @@ void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle)
 void kiriSurface_LeaveHoles(kiriSurface* surface, const kiriIndices* triangles, const kiriMeshData* mesh,
                             int32_t frameCount)
 {
-    kiriChange change;
-    memset(&change, 0, sizeof(change));
-    change.from = surface->revision;
-    change.to = mesh->revision;
-    change.oldVertexCount = surface->vertexCount;
-    change.oldTriangleCount = surface->triangleCount;
+    kiriChange change = ChangeTo(surface, mesh);
     for (int32_t k = 0; k < triangles->count; ++k) {
         kiriSurface_HideTriangle(surface, triangles->data[k]);
         Extend(&change.triangles, triangles->data[k]);

@@ -236,12 +236,8 @@ static void Fill(kiriObstacleData* obstacle, const kiriObstacleDef* def)
 static kiriObstacleData* Make(kiriMemory* memory, const kiriObstacleDef* def)
 {
     int32_t corners = def->type == KIRI_OBSTACLE_BOX ? 4 : def->type == KIRI_OBSTACLE_PRISM ? def->outlineCount : 0;
-    int64_t bytes = (int64_t)(sizeof(kiriObstacleData) + 2 * sizeof(kiriVec2) * (size_t)corners);
-    kiriObstacleData* obstacle = kiriMemory_AllocZeroed(memory, bytes);
+    kiriObstacleData* obstacle = kiriObstacle_Alloc(memory, corners);
     if (obstacle != NULL) {
-        obstacle->shape.count = corners;
-        obstacle->shape.outline = (kiriVec2*)(obstacle + 1);
-        obstacle->shape.normals = obstacle->shape.outline + corners;
         Fill(obstacle, def);
     }
     return obstacle;

@@ -149,7 +149,7 @@ static const kiriRecordStruct sheetStruct =
     }
 #define OF_STRUCT(of)                                                                                                  \
     {                                                                                                                  \
-        KIRI_ARGUMENT_STRUCT, 0, 0, &of                                                                                \
+        KIRI_ARGUMENT_STRUCT, 0, 0, &(of)                                                                              \
     }
 #define OF_ARRAY(kind, most, of)                                                                                       \
     { kind, 0, most, of },                                                                                             \
