@@ -56,11 +56,54 @@ static bool AreFloats(const void* numbers, int32_t bytes)
 
 /* ---- Rules -------------------------------------------------------------------------------------------------------- */
 
+static int64_t CountOf(const kiriCheck* check, const kiriMust* must)
+{
+    return must->of == KIRI_OF_NOTHING ? 0 : check->count[must->of];
+}
+
 /* Items that are one number have nothing between them: all are looked at as one row. */
 static bool IsRow(const kiriMust* must, int64_t items)
 {
     return must->ruleCount == 1 && must->rules->rules == NULL && must->rules->offset == 0 &&
            must->rules->size == must->size && must->rules->kind <= KIRI_RULE_FLOATS && items * must->size <= INT32_MAX;
+}
+
+static bool AreNumbers(const kiriMust* must, const void* at, int64_t low, int64_t high)
+{
+    switch (must->kind) {
+    case KIRI_RULE_BETWEEN:
+        return AreBetween(at, must->size, low, high);
+    case KIRI_RULE_COUNTS:
+        return AreCounts(at, must->size);
+    case KIRI_RULE_REALS:
+        return AreReals(at, must->size);
+    default:
+        return AreFloats(at, must->size);
+    }
+}
+
+static bool AreAllNumbers(const kiriMust* rules, int32_t count)
+{
+    bool are = true;
+    for (int32_t k = 0; k < count; ++k) {
+        are &= rules[k].kind <= KIRI_RULE_FLOATS;
+    }
+    return are;
+}
+
+/* One rule after the other: most of what is read are items of a few numbers. */
+static bool AreItems(const kiriCheck* check, const kiriMust* must, const char* data, int64_t items)
+{
+    bool areFine = true;
+    for (int32_t k = 0; areFine && items > 0 && k < must->ruleCount; ++k) {
+        const kiriMust* rule = &must->rules[k];
+        const int64_t low = rule->low, high = rule->high + CountOf(check, rule);
+        const char* at = data + rule->offset;
+        for (int64_t n = 0; n < items; ++n, at += must->size) {
+            areFine &= AreNumbers(rule, at, low, high);
+        }
+    }
+    return areFine;
 }
 
 static bool HoldsForEach(kiriCheck* check, const kiriMust* must, const void* data, int64_t items)
@@ -69,6 +112,9 @@ static bool HoldsForEach(kiriCheck* check, const kiriMust* must, const void* dat
         kiriMust row = *must->rules;
         row.size = (int32_t)(items * must->size);
         return kiriCheck_Rules(check, &row, 1, data);
+    }
+    if (AreAllNumbers(must->rules, must->ruleCount)) {
+        return AreItems(check, must, data, items);
     }
     bool areFine = true;
     for (int64_t n = 0; areFine && n < items; ++n) {
@@ -84,22 +130,12 @@ static bool HoldsForOwned(kiriCheck* check, const kiriMust* must, const void* at
     return object == NULL || kiriCheck_Rules(check, must->rules, must->ruleCount, object);
 }
 
-static int64_t CountOf(const kiriCheck* check, const kiriMust* must)
-{
-    return must->of == KIRI_OF_NOTHING ? 0 : check->count[must->of];
-}
-
 static bool MustHold(kiriCheck* check, const kiriMust* must, const void* at)
 {
+    if (must->kind <= KIRI_RULE_FLOATS) {
+        return AreNumbers(must, at, must->low, must->high + CountOf(check, must));
+    }
     switch (must->kind) {
-    case KIRI_RULE_BETWEEN:
-        return AreBetween(at, must->size, must->low, must->high + CountOf(check, must));
-    case KIRI_RULE_COUNTS:
-        return AreCounts(at, must->size);
-    case KIRI_RULE_REALS:
-        return AreReals(at, must->size);
-    case KIRI_RULE_FLOATS:
-        return AreFloats(at, must->size);
     case KIRI_RULE_EACH: {
         kiriArrayHeader array = kiriArray_GetHeader(at);
         return HoldsForEach(check, must, array.data, array.count);

@@ -199,68 +199,101 @@ static bool AreFans(const kiriMeshData* mesh)
 
 /* ---- Squares ------------------------------------------------------------------------------------------------------ */
 
-/* In how many squares the triangle lies. */
-static int64_t CountOverlaps(const kiriSquares* squares, const kiriLatticePoint c[3])
+enum { FEW_SQUARES = 64 };
+
+/* In which squares a triangle lies, of those in its box: bit k is the k-th, row by row. What was listed is taken out. */
+typedef struct Overlaps {
+    int32_t low, from, columns; /* row and column of the first, and how many columns */
+    int32_t left;               /* where there are too many for bits: squares that were not listed yet */
+    uint64_t bits;
+} Overlaps;
+
+static int64_t FindBox(const kiriSquares* squares, const kiriLatticePoint c[3], Overlaps* o)
 {
-    int32_t at[3], columns[3], low, high, from, to;
-    int64_t count = 0;
+    int32_t high = 0, to = 0;
     for (int i = 0; i < 3; ++i) {
-        at[i] = kiriSquares_At(squares, c[i]);
-        columns[i] = at[i] % squares->columns;
-    }
-    if (at[0] == at[1] && at[1] == at[2]) {
-        return 1;
-    }
-    low = high = at[0] / squares->columns;
-    from = to = columns[0];
-    for (int i = 1; i < 3; ++i) {
-        int32_t row = at[i] / squares->columns;
-        low = row < low ? row : low;
+        int32_t square = kiriSquares_At(squares, c[i]), row = square / squares->columns,
+                column = square % squares->columns;
+        o->low = i == 0 || row < o->low ? row : o->low;
+        o->from = i == 0 || column < o->from ? column : o->from;
         high = row > high ? row : high;
-        from = columns[i] < from ? columns[i] : from;
-        to = columns[i] > to ? columns[i] : to;
+        to = column > to ? column : to;
     }
-    for (int32_t row = low; row <= high; ++row) {
-        for (int32_t column = from; column <= to; ++column) {
-            count += kiriSquares_Overlap(squares, row * squares->columns + column, c);
-        }
-    }
-    return count;
+    o->columns = to - o->from + 1;
+    return (int64_t)o->columns * (high - o->low + 1);
 }
 
-/* A square lists triangles that lie in it, each once. `last`: of each triangle, the square that listed it last. */
-static bool ListsSquare(const kiriMeshData* mesh, int32_t square, int32_t* last)
+static void FindOverlaps(const kiriSquares* squares, const kiriLatticePoint c[3], Overlaps* o)
+{
+    int64_t count = FindBox(squares, c, o);
+    o->left = 0;
+    o->bits = count == 1 ? 1 : 0;
+    for (int64_t k = 0; count > 1 && k < count; ++k) {
+        int32_t row = o->low + (int32_t)(k / o->columns), column = o->from + (int32_t)(k % o->columns);
+        if (kiriSquares_Overlap(squares, row * squares->columns + column, c)) {
+            o->bits |= count <= FEW_SQUARES ? UINT64_C(1) << k : 0;
+            o->left += count > FEW_SQUARES;
+        }
+    }
+    o->columns = count <= FEW_SQUARES ? o->columns : 0;
+}
+
+static Overlaps* FindAllOverlaps(kiriCheck* check, const kiriMeshData* mesh)
+{
+    Overlaps* all =
+        (Overlaps*)(void*)kiriCheck_Bytes(check, (int64_t)sizeof(Overlaps) * check->count[KIRI_OF_TRIANGLES]);
+    for (int32_t t = 0; all != NULL && t < mesh->triangles.count; ++t) {
+        if (kiriMesh_IsTriangle(mesh, t)) {
+            kiriLatticePoint c[3];
+            kiriMesh_Corners(mesh, t, c);
+            FindOverlaps(&mesh->squares, c, &all[t]);
+        }
+    }
+    return all;
+}
+
+/* Takes a square out; false where the triangle is not in it, or was listed there before. Squares come in their order. */
+static bool TakeOverlap(const kiriMeshData* mesh, int32_t square, int32_t t, Overlaps* o)
+{
+    int32_t row = square / mesh->squares.columns - o->low, column = square % mesh->squares.columns - o->from;
+    if (o->columns > 0) {
+        int64_t bit = (int64_t)row * o->columns + column;
+        bool isIn = row >= 0 && column >= 0 && column < o->columns && bit < FEW_SQUARES && (o->bits >> bit & 1) != 0;
+        o->bits &= isIn ? ~(UINT64_C(1) << bit) : o->bits;
+        return isIn;
+    }
+    kiriLatticePoint c[3];
+    kiriMesh_Corners(mesh, t, c);
+    bool isNew = o->bits != (uint64_t)square + 1; /* the square that listed it last */
+    o->bits = (uint64_t)square + 1;
+    o->left -= 1;
+    return isNew && kiriSquares_Overlap(&mesh->squares, square, c);
+}
+
+/* A square lists triangles that lie in it, each once. */
+static bool ListsSquare(const kiriMeshData* mesh, int32_t square, Overlaps* overlaps)
 {
     const kiriSquares* squares = &mesh->squares;
     bool isFine = true;
     for (int32_t n = squares->head[square]; isFine && n != KIRI_NONE; n = squares->nodes.data[n].next) {
         int32_t t = squares->nodes.data[n].triangle;
-        isFine = t != KIRI_NONE && kiriMesh_IsTriangle(mesh, t) && last[t] != square + 1;
-        if (isFine) {
-            kiriLatticePoint c[3];
-            kiriMesh_Corners(mesh, t, c);
-            isFine = kiriSquares_Overlap(squares, square, c);
-            last[t] = square + 1;
-        }
+        isFine = t != KIRI_NONE && kiriMesh_IsTriangle(mesh, t) && TakeOverlap(mesh, square, t, &overlaps[t]);
     }
     return isFine;
 }
 
 /* And none is left out. */
-static bool AreAllListed(const kiriMeshData* mesh, int64_t listed)
+static bool AreAllListed(const kiriMeshData* mesh, const Overlaps* overlaps)
 {
+    bool areListed = true;
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        if (kiriMesh_IsTriangle(mesh, t)) {
-            kiriLatticePoint c[3];
-            kiriMesh_Corners(mesh, t, c);
-            listed -= CountOverlaps(&mesh->squares, c);
-        }
+        areListed &= overlaps[t].columns > 0 ? overlaps[t].bits == 0 : overlaps[t].left == 0;
     }
-    return listed == 0;
+    return areListed;
 }
 
 /* Lists of nodes, one a square, and one of those that are free. */
-static bool AreNodeLists(kiriCheck* check, const kiriMeshData* mesh, int32_t* listed)
+static bool AreNodeLists(kiriCheck* check, const kiriMeshData* mesh)
 {
     const kiriSquares* squares = &mesh->squares;
     kiriChains chains;
@@ -269,7 +302,6 @@ static bool AreNodeLists(kiriCheck* check, const kiriMeshData* mesh, int32_t* li
     for (int64_t s = 0; areFine && s < check->count[KIRI_OF_SQUARES]; ++s) {
         areFine = kiriCheck_Chain(check, &chains, squares->head[s]);
     }
-    *listed = chains.listed;
     areFine = areFine && kiriCheck_Chain(check, &chains, squares->freeNode) &&
               kiriCheck_That(check, chains.listed == squares->nodes.count);
     kiriMemory_Free(&check->memory, chains.seen);
@@ -278,17 +310,17 @@ static bool AreNodeLists(kiriCheck* check, const kiriMeshData* mesh, int32_t* li
 
 static bool AreSquareLists(kiriCheck* check, const kiriMeshData* mesh)
 {
-    int32_t listed = 0;
-    if (!AreNodeLists(check, mesh, &listed)) {
+    if (!AreNodeLists(check, mesh)) {
         return false;
     }
-    int32_t* last = (int32_t*)(void*)kiriCheck_Bytes(check, (int64_t)sizeof(int32_t) * check->count[KIRI_OF_TRIANGLES]);
-    bool areFine = last != NULL;
+    Overlaps* overlaps = FindAllOverlaps(check, mesh);
+    bool areFine = overlaps != NULL;
     for (int32_t s = 0; areFine && s < check->count[KIRI_OF_SQUARES]; ++s) {
-        areFine = kiriCheck_That(check, ListsSquare(mesh, s, last));
+        areFine = ListsSquare(mesh, s, overlaps);
     }
-    kiriMemory_Free(&check->memory, last);
-    return areFine && kiriCheck_That(check, AreAllListed(mesh, listed));
+    areFine = areFine && AreAllListed(mesh, overlaps);
+    kiriMemory_Free(&check->memory, overlaps);
+    return kiriCheck_That(check, areFine);
 }
 
 /* Each vertex is in the list of its square, later ones first. */
