@@ -398,6 +398,12 @@ static void SiteIsInNoCell(kiriSheetData* sheet)
     sheet->update->placing.sites.data[0].cell = 1 << 24;
 }
 
+static void SitesShareACell(kiriSheetData* sheet)
+{
+    kiriSite* sites = sheet->update->placing.sites.data;
+    sites[0].cell = sites[1].cell;
+}
+
 static void MoreIsTakenThanWaits(kiriSheetData* sheet)
 {
     sheet->update->cut.taken = sheet->update->cut.count + 1;
@@ -420,6 +426,7 @@ static void TestWork(void** state)
         { "StageIsTooHigh", StageIsTooHigh },
         { "StepIsTooHigh", StepIsTooHigh },
         { "SiteIsInNoCell", SiteIsInNoCell },
+        { "SitesShareACell", SitesShareACell },
         { "MoreIsTakenThanWaits", MoreIsTakenThanWaits },
         { "OwnerOfMaterialIsNone", OwnerOfMaterialIsNone },
         { "PieceIsNone", PieceIsNone },

@@ -351,18 +351,22 @@ static bool IsStaged(kiriCheck* check, const kiriSheetData* sheet)
     return kiriCheck_That(check, isFine && u->material.count == u->placing.sites.count);
 }
 
-/* Sites are in cells that live, once they were found again in the new grid. */
+/* Sites are in cells that live, once they were found again in the new grid, and no two in one. */
 static bool AreSitesIn(kiriCheck* check, const kiriSheetData* sheet)
 {
     const kiriUpdate* u = sheet->update;
     bool areFound =
         u->stage < KIRI_STAGE_GRID || u->stage > KIRI_STAGE_REGIONS || (u->stage == KIRI_STAGE_REGIONS && u->step > 0);
-    bool areFine = true;
+    uint8_t* isHeld = kiriCheck_Bytes(check, sheet->grid.cells.count);
+    bool areFine = isHeld != NULL;
     for (int32_t i = 0; areFine && (areFound || !u->isScratch) && i < u->placing.sites.count; ++i) {
         const kiriSite* site = &u->placing.sites.data[i];
-        areFine = kiriCheck_Object(check, kiriSiteMust, site) &&
-                  kiriCheck_That(check, !areFound || kiriGrid_IsCell(&sheet->grid, site->cell));
+        areFine =
+            kiriCheck_Object(check, kiriSiteMust, site) &&
+            kiriCheck_That(check, !areFound || (kiriGrid_IsCell(&sheet->grid, site->cell) && !isHeld[site->cell]));
+        isHeld[areFine ? site->cell : 0] = 1;
     }
+    kiriMemory_Free(&check->memory, isHeld);
     return areFine;
 }
 
