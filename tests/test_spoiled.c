@@ -120,6 +120,30 @@ static void TestMesh(void** state)
     CHECK_ALL_REFUSED(&host, spoilers);
 }
 
+/* ---- The layout ---- */
+
+static void FrameIsOfNoPiece(kiriSheetData* sheet)
+{
+    sheet->layout.framePiece.data[0] = 1 << 28;
+}
+
+static void FrameHasNoPiece(kiriSheetData* sheet)
+{
+    sheet->layout.framePiece.count -= 1;
+}
+
+static void TestLayout(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "FrameIsOfNoPiece", FrameIsOfNoPiece },
+        { "FrameHasNoPiece", FrameHasNoPiece },
+    };
+    Host host;
+    StartCut(&host);
+    CHECK_ALL_REFUSED(&host, spoilers);
+}
+
 /* ---- The grid ---- */
 
 static void CellIsOfAnotherSquare(kiriSheetData* sheet)
@@ -253,6 +277,12 @@ static void BorderCellFollowsItself(kiriSheetData* sheet)
     sheet->regions.border.cells.data[cell].next = cell;
 }
 
+static void SiteIsInTwoCells(kiriSheetData* sheet)
+{
+    int32_t cell = sheet->update->placing.sites.data[0].cell;
+    sheet->regions.siteAt.data[cell == 0 ? 1 : 0] = sheet->regions.siteAt.data[cell];
+}
+
 static void SumOverflows(kiriSheetData* sheet)
 {
     sheet->regions.material.data[0].area.low = INT64_MIN;
@@ -265,6 +295,7 @@ static void TestRegions(void** state)
         { "OwnerIsNoRegion", OwnerIsNoRegion },
         { "CellIsNobodys", CellIsNobodys },
         { "BorderCellFollowsItself", BorderCellFollowsItself },
+        { "SiteIsInTwoCells", SiteIsInTwoCells },
         { "SumOverflows", SumOverflows },
     };
     Host host;
@@ -455,9 +486,10 @@ static void TestPointOfNoCell(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestMesh),        cmocka_unit_test(TestGrid),  cmocka_unit_test(TestGridAtWork),
-        cmocka_unit_test(TestRegions),     cmocka_unit_test(TestShape), cmocka_unit_test(TestShapeAtWork),
-        cmocka_unit_test(TestLinksAtWork), cmocka_unit_test(TestWork),  cmocka_unit_test(TestPointOfNoCell),
+        cmocka_unit_test(TestMesh),          cmocka_unit_test(TestLayout),      cmocka_unit_test(TestGrid),
+        cmocka_unit_test(TestGridAtWork),    cmocka_unit_test(TestRegions),     cmocka_unit_test(TestShape),
+        cmocka_unit_test(TestShapeAtWork),   cmocka_unit_test(TestLinksAtWork), cmocka_unit_test(TestWork),
+        cmocka_unit_test(TestPointOfNoCell),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

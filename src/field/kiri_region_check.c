@@ -192,14 +192,20 @@ static bool IsNewCell(const kiriGrid* grid, int32_t cell)
     return isNew;
 }
 
-/* A cell that is gone, or was made since regions looked, may have the site of another. */
-static bool AreSitesAt(const kiriRegions* regions, const kiriGrid* grid, int64_t sites)
+/* A site is in one cell. A cell that is gone, or was made since regions looked, may have the site of another. */
+static bool AreSitesAt(kiriCheck* check, const kiriRegions* regions, const kiriGrid* grid)
 {
-    bool areFine = true;
+    int64_t sites = check->count[KIRI_OF_SITES];
+    uint8_t* isPlaced = kiriCheck_Bytes(check, sites);
+    bool areFine = isPlaced != NULL;
     for (int32_t c = 0; areFine && c < regions->siteAt.count; ++c) {
         int32_t site = regions->siteAt.data[c];
-        areFine = (site >= KIRI_NONE && site < sites) || !kiriGrid_IsCell(grid, c) || IsNewCell(grid, c);
+        if (site != KIRI_NONE && kiriGrid_IsCell(grid, c) && !IsNewCell(grid, c)) {
+            areFine = site >= 0 && site < sites && !isPlaced[site];
+            isPlaced[areFine ? site : 0] = 1;
+        }
     }
+    kiriMemory_Free(&check->memory, isPlaced);
     return areFine;
 }
 
@@ -228,6 +234,6 @@ bool kiriRegions_Check(const kiriRegions* regions, const kiriGrid* grid, kiriChe
                           AreRowsOfRegions(regions, grid) && regions->material.count <= check->count[KIRI_OF_SITES]) &&
            kiriField_Check(&regions->field, check, regions->material.count, KIRI_FIELD_REPAIRS) &&
            kiriCheck_Object(check, RegionsMust, regions) &&
-           kiriCheck_That(check, AreTallies(regions) && AreSitesAt(regions, grid, check->count[KIRI_OF_SITES]) &&
+           kiriCheck_That(check, AreTallies(regions) && AreSitesAt(check, regions, grid) &&
                                      AreBorders(&regions->border) && (!areAllOwned || AreOwned(regions, grid)));
 }

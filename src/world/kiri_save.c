@@ -256,9 +256,20 @@ static void ArchiveWorld(kiriArchive* archive, kiriWorld* world, SaveBase* base)
 
 /* ---- Ids ---------------------------------------------------------------------------------------------------------- */
 
+/* Each frame is of a piece: nothing has been checked yet. */
+static bool HaveFramesPieces(const kiriSheetData* sheet)
+{
+    const kiriLayout* layout = &sheet->layout;
+    bool have = layout->framePiece.count == sheet->frames.count;
+    for (int32_t f = 0; have && f < sheet->frames.count; ++f) {
+        have = layout->framePiece.data[f] >= 0 && layout->framePiece.data[f] < layout->pieces.count;
+    }
+    return have;
+}
+
 static bool ClaimIdsOfSheet(kiriWorld* world, kiriSheetData* sheet)
 {
-    bool ok = kiriPool_Claim(&world->sheetIds, sheet->id, sheet, 0);
+    bool ok = HaveFramesPieces(sheet) && kiriPool_Claim(&world->sheetIds, sheet->id, sheet, 0);
     for (int32_t f = 0; ok && f < sheet->frames.count; ++f) {
         /* Those of pieces that the host has destroyed are stale. */
         ok = kiriSheet_IsGone(sheet, f) || kiriPool_Claim(&world->frameIds, sheet->frames.data[f].id, sheet, f);
