@@ -392,13 +392,13 @@ void kiriLinks_Drop(kiriLinks* links)
     }
 }
 
-/* Face by face, then the whole. */
+/* Face by face, then the whole. Edges that are seen first are an item each: a square may have thousands. */
 static kiriProgress RunLinks(const kiriBorder* border, kiriLinks* links, kiriQuota* quota)
 {
     kiriLinkWork* work = border->work;
     bool ok = true;
     while (ok && kiriQuota_Pay(quota, &work->due)) {
-        int32_t at = work->at++;
+        int32_t at = work->at++, seen = work->edges.edges.count;
         if (at > work->faces.count) {
             return KIRI_DONE;
         }
@@ -407,6 +407,7 @@ static kiriProgress RunLinks(const kiriBorder* border, kiriLinks* links, kiriQuo
         } else if (work->marks.data[work->faces.data[at]] == KIRI_FACE_FOUND) {
             ok = kiriBorder_MakeLinksAt(border, work->faces.data[at]);
         }
+        work->due += work->edges.edges.count - seen;
     }
     return ok ? KIRI_MORE : KIRI_FAILED;
 }
