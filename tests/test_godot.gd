@@ -201,6 +201,9 @@ func test_frames():
 	tick(world, 3)
 	near(frame.get_state().position.z, 1.0, "held")
 	check(frame.get_reaction().force != Vector3(0, 0, 0), "what holds it")
+	frame.hold(Vector3(0, 0, 1), Basis(Vector3(0, 0, 1), 0.5))
+	tick(world)
+	near(frame.get_state().rotation.x.y, sin(0.5), "a basis")
 	equal(frame.hold(), kiri.OK, "without a place it is let go")
 	equal(frame.get_state().held, false)
 	equal(frame.apply_force(Vector3(0, 1, 0), Vector3(0, 0, 0)), kiri.OK)
@@ -379,11 +382,26 @@ func test_handles():
 	var kept = sheets[7]
 	sheets = []
 	equal(world.get_sheets()[7], kept)
+	some_handles_go()
 	var other = a_world()
-	equal(other.begin_blade(kept), null, "a sheet of another world")
+	for i in 8:
+		a_sheet(other)
+	equal(other.begin_blade(kept), null, "a sheet of another world, with an id that is there too")
 	# A sheet keeps its world.
 	world = null
 	equal(kept.get_counts().frames, 1)
+
+# Frames come where sheets have their places, and are found when these have gone.
+func some_handles_go():
+	var world = a_world()
+	var sheet = a_sheet(world, {"frame_count": 12})
+	for i in 30:
+		a_sheet(world, {"frame_count": 1, "max_frames": 1})
+	var sheets = world.get_sheets()
+	var frames = sheet.get_frames()
+	equal(sheets.size(), 31)
+	sheets = null
+	equal(sheet.get_frames(), frames, "objects that stay")
 
 func test_errors():
 	var world = a_world()
