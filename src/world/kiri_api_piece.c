@@ -3,7 +3,7 @@
 #include "../sheet/kiri_piece_list.h"
 
 #define CHECK_PIECE(data, piece)                                                                                       \
-    KIRI_CHECK(kiriCall_IsWithin(piece, 0, data->layout.pieces.count - 1), "the sheet has no such piece")
+    KIRI_CHECK(kiriCall_IsWithin(piece, 0, (data)->layout.pieces.count - 1), "the sheet has no such piece")
 
 /* Brings lists of pieces up to date. */
 #define LIST_PIECES(isListed)                                                                                          \
@@ -113,7 +113,7 @@ static bool AreFrames(const kiriWorld* world, const kiriFrame* frames, int32_t c
 
 #define CHECK_FRAMES(frames, count)                                                                                    \
     do {                                                                                                               \
-        KIRI_CHECK(count == 0 || (count > 0 && frames != NULL), "frames is null, or count below 0");                   \
+        KIRI_CHECK((count) == 0 || ((count) > 0 && (frames) != NULL), "frames is null, or count below 0");             \
         if (!AreFrames(world, frames, count)) {                                                                        \
             return KIRI_FAIL(KIRI_ERROR_ID, "there is no frame with one of these ids");                                \
         }                                                                                                              \
