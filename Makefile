@@ -185,11 +185,12 @@ long: packages-bench
 	@$(MAKE) --no-print-directory $(BUILD)/tests/test_long
 	$(BUILD)/tests/test_long all
 
-# gcc's analyzer, cppcheck and clang-tidy; tests/analyze.txt has the findings that are no errors.
+# gcc's analyzer, cppcheck and clang-tidy, those that are there; tests/analyze.txt has the findings that are no errors.
+# JOBS=1: one file at a time.
 ANALYZED := $(wildcard src/*/*.c)
 
 analyze:
-	@sh tests/analyze.sh $(ANALYZED)
+	@JOBS='$(JOBS)' sh tests/analyze.sh $(ANALYZED)
 
 deps-analyze:
 	@CC='$(CC)' sh .ci/packages --install 'make analyze' gcc cppcheck clang-tidy valgrind
