@@ -15,7 +15,6 @@ static const kiriMust FrameMust[] = {
     KIRI_REALS(kiriFrameData, center, support),
     KIRI_PART_MUST(kiriFrameData, history, kiriHistory, HistoryMust),
     KIRI_WITHIN(0, 1, kiriFrameData, held, held),
-    KIRI_REALS(kiriFrameData, heldPosition, heldOff),
     KIRI_REALS(kiriFrameData, reaction, bore),
 };
 
