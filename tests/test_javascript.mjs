@@ -2,7 +2,7 @@
 // program tests/twin.c printed. Prints what calls cost.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, readdirSync } from "node:fs";
 import { resolve } from "node:path";
 import test from "node:test";
 import { pathToFileURL } from "node:url";
@@ -46,6 +46,18 @@ test("the module asks for nothing but hooks and what memory needs", () => {
     const allowed = ["kiri.log", "kiri.clock", "kiri.record", "kiri.draw", "env.emscripten_notify_memory_growth",
                      "wasi_snapshot_preview1.proc_exit"];
     assert.deepEqual(imports.map((i) => `${i.module}.${i.name}`).filter((name) => !allowed.includes(name)), []);
+});
+
+// snprintf of hooks.c knows no more.
+test("messages of the library have %s and %lld only", () => {
+    for (const folder of ["core", "mesh", "field", "motion", "view", "sheet", "world"]) {
+        for (const name of readdirSync(`src/${folder}`)) {
+            const formats = readFileSync(`src/${folder}/${name}`, "utf8").matchAll(/\bv?snprintf\([^"]*"((?:[^"\\]|\\.)*)"/g);
+            for (const [, format] of formats) {
+                assert.equal(format.replaceAll(/%s|%lld/g, "").includes("%"), false, `${name}: ${format}`);
+            }
+        }
+    }
 });
 
 test("enums have names both ways", () => {

@@ -3,6 +3,9 @@
 
 #include "kiri/kiri.h"
 
+#include <stdarg.h>
+#include <stddef.h>
+
 #define IMPORTED(name) __attribute__((import_module("kiri"), import_name(name)))
 
 IMPORTED("log") void kiriHost_Log(void* user, const char* line);
@@ -59,4 +62,65 @@ KIRI_API void kiriHost_SetDraw(kiriDebugDraw* draw, int32_t points, int32_t line
     draw->points = points ? HostPoints : 0;
     draw->lines = lines ? HostLines : 0;
     draw->triangles = triangles ? HostTriangles : 0;
+}
+
+/* Of a line that is full, the rest is left out. */
+typedef struct kiriHostLine {
+    char* text;
+    size_t room, length;
+} kiriHostLine;
+
+static void AddChar(kiriHostLine* line, char c)
+{
+    if (line->length + 1 < line->room) {
+        line->text[line->length] = c;
+    }
+    ++line->length;
+}
+
+static void AddString(kiriHostLine* line, const char* text)
+{
+    while (*text) {
+        AddChar(line, *text++);
+    }
+}
+
+static void AddNumber(kiriHostLine* line, long long number)
+{
+    char digits[24];
+    int count = 0;
+    unsigned long long rest = number < 0 ? 0 - (unsigned long long)number : (unsigned long long)number;
+    if (number < 0) {
+        AddChar(line, '-');
+    }
+    do {
+        digits[count++] = (char)('0' + rest % 10);
+    } while (rest /= 10);
+    while (count > 0) {
+        AddChar(line, digits[--count]);
+    }
+}
+
+/* Messages of the library have %s and %lld only; printf of the C library would be 2 % of the module. */
+int snprintf(char* restrict text, size_t room, const char* restrict format, ...)
+{
+    kiriHostLine line = { text, room, 0 };
+    va_list arguments;
+    va_start(arguments, format);
+    for (const char* at = format; *at; ++at) {
+        if (at[0] == '%' && at[1] == 's') {
+            AddString(&line, va_arg(arguments, const char*));
+            at += 1;
+        } else if (at[0] == '%' && at[1] == 'l' && at[2] == 'l' && at[3] == 'd') {
+            AddNumber(&line, va_arg(arguments, long long));
+            at += 3;
+        } else {
+            AddChar(&line, *at);
+        }
+    }
+    va_end(arguments);
+    if (room > 0) {
+        text[line.length < room ? line.length : room - 1] = 0;
+    }
+    return (int)line.length;
 }

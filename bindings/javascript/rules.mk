@@ -9,25 +9,38 @@
 WASM := build/wasm
 EMCC ?= emcc
 EMXX ?= em++
-WASM_SPEED ?= -Os -finline-functions
-WASM_FLAGS := $(WASM_SPEED) -DNDEBUG -fno-math-errno -ffp-contract=off -fvisibility=hidden -Wall -Wextra
+# Small functions within others make less code, not more: without -finline-functions it grows.
+WASM_HOT ?= -Os -finline-functions
+WASM_COLD ?= -Oz -finline-functions
+WASM_LTO ?= -flto
+WASM_FLAGS := $(WASM_LTO) -mbulk-memory -mnontrapping-fptoint -msign-ext -DNDEBUG -fno-math-errno -ffp-contract=off -fvisibility=hidden -Wall -Wextra
 WASM_LINK := --no-entry -sSTANDALONE_WASM -sERROR_ON_UNDEFINED_SYMBOLS=0 -sWARN_ON_UNDEFINED_SYMBOLS=0 -sALLOW_MEMORY_GROWTH -sWASM_BIGINT -sMALLOC=emmalloc \
              -sTOTAL_STACK=524288 -sINITIAL_MEMORY=8MB -sMAXIMUM_MEMORY=2GB
 WASM_OBJECTS := $(patsubst %,$(WASM)/%.o,$(wildcard src/*/*.c src/*/*.cpp) bindings/javascript/hooks.c)
+
+# What ticks spend their time in is compiled for speed, within reason; all else for size.
+WASM_HOT_SOURCES := $(wildcard src/*/*.cpp) $(addsuffix .c, \
+    $(addprefix src/motion/kiri_,affine area_element contact_assembly curl element newton objective panel prediction solver step_begin \
+        step_contact step_end strain trace) \
+    $(addprefix src/view/kiri_,blend carrier fade normal solid surface) \
+    $(addprefix src/field/kiri_,geodesic reach shape stencil way) $(addprefix src/sheet/kiri_,obstacle_touch touch))
 
 .PHONY: wasm
 
 wasm: $(WASM)/kiri.wasm
 
+$(WASM_OBJECTS): WASM_SIZE = $(WASM_COLD)
+$(WASM_HOT_SOURCES:%=$(WASM)/%.o): WASM_SIZE = $(WASM_HOT)
+
 $(WASM)/%.c.o: %.c
 	@mkdir -p $(@D)
 	@echo "  wasm $<"
-	@$(EMCC) -std=c99 $(WASM_FLAGS) -Iinclude -MMD -MP -c $< -o $@
+	@$(EMCC) -std=c99 $(WASM_SIZE) $(WASM_FLAGS) -Iinclude -MMD -MP -c $< -o $@
 
 $(WASM)/%.cpp.o: %.cpp
 	@mkdir -p $(@D)
 	@echo "  wasm $<"
-	@$(EMXX) -std=c++14 $(WASM_FLAGS) -fno-rtti -isystem "$(EIGEN)" -MMD -MP -c $< -o $@
+	@$(EMXX) -std=c++14 $(WASM_SIZE) $(WASM_FLAGS) -fno-rtti -isystem "$(EIGEN)" -MMD -MP -c $< -o $@
 
 # All functions of the header, and what runtime.js calls beside them.
 $(WASM)/exports.txt: bindings/kiri.json bindings/javascript/rules.mk
@@ -36,7 +49,7 @@ $(WASM)/exports.txt: bindings/kiri.json bindings/javascript/rules.mk
 	    "_kiriHost_SetHooks", "_kiriHost_SetDraw", "_malloc", "_free", sep="\n")' > $@
 
 $(WASM)/kiri.wasm: $(WASM_OBJECTS) $(WASM)/exports.txt
-	@$(EMXX) $(WASM_SPEED) $(WASM_LINK) -sEXPORTED_FUNCTIONS=@$(WASM)/exports.txt $(WASM_OBJECTS) -o $@
+	@$(EMXX) -Os $(WASM_LTO) $(WASM_LINK) -sEXPORTED_FUNCTIONS=@$(WASM)/exports.txt $(WASM_OBJECTS) -o $@
 	@echo "  $@: $$(wc -c < $@) bytes, $$(gzip -9c $@ | wc -c) as gzip"
 
 -include $(WASM_OBJECTS:.o=.d)
