@@ -141,6 +141,7 @@ class Method:
         self._derived = naming.derived(function)
         self._given, self._before, self._passed, self._after = [], [], [], []
         self._kinds, self._values = [], []
+        self._block, self._filled = {}, []  # what C reads and writes by pointer: in memory of a pool
         self._world = "w" if function["class"] == "World" else "self.World"
 
     @staticmethod
@@ -161,7 +162,27 @@ class Method:
         receiver = "" if not of else "(w *World) " if of == "World" else f"(self {of}) "
         body, results = self._body()
         head = f"func {receiver}{self.name(function)}({', '.join(self._given)}) {results} {{"
-        return naming.comment(function["doc"], "// ") + "\n".join([head, *(f"\t{line}" for line in body), "}", ""])
+        return self._pool() + naming.comment(function["doc"], "// ") + "\n".join([head, *(f"\t{line}" for line in body), "}", ""])
+
+    # ---- Memory that C reads and writes
+
+    def _pool(self):
+        fields = "".join(f"\t{name} {kind}\n" for name, kind in self._block.items())
+        return f"var {self._pool_name()} pool[struct {{\n{fields}}}]\n\n" if self._block else ""
+
+    def _pool_name(self):
+        return f"pool{self._function['class'] or ''}{self._function['method']}"
+
+    def _in_block(self, name, kind):
+        self._block[name] = kind
+        return f"&block.{name}"
+
+    def _called(self, call):
+        if not self._block:
+            return [call]
+        pool = self._pool_name()
+        reads = any("answer." in line for line in [*self._after, *self._values])
+        return [f"block := {pool}.take()", *self._filled, call, f"{'answer := ' if reads else ''}{pool}.give(block)"]
 
     def _body(self):
         function = self._function
@@ -169,7 +190,7 @@ class Method:
         if function["returns"] == "const char*":
             return [f"return C.GoString({call})"], "string"
         if function["returns"] == "void":
-            return self._before + [call, *self._after, f"return {', '.join(self._values)}"], self._kinds[0]
+            return self._before + [*self._called(call), *self._after, f"return {', '.join(self._values)}"], self._kinds[0]
         if function["returns"] != "kiriResult":
             return [f"return {NUMBERS[function['returns']]}({call})"], NUMBERS[function["returns"]]
         pends = function["class"] and function.get("changes") and not self._kinds
@@ -178,7 +199,7 @@ class Method:
         failed = ", ".join([*zero, *(["false"] if pends else []), "err"])
         if function["class"]:
             lines += [f"if err := {self._world}.check(); err != nil {{", f"\treturn {failed}", "}"]
-        lines += self._before + [f"result := {call}"]
+        lines += self._before + self._called(f"result := {call}")
         if function["name"] in naming.ENDS_VIEWS:
             lines.append("w.epoch++")
         if function["class"]:
@@ -197,12 +218,10 @@ class Method:
         if name == "capacity":
             self._passed.append("room")
         elif direction == "out" and name == "count":
-            if not any(line.startswith("var count ") for line in self._before):
-                self._before.append("var count C.int32_t")
-            self._passed.append("&count")
+            self._passed.append(self._in_block("count", "C.int32_t"))
             if not any(p["form"] in ("view",) or p.get("length") == "capacity" for p in self._function["parameters"]):
                 self._kinds.append("int")
-                self._values.append("int(count)")
+                self._values.append("int(answer.count)")
         else:
             getattr(self, f"_{direction}_{form}")(parameter)
 
@@ -238,9 +257,13 @@ class Method:
     def _in_array(self, parameter):
         name, kind, length = self._go_name(parameter), parameter["type"], parameter["length"]
         if isinstance(length, int):
-            star = "*" if parameter.get("nullable") else ""
-            self._given.append(f"{name} {star}[{length}]{NUMBERS[kind]}")
-            self._passed.append(f"(*C.{kind})(unsafe.Pointer({'' if star else '&'}{name}))")
+            array = f"[{length}]{NUMBERS[kind]}"
+            self._given.append(f"{name} {'*' if parameter.get('nullable') else ''}{array}")
+            at = name
+            if not parameter.get("nullable"):
+                at = self._in_block(name, array)
+                self._filled.append(f"block.{name} = {name}")
+            self._passed.append(f"(*C.{kind})(unsafe.Pointer({at}))")
         elif kind in self._go.ids:
             self._given.append(f"{name} []{naming.bare(kind)}")
             self._before.append(f"ids := idsOf({name})")
@@ -261,58 +284,53 @@ class Method:
 
     def _out_number(self, parameter):
         name, kind = parameter["name"], parameter["type"]
-        self._before.append(f"var {name} C.{kind}")
-        self._passed.append(f"&{name}")
+        self._passed.append(self._in_block(name, f"C.{kind}"))
         self._kinds.append("bool" if parameter.get("flag") else NUMBERS[kind])
-        self._values.append(f"{name} != 0" if parameter.get("flag") else f"{NUMBERS[kind]}({name})")
+        self._values.append(f"answer.{name} != 0" if parameter.get("flag") else f"{NUMBERS[kind]}(answer.{name})")
 
     def _out_id(self, parameter):
         name, kind = parameter["name"], naming.bare(parameter["type"])
-        self._before.append(f"var {name} C.{parameter['type']}")
-        self._passed.append(f"&{name}")
+        self._passed.append(self._in_block(name, f"C.{parameter['type']}"))
         self._kinds.append(kind)
-        self._values.append(f"{kind}{{{self._world}, {kind}ID({name})}}")
+        self._values.append(f"{kind}{{{self._world}, {kind}ID(answer.{name})}}")
 
     def _out_struct(self, parameter):
         name, kind = parameter["name"], parameter["type"]
         self._kinds.append(naming.bare(kind))
         struct = self._go.structs[kind]
         if not self._go.has_pointers(struct):
-            self._before.append(f"var {name} {naming.bare(kind)}")
-            self._passed.append(f"(*C.{kind})(unsafe.Pointer(&{name}))")
-            self._values.append(name)
+            self._passed.append(f"(*C.{kind})(unsafe.Pointer({self._in_block(name, naming.bare(kind))}))")
+            self._values.append(f"answer.{name}")
             return
-        self._before.append(f"var {name} C.{kind}")
-        self._passed.append(f"&{name}")
+        self._passed.append(self._in_block(name, f"C.{kind}"))
         if self._go.is_out(struct):
-            self._values.append(f"view{naming.bare(kind)}({self._world}, &{name})")
+            self._values.append(f"view{naming.bare(kind)}({self._world}, &answer.{name})")
         else:
-            self._after += [f"var made {naming.bare(kind)}", f"made.fromC(&{name})"]
+            self._after += [f"var made {naming.bare(kind)}", f"made.fromC(&answer.{name})"]
             self._values.append("made")
 
     def _out_view(self, parameter):
         kind = parameter["type"]
         row = naming.bare(kind) if kind in self._go.structs else self._go.number(parameter)
         row = f"[{parameter['width']}]{row}" if parameter["width"] > 1 else row
-        self._before += [f"var {parameter['name']} *C.{kind}"]
-        self._passed.append(f"&{parameter['name']}")
+        self._passed.append(self._in_block(parameter["name"], f"*C.{kind}"))
         self._kinds.append(f"View[{row}]")
-        self._values.append(f"viewOf[{row}]({self._world}, unsafe.Pointer({parameter['name']}), int(count))")
+        self._values.append(f"viewOf[{row}]({self._world}, unsafe.Pointer(answer.{parameter['name']}), int(answer.count))")
 
     def _out_array(self, parameter):
         name, kind, length = parameter["name"], parameter["type"], parameter["length"]
         if isinstance(length, int):
-            self._before.append(f"var {name} [{length}]{NUMBERS[kind]}")
-            self._passed.append(f"(*C.{kind})(unsafe.Pointer(&{name}))")
-            self._kinds.append(f"[{length}]{NUMBERS[kind]}")
-            self._values.append(name)
+            array = f"[{length}]{NUMBERS[kind]}"
+            self._passed.append(f"(*C.{kind})(unsafe.Pointer({self._in_block(name, array)}))")
+            self._kinds.append(array)
+            self._values.append(f"answer.{name}")
             return
         self._kinds.append(f"[]{naming.bare(kind)}")
         if length == "capacity":
             self._before += ["room := C.int32_t(64)", "again:", f"{name} := make([]C.{kind}, room)"]
             self._passed.append(f"unsafe.SliceData({name})")
-            self._after += ["if count > room {", "\troom = count", "\tgoto again", "}"]
-            self._values.append(f"things[{naming.bare(kind)}]({self._world}, {name}[:count])")
+            self._after += ["if answer.count > room {", "\troom = answer.count", "\tgoto again", "}"]
+            self._values.append(f"things[{naming.bare(kind)}]({self._world}, {name}[:answer.count])")
         else:
             self._before.append(f"{name} := make([]C.{kind}, len(ids))")
             self._passed.append(f"unsafe.SliceData({name})")

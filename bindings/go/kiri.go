@@ -1227,12 +1227,19 @@ func (w *World) Tick(dt float32, substeps int32) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolWorldSetGravity pool[struct {
+	gravity [3]float32
+}]
+
 // m/s^2. All pieces wake.
 func (w *World) SetGravity(gravity [3]float32) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriWorld_SetGravity(w.c, (*C.float)(unsafe.Pointer(&gravity)))
+	block := poolWorldSetGravity.take()
+	block.gravity = gravity
+	result := C.kiriWorld_SetGravity(w.c, (*C.float)(unsafe.Pointer(&block.gravity)))
+	poolWorldSetGravity.give(block)
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriWorld_SetGravity", result, true); err != nil {
 		return false, err
@@ -1253,6 +1260,10 @@ func (w *World) SetBudget(budget *Budget) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolWorldGetStateHash pool[struct {
+	hash C.uint64_t
+}]
+
 // A hash of everything that the coming ticks depend on, work that waits for its budget included: two worlds that got
 // the same calls have the same hash, and two with the same hash go on alike. After a refused allocation some items
 // are made again: the hash tells that while work waits, or while the budget limits cells or samples.
@@ -1261,14 +1272,19 @@ func (w *World) StateHash() (uint64, error) {
 	if err := w.check(); err != nil {
 		return made0, err
 	}
-	var hash C.uint64_t
-	result := C.kiriWorld_GetStateHash(w.c, &hash)
+	block := poolWorldGetStateHash.take()
+	result := C.kiriWorld_GetStateHash(w.c, &block.hash)
+	answer := poolWorldGetStateHash.give(block)
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriWorld_GetStateHash", result, false); err != nil {
 		return made0, err
 	}
-	return uint64(hash), nil
+	return uint64(answer.hash), nil
 }
+
+var poolWorldGetSheets pool[struct {
+	count C.int32_t
+}]
 
 // Writes up to `capacity` ids of the world's sheets, in the order of their making; *count is how many there are.
 func (w *World) Sheets() ([]Sheet, error) {
@@ -1279,17 +1295,18 @@ func (w *World) Sheets() ([]Sheet, error) {
 	room := C.int32_t(64)
 	again:
 	sheets := make([]C.kiriSheet, room)
-	var count C.int32_t
-	result := C.kiriWorld_GetSheets(w.c, unsafe.SliceData(sheets), room, &count)
+	block := poolWorldGetSheets.take()
+	result := C.kiriWorld_GetSheets(w.c, unsafe.SliceData(sheets), room, &block.count)
+	answer := poolWorldGetSheets.give(block)
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriWorld_GetSheets", result, false); err != nil {
 		return made0, err
 	}
-	if count > room {
-		room = count
+	if answer.count > room {
+		room = answer.count
 		goto again
 	}
-	return things[Sheet](w, sheets[:count]), nil
+	return things[Sheet](w, sheets[:answer.count]), nil
 }
 
 // Puts some bytes of the host's own (1 to KIRI_MOST_NOTE_BYTES) in the recording, where a replay finds them: what its
@@ -1337,21 +1354,30 @@ func (w *World) LoadDifference(base []byte, bytes []byte) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolWorldGetEvents pool[struct {
+	events *C.kiriEvent
+	count C.int32_t
+}]
+
 // *events points to *count events.
 func (w *World) Events() (View[Event], error) {
 	var made0 View[Event]
 	if err := w.check(); err != nil {
 		return made0, err
 	}
-	var events *C.kiriEvent
-	var count C.int32_t
-	result := C.kiriWorld_GetEvents(w.c, &events, &count)
+	block := poolWorldGetEvents.take()
+	result := C.kiriWorld_GetEvents(w.c, &block.events, &block.count)
+	answer := poolWorldGetEvents.give(block)
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriWorld_GetEvents", result, false); err != nil {
 		return made0, err
 	}
-	return viewOf[Event](w, unsafe.Pointer(events), int(count)), nil
+	return viewOf[Event](w, unsafe.Pointer(answer.events), int(answer.count)), nil
 }
+
+var poolWorldGetProfile pool[struct {
+	profile Profile
+}]
 
 // Of the last tick that was not refused.
 func (w *World) Profile() (Profile, error) {
@@ -1359,13 +1385,14 @@ func (w *World) Profile() (Profile, error) {
 	if err := w.check(); err != nil {
 		return made0, err
 	}
-	var profile Profile
-	result := C.kiriWorld_GetProfile(w.c, (*C.kiriProfile)(unsafe.Pointer(&profile)))
+	block := poolWorldGetProfile.take()
+	result := C.kiriWorld_GetProfile(w.c, (*C.kiriProfile)(unsafe.Pointer(&block.profile)))
+	answer := poolWorldGetProfile.give(block)
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriWorld_GetProfile", result, false); err != nil {
 		return made0, err
 	}
-	return profile, nil
+	return answer.profile, nil
 }
 
 // The name of a stage, for tables; "" for a number that is none.
@@ -1373,36 +1400,55 @@ func GetStageName(stage Stage) string {
 	return C.GoString(C.kiriGetStageName(C.int32_t(stage)))
 }
 
+var poolGetMaterial pool[struct {
+	material Material
+}]
+
 // The numbers of a preset, KIRI_MATERIAL_...
 func GetMaterial(preset MaterialPreset) (Material, error) {
 	var made0 Material
-	var material Material
-	result := C.kiriGetMaterial(C.int32_t(preset), (*C.kiriMaterial)(unsafe.Pointer(&material)))
+	block := poolGetMaterial.take()
+	result := C.kiriGetMaterial(C.int32_t(preset), (*C.kiriMaterial)(unsafe.Pointer(&block.material)))
+	answer := poolGetMaterial.give(block)
 	if err := failure(nil, "kiriGetMaterial", result, false); err != nil {
 		return made0, err
 	}
-	return material, nil
+	return answer.material, nil
 }
+
+var poolGetQuality pool[struct {
+	quality Quality
+}]
 
 // The numbers of a preset, KIRI_QUALITY_...
 func GetQuality(preset QualityPreset) (Quality, error) {
 	var made0 Quality
-	var quality Quality
-	result := C.kiriGetQuality(C.int32_t(preset), (*C.kiriQuality)(unsafe.Pointer(&quality)))
+	block := poolGetQuality.take()
+	result := C.kiriGetQuality(C.int32_t(preset), (*C.kiriQuality)(unsafe.Pointer(&block.quality)))
+	answer := poolGetQuality.give(block)
 	if err := failure(nil, "kiriGetQuality", result, false); err != nil {
 		return made0, err
 	}
-	return quality, nil
+	return answer.quality, nil
 }
+
+var poolDefaultSheetDef pool[struct {
+	def C.kiriSheetDef
+}]
 
 // Fills the def with its defaults, and stamps it. It has no mesh yet.
 func DefaultSheetDef() SheetDef {
-	var def C.kiriSheetDef
-	C.kiriDefaultSheetDef(&def)
+	block := poolDefaultSheetDef.take()
+	C.kiriDefaultSheetDef(&block.def)
+	answer := poolDefaultSheetDef.give(block)
 	var made SheetDef
-	made.fromC(&def)
+	made.fromC(&answer.def)
 	return made
 }
+
+var poolWorldCreateSheet pool[struct {
+	sheet C.kiriSheet
+}]
 
 // Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles are no sheet; the line says which one and why.
 func (w *World) CreateSheet(def *SheetDef) (Sheet, error) {
@@ -1412,13 +1458,14 @@ func (w *World) CreateSheet(def *SheetDef) (Sheet, error) {
 	}
 	var pinner runtime.Pinner
 	defer pinner.Unpin()
-	var sheet C.kiriSheet
-	result := C.kiriCreateSheet(w.c, def.toC(&pinner), &sheet)
+	block := poolWorldCreateSheet.take()
+	result := C.kiriCreateSheet(w.c, def.toC(&pinner), &block.sheet)
+	answer := poolWorldCreateSheet.give(block)
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriCreateSheet", result, true); err != nil {
 		return made0, err
 	}
-	return Sheet{w, SheetID(sheet)}, nil
+	return Sheet{w, SheetID(answer.sheet)}, nil
 }
 
 // The sheet is gone, with its cuts, frames and pins; their ids are stale.
@@ -1434,6 +1481,10 @@ func (self Sheet) Destroy() (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolWorldCreateRectangle pool[struct {
+	sheet C.kiriSheet
+}]
+
 // A sheet that is a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
 // columns and rows are 1 to 4096. def: all but the mesh, which is not read; null: the defaults. A recording has it as
 // kiriCreateSheet.
@@ -1448,14 +1499,19 @@ func (w *World) CreateRectangle(width float32, height float32, columns int32, ro
 	if def != nil {
 		c = def.toC(&pinner)
 	}
-	var sheet C.kiriSheet
-	result := C.kiriCreateRectangle(w.c, C.float(width), C.float(height), C.int32_t(columns), C.int32_t(rows), c, &sheet)
+	block := poolWorldCreateRectangle.take()
+	result := C.kiriCreateRectangle(w.c, C.float(width), C.float(height), C.int32_t(columns), C.int32_t(rows), c, &block.sheet)
+	answer := poolWorldCreateRectangle.give(block)
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriCreateRectangle", result, true); err != nil {
 		return made0, err
 	}
-	return Sheet{w, SheetID(sheet)}, nil
+	return Sheet{w, SheetID(answer.sheet)}, nil
 }
+
+var poolSheetGetSettings pool[struct {
+	settings SheetSettings
+}]
 
 // What they are now, stamped for kiriSheet_SetSettings.
 func (self Sheet) Settings() (SheetSettings, error) {
@@ -1463,13 +1519,14 @@ func (self Sheet) Settings() (SheetSettings, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var settings SheetSettings
-	result := C.kiriSheet_GetSettings(self.World.c, C.kiriSheet(self.ID), (*C.kiriSheetSettings)(unsafe.Pointer(&settings)))
+	block := poolSheetGetSettings.take()
+	result := C.kiriSheet_GetSettings(self.World.c, C.kiriSheet(self.ID), (*C.kiriSheetSettings)(unsafe.Pointer(&block.settings)))
+	answer := poolSheetGetSettings.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetSettings", result, false); err != nil {
 		return made0, err
 	}
-	return settings, nil
+	return answer.settings, nil
 }
 
 // Checked as the def is: all or nothing. KIRI_ERROR_DEF: they did not come from GetSettings. The sheet wakes where
@@ -1487,20 +1544,29 @@ func (self Sheet) SetSettings(settings *SheetSettings) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolSheetGetMesh pool[struct {
+	mesh C.kiriMesh
+}]
+
 // The arrays, without a copy.
 func (self Sheet) Mesh() (Mesh, error) {
 	var made0 Mesh
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var mesh C.kiriMesh
-	result := C.kiriSheet_GetMesh(self.World.c, C.kiriSheet(self.ID), &mesh)
+	block := poolSheetGetMesh.take()
+	result := C.kiriSheet_GetMesh(self.World.c, C.kiriSheet(self.ID), &block.mesh)
+	answer := poolSheetGetMesh.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetMesh", result, false); err != nil {
 		return made0, err
 	}
-	return viewMesh(self.World, &mesh), nil
+	return viewMesh(self.World, &answer.mesh), nil
 }
+
+var poolSheetGetDirty pool[struct {
+	dirty Dirty
+}]
 
 // What changed since the host saw that revision; all of the mesh where that is too long ago, or 0.
 func (self Sheet) Dirty(sinceRevision uint32) (Dirty, error) {
@@ -1508,14 +1574,19 @@ func (self Sheet) Dirty(sinceRevision uint32) (Dirty, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var dirty Dirty
-	result := C.kiriSheet_GetDirty(self.World.c, C.kiriSheet(self.ID), C.uint32_t(sinceRevision), (*C.kiriDirty)(unsafe.Pointer(&dirty)))
+	block := poolSheetGetDirty.take()
+	result := C.kiriSheet_GetDirty(self.World.c, C.kiriSheet(self.ID), C.uint32_t(sinceRevision), (*C.kiriDirty)(unsafe.Pointer(&block.dirty)))
+	answer := poolSheetGetDirty.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetDirty", result, false); err != nil {
 		return made0, err
 	}
-	return dirty, nil
+	return answer.dirty, nil
 }
+
+var poolSheetGetSolid pool[struct {
+	solid C.kiriSolid
+}]
 
 // thickness: m, 0: that of the material. Made when it is asked for.
 func (self Sheet) Solid(thickness float32) (Solid, error) {
@@ -1523,14 +1594,20 @@ func (self Sheet) Solid(thickness float32) (Solid, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var solid C.kiriSolid
-	result := C.kiriSheet_GetSolid(self.World.c, C.kiriSheet(self.ID), C.float(thickness), &solid)
+	block := poolSheetGetSolid.take()
+	result := C.kiriSheet_GetSolid(self.World.c, C.kiriSheet(self.ID), C.float(thickness), &block.solid)
+	answer := poolSheetGetSolid.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetSolid", result, true); err != nil {
 		return made0, err
 	}
-	return viewSolid(self.World, &solid), nil
+	return viewSolid(self.World, &answer.solid), nil
 }
+
+var poolSheetGetCollisionPoints pool[struct {
+	positions *C.float
+	count C.int32_t
+}]
 
 // Collision points: 3 floats of position (m, world) a point.
 func (self Sheet) CollisionPoints() (View[[3]float32], error) {
@@ -1538,15 +1615,19 @@ func (self Sheet) CollisionPoints() (View[[3]float32], error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var positions *C.float
-	var count C.int32_t
-	result := C.kiriSheet_GetCollisionPoints(self.World.c, C.kiriSheet(self.ID), &positions, &count)
+	block := poolSheetGetCollisionPoints.take()
+	result := C.kiriSheet_GetCollisionPoints(self.World.c, C.kiriSheet(self.ID), &block.positions, &block.count)
+	answer := poolSheetGetCollisionPoints.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetCollisionPoints", result, false); err != nil {
 		return made0, err
 	}
-	return viewOf[[3]float32](self.World, unsafe.Pointer(positions), int(count)), nil
+	return viewOf[[3]float32](self.World, unsafe.Pointer(answer.positions), int(answer.count)), nil
 }
+
+var poolSheetGetCounts pool[struct {
+	counts Counts
+}]
 
 // Costs nothing.
 func (self Sheet) Counts() (Counts, error) {
@@ -1554,14 +1635,19 @@ func (self Sheet) Counts() (Counts, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var counts Counts
-	result := C.kiriSheet_GetCounts(self.World.c, C.kiriSheet(self.ID), (*C.kiriCounts)(unsafe.Pointer(&counts)))
+	block := poolSheetGetCounts.take()
+	result := C.kiriSheet_GetCounts(self.World.c, C.kiriSheet(self.ID), (*C.kiriCounts)(unsafe.Pointer(&block.counts)))
+	answer := poolSheetGetCounts.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetCounts", result, false); err != nil {
 		return made0, err
 	}
-	return counts, nil
+	return answer.counts, nil
 }
+
+var poolSheetGetTotals pool[struct {
+	totals Totals
+}]
 
 // Sums over the frames, made when they are asked for.
 func (self Sheet) Totals() (Totals, error) {
@@ -1569,14 +1655,19 @@ func (self Sheet) Totals() (Totals, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var totals Totals
-	result := C.kiriSheet_GetTotals(self.World.c, C.kiriSheet(self.ID), (*C.kiriTotals)(unsafe.Pointer(&totals)))
+	block := poolSheetGetTotals.take()
+	result := C.kiriSheet_GetTotals(self.World.c, C.kiriSheet(self.ID), (*C.kiriTotals)(unsafe.Pointer(&block.totals)))
+	answer := poolSheetGetTotals.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetTotals", result, false); err != nil {
 		return made0, err
 	}
-	return totals, nil
+	return answer.totals, nil
 }
+
+var poolSheetEstimateError pool[struct {
+	relative C.double
+}]
 
 // An estimate of the error of the sheet's shape as it is now, where it rests or moves slowly: rms distance from where
 // a sheet of very many frames would be under the same loads, over the rms way that it has gone from its flat shape; 0
@@ -1591,14 +1682,19 @@ func (self Sheet) EstimateError() (float64, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var relative C.double
-	result := C.kiriSheet_EstimateError(self.World.c, C.kiriSheet(self.ID), &relative)
+	block := poolSheetEstimateError.take()
+	result := C.kiriSheet_EstimateError(self.World.c, C.kiriSheet(self.ID), &block.relative)
+	answer := poolSheetEstimateError.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_EstimateError", result, false); err != nil {
 		return made0, err
 	}
-	return float64(relative), nil
+	return float64(answer.relative), nil
 }
+
+var poolSheetIsAwake pool[struct {
+	awake C.int32_t
+}]
 
 // *awake is 0 where all pieces of the sheet sleep, see sleepSpeed; kiriPieceState says which do. kiriSheet_Wake wakes
 // all of them.
@@ -1607,13 +1703,14 @@ func (self Sheet) IsAwake() (bool, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var awake C.int32_t
-	result := C.kiriSheet_IsAwake(self.World.c, C.kiriSheet(self.ID), &awake)
+	block := poolSheetIsAwake.take()
+	result := C.kiriSheet_IsAwake(self.World.c, C.kiriSheet(self.ID), &block.awake)
+	answer := poolSheetIsAwake.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_IsAwake", result, false); err != nil {
 		return made0, err
 	}
-	return awake != 0, nil
+	return answer.awake != 0, nil
 }
 
 // *awake is 0 where all pieces of the sheet sleep, see sleepSpeed; kiriPieceState says which do. kiriSheet_Wake wakes
@@ -1630,6 +1727,11 @@ func (self Sheet) Wake() (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolSheetTransform pool[struct {
+	rotation [9]float32
+	translation [3]float32
+}]
+
 // Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities turn. The columns of
 // `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. Targets of pins,
 // holds, loads and contacts stay where they are: destroy or move them first, or the sheet is drawn back. It wakes.
@@ -1637,13 +1739,22 @@ func (self Sheet) Transform(rotation [9]float32, translation [3]float32) (bool, 
 	if err := self.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriSheet_Transform(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&rotation)), (*C.float)(unsafe.Pointer(&translation)))
+	block := poolSheetTransform.take()
+	block.rotation = rotation
+	block.translation = translation
+	result := C.kiriSheet_Transform(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.rotation)), (*C.float)(unsafe.Pointer(&block.translation)))
+	poolSheetTransform.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_Transform", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
 }
+
+var poolSheetSetVelocity pool[struct {
+	velocity [3]float32
+	angularVelocity [3]float32
+}]
 
 // From now on it moves as a rigid body, until forces change that: `velocity` (m/s) of its centre of mass, and
 // `angularVelocity` (rad/s) about it. What a planar sheet has across its plane is dropped; held frames follow their
@@ -1652,13 +1763,22 @@ func (self Sheet) SetVelocity(velocity [3]float32, angularVelocity [3]float32) (
 	if err := self.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriSheet_SetVelocity(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&velocity)), (*C.float)(unsafe.Pointer(&angularVelocity)))
+	block := poolSheetSetVelocity.take()
+	block.velocity = velocity
+	block.angularVelocity = angularVelocity
+	result := C.kiriSheet_SetVelocity(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.velocity)), (*C.float)(unsafe.Pointer(&block.angularVelocity)))
+	poolSheetSetVelocity.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_SetVelocity", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
 }
+
+var poolFrameSetPieceVelocity pool[struct {
+	velocity [3]float32
+	angularVelocity [3]float32
+}]
 
 // From now on it moves as a rigid body, until forces change that: `velocity` (m/s) of its centre of mass, and
 // `angularVelocity` (rad/s) about it. What a planar sheet has across its plane is dropped; held frames follow their
@@ -1667,7 +1787,11 @@ func (self Frame) SetPieceVelocity(velocity [3]float32, angularVelocity [3]float
 	if err := self.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriFrame_SetPieceVelocity(self.World.c, C.kiriFrame(self.ID), (*C.float)(unsafe.Pointer(&velocity)), (*C.float)(unsafe.Pointer(&angularVelocity)))
+	block := poolFrameSetPieceVelocity.take()
+	block.velocity = velocity
+	block.angularVelocity = angularVelocity
+	result := C.kiriFrame_SetPieceVelocity(self.World.c, C.kiriFrame(self.ID), (*C.float)(unsafe.Pointer(&block.velocity)), (*C.float)(unsafe.Pointer(&block.angularVelocity)))
+	poolFrameSetPieceVelocity.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriFrame_SetPieceVelocity", result, true); err != nil {
 		return false, err
@@ -1690,6 +1814,10 @@ func (self Sheet) SetUserData(data uint64) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolSheetGetUserData pool[struct {
+	data C.uint64_t
+}]
+
 // A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
 // kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
 // parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
@@ -1698,13 +1826,14 @@ func (self Sheet) UserData() (uint64, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var data C.uint64_t
-	result := C.kiriSheet_GetUserData(self.World.c, C.kiriSheet(self.ID), &data)
+	block := poolSheetGetUserData.take()
+	result := C.kiriSheet_GetUserData(self.World.c, C.kiriSheet(self.ID), &block.data)
+	answer := poolSheetGetUserData.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetUserData", result, false); err != nil {
 		return made0, err
 	}
-	return uint64(data), nil
+	return uint64(answer.data), nil
 }
 
 // A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
@@ -1722,6 +1851,10 @@ func (self Pin) SetUserData(data uint64) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolPinGetUserData pool[struct {
+	data C.uint64_t
+}]
+
 // A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
 // kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
 // parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
@@ -1730,13 +1863,14 @@ func (self Pin) UserData() (uint64, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var data C.uint64_t
-	result := C.kiriPin_GetUserData(self.World.c, C.kiriPin(self.ID), &data)
+	block := poolPinGetUserData.take()
+	result := C.kiriPin_GetUserData(self.World.c, C.kiriPin(self.ID), &block.data)
+	answer := poolPinGetUserData.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriPin_GetUserData", result, false); err != nil {
 		return made0, err
 	}
-	return uint64(data), nil
+	return uint64(answer.data), nil
 }
 
 // A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
@@ -1754,6 +1888,10 @@ func (self Frame) SetPieceUserData(data uint64) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolFrameGetPieceUserData pool[struct {
+	data C.uint64_t
+}]
+
 // A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
 // kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
 // parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
@@ -1762,14 +1900,21 @@ func (self Frame) PieceUserData() (uint64, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var data C.uint64_t
-	result := C.kiriFrame_GetPieceUserData(self.World.c, C.kiriFrame(self.ID), &data)
+	block := poolFrameGetPieceUserData.take()
+	result := C.kiriFrame_GetPieceUserData(self.World.c, C.kiriFrame(self.ID), &block.data)
+	answer := poolFrameGetPieceUserData.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriFrame_GetPieceUserData", result, false); err != nil {
 		return made0, err
 	}
-	return uint64(data), nil
+	return uint64(answer.data), nil
 }
+
+var poolSheetRaycast pool[struct {
+	origin [3]float32
+	direction [3]float32
+	hit Hit
+}]
 
 // Where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: nowhere. The first ray looks
 // at every triangle; the next tick makes boxes over them, and as long as somebody asks every now and then (in 120
@@ -1779,14 +1924,24 @@ func (self Sheet) Raycast(origin [3]float32, direction [3]float32, maxDistance f
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var hit Hit
-	result := C.kiriSheet_Raycast(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&origin)), (*C.float)(unsafe.Pointer(&direction)), C.float(maxDistance), (*C.kiriHit)(unsafe.Pointer(&hit)))
+	block := poolSheetRaycast.take()
+	block.origin = origin
+	block.direction = direction
+	result := C.kiriSheet_Raycast(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.origin)), (*C.float)(unsafe.Pointer(&block.direction)), C.float(maxDistance), (*C.kiriHit)(unsafe.Pointer(&block.hit)))
+	answer := poolSheetRaycast.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_Raycast", result, false); err != nil {
 		return made0, err
 	}
-	return hit, nil
+	return answer.hit, nil
 }
+
+var poolWorldRaycast pool[struct {
+	origin [3]float32
+	direction [3]float32
+	sheet C.kiriSheet
+	hit Hit
+}]
 
 // The first sheet that a ray meets; *sheet is 0 where there is none.
 func (w *World) Raycast(origin [3]float32, direction [3]float32, maxDistance float32) (Sheet, Hit, error) {
@@ -1795,15 +1950,22 @@ func (w *World) Raycast(origin [3]float32, direction [3]float32, maxDistance flo
 	if err := w.check(); err != nil {
 		return made0, made1, err
 	}
-	var sheet C.kiriSheet
-	var hit Hit
-	result := C.kiriWorld_Raycast(w.c, (*C.float)(unsafe.Pointer(&origin)), (*C.float)(unsafe.Pointer(&direction)), C.float(maxDistance), &sheet, (*C.kiriHit)(unsafe.Pointer(&hit)))
+	block := poolWorldRaycast.take()
+	block.origin = origin
+	block.direction = direction
+	result := C.kiriWorld_Raycast(w.c, (*C.float)(unsafe.Pointer(&block.origin)), (*C.float)(unsafe.Pointer(&block.direction)), C.float(maxDistance), &block.sheet, (*C.kiriHit)(unsafe.Pointer(&block.hit)))
+	answer := poolWorldRaycast.give(block)
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriWorld_Raycast", result, false); err != nil {
 		return made0, made1, err
 	}
-	return Sheet{w, SheetID(sheet)}, hit, nil
+	return Sheet{w, SheetID(answer.sheet)}, answer.hit, nil
 }
+
+var poolSheetGetPoint pool[struct {
+	restPoint [2]float32
+	state PointState
+}]
 
 // Outside the sheet: KIRI_ERROR_ARGUMENT. On a cut, the lip that holds the point; either where both do.
 func (self Sheet) Point(restPoint [2]float32) (PointState, error) {
@@ -1811,14 +1973,20 @@ func (self Sheet) Point(restPoint [2]float32) (PointState, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var state PointState
-	result := C.kiriSheet_GetPoint(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&restPoint)), (*C.kiriPointState)(unsafe.Pointer(&state)))
+	block := poolSheetGetPoint.take()
+	block.restPoint = restPoint
+	result := C.kiriSheet_GetPoint(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), (*C.kiriPointState)(unsafe.Pointer(&block.state)))
+	answer := poolSheetGetPoint.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetPoint", result, false); err != nil {
 		return made0, err
 	}
-	return state, nil
+	return answer.state, nil
 }
+
+var poolSheetGetPiece pool[struct {
+	state PieceState
+}]
 
 // The first of these calls after a cut sorts the sheet by pieces, which may fail with KIRI_ERROR_MEMORY. An index
 // that is no piece's: KIRI_ERROR_ARGUMENT.
@@ -1827,14 +1995,19 @@ func (self Sheet) Piece(piece int32) (PieceState, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var state PieceState
-	result := C.kiriSheet_GetPiece(self.World.c, C.kiriSheet(self.ID), C.int32_t(piece), (*C.kiriPieceState)(unsafe.Pointer(&state)))
+	block := poolSheetGetPiece.take()
+	result := C.kiriSheet_GetPiece(self.World.c, C.kiriSheet(self.ID), C.int32_t(piece), (*C.kiriPieceState)(unsafe.Pointer(&block.state)))
+	answer := poolSheetGetPiece.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetPiece", result, true); err != nil {
 		return made0, err
 	}
-	return state, nil
+	return answer.state, nil
 }
+
+var poolSheetGetPieceMesh pool[struct {
+	mesh C.kiriPieceMesh
+}]
 
 // The first of these calls after a cut sorts the sheet by pieces, which may fail with KIRI_ERROR_MEMORY. An index
 // that is no piece's: KIRI_ERROR_ARGUMENT.
@@ -1843,14 +2016,20 @@ func (self Sheet) PieceMesh(piece int32) (PieceMesh, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var mesh C.kiriPieceMesh
-	result := C.kiriSheet_GetPieceMesh(self.World.c, C.kiriSheet(self.ID), C.int32_t(piece), &mesh)
+	block := poolSheetGetPieceMesh.take()
+	result := C.kiriSheet_GetPieceMesh(self.World.c, C.kiriSheet(self.ID), C.int32_t(piece), &block.mesh)
+	answer := poolSheetGetPieceMesh.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetPieceMesh", result, true); err != nil {
 		return made0, err
 	}
-	return viewPieceMesh(self.World, &mesh), nil
+	return viewPieceMesh(self.World, &answer.mesh), nil
 }
+
+var poolSheetGetPieceFrames pool[struct {
+	frames *C.kiriFrame
+	count C.int32_t
+}]
 
 // *frames points to *count ids.
 func (self Sheet) PieceFrames(piece int32) (View[FrameID], error) {
@@ -1858,15 +2037,19 @@ func (self Sheet) PieceFrames(piece int32) (View[FrameID], error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var frames *C.kiriFrame
-	var count C.int32_t
-	result := C.kiriSheet_GetPieceFrames(self.World.c, C.kiriSheet(self.ID), C.int32_t(piece), &frames, &count)
+	block := poolSheetGetPieceFrames.take()
+	result := C.kiriSheet_GetPieceFrames(self.World.c, C.kiriSheet(self.ID), C.int32_t(piece), &block.frames, &block.count)
+	answer := poolSheetGetPieceFrames.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetPieceFrames", result, true); err != nil {
 		return made0, err
 	}
-	return viewOf[FrameID](self.World, unsafe.Pointer(frames), int(count)), nil
+	return viewOf[FrameID](self.World, unsafe.Pointer(answer.frames), int(answer.count)), nil
 }
+
+var poolFrameGetPiece pool[struct {
+	piece C.int32_t
+}]
 
 // The index that the piece with this frame has now.
 func (self Frame) Piece() (int32, error) {
@@ -1874,14 +2057,19 @@ func (self Frame) Piece() (int32, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var piece C.int32_t
-	result := C.kiriFrame_GetPiece(self.World.c, C.kiriFrame(self.ID), &piece)
+	block := poolFrameGetPiece.take()
+	result := C.kiriFrame_GetPiece(self.World.c, C.kiriFrame(self.ID), &block.piece)
+	answer := poolFrameGetPiece.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriFrame_GetPiece", result, false); err != nil {
 		return made0, err
 	}
-	return int32(piece), nil
+	return int32(answer.piece), nil
 }
+
+var poolFrameDetachPiece pool[struct {
+	detached C.kiriSheet
+}]
 
 // Makes a sheet of the piece with this frame. Its frames, pins and collision points move along, in their order; they
 // keep their ids and states, and what waits for the next tick: the motion goes on as if nothing had happened, but for
@@ -1906,13 +2094,14 @@ func (self Frame) DetachPiece() (Sheet, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var detached C.kiriSheet
-	result := C.kiriFrame_DetachPiece(self.World.c, C.kiriFrame(self.ID), &detached)
+	block := poolFrameDetachPiece.take()
+	result := C.kiriFrame_DetachPiece(self.World.c, C.kiriFrame(self.ID), &block.detached)
+	answer := poolFrameDetachPiece.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriFrame_DetachPiece", result, true); err != nil {
 		return made0, err
 	}
-	return Sheet{self.World, SheetID(detached)}, nil
+	return Sheet{self.World, SheetID(answer.detached)}, nil
 }
 
 // The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but for making a sheet:
@@ -1966,6 +2155,10 @@ func (w *World) DestroyPieces(frames []Frame) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolSheetDropCrumbs pool[struct {
+	count C.int32_t
+}]
+
 // Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is how many. Where
 // that one waits to become a sheet, the largest of the others stays, too.
 func (self Sheet) DropCrumbs(area float32) (int, error) {
@@ -1973,14 +2166,20 @@ func (self Sheet) DropCrumbs(area float32) (int, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var count C.int32_t
-	result := C.kiriSheet_DropCrumbs(self.World.c, C.kiriSheet(self.ID), C.float(area), &count)
+	block := poolSheetDropCrumbs.take()
+	result := C.kiriSheet_DropCrumbs(self.World.c, C.kiriSheet(self.ID), C.float(area), &block.count)
+	answer := poolSheetDropCrumbs.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_DropCrumbs", result, true); err != nil {
 		return made0, err
 	}
-	return int(count), nil
+	return int(answer.count), nil
 }
+
+var poolSheetBeginCut pool[struct {
+	restPoint [2]float32
+	cut C.kiriCut
+}]
 
 // A cut is a polyline in the rest plane. Points may lie anywhere: what is outside the sheet cuts nothing. Points wait
 // until the next tick. The end of a cut that lies inside the sheet stays closed until the blade moves on.
@@ -1989,13 +2188,15 @@ func (self Sheet) BeginCut(restPoint [2]float32) (Cut, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var cut C.kiriCut
-	result := C.kiriBeginCut(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&restPoint)), &cut)
+	block := poolSheetBeginCut.take()
+	block.restPoint = restPoint
+	result := C.kiriBeginCut(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), &block.cut)
+	answer := poolSheetBeginCut.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriBeginCut", result, true); err != nil {
 		return made0, err
 	}
-	return Cut{self.World, CutID(cut)}, nil
+	return Cut{self.World, CutID(answer.cut)}, nil
 }
 
 // restPoints: 2 floats a point; count is 1 to 2^24.
@@ -2025,6 +2226,11 @@ func (self Cut) End() (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolSheetSlice pool[struct {
+	blade [12]float32
+	cut C.kiriCut
+}]
+
 // A blade (a straight edge) that moves in world space from blade[0]-blade[1] to blade[3]-blade[2] cuts where the
 // swept quadrilateral meets the sheet as it is now, past borders, so that it parts what it crosses. The cut is ended
 // already. Slices of a sheet that moves do not join from tick to tick: for that take a blade.
@@ -2033,14 +2239,20 @@ func (self Sheet) Slice(blade [12]float32) (Cut, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var cut C.kiriCut
-	result := C.kiriSheet_Slice(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&blade)), &cut)
+	block := poolSheetSlice.take()
+	block.blade = blade
+	result := C.kiriSheet_Slice(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.blade)), &block.cut)
+	answer := poolSheetSlice.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_Slice", result, true); err != nil {
 		return made0, err
 	}
-	return Cut{self.World, CutID(cut)}, nil
+	return Cut{self.World, CutID(answer.cut)}, nil
 }
+
+var poolWorldBeginBlade pool[struct {
+	blade C.kiriBlade
+}]
 
 // sheet 0: it cuts all sheets, also those that are made later and pieces that get a sheet of their own. A blade for
 // one sheet whose sheet is gone cuts nothing.
@@ -2049,14 +2261,20 @@ func (w *World) BeginBlade(sheet Sheet) (Blade, error) {
 	if err := w.check(); err != nil {
 		return made0, err
 	}
-	var blade C.kiriBlade
-	result := C.kiriBeginBlade(w.c, C.kiriSheet(sheet.ID), &blade)
+	block := poolWorldBeginBlade.take()
+	result := C.kiriBeginBlade(w.c, C.kiriSheet(sheet.ID), &block.blade)
+	answer := poolWorldBeginBlade.give(block)
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriBeginBlade", result, true); err != nil {
 		return made0, err
 	}
-	return Blade{w, BladeID(blade)}, nil
+	return Blade{w, BladeID(answer.blade)}, nil
 }
+
+var poolBladeMoveEdge pool[struct {
+	from [3]float32
+	to [3]float32
+}]
 
 // The blade is now the straight edge between two points (m, world). From where it was it got there straight, each end
 // along a line. The first call only says where it begins. Where an end of the edge lies inside of what it sweeps of
@@ -2065,7 +2283,11 @@ func (self Blade) MoveEdge(from [3]float32, to [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriBlade_MoveEdge(self.World.c, C.kiriBlade(self.ID), (*C.float)(unsafe.Pointer(&from)), (*C.float)(unsafe.Pointer(&to)))
+	block := poolBladeMoveEdge.take()
+	block.from = from
+	block.to = to
+	result := C.kiriBlade_MoveEdge(self.World.c, C.kiriBlade(self.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)))
+	poolBladeMoveEdge.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriBlade_MoveEdge", result, true); err != nil {
 		return false, err
@@ -2073,12 +2295,21 @@ func (self Blade) MoveEdge(from [3]float32, to [3]float32) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolBladeMoveRay pool[struct {
+	origin [3]float32
+	direction [3]float32
+}]
+
 // The same for a ray that a camera casts: an edge `length` m long.
 func (self Blade) MoveRay(origin [3]float32, direction [3]float32, length float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriBlade_MoveRay(self.World.c, C.kiriBlade(self.ID), (*C.float)(unsafe.Pointer(&origin)), (*C.float)(unsafe.Pointer(&direction)), C.float(length))
+	block := poolBladeMoveRay.take()
+	block.origin = origin
+	block.direction = direction
+	result := C.kiriBlade_MoveRay(self.World.c, C.kiriBlade(self.ID), (*C.float)(unsafe.Pointer(&block.origin)), (*C.float)(unsafe.Pointer(&block.direction)), C.float(length))
+	poolBladeMoveRay.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriBlade_MoveRay", result, true); err != nil {
 		return false, err
@@ -2099,6 +2330,10 @@ func (self Blade) End() (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolSheetGetFrames pool[struct {
+	count C.int32_t
+}]
+
 // Writes up to `capacity` ids of the sheet's frames; *count is how many there are.
 func (self Sheet) Frames() ([]Frame, error) {
 	var made0 []Frame
@@ -2108,18 +2343,23 @@ func (self Sheet) Frames() ([]Frame, error) {
 	room := C.int32_t(64)
 	again:
 	frames := make([]C.kiriFrame, room)
-	var count C.int32_t
-	result := C.kiriSheet_GetFrames(self.World.c, C.kiriSheet(self.ID), unsafe.SliceData(frames), room, &count)
+	block := poolSheetGetFrames.take()
+	result := C.kiriSheet_GetFrames(self.World.c, C.kiriSheet(self.ID), unsafe.SliceData(frames), room, &block.count)
+	answer := poolSheetGetFrames.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetFrames", result, false); err != nil {
 		return made0, err
 	}
-	if count > room {
-		room = count
+	if answer.count > room {
+		room = answer.count
 		goto again
 	}
-	return things[Frame](self.World, frames[:count]), nil
+	return things[Frame](self.World, frames[:answer.count]), nil
 }
+
+var poolFrameGetState pool[struct {
+	state FrameState
+}]
 
 // Pose, motion and region as they are now.
 func (self Frame) State() (FrameState, error) {
@@ -2127,13 +2367,14 @@ func (self Frame) State() (FrameState, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var state FrameState
-	result := C.kiriFrame_GetState(self.World.c, C.kiriFrame(self.ID), (*C.kiriFrameState)(unsafe.Pointer(&state)))
+	block := poolFrameGetState.take()
+	result := C.kiriFrame_GetState(self.World.c, C.kiriFrame(self.ID), (*C.kiriFrameState)(unsafe.Pointer(&block.state)))
+	answer := poolFrameGetState.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriFrame_GetState", result, false); err != nil {
 		return made0, err
 	}
-	return state, nil
+	return answer.state, nil
 }
 
 // The host moves the frame: its rest point, as it is seen, goes to `position` with `rotation` (a rotation matrix,
@@ -2152,6 +2393,11 @@ func (self Frame) Hold(position *[3]float32, rotation *[9]float32) (bool, error)
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolFrameGetReaction pool[struct {
+	force [3]float64
+	torque [3]float64
+}]
+
 // With what the host's hold acted on the sheet: force (N, world) and torque (N m) about the frame's rest point; means
 // over the last tick, impulses divided by its dt. They carry the frame's own weight and change its momentum, too.
 // Zero for a frame that was free. A piece that sleeps keeps those that it fell asleep with.
@@ -2161,22 +2407,31 @@ func (self Frame) Reaction() ([3]float64, [3]float64, error) {
 	if err := self.World.check(); err != nil {
 		return made0, made1, err
 	}
-	var force [3]float64
-	var torque [3]float64
-	result := C.kiriFrame_GetReaction(self.World.c, C.kiriFrame(self.ID), (*C.double)(unsafe.Pointer(&force)), (*C.double)(unsafe.Pointer(&torque)))
+	block := poolFrameGetReaction.take()
+	result := C.kiriFrame_GetReaction(self.World.c, C.kiriFrame(self.ID), (*C.double)(unsafe.Pointer(&block.force)), (*C.double)(unsafe.Pointer(&block.torque)))
+	answer := poolFrameGetReaction.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriFrame_GetReaction", result, false); err != nil {
 		return made0, made1, err
 	}
-	return force, torque, nil
+	return answer.force, answer.torque, nil
 }
+
+var poolFrameApplyForce pool[struct {
+	force [3]float32
+	torque [3]float32
+}]
 
 // A force (N, world) on the frame's centre of mass and a torque (N m).
 func (self Frame) ApplyForce(force [3]float32, torque [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriFrame_ApplyForce(self.World.c, C.kiriFrame(self.ID), (*C.float)(unsafe.Pointer(&force)), (*C.float)(unsafe.Pointer(&torque)))
+	block := poolFrameApplyForce.take()
+	block.force = force
+	block.torque = torque
+	result := C.kiriFrame_ApplyForce(self.World.c, C.kiriFrame(self.ID), (*C.float)(unsafe.Pointer(&block.force)), (*C.float)(unsafe.Pointer(&block.torque)))
+	poolFrameApplyForce.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriFrame_ApplyForce", result, true); err != nil {
 		return false, err
@@ -2184,18 +2439,35 @@ func (self Frame) ApplyForce(force [3]float32, torque [3]float32) (bool, error) 
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolSheetApplyForce pool[struct {
+	restPoint [2]float32
+	force [3]float32
+	torque [3]float32
+}]
+
 // A force (N, world) on a point of the material and a torque (N m).
 func (self Sheet) ApplyForce(restPoint [2]float32, force [3]float32, torque [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriSheet_ApplyForce(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&restPoint)), (*C.float)(unsafe.Pointer(&force)), (*C.float)(unsafe.Pointer(&torque)))
+	block := poolSheetApplyForce.take()
+	block.restPoint = restPoint
+	block.force = force
+	block.torque = torque
+	result := C.kiriSheet_ApplyForce(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), (*C.float)(unsafe.Pointer(&block.force)), (*C.float)(unsafe.Pointer(&block.torque)))
+	poolSheetApplyForce.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_ApplyForce", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
 }
+
+var poolSheetApplyLineLoad pool[struct {
+	from [2]float32
+	to [2]float32
+	forcePerLength [3]float32
+}]
 
 // A force (N, world) on each metre of a straight line of the rest plane, as far as it lies in the material, edges
 // included. Where it runs along a cut, each lip gets half. The ends differ; a line that meets no material:
@@ -2204,7 +2476,12 @@ func (self Sheet) ApplyLineLoad(from [2]float32, to [2]float32, forcePerLength [
 	if err := self.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriSheet_ApplyLineLoad(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&from)), (*C.float)(unsafe.Pointer(&to)), (*C.float)(unsafe.Pointer(&forcePerLength)))
+	block := poolSheetApplyLineLoad.take()
+	block.from = from
+	block.to = to
+	block.forcePerLength = forcePerLength
+	result := C.kiriSheet_ApplyLineLoad(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)), (*C.float)(unsafe.Pointer(&block.forcePerLength)))
+	poolSheetApplyLineLoad.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_ApplyLineLoad", result, true); err != nil {
 		return false, err
@@ -2225,13 +2502,22 @@ func (self Sheet) ApplyPressure(pressure float32) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolSheetApplyImpulse pool[struct {
+	restPoint [2]float32
+	impulse [3]float32
+}]
+
 // An impulse (N s, world) on a point of the material, where it is seen now. Velocities change at once, by as much as
 // the frames that carry the point resist; a held frame's part is lost. Outside the sheet: KIRI_ERROR_ARGUMENT.
 func (self Sheet) ApplyImpulse(restPoint [2]float32, impulse [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriSheet_ApplyImpulse(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&restPoint)), (*C.float)(unsafe.Pointer(&impulse)))
+	block := poolSheetApplyImpulse.take()
+	block.restPoint = restPoint
+	block.impulse = impulse
+	result := C.kiriSheet_ApplyImpulse(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), (*C.float)(unsafe.Pointer(&block.impulse)))
+	poolSheetApplyImpulse.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_ApplyImpulse", result, true); err != nil {
 		return false, err
@@ -2252,12 +2538,21 @@ func (self Sheet) SetWind(wind *Wind) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolDefaultPinDef pool[struct {
+	def PinDef
+}]
+
 // Fills the def with its defaults, and stamps it.
 func DefaultPinDef() PinDef {
-	var def PinDef
-	C.kiriDefaultPinDef((*C.kiriPinDef)(unsafe.Pointer(&def)))
-	return def
+	block := poolDefaultPinDef.take()
+	C.kiriDefaultPinDef((*C.kiriPinDef)(unsafe.Pointer(&block.def)))
+	answer := poolDefaultPinDef.give(block)
+	return answer.def
 }
+
+var poolSheetCreatePin pool[struct {
+	pin C.kiriPin
+}]
 
 // Pins a point of the sheet. On failure *pin is 0. A point outside the sheet: KIRI_ERROR_ARGUMENT.
 func (self Sheet) CreatePin(def *PinDef) (Pin, error) {
@@ -2265,14 +2560,21 @@ func (self Sheet) CreatePin(def *PinDef) (Pin, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var pin C.kiriPin
-	result := C.kiriCreatePin(self.World.c, C.kiriSheet(self.ID), (*C.kiriPinDef)(unsafe.Pointer(def)), &pin)
+	block := poolSheetCreatePin.take()
+	result := C.kiriCreatePin(self.World.c, C.kiriSheet(self.ID), (*C.kiriPinDef)(unsafe.Pointer(def)), &block.pin)
+	answer := poolSheetCreatePin.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriCreatePin", result, true); err != nil {
 		return made0, err
 	}
-	return Pin{self.World, PinID(pin)}, nil
+	return Pin{self.World, PinID(answer.pin)}, nil
 }
+
+var poolSheetClampLine pool[struct {
+	from [2]float32
+	to [2]float32
+	clamp C.kiriPin
+}]
 
 // Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp holds place and direction
 // of the material there, as a vice does; a hinge its place only, so that the sheet may turn about the line. Both
@@ -2287,14 +2589,23 @@ func (self Sheet) ClampLine(from [2]float32, to [2]float32) (Pin, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var clamp C.kiriPin
-	result := C.kiriSheet_ClampLine(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&from)), (*C.float)(unsafe.Pointer(&to)), &clamp)
+	block := poolSheetClampLine.take()
+	block.from = from
+	block.to = to
+	result := C.kiriSheet_ClampLine(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)), &block.clamp)
+	answer := poolSheetClampLine.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_ClampLine", result, true); err != nil {
 		return made0, err
 	}
-	return Pin{self.World, PinID(clamp)}, nil
+	return Pin{self.World, PinID(answer.clamp)}, nil
 }
+
+var poolSheetHingeLine pool[struct {
+	from [2]float32
+	to [2]float32
+	hinge C.kiriPin
+}]
 
 // Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp holds place and direction
 // of the material there, as a vice does; a hinge its place only, so that the sheet may turn about the line. Both
@@ -2309,14 +2620,21 @@ func (self Sheet) HingeLine(from [2]float32, to [2]float32) (Pin, error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var hinge C.kiriPin
-	result := C.kiriSheet_HingeLine(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&from)), (*C.float)(unsafe.Pointer(&to)), &hinge)
+	block := poolSheetHingeLine.take()
+	block.from = from
+	block.to = to
+	result := C.kiriSheet_HingeLine(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)), &block.hinge)
+	answer := poolSheetHingeLine.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_HingeLine", result, true); err != nil {
 		return made0, err
 	}
-	return Pin{self.World, PinID(hinge)}, nil
+	return Pin{self.World, PinID(answer.hinge)}, nil
 }
+
+var poolPinSetTarget pool[struct {
+	target [3]float32
+}]
 
 // Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until the
 // next call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is
@@ -2325,7 +2643,10 @@ func (self Pin) SetTarget(target [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriPin_SetTarget(self.World.c, C.kiriPin(self.ID), (*C.float)(unsafe.Pointer(&target)))
+	block := poolPinSetTarget.take()
+	block.target = target
+	result := C.kiriPin_SetTarget(self.World.c, C.kiriPin(self.ID), (*C.float)(unsafe.Pointer(&block.target)))
+	poolPinSetTarget.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriPin_SetTarget", result, true); err != nil {
 		return false, err
@@ -2333,13 +2654,22 @@ func (self Pin) SetTarget(target [3]float32) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolPinSetPose pool[struct {
+	target [3]float32
+	rotation [9]float32
+}]
+
 // The same with the rotation of the line's material: columns are the directions of u and v and the normal. On a
 // planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT for a pin that holds a point.
 func (self Pin) SetPose(target [3]float32, rotation [9]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriPin_SetPose(self.World.c, C.kiriPin(self.ID), (*C.float)(unsafe.Pointer(&target)), (*C.float)(unsafe.Pointer(&rotation)))
+	block := poolPinSetPose.take()
+	block.target = target
+	block.rotation = rotation
+	result := C.kiriPin_SetPose(self.World.c, C.kiriPin(self.ID), (*C.float)(unsafe.Pointer(&block.target)), (*C.float)(unsafe.Pointer(&block.rotation)))
+	poolPinSetPose.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriPin_SetPose", result, true); err != nil {
 		return false, err
@@ -2360,20 +2690,30 @@ func (self Pin) SetBreakForce(breakForce float32) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolPinGetState pool[struct {
+	state PinState
+}]
+
 // What it is, and where it holds now.
 func (self Pin) State() (PinState, error) {
 	var made0 PinState
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var state PinState
-	result := C.kiriPin_GetState(self.World.c, C.kiriPin(self.ID), (*C.kiriPinState)(unsafe.Pointer(&state)))
+	block := poolPinGetState.take()
+	result := C.kiriPin_GetState(self.World.c, C.kiriPin(self.ID), (*C.kiriPinState)(unsafe.Pointer(&block.state)))
+	answer := poolPinGetState.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriPin_GetState", result, false); err != nil {
 		return made0, err
 	}
-	return state, nil
+	return answer.state, nil
 }
+
+var poolPinGetReaction pool[struct {
+	force [3]float64
+	torque [3]float64
+}]
 
 // With what the pin acted on the sheet: force (N, world) and torque (N m) about its target; means over the last tick,
 // impulses divided by its dt. So the reactions of all pins and held frames are the weight of a sheet at rest, and in
@@ -2385,15 +2725,19 @@ func (self Pin) Reaction() ([3]float64, [3]float64, error) {
 	if err := self.World.check(); err != nil {
 		return made0, made1, err
 	}
-	var force [3]float64
-	var torque [3]float64
-	result := C.kiriPin_GetReaction(self.World.c, C.kiriPin(self.ID), (*C.double)(unsafe.Pointer(&force)), (*C.double)(unsafe.Pointer(&torque)))
+	block := poolPinGetReaction.take()
+	result := C.kiriPin_GetReaction(self.World.c, C.kiriPin(self.ID), (*C.double)(unsafe.Pointer(&block.force)), (*C.double)(unsafe.Pointer(&block.torque)))
+	answer := poolPinGetReaction.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriPin_GetReaction", result, false); err != nil {
 		return made0, made1, err
 	}
-	return force, torque, nil
+	return answer.force, answer.torque, nil
 }
+
+var poolSheetGetPins pool[struct {
+	count C.int32_t
+}]
 
 // Writes up to `capacity` ids of the sheet's pins, of all types; *count is how many there are.
 func (self Sheet) Pins() ([]Pin, error) {
@@ -2404,17 +2748,18 @@ func (self Sheet) Pins() ([]Pin, error) {
 	room := C.int32_t(64)
 	again:
 	pins := make([]C.kiriPin, room)
-	var count C.int32_t
-	result := C.kiriSheet_GetPins(self.World.c, C.kiriSheet(self.ID), unsafe.SliceData(pins), room, &count)
+	block := poolSheetGetPins.take()
+	result := C.kiriSheet_GetPins(self.World.c, C.kiriSheet(self.ID), unsafe.SliceData(pins), room, &block.count)
+	answer := poolSheetGetPins.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetPins", result, false); err != nil {
 		return made0, err
 	}
-	if count > room {
-		room = count
+	if answer.count > room {
+		room = answer.count
 		goto again
 	}
-	return things[Pin](self.World, pins[:count]), nil
+	return things[Pin](self.World, pins[:answer.count]), nil
 }
 
 // It lets go; its id is stale.
@@ -2444,6 +2789,11 @@ func (self Sheet) SetContacts(contacts []Contact) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolSheetGetContactForces pool[struct {
+	forces *C.kiriContactForce
+	count C.int32_t
+}]
+
 // One for each contact that was set before the last tick, in the order given. The sum of the impulses, with those of
 // gravity, loads and obstacles, is the change of momentum of a piece that nothing holds. A piece that sleeps goes on
 // to press with what it fell asleep with.
@@ -2452,24 +2802,33 @@ func (self Sheet) ContactForces() (View[ContactForce], error) {
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var forces *C.kiriContactForce
-	var count C.int32_t
-	result := C.kiriSheet_GetContactForces(self.World.c, C.kiriSheet(self.ID), &forces, &count)
+	block := poolSheetGetContactForces.take()
+	result := C.kiriSheet_GetContactForces(self.World.c, C.kiriSheet(self.ID), &block.forces, &block.count)
+	answer := poolSheetGetContactForces.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetContactForces", result, false); err != nil {
 		return made0, err
 	}
-	return viewOf[ContactForce](self.World, unsafe.Pointer(forces), int(count)), nil
+	return viewOf[ContactForce](self.World, unsafe.Pointer(answer.forces), int(answer.count)), nil
 }
+
+var poolDefaultObstacleDef pool[struct {
+	def C.kiriObstacleDef
+}]
 
 // Fills the def with its defaults, and stamps it.
 func DefaultObstacleDef() ObstacleDef {
-	var def C.kiriObstacleDef
-	C.kiriDefaultObstacleDef(&def)
+	block := poolDefaultObstacleDef.take()
+	C.kiriDefaultObstacleDef(&block.def)
+	answer := poolDefaultObstacleDef.give(block)
 	var made ObstacleDef
-	made.fromC(&def)
+	made.fromC(&answer.def)
 	return made
 }
+
+var poolWorldCreateObstacle pool[struct {
+	obstacle C.kiriObstacle
+}]
 
 // Adds an obstacle. On failure *obstacle is 0.
 func (w *World) CreateObstacle(def *ObstacleDef) (Obstacle, error) {
@@ -2479,13 +2838,14 @@ func (w *World) CreateObstacle(def *ObstacleDef) (Obstacle, error) {
 	}
 	var pinner runtime.Pinner
 	defer pinner.Unpin()
-	var obstacle C.kiriObstacle
-	result := C.kiriCreateObstacle(w.c, def.toC(&pinner), &obstacle)
+	block := poolWorldCreateObstacle.take()
+	result := C.kiriCreateObstacle(w.c, def.toC(&pinner), &block.obstacle)
+	answer := poolWorldCreateObstacle.give(block)
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriCreateObstacle", result, true); err != nil {
 		return made0, err
 	}
-	return Obstacle{w, ObstacleID(obstacle)}, nil
+	return Obstacle{w, ObstacleID(answer.obstacle)}, nil
 }
 
 // It is gone, its id stale. What rested on it wakes.
@@ -2501,13 +2861,22 @@ func (self Obstacle) Destroy() (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolObstacleSetPose pool[struct {
+	position [3]float32
+	rotation [9]float32
+}]
+
 // Where it is when the next tick starts. It did not move there: velocities alone say what sheets feel. rotation: a
 // rotation matrix, columns as in the def.
 func (self Obstacle) SetPose(position [3]float32, rotation [9]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriObstacle_SetPose(self.World.c, C.kiriObstacle(self.ID), (*C.float)(unsafe.Pointer(&position)), (*C.float)(unsafe.Pointer(&rotation)))
+	block := poolObstacleSetPose.take()
+	block.position = position
+	block.rotation = rotation
+	result := C.kiriObstacle_SetPose(self.World.c, C.kiriObstacle(self.ID), (*C.float)(unsafe.Pointer(&block.position)), (*C.float)(unsafe.Pointer(&block.rotation)))
+	poolObstacleSetPose.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriObstacle_SetPose", result, true); err != nil {
 		return false, err
@@ -2515,12 +2884,21 @@ func (self Obstacle) SetPose(position [3]float32, rotation [9]float32) (bool, er
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolObstacleSetVelocity pool[struct {
+	velocity [3]float32
+	angularVelocity [3]float32
+}]
+
 // With what it moves in the next tick and from then on.
 func (self Obstacle) SetVelocity(velocity [3]float32, angularVelocity [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriObstacle_SetVelocity(self.World.c, C.kiriObstacle(self.ID), (*C.float)(unsafe.Pointer(&velocity)), (*C.float)(unsafe.Pointer(&angularVelocity)))
+	block := poolObstacleSetVelocity.take()
+	block.velocity = velocity
+	block.angularVelocity = angularVelocity
+	result := C.kiriObstacle_SetVelocity(self.World.c, C.kiriObstacle(self.ID), (*C.float)(unsafe.Pointer(&block.velocity)), (*C.float)(unsafe.Pointer(&block.angularVelocity)))
+	poolObstacleSetVelocity.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriObstacle_SetVelocity", result, true); err != nil {
 		return false, err
@@ -2528,12 +2906,19 @@ func (self Obstacle) SetVelocity(velocity [3]float32, angularVelocity [3]float32
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolObstacleSetSurfaceVelocity pool[struct {
+	velocity [3]float32
+}]
+
 // With what it moves in the next tick and from then on.
 func (self Obstacle) SetSurfaceVelocity(velocity [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriObstacle_SetSurfaceVelocity(self.World.c, C.kiriObstacle(self.ID), (*C.float)(unsafe.Pointer(&velocity)))
+	block := poolObstacleSetSurfaceVelocity.take()
+	block.velocity = velocity
+	result := C.kiriObstacle_SetSurfaceVelocity(self.World.c, C.kiriObstacle(self.ID), (*C.float)(unsafe.Pointer(&block.velocity)))
+	poolObstacleSetSurfaceVelocity.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriObstacle_SetSurfaceVelocity", result, true); err != nil {
 		return false, err
@@ -2541,12 +2926,21 @@ func (self Obstacle) SetSurfaceVelocity(velocity [3]float32) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolObstacleSetMass pool[struct {
+	inertia [6]float32
+	centerOfMass [3]float32
+}]
+
 // As in the def.
 func (self Obstacle) SetMass(mass float32, inertia [6]float32, centerOfMass [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriObstacle_SetMass(self.World.c, C.kiriObstacle(self.ID), C.float(mass), (*C.float)(unsafe.Pointer(&inertia)), (*C.float)(unsafe.Pointer(&centerOfMass)))
+	block := poolObstacleSetMass.take()
+	block.inertia = inertia
+	block.centerOfMass = centerOfMass
+	result := C.kiriObstacle_SetMass(self.World.c, C.kiriObstacle(self.ID), C.float(mass), (*C.float)(unsafe.Pointer(&block.inertia)), (*C.float)(unsafe.Pointer(&block.centerOfMass)))
+	poolObstacleSetMass.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriObstacle_SetMass", result, true); err != nil {
 		return false, err
@@ -2554,20 +2948,30 @@ func (self Obstacle) SetMass(mass float32, inertia [6]float32, centerOfMass [3]f
 	return result == C.KIRI_PENDING, nil
 }
 
+var poolObstacleGetState pool[struct {
+	state ObstacleState
+}]
+
 // Pose and velocities as they are now.
 func (self Obstacle) State() (ObstacleState, error) {
 	var made0 ObstacleState
 	if err := self.World.check(); err != nil {
 		return made0, err
 	}
-	var state ObstacleState
-	result := C.kiriObstacle_GetState(self.World.c, C.kiriObstacle(self.ID), (*C.kiriObstacleState)(unsafe.Pointer(&state)))
+	block := poolObstacleGetState.take()
+	result := C.kiriObstacle_GetState(self.World.c, C.kiriObstacle(self.ID), (*C.kiriObstacleState)(unsafe.Pointer(&block.state)))
+	answer := poolObstacleGetState.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriObstacle_GetState", result, false); err != nil {
 		return made0, err
 	}
-	return state, nil
+	return answer.state, nil
 }
+
+var poolSheetGetReach pool[struct {
+	lower [3]float32
+	upper [3]float32
+}]
 
 // The box (m, world) that holds all that the sheet may touch in a tick of dt: a host needs no obstacles or contacts
 // outside. It reaches as far around the sheet as its fastest point can go by its velocity and gravity, twice, and the
@@ -2578,14 +2982,14 @@ func (self Sheet) Reach(dt float32) ([3]float32, [3]float32, error) {
 	if err := self.World.check(); err != nil {
 		return made0, made1, err
 	}
-	var lower [3]float32
-	var upper [3]float32
-	result := C.kiriSheet_GetReach(self.World.c, C.kiriSheet(self.ID), C.float(dt), (*C.float)(unsafe.Pointer(&lower)), (*C.float)(unsafe.Pointer(&upper)))
+	block := poolSheetGetReach.take()
+	result := C.kiriSheet_GetReach(self.World.c, C.kiriSheet(self.ID), C.float(dt), (*C.float)(unsafe.Pointer(&block.lower)), (*C.float)(unsafe.Pointer(&block.upper)))
+	answer := poolSheetGetReach.give(block)
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_GetReach", result, false); err != nil {
 		return made0, made1, err
 	}
-	return lower, upper, nil
+	return answer.lower, answer.upper, nil
 }
 
 // For the test that none is missing.

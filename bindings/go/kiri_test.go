@@ -9,6 +9,7 @@ import (
 	"reflect"
 	"runtime"
 	"strings"
+	"sync"
 	"testing"
 )
 
@@ -257,6 +258,57 @@ func TestWorldsAreCollected(t *testing.T) {
 		runtime.GC()
 	}
 	<-freed
+}
+
+// The least of some rounds: a collection empties the pools, and the test itself has garbage.
+func TestTicksMakeNoGarbage(t *testing.T) {
+	world, sheet := halved(nil)
+	const ticks = 1000
+	least := math.Inf(1)
+	for range 5 {
+		before, after := runtime.MemStats{}, runtime.MemStats{}
+		runtime.ReadMemStats(&before)
+		for range ticks {
+			must(world.Tick(1.0/60, 1))
+			must(sheet.Mesh())
+			must(sheet.Solid(0.001))
+			must(sheet.Counts())
+			must(sheet.Point([2]float32{0.5, 0.5}))
+			must(world.Events())
+		}
+		runtime.ReadMemStats(&after)
+		least = min(least, float64(after.TotalAlloc-before.TotalAlloc)/ticks)
+	}
+	if least >= 1 {
+		t.Errorf("%.1f bytes of garbage a tick", least)
+	}
+}
+
+func TestGettersOfManyGoroutines(t *testing.T) {
+	world, sheet := halved(nil)
+	must(world.Tick(1.0/60, 1))
+	var all sync.WaitGroup
+	for i := range 8 {
+		all.Add(1)
+		go func() {
+			defer all.Done()
+			at := [2]float32{0.1 * float32(i+1), 0.25}
+			wanted := must(sheet.Point(at))
+			for range 2000 {
+				if must(sheet.Point(at)) != wanted || must(sheet.Mesh()).Positions.Len() == 0 {
+					t.Error("an answer is that of another goroutine")
+					return
+				}
+			}
+		}()
+	}
+	all.Wait()
+}
+
+func BenchmarkEmptyCall(b *testing.B) {
+	for b.Loop() {
+		GetVersion()
+	}
 }
 
 func BenchmarkCounts(b *testing.B) {

@@ -142,6 +142,27 @@ func failure(w *World, call string, result C.kiriResult, changes bool) error {
 	return &Error{ResultCode(result), call, line}
 }
 
+// ---- Memory that C reads and writes
+
+// What a call is given by pointer escapes: each call would make garbage. Any number of goroutines may call.
+type pool[T any] struct{ blocks sync.Pool }
+
+func (p *pool[T]) take() *T {
+	if block, is := p.blocks.Get().(*T); is {
+		return block
+	}
+	return new(T)
+}
+
+// No pointer stays in a block: what it points at ends.
+func (p *pool[T]) give(block *T) T {
+	var none T
+	answer := *block
+	*block = none
+	p.blocks.Put(block)
+	return answer
+}
+
 // ---- Views
 
 // View is an array of the library, without a copy. It ends with the next tick of its world.
