@@ -36,7 +36,9 @@ bool kiriRegions_Check(const kiriRegions* regions, const kiriGrid* grid, kiriChe
 bool kiriShape_Check(const kiriShape* shape, const kiriGrid* grid, kiriCheck* check);
 bool kiriLinks_Check(const kiriLinks* links, const kiriGrid* grid, const kiriMeshData* mesh, const kiriRegions* regions,
                      kiriCheck* check);
-bool kiriPlacer_Check(const kiriPlacer* placer, const kiriGrid* grid, kiriCheck* check);
+
+/* A piece is being taken, or sites are being placed; else the placer is started anew before it is used. */
+bool kiriPlacer_Check(const kiriPlacer* placer, const kiriGrid* grid, kiriCheck* check, bool isTaking, bool isPlacing);
 
 KIRI_C_END
 

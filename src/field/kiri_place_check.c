@@ -10,6 +10,14 @@ static const kiriMust SlitEndMust[] = {
     KIRI_INDEX(KIRI_OF_CELLS, kiriSlitEnd, cell, cell),
 };
 
+static const kiriMust TakenMust[] = {
+    KIRI_ITEMS_MUST(kiriPlacer, cells, IsPlacerCell),
+};
+
+static const kiriMust EndsMust[] = {
+    KIRI_ITEMS_MUST(kiriPlacer, ends, SlitEndMust),
+};
+
 static const kiriMust PlacerMust[] = {
     KIRI_ITEMS_MUST(kiriPlacer, sites, kiriSiteMust),
     KIRI_ITEMS_MUST(kiriPlacer, cells, IsPlacerCell),
@@ -105,28 +113,36 @@ static bool AreRowsOfPlacer(const kiriPlacer* placer, const kiriGrid* grid)
            (work->stage != AIM_PART || work->targets.data[0].area > 0);
 }
 
-static bool IsTaking(kiriCheck* check, const kiriPlacer* placer, const kiriGrid* grid)
+/* Cells of a piece that is being taken, and their ends once all cells are there; of one that was given up, marks are
+   cleared. */
+static bool IsTaken(kiriCheck* check, const kiriPlacer* placer, const kiriGrid* grid, bool isAsked)
 {
     const kiriPlacerWork* work = placer->work;
     kiriIndices cells = { placer->cells.data, placer->cells.count, placer->cells.capacity };
-    return !work->isTaking || (kiriCheck_That(check, work->marks.count == grid->cells.count) &&
-                               kiriCheck_Marked(check, &cells, work->marks.count, work->marks.data, 1));
+    if (!isAsked) {
+        return !work->isTaking || kiriCheck_Indices(check, &cells, work->marks.count);
+    }
+    bool isFine = kiriCheck_Object(check, TakenMust, placer) && kiriCheck_That(check, work->cursor >= 0);
+    if (!work->isTaking) {
+        return isFine && kiriCheck_Object(check, EndsMust, placer);
+    }
+    return isFine && kiriCheck_That(check, work->marks.count == grid->cells.count) &&
+           kiriCheck_Marked(check, &cells, work->marks.count, work->marks.data, 1);
 }
 
-bool kiriPlacer_Check(const kiriPlacer* placer, const kiriGrid* grid, kiriCheck* check)
+bool kiriPlacer_Check(const kiriPlacer* placer, const kiriGrid* grid, kiriCheck* check, bool isTaking, bool isPlacing)
 {
     const kiriPlacerWork* work = placer->work;
     if (work == NULL) {
         return true;
     }
-    /* What rests is thrown away before it is used again, and may be of a grid that is no more. */
+    /* What rests, or was given up, is started anew before it is used again, and may be of a grid that is no more. */
     bool isFine = kiriField_CheckLeft(&work->flooded, check) && kiriField_CheckLeft(&work->ends, check) &&
-                  kiriField_CheckLeft(&work->fresh, check);
-    if (!isFine || (work->stage == PLACER_RESTS && !work->isTaking)) {
+                  kiriField_CheckLeft(&work->fresh, check) && IsTaken(check, placer, grid, isTaking);
+    if (!isFine || !isPlacing) {
         return isFine;
     }
-    isFine = kiriCheck_Object(check, PlacerMust, placer) && kiriCheck_Object(check, PlacerWorkMust, work) &&
-             IsTaking(check, placer, grid);
+    isFine = kiriCheck_Object(check, PlacerMust, placer) && kiriCheck_Object(check, PlacerWorkMust, work);
     if (!isFine || work->stage == PLACER_RESTS) {
         return isFine;
     }

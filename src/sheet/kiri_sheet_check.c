@@ -418,7 +418,7 @@ static bool IsFollowed(kiriCheck* check, const kiriSheetData* sheet)
     return kiriGrid_Check(&sheet->grid, &sheet->mesh, check) && AreSitesIn(check, sheet) &&
            kiriRegions_Check(&sheet->regions, &sheet->grid, check, areOwned && !isDividing) &&
            kiriShape_Check(&sheet->shape, &sheet->grid, check) &&
-           kiriPlacer_Check(&u->placing.placer, &sheet->grid, check) &&
+           kiriPlacer_Check(&u->placing.placer, &sheet->grid, check, u->placing.isTaking, u->placing.isPlacing) &&
            kiriOwnership_Check(&u->refit.ownership, check, &sheet->mesh) &&
            kiriCheck_That(check, AreNewSamples(sheet) && AreMarks(sheet) && IsPlacing(sheet));
 }
