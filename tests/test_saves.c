@@ -86,17 +86,23 @@ static void GoOn(Weather* weather)
 }
 
 /* By a world that has had others. */
-static void CheckLoads(const Weather* weather, Host* other)
+static bool IsLoadedBy(Host* other, const Host* host)
 {
     int64_t size = 0;
-    OK(kiriWorld_Save(weather->storm.world, NULL, 0, &size));
+    OK(kiriWorld_Save(host->world, NULL, 0, &size));
     uint8_t* bytes = malloc((size_t)size);
-    OK(kiriWorld_Save(weather->storm.world, bytes, size, &size));
-    if (kiriWorld_Load(other->world, bytes, size) != KIRI_OK || Host_Hash(other) != Host_Hash(&weather->host)) {
+    OK(kiriWorld_Save(host->world, bytes, size, &size));
+    bool isLoaded = kiriWorld_Load(other->world, bytes, size) == KIRI_OK && Host_Hash(other) == Host_Hash(host);
+    free(bytes);
+    return isLoaded;
+}
+
+static void CheckLoads(const Weather* weather, Host* other)
+{
+    if (!IsLoadedBy(other, &weather->host)) {
         fail_msg("world %d (%s), tick %d, after %s: a save is not loaded: %s", (int)weather->world,
                  weather->storm.type->name, (int)weather->tick, weather->last, kiriWorld_GetLastError(other->world));
     }
-    free(bytes);
 }
 
 static void PlayWorld(int32_t world)
@@ -133,12 +139,37 @@ static void TestWorldsThatWereRefused(void** state)
     }
 }
 
+/* Many triangles on a side of a square: its faces are caught half way. */
+static void TestLargeSquares(void** state)
+{
+    (void)state;
+    enum { TRIANGLES = 32, TICKS = 60 };
+    const float line[] = { 0.1f, 0.3f, 0.9f, 0.6f };
+    const kiriBudget budget = { 0, 1, 0, 0 };
+    Host host, other;
+    Host_Start(&host);
+    Host_Start(&other);
+    OK(kiriWorld_SetBudget(host.world, &budget));
+    kiriSheetDef def = Host_SmallDef();
+    def.gridResolution = 2;
+    def.frameCount = 2;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, TRIANGLES, TRIANGLES);
+    Host_Cut(&host, sheet, line, 2);
+    for (int32_t tick = 0; tick < TICKS; ++tick) {
+        assert_true(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1) >= KIRI_OK);
+        assert_true(IsLoadedBy(&other, &host));
+    }
+    Host_Destroy(&host);
+    Host_Destroy(&other);
+}
+
 int main(int count, char** arguments)
 {
     worldCount = count > 1 ? atoi(arguments[1]) : WORLDS;
     firstWorld = count > 2 ? atoi(arguments[2]) : 0;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestWorldsThatWereRefused),
+        cmocka_unit_test(TestLargeSquares),
         cmocka_unit_test(TestHonestSavesLoad),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

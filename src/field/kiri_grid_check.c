@@ -172,10 +172,11 @@ static bool AreCellsSound(kiriCheck* check, const kiriGrid* grid, const kiriMesh
 
 /* ---- Faces -------------------------------------------------------------------------------------------------------- */
 
-/* Of two cells that live, in squares beside each other. */
+/* Of two cells that live, in squares beside each other. Those of the side at hand are empty until they are added up. */
 static bool IsFace(const kiriGrid* grid, const kiriSquares* squares, const kiriFace* face)
 {
-    if (face->cell[1] == KIRI_NONE || !(face->width > 0.0)) {
+    bool mayBeEmpty = grid->work->running && grid->work->isMerging;
+    if (face->cell[1] == KIRI_NONE || !(face->width > 0.0 || (mayBeEmpty && face->width == 0.0))) {
         return false;
     }
     int32_t a = grid->cells.data[face->cell[0]].square, b = grid->cells.data[face->cell[1]].square;
