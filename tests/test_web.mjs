@@ -18,6 +18,9 @@ const pass = (tab, ticks) => tab.evaluate((count) => {
         game.simulation.tick();
     }
     game.show();
+    while (game.later.length) {
+        game.show();
+    }
     game.panel.showCost(game.simulation);
 }, ticks);
 
@@ -41,8 +44,19 @@ async function drag(tab, points, steps = 6) {
 const pieces = (tab) => tab.evaluate(() => globalThis.game.simulation.sheet.getCounts().pieces);
 
 try {
-    const tab = await open();
-    const opened = await tab.evaluate(() => globalThis.game.opened);
+    // The page says that it is open when the first picture is there, and makes the rest after that.
+    const tab = await open("?still", { viewport: { width: 1000, height: 640 } }, () => {
+        const of = WebGL2RenderingContext.prototype, wait = of.clientWaitSync;
+        globalThis.waits = [];
+        of.clientWaitSync = function (...given) {
+            globalThis.waits.push(Boolean(globalThis.game.opened));
+            return globalThis.waits.length < 4 ? this.TIMEOUT_EXPIRED : wait.apply(this, given);
+        };
+    });
+    const [opened, waits, later] = await tab.evaluate(() => [game.opened, globalThis.waits, game.later.length]);
+    assert.ok(waits.length >= 4 && !waits.includes(true), `opened while it waits: ${waits}`);
+    assert.equal(later, 2, "the back and the surroundings are made later");
+    await picture(tab, "0_first");
     await pass(tab, 60);
     await picture(tab, "1_opened");
 

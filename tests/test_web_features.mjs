@@ -11,7 +11,11 @@ const frame = (tab, count = 1) => tab.evaluate((count) => {
     }
 }, count);
 const picture = async (tab, name) => {
-    await tab.evaluate(() => globalThis.game.show());
+    await tab.evaluate(() => {
+        do {
+            globalThis.game.show();
+        } while (globalThis.game.later.length);
+    });
     await browser.picture(tab, name);
 };
 const counts = (tab) => tab.evaluate(() => globalThis.game.simulation.sheet.getCounts());

@@ -7,7 +7,6 @@ import { makeMaterials } from "./materials.js";
 import { Panel } from "./panel.js";
 import { readCuts } from "./paths.js";
 import { disc, lantern, snowflake } from "./patterns.js";
-import { makePrint } from "./print.js";
 import { Tape, pack, unpack } from "./share.js";
 import { SIZE, Simulation, TICK } from "./simulation.js";
 import { Skin } from "./skin.js";
@@ -25,6 +24,7 @@ class Game {
     tools = { knife: Knife, scissors: Scissors, grab: Grab };
     behind = 0; // s that the world is behind the clock
     frames = 0;
+    later = []; // what the first picture does not show: made one a frame
     times = { simulation: 0, skin: 0, draw: 0 }; // ms of the last frame
 
     constructor(canvas) {
@@ -74,7 +74,8 @@ class Game {
             this.stage.scene.remove(this.skin.mesh);
             this.skin.dispose();
         }
-        this.skin = new Skin(look, makePrint);
+        const skin = this.skin = new Skin(look);
+        this.later.push(() => skin.printBack());
         this.sound.look = look.sound;
         this.stage.hang(this.choice.hangs);
         this.stage.scene.add(this.skin.mesh);
@@ -211,6 +212,9 @@ class Game {
 
     show() {
         const start = performance.now();
+        if (this.frames > 0) {
+            this.later.shift()?.();
+        }
         if (this.simulation.sheet) {
             this.skin.follow(this.simulation.sheet, this.simulation.sheet.getMesh(this.mesh).revision);
         }
@@ -240,14 +244,16 @@ async function start() {
     const game = globalThis.game = new Game(document.getElementById("view"));
     const packed = location.hash.slice(1);
     game.restart();
+    game.later.push(() => game.stage.addSurroundings());
     if (packed) {
         await game.play(packed);
     }
+    await game.stage.drawn();
+    game.opened = performance.now();
     // Tests make their frames themselves.
     if (!new URLSearchParams(location.search).has("still")) {
         game.run();
     }
-    game.opened = performance.now();
 }
 
 start().catch((error) => {

@@ -3,6 +3,7 @@
 import { CanvasTexture, RepeatWrapping, SRGBColorSpace } from "three";
 
 const SIDE = 1024;
+const prints = new Map();
 
 function texture(draw, color = true) {
     const canvas = document.createElement("canvas");
@@ -125,9 +126,12 @@ const paints = {
     },
 };
 
-/** Textures of the front and the back. */
+/** The texture of a side, made once: "paper", "paperBack" and so on. */
 export function makePrint(name) {
-    return { front: texture(paints[name]), back: texture(paints[`${name}Back`]) };
+    if (!prints.has(name)) {
+        prints.set(name, texture(paints[name]));
+    }
+    return prints.get(name);
 }
 
 /** Heights of foil that was crumpled and smoothed: straight folds in all directions. */

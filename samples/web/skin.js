@@ -3,27 +3,24 @@
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, MeshStandardMaterial } from "three";
 import { Solid } from "kiri";
 
-import { makeCreases } from "./print.js";
+import { makeCreases, makePrint } from "./print.js";
 import { SIZE } from "./simulation.js";
 
-const prints = new Map();
 let creases = null;
 
 export class Skin {
-    constructor(look, makePrint) {
-        if (!prints.has(look.print)) {
-            prints.set(look.print, makePrint(look.print));
-        }
-        const { front, back } = prints.get(look.print);
+    constructor(look) {
+        const front = makePrint(look.print);
         const shine = { roughness: look.roughness, metalness: look.metalness };
         if (look.creased) {
             Object.assign(shine, { bumpMap: creases ??= makeCreases(), bumpScale: 2.2 });
         }
         this.materials = [
             new MeshStandardMaterial({ map: front, ...shine }),
-            new MeshStandardMaterial({ map: back, ...shine }),
+            new MeshStandardMaterial({ map: front, ...shine }), // the back: see printBack
             new MeshStandardMaterial({ color: look.rim, ...shine }),
         ];
+        this.print = look.print;
         this.thickness = look.drawn;
         this.solid = new Solid();
         this.revision = -1;
@@ -31,6 +28,11 @@ export class Skin {
         this.mesh.castShadow = this.mesh.receiveShadow = true;
         this.mesh.frustumCulled = false;
         this.room(1 << 14, 1 << 15);
+    }
+
+    /** Not before the first picture, which does not show it. */
+    printBack() {
+        this.materials[1].map = makePrint(`${this.print}Back`);
     }
 
     /** Buffers with room for so many vertices and triangles. */

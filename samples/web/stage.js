@@ -1,14 +1,16 @@
 // Camera, light and ground.
 
 import {
-    AmbientLight, BoxGeometry, CircleGeometry, Color, CylinderGeometry, DirectionalLight, Fog, Mesh, MeshBasicMaterial,
-    MeshStandardMaterial, NeutralToneMapping, PCFShadowMap, PerspectiveCamera, PMREMGenerator, Scene, SphereGeometry,
-    Vector3, WebGLRenderer, BackSide, HemisphereLight,
+    AmbientLight, BackSide, BoxGeometry, CircleGeometry, Color, CylinderGeometry, DirectionalLight, Fog, HalfFloatType,
+    HemisphereLight, LinearMipmapLinearFilter, Mesh, MeshBasicMaterial, MeshStandardMaterial, NeutralToneMapping,
+    PCFShadowMap, PerspectiveCamera, PMREMGenerator, Scene, SphereGeometry, Vector3, WebGLCubeRenderTarget, WebGLRenderer,
 } from "three";
 
 import { HIGH, LIFT, SIZE, TIP } from "./simulation.js";
 
 const BACKGROUND = 0xd9d4cb;
+const GREY = new Color().setScalar(1.35); // as bright as the surroundings are on the whole
+const MIRRORED = 256; // pixels along a side of what is mirrored
 
 export class Stage {
     constructor(canvas) {
@@ -41,8 +43,31 @@ export class Stage {
         sun.shadow.normalBias = 0.002;
         sun.shadow.radius = 4;
         this.scene.add(sun, sun.target, new HemisphereLight(0xe9f0ff, 0xb8a68e, 0.85), new AmbientLight(0xffffff, 0.12));
-        this.scene.environment = this.makeSurroundings();
+        this.grey = this.makeGrey();
+        this.scene.environment = this.grey.texture;
         this.scene.environmentIntensity = 0.55;
+    }
+
+    /** What is mirrored in the first picture. It is laid out as surroundings are, so that no shader is made twice. */
+    makeGrey() {
+        const target = new WebGLCubeRenderTarget(MIRRORED,
+            { type: HalfFloatType, minFilter: LinearMipmapLinearFilter, generateMipmaps: false, depthBuffer: false });
+        target.texture.isPMREMTexture = true;
+        for (let size = MIRRORED; size >= 16; size /= 2) {
+            target.texture.mipmaps.push({ width: size, height: size });
+        }
+        this.renderer.setClearColor(GREY, 1);
+        for (let i = 0; i < 6 * target.texture.mipmaps.length; i++) {
+            this.renderer.setRenderTarget(target, i % 6, Math.floor(i / 6));
+            this.renderer.clear();
+        }
+        this.renderer.setRenderTarget(null);
+        return target;
+    }
+
+    addSurroundings() {
+        this.scene.environment = this.makeSurroundings();
+        this.grey.dispose();
     }
 
     /** What shiny sheets mirror: a grey room with three lamps. */
@@ -61,7 +86,7 @@ export class Stage {
         lamp(1.5, 0.4, 4, 1.2, 2.4, 5);
         lamp(0.5, 1, -4, 4, 0.6, 3);
         const generator = new PMREMGenerator(this.renderer);
-        const made = generator.fromScene(room, 0.03).texture;
+        const made = generator.fromScene(room, 0.03, 0.1, 100, { size: MIRRORED }).texture;
         generator.dispose();
         return made;
     }
@@ -151,5 +176,15 @@ export class Stage {
 
     draw() {
         this.renderer.render(this.scene, this.camera);
+    }
+
+    /** When what was drawn is there: calls of WebGL only queue it. */
+    async drawn() {
+        const gl = this.renderer.getContext(), fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+        gl.flush();
+        while (!gl.isContextLost() && gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED) {
+            await new Promise((done) => setTimeout(done));
+        }
+        gl.deleteSync(fence);
     }
 }
