@@ -139,10 +139,6 @@ static bool ReserveAll(kiriBounds* bounds, kiriMemory* memory, int32_t triangleC
 {
     int32_t firsts[KIRI_BOUNDS_LEVELS], levelCount, nodes = LayLevels(triangleCount, firsts, &levelCount);
     bool sorts = NeedsSorting(bounds, triangleCount);
-    if (!sorts) {
-        kiriArray_Release(memory, &bounds->codes);
-        kiriArray_Release(memory, &bounds->other);
-    }
     return kiriArray_Reserve(memory, &bounds->order, triangleCount) &&
            kiriArray_Reserve(memory, &bounds->nodes, nodes) && kiriArray_Reserve(memory, &bounds->moves, nodes) &&
            (!sorts || (kiriArray_Reserve(memory, &bounds->codes, triangleCount) &&
@@ -348,8 +344,13 @@ void kiriBounds_Ask(const kiriBounds* bounds)
 #endif
 }
 
+/* Room for sorting is given back here alone: an update may run in a task, where nothing is allocated or freed. */
 bool kiriBounds_Reserve(kiriBounds* bounds, kiriMemory* memory, int32_t triangleCount)
 {
+    if (!NeedsSorting(bounds, triangleCount)) {
+        kiriArray_Release(memory, &bounds->codes);
+        kiriArray_Release(memory, &bounds->other);
+    }
     if (bounds->asked) {
         bounds->patience = KIRI_BOUNDS_PATIENCE;
         bounds->asked = 0;
