@@ -381,15 +381,37 @@ static bool AreEntries(const kiriGridWork* work, const kiriSquares* squares, int
     return areFine;
 }
 
-static bool AreRanges(const kiriGridWork* work)
+/* The nodes of a square that is collected are its entries, in the order of their triangles. */
+static bool IsRange(const kiriGridWork* work, const kiriSquares* squares, int32_t square, uint8_t* isOfSquare)
 {
-    bool areFine = true;
-    for (int32_t s = 0; areFine && s < work->ranges.count; ++s) {
-        kiriNodeRange range = work->ranges.data[s];
-        areFine =
-            !IsCollected(work, s) || (range.first >= 0 && range.first <= range.end && range.end <= work->entries.count);
+    kiriNodeRange range = work->ranges.data[square];
+    bool isFine = range.first >= 0 && range.first <= range.end && range.end <= work->entries.count;
+    int32_t left = isFine ? range.end - range.first : 0, last = KIRI_NONE;
+    for (int32_t n = squares->head[square]; isFine && n != KIRI_NONE; n = squares->nodes.data[n].next) {
+        isOfSquare[n] = 1;
+        --left;
     }
-    return areFine;
+    for (int32_t k = range.first; isFine && k < range.end; ++k) {
+        int32_t node = work->entries.data[k];
+        isFine =
+            node >= 0 && node < squares->nodes.count && isOfSquare[node] && squares->nodes.data[node].triangle > last;
+        last = isFine ? squares->nodes.data[node].triangle : last;
+    }
+    for (int32_t n = squares->head[square]; n != KIRI_NONE; n = squares->nodes.data[n].next) {
+        isOfSquare[n] = 0;
+    }
+    return isFine && left == 0;
+}
+
+static bool AreRanges(kiriCheck* check, const kiriGridWork* work, const kiriSquares* squares)
+{
+    uint8_t* isOfSquare = kiriCheck_Bytes(check, squares->nodes.count);
+    bool areFine = isOfSquare != NULL;
+    for (int32_t s = 0; areFine && s < work->ranges.count; ++s) {
+        areFine = !IsCollected(work, s) || IsRange(work, squares, s, isOfSquare);
+    }
+    kiriMemory_Free(&check->memory, isOfSquare);
+    return kiriCheck_That(check, areFine);
 }
 
 /* The square of the update's item in its first two stages. */
@@ -487,10 +509,11 @@ static int32_t SquareToCollect(const kiriGridWork* work, const kiriSquares* squa
     return work->stage == 0 ? square : IsCollected(work, before) ? after : before;
 }
 
-static bool IsUpdate(const kiriGrid* grid, const kiriSquares* squares)
+static bool IsUpdate(kiriCheck* check, const kiriGrid* grid, const kiriSquares* squares)
 {
     const kiriGridWork* work = grid->work;
-    bool isAtSquare = work->stage < 2 && work->item < CountItemsOf(work, squares), isFine = AreRanges(work);
+    bool isAtSquare = work->stage < 2 && work->item < CountItemsOf(work, squares),
+         isFine = AreRanges(check, work, squares);
     if (!isFine || work->item > CountItemsOf(work, squares)) {
         return false;
     }
@@ -535,7 +558,7 @@ static bool IsRunning(kiriCheck* check, const kiriGrid* grid, const kiriMeshData
            (!work->isMerging || kiriCheck_Object(check, AmidFacesMust, work)) &&
            kiriCheck_That(check, grid->nodeCell.count == mesh->squares.nodes.count &&
                                      grid->vertexCell.count == mesh->vertices.count) &&
-           kiriCheck_That(check, IsUpdate(grid, &mesh->squares));
+           kiriCheck_That(check, IsUpdate(check, grid, &mesh->squares));
 }
 
 bool kiriGrid_Check(const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* check)
