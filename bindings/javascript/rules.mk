@@ -19,8 +19,8 @@ WASM_LINK := --no-entry -sSTANDALONE_WASM -sERROR_ON_UNDEFINED_SYMBOLS=0 -sWARN_
 WASM_OBJECTS := $(patsubst %,$(WASM)/%.o,$(wildcard src/*/*.c src/*/*.cpp) bindings/javascript/hooks.c)
 
 # What ticks spend their time in is compiled for speed, within reason; all else for size.
-WASM_HOT_SOURCES := $(wildcard src/*/*.cpp) $(addsuffix .c, \
-    $(addprefix src/motion/kiri_,affine area_element contact_assembly curl element newton objective panel prediction solver step_begin \
+WASM_HOT_SOURCES := $(addsuffix .c, \
+    $(addprefix src/motion/kiri_,affine area_element block_factor contact_assembly curl element newton objective panel prediction solver step_begin \
         step_contact step_end strain trace) \
     $(addprefix src/view/kiri_,blend carrier fade normal solid surface) \
     $(addprefix src/field/kiri_,geodesic reach shape stencil way) $(addprefix src/sheet/kiri_,obstacle_touch touch))
@@ -29,6 +29,8 @@ WASM_HOT_SOURCES := $(wildcard src/*/*.cpp) $(addsuffix .c, \
 
 wasm: $(WASM)/kiri.wasm
 
+# What was compiled with other options is compiled again.
+$(WASM_OBJECTS): bindings/javascript/rules.mk
 $(WASM_OBJECTS): WASM_SIZE = $(WASM_COLD)
 $(WASM_HOT_SOURCES:%=$(WASM)/%.o): WASM_SIZE = $(WASM_HOT)
 
