@@ -104,8 +104,7 @@ static bool AreObstacles(kiriCheck* check, const kiriWorld* world)
 static bool HasRooms(const kiriWorld* world)
 {
     int32_t sheets = world->sheets.count;
-    return world->active.capacity >= sheets && world->atWork.capacity >= sheets &&
-           (world->turn == 0 || world->turn < sheets + 1);
+    return world->active.capacity >= sheets && world->atWork.capacity >= sheets;
 }
 
 /* ---- Sheets ------------------------------------------------------------------------------------------------------- */
