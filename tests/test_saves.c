@@ -129,11 +129,13 @@ static void TestHonestSavesLoad(void** state)
     }
 }
 
-/* A save of one of these was refused once, or would have been; the last freed memory in a task. */
+/* A save of one of these was refused once, or would have been; 16011 freed memory in a task. */
 static void TestWorldsThatWereRefused(void** state)
 {
     (void)state;
-    static const int32_t worlds[] = { 10, 63, 107, 1307, 1404, 2233, 2375, 6607, 9226, 14440, 14606, 16011, 17095 };
+    static const int32_t worlds[] = {
+        10, 63, 107, 1307, 1404, 2233, 2375, 6607, 9226, 14440, 14606, 16011, 17095, 17599
+    };
     for (size_t k = 0; k < sizeof(worlds) / sizeof(worlds[0]); ++k) {
         PlayWorld(worlds[k]);
     }

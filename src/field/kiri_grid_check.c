@@ -382,7 +382,7 @@ static bool AreEntries(const kiriGridWork* work, const kiriSquares* squares, int
 }
 
 /* The nodes of a square that is collected are its entries, in the order of their triangles. */
-static bool IsRange(const kiriGridWork* work, const kiriSquares* squares, int32_t square, uint8_t* isOfSquare)
+static bool IsRangeOfSquare(const kiriGridWork* work, const kiriSquares* squares, int32_t square, uint8_t* isOfSquare)
 {
     kiriNodeRange range = work->ranges.data[square];
     bool isFine = range.first >= 0 && range.first <= range.end && range.end <= work->entries.count;
@@ -408,7 +408,7 @@ static bool AreRanges(kiriCheck* check, const kiriGridWork* work, const kiriSqua
     uint8_t* isOfSquare = kiriCheck_Bytes(check, squares->nodes.count);
     bool areFine = isOfSquare != NULL;
     for (int32_t s = 0; areFine && s < work->ranges.count; ++s) {
-        areFine = !IsCollected(work, s) || IsRange(work, squares, s, isOfSquare);
+        areFine = !IsCollected(work, s) || IsRangeOfSquare(work, squares, s, isOfSquare);
     }
     kiriMemory_Free(&check->memory, isOfSquare);
     return kiriCheck_That(check, areFine);

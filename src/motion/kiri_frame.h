@@ -80,6 +80,9 @@ static inline kiriVec3 kiriFrame_VelocityAt(const kiriFrameData* frame, kiriVec2
    not fit. */
 bool kiriFrame_FitsFloats(const kiriFrameData* frame);
 
+/* Stays where it is. */
+void kiriFrame_PutToRest(kiriFrameData* frame);
+
 /* Gives the frame the mass and centre of its region; the motion of the material does not change. */
 void kiriFrame_Recenter(kiriFrameData* frame, const kiriMoments* material, double densityPerArea);
 

@@ -344,6 +344,14 @@ bool kiriFrame_FitsFloats(const kiriFrameData* frame)
            kiriVec3_FitsFloats(kiriFrame_VelocityAt(frame, frame->site.at));
 }
 
+void kiriFrame_PutToRest(kiriFrameData* frame)
+{
+    memset(&frame->velocity, 0, sizeof(kiriVec3));
+    memset(&frame->spin, 0, sizeof(kiriVec3));
+    memset(&frame->rate, 0, sizeof(kiriMat3));
+    memset(&frame->history, 0, sizeof(kiriHistory));
+}
+
 void kiriFrame_Recenter(kiriFrameData* frame, const kiriMoments* material, double densityPerArea)
 {
     kiriVec2 center = kiriMoments_Center(material);

@@ -50,6 +50,17 @@ static void FitFrames(kiriSheetData* sheet, int32_t oldCount)
     }
 }
 
+/* Of a piece that diverges and is torn so far apart that doubles do not tell how it turns. */
+static void PutLostToRest(kiriSheetData* sheet)
+{
+    bool isFitted = sheet->update->refit.fits.count > 0; /* else velocities are those that the host gave */
+    for (int32_t f = 0; isFitted && f < sheet->frames.count; ++f) {
+        if (!kiriFrame_FitsFloats(&sheet->frames.data[f])) {
+            kiriFrame_PutToRest(&sheet->frames.data[f]);
+        }
+    }
+}
+
 static void TakeFits(kiriSheetData* sheet)
 {
     kiriRefit* refit = &sheet->update->refit;
@@ -65,6 +76,7 @@ static void TakeFits(kiriSheetData* sheet)
     const kiriLayout* next = &sheet->update->next;
     kiriRefit_LimitEnergy(refit, sheet->frames.data, sheet->frames.count, next->framePiece.data, next->pieces.count,
                           &sheet->settings.material);
+    PutLostToRest(sheet);
     kiriRefit_Commit(refit, &sheet->mesh);
 }
 

@@ -38,14 +38,6 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     return system;
 }
 
-static void PutToRest(kiriFrameData* frame)
-{
-    memset(&frame->velocity, 0, sizeof(kiriVec3));
-    memset(&frame->spin, 0, sizeof(kiriVec3));
-    memset(&frame->rate, 0, sizeof(kiriMat3));
-    memset(&frame->history, 0, sizeof(kiriHistory));
-}
-
 static void ClearForces(kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
@@ -152,7 +144,7 @@ static void FallAsleep(kiriSheetData* sheet)
     }
     for (int32_t i = 0; any && i < sheet->frames.count; ++i) {
         if (kiriSheet_PieceOf(sheet, i)->rest.asleep) {
-            PutToRest(&sheet->frames.data[i]);
+            kiriFrame_PutToRest(&sheet->frames.data[i]);
         }
     }
 }
@@ -203,7 +195,7 @@ static void Stop(kiriSheetData* sheet)
 {
     const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
     KIRI_EACH(i, awake->frames) {
-        PutToRest(&sheet->frames.data[i]);
+        kiriFrame_PutToRest(&sheet->frames.data[i]);
     }
     KIRI_EACH(p, awake->pieces) {
         kiriMotion_WakePiece(sheet, p);
