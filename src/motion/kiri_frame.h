@@ -83,6 +83,9 @@ bool kiriFrame_FitsFloats(const kiriFrameData* frame);
 /* Stays where it is. */
 void kiriFrame_PutToRest(kiriFrameData* frame);
 
+/* What the host gave for a tick is used up. */
+void kiriFrame_DropForces(kiriFrameData* frame);
+
 /* Gives the frame the mass and centre of its region; the motion of the material does not change. */
 void kiriFrame_Recenter(kiriFrameData* frame, const kiriMoments* material, double densityPerArea);
 

@@ -352,6 +352,12 @@ void kiriFrame_PutToRest(kiriFrameData* frame)
     memset(&frame->history, 0, sizeof(kiriHistory));
 }
 
+void kiriFrame_DropForces(kiriFrameData* frame)
+{
+    memset(&frame->force, 0, sizeof(kiriVec3));
+    memset(&frame->torque, 0, sizeof(kiriVec3));
+}
+
 void kiriFrame_Recenter(kiriFrameData* frame, const kiriMoments* material, double densityPerArea)
 {
     kiriVec2 center = kiriMoments_Center(material);

@@ -129,8 +129,8 @@ static void CommitFrames(kiriSheetData* sheet)
     TakeFits(sheet);
 }
 
-/* The frame in whose region a point is. Of a cell that is not there, as bytes may have it that were not saved, nothing is
-   known. */
+/* The frame in whose region a point is. In a save that somebody made up a point may name a cell that does not exist: then
+   the point keeps its frame. */
 static int32_t FrameAround(const kiriSheetData* sheet, const kiriSample* point)
 {
     bool isKnown = point->cell < sheet->regions.field.owner.count;

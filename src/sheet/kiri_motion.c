@@ -40,11 +40,8 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
 
 static void ClearForces(kiriSheetData* sheet)
 {
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        if (kiriPiece_IsAwake(kiriSheet_PieceOf(sheet, i))) {
-            memset(&sheet->frames.data[i].force, 0, sizeof(kiriVec3));
-            memset(&sheet->frames.data[i].torque, 0, sizeof(kiriVec3));
-        }
+    KIRI_EACH(i, kiriSolver_Awake(sheet->solver)->frames) {
+        kiriFrame_DropForces(&sheet->frames.data[i]);
     }
 }
 

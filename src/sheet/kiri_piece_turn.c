@@ -33,7 +33,7 @@ static int32_t FirstPiece(const kiriSheetData* sheet)
 }
 
 /* Those whose turn it is, one at least, as long as they have no more than `most` work together; the others wait. Returns
-   how many contacts are theirs. */
+   their work. */
 static int64_t ChooseTurns(kiriSheetData* sheet, int64_t most)
 {
     int32_t count = sheet->layout.pieces.count, first = FirstPiece(sheet);
@@ -65,6 +65,16 @@ static void ListMoved(kiriSheetData* sheet, const kiriSystem* system)
     kiriSolver_ListAwake(sheet->solver, system);
 }
 
+/* Those of pieces that are moved are used up when they have been. */
+static void DropWaitingForces(kiriSheetData* sheet)
+{
+    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+        if (kiriSheet_PieceOf(sheet, f)->rest.waits) {
+            kiriFrame_DropForces(&sheet->frames.data[f]);
+        }
+    }
+}
+
 /* What fades goes on to do so where it waits. */
 static void NoteFading(kiriSheetData* sheet)
 {
@@ -89,6 +99,7 @@ bool kiriPieceTurns_Begin(kiriSheetData* sheet, const kiriSystem* system, const 
         items = kiriSolver_SystemItems(sheet->solver, (int32_t)ContactsOf(sheet, work));
         most = work / 2;
     } while (items > left && kiriSolver_Awake(sheet->solver)->pieces.count > 1);
+    DropWaitingForces(sheet);
     NoteFading(sheet);
     return true;
 }
