@@ -196,7 +196,8 @@ static int32_t CountMixed(const kiriBounds* bounds)
 {
     int32_t mixed = 0, leaves = bounds->levelCount > 1 ? bounds->firsts[1] : 1;
     for (int32_t leaf = 0; leaf < leaves; ++leaf) {
-        mixed += bounds->groups.data[leaf] == KIRI_MIXED;
+        uint64_t groups = bounds->groups.data[leaf];
+        mixed += (groups & (groups - 1)) != 0;
     }
     return mixed;
 }
@@ -209,10 +210,11 @@ static void CheckNearest(Cloth* cloth, uint32_t* seed)
     /* Bands of vertices, so that some boxes are of one group, and some of several; or mixed so that the tree is made anew. */
     bool isMixed = Random(seed) % 4 == 0;
     int32_t* ofVertex = malloc(sizeof(int32_t) * (size_t)surface->vertexCount);
-    kiriGroup group = { ofVertex, (int32_t)(Random(seed) % 3) };
+    int32_t groups = Random(seed) % 4 == 0 ? 200 : 3; /* also more than a set of them has bits */
+    kiriGroup group = { ofVertex, (int32_t)(Random(seed) % (uint32_t)groups) };
     assert_non_null(ofVertex);
     for (int32_t v = 0; v < surface->vertexCount; ++v) {
-        ofVertex[v] = isMixed ? (int32_t)(Random(seed) % 3) : 3 * v / surface->vertexCount;
+        ofVertex[v] = isMixed ? (int32_t)(Random(seed) % (uint32_t)groups) : groups * v / surface->vertexCount;
     }
     Nearest all = { surface, kiriVec3_Add(at, RandomVec3(seed, 0.3)), reach * reach, KIRI_NONE, 0 }, found = all;
     for (int32_t t = 0; t < surface->triangleCount; ++t) {
@@ -220,8 +222,8 @@ static void CheckNearest(Cloth* cloth, uint32_t* seed)
             LookAtCorner(&all, t);
         }
     }
-    assert_true(kiriBounds_Group(&cloth->bounds, &cloth->room, surface, ofVertex, 3));
-    assert_true(CountMixed(&cloth->bounds) <= 3 + surface->triangleCount / 8 / 16);
+    assert_true(kiriBounds_Group(&cloth->bounds, &cloth->room, surface, ofVertex, groups));
+    assert_true(CountMixed(&cloth->bounds) <= groups + surface->triangleCount / 8 / 16);
     kiriBounds_Nearest(&cloth->bounds, surface, group, found.from, found.least, LookAtCorner, &found);
     assert_int_equal(found.triangle, all.triangle);
     assert_true(found.least == all.least && found.looks <= all.looks);

@@ -21,7 +21,7 @@ typedef struct kiriBox {
     kiriVec3 lower, upper;
 } kiriBox;
 
-enum { KIRI_BOUNDS_PATIENCE = 120, KIRI_BOUNDS_LEVELS = 20, KIRI_MIXED = -2 };
+enum { KIRI_BOUNDS_PATIENCE = 120, KIRI_BOUNDS_LEVELS = 20 };
 
 typedef struct kiriBounds {
     int32_t asked;    /* by readers, from any thread: written without tearing, and read by the tick alone */
@@ -37,7 +37,7 @@ typedef struct kiriBounds {
     int64_t pose;                       /* surface->pose that the boxes fit */
     KIRI_ARRAY(uint8_t) moves;          /* of each node: is any of it awake? Empty: not known */
     int64_t version;                    /* of the movers that say so */
-    KIRI_ARRAY(int32_t) groups; /* of each node, see kiriBounds_Group: that of all its triangles, or KIRI_MIXED */
+    KIRI_ARRAY(uint64_t) groups; /* of each node, see kiriBounds_Group: those of its triangles, a bit each modulo 64 */
 } kiriBounds;
 
 /* Which vertices are awake, by blocks of so many: KIRI_NONE where none is. The version is another whenever that changes. */
@@ -100,8 +100,8 @@ typedef struct kiriGroup {
     int32_t group; /* 0 or more */
 } kiriGroup;
 
-/* Finds out which boxes have triangles of one group only, so that kiriBounds_Nearest leaves out those of others, and where
-   too many have several, makes the tree anew, group by group. To be called after kiriBounds_Update, again where groups have
+/* Finds out which groups boxes have triangles of, so that kiriBounds_Nearest leaves out boxes of others, and where too many
+   leaves have several, makes the tree anew, group by group. To be called after kiriBounds_Update, again where groups have
    changed. False for memory. */
 bool kiriBounds_Group(kiriBounds* bounds, kiriMemory* memory, const kiriSurface* surface, const int32_t* ofVertex,
                       int32_t groupCount);

@@ -8,22 +8,23 @@ static int32_t GroupOf(const kiriSurface* surface, const int32_t* ofVertex, int3
     return kiriBounds_IsHidden(surface, triangle) ? KIRI_NONE : ofVertex[surface->indices.data[3 * (size_t)triangle]];
 }
 
-/* Of two sets of triangles together. */
-static int32_t JoinGroups(int32_t a, int32_t b)
+/* As a set: groups of the same number modulo 64 look the same, so boxes of pieces that lie on each other are told apart also
+   near the root. */
+static uint64_t SetOf(int32_t group)
 {
-    return a == KIRI_NONE || a == b ? b : b == KIRI_NONE ? a : KIRI_MIXED;
+    return group == KIRI_NONE ? 0 : UINT64_C(1) << (group & 63);
 }
 
-/* What the items of a node are of. */
-static int32_t GroupOfNode(const kiriBounds* bounds, const kiriSurface* surface, const int32_t* ofVertex, int32_t level,
-                           int32_t node)
+/* Those that the items of a node are of. */
+static uint64_t GroupsOfNode(const kiriBounds* bounds, const kiriSurface* surface, const int32_t* ofVertex,
+                             int32_t level, int32_t node)
 {
-    int32_t first, end = kiriBounds_ItemsOf(bounds, level, node, &first), group = KIRI_NONE;
+    int32_t first, end = kiriBounds_ItemsOf(bounds, level, node, &first);
+    uint64_t groups = 0;
     for (int32_t i = first; i < end; ++i) {
-        group =
-            JoinGroups(group, level > 0 ? bounds->groups.data[i] : GroupOf(surface, ofVertex, bounds->order.data[i]));
+        groups |= level > 0 ? bounds->groups.data[i] : SetOf(GroupOf(surface, ofVertex, bounds->order.data[i]));
     }
-    return group;
+    return groups;
 }
 
 /* Returns how many leaves have triangles of several groups. */
@@ -33,9 +34,9 @@ static int32_t WriteGroups(kiriBounds* bounds, const kiriSurface* surface, const
     for (int32_t level = 0; level < bounds->levelCount; ++level) {
         int32_t end = level + 1 < bounds->levelCount ? bounds->firsts[level + 1] : bounds->nodes.count;
         for (int32_t node = bounds->firsts[level]; node < end; ++node) {
-            int32_t group = GroupOfNode(bounds, surface, ofVertex, level, node);
-            bounds->groups.data[node] = group;
-            mixed += level == 0 && group == KIRI_MIXED;
+            uint64_t groups = GroupsOfNode(bounds, surface, ofVertex, level, node);
+            bounds->groups.data[node] = groups;
+            mixed += level == 0 && (groups & (groups - 1)) != 0;
         }
     }
     return mixed;
@@ -99,8 +100,7 @@ static double SquareToBox(const kiriBox* box, kiriVec3 x)
 
 static bool HasGroup(const NearSearch* search, int32_t node)
 {
-    int32_t group = search->bounds->groups.data[node];
-    return group == search->group.group || group == KIRI_MIXED;
+    return (search->bounds->groups.data[node] & SetOf(search->group.group)) != 0;
 }
 
 /* The child that is the nearest of those not visited yet, or `end`. */
