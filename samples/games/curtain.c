@@ -24,11 +24,12 @@ enum {
 
 const GameCamera curtainCamera = { { 0.25f, -3.55f, 1.62f }, { 0.0f, 0.0f, 0.86f }, 34.0f, 0.0f };
 const float curtainRail = 1.66f;
-const float basketSize[3] = { 0.56f, 0.48f, 0.18f };
+const float basketSize[3] = { 0.56f, 0.56f, 0.18f };
 const float ballRadius = 0.17f, ballPlace[3] = { 0.86f, -0.18f, 0.17f };
 const float tableSize[3] = { 0.42f, 0.40f, 0.24f }, tablePlace[3] = { -0.86f, -0.12f, 0.12f };
 
 static const float wall = 0.05f;          /* of the basket, m: how thick */
+static const float basketY = 0.0f;        /* m: below the curtain; a light piece glides to either side of it */
 static const float basketReach = 0.38f;   /* m: how far it goes to either side */
 static const float basketPace = 0.5f;     /* m/s */
 static const float crumbArea = 0.0012f;   /* m^2 */
@@ -141,7 +142,7 @@ void Basket_GetPart(const Curtain* curtain, int32_t part, float x, float size[3]
     float side = part % 2 == 1 ? 1.0f : -1.0f;
     memcpy(size, basketSize, sizeof basketSize);
     position[0] = x;
-    position[1] = -0.10f;
+    position[1] = basketY;
     position[2] = 0.5f * basketSize[2];
     if (part == 0) {
         size[2] = wall;
@@ -489,7 +490,7 @@ static bool IsHeld(const Curtain* curtain, const Cloth* cloth, int32_t piece)
 static bool IsInBasket(const Curtain* curtain, const kiriPieceState* piece)
 {
     return fabs(piece->center[0] - curtain->basketX) < 0.5 * basketSize[0] &&
-           fabs(piece->center[1] + 0.10) < 0.5 * basketSize[1] && piece->center[2] < basketSize[2] + 0.05;
+           fabs(piece->center[1] - basketY) < 0.5 * basketSize[1] && piece->center[2] < basketSize[2] + 0.05;
 }
 
 /* The mark whose middle is in the piece and that nobody has yet; -1: none. */
