@@ -283,6 +283,38 @@ static void SiteIsInTwoCells(kiriSheetData* sheet)
     sheet->regions.siteAt.data[cell == 0 ? 1 : 0] = sheet->regions.siteAt.data[cell];
 }
 
+static void SiteIsOfNoRegion(kiriSheetData* sheet)
+{
+    sheet->regions.siteAt.data[0] = sheet->regions.material.count;
+}
+
+static void FlagIsUp(kiriSheetData* sheet)
+{
+    sheet->update->placing.flags.data[0] = 1;
+}
+
+/* What goes on from tick to tick, where nothing is at hand. */
+static void RegionsAreAtWork(kiriSheetData* sheet)
+{
+    sheet->regions.running = true;
+}
+
+static void LinksAreAtWork(kiriSheetData* sheet)
+{
+    sheet->links.work->running = true;
+}
+
+static void PlacerLeavesAMark(kiriSheetData* sheet)
+{
+    sheet->update->placing.placer.work->marks.data[0] = 1;
+}
+
+static void PlacerIsLeftAmidWork(kiriSheetData* sheet)
+{
+    sheet->update->stage = KIRI_STAGE_GRID;
+    sheet->update->needsRebuild = sheet->update->placing.isPlacing = true;
+}
+
 static void SumOverflows(kiriSheetData* sheet)
 {
     sheet->regions.material.data[0].area.low = INT64_MIN;
@@ -296,6 +328,12 @@ static void TestRegions(void** state)
         { "CellIsNobodys", CellIsNobodys },
         { "BorderCellFollowsItself", BorderCellFollowsItself },
         { "SiteIsInTwoCells", SiteIsInTwoCells },
+        { "SiteIsOfNoRegion", SiteIsOfNoRegion },
+        { "FlagIsUp", FlagIsUp },
+        { "RegionsAreAtWork", RegionsAreAtWork },
+        { "LinksAreAtWork", LinksAreAtWork },
+        { "PlacerLeavesAMark", PlacerLeavesAMark },
+        { "PlacerIsLeftAmidWork", PlacerIsLeftAmidWork },
         { "SumOverflows", SumOverflows },
     };
     Host host;
@@ -382,6 +420,38 @@ static void TestShapeAtWork(void** state)
     CHECK_ALL_REFUSED(&host, spoilers);
 }
 
+/* ---- What is seen ---- */
+
+static void VertexHasNoWeight(kiriSheetData* sheet)
+{
+    sheet->vertexSkin.weights.data[sheet->vertexSkin.spans.data[0].first].value = 0.0f;
+}
+
+static void RestPlaceIsFar(kiriSheetData* sheet)
+{
+    sheet->seen.surface.rest.data[0].x = 1e300;
+}
+
+static void ChangeIsBeyond(kiriSheetData* sheet)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    assert_true(surface->changeCount > 0);
+    surface->changes[surface->lastChange].vertices = (kiriRange){ 0, 1 << 20 };
+}
+
+static void TestSeen(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "VertexHasNoWeight", VertexHasNoWeight },
+        { "RestPlaceIsFar", RestPlaceIsFar },
+        { "ChangeIsBeyond", ChangeIsBeyond },
+    };
+    Host host;
+    StartCut(&host);
+    CHECK_ALL_REFUSED(&host, spoilers);
+}
+
 /* ---- Links at work, and what is placed ---- */
 
 static void FaceIsNoBorder(kiriSheetData* sheet)
@@ -445,6 +515,19 @@ static void OwnerOfMaterialIsNone(kiriSheetData* sheet)
     sheet->update->refit.ownership.squares.data[0].owner = 1 << 20;
 }
 
+static void SampleIsNone(kiriSheetData* sheet)
+{
+    sheet->update->samples.refresh.sample = 1 << 20;
+}
+
+static void SampleIsInAnotherSquare(kiriSheetData* sheet)
+{
+    kiriRefresh* refresh = &sheet->update->samples.refresh;
+    refresh->square = 0;
+    refresh->sample = sheet->mesh.squares.vertexHead[0];
+    refresh->squares.data[0] = sheet->mesh.squares.columns * sheet->mesh.squares.rows - 1;
+}
+
 static void PieceIsNone(kiriSheetData* sheet)
 {
     sheet->update->next.framePiece.data[0] = 1 << 20;
@@ -460,6 +543,8 @@ static void TestWork(void** state)
         { "SitesShareACell", SitesShareACell },
         { "MoreIsTakenThanWaits", MoreIsTakenThanWaits },
         { "OwnerOfMaterialIsNone", OwnerOfMaterialIsNone },
+        { "SampleIsNone", SampleIsNone },
+        { "SampleIsInAnotherSquare", SampleIsInAnotherSquare },
         { "PieceIsNone", PieceIsNone },
     };
     Host host;
@@ -489,7 +574,7 @@ int main(void)
         cmocka_unit_test(TestMesh),          cmocka_unit_test(TestLayout),      cmocka_unit_test(TestGrid),
         cmocka_unit_test(TestGridAtWork),    cmocka_unit_test(TestRegions),     cmocka_unit_test(TestShape),
         cmocka_unit_test(TestShapeAtWork),   cmocka_unit_test(TestLinksAtWork), cmocka_unit_test(TestWork),
-        cmocka_unit_test(TestPointOfNoCell),
+        cmocka_unit_test(TestPointOfNoCell), cmocka_unit_test(TestSeen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -543,7 +543,7 @@ void kiriArchive_Growing(kiriArchive* archive, kiriGrowing* growing, const kiriR
     kiriArchive_Numbers(archive, &growing->moved, 8, 1);
     kiriArrayHeader header = kiriArray_GetHeader(rooms[grows].array);
     int64_t itemBytes = (int64_t)rooms[grows].itemBytes;
-    kiriArchive_Expect(archive, growing->capacity >= header.count && growing->capacity <= INT32_MAX &&
+    kiriArchive_Expect(archive, growing->capacity >= header.capacity && growing->capacity <= INT32_MAX &&
                                     growing->moved >= 0 && growing->moved <= header.count * itemBytes);
     if (!kiriArchive_Reads(archive) || kiriArchive_HasFailed(archive)) {
         return;

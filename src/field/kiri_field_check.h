@@ -37,6 +37,11 @@ bool kiriShape_Check(const kiriShape* shape, const kiriGrid* grid, kiriCheck* ch
 bool kiriLinks_Check(const kiriLinks* links, const kiriGrid* grid, const kiriMeshData* mesh, const kiriRegions* regions,
                      kiriCheck* check);
 
+/* Is an update at hand? */
+bool kiriGrid_IsAtWork(const kiriGrid* grid);
+bool kiriShape_IsAtWork(const kiriShape* shape);
+bool kiriLinks_AreAtWork(const kiriLinks* links);
+
 /* A piece is being taken, or sites are being placed; else the placer is started anew before it is used. */
 bool kiriPlacer_Check(const kiriPlacer* placer, const kiriGrid* grid, kiriCheck* check, bool isTaking, bool isPlacing);
 

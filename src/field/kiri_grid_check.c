@@ -95,12 +95,24 @@ static bool IsMaterial(const kiriMoments* m, double side, double farthest)
            fabs(m->uu) <= mostOfSquares && fabs(m->uv) <= mostOfSquares && fabs(m->vv) <= mostOfSquares;
 }
 
+/* While it is being summed. */
+static bool IsPartOfMaterial(const kiriMoments* m, double side, double farthest)
+{
+    double most = 1.01 * side * side, mostOfSquares = most * farthest * farthest;
+    return fabs(m->area) <= most && fabs(m->u) <= most * farthest && fabs(m->v) <= most * farthest &&
+           fabs(m->uu) <= mostOfSquares && fabs(m->uv) <= mostOfSquares && fabs(m->vv) <= mostOfSquares;
+}
+
 static bool AreMaterials(const kiriGrid* grid, const kiriMeshData* mesh)
 {
     double farthest = 2.0 * KIRI_LATTICE * mesh->step;
     bool areFine = grid->side == mesh->step * mesh->squares.side;
     for (int32_t c = 0; areFine && c < grid->cells.count; ++c) {
-        areFine = IsMaterial(&grid->cells.data[c].material, grid->side, farthest);
+        areFine = IsMaterial(&grid->cells.data[c].material, grid->side, farthest) &&
+                  (grid->cells.data[c].material.area > 0.0 || !kiriGrid_IsCell(grid, c));
+    }
+    for (int32_t k = 0; areFine && kiriGrid_IsAtWork(grid) && k < grid->work->newCells.count; ++k) {
+        areFine = IsPartOfMaterial(&grid->work->newCells.data[k].material, grid->side, farthest);
     }
     for (int32_t k = 0; areFine && k < grid->changes.material.count; ++k) {
         areFine = IsMaterial(&grid->changes.material.data[k].was, grid->side, farthest);
@@ -578,4 +590,9 @@ bool kiriGrid_Check(const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* c
 bool kiriGrid_CheckLeft(const kiriGrid* grid, kiriCheck* check)
 {
     return grid->work == NULL || kiriCheck_Indices(check, &grid->work->flagged, grid->work->squareFlags.count);
+}
+
+bool kiriGrid_IsAtWork(const kiriGrid* grid)
+{
+    return grid->work != NULL && grid->work->running;
 }

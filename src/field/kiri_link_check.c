@@ -111,11 +111,12 @@ static bool AreOfMaterial(const kiriSightEdges* edges, const kiriMeshData* mesh)
     return areFine;
 }
 
+/* Between updates none is marked. */
 static bool AreMarksOfFaces(const kiriLinkWork* work, int32_t faces)
 {
     bool areFine = !work->running || work->marks.count >= faces;
     for (int32_t k = 0; areFine && k < work->marks.count; ++k) {
-        areFine = work->marks.data[k] <= KIRI_FACE_BENT;
+        areFine = work->marks.data[k] <= (work->running ? KIRI_FACE_BENT : KIRI_FACE_PASSED);
     }
     for (int32_t k = 0; areFine && work->running && k < work->faces.count; ++k) {
         areFine = work->faces.data[k] >= 0 && work->faces.data[k] < work->marks.count;
@@ -159,4 +160,9 @@ bool kiriLinks_Check(const kiriLinks* links, const kiriGrid* grid, const kiriMes
            (!work->running || (kiriCheck_Object(check, RunningLinksMust, work) &&
                                kiriCheck_That(check, AreOfMaterial(&work->edges, mesh) &&
                                                          AreFacesAtHand(work, grid, regions->field.owner.data))));
+}
+
+bool kiriLinks_AreAtWork(const kiriLinks* links)
+{
+    return links->work != NULL && links->work->running;
 }

@@ -37,6 +37,14 @@ static SiteTarget* TargetOf(PlacerJob* job, int32_t cell)
     return owner < job->placer->oldCount ? NULL : &work->targets.data[owner - job->placer->oldCount];
 }
 
+/* A moment in units; of bytes that were made up it may be too large. */
+static int64_t Plus(int64_t sum, double moment)
+{
+    const double most = 4611686018427387904.0; /* 2^62 */
+    bool fits = moment > -most && moment < most && sum > -(INT64_C(1) << 62) && sum < INT64_C(1) << 62;
+    return fits ? sum + (int64_t)(moment + 0.5) : sum;
+}
+
 /* Every cell counts for something, so that every region has a center. */
 static void AddMaterial(const PlacerJob* job, SiteTarget* target, int32_t cell)
 {
@@ -47,8 +55,8 @@ static void AddMaterial(const PlacerJob* job, SiteTarget* target, int32_t cell)
     area *= kiriPlacerWork_DensityAt(job->work, cell);
     double scale = (double)area / (material->area * side);
     target->area += area;
-    target->u += (int64_t)(scale * material->u + 0.5);
-    target->v += (int64_t)(scale * material->v + 0.5);
+    target->u = Plus(target->u, scale * material->u);
+    target->v = Plus(target->v, scale * material->v);
 }
 
 static void FindCenter(const PlacerJob* job, SiteTarget* target)
@@ -91,7 +99,11 @@ kiriProgress kiriPlacerJob_SumRegions(PlacerJob* job)
     kiriProgress progress = kiriPlacerJob_VisitFresh(job, SumCell);
     if (progress == KIRI_DONE) {
         for (int32_t k = 0; k < job->placer->sites.count - job->placer->oldCount; ++k) {
-            FindCenter(job, &job->work->targets.data[k]);
+            SiteTarget* target = &job->work->targets.data[k];
+            target->isFound = target->area <= 0; /* of bytes that were made up a region may be empty: its site stays */
+            if (!target->isFound) {
+                FindCenter(job, target);
+            }
         }
         job->work->lost = 0;
         job->work->stage = AIM_NEAR;
@@ -149,7 +161,8 @@ static bool MoveToTargets(PlacerJob* job)
         job->work->holds.data[placer->sites.data[i].cell] = KIRI_CELL_FREE;
     }
     for (int32_t i = placer->oldCount; i < placer->sites.count; ++i) {
-        kiriSite site = SiteFor(job, &job->work->targets.data[i - placer->oldCount]);
+        const SiteTarget* target = &job->work->targets.data[i - placer->oldCount];
+        kiriSite site = target->cell != KIRI_NONE ? SiteFor(job, target) : placer->sites.data[i];
         moved =
             moved || SquaredDistance(site.at, placer->sites.data[i].at) > 0.0001 * job->grid->side * job->grid->side;
         placer->sites.data[i] = site;
@@ -168,7 +181,9 @@ kiriProgress kiriPlacerJob_AimNearCenters(PlacerJob* job)
         if (!kiriQuota_Take(job->quota, 1)) {
             return KIRI_MORE;
         }
-        AimAround(job, &work->targets.data[work->cursor]);
+        if (!work->targets.data[work->cursor].isFound) {
+            AimAround(job, &work->targets.data[work->cursor]);
+        }
         work->lost += !work->targets.data[work->cursor].isFound;
     }
     work->cursor = 0;

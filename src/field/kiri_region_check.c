@@ -183,11 +183,12 @@ static bool AreTallies(const kiriRegions* regions)
     return areFine;
 }
 
-static bool IsNewCell(const kiriGrid* grid, int32_t cell)
+/* Those that were made since grid changes were cleared. */
+static uint8_t* MarkNewCells(kiriCheck* check, const kiriGrid* grid)
 {
-    bool isNew = false;
-    for (int32_t k = 0; !isNew && k < grid->changes.made.count; ++k) {
-        isNew = grid->changes.made.data[k] == cell;
+    uint8_t* isNew = kiriCheck_Bytes(check, grid->cells.count);
+    for (int32_t k = 0; isNew != NULL && k < grid->changes.made.count; ++k) {
+        isNew[grid->changes.made.data[k]] = 1;
     }
     return isNew;
 }
@@ -195,17 +196,19 @@ static bool IsNewCell(const kiriGrid* grid, int32_t cell)
 /* A site is in one cell. A cell that is gone, or was made since regions looked, may have the site of another. */
 static bool AreSitesAt(kiriCheck* check, const kiriRegions* regions, const kiriGrid* grid)
 {
-    int64_t sites = check->count[KIRI_OF_SITES];
-    uint8_t* isPlaced = kiriCheck_Bytes(check, sites);
-    bool areFine = isPlaced != NULL;
+    int32_t sites = regions->material.count;
+    uint8_t *isPlaced = kiriCheck_Bytes(check, sites), *isNew = MarkNewCells(check, grid);
+    bool areFine = isPlaced != NULL && isNew != NULL;
     for (int32_t c = 0; areFine && c < regions->siteAt.count; ++c) {
         int32_t site = regions->siteAt.data[c];
-        if (site != KIRI_NONE && kiriGrid_IsCell(grid, c) && !IsNewCell(grid, c)) {
-            areFine = site >= 0 && site < sites && !isPlaced[site];
-            isPlaced[areFine ? site : 0] = 1;
+        areFine = site >= KIRI_NONE && site < sites;
+        if (areFine && site != KIRI_NONE && kiriGrid_IsCell(grid, c) && !isNew[c]) {
+            areFine = !isPlaced[site];
+            isPlaced[site] = 1;
         }
     }
     kiriMemory_Free(&check->memory, isPlaced);
+    kiriMemory_Free(&check->memory, isNew);
     return areFine;
 }
 
@@ -224,7 +227,7 @@ static bool AreRowsOfRegions(const kiriRegions* regions, const kiriGrid* grid)
     int32_t cells = regions->siteAt.count;
     return cells == regions->field.distance.count && cells == regions->onBorder.count &&
            cells == regions->isChanged.count && cells == regions->border.cells.count && cells <= grid->cells.count &&
-           (!regions->running || cells == grid->cells.count);
+           (!regions->running || cells == grid->cells.count) && (!regions->following || regions->running);
 }
 
 bool kiriRegions_Check(const kiriRegions* regions, const kiriGrid* grid, kiriCheck* check, bool areAllOwned)

@@ -291,3 +291,8 @@ bool kiriShape_Check(const kiriShape* shape, const kiriGrid* grid, kiriCheck* ch
     check->count[KIRI_OF_CELLS] = cells;
     return isFine;
 }
+
+bool kiriShape_IsAtWork(const kiriShape* shape)
+{
+    return shape->work != NULL && shape->work->stage != KIRI_SHAPE_REST;
+}

@@ -208,46 +208,84 @@ typedef struct Overlaps {
     uint64_t bits;
 } Overlaps;
 
-static int64_t FindBox(const kiriSquares* squares, const kiriLatticePoint c[3], Overlaps* o)
+typedef struct OverlapBox {
+    const kiriSquares* squares;
+    const kiriLatticePoint* corners;
+    int32_t low, high, from, to; /* rows and columns */
+} OverlapBox;
+
+static OverlapBox FindBox(const kiriSquares* squares, const kiriLatticePoint c[3])
 {
-    int32_t high = 0, to = 0;
+    OverlapBox box = { squares, c, INT32_MAX, 0, INT32_MAX, 0 };
     for (int i = 0; i < 3; ++i) {
         int32_t square = kiriSquares_At(squares, c[i]), row = square / squares->columns,
                 column = square % squares->columns;
-        o->low = i == 0 || row < o->low ? row : o->low;
-        o->from = i == 0 || column < o->from ? column : o->from;
-        high = row > high ? row : high;
-        to = column > to ? column : to;
+        box.low = row < box.low ? row : box.low;
+        box.high = row > box.high ? row : box.high;
+        box.from = column < box.from ? column : box.from;
+        box.to = column > box.to ? column : box.to;
     }
-    o->columns = to - o->from + 1;
-    return (int64_t)o->columns * (high - o->low + 1);
+    return box;
 }
 
-static void FindOverlaps(const kiriSquares* squares, const kiriLatticePoint c[3], Overlaps* o)
+static bool IsOverlap(const OverlapBox* box, int32_t row, int32_t column)
 {
-    int64_t count = FindBox(squares, c, o);
-    o->left = 0;
-    o->bits = count == 1 ? 1 : 0;
-    for (int64_t k = 0; count > 1 && k < count; ++k) {
-        int32_t row = o->low + (int32_t)(k / o->columns), column = o->from + (int32_t)(k % o->columns);
-        if (kiriSquares_Overlap(squares, row * squares->columns + column, c)) {
-            o->bits |= count <= FEW_SQUARES ? UINT64_C(1) << k : 0;
-            o->left += count > FEW_SQUARES;
+    return column >= box->from && column <= box->to &&
+           kiriSquares_Overlap(box->squares, row * box->squares->columns + column, box->corners);
+}
+
+/* The columns that a triangle overlaps in a row hang together, and with those of the row before: so it takes no longer than
+   there are squares, however large the box is. */
+static void FindInRow(const OverlapBox* box, int32_t row, int32_t* first, int32_t* last)
+{
+    int32_t at = *first;
+    while (at <= *last && !IsOverlap(box, row, at)) {
+        ++at;
+    }
+    *first = *last = at;
+    while (IsOverlap(box, row, *first - 1)) {
+        --*first;
+    }
+    while (IsOverlap(box, row, *last + 1)) {
+        ++*last;
+    }
+}
+
+/* How many squares the triangle overlaps. */
+static int64_t FindOverlaps(const kiriSquares* squares, const kiriLatticePoint c[3], Overlaps* o)
+{
+    OverlapBox box = FindBox(squares, c);
+    int64_t columns = box.to - box.from + 1, count = columns * (box.high - box.low + 1), found = 0;
+    bool isFew = count <= FEW_SQUARES;
+    *o = (Overlaps){ box.low, box.from, isFew ? (int32_t)columns : 0, 0, count == 1 };
+    int32_t first = box.from, last = box.to;
+    for (int32_t row = box.low; count > 1 && row <= box.high; ++row) {
+        FindInRow(&box, row, &first, &last);
+        found += last - first + 1;
+        for (int32_t column = first; isFew && column <= last; ++column) {
+            o->bits |= UINT64_C(1) << ((row - box.low) * columns + column - box.from);
         }
     }
-    o->columns = count <= FEW_SQUARES ? o->columns : 0;
+    o->left = isFew ? 0 : (int32_t)found;
+    return count == 1 ? 1 : found;
 }
 
+/* Null where memory is short; and where there are more than nodes, which are one for each. */
 static Overlaps* FindAllOverlaps(kiriCheck* check, const kiriMeshData* mesh)
 {
     Overlaps* all =
         (Overlaps*)(void*)kiriCheck_Bytes(check, (int64_t)sizeof(Overlaps) * check->count[KIRI_OF_TRIANGLES]);
-    for (int32_t t = 0; all != NULL && t < mesh->triangles.count; ++t) {
+    int64_t left = mesh->squares.nodes.count;
+    for (int32_t t = 0; all != NULL && left >= 0 && t < mesh->triangles.count; ++t) {
         if (kiriMesh_IsTriangle(mesh, t)) {
             kiriLatticePoint c[3];
             kiriMesh_Corners(mesh, t, c);
-            FindOverlaps(&mesh->squares, c, &all[t]);
+            left -= FindOverlaps(&mesh->squares, c, &all[t]);
         }
+    }
+    if (!kiriCheck_That(check, left >= 0)) {
+        kiriMemory_Free(&check->memory, all);
+        return NULL;
     }
     return all;
 }

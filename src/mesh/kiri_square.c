@@ -137,6 +137,18 @@ bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriL
            OverlapsInBox(squares, r, column, row, corners);
 }
 
+int64_t kiriSquares_CountOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3])
+{
+    SquareBox r = BoxOf(squares, corners);
+    int64_t count = 0;
+    for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
+        for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
+            count += OverlapsInBox(squares, r, column, row, corners);
+        }
+    }
+    return count;
+}
+
 static void MarkSquareDirty(kiriSquares* squares, int32_t square)
 {
     KIRI_ASSERT(square >= 0 && square < squares->columns * squares->rows);

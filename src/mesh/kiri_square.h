@@ -95,6 +95,9 @@ kiriLatticePoint kiriSquares_Corner(const kiriSquares* squares, int32_t square);
 /* Do the interiors overlap? Exact. */
 bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriLatticePoint corners[3]);
 
+/* How many squares it overlaps. */
+int64_t kiriSquares_CountOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3]);
+
 KIRI_C_END
 
 #endif

@@ -90,8 +90,8 @@ bool AddRows(kiriMatrix* matrix, const kiriBlockPattern* from, int32_t column, i
 }
 
 /* A column of the factor has the rows of the matrix, and those of its children in the elimination tree: the columns
-   whose first row below the diagonal it is. */
-bool Eliminate(kiriMatrix* matrix)
+   whose first row below the diagonal it is. False for memory, or where there are more than `most` blocks. */
+bool Eliminate(kiriMatrix* matrix, int64_t most)
 {
     kiriBlockPattern* factor = &matrix->factor;
     int32_t *child = matrix->child.data, *sibling = matrix->sibling.data;
@@ -104,7 +104,7 @@ bool Eliminate(kiriMatrix* matrix)
         for (int32_t k = child[c]; ok && k != KIRI_NONE; k = sibling[k]) {
             ok = AddRows(matrix, factor, k, c);
         }
-        if (!ok) {
+        if (!ok || factor->row.count > most) {
             return false;
         }
         std::sort(factor->row.data + first, factor->row.data + factor->row.count);
@@ -222,9 +222,9 @@ bool MakeRoomForFrames(kiriMatrix* matrix)
 }
 
 /* When the order of frames and the blocks are known. */
-bool FinishShape(kiriMatrix* matrix)
+bool FinishShape(kiriMatrix* matrix, int64_t most)
 {
-    if (!Eliminate(matrix) || !JoinColumns(matrix) || !PlacePanels(matrix) || !CollectLeft(matrix)) {
+    if (!Eliminate(matrix, most) || !JoinColumns(matrix) || !PlacePanels(matrix) || !CollectLeft(matrix)) {
         return false;
     }
     for (int32_t f = 0; f < matrix->count; ++f) {
@@ -272,6 +272,15 @@ bool AreRows(const kiriMatrix* matrix)
     return areFine;
 }
 
+/* An order of frames that somebody made up may fill the factor: it takes no more memory than arrays may. */
+void FinishReading(kiriArchive* archive, kiriMatrix* matrix)
+{
+    int64_t most = archive->room / ((int64_t)sizeof(double) * matrix->size * matrix->size);
+    bool isDone = archive->isBad || FinishShape(matrix, most);
+    kiriArchive_Expect(archive, isDone || matrix->factor.row.count <= most);
+    archive->isShort |= !isDone && !archive->isBad;
+}
+
 } // namespace
 
 extern "C" kiriMatrix* kiriMatrix_Create(kiriMemory* memory, int32_t size)
@@ -298,7 +307,7 @@ extern "C" bool kiriMatrix_Shape(kiriMatrix* matrix, int32_t frameCount, const k
     } catch (...) {
         return false;
     }
-    return PlaceBlocks(matrix, pairs, pairCount) && FinishShape(matrix);
+    return PlaceBlocks(matrix, pairs, pairCount) && FinishShape(matrix, INT64_MAX);
 }
 
 extern "C" void kiriMatrix_Archive(kiriArchive* archive, kiriMatrix* matrix)
@@ -327,7 +336,7 @@ extern "C" void kiriMatrix_Archive(kiriArchive* archive, kiriMatrix* matrix)
     }
     if (reads && !kiriArchive_HasFailed(archive)) {
         kiriArchive_Expect(archive, AreRows(matrix));
-        archive->isShort |= !archive->isBad && !FinishShape(matrix);
+        FinishReading(archive, matrix);
     }
 }
 

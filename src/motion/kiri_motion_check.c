@@ -155,7 +155,8 @@ bool kiriOwnership_Check(const kiriOwnership* ownership, kiriCheck* check, const
     return kiriCheck_Object(check, OwnershipMust, ownership) &&
            kiriCheck_That(check, ownership->squares.count == ownership->isDirty.count &&
                                      ownership->squares.count == check->count[KIRI_OF_SQUARES] &&
-                                     ownership->next <= dirty.count && HaveParents(ownership, mesh)) &&
+                                     ownership->next <= dirty.count && HaveParents(ownership, mesh) &&
+                                     (ownership->next == 0 || ownership->first.count == check->count[KIRI_OF_SITES])) &&
            kiriCheck_Distinct(check, &dirty, ownership->squares.count) && AreOwners(check, ownership) &&
            AreTransfers(check, ownership);
 }

@@ -203,18 +203,32 @@ static bool HasRoomForSteps(const kiriSolver* solver, const kiriSystem* system)
            solver->J.capacity >= KIRI_MOST_STRAINS * most * solver->size;
 }
 
-bool kiriSolver_Fits(kiriSolver* solver, const kiriSystem* system, const int32_t* framePiece, int32_t pieceCount,
-                     bool* isShort)
+/* As CollectPairs, but nothing is kept: of bytes that were made up there may be more pairs than memory has room for. */
+static bool AreFramesCovered(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    int32_t *members = solver->members.data, count = kiriElement_Members(system, k, members);
+    bool areCovered = true;
+    for (int32_t b = 1; areCovered && b < count; ++b) {
+        for (int32_t a = 0; areCovered && a < b; ++a) {
+            kiriPair pair = { members[a], members[b] };
+            areCovered = IsPairOfLink(system, k, pair) || kiriMatrix_Covers(solver->matrix, pair);
+        }
+    }
+    return areCovered;
+}
+
+bool kiriSolver_Fits(const kiriSolver* solver, const kiriSystem* system, const int32_t* framePiece, int32_t pieceCount)
 {
     bool fits = solver->frameCount == system->frameCount && solver->pieceCount == pieceCount &&
-                solver->elementCount == kiriElement_Count(system);
+                solver->elementCount == kiriElement_Count(system) &&
+                kiriMatrix_FrameCount(solver->matrix) == solver->frameCount;
     for (int32_t f = 0; fits && f < system->frameCount; ++f) {
         fits = solver->framePiece.data[f] == framePiece[f];
     }
     fits = fits && HasRoomForSteps(solver, system);
-    *isShort = fits && !CollectPairs(solver, system, framePiece);
-    fits = fits && !*isShort && IsCovered(solver, system->frameCount);
-    kiriArray_Release(solver->memory, &solver->pairs);
+    for (int32_t k = 0; fits && k < solver->elementCount; ++k) {
+        fits = AreFramesCovered(solver, system, k);
+    }
     return fits;
 }
 

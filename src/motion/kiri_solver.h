@@ -74,9 +74,8 @@ bool kiriSolver_Reserve(kiriSolver* solver, const kiriSystem* next);
    Otherwise nothing is allocated but room that grows. False for memory: nothing is staged then. */
 bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t* framePiece, int32_t pieceCount);
 
-/* Of a solver that was read: is it the one of this system, with room for its steps? *isShort: there was no memory to tell. */
-bool kiriSolver_Fits(kiriSolver* solver, const kiriSystem* system, const int32_t* framePiece, int32_t pieceCount,
-                     bool* isShort);
+/* Of a solver that was read: is it the one of this system, with room for its steps? */
+bool kiriSolver_Fits(const kiriSolver* solver, const kiriSystem* system, const int32_t* framePiece, int32_t pieceCount);
 
 /* What is staged, if anything, becomes current. */
 void kiriSolver_Commit(kiriSolver* solver);

@@ -19,23 +19,29 @@ static bool IsTip(kiriCheck* check, const kiriSheetData* sheet, const kiriTip* t
 }
 
 /* As many points of each cut wait as it says. */
+static bool ArePointsCounted(kiriCheck* check, const kiriSheetData* sheet)
+{
+    int32_t* waiting = (int32_t*)(void*)kiriCheck_Bytes(check, (int64_t)sizeof(int32_t) *
+                                                                   (sheet->cuts.count > 0 ? sheet->cuts.count : 1));
+    bool areFine = waiting != NULL;
+    for (int32_t k = 0; areFine && k < sheet->queue.count; ++k) {
+        waiting[sheet->queue.data[k].cut->index] += 1;
+    }
+    for (int32_t c = 0; areFine && c < sheet->cuts.count; ++c) {
+        areFine = waiting[c] == sheet->cuts.data[c]->waiting;
+    }
+    kiriMemory_Free(&check->memory, waiting);
+    return kiriCheck_That(check, areFine);
+}
+
 static bool AreCuts(kiriCheck* check, const kiriSheetData* sheet)
 {
     bool areFine = true;
     for (int32_t c = 0; areFine && c < sheet->cuts.count; ++c) {
-        const kiriCutData* cut = sheet->cuts.data[c];
-        areFine = IsTip(check, sheet, &cut->tip) && IsTip(check, sheet, &cut->committed) && cut->waiting >= 0;
+        areFine =
+            IsTip(check, sheet, &sheet->cuts.data[c]->tip) && IsTip(check, sheet, &sheet->cuts.data[c]->committed);
     }
-    int64_t waiting = 0;
-    for (int32_t c = 0; areFine && c < sheet->cuts.count; ++c) {
-        int32_t found = 0;
-        for (int32_t k = 0; k < sheet->queue.count; ++k) {
-            found += sheet->queue.data[k].cut == sheet->cuts.data[c];
-        }
-        areFine = found == sheet->cuts.data[c]->waiting;
-        waiting += found;
-    }
-    return kiriCheck_That(check, areFine && waiting == sheet->queue.count);
+    return areFine && ArePointsCounted(check, sheet);
 }
 
 static const kiriMust PointMust[] = {

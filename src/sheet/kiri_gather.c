@@ -116,6 +116,48 @@ static void ClearMap(kiriKeep* map, const int32_t* items, int32_t count)
     }
 }
 
+/* ---- What bytes may have that somebody made up ---- */
+
+static int64_t CountSquaresOf(const kiriMeshData* mesh, int32_t triangle)
+{
+    kiriLatticePoint c[3];
+    kiriMesh_Corners(mesh, triangle, c);
+    return kiriSquares_CountOverlaps(&mesh->squares, c);
+}
+
+static bool AreNeighboursTaken(const kiriSheetData* sheet, int32_t triangle)
+{
+    bool areTaken = true;
+    for (int32_t h = 3 * triangle; areTaken && h < 3 * triangle + 3; ++h) {
+        int32_t twin = kiriMesh_Twin(&sheet->mesh, h);
+        areTaken = twin == KIRI_NONE || kiriMesh_IsOpen(&sheet->mesh, h) ||
+                   sheet->taking.triangles.to.data[twin / 3] != KIRI_NONE;
+    }
+    return areTaken;
+}
+
+/* Does the piece hang together with nothing else? All that its triangles have in squares is in its cells, and what they
+   share an edge with is of it. */
+static bool IsWhole(const kiriGathered* gathered, int32_t firstCell, int32_t firstTriangle)
+{
+    const kiriSheetData* sheet = gathered->sheet;
+    const kiriSquareNode* nodes = sheet->mesh.squares.nodes.data;
+    int64_t left = 0;
+    bool isWhole = true;
+    for (int32_t k = firstTriangle; isWhole && k < gathered->triangles.count; ++k) {
+        left += CountSquaresOf(&sheet->mesh, gathered->triangles.data[k]);
+        isWhole = AreNeighboursTaken(sheet, gathered->triangles.data[k]);
+    }
+    for (int32_t k = firstCell; k < gathered->cells.count; ++k) {
+        int32_t cell = gathered->cells.data[k];
+        for (int32_t n = sheet->mesh.squares.head[sheet->grid.cells.data[cell].square]; n != KIRI_NONE;
+             n = nodes[n].next) {
+            left -= sheet->grid.nodeCell.data[n] == cell;
+        }
+    }
+    return isWhole && left == 0;
+}
+
 /* ---- Pieces ---- */
 
 /* The cells from `from` on are those of the piece. Its marks go again, so that those of each piece are alone. */
@@ -128,6 +170,7 @@ static bool TakeFlooded(kiriGathered* gathered, int32_t piece, int32_t from)
     for (int32_t k = from; ok && k < gathered->cells.count; ++k) {
         ok = TakeTrianglesOf(gathered, gathered->cells.data[k]);
     }
+    ok = ok && IsWhole(gathered, from, firstTriangle);
     kiriGatheredPiece taken = { piece, SortSpan(gathered, triangles, firstTriangle, &ok),
                                 SortSpan(gathered, vertices, firstVertex, &ok) };
     ClearMap(&taking->triangles, triangles->data + firstTriangle, triangles->count - firstTriangle);
@@ -135,19 +178,31 @@ static bool TakeFlooded(kiriGathered* gathered, int32_t piece, int32_t from)
     return ok && kiriArray_Push(gathered->memory, &gathered->pieces, taken);
 }
 
+static int32_t CountLeaving(const kiriSheetData* sheet, const uint8_t* stays)
+{
+    int32_t count = 0;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        count += !stays[p];
+    }
+    return count;
+}
+
 /* Frames of a piece that is gathered have their cell marked. */
 static bool TakePieces(kiriGathered* gathered, const uint8_t* stays)
 {
     const kiriSheetData* sheet = gathered->sheet;
     bool ok = true;
+    int32_t last = KIRI_NONE;
     for (int32_t f = 0; ok && f < sheet->frames.count; ++f) {
         int32_t piece = sheet->layout.framePiece.data[f], cell = sheet->frames.data[f].site.cell;
         int32_t from = gathered->cells.count;
         if (!stays[piece] && !sheet->taking.cells.data[cell]) {
-            ok = TakeGatheredCell(gathered, cell) && FloodCells(gathered, from) && TakeFlooded(gathered, piece, from);
+            ok = piece > last && TakeGatheredCell(gathered, cell) && FloodCells(gathered, from) &&
+                 TakeFlooded(gathered, piece, from);
+            last = piece;
         }
     }
-    return ok;
+    return ok && gathered->pieces.count == CountLeaving(sheet, stays);
 }
 
 static void ClearCells(kiriGathered* gathered)

@@ -22,7 +22,7 @@ typedef struct kiriGathered {
 } kiriGathered;
 
 /* Gathers the pieces that `stays` is 0 for. Fields belong to the mesh as it is (kiriUpdate_IsFieldCurrent). False for memory,
-   which the caller frees. */
+   which the caller frees; and where pieces are not what they must be, in a sheet from bytes that somebody made up. */
 bool kiriGather_Make(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory, const uint8_t* stays);
 
 /* One of the pieces that were gathered. */

@@ -52,7 +52,7 @@ static const kiriMust LayoutMust[] = {
 };
 
 /* Pieces are numbered by their lowest frame. */
-static bool ArePieces(kiriCheck* check, const kiriLayout* layout, int64_t frames)
+bool kiriSheet_ArePieces(kiriCheck* check, const kiriLayout* layout, int64_t frames)
 {
     check->count[KIRI_OF_REGIONS] = frames;
     check->count[KIRI_OF_PIECES] = layout->pieces.count;
@@ -66,7 +66,7 @@ static bool ArePieces(kiriCheck* check, const kiriLayout* layout, int64_t frames
     return areFine && kiriCheck_That(check, pieces == layout->pieces.count);
 }
 
-static bool AreLinksOfPieces(const kiriLayout* layout, const kiriLink* links, int32_t count)
+bool kiriSheet_AreLinksOfPieces(const kiriLayout* layout, const kiriLink* links, int32_t count)
 {
     bool areFine = true;
     for (int32_t k = 0; areFine && k < count; ++k) {
@@ -102,9 +102,9 @@ static bool IsLayout(kiriCheck* check, const kiriSheetData* sheet)
     int32_t links = sheet->links.links.count, offsets = sheet->strainOffsets.strainOffsets.count;
     check->count[KIRI_OF_PINS] = sheet->pins.count;
     check->count[KIRI_OF_LINKS] = links;
-    return ArePieces(check, layout, sheet->frames.count) && kiriCheck_Object(check, LayoutMust, layout) &&
+    return kiriSheet_ArePieces(check, layout, sheet->frames.count) && kiriCheck_Object(check, LayoutMust, layout) &&
            kiriAreaElements_Check(&layout->areaElements, check) && kiriCheck_Object(check, RowsMust, sheet) &&
-           kiriCheck_That(check, AreLinksOfPieces(layout, sheet->links.links.data, links) &&
+           kiriCheck_That(check, kiriSheet_AreLinksOfPieces(layout, sheet->links.links.data, links) &&
                                      AreShares(&layout->pinShares, sheet) &&
                                      (offsets == 0 || (offsets == links && kiriSheet_KeepsStrains(sheet))) &&
                                      sheet->linkParts.count == (layout->severed.count > 0 ? links : 0));
@@ -184,7 +184,7 @@ static const kiriMust TouchMemoryMust[] = {
     KIRI_ITEMS_MUST(kiriTouchMemory, forces, TouchForceMust),
 };
 
-static bool IsInSquare(const kiriSheetData* sheet, kiriLatticePoint at)
+bool kiriSheet_IsInSquare(const kiriSheetData* sheet, kiriLatticePoint at)
 {
     int32_t square =
         kiriLattice_Has(at) && at.x >= 0 && at.y >= 0 ? kiriSquares_At(&sheet->mesh.squares, at) : KIRI_NONE;
@@ -244,6 +244,19 @@ static bool AreContacts(kiriCheck* check, const kiriSheetData* sheet)
     return areFine && IsTouchMemory(check, sheet, &touches->last) && IsTouchMemory(check, sheet, &touches->slept);
 }
 
+/* Points are in the list of the square that they are in. */
+static bool AreListedWhereTheyAre(const kiriSheetData* sheet)
+{
+    const kiriPlaces* places = &sheet->pointPlaces;
+    bool areFine = true;
+    for (int32_t s = 0; areFine && s < places->head.count; ++s) {
+        for (int32_t i = places->head.data[s]; areFine && i != KIRI_NONE; i = places->next.data[i]) {
+            areFine = kiriSquares_At(&sheet->mesh.squares, sheet->points.data[i].at) == s;
+        }
+    }
+    return areFine;
+}
+
 static bool ArePoints(kiriCheck* check, const kiriSheetData* sheet)
 {
     bool areFine = kiriCheck_That(check, sheet->seen.pointCount >= 0 && sheet->seen.pointCount <= sheet->points.count &&
@@ -251,189 +264,11 @@ static bool ArePoints(kiriCheck* check, const kiriSheetData* sheet)
                                              sheet->seen.pointPositions.count == 3 * (int64_t)sheet->points.count);
     for (int32_t i = 0; areFine && i < sheet->points.count; ++i) {
         const kiriSample* point = &sheet->points.data[i];
-        areFine = kiriCheck_That(check, IsInSquare(sheet, point->at) && point->frame >= 0 &&
+        areFine = kiriCheck_That(check, kiriSheet_IsInSquare(sheet, point->at) && point->frame >= 0 &&
                                             point->frame < sheet->frames.count && point->cell >= 0);
     }
-    return areFine && kiriPlaces_Check(&sheet->pointPlaces, check, sheet->points.count);
-}
-
-/* ---- The work at hand --------------------------------------------------------------------------------------------- */
-
-static const kiriMust MoveMust[] = {
-    KIRI_INDEX(KIRI_OF_SITES, kiriSiteMove, frame, frame),
-    KIRI_INDEX_OR_NONE(KIRI_OF_CELLS, kiriSiteMove, was, was),
-};
-
-static const kiriMust MomentsMust[] = {
-    KIRI_REALS(kiriMoments, area, vv),
-};
-
-static const kiriMust OwnMust[] = { KIRI_INDEX(KIRI_OF_SITES, kiriSpan, first, first) };
-
-static const kiriMust PlacingMust[] = {
-    KIRI_ITEMS_MUST(kiriUpdate, placing.own, OwnMust),
-};
-
-enum { MOST_STEPS = 16 };
-
-static const kiriMust UpdateMust[] = {
-    KIRI_WITHIN(KIRI_NONE, KIRI_READY, kiriUpdate, stage, stage),
-    KIRI_WITHIN(0, MOST_STEPS, kiriUpdate, step, step),
-    KIRI_COUNTS(kiriUpdate, spent, spent),
-    KIRI_COUNTS(kiriUpdate, cut.stamp, cut.stamp),
-    KIRI_WITHIN(0, INT32_MAX, kiriUpdate, cut.count, cut.taken),
-    KIRI_ITEMS_MUST(kiriUpdate, placing.moves, MoveMust),
-    KIRI_WITHIN(0, INT32_MAX, kiriUpdate, placing.movesSeen, placing.spread),
-    KIRI_COUNTS(kiriUpdate, placing.search.owed, placing.search.owed),
-    KIRI_REALS(kiriUpdate, placing.whole, placing.whole),
-    KIRI_WITHIN(0, INT32_MAX, kiriUpdate, placing.search.seen, placing.search.seen),
-    KIRI_WITHIN(0, INT32_MAX, kiriUpdate, placing.at, placing.at),
-    KIRI_ITEMS_MUST(kiriUpdate, material, MomentsMust),
-    KIRI_UP_TO(KIRI_OF_VERTICES, kiriUpdate, samples.oldVertices, samples.oldVertices),
-    KIRI_WITHIN(0, INT32_MAX / 8, kiriUpdate, refit.most, refit.most),
-    KIRI_COUNTS(kiriUpdate, due, due),
-};
-
-/* New samples are in cells; samples that move are points. */
-static bool AreNewSamples(const kiriSheetData* sheet)
-{
-    const kiriSampleWork* work = &sheet->update->samples;
-    bool areFine = true;
-    for (int32_t k = 0; areFine && k < work->newPoints.count; ++k) {
-        areFine = IsInSquare(sheet, work->newPoints.data[k].at) && work->newPoints.data[k].cell >= 0 &&
-                  work->newPoints.data[k].cell < sheet->grid.cells.count &&
-                  kiriGrid_IsCell(&sheet->grid, work->newPoints.data[k].cell);
-    }
-    for (int32_t k = 0; areFine && k < work->movedPoints.count; ++k) {
-        areFine = work->movedPoints.data[k].cell >= 0 && work->movedPoints.data[k].cell < sheet->grid.cells.count &&
-                  work->movedPoints.data[k].frame >= 0 && work->movedPoints.data[k].frame < sheet->points.count;
-    }
-    return areFine;
-}
-
-/* Steps of kiri_stages.c and of those that it names: the last of each stage, and some after which more is there. */
-enum { STEP_ORPHANS = 2, STEP_SITES = 1, STEP_LINKS = 3, STEP_SAMPLES = 2, STEP_POINTS = 6, STEP_PREPARE = 2 };
-
-static bool IsStepOfStage(const kiriUpdate* u)
-{
-    static const int32_t last[KIRI_READY + 1] = { 1, 0, STEP_ORPHANS, STEP_LINKS, STEP_POINTS, STEP_PREPARE, 0 };
-    return u->stage == KIRI_NONE || u->step <= last[u->stage];
-}
-
-/* Marks are of cells, of frames or of pieces, as the step at hand has them. */
-static bool AreMarks(const kiriSheetData* sheet)
-{
-    const kiriUpdate* u = sheet->update;
-    int64_t marks = u->placing.marks.count;
-    if (u->stage == KIRI_STAGE_REGIONS && u->step == STEP_ORPHANS) {
-        return marks == sheet->grid.cells.count;
-    }
-    if (u->stage == KIRI_STAGE_SHAPE && u->step == STEP_SITES) {
-        return marks <= u->placing.sites.count && marks >= sheet->frames.count;
-    }
-    return u->stage != KIRI_STAGE_SAMPLES || u->step < STEP_POINTS || marks == u->next.pieces.count;
-}
-
-/* What is staged for the commit: pieces that links join. */
-static bool IsStaged(kiriCheck* check, const kiriSheetData* sheet)
-{
-    const kiriUpdate* u = sheet->update;
-    bool isLate = u->stage > KIRI_STAGE_SAMPLES || (u->stage == KIRI_STAGE_SAMPLES && u->step >= STEP_SAMPLES);
-    if (u->stage == KIRI_READY || !isLate) {
-        return kiriCheck_That(check, u->stage != KIRI_READY);
-    }
-    bool isFine = ArePieces(check, &u->next, u->placing.sites.count) &&
-                  kiriCheck_That(check, AreLinksOfPieces(&u->next, sheet->links.next.data, sheet->links.next.count));
-    for (int32_t p = 0; isFine && p < u->next.pieces.count; ++p) {
-        int32_t origin = u->next.pieces.data[p].origin;
-        isFine = origin >= KIRI_NONE && origin < sheet->layout.pieces.count;
-    }
-    return kiriCheck_That(check, isFine && u->material.count == u->placing.sites.count);
-}
-
-/* Sites are in cells that live, once they were found again in the new grid, and no two in one. */
-static bool AreSitesIn(kiriCheck* check, const kiriSheetData* sheet)
-{
-    const kiriUpdate* u = sheet->update;
-    bool areFound =
-        u->stage < KIRI_STAGE_GRID || u->stage > KIRI_STAGE_REGIONS || (u->stage == KIRI_STAGE_REGIONS && u->step > 0);
-    uint8_t* isHeld = kiriCheck_Bytes(check, sheet->grid.cells.count);
-    bool areFine = isHeld != NULL;
-    for (int32_t i = 0; areFine && (areFound || !u->isScratch) && i < u->placing.sites.count; ++i) {
-        const kiriSite* site = &u->placing.sites.data[i];
-        areFine =
-            kiriCheck_Object(check, kiriSiteMust, site) &&
-            kiriCheck_That(check, !areFound || (kiriGrid_IsCell(&sheet->grid, site->cell) && !isHeld[site->cell]));
-        isHeld[areFine ? site->cell : 0] = 1;
-    }
-    kiriMemory_Free(&check->memory, isHeld);
-    return areFine;
-}
-
-/* Frames that appear take their motion from where there is a triangle. */
-static bool AreNewFrames(const kiriSheetData* sheet)
-{
-    bool areFine = true;
-    for (int32_t k = 0; areFine && k < sheet->update->newFrames.count; ++k) {
-        int32_t triangle = sheet->update->newFrames.data[k].triangle;
-        areFine =
-            triangle >= 0 && triangle < sheet->mesh.triangles.count && kiriMesh_IsTriangle(&sheet->mesh, triangle);
-    }
-    return areFine;
-}
-
-/* What rests has whatever the last work left there. */
-static bool ArePartsOfWork(const kiriUpdate* u, const kiriSheetData* sheet)
-{
-    int64_t sites = u->placing.sites.count, fresh = sites - sheet->frames.count;
-    bool isPlaced = u->stage == KIRI_STAGE_CONSTANTS && u->step > 0;
-    if (u->stage == KIRI_NONE) {
-        return fresh == 0;
-    }
-    return u->cut.taken <= u->cut.count && u->cut.count <= sheet->queue.count &&
-           u->placing.movesSeen <= u->placing.moves.count && IsStepOfStage(u) &&
-           (!isPlaced || u->newFrames.count <= fresh) &&
-           (u->step < STEP_PREPARE || !isPlaced || u->newFrames.count == fresh) &&
-           ((!u->placing.isTaking && !u->placing.isPlacing) || u->placing.placer.work != NULL);
-}
-
-/* The placer is amid a piece: which step it is of is known by the stage. */
-static bool IsPlacing(const kiriSheetData* sheet)
-{
-    const kiriUpdate* u = sheet->update;
-    bool isAmid = u->placing.isTaking || u->placing.isPlacing;
-    bool may =
-        (u->stage == KIRI_STAGE_REGIONS && u->step == STEP_ORPHANS && u->placing.at < sheet->regions.orphans.count) ||
-        (u->stage == KIRI_STAGE_SHAPE && u->step == STEP_SITES && u->placing.at < u->placing.marks.count) ||
-        (u->stage == KIRI_STAGE_SAMPLES && u->step == STEP_POINTS);
-    return !isAmid || may;
-}
-
-/* Grid, regions, shape functions, and what was done with them. */
-static bool IsFollowed(kiriCheck* check, const kiriSheetData* sheet)
-{
-    const kiriUpdate* u = sheet->update;
-    bool areOwned = u->stage <= KIRI_STAGE_CUT || u->stage > KIRI_STAGE_REGIONS;
-    bool isDividing = u->stage == KIRI_STAGE_SHAPE && u->step == STEP_LINKS - 1;
-    return kiriGrid_Check(&sheet->grid, &sheet->mesh, check) && AreSitesIn(check, sheet) &&
-           kiriRegions_Check(&sheet->regions, &sheet->grid, check, areOwned && !isDividing) &&
-           kiriShape_Check(&sheet->shape, &sheet->grid, check) &&
-           kiriPlacer_Check(&u->placing.placer, &sheet->grid, check, u->placing.isTaking, u->placing.isPlacing) &&
-           kiriOwnership_Check(&u->refit.ownership, check, &sheet->mesh) &&
-           kiriCheck_That(check, AreNewSamples(sheet) && AreMarks(sheet) && IsPlacing(sheet));
-}
-
-static bool IsWork(kiriCheck* check, const kiriSheetData* sheet)
-{
-    const kiriUpdate* u = sheet->update;
-    check->count[KIRI_OF_SAMPLES] =
-        u->stage == KIRI_STAGE_SAMPLES && u->step == STEP_POINTS - 1 ? sheet->points.count : sheet->mesh.vertices.count;
-    bool isPlaced = u->stage == KIRI_STAGE_CONSTANTS && u->step > 0;
-    return kiriCheck_Object(check, UpdateMust, u) &&
-           (!isPlaced || kiriCheck_That(check, AreNewFrames(sheet) && kiriRefit_HasRoom(&u->refit))) &&
-           (!u->placing.isPlacing || u->stage != KIRI_STAGE_SHAPE || kiriCheck_Object(check, PlacingMust, u)) &&
-           kiriCheck_That(check, ArePartsOfWork(u, sheet)) && kiriRefresh_Check(&u->samples.refresh, check) &&
-           IsStaged(check, sheet);
+    return areFine && kiriPlaces_Check(&sheet->pointPlaces, check, sheet->points.count) &&
+           kiriCheck_That(check, AreListedWhereTheyAre(sheet));
 }
 
 /* ---- What is seen ------------------------------------------------------------------------------------------------- */
@@ -451,11 +286,23 @@ static bool AreBlocks(const kiriBlocks* blocks, const kiriSheetData* sheet)
     return areFine;
 }
 
+/* No hole fades. */
+static bool AreFadingVertices(const kiriSheetData* sheet)
+{
+    const kiriFades* fades = &sheet->seen.fades;
+    bool are = true;
+    for (int32_t k = 0; are && k < fades->fading.count; ++k) {
+        are = kiriMesh_IsVertex(&sheet->mesh, fades->fading.data[k].sample);
+    }
+    return are;
+}
+
 static bool IsSeen(kiriCheck* check, const kiriSheetData* sheet)
 {
     const kiriSeen* seen = &sheet->seen;
     return kiriSurface_Check(&seen->surface, &sheet->mesh, check) &&
            kiriFades_Check(&seen->fades, check, sheet->mesh.vertices.count) &&
+           kiriCheck_That(check, AreFadingVertices(sheet)) &&
            kiriFades_Check(&seen->pointFades, check, sheet->points.count) &&
            kiriCheck_That(check, AreBlocks(&seen->blocks, sheet) && seen->vertexCount >= 0);
 }
@@ -509,11 +356,8 @@ static bool HasRoomForRows(kiriCheck* check, const kiriSheetData* sheet)
                           .cornerCount = sheet->links.corners.count,
                           .areaElements = &sheet->layout.areaElements,
                           .material = sheet->settings.material };
-    bool isShort = false;
-    hasRoom = hasRoom && kiriSolver_Fits(sheet->solver, &system, sheet->layout.framePiece.data,
-                                         sheet->layout.pieces.count, &isShort);
-    check->isShort |= isShort;
-    return kiriCheck_That(check, hasRoom || isShort);
+    return kiriCheck_That(check, hasRoom && kiriSolver_Fits(sheet->solver, &system, sheet->layout.framePiece.data,
+                                                            sheet->layout.pieces.count));
 }
 
 /* Between two ticks nobody waits. */
@@ -526,16 +370,6 @@ static bool AreTurns(kiriCheck* check, const kiriSheetData* sheet)
     return kiriCheck_That(check, !waits && sheet->turns.next >= 0);
 }
 
-/* Grid, regions and shape functions that an update left behind are made anew before anybody asks them. */
-static bool AreLeft(kiriCheck* check, const kiriSheetData* sheet)
-{
-    const kiriGrid* grid = &sheet->grid;
-    check->count[KIRI_OF_CELLS] = INT32_MAX;
-    check->count[KIRI_OF_FACES] = INT32_MAX;
-    return kiriCheck_That(check, sheet->update->stage == KIRI_STAGE_GRID || sheet->update->stage <= KIRI_STAGE_CUT) &&
-           kiriGrid_CheckLeft(grid, check);
-}
-
 bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check)
 {
     const kiriUpdate* u = sheet->update;
@@ -544,7 +378,7 @@ bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check)
     check->count[KIRI_OF_SITES] = u->placing.sites.count;
     bool isMesh = kiriMesh_Check(&sheet->mesh, check) && AreSettings(check, &sheet->settings) &&
                   AreFramesSound(check, sheet) && kiriCheck_That(check, u->placing.sites.count >= sheet->frames.count);
-    return isMesh && (u->needsRebuild ? AreLeft(check, sheet) : IsFollowed(check, sheet)) &&
+    return isMesh && kiriUpdate_CheckField(check, sheet) &&
            kiriLinks_Check(&sheet->links, &sheet->grid, &sheet->mesh, &sheet->regions, check) &&
            IsLayout(check, sheet) && AreTurns(check, sheet) && ArePins(check, sheet) &&
            kiriSkin_Check(&sheet->vertexSkin, check, sheet->mesh.vertices.count, &sheet->mesh) &&
@@ -552,6 +386,6 @@ bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check)
            kiriCheck_That(
                check, AreElementsOfPieces(&sheet->layout) && AreSamplesOfPieces(&sheet->layout, &sheet->vertexSkin) &&
                           AreSamplesOfPieces(&sheet->layout, &sheet->pointSkin) && AreTrianglesOfPieces(sheet)) &&
-           IsWork(check, sheet) && ArePoints(check, sheet) && kiriCuts_Check(sheet, check) && IsSeen(check, sheet) &&
-           AreContacts(check, sheet) && HasRoomForRows(check, sheet);
+           kiriUpdate_CheckWork(check, sheet) && ArePoints(check, sheet) && kiriCuts_Check(sheet, check) &&
+           IsSeen(check, sheet) && AreContacts(check, sheet) && HasRoomForRows(check, sheet);
 }

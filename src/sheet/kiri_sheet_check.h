@@ -22,6 +22,15 @@ static inline bool kiriLattice_Has(kiriLatticePoint at)
 /* The cuts of a sheet, and the points that wait. */
 bool kiriCuts_Check(const kiriSheetData* sheet, kiriCheck* check);
 
+/* The work on a cut: the grid and what follows from it; and the rest, when the sheet in force is right. */
+bool kiriUpdate_CheckField(kiriCheck* check, const kiriSheetData* sheet);
+bool kiriUpdate_CheckWork(kiriCheck* check, const kiriSheetData* sheet);
+
+/* What both look at: pieces of a layout with so many frames; links that join frames of a piece; places with material. */
+bool kiriSheet_ArePieces(kiriCheck* check, const kiriLayout* layout, int64_t frames);
+bool kiriSheet_AreLinksOfPieces(const kiriLayout* layout, const kiriLink* links, int32_t count);
+bool kiriSheet_IsInSquare(const kiriSheetData* sheet, kiriLatticePoint at);
+
 bool kiriObstacle_Check(const kiriObstacleData* obstacle, kiriCheck* check);
 
 KIRI_C_END

@@ -36,7 +36,8 @@ static int32_t RoundWeights(kiriSampleWeight* weights, int32_t count)
     return kept;
 }
 
-/* Stages what the stencil has weighed. Makes room for the commit, too. */
+/* Stages what the stencil has weighed. Makes room for the commit, too. Of bytes that were made up cells may have no weight
+   that counts: then one frame carries the sample. */
 static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* stencil, int32_t sample)
 {
     kiriReweighed staged = { sample, { 0, 0 } };
@@ -47,7 +48,7 @@ static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* 
     }
     if (!kiriArray_Reserve(memory, &skin->spans, (int64_t)sample + 1) ||
         !kiriArray_Reserve(memory, &skin->staged, (int64_t)skin->staged.count + 1) ||
-        !ResizeSampleWeights(skin, memory, &staged.span, count)) {
+        !ResizeSampleWeights(skin, memory, &staged.span, count > 0 ? count : 1)) {
         return false;
     }
     kiriSampleWeight* weight = skin->weights.data + staged.span.first;
@@ -56,7 +57,10 @@ static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* 
             *weight++ = (kiriSampleWeight){ stencil->frames.data[i], (float)stencil->values.data[i] };
         }
     }
-    RoundWeights(skin->weights.data + staged.span.first, count);
+    if (count == 0) {
+        *weight = (kiriSampleWeight){ stencil->frames.count > 0 ? stencil->frames.data[0] : 0, 1.0f };
+    }
+    RoundWeights(skin->weights.data + staged.span.first, staged.span.count);
     skin->staged.data[skin->staged.count++] = staged;
     return true;
 }

@@ -41,7 +41,6 @@ static const kiriMust SurfaceMust[] = {
     KIRI_REALS(kiriSurface, middle, middle),
     KIRI_COUNTS(kiriSurface, pose, pose),
     KIRI_ITEMS_MUST(kiriSurface, corners, IsVertexIndex),
-    KIRI_ITEMS_MUST(kiriSurface, rest, kiriMustBeVector),
     KIRI_ITEMS_MUST(kiriSurface, patches.floats, kiriMustBeFloat),
     KIRI_WITHIN(0, KIRI_CHANGES, kiriSurface, changeCount, changeCount),
     KIRI_WITHIN(0, KIRI_CHANGES - 1, kiriSurface, lastChange, lastChange),
@@ -49,16 +48,19 @@ static const kiriMust SurfaceMust[] = {
 
 /* ---- Weights ------------------------------------------------------------------------------------------------------ */
 
-/* Frames ascend. */
+/* Frames ascend; and weights are parts of 1. */
 static bool AreWeightsIn(kiriCheck* check, kiriRooms* rooms, const kiriSkin* skin, kiriSpan span)
 {
     bool areFine = kiriCheck_Span(check, rooms, span);
+    double sum = 0.0;
     for (int32_t k = span.first; areFine && k < span.first + span.count; ++k) {
         const kiriSampleWeight* weight = &skin->weights.data[k];
         areFine = kiriCheck_Object(check, SampleWeightMust, weight) &&
                   kiriCheck_That(check, k == span.first || weight[-1].frame < weight->frame);
+        areFine = areFine && kiriCheck_That(check, weight->value > 0.0f && weight->value <= 1.0f);
+        sum += weight->value;
     }
-    return areFine;
+    return areFine && kiriCheck_That(check, span.count == 0 || (sum > 0.999 && sum < 1.001));
 }
 
 /* Each sample is staged at most once; those that are new, in their order. */
@@ -178,6 +180,35 @@ static bool AreRowsOfSurface(const kiriSurface* surface, const kiriMeshData* mes
            surface->patches.isOther.capacity >= frames;
 }
 
+/* Hosts copy these ranges. */
+static bool IsRangeUpTo(kiriRange range, int32_t end)
+{
+    return range.first >= 0 && range.count >= 0 && range.first + (int64_t)range.count <= end;
+}
+
+static bool AreChanges(const kiriSurface* surface)
+{
+    bool areFine = true;
+    for (int32_t k = 0; k < surface->changeCount; ++k) {
+        const kiriChange* change = &surface->changes[(surface->lastChange + KIRI_CHANGES - k) % KIRI_CHANGES];
+        areFine = areFine && change->oldVertexCount >= 0 && change->oldVertexCount <= surface->vertexCount &&
+                  change->oldTriangleCount >= 0 && change->oldTriangleCount <= surface->triangleCount &&
+                  IsRangeUpTo(change->vertices, surface->vertexCount) &&
+                  IsRangeUpTo(change->triangles, surface->triangleCount);
+    }
+    return areFine;
+}
+
+static bool AreRestPlaces(const kiriSurface* surface, const kiriMeshData* mesh)
+{
+    bool areFine = true;
+    for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
+        kiriVec2 rest = surface->rest.data[v], local = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
+        areFine = rest.x == local.x && rest.y == local.y;
+    }
+    return areFine;
+}
+
 /* Corners are those of the mesh, or all one where the triangle is not seen. */
 static bool AreCornersOfSurface(const kiriSurface* surface, const kiriMeshData* mesh)
 {
@@ -194,5 +225,7 @@ static bool AreCornersOfSurface(const kiriSurface* surface, const kiriMeshData* 
 bool kiriSurface_Check(const kiriSurface* surface, const kiriMeshData* mesh, kiriCheck* check)
 {
     return kiriCheck_That(check, AreRowsOfSurface(surface, mesh, check->count[KIRI_OF_FRAMES])) &&
-           kiriCheck_Object(check, SurfaceMust, surface) && kiriCheck_That(check, AreCornersOfSurface(surface, mesh));
+           kiriCheck_Object(check, SurfaceMust, surface) &&
+           kiriCheck_That(check,
+                          AreCornersOfSurface(surface, mesh) && AreRestPlaces(surface, mesh) && AreChanges(surface));
 }
