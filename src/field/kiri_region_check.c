@@ -104,11 +104,28 @@ bool kiriField_Check(const kiriField* field, kiriCheck* check, int64_t owners, k
     return isFine && kiriCheck_IsFine(check);
 }
 
+/* What is not far is to be emptied: it is listed. */
+static bool AreNearListed(const kiriField* field, kiriCheck* check, int32_t room)
+{
+    uint8_t* isListed = kiriCheck_Bytes(check, room);
+    bool areListed = isListed != NULL;
+    for (int32_t k = 0; areListed && k < field->settled.count; ++k) {
+        isListed[field->settled.data[k]] = 1;
+    }
+    for (int32_t c = 0; areListed && c < field->distance.count; ++c) {
+        areListed = isListed[c] || (field->distance.data[c] == KIRI_FAR && field->owner.data[c] == KIRI_NONE);
+    }
+    kiriMemory_Free(&check->memory, isListed);
+    return areListed;
+}
+
 bool kiriField_CheckLeft(const kiriField* field, kiriCheck* check)
 {
     kiriIndices settled = { field->settled.data, field->settled.count, field->settled.capacity };
     int32_t room = field->distance.capacity < field->owner.capacity ? field->distance.capacity : field->owner.capacity;
-    return kiriCheck_Indices(check, &settled, room);
+    return kiriCheck_That(check, field->distance.count == field->owner.count && field->dirty.count == 0 &&
+                                     field->log.count == 0 && field->cursor[KIRI_STEP_LENGTHS] == CHECK_RESTS) &&
+           kiriCheck_Indices(check, &settled, room) && kiriCheck_That(check, AreNearListed(field, check, room));
 }
 
 /* ---- Sites ------------------------------------------------------------------------------------------------------ */
