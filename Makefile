@@ -105,7 +105,7 @@ SCENE_OBJECTS := $(filter $(BUILD)/samples/scene% %/outline.c.o,$(SAMPLE_OBJECTS
 VALIDATE_OBJECTS := $(patsubst %,$(BUILD)/tests/%.c.o,validate validate_mesh validate_field validate_seen)
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c)) $(patsubst %.cpp,$(BUILD)/%,$(wildcard tests/test_*.cpp))
 # Each tests/fuzz_X.c, its input in tests/data/fuzz/X.
-FUZZERS := calls load mesh replay
+FUZZERS := calls load mesh replay spoil
 # What `make accuracy` is made of beside its driver.
 ACCURACY_PARTS := $(addprefix tests/,accuracy_beam accuracy_plate accuracy_shell accuracy_cut accuracy_motion specimen \
                   frame_layout results reference trade sweep plot)
@@ -517,7 +517,9 @@ FUZZ_MAIN := $(if $(filter fuzz,$(config)),,$(BUILD)/tests/fuzz_main.c.o)
 
 $(patsubst %,$(BUILD)/tests/fuzz_%,$(FUZZERS)): $(BUILD)/tests/fuzz.c.o $(FUZZ_MAIN)
 $(BUILD)/tests/fuzz_calls: $(patsubst %,$(BUILD)/tests/fuzz_%.c.o,read world)
-$(BUILD)/tests/fuzz_load: $(patsubst %,$(BUILD)/tests/%.c.o,storm_types storm_acts storm_cuts storm_seen)
+$(BUILD)/tests/fuzz_load $(BUILD)/tests/fuzz_spoil: \
+    $(patsubst %,$(BUILD)/tests/%.c.o,fuzz_saved storm_types storm_acts storm_cuts storm_seen)
+$(BUILD)/tests/fuzz_spoil: $(BUILD)/tests/fuzz_archive.c.o
 ifeq ($(config),fuzz)
 $(BUILD)/tests/fuzz_%: override LDFLAGS += -fsanitize=fuzzer
 endif

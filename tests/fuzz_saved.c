@@ -1,0 +1,208 @@
+#include "fuzz_saved.h"
+
+#include "core/kiri_hash.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_HELD = 256 << 20, MOST_OF_LOAD = 64 << 20 }; /* saves have some hundred thousand bytes */
+
+/* ---- A host that counts ---- */
+
+static void* Allocate(void* user, int64_t bytes)
+{
+    SavedHost* host = user;
+    int64_t* block = host->held + bytes <= MOST_HELD ? malloc((size_t)bytes + 16) : NULL;
+    if (block == NULL) {
+        return NULL;
+    }
+    host->held += bytes;
+    host->most = host->held > host->most ? host->held : host->most;
+    *block = bytes;
+    return memset(block + 2, 0xcd, (size_t)bytes);
+}
+
+static void Free(void* user, void* pointer)
+{
+    if (pointer != NULL) {
+        int64_t* block = (int64_t*)pointer - 2;
+        ((SavedHost*)user)->held -= *block;
+        free(block);
+    }
+}
+
+kiriWorldDef SavedHost_Def(SavedHost* host)
+{
+    kiriWorldDef def;
+    kiriDefaultWorldDef(&def);
+    def.alloc = Allocate;
+    def.free = Free;
+    def.user = host;
+    return def;
+}
+
+/* ---- Good saves ---- */
+
+static Saved worlds[SAVED_WORLDS];
+
+Save Saved_Make(const kiriWorld* world, const Save* base)
+{
+    Save save = { NULL, 0 };
+    for (int pass = 0; pass < 2; ++pass) {
+        int64_t room = save.size;
+        kiriResult result =
+            base == NULL ? kiriWorld_Save(world, save.bytes, room, &save.size)
+                         : kiriWorld_SaveDifference(world, base->bytes, base->size, save.bytes, room, &save.size);
+        FUZZ_CHECK(result == KIRI_OK, "%s", kiriWorld_GetLastError(world));
+        save.bytes = pass == 0 ? malloc((size_t)save.size) : save.bytes;
+        FUZZ_CHECK(save.bytes != NULL, "no memory for a save");
+    }
+    return save;
+}
+
+/* Small, so that of what is changed much matters. */
+static void AddSmallSheet(Storm* storm)
+{
+    enum { SQUARES = 4, CORNERS = SQUARES + 1 };
+    float positions[2 * CORNERS * CORNERS];
+    int32_t indices[6 * SQUARES * SQUARES];
+    FUZZ_CHECK(kiriFillRectangle(1.0f, 1.0f, SQUARES, SQUARES, positions, indices) == KIRI_OK, "no rectangle");
+    const StormType* type = storm->type;
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.restPositions = positions;
+    def.indices = indices;
+    def.vertexCount = CORNERS * CORNERS;
+    def.triangleCount = 2 * SQUARES * SQUARES;
+    def.position[2] = 0.1f * (float)storm->sheetCount;
+    def.gridResolution = 8 + (int32_t)Storm_Random(storm, 4);
+    def.frameCount = 2 + (int32_t)Storm_Random(storm, 3);
+    def.maxFrames = 12;
+    def.collisionPoints = 6;
+    def.touchesSheets = type->touches;
+    def.model = type->model;
+    def.skinning = type->skinning;
+    def.timeStepping = type->timeStepping;
+    def.planar = type->planar;
+    def.normals = Storm_Random(storm, 4) > 0;
+    def.paper.fromScratch = type->fromScratch;
+    kiriSheet sheet = 0;
+    FUZZ_CHECK(kiriCreateSheet(storm->world, &def, &sheet) == KIRI_OK, "%s", kiriWorld_GetLastError(storm->world));
+    Storm_KeepSheet(storm, sheet);
+}
+
+/* Storms of all types; the later ones have so little budget that each stage of the work on a cut is caught half way. */
+static void StartStorm(Storm* storm, int32_t index, SavedHost* host)
+{
+    static const kiriBudget budgets[] = { { 64, 5, 3, 2 }, { 64, 60, 2, 0 }, { 200, 15, 20, 0 }, { 64, 150, 60, 8 } };
+    kiriWorldDef def = SavedHost_Def(host);
+    memset(storm, 0, sizeof(*storm));
+    storm->type = &Storm_Types[index % STORM_TYPES];
+    storm->seed = 1 + (uint32_t)index;
+    FUZZ_CHECK(kiriCreateWorld(&def, &storm->world) == KIRI_OK, "no world");
+    AddSmallSheet(storm);
+    if (storm->type->touches) {
+        AddSmallSheet(storm);
+    }
+    for (int32_t i = 0; storm->type->obstacles && i < STORM_OBSTACLES; ++i) {
+        Storm_AddObstacle(storm);
+    }
+    if (index >= STORM_TYPES) {
+        FUZZ_CHECK(kiriWorld_SetBudget(storm->world, &budgets[index % 4]) == KIRI_OK, "no budget");
+    }
+}
+
+const Saved* Saved_Get(int32_t index)
+{
+    Saved* saved = &worlds[index];
+    if (saved->base.bytes == NULL) {
+        SavedHost host = { 0 };
+        StartStorm(&saved->storm, index, &host);
+        for (int32_t tick = 0; tick < 3 + index / 4; ++tick) {
+            Storm_Tick(&saved->storm);
+        }
+        saved->base = Saved_Make(saved->storm.world, NULL);
+        Storm_Tick(&saved->storm);
+        saved->later = Saved_Make(saved->storm.world, NULL);
+        saved->difference = Saved_Make(saved->storm.world, &saved->base);
+        kiriDestroyWorld(saved->storm.world);
+        saved->storm.world = NULL;
+    }
+    return saved;
+}
+
+/* ---- Sums ---- */
+
+static void PutWord(uint8_t* bytes, int64_t word)
+{
+    for (int k = 0; k < 4; ++k) {
+        bytes[k] = (uint8_t)((uint64_t)word >> 8 * k);
+    }
+}
+
+/* As the library makes it: all bytes before it, eight at a time. */
+void Saved_MendSum(Save* save)
+{
+    uint64_t sum = KIRI_HASH_START;
+    int64_t count = save->size - SAVED_SUM_BYTES;
+    for (int64_t n = 0; n < count; n += 8) {
+        uint64_t word = 0;
+        for (int64_t k = 0; k < 8 && n + k < count; ++k) {
+            word |= (uint64_t)save->bytes[n + k] << 8 * k;
+        }
+        kiriHash_Int64(&sum, (int64_t)word);
+    }
+    PutWord(save->bytes + count, (int64_t)(sum & 0xffffffff));
+    PutWord(save->bytes + count + 4, (int64_t)(sum >> 32));
+}
+
+Save Saved_Copy(const Save* save)
+{
+    Save copy = { malloc((size_t)save->size), save->size };
+    FUZZ_CHECK(copy.bytes != NULL, "no memory for a copy");
+    memcpy(copy.bytes, save->bytes, (size_t)save->size);
+    return copy;
+}
+
+/* ---- What comes of them ---- */
+
+void Saved_GoOn(Storm* storm)
+{
+    const kiriBudget unlimited = { 0, 0, 0, 0 };
+    for (int32_t tick = 0; tick < 6; ++tick) {
+        Storm_HashSeen(storm);
+        Storm_Tick(storm);
+        if (tick == 1) {
+            FUZZ_CHECK(kiriWorld_SetBudget(storm->world, &unlimited) == KIRI_OK, "no budget");
+        } else if (tick == 3) {
+            Storm_Cut(storm);
+            Storm_Slice(storm);
+        }
+    }
+    Storm_HashSeen(storm);
+    uint64_t hash = 0;
+    FUZZ_CHECK(kiriWorld_GetStateHash(storm->world, &hash) == KIRI_OK, "no hash");
+    Save save = Saved_Make(storm->world, NULL);
+    free(save.bytes);
+}
+
+void Saved_Try(kiriResult load(kiriWorld* world, const void* context), const void* context, const Storm* from)
+{
+    Storm storm = *from;
+    SavedHost host = { 0 };
+    kiriWorldDef def = SavedHost_Def(&host);
+    uint64_t before = 0, after = 0;
+    FUZZ_CHECK(kiriCreateWorld(&def, &storm.world) == KIRI_OK, "no world");
+    kiriWorld_GetStateHash(storm.world, &before);
+    kiriResult result = load(storm.world, context);
+    FUZZ_CHECK(host.most <= MOST_OF_LOAD, "a load takes %lld bytes", (long long)host.most);
+    if (result == KIRI_OK) {
+        Saved_GoOn(&storm);
+    } else {
+        FUZZ_CHECK(result == KIRI_ERROR_DATA || result == KIRI_ERROR_MEMORY, "a load returns %d", (int)result);
+        kiriWorld_GetStateHash(storm.world, &after);
+        FUZZ_CHECK(before == after, "a load that failed has changed the world");
+    }
+    kiriDestroyWorld(storm.world);
+    FUZZ_CHECK(host.held == 0, "%lld bytes leak", (long long)host.held);
+}

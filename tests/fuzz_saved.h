@@ -1,0 +1,44 @@
+/* What fuzzers of saves share: a host that counts what it gives, good saves of worlds to which a storm has happened, and what
+   a world that was loaded must be good for. */
+#ifndef KIRI_TEST_FUZZ_SAVED_H
+#define KIRI_TEST_FUZZ_SAVED_H
+
+#include "fuzz.h"
+#include "storm.h"
+
+enum { SAVED_WORLDS = 96, SAVED_HEAD_BYTES = 32, SAVED_SUM_BYTES = 8 };
+
+/* Refuses memory where it would hold too much. */
+typedef struct SavedHost {
+    int64_t held, most;
+} SavedHost;
+
+kiriWorldDef SavedHost_Def(SavedHost* host);
+
+typedef struct Save {
+    uint8_t* bytes;
+    int64_t size;
+} Save;
+
+/* Of a storm: a save, a later one, and the difference between these. */
+typedef struct Saved {
+    Storm storm;
+    Save base, later, difference;
+} Saved;
+
+const Saved* Saved_Get(int32_t index);
+
+/* The difference to another one, or all where there is none. */
+Save Saved_Make(const kiriWorld* world, const Save* base);
+Save Saved_Copy(const Save* save);
+
+/* Of the bytes as they are. */
+void Saved_MendSum(Save* save);
+
+/* It ticks, is cut, is read and saved: as its budget has it, and then so that the work at hand is done. */
+void Saved_GoOn(Storm* storm);
+
+/* Loads bytes that may be anything into a world, which goes on; or is refused, and then nothing has changed. */
+void Saved_Try(kiriResult load(kiriWorld* world, const void* context), const void* context, const Storm* storm);
+
+#endif
