@@ -157,6 +157,11 @@ static void CellFollowsItself(kiriSheetData* sheet)
     sheet->grid.cells.data[cell].next = cell;
 }
 
+static void FreeCellIsFar(kiriSheetData* sheet)
+{
+    sheet->grid.freeCell = 1 << 30;
+}
+
 static void FaceHasNoWidth(kiriSheetData* sheet)
 {
     sheet->grid.faces.data[0].width = 0.0;
@@ -208,6 +213,7 @@ static void TestGrid(void** state)
     static const Spoiler spoilers[] = {
         { "CellIsOfAnotherSquare", CellIsOfAnotherSquare },
         { "CellFollowsItself", CellFollowsItself },
+        { "FreeCellIsFar", FreeCellIsFar },
         { "FaceHasNoWidth", FaceHasNoWidth },
         { "FaceFollowsItself", FaceFollowsItself },
         { "StepLeadsFar", StepLeadsFar },

@@ -173,9 +173,10 @@ static bool AreCellsSound(kiriCheck* check, const kiriGrid* grid, const kiriMesh
     for (int32_t s = 0; areFine && s < grid->squareCell.count; ++s) {
         areFine = AreCellsOf(check, grid, mesh, &chains, s);
     }
-    areFine = areFine && kiriCheck_That(check, chains.listed == grid->cellCount);
+    areFine = areFine && kiriCheck_That(check, chains.listed == grid->cellCount && grid->freeCell >= KIRI_NONE &&
+                                                   grid->freeCell < grid->cells.count);
     for (int32_t c = grid->freeCell; areFine && c != KIRI_NONE; c = grid->cells.data[c].next) {
-        areFine = kiriCheck_That(check, c >= 0 && c < grid->cells.count) && TakeGone(check, grid, &chains, c);
+        areFine = TakeGone(check, grid, &chains, c);
     }
     areFine = areFine && AreGone(check, grid, &chains) && kiriCheck_That(check, chains.listed == grid->cells.count);
     kiriMemory_Free(&check->memory, chains.seen);
