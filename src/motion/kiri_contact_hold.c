@@ -15,11 +15,6 @@ static double Yielded(const kiriContactStep* step)
     return step->push > 0.0 ? step->push * step->give : 0.0;
 }
 
-static kiriPieceStep* PieceOfRow(const kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    return kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
-}
-
 /* Marks the pieces that are too deep in something, and keeps where the systems left them. */
 static bool FindDeep(kiriSolver* solver, const kiriSystem* system)
 {
@@ -32,7 +27,7 @@ static bool FindDeep(kiriSolver* solver, const kiriSystem* system)
         double depth = kiriContact_Depth(solver, system, k, solver->poses.data) - Yielded(step);
         step->solved = step->push;
         if (depth > MOST_DEPTH) {
-            PieceOfRow(solver, system, k)->isSearching = any = true;
+            kiriContact_PieceOf(solver, system, k)->isSearching = any = true;
         }
     }
     if (any) {
@@ -101,7 +96,7 @@ static bool HoldFrames(kiriSolver* solver, const kiriSystem* system, int32_t k)
 static bool HoldPiece(kiriSolver* solver, const kiriSystem* system, int32_t k)
 {
     kiriContactStep* step = &solver->contacts.data[k];
-    const kiriPieceStep* piece = PieceOfRow(solver, system, k);
+    const kiriPieceStep* piece = kiriContact_PieceOf(solver, system, k);
     kiriVec3 along = Along(system, k);
     double depth = kiriContact_Depth(solver, system, k, solver->poses.data) - Yielded(step);
     double inertia = piece->mass / (piece->stepping.part * piece->stepping.part), share = kiriVec3_Dot(along, along);
@@ -134,7 +129,7 @@ static void SweepHolds(kiriSolver* solver, const kiriSystem* system, bool isWhol
     for (int sweep = 0; isLeft && sweep < SWEEPS; ++sweep) {
         isLeft = false;
         for (int32_t k = 0; k < system->contactCount; ++k) {
-            if (PieceOfRow(solver, system, k)->isSearching) {
+            if (kiriContact_PieceOf(solver, system, k)->isSearching) {
                 isLeft |= isWhole ? HoldPiece(solver, system, k) : HoldFrames(solver, system, k);
             }
         }
@@ -164,7 +159,7 @@ static bool TakeHeld(kiriSolver* solver, const kiriSystem* system)
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
         kiriContactStep* step = &solver->contacts.data[k];
-        step->push = PieceOfRow(solver, system, k)->isSearching ? step->solved : step->push;
+        step->push = kiriContact_PieceOf(solver, system, k)->isSearching ? step->solved : step->push;
     }
     return isLeft;
 }

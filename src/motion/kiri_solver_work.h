@@ -1,6 +1,6 @@
 /* What the files of the solver share: kiri_solver.c (unknowns, pattern, a step), kiri_step_begin.c, kiri_objective.c,
-   kiri_newton.c, kiri_step_contact.c, kiri_contact_assembly.c, kiri_contact_hold.c, kiri_energy_limit.c
-   and kiri_step_reaction.c. No other file of the library includes it.
+   kiri_newton.c, kiri_contact_begin.c, kiri_step_contact.c, kiri_contact_assembly.c, kiri_contact_hold.c,
+   kiri_energy_limit.c and kiri_step_reaction.c. No other file of the library includes it.
 
    The step is a minimisation over the poses of the frames at its end. The objective is
 
@@ -38,6 +38,8 @@ typedef struct kiriStepEnergy {
 } kiriStepEnergy;
 
 enum { KIRI_CONTACT_MEMBERS = 8 };
+
+#define KIRI_SLIDE_FLOOR 1e-9 /* m: a shorter way is no slide */
 
 /* A contact in one step. While a linear system is solved, and along the step that it leads to, it is a spring on the
    depth, whether that is above zero or not, and either a spring on the slide or a force of a given size. After each
@@ -262,7 +264,28 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system);
 
 /* ---- Contacts (kiri_step_contact.c) ---- */
 
-/* Places planes and points for a step; then, once a piece has its scheme and its prediction, guesses what its contacts do. */
+static inline kiriPieceStep* kiriContact_PieceOf(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    return kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
+}
+
+static inline kiriVec3 kiriVec3_AlongPlane(kiriVec3 a, kiriVec3 normal)
+{
+    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, normal), normal);
+}
+
+/* Where frames have a point by these weights. */
+kiriVec3 kiriSystem_PointOfMany(const kiriSystem* system, const kiriWeight* weights, int32_t count, kiriVec2 at,
+                                const kiriPose* poses);
+
+/* The velocity that an obstacle has at a point by what sheets gave it in this tick. 1/kg: of the obstacle at a point, along
+   a direction. N/m: of what resists the point of a contact by its inertia alone. */
+kiriVec3 kiriContact_Recoil(const kiriSystem* system, int32_t k, kiriVec3 point);
+double kiriContact_InverseMass(const kiriSystem* system, int32_t k, kiriVec3 point, kiriVec3 along);
+double kiriContact_Inertia(const kiriSolver* solver, const kiriSystem* system, int32_t k);
+
+/* Places planes and points for a step; then, once a piece has its scheme and its prediction, guesses what its contacts do
+   (kiri_contact_begin.c). */
 void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system);
 void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system);
 

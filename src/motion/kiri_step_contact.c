@@ -4,19 +4,16 @@
 #define GRIP 30.0           /* and so many times for the slide of what sticks */
 #define SINKING 1e-4        /* m: and so much that it sinks in no deeper by what it is known to push with */
 #define MOST_SPRING 1e9     /* but no more times the mass over h'^2 than that */
-#define SLIDE_FLOOR 1e-9    /* m: a shorter way is no slide */
 #define SLIDE_HALVINGS 8    /* of the step, where friction ends it */
 #define SLOPE 0.1           /* of what the step promises: less is no crossing */
 #define EARLY 2             /* systems */
 #define PUSH_TOLERANCE 0.02 /* of the largest push of the piece: forces that are off by less need no other iteration */
 #define SINK_TOLERANCE 1e-5 /* m: nor do points that came below a plane by less */
-#define LEAST_FREE 0.5      /* of the weights of a contact: those of frames that the host does not hold */
-#define FAR_BELOW 1e9       /* m: of planes that nothing can touch */
 
 /* ---- Points ------------------------------------------------------------------------------------------------------- */
 
-static kiriVec3 PointOf(const kiriSystem* system, const kiriWeight* weights, int32_t count, kiriVec2 at,
-                        const kiriPose* poses)
+kiriVec3 kiriSystem_PointOfMany(const kiriSystem* system, const kiriWeight* weights, int32_t count, kiriVec2 at,
+                                const kiriPose* poses)
 {
     kiriVec3 x = { 0.0, 0.0, 0.0 };
     for (int32_t m = 0; m < count; ++m) {
@@ -28,17 +25,7 @@ static kiriVec3 PointOf(const kiriSystem* system, const kiriWeight* weights, int
 kiriVec3 kiriContact_Point(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses)
 {
     const kiriContactStep* step = &solver->contacts.data[k];
-    return PointOf(system, step->members, step->memberCount, system->contacts[k].at, poses);
-}
-
-static kiriPieceStep* PieceOf(const kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    return kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
-}
-
-static kiriVec3 AlongPlane(kiriVec3 a, kiriVec3 normal)
-{
-    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, normal), normal);
+    return kiriSystem_PointOfMany(system, step->members, step->memberCount, system->contacts[k].at, poses);
 }
 
 static double DepthAt(const kiriContactStep* step, const kiriContactRow* row, kiriVec3 point)
@@ -54,7 +41,13 @@ double kiriContact_Depth(const kiriSolver* solver, const kiriSystem* system, int
 static kiriVec3 SlideAt(const kiriContactStep* step, const kiriContactRow* row, kiriVec3 point)
 {
     kiriVec3 way = kiriVec3_Sub(point, step->start);
-    return AlongPlane(kiriVec3_Sub(way, step->carried), row->normal);
+    return kiriVec3_AlongPlane(kiriVec3_Sub(way, step->carried), row->normal);
+}
+
+double kiriContact_Inertia(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    double part = kiriContact_PieceOf(solver, system, k)->stepping.part;
+    return solver->contacts.data[k].mass / (part * part);
 }
 
 /* ---- Obstacles that yield ----------------------------------------------------------------------------------------- */
@@ -64,8 +57,7 @@ static const kiriYieldRow* YieldOf(const kiriSystem* system, int32_t k)
     return system->contacts[k].yield != KIRI_NONE ? &system->yields[system->contacts[k].yield] : NULL;
 }
 
-/* The velocity that an obstacle has at a point by what sheets gave it in this tick. */
-static kiriVec3 Recoil(const kiriSystem* system, int32_t k, kiriVec3 point)
+kiriVec3 kiriContact_Recoil(const kiriSystem* system, int32_t k, kiriVec3 point)
 {
     const kiriYieldRow* yield = YieldOf(system, k);
     if (yield == NULL) {
@@ -79,8 +71,7 @@ static kiriVec3 Recoil(const kiriSystem* system, int32_t k, kiriVec3 point)
     return kiriVec3_AddScaled(round, yield->inverseMass, yield->impulse.force);
 }
 
-/* 1/kg: of the obstacle at a point, along a direction. */
-static double InverseMass(const kiriSystem* system, int32_t k, kiriVec3 point, kiriVec3 along)
+double kiriContact_InverseMass(const kiriSystem* system, int32_t k, kiriVec3 point, kiriVec3 along)
 {
     const kiriYieldRow* yield = YieldOf(system, k);
     if (yield == NULL || system->contacts[k].felt >= 0.0) {
@@ -88,172 +79,6 @@ static double InverseMass(const kiriSystem* system, int32_t k, kiriVec3 point, k
     }
     kiriVec3 arm = kiriVec3_Cross(kiriVec3_Sub(point, yield->center), along);
     return yield->inverseMass + kiriVec3_Dot(arm, kiriMat3_Mul(yield->inverseInertia, arm));
-}
-
-/* ---- Begin of a step ---------------------------------------------------------------------------------------------- */
-
-bool kiriSolver_ReserveContacts(kiriSolver* solver, int32_t count)
-{
-    return kiriArray_Reserve(solver->memory, &solver->contacts, count);
-}
-
-/* The row acts on its largest frames that all have a block of the matrix in common: so that what it couples is solved
-   for exactly. */
-static void ChooseMembers(const kiriSolver* solver, const kiriContactRow* row, kiriContactStep* step)
-{
-    double sum = 0.0;
-    step->memberCount = 0;
-    for (int32_t n = 0; n < row->weightCount && step->memberCount < KIRI_CONTACT_MEMBERS; ++n) {
-        bool isCoupled = true;
-        for (int32_t m = 0; isCoupled && m < step->memberCount; ++m) {
-            kiriPair pair = { step->members[m].frame, row->weights[n].frame };
-            isCoupled = kiriMatrix_Covers(solver->matrix, pair);
-        }
-        if (isCoupled) {
-            step->members[step->memberCount++] = row->weights[n];
-            sum += row->weights[n].value;
-        }
-    }
-    for (int32_t m = 0; m < step->memberCount; ++m) {
-        step->members[m].value /= sum;
-    }
-}
-
-/* Where the plane is at the end of the step, and how far the obstacle goes. A point that starts below the plane ends no
-   higher than `pushSpeed` lets it. */
-static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    const kiriContactRow* row = &system->contacts[k];
-    kiriContactStep* step = &solver->contacts.data[k];
-    const kiriPose* poses = solver->start.data;
-    step->start = kiriContact_Point(solver, system, k, poses);
-    kiriVec3 off = kiriVec3_Sub(step->start, PointOf(system, row->weights, row->weightCount, row->at, poses));
-    kiriVec3 velocity = kiriVec3_Add(row->velocity, Recoil(system, k, step->start));
-    step->carried = kiriVec3_Scale(solver->dt, velocity);
-    double now = row->offset + kiriVec3_Dot(row->normal, kiriVec3_Add(row->way, off));
-    double depth = now - kiriVec3_Dot(row->normal, step->start), pushed = row->pushSpeed * solver->dt;
-    step->lowered = depth > pushed ? depth - pushed : 0.0;
-    step->lift = kiriVec3_Dot(row->normal, step->carried) + (depth > 0.0 ? depth - step->lowered : 0.0);
-    step->plane = now + kiriVec3_Dot(row->normal, step->carried) - step->lowered - (step->isHeld ? FAR_BELOW : 0.0);
-}
-
-/* A point that goes with frames that the host holds goes where these go. Other frames, which hardly carry it, would have
-   to move many times as far as it is deep, and a contact has the force for that. */
-static bool IsHeld(const kiriSystem* system, const kiriContactStep* step)
-{
-    double free = 0.0;
-    for (int32_t m = 0; m < step->memberCount; ++m) {
-        free += system->frames[step->members[m].frame].held ? 0.0 : step->members[m].value;
-    }
-    return free < LEAST_FREE;
-}
-
-static double MassOf(const kiriSystem* system, const kiriContactStep* step)
-{
-    double mass = 0.0;
-    for (int32_t m = 0; m < step->memberCount; ++m) {
-        mass += step->members[m].value * system->frames[step->members[m].frame].mass;
-    }
-    return mass;
-}
-
-/* J: what an obstacle can give by moving along the normal: its kinetic energy; or no end of it, where it does not yield. */
-static double MeansOf(const kiriSystem* system, int32_t k, const kiriContactStep* step, double dt)
-{
-    double speed = kiriVec3_Dot(system->contacts[k].normal, step->carried) / dt;
-    double inverse = InverseMass(system, k, step->start, system->contacts[k].normal);
-    return !(fabs(speed) > 0.0) ? 0.0 : inverse > 0.0 ? 0.5 * speed * speed / inverse : DBL_MAX;
-}
-
-/* J: the energy that a piece has to spend in a step in which contacts touch it: its own, and what gravity, forces and
-   obstacles may add. */
-static void FindMeans(kiriSolver* solver, const kiriSystem* system)
-{
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriPieceStep* piece = PieceOf(solver, system, k);
-        const kiriContactStep* step = &solver->contacts.data[k];
-        if (step->isHeld) {
-            continue;
-        }
-        double fast = (kiriVec3_Length(step->carried) + fabs(step->lift)) / solver->dt;
-        double given = MeansOf(system, k, step, solver->dt);
-        piece->obstacleSpeed = fast > piece->obstacleSpeed ? fast : piece->obstacleSpeed;
-        piece->means = given > piece->means ? given : piece->means;
-        piece->isNear = true;
-    }
-    double gravity = kiriVec3_Length(kiriSystem_Gravity(system));
-    KIRI_EACH(f, solver->awake.frames) {
-        const kiriFrameData* frame = &solver->before.data[f];
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        if (piece->isNear) {
-            double pull = gravity + kiriVec3_Length(frame->force) / frame->mass;
-            double own = kiriVec3_Length(frame->velocity), speed = own + solver->dt * pull + piece->obstacleSpeed;
-            piece->means +=
-                kiriFrame_KineticEnergy(frame, &system->material) + 0.5 * frame->mass * (speed * speed - own * own);
-        }
-    }
-}
-
-void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
-{
-    KIRI_ASSERT(solver->contacts.capacity >= system->contactCount);
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriContactStep* step = &solver->contacts.data[k];
-        memset(step, 0, sizeof(*step));
-        ChooseMembers(solver, &system->contacts[k], step);
-        step->isHeld = IsHeld(system, step);
-        step->mass = MassOf(system, step);
-        PlacePlane(solver, system, k);
-    }
-    FindMeans(solver, system);
-}
-
-/* N/m: of what resists a point by its inertia alone. */
-static double Inertia(const kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    double part = PieceOf(solver, system, k)->stepping.part;
-    return solver->contacts.data[k].mass / (part * part);
-}
-
-/* The first guess: what free motion runs into pushes with what stops it, and what pushed in the last step goes on, unless
-   free motion leaves it. It sticks where friction can stop its slide. */
-static void GuessState(const kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    const kiriContactRow* row = &system->contacts[k];
-    kiriContactStep* step = &solver->contacts.data[k];
-    double inertia = Inertia(solver, system, k), was = kiriVec3_Dot(row->normal, row->force);
-    kiriVec3 predicted = { 0.0, 0.0, 0.0 }, free = predicted;
-    for (int32_t m = 0; m < step->memberCount; ++m) {
-        const kiriPrediction* prediction = &solver->predictions.data[step->members[m].frame];
-        kiriVec3 arm = kiriSystem_Arm(system, step->members[m].frame, row->at, &prediction->pose);
-        predicted = kiriVec3_AddScaled(predicted, step->members[m].value, kiriVec3_Add(prediction->pose.x, arm));
-        arm = kiriSystem_Arm(system, step->members[m].frame, row->at, &prediction->guess);
-        free = kiriVec3_AddScaled(free, step->members[m].value, kiriVec3_Add(prediction->guess.x, arm));
-    }
-    double stop = inertia * (step->plane - kiriVec3_Dot(row->normal, predicted));
-    double gap = kiriVec3_Dot(row->normal, free) - step->plane;
-    kiriVec3 slide = kiriVec3_Sub(kiriVec3_Sub(predicted, step->start), step->carried);
-    slide = AlongPlane(slide, row->normal);
-    step->held = AlongPlane(row->force, row->normal);
-    step->isActive = was > 0.0 ? was + stop > 0.0 : gap < 0.0;
-    step->push = 0.0;
-    step->drag = kiriVec3_Make(0.0, 0.0, 0.0);
-    double pressing = was > 0.0 ? was : stop > 0.0 ? stop : 0.0;
-    step->limit = step->isActive ? row->friction * pressing : 0.0;
-    double length = kiriVec3_Length(slide);
-    step->sticks = inertia * length <= step->limit || kiriVec3_Length(step->held) < 0.999 * row->friction * was;
-    step->direction = kiriVec3_Scale(length > SLIDE_FLOOR ? 1.0 / length : 0.0, slide);
-    step->known = pressing > stop ? pressing : stop;
-}
-
-/* Of the pieces that are new. */
-void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system)
-{
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        if (PieceOf(solver, system, k)->isNew) {
-            GuessState(solver, system, k);
-        }
-    }
 }
 
 /* ---- One linear system -------------------------------------------------------------------------------------------- */
@@ -278,16 +103,17 @@ static void SetSprings(const kiriSolver* solver, const kiriSystem* system, int32
     kiriContactStep* step = &solver->contacts.data[k];
     const kiriContactRow* row = &system->contacts[k];
     const kiriYieldRow* yield = YieldOf(system, k);
-    double inertia = Inertia(solver, system, k), part = PieceOf(solver, system, k)->stepping.part;
+    double inertia = kiriContact_Inertia(solver, system, k),
+           part = kiriContact_PieceOf(solver, system, k)->stepping.part;
     double asked = step->known / SINKING, most = MOST_SPRING * inertia;
     double spring = asked > STIFFNESS * inertia ? asked : STIFFNESS * inertia;
     spring = spring < most ? spring : most;
     double share = yield != NULL && yield->pressed > 1 ? yield->pressed : 1.0;
     double soft = part * part * share;
     kiriVec3 along = kiriVec3_Length(step->direction) > 0.5 ? step->direction : row->normal;
-    step->give = soft * (row->cushion + InverseMass(system, k, point, row->normal));
+    step->give = soft * (row->cushion + kiriContact_InverseMass(system, k, point, row->normal));
     step->stiffness = 1.0 / (1.0 / spring + step->give);
-    step->grip = 1.0 / (1.0 / (GRIP * inertia) + soft * InverseMass(system, k, point, along));
+    step->grip = 1.0 / (1.0 / (GRIP * inertia) + soft * kiriContact_InverseMass(system, k, point, along));
 }
 
 void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
@@ -295,7 +121,7 @@ void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
     CountPressed(solver, system);
     for (int32_t k = 0; k < system->contactCount; ++k) {
         kiriContactStep* step = &solver->contacts.data[k];
-        if (PieceOf(solver, system, k)->isSearching) {
+        if (kiriContact_PieceOf(solver, system, k)->isSearching) {
             kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data);
             SetSprings(solver, system, k, point);
             step->depth = DepthAt(step, &system->contacts[k], point);
@@ -343,7 +169,7 @@ double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, in
         return 0.0;
     }
     if (solver->isAlong) {
-        double part = PieceOf(solver, system, k)->scale;
+        double part = kiriContact_PieceOf(solver, system, k)->scale;
         return EnergyAt(step, step->depth + part * step->sinks, kiriVec3_AddScaled(step->slide, part, step->slides));
     }
     kiriVec3 point = kiriContact_Point(solver, system, k, poses);
@@ -381,10 +207,10 @@ void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t k = 0; k < system->contactCount; ++k) {
         kiriContactStep* step = &solver->contacts.data[k];
-        if (PieceOf(solver, system, k)->isSearching && step->isActive) {
+        if (kiriContact_PieceOf(solver, system, k)->isSearching && step->isActive) {
             kiriVec3 move = MoveOf(solver, system, k);
             step->sinks = -kiriVec3_Dot(system->contacts[k].normal, move);
-            step->slides = AlongPlane(move, system->contacts[k].normal);
+            step->slides = kiriVec3_AlongPlane(move, system->contacts[k].normal);
         }
     }
 }
@@ -408,7 +234,7 @@ static void SumForceSlopes(const kiriSolver* solver, const kiriSystem* system)
         piece->slope = -2.0 * piece->promise * (1.0 - piece->scale);
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriPieceStep* piece = PieceOf(solver, system, k);
+        kiriPieceStep* piece = kiriContact_PieceOf(solver, system, k);
         const kiriContactStep* step = &solver->contacts.data[k];
         if (piece->isSearching && step->isActive && piece->solved >= EARLY) {
             piece->slope += FrictionSlope(step, piece->scale);
@@ -460,7 +286,7 @@ static void Activate(kiriContactStep* step, double friction, double inertia, dou
     step->limit = friction * inertia * depth;
     step->known = inertia * depth > step->known ? inertia * depth : step->known;
     step->sticks = inertia * length <= step->limit;
-    step->direction = kiriVec3_Scale(length > SLIDE_FLOOR ? 1.0 / length : 0.0, slide);
+    step->direction = kiriVec3_Scale(length > KIRI_SLIDE_FLOOR ? 1.0 / length : 0.0, slide);
 }
 
 /* Slides that turned round stick: in the first systems, for later ones do not go so far (LimitByFriction). */
@@ -488,7 +314,7 @@ static bool Review(const kiriSolver* solver, const kiriSystem* system, int32_t k
     kiriContactStep* step = &solver->contacts.data[k];
     const kiriContactRow* row = &system->contacts[k];
     kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data), slide = SlideAt(step, row, point);
-    double inertia = Inertia(solver, system, k), depth = DepthAt(step, row, point);
+    double inertia = kiriContact_Inertia(solver, system, k), depth = DepthAt(step, row, point);
     if (!step->isActive) {
         if (depth > 0.0) {
             Activate(step, row->friction, inertia, depth, slide);
@@ -502,7 +328,7 @@ static bool Review(const kiriSolver* solver, const kiriSystem* system, int32_t k
         return step->push < -tolerance;
     }
     return ReviewFriction(step, row->friction * (step->push > 0.0 ? step->push : 0.0), slide,
-                          PieceOf(solver, system, k)->solved <= EARLY, tolerance);
+                          kiriContact_PieceOf(solver, system, k)->solved <= EARLY, tolerance);
 }
 
 void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
@@ -513,7 +339,7 @@ void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
         solver->pieces.data[i].solved += solver->pieces.data[i].isIterated;
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriPieceStep* piece = PieceOf(solver, system, k);
+        kiriPieceStep* piece = kiriContact_PieceOf(solver, system, k);
         if (piece->isIterated) {
             kiriContactStep* step = &solver->contacts.data[k];
             TakeForces(step, piece->scale);
@@ -521,7 +347,7 @@ void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
         }
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriPieceStep* piece = PieceOf(solver, system, k);
+        kiriPieceStep* piece = kiriContact_PieceOf(solver, system, k);
         if (piece->isIterated) {
             piece->isUnsettled |= Review(solver, system, k, PUSH_TOLERANCE * piece->mostPush);
         }
@@ -544,7 +370,7 @@ static kiriVec3 WithinCone(const kiriContactStep* step, const kiriContactRow* ro
 kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriSystem* system, int32_t k)
 {
     kiriVec3 force = WithinCone(&solver->contacts.data[k], &system->contacts[k]);
-    return kiriVec3_Scale(PieceOf(solver, system, k)->keepForces, force);
+    return kiriVec3_Scale(kiriContact_PieceOf(solver, system, k)->keepForces, force);
 }
 
 /* Where contacts alone act, the sum of their forces is what took the piece from where free motion ends, on whatever path
@@ -574,7 +400,7 @@ void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
         const kiriContactStep* step = &solver->contacts.data[k];
-        kiriPieceStep* piece = PieceOf(solver, system, k);
+        kiriPieceStep* piece = kiriContact_PieceOf(solver, system, k);
         piece->asked = kiriVec3_Add(piece->asked, step->drag);
         piece->asked = kiriVec3_AddScaled(piece->asked, step->push, system->contacts[k].normal);
         piece->given = kiriVec3_Add(piece->given, WithinCone(step, &system->contacts[k]));
@@ -591,10 +417,10 @@ double kiriContact_Work(const kiriSolver* solver, const kiriSystem* system, int3
 {
     const kiriContactStep* step = &solver->contacts.data[k];
     kiriVec3 force = kiriContact_Force(solver, system, k), normal = system->contacts[k].normal;
-    if (PieceOf(solver, system, k)->isHeldUp) {
+    if (kiriContact_PieceOf(solver, system, k)->isHeldUp) {
         return kiriVec3_Dot(force, step->carried); /* it is moved out of obstacles, which throws nothing */
     }
-    return kiriVec3_Dot(force, normal) * step->lift + kiriVec3_Dot(force, AlongPlane(step->carried, normal));
+    return kiriVec3_Dot(force, normal) * step->lift + kiriVec3_Dot(force, kiriVec3_AlongPlane(step->carried, normal));
 }
 
 /* Impulses of the step, then where it leaves the planes. */
@@ -606,7 +432,7 @@ void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
     for (int32_t k = 0; k < system->contactCount; ++k) {
         kiriContactRow* row = &system->contacts[k];
         row->force = kiriContact_Force(solver, system, k);
-        kiriVec3 impulse = kiriVec3_Scale(PieceOf(solver, system, k)->stepping.part, row->force);
+        kiriVec3 impulse = kiriVec3_Scale(kiriContact_PieceOf(solver, system, k)->stepping.part, row->force);
         row->impulse = kiriVec3_Add(row->impulse, impulse);
         if (row->yield != KIRI_NONE) {
             kiriYieldRow* yield = &system->yields[row->yield];
@@ -618,7 +444,7 @@ void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
     for (int32_t k = 0; k < system->contactCount; ++k) {
         kiriContactRow* row = &system->contacts[k];
         kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data);
-        kiriVec3 velocity = kiriVec3_Add(row->velocity, Recoil(system, k, point));
+        kiriVec3 velocity = kiriVec3_Add(row->velocity, kiriContact_Recoil(system, k, point));
         row->way = kiriVec3_AddScaled(row->way, solver->dt, velocity);
     }
 }
