@@ -51,10 +51,29 @@ void kiriBlocks_Forget(kiriBlocks* blocks)
 
 /* ---- Frames of a block ---- */
 
-/* Frames share bits: a block may seem to have one that it has not. */
+enum { MASK_WORDS = 4, MASK_BITS = 64 * MASK_WORDS, MASK_HALF = MASK_BITS / 2 };
+
+/* Of the two bits of a frame one tells it from those with an index near its own, and the other from those far from it.
+   Frames share bits: a block may seem to have one that it has not. */
+static int NearBitOf(int32_t frame)
+{
+    return frame % MASK_HALF;
+}
+
+static int FarBitOf(int32_t frame)
+{
+    return MASK_HALF + frame / MASK_HALF % MASK_HALF;
+}
+
+static void AddBit(kiriFrameMask* mask, int bit)
+{
+    mask->bits[bit / 64] |= UINT64_C(1) << bit % 64;
+}
+
 static void AddToMask(kiriFrameMask* mask, int32_t frame)
 {
-    mask->bits[frame / 64 % 4] |= UINT64_C(1) << frame % 64;
+    AddBit(mask, NearBitOf(frame));
+    AddBit(mask, FarBitOf(frame));
 }
 
 kiriFrameMask kiriBlocks_MaskOfOther(const kiriPatches* patches)
@@ -70,15 +89,14 @@ kiriFrameMask kiriBlocks_MaskOfOther(const kiriPatches* patches)
 
 /* ---- Frames that go ---- */
 
-enum { MASK_WORDS = 4, MASK_BITS = 64 * MASK_WORDS };
-
 /* What each bit becomes: frames that share one may get several. */
 static void MapBits(const kiriKeep* frames, kiriFrameMask to[MASK_BITS])
 {
     memset(to, 0, MASK_BITS * sizeof(*to));
     for (int32_t i = 0; i < frames->to.count; ++i) {
         if (kiriKeep_Has(frames, i)) {
-            AddToMask(&to[i % MASK_BITS], kiriKeep_To(frames, i));
+            AddBit(&to[NearBitOf(i)], NearBitOf(kiriKeep_To(frames, i)));
+            AddBit(&to[FarBitOf(i)], FarBitOf(kiriKeep_To(frames, i)));
         }
     }
 }
@@ -149,52 +167,61 @@ static void WriteMask(kiriSheetData* sheet, int32_t block)
     sheet->seen.blocks.frames.data[block] = mask;
 }
 
+/* What moves is known of all frames. */
 static int32_t FindMover(const kiriSheetData* sheet, int32_t block)
 {
+    const uint8_t* moves = sheet->seen.blocks.moved.data;
     for (int32_t v = block * KIRI_BLOCK; v < EndOfBlock(sheet, block); ++v) {
         kiriSpan span = sheet->vertexSkin.spans.data[v]; /* of a hole it is empty */
         int32_t frame = span.count > 0 ? sheet->vertexSkin.weights.data[span.first].frame : KIRI_NONE;
-        if (frame != KIRI_NONE && kiriSheet_Moves(sheet, frame)) {
+        if (frame != KIRI_NONE && moves[frame]) {
             return frame;
         }
     }
     return KIRI_NONE;
 }
 
-/* Frames that move and did not when movers were found last. */
-static kiriFrameMask TakeWoken(kiriSheetData* sheet)
+/* Of frames: those that move, and those of them that did not when movers were found last. */
+typedef struct MovingFrames {
+    kiriFrameMask all, woken;
+} MovingFrames;
+
+static MovingFrames TakeMoving(kiriSheetData* sheet)
 {
-    kiriFrameMask woken = { { 0 } };
+    MovingFrames moving = { { { 0 } }, { { 0 } } };
     uint8_t* moved = sheet->seen.blocks.moved.data;
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         uint8_t moves = kiriSheet_Moves(sheet, i);
+        if (moves) {
+            AddToMask(&moving.all, i);
+        }
         if (moves && !moved[i]) {
-            AddToMask(&woken, i);
+            AddToMask(&moving.woken, i);
         }
         moved[i] = moves;
     }
-    return woken;
+    return moving;
 }
 
 /* Is the mover of the block what it was? */
-static bool IsMoverKnown(const kiriSheetData* sheet, int32_t block, const kiriFrameMask* woken)
+static bool IsMoverKnown(const kiriBlocks* blocks, int32_t block, const MovingFrames* moving)
 {
-    const kiriBlocks* blocks = &sheet->seen.blocks;
     int32_t mover = blocks->movers.data[block];
-    return mover == KIRI_NONE ? !kiriBlocks_MayMeet(blocks, block, woken)
-                              : mover != KIRI_UNKNOWN && kiriSheet_Moves(sheet, mover);
+    return mover == KIRI_NONE ? !kiriBlocks_MayMeet(blocks, block, &moving->woken)
+                              : mover != KIRI_UNKNOWN && blocks->moved.data[mover];
 }
 
 void kiriBlocks_FindMovers(kiriSheetData* sheet)
 {
     kiriBlocks* blocks = &sheet->seen.blocks;
-    kiriFrameMask woken = TakeWoken(sheet);
+    MovingFrames moving = TakeMoving(sheet);
     for (int32_t block = 0; block < blocks->movers.count; ++block) {
         if (blocks->movers.data[block] == KIRI_UNKNOWN) {
             WriteMask(sheet, block);
-        }
-        if (!IsMoverKnown(sheet, block, &woken)) {
             blocks->movers.data[block] = FindMover(sheet, block);
+        } else if (!IsMoverKnown(blocks, block, &moving)) {
+            bool may = kiriBlocks_MayMeet(blocks, block, &moving.all);
+            blocks->movers.data[block] = may ? FindMover(sheet, block) : KIRI_NONE;
         }
     }
     blocks->hasUnknown = false;

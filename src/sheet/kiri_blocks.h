@@ -35,8 +35,8 @@ kiriFrameMask kiriBlocks_MaskOfOther(const kiriPatches* patches);
 static inline bool kiriBlocks_MayMeet(const kiriBlocks* blocks, int32_t block, const kiriFrameMask* mask)
 {
     const uint64_t *a = blocks->frames.data[block].bits, *b = mask->bits;
-    return blocks->movers.data[block] == KIRI_UNKNOWN ||
-           ((a[0] & b[0]) | (a[1] & b[1]) | (a[2] & b[2]) | (a[3] & b[3])) != 0;
+    bool mayNear = ((a[0] & b[0]) | (a[1] & b[1])) != 0, mayFar = ((a[2] & b[2]) | (a[3] & b[3])) != 0;
+    return blocks->movers.data[block] == KIRI_UNKNOWN || (mayNear && mayFar);
 }
 
 static inline void kiriBlocks_Stale(kiriBlocks* blocks, int32_t vertex)

@@ -301,7 +301,7 @@ typedef struct kiriGivenContact {
     double share[3];
 } kiriGivenContact;
 
-/* A bit for each frame, by its index modulo 256. */
+/* Two bits for each frame, see kiri_blocks.c. */
 typedef struct kiriFrameMask {
     uint64_t bits[4];
 } kiriFrameMask;
