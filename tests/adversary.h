@@ -45,7 +45,8 @@ typedef struct Course {
     bool waits[MOST_TICKS];        /* work, after the tick */
     int32_t most[KINDS];           /* items in a tick */
     double item[KIRI_STAGE_COUNT]; /* us an item where it was worst, of stages that most of a tick went to; or 0 */
-    double started;                /* the tick that is under way */
+    double seconds[KIRI_STAGE_COUNT], items[KIRI_STAGE_COUNT]; /* of ticks that a stage did most in */
+    double started;                                            /* the tick that is under way */
     bool done, fine;
 } Course;
 
@@ -130,6 +131,22 @@ static inline bool Bed_Finish(Bed* bed)
 
 /* ---- The course ---- */
 
+/* Adds what a stage took to all that it takes: in ticks in which it did most of the work on cuts, for kinds are of
+   several. */
+static inline void Course_NotePaces(Course* course, const kiriProfile* profile, const int32_t items[KINDS])
+{
+    double ofCuts = 0.0;
+    for (int32_t k = 0; k <= KIRI_STAGE_CONSTANTS; k++) {
+        ofCuts += profile->seconds[k];
+    }
+    for (int32_t k = 0; k < KIRI_STAGE_COUNT; k++) {
+        if (KindOf(k) == ITERATIONS || (k <= KIRI_STAGE_CONSTANTS && profile->seconds[k] > 0.7 * ofCuts)) {
+            course->seconds[k] += profile->seconds[k];
+            course->items[k] += items[KindOf(k)];
+        }
+    }
+}
+
 static inline void Course_NoteStages(Course* course, const kiriProfile* profile, double seconds)
 {
     int32_t items[KINDS], longest = STAGE_OTHER;
@@ -148,6 +165,7 @@ static inline void Course_NoteStages(Course* course, const kiriProfile* profile,
             course->item[k] = item > course->item[k] ? item : course->item[k];
         }
     }
+    Course_NotePaces(course, profile, items);
     for (int32_t k = 0; k < KINDS; k++) {
         course->most[k] = items[k] > course->most[k] ? items[k] : course->most[k];
     }

@@ -363,11 +363,59 @@ static void PrintCourse(Table* table, const Adversary* adversary, const Course* 
     fflush(stdout);
 }
 
-static bool RunRows(Table* table, const char* name, const kiriBudget* budget)
+enum { ROWS = sizeof adversaries / sizeof adversaries[0] };
+
+/* us an item of each stage, over the ticks in which it did most of the work on cuts; or 0. */
+typedef struct Paces {
+    double of[ROWS][KIRI_STAGE_COUNT];
+} Paces;
+
+static void TakePaces(Paces* paces, const Course* course, size_t row)
+{
+    for (int32_t k = 0; k < KIRI_STAGE_COUNT; k++) {
+        paces->of[row][k] = course->items[k] > 0.0 ? 1e6 * course->seconds[k] / course->items[k] : 0.0;
+    }
+}
+
+/* Over all rows, of stages whose items are of that kind: the largest over the smallest. */
+static double SpreadOf(const Paces* paces, int32_t kind)
+{
+    double least = 1e30, most = 0.0;
+    for (int32_t row = 0; row < ROWS; row++) {
+        for (int32_t k = 0; k < KIRI_STAGE_COUNT; k++) {
+            double pace = KindOf(k) == kind ? paces->of[row][k] : 0.0;
+            least = pace > 0.0 && pace < least ? pace : least;
+            most = pace > most ? pace : most;
+        }
+    }
+    return most > 0.0 ? most / least : (double)NAN;
+}
+
+static void PrintPaces(Table* table, const Paces* paces)
+{
+    for (int32_t row = 0; row < ROWS; row++) {
+        Table_Text(table, adversaries[row].name);
+        for (int32_t k = 0; k <= KIRI_STAGE_SOLVE; k++) {
+            if (KindOf(k) < KINDS) {
+                double pace = paces->of[row][k];
+                Table_Number(table, pace > 0.0 ? pace : (double)NAN);
+            }
+        }
+    }
+    Table_Text(table, "largest over smallest, of the kind");
+    for (int32_t k = 0; k <= KIRI_STAGE_SOLVE; k++) {
+        if (KindOf(k) < KINDS) {
+            double spread = SpreadOf(paces, KindOf(k));
+            Table_Judge(table, spread, !(spread > 3.0));
+        }
+    }
+}
+
+static bool RunRows(Table* table, const char* name, const kiriBudget* budget, Paces* paces)
 {
     Course* course = mmap(NULL, sizeof *course, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     bool fine = course != MAP_FAILED, found = false;
-    for (size_t i = 0; fine && i < sizeof adversaries / sizeof adversaries[0]; i++) {
+    for (size_t i = 0; fine && i < ROWS; i++) {
         if (name == NULL || strcmp(name, adversaries[i].name) == 0) {
             found = true;
             memset(course, 0, sizeof *course);
@@ -375,14 +423,34 @@ static bool RunRows(Table* table, const char* name, const kiriBudget* budget)
             fine = course->fine;
             if (fine) {
                 PrintCourse(table, &adversaries[i], course, budget);
+                TakePaces(paces, course, i);
             }
         }
     }
     return fine && found;
 }
 
+static bool PrintItemTable(const Paces* paces)
+{
+    static const char* const columns[] = {
+        "row                               ", "cut", "grid", "regions", "shape", "samples", "constants", "solve", NULL
+    };
+    Table table;
+    if (!Table_Start(&table, "adversary_items",
+                     "us an item of each stage, over the ticks in which it did most of the work on cuts. Aim: of a "
+                     "kind, and triangles are "
+                     "of the cut, cells of grid,\nregions and shape, samples of the next two, the largest is at most "
+                     "three times the smallest.",
+                     columns)) {
+        return false;
+    }
+    PrintPaces(&table, paces);
+    return Table_Stop(&table);
+}
+
 int main(int count, char** arguments)
 {
+    static Paces paces;
     static const char* const columns[] = {
         "row       ", "create",     "plain",     "median",     "worst",        "worst/median", "stage    ",
         "ticks",      "done",       "triangles", "cells",      "samples",      "systems",      "us cut",
@@ -403,7 +471,8 @@ int main(int count, char** arguments)
         "three\ntimes 3 us a triangle, 0.3 a cell, 0.6 a sample.",
         CUT_MS, budget.triangles, budget.cells, budget.samples, SOLVE_MS, budget.iterations);
     fine = fine && Table_Start(&table, "adversaries", title, columns) &&
-           RunRows(&table, count > 1 ? arguments[1] : NULL, &budget) && Table_Stop(&table);
+           RunRows(&table, count > 1 ? arguments[1] : NULL, &budget, &paces) && Table_Stop(&table) &&
+           PrintItemTable(&paces);
     if (!fine) {
         fprintf(stderr, "bench_adversaries: something failed, or no row has that name\n");
     }

@@ -13,7 +13,8 @@ typedef struct Probe {
     double size;                         /* m */
     void (*record)(struct Probe* probe); /* or null */
     kiriTotals last, now;                /* before and after the commit */
-    bool isStaged;                       /* a commit comes next */
+    bool isStaged;                       /* an update may be ready, */
+    bool isReady;                        /* and a commit comes next */
     bool isNew;                          /* and not recorded yet */
 
     int32_t commits;
@@ -56,7 +57,8 @@ static inline double Probe_Clock(void* user)
     } else {
         probe->last = probe->now;
         probe->now = Host_Totals(&probe->host, probe->sheet);
-        probe->isNew = stage == KIRI_STAGE_CONTACT && probe->isStaged;
+        probe->isNew = stage == KIRI_STAGE_CONSTANTS && probe->isReady; /* that stage comes again with the commit */
+        probe->isReady = stage == KIRI_STAGE_CONTACT && probe->isStaged;
         probe->isStaged = stage == KIRI_STAGE_CONSTANTS;
     }
     return 0.0;

@@ -132,7 +132,7 @@ const (
 	StageShape Stage = 3
 	// weights of vertices and collision points
 	StageSamples Stage = 4
-	// mass, and the pattern of the solver's matrix
+	// mass, the pattern of the solver's matrix, and when all is put in force
 	StageConstants Stage = 5
 	// what touches obstacles, other sheets and other pieces
 	StageContact Stage = 6

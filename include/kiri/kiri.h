@@ -293,7 +293,7 @@ enum kiriStage {
     KIRI_STAGE_REGIONS,   /* geodesic distances, regions, links; placing of frames */
     KIRI_STAGE_SHAPE,     /* shape functions */
     KIRI_STAGE_SAMPLES,   /* weights of vertices and collision points */
-    KIRI_STAGE_CONSTANTS, /* mass, and the pattern of the solver's matrix */
+    KIRI_STAGE_CONSTANTS, /* mass, the pattern of the solver's matrix, and when all is put in force */
     KIRI_STAGE_CONTACT,   /* what touches obstacles, other sheets and other pieces */
     KIRI_STAGE_SOLVE,     /* the motion of the frames */
     KIRI_STAGE_SKIN,      /* positions and normals of the mesh */

@@ -291,6 +291,7 @@ static void TakeJumps(int32_t start, int32_t end, void* context)
 
 static void CommitAll(kiriWorld* world)
 {
+    EnterStage(world, KIRI_STAGE_CONSTANTS); /* its items have paid for it */
     for (int32_t k = 0; k < world->active.count; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         if (sheet->update->isBegun) {

@@ -383,7 +383,7 @@ namespace Kiri
         Shape = 3,
         /// <summary>weights of vertices and collision points</summary>
         Samples = 4,
-        /// <summary>mass, and the pattern of the solver's matrix</summary>
+        /// <summary>mass, the pattern of the solver's matrix, and when all is put in force</summary>
         Constants = 5,
         /// <summary>what touches obstacles, other sheets and other pieces</summary>
         Contact = 6,

@@ -75,7 +75,7 @@ pub const KIRI_STAGE_REGIONS: i32 = 2;
 pub const KIRI_STAGE_SHAPE: i32 = 3;
 /// weights of vertices and collision points
 pub const KIRI_STAGE_SAMPLES: i32 = 4;
-/// mass, and the pattern of the solver's matrix
+/// mass, the pattern of the solver's matrix, and when all is put in force
 pub const KIRI_STAGE_CONSTANTS: i32 = 5;
 /// what touches obstacles, other sheets and other pieces
 pub const KIRI_STAGE_CONTACT: i32 = 6;

@@ -261,7 +261,7 @@ pub enum Stage {
     Shape = 3,
     /// weights of vertices and collision points
     Samples = 4,
-    /// mass, and the pattern of the solver's matrix
+    /// mass, the pattern of the solver's matrix, and when all is put in force
     Constants = 5,
     /// what touches obstacles, other sheets and other pieces
     Contact = 6,
