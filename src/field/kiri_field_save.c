@@ -167,6 +167,7 @@ static const kiriTable CellWeightTable = KIRI_TABLE(kiriCellWeight, CellWeightMe
 
 static const kiriMember ReachesMembers[] = {
     KIRI_ITEMS(4, kiriReaches, blocks),
+    KIRI_ITEMS(4, kiriReaches, heads),
     KIRI_ITEMS(4, kiriReaches, ofCells),
     KIRI_ITEMS(4, kiriReaches, ofFrame),
     KIRI_RUN(4, kiriReaches, freeBlocks, freeBlock),

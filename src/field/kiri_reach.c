@@ -19,14 +19,14 @@ bool kiriReaches_Resize(kiriReaches* reaches, kiriMemory* memory, int32_t cellCo
 
 void kiriReaches_Clear(kiriReaches* reaches)
 {
-    reaches->blocks.count = reaches->ofCells.count = reaches->ofFrame.count = reaches->freeBlocks = 0;
+    reaches->blocks.count = reaches->heads.count = reaches->ofCells.count = reaches->ofFrame.count = reaches->freeBlocks = 0;
 }
 
 int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t frame, int32_t cells)
 {
     int32_t block = reaches->ofCells.data[cells];
-    while (block != KIRI_NONE && reaches->blocks.data[block].frame != frame) {
-        block = reaches->blocks.data[block].nextOfCells;
+    while (block != KIRI_NONE && reaches->heads.data[block].frame != frame) {
+        block = reaches->heads.data[block].nextOfCells;
     }
     return block;
 }
@@ -38,18 +38,22 @@ static int64_t BlocksWith(const kiriReaches* reaches, int32_t more)
 
 bool kiriReaches_Grows(const kiriReaches* reaches, int32_t more)
 {
-    return BlocksWith(reaches, more) > reaches->blocks.capacity;
+    int64_t need = BlocksWith(reaches, more);
+    return need > reaches->blocks.capacity || need > reaches->heads.capacity;
 }
 
 bool kiriReaches_Reserve(kiriReaches* reaches, kiriMemory* memory, int32_t more)
 {
-    return kiriArray_Reserve(memory, &reaches->blocks, BlocksWith(reaches, more));
+    return kiriArray_Reserve(memory, &reaches->blocks, BlocksWith(reaches, more)) &&
+           kiriArray_Reserve(memory, &reaches->heads, BlocksWith(reaches, more));
 }
 
 static int32_t TakeBlock(kiriReaches* reaches)
 {
     if (reaches->freeBlocks == 0) {
-        KIRI_ASSERT(reaches->blocks.count < reaches->blocks.capacity);
+        KIRI_ASSERT(reaches->blocks.count < reaches->blocks.capacity &&
+                    reaches->blocks.count < reaches->heads.capacity);
+        reaches->heads.count += 1;
         return reaches->blocks.count++;
     }
     int32_t block = reaches->freeBlock;
@@ -62,9 +66,8 @@ int32_t kiriReaches_Add(kiriReaches* reaches, int32_t frame, int32_t cells)
 {
     int32_t index = TakeBlock(reaches), next = reaches->ofFrame.data[frame];
     kiriReachBlock* block = &reaches->blocks.data[index];
-    block->frame = frame;
+    reaches->heads.data[index] = (kiriReachHead){ frame, reaches->ofCells.data[cells] };
     block->cells = cells;
-    block->nextOfCells = reaches->ofCells.data[cells];
     block->nextOfFrame = next;
     block->previousOfFrame = KIRI_NONE;
     for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
@@ -80,20 +83,21 @@ int32_t kiriReaches_Add(kiriReaches* reaches, int32_t frame, int32_t cells)
 void kiriReaches_Remove(kiriReaches* reaches, int32_t index)
 {
     kiriReachBlock *blocks = reaches->blocks.data, *block = &blocks[index];
+    kiriReachHead* head = &reaches->heads.data[index];
     int32_t* link = &reaches->ofCells.data[block->cells];
     while (*link != index) {
-        link = &blocks[*link].nextOfCells;
+        link = &reaches->heads.data[*link].nextOfCells;
     }
-    *link = block->nextOfCells;
+    *link = head->nextOfCells;
     if (block->nextOfFrame != KIRI_NONE) {
         blocks[block->nextOfFrame].previousOfFrame = block->previousOfFrame;
     }
     if (block->previousOfFrame != KIRI_NONE) {
         blocks[block->previousOfFrame].nextOfFrame = block->nextOfFrame;
     } else {
-        reaches->ofFrame.data[block->frame] = block->nextOfFrame;
+        reaches->ofFrame.data[head->frame] = block->nextOfFrame;
     }
-    block->frame = KIRI_NONE;
+    head->frame = KIRI_NONE;
     block->nextOfFrame = reaches->freeBlock;
     reaches->freeBlock = index;
     reaches->freeBlocks += 1;
@@ -107,7 +111,7 @@ void kiriReaches_Keep(kiriReaches* reaches, const kiriKeep* frames)
             kiriReaches_Remove(reaches, reaches->ofFrame.data[f]);
         }
         for (int32_t b = reaches->ofFrame.data[f]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
-            reaches->blocks.data[b].frame = to;
+            reaches->heads.data[b].frame = to;
         }
     }
     kiriKeep_Compact(frames, &reaches->ofFrame, 1, sizeof(int32_t));

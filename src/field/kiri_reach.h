@@ -12,18 +12,23 @@ KIRI_C_BEGIN
 
 enum { KIRI_BLOCK_CELLS = 16 };
 
+/* Whose block it is. Apart from what is in it: so a search along the list of some cells reads few lines of memory. */
+typedef struct kiriReachHead {
+    int32_t frame;       /* KIRI_NONE: no block has this index now */
+    int32_t nextOfCells; /* the block of another frame for these cells, or KIRI_NONE */
+} kiriReachHead;
+
 /* What a frame knows of so many cells, from cell `cells` * KIRI_BLOCK_CELLS on. */
 typedef struct kiriReachBlock {
-    int32_t frame; /* KIRI_NONE: no block has this index now */
     int32_t cells;
-    int32_t nextOfCells; /* the block of another frame for these cells, or KIRI_NONE */
     int32_t nextOfFrame, previousOfFrame;
     int32_t fromSite[KIRI_BLOCK_CELLS]; /* KIRI_FAR where the frame does not reach the cell */
     int32_t fromBorder[KIRI_BLOCK_CELLS];
 } kiriReachBlock;
 
 typedef struct kiriReaches {
-    KIRI_ARRAY(kiriReachBlock) blocks; /* by index, with gaps */
+    KIRI_ARRAY(kiriReachBlock) blocks; /* by index, with gaps; */
+    KIRI_ARRAY(kiriReachHead) heads;   /* and one head for each */
     KIRI_ARRAY(int32_t) ofCells;       /* heads of lists */
     KIRI_ARRAY(int32_t) ofFrame;
     int32_t freeBlocks; /* how many have no frame; the list is headed by */

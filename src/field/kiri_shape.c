@@ -228,13 +228,13 @@ static bool TouchCell(kiriShapeJob* job, int32_t cell)
 {
     kiriShapeWork* work = job->work;
     const kiriReaches* reaches = &job->shape->reaches;
-    const kiriReachBlock* block;
-    for (int32_t b = reaches->ofCells.data[kiriReach_BlockOf(cell)]; b != KIRI_NONE; b = block->nextOfCells) {
-        block = &reaches->blocks.data[b];
-        if (block->fromSite[cell % KIRI_BLOCK_CELLS] != KIRI_FAR) {
-            kiriShapeFrame* frame = &work->frames.data[block->frame];
+    kiriReachHead head;
+    for (int32_t b = reaches->ofCells.data[kiriReach_BlockOf(cell)]; b != KIRI_NONE; b = head.nextOfCells) {
+        head = reaches->heads.data[b];
+        if (reaches->blocks.data[b].fromSite[cell % KIRI_BLOCK_CELLS] != KIRI_FAR) {
+            kiriShapeFrame* frame = &work->frames.data[head.frame];
             kiriTouchedCell touched = { cell, frame->firstTouch };
-            MarkFrameDirty(job, block->frame);
+            MarkFrameDirty(job, head.frame);
             frame->firstTouch = work->touches.count;
             frame->touches += 1;
             if (!kiriArray_Push(job->memory, &work->touches, touched)) {

@@ -11,8 +11,8 @@ static const kiriMust WeightMust[] = {
     KIRI_REALS(kiriCellWeight, value, raw),
 };
 
-static const kiriMust ReachBlockMust[] = {
-    KIRI_INDEX_OR_NONE(KIRI_OF_REGIONS, kiriReachBlock, frame, frame),
+static const kiriMust ReachHeadMust[] = {
+    KIRI_INDEX_OR_NONE(KIRI_OF_REGIONS, kiriReachHead, frame, frame),
 };
 
 static const kiriMust ShapeFrameMust[] = {
@@ -47,7 +47,7 @@ static const kiriMust RunningShapeMust[] = {
 };
 
 static const kiriMust ShapeMust[] = {
-    KIRI_ITEMS_MUST(kiriShape, reaches.blocks, ReachBlockMust),
+    KIRI_ITEMS_MUST(kiriShape, reaches.heads, ReachHeadMust),
     KIRI_LENGTH(KIRI_OF_REGIONS, kiriShape, reaches.ofFrame),
     KIRI_REALS(kiriShape, rigidWeight, rigidWeight),
     KIRI_ITEMS_MUST(kiriShape, changes, IsShapeCell),
@@ -97,15 +97,16 @@ static bool AreDistances(const kiriReachBlock* block, int64_t cells)
 static bool AreReaches(kiriCheck* check, const kiriReaches* reaches)
 {
     const kiriReachBlock* blocks = reaches->blocks.data;
-    if (reaches->blocks.count == 0) {
-        return kiriCheck_That(check, reaches->freeBlocks == 0);
+    const kiriReachHead* heads = reaches->heads.data;
+    if (reaches->blocks.count == 0 || reaches->heads.count != reaches->blocks.count) {
+        return kiriCheck_That(check, reaches->freeBlocks == 0 && reaches->heads.count == reaches->blocks.count);
     }
     kiriChains ofCells, ofFrame;
-    bool areFine = kiriCheck_StartChains(check, &ofCells, &blocks->nextOfCells, sizeof(*blocks), reaches->blocks.count);
+    bool areFine = kiriCheck_StartChains(check, &ofCells, &heads->nextOfCells, sizeof(*heads), reaches->heads.count);
     for (int32_t c = 0; areFine && c < reaches->ofCells.count; ++c) {
         areFine = kiriCheck_Chain(check, &ofCells, reaches->ofCells.data[c]);
-        for (int32_t b = reaches->ofCells.data[c]; areFine && b != KIRI_NONE; b = blocks[b].nextOfCells) {
-            areFine = kiriCheck_That(check, blocks[b].cells == c && blocks[b].frame != KIRI_NONE &&
+        for (int32_t b = reaches->ofCells.data[c]; areFine && b != KIRI_NONE; b = heads[b].nextOfCells) {
+            areFine = kiriCheck_That(check, blocks[b].cells == c && heads[b].frame != KIRI_NONE &&
                                                 AreDistances(&blocks[b], check->count[KIRI_OF_CELLS]));
         }
     }
@@ -115,7 +116,7 @@ static bool AreReaches(kiriCheck* check, const kiriReaches* reaches)
         int32_t before = KIRI_NONE;
         areFine = kiriCheck_Chain(check, &ofFrame, reaches->ofFrame.data[f]);
         for (int32_t b = reaches->ofFrame.data[f]; areFine && b != KIRI_NONE; b = blocks[b].nextOfFrame) {
-            areFine = kiriCheck_That(check, blocks[b].frame == f && blocks[b].previousOfFrame == before);
+            areFine = kiriCheck_That(check, heads[b].frame == f && blocks[b].previousOfFrame == before);
             before = b;
         }
     }
@@ -123,7 +124,7 @@ static bool AreReaches(kiriCheck* check, const kiriReaches* reaches)
     int32_t free = areFine ? reaches->freeBlock : KIRI_NONE;
     for (int32_t k = 0; areFine && k < reaches->freeBlocks; ++k) {
         areFine = kiriCheck_That(check, free >= 0 && free < reaches->blocks.count && !ofFrame.seen[free] &&
-                                            blocks[free].frame == KIRI_NONE);
+                                            heads[free].frame == KIRI_NONE);
         if (areFine) {
             ofFrame.seen[free] = 1;
             free = blocks[free].nextOfFrame;
@@ -201,7 +202,7 @@ static bool AreLoaded(kiriCheck* check, const kiriShape* shape)
                   loaded.block < reaches->blocks.count;
         if (areFine) {
             seen[loaded.cells] = 1;
-            areFine = loaded.block == KIRI_NONE || (reaches->blocks.data[loaded.block].frame != KIRI_NONE &&
+            areFine = loaded.block == KIRI_NONE || (reaches->heads.data[loaded.block].frame != KIRI_NONE &&
                                                     reaches->blocks.data[loaded.block].cells == loaded.cells);
         }
     }
