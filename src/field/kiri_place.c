@@ -129,7 +129,9 @@ static void FindFarthest(PlacerJob* job, int32_t cell)
     }
 }
 
-/* How many cells were looked at. */
+enum { LOOKS_AN_ITEM = 16 };
+
+/* Returns items. */
 static int32_t LookAtBlock(PlacerJob* job, SampleBlock* block)
 {
     kiriPlacerWork* work = job->work;
@@ -144,7 +146,7 @@ static int32_t LookAtBlock(PlacerJob* job, SampleBlock* block)
     block->distance = block->cell == KIRI_NONE ? -1 : SampledDistance(work, block->cell);
     block->isCovered = block->cell != KIRI_NONE && kiriGrid_IsMostlyCovered(job->grid, block->cell);
     block->seen = placer->sites.count;
-    return end - first;
+    return 1 + (end - first) / LOOKS_AN_ITEM;
 }
 
 /* The block that may have the farthest cell; of equals the first. */
@@ -378,7 +380,7 @@ static bool TakeCell(kiriPlacer* placer, kiriMemory* memory, int32_t cell)
     return true;
 }
 
-enum { TAKEN_CELLS_AN_ITEM = 4 }; /* with what it takes to order and to mark them */
+enum { TAKEN_CELLS_AN_ITEM = 3 }; /* with what it takes to order and to mark them */
 
 /* Breadth first over straight steps: there is one for every two cells that share a face. */
 static kiriProgress GatherPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota)

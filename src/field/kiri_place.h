@@ -40,7 +40,7 @@ kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, co
 bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const uint8_t* allowed, int32_t count);
 
-/* An item of the quota is a cell visited or settled. After KIRI_FAILED, start again. */
+/* An item of the quota is a cell settled, or four visited. After KIRI_FAILED, start again. */
 kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                             kiriQuota* quota);
 

@@ -84,15 +84,19 @@ static inline bool kiriGrid_IsMostlyCovered(const kiriGrid* grid, int32_t cell)
     return grid->cells.data[cell].material.area > 0.5 * grid->side * grid->side;
 }
 
+enum { KIRI_VISITS_AN_ITEM = 4 };
+
 /* Visits the cells of a list, from the cursor on. */
 static inline kiriProgress kiriPlacerJob_Visit(PlacerJob* job, const int32_t* cells, int32_t count,
                                                void visit(PlacerJob* job, int32_t cell))
 {
     int32_t from = job->work->cursor, end = count;
-    if (end - from > job->quota->left) {
-        end = from + (int32_t)job->quota->left;
+    int64_t items = (end - from + KIRI_VISITS_AN_ITEM - 1) / KIRI_VISITS_AN_ITEM;
+    if (items > job->quota->left) {
+        items = job->quota->left;
+        end = from + KIRI_VISITS_AN_ITEM * (int32_t)items;
     }
-    kiriQuota_Take(job->quota, end - from);
+    kiriQuota_Take(job->quota, items);
     for (int32_t i = from; i < end; ++i) {
         visit(job, cells[i]);
     }

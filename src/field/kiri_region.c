@@ -345,12 +345,14 @@ static void DropOrphans(const RegionUpdate* u)
     r->orphans.count = kept;
 }
 
+enum { ITEMS_OF_CHANGE = 2 };
+
 /* What follows from all that the repair has changed. */
 static kiriProgress FollowLog(const RegionUpdate* u, kiriQuota* quota)
 {
     kiriRegions* r = u->regions;
     for (; r->followed < r->field.log.count; ++r->followed) {
-        if (!kiriQuota_Take(quota, 1)) {
+        if (!kiriQuota_Take(quota, ITEMS_OF_CHANGE)) {
             return KIRI_MORE;
         }
         if (!FollowChange(u, r->field.log.data[r->followed])) {

@@ -64,8 +64,8 @@ typedef struct kiriSiteMove {
 } kiriSiteMove;
 
 /* Follows the grid's changes and those of the sites. Sites are in cells that live, no two in one, and are never taken
-   away. An item of the quota: see kiriField_Repair, and a cell of its log. From scratch: a zeroed or reset kiriRegions, and all sites in
-   `moves`. KIRI_MORE: call again with the same arguments. KIRI_FAILED: only kiriRegions_Reset helps. Several updates,
+   away. Items of the quota: see kiriField_Repair, and two for a cell of its log. From scratch: a zeroed or reset
+   kiriRegions, and all sites in `moves`. KIRI_MORE: call again with the same arguments. KIRI_FAILED: only kiriRegions_Reset helps. Several updates,
    each with more sites, may come before the changes of grid and regions are cleared, which is together, and before the
    grid is updated again. */
 kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const kiriGrid* grid,

@@ -319,8 +319,10 @@ static bool MarkChange(kiriShapeJob* job, ChangeList list, int32_t k)
     }
 }
 
-/* Goes on at work->next, which counts through all lists. An item is a cell that is marked, or counted with those beside
-   it. */
+enum { MARKS_AN_ITEM = 2, PLACED_AN_ITEM = 3 };
+
+/* Goes on at work->next, which counts through all lists. An item is two cells that are marked, or counted with those
+   beside them. */
 static kiriProgress MarkChanges(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriShapeWork* work = job->work;
@@ -330,7 +332,7 @@ static kiriProgress MarkChanges(kiriShapeJob* job, kiriQuota* quota)
     int32_t first = 0;
     for (ChangeList list = LIST_GONE; list <= LIST_COUNT_REGION; ++list) {
         for (; work->next < first + counts[list]; ++work->next) {
-            if (!kiriQuota_Take(quota, 1)) {
+            if (!kiriQuota_Take(quota, work->next % MARKS_AN_ITEM == 0)) {
                 return KIRI_MORE;
             }
             if (!MarkChange(job, list, work->next - first)) {
@@ -382,7 +384,7 @@ static kiriProgress PlaceWeights(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriShapeWork* work = job->work;
     for (; work->next < work->rawWeights.count; ++work->next) {
-        if (!kiriQuota_Take(quota, 1)) {
+        if (!kiriQuota_Take(quota, work->next % PLACED_AN_ITEM == 0)) {
             return KIRI_MORE;
         }
         if (!PlaceWeight(job, &work->rawWeights.data[work->next])) {

@@ -40,10 +40,10 @@ typedef struct kiriShape {
 } kiriShape;
 
 /* Follows the changes of grid and regions, which are cleared after it. Costs what it touches. `moves` as in
-   kiriRegions_Update: distances to such a site are made from scratch. An item of the quota is a cell about which grid or
-   regions have changed something, once and for each frame that reaches it; a cell whose distance is repaired, see
-   kiriField_Repair; a block of distances; a weight put in its place; or a cell that gets room for its first weights or
-   whose weights are made to sum to 1. Every cell with an owner gets weights. KIRI_MORE: call again before grid, regions
+   kiriRegions_Update: distances to such a site are made from scratch. Items of the quota: one for two
+   cells about which grid or regions have changed something, and two for each frame that reaches one; a cell whose
+   distance is repaired, see kiriField_Repair; a block of distances, and four cells in it that have others; three weights
+   put in their place; a cell that gets room for its first weights or whose weights are made to sum to 1. Every cell with an owner gets weights. KIRI_MORE: call again before grid, regions
    or sites change. KIRI_FAILED: only kiriShape_Reset helps. */
 kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                               const kiriRegions* regions, const kiriSite* sites, int32_t siteCount,

@@ -298,12 +298,14 @@ static void LoadBeyond(kiriShapeJob* job, int32_t limit)
     }
 }
 
+enum { ITEMS_OF_TOUCH = 2 };
+
 /* The cells about which something has changed. */
 static kiriProgress LoadAllTouched(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriShapeFrame* frame = &job->work->frames.data[job->frame];
     for (; !frame->moved && frame->firstTouch != KIRI_NONE; --frame->touches) {
-        if (!kiriQuota_Take(quota, 1)) {
+        if (!kiriQuota_Take(quota, ITEMS_OF_TOUCH)) {
             return KIRI_MORE;
         }
         kiriTouchedCell touched = job->work->touches.data[frame->firstTouch];
@@ -489,6 +491,23 @@ static void UnloadBlock(kiriShapeJob* job, kiriLoadedBlock loaded)
     work->isLoaded.data[loaded.cells] = 0;
 }
 
+/* Of a block: cells with other distances may get another weight. */
+static int64_t ItemsToUnload(const kiriShapeJob* job, kiriLoadedBlock loaded)
+{
+    enum { CHANGED_AN_ITEM = 4 };
+    const kiriShapeWork* work = job->work;
+    const kiriReachBlock* block = loaded.block != KIRI_NONE ? &job->shape->reaches.blocks.data[loaded.block] : NULL;
+    int32_t first = loaded.cells * KIRI_BLOCK_CELLS, changed = 0;
+    const int32_t *fromSite = &work->fromSite.distance.data[first],
+                  *fromBorder = &work->fromBorder.distance.data[first];
+    for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
+        int32_t wasSite = block != NULL ? block->fromSite[k] : KIRI_FAR;
+        int32_t wasBorder = block != NULL ? block->fromBorder[k] : KIRI_FAR;
+        changed += (fromSite[k] != wasSite) | ((fromBorder[k] != wasBorder) & (fromSite[k] != KIRI_FAR));
+    }
+    return 1 + changed / CHANGED_AN_ITEM;
+}
+
 /* Items for what is in an array that has to move; what is worth more than a whole limit takes all of one. */
 static bool PayForMoving(kiriQuota* quota, int64_t items)
 {
@@ -526,10 +545,11 @@ static kiriProgress UnloadFrame(kiriShapeJob* job, kiriQuota* quota)
         return progress;
     }
     for (; work->loaded.count > 0; --work->loaded.count) {
-        if (!kiriQuota_Take(quota, 1)) {
+        kiriLoadedBlock loaded = work->loaded.data[work->loaded.count - 1];
+        if (!kiriQuota_Take(quota, ItemsToUnload(job, loaded))) {
             return KIRI_MORE;
         }
-        UnloadBlock(job, work->loaded.data[work->loaded.count - 1]);
+        UnloadBlock(job, loaded);
     }
     work->fromSite.settled.count = work->fromSite.log.count = 0;
     work->fromBorder.settled.count = work->fromBorder.log.count = 0;

@@ -175,11 +175,13 @@ static bool StartStaging(kiriOwnership* ownership, kiriMemory* memory, const kir
     return ok;
 }
 
-static int64_t ItemsOfSquare(const kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+/* Of the k-th dirty square. One that is not divided has one owner, which takes little. */
+static int64_t ItemsOfSquare(const kiriGrid* grid, const kiriMeshData* mesh, int32_t square, int32_t k)
 {
+    enum { WHOLE_AN_ITEM = 8, NODES_AN_ITEM = 8 };
     int32_t cell = grid->squareCell.data[square];
     bool isDivided = cell != KIRI_NONE && grid->cells.data[cell].next != KIRI_NONE;
-    return 1 + (isDivided ? kiriSquares_CountNodes(&mesh->squares, square) / 8 : 0);
+    return isDivided ? 1 + kiriSquares_CountNodes(&mesh->squares, square) / NODES_AN_ITEM : k % WHOLE_AN_ITEM == 0;
 }
 
 kiriProgress kiriOwnership_Stage(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid,
@@ -197,7 +199,7 @@ kiriProgress kiriOwnership_Stage(kiriOwnership* ownership, kiriMemory* memory, c
             !StageOwners(ownership, memory, grid, mesh, regions, square)) {
             return KIRI_FAILED;
         }
-        ownership->due = ItemsOfSquare(grid, mesh, square);
+        ownership->due = ItemsOfSquare(grid, mesh, square, ownership->next);
     }
     return KIRI_MORE;
 }

@@ -66,7 +66,7 @@ void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const ki
                         const int32_t* of, int32_t count);
 
 /* Finds what changes owner when the regions come in force: in dirty squares, or in all where `isScratch`. An item of the
-   quota is a square; its triangles count where several cells share it. After KIRI_MORE it goes on where it was. */
+   quota is a square that several cells share, its triangles count, too; or eight others. After KIRI_MORE it goes on where it was. */
 kiriProgress kiriOwnership_Stage(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid,
                                  const kiriMeshData* mesh, const kiriRegions* regions, bool isScratch,
                                  kiriQuota* quota);

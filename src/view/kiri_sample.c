@@ -112,7 +112,7 @@ static void SettleOne(kiriSkin* skin, kiriSpan* span, kiriSpan before)
     }
 }
 
-enum { SETTLED_AN_ITEM = 32 };
+enum { SETTLED_AN_ITEM = 20 };
 
 kiriProgress kiriSkin_Settle(kiriSkin* skin, kiriQuota* quota)
 {
@@ -367,7 +367,7 @@ void kiriRefresh_Drop(kiriRefresh* refresh)
     refresh->noted.count = refresh->change = 0;
 }
 
-enum { CHANGES_AN_ITEM = 8 };
+enum { CHANGES_AN_ITEM = 24 };
 
 kiriProgress kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                                const kiriMeshData* mesh, int32_t firstVertex, kiriQuota* quota)

@@ -54,7 +54,7 @@ void kiriSkin_Commit(kiriSkin* skin);
 void kiriSkin_Drop(kiriSkin* skin);
 
 /* After a commit: weights go to the room of the old ones where they fit, so that samples that lie beside each other keep
-   theirs together, and other room is given back. An item of the quota is 32 samples. Never fails. */
+   theirs together, and other room is given back. An item of the quota is 20 samples. Never fails. */
 kiriProgress kiriSkin_Settle(kiriSkin* skin, kiriQuota* quota);
 
 /* Puts the weights in the order of samples, in which they are read, with some room for more. Where there is no memory for
@@ -87,7 +87,7 @@ typedef struct kiriRefresh {
 bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriMeshData* mesh);
 
 /* Vertices from `firstVertex` on are new, and are staged all; older ones where they come out other than before. Here an
-   item of the quota is eight changes. */
+   item of the quota is 24 changes. */
 kiriProgress kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                                const kiriMeshData* mesh, int32_t firstVertex, kiriQuota* quota);
 kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, kiriMemory* memory, const kiriShape* shape,
