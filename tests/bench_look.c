@@ -195,8 +195,9 @@ static kiriVec3 OwnTurn(const Seen* seen, int32_t vertex, kiriVec2 way)
     kiriVec3 turn = { 0.0, 0.0, 0.0 };
     for (int32_t k = span.first; k < span.first + span.count; k++) {
         kiriSampleWeight weight = seen->sheet->vertexSkin.weights.data[k];
-        const kiriFrameData* frame = &seen->sheet->frames.data[weight.frame];
-        Bend bend = seen->bend[weight.frame];
+        int32_t f = kiriSheet_FrameOf(seen->sheet, weight.label);
+        const kiriFrameData* frame = &seen->sheet->frames.data[f];
+        Bend bend = seen->bend[f];
         turn = kiriVec3_AddScaled(turn, -weight.value * (bend.uu * way.x + bend.uv * way.y), frame->A.u);
         turn = kiriVec3_AddScaled(turn, -weight.value * (bend.uv * way.x + bend.vv * way.y), frame->A.v);
     }
@@ -331,8 +332,8 @@ static void LookBothWays(Table* table, const Scene* scene, const char* moment)
     for (int32_t skinning = KIRI_SKINNING_LINEAR; skinning <= KIRI_SKINNING_SMOOTH; skinning++) {
         Seen seen = { NULL };
         sheet->seen.surface.skinning = skinning;
-        kiriSurface_Blend(&sheet->seen.surface, &sheet->vertexSkin, sheet->frames.data, sheet->frames.count,
-                          sheet->links.links.data, sheet->links.links.count);
+        kiriSurface_Blend(&sheet->seen.surface, &sheet->vertexSkin, &sheet->shape.labels, sheet->frames.data,
+                          sheet->frames.count, sheet->links.links.data, sheet->links.links.count);
         kiriSurface_AddFades(&sheet->seen.surface, &sheet->seen.fades);
         LookAt(&seen, sheet);
         Report(table, scene->type->name, moment, ways[skinning], &seen, sheet->frames.count);

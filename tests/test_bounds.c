@@ -18,7 +18,7 @@ typedef struct Cloth {
 /* Where the vertices are is up to the test, so the surface follows no frames. */
 static void Show(Cloth* cloth)
 {
-    assert_true(kiriSurface_Resize(&cloth->surface, &cloth->room, &cloth->scene.mesh, 0));
+    assert_true(kiriSurface_Resize(&cloth->surface, &cloth->room, &cloth->scene.mesh, 0, 0));
     kiriSurface_WriteTopology(&cloth->surface, &cloth->scene.mesh);
     kiriMesh_Commit(&cloth->scene.mesh);
 }

@@ -178,12 +178,97 @@ static void TestBlocksStayKnown(void** state)
     LeaveAsleep(260); /* more than there are bits for */
 }
 
+/* ---- Labels of frames in weights ---- */
+
+static void KeepAll(kiriKeep* keep, kiriMemory* memory, int32_t items)
+{
+    assert_true(kiriKeep_Init(keep, memory, items));
+    while (keep->to.count < items) {
+        kiriKeep_Add(keep, true);
+    }
+}
+
+/* Each frame is its own label again, in all weights, as in a sheet of which nothing has left. */
+static void ForgetLabels(kiriSheetData* sheet)
+{
+    kiriMemory scratch = kiriMemory_Like(sheet->memory);
+    kiriKeep frames, vertices, points, labels;
+    KeepAll(&frames, &scratch, sheet->frames.count);
+    KeepAll(&vertices, &scratch, sheet->mesh.vertices.count);
+    KeepAll(&points, &scratch, sheet->points.count);
+    assert_true(kiriKeep_Init(&labels, &scratch, kiriLabels_Count(&sheet->shape.labels, sheet->frames.count)));
+    kiriLabels_Map(&sheet->shape.labels, &frames, &labels);
+    kiriShape_Keep(&sheet->shape, sheet->memory, &frames, &labels, NULL, 0);
+    kiriSkin_Keep(&sheet->vertexSkin, &vertices, &labels);
+    kiriSkin_Keep(&sheet->pointSkin, &points, &labels);
+    kiriPatches_Forget(&sheet->seen.surface.patches);
+    kiriBlocks_Forget(&sheet->seen.blocks);
+    sheet->seen.surface.isWritten = sheet->seen.surface.isSteady = false;
+    kiriMemory_FreeAll(&scratch);
+}
+
+static void AssertSameState(const Host hosts[2])
+{
+    uint64_t hash[2];
+    for (int k = 0; k < 2; ++k) {
+        OK(kiriWorld_GetStateHash(hosts[k].world, &hash[k]));
+    }
+    assert_true(hash[0] == hash[1]);
+}
+
+static void SaveAndLoad(Host* host)
+{
+    int64_t size;
+    assert_int_equal(kiriWorld_Save(host->world, NULL, 0, &size), KIRI_OK);
+    void* bytes = malloc((size_t)size);
+    OK(kiriWorld_Save(host->world, bytes, size, &size));
+    OK(kiriWorld_Load(host->world, bytes, size));
+    free(bytes);
+}
+
+/* Strips leave, and cuts bring new frames. In the second world labels are forgotten each time: it stays the same. */
+static void TestLabels(void** state)
+{
+    (void)state;
+    Host hosts[2];
+    kiriSheet sheet = 0, made;
+    for (int k = 0; k < 2; ++k) {
+        sheet = StartStrips(&hosts[k], 24, 0.0f);
+    }
+    for (int32_t round = 0; round < 3; ++round) {
+        for (int k = 0; k < 2; ++k) {
+            kiriFrame gone = Host_FrameOf(&hosts[k], sheet, 2 * round);
+            OK(round == 1 ? kiriFrame_DestroyPiece(hosts[k].world, gone)
+                          : kiriFrame_DetachPiece(hosts[k].world, gone, &made));
+        }
+        assert_true(DataOf(&hosts[0])->shape.labels.itemOf.count > DataOf(&hosts[0])->frames.count);
+        ForgetLabels(DataOf(&hosts[1]));
+        assert_int_equal(DataOf(&hosts[1])->shape.labels.itemOf.count, 0);
+        AssertSameState(hosts);
+        float u = 0.2f + 0.2f * (float)round;
+        for (int k = 0; k < 2; ++k) {
+            Host_Cut(&hosts[k], sheet, (float[]){ u, -0.1f, u, 1.1f }, 2);
+            OK(Host_Tick(&hosts[k], 1.0f / 60.0f, 1));
+        }
+        AssertSameState(hosts);
+        SaveAndLoad(&hosts[0]);
+        for (int tick = 0; tick < 2; ++tick) {
+            OK(Host_Tick(&hosts[0], 1.0f / 60.0f, 1));
+            OK(Host_Tick(&hosts[1], 1.0f / 60.0f, 1));
+        }
+        AssertSameState(hosts);
+    }
+    Host_Stop(&hosts[0]);
+    Host_Stop(&hosts[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestListsStay),
         cmocka_unit_test(TestListsByNeed),
         cmocka_unit_test(TestBlocksStayKnown),
+        cmocka_unit_test(TestLabels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,7 +41,7 @@ static const kiriCellWeight* WeightsAt(const Weights* w, int32_t cell)
 static double WeightOf(const Weights* w, int32_t cell, int32_t frame)
 {
     for (int32_t k = 0; k < w->shape.spans.data[cell].count; ++k) {
-        if (WeightsAt(w, cell)[k].frame == frame) {
+        if (WeightsAt(w, cell)[k].label == frame) {
             return WeightsAt(w, cell)[k].value;
         }
     }
@@ -95,10 +95,10 @@ static void CheckCells(const Scene* scene, const Weights* w, const kiriSite* sit
         int32_t n = w->shape.spans.data[c].count;
         double sum = 0.0;
         for (int32_t k = 0; k < n; ++k) {
-            assert_true(k == 0 || weights[k].frame > weights[k - 1].frame);
+            assert_true(k == 0 || weights[k].label > weights[k - 1].label);
             assert_true(weights[k].value > 0.0);
             sum += weights[k].value;
-            rigid[weights[k].frame] +=
+            rigid[weights[k].label] +=
                 weights[k].value > w->shape.rigidWeight ? scene->grid.cells.data[c].material.area : 0.0;
         }
         assert_int_equal(n > 0, w->regions.field.owner.data[c] != KIRI_NONE);
@@ -114,7 +114,7 @@ static void CheckCells(const Scene* scene, const Weights* w, const kiriSite* sit
     for (int32_t i = 0; i < count; ++i) {
         const kiriCellWeight* weights = WeightsAt(w, sites[i].cell);
         assert_int_equal(w->shape.spans.data[sites[i].cell].count, 1);
-        assert_int_equal(weights->frame, i);
+        assert_int_equal(weights->label, i);
         assert_true(weights->value == 1.0);
     }
     free(rigid);

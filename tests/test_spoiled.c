@@ -349,7 +349,7 @@ static void TestRegions(void** state)
 
 static void WeightIsOfNoFrame(kiriSheetData* sheet)
 {
-    sheet->shape.weights.data[sheet->shape.spans.data[0].first].frame = 1 << 20;
+    sheet->shape.weights.data[sheet->shape.spans.data[0].first].label = 1 << 20;
 }
 
 static void WeightIsZero(kiriSheetData* sheet)
@@ -376,7 +376,7 @@ static void CellBeyondTheGridIsNear(kiriSheetData* sheet)
 
 static void BlockFollowsItself(kiriSheetData* sheet)
 {
-    int32_t block = sheet->shape.reaches.ofFrame.data[0];
+    int32_t block = sheet->shape.reaches.ofLabel.data[0];
     sheet->shape.reaches.blocks.data[block].nextOfFrame = block;
 }
 

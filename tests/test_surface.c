@@ -12,6 +12,7 @@ typedef struct Cloth {
     kiriMemory memory, room; /* room: of the surface */
     kiriMeshData mesh;
     kiriSkin skin;
+    kiriLabels labels;
     kiriSurface surface;
     KIRI_ARRAY(kiriFrameData) frames;
     KIRI_ARRAY(kiriLink) links;
@@ -112,7 +113,8 @@ static void AddWeights(Cloth* cloth, kiriVec2 at)
 static void Write(Cloth* cloth)
 {
     cloth->surface.wantsNormals = true;
-    assert_true(kiriSurface_Resize(&cloth->surface, &cloth->room, &cloth->mesh, cloth->frames.count));
+    assert_true(
+        kiriSurface_Resize(&cloth->surface, &cloth->room, &cloth->mesh, cloth->frames.count, cloth->frames.count));
     kiriSurface_WriteTopology(&cloth->surface, &cloth->mesh);
     kiriMesh_Commit(&cloth->mesh);
     for (int32_t v = cloth->skin.spans.count; v < cloth->mesh.vertices.count; ++v) {
@@ -122,8 +124,8 @@ static void Write(Cloth* cloth)
 
 static void Pose(Cloth* cloth)
 {
-    kiriSurface_Blend(&cloth->surface, &cloth->skin, cloth->frames.data, cloth->frames.count, cloth->links.data,
-                      cloth->links.count);
+    kiriSurface_Blend(&cloth->surface, &cloth->skin, &cloth->labels, cloth->frames.data, cloth->frames.count,
+                      cloth->links.data, cloth->links.count);
     kiriSurface_SumNormals(&cloth->surface);
     kiriSurface_WriteRange(&cloth->surface, 0, cloth->surface.vertexCount);
 }
@@ -186,7 +188,7 @@ static void CheckPositions(const Cloth* cloth, double away)
         kiriVec3 sum = { 0.0, 0.0, 0.0 };
         for (int32_t i = 0; i < cloth->skin.spans.data[v].count; ++i) {
             kiriSampleWeight w = cloth->skin.weights.data[cloth->skin.spans.data[v].first + i];
-            kiriVec3 carried = kiriFrame_Carry(&cloth->frames.data[w.frame], RestOf(cloth, v));
+            kiriVec3 carried = kiriFrame_Carry(&cloth->frames.data[w.label], RestOf(cloth, v));
             sum = kiriVec3_AddScaled(sum, w.value, carried);
         }
         AssertClose(kiriSurface_At(&cloth->surface, v), sum, 2e-6);
@@ -387,7 +389,7 @@ static void RoomMayBeRefused(void** state)
     kiriMesh_Begin(&cloth.mesh);
     Cut(&cloth, 300, &seed);
     int32_t refused = 0;
-    for (purse.budget = 0; !kiriSurface_Resize(&cloth.surface, &cloth.room, &cloth.mesh, 40);
+    for (purse.budget = 0; !kiriSurface_Resize(&cloth.surface, &cloth.room, &cloth.mesh, 40, 40);
          purse.budget = ++refused) {
         kiriRange vertices = { 0, cloth.surface.vertexCount }, triangles = { 0, cloth.surface.triangleCount };
         assert_int_equal(vertices.count, cloth.mesh.oldVertexCount);

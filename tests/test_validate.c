@@ -414,7 +414,7 @@ static bool AddBlockTwice(kiriSheetData* s)
     kiriReaches* reaches = &s->shape.reaches;
     bool ok = kiriReaches_Reserve(reaches, s->memory, 1);
     if (ok) {
-        const kiriReachBlock was = reaches->blocks.data[reaches->ofFrame.data[0]];
+        const kiriReachBlock was = reaches->blocks.data[reaches->ofLabel.data[0]];
         kiriReachBlock* twin = &reaches->blocks.data[kiriReaches_Add(reaches, 0, was.cells)];
         memcpy(twin->fromSite, was.fromSite, sizeof(was.fromSite));
         memcpy(twin->fromBorder, was.fromBorder, sizeof(was.fromBorder));
@@ -439,7 +439,7 @@ static const char* CorruptShape(kiriWorld* world, kiriSheetData* s, int way)
         weight->value = -weight->value;
         return "shape functions: cell";
     case 2:
-        weight[1].frame = weight[0].frame;
+        weight[1].label = weight[0].label;
         return "after";
     case 3:
         shape->spans.data[c] = shape->spans.data[c == 0 ? 1 : 0];
@@ -559,7 +559,7 @@ static const char* CorruptLayout(kiriWorld* world, kiriSheetData* s, int way)
         }
         for (int32_t k = 0; k < s->vertexSkin.spans.data[inner].count; ++k) {
             assert_int_equal(s->layout.framePiece.data[k], 0);
-            s->vertexSkin.weights.data[s->vertexSkin.spans.data[inner].first + k].frame = k;
+            s->vertexSkin.weights.data[s->vertexSkin.spans.data[inner].first + k].label = k;
         }
         return "of another piece";
     case 13:
@@ -633,10 +633,10 @@ static const char* CorruptSamples(kiriWorld* world, kiriSheetData* s, int way)
         weight->value += 1e-6;
         return "weights of vertices: the weights";
     case 1:
-        weight[1].frame = weight[0].frame;
+        weight[1].label = weight[0].label;
         return "after";
     case 2:
-        weight[skin->spans.data[v].count - 1].frame = s->frames.count - 1;
+        weight[skin->spans.data[v].count - 1].label = s->frames.count - 1;
         return "is of pieces";
     case 3:
         skin->spans.data[v].first = 0x7ffffff0;

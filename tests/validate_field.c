@@ -545,11 +545,11 @@ static bool Check_CellWeights(Check* check, const kiriSheetData* sheet)
         REQUIRE((span.count > 0) == kiriGrid_IsCell(&sheet->grid, c), "cell %d has %d weights", c, span.count);
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
             const kiriCellWeight* weight = &shape->weights.data[k];
-            REQUIRE(weight->frame > last && weight->frame < sheet->frames.count, "cell %d: weight of frame %d after %d",
-                    c, weight->frame, last);
-            REQUIRE(weight->value > 0.0 && weight->raw > 0.0 && weight->raw <= 1.0, "cell %d: weight %g of frame %d", c,
-                    weight->value, weight->frame);
-            last = weight->frame;
+            REQUIRE(weight->label > last && kiriLabels_Has(&shape->labels, weight->label, sheet->frames.count),
+                    "cell %d: weight of label %d after %d", c, weight->label, last);
+            REQUIRE(weight->value > 0.0 && weight->raw > 0.0 && weight->raw <= 1.0, "cell %d: weight %g of label %d", c,
+                    weight->value, weight->label);
+            last = weight->label;
             sum += weight->value;
         }
         REQUIRE(span.count == 0 || IsNear(sum, 1.0, 1e-9), "the weights of cell %d sum to %.17g", c, sum);
@@ -574,9 +574,10 @@ static bool Check_Reaches(Check* check, const kiriSheetData* sheet)
     int32_t* seen = Check_Ints(check, sheet->grid.cells.count, KIRI_NONE);
     int64_t found = 0, all = 0;
     const kiriReaches* reaches = &shape->reaches;
-    REQUIRE_COUNT(reaches->ofFrame, sheet->frames.count);
-    for (int32_t i = 0; i < reaches->ofFrame.count; ++i) {
-        kiriReach reach = kiriReaches_First(reaches, i);
+    REQUIRE_COUNT(reaches->ofLabel, kiriLabels_Count(&shape->labels, sheet->frames.count));
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        int32_t label = kiriLabels_Of(&shape->labels, i);
+        kiriReach reach = kiriReaches_First(reaches, label);
         for (; reach.cell != KIRI_NONE; reach = kiriReaches_After(reaches, reach)) {
             REQUIRE(IsIndex(reach.cell, sheet->grid.cells.count) && kiriGrid_IsCell(&sheet->grid, reach.cell),
                     "frame %d reaches cell %d", i, reach.cell);
@@ -585,7 +586,7 @@ static bool Check_Reaches(Check* check, const kiriSheetData* sheet)
             double raw = RawWeight(sheet, i, reach);
             kiriSpan span = shape->spans.data[reach.cell];
             int32_t k = span.first;
-            while (k < span.first + span.count && shape->weights.data[k].frame != i) {
+            while (k < span.first + span.count && shape->weights.data[k].label != label) {
                 ++k;
             }
             double is = k < span.first + span.count ? shape->weights.data[k].raw : 0.0;
@@ -612,7 +613,8 @@ static bool Check_Rigid(Check* check, const kiriSheetData* sheet)
         kiriSpan span = shape->spans.data[c];
         int64_t share = (int64_t)(sheet->grid.cells.data[c].material.area / square * 1099511627776.0 + 0.5);
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
-            sums[shape->weights.data[k].frame] += shape->weights.data[k].value > shape->rigidWeight ? share : 0;
+            sums[kiriSheet_FrameOf(sheet, shape->weights.data[k].label)] +=
+                shape->weights.data[k].value > shape->rigidWeight ? share : 0;
         }
     }
     for (int32_t i = 0; i < sheet->frames.count; ++i) {

@@ -43,7 +43,8 @@ bool Check_Seen(Check* check, const kiriSheetData* sheet)
     kiriSurface anew = *surface;
     int64_t count = surface->vertexCount;
     check->part = "seen";
-    if (!surface->isSteady || surface->patches.count != sheet->frames.count || sheet->seen.isElsewhere) {
+    if (!surface->isSteady || surface->patches.count != kiriLabels_Count(&sheet->shape.labels, sheet->frames.count) ||
+        sheet->seen.isElsewhere) {
         return true; /* something has changed since it was written */
     }
     anew.positions.data = CopyFloats(check, surface->positions.data, 3 * count + 1);

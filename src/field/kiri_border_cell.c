@@ -45,8 +45,10 @@ void kiriBorderCells_Put(kiriBorderCells* lists, int32_t cell, int32_t region)
 
 void kiriBorderCells_Keep(kiriBorderCells* lists, const kiriKeep* regions)
 {
-    for (int32_t c = 0; c < lists->cells.count && kiriKeep_Moves(regions); ++c) {
-        lists->cells.data[c].region = kiriKeep_To(regions, lists->cells.data[c].region);
+    for (int32_t r = regions->first; r < lists->first.count; ++r) {
+        for (int32_t c = lists->first.data[r]; c != KIRI_NONE; c = lists->cells.data[c].next) {
+            lists->cells.data[c].region = kiriKeep_To(regions, r);
+        }
     }
     kiriKeep_Compact(regions, &lists->first, 1, sizeof(int32_t));
 }

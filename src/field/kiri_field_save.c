@@ -159,8 +159,14 @@ static const kiriMember ShapeWorkMembers[] = {
 };
 static const kiriTable ShapeWorkTable = KIRI_TABLE(kiriShapeWork, ShapeWorkMembers);
 
+static const kiriMember LabelsMembers[] = {
+    KIRI_ITEMS(4, kiriLabels, itemOf),
+    KIRI_ITEMS(4, kiriLabels, labelOf),
+};
+static const kiriTable LabelsTable = KIRI_TABLE(kiriLabels, LabelsMembers);
+
 static const kiriMember CellWeightMembers[] = {
-    KIRI_RUN(4, kiriCellWeight, frame, frame),
+    KIRI_RUN(4, kiriCellWeight, label, label),
     KIRI_RUN(8, kiriCellWeight, value, raw),
 };
 static const kiriTable CellWeightTable = KIRI_TABLE(kiriCellWeight, CellWeightMembers);
@@ -169,12 +175,13 @@ static const kiriMember ReachesMembers[] = {
     KIRI_ITEMS(4, kiriReaches, blocks),
     KIRI_ITEMS(4, kiriReaches, heads),
     KIRI_ITEMS(4, kiriReaches, ofCells),
-    KIRI_ITEMS(4, kiriReaches, ofFrame),
+    KIRI_ITEMS(4, kiriReaches, ofLabel),
     KIRI_RUN(4, kiriReaches, freeBlocks, freeBlock),
 };
 static const kiriTable ReachesTable = KIRI_TABLE(kiriReaches, ReachesMembers);
 
 static const kiriMember ShapeMembers[] = {
+    KIRI_PART(kiriShape, labels, LabelsTable),
     KIRI_ITEMS(4, kiriShape, spans),
     KIRI_PARTS(kiriShape, weights, CellWeightTable),
     KIRI_RUN(4, kiriShape, room, room),

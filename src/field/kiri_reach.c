@@ -1,31 +1,32 @@
 #include "kiri_reach.h"
 
-bool kiriReaches_Resize(kiriReaches* reaches, kiriMemory* memory, int32_t cellCount, int32_t frameCount)
+bool kiriReaches_Resize(kiriReaches* reaches, kiriMemory* memory, int32_t cellCount, int32_t labelCount)
 {
-    int32_t cells = reaches->ofCells.count, frames = reaches->ofFrame.count;
+    int32_t cells = reaches->ofCells.count, labels = reaches->ofLabel.count;
     int32_t needed = kiriReach_BlockOf(cellCount + KIRI_BLOCK_CELLS - 1);
     if (!kiriArray_Resize(memory, &reaches->ofCells, needed > cells ? needed : cells) ||
-        !kiriArray_Resize(memory, &reaches->ofFrame, frameCount > frames ? frameCount : frames)) {
+        !kiriArray_Resize(memory, &reaches->ofLabel, labelCount > labels ? labelCount : labels)) {
         return false;
     }
     for (; cells < reaches->ofCells.count; ++cells) {
         reaches->ofCells.data[cells] = KIRI_NONE;
     }
-    for (; frames < reaches->ofFrame.count; ++frames) {
-        reaches->ofFrame.data[frames] = KIRI_NONE;
+    for (; labels < reaches->ofLabel.count; ++labels) {
+        reaches->ofLabel.data[labels] = KIRI_NONE;
     }
     return true;
 }
 
 void kiriReaches_Clear(kiriReaches* reaches)
 {
-    reaches->blocks.count = reaches->heads.count = reaches->ofCells.count = reaches->ofFrame.count = reaches->freeBlocks = 0;
+    reaches->blocks.count = reaches->heads.count = reaches->ofCells.count = reaches->ofLabel.count =
+        reaches->freeBlocks = 0;
 }
 
-int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t frame, int32_t cells)
+int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t label, int32_t cells)
 {
     int32_t block = reaches->ofCells.data[cells];
-    while (block != KIRI_NONE && reaches->heads.data[block].frame != frame) {
+    while (block != KIRI_NONE && reaches->heads.data[block].label != label) {
         block = reaches->heads.data[block].nextOfCells;
     }
     return block;
@@ -62,11 +63,11 @@ static int32_t TakeBlock(kiriReaches* reaches)
     return block;
 }
 
-int32_t kiriReaches_Add(kiriReaches* reaches, int32_t frame, int32_t cells)
+int32_t kiriReaches_Add(kiriReaches* reaches, int32_t label, int32_t cells)
 {
-    int32_t index = TakeBlock(reaches), next = reaches->ofFrame.data[frame];
+    int32_t index = TakeBlock(reaches), next = reaches->ofLabel.data[label];
     kiriReachBlock* block = &reaches->blocks.data[index];
-    reaches->heads.data[index] = (kiriReachHead){ frame, reaches->ofCells.data[cells] };
+    reaches->heads.data[index] = (kiriReachHead){ label, reaches->ofCells.data[cells] };
     block->cells = cells;
     block->nextOfFrame = next;
     block->previousOfFrame = KIRI_NONE;
@@ -76,7 +77,7 @@ int32_t kiriReaches_Add(kiriReaches* reaches, int32_t frame, int32_t cells)
     if (next != KIRI_NONE) {
         reaches->blocks.data[next].previousOfFrame = index;
     }
-    reaches->ofCells.data[cells] = reaches->ofFrame.data[frame] = index;
+    reaches->ofCells.data[cells] = reaches->ofLabel.data[label] = index;
     return index;
 }
 
@@ -95,26 +96,31 @@ void kiriReaches_Remove(kiriReaches* reaches, int32_t index)
     if (block->previousOfFrame != KIRI_NONE) {
         blocks[block->previousOfFrame].nextOfFrame = block->nextOfFrame;
     } else {
-        reaches->ofFrame.data[head->frame] = block->nextOfFrame;
+        reaches->ofLabel.data[head->label] = block->nextOfFrame;
     }
-    head->frame = KIRI_NONE;
+    head->label = KIRI_NONE;
     block->nextOfFrame = reaches->freeBlock;
     reaches->freeBlock = index;
     reaches->freeBlocks += 1;
 }
 
-void kiriReaches_Keep(kiriReaches* reaches, const kiriKeep* frames)
+void kiriReaches_Forget(kiriReaches* reaches, int32_t label)
 {
-    for (int32_t f = frames->first; f < frames->to.count; ++f) {
-        int32_t to = kiriKeep_To(frames, f);
-        while (to == KIRI_NONE && reaches->ofFrame.data[f] != KIRI_NONE) {
-            kiriReaches_Remove(reaches, reaches->ofFrame.data[f]);
-        }
-        for (int32_t b = reaches->ofFrame.data[f]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
-            reaches->heads.data[b].frame = to;
+    while (reaches->ofLabel.data[label] != KIRI_NONE) {
+        kiriReaches_Remove(reaches, reaches->ofLabel.data[label]);
+    }
+}
+
+void kiriReaches_Relabel(kiriReaches* reaches, const kiriKeep* labels)
+{
+    for (int32_t label = labels->first; label < reaches->ofLabel.count; ++label) {
+        int32_t to = kiriKeep_To(labels, label);
+        KIRI_ASSERT(to != KIRI_NONE || reaches->ofLabel.data[label] == KIRI_NONE);
+        for (int32_t b = reaches->ofLabel.data[label]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
+            reaches->heads.data[b].label = to;
         }
     }
-    kiriKeep_Compact(frames, &reaches->ofFrame, 1, sizeof(int32_t));
+    kiriKeep_Compact(labels, &reaches->ofLabel, 1, sizeof(int32_t));
 }
 
 /* ---- What a frame reaches ---------------------------------------------------------------------------------------- */
@@ -132,9 +138,9 @@ static kiriReach NextReach(const kiriReaches* reaches, int32_t block, int32_t k)
     return (kiriReach){ KIRI_NONE, KIRI_FAR, KIRI_FAR, KIRI_NONE };
 }
 
-kiriReach kiriReaches_First(const kiriReaches* reaches, int32_t frame)
+kiriReach kiriReaches_First(const kiriReaches* reaches, int32_t label)
 {
-    return NextReach(reaches, reaches->ofFrame.data[frame], 0);
+    return NextReach(reaches, reaches->ofLabel.data[label], 0);
 }
 
 kiriReach kiriReaches_After(const kiriReaches* reaches, kiriReach reach)

@@ -6,7 +6,7 @@
 #define KIRI_REACH_H
 
 #include "kiri_geodesic.h"
-#include "../core/kiri_keep.h"
+#include "../core/kiri_label.h"
 
 KIRI_C_BEGIN
 
@@ -14,7 +14,7 @@ enum { KIRI_BLOCK_CELLS = 16 };
 
 /* Whose block it is. Apart from what is in it: so a search along the list of some cells reads few lines of memory. */
 typedef struct kiriReachHead {
-    int32_t frame;       /* KIRI_NONE: no block has this index now */
+    int32_t label;       /* of the frame; KIRI_NONE: no block has this index now */
     int32_t nextOfCells; /* the block of another frame for these cells, or KIRI_NONE */
 } kiriReachHead;
 
@@ -30,8 +30,8 @@ typedef struct kiriReaches {
     KIRI_ARRAY(kiriReachBlock) blocks; /* by index, with gaps; */
     KIRI_ARRAY(kiriReachHead) heads;   /* and one head for each */
     KIRI_ARRAY(int32_t) ofCells;       /* heads of lists */
-    KIRI_ARRAY(int32_t) ofFrame;
-    int32_t freeBlocks; /* how many have no frame; the list is headed by */
+    KIRI_ARRAY(int32_t) ofLabel;       /* of each label of a frame */
+    int32_t freeBlocks;                /* how many have no frame; the list is headed by */
     int32_t freeBlock;
 } kiriReaches;
 
@@ -42,28 +42,31 @@ typedef struct kiriReach {
     int32_t block;
 } kiriReach;
 
-/* Room for so many cells and frames. False for memory. */
-bool kiriReaches_Resize(kiriReaches* reaches, kiriMemory* memory, int32_t cellCount, int32_t frameCount);
+/* Room for so many cells and labels. False for memory. */
+bool kiriReaches_Resize(kiriReaches* reaches, kiriMemory* memory, int32_t cellCount, int32_t labelCount);
 
 /* Makes it empty; keeps the memory. */
 void kiriReaches_Clear(kiriReaches* reaches);
 
 /* The block, or KIRI_NONE. */
-int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t frame, int32_t cells);
+int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t label, int32_t cells);
 
 /* Room for so many more blocks. Grows: does that move those that are there? */
 bool kiriReaches_Grows(const kiriReaches* reaches, int32_t more);
 bool kiriReaches_Reserve(kiriReaches* reaches, kiriMemory* memory, int32_t more);
 
 /* A block that there is not yet, which reaches nothing. There is room. */
-int32_t kiriReaches_Add(kiriReaches* reaches, int32_t frame, int32_t cells);
+int32_t kiriReaches_Add(kiriReaches* reaches, int32_t label, int32_t cells);
 void kiriReaches_Remove(kiriReaches* reaches, int32_t block);
 
-/* Frames that are not kept lose their blocks, others get their new index. */
-void kiriReaches_Keep(kiriReaches* reaches, const kiriKeep* frames);
+/* A frame loses its blocks. */
+void kiriReaches_Forget(kiriReaches* reaches, int32_t label);
+
+/* Labels that are not kept, which have no blocks, are gone, and others are numbered anew. */
+void kiriReaches_Relabel(kiriReaches* reaches, const kiriKeep* labels);
 
 /* The cells that a frame reaches, in no order. */
-kiriReach kiriReaches_First(const kiriReaches* reaches, int32_t frame);
+kiriReach kiriReaches_First(const kiriReaches* reaches, int32_t label);
 kiriReach kiriReaches_After(const kiriReaches* reaches, kiriReach reach);
 
 static inline int32_t kiriReach_BlockOf(int32_t cell)

@@ -464,6 +464,21 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
     return KIRI_DONE;
 }
 
+/* All cells are asked, in one plain pass: what is gone has no owner any more. */
+static void RenumberCells(kiriRegions* regions, const kiriKeep* frames)
+{
+    int32_t *owner = regions->field.owner.data, *siteAt = regions->siteAt.data;
+    const int32_t *to = frames->to.data, first = frames->first;
+    for (int32_t c = 0; c < regions->siteAt.count; ++c) {
+        if (owner[c] >= first) {
+            owner[c] = to[owner[c]];
+        }
+        if (siteAt[c] >= first) {
+            siteAt[c] = to[siteAt[c]];
+        }
+    }
+}
+
 void kiriRegions_Keep(kiriRegions* regions, const kiriKeep* frames, const int32_t* gone, int32_t goneCount)
 {
     KIRI_ASSERT(!regions->running && regions->changes.count == 0 && regions->orphans.count == 0);
@@ -472,9 +487,8 @@ void kiriRegions_Keep(kiriRegions* regions, const kiriKeep* frames, const int32_
         regions->siteAt.data[gone[k]] = KIRI_NONE;
         SetBorder(regions, gone[k], false);
     }
-    for (int32_t c = 0; c < regions->siteAt.count && kiriKeep_Moves(frames); ++c) {
-        regions->siteAt.data[c] = kiriKeep_To(frames, regions->siteAt.data[c]);
-        regions->field.owner.data[c] = kiriKeep_To(frames, regions->field.owner.data[c]);
+    if (kiriKeep_Moves(frames)) {
+        RenumberCells(regions, frames);
     }
     kiriBorderCells_Keep(&regions->border, frames);
     kiriKeep_Compact(frames, &regions->material, 1, sizeof(kiriTally));

@@ -13,7 +13,7 @@ static void AddRigid(kiriShapeJob* job, int32_t cell, int64_t share)
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
         const kiriCellWeight* weight = &job->shape->weights.data[k];
         if (weight->value > job->shape->rigidWeight) {
-            job->shape->rigid.data[weight->frame] += share;
+            job->shape->rigid.data[kiriLabels_Item(&job->shape->labels, weight->label)] += share;
         }
     }
 }
@@ -67,11 +67,11 @@ static bool ReplaceWeight(kiriShapeJob* job, const kiriRawWeight* entry)
     KIRI_ASSERT(entry->frame >= 0 && entry->frame < job->siteCount && kiriGrid_IsCell(job->grid, entry->cell));
     kiriSpan* span = &job->shape->spans.data[entry->cell];
     kiriCellWeight* weights = job->shape->weights.data + span->first;
-    int32_t k = 0;
-    while (k < span->count && weights[k].frame < entry->frame) {
+    int32_t k = 0, label = kiriLabels_Of(&job->shape->labels, entry->frame);
+    while (k < span->count && weights[k].label < label) {
         ++k;
     }
-    bool found = k < span->count && weights[k].frame == entry->frame, kept = entry->raw > 0.0;
+    bool found = k < span->count && weights[k].label == label, kept = entry->raw > 0.0;
     if (found ? weights[k].raw == entry->raw : !kept) {
         return true;
     }
@@ -87,7 +87,7 @@ static bool ReplaceWeight(kiriShapeJob* job, const kiriRawWeight* entry)
         weights = job->shape->weights.data + span->first;
         memmove(weights + k + 1, weights + k, (size_t)(span->count - k - 1) * sizeof(*weights));
     }
-    weights[k] = (kiriCellWeight){ entry->frame, 0.0, entry->raw };
+    weights[k] = (kiriCellWeight){ label, 0.0, entry->raw };
     return true;
 }
 
@@ -103,7 +103,7 @@ static bool PlaceWeight(kiriShapeJob* job, const kiriRawWeight* entry)
     kiriSpan span = job->shape->spans.data[entry->cell];
     KIRI_ASSERT(*awaited > 0 && *awaited <= span.count && entry->raw > 0.0);
     job->shape->weights.data[span.first + span.count - (*awaited)--] =
-        (kiriCellWeight){ entry->frame, 0.0, entry->raw };
+        (kiriCellWeight){ kiriLabels_Of(&job->shape->labels, entry->frame), 0.0, entry->raw };
     return true;
 }
 
@@ -139,7 +139,8 @@ static bool MakeBlocksRoom(kiriShapeJob* job)
     int32_t old = work->marks.count, was = work->isLoaded.count;
     int32_t blocks = kiriReach_BlockOf(job->grid->cells.count + KIRI_BLOCK_CELLS - 1);
     int32_t cells = blocks * KIRI_BLOCK_CELLS;
-    if (!kiriReaches_Resize(&job->shape->reaches, job->memory, cells, job->siteCount) ||
+    if (!kiriReaches_Resize(&job->shape->reaches, job->memory, cells,
+                            kiriLabels_Count(&job->shape->labels, job->siteCount)) ||
         !kiriField_Resize(&work->fromSite, job->memory, cells) ||
         !kiriField_Resize(&work->fromBorder, job->memory, cells) ||
         !kiriArray_Resize(job->memory, &work->marks, cells) || !kiriArray_Reserve(job->memory, &work->loaded, blocks) ||
@@ -232,9 +233,10 @@ static bool TouchCell(kiriShapeJob* job, int32_t cell)
     for (int32_t b = reaches->ofCells.data[kiriReach_BlockOf(cell)]; b != KIRI_NONE; b = head.nextOfCells) {
         head = reaches->heads.data[b];
         if (reaches->blocks.data[b].fromSite[cell % KIRI_BLOCK_CELLS] != KIRI_FAR) {
-            kiriShapeFrame* frame = &work->frames.data[head.frame];
+            int32_t f = kiriLabels_Item(&job->shape->labels, head.label);
+            kiriShapeFrame* frame = &work->frames.data[f];
             kiriTouchedCell touched = { cell, frame->firstTouch };
-            MarkFrameDirty(job, head.frame);
+            MarkFrameDirty(job, f);
             frame->firstTouch = work->touches.count;
             frame->touches += 1;
             if (!kiriArray_Push(job->memory, &work->touches, touched)) {
@@ -353,6 +355,7 @@ static kiriProgress MeasureDirtyFrames(kiriShapeJob* job, kiriQuota* quota)
     kiriShapeWork* work = job->work;
     for (; work->next < work->dirtyFrames.count; ++work->next) {
         job->frame = work->dirtyFrames.data[work->next];
+        job->label = kiriLabels_Of(&job->shape->labels, job->frame);
         kiriProgress progress = kiriShapeJob_MeasureFrame(job, quota);
         if (progress != KIRI_DONE) {
             return progress;
@@ -463,7 +466,7 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
         return KIRI_FAILED;
     }
     KIRI_ASSERT(!regions->running && regions->material.count == siteCount);
-    kiriShapeJob job = { shape, shape->work, memory, grid, mesh, regions, sites, siteCount, 0 };
+    kiriShapeJob job = { shape, shape->work, memory, grid, mesh, regions, sites, siteCount, 0, 0 };
     if (shape->work->stage == KIRI_SHAPE_REST && !BeginWeights(&job, moves, moveCount)) {
         return KIRI_FAILED;
     }
@@ -474,41 +477,63 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
     return progress;
 }
 
-static void RenumberWeights(kiriShape* shape, const kiriKeep* frames)
+static void RelabelWeights(kiriShape* shape, const kiriKeep* labels)
 {
-    const int32_t* to = frames->to.data;
+    const int32_t* to = labels->to.data;
     for (int32_t c = 0; c < shape->spans.count; ++c) {
         kiriCellWeight* weight = shape->weights.data + shape->spans.data[c].first;
         for (const kiriCellWeight* end = weight + shape->spans.data[c].count; weight < end; ++weight) {
-            int32_t now = to[weight->frame];
-            weight->frame = now != KIRI_NONE ? now : 0; /* never gone, but for bytes that were made up */
+            int32_t now = to[weight->label];
+            weight->label = now != KIRI_NONE ? now : 0; /* never gone, but for bytes that were made up */
         }
         kiriCountedCell* counted = &shape->work->counted.data[c];
-        counted->frame = counted->frame != KIRI_NONE ? to[counted->frame] : KIRI_NONE;
+        counted->label = counted->label != KIRI_NONE ? to[counted->label] : KIRI_NONE;
     }
 }
 
-void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames, const int32_t* gone,
-                    int32_t goneCount)
+static void ForgetCells(kiriShape* shape, kiriMemory* memory, const int32_t* gone, int32_t goneCount)
 {
-    KIRI_ASSERT(shape->work->stage == KIRI_SHAPE_REST && shape->changes.count == 0);
     for (int32_t k = 0; k < goneCount; ++k) {
         kiriSpan_Resize(&shape->spans.data[gone[k]], &shape->room, memory, &shape->weights,
                         sizeof(*shape->weights.data), 0);
         shape->work->rigidShares.data[gone[k]] = 0;
         shape->work->counted.data[gone[k]] = (kiriCountedCell){ KIRI_NONE, 0 };
     }
-    if (kiriKeep_Moves(frames)) {
-        RenumberWeights(shape, frames);
+}
+
+static void ForgetFrame(kiriShape* shape, kiriMemory* memory, int32_t frame)
+{
+    kiriReaches_Forget(&shape->reaches, kiriLabels_Of(&shape->labels, frame));
+    kiriSpan_Resize(&shape->work->frames.data[frame].sides, &shape->work->sideRoom, memory, &shape->work->sideCounts,
+                    sizeof(*shape->work->sideCounts.data), 0);
+}
+
+/* Frames are those that are left. */
+static void KeepLabels(kiriShape* shape, const kiriKeep* frames, const kiriKeep* labels)
+{
+    if (labels == NULL) {
+        kiriLabels_Keep(&shape->labels, frames);
+        shape->reaches.ofLabel.count = kiriLabels_Count(&shape->labels, frames->count);
+        return;
     }
+    kiriReaches_Relabel(&shape->reaches, labels);
+    if (kiriKeep_Moves(labels)) {
+        RelabelWeights(shape, labels);
+    }
+    kiriLabels_Forget(&shape->labels);
+}
+
+void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames, const kiriKeep* labels,
+                    const int32_t* gone, int32_t goneCount)
+{
+    KIRI_ASSERT(shape->work->stage == KIRI_SHAPE_REST && shape->changes.count == 0);
+    ForgetCells(shape, memory, gone, goneCount);
     for (int32_t f = frames->first; f < frames->to.count; ++f) {
-        kiriShapeFrame* frame = &shape->work->frames.data[f];
         if (!kiriKeep_Has(frames, f)) {
-            kiriSpan_Resize(&frame->sides, &shape->work->sideRoom, memory, &shape->work->sideCounts,
-                            sizeof(*shape->work->sideCounts.data), 0);
+            ForgetFrame(shape, memory, f);
         }
     }
-    kiriReaches_Keep(&shape->reaches, frames);
+    KeepLabels(shape, frames, labels);
     kiriKeep_Compact(frames, &shape->rigid, 1, sizeof(int64_t));
     kiriKeep_Compact(frames, &shape->work->frames, 1, sizeof(kiriShapeFrame));
 }

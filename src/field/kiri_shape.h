@@ -15,15 +15,17 @@ typedef struct kiriWeight {
 
 /* A weight at a cell, and what it was before the weights there were made to sum to 1. */
 typedef struct kiriCellWeight {
-    int32_t frame;
+    int32_t label; /* of the frame */
     double value, raw;
 } kiriCellWeight;
 
 typedef struct kiriShapeWork kiriShapeWork; /* the update at hand: kiri_shape_work.h */
 
 typedef struct kiriShape {
+    kiriLabels
+        labels; /* of frames, in weights of cells and of samples: so no frame that goes changes those of others */
     KIRI_ARRAY(kiriSpan) spans;         /* of each cell: its weights */
-    KIRI_ARRAY(kiriCellWeight) weights; /* by spans; in a span by frame; above zero, sum of values 1 */
+    KIRI_ARRAY(kiriCellWeight) weights; /* by spans; in a span by label; above zero, sum of values 1 */
     kiriSpans room;
     kiriReaches reaches; /* of each frame: how far cells are that its weight may reach */
 
@@ -49,10 +51,11 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
                               const kiriRegions* regions, const kiriSite* sites, int32_t siteCount,
                               const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
 
-/* The cells go that are listed, which are all that the frames reach that are not kept; others get their new index. Not
-   during an update, nor before its changes are cleared. Never fails. */
-void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames, const int32_t* gone,
-                    int32_t goneCount);
+/* The cells go that are listed, which are all that the frames reach that are not kept; others get their new index. `labels`:
+   what labels become (kiriLabels_Map); null: they stay, and there is room to list them. Not during an update, nor before
+   its changes are cleared. Never fails. */
+void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames, const kiriKeep* labels,
+                    const int32_t* gone, int32_t goneCount);
 void kiriShape_ClearChanges(kiriShape* shape);
 
 /* Gives back the room of what is as long as what an update changes. Not during an update. */

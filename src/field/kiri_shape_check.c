@@ -7,12 +7,7 @@ static const kiriMust IsShapeCell[] = { KIRI_INDEX(KIRI_OF_CELLS, kiriSpan, firs
 static const kiriMust IsRegion[] = { KIRI_INDEX(KIRI_OF_REGIONS, kiriSpan, first, first) };
 
 static const kiriMust WeightMust[] = {
-    KIRI_INDEX(KIRI_OF_REGIONS, kiriCellWeight, frame, frame),
     KIRI_REALS(kiriCellWeight, value, raw),
-};
-
-static const kiriMust ReachHeadMust[] = {
-    KIRI_INDEX_OR_NONE(KIRI_OF_REGIONS, kiriReachHead, frame, frame),
 };
 
 static const kiriMust ShapeFrameMust[] = {
@@ -47,8 +42,6 @@ static const kiriMust RunningShapeMust[] = {
 };
 
 static const kiriMust ShapeMust[] = {
-    KIRI_ITEMS_MUST(kiriShape, reaches.heads, ReachHeadMust),
-    KIRI_LENGTH(KIRI_OF_REGIONS, kiriShape, reaches.ofFrame),
     KIRI_REALS(kiriShape, rigidWeight, rigidWeight),
     KIRI_ITEMS_MUST(kiriShape, changes, IsShapeCell),
     KIRI_COUNTS(kiriShape, recomputed, recomputed),
@@ -63,7 +56,8 @@ static bool AreWeightsOf(kiriCheck* check, const kiriShape* shape, int32_t cell)
     bool areFine = awaited >= 0 && awaited <= (span.count > 0 ? span.count : check->count[KIRI_OF_REGIONS]);
     for (int32_t k = span.first; areFine && k < span.first + span.count - (span.count > 0 ? awaited : 0); ++k) {
         const kiriCellWeight* weight = &shape->weights.data[k];
-        areFine = kiriCheck_Object(check, WeightMust, weight) && weight->raw > 0.0 && weight->raw <= 1.0 &&
+        areFine = kiriLabels_Has(&shape->labels, weight->label, shape->rigid.count) &&
+                  kiriCheck_Object(check, WeightMust, weight) && weight->raw > 0.0 && weight->raw <= 1.0 &&
                   weight->value >= 0.0 && weight->value <= 1.0;
     }
     return kiriCheck_That(check, areFine);
@@ -94,43 +88,45 @@ static bool AreDistances(const kiriReachBlock* block, int64_t cells)
 }
 
 /* Blocks are in the list of their cells and in that of their frame, or free. */
-static bool AreReaches(kiriCheck* check, const kiriReaches* reaches)
+static bool AreReaches(kiriCheck* check, const kiriShape* shape)
 {
+    const kiriReaches* reaches = &shape->reaches;
     const kiriReachBlock* blocks = reaches->blocks.data;
     const kiriReachHead* heads = reaches->heads.data;
     if (reaches->blocks.count == 0 || reaches->heads.count != reaches->blocks.count) {
         return kiriCheck_That(check, reaches->freeBlocks == 0 && reaches->heads.count == reaches->blocks.count);
     }
-    kiriChains ofCells, ofFrame;
+    kiriChains ofCells, ofLabel;
     bool areFine = kiriCheck_StartChains(check, &ofCells, &heads->nextOfCells, sizeof(*heads), reaches->heads.count);
     for (int32_t c = 0; areFine && c < reaches->ofCells.count; ++c) {
         areFine = kiriCheck_Chain(check, &ofCells, reaches->ofCells.data[c]);
         for (int32_t b = reaches->ofCells.data[c]; areFine && b != KIRI_NONE; b = heads[b].nextOfCells) {
-            areFine = kiriCheck_That(check, blocks[b].cells == c && heads[b].frame != KIRI_NONE &&
+            areFine = kiriCheck_That(check, blocks[b].cells == c && heads[b].label != KIRI_NONE &&
                                                 AreDistances(&blocks[b], check->count[KIRI_OF_CELLS]));
         }
     }
     areFine =
-        areFine && kiriCheck_StartChains(check, &ofFrame, &blocks->nextOfFrame, sizeof(*blocks), reaches->blocks.count);
-    for (int32_t f = 0; areFine && f < reaches->ofFrame.count; ++f) {
+        areFine && kiriCheck_StartChains(check, &ofLabel, &blocks->nextOfFrame, sizeof(*blocks), reaches->blocks.count);
+    for (int32_t label = 0; areFine && label < reaches->ofLabel.count; ++label) {
         int32_t before = KIRI_NONE;
-        areFine = kiriCheck_Chain(check, &ofFrame, reaches->ofFrame.data[f]);
-        for (int32_t b = reaches->ofFrame.data[f]; areFine && b != KIRI_NONE; b = blocks[b].nextOfFrame) {
-            areFine = kiriCheck_That(check, heads[b].frame == f && blocks[b].previousOfFrame == before);
+        areFine = kiriCheck_Chain(check, &ofLabel, reaches->ofLabel.data[label]);
+        for (int32_t b = reaches->ofLabel.data[label]; areFine && b != KIRI_NONE; b = blocks[b].nextOfFrame) {
+            areFine = kiriCheck_That(check, heads[b].label == label && blocks[b].previousOfFrame == before &&
+                                                kiriLabels_Has(&shape->labels, label, shape->rigid.count));
             before = b;
         }
     }
-    areFine = areFine && kiriCheck_That(check, ofCells.listed == ofFrame.listed && reaches->freeBlocks >= 0);
+    areFine = areFine && kiriCheck_That(check, ofCells.listed == ofLabel.listed && reaches->freeBlocks >= 0);
     int32_t free = areFine ? reaches->freeBlock : KIRI_NONE;
     for (int32_t k = 0; areFine && k < reaches->freeBlocks; ++k) {
-        areFine = kiriCheck_That(check, free >= 0 && free < reaches->blocks.count && !ofFrame.seen[free] &&
-                                            heads[free].frame == KIRI_NONE);
+        areFine = kiriCheck_That(check, free >= 0 && free < reaches->blocks.count && !ofLabel.seen[free] &&
+                                            heads[free].label == KIRI_NONE);
         if (areFine) {
-            ofFrame.seen[free] = 1;
+            ofLabel.seen[free] = 1;
             free = blocks[free].nextOfFrame;
         }
     }
-    return areFine && kiriCheck_That(check, ofFrame.listed + reaches->freeBlocks == reaches->blocks.count);
+    return areFine && kiriCheck_That(check, ofLabel.listed + reaches->freeBlocks == reaches->blocks.count);
 }
 
 static bool AreListsOfShape(kiriCheck* check, const kiriShape* shape)
@@ -161,9 +157,18 @@ static bool AreSideCounts(const kiriShapeWork* work, kiriSpan sides)
     return areFine;
 }
 
-/* How far distances have to go is counted in spans of their own; what touches frames are lists. */
-static bool AreCounted(kiriCheck* check, const kiriShapeWork* work, int32_t cells)
+static bool IsCounted(const kiriShape* shape, kiriCountedCell counted)
 {
+    const kiriShapeFrame* frames = shape->work->frames.data;
+    return counted.label == KIRI_NONE ||
+           (kiriLabels_Has(&shape->labels, counted.label, shape->work->frames.count) && counted.sides >= 0 &&
+            counted.sides < frames[kiriLabels_Item(&shape->labels, counted.label)].sides.count);
+}
+
+/* How far distances have to go is counted in spans of their own; what touches frames are lists. */
+static bool AreCounted(kiriCheck* check, const kiriShape* shape)
+{
+    const kiriShapeWork* work = shape->work;
     kiriRooms rooms;
     bool areFine = kiriCheck_StartRooms(check, &rooms, &work->sideCounts, sizeof(int32_t), &work->sideRoom);
     for (int32_t f = 0; areFine && f < work->frames.count; ++f) {
@@ -174,12 +179,8 @@ static bool AreCounted(kiriCheck* check, const kiriShapeWork* work, int32_t cell
                                                                        : frame->firstTouch >= KIRI_NONE &&
                                                                              frame->firstTouch < work->touches.count);
     }
-    for (int32_t c = 0; areFine && c < cells; ++c) {
-        kiriCountedCell counted = work->counted.data[c];
-        areFine = kiriCheck_That(
-            check, counted.frame >= KIRI_NONE && counted.frame < work->frames.count &&
-                       (counted.frame == KIRI_NONE ||
-                        (counted.sides >= 0 && counted.sides < work->frames.data[counted.frame].sides.count)));
+    for (int32_t c = 0; areFine && c < shape->spans.count; ++c) {
+        areFine = kiriCheck_That(check, IsCounted(shape, work->counted.data[c]));
     }
     for (int32_t k = 0; areFine && work->stage != KIRI_SHAPE_REST && k < work->touches.count; ++k) {
         areFine = kiriCheck_That(check, work->touches.data[k].next >= KIRI_NONE && work->touches.data[k].next < k);
@@ -202,7 +203,7 @@ static bool AreLoaded(kiriCheck* check, const kiriShape* shape)
                   loaded.block < reaches->blocks.count;
         if (areFine) {
             seen[loaded.cells] = 1;
-            areFine = loaded.block == KIRI_NONE || (reaches->heads.data[loaded.block].frame != KIRI_NONE &&
+            areFine = loaded.block == KIRI_NONE || (reaches->heads.data[loaded.block].label != KIRI_NONE &&
                                                     reaches->blocks.data[loaded.block].cells == loaded.cells);
         }
     }
@@ -249,6 +250,12 @@ static bool AreAwaited(kiriCheck* check, const kiriShape* shape)
     return kiriCheck_That(check, areFine);
 }
 
+static bool AreLabels(const kiriShape* shape)
+{
+    return kiriLabels_AreSound(&shape->labels, shape->rigid.count) &&
+           shape->reaches.ofLabel.count == kiriLabels_Count(&shape->labels, shape->rigid.count);
+}
+
 static bool AreRowsOfShape(const kiriShape* shape, const kiriGrid* grid)
 {
     const kiriShapeWork* work = shape->work;
@@ -283,12 +290,12 @@ bool kiriShape_Check(const kiriShape* shape, const kiriGrid* grid, kiriCheck* ch
     check->count[KIRI_OF_REGIONS] = shape->rigid.count;
     check->count[KIRI_OF_CELLS] = shape->spans.count;
     bool isFine = kiriCheck_That(check, shape->rigid.count <= check->count[KIRI_OF_SITES] && AreRigidSums(shape)) &&
-                  kiriCheck_Object(check, ShapeMust, shape) &&
+                  kiriCheck_That(check, AreLabels(shape)) && kiriCheck_Object(check, ShapeMust, shape) &&
                   (shape->work->stage == KIRI_SHAPE_REST || kiriCheck_Object(check, RunningShapeMust, shape->work)) &&
-                  AreReaches(check, &shape->reaches) && IsFieldOfFrame(check, shape->work, &shape->work->fromSite) &&
+                  AreReaches(check, shape) && IsFieldOfFrame(check, shape->work, &shape->work->fromSite) &&
                   IsFieldOfFrame(check, shape->work, &shape->work->fromBorder) && AreListsOfShape(check, shape) &&
-                  AreCounted(check, shape->work, shape->spans.count) && AreLoaded(check, shape) &&
-                  AreWeights(check, shape) && AreAwaited(check, shape);
+                  AreCounted(check, shape) && AreLoaded(check, shape) && AreWeights(check, shape) &&
+                  AreAwaited(check, shape);
     check->count[KIRI_OF_CELLS] = cells;
     return isFine;
 }

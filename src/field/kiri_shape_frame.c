@@ -35,17 +35,18 @@ static int32_t ReachAt(const kiriShapeJob* job, int32_t x)
 
 /* ---- How far distances to a site have to go ---------------------------------------------------------------------- */
 
-static void CountSide(kiriShapeWork* work, kiriCountedCell counted, int32_t more)
+static void CountSide(const kiriShapeJob* job, kiriCountedCell counted, int32_t more)
 {
-    if (counted.frame != KIRI_NONE) {
-        work->sideCounts.data[work->frames.data[counted.frame].sides.first + counted.sides] += more;
+    if (counted.label != KIRI_NONE) {
+        int32_t frame = kiriLabels_Item(&job->shape->labels, counted.label);
+        job->work->sideCounts.data[job->work->frames.data[frame].sides.first + counted.sides] += more;
     }
 }
 
 void kiriShapeJob_UncountCell(kiriShapeJob* job, int32_t cell)
 {
     kiriCountedCell* counted = &job->work->counted.data[cell];
-    CountSide(job->work, *counted, -1);
+    CountSide(job, *counted, -1);
     *counted = (kiriCountedCell){ KIRI_NONE, 0 };
 }
 
@@ -67,18 +68,20 @@ static bool MakeSidesRoom(kiriShapeJob* job, int32_t frame, int32_t sides)
 
 bool kiriShapeJob_CountCell(kiriShapeJob* job, int32_t cell)
 {
-    kiriCountedCell is = { job->regions->field.owner.data[cell], 0 }, was = job->work->counted.data[cell];
-    if (is.frame != KIRI_NONE) {
+    kiriCountedCell is = { KIRI_NONE, 0 }, was = job->work->counted.data[cell];
+    int32_t frame = job->regions->field.owner.data[cell];
+    if (frame != KIRI_NONE) {
+        is.label = kiriLabels_Of(&job->shape->labels, frame);
         is.sides = ReachAt(job, cell) / KIRI_UNIT;
     }
-    if (is.frame == was.frame && is.sides == was.sides) {
+    if (is.label == was.label && is.sides == was.sides) {
         return true;
     }
-    if (is.frame != KIRI_NONE && !MakeSidesRoom(job, is.frame, is.sides)) {
+    if (frame != KIRI_NONE && !MakeSidesRoom(job, frame, is.sides)) {
         return false;
     }
     kiriShapeJob_UncountCell(job, cell);
-    CountSide(job->work, is, 1);
+    CountSide(job, is, 1);
     job->work->counted.data[cell] = is;
     return true;
 }
@@ -162,7 +165,7 @@ static void LoadNewBlock(const kiriShapeJob* job, int32_t cells)
 {
     kiriShapeWork* work = job->work;
     const kiriReaches* reaches = &job->shape->reaches;
-    int32_t block = kiriReaches_Find(reaches, job->frame, cells), first = cells * KIRI_BLOCK_CELLS;
+    int32_t block = kiriReaches_Find(reaches, job->label, cells), first = cells * KIRI_BLOCK_CELLS;
     KIRI_ASSERT(work->loaded.count < work->loaded.capacity);
     work->isLoaded.data[cells] = KIRI_BLOCK_LOADED;
     work->loaded.data[work->loaded.count++] = (kiriLoadedBlock){ cells, block };
@@ -207,7 +210,7 @@ static void LoadAround(const void* context, int32_t cell)
 static void LoadAllBlocks(kiriShapeJob* job)
 {
     const kiriReaches* reaches = &job->shape->reaches;
-    for (int32_t b = reaches->ofFrame.data[job->frame]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
+    for (int32_t b = reaches->ofLabel.data[job->label]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
         LoadBlock(job, reaches->blocks.data[b].cells);
     }
 }
@@ -279,7 +282,7 @@ static void LoadBeyond(kiriShapeJob* job, int32_t limit)
     kiriShapeWork* work = job->work;
     const kiriReaches* reaches = &job->shape->reaches;
     int32_t old = work->frames.data[job->frame].limit, rim = limit > old ? old - KIRI_UNIT_KNIGHT : limit;
-    for (int32_t b = reaches->ofFrame.data[job->frame]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
+    for (int32_t b = reaches->ofLabel.data[job->label]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
         const kiriReachBlock* block = &reaches->blocks.data[b];
         for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
             int32_t cell = block->cells * KIRI_BLOCK_CELLS + k;
@@ -476,7 +479,7 @@ static void UnloadBlock(kiriShapeJob* job, kiriLoadedBlock loaded)
     int32_t *fromSite = &work->fromSite.distance.data[first], *fromBorder = &work->fromBorder.distance.data[first];
     bool any = DropBeyond(fromSite, fromBorder);
     if (any && block == KIRI_NONE) {
-        block = kiriReaches_Add(reaches, job->frame, loaded.cells);
+        block = kiriReaches_Add(reaches, job->label, loaded.cells);
     }
     if (block != KIRI_NONE && !IsAsLoaded(job, loaded.cells, &reaches->blocks.data[block])) {
         UnloadCells(job, &reaches->blocks.data[block], fromSite, fromBorder);

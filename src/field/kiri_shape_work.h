@@ -39,9 +39,9 @@ typedef struct kiriShapeFrame {
     bool dirty;                  /* its distances or weights may have changed */
 } kiriShapeFrame;
 
-/* Whose region a cell is in, and how many whole sides distances to the site there have to go for its sake. */
+/* Whose region a cell is in, by label, and how many whole sides distances to the site there have to go for its sake. */
 typedef struct kiriCountedCell {
-    int32_t frame, sides;
+    int32_t label, sides;
 } kiriCountedCell;
 
 /* A cell about which something has changed, and that a frame reaches. */
@@ -102,7 +102,7 @@ typedef struct kiriShapeJob {
     const kiriRegions* regions;
     const kiriSite* sites;
     int32_t siteCount;
-    int32_t frame;
+    int32_t frame, label;
 } kiriShapeJob;
 
 /* Counts how far distances to the site of its region have to go for the sake of a cell, as it is now. */

@@ -316,7 +316,8 @@ static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriSha
             return false;
         }
         for (int32_t w = span.first; w < span.first + span.count; ++w) {
-            int32_t frame = shape->weights.data[w].frame, at = stencil->frames.count;
+            int32_t frame = kiriLabels_Item(&shape->labels, shape->weights.data[w].label);
+            int32_t at = stencil->frames.count;
             if (stencil->columns.data[frame] == 0) {
                 stencil->columns.data[frame] = 1;
                 for (; at > 0 && stencil->frames.data[at - 1] > frame; --at) {
@@ -347,7 +348,8 @@ static bool GatherWeights(kiriStencil* stencil, kiriMemory* memory, const kiriSh
             weights[i] = 0.0;
         }
         for (int32_t w = span.first; w < span.first + span.count; ++w) {
-            weights[stencil->columns.data[shape->weights.data[w].frame] - 1] = shape->weights.data[w].value;
+            int32_t frame = kiriLabels_Item(&shape->labels, shape->weights.data[w].label);
+            weights[stencil->columns.data[frame] - 1] = shape->weights.data[w].value;
         }
     }
     return true;

@@ -250,7 +250,9 @@ static void RenumberOwners(kiriOwnership* ownership, const kiriKeep* triangles, 
 {
     for (int32_t s = 0; s < ownership->squares.count; ++s) {
         kiriSquareOwners* owners = &ownership->squares.data[s];
-        owners->owner = kiriKeep_To(frames, owners->owner);
+        if (owners->owner >= frames->first) {
+            owners->owner = frames->to.data[owners->owner];
+        }
         for (int32_t k = owners->parts.first; k < owners->parts.first + owners->parts.count; ++k) {
             kiriTriangleOwner* owned = &ownership->triangleOwners.data[k];
             owned->triangle = kiriKeep_To(triangles, owned->triangle);

@@ -53,27 +53,17 @@ void kiriBlocks_Forget(kiriBlocks* blocks)
 
 enum { MASK_WORDS = 4, MASK_BITS = 64 * MASK_WORDS, MASK_HALF = MASK_BITS / 2 };
 
-/* Of the two bits of a frame one tells it from those with an index near its own, and the other from those far from it.
-   Frames share bits: a block may seem to have one that it has not. */
-static int NearBitOf(int32_t frame)
-{
-    return frame % MASK_HALF;
-}
-
-static int FarBitOf(int32_t frame)
-{
-    return MASK_HALF + frame / MASK_HALF % MASK_HALF;
-}
-
 static void AddBit(kiriFrameMask* mask, int bit)
 {
     mask->bits[bit / 64] |= UINT64_C(1) << bit % 64;
 }
 
-static void AddToMask(kiriFrameMask* mask, int32_t frame)
+/* Of the two bits of a label one tells it from those near its own, and the other from those far from it. Labels share bits:
+   a block may seem to have one that it has not. */
+static void AddToMask(kiriFrameMask* mask, int32_t label)
 {
-    AddBit(mask, NearBitOf(frame));
-    AddBit(mask, FarBitOf(frame));
+    AddBit(mask, label % MASK_HALF);
+    AddBit(mask, MASK_HALF + label / MASK_HALF % MASK_HALF);
 }
 
 kiriFrameMask kiriBlocks_MaskOfOther(const kiriPatches* patches)
@@ -88,32 +78,6 @@ kiriFrameMask kiriBlocks_MaskOfOther(const kiriPatches* patches)
 }
 
 /* ---- Frames that go ---- */
-
-/* What each bit becomes: frames that share one may get several. */
-static void MapBits(const kiriKeep* frames, kiriFrameMask to[MASK_BITS])
-{
-    memset(to, 0, MASK_BITS * sizeof(*to));
-    for (int32_t i = 0; i < frames->to.count; ++i) {
-        if (kiriKeep_Has(frames, i)) {
-            AddBit(&to[NearBitOf(i)], NearBitOf(kiriKeep_To(frames, i)));
-            AddBit(&to[FarBitOf(i)], FarBitOf(kiriKeep_To(frames, i)));
-        }
-    }
-}
-
-static kiriFrameMask MappedMask(const kiriFrameMask* mask, const kiriFrameMask to[MASK_BITS])
-{
-    kiriFrameMask mapped = { { 0 } };
-    for (int word = 0; word < MASK_WORDS; ++word) {
-        uint64_t left = mask->bits[word];
-        for (int bit = 0; left != 0; ++bit, left >>= 1) {
-            for (int k = 0; (left & 1) != 0 && k < MASK_WORDS; ++k) {
-                mapped.bits[k] |= to[64 * word + bit].bits[k];
-            }
-        }
-    }
-    return mapped;
-}
 
 static void KeepMoved(kiriBlocks* blocks, const kiriKeep* frames)
 {
@@ -130,18 +94,8 @@ static void KeepMoved(kiriBlocks* blocks, const kiriKeep* frames)
 
 void kiriBlocks_LeaveHoles(kiriBlocks* blocks, const kiriIndices* vertices, const kiriKeep* frames)
 {
-    kiriFrameMask to[MASK_BITS];
-    MapBits(frames, to);
     for (int32_t k = 0; k < vertices->count; ++k) {
         kiriBlocks_ForgetOne(blocks, vertices->data[k] / KIRI_BLOCK);
-    }
-    for (int32_t block = 0; block < blocks->movers.count; ++block) {
-        int32_t mover = blocks->movers.data[block];
-        if (mover != KIRI_UNKNOWN) {
-            KIRI_ASSERT(mover == KIRI_NONE || kiriKeep_Has(frames, mover));
-            blocks->movers.data[block] = kiriKeep_To(frames, mover);
-            blocks->frames.data[block] = MappedMask(&blocks->frames.data[block], to);
-        }
     }
     KeepMoved(blocks, frames);
 }
@@ -161,7 +115,7 @@ static void WriteMask(kiriSheetData* sheet, int32_t block)
     for (int32_t v = block * KIRI_BLOCK; v < EndOfBlock(sheet, block); ++v) {
         const kiriSampleWeight* weight = skin->weights.data + skin->spans.data[v].first;
         for (const kiriSampleWeight* end = weight + skin->spans.data[v].count; weight < end; ++weight) {
-            AddToMask(&mask, weight->frame);
+            AddToMask(&mask, weight->label);
         }
     }
     sheet->seen.blocks.frames.data[block] = mask;
@@ -173,9 +127,9 @@ static int32_t FindMover(const kiriSheetData* sheet, int32_t block)
     const uint8_t* moves = sheet->seen.blocks.moved.data;
     for (int32_t v = block * KIRI_BLOCK; v < EndOfBlock(sheet, block); ++v) {
         kiriSpan span = sheet->vertexSkin.spans.data[v]; /* of a hole it is empty */
-        int32_t frame = span.count > 0 ? sheet->vertexSkin.weights.data[span.first].frame : KIRI_NONE;
-        if (frame != KIRI_NONE && moves[frame]) {
-            return frame;
+        int32_t label = span.count > 0 ? sheet->vertexSkin.weights.data[span.first].label : KIRI_NONE;
+        if (label != KIRI_NONE && moves[kiriSheet_FrameOf(sheet, label)]) {
+            return label;
         }
     }
     return KIRI_NONE;
@@ -192,11 +146,12 @@ static MovingFrames TakeMoving(kiriSheetData* sheet)
     uint8_t* moved = sheet->seen.blocks.moved.data;
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         uint8_t moves = kiriSheet_Moves(sheet, i);
+        int32_t label = kiriLabels_Of(&sheet->shape.labels, i);
         if (moves) {
-            AddToMask(&moving.all, i);
+            AddToMask(&moving.all, label);
         }
         if (moves && !moved[i]) {
-            AddToMask(&moving.woken, i);
+            AddToMask(&moving.woken, label);
         }
         moved[i] = moves;
     }
@@ -204,11 +159,12 @@ static MovingFrames TakeMoving(kiriSheetData* sheet)
 }
 
 /* Is the mover of the block what it was? */
-static bool IsMoverKnown(const kiriBlocks* blocks, int32_t block, const MovingFrames* moving)
+static bool IsMoverKnown(const kiriSheetData* sheet, int32_t block, const MovingFrames* moving)
 {
+    const kiriBlocks* blocks = &sheet->seen.blocks;
     int32_t mover = blocks->movers.data[block];
     return mover == KIRI_NONE ? !kiriBlocks_MayMeet(blocks, block, &moving->woken)
-                              : mover != KIRI_UNKNOWN && blocks->moved.data[mover];
+                              : mover != KIRI_UNKNOWN && blocks->moved.data[kiriSheet_FrameOf(sheet, mover)];
 }
 
 void kiriBlocks_FindMovers(kiriSheetData* sheet)
@@ -219,7 +175,7 @@ void kiriBlocks_FindMovers(kiriSheetData* sheet)
         if (blocks->movers.data[block] == KIRI_UNKNOWN) {
             WriteMask(sheet, block);
             blocks->movers.data[block] = FindMover(sheet, block);
-        } else if (!IsMoverKnown(blocks, block, &moving)) {
+        } else if (!IsMoverKnown(sheet, block, &moving)) {
             bool may = kiriBlocks_MayMeet(blocks, block, &moving.all);
             blocks->movers.data[block] = may ? FindMover(sheet, block) : KIRI_NONE;
         }

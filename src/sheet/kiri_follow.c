@@ -14,7 +14,7 @@ static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, i
         kiriSpan span = sheet->vertexSkin.spans.data[sheet->mesh.triangles.data[place->triangle].vertex[k]];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
             const kiriSampleWeight* weight = &sheet->vertexSkin.weights.data[i];
-            sum += weight->frame == frame ? place->shares[k] * weight->value : 0.0;
+            sum += kiriSheet_FrameOf(sheet, weight->label) == frame ? place->shares[k] * weight->value : 0.0;
         }
     }
     return sum;

@@ -62,8 +62,9 @@ static void PushFrames(kiriSheetData* sheet, const kiriPointPlace* place, kiriVe
         kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
             kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
-            if (only == KIRI_NONE || only == weight.frame) {
-                kiriFrameData* frame = only == KIRI_NONE ? &frames[weight.frame] : frames;
+            int32_t f = kiriSheet_FrameOf(sheet, weight.label);
+            if (only == KIRI_NONE || only == f) {
+                kiriFrameData* frame = only == KIRI_NONE ? &frames[f] : frames;
                 kiriVec3 arm = kiriVec3_Add(kiriVec3_Sub(kiriFrame_Carry(frame, local), frame->x), off);
                 kiriVec3 part = kiriVec3_Scale(place->shares[k] * weight.value, impulse);
                 Push(sheet, frame, part, kiriVec3_Cross(arm, part));
@@ -78,7 +79,7 @@ static bool FitsImpulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriV
     for (int k = 0; k < 3; ++k) {
         kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
-            int32_t f = sheet->vertexSkin.weights.data[i].frame;
+            int32_t f = kiriSheet_FrameOf(sheet, sheet->vertexSkin.weights.data[i].label);
             kiriFrameData pushed = sheet->frames.data[f];
             PushFrames(sheet, place, off, impulse, f, &pushed);
             if (!kiriFrame_FitsFloats(&pushed)) {

@@ -84,21 +84,21 @@ kiriVec3 kiriMeeting_VertexVelocity(const kiriSheetData* sheet, int32_t vertex)
     kiriVec3 velocity = { 0.0, 0.0, 0.0 };
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
         kiriSampleWeight weight = sheet->vertexSkin.weights.data[k];
-        velocity = kiriVec3_AddScaled(
-            velocity, weight.value,
-            kiriFrame_VelocityAt(&sheet->frames.data[weight.frame], sheet->seen.surface.rest.data[vertex]));
+        velocity = kiriVec3_AddScaled(velocity, weight.value,
+                                      kiriFrame_VelocityAt(&sheet->frames.data[kiriSheet_FrameOf(sheet, weight.label)],
+                                                           sheet->seen.surface.rest.data[vertex]));
     }
     return velocity;
 }
 
-static int32_t LeadingFrame(const kiriSkin* skin, int32_t sample)
+static int32_t LeadingFrame(const kiriSheetData* sheet, const kiriSkin* skin, int32_t sample)
 {
     kiriSpan span = skin->spans.data[sample];
     kiriSampleWeight most = skin->weights.data[span.first];
     for (int32_t k = span.first + 1; k < span.first + span.count; ++k) {
         most = skin->weights.data[k].value > most.value ? skin->weights.data[k] : most;
     }
-    return most.frame;
+    return kiriSheet_FrameOf(sheet, most.label);
 }
 
 /* ---- Touches ------------------------------------------------------------------------------------------------------ */
@@ -259,7 +259,7 @@ static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
         double height = nearest.distance - Preference(meeting, vertex, nearest.distance);
         kiriNearVertex near = { vertex,
                                 PatchOf(meeting, vertex),
-                                LeadingFrame(&meeting->sheet->vertexSkin, vertex),
+                                LeadingFrame(meeting->sheet, &meeting->sheet->vertexSkin, vertex),
                                 KIRI_NONE,
                                 height,
                                 nearest.normal };

@@ -13,7 +13,7 @@ static int32_t HeaviestAt(const kiriSheetData* sheet, int32_t triangle)
             }
         }
     }
-    return heaviest.frame;
+    return heaviest.label != KIRI_NONE ? kiriSheet_FrameOf(sheet, heaviest.label) : KIRI_NONE;
 }
 
 static int32_t FrameAt(const kiriSheetData* sheet, int32_t triangle, kiriLatticePoint at)

@@ -100,7 +100,7 @@ kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* pla
         kiriSpan span = sheet->vertexSkin.spans.data[corner];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
             kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
-            const kiriFrameData* frame = &sheet->frames.data[weight.frame];
+            const kiriFrameData* frame = &sheet->frames.data[kiriSheet_FrameOf(sheet, weight.label)];
             double share = place->shares[k] * weight.value;
             motion.x = kiriVec3_AddScaled(motion.x, share, kiriFrame_Carry(frame, local));
             motion.velocity = kiriVec3_AddScaled(motion.velocity, share, kiriFrame_VelocityAt(frame, local));

@@ -192,8 +192,9 @@ kiriVec3 kiriProbe_Velocity(const kiriSheetData* sheet, int32_t vertex)
     kiriVec3 velocity = { 0.0, 0.0, 0.0 };
     for (int32_t i = span.first; i < span.first + span.count; ++i) {
         kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
-        velocity =
-            kiriVec3_AddScaled(velocity, weight.value, kiriFrame_VelocityAt(&sheet->frames.data[weight.frame], local));
+        velocity = kiriVec3_AddScaled(
+            velocity, weight.value,
+            kiriFrame_VelocityAt(&sheet->frames.data[kiriSheet_FrameOf(sheet, weight.label)], local));
     }
     return velocity;
 }

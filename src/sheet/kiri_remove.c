@@ -170,6 +170,20 @@ double kiriRemoval_Samples(const kiriSheetData* sheet, double share)
     return 1.0 + vertices / RENUMBERED_VERTICES + pass;
 }
 
+static bool StageLabels(kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    kiriLabels* labels = &sheet->shape.labels;
+    if (removal->leavesHoles) {
+        return kiriLabels_Reserve(labels, sheet->memory, sheet->frames.count);
+    }
+    bool ok = kiriKeep_Init(&removal->labels, &removal->kept.memory, kiriLabels_Count(labels, sheet->frames.count));
+    if (ok) {
+        kiriLabels_Map(labels, &removal->kept.frames, &removal->labels);
+    }
+    return ok;
+}
+
 static bool StageItems(kiriRemoval* removal)
 {
     const kiriKept* kept = &removal->kept;
@@ -184,12 +198,18 @@ bool kiriRemoval_Stage(kiriRemoval* removal, bool leavesHoles)
     kiriSheetData* sheet = removal->sheet;
     KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
     removal->leavesHoles = leavesHoles;
-    return StageItems(removal) && ListForces(removal) && StageLayout(removal) &&
+    return StageItems(removal) && StageLabels(removal) && ListForces(removal) && StageLayout(removal) &&
            kiriArray_Reserve(&sheet->shown, &removal->points, 3 * (int64_t)removal->kept.points.count) &&
            kiriStage_Solver(sheet, removal->kept.frames.count);
 }
 
 /* ---- Gone ---- */
+
+/* What labels become, where all is passed over in any case. */
+static const kiriKeep* LabelsOf(const kiriRemoval* removal)
+{
+    return removal->leavesHoles ? NULL : &removal->labels;
+}
 
 static void KeepMesh(kiriRemoval* removal)
 {
@@ -214,7 +234,7 @@ static void KeepFields(kiriRemoval* removal)
     KeepMesh(removal);
     kiriGrid_Keep(&sheet->grid, sheet->memory, &kept->triangles, &kept->vertices, cells, cellCount);
     kiriRegions_Keep(&sheet->regions, &kept->frames, cells, cellCount);
-    kiriShape_Keep(&sheet->shape, sheet->memory, &kept->frames, cells, cellCount);
+    kiriShape_Keep(&sheet->shape, sheet->memory, &kept->frames, LabelsOf(removal), cells, cellCount);
     kiriOwnership_Keep(&sheet->update->refit.ownership, &sheet->grid, &sheet->mesh, &sheet->regions, &kept->triangles,
                        &kept->frames, squares, squareCount);
 }
@@ -227,11 +247,11 @@ static void KeepPoints(kiriRemoval* removal)
         sheet->points.data[i].frame = kiriKeep_To(&removal->kept.frames, sheet->points.data[i].frame);
     }
     kiriPlaces_Keep(&sheet->pointPlaces, &removal->kept.points);
-    kiriSkin_Keep(&sheet->pointSkin, &removal->kept.points, &removal->kept.frames);
+    kiriSkin_Keep(&sheet->pointSkin, &removal->kept.points, LabelsOf(removal));
     if (removal->leavesHoles) {
-        kiriSkin_LeaveHoles(&sheet->vertexSkin, &removal->gathered.vertices, &removal->kept.frames);
+        kiriSkin_LeaveHoles(&sheet->vertexSkin, &removal->gathered.vertices);
     } else {
-        kiriSkin_Keep(&sheet->vertexSkin, &removal->kept.vertices, &removal->kept.frames);
+        kiriSkin_Keep(&sheet->vertexSkin, &removal->kept.vertices, LabelsOf(removal));
     }
 }
 

@@ -13,6 +13,7 @@ typedef struct kiriRemoval {
     kiriKept kept;               /* what is left */
     kiriGathered gathered;       /* what goes, where it leaves holes or becomes parts */
     bool leavesHoles;            /* triangles and vertices do not move together */
+    kiriKeep labels;             /* what labels of frames become, where they do */
     kiriIndices cells, squares;  /* that go, and the squares in which they are, each once */
     KIRI_ARRAY(kiriVec3) forces; /* of each touch of the last tick */
     kiriShown shown;

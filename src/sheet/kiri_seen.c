@@ -63,7 +63,8 @@ static void ForBlocks(kiriSheetData* sheet, int32_t begin, int32_t end, bool orS
 
 bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount)
 {
-    return kiriSurface_Resize(&sheet->seen.surface, &sheet->shown, &sheet->mesh, frameCount) &&
+    return kiriSurface_Resize(&sheet->seen.surface, &sheet->shown, &sheet->mesh, frameCount,
+                              kiriLabels_Count(&sheet->shape.labels, frameCount)) &&
            kiriArray_Resize(&sheet->shown, &sheet->seen.pointPositions, 3 * (int64_t)pointCount) &&
            kiriArray_Resize(sheet->memory, &sheet->seen.exactPoints, pointCount) &&
            kiriBlocks_Resize(&sheet->seen.blocks, sheet->memory, sheet->mesh.vertices.count, frameCount) &&
@@ -151,8 +152,8 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
 void kiriView_TakeFrames(kiriSheetData* sheet)
 {
     const kiriAwake* awake = AwakeOf(sheet);
-    kiriSurface_TakeFrames(&sheet->seen.surface, sheet->frames.data, sheet->frames.count, sheet->links.links.data,
-                           sheet->links.links.count, awake);
+    kiriSurface_TakeFrames(&sheet->seen.surface, &sheet->shape.labels, sheet->frames.data, sheet->frames.count,
+                           sheet->links.links.data, sheet->links.links.count, awake);
     if (sheet->seen.surface.isPartly && (awake->lists != sheet->seen.lists || sheet->seen.blocks.hasUnknown)) {
         kiriBlocks_FindMovers(sheet);
         sheet->seen.lists = awake->lists;
@@ -168,7 +169,8 @@ static void BlendPoints(kiriSheetData* sheet, bool isPartly)
             continue;
         }
         kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->points.data[i].at);
-        sheet->seen.exactPoints.data[i] = kiriSkin_Position(&sheet->pointSkin, i, sheet->frames.data, local);
+        sheet->seen.exactPoints.data[i] =
+            kiriSkin_Position(&sheet->pointSkin, &sheet->shape.labels, i, sheet->frames.data, local);
     }
 }
 
@@ -278,11 +280,11 @@ static void LookAtJumps(kiriSheetData* sheet, JumpLook* look, int32_t begin, int
 static void ForgetRounded(kiriSheetData* sheet)
 {
     kiriPatches* patches = &sheet->seen.surface.patches;
-    for (int32_t i = 0; i < patches->count; ++i) {
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
         const kiriPiece* piece = kiriSheet_PieceOf(sheet, i);
+        uint8_t* isOther = &patches->isOther.data[kiriLabels_Of(&sheet->shape.labels, i)];
         bool moves = kiriPiece_IsAwake(piece) && piece->rest.calm < KIRI_CALM_SECONDS;
-        bool isRounded = patches->isOther.data[i] == KIRI_PATCH_ROUNDED;
-        patches->isOther.data[i] = isRounded && moves ? KIRI_PATCH_SAME : patches->isOther.data[i];
+        *isOther = *isOther == KIRI_PATCH_ROUNDED && moves ? KIRI_PATCH_SAME : *isOther;
     }
 }
 

@@ -126,15 +126,16 @@ static bool AreElementsOfPieces(const kiriLayout* layout)
 }
 
 /* Weights of a sample are of frames of one piece. */
-static bool AreSamplesOfPieces(const kiriLayout* layout, const kiriSkin* skin)
+static bool AreSamplesOfPieces(const kiriSheetData* sheet, const kiriSkin* skin)
 {
+    const int32_t* framePiece = sheet->layout.framePiece.data;
     bool areFine = true;
     for (int32_t i = 0; areFine && i < skin->spans.count; ++i) {
         kiriSpan span = skin->spans.data[i];
         for (int32_t k = span.first + 1; areFine && k < span.first + span.count; ++k) {
-            areFine = layout->framePiece.data[skin->weights.data[k].frame] ==
-                          layout->framePiece.data[skin->weights.data[k - 1].frame] &&
-                      skin->weights.data[k - 1].frame < skin->weights.data[k].frame;
+            int32_t label = skin->weights.data[k].label, before = skin->weights.data[k - 1].label;
+            areFine = before < label &&
+                      framePiece[kiriSheet_FrameOf(sheet, label)] == framePiece[kiriSheet_FrameOf(sheet, before)];
         }
     }
     return areFine;
@@ -281,7 +282,9 @@ static bool AreBlocks(const kiriBlocks* blocks, const kiriSheetData* sheet)
                    blocks->stale.count == count && blocks->frames.count == count &&
                    blocks->moved.count >= sheet->frames.count;
     for (int32_t k = 0; areFine && k < count; ++k) {
-        areFine = blocks->movers.data[k] >= KIRI_UNKNOWN && blocks->movers.data[k] < sheet->frames.count;
+        int32_t mover = blocks->movers.data[k];
+        areFine = mover == KIRI_UNKNOWN || mover == KIRI_NONE ||
+                  kiriLabels_Has(&sheet->shape.labels, mover, sheet->frames.count);
     }
     return areFine;
 }
@@ -300,7 +303,7 @@ static bool AreFadingVertices(const kiriSheetData* sheet)
 static bool IsSeen(kiriCheck* check, const kiriSheetData* sheet)
 {
     const kiriSeen* seen = &sheet->seen;
-    return kiriSurface_Check(&seen->surface, &sheet->mesh, check) &&
+    return kiriSurface_Check(&seen->surface, &sheet->shape.labels, &sheet->mesh, check) &&
            kiriFades_Check(&seen->fades, check, sheet->mesh.vertices.count) &&
            kiriCheck_That(check, AreFadingVertices(sheet)) &&
            kiriFades_Check(&seen->pointFades, check, sheet->points.count) &&
@@ -381,11 +384,10 @@ bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check)
     return isMesh && kiriUpdate_CheckField(check, sheet) &&
            kiriLinks_Check(&sheet->links, &sheet->grid, &sheet->mesh, &sheet->regions, check) &&
            IsLayout(check, sheet) && AreTurns(check, sheet) && ArePins(check, sheet) &&
-           kiriSkin_Check(&sheet->vertexSkin, check, sheet->mesh.vertices.count, &sheet->mesh) &&
-           kiriSkin_Check(&sheet->pointSkin, check, sheet->points.count, NULL) &&
-           kiriCheck_That(
-               check, AreElementsOfPieces(&sheet->layout) && AreSamplesOfPieces(&sheet->layout, &sheet->vertexSkin) &&
-                          AreSamplesOfPieces(&sheet->layout, &sheet->pointSkin) && AreTrianglesOfPieces(sheet)) &&
+           kiriSkin_Check(&sheet->vertexSkin, &sheet->shape.labels, check, sheet->mesh.vertices.count, &sheet->mesh) &&
+           kiriSkin_Check(&sheet->pointSkin, &sheet->shape.labels, check, sheet->points.count, NULL) &&
+           kiriCheck_That(check, AreElementsOfPieces(&sheet->layout) && AreSamplesOfPieces(sheet, &sheet->vertexSkin) &&
+                                     AreSamplesOfPieces(sheet, &sheet->pointSkin) && AreTrianglesOfPieces(sheet)) &&
            kiriUpdate_CheckWork(check, sheet) && ArePoints(check, sheet) && kiriCuts_Check(sheet, check) &&
            IsSeen(check, sheet) && AreContacts(check, sheet) && HasRoomForRows(check, sheet);
 }

@@ -277,10 +277,11 @@ static const kiriTable ShownPointsTable = KIRI_TABLE(kiriSeen, ShownPointsMember
 
 /* Probes are chosen anew; those of a sheet that sleeps keep the velocities that they had. */
 static const kiriMember ProbesMembers[] = {
-    KIRI_BOOLS(kiriProbes, isFresh, isFresh), KIRI_RUN(4, kiriProbes, block, block), KIRI_DROPPED(kiriProbes, sheet),
-    KIRI_DROPPED(kiriProbes, areGrouped),
-    KIRI_DROPPED(kiriProbes, firstBody),      KIRI_DROPPED(kiriProbes, vertexPiece), KIRI_DROPPED(kiriProbes, isBorder),
-    KIRI_DROPPED(kiriProbes, leans),          KIRI_DROPPED(kiriProbes, isChosen),    KIRI_DROPPED(kiriProbes, list),
+    KIRI_BOOLS(kiriProbes, isFresh, isFresh), KIRI_RUN(4, kiriProbes, block, block),
+    KIRI_DROPPED(kiriProbes, sheet),          KIRI_DROPPED(kiriProbes, areGrouped),
+    KIRI_DROPPED(kiriProbes, firstBody),      KIRI_DROPPED(kiriProbes, vertexPiece),
+    KIRI_DROPPED(kiriProbes, isBorder),       KIRI_DROPPED(kiriProbes, leans),
+    KIRI_DROPPED(kiriProbes, isChosen),       KIRI_DROPPED(kiriProbes, list),
     KIRI_DROPPED(kiriProbes, boxes),          KIRI_DROPPED(kiriProbes, touch),
 };
 static const kiriTable ProbesTable = KIRI_TABLE(kiriProbes, ProbesMembers);
@@ -399,7 +400,8 @@ static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet)
 static bool AreWeightsSeen(const kiriSheetData* sheet)
 {
     const kiriSurface* surface = &sheet->seen.surface;
-    return !sheet->seen.isElsewhere && surface->isSteady && surface->patches.count == sheet->frames.count &&
+    return !sheet->seen.isElsewhere && surface->isSteady &&
+           surface->patches.count == kiriLabels_Count(&sheet->shape.labels, sheet->frames.count) &&
            surface->vertexCount == sheet->seen.vertexCount && surface->vertexCount == sheet->vertexSkin.spans.count;
 }
 

@@ -362,7 +362,8 @@ static bool MarkRigidCells(kiriSheetData* sheet)
         u->placing.allowed.data[cell] = isLarge;
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
             const kiriCellWeight* weight = &sheet->shape.weights.data[k];
-            u->placing.allowed.data[cell] |= weight->value > sheet->shape.rigidWeight && IsRigid(sheet, weight->frame);
+            u->placing.allowed.data[cell] |=
+                weight->value > sheet->shape.rigidWeight && IsRigid(sheet, kiriSheet_FrameOf(sheet, weight->label));
         }
     }
     return true;

@@ -31,7 +31,7 @@ static kiriPiece* PieceOfTouch(const kiriSheetData* sheet, const kiriTouch* touc
         return kiriSheet_PieceOf(sheet, sheet->points.data[touch->point].frame);
     }
     int32_t first = sheet->vertexSkin.spans.data[touch->vertex[0]].first;
-    return kiriSheet_PieceOf(sheet, sheet->vertexSkin.weights.data[first].frame);
+    return kiriSheet_PieceOf(sheet, kiriSheet_FrameOf(sheet, sheet->vertexSkin.weights.data[first].label));
 }
 
 static bool IsTouchFinite(const kiriTouch* touch)
@@ -214,19 +214,20 @@ typedef struct TouchBlend {
     kiriVec2 at;
 } TouchBlend;
 
-static void AddWeights(TouchBlend* blend, const kiriSkin* skin, int32_t sample, double share)
+static void AddWeights(TouchBlend* blend, const kiriSheetData* sheet, const kiriSkin* skin, int32_t sample,
+                       double share)
 {
     kiriSpan span = skin->spans.data[sample];
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
         kiriSampleWeight weight = skin->weights.data[k];
-        int32_t n = 0;
-        while (n < blend->count && blend->weights[n].frame != weight.frame) {
+        int32_t n = 0, frame = kiriSheet_FrameOf(sheet, weight.label);
+        while (n < blend->count && blend->weights[n].frame != frame) {
             ++n;
         }
         if (n < blend->count) {
             blend->weights[n].value += share * weight.value;
         } else if (n < MOST_BLENDED) {
-            blend->weights[n].frame = weight.frame;
+            blend->weights[n].frame = frame;
             blend->weights[n].value = share * weight.value;
             blend->count += 1;
         }
@@ -239,14 +240,14 @@ static TouchBlend BlendOf(const kiriSheetData* sheet, const kiriTouch* touch)
     blend.count = 0;
     if (touch->point != KIRI_NONE) {
         blend.at = kiriMesh_Local(&sheet->mesh, sheet->points.data[touch->point].at);
-        AddWeights(&blend, &sheet->pointSkin, touch->point, 1.0);
+        AddWeights(&blend, sheet, &sheet->pointSkin, touch->point, 1.0);
         return blend;
     }
     blend.at = kiriVec2_Make(0.0, 0.0);
     for (int n = 0; n < 3 && touch->vertex[n] != KIRI_NONE; ++n) {
         kiriVec2 corner = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[touch->vertex[n]].at);
         blend.at = kiriVec2_Add(blend.at, kiriVec2_Scale(touch->share[n], corner));
-        AddWeights(&blend, &sheet->vertexSkin, touch->vertex[n], touch->share[n]);
+        AddWeights(&blend, sheet, &sheet->vertexSkin, touch->vertex[n], touch->share[n]);
     }
     return blend;
 }

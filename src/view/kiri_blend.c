@@ -64,34 +64,52 @@ static uint8_t ChangeOfRow(const float* was, const float* row, size_t each)
     return change;
 }
 
-bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent,
-                       const kiriIndices* some)
+static void ClearUnused(kiriPatches* patches, const kiriLabels* labels, size_t each)
+{
+    for (int32_t label = 0; label < labels->itemOf.count; ++label) {
+        if (labels->itemOf.data[label] == KIRI_NONE) {
+            memset(patches->floats.data + each * (size_t)label, 0, sizeof(float) * each);
+        }
+    }
+}
+
+/* All rows are empty, or as they were written last. Returns how many are. */
+static int32_t StartWriting(kiriPatches* patches, const kiriLabels* labels, int32_t rows, bool isBent, size_t each)
+{
+    int32_t known = patches->isBent == isBent ? patches->count : 0;
+    patches->areOther = patches->count != rows;
+    patches->count = patches->isOther.count = rows;
+    patches->isBent = isBent;
+    patches->floats.count = (int32_t)each * rows;
+    KIRI_ASSERT(patches->floats.count <= patches->floats.capacity);
+    if (rows > 0) {
+        memset(patches->isOther.data, 0, (size_t)rows);
+    }
+    if (known != rows) {
+        ClearUnused(patches, labels, each);
+    }
+    return known;
+}
+
+bool kiriPatches_Write(kiriPatches* patches, const kiriLabels* labels, const kiriCarrier* carriers, int32_t count,
+                       kiriVec3 from, bool isBent, const kiriIndices* some)
 {
     size_t each = isBent ? KIRI_BENT_FLOATS : KIRI_FLAT_FLOATS;
-    bool isOther = patches->count != count;
-    int32_t known = patches->isBent == isBent ? patches->count : 0;
-    patches->count = patches->isOther.count = count;
-    patches->isBent = isBent;
-    patches->floats.count = (int32_t)each * count;
-    KIRI_ASSERT(patches->floats.count <= patches->floats.capacity);
-    KIRI_ASSERT(some == NULL || known == count);
-    if (some != NULL && count > 0) {
-        memset(patches->isOther.data, 0, (size_t)count);
-    }
+    int32_t rows = kiriLabels_Count(labels, count), known = StartWriting(patches, labels, rows, isBent, each);
+    KIRI_ASSERT(some == NULL || known == rows);
     for (int32_t n = 0; n < (some != NULL ? some->count : count); ++n) {
-        int32_t i = some != NULL ? some->data[n] : n;
-        float row[KIRI_BENT_FLOATS], *was = patches->floats.data + each * (size_t)i;
+        int32_t i = some != NULL ? some->data[n] : n, at = kiriLabels_Of(labels, i);
+        float row[KIRI_BENT_FLOATS], *was = patches->floats.data + each * (size_t)at;
         if (isBent) {
             WriteBent(row, &carriers[i], from);
         } else {
             WriteFlat(row, &carriers[i], from);
         }
-        patches->isOther.data[i] = i >= known ? KIRI_PATCH_OTHER : ChangeOfRow(was, row, each);
-        isOther |= patches->isOther.data[i] != KIRI_PATCH_SAME;
+        patches->isOther.data[at] = at >= known ? KIRI_PATCH_OTHER : ChangeOfRow(was, row, each);
+        patches->areOther |= patches->isOther.data[at] != KIRI_PATCH_SAME;
         memcpy(was, row, sizeof(float) * each);
     }
-    patches->areOther = isOther;
-    return isOther;
+    return patches->areOther;
 }
 
 bool kiriPatches_MayMove(const kiriPatches* patches, const kiriSkin* skin, int32_t begin, int32_t end)
@@ -101,7 +119,7 @@ bool kiriPatches_MayMove(const kiriPatches* patches, const kiriSkin* skin, int32
         const kiriSampleWeight* weight = skin->weights.data + skin->spans.data[s].first;
         const kiriSampleWeight* last = weight + skin->spans.data[s].count;
         for (; weight < last; ++weight) {
-            mayMove |= patches->isOther.data[weight->frame];
+            mayMove |= patches->isOther.data[weight->label];
         }
     }
     return mayMove;
@@ -113,7 +131,7 @@ static kiriLanes BlendFlat(const float* rows, const kiriSampleWeight* weight, co
 {
     kiriLanes px = kiriLanes_Splat((float)p.x), py = kiriLanes_Splat((float)p.y), sum = kiriLanes_Splat(0.0f);
     for (; weight < end; ++weight) {
-        const float* row = rows + (ptrdiff_t)KIRI_FLAT_FLOATS * weight->frame;
+        const float* row = rows + (ptrdiff_t)KIRI_FLAT_FLOATS * weight->label;
         kiriLanes at = kiriLanes_Add(kiriLanes_Load(row), kiriLanes_Mul(px, kiriLanes_Load(row + 4)));
         at = kiriLanes_Add(at, kiriLanes_Mul(py, kiriLanes_Load(row + 8)));
         sum = kiriLanes_Add(sum, kiriLanes_Mul(kiriLanes_Splat(weight->value), at));
@@ -135,8 +153,8 @@ static kiriLanes BlendFlat(const float* rows, const kiriSampleWeight* weight, co
    however strongly bent never farther from the center than twice q. */
 static kiriLanes AddBent(kiriLanes sum, const float* rows, kiriSampleWeight first, kiriSampleWeight second, kiriLanes p)
 {
-    const float* a = rows + (ptrdiff_t)KIRI_BENT_FLOATS * first.frame;
-    const float* b = rows + (ptrdiff_t)KIRI_BENT_FLOATS * second.frame;
+    const float* a = rows + (ptrdiff_t)KIRI_BENT_FLOATS * first.label;
+    const float* b = rows + (ptrdiff_t)KIRI_BENT_FLOATS * second.label;
     kiriLanes q = kiriLanes_Sub(p, kiriLanes_LoadTwice(a, b)), at;
     kiriLanes g = kiriLanes_Add(kiriLanes_Mul(q, kiriLanes_LoadTwice(a + 2, b + 2)),
                                 kiriLanes_Mul(kiriLanes_Pick(q, 1, 0, 3, 2), kiriLanes_LoadTwice(a + 4, b + 4)));
@@ -160,7 +178,7 @@ static kiriLanes BlendBent(const float* rows, const kiriSampleWeight* weight, co
         sum = AddBent(sum, rows, weight[0], weight[1], at);
     }
     if (weight < end) {
-        sum = AddBent(sum, rows, *weight, (kiriSampleWeight){ weight->frame, 0.0f }, at);
+        sum = AddBent(sum, rows, *weight, (kiriSampleWeight){ weight->label, 0.0f }, at);
     }
     return sum;
 }

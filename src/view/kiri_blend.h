@@ -7,7 +7,7 @@
 
 KIRI_C_BEGIN
 
-/* Carriers as skinning reads them, in rows of floats. */
+/* Carriers as skinning reads them, in rows of floats: a row a label of weights. */
 enum { KIRI_FLAT_FLOATS = 12, KIRI_BENT_FLOATS = 24 };
 
 /* Is a patch other than before it was written last? By rounding alone: nobody could see it. */
@@ -15,8 +15,8 @@ enum kiriPatchChange { KIRI_PATCH_SAME, KIRI_PATCH_ROUNDED, KIRI_PATCH_OTHER };
 
 typedef struct kiriPatches {
     KIRI_ARRAY(float) floats;
-    KIRI_ARRAY(uint8_t) isOther; /* one a patch: KIRI_PATCH_... */
-    int32_t count;
+    KIRI_ARRAY(uint8_t) isOther; /* one a row: KIRI_PATCH_... */
+    int32_t count;               /* of rows */
     bool isBent;
     bool areOther; /* is any? */
 } kiriPatches;
@@ -24,10 +24,11 @@ typedef struct kiriPatches {
 /* Room for so many. */
 bool kiriPatches_Reserve(kiriPatches* patches, kiriMemory* memory, int32_t count);
 
-/* Positions are measured from `from`: near the sheet floats tell its points apart. Only those of `some`, unless that is
-   null, may be other than they were written last. Returns whether any patch is other than before. */
-bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent,
-                       const kiriIndices* some);
+/* Those of `count` frames, which have these labels. Positions are measured from `from`: near the sheet floats tell its
+   points apart. Only those of `some`, unless that is null, may be other than they were written last. Returns whether any
+   patch is other than before. */
+bool kiriPatches_Write(kiriPatches* patches, const kiriLabels* labels, const kiriCarrier* carriers, int32_t count,
+                       kiriVec3 from, bool isBent, const kiriIndices* some);
 
 /* None is as before when they are written next. */
 void kiriPatches_Forget(kiriPatches* patches);

@@ -26,7 +26,7 @@ static int32_t RoundWeights(kiriSampleWeight* weights, int32_t count)
     for (int32_t i = 0; i < count; ++i) {
         int32_t units = (int32_t)(WEIGHT_UNITS * weights[i].value + 0.5);
         if (units > 0) {
-            weights[kept] = (kiriSampleWeight){ weights[i].frame, (float)(units / WEIGHT_UNITS) };
+            weights[kept] = (kiriSampleWeight){ weights[i].label, (float)(units / WEIGHT_UNITS) };
             largest = weights[kept].value > weights[largest].value ? kept : largest;
             missing -= units;
             ++kept;
@@ -38,7 +38,8 @@ static int32_t RoundWeights(kiriSampleWeight* weights, int32_t count)
 
 /* Stages what the stencil has weighed. Makes room for the commit, too. Of bytes that were made up cells may have no weight
    that counts: then one frame carries the sample. */
-static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* stencil, int32_t sample)
+static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriLabels* labels, const kiriStencil* stencil,
+                         int32_t sample)
 {
     kiriReweighed staged = { sample, { 0, 0 } };
     int32_t count = 0;
@@ -54,7 +55,8 @@ static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* 
     kiriSampleWeight* weight = skin->weights.data + staged.span.first;
     for (int32_t i = 0; i < stencil->frames.count; ++i) {
         if (stencil->values.data[i] >= LEAST_SHARE) {
-            *weight++ = (kiriSampleWeight){ stencil->frames.data[i], (float)stencil->values.data[i] };
+            int32_t label = kiriLabels_Of(labels, stencil->frames.data[i]);
+            *weight++ = (kiriSampleWeight){ label, (float)stencil->values.data[i] };
         }
     }
     if (count == 0) {
@@ -73,7 +75,7 @@ bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, 
     bool ok = kiriStencil_Gather(&stencil, &scratch, shape, grid, mesh, cell);
     if (ok) {
         kiriStencil_Weigh(&stencil, at, kiriVec2_Make(0.0, 0.0));
-        ok = StageWeights(skin, memory, &stencil, sample);
+        ok = StageWeights(skin, memory, &shape->labels, &stencil, sample);
     }
     kiriMemory_FreeAll(&scratch);
     return ok;
@@ -160,17 +162,17 @@ void kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory)
     skin->room = sorted.room;
 }
 
-/* Adds to the weights of the span, which has room; they stay sorted by frame. */
-static void Blend(kiriSkin* skin, kiriSpan* span, int32_t frame, double value)
+/* Adds to the weights of the span, which has room; they stay sorted by label. */
+static void Blend(kiriSkin* skin, kiriSpan* span, int32_t label, double value)
 {
     kiriSampleWeight* weights = skin->weights.data + span->first;
     int32_t k = 0;
-    while (k < span->count && weights[k].frame < frame) {
+    while (k < span->count && weights[k].label < label) {
         ++k;
     }
-    if (k == span->count || weights[k].frame != frame) {
+    if (k == span->count || weights[k].label != label) {
         memmove(weights + k + 1, weights + k, (size_t)(span->count - k) * sizeof(*weights));
-        weights[k] = (kiriSampleWeight){ frame, 0.0f };
+        weights[k] = (kiriSampleWeight){ label, 0.0f };
         ++span->count;
     }
     weights[k].value += (float)value;
@@ -192,7 +194,7 @@ static bool InheritOne(kiriSkin* skin, kiriMemory* memory, const kiriBirth* birt
         kiriSpan parent = skin->spans.data[birth->parent[k]];
         for (int32_t i = parent.first; i < parent.first + parent.count; ++i) {
             kiriSampleWeight weight = skin->weights.data[i];
-            Blend(skin, &sum, weight.frame, birth->share[k] * weight.value);
+            Blend(skin, &sum, weight.label, birth->share[k] * weight.value);
         }
     }
     sum.count = RoundWeights(skin->weights.data + sum.first, sum.count);
@@ -218,20 +220,20 @@ void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount)
     }
 }
 
-/* The last weights of a sample are those of the highest frames: the others stay as they are. */
-static void RenumberFrames(kiriSkin* skin, const kiriKeep* frames)
+/* The last weights of a sample are those of the highest labels: the others stay as they are. */
+static void RelabelSamples(kiriSkin* skin, const kiriKeep* labels)
 {
-    const int32_t *to = frames->to.data, least = frames->first;
-    for (int32_t i = 0; i < skin->spans.count && kiriKeep_Moves(frames); ++i) {
+    const int32_t *to = labels->to.data, least = labels->first;
+    for (int32_t i = 0; i < skin->spans.count && kiriKeep_Moves(labels); ++i) {
         kiriSampleWeight* weights = skin->weights.data + skin->spans.data[i].first;
-        for (int32_t k = skin->spans.data[i].count; k-- > 0 && weights[k].frame >= least;) {
-            int32_t now = to[weights[k].frame];
-            weights[k].frame = now != KIRI_NONE ? now : 0; /* never gone, but for bytes that were made up */
+        for (int32_t k = skin->spans.data[i].count; k-- > 0 && weights[k].label >= least;) {
+            int32_t now = to[weights[k].label];
+            weights[k].label = now != KIRI_NONE ? now : 0; /* never gone, but for bytes that were made up */
         }
     }
 }
 
-void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* frames)
+void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* labels)
 {
     KIRI_ASSERT(skin->staged.count == 0);
     SettleAll(skin);
@@ -241,17 +243,18 @@ void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* fram
         }
     }
     kiriKeep_Compact(samples, &skin->spans, 1, sizeof(kiriSpan));
-    RenumberFrames(skin, frames);
+    if (labels != NULL) {
+        RelabelSamples(skin, labels);
+    }
 }
 
-void kiriSkin_LeaveHoles(kiriSkin* skin, const kiriIndices* samples, const kiriKeep* frames)
+void kiriSkin_LeaveHoles(kiriSkin* skin, const kiriIndices* samples)
 {
     KIRI_ASSERT(skin->staged.count == 0);
     SettleAll(skin);
     for (int32_t k = 0; k < samples->count; ++k) {
         DropSpan(skin, &skin->spans.data[samples->data[k]]);
     }
-    RenumberFrames(skin, frames);
 }
 
 /* ---- Where samples are ------------------------------------------------------------------------------------------ */
@@ -445,7 +448,7 @@ static bool RefreshOne(kiriRefresh* refresh, const Samples* samples, int32_t squ
     bool leans = stencil->split && samples->places == NULL;
     kiriVec2 lean = leans ? kiriMesh_Lean(samples->mesh, sample) : kiriVec2_Make(0.0, 0.0);
     kiriStencil_Weigh(stencil, kiriMesh_Local(samples->mesh, at), lean);
-    if (!StageWeights(samples->skin, samples->memory, stencil, sample)) {
+    if (!StageWeights(samples->skin, samples->memory, &samples->shape->labels, stencil, sample)) {
         return false;
     }
     if (samples->places == NULL) {
@@ -492,13 +495,14 @@ kiriProgress kiriRefresh_Points(kiriRefresh* refresh, kiriSkin* skin, const kiri
 
 /* ---- Motion ----------------------------------------------------------------------------------------------------- */
 
-kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrameData* frames, kiriVec2 local)
+kiriVec3 kiriSkin_Position(const kiriSkin* skin, const kiriLabels* labels, int32_t sample, const kiriFrameData* frames,
+                           kiriVec2 local)
 {
     kiriVec3 x = { 0.0, 0.0, 0.0 };
     kiriSpan span = skin->spans.data[sample];
     for (int32_t i = span.first; i < span.first + span.count; ++i) {
         kiriSampleWeight weight = skin->weights.data[i];
-        x = kiriVec3_AddScaled(x, weight.value, kiriFrame_Carry(&frames[weight.frame], local));
+        x = kiriVec3_AddScaled(x, weight.value, kiriFrame_Carry(&frames[kiriLabels_Item(labels, weight.label)], local));
     }
     return x;
 }
@@ -520,8 +524,8 @@ static void AddMotion(kiriMotion* sum, const kiriFrameData* frame, kiriVec2 loca
     AddColumns(&sum->rate, w, &rate);
 }
 
-kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* frames, const kiriMeshData* mesh,
-                           int32_t triangle, kiriLatticePoint at)
+kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriLabels* labels, const kiriFrameData* frames,
+                           const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
 {
     kiriMotion motion;
     memset(&motion, 0, sizeof(motion));
@@ -534,7 +538,7 @@ kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* fram
         kiriSpan span = vertexSkin->spans.data[mesh->triangles.data[triangle].vertex[k]];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
             kiriSampleWeight weight = vertexSkin->weights.data[i];
-            AddMotion(&motion, &frames[weight.frame], local, share * weight.value);
+            AddMotion(&motion, &frames[kiriLabels_Item(labels, weight.label)], local, share * weight.value);
         }
     }
     return motion;

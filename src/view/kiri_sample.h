@@ -13,16 +13,17 @@ typedef struct kiriReweighed {
     kiriSpan span;
 } kiriReweighed;
 
-/* A weight of a sample: a multiple of 2^-24, so that those of a sample add up to 1 exactly. Never 0. */
+/* A weight of a sample: a multiple of 2^-24, so that those of a sample add up to 1 exactly. Never 0. Its frame has the label
+   that it has in the shape, too (kiriShape.labels). */
 typedef struct kiriSampleWeight {
-    int32_t frame;
+    int32_t label;
     float value;
 } kiriSampleWeight;
 
 /* The weights of a row of samples. */
 typedef struct kiriSkin {
     KIRI_ARRAY(kiriSpan) spans;           /* one a sample */
-    KIRI_ARRAY(kiriSampleWeight) weights; /* by spans; in a span by frame */
+    KIRI_ARRAY(kiriSampleWeight) weights; /* by spans; in a span by label */
     kiriSpans room;
     KIRI_ARRAY(kiriReweighed) staged; /* weights that take effect with the commit */
     KIRI_ARRAY(kiriReweighed)
@@ -104,19 +105,20 @@ void kiriRefresh_Drop(kiriRefresh* refresh);
 bool kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* mesh);
 void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount);
 
-/* Samples and frames are taken away; no sample that is kept has a weight of a frame that is not. Nothing is staged. Never
-   fails. */
-void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* frames);
+/* Samples and frames are taken away; no sample that is kept has a weight of a frame that is not. `labels`: what labels
+   become; null: they stay. Nothing is staged. Never fails. */
+void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* labels);
 void kiriPlaces_Keep(kiriPlaces* places, const kiriKeep* samples);
 
-/* The same where the samples leave holes: these have no weights then. */
-void kiriSkin_LeaveHoles(kiriSkin* skin, const kiriIndices* samples, const kiriKeep* frames);
+/* The same where the samples leave holes, which have no weights then, and labels stay. */
+void kiriSkin_LeaveHoles(kiriSkin* skin, const kiriIndices* samples);
 
-kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrameData* frames, kiriVec2 local);
+kiriVec3 kiriSkin_Position(const kiriSkin* skin, const kiriLabels* labels, int32_t sample, const kiriFrameData* frames,
+                           kiriVec2 local);
 
 /* The motion at a lattice point of a triangle, from the weights of its corners. */
-kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* frames, const kiriMeshData* mesh,
-                           int32_t triangle, kiriLatticePoint at);
+kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriLabels* labels, const kiriFrameData* frames,
+                           const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at);
 
 KIRI_C_END
 

@@ -5,7 +5,8 @@
 
 #include <string.h>
 
-bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount)
+bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount,
+                        int32_t labelCount)
 {
     int64_t vertices = mesh->vertices.count, triangles = mesh->triangles.count;
     return kiriArray_Reserve(memory, &surface->positions, 3 * vertices + 1) &&
@@ -22,7 +23,7 @@ bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMesh
            kiriArray_Resize(memory, &surface->corners, 3 * (triangles + triangles % 2)) &&
            kiriArray_Resize(memory, &surface->carriers, frameCount) &&
            kiriArray_Resize(memory, &surface->bends, frameCount) &&
-           kiriPatches_Reserve(&surface->patches, memory, frameCount);
+           kiriPatches_Reserve(&surface->patches, memory, labelCount);
 }
 
 void kiriSurface_Truncate(kiriSurface* surface, int32_t frameCount)
@@ -383,13 +384,13 @@ static kiriVec3 FindMiddle(const kiriFrameData* frames, int32_t frameCount, doub
 }
 
 /* Are patches as they were written last but for those of what is awake? */
-static bool IsPartly(const kiriSurface* surface, int32_t frameCount, bool isBent)
+static bool IsPartly(const kiriSurface* surface, int32_t labelCount, bool isBent)
 {
-    return surface->isSteady && surface->patches.count == frameCount && surface->patches.isBent == isBent;
+    return surface->isSteady && surface->patches.count == labelCount && surface->patches.isBent == isBent;
 }
 
-void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, int32_t frameCount,
-                            const kiriLink* links, int32_t linkCount, const kiriAwake* awake)
+void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, const kiriFrameData* frames,
+                            int32_t frameCount, const kiriLink* links, int32_t linkCount, const kiriAwake* awake)
 {
     bool isBent = surface->skinning == KIRI_SKINNING_SMOOTH && linkCount > 0;
     kiriVec3 was = surface->middle, middle = FindMiddle(frames, frameCount, surface->longer);
@@ -398,14 +399,15 @@ void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, i
     if (!isSame) {
         kiriPatches_Forget(&surface->patches);
     }
-    surface->isPartly = awake != NULL && IsPartly(surface, frameCount, isBent);
+    surface->isPartly = awake != NULL && IsPartly(surface, kiriLabels_Count(labels, frameCount), isBent);
     const kiriIndices* some = surface->isPartly ? &awake->frames : NULL;
     kiriCarriers_Write(surface->carriers.data, frames, frameCount, some);
     if (isBent) {
         kiriCarriers_Bend(surface->carriers.data, surface->bends.data, frames, frameCount, links, linkCount, some,
                           surface->isPartly ? &awake->elements : NULL);
     }
-    bool isOther = kiriPatches_Write(&surface->patches, surface->carriers.data, frameCount, middle, isBent, some);
+    bool isOther =
+        kiriPatches_Write(&surface->patches, labels, surface->carriers.data, frameCount, middle, isBent, some);
     surface->isWritten = surface->isWritten && !isOther;
 }
 
@@ -414,10 +416,10 @@ void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t 
     kiriSkin_WritePositions(skin, &surface->patches, surface->rest.data, begin, end, kiriSurface_Places(surface));
 }
 
-void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriFrameData* frames, int32_t frameCount,
-                       const kiriLink* links, int32_t linkCount)
+void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriLabels* labels,
+                       const kiriFrameData* frames, int32_t frameCount, const kiriLink* links, int32_t linkCount)
 {
-    kiriSurface_TakeFrames(surface, frames, frameCount, links, linkCount, NULL);
+    kiriSurface_TakeFrames(surface, labels, frames, frameCount, links, linkCount, NULL);
     surface->isWritten = false;
     kiriSurface_BlendRange(surface, skin, 0, surface->vertexCount);
 }

@@ -71,8 +71,9 @@ static inline void kiriSurface_Place(kiriSurface* surface, int32_t vertex, kiriV
     kiriVec3_Store(kiriSurface_Places(surface) + 3 * (ptrdiff_t)vertex, kiriVec3_Sub(at, surface->middle));
 }
 
-/* Room for the mesh as it is and for so many frames; after it the others never fail. */
-bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount);
+/* Room for the mesh as it is and for so many frames, with so many labels; after it the others never fail. */
+bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount,
+                        int32_t labelCount);
 
 /* The mesh is again as it is seen, and so many frames move it: what was for more is no more than room. Never fails. */
 void kiriSurface_Truncate(kiriSurface* surface, int32_t frameCount);
@@ -106,18 +107,18 @@ bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemo
 /* A triangle is seen no more: all its corners are the first. */
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);
 
-/* Takes over where the frames are. The links tell a smooth surface how to bend; a linear one does not ask.
+/* Takes over where the frames are, which have these labels in weights. The links tell a smooth surface how to bend; a linear one does not ask.
    Where nothing is other than when arrays were written, they stay so. `awake`: only its frames may be elsewhere than when
    they were taken over last, and its elements begin with links; or null. */
-void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, int32_t frameCount,
-                            const kiriLink* links, int32_t linkCount, const kiriAwake* awake);
+void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, const kiriFrameData* frames,
+                            int32_t frameCount, const kiriLink* links, int32_t linkCount, const kiriAwake* awake);
 
 /* Where the vertices from `begin` to `end` are. Writes nothing else: ranges may be written at the same time. */
 void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t begin, int32_t end);
 
 /* Both, for all vertices. */
-void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriFrameData* frames, int32_t frameCount,
-                       const kiriLink* links, int32_t linkCount);
+void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriLabels* labels,
+                       const kiriFrameData* frames, int32_t frameCount, const kiriLink* links, int32_t linkCount);
 
 /* Moves the vertices that are seen elsewhere. */
 void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades);

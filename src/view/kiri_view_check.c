@@ -6,7 +6,6 @@ static const kiriMust MustBeSquareOfView[] = { KIRI_INDEX(KIRI_OF_SQUARES, kiriS
 static const kiriMust IsSampleOrNone[] = { KIRI_INDEX_OR_NONE(KIRI_OF_SAMPLES, kiriSpan, first, first) };
 
 static const kiriMust SampleWeightMust[] = {
-    KIRI_INDEX(KIRI_OF_REGIONS, kiriSampleWeight, frame, frame),
     KIRI_FLOATS(kiriSampleWeight, value, value),
 };
 
@@ -48,15 +47,18 @@ static const kiriMust SurfaceMust[] = {
 
 /* ---- Weights ------------------------------------------------------------------------------------------------------ */
 
-/* Frames ascend; and weights are parts of 1. */
-static bool AreWeightsIn(kiriCheck* check, kiriRooms* rooms, const kiriSkin* skin, kiriSpan span)
+/* Labels ascend; and weights are parts of 1. */
+static bool AreWeightsIn(kiriCheck* check, kiriRooms* rooms, const kiriSkin* skin, const kiriLabels* labels,
+                         kiriSpan span)
 {
     bool areFine = kiriCheck_Span(check, rooms, span);
     double sum = 0.0;
     for (int32_t k = span.first; areFine && k < span.first + span.count; ++k) {
         const kiriSampleWeight* weight = &skin->weights.data[k];
-        areFine = kiriCheck_Object(check, SampleWeightMust, weight) &&
-                  kiriCheck_That(check, k == span.first || weight[-1].frame < weight->frame);
+        areFine =
+            kiriCheck_Object(check, SampleWeightMust, weight) &&
+            kiriCheck_That(check, kiriLabels_Has(labels, weight->label, (int32_t)check->count[KIRI_OF_REGIONS])) &&
+            kiriCheck_That(check, k == span.first || weight[-1].label < weight->label);
         areFine = areFine && kiriCheck_That(check, weight->value > 0.0f && weight->value <= 1.0f);
         sum += weight->value;
     }
@@ -64,7 +66,7 @@ static bool AreWeightsIn(kiriCheck* check, kiriRooms* rooms, const kiriSkin* ski
 }
 
 /* Each sample is staged at most once; those that are new, in their order. */
-static bool AreStaged(kiriCheck* check, const kiriSkin* skin, kiriRooms* rooms)
+static bool AreStaged(kiriCheck* check, const kiriSkin* skin, const kiriLabels* labels, kiriRooms* rooms)
 {
     int32_t next = skin->spans.count;
     uint8_t* seen = kiriCheck_Bytes(check, skin->spans.count);
@@ -74,7 +76,7 @@ static bool AreStaged(kiriCheck* check, const kiriSkin* skin, kiriRooms* rooms)
         areFine =
             staged.sample == next || (staged.sample >= 0 && staged.sample < skin->spans.count && !seen[staged.sample]);
         next += staged.sample == next;
-        areFine = areFine && staged.span.count > 0 && AreWeightsIn(check, rooms, skin, staged.span);
+        areFine = areFine && staged.span.count > 0 && AreWeightsIn(check, rooms, skin, labels, staged.span);
         if (areFine && staged.sample < skin->spans.count) {
             seen[staged.sample] = 1;
         }
@@ -94,7 +96,8 @@ static bool AreSettling(kiriCheck* check, const kiriSkin* skin, kiriRooms* rooms
     return areFine;
 }
 
-bool kiriSkin_Check(const kiriSkin* skin, kiriCheck* check, int32_t samples, const kiriMeshData* holes)
+bool kiriSkin_Check(const kiriSkin* skin, const kiriLabels* labels, kiriCheck* check, int32_t samples,
+                    const kiriMeshData* holes)
 {
     kiriRooms rooms;
     check->count[KIRI_OF_REGIONS] = check->count[KIRI_OF_FRAMES];
@@ -103,10 +106,11 @@ bool kiriSkin_Check(const kiriSkin* skin, kiriCheck* check, int32_t samples, con
     for (int32_t i = 0; areFine && i < samples; ++i) {
         bool isHole = holes != NULL && !kiriMesh_IsVertex(holes, i);
         areFine = kiriCheck_That(check, isHole == (skin->spans.data[i].count == 0)) &&
-                  AreWeightsIn(check, &rooms, skin, skin->spans.data[i]);
+                  AreWeightsIn(check, &rooms, skin, labels, skin->spans.data[i]);
     }
     check->count[KIRI_OF_REGIONS] = check->count[KIRI_OF_SITES];
-    areFine = areFine && kiriCheck_That(check, AreStaged(check, skin, &rooms)) && AreSettling(check, skin, &rooms);
+    areFine =
+        areFine && kiriCheck_That(check, AreStaged(check, skin, labels, &rooms)) && AreSettling(check, skin, &rooms);
     kiriMemory_Free(&check->memory, areFine ? rooms.taken : NULL);
     return areFine;
 }
@@ -166,7 +170,7 @@ bool kiriSurface_HasRoom(const kiriSurface* surface)
 }
 
 /* All rows are as long as the mesh is large, and there is a patch for each frame that is seen. */
-static bool AreRowsOfSurface(const kiriSurface* surface, const kiriMeshData* mesh, int64_t frames)
+static bool AreRowsOfSurface(const kiriSurface* surface, const kiriMeshData* mesh, int64_t frames, int64_t labels)
 {
     int64_t vertices = mesh->vertices.count, triangles = mesh->triangles.count;
     int64_t floats = surface->patches.isBent ? KIRI_BENT_FLOATS : KIRI_FLAT_FLOATS;
@@ -174,10 +178,10 @@ static bool AreRowsOfSurface(const kiriSurface* surface, const kiriMeshData* mes
            surface->restPositions.count == 2 * vertices && surface->sourceWeights.count == 3 * vertices &&
            surface->sourceTriangles.count == vertices && surface->indices.count == 3 * triangles &&
            surface->corners.count == 3 * (triangles + triangles % 2) && surface->carriers.count >= frames &&
-           surface->bends.count >= frames && surface->patches.count >= 0 && surface->patches.count <= frames &&
-           surface->patches.floats.capacity >= KIRI_BENT_FLOATS * frames &&
+           surface->bends.count >= frames && surface->patches.count >= 0 && surface->patches.count <= labels &&
+           surface->patches.floats.capacity >= KIRI_BENT_FLOATS * labels &&
            surface->patches.floats.capacity >= floats * surface->patches.count &&
-           surface->patches.isOther.capacity >= frames;
+           surface->patches.isOther.capacity >= labels;
 }
 
 /* Hosts copy these ranges. */
@@ -222,9 +226,10 @@ static bool AreCornersOfSurface(const kiriSurface* surface, const kiriMeshData* 
     return areFine;
 }
 
-bool kiriSurface_Check(const kiriSurface* surface, const kiriMeshData* mesh, kiriCheck* check)
+bool kiriSurface_Check(const kiriSurface* surface, const kiriLabels* labels, const kiriMeshData* mesh, kiriCheck* check)
 {
-    return kiriCheck_That(check, AreRowsOfSurface(surface, mesh, check->count[KIRI_OF_FRAMES])) &&
+    int32_t frames = (int32_t)check->count[KIRI_OF_FRAMES];
+    return kiriCheck_That(check, AreRowsOfSurface(surface, mesh, frames, kiriLabels_Count(labels, frames))) &&
            kiriCheck_Object(check, SurfaceMust, surface) &&
            kiriCheck_That(check,
                           AreCornersOfSurface(surface, mesh) && AreRestPlaces(surface, mesh) && AreChanges(surface));

@@ -9,7 +9,8 @@ KIRI_C_BEGIN
 
 /* Weights of so many samples, of frames in force; those that are staged may be of new ones. Each sample has some, but
    those of vertices that are holes. `holes`: their mesh, or null. */
-bool kiriSkin_Check(const kiriSkin* skin, kiriCheck* check, int32_t samples, const kiriMeshData* holes);
+bool kiriSkin_Check(const kiriSkin* skin, const kiriLabels* labels, kiriCheck* check, int32_t samples,
+                    const kiriMeshData* holes);
 
 /* Lists of so many samples by square. */
 bool kiriPlaces_Check(const kiriPlaces* places, kiriCheck* check, int32_t samples);
@@ -20,7 +21,8 @@ bool kiriFades_Check(const kiriFades* fades, kiriCheck* check, int32_t samples);
 
 /* Has a surface that is being read room for its vertices? Then these can be read. */
 bool kiriSurface_HasRoom(const kiriSurface* surface);
-bool kiriSurface_Check(const kiriSurface* surface, const kiriMeshData* mesh, kiriCheck* check);
+bool kiriSurface_Check(const kiriSurface* surface, const kiriLabels* labels, const kiriMeshData* mesh,
+                       kiriCheck* check);
 
 KIRI_C_END
 

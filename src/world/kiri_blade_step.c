@@ -51,7 +51,8 @@ static kiriVec3 VelocityOf(const kiriSheetData* sheet, int32_t vertex)
     for (int32_t i = 0; i < span.count; ++i) {
         kiriSampleWeight w = sheet->vertexSkin.weights.data[span.first + i];
         kiriVec2 rest = sheet->seen.surface.rest.data[vertex];
-        sum = kiriVec3_AddScaled(sum, w.value, kiriFrame_VelocityAt(&sheet->frames.data[w.frame], rest));
+        sum = kiriVec3_AddScaled(sum, w.value,
+                                 kiriFrame_VelocityAt(&sheet->frames.data[kiriSheet_FrameOf(sheet, w.label)], rest));
     }
     return sum;
 }

@@ -36,7 +36,7 @@ static void LoadVertex(kiriSheetData* sheet, int32_t vertex, kiriVec3 impulse)
     kiriVec2 local = sheet->seen.surface.rest.data[vertex];
     for (int32_t i = span.first; i < span.first + span.count; ++i) {
         kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
-        kiriFrameData* frame = &sheet->frames.data[weight.frame];
+        kiriFrameData* frame = &sheet->frames.data[kiriSheet_FrameOf(sheet, weight.label)];
         kiriVec3 arm = kiriVec3_Sub(kiriFrame_Carry(frame, local), frame->x),
                  part = kiriVec3_Scale(weight.value, impulse);
         kiriWrench load = { part, kiriVec3_Cross(arm, part) };

@@ -29,12 +29,12 @@ static const kiriFrameData* LargestFrame(const kiriPlace3* place)
             kiriSampleWeight weight = place->sheet->vertexSkin.weights.data[i];
             if (weight.value * place->share[k] > most) {
                 most = weight.value * place->share[k];
-                best = weight.frame;
+                best = weight.label;
             }
         }
     }
     KIRI_ASSERT(best != KIRI_NONE);
-    return &place->sheet->frames.data[best];
+    return &place->sheet->frames.data[kiriSheet_FrameOf(place->sheet, best)];
 }
 
 /* The plane moves with the material of the lower one, but not as all of that moves. What lies on something goes no farther

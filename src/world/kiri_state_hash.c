@@ -38,13 +38,13 @@ static void HashMesh(uint64_t* hash, const kiriMeshData* mesh)
     }
 }
 
-static void HashSkin(uint64_t* hash, const kiriSkin* skin)
+static void HashSkin(uint64_t* hash, const kiriSheetData* sheet, const kiriSkin* skin)
 {
     for (int32_t i = 0; i < skin->spans.count; ++i) {
         kiriSpan span = skin->spans.data[i];
         kiriHash_Int32(hash, span.count);
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
-            kiriHash_Int32(hash, skin->weights.data[k].frame);
+            kiriHash_Int32(hash, kiriSheet_FrameOf(sheet, skin->weights.data[k].label));
             kiriHash_Double(hash, skin->weights.data[k].value);
         }
     }
@@ -120,8 +120,8 @@ void kiriStateHash_AddLayout(uint64_t* hash, const kiriSheetData* sheet)
         HashPoint(hash, sheet->points.data[i].at);
         kiriHash_Int32(hash, sheet->points.data[i].frame);
     }
-    HashSkin(hash, &sheet->vertexSkin);
-    HashSkin(hash, &sheet->pointSkin);
+    HashSkin(hash, sheet, &sheet->vertexSkin);
+    HashSkin(hash, sheet, &sheet->pointSkin);
     for (int32_t i = 0; i < layout->framePiece.count; ++i) {
         kiriHash_Int32(hash, layout->framePiece.data[i]);
     }
