@@ -303,6 +303,7 @@ static void TakeVertexJumps(kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
     kiriVec3 middle = surface->middle;
+    bool wasSteady = surface->isSteady;
     JumpLook look = { .before = kiriSurface_Places(surface) };
     TouchFading(sheet);
     surface->isSteady = false;
@@ -320,7 +321,7 @@ static void TakeVertexJumps(kiriSheetData* sheet)
             LookAtJumps(sheet, &look, begin, end);
         }
     }
-    surface->isSteady = !look.movesSleepers;
+    surface->isSteady = wasSteady && !look.movesSleepers; /* else normals of what sleeps are due as well */
 }
 
 /* Points that are new have not been seen elsewhere. */
