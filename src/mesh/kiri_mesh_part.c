@@ -25,25 +25,49 @@ static void RenumberTriangle(kiriTriangle* t, const kiriKeep* triangles, const k
 
 /* ---- A part as a mesh of its own ---------------------------------------------------------------------------------- */
 
-static bool CopyPart(kiriMeshData* mesh, const kiriMeshData* from, const kiriMeshPart* triangles,
-                     const kiriMeshPart* vertices)
+enum { COPIED_AN_ITEM = 4, LISTED_AN_ITEM = 8 };
+
+static bool StartPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const kiriMeshPart* triangles,
+                      const kiriMeshPart* vertices)
 {
-    if (!kiriArray_Resize(mesh->memory, &mesh->vertices, vertices->items.count) ||
-        !kiriArray_Resize(mesh->memory, &mesh->triangles, triangles->items.count)) {
-        return false;
-    }
-    for (int32_t k = 0; k < vertices->items.count; ++k) {
+    memset(mesh, 0, sizeof(*mesh));
+    mesh->memory = memory;
+    mesh->origin = from->origin;
+    mesh->step = from->step;
+    mesh->revision = from->revision + 1;
+    return kiriArray_Reserve(memory, &mesh->vertices, vertices->items.count) &&
+           kiriArray_Reserve(memory, &mesh->triangles, triangles->items.count);
+}
+
+static bool CopyVertices(kiriMeshData* mesh, const kiriMeshData* from, const kiriMeshPart* triangles,
+                         const kiriMeshPart* vertices, kiriQuota* quota)
+{
+    while (mesh->vertices.count < vertices->items.count) {
+        int32_t k = mesh->vertices.count;
+        if (k % COPIED_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
+            return false;
+        }
         kiriVertex vertex = from->vertices.data[vertices->items.data[k]];
         vertex.edge = EdgeTo(triangles->keep, vertex.edge);
         KIRI_ASSERT(vertex.edge != KIRI_NONE);
         vertex.stamp = 0;
-        mesh->vertices.data[k] = vertex;
+        mesh->vertices.data[mesh->vertices.count++] = vertex;
     }
-    for (int32_t k = 0; k < triangles->items.count; ++k) {
+    return true;
+}
+
+static bool CopyTriangles(kiriMeshData* mesh, const kiriMeshData* from, const kiriMeshPart* triangles,
+                          const kiriMeshPart* vertices, kiriQuota* quota)
+{
+    while (mesh->triangles.count < triangles->items.count) {
+        int32_t k = mesh->triangles.count;
+        if (k % COPIED_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
+            return false;
+        }
         kiriTriangle triangle = from->triangles.data[triangles->items.data[k]];
         RenumberTriangle(&triangle, triangles->keep, vertices->keep);
         triangle.stamp = 0;
-        mesh->triangles.data[k] = triangle;
+        mesh->triangles.data[mesh->triangles.count++] = triangle;
     }
     return true;
 }
@@ -76,19 +100,25 @@ static bool ListSources(kiriMeshData* mesh)
     return ok;
 }
 
-static bool CopySources(kiriMeshData* mesh, const kiriMeshData* from)
+static kiriProgress CopySources(kiriMeshData* mesh, const kiriMeshData* from, kiriQuota* quota)
 {
+    if (mesh->sources.count > 0) {
+        return KIRI_DONE;
+    }
+    if (!kiriQuota_Take(quota, mesh->triangles.count / COPIED_AN_ITEM)) {
+        return KIRI_MORE;
+    }
     if (!ListSources(mesh) || !kiriArray_Resize(mesh->memory, &mesh->sourceCorners, 3 * (int64_t)mesh->sources.count)) {
-        return false;
+        return KIRI_FAILED;
     }
     for (int32_t k = 0; k < mesh->sources.count; ++k) {
         memcpy(&mesh->sourceCorners.data[3 * (size_t)k], kiriMesh_SourceCorners(from, mesh->sources.data[k]),
                3 * sizeof(kiriLatticePoint));
     }
-    return true;
+    return KIRI_DONE;
 }
 
-static bool CopySquares(kiriMeshData* mesh, const kiriMeshData* from)
+static bool StartSquares(kiriMeshData* mesh, const kiriMeshData* from)
 {
     kiriLatticePoint lower = mesh->vertices.data[0].at, upper = lower;
     for (int32_t v = 1; v < mesh->vertices.count; ++v) {
@@ -98,26 +128,51 @@ static bool CopySquares(kiriMeshData* mesh, const kiriMeshData* from)
         upper.x = at.x > upper.x ? at.x : upper.x;
         upper.y = at.y > upper.y ? at.y : upper.y;
     }
-    return kiriSquares_InitPart(&mesh->squares, mesh->memory, &from->squares, lower, upper) &&
-           kiriMesh_FillSquares(mesh, &mesh->squares, mesh->memory);
+    return kiriSquares_InitPart(&mesh->squares, mesh->memory, &from->squares, lower, upper);
 }
 
-bool kiriMesh_InitPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const kiriMeshPart* triangles,
-                       const kiriMeshPart* vertices)
+/* Until kiriMesh_Begin the old counts say how many triangles and vertices are in their squares. */
+static kiriProgress FillSquaresOfPart(kiriMeshData* mesh, const kiriMeshData* from, kiriQuota* quota)
 {
-    memset(mesh, 0, sizeof(*mesh));
-    mesh->memory = memory;
-    mesh->origin = from->origin;
-    mesh->step = from->step;
-    mesh->revision = from->revision + 1;
-    if (!CopyPart(mesh, from, triangles, vertices) || !CopySources(mesh, from) || !CopySquares(mesh, from)) {
-        return false;
+    if (mesh->squares.columns == 0 && !StartSquares(mesh, from)) {
+        return KIRI_FAILED;
     }
-    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
-        kiriMesh_ListVertex(mesh, v);
+    for (; mesh->oldTriangleCount < mesh->triangles.count; ++mesh->oldTriangleCount) {
+        kiriLatticePoint corners[3];
+        if (!kiriQuota_Take(quota, 1)) {
+            return KIRI_MORE;
+        }
+        kiriMesh_Corners(mesh, mesh->oldTriangleCount, corners);
+        if (!kiriSquares_Insert(&mesh->squares, mesh->memory, mesh->oldTriangleCount, corners)) {
+            return KIRI_FAILED;
+        }
     }
-    kiriMesh_Begin(mesh);
-    return true;
+    for (; mesh->oldVertexCount < mesh->vertices.count; ++mesh->oldVertexCount) {
+        if (mesh->oldVertexCount % LISTED_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
+            return KIRI_MORE;
+        }
+        kiriMesh_ListVertex(mesh, mesh->oldVertexCount);
+    }
+    return KIRI_DONE;
+}
+
+kiriProgress kiriMesh_MakePart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from,
+                               const kiriMeshPart* triangles, const kiriMeshPart* vertices, kiriQuota* quota)
+{
+    KIRI_ASSERT(!mesh->isOpen);
+    if (mesh->memory == NULL && !StartPart(mesh, memory, from, triangles, vertices)) {
+        return KIRI_FAILED;
+    }
+    if (!CopyVertices(mesh, from, triangles, vertices, quota) ||
+        !CopyTriangles(mesh, from, triangles, vertices, quota)) {
+        return KIRI_MORE;
+    }
+    kiriProgress progress = CopySources(mesh, from, quota);
+    progress = progress == KIRI_DONE ? FillSquaresOfPart(mesh, from, quota) : progress;
+    if (progress == KIRI_DONE) {
+        kiriMesh_Begin(mesh);
+    }
+    return progress;
 }
 
 /* ---- What is left ------------------------------------------------------------------------------------------------ */
@@ -153,12 +208,12 @@ void kiriMesh_Keep(kiriMeshData* mesh, const kiriKeep* triangles, const kiriKeep
 
 /* ---- With holes --------------------------------------------------------------------------------------------------- */
 
-/* What is left beside a triangle that goes ends there. */
+/* What is left beside a triangle that goes ends there. Only an edge that is open may have it beside it. */
 static void LeaveNeighbours(kiriMeshData* mesh, const kiriMeshLoss* loss, int32_t triangle)
 {
     const kiriTriangle* t = &mesh->triangles.data[triangle];
     for (int i = 0; i < 3; ++i) {
-        int32_t twin = t->twin[i];
+        int32_t twin = t->open & 1 << i ? t->twin[i] : KIRI_NONE;
         if (twin != KIRI_NONE && kiriKeep_Has(&loss->keepTriangles, twin / 3)) {
             kiriTriangle* beside = &mesh->triangles.data[twin / 3];
             beside->twin[twin % 3] = KIRI_NONE;

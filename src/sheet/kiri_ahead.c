@@ -17,42 +17,41 @@ static bool IsMadeOf(const kiriSheetData* sheet, kiriFrame frame)
     return sheet->ahead.frame == frame && sheet->ahead.revision == sheet->mesh.revision;
 }
 
-static int32_t PieceWith(const kiriSheetData* sheet, kiriFrame frame)
+static int32_t IndexOf(const kiriSheetData* sheet, kiriFrame frame)
 {
     int32_t i = 0;
     while (sheet->frames.data[i].id != frame) {
         ++i;
     }
-    return sheet->layout.framePiece.data[i];
+    return i;
 }
 
-static bool GatherAhead(kiriSheetData* sheet)
+/* Maps of all items, which the first piece that leaves needs, take a tick of their own. */
+static bool StartAhead(kiriSheetData* sheet)
 {
     kiriAhead* ahead = &sheet->ahead;
-    kiriGathered* gathered = kiriMemory_AllocZeroed(&ahead->memory, sizeof(*gathered));
-    uint8_t* stays = kiriMemory_Alloc(&ahead->memory, sheet->layout.pieces.count);
-    if (gathered == NULL || stays == NULL) {
-        return false;
+    if (!kiriGather_IsReserved(sheet)) {
+        return kiriGather_Reserve(sheet);
     }
-    memset(stays, 1, (size_t)sheet->layout.pieces.count);
-    stays[ahead->piece] = 0;
-    ahead->gathered = gathered;
-    return kiriGather_Make(gathered, sheet, &ahead->memory, stays);
+    ahead->gathered = kiriMemory_AllocZeroed(&ahead->memory, sizeof(*ahead->gathered));
+    return ahead->gathered != NULL &&
+           kiriGather_Start(ahead->gathered, sheet, &ahead->memory, IndexOf(sheet, ahead->frame));
 }
 
 static bool MakeSome(kiriSheetData* sheet, kiriMemory* memory, kiriQuotas* quotas)
 {
     kiriAhead* ahead = &sheet->ahead;
+    if (!ahead->gathered->isDone) {
+        return kiriGather_GoOn(ahead->gathered, &quotas->of[KIRI_QUOTA_CELLS]) != KIRI_FAILED;
+    }
     kiriExtraction extraction;
     bool ok = kiriExtraction_Init(&extraction, ahead->gathered);
-    if (ok && ahead->part == NULL) {
-        ahead->part = kiriSheet_New(memory);
-        ok = ahead->part != NULL && kiriExtraction_Begin(&extraction, ahead->piece, ahead->part);
-    } else if (ok) {
-        ok = kiriExtraction_GoOn(&extraction, ahead->piece, ahead->part, quotas) != KIRI_FAILED;
-    }
+    ahead->part = ahead->part == NULL ? kiriSheet_New(memory) : ahead->part;
+    kiriProgress progress =
+        ok && ahead->part != NULL ? kiriExtraction_GoOn(&extraction, ahead->piece, ahead->part, quotas) : KIRI_FAILED;
     kiriExtraction_Drop(&extraction);
-    return ok;
+    ahead->isMade = progress == KIRI_DONE;
+    return progress != KIRI_FAILED;
 }
 
 void kiriAhead_GoOn(kiriSheetData* sheet, kiriFrame frame, kiriMemory* memory, kiriQuotas* quotas)
@@ -61,11 +60,11 @@ void kiriAhead_GoOn(kiriSheetData* sheet, kiriFrame frame, kiriMemory* memory, k
     if (!IsMadeOf(sheet, frame)) {
         kiriAhead_Drop(sheet, memory);
         ahead->frame = frame;
-        ahead->piece = PieceWith(sheet, frame);
+        ahead->piece = sheet->layout.framePiece.data[IndexOf(sheet, frame)];
         ahead->revision = sheet->mesh.revision;
         ahead->memory = kiriMemory_Like(memory);
     }
-    if (!(ahead->gathered == NULL ? GatherAhead(sheet) : MakeSome(sheet, memory, quotas))) {
+    if (!(ahead->gathered == NULL ? StartAhead(sheet) : MakeSome(sheet, memory, quotas))) {
         kiriAhead_Drop(sheet, memory);
     }
 }
@@ -77,10 +76,15 @@ kiriSheetData* kiriAhead_Take(kiriSheetData* sheet, kiriFrame frame)
     return part;
 }
 
+bool kiriAhead_IsAtWork(const kiriSheetData* sheet, kiriFrame frame)
+{
+    return IsMadeOf(sheet, frame) && !sheet->ahead.isMade;
+}
+
 const kiriGathered* kiriAhead_Gathered(const kiriSheetData* sheet, const uint8_t* stays)
 {
     const kiriAhead* ahead = &sheet->ahead;
-    bool isSame = ahead->gathered != NULL && IsMadeOf(sheet, ahead->frame);
+    bool isSame = ahead->gathered != NULL && ahead->gathered->isDone && IsMadeOf(sheet, ahead->frame);
     for (int32_t p = 0; isSame && p < sheet->layout.pieces.count; ++p) {
         isSame = (stays[p] == 0) == (p == ahead->piece);
     }

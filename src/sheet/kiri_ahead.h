@@ -12,6 +12,9 @@ KIRI_C_BEGIN
    belong to the mesh as it is. `memory` is that of all sheets. Where it is refused all begins anew. */
 void kiriAhead_GoOn(kiriSheetData* sheet, kiriFrame frame, kiriMemory* memory, kiriQuotas* quotas);
 
+/* Has the sheet of the piece of this frame been begun, and is not all there yet that can be made ahead? */
+bool kiriAhead_IsAtWork(const kiriSheetData* sheet, kiriFrame frame);
+
 /* What has been made for the piece of this frame, which is the caller's from now on; null: nothing. */
 kiriSheetData* kiriAhead_Take(kiriSheetData* sheet, kiriFrame frame);
 

@@ -193,7 +193,9 @@ static void DropScratch(kiriSheetData* sheet)
 void kiriBuild_Commit(kiriSheetData* sheet)
 {
     kiriStage_Commit(sheet);
-    kiriSkin_Sort(&sheet->vertexSkin, sheet->memory);
+    if (sheet->vertexSkin.settling.count > 0) { /* else they are sorted, see kiri_extract.c */
+        kiriSkin_Sort(&sheet->vertexSkin, sheet->memory);
+    }
     kiriView_WriteTopology(sheet);
     kiriMesh_Commit(&sheet->mesh);
     sheet->update->stage = KIRI_NONE;

@@ -131,6 +131,15 @@ static kiriProgress PrepareCommit(kiriSheetData* sheet, kiriQuota* samples)
     return ok ? KIRI_DONE : KIRI_FAILED;
 }
 
+kiriProgress kiriStage_Owners(kiriSheetData* sheet, kiriQuota* samples)
+{
+    kiriUpdate* u = sheet->update;
+    KIRI_ASSERT(u->stage == KIRI_STAGE_CONSTANTS && u->isScratch);
+    kiriProgress progress = u->step == 0 ? StageOwnersOfMaterial(sheet, samples) : KIRI_DONE;
+    u->step = progress == KIRI_DONE ? 1 : 0;
+    return progress;
+}
+
 kiriProgress kiriStage_Constants(kiriSheetData* sheet, kiriQuota* samples)
 {
     static kiriStageStep* const steps[] = { StageOwnersOfMaterial, PlaceNewFrames, PrepareCommit };

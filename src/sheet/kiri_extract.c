@@ -5,6 +5,7 @@
 #include "kiri_pin.h"
 #include "kiri_seen.h"
 #include "kiri_settings.h"
+#include "kiri_stages.h"
 #include "kiri_touch.h"
 #include "kiri_touch_memory.h"
 
@@ -224,7 +225,7 @@ static kiriIndices ItemsOfSpan(const kiriIndices* items, kiriSpan span)
 
 double kiriExtraction_Samples(const kiriSheetData* sheet, double share)
 {
-    const double vertexSamples = 1.2, cellSamples = 0.7;
+    const double vertexSamples = 1.5, cellSamples = 0.7;
     double vertices = (double)sheet->mesh.vertices.count - sheet->mesh.vertexHoles;
     return share * (vertexSamples * vertices + cellSamples * sheet->grid.cellCount);
 }
@@ -249,15 +250,19 @@ static void DropPiece(kiriExtraction* extraction, int32_t piece, const PartMembe
     kiriKept_DropPart(&extraction->kept, piece, &items->vertices.items, &items->triangles.items);
 }
 
-bool kiriExtraction_Begin(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
+static kiriProgress MakeMeshOfPart(kiriExtraction* extraction, int32_t piece, kiriSheetData* to, kiriQuota* quota)
 {
+    if (to->mesh.isOpen) {
+        return KIRI_DONE;
+    }
     PartMembers items = TakeItemsOf(extraction, piece);
-    bool ok = kiriMesh_InitPart(&to->mesh, to->memory, &extraction->kept.from->mesh, &items.triangles, &items.vertices);
-    if (ok) {
+    kiriProgress progress = kiriMesh_MakePart(&to->mesh, to->memory, &extraction->kept.from->mesh, &items.triangles,
+                                              &items.vertices, quota);
+    if (progress == KIRI_DONE) {
         CopySettings(&extraction->kept, to);
     }
     DropPiece(extraction, piece, &items);
-    return ok;
+    return progress;
 }
 
 /* When its cells are there. */
@@ -269,28 +274,63 @@ static bool FillCellsOfPart(kiriExtraction* extraction, int32_t piece, kiriSheet
     return ok;
 }
 
-/* All that is seen of it but where: it takes long, and nothing changes it any more. */
-static kiriProgress WriteTopologyOfPart(kiriSheetData* to)
+static kiriProgress MakeFieldsOfPart(kiriExtraction* extraction, int32_t piece, kiriSheetData* to, kiriQuotas* quotas)
 {
-    if (to->seen.surface.vertexCount == 0) {
-        if (!kiriView_Resize(to, to->update->placing.sites.count, to->points.count)) {
-            return KIRI_FAILED;
-        }
-        kiriSurface_WriteTopology(&to->seen.surface, &to->mesh);
-    }
-    return KIRI_DONE;
-}
-
-/* No frame is added: whoever wants one has asked before, or asks with the next cut. */
-kiriProgress kiriExtraction_GoOn(kiriExtraction* extraction, int32_t piece, kiriSheetData* to, kiriQuotas* quotas)
-{
-    to->settings.maxFrames = 0;
+    to->settings.maxFrames = 0; /* whoever wants another frame has asked before, or asks with the next cut */
     kiriProgress progress = kiriPipeline_MakeSome(to, KIRI_STAGE_REGIONS, quotas);
     if (progress == KIRI_DONE && to->update->placing.sites.count == 0 && !FillCellsOfPart(extraction, piece, to)) {
         return KIRI_FAILED;
     }
-    progress = progress == KIRI_DONE ? kiriPipeline_MakeSome(to, KIRI_STAGE_CONSTANTS, quotas) : progress;
-    return progress == KIRI_DONE ? WriteTopologyOfPart(to) : progress;
+    return progress == KIRI_DONE ? kiriPipeline_MakeSome(to, KIRI_STAGE_CONSTANTS, quotas) : progress;
+}
+
+enum { VERTICES_AN_ITEM = 8 }; /* of samples: of what passes over all of them, but writes no weights */
+
+/* A step that takes so long with all vertices is paid as a whole. */
+static bool PayPass(const kiriSheetData* to, kiriQuotas* quotas)
+{
+    return kiriQuota_Take(&quotas->of[KIRI_QUOTA_SAMPLES], 1 + to->mesh.vertices.count / VERTICES_AN_ITEM);
+}
+
+/* Weights where they are read fastest, before the commit: nothing changes them any more. */
+static kiriProgress SortWeightsOfPart(kiriSheetData* to, kiriQuotas* quotas)
+{
+    kiriSkin* skin = &to->vertexSkin;
+    if (skin->staged.count > 0) {
+        kiriSkin_Commit(skin);
+    }
+    if (skin->settling.count > 0) {
+        if (!PayPass(to, quotas)) {
+            return KIRI_MORE;
+        }
+        kiriSkin_Sort(skin, to->memory);
+    }
+    return KIRI_DONE;
+}
+
+/* All that is seen of it but where. */
+static kiriProgress WriteTopologyOfPart(kiriSheetData* to, kiriQuotas* quotas)
+{
+    if (to->seen.surface.vertexCount > 0) {
+        return KIRI_DONE;
+    }
+    if (!PayPass(to, quotas)) {
+        return KIRI_MORE;
+    }
+    if (!kiriView_Resize(to, to->update->placing.sites.count, to->points.count)) {
+        return KIRI_FAILED;
+    }
+    kiriSurface_WriteTopology(&to->seen.surface, &to->mesh);
+    return KIRI_DONE;
+}
+
+kiriProgress kiriExtraction_GoOn(kiriExtraction* extraction, int32_t piece, kiriSheetData* to, kiriQuotas* quotas)
+{
+    kiriProgress progress = MakeMeshOfPart(extraction, piece, to, &quotas->of[KIRI_QUOTA_CELLS]);
+    progress = progress == KIRI_DONE ? MakeFieldsOfPart(extraction, piece, to, quotas) : progress;
+    progress = progress == KIRI_DONE ? SortWeightsOfPart(to, quotas) : progress;
+    progress = progress == KIRI_DONE ? kiriStage_Owners(to, &quotas->of[KIRI_QUOTA_SAMPLES]) : progress;
+    return progress == KIRI_DONE ? WriteTopologyOfPart(to, quotas) : progress;
 }
 
 static bool EndPart(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
@@ -309,9 +349,7 @@ static bool EndPart(kiriExtraction* extraction, int32_t piece, kiriSheetData* to
 bool kiriExtraction_Build(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
 {
     kiriQuotas unlimited = kiriQuotas_Unlimited();
-    bool isBegun = to->mesh.vertices.count > 0;
-    return (isBegun || kiriExtraction_Begin(extraction, piece, to)) &&
-           kiriExtraction_GoOn(extraction, piece, to, &unlimited) == KIRI_DONE && EndPart(extraction, piece, to);
+    return kiriExtraction_GoOn(extraction, piece, to, &unlimited) == KIRI_DONE && EndPart(extraction, piece, to);
 }
 
 void kiriExtraction_Drop(kiriExtraction* extraction)

@@ -24,7 +24,6 @@ bool kiriExtraction_Build(kiriExtraction* extraction, int32_t piece, kiriSheetDa
 
 /* The same little by little, before the piece leaves: its mesh, then its fields and weights as far as the quotas go. These
    depend on the mesh of the sheet alone, so long as that is the same; all else Build takes as it is in the end. */
-bool kiriExtraction_Begin(kiriExtraction* extraction, int32_t piece, kiriSheetData* to);
 kiriProgress kiriExtraction_GoOn(kiriExtraction* extraction, int32_t piece, kiriSheetData* to, kiriQuotas* quotas);
 
 /* What it takes to make sheets of this share of a sheet's area, in samples. */

@@ -20,7 +20,14 @@ static bool ReserveMap(kiriKeep* map, kiriMemory* memory, int32_t items)
     return true;
 }
 
-static bool ReserveTaking(kiriSheetData* sheet)
+bool kiriGather_IsReserved(const kiriSheetData* sheet)
+{
+    const kiriTaking* taking = &sheet->taking;
+    return taking->vertices.to.count == sheet->mesh.vertices.count &&
+           taking->triangles.to.count == sheet->mesh.triangles.count && taking->cells.count == sheet->grid.cells.count;
+}
+
+bool kiriGather_Reserve(kiriSheetData* sheet)
 {
     kiriTaking* taking = &sheet->taking;
     int32_t known = taking->cells.count, cells = sheet->grid.cells.count;
@@ -46,21 +53,6 @@ static bool TakeGatheredCell(kiriGathered* gathered, int32_t cell)
     }
     *mark = 1;
     return true;
-}
-
-/* Straight steps lead to all material of a piece, and to no other. */
-static bool FloodCells(kiriGathered* gathered, int32_t from)
-{
-    const kiriGrid* grid = &gathered->sheet->grid;
-    bool ok = true;
-    for (int32_t k = from; ok && k < gathered->cells.count; ++k) {
-        kiriSteps steps;
-        kiriGrid_GetStepsTo(grid, gathered->cells.data[k], 1, &steps);
-        for (int32_t s = 0; ok && s < steps.end[0]; ++s) {
-            ok = TakeGatheredCell(gathered, steps.data[s].cell);
-        }
-    }
-    return ok;
 }
 
 /* ---- Triangles and vertices ---- */
@@ -98,15 +90,25 @@ static bool TakeTrianglesOf(kiriGathered* gathered, int32_t cell)
     return ok;
 }
 
-/* The items from `from` on, put in order. `ok` gets false for memory. */
-static kiriSpan SortSpan(kiriGathered* gathered, kiriIndices* items, int32_t from, bool* ok)
+/* Goes on from a cell that was taken: straight steps lead to all material of a piece, and to no other. */
+static bool TakeAround(kiriGathered* gathered, int32_t cell)
 {
-    kiriSpan span = { from, items->count - from };
-    *ok = *ok && kiriArray_Reserve(gathered->memory, &gathered->room, span.count);
-    if (*ok && span.count > 0) {
-        kiriSort_Numbers(items->data + from, gathered->room.data, span.count);
+    kiriSteps steps;
+    bool ok = TakeTrianglesOf(gathered, cell);
+    kiriGrid_GetStepsTo(&gathered->sheet->grid, cell, 1, &steps);
+    for (int32_t s = 0; ok && s < steps.end[0]; ++s) {
+        ok = TakeGatheredCell(gathered, steps.data[s].cell);
     }
-    return span;
+    return ok;
+}
+
+static bool SortSpan(kiriGathered* gathered, kiriIndices* items, kiriSpan span)
+{
+    bool ok = kiriArray_Reserve(gathered->memory, &gathered->room, span.count);
+    if (ok && span.count > 0) {
+        kiriSort_Numbers(items->data + span.first, gathered->room.data, span.count);
+    }
+    return ok;
 }
 
 static void ClearMap(kiriKeep* map, const int32_t* items, int32_t count)
@@ -158,23 +160,34 @@ static bool IsWhole(const kiriGathered* gathered, int32_t firstCell, int32_t fir
     return isWhole && left == 0;
 }
 
+/* ---- Marks ---- */
+
+static void MarkItems(kiriKeep* map, const kiriIndices* items)
+{
+    for (int32_t k = 0; k < items->count; ++k) {
+        map->to.data[items->data[k]] = 0;
+    }
+    map->count = items->count;
+}
+
 /* ---- Pieces ---- */
 
-/* The cells from `from` on are those of the piece. Its marks go again, so that those of each piece are alone. */
-static bool TakeFlooded(kiriGathered* gathered, int32_t piece, int32_t from)
+/* All of the piece that the last cell is of. Its marks go again, so that those of each piece are alone. */
+static bool TakeWholePiece(kiriGathered* gathered, int32_t piece)
 {
     kiriTaking* taking = &gathered->sheet->taking;
     kiriIndices *triangles = &gathered->triangles, *vertices = &gathered->vertices;
-    int32_t firstTriangle = triangles->count, firstVertex = vertices->count;
+    kiriGatheredPiece taken = { piece, { triangles->count, 0 }, { vertices->count, 0 } };
+    int32_t firstCell = gathered->cells.count - 1;
     bool ok = true;
-    for (int32_t k = from; ok && k < gathered->cells.count; ++k) {
-        ok = TakeTrianglesOf(gathered, gathered->cells.data[k]);
+    for (int32_t k = firstCell; ok && k < gathered->cells.count; ++k) {
+        ok = TakeAround(gathered, gathered->cells.data[k]);
     }
-    ok = ok && IsWhole(gathered, from, firstTriangle);
-    kiriGatheredPiece taken = { piece, SortSpan(gathered, triangles, firstTriangle, &ok),
-                                SortSpan(gathered, vertices, firstVertex, &ok) };
-    ClearMap(&taking->triangles, triangles->data + firstTriangle, triangles->count - firstTriangle);
-    ClearMap(&taking->vertices, vertices->data + firstVertex, vertices->count - firstVertex);
+    ok = ok && IsWhole(gathered, firstCell, taken.triangles.first);
+    taken.triangles.count = triangles->count - taken.triangles.first;
+    taken.vertices.count = vertices->count - taken.vertices.first;
+    ClearMap(&taking->triangles, triangles->data + taken.triangles.first, taken.triangles.count);
+    ClearMap(&taking->vertices, vertices->data + taken.vertices.first, taken.vertices.count);
     return ok && kiriArray_Push(gathered->memory, &gathered->pieces, taken);
 }
 
@@ -195,10 +208,8 @@ static bool TakePieces(kiriGathered* gathered, const uint8_t* stays)
     int32_t last = KIRI_NONE;
     for (int32_t f = 0; ok && f < sheet->frames.count; ++f) {
         int32_t piece = sheet->layout.framePiece.data[f], cell = sheet->frames.data[f].site.cell;
-        int32_t from = gathered->cells.count;
         if (!stays[piece] && !sheet->taking.cells.data[cell]) {
-            ok = piece > last && TakeGatheredCell(gathered, cell) && FloodCells(gathered, from) &&
-                 TakeFlooded(gathered, piece, from);
+            ok = piece > last && TakeGatheredCell(gathered, cell) && TakeWholePiece(gathered, piece);
             last = piece;
         }
     }
@@ -233,18 +244,114 @@ static bool ListSquares(kiriGathered* gathered)
     return true;
 }
 
-bool kiriGather_Make(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory, const uint8_t* stays)
+static bool StartGathering(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory)
 {
     KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
     memset(gathered, 0, sizeof(*gathered));
     gathered->sheet = sheet;
     gathered->memory = memory;
-    if (!ReserveTaking(sheet)) {
+    return kiriGather_Reserve(sheet);
+}
+
+static bool SortGathered(kiriGathered* gathered)
+{
+    bool ok = true;
+    for (int32_t p = 0; ok && p < gathered->pieces.count; ++p) {
+        ok = SortSpan(gathered, &gathered->triangles, gathered->pieces.data[p].triangles) &&
+             SortSpan(gathered, &gathered->vertices, gathered->pieces.data[p].vertices);
+    }
+    gathered->isDone = ok && ListSquares(gathered);
+    return gathered->isDone;
+}
+
+bool kiriGather_Make(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory, const uint8_t* stays)
+{
+    if (!StartGathering(gathered, sheet, memory)) {
         return false;
     }
     bool ok = TakePieces(gathered, stays);
     ClearCells(gathered);
-    return ok && ListSquares(gathered);
+    return ok && SortGathered(gathered);
+}
+
+/* ---- Little by little ---- */
+
+bool kiriGather_Start(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory, int32_t frame)
+{
+    const kiriGatheredPiece none = { sheet->layout.framePiece.data[frame], { 0, 0 }, { 0, 0 } };
+    return StartGathering(gathered, sheet, memory) && kiriArray_Push(memory, &gathered->pieces, none) &&
+           kiriArray_Push(memory, &gathered->cells, sheet->frames.data[frame].site.cell);
+}
+
+/* Others use the maps between two calls. */
+static void MarkTaken(kiriGathered* gathered)
+{
+    kiriTaking* taking = &gathered->sheet->taking;
+    for (int32_t k = 0; k < gathered->cells.count; ++k) {
+        taking->cells.data[gathered->cells.data[k]] = 1;
+    }
+    MarkItems(&taking->triangles, &gathered->triangles);
+    MarkItems(&taking->vertices, &gathered->vertices);
+}
+
+static void UnmarkTaken(kiriGathered* gathered)
+{
+    kiriTaking* taking = &gathered->sheet->taking;
+    ClearCells(gathered);
+    ClearMap(&taking->triangles, gathered->triangles.data, gathered->triangles.count);
+    ClearMap(&taking->vertices, gathered->vertices.data, gathered->vertices.count);
+    taking->triangles.count = taking->vertices.count = 0;
+}
+
+/* What the cell is worth, in items. */
+static int64_t EffortOf(const kiriGathered* gathered, int32_t cell)
+{
+    const kiriSheetData* sheet = gathered->sheet;
+    return 1 + kiriSquares_CountNodes(&sheet->mesh.squares, sheet->grid.cells.data[cell].square) / 2;
+}
+
+static bool TakeSome(kiriGathered* gathered, kiriQuota* quota)
+{
+    bool ok = true;
+    MarkTaken(gathered);
+    while (ok && gathered->looked < gathered->cells.count && kiriQuota_Pay(quota, &gathered->due)) {
+        int32_t cell = gathered->cells.data[gathered->looked++];
+        gathered->due = EffortOf(gathered, cell);
+        ok = TakeAround(gathered, cell);
+    }
+    UnmarkTaken(gathered);
+    return ok;
+}
+
+static kiriProgress LookWhetherAll(kiriGathered* gathered, kiriQuota* quota)
+{
+    if (!gathered->isWhole) {
+        if (!kiriQuota_Take(quota, 1 + gathered->triangles.count / 2)) {
+            return KIRI_MORE;
+        }
+        MarkTaken(gathered);
+        gathered->isWhole = IsWhole(gathered, 0, 0);
+        UnmarkTaken(gathered);
+    }
+    return gathered->isWhole ? KIRI_DONE : KIRI_FAILED;
+}
+
+kiriProgress kiriGather_GoOn(kiriGathered* gathered, kiriQuota* quota)
+{
+    KIRI_ASSERT(!gathered->isDone && kiriGather_IsReserved(gathered->sheet));
+    if (gathered->looked < gathered->cells.count && !TakeSome(gathered, quota)) {
+        return KIRI_FAILED;
+    }
+    kiriProgress progress = gathered->looked == gathered->cells.count ? LookWhetherAll(gathered, quota) : KIRI_MORE;
+    if (progress == KIRI_DONE && !kiriQuota_Take(quota, 1 + gathered->triangles.count / 4)) {
+        progress = KIRI_MORE;
+    }
+    if (progress != KIRI_DONE) {
+        return progress;
+    }
+    gathered->pieces.data[0].triangles.count = gathered->triangles.count;
+    gathered->pieces.data[0].vertices.count = gathered->vertices.count;
+    return SortGathered(gathered) ? KIRI_DONE : KIRI_FAILED;
 }
 
 const kiriGatheredPiece* kiriGather_Find(const kiriGathered* gathered, int32_t piece)
@@ -263,14 +370,6 @@ const kiriGatheredPiece* kiriGather_Find(const kiriGathered* gathered, int32_t p
 }
 
 /* ---- All of them ---- */
-
-static void MarkItems(kiriKeep* map, const kiriIndices* items)
-{
-    for (int32_t k = 0; k < items->count; ++k) {
-        map->to.data[items->data[k]] = 0;
-    }
-    map->count = items->count;
-}
 
 void kiriGather_Mark(kiriGathered* gathered)
 {

@@ -18,12 +18,23 @@ typedef struct kiriGathered {
     KIRI_ARRAY(kiriGatheredPiece) pieces;            /* in their order */
     kiriIndices triangles, vertices, cells, squares; /* squares: those of the cells, each once */
     kiriIndices room;                                /* to sort them */
-    bool isMarked;
+    int32_t looked; /* cells that it has gone on from, where it is made little by little, */
+    int64_t due;    /* and what the last one of these is still to be paid with */
+    bool isWhole, isDone, isMarked;
 } kiriGathered;
+
+/* Room to gather pieces, which is as large as the sheet. Start reserves it where it is not there. False for memory. */
+bool kiriGather_IsReserved(const kiriSheetData* sheet);
+bool kiriGather_Reserve(kiriSheetData* sheet);
 
 /* Gathers the pieces that `stays` is 0 for. Fields belong to the mesh as it is (kiriUpdate_IsFieldCurrent). False for memory,
    which the caller frees; and where pieces are not what they must be, in a sheet from bytes that somebody made up. */
 bool kiriGather_Make(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory, const uint8_t* stays);
+
+/* The same for the piece of one frame, little by little, while the mesh stays as it is. An item of the quota is a cell, or
+   two of the triangles in its square; or four triangles that are put in order, which takes one call. */
+bool kiriGather_Start(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory, int32_t frame);
+kiriProgress kiriGather_GoOn(kiriGathered* gathered, kiriQuota* quota);
 
 /* One of the pieces that were gathered. */
 const kiriGatheredPiece* kiriGather_Find(const kiriGathered* gathered, int32_t piece);

@@ -167,6 +167,7 @@ typedef struct kiriAhead {
     uint32_t revision;             /* of the mesh that it is made of */
     struct kiriSheetData* part;    /* null: not begun */
     struct kiriGathered* gathered; /* what belongs to the piece; null: not yet */
+    bool isMade;                   /* is all of the part there that depends on the mesh alone? */
     kiriMemory memory;             /* of that */
 } kiriAhead;
 

@@ -21,6 +21,9 @@ kiriProgress kiriStage_Settle(kiriSheetData* sheet, kiriQuota* samples);
 typedef kiriProgress kiriStageStep(kiriSheetData* sheet, kiriQuota* quota);
 kiriProgress kiriStage_RunSteps(kiriSheetData* sheet, kiriQuota* quota, kiriStageStep* const* steps, int32_t count);
 
+/* Of a sheet that is made: the first step of the constants, which depends on the mesh alone. */
+kiriProgress kiriStage_Owners(kiriSheetData* sheet, kiriQuota* samples);
+
 /* Stages the solver for so many frames, with the links and the layout that are staged. False for memory. */
 bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount);
 

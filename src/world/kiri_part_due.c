@@ -40,11 +40,17 @@ static int64_t CostOfLeaving(const kiriWorld* world, const kiriSheetData* sheet,
     return (int64_t)(kiriRemoval_Samples(sheet, gone + share) + kiriExtraction_Samples(sheet, share));
 }
 
+/* Is the first of those that leave made ahead, and not done? Where there is no limit it is done at once. */
+static bool IsAtWork(const kiriWorld* world, const kiriSheetData* sheet)
+{
+    return world->budget.samples > 0 && sheet->leaving.count > 0 && kiriAhead_IsAtWork(sheet, sheet->leaving.data[0]);
+}
+
 /* How many of those that leave the samples pay for, what was paid before with them: one at least, which takes several ticks
    if need be. KIRI_NONE: it is not paid for yet. */
 static int32_t PayForLeaving(const kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)
 {
-    int32_t count = sheet->leaving.count > 0, most = sheet->leaving.count;
+    int32_t count = sheet->leaving.count > 0, most = IsAtWork(world, sheet) ? 1 : sheet->leaving.count;
     int64_t paid = sheet->leavingPaid, cost = CostOfLeaving(world, sheet, count);
     while (count < most) {
         int32_t more = most - count > 16 ? count + (most - count) / 2 : count + 1;
@@ -62,14 +68,14 @@ static int32_t PayForLeaving(const kiriWorld* world, kiriSheetData* sheet, kiriQ
     return isPaid ? count : KIRI_NONE;
 }
 
-/* With what has just been paid: somewhat faster than that, so that all is made when all is paid. Cells of a sheet that is
+/* With what has just been paid: faster than that, so that all is made when all is paid. Cells and samples of a sheet that is
    made anew take less than those beside a cut. */
 static void GoAhead(kiriWorld* world, kiriSheetData* sheet, int64_t samples)
 {
-    enum { CELLS_FOR_A_SAMPLE = 24 };
+    enum { CELLS_FOR_A_SAMPLE = 10, SAMPLES_FOR_A_SAMPLE = 2 };
     kiriQuotas quotas = kiriQuotas_Unlimited();
     quotas.of[KIRI_QUOTA_CELLS].left = CELLS_FOR_A_SAMPLE * samples;
-    quotas.of[KIRI_QUOTA_SAMPLES].left = samples + samples / 2;
+    quotas.of[KIRI_QUOTA_SAMPLES].left = SAMPLES_FOR_A_SAMPLE * samples;
     if (sheet->leaving.count > 0 && samples > 0) {
         kiriAhead_GoOn(sheet, sheet->leaving.data[0], &world->memory, &quotas);
     }
@@ -84,6 +90,11 @@ int32_t kiriParts_Finish(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samp
     ForgetStaleLeaving(world, sheet);
     int64_t used = samples->used;
     int32_t count = PayForLeaving(world, sheet, samples);
+    if (IsAtWork(world, sheet)) {
+        int64_t rest = count != KIRI_NONE ? samples->left : 0; /* it has cost more than was thought */
+        (void)kiriQuota_Pay(samples, &rest);
+        count = KIRI_NONE;
+    }
     if (count == KIRI_NONE) {
         GoAhead(world, sheet, samples->used - used);
         return 0;
