@@ -352,6 +352,26 @@ static void WeightIsOfNoFrame(kiriSheetData* sheet)
     sheet->shape.weights.data[sheet->shape.spans.data[0].first].label = 1 << 20;
 }
 
+static void LabelIsOfAnotherFrame(kiriSheetData* sheet)
+{
+    kiriLabels* labels = &sheet->shape.labels;
+    assert_true(kiriArray_Push(sheet->memory, &labels->itemOf, 1) &&
+                kiriArray_Push(sheet->memory, &labels->labelOf, 0));
+}
+
+/* Labels are sound, but one that weights have is said to be no longer used. */
+static void LabelIsOfNoFrame(kiriSheetData* sheet)
+{
+    kiriLabels* labels = &sheet->shape.labels;
+    assert_true(kiriArray_Push(sheet->memory, &labels->itemOf, KIRI_NONE));
+    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+        assert_true(kiriArray_Push(sheet->memory, &labels->itemOf, f) &&
+                    kiriArray_Push(sheet->memory, &labels->labelOf, f + 1));
+    }
+    assert_true(kiriLabels_AreSound(labels, sheet->frames.count));
+    assert_true(kiriReaches_Resize(&sheet->shape.reaches, sheet->memory, 0, sheet->frames.count + 1));
+}
+
 static void WeightIsZero(kiriSheetData* sheet)
 {
     sheet->shape.weights.data[sheet->shape.spans.data[0].first].raw = 0.0;
@@ -390,6 +410,8 @@ static void TestShape(void** state)
     (void)state;
     static const Spoiler spoilers[] = {
         { "WeightIsOfNoFrame", WeightIsOfNoFrame },
+        { "LabelIsOfAnotherFrame", LabelIsOfAnotherFrame },
+        { "LabelIsOfNoFrame", LabelIsOfNoFrame },
         { "WeightIsZero", WeightIsZero },
         { "SpansOverlap", SpansOverlap },
         { "DistanceIsNegative", DistanceIsNegative },
