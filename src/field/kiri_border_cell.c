@@ -45,9 +45,11 @@ void kiriBorderCells_Put(kiriBorderCells* lists, int32_t cell, int32_t region)
 
 void kiriBorderCells_Keep(kiriBorderCells* lists, const kiriKeep* regions)
 {
-    for (int32_t r = regions->first; r < lists->first.count; ++r) {
-        for (int32_t c = lists->first.data[r]; c != KIRI_NONE; c = lists->cells.data[c].next) {
-            lists->cells.data[c].region = kiriKeep_To(regions, r);
+    const int32_t *to = regions->to.data, first = regions->first;
+    for (int32_t c = 0; c < lists->cells.count && kiriKeep_Moves(regions); ++c) {
+        kiriBorderCell* cell = &lists->cells.data[c];
+        if (cell->region >= first) {
+            cell->region = to[cell->region];
         }
     }
     kiriKeep_Compact(regions, &lists->first, 1, sizeof(int32_t));

@@ -238,14 +238,12 @@ static void UnlistVertices(kiriMeshData* mesh, const kiriKeep* keep, int32_t squ
 void kiriMesh_LeaveHoles(kiriMeshData* mesh, const kiriMeshLoss* loss)
 {
     KIRI_ASSERT(!mesh->isOpen && mesh->savedTriangles.count == 0);
-    for (int32_t k = 0; k < loss->triangles->count; ++k) {
-        LeaveNeighbours(mesh, loss, loss->triangles->data[k]);
-    }
     for (int32_t k = 0; k < loss->squares->count; ++k) {
         UnlistVertices(mesh, &loss->keepVertices, loss->squares->data[k]);
     }
     kiriSquares_Keep(&mesh->squares, &loss->keepTriangles, loss->squares->data, loss->squares->count);
     for (int32_t k = 0; k < loss->triangles->count; ++k) {
+        LeaveNeighbours(mesh, loss, loss->triangles->data[k]);
         kiriTriangle* t = &mesh->triangles.data[loss->triangles->data[k]];
         *t = (kiriTriangle){
             { KIRI_NONE, KIRI_NONE, KIRI_NONE }, { KIRI_NONE, KIRI_NONE, KIRI_NONE }, t->source, KIRI_NONE, 0, t->stamp

@@ -102,6 +102,7 @@ static bool TakeAround(kiriGathered* gathered, int32_t cell)
     return ok;
 }
 
+/* In their order they are near each other in memory. */
 static bool SortSpan(kiriGathered* gathered, kiriIndices* items, kiriSpan span)
 {
     bool ok = kiriArray_Reserve(gathered->memory, &gathered->room, span.count);
@@ -255,7 +256,7 @@ static bool StartGathering(kiriGathered* gathered, kiriSheetData* sheet, kiriMem
 
 static bool SortGathered(kiriGathered* gathered)
 {
-    bool ok = true;
+    bool ok = SortSpan(gathered, &gathered->cells, (kiriSpan){ 0, gathered->cells.count });
     for (int32_t p = 0; ok && p < gathered->pieces.count; ++p) {
         ok = SortSpan(gathered, &gathered->triangles, gathered->pieces.data[p].triangles) &&
              SortSpan(gathered, &gathered->vertices, gathered->pieces.data[p].vertices);

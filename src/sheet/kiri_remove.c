@@ -163,7 +163,10 @@ bool kiriRemoval_IsWorthAPass(const kiriSheetData* sheet, double share)
 
 double kiriRemoval_Samples(const kiriSheetData* sheet, double share)
 {
-    enum { RENUMBERED_VERTICES = 80, PASSED_VERTICES = 12 }; /* for one: weights are renumbered; all moves together */
+    enum {
+        RENUMBERED_VERTICES = 80,
+        PASSED_VERTICES = 12
+    }; /* for one: owners get other indices, and what a host holds is copied; all moves together */
     const kiriMeshData* mesh = &sheet->mesh;
     double vertices = (double)mesh->vertices.count - mesh->vertexHoles;
     double pass = kiriRemoval_IsWorthAPass(sheet, share) ? vertices / PASSED_VERTICES : 0.0;
