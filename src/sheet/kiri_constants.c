@@ -88,7 +88,7 @@ static int64_t ItemsOfCommit(const kiriSheetData* sheet)
     int64_t weights = (int64_t)sheet->vertexSkin.staged.count + sheet->pointSkin.staged.count;
     int64_t elements = (int64_t)sheet->links.next.count + sheet->links.nextCorners.count + u->placing.sites.count;
     return 1 + weights / WEIGHTS_AN_ITEM + u->refit.ownership.staged.count / OWNERS_AN_ITEM + u->newFrames.count +
-           ITEMS_OF_FIT * (int64_t)u->refit.most + elements * 2 / 3;
+           ITEMS_OF_FIT * (int64_t)u->refit.most + elements;
 }
 
 /* Where new frames take their motion from the surface: their anchors, and the triangles there. */

@@ -110,7 +110,7 @@ static void ListWeightRooms(kiriSheetData* sheet, kiriRoom rooms[WEIGHT_ROOMS])
 
 kiriProgress kiriRoom_ForWeights(kiriSheetData* sheet, kiriQuota* samples)
 {
-    enum { WEIGHT_BYTES = 4096 }; /* that an item moves */
+    enum { WEIGHT_BYTES = 2048 }; /* that an item moves */
     kiriRoom rooms[WEIGHT_ROOMS];
     ListWeightRooms(sheet, rooms);
     StartGrowing(sheet);
