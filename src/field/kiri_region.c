@@ -2,9 +2,12 @@
 
 /* ---- Seeds ------------------------------------------------------------------------------------------------------- */
 
+/* A site of bytes that were made up may be anywhere: ways go on from there. */
 static int32_t GridLength(double meters, double side)
 {
-    return (int32_t)(KIRI_UNIT * (meters / side) + 0.5);
+    const double most = KIRI_FAR / 2;
+    double length = KIRI_UNIT * (meters / side) + 0.5;
+    return (int32_t)(length < most ? length : most);
 }
 
 static double WayTo(const kiriSite* site, const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
@@ -175,7 +178,8 @@ static void MarkDirtyAround(const RegionUpdate* u, int32_t cell)
     }
 }
 
-static void MoveSites(const RegionUpdate* u)
+/* False where two sites come to one cell, of bytes that were made up. */
+static bool MoveSites(const RegionUpdate* u)
 {
     int32_t* siteAt = u->regions->siteAt.data;
     for (int32_t k = 0; k < u->moveCount; ++k) {
@@ -187,10 +191,14 @@ static void MoveSites(const RegionUpdate* u)
     for (int32_t k = 0; k < u->moveCount; ++k) {
         int32_t frame = u->moves[k].frame;
         KIRI_ASSERT(frame >= 0 && frame < u->siteCount && kiriGrid_IsCell(u->grid, u->sites[frame].cell));
-        KIRI_ASSERT(siteAt[u->sites[frame].cell] == KIRI_NONE || siteAt[u->sites[frame].cell] == frame);
-        siteAt[u->sites[frame].cell] = frame;
+        int32_t* at = &siteAt[u->sites[frame].cell];
+        if (*at != KIRI_NONE && *at != frame) {
+            return false;
+        }
+        *at = frame;
         MarkRegionDirty(u->regions, frame);
     }
+    return true;
 }
 
 /* What the grid has changed since the last update. */
@@ -222,24 +230,26 @@ static void FollowGrid(const RegionUpdate* u)
     }
 }
 
-static void MarkDirtyCells(const RegionUpdate* u)
+static bool MarkDirtyCells(const RegionUpdate* u)
 {
     FollowGrid(u);
-    MoveSites(u);
+    if (!MoveSites(u)) {
+        return false;
+    }
     for (int32_t k = 0; k < u->moveCount; ++k) {
         if (u->moves[k].was != KIRI_NONE) {
             MarkDirtyAround(u, u->moves[k].was);
         }
         MarkDirtyAround(u, u->sites[u->moves[k].frame].cell);
     }
+    return true;
 }
 
 /* From scratch: the seeds of all sites, without those in the cell of another site (see NearestSiteSeed). */
 static bool StartRegionFlood(const RegionUpdate* u)
 {
     kiriSeeds seeds = { 0 };
-    bool ok = true;
-    MoveSites(u);
+    bool ok = MoveSites(u);
     for (int32_t i = 0; ok && i < u->siteCount; ++i) {
         ok = kiriSite_Seed(&u->sites[i], i, u->memory, u->grid, u->mesh, &seeds);
     }
@@ -419,10 +429,7 @@ static bool BeginRegions(const RegionUpdate* u)
     if (!MakeRegionRoom(u) || (r->flooding && !StartRegionFlood(u))) {
         return false;
     }
-    if (!r->flooding) {
-        MarkDirtyCells(u);
-    }
-    return true;
+    return r->flooding || MarkDirtyCells(u);
 }
 
 static kiriProgress DivideCells(const RegionUpdate* u, kiriQuota* quota)

@@ -119,7 +119,9 @@ static bool CollectPairs(kiriSolver* solver, const kiriSystem* next, const int32
         int32_t* members = solver->members.data;
         int32_t count = kiriElement_Members(next, k, members);
         for (int32_t b = 1; b < count; ++b) {
-            KIRI_ASSERT(framePiece[members[b]] == framePiece[members[0]]);
+            if (framePiece[members[b]] != framePiece[members[0]]) {
+                return false; /* of bytes that were made up */
+            }
             for (int32_t a = 0; a < b; ++a) {
                 kiriPair pair = { members[a], members[b] };
                 if (!IsPairOfLink(next, k, pair) && !kiriArray_Push(solver->memory, &solver->pairs, pair)) {

@@ -34,8 +34,9 @@ static bool MakeFlags(kiriSheetData* sheet)
 }
 
 /* The cell of a site that was there. Cells only ever fall apart, so two sites that had cells of their own still can:
-   where rounding says otherwise, the later site takes a free cell of its square. Cells that are taken are flagged. */
-static void Relocate(kiriSheetData* sheet, int32_t frame)
+   where rounding says otherwise, the later site takes a free cell of its square. Cells that are taken are flagged. False
+   where none is free, of bytes that were made up. */
+static bool Relocate(kiriSheetData* sheet, int32_t frame)
 {
     kiriUpdate* u = sheet->update;
     int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, sheet->frames.data[frame].anchor);
@@ -45,8 +46,12 @@ static void Relocate(kiriSheetData* sheet, int32_t frame)
             cell = sheet->grid.cells.data[cell].next;
         }
     }
+    if (u->placing.flags.data[cell]) {
+        return false;
+    }
     u->placing.flags.data[cell] = 1;
     u->placing.sites.data[frame].cell = cell;
+    return true;
 }
 
 /* The square of the site that was in a cell, or KIRI_NONE. */
@@ -114,10 +119,12 @@ bool kiriSites_Relocate(kiriSheetData* sheet)
         return false;
     }
     int32_t kept = 0;
-    for (int32_t m = 0; m < u->placing.moves.count; ++m) {
-        Relocate(sheet, u->placing.moves.data[m].frame);
+    int32_t found = 0;
+    while (found < u->placing.moves.count && Relocate(sheet, u->placing.moves.data[found].frame)) {
+        ++found;
     }
-    for (int32_t m = 0; m < u->placing.moves.count; ++m) {
+    bool ok = found == u->placing.moves.count;
+    for (int32_t m = 0; m < found; ++m) {
         kiriSiteMove move = u->placing.moves.data[m];
         u->placing.flags.data[u->placing.sites.data[move.frame].cell] = 0;
         if (u->placing.sites.data[move.frame].cell != move.was) {
@@ -125,7 +132,7 @@ bool kiriSites_Relocate(kiriSheetData* sheet)
         }
     }
     u->placing.moves.count = kept;
-    return true;
+    return ok;
 }
 
 /* ---- What the grid carries ---- */
