@@ -175,19 +175,19 @@ HitOutcome MeasureHit(double ratio, bool isFlat, int substeps)
     return { (after - before).Length() / before.Length(), (rig.Totals().kineticEnergy + BodyEnergy(*crate)) / energy };
 }
 
-FallOutcome MeasureFall(double ratio, bool isFlat)
+FallOutcome MeasureFall(double ratio, bool isFlat, double start)
 {
     Rig rig;
     /* Pins tell what they did as exactly as the systems are solved. */
     kiriSheetDef def = BannerDef();
     def.iterations = 8;
     def.material.airDamping = 0.0f;
-    const float length = 1.0f, width = isFlat ? 0.03f : 0.3f, start = 0.4f;
+    const float length = 1.0f, width = isFlat ? 0.03f : 0.3f;
     rig.AddSheet(0.0f, 0.0f, length, width, isFlat, 0.0f, &def);
     std::vector<kiriPin> pins;
     HoldEnds(&rig, length, width, false, &pins);
     const float mass = static_cast<float>(rig.Totals().mass * ratio);
-    b2Body* crate = rig.AddBox(0.0f, start, 0.2f, 0.2f, mass, 0.5f);
+    b2Body* crate = rig.AddBox(0.0f, static_cast<float>(start), 0.2f, 0.2f, mass, 0.5f);
     crate->SetSleepingAllowed(false);
     b2Vec2 given(0.0f, 0.0f), first = SheetMomentum(rig);
     FallOutcome outcome = { 0.0, 0.0, -1.0 };

@@ -9,12 +9,12 @@ struct HitOutcome {
 };
 HitOutcome MeasureHit(double ratio, bool isFlat, int substeps);
 
-/* A crate `ratio` times as heavy as a banner falls on it, which is pinned: momentum of both less what weight and pins gave,
+/* A crate `ratio` times as heavy as a banner falls on it from `start` m above, which is pinned: momentum of both less what weight and pins gave,
    at most, by the most that one of them had; and how deep the banner is in the crate at the end (m). */
 struct FallOutcome {
     double momentumError, depth, highest; /* m: how far the crate was thrown above where it fell from */
 };
-FallOutcome MeasureFall(double ratio, bool isFlat);
+FallOutcome MeasureFall(double ratio, bool isFlat, double start = 0.4);
 
 /* Does a crate slide down a clamped sheet that is tilted so; a sheet down a static box? */
 bool CrateSlides(double friction, double degrees);

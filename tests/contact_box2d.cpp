@@ -1,6 +1,7 @@
 /* Sheets among bodies of Box2D, for `make contact`. */
 #include "box2d_laws.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <initializer_list>
@@ -21,6 +22,19 @@ template <typename Slides> static void MeasureAngle(const char* name, double fri
     Contact_Line("box2d friction angle", name, 0.5 * (from + holds), law, 1.0, "degrees");
 }
 
+/* The worst of several falls: cloths are chaotic, and a fall from a millimetre higher ends differently. */
+static FallOutcome MeasureFalls(double ratio, bool isFlat)
+{
+    FallOutcome worst = { 0.0, 0.0, -1.0 };
+    for (int k = 0; k < 8; ++k) {
+        FallOutcome fall = MeasureFall(ratio, isFlat, 0.4 + 0.001 * k);
+        worst.momentumError = std::max(worst.momentumError, fall.momentumError);
+        worst.highest = std::max(worst.highest, fall.highest);
+        worst.depth = std::fabs(fall.depth) > std::fabs(worst.depth) || k == 0 ? fall.depth : worst.depth;
+    }
+    return worst;
+}
+
 static void MeasureMomentum(bool isFlat)
 {
     char name[64];
@@ -32,7 +46,7 @@ static void MeasureMomentum(bool isFlat)
             Contact_Limit("box2d hit, energy", name, hit.energy, 1.001, "of 1");
         }
         std::snprintf(name, sizeof name, "%s, crate %g x", isFlat ? "flat" : "cloth", ratio);
-        FallOutcome fall = MeasureFall(ratio, isFlat);
+        FallOutcome fall = MeasureFalls(ratio, isFlat);
         Contact_Limit("box2d fall, momentum", name, 100.0 * fall.momentumError, 1.0, "%");
         Contact_Limit("box2d fall, thrown above", name, 1e3 * fall.highest, 0.0, "mm");
         Contact_Line("box2d fall, depth", name, 1e3 * fall.depth, 0.0, 2.0, "mm");

@@ -15,7 +15,11 @@ typedef struct kiriYieldRow {
     kiriMat3 inverseInertia; /* 1/(kg m^2), world, about the centre; zero: it does not turn */
     kiriVec3 center;         /* m: its centre of mass at the start of the tick */
     kiriWrench impulse;      /* N s, N m s about the centre: what sheets gave it in this tick; a step adds to it */
-    int32_t pressed;         /* scratch: contacts that press on it in the step at hand, and share its mass */
+    int32_t pressed;         /* scratch: contacts that press on it in the step at hand, and share its mass; */
+    int32_t held;            /* those that may be held up when its systems are solved */
+    /* Scratch, see kiri_contact_pinned.c: pushes times the speed along them, N s m/s, of it before and after it gets them,
+       and the most that they may leave it. */
+    double before, after, most;
 } kiriYieldRow;
 
 enum { KIRI_CONTACT_WEIGHTS = 16 }; /* of a row: the largest, made to sum to 1 */

@@ -41,8 +41,7 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, int32
     step->start = kiriContact_Point(solver, system, k, poses);
     kiriVec3 off =
         kiriVec3_Sub(step->start, kiriSystem_PointOfMany(system, row->weights, row->weightCount, row->at, poses));
-    kiriVec3 velocity = kiriVec3_Add(row->velocity, kiriContact_Recoil(system, k, step->start));
-    step->carried = kiriVec3_Scale(solver->dt, velocity);
+    step->carried = kiriVec3_Scale(solver->dt, kiriContact_PlaneVelocity(system, k, step->start));
     double now = row->offset + kiriVec3_Dot(row->normal, kiriVec3_Add(row->way, off));
     double depth = now - kiriVec3_Dot(row->normal, step->start), pushed = row->pushSpeed * solver->dt;
     step->lowered = depth > pushed ? depth - pushed : 0.0;

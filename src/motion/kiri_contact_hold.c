@@ -12,7 +12,9 @@
 /* m: how far the obstacle is pushed down. */
 static double Yielded(const kiriContactStep* step)
 {
-    return step->push > 0.0 ? step->push * step->give : 0.0;
+    double held = step->push - (step->solved > 0.0 ? step->solved : 0.0);
+    double more = held > 0.0 ? held * (step->shared - step->give) : 0.0;
+    return step->push > 0.0 ? step->push * step->give + more : 0.0;
 }
 
 /* Marks the pieces that are too deep in something, and keeps where the systems left them. */
@@ -24,8 +26,8 @@ static bool FindDeep(kiriSolver* solver, const kiriSystem* system)
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
         kiriContactStep* step = &solver->contacts.data[k];
-        double depth = kiriContact_Depth(solver, system, k, solver->poses.data) - Yielded(step);
         step->solved = step->push;
+        double depth = kiriContact_Depth(solver, system, k, solver->poses.data) - Yielded(step);
         if (depth > MOST_DEPTH) {
             kiriContact_PieceOf(solver, system, k)->isSearching = any = true;
         }
@@ -36,6 +38,28 @@ static bool FindDeep(kiriSolver* solver, const kiriSystem* system)
         }
     }
     return any;
+}
+
+/* Contacts that pressed in the last system shared the mass of an obstacle. Many more may be held: all that may be share
+   it now, else each would push the obstacle out as if it were the only one, and a light body would be shot off. */
+static void ShareMass(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t k = 0; k < system->yieldCount; ++k) {
+        system->yields[k].held = 0;
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        int32_t yield = system->contacts[k].yield;
+        if (yield != KIRI_NONE && kiriContact_PieceOf(solver, system, k)->isSearching) {
+            system->yields[yield].held += 1;
+        }
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        const kiriYieldRow* yield =
+            system->contacts[k].yield != KIRI_NONE ? &system->yields[system->contacts[k].yield] : NULL;
+        kiriContactStep* step = &solver->contacts.data[k];
+        int32_t pressed = yield != NULL && yield->pressed > 1 ? yield->pressed : 1;
+        step->shared = yield != NULL && yield->held > pressed ? step->give * yield->held / pressed : step->give;
+    }
 }
 
 /* ---- Frame by frame ----------------------------------------------------------------------------------------------- */
@@ -74,7 +98,7 @@ static bool HoldMember(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     if (system->frames[f].held || !(depth > TOLERABLE_DEPTH) || !(share > 0.0)) {
         return false;
     }
-    double inertia = system->frames[f].mass / (part * part), push = depth / (share / inertia + step->give);
+    double inertia = system->frames[f].mass / (part * part), push = depth / (share / inertia + step->shared);
     step->push += push;
     solver->poses.data[f].x = kiriVec3_AddScaled(solver->poses.data[f].x, push / inertia, along);
     return true;
@@ -103,7 +127,7 @@ static bool HoldPiece(kiriSolver* solver, const kiriSystem* system, int32_t k)
     if (!(piece->mass > 0.0) || !(depth > TOLERABLE_DEPTH) || !(share > 0.0)) {
         return false;
     }
-    double push = depth / (share / inertia + step->give);
+    double push = depth / (share / inertia + step->shared);
     step->push += push;
     KIRI_EACH(f, solver->awake.frames) {
         if (kiriSolver_PieceOf(solver, f) == piece && !system->frames[f].held) {
@@ -169,6 +193,7 @@ void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system)
     if (!FindDeep(solver, system)) {
         return;
     }
+    ShareMass(solver, system);
     TurnBack(solver, system);
     SweepHolds(solver, system, false);
     if (TakeHeld(solver, system)) {

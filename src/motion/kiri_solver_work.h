@@ -62,6 +62,7 @@ typedef struct kiriContactStep {
     double known;           /* N: the largest push that is known of */
     double stiffness, grip; /* N/m: of the springs on depth and slide */
     double give;            /* m/N: how far the obstacle yields in the step, and its cushion */
+    double shared;          /* m/N: the same for what holds the point up after the last system */
     double depth, sinks;    /* m: where the system was assembled, and how it changes by the whole solution */
     kiriVec3 slide, slides; /* m: the same */
     double solved;          /* N: the push that the last system left, before the piece was held up */
@@ -100,6 +101,8 @@ typedef struct kiriPieceStep {
     double mostPush;         /* N: the largest */
     kiriVec3 asked, given;   /* N: the sum of what contacts should do, and of what they can; */
     double keepForces;       /* and what is left of each force */
+    double more;             /* what contacts did, times what they say of themselves; 1 where nobody knows better */
+    double held;             /* N/m: by its pins, all together */
     int32_t solved;          /* systems, since it began */
     bool isCrossing;         /* does friction end the step before all of it is taken? */
     double slope, low, high; /* J: of the objective by the part that is taken; parts between which it is zero */
@@ -278,9 +281,7 @@ static inline kiriVec3 kiriVec3_AlongPlane(kiriVec3 a, kiriVec3 normal)
 kiriVec3 kiriSystem_PointOfMany(const kiriSystem* system, const kiriWeight* weights, int32_t count, kiriVec2 at,
                                 const kiriPose* poses);
 
-/* The velocity that an obstacle has at a point by what sheets gave it in this tick. 1/kg: of the obstacle at a point, along
-   a direction. N/m: of what resists the point of a contact by its inertia alone. */
-kiriVec3 kiriContact_Recoil(const kiriSystem* system, int32_t k, kiriVec3 point);
+/* 1/kg: of the obstacle at a point, along a direction. N/m: of what resists the point of a contact by its inertia alone. */
 double kiriContact_InverseMass(const kiriSystem* system, int32_t k, kiriVec3 point, kiriVec3 along);
 double kiriContact_Inertia(const kiriSolver* solver, const kiriSystem* system, int32_t k);
 
@@ -323,8 +324,14 @@ void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system);
 kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriSystem* system, int32_t k);
 double kiriContact_Work(const kiriSolver* solver, const kiriSystem* system, int32_t k);
 
-/* Scales what contacts say they did to a pinned piece to what its momentum and its pins say
-   (kiri_contact_pinned.c). */
+/* m/s: of the material of the obstacle at a point, with what sheets gave it in this tick. */
+kiriVec3 kiriContact_PlaneVelocity(const kiriSystem* system, int32_t k, kiriVec3 point);
+
+/* Gives what yields so many times what the contact did in the step. */
+void kiriContact_Give(const kiriSolver* solver, const kiriSystem* system, int32_t k, double times);
+
+/* Gives what yields what contacts did in the step. Of a pinned piece that is what its momentum and its pins say, as far as
+   obstacles may have it; its pins have the rest (kiri_contact_pinned.c). */
 void kiriSolver_BalancePinned(kiriSolver* solver, const kiriSystem* system);
 
 /* Writes what the step did to rows, contacts' and those of what yields. */

@@ -57,7 +57,8 @@ static const kiriYieldRow* YieldOf(const kiriSystem* system, int32_t k)
     return system->contacts[k].yield != KIRI_NONE ? &system->yields[system->contacts[k].yield] : NULL;
 }
 
-kiriVec3 kiriContact_Recoil(const kiriSystem* system, int32_t k, kiriVec3 point)
+/* The velocity that an obstacle has at a point by what sheets gave it in this tick. */
+static kiriVec3 Recoil(const kiriSystem* system, int32_t k, kiriVec3 point)
 {
     const kiriYieldRow* yield = YieldOf(system, k);
     if (yield == NULL) {
@@ -69,6 +70,11 @@ kiriVec3 kiriContact_Recoil(const kiriSystem* system, int32_t k, kiriVec3 point)
     kiriVec3 spin = kiriMat3_Mul(yield->inverseInertia, yield->impulse.moment);
     kiriVec3 round = kiriVec3_Cross(spin, kiriVec3_Sub(point, yield->center));
     return kiriVec3_AddScaled(round, yield->inverseMass, yield->impulse.force);
+}
+
+kiriVec3 kiriContact_PlaneVelocity(const kiriSystem* system, int32_t k, kiriVec3 point)
+{
+    return kiriVec3_Add(system->contacts[k].velocity, Recoil(system, k, point));
 }
 
 double kiriContact_InverseMass(const kiriSystem* system, int32_t k, kiriVec3 point, kiriVec3 along)
@@ -423,28 +429,38 @@ double kiriContact_Work(const kiriSolver* solver, const kiriSystem* system, int3
     return kiriVec3_Dot(force, normal) * step->lift + kiriVec3_Dot(force, kiriVec3_AlongPlane(step->carried, normal));
 }
 
+void kiriContact_Give(const kiriSolver* solver, const kiriSystem* system, int32_t k, double times)
+{
+    const kiriContactRow* row = &system->contacts[k];
+    if (row->yield != KIRI_NONE) {
+        kiriYieldRow* yield = &system->yields[row->yield];
+        kiriVec3 impulse =
+            kiriVec3_Scale(kiriContact_PieceOf(solver, system, k)->stepping.part, kiriContact_Force(solver, system, k));
+        kiriVec3 arm = kiriVec3_Sub(kiriContact_Point(solver, system, k, solver->poses.data), yield->center);
+        kiriWrench given = { impulse, kiriVec3_Cross(arm, impulse) };
+        kiriWrench_Add(&yield->impulse, -times, &given);
+    }
+}
+
 /* Impulses of the step, then where it leaves the planes. */
 void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
 {
     if (system->contactCount > 0 && system->pinCount > 0) {
         kiriSolver_BalancePinned(solver, system);
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriContactRow* row = &system->contacts[k];
-        row->force = kiriContact_Force(solver, system, k);
-        kiriVec3 impulse = kiriVec3_Scale(kiriContact_PieceOf(solver, system, k)->stepping.part, row->force);
-        row->impulse = kiriVec3_Add(row->impulse, impulse);
-        if (row->yield != KIRI_NONE) {
-            kiriYieldRow* yield = &system->yields[row->yield];
-            kiriVec3 arm = kiriVec3_Sub(kiriContact_Point(solver, system, k, solver->poses.data), yield->center);
-            kiriWrench given = { impulse, kiriVec3_Cross(arm, impulse) };
-            kiriWrench_Add(&yield->impulse, -1.0, &given);
+    } else {
+        for (int32_t k = 0; k < system->contactCount; ++k) {
+            kiriContact_Give(solver, system, k, 1.0);
         }
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {
         kiriContactRow* row = &system->contacts[k];
+        row->force = kiriContact_Force(solver, system, k);
+        double part = kiriContact_PieceOf(solver, system, k)->stepping.part;
+        row->impulse = kiriVec3_AddScaled(row->impulse, part, row->force);
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriContactRow* row = &system->contacts[k];
         kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data);
-        kiriVec3 velocity = kiriVec3_Add(row->velocity, kiriContact_Recoil(system, k, point));
-        row->way = kiriVec3_AddScaled(row->way, solver->dt, velocity);
+        row->way = kiriVec3_AddScaled(row->way, solver->dt, kiriContact_PlaneVelocity(system, k, point));
     }
 }
