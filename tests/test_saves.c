@@ -133,9 +133,8 @@ static void TestHonestSavesLoad(void** state)
 static void TestWorldsThatWereRefused(void** state)
 {
     (void)state;
-    static const int32_t worlds[] = {
-        10, 63, 107, 1307, 1404, 2233, 2375, 6607, 9226, 14440, 14606, 16011, 17095, 17599
-    };
+    static const int32_t worlds[] = { 10,   63,    107,   1307,  1404,  2233,  2375, 6607,
+                                      9226, 14440, 14606, 16011, 17095, 17599, 22202 };
     for (size_t k = 0; k < sizeof(worlds) / sizeof(worlds[0]); ++k) {
         PlayWorld(worlds[k]);
     }

@@ -111,12 +111,12 @@ static bool AreOfMaterial(const kiriSightEdges* edges, const kiriMeshData* mesh)
     return areFine;
 }
 
-/* Between updates none is marked. */
+/* One that was short of memory may have left marks. */
 static bool AreMarksOfFaces(const kiriLinkWork* work, int32_t faces)
 {
     bool areFine = !work->running || work->marks.count >= faces;
     for (int32_t k = 0; areFine && k < work->marks.count; ++k) {
-        areFine = work->marks.data[k] <= (work->running ? KIRI_FACE_BENT : KIRI_FACE_PASSED);
+        areFine = work->marks.data[k] <= KIRI_FACE_BENT;
     }
     for (int32_t k = 0; areFine && work->running && k < work->faces.count; ++k) {
         areFine = work->faces.data[k] >= 0 && work->faces.data[k] < work->marks.count;
