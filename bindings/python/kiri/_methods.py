@@ -419,12 +419,12 @@ class Frame:
         a square: crumbs are better dropped. Costs what the piece takes to make, and a look at the weights of what
         is left; where indices change more. KIRI_PENDING: work on a cut is at hand in the sheet, or it takes more
         samples than the budget leaves calls before the next tick; *detached is 0. When the work is done, what is
-        the piece of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. About 1.2 samples for
+        the piece of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. About 1.5 samples for
         each vertex of the piece, 0.7 for each cell, and one for 80 vertices of the rest are paid before, over
         several ticks if need be, of many pieces one after the other; until then further cuts of the sheet wait. A
-        piece that is worth more than the samples of a tick is made as they are paid; it leaves in one tick all the
-        same, which takes a third of the work. What a call does at once the coming ticks have less.
-        KIRI_ERROR_STATE: nothing would be left of the sheet.
+        piece that is worth more than the samples of a tick is made as they are paid, and leaves when it is made: in
+        one tick all the same, which takes an eighth of the work. What a call does at once the coming ticks have
+        less. KIRI_ERROR_STATE: nothing would be left of the sheet.
         """
         return self.world.thing('Sheet', self.world.get('kiriFrame_DetachPiece', 'kiriSheet', self.id))
 

@@ -2789,12 +2789,13 @@ impl Frame {
     /// left; where indices change more. [`ResultCode::Pending`]: work on a cut is at hand in the
     /// sheet, or it takes more samples than the budget leaves calls before the next tick;
     /// \*detached is 0. When the work is done, what is the piece of this frame then becomes a
-    /// sheet, and [`EventType::PieceDetached`] names it. About 1.2 samples for each vertex of the
+    /// sheet, and [`EventType::PieceDetached`] names it. About 1.5 samples for each vertex of the
     /// piece, 0.7 for each cell, and one for 80 vertices of the rest are paid before, over several
     /// ticks if need be, of many pieces one after the other; until then further cuts of the sheet
-    /// wait. A piece that is worth more than the samples of a tick is made as they are paid; it
-    /// leaves in one tick all the same, which takes a third of the work. What a call does at once
-    /// the coming ticks have less. [`ResultCode::ErrorState`]: nothing would be left of the sheet.
+    /// wait. A piece that is worth more than the samples of a tick is made as they are paid, and
+    /// leaves when it is made: in one tick all the same, which takes an eighth of the work. What a
+    /// call does at once the coming ticks have less. [`ResultCode::ErrorState`]: nothing would be
+    /// left of the sheet.
     pub fn detach_piece(self, world: &mut World) -> Result<Option<Sheet>> {
         let mut detached = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
