@@ -191,6 +191,45 @@ static void test_a_storm_goes_back(void** state)
     }
 }
 
+/* ---- Inside a square ---------------------------------------------------------------------------------------------- */
+
+/* A square of the grid with many triangles takes more than a tick: the work on it is saved wherever it stops. */
+static void test_work_inside_a_square_goes_on(void** state)
+{
+    (void)state;
+    Host host, other;
+    Host_Start(&host);
+    Host_Start(&other);
+    kiriSheetDef def = Host_SmallDef();
+    def.gridResolution = 2;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 24, 24);
+    kiriBudget budget = { 0 };
+    budget.triangles = budget.samples = 1000;
+    budget.cells = 37;
+    budget.iterations = 100;
+    assert_int_equal(kiriWorld_SetBudget(host.world, &budget), KIRI_OK);
+    const float points[8] = { -0.1f, 0.4f, 1.1f, 0.6f, 0.7f, 1.1f, 0.3f, -0.1f };
+    Host_Cut(&host, sheet, points, 4);
+    kiriResult result = KIRI_PENDING;
+    int32_t ticks = 0;
+    for (; result == KIRI_PENDING && ticks < 2000; ++ticks) {
+        result = Host_Tick(&host, 1.0f / 60.0f, 1);
+        Bytes bytes = Save(host.world), again;
+        assert_int_equal(kiriWorld_Load(other.world, bytes.data, bytes.size), KIRI_OK);
+        again = Save(other.world);
+        AssertSame(bytes, again);
+        free(bytes.data);
+        free(again.data);
+        result = Host_Tick(&host, 1.0f / 60.0f, 1);
+        assert_int_equal(Host_Tick(&other, 1.0f / 60.0f, 1), result);
+        assert_true(HashOf(other.world) == HashOf(host.world));
+    }
+    assert_int_equal(result, KIRI_OK);
+    assert_true(ticks > 20);
+    Host_Destroy(&host);
+    Host_Destroy(&other);
+}
+
 /* ---- Bytes that are none ------------------------------------------------------------------------------------------ */
 
 /* A small world with a bit of everything: a cut that waits, pins, an obstacle, a blade. */
@@ -381,10 +420,15 @@ static void test_memory_may_be_refused(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_storm_goes_on),       cmocka_unit_test(test_work_that_waits_goes_on),
-        cmocka_unit_test(test_a_storm_goes_back),     cmocka_unit_test(test_what_is_cut_short_is_refused),
-        cmocka_unit_test(test_no_bit_may_change),     cmocka_unit_test(test_calls_are_checked),
-        cmocka_unit_test(test_memory_may_be_refused), cmocka_unit_test(test_differences_are_checked),
+        cmocka_unit_test(test_a_storm_goes_on),
+        cmocka_unit_test(test_work_that_waits_goes_on),
+        cmocka_unit_test(test_work_inside_a_square_goes_on),
+        cmocka_unit_test(test_a_storm_goes_back),
+        cmocka_unit_test(test_what_is_cut_short_is_refused),
+        cmocka_unit_test(test_no_bit_may_change),
+        cmocka_unit_test(test_calls_are_checked),
+        cmocka_unit_test(test_memory_may_be_refused),
+        cmocka_unit_test(test_differences_are_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
