@@ -143,10 +143,10 @@ static bool FindFacesOf(const kiriBorder* border, int32_t region, int32_t cell)
         const kiriFace* face = &grid->faces.data[f];
         int32_t other = border->regions->field.owner.data[kiriFace_Other(face, cell)];
         if (other != region && IsFoundFrom(border, region, other)) {
-            border->work->marks.data[f] = KIRI_FACE_FOUND;
             if (!kiriArray_Push(border->memory, &border->work->faces, f)) {
                 return false;
             }
+            border->work->marks.data[f] = KIRI_FACE_FOUND; /* what is listed is cleared */
         }
         f = kiriFace_Next(face, cell);
     }

@@ -111,17 +111,20 @@ static bool AreOfMaterial(const kiriSightEdges* edges, const kiriMeshData* mesh)
     return areFine;
 }
 
-/* One that was short of memory may have left marks. */
+/* Marked are faces at hand alone. */
 static bool AreMarksOfFaces(const kiriLinkWork* work, int32_t faces)
 {
     bool areFine = !work->running || work->marks.count >= faces;
+    int32_t marked = 0;
     for (int32_t k = 0; areFine && k < work->marks.count; ++k) {
         areFine = work->marks.data[k] <= KIRI_FACE_BENT;
+        marked += work->marks.data[k] != KIRI_FACE_PASSED;
     }
     for (int32_t k = 0; areFine && work->running && k < work->faces.count; ++k) {
         areFine = work->faces.data[k] >= 0 && work->faces.data[k] < work->marks.count;
+        marked -= areFine && work->marks.data[work->faces.data[k]] != KIRI_FACE_PASSED;
     }
-    return areFine;
+    return areFine && marked == 0;
 }
 
 /* Faces at hand are borders. */
