@@ -85,7 +85,9 @@ static bool TakeTrianglesOf(kiriGathered* gathered, int32_t cell)
     bool ok = true;
     for (int32_t n = sheet->mesh.squares.head[sheet->grid.cells.data[cell].square]; ok && n != KIRI_NONE;
          n = nodes[n].next) {
-        ok = sheet->grid.nodeCell.data[n] != cell || TakeTriangle(gathered, nodes[n].triangle);
+        bool isIn = sheet->grid.nodeCell.data[n] == cell;
+        gathered->left -= isIn;
+        ok = !isIn || TakeTriangle(gathered, nodes[n].triangle);
     }
     return ok;
 }
@@ -139,26 +141,20 @@ static bool AreNeighboursTaken(const kiriSheetData* sheet, int32_t triangle)
     return areTaken;
 }
 
-/* Does the piece hang together with nothing else? All that its triangles have in squares is in its cells, and what they
-   share an edge with is of it. */
-static bool IsWhole(const kiriGathered* gathered, int32_t firstCell, int32_t firstTriangle)
+/* Does the piece hang together with nothing else? All that its triangles have in squares is in its cells, which has been
+   counted, and what they share an edge with is of it. An item of the quota is a triangle. */
+static kiriProgress LookWhether(kiriGathered* gathered, kiriQuota* quota)
 {
     const kiriSheetData* sheet = gathered->sheet;
-    const kiriSquareNode* nodes = sheet->mesh.squares.nodes.data;
-    int64_t left = 0;
     bool isWhole = true;
-    for (int32_t k = firstTriangle; isWhole && k < gathered->triangles.count; ++k) {
-        left += CountSquaresOf(&sheet->mesh, gathered->triangles.data[k]);
-        isWhole = AreNeighboursTaken(sheet, gathered->triangles.data[k]);
-    }
-    for (int32_t k = firstCell; k < gathered->cells.count; ++k) {
-        int32_t cell = gathered->cells.data[k];
-        for (int32_t n = sheet->mesh.squares.head[sheet->grid.cells.data[cell].square]; n != KIRI_NONE;
-             n = nodes[n].next) {
-            left -= sheet->grid.nodeCell.data[n] == cell;
+    for (; isWhole && gathered->checked < gathered->triangles.count; ++gathered->checked) {
+        if (!kiriQuota_Take(quota, 1)) {
+            return KIRI_MORE;
         }
+        gathered->left += CountSquaresOf(&sheet->mesh, gathered->triangles.data[gathered->checked]);
+        isWhole = AreNeighboursTaken(sheet, gathered->triangles.data[gathered->checked]);
     }
-    return isWhole && left == 0;
+    return isWhole && gathered->left == 0 ? KIRI_DONE : KIRI_FAILED;
 }
 
 /* ---- Marks ---- */
@@ -179,12 +175,12 @@ static bool TakeWholePiece(kiriGathered* gathered, int32_t piece)
     kiriTaking* taking = &gathered->sheet->taking;
     kiriIndices *triangles = &gathered->triangles, *vertices = &gathered->vertices;
     kiriGatheredPiece taken = { piece, { triangles->count, 0 }, { vertices->count, 0 } };
-    int32_t firstCell = gathered->cells.count - 1;
+    kiriQuota unlimited = { INT64_MAX, 0 };
     bool ok = true;
-    for (int32_t k = firstCell; ok && k < gathered->cells.count; ++k) {
+    for (int32_t k = gathered->cells.count - 1; ok && k < gathered->cells.count; ++k) {
         ok = TakeAround(gathered, gathered->cells.data[k]);
     }
-    ok = ok && IsWhole(gathered, firstCell, taken.triangles.first);
+    ok = ok && LookWhether(gathered, &unlimited) == KIRI_DONE;
     taken.triangles.count = triangles->count - taken.triangles.first;
     taken.vertices.count = vertices->count - taken.vertices.first;
     ClearMap(&taking->triangles, triangles->data + taken.triangles.first, taken.triangles.count);
@@ -326,15 +322,13 @@ static bool TakeSome(kiriGathered* gathered, kiriQuota* quota)
 
 static kiriProgress LookWhetherAll(kiriGathered* gathered, kiriQuota* quota)
 {
-    if (!gathered->isWhole) {
-        if (!kiriQuota_Take(quota, 1 + gathered->triangles.count / 2)) {
-            return KIRI_MORE;
-        }
-        MarkTaken(gathered);
-        gathered->isWhole = IsWhole(gathered, 0, 0);
-        UnmarkTaken(gathered);
+    if (gathered->checked == gathered->triangles.count) {
+        return KIRI_DONE;
     }
-    return gathered->isWhole ? KIRI_DONE : KIRI_FAILED;
+    MarkTaken(gathered);
+    kiriProgress progress = LookWhether(gathered, quota);
+    UnmarkTaken(gathered);
+    return progress;
 }
 
 kiriProgress kiriGather_GoOn(kiriGathered* gathered, kiriQuota* quota)

@@ -18,9 +18,11 @@ typedef struct kiriGathered {
     KIRI_ARRAY(kiriGatheredPiece) pieces;            /* in their order */
     kiriIndices triangles, vertices, cells, squares; /* squares: those of the cells, each once */
     kiriIndices room;                                /* to sort them */
-    int32_t looked; /* cells that it has gone on from, where it is made little by little, */
-    int64_t due;    /* and what the last one of these is still to be paid with */
-    bool isWhole, isDone, isMarked;
+    int32_t looked;  /* cells that it has gone on from, where it is made little by little, */
+    int64_t due;     /* and what the last one of these is still to be paid with */
+    int32_t checked; /* triangles whose neighbours are known to be there */
+    int64_t left;    /* places in squares that they have, less those that its cells have */
+    bool isDone, isMarked;
 } kiriGathered;
 
 /* Room to gather pieces, which is as large as the sheet. Start reserves it where it is not there. False for memory. */
