@@ -1273,7 +1273,8 @@ export class World {
      *  tasks. The profile has no times until the next tick. What it had before is gone, but arrays that it handed out
      *  live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that
      *  this library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. The sum in a save finds damage, not
-     *  malice: load no save that somebody may have made to do harm. A recording has the bytes, up to 2^31 of them. */
+     *  malice: load no save that somebody may have made to do harm. A recording has the bytes, up to 2^31 of them, so
+     *  the same holds for recordings that load. */
     load(bytes: Uint8Array): ResultCode;
     /** What has changed since a save, for hosts that go back a little: a save now and then, and a difference to it each
      *  tick. Where no cut is being worked on it has poses, velocities and contacts; a cut adds what it changed. All of

@@ -577,7 +577,7 @@ namespace Kiri
         /// out live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version
         /// that this library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. The sum in a save finds
         /// damage, not malice: load no save that somebody may have made to do harm. A recording has the bytes, up to
-        /// 2^31 of them.</summary>
+        /// 2^31 of them, so the same holds for recordings that load.</summary>
         public void Load(byte[] bytes)
         {
             fixed (byte* bytesRows = bytes)

@@ -1081,7 +1081,7 @@ unsafe extern "C" {
     /// bytes are no save, or cut short, changed, or of a version that this library does not read.
     /// KIRI_ERROR_MEMORY. Then nothing has changed. The sum in a save finds damage, not malice:
     /// load no save that somebody may have made to do harm. A recording has the bytes, up to 2^31
-    /// of them.
+    /// of them, so the same holds for recordings that load.
     pub fn kiriWorld_Load(world: *mut kiriWorld, bytes: *const c_void, size: i64) -> kiriResult;
     /// What has changed since a save, for hosts that go back a little: a save now and then, and a
     /// difference to it each tick. Where no cut is being worked on it has poses, velocities and

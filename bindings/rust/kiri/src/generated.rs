@@ -2169,7 +2169,7 @@ impl World {
     /// [`ResultCode::ErrorData`]: the bytes are no save, or cut short, changed, or of a version
     /// that this library does not read. [`ResultCode::ErrorMemory`]. Then nothing has changed. The
     /// sum in a save finds damage, not malice: load no save that somebody may have made to do harm.
-    /// A recording has the bytes, up to 2^31 of them.
+    /// A recording has the bytes, up to 2^31 of them, so the same holds for recordings that load.
     pub fn load(&mut self, bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_Load(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
