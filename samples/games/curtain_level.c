@@ -170,14 +170,12 @@ static float GetDistance(const float* corners, const float point[2], float* alon
     return inside ? -least : least;
 }
 
-static void PaintMark(const Mark* mark, float u, float v, float color[3])
+static void PaintMark(const Mark* mark, const float* corners, float u, float v, float color[3])
 {
-    float corners[2 * MARK_CORNERS], along = 0.0f;
-    float du = u - mark->middle[0], dv = v - mark->middle[1];
+    float along = 0.0f, du = u - mark->middle[0], dv = v - mark->middle[1];
     if (du * du + dv * dv > 2.0f * mark->radius * mark->radius) {
         return;
     }
-    Mark_GetOutline(mark, corners);
     float distance = GetDistance(corners, (float[2]){ u, v }, &along);
     if (distance < 0.0f) {
         Mix(color, gold, 0.55f);
@@ -189,12 +187,16 @@ static void PaintMark(const Mark* mark, float u, float v, float color[3])
 
 void Level_Paint(const Level* level, int32_t curtain, uint8_t* rgb)
 {
+    float corners[MAX_MARKS][2 * MARK_CORNERS];
+    for (int32_t m = 0; m < level->marks; m++) {
+        Mark_GetOutline(&level->mark[m], corners[m]);
+    }
     for (int32_t i = 0; i < TEXTURE_SIZE * TEXTURE_SIZE; i++) {
         float u = ((float)(i % TEXTURE_SIZE) + 0.5f) / TEXTURE_SIZE * level->width, color[3];
         float v = ((float)(i / TEXTURE_SIZE) + 0.5f) / TEXTURE_SIZE * level->height;
         PaintGround(level, curtain, u, v, color);
         for (int32_t m = 0; m < level->marks; m++) {
-            PaintMark(&level->mark[m], u, v, color);
+            PaintMark(&level->mark[m], corners[m], u, v, color);
         }
         for (int k = 0; k < 3; k++) {
             rgb[3 * i + k] = (uint8_t)(255.0f * fminf(1.0f, color[k]));
