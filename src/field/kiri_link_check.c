@@ -136,11 +136,9 @@ static bool AreFacesAtHand(const kiriLinkWork* work, const kiriGrid* grid, const
         areFine = face->cell[0] != KIRI_NONE && owner[face->cell[0]] != owner[face->cell[1]];
     }
     for (int32_t k = 0; areFine && k < work->made.count; ++k) {
-        const int32_t* cells = work->made.data[k].ends.end[0].cell;
-        for (int32_t e = 0; e < 2; ++e) {
-            cells = work->made.data[k].ends.end[e].cell;
-            areFine = areFine && cells[0] >= 0 && cells[0] < grid->cells.count && cells[1] >= 0 &&
-                      cells[1] < grid->cells.count;
+        for (int32_t e = 0; areFine && e < 2; ++e) {
+            const int32_t* cells = work->made.data[k].ends.end[e].cell;
+            areFine = cells[0] >= 0 && cells[0] < grid->cells.count && cells[1] >= 0 && cells[1] < grid->cells.count;
         }
     }
     return areFine;
