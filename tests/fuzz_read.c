@@ -108,11 +108,18 @@ static void ReadPoints(Fuzz* fuzz, FuzzAct* act)
 
 /* ---- Defs ---- */
 
+/* Of numbers up to `most` four times as much; others as they are. */
+static int32_t ReadLimit(Fuzz* fuzz, int32_t most)
+{
+    int32_t limit = FuzzBytes_Int(&fuzz->bytes, 0, most);
+    return limit >= 0 && limit <= most ? 4 * limit : limit;
+}
+
 static void ReadBudget(Fuzz* fuzz, kiriBudget* budget)
 {
     budget->triangles = FuzzBytes_Int(&fuzz->bytes, KIRI_LEAST_TRIANGLES, 200);
-    budget->cells = 4 * FuzzBytes_Int(&fuzz->bytes, 0, 240);
-    budget->samples = 4 * FuzzBytes_Int(&fuzz->bytes, 0, 100);
+    budget->cells = ReadLimit(fuzz, 240);
+    budget->samples = ReadLimit(fuzz, 100);
     budget->iterations = FuzzBytes_Int(&fuzz->bytes, 0, 40);
 }
 
