@@ -208,15 +208,15 @@ typedef struct Overlaps {
     uint64_t bits;
 } Overlaps;
 
-typedef struct OverlapBox {
+typedef struct SquaresBox {
     const kiriSquares* squares;
     const kiriLatticePoint* corners;
     int32_t low, high, from, to; /* rows and columns */
-} OverlapBox;
+} SquaresBox;
 
-static OverlapBox FindBox(const kiriSquares* squares, const kiriLatticePoint c[3])
+static SquaresBox FindBox(const kiriSquares* squares, const kiriLatticePoint c[3])
 {
-    OverlapBox box = { squares, c, INT32_MAX, 0, INT32_MAX, 0 };
+    SquaresBox box = { squares, c, INT32_MAX, 0, INT32_MAX, 0 };
     for (int i = 0; i < 3; ++i) {
         int32_t square = kiriSquares_At(squares, c[i]), row = square / squares->columns,
                 column = square % squares->columns;
@@ -228,7 +228,7 @@ static OverlapBox FindBox(const kiriSquares* squares, const kiriLatticePoint c[3
     return box;
 }
 
-static bool IsOverlap(const OverlapBox* box, int32_t row, int32_t column)
+static bool IsOverlap(const SquaresBox* box, int32_t row, int32_t column)
 {
     return column >= box->from && column <= box->to &&
            kiriSquares_Overlap(box->squares, row * box->squares->columns + column, box->corners);
@@ -236,7 +236,7 @@ static bool IsOverlap(const OverlapBox* box, int32_t row, int32_t column)
 
 /* The columns that a triangle overlaps in a row hang together, and with those of the row before: so it takes no longer than
    there are squares, however large the box is. */
-static void FindInRow(const OverlapBox* box, int32_t row, int32_t* first, int32_t* last)
+static void FindInRow(const SquaresBox* box, int32_t row, int32_t* first, int32_t* last)
 {
     int32_t at = *first;
     while (at <= *last && !IsOverlap(box, row, at)) {
@@ -254,7 +254,7 @@ static void FindInRow(const OverlapBox* box, int32_t row, int32_t* first, int32_
 /* How many squares the triangle overlaps. */
 static int64_t FindOverlaps(const kiriSquares* squares, const kiriLatticePoint c[3], Overlaps* o)
 {
-    OverlapBox box = FindBox(squares, c);
+    SquaresBox box = FindBox(squares, c);
     int64_t columns = box.to - box.from + 1, count = columns * (box.high - box.low + 1), found = 0;
     bool isFew = count <= FEW_SQUARES;
     *o = (Overlaps){ box.low, box.from, isFew ? (int32_t)columns : 0, 0, count == 1 };
