@@ -3,21 +3,10 @@
 #include "games.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {
-    COLUMNS = 44,
-    ROWS = 32,
-    FRAME_ROWS = 6,
-    MAX_FRAMES = 160,
     SUBSTEPS = 2,
-    BASKET_TICKS = 60,             /* a mark is ours when it has been in the basket for so long */
-    SCRAP_TICKS = 20 * GAME_RATE,  /* other scraps are swept away after that, */
-    LEAST_SCRAP_TICKS = GAME_RATE, /* or when there are many: the oldest, but none younger than this */
-    MANY_SCRAPS = 10,
-    CRUMB_TICKS = 2 * GAME_RATE, /* how often crumbs are swept away */
     LEAVE_TICKS = 3 * GAME_RATE, /* a curtain that was let go */
     GATHER_TICKS = GAME_RATE     /* rings move on the rail */
 };
@@ -27,362 +16,10 @@ const float curtainRail = 1.66f;
 const float basketSize[3] = { 0.56f, 0.56f, 0.18f };
 const float ballRadius = 0.17f, ballPlace[3] = { 0.86f, -0.18f, 0.17f };
 const float tableSize[3] = { 0.42f, 0.40f, 0.24f }, tablePlace[3] = { -0.86f, -0.12f, 0.12f };
+const float basketY = 0.0f;
+const float crumbArea = 0.0012f;
 
-static const float wall = 0.05f;          /* of the basket, m: how thick */
-static const float basketY = 0.0f;        /* m: below the curtain; a light piece glides to either side of it */
-static const float basketReach = 0.38f;   /* m: how far it goes to either side */
-static const float basketPace = 0.5f;     /* m/s */
-static const float crumbArea = 0.0012f;   /* m^2 */
-static const float handStiffness = 60.0f; /* N/m */
-static const float handForce = 7.0f;      /* N: with more it slips out of the fingers */
-
-/* ---- Making what there is --------------------------------------------------------------------------------------- */
-
-static bool Check(const Curtain* curtain, kiriResult result, const char* what)
-{
-    if (result < 0) {
-        fprintf(stderr, "curtain: tick %d: %s: %s: %s\n", curtain->tick, what, kiriGetResultName(result),
-                kiriWorld_GetLastError(curtain->world));
-    }
-    return result >= 0;
-}
-
-static bool AddRings(Curtain* curtain, Cloth* cloth, float depth)
-{
-    const Level* level = curtain->level;
-    cloth->ringCount = level->rings;
-    for (int32_t i = 0; i < level->rings; i++) {
-        Ring* ring = &cloth->rings[i];
-        kiriPinDef def;
-        kiriDefaultPinDef(&def);
-        def.restPoint[0] = level->width * (float)i / (float)(level->rings - 1);
-        def.restPoint[1] = level->height;
-        def.target[0] = def.restPoint[0] - 0.5f * level->width;
-        def.target[1] = depth;
-        def.target[2] = curtainRail - 0.06f;
-        def.breakForce = level->breakForce;
-        memcpy(ring->start, def.target, sizeof ring->start);
-        memcpy(ring->target, def.target, sizeof ring->target);
-        if (!Check(curtain, kiriCreatePin(curtain->world, cloth->sheet, &def, &ring->pin), "ring")) {
-            return false;
-        }
-    }
-    return true;
-}
-
-static void FillSheetDef(const Curtain* curtain, float depth, kiriSheetDef* def)
-{
-    const Level* level = curtain->level;
-    kiriDefaultSheetDef(def);
-    def->position[0] = -0.5f * level->width;
-    def->position[1] = depth;
-    def->position[2] = curtainRail - 0.06f - level->height;
-    def->axisV[1] = 0.0f;
-    def->axisV[2] = 1.0f;
-    def->material.airDamping = 0.4f;
-    def->maxFrames = MAX_FRAMES;
-    def->gridResolution = 64;
-    def->crumbArea = crumbArea;
-    def->skinning = KIRI_SKINNING_SMOOTH;
-    def->touchesSheets = 1;
-    def->contactThickness = 0.008f;
-}
-
-/* Rows of frames below the rings: where the folds are to be. Frames that do not know of the folds let it buckle in other
-   ways, upwards above the rail for one. */
-static int32_t PlaceFrames(const Level* level, float* points)
-{
-    const float inside = 0.03f; /* m: from the border */
-    for (int32_t i = 0; i < level->rings * FRAME_ROWS; i++) {
-        int32_t ring = i % level->rings, row = i / level->rings;
-        float u = level->width * (float)ring / (float)(level->rings - 1);
-        points[2 * i] = fmaxf(inside, fminf(level->width - inside, u));
-        points[2 * i + 1] = level->height * ((float)row + 0.5f) / FRAME_ROWS;
-    }
-    return level->rings * FRAME_ROWS;
-}
-
-static bool AddCloth(Curtain* curtain, Cloth* cloth, int32_t layer)
-{
-    static float rest[2 * (COLUMNS + 1) * (ROWS + 1)];
-    static int32_t indices[6 * COLUMNS * ROWS];
-    static float framePoints[2 * MAX_RINGS * FRAME_ROWS];
-    const Level* level = curtain->level;
-    float depth = 0.14f * (float)layer;
-    memset(cloth, 0, sizeof *cloth);
-    cloth->madeAt = curtain->tick;
-    cloth->rgb = malloc(3 * TEXTURE_SIZE * TEXTURE_SIZE);
-    if (cloth->rgb == NULL) {
-        fprintf(stderr, "curtain: no memory\n");
-        return false;
-    }
-    Level_Paint(level, curtain->clothsMade, cloth->rgb);
-    cloth->texture = (CanvasTexture){ cloth->rgb,   TEXTURE_SIZE,  TEXTURE_SIZE,
-                                      level->width, level->height, (uint32_t)++curtain->clothsMade };
-    kiriFillRectangle(level->width, level->height, COLUMNS, ROWS, rest, indices);
-    kiriSheetDef def;
-    FillSheetDef(curtain, depth, &def);
-    def.restPositions = rest;
-    def.vertexCount = (COLUMNS + 1) * (ROWS + 1);
-    def.indices = indices;
-    def.triangleCount = 2 * COLUMNS * ROWS;
-    def.framePoints = framePoints;
-    def.frameCount = PlaceFrames(level, framePoints);
-    if (!Check(curtain, kiriCreateSheet(curtain->world, &def, &cloth->sheet), "sheet")) {
-        return false;
-    }
-    Track_Init(&cloth->track, cloth->sheet);
-    return AddRings(curtain, cloth, depth);
-}
-
-void Basket_GetPart(const Curtain* curtain, int32_t part, float x, float size[3], float position[3])
-{
-    (void)curtain;
-    int axis = part < 3 ? 0 : 1;
-    float side = part % 2 == 1 ? 1.0f : -1.0f;
-    memcpy(size, basketSize, sizeof basketSize);
-    position[0] = x;
-    position[1] = basketY;
-    position[2] = 0.5f * basketSize[2];
-    if (part == 0) {
-        size[2] = wall;
-        position[2] = 0.5f * wall;
-        return;
-    }
-    size[axis] = wall;
-    position[axis] += side * 0.5f * (basketSize[axis] - wall);
-}
-
-static bool AddObstacle(Curtain* curtain, kiriObstacleDef* def, const float position[3], kiriObstacle* obstacle)
-{
-    memcpy(def->position, position, sizeof def->position);
-    return Check(curtain, kiriCreateObstacle(curtain->world, def, obstacle), "obstacle");
-}
-
-static bool AddObstacles(Curtain* curtain)
-{
-    kiriObstacle obstacle;
-    kiriObstacleDef def;
-    kiriDefaultObstacleDef(&def);
-    def.type = KIRI_OBSTACLE_PLANE;
-    bool fine = AddObstacle(curtain, &def, (float[3]){ 0.0f, 0.0f, 0.0f }, &obstacle);
-    def.type = KIRI_OBSTACLE_SPHERE;
-    def.radius = ballRadius;
-    fine = fine && AddObstacle(curtain, &def, ballPlace, &obstacle);
-    def.type = KIRI_OBSTACLE_BOX;
-    memcpy(def.size, tableSize, sizeof def.size);
-    fine = fine && AddObstacle(curtain, &def, tablePlace, &obstacle);
-    for (int32_t i = 0; fine && i < BASKET_PARTS; i++) {
-        float position[3];
-        Basket_GetPart(curtain, i, curtain->basketX, def.size, position);
-        fine = AddObstacle(curtain, &def, position, &curtain->basket[i]);
-    }
-    return fine;
-}
-
-static void DropCloth(Curtain* curtain, Cloth* cloth)
-{
-    if (cloth->sheet != 0) {
-        kiriDestroySheet(curtain->world, cloth->sheet);
-    }
-    Track_Free(&cloth->track);
-    free(cloth->rgb);
-    memset(cloth, 0, sizeof *cloth);
-}
-
-static void Curtain_Stop(void* game)
-{
-    Curtain* curtain = game;
-    for (int32_t i = 0; i < MAX_CLOTHS; i++) {
-        DropCloth(curtain, &curtain->cloths[i]);
-    }
-    Undo_Clear(&curtain->undo);
-    kiriDestroyWorld(curtain->world);
-    free(curtain);
-}
-
-static void* Curtain_Start(int32_t number, const GameHost* host)
-{
-    Curtain* curtain = calloc(1, sizeof(Curtain));
-    if (curtain == NULL || kiriCreateWorld(&host->worldDef, &curtain->world) != KIRI_OK) {
-        fprintf(stderr, "curtain: no memory\n");
-        free(curtain);
-        return NULL;
-    }
-    curtain->host = *host;
-    curtain->level = &levels[number - 1];
-    curtain->demo.mark = -1;
-    Undo_Init(&curtain->undo, free);
-    bool fine = AddObstacles(curtain);
-    for (int32_t i = 0; fine && i < curtain->level->curtains; i++) {
-        fine = AddCloth(curtain, &curtain->cloths[i], i);
-    }
-    if (!fine) {
-        Curtain_Stop(curtain);
-        return NULL;
-    }
-    return curtain;
-}
-
-/* ---- Hands and blades ------------------------------------------------------------------------------------------- */
-
-static int32_t FindCloth(const Curtain* curtain, kiriSheet sheet)
-{
-    for (int32_t i = 0; i < MAX_CLOTHS; i++) {
-        if (sheet != 0 && curtain->cloths[i].sheet == sheet) {
-            return i;
-        }
-    }
-    return -1;
-}
-
-static void LetGo(Curtain* curtain, Hand* hand)
-{
-    if (hand->pin != 0) {
-        kiriDestroyPin(curtain->world, hand->pin); /* it may be gone already, with what it held */
-    }
-    hand->pin = 0;
-}
-
-static Hand* FindHand(Curtain* curtain, int32_t pointer)
-{
-    for (int32_t i = 0; i < MAX_HANDS; i++) {
-        if (curtain->hands[i].pin != 0 && curtain->hands[i].pointer == pointer) {
-            return &curtain->hands[i];
-        }
-    }
-    return NULL;
-}
-
-/* A pin in the material that the ray meets. With all hands in use the first one lets go. */
-static void Grab(Curtain* curtain, int32_t pointer, const float origin[3], const float direction[3])
-{
-    kiriSheet sheet = 0;
-    kiriHit hit;
-    kiriWorld_Raycast(curtain->world, origin, direction, 20.0f, &sheet, &hit);
-    if (sheet == 0) {
-        return;
-    }
-    Hand* hand = &curtain->hands[0];
-    for (int32_t i = 0; i < MAX_HANDS && hand->pin != 0; i++) {
-        hand = curtain->hands[i].pin == 0 ? &curtain->hands[i] : hand;
-    }
-    LetGo(curtain, hand);
-    kiriPinDef def;
-    kiriDefaultPinDef(&def);
-    memcpy(def.restPoint, hit.restPoint, sizeof def.restPoint);
-    memcpy(def.target, hit.position, sizeof def.target);
-    def.stiffness = handStiffness;
-    def.breakForce = handForce;
-    if (kiriCreatePin(curtain->world, sheet, &def, &hand->pin) == KIRI_OK) {
-        hand->cloth = FindCloth(curtain, sheet);
-        hand->pointer = pointer;
-        hand->away = hit.distance - 0.08f; /* a little towards the player */
-        memcpy(hand->target, hit.position, sizeof hand->target);
-    }
-}
-
-static void MoveHand(Curtain* curtain, Hand* hand, const float origin[3], const float direction[3])
-{
-    for (int i = 0; i < 3; i++) {
-        hand->target[i] = origin[i] + hand->away * direction[i];
-    }
-    hand->target[2] = fmaxf(hand->target[2], 0.02f);
-    if (kiriPin_SetTarget(curtain->world, hand->pin, hand->target) != KIRI_OK) {
-        hand->pin = 0; /* what it held is gone */
-    }
-}
-
-static void PointerDown(Curtain* curtain, const GameEvent* event, const float origin[3], const float direction[3])
-{
-    Pointer* pointer = &curtain->pointers[event->pointer];
-    if (event->button == GAME_RIGHT) {
-        Grab(curtain, event->pointer, origin, direction);
-        return;
-    }
-    Curtain_Keep(curtain);
-    if (kiriBeginBlade(curtain->world, 0, &pointer->blade) == KIRI_OK) {
-        kiriBlade_MoveRay(curtain->world, pointer->blade, origin, direction, 20.0f);
-        pointer->trailCount = 0;
-    }
-}
-
-static void PointerMove(Curtain* curtain, const GameEvent* event, const float origin[3], const float direction[3])
-{
-    Pointer* pointer = &curtain->pointers[event->pointer];
-    Hand* hand = FindHand(curtain, event->pointer);
-    if (pointer->blade != 0) {
-        kiriBlade_MoveRay(curtain->world, pointer->blade, origin, direction, 20.0f);
-    }
-    if (hand != NULL) {
-        MoveHand(curtain, hand, origin, direction);
-    }
-}
-
-static void PointerUp(Curtain* curtain, const GameEvent* event)
-{
-    Pointer* pointer = &curtain->pointers[event->pointer];
-    Hand* hand = FindHand(curtain, event->pointer);
-    if (event->button == GAME_RIGHT && hand != NULL) {
-        LetGo(curtain, hand);
-    } else if (event->button == GAME_LEFT && pointer->blade != 0) {
-        kiriBlade_End(curtain->world, pointer->blade);
-        pointer->blade = 0;
-    }
-}
-
-/* Space: hands that pull stay where they are; with none that does, all let go. */
-static void KeepHands(Curtain* curtain)
-{
-    int32_t kept = 0;
-    for (int32_t i = 0; i < MAX_HANDS; i++) {
-        if (curtain->hands[i].pin != 0 && curtain->hands[i].pointer >= 0) {
-            curtain->hands[i].pointer = -1;
-            kept++;
-        }
-    }
-    for (int32_t i = 0; i < MAX_HANDS && kept == 0; i++) {
-        LetGo(curtain, &curtain->hands[i]);
-    }
-}
-
-static void Key(Curtain* curtain, const GameEvent* event)
-{
-    float way = event->key == GAME_KEY_LEFT || event->key == 'a'    ? -1.0f
-                : event->key == GAME_KEY_RIGHT || event->key == 'd' ? 1.0f
-                                                                    : 0.0f;
-    bool pressed = event->type == GAME_KEY_PRESSED;
-    if (way != 0.0f && (pressed || curtain->basketSpeed * way > 0.0f)) {
-        curtain->basketSpeed = pressed ? way * basketPace : 0.0f;
-    } else if (event->key == ' ' && pressed) {
-        KeepHands(curtain);
-    } else if (event->key == 'z' && pressed) {
-        Curtain_Undo(curtain);
-    }
-}
-
-static void Curtain_Event(void* game, const GameEvent* event)
-{
-    Curtain* curtain = game;
-    if (event->type == GAME_KEY_PRESSED || event->type == GAME_KEY_RELEASED) {
-        Key(curtain, event);
-        return;
-    }
-    if (event->pointer < 0 || event->pointer >= MAX_POINTERS) {
-        return;
-    }
-    float origin[3], direction[3];
-    GameCamera_GetRay(&curtainCamera, (float)event->x, (float)event->y, origin, direction);
-    curtain->pointers[event->pointer].x = event->x;
-    curtain->pointers[event->pointer].y = event->y;
-    if (event->type == GAME_DOWN) {
-        PointerDown(curtain, event, origin, direction);
-    } else if (event->type == GAME_MOVE) {
-        PointerMove(curtain, event, origin, direction);
-    } else {
-        PointerUp(curtain, event);
-    }
-}
+static const float basketReach = 0.38f; /* m: how far it goes to either side */
 
 /* ---- Wind and basket -------------------------------------------------------------------------------------------- */
 
@@ -415,7 +52,7 @@ static bool BlowWind(Curtain* curtain)
     memcpy(wind.velocity, curtain->wind, sizeof wind.velocity);
     for (int32_t i = 0; i < MAX_CLOTHS; i++) {
         if (curtain->cloths[i].sheet != 0 &&
-            !Check(curtain, kiriSheet_SetWind(curtain->world, curtain->cloths[i].sheet, &wind), "wind")) {
+            !Curtain_Check(curtain, kiriSheet_SetWind(curtain->world, curtain->cloths[i].sheet, &wind), "wind")) {
             return false;
         }
     }
@@ -446,149 +83,12 @@ static bool MoveBasket(Curtain* curtain)
     curtain->basketBefore = curtain->basketX;
     curtain->basketX = x;
     for (int32_t i = 0; i < BASKET_PARTS; i++) {
-        if (!Check(curtain, kiriObstacle_SetVelocity(curtain->world, curtain->basket[i], velocity, still), "basket")) {
+        if (!Curtain_Check(curtain, kiriObstacle_SetVelocity(curtain->world, curtain->basket[i], velocity, still),
+                           "basket")) {
             return false;
         }
     }
     return true;
-}
-
-/* ---- Scraps ----------------------------------------------------------------------------------------------------- */
-
-/* Of the same in one tick the first one is enough. */
-static void AddNote(Curtain* curtain, const float place[3], const char* text)
-{
-    for (int32_t i = 0; i < MAX_NOTES; i++) {
-        if (curtain->notes[i].since == curtain->tick && strcmp(curtain->notes[i].text, text) == 0) {
-            return;
-        }
-    }
-    Note* note = &curtain->notes[curtain->noteCount++ % MAX_NOTES];
-    snprintf(note->text, sizeof note->text, "%s", text);
-    memcpy(note->place, place, sizeof note->place);
-    note->since = curtain->tick;
-}
-
-/* Whether a ring or a hand holds the piece. */
-static bool IsHeld(const Curtain* curtain, const Cloth* cloth, int32_t piece)
-{
-    kiriPin pins[MAX_RINGS + MAX_HANDS];
-    int32_t count = 0, other;
-    kiriSheet_GetPins(curtain->world, cloth->sheet, pins, MAX_RINGS + MAX_HANDS, &count);
-    for (int32_t i = 0; i < count && i < MAX_RINGS + MAX_HANDS; i++) {
-        kiriPinState pin;
-        kiriPointState point;
-        if (kiriPin_GetState(curtain->world, pins[i], &pin) == KIRI_OK &&
-            kiriSheet_GetPoint(curtain->world, cloth->sheet, pin.from, &point) == KIRI_OK &&
-            kiriFrame_GetPiece(curtain->world, point.frame, &other) == KIRI_OK && other == piece) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool IsInBasket(const Curtain* curtain, const kiriPieceState* piece)
-{
-    return fabs(piece->center[0] - curtain->basketX) < 0.5 * basketSize[0] &&
-           fabs(piece->center[1] - basketY) < 0.5 * basketSize[1] && piece->center[2] < basketSize[2] + 0.05;
-}
-
-/* The mark whose middle is in the piece and that nobody has yet; -1: none. */
-static int32_t FindMark(const Curtain* curtain, const Cloth* cloth, int32_t piece)
-{
-    for (int32_t m = 0; m < curtain->level->marks; m++) {
-        kiriPointState point;
-        int32_t other = -1;
-        if (!cloth->collected[m] &&
-            kiriSheet_GetPoint(curtain->world, cloth->sheet, curtain->level->mark[m].middle, &point) == KIRI_OK &&
-            kiriFrame_GetPiece(curtain->world, point.frame, &other) == KIRI_OK && other == piece) {
-            return m;
-        }
-    }
-    return -1;
-}
-
-/* A hundred points for a mark that is cut to the line; none for one that is half as large again. */
-static void Collect(Curtain* curtain, Cloth* cloth, int32_t mark, const kiriPieceState* piece)
-{
-    float corners[2 * MARK_CORNERS], wanted = Mark_GetOutline(&curtain->level->mark[mark], corners);
-    float off = fabsf((float)piece->area - wanted) / wanted;
-    int32_t points = (int32_t)(100.0f * fmaxf(0.0f, 1.0f - 2.0f * off));
-    const float place[3] = { (float)piece->center[0], (float)piece->center[1], basketSize[2] };
-    char text[24];
-    snprintf(text, sizeof text, points > 0 ? "+%d" : "too rough", points);
-    AddNote(curtain, place, text);
-    cloth->collected[mark] = true;
-    curtain->score += points;
-    curtain->collected += points > 0;
-    Sounds_Play(curtain->host.sounds, points > 0 ? SOUND_GOAL : SOUND_LOST, 0.8f);
-}
-
-/* True when the scrap is to be taken out of the list. */
-static bool LookAtScrap(Curtain* curtain, Scrap* scrap)
-{
-    Cloth* cloth = &curtain->cloths[scrap->cloth];
-    kiriPieceState state;
-    int32_t piece, age = curtain->tick - scrap->offAt;
-    if (kiriFrame_GetPiece(curtain->world, scrap->frame, &piece) != KIRI_OK ||
-        kiriSheet_GetPiece(curtain->world, cloth->sheet, piece, &state) != KIRI_OK) {
-        return true; /* it is gone */
-    }
-    if (!IsInBasket(curtain, &state)) {
-        scrap->inBasketSince = 0;
-    } else if (scrap->inBasketSince == 0) {
-        scrap->inBasketSince = curtain->tick;
-    } else if (curtain->tick - scrap->inBasketSince == BASKET_TICKS) {
-        int32_t mark = FindMark(curtain, cloth, piece);
-        if (mark >= 0) {
-            Collect(curtain, cloth, mark, &state);
-        }
-    }
-    bool tooMany = curtain->scrapCount > MANY_SCRAPS && age > LEAST_SCRAP_TICKS;
-    if ((age > SCRAP_TICKS || tooMany) && !IsHeld(curtain, cloth, piece)) {
-        return kiriFrame_DestroyPiece(curtain->world, scrap->frame) >= 0; /* also where it waits */
-    }
-    return false;
-}
-
-/* From the oldest to the newest. */
-static void LookAtScraps(Curtain* curtain)
-{
-    for (int32_t i = 0; i < curtain->scrapCount; i++) {
-        if (LookAtScrap(curtain, &curtain->scraps[i])) {
-            curtain->scrapCount--;
-            memmove(&curtain->scraps[i], &curtain->scraps[i + 1], sizeof(Scrap) * (size_t)(curtain->scrapCount - i));
-            i--;
-        }
-    }
-}
-
-static void AddScrap(Curtain* curtain, const kiriEvent* event)
-{
-    int32_t cloth = FindCloth(curtain, event->sheet);
-    if (cloth >= 0 && event->crumb == 0) {
-        if (curtain->scrapCount == MAX_SCRAPS) {
-            kiriFrame_DestroyPiece(curtain->world, curtain->scraps[0].frame);
-            memmove(curtain->scraps, curtain->scraps + 1, sizeof(Scrap) * (size_t)--curtain->scrapCount);
-        }
-        curtain->scraps[curtain->scrapCount++] = (Scrap){ event->frame, cloth, curtain->tick, 0 };
-    }
-}
-
-/* A ring or a hand. */
-static void BreakPin(Curtain* curtain, kiriPin pin)
-{
-    for (int32_t i = 0; i < MAX_HANDS; i++) {
-        curtain->hands[i].pin = curtain->hands[i].pin == pin ? 0 : curtain->hands[i].pin;
-    }
-    for (int32_t i = 0; i < MAX_CLOTHS * MAX_RINGS; i++) {
-        Ring* ring = &curtain->cloths[i / MAX_RINGS].rings[i % MAX_RINGS];
-        if (ring->pin == pin) {
-            ring->pin = 0;
-            AddNote(curtain, ring->target, "snap");
-            Sounds_Play(curtain->host.sounds, SOUND_SNAP, 0.8f);
-        }
-    }
 }
 
 /* ---- Curtains come and go --------------------------------------------------------------------------------------- */
@@ -599,7 +99,7 @@ bool Curtain_HasMark(const Curtain* curtain, const Cloth* cloth, int32_t mark)
     int32_t piece;
     return cloth->sheet != 0 && cloth->leftAt == 0 && !cloth->collected[mark] &&
            kiriSheet_GetPoint(curtain->world, cloth->sheet, curtain->level->mark[mark].middle, &point) == KIRI_OK &&
-           kiriFrame_GetPiece(curtain->world, point.frame, &piece) == KIRI_OK && IsHeld(curtain, cloth, piece);
+           kiriFrame_GetPiece(curtain->world, point.frame, &piece) == KIRI_OK && Curtain_IsHeld(curtain, cloth, piece);
 }
 
 static bool IsUsedUp(const Curtain* curtain, const Cloth* cloth)
@@ -643,27 +143,17 @@ static bool ChangeCloths(Curtain* curtain)
         if (cloth->leftAt == 0 && curtain->tick - cloth->madeAt > SCRAP_TICKS && IsUsedUp(curtain, cloth)) {
             LetFall(curtain, cloth);
         } else if (cloth->leftAt != 0 && curtain->tick - cloth->leftAt > LEAVE_TICKS) {
-            DropCloth(curtain, cloth);
+            Curtain_DropCloth(curtain, cloth);
             continue;
         }
         hangs = hangs || cloth->leftAt == 0 || curtain->tick - cloth->leftAt < GAME_RATE;
     }
     for (int32_t i = 0; i < MAX_CLOTHS && !hangs; i++) {
         if (curtain->cloths[i].sheet == 0) {
-            return AddCloth(curtain, &curtain->cloths[i], 0);
+            return Curtain_AddCloth(curtain, &curtain->cloths[i], 0);
         }
     }
     return true;
-}
-
-static void SweepCrumbs(Curtain* curtain)
-{
-    for (int32_t i = 0; i < MAX_CLOTHS && curtain->tick % CRUMB_TICKS == 0; i++) {
-        int32_t count;
-        if (curtain->cloths[i].sheet != 0) {
-            kiriSheet_DropCrumbs(curtain->world, curtain->cloths[i].sheet, crumbArea, &count);
-        }
-    }
 }
 
 /* ---- The tick --------------------------------------------------------------------------------------------------- */
@@ -675,9 +165,9 @@ static void TakeEvents(Curtain* curtain)
     kiriWorld_GetEvents(curtain->world, &events, &count);
     for (int32_t i = 0; i < count; i++) {
         if (events[i].type == KIRI_EVENT_PIECE_OFF) {
-            AddScrap(curtain, &events[i]);
+            Curtain_AddScrap(curtain, &events[i]);
         } else if (events[i].type == KIRI_EVENT_PIN_BROKE) {
-            BreakPin(curtain, events[i].pin);
+            Curtain_BreakPin(curtain, events[i].pin);
         }
     }
 }
@@ -739,13 +229,13 @@ static bool Curtain_Tick(void* game)
         fine = curtain->cloths[i].sheet == 0 || Track_BeforeTick(&curtain->cloths[i].track, curtain->world);
     }
     kiriResult result = fine ? kiriWorld_Tick(curtain->world, GAME_DT, SUBSTEPS) : KIRI_ERROR_MEMORY;
-    if (result != KIRI_DIVERGED && !Check(curtain, result, "tick")) {
+    if (result != KIRI_DIVERGED && !Curtain_Check(curtain, result, "tick")) {
         return false;
     }
     curtain->tick++;
     TakeEvents(curtain);
-    LookAtScraps(curtain);
-    SweepCrumbs(curtain);
+    Curtain_LookAtScraps(curtain);
+    Curtain_SweepCrumbs(curtain);
     MakeSounds(curtain);
     MoveTrails(curtain);
     Judge(curtain);

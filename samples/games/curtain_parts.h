@@ -129,6 +129,40 @@ typedef struct Curtain {
     } demo;
 } Curtain;
 
+/* ---- Making what there is: curtain_build.c ---------------------------------------------------------------------- */
+
+void* Curtain_Start(int32_t number, const GameHost* host);
+void Curtain_Stop(void* game);
+
+/* Hangs a curtain on its rings, behind the others by its layer. False: the library refused, and stderr says why. */
+bool Curtain_AddCloth(Curtain* curtain, Cloth* cloth, int32_t layer);
+void Curtain_DropCloth(Curtain* curtain, Cloth* cloth);
+
+/* The index of the cloth that this sheet is; -1: none. */
+int32_t Curtain_FindCloth(const Curtain* curtain, kiriSheet sheet);
+
+/* Writes a line where the call failed. */
+bool Curtain_Check(const Curtain* curtain, kiriResult result, const char* what);
+
+/* ---- Hands and blades: curtain_hand.c --------------------------------------------------------------------------- */
+
+void Curtain_Event(void* game, const GameEvent* event);
+
+/* ---- Scraps: curtain_scrap.c ------------------------------------------------------------------------------------ */
+
+enum { SCRAP_TICKS = 20 * GAME_RATE }; /* after that a scrap is swept away */
+extern const float crumbArea;          /* m^2: smaller parts are no scraps */
+
+void Curtain_AddScrap(Curtain* curtain, const kiriEvent* event);
+void Curtain_LookAtScraps(Curtain* curtain);
+void Curtain_SweepCrumbs(Curtain* curtain);
+
+/* Whether a ring or a hand holds the piece. */
+bool Curtain_IsHeld(const Curtain* curtain, const Cloth* cloth, int32_t piece);
+
+/* A ring's or a hand's. */
+void Curtain_BreakPin(Curtain* curtain, kiriPin pin);
+
 /* ---- Going back: curtain_undo.c --------------------------------------------------------------------------------- */
 
 /* A cut may begin: keeps the game as it is, as undo.h says. */
@@ -142,6 +176,7 @@ bool Curtain_Undo(Curtain* curtain);
 extern const GameCamera curtainCamera;
 extern const float curtainRail;                 /* m: how high it is */
 extern const float basketSize[3];               /* m, outside */
+extern const float basketY;                     /* m: below the curtain; a light piece glides to either side of it */
 extern const float ballRadius, ballPlace[3];    /* m */
 extern const float tableSize[3], tablePlace[3]; /* m: a box, and its middle */
 
