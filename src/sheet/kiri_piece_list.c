@@ -18,10 +18,28 @@ static bool StartSpans(kiriPieceItems* list, kiriMemory* memory, int32_t pieceCo
     return true;
 }
 
-static void CountItem(kiriPieceItems* list, int32_t piece)
+static void CountItems(kiriPieceItems* list, int32_t piece, int32_t count)
 {
     if (piece != KIRI_NONE) {
-        list->spans.data[piece].count += 1;
+        list->spans.data[piece].count += count;
+    }
+}
+
+/* Items that follow each other are of one piece mostly: so they are counted and listed by runs. */
+static int32_t EndOfRun(const int32_t* pieces, int32_t first, int32_t count)
+{
+    int32_t end = first + 1;
+    while (end < count && pieces[end] == pieces[first]) {
+        ++end;
+    }
+    return end;
+}
+
+static void CountAll(kiriPieceItems* list, const int32_t* pieces, int32_t count)
+{
+    for (int32_t first = 0, end; first < count; first = end) {
+        end = EndOfRun(pieces, first, count);
+        CountItems(list, pieces[first], end - first);
     }
 }
 
@@ -49,13 +67,22 @@ static int32_t* StartItems(kiriPieceItems* list, kiriMemory* memory, int32_t cou
     return next;
 }
 
+static int32_t ListRun(int32_t* items, int32_t first, int32_t end)
+{
+    for (int32_t i = first; i < end; ++i) {
+        items[i - first] = i;
+    }
+    return end - first;
+}
+
 /* Items in their order. `pieces` has that of each, KIRI_NONE where it is in none. The spans count them. False for memory. */
 static bool FillItems(kiriPieceItems* list, kiriMemory* memory, const int32_t* pieces, int32_t count)
 {
     int32_t* next = StartItems(list, memory, PlaceSpans(list));
-    for (int32_t i = 0; next != NULL && i < count; ++i) {
-        if (pieces[i] != KIRI_NONE) {
-            list->items.data[next[pieces[i]]++] = i;
+    for (int32_t first = 0, end; next != NULL && first < count; first = end) {
+        end = EndOfRun(pieces, first, count);
+        if (pieces[first] != KIRI_NONE) {
+            next[pieces[first]] += ListRun(list->items.data + next[pieces[first]], first, end);
         }
     }
     kiriMemory_Free(memory, next);
@@ -84,7 +111,9 @@ static bool ListFew(kiriSheetData* sheet, kiriPieceItems* list, int32_t count, P
     bool ok = pieces != NULL && StartSpans(list, memory, sheet->layout.pieces.count);
     for (int32_t i = 0; ok && i < count; ++i) {
         pieces[i] = pieceOf(sheet, i);
-        CountItem(list, pieces[i]);
+    }
+    if (ok) {
+        CountAll(list, pieces, count);
     }
     ok = ok && FillItems(list, memory, pieces, count);
     kiriMemory_Free(memory, pieces);
@@ -120,32 +149,69 @@ static int32_t PieceOfCorners(const int32_t* corners, const int32_t* vertexPiece
     return corners[0] != corners[1] ? vertexPieces[corners[0]] : KIRI_NONE;
 }
 
-static bool CountTriangles(kiriSheetData* sheet, const int32_t* vertexPieces)
+enum { UNSEEN_PIECE = -2 };
+
+/* Corners are of one piece. Most triangles have a corner that an earlier one has: so its piece is known, and weights are
+   looked at for a few only. */
+static int32_t SpreadPiece(const kiriSheetData* sheet, const int32_t* corners, int32_t* pieces)
 {
-    kiriPieceItems* list = &sheet->lists.triangles;
+    int32_t piece = pieces[corners[0]];
+    if (piece == pieces[corners[1]] && piece == pieces[corners[2]] && piece != UNSEEN_PIECE) {
+        return piece;
+    }
+    for (int k = 1; k < 3 && piece == UNSEEN_PIECE; ++k) {
+        piece = pieces[corners[k]];
+    }
+    piece = piece == UNSEEN_PIECE ? kiriPiece_OfVertex(sheet, corners[0]) : piece;
+    pieces[corners[0]] = pieces[corners[1]] = pieces[corners[2]] = piece;
+    return piece;
+}
+
+/* Counts triangles, and gives their pieces to their corners. */
+static void CountTriangles(kiriSheetData* sheet, int32_t* pieces)
+{
     const int32_t* corners = sheet->seen.surface.indices.data;
-    if (!StartSpans(list, &sheet->shown, sheet->layout.pieces.count)) {
-        return false;
+    int32_t last = KIRI_NONE, run = 0;
+    for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t, corners += 3) {
+        int32_t piece = corners[0] != corners[1] ? SpreadPiece(sheet, corners, pieces) : KIRI_NONE;
+        if (piece != last) {
+            CountItems(&sheet->lists.triangles, last, run);
+            last = piece;
+            run = 0;
+        }
+        run += 1;
     }
-    for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
-        CountItem(list, PieceOfCorners(corners + 3 * (size_t)t, vertexPieces));
+    CountItems(&sheet->lists.triangles, last, run);
+    PlaceSpans(&sheet->lists.triangles);
+}
+
+/* The piece of each vertex, by the triangles; of those that are seen in none by its weights. */
+static void FindVertexPieces(kiriSheetData* sheet, int32_t* pieces, int32_t count)
+{
+    for (int32_t v = 0; v < count; ++v) {
+        pieces[v] = UNSEEN_PIECE;
     }
-    PlaceSpans(list);
-    return true;
+    CountTriangles(sheet, pieces);
+    for (int32_t v = 0; v < count; ++v) {
+        if (pieces[v] == UNSEEN_PIECE) {
+            pieces[v] = kiriPiece_OfVertex(sheet, v);
+        }
+    }
 }
 
 static bool ListAllVertices(kiriSheetData* sheet)
 {
-    kiriPieceItems* list = &sheet->lists.vertices;
+    kiriPieceLists* lists = &sheet->lists;
     kiriMemory* memory = &sheet->shown;
-    int32_t count = sheet->mesh.vertices.count;
+    int32_t count = sheet->mesh.vertices.count, pieceCount = sheet->layout.pieces.count;
     int32_t* pieces = kiriMemory_Alloc(memory, (int64_t)sizeof(int32_t) * count);
-    bool ok = pieces != NULL && StartSpans(list, memory, sheet->layout.pieces.count);
-    for (int32_t v = 0; ok && v < count; ++v) {
-        pieces[v] = kiriPiece_OfVertex(sheet, v);
-        CountItem(list, pieces[v]);
+    bool ok = pieces != NULL && StartSpans(&lists->vertices, memory, pieceCount) &&
+              StartSpans(&lists->triangles, memory, pieceCount);
+    if (ok) {
+        FindVertexPieces(sheet, pieces, count);
+        CountAll(&lists->vertices, pieces, count);
     }
-    ok = ok && FillItems(list, memory, pieces, count) && CountTriangles(sheet, pieces);
+    ok = ok && FillItems(&lists->vertices, memory, pieces, count);
     kiriMemory_Free(memory, pieces);
     return ok;
 }
@@ -272,13 +338,23 @@ void kiriPieceLists_Retire(kiriPieceLists* lists, kiriMemory* retired)
 /* The least box around the vertices as they are seen. */
 static void Bound(const kiriSheetData* sheet, kiriSpan span, float lower[3], float upper[3])
 {
-    for (int32_t i = span.first; i < span.first + span.count; ++i) {
-        const float* x = &sheet->seen.surface.positions.data[3 * (size_t)sheet->lists.vertices.items.data[i]];
+    const int32_t* vertices = sheet->lists.vertices.items.data + span.first;
+    const float* positions = sheet->seen.surface.positions.data;
+    if (span.count == 0) {
+        return;
+    }
+    float least[3], most[3];
+    memcpy(least, positions + 3 * (size_t)vertices[0], sizeof(least));
+    memcpy(most, least, sizeof(most));
+    for (int32_t i = 1; i < span.count; ++i) {
+        const float* x = positions + 3 * (size_t)vertices[i];
         for (int k = 0; k < 3; ++k) {
-            lower[k] = i == span.first || x[k] < lower[k] ? x[k] : lower[k];
-            upper[k] = i == span.first || x[k] > upper[k] ? x[k] : upper[k];
+            least[k] = x[k] < least[k] ? x[k] : least[k];
+            most[k] = x[k] > most[k] ? x[k] : most[k];
         }
     }
+    memcpy(lower, least, sizeof(least));
+    memcpy(upper, most, sizeof(most));
 }
 
 kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece)
