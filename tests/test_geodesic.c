@@ -534,7 +534,7 @@ static void TestFailingMemory(void** state)
         kiriMemory_FreeAll(&own);
         assert_int_equal(sheet.blocks.live, live);
     }
-    assert_int_equal(failures, 8); /* seven arrays */
+    assert_int_equal(failures, 6); /* five arrays */
     CloseSheet(&sheet);
 }
 

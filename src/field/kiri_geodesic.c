@@ -19,11 +19,28 @@ enum {
 };
 enum { REPAIR_NONE, REPAIR_CLEARS, REPAIR_SEEDS, REPAIR_SETTLES };
 
-bool kiriField_ResizeToFlood(kiriField* field, kiriMemory* memory, int32_t cellCount)
+/* The one with room for all cells. */
+static kiriIndices* LongList(kiriField* field)
+{
+    return field->settled.capacity < field->dirty.capacity ? &field->dirty : &field->settled;
+}
+
+/* Before cells are put in a list, and when there are none in the other one. */
+static void MakeLong(kiriField* field, kiriIndices* list)
+{
+    if (list->capacity < field->distance.count) {
+        kiriIndices settled = field->settled;
+        KIRI_ASSERT(field->settled.count == 0 && field->dirty.count == 0);
+        field->settled = field->dirty;
+        field->dirty = settled;
+    }
+}
+
+bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount)
 {
     if (!kiriArray_Reserve(memory, &field->distance, cellCount) ||
         !kiriArray_Reserve(memory, &field->owner, cellCount) ||
-        !kiriArray_Reserve(memory, &field->settled, cellCount) ||
+        !kiriArray_Reserve(memory, LongList(field), cellCount) ||
         !kiriArray_Reserve(memory, &field->marks, cellCount)) {
         return false;
     }
@@ -34,12 +51,6 @@ bool kiriField_ResizeToFlood(kiriField* field, kiriMemory* memory, int32_t cellC
     }
     field->distance.count = field->owner.count = field->marks.count = cellCount;
     return true;
-}
-
-bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount)
-{
-    return kiriArray_Reserve(memory, &field->log, cellCount) && kiriArray_Reserve(memory, &field->dirty, cellCount) &&
-           kiriField_ResizeToFlood(field, memory, cellCount);
 }
 
 void kiriField_Reset(kiriField* field)
@@ -126,7 +137,7 @@ static inline kiriSeed ValueOf(const kiriField* field, int32_t cell)
     return value;
 }
 
-/* Each cell is in the log at most once: there is room. */
+/* There is room. */
 static void LogValue(kiriField* field, int32_t cell)
 {
     if ((field->marks.data[cell] & FIELD_LOGGED) == 0) {
@@ -345,6 +356,7 @@ bool kiriField_Start(kiriField* field, kiriMemory* memory, const kiriSeed* seeds
 {
     KIRI_ASSERT(field->settled.count == 0 && field->dirty.count == 0 && field->cursor[REPAIR_STAGE] == REPAIR_NONE);
     field->heap.count = 0;
+    MakeLong(field, &field->settled);
     if (!kiriArray_Resize(memory, &field->heap, seedCount)) {
         return false;
     }
@@ -370,6 +382,8 @@ void kiriField_MarkStepsDirty(kiriField* field, int32_t cell)
 {
     KIRI_ASSERT(cell >= 0 && cell < field->marks.count);
     if ((field->marks.data[cell] & FIELD_DIRTY) == 0) {
+        field->settled.count = 0; /* of a flood */
+        MakeLong(field, &field->dirty);
         KIRI_ASSERT(field->dirty.count < field->dirty.capacity);
         field->marks.data[cell] |= FIELD_DIRTY;
         field->dirty.data[field->dirty.count++] = cell;
@@ -444,7 +458,8 @@ static kiriProgress ClearAffected(kiriField* field, kiriMemory* memory, const ki
             bool blocked = (field->marks.data[cell] & FIELD_PASSES) != 0 && !Passes(rule, cell);
             int32_t dependents = 0;
             LookAround(rule, cell);
-            if (!MakeDependentsRoom(field, memory, rule, cell)) {
+            if (!MakeDependentsRoom(field, memory, rule, cell) ||
+                !kiriArray_Reserve(memory, &field->log, (int64_t)field->log.count + 1)) {
                 return KIRI_FAILED;
             }
             bool supported = IsSupported(field, rule, cell, blocked, &dependents);
@@ -491,6 +506,7 @@ static void StartSweep(kiriField* field)
 {
     MakeHeap(field);
     field->dirty.count = field->settled.count = 0;
+    MakeLong(field, &field->settled);
     field->cursor[0] = field->cursor[1] = field->cursor[2] = 0;
     field->cursor[REPAIR_STAGE] = REPAIR_SETTLES;
 }
@@ -557,6 +573,23 @@ static void EndRepair(kiriField* field)
     field->cursor[REPAIR_STAGE] = REPAIR_NONE;
 }
 
+/* Some cells at a time: so there is room in the log for those that are settled, and for those that get a lower owner. */
+static kiriProgress SweepRepaired(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
+{
+    enum { AT_ONCE = 1024 };
+    kiriProgress progress = KIRI_MORE;
+    do {
+        int64_t give = quota->left < AT_ONCE ? quota->left : AT_ONCE;
+        kiriQuota part = { give, 0 };
+        if (!kiriArray_Reserve(memory, &field->log, (int64_t)field->log.count + field->settled.count + give)) {
+            return KIRI_FAILED;
+        }
+        progress = Sweep(field, rule, &part);
+        kiriQuota_Take(quota, give - part.left);
+    } while (progress == KIRI_MORE && quota->left > 0);
+    return progress;
+}
+
 kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
 {
     KIRI_ASSERT(rule->seed != NULL && rule->below[0] == NULL && rule->below[1] == NULL);
@@ -575,9 +608,9 @@ kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRu
     if (field->cursor[REPAIR_STAGE] == REPAIR_SEEDS && SeedSweep(field, rule, quota) == KIRI_MORE) {
         return KIRI_MORE;
     }
-    if (Sweep(field, rule, quota) == KIRI_MORE) {
-        return KIRI_MORE;
+    kiriProgress progress = SweepRepaired(field, memory, rule, quota);
+    if (progress == KIRI_DONE) {
+        EndRepair(field);
     }
-    EndRepair(field);
-    return KIRI_DONE;
+    return progress;
 }

@@ -43,21 +43,19 @@ typedef struct kiriRule {
 typedef struct kiriField {
     KIRI_ARRAY(int32_t) distance; /* one a cell; KIRI_FAR where the field does not reach */
     KIRI_ARRAY(int32_t) owner;    /* of the nearest seed; KIRI_NONE where FAR */
-    KIRI_ARRAY(int32_t) settled;  /* of floods: cells reached, by growing distance; none after a repair */
+    kiriIndices settled;          /* of floods: cells reached, by growing distance; none once cells are dirty */
     KIRI_ARRAY(kiriSeed) log;     /* of repairs: what cells were before, each once; some may be the same again */
 
-    /* Work at hand. */
+    /* Work at hand. Cells are settled when none is to be checked any more, so one of the two lists has room for all cells,
+       and the other need not: they change places. */
     KIRI_ARRAY(kiriSeed) heap;
-    KIRI_ARRAY(int32_t) dirty; /* cells to be checked */
+    kiriIndices dirty;         /* cells to be checked */
     KIRI_ARRAY(uint8_t) marks; /* one a cell; between repairs only of dirty cells */
     int32_t cursor[KIRI_STEP_LENGTHS + 1];
 } kiriField;
 
 /* Room for so many cells; new ones are FAR. A zeroed field is empty. False for memory: what was there stays. */
 bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount);
-
-/* The same for a field that is never repaired. */
-bool kiriField_ResizeToFlood(kiriField* field, kiriMemory* memory, int32_t cellCount);
 
 /* Makes it a field of no cells, whatever its state; keeps the memory. */
 void kiriField_Clear(kiriField* field);
@@ -75,7 +73,8 @@ void kiriField_Reset(kiriField* field);
 
 /* ---- Repairs ---- */
 
-/* The cell's steps or seed may have changed, or whether ways pass through it. Never fails: room is made by Resize. */
+/* The cell's steps or seed may have changed, or whether ways pass through it. Never fails: room is made by Resize. What
+   a flood has settled is forgotten. */
 void kiriField_MarkDirty(kiriField* field, int32_t cell);
 
 /* The same where ways pass through the cell, or do not, as before, and so far as before: it costs less. */

@@ -274,8 +274,8 @@ static bool MakePlacerRoom(kiriPlacer* placer, kiriPlacerWork* work, kiriMemory*
                            int32_t count)
 {
     int32_t cells = grid->cells.count;
-    return kiriField_ResizeToFlood(&work->flooded, memory, cells) &&
-           kiriField_ResizeToFlood(&work->fresh, memory, cells) && kiriArray_Resize(memory, &work->sampled, cells) &&
+    return kiriField_Resize(&work->flooded, memory, cells) &&
+           kiriField_Resize(&work->fresh, memory, cells) && kiriArray_Resize(memory, &work->sampled, cells) &&
            kiriArray_Resize(memory, &work->holds, cells) &&
            kiriArray_Resize(memory, &work->targets, count > 0 ? count : 1) &&
            kiriArray_Reserve(memory, &placer->sites, (int64_t)placer->sites.count + count);
@@ -325,7 +325,7 @@ static bool StartEnds(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
             return false;
         }
     }
-    if (!kiriField_ResizeToFlood(&work->ends, memory, grid->cells.count)) {
+    if (!kiriField_Resize(&work->ends, memory, grid->cells.count)) {
         return false;
     }
     kiriField_Reset(&work->ends);

@@ -43,15 +43,23 @@ static bool AreValues(const kiriField* field, int64_t cells, bool areOwned)
     return areFine;
 }
 
-/* Lists to which each cell comes once have room for all cells: so they must not have any cell twice, or one that is not
-   marked as being there. `isEmptied`: block by block; cells that were settled are far again. */
+/* One of the two lists has room for all cells: the one that is not empty. */
+static bool HaveListsRoom(const kiriField* field)
+{
+    int32_t cells = field->distance.count;
+    bool isDirty = field->dirty.count > 0,
+         isSettled = field->settled.count > 0 || field->cursor[KIRI_STEP_LENGTHS] == CHECK_SETTLES,
+         isDirtyLong = field->dirty.capacity >= cells, isSettledLong = field->settled.capacity >= cells;
+    return (isDirtyLong || !isDirty) && (isSettledLong || !isSettled) && (isDirtyLong || isSettledLong) &&
+           !(isDirty && isSettled);
+}
+
+/* Each cell comes once to a list: so none must have any cell twice, or one that is not marked as being there. `isEmptied`: block by block; cells that were settled are far again. */
 static bool AreListsOfField(const kiriField* field, kiriCheck* check, bool isEmptied)
 {
     int32_t stage = field->cursor[KIRI_STEP_LENGTHS];
-    kiriIndices settled = { field->settled.data, field->settled.count, field->settled.capacity };
-    kiriIndices dirty = { field->dirty.data, field->dirty.count, field->dirty.capacity };
-    bool areFine =
-        field->settled.capacity >= field->distance.count && kiriCheck_Distinct(check, &settled, field->distance.count);
+    kiriIndices settled = field->settled, dirty = field->dirty;
+    bool areFine = HaveListsRoom(field) && kiriCheck_Distinct(check, &settled, field->distance.count);
     if (areFine && stage == CHECK_SETTLES) {
         areFine = HaveMark(field, settled.data, settled.count, sizeof(int32_t), MARK_SETTLED);
     }
@@ -92,9 +100,7 @@ bool kiriField_Check(const kiriField* field, kiriCheck* check, int64_t owners, k
                                             AreValues(field, check->count[KIRI_OF_CELLS], owners < INT32_MAX)) &&
                   kiriCheck_That(check, AreListsOfField(field, check, use == KIRI_FIELD_EMPTIED));
     if (isFine && use != KIRI_FIELD_FLOODS) {
-        isFine =
-            kiriCheck_That(check, field->log.capacity >= field->distance.count &&
-                                      field->dirty.capacity >= field->distance.count && IsLogOfField(field, check));
+        isFine = kiriCheck_That(check, IsLogOfField(field, check));
     }
     if (isFine && use == KIRI_FIELD_EMPTY) {
         isFine = kiriCheck_That(check, field->settled.count == 0 && field->log.count == 0 &&
@@ -121,7 +127,7 @@ static bool AreNearListed(const kiriField* field, kiriCheck* check, int32_t room
 
 bool kiriField_CheckLeft(const kiriField* field, kiriCheck* check)
 {
-    kiriIndices settled = { field->settled.data, field->settled.count, field->settled.capacity };
+    kiriIndices settled = field->settled;
     int32_t room = field->distance.capacity < field->owner.capacity ? field->distance.capacity : field->owner.capacity;
     return kiriCheck_That(check, field->distance.count == field->owner.count && field->dirty.count == 0 &&
                                      field->log.count == 0 && field->cursor[KIRI_STEP_LENGTHS] == CHECK_RESTS) &&
