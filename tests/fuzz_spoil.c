@@ -167,7 +167,7 @@ static void SpoilWord(FuzzBytes* bytes, const Traced* t, Save* save)
 static kiriResult LoadSave(kiriWorld* world, const void* context)
 {
     const Save* save = context;
-    return kiriWorld_Load(world, save->bytes, save->size);
+    return kiriWorld_LoadUntrusted(world, save->bytes, save->size);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)

@@ -244,7 +244,7 @@ def test_a_world_is_collected_while_cffi_parses():
 def test_save_and_load():
     world, sheet, cut = make_scene()
     world.tick(1 / 60)
-    saved, other = world.save(), kiri.World()
+    saved, other, before_all = world.save(), kiri.World(), world.state_hash()
     other.load(saved)
     assert other.save() == saved and other.state_hash() == world.state_hash()
     for each in (world, other):
@@ -259,6 +259,9 @@ def test_save_and_load():
     other.load(later, saved)
     assert other.save() == world.save()
     raises(kiri.KiriError, other.load, later)
+    other.load(saved, untrusted=True)
+    assert other.state_hash() == before_all
+    raises(ValueError, other.load, later, saved, untrusted=True)
     world.load(saved)
     assert sheet.counts().vertices == len(sheet.mesh().positions)
 

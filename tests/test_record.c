@@ -281,6 +281,7 @@ static void GoBack(Tape* tape)
     void* difference = malloc((size_t)more);
     assert_non_null(difference);
     OK(kiriWorld_SaveDifference(world, bytes, size, difference, more, &more));
+    OK(kiriWorld_LoadUntrusted(world, bytes, size));
     OK(kiriWorld_Load(world, bytes, size));
     OK(kiriWorld_LoadDifference(world, bytes, size, difference, more));
     free(difference);

@@ -1326,9 +1326,8 @@ func (w *World) Note(bytes []byte) (bool, error) {
 // The world becomes what was saved, from a world with whatever hooks; its own stay: allocation, log, clock and tasks.
 // The profile has no times until the next tick. What it had before is gone, but arrays that it handed out live until
 // the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this library
-// does not read. KIRI_ERROR_MEMORY. Then nothing has changed. The sum in a save finds damage, not malice: load no
-// save that somebody may have made to do harm. A recording has the bytes, up to 2^31 of them, so the same holds for
-// recordings that load.
+// does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds damage,
+// not malice. A recording has the bytes, up to 2^31 of them.
 func (w *World) Load(bytes []byte) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -1336,6 +1335,23 @@ func (w *World) Load(bytes []byte) (bool, error) {
 	result := C.kiriWorld_Load(w.c, unsafe.Pointer(unsafe.SliceData(bytes)), C.int64_t(len(bytes)))
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriWorld_Load", result, true); err != nil {
+		return false, err
+	}
+	return result == C.KIRI_PENDING, nil
+}
+
+// The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange, but it
+// is one that all calls are good for. What follows from the mesh and the frames is not read but made anew, which
+// takes about as long as to create the sheets. A world in which no cut is being worked on goes on bit for bit as
+// after kiriWorld_Load, but that with a budget a later cut may take effect in another tick. Work on a cut that is at
+// hand begins again: the cut does the same, and takes effect later.
+func (w *World) LoadUntrusted(bytes []byte) (bool, error) {
+	if err := w.check(); err != nil {
+		return false, err
+	}
+	result := C.kiriWorld_LoadUntrusted(w.c, unsafe.Pointer(unsafe.SliceData(bytes)), C.int64_t(len(bytes)))
+	runtime.KeepAlive(w)
+	if err := failure(w, "kiriWorld_LoadUntrusted", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -3011,6 +3027,7 @@ var functions = map[string]string{
 	"kiriWorld_Replay": "World.Replay",
 	"kiriWorld_Save": "World.Save",
 	"kiriWorld_Load": "World.Load",
+	"kiriWorld_LoadUntrusted": "World.LoadUntrusted",
 	"kiriWorld_SaveDifference": "World.SaveDifference",
 	"kiriWorld_LoadDifference": "World.LoadDifference",
 	"kiriWorld_GetEvents": "World.Events",

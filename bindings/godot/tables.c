@@ -573,6 +573,21 @@ static const Parameter WORLD_LOAD_PARAMETERS[] = {
     { "size", FORM_IN_COUNT, TYPE_INT64, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
 };
 
+static const Argument WORLD_LOAD_UNTRUSTED_ARGUMENTS[] = {
+    { "bytes", KIND_BYTES, CLASS_NONE },
+};
+
+static int64_t Call_kiriWorld_LoadUntrusted(void* const* a)
+{
+    return kiriWorld_LoadUntrusted(a[0], a[1], *(int64_t*)a[2]);
+}
+
+static const Parameter WORLD_LOAD_UNTRUSTED_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "bytes", FORM_IN_ROWS, TYPE_BYTE, KIND_BYTES, 1, 2, 1, 0, CLASS_NONE, NULL, NULL },
+    { "size", FORM_IN_COUNT, TYPE_INT64, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+};
+
 static const Argument WORLD_SAVE_DIFFERENCE_ARGUMENTS[] = {
     { "base", KIND_BYTES, CLASS_NONE },
 };
@@ -1901,6 +1916,7 @@ const Method METHODS[] = {
     { CLASS_WORLD, "replay", "kiriWorld_Replay", RETURNS_RESULT, KIND_INT, CLASS_NONE, 2, 2, WORLD_REPLAY_ARGUMENTS, 4, WORLD_REPLAY_PARAMETERS, Call_kiriWorld_Replay, NULL },
     { CLASS_WORLD, "save", "kiriWorld_Save", RETURNS_RESULT, KIND_BYTES, CLASS_NONE, 0, 0, NULL, 4, WORLD_SAVE_PARAMETERS, Call_kiriWorld_Save, NULL },
     { CLASS_WORLD, "load", "kiriWorld_Load", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, WORLD_LOAD_ARGUMENTS, 3, WORLD_LOAD_PARAMETERS, Call_kiriWorld_Load, NULL },
+    { CLASS_WORLD, "load_untrusted", "kiriWorld_LoadUntrusted", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, WORLD_LOAD_UNTRUSTED_ARGUMENTS, 3, WORLD_LOAD_UNTRUSTED_PARAMETERS, Call_kiriWorld_LoadUntrusted, NULL },
     { CLASS_WORLD, "save_difference", "kiriWorld_SaveDifference", RETURNS_RESULT, KIND_BYTES, CLASS_NONE, 1, 1, WORLD_SAVE_DIFFERENCE_ARGUMENTS, 6, WORLD_SAVE_DIFFERENCE_PARAMETERS, Call_kiriWorld_SaveDifference, NULL },
     { CLASS_WORLD, "load_difference", "kiriWorld_LoadDifference", RETURNS_RESULT, KIND_INT, CLASS_NONE, 2, 2, WORLD_LOAD_DIFFERENCE_ARGUMENTS, 5, WORLD_LOAD_DIFFERENCE_PARAMETERS, Call_kiriWorld_LoadDifference, NULL },
     { CLASS_WORLD, "get_events", "kiriWorld_GetEvents", RETURNS_RESULT, KIND_ARRAY, CLASS_NONE, 0, 0, NULL, 3, WORLD_GET_EVENTS_PARAMETERS, Call_kiriWorld_GetEvents, NULL },

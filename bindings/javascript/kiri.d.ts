@@ -1272,10 +1272,15 @@ export class World {
     /** The world becomes what was saved, from a world with whatever hooks; its own stay: allocation, log, clock and
      *  tasks. The profile has no times until the next tick. What it had before is gone, but arrays that it handed out
      *  live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that
-     *  this library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. The sum in a save finds damage, not
-     *  malice: load no save that somebody may have made to do harm. A recording has the bytes, up to 2^31 of them, so
-     *  the same holds for recordings that load. */
+     *  this library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a
+     *  save finds damage, not malice. A recording has the bytes, up to 2^31 of them. */
     load(bytes: Uint8Array): ResultCode;
+    /** The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange, but
+     *  it is one that all calls are good for. What follows from the mesh and the frames is not read but made anew,
+     *  which takes about as long as to create the sheets. A world in which no cut is being worked on goes on bit for
+     *  bit as after World.load, but that with a budget a later cut may take effect in another tick. Work on a cut that
+     *  is at hand begins again: the cut does the same, and takes effect later. */
+    loadUntrusted(bytes: Uint8Array): ResultCode;
     /** What has changed since a save, for hosts that go back a little: a save now and then, and a difference to it each
      *  tick. Where no cut is being worked on it has poses, velocities and contacts; a cut adds what it changed. All of
      *  the world is compared with the base, so it takes about as long as a save (tests/README.md has sizes and times).

@@ -1499,6 +1499,21 @@ export class World extends WorldBase {
         }
     }
 
+    loadUntrusted(bytes) {
+        const $world = pointer(this);
+        try {
+            this._epoch++;
+            const $bytes = putRows("Uint8Array", bytes, 1, "bytes");
+            const $result = wasm.kiriWorld_LoadUntrusted($world, $bytes, BigInt(bytes.length));
+            if ($result < 0) {
+                fail(this, $result, "kiriWorld_LoadUntrusted");
+            }
+            return $result;
+        } finally {
+            release();
+        }
+    }
+
     saveDifference(base) {
         const $world = pointer(this);
         try {

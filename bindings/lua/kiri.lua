@@ -116,6 +116,7 @@ kiriResult kiriWorld_Note(kiriWorld* world, const void* bytes, int32_t count);
 kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, int64_t size, kiriReplay* replay);
 kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
+kiriResult kiriWorld_LoadUntrusted(kiriWorld* world, const void* bytes, int64_t size);
 kiriResult kiriWorld_SaveDifference(const kiriWorld* world, const void* base, int64_t baseSize, void* bytes, int64_t capacity, int64_t* size);
 kiriResult kiriWorld_LoadDifference(kiriWorld* world, const void* base, int64_t baseSize, const void* bytes, int64_t size);
 kiriResult kiriWorld_GetEvents(const kiriWorld* world, const kiriEvent** events, int32_t* count);
@@ -788,14 +789,26 @@ end
 --- The world becomes what was saved, from a world with whatever hooks; its own stay: allocation, log, clock and
 --- tasks. The profile has no times until the next tick. What it had before is gone, but arrays that it handed out
 --- live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this
---- library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. The sum in a save finds damage, not malice:
---- load no save that somebody may have made to do harm. A recording has the bytes, up to 2^31 of them, so the same
---- holds for recordings that load.
+--- library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds
+--- damage, not malice. A recording has the bytes, up to 2^31 of them.
 function World:load(bytes, size)
     local world = self
     size = size or #bytes
     local result = C.kiriWorld_Load(world.c, bytes, size)
     if result < 0 then fail(world, "kiriWorld_Load", result, true) end
+    return result == 1
+end
+
+--- The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange, but
+--- it is one that all calls are good for. What follows from the mesh and the frames is not read but made anew, which
+--- takes about as long as to create the sheets. A world in which no cut is being worked on goes on bit for bit as
+--- after kiriWorld_Load, but that with a budget a later cut may take effect in another tick. Work on a cut that is at
+--- hand begins again: the cut does the same, and takes effect later.
+function World:loadUntrusted(bytes, size)
+    local world = self
+    size = size or #bytes
+    local result = C.kiriWorld_LoadUntrusted(world.c, bytes, size)
+    if result < 0 then fail(world, "kiriWorld_LoadUntrusted", result, true) end
     return result == 1
 end
 

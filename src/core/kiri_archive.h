@@ -154,6 +154,10 @@ int32_t kiriArchive_Count(kiriArchive* archive, int64_t count, int64_t least, in
 void kiriArchive_Object(kiriArchive* archive, const kiriTable* table, void* object);
 void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* objects, int64_t count);
 
+/* Gives back what reading has made of an object, which becomes zero. What it drops has been given back before, and what
+   functions of its own read is no memory. */
+void kiriArchive_Forget(const kiriTable* table, void* object, kiriMemory* memory);
+
 /* A block of so many numbers, of *block. */
 void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_t count);
 

@@ -5,6 +5,8 @@
 #include "kiri_place_work.h"
 #include "kiri_shape_work.h"
 
+#include <string.h>
+
 static const kiriMember SiteMembers[] = {
     KIRI_RUN(8, kiriSite, at, at),
     KIRI_RUN(4, kiriSite, cell, cell),
@@ -341,5 +343,46 @@ void kiriPlacer_EndReading(kiriPlacer* placer, const kiriField* known)
 {
     if (placer->work != NULL && placer->work->old == NULL) {
         placer->work->old = known;
+    }
+}
+
+/* ---- What is made anew ---- */
+
+void kiriGrid_Forget(kiriGrid* grid, kiriMemory* memory)
+{
+    if (grid->work != NULL) {
+        kiriGrowing_Drop(&grid->work->growing);
+    }
+    kiriArchive_Forget(&kiriGridTable, grid, memory);
+}
+
+void kiriRegions_Forget(kiriRegions* regions, kiriMemory* memory)
+{
+    kiriArchive_Forget(&kiriRegionsTable, regions, memory);
+}
+
+void kiriShape_Forget(kiriShape* shape, kiriMemory* memory)
+{
+    kiriShape kept;
+    memset(&kept, 0, sizeof(kept));
+    kept.labels = shape->labels;
+    kept.rigidWeight = shape->rigidWeight;
+    kept.eased = shape->eased;
+    memset(&shape->labels, 0, sizeof(shape->labels));
+    kiriArchive_Forget(&kiriShapeTable, shape, memory);
+    *shape = kept;
+}
+
+void kiriLinks_Forget(kiriLinks* links, kiriMemory* memory)
+{
+    kiriLinkWork* work = links->work;
+    kiriArray_Release(memory, &links->next);
+    kiriArray_Release(memory, &links->nextCorners);
+    if (work != NULL) {
+        kiriArrayHeader ends = kiriArray_GetHeader(&work->ends);
+        memset(&work->ends, 0, sizeof(work->ends));
+        kiriArchive_Forget(&LinkWorkTable, work, memory);
+        kiriArray_SetHeader(&work->ends, ends);
+        kiriLinks_EndReading(links, memory);
     }
 }

@@ -67,16 +67,33 @@ static bool AreRowOfLinks(kiriCheck* check, const kiriLink* links, int32_t count
     return areFine;
 }
 
-static bool AreCornersOfLinks(kiriCheck* check, const kiriCorner* corners, int32_t count, int32_t links)
+/* Its links join as many frames as there are links, in a ring: each is of two of them. */
+static bool IsRing(const kiriCorner* corner, const kiriLink* links)
+{
+    bool isRing = true;
+    for (int32_t c = 0; isRing && c < 2 * corner->count; ++c) {
+        const kiriLink* link = &links[corner->link[c / 2]];
+        int32_t frame = c % 2 == 0 ? link->i : link->j, times = 0;
+        for (int32_t k = 0; k < corner->count; ++k) {
+            times += links[corner->link[k]].i == frame || links[corner->link[k]].j == frame;
+        }
+        isRing = times == 2;
+    }
+    return isRing;
+}
+
+static bool AreCornersOfLinks(kiriCheck* check, const kiriCorner* corners, int32_t count, const kiriLink* links,
+                              int32_t linkCount)
 {
     bool areFine = true;
-    check->count[KIRI_OF_LINKS] = links;
+    check->count[KIRI_OF_LINKS] = linkCount;
     for (int32_t k = 0; areFine && k < count; ++k) {
         const kiriCorner* corner = &corners[k];
         areFine = kiriCheck_Object(check, CornerMust, corner);
         for (int32_t c = 0; areFine && c < corner->count; ++c) {
             areFine = kiriCheck_That(check, corner->link[c] > (c > 0 ? corner->link[c - 1] : KIRI_NONE));
         }
+        areFine = areFine && kiriCheck_That(check, IsRing(corner, links));
     }
     return areFine;
 }
@@ -153,9 +170,10 @@ bool kiriLinks_Check(const kiriLinks* links, const kiriGrid* grid, const kiriMes
         return false;
     }
     return AreRowOfLinks(check, links->next.data, links->next.count, check->count[KIRI_OF_SITES]) &&
-           AreCornersOfLinks(check, links->nextCorners.data, links->nextCorners.count, links->next.count) &&
+           AreCornersOfLinks(check, links->nextCorners.data, links->nextCorners.count, links->next.data,
+                             links->next.count) &&
            AreRowOfLinks(check, links->links.data, links->links.count, check->count[KIRI_OF_FRAMES]) &&
-           AreCornersOfLinks(check, links->corners.data, links->corners.count, links->links.count) &&
+           AreCornersOfLinks(check, links->corners.data, links->corners.count, links->links.data, links->links.count) &&
            kiriCheck_Object(check, EndsOfLinksMust, work) && AreSights(check, work) &&
            kiriCheck_That(check, AreMarksOfFaces(work, grid->faces.count)) &&
            (!work->running || (kiriCheck_Object(check, RunningLinksMust, work) &&

@@ -335,7 +335,8 @@ static bool AreSettings(kiriCheck* check, const kiriSettings* settings)
 static bool AreFramesSound(kiriCheck* check, const kiriSheetData* sheet)
 {
     bool areFine =
-        kiriCheck_That(check, sheet->frames.count > 0 && sheet->regions.dirty.capacity >= sheet->frames.count);
+        kiriCheck_That(check, sheet->frames.count > 0 && sheet->regions.dirty.capacity >= sheet->frames.count &&
+                                  kiriLabels_AreSound(&sheet->shape.labels, sheet->frames.count));
     for (int32_t f = 0; areFine && f < sheet->frames.count; ++f) {
         areFine = kiriFrame_Check(&sheet->frames.data[f], check, &sheet->mesh);
     }

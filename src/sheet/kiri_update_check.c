@@ -229,6 +229,7 @@ static bool ArePartsOfWork(const kiriUpdate* u, const kiriSheetData* sheet)
         return fresh == 0;
     }
     return u->cut.taken <= u->cut.count && u->cut.count <= sheet->queue.count &&
+           (u->stage == KIRI_STAGE_CUT || u->cut.taken == u->cut.count) &&
            u->placing.movesSeen <= u->placing.moves.count && IsStepOfStage(u) &&
            (!isPlaced || u->newFrames.count <= fresh) &&
            (u->step < STEP_PREPARE || !isPlaced || u->newFrames.count == fresh) &&
@@ -269,7 +270,8 @@ static bool AreLeft(kiriCheck* check, const kiriSheetData* sheet)
     check->count[KIRI_OF_FACES] = INT32_MAX;
     const kiriUpdate* u = sheet->update;
     return kiriCheck_That(check, u->stage <= KIRI_STAGE_GRID && !u->placing.isTaking && !u->placing.isPlacing) &&
-           kiriGrid_CheckLeft(grid, check) && kiriPlacer_Check(&u->placing.placer, grid, check, false, false);
+           kiriGrid_CheckLeft(grid, check) && kiriPlacer_Check(&u->placing.placer, grid, check, false, false) &&
+           kiriOwnership_Check(&u->refit.ownership, check, &sheet->mesh);
 }
 
 /* What it works on: grid, regions, shape functions, and what was done with them. */

@@ -16,7 +16,17 @@ kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size)
     KIRI_CHANGES(world, KIRI_CALL_WORLD_LOAD, bytes, &count);
     KIRI_CHECK(bytes != NULL && size >= 0, "bytes is null, or size below 0");
     const char* why = NULL;
-    kiriResult result = kiriSave_Read(world, bytes, size, &why);
+    kiriResult result = kiriSave_Read(world, bytes, size, true, &why);
+    KIRI_RETURN_OR_SAY(result, why);
+}
+
+kiriResult kiriWorld_LoadUntrusted(kiriWorld* world, const void* bytes, int64_t size)
+{
+    int32_t count = size <= INT32_MAX ? (int32_t)size : INT32_MIN;
+    KIRI_CHANGES(world, KIRI_CALL_WORLD_LOAD_UNTRUSTED, bytes, &count);
+    KIRI_CHECK(bytes != NULL && size >= 0, "bytes is null, or size below 0");
+    const char* why = NULL;
+    kiriResult result = kiriSave_Read(world, bytes, size, false, &why);
     KIRI_RETURN_OR_SAY(result, why);
 }
 

@@ -1,6 +1,7 @@
 #include "kiri_save.h"
 
 #include "../core/kiri_hash.h"
+#include "../sheet/kiri_remake.h"
 #include "../sheet/kiri_sheet_save.h"
 #include "kiri_blade.h"
 #include "kiri_world_check.h"
@@ -447,16 +448,40 @@ static void DropSheets(kiriWorld* world, kiriMemory* shown)
     world->sheets.count = 0;
 }
 
-static kiriResult ReadWorld(kiriWorld* made, const uint8_t* bytes, int64_t size, SaveBase* base)
+/* Of bytes that nobody trusts, before they are checked. */
+static void ForgetWork(kiriArchive* archive, kiriWorld* made)
+{
+    for (int32_t i = 0; i < made->sheets.count && !kiriArchive_HasFailed(archive); ++i) {
+        archive->isShort |= !kiriSheet_ForgetWork(made->sheets.data[i]);
+    }
+}
+
+/* And after that. */
+static void RemakeFields(kiriArchive* archive, kiriWorld* made)
+{
+    for (int32_t i = 0; i < made->sheets.count && !kiriArchive_HasFailed(archive); ++i) {
+        bool isBad = false, isMade = kiriRemake_Field(made->sheets.data[i], &isBad);
+        archive->isShort |= !isMade && !isBad;
+        kiriArchive_Expect(archive, !isBad);
+    }
+}
+
+static kiriResult ReadWorld(kiriWorld* made, const uint8_t* bytes, int64_t size, SaveBase* base, bool isTrusted)
 {
     kiriArchive archive = kiriArchive_Read(bytes + HEAD_BYTES, size - HEAD_BYTES - SUM_BYTES, &made->memory);
     archive.room += base != NULL ? kiriArchive_Read(NULL, base->size, NULL).room : 0;
     ArchiveWorld(&archive, made, base);
     kiriArchive_Expect(&archive, archive.at == archive.size);
     kiriArchive_Expect(&archive, kiriArchive_HasFailed(&archive) || ClaimIds(made));
+    if (!isTrusted) {
+        ForgetWork(&archive, made);
+    }
     bool isShort = false, isFine = kiriArchive_HasFailed(&archive) || kiriWorld_Check(made, &isShort);
     archive.isShort |= isShort;
     kiriArchive_Expect(&archive, isFine);
+    if (!isTrusted) {
+        RemakeFields(&archive, made);
+    }
     for (int32_t i = 0; i < made->sheets.count && !kiriArchive_HasFailed(&archive); ++i) {
         archive.isShort |= !kiriSheet_EndReading(made->sheets.data[i]);
     }
@@ -482,12 +507,13 @@ static void TakeWorld(kiriWorld* world, kiriWorld* made)
     kiriMemory_AdoptAll(&world->memory, &made->memory);
 }
 
-static kiriResult LoadWorld(kiriWorld* world, const uint8_t* bytes, int64_t size, SaveBase* base, const char** why)
+static kiriResult LoadWorld(kiriWorld* world, const uint8_t* bytes, int64_t size, SaveBase* base, bool isTrusted,
+                            const char** why)
 {
     kiriWorld made;
     memset(&made, 0, sizeof(made));
     made.memory = kiriMemory_Like(&world->memory);
-    kiriResult result = ReadWorld(&made, bytes, size, base);
+    kiriResult result = ReadWorld(&made, bytes, size, base, isTrusted);
     if (result != KIRI_OK) {
         *why = result == KIRI_ERROR_MEMORY ? NULL : "the bytes have a right sum, but no world";
         DropSheets(&made, NULL);
@@ -498,11 +524,11 @@ static kiriResult LoadWorld(kiriWorld* world, const uint8_t* bytes, int64_t size
     return KIRI_OK;
 }
 
-kiriResult kiriSave_Read(kiriWorld* world, const void* bytes, int64_t size, const char** why)
+kiriResult kiriSave_Read(kiriWorld* world, const void* bytes, int64_t size, bool isTrusted, const char** why)
 {
     SaveHead head;
     *why = FaultOfBytes(bytes, size, saveMagic, &head);
-    return *why != NULL ? KIRI_ERROR_DATA : LoadWorld(world, bytes, size, NULL, why);
+    return *why != NULL ? KIRI_ERROR_DATA : LoadWorld(world, bytes, size, NULL, isTrusted, why);
 }
 
 kiriResult kiriSave_ReadDifference(kiriWorld* world, const void* from, int64_t fromSize, const void* bytes,
@@ -515,5 +541,5 @@ kiriResult kiriSave_ReadDifference(kiriWorld* world, const void* from, int64_t f
     if (*why == NULL && (!FindBase(&base, from, fromSize) || base.sum != head.base)) {
         *why = "these bytes are a difference to another save";
     }
-    return *why != NULL ? KIRI_ERROR_DATA : LoadWorld(world, bytes, size, &base, why);
+    return *why != NULL ? KIRI_ERROR_DATA : LoadWorld(world, bytes, size, &base, true, why);
 }

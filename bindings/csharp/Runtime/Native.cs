@@ -1380,6 +1380,9 @@ namespace Kiri
         public static extern int kiriWorld_Load(IntPtr world, void* bytes, long size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriWorld_LoadUntrusted(IntPtr world, void* bytes, long size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriWorld_SaveDifference(IntPtr world, void* @base, long @baseSize, void* bytes, long capacity, long* size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]

@@ -87,10 +87,14 @@ class World(_core.World, _methods.World):
             return bytes(data)
         return self.call(name, *before, ffi.NULL, 0, size, take=take)
 
-    def load(self, data, base=None):
-        """The world becomes what was saved; objects go on naming what they named then. A base as that of save."""
+    def load(self, data, base=None, untrusted=False):
+        """The world becomes what was saved; objects go on naming what they named then. A base as that of save. Untrusted: a
+        save of others, who may have made it to do harm; differences are for bytes of your own."""
+        if untrusted and base is not None:
+            raise ValueError("a difference to a base is loaded as it is: only a whole save may be untrusted")
         if base is None:
-            self.call("kiriWorld_Load", ffi.from_buffer(data), len(data))
+            name = "kiriWorld_LoadUntrusted" if untrusted else "kiriWorld_Load"
+            self.call(name, ffi.from_buffer(data), len(data))
         else:
             self.call("kiriWorld_LoadDifference", ffi.from_buffer(base), len(base), ffi.from_buffer(data), len(data))
 

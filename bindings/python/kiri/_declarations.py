@@ -38,6 +38,7 @@ CHANGES = {'kiriWorld_Tick': True,
  'kiriWorld_Replay': True,
  'kiriWorld_Save': False,
  'kiriWorld_Load': True,
+ 'kiriWorld_LoadUntrusted': True,
  'kiriWorld_SaveDifference': False,
  'kiriWorld_LoadDifference': True,
  'kiriWorld_GetEvents': False,
@@ -135,6 +136,7 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriWorld_Replay': ('World', 'replay'),
  'kiriWorld_Save': ('World', 'save'),
  'kiriWorld_Load': ('World', 'load'),
+ 'kiriWorld_LoadUntrusted': ('World', 'load'),
  'kiriWorld_SaveDifference': ('World', 'save'),
  'kiriWorld_LoadDifference': ('World', 'load'),
  'kiriWorld_GetEvents': ('World', 'events'),
@@ -402,6 +404,7 @@ kiriResult kiriWorld_Note(kiriWorld* world, const void* bytes, int32_t count);
 kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, int64_t size, kiriReplay* replay);
 kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
+kiriResult kiriWorld_LoadUntrusted(kiriWorld* world, const void* bytes, int64_t size);
 kiriResult kiriWorld_SaveDifference(const kiriWorld* world, const void* base, int64_t baseSize, void* bytes, int64_t capacity, int64_t* size);
 kiriResult kiriWorld_LoadDifference(kiriWorld* world, const void* base, int64_t baseSize, const void* bytes, int64_t size);
 kiriResult kiriWorld_GetEvents(const kiriWorld* world, const kiriEvent** events, int32_t* count);

@@ -2167,12 +2167,24 @@ impl World {
     /// allocation, log, clock and tasks. The profile has no times until the next tick. What it had
     /// before is gone, but arrays that it handed out live until the next tick.
     /// [`ResultCode::ErrorData`]: the bytes are no save, or cut short, changed, or of a version
-    /// that this library does not read. [`ResultCode::ErrorMemory`]. Then nothing has changed. The
-    /// sum in a save finds damage, not malice: load no save that somebody may have made to do harm.
-    /// A recording has the bytes, up to 2^31 of them, so the same holds for recordings that load.
+    /// that this library does not read. [`ResultCode::ErrorMemory`]. Then nothing has changed. For
+    /// bytes of your own: the sum in a save finds damage, not malice. A recording has the bytes, up
+    /// to 2^31 of them.
     pub fn load(&mut self, bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_Load(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
+        Ok(())
+    }
+
+    /// The same for bytes of others, who may have made them to do harm: what the world becomes may
+    /// then be strange, but it is one that all calls are good for. What follows from the mesh and
+    /// the frames is not read but made anew, which takes about as long as to create the sheets. A
+    /// world in which no cut is being worked on goes on bit for bit as after [`World::load`], but
+    /// that with a budget a later cut may take effect in another tick. Work on a cut that is at
+    /// hand begins again: the cut does the same, and takes effect later.
+    pub fn load_untrusted(&mut self, bytes: &[u8]) -> Result<()> {
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check(unsafe { sys::kiriWorld_LoadUntrusted(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
         Ok(())
     }
 
