@@ -425,6 +425,35 @@ static void TestHolesChangeNothing(void** state)
     assert_true(holes > 5 && tidied > 0);
 }
 
+/* The indices are written where they are, unless the host has got them since the last tick: then it keeps them as they were,
+   and gets others. */
+static void TestIndicesAreCopiedForWhoHoldsThem(void** state)
+{
+    (void)state;
+    Host host;
+    kiriSheetDef def = DefOf(24);
+    Host_Start(&host);
+    Weightless(&host);
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 70, 70);
+    Host_Cut(&host, sheet, (float[]){ 0.7f, -0.1f, 0.7f, 0.3f, 1.1f, 0.3f }, 3);
+    Host_Cut(&host, sheet, (float[]){ 0.4f, -0.1f, 0.4f, 0.3f, -0.1f, 0.3f }, 3);
+    OK(Host_Tick(&host, 1.0f / 60.0f, 1));
+    const int32_t* last = Host_Mesh(&host, sheet).indices;
+    kiriFrame right = FrameNear(&host, sheet, 0.85f, 0.15f), left = FrameNear(&host, sheet, 0.2f, 0.15f);
+    OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
+    OK(kiriFrame_DestroyPiece(host.world, right));
+    kiriMesh held = Host_Mesh(&host, sheet);
+    assert_ptr_equal(held.indices, last);
+    int32_t hidden = CountHidden(&held);
+    assert_true(hidden > 0);
+    OK(kiriFrame_DestroyPiece(host.world, left));
+    kiriMesh mesh = Host_Mesh(&host, sheet);
+    assert_ptr_not_equal(mesh.indices, held.indices);
+    assert_int_equal(CountHidden(&held), hidden);
+    assert_true(CountHidden(&mesh) > hidden);
+    Host_Stop(&host);
+}
+
 /* What the host sees of a hole: a triangle with three equal corners, in the range that is dirty; not hit. Arrays that it has
    stay as they were. */
 static void TestHolesAreNotSeen(void** state)
@@ -1107,6 +1136,7 @@ int main(void)
         cmocka_unit_test(TestSquaresOfAPart),
         cmocka_unit_test(TestLeftIsAsFromScratch),
         cmocka_unit_test(TestHolesChangeNothing),
+        cmocka_unit_test(TestIndicesAreCopiedForWhoHoldsThem),
         cmocka_unit_test(TestHolesAreNotSeen),
         cmocka_unit_test(TestHolesTouchNothing),
         cmocka_unit_test(TestHolesWithoutMemory),

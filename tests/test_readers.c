@@ -254,6 +254,7 @@ static void TakeBytes(const Scene* scene, Bytes* bytes)
     memset(bytes, 0, sizeof(*bytes));
     memcpy(&bytes->world, world, sizeof(bytes->world));
     memcpy(&bytes->sheet, world->sheets.data[0], sizeof(bytes->sheet));
+    bytes->sheet.seen.surface.lentAt = 0; /* word that they leave */
     bytes->hash = Host_Hash(&scene->hall.host);
     bytes->look = Look_World(world);
     strcpy(bytes->lastError, kiriWorld_GetLastError(world));

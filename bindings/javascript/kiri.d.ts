@@ -1514,10 +1514,10 @@ export class Frame {
      *  KIRI_ERROR_STATE: nothing would be left of the sheet. */
     detachPiece(): Sheet | null;
     /** The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but for making a sheet:
-     *  that is done at once, and the coming ticks have less. KIRI_PENDING: work on a cut is at hand. The piece is gone
-     *  all the same: its triangles are in kiriMesh, with three equal corners; it touches nothing; no point of it is
-     *  found. When the work is done its vertices go, too; until then kiriCounts still counts it, and its kiriPieceState
-     *  is all zeros. */
+     *  that is done at once, and the coming ticks have less. Where Sheet.getMesh has been called since the last tick,
+     *  all indices are copied. KIRI_PENDING: work on a cut is at hand. The piece is gone all the same: its triangles
+     *  are in kiriMesh, with three equal corners; it touches nothing; no point of it is found. When the work is done
+     *  its vertices go, too; until then kiriCounts still counts it, and its kiriPieceState is all zeros. */
     destroyPiece(): ResultCode;
     /** Pose, motion and region as they are now. */
     getState(into?: FrameState): FrameState;

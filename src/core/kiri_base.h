@@ -90,6 +90,19 @@ typedef enum kiriProgress {
     KIRI_FAILED, /* no memory */
 } kiriProgress;
 
+/* Word that somebody leaves who only reads: several threads may write the same at the same time. */
+static inline void kiriWord_Leave(const int32_t* word, int32_t value)
+{
+    int32_t* at = (int32_t*)word;
+#if defined(__GNUC__)
+    if (__atomic_load_n(at, __ATOMIC_RELAXED) != value) {
+        __atomic_store_n(at, value, __ATOMIC_RELAXED);
+    }
+#else
+    *(volatile int32_t*)at = value;
+#endif
+}
+
 /* Items that may be worked on before the next pause. */
 typedef struct kiriQuota {
     int64_t left; /* never below zero */

@@ -331,17 +331,9 @@ bool kiriBounds_Update(kiriBounds* bounds, kiriMemory* memory, const kiriSurface
 
 /* ---- For who reads ---- */
 
-/* Several threads may write the same 1. */
 void kiriBounds_Ask(const kiriBounds* bounds)
 {
-    int32_t* asked = &((kiriBounds*)bounds)->asked;
-#if defined(__GNUC__)
-    if (__atomic_load_n(asked, __ATOMIC_RELAXED) == 0) {
-        __atomic_store_n(asked, 1, __ATOMIC_RELAXED);
-    }
-#else
-    *(volatile int32_t*)asked = 1;
-#endif
+    kiriWord_Leave(&bounds->asked, 1);
 }
 
 /* Room for sorting is given back here alone: an update may run in a task, where nothing is allocated or freed. */

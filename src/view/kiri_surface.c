@@ -217,10 +217,23 @@ void kiriSurface_GetDirty(const kiriSurface* surface, uint32_t sinceRevision, ki
 
 /* ---- What is not seen ---- */
 
-bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired)
+static int32_t LentAfter(int64_t ticks)
+{
+    return 1 + (int32_t)(ticks % INT32_MAX);
+}
+
+void kiriSurface_LendIndices(const kiriSurface* surface, int64_t ticks)
+{
+    kiriWord_Leave(&surface->lentAt, LentAfter(ticks));
+}
+
+bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired, int64_t ticks)
 {
     kiriIndices fresh = { NULL, 0, 0 };
     kiriArrayHeader was = kiriArray_GetHeader(&surface->indices);
+    if (surface->lentAt != LentAfter(ticks)) {
+        return true;
+    }
     if (!kiriArray_Resize(memory, &fresh, was.count)) {
         return false;
     }
@@ -229,6 +242,7 @@ bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemo
     }
     kiriArray_SetHeader(&surface->indices, kiriArray_GetHeader(&fresh));
     kiriMemory_Adopt(retired, was.data);
+    surface->lentAt = 0;
     return true;
 }
 

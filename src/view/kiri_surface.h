@@ -28,6 +28,7 @@ typedef struct kiriSurface {
     KIRI_ARRAY(int32_t) indices, sourceTriangles;
     int32_t vertexCount, triangleCount;
     uint32_t revision;
+    int32_t lentAt; /* the tick after which the host got the indices last, from 1 on */
 
     KIRI_ARRAY(kiriVec2) rest;   /* local m */
     KIRI_ARRAY(int32_t) corners; /* 6 for two triangles: turned to a, b, c and a, c, d where they share an edge */
@@ -101,8 +102,11 @@ void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* tr
 void kiriSurface_LeaveHoles(kiriSurface* surface, const kiriIndices* triangles, const kiriMeshData* mesh,
                             int32_t frameCount);
 
-/* The indices get a new array, for the host may hold the old one, which gets the owner `retired`. False for memory. */
-bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired);
+/* The host gets the indices, after so many ticks. Any number of threads may say so at the same time. */
+void kiriSurface_LendIndices(const kiriSurface* surface, int64_t ticks);
+
+/* Where the host holds the indices, they get a new array, and the old one gets the owner `retired`. False for memory. */
+bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired, int64_t ticks);
 
 /* A triangle is seen no more: all its corners are the first. */
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);

@@ -71,6 +71,7 @@ static const kiriMember LiveSurfaceMembers[] = {
     KIRI_SPACE_OF(kiriSurface, positions),
     KIRI_SPACE_OF(kiriSurface, normals),
     KIRI_RUN(4, kiriSurface, vertexCount, revision),
+    KIRI_DROPPED(kiriSurface, lentAt),
     KIRI_SPACE_OF(kiriSurface, slopes),
     KIRI_RUN(8, kiriSurface, pose, middle),
     KIRI_SPACE_OF(kiriSurface, places),

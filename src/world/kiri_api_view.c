@@ -14,6 +14,7 @@ kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* 
     KIRI_CHECK(mesh != NULL, "mesh is null");
     KIRI_FIND_SHEET(data, sheet);
     const kiriSurface* surface = &data->seen.surface;
+    kiriSurface_LendIndices(surface, world->ticks);
     mesh->positions = surface->positions.data;
     mesh->normals = surface->wantsNormals ? surface->normals.data : NULL;
     mesh->restPositions = surface->restPositions.data;

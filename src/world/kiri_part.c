@@ -172,7 +172,8 @@ static bool StageRemoval(kiriParting* parting, kiriPartSource* source)
     kiriSheetData* sheet = source->removal.sheet;
     return kiriRemoval_Stage(&source->removal, source->leavesHoles) &&
            (!source->leavesHoles || parting->isInTick ||
-            kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired));
+            kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired,
+                                     parting->world->ticks));
 }
 
 bool kiriParting_Stage(kiriParting* parting)

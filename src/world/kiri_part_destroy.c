@@ -61,8 +61,8 @@ static bool RenewIndices(kiriParting* parting)
     bool ok = true;
     for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
         kiriSheetData* sheet = parting->sources[k].removal.sheet;
-        ok = !parting->sources[k].waits ||
-             kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired);
+        ok = !parting->sources[k].waits || kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown,
+                                                                    &parting->world->retired, parting->world->ticks);
     }
     return ok;
 }

@@ -1269,10 +1269,11 @@ unsafe extern "C" {
     /// once the coming ticks have less. KIRI_ERROR_STATE: nothing would be left of the sheet.
     pub fn kiriFrame_DetachPiece(world: *mut kiriWorld, frame: kiriFrame, detached: *mut kiriSheet) -> kiriResult;
     /// The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but
-    /// for making a sheet: that is done at once, and the coming ticks have less. KIRI_PENDING: work
-    /// on a cut is at hand. The piece is gone all the same: its triangles are in kiriMesh, with
-    /// three equal corners; it touches nothing; no point of it is found. When the work is done its
-    /// vertices go, too; until then kiriCounts still counts it, and its kiriPieceState is all
+    /// for making a sheet: that is done at once, and the coming ticks have less. Where
+    /// kiriSheet_GetMesh has been called since the last tick, all indices are copied. KIRI_PENDING:
+    /// work on a cut is at hand. The piece is gone all the same: its triangles are in kiriMesh,
+    /// with three equal corners; it touches nothing; no point of it is found. When the work is done
+    /// its vertices go, too; until then kiriCounts still counts it, and its kiriPieceState is all
     /// zeros.
     pub fn kiriFrame_DestroyPiece(world: *mut kiriWorld, frame: kiriFrame) -> kiriResult;
     /// The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames

@@ -2816,7 +2816,8 @@ impl Frame {
     }
 
     /// The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but
-    /// for making a sheet: that is done at once, and the coming ticks have less.
+    /// for making a sheet: that is done at once, and the coming ticks have less. Where
+    /// [`Sheet::mesh`] has been called since the last tick, all indices are copied.
     /// [`ResultCode::Pending`]: work on a cut is at hand. The piece is gone all the same: its
     /// triangles are in [`Mesh`], with three equal corners; it touches nothing; no point of it is
     /// found. When the work is done its vertices go, too; until then [`Counts`] still counts it,
