@@ -512,6 +512,8 @@ $(BUILD)/tests/test_readers $(BUILD)/tests/test_tasks $(BUILD)/tests/bench_tasks
 $(addprefix $(BUILD)/tests/,test_save test_saves test_unchanged test_untrusted): \
     $(patsubst %,$(BUILD)/tests/%.c.o,storm_types storm_acts storm_cuts storm_seen)
 
+$(BUILD)/tests/test_untrusted: $(patsubst %,$(BUILD)/tests/%.c.o,fuzz fuzz_saved)
+
 # Fuzzers: with the main of libFuzzer, or one that runs what it is given.
 FUZZ_MAIN := $(if $(filter fuzz,$(config)),,$(BUILD)/tests/fuzz_main.c.o)
 

@@ -1,7 +1,7 @@
 /* kiriWorld_LoadUntrusted: of a save that is honest it makes what kiriWorld_Load makes, where no cut is being worked on; and
    the cut that is being worked on does the same, if later. tests/fuzz_spoil.c has saves that are not honest. */
+#include "fuzz_saved.h"
 #include "host.h"
-#include "storm.h"
 
 #include "core/kiri_hash.h"
 #include "sheet/kiri_update.h"
@@ -9,20 +9,6 @@
 #include "world/kiri_world.h"
 
 enum { STORM_TICKS = 24, EVERY = 6, GO_ON = 6 };
-
-typedef struct Bytes {
-    uint8_t* data;
-    int64_t size;
-} Bytes;
-
-static Bytes Save(const kiriWorld* world)
-{
-    Bytes bytes = { NULL, 0 };
-    OK(kiriWorld_Save(world, NULL, 0, &bytes.size));
-    bytes.data = malloc((size_t)bytes.size);
-    OK(kiriWorld_Save(world, bytes.data, bytes.size, &bytes.size));
-    return bytes;
-}
 
 static uint64_t HashOf(const kiriWorld* world)
 {
@@ -68,16 +54,16 @@ static void CheckGoesOn(const Storm* storm, kiriWorld* trusting, kiriWorld* othe
     Storm a = *storm, b = *storm;
     a.world = trusting;
     b.world = other;
-    Bytes bytes = Save(storm->world);
-    OK(kiriWorld_Load(trusting, bytes.data, bytes.size));
-    OK(kiriWorld_LoadUntrusted(other, bytes.data, bytes.size));
+    Save save = Saved_Make(storm->world, NULL);
+    OK(kiriWorld_Load(trusting, save.bytes, save.size));
+    OK(kiriWorld_LoadUntrusted(other, save.bytes, save.size));
     bool isAtWork = IsAtWork(storm->world);
     for (int32_t k = 0; k <= GO_ON && !isAtWork; ++k) {
         AssertAlike(&a, &b, tick, tick + k);
         Storm_Tick(&a);
         Storm_Tick(&b);
     }
-    free(bytes.data);
+    free(save.bytes);
 }
 
 static void RunStorm(int32_t kind, uint32_t seed)
@@ -161,16 +147,16 @@ static void TestWorkBeginsAgain(void** state)
     bool isDone = false;
     for (int32_t tick = 0; tick < MOST_TICKS && !isDone; ++tick) {
         isDone = Host_Tick(&host, 0.01f, 1) == KIRI_OK;
-        Bytes bytes = Save(host.world);
+        Save save = Saved_Make(host.world, NULL);
         int32_t stage = host.world->sheets.data[0]->update->stage;
         isSeen[isDone ? 0 : stage] = 1;
-        OK(kiriWorld_LoadUntrusted(other.world, bytes.data, bytes.size));
+        OK(kiriWorld_LoadUntrusted(other.world, save.bytes, save.size));
         OK(kiriWorld_SetBudget(other.world, &unlimited));
         Finish(&other);
         if (LayoutOf(&other) != LayoutOf(&whole)) {
             fail_msg("from tick %d, in stage %d, the cut has done something else", (int)tick, (int)stage);
         }
-        free(bytes.data);
+        free(save.bytes);
     }
     assert_true(isDone);
     for (int32_t stage = 0; stage < KIRI_READY; ++stage) {
@@ -181,11 +167,57 @@ static void TestWorkBeginsAgain(void** state)
     Host_Destroy(&other);
 }
 
+/* ---- What it takes ------------------------------------------------------------------------------------------------ */
+
+enum { MEMORY_FREE = 2 << 20, MEMORY_A_BYTE = 128 };
+
+/* Of a save whose every number says once that there is a lot of something. */
+static int64_t MostMemory(const Save* good, int32_t number)
+{
+    int64_t most = 0;
+    for (int64_t at = SAVED_HEAD_BYTES; at + 4 <= good->size - SAVED_SUM_BYTES; ++at) {
+        SavedHost host = { 0, 0 };
+        kiriWorldDef def = SavedHost_Def(&host);
+        kiriWorld* world = NULL;
+        Save save = Saved_Copy(good);
+        memcpy(save.bytes + at, &number, sizeof(number));
+        Saved_MendSum(&save);
+        OK(kiriCreateWorld(&def, &world));
+        kiriWorld_LoadUntrusted(world, save.bytes, save.size);
+        most = host.most > most ? host.most : most;
+        kiriDestroyWorld(world);
+        assert_int_equal(host.held, 0);
+        free(save.bytes);
+    }
+    return most;
+}
+
+static void TestSmallSavesTakeLittle(void** state)
+{
+    (void)state;
+    static const int32_t numbers[] = { INT32_MAX, 1 << 24, 1 << 16, 5000 };
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = 2;
+    def.frameCount = 1;
+    Host_AddRectangle(&host, &def, 1.0f, 1.0f, 1, 1);
+    OK(Host_Tick(&host, 0.01f, 1));
+    Save good = Saved_Make(host.world, NULL);
+    for (size_t k = 0; k < sizeof(numbers) / sizeof(numbers[0]); ++k) {
+        assert_true(MostMemory(&good, numbers[k]) <= MEMORY_FREE + MEMORY_A_BYTE * good.size);
+    }
+    free(good.bytes);
+    Host_Destroy(&host);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestStormsGoOn),
         cmocka_unit_test(TestWorkBeginsAgain),
+        cmocka_unit_test(TestSmallSavesTakeLittle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
