@@ -24,19 +24,20 @@ static inline void HashSteps(uint64_t* hash, const kiriGrid* grid, int32_t cell)
 }
 
 /* A sum, for a cell's faces come in no order. */
-static inline uint64_t HashFaces(const kiriGrid* grid, int32_t cell)
+static inline uint64_t HashFaces(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
 {
     uint64_t sum = 0;
     for (int32_t f = grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
         const kiriFace* face = &grid->faces.data[f];
+        kiriStretch s = kiriGrid_Stretch(grid, mesh, f);
         uint64_t hash = KIRI_HASH_START;
         HashPlace(&hash, grid, face->cell[0]);
         HashPlace(&hash, grid, face->cell[1]);
-        kiriHash_Int32(&hash, face->axis);
-        kiriHash_Double(&hash, face->width);
-        kiriHash_Double(&hash, face->moment);
-        kiriHash_Double(&hash, face->middle.x);
-        kiriHash_Double(&hash, face->middle.y);
+        kiriHash_Int32(&hash, kiriFace_Axis(face));
+        kiriHash_Double(&hash, s.width);
+        kiriHash_Double(&hash, s.moment);
+        kiriHash_Double(&hash, s.middle.x);
+        kiriHash_Double(&hash, s.middle.y);
         sum += hash;
         f = face->next[face->cell[1] == cell];
     }
@@ -54,9 +55,10 @@ static inline void HashCellWeights(uint64_t* hash, const kiriShape* shape, int32
 
 static inline void HashCell(uint64_t* hash, const kiriSheetData* sheet, int32_t cell)
 {
-    uint64_t faces = HashFaces(&sheet->grid, cell);
+    uint64_t faces = HashFaces(&sheet->grid, &sheet->mesh, cell);
     HashPlace(hash, &sheet->grid, cell);
-    kiriHash_Bytes(hash, &sheet->grid.cells.data[cell].material, sizeof(kiriMoments));
+    kiriMoments material = kiriGrid_Material(&sheet->grid, &sheet->mesh, cell);
+    kiriHash_Bytes(hash, &material, sizeof(kiriMoments));
     HashSteps(hash, &sheet->grid, cell);
     kiriHash_Bytes(hash, &faces, sizeof(faces));
     kiriHash_Int32(hash, sheet->regions.field.owner.data[cell]);

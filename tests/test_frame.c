@@ -93,7 +93,7 @@ static void MeasureCloseness(Plain* p)
 
 static bool IsMostly(const Plain* p, int32_t cell)
 {
-    return p->grid->cells.data[cell].material.area > 0.5 * p->grid->side * p->grid->side;
+    return kiriGrid_Area(p->grid, cell) > 0.5 * p->grid->side * p->grid->side;
 }
 
 /* The first of the best free cells: farthest, then mostly covered. */
@@ -137,7 +137,7 @@ static int32_t PlainTarget(const Plain* p, int32_t site, const uint8_t* allowed,
     int64_t area = 0, u = 0, v = 0;
     for (int32_t k = 0; k < p->count; ++k) {
         if (site == KIRI_NONE || PlainOwner(p, p->cells[k]) == site) {
-            kiriMoments m = p->grid->cells.data[p->cells[k]].material;
+            kiriMoments m = kiriGrid_Material(p->grid, p->mesh, p->cells[k]);
             int64_t share = (int64_t)(16777216.0 * (m.area / (side * side)) + 0.5);
             int64_t closer = site == KIRI_NONE ? 16 : p->closer[p->cells[k]];
             share = (share > 0 ? share : 1) * (closer * closer * closer * closer / 65536);
@@ -273,7 +273,7 @@ static void AssertEven(Scene* scene, const kiriSites* sites)
     assert_true(kiriField_Start(&scene->field, &scene->memory, seeds.data, seeds.count));
     assert_int_equal(kiriField_Flood(&scene->field, &rule, &quota), KIRI_DONE);
     for (int32_t c = 0; c < scene->grid.cells.count; ++c) {
-        area[scene->field.owner.data[c]] += scene->grid.cells.data[c].material.area;
+        area[scene->field.owner.data[c]] += kiriGrid_Area(&scene->grid, c);
     }
     for (int32_t i = 0; i < sites->count; ++i) {
         double share = area[i] * sites->count / Scene_Area(scene);
@@ -706,6 +706,7 @@ static void Permute(kiriGrid* out, const kiriGrid* grid, kiriMemory* memory, con
     memset(out, 0, sizeof(*out));
     out->side = grid->side;
     memcpy(out->openTo, grid->openTo, sizeof(out->openTo));
+    kiriArray_SetHeader(&out->materials, kiriArray_GetHeader(&grid->materials)); /* the same ones */
     assert_true(kiriArray_Resize(memory, &out->cells, count) && kiriArray_Resize(memory, &out->runs, count) &&
                 kiriArray_Resize(memory, &out->steps, grid->steps.count) &&
                 kiriArray_Resize(memory, &out->squareCell, grid->squareCell.count));

@@ -1,4 +1,5 @@
 /* The non-manifold grid: against shapes whose cells are known, and against slow independent ways to find them. */
+#include "cells.h"
 #include "field/kiri_grid.h"
 #include "mesh/kiri_cut.h"
 #include "mesh_pieces.h"
@@ -184,15 +185,22 @@ static int32_t CellAt(const Sheet* sheet, double x, double y)
     return kiriGrid_CellOf(&sheet->grid, &sheet->mesh, triangle, at);
 }
 
-static const kiriFace* FindFace(const kiriGrid* grid, int32_t a, int32_t b)
+static int32_t FindFace(const kiriGrid* grid, int32_t a, int32_t b)
 {
     for (int32_t f = 0; f < grid->faces.count; ++f) {
         const int32_t* cell = grid->faces.data[f].cell;
         if ((cell[0] == a && cell[1] == b) || (cell[0] == b && cell[1] == a)) {
-            return &grid->faces.data[f];
+            return f;
         }
     }
-    return NULL;
+    return KIRI_NONE;
+}
+
+static Face FaceBetween(const Sheet* sheet, int32_t a, int32_t b)
+{
+    int32_t f = FindFace(&sheet->grid, a, b);
+    assert_int_not_equal(f, KIRI_NONE);
+    return Face_Of(&sheet->grid, &sheet->mesh, f);
 }
 
 static int32_t CountSteps(const kiriGrid* grid, int32_t c)
@@ -219,11 +227,11 @@ static void CheckMaterial(const Sheet* sheet)
 {
     kiriMoments cells = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 }, triangles = cells;
     for (int32_t c = 0; c < sheet->grid.cells.count; ++c) {
-        const kiriMoments* m = &sheet->grid.cells.data[c].material;
-        assert_true(m->area > 0.0);
-        kiriVec2 apart = kiriVec2_Sub(kiriMoments_Center(m), kiriGrid_Middle(&sheet->grid, &sheet->mesh, c));
+        kiriMoments m = kiriGrid_Material(&sheet->grid, &sheet->mesh, c);
+        assert_true(m.area > 0.0);
+        kiriVec2 apart = kiriVec2_Sub(kiriMoments_Center(&m), kiriGrid_Middle(&sheet->grid, &sheet->mesh, c));
         assert_true(fabs(apart.x) <= 0.5001 * sheet->grid.side && fabs(apart.y) <= 0.5001 * sheet->grid.side);
-        kiriMoments_Add(&cells, m);
+        kiriMoments_Add(&cells, &m);
     }
     for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
         kiriLatticePoint p[3];
@@ -307,14 +315,15 @@ static void CheckSide(const Sheet* sheet, int32_t before, int32_t square, int ax
         for (int32_t f = sheet->grid.cells.data[c].firstFace; f != KIRI_NONE;) {
             const kiriFace* face = &sheet->grid.faces.data[f];
             if (face->cell[1] == c && sheet->grid.cells.data[face->cell[0]].square == before) {
-                double along = axis == 0 ? face->middle.y - corner.y : face->middle.x - corner.x;
-                assert_int_equal(face->axis, axis);
-                assert_near(axis == 0 ? face->middle.x : face->middle.y, axis == 0 ? corner.x : corner.y, 0.0);
-                assert_true(face->width > 0.0 && face->moment > 0.0);
-                assert_true(face->moment <= face->width * side * side);
-                width += face->width;
-                first += face->width * along;
-                second += face->moment + face->width * along * along;
+                kiriStretch s = kiriGrid_Stretch(&sheet->grid, &sheet->mesh, f);
+                double along = axis == 0 ? s.middle.y - corner.y : s.middle.x - corner.x;
+                assert_int_equal(kiriFace_Axis(face), axis);
+                assert_near(axis == 0 ? s.middle.x : s.middle.y, axis == 0 ? corner.x : corner.y, 0.0);
+                assert_true(s.width > 0.0 && s.moment > 0.0);
+                assert_true(s.moment <= s.width * side * side);
+                width += s.width;
+                first += s.width * along;
+                second += s.moment + s.width * along * along;
             }
             f = face->next[face->cell[1] == c];
         }
@@ -501,17 +510,18 @@ static void TestDividedInTwo(void** state)
     }
     int32_t left = CellAt(&sheet, 0.38, 0.37), right = CellAt(&sheet, 0.42, 0.37);
     assert_int_equal(sheet.grid.cells.data[left].square, sheet.grid.cells.data[right].square);
-    assert_near(sheet.grid.cells.data[left].material.area, 0.15 * 0.25, 1e-7);
-    assert_near(sheet.grid.cells.data[right].material.area, 0.10 * 0.25, 1e-7);
-    assert_near(kiriMoments_Center(&sheet.grid.cells.data[left].material).x, 0.325, 1e-7);
-    assert_null(FindFace(&sheet.grid, left, right));
-    assert_near(FindFace(&sheet.grid, left, CellAt(&sheet, 0.1, 0.37))->width, 0.25, 1e-7);
-    assert_null(FindFace(&sheet.grid, left, CellAt(&sheet, 0.6, 0.37)));
-    const kiriFace* up = FindFace(&sheet.grid, left, CellAt(&sheet, 0.38, 0.6));
-    assert_near(up->width, 0.15, 1e-7);
-    assert_near(up->middle.x, 0.325, 1e-7);
-    assert_near(up->middle.y, 0.5, 1e-7);
-    assert_near(up->moment, 0.15 * 0.15 * 0.15 / 12.0, 1e-9);
+    assert_near(kiriGrid_Area(&sheet.grid, left), 0.15 * 0.25, 1e-7);
+    assert_near(kiriGrid_Area(&sheet.grid, right), 0.10 * 0.25, 1e-7);
+    kiriMoments material = kiriGrid_Material(&sheet.grid, &sheet.mesh, left);
+    assert_near(kiriMoments_Center(&material).x, 0.325, 1e-7);
+    assert_int_equal(FindFace(&sheet.grid, left, right), KIRI_NONE);
+    assert_near(FaceBetween(&sheet, left, CellAt(&sheet, 0.1, 0.37)).width, 0.25, 1e-7);
+    assert_int_equal(FindFace(&sheet.grid, left, CellAt(&sheet, 0.6, 0.37)), KIRI_NONE);
+    const Face up = FaceBetween(&sheet, left, CellAt(&sheet, 0.38, 0.6));
+    assert_near(up.width, 0.15, 1e-7);
+    assert_near(up.middle.x, 0.325, 1e-7);
+    assert_near(up.middle.y, 0.5, 1e-7);
+    assert_near(up.moment, 0.15 * 0.15 * 0.15 / 12.0, 1e-9);
     CloseSheet(&sheet);
 }
 
@@ -532,10 +542,10 @@ static void TestConfettiInOneSquare(void** state)
     assert_int_equal(CellsIn(&sheet, 1, 1), 4);
     assert_int_equal(sheet.grid.cells.count, 16 + 3);
     int32_t around = CellAt(&sheet, 0.27, 0.4);
-    assert_near(sheet.grid.cells.data[around].material.area, 0.0625 - 3.0 * 0.002, 1e-7);
+    assert_near(kiriGrid_Area(&sheet.grid, around), 0.0625 - 3.0 * 0.002, 1e-7);
     for (int i = 0; i < 3; ++i) {
         int32_t c = CellAt(&sheet, at[i][0] + 0.02, at[i][1] + 0.02);
-        assert_near(sheet.grid.cells.data[c].material.area, 0.002, 1e-8);
+        assert_near(kiriGrid_Area(&sheet.grid, c), 0.002, 1e-8);
         assert_int_equal(sheet.grid.cells.data[c].firstFace, KIRI_NONE);
         assert_int_equal(CountSteps(&sheet.grid, c), 0);
         assert_int_equal(sheet.grid.cells.data[c].square, sheet.grid.cells.data[around].square);
@@ -560,8 +570,8 @@ static void TestThinStrip(void** state)
         int32_t neighbours = row == 0 || row == 7 ? 1 : 2;
         assert_int_equal(CountSteps(&sheet.grid, c), neighbours);
         if (row > 0) {
-            const kiriFace* face = FindFace(&sheet.grid, c, CellAt(&sheet, 0.415, (row - 0.5) / 8.0));
-            assert_near(face->width, 0.01, 1e-7);
+            const Face face = FaceBetween(&sheet, c, CellAt(&sheet, 0.415, (row - 0.5) / 8.0));
+            assert_near(face.width, 0.01, 1e-7);
         }
         assert_int_equal(
             StepLength(&sheet.grid, CellAt(&sheet, 0.405, (row + 0.5) / 8.0), CellAt(&sheet, 0.425, (row + 0.5) / 8.0)),
@@ -586,8 +596,8 @@ static void TestGapNarrowerThanACell(void** state)
     int32_t left = CellAt(&sheet, 0.405, 0.55), right = CellAt(&sheet, 0.425, 0.55);
     assert_int_equal(sheet.grid.cells.data[left].square, sheet.grid.cells.data[right].square);
     assert_int_equal(StepLength(&sheet.grid, left, right), 0);
-    assert_near(sheet.grid.cells.data[left].material.area, 0.035 * 0.125, 1e-7);
-    assert_near(sheet.grid.cells.data[right].material.area, 0.08 * 0.125, 1e-7);
+    assert_near(kiriGrid_Area(&sheet.grid, left), 0.035 * 0.125, 1e-7);
+    assert_near(kiriGrid_Area(&sheet.grid, right), 0.08 * 0.125, 1e-7);
     CloseSheet(&sheet);
 }
 
@@ -615,8 +625,8 @@ static void TestTipOfSlit(void** state)
     }
     int32_t tip = CellAt(&sheet, 0.55, 0.42);
     assert_int_equal(tip, CellAt(&sheet, 0.55, 0.46));
-    assert_near(FindFace(&sheet.grid, tip, CellAt(&sheet, 0.47, 0.42))->width, 0.04, 1e-7);
-    assert_near(FindFace(&sheet.grid, tip, CellAt(&sheet, 0.47, 0.46))->width, 0.06, 1e-7);
+    assert_near(FaceBetween(&sheet, tip, CellAt(&sheet, 0.47, 0.42)).width, 0.04, 1e-7);
+    assert_near(FaceBetween(&sheet, tip, CellAt(&sheet, 0.47, 0.46)).width, 0.06, 1e-7);
     CloseSheet(&sheet);
 }
 
@@ -662,7 +672,8 @@ static void TestMeshFinerCoarserAligned(void** state)
         assert_int_equal(sheet.grid.faces.count, 2 * n * (n - 1));
         assert_int_equal(CountPieces(&sheet.grid), 1);
         for (int32_t f = 0; f < sheet.grid.faces.count; ++f) {
-            assert_near(sheet.grid.faces.data[f].width, 1.0 / n, 1e-7); /* squares are a few steps larger */
+            assert_near(kiriGrid_Stretch(&sheet.grid, &sheet.mesh, f).width, 1.0 / n,
+                        1e-7); /* squares are a few steps larger */
         }
         CloseSheet(&sheet);
     }
@@ -687,7 +698,7 @@ static void TestEveryTriangleAPiece(void** state)
     int32_t* piece = malloc(sizeof(int32_t) * (size_t)sheet.grid.cells.count);
     PiecesOf(&sheet.grid, piece);
     for (int32_t c = 0; c < sheet.grid.cells.count; ++c) {
-        area[piece[c]] += sheet.grid.cells.data[c].material.area;
+        area[piece[c]] += kiriGrid_Area(&sheet.grid, c);
     }
     free(piece);
     for (int i = 0; i < 128; ++i) {
@@ -749,10 +760,10 @@ static void TestGrazedCorner(void** state)
         CheckAll(&sheet);
         CheckInnerSides(&sheet);
         for (int32_t c = 0; c < sheet.grid.cells.count; ++c) {
-            specks += sheet.grid.cells.data[c].material.area < 1e-13 * sheet.grid.side * sheet.grid.side;
+            specks += kiriGrid_Area(&sheet.grid, c) < 1e-13 * sheet.grid.side * sheet.grid.side;
         }
         for (int32_t f = 0; f < sheet.grid.faces.count; ++f) {
-            hairs += sheet.grid.faces.data[f].width < 1e-13 * sheet.grid.side;
+            hairs += kiriGrid_Stretch(&sheet.grid, &sheet.mesh, f).width < 1e-13 * sheet.grid.side;
         }
         CloseSheet(&sheet);
     }
@@ -772,7 +783,7 @@ static void TestClosedCurveAroundHole(void** state)
                 0.5 * 48.0 * 0.13052619222005157 * (0.25 - 0.04), 1e-6);
     double sum[2] = { 0.0, 0.0 }, length = 0.0;
     for (int32_t f = 0; f < sheet.grid.faces.count; ++f) {
-        const kiriFace* face = &sheet.grid.faces.data[f];
+        const Face of = Face_Of(&sheet.grid, &sheet.mesh, f), *face = &of;
         bool in[2];
         for (int k = 0; k < 2; ++k) {
             kiriVec2 at =
@@ -834,7 +845,13 @@ static bool SameBits(const void* a, const void* b, size_t bytes)
     return memcmp(a, b, bytes) == 0;
 }
 
-static bool SameFace(const kiriFace* a, const kiriFace* b)
+static bool SameMaterial(const kiriGrid* a, int32_t c, const kiriGrid* b, int32_t d, const kiriMeshData* mesh)
+{
+    kiriMoments x = kiriGrid_Material(a, mesh, c), y = kiriGrid_Material(b, mesh, d);
+    return SameBits(&x, &y, sizeof(x));
+}
+
+static bool SameFace(const Face* a, const Face* b)
 {
     return a->axis == b->axis && SameBits(&a->width, &b->width, sizeof(a->width)) &&
            SameBits(&a->middle, &b->middle, sizeof(a->middle)) && SameBits(&a->moment, &b->moment, sizeof(a->moment));
@@ -846,14 +863,14 @@ static int32_t NextOf(const kiriFace* face, int32_t cell)
 }
 
 /* The face of cell a that leads from or to cell b, in the list of a. */
-static const kiriFace* FaceInList(const kiriGrid* grid, int32_t a, int32_t b)
+static int32_t FaceInList(const kiriGrid* grid, int32_t a, int32_t b)
 {
     for (int32_t f = grid->cells.data[a].firstFace; f != KIRI_NONE; f = NextOf(&grid->faces.data[f], a)) {
         if (grid->faces.data[f].cell[0] == b || grid->faces.data[f].cell[1] == b) {
-            return &grid->faces.data[f];
+            return f;
         }
     }
-    return NULL;
+    return KIRI_NONE;
 }
 
 /* The cell of the second grid for each cell of the first: the same place in the list of the same square. */
@@ -898,7 +915,7 @@ static int32_t CountFaces(const kiriGrid* grid)
     return count;
 }
 
-static void CheckSameFaces(const kiriGrid* a, const kiriGrid* b, const int32_t* match)
+static void CheckSameFaces(const kiriGrid* a, const kiriGrid* b, const kiriMeshData* mesh, const int32_t* match)
 {
     int32_t ends = 0;
     assert_int_equal(CountFaces(a), CountFaces(b));
@@ -906,11 +923,12 @@ static void CheckSameFaces(const kiriGrid* a, const kiriGrid* b, const int32_t* 
         for (int32_t f = match[c] == KIRI_NONE ? KIRI_NONE : a->cells.data[c].firstFace; f != KIRI_NONE; ++ends) {
             const kiriFace* face = &a->faces.data[f];
             bool second = face->cell[1] == c;
-            const kiriFace* other = FaceInList(b, match[c], match[face->cell[!second]]);
+            int32_t g = FaceInList(b, match[c], match[face->cell[!second]]);
             assert_int_equal(face->cell[second], c);
-            assert_non_null(other);
-            assert_int_equal(other->cell[second], match[c]);
-            assert_true(SameFace(face, other));
+            assert_int_not_equal(g, KIRI_NONE);
+            Face this = Face_Of(a, mesh, f), other = Face_Of(b, mesh, g);
+            assert_int_equal(other.cell[second], match[c]);
+            assert_true(SameFace(&this, &other));
             f = face->next[second];
         }
     }
@@ -935,21 +953,21 @@ static void CheckSameSteps(const kiriGrid* a, const kiriGrid* b, const int32_t* 
 }
 
 /* Equal bit for bit, but for the indices. */
-static void CheckSameGrid(const kiriGrid* a, const kiriGrid* b, const kiriSquares* squares)
+static void CheckSameGrid(const kiriGrid* a, const kiriGrid* b, const kiriMeshData* mesh)
 {
+    const kiriSquares* squares = &mesh->squares;
     int32_t* match = MatchCells(a, b);
     assert_true(a->side == b->side);
     assert_memory_equal(a->whole.data, b->whole.data, (size_t)a->whole.count);
     for (int32_t c = 0; c < a->cells.count; ++c) {
-        assert_true(match[c] == KIRI_NONE ||
-                    SameBits(&a->cells.data[c].material, &b->cells.data[match[c]].material, sizeof(kiriMoments)));
+        assert_true(match[c] == KIRI_NONE || SameMaterial(a, c, b, match[c], mesh));
     }
     for (int32_t s = 0; s < a->squareCell.count; ++s) {
         for (int32_t n = squares->head[s]; n != KIRI_NONE; n = squares->nodes.data[n].next) {
             assert_int_equal(match[a->nodeCell.data[n]], b->nodeCell.data[n]);
         }
     }
-    CheckSameFaces(a, b, match);
+    CheckSameFaces(a, b, mesh, match);
     CheckSameSteps(a, b, match);
     free(match);
 }
@@ -958,7 +976,7 @@ static void CheckAgainstScratch(const Sheet* sheet)
 {
     kiriGrid fresh = { 0 };
     Update(&fresh, &sheet->mesh);
-    CheckSameGrid(&sheet->grid, &fresh, &sheet->mesh.squares);
+    CheckSameGrid(&sheet->grid, &fresh, &sheet->mesh);
     for (int32_t v = 0; v < sheet->mesh.vertices.count; ++v) {
         const kiriVertex* vertex = &sheet->mesh.vertices.data[v];
         assert_int_equal(kiriGrid_CellOfVertex(&sheet->grid, &sheet->mesh, v),
@@ -986,6 +1004,8 @@ static kiriGrid CopyGrid(const kiriGrid* grid)
     copy.steps.data = CopyBytes(grid->steps.data, sizeof(kiriStep) * (size_t)grid->steps.count);
     copy.squareCell.data = CopyBytes(grid->squareCell.data, sizeof(int32_t) * (size_t)grid->squareCell.count);
     copy.faces.data = CopyBytes(grid->faces.data, sizeof(kiriFace) * (size_t)grid->faces.count);
+    copy.materials.data = CopyBytes(grid->materials.data, sizeof(kiriMoments) * (size_t)grid->materials.count);
+    copy.stretches.data = CopyBytes(grid->stretches.data, sizeof(kiriStretch) * (size_t)grid->stretches.count);
     return copy;
 }
 
@@ -996,6 +1016,8 @@ static void FreeCopy(kiriGrid* copy)
     free(copy->steps.data);
     free(copy->squareCell.data);
     free(copy->faces.data);
+    free(copy->materials.data);
+    free(copy->stretches.data);
 }
 
 static bool HadCell(const kiriGrid* was, int32_t c)
@@ -1012,20 +1034,25 @@ static bool SameSteps(const kiriGrid* was, const kiriGrid* is, int32_t c)
            (p.end[2] == 0 || SameBits(p.data, q.data, sizeof(kiriStep) * (size_t)p.end[2]));
 }
 
-static bool HasFacesOf(const kiriGrid* a, const kiriGrid* b, int32_t c)
+static bool HasFacesOf(const kiriGrid* a, const kiriGrid* b, const kiriMeshData* mesh, int32_t c)
 {
     for (int32_t f = a->cells.data[c].firstFace; f != KIRI_NONE; f = NextOf(&a->faces.data[f], c)) {
-        const kiriFace *face = &a->faces.data[f], *other = FaceInList(b, c, face->cell[face->cell[0] == c]);
-        if (other == NULL || other->cell[0] != face->cell[0] || !SameFace(face, other)) {
+        const Face face = Face_Of(a, mesh, f);
+        int32_t g = FaceInList(b, c, face.cell[face.cell[0] == c]);
+        if (g == KIRI_NONE) {
+            return false;
+        }
+        const Face other = Face_Of(b, mesh, g);
+        if (other.cell[0] != face.cell[0] || !SameFace(&face, &other)) {
             return false;
         }
     }
     return true;
 }
 
-static bool SameFaces(const kiriGrid* was, const kiriGrid* is, int32_t c)
+static bool SameFaces(const kiriGrid* was, const kiriGrid* is, const kiriMeshData* mesh, int32_t c)
 {
-    return HasFacesOf(was, is, c) && HasFacesOf(is, was, c);
+    return HasFacesOf(was, is, mesh, c) && HasFacesOf(is, was, mesh, c);
 }
 
 enum { IN_MADE = 1, IN_GONE = 2, IN_STEPS = 4, IN_MATERIAL = 8 };
@@ -1056,27 +1083,27 @@ static uint8_t* ListsOf(const kiriGrid* grid)
 }
 
 /* The lists of changes against a copy from before. `exact`: there has been only one update since. */
-static void CheckChanges(const kiriGrid* was, const kiriGrid* is, bool exact)
+static void CheckChanges(const kiriGrid* was, const kiriGrid* is, const kiriMeshData* mesh, bool exact)
 {
     uint8_t* lists = ListsOf(is);
     for (int32_t c = 0; c < is->cells.count; ++c) {
         bool had = HadCell(was, c), has = kiriGrid_IsCell(is, c);
         if (!had || !has) {
             assert_int_equal(lists[c], has ? IN_MADE | IN_STEPS : had ? IN_GONE : 0);
-            assert_true(!had ||
-                        SameBits(&was->cells.data[c].material, &is->cells.data[c].material, sizeof(kiriMoments)));
+            assert_true(!had || SameMaterial(was, c, is, c, mesh));
             continue;
         }
         assert_int_equal(was->cells.data[c].square, is->cells.data[c].square);
-        bool material = !SameBits(&was->cells.data[c].material, &is->cells.data[c].material, sizeof(kiriMoments));
-        bool steps = !SameSteps(was, is, c) || !SameFaces(was, is, c);
+        bool material = !SameMaterial(was, c, is, c, mesh);
+        bool steps = !SameSteps(was, is, c) || !SameFaces(was, is, mesh, c);
         int expected = (material ? IN_MATERIAL : 0) | (steps ? IN_STEPS : 0);
         assert_int_equal(exact ? lists[c] : lists[c] & expected, expected);
         assert_int_equal(lists[c] & (IN_MADE | IN_GONE), 0);
     }
     for (int32_t i = 0; i < is->changes.material.count; ++i) {
         kiriMaterialChange r = is->changes.material.data[i];
-        assert_true(SameBits(&r.was, &was->cells.data[r.cell].material, sizeof(kiriMoments)));
+        kiriMoments had = kiriGrid_Material(was, mesh, r.cell);
+        assert_true(SameBits(&r.was, &had, sizeof(had)));
     }
     free(lists);
 }
@@ -1199,7 +1226,7 @@ static void CheckProgressiveCuts(Tour* tour, int32_t mostQuota, int32_t batch)
             UpdateInParts(&sheet, &tour->seed, mostQuota);
         }
         CheckAgainstScratch(&sheet);
-        CheckChanges(&was, &sheet.grid, batch == 1);
+        CheckChanges(&was, &sheet.grid, &sheet.mesh, batch == 1);
         CountChanges(&sheet.grid, tour);
         kiriGrid_ClearChanges(&sheet.grid);
         FreeCopy(&was);
@@ -1248,10 +1275,20 @@ static void CutAcross(Sheet* sheet, uint32_t* seed)
     CutWithin(sheet, points, 4);
 }
 
-/* After Settle, every index is a cell's or waits to be one's, and so for faces. */
+/* After Settle, every index is a cell's or waits to be one's, and so for faces, and for what they have of their own. */
 static void CheckFreeIndices(const kiriGrid* grid)
 {
     int32_t cells = grid->cellCount, faces = CountFaces(grid);
+    int32_t materials = grid->unusedMaterials.count, stretches = grid->unusedStretches.count;
+    for (int32_t c = 0; c < grid->cells.count; ++c) {
+        assert_true(kiriGrid_IsCell(grid, c) || grid->cells.data[c].material == KIRI_NONE);
+        materials += grid->cells.data[c].material != KIRI_NONE;
+    }
+    for (int32_t f = 0; f < grid->faces.count; ++f) {
+        stretches += kiriFace_HasOwnStretch(&grid->faces.data[f]);
+    }
+    assert_int_equal(materials, grid->materials.count);
+    assert_int_equal(stretches, grid->stretches.count);
     for (int32_t c = grid->freeCell; c != KIRI_NONE; c = grid->cells.data[c].next) {
         assert_false(kiriGrid_IsCell(grid, c));
         ++cells;
@@ -1292,7 +1329,7 @@ static void CheckCutsTakenBack(Tour* tour, int32_t mostQuota)
         kiriMesh_Rollback(&sheet.mesh);
         UpdateInParts(&sheet, &tour->seed, mostQuota);
         CheckAgainstScratch(&sheet);
-        CheckChanges(&was, &sheet.grid, round >= 2);
+        CheckChanges(&was, &sheet.grid, &sheet.mesh, round >= 2);
         CountChanges(&sheet.grid, tour);
         assert_int_equal(sheet.grid.cellCount, cellCount);
         FreeCopy(&was);
@@ -1405,7 +1442,7 @@ static void TestNothingChanged(void** state)
         assert_true(UpdateInParts(&sheet, &seed, 0) > 13 * 13);
         assert_true(again == 0 || sheet.blocks.calls == calls); /* the second time asks for no memory */
         calls = sheet.blocks.calls;
-        CheckChanges(&was, &sheet.grid, true);
+        CheckChanges(&was, &sheet.grid, &sheet.mesh, true);
         assert_int_equal(sheet.grid.changes.steps.count + sheet.grid.changes.material.count, 0);
     }
     CheckAgainstScratch(&sheet);
@@ -1467,7 +1504,7 @@ static void TestAnchors(void** state)
     CutRandomly(&sheet, &seed, 10);
     Build(&sheet);
     for (int32_t c = 0; c < sheet.grid.cells.count; ++c) {
-        if (sheet.grid.cells.data[c].material.area > 1e-6 * sheet.grid.side * sheet.grid.side) {
+        if (kiriGrid_Area(&sheet.grid, c) > 1e-6 * sheet.grid.side * sheet.grid.side) {
             kiriLatticePoint at = kiriGrid_Anchor(&sheet.grid, &sheet.mesh, c);
             assert_int_equal(kiriGrid_CellOf(&sheet.grid, &sheet.mesh, kiriMesh_Locate(&sheet.mesh, at), at), c);
         }

@@ -284,7 +284,8 @@ static void BentBorderIsSplit(void** state)
     }
     for (int32_t f = 0; f < scene.grid.faces.count; ++f) {
         const kiriFace* face = &scene.grid.faces.data[f];
-        expected += OwnerOf(&links, face->cell[0]) != OwnerOf(&links, face->cell[1]) ? face->width : 0.0;
+        double width = kiriGrid_Stretch(&scene.grid, &scene.mesh, f).width;
+        expected += OwnerOf(&links, face->cell[0]) != OwnerOf(&links, face->cell[1]) ? width : 0.0;
     }
     AssertNear(total, expected, 1e-12);
     assert_true(kiriVec2_Length(vector) < 0.5 * total);
@@ -384,11 +385,11 @@ static void RandomSheetsAddUp(void** state)
         for (int32_t f = 0; f < scene.grid.faces.count; ++f) {
             const kiriFace* face = &scene.grid.faces.data[f];
             int32_t a = OwnerOf(&links, face->cell[0]), b = OwnerOf(&links, face->cell[1]);
-            double width = a < b ? face->width : -face->width;
+            double full = kiriGrid_Stretch(&scene.grid, &scene.mesh, f).width, width = a < b ? full : -full;
             if (a != b) {
                 kiriVec2* sum = &sums[a < b ? a * n + b : b * n + a];
-                sum->x += face->axis == 0 ? width : 0.0;
-                sum->y += face->axis == 1 ? width : 0.0;
+                sum->x += kiriFace_Axis(face) == 0 ? width : 0.0;
+                sum->y += kiriFace_Axis(face) == 1 ? width : 0.0;
             }
         }
         for (int32_t k = 0; k < links.made.links.count; ++k) {

@@ -538,8 +538,9 @@ static void CheckCells(const kiriSheetData* was, const kiriSheetData* is, const 
             while (maps->triangleTo[was->grid.cells.data[a].triangle] != is->grid.cells.data[b].triangle) {
                 a = was->grid.cells.data[a].next;
             }
-            assert_memory_equal(&was->grid.cells.data[a].material, &is->grid.cells.data[b].material,
-                                sizeof(kiriMoments));
+            kiriMoments material[2] = { kiriGrid_Material(&was->grid, &was->mesh, a),
+                                        kiriGrid_Material(&is->grid, &is->mesh, b) };
+            assert_memory_equal(&material[0], &material[1], sizeof(kiriMoments));
             assert_int_equal(maps->frameTo[was->regions.field.owner.data[a]], is->regions.field.owner.data[b]);
             assert_int_equal(was->regions.field.distance.data[a], is->regions.field.distance.data[b]);
             assert_int_equal(was->regions.onBorder.data[a], is->regions.onBorder.data[b]);

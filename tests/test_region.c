@@ -1,4 +1,5 @@
 /* Regions: against distances by relaxing all steps, and regions that follow cuts against ones from scratch. */
+#include "cells.h"
 #include "field/kiri_region.h"
 #include "mesh/kiri_cut.h"
 #include "support.h"
@@ -58,7 +59,7 @@ static void ClearChanges(Sheet* sheet)
         bool known = c < sheet->regions.siteAt.count;
         sheet->was.data[c] = (Was){ known ? sheet->regions.field.owner.data[c] : KIRI_NONE,
                                     known ? sheet->regions.field.distance.data[c] : KIRI_FAR,
-                                    sheet->grid.cells.data[c].material, kiriGrid_IsCell(&sheet->grid, c) };
+                                    Cell_Material(&sheet->grid, &sheet->mesh, c), kiriGrid_IsCell(&sheet->grid, c) };
     }
     for (int32_t i = 0; i < sheet->regions.dirty.count; ++i) {
         sheet->regions.dirty.data[i] = 0;
@@ -366,8 +367,9 @@ static void CheckMaterial(const Sheet* sheet)
         kiriMoments sum = { 0 }, moments = kiriTally_Moments(&sheet->regions.material.data[i], extent);
         for (int32_t c = 0; c < sheet->grid.cells.count; ++c) {
             if (sheet->regions.field.owner.data[c] == i) {
-                kiriTally_Add(&tally, &sheet->grid.cells.data[c].material, 1, extent);
-                kiriMoments_Add(&sum, &sheet->grid.cells.data[c].material);
+                kiriMoments cell = kiriGrid_Material(&sheet->grid, &sheet->mesh, c);
+                kiriTally_Add(&tally, &cell, 1, extent);
+                kiriMoments_Add(&sum, &cell);
             }
         }
         assert_memory_equal(&tally, &sheet->regions.material.data[i], sizeof(tally));
@@ -399,7 +401,8 @@ static int32_t CheckChanges(const Sheet* sheet)
         int32_t owner = regions->field.owner.data[c];
         bool lives = kiriGrid_IsCell(&sheet->grid, c);
         bool changed = was.owner != owner || was.distance != regions->field.distance.data[c];
-        bool material = memcmp(&was.material, &sheet->grid.cells.data[c].material, sizeof(was.material)) != 0;
+        kiriMoments is = Cell_Material(&sheet->grid, &sheet->mesh, c);
+        bool material = memcmp(&was.material, &is, sizeof(is)) != 0;
         assert_int_equal(isChanged[c], changed && lives);
         if (changed || material || was.lives != lives) {
             assert_true(was.owner == KIRI_NONE || regions->dirty.data[was.owner]);

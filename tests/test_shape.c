@@ -98,8 +98,7 @@ static void CheckCells(const Scene* scene, const Weights* w, const kiriSite* sit
             assert_true(k == 0 || weights[k].label > weights[k - 1].label);
             assert_true(weights[k].value > 0.0);
             sum += weights[k].value;
-            rigid[weights[k].label] +=
-                weights[k].value > w->shape.rigidWeight ? scene->grid.cells.data[c].material.area : 0.0;
+            rigid[weights[k].label] += weights[k].value > w->shape.rigidWeight ? kiriGrid_Area(&scene->grid, c) : 0.0;
         }
         assert_int_equal(n > 0, w->regions.field.owner.data[c] != KIRI_NONE);
         if (n > 0) {
@@ -297,7 +296,8 @@ static void WeightsKnowTheSlit(void** state)
     CheckCells(&scene, &w, sites, 4);
     int32_t beside = 0;
     for (int32_t c = 0; c < scene.grid.cells.count; ++c) {
-        kiriVec2 p = kiriMoments_Center(&scene.grid.cells.data[c].material);
+        kiriMoments material = kiriGrid_Material(&scene.grid, &scene.mesh, c);
+        kiriVec2 p = kiriMoments_Center(&material);
         if (p.y < 0.5) {
             ++beside;
             assert_true(WeightOf(&w, c, p.x < 0.5 ? 1 : 0) == 0.0);
@@ -332,7 +332,8 @@ static void PieceWithOneFrameIsItsOwn(void** state)
         kiriVec2 at;
         int32_t cell = RandomCell(&scene, &seed, &at);
         CheckPoint(&scene, &w, cell, at, &out);
-        if (kiriMoments_Center(&scene.grid.cells.data[cell].material).x < 0.5) {
+        kiriMoments material = kiriGrid_Material(&scene.grid, &scene.mesh, cell);
+        if (kiriMoments_Center(&material).x < 0.5) {
             assert_true(WeightOf(&w, cell, 0) == 1.0);
             assert_int_equal(out.count, 1);
             assert_true(out.data[0].value == 1.0);
@@ -568,8 +569,9 @@ static void FitIsContinuousOverFaces(void** state)
     Build(&scene, &w, sites, 4);
     for (int32_t f = 0; f < scene.grid.faces.count; ++f) {
         const kiriFace* face = &scene.grid.faces.data[f];
-        CheckPoint(&scene, &w, face->cell[0], face->middle, &a);
-        CheckPoint(&scene, &w, face->cell[1], face->middle, &b);
+        kiriVec2 middle = kiriGrid_Stretch(&scene.grid, &scene.mesh, f).middle;
+        CheckPoint(&scene, &w, face->cell[0], middle, &a);
+        CheckPoint(&scene, &w, face->cell[1], middle, &b);
         for (int32_t k = 0; k < a.count; ++k) {
             for (int32_t m = 0; m < b.count; ++m) {
                 if (a.data[k].frame == b.data[m].frame) {

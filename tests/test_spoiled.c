@@ -162,9 +162,39 @@ static void FreeCellIsFar(kiriSheetData* sheet)
     sheet->grid.freeCell = 1 << 30;
 }
 
+/* Of a cell at the outline. */
+static int32_t* OwnMaterial(kiriSheetData* sheet)
+{
+    kiriCell* cell = sheet->grid.cells.data;
+    while (cell->material == KIRI_NONE) {
+        ++cell;
+    }
+    return &cell->material;
+}
+
 static void FaceHasNoWidth(kiriSheetData* sheet)
 {
-    sheet->grid.faces.data[0].width = 0.0;
+    const kiriFace* face = sheet->grid.faces.data;
+    while (!kiriFace_HasOwnStretch(face)) {
+        ++face;
+    }
+    sheet->grid.stretches.data[face->kind / 2 - 1].width = 0.0;
+}
+
+static void MaterialIsFar(kiriSheetData* sheet)
+{
+    *OwnMaterial(sheet) = 1 << 30;
+}
+
+static void MaterialIsShared(kiriSheetData* sheet)
+{
+    int32_t* own = OwnMaterial(sheet);
+    *own = *own == 0 ? 1 : 0;
+}
+
+static void UnusedHasNoRoom(kiriSheetData* sheet)
+{
+    kiriArray_Release(sheet->memory, &sheet->grid.unusedStretches);
 }
 
 static void FaceFollowsItself(kiriSheetData* sheet)
@@ -204,7 +234,7 @@ static void TriangleIsInNoCell(kiriSheetData* sheet)
 
 static void MaterialIsNegative(kiriSheetData* sheet)
 {
-    sheet->grid.cells.data[0].material.area = -1.0;
+    sheet->grid.materials.data[*OwnMaterial(sheet)].area = -1.0;
 }
 
 static void TestGrid(void** state)
@@ -215,6 +245,9 @@ static void TestGrid(void** state)
         { "CellFollowsItself", CellFollowsItself },
         { "FreeCellIsFar", FreeCellIsFar },
         { "FaceHasNoWidth", FaceHasNoWidth },
+        { "MaterialIsFar", MaterialIsFar },
+        { "MaterialIsShared", MaterialIsShared },
+        { "UnusedHasNoRoom", UnusedHasNoRoom },
         { "FaceFollowsItself", FaceFollowsItself },
         { "StepLeadsFar", StepLeadsFar },
         { "StepsEndBeyond", StepsEndBeyond },

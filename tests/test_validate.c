@@ -1,4 +1,5 @@
 /* The checks of validate.h see what they are for: a sound world, made wrong in memory in one way at a time. */
+#include "field/kiri_grid_work.h"
 #include "host.h"
 #include "sheet/kiri_piece.h"
 #include "sheet/kiri_update.h"
@@ -238,7 +239,7 @@ static const char* CorruptCells(kiriWorld* world, kiriSheetData* s, int way)
         grid->cells.data[other].triangle += 1;
         return "grid: cell";
     case 3:
-        grid->cells.data[c].material.area *= 1.0 + 1e-4;
+        kiriGrid_OwnMaterial(grid, s->memory, c)->area *= 1.0 + 1e-4;
         return "the mesh";
     case 4:
         grid->cells.data[c].next = KIRI_NONE;
@@ -272,14 +273,14 @@ static const char* CorruptFaces(kiriWorld* world, kiriSheetData* s, int way)
     (void)world;
     switch (way) {
     case 0:
-        grid->faces.data[f].width = 0.0;
+        kiriGrid_OwnStretch(grid, s->memory, f)->width = 0.0;
         return "wide";
     case 1:
-        grid->faces.data[f].middle.x += grid->side;
-        grid->faces.data[f].middle.y += grid->side;
+        kiriGrid_OwnStretch(grid, s->memory, f)->middle.x += grid->side;
+        kiriGrid_OwnStretch(grid, s->memory, f)->middle.y += grid->side;
         return "on its side";
     case 2:
-        grid->faces.data[f].axis ^= 1;
+        grid->faces.data[f].kind ^= 1;
         return "between squares";
     case 3:
         grid->cells.data[c].firstFace = grid->faces.data[f].next[grid->faces.data[f].cell[1] == c];

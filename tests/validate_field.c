@@ -75,11 +75,13 @@ static bool Check_Cells(Check* check, const kiriSheetData* sheet)
             const kiriCell* cell = &grid->cells.data[c];
             REQUIRE(cell->square == s, "cell %d of square %d says it is of %d", c, s, cell->square);
             REQUIRE(cell->triangle > last, "cell %d of square %d comes too late", c, s);
-            REQUIRE(cell->material.area > 0.0, "cell %d has area %g", c, cell->material.area);
+            REQUIRE(cell->material >= KIRI_NONE && cell->material < grid->materials.count, "cell %d has material %d", c,
+                    cell->material);
+            REQUIRE(kiriGrid_Area(grid, c) > 0.0, "cell %d has area %g", c, kiriGrid_Area(grid, c));
             REQUIRE(!grid->whole.data[s] || (last == KIRI_NONE && cell->next == KIRI_NONE),
                     "square %d is whole and has two cells", s);
             last = cell->triangle;
-            area += cell->material.area;
+            area += kiriGrid_Area(grid, c);
             ++live;
         }
     }
@@ -166,19 +168,20 @@ static bool Check_Face(Check* check, const kiriSheetData* sheet, int32_t f)
 {
     const kiriGrid* grid = &sheet->grid;
     const kiriFace* face = &grid->faces.data[f];
-    int32_t apart = face->axis == 0 ? 1 : sheet->mesh.squares.columns;
+    int32_t axis = kiriFace_Axis(face), apart = axis == 0 ? 1 : sheet->mesh.squares.columns;
     for (int k = 0; k < 2; ++k) {
         REQUIRE(IsIndex(face->cell[k], grid->cells.count) && kiriGrid_IsCell(grid, face->cell[k]),
                 "face %d is of cell %d", f, face->cell[k]);
     }
     int32_t a = grid->cells.data[face->cell[0]].square, b = grid->cells.data[face->cell[1]].square;
-    REQUIRE(a + apart == b && (face->axis == 1 || b % sheet->mesh.squares.columns != 0),
+    REQUIRE(a + apart == b && (axis == 1 || b % sheet->mesh.squares.columns != 0),
             "face %d is between squares %d and %d", f, a, b);
-    REQUIRE(face->width > 0.0 && face->width < grid->side * (1.0 + 1e-9), "face %d is %g wide", f, face->width);
-    REQUIRE(face->moment > 0.0 || face->width < 1e-100, "face %d has moment %g", f, face->moment);
+    kiriStretch s = kiriGrid_Stretch(grid, &sheet->mesh, f);
+    REQUIRE(s.width > 0.0 && s.width < grid->side * (1.0 + 1e-9), "face %d is %g wide", f, s.width);
+    REQUIRE(s.moment > 0.0 || s.width < 1e-100, "face %d has moment %g", f, s.moment);
     kiriVec2 from = kiriMesh_Local(&sheet->mesh, kiriSquares_Corner(&sheet->mesh.squares, b));
-    double along = face->axis == 0 ? face->middle.y - from.y : face->middle.x - from.x;
-    double across = face->axis == 0 ? face->middle.x - from.x : face->middle.y - from.y;
+    double along = axis == 0 ? s.middle.y - from.y : s.middle.x - from.x;
+    double across = axis == 0 ? s.middle.x - from.x : s.middle.y - from.y;
     REQUIRE(IsNear(across, 0.0, 1e-9 * grid->side) && along > -1e-9 * grid->side && along < grid->side * (1.0 + 1e-9),
             "face %d is not on its side", f);
     return true;
@@ -454,7 +457,8 @@ static bool Check_Tallies(Check* check, const kiriSheetData* sheet)
     REQUIRE(sums != NULL, "no memory");
     for (int32_t c = 0; c < grid->cells.count; ++c) {
         if (kiriGrid_IsCell(grid, c)) {
-            kiriTally_Add(&sums[sheet->regions.field.owner.data[c]], &grid->cells.data[c].material, 1, extent);
+            kiriMoments material = kiriGrid_Material(grid, &sheet->mesh, c);
+            kiriTally_Add(&sums[sheet->regions.field.owner.data[c]], &material, 1, extent);
         }
     }
     for (int32_t i = 0; i < frames; ++i) {
@@ -611,7 +615,7 @@ static bool Check_Rigid(Check* check, const kiriSheetData* sheet)
     REQUIRE_COUNT(shape->rigid, sheet->frames.count);
     for (int32_t c = 0; c < shape->spans.count; ++c) {
         kiriSpan span = shape->spans.data[c];
-        int64_t share = (int64_t)(sheet->grid.cells.data[c].material.area / square * 1099511627776.0 + 0.5);
+        int64_t share = (int64_t)(kiriGrid_Area(&sheet->grid, c) / square * 1099511627776.0 + 0.5);
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
             sums[kiriSheet_FrameOf(sheet, shape->weights.data[k].label)] +=
                 shape->weights.data[k].value > shape->rigidWeight ? share : 0;

@@ -17,6 +17,9 @@ extern const kiriMust kiriSiteMust[2];
 /* The mesh is right. Counts cells and faces. */
 bool kiriGrid_Check(const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* check);
 
+/* Its part for what cells and faces have of their own. */
+bool kiriGrid_CheckOwn(const kiriGrid* grid, kiriCheck* check);
+
 /* Of a grid that is reset before it is used again. */
 bool kiriGrid_CheckLeft(const kiriGrid* grid, kiriCheck* check);
 

@@ -26,15 +26,9 @@ static const kiriMember NewCellMembers[] = {
 };
 static const kiriTable NewCellTable = KIRI_TABLE(kiriNewCell, NewCellMembers);
 
-static const kiriMember FaceMembers[] = {
-    KIRI_RUN(4, kiriFace, cell, axis),
-    KIRI_RUN(8, kiriFace, width, moment),
-};
-static const kiriTable FaceTable = KIRI_TABLE(kiriFace, FaceMembers);
-
 static const kiriMember OldFaceMembers[] = {
     KIRI_RUN(4, kiriOldFace, face, face),
-    KIRI_PART(kiriOldFace, was, FaceTable),
+    KIRI_RUN(8, kiriOldFace, was, was),
 };
 static const kiriTable OldFaceTable = KIRI_TABLE(kiriOldFace, OldFaceMembers);
 
@@ -74,12 +68,6 @@ static const kiriMember GridWorkMembers[] = {
 };
 static const kiriTable GridWorkTable = KIRI_TABLE(kiriGridWork, GridWorkMembers);
 
-static const kiriMember CellMembers[] = {
-    KIRI_RUN(4, kiriCell, square, firstFace),
-    KIRI_RUN(8, kiriCell, material, material),
-};
-static const kiriTable CellTable = KIRI_TABLE(kiriCell, CellMembers);
-
 static const kiriMember MaterialChangeMembers[] = {
     KIRI_RUN(4, kiriMaterialChange, cell, cell),
     KIRI_RUN(8, kiriMaterialChange, was, was),
@@ -95,11 +83,15 @@ static const kiriTable GridChangesTable = KIRI_TABLE(kiriGridChanges, GridChange
 
 static const kiriMember GridMembers[] = {
     KIRI_RUN(8, kiriGrid, side, side),
-    KIRI_PARTS(kiriGrid, cells, CellTable),
+    KIRI_ITEMS(4, kiriGrid, cells),
     KIRI_ITEMS(4, kiriGrid, runs),
     KIRI_PARTS(kiriGrid, steps, StepTable),
     KIRI_RUN(4, kiriGrid, stepRoom, openTo),
-    KIRI_PARTS(kiriGrid, faces, FaceTable),
+    KIRI_ITEMS(4, kiriGrid, faces),
+    KIRI_ITEMS(8, kiriGrid, materials),
+    KIRI_ITEMS(8, kiriGrid, stretches),
+    KIRI_ITEMS(4, kiriGrid, unusedMaterials),
+    KIRI_ITEMS(4, kiriGrid, unusedStretches),
     KIRI_ITEMS(4, kiriGrid, squareCell),
     KIRI_ITEMS(4, kiriGrid, nodeCell),
     KIRI_ITEMS(4, kiriGrid, vertexCell),

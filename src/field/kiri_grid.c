@@ -9,6 +9,7 @@
 
 static void FreeCell(kiriGrid* grid, int32_t c)
 {
+    kiriGrid_DropMaterial(grid, c);
     grid->cells.data[c].next = grid->freeCell;
     grid->freeCell = c;
 }
@@ -23,7 +24,7 @@ static void ForgetChange(kiriGrid* grid, const void* list, const void* change)
     if (list == &grid->changes.made) {
         FreeCell(grid, cell);
     } else if (list == &grid->changes.material) {
-        grid->cells.data[cell].material = ((const kiriMaterialChange*)change)->was;
+        grid->materials.data[grid->cells.data[cell].material] = ((const kiriMaterialChange*)change)->was;
     }
 }
 
@@ -119,7 +120,7 @@ static bool StartGridFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
     return ReserveCells(grid, mesh);
 }
 
-enum { GRID_ROOMS = 8 };
+enum { GRID_ROOMS = 12 };
 
 /* Room for a cell more in half of the squares that changed, and for steps around them. */
 static void ListGridRooms(kiriGrid* grid, const kiriMeshData* mesh, kiriRoom rooms[GRID_ROOMS])
@@ -127,12 +128,18 @@ static void ListGridRooms(kiriGrid* grid, const kiriMeshData* mesh, kiriRoom roo
     kiriGridWork* work = grid->work;
     int64_t more = mesh->squares.dirty.count / 2 + 64, cells = grid->cells.count + more;
     int64_t notOpen = 5 * (int64_t)mesh->squares.dirty.count + 64; /* a cut, and two rows of squares on each side */
+    int64_t materials = grid->materials.count + mesh->squares.dirty.count + more,
+            stretches = grid->stretches.count + 2 * (mesh->squares.dirty.count + more);
     kiriMemory* memory = mesh->memory;
     const kiriRoom all[GRID_ROOMS] = { KIRI_ROOM(memory, &grid->cells, cells),
                                        KIRI_ROOM(memory, &grid->runs, cells),
                                        KIRI_ROOM(memory, &work->cellFlags, cells),
                                        KIRI_ROOM(memory, &work->mark, cells),
                                        KIRI_ROOM(memory, &grid->faces, grid->faces.count + 2 * more),
+                                       KIRI_ROOM(memory, &grid->materials, materials),
+                                       KIRI_ROOM(memory, &grid->unusedMaterials, materials),
+                                       KIRI_ROOM(memory, &grid->stretches, stretches),
+                                       KIRI_ROOM(memory, &grid->unusedStretches, stretches),
                                        KIRI_ROOM(memory, &grid->steps, grid->steps.count + KIRI_OPEN_STEPS * notOpen),
                                        KIRI_ROOM(memory, &grid->nodeCell, mesh->squares.nodes.capacity),
                                        KIRI_ROOM(memory, &grid->vertexCell, mesh->vertices.capacity) };
@@ -283,6 +290,7 @@ void kiriGrid_Reset(kiriGrid* grid)
     kiriGridChanges* changes = &grid->changes;
     grid->cells.count = grid->runs.count = grid->steps.count = grid->faces.count = grid->squareCell.count = 0;
     grid->nodeCell.count = grid->vertexCell.count = grid->whole.count = grid->cellCount = 0;
+    grid->materials.count = grid->stretches.count = grid->unusedMaterials.count = grid->unusedStretches.count = 0;
     changes->made.count = changes->gone.count = changes->steps.count = changes->material.count = 0;
     changes->edges.count = 0;
     memset(&grid->stepRoom, 0, sizeof(grid->stepRoom));

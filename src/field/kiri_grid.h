@@ -17,22 +17,37 @@ enum {
 };
 
 typedef struct kiriCell {
-    int32_t square;       /* KIRI_NONE: there is no cell of this index now */
-    int32_t next;         /* the next cell of the same square, by lowest triangle, or KIRI_NONE */
-    int32_t triangle;     /* lowest triangle of its material */
-    int32_t firstFace;    /* or KIRI_NONE */
-    kiriMoments material; /* covered area and moments, about the local origin; m */
+    int32_t square;    /* KIRI_NONE: there is no cell of this index now */
+    int32_t next;      /* the next cell of the same square, by lowest triangle, or KIRI_NONE */
+    int32_t triangle;  /* lowest triangle of its material */
+    int32_t firstFace; /* or KIRI_NONE */
+    int32_t material;  /* its index in grid->materials; KIRI_NONE: all of a whole square, see kiriGrid_Material */
 } kiriCell;
 
-/* The material shared by two cells of neighbouring squares: the stretch of the squares' common side that it covers. */
+/* The material shared by two cells of neighbouring squares: a stretch of the squares' common side. */
 typedef struct kiriFace {
     int32_t cell[2]; /* [0] in the square with the lower coordinate; [0] is KIRI_NONE: no face has this index now */
     int32_t next[2]; /* next face of cell[0], of cell[1], or KIRI_NONE; in no particular order */
-    int32_t axis;    /* 0: the side is a vertical line u = const, normal +u; 1: v = const, normal +v */
-    double width;    /* m, above zero */
-    kiriVec2 middle; /* local m: centroid of the covered stretch, on the side */
-    double moment;   /* m^3: second moment of the stretch about its middle */
+    int32_t kind;    /* the axis (kiriFace_Axis), and twice its index in grid->stretches, from 1; 0: all of the side */
 } kiriFace;
+
+/* 0: the side is a vertical line u = const, normal +u; 1: v = const, normal +v. */
+static inline int32_t kiriFace_Axis(const kiriFace* face)
+{
+    return face->kind & 1;
+}
+
+static inline bool kiriFace_HasOwnStretch(const kiriFace* face)
+{
+    return face->kind > 1;
+}
+
+/* What of its side a face covers. */
+typedef struct kiriStretch {
+    double width;    /* m, above zero */
+    kiriVec2 middle; /* local m: its centroid, on the side */
+    double moment;   /* m^3: second moment about its middle */
+} kiriStretch;
 
 /* A move of the geodesic: straight over a face, or diagonally, or like a knight in chess. The last two exist where both
    ways around the corner are open. What leads from a to b also leads from b to a. */
@@ -95,12 +110,18 @@ typedef struct kiriGrid {
     kiriSpans stepRoom;
     int32_t openTo[KIRI_OPEN_STEPS]; /* how many squares on the steps of an open cell lead */
     KIRI_ARRAY(kiriFace) faces;      /* by index, with gaps */
-    KIRI_ARRAY(int32_t) squareCell;  /* a square's first cell, or KIRI_NONE */
-    KIRI_ARRAY(int32_t) nodeCell;    /* the cell of each node of mesh->squares.nodes; unused ones mean nothing */
-    KIRI_ARRAY(int32_t) vertexCell;  /* the cell of each vertex in a square with several; others mean nothing */
-    KIRI_ARRAY(uint8_t) whole;       /* of each square: wholly covered, and no outline or open edge runs through it */
-    int32_t cellCount;               /* that live */
-    int32_t freeCell, freeFace;      /* heads of lists, or KIRI_NONE */
+
+    /* Of cells and faces that are not those of whole squares, which most are: by index, with gaps. */
+    KIRI_ARRAY(kiriMoments) materials; /* covered area and moments, about the local origin; m */
+    KIRI_ARRAY(kiriStretch) stretches;
+    kiriIndices unusedMaterials, unusedStretches; /* there is room for all */
+
+    KIRI_ARRAY(int32_t) squareCell; /* a square's first cell, or KIRI_NONE */
+    KIRI_ARRAY(int32_t) nodeCell;   /* the cell of each node of mesh->squares.nodes; unused ones mean nothing */
+    KIRI_ARRAY(int32_t) vertexCell; /* the cell of each vertex in a square with several; others mean nothing */
+    KIRI_ARRAY(uint8_t) whole;      /* of each square: wholly covered, and no outline or open edge runs through it */
+    int32_t cellCount;              /* that live */
+    int32_t freeCell, freeFace;     /* heads of lists, or KIRI_NONE */
     kiriGridChanges changes;
     kiriGridWork* work;
 } kiriGrid;
@@ -190,6 +211,19 @@ static inline bool kiriGrid_AreNear(const kiriGrid* grid, int32_t a, int32_t b)
     }
     return false;
 }
+
+/* What a cell covers, about the local origin. One that is gone has what it had. */
+kiriMoments kiriGrid_Material(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
+
+/* The area of it, m^2. */
+static inline double kiriGrid_Area(const kiriGrid* grid, int32_t cell)
+{
+    int32_t material = grid->cells.data[cell].material;
+    return material == KIRI_NONE ? grid->side * grid->side : grid->materials.data[material].area;
+}
+
+/* What a face covers. */
+kiriStretch kiriGrid_Stretch(const kiriGrid* grid, const kiriMeshData* mesh, int32_t face);
 
 /* A face seen from one of its cells: the cell beyond, and the next face of that one. */
 static inline int32_t kiriFace_Other(const kiriFace* face, int32_t cell)

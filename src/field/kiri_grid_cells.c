@@ -198,7 +198,7 @@ static kiriMoments Speck(double side)
 /* The index of a new cell, or KIRI_NONE for memory. */
 static int32_t AddCell(kiriGrid* grid, kiriMemory* memory, int32_t square)
 {
-    const kiriCell cell = { square, KIRI_NONE, KIRI_NONE, KIRI_NONE, { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 } };
+    const kiriCell cell = { square, KIRI_NONE, KIRI_NONE, KIRI_NONE, KIRI_NONE };
     const kiriStepRun run = { 0, { 0, 0, 0 } };
     kiriGridWork* work = grid->work;
     int32_t c = grid->freeCell;
@@ -218,26 +218,44 @@ static int32_t AddCell(kiriGrid* grid, kiriMemory* memory, int32_t square)
     return ok ? c : KIRI_NONE;
 }
 
-static bool SetMaterial(kiriGrid* grid, kiriMemory* memory, int32_t c, const kiriMoments* material)
+static bool StoreMaterial(kiriGrid* grid, kiriMemory* memory, int32_t c, const kiriMoments* material)
 {
-    kiriCell* cell = &grid->cells.data[c];
-    kiriMaterialChange change = { c, cell->material };
+    kiriMoments* own = kiriGrid_OwnMaterial(grid, memory, c);
+    if (own != NULL) {
+        *own = *material;
+    }
+    return own != NULL;
+}
+
+static bool SetMaterial(kiriGrid* grid, const kiriMeshData* mesh, int32_t c, const kiriMoments* material)
+{
+    kiriMaterialChange change = { c, kiriGrid_Material(grid, mesh, c) };
     uint8_t* flags = &grid->work->cellFlags.data[c];
-    if (memcmp(&cell->material, material, sizeof(*material)) == 0) {
+    if (memcmp(&change.was, material, sizeof(*material)) == 0) {
         return true;
     }
-    cell->material = *material;
+    if (grid->whole.data[grid->cells.data[c].square]) {
+        kiriGrid_DropMaterial(grid, c);
+    } else if (!StoreMaterial(grid, mesh->memory, c, material)) {
+        return false;
+    }
     if ((*flags & (KIRI_CELL_MADE | KIRI_CELL_MATERIAL)) != 0) {
         return true;
     }
     *flags |= KIRI_CELL_MATERIAL;
-    return kiriArray_Push(memory, &grid->changes.material, change);
+    return kiriArray_Push(mesh->memory, &grid->changes.material, change);
 }
 
-static bool RemoveCell(kiriGrid* grid, kiriMemory* memory, int32_t c)
+/* What it covered is kept: without a square it does not follow any more. */
+static bool RemoveCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t c)
 {
     KIRI_ASSERT(kiriGrid_IsCell(grid, c));
+    kiriMemory* memory = mesh->memory;
     kiriCell* cell = &grid->cells.data[c];
+    kiriMoments material = kiriGrid_Material(grid, mesh, c);
+    if (!StoreMaterial(grid, memory, c, &material)) {
+        return false;
+    }
     while (cell->firstFace != KIRI_NONE) {
         if (!kiriGrid_RemoveFace(grid, memory, cell->firstFace)) {
             return false;
@@ -252,12 +270,7 @@ static bool RemoveCell(kiriGrid* grid, kiriMemory* memory, int32_t c)
 
 static bool FindWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
 {
-    double x = grid->side, area = x * x;
-    kiriMoments about = {
-        area, x / 2.0 * area, x / 2.0 * area, area * area / 3.0, area * area / 4.0, area * area / 3.0
-    };
-    kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));
-    kiriNewCell whole = { KIRI_NONE, KIRI_NONE, kiriMoments_About(&about, kiriVec2_Scale(-1.0, corner)) };
+    kiriNewCell whole = { KIRI_NONE, KIRI_NONE, kiriGrid_MaterialOfWhole(grid, mesh, square) };
     return kiriArray_Push(mesh->memory, &grid->work->newCells, whole);
 }
 
@@ -311,14 +324,14 @@ static kiriProgress FindCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t 
 
 /* The old cells of the square become the new ones in their order. Where there are more new ones than old, cells are
    added, and where there are fewer, removed. */
-static bool TakeNewCells(kiriGrid* grid, kiriMemory* memory, int32_t square)
+static bool TakeNewCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
 {
     int32_t old = grid->squareCell.data[square], last = KIRI_NONE;
     grid->squareCell.data[square] = KIRI_NONE;
     for (int32_t i = 0; i < grid->work->newCells.count; ++i) {
         kiriNewCell* made = &grid->work->newCells.data[i];
-        made->cell = old != KIRI_NONE ? old : AddCell(grid, memory, square);
-        if (made->cell == KIRI_NONE || !SetMaterial(grid, memory, made->cell, &made->material)) {
+        made->cell = old != KIRI_NONE ? old : AddCell(grid, mesh->memory, square);
+        if (made->cell == KIRI_NONE || !SetMaterial(grid, mesh, made->cell, &made->material)) {
             return false;
         }
         kiriCell* cell = &grid->cells.data[made->cell];
@@ -331,7 +344,7 @@ static bool TakeNewCells(kiriGrid* grid, kiriMemory* memory, int32_t square)
     while (old != KIRI_NONE) {
         int32_t gone = old;
         old = grid->cells.data[gone].next;
-        if (!RemoveCell(grid, memory, gone)) {
+        if (!RemoveCell(grid, mesh, gone)) {
             return false;
         }
     }
@@ -342,7 +355,7 @@ static kiriProgress ReplaceCells(kiriGrid* grid, const kiriMeshData* mesh, int32
 {
     (void)quota;
     grid->work->due += KIRI_GRID_CELL * grid->work->newCells.count;
-    return grid->work->isSame || TakeNewCells(grid, mesh->memory, square) ? KIRI_DONE : KIRI_FAILED;
+    return grid->work->isSame || TakeNewCells(grid, mesh, square) ? KIRI_DONE : KIRI_FAILED;
 }
 
 /* The one cell of a whole square holds all its triangles. Where the square was whole before, nothing else changes. */

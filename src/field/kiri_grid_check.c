@@ -11,14 +11,11 @@ static const kiriMust CellMust[] = {
     KIRI_INDEX_OR_NONE(KIRI_OF_SQUARES, kiriCell, square, square),
     KIRI_INDEX_OR_NONE(KIRI_OF_CELLS, kiriCell, next, next),
     KIRI_INDEX_OR_NONE(KIRI_OF_FACES, kiriCell, firstFace, firstFace),
-    KIRI_REALS(kiriCell, material, material),
 };
 
 static const kiriMust FaceMust[] = {
     KIRI_INDEX_OR_NONE(KIRI_OF_CELLS, kiriFace, cell, cell),
     KIRI_INDEX_OR_NONE(KIRI_OF_FACES, kiriFace, next, next),
-    KIRI_WITHIN(0, 1, kiriFace, axis, axis),
-    KIRI_REALS(kiriFace, width, moment),
 };
 
 static const kiriMust MaterialChangeMust[] = {
@@ -34,6 +31,7 @@ static const kiriMust NewCellMust[] = {
 
 static const kiriMust OldFaceMust[] = {
     KIRI_INDEX(KIRI_OF_FACES, kiriOldFace, face, face),
+    KIRI_REALS(kiriOldFace, was, was),
 };
 
 enum { LAST_STAGE = 6, LAST_PART = 4 };
@@ -108,8 +106,9 @@ static bool AreMaterials(const kiriGrid* grid, const kiriMeshData* mesh)
     double farthest = 2.0 * KIRI_LATTICE * mesh->step;
     bool areFine = grid->side == mesh->step * mesh->squares.side;
     for (int32_t c = 0; areFine && c < grid->cells.count; ++c) {
-        areFine = IsMaterial(&grid->cells.data[c].material, grid->side, farthest) &&
-                  (grid->cells.data[c].material.area > 0.0 || !kiriGrid_IsCell(grid, c));
+        int32_t own = grid->cells.data[c].material;
+        areFine = own == KIRI_NONE || (IsMaterial(&grid->materials.data[own], grid->side, farthest) &&
+                                       (grid->materials.data[own].area > 0.0 || !kiriGrid_IsCell(grid, c)));
     }
     for (int32_t k = 0; areFine && kiriGrid_IsAtWork(grid) && k < grid->work->newCells.count; ++k) {
         areFine = IsPartOfMaterial(&grid->work->newCells.data[k].material, grid->side, farthest);
@@ -189,12 +188,13 @@ static bool AreCellsSound(kiriCheck* check, const kiriGrid* grid, const kiriMesh
 static bool IsFace(const kiriGrid* grid, const kiriSquares* squares, const kiriFace* face)
 {
     bool mayBeEmpty = grid->work->running && grid->work->isMerging;
-    if (face->cell[1] == KIRI_NONE || !(face->width > 0.0 || (mayBeEmpty && face->width == 0.0))) {
+    double width = kiriFace_HasOwnStretch(face) ? grid->stretches.data[face->kind / 2 - 1].width : 1.0;
+    if (face->cell[1] == KIRI_NONE || !(width > 0.0 || (mayBeEmpty && width == 0.0))) {
         return false;
     }
     int32_t a = grid->cells.data[face->cell[0]].square, b = grid->cells.data[face->cell[1]].square;
-    int32_t apart = face->axis == 0 ? 1 : squares->columns;
-    return a != KIRI_NONE && b == a + apart && (face->axis == 1 || b % squares->columns != 0);
+    int32_t axis = kiriFace_Axis(face), apart = axis == 0 ? 1 : squares->columns;
+    return a != KIRI_NONE && b == a + apart && (axis == 1 || b % squares->columns != 0);
 }
 
 static int32_t CountFaces(const kiriGrid* grid, const kiriSquares* squares, bool* areFine)
@@ -580,7 +580,7 @@ bool kiriGrid_Check(const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* c
     check->count[KIRI_OF_CELLS] = grid->cells.count;
     check->count[KIRI_OF_FACES] = grid->faces.count;
     return kiriCheck_That(check, grid->work != NULL && grid->cells.count > 0) &&
-           kiriCheck_Object(check, GridMust, grid) &&
+           kiriCheck_Object(check, GridMust, grid) && kiriGrid_CheckOwn(grid, check) &&
            kiriCheck_That(check, AreMaterials(grid, mesh) && grid->nodeCell.count <= squares->nodes.count &&
                                      grid->vertexCell.count <= mesh->vertices.count) &&
            AreCellsSound(check, grid, mesh) && kiriCheck_That(check, AreFaces(grid, squares)) &&

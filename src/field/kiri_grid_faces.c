@@ -1,11 +1,11 @@
 #include "kiri_grid_work.h"
 
-/* Null for memory. */
-static kiriFace* AddFace(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b, int axis)
+/* The index of a face of the whole side, or KIRI_NONE for memory. */
+static int32_t AddFace(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b, int axis)
 {
     KIRI_ASSERT(a != b && kiriGrid_IsCell(grid, a) && kiriGrid_IsCell(grid, b));
     kiriCell *cellA = &grid->cells.data[a], *cellB = &grid->cells.data[b];
-    const kiriFace face = { { a, b }, { cellA->firstFace, cellB->firstFace }, axis, 0.0, { 0.0, 0.0 }, 0.0 };
+    const kiriFace face = { { a, b }, { cellA->firstFace, cellB->firstFace }, axis };
     int32_t f = grid->freeFace;
     if (f != KIRI_NONE) {
         grid->freeFace = grid->faces.data[f].next[0];
@@ -14,10 +14,10 @@ static kiriFace* AddFace(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t 
         f = grid->faces.count - 1;
     }
     if (f == KIRI_NONE || !kiriGrid_RecordLink(grid, memory, a, b)) {
-        return NULL;
+        return KIRI_NONE;
     }
     cellA->firstFace = cellB->firstFace = f;
-    return &grid->faces.data[f];
+    return f;
 }
 
 static void UnlinkFace(kiriGrid* grid, int32_t f, int32_t cell)
@@ -37,6 +37,7 @@ void kiriGrid_FreeFace(kiriGrid* grid, int32_t f)
     kiriFace* face = &grid->faces.data[f];
     UnlinkFace(grid, f, face->cell[0]);
     UnlinkFace(grid, f, face->cell[1]);
+    kiriGrid_DropStretch(grid, f);
     face->cell[0] = KIRI_NONE;
     face->next[0] = grid->freeFace;
     grid->freeFace = f;
@@ -49,18 +50,18 @@ bool kiriGrid_RemoveFace(kiriGrid* grid, kiriMemory* memory, int32_t f)
     return ok;
 }
 
-/* The face between two cells, new if there is none yet; null for memory. Looks from both ends at once, since a cell
+/* The face between two cells, new if there is none yet; KIRI_NONE for memory. Looks from both ends at once, since a cell
    with many faces, a comb, most often touches cells with few. */
-static kiriFace* FaceBetween(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b, int axis)
+static int32_t FaceBetween(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b, int axis)
 {
     int32_t f = grid->cells.data[a].firstFace, g = grid->cells.data[b].firstFace;
     while (f != KIRI_NONE && g != KIRI_NONE) {
-        kiriFace *ofA = &grid->faces.data[f], *ofB = &grid->faces.data[g];
+        const kiriFace *ofA = &grid->faces.data[f], *ofB = &grid->faces.data[g];
         if (kiriFace_Other(ofA, a) == b) {
-            return ofA;
+            return f;
         }
         if (kiriFace_Other(ofB, b) == a) {
-            return ofB;
+            return g;
         }
         f = kiriFace_Next(ofA, a);
         g = kiriFace_Next(ofB, b);
@@ -68,18 +69,18 @@ static kiriFace* FaceBetween(kiriGrid* grid, kiriMemory* memory, int32_t a, int3
     return AddFace(grid, memory, a, b, axis);
 }
 
-/* A stretch of a side: its ends, in lattice steps from the lower end of the side. */
-typedef struct Stretch {
+/* What a triangle covers of a side: its ends, in lattice steps from the lower end of the side. */
+typedef struct CoveredEnds {
     double from, to;
-} Stretch;
+} CoveredEnds;
 
 /* The stretch that a triangle covers of the lower side of a square along the axis. Two of the triangle's edges meet the
    grid line, and no corner lies on it. */
-static Stretch CoveredStretch(const kiriMeshData* mesh, int32_t triangle, int32_t square, int axis)
+static CoveredEnds FindCoveredEnds(const kiriMeshData* mesh, int32_t triangle, int32_t square, int axis)
 {
     kiriLatticePoint low = kiriSquares_Corner(&mesh->squares, square), corners[3];
     double side = mesh->squares.side;
-    Stretch stretch = { side, 0.0 };
+    CoveredEnds ends = { side, 0.0 };
     kiriMesh_Corners(mesh, triangle, corners);
     for (int i = 0; i < 3; ++i) {
         kiriLatticePoint p = corners[i], q = corners[(i + 1) % 3];
@@ -88,64 +89,68 @@ static Stretch CoveredStretch(const kiriMeshData* mesh, int32_t triangle, int32_
         int64_t qa = axis == 0 ? q.x - low.x : q.y - low.y, qs = axis == 0 ? q.y - low.y : q.x - low.x;
         if ((pa < 0) != (qa < 0)) {
             double at = (double)(ps * qa - qs * pa) / (double)(qa - pa);
-            stretch.from = at < stretch.from ? at : stretch.from;
-            stretch.to = at > stretch.to ? at : stretch.to;
+            ends.from = at < ends.from ? at : ends.from;
+            ends.to = at > ends.to ? at : ends.to;
         }
     }
-    stretch.from = stretch.from > 0.0 ? stretch.from : 0.0;
-    stretch.to = stretch.to < side ? stretch.to : side;
-    return stretch;
+    ends.from = ends.from > 0.0 ? ends.from : 0.0;
+    ends.to = ends.to < side ? ends.to : side;
+    return ends;
 }
 
-/* Adds a stretch by the parallel axis rule: each term is positive, so a narrow face has a sound moment too. */
-static void AddStretch(kiriFace* face, const kiriMeshData* mesh, kiriLatticePoint low, Stretch stretch)
+/* Adds by the parallel axis rule: each term is positive, so a narrow face has a sound moment too. */
+static void AddCovered(kiriStretch* sum, const kiriMeshData* mesh, kiriLatticePoint low, int axis, CoveredEnds ends)
 {
-    double width = mesh->step * (stretch.to - stretch.from), least = kiriLeastShare * mesh->step * mesh->squares.side;
+    double width = mesh->step * (ends.to - ends.from), least = kiriLeastShare * mesh->step * mesh->squares.side;
     width = width > least ? width : least;
     kiriVec2 corner = kiriMesh_Local(mesh, low);
-    double along = 0.5 * mesh->step * (stretch.from + stretch.to);
-    kiriVec2 middle =
-        face->axis == 0 ? kiriVec2_Make(corner.x, corner.y + along) : kiriVec2_Make(corner.x + along, corner.y);
-    if (face->width == 0.0) {
-        face->width = width;
-        face->middle = middle;
-        face->moment = width * width * width / 12.0;
+    double along = 0.5 * mesh->step * (ends.from + ends.to);
+    kiriVec2 middle = axis == 0 ? kiriVec2_Make(corner.x, corner.y + along) : kiriVec2_Make(corner.x + along, corner.y);
+    if (sum->width == 0.0) {
+        *sum = (kiriStretch){ width, middle, width * width * width / 12.0 };
         return;
     }
-    kiriVec2 apart = kiriVec2_Sub(middle, face->middle);
-    double sum = face->width + width;
-    face->moment += width * width * width / 12.0 + kiriVec2_Dot(apart, apart) * face->width * width / sum;
-    face->middle = kiriVec2_Add(face->middle, kiriVec2_Scale(width / sum, apart));
-    face->width = sum;
+    kiriVec2 apart = kiriVec2_Sub(middle, sum->middle);
+    double both = sum->width + width;
+    sum->moment += width * width * width / 12.0 + kiriVec2_Dot(apart, apart) * sum->width * width / both;
+    sum->middle = kiriVec2_Add(sum->middle, kiriVec2_Scale(width / both, apart));
+    sum->width = both;
+}
+
+/* Nothing is covered yet. False for memory. */
+static bool EmptyFace(kiriGrid* grid, kiriMemory* memory, int32_t f)
+{
+    kiriStretch* own = kiriGrid_OwnStretch(grid, memory, f);
+    if (own != NULL) {
+        own->width = own->moment = 0.0;
+    }
+    return own != NULL;
 }
 
 /* Whole squares share their whole side. */
 static bool AddWholeFace(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, int32_t square, int axis)
 {
-    Stretch side = { 0.0, mesh->squares.side };
-    kiriFace* face =
-        FaceBetween(grid, mesh->memory, grid->squareCell.data[before], grid->squareCell.data[square], axis);
-    if (face != NULL) {
-        AddStretch(face, mesh, kiriSquares_Corner(&mesh->squares, square), side);
+    int32_t f = FaceBetween(grid, mesh->memory, grid->squareCell.data[before], grid->squareCell.data[square], axis);
+    if (f != KIRI_NONE) {
+        kiriGrid_DropStretch(grid, f);
     }
-    return face != NULL;
+    return f != KIRI_NONE;
 }
 
 /* Empties the faces on the lower side of a square along the axis, and keeps what they were. */
-static bool EmptyFaces(kiriGrid* grid, kiriMemory* memory, int32_t square, int axis)
+static bool EmptyFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, int axis)
 {
     kiriGridWork* work = grid->work;
     work->oldFaces.count = 0;
     for (int32_t c = work->fromScratch ? KIRI_NONE : grid->squareCell.data[square]; c != KIRI_NONE;
          c = grid->cells.data[c].next) {
         for (int32_t f = grid->cells.data[c].firstFace; f != KIRI_NONE; f = kiriFace_Next(&grid->faces.data[f], c)) {
-            kiriFace* face = &grid->faces.data[f];
-            if (face->cell[1] == c && face->axis == axis) {
-                kiriOldFace old = { f, *face };
-                if (!kiriArray_Push(memory, &work->oldFaces, old)) {
+            const kiriFace* face = &grid->faces.data[f];
+            if (face->cell[1] == c && kiriFace_Axis(face) == axis) {
+                kiriOldFace old = { f, kiriGrid_Stretch(grid, mesh, f) };
+                if (!kiriArray_Push(mesh->memory, &work->oldFaces, old) || !EmptyFace(grid, mesh->memory, f)) {
                     return false;
                 }
-                face->width = face->moment = 0.0;
             }
         }
     }
@@ -153,23 +158,33 @@ static bool EmptyFaces(kiriGrid* grid, kiriMemory* memory, int32_t square, int a
 }
 
 /* Finds out what became of the faces that were emptied. */
-static bool CompareFaces(kiriGrid* grid, kiriMemory* memory)
+static bool CompareFaces(kiriGrid* grid, const kiriMeshData* mesh)
 {
+    kiriMemory* memory = mesh->memory;
     for (int32_t i = 0; i < grid->work->oldFaces.count; ++i) {
         const kiriOldFace* old = &grid->work->oldFaces.data[i];
-        const kiriFace *was = &old->was, *is = &grid->faces.data[old->face];
-        if (is->width == 0.0) {
+        const kiriStretch was = old->was, is = kiriGrid_Stretch(grid, mesh, old->face);
+        if (is.width == 0.0) {
             if (!kiriGrid_RemoveFace(grid, memory, old->face)) {
                 return false;
             }
-        } else if (is->width != was->width || is->moment != was->moment || is->middle.x != was->middle.x ||
-                   is->middle.y != was->middle.y) {
-            if (!kiriGrid_RecordSteps(grid, memory, is->cell[0]) || !kiriGrid_RecordSteps(grid, memory, is->cell[1])) {
+        } else if (is.width != was.width || is.moment != was.moment || is.middle.x != was.middle.x ||
+                   is.middle.y != was.middle.y) {
+            const int32_t* cell = grid->faces.data[old->face].cell;
+            if (!kiriGrid_RecordSteps(grid, memory, cell[0]) || !kiriGrid_RecordSteps(grid, memory, cell[1])) {
                 return false;
             }
         }
     }
     return true;
+}
+
+/* That of the face between two cells, of a side that was emptied; null for memory. */
+static kiriStretch* StretchBetween(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b, int axis)
+{
+    int32_t f = FaceBetween(grid, memory, a, b, axis);
+    bool isNew = f != KIRI_NONE && !kiriFace_HasOwnStretch(&grid->faces.data[f]);
+    return f == KIRI_NONE || (isNew && !EmptyFace(grid, memory, f)) ? NULL : kiriGrid_OwnStretch(grid, memory, f);
 }
 
 /* Links the cells of a square to those of the one before it along the axis. A triangle with material in both covers a
@@ -184,12 +199,12 @@ static kiriProgress AddFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t b
         int32_t i = a.first + work->at, j = b.first + work->other;
         int32_t t = kiriGridWork_TriangleAt(work, mesh, i), u = kiriGridWork_TriangleAt(work, mesh, j);
         if (t == u) {
-            kiriFace* face = FaceBetween(grid, mesh->memory, grid->nodeCell.data[work->entries.data[i]],
-                                         grid->nodeCell.data[work->entries.data[j]], axis);
-            if (face == NULL) {
+            kiriStretch* sum = StretchBetween(grid, mesh->memory, grid->nodeCell.data[work->entries.data[i]],
+                                              grid->nodeCell.data[work->entries.data[j]], axis);
+            if (sum == NULL) {
                 return KIRI_FAILED;
             }
-            AddStretch(face, mesh, low, CoveredStretch(mesh, t, square, axis));
+            AddCovered(sum, mesh, low, axis, FindCoveredEnds(mesh, t, square, axis));
         }
         work->at += t <= u;
         work->other += u <= t;
@@ -210,7 +225,7 @@ static kiriProgress MakeDividedSide(kiriGrid* grid, const kiriMeshData* mesh, in
         return progress;
     }
     if (!work->isMerging) {
-        if (!EmptyFaces(grid, mesh->memory, square, axis)) {
+        if (!EmptyFaces(grid, mesh, square, axis)) {
             return KIRI_FAILED;
         }
         work->due += KIRI_GRID_SIDE;
@@ -219,7 +234,7 @@ static kiriProgress MakeDividedSide(kiriGrid* grid, const kiriMeshData* mesh, in
     }
     progress = AddFaces(grid, mesh, before, square, axis, quota);
     work->isMerging = progress == KIRI_MORE;
-    return progress != KIRI_DONE || CompareFaces(grid, mesh->memory) ? progress : KIRI_FAILED;
+    return progress != KIRI_DONE || CompareFaces(grid, mesh) ? progress : KIRI_FAILED;
 }
 
 static kiriProgress MakeSide(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, int32_t square, int axis,
@@ -232,8 +247,8 @@ static kiriProgress MakeSide(kiriGrid* grid, const kiriMeshData* mesh, int32_t b
         return MakeDividedSide(grid, mesh, before, square, axis, quota);
     }
     grid->work->due += KIRI_GRID_SIDE;
-    return EmptyFaces(grid, mesh->memory, square, axis) && AddWholeFace(grid, mesh, before, square, axis) &&
-                   CompareFaces(grid, mesh->memory)
+    return EmptyFaces(grid, mesh, square, axis) && AddWholeFace(grid, mesh, before, square, axis) &&
+                   CompareFaces(grid, mesh)
                ? KIRI_DONE
                : KIRI_FAILED;
 }

@@ -226,9 +226,9 @@ static void SortSteps(kiriGrid* grid, int32_t from)
 
 static kiriStep Straight(const kiriFace* face, int32_t from)
 {
-    KIRI_ASSERT(face->width > 0.0);
     int8_t way = face->cell[0] == from ? 1 : -1;
-    return (kiriStep){ kiriFace_Other(face, from), KIRI_UNIT, face->axis == 0 ? way : 0, face->axis == 1 ? way : 0 };
+    int32_t axis = kiriFace_Axis(face);
+    return (kiriStep){ kiriFace_Other(face, from), KIRI_UNIT, axis == 0 ? way : 0, axis == 1 ? way : 0 };
 }
 
 /* One step after another. */
@@ -264,10 +264,10 @@ static bool AddDiagonalSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
     for (int axis = 0; axis < 2; ++axis) {
         for (int32_t f = cells[c].firstFace; f != KIRI_NONE; f = kiriFace_Next(&faces[f], c)) {
             int32_t between = kiriFace_Other(&faces[f], c);
-            int32_t g = faces[f].axis == axis ? cells[between].firstFace : KIRI_NONE;
+            int32_t g = kiriFace_Axis(&faces[f]) == axis ? cells[between].firstFace : KIRI_NONE;
             for (; g != KIRI_NONE; g = kiriFace_Next(&faces[g], between)) {
                 grid->work->due += KIRI_GRID_WAY;
-                if (faces[g].axis == axis) {
+                if (kiriFace_Axis(&faces[g]) == axis) {
                     continue;
                 }
                 kiriStep step = Joined(Straight(&faces[f], c), Straight(&faces[g], between), KIRI_UNIT_DIAGONAL);

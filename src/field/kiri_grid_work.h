@@ -51,7 +51,7 @@ typedef struct kiriNewCell {
 
 typedef struct kiriOldFace {
     int32_t face;
-    kiriFace was;
+    kiriStretch was;
 } kiriOldFace;
 
 struct kiriGridWork {
@@ -145,6 +145,18 @@ bool kiriGrid_RecordSteps(kiriGrid* grid, kiriMemory* memory, int32_t cell);
 
 /* The face between two cells comes or goes. */
 bool kiriGrid_RecordLink(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b);
+
+/* What the cell of a whole square covers. */
+kiriMoments kiriGrid_MaterialOfWhole(const kiriGrid* grid, const kiriMeshData* mesh, int32_t square);
+
+/* The cell, or the face, gets a material, or a stretch, of its own, which means nothing yet; null for memory. One that has its
+   own keeps it. Pointers to others do not stay. */
+kiriMoments* kiriGrid_OwnMaterial(kiriGrid* grid, kiriMemory* memory, int32_t cell);
+kiriStretch* kiriGrid_OwnStretch(kiriGrid* grid, kiriMemory* memory, int32_t face);
+
+/* And gives it back: then it has that of a whole square, or side. */
+void kiriGrid_DropMaterial(kiriGrid* grid, int32_t cell);
+void kiriGrid_DropStretch(kiriGrid* grid, int32_t face);
 
 void kiriGrid_FreeFace(kiriGrid* grid, int32_t face);
 bool kiriGrid_RemoveFace(kiriGrid* grid, kiriMemory* memory, int32_t face);

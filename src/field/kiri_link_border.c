@@ -127,7 +127,7 @@ kiriVec2 kiriEndSearch_PointBefore(const kiriEndSearch* s)
     kiriVec2 best = { 0.0, 0.0 };
     double least = kiriFarAhead;
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
-        kiriVec2 middle = border->grid->faces.data[border->work->stretch.data[k]].middle;
+        kiriVec2 middle = kiriGrid_Stretch(border->grid, border->mesh, border->work->stretch.data[k]).middle;
         double off = fabs(kiriVec2_Length(kiriVec2_Sub(middle, s->grid->at)) - border->grid->side);
         if (off < least) {
             least = off;
@@ -261,7 +261,7 @@ static bool FindSlitEnd(const kiriEndSearch* s, kiriLinkEnd* end)
     const kiriBorder* border = s->border;
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
         int32_t face = border->work->stretch.data[k];
-        kiriVec2 off = kiriVec2_Sub(border->grid->faces.data[face].middle, s->grid->at);
+        kiriVec2 off = kiriVec2_Sub(kiriGrid_Stretch(border->grid, border->mesh, face).middle, s->grid->at);
         bool isNear = kiriVec2_Length(off) < 3.0 * border->grid->side;
         for (int side = 0; isNear && side < 2; ++side) {
             kiriSlitEnd slit;

@@ -12,7 +12,7 @@ static int32_t NextFaceAlong(const kiriGrid* grid, int32_t cell, int32_t face, i
 {
     while (face != KIRI_NONE) {
         const kiriFace* f = &grid->faces.data[face];
-        if (f->axis == axis && f->cell[up ? 0 : 1] == cell) {
+        if (kiriFace_Axis(f) == axis && f->cell[up ? 0 : 1] == cell) {
             return face;
         }
         face = kiriFace_Next(f, cell);
@@ -45,7 +45,7 @@ static void SetRing(kiriRing* ring, const kiriFace* face, bool upper, const int3
 {
     /* Where each stands in the ring, by the axis of the face and by which of its ends the node is. */
     static const int32_t places[2][2][4] = { { { 3, 2, 0, 1 }, { 0, 1, 3, 2 } }, { { 1, 2, 0, 3 }, { 0, 3, 1, 2 } } };
-    const int32_t* place = places[face->axis][upper];
+    const int32_t* place = places[kiriFace_Axis(face)][upper];
     const int32_t cells[4] = { face->cell[0], face->cell[1], far[0], far[1] };
     const int32_t joins[4][2] = { { 0, 1 }, { 0, 2 }, { 1, 3 }, { 2, 3 } };
     for (int k = 0; k < 4; ++k) {
@@ -60,14 +60,14 @@ static const double kiriSliver = 1e-3;
 
 static bool IsSliver(const kiriGrid* grid, int32_t cell)
 {
-    return grid->cells.data[cell].material.area < kiriSliver * grid->side * grid->side;
+    return kiriGrid_Area(grid, cell) < kiriSliver * grid->side * grid->side;
 }
 
 bool kiriBorder_FindRing(const kiriBorder* border, int32_t face, bool upper, kiriRing* ring)
 {
     const kiriGrid* grid = border->grid;
     const kiriFace* f = &grid->faces.data[face];
-    int32_t axis = 1 - f->axis, best[2] = { KIRI_NONE, KIRI_NONE };
+    int32_t axis = 1 - kiriFace_Axis(f), best[2] = { KIRI_NONE, KIRI_NONE };
     for (int32_t g = NextFaceAlong(grid, f->cell[0], grid->cells.data[f->cell[0]].firstFace, axis, upper);
          g != KIRI_NONE;
          g = NextFaceAlong(grid, f->cell[0], kiriFace_Next(&grid->faces.data[g], f->cell[0]), axis, upper)) {
@@ -76,7 +76,7 @@ bool kiriBorder_FindRing(const kiriBorder* border, int32_t face, bool upper, kir
              h = NextFaceAlong(grid, f->cell[1], kiriFace_Next(&grid->faces.data[h], f->cell[1]), axis, upper)) {
             int32_t far[2] = { kiriFace_Other(&grid->faces.data[g], f->cell[0]),
                                kiriFace_Other(&grid->faces.data[h], f->cell[1]) };
-            int32_t faces[4] = { face, g, h, FaceAlong(grid, far[0], far[1], f->axis) };
+            int32_t faces[4] = { face, g, h, FaceAlong(grid, far[0], far[1], 1 - axis) };
             bool isNone = faces[3] == KIRI_NONE || IsSliver(grid, far[0]) || IsSliver(grid, far[1]);
             if (!isNone && (best[0] == KIRI_NONE || IsRingBefore(grid, far, best))) {
                 SetRing(ring, f, upper, far, faces);
@@ -121,10 +121,10 @@ static void ListRegions(const kiriBorder* border, const kiriRing* ring, int32_t 
 
 /* ---- Ends ------------------------------------------------------------------------------------------------------- */
 
-static kiriVec2 FaceEnd(const kiriFace* face, bool upper)
+static kiriVec2 StretchEnd(const kiriStretch* stretch, int32_t axis, bool upper)
 {
-    double half = upper ? 0.5 * face->width : -0.5 * face->width;
-    return kiriVec2_Add(face->middle, face->axis == 0 ? kiriVec2_Make(0.0, half) : kiriVec2_Make(half, 0.0));
+    double half = upper ? 0.5 * stretch->width : -0.5 * stretch->width;
+    return kiriVec2_Add(stretch->middle, axis == 0 ? kiriVec2_Make(0.0, half) : kiriVec2_Make(half, 0.0));
 }
 
 /* What the border does at an end of one of its faces; false where it goes on. */
@@ -136,9 +136,9 @@ static bool FindEnd(const kiriBorder* border, int32_t face, bool upper, bool ben
     end->cell[0] = side.x;
     end->cell[1] = side.y;
     end->kind = KIRI_END_OPEN;
-    end->at = FaceEnd(&border->grid->faces.data[face], upper);
-    end->look =
-        kiriVec2_Add(end->at, kiriVec2_Scale(1e-3, kiriVec2_Sub(border->grid->faces.data[face].middle, end->at)));
+    kiriStretch stretch = kiriGrid_Stretch(border->grid, border->mesh, face);
+    end->at = StretchEnd(&stretch, side.axis, upper);
+    end->look = kiriVec2_Add(end->at, kiriVec2_Scale(1e-3, kiriVec2_Sub(stretch.middle, end->at)));
     if (kiriBorder_FindRing(border, face, upper, &ring)) {
         bool last = CountBetween(border, &ring, side.i, side.j) == 1;
         end->kind = last ? KIRI_END_CORNER : KIRI_END_INNER;
@@ -152,17 +152,19 @@ static bool FindEnd(const kiriBorder* border, int32_t face, bool upper, bool ben
     return true;
 }
 
-static bool IsSliverFace(const kiriGrid* grid, int32_t face)
+static bool IsSliverFace(const kiriBorder* border, int32_t face)
 {
+    const kiriGrid* grid = border->grid;
     const kiriFace* f = &grid->faces.data[face];
-    return f->width < kiriSliver * grid->side || IsSliver(grid, f->cell[0]) || IsSliver(grid, f->cell[1]);
+    return kiriGrid_Stretch(grid, border->mesh, face).width < kiriSliver * grid->side || IsSliver(grid, f->cell[0]) ||
+           IsSliver(grid, f->cell[1]);
 }
 
 /* Slivers do not say where a border ends, unless it has nothing else. */
 static bool HasOnlySlivers(const kiriBorder* border)
 {
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
-        if (!IsSliverFace(border->grid, border->work->stretch.data[k])) {
+        if (!IsSliverFace(border, border->work->stretch.data[k])) {
             return false;
         }
     }
@@ -173,7 +175,7 @@ bool kiriBorder_IsSliver(const kiriBorder* border)
 {
     double widest = 0.0;
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
-        double width = border->grid->faces.data[border->work->stretch.data[k]].width;
+        double width = kiriGrid_Stretch(border->grid, border->mesh, border->work->stretch.data[k]).width;
         widest = width > widest ? width : widest;
     }
     bool isAlong = widest >= kiriSliver * border->grid->side, isNothing = widest < 1e-6 * border->grid->side;
@@ -196,7 +198,7 @@ kiriLinkEnds kiriBorder_FindEnds(const kiriBorder* border, const kiriLink* link,
     for (int32_t k = 0; k < 2 * border->work->stretch.count; ++k) {
         kiriLinkEnd end;
         int32_t face = border->work->stretch.data[k / 2];
-        if ((takesAll || !IsSliverFace(border->grid, face)) && FindEnd(border, face, k % 2 != 0, bent, &end)) {
+        if ((takesAll || !IsSliverFace(border, face)) && FindEnd(border, face, k % 2 != 0, bent, &end)) {
             double along = kiriVec2_Dot(kiriVec2_Sub(end.at, link->centroid), link->tangent);
             if (!any || along < low) {
                 ends.end[0] = end;

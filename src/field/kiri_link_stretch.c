@@ -14,8 +14,8 @@ kiriBorderSide kiriBorder_SideOf(const kiriBorder* border, int32_t face)
     const int32_t* owner = border->regions->field.owner.data;
     int32_t low = owner[f->cell[0]] < owner[f->cell[1]] ? 0 : 1;
     KIRI_ASSERT(f->cell[0] != KIRI_NONE && owner[f->cell[low]] != KIRI_NONE && owner[f->cell[0]] != owner[f->cell[1]]);
-    kiriBorderSide side = { f->cell[low], f->cell[1 - low],     owner[f->cell[low]], owner[f->cell[1 - low]],
-                            f->axis,      low == 0 ? 1.0 : -1.0 };
+    kiriBorderSide side = { f->cell[low],     f->cell[1 - low],     owner[f->cell[low]], owner[f->cell[1 - low]],
+                            kiriFace_Axis(f), low == 0 ? 1.0 : -1.0 };
     return side;
 }
 
@@ -28,8 +28,8 @@ bool kiriBorder_IsFaceBefore(const void* context, int32_t a, int32_t b)
     if (fHigh->square != gHigh->square) {
         return fHigh->square < gHigh->square;
     }
-    if (f->axis != g->axis) {
-        return f->axis < g->axis;
+    if (kiriFace_Axis(f) != kiriFace_Axis(g)) {
+        return kiriFace_Axis(f) < kiriFace_Axis(g);
     }
     int32_t fLow = cells[f->cell[0]].triangle, gLow = cells[g->cell[0]].triangle;
     return fLow != gLow ? fLow < gLow : fHigh->triangle < gHigh->triangle;
@@ -83,13 +83,24 @@ static bool GatherStretch(const kiriBorder* border, int32_t face, kiriFaceMark n
     return ok;
 }
 
+/* Of the k-th face of the stretch. */
+static kiriStretch StretchOfFace(const kiriBorder* border, int32_t k)
+{
+    return kiriGrid_Stretch(border->grid, border->mesh, border->work->stretch.data[k]);
+}
+
+static int32_t AxisOfFace(const kiriBorder* border, int32_t k)
+{
+    return kiriFace_Axis(&border->grid->faces.data[border->work->stretch.data[k]]);
+}
+
 /* The vector sum of the faces, as normals from i to j; *sum is the sum of their widths. */
 static kiriVec2 SumNormals(const kiriBorder* border, double* sum)
 {
     double n[2] = { 0.0, 0.0 };
     *sum = 0.0;
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
-        double width = border->grid->faces.data[border->work->stretch.data[k]].width;
+        double width = StretchOfFace(border, k).width;
         kiriBorderSide side = kiriBorder_SideOf(border, border->work->stretch.data[k]);
         n[side.axis] += side.sign * width;
         *sum += width;
@@ -106,19 +117,19 @@ static void SetMoments(const kiriBorder* border, kiriLink* link)
     double total = 0.0;
     kiriVec2 first = { 0.0, 0.0 };
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
-        const kiriFace* face = &border->grid->faces.data[border->work->stretch.data[k]];
-        double weight = face->width * fabs(normal[face->axis]);
+        kiriStretch face = StretchOfFace(border, k);
+        double weight = face.width * fabs(normal[AxisOfFace(border, k)]);
         total += weight;
-        first = kiriVec2_Add(first, kiriVec2_Scale(weight, face->middle));
+        first = kiriVec2_Add(first, kiriVec2_Scale(weight, face.middle));
     }
     link->centroid = kiriVec2_Scale(1.0 / total, first);
     link->moment = 0.0;
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
-        const kiriFace* face = &border->grid->faces.data[border->work->stretch.data[k]];
+        kiriStretch face = StretchOfFace(border, k);
         /* The side's direction along the tangent is as its normal along the normal. */
-        double share = fabs(normal[face->axis]);
-        double s = kiriVec2_Dot(kiriVec2_Sub(face->middle, link->centroid), link->tangent);
-        link->moment += share * (face->width * s * s + face->moment * share * share);
+        double share = fabs(normal[AxisOfFace(border, k)]);
+        double s = kiriVec2_Dot(kiriVec2_Sub(face.middle, link->centroid), link->tangent);
+        link->moment += share * (face.width * s * s + face.moment * share * share);
     }
 }
 
@@ -126,10 +137,10 @@ static void SetMoments(const kiriBorder* border, kiriLink* link)
 static void SetSpread(const kiriBorder* border, kiriLink* link)
 {
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
-        const kiriFace* face = &border->grid->faces.data[border->work->stretch.data[k]];
+        kiriStretch face = StretchOfFace(border, k);
         kiriBorderSide side = kiriBorder_SideOf(border, border->work->stretch.data[k]);
-        kiriVec2 arm = kiriVec2_Sub(face->middle, link->centroid);
-        double along = side.sign * face->width;
+        kiriVec2 arm = kiriVec2_Sub(face.middle, link->centroid);
+        double along = side.sign * face.width;
         kiriVec2 normal = { side.axis == 0 ? along : 0.0, side.axis == 0 ? 0.0 : along };
         link->spread[0] = kiriVec2_Add(link->spread[0], kiriVec2_Scale(arm.x, normal));
         link->spread[1] = kiriVec2_Add(link->spread[1], kiriVec2_Scale(arm.y, normal));
@@ -178,7 +189,7 @@ static SitesWay ShortestWay(const kiriBorder* border)
             way.overFaces = length;
             way.cell[0] = side.x;
             way.cell[1] = side.y;
-            way.over = border->grid->faces.data[face].middle;
+            way.over = StretchOfFace(border, k).middle;
         }
         TryLongSteps(border, side.x, side.j, &way);
         TryLongSteps(border, side.y, side.i, &way);

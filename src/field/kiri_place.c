@@ -27,9 +27,9 @@ enum { SAMPLE_CELLS = 512 };
 kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
 {
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell));
-    const kiriMoments* material = &grid->cells.data[cell].material;
-    bool full = material->area > 0.999 * grid->side * grid->side;
-    kiriSite site = { full ? kiriGrid_Middle(grid, mesh, cell) : kiriMoments_Center(material), cell };
+    bool full = kiriGrid_Area(grid, cell) > 0.999 * grid->side * grid->side;
+    kiriMoments material = kiriGrid_Material(grid, mesh, cell);
+    kiriSite site = { full ? kiriGrid_Middle(grid, mesh, cell) : kiriMoments_Center(&material), cell };
     return site;
 }
 
@@ -274,9 +274,8 @@ static bool MakePlacerRoom(kiriPlacer* placer, kiriPlacerWork* work, kiriMemory*
                            int32_t count)
 {
     int32_t cells = grid->cells.count;
-    return kiriField_Resize(&work->flooded, memory, cells) &&
-           kiriField_Resize(&work->fresh, memory, cells) && kiriArray_Resize(memory, &work->sampled, cells) &&
-           kiriArray_Resize(memory, &work->holds, cells) &&
+    return kiriField_Resize(&work->flooded, memory, cells) && kiriField_Resize(&work->fresh, memory, cells) &&
+           kiriArray_Resize(memory, &work->sampled, cells) && kiriArray_Resize(memory, &work->holds, cells) &&
            kiriArray_Resize(memory, &work->targets, count > 0 ? count : 1) &&
            kiriArray_Reserve(memory, &placer->sites, (int64_t)placer->sites.count + count);
 }

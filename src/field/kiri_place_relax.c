@@ -48,15 +48,15 @@ static int64_t Plus(int64_t sum, double moment)
 /* Every cell counts for something, so that every region has a center. */
 static void AddMaterial(const PlacerJob* job, SiteTarget* target, int32_t cell)
 {
-    const kiriMoments* material = &job->grid->cells.data[cell].material;
+    const kiriMoments material = kiriGrid_Material(job->grid, job->mesh, cell);
     double side = job->grid->side;
-    int64_t area = (int64_t)(AREA_UNITS * (material->area / (side * side)) + 0.5);
+    int64_t area = (int64_t)(AREA_UNITS * (material.area / (side * side)) + 0.5);
     area = area > 0 ? area : 1;
     area *= kiriPlacerWork_DensityAt(job->work, cell);
-    double scale = (double)area / (material->area * side);
+    double scale = (double)area / (material.area * side);
     target->area += area;
-    target->u = Plus(target->u, scale * material->u);
-    target->v = Plus(target->v, scale * material->v);
+    target->u = Plus(target->u, scale * material.u);
+    target->v = Plus(target->v, scale * material.v);
 }
 
 static void FindCenter(const PlacerJob* job, SiteTarget* target)

@@ -81,7 +81,7 @@ typedef struct PlacerJob {
 
 static inline bool kiriGrid_IsMostlyCovered(const kiriGrid* grid, int32_t cell)
 {
-    return grid->cells.data[cell].material.area > 0.5 * grid->side * grid->side;
+    return kiriGrid_Area(grid, cell) > 0.5 * grid->side * grid->side;
 }
 
 enum { KIRI_VISITS_AN_ITEM = 4 };

@@ -120,17 +120,17 @@ static void MarkRegionDirty(kiriRegions* regions, int32_t frame)
 }
 
 /* Adds material to a region (sign 1), or takes it away (sign -1). */
-static void AddToRegion(const RegionUpdate* u, int32_t frame, const kiriMoments* material, int sign)
+static void AddToRegion(const RegionUpdate* u, int32_t frame, kiriMoments material, int sign)
 {
     if (frame != KIRI_NONE) {
-        kiriTally_Add(&u->regions->material.data[frame], material, sign, u->extent);
+        kiriTally_Add(&u->regions->material.data[frame], &material, sign, u->extent);
         u->regions->dirty.data[frame] = 1;
     }
 }
 
-static const kiriMoments* MaterialOf(const RegionUpdate* u, int32_t cell)
+static kiriMoments MaterialOf(const RegionUpdate* u, int32_t cell)
 {
-    return &u->grid->cells.data[cell].material;
+    return kiriGrid_Material(u->grid, u->mesh, cell);
 }
 
 /* Room for all cells and frames. */
@@ -216,7 +216,7 @@ static void FollowGrid(const RegionUpdate* u)
     for (int32_t k = r->seen.material; k < changes->material.count; ++k) {
         const kiriMaterialChange* change = &changes->material.data[k];
         int32_t owner = r->field.owner.data[change->cell];
-        AddToRegion(u, owner, &change->was, -1);
+        AddToRegion(u, owner, change->was, -1);
         AddToRegion(u, owner, MaterialOf(u, change->cell), 1);
     }
     for (int32_t k = r->seen.steps; k < changes->steps.count; ++k) {

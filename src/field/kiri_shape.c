@@ -110,7 +110,7 @@ static bool PlaceWeight(kiriShapeJob* job, const kiriRawWeight* entry)
 /* The share of a square that the cell covers, in units of 2^-40. */
 static int64_t RigidShareOf(const kiriGrid* grid, int32_t cell)
 {
-    return (int64_t)(grid->cells.data[cell].material.area / (grid->side * grid->side) * 1099511627776.0 + 0.5);
+    return (int64_t)(kiriGrid_Area(grid, cell) / (grid->side * grid->side) * 1099511627776.0 + 0.5);
 }
 
 static void NormalizeCell(kiriShapeJob* job, int32_t cell)

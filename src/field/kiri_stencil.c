@@ -278,7 +278,7 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
 }
 
 /* Which squares around have a cell, and where the material of cells is that share one. */
-static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid)
+static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh)
 {
     int32_t count = stencil->steps.count, seen = 0;
     if (!kiriArray_Resize(memory, &stencil->centers, count) || !kiriArray_Resize(memory, &stencil->shares, count)) {
@@ -293,8 +293,8 @@ static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGr
     }
     stencil->full = count == 9 && seen == 511;
     for (int32_t k = 0; stencil->split && k < count; ++k) {
-        const kiriCell* cell = &grid->cells.data[stencil->steps.data[k].cell];
-        stencil->centers.data[k] = OffsetOf(stencil, kiriMoments_Center(&cell->material));
+        kiriMoments material = kiriGrid_Material(grid, mesh, stencil->steps.data[k].cell);
+        stencil->centers.data[k] = OffsetOf(stencil, kiriMoments_Center(&material));
     }
     return true;
 }
@@ -362,7 +362,7 @@ bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShap
     stencil->middle = kiriGrid_Middle(grid, mesh, cell);
     stencil->side = grid->side;
     stencil->eased = shape->eased;
-    bool ok = GatherSteps(stencil, memory, grid, cell) && GatherMiddles(stencil, memory, grid) &&
+    bool ok = GatherSteps(stencil, memory, grid, cell) && GatherMiddles(stencil, memory, grid, mesh) &&
               GatherFrames(stencil, memory, shape) && GatherWeights(stencil, memory, shape);
     for (int32_t i = 0; i < stencil->frames.count; ++i) {
         stencil->columns.data[stencil->frames.data[i]] = 0;

@@ -72,7 +72,8 @@ static kiriMoments MaterialOfPiece(const PointBuilder* b)
 {
     kiriMoments sum = NoMaterial;
     for (int32_t k = 0; k < b->work->placer.cells.count; ++k) {
-        kiriMoments_Add(&sum, &b->grid->cells.data[b->work->placer.cells.data[k]].material);
+        kiriMoments material = kiriGrid_Material(b->grid, b->mesh, b->work->placer.cells.data[k]);
+        kiriMoments_Add(&sum, &material);
     }
     return sum;
 }
@@ -120,7 +121,8 @@ static bool DividePiece(PointBuilder* b)
     }
     for (int32_t k = 0; k < work->placer.cells.count; ++k) {
         int32_t cell = work->placer.cells.data[k];
-        kiriMoments_Add(&work->material.data[work->field.owner.data[cell]], &b->grid->cells.data[cell].material);
+        kiriMoments material = kiriGrid_Material(b->grid, b->mesh, cell);
+        kiriMoments_Add(&work->material.data[work->field.owner.data[cell]], &material);
     }
     return true;
 }
@@ -166,7 +168,7 @@ static double TotalArea(const kiriGrid* grid)
     double total = 0.0;
     for (int32_t s = 0; s < grid->squareCell.count; ++s) {
         for (int32_t c = grid->squareCell.data[s]; c != KIRI_NONE; c = grid->cells.data[c].next) {
-            total += grid->cells.data[c].material.area;
+            total += kiriGrid_Area(grid, c);
         }
     }
     return total;

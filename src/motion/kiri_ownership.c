@@ -108,7 +108,8 @@ static bool StageTransfers(kiriOwnership* ownership, kiriMemory* memory, const k
             if (transfer == NULL) {
                 return false;
             }
-            kiriTally_Add(&transfer->material, &grid->cells.data[c].material, 1, extent);
+            kiriMoments material = kiriGrid_Material(grid, mesh, c);
+            kiriTally_Add(&transfer->material, &material, 1, extent);
         }
     }
     return true;

@@ -167,7 +167,7 @@ static double TakenArea(const kiriSheetData* sheet)
     const kiriPlacer* placer = &sheet->update->placing.placer;
     double area = 0.0;
     for (int32_t i = 0; i < placer->cells.count; ++i) {
-        area += sheet->grid.cells.data[placer->cells.data[i]].material.area;
+        area += kiriGrid_Area(&sheet->grid, placer->cells.data[i]);
     }
     return area;
 }
