@@ -24,17 +24,11 @@ static int64_t NextCapacity(int64_t capacity, int64_t need)
     return next > INT32_MAX ? INT32_MAX : next;
 }
 
-bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBytes)
+/* Another block, of so many items, for what is there. */
+static bool MoveArray(kiriMemory* memory, void* array, int64_t capacity, size_t itemBytes)
 {
     kiriArrayHeader header = kiriArray_GetHeader(array);
-    if (need <= header.capacity) {
-        return true;
-    }
-    int64_t capacity = NextCapacity(header.capacity, need);
-    if (capacity < need) {
-        return false;
-    }
-    void* data = kiriMemory_Alloc(memory, capacity * (int64_t)itemBytes);
+    void* data = capacity > INT32_MAX ? NULL : kiriMemory_Alloc(memory, capacity * (int64_t)itemBytes);
     if (data == NULL) {
         return false;
     }
@@ -46,6 +40,26 @@ bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBy
     header.capacity = (int32_t)capacity;
     kiriArray_SetHeader(array, header);
     return true;
+}
+
+bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBytes)
+{
+    int64_t has = kiriArray_GetHeader(array).capacity, capacity = NextCapacity(has, need);
+    return need <= has || (capacity >= need && MoveArray(memory, array, capacity, itemBytes));
+}
+
+bool kiriArray_GrowTo(kiriMemory* memory, void* array, int64_t need, size_t itemBytes)
+{
+    return need <= kiriArray_GetHeader(array).capacity || MoveArray(memory, array, need, itemBytes);
+}
+
+void kiriArray_Shorten(kiriMemory* memory, void* array, size_t itemBytes)
+{
+    kiriArrayHeader header = kiriArray_GetHeader(array);
+    int64_t enough = header.count + (int64_t)header.count / 8;
+    if (header.count > 0 && enough < header.capacity) {
+        MoveArray(memory, array, enough, itemBytes);
+    }
 }
 
 bool kiriArray_GrowReady(kiriMemory* memory, void* array, int64_t need, size_t itemBytes)

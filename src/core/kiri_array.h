@@ -30,7 +30,13 @@ typedef KIRI_ARRAY(int32_t) kiriIndices;
 /* Makes room for `need` items in all. `array` points to a KIRI_ARRAY whose items have itemBytes. */
 bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
 
-/* The same, and writes to all of the new room: so the system gives its pages now, and not when the room is used. */
+/* The same without room for more: for arrays that are made once, or as long as another. */
+bool kiriArray_GrowTo(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
+
+/* Gives back room beyond an eighth more than what is there. Without memory for a shorter block all of it stays. */
+void kiriArray_Shorten(kiriMemory* memory, void* array, size_t itemBytes);
+
+/* The same as Grow, and writes to all of the new room: so the system gives its pages now, and not when the room is used. */
 bool kiriArray_GrowReady(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
 
 /* Frees the items and leaves the array empty. */
@@ -73,12 +79,19 @@ void kiriGrowing_Drop(kiriGrowing* growing);
 #define kiriArray_Reserve(memory, array, need)                                                                         \
     ((int64_t)(need) <= (array)->capacity || kiriArray_Grow((memory), (array), (need), sizeof(*(array)->data)))
 
+#define kiriArray_ReserveJust(memory, array, need)                                                                     \
+    ((int64_t)(need) <= (array)->capacity || kiriArray_GrowTo((memory), (array), (need), sizeof(*(array)->data)))
+
 #define kiriArray_ReserveReady(memory, array, need)                                                                    \
     ((int64_t)(need) <= (array)->capacity || kiriArray_GrowReady((memory), (array), (need), sizeof(*(array)->data)))
 
 /* Room for `size` items, and the count set to it; new items are not initialised. */
 #define kiriArray_Resize(memory, array, size)                                                                          \
     (kiriArray_Reserve(memory, array, size) ? ((array)->count = (int32_t)(size), true) : false)
+
+/* The same without room for more. */
+#define kiriArray_ResizeJust(memory, array, size)                                                                      \
+    (kiriArray_ReserveJust(memory, array, size) ? ((array)->count = (int32_t)(size), true) : false)
 
 #define kiriArray_Push(memory, array, item)                                                                            \
     (kiriArray_Reserve(memory, array, (int64_t)(array)->count + 1) ? ((array)->data[(array)->count++] = (item), true)  \

@@ -103,10 +103,10 @@ static bool StartGridFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
 {
     kiriGridWork* work = grid->work;
     int32_t squareCount = mesh->squares.columns * mesh->squares.rows;
-    if (!kiriArray_Resize(mesh->memory, &grid->squareCell, squareCount) ||
-        !kiriArray_Resize(mesh->memory, &grid->whole, squareCount) ||
-        !kiriArray_Resize(mesh->memory, &work->squareFlags, squareCount) ||
-        !kiriArray_Resize(mesh->memory, &work->ranges, squareCount)) {
+    if (!kiriArray_ResizeJust(mesh->memory, &grid->squareCell, squareCount) ||
+        !kiriArray_ResizeJust(mesh->memory, &grid->whole, squareCount) ||
+        !kiriArray_ResizeJust(mesh->memory, &work->squareFlags, squareCount) ||
+        !kiriArray_ResizeJust(mesh->memory, &work->ranges, squareCount)) {
         return false;
     }
     memset(grid->whole.data, 0, (size_t)squareCount);
@@ -178,9 +178,9 @@ static bool StartGridUpdate(kiriGrid* grid, const kiriMeshData* mesh)
     grid->work->fromScratch = grid->squareCell.count == 0;
     grid->work->running = true;
     return (!grid->work->fromScratch || StartGridFromScratch(grid, mesh)) &&
-           kiriArray_Reserve(mesh->memory, &grid->nodeCell, mesh->squares.nodes.capacity) &&
+           kiriArray_ReserveJust(mesh->memory, &grid->nodeCell, mesh->squares.nodes.capacity) &&
            kiriArray_Resize(mesh->memory, &grid->nodeCell, mesh->squares.nodes.count) &&
-           kiriArray_Reserve(mesh->memory, &grid->vertexCell, mesh->vertices.capacity) &&
+           kiriArray_ReserveJust(mesh->memory, &grid->vertexCell, mesh->vertices.capacity) &&
            kiriArray_Resize(mesh->memory, &grid->vertexCell, mesh->vertices.count);
 }
 
@@ -283,6 +283,7 @@ void kiriGrid_DropScratch(kiriGrid* grid, kiriMemory* memory)
     kiriArray_Release(memory, &work->flagged);
     kiriArray_Release(memory, &work->entries);
     kiriArray_Release(memory, &work->parent);
+    kiriArray_Shorten(memory, &grid->steps, sizeof(*grid->steps.data));
 }
 
 void kiriGrid_Reset(kiriGrid* grid)

@@ -542,6 +542,10 @@ void kiriShape_DropScratch(kiriShape* shape, kiriMemory* memory)
 {
     KIRI_ASSERT(shape->work->stage == KIRI_SHAPE_REST);
     kiriArray_Release(memory, &shape->work->rawWeights);
+    kiriArray_Release(memory, &shape->work->touches);
+    kiriArray_Shorten(memory, &shape->weights, sizeof(*shape->weights.data));
+    kiriArray_Shorten(memory, &shape->reaches.blocks, sizeof(*shape->reaches.blocks.data));
+    kiriArray_Shorten(memory, &shape->reaches.heads, sizeof(*shape->reaches.heads.data));
 }
 
 void kiriShape_ClearChanges(kiriShape* shape)

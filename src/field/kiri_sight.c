@@ -33,7 +33,7 @@ int32_t kiriSight_EdgeBefore(const kiriMeshData* mesh, int32_t h)
 bool kiriSightEdges_Start(kiriSightEdges* edges, const kiriMeshData* mesh)
 {
     int32_t squares = mesh->squares.columns * mesh->squares.rows, old = edges->spans.count;
-    if (!kiriArray_Resize(edges->memory, &edges->spans, squares)) {
+    if (!kiriArray_ResizeJust(edges->memory, &edges->spans, squares)) {
         return false;
     }
     for (int32_t s = old; s < squares; ++s) {

@@ -80,7 +80,7 @@ static kiriResult TakeVertices(kiriMeshData* mesh, const MeshInput* input, kiriL
 static kiriResult TakeTriangles(kiriMeshData* mesh, const MeshInput* input, const char** why)
 {
     if (!kiriArray_Reserve(mesh->memory, &mesh->triangles, input->triangleCount) ||
-        !kiriArray_Resize(mesh->memory, &mesh->sourceCorners, 3 * (int64_t)input->triangleCount)) {
+        !kiriArray_ResizeJust(mesh->memory, &mesh->sourceCorners, 3 * (int64_t)input->triangleCount)) {
         return RefuseForMemory(why);
     }
     for (int32_t t = 0; t < input->triangleCount; ++t) {

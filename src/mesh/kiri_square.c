@@ -33,7 +33,7 @@ static bool AllocateSquares(kiriSquares* squares, kiriMemory* memory)
     squares->vertexHead = kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t));
     squares->isDirty = kiriMemory_Alloc(memory, count);
     if (squares->head == NULL || squares->vertexHead == NULL || squares->isDirty == NULL ||
-        !kiriArray_Reserve(memory, &squares->dirty, count)) {
+        !kiriArray_ReserveJust(memory, &squares->dirty, count)) {
         return false;
     }
     for (int64_t i = 0; i < count; ++i) {

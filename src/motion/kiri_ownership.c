@@ -21,8 +21,8 @@ static bool ReserveOwners(kiriOwnership* ownership, kiriMemory* memory, const ki
 {
     int32_t count = mesh->squares.columns * mesh->squares.rows;
     const kiriSquareOwners none = { KIRI_NONE, { 0, 0 } };
-    if (!kiriArray_Reserve(memory, &ownership->squares, count) ||
-        !kiriArray_Reserve(memory, &ownership->isDirty, count)) {
+    if (!kiriArray_ReserveJust(memory, &ownership->squares, count) ||
+        !kiriArray_ReserveJust(memory, &ownership->isDirty, count)) {
         return false;
     }
     while (ownership->squares.count < count) {

@@ -267,8 +267,11 @@ static int32_t SquareCount(const kiriMeshData* mesh)
 bool kiriPlaces_Reserve(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount)
 {
     int32_t old = places->head.count;
+    if (sampleCount == 0) {
+        return true;
+    }
     if (!kiriArray_Reserve(memory, &places->next, sampleCount) ||
-        !kiriArray_Resize(memory, &places->head, SquareCount(mesh))) {
+        !kiriArray_ResizeJust(memory, &places->head, SquareCount(mesh))) {
         return false;
     }
     for (int32_t s = old; s < places->head.count; ++s) {
@@ -338,8 +341,8 @@ static bool StartMarks(kiriRefresh* refresh, kiriMemory* memory, const kiriMeshD
     int32_t old = refresh->marks.count;
     refresh->squares.count = refresh->square = 0;
     refresh->sample = refresh->stencil.cell = KIRI_NONE;
-    if (!kiriArray_Reserve(memory, &refresh->squares, SquareCount(mesh)) ||
-        !kiriArray_Resize(memory, &refresh->marks, SquareCount(mesh))) {
+    if (!kiriArray_ReserveJust(memory, &refresh->squares, SquareCount(mesh)) ||
+        !kiriArray_ResizeJust(memory, &refresh->marks, SquareCount(mesh))) {
         return false;
     }
     for (int32_t s = old; s < refresh->marks.count; ++s) {
@@ -403,7 +406,10 @@ typedef struct Samples {
 
 static int32_t FirstOf(const Samples* samples, int32_t square)
 {
-    return samples->places == NULL ? samples->mesh->squares.vertexHead[square] : samples->places->head.data[square];
+    if (samples->places != NULL) {
+        return samples->places->head.count > 0 ? samples->places->head.data[square] : KIRI_NONE;
+    }
+    return samples->mesh->squares.vertexHead[square];
 }
 
 static int32_t NextOf(const Samples* samples, int32_t sample)

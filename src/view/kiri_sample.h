@@ -67,7 +67,7 @@ typedef struct kiriPlaces {
     KIRI_ARRAY(int32_t) head; /* of each square, or KIRI_NONE */
     KIRI_ARRAY(int32_t) next; /* of each sample */
 } kiriPlaces;
-/* After it Add does not fail until there are so many samples. */
+/* After it Add does not fail until there are so many samples. For none there are no lists. */
 bool kiriPlaces_Reserve(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount);
 bool kiriPlaces_Add(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint at);
 
