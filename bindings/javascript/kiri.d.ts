@@ -1273,7 +1273,8 @@ export class World {
      *  tasks. The profile has no times until the next tick. What it had before is gone, but arrays that it handed out
      *  live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that
      *  this library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a
-     *  save finds damage, not malice. A recording has the bytes, up to 2^31 of them. */
+     *  save finds damage, not malice. A recording has the bytes, up to 2^31 of them: so replay none that somebody may
+     *  have made to do harm. */
     load(bytes: Uint8Array): ResultCode;
     /** The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange, but
      *  it is one that all calls are good for. What follows from the mesh and the frames is not read but made anew,
@@ -1288,8 +1289,9 @@ export class World {
      *  as in World.save; where capacity is not enough, what is in `bytes` means nothing. KIRI_ERROR_DATA: base is no
      *  save. Only reads the world. */
     saveDifference(base: Uint8Array): Uint8Array;
-    /** The world becomes what it was when the difference was written, as World.load. Any world, and on any machine,
-     *  with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or one to another base. */
+    /** The world becomes what it was when the difference was written, as World.load: both are bytes of your own. Any
+     *  world, and on any machine, with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or
+     *  one to another base. */
     loadDifference(base: Uint8Array, bytes: Uint8Array): ResultCode;
     /** *events points to *count events. */
     getEvents(): Rows<Event>;

@@ -790,7 +790,8 @@ end
 --- tasks. The profile has no times until the next tick. What it had before is gone, but arrays that it handed out
 --- live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this
 --- library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds
---- damage, not malice. A recording has the bytes, up to 2^31 of them.
+--- damage, not malice. A recording has the bytes, up to 2^31 of them: so replay none that somebody may have made to
+--- do harm.
 function World:load(bytes, size)
     local world = self
     size = size or #bytes
@@ -829,8 +830,9 @@ function World:saveDifference(base, bytes, capacity, baseSize)
     return ffi.string(bytes, size)
 end
 
---- The world becomes what it was when the difference was written, as kiriWorld_Load. Any world, and on any machine,
---- with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or one to another base.
+--- The world becomes what it was when the difference was written, as kiriWorld_Load: both are bytes of your own. Any
+--- world, and on any machine, with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or
+--- one to another base.
 function World:loadDifference(base, bytes, baseSize, size)
     local world = self
     baseSize = baseSize or #base

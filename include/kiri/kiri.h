@@ -239,7 +239,7 @@ KIRI_API kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t 
    profile has no times until the next tick. What it had before is gone, but arrays that it handed out live until the
    next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this library does not
    read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds damage, not malice. A
-   recording has the bytes, up to 2^31 of them. */
+   recording has the bytes, up to 2^31 of them: so replay none that somebody may have made to do harm. */
 KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
 
 /* The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange, but it is one
@@ -258,8 +258,8 @@ KIRI_API kiriResult kiriWorld_LoadUntrusted(kiriWorld* world, const void* bytes,
 KIRI_API kiriResult kiriWorld_SaveDifference(const kiriWorld* world, const void* base, int64_t baseSize, void* bytes,
                                              int64_t capacity, int64_t* size);
 
-/* The world becomes what it was when the difference was written, as kiriWorld_Load. Any world, and on any machine, with the
-   same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or one to another base. */
+/* The world becomes what it was when the difference was written, as kiriWorld_Load: both are bytes of your own. Any world, and
+   on any machine, with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or one to another base. */
 KIRI_API kiriResult kiriWorld_LoadDifference(kiriWorld* world, const void* base, int64_t baseSize, const void* bytes,
                                              int64_t size);
 

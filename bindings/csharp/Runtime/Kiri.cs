@@ -576,7 +576,8 @@ namespace Kiri
         /// tasks. The profile has no times until the next tick. What it had before is gone, but arrays that it handed
         /// out live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version
         /// that this library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum
-        /// in a save finds damage, not malice. A recording has the bytes, up to 2^31 of them.</summary>
+        /// in a save finds damage, not malice. A recording has the bytes, up to 2^31 of them: so replay none that
+        /// somebody may have made to do harm.</summary>
         public void Load(byte[] bytes)
         {
             fixed (byte* bytesRows = bytes)
@@ -622,9 +623,9 @@ namespace Kiri
             return bytes;
         }
 
-        /// <summary>The world becomes what it was when the difference was written, as kiriWorld_Load. Any world, and on any
-        /// machine, with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or one to
-        /// another base.</summary>
+        /// <summary>The world becomes what it was when the difference was written, as kiriWorld_Load: both are bytes of your
+        /// own. Any world, and on any machine, with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no
+        /// difference, or one to another base.</summary>
         public void LoadDifference(byte[] @base, byte[] bytes)
         {
             fixed (byte* baseRows = @base)

@@ -1080,7 +1080,8 @@ unsafe extern "C" {
     /// before is gone, but arrays that it handed out live until the next tick. KIRI_ERROR_DATA: the
     /// bytes are no save, or cut short, changed, or of a version that this library does not read.
     /// KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds
-    /// damage, not malice. A recording has the bytes, up to 2^31 of them.
+    /// damage, not malice. A recording has the bytes, up to 2^31 of them: so replay none that
+    /// somebody may have made to do harm.
     pub fn kiriWorld_Load(world: *mut kiriWorld, bytes: *const c_void, size: i64) -> kiriResult;
     /// The same for bytes of others, who may have made them to do harm: what the world becomes may
     /// then be strange, but it is one that all calls are good for. What follows from the mesh and
@@ -1097,9 +1098,9 @@ unsafe extern "C" {
     /// and \`bytes\` as in kiriWorld_Save; where capacity is not enough, what is in \`bytes\` means
     /// nothing. KIRI_ERROR_DATA: base is no save. Only reads the world.
     pub fn kiriWorld_SaveDifference(world: *const kiriWorld, base: *const c_void, baseSize: i64, bytes: *mut c_void, capacity: i64, size: *mut i64) -> kiriResult;
-    /// The world becomes what it was when the difference was written, as kiriWorld_Load. Any world,
-    /// and on any machine, with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no
-    /// difference, or one to another base.
+    /// The world becomes what it was when the difference was written, as kiriWorld_Load: both are
+    /// bytes of your own. Any world, and on any machine, with the same base. KIRI_ERROR_DATA: base
+    /// is no save, the bytes are no difference, or one to another base.
     pub fn kiriWorld_LoadDifference(world: *mut kiriWorld, base: *const c_void, baseSize: i64, bytes: *const c_void, size: i64) -> kiriResult;
     /// \*events points to \*count events.
     pub fn kiriWorld_GetEvents(world: *const kiriWorld, events: *mut *const kiriEvent, count: *mut i32) -> kiriResult;

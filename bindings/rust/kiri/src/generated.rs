@@ -2169,7 +2169,7 @@ impl World {
     /// [`ResultCode::ErrorData`]: the bytes are no save, or cut short, changed, or of a version
     /// that this library does not read. [`ResultCode::ErrorMemory`]. Then nothing has changed. For
     /// bytes of your own: the sum in a save finds damage, not malice. A recording has the bytes, up
-    /// to 2^31 of them.
+    /// to 2^31 of them: so replay none that somebody may have made to do harm.
     pub fn load(&mut self, bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_Load(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
@@ -2213,9 +2213,10 @@ impl World {
         Ok(bytes)
     }
 
-    /// The world becomes what it was when the difference was written, as [`World::load`]. Any
-    /// world, and on any machine, with the same base. [`ResultCode::ErrorData`]: base is no save,
-    /// the bytes are no difference, or one to another base.
+    /// The world becomes what it was when the difference was written, as [`World::load`]: both are
+    /// bytes of your own. Any world, and on any machine, with the same base.
+    /// [`ResultCode::ErrorData`]: base is no save, the bytes are no difference, or one to another
+    /// base.
     pub fn load_difference(&mut self, base: &[u8], bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_LoadDifference(self.raw_mut(), base.as_ptr().cast(), base.len() as i64, bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
