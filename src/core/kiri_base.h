@@ -122,6 +122,12 @@ static inline bool kiriQuota_Take(kiriQuota* quota, int64_t items)
     return true;
 }
 
+/* Nothing is left even for what is larger than the whole quota. */
+static inline bool kiriQuota_IsSpent(const kiriQuota* quota)
+{
+    return quota->left == 0 && quota->used > 0;
+}
+
 /* Takes what is owed for work, or what is left of it; false where some is still owed. So how far the work has come depends
    on what it was given in all, not on the parts. Unlike kiriQuota_Take it never exceeds a limit. */
 static inline bool kiriQuota_Pay(kiriQuota* quota, int64_t* owed)

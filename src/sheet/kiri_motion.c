@@ -229,11 +229,16 @@ static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system,
     return substeps > 0 ? KIRI_DONE : KIRI_MORE;
 }
 
-/* The quota has nothing left for the sheet, and nobody reads what it would do. */
+/* Does anybody read what the sheet would do? */
+static bool IsRead(const kiriSheetData* sheet)
+{
+    return sheet->touches.found.count > 0 || sheet->pins.count > 0;
+}
+
+/* The quota has nothing left for the sheet. */
 static bool MustWait(const kiriSheetData* sheet, const kiriQuota* systems)
 {
-    bool isRead = sheet->touches.found.count > 0 || sheet->pins.count > 0;
-    return !isRead && SystemsLeft(systems, kiriSolver_SystemItems(sheet->solver, 0)) == 0;
+    return !IsRead(sheet) && SystemsLeft(systems, kiriSolver_SystemItems(sheet->solver, 0)) == 0;
 }
 
 /* Pins and touches have rows by now: the system is made again. */
@@ -275,6 +280,16 @@ kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt,
     kiriTouches_Tell(sheet, dt);
     ClearForces(sheet);
     return progress;
+}
+
+bool kiriMotion_Wait(kiriSheetData* sheet, double dt)
+{
+    if (sheet->rest.asleep || IsRead(sheet) || !kiriSolver_Awake(sheet->solver)->isListed) {
+        return false;
+    }
+    kiriTouches_Tell(sheet, dt);
+    ClearForces(sheet);
+    return true;
 }
 
 int64_t kiriMotion_MostItems(const kiriSheetData* sheet, int32_t substeps)

@@ -26,6 +26,10 @@ void kiriMotion_LetRest(kiriSheetData* sheet);
    used up. */
 kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems);
 
+/* Instead of it, where no system is left for anybody and the sheet is seen as it is: it stands still, and what it would look
+   at first, as which pieces fall asleep, waits until it gets its turn. False where somebody reads what it would do. */
+bool kiriMotion_Wait(kiriSheetData* sheet, double dt);
+
 /* More of the quota it does not take in a tick. */
 int64_t kiriMotion_MostItems(const kiriSheetData* sheet, int32_t substeps);
 

@@ -3,6 +3,7 @@
 #include "../core/kiri_sort.h"
 #include "../core/kiri_union_find.h"
 #include "../sheet/kiri_motion.h"
+#include "../sheet/kiri_seen.h"
 #include "kiri_obstacle_step.h"
 #include "kiri_pin_step.h"
 
@@ -101,11 +102,22 @@ static void GiveImpulses(const MoveTask* task, int32_t i, bool areMovable)
     }
 }
 
+/* Where no system is left, and all is seen as it is: so of many sheets those that wait cost next to nothing. */
+static bool StandsStill(const MoveTask* task, kiriSheetData* sheet)
+{
+    return kiriQuota_IsSpent(&task->systems) && kiriView_IsSettled(sheet) && kiriMotion_Wait(sheet, task->dt);
+}
+
 static void MoveSheet(const MoveTask* task, int32_t i)
 {
     kiriWorld* world = task->world;
     kiriMove* move = &world->moves.of.data[i];
     kiriQuota systems = task->systems;
+    if (StandsStill(task, world->sheets.data[i])) {
+        move->progress = KIRI_MORE;
+        move->systems = 0;
+        return;
+    }
     kiriObstacles_LoadYields(world, world->sheets.data[i]);
     kiriPinStep_Begin(world, world->sheets.data[i], task->dt);
     move->progress = kiriMotion_Solve(world->sheets.data[i], world->gravity, task->dt, task->substeps, &systems);
@@ -145,11 +157,11 @@ static int32_t SheetAt(const kiriWorld* world, int32_t k)
     return kiriMoves_SheetAt(world, world->turn, k);
 }
 
-/* From the first one on: as many as have enough systems whatever they take, and one at least. */
+/* From the first one on: as many as have enough systems whatever they take, and one at least; all where there are none. */
 static int32_t EndOfWave(const MoveTask* task, int32_t first)
 {
     const kiriWorld* world = task->world;
-    int32_t end = first;
+    int32_t end = kiriQuota_IsSpent(&task->systems) ? world->active.count : first;
     int64_t most = 0;
     while (end < world->active.count) {
         most += kiriMotion_MostItems(world->sheets.data[SheetAt(world, end)], task->substeps);
