@@ -500,6 +500,11 @@ static void ChangeIsBeyond(kiriSheetData* sheet)
     surface->changes[surface->lastChange].vertices = (kiriRange){ 0, 1 << 20 };
 }
 
+static void PatienceIsNegative(kiriSheetData* sheet)
+{
+    sheet->seen.bounds->patience = -1;
+}
+
 static void TestSeen(void** state)
 {
     (void)state;
@@ -507,9 +512,11 @@ static void TestSeen(void** state)
         { "VertexHasNoWeight", VertexHasNoWeight },
         { "RestPlaceIsFar", RestPlaceIsFar },
         { "ChangeIsBeyond", ChangeIsBeyond },
+        { "PatienceIsNegative", PatienceIsNegative },
     };
     Host host;
     StartCut(&host);
+    host.world->sheets.data[0]->seen.bounds->patience = 1; /* somebody has asked */
     CHECK_ALL_REFUSED(&host, spoilers);
 }
 
@@ -540,6 +547,26 @@ static void TestLinksAtWork(void** state)
     };
     Host host;
     StartAtWork(&host, KIRI_STAGE_SHAPE, 3);
+    CHECK_ALL_REFUSED(&host, spoilers);
+}
+
+/* Three links of four still ascend, but they are no ring of three frames. */
+static void CornerIsNoRing(kiriSheetData* sheet)
+{
+    kiriCorner* corner = sheet->links.corners.data;
+    assert_true(sheet->links.corners.count > 0);
+    corner->count = 7 - corner->count;
+    corner->link[3] = sheet->links.links.count - 1;
+}
+
+static void TestCorners(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "CornerIsNoRing", CornerIsNoRing },
+    };
+    Host host;
+    StartCut(&host);
     CHECK_ALL_REFUSED(&host, spoilers);
 }
 
@@ -613,6 +640,86 @@ static void TestWork(void** state)
     CHECK_ALL_REFUSED(&host, spoilers);
 }
 
+/* Where no stage of the work looks at the grid, to begin with. */
+static void LabelsAreSwapped(kiriSheetData* sheet)
+{
+    sheet->update->stage = KIRI_STAGE_GRID;
+    sheet->update->needsRebuild = true;
+    sheet->update->cut.meshChanged = true;
+    LabelIsOfAnotherFrame(sheet);
+}
+
+static void PointsAreLeft(kiriSheetData* sheet)
+{
+    sheet->update->cut.taken -= 1;
+}
+
+static void TestBeforeTheGrid(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "LabelsAreSwapped", LabelsAreSwapped },
+    };
+    Host host;
+    StartCut(&host);
+    CHECK_ALL_REFUSED(&host, spoilers);
+    static const Spoiler ofCut[] = {
+        { "PointsAreLeft", PointsAreLeft },
+    };
+    StartAtWork(&host, KIRI_STAGE_GRID, 0);
+    CHECK_ALL_REFUSED(&host, ofCut);
+}
+
+/* ---- Made anew ---- */
+
+/* What follows from mesh and frames is not read of bytes that nobody trusts: it is as if it were right. */
+static void CheckNotRead(Host* host, const Spoiler* spoiler)
+{
+    Host other;
+    Host_Start(&other);
+    SavedBytes good = Save(host);
+    uint64_t hash = Host_Hash(host);
+    spoiler->spoil(host->world->sheets.data[0]);
+    SavedBytes bad = Save(host);
+    if (kiriWorld_LoadUntrusted(other.world, bad.data, bad.size) != KIRI_OK || Host_Hash(&other) != hash) {
+        fail_msg("%s: is read", spoiler->name);
+    }
+    Host_Validate(&other);
+    OK(kiriWorld_Load(host->world, good.data, good.size));
+    free(bad.data);
+    free(good.data);
+    Host_Stop(&other);
+}
+
+static void TestMadeAnew(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "OwnerIsNoRegion", OwnerIsNoRegion },
+        { "CellIsNobodys", CellIsNobodys },
+        { "BorderCellFollowsItself", BorderCellFollowsItself },
+        { "SiteIsInTwoCells", SiteIsInTwoCells },
+        { "FlagIsUp", FlagIsUp },
+        { "RegionsAreAtWork", RegionsAreAtWork },
+        { "LinksAreAtWork", LinksAreAtWork },
+        { "SumOverflows", SumOverflows },
+        { "WeightIsOfNoFrame", WeightIsOfNoFrame },
+        { "SpansOverlap", SpansOverlap },
+        { "DistanceIsNegative", DistanceIsNegative },
+        { "BlockFollowsItself", BlockFollowsItself },
+        { "FrameIsTouchedAtRest", FrameIsTouchedAtRest },
+        { "StageIsNone", StageIsNone },
+        { "SiteIsInNoCell", SiteIsInNoCell },
+        { "SitesShareACell", SitesShareACell },
+    };
+    Host host;
+    StartCut(&host);
+    for (size_t k = 0; k < sizeof(spoilers) / sizeof(spoilers[0]); ++k) {
+        CheckNotRead(&host, &spoilers[k]);
+    }
+    Host_Stop(&host);
+}
+
 /* The cell of a point is found anew with the next cut, where the grid was made from scratch: a save may have any. */
 static void TestPointOfNoCell(void** state)
 {
@@ -632,9 +739,10 @@ static void TestPointOfNoCell(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestMesh),          cmocka_unit_test(TestLayout),      cmocka_unit_test(TestGrid),
-        cmocka_unit_test(TestGridAtWork),    cmocka_unit_test(TestRegions),     cmocka_unit_test(TestShape),
-        cmocka_unit_test(TestShapeAtWork),   cmocka_unit_test(TestLinksAtWork), cmocka_unit_test(TestWork),
+        cmocka_unit_test(TestMesh),          cmocka_unit_test(TestLayout),        cmocka_unit_test(TestGrid),
+        cmocka_unit_test(TestGridAtWork),    cmocka_unit_test(TestRegions),       cmocka_unit_test(TestShape),
+        cmocka_unit_test(TestShapeAtWork),   cmocka_unit_test(TestLinksAtWork),   cmocka_unit_test(TestWork),
+        cmocka_unit_test(TestCorners),       cmocka_unit_test(TestBeforeTheGrid), cmocka_unit_test(TestMadeAnew),
         cmocka_unit_test(TestPointOfNoCell), cmocka_unit_test(TestSeen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
