@@ -122,6 +122,13 @@ static inline bool kiriQuota_Take(kiriQuota* quota, int64_t items)
     return true;
 }
 
+/* The same, where what is larger than the whole quota counts as all of it. */
+static inline bool kiriQuota_TakeAtMostAll(kiriQuota* quota, int64_t items)
+{
+    bool mustWait = items > quota->left && quota->used > 0;
+    return !mustWait && kiriQuota_Take(quota, items < quota->left ? items : quota->left);
+}
+
 /* Nothing is left even for what is larger than the whole quota. */
 static inline bool kiriQuota_IsSpent(const kiriQuota* quota)
 {

@@ -330,11 +330,21 @@ static void TakeStepsOf(kiriField* field, const kiriRule* rule, int length, int3
     }
 }
 
+/* A cell may have values on all sides, and what it had is logged. */
+enum { ITEMS_OF_SETTLED_AGAIN = 2 };
+
+/* The last cell may be worth more than is left. */
+static void TakeSettled(kiriQuota* quota, int64_t items)
+{
+    kiriQuota_Take(quota, items < quota->left ? items : quota->left);
+}
+
 /* Until nothing is left, or the quota is spent on settled cells. */
 static kiriProgress Sweep(kiriField* field, const kiriRule* rule, kiriQuota* quota)
 {
     int32_t before = field->settled.count, farthest = FarthestOf(rule), distance;
-    int64_t most = quota->left < INT32_MAX ? before + quota->left : INT64_MAX;
+    int32_t items = field->cursor[REPAIR_STAGE] == REPAIR_SETTLES ? ITEMS_OF_SETTLED_AGAIN : 1;
+    int64_t most = quota->left < INT32_MAX ? before + (quota->left + items - 1) / items : INT64_MAX;
     int64_t reach[KIRI_STEP_LENGTHS] = { NextReachOf(field, 0), NextReachOf(field, 1), NextReachOf(field, 2) };
     int source = NearestSource(field, reach, farthest, &distance);
     while (source != FROM_NOWHERE && field->settled.count < most) {
@@ -348,7 +358,7 @@ static kiriProgress Sweep(kiriField* field, const kiriRule* rule, kiriQuota* quo
         }
         source = NearestSource(field, reach, farthest, &distance);
     }
-    kiriQuota_Take(quota, field->settled.count - before);
+    TakeSettled(quota, (int64_t)items * (field->settled.count - before));
     return source == FROM_NOWHERE ? KIRI_DONE : KIRI_MORE;
 }
 
@@ -530,11 +540,12 @@ static kiriProgress SeedSweep(kiriField* field, const kiriRule* rule, kiriQuota*
 {
     for (int32_t i = field->cursor[DIRTY_CHECKED]; i < field->dirty.count; ++i) {
         int32_t cell = field->dirty.data[i];
+        bool seeds = i < field->cursor[DIRTY_FROM_CALLER] || field->distance.data[cell] == KIRI_FAR;
         field->cursor[DIRTY_CHECKED] = i;
-        if (!kiriQuota_Take(quota, i % 2 == 0)) {
+        if (!kiriQuota_Take(quota, seeds || i % 4 == 0)) {
             return KIRI_MORE;
         }
-        if (i < field->cursor[DIRTY_FROM_CALLER] || field->distance.data[cell] == KIRI_FAR) {
+        if (seeds) {
             SeedFrom(field, rule, cell);
         }
     }

@@ -86,8 +86,8 @@ void kiriField_Forget(kiriField* field, int32_t cell);
 
 /* Makes the field right again. All cells about which something has changed must be dirty: where the limit has grown, all
    from which a step leads beyond the old one; where it has shrunk, all beyond the new one that are not forgotten. An
-   item of the quota is a cell whose distance is cleared or settled, four that keep theirs, or two that are looked at for
-   where the sweep begins. KIRI_MORE: call again with the same rule before
+   item of the quota is a cell whose distance is cleared, half of one that is settled, one that is looked at for where the
+   sweep begins, or four that keep what they have. KIRI_MORE: call again with the same rule before
    anything changes. The log tells what changed; its reader empties it (its count). KIRI_FAILED: only kiriField_Clear
    helps. */
 kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);

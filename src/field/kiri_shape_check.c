@@ -26,7 +26,7 @@ static const kiriMust TouchedMust[] = {
 };
 
 static const kiriMust ShapeWorkMust[] = {
-    KIRI_WITHIN(KIRI_FRAME_REST, KIRI_FRAME_UNLOAD, kiriShapeWork, frameStage, frameStage),
+    KIRI_WITHIN(KIRI_FRAME_REST, KIRI_FRAME_SEEDS, kiriShapeWork, frameStage, frameStage),
     KIRI_ITEMS_MUST(kiriShapeWork, frames, ShapeFrameMust),
     KIRI_LENGTH(KIRI_OF_REGIONS, kiriShapeWork, frames),
     KIRI_ITEMS_MUST(kiriShapeWork, dirtyFrames, IsRegion),

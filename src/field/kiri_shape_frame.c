@@ -286,22 +286,42 @@ static bool SeedBorder(kiriShapeJob* job)
 }
 
 /* Where the distance to the site has changed, ways to the border may pass that did not, or no more. */
-static bool StartFromBorder(kiriShapeJob* job)
+static kiriProgress MarkForBorder(kiriShapeJob* job, kiriQuota* quota)
 {
+    enum { MARKED_AN_ITEM = 4 };
     kiriShapeWork* work = job->work;
-    if (work->frames.data[job->frame].moved) {
-        return SeedBorder(job);
-    }
-    for (int32_t k = 0; k < work->fromSite.log.count; ++k) {
-        kiriSeed was = work->fromSite.log.data[k];
-        if (work->fromSite.distance.data[was.cell] != was.distance) {
+    for (; work->fromSite.log.count > 0; --work->fromSite.log.count) {
+        int32_t last = work->fromSite.log.count - 1;
+        kiriSeed was = work->fromSite.log.data[last];
+        bool isOther = work->fromSite.distance.data[was.cell] != was.distance;
+        bool mayTurn = isOther && (work->marks.data[was.cell] & KIRI_MARK_REGION) != 0;
+        if (!kiriQuota_Take(quota, mayTurn || last % MARKED_AN_ITEM == 0)) {
+            return KIRI_MORE;
+        }
+        if (isOther) {
             kiriField_MarkDirty(&work->fromBorder, was.cell);
-            if ((work->marks.data[was.cell] & KIRI_MARK_REGION) != 0) {
-                MarkBorderSeedsDirty(job, was.cell);
-            }
+        }
+        if (mayTurn) {
+            MarkBorderSeedsDirty(job, was.cell);
         }
     }
-    return true;
+    return KIRI_DONE;
+}
+
+static kiriProgress StartFromBorder(kiriShapeJob* job, kiriQuota* quota)
+{
+    enum { SEEDED_AN_ITEM = 16 };
+    kiriShapeWork* work = job->work;
+    kiriProgress progress = KIRI_DONE;
+    if (!work->frames.data[job->frame].moved) {
+        progress = MarkForBorder(job, quota);
+    } else if (!kiriQuota_TakeAtMostAll(quota, work->fromSite.settled.count / SEEDED_AN_ITEM)) {
+        progress = KIRI_MORE;
+    } else if (!SeedBorder(job)) {
+        progress = KIRI_FAILED;
+    }
+    work->frameStage = progress == KIRI_DONE ? KIRI_FRAME_BORDER : KIRI_FRAME_SEEDS;
+    return progress;
 }
 
 /* Fields that are made from scratch are empty where no block is loaded. */
@@ -421,13 +441,6 @@ static int64_t ItemsToUnload(const kiriShapeJob* job, kiriLoadedBlock loaded)
     return 1 + changed / CHANGED_AN_ITEM;
 }
 
-/* Items for what is in an array that has to move; what is worth more than a whole limit takes all of one. */
-static bool PayForMoving(kiriQuota* quota, int64_t items)
-{
-    bool mustWait = items > quota->left && quota->used > 0;
-    return !mustWait && kiriQuota_Take(quota, items < quota->left ? items : quota->left);
-}
-
 /* Room for all that may come out of the fields. Where an array has to move, that is paid before. */
 static kiriProgress MakeRoomToUnload(kiriShapeJob* job, kiriQuota* quota)
 {
@@ -436,14 +449,14 @@ static kiriProgress MakeRoomToUnload(kiriShapeJob* job, kiriQuota* quota)
     kiriShapeWork* work = job->work;
     int64_t weights = work->rawWeights.count + (int64_t)KIRI_BLOCK_CELLS * work->loaded.count;
     bool growsReaches = kiriReaches_Grows(reaches, work->loaded.count);
-    if (growsReaches && !PayForMoving(quota, reaches->blocks.count / MOVED_BLOCKS)) {
+    if (growsReaches && !kiriQuota_TakeAtMostAll(quota, reaches->blocks.count / MOVED_BLOCKS)) {
         return KIRI_MORE;
     }
     if (growsReaches && !kiriReaches_Reserve(reaches, job->memory, work->loaded.count)) {
         return KIRI_FAILED;
     }
     bool growsWeights = weights > work->rawWeights.capacity;
-    if (growsWeights && !PayForMoving(quota, work->rawWeights.count / MOVED_WEIGHTS)) {
+    if (growsWeights && !kiriQuota_TakeAtMostAll(quota, work->rawWeights.count / MOVED_WEIGHTS)) {
         return KIRI_MORE;
     }
     return kiriArray_Reserve(job->memory, &work->rawWeights, weights) ? KIRI_DONE : KIRI_FAILED;
@@ -489,8 +502,7 @@ static kiriProgress MeasureFromSite(kiriShapeJob* job, kiriQuota* quota)
                             { NULL, NULL } };
     kiriProgress progress = MeasureField(job, &work->fromSite, &rule, quota);
     if (progress == KIRI_DONE) {
-        work->frameStage = KIRI_FRAME_BORDER;
-        progress = StartFromBorder(job) ? KIRI_DONE : KIRI_FAILED;
+        work->frameStage = KIRI_FRAME_SEEDS;
     }
     return progress;
 }
@@ -506,11 +518,9 @@ static kiriProgress MeasureFromBorder(kiriShapeJob* job, kiriQuota* quota)
     return progress;
 }
 
+/* By kiriFrameStage. */
 static kiriProgress (*const frameStages[])(kiriShapeJob* job, kiriQuota* quota) = {
-    StartFrame,
-    MeasureFromSite,
-    MeasureFromBorder,
-    UnloadFrame,
+    StartFrame, MeasureFromSite, MeasureFromBorder, UnloadFrame, StartFromBorder,
 };
 
 kiriProgress kiriShapeJob_MeasureFrame(kiriShapeJob* job, kiriQuota* quota)

@@ -64,7 +64,13 @@ typedef enum kiriShapeStage {
 } kiriShapeStage;
 
 /* Which distances of the frame at hand are being measured. */
-typedef enum kiriFrameStage { KIRI_FRAME_REST, KIRI_FRAME_SITE, KIRI_FRAME_BORDER, KIRI_FRAME_UNLOAD } kiriFrameStage;
+typedef enum kiriFrameStage {
+    KIRI_FRAME_REST,
+    KIRI_FRAME_SITE,
+    KIRI_FRAME_BORDER,
+    KIRI_FRAME_UNLOAD,
+    KIRI_FRAME_SEEDS /* after KIRI_FRAME_SITE: what follows from it for the border */
+} kiriFrameStage;
 
 struct kiriShapeWork {
     /* Of the frame at hand; empty between frames. All seeds are its own, so they need no owner, and neither do the

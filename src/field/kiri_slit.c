@@ -53,7 +53,7 @@ bool kiriSlits_FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t
     return SearchCell(grid, mesh, cell, end, &looks);
 }
 
-enum { SEARCHED_CELLS_AN_ITEM = 16, SEARCHED_VERTICES_AN_ITEM = 8 };
+enum { SEARCHED_CELLS_AN_ITEM = 16, SEARCHED_VERTICES_AN_ITEM = 3 };
 
 kiriProgress kiriSlits_FindEnds(kiriSlitEnds* ends, kiriSlitSearch* search, kiriMemory* memory, const kiriGrid* grid,
                                 const kiriMeshData* mesh, const int32_t* cells, int32_t cellCount, kiriQuota* quota)
