@@ -6,6 +6,7 @@
 
 void kiriAhead_Drop(kiriSheetData* sheet, kiriMemory* memory)
 {
+    kiriGather_Pause(sheet);
     kiriSheet_Delete(sheet->ahead.part, memory);
     kiriMemory_FreeAll(&sheet->ahead.memory);
     memset(&sheet->ahead, 0, sizeof(sheet->ahead));
@@ -26,12 +27,12 @@ static int32_t IndexOf(const kiriSheetData* sheet, kiriFrame frame)
     return i;
 }
 
-/* Maps of all items, which the first piece that leaves needs, take a tick of their own. */
-static bool StartAhead(kiriSheetData* sheet)
+/* Maps of all items, which the first piece that leaves needs, take ticks of their own. */
+static bool StartAhead(kiriSheetData* sheet, kiriQuotas* quotas)
 {
     kiriAhead* ahead = &sheet->ahead;
     if (!kiriGather_IsReserved(sheet)) {
-        return kiriGather_Reserve(sheet);
+        return kiriGather_Reserve(sheet, &quotas->of[KIRI_QUOTA_CELLS]) != KIRI_FAILED;
     }
     ahead->gathered = kiriMemory_AllocZeroed(&ahead->memory, sizeof(*ahead->gathered));
     return ahead->gathered != NULL &&
@@ -64,7 +65,7 @@ void kiriAhead_GoOn(kiriSheetData* sheet, kiriFrame frame, kiriMemory* memory, k
         ahead->revision = sheet->mesh.revision;
         ahead->memory = kiriMemory_Like(memory);
     }
-    if (!(ahead->gathered == NULL ? StartAhead(sheet) : MakeSome(sheet, memory, quotas))) {
+    if (!(ahead->gathered == NULL ? StartAhead(sheet, quotas) : MakeSome(sheet, memory, quotas))) {
         kiriAhead_Drop(sheet, memory);
     }
 }

@@ -7,17 +7,41 @@
 
 /* ---- Room ---- */
 
+enum { ROOM_AN_ITEM = 64 }; /* entries of maps that are written */
+
 /* A map of all items, which keeps none. It keeps none at rest, too: so what is new is all there is to write. */
-static bool ReserveMap(kiriKeep* map, kiriMemory* memory, int32_t items)
+static kiriProgress ReserveMap(kiriKeep* map, kiriMemory* memory, int32_t items, kiriQuota* quota)
 {
-    int32_t known = map->to.count;
-    if (!kiriArray_Resize(memory, &map->to, items)) {
-        return false;
+    if (!kiriArray_Reserve(memory, &map->to, items)) {
+        return KIRI_FAILED;
     }
-    for (int32_t i = known; i < items; ++i) {
-        map->to.data[i] = KIRI_NONE;
+    map->to.count = map->to.count < items ? map->to.count : items;
+    while (map->to.count < items) {
+        int32_t end = items - map->to.count < ROOM_AN_ITEM ? items : map->to.count + ROOM_AN_ITEM;
+        if (!kiriQuota_Take(quota, 1)) {
+            return KIRI_MORE;
+        }
+        while (map->to.count < end) {
+            map->to.data[map->to.count++] = KIRI_NONE;
+        }
     }
-    return true;
+    return KIRI_DONE;
+}
+
+static kiriProgress ReserveCells(kiriTaking* taking, kiriMemory* memory, int32_t cells, kiriQuota* quota)
+{
+    int32_t known = taking->cells.count;
+    if (!kiriArray_Reserve(memory, &taking->cells, cells)) {
+        return KIRI_FAILED;
+    }
+    if (known < cells && !kiriQuota_Take(quota, (cells - known) / ROOM_AN_ITEM)) {
+        return KIRI_MORE;
+    }
+    for (int32_t c = known; c < cells; ++c) {
+        taking->cells.data[c] = 0;
+    }
+    taking->cells.count = cells;
+    return KIRI_DONE;
 }
 
 bool kiriGather_IsReserved(const kiriSheetData* sheet)
@@ -27,20 +51,14 @@ bool kiriGather_IsReserved(const kiriSheetData* sheet)
            taking->triangles.to.count == sheet->mesh.triangles.count && taking->cells.count == sheet->grid.cells.count;
 }
 
-bool kiriGather_Reserve(kiriSheetData* sheet)
+kiriProgress kiriGather_Reserve(kiriSheetData* sheet, kiriQuota* quota)
 {
     kiriTaking* taking = &sheet->taking;
-    int32_t known = taking->cells.count, cells = sheet->grid.cells.count;
     KIRI_ASSERT(taking->vertices.count == 0 && taking->triangles.count == 0);
-    if (!ReserveMap(&taking->vertices, sheet->memory, sheet->mesh.vertices.count) ||
-        !ReserveMap(&taking->triangles, sheet->memory, sheet->mesh.triangles.count) ||
-        !kiriArray_Resize(sheet->memory, &taking->cells, cells)) {
-        return false;
-    }
-    for (int32_t c = known; c < cells; ++c) {
-        taking->cells.data[c] = 0;
-    }
-    return true;
+    kiriProgress progress = ReserveMap(&taking->vertices, sheet->memory, sheet->mesh.vertices.count, quota);
+    progress = progress == KIRI_DONE ? ReserveMap(&taking->triangles, sheet->memory, sheet->mesh.triangles.count, quota)
+                                     : progress;
+    return progress == KIRI_DONE ? ReserveCells(taking, sheet->memory, sheet->grid.cells.count, quota) : progress;
 }
 
 /* ---- Cells ---- */
@@ -243,11 +261,13 @@ static bool ListSquares(kiriGathered* gathered)
 
 static bool StartGathering(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory)
 {
+    kiriQuota unlimited = { INT64_MAX, 0 };
     KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
+    kiriGather_Pause(sheet);
     memset(gathered, 0, sizeof(*gathered));
     gathered->sheet = sheet;
     gathered->memory = memory;
-    return kiriGather_Reserve(sheet);
+    return kiriGather_Reserve(sheet, &unlimited) == KIRI_DONE;
 }
 
 static bool SortGathered(kiriGathered* gathered)
@@ -280,24 +300,30 @@ bool kiriGather_Start(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* 
            kiriArray_Push(memory, &gathered->cells, sheet->frames.data[frame].site.cell);
 }
 
-/* Others use the maps between two calls. */
+/* Marks stay from call to call: so a call costs what it takes, and not what has been taken before. */
 static void MarkTaken(kiriGathered* gathered)
 {
     kiriTaking* taking = &gathered->sheet->taking;
-    for (int32_t k = 0; k < gathered->cells.count; ++k) {
+    for (int32_t k = 0; k < gathered->cells.count && !gathered->isUnderWay; ++k) {
         taking->cells.data[gathered->cells.data[k]] = 1;
     }
-    MarkItems(&taking->triangles, &gathered->triangles);
-    MarkItems(&taking->vertices, &gathered->vertices);
+    if (!gathered->isUnderWay) {
+        MarkItems(&taking->triangles, &gathered->triangles);
+        MarkItems(&taking->vertices, &gathered->vertices);
+    }
+    gathered->isUnderWay = true;
 }
 
-static void UnmarkTaken(kiriGathered* gathered)
+void kiriGather_Pause(kiriSheetData* sheet)
 {
-    kiriTaking* taking = &gathered->sheet->taking;
-    ClearCells(gathered);
-    ClearMap(&taking->triangles, gathered->triangles.data, gathered->triangles.count);
-    ClearMap(&taking->vertices, gathered->vertices.data, gathered->vertices.count);
-    taking->triangles.count = taking->vertices.count = 0;
+    kiriGathered* gathered = sheet->ahead.gathered;
+    if (gathered != NULL && gathered->isUnderWay) {
+        ClearCells(gathered);
+        ClearMap(&sheet->taking.triangles, gathered->triangles.data, gathered->triangles.count);
+        ClearMap(&sheet->taking.vertices, gathered->vertices.data, gathered->vertices.count);
+        sheet->taking.triangles.count = sheet->taking.vertices.count = 0;
+        gathered->isUnderWay = false;
+    }
 }
 
 /* What the cell is worth, in items. */
@@ -316,7 +342,6 @@ static bool TakeSome(kiriGathered* gathered, kiriQuota* quota)
         gathered->due = EffortOf(gathered, cell);
         ok = TakeAround(gathered, cell);
     }
-    UnmarkTaken(gathered);
     return ok;
 }
 
@@ -326,9 +351,7 @@ static kiriProgress LookWhetherAll(kiriGathered* gathered, kiriQuota* quota)
         return KIRI_DONE;
     }
     MarkTaken(gathered);
-    kiriProgress progress = LookWhether(gathered, quota);
-    UnmarkTaken(gathered);
-    return progress;
+    return LookWhether(gathered, quota);
 }
 
 kiriProgress kiriGather_GoOn(kiriGathered* gathered, kiriQuota* quota)
@@ -344,6 +367,7 @@ kiriProgress kiriGather_GoOn(kiriGathered* gathered, kiriQuota* quota)
     if (progress != KIRI_DONE) {
         return progress;
     }
+    kiriGather_Pause(gathered->sheet);
     gathered->pieces.data[0].triangles.count = gathered->triangles.count;
     gathered->pieces.data[0].vertices.count = gathered->vertices.count;
     return SortGathered(gathered) ? KIRI_DONE : KIRI_FAILED;

@@ -23,11 +23,13 @@ typedef struct kiriGathered {
     int32_t checked; /* triangles whose neighbours are known to be there */
     int64_t left;    /* places in squares that they have, less those that its cells have */
     bool isDone, isMarked;
+    bool isUnderWay; /* little by little: what has been taken is marked */
 } kiriGathered;
 
-/* Room to gather pieces, which is as large as the sheet. Start reserves it where it is not there. False for memory. */
+/* Room to gather pieces, which is as large as the sheet. Start reserves it where it is not there. An item of the quota is
+   64 vertices, triangles or cells. */
 bool kiriGather_IsReserved(const kiriSheetData* sheet);
-bool kiriGather_Reserve(kiriSheetData* sheet);
+kiriProgress kiriGather_Reserve(kiriSheetData* sheet, kiriQuota* quota);
 
 /* Gathers the pieces that `stays` is 0 for. Fields belong to the mesh as it is (kiriUpdate_IsFieldCurrent). False for memory,
    which the caller frees; and where pieces are not what they must be, in a sheet from bytes that somebody made up. */
@@ -37,6 +39,10 @@ bool kiriGather_Make(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* m
    two of the triangles in its square; or four triangles that are put in order, which takes one call. */
 bool kiriGather_Start(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory, int32_t frame);
 kiriProgress kiriGather_GoOn(kiriGathered* gathered, kiriQuota* quota);
+
+/* Before others use the maps of sheet->taking, or items get other indices: what is made ahead (sheet->ahead) marks it anew
+   when it goes on. */
+void kiriGather_Pause(kiriSheetData* sheet);
 
 /* One of the pieces that were gathered. */
 const kiriGatheredPiece* kiriGather_Find(const kiriGathered* gathered, int32_t piece);

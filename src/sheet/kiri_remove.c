@@ -200,6 +200,7 @@ bool kiriRemoval_Stage(kiriRemoval* removal, bool leavesHoles)
 {
     kiriSheetData* sheet = removal->sheet;
     KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
+    kiriGather_Pause(sheet);
     removal->leavesHoles = leavesHoles;
     return StageItems(removal) && StageLabels(removal) && ListForces(removal) && StageLayout(removal) &&
            kiriArray_Reserve(&sheet->shown, &removal->points, 3 * (int64_t)removal->kept.points.count) &&
