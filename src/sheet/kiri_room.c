@@ -93,7 +93,7 @@ kiriProgress kiriRoom_ForCut(kiriSheetData* sheet, kiriQuota* triangles)
     return kiriGrowing_GoOn(&u->growing, rooms, ROOMS, triangles, ROOM_BYTES);
 }
 
-enum { WEIGHT_ROOMS = 2 };
+enum { WEIGHT_ROOMS = 2, WEIGHT_BYTES = 2048 }; /* that an item moves */
 
 /* In a mesh of even triangles. */
 static void ListWeightRooms(kiriSheetData* sheet, kiriRoom rooms[WEIGHT_ROOMS])
@@ -110,10 +110,32 @@ static void ListWeightRooms(kiriSheetData* sheet, kiriRoom rooms[WEIGHT_ROOMS])
 
 kiriProgress kiriRoom_ForWeights(kiriSheetData* sheet, kiriQuota* samples)
 {
-    enum { WEIGHT_BYTES = 2048 }; /* that an item moves */
     kiriRoom rooms[WEIGHT_ROOMS];
     ListWeightRooms(sheet, rooms);
     StartGrowing(sheet);
+    return kiriGrowing_GoOn(&sheet->update->growing, rooms, WEIGHT_ROOMS, samples, WEIGHT_BYTES);
+}
+
+/* An array that is small grows when it is full, at one go. */
+static void PassOverSmall(kiriRoom* room)
+{
+    enum { SMALL_BYTES = 1 << 18 };
+    int64_t bytes = kiriArray_GetHeader(room->array).count * (int64_t)room->itemBytes;
+    room->need = bytes < SMALL_BYTES ? 0 : room->need;
+}
+
+kiriProgress kiriRoom_ForMoreWeights(kiriSheetData* sheet, kiriQuota* samples)
+{
+    kiriRoom rooms[WEIGHT_ROOMS];
+    kiriSkin* skin = &sheet->vertexSkin;
+    int64_t vertices = sheet->mesh.vertices.count, more = samples->left < vertices ? samples->left : 0,
+            each = skin->weights.count / (vertices > 0 ? vertices : 1) + 1;
+    StartGrowing(sheet);
+    ListWeightRooms(sheet, rooms);
+    rooms[0].need = skin->staged.count + more;
+    rooms[1].need = skin->weights.count + each * more;
+    PassOverSmall(&rooms[0]);
+    PassOverSmall(&rooms[1]);
     return kiriGrowing_GoOn(&sheet->update->growing, rooms, WEIGHT_ROOMS, samples, WEIGHT_BYTES);
 }
 

@@ -15,6 +15,9 @@ kiriProgress kiriRoom_ForCut(kiriSheetData* sheet, kiriQuota* triangles);
 /* Before samples are weighed, of which the squares are known. */
 kiriProgress kiriRoom_ForWeights(kiriSheetData* sheet, kiriQuota* samples);
 
+/* Where squares have more samples than an even mesh has: room for those that the quota leaves for this tick. */
+kiriProgress kiriRoom_ForMoreWeights(kiriSheetData* sheet, kiriQuota* samples);
+
 /* The array that is growing, as bytes, after all else of the sheet. */
 void kiriRoom_ArchiveGrowing(kiriArchive* archive, kiriSheetData* sheet);
 

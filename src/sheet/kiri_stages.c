@@ -312,8 +312,11 @@ static kiriProgress FindSamples(kiriSheetData* sheet, kiriQuota* samples)
 
 static kiriProgress WeighVertices(kiriSheetData* sheet, kiriQuota* samples)
 {
-    return kiriRefresh_Vertices(&sheet->update->samples.refresh, &sheet->vertexSkin, sheet->memory, &sheet->shape,
-                                &sheet->grid, &sheet->mesh, samples);
+    kiriProgress progress = kiriRoom_ForMoreWeights(sheet, samples);
+    return progress == KIRI_DONE
+               ? kiriRefresh_Vertices(&sheet->update->samples.refresh, &sheet->vertexSkin, sheet->memory, &sheet->shape,
+                                      &sheet->grid, &sheet->mesh, samples)
+               : progress;
 }
 
 static kiriProgress WeighPoints(kiriSheetData* sheet, kiriQuota* samples)
