@@ -75,6 +75,25 @@ bool kiriArray_GrowReady(kiriMemory* memory, void* array, int64_t need, size_t i
     return true;
 }
 
+kiriProgress kiriArray_Fill(const kiriRoom* room, kiriQuota* quota, int64_t bytesAnItem)
+{
+    if (!kiriArray_Grow(room->memory, room->array, room->need, room->itemBytes)) {
+        return KIRI_FAILED;
+    }
+    kiriArrayHeader header = kiriArray_GetHeader(room->array);
+    int64_t most = bytesAnItem / (int64_t)room->itemBytes;
+    while (header.count < room->need) {
+        int64_t items = room->need - header.count < most ? room->need - header.count : most;
+        if (!kiriQuota_Take(quota, 1)) {
+            return KIRI_MORE;
+        }
+        memset((char*)header.data + (size_t)header.count * room->itemBytes, 0, (size_t)items * room->itemBytes);
+        header.count += (int32_t)items;
+        kiriArray_SetHeader(room->array, header);
+    }
+    return KIRI_DONE;
+}
+
 /* The new block of an array; false for memory. */
 static bool BeginGrowing(kiriGrowing* growing, const kiriRoom* room, kiriArrayHeader header)
 {

@@ -76,6 +76,10 @@ kiriProgress kiriGrowing_GoOn(kiriGrowing* growing, const kiriRoom* rooms, int32
                               int64_t bytesAnItem);
 void kiriGrowing_Drop(kiriGrowing* growing);
 
+/* Makes room, and as many items as the room says, all zero, as far as the quota goes, of which each bytesAnItem take one: so
+   the system gives the pages little by little. */
+kiriProgress kiriArray_Fill(const kiriRoom* room, kiriQuota* quota, int64_t bytesAnItem);
+
 #define kiriArray_Reserve(memory, array, need)                                                                         \
     ((int64_t)(need) <= (array)->capacity || kiriArray_Grow((memory), (array), (need), sizeof(*(array)->data)))
 

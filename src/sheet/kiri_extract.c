@@ -308,11 +308,49 @@ static kiriProgress SortWeightsOfPart(kiriSheetData* to, kiriQuotas* quotas)
     return KIRI_DONE;
 }
 
+enum { SHOWN_ROOMS = 9 };
+
+static void ListShownRooms(kiriSheetData* to, kiriRoom rooms[SHOWN_ROOMS])
+{
+    kiriMemory* shown = &to->shown;
+    kiriSurface* s = &to->seen.surface;
+    int64_t vertices = to->mesh.vertices.count, triangles = to->mesh.triangles.count;
+    const kiriRoom all[SHOWN_ROOMS] = { KIRI_ROOM(shown, &s->positions, 3 * vertices + 1),
+                                        KIRI_ROOM(shown, &s->normals, 3 * vertices),
+                                        KIRI_ROOM(shown, &s->slopes, 4 * vertices),
+                                        KIRI_ROOM(shown, &s->restPositions, 2 * vertices),
+                                        KIRI_ROOM(shown, &s->rest, vertices),
+                                        KIRI_ROOM(shown, &s->sourceWeights, 3 * vertices),
+                                        KIRI_ROOM(shown, &s->sourceTriangles, vertices),
+                                        KIRI_ROOM(shown, &s->indices, 3 * triangles),
+                                        KIRI_ROOM(shown, &s->corners, 3 * (triangles + triangles % 2)) };
+    memcpy(rooms, all, sizeof(all));
+}
+
+/* The system gives fresh memory when it is written first: so that is done now, and not all at once in the tick in which the
+   piece leaves. */
+static kiriProgress TouchShownRooms(kiriSheetData* to, kiriQuotas* quotas)
+{
+    enum { TOUCHED_BYTES = 1024 }; /* for an item */
+    kiriRoom rooms[SHOWN_ROOMS];
+    kiriQuota* samples = &quotas->of[KIRI_QUOTA_SAMPLES];
+    kiriProgress progress = KIRI_DONE;
+    ListShownRooms(to, rooms);
+    for (int i = 0; progress == KIRI_DONE && i < SHOWN_ROOMS && samples->left < INT64_MAX / 2; ++i) {
+        progress = kiriArray_Fill(&rooms[i], samples, TOUCHED_BYTES);
+    }
+    return progress;
+}
+
 /* All that is seen of it but where. */
 static kiriProgress WriteTopologyOfPart(kiriSheetData* to, kiriQuotas* quotas)
 {
     if (to->seen.surface.vertexCount > 0) {
         return KIRI_DONE;
+    }
+    kiriProgress progress = TouchShownRooms(to, quotas);
+    if (progress != KIRI_DONE) {
+        return progress;
     }
     if (!PayPass(to, quotas)) {
         return KIRI_MORE;
