@@ -437,7 +437,7 @@ static inline void Follow_CompareWeights(const Follow* a, const Follow* b)
         for (int32_t k = 0; k < x.count; ++k) {
             kiriCellWeight v = a->shape.weights.data[x.first + k], w = b->shape.weights.data[y.first + k];
             assert_int_equal(v.label, w.label);
-            assert_true(v.value == w.value && v.raw == w.raw);
+            assert_true(v.low == w.low && v.high == w.high);
         }
     }
     for (int32_t i = 0; i < a->sites.count; ++i) {

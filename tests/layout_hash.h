@@ -49,7 +49,7 @@ static inline void HashCellWeights(uint64_t* hash, const kiriShape* shape, int32
     kiriSpan span = shape->spans.data[cell];
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
         kiriHash_Int32(hash, kiriLabels_Item(&shape->labels, shape->weights.data[k].label));
-        kiriHash_Double(hash, shape->weights.data[k].value);
+        kiriHash_Double(hash, kiriCellWeight_Raw(&shape->weights.data[k]) / kiriShape_Sum(shape, span));
     }
 }
 

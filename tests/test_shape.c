@@ -38,11 +38,16 @@ static const kiriCellWeight* WeightsAt(const Weights* w, int32_t cell)
     return w->shape.weights.data + w->shape.spans.data[cell].first;
 }
 
+static double ValueAt(const Weights* w, int32_t cell, int32_t k)
+{
+    return kiriCellWeight_Raw(&WeightsAt(w, cell)[k]) / kiriShape_Sum(&w->shape, w->shape.spans.data[cell]);
+}
+
 static double WeightOf(const Weights* w, int32_t cell, int32_t frame)
 {
     for (int32_t k = 0; k < w->shape.spans.data[cell].count; ++k) {
         if (WeightsAt(w, cell)[k].label == frame) {
-            return WeightsAt(w, cell)[k].value;
+            return ValueAt(w, cell, k);
         }
     }
     return 0.0;
@@ -96,9 +101,9 @@ static void CheckCells(const Scene* scene, const Weights* w, const kiriSite* sit
         double sum = 0.0;
         for (int32_t k = 0; k < n; ++k) {
             assert_true(k == 0 || weights[k].label > weights[k - 1].label);
-            assert_true(weights[k].value > 0.0);
-            sum += weights[k].value;
-            rigid[weights[k].label] += weights[k].value > w->shape.rigidWeight ? kiriGrid_Area(&scene->grid, c) : 0.0;
+            assert_true(ValueAt(w, c, k) > 0.0);
+            sum += ValueAt(w, c, k);
+            rigid[weights[k].label] += ValueAt(w, c, k) > w->shape.rigidWeight ? kiriGrid_Area(&scene->grid, c) : 0.0;
         }
         assert_int_equal(n > 0, w->regions.field.owner.data[c] != KIRI_NONE);
         if (n > 0) {
@@ -114,7 +119,7 @@ static void CheckCells(const Scene* scene, const Weights* w, const kiriSite* sit
         const kiriCellWeight* weights = WeightsAt(w, sites[i].cell);
         assert_int_equal(w->shape.spans.data[sites[i].cell].count, 1);
         assert_int_equal(weights->label, i);
-        assert_true(weights->value == 1.0);
+        assert_true(ValueAt(w, sites[i].cell, 0) == 1.0);
     }
     free(rigid);
 }
@@ -402,7 +407,8 @@ static void FitIsExactForLinearFields(void** state)
         for (int32_t c = 0; c < scene.grid.cells.count; ++c) {
             kiriVec2 p = kiriGrid_Middle(&scene.grid, &scene.mesh, c);
             kiriSpan span = { 2 * c, 2 };
-            kiriCellWeight a = { 3, 0.5 + gu * (p.x - 0.5) + gv * (p.y - 0.5), 0.0 }, b = { 7, 1.0 - a.value, 0.0 };
+            double share = 0.5 + gu * (p.x - 0.5) + gv * (p.y - 0.5);
+            kiriCellWeight a = kiriCellWeight_Make(3, share), b = kiriCellWeight_Make(7, 1.0 - share);
             assert_true(kiriArray_Push(&scene.memory, &w.shape.spans, span));
             assert_true(kiriArray_Push(&scene.memory, &w.shape.weights, a));
             assert_true(kiriArray_Push(&scene.memory, &w.shape.weights, b));

@@ -407,7 +407,8 @@ static void LabelIsOfNoFrame(kiriSheetData* sheet)
 
 static void WeightIsZero(kiriSheetData* sheet)
 {
-    sheet->shape.weights.data[sheet->shape.spans.data[0].first].raw = 0.0;
+    kiriCellWeight* weight = &sheet->shape.weights.data[sheet->shape.spans.data[0].first];
+    *weight = kiriCellWeight_Make(weight->label, 0.0);
 }
 
 static void SpansOverlap(kiriSheetData* sheet)

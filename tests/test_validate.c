@@ -434,10 +434,10 @@ static const char* CorruptShape(kiriWorld* world, kiriSheetData* s, int way)
     kiriCellWeight* weight = &shape->weights.data[shape->spans.data[c].first];
     switch (way) {
     case 0:
-        weight->value *= 0.5;
-        return "sum to";
+        *weight = kiriCellWeight_Make(weight->label, 2.0);
+        return "shape functions: cell";
     case 1:
-        weight->value = -weight->value;
+        *weight = kiriCellWeight_Make(weight->label, -kiriCellWeight_Raw(weight));
         return "shape functions: cell";
     case 2:
         weight[1].label = weight[0].label;
@@ -449,7 +449,7 @@ static const char* CorruptShape(kiriWorld* world, kiriSheetData* s, int way)
         shape->spans.data[c].first = shape->weights.count - 1;
         return "shape functions: ";
     case 5:
-        weight->raw *= 0.999;
+        *weight = kiriCellWeight_Make(weight->label, 0.999 * kiriCellWeight_Raw(weight));
         return "its weight is";
     case 6:
         shape->rigid.data[0] += 1;

@@ -541,7 +541,6 @@ static bool Check_CellWeights(Check* check, const kiriSheetData* sheet)
     }
     for (int32_t c = 0; c < shape->spans.count; ++c) {
         kiriSpan span = shape->spans.data[c];
-        double sum = 0.0;
         int32_t last = KIRI_NONE;
         if (!Rooms_Take(check, &rooms, span, c)) {
             return false;
@@ -551,12 +550,10 @@ static bool Check_CellWeights(Check* check, const kiriSheetData* sheet)
             const kiriCellWeight* weight = &shape->weights.data[k];
             REQUIRE(weight->label > last && kiriLabels_Has(&shape->labels, weight->label, sheet->frames.count),
                     "cell %d: weight of label %d after %d", c, weight->label, last);
-            REQUIRE(weight->value > 0.0 && weight->raw > 0.0 && weight->raw <= 1.0, "cell %d: weight %g of label %d", c,
-                    weight->value, weight->label);
+            double raw = kiriCellWeight_Raw(weight);
+            REQUIRE(raw > 0.0 && raw <= 1.0, "cell %d: weight %g of label %d", c, raw, weight->label);
             last = weight->label;
-            sum += weight->value;
         }
-        REQUIRE(span.count == 0 || IsNear(sum, 1.0, 1e-9), "the weights of cell %d sum to %.17g", c, sum);
     }
     return Rooms_End(check, &rooms);
 }
@@ -593,7 +590,7 @@ static bool Check_Reaches(Check* check, const kiriSheetData* sheet)
             while (k < span.first + span.count && shape->weights.data[k].label != label) {
                 ++k;
             }
-            double is = k < span.first + span.count ? shape->weights.data[k].raw : 0.0;
+            double is = k < span.first + span.count ? kiriCellWeight_Raw(&shape->weights.data[k]) : 0.0;
             REQUIRE(raw == is, "cell %d is %d from frame %d and %d from its border, its weight is %.17g", reach.cell,
                     reach.fromSite, i, reach.fromBorder, is);
             found += raw > 0.0;
@@ -616,9 +613,10 @@ static bool Check_Rigid(Check* check, const kiriSheetData* sheet)
     for (int32_t c = 0; c < shape->spans.count; ++c) {
         kiriSpan span = shape->spans.data[c];
         int64_t share = (int64_t)(kiriGrid_Area(&sheet->grid, c) / square * 1099511627776.0 + 0.5);
+        double sum = kiriShape_Sum(shape, span);
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
             sums[kiriSheet_FrameOf(sheet, shape->weights.data[k].label)] +=
-                shape->weights.data[k].value > shape->rigidWeight ? share : 0;
+                kiriCellWeight_Raw(&shape->weights.data[k]) / sum > shape->rigidWeight ? share : 0;
         }
     }
     for (int32_t i = 0; i < sheet->frames.count; ++i) {

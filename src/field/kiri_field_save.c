@@ -159,12 +159,6 @@ static const kiriMember LabelsMembers[] = {
 };
 static const kiriTable LabelsTable = KIRI_TABLE(kiriLabels, LabelsMembers);
 
-static const kiriMember CellWeightMembers[] = {
-    KIRI_RUN(4, kiriCellWeight, label, label),
-    KIRI_RUN(8, kiriCellWeight, value, raw),
-};
-static const kiriTable CellWeightTable = KIRI_TABLE(kiriCellWeight, CellWeightMembers);
-
 static const kiriMember ReachesMembers[] = {
     KIRI_ITEMS(4, kiriReaches, blocks),
     KIRI_ITEMS(4, kiriReaches, heads),
@@ -177,7 +171,7 @@ static const kiriTable ReachesTable = KIRI_TABLE(kiriReaches, ReachesMembers);
 static const kiriMember ShapeMembers[] = {
     KIRI_PART(kiriShape, labels, LabelsTable),
     KIRI_ITEMS(4, kiriShape, spans),
-    KIRI_PARTS(kiriShape, weights, CellWeightTable),
+    KIRI_ITEMS(4, kiriShape, weights),
     KIRI_RUN(4, kiriShape, room, room),
     KIRI_PART(kiriShape, reaches, ReachesTable),
     KIRI_ITEMS(8, kiriShape, rigid),

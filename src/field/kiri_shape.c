@@ -10,9 +10,10 @@
 static void AddRigid(kiriShapeJob* job, int32_t cell, int64_t share)
 {
     kiriSpan span = job->shape->spans.data[cell];
+    double sum = kiriShape_Sum(job->shape, span);
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
         const kiriCellWeight* weight = &job->shape->weights.data[k];
-        if (weight->value > job->shape->rigidWeight) {
+        if (kiriCellWeight_Raw(weight) / sum > job->shape->rigidWeight) {
             job->shape->rigid.data[kiriLabels_Item(&job->shape->labels, weight->label)] += share;
         }
     }
@@ -28,7 +29,7 @@ static void AddWeightChange(kiriShapeJob* job, int32_t cell)
     }
 }
 
-/* The cell's weights or its material are about to change: they leave the rigid sums until they are normalised again.
+/* The cell's weights or its material are about to change: they leave the rigid sums until it is finished.
    There is room for every cell. */
 static void MarkSumDirty(kiriShapeJob* job, int32_t cell)
 {
@@ -72,7 +73,7 @@ static bool ReplaceWeight(kiriShapeJob* job, const kiriRawWeight* entry)
         ++k;
     }
     bool found = k < span->count && weights[k].label == label, kept = entry->raw > 0.0;
-    if (found ? weights[k].raw == entry->raw : !kept) {
+    if (found ? kiriCellWeight_Raw(&weights[k]) == entry->raw : !kept) {
         return true;
     }
     MarkWeightsDirty(job, entry->cell);
@@ -87,7 +88,7 @@ static bool ReplaceWeight(kiriShapeJob* job, const kiriRawWeight* entry)
         weights = job->shape->weights.data + span->first;
         memmove(weights + k + 1, weights + k, (size_t)(span->count - k - 1) * sizeof(*weights));
     }
-    weights[k] = (kiriCellWeight){ label, 0.0, entry->raw };
+    weights[k] = kiriCellWeight_Make(label, entry->raw);
     return true;
 }
 
@@ -103,7 +104,7 @@ static bool PlaceWeight(kiriShapeJob* job, const kiriRawWeight* entry)
     kiriSpan span = job->shape->spans.data[entry->cell];
     KIRI_ASSERT(*awaited > 0 && *awaited <= span.count && entry->raw > 0.0);
     job->shape->weights.data[span.first + span.count - (*awaited)--] =
-        (kiriCellWeight){ kiriLabels_Of(&job->shape->labels, entry->frame), 0.0, entry->raw };
+        kiriCellWeight_Make(kiriLabels_Of(&job->shape->labels, entry->frame), entry->raw);
     return true;
 }
 
@@ -113,18 +114,10 @@ static int64_t RigidShareOf(const kiriGrid* grid, int32_t cell)
     return (int64_t)(kiriGrid_Area(grid, cell) / (grid->side * grid->side) * 1099511627776.0 + 0.5);
 }
 
-static void NormalizeCell(kiriShapeJob* job, int32_t cell)
+/* Its weights and its material are what they shall be. */
+static void FinishCell(kiriShapeJob* job, int32_t cell)
 {
-    kiriSpan span = job->shape->spans.data[cell];
-    kiriCellWeight* weights = job->shape->weights.data + span.first;
-    double sum = 0.0;
-    for (int32_t k = 0; k < span.count; ++k) {
-        sum += weights[k].raw;
-    }
-    KIRI_ASSERT(job->work->awaited.data[cell] == 0 && (span.count == 0 || sum > 0.0));
-    for (int32_t k = 0; k < span.count; ++k) {
-        weights[k].value = weights[k].raw / sum;
-    }
+    KIRI_ASSERT(job->work->awaited.data[cell] == 0);
     job->work->rigidShares.data[cell] = RigidShareOf(job->grid, cell);
     AddRigid(job, cell, job->work->rigidShares.data[cell]);
     job->work->marks.data[cell] &= (uint8_t)~KIRI_MARK_DIRTY;
@@ -394,7 +387,7 @@ static kiriProgress PlaceWeights(kiriShapeJob* job, kiriQuota* quota)
             return KIRI_FAILED;
         }
     }
-    StartStage(work, KIRI_SHAPE_NORMALIZE);
+    StartStage(work, KIRI_SHAPE_FINISH);
     return KIRI_DONE;
 }
 
@@ -432,14 +425,14 @@ static void EndWeights(kiriShapeJob* job)
     job->work->stage = KIRI_SHAPE_REST;
 }
 
-static kiriProgress NormalizeCells(kiriShapeJob* job, kiriQuota* quota)
+static kiriProgress FinishCells(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriShapeWork* work = job->work;
     for (; work->next < work->dirty.count; ++work->next) {
         if (!kiriQuota_Take(quota, 1)) {
             return KIRI_MORE;
         }
-        NormalizeCell(job, work->dirty.data[work->next]);
+        FinishCell(job, work->dirty.data[work->next]);
     }
     EndWeights(job);
     return KIRI_DONE;
@@ -452,7 +445,7 @@ static kiriProgress (*const shapeStages[])(kiriShapeJob* job, kiriQuota* quota) 
     MeasureDirtyFrames, /* distances to the site and to the border, and the raw weights that follow from them */
     MakeFirstRooms,     /* only where no cell has weights yet */
     PlaceWeights,       /* the raw weights, in the spans of their cells */
-    NormalizeCells,     /* to sum 1 */
+    FinishCells,        /* their rigid sums */
 };
 
 kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,

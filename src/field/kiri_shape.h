@@ -6,6 +6,8 @@
 #include "kiri_reach.h"
 #include "kiri_region.h"
 
+#include <string.h>
+
 KIRI_C_BEGIN
 
 typedef struct kiriWeight {
@@ -13,11 +15,26 @@ typedef struct kiriWeight {
     double value;
 } kiriWeight;
 
-/* A weight at a cell, and what it was before the weights there were made to sum to 1. */
+/* A weight at a cell, before the weights there are divided by their sum. A double in two parts: so it takes no padding. */
 typedef struct kiriCellWeight {
-    int32_t label; /* of the frame */
-    double value, raw;
+    int32_t label;      /* of the frame */
+    uint32_t low, high; /* see kiriCellWeight_Raw */
 } kiriCellWeight;
+
+static inline kiriCellWeight kiriCellWeight_Make(int32_t label, double raw)
+{
+    uint64_t bits;
+    memcpy(&bits, &raw, sizeof(bits));
+    return (kiriCellWeight){ label, (uint32_t)bits, (uint32_t)(bits >> 32) };
+}
+
+static inline double kiriCellWeight_Raw(const kiriCellWeight* weight)
+{
+    uint64_t bits = (uint64_t)weight->high << 32 | weight->low;
+    double raw;
+    memcpy(&raw, &bits, sizeof(raw));
+    return raw;
+}
 
 typedef struct kiriShapeWork kiriShapeWork; /* the update at hand: kiri_shape_work.h */
 
@@ -25,7 +42,7 @@ typedef struct kiriShape {
     kiriLabels
         labels; /* of frames, in weights of cells and of samples: so no frame that goes changes those of others */
     KIRI_ARRAY(kiriSpan) spans;         /* of each cell: its weights */
-    KIRI_ARRAY(kiriCellWeight) weights; /* by spans; in a span by label; above zero, sum of values 1 */
+    KIRI_ARRAY(kiriCellWeight) weights; /* by spans; in a span by label; above zero */
     kiriSpans room;
     kiriReaches reaches; /* of each frame: how far cells are that its weight may reach */
 
@@ -41,11 +58,21 @@ typedef struct kiriShape {
     kiriShapeWork* work;
 } kiriShape;
 
+/* What the raw weights of a cell are divided by. */
+static inline double kiriShape_Sum(const kiriShape* shape, kiriSpan span)
+{
+    double sum = 0.0;
+    for (int32_t k = span.first; k < span.first + span.count; ++k) {
+        sum += kiriCellWeight_Raw(&shape->weights.data[k]);
+    }
+    return sum;
+}
+
 /* Follows the changes of grid and regions, which are cleared after it. Costs what it touches. `moves` as in
    kiriRegions_Update: distances to such a site are made from scratch. Items of the quota: one for two
    cells about which grid or regions have changed something, and two for each frame that reaches one; a cell whose
    distance is repaired, see kiriField_Repair; a block of distances, and four cells in it that have others; three weights
-   put in their place; a cell that gets room for its first weights or whose weights are made to sum to 1. Every cell with an owner gets weights. KIRI_MORE: call again before grid, regions
+   put in their place; a cell that gets room for its first weights or whose weights are all in their place. Every cell with an owner gets weights. KIRI_MORE: call again before grid, regions
    or sites change. KIRI_FAILED: only kiriShape_Reset helps. */
 kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                               const kiriRegions* regions, const kiriSite* sites, int32_t siteCount,

@@ -6,10 +6,6 @@
 static const kiriMust IsShapeCell[] = { KIRI_INDEX(KIRI_OF_CELLS, kiriSpan, first, first) };
 static const kiriMust IsRegion[] = { KIRI_INDEX(KIRI_OF_REGIONS, kiriSpan, first, first) };
 
-static const kiriMust WeightMust[] = {
-    KIRI_REALS(kiriCellWeight, value, raw),
-};
-
 static const kiriMust ShapeFrameMust[] = {
     KIRI_WITHIN(0, KIRI_FAR, kiriShapeFrame, limit, limit),
     KIRI_WITHIN(0, INT32_MAX, kiriShapeFrame, touches, touches),
@@ -30,7 +26,7 @@ static const kiriMust ShapeWorkMust[] = {
     KIRI_ITEMS_MUST(kiriShapeWork, frames, ShapeFrameMust),
     KIRI_LENGTH(KIRI_OF_REGIONS, kiriShapeWork, frames),
     KIRI_ITEMS_MUST(kiriShapeWork, dirtyFrames, IsRegion),
-    KIRI_WITHIN(KIRI_SHAPE_REST, KIRI_SHAPE_NORMALIZE, kiriShapeWork, stage, stage),
+    KIRI_WITHIN(KIRI_SHAPE_REST, KIRI_SHAPE_FINISH, kiriShapeWork, stage, stage),
     KIRI_WITHIN(0, INT32_MAX, kiriShapeWork, next, next),
 };
 
@@ -56,9 +52,8 @@ static bool AreWeightsOf(kiriCheck* check, const kiriShape* shape, int32_t cell)
     bool areFine = awaited >= 0 && awaited <= (span.count > 0 ? span.count : check->count[KIRI_OF_REGIONS]);
     for (int32_t k = span.first; areFine && k < span.first + span.count - (span.count > 0 ? awaited : 0); ++k) {
         const kiriCellWeight* weight = &shape->weights.data[k];
-        areFine = kiriLabels_Has(&shape->labels, weight->label, shape->rigid.count) &&
-                  kiriCheck_Object(check, WeightMust, weight) && weight->raw > 0.0 && weight->raw <= 1.0 &&
-                  weight->value >= 0.0 && weight->value <= 1.0;
+        double raw = kiriCellWeight_Raw(weight);
+        areFine = kiriLabels_Has(&shape->labels, weight->label, shape->rigid.count) && raw > 0.0 && raw <= 1.0;
     }
     return kiriCheck_That(check, areFine);
 }
@@ -135,7 +130,7 @@ static bool AreListsOfShape(kiriCheck* check, const kiriShape* shape)
     kiriIndices changes = { shape->changes.data, shape->changes.count, shape->changes.capacity };
     kiriIndices dirty = { work->dirty.data, work->dirty.count, work->dirty.capacity };
     kiriIndices frames = { work->dirtyFrames.data, work->dirtyFrames.count, work->dirtyFrames.capacity };
-    bool isFilling = work->stage > KIRI_SHAPE_REST && work->stage < KIRI_SHAPE_NORMALIZE;
+    bool isFilling = work->stage > KIRI_SHAPE_REST && work->stage < KIRI_SHAPE_FINISH;
     bool areFine =
         kiriCheck_Marked(check, &changes, work->marks.count, work->marks.data, KIRI_MARK_CHANGED) &&
         kiriCheck_That(check, changes.capacity >= shape->spans.count && work->dirty.capacity >= shape->spans.count) &&
@@ -236,7 +231,7 @@ static bool AreAwaited(kiriCheck* check, const kiriShape* shape)
     int32_t* left = (int32_t*)(void*)kiriCheck_Bytes(check, (int64_t)sizeof(int32_t) * shape->spans.count);
     int32_t from = work->stage == KIRI_SHAPE_PLACE ? work->next : 0;
     bool areFine = left != NULL;
-    bool isFilling = work->stage > KIRI_SHAPE_REST && work->stage < KIRI_SHAPE_NORMALIZE;
+    bool isFilling = work->stage > KIRI_SHAPE_REST && work->stage < KIRI_SHAPE_FINISH;
     for (int32_t k = from; areFine && isFilling && k < work->rawWeights.count; ++k) {
         const kiriRawWeight* weight = &work->rawWeights.data[k];
         bool isAwaited = work->awaited.data[weight->cell] > 0;

@@ -60,7 +60,7 @@ typedef enum kiriShapeStage {
     KIRI_SHAPE_MEASURE,
     KIRI_SHAPE_MAKE_ROOM,
     KIRI_SHAPE_PLACE,
-    KIRI_SHAPE_NORMALIZE
+    KIRI_SHAPE_FINISH
 } kiriShapeStage;
 
 /* Which distances of the frame at hand are being measured. */
@@ -93,7 +93,7 @@ struct kiriShapeWork {
     KIRI_ARRAY(int32_t) dirtyFrames;
     KIRI_ARRAY(kiriTouchedCell) touches;
     KIRI_ARRAY(kiriRawWeight) rawWeights; /* by frame */
-    KIRI_ARRAY(int32_t) dirty;            /* cells whose weights do not sum to 1 yet, or that have other material */
+    KIRI_ARRAY(int32_t) dirty; /* cells whose weights are not all in their place yet, or that have other material */
     kiriShapeStage stage;
     int32_t next; /* item of the stage at which the work goes on */
 };

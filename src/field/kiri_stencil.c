@@ -343,13 +343,13 @@ static bool GatherWeights(kiriStencil* stencil, kiriMemory* memory, const kiriSh
     }
     for (int32_t k = 0; k < stencil->steps.count; ++k) {
         kiriSpan span = shape->spans.data[stencil->steps.data[k].cell];
-        double* weights = stencil->weights.data + (size_t)k * (size_t)count;
+        double *weights = stencil->weights.data + (size_t)k * (size_t)count, sum = kiriShape_Sum(shape, span);
         for (int32_t i = 0; i < count; ++i) {
             weights[i] = 0.0;
         }
         for (int32_t w = span.first; w < span.first + span.count; ++w) {
             int32_t frame = kiriLabels_Item(&shape->labels, shape->weights.data[w].label);
-            weights[stencil->columns.data[frame] - 1] = shape->weights.data[w].value;
+            weights[stencil->columns.data[frame] - 1] = kiriCellWeight_Raw(&shape->weights.data[w]) / sum;
         }
     }
     return true;

@@ -364,13 +364,14 @@ static bool MarkRigidCells(kiriSheetData* sheet)
     for (int32_t i = 0; i < u->placing.placer.cells.count; ++i) {
         int32_t cell = u->placing.placer.cells.data[i], owner = sheet->regions.field.owner.data[cell];
         kiriSpan span = sheet->shape.spans.data[cell];
+        double sum = kiriShape_Sum(&sheet->shape, span);
         isLarge = owner == last ? isLarge : IsLarge(sheet, owner);
         last = owner;
         u->placing.allowed.data[cell] = isLarge;
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
             const kiriCellWeight* weight = &sheet->shape.weights.data[k];
-            u->placing.allowed.data[cell] |=
-                weight->value > sheet->shape.rigidWeight && IsRigid(sheet, kiriSheet_FrameOf(sheet, weight->label));
+            u->placing.allowed.data[cell] |= kiriCellWeight_Raw(weight) / sum > sheet->shape.rigidWeight &&
+                                             IsRigid(sheet, kiriSheet_FrameOf(sheet, weight->label));
         }
     }
     return true;
