@@ -5,6 +5,7 @@
 #define kiriPatches_Forget Plain_ForgetPatches
 #define kiriPatches_MayMove Plain_MayMove
 #define kiriSkin_WritePositions Plain_WritePositions
+#define kiriNormals_TurnOf Plain_TurnOf
 #define kiriNormals_Sum Plain_SumNormals
 #define kiriNormals_SumOne Plain_SumOneNormal
 #define kiriNormals_Write Plain_WriteNormals
@@ -15,6 +16,7 @@
 #undef kiriPatches_Forget
 #undef kiriPatches_MayMove
 #undef kiriSkin_WritePositions
+#undef kiriNormals_TurnOf
 #undef kiriNormals_Sum
 #undef kiriNormals_SumOne
 #undef kiriNormals_Write
@@ -24,8 +26,7 @@
 /* As the library has them. */
 void kiriSkin_WritePositions(const kiriSkin* skin, const kiriPatches* patches, const kiriVec2* rest, int32_t begin,
                              int32_t end, float* positions);
-void kiriNormals_Sum(float* slopes, int32_t vertexCount, const float* positions, const int32_t* corners,
-                     int32_t triangleCount);
+void kiriNormals_Sum(float* slopes, int32_t vertexCount, const float* positions, const kiriCorners* corners);
 void kiriNormals_Write(float* normals, const float* slopes, int32_t begin, int32_t end);
 
 enum { FRAMES = 9, VERTICES = 203, TRIANGLES = 300 };
@@ -88,8 +89,13 @@ static void FillVertices(Patchwork* work, uint32_t* seed)
 static void CheckNormals(const Patchwork* work, const float* positions)
 {
     static float plainSlopes[4 * VERTICES], slopes[4 * VERTICES], plain[3 * VERTICES], normals[3 * VERTICES];
-    Plain_SumNormals(plainSlopes, VERTICES, positions, work->corners, TRIANGLES);
-    kiriNormals_Sum(slopes, VERTICES, positions, work->corners, TRIANGLES);
+    uint8_t turns[TRIANGLES / 2];
+    for (int32_t pair = 0; pair < TRIANGLES / 2; ++pair) {
+        turns[pair] = Plain_TurnOf(&work->corners[6 * pair], false);
+    }
+    const kiriCorners corners = { work->corners, turns, TRIANGLES };
+    Plain_SumNormals(plainSlopes, VERTICES, positions, &corners);
+    kiriNormals_Sum(slopes, VERTICES, positions, &corners);
     Plain_WriteNormals(plain, plainSlopes, 0, VERTICES);
     kiriNormals_Write(normals, slopes, 0, 50);
     kiriNormals_Write(normals, slopes, 50, 131);

@@ -134,8 +134,8 @@ static const char* CorruptMesh(kiriWorld* world, kiriSheetData* s, int way)
         mesh->vertices.data[3].source += mesh->vertices.data[3].source > 0 ? -1 : 40;
         return "from elsewhere";
     case 10:
-        mesh->vertices.data[3].share[0] += 0.01f;
-        return "shares of vertex 3";
+        s->seen.surface.sourceWeights.data[9] += 0.01f;
+        return "vertex 3 has another source";
     case 11:
         mesh->oldVertexCount -= 1;
         return "births";

@@ -68,9 +68,15 @@ static void ShareNearestEdge(const kiriLatticePoint c[3], kiriLatticePoint at, d
 
 void kiriMesh_SetSource(kiriMeshData* mesh, int32_t vertex, int32_t source)
 {
-    const kiriLatticePoint* c = kiriMesh_SourceCorners(mesh, source);
-    KIRI_ASSERT(c != NULL && vertex >= 0 && vertex < mesh->vertices.count);
-    kiriVertex* v = &mesh->vertices.data[vertex];
+    KIRI_ASSERT(kiriMesh_SourceCorners(mesh, source) != NULL && vertex >= 0 && vertex < mesh->vertices.count);
+    mesh->vertices.data[vertex].source = source;
+}
+
+void kiriMesh_GetShare(const kiriMeshData* mesh, int32_t vertex, float to[3])
+{
+    const kiriVertex* v = &mesh->vertices.data[vertex];
+    const kiriLatticePoint* c = kiriMesh_SourceCorners(mesh, v->source);
+    KIRI_ASSERT(c != NULL);
     double share[3], sum = 0.0;
     bool isInside = true;
     for (int i = 0; i < 3; ++i) {
@@ -82,9 +88,8 @@ void kiriMesh_SetSource(kiriMeshData* mesh, int32_t vertex, int32_t source)
         ShareNearestEdge(c, v->at, share);
         sum = 1.0;
     }
-    v->source = source;
     for (int i = 0; i < 3; ++i) {
-        v->share[i] = (float)(share[i] / sum);
+        to[i] = (float)(share[i] / sum);
     }
 }
 

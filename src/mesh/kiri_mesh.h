@@ -28,8 +28,7 @@ typedef struct kiriVertex {
     kiriLatticePoint at;
     int32_t edge;   /* a half-edge that leaves it, in its own fan */
     int32_t next;   /* an older vertex in the same square, or KIRI_NONE; squares.vertexHead is the latest one */
-    int32_t source; /* triangle of the caller, */
-    float share[3]; /* and barycentric coordinates in it, not negative, sum 1 */
+    int32_t source; /* triangle of the caller, see kiriMesh_GetShare */
     uint32_t stamp;
 } kiriVertex;
 
@@ -61,14 +60,14 @@ typedef struct kiriMeshData {
     /* Holes: triangles without vertices, and vertices without an edge, that were taken away. None is in a square. */
     int32_t triangleHoles, vertexHoles;
 
-    /* Corners of the caller's triangles, three a triangle, for source and share. A part has those alone that its triangles
+    /* Corners of the caller's triangles, three a triangle, for where vertices are in them. A part has those alone that its triangles
        are of: `sources`, ascending; that is empty where the mesh has all of them. */
     KIRI_ARRAY(kiriLatticePoint) sourceCorners;
     kiriIndices sources;
 
     /* The journal: what changed since kiriMesh_Begin. Until Commit these are all that can have changed: the triangles
-       of savedTriangles and those from oldTriangleCount on; the vertices of savedVertices (their source and share,
-       never their point) and those from oldVertexCount on. So a view of the mesh needs to write no others. */
+       of savedTriangles and those from oldTriangleCount on; the vertices of savedVertices (their source, never
+       their point) and those from oldVertexCount on. So a view of the mesh needs to write no others. */
     bool isOpen; /* between Begin and Commit: only then can the mesh change, or be rolled back */
     uint32_t stamp;
     int32_t oldTriangleCount, oldVertexCount;
@@ -203,6 +202,9 @@ int64_t kiriMesh_DoubledArea(const kiriMeshData* mesh);
 /* The area, m^2. */
 double kiriMesh_Area(const kiriMeshData* mesh);
 
+/* Where a vertex is in its source: barycentric coordinates, not negative, sum 1. */
+void kiriMesh_GetShare(const kiriMeshData* mesh, int32_t vertex, float share[3]);
+
 /* A lattice point in metres from the lattice's origin ("local"). */
 static inline kiriVec2 kiriMesh_Local(const kiriMeshData* mesh, kiriLatticePoint p)
 {
@@ -226,7 +228,6 @@ void kiriMesh_SetOpen(kiriMeshData* mesh, int32_t h, bool open);
 /* The three corners of one of the caller's triangles; null where the mesh has nothing of it. */
 const kiriLatticePoint* kiriMesh_SourceCorners(const kiriMeshData* mesh, int32_t source);
 
-/* Sets the vertex's source, and its share in it. */
 void kiriMesh_SetSource(kiriMeshData* mesh, int32_t vertex, int32_t source);
 
 /* Lists a new vertex in its square, before older ones. It never moves, so it stays there. */

@@ -18,7 +18,6 @@ static const kiriMust TriangleMust[] = {
 static const kiriMust VertexMust[] = {
     KIRI_INDEX_OR_NONE(KIRI_OF_HALF_EDGES, kiriVertex, edge, edge),
     KIRI_INDEX_OR_NONE(KIRI_OF_VERTICES, kiriVertex, next, next),
-    KIRI_FLOATS(kiriVertex, share, share),
 };
 
 static const kiriMust SourceCornerMust[] = {

@@ -108,7 +108,8 @@ static kiriProgress CopySources(kiriMeshData* mesh, const kiriMeshData* from, ki
     if (!kiriQuota_Take(quota, mesh->triangles.count / COPIED_AN_ITEM)) {
         return KIRI_MORE;
     }
-    if (!ListSources(mesh) || !kiriArray_ResizeJust(mesh->memory, &mesh->sourceCorners, 3 * (int64_t)mesh->sources.count)) {
+    if (!ListSources(mesh) ||
+        !kiriArray_ResizeJust(mesh->memory, &mesh->sourceCorners, 3 * (int64_t)mesh->sources.count)) {
         return KIRI_FAILED;
     }
     for (int32_t k = 0; k < mesh->sources.count; ++k) {

@@ -46,7 +46,7 @@ static void ListRooms(kiriSheetData* sheet, int64_t more, kiriRoom rooms[ROOMS])
                                   KIRI_ROOM(shown, &s->sourceWeights, 3 * vertices),
                                   KIRI_ROOM(shown, &s->sourceTriangles, vertices),
                                   KIRI_ROOM(shown, &s->indices, corners),
-                                  KIRI_ROOM(shown, &s->corners, corners),
+                                  KIRI_ROOM(shown, &s->turns, added / 2 + 1),
                                   KIRI_ROOM(shown, &s->rest, vertices),
                                   KIRI_CHANGING_ROOM(shown, &s->positions, 3 * vertices + 1),
                                   KIRI_CHANGING_ROOM(shown, &s->normals, 3 * vertices),

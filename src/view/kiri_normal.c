@@ -4,6 +4,40 @@
 
 #include <string.h>
 
+/* ---- Two triangles ----------------------------------------------------------------------------------------------- */
+
+/* Which of their six corners come in which order: as they are; turned by their edges j and k, which they share, from
+   1 + 3 j + k on; one alone, followed by one without area. */
+enum { PAIR_AS_IS, PAIR_TURNED, PAIR_ALONE = PAIR_TURNED + 9, PAIR_TURNS };
+static const uint8_t pairOrders[PAIR_TURNS][6] = {
+    { 0, 1, 2, 3, 4, 5 }, { 1, 2, 0, 3, 4, 5 }, { 1, 2, 0, 4, 5, 3 }, { 1, 2, 0, 5, 3, 4 },
+    { 2, 0, 1, 3, 4, 5 }, { 2, 0, 1, 4, 5, 3 }, { 2, 0, 1, 5, 3, 4 }, { 0, 1, 2, 3, 4, 5 },
+    { 0, 1, 2, 4, 5, 3 }, { 0, 1, 2, 5, 3, 4 }, { 0, 1, 2, 0, 0, 0 },
+};
+
+uint8_t kiriNormals_TurnOf(const int32_t* indices, bool isAlone)
+{
+    const int32_t *a = indices, *b = indices + 3;
+    int turn = isAlone ? PAIR_ALONE : PAIR_AS_IS;
+    for (int i = 0; turn == PAIR_AS_IS && i < 9; ++i) {
+        int j = i / 3, k = i % 3;
+        bool isShared = a[j] == b[(k + 1) % 3] && a[(j + 1) % 3] == b[k];
+        turn = isShared ? PAIR_TURNED + i : turn;
+    }
+    return (uint8_t)turn;
+}
+
+static void GetPair(const kiriCorners* corners, int32_t pair, int32_t v[6])
+{
+    const int32_t* indices = corners->indices + 6 * (ptrdiff_t)pair;
+    const uint8_t* order = pairOrders[corners->turns[pair]];
+    for (int i = 0; i < 6; ++i) {
+        v[i] = indices[order[i]];
+    }
+}
+
+/* ---- Sums -------------------------------------------------------------------------------------------------------- */
+
 static kiriLanes EdgeAlong(const float* x, int32_t from, int32_t to)
 {
     return kiriLanes_Sub(kiriLanes_Load(x + 3 * (ptrdiff_t)to), kiriLanes_Load(x + 3 * (ptrdiff_t)from));
@@ -17,12 +51,12 @@ static void AddSlope(float* slopes, int32_t vertex, kiriLanes slope)
 
 /* The cross product of two sides is twice the area times the normal: sums are area-weighted. Where two triangles share
    an edge, their corners on it get one sum from both. */
-void kiriNormals_Sum(float* slopes, int32_t vertexCount, const float* positions, const int32_t* corners,
-                     int32_t triangleCount)
+void kiriNormals_Sum(float* slopes, int32_t vertexCount, const float* positions, const kiriCorners* corners)
 {
     memset(slopes, 0, 4 * sizeof(float) * (size_t)vertexCount);
-    for (int32_t t = 0; t < triangleCount; t += 2) {
-        const int32_t* v = corners + 3 * (ptrdiff_t)t;
+    for (int32_t t = 0; t < corners->triangleCount; t += 2) {
+        int32_t v[6];
+        GetPair(corners, t / 2, v);
         kiriLanes ac = EdgeAlong(positions, v[0], v[2]), first = kiriLanes_Cross(EdgeAlong(positions, v[0], v[1]), ac);
         AddSlope(slopes, v[1], first);
         if (v[0] == v[3] && v[2] == v[4]) {
@@ -104,7 +138,7 @@ static bool ListPairs(const kiriMeshData* mesh, int32_t vertex, int32_t* pairs, 
     return ok;
 }
 
-bool kiriNormals_SumOne(float* slopes, int32_t vertex, const float* positions, const int32_t* corners,
+bool kiriNormals_SumOne(float* slopes, int32_t vertex, const float* positions, const kiriCorners* corners,
                         const kiriMeshData* mesh)
 {
     int32_t pairs[MOST_PAIRS], count;
@@ -113,7 +147,9 @@ bool kiriNormals_SumOne(float* slopes, int32_t vertex, const float* positions, c
         return false;
     }
     for (int32_t k = 0; k < count; ++k) {
-        sum = AddPairTo(sum, vertex, positions, corners + 6 * (ptrdiff_t)pairs[k]);
+        int32_t v[6];
+        GetPair(corners, pairs[k], v);
+        sum = AddPairTo(sum, vertex, positions, v);
     }
     kiriLanes_Store(slopes + 4 * (ptrdiff_t)vertex, sum);
     return true;

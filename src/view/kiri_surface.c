@@ -20,7 +20,7 @@ bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMesh
            kiriArray_Resize(memory, &surface->indices, 3 * triangles) &&
            kiriArray_Resize(memory, &surface->rest, vertices) &&
            kiriArray_Resize(memory, &surface->slopes, 4 * vertices) &&
-           kiriArray_Resize(memory, &surface->corners, 3 * (triangles + triangles % 2)) &&
+           kiriArray_Resize(memory, &surface->turns, triangles / 2 + triangles % 2) &&
            kiriArray_Resize(memory, &surface->carriers, frameCount) &&
            kiriArray_Resize(memory, &surface->bends, frameCount) &&
            kiriPatches_Reserve(&surface->patches, memory, labelCount);
@@ -35,7 +35,7 @@ void kiriSurface_Truncate(kiriSurface* surface, int32_t frameCount)
     surface->sourceTriangles.count = surface->rest.count = vertices;
     surface->slopes.count = 4 * vertices;
     surface->indices.count = 3 * triangles;
-    surface->corners.count = 3 * (triangles + triangles % 2);
+    surface->turns.count = triangles / 2 + triangles % 2;
     surface->carriers.count = surface->bends.count = frameCount;
 }
 
@@ -51,32 +51,14 @@ static void WriteNewVertex(kiriSurface* surface, const kiriMeshData* mesh, int32
 
 static void WriteSource(kiriSurface* surface, const kiriMeshData* mesh, int32_t v)
 {
-    const kiriVertex* vertex = &mesh->vertices.data[v];
-    surface->sourceTriangles.data[v] = vertex->source;
-    memcpy(&surface->sourceWeights.data[3 * (size_t)v], vertex->share, sizeof(vertex->share));
+    surface->sourceTriangles.data[v] = mesh->vertices.data[v].source;
+    kiriMesh_GetShare(mesh, v, &surface->sourceWeights.data[3 * (size_t)v]);
 }
 
-/* Shared edges are the last of the first and the first of the second triangle, so that WriteNormals reads four corners
-   instead of six. A triangle alone is followed by one without area. */
-static void WriteCorners(kiriSurface* surface, int32_t pair)
+static void WriteTurn(kiriSurface* surface, int32_t pair)
 {
-    const int32_t* a = &surface->indices.data[6 * (size_t)pair];
-    const int32_t* b = a + 3;
-    int32_t* corners = &surface->corners.data[6 * (size_t)pair];
-    if (2 * pair + 1 == surface->triangleCount) {
-        const int32_t alone[6] = { a[0], a[1], a[2], a[0], a[0], a[0] };
-        memcpy(corners, alone, sizeof(alone));
-        return;
-    }
-    memcpy(corners, a, 6 * sizeof(int32_t));
-    for (int i = 0; i < 9; ++i) {
-        int j = i / 3, k = i % 3;
-        if (a[j] == b[(k + 1) % 3] && a[(j + 1) % 3] == b[k]) {
-            const int32_t turned[6] = { a[(j + 1) % 3], a[(j + 2) % 3], a[j], b[k], b[(k + 1) % 3], b[(k + 2) % 3] };
-            memcpy(corners, turned, sizeof(turned));
-            return;
-        }
-    }
+    const int32_t* indices = &surface->indices.data[6 * (size_t)pair];
+    surface->turns.data[pair] = kiriNormals_TurnOf(indices, 2 * pair + 1 == surface->triangleCount);
 }
 
 static void Extend(kiriRange* range, int32_t index)
@@ -92,10 +74,7 @@ static void WriteOldVertices(kiriSurface* surface, const kiriMeshData* mesh, kir
 {
     for (int32_t i = 0; i < mesh->savedVertices.count; ++i) {
         const kiriSavedVertex* saved = &mesh->savedVertices.data[i];
-        const kiriVertex* vertex = &mesh->vertices.data[saved->index];
-        if (saved->index < change->oldVertexCount &&
-            (vertex->source != saved->was.source ||
-             memcmp(vertex->share, saved->was.share, sizeof(vertex->share)) != 0)) {
+        if (saved->index < change->oldVertexCount && mesh->vertices.data[saved->index].source != saved->was.source) {
             WriteSource(surface, mesh, saved->index);
             Extend(&change->vertices, saved->index);
         }
@@ -122,7 +101,7 @@ static void WriteOldTriangles(kiriSurface* surface, const kiriMeshData* mesh, ki
     /* When all of them are written: two that share an edge may both change. */
     for (int32_t i = 0; i < mesh->savedTriangles.count; ++i) {
         if (mesh->savedTriangles.data[i].index < change->oldTriangleCount) {
-            WriteCorners(surface, mesh->savedTriangles.data[i].index / 2);
+            WriteTurn(surface, mesh->savedTriangles.data[i].index / 2);
         }
     }
 }
@@ -165,7 +144,7 @@ void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
     WriteOldVertices(surface, mesh, &change);
     WriteOldTriangles(surface, mesh, &change);
     for (int32_t pair = change.oldTriangleCount / 2; 2 * pair < surface->triangleCount; ++pair) {
-        WriteCorners(surface, pair);
+        WriteTurn(surface, pair);
     }
     if (change.oldVertexCount > 0 && change.from != change.to) {
         RememberChange(surface, &change);
@@ -250,7 +229,7 @@ void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle)
 {
     int32_t* corners = &surface->indices.data[3 * (size_t)triangle];
     corners[1] = corners[2] = corners[0];
-    WriteCorners(surface, triangle / 2);
+    WriteTurn(surface, triangle / 2);
 }
 
 void kiriSurface_LeaveHoles(kiriSurface* surface, const kiriIndices* triangles, const kiriMeshData* mesh,
@@ -308,9 +287,9 @@ static void RenumberIndices(kiriSurface* surface, const kiriMeshData* mesh)
     for (int32_t t = 0; t < surface->triangleCount; ++t) {
         WriteTriangle(surface, mesh, t);
     }
-    surface->corners.count = 3 * (surface->triangleCount + surface->triangleCount % 2);
+    surface->turns.count = surface->triangleCount / 2 + surface->triangleCount % 2;
     for (int32_t pair = 0; 2 * pair < surface->triangleCount; ++pair) {
-        WriteCorners(surface, pair);
+        WriteTurn(surface, pair);
     }
 }
 
@@ -446,16 +425,22 @@ void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades)
     }
 }
 
+static kiriCorners CornersOf(const kiriSurface* surface)
+{
+    return (kiriCorners){ surface->indices.data, surface->turns.data, surface->triangleCount };
+}
+
 static void SumSlopes(kiriSurface* surface)
 {
+    kiriCorners corners = CornersOf(surface);
     surface->hasSlopes = true;
-    kiriNormals_Sum(surface->slopes.data, surface->vertexCount, kiriSurface_Places(surface), surface->corners.data,
-                    surface->triangleCount);
+    kiriNormals_Sum(surface->slopes.data, surface->vertexCount, kiriSurface_Places(surface), &corners);
 }
 
 bool kiriSurface_SumNormal(kiriSurface* surface, const kiriMeshData* mesh, int32_t vertex)
 {
-    return kiriNormals_SumOne(surface->slopes.data, vertex, kiriSurface_Places(surface), surface->corners.data, mesh);
+    kiriCorners corners = CornersOf(surface);
+    return kiriNormals_SumOne(surface->slopes.data, vertex, kiriSurface_Places(surface), &corners, mesh);
 }
 
 void kiriSurface_SumNormals(kiriSurface* surface)

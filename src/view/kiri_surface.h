@@ -30,12 +30,12 @@ typedef struct kiriSurface {
     uint32_t revision;
     int32_t lentAt; /* the tick after which the host got the indices last, from 1 on */
 
-    KIRI_ARRAY(kiriVec2) rest;   /* local m */
-    KIRI_ARRAY(int32_t) corners; /* 6 for two triangles: turned to a, b, c and a, c, d where they share an edge */
-    KIRI_ARRAY(float) slopes;    /* 4 a vertex: sums for the normals */
-    int64_t pose;                /* grows whenever positions or corners may have changed */
-    kiriVec3 middle;             /* m: near the sheet; 0 where that is near the origin of the world */
-    KIRI_ARRAY(float) places;    /* 3 a vertex, from `middle`, where that is not 0: else the positions have them */
+    KIRI_ARRAY(kiriVec2) rest; /* local m */
+    KIRI_ARRAY(uint8_t) turns; /* of the indices, for normals: see kiriCorners */
+    KIRI_ARRAY(float) slopes;  /* 4 a vertex: sums for the normals */
+    int64_t pose;              /* grows whenever positions or corners may have changed */
+    kiriVec3 middle;           /* m: near the sheet; 0 where that is near the origin of the world */
+    KIRI_ARRAY(float) places;  /* 3 a vertex, from `middle`, where that is not 0: else the positions have them */
     KIRI_ARRAY(kiriCarrier) carriers;
     KIRI_ARRAY(kiriBend) bends;
     kiriPatches patches;

@@ -1,5 +1,7 @@
 #include "kiri_view_check.h"
 
+#include "kiri_normal.h"
+
 /* ---- Rules -------------------------------------------------------------------------------------------------------- */
 
 static const kiriMust MustBeSquareOfView[] = { KIRI_INDEX(KIRI_OF_SQUARES, kiriSpan, first, first) };
@@ -39,7 +41,7 @@ static const kiriMust SurfaceMust[] = {
     KIRI_REALS(kiriSurface, origin, longer),
     KIRI_REALS(kiriSurface, middle, middle),
     KIRI_COUNTS(kiriSurface, pose, pose),
-    KIRI_ITEMS_MUST(kiriSurface, corners, IsVertexIndex),
+    KIRI_ITEMS_MUST(kiriSurface, indices, IsVertexIndex),
     KIRI_ITEMS_MUST(kiriSurface, patches.floats, kiriMustBeFloat),
     KIRI_WITHIN(0, KIRI_CHANGES, kiriSurface, changeCount, changeCount),
     KIRI_WITHIN(0, KIRI_CHANGES - 1, kiriSurface, lastChange, lastChange),
@@ -169,6 +171,17 @@ bool kiriSurface_HasRoom(const kiriSurface* surface)
            surface->places.capacity >= 3 * vertices + 1;
 }
 
+static bool AreTurns(const kiriSurface* surface)
+{
+    int32_t count = surface->triangleCount / 2 + surface->triangleCount % 2;
+    bool areFine = surface->turns.count == count;
+    for (int32_t pair = 0; areFine && pair < count; ++pair) {
+        bool isAlone = 2 * pair + 1 == surface->triangleCount;
+        areFine = surface->turns.data[pair] == kiriNormals_TurnOf(&surface->indices.data[6 * (size_t)pair], isAlone);
+    }
+    return areFine;
+}
+
 /* All rows are as long as the mesh is large, and there is a patch for each frame that is seen. */
 static bool AreRowsOfSurface(const kiriSurface* surface, const kiriMeshData* mesh, int64_t frames, int64_t labels)
 {
@@ -176,10 +189,9 @@ static bool AreRowsOfSurface(const kiriSurface* surface, const kiriMeshData* mes
     int64_t floats = surface->patches.isBent ? KIRI_BENT_FLOATS : KIRI_FLAT_FLOATS;
     return surface->vertexCount == vertices && surface->triangleCount == triangles && kiriSurface_HasRoom(surface) &&
            surface->restPositions.count == 2 * vertices && surface->sourceWeights.count == 3 * vertices &&
-           surface->sourceTriangles.count == vertices && surface->indices.count == 3 * triangles &&
-           surface->corners.count == 3 * (triangles + triangles % 2) && surface->carriers.count >= frames &&
-           surface->bends.count >= frames && surface->patches.count >= 0 && surface->patches.count <= labels &&
-           surface->patches.floats.capacity >= KIRI_BENT_FLOATS * labels &&
+           surface->sourceTriangles.count == vertices && surface->indices.count == 3 * triangles && AreTurns(surface) &&
+           surface->carriers.count >= frames && surface->bends.count >= frames && surface->patches.count >= 0 &&
+           surface->patches.count <= labels && surface->patches.floats.capacity >= KIRI_BENT_FLOATS * labels &&
            surface->patches.floats.capacity >= floats * surface->patches.count &&
            surface->patches.isOther.capacity >= labels;
 }

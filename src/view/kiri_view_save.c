@@ -59,7 +59,7 @@ static const kiriMember StillSurfaceMembers[] = {
     KIRI_ITEMS(4, kiriSurface, indices),
     KIRI_ITEMS(4, kiriSurface, sourceTriangles),
     KIRI_ITEMS(8, kiriSurface, rest),
-    KIRI_ITEMS(4, kiriSurface, corners),
+    KIRI_ITEMS(1, kiriSurface, turns),
     KIRI_RUN(4, kiriSurface, changes, lastChange),
 };
 const kiriTable kiriStillSurfaceTable = KIRI_TABLE(kiriSurface, StillSurfaceMembers);
