@@ -60,8 +60,8 @@ static const kiriMember GridWorkMembers[] = {
     KIRI_ITEMS(4, kiriGridWork, entries),
     KIRI_ITEMS(4, kiriGridWork, parent),
     KIRI_ITEMS(1, kiriGridWork, cellFlags),
-    KIRI_ITEMS(8, kiriGridWork, mark),
-    KIRI_RUN(8, kiriGridWork, lastMark, lastMark),
+    KIRI_ITEMS(4, kiriGridWork, mark),
+    KIRI_RUN(4, kiriGridWork, lastMark, lastMark),
     KIRI_PARTS(kiriGridWork, newCells, NewCellTable),
     KIRI_PARTS(kiriGridWork, oldFaces, OldFaceTable),
     KIRI_PARTS(kiriGridWork, steps, StepTable),
@@ -288,6 +288,7 @@ static const kiriMember SampleBlockMembers[] = {
 static const kiriTable SampleBlockTable = KIRI_TABLE(SampleBlock, SampleBlockMembers);
 
 static const kiriMember PlacerWorkMembers[] = {
+    KIRI_BOOLS(kiriPlacerWork, hasOld, hasOld),
     KIRI_CUSTOM(kiriPlacerWork, old, MoveOldField),
     KIRI_PART(kiriPlacerWork, flooded, kiriFieldTable),
     KIRI_PART(kiriPlacerWork, ends, kiriFieldTable),
@@ -327,7 +328,7 @@ void kiriLinks_EndReading(kiriLinks* links, kiriMemory* memory)
 
 void kiriPlacer_EndReading(kiriPlacer* placer, const kiriField* known)
 {
-    if (placer->work != NULL && placer->work->old == NULL) {
+    if (placer->work != NULL && placer->work->hasOld && placer->work->old == NULL) {
         placer->work->old = known;
     }
 }

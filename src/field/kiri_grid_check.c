@@ -50,7 +50,7 @@ static const kiriMust WorkMust[] = {
     KIRI_ITEMS_MUST(kiriGridWork, flagged, IsSquareIndex),
     KIRI_LENGTH(KIRI_OF_CELLS, kiriGridWork, cellFlags),
     KIRI_LENGTH(KIRI_OF_CELLS, kiriGridWork, mark),
-    KIRI_COUNTS(kiriGridWork, lastMark, lastMark),
+    KIRI_WITHIN(0, INT32_MAX, kiriGridWork, lastMark, lastMark),
 };
 
 /* While an update is at hand: what rests has whatever the last one left there. */

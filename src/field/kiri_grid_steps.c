@@ -239,8 +239,12 @@ static kiriStep Joined(kiriStep a, kiriStep b, int16_t length)
 
 /* A step counts where two ways lead to its cell, and counts once: the first way marks the cell with the number that
    this returns, the second way finds it and makes it one more. */
-static int64_t NewMark(kiriGridWork* work)
+static int32_t NewMark(kiriGridWork* work)
 {
+    if (work->lastMark > INT32_MAX - 4) { /* after as many as cells in a thousand large cuts: begins anew */
+        memset(work->mark.data, 0, sizeof(*work->mark.data) * (size_t)work->mark.count);
+        work->lastMark = 0;
+    }
     work->lastMark += 2;
     return work->lastMark;
 }
@@ -260,7 +264,7 @@ static bool AddDiagonalSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
 {
     const kiriFace* faces = grid->faces.data;
     const kiriCell* cells = grid->cells.data;
-    int64_t *mark = grid->work->mark.data, first = NewMark(grid->work);
+    int32_t *mark = grid->work->mark.data, first = NewMark(grid->work);
     for (int axis = 0; axis < 2; ++axis) {
         for (int32_t f = cells[c].firstFace; f != KIRI_NONE; f = kiriFace_Next(&faces[f], c)) {
             int32_t between = kiriFace_Other(&faces[f], c);
@@ -321,7 +325,7 @@ static bool IsKnightMove(kiriStep straight, kiriStep diagonal)
 }
 
 /* Marks the cells reached straight, then diagonally. */
-static void MarkKnightSteps(kiriGrid* grid, const kiriSteps* steps, int64_t mark)
+static void MarkKnightSteps(kiriGrid* grid, const kiriSteps* steps, int32_t mark)
 {
     for (int32_t i = 0; i < steps->end[0]; ++i) {
         kiriSteps on;
@@ -338,7 +342,7 @@ static void MarkKnightSteps(kiriGrid* grid, const kiriSteps* steps, int64_t mark
 /* To cells reached straight, then diagonally, and also diagonally, then straight: a slit is never jumped. */
 static bool AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* steps)
 {
-    int64_t *mark = grid->work->mark.data, first = NewMark(grid->work);
+    int32_t *mark = grid->work->mark.data, first = NewMark(grid->work);
     MarkKnightSteps(grid, steps, first);
     for (int32_t i = steps->end[0]; i < steps->end[1]; ++i) {
         kiriSteps on;

@@ -82,8 +82,8 @@ struct kiriGridWork {
     kiriIndices parent;               /* union-find over them */
 
     KIRI_ARRAY(uint8_t) cellFlags; /* of each cell */
-    KIRI_ARRAY(int64_t) mark;      /* of each cell, for cells that are reached in two ways */
-    int64_t lastMark;
+    KIRI_ARRAY(int32_t) mark;      /* of each cell, for cells that are reached in two ways; 0 to lastMark + 1 */
+    int32_t lastMark;
 
     KIRI_ARRAY(kiriNewCell) newCells; /* of a square */
     KIRI_ARRAY(kiriOldFace) oldFaces; /* of a side */

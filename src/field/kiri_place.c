@@ -102,14 +102,14 @@ int64_t kiriPlacerWork_DensityAt(const kiriPlacerWork* work, int32_t cell)
 
 static kiriProgress FloodOld(PlacerJob* job)
 {
-    bool isKnown = job->work->old != &job->work->flooded;
+    bool isKnown = !job->work->hasOld || job->work->old != &job->work->flooded;
     return kiriPlacerJob_GoOnTo(job, isKnown ? KIRI_DONE : kiriPlacerJob_Flood(job, &job->work->flooded, NULL, NULL),
                                 SAMPLE);
 }
 
 static int64_t SampledDistance(const kiriPlacerWork* work, int32_t cell)
 {
-    int64_t old = work->old->distance.data[cell], sampled = work->sampled.data[cell];
+    int64_t old = kiriPlacerWork_OldDistance(work, cell), sampled = work->sampled.data[cell];
     return (old < sampled ? old : sampled) * ClosenessAt(work, cell);
 }
 
@@ -216,7 +216,8 @@ static kiriProgress SampleFarthest(PlacerJob* job)
 static kiriProgress FloodNew(PlacerJob* job)
 {
     return kiriPlacerJob_GoOnTo(
-        job, kiriPlacerJob_Flood(job, &job->work->fresh, job->work->old->distance.data, job->work->sampled.data),
+        job,
+        kiriPlacerJob_Flood(job, &job->work->fresh, kiriPlacerWork_OldDistances(job->work), job->work->sampled.data),
         LOWER);
 }
 
@@ -274,8 +275,9 @@ static bool MakePlacerRoom(kiriPlacer* placer, kiriPlacerWork* work, kiriMemory*
                            int32_t count)
 {
     int32_t cells = grid->cells.count;
-    return kiriField_Resize(&work->flooded, memory, cells) && kiriField_Resize(&work->fresh, memory, cells) &&
-           kiriArray_Resize(memory, &work->sampled, cells) && kiriArray_Resize(memory, &work->holds, cells) &&
+    return (work->old != &work->flooded || kiriField_Resize(&work->flooded, memory, cells)) &&
+           kiriField_Resize(&work->fresh, memory, cells) && kiriArray_Resize(memory, &work->sampled, cells) &&
+           kiriArray_Resize(memory, &work->holds, cells) &&
            kiriArray_Resize(memory, &work->targets, count > 0 ? count : 1) &&
            kiriArray_Reserve(memory, &placer->sites, (int64_t)placer->sites.count + count);
 }
@@ -344,15 +346,16 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
         return false;
     }
     work->stage = PLACER_RESTS;
+    work->hasOld = known != NULL || placer->oldCount > 0;
+    work->old = known != NULL || !work->hasOld ? known : &work->flooded;
     if (!MakePlacerRoom(placer, work, memory, grid, count)) {
         return false;
     }
     ClearPart(placer, allowed);
     PlacerJob job = { placer, work, memory, grid, mesh, NULL };
-    if (!kiriPlacerJob_StartFlood(&job, &work->flooded, 0, known == NULL ? placer->oldCount : 0)) {
+    if (work->old == &work->flooded && !kiriPlacerJob_StartFlood(&job, &work->flooded, 0, placer->oldCount)) {
         return false;
     }
-    work->old = known == NULL ? &work->flooded : known;
     work->cursor = work->round = 0;
     work->left = count;
     work->due = 0;

@@ -148,9 +148,11 @@ static bool AreRowsOfPlacer(const kiriPlacer* placer, const kiriGrid* grid)
 {
     const kiriPlacerWork* work = placer->work;
     int64_t fresh = (int64_t)placer->sites.count - placer->oldCount, cells = grid->cells.count;
-    return work->sampled.count == cells && work->holds.count == cells && work->flooded.distance.count == cells &&
-           work->fresh.distance.count == cells && work->old->distance.count >= cells && placer->oldCount >= 0 &&
-           fresh >= 0 && placer->cells.count > 0 &&
+    return work->sampled.count == cells && work->holds.count == cells && work->hasOld == (work->old != NULL) &&
+           work->hasOld == (placer->oldCount > 0) &&
+           (work->old != &work->flooded || work->flooded.distance.count == cells) &&
+           work->fresh.distance.count == cells && (!work->hasOld || work->old->distance.count >= cells) &&
+           placer->oldCount >= 0 && fresh >= 0 && placer->cells.count > 0 &&
            fresh + work->left <= (work->targets.count > 0 ? work->targets.count : 1) && work->targets.count > 0 &&
            placer->sites.capacity >= placer->sites.count + (int64_t)work->left &&
            work->blocks.count == placer->cells.count / SAMPLED_CELLS + 1 &&
@@ -218,6 +220,7 @@ bool kiriPlacer_Check(const kiriPlacer* placer, const kiriGrid* grid, kiriCheck*
     return isFine && kiriCheck_That(check, work->stage != PLACER_RESTS && AreRowsOfPlacer(placer, grid)) &&
            (!HasFresh(work) || kiriField_Check(&work->fresh, check, placer->sites.count, KIRI_FIELD_FLOODS)) &&
            IsPart(check, placer, grid) &&
-           kiriField_Check(&work->flooded, check, placer->sites.count, KIRI_FIELD_FLOODS) &&
+           (work->old != &work->flooded ||
+            kiriField_Check(&work->flooded, check, placer->sites.count, KIRI_FIELD_FLOODS)) &&
            (work->reach == 0 || kiriField_Check(&work->ends, check, placer->sites.count, KIRI_FIELD_FLOODS));
 }

@@ -22,8 +22,8 @@ kiriProgress kiriPlacerJob_StartRound(PlacerJob* job)
 
 kiriProgress kiriPlacerJob_FloodAllNew(PlacerJob* job)
 {
-    return kiriPlacerJob_GoOnTo(job, kiriPlacerJob_Flood(job, &job->work->fresh, job->work->old->distance.data, NULL),
-                                SUM);
+    return kiriPlacerJob_GoOnTo(
+        job, kiriPlacerJob_Flood(job, &job->work->fresh, kiriPlacerWork_OldDistances(job->work), NULL), SUM);
 }
 
 /* The target of the new site that a cell belongs to; null where it is an old one. */

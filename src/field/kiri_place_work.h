@@ -41,7 +41,8 @@ typedef struct SampleBlock {
 } SampleBlock;
 
 struct kiriPlacerWork {
-    const kiriField* old; /* from the old sites: `flooded`, or the caller's */
+    bool hasOld;          /* there are old sites, */
+    const kiriField* old; /* and distances from them: `flooded`, or the caller's; else null */
     kiriField flooded;
     kiriField ends;                 /* from the slit ends */
     int64_t reach;                  /* of these, on the grid, times CLOSENESS; 0: sites are as close everywhere */
@@ -114,9 +115,20 @@ static inline kiriProgress kiriPlacerJob_VisitFresh(PlacerJob* job, void visit(P
     return kiriPlacerJob_Visit(job, job->work->fresh.settled.data, job->work->fresh.settled.count, visit);
 }
 
+static inline int32_t kiriPlacerWork_OldDistance(const kiriPlacerWork* work, int32_t cell)
+{
+    return work->hasOld ? work->old->distance.data[cell] : KIRI_FAR;
+}
+
+/* Of each cell; null where there are no old sites. */
+static inline const int32_t* kiriPlacerWork_OldDistances(const kiriPlacerWork* work)
+{
+    return work->hasOld ? work->old->distance.data : NULL;
+}
+
 static inline bool kiriPlacerWork_IsNearerThanOld(const kiriPlacerWork* work, int32_t cell)
 {
-    return work->fresh.distance.data[cell] < work->old->distance.data[cell];
+    return work->fresh.distance.data[cell] < kiriPlacerWork_OldDistance(work, cell);
 }
 
 static inline kiriProgress kiriPlacerJob_GoOnTo(PlacerJob* job, kiriProgress progress, PlacerStage next)
