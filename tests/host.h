@@ -15,6 +15,7 @@
 typedef struct Host {
     kiriWorld* world;
     int64_t live;    /* blocks that are out */
+    int64_t bytes;   /* of these */
     int64_t calls;   /* of the allocator */
     int64_t failAt;  /* the call that gets null; negative: none */
     bool failOnce;   /* or all calls from there on */
@@ -46,6 +47,7 @@ static inline void* Host_Alloc(void* user, int64_t bytes)
     HostBlock* block = malloc(sizeof(HostBlock) + (size_t)bytes);
     assert_non_null(block);
     block->bytes = bytes;
+    host->bytes += bytes;
     ++host->live;
     return memset(block + 1, 0xcd ^ host->poison, (size_t)bytes);
 }
@@ -58,6 +60,7 @@ static inline void Host_Free(void* user, void* pointer)
     --((Host*)user)->live;
     if (block != NULL) {
         --block;
+        ((Host*)user)->bytes -= block->bytes;
         memset(block, 0xdd, sizeof(HostBlock) + (size_t)block->bytes);
         release(block);
     }

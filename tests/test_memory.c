@@ -279,12 +279,33 @@ static void TestRefusedInTheTickOfACut(void** state)
     assert_true(compared > 3 && refused > 20);
 }
 
+/* What is stored twice, or for none, shows in sum. Of a sheet whose grid is as fine as its mesh, for then cells take the
+   most; and of one with fewer. */
+static void TestBytesOfVertices(void** state)
+{
+    (void)state;
+    static const struct {
+        int32_t grid;
+        double most;
+    } cases[] = { { 64, 970.0 }, { 16, 500.0 } };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        Host host;
+        Host_Start(&host);
+        kiriSheetDef def;
+        kiriDefaultSheetDef(&def);
+        def.gridResolution = cases[i].grid;
+        int64_t before = host.bytes;
+        Host_AddRectangle(&host, &def, 1.0f, 1.0f, 64, 64);
+        assert_true((double)(host.bytes - before) < cases[i].most * 65.0 * 65.0);
+        Host_Stop(&host);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestPlainTicks),
-        cmocka_unit_test(TestCuttingTicks),
-        cmocka_unit_test(TestRefusedInALaterTick),
+        cmocka_unit_test(TestBytesOfVertices),        cmocka_unit_test(TestPlainTicks),
+        cmocka_unit_test(TestCuttingTicks),           cmocka_unit_test(TestRefusedInALaterTick),
         cmocka_unit_test(TestRefusedInTheTickOfACut),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
