@@ -323,7 +323,7 @@ static void ListShownRooms(kiriSheetData* to, kiriRoom rooms[SHOWN_ROOMS])
                                         KIRI_ROOM(shown, &s->sourceWeights, 3 * vertices),
                                         KIRI_ROOM(shown, &s->sourceTriangles, vertices),
                                         KIRI_ROOM(shown, &s->indices, 3 * triangles),
-                                        KIRI_ROOM(shown, &s->corners, 3 * (triangles + triangles % 2)) };
+                                        KIRI_ROOM(shown, &s->turns, (triangles + 1) / 2) };
     memcpy(rooms, all, sizeof(all));
 }
 
