@@ -19,18 +19,19 @@ static bool IsCrowded(const kiriSheetData* sheet)
 static bool RunStages(kiriSheetData* sheet, bool* isBad)
 {
     kiriUpdate* u = sheet->update;
-    int32_t maxFrames = sheet->settings.maxFrames, stage = u->stage;
+    int32_t maxFrames = sheet->settings.maxFrames, stage = u->stage, step = u->step;
     int64_t spent = u->spent;
     kiriCommitCounts counts = u->counts;
     sheet->settings.maxFrames = 0;
     u->stage = KIRI_STAGE_GRID;
+    u->step = 0;
     u->needsRebuild = false;
     u->isScratch = true;
     bool ok = kiriPipeline_Make(sheet, KIRI_STAGE_SAMPLES);
     *isBad = (!ok && IsCrowded(sheet)) || u->placing.sites.count != sheet->frames.count;
     u->isScratch = false;
     u->stage = stage;
-    u->step = 0;
+    u->step = step;
     u->spent = spent;
     u->counts = counts;
     sheet->settings.maxFrames = maxFrames;

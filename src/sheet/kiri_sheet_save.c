@@ -546,6 +546,7 @@ static void ForgetUpdate(kiriUpdate* u, kiriMemory* memory)
     kiriGrowing_Drop(&u->growing);
     kiriArchive_Forget(&UpdateTable, u, memory);
     u->stage = was.stage > KIRI_STAGE_CUT ? KIRI_STAGE_GRID : was.stage;
+    u->step = was.stage == KIRI_STAGE_CUT ? was.step : 0;
     u->spent = was.stage == KIRI_STAGE_CUT ? was.spent : 0;
     u->needsRebuild = true;
     u->growsSince = was.growsSince;
