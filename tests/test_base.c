@@ -77,6 +77,40 @@ static void ArraysGrowReady(void** state)
     assert_int_equal(purse.out, 0);
 }
 
+/* No array before its items are there, or a whole quota; a refusal keeps what there is. */
+static void RoomsAreMadeReady(void** state)
+{
+    (void)state;
+    enum { BYTES = 40, LIMIT = 100 }; /* ten entries an item: the first takes 30 items, the last all */
+    Purse purse = { -1, 0 };
+    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
+    kiriIndices arrays[3] = { { NULL, 0, 0 }, { NULL, 0, 0 }, { NULL, 0, 0 } };
+    const kiriRoom rooms[3] = { KIRI_ROOM(&memory, &arrays[0], 300), KIRI_ROOM(&memory, &arrays[1], 900),
+                                KIRI_ROOM(&memory, &arrays[2], 5000) };
+    int32_t ticks = 0;
+    for (kiriProgress progress = KIRI_MORE; progress == KIRI_MORE; ++ticks) {
+        kiriQuota quota = { LIMIT, 0 };
+        progress = kiriRooms_MakeReady(rooms, 3, &quota, BYTES);
+        assert_true(progress != KIRI_FAILED && quota.used <= LIMIT);
+        for (int32_t i = 0; i < 3; ++i) {
+            assert_int_equal(arrays[i].capacity >= rooms[i].need, i <= ticks);
+        }
+    }
+    assert_int_equal(ticks, 3);
+    kiriQuota none = { 0, LIMIT }, all = { LIMIT, 0 };
+    assert_int_equal(kiriRooms_MakeReady(rooms, 3, &none, BYTES), KIRI_DONE); /* nothing is missing */
+    const kiriRoom more = KIRI_ROOM(&memory, &arrays[1], arrays[1].capacity + 1);
+    kiriIndices was = arrays[1];
+    purse.budget = 0;
+    assert_int_equal(kiriRooms_MakeReady(&more, 1, &none, BYTES), KIRI_MORE);
+    assert_int_equal(kiriRooms_MakeReady(&more, 1, &all, BYTES), KIRI_FAILED);
+    assert_true(arrays[1].data == was.data && arrays[1].capacity == was.capacity);
+    for (int32_t i = 0; i < 3; ++i) {
+        kiriArray_Release(&memory, &arrays[i]);
+    }
+    assert_int_equal(purse.out, 0);
+}
+
 /* Some items a call, and in the end what was in the arrays is in them. */
 static void ArraysGrowInParts(void** state)
 {
@@ -759,6 +793,7 @@ int main(void)
         cmocka_unit_test(ArraysGrow),
         cmocka_unit_test(ArraysFail),
         cmocka_unit_test(ArraysGrowReady),
+        cmocka_unit_test(RoomsAreMadeReady),
         cmocka_unit_test(ArraysGrowInParts),
         cmocka_unit_test(GrowingIsDropped),
         cmocka_unit_test(MemoryByDefault),

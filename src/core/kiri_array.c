@@ -94,6 +94,23 @@ kiriProgress kiriArray_Fill(const kiriRoom* room, kiriQuota* quota, int64_t byte
     return KIRI_DONE;
 }
 
+kiriProgress kiriRooms_MakeReady(const kiriRoom* rooms, int32_t count, kiriQuota* quota, int64_t bytesAnItem)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        const kiriRoom* room = &rooms[i];
+        if (room->need <= kiriArray_GetHeader(room->array).capacity) {
+            continue;
+        }
+        if (!kiriQuota_TakeAtMostAll(quota, room->need * (int64_t)room->itemBytes / bytesAnItem)) {
+            return KIRI_MORE;
+        }
+        if (!kiriArray_GrowReady(room->memory, room->array, room->need, room->itemBytes)) {
+            return KIRI_FAILED;
+        }
+    }
+    return KIRI_DONE;
+}
+
 /* The new block of an array; false for memory. */
 static bool BeginGrowing(kiriGrowing* growing, const kiriRoom* room, kiriArrayHeader header)
 {

@@ -80,6 +80,10 @@ void kiriGrowing_Drop(kiriGrowing* growing);
    the system gives the pages little by little. */
 kiriProgress kiriArray_Fill(const kiriRoom* room, kiriQuota* quota, int64_t bytesAnItem);
 
+/* The room, of memory that the system has given already; what is new is zeroed. Array by array: each takes its items of the
+   quota before, or all of a whole one. Nothing is lost where somebody makes room in between. */
+kiriProgress kiriRooms_MakeReady(const kiriRoom* rooms, int32_t count, kiriQuota* quota, int64_t bytesAnItem);
+
 #define kiriArray_Reserve(memory, array, need)                                                                         \
     ((int64_t)(need) <= (array)->capacity || kiriArray_Grow((memory), (array), (need), sizeof(*(array)->data)))
 

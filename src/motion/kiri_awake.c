@@ -2,14 +2,6 @@
 
 #include <string.h>
 
-bool kiriAwake_Reserve(kiriAwake* awake, kiriMemory* memory, int32_t frameCount, int32_t elementCount)
-{
-    return kiriArray_Reserve(memory, &awake->isAwake, frameCount) &&
-           kiriArray_Reserve(memory, &awake->pieces, frameCount) &&
-           kiriArray_Reserve(memory, &awake->frames, frameCount) &&
-           kiriArray_Reserve(memory, &awake->elements, elementCount);
-}
-
 void kiriAwake_Start(kiriAwake* awake, int32_t pieceCount)
 {
     KIRI_ASSERT(pieceCount <= awake->isAwake.capacity);

@@ -19,9 +19,6 @@ typedef struct kiriAwake {
     for (int32_t index##At = 0, index = 0; index##At < (list).count && (index = (list).data[index##At], true);         \
          ++index##At)
 
-/* Room for so many; it has no effect on what there is. */
-bool kiriAwake_Reserve(kiriAwake* awake, kiriMemory* memory, int32_t frameCount, int32_t elementCount);
-
 /* Other pieces: all of them are awake, and nothing is listed. There is room. */
 void kiriAwake_Start(kiriAwake* awake, int32_t pieceCount);
 

@@ -67,36 +67,49 @@ kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics
 
 /* ---- Staging ---------------------------------------------------------------------------------------------------- */
 
-/* Only scratch, so that nothing is lost by growing. */
-bool kiriSolver_Reserve(kiriSolver* solver, const kiriSystem* next)
+enum { SOLVER_ROOMS = 24 };
+
+/* Only scratch, so that nothing is lost by growing. Returns how many. */
+static int32_t ListSolverRooms(kiriSolver* s, const kiriSystem* next, kiriRoom rooms[SOLVER_ROOMS])
 {
-    kiriMemory* memory = solver->memory;
-    int32_t frameCount = next->frameCount, elementCount = kiriElement_Count(next);
-    int32_t most = kiriElement_MostMembers(next);
+    kiriMemory* memory = s->memory;
+    int64_t frames = next->frameCount, elements = kiriElement_Count(next), most = kiriElement_MostMembers(next);
     bool hasTraces = kiriElement_CornerCount(next) > 0 && !kiriMechanics_IsAffine(&next->mechanics);
-    int64_t traced = hasTraces ? kiriElement_LinkCount(next) : 0;
-    int64_t unknowns = (int64_t)solver->size * frameCount, rows = (int64_t)KIRI_MOST_STRAINS * most;
-    return kiriArray_ReserveReady(memory, &solver->nextFramePiece, frameCount) &&
-           kiriAwake_Reserve(&solver->awake, memory, frameCount, elementCount) &&
-           kiriArray_ReserveReady(memory, &solver->pieces, frameCount) &&
-           kiriArray_ReserveReady(memory, &solver->momenta, frameCount) &&
-           kiriArray_ReserveReady(memory, &solver->before, frameCount) &&
-           kiriArray_ReserveReady(memory, &solver->after, frameCount) &&
-           kiriArray_ReserveReady(memory, &solver->predictions, frameCount) &&
-           kiriArray_ReserveReady(memory, &solver->start, frameCount) &&
-           kiriArray_ReserveReady(memory, &solver->poses, frameCount) &&
-           kiriArray_ReserveReady(memory, &solver->trial, frameCount) &&
-           kiriArray_ReserveReady(memory, &solver->stiffness, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
-           kiriArray_ReserveReady(memory, &solver->loss, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
-           kiriArray_ReserveReady(memory, &solver->startStrain, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
-           kiriArray_ReserveReady(memory, &solver->nowStrain, (int64_t)KIRI_MOST_STRAINS * elementCount) &&
-           kiriArray_ReserveReady(memory, &solver->tracedRows, traced * KIRI_TRACED * 2 * solver->size) &&
-           kiriArray_ReserveReady(memory, &solver->stopping, elementCount) &&
-           kiriArray_ReserveReady(memory, &solver->force, unknowns) &&
-           kiriArray_ReserveReady(memory, &solver->move, unknowns) &&
-           kiriArray_ReserveReady(memory, &solver->members, most) &&
-           kiriArray_ReserveReady(memory, &solver->rows, rows) &&
-           kiriArray_ReserveReady(memory, &solver->J, rows * solver->size);
+    int64_t traced = hasTraces ? kiriElement_LinkCount(next) : 0, strains = KIRI_MOST_STRAINS * elements;
+    int64_t unknowns = s->size * frames, rows = KIRI_MOST_STRAINS * most;
+    const kiriRoom all[] = { KIRI_ROOM(memory, &s->nextFramePiece, frames),
+                             KIRI_ROOM(memory, &s->awake.isAwake, frames),
+                             KIRI_ROOM(memory, &s->awake.pieces, frames),
+                             KIRI_ROOM(memory, &s->awake.frames, frames),
+                             KIRI_ROOM(memory, &s->awake.elements, elements),
+                             KIRI_ROOM(memory, &s->pieces, frames),
+                             KIRI_ROOM(memory, &s->momenta, frames),
+                             KIRI_ROOM(memory, &s->before, frames),
+                             KIRI_ROOM(memory, &s->after, frames),
+                             KIRI_ROOM(memory, &s->predictions, frames),
+                             KIRI_ROOM(memory, &s->start, frames),
+                             KIRI_ROOM(memory, &s->poses, frames),
+                             KIRI_ROOM(memory, &s->trial, frames),
+                             KIRI_ROOM(memory, &s->stiffness, strains),
+                             KIRI_ROOM(memory, &s->loss, strains),
+                             KIRI_ROOM(memory, &s->startStrain, strains),
+                             KIRI_ROOM(memory, &s->nowStrain, strains),
+                             KIRI_ROOM(memory, &s->tracedRows, traced * KIRI_TRACED * 2 * s->size),
+                             KIRI_ROOM(memory, &s->stopping, elements),
+                             KIRI_ROOM(memory, &s->force, unknowns),
+                             KIRI_ROOM(memory, &s->move, unknowns),
+                             KIRI_ROOM(memory, &s->members, most),
+                             KIRI_ROOM(memory, &s->rows, rows),
+                             KIRI_ROOM(memory, &s->J, rows * s->size) };
+    memcpy(rooms, all, sizeof(all));
+    return (int32_t)(sizeof(all) / sizeof(all[0]));
+}
+
+kiriProgress kiriSolver_Reserve(kiriSolver* solver, const kiriSystem* next, kiriQuota* quota, int64_t bytesAnItem)
+{
+    kiriRoom rooms[SOLVER_ROOMS];
+    int32_t count = ListSolverRooms(solver, next, rooms);
+    return kiriRooms_MakeReady(rooms, count, quota, bytesAnItem);
 }
 
 /* Is the pair one of a corner that a link of it has already? */
@@ -167,7 +180,8 @@ bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t*
     KIRI_ASSERT(next->mechanics.model == solver->mechanics.model);
     solver->isStaged = false;
     solver->nextElementCount = kiriElement_Count(next);
-    if (!kiriSolver_Reserve(solver, next) || !CollectPairs(solver, next, framePiece)) {
+    kiriQuota unlimited = { INT64_MAX, 0 };
+    if (kiriSolver_Reserve(solver, next, &unlimited, 1) != KIRI_DONE || !CollectPairs(solver, next, framePiece)) {
         return false;
     }
     for (int32_t f = 0; f < frameCount; ++f) {

@@ -63,8 +63,8 @@ typedef struct kiriSystem {
 /* A solver for no frames yet. Null for memory. */
 kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics);
 
-/* Room for this system, before it is staged: of a large one the system takes a while to give it. False for memory. */
-bool kiriSolver_Reserve(kiriSolver* solver, const kiriSystem* next);
+/* Room for this system, before it is staged: of a large one the system takes a while to give it. See kiriRooms_MakeReady. */
+kiriProgress kiriSolver_Reserve(kiriSolver* solver, const kiriSystem* next, kiriQuota* quota, int64_t bytesAnItem);
 
 /* Prepares for this system, of which only frameCount, links, corners, area elements and Poisson's ratio are read;
    replaces what was staged before. Steps go on with the current ones. framePiece[f] is the piece of frame f: no element

@@ -62,11 +62,14 @@ bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount)
 }
 
 /* In the ticks that pay for the commit, and not in its own. */
-static bool ReserveFrames(kiriSheetData* sheet)
+static kiriProgress ReserveFrames(kiriSheetData* sheet, kiriQuota* samples)
 {
+    enum { READY_BYTES = 1024 }; /* for an item */
     int32_t count = sheet->update->placing.sites.count;
     kiriSystem next = NextSystem(sheet, count);
-    return kiriArray_ReserveReady(sheet->memory, &sheet->frames, count) && kiriSolver_Reserve(sheet->solver, &next);
+    const kiriRoom frames = KIRI_ROOM(sheet->memory, &sheet->frames, count);
+    kiriProgress progress = kiriRooms_MakeReady(&frames, 1, samples, READY_BYTES);
+    return progress == KIRI_DONE ? kiriSolver_Reserve(sheet->solver, &next, samples, READY_BYTES) : progress;
 }
 
 /* ---- Steps ---- */
@@ -96,8 +99,9 @@ static kiriProgress PlaceNewFrames(kiriSheetData* sheet, kiriQuota* samples)
 {
     kiriUpdate* u = sheet->update;
     int32_t count = u->placing.sites.count - sheet->frames.count;
-    if (!kiriArray_Reserve(sheet->memory, &u->newFrames, count) || !ReserveFrames(sheet)) {
-        return KIRI_FAILED;
+    kiriProgress progress = ReserveFrames(sheet, samples);
+    if (progress != KIRI_DONE || !kiriArray_Reserve(sheet->memory, &u->newFrames, count)) {
+        return progress != KIRI_DONE ? progress : KIRI_FAILED;
     }
     while (kiriQuota_Pay(samples, &u->due)) {
         if (u->newFrames.count == count) {
