@@ -570,11 +570,11 @@ pub const DRAW_ALL: u32 = 2047;
 /// given to a sheet before one tick take effect together, when all that follows from them is done.
 /// Until then the lips of a fresh cut move together. 0: no limit. A step that cannot be parted and
 /// counts more than a whole limit is done in a tick of its own. How long lips wait: a cut from side
-/// to side takes 4 items of cells for each cell of the grid where frames are many, 23 where they
+/// to side takes 6 items of cells for each cell of the grid where frames are many, 30 where they
 /// are few (each has more of the sheet), and 0.2 to 1.2 of samples for each vertex; a cut half as
 /// long a quarter to all of that. So on a sheet and grid of 64 x 64 squares with 9 frames, 2000
-/// cells and 500 samples part a cut from side to side after 55 ticks, one half as long after 19; 10
-/// 000 and 2000 after 11 and 4. tests/bench_delay.c prints the table.
+/// cells and 500 samples part a cut from side to side after 68 ticks, one half as long after 26; 10
+/// 000 and 2000 after 14 and 5. tests/bench_delay.c prints the table.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Budget {
