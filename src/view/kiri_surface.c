@@ -225,10 +225,15 @@ bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemo
     return true;
 }
 
-void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle)
+static void HideIndices(kiriSurface* surface, int32_t triangle)
 {
     int32_t* corners = &surface->indices.data[3 * (size_t)triangle];
     corners[1] = corners[2] = corners[0];
+}
+
+void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle)
+{
+    HideIndices(surface, triangle);
     WriteTurn(surface, triangle / 2);
 }
 
@@ -237,8 +242,13 @@ void kiriSurface_LeaveHoles(kiriSurface* surface, const kiriIndices* triangles, 
 {
     kiriChange change = ChangeTo(surface, mesh);
     for (int32_t k = 0; k < triangles->count; ++k) {
-        kiriSurface_HideTriangle(surface, triangles->data[k]);
-        Extend(&change.triangles, triangles->data[k]);
+        int32_t triangle = triangles->data[k];
+        bool isNextOfPair = k + 1 < triangles->count && triangles->data[k + 1] / 2 == triangle / 2;
+        HideIndices(surface, triangle);
+        if (!isNextOfPair) { /* both of a pair at once */
+            WriteTurn(surface, triangle / 2);
+        }
+        Extend(&change.triangles, triangle);
     }
     RememberChange(surface, &change);
     surface->revision = mesh->revision;
