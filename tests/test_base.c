@@ -174,6 +174,33 @@ static void GrowingIsDropped(void** state)
     kiriMemory_FreeAll(&memory);
 }
 
+/* Zeros, so many bytes for an item, after what is there; without memory nothing. */
+static void ArraysAreFilledInSteps(void** state)
+{
+    (void)state;
+    enum { COUNT = 100, BYTES = 40 };
+    Purse purse = { -1, 0 };
+    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
+    kiriIndices array = { 0 };
+    const kiriRoom room = KIRI_ROOM(&memory, &array, COUNT);
+    kiriQuota three = { 3, 0 }, all = { INT64_MAX, 0 };
+    purse.budget = 0;
+    assert_int_equal(kiriArray_Fill(&room, &all, BYTES), KIRI_FAILED);
+    assert_true(array.count == 0 && all.used == 0);
+    purse.budget = -1;
+    assert_true(kiriArray_Push(&memory, &array, 5));
+    assert_int_equal(kiriArray_Fill(&room, &three, BYTES), KIRI_MORE);
+    assert_true(array.count == 31 && three.used == 3);
+    assert_int_equal(kiriArray_Fill(&room, &all, BYTES), KIRI_DONE);
+    assert_true(array.count == COUNT && all.used == 7 && array.data[0] == 5);
+    for (int32_t i = 1; i < COUNT; ++i) {
+        assert_int_equal(array.data[i], 0);
+    }
+    assert_int_equal(kiriArray_Fill(&room, &all, BYTES), KIRI_DONE);
+    assert_int_equal(all.used, 7);
+    kiriMemory_FreeAll(&memory);
+}
+
 static void MemoryByDefault(void** state)
 {
     (void)state;
@@ -796,6 +823,7 @@ int main(void)
         cmocka_unit_test(RoomsAreMadeReady),
         cmocka_unit_test(ArraysGrowInParts),
         cmocka_unit_test(GrowingIsDropped),
+        cmocka_unit_test(ArraysAreFilledInSteps),
         cmocka_unit_test(MemoryByDefault),
         cmocka_unit_test(PoolsFindWhatIsThere),
         cmocka_unit_test(PoolsNeverRepeat),
