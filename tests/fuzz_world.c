@@ -156,6 +156,20 @@ static double EnergyOf(const kiriWorld* world, double scale, double* size)
     return energy;
 }
 
+/* So far away that doubles hardly tell points of a sheet apart: then strains come of rounding. */
+static bool IsFarAway(const kiriWorld* world, double scale)
+{
+    bool isFar = false;
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriTotals totals;
+        OK(kiriSheet_GetTotals(world, world->sheets.data[i]->id, &totals));
+        for (int k = 0; k < 3; ++k) {
+            isFar = isFar || fabs(totals.center[k]) > 1e9 * scale;
+        }
+    }
+    return isFar;
+}
+
 /* Where nothing but gravity and what calls gave acts on sheets that began without strain, no tick adds to the energy of
    motion and height: so no speed comes from nowhere. */
 static void CheckEnergy(Fuzz* fuzz, const FuzzCall* call, const FuzzAct* act, double before, kiriResult result)
@@ -165,7 +179,8 @@ static void CheckEnergy(Fuzz* fuzz, const FuzzCall* call, const FuzzAct* act, do
     bool isCreated = strcmp(call->name, "CreateSheet") == 0;
     fuzz->energySize = size > fuzz->energySize ? size : fuzz->energySize;
     fuzz->isStirred = fuzz->isStirred || ((call->flags & FUZZ_STIRS) != 0 && result >= 0) || fuzz->mayShrink ||
-                      (isCreated && (def->paper.popping || def->touchesSheets));
+                      (isCreated && (def->paper.popping || def->touchesSheets)) ||
+                      IsFarAway(fuzz->hosts[0].world, fuzz->scale);
     if ((call->flags & FUZZ_TICKS) == 0) {
         fuzz->energy += energy - before;
     } else if (!fuzz->isStirred) {
