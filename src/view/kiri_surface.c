@@ -435,21 +435,21 @@ void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades)
     }
 }
 
-static kiriCorners CornersOf(const kiriSurface* surface)
+static kiriCorners CornersOfSurface(const kiriSurface* surface)
 {
     return (kiriCorners){ surface->indices.data, surface->turns.data, surface->triangleCount };
 }
 
 static void SumSlopes(kiriSurface* surface)
 {
-    kiriCorners corners = CornersOf(surface);
+    kiriCorners corners = CornersOfSurface(surface);
     surface->hasSlopes = true;
     kiriNormals_Sum(surface->slopes.data, surface->vertexCount, kiriSurface_Places(surface), &corners);
 }
 
 bool kiriSurface_SumNormal(kiriSurface* surface, const kiriMeshData* mesh, int32_t vertex)
 {
-    kiriCorners corners = CornersOf(surface);
+    kiriCorners corners = CornersOfSurface(surface);
     return kiriNormals_SumOne(surface->slopes.data, vertex, kiriSurface_Places(surface), &corners, mesh);
 }
 

@@ -171,7 +171,7 @@ bool kiriSurface_HasRoom(const kiriSurface* surface)
            surface->places.capacity >= 3 * vertices + 1;
 }
 
-static bool AreTurns(const kiriSurface* surface)
+static bool ArePairsTurned(const kiriSurface* surface)
 {
     int32_t count = surface->triangleCount / 2 + surface->triangleCount % 2;
     bool areFine = surface->turns.count == count;
@@ -189,9 +189,10 @@ static bool AreRowsOfSurface(const kiriSurface* surface, const kiriMeshData* mes
     int64_t floats = surface->patches.isBent ? KIRI_BENT_FLOATS : KIRI_FLAT_FLOATS;
     return surface->vertexCount == vertices && surface->triangleCount == triangles && kiriSurface_HasRoom(surface) &&
            surface->restPositions.count == 2 * vertices && surface->sourceWeights.count == 3 * vertices &&
-           surface->sourceTriangles.count == vertices && surface->indices.count == 3 * triangles && AreTurns(surface) &&
-           surface->carriers.count >= frames && surface->bends.count >= frames && surface->patches.count >= 0 &&
-           surface->patches.count <= labels && surface->patches.floats.capacity >= KIRI_BENT_FLOATS * labels &&
+           surface->sourceTriangles.count == vertices && surface->indices.count == 3 * triangles &&
+           ArePairsTurned(surface) && surface->carriers.count >= frames && surface->bends.count >= frames &&
+           surface->patches.count >= 0 && surface->patches.count <= labels &&
+           surface->patches.floats.capacity >= KIRI_BENT_FLOATS * labels &&
            surface->patches.floats.capacity >= floats * surface->patches.count &&
            surface->patches.isOther.capacity >= labels;
 }
