@@ -560,11 +560,17 @@ static void CornerIsNoRing(kiriSheetData* sheet)
     corner->link[3] = sheet->links.links.count - 1;
 }
 
+static void SiteIsFarFromItsAnchor(kiriSheetData* sheet)
+{
+    sheet->frames.data[0].site.at.x += 0.5;
+}
+
 static void TestCorners(void** state)
 {
     (void)state;
     static const Spoiler spoilers[] = {
         { "CornerIsNoRing", CornerIsNoRing },
+        { "SiteIsFarFromItsAnchor", SiteIsFarFromItsAnchor },
     };
     Host host;
     StartCut(&host);

@@ -68,7 +68,7 @@ static bool AreRowOfLinks(kiriCheck* check, const kiriLink* links, int32_t count
 }
 
 /* Its links join as many frames as there are links, in a ring: each is of two of them. */
-static bool IsRing(const kiriCorner* corner, const kiriLink* links)
+static bool IsRingOfLinks(const kiriCorner* corner, const kiriLink* links)
 {
     bool isRing = true;
     for (int32_t c = 0; isRing && c < 2 * corner->count; ++c) {
@@ -93,7 +93,7 @@ static bool AreCornersOfLinks(kiriCheck* check, const kiriCorner* corners, int32
         for (int32_t c = 0; areFine && c < corner->count; ++c) {
             areFine = kiriCheck_That(check, corner->link[c] > (c > 0 ? corner->link[c - 1] : KIRI_NONE));
         }
-        areFine = areFine && kiriCheck_That(check, IsRing(corner, links));
+        areFine = areFine && kiriCheck_That(check, IsRingOfLinks(corner, links));
     }
     return areFine;
 }

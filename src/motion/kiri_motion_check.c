@@ -2,6 +2,8 @@
 
 #include "../field/kiri_field_check.h"
 
+#include <math.h>
+
 /* ---- Rules -------------------------------------------------------------------------------------------------------- */
 
 static const kiriMust HistoryMust[] = {
@@ -59,7 +61,16 @@ bool kiriMechanics_Check(const kiriMechanics* mechanics, kiriCheck* check)
     return kiriCheck_Object(check, MechanicsMust, mechanics);
 }
 
-/* The anchor is where there is material. */
+/* But for rounding. */
+static bool IsSiteIn(const kiriFrameData* frame, const kiriMeshData* mesh, int32_t square)
+{
+    double half = 0.5 * mesh->squares.side, most = 1.02 * half * mesh->step;
+    kiriLatticePoint corner = kiriSquares_Corner(&mesh->squares, square);
+    kiriVec2 middle = kiriVec2_Make(mesh->step * (corner.x + half), mesh->step * (corner.y + half));
+    return fabs(frame->site.at.x - middle.x) <= most && fabs(frame->site.at.y - middle.y) <= most;
+}
+
+/* The anchor is where there is material, and the site is in its square. */
 bool kiriFrame_Check(const kiriFrameData* frame, kiriCheck* check, const kiriMeshData* mesh)
 {
     int32_t square =
@@ -67,7 +78,7 @@ bool kiriFrame_Check(const kiriFrameData* frame, kiriCheck* check, const kiriMes
     return kiriCheck_Object(check, FrameMust, frame) &&
            kiriCheck_That(check, square != KIRI_NONE && mesh->squares.head[square] != KIRI_NONE &&
                                      ((frame->anchor.x | frame->anchor.y) & 1) == 0 && frame->mass > 0.0 &&
-                                     frame->area > 0.0 && kiriFrame_FitsFloats(frame));
+                                     frame->area > 0.0 && kiriFrame_FitsFloats(frame) && IsSiteIn(frame, mesh, square));
 }
 
 bool kiriAreaElements_Check(const kiriAreaElements* elements, kiriCheck* check)
