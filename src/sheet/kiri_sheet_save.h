@@ -8,6 +8,8 @@
 
 KIRI_C_BEGIN
 
+extern const kiriTable kiriUpdateTable;
+
 /* What only the work on cuts changes, and whoever takes pieces out; then what changes in any tick, with the cuts. Where
    bytes are read the sheet is new, and what is not its own is made of blocks of `memory`. */
 void kiriSheet_ArchiveStill(kiriArchive* archive, kiriSheetData* sheet);
