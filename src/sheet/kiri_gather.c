@@ -28,7 +28,7 @@ static kiriProgress ReserveMap(kiriKeep* map, kiriMemory* memory, int32_t items,
     return KIRI_DONE;
 }
 
-static kiriProgress ReserveCells(kiriTaking* taking, kiriMemory* memory, int32_t cells, kiriQuota* quota)
+static kiriProgress ReserveCellMaps(kiriTaking* taking, kiriMemory* memory, int32_t cells, kiriQuota* quota)
 {
     int32_t known = taking->cells.count;
     if (!kiriArray_Reserve(memory, &taking->cells, cells)) {
@@ -58,7 +58,7 @@ kiriProgress kiriGather_Reserve(kiriSheetData* sheet, kiriQuota* quota)
     kiriProgress progress = ReserveMap(&taking->vertices, sheet->memory, sheet->mesh.vertices.count, quota);
     progress = progress == KIRI_DONE ? ReserveMap(&taking->triangles, sheet->memory, sheet->mesh.triangles.count, quota)
                                      : progress;
-    return progress == KIRI_DONE ? ReserveCells(taking, sheet->memory, sheet->grid.cells.count, quota) : progress;
+    return progress == KIRI_DONE ? ReserveCellMaps(taking, sheet->memory, sheet->grid.cells.count, quota) : progress;
 }
 
 /* ---- Cells ---- */

@@ -18,7 +18,7 @@ static bool StartSpans(kiriPieceItems* list, kiriMemory* memory, int32_t pieceCo
     return true;
 }
 
-static void CountItems(kiriPieceItems* list, int32_t piece, int32_t count)
+static void CountOfPiece(kiriPieceItems* list, int32_t piece, int32_t count)
 {
     if (piece != KIRI_NONE) {
         list->spans.data[piece].count += count;
@@ -26,7 +26,7 @@ static void CountItems(kiriPieceItems* list, int32_t piece, int32_t count)
 }
 
 /* Items that follow each other are of one piece mostly: so they are counted and listed by runs. */
-static int32_t EndOfRun(const int32_t* pieces, int32_t first, int32_t count)
+static int32_t EndOfEqualPieces(const int32_t* pieces, int32_t first, int32_t count)
 {
     int32_t end = first + 1;
     while (end < count && pieces[end] == pieces[first]) {
@@ -38,8 +38,8 @@ static int32_t EndOfRun(const int32_t* pieces, int32_t first, int32_t count)
 static void CountAll(kiriPieceItems* list, const int32_t* pieces, int32_t count)
 {
     for (int32_t first = 0, end; first < count; first = end) {
-        end = EndOfRun(pieces, first, count);
-        CountItems(list, pieces[first], end - first);
+        end = EndOfEqualPieces(pieces, first, count);
+        CountOfPiece(list, pieces[first], end - first);
     }
 }
 
@@ -80,7 +80,7 @@ static bool FillItems(kiriPieceItems* list, kiriMemory* memory, const int32_t* p
 {
     int32_t* next = StartItems(list, memory, PlaceSpans(list));
     for (int32_t first = 0, end; next != NULL && first < count; first = end) {
-        end = EndOfRun(pieces, first, count);
+        end = EndOfEqualPieces(pieces, first, count);
         if (pieces[first] != KIRI_NONE) {
             next[pieces[first]] += ListRun(list->items.data + next[pieces[first]], first, end);
         }
@@ -175,13 +175,13 @@ static void CountTriangles(kiriSheetData* sheet, int32_t* pieces)
     for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t, corners += 3) {
         int32_t piece = corners[0] != corners[1] ? SpreadPiece(sheet, corners, pieces) : KIRI_NONE;
         if (piece != last) {
-            CountItems(&sheet->lists.triangles, last, run);
+            CountOfPiece(&sheet->lists.triangles, last, run);
             last = piece;
             run = 0;
         }
         run += 1;
     }
-    CountItems(&sheet->lists.triangles, last, run);
+    CountOfPiece(&sheet->lists.triangles, last, run);
     PlaceSpans(&sheet->lists.triangles);
 }
 
