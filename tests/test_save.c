@@ -327,6 +327,27 @@ static void test_calls_are_checked(void** state)
     Host_Stop(&host);
 }
 
+/* Which is said before anything is read: another version may have written the same bytes for other things. */
+static void test_saves_of_other_versions_are_refused(void** state)
+{
+    (void)state;
+    enum { FORMAT = 8, LIBRARY = 12 };
+    Host host;
+    StartSmall(&host);
+    Bytes bytes = Save(host.world);
+    uint64_t hash = HashOf(host.world);
+    const int places[] = { FORMAT, LIBRARY };
+    for (int k = 0; k < 2; ++k) {
+        bytes.data[places[k]] += 1;
+        AssertRefused(&host, bytes.data, bytes.size, hash);
+        assert_non_null(strstr(host.line, "another version"));
+        bytes.data[places[k]] -= 1;
+    }
+    assert_int_equal(kiriWorld_Load(host.world, bytes.data, bytes.size), KIRI_OK);
+    free(bytes.data);
+    Host_Stop(&host);
+}
+
 static void AssertNoDifference(Host* host, Bytes base, Bytes difference, uint64_t hash)
 {
     assert_int_equal(kiriWorld_LoadDifference(host->world, base.data, base.size, difference.data, difference.size),
@@ -427,6 +448,7 @@ int main(void)
         cmocka_unit_test(test_what_is_cut_short_is_refused),
         cmocka_unit_test(test_no_bit_may_change),
         cmocka_unit_test(test_calls_are_checked),
+        cmocka_unit_test(test_saves_of_other_versions_are_refused),
         cmocka_unit_test(test_memory_may_be_refused),
         cmocka_unit_test(test_differences_are_checked),
     };

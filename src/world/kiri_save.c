@@ -353,8 +353,8 @@ static const char* FaultOfHead(const uint8_t* bytes, int64_t size, const char ma
         return magic == saveMagic ? "these bytes are no save of kiriWorld_Save"
                                   : "these bytes are no difference of kiriWorld_SaveDifference";
     }
-    if (head->version != SAVE_VERSION) {
-        return "the bytes are of another version of the format";
+    if (head->version != SAVE_VERSION || head->library != KIRI_VERSION) {
+        return "the bytes are of another version of the library";
     }
     return head->size == size && size >= HEAD_BYTES + SUM_BYTES + 8 ? NULL : "the bytes are not as many as were saved";
 }
