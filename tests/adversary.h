@@ -21,6 +21,7 @@ typedef struct Bed {
     kiriWorld* world;
     kiriSheet* sheets;
     int32_t count;
+    kiriFrame corner;  /* of the piece that is to be detached */
     kiriFrame leaving; /* of a piece that is to become a sheet, and is none yet; or 0 */
 } Bed;
 
