@@ -134,7 +134,8 @@ static inline void Body_Divide(Body* body)
     assert_true(kiriArray_Resize(&s->memory, &body->material, count));
     memset(body->material.data, 0, sizeof(kiriMoments) * (size_t)count);
     for (int32_t c = 0; c < s->grid.cells.count; ++c) {
-        kiriMoments_Add(&body->material.data[body->regions.field.owner.data[c]], &s->grid.cells.data[c].material);
+        kiriMoments material = kiriGrid_Material(&s->grid, &s->mesh, c);
+        kiriMoments_Add(&body->material.data[body->regions.field.owner.data[c]], &material);
     }
 }
 

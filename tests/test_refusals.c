@@ -389,21 +389,22 @@ static void After(Stand* s, Outcome* outcome)
     outcome->liveAtEnd = s->host.live;
 }
 
+static uint64_t LookWithProfile(const Stand* s)
+{
+    return Look_Profile(Look_World(s->host.world), s->host.world);
+}
+
 static Outcome OutcomeOf(const Call* call, int32_t work)
 {
     Stand s;
     Outcome outcome;
     Stand_Start(&s, work);
+    LookWithProfile(&s); /* who holds the indices gets others */
     outcome.result = CallPoorly(&s, call, INT32_MAX, true);
     assert_true(outcome.result != KIRI_ERROR_MEMORY);
     After(&s, &outcome);
     Stand_Stop(&s);
     return outcome;
-}
-
-static uint64_t LookWithProfile(const Stand* s)
-{
-    return Look_Profile(Look_World(s->host.world), s->host.world);
 }
 
 /* Refused again and again, until it goes through, the call leaves the world as it was; then all goes on as if it had
