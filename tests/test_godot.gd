@@ -325,6 +325,8 @@ func test_saves():
 	equal(other.load(base), kiri.OK)
 	equal(other.load_difference(base, difference), kiri.OK)
 	equal(other.get_state_hash(), world.get_state_hash())
+	equal(other.load_untrusted(world.save()), kiri.OK)
+	equal(other.get_state_hash(), world.get_state_hash())
 	check(other.get_sheets()[0] != sheet, "a sheet of another world is another object")
 	equal(world.get_profile().seconds.size(), 9)
 	var budget = {"cells": 5000}

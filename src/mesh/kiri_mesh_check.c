@@ -397,11 +397,31 @@ static bool AreDirty(kiriCheck* check, const kiriMeshData* mesh)
     return kiriCheck_That(check, areFine);
 }
 
+/* The source of a vertex is that of a triangle around it: so a part has its corners. */
+static bool AreSourcesOfTriangles(const kiriMeshData* mesh, kiriCheck* check)
+{
+    uint8_t* has = kiriCheck_Bytes(check, mesh->vertices.count);
+    bool areFine = has != NULL;
+    for (int32_t c = 0; areFine && c < 3 * mesh->triangles.count; ++c) {
+        const kiriTriangle* triangle = &mesh->triangles.data[c / 3];
+        if (kiriMesh_IsTriangle(mesh, c / 3)) {
+            int32_t v = triangle->vertex[c % 3];
+            has[v] |= mesh->vertices.data[v].source == triangle->source;
+        }
+    }
+    for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
+        areFine = has[v] || !kiriMesh_IsVertex(mesh, v);
+    }
+    kiriMemory_Free(&check->memory, has);
+    return kiriCheck_That(check, areFine);
+}
+
 /* In an order in which each trusts what those before have seen. */
 bool kiriMesh_Check(const kiriMeshData* mesh, kiriCheck* check)
 {
     return kiriCheck_That(check, AreSquares(&mesh->squares) && IsClosed(mesh)) &&
            kiriCheck_Object(check, MeshMust, mesh) && kiriCheck_That(check, mesh->step > 0.0) &&
            kiriCheck_That(check, AreSources(mesh) && ArePlaces(mesh) && AreTriangles(mesh) && AreFans(mesh)) &&
-           AreSquareLists(check, mesh) && AreVertexLists(check, mesh) && AreDirty(check, mesh);
+           AreSourcesOfTriangles(mesh, check) && AreSquareLists(check, mesh) && AreVertexLists(check, mesh) &&
+           AreDirty(check, mesh);
 }
