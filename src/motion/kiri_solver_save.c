@@ -72,9 +72,12 @@ static bool AreLists(const kiriSolver* solver)
             AreBelow(&awake->elements, solver->elementCount));
 }
 
+enum { MOST_SOLVED = INT32_MAX / 2 }; /* in a tick */
+
 static bool IsSolver(const kiriSolver* solver)
 {
-    bool isFine = solver->frameCount == kiriMatrix_FrameCount(solver->matrix) && solver->pieceCount >= 0 &&
+    bool isFine = solver->solved >= 0 && solver->solved <= MOST_SOLVED &&
+                  solver->frameCount == kiriMatrix_FrameCount(solver->matrix) && solver->pieceCount >= 0 &&
                   solver->awake.isAwake.count == solver->pieceCount && AreLists(solver);
     for (int32_t f = 0; isFine && f < solver->frameCount; ++f) {
         isFine = solver->framePiece.data[f] >= 0 && solver->framePiece.data[f] < solver->pieceCount;
