@@ -896,6 +896,8 @@ def test_recording():
     assert world.state_hash() == hash and [found.id for found in world.sheets()] == [sheet]
     assert world.sheets()[0].counts().pieces == 2
     assert raises(kiri.KiriError, list, world.replay(recording)).result == kiri.KIRI_ERROR_STATE
+    careful = kiri.World()
+    assert len(list(careful.replay(recording, untrusted=True))) == 6 and careful.state_hash() == hash
     assert raises(kiri.KiriError, world.note, b"").result == kiri.KIRI_ERROR_ARGUMENT
     for broken in (b"", b"something else", recording[:-7], recording[:500]):
         error = raises(kiri.KiriError, list, kiri.World().replay(broken))

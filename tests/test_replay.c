@@ -1,7 +1,9 @@
 /* Replays of recordings that differ, are damaged, end too early, or meet a lack of memory. */
 #include "tape.h"
 
+#include "sheet/kiri_update.h"
 #include "world/kiri_record.h"
+#include "world/kiri_world.h"
 
 /* ---- Small recordings --------------------------------------------------------------------------------------------- */
 
@@ -305,6 +307,122 @@ static void TestRecordedRefusals(void** state)
     }
 }
 
+/* ---- Loads -------------------------------------------------------------------------------------------------------- */
+
+static void Slash(Tape* tape, kiriSheet sheet)
+{
+    static const float way[4] = { 0.3f, -0.1f, 0.5f, 1.5f };
+    Host_Cut(&tape->host, sheet, way, 2);
+    Tape_Tick(tape);
+}
+
+static int32_t StageOf(const Tape* tape)
+{
+    return tape->host.world->sheets.data[0]->update->stage;
+}
+
+typedef struct Bytes {
+    void* data;
+    int64_t size;
+} Bytes;
+
+/* A save, or the difference to one. */
+static Bytes SaveOf(const Tape* tape, const Bytes* base)
+{
+    const kiriWorld* world = tape->host.world;
+    Bytes bytes = { NULL, 0 };
+    for (int pass = 0; pass < 2; ++pass) {
+        OK(base == NULL ? kiriWorld_Save(world, bytes.data, bytes.size, &bytes.size)
+                        : kiriWorld_SaveDifference(world, base->data, base->size, bytes.data, bytes.size, &bytes.size));
+        bytes.data = bytes.data != NULL ? bytes.data : malloc((size_t)bytes.size);
+        assert_non_null(bytes.data);
+    }
+    return bytes;
+}
+
+/* A sheet, a save of it and a load, while a cut is being worked on or not; by a difference or not. */
+static void RecordLoad(Tape* tape, bool isAtWork, bool isDifference)
+{
+    const kiriBudget one = { 0, 1, 0, 0 };
+    Tape_Start(tape);
+    kiriSheet sheet = Tape_AddSheet(tape, 0.0f);
+    if (isAtWork) {
+        OK(kiriWorld_SetBudget(tape->host.world, &one));
+        Slash(tape, sheet);
+        while (StageOf(tape) <= KIRI_STAGE_GRID) {
+            Tape_Tick(tape);
+        }
+    }
+    Bytes base = SaveOf(tape, NULL);
+    OK(kiriWorld_Load(tape->host.world, base.data, base.size));
+    if (isDifference) {
+        Tape_Tick(tape);
+        Bytes difference = SaveOf(tape, &base);
+        OK(kiriWorld_LoadDifference(tape->host.world, base.data, base.size, difference.data, difference.size));
+        free(difference.data);
+    }
+    free(base.data);
+    Slash(tape, sheet);
+    Tape_Stop(tape);
+}
+
+static void TestUntrustedLoad(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    RecordLoad(&tape, false, false);
+    for (int untrusted = 0; untrusted <= 1; ++untrusted) {
+        Tape_Start(&again);
+        again.replay.untrusted = untrusted;
+        OK(Tape_Play(&again, &tape));
+        assert_int_equal(again.replay.untrusted, untrusted);
+        Tape_Stop(&again);
+        Tape_Free(&again);
+    }
+    Tape_Free(&tape);
+}
+
+/* A cut that is being worked on goes on after a load that trusts; else it begins again, which is another state. */
+static void TestUntrustedLoadAtWork(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    RecordLoad(&tape, true, false);
+    Tape_Start(&again);
+    OK(Tape_Play(&again, &tape));
+    int32_t trusted = StageOf(&again);
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    Tape_Start(&again);
+    again.replay.untrusted = 1;
+    assert_int_equal(Tape_Play(&again, &tape), KIRI_ERROR_REPLAY);
+    assert_true(trusted > KIRI_STAGE_GRID && StageOf(&again) != trusted);
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    Tape_Free(&tape);
+}
+
+static void TestUntrustedDifference(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    RecordLoad(&tape, false, true);
+    Tape_Start(&again);
+    OK(Tape_Play(&again, &tape));
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    Tape_Start(&again);
+    again.replay.untrusted = 1;
+    assert_int_equal(Tape_Play(&again, &tape), KIRI_ERROR_DATA);
+    assert_non_null(strstr(kiriWorld_GetLastError(again.host.world), "kiriWorld_LoadDifference"));
+    int64_t offset = again.replay.offset;
+    assert_int_equal(Tape_Play(&again, &tape), KIRI_ERROR_DATA);
+    assert_int_equal(again.replay.offset, offset);
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    Tape_Free(&tape);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -319,6 +437,9 @@ int main(void)
         cmocka_unit_test(TestWorldOfNothing),
         cmocka_unit_test(TestRefusedReplay),
         cmocka_unit_test(TestRecordedRefusals),
+        cmocka_unit_test(TestUntrustedLoad),
+        cmocka_unit_test(TestUntrustedLoadAtWork),
+        cmocka_unit_test(TestUntrustedDifference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -382,6 +382,7 @@ func (w *World) save(call string, base []byte) ([]byte, error) {
 type Replay struct {
 	Offset, Calls, Ticks int64
 	Note                 []byte // where it stopped at a note: its bytes, in the recording
+	Untrusted            bool   // set by the host: as LoadUntrusted, and without differences
 }
 
 // Replay makes the calls of a recording up to the next tick or note. true: more follows, call it again.
@@ -396,6 +397,9 @@ func (w *World) Replay(recording []byte, at *Replay) (bool, error) {
 		pinner.Pin(start)
 	}
 	c := C.kiriReplay{offset: C.int64_t(at.Offset), calls: C.int64_t(at.Calls), ticks: C.int64_t(at.Ticks)}
+	if at.Untrusted {
+		c.untrusted = 1
+	}
 	result := C.kiriWorld_Replay(w.c, start, C.int64_t(len(recording)), &c)
 	w.epoch++
 	at.Offset, at.Calls, at.Ticks, at.Note = int64(c.offset), int64(c.calls), int64(c.ticks), nil

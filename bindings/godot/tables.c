@@ -33,9 +33,10 @@ static const Field REPLAY_FIELDS[] = {
     { "calls", TYPE_INT64, KIND_INT, (int)offsetof(kiriReplay, calls), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "ticks", TYPE_INT64, KIND_INT, (int)offsetof(kiriReplay, ticks), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "note", TYPE_BYTE, KIND_BYTES, (int)offsetof(kiriReplay, note), 1, (int)offsetof(kiriReplay, noteCount), 1, 1, CLASS_NONE, NULL },
+    { "untrusted", TYPE_INT32, KIND_INT, (int)offsetof(kiriReplay, untrusted), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct REPLAY = { "Replay", (int)sizeof(kiriReplay), 4, REPLAY_FIELDS, NULL, NULL };
+static const Struct REPLAY = { "Replay", (int)sizeof(kiriReplay), 5, REPLAY_FIELDS, NULL, NULL };
 
 /* Fields of events, by type. */
 static const uint32_t EVENT_MASKS[] = { 0x1, 0x7, 0x6b, 0xb, 0x3, 0x183, 0x13, 0x4b };

@@ -289,7 +289,7 @@ export interface WorldDefGiven {
 
 export function defaultWorldDef(into?: WorldDef): WorldDef;
 
-/** How far a replay has come: all zero at its start. */
+/** How far a replay has come: all zero at its start, but for `untrusted`. */
 export class Replay {
     /** in the recording: where it goes on */
     offset: number;
@@ -300,6 +300,10 @@ export class Replay {
     /** where it stopped at a note: its bytes, in the recording; else null */
     note: Uint8Array | null;
     noteCount: number;
+    /** set by the host, 1: somebody may have made the recording to do harm. Saves that it loads are loaded by
+     *  World.loadUntrusted, differences not at all (KIRI_ERROR_DATA). Where a cut was being worked on in a save, states
+     *  may then differ from those recorded (KIRI_ERROR_REPLAY) */
+    untrusted: number;
 }
 /** What a host gives as Replay: what is left out is 0. */
 export interface ReplayGiven {
@@ -309,6 +313,10 @@ export interface ReplayGiven {
     calls?: number;
     /** that were not refused */
     ticks?: number;
+    /** set by the host, 1: somebody may have made the recording to do harm. Saves that it loads are loaded by
+     *  World.loadUntrusted, differences not at all (KIRI_ERROR_DATA). Where a cut was being worked on in a save, states
+     *  may then differ from those recorded (KIRI_ERROR_REPLAY) */
+    untrusted?: number;
 }
 
 /** Of the fields after `sheet` an event has those that its type names; the others are 0, `stage` is -1. */
@@ -1273,8 +1281,8 @@ export class World {
      *  tasks. The profile has no times until the next tick. What it had before is gone, but arrays that it handed out
      *  live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that
      *  this library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a
-     *  save finds damage, not malice. A recording has the bytes, up to 2^31 of them: so replay none that somebody may
-     *  have made to do harm. */
+     *  save finds damage, not malice. A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is for
+     *  recordings of others. */
     load(bytes: Uint8Array): ResultCode;
     /** The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange, but
      *  it is one that all calls are good for. What follows from the mesh and the frames is not read but made anew,

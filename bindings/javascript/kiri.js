@@ -42,7 +42,7 @@ export const layouts = {
     kiriBudget: { size: 16, fields: { triangles: 0, cells: 4, samples: 8, iterations: 12 } },
     kiriWorldDef: { size: 72, fields: { cookie: 0, gravity: 4, budget: 16, alloc: 32, free: 36, log: 40, clock: 44,
         startTask: 48, finishTask: 52, workerCount: 56, user: 60, record: 64, recordHashTicks: 68 } },
-    kiriReplay: { size: 32, fields: { offset: 0, calls: 8, ticks: 16, note: 24, noteCount: 28 } },
+    kiriReplay: { size: 40, fields: { offset: 0, calls: 8, ticks: 16, note: 24, noteCount: 28, untrusted: 32 } },
     kiriEvent: { size: 36, fields: { type: 0, sheet: 4, cut: 8, frame: 12, pin: 16, crumb: 20, area: 24, stage: 28,
         waiting: 32 } },
     kiriProfile: { size: 144, fields: { seconds: 0, cutSegments: 72, trianglesSplit: 76, cellsSettled: 80,
@@ -173,6 +173,7 @@ export class Replay {
     ticks = 0;
     note = null;
     noteCount = 0;
+    untrusted = 0;
 }
 
 function readReplay(o, at, world) {
@@ -181,10 +182,11 @@ function readReplay(o, at, world) {
     o.ticks = int64(at + 16);
     o.note = bytesAt(U32[(at + 24) >> 2], I32[(at + 28) >> 2]);
     o.noteCount = I32[(at + 28) >> 2];
+    o.untrusted = I32[(at + 32) >> 2];
     return o;
 }
 
-const fieldsOfReplay = new Set(["offset", "calls", "ticks", "note", "noteCount"]);
+const fieldsOfReplay = new Set(["offset", "calls", "ticks", "note", "noteCount", "untrusted"]);
 
 function writeReplay(o, at, world) {
     known(o, fieldsOfReplay, "Replay");
@@ -196,6 +198,9 @@ function writeReplay(o, at, world) {
     }
     if (o.ticks !== undefined) {
         U64[(at + 16) >> 3] = BigInt(o.ticks);
+    }
+    if (o.untrusted !== undefined) {
+        I32[(at + 32) >> 2] = o.untrusted;
     }
 }
 
@@ -1452,7 +1457,7 @@ export class World extends WorldBase {
         try {
             this._epoch++;
             const $recording = putRows("Uint8Array", recording, 1, "recording");
-            U8.fill(0, scratch, scratch + 32);
+            U8.fill(0, scratch, scratch + 40);
             writeReplay(replay, scratch, this);
             const $result = wasm.kiriWorld_Replay($world, $recording, BigInt(recording.length), scratch);
             if ($result < 0) {

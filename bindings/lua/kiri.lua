@@ -73,7 +73,7 @@ typedef void kiriFinishTaskFn(void* user, void* handle);
 typedef void kiriDrawFn(void* user, const kiriDrawVertex* vertices, int32_t count);
 struct kiriBudget { int32_t triangles; int32_t cells; int32_t samples; int32_t iterations; };
 struct kiriWorldDef { uint32_t cookie; float gravity[3]; kiriBudget budget; kiriAllocFn* alloc; kiriFreeFn* free; kiriLogFn* log; kiriClockFn* clock; kiriStartTaskFn* startTask; kiriFinishTaskFn* finishTask; int32_t workerCount; void* user; kiriRecordFn* record; int32_t recordHashTicks; };
-struct kiriReplay { int64_t offset; int64_t calls; int64_t ticks; const void* note; int32_t noteCount; };
+struct kiriReplay { int64_t offset; int64_t calls; int64_t ticks; const void* note; int32_t noteCount; int32_t untrusted; };
 struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; kiriPin pin; int32_t crumb; float area; int32_t stage; int32_t waiting; };
 struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSplit; int32_t cellsSettled; int32_t samplesRefreshed; int32_t solverIterations; int32_t cellsChanged; int32_t weightsChanged; int32_t verticesChanged; int32_t pointsChanged; int32_t linksChanged; int32_t commits; int32_t systemsSolved; int32_t contacts; int32_t sheetPairs; double largestJump; double largestFade; };
 struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; };
@@ -606,7 +606,7 @@ end
 
 structs.kiriBudget = {fields = {triangles = "number", cells = "number", samples = "number", iterations = "number"}}
 structs.kiriWorldDef = {fields = {cookie = "number", gravity = 3, budget = "kiriBudget", alloc = "callback", free = "callback", log = "callback", clock = "callback", startTask = "callback", finishTask = "callback", workerCount = "number", user = "pointer", record = "callback", recordHashTicks = "number"}, default = "kiriDefaultWorldDef"}
-structs.kiriReplay = {fields = {offset = "number", calls = "number", ticks = "number", note = {item = "void", count = "noteCount", width = 1}, noteCount = "number"}}
+structs.kiriReplay = {fields = {offset = "number", calls = "number", ticks = "number", note = {item = "void", count = "noteCount", width = 1}, noteCount = "number", untrusted = "number"}}
 structs.kiriEvent = {fields = {type = "number", sheet = "id", cut = "id", frame = "id", pin = "id", crumb = "number", area = "number", stage = "number", waiting = "number"}}
 structs.kiriProfile = {fields = {seconds = 9, cutSegments = "number", trianglesSplit = "number", cellsSettled = "number", samplesRefreshed = "number", solverIterations = "number", cellsChanged = "number", weightsChanged = "number", verticesChanged = "number", pointsChanged = "number", linksChanged = "number", commits = "number", systemsSolved = "number", contacts = "number", sheetPairs = "number", largestJump = "number", largestFade = "number"}}
 structs.kiriMaterial = {fields = {youngsModulus = "number", poissonsRatio = "number", thickness = "number", density = "number", airDamping = "number", flexDamping = "number"}}
@@ -790,8 +790,8 @@ end
 --- tasks. The profile has no times until the next tick. What it had before is gone, but arrays that it handed out
 --- live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this
 --- library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds
---- damage, not malice. A recording has the bytes, up to 2^31 of them: so replay none that somebody may have made to
---- do harm.
+--- damage, not malice. A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is for recordings of
+--- others.
 function World:load(bytes, size)
     local world = self
     size = size or #bytes

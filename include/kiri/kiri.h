@@ -203,13 +203,16 @@ enum kiriNoteLimit { KIRI_MOST_NOTE_BYTES = 1 << 20 };
    saw, what a player pressed. The world does not change; without a recording nothing happens. */
 KIRI_API kiriResult kiriWorld_Note(kiriWorld* world, const void* bytes, int32_t count);
 
-/* How far a replay has come: all zero at its start. */
+/* How far a replay has come: all zero at its start, but for `untrusted`. */
 typedef struct kiriReplay {
     int64_t offset;   /* in the recording: where it goes on */
     int64_t calls;    /* made so far */
     int64_t ticks;    /* that were not refused */
     const void* note; /* where it stopped at a note: its bytes, in the recording; else null */
     int32_t noteCount;
+    int32_t untrusted; /* set by the host, 1: somebody may have made the recording to do harm. Saves that it loads are
+                          loaded by kiriWorld_LoadUntrusted, differences not at all (KIRI_ERROR_DATA). Where a cut was being
+                          worked on in a save, states may then differ from those recorded (KIRI_ERROR_REPLAY) */
 } kiriReplay;
 
 /* Makes the calls of a recording up to the next tick or note, and that one. The world is to be new, as
@@ -238,8 +241,8 @@ KIRI_API kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t 
 /* The world becomes what was saved, from a world with whatever hooks; its own stay: allocation, log, clock and tasks. The
    profile has no times until the next tick. What it had before is gone, but arrays that it handed out live until the
    next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this library does not
-   read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds damage, not malice. A
-   recording has the bytes, up to 2^31 of them: so replay none that somebody may have made to do harm. */
+   read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds damage, not malice.
+   A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is for recordings of others. */
 KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
 
 /* The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange, but it is one

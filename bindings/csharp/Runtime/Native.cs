@@ -585,7 +585,7 @@ namespace Kiri
         }
     }
 
-    /// <summary>How far a replay has come: all zero at its start.</summary>
+    /// <summary>How far a replay has come: all zero at its start, but for `untrusted`.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct NativeReplay
     {
@@ -598,6 +598,10 @@ namespace Kiri
         /// <summary>where it stopped at a note: its bytes, in the recording; else null</summary>
         public void* Note;
         public int NoteCount;
+        /// <summary>set by the host, 1: somebody may have made the recording to do harm. Saves that it loads are loaded by
+        /// kiriWorld_LoadUntrusted, differences not at all (KIRI_ERROR_DATA). Where a cut was being worked on in a
+        /// save, states may then differ from those recorded (KIRI_ERROR_REPLAY)</summary>
+        public int Untrusted;
     }
 
     /// <summary>Of the fields after `sheet` an event has those that its type names; the others are 0, `stage` is -1.</summary>

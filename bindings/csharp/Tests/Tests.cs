@@ -219,7 +219,7 @@ namespace Kiri.Tests
             int notes = 0;
             using (var world = new World())
             {
-                var replay = new Replay(recording.ToArray());
+                var replay = new Replay(recording.ToArray(), true);
                 while (replay.Step(world) == Status.Pending)
                 {
                     if (replay.Note != null) notes += replay.Note.Length;

@@ -66,11 +66,11 @@ class World(_core.World, _methods.World):
         note = bytes(memoryview(note))
         self.call("kiriWorld_Note", note, len(note))
 
-    def replay(self, recording):
+    def replay(self, recording, untrusted=False):
         """Makes the calls of a recording. Yields after each tick None, and each note as bytes. A call that goes otherwise
-        than recorded, and a damaged recording, raise KiriError."""
+        than recorded, and a damaged recording, raise KiriError. Untrusted: of others, see load."""
         recording = bytes(memoryview(recording))
-        at = ffi.new("kiriReplay*")
+        at = ffi.new("kiriReplay*", {"untrusted": int(untrusted)})
         while self.call("kiriWorld_Replay", ffi.from_buffer(recording), len(recording), at) == KIRI_PENDING:
             yield ffi.buffer(at.note, at.noteCount)[:] if at.note != ffi.NULL else None
 

@@ -294,7 +294,7 @@ pub struct kiriWorldDef {
     pub recordHashTicks: i32,
 }
 
-/// How far a replay has come: all zero at its start.
+/// How far a replay has come: all zero at its start, but for \`untrusted\`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriReplay {
@@ -307,6 +307,10 @@ pub struct kiriReplay {
     /// where it stopped at a note: its bytes, in the recording; else null
     pub note: *const c_void,
     pub noteCount: i32,
+    /// set by the host, 1: somebody may have made the recording to do harm. Saves that it loads are
+    /// loaded by kiriWorld_LoadUntrusted, differences not at all (KIRI_ERROR_DATA). Where a cut was
+    /// being worked on in a save, states may then differ from those recorded (KIRI_ERROR_REPLAY)
+    pub untrusted: i32,
 }
 
 /// Of the fields after \`sheet\` an event has those that its type names; the others are 0,
@@ -1080,8 +1084,8 @@ unsafe extern "C" {
     /// before is gone, but arrays that it handed out live until the next tick. KIRI_ERROR_DATA: the
     /// bytes are no save, or cut short, changed, or of a version that this library does not read.
     /// KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds
-    /// damage, not malice. A recording has the bytes, up to 2^31 of them: so replay none that
-    /// somebody may have made to do harm.
+    /// damage, not malice. A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is
+    /// for recordings of others.
     pub fn kiriWorld_Load(world: *mut kiriWorld, bytes: *const c_void, size: i64) -> kiriResult;
     /// The same for bytes of others, who may have made them to do harm: what the world becomes may
     /// then be strange, but it is one that all calls are good for. What follows from the mesh and
@@ -1470,6 +1474,7 @@ const _: () = {
     assert!(offset_of!(kiriReplay, ticks) == 16);
     assert!(offset_of!(kiriReplay, note) == 24);
     assert!(offset_of!(kiriReplay, noteCount) == 32);
+    assert!(offset_of!(kiriReplay, untrusted) == 36);
     assert!(size_of::<kiriEvent>() == 36);
     assert!(align_of::<kiriEvent>() == 4);
     assert!(offset_of!(kiriEvent, type_) == 0);
@@ -1782,13 +1787,14 @@ const _: () = {
     assert!(offset_of!(kiriWorldDef, user) == 60);
     assert!(offset_of!(kiriWorldDef, record) == 64);
     assert!(offset_of!(kiriWorldDef, recordHashTicks) == 68);
-    assert!(size_of::<kiriReplay>() == 32);
+    assert!(size_of::<kiriReplay>() == 40);
     assert!(align_of::<kiriReplay>() == 8);
     assert!(offset_of!(kiriReplay, offset) == 0);
     assert!(offset_of!(kiriReplay, calls) == 8);
     assert!(offset_of!(kiriReplay, ticks) == 16);
     assert!(offset_of!(kiriReplay, note) == 24);
     assert!(offset_of!(kiriReplay, noteCount) == 28);
+    assert!(offset_of!(kiriReplay, untrusted) == 32);
     assert!(size_of::<kiriEvent>() == 36);
     assert!(align_of::<kiriEvent>() == 4);
     assert!(offset_of!(kiriEvent, type_) == 0);
