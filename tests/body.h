@@ -115,7 +115,7 @@ static inline void Body_Divide(Body* body)
 {
     Scene* s = &body->scene;
     int32_t count = body->sites.count;
-    kiriQuota quota = { INT64_MAX, 0 };
+    kiriQuota quota = { INT64_MAX, 0, 0, false };
     kiriSiteMove moves[BODY_FRAMES];
     for (int32_t i = 0; i < count; ++i) {
         moves[i] = (kiriSiteMove){ i, KIRI_NONE };

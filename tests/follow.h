@@ -129,7 +129,7 @@ static inline void Follow_AddSite(Follow* f, uint32_t* seed)
 
 static inline kiriQuota Follow_Quota(const Follow* f)
 {
-    kiriQuota quota = { f->slice > 0 ? f->slice : INT64_MAX, 0 };
+    kiriQuota quota = { f->slice > 0 ? f->slice : INT64_MAX, 0, 0, false };
     return quota;
 }
 
@@ -142,13 +142,13 @@ static inline void Follow_Spend(Follow* f, const kiriQuota* quota)
 
 static inline void Follow_Grid(Follow* f)
 {
-    kiriQuota quota = { INT64_MAX, 0 };
+    kiriQuota quota = { INT64_MAX, 0, 0, false };
     assert_int_equal(kiriGrid_Update(&f->grid, f->mesh, &quota), KIRI_DONE);
 }
 
 static inline void Follow_Regions(Follow* f, int32_t seen)
 {
-    kiriQuota quota = { INT64_MAX, 0 };
+    kiriQuota quota = { INT64_MAX, 0, 0, false };
     assert_int_equal(kiriRegions_Update(&f->regions, f->memory, &f->grid, f->mesh, f->sites.data, f->sites.count,
                                         f->moves.data + seen, f->moves.count - seen, &quota),
                      KIRI_DONE);
@@ -185,7 +185,7 @@ static inline kiriProgress Follow_Shape(Follow* f)
 
 static inline bool Follow_Links(Follow* f)
 {
-    kiriQuota quota = { INT64_MAX, 0 };
+    kiriQuota quota = { INT64_MAX, 0, 0, false };
     return kiriLinks_Update(&f->links, f->memory, &f->grid, f->mesh, &f->regions, f->sites.data, f->sites.count,
                             &quota) == KIRI_DONE;
 }
@@ -215,7 +215,7 @@ static inline kiriProgress Follow_Samples(Follow* f)
 
 static inline void Follow_Commit(Follow* f)
 {
-    kiriQuota unlimited = { INT64_MAX, 0 };
+    kiriQuota unlimited = { INT64_MAX, 0, 0, false };
     kiriSkin_Commit(&f->vertexSkin);
     kiriSkin_Commit(&f->pointSkin);
     assert_int_equal(kiriSkin_Settle(&f->vertexSkin, &unlimited), KIRI_DONE);
@@ -368,7 +368,7 @@ static inline void Wander_Move(Wander* w, Follow* f, double length, uint32_t* se
     if (!kiriCut_Clip(f->mesh, &from, &to)) {
         w->left = 0;
     } else {
-        kiriQuota quota = { INT64_MAX, 0 };
+        kiriQuota quota = { INT64_MAX, 0, 0, false };
         assert_int_equal(kiriCut_Move(f->mesh, &w->blade, kiriMesh_Snap(f->mesh, to), 16.0, &quota), KIRI_DONE);
     }
 }

@@ -200,7 +200,7 @@ static bool IsOneSystem(const kiriWorld* world, int32_t items)
     return any;
 }
 
-/* No tick counts more items than its limit. Steps of the work on cuts are all smaller than the least limit, or are paid
+/* No tick counts more items than its limit, and work on cuts shares it. Steps of the work on cuts are all smaller than the least limit, or are paid
    in parts. */
 static void CheckBudget(const kiriWorld* world, kiriResult result)
 {
@@ -210,11 +210,14 @@ static void CheckBudget(const kiriWorld* world, kiriResult result)
                                world->budget.iterations };
     const int32_t items[] = { profile.trianglesSplit, profile.cellsSettled, profile.samplesRefreshed,
                               profile.solverIterations };
+    double share = 0.0;
     for (int i = 0; i < 4; ++i) {
+        share += i < 3 && limits[i] > 0 ? (double)items[i] / limits[i] : 0.0;
         bool isKept = result < 0 || limits[i] == 0 || items[i] <= limits[i];
         FUZZ_CHECK(isKept || (i == 3 && IsOneSystem(world, items[i])), "a tick counts %d of %d items of kind %d",
                    (int)items[i], (int)limits[i], i);
     }
+    FUZZ_CHECK(result < 0 || share <= 1.0 + 1e-9, "work on cuts takes %.17g of a tick", share);
 }
 
 static bool IsAtWork(const kiriWorld* world)

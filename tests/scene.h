@@ -138,7 +138,7 @@ static inline void Scene_CutAtRandom(Scene* scene, int32_t count, int32_t steps,
 /* The grid follows the mesh, from the one before. */
 static inline void Scene_UpdateGrid(Scene* scene)
 {
-    kiriQuota quota = { INT64_MAX, 0 };
+    kiriQuota quota = { INT64_MAX, 0, 0, false };
     kiriMesh_Commit(&scene->mesh);
     assert_int_equal(kiriGrid_Update(&scene->grid, &scene->mesh, &quota), KIRI_DONE);
     kiriSquares_ClearDirty(&scene->mesh.squares);

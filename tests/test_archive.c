@@ -396,7 +396,7 @@ static void MoveGrower(kiriArchive* archive, Grower* grower)
 
 static kiriProgress Grow(Grower* grower, int64_t items)
 {
-    kiriQuota quota = { items, 0 };
+    kiriQuota quota = { items, 0, 0, false };
     return kiriGrowing_GoOn(&grower->growing, grower->rooms, 2, &quota, BYTES_AN_ITEM);
 }
 

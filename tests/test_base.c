@@ -89,7 +89,7 @@ static void RoomsAreMadeReady(void** state)
                                 KIRI_ROOM(&memory, &arrays[2], 5000) };
     int32_t ticks = 0;
     for (kiriProgress progress = KIRI_MORE; progress == KIRI_MORE; ++ticks) {
-        kiriQuota quota = { LIMIT, 0 };
+        kiriQuota quota = { LIMIT, 0, 0, false };
         progress = kiriRooms_MakeReady(rooms, 3, &quota, BYTES);
         assert_true(progress != KIRI_FAILED && quota.used <= LIMIT);
         for (int32_t i = 0; i < 3; ++i) {
@@ -97,7 +97,7 @@ static void RoomsAreMadeReady(void** state)
         }
     }
     assert_int_equal(ticks, 3);
-    kiriQuota none = { 0, LIMIT }, all = { LIMIT, 0 };
+    kiriQuota none = { 0, LIMIT, 0, false }, all = { LIMIT, 0, 0, false };
     assert_int_equal(kiriRooms_MakeReady(rooms, 3, &none, BYTES), KIRI_DONE); /* nothing is missing */
     const kiriRoom more = KIRI_ROOM(&memory, &arrays[1], arrays[1].capacity + 1);
     kiriIndices was = arrays[1];
@@ -129,7 +129,7 @@ static void ArraysGrowInParts(void** state)
     kiriGrowing growing = { 0 };
     int64_t used = 0;
     for (kiriProgress progress = KIRI_MORE; progress == KIRI_MORE;) {
-        kiriQuota quota = { 30, 0 };
+        kiriQuota quota = { 30, 0, 0, false };
         progress = kiriGrowing_GoOn(&growing, rooms, 3, &quota, BYTES);
         assert_int_not_equal(progress, KIRI_FAILED);
         assert_true(quota.used > 0 && quota.used <= (second.capacity < 3 * COUNT ? 30 : COUNT / 20));
@@ -155,7 +155,7 @@ static void GrowingIsDropped(void** state)
     kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
     kiriIndices array = { 0 };
     kiriGrowing growing = { 0 };
-    kiriQuota one = { 1, 0 }, all = { INT64_MAX, 0 };
+    kiriQuota one = { 1, 0, 0, false }, all = { INT64_MAX, 0, 0, false };
     for (int32_t i = 0; i < COUNT; ++i) {
         assert_true(kiriArray_Push(&memory, &array, i));
     }
@@ -183,7 +183,7 @@ static void ArraysAreFilledInSteps(void** state)
     kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
     kiriIndices array = { 0 };
     const kiriRoom room = KIRI_ROOM(&memory, &array, COUNT);
-    kiriQuota three = { 3, 0 }, all = { INT64_MAX, 0 };
+    kiriQuota three = { 3, 0, 0, false }, all = { INT64_MAX, 0, 0, false };
     purse.budget = 0;
     assert_int_equal(kiriArray_Fill(&room, &all, BYTES), KIRI_FAILED);
     assert_true(array.count == 0 && all.used == 0);

@@ -41,7 +41,7 @@ static void Cloth_Release(Cloth* cloth)
 static void CutAtRandom(Cloth* cloth, uint32_t* seed)
 {
     kiriMeshData* mesh = &cloth->scene.mesh;
-    kiriQuota quota = { INT64_MAX, 0 };
+    kiriQuota quota = { INT64_MAX, 0, 0, false };
     kiriMesh_Begin(mesh);
     kiriBladeTip tip = kiriCut_Place(mesh, RandomVec2(seed, -0.2, 1.2));
     for (int k = 0; k < 4; ++k) {

@@ -14,7 +14,7 @@ static void InitSheet(kiriMeshData* mesh)
 /* All the way. */
 static kiriProgress Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePoint to, double snap)
 {
-    kiriQuota all = { INT64_MAX, 0 };
+    kiriQuota all = { INT64_MAX, 0, 0, false };
     return kiriCut_Move(mesh, blade, to, snap, &all);
 }
 
@@ -854,7 +854,7 @@ static int64_t CutInParts(kiriMeshData* mesh, const Polyline* line, double snap,
         kiriProgress progress = KIRI_MORE;
         while (progress == KIRI_MORE) {
             int64_t given = KIRI_MOST_SPLITS + (most > 0 ? Random(seed) % most : 0);
-            kiriQuota quota = { given, 0 };
+            kiriQuota quota = { given, 0, 0, false };
             Copy before = count ? Copy_Make(mesh) : (Copy){ NULL, NULL, 0, 0, 0 };
             progress = kiriCut_Move(mesh, &blade, line->points[i], snap, &quota);
             assert_true(progress != KIRI_FAILED && quota.left >= 0 && quota.left + quota.used == given);
@@ -911,7 +911,7 @@ static void SmallQuotasWait(void** state)
     kiriBladeTip blade = kiriCut_Place(&mesh, kiriVec2_Make(0.3, 0.2));
     kiriLatticePoint to = kiriMesh_Snap(&mesh, kiriVec2_Make(3.7, 2.9));
     Copy copy = Copy_Make(&mesh);
-    kiriQuota quota = { KIRI_MOST_SPLITS - 1, 0 };
+    kiriQuota quota = { KIRI_MOST_SPLITS - 1, 0, 0, false };
     for (int i = 0; i < 3; ++i) {
         assert_int_equal(kiriCut_Move(&mesh, &blade, to, 1.0, &quota), KIRI_MORE);
     }
@@ -929,7 +929,7 @@ static int64_t ItemsOfCut(int32_t squares, int32_t resolution)
     InitRectangle(&mesh, squares, squares, 1.0f, 1.0f, resolution);
     kiriMesh_Begin(&mesh);
     kiriBladeTip blade = kiriCut_Place(&mesh, kiriVec2_Make(0.401, 0.413));
-    kiriQuota all = { INT64_MAX, 0 };
+    kiriQuota all = { INT64_MAX, 0, 0, false };
     assert_int_equal(kiriCut_Move(&mesh, &blade, kiriMesh_Snap(&mesh, kiriVec2_Make(0.443, 0.437)), 1.0, &all),
                      KIRI_DONE);
     kiriMemory_FreeAll(mesh.memory);

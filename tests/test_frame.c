@@ -222,7 +222,7 @@ static void PlainPlace(Plain* p, const uint8_t* allowed, int32_t count)
 
 static kiriQuota Endless(void)
 {
-    kiriQuota quota = { INT64_MAX, 0 };
+    kiriQuota quota = { INT64_MAX, 0, 0, false };
     return quota;
 }
 
@@ -395,7 +395,7 @@ static void CheckCount(Scene* scene, kiriPlacer* placer, const kiriField* known,
     placer->known = known;
     assert_true(kiriPlacer_Start(placer, &scene->memory, &scene->grid, &scene->mesh, allowed, count));
     for (kiriProgress progress = KIRI_MORE; progress != KIRI_DONE;) {
-        kiriQuota quota = { slice, 0 };
+        kiriQuota quota = { slice, 0, 0, false };
         progress = kiriPlacer_Run(placer, &scene->memory, &scene->grid, &scene->mesh, &quota);
         used += quota.used;
         assert_true(progress == KIRI_DONE || (progress == KIRI_MORE && quota.used > 0));
@@ -575,7 +575,7 @@ static void RunInParts(kiriPlacer* placer, const Scene* scene, const kiriGrid* g
 {
     for (kiriProgress progress = KIRI_MORE; progress != KIRI_DONE;) {
         int64_t left = most == 0 ? INT64_MAX : (int64_t)(Random(seed) % (uint32_t)most);
-        kiriQuota quota = { left, 0 };
+        kiriQuota quota = { left, 0, 0, false };
         progress = kiriPlacer_Run(placer, (kiriMemory*)&scene->memory, grid, &scene->mesh, &quota);
         assert_int_not_equal(progress, KIRI_FAILED);
         assert_true(quota.left >= 0 && (progress == KIRI_DONE || quota.left == 0));
@@ -611,7 +611,7 @@ static void CheckPlacing(Scene* scene, kiriPlacer* placer, kiriRegions* regions,
         assert_true(kiriPlacer_Start(placer, memory, &scene->grid, &scene->mesh, allowed, count));
         assert_null(placer->known);
         if (run == 1) { /* given up here or there */
-            kiriQuota quota = { (int64_t)(Random(seed) % (uint32_t)(8 * p->count)), 0 };
+            kiriQuota quota = { (int64_t)(Random(seed) % (uint32_t)(8 * p->count)), 0, 0, false };
             kiriPlacer_Run(placer, memory, &scene->grid, &scene->mesh, &quota);
             continue;
         }

@@ -60,7 +60,7 @@ static void CutLine(Sheet* sheet, double x0, double y0, double x1, double y1)
     kiriMesh_Begin(&sheet->mesh);
     kiriBladeTip blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(x0, y0));
     kiriLatticePoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x1, y1));
-    kiriQuota all = { INT64_MAX, 0 };
+    kiriQuota all = { INT64_MAX, 0, 0, false };
     assert_int_equal(kiriCut_Move(&sheet->mesh, &blade, to, 16.0, &all), KIRI_DONE);
     kiriMesh_Commit(&sheet->mesh);
 }
@@ -75,7 +75,7 @@ static void CutRandomly(Sheet* sheet, uint32_t* seed, int32_t cuts)
 
 static void UpdateGrid(Sheet* sheet)
 {
-    kiriQuota quota = { INT64_MAX, 0 };
+    kiriQuota quota = { INT64_MAX, 0, 0, false };
     assert_int_equal(kiriGrid_Update(&sheet->grid, &sheet->mesh, &quota), KIRI_DONE);
     kiriSquares_ClearDirty(&sheet->mesh.squares);
 }
@@ -90,7 +90,7 @@ static void Build(Sheet* sheet)
 
 static void FloodBy(Sheet* sheet, kiriField* field, const kiriRule* rule, const kiriSeed* seeds, int32_t count)
 {
-    kiriQuota quota = { INT64_MAX, 0 };
+    kiriQuota quota = { INT64_MAX, 0, 0, false };
     assert_true(kiriField_Start(field, &sheet->memory, seeds, count));
     assert_int_equal(kiriField_Flood(field, rule, &quota), KIRI_DONE);
 }
@@ -507,7 +507,7 @@ static void TestRepairsFollowCuts(void** state)
                     kiriField_MarkDirty(&sheet.field, cell);
                 }
             }
-            kiriQuota quota = { INT64_MAX, 0 };
+            kiriQuota quota = { INT64_MAX, 0, 0, false };
             assert_int_equal(kiriField_Repair(&sheet.field, &sheet.memory, &rule, &quota), KIRI_DONE);
             kiriGrid_ClearChanges(&sheet.grid);
             CheckRepaired(&sheet, &rule);

@@ -110,7 +110,7 @@ static void CutWithin(Sheet* sheet, const double* points, int32_t count)
     kiriBladeTip blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(points[0], points[1]));
     for (int32_t i = 1; i < count; ++i) {
         kiriLatticePoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(points[2 * i], points[2 * i + 1]));
-        kiriQuota all = { INT64_MAX, 0 };
+        kiriQuota all = { INT64_MAX, 0, 0, false };
         assert_int_equal(kiriCut_Move(&sheet->mesh, &blade, to, 16.0, &all), KIRI_DONE);
     }
 }
@@ -144,7 +144,7 @@ static void CutRandomly(Sheet* sheet, uint32_t* seed, int32_t cuts)
 
 static void Update(kiriGrid* grid, const kiriMeshData* mesh)
 {
-    kiriQuota quota = { INT64_MAX, 0 };
+    kiriQuota quota = { INT64_MAX, 0, 0, false };
     assert_int_equal(kiriGrid_Update(grid, mesh, &quota), KIRI_DONE);
 }
 
@@ -1183,7 +1183,7 @@ static int64_t UpdateInParts(Sheet* sheet, uint32_t* seed, int32_t most)
     int64_t items = 0;
     for (kiriProgress progress = KIRI_MORE; progress != KIRI_DONE;) {
         int64_t left = most == 0 ? INT64_MAX : (int64_t)(Random(seed) % (uint32_t)most);
-        kiriQuota quota = { left, 0 };
+        kiriQuota quota = { left, 0, 0, false };
         progress = kiriGrid_Update(&sheet->grid, &sheet->mesh, &quota);
         assert_int_not_equal(progress, KIRI_FAILED);
         assert_true(quota.used >= 0 && quota.left >= 0 && quota.used + quota.left == left);
@@ -1399,7 +1399,7 @@ static int64_t ItemsOfPatch(int32_t patch, int64_t limit)
     kiriProgress progress = KIRI_MORE;
     int64_t items = 0;
     for (int32_t calls = 0; progress == KIRI_MORE; ++calls) {
-        kiriQuota quota = { limit, 0 };
+        kiriQuota quota = { limit, 0, 0, false };
         progress = kiriGrid_Update(&sheet.grid, &sheet.mesh, &quota);
         assert_true(quota.used <= limit);
         items += quota.used;
@@ -1564,7 +1564,7 @@ static void TestFailingUpdate(void** state)
         CutRandomly(&sheet, &seed, 8);
         sheet.blocks.calls = 0;
         sheet.blocks.failAt = failures + 1;
-        kiriQuota quota = { INT64_MAX, 0 };
+        kiriQuota quota = { INT64_MAX, 0, 0, false };
         done = kiriGrid_Update(&sheet.grid, &sheet.mesh, &quota) == KIRI_DONE;
         assert_int_equal(done, sheet.blocks.calls < sheet.blocks.failAt);
         sheet.blocks.failAt = 0;
@@ -1587,7 +1587,7 @@ static void TestFailingMemory(void** state)
     int32_t failures = 0;
     for (bool built = false; !built; ++failures) {
         kiriGrid grid = { 0 };
-        kiriQuota quota = { INT64_MAX, 0 };
+        kiriQuota quota = { INT64_MAX, 0, 0, false };
         sheet.blocks.calls = 0;
         sheet.blocks.failAt = failures + 1;
         built = kiriGrid_Update(&grid, &sheet.mesh, &quota) == KIRI_DONE;

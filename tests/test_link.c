@@ -9,7 +9,7 @@ typedef struct Links {
 static void Build(Scene* scene, Links* l, const kiriSite* sites, int32_t count)
 {
     kiriSiteMove* moves = malloc(sizeof(kiriSiteMove) * (size_t)(count + 1));
-    kiriQuota quota = { INT64_MAX, 0 };
+    kiriQuota quota = { INT64_MAX, 0, 0, false };
     for (int32_t i = 0; i < count; ++i) {
         moves[i] = (kiriSiteMove){ i, KIRI_NONE };
     }
@@ -788,7 +788,7 @@ static void FailingAllocatorLeaksNothing(void** state)
             Follow_Release(&scratch);
             for (int cut = 0; cut < 9; ++cut) {
                 kiriMesh_Begin(f.mesh);
-                kiriQuota quota = { INT64_MAX, 0 };
+                kiriQuota quota = { INT64_MAX, 0, 0, false };
                 kiriBladeTip blade = kiriCut_Place(f.mesh, kiriVec2_Make(0.1 * cut, 0.2));
                 kiriLatticePoint to = kiriMesh_Snap(f.mesh, kiriVec2_Make(0.1 * cut + 0.05, 0.5));
                 assert_int_equal(kiriCut_Move(f.mesh, &blade, to, 16.0, &quota), KIRI_DONE);

@@ -297,6 +297,43 @@ static void StartAhead(Host* host, int disturbance, bool hasBudget, bool* wasMad
     Disturb(host, sheet, frame, other, disturbance);
 }
 
+/* Ticks until a piece of one sheet has left, while another, which comes first, is cut or not. */
+static int32_t TicksToLeave(const kiriBudget* budget, bool isOtherCut)
+{
+    Host host;
+    kiriSheet made;
+    int32_t ticks = 0;
+    Host_Start(&host);
+    kiriSheetDef def = DefOfRun(1);
+    kiriSheet other = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 20, 20);
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 20, 20);
+    Host_Cut(&host, sheet, (float[]){ -0.1f, 0.241f, 1.1f, 0.252f }, 2);
+    Settle(&host, 0);
+    OK(kiriWorld_SetBudget(host.world, budget));
+    assert_int_equal(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 0), &made), KIRI_PENDING);
+    for (kiriResult result = KIRI_PENDING; host.world->sheets.count == 2; ++ticks) {
+        float at = 0.1f + 0.01f * (float)(ticks % 80);
+        assert_in_range(ticks, 0, 2000);
+        if (isOtherCut) {
+            Host_Cut(&host, other, (float[]){ at, 0.1f, at + 0.05f, 0.9f }, 2);
+        }
+        TickOnce(&host, budget->samples, &result);
+    }
+    Host_Stop(&host);
+    return ticks;
+}
+
+/* Cuts in another sheet take all of a tick, or what they need, and leave enough. */
+static void TestOthersAreCut(void** state)
+{
+    (void)state;
+    static const kiriBudget budgets[] = { { 0, 0, 20, 0 }, { 40, 100, 20, 0 }, { 40, 400, 100, 0 } };
+    for (size_t i = 0; i < sizeof(budgets) / sizeof(*budgets); ++i) {
+        int32_t alone = TicksToLeave(&budgets[i], false), beside = TicksToLeave(&budgets[i], true);
+        assert_true(alone > 1 && beside >= alone && beside <= 4 * alone + 2);
+    }
+}
+
 /* What is made before does not tell in what comes of it; and it is made before. */
 static void TestMadeAhead(void** state)
 {
@@ -391,6 +428,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestSmallSheets),
         cmocka_unit_test(TestLargeSheets),
+        cmocka_unit_test(TestOthersAreCut),
         cmocka_unit_test(TestMadeAhead),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

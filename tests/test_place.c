@@ -15,7 +15,7 @@ static int32_t FindEnds(Scene* scene, const kiriPlacer* placer, kiriSlitEnds* en
     int32_t times = 0;
     kiriProgress progress = KIRI_MORE;
     for (; progress == KIRI_MORE; ++times) {
-        kiriQuota quota = { items, 0 };
+        kiriQuota quota = { items, 0, 0, false };
         progress = kiriSlits_FindEnds(ends, &search, &scene->memory, &scene->grid, &scene->mesh, placer->cells.data,
                                       placer->cells.count, &quota);
         assert_true(progress != KIRI_MORE || quota.used == items);
@@ -90,15 +90,15 @@ static void TakenInParts(void** state)
     Scene_Slit(&scene, 0.9, 0.0, 0.9, 1.0);
     Scene_BuildGrid(&scene);
     int32_t cell = Scene_Cell(&scene, 0.01, 0.01);
-    kiriQuota few = { 3, 0 };
+    kiriQuota few = { 3, 0, 0, false };
     assert_true(kiriPlacer_TakePiece(&whole, &scene.memory, &scene.grid, cell));
     assert_true(kiriPlacer_StartPiece(&parts, &scene.memory, &scene.grid, Scene_Cell(&scene, 0.95, 0.5)));
     assert_int_equal(kiriPlacer_GoOnWithPiece(&parts, &scene.memory, &scene.grid, &few), KIRI_MORE);
     assert_true(kiriPlacer_StartPiece(&parts, &scene.memory, &scene.grid, cell));
     int32_t times = 1;
-    for (kiriQuota quota = { 7, 0 }; kiriPlacer_GoOnWithPiece(&parts, &scene.memory, &scene.grid, &quota) == KIRI_MORE;
+    for (kiriQuota quota = { 7, 0, 0, false }; kiriPlacer_GoOnWithPiece(&parts, &scene.memory, &scene.grid, &quota) == KIRI_MORE;
          ++times) {
-        quota = (kiriQuota){ 7, 0 };
+        quota = (kiriQuota){ 7, 0, 0, false };
     }
     assert_true(times > 10);
     assert_int_equal(parts.cells.count, whole.cells.count);
@@ -167,7 +167,7 @@ static void PairsFailCleanly(void** state)
     for (int k = 0; k < 2; ++k) {
         scene.purse.budget = k == 0 ? 0 : -1;
         kiriSlitSearch search = { 0 };
-        kiriQuota quota = { INT64_MAX, 0 };
+        kiriQuota quota = { INT64_MAX, 0, 0, false };
         kiriProgress progress = kiriSlits_FindEnds(&ends, &search, &scene.memory, &scene.grid, &scene.mesh,
                                                    placer.cells.data, placer.cells.count, &quota);
         assert_int_equal(progress, k == 0 ? KIRI_FAILED : KIRI_DONE);

@@ -325,10 +325,7 @@ static void TestFarFramesKeepTheirState(void** state)
     memcpy(before, DataOf(&probe)->frames.data, sizeof(before));
     Host_Cut(&probe.host, probe.sheet, way, 3);
     kiriSheetData* sheet = DataOf(&probe);
-    kiriQuotas all;
-    for (int i = 0; i < KIRI_QUOTA_COUNT; ++i) {
-        all.of[i] = (kiriQuota){ INT64_MAX, 0 };
-    }
+    kiriQuotas all = kiriQuotas_Unlimited();
     kiriPipeline_Start(sheet);
     assert_int_equal(kiriPipeline_Run(sheet, &all, NULL), KIRI_DONE);
     kiriStage_CommitMesh(sheet);

@@ -71,7 +71,7 @@ static void ClearChanges(Sheet* sheet)
 
 static void UpdateGrid(Sheet* sheet)
 {
-    kiriQuota quota = { INT64_MAX, 0 };
+    kiriQuota quota = { INT64_MAX, 0, 0, false };
     assert_int_equal(kiriGrid_Update(&sheet->grid, &sheet->mesh, &quota), KIRI_DONE);
     kiriSquares_ClearDirty(&sheet->mesh.squares);
 }
@@ -98,7 +98,7 @@ static void CloseSheet(Sheet* sheet)
 
 static void CutLine(Sheet* sheet, double x0, double y0, double x1, double y1)
 {
-    kiriQuota all = { INT64_MAX, 0 };
+    kiriQuota all = { INT64_MAX, 0, 0, false };
     kiriMesh_Begin(&sheet->mesh);
     kiriBladeTip blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(x0, y0));
     assert_int_equal(kiriCut_Move(&sheet->mesh, &blade, kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x1, y1)), 16.0, &all),
@@ -111,7 +111,7 @@ static void MoveBlade(Sheet* sheet, uint32_t* seed, double length)
 {
     double x = RandomBetween(seed, -0.1, 1.1), y = RandomBetween(seed, -0.1, 1.1);
     double u = RandomBetween(seed, -length, length), v = RandomBetween(seed, -length, length);
-    kiriQuota all = { INT64_MAX, 0 };
+    kiriQuota all = { INT64_MAX, 0, 0, false };
     kiriBladeTip blade = kiriCut_Place(&sheet->mesh, kiriVec2_Make(x, y));
     kiriLatticePoint to = kiriMesh_Snap(&sheet->mesh, kiriVec2_Make(x + u, y + v));
     assert_int_equal(kiriCut_Move(&sheet->mesh, &blade, to, 16.0, &all), KIRI_DONE);
@@ -229,7 +229,7 @@ static void MoveSites(Sheet* sheet, int32_t count, uint32_t* seed)
 static kiriProgress TryUpdate(Sheet* sheet, kiriRegions* regions)
 {
     for (sheet->used = 0;;) {
-        kiriQuota quota = { sheet->slice, 0 };
+        kiriQuota quota = { sheet->slice, 0, 0, false };
         kiriProgress progress =
             kiriRegions_Update(regions, &sheet->memory, &sheet->grid, &sheet->mesh, sheet->sites.data,
                                sheet->sites.count, sheet->moves.data, sheet->moves.count, &quota);

@@ -11,7 +11,7 @@ typedef struct Weights {
 
 static kiriQuota All(void)
 {
-    kiriQuota quota = { INT64_MAX, 0 };
+    kiriQuota quota = { INT64_MAX, 0, 0, false };
     return quota;
 }
 

@@ -166,6 +166,12 @@ static void TestIncrementalEqualsFromScratch(void** state)
 
 static const kiriBudget tight = { .triangles = 20, .cells = 60, .samples = 15, .iterations = 0 };
 
+static double ShareOf(int32_t items, int32_t limit)
+{
+    return limit > 0 ? (double)items / limit : 0.0;
+}
+
+/* Work on cuts shares a tick. */
 static void CheckBudget(const Host* host, const kiriBudget* budget)
 {
     kiriProfile profile;
@@ -174,6 +180,9 @@ static void CheckBudget(const Host* host, const kiriBudget* budget)
     assert_true(budget->cells == 0 || profile.cellsSettled <= budget->cells);
     assert_true(budget->samples == 0 || profile.samplesRefreshed <= budget->samples);
     assert_true(budget->iterations == 0 || profile.solverIterations <= budget->iterations);
+    double share = ShareOf(profile.trianglesSplit, budget->triangles) + ShareOf(profile.cellsSettled, budget->cells) +
+                   ShareOf(profile.samplesRefreshed, budget->samples);
+    assert_true(share <= 1.0 + 1e-9);
 }
 
 /* Ticks until nothing waits; returns how many ticks it took. */
@@ -430,6 +439,12 @@ static void TestBudgetFromTime(void** state)
     assert_int_equal(budget.cells, 1250);
     assert_int_equal(budget.samples, 300);
     assert_int_equal(budget.iterations, 2);
+    profile.seconds[KIRI_STAGE_CUT] = 2e-3; /* 4 ms in all, of which 3 are work on cuts */
+    profile.trianglesSplit = 1000;
+    OK(kiriFitBudget(&profile, 4000.0f, &budget));
+    assert_int_equal(budget.triangles, 1500);
+    assert_int_equal(budget.cells, 15000);
+    assert_int_equal(budget.iterations, 8);
     assert_int_equal(kiriFitBudget(&profile, -1.0f, &budget), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriFitBudget(NULL, 1.0f, &budget), KIRI_ERROR_ARGUMENT);
 }

@@ -860,9 +860,10 @@ function World:getProfile(profile)
 end
 
 --- For hosts that would rather think in time than in items: the budget whose work would have taken so many
---- microseconds a tick at the pace of the profile, which may be the sum of several. Each item that the profile has
---- some of is set; others stay. The simulation never reads a clock: the choice is the host's, and a replay must hand
---- in the same budgets.
+--- microseconds a tick at the pace of the profile, which may be the sum of several. Work on cuts and linear systems
+--- share the time as they did in the profile, and each of triangles, cells and samples gets what the three took
+--- together, see kiriBudget. Each item that the profile has some of is set; others stay. The simulation never reads a
+--- clock: the choice is the host's, and a replay must hand in the same budgets.
 function kiri.fitBudget(profile, microseconds, budget)
     local result = C.kiriFitBudget(struct_of(nil, profile, "kiriProfile"), microseconds, budget)
     if result < 0 then fail(nil, "kiriFitBudget", result, false) end

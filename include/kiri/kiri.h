@@ -101,14 +101,17 @@ typedef void kiriTaskFn(int32_t start, int32_t end, void* taskContext); /* the i
 typedef void* kiriStartTaskFn(void* user, kiriTaskFn* task, int32_t itemCount, int32_t minRange, void* taskContext);
 typedef void kiriFinishTaskFn(void* user, void* handle);
 
-/* The most work that one tick may do, over all sheets, first come first served. What does not fit goes on in the next
-   tick, and in the end is what it would have been without a limit: the points given to a sheet before one tick take
-   effect together, when all that follows from them is done. Until then the lips of a fresh cut move together. 0: no
-   limit. A step that cannot be parted and counts more than a whole limit is done in a tick of its own.
+/* The most work that one tick may do, over all sheets, first come first served. 0: no limit. Triangles, cells and samples
+   share a tick: what is spent of one leaves as much less of the other two. Half of the cells, say, leave half of the
+   samples; so the work on cuts takes no longer than the costliest of the three limits. What does not fit goes on in the
+   next tick, and in the end is what it would have been without a limit: the points given to a sheet before one tick take
+   effect together, when all that follows from them is done. Until then the lips of a fresh cut move together. A step that
+   cannot be parted and counts more than a whole limit is done in a tick of its own. Pieces that wait to be detached get
+   half of every other tick, whatever other sheets have to do.
    How long lips wait: a cut from side to side takes 6 items of cells for each cell of the grid where frames are many, 30
    where they are few (each has more of the sheet), and 0.2 to 1.2 of samples for each vertex; a cut half as long a
    quarter to all of that. So on a sheet and grid of 64 x 64 squares with 9 frames, 2000 cells and 500 samples part a cut
-   from side to side after 68 ticks, one half as long after 26; 10 000 and 2000 after 14 and 5.
+   from side to side after 69 ticks, one half as long after 26; 10 000 and 2000 after 15 and 6.
    tests/bench_delay.c prints the table. */
 typedef struct kiriBudget {
     int32_t triangles; /* split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
@@ -337,9 +340,10 @@ typedef struct kiriProfile {
 KIRI_API kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile);
 
 /* For hosts that would rather think in time than in items: the budget whose work would have taken so many microseconds
-   a tick at the pace of the profile, which may be the sum of several. Each item that the profile has some of is set;
-   others stay. The simulation never reads a clock: the choice is the host's, and a replay must hand in the same
-   budgets. */
+   a tick at the pace of the profile, which may be the sum of several. Work on cuts and linear systems share the time as
+   they did in the profile, and each of triangles, cells and samples gets what the three took together, see kiriBudget.
+   Each item that the profile has some of is set; others stay. The simulation never reads a clock: the choice is the
+   host's, and a replay must hand in the same budgets. */
 KIRI_API kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget);
 
 /* The name of a stage, for tables; "" for a number that is none. */

@@ -107,14 +107,23 @@ static inline void kiriWord_Leave(const int32_t* word, int32_t value)
 typedef struct kiriQuota {
     int64_t left; /* never below zero */
     int64_t used;
+    int64_t
+        beyond; /* what was done and is not counted, see kiriQuota_TakeAtMostAll: with it one knows how much was done */
+    bool isShared; /* a part of it went to another kind of items */
 } kiriQuota;
 
+/* Has something of it been given? */
+static inline bool kiriQuota_IsBegun(const kiriQuota* quota)
+{
+    return quota->used > 0 || quota->isShared;
+}
+
 /* Takes items from the quota; false, and takes none, where fewer are left. What is larger than the whole quota gets it all
-   when nothing of it has been used yet: so everything is done in the end. */
+   when nothing of it has been given yet: so everything is done in the end. */
 static inline bool kiriQuota_Take(kiriQuota* quota, int64_t items)
 {
     KIRI_ASSERT(items >= 0 && quota->left >= 0);
-    if (items > quota->left && quota->used > 0) {
+    if (items > quota->left && kiriQuota_IsBegun(quota)) {
         return false;
     }
     quota->left -= items < quota->left ? items : quota->left;
@@ -125,14 +134,18 @@ static inline bool kiriQuota_Take(kiriQuota* quota, int64_t items)
 /* The same, where what is larger than the whole quota counts as all of it. */
 static inline bool kiriQuota_TakeAtMostAll(kiriQuota* quota, int64_t items)
 {
-    bool mustWait = items > quota->left && quota->used > 0;
-    return !mustWait && kiriQuota_Take(quota, items < quota->left ? items : quota->left);
+    int64_t counted = items < quota->left ? items : quota->left;
+    if (items > counted && kiriQuota_IsBegun(quota)) {
+        return false;
+    }
+    quota->beyond += items - counted;
+    return kiriQuota_Take(quota, counted);
 }
 
 /* Nothing is left even for what is larger than the whole quota. */
 static inline bool kiriQuota_IsSpent(const kiriQuota* quota)
 {
-    return quota->left == 0 && quota->used > 0;
+    return quota->left == 0 && kiriQuota_IsBegun(quota);
 }
 
 /* Takes what is owed for work, or what is left of it; false where some is still owed. So how far the work has come depends

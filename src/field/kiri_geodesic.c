@@ -301,10 +301,11 @@ static void TakeStepsOf(kiriField* field, const kiriRule* rule, int length, int3
 /* A cell may have values on all sides, and what it had is logged. */
 enum { ITEMS_OF_SETTLED_AGAIN = 2 };
 
-/* The last cell may be worth more than is left. */
-static void TakeSettled(kiriQuota* quota, int64_t items)
+/* How many cells the quota has left; one where it is less, but nothing of it is used yet. */
+static int64_t CellsLeft(const kiriQuota* quota, int32_t items)
 {
-    kiriQuota_Take(quota, items < quota->left ? items : quota->left);
+    int64_t fit = quota->left / items;
+    return fit > 0 || kiriQuota_IsBegun(quota) ? fit : 1;
 }
 
 /* Until nothing is left, or the quota is spent on settled cells. */
@@ -312,7 +313,7 @@ static kiriProgress Sweep(kiriField* field, const kiriRule* rule, kiriQuota* quo
 {
     int32_t before = field->settled.count, farthest = FarthestOf(rule), distance;
     int32_t items = field->cursor[REPAIR_STAGE] == REPAIR_SETTLES ? ITEMS_OF_SETTLED_AGAIN : 1;
-    int64_t most = quota->left < INT32_MAX ? before + (quota->left + items - 1) / items : INT64_MAX;
+    int64_t most = quota->left < INT32_MAX ? before + CellsLeft(quota, items) : INT64_MAX;
     int64_t reach[KIRI_STEP_LENGTHS] = { NextReachOf(field, 0), NextReachOf(field, 1), NextReachOf(field, 2) };
     int source = NearestSource(field, reach, farthest, &distance);
     while (source != FROM_NOWHERE && field->settled.count < most) {
@@ -326,7 +327,7 @@ static kiriProgress Sweep(kiriField* field, const kiriRule* rule, kiriQuota* quo
         }
         source = NearestSource(field, reach, farthest, &distance);
     }
-    TakeSettled(quota, (int64_t)items * (field->settled.count - before));
+    kiriQuota_TakeAtMostAll(quota, (int64_t)items * (field->settled.count - before));
     return source == FROM_NOWHERE ? KIRI_DONE : KIRI_MORE;
 }
 
@@ -557,15 +558,18 @@ static kiriProgress SweepRepaired(kiriField* field, kiriMemory* memory, const ki
 {
     enum { AT_ONCE = 1024 };
     kiriProgress progress = KIRI_MORE;
+    int64_t used;
     do {
         int64_t give = quota->left < AT_ONCE ? quota->left : AT_ONCE;
-        kiriQuota part = { give, 0 };
+        used = quota->used;
+        kiriQuota part = { give, 0, 0, kiriQuota_IsBegun(quota) };
         if (!kiriArray_Reserve(memory, &field->log, (int64_t)field->log.count + field->settled.count + give)) {
             return KIRI_FAILED;
         }
         progress = Sweep(field, rule, &part);
-        kiriQuota_Take(quota, give - part.left);
-    } while (progress == KIRI_MORE && quota->left > 0);
+        kiriQuota_Take(quota, part.used);
+        quota->beyond += part.beyond;
+    } while (progress == KIRI_MORE && quota->left > 0 && quota->used > used);
     return progress;
 }
 

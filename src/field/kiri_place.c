@@ -465,7 +465,7 @@ kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, co
 
 bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
-    kiriQuota unlimited = { INT64_MAX, 0 };
+    kiriQuota unlimited = { INT64_MAX, 0, 0, false };
     return kiriPlacer_StartPiece(placer, memory, grid, cell) &&
            kiriPlacer_GoOnWithPiece(placer, memory, grid, &unlimited) == KIRI_DONE;
 }

@@ -81,7 +81,7 @@ static kiriMoments MaterialOfPiece(const PointBuilder* b)
 static bool PlaceIntegrationPoints(PointBuilder* b, double area)
 {
     kiriPlacer* placer = &b->work->placer;
-    kiriQuota endless = { INT64_MAX, 0 };
+    kiriQuota endless = { INT64_MAX, 0, 0, false };
     double share = area * b->perArea + 0.5;
     int32_t count = share < 2.0 ? 1 : share < placer->cells.count ? (int32_t)share : placer->cells.count;
     placer->sites.count = 0;
@@ -94,7 +94,7 @@ static bool FloodFromPoints(PointBuilder* b)
     kiriIntegrationWork* work = b->work;
     const kiriSites* points = &work->placer.sites;
     kiriRule rule = { b->grid, KIRI_FAR - 1, NULL, NULL, NULL, NULL, { NULL, NULL } };
-    kiriQuota endless = { INT64_MAX, 0 };
+    kiriQuota endless = { INT64_MAX, 0, 0, false };
     kiriField_Reset(&work->field);
     work->seeds.count = 0;
     for (int32_t i = 0; i < points->count; ++i) {

@@ -180,7 +180,7 @@ bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t*
     KIRI_ASSERT(next->mechanics.model == solver->mechanics.model);
     solver->isStaged = false;
     solver->nextElementCount = kiriElement_Count(next);
-    kiriQuota unlimited = { INT64_MAX, 0 };
+    kiriQuota unlimited = { INT64_MAX, 0, 0, false };
     if (kiriSolver_Reserve(solver, next, &unlimited, 1) != KIRI_DONE || !CollectPairs(solver, next, framePiece)) {
         return false;
     }

@@ -193,7 +193,7 @@ static bool TakeWholePiece(kiriGathered* gathered, int32_t piece)
     kiriTaking* taking = &gathered->sheet->taking;
     kiriIndices *triangles = &gathered->triangles, *vertices = &gathered->vertices;
     kiriGatheredPiece taken = { piece, { triangles->count, 0 }, { vertices->count, 0 } };
-    kiriQuota unlimited = { INT64_MAX, 0 };
+    kiriQuota unlimited = { INT64_MAX, 0, 0, false };
     bool ok = true;
     for (int32_t k = gathered->cells.count - 1; ok && k < gathered->cells.count; ++k) {
         ok = TakeAround(gathered, gathered->cells.data[k]);
@@ -272,7 +272,7 @@ static bool ListSquares(kiriGathered* gathered)
 
 static bool StartGathering(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory)
 {
-    kiriQuota unlimited = { INT64_MAX, 0 };
+    kiriQuota unlimited = { INT64_MAX, 0, 0, false };
     KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
     kiriGather_Pause(sheet);
     memset(gathered, 0, sizeof(*gathered));

@@ -207,7 +207,7 @@ static void Stop(kiriSheetData* sheet)
 static int64_t SystemsLeft(const kiriQuota* quota, int64_t items)
 {
     int64_t fit = quota->left / items;
-    return fit > 0 || quota->used > 0 ? fit : 1;
+    return fit > 0 || kiriQuota_IsBegun(quota) ? fit : 1;
 }
 
 /* Fewer and longer substeps where the quota asks for it, and one system at least for each. */

@@ -21,13 +21,34 @@ static const PipelineStage pipeline[KIRI_READY] = {
     { KIRI_QUOTA_SAMPLES, kiriStage_Constants },   /* owners of material, new frames, the pattern of the matrix */
 };
 
-kiriQuotas kiriQuotas_Unlimited(void)
+kiriQuotas kiriQuotas_Of(const kiriBudget* budget)
 {
+    const int32_t items[KIRI_QUOTA_COUNT] = { budget->triangles, budget->cells, budget->samples, budget->iterations };
     kiriQuotas quotas;
-    for (int i = 0; i < KIRI_QUOTA_COUNT; ++i) {
-        quotas.of[i] = (kiriQuota){ INT64_MAX, 0 };
+    for (int kind = 0; kind < KIRI_QUOTA_COUNT; ++kind) {
+        quotas.limits[kind] = items[kind] > 0 ? items[kind] : INT64_MAX;
+        quotas.of[kind] = (kiriQuota){ quotas.limits[kind], 0, 0, false };
     }
     return quotas;
+}
+
+kiriQuotas kiriQuotas_Unlimited(void)
+{
+    const kiriBudget unlimited = { 0, 0, 0, 0 };
+    return kiriQuotas_Of(&unlimited);
+}
+
+void kiriQuotas_Share(kiriQuotas* quotas, int spent)
+{
+    int64_t left = quotas->of[spent].left, limit = quotas->limits[spent];
+    for (int kind = 0; kind < KIRI_QUOTA_ITERATIONS; ++kind) {
+        if (kind != spent && left < limit && limit < INT64_MAX && quotas->limits[kind] < INT64_MAX) {
+            int64_t most = left * quotas->limits[kind] / limit; /* each has 31 bits */
+            kiriQuota* quota = &quotas->of[kind];
+            quota->left = quota->left < most ? quota->left : most;
+            quota->isShared = true;
+        }
+    }
 }
 
 static kiriProgress RunUpTo(kiriSheetData* sheet, int32_t end, kiriQuotas* quotas, const kiriWatch* watch)
@@ -37,13 +58,14 @@ static kiriProgress RunUpTo(kiriSheetData* sheet, int32_t end, kiriQuotas* quota
     while (progress == KIRI_DONE && u->stage < end) {
         KIRI_ASSERT(u->stage >= KIRI_STAGE_CUT && u->stage < KIRI_READY);
         kiriQuota* quota = &quotas->of[pipeline[u->stage].quota];
-        int64_t used = quota->used;
+        int64_t done = quota->used + quota->beyond;
         if (watch != NULL) {
             watch->enter(watch->context, u->stage);
         }
-        progress = pipeline[u->stage].run(sheet, quota);
-        u->spent += quota->used - used;
+        progress = quota->left > 0 ? pipeline[u->stage].run(sheet, quota) : KIRI_MORE;
+        u->spent += quota->used + quota->beyond - done;
         quota->left = progress == KIRI_MORE ? 0 : quota->left; /* too little for the next item: nobody else gets it */
+        kiriQuotas_Share(quotas, pipeline[u->stage].quota);
         if (progress == KIRI_DONE) {
             /* A blade may move outside the sheet, or along edges that are open already. */
             bool isOver = u->stage == KIRI_STAGE_CUT && !u->cut.meshChanged;

@@ -11,9 +11,16 @@ enum { KIRI_QUOTA_TRIANGLES, KIRI_QUOTA_CELLS, KIRI_QUOTA_SAMPLES, KIRI_QUOTA_IT
 /* What is left of the budget in this tick. */
 typedef struct kiriQuotas {
     kiriQuota of[KIRI_QUOTA_COUNT];
+    int64_t limits[KIRI_QUOTA_COUNT]; /* what a tick has; INT64_MAX: no limit */
 } kiriQuotas;
 
+/* 0: no limit. */
+kiriQuotas kiriQuotas_Of(const kiriBudget* budget);
 kiriQuotas kiriQuotas_Unlimited(void);
+
+/* What has been spent of one kind of work on cuts leaves as much less of the other two: so a tick takes as long as the
+   costliest of the three does alone. */
+void kiriQuotas_Share(kiriQuotas* quotas, int spent);
 
 /* Is told which stage begins, for the profile. */
 typedef struct kiriWatch {

@@ -129,7 +129,7 @@ kiriProgress kiriSkin_Settle(kiriSkin* skin, kiriQuota* quota)
 
 static void SettleAll(kiriSkin* skin)
 {
-    kiriQuota unlimited = { INT64_MAX, 0 };
+    kiriQuota unlimited = { INT64_MAX, 0, 0, false };
     kiriSkin_Settle(skin, &unlimited);
 }
 

@@ -243,11 +243,38 @@ kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile)
     return KIRI_OK;
 }
 
-/* So many times the items that took `seconds`. */
+/* So many times the items. */
 static int32_t ScaleItems(int32_t items, double times, int32_t least, int32_t was)
 {
     double scaled = items * times;
     return items <= 0 ? was : scaled < least ? least : scaled < INT32_MAX ? (int32_t)scaled : INT32_MAX;
+}
+
+static double SecondsOf(const kiriProfile* profile, int first, int last)
+{
+    double seconds = 0.0;
+    for (int i = first; i <= last; ++i) {
+        seconds += profile->seconds[i];
+    }
+    return seconds;
+}
+
+/* What all work on cuts took, in times of what these stages of it took. */
+static double TimesAlone(const kiriProfile* profile, int first, int last)
+{
+    double seconds = SecondsOf(profile, first, last);
+    return seconds > 0.0 ? SecondsOf(profile, KIRI_STAGE_CUT, KIRI_STAGE_CONSTANTS) / seconds : 1.0;
+}
+
+/* The three kinds of work on cuts share a tick: each may take the time of all three. */
+static void FitCuts(const kiriProfile* profile, double times, kiriBudget* budget)
+{
+    double triangles = times * TimesAlone(profile, KIRI_STAGE_CUT, KIRI_STAGE_CUT),
+           cells = times * TimesAlone(profile, KIRI_STAGE_GRID, KIRI_STAGE_SHAPE),
+           samples = times * TimesAlone(profile, KIRI_STAGE_SAMPLES, KIRI_STAGE_CONSTANTS);
+    budget->triangles = ScaleItems(profile->trianglesSplit, triangles, KIRI_LEAST_TRIANGLES, budget->triangles);
+    budget->cells = ScaleItems(profile->cellsSettled, cells, 1, budget->cells);
+    budget->samples = ScaleItems(profile->samplesRefreshed, samples, 1, budget->samples);
 }
 
 kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget)
@@ -255,18 +282,15 @@ kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBud
     if (profile == NULL || budget == NULL || !kiriCall_IsAbove(microseconds, 0.0f) || !IsBudget(budget)) {
         return KIRI_ERROR_ARGUMENT;
     }
-    double seconds = 0.0;
     for (int i = 0; i < KIRI_STAGE_COUNT; ++i) {
         if (!(profile->seconds[i] >= 0.0)) {
             return KIRI_ERROR_ARGUMENT;
         }
-        seconds += profile->seconds[i];
     }
+    double seconds = SecondsOf(profile, 0, KIRI_STAGE_COUNT - 1);
     if (seconds > 0.0) {
         double times = 1e-6 * microseconds / seconds;
-        budget->triangles = ScaleItems(profile->trianglesSplit, times, KIRI_LEAST_TRIANGLES, budget->triangles);
-        budget->cells = ScaleItems(profile->cellsSettled, times, 1, budget->cells);
-        budget->samples = ScaleItems(profile->samplesRefreshed, times, 1, budget->samples);
+        FitCuts(profile, times, budget);
         budget->iterations = ScaleItems(profile->solverIterations, times, 1, budget->iterations);
     }
     return KIRI_OK;

@@ -28,21 +28,6 @@ static void EnterStage(void* context, int32_t stage)
     world->stageStart = now;
 }
 
-static kiriQuota Limit(int32_t items)
-{
-    return (kiriQuota){ items > 0 ? items : INT64_MAX, 0 };
-}
-
-static kiriQuotas ShareOut(const kiriBudget* budget)
-{
-    kiriQuotas quotas = { { { 0, 0 } } };
-    quotas.of[KIRI_QUOTA_TRIANGLES] = Limit(budget->triangles);
-    quotas.of[KIRI_QUOTA_CELLS] = Limit(budget->cells);
-    quotas.of[KIRI_QUOTA_SAMPLES] = Limit(budget->samples);
-    quotas.of[KIRI_QUOTA_ITERATIONS] = Limit(budget->iterations);
-    return quotas;
-}
-
 static bool IsReady(const kiriSheetData* sheet)
 {
     return sheet->update->stage == KIRI_READY;
@@ -119,7 +104,7 @@ static bool FindPairs(kiriWorld* world, double dt)
    samples: until then arrays may grow. */
 static void SettleWeights(kiriWorld* world, int64_t samples)
 {
-    kiriQuota quota = { samples, 0 };
+    kiriQuota quota = { samples, 0, 0, false };
     for (int32_t k = 0; k < world->active.count && quota.left > 0; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         bool isSettling = sheet->vertexSkin.settling.count + sheet->pointSkin.settling.count > 0;
@@ -395,6 +380,25 @@ static void SkinAll(kiriWorld* world, double dt)
     }
 }
 
+/* In every other tick pieces that wait get half of all: else a world that is always cut would keep them. In the ones between
+   there is room for steps that need a whole limit. */
+static kiriQuota SetAside(const kiriWorld* world, kiriQuotas* quotas)
+{
+    bool anyDue = false;
+    for (int32_t k = 0; k < world->active.count && world->ticks % 2 == 0; ++k) {
+        anyDue = anyDue || kiriParts_AreDue(kiriWorld_Active(world, k));
+    }
+    kiriQuota aside = { 0, 0, 0, false };
+    for (int kind = 0; anyDue && kind <= KIRI_QUOTA_SAMPLES; ++kind) {
+        kiriQuota* quota = &quotas->of[kind];
+        int64_t stays = quotas->limits[kind] < INT64_MAX ? quota->left / 2 : quota->left;
+        aside.left = quota->left - stays;
+        quota->left = stays;
+        quota->isShared = true;
+    }
+    return aside;
+}
+
 /* Pieces that the host has taken out of a sheet while work was at hand go now that it is done. False where some wait on. */
 static bool FinishParting(kiriWorld* world, kiriQuota* samples)
 {
@@ -429,14 +433,17 @@ static void CountSpent(kiriProfile* profile, const kiriQuotas* quotas)
    what is seen. */
 kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
 {
-    kiriQuotas quotas = ShareOut(&world->budget);
+    kiriQuotas quotas = kiriQuotas_Of(&world->budget);
+    kiriQuota* samples = &quotas.of[KIRI_QUOTA_SAMPLES];
     kiriProfile last = world->profile;
     int64_t samplesDue = world->samplesDue; /* calls since the last tick were on account */
-    (void)kiriQuota_Pay(&quotas.of[KIRI_QUOTA_SAMPLES], &samplesDue);
+    (void)kiriQuota_Pay(samples, &samplesDue);
+    kiriQuotas_Share(&quotas, KIRI_QUOTA_SAMPLES);
     kiriMemory_FreeAll(&world->retired);
     memset(&world->profile, 0, sizeof(world->profile));
     ListActive(world);
     StartAll(world);
+    kiriQuota aside = SetAside(world, &quotas);
     bool hasRoom = FindPairs(world, dt) && UpdateAll(world, &quotas) && FindTouches(world, dt) &&
                    kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world);
     kiriResult result = hasRoom ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
@@ -453,7 +460,8 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
             BreakPins(world, kiriWorld_Active(world, k));
         }
         SkinAll(world, dt);
-        bool isParted = FinishParting(world, &quotas.of[KIRI_QUOTA_SAMPLES]);
+        samples->left += aside.left;
+        bool isParted = FinishParting(world, samples);
         result = result == KIRI_OK && !isParted ? KIRI_PENDING : result;
         CountSpent(&world->profile, &quotas);
         world->profile.sheetPairs = kiriPairs_CountAwake(world);

@@ -760,9 +760,10 @@ namespace Kiri
         }
 
         /// <summary>For hosts that would rather think in time than in items: the budget whose work would have taken so many
-        /// microseconds a tick at the pace of the profile, which may be the sum of several. Each item that the profile
-        /// has some of is set; others stay. The simulation never reads a clock: the choice is the host's, and a replay
-        /// must hand in the same budgets.</summary>
+        /// microseconds a tick at the pace of the profile, which may be the sum of several. Work on cuts and linear
+        /// systems share the time as they did in the profile, and each of triangles, cells and samples gets what the
+        /// three took together, see kiriBudget. Each item that the profile has some of is set; others stay. The
+        /// simulation never reads a clock: the choice is the host's, and a replay must hand in the same budgets.</summary>
         public static void FitBudget(Profile profile, float microseconds, ref Budget budget)
         {
             fixed (Budget* budgetValue = &budget)
