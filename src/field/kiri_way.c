@@ -99,29 +99,31 @@ void kiriTurns_AddAround(kiriTurns* turns, const kiriSight* sight, int32_t cell)
    next step. */
 typedef struct WaySearch {
     const kiriSight* sight;
-    const kiriTurns* turns;
     kiriVec2 at[KIRI_MOST_TURNS + 2];
-    double rest[KIRI_MOST_TURNS + 2];      /* straight to the goal */
-    double length[KIRI_MOST_TURNS + 2];    /* of the shortest way that may be */
-    int32_t from[KIRI_MOST_TURNS + 2];     /* the node before */
+    kiriVec2 before[KIRI_MOST_TURNS + 2], after[KIRI_MOST_TURNS + 2]; /* of corners, from where they are */
+    double rest[KIRI_MOST_TURNS + 2];                                 /* straight to the goal */
+    double length[KIRI_MOST_TURNS + 2];                               /* of the shortest way that may be */
+    double whole[KIRI_MOST_TURNS + 2]; /* with the rest; kiriNoWay where there is none, and of nodes that are done */
+    int32_t from[KIRI_MOST_TURNS + 2]; /* the node before */
     uint64_t blocked[KIRI_MOST_TURNS + 2]; /* bit k: there is no straight way from node k */
     bool isDone[KIRI_MOST_TURNS + 2];
-    int32_t count;
+    int32_t done[KIRI_MOST_TURNS + 2]; /* the nodes that are, rising: of ways of one length the lowest counts */
+    int32_t doneCount, count;
 } WaySearch;
 
 typedef char NodesFitBits[KIRI_MOST_TURNS + 2 <= 64 ? 1 : -1];
 
 static const double kiriNoWay = 1e300;
 
-/* May a shortest way leave the corner in this direction, or come from it? Only where both edges are on one side: else it
-   would lead into what is no material, or could be cut short. */
-static bool IsTangent(const kiriSight* sight, const kiriTurn* turn, kiriVec2 direction)
+/* May a shortest way leave the node in this direction, or come from it? At a corner only where both edges are on one side:
+   else it would lead into what is no material, or could be cut short. */
+static bool IsTangent(const WaySearch* s, int32_t node, kiriVec2 direction)
 {
-    const kiriMeshData* mesh = sight->mesh;
-    double least = 1e-6 * sight->grid->side * kiriVec2_Length(direction);
-    kiriVec2 at = kiriMesh_Local(mesh, turn->at);
-    kiriVec2 before = kiriVec2_Sub(kiriMesh_Local(mesh, turn->before), at);
-    kiriVec2 after = kiriVec2_Sub(kiriMesh_Local(mesh, turn->after), at);
+    if (node == 0 || node == s->count - 1) {
+        return true;
+    }
+    kiriVec2 before = s->before[node], after = s->after[node];
+    double least = 1e-6 * s->sight->grid->side * kiriVec2_Length(direction);
     double a = direction.x * before.y - direction.y * before.x, b = direction.x * after.y - direction.y * after.x;
     return !(a > least && b < -least) && !(a < -least && b > least);
 }
@@ -129,8 +131,7 @@ static bool IsTangent(const kiriSight* sight, const kiriTurn* turn, kiriVec2 dir
 static bool CanGo(const WaySearch* s, int32_t a, int32_t b)
 {
     kiriVec2 way = kiriVec2_Sub(s->at[b], s->at[a]);
-    return (a == 0 || IsTangent(s->sight, &s->turns->turn[a - 1], way)) &&
-           (b == s->count - 1 || IsTangent(s->sight, &s->turns->turn[b - 1], kiriVec2_Scale(-1.0, way))) &&
+    return IsTangent(s, a, way) && IsTangent(s, b, kiriVec2_Scale(-1.0, way)) &&
            kiriSight_IsClear(s->sight, s->at[a], s->at[b]);
 }
 
@@ -138,40 +139,54 @@ static bool CanGo(const WaySearch* s, int32_t a, int32_t b)
 static int32_t NextNode(const WaySearch* s)
 {
     int32_t best = KIRI_NONE;
+    double least = kiriNoWay;
     for (int32_t k = 0; k < s->count; ++k) {
-        if (!s->isDone[k] && s->length[k] < kiriNoWay &&
-            (best == KIRI_NONE || s->length[k] + s->rest[k] < s->length[best] + s->rest[best])) {
+        if (s->whole[k] < least) {
+            least = s->whole[k];
             best = k;
         }
     }
     return best;
 }
 
-static void TryWay(WaySearch* s, int32_t from, int32_t node)
+static inline void TryWay(WaySearch* s, int32_t from, int32_t node)
 {
-    double length = s->length[from] + kiriVec2_Length(kiriVec2_Sub(s->at[node], s->at[from]));
-    if (!s->isDone[node] && (s->blocked[node] >> from & 1) == 0 && length < s->length[node]) {
-        s->length[node] = length;
-        s->from[node] = from;
+    if (!s->isDone[node] && (s->blocked[node] >> from & 1) == 0) {
+        double length = s->length[from] + kiriVec2_Length(kiriVec2_Sub(s->at[node], s->at[from]));
+        if (length < s->length[node]) {
+            s->length[node] = length;
+            s->whole[node] = length + s->rest[node];
+            s->from[node] = from;
+        }
     }
 }
 
-/* Takes the next step to a node if one can go there; else the way over another node may be the shortest. */
+static void SetDone(WaySearch* s, int32_t node)
+{
+    int32_t at = s->doneCount++;
+    for (; at > 0 && s->done[at - 1] > node; --at) {
+        s->done[at] = s->done[at - 1];
+    }
+    s->done[at] = node;
+    s->isDone[node] = true;
+    s->whole[node] = kiriNoWay;
+}
+
+/* Takes the next step to a node if one can go there; else the way over another node may be the shortest. Most steps
+   fail, and nearly all for the corners alone. */
 static void Step(WaySearch* s, int32_t node)
 {
     if (node == 0 || CanGo(s, s->from[node], node)) {
-        s->isDone[node] = true;
+        SetDone(s, node);
         for (int32_t k = 0; k < s->count; ++k) {
             TryWay(s, node, k);
         }
         return;
     }
     s->blocked[node] |= (uint64_t)1 << s->from[node];
-    s->length[node] = kiriNoWay;
-    for (int32_t k = 0; k < s->count; ++k) {
-        if (s->isDone[k]) {
-            TryWay(s, k, node);
-        }
+    s->length[node] = s->whole[node] = kiriNoWay;
+    for (int32_t k = 0; k < s->doneCount; ++k) { /* in this order */
+        TryWay(s, s->done[k], node);
     }
 }
 
@@ -189,6 +204,25 @@ static bool TakeWay(const WaySearch* s, kiriWay* way)
     return way->turnCount <= KIRI_WAY_TURNS;
 }
 
+static void SetNode(WaySearch* s, const kiriTurns* turns, int32_t k)
+{
+    const kiriMeshData* mesh = s->sight->mesh;
+    if (k == 0 || k == s->count - 1) {
+        s->at[k] = k == 0 ? turns->from : turns->to;
+    } else {
+        const kiriTurn* turn = &turns->turn[k - 1];
+        s->at[k] = kiriMesh_Local(mesh, turn->at);
+        s->before[k] = kiriVec2_Sub(kiriMesh_Local(mesh, turn->before), s->at[k]);
+        s->after[k] = kiriVec2_Sub(kiriMesh_Local(mesh, turn->after), s->at[k]);
+    }
+    s->rest[k] = kiriVec2_Length(kiriVec2_Sub(turns->to, s->at[k]));
+    s->length[k] = k == 0 ? 0.0 : kiriNoWay;
+    s->whole[k] = kiriNoWay; /* the start is taken first, before the others */
+    s->from[k] = 0;
+    s->blocked[k] = 0;
+    s->isDone[k] = false;
+}
+
 bool kiriWay_Find(const kiriTurns* turns, const kiriSight* sight, kiriWay* way)
 {
     WaySearch s;
@@ -196,17 +230,10 @@ bool kiriWay_Find(const kiriTurns* turns, const kiriSight* sight, kiriWay* way)
         return false;
     }
     s.sight = sight;
-    s.turns = turns;
+    s.doneCount = 0;
     s.count = turns->count + 2;
     for (int32_t k = 0; k < s.count; ++k) {
-        s.at[k] = k == 0             ? turns->from
-                  : k == s.count - 1 ? turns->to
-                                     : kiriMesh_Local(sight->mesh, turns->turn[k - 1].at);
-        s.rest[k] = kiriVec2_Length(kiriVec2_Sub(turns->to, s.at[k]));
-        s.length[k] = k == 0 ? 0.0 : kiriNoWay;
-        s.from[k] = 0;
-        s.blocked[k] = 0;
-        s.isDone[k] = false;
+        SetNode(&s, turns, k);
     }
     int32_t node = 0;
     while (node != KIRI_NONE && !s.isDone[s.count - 1]) {
