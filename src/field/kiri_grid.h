@@ -215,6 +215,9 @@ static inline bool kiriGrid_AreNear(const kiriGrid* grid, int32_t a, int32_t b)
 /* What a cell covers, about the local origin. One that is gone has what it had. */
 kiriMoments kiriGrid_Material(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
 
+/* The area and the first moments alone, the same bits: for who asks for many. */
+kiriFirstMoments kiriGrid_FirstMoments(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
+
 /* The area of it, m^2. */
 static inline double kiriGrid_Area(const kiriGrid* grid, int32_t cell)
 {

@@ -30,6 +30,19 @@ kiriMoments kiriGrid_Material(const kiriGrid* grid, const kiriMeshData* mesh, in
                                      : grid->materials.data[at->material];
 }
 
+/* Of a whole square term by term as kiriGrid_MaterialOfWhole has them. */
+kiriFirstMoments kiriGrid_FirstMoments(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
+{
+    const kiriCell* at = &grid->cells.data[cell];
+    if (at->material != KIRI_NONE) {
+        const kiriMoments* own = &grid->materials.data[at->material];
+        return (kiriFirstMoments){ own->area, own->u, own->v };
+    }
+    double x = grid->side, area = x * x, about = x / 2.0 * area;
+    kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, at->square));
+    return (kiriFirstMoments){ area, about + corner.x * area, about + corner.y * area };
+}
+
 static int32_t StretchIndexOf(const kiriFace* face)
 {
     return (face->kind >> 1) - 1;

@@ -441,8 +441,3 @@ int32_t kiriSquares_CountNodes(const kiriSquares* squares, int32_t square)
     }
     return count;
 }
-
-kiriLatticePoint kiriSquares_Corner(const kiriSquares* squares, int32_t square)
-{
-    return CornerAt(squares, square % squares->columns, square / squares->columns);
-}

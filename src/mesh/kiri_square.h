@@ -90,7 +90,13 @@ int32_t kiriSquares_InPart(const kiriSquares* part, const kiriSquares* whole, in
 int32_t kiriSquares_CountNodes(const kiriSquares* squares, int32_t square);
 
 /* The lower corner of a square (odd coordinates). */
-kiriLatticePoint kiriSquares_Corner(const kiriSquares* squares, int32_t square);
+static inline kiriLatticePoint kiriSquares_Corner(const kiriSquares* squares, int32_t square)
+{
+    int32_t row = square / squares->columns, column = square - row * squares->columns;
+    KIRI_ASSERT(square >= 0 && row < squares->rows);
+    return (kiriLatticePoint){ (squares->firstColumn + column) * squares->side - 1,
+                               (squares->firstRow + row) * squares->side - 1 };
+}
 
 /* Do the interiors overlap? Exact. */
 bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriLatticePoint corners[3]);
