@@ -231,7 +231,8 @@ static inline void Copy_Free(Copy* copy)
 /* The mesh and its squares, slot for slot. */
 typedef struct Whole {
     Copy mesh;
-    kiriSquares squares; /* its arrays are copies */
+    kiriSquares squares;  /* its arrays are copies, */
+    kiriMeshData sources; /* and those of sources */
 } Whole;
 
 static inline void* CopyOf(const void* data, size_t bytes)
@@ -242,7 +243,7 @@ static inline void* CopyOf(const void* data, size_t bytes)
 
 static inline Whole Whole_Make(const kiriMeshData* mesh)
 {
-    Whole whole = { Copy_Make(mesh), mesh->squares };
+    Whole whole = { Copy_Make(mesh), mesh->squares, *mesh };
     kiriSquares* s = &whole.squares;
     size_t count = (size_t)s->columns * (size_t)s->rows;
     s->head = CopyOf(s->head, count * sizeof(int32_t));
@@ -250,14 +251,27 @@ static inline Whole Whole_Make(const kiriMeshData* mesh)
     s->isDirty = CopyOf(s->isDirty, count);
     s->nodes.data = CopyOf(s->nodes.data, (size_t)s->nodes.count * sizeof(kiriSquareNode));
     s->dirty.data = CopyOf(s->dirty.data, (size_t)s->dirty.count * sizeof(int32_t));
+    kiriMeshData* m = &whole.sources;
+    m->sourceBlocks.data = CopyOf(m->sourceBlocks.data, (size_t)m->sourceBlocks.count * sizeof(int32_t));
+    m->sourceCorners.data = CopyOf(m->sourceCorners.data, (size_t)m->sourceCorners.count * sizeof(kiriLatticePoint));
     return whole;
+}
+
+static inline bool SourcesEqual(const kiriMeshData* a, const kiriMeshData* b)
+{
+    return a->originals == b->originals && a->sourceBlocks.count == b->sourceBlocks.count &&
+           a->sourceCorners.count == b->sourceCorners.count &&
+           memcmp(a->sourceBlocks.data, b->sourceBlocks.data, (size_t)a->sourceBlocks.count * sizeof(int32_t)) == 0 &&
+           (a->sourceCorners.count == 0 || memcmp(a->sourceCorners.data, b->sourceCorners.data,
+                                                  (size_t)a->sourceCorners.count * sizeof(kiriLatticePoint)) == 0);
 }
 
 static inline bool Whole_Equals(const Whole* whole, const kiriMeshData* mesh)
 {
     const kiriSquares *a = &whole->squares, *b = &mesh->squares;
     size_t count = (size_t)a->columns * (size_t)a->rows;
-    return Copy_Equals(&whole->mesh, mesh) && memcmp(a->head, b->head, count * sizeof(int32_t)) == 0 &&
+    return Copy_Equals(&whole->mesh, mesh) && SourcesEqual(&whole->sources, mesh) &&
+           memcmp(a->head, b->head, count * sizeof(int32_t)) == 0 &&
            memcmp(a->vertexHead, b->vertexHead, count * sizeof(int32_t)) == 0 &&
            memcmp(a->isDirty, b->isDirty, count) == 0 && a->freeNode == b->freeNode &&
            a->nodes.count == b->nodes.count && a->dirty.count == b->dirty.count &&
@@ -273,6 +287,8 @@ static inline void Whole_Free(Whole* whole)
     free(whole->squares.isDirty);
     free(whole->squares.nodes.data);
     free(whole->squares.dirty.data);
+    free(whole->sources.sourceBlocks.data);
+    free(whole->sources.sourceCorners.data);
 }
 
 /* All but the pieces. Where corners of a part lie in the middle of another part's side, edges that come to lie on each

@@ -706,6 +706,52 @@ static void ScramblesAndRollsBack(void** state)
     kiriMemory_FreeAll(mesh.memory);
 }
 
+/* The corners of the caller's triangles, from the time before any was split. */
+static kiriLatticePoint* SourceCorners(const kiriMeshData* mesh)
+{
+    kiriLatticePoint* corners = malloc(3 * sizeof(*corners) * (size_t)mesh->triangles.count);
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        kiriMesh_Corners(mesh, t, corners + (ptrdiff_t)3 * t);
+    }
+    return corners;
+}
+
+static void CheckSources(const kiriMeshData* mesh, const kiriLatticePoint* corners, int32_t count)
+{
+    kiriLatticePoint c[3];
+    for (int32_t source = 0; source < count; ++source) {
+        assert_true(kiriMesh_SourceCorners(mesh, source, c));
+        assert_memory_equal(c, corners + (ptrdiff_t)3 * source, sizeof(c));
+    }
+    assert_false(kiriMesh_SourceCorners(mesh, KIRI_NONE, c));
+    assert_false(kiriMesh_SourceCorners(mesh, count, c));
+}
+
+/* Whatever is split, and taken back; and only where something is split are they stored. */
+static void KnowsSources(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 9, 5, 1.0f, 1.0f, 8);
+    int32_t count = mesh.triangles.count;
+    kiriLatticePoint* corners = SourceCorners(&mesh);
+    CheckSources(&mesh, corners, count);
+    assert_int_equal(mesh.sourceCorners.count, 0);
+    for (uint32_t round = 1; round <= 20; ++round) {
+        kiriMesh_Begin(&mesh);
+        assert_true(Scramble(&mesh, 33 * round, 20));
+        CheckSources(&mesh, corners, count);
+        if (round % 2 == 0) {
+            kiriMesh_Rollback(&mesh);
+            CheckSources(&mesh, corners, count);
+        }
+        kiriMesh_Commit(&mesh);
+        assert_true(round > 1 || (mesh.sourceCorners.count > 0 && mesh.sourceCorners.count < 3 * count));
+    }
+    free(corners);
+    kiriMemory_FreeAll(mesh.memory);
+}
+
 /* A rollback after a commit changes nothing, however often, and so does one of an empty journal. */
 static void CommitsAreForGood(void** state)
 {
@@ -823,6 +869,7 @@ int main(void)
         cmocka_unit_test(Locates),
         cmocka_unit_test(Snaps),
         cmocka_unit_test(ScramblesAndRollsBack),
+        cmocka_unit_test(KnowsSources),
         cmocka_unit_test(CommitsAreForGood),
         cmocka_unit_test(JournalTellsWhatChanged),
         cmocka_unit_test(RollsBackWithoutMemory),

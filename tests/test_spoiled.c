@@ -107,13 +107,45 @@ static void TwinIsAnother(kiriSheetData* sheet)
     sheet->mesh.triangles.data[0].twin[1] = 3 * sheet->mesh.triangles.count - 1;
 }
 
+static void SourceIsFar(kiriSheetData* sheet)
+{
+    sheet->mesh.triangles.data[0].source = 1 << 28;
+}
+
+static void SourceIsBelow(kiriSheetData* sheet)
+{
+    sheet->mesh.triangles.data[0].source = -80;
+}
+
+static void SourcesAreTheSame(kiriSheetData* sheet)
+{
+    sheet->mesh.triangles.data[1].source = sheet->mesh.triangles.data[0].source;
+}
+
+static void OriginalsAreMore(kiriSheetData* sheet)
+{
+    sheet->mesh.originals = sheet->mesh.triangles.count + 1;
+}
+
+static void BlockIsFar(kiriSheetData* sheet)
+{
+    sheet->mesh.sourceBlocks.data[0] = sheet->mesh.sourceCorners.count / (3 * KIRI_SOURCES_A_BLOCK);
+}
+
+static void BlockHasNoCorners(kiriSheetData* sheet)
+{
+    memset(sheet->mesh.sourceCorners.data, 0, sizeof(kiriLatticePoint) * (size_t)sheet->mesh.sourceCorners.count);
+}
+
 static void TestMesh(void** state)
 {
     (void)state;
     static const Spoiler spoilers[] = {
-        { "HeadIsNoVertex", HeadIsNoVertex },
-        { "VertexFollowsItself", VertexFollowsItself },
-        { "TwinIsAnother", TwinIsAnother },
+        { "HeadIsNoVertex", HeadIsNoVertex },       { "VertexFollowsItself", VertexFollowsItself },
+        { "TwinIsAnother", TwinIsAnother },         { "SourceIsFar", SourceIsFar },
+        { "SourceIsBelow", SourceIsBelow },         { "SourcesAreTheSame", SourcesAreTheSame },
+        { "OriginalsAreMore", OriginalsAreMore },   { "BlockIsFar", BlockIsFar },
+        { "BlockHasNoCorners", BlockHasNoCorners },
     };
     Host host;
     StartCut(&host);

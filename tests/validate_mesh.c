@@ -28,8 +28,9 @@ static bool Check_Holes(Check* check, const kiriMeshData* mesh)
 
 static bool Check_Triangles(Check* check, const kiriMeshData* mesh)
 {
-    REQUIRE(mesh->sources.count == 0 || 3 * mesh->sources.count == mesh->sourceCorners.count,
-            "%d sources have %d corners", mesh->sources.count, mesh->sourceCorners.count);
+    int32_t corners = mesh->sourceCorners.count;
+    REQUIRE(mesh->sources.count > 0 ? 3 * mesh->sources.count == corners : corners % (3 * KIRI_SOURCES_A_BLOCK) == 0,
+            "%d sources have %d corners", mesh->sources.count, corners);
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         const kiriTriangle* triangle = &mesh->triangles.data[t];
         if (!kiriMesh_IsTriangle(mesh, t)) {
@@ -45,8 +46,7 @@ static bool Check_Triangles(Check* check, const kiriMeshData* mesh)
         kiriMesh_Corners(mesh, t, c);
         REQUIRE(kiriOrient(c[0], c[1], c[2]) > 0, "triangle %d is turned over or has no area", t);
         REQUIRE(((c[0].x | c[0].y) & 1) == 0, "triangle %d has a corner with an odd coordinate", t);
-        REQUIRE(kiriMesh_SourceCorners(mesh, triangle->source) != NULL, "triangle %d is of source %d", t,
-                triangle->source);
+        REQUIRE(kiriMesh_SourceCorners(mesh, triangle->source, c), "triangle %d is of source %d", t, triangle->source);
         REQUIRE((triangle->open & ~7) == 0, "triangle %d has open bits %d", t, triangle->open);
     }
     return true;
@@ -281,9 +281,11 @@ static bool Check_Provenance(Check* check, const kiriMeshData* mesh)
             continue;
         }
         float share[3];
+        kiriLatticePoint corners[3];
         kiriMesh_GetShare(mesh, v, share);
+        REQUIRE(kiriMesh_SourceCorners(mesh, vertex->source, corners), "vertex %d is of source %d", v, vertex->source);
         for (int i = 0; i < 3; ++i) {
-            kiriLatticePoint c = kiriMesh_SourceCorners(mesh, vertex->source)[i];
+            kiriLatticePoint c = corners[i];
             REQUIRE(share[i] >= 0.0f, "vertex %d has share %g", v, (double)share[i]);
             x += (double)share[i] * c.x;
             y += (double)share[i] * c.y;

@@ -10,8 +10,9 @@
 KIRI_C_BEGIN
 
 enum {
-    KIRI_LATTICE = 1 << 29,       /* steps along the longer side of the sheet's box */
-    KIRI_MOST_TRIANGLES = 1 << 29 /* half-edges must fit 32 bits */
+    KIRI_LATTICE = 1 << 29,        /* steps along the longer side of the sheet's box */
+    KIRI_MOST_TRIANGLES = 1 << 29, /* half-edges must fit 32 bits */
+    KIRI_SOURCES_A_BLOCK = 8
 };
 
 /* Half-edge 3 t + i runs from vertex[i] to vertex[(i + 1) % 3] of triangle t. */
@@ -60,8 +61,12 @@ typedef struct kiriMeshData {
     /* Holes: triangles without vertices, and vertices without an edge, that were taken away. None is in a square. */
     int32_t triangleHoles, vertexHoles;
 
-    /* Corners of the caller's triangles, three a triangle, for where vertices are in them. A part has those alone that its triangles
-       are of: `sources`, ascending; that is empty where the mesh has all of them. */
+    /* Corners of the caller's triangles, three a triangle, for where vertices are in them: see kiri_mesh_source.c. Triangles
+       before `originals` are the caller's, by their source; one that was never split has the corners of its source
+       itself. Of others these lie in blocks, from sourceCorners on. A part lists the sources that its triangles are of,
+       ascending, and has the corners of these in the same order; it has no blocks. */
+    int32_t originals;
+    kiriIndices sourceBlocks; /* of each KIRI_SOURCES_A_BLOCK sources: their block, or KIRI_NONE: none was split */
     KIRI_ARRAY(kiriLatticePoint) sourceCorners;
     kiriIndices sources;
 
@@ -70,7 +75,7 @@ typedef struct kiriMeshData {
        their point) and those from oldVertexCount on. So a view of the mesh needs to write no others. */
     bool isOpen; /* between Begin and Commit: only then can the mesh change, or be rolled back */
     uint32_t stamp;
-    int32_t oldTriangleCount, oldVertexCount;
+    int32_t oldTriangleCount, oldVertexCount, oldSourceCorners;
     uint32_t oldRevision;
     KIRI_ARRAY(kiriSavedTriangle) savedTriangles;
     KIRI_ARRAY(kiriSavedVertex) savedVertices;
@@ -225,8 +230,15 @@ int32_t kiriMesh_AddTriangle(kiriMeshData* mesh, int32_t a, int32_t b, int32_t c
 void kiriMesh_Link(kiriMeshData* mesh, int32_t h, int32_t g);
 void kiriMesh_SetOpen(kiriMeshData* mesh, int32_t h, bool open);
 
-/* The three corners of one of the caller's triangles; null where the mesh has nothing of it. */
-const kiriLatticePoint* kiriMesh_SourceCorners(const kiriMeshData* mesh, int32_t source);
+/* The corners of one of the caller's triangles; false where the mesh has nothing of it. */
+bool kiriMesh_SourceCorners(const kiriMeshData* mesh, int32_t source, kiriLatticePoint corners[3]);
+
+/* Before a triangle is split: from then on its source has corners in a block. The journal has saved the triangle, if it
+   saves it at all. False for memory. */
+bool kiriMesh_KeepSource(kiriMeshData* mesh, int32_t triangle);
+
+/* Takes back the blocks of the journal, while the triangles are as they have become. */
+void kiriMesh_RollbackSources(kiriMeshData* mesh);
 
 void kiriMesh_SetSource(kiriMeshData* mesh, int32_t vertex, int32_t source);
 

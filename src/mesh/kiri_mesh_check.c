@@ -58,13 +58,45 @@ static bool AreSquares(const kiriSquares* squares)
            squares->dirty.capacity >= (int64_t)squares->columns * squares->rows;
 }
 
-static bool AreSources(const kiriMeshData* mesh)
+/* Blocks of corners, or those that a part lists. */
+static bool AreSourceCorners(const kiriMeshData* mesh)
 {
-    bool areFine = mesh->sourceCorners.count % 3 == 0 &&
-                   (mesh->sources.count == 0 || 3 * (int64_t)mesh->sources.count == mesh->sourceCorners.count);
+    int32_t count = mesh->sourceCorners.count / (3 * KIRI_SOURCES_A_BLOCK);
+    bool areFine = mesh->sources.count > 0
+                       ? 3 * (int64_t)mesh->sources.count == mesh->sourceCorners.count && mesh->sourceBlocks.count == 0
+                       : mesh->sourceCorners.count % (3 * KIRI_SOURCES_A_BLOCK) == 0;
+    for (int32_t k = 0; areFine && k < mesh->sourceBlocks.count; ++k) {
+        areFine = mesh->sourceBlocks.data[k] >= KIRI_NONE && mesh->sourceBlocks.data[k] < count;
+    }
     for (int32_t k = 0; areFine && k < mesh->sourceCorners.count; k += 3) {
         const kiriLatticePoint* c = &mesh->sourceCorners.data[k];
-        areFine = kiriOrient(c[0], c[1], c[2]) > 0;
+        bool isGone = (c[0].x | c[0].y | c[1].x | c[1].y | c[2].x | c[2].y) == 0;
+        areFine = (isGone && mesh->sources.count == 0) || kiriOrient(c[0], c[1], c[2]) > 0;
+    }
+    return areFine;
+}
+
+/* The caller's triangles come first, each once. */
+static bool AreOriginals(const kiriMeshData* mesh)
+{
+    bool areFine = mesh->originals >= 0 && mesh->originals <= mesh->triangles.count &&
+                   (mesh->sources.count == 0 || mesh->originals == 0);
+    for (int32_t t = 1; areFine && t < mesh->originals; ++t) {
+        areFine = mesh->triangles.data[t - 1].source < mesh->triangles.data[t].source;
+    }
+    return areFine;
+}
+
+/* Of each triangle, and so of each vertex. */
+static bool AreSourcesThere(const kiriMeshData* mesh)
+{
+    bool areFine = true;
+    int64_t most = KIRI_SOURCES_A_BLOCK * (int64_t)mesh->sourceBlocks.count;
+    for (int32_t t = 0; areFine && t < mesh->triangles.count; ++t) {
+        kiriLatticePoint corners[3];
+        int32_t source = mesh->triangles.data[t].source;
+        areFine = !kiriMesh_IsTriangle(mesh, t) ||
+                  ((mesh->sources.count > 0 || source < most) && kiriMesh_SourceCorners(mesh, source, corners));
     }
     return areFine;
 }
@@ -120,8 +152,7 @@ static bool IsSound(const kiriMeshData* mesh, int32_t t)
     if (!kiriMesh_IsTriangle(mesh, t)) {
         return IsHole(triangle);
     }
-    if (triangle->vertex[1] == KIRI_NONE || triangle->vertex[2] == KIRI_NONE ||
-        kiriMesh_SourceCorners(mesh, triangle->source) == NULL) {
+    if (triangle->vertex[1] == KIRI_NONE || triangle->vertex[2] == KIRI_NONE) {
         return false;
     }
     kiriLatticePoint c[3];
@@ -176,8 +207,7 @@ static bool ArePlaces(const kiriMeshData* mesh)
     int32_t holes = 0;
     for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
         const kiriVertex* vertex = &mesh->vertices.data[v];
-        areFine = IsPlaced(mesh, vertex) &&
-                  (!kiriMesh_IsVertex(mesh, v) || kiriMesh_SourceCorners(mesh, vertex->source) != NULL);
+        areFine = IsPlaced(mesh, vertex);
         holes += !kiriMesh_IsVertex(mesh, v);
     }
     return areFine && holes == mesh->vertexHoles;
@@ -421,7 +451,8 @@ bool kiriMesh_Check(const kiriMeshData* mesh, kiriCheck* check)
 {
     return kiriCheck_That(check, AreSquares(&mesh->squares) && IsClosed(mesh)) &&
            kiriCheck_Object(check, MeshMust, mesh) && kiriCheck_That(check, mesh->step > 0.0) &&
-           kiriCheck_That(check, AreSources(mesh) && ArePlaces(mesh) && AreTriangles(mesh) && AreFans(mesh)) &&
+           kiriCheck_That(check, AreSourceCorners(mesh) && AreOriginals(mesh) && ArePlaces(mesh) &&
+                                     AreTriangles(mesh) && AreSourcesThere(mesh) && AreFans(mesh)) &&
            AreSourcesOfTriangles(mesh, check) && AreSquareLists(check, mesh) && AreVertexLists(check, mesh) &&
            AreDirty(check, mesh);
 }

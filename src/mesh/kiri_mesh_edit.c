@@ -48,6 +48,7 @@ void kiriMesh_Begin(kiriMeshData* mesh)
     ++mesh->stamp;
     mesh->oldTriangleCount = mesh->triangles.count;
     mesh->oldVertexCount = mesh->vertices.count;
+    mesh->oldSourceCorners = mesh->sourceCorners.count;
     mesh->oldRevision = mesh->revision;
     mesh->births.count = 0;
 }
@@ -80,6 +81,7 @@ void kiriMesh_Rollback(kiriMeshData* mesh)
         return;
     }
     kiriSquares_Rollback(&mesh->squares);
+    kiriMesh_RollbackSources(mesh);
     for (int32_t i = 0; i < mesh->savedVertices.count; ++i) {
         mesh->vertices.data[mesh->savedVertices.data[i].index] = mesh->savedVertices.data[i].was;
     }
@@ -109,6 +111,12 @@ static void MoveHalfEdge(kiriMeshData* mesh, int32_t h, int32_t g)
     if (tail->edge == h) {
         tail->edge = g;
     }
+}
+
+/* Saves a triangle that is to be split. */
+static bool SaveWhole(kiriMeshData* mesh, int32_t triangle)
+{
+    return SaveTriangle(mesh, triangle) && kiriMesh_KeepSource(mesh, triangle);
 }
 
 /* Saves what moving half-edge h to another triangle changes. */
@@ -176,8 +184,8 @@ int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
 {
     KIRI_ASSERT(kiriMesh_CanSplitEdge(mesh, h, at));
     int32_t g = kiriMesh_Twin(mesh, h);
-    if (!ReserveSplit(mesh) || !SaveTriangle(mesh, h / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(h)) ||
-        (g != KIRI_NONE && (!SaveTriangle(mesh, g / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(g))))) {
+    if (!ReserveSplit(mesh) || !SaveWhole(mesh, h / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(h)) ||
+        (g != KIRI_NONE && (!SaveWhole(mesh, g / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(g))))) {
         return KIRI_NONE;
     }
     kiriLatticePoint was[3], wasBeyond[3];
@@ -213,8 +221,7 @@ int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLattice
 {
     KIRI_ASSERT(kiriMesh_CanSplitTriangle(mesh, triangle, at));
     int32_t h = 3 * triangle;
-    if (!ReserveSplit(mesh) || !SaveTriangle(mesh, triangle) || !SaveHalfEdge(mesh, h + 1) ||
-        !SaveHalfEdge(mesh, h + 2)) {
+    if (!ReserveSplit(mesh) || !SaveWhole(mesh, triangle) || !SaveHalfEdge(mesh, h + 1) || !SaveHalfEdge(mesh, h + 2)) {
         return KIRI_NONE;
     }
     kiriLatticePoint corners[3];

@@ -77,15 +77,28 @@ static kiriResult TakeVertices(kiriMeshData* mesh, const MeshInput* input, kiriL
     return KIRI_OK;
 }
 
+static bool MakeTrianglesRoom(kiriMeshData* mesh, int32_t count)
+{
+    int64_t blocks = ((int64_t)count + KIRI_SOURCES_A_BLOCK - 1) / KIRI_SOURCES_A_BLOCK;
+    if (!kiriArray_Reserve(mesh->memory, &mesh->triangles, count) ||
+        !kiriArray_ResizeJust(mesh->memory, &mesh->sourceBlocks, blocks)) {
+        return false;
+    }
+    for (int32_t k = 0; k < blocks; ++k) {
+        mesh->sourceBlocks.data[k] = KIRI_NONE;
+    }
+    mesh->originals = count;
+    return true;
+}
+
 static kiriResult TakeTriangles(kiriMeshData* mesh, const MeshInput* input, const char** why)
 {
-    if (!kiriArray_Reserve(mesh->memory, &mesh->triangles, input->triangleCount) ||
-        !kiriArray_ResizeJust(mesh->memory, &mesh->sourceCorners, 3 * (int64_t)input->triangleCount)) {
+    if (!MakeTrianglesRoom(mesh, input->triangleCount)) {
         return RefuseForMemory(why);
     }
     for (int32_t t = 0; t < input->triangleCount; ++t) {
         const int32_t* v = &input->indices[3 * (int64_t)t];
-        kiriLatticePoint* c = &mesh->sourceCorners.data[3 * (int64_t)t];
+        kiriLatticePoint c[3];
         kiriMesh_AddTriangle(mesh, v[0], v[1], v[2], t, KIRI_NONE);
         kiriMesh_Corners(mesh, t, c);
         int64_t area = kiriOrient(c[0], c[1], c[2]);

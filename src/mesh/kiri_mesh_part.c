@@ -113,8 +113,7 @@ static kiriProgress CopySources(kiriMeshData* mesh, const kiriMeshData* from, ki
         return KIRI_FAILED;
     }
     for (int32_t k = 0; k < mesh->sources.count; ++k) {
-        memcpy(&mesh->sourceCorners.data[3 * (size_t)k], kiriMesh_SourceCorners(from, mesh->sources.data[k]),
-               3 * sizeof(kiriLatticePoint));
+        kiriMesh_SourceCorners(from, mesh->sources.data[k], &mesh->sourceCorners.data[3 * (size_t)k]);
     }
     return KIRI_DONE;
 }
@@ -190,11 +189,14 @@ void kiriMesh_Keep(kiriMeshData* mesh, const kiriKeep* triangles, const kiriKeep
                    int32_t squareCount)
 {
     KIRI_ASSERT(!mesh->isOpen && mesh->savedTriangles.count == 0);
+    int32_t originals = 0;
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         if (kiriKeep_Has(triangles, t)) {
             RenumberTriangle(&mesh->triangles.data[t], triangles, vertices);
+            originals += t < mesh->originals;
         }
     }
+    mesh->originals = originals;
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
         mesh->vertices.data[v].edge = EdgeTo(triangles, mesh->vertices.data[v].edge);
     }

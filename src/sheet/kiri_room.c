@@ -3,7 +3,7 @@
 #include <string.h>
 
 /* For each edge that a blade crosses; a triangle is in two squares or so, and a vertex has few weights. */
-enum { ROOM_VERTICES = 3, ROOM_TRIANGLES = 3, ROOM_NODES = 6, ROOM_WEIGHTS = 24 };
+enum { ROOM_VERTICES = 3, ROOM_TRIANGLES = 3, ROOM_NODES = 6, ROOM_WEIGHTS = 24, ROOM_CORNERS = 24 };
 
 enum { ROOM_BYTES = 768 }; /* that an item moves */
 
@@ -27,7 +27,7 @@ static int64_t CountCrossings(const kiriSheetData* sheet)
     return (int64_t)(crossings < most ? crossings : most) + u->cut.count;
 }
 
-enum { ROOMS = 15 };
+enum { ROOMS = 16 };
 
 static void ListRooms(kiriSheetData* sheet, int64_t more, kiriRoom rooms[ROOMS])
 {
@@ -36,10 +36,12 @@ static void ListRooms(kiriSheetData* sheet, int64_t more, kiriRoom rooms[ROOMS])
     kiriSkin* skin = &sheet->vertexSkin;
     kiriSurface* s = &sheet->seen.surface;
     int64_t vertices = mesh->vertices.count + ROOM_VERTICES * more,
-            added = mesh->triangles.count + ROOM_TRIANGLES * more, corners = 3 * (added + 1);
+            added = mesh->triangles.count + ROOM_TRIANGLES * more, corners = 3 * (added + 1),
+            blocks = mesh->sources.count > 0 ? 0 : mesh->sourceCorners.count + ROOM_CORNERS * more;
     const kiriRoom all[ROOMS] = { KIRI_ROOM(own, &mesh->vertices, vertices),
                                   KIRI_ROOM(own, &mesh->triangles, added),
                                   KIRI_ROOM(own, &mesh->squares.nodes, mesh->squares.nodes.count + ROOM_NODES * more),
+                                  KIRI_ROOM(own, &mesh->sourceCorners, blocks),
                                   KIRI_ROOM(own, &skin->spans, vertices),
                                   KIRI_ROOM(own, &skin->weights, skin->weights.count + ROOM_WEIGHTS * more),
                                   KIRI_ROOM(shown, &s->restPositions, 2 * vertices),
