@@ -373,7 +373,7 @@ static void TakesHubs(void** state)
         assert_int_equal(mesh.triangles.data[i].twin[2], 3 * ((i + 1) % SPOKES));
         assert_int_equal(mesh.triangles.data[i].twin[1], KIRI_NONE);
     }
-    assert_int_equal(mesh.triangles.data[0].open, 0);
+    assert_int_equal(mesh.triangles.data[0].marks, 0);
     kiriMemory_FreeAll(mesh.memory);
 }
 
@@ -793,6 +793,7 @@ static void JournalTellsWhatChanged(void** state)
         for (int32_t i = 0; i < mesh.savedTriangles.count; ++i) {
             int32_t t = mesh.savedTriangles.data[i].index;
             triangles[t] = mesh.triangles.data[t];
+            triangles[t].marks &= ~KIRI_TRIANGLE_SAVED;
         }
         for (int32_t i = 0; i < mesh.savedVertices.count; ++i) {
             int32_t v = mesh.savedVertices.data[i].index;

@@ -506,7 +506,7 @@ static void CheckMesh(const kiriSheetData* was, const kiriSheetData* is, const M
             int32_t twin = a.twin[k] == KIRI_NONE ? KIRI_NONE : maps->triangleTo[a.twin[k] / 3];
             assert_int_equal(maps->vertexTo[a.vertex[k]], b.vertex[k]);
             assert_int_equal(b.twin[k], twin == KIRI_NONE ? KIRI_NONE : 3 * twin + a.twin[k] % 3);
-            assert_int_equal(b.open >> k & 1, twin == KIRI_NONE ? 0 : a.open >> k & 1);
+            assert_int_equal(b.marks >> k & 1, twin == KIRI_NONE ? 0 : a.marks >> k & 1);
         }
     }
     for (int32_t v = 0; v < is->mesh.vertices.count; ++v) {

@@ -180,7 +180,7 @@ static void WriteMesh(kiriArchive* archive, const kiriMeshData* mesh)
     kiriArchive_Numbers(archive, numbers, 4, 4);
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         kiriTriangle triangle = mesh->triangles.data[t];
-        triangle.stamp = 0;
+        triangle.marks &= ~KIRI_TRIANGLE_SAVED;
         kiriArchive_Numbers(archive, &triangle, 4, sizeof(triangle) / 4);
     }
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {

@@ -91,7 +91,7 @@ static int32_t OutlineEdge(const kiriMeshData* mesh)
 
 static void Toggle(kiriMeshData* mesh, int32_t h)
 {
-    mesh->triangles.data[h / 3].open ^= 1 << h % 3;
+    mesh->triangles.data[h / 3].marks ^= 1 << h % 3;
 }
 
 static const char* CorruptMesh(kiriWorld* world, kiriSheetData* s, int way)

@@ -12,7 +12,7 @@ static bool Check_Holes(Check* check, const kiriMeshData* mesh)
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         const kiriTriangle* hole = &mesh->triangles.data[t];
         for (int i = 0; i < 3 && !kiriMesh_IsTriangle(mesh, t); ++i) {
-            REQUIRE(hole->vertex[i] == KIRI_NONE && hole->twin[i] == KIRI_NONE && hole->open == 0,
+            REQUIRE(hole->vertex[i] == KIRI_NONE && hole->twin[i] == KIRI_NONE && hole->marks == 0,
                     "something is left of triangle %d", t);
         }
         triangles += !kiriMesh_IsTriangle(mesh, t);
@@ -47,7 +47,8 @@ static bool Check_Triangles(Check* check, const kiriMeshData* mesh)
         REQUIRE(kiriOrient(c[0], c[1], c[2]) > 0, "triangle %d is turned over or has no area", t);
         REQUIRE(((c[0].x | c[0].y) & 1) == 0, "triangle %d has a corner with an odd coordinate", t);
         REQUIRE(kiriMesh_SourceCorners(mesh, triangle->source, c), "triangle %d is of source %d", t, triangle->source);
-        REQUIRE((triangle->open & ~7) == 0, "triangle %d has open bits %d", t, triangle->open);
+        REQUIRE((triangle->marks & ~(KIRI_TRIANGLE_OPEN | (mesh->isOpen ? KIRI_TRIANGLE_SAVED : 0))) == 0,
+                "triangle %d has marks %d", t, triangle->marks);
     }
     return true;
 }

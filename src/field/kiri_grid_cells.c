@@ -13,7 +13,7 @@ typedef char MomentsHaveNoPadding[sizeof(kiriMoments) == 6 * sizeof(double) ? 1 
 static bool RunsThroughSquare(const kiriMeshData* mesh, const kiriTriangle* t, int32_t square)
 {
     for (int i = 0; i < 3; ++i) {
-        if ((t->twin[i] == KIRI_NONE || (t->open >> i & 1) != 0) &&
+        if ((t->twin[i] == KIRI_NONE || (t->marks >> i & 1) != 0) &&
             kiriSquares_RunsThrough(&mesh->squares, square, mesh->vertices.data[t->vertex[i]].at,
                                     mesh->vertices.data[t->vertex[(i + 1) % 3]].at)) {
             return true;
@@ -31,7 +31,8 @@ static kiriProgress LookWhetherWhole(kiriGrid* grid, const kiriMeshData* mesh, i
     bool wasWhole = grid->whole.data[square], isWhole = mesh->squares.head[square] != KIRI_NONE;
     while (isWhole && work->node != KIRI_NONE) {
         const kiriTriangle* t = &mesh->triangles.data[nodes[work->node].triangle];
-        bool isInner = t->open == 0 && (t->twin[0] | t->twin[1] | t->twin[2]) >= 0; /* KIRI_NONE has the sign bit */
+        bool isInner = (t->marks & KIRI_TRIANGLE_OPEN) == 0 &&
+                       (t->twin[0] | t->twin[1] | t->twin[2]) >= 0; /* KIRI_NONE has the sign bit */
         isWhole = isInner || !RunsThroughSquare(mesh, t, square);
         work->node = nodes[work->node].next;
         if (!kiriGridWork_Spend(work, quota, KIRI_GRID_NODE) && isWhole) {

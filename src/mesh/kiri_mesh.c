@@ -16,14 +16,14 @@ void kiriMesh_Link(kiriMeshData* mesh, int32_t h, int32_t g)
 void kiriMesh_SetOpen(kiriMeshData* mesh, int32_t h, bool open)
 {
     kiriTriangle* t = &mesh->triangles.data[h / 3];
-    t->open = (t->open & ~(1 << (h % 3))) | ((open ? 1 : 0) << (h % 3));
+    t->marks = (t->marks & ~(1 << (h % 3))) | ((open ? 1 : 0) << (h % 3));
 }
 
 int32_t kiriMesh_AddTriangle(kiriMeshData* mesh, int32_t a, int32_t b, int32_t c, int32_t source, int32_t parent)
 {
     KIRI_ASSERT(mesh->triangles.count < mesh->triangles.capacity);
     int32_t index = mesh->triangles.count++;
-    kiriTriangle t = { { a, b, c }, { KIRI_NONE, KIRI_NONE, KIRI_NONE }, source, parent, 0, 0 };
+    kiriTriangle t = { { a, b, c }, { KIRI_NONE, KIRI_NONE, KIRI_NONE }, source, parent, 0 };
     mesh->triangles.data[index] = t;
     return index;
 }

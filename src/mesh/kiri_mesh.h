@@ -21,9 +21,14 @@ typedef struct kiriTriangle {
     int32_t twin[3];   /* the half-edge on the other side, also across open edges; KIRI_NONE at the outline */
     int32_t source;    /* the triangle of the caller that it is a part of */
     int32_t parent;    /* the older triangle that it was split from, or KIRI_NONE */
-    int32_t open;      /* bit i: half-edge i is open (cut); its twin agrees. Outline edges are not marked. */
-    uint32_t stamp;    /* of the journal that has saved it already */
+    int32_t
+        marks; /* KIRI_TRIANGLE_..., and bit i: half-edge i is open (cut); its twin agrees. Outline edges are not. */
 } kiriTriangle;
+
+enum {
+    KIRI_TRIANGLE_OPEN = 7, /* its open edges */
+    KIRI_TRIANGLE_SAVED = 8 /* in the journal that is open */
+};
 
 typedef struct kiriVertex {
     kiriLatticePoint at;
@@ -152,7 +157,7 @@ static inline int32_t kiriMesh_Twin(const kiriMeshData* mesh, int32_t h)
 
 static inline bool kiriMesh_IsOpen(const kiriMeshData* mesh, int32_t h)
 {
-    return (kiriMesh_TriangleOf(mesh, h)->open >> (h % 3) & 1) != 0;
+    return (kiriMesh_TriangleOf(mesh, h)->marks >> (h % 3) & 1) != 0;
 }
 
 /* A half-edge stands for the corner to its left: the next corner of the fan, or KIRI_NONE where the fan ends. */

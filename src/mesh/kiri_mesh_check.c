@@ -12,7 +12,7 @@ static const kiriMust TriangleMust[] = {
     KIRI_INDEX_OR_NONE(KIRI_OF_VERTICES, kiriTriangle, vertex, vertex),
     KIRI_INDEX_OR_NONE(KIRI_OF_HALF_EDGES, kiriTriangle, twin, twin),
     KIRI_INDEX_OR_NONE(KIRI_OF_TRIANGLES, kiriTriangle, parent, parent),
-    KIRI_WITHIN(0, 7, kiriTriangle, open, open),
+    KIRI_WITHIN(0, KIRI_TRIANGLE_OPEN, kiriTriangle, marks, marks),
 };
 
 static const kiriMust VertexMust[] = {
@@ -113,7 +113,7 @@ static bool IsClosed(const kiriMeshData* mesh)
 
 static bool IsHole(const kiriTriangle* triangle)
 {
-    bool isHole = triangle->open == 0;
+    bool isHole = triangle->marks == 0;
     for (int i = 0; i < 3; ++i) {
         isHole = isHole && triangle->vertex[i] == KIRI_NONE && triangle->twin[i] == KIRI_NONE;
     }

@@ -8,14 +8,14 @@ static bool SaveTriangle(kiriMeshData* mesh, int32_t triangle)
 {
     KIRI_ASSERT(mesh->isOpen && triangle >= 0 && triangle < mesh->triangles.count);
     kiriTriangle* t = &mesh->triangles.data[triangle];
-    if (triangle >= mesh->oldTriangleCount || t->stamp == mesh->stamp) {
+    if (triangle >= mesh->oldTriangleCount || (t->marks & KIRI_TRIANGLE_SAVED) != 0) {
         return true;
     }
     kiriSavedTriangle saved = { triangle, *t };
     if (!kiriArray_Push(mesh->memory, &mesh->savedTriangles, saved)) {
         return false;
     }
-    t->stamp = mesh->stamp;
+    t->marks |= KIRI_TRIANGLE_SAVED;
     return true;
 }
 
@@ -36,6 +36,9 @@ static bool SaveVertex(kiriMeshData* mesh, int32_t vertex)
 
 static void EmptyJournal(kiriMeshData* mesh)
 {
+    for (int32_t i = 0; i < mesh->savedTriangles.count; ++i) {
+        mesh->triangles.data[mesh->savedTriangles.data[i].index].marks &= ~KIRI_TRIANGLE_SAVED;
+    }
     mesh->savedTriangles.count = 0;
     mesh->savedVertices.count = 0;
 }

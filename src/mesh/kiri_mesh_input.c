@@ -248,8 +248,11 @@ static kiriResult FindTwins(kiriMeshData* mesh, const char** why)
     return result;
 }
 
+/* In the marks of a triangle, of corner 0; those of the others follow. */
+enum { FAN_DONE = 16 };
+
 /* Gives h's fan a vertex of its own when another fan has taken its vertex before. While this runs, the stamps mark the
-   vertices that are taken and the corners that are done. */
+   vertices that are taken. */
 static bool ClaimFan(kiriMeshData* mesh, int32_t h)
 {
     int32_t first = h, vertex = kiriMesh_Tail(mesh, h);
@@ -269,7 +272,7 @@ static bool ClaimFan(kiriMeshData* mesh, int32_t h)
     int32_t c = first;
     do {
         mesh->triangles.data[c / 3].vertex[c % 3] = vertex;
-        mesh->triangles.data[c / 3].stamp |= 1u << (c % 3);
+        mesh->triangles.data[c / 3].marks |= FAN_DONE << (c % 3);
         c = kiriMesh_CounterClockwise(mesh, c);
     } while (c != KIRI_NONE && c != first);
     return true;
@@ -278,12 +281,12 @@ static bool ClaimFan(kiriMeshData* mesh, int32_t h)
 static bool ClaimFans(kiriMeshData* mesh)
 {
     for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
-        if ((mesh->triangles.data[h / 3].stamp >> (h % 3) & 1u) == 0 && !ClaimFan(mesh, h)) {
+        if ((mesh->triangles.data[h / 3].marks & FAN_DONE << (h % 3)) == 0 && !ClaimFan(mesh, h)) {
             return false;
         }
     }
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        mesh->triangles.data[t].stamp = 0;
+        mesh->triangles.data[t].marks &= KIRI_TRIANGLE_OPEN;
     }
     for (int32_t i = 0; i < mesh->vertices.count; ++i) {
         mesh->vertices.data[i].stamp = 0;

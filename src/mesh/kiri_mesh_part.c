@@ -18,7 +18,7 @@ static void RenumberTriangle(kiriTriangle* t, const kiriKeep* triangles, const k
     for (int i = 0; i < 3; ++i) {
         t->vertex[i] = kiriKeep_To(vertices, t->vertex[i]);
         t->twin[i] = EdgeTo(triangles, t->twin[i]);
-        t->open &= t->twin[i] == KIRI_NONE ? ~(1 << i) : ~0;
+        t->marks &= t->twin[i] == KIRI_NONE ? ~(1 << i) : ~0;
     }
     t->parent = kiriKeep_To(triangles, t->parent);
 }
@@ -66,7 +66,7 @@ static bool CopyTriangles(kiriMeshData* mesh, const kiriMeshData* from, const ki
         }
         kiriTriangle triangle = from->triangles.data[triangles->items.data[k]];
         RenumberTriangle(&triangle, triangles->keep, vertices->keep);
-        triangle.stamp = 0;
+        triangle.marks &= KIRI_TRIANGLE_OPEN;
         mesh->triangles.data[mesh->triangles.count++] = triangle;
     }
     return true;
@@ -216,11 +216,11 @@ static void LeaveNeighbours(kiriMeshData* mesh, const kiriMeshLoss* loss, int32_
 {
     const kiriTriangle* t = &mesh->triangles.data[triangle];
     for (int i = 0; i < 3; ++i) {
-        int32_t twin = t->open & 1 << i ? t->twin[i] : KIRI_NONE;
+        int32_t twin = t->marks & 1 << i ? t->twin[i] : KIRI_NONE;
         if (twin != KIRI_NONE && kiriKeep_Has(&loss->keepTriangles, twin / 3)) {
             kiriTriangle* beside = &mesh->triangles.data[twin / 3];
             beside->twin[twin % 3] = KIRI_NONE;
-            beside->open &= ~(1 << (twin % 3));
+            beside->marks &= ~(1 << (twin % 3));
         }
     }
 }
@@ -249,7 +249,7 @@ void kiriMesh_LeaveHoles(kiriMeshData* mesh, const kiriMeshLoss* loss)
         LeaveNeighbours(mesh, loss, loss->triangles->data[k]);
         kiriTriangle* t = &mesh->triangles.data[loss->triangles->data[k]];
         *t = (kiriTriangle){
-            { KIRI_NONE, KIRI_NONE, KIRI_NONE }, { KIRI_NONE, KIRI_NONE, KIRI_NONE }, t->source, KIRI_NONE, 0, t->stamp
+            { KIRI_NONE, KIRI_NONE, KIRI_NONE }, { KIRI_NONE, KIRI_NONE, KIRI_NONE }, t->source, KIRI_NONE, 0
         };
     }
     for (int32_t k = 0; k < loss->vertices->count; ++k) {

@@ -138,7 +138,7 @@ static void MarkBorder(kiriSheetData* sheet)
     for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
         const kiriTriangle* triangle = &sheet->mesh.triangles.data[t];
         for (int i = 0; kiriMesh_IsTriangle(&sheet->mesh, t) && i < 3; ++i) {
-            if ((triangle->open >> i & 1) != 0 || triangle->twin[i] == KIRI_NONE) {
+            if ((triangle->marks >> i & 1) != 0 || triangle->twin[i] == KIRI_NONE) {
                 MarkBorderEdge(sheet, triangle->vertex[i], triangle->vertex[(i + 1) % 3]);
             }
         }

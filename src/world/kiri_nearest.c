@@ -70,7 +70,7 @@ static double WayToBorder(const kiriSheetData* sheet, const kiriNear* near)
         kiriVec3 apex = kiriSurface_At(surface, t->vertex[(k + 2) % 3]), edge = kiriVec3_Sub(to, from);
         double area = kiriVec3_Length(kiriVec3_Cross(edge, kiriVec3_Sub(apex, from)));
         double way = near->share[(k + 2) % 3] * area / kiriVec3_Length(edge);
-        bool isBorder = t->twin[k] == KIRI_NONE || (t->open >> k & 1) != 0;
+        bool isBorder = t->twin[k] == KIRI_NONE || (t->marks >> k & 1) != 0;
         least = isBorder && way < least ? way : least;
     }
     return least;

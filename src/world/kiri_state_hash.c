@@ -31,7 +31,7 @@ static void HashMesh(uint64_t* hash, const kiriMeshData* mesh)
         for (int k = 0; k < 3; ++k) {
             kiriHash_Pair(hash, triangle->vertex[k], triangle->twin[k]);
         }
-        kiriHash_Int32(hash, triangle->open);
+        kiriHash_Int32(hash, triangle->marks & KIRI_TRIANGLE_OPEN);
     }
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
         HashPoint(hash, mesh->vertices.data[v].at);
