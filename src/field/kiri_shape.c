@@ -19,33 +19,33 @@ static void AddRigid(kiriShapeJob* job, int32_t cell, int64_t share)
     }
 }
 
-/* There is room for every cell. */
-static void AddWeightChange(kiriShapeJob* job, int32_t cell)
+static bool AddWeightChange(kiriShapeJob* job, int32_t cell)
 {
     KIRI_ASSERT(kiriGrid_IsCell(job->grid, cell));
-    if ((job->work->marks.data[cell] & KIRI_MARK_CHANGED) == 0) {
-        job->work->marks.data[cell] |= KIRI_MARK_CHANGED;
-        job->shape->changes.data[job->shape->changes.count++] = cell;
+    if ((job->work->marks.data[cell] & KIRI_MARK_CHANGED) != 0) {
+        return true;
     }
+    job->work->marks.data[cell] |= KIRI_MARK_CHANGED;
+    return kiriArray_Push(job->memory, &job->shape->changes, cell);
 }
 
-/* The cell's weights or its material are about to change: they leave the rigid sums until it is finished.
-   There is room for every cell. */
-static void MarkSumDirty(kiriShapeJob* job, int32_t cell)
+/* The cell's weights or its material are about to change: they leave the rigid sums until it is finished. */
+static bool MarkSumDirty(kiriShapeJob* job, int32_t cell)
 {
-    if ((job->work->marks.data[cell] & KIRI_MARK_DIRTY) == 0) {
-        job->work->marks.data[cell] |= KIRI_MARK_DIRTY;
-        job->work->dirty.data[job->work->dirty.count++] = cell;
-        AddRigid(job, cell, -job->work->rigidShares.data[cell]);
+    if ((job->work->marks.data[cell] & KIRI_MARK_DIRTY) != 0) {
+        return true;
     }
+    job->work->marks.data[cell] |= KIRI_MARK_DIRTY;
+    AddRigid(job, cell, -job->work->rigidShares.data[cell]);
+    return kiriArray_Push(job->memory, &job->work->dirty, cell);
 }
 
-static void MarkWeightsDirty(kiriShapeJob* job, int32_t cell)
+static bool MarkWeightsDirty(kiriShapeJob* job, int32_t cell)
 {
-    MarkSumDirty(job, cell);
-    AddWeightChange(job, cell);
-    job->shape->recomputed += (job->work->marks.data[cell] & KIRI_MARK_RECOMPUTED) == 0;
-    job->work->marks.data[cell] |= KIRI_MARK_RECOMPUTED;
+    uint8_t* mark = &job->work->marks.data[cell];
+    job->shape->recomputed += (*mark & KIRI_MARK_RECOMPUTED) == 0;
+    *mark |= KIRI_MARK_RECOMPUTED;
+    return MarkSumDirty(job, cell) && AddWeightChange(job, cell);
 }
 
 static bool ResizeWeights(kiriShapeJob* job, int32_t cell, int32_t count)
@@ -58,8 +58,7 @@ static bool ResizeWeights(kiriShapeJob* job, int32_t cell, int32_t count)
 /* A cell without weights gets room for all at once. */
 static bool MakeFirstRoom(kiriShapeJob* job, int32_t cell)
 {
-    MarkWeightsDirty(job, cell);
-    return ResizeWeights(job, cell, job->work->awaited.data[cell]);
+    return MarkWeightsDirty(job, cell) && ResizeWeights(job, cell, job->work->awaited.data[cell]);
 }
 
 /* Puts, changes or takes away one weight among those that are there. */
@@ -76,7 +75,9 @@ static bool ReplaceWeight(kiriShapeJob* job, const kiriRawWeight* entry)
     if (found ? kiriCellWeight_Raw(&weights[k]) == entry->raw : !kept) {
         return true;
     }
-    MarkWeightsDirty(job, entry->cell);
+    if (!MarkWeightsDirty(job, entry->cell)) {
+        return false;
+    }
     if (found && !kept) {
         memmove(weights + k, weights + k + 1, (size_t)(span->count - k - 1) * sizeof(*weights));
         return ResizeWeights(job, entry->cell, span->count - 1);
@@ -151,8 +152,6 @@ static bool MakeCellsRoom(kiriShapeJob* job)
     kiriShapeWork* work = job->work;
     int32_t cells = job->grid->cells.count, c = shape->spans.count;
     if (!kiriArray_Resize(job->memory, &shape->spans, cells) ||
-        !kiriArray_Reserve(job->memory, &shape->changes, cells) ||
-        !kiriArray_Reserve(job->memory, &work->dirty, cells) ||
         !kiriArray_Resize(job->memory, &work->wasOwner, cells) ||
         !kiriArray_Resize(job->memory, &work->awaited, cells) ||
         !kiriArray_Resize(job->memory, &work->counted, cells) ||
@@ -252,8 +251,7 @@ static bool MarkGone(kiriShapeJob* job, int32_t cell)
 static bool MarkSteps(kiriShapeJob* job, int32_t cell)
 {
     job->work->marks.data[cell] |= KIRI_MARK_STEPS;
-    AddWeightChange(job, cell);
-    return TouchCell(job, cell);
+    return AddWeightChange(job, cell) && TouchCell(job, cell);
 }
 
 /* Another owner or distance. */
@@ -301,8 +299,7 @@ static bool MarkChange(kiriShapeJob* job, ChangeList list, int32_t k)
     case LIST_STEPS:
         return MarkSteps(job, changes->steps.data[k]);
     case LIST_MATERIAL:
-        MarkSumDirty(job, changes->material.data[k].cell);
-        return true;
+        return MarkSumDirty(job, changes->material.data[k].cell);
     case LIST_REGION:
         return MarkRegion(job, job->regions->changes.data[k]);
     case LIST_COUNT_STEPS:
@@ -533,7 +530,10 @@ void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames
 
 void kiriShape_DropScratch(kiriShape* shape, kiriMemory* memory)
 {
-    KIRI_ASSERT(shape->work->stage == KIRI_SHAPE_REST);
+    KIRI_ASSERT(shape->work->stage == KIRI_SHAPE_REST && shape->changes.count == 0);
+    shape->work->dirty.count = 0;
+    kiriArray_Release(memory, &shape->changes);
+    kiriArray_Release(memory, &shape->work->dirty);
     kiriArray_Release(memory, &shape->work->rawWeights);
     kiriArray_Release(memory, &shape->work->touches);
     kiriArray_Shorten(memory, &shape->weights, sizeof(*shape->weights.data));

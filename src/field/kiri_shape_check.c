@@ -133,7 +133,6 @@ static bool AreListsOfShape(kiriCheck* check, const kiriShape* shape)
     bool isFilling = work->stage > KIRI_SHAPE_REST && work->stage < KIRI_SHAPE_FINISH;
     bool areFine =
         kiriCheck_Marked(check, &changes, work->marks.count, work->marks.data, KIRI_MARK_CHANGED) &&
-        kiriCheck_That(check, changes.capacity >= shape->spans.count && work->dirty.capacity >= shape->spans.count) &&
         (!isFilling || kiriCheck_Marked(check, &dirty, work->marks.count, work->marks.data, KIRI_MARK_DIRTY)) &&
         kiriCheck_Distinct(check, &frames, work->frames.count);
     for (int32_t k = 0; areFine && k < frames.count; ++k) {
