@@ -5,14 +5,25 @@
 
 #include <string.h>
 
+/* Places are written as soon as there is room: the tick in which a sheet comes far from the origin of the world shall not
+   be the first to touch all of it. */
+static bool ResizePlaces(kiriSurface* surface, kiriMemory* memory, int64_t count)
+{
+    int32_t old = surface->places.count;
+    bool ok =
+        kiriArray_Reserve(memory, &surface->places, count + 1) && kiriArray_Resize(memory, &surface->places, count);
+    if (ok && count > old) {
+        memset(surface->places.data + old, 0, sizeof(float) * (size_t)(count - old));
+    }
+    return ok;
+}
+
 bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount,
                         int32_t labelCount)
 {
     int64_t vertices = mesh->vertices.count, triangles = mesh->triangles.count;
     return kiriArray_Reserve(memory, &surface->positions, 3 * vertices + 1) &&
-           kiriArray_Reserve(memory, &surface->places, 3 * vertices + 1) &&
-           kiriArray_Resize(memory, &surface->positions, 3 * vertices) &&
-           kiriArray_Resize(memory, &surface->places, 3 * vertices) &&
+           kiriArray_Resize(memory, &surface->positions, 3 * vertices) && ResizePlaces(surface, memory, 3 * vertices) &&
            kiriArray_Resize(memory, &surface->normals, 3 * vertices) &&
            kiriArray_Resize(memory, &surface->restPositions, 2 * vertices) &&
            kiriArray_Resize(memory, &surface->sourceWeights, 3 * vertices) &&
