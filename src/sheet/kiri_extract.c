@@ -124,6 +124,18 @@ static void CopyFrames(const kiriKept* kept, kiriSheetData* to)
     }
 }
 
+/* Where a frame has a mass that the next commit is to take from its region again: other material gives it one, see
+   kiri_settings.c. */
+static void CopyDirty(const kiriKept* kept, kiriSheetData* to)
+{
+    const kiriSheetData* from = kept->from;
+    for (int32_t i = 0; i < from->frames.count; ++i) {
+        if (kiriKeep_To(&kept->frames, i) != KIRI_NONE) {
+            to->regions.dirty.data[kiriKeep_To(&kept->frames, i)] = from->regions.dirty.data[i];
+        }
+    }
+}
+
 /* What is still seen elsewhere goes on to fade. Samples keep their order. */
 static bool CopyFades(kiriFades* to, kiriMemory* memory, const kiriFades* from, const kiriKeep* samples)
 {
@@ -201,6 +213,7 @@ static bool CopyMotion(const kiriKept* kept, kiriSheetData* to)
     CopyFrames(kept, to);
     kiriBuild_Commit(to);
     CopyFrames(kept, to);
+    CopyDirty(kept, to);
     CopyStrainOffsets(kept, to);
     CopyPinHistory(kept, to);
     kiriPins_SumShares(to);
