@@ -567,8 +567,19 @@ static void FaceIsNoBorder(kiriSheetData* sheet)
 
 static void SightIsUnlisted(kiriSheetData* sheet)
 {
-    sheet->links.work->edges.squares.count = 0;
-    sheet->links.work->edges.spans.data[0] = (kiriSpan){ 0, 1 };
+    sheet->links.work->edges.squares.count = sheet->links.work->edges.spans.count = 0;
+    sheet->links.work->edges.listed.data[0] = 0;
+}
+
+/* A square that nobody has looked at. */
+static void SightIsFar(kiriSheetData* sheet)
+{
+    kiriSightEdges* edges = &sheet->links.work->edges;
+    int32_t square = 0;
+    while (edges->listed.data[square] != KIRI_NONE) {
+        ++square;
+    }
+    edges->listed.data[square] = edges->spans.count;
 }
 
 static void TestLinksAtWork(void** state)
@@ -577,6 +588,7 @@ static void TestLinksAtWork(void** state)
     static const Spoiler spoilers[] = {
         { "FaceIsNoBorder", FaceIsNoBorder },
         { "SightIsUnlisted", SightIsUnlisted },
+        { "SightIsFar", SightIsFar },
     };
     Host host;
     StartAtWork(&host, KIRI_STAGE_SHAPE, 3);

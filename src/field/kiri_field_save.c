@@ -218,9 +218,9 @@ static const kiriMember SightEdgeMembers[] = {
 static const kiriTable SightEdgeTable = KIRI_TABLE(kiriSightEdge, SightEdgeMembers);
 
 static const kiriMember SightEdgesMembers[] = {
-    KIRI_DROPPED(kiriSightEdges, memory),       KIRI_PARTS(kiriSightEdges, edges, SightEdgeTable),
-    KIRI_ITEMS(4, kiriSightEdges, spans),       KIRI_ITEMS(4, kiriSightEdges, squares),
-    KIRI_BOOLS(kiriSightEdges, failed, failed),
+    KIRI_DROPPED(kiriSightEdges, memory),   KIRI_PARTS(kiriSightEdges, edges, SightEdgeTable),
+    KIRI_ITEMS(4, kiriSightEdges, squares), KIRI_ITEMS(4, kiriSightEdges, spans),
+    KIRI_ITEMS(4, kiriSightEdges, listed),  KIRI_BOOLS(kiriSightEdges, failed, failed),
 };
 static const kiriTable SightEdgesTable = KIRI_TABLE(kiriSightEdges, SightEdgesMembers);
 

@@ -43,10 +43,10 @@ static const kiriMust SightEdgeMust[] = {
 };
 
 static const kiriMust RunningLinksMust[] = {
-    KIRI_WITHIN(0, INT32_MAX - 1, kiriLinkWork, at, at),     KIRI_COUNTS(kiriLinkWork, due, due),
-    KIRI_LENGTH(KIRI_OF_SITES, kiriLinkWork, stale),         KIRI_ITEMS_MUST(kiriLinkWork, touched, RegionPairMust),
-    KIRI_ITEMS_MUST(kiriLinkWork, faces, IsLinkFace),        KIRI_ITEMS_MUST(kiriLinkWork, made, NewLinkMust),
-    KIRI_LENGTH(KIRI_OF_SQUARES, kiriLinkWork, edges.spans), KIRI_ITEMS_MUST(kiriLinkWork, edges.edges, SightEdgeMust),
+    KIRI_WITHIN(0, INT32_MAX - 1, kiriLinkWork, at, at),      KIRI_COUNTS(kiriLinkWork, due, due),
+    KIRI_LENGTH(KIRI_OF_SITES, kiriLinkWork, stale),          KIRI_ITEMS_MUST(kiriLinkWork, touched, RegionPairMust),
+    KIRI_ITEMS_MUST(kiriLinkWork, faces, IsLinkFace),         KIRI_ITEMS_MUST(kiriLinkWork, made, NewLinkMust),
+    KIRI_LENGTH(KIRI_OF_SQUARES, kiriLinkWork, edges.listed), KIRI_ITEMS_MUST(kiriLinkWork, edges.edges, SightEdgeMust),
 };
 
 static const kiriMust EndsOfLinksMust[] = {
@@ -103,18 +103,18 @@ static bool AreSights(kiriCheck* check, const kiriLinkWork* work)
 {
     const kiriSightEdges* edges = &work->edges;
     kiriIndices squares = { edges->squares.data, edges->squares.count, edges->squares.capacity };
-    bool areFine = kiriCheck_Distinct(check, &squares, edges->spans.count);
-    int32_t known = 0, listed = 0;
-    for (int32_t s = 0; areFine && s < edges->spans.count; ++s) {
-        kiriSpan span = edges->spans.data[s];
-        known += span.count != KIRI_NONE;
-        areFine = span.count == KIRI_NONE ||
-                  (span.count >= 0 && span.first >= 0 && (int64_t)span.first + span.count <= edges->edges.count);
+    bool areFine = kiriCheck_Distinct(check, &squares, edges->listed.count);
+    int32_t known = 0;
+    for (int32_t s = 0; areFine && s < edges->listed.count; ++s) {
+        known += edges->listed.data[s] != KIRI_NONE;
     }
-    for (int32_t k = 0; areFine && k < squares.count; ++k) {
-        listed += edges->spans.data[squares.data[k]].count != KIRI_NONE;
+    for (int32_t k = 0; areFine && k < edges->spans.count; ++k) {
+        kiriSpan span = edges->spans.data[k];
+        areFine = k < squares.count && edges->listed.data[squares.data[k]] == k && span.count >= 0 && span.first >= 0 &&
+                  (int64_t)span.first + span.count <= edges->edges.count;
     }
-    return kiriCheck_That(check, areFine && known == listed && edges->spans.count <= check->count[KIRI_OF_SQUARES]);
+    return kiriCheck_That(check, areFine && known == edges->spans.count &&
+                                     edges->listed.count <= check->count[KIRI_OF_SQUARES]);
 }
 
 /* They are of the border of the material: a walk around a vertex that begins at one ends. */

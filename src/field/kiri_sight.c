@@ -32,17 +32,17 @@ int32_t kiriSight_EdgeBefore(const kiriMeshData* mesh, int32_t h)
 
 bool kiriSightEdges_Start(kiriSightEdges* edges, const kiriMeshData* mesh)
 {
-    int32_t squares = mesh->squares.columns * mesh->squares.rows, old = edges->spans.count;
-    if (!kiriArray_ResizeJust(edges->memory, &edges->spans, squares)) {
+    int32_t squares = mesh->squares.columns * mesh->squares.rows, old = edges->listed.count;
+    if (!kiriArray_ResizeJust(edges->memory, &edges->listed, squares)) {
         return false;
     }
     for (int32_t s = old; s < squares; ++s) {
-        edges->spans.data[s].count = KIRI_NONE;
+        edges->listed.data[s] = KIRI_NONE;
     }
     for (int32_t k = 0; k < edges->squares.count; ++k) {
-        edges->spans.data[edges->squares.data[k]].count = KIRI_NONE;
+        edges->listed.data[edges->squares.data[k]] = KIRI_NONE;
     }
-    edges->squares.count = edges->edges.count = 0;
+    edges->squares.count = edges->spans.count = edges->edges.count = 0;
     edges->failed = false;
     return true;
 }
@@ -71,12 +71,20 @@ static bool AddSightEdge(const kiriSight* sight, int32_t square, int32_t h, int3
 static bool CollectEdges(const kiriSight* sight, int32_t square)
 {
     const kiriMeshData* mesh = sight->mesh;
-    bool ok = kiriArray_Push(sight->edges->memory, &sight->edges->squares, square);
+    kiriSightEdges* edges = sight->edges;
+    kiriSpan span = { edges->edges.count, 0 };
+    bool ok = kiriArray_Reserve(edges->memory, &edges->spans, (int64_t)edges->spans.count + 1) &&
+              kiriArray_Push(edges->memory, &edges->squares, square);
     for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
         int32_t triangle = mesh->squares.nodes.data[n].triangle;
         for (int32_t h = 3 * triangle; ok && h < 3 * triangle + 3; ++h) {
             ok = !IsMaterialEdge(mesh, h) || AddSightEdge(sight, square, h, sight->grid->nodeCell.data[n]);
         }
+    }
+    if (ok) {
+        span.count = edges->edges.count - span.first;
+        edges->listed.data[square] = edges->spans.count;
+        edges->spans.data[edges->spans.count++] = span;
     }
     return ok;
 }
@@ -84,15 +92,17 @@ static bool CollectEdges(const kiriSight* sight, int32_t square)
 const kiriSightEdge* kiriSight_EdgesOf(const kiriSight* sight, int32_t square, int32_t* count)
 {
     kiriSightEdges* edges = sight->edges;
-    KIRI_ASSERT(square >= 0 && square < edges->spans.count);
-    kiriSpan* span = &edges->spans.data[square];
-    if (span->count == KIRI_NONE && !edges->failed) {
-        int32_t first = edges->edges.count;
+    KIRI_ASSERT(square >= 0 && square < edges->listed.count);
+    if (edges->listed.data[square] == KIRI_NONE && !edges->failed) {
         edges->failed = !CollectEdges(sight, square);
-        *span = (kiriSpan){ first, edges->failed ? KIRI_NONE : edges->edges.count - first };
     }
-    *count = edges->failed ? 0 : span->count;
-    return edges->failed ? NULL : edges->edges.data + span->first;
+    if (edges->failed) {
+        *count = 0;
+        return NULL;
+    }
+    kiriSpan span = edges->spans.data[edges->listed.data[square]];
+    *count = span.count;
+    return edges->edges.data + span.first;
 }
 
 /* ---- What is met ------------------------------------------------------------------------------------------------- */

@@ -19,8 +19,9 @@ typedef struct kiriSightEdge {
 typedef struct kiriSightEdges {
     kiriMemory* memory;
     KIRI_ARRAY(kiriSightEdge) edges;
-    KIRI_ARRAY(kiriSpan) spans;  /* of each square; count KIRI_NONE: not looked at yet */
-    KIRI_ARRAY(int32_t) squares; /* that were */
+    KIRI_ARRAY(int32_t) squares; /* that were looked at, */
+    KIRI_ARRAY(kiriSpan) spans;  /* and the edges of each of these */
+    KIRI_ARRAY(int32_t) listed;  /* of each square: where it is in `squares`, or KIRI_NONE */
     bool failed;                 /* for memory: what was seen since is of no use */
 } kiriSightEdges;
 
