@@ -8,12 +8,25 @@ const kiriMust kiriMustBeFloat[1] = { { KIRI_RULE_FLOATS, KIRI_OF_NOTHING, 0, 4,
 
 /* ---- Numbers ------------------------------------------------------------------------------------------------------ */
 
+/* What numbers may be: as unsigned ones at most `most` above `low`. There may be none, as of indices of nothing. */
+typedef struct Limits {
+    uint32_t low, most;
+    bool isSome;
+} Limits;
+
+static Limits LimitsOf(int64_t low, int64_t high)
+{
+    int64_t most = (high < INT32_MAX ? high : INT32_MAX) - low;
+    return (Limits){ (uint32_t)low, (uint32_t)most, most >= 0 };
+}
+
 static bool AreBetween(const void* numbers, int32_t bytes, int64_t low, int64_t high)
 {
-    const int32_t* number = numbers;
-    bool areFine = true;
+    const uint32_t* number = numbers;
+    Limits limits = LimitsOf(low, high);
+    bool areFine = limits.isSome || bytes == 0;
     for (int32_t k = 0; k < bytes / 4; ++k) {
-        areFine &= number[k] >= low && number[k] <= high;
+        areFine &= number[k] - limits.low <= limits.most;
     }
     return areFine;
 }
@@ -91,16 +104,66 @@ static bool AreAllNumbers(const kiriMust* rules, int32_t count)
     return are;
 }
 
-/* One rule after the other: most of what is read are items of a few numbers. */
+/* A number of each item; these are `apart` bytes from each other. */
+static bool IsEachBetween(const char* at, int64_t items, int32_t apart, Limits limits)
+{
+    bool areFine = limits.isSome;
+    for (int64_t n = 0; n < items; ++n, at += apart) {
+        areFine &= *(const uint32_t*)(const void*)at - limits.low <= limits.most;
+    }
+    return areFine;
+}
+
+static bool IsEachReal(const char* at, int64_t items, int32_t apart)
+{
+    bool areFine = true;
+    for (int64_t n = 0; n < items; ++n, at += apart) {
+        areFine &= AreReals(at, 8);
+    }
+    return areFine;
+}
+
+static bool IsEachFloat(const char* at, int64_t items, int32_t apart)
+{
+    bool areFine = true;
+    for (int64_t n = 0; n < items; ++n, at += apart) {
+        areFine &= AreFloats(at, 4);
+    }
+    return areFine;
+}
+
+/* One rule, which may be about several numbers of an item. */
+static bool IsEachFine(const kiriMust* rule, const char* at, int64_t items, int32_t apart, int64_t high)
+{
+    bool areFine = true;
+    Limits limits = LimitsOf(rule->low, high);
+    if (rule->kind == KIRI_RULE_COUNTS) {
+        for (int64_t n = 0; n < items; ++n) {
+            areFine &= AreCounts(at + n * apart, rule->size);
+        }
+        return areFine;
+    }
+    int32_t width = rule->kind == KIRI_RULE_REALS ? 8 : 4;
+    for (int32_t k = 0; areFine && k < rule->size; k += width) {
+        areFine = rule->kind == KIRI_RULE_BETWEEN ? IsEachBetween(at + k, items, apart, limits)
+                  : rule->kind == KIRI_RULE_REALS ? IsEachReal(at + k, items, apart)
+                                                  : IsEachFloat(at + k, items, apart);
+    }
+    return areFine;
+}
+
+enum { ITEMS_AT_ONCE = 128 };
+
+/* Most of what is read are items of a few numbers: one rule after the other, for so many items that they stay near. */
 static bool AreItems(const kiriCheck* check, const kiriMust* must, const char* data, int64_t items)
 {
     bool areFine = true;
-    for (int32_t k = 0; areFine && items > 0 && k < must->ruleCount; ++k) {
-        const kiriMust* rule = &must->rules[k];
-        const int64_t low = rule->low, high = rule->high + CountOf(check, rule);
-        const char* at = data + rule->offset;
-        for (int64_t n = 0; n < items; ++n, at += must->size) {
-            areFine &= AreNumbers(rule, at, low, high);
+    for (int64_t first = 0; areFine && first < items; first += ITEMS_AT_ONCE) {
+        int64_t some = items - first < ITEMS_AT_ONCE ? items - first : ITEMS_AT_ONCE;
+        const char* at = data + first * must->size;
+        for (int32_t k = 0; areFine && k < must->ruleCount; ++k) {
+            const kiriMust* rule = &must->rules[k];
+            areFine = IsEachFine(rule, at + rule->offset, some, must->size, rule->high + CountOf(check, rule));
         }
     }
     return areFine;
@@ -211,11 +274,9 @@ bool kiriCheck_StartChains(kiriCheck* check, kiriChains* chains, const void* nex
 bool kiriCheck_Chain(kiriCheck* check, kiriChains* chains, int32_t head)
 {
     while (head != KIRI_NONE) {
-        if (!kiriCheck_That(check, head >= 0 && head < chains->items && !chains->seen[head])) {
+        if (!kiriCheck_That(check, kiriChains_Take(chains, head))) {
             return false;
         }
-        chains->seen[head] = 1;
-        chains->listed += 1;
         head = kiriChains_After(chains, head);
     }
     return true;

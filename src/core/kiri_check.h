@@ -155,6 +155,17 @@ static inline int32_t kiriChains_After(const kiriChains* chains, int32_t item)
     return *(const int32_t*)(const void*)((const char*)chains->next + item * chains->stride);
 }
 
+/* False where it is no item, or in a list already. */
+static inline bool kiriChains_Take(kiriChains* chains, int32_t item)
+{
+    if (item < 0 || item >= chains->items || chains->seen[item]) {
+        return false;
+    }
+    chains->seen[item] = 1;
+    chains->listed += 1;
+    return true;
+}
+
 /* The list that begins with an item, or with KIRI_NONE. */
 bool kiriCheck_Chain(kiriCheck* check, kiriChains* chains, int32_t head);
 

@@ -17,6 +17,25 @@ extern const kiriMust kiriSiteMust[2];
 /* The mesh is right. Counts cells and faces. */
 bool kiriGrid_Check(const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* check);
 
+/* Rows of squares, without divisions: the quotient is so far from a whole number that rounding does not show. */
+typedef struct kiriSquareRows {
+    int32_t columns, rows;
+    double perColumn;
+} kiriSquareRows;
+
+static inline kiriSquareRows kiriSquareRows_Of(const kiriSquares* squares)
+{
+    return (kiriSquareRows){ squares->columns, squares->rows, 1.0 / squares->columns };
+}
+
+static inline int32_t kiriSquareRows_At(const kiriSquareRows* rows, int32_t square)
+{
+    return (int32_t)(((double)square + 0.5) * rows->perColumn);
+}
+
+/* Steps of cells lead as far as they say. */
+bool kiriGrid_CheckSteps(const kiriGrid* grid, const kiriSquares* squares, kiriCheck* check);
+
 /* Its part for what cells and faces have of their own. */
 bool kiriGrid_CheckOwn(const kiriGrid* grid, kiriCheck* check);
 

@@ -185,7 +185,7 @@ static bool AreCellsSound(kiriCheck* check, const kiriGrid* grid, const kiriMesh
 /* ---- Faces -------------------------------------------------------------------------------------------------------- */
 
 /* Of two cells that live, in squares beside each other. Those of the side at hand are empty until they are added up. */
-static bool IsFace(const kiriGrid* grid, const kiriSquares* squares, const kiriFace* face)
+static bool IsFace(const kiriGrid* grid, const kiriSquareRows* rows, const kiriFace* face)
 {
     bool mayBeEmpty = grid->work->running && grid->work->isMerging;
     double width = kiriFace_HasOwnStretch(face) ? grid->stretches.data[face->kind / 2 - 1].width : 1.0;
@@ -193,16 +193,17 @@ static bool IsFace(const kiriGrid* grid, const kiriSquares* squares, const kiriF
         return false;
     }
     int32_t a = grid->cells.data[face->cell[0]].square, b = grid->cells.data[face->cell[1]].square;
-    int32_t axis = kiriFace_Axis(face), apart = axis == 0 ? 1 : squares->columns;
-    return a != KIRI_NONE && b == a + apart && (axis == 1 || b % squares->columns != 0);
+    int32_t axis = kiriFace_Axis(face), apart = axis == 0 ? 1 : rows->columns;
+    return a != KIRI_NONE && b == a + apart && (axis == 1 || kiriSquareRows_At(rows, a) == kiriSquareRows_At(rows, b));
 }
 
 static int32_t CountFaces(const kiriGrid* grid, const kiriSquares* squares, bool* areFine)
 {
+    kiriSquareRows rows = kiriSquareRows_Of(squares);
     int32_t live = 0;
     for (int32_t f = 0; f < grid->faces.count; ++f) {
         if (grid->faces.data[f].cell[0] != KIRI_NONE) {
-            *areFine = *areFine && IsFace(grid, squares, &grid->faces.data[f]);
+            *areFine = *areFine && IsFace(grid, &rows, &grid->faces.data[f]);
             ++live;
         }
     }
@@ -231,85 +232,6 @@ static bool AreFaces(const kiriGrid* grid, const kiriSquares* squares)
     return areFine && live + unused == grid->faces.count;
 }
 
-/* ---- Steps -------------------------------------------------------------------------------------------------------- */
-
-static bool AreOpenSteps(const kiriGrid* grid, const kiriSquares* squares)
-{
-    bool areFine = true;
-    for (int k = 0; k < KIRI_OPEN_STEPS; ++k) {
-        areFine = areFine && grid->openTo[k] == kiriOpenSteps[k].u + kiriOpenSteps[k].v * squares->columns;
-    }
-    return areFine;
-}
-
-/* Two rows of squares are around it, each with a cell. */
-static bool IsOpenRun(const kiriGrid* grid, const kiriSquares* squares, int32_t cell)
-{
-    enum { ROWS = 2 };
-    int32_t square = grid->cells.data[cell].square, column = square % squares->columns, row = square / squares->columns;
-    bool isFine = grid->runs.data[cell].first == ~square && column >= ROWS && column < squares->columns - ROWS &&
-                  row >= ROWS && row < squares->rows - ROWS;
-    for (int k = 0; isFine && k < KIRI_OPEN_STEPS; ++k) {
-        isFine = grid->squareCell.data[square + grid->openTo[k]] != KIRI_NONE;
-    }
-    return isFine;
-}
-
-/* One of a length leads to a square so far away. While the grid follows the mesh it may still lead to what is gone. */
-static bool IsStepSound(const kiriGrid* grid, const kiriSquares* squares, int32_t from, const kiriStep* step,
-                        int length)
-{
-    static const int32_t lengths[KIRI_STEP_LENGTHS] = { KIRI_UNIT, KIRI_UNIT_DIAGONAL, KIRI_UNIT_KNIGHT };
-    static const int32_t squared[KIRI_STEP_LENGTHS] = { 1, 2, 5 };
-    if (step->cell < 0 || step->cell >= grid->cells.count || step->length != lengths[length] ||
-        step->u * step->u + step->v * step->v != squared[length]) {
-        return false;
-    }
-    int32_t square = grid->cells.data[step->cell].square;
-    return square == KIRI_NONE ? grid->work->running
-                               : square == grid->cells.data[from].square + step->u + step->v * squares->columns;
-}
-
-static bool AreStoredSteps(const kiriGrid* grid, const kiriSquares* squares, int32_t cell)
-{
-    const kiriStepRun* run = &grid->runs.data[cell];
-    int32_t s = run->first;
-    bool areFine = true;
-    for (int k = 0; areFine && k < KIRI_STEP_LENGTHS; ++k) {
-        for (; areFine && s < run->end[k]; ++s) {
-            areFine = IsStepSound(grid, squares, cell, &grid->steps.data[s], k);
-        }
-    }
-    return areFine;
-}
-
-static bool IsStoredRun(kiriCheck* check, const kiriGrid* grid, const kiriSquares* squares, kiriRooms* rooms,
-                        int32_t cell)
-{
-    const kiriStepRun* run = &grid->runs.data[cell];
-    int64_t count = (int64_t)run->end[KIRI_STEP_LENGTHS - 1] - run->first;
-    bool isFine = run->first <= run->end[0] && run->end[0] <= run->end[1] && run->end[1] <= run->end[2] &&
-                  (count == 0 || run->end[2] <= grid->steps.count);
-    kiriSpan room = { run->first, (int32_t)(count > 0 && count < KIRI_OPEN_STEPS ? KIRI_OPEN_STEPS : count) };
-    return kiriCheck_That(check, isFine) && kiriCheck_Span(check, rooms, room) &&
-           kiriCheck_That(check, AreStoredSteps(grid, squares, cell));
-}
-
-static bool AreSteps(kiriCheck* check, const kiriGrid* grid, const kiriSquares* squares)
-{
-    kiriRooms rooms;
-    bool areFine = kiriCheck_That(check, AreOpenSteps(grid, squares)) &&
-                   kiriCheck_StartRooms(check, &rooms, &grid->steps, sizeof(kiriStep), &grid->stepRoom);
-    for (int32_t c = 0; areFine && c < grid->cells.count; ++c) {
-        const kiriStepRun* run = &grid->runs.data[c];
-        bool isOpen = kiriStepRun_IsOpen(run);
-        areFine = isOpen ? kiriCheck_That(check, grid->cells.data[c].square != KIRI_NONE && IsOpenRun(grid, squares, c))
-                         : IsStoredRun(check, grid, squares, &rooms, c);
-    }
-    kiriMemory_Free(&check->memory, areFine ? rooms.taken : NULL);
-    return areFine;
-}
-
 /* ---- What the mesh has in cells ----------------------------------------------------------------------------------- */
 
 /* Which squares the grid has not seen since they changed: those from some dirty one on. */
@@ -321,12 +243,19 @@ static int32_t FirstUnseen(const kiriGrid* grid, const kiriSquares* squares)
 
 static bool AreNodesIn(const kiriGrid* grid, const kiriSquares* squares, int32_t square)
 {
-    bool areFine = true;
-    for (int32_t n = squares->head[square]; areFine && n != KIRI_NONE; n = squares->nodes.data[n].next) {
+    const uint32_t count = (uint32_t)grid->cells.count;
+    int32_t last = KIRI_NONE;
+    for (int32_t n = squares->head[square]; n != KIRI_NONE; n = squares->nodes.data[n].next) {
         int32_t cell = n < grid->nodeCell.count ? grid->nodeCell.data[n] : KIRI_NONE;
-        areFine = cell >= 0 && cell < grid->cells.count && grid->cells.data[cell].square == square;
+        if (cell == last && cell != KIRI_NONE) {
+            continue;
+        }
+        if ((uint32_t)cell >= count || grid->cells.data[cell].square != square) {
+            return false;
+        }
+        last = cell;
     }
-    return areFine;
+    return true;
 }
 
 /* In a square with several cells. */
@@ -584,8 +513,8 @@ bool kiriGrid_Check(const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* c
            kiriCheck_That(check, AreMaterials(grid, mesh) && grid->nodeCell.count <= squares->nodes.count &&
                                      grid->vertexCell.count <= mesh->vertices.count) &&
            AreCellsSound(check, grid, mesh) && kiriCheck_That(check, AreFaces(grid, squares)) &&
-           AreSteps(check, grid, squares) && AreFlagged(check, grid->work) && AreMembers(check, grid, mesh) &&
-           (!grid->work->running || IsRunning(check, grid, mesh));
+           kiriGrid_CheckSteps(grid, squares, check) && AreFlagged(check, grid->work) &&
+           AreMembers(check, grid, mesh) && (!grid->work->running || IsRunning(check, grid, mesh));
 }
 
 bool kiriGrid_CheckLeft(const kiriGrid* grid, kiriCheck* check)

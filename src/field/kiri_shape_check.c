@@ -49,9 +49,10 @@ static bool AreWeightsOf(kiriCheck* check, const kiriShape* shape, int32_t cell)
 {
     kiriSpan span = shape->spans.data[cell];
     int32_t awaited = shape->work->awaited.data[cell];
+    int32_t there = span.count > 0 ? span.count - awaited : 0;
     bool areFine = awaited >= 0 && awaited <= (span.count > 0 ? span.count : check->count[KIRI_OF_REGIONS]);
-    for (int32_t k = span.first; areFine && k < span.first + span.count - (span.count > 0 ? awaited : 0); ++k) {
-        const kiriCellWeight* weight = &shape->weights.data[k];
+    for (int32_t k = 0; areFine && k < there; ++k) {
+        const kiriCellWeight* weight = &shape->weights.data[span.first + k];
         double raw = kiriCellWeight_Raw(weight);
         areFine = kiriLabels_Has(&shape->labels, weight->label, shape->rigid.count) && raw > 0.0 && raw <= 1.0;
     }
@@ -69,15 +70,85 @@ static bool AreWeights(kiriCheck* check, const kiriShape* shape)
     return areFine;
 }
 
+/* From 0 to the farthest; or there is none. */
+static bool IsDistanceOrFar(int32_t distance)
+{
+    return ((uint32_t)distance <= KIRI_FARTHEST) | (distance == KIRI_FAR);
+}
+
 /* Cells beyond those of the grid are far. */
 static bool AreDistances(const kiriReachBlock* block, int64_t cells)
 {
+    int64_t there = cells - (int64_t)block->cells * KIRI_BLOCK_CELLS;
     bool areFine = true;
     for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
-        int32_t site = block->fromSite[k], border = block->fromBorder[k];
-        bool isThere = (int64_t)block->cells * KIRI_BLOCK_CELLS + k < cells;
-        areFine &= (site == KIRI_FAR || (isThere && site >= 0 && site <= KIRI_FARTHEST)) &&
-                   (border == KIRI_FAR || (isThere && border >= 0 && border <= KIRI_FARTHEST));
+        areFine &= IsDistanceOrFar(block->fromSite[k]) & IsDistanceOrFar(block->fromBorder[k]);
+    }
+    for (int32_t k = there > 0 ? (int32_t)there : 0; there < KIRI_BLOCK_CELLS && k < KIRI_BLOCK_CELLS; ++k) {
+        areFine &= block->fromSite[k] == KIRI_FAR && block->fromBorder[k] == KIRI_FAR;
+    }
+    return areFine;
+}
+
+/* Each block in the list of its cells is in one list alone. */
+static bool AreBlocksOfCells(const kiriReaches* reaches, kiriChains* ofCells)
+{
+    const kiriReachHead* heads = reaches->heads.data;
+    for (int32_t c = 0; c < reaches->ofCells.count; ++c) {
+        for (int32_t b = reaches->ofCells.data[c]; b != KIRI_NONE; b = heads[b].nextOfCells) {
+            if (!kiriChains_Take(ofCells, b) || reaches->blocks.data[b].cells != c || heads[b].label == KIRI_NONE) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static bool AreBlocksOfLabel(const kiriReaches* reaches, kiriChains* ofLabel, int32_t label)
+{
+    const kiriReachBlock* blocks = reaches->blocks.data;
+    int32_t before = KIRI_NONE;
+    for (int32_t b = reaches->ofLabel.data[label]; b != KIRI_NONE; b = blocks[b].nextOfFrame) {
+        if (!kiriChains_Take(ofLabel, b) || reaches->heads.data[b].label != label ||
+            blocks[b].previousOfFrame != before) {
+            return false;
+        }
+        before = b;
+    }
+    return true;
+}
+
+static bool AreBlocksOfLabels(const kiriShape* shape, kiriChains* ofLabel)
+{
+    const kiriReaches* reaches = &shape->reaches;
+    bool areFine = true;
+    for (int32_t label = 0; areFine && label < reaches->ofLabel.count; ++label) {
+        areFine =
+            reaches->ofLabel.data[label] == KIRI_NONE ||
+            (kiriLabels_Has(&shape->labels, label, shape->rigid.count) && AreBlocksOfLabel(reaches, ofLabel, label));
+    }
+    return areFine;
+}
+
+static bool AreBlocksFree(const kiriReaches* reaches, kiriChains* ofLabel)
+{
+    int32_t block = reaches->freeBlock;
+    bool areFine = reaches->freeBlocks >= 0;
+    for (int32_t k = 0; areFine && k < reaches->freeBlocks; ++k) {
+        areFine = kiriChains_Take(ofLabel, block) && reaches->heads.data[block].label == KIRI_NONE;
+        block = areFine ? reaches->blocks.data[block].nextOfFrame : KIRI_NONE;
+    }
+    return areFine;
+}
+
+static bool AreBlocksListed(const kiriShape* shape, kiriChains* ofCells, kiriChains* ofLabel, int64_t cells)
+{
+    const kiriReaches* reaches = &shape->reaches;
+    bool areFine = AreBlocksOfCells(reaches, ofCells) && AreBlocksOfLabels(shape, ofLabel) &&
+                   ofCells->listed == ofLabel->listed && AreBlocksFree(reaches, ofLabel) &&
+                   ofLabel->listed == reaches->blocks.count;
+    for (int32_t b = 0; areFine && b < reaches->blocks.count; ++b) {
+        areFine = !ofCells->seen[b] || AreDistances(&reaches->blocks.data[b], cells);
     }
     return areFine;
 }
@@ -86,42 +157,15 @@ static bool AreDistances(const kiriReachBlock* block, int64_t cells)
 static bool AreReaches(kiriCheck* check, const kiriShape* shape)
 {
     const kiriReaches* reaches = &shape->reaches;
-    const kiriReachBlock* blocks = reaches->blocks.data;
-    const kiriReachHead* heads = reaches->heads.data;
     if (reaches->blocks.count == 0 || reaches->heads.count != reaches->blocks.count) {
         return kiriCheck_That(check, reaches->freeBlocks == 0 && reaches->heads.count == reaches->blocks.count);
     }
     kiriChains ofCells, ofLabel;
-    bool areFine = kiriCheck_StartChains(check, &ofCells, &heads->nextOfCells, sizeof(*heads), reaches->heads.count);
-    for (int32_t c = 0; areFine && c < reaches->ofCells.count; ++c) {
-        areFine = kiriCheck_Chain(check, &ofCells, reaches->ofCells.data[c]);
-        for (int32_t b = reaches->ofCells.data[c]; areFine && b != KIRI_NONE; b = heads[b].nextOfCells) {
-            areFine = kiriCheck_That(check, blocks[b].cells == c && heads[b].label != KIRI_NONE &&
-                                                AreDistances(&blocks[b], check->count[KIRI_OF_CELLS]));
-        }
-    }
-    areFine =
-        areFine && kiriCheck_StartChains(check, &ofLabel, &blocks->nextOfFrame, sizeof(*blocks), reaches->blocks.count);
-    for (int32_t label = 0; areFine && label < reaches->ofLabel.count; ++label) {
-        int32_t before = KIRI_NONE;
-        areFine = kiriCheck_Chain(check, &ofLabel, reaches->ofLabel.data[label]);
-        for (int32_t b = reaches->ofLabel.data[label]; areFine && b != KIRI_NONE; b = blocks[b].nextOfFrame) {
-            areFine = kiriCheck_That(check, heads[b].label == label && blocks[b].previousOfFrame == before &&
-                                                kiriLabels_Has(&shape->labels, label, shape->rigid.count));
-            before = b;
-        }
-    }
-    areFine = areFine && kiriCheck_That(check, ofCells.listed == ofLabel.listed && reaches->freeBlocks >= 0);
-    int32_t free = areFine ? reaches->freeBlock : KIRI_NONE;
-    for (int32_t k = 0; areFine && k < reaches->freeBlocks; ++k) {
-        areFine = kiriCheck_That(check, free >= 0 && free < reaches->blocks.count && !ofLabel.seen[free] &&
-                                            heads[free].label == KIRI_NONE);
-        if (areFine) {
-            ofLabel.seen[free] = 1;
-            free = blocks[free].nextOfFrame;
-        }
-    }
-    return areFine && kiriCheck_That(check, ofLabel.listed + reaches->freeBlocks == reaches->blocks.count);
+    return kiriCheck_StartChains(check, &ofCells, &reaches->heads.data->nextOfCells, sizeof(kiriReachHead),
+                                 reaches->heads.count) &&
+           kiriCheck_StartChains(check, &ofLabel, &reaches->blocks.data->nextOfFrame, sizeof(kiriReachBlock),
+                                 reaches->blocks.count) &&
+           kiriCheck_That(check, AreBlocksListed(shape, &ofCells, &ofLabel, check->count[KIRI_OF_CELLS]));
 }
 
 static bool AreListsOfShape(kiriCheck* check, const kiriShape* shape)

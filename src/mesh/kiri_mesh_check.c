@@ -109,6 +109,70 @@ static bool IsClosed(const kiriMeshData* mesh)
            mesh->triangles.count <= KIRI_MOST_TRIANGLES && mesh->squares.nodes.count > 0;
 }
 
+/* ---- Vertices ----------------------------------------------------------------------------------------------------- */
+
+/* The lattice points that are within some squares: lines are odd, and points even. */
+typedef struct LatticeBox {
+    kiriLatticePoint low, high;
+} LatticeBox;
+
+static LatticeBox BoxOfSquares(const kiriSquares* squares, int32_t row, int32_t column, int32_t rows, int32_t columns)
+{
+    int32_t side = squares->side, x = (squares->firstColumn + column) * side - 1,
+            y = (squares->firstRow + row) * side - 1;
+    return (LatticeBox){ { x, y }, { x + columns * side, y + rows * side } };
+}
+
+static bool IsWithin(const LatticeBox* box, kiriLatticePoint at)
+{
+    return at.x > box->low.x && at.x < box->high.x && at.y > box->low.y && at.y < box->high.y;
+}
+
+/* Before triangles, which ask where vertices are. */
+static bool ArePlaces(const kiriMeshData* mesh)
+{
+    const kiriSquares* squares = &mesh->squares;
+    LatticeBox box = BoxOfSquares(squares, 0, 0, squares->rows, squares->columns);
+    bool areFine = true;
+    int32_t holes = 0;
+    for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
+        const kiriVertex* vertex = &mesh->vertices.data[v];
+        areFine = IsWithin(&box, vertex->at) && ((vertex->at.x | vertex->at.y) & 1) == 0;
+        holes += !kiriMesh_IsVertex(mesh, v);
+    }
+    return areFine && holes == mesh->vertexHoles;
+}
+
+/* The vertices of a square, later ones first. */
+static bool AreVerticesOf(const kiriMeshData* mesh, int32_t head, const LatticeBox* box, int64_t* listed)
+{
+    int32_t last = mesh->vertices.count;
+    for (int32_t v = head; v != KIRI_NONE; v = mesh->vertices.data[v].next) {
+        if (v < 0 || v >= last || !kiriMesh_IsVertex(mesh, v) || !IsWithin(box, mesh->vertices.data[v].at)) {
+            return false;
+        }
+        last = v;
+        ++*listed;
+    }
+    return true;
+}
+
+/* Each vertex is in the list of its square. */
+static bool AreVertexLists(const kiriMeshData* mesh)
+{
+    const kiriSquares* squares = &mesh->squares;
+    const int32_t* head = squares->vertexHead;
+    int64_t listed = 0;
+    bool areFine = true;
+    for (int32_t row = 0; areFine && row < squares->rows; ++row) {
+        for (int32_t column = 0; areFine && column < squares->columns; ++column) {
+            LatticeBox box = BoxOfSquares(squares, row, column, 1, 1);
+            areFine = AreVerticesOf(mesh, *head++, &box, &listed);
+        }
+    }
+    return areFine && listed == mesh->vertices.count - mesh->vertexHoles;
+}
+
 /* ---- Triangles ---------------------------------------------------------------------------------------------------- */
 
 static bool IsHole(const kiriTriangle* triangle)
@@ -118,29 +182,6 @@ static bool IsHole(const kiriTriangle* triangle)
         isHole = isHole && triangle->vertex[i] == KIRI_NONE && triangle->twin[i] == KIRI_NONE;
     }
     return isHole;
-}
-
-static bool IsAtSamePlace(kiriLatticePoint a, kiriLatticePoint b)
-{
-    return a.x == b.x && a.y == b.y;
-}
-
-static kiriLatticePoint TailAt(const kiriMeshData* mesh, int32_t h)
-{
-    return mesh->vertices.data[kiriMesh_Tail(mesh, h)].at;
-}
-
-/* A half-edge and its twin are of one another; where they are closed they have the same vertices. */
-static bool IsTwinSound(const kiriMeshData* mesh, int32_t h)
-{
-    int32_t twin = kiriMesh_Twin(mesh, h);
-    bool isOpen = kiriMesh_IsOpen(mesh, h);
-    if (twin == KIRI_NONE) {
-        return !isOpen;
-    }
-    return twin / 3 != h / 3 && kiriMesh_IsTriangle(mesh, twin / 3) && kiriMesh_Twin(mesh, twin) == h &&
-           kiriMesh_IsOpen(mesh, twin) == isOpen && IsAtSamePlace(TailAt(mesh, h), TailAt(mesh, kiriEdge_Next(twin))) &&
-           (isOpen || kiriMesh_Tail(mesh, h) == kiriMesh_Tail(mesh, kiriEdge_Next(twin)));
 }
 
 static bool IsSound(const kiriMeshData* mesh, int32_t t)
@@ -168,74 +209,80 @@ static bool AreTriangles(const kiriMeshData* mesh)
         areFine = IsSound(mesh, t);
         holes += !kiriMesh_IsTriangle(mesh, t);
     }
-    for (int32_t h = 0; areFine && h < 3 * mesh->triangles.count; ++h) {
-        areFine = !kiriMesh_IsTriangle(mesh, h / 3) || IsTwinSound(mesh, h);
-    }
     return areFine && holes == mesh->triangleHoles && holes < mesh->triangles.count;
 }
 
-/* ---- Vertices ----------------------------------------------------------------------------------------------------- */
+/* ---- Fans --------------------------------------------------------------------------------------------------------- */
 
-/* How many corners the fan of a vertex has. It ends, for each corner is followed by one, and follows one. */
-static int32_t CountFan(const kiriMeshData* mesh, int32_t vertex)
+/* Corners of a vertex. */
+typedef struct Fan {
+    const kiriMeshData* mesh;
+    int32_t vertex, source, count, most;
+    bool isFine, hasSource; /* hasSource: that of the vertex is that of a triangle */
+} Fan;
+
+static bool IsAtPlaceOf(const kiriMeshData* mesh, int32_t v, int32_t w)
 {
-    int32_t start = mesh->vertices.data[vertex].edge, count = 1, h;
-    for (h = kiriMesh_CounterClockwise(mesh, start); h != KIRI_NONE && h != start;
-         h = kiriMesh_CounterClockwise(mesh, h)) {
-        ++count;
-    }
-    if (h == start) {
-        return count;
-    }
-    for (h = kiriMesh_Clockwise(mesh, start); h != KIRI_NONE; h = kiriMesh_Clockwise(mesh, h)) {
-        ++count;
-    }
-    return count;
+    kiriLatticePoint a = mesh->vertices.data[v].at;
+    return w != KIRI_NONE && a.x == mesh->vertices.data[w].at.x && a.y == mesh->vertices.data[w].at.y;
 }
 
-static bool IsPlaced(const kiriMeshData* mesh, const kiriVertex* vertex)
+/* Takes a corner, and looks at the half-edge that leads to it: this and its twin are of one another, and the twin begins
+   where it ends, if it is closed at the same vertex. Where all corners are taken, all half-edges were looked at. Returns the
+   next corner, counter-clockwise. */
+static inline int32_t TakeCorner(Fan* fan, int32_t corner)
 {
-    return vertex->at.x >= 0 && vertex->at.y >= 0 && vertex->at.x <= 2 * (int64_t)KIRI_LATTICE &&
-           vertex->at.y <= 2 * (int64_t)KIRI_LATTICE && ((vertex->at.x | vertex->at.y) & 1) == 0 &&
-           kiriSquares_At(&mesh->squares, vertex->at) != KIRI_NONE;
-}
-
-/* Before triangles, which ask where vertices are. */
-static bool ArePlaces(const kiriMeshData* mesh)
-{
-    bool areFine = true;
-    int32_t holes = 0;
-    for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
-        const kiriVertex* vertex = &mesh->vertices.data[v];
-        areFine = IsPlaced(mesh, vertex);
-        holes += !kiriMesh_IsVertex(mesh, v);
+    const kiriTriangle* triangles = fan->mesh->triangles.data;
+    uint32_t t = (uint32_t)corner / 3, i = (uint32_t)corner - 3 * t, before = i == 0 ? 2 : i - 1;
+    const kiriTriangle* triangle = &triangles[t];
+    int32_t twin = triangle->twin[before], isOpen = triangle->marks >> before & 1;
+    fan->hasSource |= triangle->source == fan->source;
+    fan->isFine = triangle->vertex[i] == fan->vertex && fan->count++ < fan->most;
+    if (twin == KIRI_NONE) {
+        fan->isFine = fan->isFine && !isOpen;
+        return KIRI_NONE;
     }
-    return areFine && holes == mesh->vertexHoles;
+    uint32_t u = (uint32_t)twin / 3, k = (uint32_t)twin - 3 * u;
+    const kiriTriangle* other = &triangles[u];
+    fan->isFine =
+        fan->isFine && other->twin[k] == (int32_t)(3 * t + before) && u != t && (other->marks >> k & 1) == isOpen &&
+        (other->vertex[k] == fan->vertex || (isOpen && IsAtPlaceOf(fan->mesh, fan->vertex, other->vertex[k])));
+    return isOpen ? KIRI_NONE : twin;
 }
 
-/* Each corner is in the fan of its vertex. */
+/* All corners from one on: each is followed by one, and follows one. */
+static void TakeFan(Fan* fan, int32_t start)
+{
+    int32_t h = TakeCorner(fan, start);
+    while (fan->isFine && h != KIRI_NONE && h != start) {
+        h = TakeCorner(fan, h);
+    }
+    for (h = h == start ? KIRI_NONE : start; fan->isFine && h != KIRI_NONE;) {
+        h = kiriMesh_Clockwise(fan->mesh, h);
+        if (h != KIRI_NONE) {
+            TakeCorner(fan, h);
+        }
+    }
+}
+
+/* Each corner is in the fan of its vertex. The source of a vertex is that of a triangle around it: so a part has its
+   corners. */
 static bool AreFans(const kiriMeshData* mesh)
 {
-    int64_t corners = 3 * ((int64_t)mesh->triangles.count - mesh->triangleHoles);
+    int32_t corners = 3 * (mesh->triangles.count - mesh->triangleHoles);
     bool areFine = true;
     for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
-        int32_t edge = mesh->vertices.data[v].edge;
-        areFine = edge == KIRI_NONE || (kiriMesh_IsTriangle(mesh, edge / 3) && kiriMesh_Tail(mesh, edge) == v);
-        corners -= areFine && edge != KIRI_NONE ? CountFan(mesh, v) : 0;
+        if (kiriMesh_IsVertex(mesh, v)) {
+            Fan fan = { mesh, v, mesh->vertices.data[v].source, 0, corners, true, false };
+            TakeFan(&fan, mesh->vertices.data[v].edge);
+            areFine = fan.isFine && fan.hasSource;
+            corners -= fan.count;
+        }
     }
     return areFine && corners == 0;
 }
 
 /* ---- Squares ------------------------------------------------------------------------------------------------------ */
-
-enum { FEW_SQUARES = 64 };
-
-/* In which squares a triangle lies, of those in its box: bit k is the k-th, row by row. What was listed is taken out. */
-typedef struct Overlaps {
-    int32_t low, from, columns; /* row and column of the first, and how many columns */
-    int32_t left;               /* where there are too many for bits: squares that were not listed yet */
-    uint64_t bits;
-} Overlaps;
 
 typedef struct SquaresBox {
     const kiriSquares* squares;
@@ -280,36 +327,34 @@ static void FindInRow(const SquaresBox* box, int32_t row, int32_t* first, int32_
     }
 }
 
-/* How many squares the triangle overlaps. */
-static int64_t FindOverlaps(const kiriSquares* squares, const kiriLatticePoint c[3], Overlaps* o)
+/* How many squares a triangle overlaps whose box is large. */
+static int64_t CountOverlapsByRow(const kiriSquares* squares, const kiriLatticePoint c[3])
 {
     SquaresBox box = FindBox(squares, c);
-    int64_t columns = box.to - box.from + 1, count = columns * (box.high - box.low + 1), found = 0;
-    bool isFew = count <= FEW_SQUARES;
-    *o = (Overlaps){ box.low, box.from, isFew ? (int32_t)columns : 0, 0, count == 1 };
+    int64_t found = 0;
     int32_t first = box.from, last = box.to;
-    for (int32_t row = box.low; count > 1 && row <= box.high; ++row) {
+    for (int32_t row = box.low; row <= box.high; ++row) {
         FindInRow(&box, row, &first, &last);
         found += last - first + 1;
-        for (int32_t column = first; isFew && column <= last; ++column) {
-            o->bits |= UINT64_C(1) << ((row - box.low) * columns + column - box.from);
-        }
     }
-    o->left = isFew ? 0 : (int32_t)found;
-    return count == 1 ? 1 : found;
+    return found;
 }
 
 /* Null where memory is short; and where there are more than nodes, which are one for each. */
-static Overlaps* FindAllOverlaps(kiriCheck* check, const kiriMeshData* mesh)
+static kiriOverlaps* FindAllOverlaps(kiriCheck* check, const kiriMeshData* mesh)
 {
-    Overlaps* all =
-        (Overlaps*)(void*)kiriCheck_Bytes(check, (int64_t)sizeof(Overlaps) * check->count[KIRI_OF_TRIANGLES]);
+    kiriOverlaps* all =
+        (kiriOverlaps*)(void*)kiriCheck_Bytes(check, (int64_t)sizeof(kiriOverlaps) * mesh->triangles.count);
     int64_t left = mesh->squares.nodes.count;
     for (int32_t t = 0; all != NULL && left >= 0 && t < mesh->triangles.count; ++t) {
         if (kiriMesh_IsTriangle(mesh, t)) {
             kiriLatticePoint c[3];
             kiriMesh_Corners(mesh, t, c);
-            left -= FindOverlaps(&mesh->squares, c, &all[t]);
+            if (!kiriSquares_FindOverlaps(&mesh->squares, c, &all[t])) {
+                int64_t found = CountOverlapsByRow(&mesh->squares, c);
+                left -= found;
+                all[t].left = (int32_t)found;
+            }
         }
     }
     if (!kiriCheck_That(check, left >= 0)) {
@@ -319,38 +364,58 @@ static Overlaps* FindAllOverlaps(kiriCheck* check, const kiriMeshData* mesh)
     return all;
 }
 
-/* Takes a square out; false where the triangle is not in it, or was listed there before. Squares come in their order. */
-static bool TakeOverlap(const kiriMeshData* mesh, int32_t square, int32_t t, Overlaps* o)
+/* Where the box is large. Squares come in their order. */
+static bool TakeFromLargeBox(const kiriMeshData* mesh, int32_t square, int32_t t, kiriOverlaps* o)
 {
-    int32_t row = square / mesh->squares.columns - o->low, column = square % mesh->squares.columns - o->from;
-    if (o->columns > 0) {
-        int64_t bit = (int64_t)row * o->columns + column;
-        bool isIn = row >= 0 && column >= 0 && column < o->columns && bit < FEW_SQUARES && (o->bits >> bit & 1) != 0;
-        o->bits &= isIn ? ~(UINT64_C(1) << bit) : o->bits;
-        return isIn;
-    }
+    bool isNew = o->left > 0 && o->bits != (uint64_t)square + 1; /* the square that listed it last */
     kiriLatticePoint c[3];
+    if (!isNew) {
+        return false;
+    }
     kiriMesh_Corners(mesh, t, c);
-    bool isNew = o->bits != (uint64_t)square + 1; /* the square that listed it last */
     o->bits = (uint64_t)square + 1;
     o->left -= 1;
-    return isNew && kiriSquares_Overlap(&mesh->squares, square, c);
+    return kiriSquares_Overlap(&mesh->squares, square, c);
 }
 
-/* A square lists triangles that lie in it, each once. */
-static bool ListsSquare(const kiriMeshData* mesh, int32_t square, Overlaps* overlaps)
+/* Takes a square out; false where the triangle is not in it, or was listed there before. Of a hole there is none. */
+static bool TakeOverlap(const kiriMeshData* mesh, int32_t row, int32_t column, int32_t t, kiriOverlaps* o)
+{
+    if (o->columns == 0) {
+        return TakeFromLargeBox(mesh, row * mesh->squares.columns + column, t, o);
+    }
+    uint32_t rows = (uint32_t)(row - o->row), columns = (uint32_t)(column - o->column);
+    bool isInBox = rows < KIRI_FEW_SQUARES && columns < (uint32_t)o->columns;
+    uint32_t bit = isInBox ? rows * (uint32_t)o->columns + columns : KIRI_FEW_SQUARES;
+    bool isIn = bit < KIRI_FEW_SQUARES && (o->bits >> bit & 1) != 0;
+    o->bits &= isIn ? ~(UINT64_C(1) << bit) : o->bits;
+    return isIn;
+}
+
+/* What lists of nodes have taken. */
+typedef struct NodeLists {
+    kiriChains chains;
+    kiriOverlaps* overlaps;
+} NodeLists;
+
+/* A square lists triangles that lie in it, each once; and no other list has these nodes. */
+static bool ListsSquare(const kiriMeshData* mesh, int32_t row, int32_t column, NodeLists* lists)
 {
     const kiriSquares* squares = &mesh->squares;
     bool isFine = true;
-    for (int32_t n = squares->head[square]; isFine && n != KIRI_NONE; n = squares->nodes.data[n].next) {
+    for (int32_t n = squares->head[row * squares->columns + column]; isFine && n != KIRI_NONE;
+         n = squares->nodes.data[n].next) {
+        if (!kiriChains_Take(&lists->chains, n)) {
+            return false;
+        }
         int32_t t = squares->nodes.data[n].triangle;
-        isFine = t != KIRI_NONE && kiriMesh_IsTriangle(mesh, t) && TakeOverlap(mesh, square, t, &overlaps[t]);
+        isFine = t != KIRI_NONE && TakeOverlap(mesh, row, column, t, &lists->overlaps[t]);
     }
     return isFine;
 }
 
 /* And none is left out. */
-static bool AreAllListed(const kiriMeshData* mesh, const Overlaps* overlaps)
+static bool AreAllListed(const kiriMeshData* mesh, const kiriOverlaps* overlaps)
 {
     bool areListed = true;
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
@@ -360,52 +425,24 @@ static bool AreAllListed(const kiriMeshData* mesh, const Overlaps* overlaps)
 }
 
 /* Lists of nodes, one a square, and one of those that are free. */
-static bool AreNodeLists(kiriCheck* check, const kiriMeshData* mesh)
-{
-    const kiriSquares* squares = &mesh->squares;
-    kiriChains chains;
-    bool areFine =
-        kiriCheck_StartChains(check, &chains, &squares->nodes.data->next, sizeof(kiriSquareNode), squares->nodes.count);
-    for (int64_t s = 0; areFine && s < check->count[KIRI_OF_SQUARES]; ++s) {
-        areFine = kiriCheck_Chain(check, &chains, squares->head[s]);
-    }
-    areFine = areFine && kiriCheck_Chain(check, &chains, squares->freeNode) &&
-              kiriCheck_That(check, chains.listed == squares->nodes.count);
-    kiriMemory_Free(&check->memory, chains.seen);
-    return areFine;
-}
-
 static bool AreSquareLists(kiriCheck* check, const kiriMeshData* mesh)
 {
-    if (!AreNodeLists(check, mesh)) {
-        return false;
-    }
-    Overlaps* overlaps = FindAllOverlaps(check, mesh);
-    bool areFine = overlaps != NULL;
-    for (int32_t s = 0; areFine && s < check->count[KIRI_OF_SQUARES]; ++s) {
-        areFine = ListsSquare(mesh, s, overlaps);
-    }
-    areFine = areFine && AreAllListed(mesh, overlaps);
-    kiriMemory_Free(&check->memory, overlaps);
-    return kiriCheck_That(check, areFine);
-}
-
-/* Each vertex is in the list of its square, later ones first. */
-static bool AreVertexLists(kiriCheck* check, const kiriMeshData* mesh)
-{
     const kiriSquares* squares = &mesh->squares;
-    int64_t listed = 0;
-    bool areFine = true;
-    for (int32_t s = 0; areFine && s < check->count[KIRI_OF_SQUARES]; ++s) {
-        int32_t last = mesh->vertices.count;
-        for (int32_t v = squares->vertexHead[s]; areFine && v != KIRI_NONE; ++listed) {
-            areFine = v >= 0 && v < last && kiriMesh_IsVertex(mesh, v) &&
-                      kiriSquares_At(squares, mesh->vertices.data[v].at) == s;
-            last = v;
-            v = areFine ? mesh->vertices.data[v].next : KIRI_NONE;
+    NodeLists lists;
+    bool areFine = kiriCheck_StartChains(check, &lists.chains, &squares->nodes.data->next, sizeof(kiriSquareNode),
+                                         squares->nodes.count);
+    lists.overlaps = areFine ? FindAllOverlaps(check, mesh) : NULL;
+    areFine = lists.overlaps != NULL;
+    for (int32_t row = 0; areFine && row < squares->rows; ++row) {
+        for (int32_t column = 0; areFine && column < squares->columns; ++column) {
+            areFine = ListsSquare(mesh, row, column, &lists);
         }
     }
-    return kiriCheck_That(check, areFine && listed == mesh->vertices.count - mesh->vertexHoles);
+    areFine = areFine && AreAllListed(mesh, lists.overlaps) &&
+              kiriCheck_Chain(check, &lists.chains, squares->freeNode) && lists.chains.listed == squares->nodes.count;
+    kiriMemory_Free(&check->memory, lists.overlaps);
+    kiriMemory_Free(&check->memory, lists.chains.seen);
+    return kiriCheck_That(check, areFine);
 }
 
 /* Dirty squares are marked, each once. */
@@ -427,32 +464,12 @@ static bool AreDirty(kiriCheck* check, const kiriMeshData* mesh)
     return kiriCheck_That(check, areFine);
 }
 
-/* The source of a vertex is that of a triangle around it: so a part has its corners. */
-static bool AreSourcesOfTriangles(const kiriMeshData* mesh, kiriCheck* check)
-{
-    uint8_t* has = kiriCheck_Bytes(check, mesh->vertices.count);
-    bool areFine = has != NULL;
-    for (int32_t c = 0; areFine && c < 3 * mesh->triangles.count; ++c) {
-        const kiriTriangle* triangle = &mesh->triangles.data[c / 3];
-        if (kiriMesh_IsTriangle(mesh, c / 3)) {
-            int32_t v = triangle->vertex[c % 3];
-            has[v] |= mesh->vertices.data[v].source == triangle->source;
-        }
-    }
-    for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
-        areFine = has[v] || !kiriMesh_IsVertex(mesh, v);
-    }
-    kiriMemory_Free(&check->memory, has);
-    return kiriCheck_That(check, areFine);
-}
-
 /* In an order in which each trusts what those before have seen. */
 bool kiriMesh_Check(const kiriMeshData* mesh, kiriCheck* check)
 {
     return kiriCheck_That(check, AreSquares(&mesh->squares) && IsClosed(mesh)) &&
            kiriCheck_Object(check, MeshMust, mesh) && kiriCheck_That(check, mesh->step > 0.0) &&
-           kiriCheck_That(check, AreSourceCorners(mesh) && AreOriginals(mesh) && ArePlaces(mesh) &&
-                                     AreTriangles(mesh) && AreSourcesThere(mesh) && AreFans(mesh)) &&
-           AreSourcesOfTriangles(mesh, check) && AreSquareLists(check, mesh) && AreVertexLists(check, mesh) &&
-           AreDirty(check, mesh);
+           kiriCheck_That(check, AreSourceCorners(mesh) && AreOriginals(mesh) && ArePlaces(mesh)) &&
+           kiriCheck_That(check, AreTriangles(mesh) && AreSourcesThere(mesh) && AreFans(mesh)) &&
+           AreSquareLists(check, mesh) && kiriCheck_That(check, AreVertexLists(mesh)) && AreDirty(check, mesh);
 }

@@ -137,6 +137,56 @@ bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriL
            OverlapsInBox(squares, r, column, row, corners);
 }
 
+static uint64_t BitsInBox(const kiriSquares* squares, SquareBox box, const kiriLatticePoint c[3])
+{
+    uint64_t bits = 0;
+    int k = 0;
+    for (int32_t row = box.firstRow; row <= box.lastRow; ++row) {
+        for (int32_t column = box.firstColumn; column <= box.lastColumn; ++column, ++k) {
+            bits |= (uint64_t)OverlapsInBox(squares, box, column, row, c) << k;
+        }
+    }
+    return bits;
+}
+
+/* Of four squares, where most triangles are about as large as squares: those that corners are in; and an edge from one of
+   them to the opposite one passes the point in the middle on its left or on its right. */
+static uint64_t BitsOfFour(const kiriSquares* squares, SquareBox box, const kiriLatticePoint c[3])
+{
+    static const uint8_t rightOf[4] = { 1, 3, 0, 2 };
+    kiriLatticePoint middle = CornerAt(squares, box.lastColumn, box.lastRow);
+    int in[3];
+    uint64_t bits = 0;
+    for (int i = 0; i < 3; ++i) {
+        in[i] = (c[i].x > middle.x) + 2 * (c[i].y > middle.y);
+        bits |= UINT64_C(1) << in[i];
+    }
+    for (int i = 0; i < 3; ++i) {
+        int from = in[i], to = in[(i + 1) % 3], right = rightOf[from];
+        if (from + to == 3) {
+            bits |= UINT64_C(1) << (kiriOrient(c[i], c[(i + 1) % 3], middle) > 0 ? right : 3 - right);
+        }
+    }
+    return bits;
+}
+
+bool kiriSquares_FindOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3], kiriOverlaps* overlaps)
+{
+    SquareBox box = BoxOf(squares, corners);
+    int32_t columns = box.lastColumn - box.firstColumn + 1, rows = box.lastRow - box.firstRow + 1;
+    int64_t count = (int64_t)columns * rows;
+    *overlaps = (kiriOverlaps){ 0, 0, 0, 0, 0 };
+    if (count > KIRI_FEW_SQUARES) {
+        return false;
+    }
+    bool isRow = rows == 1 || columns == 1, areFour = rows == 2 && columns == 2;
+    uint64_t bits = isRow     ? ~UINT64_C(0) >> (KIRI_FEW_SQUARES - count)
+                    : areFour ? BitsOfFour(squares, box, corners)
+                              : BitsInBox(squares, box, corners);
+    *overlaps = (kiriOverlaps){ box.firstRow, box.firstColumn, columns, 0, bits };
+    return true;
+}
+
 int64_t kiriSquares_CountOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3])
 {
     SquareBox r = BoxOf(squares, corners);

@@ -101,6 +101,19 @@ static inline kiriLatticePoint kiriSquares_Corner(const kiriSquares* squares, in
 /* Do the interiors overlap? Exact. */
 bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriLatticePoint corners[3]);
 
+/* The squares that a triangle overlaps, of those in its box: bit k is the k-th, row by row. */
+typedef struct kiriOverlaps {
+    int32_t row, column,
+        columns;  /* of the first square in the box, and how many columns; 0: too many squares for bits */
+    int32_t left; /* of whoever goes over them */
+    uint64_t bits;
+} kiriOverlaps;
+
+enum { KIRI_FEW_SQUARES = 64 };
+
+/* False, and all is zero, where its box has more squares than these. */
+bool kiriSquares_FindOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3], kiriOverlaps* overlaps);
+
 /* How many squares it overlaps. */
 int64_t kiriSquares_CountOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3]);
 

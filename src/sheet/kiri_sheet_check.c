@@ -125,17 +125,19 @@ static bool AreElementsOfPieces(const kiriLayout* layout)
     return areFine;
 }
 
-/* Weights of a sample are of frames of one piece. */
+/* Weights of a sample are of frames of one piece. Labels ascend: kiriSkin_Check has seen it. */
 static bool AreSamplesOfPieces(const kiriSheetData* sheet, const kiriSkin* skin)
 {
     const int32_t* framePiece = sheet->layout.framePiece.data;
     bool areFine = true;
+    if (sheet->layout.pieces.count == 1) {
+        return true;
+    }
     for (int32_t i = 0; areFine && i < skin->spans.count; ++i) {
         kiriSpan span = skin->spans.data[i];
         for (int32_t k = span.first + 1; areFine && k < span.first + span.count; ++k) {
             int32_t label = skin->weights.data[k].label, before = skin->weights.data[k - 1].label;
-            areFine = before < label &&
-                      framePiece[kiriSheet_FrameOf(sheet, label)] == framePiece[kiriSheet_FrameOf(sheet, before)];
+            areFine = framePiece[kiriSheet_FrameOf(sheet, label)] == framePiece[kiriSheet_FrameOf(sheet, before)];
         }
     }
     return areFine;
@@ -145,8 +147,8 @@ static bool AreSamplesOfPieces(const kiriSheetData* sheet, const kiriSkin* skin)
 static bool AreTrianglesOfPieces(const kiriSheetData* sheet)
 {
     const kiriMeshData* mesh = &sheet->mesh;
-    bool areFine = true;
-    for (int32_t t = 0; areFine && t < mesh->triangles.count; ++t) {
+    bool areFine = true, areSeveral = sheet->layout.pieces.count > 1;
+    for (int32_t t = 0; areFine && areSeveral && t < mesh->triangles.count; ++t) {
         const int32_t* corners = mesh->triangles.data[t].vertex;
         areFine = !kiriMesh_IsTriangle(mesh, t) ||
                   (kiriPiece_OfVertex(sheet, corners[0]) == kiriPiece_OfVertex(sheet, corners[1]) &&

@@ -7,10 +7,6 @@
 static const kiriMust MustBeSquareOfView[] = { KIRI_INDEX(KIRI_OF_SQUARES, kiriSpan, first, first) };
 static const kiriMust IsSampleOrNone[] = { KIRI_INDEX_OR_NONE(KIRI_OF_SAMPLES, kiriSpan, first, first) };
 
-static const kiriMust SampleWeightMust[] = {
-    KIRI_FLOATS(kiriSampleWeight, value, value),
-};
-
 static const kiriMust PlacesMust[] = {
     KIRI_ITEMS_MUST(kiriPlaces, head, IsSampleOrNone),
     KIRI_ITEMS_MUST(kiriPlaces, next, IsSampleOrNone),
@@ -53,18 +49,18 @@ static const kiriMust SurfaceMust[] = {
 static bool AreWeightsIn(kiriCheck* check, kiriRooms* rooms, const kiriSkin* skin, const kiriLabels* labels,
                          kiriSpan span)
 {
+    const int32_t frames = (int32_t)check->count[KIRI_OF_REGIONS];
     bool areFine = kiriCheck_Span(check, rooms, span);
+    int32_t last = KIRI_NONE;
     double sum = 0.0;
     for (int32_t k = span.first; areFine && k < span.first + span.count; ++k) {
-        const kiriSampleWeight* weight = &skin->weights.data[k];
-        areFine =
-            kiriCheck_Object(check, SampleWeightMust, weight) &&
-            kiriCheck_That(check, kiriLabels_Has(labels, weight->label, (int32_t)check->count[KIRI_OF_REGIONS])) &&
-            kiriCheck_That(check, k == span.first || weight[-1].label < weight->label);
-        areFine = areFine && kiriCheck_That(check, weight->value > 0.0f && weight->value <= 1.0f);
-        sum += weight->value;
+        kiriSampleWeight weight = skin->weights.data[k];
+        areFine = weight.label > last && kiriLabels_Has(labels, weight.label, frames) && weight.value > 0.0f &&
+                  weight.value <= 1.0f;
+        last = weight.label;
+        sum += weight.value;
     }
-    return areFine && kiriCheck_That(check, span.count == 0 || (sum > 0.999 && sum < 1.001));
+    return kiriCheck_That(check, areFine && (span.count == 0 || (sum > 0.999 && sum < 1.001)));
 }
 
 /* Each sample is staged at most once; those that are new, in their order. */
