@@ -10,7 +10,7 @@ enum { SAVED_WORLDS = 96, SAVED_HEAD_BYTES = 32, SAVED_SUM_BYTES = 8 };
 
 /* Refuses memory where it would hold too much. */
 typedef struct SavedHost {
-    int64_t held, most;
+    int64_t held, most, refused; /* bytes; and how often it refused */
 } SavedHost;
 
 kiriWorldDef SavedHost_Def(SavedHost* host);

@@ -6,6 +6,7 @@
 #include "field/kiri_link_work.h"
 #include "field/kiri_place_work.h"
 #include "field/kiri_shape_work.h"
+#include "sheet/kiri_piece.h"
 #include "sheet/kiri_update.h"
 #include "world/kiri_world.h"
 
@@ -771,6 +772,77 @@ static void TestMadeAnew(void** state)
     Host_Stop(&host);
 }
 
+/* Sheet with two pieces that hang together with nothing. */
+static void StartPieces(Host* host)
+{
+    const float through[4] = { -0.2f, 0.45f, 1.2f, 0.55f };
+    Host_Start(host);
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
+    Host_Cut(host, sheet, through, 2);
+    OK(Host_Tick(host, 0.01f, 1));
+    assert_int_equal(host->world->sheets.data[0]->layout.pieces.count, 2);
+}
+
+static int32_t FrameOfPiece(const kiriSheetData* sheet, int32_t piece)
+{
+    int32_t frame = sheet->frames.count - 1;
+    while (sheet->layout.framePiece.data[frame] != piece) {
+        --frame;
+    }
+    return frame;
+}
+
+/* Each is right where it is, but in the midst of the other piece. */
+static void FramesChangePlaces(kiriSheetData* sheet)
+{
+    kiriFrameData *a = &sheet->frames.data[FrameOfPiece(sheet, 0)], *b = &sheet->frames.data[FrameOfPiece(sheet, 1)];
+    kiriLatticePoint anchor = a->anchor;
+    kiriSite site = a->site;
+    a->anchor = b->anchor;
+    a->site = b->site;
+    b->anchor = anchor;
+    b->site = site;
+}
+
+/* All vertices of one piece follow a frame of the other, and the other way round. */
+static void VerticesFollowTheOtherPiece(kiriSheetData* sheet)
+{
+    int32_t other[2] = { FrameOfPiece(sheet, 1), FrameOfPiece(sheet, 0) };
+    for (int32_t v = 0; v < sheet->mesh.vertices.count; ++v) {
+        kiriSpan* span = &sheet->vertexSkin.spans.data[v];
+        kiriSampleWeight weight = { other[kiriPiece_OfVertex(sheet, v)], 1.0f };
+        sheet->vertexSkin.weights.data[span->first] = weight;
+        span->count = 1;
+    }
+}
+
+/* What is made anew shows that what is not was made up: that is no lack of memory. */
+static void TestPiecesElsewhere(void** state)
+{
+    (void)state;
+    SpoilFn* spoil[] = { VerticesFollowTheOtherPiece, FramesChangePlaces };
+    for (size_t k = 0; k < sizeof(spoil) / sizeof(spoil[0]); ++k) {
+        Host host, other;
+        StartPieces(&host);
+        Host_Start(&other);
+        SavedBytes good = Save(&host);
+        uint64_t before = Host_Hash(&other);
+        spoil[k](host.world->sheets.data[0]);
+        SavedBytes bad = Save(&host);
+        assert_int_equal(kiriWorld_LoadUntrusted(other.world, bad.data, bad.size), KIRI_ERROR_DATA);
+        assert_non_null(strstr(kiriWorld_GetLastError(other.world), "a right sum"));
+        assert_true(Host_Hash(&other) == before);
+        OK(kiriWorld_LoadUntrusted(other.world, good.data, good.size));
+        Host_Validate(&other);
+        OK(kiriWorld_Load(host.world, good.data, good.size));
+        free(bad.data);
+        free(good.data);
+        Host_Stop(&host);
+        Host_Stop(&other);
+    }
+}
+
 /* The cell of a point is found anew with the next cut, where the grid was made from scratch: a save may have any. */
 static void TestPointOfNoCell(void** state)
 {
@@ -794,7 +866,7 @@ int main(void)
         cmocka_unit_test(TestGridAtWork),    cmocka_unit_test(TestRegions),       cmocka_unit_test(TestShape),
         cmocka_unit_test(TestShapeAtWork),   cmocka_unit_test(TestLinksAtWork),   cmocka_unit_test(TestWork),
         cmocka_unit_test(TestCorners),       cmocka_unit_test(TestBeforeTheGrid), cmocka_unit_test(TestMadeAnew),
-        cmocka_unit_test(TestPointOfNoCell), cmocka_unit_test(TestSeen),
+        cmocka_unit_test(TestPointOfNoCell), cmocka_unit_test(TestSeen),          cmocka_unit_test(TestPiecesElsewhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -176,7 +176,7 @@ static int64_t MostMemory(const Save* good, int32_t number)
 {
     int64_t most = 0;
     for (int64_t at = SAVED_HEAD_BYTES; at + 4 <= good->size - SAVED_SUM_BYTES; ++at) {
-        SavedHost host = { 0, 0 };
+        SavedHost host = { 0 };
         kiriWorldDef def = SavedHost_Def(&host);
         kiriWorld* world = NULL;
         Save save = Saved_Copy(good);

@@ -1,5 +1,7 @@
 #include "kiri_remake.h"
 
+#include "../core/kiri_union_find.h"
+#include "kiri_piece.h"
 #include "kiri_pipeline.h"
 #include "kiri_stages.h"
 
@@ -82,6 +84,71 @@ static void ClearChanges(kiriSheetData* sheet, const uint8_t* dirty)
     kiriRefit_Drop(&sheet->update->refit);
 }
 
+/* ---- Pieces ---- */
+
+/* Cells that hang together: straight steps lead to all material of a piece, and to no other. */
+static void JoinCells(const kiriGrid* grid, int32_t* parent)
+{
+    kiriUnion_Init(parent, grid->cells.count);
+    for (int32_t c = 0; c < grid->cells.count; ++c) {
+        kiriSteps steps;
+        if (kiriGrid_IsCell(grid, c)) {
+            kiriGrid_GetStepsTo(grid, c, 1, &steps);
+            for (int32_t s = 0; s < steps.end[0]; ++s) {
+                kiriUnion_Join(parent, c, steps.data[s].cell);
+            }
+        }
+    }
+}
+
+/* Are the frames of each piece in one part of the grid, and those of no other one? `pieceOf`: of the roots of parts. */
+static bool AreFramesInParts(const kiriSheetData* sheet, int32_t* parent, int32_t* pieceOf)
+{
+    bool areIn = true;
+    int32_t parts = 0;
+    for (int32_t c = 0; c < sheet->grid.cells.count; ++c) {
+        pieceOf[c] = KIRI_NONE;
+    }
+    for (int32_t f = 0; areIn && f < sheet->frames.count; ++f) {
+        int32_t piece = sheet->layout.framePiece.data[f];
+        int32_t* of = &pieceOf[kiriUnion_Root(parent, sheet->frames.data[f].site.cell)];
+        parts += *of == KIRI_NONE;
+        areIn = *of == KIRI_NONE || *of == piece;
+        *of = piece;
+    }
+    return areIn && parts == sheet->layout.pieces.count;
+}
+
+/* And do the triangles there follow these frames? Their corners are of one piece. */
+static bool AreTrianglesInParts(const kiriSheetData* sheet, int32_t* parent, const int32_t* pieceOf)
+{
+    const kiriSquares* squares = &sheet->mesh.squares;
+    bool areIn = true;
+    for (int32_t s = 0; areIn && s < squares->columns * squares->rows; ++s) {
+        for (int32_t n = squares->head[s]; areIn && n != KIRI_NONE; n = squares->nodes.data[n].next) {
+            int32_t root = kiriUnion_Root(parent, sheet->grid.nodeCell.data[n]);
+            areIn = pieceOf[root] == kiriPiece_OfTriangle(sheet, squares->nodes.data[n].triangle);
+        }
+    }
+    return areIn;
+}
+
+/* Is the material of the pieces where the grid has it? False for memory, too. */
+static bool ArePiecesThose(kiriSheetData* sheet, bool* isBad)
+{
+    int64_t count = sheet->grid.cells.count;
+    int32_t* parent = kiriMemory_Alloc(sheet->memory, 2 * count * (int64_t)sizeof(int32_t));
+    if (parent == NULL) {
+        return false;
+    }
+    JoinCells(&sheet->grid, parent);
+    *isBad = !AreFramesInParts(sheet, parent, parent + count) || !AreTrianglesInParts(sheet, parent, parent + count);
+    kiriMemory_Free(sheet->memory, parent);
+    return !*isBad;
+}
+
+/* ---- All of it ---- */
+
 /* Has the work on a cut changed the mesh, or what follows from it? */
 static bool IsAmidWork(const kiriUpdate* u)
 {
@@ -109,6 +176,7 @@ bool kiriRemake_Field(kiriSheetData* sheet, bool* isBad)
         ClearChanges(sheet, dirty);
         TakeLinks(sheet, changed);
         TakeCells(sheet);
+        ok = ArePiecesThose(sheet, isBad);
     }
     kiriMemory_Free(sheet->memory, dirty);
     return ok;
