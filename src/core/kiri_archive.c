@@ -344,8 +344,8 @@ static void MoveItems(kiriArchive* archive, uint8_t* data, int32_t width, int64_
     }
     int32_t narrow = width < REPEATED_BYTES ? width : REPEATED_BYTES;
     kiriArchive_Numbers(archive, data, narrow, REPEATED_BYTES / narrow);
-    for (int64_t n = REPEATED_BYTES; n < bytes && kiriArchive_Reads(archive); ++n) {
-        data[n] = data[n - REPEATED_BYTES];
+    for (int64_t n = REPEATED_BYTES; n < bytes && kiriArchive_Reads(archive); n *= 2) {
+        memcpy(data + n, data, (size_t)(bytes - n < n ? bytes - n : n)); /* what is there, as often as it fits */
     }
 }
 
