@@ -566,6 +566,11 @@ static void FaceIsNoBorder(kiriSheetData* sheet)
     sheet->links.work->faces.data[0] = (int32_t)(face - sheet->grid.faces.data);
 }
 
+static void SearchBeginsEarly(kiriSheetData* sheet)
+{
+    sheet->links.work->at = -2 * sheet->links.work->stale.count - 2;
+}
+
 static void SightIsUnlisted(kiriSheetData* sheet)
 {
     sheet->links.work->edges.squares.count = sheet->links.work->edges.spans.count = 0;
@@ -588,11 +593,20 @@ static void TestLinksAtWork(void** state)
     (void)state;
     static const Spoiler spoilers[] = {
         { "FaceIsNoBorder", FaceIsNoBorder },
+        { "SearchBeginsEarly", SearchBeginsEarly },
         { "SightIsUnlisted", SightIsUnlisted },
         { "SightIsFar", SightIsFar },
     };
     Host host;
     StartAtWork(&host, KIRI_STAGE_SHAPE, 3);
+    const kiriLinkWork* work = host.world->sheets.data[0]->links.work;
+    int32_t before = 0;
+    for (int tick = 0; tick < 100 && (work->at < 0 || work->faces.count == 0); ++tick) {
+        before += work->at < 0;
+        assert_true(kiriWorld_Tick(host.world, 0.01f, 1) >= 0);
+    }
+    assert_true(before > 2); /* faces are found in several ticks */
+    assert_true(work->running && work->faces.count > 0);
     CHECK_ALL_REFUSED(&host, spoilers);
 }
 

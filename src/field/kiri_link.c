@@ -38,6 +38,10 @@ static bool IsMadeBefore(const void* context, int32_t a, int32_t b)
     return kiriBorder_IsFaceBefore(border, x->face, y->face);
 }
 
+/* In items of the budget: a border cell the steps of which are looked at, one the faces of which are, and a link that is
+   kept. */
+enum { STALE_ITEMS = 1, FACES_ITEMS = 1, KEPT_ITEMS = 4 };
+
 /* ---- All links of regions that are stale ---------------------------------------------------------------------- */
 
 /* Marks the regions that a step leads to from this border cell. */
@@ -53,17 +57,21 @@ static void SpreadStale(const kiriBorder* border, int32_t cell)
 }
 
 /* Stale are the regions that are dirty, and those beside them: where a link ends depends on what it meets there. */
-static void FindStale(const kiriBorder* border)
+static void MarkDirtyStale(const kiriBorder* border)
+{
+    for (int32_t i = 0; i < border->siteCount; ++i) {
+        border->work->stale.data[i] = border->regions->dirty.data[i] ? KIRI_REGION_STALE : 0;
+    }
+}
+
+/* Those beside one region. */
+static void FindStaleBeside(const kiriBorder* border, int32_t region)
 {
     const kiriRegions* regions = border->regions;
-    for (int32_t i = 0; i < border->siteCount; ++i) {
-        border->work->stale.data[i] = regions->dirty.data[i] ? KIRI_REGION_STALE : 0;
-    }
-    for (int32_t i = 0; i < border->siteCount; ++i) {
-        int32_t cell = regions->dirty.data[i] ? regions->border.first.data[i] : KIRI_NONE;
-        for (; cell != KIRI_NONE; cell = regions->border.cells.data[cell].next) {
-            SpreadStale(border, cell);
-        }
+    int32_t cell = regions->dirty.data[region] ? regions->border.first.data[region] : KIRI_NONE;
+    for (; cell != KIRI_NONE; cell = regions->border.cells.data[cell].next) {
+        SpreadStale(border, cell);
+        border->work->due += STALE_ITEMS;
     }
 }
 
@@ -153,19 +161,17 @@ static bool FindFacesOf(const kiriBorder* border, int32_t region, int32_t cell)
     return true;
 }
 
-static bool FindFaces(const kiriBorder* border)
+static bool FindFacesFrom(const kiriBorder* border, int32_t region)
 {
     const kiriRegions* regions = border->regions;
-    for (int32_t i = 0; i < border->siteCount; ++i) {
-        bool isAsked = regions->dirty.data[i] || (border->work->stale.data[i] & KIRI_REGION_TOUCHED) != 0;
-        int32_t cell = isAsked ? regions->border.first.data[i] : KIRI_NONE;
-        for (; cell != KIRI_NONE; cell = regions->border.cells.data[cell].next) {
-            if (!FindFacesOf(border, i, cell)) {
-                return false;
-            }
-        }
+    bool ok = true,
+         isAsked = regions->dirty.data[region] || (border->work->stale.data[region] & KIRI_REGION_TOUCHED) != 0;
+    int32_t cell = isAsked ? regions->border.first.data[region] : KIRI_NONE;
+    for (; ok && cell != KIRI_NONE; cell = regions->border.cells.data[cell].next) {
+        ok = FindFacesOf(border, region, cell);
+        border->work->due += FACES_ITEMS;
     }
-    return true;
+    return ok;
 }
 
 static bool SortMade(const kiriBorder* border)
@@ -260,9 +266,6 @@ static void TakeOldLinks(const kiriBorder* border, const kiriLinks* links)
     }
 }
 
-/* In items of the budget: a face that is looked at, and a link that is kept. */
-enum { FACE_ITEMS = 2, KEPT_ITEMS = 4 };
-
 /* ---- The whole -------------------------------------------------------------------------------------------------- */
 
 static bool MakeLinkRoom(const kiriBorder* border)
@@ -348,14 +351,30 @@ static bool BeginLinks(const kiriBorder* border, kiriLinks* links)
     kiriLinkWork* work = border->work;
     links->next.count = work->nextEnds.count = links->changed = 0;
     work->running = true;
-    work->at = 0;
+    work->at = -2 * border->siteCount - 1;
     work->due = 0;
     if (!MakeLinkRoom(border)) {
         return false;
     }
-    FindStale(border);
-    bool ok = KeepUntouched(border, links) && FindFaces(border);
-    work->due = FACE_ITEMS * (int64_t)work->faces.count + KEPT_ITEMS * (int64_t)work->made.count;
+    MarkDirtyStale(border);
+    return true;
+}
+
+/* Before the first face, where `at` is 0: what is stale, region by region, then what is kept, then the faces of the rest,
+   region by region. */
+static bool FindLinksToMake(const kiriBorder* border, const kiriLinks* links, int32_t at)
+{
+    kiriLinkWork* work = border->work;
+    int32_t count = border->siteCount;
+    if (at < -count - 1) {
+        FindStaleBeside(border, at + 2 * count + 1);
+        return true;
+    }
+    if (at >= -count) {
+        return FindFacesFrom(border, at + count);
+    }
+    bool ok = KeepUntouched(border, links);
+    work->due += KEPT_ITEMS * (int64_t)work->made.count;
     return ok;
 }
 
@@ -392,17 +411,18 @@ void kiriLinks_Drop(kiriLinks* links)
     }
 }
 
-/* Face by face, then the whole. Edges that are seen first are an item each: a square may have thousands. */
+/* What is to be made, face by face, then the whole. Edges that are seen first are an item each: a square may have thousands. */
 static kiriProgress RunLinks(const kiriBorder* border, kiriLinks* links, kiriQuota* quota)
 {
     kiriLinkWork* work = border->work;
     bool ok = true;
     while (ok && kiriQuota_Pay(quota, &work->due)) {
         int32_t at = work->at++, seen = work->edges.edges.count;
-        if (at > work->faces.count) {
+        if (at < 0) {
+            ok = FindLinksToMake(border, links, at);
+        } else if (at > work->faces.count) {
             return KIRI_DONE;
-        }
-        if (at == work->faces.count) {
+        } else if (at == work->faces.count) {
             ok = FinishLinks(border, links);
         } else if (work->marks.data[work->faces.data[at]] == KIRI_FACE_FOUND) {
             ok = kiriBorder_MakeLinksAt(border, work->faces.data[at]);

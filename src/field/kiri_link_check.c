@@ -43,10 +43,14 @@ static const kiriMust SightEdgeMust[] = {
 };
 
 static const kiriMust RunningLinksMust[] = {
-    KIRI_WITHIN(0, INT32_MAX - 1, kiriLinkWork, at, at),      KIRI_COUNTS(kiriLinkWork, due, due),
-    KIRI_LENGTH(KIRI_OF_SITES, kiriLinkWork, stale),          KIRI_ITEMS_MUST(kiriLinkWork, touched, RegionPairMust),
-    KIRI_ITEMS_MUST(kiriLinkWork, faces, IsLinkFace),         KIRI_ITEMS_MUST(kiriLinkWork, made, NewLinkMust),
-    KIRI_LENGTH(KIRI_OF_SQUARES, kiriLinkWork, edges.listed), KIRI_ITEMS_MUST(kiriLinkWork, edges.edges, SightEdgeMust),
+    KIRI_WITHIN(INT32_MIN, INT32_MAX - 1, kiriLinkWork, at, at),
+    KIRI_COUNTS(kiriLinkWork, due, due),
+    KIRI_LENGTH(KIRI_OF_SITES, kiriLinkWork, stale),
+    KIRI_ITEMS_MUST(kiriLinkWork, touched, RegionPairMust),
+    KIRI_ITEMS_MUST(kiriLinkWork, faces, IsLinkFace),
+    KIRI_ITEMS_MUST(kiriLinkWork, made, NewLinkMust),
+    KIRI_LENGTH(KIRI_OF_SQUARES, kiriLinkWork, edges.listed),
+    KIRI_ITEMS_MUST(kiriLinkWork, edges.edges, SightEdgeMust),
 };
 
 static const kiriMust EndsOfLinksMust[] = {
@@ -177,7 +181,8 @@ bool kiriLinks_Check(const kiriLinks* links, const kiriGrid* grid, const kiriMes
            kiriCheck_Object(check, EndsOfLinksMust, work) && AreSights(check, work) &&
            kiriCheck_That(check, AreMarksOfFaces(work, grid->faces.count)) &&
            (!work->running || (kiriCheck_Object(check, RunningLinksMust, work) &&
-                               kiriCheck_That(check, AreOfMaterial(&work->edges, mesh) &&
+                               kiriCheck_That(check, work->at >= -2 * (int64_t)work->stale.count - 1 &&
+                                                         AreOfMaterial(&work->edges, mesh) &&
                                                          AreFacesAtHand(work, grid, regions->field.owner.data))));
 }
 

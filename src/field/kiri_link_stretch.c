@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* In items of the budget: a link, and a face of its stretch. */
-enum { LINK_ITEMS = 80, STRETCH_FACE_ITEMS = 3 };
+enum { LINK_ITEMS = 80, STRETCH_FACE_ITEMS = 5 };
 
 kiriBorderSide kiriBorder_SideOf(const kiriBorder* border, int32_t face)
 {

@@ -57,7 +57,7 @@ typedef struct kiriRegionPair {
 
 struct kiriLinkWork {
     bool running;                       /* an update is at hand: it waits for more quota */
-    int32_t at;                         /* in `faces`: the next to look at */
+    int32_t at;                         /* in `faces`: the next to look at; below 0 they are being found */
     int64_t due;                        /* items that are not paid yet */
     KIRI_ARRAY(uint8_t) marks;          /* a kiriFaceMark a face; all PASSED between updates */
     KIRI_ARRAY(uint8_t) stale;          /* of each region: KIRI_REGION_STALE... */
