@@ -11,7 +11,7 @@ import (
 )
 
 // Version of the header.
-const Version = "0.10.0"
+const Version = "0.11.0"
 
 type ResultCode int32
 

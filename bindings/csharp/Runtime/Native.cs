@@ -1337,7 +1337,7 @@ namespace Kiri
 #endif
 
         /// <summary>Of the header.</summary>
-        public const int Version = 1000;
+        public const int Version = 1100;
         public const int LeastTriangles = 16;
         public const int MostNoteBytes = 1048576;
 

@@ -17,7 +17,7 @@ pub struct kiriWorld {
 }
 
 /// Of the header.
-pub const KIRI_VERSION: i32 = 1000;
+pub const KIRI_VERSION: i32 = 1100;
 
 pub const KIRI_OK: i32 = 0;
 /// done, and work is left for later ticks
