@@ -390,7 +390,7 @@ type BladeID uint32
 // side to side takes 6 items of cells for each cell of the grid where frames are many, 30 where they are few (each
 // has more of the sheet), and 0.2 to 1.2 of samples for each vertex; a cut half as long a quarter to all of that. So
 // on a sheet and grid of 64 x 64 squares with 9 frames, 2000 cells and 500 samples part a cut from side to side after
-// 69 ticks, one half as long after 26; 10 000 and 2000 after 15 and 6. tests/bench_delay.c prints the table.
+// 70 ticks, one half as long after 27; 10 000 and 2000 after 15 and 6. tests/bench_delay.c prints the table.
 type Budget struct {
 	// split by blades; 0, or KIRI_LEAST_TRIANGLES and more
 	Triangles int32

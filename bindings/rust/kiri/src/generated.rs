@@ -577,7 +577,7 @@ pub const DRAW_ALL: u32 = 2047;
 /// the grid where frames are many, 30 where they are few (each has more of the sheet), and 0.2 to
 /// 1.2 of samples for each vertex; a cut half as long a quarter to all of that. So on a sheet and
 /// grid of 64 x 64 squares with 9 frames, 2000 cells and 500 samples part a cut from side to side
-/// after 69 ticks, one half as long after 26; 10 000 and 2000 after 15 and 6. tests/bench_delay.c
+/// after 70 ticks, one half as long after 27; 10 000 and 2000 after 15 and 6. tests/bench_delay.c
 /// prints the table.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
