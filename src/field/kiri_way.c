@@ -204,7 +204,7 @@ static bool TakeWay(const WaySearch* s, kiriWay* way)
     return way->turnCount <= KIRI_WAY_TURNS;
 }
 
-static void SetNode(WaySearch* s, const kiriTurns* turns, int32_t k)
+static void SetWayNode(WaySearch* s, const kiriTurns* turns, int32_t k)
 {
     const kiriMeshData* mesh = s->sight->mesh;
     if (k == 0 || k == s->count - 1) {
@@ -233,7 +233,7 @@ bool kiriWay_Find(const kiriTurns* turns, const kiriSight* sight, kiriWay* way)
     s.doneCount = 0;
     s.count = turns->count + 2;
     for (int32_t k = 0; k < s.count; ++k) {
-        SetNode(&s, turns, k);
+        SetWayNode(&s, turns, k);
     }
     int32_t node = 0;
     while (node != KIRI_NONE && !s.isDone[s.count - 1]) {
