@@ -10,7 +10,7 @@ set -eu
 too_long='test_extremes test_games test_long test_net test_quality test_samples test_scarce'
 
 if [ $# = 0 ]; then
-    echo run-fuzz_calls run-fuzz_mesh run-fuzz_replay
+    echo run-fuzz_calls run-fuzz_load run-fuzz_mesh run-fuzz_replay run-fuzz_spoil
     for test in tests/test_*.c tests/test_*.cpp; do
         test=$(basename "${test%.*}")
         case " $too_long " in *" $test "*) ;; *) echo "run-$test" ;; esac

@@ -287,7 +287,7 @@ static void StartAhead(Host* host, int disturbance, bool hasBudget, bool* wasMad
     const kiriAhead* ahead = &host->world->sheets.data[0]->ahead;
     OK(kiriWorld_SetBudget(host->world, &budget));
     assert_int_equal(kiriFrame_DetachPiece(host->world, frame, &made), KIRI_PENDING);
-    for (int32_t tick = 0; tick < 60 && !*wasMade; ++tick) {
+    for (int32_t tick = 0; tick < 150 && !*wasMade; ++tick) {
         host->failAt = disturbance == REFUSE ? host->calls + tick % 16 : -1;
         TickOnce(host, 60, &result);
         *wasMade = *wasMade || (ahead->part != NULL && ahead->part->update != NULL &&

@@ -610,7 +610,7 @@ static void TestHolesWithoutMemory(void** state)
 static void TestCallsKeepToTheBudget(void** state)
 {
     (void)state;
-    enum { PIECES = 36, SAMPLES = 700 };
+    enum { PIECES = 36, SAMPLES = 1200 };
     uint64_t layouts[2] = { 0, 0 };
     for (int k = 0; k < 2; ++k) {
         const kiriBudget budget = { 0, 0, k == 0 ? SAMPLES : 0, 0 };

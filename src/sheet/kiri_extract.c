@@ -238,7 +238,7 @@ static kiriIndices ItemsOfSpan(const kiriIndices* items, kiriSpan span)
 
 double kiriExtraction_Samples(const kiriSheetData* sheet, double share)
 {
-    const double vertexSamples = 1.5, cellSamples = 0.7;
+    const double vertexSamples = 3.0, cellSamples = 1.4;
     double vertices = (double)sheet->mesh.vertices.count - sheet->mesh.vertexHoles;
     return share * (vertexSamples * vertices + cellSamples * sheet->grid.cellCount);
 }

@@ -72,7 +72,7 @@ static int32_t PayForLeaving(const kiriWorld* world, kiriSheetData* sheet, kiriQ
    made anew take less than those beside a cut. */
 static void GoAhead(kiriWorld* world, kiriSheetData* sheet, int64_t samples)
 {
-    enum { CELLS_FOR_A_SAMPLE = 10, SAMPLES_FOR_A_SAMPLE = 2 };
+    enum { CELLS_FOR_A_SAMPLE = 5, SAMPLES_FOR_A_SAMPLE = 1 };
     kiriQuotas quotas = kiriQuotas_Unlimited();
     quotas.of[KIRI_QUOTA_CELLS].left = CELLS_FOR_A_SAMPLE * samples;
     quotas.of[KIRI_QUOTA_SAMPLES].left = SAMPLES_FOR_A_SAMPLE * samples;
