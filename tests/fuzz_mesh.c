@@ -78,8 +78,9 @@ static void MakeFan(FuzzMesh* m)
 static void MakeSoup(FuzzMesh* m)
 {
     FuzzMesh whole;
+    int32_t columns = 1 + FuzzBytes_Below(&m->bytes, 4);
     memset(&whole, 0, sizeof(whole));
-    MakeRectangle(&whole, 1 + FuzzBytes_Below(&m->bytes, 4), 1 + FuzzBytes_Below(&m->bytes, 3));
+    MakeRectangle(&whole, columns, 1 + FuzzBytes_Below(&m->bytes, 3));
     for (int32_t h = 0; h < 3 * whole.triangleCount; ++h) {
         int32_t v = whole.indices[h];
         m->indices[h] = AddVertex(m, whole.positions[2 * v], whole.positions[2 * v + 1]);

@@ -522,6 +522,84 @@ static void PlacesWithinRange(void** state)
     kiriMemory_FreeAll(mesh.memory);
 }
 
+/* ---- Parts that lie on each other ---------------------------------------------------------------------------------- */
+
+/* Where the longer side of the sheet is this long, lattice steps are 1. */
+#define LATTICE_SIDE 536870912.0f
+
+static void InitLoose(kiriMeshData* mesh, const float* corners, int32_t triangles)
+{
+    const int32_t indices[] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 };
+    const char* why = NULL;
+    assert_int_equal(kiriMesh_Init(mesh, Heap(), corners, 3 * triangles, indices, triangles, 8, &why), KIRI_OK);
+    kiriMesh_Begin(mesh);
+}
+
+/* The corner (0, 60) of the first triangle is on the left side of the second: they lie on each other by as much as floats
+   are given for rounding. A blade that starts there, along the second edge that ends there, must not make it again. */
+static void MakesNoEdgeTwice(void** state)
+{
+    (void)state;
+    const float side = LATTICE_SIDE;
+    const float corners[] = { 0, 60, side, 0, side, side, 0, 0, side, side, 0, side };
+    const double steps[] = { 2.0, 1e3, 1e-4 * LatticeSize };
+    for (int i = 0; i < 3; ++i) {
+        kiriMeshData mesh;
+        InitLoose(&mesh, corners, 2);
+        const double xy[] = { 0.0, 60.0, side, side }, back[] = { side, side, 0.0, 60.0 };
+        Cut(&mesh, xy, 2, steps[i]);
+        CheckConnections(&mesh, false);
+        Cut(&mesh, back, 2, steps[i]);
+        CheckConnections(&mesh, false);
+        kiriMemory_FreeAll(mesh.memory);
+    }
+}
+
+/* Two squares of few steps, each of two triangles, and one that goes far up; three corners are moved by up to four eighths
+   of a square. */
+static kiriResult InitFewSteps(kiriMeshData* mesh, uint32_t* seed, int32_t unit)
+{
+    static const float eighths[] = { 0, 0, 8, 0, 8, 8, 0, 0, 8, 8, 0, 8, 8, 0, 16, 0, 8, 8, 16, 0, 16, 8, 8, 8 };
+    const int32_t indices[] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 };
+    const char* why = NULL;
+    float corners[24];
+    for (int i = 0; i < 24; ++i) {
+        corners[i] = (float)unit * eighths[i];
+    }
+    for (int i = 0; i < 3; ++i) {
+        float far = (float)(unit < 16 || Random(seed) % 2 == 0 ? unit : 16);
+        corners[Random(seed) % 24] += far * ((float)(Random(seed) % 5) - 2.0f);
+    }
+    corners[15] = LATTICE_SIDE;
+    return kiriMesh_Init(mesh, Heap(), corners, 12, indices, 4, 8, &why);
+}
+
+/* Blades with places like those of the corners. */
+static void MakesNoEdgeTwiceAmongFewSteps(void** state)
+{
+    (void)state;
+    uint32_t seed = 77;
+    int32_t made = 0;
+    for (int round = 0; round < 6000; ++round) {
+        kiriMeshData mesh;
+        int32_t unit = 2 << Random(&seed) % 8;
+        if (InitFewSteps(&mesh, &seed, unit) == KIRI_OK) {
+            kiriMesh_Begin(&mesh);
+            for (int i = 0; i < 6; ++i) {
+                double xy[8];
+                for (int k = 0; k < 8; ++k) {
+                    xy[k] = unit * ((double)(Random(&seed) % 21) - 2.0) + 2.0 * (double)(Random(&seed) % 2);
+                }
+                Cut(&mesh, xy, 4, (double)(Random(&seed) % (round % 2 == 0 ? 4 : 200)));
+            }
+            CheckConnections(&mesh, false);
+            ++made;
+        }
+        kiriMemory_FreeAll(Heap());
+    }
+    assert_in_range(made, 500, 6000);
+}
+
 /* ---- Random cuts ------------------------------------------------------------------------------------------------- */
 
 enum { MOST_POINTS = 12 };
@@ -1056,6 +1134,8 @@ int main(void)
         cmocka_unit_test(CutsThroughSplitSides),
         cmocka_unit_test(Clips),
         cmocka_unit_test(PlacesWithinRange),
+        cmocka_unit_test(MakesNoEdgeTwice),
+        cmocka_unit_test(MakesNoEdgeTwiceAmongFewSteps),
         cmocka_unit_test(CutsAtRandomOnOneSheet),
         cmocka_unit_test(CutsAtRandomFarAndWide),
         cmocka_unit_test(CutsAtRandomOnARing),

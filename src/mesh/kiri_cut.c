@@ -157,6 +157,96 @@ static bool OpenBetween(BladeWalk* walk, int32_t vertex, kiriLatticePoint other)
     return false;
 }
 
+/* ---- Splits that may be made ------------------------------------------------------------------------------------- */
+
+/* Parts of the caller's sheet that are not joined may lie on each other by a few lattice steps (kiri_overlap.c). A split in
+   one, at a vertex of the other, must not make an edge that the other has: each half-edge is alone between its ends.
+   What they have in common is within 64 steps (along both axes) of an edge of one of them, so an edge there has a thin
+   triangle on one side. Other splits inside the sheet need not look. */
+enum { THIN_TRIANGLE = 256 };
+
+static int64_t StepsBetween(kiriLatticePoint a, kiriLatticePoint b)
+{
+    int64_t x = (int64_t)b.x - a.x, y = (int64_t)b.y - a.y;
+    return (x < 0 ? -x : x) + (y < 0 ? -y : y);
+}
+
+static bool IsThin(kiriLatticePoint a, kiriLatticePoint b, kiriLatticePoint c)
+{
+    return kiriOrient(a, b, c) <= THIN_TRIANGLE * (StepsBetween(a, b) + StepsBetween(b, c) + StepsBetween(c, a)) / 2;
+}
+
+static bool IsVertexAt(BladeWalk* walk, kiriLatticePoint at)
+{
+    const kiriMeshData* mesh = walk->mesh;
+    int32_t v = mesh->squares.vertexHead[kiriSquares_At(&mesh->squares, at)];
+    while (v != KIRI_NONE && !IsSamePoint(VertexPoint(walk, v), at)) {
+        walk->effort += LOOK_EFFORT;
+        v = mesh->vertices.data[v].next;
+    }
+    return v != KIRI_NONE;
+}
+
+/* Has a triangle a corner at this point, with one of these edges: to the next corner, or from the previous one? */
+static bool IsCornerTaken(BladeWalk* walk, kiriLatticePoint at, kiriLatticePoint next, kiriLatticePoint previous)
+{
+    const kiriMeshData* mesh = walk->mesh;
+    int32_t slot = mesh->squares.head[kiriSquares_At(&mesh->squares, at)];
+    for (; slot != KIRI_NONE; slot = mesh->squares.nodes.data[slot].next) {
+        kiriLatticePoint c[3];
+        kiriMesh_Corners(mesh, mesh->squares.nodes.data[slot].triangle, c);
+        walk->effort += LOOK_EFFORT;
+        for (int i = 0; i < 3; ++i) {
+            if (IsSamePoint(c[i], at) && (IsSamePoint(c[(i + 1) % 3], next) || IsSamePoint(c[(i + 2) % 3], previous))) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/* The two triangles on one side of a split edge. */
+static bool IsSideThin(const BladeWalk* walk, int32_t h, kiriLatticePoint at)
+{
+    kiriLatticePoint c[3];
+    kiriMesh_Corners(walk->mesh, h / 3, c);
+    return IsThin(c[h % 3], at, c[(h + 2) % 3]) || IsThin(at, c[(h + 1) % 3], c[(h + 2) % 3]);
+}
+
+static bool IsSideTaken(BladeWalk* walk, int32_t h, kiriLatticePoint at)
+{
+    kiriLatticePoint c[3];
+    kiriMesh_Corners(walk->mesh, h / 3, c);
+    kiriLatticePoint a = c[h % 3], b = c[(h + 1) % 3], apex = c[(h + 2) % 3];
+    return IsCornerTaken(walk, at, apex, a) || IsCornerTaken(walk, at, b, apex);
+}
+
+static bool CanSplitEdge(BladeWalk* walk, int32_t h, kiriLatticePoint at)
+{
+    int32_t twin = kiriMesh_Twin(walk->mesh, h);
+    if (!kiriMesh_CanSplitEdge(walk->mesh, h, at)) {
+        return false;
+    }
+    bool mustLook = twin == KIRI_NONE || IsSideThin(walk, h, at) || IsSideThin(walk, twin, at);
+    return !mustLook || !IsVertexAt(walk, at) ||
+           (!IsSideTaken(walk, h, at) && (twin == KIRI_NONE || !IsSideTaken(walk, twin, at)));
+}
+
+static bool CanSplitTriangle(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
+{
+    kiriLatticePoint c[3];
+    bool mustLook = false, isTaken = false;
+    kiriMesh_Corners(walk->mesh, triangle, c);
+    for (int i = 0; i < 3; ++i) {
+        mustLook = mustLook || IsThin(c[i], c[(i + 1) % 3], at);
+    }
+    mustLook = mustLook && IsVertexAt(walk, at);
+    for (int i = 0; i < 3 && mustLook; ++i) {
+        isTaken = isTaken || IsCornerTaken(walk, at, c[i], c[(i + 1) % 3]);
+    }
+    return !isTaken && kiriMesh_CanSplitTriangle(walk->mesh, triangle, at);
+}
+
 /* ---- Vertices for the blade -------------------------------------------------------------------------------------- */
 
 static int32_t NearestCorner(const BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
@@ -198,10 +288,10 @@ static int32_t VertexIn(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
     }
     kiriLatticePoint foot;
     int32_t h = NearestEdge(walk, triangle, at, &foot);
-    if (IsWithinDistance(foot, at, walk->snap) && kiriMesh_CanSplitEdge(walk->mesh, h, foot)) {
+    if (IsWithinDistance(foot, at, walk->snap) && CanSplitEdge(walk, h, foot)) {
         return SplitEdge(walk, h, foot);
     }
-    return kiriMesh_CanSplitTriangle(walk->mesh, triangle, at) ? SplitTriangle(walk, triangle, at) : corner;
+    return CanSplitTriangle(walk, triangle, at) ? SplitTriangle(walk, triangle, at) : corner;
 }
 
 /* A vertex where the way to the target crosses half-edge h: one of its ends where that is near, or a new one, or an end
@@ -219,7 +309,7 @@ static int32_t VertexOn(BladeWalk* walk, int32_t h)
         IsOnLine(walk, VertexPoint(walk, near), 2.0 * walk->snap)) {
         return near;
     }
-    if (IsNearerOrHere(walk, crossing) && kiriMesh_CanSplitEdge(walk->mesh, h, crossing)) {
+    if (IsNearerOrHere(walk, crossing) && CanSplitEdge(walk, h, crossing)) {
         return SplitEdge(walk, h, crossing);
     }
     return canTake ? near : IsNearerTarget(walk, VertexPoint(walk, far)) ? far : KIRI_NONE;
