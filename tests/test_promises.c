@@ -230,6 +230,7 @@ static void MixBudgets(kiriBudget* budgets, int32_t count, uint32_t* seed)
     }
     kiriBudget* any = &budgets[Random(seed) % (uint32_t)count];
     any->cells += how == 1 ? 1 + (int32_t)(Random(seed) % 9) : 0;
+    any->triangles += how == 1 ? 1 + (int32_t)(Random(seed) % 3) : 0;
     any->iterations = how == 2 ? 1000 : 0;
 }
 
