@@ -82,7 +82,8 @@ static bool AreDistances(const kiriReachBlock* block, int64_t cells)
     int64_t there = cells - (int64_t)block->cells * KIRI_BLOCK_CELLS;
     bool areFine = true;
     for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
-        areFine &= IsDistanceOrFar(block->fromSite[k]) & IsDistanceOrFar(block->fromBorder[k]);
+        areFine &= IsDistanceOrFar(block->fromSite[k]);
+        areFine &= IsDistanceOrFar(block->fromBorder[k]);
     }
     for (int32_t k = there > 0 ? (int32_t)there : 0; there < KIRI_BLOCK_CELLS && k < KIRI_BLOCK_CELLS; ++k) {
         areFine &= block->fromSite[k] == KIRI_FAR && block->fromBorder[k] == KIRI_FAR;
