@@ -171,14 +171,16 @@ static bool IsFarAway(const kiriWorld* world, double scale)
 }
 
 /* Where nothing but gravity and what calls gave acts on sheets that began without strain, no tick adds to the energy of
-   motion and height: so no speed comes from nowhere. */
+   motion and height: so no speed comes from nowhere. A line that is clamped may be bent, or its pieces apart, once they have
+   moved: it is pulled straight. */
 static void CheckEnergy(Fuzz* fuzz, const FuzzCall* call, const FuzzAct* act, double before, kiriResult result)
 {
     double size, energy = EnergyOf(fuzz->hosts[0].world, fuzz->scale, &size);
     const kiriSheetDef* def = &act->def.sheet;
     bool isCreated = strcmp(call->name, "CreateSheet") == 0;
+    bool pulls = strcmp(call->name, "ClampLine") == 0 && fuzz->ticks > 0 && result >= 0;
     fuzz->energySize = size > fuzz->energySize ? size : fuzz->energySize;
-    fuzz->isStirred = fuzz->isStirred || ((call->flags & FUZZ_STIRS) != 0 && result >= 0) || fuzz->mayShrink ||
+    fuzz->isStirred = fuzz->isStirred || ((call->flags & FUZZ_STIRS) != 0 && result >= 0) || fuzz->mayShrink || pulls ||
                       (isCreated && (def->paper.popping || def->touchesSheets)) ||
                       IsFarAway(fuzz->hosts[0].world, fuzz->scale);
     if ((call->flags & FUZZ_TICKS) == 0) {

@@ -2599,7 +2599,8 @@ var poolSheetClampLine pool[struct {
 
 // Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp holds place and direction
 // of the material there, as a vice does; a hinge its place only, so that the sheet may turn about the line. Both
-// begin where the material is now; the line stays straight, and as long as it is at rest.
+// begin where the material is now; the line stays straight, and as long as it is at rest: so material that is bent
+// there is pulled straight, and pieces that have come apart are pulled together, however fast that makes them.
 // They hold what the line meets, edges included, with the stiffness that the material has between the line and the
 // frames that it meets. So a clamp along an edge is where the drawing has it, whatever the number of frames, where
 // kiriFrame_Hold clamps at a frame's site. A clamp through the sheet parts what is on its two sides, so that neither
@@ -2630,7 +2631,8 @@ var poolSheetHingeLine pool[struct {
 
 // Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp holds place and direction
 // of the material there, as a vice does; a hinge its place only, so that the sheet may turn about the line. Both
-// begin where the material is now; the line stays straight, and as long as it is at rest.
+// begin where the material is now; the line stays straight, and as long as it is at rest: so material that is bent
+// there is pulled straight, and pieces that have come apart are pulled together, however fast that makes them.
 // They hold what the line meets, edges included, with the stiffness that the material has between the line and the
 // frames that it meets. So a clamp along an edge is where the drawing has it, whatever the number of frames, where
 // kiriFrame_Hold clamps at a frame's site. A clamp through the sheet parts what is on its two sides, so that neither

@@ -973,7 +973,8 @@ KIRI_API kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriP
 
 /* Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp holds place and direction of
    the material there, as a vice does; a hinge its place only, so that the sheet may turn about the line. Both begin
-   where the material is now; the line stays straight, and as long as it is at rest.
+   where the material is now; the line stays straight, and as long as it is at rest: so material that is bent there is
+   pulled straight, and pieces that have come apart are pulled together, however fast that makes them.
 
    They hold what the line meets, edges included, with the stiffness that the material has between the line and the
    frames that it meets. So a clamp along an edge is where the drawing has it, whatever the number of frames, where
