@@ -202,8 +202,8 @@ static bool IsOneSystem(const kiriWorld* world, int32_t items)
     return any;
 }
 
-/* No tick counts more items than its limit, and work on cuts shares it. Steps of the work on cuts are all smaller than the least limit, or are paid
-   in parts. */
+/* No tick counts more items than its limit, and the three kinds of work on cuts share it. Their steps are all smaller than the
+   least limit, count as all of it, or are paid in parts. */
 static void CheckBudget(const kiriWorld* world, kiriResult result)
 {
     kiriProfile profile;
