@@ -14,6 +14,9 @@ enum { KIRI_FARTHEST = KIRI_FAR - 4 * KIRI_UNIT_KNIGHT };
 
 extern const kiriMust kiriSiteMust[2];
 
+/* Is it over the squares of the sheet? Lines of sight from it go through these. */
+bool kiriSite_IsOver(const kiriSite* site, const kiriMeshData* mesh);
+
 /* The mesh is right. Counts cells and faces. */
 bool kiriGrid_Check(const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* check);
 
@@ -65,7 +68,8 @@ bool kiriShape_IsAtWork(const kiriShape* shape);
 bool kiriLinks_AreAtWork(const kiriLinks* links);
 
 /* A piece is being taken, or sites are being placed; else the placer is started anew before it is used. */
-bool kiriPlacer_Check(const kiriPlacer* placer, const kiriGrid* grid, kiriCheck* check, bool isTaking, bool isPlacing);
+bool kiriPlacer_Check(const kiriPlacer* placer, const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* check,
+                      bool isTaking, bool isPlacing);
 
 KIRI_C_END
 

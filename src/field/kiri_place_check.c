@@ -89,7 +89,7 @@ static bool IsOwnTarget(const kiriPlacer* placer, int32_t k)
 }
 
 /* A site is in the cell that says so, and in no other. */
-static bool AreHeld(const kiriPlacer* placer)
+static bool AreHeld(const kiriPlacer* placer, const kiriMeshData* mesh)
 {
     const int32_t* holds = placer->work->holds.data;
     int32_t held = 0;
@@ -98,13 +98,13 @@ static bool AreHeld(const kiriPlacer* placer)
         held += holds[placer->cells.data[k]] >= 0;
     }
     for (int32_t i = 0; areFine && i < placer->sites.count; ++i) {
-        areFine = holds[placer->sites.data[i].cell] == i;
+        areFine = holds[placer->sites.data[i].cell] == i && kiriSite_IsOver(&placer->sites.data[i], mesh);
     }
     return areFine && held == placer->sites.count;
 }
 
 /* Cells of the part live, and all that a step leads to from one is of the part: nobody else is asked anything. */
-static bool IsPart(kiriCheck* check, const kiriPlacer* placer, const kiriGrid* grid)
+static bool IsPart(kiriCheck* check, const kiriPlacer* placer, const kiriGrid* grid, const kiriMeshData* mesh)
 {
     const kiriPlacerWork* work = placer->work;
     uint8_t* isPart = kiriCheck_Bytes(check, grid->cells.count);
@@ -125,7 +125,7 @@ static bool IsPart(kiriCheck* check, const kiriPlacer* placer, const kiriGrid* g
     for (int32_t k = 0; isFine && k < placer->sites.count; ++k) {
         isFine = isPart[placer->sites.data[k].cell];
     }
-    isFine = isFine && AreHeld(placer);
+    isFine = isFine && AreHeld(placer, mesh);
     for (int32_t k = 0; isFine && HasFresh(work) && k < work->fresh.settled.count; ++k) {
         isFine = isPart[work->fresh.settled.data[k]];
     }
@@ -204,7 +204,8 @@ static bool IsTaken(kiriCheck* check, const kiriPlacer* placer, const kiriGrid* 
            (work->isTaking || kiriCheck_Object(check, EndsMust, placer));
 }
 
-bool kiriPlacer_Check(const kiriPlacer* placer, const kiriGrid* grid, kiriCheck* check, bool isTaking, bool isPlacing)
+bool kiriPlacer_Check(const kiriPlacer* placer, const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* check,
+                      bool isTaking, bool isPlacing)
 {
     const kiriPlacerWork* work = placer->work;
     if (work == NULL) {
@@ -219,7 +220,7 @@ bool kiriPlacer_Check(const kiriPlacer* placer, const kiriGrid* grid, kiriCheck*
     isFine = kiriCheck_Object(check, PlacerMust, placer) && kiriCheck_Object(check, PlacerWorkMust, work);
     return isFine && kiriCheck_That(check, work->stage != PLACER_RESTS && AreRowsOfPlacer(placer, grid)) &&
            (!HasFresh(work) || kiriField_Check(&work->fresh, check, placer->sites.count, KIRI_FIELD_FLOODS)) &&
-           IsPart(check, placer, grid) &&
+           IsPart(check, placer, grid, mesh) &&
            (work->old != &work->flooded ||
             kiriField_Check(&work->flooded, check, placer->sites.count, KIRI_FIELD_FLOODS)) &&
            (work->reach == 0 || kiriField_Check(&work->ends, check, placer->sites.count, KIRI_FIELD_FLOODS));

@@ -142,6 +142,15 @@ const kiriMust kiriSiteMust[2] = {
     KIRI_INDEX(KIRI_OF_CELLS, kiriSite, cell, cell),
 };
 
+/* With half a square beside them, for rounding. */
+bool kiriSite_IsOver(const kiriSite* site, const kiriMeshData* mesh)
+{
+    const kiriSquares* squares = &mesh->squares;
+    double side = mesh->step * squares->side;
+    double u = site->at.x / side - squares->firstColumn, v = site->at.y / side - squares->firstRow;
+    return u >= -0.5 && v >= -0.5 && u <= squares->columns + 0.5 && v <= squares->rows + 0.5;
+}
+
 /* ---- Regions ---------------------------------------------------------------------------------------------------- */
 
 static const kiriMust BorderCellMust[] = {

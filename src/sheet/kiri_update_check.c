@@ -197,12 +197,15 @@ static bool AreSitesIn(kiriCheck* check, const kiriSheetData* sheet)
         u->stage < KIRI_STAGE_GRID || u->stage > KIRI_STAGE_REGIONS || (u->stage == KIRI_STAGE_REGIONS && u->step > 0);
     uint8_t* isHeld = kiriCheck_Bytes(check, sheet->grid.cells.count);
     bool areFine = isHeld != NULL;
-    for (int32_t i = 0; areFine && (areFound || !u->isScratch) && i < u->placing.sites.count; ++i) {
+    for (int32_t i = 0; areFine && i < u->placing.sites.count; ++i) {
         const kiriSite* site = &u->placing.sites.data[i];
-        areFine =
-            kiriCheck_Object(check, kiriSiteMust, site) &&
-            kiriCheck_That(check, !areFound || (kiriGrid_IsCell(&sheet->grid, site->cell) && !isHeld[site->cell]));
-        isHeld[areFine ? site->cell : 0] = 1;
+        areFine = kiriCheck_That(check, kiriSite_IsOver(site, &sheet->mesh));
+        if (areFine && (areFound || !u->isScratch)) {
+            areFine =
+                kiriCheck_Object(check, kiriSiteMust, site) &&
+                kiriCheck_That(check, !areFound || (kiriGrid_IsCell(&sheet->grid, site->cell) && !isHeld[site->cell]));
+            isHeld[areFine ? site->cell : 0] = 1;
+        }
     }
     kiriMemory_Free(&check->memory, isHeld);
     return areFine;
@@ -257,7 +260,7 @@ static bool IsFollowed(kiriCheck* check, const kiriSheetData* sheet)
     return kiriGrid_Check(&sheet->grid, &sheet->mesh, check) && AreSitesIn(check, sheet) &&
            kiriRegions_Check(&sheet->regions, &sheet->grid, check, areOwned && !isDividing) &&
            kiriShape_Check(&sheet->shape, &sheet->grid, check) &&
-           kiriPlacer_Check(&u->placing.placer, &sheet->grid, check, u->placing.isTaking, u->placing.isPlacing) &&
+           kiriPlacer_Check(&u->placing.placer, &sheet->grid, &sheet->mesh, check, u->placing.isTaking, u->placing.isPlacing) &&
            kiriOwnership_Check(&u->refit.ownership, check, &sheet->mesh) &&
            kiriCheck_That(check, AreNewSamples(sheet) && AreMarks(sheet) && IsPlacing(sheet) && AreOrphans(sheet));
 }
@@ -270,7 +273,7 @@ static bool AreLeft(kiriCheck* check, const kiriSheetData* sheet)
     check->count[KIRI_OF_FACES] = INT32_MAX;
     const kiriUpdate* u = sheet->update;
     return kiriCheck_That(check, u->stage <= KIRI_STAGE_GRID && !u->placing.isTaking && !u->placing.isPlacing) &&
-           kiriGrid_CheckLeft(grid, check) && kiriPlacer_Check(&u->placing.placer, grid, check, false, false) &&
+           kiriGrid_CheckLeft(grid, check) && kiriPlacer_Check(&u->placing.placer, grid, &sheet->mesh, check, false, false) &&
            kiriOwnership_Check(&u->refit.ownership, check, &sheet->mesh);
 }
 
