@@ -3,32 +3,18 @@
 #include <string.h>
 
 const kiriMust kiriMustBeReal[1] = { { KIRI_RULE_REALS, KIRI_OF_NOTHING, 0, 8, 0, 0, 0, NULL, 0 } };
-const kiriMust kiriMustBeVector[1] = { { KIRI_RULE_REALS, KIRI_OF_NOTHING, 0, 16, 0, 0, 0, NULL, 0 } };
 const kiriMust kiriMustBeFloat[1] = { { KIRI_RULE_FLOATS, KIRI_OF_NOTHING, 0, 4, 0, 0, 0, NULL, 0 } };
 
 /* ---- Numbers ------------------------------------------------------------------------------------------------------ */
 
-/* What numbers may be: as unsigned ones at most `most` above `low`. There may be none, as of indices of nothing. */
-typedef struct Limits {
-    uint32_t low, most;
-    bool isSome;
-} Limits;
-
-static Limits LimitsOf(int64_t low, int64_t high)
+static bool AreBetween(const void* numbers, int32_t bytes, int32_t low, int32_t high)
 {
-    int64_t most = (high < INT32_MAX ? high : INT32_MAX) - low;
-    return (Limits){ (uint32_t)low, (uint32_t)most, most >= 0 };
-}
-
-static bool AreBetween(const void* numbers, int32_t bytes, int64_t low, int64_t high)
-{
-    const uint32_t* number = numbers;
-    Limits limits = LimitsOf(low, high);
-    bool areFine = limits.isSome || bytes == 0;
+    const int32_t* number = numbers;
+    int32_t areOut = 0;
     for (int32_t k = 0; k < bytes / 4; ++k) {
-        areFine &= number[k] - limits.low <= limits.most;
+        areOut |= (number[k] < low) | (number[k] > high);
     }
-    return areFine;
+    return areOut == 0;
 }
 
 /* What is due to a budget, say: sums of a few of them hold. */
@@ -78,10 +64,16 @@ static int64_t CountOf(const kiriCheck* check, const kiriMust* must)
 static bool IsRow(const kiriMust* must, int64_t items)
 {
     return must->ruleCount == 1 && must->rules->rules == NULL && must->rules->offset == 0 &&
-           must->rules->size == must->size && must->rules->kind <= KIRI_RULE_FLOATS && items * must->size <= INT32_MAX;
+           must->rules->size == must->size && must->rules->kind <= KIRI_RULE_COUNTS && items * must->size <= INT32_MAX;
 }
 
-static bool AreNumbers(const kiriMust* must, const void* at, int64_t low, int64_t high)
+static int32_t HighOf(const kiriCheck* check, const kiriMust* must)
+{
+    int64_t high = must->high + CountOf(check, must);
+    return (int32_t)(high < INT32_MAX ? high : INT32_MAX);
+}
+
+static bool AreNumbers(const kiriMust* must, const void* at, int32_t low, int32_t high)
 {
     switch (must->kind) {
     case KIRI_RULE_BETWEEN:
@@ -95,76 +87,66 @@ static bool AreNumbers(const kiriMust* must, const void* at, int64_t low, int64_
     }
 }
 
-static bool AreAllNumbers(const kiriMust* rules, int32_t count)
+/* ---- Items of whole numbers ---- */
+
+enum { ITEMS_AT_ONCE = 4, MOST_NUMBERS = 16 };
+
+/* What each number of so many items may be; all that no rule is about. */
+typedef struct Pattern {
+    int32_t low[ITEMS_AT_ONCE * MOST_NUMBERS], high[ITEMS_AT_ONCE * MOST_NUMBERS];
+} Pattern;
+
+static bool HasPattern(const kiriMust* must)
 {
-    bool are = true;
-    for (int32_t k = 0; k < count; ++k) {
-        are &= rules[k].kind <= KIRI_RULE_FLOATS;
+    bool has = must->size % 4 == 0 && must->size <= 4 * MOST_NUMBERS;
+    for (int32_t k = 0; k < must->ruleCount; ++k) {
+        has &= must->rules[k].kind == KIRI_RULE_BETWEEN;
     }
-    return are;
+    return has;
 }
 
-/* A number of each item; these are `apart` bytes from each other. */
-static bool IsEachBetween(const char* at, int64_t items, int32_t apart, Limits limits)
+static void Pattern_Make(Pattern* pattern, const kiriCheck* check, const kiriMust* must)
 {
-    bool areFine = limits.isSome;
-    for (int64_t n = 0; n < items; ++n, at += apart) {
-        areFine &= *(const uint32_t*)(const void*)at - limits.low <= limits.most;
+    int32_t width = must->size / 4;
+    for (int32_t k = 0; k < width; ++k) {
+        pattern->low[k] = INT32_MIN;
+        pattern->high[k] = INT32_MAX;
     }
-    return areFine;
-}
-
-static bool IsEachReal(const char* at, int64_t items, int32_t apart)
-{
-    bool areFine = true;
-    for (int64_t n = 0; n < items; ++n, at += apart) {
-        areFine &= AreReals(at, 8);
-    }
-    return areFine;
-}
-
-static bool IsEachFloat(const char* at, int64_t items, int32_t apart)
-{
-    bool areFine = true;
-    for (int64_t n = 0; n < items; ++n, at += apart) {
-        areFine &= AreFloats(at, 4);
-    }
-    return areFine;
-}
-
-/* One rule, which may be about several numbers of an item. */
-static bool IsEachFine(const kiriMust* rule, const char* at, int64_t items, int32_t apart, int64_t high)
-{
-    bool areFine = true;
-    Limits limits = LimitsOf(rule->low, high);
-    if (rule->kind == KIRI_RULE_COUNTS) {
-        for (int64_t n = 0; n < items; ++n) {
-            areFine &= AreCounts(at + n * apart, rule->size);
+    for (int32_t r = 0; r < must->ruleCount; ++r) {
+        const kiriMust* rule = &must->rules[r];
+        int32_t high = HighOf(check, rule);
+        for (int32_t k = rule->offset / 4; k < (rule->offset + rule->size) / 4; ++k) {
+            pattern->low[k] = rule->low > pattern->low[k] ? rule->low : pattern->low[k];
+            pattern->high[k] = high < pattern->high[k] ? high : pattern->high[k];
         }
-        return areFine;
     }
-    int32_t width = rule->kind == KIRI_RULE_REALS ? 8 : 4;
-    for (int32_t k = 0; areFine && k < rule->size; k += width) {
-        areFine = rule->kind == KIRI_RULE_BETWEEN ? IsEachBetween(at + k, items, apart, limits)
-                  : rule->kind == KIRI_RULE_REALS ? IsEachReal(at + k, items, apart)
-                                                  : IsEachFloat(at + k, items, apart);
+    for (int32_t k = width; k < ITEMS_AT_ONCE * width; ++k) {
+        pattern->low[k] = pattern->low[k - width];
+        pattern->high[k] = pattern->high[k - width];
     }
-    return areFine;
 }
 
-enum { ITEMS_AT_ONCE = 128 };
+/* Compilers make this several numbers at a time. */
+static bool IsOfPattern(const Pattern* pattern, const char* at, int32_t count)
+{
+    int32_t areOut = 0;
+    for (int32_t k = 0; k < count; ++k) {
+        int32_t number;
+        memcpy(&number, at + 4 * k, sizeof(number));
+        areOut |= (number < pattern->low[k]) | (number > pattern->high[k]);
+    }
+    return areOut == 0;
+}
 
-/* Most of what is read are items of a few numbers: one rule after the other, for so many items that they stay near. */
+/* Most of what is read are items of a few numbers. */
 static bool AreItems(const kiriCheck* check, const kiriMust* must, const char* data, int64_t items)
 {
+    Pattern pattern;
     bool areFine = true;
-    for (int64_t first = 0; areFine && first < items; first += ITEMS_AT_ONCE) {
-        int64_t some = items - first < ITEMS_AT_ONCE ? items - first : ITEMS_AT_ONCE;
-        const char* at = data + first * must->size;
-        for (int32_t k = 0; areFine && k < must->ruleCount; ++k) {
-            const kiriMust* rule = &must->rules[k];
-            areFine = IsEachFine(rule, at + rule->offset, some, must->size, rule->high + CountOf(check, rule));
-        }
+    Pattern_Make(&pattern, check, must);
+    for (int64_t n = 0; areFine && n < items; n += ITEMS_AT_ONCE) {
+        int32_t some = (int32_t)(items - n < ITEMS_AT_ONCE ? items - n : ITEMS_AT_ONCE);
+        areFine = IsOfPattern(&pattern, data + n * must->size, some * (must->size / 4));
     }
     return areFine;
 }
@@ -176,7 +158,7 @@ static bool HoldsForEach(kiriCheck* check, const kiriMust* must, const void* dat
         row.size = (int32_t)(items * must->size);
         return kiriCheck_Rules(check, &row, 1, data);
     }
-    if (AreAllNumbers(must->rules, must->ruleCount)) {
+    if (HasPattern(must)) {
         return AreItems(check, must, data, items);
     }
     bool areFine = true;
@@ -195,8 +177,8 @@ static bool HoldsForOwned(kiriCheck* check, const kiriMust* must, const void* at
 
 static bool MustHold(kiriCheck* check, const kiriMust* must, const void* at)
 {
-    if (must->kind <= KIRI_RULE_FLOATS) {
-        return AreNumbers(must, at, must->low, must->high + CountOf(check, must));
+    if (must->kind <= KIRI_RULE_COUNTS) {
+        return AreNumbers(must, at, must->low, HighOf(check, must));
     }
     switch (must->kind) {
     case KIRI_RULE_EACH: {
@@ -207,10 +189,8 @@ static bool MustHold(kiriCheck* check, const kiriMust* must, const void* at)
         return HoldsForEach(check, must, at, must->bytes / must->size);
     case KIRI_RULE_OWNED:
         return HoldsForOwned(check, must, at);
-    case KIRI_RULE_LENGTH:
-        return kiriArray_GetHeader(at).count == CountOf(check, must);
     default:
-        return kiriArray_GetHeader(at).capacity >= CountOf(check, must);
+        return kiriArray_GetHeader(at).count == CountOf(check, must);
     }
 }
 
@@ -284,12 +264,28 @@ bool kiriCheck_Chain(kiriCheck* check, kiriChains* chains, int32_t head)
 
 /* ---- Spans -------------------------------------------------------------------------------------------------------- */
 
+enum { BYTES_AT_ONCE = 8 };
+
+/* Marks the bytes from one on, up to eight; false where one of them is marked. */
+static bool TakeBytes(uint8_t* taken, int64_t count)
+{
+    static const uint8_t marks[2 * BYTES_AT_ONCE] = { 1, 1, 1, 1, 1, 1, 1, 1 };
+    uint64_t these, there;
+    memcpy(&these, marks + BYTES_AT_ONCE - count, BYTES_AT_ONCE);
+    memcpy(&there, taken, BYTES_AT_ONCE);
+    bool areFree = (these & there) == 0;
+    there |= these;
+    memcpy(taken, &there, BYTES_AT_ONCE);
+    return areFree;
+}
+
+/* Room is a power of two. */
 static bool TakeRoomOf(kiriCheck* check, kiriRooms* rooms, int64_t first, int64_t room)
 {
     bool isFine = first >= 0 && first + room <= rooms->items.count;
-    for (int64_t k = first; isFine && k < first + room; ++k) {
-        isFine = !rooms->taken[k];
-        rooms->taken[k] = 1;
+    int64_t step = room < BYTES_AT_ONCE ? room : BYTES_AT_ONCE;
+    for (int64_t k = first; isFine && k < first + room; k += step) {
+        isFine = TakeBytes(rooms->taken + k, step);
     }
     return kiriCheck_That(check, isFine);
 }
@@ -303,27 +299,49 @@ bool kiriCheck_Span(kiriCheck* check, kiriRooms* rooms, kiriSpan span)
     return kiriCheck_That(check, span.count >= 0) && (span.count == 0 || TakeRoomOf(check, rooms, span.first, room));
 }
 
-/* The list of free room of a size runs through its items. */
-static bool TakeFreeRooms(kiriCheck* check, kiriRooms* rooms, int32_t head, int64_t room)
+/* Takes the first of a list of free room, and moves on to the next one: the list runs through the items. */
+static bool TakeFreeRoom(kiriCheck* check, kiriRooms* rooms, int32_t* next, int64_t room)
 {
+    int64_t first = (int64_t)*next - 1;
+    bool isFine = TakeRoomOf(check, rooms, first, room);
+    if (isFine) {
+        memcpy(next, (const char*)rooms->items.data + (size_t)first * rooms->itemBytes, sizeof(*next));
+    }
+    return isFine;
+}
+
+/* One of each list in turn: the next one is far away, and memory brings several in the time of one. */
+static bool TakeFreeRooms(kiriCheck* check, kiriRooms* rooms, kiriSpans spans)
+{
+    int sizes = KIRI_SPAN_SIZES;
     bool isFine = true;
-    for (int32_t first = head; isFine && first != 0;) {
-        isFine = TakeRoomOf(check, rooms, (int64_t)first - 1, room);
-        if (isFine) {
-            memcpy(&first, (const char*)rooms->items.data + (size_t)(first - 1) * rooms->itemBytes, sizeof(first));
+    while (isFine && sizes > 0) {
+        for (int size = 0; isFine && size < sizes; ++size) {
+            int32_t* next = &spans.freeHead[size];
+            isFine = *next == 0 || TakeFreeRoom(check, rooms, next, (int64_t)1 << size);
+        }
+        while (sizes > 0 && spans.freeHead[sizes - 1] == 0) {
+            --sizes;
         }
     }
     return isFine;
+}
+
+/* From end to end, before lists lead through it in any order: then it is near. */
+static void ReadAll(kiriArrayHeader items, size_t itemBytes)
+{
+    enum { APART = 64 };
+    const volatile char* bytes = items.data;
+    for (size_t k = 0; k < (size_t)items.count * itemBytes; k += APART) {
+        (void)bytes[k];
+    }
 }
 
 bool kiriCheck_StartRooms(kiriCheck* check, kiriRooms* rooms, const void* array, size_t itemBytes,
                           const kiriSpans* spans)
 {
     kiriArrayHeader items = kiriArray_GetHeader(array);
-    *rooms = (kiriRooms){ kiriCheck_Bytes(check, items.count), items, itemBytes };
-    bool isFine = rooms->taken != NULL;
-    for (int size = 0; isFine && size < KIRI_SPAN_SIZES; ++size) {
-        isFine = TakeFreeRooms(check, rooms, spans->freeHead[size], (int64_t)1 << size);
-    }
-    return isFine;
+    *rooms = (kiriRooms){ kiriCheck_Bytes(check, (int64_t)items.count + BYTES_AT_ONCE), items, itemBytes };
+    ReadAll(items, itemBytes);
+    return rooms->taken != NULL && TakeFreeRooms(check, rooms, *spans);
 }

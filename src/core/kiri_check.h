@@ -56,14 +56,13 @@ static inline bool kiriCheck_That(kiriCheck* check, bool isRight)
 
 enum kiriRuleKind {
     KIRI_RULE_BETWEEN, /* whole numbers of four bytes: from `low` up to `high`, and so many of `of` more */
-    KIRI_RULE_COUNTS,  /* of eight bytes, 0 and more, and far from overflowing */
     KIRI_RULE_REALS,   /* finite doubles, */
     KIRI_RULE_FLOATS,  /* and floats */
+    KIRI_RULE_COUNTS,  /* whole numbers of eight bytes, 0 and more, and far from overflowing */
     KIRI_RULE_EACH,    /* the rules hold for each item of a KIRI_ARRAY, */
     KIRI_RULE_PART,    /* for each struct of a field, */
     KIRI_RULE_OWNED,   /* and for the struct that a pointer points to, which may be null */
-    KIRI_RULE_LENGTH,  /* a KIRI_ARRAY has so many items as there are of `of` */
-    KIRI_RULE_ROOM     /* or room for so many, and for `low` more */
+    KIRI_RULE_LENGTH   /* a KIRI_ARRAY has so many items as there are of `of` */
 };
 
 enum { KIRI_OF_NOTHING = -1 };
@@ -114,13 +113,9 @@ typedef struct kiriMust {
     {                                                                                                                  \
         KIRI_RULE_LENGTH, of, (int32_t)offsetof(Type, field), 0, 0, 0, 0, NULL, 0                                      \
     }
-#define KIRI_LENGTH_ROOM(of, Type, field)                                                                              \
-    {                                                                                                                  \
-        KIRI_RULE_ROOM, of, (int32_t)offsetof(Type, field), 0, 0, 0, 0, NULL, 0                                        \
-    }
 
 /* Rules for items that are numbers. */
-extern const kiriMust kiriMustBeReal[1], kiriMustBeFloat[1], kiriMustBeVector[1]; /* of two doubles */
+extern const kiriMust kiriMustBeReal[1], kiriMustBeFloat[1];
 
 /* Do all rules hold for an object? What does not is noted. */
 bool kiriCheck_Rules(kiriCheck* check, const kiriMust* rules, int32_t count, const void* object);

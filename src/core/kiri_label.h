@@ -37,7 +37,8 @@ static inline int32_t kiriLabels_Count(const kiriLabels* labels, int32_t items)
 /* Is this the label of one of so many items? */
 static inline bool kiriLabels_Has(const kiriLabels* labels, int32_t label, int32_t items)
 {
-    return label >= 0 && label < kiriLabels_Count(labels, items) && kiriLabels_Item(labels, label) != KIRI_NONE;
+    return (uint32_t)label < (uint32_t)kiriLabels_Count(labels, items) &&
+           (label >= labels->itemOf.count || labels->itemOf.data[label] != KIRI_NONE);
 }
 
 /* Do labels ascend, and is each listed where its item is? For bytes that come from elsewhere. */

@@ -145,13 +145,13 @@ static bool AreBlocksFree(const kiriReaches* reaches, kiriChains* ofLabel)
 static bool AreBlocksListed(const kiriShape* shape, kiriChains* ofCells, kiriChains* ofLabel, int64_t cells)
 {
     const kiriReaches* reaches = &shape->reaches;
-    bool areFine = AreBlocksOfCells(reaches, ofCells) && AreBlocksOfLabels(shape, ofLabel) &&
-                   ofCells->listed == ofLabel->listed && AreBlocksFree(reaches, ofLabel) &&
-                   ofLabel->listed == reaches->blocks.count;
+    bool areFine = true;
     for (int32_t b = 0; areFine && b < reaches->blocks.count; ++b) {
-        areFine = !ofCells->seen[b] || AreDistances(&reaches->blocks.data[b], cells);
+        areFine = reaches->heads.data[b].label == KIRI_NONE || AreDistances(&reaches->blocks.data[b], cells);
     }
-    return areFine;
+    return areFine && AreBlocksOfCells(reaches, ofCells) && AreBlocksOfLabels(shape, ofLabel) &&
+           ofCells->listed == ofLabel->listed && AreBlocksFree(reaches, ofLabel) &&
+           ofLabel->listed == reaches->blocks.count;
 }
 
 /* Blocks are in the list of their cells and in that of their frame, or free. */

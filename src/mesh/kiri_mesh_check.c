@@ -217,9 +217,20 @@ static bool AreTriangles(const kiriMeshData* mesh)
 /* Corners of a vertex. */
 typedef struct Fan {
     const kiriMeshData* mesh;
-    int32_t vertex, source, count, most;
+    int32_t vertex, source, count;
     bool isFine, hasSource; /* hasSource: that of the vertex is that of a triangle */
 } Fan;
+
+/* Of a triangle: where half-edge 3 `triangle` + `at` begins. */
+typedef struct Corner {
+    uint32_t triangle, at;
+} Corner;
+
+static Corner CornerOf(int32_t h)
+{
+    uint32_t t = (uint32_t)h / 3;
+    return (Corner){ t, (uint32_t)h - 3 * t };
+}
 
 static bool IsAtPlaceOf(const kiriMeshData* mesh, int32_t v, int32_t w)
 {
@@ -227,40 +238,51 @@ static bool IsAtPlaceOf(const kiriMeshData* mesh, int32_t v, int32_t w)
     return w != KIRI_NONE && a.x == mesh->vertices.data[w].at.x && a.y == mesh->vertices.data[w].at.y;
 }
 
-/* Takes a corner, and looks at the half-edge that leads to it: this and its twin are of one another, and the twin begins
-   where it ends, if it is closed at the same vertex. Where all corners are taken, all half-edges were looked at. Returns the
-   next corner, counter-clockwise. */
-static inline int32_t TakeCorner(Fan* fan, int32_t corner)
+/* The half-edge that leads to a corner of the fan, and its twin, are of one another, and the twin begins where it ends, if it
+   is closed at the same vertex. */
+static inline bool IsTwin(const Fan* fan, Corner edge, Corner twin, uint32_t isOpen)
 {
-    const kiriTriangle* triangles = fan->mesh->triangles.data;
-    uint32_t t = (uint32_t)corner / 3, i = (uint32_t)corner - 3 * t, before = i == 0 ? 2 : i - 1;
-    const kiriTriangle* triangle = &triangles[t];
-    int32_t twin = triangle->twin[before], isOpen = triangle->marks >> before & 1;
-    fan->hasSource |= triangle->source == fan->source;
-    fan->isFine = triangle->vertex[i] == fan->vertex && fan->count++ < fan->most;
-    if (twin == KIRI_NONE) {
-        fan->isFine = fan->isFine && !isOpen;
-        return KIRI_NONE;
-    }
-    uint32_t u = (uint32_t)twin / 3, k = (uint32_t)twin - 3 * u;
-    const kiriTriangle* other = &triangles[u];
-    fan->isFine =
-        fan->isFine && other->twin[k] == (int32_t)(3 * t + before) && u != t && (other->marks >> k & 1) == isOpen &&
-        (other->vertex[k] == fan->vertex || (isOpen && IsAtPlaceOf(fan->mesh, fan->vertex, other->vertex[k])));
-    return isOpen ? KIRI_NONE : twin;
+    const kiriTriangle* other = &fan->mesh->triangles.data[twin.triangle];
+    int32_t vertex = other->vertex[twin.at];
+    return other->twin[twin.at] == (int32_t)(3 * edge.triangle + edge.at) && twin.triangle != edge.triangle &&
+           ((uint32_t)other->marks >> twin.at & 1) == isOpen &&
+           (vertex == fan->vertex || (isOpen && IsAtPlaceOf(fan->mesh, fan->vertex, vertex)));
 }
 
-/* All corners from one on: each is followed by one, and follows one. */
+/* Takes a corner, and looks at the half-edge that leads to it: where all corners are taken, all half-edges were looked at.
+   Moves on to the next corner, counter-clockwise; false where there is none. */
+static inline bool TakeCorner(Fan* fan, Corner* corner)
+{
+    const kiriTriangle* triangle = &fan->mesh->triangles.data[corner->triangle];
+    Corner before = { corner->triangle, corner->at == 0 ? 2 : corner->at - 1 };
+    int32_t twin = triangle->twin[before.at];
+    uint32_t isOpen = (uint32_t)triangle->marks >> before.at & 1;
+    fan->hasSource |= triangle->source == fan->source;
+    fan->count += 1;
+    if (twin == KIRI_NONE) {
+        fan->isFine = triangle->vertex[corner->at] == fan->vertex && !isOpen;
+        return false;
+    }
+    Corner next = CornerOf(twin);
+    fan->isFine = triangle->vertex[corner->at] == fan->vertex && IsTwin(fan, before, next, isOpen);
+    *corner = next;
+    return fan->isFine && !isOpen;
+}
+
+/* All corners from one on: each is followed by one, and follows one. So it ends: it does not come back but to the start. */
 static void TakeFan(Fan* fan, int32_t start)
 {
-    int32_t h = TakeCorner(fan, start);
-    while (fan->isFine && h != KIRI_NONE && h != start) {
-        h = TakeCorner(fan, h);
+    const Corner first = CornerOf(start);
+    Corner corner = first;
+    bool isRound = false;
+    while (!isRound && TakeCorner(fan, &corner)) {
+        isRound = corner.triangle == first.triangle && corner.at == first.at;
     }
-    for (h = h == start ? KIRI_NONE : start; fan->isFine && h != KIRI_NONE;) {
+    for (int32_t h = isRound ? KIRI_NONE : start; fan->isFine && h != KIRI_NONE;) {
         h = kiriMesh_Clockwise(fan->mesh, h);
         if (h != KIRI_NONE) {
-            TakeCorner(fan, h);
+            corner = CornerOf(h);
+            TakeCorner(fan, &corner);
         }
     }
 }
@@ -273,7 +295,7 @@ static bool AreFans(const kiriMeshData* mesh)
     bool areFine = true;
     for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
         if (kiriMesh_IsVertex(mesh, v)) {
-            Fan fan = { mesh, v, mesh->vertices.data[v].source, 0, corners, true, false };
+            Fan fan = { mesh, v, mesh->vertices.data[v].source, 0, true, false };
             TakeFan(&fan, mesh->vertices.data[v].edge);
             areFine = fan.isFine && fan.hasSource;
             corners -= fan.count;
@@ -385,10 +407,13 @@ static bool TakeOverlap(const kiriMeshData* mesh, int32_t row, int32_t column, i
         return TakeFromLargeBox(mesh, row * mesh->squares.columns + column, t, o);
     }
     uint32_t rows = (uint32_t)(row - o->row), columns = (uint32_t)(column - o->column);
-    bool isInBox = rows < KIRI_FEW_SQUARES && columns < (uint32_t)o->columns;
-    uint32_t bit = isInBox ? rows * (uint32_t)o->columns + columns : KIRI_FEW_SQUARES;
-    bool isIn = bit < KIRI_FEW_SQUARES && (o->bits >> bit & 1) != 0;
-    o->bits &= isIn ? ~(UINT64_C(1) << bit) : o->bits;
+    if (rows >= KIRI_FEW_SQUARES || columns >= (uint32_t)o->columns) {
+        return false;
+    }
+    uint32_t k = rows * (uint32_t)o->columns + columns;
+    uint64_t bit = k < KIRI_FEW_SQUARES ? UINT64_C(1) << k : 0;
+    bool isIn = (o->bits & bit) != 0;
+    o->bits &= ~bit;
     return isIn;
 }
 
