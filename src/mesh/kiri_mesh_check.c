@@ -143,14 +143,18 @@ static bool ArePlaces(const kiriMeshData* mesh)
     return areFine && holes == mesh->vertexHoles;
 }
 
-/* The vertices of a square, later ones first. */
-static bool AreVerticesOf(const kiriMeshData* mesh, int32_t head, const LatticeBox* box, int64_t* listed)
+/* The vertices of a square, later ones first. Counts them, and writes where they are. */
+static bool AreVerticesOf(const kiriMeshData* mesh, kiriSquarePlace at, kiriSquarePlace* in, int64_t* listed)
 {
+    const kiriSquares* squares = &mesh->squares;
+    LatticeBox box = BoxOfSquares(squares, at.row, at.column, 1, 1);
     int32_t last = mesh->vertices.count;
-    for (int32_t v = head; v != KIRI_NONE; v = mesh->vertices.data[v].next) {
-        if (v < 0 || v >= last || !kiriMesh_IsVertex(mesh, v) || !IsWithin(box, mesh->vertices.data[v].at)) {
+    for (int32_t v = squares->vertexHead[at.row * squares->columns + at.column]; v != KIRI_NONE;
+         v = mesh->vertices.data[v].next) {
+        if (v < 0 || v >= last || !kiriMesh_IsVertex(mesh, v) || !IsWithin(&box, mesh->vertices.data[v].at)) {
             return false;
         }
+        in[v] = at;
         last = v;
         ++*listed;
     }
@@ -158,16 +162,15 @@ static bool AreVerticesOf(const kiriMeshData* mesh, int32_t head, const LatticeB
 }
 
 /* Each vertex is in the list of its square. */
-static bool AreVertexLists(const kiriMeshData* mesh)
+static bool AreVertexLists(const kiriMeshData* mesh, kiriSquarePlace* in)
 {
     const kiriSquares* squares = &mesh->squares;
-    const int32_t* head = squares->vertexHead;
+    kiriSquarePlace at = { 0, 0 };
     int64_t listed = 0;
     bool areFine = true;
-    for (int32_t row = 0; areFine && row < squares->rows; ++row) {
-        for (int32_t column = 0; areFine && column < squares->columns; ++column) {
-            LatticeBox box = BoxOfSquares(squares, row, column, 1, 1);
-            areFine = AreVerticesOf(mesh, *head++, &box, &listed);
+    for (at.row = 0; areFine && at.row < squares->rows; ++at.row) {
+        for (at.column = 0; areFine && at.column < squares->columns; ++at.column) {
+            areFine = AreVerticesOf(mesh, at, in, &listed);
         }
     }
     return areFine && listed == mesh->vertices.count - mesh->vertexHoles;
@@ -184,30 +187,96 @@ static bool IsHole(const kiriTriangle* triangle)
     return isHole;
 }
 
-static bool IsSound(const kiriMeshData* mesh, int32_t t)
+typedef struct SquaresBox {
+    const kiriSquares* squares;
+    const kiriLatticePoint* corners;
+    int32_t low, high, from, to; /* rows and columns */
+} SquaresBox;
+
+static SquaresBox FindBox(const kiriSquares* squares, const kiriLatticePoint c[3])
 {
-    const kiriTriangle* triangle = &mesh->triangles.data[t];
-    if (triangle->parent >= t) {
-        return false; /* it was split from an older one */
+    SquaresBox box = { squares, c, INT32_MAX, 0, INT32_MAX, 0 };
+    for (int i = 0; i < 3; ++i) {
+        int32_t square = kiriSquares_At(squares, c[i]), row = square / squares->columns,
+                column = square % squares->columns;
+        box.low = row < box.low ? row : box.low;
+        box.high = row > box.high ? row : box.high;
+        box.from = column < box.from ? column : box.from;
+        box.to = column > box.to ? column : box.to;
     }
-    if (!kiriMesh_IsTriangle(mesh, t)) {
-        return IsHole(triangle);
+    return box;
+}
+
+static bool IsOverlap(const SquaresBox* box, int32_t row, int32_t column)
+{
+    return column >= box->from && column <= box->to &&
+           kiriSquares_Overlap(box->squares, row * box->squares->columns + column, box->corners);
+}
+
+/* The columns that a triangle overlaps in a row hang together, and with those of the row before: so it takes no longer than
+   there are squares, however large the box is. */
+static void FindInRow(const SquaresBox* box, int32_t row, int32_t* first, int32_t* last)
+{
+    int32_t at = *first;
+    while (at <= *last && !IsOverlap(box, row, at)) {
+        ++at;
     }
-    if (triangle->vertex[1] == KIRI_NONE || triangle->vertex[2] == KIRI_NONE) {
+    *first = *last = at;
+    while (IsOverlap(box, row, *first - 1)) {
+        --*first;
+    }
+    while (IsOverlap(box, row, *last + 1)) {
+        ++*last;
+    }
+}
+
+/* How many squares a triangle overlaps whose box is large. */
+static int64_t CountOverlapsByRow(const kiriSquares* squares, const kiriLatticePoint c[3])
+{
+    SquaresBox box = FindBox(squares, c);
+    int64_t found = 0;
+    int32_t first = box.from, last = box.to;
+    for (int32_t row = box.low; row <= box.high; ++row) {
+        FindInRow(&box, row, &first, &last);
+        found += last - first + 1;
+    }
+    return found;
+}
+
+/* Its corners are there, and counter-clockwise. Writes the squares that it overlaps, and takes their number from those that
+   are left. */
+static bool IsSound(const kiriMeshData* mesh, int32_t t, const kiriSquarePlace* in, kiriOverlaps* overlaps,
+                    int64_t* left)
+{
+    const int32_t* vertex = mesh->triangles.data[t].vertex;
+    if (vertex[1] == KIRI_NONE || vertex[2] == KIRI_NONE) {
         return false;
     }
     kiriLatticePoint c[3];
+    const kiriSquarePlace cornersIn[3] = { in[vertex[0]], in[vertex[1]], in[vertex[2]] };
     kiriMesh_Corners(mesh, t, c);
-    return kiriOrient(c[0], c[1], c[2]) > 0;
+    if (kiriOrient(c[0], c[1], c[2]) <= 0) {
+        return false;
+    }
+    if (!kiriSquares_FindOverlaps(&mesh->squares, c, cornersIn, overlaps)) {
+        int64_t found = CountOverlapsByRow(&mesh->squares, c);
+        *left -= found;
+        overlaps->left = (int32_t)found;
+    }
+    return *left >= 0;
 }
 
-static bool AreTriangles(const kiriMeshData* mesh)
+/* Each was split from an older one. What large ones overlap is no more than there are nodes, which are one for each. */
+static bool AreTriangles(const kiriMeshData* mesh, const kiriSquarePlace* in, kiriOverlaps* overlaps)
 {
-    bool areFine = true;
+    int64_t left = mesh->squares.nodes.count;
     int32_t holes = 0;
+    bool areFine = true;
     for (int32_t t = 0; areFine && t < mesh->triangles.count; ++t) {
-        areFine = IsSound(mesh, t);
-        holes += !kiriMesh_IsTriangle(mesh, t);
+        bool isHole = !kiriMesh_IsTriangle(mesh, t);
+        areFine = mesh->triangles.data[t].parent < t && (isHole ? IsHole(&mesh->triangles.data[t])
+                                                                : IsSound(mesh, t, in, &overlaps[t], &left));
+        holes += isHole;
     }
     return areFine && holes == mesh->triangleHoles && holes < mesh->triangles.count;
 }
@@ -306,86 +375,6 @@ static bool AreFans(const kiriMeshData* mesh)
 
 /* ---- Squares ------------------------------------------------------------------------------------------------------ */
 
-typedef struct SquaresBox {
-    const kiriSquares* squares;
-    const kiriLatticePoint* corners;
-    int32_t low, high, from, to; /* rows and columns */
-} SquaresBox;
-
-static SquaresBox FindBox(const kiriSquares* squares, const kiriLatticePoint c[3])
-{
-    SquaresBox box = { squares, c, INT32_MAX, 0, INT32_MAX, 0 };
-    for (int i = 0; i < 3; ++i) {
-        int32_t square = kiriSquares_At(squares, c[i]), row = square / squares->columns,
-                column = square % squares->columns;
-        box.low = row < box.low ? row : box.low;
-        box.high = row > box.high ? row : box.high;
-        box.from = column < box.from ? column : box.from;
-        box.to = column > box.to ? column : box.to;
-    }
-    return box;
-}
-
-static bool IsOverlap(const SquaresBox* box, int32_t row, int32_t column)
-{
-    return column >= box->from && column <= box->to &&
-           kiriSquares_Overlap(box->squares, row * box->squares->columns + column, box->corners);
-}
-
-/* The columns that a triangle overlaps in a row hang together, and with those of the row before: so it takes no longer than
-   there are squares, however large the box is. */
-static void FindInRow(const SquaresBox* box, int32_t row, int32_t* first, int32_t* last)
-{
-    int32_t at = *first;
-    while (at <= *last && !IsOverlap(box, row, at)) {
-        ++at;
-    }
-    *first = *last = at;
-    while (IsOverlap(box, row, *first - 1)) {
-        --*first;
-    }
-    while (IsOverlap(box, row, *last + 1)) {
-        ++*last;
-    }
-}
-
-/* How many squares a triangle overlaps whose box is large. */
-static int64_t CountOverlapsByRow(const kiriSquares* squares, const kiriLatticePoint c[3])
-{
-    SquaresBox box = FindBox(squares, c);
-    int64_t found = 0;
-    int32_t first = box.from, last = box.to;
-    for (int32_t row = box.low; row <= box.high; ++row) {
-        FindInRow(&box, row, &first, &last);
-        found += last - first + 1;
-    }
-    return found;
-}
-
-/* Null where memory is short; and where there are more than nodes, which are one for each. */
-static kiriOverlaps* FindAllOverlaps(kiriCheck* check, const kiriMeshData* mesh)
-{
-    kiriOverlaps* all =
-        (kiriOverlaps*)(void*)kiriCheck_Bytes(check, (int64_t)sizeof(kiriOverlaps) * mesh->triangles.count);
-    int64_t left = mesh->squares.nodes.count;
-    for (int32_t t = 0; all != NULL && left >= 0 && t < mesh->triangles.count; ++t) {
-        if (kiriMesh_IsTriangle(mesh, t)) {
-            kiriLatticePoint c[3];
-            kiriMesh_Corners(mesh, t, c);
-            if (!kiriSquares_FindOverlaps(&mesh->squares, c, &all[t])) {
-                int64_t found = CountOverlapsByRow(&mesh->squares, c);
-                left -= found;
-                all[t].left = (int32_t)found;
-            }
-        }
-    }
-    if (!kiriCheck_That(check, left >= 0)) {
-        kiriMemory_Free(&check->memory, all);
-        return NULL;
-    }
-    return all;
-}
-
 /* Where the box is large. Squares come in their order. */
 static bool TakeFromLargeBox(const kiriMeshData* mesh, int32_t square, int32_t t, kiriOverlaps* o)
 {
@@ -450,24 +439,36 @@ static bool AreAllListed(const kiriMeshData* mesh, const kiriOverlaps* overlaps)
 }
 
 /* Lists of nodes, one a square, and one of those that are free. */
-static bool AreSquareLists(kiriCheck* check, const kiriMeshData* mesh)
+static bool AreSquareLists(kiriCheck* check, const kiriMeshData* mesh, kiriOverlaps* overlaps)
 {
     const kiriSquares* squares = &mesh->squares;
     NodeLists lists;
+    lists.overlaps = overlaps;
     bool areFine = kiriCheck_StartChains(check, &lists.chains, &squares->nodes.data->next, sizeof(kiriSquareNode),
                                          squares->nodes.count);
-    lists.overlaps = areFine ? FindAllOverlaps(check, mesh) : NULL;
-    areFine = lists.overlaps != NULL;
     for (int32_t row = 0; areFine && row < squares->rows; ++row) {
         for (int32_t column = 0; areFine && column < squares->columns; ++column) {
             areFine = ListsSquare(mesh, row, column, &lists);
         }
     }
-    areFine = areFine && AreAllListed(mesh, lists.overlaps) &&
-              kiriCheck_Chain(check, &lists.chains, squares->freeNode) && lists.chains.listed == squares->nodes.count;
-    kiriMemory_Free(&check->memory, lists.overlaps);
+    areFine = areFine && AreAllListed(mesh, overlaps) && kiriCheck_Chain(check, &lists.chains, squares->freeNode) &&
+              lists.chains.listed == squares->nodes.count;
     kiriMemory_Free(&check->memory, lists.chains.seen);
     return kiriCheck_That(check, areFine);
+}
+
+/* What is in squares. */
+static bool AreInSquares(kiriCheck* check, const kiriMeshData* mesh)
+{
+    int64_t vertices = mesh->vertices.count, triangles = mesh->triangles.count;
+    kiriSquarePlace* in = (kiriSquarePlace*)(void*)kiriCheck_Bytes(check, (int64_t)sizeof(*in) * vertices);
+    kiriOverlaps* overlaps = (kiriOverlaps*)(void*)kiriCheck_Bytes(check, (int64_t)sizeof(*overlaps) * triangles);
+    bool areFine = in != NULL && overlaps != NULL &&
+                   kiriCheck_That(check, AreVertexLists(mesh, in) && AreTriangles(mesh, in, overlaps)) &&
+                   AreSquareLists(check, mesh, overlaps);
+    kiriMemory_Free(&check->memory, overlaps);
+    kiriMemory_Free(&check->memory, in);
+    return areFine;
 }
 
 /* Dirty squares are marked, each once. */
@@ -495,6 +496,6 @@ bool kiriMesh_Check(const kiriMeshData* mesh, kiriCheck* check)
     return kiriCheck_That(check, AreSquares(&mesh->squares) && IsClosed(mesh)) &&
            kiriCheck_Object(check, MeshMust, mesh) && kiriCheck_That(check, mesh->step > 0.0) &&
            kiriCheck_That(check, AreSourceCorners(mesh) && AreOriginals(mesh) && ArePlaces(mesh)) &&
-           kiriCheck_That(check, AreTriangles(mesh) && AreSourcesThere(mesh) && AreFans(mesh)) &&
-           AreSquareLists(check, mesh) && kiriCheck_That(check, AreVertexLists(mesh)) && AreDirty(check, mesh);
+           AreInSquares(check, mesh) && kiriCheck_That(check, AreSourcesThere(mesh) && AreFans(mesh)) &&
+           AreDirty(check, mesh);
 }

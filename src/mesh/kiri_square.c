@@ -151,18 +151,19 @@ static uint64_t BitsInBox(const kiriSquares* squares, SquareBox box, const kiriL
 
 /* Of four squares, where most triangles are about as large as squares: those that corners are in; and an edge from one of
    them to the opposite one passes the point in the middle on its left or on its right. */
-static uint64_t BitsOfFour(const kiriSquares* squares, SquareBox box, const kiriLatticePoint c[3])
+static uint64_t BitsOfFour(const kiriSquares* squares, SquareBox box, const kiriLatticePoint c[3],
+                           const kiriSquarePlace in[3])
 {
     static const uint8_t rightOf[4] = { 1, 3, 0, 2 };
     kiriLatticePoint middle = CornerAt(squares, box.lastColumn, box.lastRow);
-    int in[3];
+    int corner[3];
     uint64_t bits = 0;
     for (int i = 0; i < 3; ++i) {
-        in[i] = (c[i].x > middle.x) + 2 * (c[i].y > middle.y);
-        bits |= UINT64_C(1) << in[i];
+        corner[i] = in[i].column - box.firstColumn + 2 * (in[i].row - box.firstRow);
+        bits |= UINT64_C(1) << corner[i];
     }
     for (int i = 0; i < 3; ++i) {
-        int from = in[i], to = in[(i + 1) % 3], right = rightOf[from];
+        int from = corner[i], to = corner[(i + 1) % 3], right = rightOf[from];
         if (from + to == 3) {
             bits |= UINT64_C(1) << (kiriOrient(c[i], c[(i + 1) % 3], middle) > 0 ? right : 3 - right);
         }
@@ -170,9 +171,12 @@ static uint64_t BitsOfFour(const kiriSquares* squares, SquareBox box, const kiri
     return bits;
 }
 
-bool kiriSquares_FindOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3], kiriOverlaps* overlaps)
+bool kiriSquares_FindOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3],
+                              const kiriSquarePlace in[3], kiriOverlaps* overlaps)
 {
-    SquareBox box = BoxOf(squares, corners);
+    const SquareBox box = { Min3(in[0].column, in[1].column, in[2].column),
+                            Max3(in[0].column, in[1].column, in[2].column), Min3(in[0].row, in[1].row, in[2].row),
+                            Max3(in[0].row, in[1].row, in[2].row) };
     int32_t columns = box.lastColumn - box.firstColumn + 1, rows = box.lastRow - box.firstRow + 1;
     int64_t count = (int64_t)columns * rows;
     *overlaps = (kiriOverlaps){ 0, 0, 0, 0, 0 };
@@ -181,7 +185,7 @@ bool kiriSquares_FindOverlaps(const kiriSquares* squares, const kiriLatticePoint
     }
     bool isRow = rows == 1 || columns == 1, areFour = rows == 2 && columns == 2;
     uint64_t bits = isRow     ? ~UINT64_C(0) >> (KIRI_FEW_SQUARES - count)
-                    : areFour ? BitsOfFour(squares, box, corners)
+                    : areFour ? BitsOfFour(squares, box, corners, in)
                               : BitsInBox(squares, box, corners);
     *overlaps = (kiriOverlaps){ box.firstRow, box.firstColumn, columns, 0, bits };
     return true;

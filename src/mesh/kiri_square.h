@@ -111,8 +111,13 @@ typedef struct kiriOverlaps {
 
 enum { KIRI_FEW_SQUARES = 64 };
 
-/* False, and all is zero, where its box has more squares than these. */
-bool kiriSquares_FindOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3], kiriOverlaps* overlaps);
+typedef struct kiriSquarePlace {
+    int32_t column, row;
+} kiriSquarePlace;
+
+/* `in`: the squares that the corners are in. False, and all is zero, where the box has more squares than these. */
+bool kiriSquares_FindOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3],
+                              const kiriSquarePlace in[3], kiriOverlaps* overlaps);
 
 /* How many squares it overlaps. */
 int64_t kiriSquares_CountOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3]);
