@@ -212,11 +212,42 @@ static void TestSmallSavesTakeLittle(void** state)
     Host_Destroy(&host);
 }
 
+/* Each request in turn, alone or with all after it: a lack of memory is no wrong data, and changes nothing. */
+static void TestMemoryMayBeRefused(void** state)
+{
+    (void)state;
+    const kiriBudget unlimited = { 0 };
+    Host host, other;
+    StartCut(&host, &unlimited);
+    Finish(&host);
+    Host_Start(&other);
+    Save save = Saved_Make(host.world, NULL);
+    uint64_t hash = HashOf(other.world);
+    kiriResult result = KIRI_ERROR_MEMORY;
+    for (int64_t n = 0; result == KIRI_ERROR_MEMORY; ++n) {
+        int64_t live = other.live;
+        other.failAt = other.calls + n / 2;
+        other.failOnce = n % 2 == 0;
+        result = kiriWorld_LoadUntrusted(other.world, save.bytes, save.size);
+        if (result != KIRI_OK) {
+            assert_int_equal(result, KIRI_ERROR_MEMORY);
+            assert_int_equal(other.live, live);
+            assert_true(HashOf(other.world) == hash);
+        }
+    }
+    assert_int_equal(result, KIRI_OK);
+    assert_true(HashOf(other.world) == HashOf(host.world));
+    free(save.bytes);
+    Host_Destroy(&host);
+    Host_Destroy(&other);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestStormsGoOn),
         cmocka_unit_test(TestWorkBeginsAgain),
+        cmocka_unit_test(TestMemoryMayBeRefused),
         cmocka_unit_test(TestSmallSavesTakeLittle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
