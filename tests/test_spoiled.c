@@ -312,6 +312,26 @@ static void StageIsNone(kiriSheetData* sheet)
     sheet->grid.work->stage = 99;
 }
 
+static void LivingCellIsGone(kiriSheetData* sheet)
+{
+    assert_true(kiriArray_Push(sheet->memory, &sheet->grid.changes.gone, sheet->grid.squareCell.data[0]));
+}
+
+/* Of a square that the slit parts: it is in no list of cells any more, but faces lead to it. */
+static void CellWithFacesIsGone(kiriSheetData* sheet)
+{
+    kiriGrid* grid = &sheet->grid;
+    kiriCell* first = grid->cells.data;
+    while (first->next == KIRI_NONE) {
+        ++first;
+    }
+    int32_t gone = first->next;
+    first->next = grid->cells.data[gone].next;
+    grid->cells.data[gone].square = grid->cells.data[gone].next = KIRI_NONE;
+    grid->cellCount -= 1;
+    assert_true(kiriArray_Push(sheet->memory, &grid->changes.made, gone));
+}
+
 static void TestGridAtWork(void** state)
 {
     (void)state;
@@ -328,6 +348,12 @@ static void TestGridAtWork(void** state)
     }
     assert_true(work->running && work->flagged.count > 0);
     CHECK_ALL_REFUSED(&host, spoilers);
+    static const Spoiler done[] = {
+        { "LivingCellIsGone", LivingCellIsGone },
+        { "CellWithFacesIsGone", CellWithFacesIsGone },
+    };
+    StartAtWork(&host, KIRI_STAGE_SHAPE, 0);
+    CHECK_ALL_REFUSED(&host, done);
 }
 
 /* ---- Regions and shape functions ---- */
