@@ -382,20 +382,27 @@ static void TestUntrustedLoad(void** state)
     Tape_Free(&tape);
 }
 
+/* Plays it with trust, to the end, and then without, up to this result. Returns the stage after the former. */
+static int32_t PlayWithout(Tape* again, const Tape* tape, kiriResult result)
+{
+    Tape_Start(again);
+    OK(Tape_Play(again, tape));
+    int32_t trusted = StageOf(again);
+    Tape_Stop(again);
+    Tape_Free(again);
+    Tape_Start(again);
+    again->replay.untrusted = 1;
+    assert_int_equal(Tape_Play(again, tape), result);
+    return trusted;
+}
+
 /* A cut that is being worked on goes on after a load that trusts; else it begins again, which is another state. */
 static void TestUntrustedLoadAtWork(void** state)
 {
     (void)state;
     Tape tape, again;
     RecordLoad(&tape, true, false);
-    Tape_Start(&again);
-    OK(Tape_Play(&again, &tape));
-    int32_t trusted = StageOf(&again);
-    Tape_Stop(&again);
-    Tape_Free(&again);
-    Tape_Start(&again);
-    again.replay.untrusted = 1;
-    assert_int_equal(Tape_Play(&again, &tape), KIRI_ERROR_REPLAY);
+    int32_t trusted = PlayWithout(&again, &tape, KIRI_ERROR_REPLAY);
     assert_true(trusted > KIRI_STAGE_GRID && StageOf(&again) != trusted);
     Tape_Stop(&again);
     Tape_Free(&again);
@@ -407,13 +414,7 @@ static void TestUntrustedDifference(void** state)
     (void)state;
     Tape tape, again;
     RecordLoad(&tape, false, true);
-    Tape_Start(&again);
-    OK(Tape_Play(&again, &tape));
-    Tape_Stop(&again);
-    Tape_Free(&again);
-    Tape_Start(&again);
-    again.replay.untrusted = 1;
-    assert_int_equal(Tape_Play(&again, &tape), KIRI_ERROR_DATA);
+    PlayWithout(&again, &tape, KIRI_ERROR_DATA);
     assert_non_null(strstr(kiriWorld_GetLastError(again.host.world), "kiriWorld_LoadDifference"));
     int64_t offset = again.replay.offset;
     assert_int_equal(Tape_Play(&again, &tape), KIRI_ERROR_DATA);
