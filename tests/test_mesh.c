@@ -393,6 +393,48 @@ static void RefusesOverlapAnywhere(void** state)
     assert_in_range(refused, 50, 350);
 }
 
+/* Strips that wind: one outline, and often over themselves. Against all pairs that have no corner in common; where a few
+   do, others do, too. */
+static void RefusesStripsOverThemselves(void** state)
+{
+    (void)state;
+    enum { LINKS = 24, POINTS = 2 * (LINKS + 1), TRIANGLES = 2 * LINKS };
+    uint32_t seed = 11;
+    int32_t refused = 0, indices[3 * TRIANGLES];
+    for (int32_t i = 0; i < LINKS; ++i) {
+        int32_t p = 2 * i, both[6] = { p, p + 2, p + 1, p + 1, p + 2, p + 3 };
+        memcpy(indices + 6 * i, both, sizeof both);
+    }
+    for (int round = 0; round < 400; ++round) {
+        float points[2 * POINTS], corners[6 * TRIANGLES];
+        double angle = 0.0, bend = 0.0, x = 0.0, y = 0.0;
+        for (int32_t i = 0; i <= LINKS; ++i) {
+            bend += 0.05 * ((double)(Random(&seed) % 9) - 4.0);
+            bend = bend > 0.6 ? 0.6 : bend < -0.6 ? -0.6 : bend;
+            angle += bend;
+            x += 2.0 * cos(angle);
+            y += 2.0 * sin(angle);
+            const double edge[4] = { x + sin(angle), y - cos(angle), x - sin(angle), y + cos(angle) };
+            for (int k = 0; k < 4; ++k) {
+                points[4 * i + k] = (float)edge[k];
+            }
+        }
+        for (int32_t k = 0; k < 6 * TRIANGLES; ++k) {
+            corners[k] = points[2 * indices[k / 2] + k % 2];
+        }
+        bool apart = true;
+        for (int32_t t = 0; t < TRIANGLES; ++t) {
+            for (int32_t s = 0; s < t - 2; ++s) {
+                const float *a = corners + 6 * s, *b = corners + 6 * t;
+                apart = apart && (IsApart(a, b) || IsApart(b, a));
+            }
+        }
+        assert_int_equal(Try(points, POINTS, indices, TRIANGLES), apart ? KIRI_OK : KIRI_ERROR_MESH);
+        refused += !apart;
+    }
+    assert_in_range(refused, 50, 350);
+}
+
 /* 20 000 triangles within 1e-4 of the sheet, and one far away; then one more in the crowd, on others. */
 static void TakesCrowds(void** state)
 {
@@ -914,6 +956,7 @@ int main(void)
         cmocka_unit_test(RefusesOverlap),
         cmocka_unit_test(RefusesOverlapOfTheSmallest),
         cmocka_unit_test(RefusesOverlapAnywhere),
+        cmocka_unit_test(RefusesStripsOverThemselves),
         cmocka_unit_test(RefusesWindingTwice),
         cmocka_unit_test(TakesCrowds),
         cmocka_unit_test(TakesHubs),

@@ -1,6 +1,9 @@
 #include "kiri_overlap.h"
 
-/* A tree of boxes. The triangles of a node are halved in the middle of where the centres of their boxes are, across its
+/* Where the mesh has one outline that nowhere meets itself, it covers what that surrounds, once: all edges but those of
+   the outline have a triangle on either side. So most often the outline alone is looked at, else all triangles.
+
+   A tree of boxes. The triangles, or edges, of a node are halved in the middle of where the centres of their boxes are, across its
    longer side: so a crowd in a corner is parted as well as one that fills the sheet. Coordinates have 30 bits, so no
    branch is longer than 60 nodes and a few. */
 
@@ -16,7 +19,7 @@ typedef struct OverlapBox {
 
 typedef struct OverlapItem {
     OverlapBox box;
-    int32_t triangle;
+    int32_t index; /* of a triangle or half-edge */
 } OverlapItem;
 
 typedef struct OverlapNode {
@@ -27,6 +30,7 @@ typedef struct OverlapNode {
 
 typedef struct OverlapTree {
     const kiriMeshData* mesh;
+    bool ofEdges;
     OverlapItem* items;
     OverlapNode* nodes;
     int32_t nodeCount;
@@ -71,18 +75,60 @@ static bool BoxesOverlap(const OverlapBox* a, const OverlapBox* b)
     return a->low.x < b->high.x && b->low.x < a->high.x && a->low.y < b->high.y && b->low.y < a->high.y;
 }
 
-static bool ItemsOverlap(const kiriMeshData* mesh, const OverlapItem* a, const OverlapItem* b)
+static bool TrianglesOverlap(const kiriMeshData* mesh, int32_t a, int32_t b)
 {
-    if (!BoxesOverlap(&a->box, &b->box)) {
-        return false;
-    }
     kiriLatticePoint c[3], d[3];
-    kiriMesh_Corners(mesh, a->triangle, c);
-    kiriMesh_Corners(mesh, b->triangle, d);
+    kiriMesh_Corners(mesh, a, c);
+    kiriMesh_Corners(mesh, b, d);
     return !EdgeSeparates(c, d) && !EdgeSeparates(d, c);
 }
 
+/* ---- Two edges of an outline ---- */
+
+static kiriLatticePoint TailOf(const kiriMeshData* mesh, int32_t h)
+{
+    return mesh->vertices.data[kiriMesh_Tail(mesh, h)].at;
+}
+
+static bool IsSamePoint(kiriLatticePoint a, kiriLatticePoint b)
+{
+    return a.x == b.x && a.y == b.y;
+}
+
+/* Of three points on a line: is the second between the others? */
+static bool IsBetween(kiriLatticePoint a, kiriLatticePoint b, kiriLatticePoint c)
+{
+    return ((int64_t)b.x - a.x) * ((int64_t)c.x - b.x) + ((int64_t)b.y - a.y) * ((int64_t)c.y - b.y) > 0;
+}
+
+/* Are both ends of b strictly on one side of the line through a? */
+static bool LineSeparates(const kiriLatticePoint a[2], const kiriLatticePoint b[2])
+{
+    int64_t from = kiriOrient(a[0], a[1], b[0]), to = kiriOrient(a[0], a[1], b[1]);
+    return (from > 0 && to > 0) || (from < 0 && to < 0);
+}
+
+/* Do they meet elsewhere than where one follows the other around a bend? Where in doubt, they do. */
+static bool EdgesMeet(const kiriMeshData* mesh, int32_t g, int32_t h)
+{
+    kiriLatticePoint a[2] = { TailOf(mesh, g), TailOf(mesh, kiriEdge_Next(g)) };
+    kiriLatticePoint b[2] = { TailOf(mesh, h), TailOf(mesh, kiriEdge_Next(h)) };
+    if (IsSamePoint(a[1], b[0])) {
+        return kiriOrient(a[0], a[1], b[1]) == 0 && !IsBetween(a[0], a[1], b[1]);
+    }
+    if (IsSamePoint(b[1], a[0])) {
+        return kiriOrient(b[0], b[1], a[1]) == 0 && !IsBetween(b[0], b[1], a[1]);
+    }
+    return !LineSeparates(a, b) && !LineSeparates(b, a);
+}
+
 /* ---- The tree ---- */
+
+static bool ItemsOverlap(const OverlapTree* tree, const OverlapItem* a, const OverlapItem* b)
+{
+    return BoxesOverlap(&a->box, &b->box) &&
+           (tree->ofEdges ? EdgesMeet : TrianglesOverlap)(tree->mesh, a->index, b->index);
+}
 
 static kiriLatticePoint LowerCorner(kiriLatticePoint a, kiriLatticePoint b)
 {
@@ -94,12 +140,21 @@ static kiriLatticePoint UpperCorner(kiriLatticePoint a, kiriLatticePoint b)
     return (kiriLatticePoint){ a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y };
 }
 
-static OverlapItem ItemOf(const kiriMeshData* mesh, int32_t triangle)
+static OverlapItem ItemOfTriangle(const kiriMeshData* mesh, int32_t triangle)
 {
     kiriLatticePoint c[3];
     kiriMesh_Corners(mesh, triangle, c);
     OverlapItem item = { { LowerCorner(c[0], LowerCorner(c[1], c[2])), UpperCorner(c[0], UpperCorner(c[1], c[2])) },
                          triangle };
+    return item;
+}
+
+/* With a margin: boxes of edges that touch overlap. */
+static OverlapItem ItemOfEdge(const kiriMeshData* mesh, int32_t h)
+{
+    kiriLatticePoint a = TailOf(mesh, h), b = TailOf(mesh, kiriEdge_Next(h)), low = LowerCorner(a, b),
+                     high = UpperCorner(a, b);
+    OverlapItem item = { { { low.x - 1, low.y - 1 }, { high.x + 1, high.y + 1 } }, h };
     return item;
 }
 
@@ -169,7 +224,7 @@ static bool LeavesOverlap(const OverlapTree* tree, const OverlapNode* a, const O
 {
     for (int32_t i = a->first; i < a->end; ++i) {
         for (int32_t j = a == b ? i + 1 : b->first; j < b->end; ++j) {
-            if (ItemsOverlap(tree->mesh, &tree->items[i], &tree->items[j])) {
+            if (ItemsOverlap(tree, &tree->items[i], &tree->items[j])) {
                 return true;
             }
         }
@@ -196,22 +251,93 @@ static bool NodesOverlap(const OverlapTree* tree, const OverlapNode* a, const Ov
     return NodesOverlap(tree, child, other) || NodesOverlap(tree, child + 1, other);
 }
 
-bool kiriOverlap_Find(const kiriMeshData* mesh, kiriMemory* memory, bool* any)
+/* Of items that are listed. */
+static bool AnyOverlap(OverlapTree* tree, int32_t count)
 {
+    tree->nodes[0] = (OverlapNode){ { { 0, 0 }, { 0, 0 } }, 0, count, KIRI_NONE };
+    tree->nodeCount = 1;
+    MakeNode(tree, 0);
+    return NodesOverlap(tree, &tree->nodes[0], &tree->nodes[0]);
+}
+
+static bool MakeTree(OverlapTree* tree, kiriMemory* memory, int64_t count)
+{
+    tree->items = kiriMemory_Alloc(memory, count * (int64_t)sizeof(OverlapItem));
+    tree->nodes = kiriMemory_Alloc(memory, 2 * count * (int64_t)sizeof(OverlapNode));
+    return tree->items != NULL && tree->nodes != NULL;
+}
+
+static void FreeTree(OverlapTree* tree, kiriMemory* memory)
+{
+    kiriMemory_Free(memory, tree->items);
+    kiriMemory_Free(memory, tree->nodes);
+}
+
+/* The next edge around the outline. */
+static int32_t NextAround(const kiriMeshData* mesh, int32_t h)
+{
+    h = kiriEdge_Next(h);
+    for (int32_t twin = kiriMesh_Twin(mesh, h); twin != KIRI_NONE; twin = kiriMesh_Twin(mesh, h)) {
+        h = kiriEdge_Next(twin);
+    }
+    return h;
+}
+
+/* The edges of the outline. Are they one loop? */
+static bool IsOneLoop(const kiriMeshData* mesh, int32_t* first, int32_t* count)
+{
+    int32_t edges = 0;
+    *first = KIRI_NONE;
+    for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
+        bool isOutline = kiriMesh_Twin(mesh, h) == KIRI_NONE;
+        edges += isOutline;
+        *first = isOutline ? h : *first;
+    }
+    *count = *first != KIRI_NONE;
+    for (int32_t h = *first; h != KIRI_NONE && (h = NextAround(mesh, h)) != *first;) {
+        *count += 1;
+    }
+    return edges > 0 && *count == edges;
+}
+
+/* One outline that nowhere meets itself? False for memory. */
+static bool LookAtOutline(const kiriMeshData* mesh, kiriMemory* memory, bool* isSimple)
+{
+    OverlapTree tree = { mesh, true, NULL, NULL, 0 };
+    int32_t first, count;
+    *isSimple = false;
+    if (!IsOneLoop(mesh, &first, &count)) {
+        return true;
+    }
+    bool fine = MakeTree(&tree, memory, count);
+    if (fine) {
+        for (int32_t k = 0, h = first; k < count; ++k, h = NextAround(mesh, h)) {
+            tree.items[k] = ItemOfEdge(mesh, h);
+        }
+        *isSimple = !AnyOverlap(&tree, count);
+    }
+    FreeTree(&tree, memory);
+    return fine;
+}
+
+static bool LookAtTriangles(const kiriMeshData* mesh, kiriMemory* memory, bool* any)
+{
+    OverlapTree tree = { mesh, false, NULL, NULL, 0 };
     int32_t count = mesh->triangles.count;
-    OverlapTree tree = { mesh, NULL, NULL, 1 };
-    tree.items = kiriMemory_Alloc(memory, count * (int64_t)sizeof(OverlapItem));
-    tree.nodes = kiriMemory_Alloc(memory, 2 * (int64_t)count * (int64_t)sizeof(OverlapNode));
-    bool fine = tree.items != NULL && tree.nodes != NULL;
+    bool fine = MakeTree(&tree, memory, count);
     if (fine) {
         for (int32_t t = 0; t < count; ++t) {
-            tree.items[t] = ItemOf(mesh, t);
+            tree.items[t] = ItemOfTriangle(mesh, t);
         }
-        tree.nodes[0] = (OverlapNode){ { { 0, 0 }, { 0, 0 } }, 0, count, KIRI_NONE };
-        MakeNode(&tree, 0);
-        *any = NodesOverlap(&tree, &tree.nodes[0], &tree.nodes[0]);
+        *any = AnyOverlap(&tree, count);
     }
-    kiriMemory_Free(memory, tree.items);
-    kiriMemory_Free(memory, tree.nodes);
+    FreeTree(&tree, memory);
     return fine;
+}
+
+bool kiriOverlap_Find(const kiriMeshData* mesh, kiriMemory* memory, bool* any)
+{
+    bool isSimple;
+    *any = false;
+    return LookAtOutline(mesh, memory, &isSimple) && (isSimple || LookAtTriangles(mesh, memory, any));
 }

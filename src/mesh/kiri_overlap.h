@@ -6,8 +6,9 @@
 
 KIRI_C_BEGIN
 
-/* *any: two triangles overlap by more than what rounding of the input explains. Time grows as n log n for triangles that
-   are not all long and thin, wherever they lie. Scratch comes from `memory`; false where there is none. */
+/* *any: two triangles overlap by more than what rounding of the input explains. Edges have their twins. Time grows as
+   n log n for triangles that are not all long and thin, wherever they lie; n are the edges of the outline where it is one
+   loop that nowhere meets itself. Scratch comes from `memory`; false where there is none. */
 bool kiriOverlap_Find(const kiriMeshData* mesh, kiriMemory* memory, bool* any);
 
 KIRI_C_END
