@@ -132,6 +132,7 @@ typedef struct TwinEntry {
 
 typedef struct TwinWork {
     int32_t* point;     /* of each vertex: the first vertex at its lattice point */
+    bool hasDoubles;    /* there is another one somewhere */
     int32_t* degree;    /* of each point: how many half-edges leave it */
     int32_t* end;       /* of each point: where its list ends */
     TwinEntry* entries; /* list by list */
@@ -144,7 +145,7 @@ static uint32_t HashPlace(kiriLatticePoint at)
 }
 
 /* Open addressing, in the order of vertices: the same on every machine. */
-static bool FindPoints(const kiriMeshData* mesh, kiriMemory* memory, int32_t* point)
+static bool FindPoints(const kiriMeshData* mesh, kiriMemory* memory, TwinWork* work)
 {
     int64_t size = 16;
     while (size < 2 * (int64_t)mesh->vertices.count) {
@@ -162,54 +163,68 @@ static bool FindPoints(const kiriMeshData* mesh, kiriMemory* memory, int32_t* po
             i = (i + 1) & (uint32_t)(size - 1);
         }
         slots[i] = slots[i] == KIRI_NONE ? v : slots[i];
-        point[v] = slots[i];
+        work->point[v] = slots[i];
+        work->hasDoubles |= slots[i] != v;
     }
     return slots != NULL;
 }
 
-/* The point where the half-edge is listed, and its entry there. */
-static int32_t EntryOf(const kiriMeshData* mesh, const TwinWork* work, int32_t h, TwinEntry* entry)
+/* The points of a triangle where its half-edges are listed, and their entries there. */
+static void EntriesOf(const kiriMeshData* mesh, const TwinWork* work, int32_t t, int32_t at[3], TwinEntry entries[3])
 {
-    int32_t a = work->point[kiriMesh_Tail(mesh, h)], b = work->point[kiriMesh_Tail(mesh, kiriEdge_Next(h))];
-    bool atHead = work->degree[b] < work->degree[a] || (work->degree[b] == work->degree[a] && b < a);
-    *entry = (TwinEntry){ atHead ? ~h : h, atHead ? a : b };
-    return atHead ? b : a;
+    const int32_t* v = mesh->triangles.data[t].vertex;
+    const int32_t points[4] = { work->point[v[0]], work->point[v[1]], work->point[v[2]], work->point[v[0]] };
+    for (int i = 0; i < 3; ++i) {
+        int32_t a = points[i], b = points[i + 1], more = work->degree[a] - work->degree[b], h = 3 * t + i;
+        bool atHead = more > 0 || (more == 0 && b < a);
+        entries[i] = atHead ? (TwinEntry){ ~h, a } : (TwinEntry){ h, b };
+        at[i] = atHead ? b : a;
+    }
 }
 
 /* First `end` counts, then it is where lists begin, and at last where they end. */
 static void ListEdges(const kiriMeshData* mesh, TwinWork* work)
 {
-    int32_t halfEdges = 3 * mesh->triangles.count, sum = 0;
-    TwinEntry entry;
-    for (int32_t h = 0; h < halfEdges; ++h) {
-        ++work->degree[work->point[kiriMesh_Tail(mesh, h)]];
+    int32_t sum = 0, at[3];
+    TwinEntry entries[3];
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        for (int i = 0; i < 3; ++i) {
+            ++work->degree[work->point[mesh->triangles.data[t].vertex[i]]];
+        }
     }
-    for (int32_t h = 0; h < halfEdges; ++h) {
-        ++work->end[EntryOf(mesh, work, h, &entry)];
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        EntriesOf(mesh, work, t, at, entries);
+        for (int i = 0; i < 3; ++i) {
+            ++work->end[at[i]];
+        }
     }
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
         int32_t count = work->end[v];
         work->end[v] = sum;
         sum += count;
     }
-    for (int32_t h = 0; h < halfEdges; ++h) {
-        int32_t point = EntryOf(mesh, work, h, &entry);
-        work->entries[work->end[point]++] = entry;
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        EntriesOf(mesh, work, t, at, entries);
+        for (int i = 0; i < 3; ++i) {
+            work->entries[work->end[at[i]]++] = entries[i];
+        }
     }
 }
 
 /* The half-edges run along the same edge. False where they do so in the same direction. */
-static bool LinkEntries(kiriMeshData* mesh, TwinEntry a, TwinEntry b)
+static bool LinkEntries(kiriMeshData* mesh, TwinEntry a, TwinEntry b, bool hasDoubles)
 {
     if ((a.half < 0) == (b.half < 0)) {
         return false;
     }
     int32_t h = a.half < 0 ? ~a.half : a.half, g = b.half < 0 ? ~b.half : b.half;
-    bool open = kiriMesh_Tail(mesh, g) != kiriMesh_Tail(mesh, kiriEdge_Next(h)) ||
-                kiriMesh_Tail(mesh, h) != kiriMesh_Tail(mesh, kiriEdge_Next(g));
     kiriMesh_Link(mesh, h, g);
-    kiriMesh_SetOpen(mesh, h, open);
-    kiriMesh_SetOpen(mesh, g, open);
+    if (hasDoubles) {
+        bool open = kiriMesh_Tail(mesh, g) != kiriMesh_Tail(mesh, kiriEdge_Next(h)) ||
+                    kiriMesh_Tail(mesh, h) != kiriMesh_Tail(mesh, kiriEdge_Next(g));
+        kiriMesh_SetOpen(mesh, h, open);
+        kiriMesh_SetOpen(mesh, g, open);
+    }
     return true;
 }
 
@@ -220,7 +235,7 @@ static kiriResult LinkTwins(kiriMeshData* mesh, const TwinWork* work, const char
         for (int32_t i = first; i < work->end[v]; ++i) {
             for (int32_t j = i + 1; j < work->end[v]; ++j) {
                 if (work->entries[i].other == work->entries[j].other &&
-                    !LinkEntries(mesh, work->entries[i], work->entries[j])) {
+                    !LinkEntries(mesh, work->entries[i], work->entries[j], work->hasDoubles)) {
                     return RefuseMesh(why, KIRI_ERROR_MESH, "two triangles use an edge in the same direction");
                 }
             }
@@ -233,12 +248,12 @@ static kiriResult FindTwins(kiriMeshData* mesh, const char** why)
 {
     kiriMemory scratch = kiriMemory_Like(mesh->memory);
     int64_t bytes = mesh->vertices.count * (int64_t)sizeof(int32_t);
-    TwinWork work = { kiriMemory_Alloc(&scratch, bytes), kiriMemory_AllocZeroed(&scratch, bytes),
+    TwinWork work = { kiriMemory_Alloc(&scratch, bytes), false, kiriMemory_AllocZeroed(&scratch, bytes),
                       kiriMemory_AllocZeroed(&scratch, bytes),
                       kiriMemory_Alloc(&scratch, 3 * mesh->triangles.count * (int64_t)sizeof(TwinEntry)) };
     kiriResult result = KIRI_OK;
     if (work.point == NULL || work.degree == NULL || work.end == NULL || work.entries == NULL ||
-        !FindPoints(mesh, &scratch, work.point)) {
+        !FindPoints(mesh, &scratch, &work)) {
         result = RefuseForMemory(why);
     } else {
         ListEdges(mesh, &work);
@@ -251,14 +266,18 @@ static kiriResult FindTwins(kiriMeshData* mesh, const char** why)
 /* In the marks of a triangle, of corner 0; those of the others follow. */
 enum { FAN_DONE = 16 };
 
+static void ClaimCorner(kiriMeshData* mesh, int32_t c, int32_t vertex)
+{
+    kiriTriangle* triangle = &mesh->triangles.data[c / 3];
+    triangle->vertex[c % 3] = vertex;
+    triangle->marks |= FAN_DONE << (c % 3);
+}
+
 /* Gives h's fan a vertex of its own when another fan has taken its vertex before. While this runs, the stamps mark the
    vertices that are taken. */
 static bool ClaimFan(kiriMeshData* mesh, int32_t h)
 {
-    int32_t first = h, vertex = kiriMesh_Tail(mesh, h);
-    for (int32_t c = kiriMesh_Clockwise(mesh, h); c != KIRI_NONE && c != h; c = kiriMesh_Clockwise(mesh, c)) {
-        first = c;
-    }
+    int32_t vertex = kiriMesh_Tail(mesh, h), c = h;
     if (mesh->vertices.data[vertex].stamp != 0) {
         kiriVertex copy = mesh->vertices.data[vertex];
         vertex = mesh->vertices.count;
@@ -269,20 +288,24 @@ static bool ClaimFan(kiriMeshData* mesh, int32_t h)
     }
     mesh->vertices.data[vertex].stamp = 1;
     mesh->vertices.data[vertex].edge = h;
-    int32_t c = first;
     do {
-        mesh->triangles.data[c / 3].vertex[c % 3] = vertex;
-        mesh->triangles.data[c / 3].marks |= FAN_DONE << (c % 3);
+        ClaimCorner(mesh, c, vertex);
+        c = kiriMesh_Clockwise(mesh, c);
+    } while (c != KIRI_NONE && c != h);
+    for (c = c == h ? KIRI_NONE : kiriMesh_CounterClockwise(mesh, h); c != KIRI_NONE;) {
+        ClaimCorner(mesh, c, vertex);
         c = kiriMesh_CounterClockwise(mesh, c);
-    } while (c != KIRI_NONE && c != first);
+    }
     return true;
 }
 
 static bool ClaimFans(kiriMeshData* mesh)
 {
-    for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
-        if ((mesh->triangles.data[h / 3].marks & FAN_DONE << (h % 3)) == 0 && !ClaimFan(mesh, h)) {
-            return false;
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        for (int i = 0; i < 3; ++i) {
+            if ((mesh->triangles.data[t].marks & FAN_DONE << i) == 0 && !ClaimFan(mesh, 3 * t + i)) {
+                return false;
+            }
         }
     }
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {

@@ -3,9 +3,9 @@
 /* Where the mesh has one outline that nowhere meets itself, it covers what that surrounds, once: all edges but those of
    the outline have a triangle on either side. So most often the outline alone is looked at, else all triangles.
 
-   A tree of boxes. The triangles, or edges, of a node are halved in the middle of where the centres of their boxes are, across its
-   longer side: so a crowd in a corner is parted as well as one that fills the sheet. Coordinates have 30 bits, so no
-   branch is longer than 60 nodes and a few. */
+   A tree of boxes. The triangles, or edges, of a node are halved in the middle of where the centres of their boxes are,
+   across its longer side: so a crowd in a corner is parted as well as one that fills the sheet. Coordinates have 30 bits,
+   so no branch is longer than 60 nodes and a few. */
 
 enum {
     OVERLAP_TOLERANCE = 64, /* lattice steps that triangles may intrude on each other: the input is float */
