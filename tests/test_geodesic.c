@@ -412,6 +412,96 @@ static void TestRandomSheets(void** state)
     }
 }
 
+/* Cells in their order. */
+static int32_t* OrderedCells(const kiriGrid* grid)
+{
+    int32_t count = 0, *cells = malloc(sizeof(int32_t) * (size_t)grid->cells.count);
+    for (int32_t s = 0; s < grid->squareCell.count; ++s) {
+        for (int32_t c = grid->squareCell.data[s]; c != KIRI_NONE; c = grid->cells.data[c].next) {
+            cells[count++] = c;
+        }
+    }
+    assert_int_equal(count, grid->cellCount);
+    return cells;
+}
+
+/* A scan, or the flood that it could not replace, leaves what a flood leaves. Returns whether it could. */
+static bool CheckScan(Sheet* sheet, const kiriSeed* seeds, int32_t count)
+{
+    int32_t *cells = OrderedCells(&sheet->grid), settled = 0;
+    kiriRule rule = { &sheet->grid, KIRI_FAR, NULL, NULL, NULL, NULL, { NULL, NULL } };
+    kiriQuota quota = { INT64_MAX, 0, 0, false };
+    kiriField scanned = { 0 };
+    assert_true(kiriField_Resize(&scanned, &sheet->memory, sheet->grid.cells.count));
+    assert_true(kiriField_Start(&scanned, &sheet->memory, seeds, count));
+    bool isScanned = kiriField_Scan(&scanned, &sheet->memory, &sheet->grid, cells, sheet->grid.cellCount);
+    assert_int_equal(scanned.settled.count > 0, isScanned);
+    for (int32_t k = 0; isScanned && k < sheet->grid.cellCount; ++k) {
+        if (scanned.distance.data[cells[k]] != KIRI_FAR) {
+            assert_int_equal(scanned.settled.data[settled++], cells[k]);
+        }
+    }
+    assert_int_equal(scanned.settled.count, settled);
+    assert_int_equal(kiriField_Flood(&scanned, &rule, &quota), KIRI_DONE); /* nothing is left where it is scanned */
+    Flood(sheet, seeds, count, KIRI_FAR);
+    assert_int_equal(scanned.settled.count, sheet->field.settled.count);
+    size_t bytes = sizeof(int32_t) * (size_t)sheet->grid.cells.count;
+    assert_memory_equal(scanned.distance.data, sheet->field.distance.data, bytes);
+    assert_memory_equal(scanned.owner.data, sheet->field.owner.data, bytes);
+    kiriField_Reset(&sheet->field);
+    kiriField_Reset(&scanned);
+    for (int32_t c = 0; c < sheet->grid.cells.count; ++c) {
+        assert_int_equal(scanned.distance.data[c], KIRI_FAR);
+    }
+    free(cells);
+    return isScanned;
+}
+
+static void TestScans(void** state)
+{
+    (void)state;
+    uint32_t seed = 77;
+    int32_t scanned = 0, floods = 0;
+    for (int round = 0; round < 40; ++round) {
+        Sheet sheet;
+        OpenSquare(&sheet, 3 + (int32_t)(Random(&seed) % 30));
+        CutRandomly(&sheet, &seed, (int32_t)(Random(&seed) % 25));
+        Build(&sheet);
+        for (int flood = 0; flood < 8; ++flood, ++floods) {
+            kiriSeed seeds[40];
+            int32_t count = 1 + (int32_t)(Random(&seed) % 40);
+            for (int32_t i = 0; i < count; ++i) {
+                seeds[i].cell = (int32_t)(Random(&seed) % (uint32_t)sheet.grid.cells.count);
+                seeds[i].distance = (int32_t)(Random(&seed) % (flood % 2 == 0 ? 3 : 900));
+                seeds[i].owner = (int32_t)(Random(&seed) % 6);
+            }
+            scanned += CheckScan(&sheet, seeds, count);
+        }
+        CloseSheet(&sheet);
+    }
+    assert_true(scanned > floods / 2);
+}
+
+/* Around slits from both sides: too many bends for scans. */
+static void TestWindingWays(void** state)
+{
+    (void)state;
+    enum { SLITS = 12 };
+    Sheet sheet;
+    OpenSquare(&sheet, 40);
+    Build(&sheet);
+    kiriSeed seed = { CellAt(&sheet, 0.01, 0.01), 0, 3 };
+    assert_true(CheckScan(&sheet, &seed, 1));
+    for (int k = 1; k <= SLITS; ++k) {
+        double x = (double)k / (SLITS + 1);
+        CutLine(&sheet, x, k % 2 == 0 ? -0.1 : 1.1, x, k % 2 == 0 ? 0.9 : 0.1);
+    }
+    Build(&sheet);
+    seed.cell = CellAt(&sheet, 0.01, 0.01);
+    assert_false(CheckScan(&sheet, &seed, 1));
+    CloseSheet(&sheet);
+}
+
 /* A cut divides cells and takes steps away, so from the copies of one square to those of another the way only grows.
    The field of the old grid serves the new one. */
 static void TestCutsOnlyMakeWaysLonger(void** state)
@@ -549,6 +639,8 @@ int main(void)
         cmocka_unit_test(TestLimitAndReset),
         cmocka_unit_test(TestLateSeeds),
         cmocka_unit_test(TestRandomSheets),
+        cmocka_unit_test(TestScans),
+        cmocka_unit_test(TestWindingWays),
         cmocka_unit_test(TestCutsOnlyMakeWaysLonger),
         cmocka_unit_test(TestRepairsFollowCuts),
         cmocka_unit_test(TestFailingMemory),

@@ -305,6 +305,7 @@ static const kiriMember PlacerWorkMembers[] = {
     KIRI_RUN(4, kiriPlacerWork, stage, cursor),
     KIRI_RUN(8, kiriPlacerWork, due, due),
     KIRI_RUN(4, kiriPlacerWork, left, round),
+    KIRI_DROPPED(kiriPlacerWork, winds),
 };
 static const kiriTable PlacerWorkTable = KIRI_TABLE(kiriPlacerWork, PlacerWorkMembers);
 

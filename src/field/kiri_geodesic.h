@@ -43,7 +43,7 @@ typedef struct kiriRule {
 typedef struct kiriField {
     KIRI_ARRAY(int32_t) distance; /* one a cell; KIRI_FAR where the field does not reach */
     KIRI_ARRAY(int32_t) owner;    /* of the nearest seed; KIRI_NONE where FAR */
-    kiriIndices settled;          /* of floods: cells reached, by growing distance; none once cells are dirty */
+    kiriIndices settled;          /* of floods: cells reached, by growing distance if not scanned; none once dirty */
     KIRI_ARRAY(kiriSeed) log;     /* of repairs: what cells were before, each once; some may be the same again */
 
     /* Work at hand. Cells are settled when none is to be checked any more, so one of the two lists has room for all cells,
@@ -67,6 +67,11 @@ bool kiriField_Start(kiriField* field, kiriMemory* memory, const kiriSeed* seeds
 
 /* Goes on with it. An item of the quota is a cell settled. Allocates nothing: never KIRI_FAILED. */
 kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* quota);
+
+/* Makes the whole flood that Start has prepared, without a limit, and from all cells ways go on; as many items as cells
+   are settled. All that the seeds reach is among these cells, which come in their order; and so they are settled. False,
+   and nothing is done: the ways wind too much, or memory is short; Flood does it. */
+bool kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid* grid, const int32_t* cells, int32_t count);
 
 /* Makes all cells FAR again, at the cost of those that a flood settled. Not after a repair. */
 void kiriField_Reset(kiriField* field);

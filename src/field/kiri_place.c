@@ -357,6 +357,7 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
         return false;
     }
     work->cursor = work->round = 0;
+    work->winds = false;
     work->left = count;
     work->due = 0;
     work->farthest = KIRI_NONE;

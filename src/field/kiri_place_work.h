@@ -62,6 +62,7 @@ struct kiriPlacerWork {
     int32_t farthest; /* cell found so far, or KIRI_NONE */
     int32_t lost;     /* targets that AIM_NEAR has not found */
     int32_t round;
+    bool winds; /* ways wind too much for scans, or there was no memory: not saved, for all is the same without them */
 };
 
 enum { KIRI_CELL_FREE = KIRI_NONE };

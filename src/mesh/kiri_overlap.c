@@ -4,8 +4,8 @@
    the outline have a triangle on either side. So most often the outline alone is looked at, else all triangles.
 
    A tree of boxes. The triangles, or edges, of a node are halved in the middle of where the centres of their boxes are,
-   across its longer side: so a crowd in a corner is parted as well as one that fills the sheet. Coordinates have 30 bits,
-   so no branch is longer than 60 nodes and a few. */
+   across its longer side: so a crowd in a corner is parted as well as one that fills the sheet. Coordinates have 30
+   bits, so no branch is longer than 60 nodes and a few. */
 
 enum {
     OVERLAP_TOLERANCE = 64, /* lattice steps that triangles may intrude on each other: the input is float */
