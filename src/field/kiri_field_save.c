@@ -238,8 +238,9 @@ static const kiriMember LinkWorkMembers[] = {
     KIRI_ITEMS(4, kiriLinkWork, order),
     KIRI_PARTS(kiriLinkWork, ends, LinkEndsTable),
     KIRI_PARTS(kiriLinkWork, nextEnds, LinkEndsTable),
-    KIRI_ITEMS(4, kiriLinkWork, was),
-    KIRI_ITEMS(4, kiriLinkWork, now),
+    KIRI_DROPPED(kiriLinkWork, isTwin),
+    KIRI_ROOM_OF(kiriLinkWork, before),
+    KIRI_ROOM_OF(kiriLinkWork, now),
     KIRI_PART(kiriLinkWork, edges, SightEdgesTable),
 };
 static const kiriTable LinkWorkTable = KIRI_TABLE(kiriLinkWork, LinkWorkMembers);
@@ -252,7 +253,8 @@ static const kiriTable CornerTable = KIRI_TABLE(kiriCorner, CornerMembers);
 
 static const kiriMember LinksMembers[] = {
     KIRI_PARTS(kiriLinks, links, LinkTable),         KIRI_PARTS(kiriLinks, next, LinkTable),
-    KIRI_RUN(4, kiriLinks, changed, changed),        KIRI_PARTS(kiriLinks, corners, CornerTable),
+    KIRI_RUN(4, kiriLinks, changed, changed),        KIRI_ROOM_OF(kiriLinks, was),
+    KIRI_ROOM_OF(kiriLinks, wasCorner),              KIRI_PARTS(kiriLinks, corners, CornerTable),
     KIRI_PARTS(kiriLinks, nextCorners, CornerTable), KIRI_OWNED(kiriLinks, work, LinkWorkTable),
 };
 const kiriTable kiriLinksTable = KIRI_TABLE(kiriLinks, LinksMembers);
@@ -324,6 +326,7 @@ void kiriLinks_EndReading(kiriLinks* links, kiriMemory* memory)
 {
     if (links->work != NULL) {
         links->work->edges.memory = memory;
+        links->work->isTwin = false;
     }
 }
 
@@ -366,6 +369,8 @@ void kiriLinks_Forget(kiriLinks* links, kiriMemory* memory)
     kiriLinkWork* work = links->work;
     kiriArray_Release(memory, &links->next);
     kiriArray_Release(memory, &links->nextCorners);
+    kiriArray_Release(memory, &links->was);
+    kiriArray_Release(memory, &links->wasCorner);
     if (work != NULL) {
         kiriArrayHeader ends = kiriArray_GetHeader(&work->ends);
         memset(&work->ends, 0, sizeof(work->ends));

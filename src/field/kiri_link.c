@@ -25,6 +25,21 @@ static bool IsPairBefore(const kiriLink* a, const kiriLink* b)
     return a->i != b->i ? a->i < b->i : a->j < b->j;
 }
 
+int32_t kiriLink_FirstOfPair(const kiriLink* links, int32_t count, int32_t i, int32_t j)
+{
+    int32_t low = 0, high = count;
+    while (low < high) {
+        int32_t middle = low + (high - low) / 2;
+        const kiriLink* link = &links[middle];
+        if (link->i < i || (link->i == i && link->j < j)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
 static bool IsMadeBefore(const void* context, int32_t a, int32_t b)
 {
     const kiriBorder* border = context;
@@ -123,8 +138,8 @@ static bool KeepUntouched(const kiriBorder* border, const kiriLinks* links)
         while (end < links->links.count && IsOfPair(&links->links.data[end], link)) {
             ++end;
         }
-        bool isAsked = !dirty[link->i] && !dirty[link->j] && !border->work->ends.data[first].isShort &&
-                       (IsStale(border, link->i) || IsStale(border, link->j));
+        bool isAsked = (IsStale(border, link->i) || IsStale(border, link->j)) && !dirty[link->i] && !dirty[link->j] &&
+                       !border->work->ends.data[first].isShort;
         if (isAsked && !KeepPair(border, links, first, end)) {
             return false;
         }
@@ -252,6 +267,8 @@ static void TakeOldLinks(const kiriBorder* border, const kiriLinks* links)
     int32_t old = 0;
     for (int32_t k = 0; k < work->order.count; ++k) {
         kiriNewLink* made = &work->made.data[work->order.data[k]];
+        int32_t first = kiriLink_FirstOfPair(links->links.data, links->links.count, made->link.i, made->link.j);
+        old = first > old ? first : old;
         while (old < links->links.count &&
                (IsPairBefore(&links->links.data[old], &made->link) || work->ends.data[old].isShort)) {
             ++old;
@@ -289,28 +306,56 @@ static bool MakeLinkRoom(const kiriBorder* border)
 static void AddNext(const kiriBorder* border, kiriLinks* links, const kiriLink* link, const kiriLinkEnds* ends,
                     int32_t was)
 {
-    border->work->was.data[border->work->was.count++] = was;
+    links->was.data[links->was.count++] = was;
     links->next.data[links->next.count++] = *link;
     border->work->nextEnds.data[border->work->nextEnds.count++] = *ends;
 }
 
+/* The room of the next links has what was in force before the last commit. A link that was and stays where it is there is
+   not written again: in a large sheet most are. */
+static void TakeOver(const kiriBorder* border, kiriLinks* links, int32_t k)
+{
+    kiriLinkWork* work = border->work;
+    int32_t at = links->next.count;
+    work->now.data[k] = at;
+    if (k < work->before.count && work->before.data[k] == at) {
+        KIRI_ASSERT(memcmp(&links->next.data[at], &links->links.data[k], sizeof(kiriLink)) == 0);
+        links->was.data[links->was.count++] = k;
+        links->next.count = work->nextEnds.count = at + 1;
+    } else {
+        AddNext(border, links, &links->links.data[k], &work->ends.data[k], k);
+    }
+}
+
 /* Takes over the links of pairs that are not stale, between those that were made; no pair has both. */
+/* Nothing is known any more of the room of the next links. */
+static void TakeBefore(kiriLinks* links)
+{
+    kiriLinkWork* work = links->work;
+    kiriArrayHeader before = kiriArray_GetHeader(&work->before);
+    kiriArray_SetHeader(&work->before, kiriArray_GetHeader(&links->was));
+    kiriArray_SetHeader(&links->was, before);
+    work->before.count = work->isTwin ? work->before.count : 0;
+    work->isTwin = false;
+    links->was.count = links->wasCorner.count = 0;
+}
+
 static bool MergeLinks(const kiriBorder* border, kiriLinks* links)
 {
     kiriLinkWork* work = border->work;
     int32_t made = 0;
     int64_t most = (int64_t)links->links.count + work->made.count;
+    work->isTwin = work->isTwin && most <= links->next.capacity && most <= work->nextEnds.capacity;
     if (!kiriArray_Reserve(border->memory, &links->next, most) ||
         !kiriArray_Reserve(border->memory, &work->nextEnds, most) ||
-        !kiriArray_Reserve(border->memory, &work->was, most) ||
+        !kiriArray_Reserve(border->memory, &work->before, most) || !kiriArray_Reserve(border->memory, &links->was, most) ||
         !kiriArray_Resize(border->memory, &work->now, links->links.count)) {
         return false;
     }
-    work->was.count = 0;
+    TakeBefore(links);
     for (int32_t k = 0; k < links->links.count; ++k) {
         const kiriLink* link = &links->links.data[k];
-        bool isShort = work->ends.data[k].isShort;
-        if (!IsStale(border, link->i) && (isShort || !IsStale(border, link->j))) {
+        if (!IsStale(border, link->i) && (!IsStale(border, link->j) || work->ends.data[k].isShort)) {
             for (; made < work->made.count; ++made) {
                 const kiriNewLink* first = &work->made.data[work->order.data[made]];
                 if (!IsPairBefore(&first->link, link)) {
@@ -318,8 +363,7 @@ static bool MergeLinks(const kiriBorder* border, kiriLinks* links)
                 }
                 AddNext(border, links, &first->link, &first->ends, KIRI_NONE);
             }
-            work->now.data[k] = links->next.count;
-            AddNext(border, links, link, &work->ends.data[k], k);
+            TakeOver(border, links, k);
         }
     }
     for (; made < work->made.count; ++made) {
@@ -335,6 +379,10 @@ static int32_t CountChanged(const kiriLinks* links)
     int32_t changed = 0, old = 0;
     for (int32_t k = 0; k < links->next.count; ++k) {
         const kiriLink* link = &links->next.data[k];
+        if (links->was.data[k] == old) {
+            ++old;
+            continue;
+        }
         while (old < links->links.count && IsPairBefore(&links->links.data[old], link)) {
             ++old;
         }
@@ -408,7 +456,9 @@ void kiriLinks_Drop(kiriLinks* links)
     if (links->work != NULL) {
         EndLinks(links->work);
         links->work->nextEnds.count = 0;
+        links->work->isTwin = false;
     }
+    links->was.count = links->wasCorner.count = 0;
 }
 
 /* What is to be made, face by face, then the whole. Edges that are seen first are an item each: a square may have thousands. */
@@ -482,6 +532,7 @@ bool kiriLinks_Keep(kiriLinks* links, kiriMemory* memory, const kiriKeep* kept, 
     kiriLinkWork* work = links->work;
     bool ok = true;
     links->next.count = links->nextCorners.count = work->nextEnds.count = links->changed = 0;
+    links->was.count = links->wasCorner.count = 0;
     for (int32_t k = 0; ok && k < links->links.count; ++k) {
         kiriLink link = links->links.data[k];
         if (kiriKeep_Has(kept, k)) {
@@ -506,4 +557,5 @@ void kiriLinks_Commit(kiriLinks* links)
     memcpy(&work->ends, &old.nextEnds, sizeof(work->ends));
     memcpy(&work->nextEnds, &old.ends, sizeof(work->nextEnds));
     links->next.count = links->nextCorners.count = work->nextEnds.count = 0;
+    work->isTwin = links->was.count == links->links.count;
 }

@@ -241,22 +241,6 @@ static bool AreEndsOne(const kiriLinkEnd* a, const kiriLinkEnd* b, double side)
            kiriVec2_Length(kiriVec2_Sub(a->at, b->at)) <= (a->isExact && b->isExact ? 1e-6 : 2.0) * side;
 }
 
-/* The first link of a pair of regions, or of a later pair. */
-static int32_t FirstOfPair(const kiriLinks* links, int32_t i, int32_t j)
-{
-    int32_t low = 0, high = links->next.count;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        const kiriLink* link = &links->next.data[middle];
-        if (link->i < i || (link->i == i && link->j < j)) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
 /* Lists the links that have this end, ascending; their number, or 5 where there are more than 4. */
 static int32_t ListLinksAt(const kiriBorder* border, const kiriLinks* links, const kiriLinkEnd* end, int32_t list[4])
 {
@@ -264,7 +248,7 @@ static int32_t ListLinksAt(const kiriBorder* border, const kiriLinks* links, con
     for (int a = 0; a < KIRI_CORNER_REGIONS && end->region[a] != KIRI_NONE; ++a) {
         for (int b = a + 1; b < KIRI_CORNER_REGIONS && end->region[b] != KIRI_NONE; ++b) {
             int32_t i = end->region[a], j = end->region[b];
-            for (int32_t k = FirstOfPair(links, i, j);
+            for (int32_t k = kiriLink_FirstOfPair(links->next.data, links->next.count, i, j);
                  k < links->next.count && links->next.data[k].i == i && links->next.data[k].j == j; ++k) {
                 const kiriLinkEnds* ends = &border->work->nextEnds.data[k];
                 double side = border->grid->side;
@@ -353,10 +337,10 @@ static bool MakeCorner(const kiriBorder* border, const kiriLinks* links, int32_t
 }
 
 /* Is no region stale at the corners of a link? Then all links there are what they were. */
-static bool AreCornersOld(const kiriBorder* border, int32_t k)
+static bool AreCornersOld(const kiriBorder* border, const kiriLinks* links, int32_t k)
 {
     const kiriLinkWork* work = border->work;
-    bool isOld = work->was.data[k] != KIRI_NONE;
+    bool isOld = links->was.data[k] != KIRI_NONE;
     for (int e = 0; isOld && e < 2; ++e) {
         const kiriLinkEnd* end = &work->nextEnds.data[k].end[e];
         for (int a = 0; end->kind == KIRI_END_CORNER && a < KIRI_CORNER_REGIONS && end->region[a] != KIRI_NONE; ++a) {
@@ -371,15 +355,16 @@ static bool TakeCorners(const kiriBorder* border, kiriLinks* links, int32_t k, i
 {
     const kiriLinkWork* work = border->work;
     bool ok = true;
-    while (*at < links->corners.count && links->corners.data[*at].link[0] < work->was.data[k]) {
+    while (*at < links->corners.count && links->corners.data[*at].link[0] < links->was.data[k]) {
         ++*at;
     }
-    for (; ok && *at < links->corners.count && links->corners.data[*at].link[0] == work->was.data[k]; ++*at) {
+    for (; ok && *at < links->corners.count && links->corners.data[*at].link[0] == links->was.data[k]; ++*at) {
         kiriCorner corner = links->corners.data[*at];
         for (int32_t c = 0; c < corner.count; ++c) {
             corner.link[c] = work->now.data[corner.link[c]];
         }
-        ok = kiriArray_Push(border->memory, &links->nextCorners, corner);
+        ok = kiriArray_Push(border->memory, &links->nextCorners, corner) &&
+             kiriArray_Push(border->memory, &links->wasCorner, *at);
     }
     return ok;
 }
@@ -390,7 +375,8 @@ static bool MakeCornersOf(const kiriBorder* border, kiriLinks* links, int32_t k)
     for (int e = 0; ok && e < 2; ++e) {
         kiriCorner corner;
         if (MakeCorner(border, links, k, &border->work->nextEnds.data[k].end[e], &corner)) {
-            ok = kiriArray_Push(border->memory, &links->nextCorners, corner);
+            ok = kiriArray_Push(border->memory, &links->nextCorners, corner) &&
+                 kiriArray_Push(border->memory, &links->wasCorner, KIRI_NONE);
         }
     }
     return ok;
@@ -402,7 +388,7 @@ bool kiriBorder_MakeCorners(const kiriBorder* border, kiriLinks* links)
     bool ok = true;
     links->nextCorners.count = 0;
     for (int32_t k = 0; ok && k < links->next.count; ++k) {
-        ok = AreCornersOld(border, k) ? TakeCorners(border, links, k, &at) : MakeCornersOf(border, links, k);
+        ok = AreCornersOld(border, links, k) ? TakeCorners(border, links, k, &at) : MakeCornersOf(border, links, k);
     }
     return ok;
 }

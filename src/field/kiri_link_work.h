@@ -69,8 +69,9 @@ struct kiriLinkWork {
     KIRI_ARRAY(int32_t) order;         /* of what was made */
     KIRI_ARRAY(kiriLinkEnds) ends;     /* of kiriLinks.links, */
     KIRI_ARRAY(kiriLinkEnds) nextEnds; /* and of kiriLinks.next */
-    KIRI_ARRAY(int32_t) was;           /* of each next link: which one it was, or KIRI_NONE where it is made, */
-    KIRI_ARRAY(int32_t) now;           /* and of each link: which one it is next; of those that are taken over */
+    bool isTwin;                       /* links, and their ends, are still in the room of the next ones where they were */
+    KIRI_ARRAY(int32_t) before;        /* scratch: `was` of the links in force, */
+    KIRI_ARRAY(int32_t) now;           /* and which one each is next; of those that are taken over */
     kiriSightEdges edges;              /* near the links that are made */
 };
 
@@ -136,6 +137,9 @@ bool kiriBorder_FindBeside(const kiriBorder* border, const kiriLinkEnd* end, int
    cells. False where it cannot be told. */
 bool kiriBorder_FindWay(const kiriBorder* border, const kiriLink* link, const kiriLinkEnds* ends,
                         const int32_t cells[2], kiriVec2 over, kiriWay* way);
+
+/* The first link of a pair of regions, or of a later pair, in a row of links in order. */
+int32_t kiriLink_FirstOfPair(const kiriLink* links, int32_t count, int32_t i, int32_t j);
 
 /* Sets `outer`: the link has all else. */
 void kiriLink_SetOuter(kiriLink* link, const kiriLinkEnds* ends);

@@ -124,11 +124,23 @@ static bool IsPairOfLink(const kiriSystem* system, int32_t k, kiriPair pair)
     return found;
 }
 
-/* Of frames that share an element. */
-static bool CollectPairs(kiriSolver* solver, const kiriSystem* next, const int32_t* framePiece)
+/* Is the element one of those in force? */
+static bool IsInForce(const kiriSystem* system, int32_t k)
+{
+    int32_t links = kiriElement_LinkCount(system), corner = k - links;
+    return k < links                                ? system->linkWas[k] != KIRI_NONE
+           : corner < kiriElement_CornerCount(system) ? system->cornerWas[corner] != KIRI_NONE
+                                                      : false;
+}
+
+/* Of frames that share an element: of all, or of those alone that are not in force. */
+static bool CollectPairs(kiriSolver* solver, const kiriSystem* next, const int32_t* framePiece, bool all)
 {
     solver->pairs.count = 0;
     for (int32_t k = 0; k < kiriElement_Count(next); ++k) {
+        if (!all && IsInForce(next, k)) {
+            continue;
+        }
         int32_t* members = solver->members.data;
         int32_t count = kiriElement_Members(next, k, members);
         for (int32_t b = 1; b < count; ++b) {
@@ -173,6 +185,22 @@ static bool KeepPairs(kiriSolver* solver, int32_t frameCount)
     return true;
 }
 
+/* Gives the system a pattern. That in force covers what is in force: so most cuts ask for a few elements alone, and the
+   others are looked at where it will not do. */
+static bool StageMatrix(kiriSolver* solver, const kiriSystem* next, const int32_t* framePiece)
+{
+    bool isKnown = next->linkWas != NULL && kiriMatrix_FrameCount(solver->matrix) == next->frameCount;
+    if (!CollectPairs(solver, next, framePiece, !isKnown)) {
+        return false;
+    }
+    solver->isNextMatrix = !IsCovered(solver, next->frameCount);
+    if (!solver->isNextMatrix) {
+        return true;
+    }
+    return (!isKnown || CollectPairs(solver, next, framePiece, true)) && KeepPairs(solver, next->frameCount) &&
+           kiriMatrix_Shape(solver->nextMatrix, next->frameCount, solver->pairs.data, solver->pairs.count);
+}
+
 bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t* framePiece, int32_t pieceCount)
 {
     int32_t frameCount = next->frameCount;
@@ -181,7 +209,7 @@ bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t*
     solver->isStaged = false;
     solver->nextElementCount = kiriElement_Count(next);
     kiriQuota unlimited = { INT64_MAX, 0, 0, false };
-    if (kiriSolver_Reserve(solver, next, &unlimited, 1) != KIRI_DONE || !CollectPairs(solver, next, framePiece)) {
+    if (kiriSolver_Reserve(solver, next, &unlimited, 1) != KIRI_DONE || !StageMatrix(solver, next, framePiece)) {
         return false;
     }
     for (int32_t f = 0; f < frameCount; ++f) {
@@ -190,11 +218,8 @@ bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t*
     }
     solver->nextFrameCount = frameCount;
     solver->nextPieceCount = pieceCount;
-    solver->isNextMatrix = !IsCovered(solver, frameCount);
-    solver->isStaged = !solver->isNextMatrix ||
-                       (KeepPairs(solver, frameCount) &&
-                        kiriMatrix_Shape(solver->nextMatrix, frameCount, solver->pairs.data, solver->pairs.count));
-    return solver->isStaged;
+    solver->isStaged = true;
+    return true;
 }
 
 /* What steps write into. */

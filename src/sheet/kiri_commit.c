@@ -168,7 +168,8 @@ void kiriStage_Commit(kiriSheetData* sheet)
     int32_t oldLinks = sheet->links.links.count;
     bool keepsStrains = kiriSheet_KeepsStrains(sheet);
     if (keepsStrains) {
-        kiriStrainOffsets_Remember(&sheet->strainOffsets, sheet->frames.data, sheet->frames.count);
+        kiriStrainOffsets_Remember(&sheet->strainOffsets, sheet->frames.data, sheet->frames.count,
+                                   sheet->regions.dirty.data);
     }
     CommitFrames(sheet);
     CommitPoints(sheet);
@@ -177,8 +178,9 @@ void kiriStage_Commit(kiriSheetData* sheet)
     kiriSkin_Commit(&sheet->pointSkin);
     kiriLinks_Commit(&sheet->links);
     if (keepsStrains) {
+        const int32_t* was = sheet->links.was.count > 0 ? sheet->links.was.data : NULL;
         kiriStrainOffsets_Take(&sheet->strainOffsets, sheet->links.next.data, oldLinks, sheet->links.links.data,
-                               sheet->links.links.count, sheet->frames.data, &sheet->settings.material);
+                               sheet->links.links.count, was, sheet->frames.data, &sheet->settings.material);
     }
     kiriSolver_Commit(sheet->solver);
     kiriLayout layout = sheet->layout;
@@ -189,7 +191,7 @@ void kiriStage_Commit(kiriSheetData* sheet)
     kiriPins_WriteLinkParts(sheet);
     kiriPins_KeepReactions(sheet, &u->next.pinShares);
     if (keepsStrains) {
-        kiriPins_KeepStrains(sheet, &u->next.pinShares, sheet->strainOffsets.frames.data);
+        kiriPins_KeepStrains(sheet, &u->next.pinShares);
     }
     kiriShape_ClearChanges(&sheet->shape);
     u->isScratch = false;

@@ -51,6 +51,8 @@ static kiriSystem NextSystem(const kiriSheetData* sheet, int32_t frameCount)
     next.corners = sheet->links.nextCorners.data;
     next.cornerCount = sheet->links.nextCorners.count;
     next.areaElements = &u->next.areaElements;
+    next.linkWas = sheet->links.was.count > 0 ? sheet->links.was.data : NULL;
+    next.cornerWas = sheet->links.was.count > 0 ? sheet->links.wasCorner.data : NULL;
     return next;
 }
 

@@ -451,7 +451,7 @@ void kiriPins_KeepReactions(kiriSheetData* sheet, const kiriPinShares* old)
     }
 }
 
-void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old, const kiriFrameData* frames)
+void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old)
 {
     for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
         kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
@@ -463,7 +463,8 @@ void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old, const 
         double was[KIRI_CLAMP_STRAINS] = { 0.0 };
         MeasureClamp(sheet, pinned, &sheet->frames.data[frame], pinned->offset);
         if (older != NULL) {
-            MeasureClamp(sheet, older, &frames[frame], was);
+            MeasureClamp(sheet, older,
+                         kiriStrainOffsets_FrameBefore(&sheet->strainOffsets, sheet->frames.data, frame), was);
         }
         for (int e = 0; e < KIRI_STRAINS; ++e) {
             pinned->offset[e] -= older != NULL ? was[e] - older->offset[e] : 0.0;

@@ -26,8 +26,8 @@ void kiriPins_WriteLinkParts(kiriSheetData* sheet);
 void kiriPins_KeepReactions(kiriSheetData* sheet, const kiriPinShares* old);
 
 /* After the commit, where links keep their strains (kiri_strain_offset.h): clamps go on with the strains that they had
-   when frames and shares were `frames` and `old`; on a frame that they did not hold they begin without any. */
-void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old, const kiriFrameData* frames);
+   when frames were as before it and shares were `old`; on a frame that they did not hold they begin without any. */
+void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old);
 
 /* The offsets that this leaves fade to 1/e within `time` (s). */
 void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time);
