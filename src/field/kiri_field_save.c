@@ -238,6 +238,8 @@ static const kiriMember LinkWorkMembers[] = {
     KIRI_ITEMS(4, kiriLinkWork, order),
     KIRI_PARTS(kiriLinkWork, ends, LinkEndsTable),
     KIRI_PARTS(kiriLinkWork, nextEnds, LinkEndsTable),
+    KIRI_ROOM_OF(kiriLinkWork, pairs),
+    KIRI_ROOM_OF(kiriLinkWork, nextPairs),
     KIRI_DROPPED(kiriLinkWork, isTwin),
     KIRI_ROOM_OF(kiriLinkWork, before),
     KIRI_ROOM_OF(kiriLinkWork, now),

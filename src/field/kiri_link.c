@@ -134,12 +134,15 @@ static bool KeepUntouched(const kiriBorder* border, const kiriLinks* links)
     const uint8_t* dirty = border->regions->dirty.data;
     int32_t end = 0;
     for (int32_t first = 0; first < links->links.count; first = end) {
-        const kiriLink* link = &links->links.data[first];
-        while (end < links->links.count && IsOfPair(&links->links.data[end], link)) {
+        kiriRegionPair pair = border->work->pairs.data[first];
+        if (!IsStale(border, pair.i) && !IsStale(border, pair.j)) {
+            ++end;
+            continue;
+        }
+        while (end < links->links.count && IsOfPair(&links->links.data[end], &links->links.data[first])) {
             ++end;
         }
-        bool isAsked = (IsStale(border, link->i) || IsStale(border, link->j)) && !dirty[link->i] && !dirty[link->j] &&
-                       !border->work->ends.data[first].isShort;
+        bool isAsked = !dirty[pair.i] && !dirty[pair.j] && !border->work->ends.data[first].isShort;
         if (isAsked && !KeepPair(border, links, first, end)) {
             return false;
         }
@@ -285,6 +288,22 @@ static void TakeOldLinks(const kiriBorder* border, const kiriLinks* links)
 
 /* ---- The whole -------------------------------------------------------------------------------------------------- */
 
+/* Where they are not there from the last update: of links that were read, or are left. */
+static bool ListPairs(const kiriBorder* border, const kiriLinks* links)
+{
+    kiriLinkWork* work = border->work;
+    if (work->pairs.count == links->links.count) {
+        return true;
+    }
+    if (!kiriArray_Resize(border->memory, &work->pairs, links->links.count)) {
+        return false;
+    }
+    for (int32_t k = 0; k < links->links.count; ++k) {
+        work->pairs.data[k] = (kiriRegionPair){ links->links.data[k].i, links->links.data[k].j };
+    }
+    return true;
+}
+
 static bool MakeLinkRoom(const kiriBorder* border)
 {
     kiriLinkWork* work = border->work;
@@ -309,6 +328,7 @@ static void AddNext(const kiriBorder* border, kiriLinks* links, const kiriLink* 
     links->was.data[links->was.count++] = was;
     links->next.data[links->next.count++] = *link;
     border->work->nextEnds.data[border->work->nextEnds.count++] = *ends;
+    border->work->nextPairs.data[border->work->nextPairs.count++] = (kiriRegionPair){ link->i, link->j };
 }
 
 /* The room of the next links has what was in force before the last commit. A link that was and stays where it is there is
@@ -321,6 +341,7 @@ static void TakeOver(const kiriBorder* border, kiriLinks* links, int32_t k)
     if (k < work->before.count && work->before.data[k] == at) {
         KIRI_ASSERT(memcmp(&links->next.data[at], &links->links.data[k], sizeof(kiriLink)) == 0);
         links->was.data[links->was.count++] = k;
+        work->nextPairs.data[work->nextPairs.count++] = work->pairs.data[k];
         links->next.count = work->nextEnds.count = at + 1;
     } else {
         AddNext(border, links, &links->links.data[k], &work->ends.data[k], k);
@@ -337,7 +358,7 @@ static void TakeBefore(kiriLinks* links)
     kiriArray_SetHeader(&links->was, before);
     work->before.count = work->isTwin ? work->before.count : 0;
     work->isTwin = false;
-    links->was.count = links->wasCorner.count = 0;
+    links->was.count = links->wasCorner.count = work->nextPairs.count = 0;
 }
 
 static bool MergeLinks(const kiriBorder* border, kiriLinks* links)
@@ -348,17 +369,18 @@ static bool MergeLinks(const kiriBorder* border, kiriLinks* links)
     work->isTwin = work->isTwin && most <= links->next.capacity && most <= work->nextEnds.capacity;
     if (!kiriArray_Reserve(border->memory, &links->next, most) ||
         !kiriArray_Reserve(border->memory, &work->nextEnds, most) ||
+        !kiriArray_Reserve(border->memory, &work->nextPairs, most) ||
         !kiriArray_Reserve(border->memory, &work->before, most) || !kiriArray_Reserve(border->memory, &links->was, most) ||
         !kiriArray_Resize(border->memory, &work->now, links->links.count)) {
         return false;
     }
     TakeBefore(links);
     for (int32_t k = 0; k < links->links.count; ++k) {
-        const kiriLink* link = &links->links.data[k];
-        if (!IsStale(border, link->i) && (!IsStale(border, link->j) || work->ends.data[k].isShort)) {
+        kiriRegionPair pair = work->pairs.data[k];
+        if (!IsStale(border, pair.i) && (!IsStale(border, pair.j) || work->ends.data[k].isShort)) {
             for (; made < work->made.count; ++made) {
                 const kiriNewLink* first = &work->made.data[work->order.data[made]];
-                if (!IsPairBefore(&first->link, link)) {
+                if (first->link.i > pair.i || (first->link.i == pair.i && first->link.j >= pair.j)) {
                     break;
                 }
                 AddNext(border, links, &first->link, &first->ends, KIRI_NONE);
@@ -401,11 +423,21 @@ static bool BeginLinks(const kiriBorder* border, kiriLinks* links)
     work->running = true;
     work->at = -2 * border->siteCount - 1;
     work->due = 0;
-    if (!MakeLinkRoom(border)) {
+    if (!MakeLinkRoom(border) || !ListPairs(border, links)) {
         return false;
     }
     MarkDirtyStale(border);
     return true;
+}
+
+/* Regions that are not dirty take no turn. */
+static void SkipClean(const kiriBorder* border)
+{
+    kiriLinkWork* work = border->work;
+    int32_t start = -2 * border->siteCount - 1, end = -border->siteCount - 1;
+    while (work->at < end && !border->regions->dirty.data[work->at - start]) {
+        ++work->at;
+    }
 }
 
 /* Before the first face, where `at` is 0: what is stale, region by region, then what is kept, then the faces of the rest,
@@ -416,6 +448,7 @@ static bool FindLinksToMake(const kiriBorder* border, const kiriLinks* links, in
     int32_t count = border->siteCount;
     if (at < -count - 1) {
         FindStaleBeside(border, at + 2 * count + 1);
+        SkipClean(border);
         return true;
     }
     if (at >= -count) {
@@ -455,7 +488,7 @@ void kiriLinks_Drop(kiriLinks* links)
     links->next.count = links->nextCorners.count = 0; /* they may be of regions that go */
     if (links->work != NULL) {
         EndLinks(links->work);
-        links->work->nextEnds.count = 0;
+        links->work->nextEnds.count = links->work->nextPairs.count = 0;
         links->work->isTwin = false;
     }
     links->was.count = links->wasCorner.count = 0;
@@ -532,7 +565,7 @@ bool kiriLinks_Keep(kiriLinks* links, kiriMemory* memory, const kiriKeep* kept, 
     kiriLinkWork* work = links->work;
     bool ok = true;
     links->next.count = links->nextCorners.count = work->nextEnds.count = links->changed = 0;
-    links->was.count = links->wasCorner.count = 0;
+    links->was.count = links->wasCorner.count = work->nextPairs.count = 0;
     for (int32_t k = 0; ok && k < links->links.count; ++k) {
         kiriLink link = links->links.data[k];
         if (kiriKeep_Has(kept, k)) {
@@ -556,6 +589,8 @@ void kiriLinks_Commit(kiriLinks* links)
     memcpy(&links->nextCorners, &was.corners, sizeof(links->nextCorners));
     memcpy(&work->ends, &old.nextEnds, sizeof(work->ends));
     memcpy(&work->nextEnds, &old.ends, sizeof(work->nextEnds));
-    links->next.count = links->nextCorners.count = work->nextEnds.count = 0;
+    memcpy(&work->pairs, &old.nextPairs, sizeof(work->pairs));
+    memcpy(&work->nextPairs, &old.pairs, sizeof(work->nextPairs));
+    links->next.count = links->nextCorners.count = work->nextEnds.count = work->nextPairs.count = 0;
     work->isTwin = links->was.count == links->links.count;
 }
