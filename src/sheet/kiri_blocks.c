@@ -100,7 +100,22 @@ void kiriBlocks_LeaveHoles(kiriBlocks* blocks, const kiriIndices* vertices, cons
     KeepMoved(blocks, frames);
 }
 
-/* ---- Movers ---- */
+/* ---- Masks ---- */
+
+static const uint64_t ALL_BITS = UINT64_MAX;
+
+/* It may meet any other, so it is right for every block. */
+static void FillMask(kiriFrameMask* mask)
+{
+    for (int k = 0; k < MASK_WORDS; ++k) {
+        mask->bits[k] = ALL_BITS;
+    }
+}
+
+static bool IsFull(const kiriFrameMask* mask)
+{
+    return (mask->bits[0] & mask->bits[1] & mask->bits[2] & mask->bits[3]) == ALL_BITS;
+}
 
 static int32_t EndOfBlock(const kiriSheetData* sheet, int32_t block)
 {
@@ -120,6 +135,23 @@ static void WriteMask(kiriSheetData* sheet, int32_t block)
     }
     sheet->seen.blocks.frames.data[block] = mask;
 }
+
+/* Of some blocks in each tick: after a cut all of a large sheet may be due. */
+static void WriteSomeMasks(kiriSheetData* sheet)
+{
+    enum { MASKS_A_TICK = 128 };
+    kiriBlocks* blocks = &sheet->seen.blocks;
+    int32_t left = MASKS_A_TICK;
+    for (int32_t block = 0; left > 0 && block < blocks->frames.count; ++block) {
+        if (IsFull(&blocks->frames.data[block])) {
+            WriteMask(sheet, block);
+            --left;
+        }
+    }
+    blocks->hasUnknown = left == 0;
+}
+
+/* ---- Movers ---- */
 
 /* What moves is known of all frames. */
 static int32_t FindMover(const kiriSheetData* sheet, int32_t block)
@@ -173,12 +205,12 @@ void kiriBlocks_FindMovers(kiriSheetData* sheet)
     MovingFrames moving = TakeMoving(sheet);
     for (int32_t block = 0; block < blocks->movers.count; ++block) {
         if (blocks->movers.data[block] == KIRI_UNKNOWN) {
-            WriteMask(sheet, block);
+            FillMask(&blocks->frames.data[block]);
             blocks->movers.data[block] = FindMover(sheet, block);
         } else if (!IsMoverKnown(sheet, block, &moving)) {
             bool may = kiriBlocks_MayMeet(blocks, block, &moving.all);
             blocks->movers.data[block] = may ? FindMover(sheet, block) : KIRI_NONE;
         }
     }
-    blocks->hasUnknown = false;
+    WriteSomeMasks(sheet);
 }

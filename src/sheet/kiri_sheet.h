@@ -312,9 +312,9 @@ typedef struct kiriBlocks {
     KIRI_ARRAY(uint8_t) touched;      /* some have other weights, or fade */
     KIRI_ARRAY(uint8_t) stale;        /* triangles around them are others, so are their normals */
     KIRI_ARRAY(int32_t) movers;       /* label of a frame that is awake; KIRI_NONE: all of it sleeps; or KIRI_UNKNOWN */
-    KIRI_ARRAY(kiriFrameMask) frames; /* that carry it, where its mover is known */
+    KIRI_ARRAY(kiriFrameMask) frames; /* that carry it, where its mover is known; or all */
     KIRI_ARRAY(uint8_t) moved;        /* of each frame: was it awake when movers were found last? */
-    bool hasUnknown;
+    bool hasUnknown;                  /* some mover, or some frames */
 } kiriBlocks;
 
 /* What the host sees, see kiri_seen.h. */
