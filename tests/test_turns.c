@@ -13,19 +13,19 @@ static void CutDice(Host* host, kiriSheet sheet)
     }
 }
 
-static kiriSheet AddSheet(Host* host, const float position[3], int32_t skinning)
+static kiriSheet AddSheet(Host* host, const float position[3], int32_t skinning, int32_t frames, int32_t squares)
 {
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
     def.gridResolution = 28;
-    def.frameCount = 1;
+    def.frameCount = frames;
     def.maxFrames = 1000;
     def.rigidArea = 1.0f;
     def.material.airDamping = 0.0f;
     def.skinning = skinning;
     def.normals = 1;
     memcpy(def.position, position, sizeof(def.position));
-    return Host_AddRectangle(host, &def, 1.0f, 1.0f, 14, 14);
+    return Host_AddRectangle(host, &def, 1.0f, 1.0f, squares, squares);
 }
 
 static void Limit(Host* host, int32_t systems)
@@ -39,7 +39,7 @@ static kiriSheet StartDice(Host* host, int32_t systems)
 {
     Host_Start(host);
     OK(kiriWorld_SetGravity(host->world, (const float[3]){ 0.0f, 0.0f, 0.0f }));
-    kiriSheet sheet = AddSheet(host, (const float[3]){ 0.0f, 0.0f, 0.0f }, KIRI_SKINNING_LINEAR);
+    kiriSheet sheet = AddSheet(host, (const float[3]){ 0.0f, 0.0f, 0.0f }, KIRI_SKINNING_LINEAR, 1, 14);
     CutDice(host, sheet);
     OK(Host_Tick(host, dt, 2));
     Limit(host, systems);
@@ -150,7 +150,7 @@ static void TestSheetsTakeTurns(void** state)
     kiriSheet sheet = StartDice(&host, 1);
     OK(kiriSheet_SetVelocity(host.world, sheet, (const float[3]){ 0.0f, 0.0f, 1.0f }, still));
     for (int k = 0; k < OTHERS; ++k) {
-        others[k] = AddSheet(&host, (const float[3]){ 2.0f + (float)k, 0.0f, 0.0f }, KIRI_SKINNING_LINEAR);
+        others[k] = AddSheet(&host, (const float[3]){ 2.0f + (float)k, 0.0f, 0.0f }, KIRI_SKINNING_LINEAR, 1, 14);
         OK(kiriSheet_SetVelocity(host.world, others[k], (const float[3]){ 0.0f, 0.0f, 1.0f }, still));
     }
     for (int tick = 0; tick < 80; ++tick) {
@@ -208,15 +208,21 @@ static void TestPiecesComeToRest(void** state)
     Host_Stop(&host);
 }
 
-/* What is seen is what is there, whoever waits: far away, with normals, fades and patches that bend. Host_Tick looks. */
-static void CutWhileWaiting(int32_t skinning, float x)
+/* What is seen is what is there, whoever waits: far away, with normals, with and without fades, with patches that bend,
+   in the tick of the cut or later. Host_Tick looks. */
+static void CutWhileWaiting(int32_t skinning, float x, float fadeTime, int32_t cells)
 {
     Host host;
     Host_Start(&host);
-    kiriSheet sheet = AddSheet(&host, (const float[3]){ x, 0.0f, 0.0f }, skinning);
+    kiriSheet sheet = AddSheet(&host, (const float[3]){ x, 0.0f, 0.0f }, skinning, 6, 56);
+    kiriSheetSettings settings;
     kiriPin pin;
+    OK(kiriSheet_GetSettings(host.world, sheet, &settings));
+    settings.fadeTime = fadeTime;
+    OK(kiriSheet_SetSettings(host.world, sheet, &settings));
     OK(kiriSheet_ClampLine(host.world, sheet, (const float[2]){ 0.0f, 1.0f }, (const float[2]){ 1.0f, 1.0f }, &pin));
-    Limit(&host, 1);
+    const kiriBudget budget = { .triangles = 0, .cells = cells, .samples = cells, .iterations = 1 };
+    OK(kiriWorld_SetBudget(host.world, &budget));
     for (int tick = 0; tick < 60; ++tick) {
         assert_true(Host_Tick(&host, dt, 2) >= 0);
         if (tick % 20 == 5) {
@@ -233,8 +239,12 @@ static void CutWhileWaiting(int32_t skinning, float x)
 static void TestSeenWhileWaiting(void** state)
 {
     (void)state;
-    CutWhileWaiting(KIRI_SKINNING_LINEAR, 0.0f);
-    CutWhileWaiting(KIRI_SKINNING_SMOOTH, 1000.0f);
+    for (int32_t cells = 0; cells <= 5000; cells += 2500) {
+        CutWhileWaiting(KIRI_SKINNING_LINEAR, 0.0f, 0.25f, cells);
+        CutWhileWaiting(KIRI_SKINNING_LINEAR, 0.0f, 0.0f, cells);
+        CutWhileWaiting(KIRI_SKINNING_SMOOTH, 1000.0f, 0.25f, cells);
+        CutWhileWaiting(KIRI_SKINNING_SMOOTH, 1000.0f, 0.0f, cells);
+    }
 }
 
 /* Who comes next is a part of the state. */

@@ -21,9 +21,14 @@ static const kiriAwake* AwakeOf(kiriSheetData* sheet)
     const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
     bool hasLinks = sheet->settings.mechanics.model != KIRI_MODEL_POINTS;
     bool isOther = !sheet->seen.surface.isSteady || sheet->seen.areFadesAsleep ||
-                   (sheet->turns.waiting > 0 && sheet->seen.isElsewhere) ||
                    (sheet->rest.asleep && sheet->seen.fades.fading.count + sheet->seen.pointFades.fading.count > 0);
     return awake->isListed && !isOther && (hasLinks || sheet->settings.skinning == KIRI_SKINNING_LINEAR) ? awake : NULL;
+}
+
+/* Pieces that wait are where their jump took them, but nothing that follows from it is made yet. */
+static bool HasMovedWaiting(const kiriSheetData* sheet)
+{
+    return sheet->seen.surface.isPartly && sheet->turns.waiting > 0 && sheet->seen.isElsewhere;
 }
 
 /* Does the block move, or, if asked, have triangles that are others? */
@@ -157,6 +162,9 @@ void kiriView_TakeFrames(kiriSheetData* sheet)
     if (sheet->seen.surface.isPartly && (awake->lists != sheet->seen.lists || sheet->seen.blocks.hasUnknown)) {
         kiriBlocks_FindMovers(sheet);
         sheet->seen.lists = awake->lists;
+    }
+    if (HasMovedWaiting(sheet)) {
+        memset(sheet->seen.blocks.stale.data, 1, (size_t)sheet->seen.blocks.stale.count);
     }
     sheet->seen.surface.isWritten &= sheet->seen.fades.fading.count == 0;
 }
@@ -450,10 +458,6 @@ void kiriView_Sum(kiriSheetData* sheet)
     }
     sheet->seen.pointCount = sheet->points.count;
     sheet->seen.vertexCount = sheet->seen.surface.vertexCount;
-    if (sheet->seen.isElsewhere) {
-        memset(sheet->seen.blocks.touched.data, 0, (size_t)sheet->seen.blocks.touched.count);
-    }
-    sheet->seen.isElsewhere = false;
 }
 
 void kiriView_WriteRange(kiriSheetData* sheet, int32_t begin, int32_t end)
@@ -468,6 +472,11 @@ void kiriView_EndWriting(kiriSheetData* sheet)
     if (!sheet->seen.surface.isWritten) {
         memset(sheet->seen.blocks.stale.data, 0, (size_t)sheet->seen.blocks.stale.count);
     }
+    if (sheet->seen.isElsewhere) {
+        memset(sheet->seen.blocks.touched.data, 0, (size_t)sheet->seen.blocks.touched.count);
+    }
+    sheet->seen.surface.isPartly &= !HasMovedWaiting(sheet); /* for boxes */
+    sheet->seen.isElsewhere = false;
     sheet->seen.surface.isWritten = sheet->seen.fades.fading.count == 0;
     sheet->seen.surface.isSteady = true;
 }
