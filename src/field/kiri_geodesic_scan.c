@@ -4,35 +4,35 @@
 #include "kiri_geodesic.h"
 
 /* The more the ways wind the more scans it takes: then a sweep is faster. */
-enum { MOST_PAIRS = 4 };
+enum { MOST_SCAN_PAIRS = 4 };
 
 /* Of a cell: its distance, then its owner. So the lesser one is nearer. */
-typedef uint64_t Key;
+typedef uint64_t ScanKey;
 
-static Key KeyOf(int32_t distance, int32_t owner)
+static ScanKey KeyOf(int32_t distance, int32_t owner)
 {
-    return (Key)(uint32_t)distance << 32 | (uint32_t)owner;
+    return (ScanKey)(uint32_t)distance << 32 | (uint32_t)owner;
 }
 
-static inline Key Lesser(Key a, Key b)
+static inline ScanKey Lesser(ScanKey a, ScanKey b)
 {
     return b < a ? b : a;
 }
 
-static inline Key Over(Key from, int32_t length)
+static inline ScanKey Over(ScanKey from, int32_t length)
 {
-    return from + ((Key)length << 32);
+    return from + ((ScanKey)length << 32);
 }
 
 typedef struct Scan {
     const kiriGrid* grid;
     const int32_t* cells;
     int32_t count;
-    Key* keys; /* of each cell of the grid */
+    ScanKey* keys; /* of each cell of the grid */
 } Scan;
 
 /* What an open cell gets from the cells before it, or behind. */
-static inline Key PullOpen(const Scan* scan, const kiriStepRun* run, bool forth, Key key)
+static inline ScanKey PullOpen(const Scan* scan, const kiriStepRun* run, bool forth, ScanKey key)
 {
     /* As kiriOpenSteps has them. The cell just scanned comes last: others need not wait for it. */
     static const uint8_t steps[2][KIRI_OPEN_STEPS / 2] = { { 15, 14, 13, 12, 7, 6, 3, 2 },
@@ -45,7 +45,7 @@ static inline Key PullOpen(const Scan* scan, const kiriStepRun* run, bool forth,
     return key;
 }
 
-static Key PullStored(const Scan* scan, const kiriStepRun* run, Key key)
+static ScanKey PullStored(const Scan* scan, const kiriStepRun* run, ScanKey key)
 {
     const kiriStep* steps = scan->grid->steps.data;
     for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
@@ -57,12 +57,12 @@ static Key PullStored(const Scan* scan, const kiriStepRun* run, Key key)
 /* Has anything become nearer? */
 static inline bool ScanOnce(const Scan* scan, bool forth)
 {
-    Key changes = 0;
+    ScanKey changes = 0;
     for (int32_t k = 0; k < scan->count; ++k) {
         int32_t cell = scan->cells[forth ? k : scan->count - 1 - k];
         const kiriStepRun* run = &scan->grid->runs.data[cell];
-        Key was = scan->keys[cell];
-        Key key = kiriStepRun_IsOpen(run) ? PullOpen(scan, run, forth, was) : PullStored(scan, run, was);
+        ScanKey was = scan->keys[cell];
+        ScanKey key = kiriStepRun_IsOpen(run) ? PullOpen(scan, run, forth, was) : PullStored(scan, run, was);
         scan->keys[cell] = key;
         changes |= key ^ was;
     }
@@ -72,7 +72,7 @@ static inline bool ScanOnce(const Scan* scan, bool forth)
 /* Until two scans, one each way, have nothing more to do. */
 static bool ScanAll(const Scan* scan)
 {
-    for (int pairs = 0; pairs < MOST_PAIRS; ++pairs) {
+    for (int pairs = 0; pairs < MOST_SCAN_PAIRS; ++pairs) {
         bool changes = ScanOnce(scan, true);
         if ((!changes && pairs > 0) || !ScanOnce(scan, false)) {
             return true;
@@ -111,7 +111,7 @@ static void PutIntoField(const Scan* scan, kiriField* field)
 bool kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid* grid, const int32_t* cells, int32_t count)
 {
     KIRI_ASSERT(field->settled.count == 0);
-    Scan scan = { grid, cells, count, kiriMemory_Alloc(memory, field->distance.count * (int64_t)sizeof(Key)) };
+    Scan scan = { grid, cells, count, kiriMemory_Alloc(memory, field->distance.count * (int64_t)sizeof(ScanKey)) };
     if (scan.keys == NULL) {
         return false;
     }

@@ -90,7 +90,7 @@ static kiriLatticePoint TailOf(const kiriMeshData* mesh, int32_t h)
     return mesh->vertices.data[kiriMesh_Tail(mesh, h)].at;
 }
 
-static bool IsSamePoint(kiriLatticePoint a, kiriLatticePoint b)
+static bool AreAtOnePoint(kiriLatticePoint a, kiriLatticePoint b)
 {
     return a.x == b.x && a.y == b.y;
 }
@@ -113,10 +113,10 @@ static bool EdgesMeet(const kiriMeshData* mesh, int32_t g, int32_t h)
 {
     kiriLatticePoint a[2] = { TailOf(mesh, g), TailOf(mesh, kiriEdge_Next(g)) };
     kiriLatticePoint b[2] = { TailOf(mesh, h), TailOf(mesh, kiriEdge_Next(h)) };
-    if (IsSamePoint(a[1], b[0])) {
+    if (AreAtOnePoint(a[1], b[0])) {
         return kiriOrient(a[0], a[1], b[1]) == 0 && !IsBetween(a[0], a[1], b[1]);
     }
-    if (IsSamePoint(b[1], a[0])) {
+    if (AreAtOnePoint(b[1], a[0])) {
         return kiriOrient(b[0], b[1], a[1]) == 0 && !IsBetween(b[0], b[1], a[1]);
     }
     return !LineSeparates(a, b) && !LineSeparates(b, a);
@@ -274,7 +274,7 @@ static void FreeTree(OverlapTree* tree, kiriMemory* memory)
 }
 
 /* The next edge around the outline. */
-static int32_t NextAround(const kiriMeshData* mesh, int32_t h)
+static int32_t NextOfOutline(const kiriMeshData* mesh, int32_t h)
 {
     h = kiriEdge_Next(h);
     for (int32_t twin = kiriMesh_Twin(mesh, h); twin != KIRI_NONE; twin = kiriMesh_Twin(mesh, h)) {
@@ -294,7 +294,7 @@ static bool IsOneLoop(const kiriMeshData* mesh, int32_t* first, int32_t* count)
         *first = isOutline ? h : *first;
     }
     *count = *first != KIRI_NONE;
-    for (int32_t h = *first; h != KIRI_NONE && (h = NextAround(mesh, h)) != *first;) {
+    for (int32_t h = *first; h != KIRI_NONE && (h = NextOfOutline(mesh, h)) != *first;) {
         *count += 1;
     }
     return edges > 0 && *count == edges;
@@ -311,7 +311,7 @@ static bool LookAtOutline(const kiriMeshData* mesh, kiriMemory* memory, bool* is
     }
     bool fine = MakeTree(&tree, memory, count);
     if (fine) {
-        for (int32_t k = 0, h = first; k < count; ++k, h = NextAround(mesh, h)) {
+        for (int32_t k = 0, h = first; k < count; ++k, h = NextOfOutline(mesh, h)) {
             tree.items[k] = ItemOfEdge(mesh, h);
         }
         *isSimple = !AnyOverlap(&tree, count);
