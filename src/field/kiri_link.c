@@ -288,7 +288,7 @@ static void TakeOldLinks(const kiriBorder* border, const kiriLinks* links)
 
 /* ---- The whole -------------------------------------------------------------------------------------------------- */
 
-/* Where they are not there from the last update: of links that were read, or are left. */
+/* Where they are not there from the last update: of links that were read, be it amid an update, or are left. */
 static bool ListPairs(const kiriBorder* border, const kiriLinks* links)
 {
     kiriLinkWork* work = border->work;
@@ -331,12 +331,13 @@ static void AddNext(const kiriBorder* border, kiriLinks* links, const kiriLink* 
     border->work->nextPairs.data[border->work->nextPairs.count++] = (kiriRegionPair){ link->i, link->j };
 }
 
-/* The room of the next links has what was in force before the last commit. A link that was and stays where it is there is
-   not written again: in a large sheet most are. */
+/* The room of the next links has those that were in force before the last commit. A link that stays where it was then
+   is not written again: in a large sheet most are not. */
 static void TakeOver(const kiriBorder* border, kiriLinks* links, int32_t k)
 {
     kiriLinkWork* work = border->work;
     int32_t at = links->next.count;
+    KIRI_ASSERT(work->pairs.data[k].i == links->links.data[k].i && work->pairs.data[k].j == links->links.data[k].j);
     work->now.data[k] = at;
     if (k < work->before.count && work->before.data[k] == at) {
         KIRI_ASSERT(memcmp(&links->next.data[at], &links->links.data[k], sizeof(kiriLink)) == 0);
@@ -370,7 +371,8 @@ static bool MergeLinks(const kiriBorder* border, kiriLinks* links)
     if (!kiriArray_Reserve(border->memory, &links->next, most) ||
         !kiriArray_Reserve(border->memory, &work->nextEnds, most) ||
         !kiriArray_Reserve(border->memory, &work->nextPairs, most) ||
-        !kiriArray_Reserve(border->memory, &work->before, most) || !kiriArray_Reserve(border->memory, &links->was, most) ||
+        !kiriArray_Reserve(border->memory, &work->before, most) ||
+        !kiriArray_Reserve(border->memory, &links->was, most) ||
         !kiriArray_Resize(border->memory, &work->now, links->links.count)) {
         return false;
     }
@@ -423,7 +425,7 @@ static bool BeginLinks(const kiriBorder* border, kiriLinks* links)
     work->running = true;
     work->at = -2 * border->siteCount - 1;
     work->due = 0;
-    if (!MakeLinkRoom(border) || !ListPairs(border, links)) {
+    if (!MakeLinkRoom(border)) {
         return false;
     }
     MarkDirtyStale(border);
@@ -526,7 +528,7 @@ kiriProgress kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGr
     }
     KIRI_ASSERT(regions->dirty.count == siteCount && regions->border.first.count == siteCount && !regions->running);
     kiriBorder border = { memory, grid, mesh, regions, sites, siteCount, links->work };
-    bool ok = links->work->running || BeginLinks(&border, links);
+    bool ok = (links->work->running || BeginLinks(&border, links)) && ListPairs(&border, links);
     kiriProgress progress = ok ? RunLinks(&border, links, quota) : KIRI_FAILED;
     if (progress != KIRI_MORE) {
         EndLinks(links->work);

@@ -44,7 +44,8 @@ typedef struct kiriLinks {
     KIRI_ARRAY(kiriLink) next; /* what kiriLinks_Update made; Commit swaps */
     int32_t changed;           /* of `next`: links that are other than before */
     /* Of each next link, and after the commit of each link: which one it was before, bit for bit, or KIRI_NONE where it
-       was made. Of each corner: the same of its links. Empty where that is not known: of links that were read, or are left. */
+       was made; of corners the same, but for the indices of their links. Empty where that is not known: of links that
+       were read, or are left. */
     KIRI_ARRAY(int32_t) was, wasCorner;
     /* Of `links`, by their links; where four regions meet, all four pairs of neighbours are linked. */
     KIRI_ARRAY(kiriCorner) corners;

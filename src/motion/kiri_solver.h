@@ -44,7 +44,7 @@ typedef struct kiriSystem {
     const double* linkParts;   /* what counts of each link, 0 to 1; null: all */
     const kiriCorner* corners; /* of these links */
     int32_t cornerCount;
-    const int32_t *linkWas, *cornerWas; /* KIRI_NONE of what is not in force before this system is staged; null: not known */
+    const int32_t *linkWas, *cornerWas; /* KIRI_NONE of what is not in force before it is staged; null: not known */
     const kiriStrainOffset* strainOffsets; /* one a link between rigid frames, or null */
     const kiriAreaElements* areaElements;  /* of affine frames; may be null where there are none */
     const kiriPinRow* pins;
@@ -67,10 +67,9 @@ kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics
 /* Room for this system, before it is staged: of a large one the system takes a while to give it. See kiriRooms_MakeReady. */
 kiriProgress kiriSolver_Reserve(kiriSolver* solver, const kiriSystem* next, kiriQuota* quota, int64_t bytesAnItem);
 
-/* Prepares for this system, of which only frameCount, links, corners, area elements and Poisson's ratio are read, and which
-   elements are in force: these are not looked at where they need not be;
-   replaces what was staged before. Steps go on with the current ones. framePiece[f] is the piece of frame f: no element
-   joins frames of two pieces. The matrix gets a new pattern only where the current one does not cover the pairs of
+/* Prepares for this system, of which only frameCount, links, corners, area elements and Poisson's ratio are read, and
+   which elements are in force: these are not looked at where they need not be; replaces what was staged before. Steps
+   go on with the current ones. framePiece[f] is the piece of frame f: no element joins frames of two pieces. The matrix gets a new pattern only where the current one does not cover the pairs of
    frames that elements couple, or where frameCount differs: links that vanish leave zero blocks, also in a new pattern,
    until these are more than twice as many as the others.
    Otherwise nothing is allocated but room that grows. False for memory: nothing is staged then. */
