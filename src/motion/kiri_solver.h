@@ -69,9 +69,10 @@ kiriProgress kiriSolver_Reserve(kiriSolver* solver, const kiriSystem* next, kiri
 
 /* Prepares for this system, of which only frameCount, links, corners, area elements and Poisson's ratio are read, and
    which elements are in force: these are not looked at where they need not be; replaces what was staged before. Steps
-   go on with the current ones. framePiece[f] is the piece of frame f: no element joins frames of two pieces. The matrix gets a new pattern only where the current one does not cover the pairs of
-   frames that elements couple, or where frameCount differs: links that vanish leave zero blocks, also in a new pattern,
-   until these are more than twice as many as the others.
+   go on with the current ones. framePiece[f] is the piece of frame f: no element joins frames of two pieces. The matrix
+   gets a new pattern only where the current one does not cover the pairs of frames that elements couple, or where
+   frameCount differs: links that vanish leave zero blocks, also in a new pattern, until these are more than twice as
+   many as the others.
    Otherwise nothing is allocated but room that grows. False for memory: nothing is staged then. */
 bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t* framePiece, int32_t pieceCount);
 
