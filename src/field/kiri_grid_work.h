@@ -10,7 +10,7 @@ KIRI_C_BEGIN
 
 /* What work costs, in parts of an item: each is about 5 ns. */
 enum {
-    KIRI_GRID_ITEM = 24,
+    KIRI_GRID_ITEM = 16,
     KIRI_GRID_PAYS_AT = 64 * KIRI_GRID_ITEM, /* work that may be long pauses no sooner than after so many */
     KIRI_GRID_SQUARE = 6,                    /* to look at a square, */
     KIRI_GRID_NODE = 2,                      /* or at a triangle in it; */

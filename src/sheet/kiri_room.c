@@ -95,7 +95,7 @@ kiriProgress kiriRoom_ForCut(kiriSheetData* sheet, kiriQuota* triangles)
     return kiriGrowing_GoOn(&u->growing, rooms, ROOMS, triangles, ROOM_BYTES);
 }
 
-enum { WEIGHT_ROOMS = 2, WEIGHT_BYTES = 2048 }; /* that an item moves */
+enum { WEIGHT_ROOMS = 2, WEIGHT_BYTES = 512 }; /* that an item moves */
 
 /* In a mesh of even triangles. */
 static void ListWeightRooms(kiriSheetData* sheet, kiriRoom rooms[WEIGHT_ROOMS])

@@ -373,7 +373,7 @@ void kiriRefresh_Drop(kiriRefresh* refresh)
     refresh->noted.count = refresh->change = 0;
 }
 
-enum { CHANGES_AN_ITEM = 24 };
+enum { CHANGES_AN_ITEM = 16 };
 
 kiriProgress kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                                const kiriMeshData* mesh, int32_t firstVertex, kiriQuota* quota)
@@ -463,9 +463,15 @@ static bool RefreshOne(kiriRefresh* refresh, const Samples* samples, int32_t squ
     return true;
 }
 
+/* An item is a sample, or some squares in which samples may be. */
 static kiriProgress Refresh(kiriRefresh* refresh, const Samples* samples, kiriQuota* quota)
 {
+    enum { SQUARES_AN_ITEM = 16 };
     for (; refresh->square < refresh->squares.count; ++refresh->square) {
+        bool isNext = refresh->sample == KIRI_NONE && refresh->square % SQUARES_AN_ITEM == 0;
+        if (!kiriQuota_Take(quota, isNext)) {
+            return KIRI_MORE;
+        }
         int32_t square = refresh->squares.data[refresh->square];
         int32_t sample = refresh->sample == KIRI_NONE ? FirstOf(samples, square) : refresh->sample;
         for (; sample != KIRI_NONE; sample = NextOf(samples, sample)) {
